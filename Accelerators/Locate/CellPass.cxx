@@ -29,7 +29,7 @@ enum class Side
   Inside
 };
 
-/// Where a point lies in a closed cell; exact. Cells without an area or volume hold none.
+/// On which side of a closed cell's border a point lies. Exact. Degenerate cells contain no point.
 Side sideOf(const Point2 (&corners)[3], Point2 p)
 {
   const int first = orientation(corners[0], corners[1], p);
@@ -73,8 +73,8 @@ public:
     const double area = (this->B.x - this->A.x) * (this->C.y - this->A.y) -
       (this->B.y - this->A.y) * (this->C.x - this->A.x);
     area < 0 ? std::swap(this->B, this->C) : void();
-    // As in orientation(), where no product is larger than the box, with room for the rounding of
-    // the area, whose sign counts. Infinite after an overflow.
+    // The error bound of orientation(), with the box's extents as the largest factors, plus a
+    // margin for the rounding of the area, whose sign is used. Infinite after an overflow.
     constexpr double relative = 3.3306690738754716e-16;
     this->Bound = 8 * relative * (box.High[0] - box.Low[0]) * (box.High[1] - box.Low[1]) + 1e-300;
   }
@@ -82,7 +82,7 @@ public:
   /// True only if the point is outside.
   bool isOutside(const std::array<double, 2>& at) const
   {
-    // Without branches. NaN, after an overflow, is not outside.
+    // Branch-free. NaN, after an overflow, does not count as outside.
     const bool isApart = (at[0] < this->Around.Low[0]) | (at[0] > this->Around.High[0]) |
       (at[1] < this->Around.Low[1]) | (at[1] > this->Around.High[1]);
     return isApart | (this->lowest(at) < -this->Bound);
@@ -178,7 +178,7 @@ public:
 private:
   static constexpr std::int64_t testsPerItem = 32;
 
-  /// A cell that may not be the only one that holds a point.
+  /// A cell that may not be the only one to contain a point.
   struct Doubt
   {
     std::uint32_t Entry;
@@ -191,7 +191,7 @@ private:
     std::vector<Doubt> doubts;
     std::int64_t tests = 0;
     std::int64_t claims = 0;
-    constexpr std::int64_t ahead = 32; // points lie anywhere in memory
+    constexpr std::int64_t ahead = 32; // prefetch distance: the points' addresses are random
     for (std::int64_t cell = begin; cell < end; ++cell)
     {
       // Many at once, so that the waits for their pages overlap.
@@ -264,7 +264,7 @@ private:
     return kept == this->ClaimCount;
   }
 
-  /// Chooses among the cells at borders, and those that overlap.
+  /// Chooses a cell for points on cell borders and in overlapping cells.
   void settleDoubts()
   {
     std::sort(this->Doubts.begin(), this->Doubts.end(),
@@ -278,7 +278,7 @@ private:
           const std::uint32_t entry = this->Doubts[i].Entry;
           if (i > 0 && this->Doubts[i - 1].Entry == entry)
           {
-            continue; // of the first one's group
+            continue; // in the same group as the first one
           }
           const Point point = pointAt(this->Near.at(entry));
           Choice<Access, Point> choice(this->Cells, this->CellIds, point);
@@ -303,7 +303,7 @@ private:
   const int Threads;
   const TakeLocations& Take;
   std::unique_ptr<std::atomic<std::int32_t>[]>
-    Claims; ///< the first cell that has each entry inside
+    Claims; ///< for each entry the first cell that has it in its interior
   const std::int64_t MostTests;
   const std::size_t MostDoubts;
   std::mutex Mutex;

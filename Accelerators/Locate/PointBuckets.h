@@ -16,13 +16,13 @@
 namespace tipp
 {
 
-/// Points sorted into the boxes of a regular grid, about two to a box. Those of boxes that follow
-/// each other along x are contiguous.
+/// Points sorted into the boxes of a regular grid, about two per box. The points of boxes that are
+/// consecutive along x are contiguous.
 template <int D>
 class PointBuckets
 {
 public:
-  /// The points at(0) ... at(count - 1); those that are not finite are left out.
+  /// Sorts the points at(0) ... at(count - 1); non-finite points are left out.
   template <typename At>
   PointBuckets(std::int64_t count, int threads, const At& at)
     : Bounds(boundsOf<D>(count, threads, [&at](std::int64_t i) { return Box<D>::of(at(i)); }))
@@ -57,7 +57,7 @@ public:
     }
     this->Count = sum;
     this->Entries = std::unique_ptr<Entry[]>(new Entry[sum]);
-    // Now each start moves on to the end, which is the next one's start.
+    // Each start is advanced to the end of its box, which is the start of the next.
     forPoints(
       [&](std::int64_t i, const auto& point, std::size_t bucket) {
         this->Entries[next(this->Starts[bucket], isAlone)] = { point, std::int32_t(i) };
@@ -113,7 +113,8 @@ private:
 
   using Counters = std::unique_ptr<std::atomic<std::uint32_t>[]>;
 
-  /// Returns the value before. One thread does without a locked instruction.
+  /// Increments a counter and returns its previous value. A single thread avoids the locked
+  /// instruction.
   static std::uint32_t next(std::atomic<std::uint32_t>& counter, bool isAlone)
   {
     if (!isAlone)
@@ -144,7 +145,7 @@ private:
     }
   }
 
-  /// Never falls where the coordinate rises.
+  /// Monotonic in the coordinate.
   std::int64_t positionOf(double coordinate, std::size_t axis) const
   {
     const double at = (coordinate - this->Bounds.Low[axis]) * this->Scale[axis];
@@ -172,7 +173,7 @@ private:
   Box<D> Bounds;
   std::array<std::int64_t, D> Sides{};
   std::array<double, D> Scale{};
-  Counters Starts; ///< at last the end of each box
+  Counters Starts; ///< in the end, the end of each box
   std::unique_ptr<Entry[]> Entries;
   std::size_t Count = 0;
 };

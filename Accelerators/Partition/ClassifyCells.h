@@ -40,8 +40,8 @@ struct ClassifyOptions
   DeviceChoice Device;
   /// OpenMP threads; 0 for OpenMP's default.
   int Threads = 0;
-  /// Maximum number of bytes of device memory; 0 for half of it. Larger inputs are processed in
-  /// pieces.
+  /// The limit of device memory in bytes; 0 for half of the device's memory. Larger inputs are
+  /// processed in batches.
   std::uint64_t DeviceMemory = 0;
 };
 

@@ -121,7 +121,7 @@ Circumball::Circumball(const Point3& a, const Point3& b, const Point3& c, const 
 //
 // Radius |q^|: off by the sum of q's errors; its own rounding is 4 e r; e r each for the interval's
 // ends and their squares; in meets() a squared distance is off by 6 e, its root by 3 e. 32 e r are
-// given.
+// allowed for.
 bool Circumball::computeIntervals()
 {
   const Vector u = difference(this->Corners[1], this->Corners[0]);
@@ -179,8 +179,8 @@ bool Circumball::computeIntervals()
 
 // With s the longest entry of u, v and w, and thus P <= 6 s^3 and W <= 18 s^4: where D^ is at least
 // 2^-10 s^3, the error of q is below e (20 + 12 * 6 * 2^10) 9 * 2^10 s < 1e-7 s by the bounds
-// above, and so is that of the radius, 2e-7 s for all three entries. 1e-6 s are given, and for the
-// rounding of coordinates 16 e of them.
+// above, and so is that of the radius, 2e-7 s for all three entries. 1e-6 s are allowed for, plus
+// 16 e of the coordinates for their rounding.
 bool Circumball::isSurelyInside(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Box3& box)
 {
@@ -216,7 +216,7 @@ bool Circumball::isSurelyInside(
     isBetween(box.Min[1], a.y + q.y, box.Max[1]) && isBetween(box.Min[2], a.z + q.z, box.Max[2]);
 }
 
-// Intervals that decide nothing, so that every test uses exact arithmetic.
+// Makes the intervals infinite, so that every test uses exact arithmetic.
 void Circumball::leaveOpen()
 {
   this->Low.fill(-Infinity);

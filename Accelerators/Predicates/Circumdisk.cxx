@@ -134,7 +134,7 @@ bool Circumdisk::computeIntervals()
   return true;
 }
 
-// Intervals that decide nothing, so that every test uses exact arithmetic.
+// Makes the intervals infinite, so that every test uses exact arithmetic.
 void Circumdisk::leaveOpen()
 {
   this->Centre = { -Infinity, -Infinity, Infinity, Infinity };

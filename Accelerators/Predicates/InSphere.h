@@ -61,7 +61,7 @@ inline bool isCertain(const InSphereValue& value)
     relative * (square * square) * value.lifts + absolute;
 }
 
-/// As inSphere(), for callers whose own filter has failed: by a sharper one, then in exact
+/// Like inSphere(), for callers whose own filter has failed: tries a sharper filter, then exact
 /// arithmetic.
 VTKTIPPACCELERATORS_EXPORT int inSphereExact(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& p);

@@ -17,14 +17,14 @@
 namespace tipp
 {
 
-/// Four numbers in SIMD lanes, and four masks: 0 or -1.
+/// Four doubles in SIMD lanes, and masks of four lanes, each 0 or -1.
 using Lanes = double __attribute__((vector_size(32)));
 using LaneMask = std::int64_t __attribute__((vector_size(32)));
 using LaneInts = std::int32_t __attribute__((vector_size(16)));
 
 constexpr int laneCount = 4;
 
-/// Whether functions for AVX2 may be called.
+/// Whether this processor can run the functions compiled for AVX2.
 inline bool hasAvx2()
 {
 #ifdef __x86_64__
@@ -38,12 +38,12 @@ inline bool hasAvx2()
 {
   return Lanes{ value, value, value, value };
 }
-/// The larger; b if one is NaN.
+/// The larger value in each lane; b if one is NaN.
 [[gnu::always_inline]] inline Lanes most(Lanes a, Lanes b)
 {
   return a > b ? a : b;
 }
-/// The smaller; b if one is NaN.
+/// The smaller value in each lane; b if one is NaN.
 [[gnu::always_inline]] inline Lanes least(Lanes a, Lanes b)
 {
   return a < b ? a : b;
@@ -72,7 +72,7 @@ inline bool hasAvx2()
   return lanes;
 }
 
-/// A bit for each lane.
+/// A bit mask with one bit per lane.
 [[gnu::always_inline]] inline unsigned laneBits(LaneMask mask)
 {
 #ifdef __SSE2__
@@ -222,12 +222,12 @@ constexpr int floatLaneCount = 8;
 {
   return FloatLanes{} + value;
 }
-/// The larger; b if one is NaN.
+/// The larger value in each lane; b if one is NaN.
 [[gnu::always_inline]] inline FloatLanes most(FloatLanes a, FloatLanes b)
 {
   return a > b ? a : b;
 }
-/// The smaller; b if one is NaN.
+/// The smaller value in each lane; b if one is NaN.
 [[gnu::always_inline]] inline FloatLanes least(FloatLanes a, FloatLanes b)
 {
   return a < b ? a : b;
@@ -245,7 +245,7 @@ constexpr int floatLaneCount = 8;
   return __builtin_convertvector(a, FloatLanes);
 }
 
-/// A bit for each lane.
+/// A bit mask with one bit per lane.
 [[gnu::always_inline]] inline unsigned floatLaneBits(FloatLaneInts mask)
 {
 #ifdef __SSE__

@@ -307,7 +307,8 @@ private:
     }
   }
 
-  /// Returns false, with nothing triangulated, if partitioning does not pay.
+  /// Triangulates in partitions. Returns false, having done nothing, if partitioning does not pay
+  /// off.
   template <typename Id>
   bool triangulate(const Plan& plan, const PointExchange& exchange, const Stopwatch& watch)
   {

@@ -13,16 +13,16 @@
 namespace tipp
 {
 
-/// Who starts partitions.
+/// Which rank keeps inboxes and starts partitions.
 enum class Masters
 {
-  Auto,   ///< no master; several where a grid of major partitions is given, or one for schedules
+  Auto,   ///< no master; but several if a grid of major partitions is given, else one for schedules
           ///< with barriers
   Single, ///< one master hands out all partitions (Algorithm 1)
   Multi   ///< a master hands major partitions to sub-masters (Algorithm 3)
 };
 
-/// How a domain or a major partition is cut into (minor) partitions.
+/// How a domain or a major partition is divided into (minor) partitions.
 enum class Division
 {
   Tree,      ///< boxes that hold equally many points
@@ -37,11 +37,11 @@ enum class GroupSizes
   Equal         ///< equal numbers
 };
 
-/// When ranks get partitions.
+/// When partitions are started on the ranks.
 enum class RankSchedule
 {
   Stages,           ///< waves of independent partitions, a barrier after each (Algorithm 1)
-  ProducerConsumer, ///< a free worker asks for the next; a barrier after each stage
+  ProducerConsumer, ///< a free worker takes the next partition; a barrier after each stage
   Dynamic           ///< no barrier
 };
 
@@ -67,11 +67,11 @@ struct DistributedOptions
   GridSize Major; ///< default: a tree with an automatic number of boxes
   Division MinorDivision = Division::Tree;
   GridSize Minor;             ///< for Division::Grid; with one master, the partitions
-  std::int64_t Threshold = 0; ///< T, points per minor partition; 0: chosen
+  std::int64_t Threshold = 0; ///< T, points per minor partition; 0: chosen automatically
   GroupSizes Groups = GroupSizes::Proportional;
   RankSchedule Order = RankSchedule::Dynamic;
-  int InitialPointsPerPartition = 0; ///< 0: chosen
-  int Threads = 0;                   ///< of each rank; 0: OpenMP's choice
+  int InitialPointsPerPartition = 0; ///< 0: chosen automatically
+  int Threads = 0;                   ///< threads of each rank; 0: OpenMP's default
   /// Called now and then with this rank's finished fraction (0 to 1); returning false ends the run
   /// on all ranks.
   std::function<bool(double)> Progress;
@@ -84,8 +84,8 @@ std::vector<std::vector<PartitionIndex>> predictStages(const Tiling& majors,
   const std::vector<Point2>& sample, const std::vector<std::int64_t>& majorCounts);
 
 /// Chooses the group of ranks for each major partition of a stage. If a stage has fewer major
-/// partitions than ranks, each group has several ranks, in proportion to the points (equation 3.2);
-/// else a group is one rank, the one with the lowest load, its points so far.
+/// partitions than ranks, each group has several ranks, in proportion to the points (equation 3.2).
+/// Otherwise a group is the one rank with the fewest points so far.
 void formGroups(const std::vector<PartitionIndex>& active,
   const std::vector<std::int64_t>& majorCounts, const std::vector<std::int32_t>& ranks,
   const DistributedOptions& options, std::vector<double> load,

@@ -119,7 +119,7 @@ void RankRun<Id>::shareInitialMesh(std::vector<BoundaryVertex>& vertices)
   this->Boxes = std::make_unique<Regions>(tiles, std::move(boxes), std::move(used));
 }
 
-/// By partition: whether `ranks` assigns it to this rank, and it has points.
+/// For each partition, whether `ranks` assigns it to this rank and it has points.
 template <typename Id>
 std::vector<char> RankRun<Id>::thoseOf(const std::vector<std::int32_t>& ranks) const
 {
@@ -399,7 +399,7 @@ void RankRun<Id>::report()
 template <typename Id>
 void RankRun<Id>::coordinate()
 {
-  // Polling takes processor time from a thread that computes.
+  // Sleeps, because polling takes processor time from computing threads.
   constexpr std::chrono::microseconds shortest(300);
   constexpr std::chrono::microseconds longest(2000);
   std::chrono::microseconds pause = shortest;

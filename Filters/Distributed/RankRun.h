@@ -25,20 +25,22 @@
 namespace tipp
 {
 
-/// Sorts the vertices by partition, and of several at a position keeps the one with the lowest id:
-/// all ranks must insert the same one, of initial and of artificial points.
+/// Sorts the vertices by partition and, of several at the same position, keeps the one with the
+/// lowest id, so that all ranks insert the same vertices. Applies to initial and to artificial
+/// points.
 VTKTIPPFILTERS_EXPORT void keepOneOfEachPosition(std::vector<BoundaryVertex>& vertices);
 
 /// A part of the initial mesh: all its triangles that meet some partitions, and their neighbours.
 ///
-/// It is made without the rest. A triangulation of all initial points of some partitions and of a
-/// few points of the others has triangles that are not in the initial mesh. Those that meet a
-/// chosen partition, and their neighbours, are in it once all initial points of the partitions
-/// that they meet are inserted: no other point is in their circumdisks. Then none is missing.
-/// (Proof. Let x be a point of a chosen region, or next to one on a circumdisk that only touches
-/// it. The triangles of the initial mesh that are in conflict with x are connected by edges, and
-/// one of them, the one that contains x, is in both meshes, as are all of the local mesh that are
-/// in conflict with x. The neighbours of these are in both meshes, so all can be reached.)
+/// It is computed without the rest of the initial mesh. A triangulation of all initial points of
+/// some partitions and of a few points of the others has triangles that are not in the initial
+/// mesh. But those that meet a chosen partition, and their neighbours, are in it as soon as all
+/// initial points of the partitions that they meet are inserted, since no other point is in their
+/// circumdisks. Then none of them is missing. (Proof. Let x be a point of a chosen region, or next
+/// to one on a circumdisk that only touches it. The triangles of the initial mesh that are in
+/// conflict with x are connected by edges, and one of them, the one that contains x, is in both
+/// meshes, as are all of the local mesh that are in conflict with x. The neighbours of these are in
+/// both meshes, so all can be reached.)
 struct InitialMeshPart
 {
   /// Computes the part for the partitions p with `isChosen[p]`. `initial` has all partitions'
@@ -47,11 +49,11 @@ struct InitialMeshPart
     const std::vector<BoundaryVertex>& initial, const std::vector<BoundaryVertex>& artificial,
     const std::vector<char>& isChosen, int threads);
 
-  /// Adds to `triangles` and `met` what partitionsPay() needs. Over parts that choose each
-  /// partition once the sums are those of the whole mesh.
+  /// Adds this part's counts for partitionsPay() to `triangles` and `met`. If every partition is
+  /// chosen in exactly one part, the sums over all parts are those of the whole mesh.
   VTKTIPPFILTERS_EXPORT void countMet(std::int64_t& triangles, std::int64_t& met) const;
 
-  /// Writes the chosen partitions' conflicts. Takes long where partitions do not pay.
+  /// Writes the chosen partitions' conflicts. Slow if partitioning does not pay off.
   VTKTIPPFILTERS_EXPORT void writeConflicts(SaveArchive& writer) const;
 
   BoundaryTriangles Mesh;
@@ -106,7 +108,8 @@ public:
   std::vector<std::size_t> InteriorCounts; ///< of each partition
   RankStatistics Statistics;
   std::vector<MasterStatistics> Masters; ///< of the masters on this rank
-  bool PartitionsPay = true;             ///< the same on all ranks; if false, nothing was done
+  bool PartitionsPay = true;             ///< the same on all ranks; if false, nothing was
+                                         ///< triangulated
 
 private:
   /// A thread's part of the result.

@@ -31,8 +31,8 @@ inline std::size_t ownerOf(std::int64_t id, const std::vector<std::int64_t>& fir
 }
 
 /// The step after all partitions are done: sends boundary triangles to the rank that owns their
-/// vertex of lowest id, where the interior triangles are, and fetches the points of other ranks
-/// that these need. Collective.
+/// vertex of lowest id, adds them to its interior triangles, and fetches the points that they use
+/// from other ranks. Collective.
 template <typename Id>
 void collect(Communicator& ranks, OwnedPoints<Id>& points, const std::vector<IdTriangle>& kept,
   const std::vector<std::size_t>& interiorCounts, std::vector<Duplicate> duplicates,
@@ -43,8 +43,9 @@ void collect(Communicator& ranks, OwnedPoints<Id>& points, const std::vector<IdT
 PointTuples fetchPoints(Communicator& ranks, const std::vector<std::int64_t>& ids,
   const std::vector<std::int64_t>& firstIds, const PointTuples& own, std::size_t rowSize);
 
-/// For coincident points, gives the representative's entry in `points` the data of the point with
-/// the lowest global id. The duplicates have internal ids on entry and global ids on return.
+/// For coincident points, copies the data of the point with the lowest global id to the
+/// representative's entry in `points`. The duplicates have internal ids on entry and global ids on
+/// return.
 void preferLowestGlobalIds(
   PointTuples& points, std::int64_t firstId, std::vector<Duplicate>& duplicates);
 

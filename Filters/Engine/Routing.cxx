@@ -138,7 +138,7 @@ void repairHull(std::vector<BoundaryVertex> vertices, const std::vector<Boundary
   keepUnique(vertices);
   std::vector<std::array<std::uint32_t, 3>> triangles;
   {
-    // There may be many vertices: their copies are freed as soon as possible.
+    // There may be many vertices, so their copies are freed as soon as possible.
     DelaunayKernel kernel;
     kernel.insert(positionsOf(vertices).data(), vertices.size());
     kernel.forEachTriangle(

@@ -112,8 +112,8 @@ public:
     this->Triangles.push_back({ static_cast<std::uint32_t>(recipient), corners });
   }
 
-  /// Calls deliver(recipient, message) for each recipient below `recipients` that gets triangles,
-  /// in ascending order. Triangles whose recipient is `recipients` have none, and go to `final`.
+  /// Calls deliver(recipient, message) for each recipient that gets triangles, in ascending order.
+  /// Triangles whose recipient is `recipients` have no recipient and are passed to `final`.
   /// vertexOf(index) returns a vertex. Returns the number of triangles delivered.
   template <typename VertexOf, typename Deliver>
   std::int64_t send(PartitionIndex sender, std::size_t recipients, const VertexOf& vertexOf,

@@ -101,7 +101,7 @@ inline unsigned bitsOf(PairMask mask)
 #endif
 }
 
-/// A bit for each negative lane, as in bitsOf(); unspecified for NaN.
+/// Like bitsOf(), with a bit set for each negative lane; unspecified for NaN.
 inline unsigned signsOf(Pair a)
 {
 #ifdef __SSE2__

@@ -50,8 +50,8 @@ struct EdgePair
   Pair StopX;
   Pair StopY;
   Pair StopLift;
-  Pair Cross; ///< start x stop
-  // Their twins. Not an array, which would keep the struct out of registers.
+  Pair Cross; ///< start x stop Their twins. Not an array, which would prevent keeping the struct in
+              // registers.
   Index FirstOuter;
   Index SecondOuter;
   Index Start;

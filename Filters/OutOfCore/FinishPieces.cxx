@@ -59,7 +59,8 @@ void removePiece(const PieceWork& work, PartitionIndex piece)
   }
 }
 
-/// The segments near triangles, by the boxes of so many that follow each other.
+/// The segments near triangles. Looks them up by the bounding box of each run of `together`
+/// consecutive triangles.
 ConstraintSegments readNear(const PieceSegments& segments, PointsView points,
   const std::int32_t* corners, std::size_t triangles, std::size_t together)
 {

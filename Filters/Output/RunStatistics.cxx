@@ -179,7 +179,7 @@ RunStatistics statisticsOf(const OutOfCoreStatistics3& statistics)
 RunStatistics statisticsOf(const DistributedTriangulation& mine)
 {
   const DistributedStatistics& statistics = mine.Statistics;
-  // Only a master of the whole domain is in the table.
+  // The table only has the master of the whole domain.
   const bool hasMaster = !statistics.Masters.empty() && statistics.Masters.front().Area == 0;
   const MasterStatistics master = hasMaster ? statistics.Masters.front() : MasterStatistics();
   RunStatistics run;
@@ -194,7 +194,7 @@ RunStatistics statisticsOf(const DistributedTriangulation& mine)
   run.add("", "LargestMasterMesh", master.LargestMesh);
   run.Totals.push_back({ "", "MasterSeconds", std::vector<double>{ master.Seconds } });
   FigureList stages = stagesOf(master.Stages);
-  stages.Key.clear(); // JSON has each master's
+  stages.Key.clear(); // JSON has the stages of each master
   run.Lists = { ranksOf(statistics.Ranks), mastersOf(statistics.Masters),
     trafficOf(statistics.Traffic), std::move(stages) };
   return run;

@@ -139,7 +139,7 @@ std::vector<PointRows::Column> columnsOf(vtkPointSet* input)
   return columns;
 }
 
-/// A rank's points, or what all ranks' points have in common.
+/// The properties of a rank's points, or those that all ranks' points have in common.
 struct PointKinds
 {
   bool HasPoints = false;
@@ -440,7 +440,7 @@ void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& 
   };
   add(mine.Ids32);
   add(mine.Ids64);
-  vtkNew<vtkIdTypeArray> numbers; // lines come first as cells, but after all triangles by number
+  vtkNew<vtkIdTypeArray> numbers; // lines are the first cells but get ids after all triangles
   numbers->SetName("GlobalCellIds");
   numbers->SetNumberOfValues(vtkIdType(lines + own + more));
   vtkIdType* number = numbers->GetPointer(0);

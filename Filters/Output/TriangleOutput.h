@@ -75,11 +75,12 @@ private:
   bool Doubles = false;
 };
 
-/// How a piece shows constraints; null: not.
+/// How a piece marks constraints. A null member: not in this way.
 struct PieceMarks
 {
-  const ConstraintSegments* Flags = nullptr; ///< by the array ConstraintEdges
-  const ConstraintLines* Lines = nullptr;    ///< before the triangles, and the array ConstraintId
+  const ConstraintSegments* Flags = nullptr; ///< marks them by the array ConstraintEdges
+  const ConstraintLines* Lines = nullptr;    ///< adds lines before the triangles, and the array
+                                             ///< ConstraintId
 };
 
 /// Fills `output` with a rank's triangles: the points that they use with their data, and global ids

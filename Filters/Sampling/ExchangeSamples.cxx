@@ -66,7 +66,7 @@ char* bytesOf(const SampledImage::Array& array)
   return static_cast<char*>(array.Samples->GetVoidPointer(0));
 }
 
-/// What all ranks know of each rank.
+/// What every rank knows about another rank's samples.
 struct RankNote
 {
   ImageExtent Local;

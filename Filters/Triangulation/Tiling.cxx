@@ -38,7 +38,7 @@ std::int32_t Tiling::addBox(const Box2& box, PartitionIndex partition)
   return node;
 }
 
-/// Adds a cut, and then what first() and second() add below it. Returns its node.
+/// Adds a cut, then the subtrees that first() and second() add below it. Returns the cut's node.
 template <typename MakeFirst, typename MakeSecond>
 std::int32_t Tiling::addCut(
   int axis, double at, const MakeFirst& makeFirst, const MakeSecond& makeSecond)

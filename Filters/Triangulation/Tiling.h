@@ -20,7 +20,7 @@
 namespace tipp
 {
 
-/// Points in a partition for which workers are fastest, by measurement.
+/// The number of points in a partition for which workers are fastest, by measurement.
 constexpr std::int64_t BestPointsInPartition = 49152;
 /// With fewer points in a partition, a worker's overhead is noticeable.
 constexpr std::int64_t FewestPointsInPartition = 4096;

@@ -26,8 +26,8 @@ class PartitionEditor;
 /// When partitions are started.
 enum class Schedule
 {
-  Stages, ///< a barrier after each set of independent partitions (Algorithm 1)
-  Dynamic ///< a partition starts as soon as it is independent of all active ones
+  Stages, ///< a barrier after each colour, a set of partitions without conflicts (Algorithm 1)
+  Dynamic ///< a partition starts as soon as all conflicting earlier ones are done
 };
 
 /// Options of triangulate(). Only MaximumEdge and MakeEditor change the set of triangles.
@@ -62,7 +62,7 @@ struct TriangulationStatistics
   struct Stage
   {
     std::int64_t ActivePartitions;
-    std::int64_t MeshTriangles; ///< triangles not final in memory when the stage began
+    std::int64_t MeshTriangles; ///< triangles in memory that were not final when the stage began
   };
   struct Phase
   {
@@ -106,8 +106,8 @@ struct Triangulation
 VTKTIPPFILTERS_EXPORT Triangulation triangulate(
   PointsView points, const TriangulationOptions& options = {});
 
-/// Removes the triangles with an edge longer than `longest`, in the points' unit of length; 0:
-/// none. Afterwards triangles may be unconnected, so what is inside of polygons must be found
+/// Removes the triangles with an edge longer than `longest`, in the points' unit of length; 0: no
+/// limit. The remaining triangles may be disconnected, so the inside of polygons must be found
 /// before.
 VTKTIPPFILTERS_EXPORT void leaveOutLong(PointsView points, double longest, Triangulation& mesh);
 

@@ -39,8 +39,8 @@ struct Octagon
   }
 };
 
-/// Changes the interior triangles of partitions in the kernel's mesh, before they are written.
-/// Their number and their union must stay. Each thread has its own editor.
+/// Modifies the interior triangles of a partition in the kernel's mesh before they are written.
+/// Their number and their union must not change. Each thread has its own editor.
 class PartitionEditor
 {
 public:
@@ -51,7 +51,7 @@ public:
     DelaunayKernel& Kernel;
     const Id* Ids;          ///< by kernel vertex, from 1 on; -1 for those of other partitions
     const char* IsBoundary; ///< by number of the kernel's triangle: not 0 if it is not interior
-    Octagon Interior;       ///< of the interior triangles, in the kernel's coordinates
+    Octagon Interior;       ///< bounds of the interior triangles, in the kernel's coordinates
   };
 
   virtual ~PartitionEditor() = default;
@@ -72,8 +72,8 @@ public:
   virtual void add(const std::array<DelaunayKernel::Index, 3>& corners, const Circumdisk& disk) = 0;
 };
 
-/// Triangulates one partition at a time (Lemma 1): its points, and the vertices of the triangles
-/// that meet it. Keeps its memory from one partition to the next.
+/// Triangulates one partition at a time (Lemma 1): its own points and the vertices of the triangles
+/// that meet it. Its memory is reused from one partition to the next.
 template <typename Id>
 class Worker
 {

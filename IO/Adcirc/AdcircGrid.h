@@ -27,7 +27,8 @@ namespace tipp
 class AdcircRows
 {
 public:
-  /// `kind` completes "check that it is ...". `path` and `text` must outlive this object.
+  /// `kind` completes the message "check that it is ...". `path` and `text` must outlive this
+  /// object.
   AdcircRows(const std::string& path, std::string_view text, std::string kind);
 
   void skipTitle();
@@ -89,8 +90,8 @@ AdcircGrid readAdcircGridAndBoundaries(const std::string& path);
 VTKTIPPIO_EXPORT bool isAdcircFile(const std::string& path);
 
 /// Writes points and triangles as an ADCIRC grid. The depth of a node is the column depth, else the
-/// negated elevation, else 0. `like`: a grid whose nodes are the first points; its title, numbers
-/// of nodes and lists of boundaries are kept. Without it (empty) nodes are counted from 1, and
+/// negated elevation, else 0. `like` is the path of a grid whose nodes are the first points; its
+/// title, node numbers and boundary lists are kept. If it is empty, nodes are numbered from 1 and
 /// there are no boundaries. Returns false if `aborted` returned true; throws IOError.
 bool writeAdcircGrid(const std::string& path, const PointTable& points, TrianglesView triangles,
   const std::string& like, const std::optional<PathState>& before,

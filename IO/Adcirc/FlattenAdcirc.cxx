@@ -79,7 +79,7 @@ private:
     }
   }
 
-  /// The index in the grid of a node number, which a step may give once.
+  /// The index in the grid of a node number. A step may list a node only once.
   std::size_t nodeOf(std::int64_t number, std::int64_t step)
   {
     const auto node = this->Grid.IndexOf.find(number);

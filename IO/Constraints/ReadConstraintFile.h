@@ -19,7 +19,7 @@ struct ConstraintTable
 {
   std::vector<double>
     XY; ///< x and y of the file's own points; empty: ids refer to the points to triangulate
-  std::vector<double> Height; ///< of these points, if the file has three coordinates
+  std::vector<double> Height; ///< z per point of XY, if the file has three coordinates
   std::vector<std::array<std::int64_t, 2>> Edges; ///< point ids
   std::size_t PolygonBegin = 0; ///< edges from this index on belong to closed polygons
   std::vector<double> Holes;    ///< x and y of points in holes

@@ -23,7 +23,7 @@ VTKTIPPIO_EXPORT std::size_t scalarSize(Scalar type);
 VTKTIPPIO_EXPORT const char* scalarName(Scalar type);
 /// The name in NumPy: "|i1", "<f8".
 VTKTIPPIO_EXPORT const char* scalarDescr(Scalar type);
-/// The inverse of both; nullopt for any other text.
+/// The inverse of scalarName() and scalarDescr(); nullopt for any other text.
 std::optional<Scalar> scalarFromName(const std::string& name);
 std::optional<Scalar> scalarFromDescr(const std::string& descr);
 
@@ -74,7 +74,8 @@ VTKTIPPIO_EXPORT FlatMesh openFlatMesh(const std::string& path);
 /// file with an appended raw, uncompressed header. Opening it may still fail.
 VTKTIPPIO_EXPORT bool isFlatMesh(const std::string& path);
 
-/// The two functions for each of the two: see FlatFolder.cxx and FlatVtu.cxx.
+/// Implement openFlatMesh() and isFlatMesh() for each of the two formats; see FlatFolder.cxx and
+/// FlatVtu.cxx.
 ///@{
 FlatMesh openFlatFolder(const std::string& path);
 bool isFlatFolder(const std::string& path);

@@ -3,7 +3,8 @@
 // chunk whose vertices are close together reads little else. Active runs near each other are read
 // at once and packed, up to M vertices a pass. Blocks of a single pass stay in memory for the next
 // chunks. If the vertices are few and far apart, each is read by itself and cached. If all vertices
-// fit into M, all blocks are kept once as many bytes have been read as there are.
+// fit into M, all blocks are kept as soon as the number of bytes read exceeds the size of the
+// files.
 #include "Loading/ArrayFiles.h"
 #include "Loading/BlockCache.h"
 #include "Loading/GroupedMoves.h"
@@ -168,8 +169,8 @@ private:
     return tuples * std::int64_t(this->Files.recordBytes());
   }
 
-  /// Whether all tuples fit and as many bytes have been read as there are: from then on all blocks
-  /// that are read are kept.
+  /// Whether all tuples fit into memory and the bytes read exceed the size of the files: from then
+  /// on all blocks that are read are kept.
   bool wantsAll() const
   {
     return this->fitsWhole() && this->Spent > this->bytesOf(this->Files.tuples());

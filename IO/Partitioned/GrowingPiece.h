@@ -51,8 +51,9 @@ VTKTIPPIO_EXPORT FinishedPiece writeBorder(const PartitionedMesh& mesh, std::siz
 VTKTIPPIO_EXPORT void writeCellIds(
   const PartitionedMesh& mesh, std::size_t number, std::int64_t first, FinishedPiece& piece);
 
-/// Writes an array of a finished piece's cells whose values are known last: `values` has its bytes,
-/// in the order of the cells. `attribute`: the array's index among the mesh's. May be repeated.
+/// Writes a cell array of a finished piece whose values are only known at the end. `values` has its
+/// bytes, in the order of the piece's cells; `attribute` is its index in PartitionedMesh::Arrays.
+/// May be repeated.
 VTKTIPPIO_EXPORT void writeLateArray(const PartitionedMesh& mesh, std::size_t number,
   std::int64_t attribute, const char* values, FinishedPiece& piece);
 

@@ -102,8 +102,9 @@ void NeighborWriter::add(std::size_t number)
   }
 }
 
-/// A triangle of part 0 has all its neighbours in its piece; so has a border triangle across an
-/// edge with a point of part 0, or it has none there.
+/// Finds the border's edges whose neighbour may be in another piece. All neighbours of a triangle
+/// of part 0 are in its piece. Across an edge with a point of part 0, a border triangle's neighbour
+/// is in its piece too, if there is one.
 std::vector<NeighborWriter::OpenEdge> NeighborWriter::findOpenEdges(const PieceFile& file,
   const std::vector<std::int32_t>& corners, const std::vector<std::int32_t>& neighbors)
 {

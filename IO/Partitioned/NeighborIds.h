@@ -36,13 +36,13 @@ public:
   /// Cell ids must be consecutive, piece by piece.
   NeighborWriter(const PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces);
 
-  /// Adds a piece; each must be added once, by any thread. If neighbouring pieces are added one
-  /// soon after the other, few edges are kept. Throws IOError.
+  /// Adds a piece. Each piece must be added once, by any thread. If neighbouring pieces are added
+  /// soon after each other, few edges are in memory. Throws IOError.
   void add(std::size_t number);
   /// Call once all pieces are added: the edges that are still open are the hull's. Throws IOError.
   void finish();
 
-  /// The memory that add() needs.
+  /// The memory that add() needs, in bytes.
   static std::uint64_t bytesFor(const FinishedPiece& piece);
 
 private:

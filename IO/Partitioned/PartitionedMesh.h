@@ -19,12 +19,12 @@ using Bounds = std::array<double, 6>;
 /// The maximum number of pieces of a mesh.
 constexpr std::int64_t mostPieces = 1 << 24;
 
-/// What the index holds on a piece.
+/// The index's entry for a piece.
 struct PieceSummary
 {
   Bounds Box{};            ///< the partition: a closed box
   Bounds Extent{};         ///< bounding box of the piece's own points; min > max if there are none
-  std::int64_t Points = 0; ///< without ghost points of borrowed cells alone
+  std::int64_t Points = 0; ///< excluding GhostPoints
   std::int64_t Cells = 0;  ///< owned
   std::int64_t BorrowedCells = 0; ///< stored by reference, or duplicated at the end of the piece
   std::int64_t GhostPoints = 0;   ///< points that only borrowed cells use, at the end of the piece
@@ -65,7 +65,7 @@ struct PartitionedMesh
   std::int64_t Points = 0;
   std::int64_t Cells = 0;
   Bounds Domain{};
-  std::string Tiling; ///< as it was asked for: "grid:4x4", "quadtree:100000"
+  std::string Tiling; ///< as requested: "grid:4x4", "quadtree:100000"
   std::vector<double> Times;
   std::vector<StoredArray> Arrays; ///< point arrays first
   std::vector<PieceSummary> Pieces;

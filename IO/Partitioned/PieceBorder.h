@@ -95,7 +95,7 @@ private:
   std::map<std::pair<int, int>, int> Unions;
 };
 
-/// What is kept of a piece's interior from the time it is written until its border is.
+/// What is remembered of a piece's interior after it is written, until the border is written.
 ///
 /// Points are identified by index among those of all pieces; a piece's own points have consecutive
 /// indices. *Interface* points are own points that cells of the border use.
@@ -104,8 +104,8 @@ struct VTKTIPPIO_EXPORT PieceInterior
   std::int64_t First = 0; ///< index of the first own point
   std::int64_t OwnPoints = 0;
   PieceSummary Room;                         ///< counts that the file has room for
-  std::int64_t Points = 0;                   ///< own points without those of the interface
-  std::int64_t Cells = 0;                    ///< cells of these points alone
+  std::int64_t Points = 0;                   ///< own points that are not on the interface
+  std::int64_t Cells = 0;                    ///< cells with only such points
   std::uint64_t TriangleSum = 0;             ///< of hashes; only without a file
   Bounds Extent{};                           ///< of the own points
   std::vector<std::uint64_t> Checksums;      ///< of each array's first part

@@ -142,7 +142,7 @@ std::vector<std::int64_t> chooseCells(const PieceFile& file, const PieceOptions&
   return chosen;
 }
 
-/// As readCells(), of the cells that the options choose; returns their indices in the file.
+/// Like readCells(), for the cells that the options choose. Returns their indices in the file.
 std::vector<std::int64_t> readChosenCells(const PartitionedMesh& mesh, const PieceFile& file,
   const PieceOptions& options, std::int64_t stored, std::int64_t borrowed, Piece& piece)
 {

@@ -26,8 +26,8 @@ struct TilingChoice
 {
   /// The boxes along each axis of a regular grid.
   std::array<int, 3> Boxes{ 4, 4, 1 };
-  /// If not 0: a quadtree or octree; a node that more cells meet is split, down to
-  /// BoxTiling::MaxDepth. Only cells no longer than the node count.
+  /// If not 0: a quadtree or octree whose nodes with more than this number of cells are split, down
+  /// to BoxTiling::MaxDepth. Cells longer than the node are not counted.
   std::int64_t Threshold = 0;
 
   /// Parses "grid:4x4", "grid:4x4x2", "quadtree:100000" or "octree:100000"; nullopt for any other
@@ -54,7 +54,8 @@ void takeCoordinatesAs(
   }
 }
 
-/// Copies the first `dimension` coordinates of points as a file stores them; missing ones are 0.
+/// Converts points from the file's layout to `dimension` doubles each; missing coordinates become
+/// 0.
 inline void takeCoordinates(
   const RawArray& points, const char* raw, std::size_t count, int dimension, double* to)
 {

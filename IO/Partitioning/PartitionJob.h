@@ -124,7 +124,7 @@ struct PartitionJob
 
   // Keyed by piece; GhostPoints by chunk of points.
   std::optional<Spill> Cells; ///< cells that lie in one partition
-  /// owned and borrowed, followed by 4 bytes: the number of borrowers
+  /// cells with borrowers: each followed by 4 bytes, the number of borrowers
   std::optional<Spill> SharedCells;
   std::optional<Spill> Borrowers;     ///< of SharedCells, consecutively, 4 bytes each
   std::optional<Spill> BorrowedCells; ///< if they are duplicated
@@ -143,8 +143,8 @@ struct PartitionJob
 /// and borrow it, and the vertices that these need from other partitions. Collective. Throws
 /// IOError.
 ///
-/// A cell whose vertices all lie in one partition only lies inside that partition, which is convex.
-/// Any other cell meets at least two partitions, which its coordinates determine.
+/// A cell whose vertices all lie in one partition, and in no other, lies inside it, since
+/// partitions are convex. For any other cell the coordinates determine which partitions it meets.
 void distributeCells(PartitionJob& job);
 
 /// Reads this rank's share of the points in one pass and spills each to its owner and to the other

@@ -44,8 +44,8 @@ inline std::size_t findElevation(const std::vector<std::string>& columns)
   return columns.size();
 }
 
-/// Returns the index of the column by which the lowest and highest of points are found: the
-/// elevation, else the depth, else the only column; the number of columns if there is none.
+/// Returns the index of the column that decides which points are lowest and highest: the elevation,
+/// else the depth, else the only column. Returns the number of columns if there is none.
 inline std::size_t findRankColumn(const std::vector<std::string>& columns)
 {
   const std::size_t elevation = findElevation(columns);

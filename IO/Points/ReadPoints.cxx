@@ -137,7 +137,8 @@ PointTable readAllPoints(PointStream& stream)
   {
     table.Columns.push_back({ name, {} });
   }
-  // Untouched memory is not committed, but the system refuses what it could never commit.
+  // Untouched memory is not committed, but the system refuses reservations that it could never
+  // commit.
   constexpr std::int64_t mostReserved = std::int64_t(1) << 26;
   const auto most = std::size_t(std::min(stream.most(), mostReserved));
   table.XY.reserve(2 * most);

@@ -32,7 +32,8 @@ struct LasSelection
   Returns Kind = Returns::All;
   bool KeepWithheld = false;
   bool KeepSynthetic = false;
-  /// Points of a swath that another one overlaps: a flag in formats 6 to 10, class 12 in others.
+  /// Whether to keep points flagged as overlap of another swath: a flag in formats 6 to 10, class
+  /// 12 in others.
   bool KeepOverlap = false;
 
   /// Keeps the points with a flag: "withheld", "synthetic" or "overlap".
@@ -59,7 +60,8 @@ struct LasSelection
   }
 };
 
-/// One point is kept in each square of a grid whose lines are at multiples of the cell size.
+/// Thinning: keeps one point in each square of a grid whose lines are at multiples of the cell
+/// size.
 struct Thinning
 {
   enum class Rule

@@ -183,7 +183,8 @@ private:
     squares.forEach([this](std::int64_t id) { this->keep(id); });
   }
 
-  /// Squares are sorted into a file by their hash, so that few are in memory at a time.
+  /// The same with a temporary file: squares are distributed by their hash, so that only a part of
+  /// them is in memory at a time.
   void decideOnDisk()
   {
     constexpr std::size_t keys = 1024;

@@ -83,7 +83,7 @@ public:
   {
   }
 
-  /// `lengths`: whether each band is preceded by its size in bytes.
+  /// `lengths` tells whether each band is preceded by its size in bytes.
   void start(const std::string& text, bool lengths, std::size_t bands)
   {
     this->put(0, text.data(), text.size());

@@ -26,7 +26,7 @@ namespace tipp
 
 struct SourceOptions
 {
-  TilingChoice Tiling; ///< of a flat mesh; a partitioned one has its own
+  TilingChoice Tiling; ///< for a flat mesh; a partitioned one has its own
   std::uint64_t MemoryLimit = std::uint64_t(2) << 30; ///< in bytes, without the pieces themselves
   int Threads = 0;                                    ///< 0: OpenMP's default
 };
@@ -176,8 +176,8 @@ public:
   const std::vector<std::size_t>& pieces() const { return this->Open; }
 
   /// Returns the cells of a piece that meet the range, and their points. `piece` must include its
-  /// borrowed cells: a cell whose owner is not among pieces() is assigned to the lowest of those
-  /// that it meets; likewise a point. `borrowed`: keep the other borrowed cells as ghosts.
+  /// borrowed cells: a cell or point whose owner is not among pieces() is assigned to the lowest of
+  /// pieces() that it meets. `borrowed` keeps the other borrowed cells as ghosts.
   Piece apply(const Piece& piece, std::size_t number, bool borrowed) const;
 
 private:

@@ -23,8 +23,8 @@ VTKTIPPIO_EXPORT bool isVtkFile(const std::string& path);
 /// without VTK.
 VTKTIPPIO_EXPORT PointTable readVtkPoints(const std::string& path);
 
-/// A data set's points: column z and its numeric point data, the components of an array of several
-/// as name_0, name_1 ...
+/// Converts a data set's points and numeric point data to a table with a column z; an array of
+/// several components becomes columns name_0, name_1 ... ...
 VTKTIPPIO_EXPORT PointTable pointsOf(vtkDataSet* data);
 
 } // namespace tipp
