@@ -3,6 +3,7 @@
 #define tippBoxTree_h
 
 #include "Locate/MortonOrder.h"
+#include "Predicates/Points.h"
 
 #include <algorithm>
 #include <array>
@@ -15,6 +16,16 @@
 
 namespace tipp
 {
+
+/// The first D coordinates.
+template <int D>
+std::array<double, D> coordinatesOf(const Point3& point)
+{
+  const double coordinates[3] = { point.x, point.y, point.z };
+  std::array<double, D> at;
+  std::copy_n(coordinates, D, at.begin());
+  return at;
+}
 
 /// Finds which of many boxes meet a given box: a packed R-tree (Kamel and Faloutsos, On Packing
 /// R-trees, 1993) over the boxes, sorted by their centres along the Morton curve. A node stores the

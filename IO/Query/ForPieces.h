@@ -62,10 +62,11 @@ void forPieceRange(const ResidentMesh& mesh, std::size_t first, std::size_t end,
 {
   PieceNeeds needs;
   needs.Topology = true;
+  const bool stay = mesh.pieces().fit(first, end, needs);
   for (std::size_t i = first; i < end; ++i)
   {
     poll();
-    const ResidentPieces::Lease piece = mesh.pieces().get(i, needs);
+    const ResidentPieces::Lease piece = mesh.pieces().get(i, needs, stay);
     work(*piece->Part, *piece->Topology);
   }
 }

@@ -120,8 +120,9 @@ public:
 
   /// Locates points and evaluates arrays there. Reads the pieces that points lie in, each once.
   /// Throws IOError, also for a name that is not among names(), and WorkAborted.
-  MeshAnswer answer(
-    const Point3* points, std::int64_t count, const AnswerOptions& options = {}) const;
+  /// `pieceOf` may be what piecesOf() says of the points.
+  MeshAnswer answer(const Point3* points, std::int64_t count, const AnswerOptions& options = {},
+    std::vector<std::int32_t> pieceOf = {}) const;
 
   /// The piece that each point belongs to, the first whose closed box holds it; -1: none.
   std::vector<std::int32_t> piecesOf(const Point3* points, std::int64_t count) const;
