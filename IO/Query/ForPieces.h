@@ -126,10 +126,12 @@ inline PieceNeeds topologyNeeded()
   return needs;
 }
 
-inline PieceGroups groupsOf(
-  const ResidentMesh& mesh, const std::vector<std::int64_t>& ids, bool ofPoints)
+/// `pieces` may be mesh.piecesOfIds() of the ids.
+inline PieceGroups groupsOf(const ResidentMesh& mesh, const std::vector<std::int64_t>& ids,
+  bool ofPoints, const std::vector<std::int32_t>& pieces)
 {
-  return groupByPiece(mesh.piecesOfIds(ids, ofPoints), mesh.mesh().Pieces.size());
+  return groupByPiece(pieces.size() == ids.size() ? pieces : mesh.piecesOfIds(ids, ofPoints),
+    mesh.mesh().Pieces.size());
 }
 
 /// The index of an id in the piece that owns it.

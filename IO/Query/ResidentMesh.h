@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+class vtkMultiProcessController;
+
 namespace tipp
 {
 
@@ -140,6 +142,15 @@ public:
   /// The pieces in memory.
   ResidentPieces& pieces() const { return this->Resident; }
 
+  /// Of a part of a mesh in memory: whether another rank of `Of` has each point, too. Queries on
+  /// ranks keep it here for the next one.
+  struct SharedPoints
+  {
+    const vtkMultiProcessController* Of = nullptr; ///< null: not known
+    std::vector<std::uint8_t> Are;
+  };
+  SharedPoints& sharedPoints() const { return this->Shared; }
+
 private:
   void answerPiece(std::size_t number, const AskedPoints& asked, const AnswerOptions& options,
     int threads, bool mayStay, MeshAnswer& answer) const;
@@ -167,6 +178,7 @@ private:
   std::shared_ptr<const PieceBoxes> Boxes;  ///< null: in memory
   PieceIds Ids;
   mutable ResidentPieces Resident;
+  mutable SharedPoints Shared;
 };
 
 } // namespace tipp

@@ -6,7 +6,7 @@
 #   --rows      of probe (scattered points, one thread, beside vtkProbeFilter), order (points in rows, beside
 #               resampling), rings (a million), contours (of twice as many points, beside vtkContourFilter), scipy
 #               (a tenth of the points, one thread, beside its LinearNDInterpolator; of the interpreter that TIPP_SCIPY_PYTHON names, else /usr/bin/python3),
-#               ranks (tipp query on 1 to 8 ranks of one thread each), and stored: a partitioned mesh of 200 million
+#               ranks (tipp query, and rings of points in memory, on 1 to 8 ranks of one thread each), and stored: a partitioned mesh of 200 million
 #               triangles in 256 MB. It is made in the folder that TIPP_QUERY_STORE names and stays there, else it is
 #               removed; needs 25 GB on the disk. All but stored by default
 points=5000000
@@ -91,6 +91,13 @@ for name in $(echo "$rows" | tr , " "); do
           "$inputs/query-ranks/mesh.tipp" -o "$inputs/query-ranks/values.npy" --threads 1
       done
       rm -rf "$inputs/query-ranks"
+      echo
+      echo "| ranks | what | time | processor | found |"
+      echo "|---|---|---|---|---|"
+      for ranks in 1 2 4 8; do
+        OMP_NUM_THREADS=1 mpirun --allow-run-as-root --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 \
+          -np "$ranks" "$build/bin/benchmarkQuery" rank-rings "$points" 1000000 "$repeat"
+      done
       ;;
     stored)
       store=${TIPP_QUERY_STORE:-$inputs/query}

@@ -6,6 +6,8 @@
 #include "Query/RankAround.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 using namespace tipp;
 using namespace tipp::test;
@@ -110,6 +112,39 @@ TEST_F(AroundOnRanks, TellWhatLiesAroundInPartsInMemory)
     this->expectAroundAsAlone(
       ResidentMesh(this->isLast() ? MeshPart() : inMemory(source, 0, this->Ranks.rank(), holders)),
       source);
+  }
+}
+
+TEST_F(AroundOnRanks, TellWhatLiesAroundInPartsOfNeighboringCells)
+{
+  const auto parts = std::size_t(this->Ranks.size());
+  for (SourceMesh source : { makeSource(latticeTriangles(10, 0.3)),
+         makeSource(latticeTriangles(8, 0)), makeSource(latticeTetrahedra(3, 0.3)) })
+  {
+    const auto corners = std::size_t(source.CellSize);
+    std::vector<std::vector<std::int64_t>> cells;
+    for (std::size_t at = 0; at < source.Cells.size(); at += corners)
+    {
+      cells.emplace_back(source.Cells.begin() + std::ptrdiff_t(at),
+        source.Cells.begin() + std::ptrdiff_t(at + corners));
+    }
+    const auto xOf = [&source](const std::vector<std::int64_t>& cell)
+    { return source.Coordinates[std::size_t(cell[0]) * std::size_t(source.Components)]; };
+    std::sort(cells.begin(), cells.end(),
+      [&xOf](const auto& a, const auto& b)
+      { return std::make_pair(xOf(a), a) < std::make_pair(xOf(b), b); });
+    // inMemory() gives each rank every n-th cell.
+    auto next = cells.begin();
+    for (std::size_t part = 0; part < parts; ++part)
+    {
+      for (std::size_t cell = part; cell < cells.size(); cell += parts)
+      {
+        std::copy_n(
+          (next++)->begin(), corners, source.Cells.begin() + std::ptrdiff_t(corners * cell));
+      }
+    }
+    this->expectAroundAsAlone(
+      ResidentMesh(inMemory(source, 0, this->Ranks.rank(), this->Ranks.size())), source);
   }
 }
 
