@@ -58,7 +58,7 @@ void PieceSegments::save(SaveArchive& archive) const
   archive(this->Rows.content(), this->Cutting.list());
 }
 
-/// A box of segments in the plan's coordinates.
+/// Returns a box of segments in the plan's coordinates.
 Box2 PieceSegments::planned(const Box2& box) const
 {
   return { box.xmin * this->Factor, box.ymin * this->Factor, box.xmax * this->Factor,
@@ -74,7 +74,7 @@ void PieceSegments::writeRows(
     PartitionIndex Piece;
   };
   constexpr std::size_t most = std::size_t(1) << 16;
-  std::vector<Place> places; // one segment may have many
+  std::vector<Place> places; // a segment may meet many pieces
   const auto write = [&]
   {
     spill.add(
@@ -91,7 +91,7 @@ void PieceSegments::writeRows(
     const ConstraintSegment& segment = segments[i];
     if (segment.Role == SegmentRole::Hole)
     {
-      continue; // it is no edge of the triangulation
+      continue; // a hole's outline is no edge of the triangulation
     }
     const Point2 a{ segment.A.x * this->Factor, segment.A.y * this->Factor };
     const Point2 b{ segment.B.x * this->Factor, segment.B.y * this->Factor };
@@ -106,7 +106,7 @@ void PieceSegments::writeRows(
 
 std::uint64_t PieceSegments::bytesOf(PartitionIndex piece) const
 {
-  // The segments and their tree; ends among the points; what editors know of them.
+  // The segments and their tree; their ends among the points; the data of editors.
   constexpr std::uint64_t each = 48 + 64 + 48 + 96;
   return each * std::uint64_t(this->count(piece));
 }

@@ -16,7 +16,7 @@ namespace tipp
 namespace
 {
 
-/// For each point whether it is a duplicate or rejected.
+/// Returns for each point whether it is a duplicate or rejected.
 std::vector<char> findLeftOut(const Tetrahedralization& mesh, std::size_t count)
 {
   std::vector<char> isLeftOut(count, 0);
@@ -31,7 +31,7 @@ std::vector<char> findLeftOut(const Tetrahedralization& mesh, std::size_t count)
   return isLeftOut;
 }
 
-/// Three points that are not collinear.
+/// Returns three of the points that are not collinear. Throws std::logic_error if there are none.
 std::array<Point3, 3> findTriangle(const Point3* points, const std::vector<char>& isLeftOut)
 {
   std::array<Point3, 3> found = {};
@@ -54,7 +54,7 @@ std::array<Point3, 3> findTriangle(const Point3* points, const std::vector<char>
   return found;
 }
 
-/// The lowest id first, and the triangles in lexicographic order.
+/// Puts the lowest id of each triangle first, and sorts the triangles.
 void sortTriangles(Buffer<std::int32_t>& ids)
 {
   using Corners = std::array<std::int32_t, 3>;
@@ -88,7 +88,7 @@ Triangulation triangulateCoplanar(const Point3* points, std::size_t count,
   }
   TriangulationOptions flat;
   flat.Threads = options.Threads;
-  // The points have been told to be done.
+  // Progress already stands at 1: only check whether to stop.
   flat.Progress = [&options](double) { return !options.Progress || options.Progress(1); };
   Triangulation triangles = triangulate(PointsView(projected.data(), count, 2), flat);
   sortTriangles(triangles.Ids32);

@@ -63,7 +63,8 @@ Vertex3 Worker3::vertex(Index v) const
     : this->Others[i - this->Own.Count];
 }
 
-/// The partition's own points first, so that they stand for points with the same coordinates.
+/// Collects the partition's points and those of its inbox. Its own points come first, so that they
+/// represent points with the same coordinates.
 void Worker3::collect(const std::vector<VertexMessage3>& inbox)
 {
   this->Others.clear();
@@ -130,7 +131,7 @@ void Worker3::route(Index cell, FinalCellConsumer3& final)
   const Point3& b = this->Kernel.point(v[1]);
   const Point3& c = this->Kernel.point(v[2]);
   const Point3& d = this->Kernel.point(v[3]);
-  const double slack = this->Slack[v[0]]; // negative outside of the region
+  const double slack = this->Slack[v[0]]; // negative if the vertex is outside of the region
   if ((slack > 0 && Circumball::isSurelySmall(a, b, c, d, slack)) ||
     Circumball::isSurelyInside(a, b, c, d, region))
   {
@@ -209,7 +210,7 @@ void repairHull(
   {
     points.push_back(v.Position);
   }
-  // They are on the sides of this box.
+  // The artificial points lie on the sides of this box.
   PointBounds frame;
   for (const Vertex3& z : artificial)
   {

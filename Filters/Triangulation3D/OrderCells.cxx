@@ -11,7 +11,7 @@ namespace tipp
 namespace
 {
 
-/// Ascending ids; the last two are exchanged if that took an odd number of exchanges.
+/// Sorts the ids of a cell; exchanges the last two if the sorting changed the orientation.
 CellIds canonical(CellIds cell)
 {
   bool isOdd = false;
@@ -35,7 +35,8 @@ CellIds canonical(CellIds cell)
   return cell;
 }
 
-/// Compares cells with the same first id. An object, so that sorting compiles it in.
+/// Compares cells with the same first id. It is an object so that the compiler inlines it into the
+/// sort.
 struct IsBefore
 {
   bool operator()(const CellIds& a, const CellIds& b) const
@@ -50,7 +51,7 @@ struct IsBefore
   }
 };
 
-/// Sorts the cells whose first id is in [first, first + width), by way of `scratch`.
+/// Sorts the cells whose first id is in [first, first + width); `scratch` is working memory.
 void sortRange(CellIds* cells, std::size_t count, std::int32_t first, std::size_t width,
   std::vector<CellIds>& scratch)
 {
@@ -82,7 +83,8 @@ void sortRange(CellIds* cells, std::size_t count, std::int32_t first, std::size_
 Buffer<std::int32_t> orderCells(
   std::vector<std::vector<CellIds>>&& parts, std::size_t points, int threads)
 {
-  // A range's cells fit in a cache, and few ranges in the pages of one pass.
+  // Ranges of first ids: small enough that the cells of one fit in a cache, and few enough that one
+  // pass can distribute to all of them.
   constexpr std::size_t mostRanges = 1024;
   constexpr unsigned leastShift = 8;
   unsigned shift = leastShift;

@@ -21,9 +21,9 @@ namespace tipp
 namespace
 {
 
-/// One partition, in which threads share a mesh, is fastest. Where there are more points than its
-/// indices can name, or many threads, each of which has a table of vertices then, as many
-/// partitions as let all threads find work.
+/// One partition whose mesh all threads share is fastest. There are several partitions if the
+/// points exceed the indices of one mesh, or if there are many threads: each thread of a shared
+/// mesh needs a table of all vertices.
 int choosePartitionCount(std::size_t points, int threads)
 {
   constexpr std::size_t largest = std::size_t(1) << 25;
@@ -200,7 +200,7 @@ private:
         [](const std::vector<CellIds>& cells) { return !cells.empty(); });
       if (!hasCells)
       {
-        // All points are coplanar, or fewer: the kernel tells.
+        // The points are coplanar, or too few: runAlone() reports the dimension.
         this->Cells.clear();
         this->Result.Duplicates.clear();
         return false;
@@ -263,7 +263,8 @@ private:
     this->endPhase("workers");
   }
 
-  /// Vertices that came from another partition may bear the id of a duplicate.
+  /// Tetrahedra with vertices from other partitions may have ids of duplicates: replaces these by
+  /// their representatives.
   void useRepresentatives()
   {
     if (this->Result.Duplicates.empty())

@@ -52,7 +52,7 @@ std::vector<std::string> toPeers(const std::string& text)
   return peers;
 }
 
-/// NAME or NAME:COUNT, as --input gives it; a COUNT of 0 stands for --count's.
+/// Parses NAME or NAME:COUNT, the value of --input. A COUNT of 0 means the value of --count.
 Arguments::Input toInput(const std::string& text)
 {
   const std::size_t colon = text.rfind(':');

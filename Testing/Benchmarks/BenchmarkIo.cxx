@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Input and output beside their peers, a subject a file.
+// Compares input and output with their peers. Each subject has its own file.
 #include "IoSubjects.h"
 
 #include <cstdio>

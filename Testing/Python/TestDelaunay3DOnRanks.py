@@ -57,7 +57,7 @@ class Delaunay3DOnRanks(unittest.TestCase):
         options = ("--neighbors", "--map-duplicates")
         self.assertEqual(self.output(3, "out.vtu", *options), self.output(1, "out.vtu", *options))
 
-    def test_statistics_tell_of_every_rank(self):
+    def test_statistics_have_every_rank(self):
         self.output(3, "out.npy", "--stats", "run.json")
         statistics = json.loads((self.folder / "run.json").read_text())
         self.assertEqual(statistics["points"], 40000)

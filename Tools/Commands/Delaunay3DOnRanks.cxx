@@ -21,12 +21,12 @@ namespace tipp
 namespace
 {
 
-/// This rank's share of the points.
+/// Returns this rank's share of the points.
 std::vector<Point3> readShare(const Communicator& ranks, const Delaunay3DArguments& arguments)
 {
   const PointTable table =
     readPointsShare(arguments.Inputs, arguments.Columns, ranks.rank(), ranks.size());
-  if (ranks.isFirst()) // which counts those of all files
+  if (ranks.isFirst()) // it counts the points of all files
   {
     reportLeftOut(table.LeftOut, table.ThinnedOut);
   }
@@ -35,7 +35,7 @@ std::vector<Point3> readShare(const Communicator& ranks, const Delaunay3DArgumen
     : coordinatesOf(table, requireElevation(table, arguments.Inputs.front()));
 }
 
-/// The first rank writes the file, completely or not at all; the others wait for its outcome.
+/// Writes the file on the first rank, completely or not at all; the others wait for the outcome.
 void writeOnFirst(Communicator& ranks, const Delaunay3DArguments& arguments,
   const DistributedTetrahedralization& mine, double seconds, const PathState& before)
 {
@@ -44,7 +44,7 @@ void writeOnFirst(Communicator& ranks, const Delaunay3DArguments& arguments,
   {
     return;
   }
-  // An output of tetrahedra alone has no use for the points.
+  // An .npy output of tetrahedra needs no points.
   PointTable table = extensionOf(arguments.Output) == ".npy"
     ? PointTable()
     : readPoints(arguments.Inputs, arguments.Columns);

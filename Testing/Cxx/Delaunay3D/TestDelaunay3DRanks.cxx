@@ -50,7 +50,7 @@ vtkIdType idAt(vtkDataArray* ids, vtkIdType i)
   return static_cast<vtkIdTypeArray*>(ids)->GetValue(i);
 }
 
-/// This rank's share of the points with an array: the first rank has none if there are others.
+/// This rank's share of the points, with a point array. With several ranks, the first has none.
 vtkSmartPointer<vtkPolyData> shareOf(const std::vector<Point3>& points, bool withIds)
 {
   vtkNew<vtkPoints> own;
@@ -88,7 +88,7 @@ struct PieceCell
   std::int64_t IsGhost;
 };
 
-/// All ranks' cells on the first rank.
+/// Gathers the cells of all ranks on the first rank.
 std::vector<PieceCell> gatherCells(vtkUnstructuredGrid* mesh)
 {
   std::vector<PieceCell> cells;
@@ -142,7 +142,7 @@ void expectWhole(vtkUnstructuredGrid* mesh, const std::vector<Point3>& points)
   }
 }
 
-/// Gives Data, or fails.
+/// A source that outputs `Data`, or fails.
 class FailingSource : public vtkPolyDataAlgorithm
 {
 public:
@@ -269,7 +269,7 @@ TEST(Delaunay3DRanks, StatisticsAreTheSameOnAllRanks)
   EXPECT_EQ(totals->GetArray("Tetrahedra")->GetTuple1(0), sum);
 }
 
-TEST(Delaunay3DRanks, WhatNeedsOneRankIsRefusedOnAll)
+TEST(Delaunay3DRanks, OptionsForOneRankAreRefusedOnAll)
 {
   for (int what = 0; what < 4; ++what)
   {
@@ -287,7 +287,7 @@ TEST(Delaunay3DRanks, WhatNeedsOneRankIsRefusedOnAll)
   }
 }
 
-TEST(Delaunay3DRanks, WhatFailsUpstreamOnOneRankFailsOnAll)
+TEST(Delaunay3DRanks, AnUpstreamFailureOnOneRankFailsOnAll)
 {
   vtkNew<FailingSource> source;
   source->Fails = rank() == ranks() - 1;
@@ -304,7 +304,7 @@ TEST(Delaunay3DRanks, WhatFailsUpstreamOnOneRankFailsOnAll)
   EXPECT_GT(filter->GetStatistics()->GetFieldData()->GetArray("Tetrahedra")->GetTuple1(0), 2500);
 }
 
-TEST(Delaunay3DRanks, WithoutAControllerARankIsAlone)
+TEST(Delaunay3DRanks, WithoutAControllerEachRankWorksAlone)
 {
   const auto points = pointsInSpace("uniform", 300, unsigned(rank()) + 1);
   vtkNew<vtkPoints> own;

@@ -21,7 +21,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-/// One rank's points, and their ids among all.
+/// One rank's points with their global ids.
 struct Part
 {
   std::vector<Point3> Points;
@@ -81,7 +81,7 @@ void expectSame(
   EXPECT_TRUE(isSame) << what;
 }
 
-/// Expects the result of one process, byte for byte, in the ranks' results together.
+/// Expects that the gathered results of all ranks equal the result of one process, byte for byte.
 void expectThatOfOne(const std::vector<Point3>& points, const TetrahedralizationOptions& options,
   const std::string& what, const RankOf& rankOf = roundRobin)
 {
@@ -161,7 +161,7 @@ TEST(Distributed3D, DuplicatesOnSeveralRanksAreMerged)
     const auto own = pointsInSpace("coarse", 700);
     auto more = pointsInSpace("uniform", 2000);
     more.insert(more.end(), own.begin(), own.end());
-    RankPoints3 points; // the same on each, with ids that count on
+    RankPoints3 points; // the same on all ranks; ids are counted over ranks
     points.Points = more.data();
     points.Count = more.size();
     const auto mine = tetrahedralizeDistributed(ranks, points, with(1, partitions));
@@ -180,7 +180,7 @@ TEST(Distributed3D, DuplicatesOnSeveralRanksAreMerged)
   }
 }
 
-TEST(Distributed3D, TheLowestGlobalIdRepresentsWhereverItIs)
+TEST(Distributed3D, TheLowestGlobalIdIsTheRepresentativeOnAnyRank)
 {
   Communicator ranks(vtkMultiProcessController::GetGlobalController());
   auto points = pointsInSpace("coarse", 2500);
@@ -212,7 +212,7 @@ TEST(Distributed3D, PointsThatAreNotFiniteAreRejected)
   }
 }
 
-TEST(Distributed3D, PointsWithoutTetrahedraAreToldByTheirDimension)
+TEST(Distributed3D, PointsWithoutTetrahedraReportTheirDimension)
 {
   std::vector<Point3> line;
   std::vector<Point3> plane;
@@ -246,7 +246,7 @@ TEST(Distributed3D, RowsTravelWithTheirPoints)
     to[sizeof(value)] = 'x';
   };
   const auto mine = tetrahedralizeDistributed(ranks, points, with(1, 10));
-  if (ranks.isFirst()) // whose ids are the lowest
+  if (ranks.isFirst()) // the lowest ids are on the first rank
   {
     EXPECT_EQ(ranks.size() > 1, mine.Foreign.size() > 0);
   }
@@ -328,7 +328,7 @@ TEST(Distributed3D, ARankThatFailsEndsAllWithItsReason)
     EXPECT_STREQ(failure.what(), "This row is lost.");
     EXPECT_FALSE(failure.Aborted);
   }
-  points.RowSize = 0; // the next run is a good one
+  points.RowSize = 0; // after the failure, the next run must succeed
   EXPECT_GT(tetrahedralizeDistributed(ranks, points, with(1, 8)).AllCells, 15000);
 }
 

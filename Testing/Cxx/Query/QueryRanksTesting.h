@@ -21,7 +21,7 @@ namespace tipp
 namespace test
 {
 
-/// Every rank asks its own share of the points, the last rank none.
+/// Each rank queries its own share of the points, the last rank none.
 class QueryRanksTest : public testing::Test
 {
 protected:
@@ -64,7 +64,7 @@ protected:
     this->Ranks.barrier();
   }
 
-  /// Of count ids every rank asks for its own ones, the last rank for none.
+  /// This rank's share of the ids below `count`; the last rank has none.
   std::vector<std::int64_t> ownIds(std::size_t count) const
   {
     std::vector<std::int64_t> own;

@@ -100,7 +100,7 @@ TEST_F(AnswersOnRanks, CellsWithoutIdsAreNumberedRankByRank)
 
 TEST_F(AnswersOnRanks, AnswersMayStayWhereTheCellsAre)
 {
-  const SourceMesh source = makeSource(latticeTriangles(16, 0)); // points on common edges
+  const SourceMesh source = makeSource(latticeTriangles(16, 0)); // points lie on common edges
   const std::vector<Point3> all = pointsAround(source, 200);
   const std::vector<Point3> own = this->ownOf(all);
   const ResidentMesh whole(inMemory(source));
@@ -170,7 +170,7 @@ TEST_F(AnswersOnRanks, AFailureOfOneRankEndsAll)
   this->store(source, "grid:4x4");
   const ResidentMesh mesh(this->Path);
   this->Ranks.barrier();
-  if (this->Ranks.isFirst()) // the last piece is the last rank's
+  if (this->Ranks.isFirst()) // the last piece is on the last rank
   {
     const std::string piece = mesh.mesh().piecePath(15);
     std::string content = contentOf(piece);

@@ -55,7 +55,7 @@ protected:
       });
   }
 
-  /// Each rank has a polyline of its own, the last one none.
+  /// Each rank queries its own polyline, the last rank none.
   void expectProfilesAsAlone(const ResidentMesh& mesh, const ResidentMesh& whole)
   {
     const double shift = 0.05 * this->Ranks.rank();
@@ -73,7 +73,7 @@ protected:
     }
   }
 
-  /// On the first rank.
+  /// Borders and contours, which the first rank gets.
   void expectLinesAsAlone(const ResidentMesh& mesh, const ResidentMesh& whole)
   {
     const BoundaryLoops border = boundaryOnRanks(this->Ranks, mesh);
@@ -91,7 +91,7 @@ protected:
   }
 };
 
-TEST_F(AroundOnRanks, TellWhatLiesAroundInAStoredMesh)
+TEST_F(AroundOnRanks, FindNeighborsInAStoredMesh)
 {
   for (const SourceMesh& source : { makeSource(latticeTriangles(10, 0.3)),
          makeSource(latticeTriangles(8, 0)), makeSource(latticeTetrahedra(3, 0.3)) })
@@ -101,7 +101,7 @@ TEST_F(AroundOnRanks, TellWhatLiesAroundInAStoredMesh)
   }
 }
 
-TEST_F(AroundOnRanks, TellWhatLiesAroundInPartsInMemory)
+TEST_F(AroundOnRanks, FindNeighborsInPartsInMemory)
 {
   const int holders = std::max(1, this->Ranks.size() - 1);
   for (const SourceMesh& source : { makeSource(latticeTriangles(10, 0.3)),
@@ -115,7 +115,7 @@ TEST_F(AroundOnRanks, TellWhatLiesAroundInPartsInMemory)
   }
 }
 
-TEST_F(AroundOnRanks, TellWhatLiesAroundInPartsOfNeighboringCells)
+TEST_F(AroundOnRanks, FindNeighborsInContiguousParts)
 {
   const auto parts = std::size_t(this->Ranks.size());
   for (SourceMesh source : { makeSource(latticeTriangles(10, 0.3)),
@@ -148,7 +148,7 @@ TEST_F(AroundOnRanks, TellWhatLiesAroundInPartsOfNeighboringCells)
   }
 }
 
-TEST_F(AroundOnRanks, PartsWithoutIdsAndIdsThatNobodyHasAreRefused)
+TEST_F(AroundOnRanks, PartsWithoutIdsAndUnknownIdsAreRefused)
 {
   const SourceMesh source = makeSource(latticeTriangles(6, 0.3));
   const auto expectFailure = [](const MeshPart& part, std::int64_t id, const char* message)
@@ -174,7 +174,7 @@ TEST_F(AroundOnRanks, PartsWithoutIdsAndIdsThatNobodyHasAreRefused)
   }
 }
 
-TEST_F(AroundOnRanks, FollowWaysDownFromRankToRank)
+TEST_F(AroundOnRanks, FollowDescentsFromRankToRank)
 {
   const SourceMesh source = makeSource(latticeTriangles(16, 0.3));
   const ResidentMesh whole(inMemory(source));

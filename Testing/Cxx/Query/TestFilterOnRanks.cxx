@@ -25,7 +25,7 @@ class FilterOnRanks : public QueryRanksTest
 {
 };
 
-TEST_F(FilterOnRanks, TheFilterLeavesValuesOnOwnersAndSharesZonesAndWaysDown)
+TEST_F(FilterOnRanks, TheFilterLeavesValuesOnOwnersAndSharesZonesAndDescents)
 {
   const SourceMesh source = makeSource(latticeTriangles(10, 0.3));
   this->store(source, "grid:3x3");
@@ -73,7 +73,7 @@ TEST_F(FilterOnRanks, TheFilterLeavesValuesOnOwnersAndSharesZonesAndWaysDown)
   EXPECT_EQ(double(source.cells()), statistics->GetArray("Cells")->GetComponent(0, 0));
 }
 
-TEST_F(FilterOnRanks, TheFilterAsksAllRanksTogether)
+TEST_F(FilterOnRanks, TheFilterQueriesAllRanksTogether)
 {
   const SourceMesh source = makeSource(latticeTriangles(10, 0.3));
   this->store(source, "grid:3x3");

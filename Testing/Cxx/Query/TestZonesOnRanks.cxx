@@ -32,7 +32,7 @@ TEST_F(ZonesOnRanks, ShareTheCellsOfZones)
         for (const char* const array : { "value", "label" })
         {
           const ZoneStatistics expected = statisticsOf(whole, zones, array, 0, 0.25);
-          // Only the first rank's zones count.
+          // Zones of other ranks than the first are ignored.
           const ZoneStatistics found = statisticsOnRanks(
             this->Ranks, mesh, this->Ranks.isFirst() ? zones : std::vector<Zone>(), array, 0, 0.25);
           EXPECT_EQ(expected.Cells, found.Cells);
@@ -59,7 +59,7 @@ TEST_F(ZonesOnRanks, ShareTheCellsOfZones)
     ResidentMesh(this->isLast() ? MeshPart() : inMemory(source, 0, this->Ranks.rank(), holders)));
 }
 
-TEST_F(ZonesOnRanks, ShareWhatLiesInRegions)
+TEST_F(ZonesOnRanks, ShareTheCellsAndPointsOfRegions)
 {
   const SourceMesh source = makeSource(latticeTriangles(12, 0));
   this->store(source, "grid:3x2");
