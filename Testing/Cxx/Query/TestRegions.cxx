@@ -21,7 +21,7 @@ ZoneRing rectangle(double xmin, double xmax, double ymin, double ymax, bool isHo
 
 } // namespace
 
-TEST(Regions, HoldPointsOnTheirBorder)
+TEST(Regions, ContainPointsOnTheirBorder)
 {
   const ZoneShape shape(
     { rectangle(0.25, 0.75, 0.25, 0.5), rectangle(0.375, 0.5, 0.375, 0.5, true) }, 0);
@@ -42,7 +42,7 @@ TEST(Regions, BoxesOfTetrahedraAreTheSameForAnyPieces)
   const ResidentMesh whole(inMemory(source));
   const std::vector<std::int64_t> cells = cellsIn(whole, box, false);
   const std::vector<std::int64_t> points = pointsIn(whole, box);
-  EXPECT_EQ(6U, points.size()); // 2 x 3 of the lattice on the plane z = 0.5
+  EXPECT_EQ(6U, points.size()); // 2 x 3 lattice points on the plane z = 0.5
   EXPECT_LT(20U, cells.size());
   EXPECT_TRUE(cellsIn(whole, box, true).empty());
   EXPECT_EQ(source.cells(), cellsIn(whole, { { 0, 1, 0, 1, 0, 1 }, {} }, true).size());
