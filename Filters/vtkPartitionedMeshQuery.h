@@ -259,8 +259,8 @@ public:
    * Finds the cells that share a point with a closed box or with closed polygons, or with `whole`
    * only the cells inside; or the mesh's points inside. The box has the order of GetBounds(); its z
    * range applies to tetrahedra only. Polygons are given as polygons and closed lines; those with a
-   * nonzero cell array "IsHole" are holes. Over tetrahedra polygons are columns of unlimited height.
-   * On several ranks these methods need a stored mesh; they are not collective.
+   * nonzero cell array "IsHole" are holes. Over tetrahedra polygons are columns of unlimited
+   * height. On several ranks these methods need a stored mesh; they are not collective.
    */
   int CellsInBox(const double box[6], bool whole, vtkIdTypeArray* cells);
   int CellsInPolygons(vtkPolyData* polygons, bool whole, vtkIdTypeArray* cells);
