@@ -56,7 +56,7 @@ make_root() {
   mount --bind /dev "$root/dev"
   mount --bind /dev/pts "$root/dev/pts" # tests run the tool on terminals
   mount -t proc proc "$root/proc"
-  mount -t sysfs -o ro sysfs "$root/sys" # OpenCL on the CPU reads its size there
+  mount -t sysfs -o ro sysfs "$root/sys" # PoCL reads the properties of the CPU there
   mkdir -p "$folder/archives-$release/partial"
   mount --bind "$folder/archives-$release" "$root/var/cache/apt/archives"
 }

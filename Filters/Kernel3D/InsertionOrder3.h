@@ -47,7 +47,7 @@ private:
   void fillKeys(
     const Point3* points, std::size_t begin, std::size_t end, const Point3& low, double scale);
 
-  Uninitialised<std::uint64_t> Entries; ///< key and index, highest bits first
+  Uninitialised<std::uint64_t> Entries; ///< Hilbert key in the high bits, input index in the low
   Uninitialised<std::uint64_t> Scratch;
   std::vector<std::size_t> RoundEnds;
 };

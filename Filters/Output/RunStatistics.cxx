@@ -206,7 +206,7 @@ RunStatistics statisticsOf(const DistributedTetrahedralization& mine)
   const DistributedStatistics& statistics = mine.Statistics;
   RunStatistics run;
   run.add("points", "Points", mine.AllPoints);
-  run.add("tetrahedra", "Tetrahedra", mine.AllCells);
+  run.add("tetrahedra", "Tetrahedra", mine.cellSize() == 4 ? mine.AllCells : 0);
   run.add("duplicates", "DuplicatePoints", mine.AllDuplicates);
   run.add("rejected", "RejectedPoints", mine.AllRejected);
   run.Totals.push_back({ "seconds", "", std::vector<double>{ statistics.Seconds } });

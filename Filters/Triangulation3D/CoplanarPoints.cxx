@@ -3,6 +3,7 @@
 
 #include "Kernel3D/DelaunayKernel3.h"
 #include "Predicates/NormalAxis.h"
+#include "Triangulation3D/OrderCells.h"
 
 #include <algorithm>
 #include <array>
@@ -54,20 +55,6 @@ std::array<Point3, 3> findTriangle(const Point3* points, const std::vector<char>
   return found;
 }
 
-/// Puts the lowest id of each triangle first, and sorts the triangles.
-void sortTriangles(Buffer<std::int32_t>& ids)
-{
-  using Corners = std::array<std::int32_t, 3>;
-  auto* const begin = ids.as<Corners>();
-  auto* const end = begin + ids.size() / 3;
-  for (Corners* corners = begin; corners != end; ++corners)
-  {
-    std::rotate(
-      corners->begin(), std::min_element(corners->begin(), corners->end()), corners->end());
-  }
-  std::sort(begin, end);
-}
-
 } // namespace
 
 Triangulation triangulateCoplanar(const Point3* points, std::size_t count,
@@ -91,7 +78,7 @@ Triangulation triangulateCoplanar(const Point3* points, std::size_t count,
   // Progress already stands at 1: only check whether to stop.
   flat.Progress = [&options](double) { return !options.Progress || options.Progress(1); };
   Triangulation triangles = triangulate(PointsView(projected.data(), count, 2), flat);
-  sortTriangles(triangles.Ids32);
+  orderTriangles(triangles.Ids32);
   triangles.Rejected = mesh.Rejected;
   if (!triangles.Duplicates.empty())
   {

@@ -91,14 +91,20 @@ public:
 
 private:
   void collect(const std::vector<VertexMessage3>& inbox);
+  Box3 boxBesideLater() const;
   void route(DelaunayKernel3::Index cell, FinalCellConsumer3& final);
   SentMessages3 send();
   void takeDuplicates();
   Vertex3 vertex(DelaunayKernel3::Index v) const;
+  bool isOwn(DelaunayKernel3::Index v) const
+  {
+    return this->Kernel.pointIndex(v) < this->Own.Count;
+  }
 
   const std::vector<Box3>& Regions;
   const PartitionOrder& Order;
   PartitionPoints3 Own;
+  Box3 Beside; ///< contains the own region; no later region reaches into its interior
   DelaunayKernel3 Kernel;
   std::vector<Point3> Points;  ///< the partition's own, then those of Others
   std::vector<Vertex3> Others; ///< from the inbox

@@ -51,6 +51,15 @@ struct IsBefore
   }
 };
 
+/// Compares cells of any ids.
+struct IsBeforeAny
+{
+  bool operator()(const CellIds& a, const CellIds& b) const
+  {
+    return a[0] != b[0] ? a[0] < b[0] : IsBefore()(a, b);
+  }
+};
+
 /// Sorts the cells whose first id is in [first, first + width); `scratch` is working memory.
 void sortRange(CellIds* cells, std::size_t count, std::int32_t first, std::size_t width,
   std::vector<CellIds>& scratch)
@@ -134,6 +143,51 @@ Buffer<std::int32_t> orderCells(
       sortRange(cells + begins[r], begins[r + 1] - begins[r], std::int32_t(r << shift),
         std::size_t(1) << shift, scratch[std::size_t(thread)]);
     });
+  return ids;
+}
+
+void mergeCells(Buffer<std::int32_t>& ids, std::vector<std::int64_t> firsts)
+{
+  auto* const cells = ids.as<CellIds>();
+  while (firsts.size() > 2)
+  {
+    std::vector<std::int64_t> merged;
+    for (std::size_t i = 0; i + 1 < firsts.size(); i += 2)
+    {
+      merged.push_back(firsts[i]);
+      if (i + 2 < firsts.size())
+      {
+        std::inplace_merge(
+          cells + firsts[i], cells + firsts[i + 1], cells + firsts[i + 2], IsBeforeAny());
+      }
+    }
+    merged.push_back(firsts.back());
+    firsts = std::move(merged);
+  }
+}
+
+void orderTriangles(Buffer<std::int32_t>& ids)
+{
+  using Corners = std::array<std::int32_t, 3>;
+  auto* const begin = ids.as<Corners>();
+  auto* const end = begin + ids.size() / 3;
+  for (Corners* corners = begin; corners != end; ++corners)
+  {
+    std::rotate(
+      corners->begin(), std::min_element(corners->begin(), corners->end()), corners->end());
+  }
+  std::sort(begin, end);
+}
+
+Buffer<std::int32_t> orderTriangles(const std::vector<CellIds>& cells)
+{
+  Buffer<std::int32_t> ids(3 * cells.size());
+  std::int32_t* to = ids.data();
+  for (const CellIds& cell : cells)
+  {
+    to = std::copy_n(cell.begin(), 3, to);
+  }
+  orderTriangles(ids);
   return ids;
 }
 

@@ -329,7 +329,7 @@ std::string describeDimension(int dimension)
 {
   constexpr const char* reasons[] = { "there is no finite point", "all finite points coincide",
     "all finite points are on one line",
-    "all finite points are in one plane: triangulate them with vtkTIPPDelaunay2D" };
+    "all finite points are in one plane, so the cells are triangles" };
   return std::string("No tetrahedra: ") + reasons[dimension + 1] + ".";
 }
 
@@ -344,9 +344,7 @@ std::vector<std::string> warningsOf(const Tetrahedralization& mesh, std::int64_t
   }
   if (mesh.Dimension < 3)
   {
-    warnings.push_back(mesh.Dimension == 2
-        ? "No tetrahedra: all finite points are in one plane, so the cells are triangles."
-        : describeDimension(mesh.Dimension));
+    warnings.push_back(describeDimension(mesh.Dimension));
   }
   return warnings;
 }

@@ -72,6 +72,23 @@ bool writeResult(const Delaunay3DArguments& arguments, PointTable&& table,
     arguments.Output, std::move(table), mesh.Ids.data(), mesh.cellCount(), neighbors, options);
 }
 
+bool writeTriangles(const Delaunay3DArguments& arguments, PointTable&& table,
+  const Tetrahedralization& mesh, const Triangulation& triangles, const PathState& before)
+{
+  MeshOptions options;
+  options.Before = before;
+  options.Aborted = isInterrupted;
+  options.Neighbors = arguments.Neighbors;
+  if (arguments.MapDuplicates)
+  {
+    const auto ids = representativeIds(mesh, table.size());
+    options.Representatives.assign(ids.begin(), ids.end());
+  }
+  table.Columns[requireElevation(table, arguments.Inputs.front())].Name = "z";
+  return writeMesh(
+    arguments.Output, table, { triangles.Ids32.data(), triangles.triangleCount() }, options);
+}
+
 void report(const Delaunay3DArguments& arguments, const Tetrahedralization& mesh,
   std::int64_t points, double seconds, const nlohmann::ordered_json& figures,
   const std::string& ranks)
@@ -100,9 +117,9 @@ OUTPUT  .vtu (all points with their data) or .npy (m x 4 int64: point ids, count
         from 0): computed in memory. Or .tipp: a partitioned mesh in a folder. Points
         and tetrahedra may then be larger than memory, which --memory limits.
 
-If all points are in one plane, there is a warning. One process then writes triangles
-to .vtu or .npy: the Delaunay triangulation of the points' projection along the axis
-nearest to the plane's normal.
+If all points are in one plane, there is a warning, and triangles are written to .vtu or
+.npy: the Delaunay triangulation of the points' projection along the axis nearest to the
+plane's normal.
 
 Duplicates are merged, points that are not finite are left out. Ctrl-C stops the run
 with exit code 130 and no output. The summary shows the seconds of the tetrahedralization
@@ -116,24 +133,6 @@ Examples:
   tipp delaunay3d uniform:50000000 -o mesh.tipp --memory 2G
   mpirun -np 4 tipp delaunay3d particles.npy -o mesh.vtu --threads 2
 )";
-
-/// Writes the triangles of coplanar points.
-bool writeTriangles(const Delaunay3DArguments& arguments, PointTable&& table,
-  const Tetrahedralization& mesh, const Triangulation& triangles, const PathState& before)
-{
-  MeshOptions options;
-  options.Before = before;
-  options.Aborted = isInterrupted;
-  options.Neighbors = arguments.Neighbors;
-  if (arguments.MapDuplicates)
-  {
-    const auto ids = representativeIds(mesh, table.size());
-    options.Representatives.assign(ids.begin(), ids.end());
-  }
-  table.Columns[requireElevation(table, arguments.Inputs.front())].Name = "z";
-  return writeMesh(
-    arguments.Output, table, { triangles.Ids32.data(), triangles.triangleCount() }, options);
-}
 
 int runDelaunay3D(const Delaunay3DArguments& arguments)
 {

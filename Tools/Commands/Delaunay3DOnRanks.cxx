@@ -39,20 +39,27 @@ std::vector<Point3> readShare(const Communicator& ranks, const Delaunay3DArgumen
 void writeOnFirst(Communicator& ranks, const Delaunay3DArguments& arguments,
   const DistributedTetrahedralization& mine, double seconds, const PathState& before)
 {
-  const Tetrahedralization all = gatherTetrahedra(ranks, mine, arguments.Threads);
+  Triangulation triangles; // of coplanar points
+  const Tetrahedralization all = gatherTetrahedra(ranks, mine, arguments.Threads, triangles);
   if (!ranks.isFirst())
   {
     return;
   }
   // An .npy output of tetrahedra needs no points.
-  PointTable table = extensionOf(arguments.Output) == ".npy"
+  PointTable table = extensionOf(arguments.Output) == ".npy" && all.Dimension != 2
     ? PointTable()
     : readPoints(arguments.Inputs, arguments.Columns);
-  if (!writeResult(arguments, std::move(table), all, before))
+  nlohmann::ordered_json figures = jsonOf(statisticsOf(mine));
+  if (all.Dimension == 2)
+  {
+    figures["triangles"] = triangles.triangleCount();
+  }
+  if (!(all.Dimension == 2 ? writeTriangles(arguments, std::move(table), all, triangles, before)
+                           : writeResult(arguments, std::move(table), all, before)))
   {
     throw RankFailure(0, true, "interrupted");
   }
-  report(arguments, all, mine.AllPoints, seconds, jsonOf(statisticsOf(mine)),
+  report(arguments, all, mine.AllPoints, seconds, figures,
     fmt::format(", {} ranks of {} threads", ranks.size(), mine.Statistics.ThreadsPerRank));
   for (const std::string& warning : warningsOf(mine))
   {

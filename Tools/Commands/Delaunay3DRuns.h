@@ -46,6 +46,10 @@ PathState requireWritable(const Delaunay3DArguments& arguments);
 bool writeResult(const Delaunay3DArguments& arguments, PointTable&& table,
   const Tetrahedralization& mesh, const PathState& before);
 
+/// Writes the triangles of coplanar points; otherwise as writeResult().
+bool writeTriangles(const Delaunay3DArguments& arguments, PointTable&& table,
+  const Tetrahedralization& mesh, const Triangulation& triangles, const PathState& before);
+
 /// Prints the summary, which ends with `ranks`, and writes the file of statistics, with `figures`
 /// of the run, if one is requested.
 void report(const Delaunay3DArguments& arguments, const Tetrahedralization& mesh,

@@ -5,7 +5,9 @@
 #include "Ranks/Communicator.h"
 #include "vtkTIPPDelaunay3D.h"
 
+#include "vtkCell.h"
 #include "vtkCellData.h"
+#include "vtkCellType.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -28,6 +30,7 @@
 
 #include <algorithm>
 #include <map>
+#include <vector>
 
 namespace
 {
@@ -248,6 +251,49 @@ TEST(Delaunay3DRanks, EverythingCanBeGatheredOnTheFirstRank)
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells() > 0, rank() == 0);
   expectWhole(filter->GetOutput(), points);
+}
+
+TEST(Delaunay3DRanks, CoplanarPointsMakeTriangles)
+{
+  auto points = pointsInSpace("uniform", 500);
+  for (Point3& p : points)
+  {
+    p.y = 2 * p.x;
+  }
+  for (const bool isGathered : { false, true })
+  {
+    vtkNew<vtkTIPPDelaunay3D> filter;
+    filter->SetGatherOnFirstRank(isGathered);
+    filter->SetInputData(shareOf(points, true));
+    vtkObject::GlobalWarningDisplayOff();
+    filter->UpdatePiece(rank(), ranks(), 1);
+    vtkObject::GlobalWarningDisplayOn();
+    vtkUnstructuredGrid* const mesh = filter->GetOutput();
+    auto* const ghosts = vtkUnsignedCharArray::SafeDownCast(
+      mesh->GetCellData()->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()));
+    double area = 0;
+    for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
+    {
+      ASSERT_EQ(VTK_TRIANGLE, mesh->GetCellType(i));
+      double p[3][3];
+      for (int k = 0; k < 3; ++k)
+      {
+        mesh->GetPoint(mesh->GetCell(i)->GetPointId(k), p[k]);
+      }
+      const double twice =
+        (p[1][0] - p[0][0]) * (p[2][2] - p[0][2]) - (p[1][2] - p[0][2]) * (p[2][0] - p[0][0]);
+      EXPECT_GT(twice, 0);
+      area += ghosts->GetValue(i) != 0 ? 0 : twice / 2;
+    }
+    Communicator box(vtkMultiProcessController::GetGlobalController());
+    double sum = 0;
+    for (const std::vector<double>& part : box.allGather(std::vector<double>{ area }))
+    {
+      sum += part[0];
+    }
+    EXPECT_NEAR(sum, 0.97, 0.02); // of the hull, projected along y
+    EXPECT_EQ(isGathered && rank() > 0, mesh->GetNumberOfCells() == 0);
+  }
 }
 
 TEST(Delaunay3DRanks, StatisticsAreTheSameOnAllRanks)

@@ -3,6 +3,7 @@
 #include "PointsInSpace.h"
 
 #include "Distributed3D/DistributedTetrahedralization.h"
+#include "Triangulation3D/CoplanarPoints.h"
 
 #include "vtkMultiProcessController.h"
 
@@ -88,10 +89,19 @@ void expectThatOfOne(const std::vector<Point3>& points, const Tetrahedralization
   Communicator ranks(vtkMultiProcessController::GetGlobalController());
   const Part part = partOf(points, ranks, rankOf);
   const DistributedTetrahedralization mine = tetrahedralizeDistributed(ranks, part.view(), options);
-  const Tetrahedralization found = gatherTetrahedra(ranks, mine, 1);
+  Triangulation triangles;
+  const Tetrahedralization found = gatherTetrahedra(ranks, mine, 1, triangles);
   if (ranks.isFirst())
   {
-    expectSame(tetrahedralize(points.data(), points.size(), with(1, 1)), found, what);
+    Tetrahedralization expected = tetrahedralize(points.data(), points.size(), with(1, 1));
+    const Triangulation flat = expected.Dimension == 2
+      ? triangulateCoplanar(points.data(), points.size(), with(1, 1), expected)
+      : Triangulation();
+    expectSame(expected, found, what);
+    EXPECT_TRUE(std::equal(
+      flat.Ids32.begin(), flat.Ids32.end(), triangles.Ids32.begin(), triangles.Ids32.end()))
+      << what << ": " << flat.triangleCount() << " and " << triangles.triangleCount()
+      << " triangles";
   }
   ranks.barrier();
 }
@@ -165,7 +175,8 @@ TEST(Distributed3D, DuplicatesOnSeveralRanksAreMerged)
     points.Points = more.data();
     points.Count = more.size();
     const auto mine = tetrahedralizeDistributed(ranks, points, with(1, partitions));
-    const Tetrahedralization found = gatherTetrahedra(ranks, mine, 1);
+    Triangulation none;
+    const Tetrahedralization found = gatherTetrahedra(ranks, mine, 1, none);
     EXPECT_GE(mine.AllDuplicates, std::int64_t(more.size()) * (ranks.size() - 1) + 484);
     std::vector<Point3> all;
     for (int rank = 0; rank < ranks.size(); ++rank)
@@ -191,7 +202,8 @@ TEST(Distributed3D, TheLowestGlobalIdIsTheRepresentativeOnAnyRank)
   }
   std::reverse(points.begin(), points.end());
   const auto mine = tetrahedralizeDistributed(ranks, part.view(), with(1, 12));
-  const Tetrahedralization found = gatherTetrahedra(ranks, mine, 1);
+  Triangulation none;
+  const Tetrahedralization found = gatherTetrahedra(ranks, mine, 1, none);
   if (ranks.isFirst())
   {
     expectSame(tetrahedralize(points.data(), points.size()), found, "reversed");
@@ -231,6 +243,49 @@ TEST(Distributed3D, PointsWithoutTetrahedraReportTheirDimension)
       expectThatOfOne(points, with(1, partitions), std::to_string(points.size()));
     }
   }
+}
+
+TEST(Distributed3D, CoplanarPointsMakeTheTrianglesOfOneProcess)
+{
+  auto tilted = pointsInSpace("uniform", 40000); // as many as make partitions
+  for (Point3& p : tilted)
+  {
+    p.x = std::ldexp(std::round(std::ldexp(p.x, 20)), -20);
+    p.y = std::ldexp(std::round(std::ldexp(p.y, 20)), -20);
+    p.z = p.x - 2 * p.y;
+  }
+  auto lattice = pointsInSpace("coarse", 4000); // with duplicates on several ranks
+  for (Point3& p : lattice)
+  {
+    p.y = 0x1p-300;
+  }
+  lattice[17].x = std::nan("");
+  for (const int partitions : { 0, 8 })
+  {
+    expectThatOfOne(tilted, with(1, partitions), "tilted");
+    expectThatOfOne(lattice, with(2, partitions), "lattice");
+  }
+}
+
+TEST(Distributed3D, ATriangleIsOnOneRankAndAGhostOnOthers)
+{
+  Communicator ranks(vtkMultiProcessController::GetGlobalController());
+  auto points = pointsInSpace("uniform", 2000);
+  for (Point3& p : points)
+  {
+    p.z = 1;
+  }
+  const auto mine =
+    tetrahedralizeDistributed(ranks, partOf(points, ranks, roundRobin).view(), with(1, 0));
+  EXPECT_EQ(3U, mine.cellSize());
+  std::vector<std::int64_t> cells{ std::int64_t(mine.cellCount()) };
+  ranks.sum(cells);
+  EXPECT_EQ(mine.AllCells, cells[0]);
+  const GhostTetrahedra ghosts = fetchGhosts(ranks, mine);
+  std::vector<std::int64_t> sum{ std::int64_t(ghosts.Cells.size()) };
+  ranks.sum(sum);
+  EXPECT_EQ(ranks.size() > 1, sum[0] > 0);
+  EXPECT_LT(sum[0], mine.AllCells * ranks.size() / 2);
 }
 
 TEST(Distributed3D, RowsTravelWithTheirPoints)

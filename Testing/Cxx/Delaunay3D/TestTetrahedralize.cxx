@@ -283,30 +283,6 @@ TEST(CoplanarPoints, ThatAreCloseAreMerged)
   EXPECT_EQ(1U, flat.triangleCount());
 }
 
-TEST(Tetrahedralize, ThreadsThatShareAMeshMakeTheSameTetrahedra)
-{
-  for (const std::string& kind : kindsOfPoints())
-  {
-    if (kind == "lines")
-    {
-      continue; // too many tetrahedra, their number is quadratic
-    }
-    const auto points = pointsInSpace(kind, kind == "of many sizes" ? 20000 : 60000, 3);
-    const Tetrahedralization one = meshOf(points);
-    for (const int threads : { 2, 3, 7 })
-    {
-      const Tetrahedralization other = meshOf(points, threads);
-      EXPECT_TRUE(std::equal(one.Ids.begin(), one.Ids.end(), other.Ids.begin(), other.Ids.end()))
-        << kind << " " << threads;
-      EXPECT_TRUE(std::equal(one.Duplicates.begin(), one.Duplicates.end(), other.Duplicates.begin(),
-        other.Duplicates.end(),
-        [](const Duplicate& a, const Duplicate& b)
-        { return a.Point == b.Point && a.Representative == b.Representative; }))
-        << kind << " " << threads;
-    }
-  }
-}
-
 TEST(Tetrahedralize, StopsWhenProgressReturnsFalse)
 {
   const auto points = pointsInSpace("uniform", 20000);
