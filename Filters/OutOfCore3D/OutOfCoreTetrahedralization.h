@@ -26,10 +26,15 @@ struct OutOfCoreOptions3
   /// Adds the cell array NeighborIds: for each corner of a tetrahedron the global id of the one
   /// across the opposite facet; -1 if there is none.
   bool Neighbors = false;
+  /// Resumes a run of this path that was killed or has failed, if there is one; without, such a run
+  /// is an error and is left as it is.
+  bool Resume = false;
   /// A folder on another disk for temporary files except the pieces; empty: beside the mesh.
   std::string Scratch;
   /// Called now and then with the finished fraction, by one thread at a time; false ends the run.
   std::function<bool(double)> Progress;
+  /// Called with a sentence about damaged results of an earlier run, which are made again.
+  std::function<void(const std::string&)> Warn;
 };
 
 struct OutOfCoreStatistics3 : PieceFigures
@@ -44,7 +49,9 @@ struct OutOfCoreStatistics3 : PieceFigures
   std::uint64_t MeshBytes = 0;
   int Threads = 1;
   std::vector<OutOfCoreStatistics::Phase> Phases;
+  bool Resumed = false;
   bool Aborted = false; ///< by Progress
+  bool Kept = false;    ///< then the run can be resumed
 };
 
 /// The Delaunay triangulation of points in space that need not fit in memory, as the partitioned
@@ -54,8 +61,10 @@ struct OutOfCoreStatistics3 : PieceFigures
 ///
 /// Points are read twice (once more if their coordinates are so far from 1 that they are scaled)
 /// and spilled once, by piece; tetrahedra are written as soon as they are final. All is written to
-/// a folder beside `path`, which is renamed to `path` when it is whole, and removed if the run
-/// fails. Throws IOError, also for points in one plane.
+/// a folder ".NAME.part" beside `path`, which is renamed to `path` when it is whole. Once the
+/// points are spilled the folder is kept if the run fails or is stopped; another run can resume it,
+/// with another number of threads and another memory limit, and makes the same files. Throws
+/// IOError, also for points in one plane.
 VTKTIPPFILTERS_EXPORT OutOfCoreStatistics3 tetrahedralizeOutOfCore(
   PointStream& points, const std::string& path, const OutOfCoreOptions3& options = {});
 

@@ -350,6 +350,12 @@ void PiecePlan3::spill(PointStream& points, const PointRowLayout& rows, const st
     throwChanged();
   }
   std::vector<Sampled>().swap(this->Sample);
+  this->enclose();
+}
+
+/// Sets the artificial points.
+void PiecePlan3::enclose()
+{
   this->Artificial =
     this->pieces() > 1 ? makeArtificialPoints(this->initialBuckets()) : std::vector<Vertex3>();
   if (this->pieces() > 1 && this->Artificial.empty())
@@ -357,6 +363,40 @@ void PiecePlan3::spill(PointStream& points, const PointRowLayout& rows, const st
     throw IOError(
       "The coordinates reach too far to be enclosed by 64-bit numbers; scale them down.");
   }
+}
+
+/// Not all of its bytes at once: some are padding.
+template <typename Archive, typename Survey>
+void exchangeSurvey(Archive& archive, Survey& survey)
+{
+  archive(survey.Points, survey.Rejected, survey.LeftOut, survey.ThinnedOut, survey.Bounds,
+    survey.Factor, survey.Dimension, survey.Elevation);
+}
+
+void PiecePlan3::save(SaveArchive& archive) const
+{
+  exchangeSurvey(archive, this->Survey);
+  archive(
+    this->Tiling, this->Boxes, this->Regions, this->Initial, this->Starts, this->Rows->content());
+}
+
+PiecePlan3::PiecePlan3(LoadArchive& archive, std::size_t words, const std::string& file)
+{
+  exchangeSurvey(archive, this->Survey);
+  archive(this->Tiling, this->Boxes, this->Regions, this->Initial, this->Starts);
+  const auto pieces = std::size_t(this->pieces());
+  this->Rows = std::make_unique<Spill>(file, pieces, 8 * words, archive.get<SpilledRows>());
+  bool isOurs = pieces > 0 && this->Boxes.size() == pieces && this->Regions.size() == pieces &&
+    this->Initial.size() == pieces && this->Starts.size() == pieces + 1 && this->Starts[0] == 0;
+  for (PartitionIndex piece = 0; isOurs && piece < this->pieces(); ++piece)
+  {
+    isOurs = this->count(piece) == this->Rows->rows(std::size_t(piece));
+  }
+  if (!isOurs)
+  {
+    throw IOError(file, "has points of other pieces; start again.");
+  }
+  this->enclose();
 }
 
 PartitionIndex PiecePlan3::pieceOf(std::int64_t index) const

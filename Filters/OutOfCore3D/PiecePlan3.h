@@ -83,6 +83,12 @@ public:
   /// The first pass. Throws IOError, also if there is no finite point or they are coplanar.
   PiecePlan3(PointStream& points, const MemoryPlan3& memory, const Progress& progress);
 
+  /// Restores what save() has saved. `words`: of a point's row; `file`: of the spilled points.
+  /// Throws IOError if that is not the file.
+  PiecePlan3(LoadArchive& archive, std::size_t words, const std::string& file);
+  /// After spill().
+  void save(SaveArchive& archive) const;
+
   /// Divides space. Throws IOError if coordinates reach too far.
   void divide(const MemoryPlan3& memory, std::size_t words);
 
@@ -122,6 +128,7 @@ private:
 
   void findFactor(PointStream& points, std::size_t blockPoints, double largest);
   bool samplePays() const;
+  void enclose();
   void chooseInitialPoints();
   PointBuckets3 initialBuckets() const;
 

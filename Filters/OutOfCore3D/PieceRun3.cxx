@@ -119,30 +119,52 @@ PieceRun3::PieceRun3(const PieceWork3& work, const MemoryPlan3& memory, int thre
 {
 }
 
-bool PieceRun3::run(StoredResults3& results)
+bool PieceRun3::run(const std::vector<char>& isDone, StoredResults3& results)
 {
   const PiecePlan3& plan = this->Work.Plan;
   results.resize(std::size_t(plan.pieces()));
+  this->Results = &results;
   // Every piece has points: its box was cut around points of the sample.
   const std::vector<char> isUsed(results.size(), 1);
   if (plan.pieces() == 1)
   {
     this->Initial.resize(1);
-    this->makePieces(results, PartitionOrder(isUsed, ConflictGraph(1)));
+    this->makePieces(isDone, PartitionOrder(isUsed, ConflictGraph(1)));
     return !this->IsStopped;
   }
   const InitialMesh3 mesh = plan.initialMesh();
   const PartitionOrder order(isUsed, mesh.conflicts());
   this->Initial = sendInitialMesh(mesh, order);
-  this->makePieces(results, order);
+  this->makePieces(isDone, order);
   return !this->IsStopped;
 }
 
-void PieceRun3::makePieces(StoredResults3& results, const PartitionOrder& order)
+/// A piece that is done has sent all that it sends: its result is what later pieces wait for.
+void PieceRun3::skipDone(const std::vector<char>& isDone, ReadyPartitions& ready)
+{
+  for (std::size_t piece = 0; piece < isDone.size(); ++piece)
+  {
+    if (isDone[piece])
+    {
+      const auto index = PartitionIndex(piece);
+      (*this->Results)[piece] = std::make_unique<StoredResult3>(this->Work.resultPath(index));
+      this->Initial[piece] = {};
+      this->PointsDone += this->Work.Plan.count(index);
+      ready.finish(index);
+    }
+  }
+}
+
+void PieceRun3::makePieces(const std::vector<char>& isDone, const PartitionOrder& order)
 {
   this->Order = &order;
-  this->Results = &results;
-  ReadyPartitions ready(order, ReadyPartitions::Waits::ForEarlier);
+  std::vector<char> isToDo;
+  for (const char done : isDone)
+  {
+    isToDo.push_back(char(done == 0));
+  }
+  ReadyPartitions ready(order, ReadyPartitions::Waits::ForEarlier, isToDo);
+  this->skipDone(isDone, ready);
 #pragma omp parallel num_threads(this->Threads)
   {
     try

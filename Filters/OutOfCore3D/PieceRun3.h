@@ -24,6 +24,8 @@
 namespace tipp
 {
 
+class ReadyPartitions;
+
 /// What a run's pieces are made of and go to.
 struct PieceWork3
 {
@@ -35,6 +37,10 @@ struct PieceWork3
   std::string resultPath(PartitionIndex piece) const
   {
     return this->Results + "." + std::to_string(this->Plan.number(piece));
+  }
+  std::string finishedPath(PartitionIndex piece) const
+  {
+    return this->resultPath(piece) + ".finished";
   }
 };
 
@@ -64,7 +70,8 @@ private:
 };
 
 /// What a piece that is done leaves for others, besides the interior's share of its file in the
-/// mesh; see PieceResult, which is the same in the plane.
+/// mesh; see PieceResult, which is the same in the plane. It is written once and never changed: the
+/// set of these files is the state from which a run is resumed.
 struct PieceResult3
 {
   PieceInterior Interior;
@@ -102,6 +109,10 @@ private:
 
 using StoredResults3 = std::vector<std::unique_ptr<StoredResult3>>;
 
+/// Returns for each piece whether an earlier process has left it intact; see verifyPieces().
+VTKTIPPFILTERS_EXPORT std::vector<char> verifyResults(const PieceWork3& work, int threads,
+  const Report& report, const std::function<void(const std::string&)>& warn);
+
 /// Loads pieces, triangulates them by threads, as many at a time as there is memory for, and writes
 /// what comes of each.
 class VTKTIPPFILTERS_EXPORT PieceRun3
@@ -111,13 +122,15 @@ public:
   PieceRun3(const PieceWork3& work, const MemoryPlan3& memory, int threads,
     std::function<bool(std::int64_t)> progress);
 
-  /// Sets the results of all pieces. Returns false if progress ended it. Throws IOError.
-  bool run(StoredResults3& results);
+  /// Makes all pieces that are not done yet (`isDone` has an entry for each piece), and sets the
+  /// results of all. Returns false if progress ended it. Throws IOError.
+  bool run(const std::vector<char>& isDone, StoredResults3& results);
 
 private:
   struct Cells;
 
-  void makePieces(StoredResults3& results, const PartitionOrder& order);
+  void makePieces(const std::vector<char>& isDone, const PartitionOrder& order);
+  void skipDone(const std::vector<char>& isDone, ReadyPartitions& ready);
   std::uint64_t takeMemory(PartitionIndex piece);
   void make(PartitionIndex piece);
   std::vector<VertexMessage3> readInbox(PartitionIndex piece);
@@ -141,9 +154,10 @@ private:
 };
 
 /// Completes the files of all pieces when all results are there: repairs the hull (Lemma 3) and
-/// adds the borders to the interiors. A piece's file is complete then, except for the global ids of
-/// cells. Returns the pieces by their numbers in the mesh; an empty list if `report` ended it.
-/// `limit`: bytes that the hull repair may take. Throws IOError.
+/// adds the borders to the interiors, unless an earlier process has done so. A piece's file is
+/// complete then, except for the global ids of cells and of their neighbours. Returns the pieces by
+/// their numbers in the mesh; an empty list if `report` ended it. `limit`: bytes that the hull
+/// repair may take. Throws IOError.
 VTKTIPPFILTERS_EXPORT std::vector<FinishedPiece> finishPieces(const PieceWork3& work,
   const StoredResults3& results, std::uint64_t limit, int threads, const Report& report,
   PieceFigures& figures);

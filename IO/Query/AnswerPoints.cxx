@@ -24,23 +24,14 @@ namespace
 constexpr int searchesWithoutLocator = 4;
 constexpr std::int64_t cellsPerPoint = 8;
 
-/// For more points than one per so many cells a pass over the cells is the fastest.
+/// A pass over the cells is the fastest way if there is more than one point per this many cells.
 constexpr std::int64_t cellsPerPointOfPass = 2;
-constexpr std::uint64_t bytesOfPass = 40; ///< a point
+constexpr std::uint64_t bytesOfPass = 40; ///< for each point
 
-/// At most this share of a piece's cells is read without the others.
+/// The cells near the points are read without the others if they are at most one in this many.
 constexpr std::int64_t cellsPerNearOne = 3;
 
-template <int D>
-std::array<double, D> coordinatesOf(const Point3& point)
-{
-  const double coordinates[3] = { point.x, point.y, point.z };
-  std::array<double, D> at;
-  std::copy_n(coordinates, D, at.begin());
-  return at;
-}
-
-/// Chooses the cells that may hold some points, at most so many.
+/// Chooses the cells of a piece that may hold one of the asked points; gives up above `most` cells.
 template <int D, typename Coordinate>
 class NearCells
 {
@@ -114,14 +105,19 @@ PieceOptions::Choose nearCells(
 template <int D>
 bool areNarrow(const AskedPoints& asked, const Bounds& box)
 {
-  const Box<D> around = boundsOf<D>(
-    asked.Count, 1, [&asked](std::int64_t i) { return Box<D>::of(coordinatesOf<D>(asked.at(i))); });
-  double share = 1;
-  for (std::size_t axis = 0; axis < D; ++axis)
+  const auto are = [&](std::int64_t count)
   {
-    share *= (around.High[axis] - around.Low[axis]) / (box[2 * axis + 1] - box[2 * axis]);
-  }
-  return share < 0.5;
+    const Box<D> around = boundsOf<D>(
+      count, 1, [&asked](std::int64_t i) { return Box<D>::of(coordinatesOf<D>(asked.at(i))); });
+    double share = 1;
+    for (std::size_t axis = 0; axis < D; ++axis)
+    {
+      share *= (around.High[axis] - around.Low[axis]) / (box[2 * axis + 1] - box[2 * axis]);
+    }
+    return share < 0.5;
+  };
+  constexpr std::int64_t some = 1 << 10; // show for most points that they are not
+  return (asked.Count <= some || are(some)) && are(asked.Count);
 }
 
 /// NaN, or 0 in whole numbers.
@@ -324,8 +320,8 @@ void ResidentMesh::answerPiece(std::size_t number, const AskedPoints& asked,
   this->answerBy(piece->Locator.get(), *piece->Part, asked, options, threads, answer);
 }
 
-MeshAnswer ResidentMesh::answer(
-  const Point3* points, std::int64_t count, const AnswerOptions& options) const
+MeshAnswer ResidentMesh::answer(const Point3* points, std::int64_t count,
+  const AnswerOptions& options, std::vector<std::int32_t> pieceOf) const
 {
   if (count > std::numeric_limits<std::int32_t>::max())
   {
@@ -352,7 +348,9 @@ MeshAnswer ResidentMesh::answer(
     this->answerPiece(0, { points, nullptr, count }, options, threads, true, answer);
     return answer;
   }
-  PieceGroups groups = groupByPiece(this->piecesOf(points, count), this->Mesh.Pieces.size());
+  pieceOf = pieceOf.empty() ? this->piecesOf(points, count) : std::move(pieceOf);
+  PieceGroups groups = groupByPiece(pieceOf, this->Mesh.Pieces.size());
+  pieceOf = {};
   // The pieces in memory first, before others displace them.
   std::stable_partition(groups.Groups.begin(), groups.Groups.end(),
     [&](const PieceGroups::Group& group) { return this->Resident.isResident(group.Piece); });

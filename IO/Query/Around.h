@@ -21,12 +21,13 @@ struct IdLists
 // What lies around cells and points of a mesh. All ids are global; those of a stored mesh are found
 // by the id arrays of its pieces, each read at most once a call. The answers are the same for any
 // pieces and threads. Every function throws IOError, also for an id that the mesh does not have,
-// and WorkAborted.
+// and WorkAborted. `pieces` may be mesh.piecesOfIds() of the ids, which then are not looked up
+// again.
 
 /// For each cell and each of its corners the cell across the face opposite to that corner: of
 /// several the lowest id; -1: none.
-VTKTIPPIO_EXPORT std::vector<std::int64_t> neighborsOf(
-  const ResidentMesh& mesh, const std::vector<std::int64_t>& cells);
+VTKTIPPIO_EXPORT std::vector<std::int64_t> neighborsOf(const ResidentMesh& mesh,
+  const std::vector<std::int64_t>& cells, const std::vector<std::int32_t>& pieces = {});
 
 /// The cells that a piece owns, and their neighbours.
 struct OwnedNeighbors
@@ -39,15 +40,22 @@ struct OwnedNeighbors
 OwnedNeighbors neighborsInPiece(const ResidentMesh& mesh, std::size_t piece);
 
 /// The cells at each point, ascending.
-VTKTIPPIO_EXPORT IdLists starsOf(const ResidentMesh& mesh, const std::vector<std::int64_t>& points);
+VTKTIPPIO_EXPORT IdLists starsOf(const ResidentMesh& mesh, const std::vector<std::int64_t>& points,
+  const std::vector<std::int32_t>& pieces = {});
 
 /// The points that 1 to k edges lead to from each point, ascending.
-VTKTIPPIO_EXPORT IdLists ringsOfPoints(
-  const ResidentMesh& mesh, const std::vector<std::int64_t>& points, int k);
+VTKTIPPIO_EXPORT IdLists ringsOfPoints(const ResidentMesh& mesh,
+  const std::vector<std::int64_t>& points, int k, const std::vector<std::int32_t>& pieces = {});
 
 /// The cells that each cell reaches in 1 to k steps, each to a cell that shares a point, ascending.
-VTKTIPPIO_EXPORT IdLists ringsOfCells(
-  const ResidentMesh& mesh, const std::vector<std::int64_t>& cells, int k);
+VTKTIPPIO_EXPORT IdLists ringsOfCells(const ResidentMesh& mesh,
+  const std::vector<std::int64_t>& cells, int k, const std::vector<std::int32_t>& pieces = {});
+
+/// As ringsOfPoints() or ringsOfCells(), of ids of a part of a mesh in memory; shared[i] is not 0
+/// if cells beyond the part have its point i. The list of an id whose steps would go on from such a
+/// point is -1 alone.
+IdLists ringsWithin(const ResidentMesh& part, const std::vector<std::int64_t>& seeds, bool ofPoints,
+  int k, const std::uint8_t* shared);
 
 /// The border of a mesh of triangles as closed lines.
 struct BoundaryLoops

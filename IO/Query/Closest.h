@@ -3,6 +3,7 @@
 #define tippClosest_h
 
 #include "Query/ResidentMesh.h"
+#include "Ranks/Communicator.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstdint>
@@ -26,6 +27,12 @@ struct ClosestLocations
 /// volume do not count. The same for any pieces and threads. Throws IOError and WorkAborted.
 VTKTIPPIO_EXPORT ClosestLocations closestTo(
   const ResidentMesh& mesh, const Point3* points, std::int64_t count);
+
+/// The nearest locations of the meshes of all ranks, as in answerOnRanks(), to this rank's points.
+/// Each rank has points of its own, or none. Collective; call it within Communicator::together().
+/// Throws IOError.
+VTKTIPPIO_EXPORT ClosestLocations closestOnRanks(
+  Communicator& ranks, const ResidentMesh& mesh, const Point3* points, std::int64_t count);
 
 } // namespace tipp
 

@@ -19,6 +19,9 @@ namespace tipp
 namespace
 {
 
+/// The memory of a segment until it is part of a line, with what joins them.
+constexpr std::uint64_t bytesOfSegment = 160;
+
 /// An edge by the global ids of its points.
 struct Edge
 {
@@ -161,6 +164,7 @@ void addCells(const Access& access, const MeshPart& part, const PointValues& val
     addSegments(corners, levels, segments);
   }
 }
+
 /// Follows the segments, each once: open lines from their beginning, closed ones from their lowest
 /// edge.
 class LineJoiner
@@ -279,12 +283,14 @@ std::pair<double, double> rangeIn(const ResidentMesh& mesh, const std::string& a
   double low = HUGE_VAL;
   double high = -HUGE_VAL;
   std::mutex mutex;
+  const PieceNeeds needs = mesh.needsOf({ array });
+  const bool stay = mesh.pieces().fit(first, end, needs);
   forChunks(std::int64_t(end - first), 1, threadCount(mesh.options().Threads), {},
     [&](std::int64_t number, std::int64_t, int)
     {
       poll();
       const ResidentPieces::Lease piece =
-        mesh.pieces().get(first + std::size_t(number), mesh.needsOf({ array }));
+        mesh.pieces().get(first + std::size_t(number), needs, stay);
       const PartValues values(*piece->Part, description);
       double ownLow = HUGE_VAL;
       double ownHigh = -HUGE_VAL;
@@ -301,8 +307,15 @@ std::pair<double, double> rangeIn(const ResidentMesh& mesh, const std::string& a
   return { low, high };
 }
 
+/// Segments, and a note of their memory, for which pieces make room.
+struct Segments
+{
+  std::vector<Segment> All;
+  std::vector<ResidentPieces::Share> Notes;
+};
+
 /// The segments in the cells that the pieces [first, end) own, in any order.
-std::vector<Segment> segmentsIn(const ResidentMesh& mesh, const std::string& array, int component,
+Segments segmentsIn(const ResidentMesh& mesh, const std::string& array, int component,
   const std::vector<double>& levels, std::size_t firstPiece, std::size_t endPiece)
 {
   const StoredArray* const description = fieldOf(mesh, array, component);
@@ -316,8 +329,10 @@ std::vector<Segment> segmentsIn(const ResidentMesh& mesh, const std::string& arr
     sorted.emplace_back(levels[i], std::int32_t(i));
   }
   std::sort(sorted.begin(), sorted.end());
-  std::vector<Segment> segments;
+  Segments segments;
   std::mutex mutex;
+  const PieceNeeds needs = mesh.needsOf({ array });
+  const bool stay = mesh.pieces().fit(firstPiece, endPiece, needs);
   const int threads = threadCount(mesh.options().Threads);
   const auto pieces = std::int64_t(endPiece - firstPiece);
   forChunks(pieces, 1, pieces > 1 ? threads : 1, {},
@@ -325,7 +340,7 @@ std::vector<Segment> segmentsIn(const ResidentMesh& mesh, const std::string& arr
     {
       poll();
       const ResidentPieces::Lease piece =
-        mesh.pieces().get(firstPiece + std::size_t(number), mesh.needsOf({ array }));
+        mesh.pieces().get(firstPiece + std::size_t(number), needs, stay);
       const MeshPart& part = *piece->Part;
       const PartValues described(part, description);
       const PointValues values(part, described, component);
@@ -336,7 +351,8 @@ std::vector<Segment> segmentsIn(const ResidentMesh& mesh, const std::string& arr
           withAccess(part.Mesh,
             [&](const auto& access) { addCells(access, part, values, sorted, begin, end, own); });
           const std::lock_guard<std::mutex> lock(mutex);
-          segments.insert(segments.end(), own.begin(), own.end());
+          segments.All.insert(segments.All.end(), own.begin(), own.end());
+          segments.Notes.push_back(mesh.pieces().note(own.size() * bytesOfSegment));
         });
     });
   return segments;
@@ -366,23 +382,32 @@ std::pair<double, double> rangeOnRanks(
 Contours contoursOf(const ResidentMesh& mesh, const std::string& array, int component,
   const std::vector<double>& levels)
 {
-  return LineJoiner(segmentsIn(mesh, array, component, levels, 0, mesh.mesh().Pieces.size()))
-    .join(levels);
+  Segments segments = segmentsIn(mesh, array, component, levels, 0, mesh.mesh().Pieces.size());
+  return LineJoiner(std::move(segments.All)).join(levels);
 }
 
 Contours contoursOnRanks(Communicator& ranks, const ResidentMesh& mesh, const std::string& array,
   int component, const std::vector<double>& levels)
 {
   requireIdsOnRanks(ranks, mesh);
-  std::vector<Segment> segments;
+  Segments segments;
   if (mesh.mesh().Cells > 0)
   {
     const auto [first, end] = piecesOfRank(ranks, mesh);
     segments = segmentsIn(mesh, array, component, levels, first, end);
   }
-  std::vector<Segment> all;
-  for (const std::vector<Segment>& part : ranks.gather(segments))
+  std::vector<Segment>& all = segments.All;
+  Bytes own;
+  if (!ranks.isFirst())
   {
+    own = packed(all);
+    all = {};
+  }
+  for (Bytes& message : ranks.gather(std::move(own)))
+  {
+    const Bytes content = std::move(message);
+    const auto part =
+      content.empty() ? std::vector<Segment>() : unpacked<std::vector<Segment>>(content);
     all.insert(all.end(), part.begin(), part.end());
   }
   return LineJoiner(std::move(all)).join(levels);

@@ -62,10 +62,11 @@ void forPieceRange(const ResidentMesh& mesh, std::size_t first, std::size_t end,
 {
   PieceNeeds needs;
   needs.Topology = true;
+  const bool stay = mesh.pieces().fit(first, end, needs);
   for (std::size_t i = first; i < end; ++i)
   {
     poll();
-    const ResidentPieces::Lease piece = mesh.pieces().get(i, needs);
+    const ResidentPieces::Lease piece = mesh.pieces().get(i, needs, stay);
     work(*piece->Part, *piece->Topology);
   }
 }
@@ -125,10 +126,12 @@ inline PieceNeeds topologyNeeded()
   return needs;
 }
 
-inline PieceGroups groupsOf(
-  const ResidentMesh& mesh, const std::vector<std::int64_t>& ids, bool ofPoints)
+/// `pieces` may be mesh.piecesOfIds() of the ids.
+inline PieceGroups groupsOf(const ResidentMesh& mesh, const std::vector<std::int64_t>& ids,
+  bool ofPoints, const std::vector<std::int32_t>& pieces)
 {
-  return groupByPiece(mesh.piecesOfIds(ids, ofPoints), mesh.mesh().Pieces.size());
+  return groupByPiece(pieces.size() == ids.size() ? pieces : mesh.piecesOfIds(ids, ofPoints),
+    mesh.mesh().Pieces.size());
 }
 
 /// The index of an id in the piece that owns it.

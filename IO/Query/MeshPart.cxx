@@ -98,13 +98,19 @@ void PartValues::sample(
     {
       using Value = decltype(zero);
       const auto components = std::size_t(this->Description.Components);
-      constexpr std::int64_t ahead = 16; // values of points lie anywhere in memory
+      constexpr std::int64_t ahead = 32; // values of points lie anywhere in memory
       for (std::int64_t i = 0; i < count; ++i)
       {
-        for (int k = 0; k < this->Corners && i + ahead < count && this->Description.OfPoints; ++k)
+        // Many at once, so that the waits for their pages overlap.
+        for (std::int64_t next = i == 0 ? 0 : i + ahead;
+             i % ahead == 0 && this->Description.OfPoints && next < std::min(i + 2 * ahead, count);
+             ++next)
         {
-          __builtin_prefetch(static_cast<const Value*>(this->Values) +
-            this->corner(at[i + ahead].Cell, k) * this->Stride);
+          for (int k = 0; k < this->Corners; ++k)
+          {
+            __builtin_prefetch(static_cast<const Value*>(this->Values) +
+              this->corner(at[next].Cell, k) * this->Stride);
+          }
         }
         char* const to = values + std::size_t(tuples[i]) * components * sizeof(Value);
         for (std::size_t k = 0; k < components; ++k)

@@ -35,12 +35,11 @@ std::int64_t lowestAcross(
   return lowest;
 }
 
-std::vector<std::int64_t> storedNeighbors(
-  const ResidentMesh& mesh, const std::vector<std::int64_t>& cells, std::size_t array)
+std::vector<std::int64_t> storedNeighbors(const ResidentMesh& mesh,
+  const std::vector<std::int64_t>& cells, const PieceGroups& groups, std::size_t array)
 {
   const auto corners = std::size_t(mesh.mesh().CellSize);
   std::vector<std::int64_t> result(cells.size() * corners, -1);
-  const PieceGroups groups = groupsOf(mesh, cells, false);
   PieceNeeds needs = topologyNeeded();
   needs.Arrays.assign(mesh.mesh().Arrays.size(), false);
   needs.Arrays[array] = true;
@@ -140,8 +139,8 @@ std::vector<std::int64_t> computedNeighbors(
 
 } // namespace
 
-std::vector<std::int64_t> neighborsOf(
-  const ResidentMesh& mesh, const std::vector<std::int64_t>& cells)
+std::vector<std::int64_t> neighborsOf(const ResidentMesh& mesh,
+  const std::vector<std::int64_t>& cells, const std::vector<std::int32_t>& pieces)
 {
   const std::vector<StoredArray>& arrays = mesh.mesh().Arrays;
   const int corners = mesh.mesh().CellSize;
@@ -151,11 +150,12 @@ std::vector<std::int64_t> neighborsOf(
       return !array.OfPoints && array.Name == neighborIdsArray.Name &&
         array.Type == Scalar::Int64 && array.Components == corners && array.Step < 0;
     });
+  const PieceGroups groups = groupsOf(mesh, cells, false, pieces);
   if (mesh.isStored() && stored != arrays.end())
   {
-    return storedNeighbors(mesh, cells, std::size_t(stored - arrays.begin()));
+    return storedNeighbors(mesh, cells, groups, std::size_t(stored - arrays.begin()));
   }
-  return computedNeighbors(mesh, groupsOf(mesh, cells, false), cells);
+  return computedNeighbors(mesh, groups, cells);
 }
 
 OwnedNeighbors neighborsInPiece(const ResidentMesh& mesh, std::size_t piece)

@@ -28,6 +28,7 @@ public:
     const std::int32_t* Last;
     const std::int32_t* begin() const { return this->First; }
     const std::int32_t* end() const { return this->Last; }
+    bool empty() const { return this->First == this->Last; }
   };
   Cells cellsAt(std::int64_t point) const
   {

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <utility>
 #include <variant>
@@ -31,15 +30,6 @@ Box<D> boxOf(const Bounds& bounds)
     box.High[axis] = bounds[2 * axis + 1];
   }
   return box;
-}
-
-template <int D>
-std::array<double, D> positionOf(const Point3& point)
-{
-  const double coordinates[3] = { point.x, point.y, point.z };
-  std::array<double, D> at;
-  std::copy_n(coordinates, D, at.begin());
-  return at;
 }
 
 } // namespace
@@ -73,7 +63,7 @@ private:
   std::int32_t search(const BoxTree<D>& tree, const Point3& point) const
   {
     std::int32_t found = -1;
-    const std::array<double, D> at = positionOf<D>(point);
+    const std::array<double, D> at = coordinatesOf<D>(point);
     const auto offer = [&](std::int32_t piece)
     {
       const bool isFirst = found < 0 || piece < found;
@@ -91,7 +81,7 @@ private:
 namespace
 {
 
-PartitionedMesh describe(const MeshPart& part)
+PartitionedMesh describe(const MeshPart& part, int threads)
 {
   PartitionedMesh mesh;
   mesh.CellSize = part.Mesh.Dimension + 1;
@@ -104,20 +94,38 @@ PartitionedMesh describe(const MeshPart& part)
   }
   constexpr double infinity = std::numeric_limits<double>::infinity();
   mesh.Domain = { infinity, -infinity, infinity, -infinity, infinity, -infinity };
+  const auto extend = [](Bounds& bounds, std::size_t axis, double low, double high)
+  {
+    // False for NaN.
+    bounds[2 * axis] = low < bounds[2 * axis] ? low : bounds[2 * axis];
+    bounds[2 * axis + 1] = high > bounds[2 * axis + 1] ? high : bounds[2 * axis + 1];
+  };
+  std::vector<Bounds> domains(std::size_t(threads), mesh.Domain);
   withAccess(part.Mesh,
     [&](const auto& access)
     {
-      for (std::int64_t i = 0; i < part.Mesh.PointCount; ++i)
-      {
-        const Point3 p = access.point(i);
-        const double coordinates[3] = { p.x, p.y, p.z };
-        for (std::size_t axis = 0; axis < 3; ++axis) // fmin() and fmax() pass over NaN
+      forChunks(part.Mesh.PointCount, 1 << 14, threads, {},
+        [&](std::int64_t begin, std::int64_t end, int thread)
         {
-          mesh.Domain[2 * axis] = std::fmin(mesh.Domain[2 * axis], coordinates[axis]);
-          mesh.Domain[2 * axis + 1] = std::fmax(mesh.Domain[2 * axis + 1], coordinates[axis]);
-        }
-      }
+          Bounds domain = domains[std::size_t(thread)];
+          for (std::int64_t i = begin; i < end; ++i)
+          {
+            const std::array<double, 3> at = coordinatesOf<3>(access.point(i));
+            for (std::size_t axis = 0; axis < 3; ++axis)
+            {
+              extend(domain, axis, at[axis], at[axis]);
+            }
+          }
+          domains[std::size_t(thread)] = domain;
+        });
     });
+  for (const Bounds& domain : domains)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      extend(mesh.Domain, axis, domain[2 * axis], domain[2 * axis + 1]);
+    }
+  }
   mesh.Pieces.emplace_back();
   mesh.Pieces[0].Points = mesh.Points;
   mesh.Pieces[0].Cells = mesh.Cells;
@@ -141,7 +149,7 @@ ResidentMesh::ResidentMesh(const std::string& path, const ResidentOptions& optio
 }
 
 ResidentMesh::ResidentMesh(MeshPart part, const ResidentOptions& options)
-  : Mesh(describe(part))
+  : Mesh(describe(part, threadCount(options.Threads)))
   , Options(options)
   , InMemory(std::make_shared<const MeshPart>(std::move(part)))
   , Ids(this->Mesh)
@@ -240,7 +248,8 @@ std::uint64_t ResidentMesh::estimate(std::size_t number, const PieceNeeds& needs
   return bytes;
 }
 
-/// Of a piece's points and at most so many of its cells, for some asked points.
+/// Upper bound of the bytes that answerNear() takes: for all points of the piece, at most `most` of
+/// its cells, and `asked` points to find.
 std::uint64_t ResidentMesh::estimateNear(
   std::size_t number, const PieceNeeds& needs, std::int64_t most, std::int64_t asked) const
 {

@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+class vtkMultiProcessController;
+
 namespace tipp
 {
 
@@ -120,8 +122,9 @@ public:
 
   /// Locates points and evaluates arrays there. Reads the pieces that points lie in, each once.
   /// Throws IOError, also for a name that is not among names(), and WorkAborted.
-  MeshAnswer answer(
-    const Point3* points, std::int64_t count, const AnswerOptions& options = {}) const;
+  /// `pieceOf` may be what piecesOf() says of the points.
+  MeshAnswer answer(const Point3* points, std::int64_t count, const AnswerOptions& options = {},
+    std::vector<std::int32_t> pieceOf = {}) const;
 
   /// The piece that each point belongs to, the first whose closed box holds it; -1: none.
   std::vector<std::int32_t> piecesOf(const Point3* points, std::int64_t count) const;
@@ -138,6 +141,15 @@ public:
   PieceNeeds needsOf(const std::vector<std::string>& names) const;
   /// The pieces in memory.
   ResidentPieces& pieces() const { return this->Resident; }
+
+  /// Of a part of a mesh in memory: whether another rank of `Of` has each point, too. Queries on
+  /// ranks keep it here for the next one.
+  struct SharedPoints
+  {
+    const vtkMultiProcessController* Of = nullptr; ///< null: not known
+    std::vector<std::uint8_t> Are;
+  };
+  SharedPoints& sharedPoints() const { return this->Shared; }
 
 private:
   void answerPiece(std::size_t number, const AskedPoints& asked, const AnswerOptions& options,
@@ -166,6 +178,7 @@ private:
   std::shared_ptr<const PieceBoxes> Boxes;  ///< null: in memory
   PieceIds Ids;
   mutable ResidentPieces Resident;
+  mutable SharedPoints Shared;
 };
 
 } // namespace tipp

@@ -29,7 +29,17 @@ void PieceNeeds::add(const PieceNeeds& other)
   this->Topology = this->Topology || other.Topology;
 }
 
-ResidentPieces::Lease ResidentPieces::get(std::size_t number, const PieceNeeds& needs)
+bool ResidentPieces::fit(std::size_t first, std::size_t end, const PieceNeeds& needs) const
+{
+  std::uint64_t bytes = 0;
+  for (std::size_t number = first; number < end; ++number)
+  {
+    bytes += this->BytesOf(number, needs);
+  }
+  return bytes <= this->Limit;
+}
+
+ResidentPieces::Lease ResidentPieces::get(std::size_t number, const PieceNeeds& needs, bool stays)
 {
   std::unique_lock<std::mutex> lock(this->Mutex);
   Slot& slot = this->Slots[number];
@@ -70,6 +80,7 @@ ResidentPieces::Lease ResidentPieces::get(std::size_t number, const PieceNeeds& 
       throw;
     }
   }
+  slot.Stays = slot.Stays || stays;
   ++slot.Users;
   ++slot.Uses;
   ++this->Active;
@@ -98,8 +109,13 @@ void ResidentPieces::release(Lease& lease)
 {
   lease.Held = {};
   const std::lock_guard<std::mutex> lock(this->Mutex);
-  --this->Slots[lease.Number].Users;
+  Slot& slot = this->Slots[lease.Number];
+  --slot.Users;
   --this->Active;
+  if (slot.Users == 0 && !slot.Stays && !slot.Loading)
+  {
+    this->drop(slot);
+  }
   this->Changed.notify_all();
 }
 
@@ -125,6 +141,7 @@ void ResidentPieces::drop(Slot& slot)
   slot.Held = {};
   slot.Bytes = 0;
   slot.Uses = 0;
+  slot.Stays = false;
 }
 
 /// Closes other pieces until `bytes` for this slot, which the limit allows, fit.

@@ -67,6 +67,8 @@ public:
   {
     return this->BytesOf(number, needs) <= this->Limit;
   }
+  /// Whether the pieces [first, end) are within the limit together.
+  bool fit(std::size_t first, std::size_t end, const PieceNeeds& needs) const;
 
   /// A piece in use: it stays in memory as long as this lives. A thread holds one at a time; else
   /// threads could wait for each other's memory forever.
@@ -100,8 +102,9 @@ public:
 
   /// Returns a piece with what is needed, loading it and dropping others as required. Waits while
   /// other threads use the memory. A piece that is larger than the limit is refused. What `load`
-  /// throws is passed on.
-  Lease get(std::size_t number, const PieceNeeds& needs);
+  /// throws is passed on. A piece stays in memory after its use unless no user wants it to: one
+  /// that reads more pieces than fit, each once, would only displace others.
+  Lease get(std::size_t number, const PieceNeeds& needs, bool stays = true);
 
   /// Memory for other things than pieces, until it ends.
   class Share
@@ -156,6 +159,7 @@ private:
     int Uses = 0;
     int Questions = 0;
     bool Loading = false;
+    bool Stays = false;
   };
 
   void release(Lease& lease);

@@ -28,10 +28,11 @@ IdLists joined(const std::vector<std::vector<std::int64_t>>& lists)
 
 } // namespace
 
-IdLists starsOf(const ResidentMesh& mesh, const std::vector<std::int64_t>& points)
+IdLists starsOf(const ResidentMesh& mesh, const std::vector<std::int64_t>& points,
+  const std::vector<std::int32_t>& pieces)
 {
   std::vector<std::vector<std::int64_t>> lists(points.size());
-  const PieceGroups groups = groupsOf(mesh, points, true);
+  const PieceGroups groups = groupsOf(mesh, points, true, pieces);
   forPieces(mesh, groups, topologyNeeded(),
     [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
     {
@@ -69,8 +70,9 @@ struct Reached
 class LocalRing
 {
 public:
-  explicit LocalRing(const ResidentPiece& piece)
-    : Part(*piece.Part)
+  /// `shared` as of ringsWithin(); null: the points that the piece does not own.
+  LocalRing(const ResidentPiece& piece, const std::uint8_t* shared)
+    : Shared(shared ? shared : piece.Part->Ghosts)
     , Topology(*piece.Topology)
   {
   }
@@ -87,7 +89,7 @@ public:
       this->Next.clear();
       for (const std::int64_t point : this->Front)
       {
-        if (!owns(this->Part, point))
+        if (this->Shared && this->Shared[point] != 0)
         {
           return false;
         }
@@ -125,7 +127,7 @@ private:
     }
   }
 
-  const MeshPart& Part;
+  const std::uint8_t* const Shared;
   const PartTopology& Topology;
   std::vector<std::int64_t> Front;
   std::vector<std::int64_t> Next;
@@ -146,9 +148,9 @@ public:
   }
 
   /// What k steps reach, without the seeds.
-  IdLists grown(int k)
+  IdLists grown(int k, const std::vector<std::int32_t>& pieces)
   {
-    this->start(k);
+    this->start(k, pieces, nullptr);
     for (int step = 0; step < k && !this->Front.empty(); ++step)
     {
       this->grow();
@@ -161,6 +163,16 @@ public:
       sortUnique(list);
       list.erase(std::remove(list.begin(), list.end(), this->Seeds[std::size_t(item)]), list.end());
       this->Done.push_back({ list, { item }, { std::int64_t(list.size()) } });
+    }
+    return this->joined();
+  }
+
+  IdLists grownWithin(int k, const std::uint8_t* shared)
+  {
+    this->start(k, {}, shared);
+    for (const std::int64_t item : this->Left)
+    {
+      this->Done.push_back({ { -1 }, { item }, { 1 } });
     }
     return this->joined();
   }
@@ -234,14 +246,14 @@ private:
     return result;
   }
 
-  void start(int k)
+  void start(int k, const std::vector<std::int32_t>& pieces, const std::uint8_t* shared)
   {
-    const PieceGroups groups = groupsOf(this->Mesh, this->Seeds, this->OfPoints);
+    const PieceGroups groups = groupsOf(this->Mesh, this->Seeds, this->OfPoints, pieces);
     std::vector<Reached> first;
     forPieces(this->Mesh, groups, topologyNeeded(),
       [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
       {
-        LocalRing ring(piece);
+        LocalRing ring(piece, shared);
         std::vector<Reached> reached;
         std::vector<std::int64_t> left;
         Finished done;
@@ -390,14 +402,22 @@ private:
 
 } // namespace
 
-IdLists ringsOfPoints(const ResidentMesh& mesh, const std::vector<std::int64_t>& points, int k)
+IdLists ringsOfPoints(const ResidentMesh& mesh, const std::vector<std::int64_t>& points, int k,
+  const std::vector<std::int32_t>& pieces)
 {
-  return RingGrowth(mesh, points, true).grown(k);
+  return RingGrowth(mesh, points, true).grown(k, pieces);
 }
 
-IdLists ringsOfCells(const ResidentMesh& mesh, const std::vector<std::int64_t>& cells, int k)
+IdLists ringsOfCells(const ResidentMesh& mesh, const std::vector<std::int64_t>& cells, int k,
+  const std::vector<std::int32_t>& pieces)
 {
-  return RingGrowth(mesh, cells, false).grown(k);
+  return RingGrowth(mesh, cells, false).grown(k, pieces);
+}
+
+IdLists ringsWithin(const ResidentMesh& part, const std::vector<std::int64_t>& seeds, bool ofPoints,
+  int k, const std::uint8_t* shared)
+{
+  return RingGrowth(part, seeds, ofPoints).grownWithin(k, shared);
 }
 
 } // namespace tipp

@@ -302,7 +302,7 @@ public:
   /// An edge of the zone that meets the interior.
   void addEdge(const Sides& sides, Point2 from, Point2 to)
   {
-    Place ends[2] = { this->inside(from), this->inside(to) };
+    FieldPoint ends[2] = { this->inside(from), this->inside(to) };
     const auto isInside = [](const int(&of)[3]) { return of[0] >= 0 && of[1] >= 0 && of[2] >= 0; };
     bool isFound[2] = { isInside(sides.OfFrom), isInside(sides.OfTo) };
     for (int i = 0; i < 3; ++i)
@@ -310,11 +310,11 @@ public:
       const int sign = sides.crossing(i);
       if (sign != 0)
       {
-        const Place at = this->onSide(i, sides, from, to);
+        const FieldPoint at = this->onSide(i, sides, from, to);
         this->Jumps[i] += sign;
         this->addPart(at, this->corner((i + 1) % 3), -sign);
         // An edge that ends on the side ends there.
-        Place& end = ends[sign > 0 ? 0 : 1];
+        FieldPoint& end = ends[sign > 0 ? 0 : 1];
         bool& isEnd = isFound[sign > 0 ? 0 : 1];
         end = isEnd ? end : at;
         isEnd = true;
@@ -351,15 +351,19 @@ public:
   }
 
 private:
-  struct Place
+  /// A location in the triangle with the field's value there.
+  struct FieldPoint
   {
     Point2 At; ///< from the first corner
     double Value;
   };
 
-  Place corner(int i) const { return { this->Corners[i] - this->Corners[0], this->Values[i] }; }
+  FieldPoint corner(int i) const
+  {
+    return { this->Corners[i] - this->Corners[0], this->Values[i] };
+  }
 
-  Place inside(Point2 p) const
+  FieldPoint inside(Point2 p) const
   {
     const Point2 at = p - this->Corners[0];
     const auto [low, high] = std::minmax({ this->Values[0], this->Values[1], this->Values[2] });
@@ -368,14 +372,14 @@ private:
   }
 
   /// Where an edge crosses a side.
-  Place onSide(int side, const Sides& sides, Point2 from, Point2 to) const
+  FieldPoint onSide(int side, const Sides& sides, Point2 from, Point2 to) const
   {
     if (sides.OfFrom[side] == 0 || sides.OfTo[side] == 0)
     {
       return this->inside(sides.OfFrom[side] == 0 ? from : to);
     }
-    const Place a = this->corner(side);
-    const Place b = this->corner((side + 1) % 3);
+    const FieldPoint a = this->corner(side);
+    const FieldPoint b = this->corner((side + 1) % 3);
     const Point2 along = to - from;
     const double ofA = std::fabs(product(along, this->Corners[side] - from));
     const double ofB = std::fabs(product(along, this->Corners[(side + 1) % 3] - from));
@@ -384,7 +388,7 @@ private:
       a.Value + share * (b.Value - a.Value) };
   }
 
-  void addPart(const Place& a, const Place& b, int times)
+  void addPart(const FieldPoint& a, const FieldPoint& b, int times)
   {
     const double area = times * product(a.At, b.At) / 2;
     this->Area += area;

@@ -53,7 +53,7 @@ struct Region
 {
   /// x min, x max, y min, y max, and of tetrahedra z min, z max.
   Bounds Box = {};
-  Zone Polygons; ///< of triangles only; empty: the box
+  Zone Polygons; ///< of x and y, over tetrahedra columns without an end; empty: the box
 };
 
 /// The cells that have a point of the region or, if `whole`, lie in it; ascending global ids.
