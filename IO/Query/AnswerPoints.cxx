@@ -19,19 +19,20 @@ namespace tipp
 namespace
 {
 
-/// A piece gets a locator after this many searches without one, or when a single search has more
+/// A locator is made for a piece after this many searches without one, or for a search with more
 /// than one point per `cellsPerPoint` cells.
 constexpr int searchesWithoutLocator = 4;
 constexpr std::int64_t cellsPerPoint = 8;
 
-/// A pass over the cells is the fastest way if there is more than one point per this many cells.
+/// For a search with more than one point per this many cells, a pass over all cells is fastest.
 constexpr std::int64_t cellsPerPointOfPass = 2;
-constexpr std::uint64_t bytesOfPass = 40; ///< for each point
+constexpr std::uint64_t bytesOfPass = 40; ///< of memory, per point
 
-/// The cells near the points are read without the others if they are at most one in this many.
+/// Cells near the points are read without the others if they are at most one in this many.
 constexpr std::int64_t cellsPerNearOne = 3;
 
-/// Chooses the cells of a piece that may hold one of the asked points; gives up above `most` cells.
+/// Selects the cells whose bounding boxes may contain one of the points. Stops if there are more
+/// than `most`.
 template <int D, typename Coordinate>
 class NearCells
 {
@@ -69,7 +70,7 @@ private:
   void choose(
     std::int64_t first, std::int64_t count, const Id* ids, std::vector<std::int64_t>& chosen) const
   {
-    constexpr std::int64_t ahead = 16; // positions lie anywhere in memory
+    constexpr std::int64_t ahead = 16; // prefetch distance, since positions are accessed at random
     for (std::int64_t i = 0; i < count; ++i)
     {
       for (int k = 0; k <= D && i + ahead < count; ++k)
@@ -84,7 +85,7 @@ private:
   }
 
   PointGrid<D> Grid;
-  std::vector<typename PointGrid<D>::Position> Positions; ///< of the piece's points
+  std::vector<typename PointGrid<D>::Position> Positions; ///< of the piece's points, by local index
   std::int64_t Most;
 };
 
@@ -101,7 +102,7 @@ PieceOptions::Choose nearCells(
                  : PieceOptions::Choose(NearCells<3, double>(asked, most));
 }
 
-/// Whether points lie in less than half of a box.
+/// Whether the bounding box of the points covers less than half of a box.
 template <int D>
 bool areNarrow(const AskedPoints& asked, const Bounds& box)
 {
@@ -116,11 +117,11 @@ bool areNarrow(const AskedPoints& asked, const Bounds& box)
     }
     return share < 0.5;
   };
-  constexpr std::int64_t some = 1 << 10; // show for most points that they are not
+  constexpr std::int64_t some = 1 << 10; // in most cases, so many show that all are not narrow
   return (asked.Count <= some || are(some)) && are(asked.Count);
 }
 
-/// NaN, or 0 in whole numbers.
+/// Fills an array with NaN, or with 0 if it is an integer array.
 void fillNull(MeshAnswer::Array& array)
 {
   withScalar(array.Type,
@@ -160,7 +161,7 @@ PieceGroups groupByPiece(const std::vector<std::int32_t>& pieces, std::size_t co
   std::vector<std::int64_t> ends(count + 1, 0);
   for (const std::int32_t piece : pieces)
   {
-    ends[std::size_t(piece + 1)] += 1; // the first counts those of no piece
+    ends[std::size_t(piece + 1)] += 1; // the first entry counts items without a piece
   }
   ends[0] = 0;
   PieceGroups result;
@@ -181,7 +182,8 @@ PieceGroups groupByPiece(const std::vector<std::int32_t>& pieces, std::size_t co
   return result;
 }
 
-/// Answers in a part of the mesh where locate(take) finds the points; returns what that returns.
+/// Evaluates arrays at points in a part of the mesh. locate(take) locates the points and passes the
+/// locations to take(); its result is returned.
 bool ResidentMesh::answerPart(const MeshPart& part, const AskedPoints& asked,
   const AnswerOptions& options, const Locate& locate, MeshAnswer& answer) const
 {
@@ -214,7 +216,8 @@ bool ResidentMesh::answerPart(const MeshPart& part, const AskedPoints& asked,
     });
 }
 
-/// False if that is not the fastest; then some answers may be there.
+/// Answers with a pass over all cells. Returns false if this is not the fastest method; then
+/// `answer` may already have some points.
 bool ResidentMesh::answerInOnePass(const MeshPart& part, const AskedPoints& asked,
   const AnswerOptions& options, int threads, MeshAnswer& answer) const
 {
@@ -231,7 +234,7 @@ bool ResidentMesh::answerInOnePass(const MeshPart& part, const AskedPoints& aske
     answer);
 }
 
-/// The locator may be null.
+/// Answers with a locator or, if it is null, by searching the cells.
 void ResidentMesh::answerBy(const CellLocator* locator, const MeshPart& part,
   const AskedPoints& asked, const AnswerOptions& options, int threads, MeshAnswer& answer) const
 {
@@ -245,8 +248,8 @@ void ResidentMesh::answerBy(const CellLocator* locator, const MeshPart& part,
     answer);
 }
 
-/// Whether it is better to read only the cells near the points than to have the whole piece in
-/// memory. `mayStay`: so would all pieces that are asked now.
+/// Whether to read only the cells near the points instead of the whole piece. `mayStay` says
+/// whether all pieces of this query fit into memory together.
 bool ResidentMesh::wantsNear(
   std::size_t number, const PieceNeeds& needs, const AskedPoints& asked, bool mayStay) const
 {
@@ -260,7 +263,8 @@ bool ResidentMesh::wantsNear(
     (this->Mesh.CellSize == 3 ? areNarrow<2>(asked, piece.Box) : areNarrow<3>(asked, piece.Box));
 }
 
-/// False, with nothing done, if the cells near the points are too many or the memory too little.
+/// Reads only the cells near the points and answers with them. Returns false, without any answer,
+/// if there are too many such cells or too little memory.
 bool ResidentMesh::answerNear(std::size_t number, const PieceNeeds& needs, const AskedPoints& asked,
   const AnswerOptions& options, int threads, MeshAnswer& answer) const
 {
@@ -328,7 +332,7 @@ MeshAnswer ResidentMesh::answer(const Point3* points, std::int64_t count,
     throw IOError("More than 2147483647 points are asked for at once; ask in parts.");
   }
   std::vector<StoredArray> arrays;
-  std::uint64_t bytes = 3 * sizeof(std::int64_t); // a point, with its index and piece
+  std::uint64_t bytes = 3 * sizeof(std::int64_t); // a point, its index and its piece
   bytes += options.Weights ? std::uint64_t(this->Mesh.CellSize) * sizeof(double) : 0;
   bytes += options.Keys ? sizeof(CellKey) : 0;
   for (const std::string& name : options.Arrays)
@@ -351,7 +355,7 @@ MeshAnswer ResidentMesh::answer(const Point3* points, std::int64_t count,
   pieceOf = pieceOf.empty() ? this->piecesOf(points, count) : std::move(pieceOf);
   PieceGroups groups = groupByPiece(pieceOf, this->Mesh.Pieces.size());
   pieceOf = {};
-  // The pieces in memory first, before others displace them.
+  // Pieces that are in memory come first, before others displace them.
   std::stable_partition(groups.Groups.begin(), groups.Groups.end(),
     [&](const PieceGroups::Group& group) { return this->Resident.isResident(group.Piece); });
   PieceNeeds needs = this->needsOf(options.Arrays);
@@ -363,7 +367,8 @@ MeshAnswer ResidentMesh::answer(const Point3* points, std::int64_t count,
   }
   const bool mayStay = together <= this->Options.MemoryLimit;
   const auto pieces = std::int64_t(groups.Groups.size());
-  // Threads share out the pieces, or the points of one piece after the other if these are few.
+  // If there are many pieces, each thread processes a piece at a time. Otherwise all threads share
+  // the points of one piece after the other.
   const bool manyPieces = pieces >= 2 * threads;
   forChunks(pieces, 1, manyPieces ? threads : 1, {},
     [&](std::int64_t g, std::int64_t, int)

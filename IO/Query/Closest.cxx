@@ -15,7 +15,7 @@ namespace tipp
 namespace
 {
 
-/// Finds the pieces near points by their boxes. Each location of the mesh is in the box of a piece
+/// Finds pieces near points by their boxes. Every location of the mesh is in the box of a piece
 /// that has all cells there.
 template <int D>
 class NearPieces
@@ -28,7 +28,7 @@ public:
   {
   }
 
-  /// The nearest piece that has cells; -1: none.
+  /// The piece with cells whose box is nearest to the point, or -1.
   std::int32_t nearest(const Point3& point) const
   {
     if (!this->IsStored)
@@ -51,7 +51,8 @@ public:
     return found;
   }
 
-  /// Calls visit(piece) for all pieces but `but` that may be within the distance `most`.
+  /// Calls visit(piece) for all pieces except `but` whose boxes may be within the distance `most`
+  /// of the point.
   template <typename Visit>
   void visitOthers(const Point3& point, std::int32_t but, double most, const Visit& visit) const
   {
@@ -79,7 +80,7 @@ private:
     return box;
   }
 
-  /// At most the distance of a point from a piece's box.
+  /// A lower bound of the distance between a point and a piece's box.
   double distance(std::int32_t piece, const Point3& point) const
   {
     const Box<D> box = this->box(piece);
@@ -97,13 +98,14 @@ private:
   BoxTree<D> Tree;
 };
 
-/// Searches the pieces of the items, pieces[i] for the point with the index asked[i].
+/// Searches pieces[i] for the cell nearest to the point with the index asked[i], and keeps it in
+/// `best` if it is nearer than the cell there.
 void searchPieces(const ResidentMesh& mesh, const std::vector<std::int32_t>& pieces,
   const std::vector<std::int64_t>& asked, const Point3* points, std::vector<NearCell>& best)
 {
   PieceNeeds needs;
   needs.Locator = true;
-  std::array<std::mutex, 64> locks; // several pieces may search for one point
+  std::array<std::mutex, 64> locks; // several threads may search for the same point
   const PieceGroups groups = groupByPiece(pieces, mesh.mesh().Pieces.size());
   forPieces(mesh, groups, needs,
     [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
@@ -126,7 +128,8 @@ void searchPieces(const ResidentMesh& mesh, const std::vector<std::int32_t>& pie
     });
 }
 
-/// Finds the nearest cells by search(pieces, asked, points, best), as searchPieces().
+/// Finds the nearest cells to points outside the mesh. Calls search(pieces, asked, points, best),
+/// which does the same as searchPieces().
 template <int D, typename Search>
 void findOutside(const ResidentMesh& mesh, const std::vector<Point3>& points, const Search& search,
   std::vector<NearCell>& best)
@@ -154,7 +157,7 @@ void findOutside(const ResidentMesh& mesh, const std::vector<Point3>& points, co
   search(others, asked, points.data(), best);
 }
 
-/// Searches pieces on the ranks that have them; in memory a rank's number is that of its piece.
+/// Searches the pieces of all ranks. For a mesh in memory, rank i has piece i.
 class RankSearch
 {
 public:
@@ -165,7 +168,7 @@ public:
   {
   }
 
-  /// As searchPieces(). Collective.
+  /// As searchPieces(). Each rank sends its points to the ranks that have the pieces. Collective.
   void operator()(const std::vector<std::int32_t>& pieces, const std::vector<std::int64_t>& asked,
     const Point3* points, std::vector<NearCell>& best) const
   {
@@ -206,7 +209,7 @@ private:
   {
     Point3 At;
     std::int32_t Piece;
-    NearCell Best; ///< so far
+    NearCell Best; ///< the nearest cell found so far
   };
 
   std::vector<NearCell> answer(const std::vector<Question>& questions) const
@@ -232,17 +235,18 @@ private:
 
   Communicator& Ranks;
   const ResidentMesh& Mesh;
-  const std::int64_t FirstCell; ///< of this rank, whose cells have no ids
+  const std::int64_t FirstCell; ///< added to this rank's cell ids; 0 if these are global
 };
 
-/// The finite points that no cell holds.
+/// The points that are finite and that no cell contains.
 struct PointsOutside
 {
   std::vector<std::size_t> Indices;
   std::vector<Point3> Points;
 };
 
-/// The locations of the points in cells; those of the others are unknown.
+/// The locations of the points that are in cells. Collects all other finite points in `outside`,
+/// and leaves their results undefined.
 ClosestLocations insideOf(
   std::vector<std::int64_t> cells, bool inSpace, const Point3* points, PointsOutside& outside)
 {
@@ -281,7 +285,7 @@ void setOutside(const PointsOutside& outside, std::vector<NearCell>& best, Close
   }
 }
 
-/// What a rank tells of its part in memory.
+/// Describes a rank's part of a mesh in memory.
 struct RankCells
 {
   std::int64_t Cells;
@@ -327,7 +331,7 @@ ClosestLocations closestOnRanks(
   }
   else
   {
-    // Any rank may have the nearest cell.
+    // Each rank may have the nearest cell.
     std::vector<std::int32_t> pieces;
     std::vector<std::int64_t> asked;
     for (std::size_t rank = 0; rank < parts.size(); ++rank)

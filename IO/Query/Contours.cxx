@@ -19,10 +19,10 @@ namespace tipp
 namespace
 {
 
-/// The memory of a segment until it is part of a line, with what joins them.
+/// The bytes of a segment, and of the structures that join it to a line.
 constexpr std::uint64_t bytesOfSegment = 160;
 
-/// An edge by the global ids of its points.
+/// An edge as global ids of its points.
 struct Edge
 {
   std::int64_t Low;
@@ -38,10 +38,10 @@ struct Edge
   }
 };
 
-/// The part of a contour in one triangle.
+/// The part of a contour line in one triangle.
 struct Segment
 {
-  std::int32_t Level; ///< index
+  std::int32_t Level; ///< index of the level
   Edge From;
   Edge To;
   Point3 Begin;
@@ -61,7 +61,8 @@ struct Corner
   double Value;
 };
 
-/// The point of the level on an edge; the same bits for both of its triangles.
+/// The point on an edge where the values cross the level. Both triangles of the edge get the same
+/// bits.
 Point3 crossing(Corner a, Corner b, double level)
 {
   b.Id < a.Id ? std::swap(a, b) : void();
@@ -75,7 +76,7 @@ Edge edgeOf(const Corner& a, const Corner& b)
   return { std::min(a.Id, b.Id), std::max(a.Id, b.Id) };
 }
 
-/// Adds the segments of one triangle, counter-clockwise corners.
+/// Adds the segments in one triangle. Its corners are counter-clockwise.
 void addSegments(const Corner (&corners)[3],
   const std::vector<std::pair<double, std::int32_t>>& levels, std::vector<Segment>& segments)
 {
@@ -84,7 +85,7 @@ void addSegments(const Corner (&corners)[3],
     levels.begin(), levels.end(), low, [](double value, const auto& l) { return value < l.first; });
   for (; level != levels.end() && level->first <= high; ++level)
   {
-    // The corner that is alone on its side.
+    // The corner that is the only one on its side of the level.
     bool above[3];
     std::transform(corners, corners + 3, above,
       [&](const Corner& corner) { return corner.Value >= level->first; });
@@ -103,7 +104,8 @@ void addSegments(const Corner (&corners)[3],
   }
 }
 
-/// A component of an array at a part's points, as doubles.
+/// The values of one component of an array at a part's points, as doubles. Points are local
+/// indices.
 class PointValues
 {
 public:
@@ -165,8 +167,8 @@ void addCells(const Access& access, const MeshPart& part, const PointValues& val
   }
 }
 
-/// Follows the segments, each once: open lines from their beginning, closed ones from their lowest
-/// edge.
+/// Joins segments to lines: first open lines, from their start, then closed lines, from their
+/// lowest edge.
 class LineJoiner
 {
 public:
@@ -211,7 +213,8 @@ public:
   }
 
 private:
-  /// The segment that begins where another ends; the number of segments if there is none.
+  /// The index of the segment that starts where this one ends, or the number of segments if there
+  /// is none.
   std::size_t after(const Segment& segment) const
   {
     const Segment wanted{ segment.Level, segment.To, { -1, -1 }, {}, {} };
@@ -230,7 +233,7 @@ private:
          at = this->Next[at])
     {
       this->IsUsed[at] = 1;
-      // At a point that has the level several edges are crossed in the same place.
+      // If a point of the mesh has exactly the level's value, several edges are crossed there.
       lines.Points.back() == this->Segments[at].End
         ? void()
         : lines.Points.push_back(this->Segments[at].End);
@@ -307,7 +310,7 @@ std::pair<double, double> rangeIn(const ResidentMesh& mesh, const std::string& a
   return { low, high };
 }
 
-/// Segments, and a note of their memory, for which pieces make room.
+/// Segments, with a note of their memory: pieces leave space for it.
 struct Segments
 {
   std::vector<Segment> All;

@@ -77,7 +77,7 @@ Value PartValues::valueAt(const CellLocation& at, int component) const
     double sum = 0;
     for (int i = 0; i < this->Corners; ++i)
     {
-      // A corner without weight may have NaN.
+      // A corner with weight 0 may have the value NaN, which must not count.
       const double value = double(values[this->corner(at.Cell, i) * this->Stride]);
       sum += at.Weights[i] == 0 ? 0 : at.Weights[i] * value;
     }
@@ -98,10 +98,10 @@ void PartValues::sample(
     {
       using Value = decltype(zero);
       const auto components = std::size_t(this->Description.Components);
-      constexpr std::int64_t ahead = 32; // values of points lie anywhere in memory
+      constexpr std::int64_t ahead = 32; // values are accessed at random
       for (std::int64_t i = 0; i < count; ++i)
       {
-        // Many at once, so that the waits for their pages overlap.
+        // Prefetches this many at once, so that the accesses to their pages overlap.
         for (std::int64_t next = i == 0 ? 0 : i + ahead;
              i % ahead == 0 && this->Description.OfPoints && next < std::min(i + 2 * ahead, count);
              ++next)

@@ -15,14 +15,14 @@ namespace tipp
 namespace
 {
 
-/// What the ranks know of each other's part of the mesh.
+/// What each rank knows about another rank's part of the mesh.
 struct RankPart
 {
-  int CellSize = 0; ///< 0: it has no cells
+  int CellSize = 0; ///< 0 if it has no cells
   bool HasIds = false;
   std::int64_t Cells = 0;
   Bounds Domain{};
-  std::vector<Scalar> Types; ///< of the arrays asked for
+  std::vector<Scalar> Types; ///< types of the requested arrays
   std::vector<int> Components;
 };
 
@@ -51,7 +51,7 @@ RankPart describe(const ResidentMesh& mesh, const AnswerOptions& options)
   return part;
 }
 
-/// The first part with cells; the others must be like it.
+/// The description that all parts with cells have in common. Throws IOError if they differ.
 RankPart commonPart(const std::vector<RankPart>& parts)
 {
   RankPart common;
@@ -78,7 +78,7 @@ bool holds(const RankPart& part, const Point3& p)
     (part.CellSize == 3 || (b[4] <= p.z && p.z <= b[5]));
 }
 
-/// For each rank the indices of the points that it is asked.
+/// For each rank, the indices of this rank's points to send to it.
 std::vector<std::vector<std::int64_t>> shareOut(const Communicator& communicator,
   const ResidentMesh& mesh, const std::vector<RankPart>& parts,
   const std::vector<std::int32_t>& pieceOf, const Point3* points, std::int64_t count)
@@ -106,15 +106,15 @@ std::vector<std::vector<std::int64_t>> shareOut(const Communicator& communicator
   return asked;
 }
 
-/// One of the arrays that an answer is made of. Cells come first, then keys if there are any, then
-/// weights and values.
+/// One of the arrays of a MeshAnswer. The order is: cells, keys (if there are any), weights,
+/// values.
 struct Column
 {
   const char* Values;
-  std::size_t Width; ///< bytes a point
+  std::size_t Width; ///< bytes per point
 };
 
-/// The first `count` rows, column by column.
+/// The first `count` rows of the columns, column by column.
 Bytes messageOf(const std::vector<Column>& columns, std::size_t count)
 {
   std::size_t width = 0;
@@ -131,7 +131,8 @@ Bytes messageOf(const std::vector<Column>& columns, std::size_t count)
   return message;
 }
 
-/// The columns in a message with the widths of `like`. Throws IOError if it has another size.
+/// The columns in a message, with the widths of `columns`. Throws IOError if the message has
+/// another size.
 std::vector<Column> columnsIn(const Bytes& message, std::vector<Column> columns, std::size_t count)
 {
   std::size_t at = 0;
@@ -154,7 +155,7 @@ std::uint64_t numberAt(const Column& column, std::size_t row)
   return number;
 }
 
-/// Copies rows[i] of a column to row to[i] of `values`.
+/// Copies row rows[i] of a column to row to[i] of `values`.
 void copyRows(const Column& column, const std::vector<std::size_t>& rows,
   const std::vector<std::size_t>& to, char* values)
 {
@@ -169,13 +170,13 @@ void copyRows(const Column& column, const std::vector<std::size_t>& rows,
                                  : copyAll(column.Width);
 }
 
-/// Copies what a rank says of the points with the indices `asked` to the columns `to` of `answer`,
-/// where it is the best so far.
+/// Copies a rank's answers for the points `asked` to the columns `to` of `answer`, where they are
+/// better than the answers there.
 void merge(const std::vector<Column>& from, const std::vector<std::int64_t>& asked,
   const std::vector<Column>& to, MeshAnswer& answer)
 {
   const bool hasKeys = !answer.Keys.empty();
-  constexpr std::size_t block = 1024; // stays in the processor's cache
+  constexpr std::size_t block = 1024; // rows; these stay in the processor's cache
   std::vector<std::size_t> rows;
   std::vector<std::size_t> points;
   for (std::size_t begin = 0; begin < asked.size(); begin += block)
@@ -203,7 +204,8 @@ void merge(const std::vector<Column>& from, const std::vector<std::int64_t>& ask
   }
 }
 
-/// The points of all ranks, sent to the ranks that may have their cells, and what these find.
+/// Sends the points of all ranks to the ranks that may have their cells, and answers the received
+/// points.
 class PointsOnRanks
 {
 public:
@@ -218,7 +220,8 @@ public:
       this->FirstCell += parts[std::size_t(rank)].Cells;
     }
     this->FirstCell = mesh.hasCellIds() ? 0 : this->FirstCell;
-    this->HasKeys = options.Keys || !mesh.isStored(); // of a stored mesh one rank alone is asked
+    // With a stored mesh, each point is sent to only one rank, so no keys are needed.
+    this->HasKeys = options.Keys || !mesh.isStored();
     this->Own = std::size_t(ranks.rank());
     const std::vector<std::int32_t> pieces =
       mesh.isStored() ? mesh.piecesOf(points, count) : std::vector<std::int32_t>();
@@ -236,11 +239,11 @@ public:
     }
   }
 
-  /// For each rank the indices of this rank's points that it has been asked for.
+  /// For each rank, the indices of this rank's points that were sent to it.
   const std::vector<std::vector<std::int64_t>>& asked() const { return this->Asked; }
   const Buffer<Point3>& received() const { return this->Received; }
   const MeshAnswer& found() const { return this->Found; }
-  /// The first point of a rank among the received ones.
+  /// The index of a rank's first point among the received ones.
   std::size_t begin(std::size_t rank) const { return this->Begins[rank]; }
 
   /// What each rank has found for this rank's points, in the order of asked().
@@ -275,7 +278,7 @@ public:
     return replies;
   }
 
-  /// The columns of an answer from a point on.
+  /// The columns of an answer, beginning at point `first`.
   std::vector<Column> columnsOf(const MeshAnswer& answer, std::size_t first) const
   {
     std::vector<Column> columns;
@@ -308,8 +311,9 @@ public:
   }
 
 private:
-  /// Sends this rank's points, of a stored mesh with their pieces, and receives those of all ranks.
-  /// What comes in parts is put where it stays: in memory that is new, copying takes the longest.
+  /// Sends this rank's points to other ranks, and receives theirs; for a stored mesh also the
+  /// pieces of the points. Received parts are written directly to their destination: another copy
+  /// to newly allocated memory would take longest of all.
   void receive(Communicator& ranks, bool withPieces, const std::vector<std::int32_t>& pieces,
     const Point3* points)
   {
@@ -355,7 +359,7 @@ private:
       });
   }
 
-  /// Writes the points that a rank is asked for, and their pieces.
+  /// Writes the points for a rank to `to`, and their pieces, if there are any, to `toPieces`.
   void pack(std::size_t rank, const Point3* points, const std::vector<std::int32_t>& pieces,
     char* to, char* toPieces) const
   {
@@ -381,12 +385,13 @@ private:
   std::int64_t FirstCell = 0;
   std::vector<std::vector<std::int64_t>> Asked;
   Buffer<Point3> Received;
-  std::vector<std::int32_t> Pieces; ///< of a stored mesh those of the received points
+  std::vector<std::int32_t> Pieces; ///< the pieces of the received points, for a stored mesh
   std::vector<std::size_t> Begins;
   MeshAnswer Found;
 };
 
-/// The ranks that answer this rank's points, for each rank whether it does.
+/// Chooses the rank that keeps the answer of each of this rank's points. Returns, for each rank and
+/// each point sent to it, whether it is the chosen one.
 std::vector<std::vector<char>> chooseRanks(const std::vector<std::vector<std::int64_t>>& asked,
   const std::vector<std::vector<Column>>& replies, std::int64_t count)
 {
@@ -433,7 +438,7 @@ std::pair<std::size_t, std::size_t> piecesOfRank(
   {
     return { 0, 1 };
   }
-  // As rankOfPiece().
+  // The inverse of rankOfPiece().
   const std::size_t pieces = mesh.mesh().Pieces.size();
   const auto size = std::size_t(ranks.size());
   const auto firstOf = [&](std::size_t rank) { return (rank * pieces + size - 1) / size; };
@@ -470,7 +475,7 @@ StayingAnswer answerWhereCellsAre(Communicator& ranks, const ResidentMesh& mesh,
   const std::vector<std::vector<std::int64_t>> indices = ranks.allToAll(questions.asked());
 
   StayingAnswer result;
-  std::vector<std::size_t> kept; // among the received points
+  std::vector<std::size_t> kept; // indices of received points
   for (std::size_t rank = 0; rank < chosen.size(); ++rank)
   {
     for (std::size_t i = 0; i < chosen[rank].size(); ++i)

@@ -15,7 +15,7 @@ namespace tipp
 namespace
 {
 
-/// Lists by id.
+/// Lists that are found by id.
 class ListsById
 {
 public:
@@ -34,13 +34,14 @@ private:
   std::map<std::int64_t, std::size_t> Indices;
 };
 
-/// As ringsInMemory(), where rings lead from rank to rank: all of them step by step.
+/// As ringsInMemory(), for rings that need the cells of several ranks. All grow together, step by
+/// step.
 IdLists ringsAcrossRanks(const RankQuestions& questions, const Ids& seeds, int k, bool ofPoints)
 {
   struct Ring
   {
-    Ids Points; ///< ascending
-    Ids Cells;  ///< ascending
+    Ids Points; ///< found so far, ascending
+    Ids Cells;  ///< found so far, ascending
     Ids Front;
   };
   std::vector<Ring> rings(seeds.size());
@@ -74,7 +75,8 @@ IdLists ringsAcrossRanks(const RankQuestions& questions, const Ids& seeds, int k
         const Ids star = stars.of(point);
         cells.insert(cells.end(), star.begin(), star.end());
       }
-      ring.Front = without(sortedUnique(std::move(cells)), ring.Cells); // cells until the next loop
+      // Until the end of this step, the front consists of cells.
+      ring.Front = without(sortedUnique(std::move(cells)), ring.Cells);
       ring.Cells.insert(ring.Cells.end(), ring.Front.begin(), ring.Front.end());
       std::sort(ring.Cells.begin(), ring.Cells.end());
     }
@@ -101,7 +103,7 @@ IdLists ringsAcrossRanks(const RankQuestions& questions, const Ids& seeds, int k
   return result;
 }
 
-/// What k steps reach from each seed in parts in memory, without the seed.
+/// For parts in memory: the ids that are reached in k steps from each seed, without the seed.
 IdLists ringsInMemory(const RankQuestions& questions, const Ids& seeds, int k, bool ofPoints)
 {
   IdLists within = questions.ringsWithinParts(seeds, k, ofPoints);
@@ -130,7 +132,7 @@ IdLists ringsInMemory(const RankQuestions& questions, const Ids& seeds, int k, b
   return result;
 }
 
-/// In parts in memory, as neighborsOf().
+/// As neighborsOf(), for parts in memory.
 IdLists neighborsInMemory(const RankQuestions& questions, const Ids& cells)
 {
   const IdLists corners = questions.corners(cells);

@@ -18,7 +18,7 @@ namespace tipp
 
 using Ids = std::vector<std::int64_t>;
 
-/// The lists [begin, end).
+/// The lists with indices [begin, end).
 inline IdLists listsOf(const IdLists& lists, std::size_t begin, std::size_t end)
 {
   IdLists result;
@@ -31,13 +31,13 @@ inline IdLists listsOf(const IdLists& lists, std::size_t begin, std::size_t end)
   return result;
 }
 
-/// A list for each id that a rank is asked for.
+/// A rank's lists for the ids that it was sent.
 struct ListReply
 {
-  std::vector<char> Known; ///< whether the rank has it
+  std::vector<char> Known; ///< per id: whether the rank has it
   IdLists Lists;
 
-  /// Sets the lists of the known ids, in their order; those of the others are empty.
+  /// Sets the lists from those of the known ids, in the same order. Unknown ids get empty lists.
   void setLists(IdLists ofKnown)
   {
     std::size_t next = 0;
@@ -50,7 +50,7 @@ struct ListReply
     this->Lists.Ids = std::move(ofKnown.Ids);
   }
 
-  /// The reply to the ids [begin, end).
+  /// The lists of the ids with indices [begin, end).
   ListReply part(std::size_t begin, std::size_t end) const
   {
     if (begin == end)
@@ -89,7 +89,7 @@ inline Ids listOf(const IdLists& lists, std::size_t i)
   return { lists.Ids.begin() + lists.Starts[i], lists.Ids.begin() + lists.Starts[i + 1] };
 }
 
-/// Appends list i of `from`.
+/// Appends list i of `from` to `lists`.
 inline void append(IdLists& lists, const IdLists& from, std::size_t i)
 {
   lists.Ids.insert(
@@ -103,7 +103,7 @@ inline void append(IdLists& lists, const Ids& list)
   lists.Starts.push_back(std::int64_t(lists.Ids.size()));
 }
 
-/// None if the part does not have the point.
+/// The cells at a point (a global id); none if the part does not have the point.
 inline PartTopology::Cells cellsAtId(const PartTopology& topology, std::int64_t id)
 {
   const std::int64_t index = topology.findPoint(id);
@@ -116,7 +116,8 @@ inline bool contains(const Bounds& box, const Point3& p)
     p.z <= box[5];
 }
 
-/// Asks all ranks for lists of ids.
+/// Requests lists of ids from all ranks. All functions except isStored() and mesh() are collective,
+/// and throw IOError for an id that no rank has.
 class RankQuestions
 {
 public:
@@ -127,8 +128,9 @@ public:
     requireIdsOnRanks(ranks, mesh);
   }
 
-  /// For each id the list of the first rank that has it, which answer(ids) makes of any ids as a
-  /// ListReply; or, if `united`, what the ranks' lists have together, ascending.
+  /// Returns a list for each id. Every rank calls answer(ids), which returns a ListReply, for the
+  /// ids of all ranks. The result is the list of the first rank that has the id or, if `united`,
+  /// the union of all ranks' lists, ascending.
   template <typename Answer>
   IdLists ask(const Ids& ids, bool ofPoints, bool united, const Answer& answer) const
   {
@@ -164,7 +166,8 @@ public:
     return result;
   }
 
-  /// Of a stored mesh: lists that work(ids) makes on the rank that has their pieces.
+  /// For stored meshes: lists that work(ids, pieces) returns on the ranks that have the pieces of
+  /// these ids.
   template <typename Work>
   IdLists askOwners(const Ids& ids, bool ofPoints, const Work& work) const
   {
@@ -196,7 +199,8 @@ public:
       });
   }
 
-  /// Of parts in memory: rings that ringsWithin() makes.
+  /// For parts in memory: the results of ringsWithin() in the part of the first rank that has the
+  /// seed.
   IdLists ringsWithinParts(const Ids& seeds, int k, bool ofPoints) const
   {
     const std::vector<std::uint8_t>& shared = this->sharedPoints();
@@ -219,7 +223,7 @@ public:
       });
   }
 
-  /// Of parts in memory: the cells at points, ascending.
+  /// For parts in memory: the cells at each point, ascending.
   IdLists stars(const Ids& points) const
   {
     return this->ask(points, true, true,
@@ -245,7 +249,7 @@ public:
       });
   }
 
-  /// Of parts in memory: the points of cells, in the cells' order.
+  /// For parts in memory: the points of each cell, in the cell's order.
   IdLists corners(const Ids& cells) const
   {
     return this->ask(cells, false, false,
@@ -270,7 +274,7 @@ public:
 
   bool isStored() const { return this->Mesh.isStored(); }
   const ResidentMesh& mesh() const { return this->Mesh; }
-  /// Whether it is so on any rank.
+  /// Whether `isSo` is true on any rank.
   bool any(bool isSo) const
   {
     std::vector<std::int64_t> count = { isSo ? 1 : 0 };
@@ -279,7 +283,7 @@ public:
   }
 
 private:
-  /// What all ranks reply to this rank's ids.
+  /// The reply of each rank for this rank's ids.
   template <typename Answer>
   std::vector<ListReply> repliesTo(const Ids& ids, const Answer& answer) const
   {
@@ -308,7 +312,8 @@ private:
     return replies;
   }
 
-  /// For each of this rank's points whether cells of other ranks have it, too.
+  /// For each point of this rank's part (by local index), whether cells of other ranks have it,
+  /// too. Kept in the mesh for the next query.
   const std::vector<std::uint8_t>& sharedPoints() const
   {
     ResidentMesh::SharedPoints& shared = this->Mesh.sharedPoints();
@@ -344,7 +349,8 @@ private:
     return shared.Are;
   }
 
-  /// For each other rank the points in the box of its part: only these may be that rank's, too.
+  /// For each other rank, the points (local indices) in the bounding box of its part. Only these
+  /// can be points of its part, too.
   std::vector<Ids> pointsInBoxes(const MeshPart& part) const
   {
     const std::vector<Bounds> boxes = this->Ranks.allGather(this->Mesh.mesh().Domain);

@@ -16,7 +16,7 @@ namespace tipp
 namespace
 {
 
-/// Decides what is in a region.
+/// Decides which points and cells are in a region.
 class RegionTest
 {
 public:
@@ -50,7 +50,8 @@ public:
       (this->IsBox || this->Shape.holds({ p.x, p.y }));
   }
 
-  /// Whether a cell that has an area or volume has a point of the region, or lies in it.
+  /// Whether a cell meets the region or, if `whole`, lies inside it. Cells without area or volume
+  /// do not.
   bool has(const Point2 (&t)[3], bool whole) const
   {
     if (!this->IsBox)
@@ -88,7 +89,8 @@ public:
   }
 
 private:
-  /// Seen from above a tetrahedron is what its faces are, and those on edge add nothing.
+  /// A tetrahedron's projection to x and y is the union of its faces' projections. Faces whose
+  /// projections have no area add nothing.
   bool columnHas(const Point3 (&t)[4], bool whole) const
   {
     bool hasAny = false;
@@ -127,7 +129,7 @@ private:
 
 using Pieces = std::pair<std::size_t, std::size_t>;
 
-/// In the pieces [first, last); a cell may come several times.
+/// The global ids of cells in the pieces [first, last). A cell may occur several times.
 std::vector<std::int64_t> cellsIn(
   const ResidentMesh& mesh, Pieces pieces, const Region& region, bool whole)
 {
@@ -184,7 +186,7 @@ std::vector<std::int64_t> sorted(std::vector<std::int64_t> ids)
   return ids;
 }
 
-/// The ids of all ranks, on the first one.
+/// The ids of all ranks, on the first rank.
 std::vector<std::int64_t> gathered(Communicator& ranks, std::vector<std::int64_t> own)
 {
   std::vector<std::int64_t> all;

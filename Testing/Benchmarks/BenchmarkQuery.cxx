@@ -324,7 +324,8 @@ void benchmarkStored(const std::string& path, std::int64_t queries, std::uint64_
 }
 
 #ifdef TIPP_USE_MPI
-/// Rings in a mesh of uniform points whose triangles lie on the ranks; each asks for its share.
+/// Computes rings in a mesh of uniform points whose triangles are distributed over the ranks. Each
+/// rank requests its share of the rings.
 void benchmarkRankRings(
   vtkMPIController* controller, std::int64_t points, std::int64_t queries, int repeat)
 {
@@ -366,7 +367,7 @@ void benchmarkRankRings(
     };
     for (int i = 0; i <= repeat; ++i)
     {
-      ranks.together([&] { once(i > 0); }); // the first time prepares the mesh
+      ranks.together([&] { once(i > 0); }); // the first run prepares the mesh, and is not measured
     }
     if (ranks.isFirst())
     {

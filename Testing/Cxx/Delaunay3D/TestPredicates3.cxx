@@ -271,16 +271,16 @@ TEST(Circumball, TouchingIsMeeting)
   EXPECT_FALSE(ball.meets({ { std::nextafter(1.0, 2.0), -1, -1 }, { 2, 1, 1 } }));
 }
 
-TEST(NormalAxis, IsTheLastOfEquallyLongOnes)
+TEST(NormalAxis, IsTheLastOfTheLargestComponents)
 {
   EXPECT_EQ(normalAxis({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }), 2);
   EXPECT_EQ(normalAxis({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 0, 1 }), 1);
   EXPECT_EQ(normalAxis({ 0, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }), 0);
-  EXPECT_EQ(normalAxis({ 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }), 2); // (1, 1, 1)
-  EXPECT_EQ(normalAxis({ 1, 0, 0 }, { 0, 1, 0 }, { 0, 1, 1 }), 1); // (1, 1, 0)
+  EXPECT_EQ(normalAxis({ 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }), 2); // the normal is (1, 1, 1)
+  EXPECT_EQ(normalAxis({ 1, 0, 0 }, { 0, 1, 0 }, { 0, 1, 1 }), 1); // the normal is (1, 1, 0)
 }
 
-TEST(NormalAxis, SeesDifferencesThatDoublesLose)
+TEST(NormalAxis, ComparesComponentsExactly)
 {
   // The normal is (-1, 0, 1 + 2^-52) in the first plane, and (-1 - 2^-52, 0, 1) in the second one.
   const double more = std::nextafter(1.0, 2.0);

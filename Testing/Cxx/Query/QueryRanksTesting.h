@@ -21,7 +21,7 @@ namespace tipp
 namespace test
 {
 
-/// Each rank queries its own share of the points, the last rank none.
+/// Each rank queries its own share of the points; the last rank has none.
 class QueryRanksTest : public testing::Test
 {
 protected:

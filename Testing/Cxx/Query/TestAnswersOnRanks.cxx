@@ -170,7 +170,7 @@ TEST_F(AnswersOnRanks, AFailureOfOneRankEndsAll)
   this->store(source, "grid:4x4");
   const ResidentMesh mesh(this->Path);
   this->Ranks.barrier();
-  if (this->Ranks.isFirst()) // the last piece is on the last rank
+  if (this->Ranks.isFirst()) // damages the last piece, which belongs to the last rank
   {
     const std::string piece = mesh.mesh().piecePath(15);
     std::string content = contentOf(piece);

@@ -55,7 +55,7 @@ protected:
       });
   }
 
-  /// Each rank queries its own polyline, the last rank none.
+  /// Each rank queries its own polyline; the last rank has none.
   void expectProfilesAsAlone(const ResidentMesh& mesh, const ResidentMesh& whole)
   {
     const double shift = 0.05 * this->Ranks.rank();
@@ -73,7 +73,7 @@ protected:
     }
   }
 
-  /// Borders and contours, which the first rank gets.
+  /// Borders and contours, which only the first rank receives.
   void expectLinesAsAlone(const ResidentMesh& mesh, const ResidentMesh& whole)
   {
     const BoundaryLoops border = boundaryOnRanks(this->Ranks, mesh);

@@ -74,7 +74,7 @@ NearCell triangle(std::int64_t id, const Point3 (&corners)[3], const Point3& fro
   return cell;
 }
 
-/// A pass over the cells must find the same cells and weights.
+/// Expects the same cells and weights from a locator and from a pass over the cells.
 void expectAsByLocator(const MeshPart& part, const std::vector<Point3>& points)
 {
   const AskedPoints asked = { points.data(), nullptr, std::int64_t(points.size()) };
@@ -193,7 +193,7 @@ TEST(OnePass, LocatesLikeLocatorsEvenIfCellsOverlap)
   }
 }
 
-TEST(OnePass, FindsPointsInRowsAsOthers)
+TEST(OnePass, FindsPointsInRowsLikeOtherPoints)
 {
   const std::vector<double> x = { -0.1, 0, 0.125, 0.3, 0.3125, 0.75, 1 };
   const std::vector<double> y = { 1.5, 1, 0.5, 0.4, 0.0625 };
@@ -237,7 +237,8 @@ TEST(OnePass, FindsPointsInRowsAsOthers)
   {
     expectAsByLocator(inMemory(makeSource(latticeTriangles(16, jitter))), plane);
   }
-  EXPECT_EQ(x.size(), PointRows<2>(std::int64_t(x.size()), 1, planeAt).size()); // one row
+  EXPECT_EQ(
+    x.size(), PointRows<2>(std::int64_t(x.size()), 1, planeAt).size()); // all points are in one row
   plane[1 + 2 * x.size()].x = -0.0;
   EXPECT_EQ(0U, PointRows<2>(std::int64_t(plane.size()), 1, planeAt).size());
 }
