@@ -117,6 +117,19 @@ RunStatistics inMemory(
   return run;
 }
 
+/// Adds the figures that follow the number of pieces, for a run out of core.
+template <typename Statistics>
+void addOutOfCore(const Statistics& statistics, RunStatistics& run)
+{
+  run.add("worker_vertices", "WorkerVertices", statistics.WorkerVertices);
+  run.add("boundary_bytes", "BoundaryBytes", std::int64_t(statistics.BoundaryBytes));
+  run.add("spilled_bytes", "SpilledBytes", std::int64_t(statistics.SpilledBytes));
+  run.add("mesh_bytes", "MeshBytes", std::int64_t(statistics.MeshBytes));
+  run.Totals.push_back({ "resumed", "Resumed", std::vector<bool>{ statistics.Resumed } });
+  run.add("threads", "Threads", statistics.Threads);
+  run.Lists = { phasesOf(statistics.Phases, true, "Phase", "Seconds") };
+}
+
 } // namespace
 
 RunStatistics statisticsOf(
@@ -150,13 +163,7 @@ RunStatistics statisticsOf(const OutOfCoreStatistics& statistics, bool isCounted
   run.add("rejected", "RejectedPoints", statistics.Rejected);
   run.add("pieces", "Pieces", statistics.Pieces);
   run.add("partitions", "Partitions", statistics.Partitions);
-  run.add("worker_vertices", "WorkerVertices", statistics.WorkerVertices);
-  run.add("boundary_bytes", "BoundaryBytes", std::int64_t(statistics.BoundaryBytes));
-  run.add("spilled_bytes", "SpilledBytes", std::int64_t(statistics.SpilledBytes));
-  run.add("mesh_bytes", "MeshBytes", std::int64_t(statistics.MeshBytes));
-  run.Totals.push_back({ "resumed", "Resumed", std::vector<bool>{ statistics.Resumed } });
-  run.add("threads", "Threads", statistics.Threads);
-  run.Lists = { phasesOf(statistics.Phases, true, "Phase", "Seconds") };
+  addOutOfCore(statistics, run);
   return run;
 }
 
@@ -168,13 +175,7 @@ RunStatistics statisticsOf(const OutOfCoreStatistics3& statistics)
   run.add("duplicates", "DuplicatePoints", statistics.Duplicates);
   run.add("rejected", "RejectedPoints", statistics.Rejected);
   run.add("pieces", "Pieces", statistics.Pieces);
-  run.add("worker_vertices", "WorkerVertices", statistics.WorkerVertices);
-  run.add("boundary_bytes", "BoundaryBytes", std::int64_t(statistics.BoundaryBytes));
-  run.add("spilled_bytes", "SpilledBytes", std::int64_t(statistics.SpilledBytes));
-  run.add("mesh_bytes", "MeshBytes", std::int64_t(statistics.MeshBytes));
-  run.Totals.push_back({ "resumed", "Resumed", std::vector<bool>{ statistics.Resumed } });
-  run.add("threads", "Threads", statistics.Threads);
-  run.Lists = { phasesOf(statistics.Phases, true, "Phase", "Seconds") };
+  addOutOfCore(statistics, run);
   return run;
 }
 
