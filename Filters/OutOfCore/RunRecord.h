@@ -11,16 +11,17 @@
 namespace tipp
 {
 
-/// The record of a run out of core in its work folder: how far the run is, and what another process
-/// needs to resume it. All that a record names is on disk before the record is written.
+/// The record of a run out of core, a file in its work folder: how far the run is, and the data
+/// that another process needs to resume it. A record is written after the files that it refers to
+/// are on disk.
 class RunRecord
 {
 public:
   using Save = std::function<void(SaveArchive&)>;
   using Load = std::function<void(LoadArchive&)>;
 
-  /// `path`: the mesh's; `identity`: equal for runs that make the same mesh from the same input.
-  /// The folders must outlive this.
+  /// `path`: of the mesh. `identity`: a text that is equal for runs that make the same mesh from
+  /// the same input. Both folders must outlive this object.
   RunRecord(const std::string& path, const std::string& identity, PendingFolder& pending,
     ScratchFolder& scratch)
     : Path(path)
@@ -30,26 +31,29 @@ public:
   {
   }
 
-  /// Reads the record of an earlier process, if there is one, and calls `begun` with what was given
-  /// to saveBegun(), or `whole` with what was given to saveWhole() or saveCounted(). Verifies a
-  /// complete mesh. Returns false if there is nothing to resume. Throws IOError if the record is
-  /// damaged or of another run and, unless `resumes`, if the mesh is not complete; the work is kept
-  /// then.
+  /// Reads the record of an earlier process, if there is one. Calls `begun` with the data that
+  /// saveBegun() saved, or `whole` with the data of saveWhole() or saveCounted(). Verifies the mesh
+  /// if it is complete. Returns false if there is nothing to resume. Throws IOError if the record
+  /// is damaged or belongs to another run, or if the mesh is incomplete and `resumes` is false; the
+  /// work folder is kept in these cases.
   bool resume(bool resumes, int threads, const Load& begun, const Load& whole);
 
-  /// The points are spilled; from now on the work is kept.
+  /// Records that the points are spilled. From now on the work folder is kept. Throws IOError, as
+  /// the following functions do.
   void saveBegun(const Save& save);
-  /// The mesh is complete. From now on only the mesh in the work folder is needed, and a resumed
-  /// run only has to move it to its path.
+  /// Records that the mesh is complete. From now on only the mesh in the work folder is needed, and
+  /// a resumed run only has to move it to its path. `fingerprint`: of the mesh.
   void saveWhole(std::uint64_t fingerprint, const Save& save);
-  /// The same for a run that makes no mesh.
+  /// Records that all triangles or tetrahedra are counted, for a run that makes no mesh.
   void saveCounted(const Save& save);
 
+  /// Returns whether the mesh is complete, or all is counted.
   bool isWhole() const { return this->Reached != Stage::Begun; }
-  /// Moves a whole mesh to its path, unless it is there; the rest of the work is no longer kept.
+  /// Moves a complete mesh to its path, unless it is already there. The rest of the work folder is
+  /// no longer kept.
   void putInPlace();
 
-  /// Whether the work stays when this process ends.
+  /// Sets whether the work folder is kept when this process ends.
   void keep(bool kept);
   bool isKept() const { return this->Pending.isKept(); }
 

@@ -16,25 +16,25 @@ namespace tipp
 {
 
 /// @file
-/// What an earlier process has left of a run's pieces, of triangles or tetrahedra.
+/// Files of a run's pieces, of triangles or tetrahedra, that an earlier process left.
 
-/// The files of a piece, besides its share of the mesh.
+/// The paths of a piece's files, besides its part of the mesh.
 struct StoredPiece
 {
   std::size_t Number;   ///< the piece's index in the mesh
-  std::string Result;   ///< a SectionFile: the piece's own points are triangulated
-  std::string Finished; ///< of finishOnce(): its border is written, too
+  std::string Result;   ///< the SectionFile written when the piece's own points are triangulated
+  std::string Finished; ///< the record of finishOnce(), written when the border is written, too
 };
 
-/// Returns for each piece whether an earlier process has left its result and its share of the mesh
-/// intact; reads all of them. Damaged pieces are removed, so that they are made again, and `warn`
-/// gets a sentence about them. `interior` reads the interior of a piece. Returns an empty list if
-/// `report` ended it.
+/// Returns for each piece whether an earlier process left its result and its part of the mesh
+/// undamaged. Reads all of these files. Removes damaged ones, so that their pieces are made again,
+/// and passes a sentence about them to `warn`. `interior`: reads the interior of a piece. Returns
+/// an empty list if `report` stopped the run.
 std::vector<char> verifyPieces(const PartitionedMesh& mesh, const std::vector<StoredPiece>& pieces,
   const std::function<PieceInterior(PartitionIndex)>& interior, int threads, const Report& report,
   const std::function<void(const std::string&)>& warn);
 
-/// The files of all pieces of a PieceWork or a PieceWork3, by their indices in the plan.
+/// Returns the files of all pieces of a PieceWork or PieceWork3, in the order of the plan.
 template <typename Work>
 std::vector<StoredPiece> storedPieces(const Work& work)
 {
@@ -46,8 +46,8 @@ std::vector<StoredPiece> storedPieces(const Work& work)
   return pieces;
 }
 
-/// Reads the finished piece from its record at `path`; if there is none, finishes the piece and
-/// writes the record. Throws IOError.
+/// Reads a finished piece from its record at `path`. If there is no record, calls finish() and
+/// writes its result as the record. Throws IOError.
 FinishedPiece finishOnce(const std::string& path, const std::function<FinishedPiece()>& finish);
 
 } // namespace tipp

@@ -23,7 +23,7 @@ enum SectionKind : std::uint32_t
   MessageSection
 };
 
-/// Adds the tetrahedra of the hull repair to borders.
+/// Collects the tetrahedra of the hull repair by the piece that owns them.
 struct LateCells : public FinalCellConsumer3
 {
   explicit LateCells(const PiecePlan3& plan)
@@ -52,7 +52,7 @@ void addCells(const BorderCells3& cells, PieceBorder& border)
   }
 }
 
-/// Sets the rows of the points of other pieces that a border's tetrahedra use.
+/// Sets the rows of the points that a border's tetrahedra use and that other pieces own.
 void setGhosts(const PieceWork3& work, const StoredResults3& results, PieceBorder& border)
 {
   std::vector<std::int64_t> ghosts = border.ghosts();
@@ -71,7 +71,7 @@ void setGhosts(const PieceWork3& work, const StoredResults3& results, PieceBorde
   }
 }
 
-/// Adds the border to a piece's file; `late`: tetrahedra of the hull repair.
+/// Adds the border to the file of a piece. `late`: tetrahedra of the hull repair.
 FinishedPiece finishPiece(const PieceWork3& work, const StoredResults3& results,
   PartitionIndex piece, const BordersByOwner3& late)
 {

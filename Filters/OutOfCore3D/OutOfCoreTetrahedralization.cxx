@@ -16,7 +16,7 @@
 namespace tipp
 {
 
-/// The statistics of a whole mesh that do not depend on the process.
+/// The statistics of the whole mesh, without those of this process.
 template <typename Archive>
 void serialize(Archive& archive, OutOfCoreStatistics3& statistics)
 {
@@ -30,12 +30,13 @@ namespace
 
 constexpr const char* representativeName = "RepresentativePointId";
 
-/// The user has stopped the run.
+/// Thrown if the user has stopped the run.
 struct Aborted
 {
 };
 
-/// Returns a text that is equal for runs that make the same mesh from the same input.
+/// Returns a text that is equal for runs that make the same mesh from the same input with the same
+/// options.
 std::string identityOf(const PointStream& input, const OutOfCoreOptions3& options)
 {
   std::string text = "TIPP out of core in space 1\n" + input.identity();
@@ -140,7 +141,7 @@ private:
     this->endPhase("spill");
   }
 
-  /// When the points are spilled.
+  /// Sets the statistics that are known once the points are spilled.
   void describePlan()
   {
     const InputSurvey3& survey = this->Plan->survey();
@@ -203,9 +204,10 @@ private:
   void requireSpace() const
   {
     const auto points = std::uint64_t(this->Plan->survey().finite());
-    // Of uniform points there are 6.77 tetrahedra a point.
+    // Uniform points give 6.77 tetrahedra per point.
     const std::uint64_t cells = 7 * (16 + 4 + 1 + 8 + (this->Options.Neighbors ? 32 : 0));
-    constexpr std::uint64_t results = 100; // what pieces of 250,000 points leave for others
+    // Bytes per point of results, for pieces of 250,000 points.
+    constexpr std::uint64_t results = 100;
     this->Scratch.requireSpace(this->Path,
       points * (24 + 8 + 1 + 8 * this->Rows.Attributes.size() + cells),
       points * (8 * this->Rows.Words + results));
@@ -270,7 +272,7 @@ private:
 
   void putInPlace()
   {
-    this->proceed(1); // too late to end it
+    this->proceed(1); // too late to stop the run
     this->Record.putInPlace();
     this->endPhase("publish");
   }

@@ -72,7 +72,7 @@ public:
   /// partitions per group.
   Tiling3(std::vector<Point3> sample, const PartitionGroups& groups);
 
-  /// Saves and restores a tiling without groups.
+  /// Saves or restores a tiling; its groups are not saved.
   template <typename Archive>
   friend void serialize(Archive& archive, Tiling3& tiling)
   {
