@@ -73,10 +73,10 @@ struct OutOfCoreOptions
   bool CountOnly = false;
   /// Takes the triangles instead of the mesh; with it CountOnly is to be set.
   TriangleConsumer* Consumer = nullptr;
-  /// Called after the first pass over the points, unless the run is resumed: segments between
-  /// points of the stream that have to be edges, none crossing another. Null: there are none. They
-  /// are written to a file, and read by piece; those that cut stay in memory.
-  std::function<std::vector<ConstraintSegment>()> Constraints;
+  /// Called before the first pass over the points, unless the run is resumed: segments between
+  /// points of the stream that have to be edges. Null: there are none. They are written to a file,
+  /// and read by piece; those that cut stay in memory.
+  std::function<SegmentSource&()> Constraints;
   /// Resumes a run of this path that was killed or has failed, if there is one; without, such a run
   /// is an error and is left as it is.
   bool Resume = false;

@@ -25,8 +25,9 @@ class VTKTIPPFILTERS_EXPORT PieceSegments
 public:
   /// Writes the file, whose path begins with `file`. The plan's coordinates are those of the
   /// segments times `factor`; the plan must outlive this. Throws IOError, as all methods do.
+  /// forEach(visit) visits all segments.
   PieceSegments(const std::string& file, const PiecePlan& plan, double factor,
-    const std::vector<ConstraintSegment>& segments, int threads);
+    const std::function<void(const VisitSegment&)>& forEach, int threads);
 
   /// Opens a file of which save() told.
   PieceSegments(
@@ -38,7 +39,10 @@ public:
   /// What a piece's constraints take in memory while the piece is triangulated.
   std::uint64_t bytesOf(PartitionIndex piece) const;
   /// What `segments` take on disk, if each is in one piece.
-  static std::uint64_t fileBytes(std::size_t segments) { return sizeof(Row) * segments; }
+  static std::uint64_t fileBytes(std::int64_t segments)
+  {
+    return sizeof(Row) * std::uint64_t(segments);
+  }
 
   /// The segments that may meet the piece's box.
   ConstraintSegments read(PartitionIndex piece) const;
@@ -57,7 +61,16 @@ private:
     std::int64_t Name;
   };
 
-  void writeRows(Spill& spill, const std::vector<ConstraintSegment>& segments, int threads) const;
+  struct Written
+  {
+    SpilledRows Rows;
+    std::vector<ConstraintSegment> Cutting;
+  };
+
+  PieceSegments(
+    const std::string& file, const PiecePlan& plan, double factor, const Written& written);
+  static Written write(const std::string& file, const PiecePlan& plan, double factor,
+    const std::function<void(const VisitSegment&)>& forEach, int threads);
   Box2 planned(const Box2& box) const;
   void visit(PartitionIndex piece, const std::function<void(const Row&)>& visit) const;
 

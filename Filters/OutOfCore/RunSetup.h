@@ -47,8 +47,7 @@ public:
   void requireMemory(const std::string& path, std::uint64_t limit) const;
 
   /// After the plan. `points`: the file that the points are spilled to. Throws IOError.
-  void setConstraints(
-    const std::string& points, const std::vector<ConstraintSegment>& segments, int threads);
+  void setConstraints(const std::string& points, SegmentSource& segments, int threads);
 
   /// Bytes that the taker needs on disk.
   std::uint64_t takenBytes() const;
