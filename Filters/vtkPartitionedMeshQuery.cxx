@@ -71,7 +71,7 @@ vtkExecutive* vtkPartitionedMeshQuery::CreateDefaultExecutive()
 {
   if (DefaultExecutivePrototype)
   {
-    return this->Superclass::CreateDefaultExecutive(); // an application's own, e.g. ParaView's
+    return this->Superclass::CreateDefaultExecutive(); // the application's own, such as ParaView's
   }
   auto* executive = tipp::CollectivePipeline::New();
   executive->Controller = [this]() { return this->Controller; };
@@ -141,7 +141,7 @@ int vtkPartitionedMeshQuery::RequestUpdateExtent(
   return 1;
 }
 
-/// The mesh, which is opened again if it has been changed.
+/// Returns the mesh, opened again if it or the properties have changed.
 std::shared_ptr<const tipp::ResidentMesh> vtkPartitionedMeshQuery::Open()
 {
   const std::lock_guard<std::mutex> lock(this->Opening);
@@ -168,7 +168,7 @@ std::shared_ptr<const tipp::ResidentMesh> vtkPartitionedMeshQuery::Open()
   return this->Mesh;
 }
 
-/// The arrays that are named, or all. Collective, if there are ranks.
+/// The names of the arrays to evaluate. Collective if there are several ranks.
 std::vector<std::string> vtkPartitionedMeshQuery::ArraysOf(
   tipp::Communicator* ranks, const tipp::ResidentMesh& mesh) const
 {
@@ -176,7 +176,7 @@ std::vector<std::string> vtkPartitionedMeshQuery::ArraysOf(
   std::vector<std::string> arrays = this->ArrayNames.empty() ? mesh.names() : this->ArrayNames;
   if (ranks)
   {
-    // A rank without cells does not know the arrays.
+    // A rank without cells does not know the arrays' names.
     for (const std::vector<std::string>& names :
       ranks->allGather(hasCells ? arrays : std::vector<std::string>()))
     {
@@ -186,7 +186,7 @@ std::vector<std::string> vtkPartitionedMeshQuery::ArraysOf(
   return arrays;
 }
 
-/// Collective, if there are several ranks.
+/// Evaluates the mesh at points. Collective if there are several ranks.
 tipp::MeshAnswer vtkPartitionedMeshQuery::Ask(
   const std::vector<tipp::Point3>& points, bool weights, bool arrays)
 {
@@ -211,7 +211,7 @@ tipp::MeshAnswer vtkPartitionedMeshQuery::Ask(
   return answer;
 }
 
-/// Reports what `work` throws.
+/// Runs `work` and reports its exceptions as errors. Returns 0 after an error, else 1.
 int vtkPartitionedMeshQuery::Try(const std::function<void()>& work)
 {
   try
@@ -234,7 +234,7 @@ int vtkPartitionedMeshQuery::Try(const std::function<void()>& work)
   }
 }
 
-/// The same for a call outside of the pipeline, which has not updated the source.
+/// The same for calls outside of the pipeline: updates the source first.
 int vtkPartitionedMeshQuery::Direct(const std::function<void()>& work)
 {
   return this->Try(

@@ -3,28 +3,29 @@
  * @class   vtkPartitionedMeshQuery
  * @brief   the values of a mesh at points, and what lies around its points and cells
  *
- * As a filter it has the ports of vtkProbeFilter: the first input is a data set whose points are
- * asked for; the second, the source, is the mesh, a vtkPointSet of triangles, tetrahedra or cells
- * that can be cut into these. Instead of a source the mesh can be FileName, a partitioned mesh on
- * disk of any size: its pieces are read when a point needs them and stay in memory within
- * MemoryLimit. The output is the first input with the mesh's arrays at its points, with "CellId",
- * the global id of the cell that holds each point (-1: outside), and the mask "vtkValidPointMask".
- * Floating-point point arrays are interpolated linearly, whole numbers are taken from the corner of
- * largest weight, cell arrays from the cell. Triangles are found by x and y, and their z is the
- * array "elevation" unless an array has this name.
+ * As a filter it has the ports of vtkProbeFilter: the first input is a data set, at whose points
+ * the mesh is evaluated; the second, the source, is the mesh, a vtkPointSet of triangles,
+ * tetrahedra or cells that can be divided into these. Instead of a source, FileName can name a
+ * partitioned mesh on disk of any size: its pieces are read when a point needs them and are kept in
+ * memory within MemoryLimit. The output is the first input with the mesh's arrays at its points,
+ * with "CellId", the global id of the cell that holds each point (-1: outside), and the mask
+ * "vtkValidPointMask". Floating-point point arrays are interpolated linearly, integer point arrays
+ * are taken from the corner of largest weight, cell arrays from the cell. Triangles are located by
+ * x and y; their z is sampled as the array "elevation", unless the mesh has an array of this name.
  *
- * Unlike vtkProbeFilter it has no tolerance. A point on an edge, a face or a corner belongs to one
- * cell by the rule of vtkRangeResampleFilter, decided exactly. So the values depend neither on
- * pieces, ranks and threads nor on the order of points.
+ * Unlike vtkProbeFilter it has no tolerance. A point on an edge, face or corner belongs to exactly
+ * one cell, by the rule of vtkRangeResampleFilter. So the values depend neither on pieces, ranks
+ * and threads nor on the order of points.
  *
- * The other methods ask the same mesh directly. They return 1, or after an error 0. Ids are global:
- * of a stored mesh those of its source, else indices. Several threads may call them at once.
+ * The other methods query the same mesh without the pipeline. They return 1, or 0 after an error.
+ * Ids are global: those of a stored mesh, or the source's global ids, or else indices into the
+ * source. Several threads may call these methods at once.
  *
- * With a Controller of several ranks all must update the filter, or call Locate(), Interpolate(),
- * InterpolateOnOwners(), ZoneStatistics(), Descend() and the methods from Neighbors() to Profile(),
- * together. They share out the pieces of the stored
- * mesh, or each has a part of the source; every rank's points and ids are answered by all ranks'
- * cells. A rank may ask for nothing, or have no cells.
+ * With a Controller of several ranks, all ranks must update the filter together, and must call the
+ * collective methods together: Locate(), Interpolate(), InterpolateOnOwners(), ZoneStatistics(),
+ * Descend() and the methods from Neighbors() to Profile(). Each rank handles some pieces of the
+ * stored mesh, or has a part of the source; every rank's query is answered from the cells of all
+ * ranks. A rank may pass no points or ids, and may have no cells.
  *
  * @sa
  * vtkProbeFilter vtkRangeResampleFilter vtkPartitionedUnstructuredReader
@@ -68,7 +69,8 @@ public:
 
   ///@{
   /**
-   * The mesh, if it is in memory: a vtkPointSet, or a composite of which one part has cells.
+   * The mesh, if it is in memory: a vtkPointSet, or a composite data set of which one part has
+   * cells.
    */
   void SetSourceConnection(vtkAlgorithmOutput* source) { this->SetInputConnection(1, source); }
   void SetSourceData(vtkDataObject* source) { this->SetInputData(1, source); }
@@ -77,8 +79,8 @@ public:
 
   ///@{
   /**
-   * The mesh, if it is stored: the folder of a partitioned mesh or the index in it. It takes the
-   * place of a source. Default: none.
+   * The mesh, if it is stored: the folder of a partitioned mesh, or the index in it. It takes
+   * precedence over a source. Default: none.
    */
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
@@ -86,8 +88,8 @@ public:
 
   ///@{
   /**
-   * Bytes for the pieces of a stored mesh that are in memory, and what is made to search them. A
-   * query that needs more for one piece is an error. Default: 2^30.
+   * The memory limit, in bytes, for pieces of a stored mesh and their search structures. A query
+   * that needs more for a single piece is an error. Default: 2^30.
    */
   vtkSetClampMacro(MemoryLimit, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
   vtkGetMacro(MemoryLimit, vtkTypeInt64);
@@ -95,7 +97,8 @@ public:
 
   ///@{
   /**
-   * The step of a stored mesh's arrays that vary in time, counted from 0. Default: 0.
+   * The time step at which a stored mesh's time-varying arrays are evaluated, as an index from 0.
+   * Default: 0.
    */
   vtkSetClampMacro(Step, int, 0, VTK_INT_MAX);
   vtkGetMacro(Step, int);
@@ -103,7 +106,7 @@ public:
 
   ///@{
   /**
-   * The arrays to evaluate, by name. Default: none are named, and all are evaluated.
+   * The names of the arrays to evaluate. Default: an empty list, which evaluates all arrays.
    */
   void AddArray(const char* name);
   void ClearArrays();
@@ -113,7 +116,7 @@ public:
 
   ///@{
   /**
-   * The value of floating-point arrays outside of the mesh; those of whole numbers have 0 there.
+   * The value of floating-point arrays at points outside of the mesh; integer arrays are 0 there.
    * Default: 0, as in vtkProbeFilter.
    */
   vtkSetMacro(NullValue, double);
@@ -122,7 +125,7 @@ public:
 
   ///@{
   /**
-   * Whether the output also has the point, cell and field arrays of the first input. Default: on
+   * Whether the first input's point, cell and field arrays are passed to the output. Default: on
    * for field arrays, off for the others, as in vtkProbeFilter.
    */
   vtkSetMacro(PassPointArrays, bool);
@@ -146,7 +149,7 @@ public:
 
   ///@{
   /**
-   * Number of threads. Default 0: as many as OpenMP would take.
+   * Number of threads. Default 0: OpenMP's default.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
   vtkGetMacro(NumberOfThreads, int);
@@ -154,55 +157,60 @@ public:
 
   ///@{
   /**
-   * The ranks that work together. Default: the global controller; null: this process alone.
+   * The ranks that work together. The global controller by default. With null this process works
+   * alone.
    */
   virtual void SetController(vtkMultiProcessController* controller);
   vtkGetObjectMacro(Controller, vtkMultiProcessController);
   ///@}
 
   /**
-   * Finds the cells that hold points: tuples of two or three coordinates. `weights`, which may be
-   * null, gets the barycentric weights of each cell's corners. Collective.
+   * Finds the cells that contain points, given as tuples of two or three coordinates. `cells` gets
+   * one global id per point, -1 outside. `weights`, which may be null, gets the barycentric weights
+   * of each cell's corners. Collective.
    */
   int Locate(vtkDataArray* points, vtkIdTypeArray* cells, vtkDoubleArray* weights = nullptr);
 
   /**
-   * Adds the mesh's arrays at points to `values`; outside floating-point numbers are NaN. `cells`,
-   * which may be null, gets the cells that hold the points. Collective.
+   * Evaluates the mesh's arrays at points and adds them to `values`; outside of the mesh,
+   * floating-point values are NaN. `cells`, which may be null, gets the cells that contain the
+   * points. Collective.
    */
   int Interpolate(
     vtkDataArray* points, vtkDataSetAttributes* values, vtkIdTypeArray* cells = nullptr);
 
   /**
-   * As Interpolate(), but the values stay on the rank that has the cell. `values` gets the points
-   * of all ranks in this rank's cells, with the mesh's arrays, "CellId", and the "AskingRank" and
-   * "AskingId", which tell whose point it is and its number there. Points outside of the mesh are
-   * on no rank. Collective.
+   * Like Interpolate(), but the values stay on the rank that has the cell. `values` gets all ranks'
+   * points that lie in this rank's cells, with the mesh's arrays, "CellId", and the rank that
+   * passed each point ("AskingRank") and its index there ("AskingId"). Points outside of the mesh
+   * are on no rank. Collective.
    */
   int InterpolateOnOwners(vtkDataArray* points, vtkPolyData* values);
 
   /**
-   * Names of the arrays that the mesh has, "elevation" among them, are added to `names`.
+   * Adds the names of the mesh's arrays, including "elevation", to `names`.
    */
   int GetNamesOfArrays(vtkStringArray* names);
 
   /**
-   * 2 for a mesh of triangles, 3 for tetrahedra, 0 after an error.
+   * Returns 2 for a mesh of triangles, 3 for tetrahedra, 0 after an error.
    */
   int GetMeshDimension();
 
   /**
-   * For each cell and each of its corners the cell across the face opposite to that corner; -1:
-   * there is none. This and the methods down to Profile() are collective; parts of a source on
-   * several ranks need global ids of points and cells, and lines are made on the first rank.
+   * Finds, for each cell and each of its corners, the cell across the opposite edge or face, or -1.
+   * `neighbors` gets three or four ids per cell. This and the following methods up to Profile() are
+   * collective. A source that is distributed over several ranks needs global ids of points and
+   * cells. Lines are output on the first rank.
    */
   int Neighbors(vtkIdTypeArray* cells, vtkIdTypeArray* neighbors);
 
   ///@{
   /**
-   * Lists of ids, ascending, one after the other; list i is at the indices starts[i] ...
-   * starts[i + 1] - 1 of `ids`. Star: the cells at each point. RingOfPoints: the points that 1 to k
-   * edges lead to. RingOfCells: the cells in 1 to k steps, each to a cell that shares a point.
+   * Finds a list of ids, ascending, for each point or cell: ids[starts[i]] to ids[starts[i + 1] -
+   * 1]. Star: the cells at each point. RingOfPoints: the points within 1 to k edges of each point.
+   * RingOfCells: the cells within 1 to k steps of each cell, where a step leads to any cell that
+   * shares a point.
    */
   int Star(vtkIdTypeArray* points, vtkIdTypeArray* starts, vtkIdTypeArray* ids);
   int RingOfPoints(vtkIdTypeArray* points, int k, vtkIdTypeArray* starts, vtkIdTypeArray* ids);
@@ -210,48 +218,50 @@ public:
   ///@}
 
   /**
-   * Makes closed lines of the border of a mesh of triangles, which lies on their left. The points
-   * have "GlobalPointIds".
+   * Extracts the border of a mesh of triangles as closed lines, with the mesh on their left. The
+   * points have "GlobalPointIds".
    */
   int Boundary(vtkPolyData* loops);
 
   /**
-   * The connected component of each cell, by common faces, and the number of cells of each
-   * component. Components are numbered by their lowest cell. `cells`, which may be null, gets the
-   * ids of the cells. On several ranks each gets its own cells, and all get the sizes.
+   * Finds the connected component of each cell (connected by edges of triangles or faces of
+   * tetrahedra) and the number of cells of each component. Components are numbered from 0 in the
+   * order of their lowest cell ids. `cells`, which may be null, gets the ids of the cells. On
+   * several ranks each rank gets the components of its own cells, and all get the sizes.
    */
   int Components(vtkIdTypeArray* ofCells, vtkIdTypeArray* sizes, vtkIdTypeArray* cells = nullptr);
 
   /**
-   * Makes lines where a component of an array of points has one of the levels, on a mesh of
-   * triangles. Lines go on across pieces, with the higher side on the left; the array of that name
-   * has each line's level.
+   * Computes the contour lines of a component of a point array on a mesh of triangles. Lines
+   * continue across pieces, with higher values on the left; the output array of the same name has
+   * each line's level.
    */
   int Contours(const char* array, int component, vtkDoubleArray* levels, vtkPolyData* lines);
 
   /**
-   * Samples the arrays along a polyline, every `spacing` and at the polyline's corners; with
-   * spacing 0 at the corners and where the polyline crosses an edge of triangles or a face of
-   * tetrahedra. The line's points have "Distance" along x and y, and "CellId"; with spacing 0 this
-   * is the cell up to the next point, -1 before a gap.
+   * Samples the arrays along a polyline: at its corners and every `spacing`, in the units of the
+   * points; or, with spacing 0, at its corners and where it crosses an edge of a triangle or a face
+   * of a tetrahedron. The output points have "Distance", measured along x and y, and "CellId". With
+   * spacing 0, CellId is the cell between a point and the next one, -1 before a gap.
    */
   int Profile(vtkDataArray* polyline, double spacing, vtkPolyData* line);
 
   /**
-   * Finds the nearest location of the mesh to each point, its cell (-1: the mesh has none) and the
-   * distance, 0 inside. Of cells that are as near the one with the lowest id counts. Triangles are
-   * measured in x and y. `locations` and `distances` may be null. On several ranks this and the
-   * regions below need a stored mesh; each rank asks by itself.
+   * Finds the location on the mesh nearest to each point, its cell (-1 if the mesh has no cells)
+   * and the distance (0 inside). Of several nearest cells the one with the lowest id is returned.
+   * For triangles, distances are measured in x and y. `locations` and `distances` may be null. On
+   * several ranks this and the following methods for regions need a stored mesh; they are not
+   * collective.
    */
   int Closest(vtkDataArray* points, vtkIdTypeArray* cells, vtkDoubleArray* locations = nullptr,
     vtkDoubleArray* distances = nullptr);
 
   ///@{
   /**
-   * The cells that have a point of a box, or of polygons over triangles, with their border, or
-   * with `whole` that lie in it; or the mesh's points there. The box is that of GetBounds(); z
-   * counts for tetrahedra. The polygons are the polygons and closed lines of a data set; a cell
-   * array "IsHole" that is not 0 makes holes.
+   * Finds the cells that share a point with a closed box or, for triangles, with closed polygons,
+   * or with `whole` only the cells inside; or the mesh's points inside. The box has the order of
+   * GetBounds(); its z range applies to tetrahedra only. Polygons are given as polygons and closed
+   * lines; those with a nonzero cell array "IsHole" are holes.
    */
   int CellsInBox(const double box[6], bool whole, vtkIdTypeArray* cells);
   int CellsInPolygons(vtkPolyData* polygons, bool whole, vtkIdTypeArray* cells);
@@ -260,21 +270,22 @@ public:
   ///@}
 
   /**
-   * Adds the arrays "Cells", "Area", "Minimum", "Maximum", "Mean", "Integral" and "VolumeAbove" to
-   * `statistics`, of a component of an array on the part of the triangles in each zone; what cells
-   * have in it is cut exactly at its border. A zone is a polygon, or all that have its number in
-   * the cell array "ZoneId"; see CellsInPolygons() for holes. The volume is that above `level`.
-   * Collective: the first rank's zones count, and every rank gets the statistics of all cells.
+   * Computes statistics of a component of an array over the part of the triangles inside each zone,
+   * clipped exactly at the zone's border. Adds the arrays "Cells", "Area", "Minimum", "Maximum",
+   * "Mean", "Integral" and "VolumeAbove" (the volume above `level`) to `statistics`, one tuple per
+   * zone. A zone is a polygon, or all polygons with the same value of the cell array "ZoneId"; see
+   * CellsInPolygons() for holes. Collective: the first rank's zones are used, and every rank gets
+   * the statistics over all cells.
    */
   int ZoneStatistics(vtkPolyData* zones, const char* array, int component, double level,
     vtkDataSetAttributes* statistics);
 
   /**
-   * Follows the steepest descent of a component of an array of points, on a mesh of triangles, from
-   * each point to a pit. Each line has as cell arrays "StartId", the number of its first point
-   * among `points`, and "PitId", the mesh's point that it ends at, or -1. The array of that name
-   * has the values along it. Collective: each rank gets the lines of its points; several ranks need
-   * a stored mesh.
+   * Follows the steepest descent of a component of a point array, on a mesh of triangles, from each
+   * point to a pit. Each line has the cell arrays "StartId", the index of its start in `points`,
+   * and "PitId", the id of the mesh point that it ends at, or -1. The point array of the same name
+   * has the values along the line. Collective: each rank gets the lines of its own points; several
+   * ranks need a stored mesh.
    */
   int Descend(vtkDataArray* points, const char* array, int component, vtkPolyData* lines);
 
@@ -316,7 +327,7 @@ private:
 
   std::mutex Opening;
   std::shared_ptr<const tipp::ResidentMesh> Mesh;
-  std::string Opened; ///< what Mesh was made of
+  std::string Opened; ///< identifies the input and settings that Mesh was built from
 };
 
 #endif

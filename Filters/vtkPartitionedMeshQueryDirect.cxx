@@ -102,7 +102,7 @@ void addColumn(vtkDataSetAttributes* table, const char* name, const std::vector<
 
 } // namespace
 
-/// The mesh, which must be whole in this process.
+/// Returns the mesh; throws unless all of it is accessible to this process.
 std::shared_ptr<const tipp::ResidentMesh> vtkPartitionedMeshQuery::OpenWhole()
 {
   const auto mesh = this->Open();
@@ -133,7 +133,7 @@ int vtkPartitionedMeshQuery::GetMeshDimension()
   return this->Direct([&] { dimension = this->Open()->mesh().CellSize - 1; }) ? dimension : 0;
 }
 
-/// Asks the mesh, or with the ranks all of their meshes.
+/// Queries this process's mesh or, with several ranks, those of all ranks.
 int vtkPartitionedMeshQuery::Around(
   const std::function<void(tipp::Communicator*, const tipp::ResidentMesh&)>& ask)
 {
@@ -158,7 +158,7 @@ int vtkPartitionedMeshQuery::Neighbors(vtkIdTypeArray* cells, vtkIdTypeArray* ne
       const std::vector<std::int64_t> asked = idsOf(cells);
       const std::vector<std::int64_t> found =
         ranks ? tipp::neighborsOnRanks(*ranks, mesh, asked) : tipp::neighborsOf(mesh, asked);
-      // A rank without cells does not know how many corners they have.
+      // A rank without cells does not know how many corners cells have.
       copyTo(
         neighbors, found, asked.empty() ? mesh.mesh().CellSize : int(found.size() / asked.size()));
     });

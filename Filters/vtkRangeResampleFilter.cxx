@@ -90,7 +90,7 @@ int vtkRangeResampleFilter::FillInputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
-/// SamplingDimensions, with numbers where they are 0.
+/// SamplingDimensions, with zeros replaced by the chosen numbers.
 std::array<int, 3> vtkRangeResampleFilter::Dimensions(const std::array<double, 6>& bounds,
   const std::vector<vtkPointSet*>& meshes, tipp::Communicator& ranks) const
 {
@@ -111,7 +111,7 @@ int vtkRangeResampleFilter::RequestInformation(
   {
     const std::array<double, 3> delta = tipp::toArray(this->Delta);
     const bool byDelta = delta[0] > 0 || delta[1] > 0 || delta[2] > 0;
-    // Given SamplingDimensions need no bounds; any valid ones will do.
+    // Bounds are not needed if all SamplingDimensions are given; any valid ones will do.
     std::array<double, 6> bounds = { 0, 1, 0, 1, 0, 1 };
     if (!this->UseInputBounds)
     {

@@ -4,48 +4,49 @@
  * @brief   resamples a range of a triangle or tetrahedron mesh to a regular grid, in parallel
  *
  * vtkRangeResampleFilter evaluates the arrays of a mesh at the samples `bounds.min + i * delta` of
- * a box-shaped range. Every sample inside the closed mesh is found and none outside it: which cell
- * contains a sample is decided exactly, and a sample on an edge or a corner between cells is
- * answered by the one that contains it after a move by (e, e^2, e^3), e being as small as can be.
- * On the far border of the mesh the mirrored moves follow, in a fixed order. The image is the same,
- * bit for bit, for every NumberOfThreads, number of ranks, number of pieces, order of the cells and
- * order of the points within them.
+ * a box-shaped range. A sample gets values if and only if it lies in the closed mesh; which cell
+ * contains it is decided exactly. A sample on a face, edge or corner shared by several cells takes
+ * its values from the cell that contains it after a symbolic move by (e, e^2, e^3) with
+ * infinitesimal e. If no cell does, as on the far border of the mesh, the mirrored moves are tried
+ * in a fixed order. The image is the same, bit for bit, for every NumberOfThreads, number of ranks,
+ * number of pieces, order of the cells and order of the points within them.
  *
  * The input is a vtkUnstructuredGrid, a vtkPolyData or another vtkPointSet, or a composite data set
- * of those, such as vtkPartitionedDataSet. Triangles and tetrahedra are taken as they are. Other
- * surface and volume cells are cut into them; cell arrays then come from the cell that was cut.
- * Polygons must be planar and convex, hexahedra, wedges and pyramids convex; all are linear within
- * the pieces. If there is a cell with a volume, samples are in space and surface cells are ignored
- * with a warning. If there are only surface cells, they are sampled in projection: along the axis
- * that has one sample (z before y before x if more than one has), or along z, with the values
- * repeated along it, if none has. So a noise in z, or a slope, loses no samples.
+ * of those, such as vtkPartitionedDataSet. Triangles and tetrahedra are used as they are. Other
+ * surface and volume cells are divided into them; cell arrays then come from the original cell.
+ * Polygons must be planar and convex; hexahedra, wedges and pyramids must be convex. Values are
+ * interpolated linearly in each simplex. If the input has a volume cell, it is sampled in space,
+ * and surface cells are ignored with a warning. If it has only surface cells, they are projected
+ * along the axis that has one sample (z before y before x if several have), or along z, with the
+ * values repeated along it, if none has. So the z of a rough or sloping surface does not matter.
  *
  * The output is a vtkImageData with, as point data, all selected arrays of the points and the cells
- * - floating-point numbers of points interpolated linearly in double precision and rounded once;
- * - whole numbers of points from the corner of largest weight;
- * - numbers of cells from the cell;
- * - of a surface its z as "elevation", see SampleElevation;
+ * - floating-point point arrays, interpolated linearly in double precision and rounded once;
+ * - integer point arrays, taken from the corner of largest weight;
+ * - cell arrays, taken from the cell;
+ * - for a surface, its z as "elevation" (see SampleElevation);
  *
- * and "vtkValidPointMask" (char: 1 where a cell answers, 0 elsewhere) and "vtkGhostType", which
- * blanks the samples that no cell answers and the image's cells that have such a corner. Where no
- * cell answers, the arrays have the NullValue.
+ * It also has "vtkValidPointMask" (char: 1 for a sample in a cell, else 0) and "vtkGhostType",
+ * which blanks the samples outside of all cells and the image's cells that have such a corner.
+ * Samples outside of all cells have NullValue in the other arrays.
  *
- * Where cells overlap, the one of the lowest hash of its coordinates answers; of copies of a cell
- * the first, so they may differ in their values only at that price. Cells without an area or a
- * volume, and those with a coordinate that is NaN or infinite, answer nothing.
+ * Where cells overlap, the cell with the lowest hash of its coordinates is sampled; among cells
+ * with the same coordinates, the first one, so the result depends on the order of cells only where
+ * copies of a cell have different values. Degenerate cells and cells with a NaN or infinite
+ * coordinate are never sampled.
  *
- * With a controller of more than one rank every rank asks its input for its own piece, and the
- * samples are exchanged, so that each rank has the extent that is asked of it, or rank 0 all. With
- * NumberOfInputPieces above 1 the input is asked for that many pieces, one after another, and only
- * one at a time must fit into memory. Both need a source that honours requests for pieces. If a
- * rank fails or is stopped, all end, with its reason.
+ * With a controller of several ranks, every rank requests its own piece of the input, and the
+ * samples are exchanged so that each rank gets the extent requested from it (or rank 0 gets
+ * everything, see GatherOnRoot). With NumberOfInputPieces above 1, each rank requests that many
+ * pieces one after another, so only one of them has to fit into memory. Both need a source that
+ * honours piece requests. If one rank fails or is aborted, all ranks stop and report its error.
  *
- * GetStatistics() is a vtkTable about the last run of this rank, whose field data has, one value
- * each, Cells, IgnoredCells, VisitedCells (whose boxes have samples), Tests (samples in those
- * boxes), ExactTests, OverlappingClaims, Samples, SamplesHit, Threads and Device, and, of one
- * length, PhaseName and PhaseSeconds (wall-clock seconds; those to and from an OpenCL device are
- * apart). On an OpenCL device VisitedCells, Tests and ExactTests count the cells that it leaves to
- * the threads.
+ * GetStatistics() is a vtkTable about the last run on this rank. Its field data has arrays of one
+ * value each: Cells, IgnoredCells, VisitedCells (whose boxes have samples), Tests (samples in those
+ * boxes), ExactTests, OverlappingClaims, Samples, SamplesHit, Threads and Device. PhaseName and
+ * PhaseSeconds (wall-clock seconds) have one value for each phase; transfers to and from an OpenCL
+ * device are phases of their own. With an OpenCL device VisitedCells, Tests and ExactTests count
+ * only the cells that the device leaves to the CPU's threads.
  *
  * Related publication: *Efficient Generating and Processing of Large-Scale Unstructured Meshes*,
  * dissertation, University of Mississippi, chapter 4.4.
@@ -83,13 +84,13 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * What computes.
+   * The device that samples the mesh.
    */
   enum DeviceType
   {
-    DEVICE_AUTO = 0,   ///< OpenCL on a GPU if the work pays for the transfer, else OpenMP
+    DEVICE_AUTO = 0,   ///< OpenCL on a GPU if the work is worth the transfer, else OpenMP
     DEVICE_OPENMP = 1, ///< the threads of this process
-    DEVICE_OPENCL = 2  ///< an OpenCL device; if there is none or it fails, OpenMP, with a warning
+    DEVICE_OPENCL = 2  ///< an OpenCL device; if there is none or it fails, OpenMP with a warning
   };
 
   ///@{
@@ -113,10 +114,9 @@ public:
   ///@{
   /**
    * The number of samples along each axis, the first at the range's minimum and the last at its
-   * maximum. (10, 10, 10) by default. An axis with a Delta ignores it. 0 along an axis, but not
-   * along all, means as many as put the samples as far apart as along the first axis that has a
-   * number, or one along z for a mesh of surface cells. For that the input is updated as soon as
-   * the extent of the output is asked for.
+   * maximum. (10, 10, 10) by default. Ignored along an axis with a Delta. 0 along some but not all
+   * axes chooses the number that gives the same spacing as along the first axis that has a number,
+   * or one sample along z for a mesh of surface cells; RequestInformation() then updates the input.
    */
   vtkSetVector3Macro(SamplingDimensions, int);
   vtkGetVector3Macro(SamplingDimensions, int);
@@ -124,9 +124,8 @@ public:
 
   ///@{
   /**
-   * The distance between samples along each axis, from the range's minimum on. 0 (the default): as
-   * SamplingDimensions tells. With UseInputBounds the input is updated as soon as the extent of the
-   * output is asked for.
+   * The distance between samples along each axis, from the range's minimum on. 0 (the default):
+   * SamplingDimensions applies. With UseInputBounds, RequestInformation() then updates the input.
    */
   vtkSetVector3Macro(Delta, double);
   vtkGetVector3Macro(Delta, double);
@@ -134,9 +133,9 @@ public:
 
   ///@{
   /**
-   * Which arrays are sampled. All by default; set a name to off, or call DisableAllArrays() and
-   * SetUnknownArraySetting(0), then set names to on. A name to be sampled that the input has not
-   * makes a warning.
+   * Which arrays are sampled. All by default. Either disable arrays by name, or call
+   * DisableAllArrays() and SetUnknownArraySetting(0) and enable some. A warning is issued if the
+   * input lacks an enabled array.
    */
   vtkGetObjectMacro(PointDataArraySelection, vtkDataArraySelection);
   vtkGetObjectMacro(CellDataArraySelection, vtkDataArraySelection);
@@ -144,8 +143,8 @@ public:
 
   ///@{
   /**
-   * What arrays have where no cell answers; the nearest number there is, for whole numbers, and 0
-   * for NaN. 0 by default.
+   * The value of samples outside of all cells. In integer arrays it is rounded to the nearest value
+   * of their type, and NaN becomes 0. 0 by default.
    */
   vtkSetMacro(NullValue, double);
   vtkGetMacro(NullValue, double);
@@ -153,8 +152,9 @@ public:
 
   ///@{
   /**
-   * With UseNoDataValue (off by default) a cell answers nothing if a selected point array has the
-   * NoDataValue at one of its corners: models mark dry nodes so. -99999 by default.
+   * With UseNoDataValue (off by default) a cell is not sampled if a selected point array has the
+   * value NoDataValue at one of its corners, which is how storm-surge models mark dry nodes. -99999
+   * by default.
    */
   vtkSetMacro(UseNoDataValue, bool);
   vtkGetMacro(UseNoDataValue, bool);
@@ -165,10 +165,9 @@ public:
 
   ///@{
   /**
-   * Whether the z of a surface is sampled too, as the point array "elevation", beside the other
-   * arrays. On by default. It is left out where all points have the same z, where the input has an
-   * array of that name, where PointDataArraySelection disables it, and where surfaces are not
-   * sampled along z.
+   * Whether the z of a surface is sampled, too, as the point array "elevation". On by default. It
+   * is omitted if all points have the same z, if the input has an array of that name, if
+   * PointDataArraySelection disables it, or if the surface is not projected along z.
    */
   vtkSetMacro(SampleElevation, bool);
   vtkGetMacro(SampleElevation, bool);
@@ -186,8 +185,8 @@ public:
 
   ///@{
   /**
-   * What computes: DEVICE_AUTO (the default), DEVICE_OPENMP or DEVICE_OPENCL. The results of the
-   * devices agree to 1e-12 of the largest value at the corners.
+   * A DeviceType; DEVICE_AUTO by default. The results of the devices differ by at most 1e-12 of the
+   * largest value at the cell's corners.
    */
   vtkSetClampMacro(Device, int, DEVICE_AUTO, DEVICE_OPENCL);
   vtkGetMacro(Device, int);
@@ -195,8 +194,8 @@ public:
 
   ///@{
   /**
-   * The OpenCL device by its number or by a part of its name; see GetDeviceChoices(). -1 and
-   * null (the defaults): the first GPU with double precision, or else the first device.
+   * The OpenCL device, by its index or a part of its name; see GetDeviceChoices(). -1 and null (the
+   * defaults): the first GPU with double precision, else the first device.
    */
   vtkSetMacro(DeviceIndex, int);
   vtkGetMacro(DeviceIndex, int);
@@ -205,20 +204,20 @@ public:
   ///@}
 
   /**
-   * Device, DeviceIndex and DeviceName in one, as `tipp resample --device` takes them: "auto",
-   * "openmp", "opencl", "opencl:INDEX" or "opencl:NAME".
+   * Sets Device, DeviceIndex and DeviceName from one string, as `tipp resample --device` does:
+   * "auto", "openmp", "opencl", "opencl:INDEX" or "opencl:NAME".
    */
   void SetDeviceChoice(const char* choice);
 
   /**
-   * What SetDeviceChoice() can be given on this machine: "auto", "openmp" and one for each OpenCL
-   * device with double precision.
+   * The valid choices for SetDeviceChoice() on this machine: "auto", "openmp" and one for each
+   * OpenCL device with double precision. The filter owns the array.
    */
   vtkStringArray* GetDeviceChoices();
 
   ///@{
   /**
-   * OpenMP threads. 0 (the default): OpenMP's choice.
+   * The number of OpenMP threads. 0 (the default): OpenMP's choice.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   vtkGetMacro(NumberOfThreads, int);
@@ -226,7 +225,7 @@ public:
 
   ///@{
   /**
-   * How many pieces each rank asks its input for, one after the other. 1 by default. With more,
+   * How many pieces each rank requests from its input, one after another. 1 by default. With more,
    * UseInputBounds must be off.
    */
   vtkSetClampMacro(NumberOfInputPieces, int, 1, VTK_INT_MAX);
@@ -235,8 +234,8 @@ public:
 
   ///@{
   /**
-   * The ranks among which the mesh is distributed. The global controller by default; null means
-   * this process alone.
+   * The ranks among which the mesh is distributed. The global controller by default. With null this
+   * process works alone.
    */
   virtual void SetController(vtkMultiProcessController*);
   vtkGetObjectMacro(Controller, vtkMultiProcessController);
@@ -245,7 +244,7 @@ public:
   ///@{
   /**
    * Whether rank 0 gets the whole image and the others an empty one. Off by default: each rank gets
-   * the extent asked of it.
+   * the extent requested from it.
    */
   vtkSetMacro(GatherOnRoot, bool);
   vtkGetMacro(GatherOnRoot, bool);
@@ -253,7 +252,7 @@ public:
   ///@}
 
   /**
-   * About the last run: see above.
+   * The statistics of the last run, see above. The filter owns the table.
    */
   vtkTable* GetStatistics();
 

@@ -205,7 +205,7 @@ bool vtkTIPPDelaunay2D::Execute(
   return true;
 }
 
-/// Returns the input, or it and the source's new points.
+/// Returns the input or, with MergeSourcePoints, the input followed by the source's new points.
 vtkSmartPointer<vtkPointSet> vtkTIPPDelaunay2D::ReadSource(vtkPointSet* input, vtkPolyData* source,
   vtkAbstractTransform* toPlane, tipp::SourceConstraints& constraints)
 {
@@ -259,7 +259,7 @@ tipp::ConstrainedTriangulation vtkTIPPDelaunay2D::Triangulate(
   if (!result.Mesh.Aborted)
   {
     result = tipp::triangulatePoints(projected.view(), request, warnings);
-    // One partition alone is triangulated without a report.
+    // A single partition is triangulated without progress reports.
     result.Mesh.Aborted = result.Mesh.Aborted || !monitor(1);
   }
   for (const std::string& warning : result.Mesh.Aborted ? std::vector<std::string>() : warnings)

@@ -4,79 +4,84 @@
  * @brief   exact 2D Delaunay triangulation of many points, in parallel
  *
  * vtkTIPPDelaunay2D triangulates the points of any vtkPointSet in a plane: the x-y plane (z is
- * ignored, but kept), the plane that Transform takes them to, or the plane that fits them best. It
- * stands in for vtkDelaunay2D: same property names, same meanings, same numeric values.
+ * ignored but kept), the plane that Transform maps them to, or the plane that fits them best. It is
+ * a drop-in replacement for vtkDelaunay2D: its properties have the same names, meanings and numeric
+ * values. The differences are listed below.
  *
  * The result is exact. All predicates are evaluated without rounding error, the border is the
  * convex hull, every distinct point is a vertex, and every triangle is counter-clockwise in the
- * plane. Where four or more points lie on one circle, the choice between the possible
- * triangulations depends on the coordinates alone, so that the set of triangles is the same for
- * every order of the points, NumberOfPartitions, Schedule and NumberOfThreads.
+ * plane. Where four or more points lie on one circle, the choice among the possible triangulations
+ * depends only on the coordinates, so the set of triangles is the same for every order of the
+ * points, NumberOfPartitions, Schedule and NumberOfThreads.
  *
- * Output port 0 is a vtkPolyData with the input's own vtkPoints (the same object, in the same order
- * and precision, with all point data) and triangles of their ids. Points that are in no triangle
- * stay in the output. The ids take 32 bits each where they fit, and on several ranks always 64.
+ * Output port 0 is a vtkPolyData with the input's own vtkPoints (the same object, so the same order
+ * and precision), all of its point data, and triangles that index these points. Points that no
+ * triangle uses stay in the output. The connectivity is stored with 32-bit ids if they fit; on
+ * several ranks it always has 64 bits.
  *
- * Coincident points are merged into the one of lowest id. Points with a NaN or infinite
- * coordinate in the plane are rejected, with one warning. If there is a merged or rejected
- * point, the output has the point array "RepresentativePointId" (see GenerateRepresentativeIds).
- * Fewer than three distinct points, or points all on one line, make an output without triangles
- * and a warning.
+ * Coincident points are merged into the one of lowest id. Points with a NaN or infinite coordinate
+ * in the plane are rejected, with one warning. If there is a merged or rejected point, the output
+ * has the point array "RepresentativePointId" (see GenerateRepresentativeIds). With fewer than
+ * three distinct points, or if all points are collinear, the output has no triangles and a warning
+ * is issued.
  *
- * Output port 1, also GetStatistics(), is a vtkTable about the run. It has a row for each stage,
- * with the columns
+ * Output port 1, also returned by GetStatistics(), is a vtkTable with statistics of the run. It has
+ * a row for each stage, with the columns
  * - Stage: 0, 1, ...
  * - ActivePartitions: the partitions triangulated in this stage
  * - MeshTriangles: the unfinished triangles in memory when the stage began
  *
- * and as field data, one value each, Points, Triangles (before Alpha), DuplicatePoints,
+ * The field data has arrays of one value each: Points, Triangles (before Alpha), DuplicatePoints,
  * RejectedPoints, Partitions, InitialPoints, WorkerVertices (vertices triangulated by all workers
- * together) and Threads, and of one length PhaseName and PhaseSeconds (wall-clock seconds).
- * In Python, with the filter `f`:
+ * together) and Threads. PhaseName and PhaseSeconds (wall-clock seconds) have one value for each
+ * phase. In Python, with the filter `f`:
  * @code{.py}
  * from vtkmodules.numpy_interface.dataset_adapter import WrapDataObject
  * table = WrapDataObject(f.GetStatistics())
  * pandas.DataFrame({name: table.RowData[name] for name in table.RowData.keys()})
  * @endcode
  *
- * With a Controller of several ranks all of them update the filter together; they triangulate all
- * their input points together, whichever rank holds which, into one exact triangulation, the same
- * for every number of ranks. Coincident points of all ranks are merged. Each rank's output
- * is a piece: its triangles, each of which is on one rank, and the points that they use, with the
- * point data that all ranks with points have. "GlobalPointIds" are the input's global ids, or else
- * count the points from the first rank on; "GlobalCellIds" are 0, 1, ... over all ranks. If ghost
- * cells are asked for downstream, one layer comes, marked in vtkGhostType: other ranks' triangles
- * that share a point with the piece. Merged points are in no piece; with GenerateRepresentativeIds
- * the field data has the arrays "DuplicatePointIds", "DuplicateRepresentativeIds" and
- * "RejectedPointIds" (global ids) of those found on this rank. Port 1 has on every rank the same
- * table: rows for the first master's stages, if there is a master, and as field data, by rank,
- * "RankComputeSeconds", "RankWaitSeconds", "RankSendSeconds", "RankOwnedPoints" and
- * "RankTriangles"; "MasterSeconds", "LargestMasterMesh"; "MessageKind", "MessageCount" and
- * "MessageBytes". If any rank fails, all do, and the first one reports the error; also if it is
- * upstream that fails on a rank, unless the application has executives of its own
- * (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView has. Alpha, Tolerance,
- * BoundingTriangulation and the best fitting plane need a single rank.
+ * With a Controller of several ranks, all ranks must update the filter together. They triangulate
+ * the points of all ranks into one exact triangulation, which depends neither on the number of
+ * ranks nor on which rank holds which points. Coincident points of all ranks are merged. Each
+ * rank's output is a piece: its triangles (each triangle is on exactly one rank) and the points
+ * that they use, with those point arrays that every rank with points has. "GlobalPointIds" holds
+ * the input's global ids; if it has none, points are numbered consecutively by rank.
+ * "GlobalCellIds" numbers the triangles 0, 1, ... over all ranks. If ghost cells are requested
+ * downstream, one layer is added and marked in vtkGhostType: the triangles of other ranks that
+ * share a point with the piece. Merged points are in no piece; with GenerateRepresentativeIds the
+ * field data has the arrays "DuplicatePointIds", "DuplicateRepresentativeIds" and
+ * "RejectedPointIds" (global ids) for the points found on this rank. Port 1 has the same table on
+ * every rank: its rows are the stages of the first master, if there is one; its field data adds,
+ * indexed by rank, "RankComputeSeconds", "RankWaitSeconds", "RankSendSeconds", "RankOwnedPoints"
+ * and "RankTriangles"; "MasterSeconds", "LargestMasterMesh"; "MessageKind", "MessageCount" and
+ * "MessageBytes". If one rank fails, all fail and the first rank reports the error. That includes
+ * failures upstream, unless the application sets its own default executive
+ * (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView does. Alpha, Tolerance,
+ * BoundingTriangulation and the best fitting plane work on a single rank only.
  *
  * An aborted or failed run leaves both outputs empty. A failure is reported as an error.
  *
- * With a second input, the source, the result is the constrained Delaunay triangulation, exact and
- * unique too: every edge of the source's lines and polygons is a chain of edges of the output.
- * Polygons also tell what is inside: of the triangles those stay that polygons go round
- * counter-clockwise more often than clockwise; clockwise ones are holes. Where all are clockwise,
- * all stays but the holes. The source's point ids are those of the first input's points (see
- * MergeSourcePoints), whose coordinates count. Constraints may overlap, coincide and pass
- * through points. Where two cross, there is a new point, after the input's (see SplitCrossings):
- * its coordinates in the plane are those of the crossing, rounded, and its point data are
- * interpolated along the edge of the lower number; the output's points are doubles then. Tolerance
- * does not go with a source. The statistics have the field data Constraints, ConstraintEdges,
- * CrossingPoints and CrossingRounds. On several ranks the sources of all ranks are one; what
- * several of them have alike counts once. Its ids are global ones of the input's points, or else
- * these are counted from the first rank on. New points get ids after all others.
+ * With a second input, the source, the result is the constrained Delaunay triangulation, which is
+ * exact and unique too: every edge of the source's lines and polygons is a chain of edges of the
+ * output. Polygons also define the inside: a triangle is kept if more counter-clockwise than
+ * clockwise polygons surround it, so clockwise polygons are holes. If all polygons are clockwise,
+ * everything but the holes is kept. The source's cells refer to the points of the first input by
+ * id, and the source's own coordinates are ignored (unless MergeSourcePoints is on). Constraints
+ * may overlap, coincide and pass through points. Where two cross, a new point is added after the
+ * input's points (see SplitCrossings): its coordinates in the plane are those of the crossing,
+ * rounded, and its point data are interpolated along the crossing edge that comes first in the
+ * source; the output's points are doubles then. Tolerance cannot be combined with a source. The
+ * statistics also have the field data Constraints, ConstraintEdges, CrossingPoints and
+ * CrossingRounds. On several ranks the sources of all ranks are combined; a cell that several ranks
+ * have counts once. Their point ids are the input's global ids or, without these, consecutive by
+ * rank. New points get ids after all others.
  *
- * What differs: Tolerance is 0 by default. A transform set while ProjectionPlaneMode is
- * VTK_BEST_FITTING_PLANE is ignored, not used instead of the plane. VTK_SET_TRANSFORM_PLANE
- * without a transform is an error. With Alpha, merged and rejected points are no vertices. No
- * constraint is lost, where vtkDelaunay2D may warn and go on; polygons inside of each other nest.
+ * Differences from vtkDelaunay2D: Tolerance is 0 by default. A transform that is set while
+ * ProjectionPlaneMode is VTK_BEST_FITTING_PLANE is ignored instead of replacing the plane.
+ * VTK_SET_TRANSFORM_PLANE without a transform is an error. With Alpha, merged and rejected points
+ * get no vertex cells. Every constraint is enforced, where vtkDelaunay2D may warn and skip it;
+ * polygons may be nested.
  *
  * Publication: *Efficient Generating and Processing of Large-Scale Unstructured Meshes*,
  * dissertation, University of Mississippi, chapter 2.
@@ -124,13 +129,13 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * How partitions are handed to threads.
+   * How partitions are scheduled on the threads.
    */
   enum ScheduleType
   {
     STAGES = 0,           ///< a barrier after each set of independent partitions
-    DYNAMIC = 1,          ///< a partition starts as soon as it is independent of all active ones
-    PRODUCER_CONSUMER = 2 ///< stages; on several ranks without a barrier after each shift of them
+    DYNAMIC = 1,          ///< a partition starts as soon as all conflicting earlier ones are done
+    PRODUCER_CONSUMER = 2 ///< as STAGES; on several ranks without a barrier between waves
   };
 
   /**
@@ -144,7 +149,7 @@ public:
   };
 
   /**
-   * How several ranks cut the domain, or each major partition, into partitions.
+   * How several ranks divide the domain, or each major partition, into partitions.
    */
   enum MinorDivisionType
   {
@@ -153,18 +158,19 @@ public:
   };
 
   /**
-   * How the output shows which edges are constraints.
+   * How the output marks the edges that are constraints.
    */
   enum ConstraintMarksType
   {
     NO_MARKS = 0,  ///< not at all
-    LINES = 1,     ///< lines before the triangles, and the cell array "ConstraintId"
-    EDGE_FLAGS = 2 ///< the cell array "ConstraintEdges"
+    LINES = 1,     ///< as line cells before the triangles, with the cell array "ConstraintId"
+    EDGE_FLAGS = 2 ///< in the cell array "ConstraintEdges"
   };
 
   ///@{
   /**
-   * The source: lines and polygons whose edges are edges of the output. None by default.
+   * The constraints: a vtkPolyData of lines and polygons, whose edges become edges of the output.
+   * None by default.
    */
   void SetSourceData(vtkPolyData*);
   void SetSourceConnection(vtkAlgorithmOutput*);
@@ -173,10 +179,10 @@ public:
 
   ///@{
   /**
-   * Whether the source has points of its own. Each that lies, in the plane, where one of the
-   * input's points lies is this one, the others are triangulated with the input's points and come
-   * after them, with the source's values of point arrays; arrays that it lacks are left out then,
-   * with a warning. Off by default: the source's point ids are those of the input.
+   * Whether the source's cells refer to the source's own points. Those that coincide with a point
+   * of the input, in the plane, are merged into it; the others are triangulated too and come after
+   * the input's points, with the source's point data. Point arrays that the source lacks are then
+   * omitted, with a warning. Off by default: the source's cells refer to the input's points.
    */
   vtkSetMacro(MergeSourcePoints, vtkTypeBool);
   vtkGetMacro(MergeSourcePoints, vtkTypeBool);
@@ -185,8 +191,8 @@ public:
 
   ///@{
   /**
-   * Whether constraints that cross are split at a new point. Off: it is an error if two cross. On
-   * by default.
+   * Whether constraints that cross are split at a new point. If off, crossing constraints are an
+   * error. On by default.
    */
   vtkSetMacro(SplitCrossings, vtkTypeBool);
   vtkGetMacro(SplitCrossings, vtkTypeBool);
@@ -195,11 +201,12 @@ public:
 
   ///@{
   /**
-   * A ConstraintMarksType; NO_MARKS by default. LINES: "ConstraintId" is the cell of the source
-   * that a line is a part of, and -1 of triangles; there are no NeighborIds. On several ranks each
-   * line is on one rank that has a triangle of it, there are none outside of polygons, and cells
-   * are counted over all different sources, by rank. EDGE_FLAGS: for each corner of a triangle 1 if
-   * the edge opposite to it is a constraint's, else 0. With Alpha there are none, and a warning.
+   * A ConstraintMarksType; NO_MARKS by default. LINES: "ConstraintId" is the id of the source's
+   * cell that a line belongs to, and -1 for triangles; NeighborIds are not available. On several
+   * ranks each line is on one rank that has a triangle beside it, lines outside of the polygons are
+   * omitted, and the cells of all different sources are numbered consecutively by rank. EDGE_FLAGS:
+   * three components, 1 if the edge opposite to that corner of the triangle is part of a
+   * constraint, else 0. With Alpha constraints are not marked, and a warning is issued.
    */
   vtkSetClampMacro(ConstraintMarks, int, NO_MARKS, EDGE_FLAGS);
   vtkGetMacro(ConstraintMarks, int);
@@ -207,11 +214,11 @@ public:
 
   ///@{
   /**
-   * A radius, in the units of the points, that cells of the output must not exceed; 0 (the
-   * default) outputs all triangles and nothing else. With any other value the output has
-   * the triangles of at most this circumradius, the edges of the other triangles that are at most
-   * twice as long and in no such triangle as lines, and the remaining points as vertices. Lengths
-   * are those of the points in space, not in the plane.
+   * The largest circumradius of the output's cells, in the units of the points. 0 (the default)
+   * outputs all triangles and nothing else. With any other value the output has the triangles of at
+   * most this circumradius; as lines, the edges of the other triangles that are at most twice as
+   * long and belong to no output triangle; and the remaining points as vertices. Lengths are
+   * measured in space, not in the plane.
    */
   vtkSetClampMacro(Alpha, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Alpha, double);
@@ -219,8 +226,9 @@ public:
 
   ///@{
   /**
-   * Triangles with an edge longer than this, in the plane and the units of the points, are left
-   * out; their points stay. 0 by default: none are. Unlike Alpha it makes no other cells.
+   * Triangles with an edge longer than this, measured in the plane in the units of the points, are
+   * removed; their points stay. 0 (the default): no limit. Unlike Alpha, it adds no lines or
+   * vertices.
    */
   vtkSetClampMacro(MaximumEdgeLength, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(MaximumEdgeLength, double);
@@ -228,8 +236,8 @@ public:
 
   ///@{
   /**
-   * Which cells are output while Alpha is not 0. They do not change what the others are. All are
-   * on by default.
+   * Which kinds of cells are output if Alpha is not 0. Each switch affects only its own kind. All
+   * are on by default.
    */
   vtkSetMacro(AlphaTris, vtkTypeBool);
   vtkGetMacro(AlphaTris, vtkTypeBool);
@@ -244,9 +252,9 @@ public:
 
   ///@{
   /**
-   * A point no farther, in the plane, from a kept point of lower id is merged into it; as a
-   * fraction of the diagonal of the points' bounding box. 0 (the default) merges points at the
-   * same position only. Other values cost a serial pass over the points.
+   * A point within this distance of a kept point of lower id, in the plane, is merged into it. The
+   * distance is a fraction of the diagonal of the points' bounding box. 0 (the default) merges only
+   * points at the same position. Other values cost a serial pass over the points.
    */
   vtkSetClampMacro(Tolerance, double, 0.0, 1.0);
   vtkGetMacro(Tolerance, double);
@@ -255,8 +263,8 @@ public:
   ///@{
   /**
    * The radius of the circle of the BoundingTriangulation's points, as a multiple of the diagonal
-   * of the points' bounding box. 1 by default. Without BoundingTriangulation it plays no part: the
-   * border is the convex hull in any case.
+   * of the points' bounding box. 1 by default. Without BoundingTriangulation it has no effect: the
+   * border is always the convex hull.
    */
   vtkSetClampMacro(Offset, double, 0.75, VTK_DOUBLE_MAX);
   vtkGetMacro(Offset, double);
@@ -264,10 +272,10 @@ public:
 
   ///@{
   /**
-   * Whether eight points on a circle around all others are triangulated with them. The output
-   * has its own double-precision points then, the eight after the input's, and, for want of values
-   * at the eight, none of the input's point data. Only the x-y plane has them; together with a
-   * transform or the best fitting plane they are left out with a warning. Off by default.
+   * Whether eight points on a circle around all others are triangulated too. The output then has
+   * its own double-precision points, with the eight after the input's, and none of the input's
+   * point data, since the eight have no values. It applies to the x-y plane only: with a transform
+   * or the best fitting plane it is ignored, with a warning. Off by default.
    */
   vtkSetMacro(BoundingTriangulation, vtkTypeBool);
   vtkGetMacro(BoundingTriangulation, vtkTypeBool);
@@ -276,8 +284,8 @@ public:
 
   ///@{
   /**
-   * Takes the points to where their x and y are triangulated; the output has them where they were.
-   * Any transform will do, also one that is not linear or has no inverse. None by default.
+   * The transform applied to the points before their x and y are triangulated; the output's points
+   * are not transformed. It need be neither linear nor invertible. None by default.
    */
   virtual void SetTransform(vtkAbstractTransform*);
   vtkGetObjectMacro(Transform, vtkAbstractTransform);
@@ -285,18 +293,18 @@ public:
 
   ///@{
   /**
-   * The plane of the triangulation. VTK_DELAUNAY_XY_PLANE (the default): x and y of the points, or
-   * of what Transform makes of them if there is one. VTK_SET_TRANSFORM_PLANE: the same, but it is
-   * an error if there is no Transform. VTK_BEST_FITTING_PLANE: see ComputeBestFittingPlane.
+   * The plane of the triangulation. VTK_DELAUNAY_XY_PLANE (the default): x and y of the points,
+   * transformed by Transform if there is one. VTK_SET_TRANSFORM_PLANE: the same, but it is an error
+   * if there is no Transform. VTK_BEST_FITTING_PLANE: see ComputeBestFittingPlane.
    */
   vtkSetClampMacro(ProjectionPlaneMode, int, VTK_DELAUNAY_XY_PLANE, VTK_BEST_FITTING_PLANE);
   vtkGetMacro(ProjectionPlaneMode, int);
   ///@}
 
   /**
-   * The transform that moves the plane which fits the points best (in the least-squares sense) to
-   * the plane z = 0 and their centroid to the origin. Points with a NaN or infinite coordinate do
-   * not count. Null if there are no others. The caller owns it.
+   * Returns the transform that maps the least-squares plane of the points to the plane z = 0 and
+   * their centroid to the origin. Points with a NaN or infinite coordinate are ignored. Returns
+   * null if there are no others. The caller owns the result.
    */
   VTK_NEWINSTANCE
   static vtkAbstractTransform* ComputeBestFittingPlane(vtkPointSet* input);
@@ -304,9 +312,9 @@ public:
   ///@{
   /**
    * Whether an output with merged or rejected points gets the point array "RepresentativePointId"
-   * (vtkIdTypeArray): for each point the id of the point that stands for it, which is its own id,
-   * or for a merged point that of the point it was merged into, or -1 for a rejected point. On
-   * by default; without such points there never is the array.
+   * (vtkIdTypeArray): for each point its own id; for a merged point, the id of the point it was
+   * merged into; for a rejected point, -1. On by default. Without merged or rejected points the
+   * array is never added.
    */
   vtkSetMacro(GenerateRepresentativeIds, vtkTypeBool);
   vtkGetMacro(GenerateRepresentativeIds, vtkTypeBool);
@@ -315,9 +323,10 @@ public:
 
   ///@{
   /**
-   * Whether the output has the cell array "NeighborIds" (vtkIdTypeArray): for each corner of a
-   * triangle the id of the triangle opposite to it, or -1 at the hull. With Alpha there is none,
-   * and a warning. On several ranks it is an error. Off by default.
+   * Whether the output has the cell array "NeighborIds" (vtkIdTypeArray, three components): for
+   * each corner of a triangle, the id of the triangle across the opposite edge, or -1 at the
+   * border. With Alpha the array is omitted, with a warning. On several ranks it is an error. Off
+   * by default.
    */
   vtkSetMacro(GenerateNeighborIds, vtkTypeBool);
   vtkGetMacro(GenerateNeighborIds, vtkTypeBool);
@@ -326,8 +335,8 @@ public:
 
   ///@{
   /**
-   * Columns and rows of a grid of partitions over the points. If either is 0 (the default), a
-   * tiling is chosen for the points.
+   * The columns and rows of a grid of partitions over the points. If either is 0 (the default), the
+   * partitions are chosen automatically.
    */
   vtkSetVector2Macro(NumberOfPartitions, int);
   vtkGetVector2Macro(NumberOfPartitions, int);
@@ -335,7 +344,8 @@ public:
 
   ///@{
   /**
-   * The points of each partition that the initial mesh is made of. 0 (the default) chooses.
+   * How many points of each partition are in the initial mesh. 0 (the default): chosen
+   * automatically.
    */
   vtkSetClampMacro(InitialPointsPerPartition, int, 0, VTK_INT_MAX);
   vtkGetMacro(InitialPointsPerPartition, int);
@@ -354,8 +364,8 @@ public:
 
   ///@{
   /**
-   * The ranks that triangulate together. The global controller by default; null, or a controller of
-   * one rank: this process alone.
+   * The ranks that triangulate together. The global controller by default. With null or a
+   * controller of one rank, this process works alone.
    */
   virtual void SetController(vtkMultiProcessController*);
   vtkGetObjectMacro(Controller, vtkMultiProcessController);
@@ -371,9 +381,9 @@ public:
 
   ///@{
   /**
-   * On several ranks with several masters: columns and rows of a grid of major partitions, each of
-   * which NumberOfPartitions cuts further. If either is 0 (the default), they are boxes of equally
-   * many points.
+   * With MULTI_MASTER on several ranks: the columns and rows of a grid of major partitions, each of
+   * which is divided further by NumberOfPartitions. If either is 0 (the default), major partitions
+   * are boxes with equally many points.
    */
   vtkSetVector2Macro(NumberOfMajorPartitions, int);
   vtkGetVector2Macro(NumberOfMajorPartitions, int);
@@ -381,8 +391,8 @@ public:
 
   ///@{
   /**
-   * On several ranks, where NumberOfPartitions is not given: a MinorDivisionType, TREE by default,
-   * and the points that a partition is to have; 0 (the default) chooses.
+   * On several ranks, if NumberOfPartitions is not given: a MinorDivisionType, TREE by default, and
+   * the target number of points per partition; 0 (the default): chosen automatically.
    */
   vtkSetClampMacro(MinorDivision, int, TREE, THRESHOLD);
   vtkGetMacro(MinorDivision, int);
@@ -392,8 +402,9 @@ public:
 
   ///@{
   /**
-   * On several ranks: whether ranks are given partitions, and major partitions ranks, in equal
-   * numbers rather than in proportion to points (equation 3.2). Off by default.
+   * On several ranks: whether every rank gets the same number of partitions, and every major
+   * partition the same number of ranks, instead of numbers in proportion to points (equation 3.2).
+   * Off by default.
    */
   vtkSetMacro(EqualGroups, vtkTypeBool);
   vtkGetMacro(EqualGroups, vtkTypeBool);
@@ -402,8 +413,8 @@ public:
 
   ///@{
   /**
-   * On several ranks: whether the first one's output has all triangles, and the others' none. Off
-   * by default.
+   * On several ranks: whether the first rank's output gets all triangles and the others' are empty.
+   * Off by default.
    */
   vtkSetMacro(GatherOnFirstRank, vtkTypeBool);
   vtkGetMacro(GatherOnFirstRank, vtkTypeBool);
@@ -432,7 +443,7 @@ public:
   vtkTable* GetStatistics();
 
   /**
-   * Also that of the Transform.
+   * Includes the modification time of the Transform.
    */
   vtkMTimeType GetMTime() override;
 

@@ -29,7 +29,7 @@ vtkExecutive* vtkTIPPDelaunay2D::CreateDefaultExecutive()
 {
   if (DefaultExecutivePrototype)
   {
-    return this->Superclass::CreateDefaultExecutive(); // an application's own, e.g. ParaView's
+    return this->Superclass::CreateDefaultExecutive(); // the application's own, such as ParaView's
   }
   auto* executive = tipp::CollectivePipeline::New();
   executive->Controller = [this]() { return this->Controller; };
@@ -48,7 +48,7 @@ int vtkTIPPDelaunay2D::RequestUpdateExtent(
   {
     return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
   }
-  // Whatever piece is asked for, every rank brings its share of the points and of the source.
+  // Whichever piece is requested, every rank contributes its share of the points and of the source.
   using Pipeline = vtkStreamingDemandDrivenPipeline;
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
@@ -94,7 +94,7 @@ const char* vtkTIPPDelaunay2D::WhatNeedsOneRank()
                                                           : nullptr;
 }
 
-/// Null if no rank has a source.
+/// Combines the sources of all ranks. Returns null if no rank has a source.
 std::unique_ptr<tipp::RankSource> vtkTIPPDelaunay2D::ShareSource(
   tipp::Communicator& ranks, vtkPointSet* input, vtkPolyData* source, bool wantsCells)
 {
@@ -137,7 +137,7 @@ bool vtkTIPPDelaunay2D::ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, 
     tipp::DistributedOptions options = this->OptionsForRanks();
     options.Progress = [&monitor](double fraction) { return monitor(fraction); };
     tipp::checkPoints(given, "the input");
-    // What is collective is done by all ranks or by none, whatever single ones are set to.
+    // Collective steps must be done by all ranks or by none, even if their properties differ.
     std::vector<std::int64_t> wishes{ ranks.rank() == 0 && this->GatherOnFirstRank, wantsGhosts,
       this->ConstraintMarks == LINES };
     ranks.sum(wishes);
@@ -176,7 +176,7 @@ bool vtkTIPPDelaunay2D::ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, 
     tipp::fillPiece(mine, ranks.rank(), rows, wantsGhosts ? ghosts.get() : nullptr, marks, output);
     if (this->GenerateRepresentativeIds)
     {
-      tipp::addAccounts(mine, output);
+      tipp::addAccounts(mine.Duplicates, mine.Rejected, output);
     }
     tipp::RunStatistics all = tipp::statisticsOf(mine);
     shared ? tipp::addConstraintTotals(shared->Figures, all) : void();

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTIPPDelaunay3D.h"
 
+#include "InMemory/AlphaShape.h"
 #include "InMemory/FiniteBounds.h"
+#include "InMemory/TriangulatePoints.h"
 #include "Output/FilterPipeline.h"
 #include "Output/RunStatistics.h"
+#include "Output/TetrahedronOutput.h"
 #include "Output/TriangleOutput.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Projection/ProjectedPoints.h"
 #include "Triangulation3D/AlphaShape3.h"
+#include "Triangulation3D/CoplanarPoints.h"
 #include "Triangulation3D/MergeClosePoints3.h"
 #include "Triangulation3D/Tetrahedralize.h"
 #include "Vtk/ReadDataSet.h"
@@ -16,16 +20,17 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
-#include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkSmartPointer.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -37,6 +42,7 @@
 #include <vector>
 
 vtkStandardNewMacro(vtkTIPPDelaunay3D);
+vtkCxxSetObjectMacro(vtkTIPPDelaunay3D, Controller, vtkMultiProcessController);
 
 namespace
 {
@@ -55,42 +61,57 @@ vtkSmartPointer<vtkPoints> withOctahedron(vtkPoints* points, double offset)
   return tipp::appendPoints(points, corners);
 }
 
-/// The coordinates as doubles: the points' own memory, or a copy in `copy`.
-const tipp::Point3* coordinatesOf(vtkPoints* points, std::vector<tipp::Point3>& copy)
+/// Cells of several types.
+class MixedCells
 {
-  static_assert(sizeof(tipp::Point3) == 3 * sizeof(double), "a point is its coordinates");
-  if (auto* const doubles = vtkDoubleArray::SafeDownCast(points->GetData()))
+public:
+  template <typename Ids>
+  void add(const Ids& ids, int type, int corners)
   {
-    return reinterpret_cast<const tipp::Point3*>(doubles->GetPointer(0));
-  }
-  copy.resize(std::size_t(points->GetNumberOfPoints()));
-  for (std::size_t i = 0; i < copy.size(); ++i)
-  {
-    points->GetPoint(vtkIdType(i), &copy[i].x);
-  }
-  return copy.data();
-}
-
-template <typename Ids>
-void addCells(
-  const Ids& ids, int type, int corners, vtkCellArray* cells, std::vector<unsigned char>& types)
-{
-  for (std::size_t i = 0; i < ids.size(); i += std::size_t(corners))
-  {
-    cells->InsertNextCell(corners);
-    for (int k = 0; k < corners; ++k)
+    for (std::size_t i = 0; i < ids.size(); i += std::size_t(corners))
     {
-      cells->InsertCellPoint(ids[i + std::size_t(k)]);
+      this->Cells->InsertNextCell(corners);
+      for (int k = 0; k < corners; ++k)
+      {
+        this->Cells->InsertCellPoint(ids[i + std::size_t(k)]);
+      }
+      this->Types.push_back(static_cast<unsigned char>(type));
     }
-    types.push_back(static_cast<unsigned char>(type));
   }
-}
+
+  /// Adds what the filter wants of an alpha shape's triangles, lines and vertices.
+  template <typename Shape>
+  void addFaces(const Shape& shape, vtkTIPPDelaunay3D* filter)
+  {
+    filter->GetAlphaTris() ? this->add(shape.Triangles, VTK_TRIANGLE, 3) : void();
+    filter->GetAlphaLines() ? this->add(shape.Lines, VTK_LINE, 2) : void();
+    filter->GetAlphaVerts() ? this->add(shape.Vertices, VTK_VERTEX, 1) : void();
+  }
+
+  void setIn(vtkUnstructuredGrid* output) const
+  {
+    vtkNew<vtkUnsignedCharArray> types;
+    types->SetNumberOfValues(vtkIdType(this->Types.size()));
+    std::copy(this->Types.begin(), this->Types.end(), types->GetPointer(0));
+    output->SetCells(types, this->Cells);
+  }
+
+private:
+  vtkNew<vtkCellArray> Cells;
+  std::vector<unsigned char> Types;
+};
 
 } // namespace
 
 vtkTIPPDelaunay3D::vtkTIPPDelaunay3D()
 {
   this->SetNumberOfOutputPorts(2);
+  this->vtkTIPPDelaunay3D::SetController(vtkMultiProcessController::GetGlobalController());
+}
+
+vtkTIPPDelaunay3D::~vtkTIPPDelaunay3D()
+{
+  this->vtkTIPPDelaunay3D::SetController(nullptr);
 }
 
 vtkTable* vtkTIPPDelaunay3D::GetStatistics()
@@ -119,6 +140,16 @@ int vtkTIPPDelaunay3D::RequestData(
   const tipp::ThreadLimit limit(this->NumberOfThreads);
   const auto work = [&]
   {
+    tipp::requireFinite(this->Alpha, "Alpha");
+    tipp::requireFinite(this->Tolerance, "Tolerance");
+    tipp::requireFinite(this->Offset, "Offset");
+    if (this->HasSeveralRanks())
+    {
+      const bool wantsGhosts =
+        outputVector->GetInformationObject(0)->Get(
+          vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()) > 0;
+      return this->ExecuteOnRanks(input, wantsGhosts, output, statistics);
+    }
     this->Execute(input, output, statistics);
     return true;
   };
@@ -132,9 +163,6 @@ void vtkTIPPDelaunay3D::Execute(
 {
   this->NumberOfDuplicatePoints = 0;
   this->NumberOfRejectedPoints = 0;
-  tipp::requireFinite(this->Alpha, "Alpha");
-  tipp::requireFinite(this->Tolerance, "Tolerance");
-  tipp::requireFinite(this->Offset, "Offset");
   tipp::checkPoints(input, "the input");
   vtkSmartPointer<vtkPoints> points = input->GetPoints();
   if (!points)
@@ -147,9 +175,10 @@ void vtkTIPPDelaunay3D::Execute(
   }
   const vtkIdType count = points->GetNumberOfPoints();
   std::vector<tipp::Point3> copy;
-  const tipp::Point3* const coordinates = coordinatesOf(points, copy);
+  const tipp::Point3* const coordinates = tipp::coordinatesOf(points, copy);
+  tipp::Triangulation triangles; // of coplanar points
   tipp::Tetrahedralization mesh =
-    this->Triangulate(coordinates, count, tipp::finiteBounds(points).diagonal());
+    this->Triangulate(coordinates, count, tipp::finiteBounds(points).diagonal(), triangles);
   if (mesh.Aborted)
   {
     return;
@@ -169,21 +198,29 @@ void vtkTIPPDelaunay3D::Execute(
   }
   if (this->GenerateNeighborIds && this->Alpha == 0)
   {
-    output->GetCellData()->AddArray(
-      tipp::takeArray("NeighborIds", tipp::neighborIds(mesh, std::size_t(count)), 4));
+    output->GetCellData()->AddArray(mesh.Dimension == 2
+        ? tipp::takeArray("NeighborIds", tipp::neighborIds(triangles), 3)
+        : tipp::takeArray("NeighborIds", tipp::neighborIds(mesh, std::size_t(count)), 4));
   }
   else if (this->GenerateNeighborIds)
   {
     vtkWarningMacro("No NeighborIds: with Alpha not all tetrahedra are output.");
   }
   const auto tetrahedra = std::int64_t(mesh.cellCount());
-  this->SetCells(mesh, coordinates, count, output);
+  if (mesh.Dimension == 2)
+  {
+    this->SetTriangles(triangles, output);
+  }
+  else
+  {
+    this->SetCells(mesh, coordinates, count, output);
+  }
   mesh.Statistics.Phases.push_back({ "VTK output", watch.seconds() });
   tipp::fillStatisticsTable(tipp::statisticsOf(mesh, count, tetrahedra), statistics);
 }
 
 tipp::Tetrahedralization vtkTIPPDelaunay3D::Triangulate(
-  const tipp::Point3* points, vtkIdType count, double diagonal)
+  const tipp::Point3* points, vtkIdType count, double diagonal, tipp::Triangulation& triangles)
 {
   tipp::Monitor monitor(this);
   tipp::TetrahedralizationOptions options;
@@ -199,6 +236,11 @@ tipp::Tetrahedralization vtkTIPPDelaunay3D::Triangulate(
   const double distance = this->Tolerance * diagonal;
   mesh = distance > 0 ? tipp::tetrahedralizeMerged(points, std::size_t(count), distance, options)
                       : tipp::tetrahedralize(points, std::size_t(count), options);
+  if (!mesh.Aborted && mesh.Dimension == 2)
+  {
+    triangles = tipp::triangulateCoplanar(points, std::size_t(count), options, mesh);
+    mesh.Aborted = triangles.Aborted;
+  }
   mesh.Aborted = mesh.Aborted || !monitor(1);
   if (!mesh.Aborted)
   {
@@ -211,7 +253,7 @@ tipp::Tetrahedralization vtkTIPPDelaunay3D::Triangulate(
 }
 
 void vtkTIPPDelaunay3D::SetCells(tipp::Tetrahedralization& mesh, const tipp::Point3* points,
-  vtkIdType count, vtkUnstructuredGrid* output) const
+  vtkIdType count, vtkUnstructuredGrid* output)
 {
   if (this->Alpha == 0)
   {
@@ -219,28 +261,26 @@ void vtkTIPPDelaunay3D::SetCells(tipp::Tetrahedralization& mesh, const tipp::Poi
     return;
   }
   const tipp::AlphaShape3 shape = tipp::alphaShape(mesh, points, std::size_t(count), this->Alpha);
-  vtkNew<vtkCellArray> cells;
-  std::vector<unsigned char> types;
-  if (this->AlphaTets)
+  MixedCells cells;
+  this->AlphaTets ? cells.add(shape.Tetrahedra, VTK_TETRA, 4) : void();
+  cells.addFaces(shape, this);
+  cells.setIn(output);
+}
+
+void vtkTIPPDelaunay3D::SetTriangles(tipp::Triangulation& triangles, vtkUnstructuredGrid* output)
+{
+  if (this->Alpha == 0)
   {
-    addCells(shape.Tetrahedra, VTK_TETRA, 4, cells, types);
+    output->SetCells(VTK_TRIANGLE, tipp::takeCells(std::move(triangles.Ids32), 3));
+    return;
   }
-  if (this->AlphaTris)
-  {
-    addCells(shape.Triangles, VTK_TRIANGLE, 3, cells, types);
-  }
-  if (this->AlphaLines)
-  {
-    addCells(shape.Lines, VTK_LINE, 2, cells, types);
-  }
-  if (this->AlphaVerts)
-  {
-    addCells(shape.Vertices, VTK_VERTEX, 1, cells, types);
-  }
-  vtkNew<vtkUnsignedCharArray> typeArray;
-  typeArray->SetNumberOfValues(vtkIdType(types.size()));
-  std::copy(types.begin(), types.end(), typeArray->GetPointer(0));
-  output->SetCells(typeArray, cells);
+  const auto pointAt = [points = output->GetPoints()](tipp::PointId id, double* p)
+  { points->GetPoint(vtkIdType(id), p); };
+  const auto shape = tipp::alphaShape(triangles.Ids32, pointAt, this->Alpha,
+    tipp::coveredPoints(triangles, output->GetNumberOfPoints()));
+  MixedCells cells;
+  cells.addFaces(shape, this);
+  cells.setIn(output);
 }
 
 void vtkTIPPDelaunay3D::PrintSelf(ostream& os, vtkIndent indent)
@@ -259,6 +299,8 @@ void vtkTIPPDelaunay3D::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "GenerateNeighborIds: " << onOff(this->GenerateNeighborIds);
   os << indent << "NumberOfPartitions: " << this->NumberOfPartitions << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "Controller: " << this->Controller << "\n";
+  os << indent << "GatherOnFirstRank: " << onOff(this->GatherOnFirstRank);
   os << indent << "NumberOfDuplicatePoints: " << this->NumberOfDuplicatePoints << "\n";
   os << indent << "NumberOfRejectedPoints: " << this->NumberOfRejectedPoints << "\n";
 }

@@ -3,34 +3,58 @@
  * @class   vtkTIPPDelaunay3D
  * @brief   exact 3D Delaunay tetrahedralization of many points, in parallel
  *
- * vtkTIPPDelaunay3D makes tetrahedra of the points of any vtkPointSet. It stands in for
- * vtkDelaunay3D: same property names, same meanings, same numeric values.
+ * vtkTIPPDelaunay3D tetrahedralizes the points of any vtkPointSet. It is a drop-in replacement for
+ * vtkDelaunay3D: its properties have the same names, meanings and numeric values. The differences
+ * are listed below.
  *
  * The result is exact. All predicates are evaluated without rounding error, the border is the
  * convex hull, every distinct point is a vertex, and no tetrahedron is flat or inverted. Where five
- * or more points lie on one sphere, the choice between the possible tetrahedralizations depends on
- * the coordinates alone. So the tetrahedra are the same for every order of the points,
- * NumberOfPartitions and NumberOfThreads, and come in the lexicographic order of their ids.
+ * or more points lie on one sphere, the choice among the possible tetrahedralizations depends only
+ * on the coordinates. So the tetrahedra are the same for every order of the points,
+ * NumberOfPartitions and NumberOfThreads. They are sorted lexicographically by their point ids.
  *
- * Output port 0 is a vtkUnstructuredGrid with the input's own vtkPoints (the same object, in the
- * same order and precision, with all point data) and tetrahedra of their ids. Points that are in no
- * tetrahedron stay in the output. There may be at most 2^31 - 1 points.
+ * Output port 0 is a vtkUnstructuredGrid with the input's own vtkPoints (the same object, so the
+ * same order and precision), all of its point data, and tetrahedra that index these points. Points
+ * that no tetrahedron uses stay in the output. The input can have at most 2^31 - 1 points.
  *
  * Coincident points are merged into the one of lowest id. Points with a NaN or infinite coordinate
  * are rejected, with one warning. If there is a merged or rejected point, the output has the point
- * array "RepresentativePointId" (see GenerateRepresentativeIds). Fewer than four distinct points,
- * or points all in one plane, make an output without cells and a warning.
+ * array "RepresentativePointId" (see GenerateRepresentativeIds).
  *
- * Output port 1, also GetStatistics(), is a vtkTable whose field data has, one value each, Points,
- * Tetrahedra (before Alpha), DuplicatePoints, RejectedPoints, Partitions, InitialPoints,
- * WorkerVertices (vertices of all partitions' triangulations together) and Threads, and of one
- * length PhaseName and PhaseSeconds (wall-clock seconds).
+ * Points all in one plane make triangles, and a warning: the exact 2D Delaunay triangulation of
+ * their projection along the axis in which the plane's normal is longest (of equal ones z, then y).
+ * If the plane is parallel to two axes, that is the plane's own Delaunay triangulation. Alpha and
+ * GenerateNeighborIds (three components then) apply to the triangles. Points all on one line, or
+ * fewer than three distinct points, make an output without cells and a warning.
  *
- * An aborted run leaves both outputs empty. A failed one is reported as an error and leaves them
- * empty too.
+ * Output port 1, also returned by GetStatistics(), is a vtkTable whose field data has arrays of one
+ * value each: Points, Tetrahedra (before Alpha), DuplicatePoints, RejectedPoints, Partitions,
+ * InitialPoints, WorkerVertices (vertices of all partitions' triangulations together) and Threads.
+ * PhaseName and PhaseSeconds (wall-clock seconds) have one value for each phase.
  *
- * What differs: Tolerance is 0 by default, and Offset plays a part only with BoundingTriangulation.
- * There is no Locator. With Alpha, merged and rejected points are no vertices.
+ * With a Controller of several ranks, all ranks must update the filter together. They triangulate
+ * the points of all ranks into one exact triangulation, which depends neither on the number of
+ * ranks nor on which rank holds which points. Coincident points of all ranks are merged. Each
+ * rank's output is a piece: its tetrahedra (each is on exactly one rank) and the points that they
+ * use, with those point arrays that every rank with points has. A piece depends neither on threads
+ * nor on partitions. "GlobalPointIds" holds the input's global ids; if it has none, points are
+ * numbered consecutively by rank. "GlobalCellIds" numbers the tetrahedra 0, 1, ... over all ranks.
+ * If ghost cells are requested downstream, one layer is added and marked in vtkGhostType: the
+ * tetrahedra of other ranks that share a point with the piece. Merged points are in no piece; with
+ * GenerateRepresentativeIds the field data has the arrays "DuplicatePointIds",
+ * "DuplicateRepresentativeIds" and "RejectedPointIds" (global ids) for the points found on this
+ * rank. Port 1 has the same table on every rank: its field data has, indexed by rank,
+ * "RankComputeSeconds", "RankWaitSeconds", "RankSendSeconds", "RankOwnedPoints" and
+ * "RankTetrahedra"; "MessageKind", "MessageCount" and "MessageBytes". If one rank fails, all fail
+ * and the first rank reports the error. That includes failures upstream, unless the application
+ * sets its own default executive (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView does.
+ * Alpha, Tolerance, BoundingTriangulation and GenerateNeighborIds work on a single rank only.
+ *
+ * An aborted or failed run leaves both outputs empty. A failure is reported as an error.
+ *
+ * Differences from vtkDelaunay3D: Tolerance is 0 by default, and Offset has an effect only with
+ * BoundingTriangulation. There is no Locator. With Alpha, merged and rejected points get no vertex
+ * cells.
  *
  * Publication: *Efficient Generating and Processing of Large-Scale Unstructured Meshes*,
  * dissertation, University of Mississippi, chapter 2.
@@ -44,6 +68,7 @@
 #include "vtkTIPPFiltersModule.h" // For export macro
 #include "vtkUnstructuredGridAlgorithm.h"
 
+class vtkMultiProcessController;
 class vtkPointSet;
 class vtkTable;
 
@@ -51,6 +76,7 @@ namespace tipp
 {
 struct Point3;
 struct Tetrahedralization;
+struct Triangulation;
 }
 
 class VTKTIPPFILTERS_EXPORT vtkTIPPDelaunay3D : public vtkUnstructuredGridAlgorithm
@@ -62,11 +88,11 @@ public:
 
   ///@{
   /**
-   * A radius, in the units of the points, that cells of the output must not exceed; 0 (the default)
+   * The largest circumradius of the output's cells, in the units of the points. 0 (the default)
    * outputs all tetrahedra and nothing else. With any other value the output has the tetrahedra of
-   * at most this circumradius; the facets of the other tetrahedra that are at most as large and of
-   * no such tetrahedron as triangles; their edges that are at most twice as long and in none of
-   * these as lines; and the remaining points as vertices.
+   * at most this circumradius; as triangles, the facets of the other tetrahedra that are within the
+   * limit and belong to no output tetrahedron; as lines, their edges that are at most twice as long
+   * as the limit and belong to none of these cells; and the remaining points as vertices.
    */
   vtkSetClampMacro(Alpha, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Alpha, double);
@@ -74,8 +100,8 @@ public:
 
   ///@{
   /**
-   * Which cells are output while Alpha is not 0. They do not change what the others are. All are
-   * on by default.
+   * Which kinds of cells are output if Alpha is not 0. Each switch affects only its own kind. All
+   * are on by default.
    */
   vtkSetMacro(AlphaTets, vtkTypeBool);
   vtkGetMacro(AlphaTets, vtkTypeBool);
@@ -93,9 +119,9 @@ public:
 
   ///@{
   /**
-   * A point no farther from a kept point of lower id is merged into it; as a fraction of the
-   * diagonal of the points' bounding box. 0 (the default) merges points at the same position only.
-   * Other values cost a serial pass over the points.
+   * A point within this distance of a kept point of lower id is merged into it. The distance is a
+   * fraction of the diagonal of the points' bounding box. 0 (the default) merges only points at the
+   * same position. Other values cost a serial pass over the points.
    */
   vtkSetClampMacro(Tolerance, double, 0.0, 1.0);
   vtkGetMacro(Tolerance, double);
@@ -104,7 +130,7 @@ public:
   ///@{
   /**
    * The distance of the BoundingTriangulation's points from the centre of the points' bounding box,
-   * as a multiple of its diagonal. 2.5 by default. Without BoundingTriangulation it plays no part.
+   * as a multiple of its diagonal. 2.5 by default. Without BoundingTriangulation it has no effect.
    */
   vtkSetClampMacro(Offset, double, 2.5, VTK_DOUBLE_MAX);
   vtkGetMacro(Offset, double);
@@ -112,9 +138,9 @@ public:
 
   ///@{
   /**
-   * Whether the six corners of an octahedron around all points are triangulated with them. The
-   * output has its own double-precision points then, the six after the input's, and, for want of
-   * values at the six, none of the input's point data. Off by default.
+   * Whether the six corners of an octahedron around all points are tetrahedralized too. The output
+   * then has its own double-precision points, with the six after the input's, and none of the
+   * input's point data, since the six have no values. Off by default.
    */
   vtkSetMacro(BoundingTriangulation, vtkTypeBool);
   vtkGetMacro(BoundingTriangulation, vtkTypeBool);
@@ -124,9 +150,9 @@ public:
   ///@{
   /**
    * Whether an output with merged or rejected points gets the point array "RepresentativePointId"
-   * (vtkIdTypeArray): for each point the id of the point that stands for it, which is its own id,
-   * or for a merged point that of the point it was merged into, or -1 for a rejected point. On by
-   * default.
+   * (vtkIdTypeArray): for each point its own id; for a merged point, the id of the point it was
+   * merged into; for a rejected point, -1. On by default. Without merged or rejected points the
+   * array is never added.
    */
   vtkSetMacro(GenerateRepresentativeIds, vtkTypeBool);
   vtkGetMacro(GenerateRepresentativeIds, vtkTypeBool);
@@ -135,9 +161,9 @@ public:
 
   ///@{
   /**
-   * Whether the output has the cell array "NeighborIds" (vtkIdTypeArray): for each corner of a
-   * tetrahedron the id of the tetrahedron opposite to it, or -1 at the hull. With Alpha there is
-   * none, and a warning. Off by default.
+   * Whether the output has the cell array "NeighborIds" (vtkIdTypeArray, four components): for each
+   * corner of a tetrahedron, the id of the tetrahedron across the opposite facet, or -1 at the
+   * hull. With Alpha the array is omitted, with a warning. Off by default.
    */
   vtkSetMacro(GenerateNeighborIds, vtkTypeBool);
   vtkGetMacro(GenerateNeighborIds, vtkTypeBool);
@@ -146,7 +172,8 @@ public:
 
   ///@{
   /**
-   * The number of partitions, at most 512; 0 (the default) chooses.
+   * The number of partitions, at most 512. 0 (the default): chosen automatically. On several ranks
+   * each has an equal share of them, rounded up.
    */
   vtkSetClampMacro(NumberOfPartitions, int, 0, 512);
   vtkGetMacro(NumberOfPartitions, int);
@@ -162,7 +189,26 @@ public:
 
   ///@{
   /**
-   * The merged and the rejected points of the last run.
+   * The ranks that triangulate together. The global controller by default; null, or a controller of
+   * one rank: this process alone.
+   */
+  virtual void SetController(vtkMultiProcessController*);
+  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  ///@}
+
+  ///@{
+  /**
+   * On several ranks: whether the first one's output has all tetrahedra, and the others' none. Off
+   * by default.
+   */
+  vtkSetMacro(GatherOnFirstRank, vtkTypeBool);
+  vtkGetMacro(GatherOnFirstRank, vtkTypeBool);
+  vtkBooleanMacro(GatherOnFirstRank, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * How many points the last run merged and rejected, on all ranks together.
    */
   vtkGetMacro(NumberOfDuplicatePoints, vtkIdType);
   vtkGetMacro(NumberOfRejectedPoints, vtkIdType);
@@ -175,10 +221,12 @@ public:
 
 protected:
   vtkTIPPDelaunay3D();
-  ~vtkTIPPDelaunay3D() override = default;
+  ~vtkTIPPDelaunay3D() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
+  vtkExecutive* CreateDefaultExecutive() override;
+  int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   double Alpha = 0;
@@ -193,6 +241,8 @@ protected:
   vtkTypeBool GenerateNeighborIds = 0;
   int NumberOfPartitions = 0;
   int NumberOfThreads = 0;
+  vtkMultiProcessController* Controller = nullptr;
+  vtkTypeBool GatherOnFirstRank = 0;
   vtkIdType NumberOfDuplicatePoints = 0;
   vtkIdType NumberOfRejectedPoints = 0;
 
@@ -200,11 +250,16 @@ private:
   vtkTIPPDelaunay3D(const vtkTIPPDelaunay3D&) = delete;
   void operator=(const vtkTIPPDelaunay3D&) = delete;
 
+  bool HasSeveralRanks() const;
+  bool ExecuteOnRanks(
+    vtkPointSet* input, bool wantsGhosts, vtkUnstructuredGrid* output, vtkTable* statistics);
+  const char* WhatNeedsOneRank();
   void Execute(vtkPointSet* input, vtkUnstructuredGrid* output, vtkTable* statistics);
   tipp::Tetrahedralization Triangulate(
-    const tipp::Point3* points, vtkIdType count, double diagonal);
+    const tipp::Point3* points, vtkIdType count, double diagonal, tipp::Triangulation& triangles);
   void SetCells(tipp::Tetrahedralization& mesh, const tipp::Point3* points, vtkIdType count,
-    vtkUnstructuredGrid* output) const;
+    vtkUnstructuredGrid* output);
+  void SetTriangles(tipp::Triangulation& triangles, vtkUnstructuredGrid* output);
 };
 
 #endif

@@ -102,8 +102,8 @@ void vtkTIPPOutOfCoreDelaunay2D::ClearHoles()
   }
 }
 
-/// Else a pipeline that asks each rank for a piece of its own would run the first rank alone, which
-/// would wait for the others.
+/// Announces that the filter handles piece requests. Otherwise a pipeline that requests one piece
+/// per rank would execute the first rank only, which would wait for the others forever.
 int vtkTIPPOutOfCoreDelaunay2D::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {

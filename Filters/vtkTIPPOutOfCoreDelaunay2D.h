@@ -3,9 +3,9 @@
  * @class   vtkTIPPOutOfCoreDelaunay2D
  * @brief   exact 2D Delaunay triangulation of points in files, larger than memory
  *
- * vtkTIPPOutOfCoreDelaunay2D triangulates points of files by x and y and writes the triangles as a
- * partitioned mesh, the folder FileName. Neither points nor triangles need fit in memory. Put a
- * vtkPartitionedUnstructuredReader behind it, which reads the mesh by piece or by range:
+ * vtkTIPPOutOfCoreDelaunay2D triangulates points from files by x and y and writes the triangles as
+ * a partitioned mesh, the folder FileName. Neither points nor triangles need to fit into memory.
+ * Read the mesh by piece or by range with a vtkPartitionedUnstructuredReader:
  * @code{.py}
  * triangulation = vtkTIPPOutOfCoreDelaunay2D()
  * triangulation.AddInputFileName("points.npy")
@@ -17,39 +17,39 @@
  *
  * The triangles are those of vtkTIPPDelaunay2D and of `tipp delaunay`: exact, counter-clockwise,
  * the same for every MemoryLimit and number of threads; the files are the same for every number of
- * threads. A point's global id is its index in the input. A column z is the third coordinate,
- * other columns and point data become point arrays. Coincident points are merged into the
- * one of lowest id; points with a NaN or infinite x or y are left out, with one warning.
- * Documentation/OutOfCore.md tells how it works, what it needs on the disk, and the formats of
- * files.
+ * threads. A point's global id is its index in the input. A column named z is the third coordinate;
+ * other columns and point data become point arrays. Coincident points are merged into the one of
+ * lowest id; points with a NaN or infinite x or y are left out, with one warning.
+ * Documentation/OutOfCore.md describes how it works, how much disk space it needs, and the file
+ * formats.
  *
- * Constraints come from files, too (ConstraintsFileName, BoundaryFileName, AddHole()): the result
- * is then the constrained Delaunay triangulation of vtkTIPPDelaunay2D with a source. Points of
- * these files that the input lacks, and then the points where constraints cross, come after the
- * input's; of their columns they have z alone. The statistics have Constraints, ConstraintEdges,
- * CrossingPoints and CrossingRounds then, unless the run was resumed.
+ * Constraints are read from files, too (ConstraintsFileName, BoundaryFileName, AddHole()): the
+ * result is then the constrained Delaunay triangulation, as from vtkTIPPDelaunay2D with a source.
+ * The points of these files that are not in the input, followed by the points where constraints
+ * cross, come after the input's points; z is their only column with a value. The statistics then
+ * include Constraints, ConstraintEdges, CrossingPoints and CrossingRounds, unless the run was
+ * resumed.
  *
- * The output, also GetStatistics(), is a vtkTable about the run. It has a row for each phase, with
- * the columns Phase (its name) and Seconds (wall-clock), and as field data, one value each, Points,
- * Triangles, DuplicatePoints, RejectedPoints, Pieces, Partitions, WorkerVertices (vertices
- * triangulated by all workers together), BoundaryBytes (of vertices that were sent from one piece
- * to another), SpilledBytes (of points), MeshBytes (on disk), Threads, Resumed (1 if the run has
- * gone on from another, else 0), and with CountOnly TriangleSum.
+ * The output, also returned by GetStatistics(), is a vtkTable with statistics of the run. It has a
+ * row for each phase, with the columns Phase (its name) and Seconds (wall-clock). The field data
+ * has arrays of one value each: Points, Triangles, DuplicatePoints, RejectedPoints, Pieces,
+ * Partitions, WorkerVertices (vertices triangulated by all workers together), BoundaryBytes (of
+ * vertices sent between pieces), SpilledBytes (of points), MeshBytes (on disk), Threads, Resumed (1
+ * if the run resumed an earlier one, else 0) and, with CountOnly, TriangleSum.
  *
- * The folder appears when it is whole, and replaces a partitioned mesh of that name
- * already. An error, or an abort, leaves what was there and an empty output; from the time when
- * points are spilled the work is kept in a hidden folder beside it, from which Resume goes on.
- * Errors: an input that cannot be read or has changed meanwhile, other columns than the first
- * file's, no finite point, a folder that cannot be written, too little room on the disk (with the
- * numbers), work of another run in the hidden folder.
+ * The folder appears only when it is complete, and replaces an existing partitioned mesh of that
+ * name. After an error or an abort, the path is unchanged and the output is empty; if points have
+ * been spilled already, the work is kept in a hidden folder beside the path, so that Resume can
+ * continue it. Errors: an input that cannot be read or has changed during the run, files with
+ * different columns, no finite point, a folder that cannot be written, too little disk space (the
+ * message gives the numbers), work of another run in the hidden folder.
  *
- * With a Controller of several ranks all of them update the filter together, with the same
+ * With a Controller of several ranks, all of them must update the filter together with the same
  * properties; the files are the same for every number of ranks. MemoryLimit and NumberOfThreads are
- * those of each rank. All must see the folders of FileName and ScratchFolder. The figures are on
- * the first rank. If one rank fails or stops, all do; the first rank reports it.
+ * per rank. All ranks must have access to the folders of FileName and ScratchFolder. The first rank
+ * has the statistics. If one rank fails or stops, all do, and the first rank reports it.
  *
- * @warning
- * It executes when a property has changed, not when a file has: call Modified() then.
+ * @warning It does not notice when an input file changes: call Modified() to execute it again.
  *
  * Related publication: *Efficient Generating and Processing of Large-Scale Unstructured Meshes*,
  * dissertation, University of Mississippi, chapter 2 (Triangulation of Independent Partitions in
@@ -86,9 +86,9 @@ public:
 
   ///@{
   /**
-   * The files of points, which are one input in their order: .npy, text (.csv, .txt, .xyz), .14,
-   * .grd, or any format that VTK reads. "uniform:COUNT" is no file but stands for COUNT uniform
-   * points in the unit square. SetInputFileName() leaves one file alone.
+   * The files of points, read in this order as one input: .npy, text (.csv, .txt, .xyz), .14, .grd,
+   * or any format that VTK reads. The name "uniform:COUNT" stands for COUNT uniformly distributed
+   * points in the unit square instead of a file. SetInputFileName() replaces all files by one.
    */
   void AddInputFileName(const char* name);
   void SetInputFileName(const char* name);
@@ -99,8 +99,8 @@ public:
 
   ///@{
   /**
-   * Which columns of the files are x and y: a name as the file has it, or a number counted from 0.
-   * Empty or null (the default): by the usual names, else the first two.
+   * The columns of the files that are x and y: a name in the file, or a column index from 0. Empty
+   * or null (the default): columns with the usual names, else the first two.
    */
   vtkSetStringMacro(XColumn);
   vtkGetStringMacro(XColumn);
@@ -110,7 +110,8 @@ public:
 
   ///@{
   /**
-   * The folder to write, as mesh.tipp. With CountOnly nothing is there in the end.
+   * The folder to write, such as mesh.tipp. Must be set; with CountOnly it only gives the place for
+   * temporary files.
    */
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
@@ -118,8 +119,9 @@ public:
 
   ///@{
   /**
-   * Bytes that points, triangles and buffers may take in each process; the process itself and the
-   * threads' kernels come on top. Default 2 GiB. However small, pieces have 4,096 points at least.
+   * The memory limit of each process, in bytes, for points, triangles and buffers; the program
+   * itself and the threads' kernels need some more. Default: 2^31. However low the limit, pieces
+   * have at least 4,096 points.
    */
   vtkSetClampMacro(MemoryLimit, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
   vtkGetMacro(MemoryLimit, vtkTypeInt64);
@@ -127,8 +129,8 @@ public:
 
   ///@{
   /**
-   * Columns and rows of a grid of pieces. If either is 0 (the default), they are boxes of equally
-   * many points, as many as MemoryLimit asks for.
+   * The columns and rows of a grid of pieces. If either is 0 (the default), pieces are boxes with
+   * equally many points, as many boxes as MemoryLimit requires.
    */
   vtkSetVector2Macro(NumberOfPartitions, int);
   vtkGetVector2Macro(NumberOfPartitions, int);
@@ -136,8 +138,8 @@ public:
 
   ///@{
   /**
-   * Triangles with an edge longer than this, in the plane and the units of the points, are left
-   * out; their points stay. 0 by default: none are.
+   * Triangles with an edge longer than this, measured in x and y in the units of the points, are
+   * removed; their points stay. 0 (the default): no limit.
    */
   vtkSetClampMacro(MaximumEdgeLength, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(MaximumEdgeLength, double);
@@ -145,8 +147,8 @@ public:
 
   ///@{
   /**
-   * Whether the mesh has the point array "RepresentativePointId": the global id of the point that
-   * stands for it, which is its own but for merged points. Off by default.
+   * Whether the mesh has the point array "RepresentativePointId": each point's own global id or,
+   * for a merged point, that of the point it was merged into. Off by default.
    */
   vtkSetMacro(GenerateRepresentativeIds, vtkTypeBool);
   vtkGetMacro(GenerateRepresentativeIds, vtkTypeBool);
@@ -155,8 +157,9 @@ public:
 
   ///@{
   /**
-   * Whether the mesh has the cell array "NeighborIds": for each corner of a triangle the global id
-   * of the triangle opposite to it, or -1 at the hull. Off by default.
+   * Whether the mesh has the cell array "NeighborIds" (three components): for each corner of a
+   * triangle, the global id of the triangle across the opposite edge, or -1 at the border. Off by
+   * default.
    */
   vtkSetMacro(GenerateNeighborIds, vtkTypeBool);
   vtkGetMacro(GenerateNeighborIds, vtkTypeBool);
@@ -165,9 +168,9 @@ public:
 
   ///@{
   /**
-   * A file of constraints: lines, whose edges are chains of edges of the mesh, and polygons, of
-   * which counter-clockwise ones keep their inside and clockwise ones are holes: .poly, .csv, .14,
-   * files of a GIS, or any format that VTK reads. None by default.
+   * A file of constraints: lines, whose edges become chains of edges of the mesh, and polygons,
+   * which also define the inside (counter-clockwise) and holes (clockwise). Formats: .poly, .csv,
+   * .14, GIS files, or any format that VTK reads. None by default.
    */
   vtkSetFilePathMacro(ConstraintsFileName);
   vtkGetFilePathMacro(ConstraintsFileName);
@@ -175,8 +178,8 @@ public:
 
   ///@{
   /**
-   * A file of closed lines, which are constraints: triangles outside of them are removed. None by
-   * default.
+   * A file of closed lines, which become constraints; triangles outside of them are removed. None
+   * by default.
    */
   vtkSetFilePathMacro(BoundaryFileName);
   vtkGetFilePathMacro(BoundaryFileName);
@@ -184,7 +187,7 @@ public:
 
   ///@{
   /**
-   * Points in holes: triangles that constraints do not part from them are removed.
+   * Points in holes: all triangles that are not separated from them by constraints are removed.
    */
   void AddHole(double x, double y);
   void ClearHoles();
@@ -192,8 +195,8 @@ public:
 
   ///@{
   /**
-   * Whether constraints that cross are split at a new point. Off: it is an error if two cross. On
-   * by default.
+   * Whether constraints that cross are split at a new point. If off, crossing constraints are an
+   * error. On by default.
    */
   vtkSetMacro(SplitCrossings, vtkTypeBool);
   vtkGetMacro(SplitCrossings, vtkTypeBool);
@@ -202,8 +205,8 @@ public:
 
   ///@{
   /**
-   * Whether the mesh has the cell array "ConstraintEdges": for each corner of a triangle 1 if the
-   * edge opposite to it is one of a constraint, else 0. Off by default.
+   * Whether the mesh has the cell array "ConstraintEdges" (three components): 1 if the edge
+   * opposite to that corner of the triangle is part of a constraint, else 0. Off by default.
    */
   vtkSetMacro(GenerateConstraintEdges, vtkTypeBool);
   vtkGetMacro(GenerateConstraintEdges, vtkTypeBool);
@@ -212,8 +215,8 @@ public:
 
   ///@{
   /**
-   * Whether triangles are counted and summed up (TriangleSum: a checksum of them, whatever their
-   * order) instead of written. Off by default.
+   * Whether triangles are only counted and summed (TriangleSum, a checksum that does not depend on
+   * their order) instead of written. Off by default.
    */
   vtkSetMacro(CountOnly, vtkTypeBool);
   vtkGetMacro(CountOnly, vtkTypeBool);
@@ -222,9 +225,9 @@ public:
 
   ///@{
   /**
-   * Whether to go on where a run for the same FileName, input and options was ended, killed or
-   * failed, if there is one. The files are those of a run that was not. Off by default: then such
-   * work is an error and is not touched.
+   * Whether to resume an interrupted or failed run with the same FileName, input and options, if
+   * there is one. The files are the same as those of an uninterrupted run. Off by default:
+   * left-over work of such a run is then an error, and is kept.
    */
   vtkSetMacro(Resume, vtkTypeBool);
   vtkGetMacro(Resume, vtkTypeBool);
@@ -233,7 +236,8 @@ public:
 
   ///@{
   /**
-   * A folder on another disk for the points that are spilled. None by default: beside the mesh.
+   * A folder, for example on another disk, to which points are spilled. None by default: they are
+   * spilled beside the mesh.
    */
   vtkSetFilePathMacro(ScratchFolder);
   vtkGetFilePathMacro(ScratchFolder);
@@ -241,7 +245,7 @@ public:
 
   ///@{
   /**
-   * Number of threads. Default 0: as many as OpenMP would take.
+   * Number of threads. Default 0: OpenMP's default.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
   vtkGetMacro(NumberOfThreads, int);
@@ -249,15 +253,15 @@ public:
 
   ///@{
   /**
-   * The ranks that triangulate together. The global controller by default; null, or a controller of
-   * one rank: this process alone.
+   * The ranks that triangulate together. The global controller by default. With null or a
+   * controller of one rank, this process works alone.
    */
   virtual void SetController(vtkMultiProcessController*);
   vtkGetObjectMacro(Controller, vtkMultiProcessController);
   ///@}
 
   /**
-   * The output.
+   * The output table.
    */
   vtkTable* GetStatistics() { return this->GetOutput(); }
 

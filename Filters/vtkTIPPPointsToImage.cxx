@@ -208,7 +208,7 @@ int vtkTIPPPointsToImage::RequestUpdateExtent(
   return 1;
 }
 
-/// The points' arrays of one component that are bands, and the elevation.
+/// The points with their elevation and those single-component arrays that are bands.
 tipp::PointTable vtkTIPPPointsToImage::Table(vtkPointSet* points) const
 {
   const auto count = std::size_t(points->GetNumberOfPoints());
@@ -299,7 +299,7 @@ void vtkTIPPPointsToImage::Constrain(
   if (hasLines)
   {
     constraints.Lines = take(this->BreaklinesFileName, lines);
-    constraints.Lines.PolygonBegin = constraints.Lines.Edges.size(); // polygons are lines, too
+    constraints.Lines.PolygonBegin = constraints.Lines.Edges.size(); // polygons count as lines, too
     constraints.Lines.Holes.clear();
     const bool isVtk =
       !given(this->BreaklinesFileName) || tipp::isVtkFile(this->BreaklinesFileName);

@@ -1,36 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkTIPPPointsToImage
- * @brief   makes a regular grid of elevations (a DEM) of scattered points
+ * @brief makes a regular grid of elevations (a DEM) from scattered points
  *
  * vtkTIPPPointsToImage triangulates points by x and y, exactly, and samples the triangulated
- * surface at the centres of pixels. The triangles are not kept. The values are those of `tipp dem`
- * and of vtkTIPPDelaunay2D and vtkRangeResampleFilter one after the other, the same bit for bit for
- * any NumberOfThreads, MemoryLimit and order of the points.
+ * surface at the centres of pixels. The triangles are not kept. The values are identical to those
+ * of `tipp dem`, and of vtkTIPPDelaunay2D followed by vtkRangeResampleFilter, bit for bit, for any
+ * NumberOfThreads, MemoryLimit and order of the points.
  *
- * The first input is the points, a vtkPointSet. Their z is the elevation, unless there is a point
- * array of this name. The second input, optional, has breaklines: lines and polygons of a
- * vtkPolyData become edges of triangles. Their points have the z of the lines, or the elevation of
- * the surface without them if all of these are 0. The third input, optional, is a boundary: closed
- * lines or polygons, whose corners have the elevation of the points' own surface. There are no
- * values outside of it.
+ * The first input is the points, a vtkPointSet. Their elevation is the point array "elevation", or
+ * else z. The second input, optional, has breaklines: the lines and polygons of a vtkPolyData,
+ * which become edges of triangles. Their points keep their z; if all z are 0, they get the
+ * elevation of the surface without breaklines. The third input, optional, is a boundary: closed
+ * lines or polygons, outside of which there are no values. Their corners get the elevation of the
+ * surface.
  *
- * The output is a vtkImageData of one layer. A sample of the image is the centre of a pixel. It has
- * a point array of doubles for each band, NaN where there is no triangle. Bands are
+ * The output is a vtkImageData with one layer, whose points are the centres of the pixels. It has a
+ * point array of doubles for each band, NaN where there is no triangle. Bands are
  * - elevation;
- * - point arrays of one component of the input, by their names, linear in each triangle;
- * - slope and aspect, in degrees, and hillshade, 1 to 255, of the triangles;
- * - density: points a square unit, half a point in each triangle;
+ * - single-component point arrays of the input, by name, interpolated linearly in each triangle;
+ * - slope and aspect, in degrees, and hillshade, 1 to 255, constant in each triangle;
+ * - density: points per square unit, counting half a point per triangle;
  * - void: 1 where there is no triangle, else 0.
  *
- * The field data has GeoTransform, six numbers as GDAL has them: the west border, the width of a
- * pixel, 0, the north border, 0, and minus the height of a pixel.
+ * The field data has GeoTransform, six numbers as in GDAL: the west border, the width of a pixel,
+ * 0, the north border, 0, and minus the height of a pixel.
  *
  * Points with a NaN or infinite x or y are left out, with one warning. Errors: no finite point, a
- * band that is no array, more pixels than the memory holds, a boundary that is not closed.
+ * band that does not exist, more pixels than fit into memory, a boundary that is not closed.
  *
- * @warning
- * It works on one rank: each rank asks for all points and makes the whole image.
+ * @warning It does not work in parallel over ranks: each rank requests all points and makes the
+ * whole image.
  *
  * @sa
  * vtkTIPPDelaunay2D vtkRangeResampleFilter vtkTIPPPointReader
@@ -78,8 +78,8 @@ public:
 
   ///@{
   /**
-   * Files of lines, as `tipp dem` reads them, which take the place of the optional inputs. Empty or
-   * null (the default): there are none.
+   * Files of lines in the formats of `tipp dem`, which replace the optional inputs. Empty or null
+   * (the default): no files.
    */
   vtkSetFilePathMacro(BreaklinesFileName);
   vtkGetFilePathMacro(BreaklinesFileName);
@@ -89,8 +89,8 @@ public:
 
   ///@{
   /**
-   * Width and height of a pixel, in the units of the points. 0 (the default): about one point a
-   * pixel.
+   * The width and height of a pixel, in the units of the points. 0 (the default): chosen so that
+   * there is about one point per pixel.
    */
   vtkSetClampMacro(Resolution, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Resolution, double);
@@ -98,8 +98,8 @@ public:
 
   ///@{
   /**
-   * Whether the pixels cover the points that thinning keeps (the default) and SamplingBounds is
-   * ignored. Then the input is updated as soon as the extent of the output is asked for.
+   * Whether the pixels cover the bounds of the points that thinning keeps (the default), and
+   * SamplingBounds is ignored. RequestInformation() then updates the input.
    */
   vtkSetMacro(UseInputBounds, bool);
   vtkGetMacro(UseInputBounds, bool);
@@ -108,7 +108,8 @@ public:
 
   ///@{
   /**
-   * The range to cover as (xmin, xmax, ymin, ymax). (0, 1, 0, 1) by default.
+   * The range to cover as (xmin, xmax, ymin, ymax), in the units of the points. (0, 1, 0, 1) by
+   * default.
    */
   vtkSetVector4Macro(SamplingBounds, double);
   vtkGetVector4Macro(SamplingBounds, double);
@@ -116,8 +117,8 @@ public:
 
   ///@{
   /**
-   * Whether borders of pixels are at multiples of Resolution (the default), so that images of
-   * neighbouring tiles fit together. Else the first pixels begin at the bounds.
+   * Whether pixel borders are at multiples of Resolution (the default), so that images of
+   * neighbouring tiles fit together. If off, the first pixels start at the bounds.
    */
   vtkSetMacro(AlignToResolution, bool);
   vtkGetMacro(AlignToResolution, bool);
@@ -126,7 +127,7 @@ public:
 
   ///@{
   /**
-   * The bands, see above. "elevation" by default; AddBand() adds to it.
+   * The bands, see above. "elevation" alone by default; AddBand() adds one.
    */
   void AddBand(const char* name);
   void ClearBands();
@@ -136,8 +137,8 @@ public:
 
   ///@{
   /**
-   * Triangles with an edge longer than this, in the plane and the units of the points, have no
-   * values. 0 by default: all have.
+   * Triangles with an edge longer than this, measured in x and y in the units of the points, are
+   * removed, so that pixels there have no value. 0 (the default): no limit.
    */
   vtkSetClampMacro(MaximumEdgeLength, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(MaximumEdgeLength, double);
@@ -148,22 +149,22 @@ public:
    */
   enum DuplicateType
   {
-    DUPLICATES_FIRST = 0,   ///< those of the first point
-    DUPLICATES_LOWEST = 1,  ///< those of the lowest
-    DUPLICATES_HIGHEST = 2, ///< those of the highest
+    DUPLICATES_FIRST = 0,   ///< the values of the first point
+    DUPLICATES_LOWEST = 1,  ///< the values of the lowest point
+    DUPLICATES_HIGHEST = 2, ///< the values of the highest point
     DUPLICATES_MEAN = 3     ///< the mean of each array
   };
 
   ///@{
   /**
-   * Which values coincident points get; DUPLICATES_FIRST by default.
+   * A DuplicateType; DUPLICATES_FIRST by default.
    */
   vtkSetClampMacro(Duplicates, int, DUPLICATES_FIRST, DUPLICATES_MEAN);
   vtkGetMacro(Duplicates, int);
   ///@}
 
   /**
-   * Which point of a square thinning keeps.
+   * Which point thinning keeps in each square.
    */
   enum ThinningType
   {
@@ -174,7 +175,8 @@ public:
 
   ///@{
   /**
-   * One point is kept in each square of this side. 0 (the default): all are.
+   * Thinning keeps one point in each square of this side, in the units of the points. 0 (the
+   * default): no thinning.
    */
   vtkSetClampMacro(ThinningSize, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(ThinningSize, double);
@@ -182,7 +184,7 @@ public:
 
   ///@{
   /**
-   * Which point of a square is kept; THIN_NEAREST by default.
+   * A ThinningType; THIN_NEAREST by default.
    */
   vtkSetClampMacro(ThinningRule, int, THIN_LOWEST, THIN_NEAREST);
   vtkGetMacro(ThinningRule, int);
@@ -190,8 +192,8 @@ public:
 
   ///@{
   /**
-   * Bytes that the triangulation may take besides the input and the image; what does not fit goes
-   * to temporary files. 0 (the default): no limit.
+   * The memory limit of the triangulation, in bytes, not counting the input and the image; data
+   * that does not fit is spilled to temporary files. 0 (the default): no limit.
    */
   vtkSetClampMacro(MemoryLimit, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
   vtkGetMacro(MemoryLimit, vtkTypeInt64);
@@ -235,7 +237,7 @@ private:
   tipp::RasterGrid Grid(vtkPointSet* points) const;
   tipp::PointTable Table(vtkPointSet* points) const;
   std::unique_ptr<tipp::PointStream> Stream(vtkPointSet* points) const;
-  std::array<double, 4> PointBounds(vtkPointSet* points) const; // of those that thinning keeps
+  std::array<double, 4> PointBounds(vtkPointSet* points) const; // after thinning
   void Constrain(vtkPolyData* lines, vtkPolyData* boundary, tipp::DemRequest& request) const;
   void Make(vtkInformationVector** inputs, vtkImageData* output);
 };

@@ -240,7 +240,7 @@ int vtkPartitionedUnstructuredReader::RequestInformation(
   }
   catch (const std::exception& error)
   {
-    // With several ranks the others wait in RequestData, which will meet the same error.
+    // With several ranks the error is reported by RequestData, in which the other ranks take part.
     if (this->Controller && this->Controller->GetNumberOfProcesses() > 1)
     {
       return 1;

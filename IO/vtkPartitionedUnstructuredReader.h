@@ -5,27 +5,27 @@
  *
  * FileName is one of
  * - a partitioned mesh, as vtkPartitionedUnstructuredWriter and `tipp partition` make it: its
- * folder or the index in it. Only the pieces that are asked for are opened;
+ *   folder or the index in it. Only the requested pieces are opened;
  * - a flat mesh: a folder of .npy arrays (cells.npy, points.npy, point_data/, cell_data/, time.npy)
  *   or a .vtu file with appended, raw, uncompressed data of nothing but triangles or nothing but
- *   tetrahedra. Its cells are loaded chunk by chunk (Direct Load) within MemoryLimit, partitioned
- * as Tiling says, and those of the pieces that are asked for are kept. The pieces are those that
- * the stored mesh would have.
+ *   tetrahedra. Its cells are loaded chunk by chunk (Direct Load) within MemoryLimit and
+ *   partitioned according to Tiling; only the cells of the requested pieces are kept. The pieces
+ *   are the same as those of a stored partitioned mesh.
  *
  * A partition is a closed box. A cell is owned by the first partition that it shares a point with
- * and borrowed by the others; this is decided exactly. Points carry their global ids
- * ("GlobalPointIds", the point's number in the flat mesh), cells theirs ("GlobalCellIds"), both as
- * VTK's global ids. vtkGhostType marks points that belong to another piece and, with BorrowerMode
- * OWNED_AND_BORROWED or where the pipeline asks for ghost levels, the borrowed cells.
+ * and borrowed by the others that it meets, decided exactly. Points and cells have VTK global ids,
+ * "GlobalPointIds" (the point's index in the flat mesh) and "GlobalCellIds". vtkGhostType marks
+ * points that another piece owns and, with BorrowerMode OWNED_AND_BORROWED or if the pipeline
+ * requests ghost levels, the borrowed cells.
  *
- * Any number of pieces can be requested (UPDATE_PIECE_NUMBER of UPDATE_NUMBER_OF_PIECES): each gets
- * successive partitions of about equal weight, or none. With a Controller of several ranks all of
- * them must execute the reader together, each for its own piece; what goes wrong on one is an error
- * on all.
+ * Any number of pieces can be requested (UPDATE_PIECE_NUMBER of UPDATE_NUMBER_OF_PIECES): each
+ * consists of consecutive partitions, with about equal weight per piece, or is empty. With a
+ * Controller of several ranks all of them must execute the reader together, each for its own piece;
+ * an error on one rank is an error on all.
  *
  * The output is a vtkUnstructuredGrid, or with MergePieces off a vtkPartitionedDataSet with a
- * partition for each piece. TIME_STEPS are those of the mesh; of arrays that vary in time, the last
- * step not after the requested time is read, or the first.
+ * partition for each piece. TIME_STEPS are those of the mesh. Arrays that vary in time are read at
+ * the last step that is not after the requested time, or else at the first step.
  *
  * Errors are reported and leave the output empty. Counts, offsets and checksums in files are
  * checked before they are used.
@@ -58,12 +58,12 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /**
-   * What becomes of cells that several partitions meet.
+   * What to do with cells that several partitions meet.
    */
   enum BorrowerModeType
   {
-    OWNED = 0,             ///< each cell is in one piece, its owner
-    OWNED_AND_BORROWED = 1 ///< borrowers have it too, as a ghost
+    OWNED = 0,             ///< each cell is only in the piece that owns it
+    OWNED_AND_BORROWED = 1 ///< borrowers get it too, as a ghost cell
   };
 
   ///@{
@@ -75,18 +75,18 @@ public:
   ///@}
 
   /**
-   * Whether the path looks like a mesh that can be read; reading it may still fail.
+   * Returns 1 if the path looks like a mesh that can be read (reading it may still fail), else 0.
    */
   virtual int CanReadFile(VTK_FILEPATH const char* path);
 
   ///@{
   /**
-   * The range to read: x from, x to, y from, y to, z from, z to, in the mesh's units. Only pieces
-   * whose partition it meets are opened; the output has the cells that share a point with the
-   * closed box, decided exactly (triangles by x and y alone), and their points. A cell or point
-   * whose owner is not opened belongs to the lowest opened piece that it meets. Bounds with from >
-   * to along x (the default, vtkMath::UninitializeBounds) stand for everything; along y or z alone
-   * that is an error.
+   * The range to read, (xmin, xmax, ymin, ymax, zmin, zmax), in the mesh's units. Only pieces whose
+   * partition meets the range are opened; the output has the cells that share a point with the
+   * closed box, decided exactly (triangles by x and y only), and their points. A cell or point
+   * whose owner is not opened is assigned to the lowest opened piece that it meets. xmin > xmax
+   * (the default, vtkMath::UninitializeBounds) reads everything; ymin > ymax or zmin > zmax alone
+   * is an error.
    */
   vtkSetVector6Macro(Bounds, double);
   vtkGetVector6Macro(Bounds, double);
@@ -105,8 +105,8 @@ public:
 
   ///@{
   /**
-   * Whether the output is one vtkUnstructuredGrid (the default), in which each point and cell is
-   * once, or a vtkPartitionedDataSet of pieces.
+   * Whether the output is one vtkUnstructuredGrid (the default), without duplicate points and
+   * cells, or a vtkPartitionedDataSet of pieces.
    */
   vtkSetMacro(MergePieces, bool);
   vtkGetMacro(MergePieces, bool);
@@ -115,7 +115,7 @@ public:
 
   ///@{
   /**
-   * How many of the last read pieces stay in memory for the next request. Default: 0.
+   * How many of the most recently read pieces are kept in memory for later requests. Default: 0.
    */
   vtkSetClampMacro(CacheSize, int, 0, VTK_INT_MAX);
   vtkGetMacro(CacheSize, int);
@@ -123,7 +123,8 @@ public:
 
   ///@{
   /**
-   * Bytes that loading a flat mesh may take besides the pieces themselves. Default: 2^31.
+   * The memory limit, in bytes, for loading a flat mesh, not counting the pieces themselves.
+   * Default: 2^31.
    */
   vtkSetClampMacro(MemoryLimit, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
   vtkGetMacro(MemoryLimit, vtkTypeInt64);
@@ -131,8 +132,8 @@ public:
 
   ///@{
   /**
-   * Number of threads that read pieces, or load and partition a flat mesh. Default 0: as many as
-   * OpenMP would take.
+   * Number of threads that read pieces, or load and partition a flat mesh. Default 0: OpenMP's
+   * default.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
   vtkGetMacro(NumberOfThreads, int);
@@ -140,9 +141,9 @@ public:
 
   ///@{
   /**
-   * How a flat mesh is partitioned: "grid:4x4" (the default), "grid:4x4x2", "quadtree:T" or
-   * "octree:T": nodes of the tree that more than T cells meet are split, of which only cells no
-   * longer than the node count, down to a depth that ends it in any case.
+   * How a flat mesh is partitioned: "grid:4x4" (the default) or "grid:4x4x2" for a regular grid;
+   * "quadtree:T" or "octree:T" for a tree whose nodes with more than T cells are split. Cells
+   * longer than the node are not counted, and the depth is limited.
    */
   vtkSetStringMacro(Tiling);
   vtkGetStringMacro(Tiling);
@@ -150,8 +151,8 @@ public:
 
   ///@{
   /**
-   * The ranks that execute the reader together. Default: the global controller; null: this process
-   * alone.
+   * The ranks that execute the reader together. The global controller by default. With null this
+   * process works alone.
    */
   virtual void SetController(vtkMultiProcessController* controller);
   vtkGetObjectMacro(Controller, vtkMultiProcessController);
@@ -159,7 +160,8 @@ public:
 
   ///@{
   /**
-   * Which arrays are read; known after UpdateInformation(). All by default.
+   * Which arrays are read; their names are known after UpdateInformation(). All by default. The
+   * reader owns the selections.
    */
   vtkDataArraySelection* GetPointDataArraySelection();
   vtkDataArraySelection* GetCellDataArraySelection();
@@ -167,15 +169,16 @@ public:
 
   ///@{
   /**
-   * Of the last update on this process: pieces that were read, of a flat mesh those that were made,
-   * and bytes read from pieces' files, 0 for a flat mesh. Pieces from the cache do not count.
+   * Statistics of the last update on this process: the number of pieces read (of a flat mesh:
+   * created), not counting pieces from the cache, and of bytes read from piece files (0 for a flat
+   * mesh).
    */
   vtkGetMacro(NumberOfPiecesRead, vtkTypeInt64);
   vtkGetMacro(NumberOfBytesRead, vtkTypeInt64);
   ///@}
 
   /**
-   * Also that of the array selections.
+   * Includes the modification times of the array selections.
    */
   vtkMTimeType GetMTime() override;
 

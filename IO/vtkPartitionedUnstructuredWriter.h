@@ -3,29 +3,29 @@
  * @class   vtkPartitionedUnstructuredWriter
  * @brief   writes a mesh of triangles or tetrahedra as a partitioned mesh
  *
- * vtkPartitionedUnstructuredWriter cuts a mesh into partitions and writes a folder with a .vtu file
- * for each, a .pvtu over them, which vtkXMLPUnstructuredGridReader reads, and an index, by which
- * vtkPartitionedUnstructuredReader reads a range or a piece. Documentation/PartitionedMesh.md tells
- * the format.
+ * vtkPartitionedUnstructuredWriter divides a mesh into partitions and writes a folder with a .vtu
+ * file for each, a .pvtu file for vtkXMLPUnstructuredGridReader, and an index with which
+ * vtkPartitionedUnstructuredReader reads a range or a piece. Documentation/PartitionedMesh.md
+ * describes the format.
  *
  * The mesh is the input, a vtkDataSet or a vtkPartitionedDataSet, or, with InputFileName, a mesh in
- * a file of any size: a folder of .npy arrays or a .vtu file with appended, raw,
- * uncompressed data. Cells of an input other than triangles and tetrahedra are cut into these,
- * ghost cells and cells of a lower dimension are left out. Points with equal coordinates in
- * different data sets become one. Its arrays GlobalPointIds, GlobalCellIds and vtkGhostType, if it
- * has any, are not stored: the partitioned mesh has its own.
+ * a file of any size: a folder of .npy arrays or a .vtu file with appended, raw, uncompressed data.
+ * Cells of the input other than triangles and tetrahedra are divided into these; ghost cells and
+ * cells of a lower dimension are left out. Points of different data sets with equal coordinates are
+ * merged. The input's arrays GlobalPointIds, GlobalCellIds and vtkGhostType are replaced by those
+ * of the partitioned mesh.
  *
  * A partition is a closed box. A cell is owned by the first partition that it shares a point with,
  * decided exactly; the others that it meets borrow it, by reference or, with DuplicateBorrowers, as
- * ghost cells in their own pieces. The files depend on the mesh, Tiling and DuplicateBorrowers
- * alone: not on memory, threads, device or the number of ranks.
+ * ghost cells in their own pieces. The files depend only on the mesh, Tiling and
+ * DuplicateBorrowers, not on the memory limit, threads, device or number of ranks.
  *
  * With a controller of several ranks all of them must call Write(), and all must see the same
- * files. The ranks' inputs together are the mesh then; they are brought to the first rank, which
- * must have room for them. InputFileName has no such limit.
+ * files. The mesh is then the union of the ranks' inputs. They are gathered on the first rank,
+ * which must have enough memory for all of them; InputFileName has no such limit.
  *
- * The folder appears when it is whole. One that is there already is replaced if it is a partitioned
- * mesh, else that is an error. An error, or an abort, leaves what was there.
+ * The folder appears only when it is complete. It replaces an existing partitioned mesh; if the
+ * path holds anything else, that is an error. After an error or an abort the path is unchanged.
  *
  * Related publication: *Efficient Generating and Processing of Large-Scale Unstructured Meshes*,
  * dissertation, University of Mississippi, chapters 4 and 5.
@@ -52,7 +52,7 @@ public:
 
   ///@{
   /**
-   * The folder to write, as mesh.tipp.
+   * The folder to write, such as mesh.tipp. Must be set.
    */
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
@@ -60,7 +60,7 @@ public:
 
   ///@{
   /**
-   * A flat mesh, or any file of VTK's, to take instead of the input. None by default.
+   * A flat mesh or any file that VTK reads, to write instead of the input. None by default.
    */
   vtkSetFilePathMacro(InputFileName);
   vtkGetFilePathMacro(InputFileName);
@@ -68,10 +68,9 @@ public:
 
   ///@{
   /**
-   * How the bounding box is cut: "grid:4x4" or "grid:4x4x2" for a regular grid, "quadtree:N" or
-   * "octree:N" for a tree whose nodes with more than N cells (no longer than the node) are split,
-   * down to a depth that ends it in any case.
-   * Default "grid:4x4".
+   * How the bounding box is divided: "grid:4x4" (the default) or "grid:4x4x2" for a regular grid;
+   * "quadtree:N" or "octree:N" for a tree whose nodes with more than N cells are split. Cells
+   * longer than the node are not counted, and the depth is limited.
    */
   vtkSetStringMacro(Tiling);
   vtkGetStringMacro(Tiling);
@@ -80,7 +79,7 @@ public:
   ///@{
   /**
    * Whether borrowed cells are copied to their borrowers' pieces as ghost cells. Off by default:
-   * they are stored once, and read from their owners' pieces.
+   * each cell is stored once, and borrowers read it from the owner's piece.
    */
   vtkSetMacro(DuplicateBorrowers, bool);
   vtkGetMacro(DuplicateBorrowers, bool);
@@ -89,7 +88,7 @@ public:
 
   ///@{
   /**
-   * Bytes that each rank may take, not counting the input. Default 2 GiB.
+   * The memory limit of each rank, in bytes, not counting the input. Default: 2^31.
    */
   vtkSetClampMacro(MemoryLimit, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
   vtkGetMacro(MemoryLimit, vtkTypeInt64);
@@ -105,7 +104,7 @@ public:
 
   ///@{
   /**
-   * What classifies cells at the partitions' borders: "openmp" (the default), "opencl",
+   * The device that classifies cells at the partitions' borders: "openmp" (the default), "opencl",
    * "opencl:NAME" or "auto".
    */
   vtkSetStringMacro(Device);
@@ -114,7 +113,7 @@ public:
 
   ///@{
   /**
-   * Number of threads. Default 0: as many as OpenMP would take.
+   * Number of threads. Default 0: OpenMP's default.
    */
   vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
   vtkGetMacro(NumberOfThreads, int);
@@ -122,7 +121,8 @@ public:
 
   ///@{
   /**
-   * The ranks that work together. By default the global controller; null: this process alone.
+   * The ranks that work together. The global controller by default. With null this process works
+   * alone.
    */
   virtual void SetController(vtkMultiProcessController* controller);
   vtkGetObjectMacro(Controller, vtkMultiProcessController);

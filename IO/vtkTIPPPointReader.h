@@ -4,16 +4,17 @@
  * @brief   reads points from LAS, text, .npy and other files
  *
  * vtkTIPPPointReader reads the files that `tipp delaunay` reads: .las (versions 1.0 to 1.4, all
- * point formats), .laz (if built with LASzip), .csv, .txt, .xyz, .npy, .14, .grd and the
- * files that VTK reads. The output is a vtkPolyData with the points of all files, in their order. A
- * column named z is the third coordinate; the others are point data, float64. Of LAS files these
- * are intensity, classification, gps_time, red, green, blue and nir, if the file has them.
+ * point formats), .laz (if built with LASzip), .csv, .txt, .xyz, .npy, .14, .grd and the files that
+ * VTK reads. The output is a vtkPolyData with the points of all files, in the order of the files. A
+ * column named z is the third coordinate; the other columns become point data (float64). For LAS
+ * files these are intensity, classification, gps_time, red, green, blue and nir, as far as the file
+ * has them.
  *
  * If a LAS file has a coordinate reference system, it is the string array
  * "CoordinateReferenceSystem" in the output's field data: WKT or "EPSG:code".
  *
- * A request for a piece returns a share of the points: consecutive points of .las and .npy files;
- * of other files all points for the first piece and none for the others.
+ * If reading can start at any point (.las, .npy), each requested piece gets a share of consecutive
+ * points. Otherwise the first piece gets all points and the others none.
  *
  * @sa
  * vtkTIPPDelaunay2D vtkTIPPOutOfCoreDelaunay2D
@@ -54,8 +55,8 @@ public:
 
   ///@{
   /**
-   * The columns of text and .npy files that are x and y: a name in the file, or a number counted
-   * from 0. Empty or null (the default): found by the usual names, else the first two.
+   * The columns of text and .npy files that are x and y: a name in the file, or a column index from
+   * 0. Empty or null (the default): columns with the usual names, else the first two.
    */
   vtkSetStringMacro(XColumn);
   vtkGetStringMacro(XColumn);
@@ -65,14 +66,15 @@ public:
 
   ///@{
   /**
-   * The classes of LAS points to read, such as "2,9". Empty or null (the default): all.
+   * The classes of LAS points to read, separated by commas, such as "2,9". Empty or null (the
+   * default): all.
    */
   vtkSetStringMacro(Classes);
   vtkGetStringMacro(Classes);
   ///@}
 
   /**
-   * The returns of a pulse.
+   * Which returns of a laser pulse are read.
    */
   enum ReturnType
   {
@@ -83,7 +85,7 @@ public:
 
   ///@{
   /**
-   * The returns of LAS files to read: all (RETURNS_ALL, the default), the first or the last.
+   * Which returns of LAS files are read: a ReturnType, RETURNS_ALL by default.
    */
   vtkSetClampMacro(Returns, int, RETURNS_ALL, RETURNS_LAST);
   vtkGetMacro(Returns, int);
@@ -91,8 +93,8 @@ public:
 
   ///@{
   /**
-   * Whether points of LAS files that are flagged as withheld, as synthetic or as overlap (of the
-   * formats 0 to 5: of class 12) are read, too. Off by default.
+   * Whether LAS points flagged as withheld, synthetic or overlap (class 12 in formats 0 to 5) are
+   * read, too. Off by default.
    */
   vtkSetMacro(KeepWithheld, bool);
   vtkGetMacro(KeepWithheld, bool);
@@ -116,7 +118,7 @@ public:
 
   ///@{
   /**
-   * Whether the output has a vertex cell for each point, without which it is not drawn. On by
+   * Whether the output has a vertex cell for each point, which is needed for rendering. On by
    * default.
    */
   vtkSetMacro(GenerateVertices, bool);
@@ -126,7 +128,7 @@ public:
 
   ///@{
   /**
-   * The number of points that were not selected in the last update.
+   * The number of points that the last update left out because of Classes, Returns or flags.
    */
   vtkGetMacro(NumberOfPointsLeftOut, vtkTypeInt64);
   ///@}

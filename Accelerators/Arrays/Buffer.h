@@ -13,8 +13,9 @@
 namespace tipp
 {
 
-/// An uninitialised array that owns its memory and can release it (free() frees it). It asks for no
-/// huge pages: in a virtual machine whose host reclaims free memory, their first touch is slower.
+/// An uninitialised array that owns its memory and can hand it over (see release()). It does not
+/// request huge pages: in a virtual machine whose host reclaims free memory, first touching them is
+/// slower.
 template <typename T>
 class Buffer
 {
@@ -37,7 +38,8 @@ public:
     return *this;
   }
 
-  /// Takes over another array's memory; the size is as many elements as fit.
+  /// Takes over another array's memory. The new size is the number of whole elements that fit into
+  /// it.
   template <typename U>
   explicit Buffer(Buffer<U>&& other) noexcept
     : Size(other.size() * sizeof(U) / sizeof(T))
@@ -70,8 +72,8 @@ public:
   /// Shortens the array to its first `size` elements; the memory stays allocated.
   void truncate(std::size_t size) { this->Size = size; }
 
-  /// Returns the memory; the caller owns it and frees it with free(). Never null, since VTK and
-  /// NumPy take no array without memory.
+  /// Returns the memory. The caller owns it and must free it with free(). Never null, not even for
+  /// an empty array, since VTK and NumPy reject null arrays.
   T* release()
   {
     this->Size = 0;
@@ -102,8 +104,8 @@ private:
   std::size_t Size = 0;
 };
 
-/// Leaves value-initialised elements uninitialised: writing zeros first costs as much as the work
-/// that follows.
+/// An allocator that leaves new elements uninitialised: zeroing them first can cost as much as the
+/// work that follows.
 template <typename T>
 class UninitialisedAllocator : public std::allocator<T>
 {
@@ -126,7 +128,7 @@ public:
   }
 };
 
-/// A vector whose resize() writes nothing.
+/// A vector whose resize() does not initialise elements.
 template <typename T>
 using Uninitialised = std::vector<T, UninitialisedAllocator<T>>;
 

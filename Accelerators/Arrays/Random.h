@@ -56,13 +56,14 @@ public:
   /// In 0 .. bound - 1; the bias is below bound / 2^53.
   std::int64_t index(std::int64_t bound) { return std::int64_t(this->uniform() * double(bound)); }
 
+  /// Two random numbers, or the coordinates of a random point.
   struct Pair
   {
     double x;
     double y;
   };
 
-  /// Uniform in the unit disk without its centre; squared radius in `s`.
+  /// A uniform point of the unit disk without its centre; `s` gets its squared radius.
   Pair inDisk(double& s)
   {
     Pair p;

@@ -34,7 +34,7 @@ enum class Scalar
 using ScalarTypes = std::tuple<std::int8_t, std::uint8_t, std::int16_t, std::uint16_t, std::int32_t,
   std::uint32_t, std::int64_t, std::uint64_t, float, double>;
 
-/// Calls work(value) with a value of the corresponding C++ type.
+/// Calls work(value) with a value of the type's C++ type.
 template <std::size_t I = 0, typename Work>
 void withScalar(Scalar type, const Work& work)
 {
@@ -72,7 +72,7 @@ T toScalar(double value)
   }
 }
 
-/// The Scalar of a VTK_... type; nullopt for bits and types that are not numeric.
+/// The Scalar of a VTK_... type constant; nullopt for VTK_BIT and non-numeric types.
 VTKTIPPACCELERATORS_EXPORT std::optional<Scalar> scalarOf(int vtkType);
 
 /// The inverse of scalarOf().

@@ -16,19 +16,20 @@
 namespace tipp
 {
 
-/// Finds which of many boxes meet a box: a packed R-tree (Kamel and Faloutsos, On Packing R-trees,
-/// 1993) over the boxes in the order of their centres along the Morton curve. A node has the bounds
-/// of eight children, relative to the centre of all, in single precision, rounded outward. Takes
-/// about 23 bytes a box in 2D, 31 in 3D. Several threads may search at once.
+/// Finds which of many boxes meet a given box: a packed R-tree (Kamel and Faloutsos, On Packing
+/// R-trees, 1993) over the boxes, sorted by their centres along the Morton curve. A node stores the
+/// bounds of eight children in single precision, relative to the centre of all boxes and rounded
+/// outward. The tree takes about 23 bytes per box in 2D, 31 in 3D. Several threads may search at
+/// once.
 template <int D>
 class BoxTree
 {
 public:
   BoxTree() = default;
 
-  /// `boxOf(i)` returns box i of `count`, at most 2^31 - 1; it is called several times for each, by
-  /// several threads. Boxes that are empty, or have bounds that are infinite or NaN, are left out.
-  /// Throws std::length_error if there are too many boxes.
+  /// `boxOf(i)` returns box i of `count`; it is called several times for each i, by several
+  /// threads. Boxes that are empty or have infinite or NaN bounds are left out. Throws
+  /// std::length_error if there are more than 2^31 - 1 boxes.
   template <typename BoxOf>
   BoxTree(std::int64_t count, int threads, const BoxOf& boxOf)
   {
@@ -49,7 +50,7 @@ public:
   }
 
   /// Calls visit(i) for each box i that meets `box`, in an order that depends on the boxes alone.
-  /// Some are visited that do not meet it, but are near in single precision.
+  /// Because of single precision it may also visit boxes that miss it narrowly.
   template <typename Visit>
   void search(const Box<D>& box, const Visit& visit) const
   {
@@ -61,8 +62,8 @@ public:
       });
   }
 
-  /// Calls visit(i) for boxes, the nearest to a point first. visit() returns the distance up to
-  /// which boxes are still wanted; a box that is nearer is never left out.
+  /// Calls visit(i) for boxes, nearest to the point first. visit() returns the distance up to which
+  /// boxes are still of interest; every nearer box is visited.
   template <typename Visit>
   void searchNear(const std::array<double, D>& point, const Visit& visit) const
   {
@@ -106,7 +107,7 @@ public:
     }
   }
 
-  /// Boxes that meet a region, in which points are then searched.
+  /// The boxes that meet a region, for repeated searches within it.
   struct alignas(16) Gathered
   {
     static constexpr int Most = 256;
@@ -116,7 +117,7 @@ public:
     float High[D][Most + 4];
   };
 
-  /// Gathers the boxes that meet a region; false if there are too many.
+  /// Gathers the boxes that meet a region. Returns false if there are too many.
   bool gather(const Box<D>& region, Gathered& to) const
   {
     to.Count = 0;
@@ -135,14 +136,14 @@ public:
         to.Numbers[std::size_t(to.Count++)] = this->Order[std::size_t(place)];
         return true;
       });
-    for (int axis = 0; axis < D; ++axis) // the last four may not be full
+    for (int axis = 0; axis < D; ++axis) // the last four may be fewer
     {
       std::fill_n(to.Low[axis] + to.Count, 4, std::numeric_limits<float>::quiet_NaN());
     }
     return isWhole;
   }
 
-  /// As search(), for a box in the region of the gathered ones.
+  /// Like search(), for a box inside the region for which boxes were gathered.
   template <typename Visit>
   void search(const Gathered& gathered, const Box<D>& box, const Visit& visit) const
   {
@@ -178,7 +179,7 @@ private:
     return result;
   }
 
-  /// Which of four boxes of a node, or of gathered ones, meet a box, a bit each.
+  /// Returns a bit mask: which of four boxes of a node, or of gathered boxes, meet a box.
   template <typename Boxes>
   static unsigned metOf(
     const Boxes& boxes, int first, const float (&low)[D], const float (&high)[D])
@@ -199,7 +200,7 @@ private:
 #endif
   }
 
-  /// At most the distance of a point from a child's box.
+  /// A lower bound of the distance of a point from a child's box.
   double distanceTo(const Node& node, int child, const std::array<double, D>& point) const
   {
     double squared = 0;
@@ -216,8 +217,8 @@ private:
     return std::sqrt(squared) * (1 - 1e-14) - largest * 1e-15;
   }
 
-  /// Calls visit(node, child, place) for the leaves' children that meet a box, until it returns
-  /// false; returns whether it never did.
+  /// Calls visit(node, child, place) for the boxes in leaves that meet a box, until it returns
+  /// false. Returns false if it did.
   template <typename Visit>
   bool forMet(const Box<D>& box, const Visit& visit) const
   {
@@ -284,7 +285,7 @@ private:
           {
             for (int axis = 0; axis < D; ++axis)
             {
-              for (int i = 0; i < Width; ++i) // fmin() and fmax() pass over NaN
+              for (int i = 0; i < Width; ++i) // fmin() and fmax() ignore NaN
               {
                 low[axis] = std::fmin(low[axis], below[child].Low[axis][i]);
                 high[axis] = std::fmax(high[axis], below[child].High[axis][i]);
@@ -296,8 +297,8 @@ private:
     }
   }
 
-  /// Fills node `n` with the bounds of its children among `children`; NaN, which meets nothing,
-  /// where there is none.
+  /// Fills node `n` with the bounds of its children, of the `children` on the level below. Missing
+  /// children get NaN bounds, which meet nothing.
   template <typename BoundsOf>
   static void fill(Node& node, std::size_t n, std::size_t children, const BoundsOf& boundsOf)
   {
@@ -317,8 +318,8 @@ private:
     }
   }
 
-  /// More than a unit outward, which covers the rounding to single precision and that of the
-  /// difference before. Finite also where single precision overflows.
+  /// Rounds outward by more than one ulp, which covers the rounding of the difference and of the
+  /// conversion to single precision. The result stays finite where single precision would overflow.
   void roundOutward(const Box<D>& box, float (&low)[D], float (&high)[D]) const
   {
     constexpr double most = std::numeric_limits<float>::max();
@@ -336,9 +337,9 @@ private:
   }
 
   std::array<double, D> Centre{};
-  std::vector<std::int32_t> Order; ///< box numbers along the curve
+  std::vector<std::int32_t> Order; ///< box indices along the Morton curve
   std::vector<std::vector<Node>>
-    Levels; ///< the first one's children are boxes; the last is one node
+    Levels; ///< of the first level, the children are boxes; the last level is the root
 };
 
 } // namespace tipp

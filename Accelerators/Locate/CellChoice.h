@@ -22,7 +22,7 @@
 namespace tipp
 {
 
-/// Whether a closed cell that has an area, or a volume, holds a point. Exact.
+/// Whether a closed, non-degenerate cell contains a point. Exact.
 inline bool contains(const Point2 (&corners)[3], Point2 p)
 {
   const int first = orientation(corners[0], corners[1], p);
@@ -82,7 +82,8 @@ CellKey keyOfCell(const Access& access, std::int64_t cell, const Point& point)
   return withRank(keyOf(access, cell), moveRank(corners, point));
 }
 
-/// Of the cells that hold a point the one that answers it. Keys are made only if there are several.
+/// Chooses one of the cells that contain a point. Their keys are computed only if there are
+/// several.
 template <typename Access, typename Point>
 class Choice
 {
@@ -209,7 +210,7 @@ CellLocation weighed(const Access& access, std::int64_t cell, const Point& point
   return location;
 }
 
-/// Empty for a hidden cell and one with a coordinate that is infinite or NaN.
+/// Empty for hidden cells and cells with an infinite or NaN coordinate.
 template <typename Access>
 auto boxOfCell(const Access& access, const SimplexMesh& mesh, std::int64_t cell)
 {

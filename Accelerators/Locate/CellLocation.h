@@ -11,8 +11,8 @@ namespace tipp
 struct CellLocation
 {
   std::int64_t Cell = -1; ///< index of the cell; -1: outside
-  /// Barycentric weights of the cell's corners; zeros outside. They sum to 1 and are not negative
-  /// but for roundings. Triangles use the first three.
+  /// Barycentric weights of the cell's corners; zeros outside. Up to rounding they sum to 1 and are
+  /// not negative. Triangles use the first three.
   double Weights[4] = {};
 };
 

@@ -15,7 +15,7 @@ namespace tipp
 namespace
 {
 
-/// The cells look for the points that they hold.
+/// Searches from the cells: each cell finds the points that it contains.
 template <typename Access>
 void locateByCells(const Access& access, const SimplexMesh& mesh, const std::int64_t* cellIds,
   const AskedPoints& points, int threads, const TakeLocations& take)
@@ -25,8 +25,8 @@ void locateByCells(const Access& access, const SimplexMesh& mesh, const std::int
   const auto at = [&](std::int64_t i) { return flattened<D>(mesh, points.at(i)); };
   const BoxTree<D> tree(
     points.Count, threads, [&](std::int64_t i) { return Box<D>::of(arrayOf(at(i))); });
-  // Most cells hold no point, which their corners' positions in a grid tell. That does not pay for
-  // few cells among many points of the mesh.
+  // Most cells contain no point; a grid detects this from the positions of their corners. That does
+  // not pay off if the mesh has fewer cells than points.
   const bool usesGrid = mesh.Cells >= mesh.PointCount;
   const PointGrid<D> grid(
     usesGrid ? points.Count : 0, threads, [&](std::int64_t i) { return arrayOf(at(i)); });
@@ -148,8 +148,7 @@ std::int64_t CellLocator::find(const Access& access, const Point& point) const
   return choice.cell();
 }
 
-/// Points that lie near each other, one after the other: they share the search for cells around
-/// them all.
+/// Successive points are near each other: they share one search for the cells around all of them.
 template <typename Access>
 void CellLocator::findInOrder(const Access& access, const AskedPoints& points,
   const std::int32_t* order, std::int64_t count, const TakeLocations& take) const
@@ -171,7 +170,7 @@ void CellLocator::findInOrder(const Access& access, const AskedPoints& points,
     cell >= 0 ? locations.add(points.index(order[i]), weighed(access, cell, point)) : void();
   };
   std::int64_t shared = mostShared / 4;
-  int alone = 0; // the number of next points to search one by one: they are far apart
+  int alone = 0; // how many of the next points to search one by one, since they are far apart
   for (std::int64_t begin = 0; begin < count;)
   {
     shared = alone > 0 ? 1 : shared;
@@ -203,7 +202,7 @@ void CellLocator::findInOrder(const Access& access, const AskedPoints& points,
   locations.flush();
 }
 
-/// Whether walks from each point to the next are short in the points' order.
+/// Whether the points, in their order, are near enough to each other for short walks.
 template <typename Access>
 bool CellLocator::areNear(const Access& access, const AskedPoints& points) const
 {
@@ -236,7 +235,7 @@ bool CellLocator::areNear(const Access& access, const AskedPoints& points) const
   return steps <= fewSteps * walks;
 }
 
-/// Returns the indices of the points that walks do not find.
+/// Locates the points by walks; returns the indices of those that it cannot locate.
 template <typename Access>
 std::vector<std::int64_t> CellLocator::walkAll(
   const Access& access, const AskedPoints& points, int threads, const TakeLocations& take) const

@@ -27,38 +27,40 @@ struct AskedPoints
 {
   const Point3* Points = nullptr;
   const std::int64_t* Asked = nullptr;
-  std::int64_t Count = 0;
+  std::int64_t Count = 0; ///< number of points to locate
 
   std::int64_t index(std::int64_t i) const { return this->Asked ? this->Asked[i] : i; }
   const Point3& at(std::int64_t i) const { return this->Points[this->index(i)]; }
 };
 
-/// Takes the indices of some points, in the array of all points, and their locations.
+/// Receives some of the locations: `count` indices into the array of all points, and the points'
+/// locations. The arrays are valid during the call only.
 using TakeLocations =
   std::function<void(const std::int64_t* points, const CellLocation* at, std::int64_t count)>;
 
-/// Finds the cells of a SimplexMesh that hold given points, by the rule of the resampling: the cell
-/// that contains the point after a move by (e, e^2, e^3), for all e small enough; at the mesh's
-/// border the first mirrored move that leads into a cell decides; of cells that overlap the one
+/// Finds the cells of a SimplexMesh that contain given points, by the same rule as resampling: the
+/// cell that contains the point after a symbolic move by (e, e^2, e^3) with infinitesimal e; at the
+/// mesh's border, the first mirrored move that leads into a cell; among overlapping cells, the one
 /// with the lowest CellKey. So each point has one cell, whatever the order of cells and points.
-/// Exact for all finite coordinates. Cells without an area or volume, hidden cells, and cells with
-/// coordinates that are infinite or NaN hold nothing.
+/// Exact for all finite coordinates. Degenerate cells, hidden cells and cells with infinite or NaN
+/// coordinates contain no point.
 ///
-/// Triangles are found by walks (CellWalk) from the point before, where they do not overlap. What
-/// walks do not find, and all else, is searched in a tree of the cells' boxes, which is made when
-/// it is first needed.
+/// Triangles that do not overlap are found by walks (CellWalk) from the previous point. Points that
+/// walks do not find, and other meshes, are searched with a tree of the cells' boxes, which is
+/// built when it is first needed.
 class VTKTIPPACCELERATORS_EXPORT CellLocator
 {
 public:
-  /// `mesh` and its arrays must outlive this. `cellIds`, may be null, tells equal copies of a cell
-  /// apart: the lowest id counts. `threads` is at least 1.
+  /// `mesh` and its arrays, and `cellIds`, must outlive this. `cellIds` (one global id per cell;
+  /// may be null) distinguishes copies of a cell: the lowest id wins. `threads` must be at least 1.
   CellLocator(const SimplexMesh& mesh, const std::int64_t* cellIds, int threads);
 
-  /// Triangles use the two coordinates along SimplexMesh::Axes. Several threads may call it.
+  /// Finds the cell of a point. Triangles use its two coordinates along SimplexMesh::Axes. Several
+  /// threads may call it.
   CellLocation locate(const Point3& point) const;
 
-  /// Replaces `best` if a cell is nearer to a point that no cell of the mesh holds, or as near with
-  /// a lower id. Several threads may call it.
+  /// For a point outside of all cells: replaces `best` if a cell of the mesh is nearer to the
+  /// point, or as near with a lower id. Several threads may call it.
   void findNearest(const Point3& point, NearCell& best) const;
 
   /// Upper bound of a locator's memory, in bytes.
@@ -93,20 +95,20 @@ private:
   const std::int64_t* CellIds;
   int Threads;
   CellWalk Walk;
-  mutable std::once_flag Making; ///< of the tree
+  mutable std::once_flag Making; ///< guards building the tree
   mutable std::variant<BoxTree<2>, BoxTree<3>> Tree;
-  mutable std::atomic<int> Passes{ 0 }; ///< over all cells, which stood in for the tree
+  mutable std::atomic<int> Passes{ 0 }; ///< passes made instead of building the tree
 };
 
-/// Calls `take` for the asked points that a cell holds, from several threads, in any order. Uses a
-/// locator of the mesh or, if that is null, one of the points, which each cell searches: for few
-/// points that is faster than making a locator. At most 2^31 - 1 points. The locations are the same
-/// for any number of threads and with or without a locator.
+/// Calls `take` with the locations of the asked points that lie in a cell, from several threads, in
+/// any order. If `locator`, which must be one of `mesh`, is null, each cell searches a tree of the
+/// points instead: for few points that is faster than building a locator. At most 2^31 - 1 points.
+/// The locations do not depend on the number of threads or on whether there is a locator.
 VTKTIPPACCELERATORS_EXPORT void locatePoints(const SimplexMesh& mesh, const std::int64_t* cellIds,
   const CellLocator* locator, const AskedPoints& points, int threads, const TakeLocations& take);
 
-/// The key of a cell that holds a point: of several cells, as of different ranks, the one of lowest
-/// key, then of lowest id, answers the point.
+/// The key of a cell that contains a point. If several cells contain it, for example on different
+/// ranks, the cell with the lowest key, then the lowest id, is chosen.
 VTKTIPPACCELERATORS_EXPORT CellKey keyAt(
   const SimplexMesh& mesh, std::int64_t cell, const Point3& point);
 

@@ -20,8 +20,8 @@ namespace tipp
 namespace
 {
 
-/// Points sorted into the boxes of a regular grid, about two to a box. Those of boxes that follow
-/// each other along x are contiguous.
+/// Points sorted into the boxes of a regular grid, about two per box. The points of boxes that are
+/// consecutive along x are contiguous.
 template <int D>
 class PointBuckets
 {
@@ -32,7 +32,7 @@ public:
     std::int32_t Number;
   };
 
-  /// The points at(0) ... at(count - 1); those that are not finite are left out.
+  /// Sorts the points at(0) ... at(count - 1); non-finite points are left out.
   template <typename At>
   PointBuckets(std::int64_t count, int threads, const At& at)
     : Bounds(boundsOf<D>(count, threads, [&at](std::int64_t i) { return Box<D>::of(at(i)); }))
@@ -67,7 +67,7 @@ public:
     }
     this->Count = sum;
     this->Entries = std::unique_ptr<Entry[]>(new Entry[sum]);
-    // Now each start moves on to the end, which is the next one's start.
+    // Each start is advanced to the end of its box, which is the start of the next.
     forPoints(
       [&](std::int64_t i, const auto& point, std::size_t bucket) {
         this->Entries[next(this->Starts[bucket], isAlone)] = { point, std::int32_t(i) };
@@ -77,7 +77,8 @@ public:
   std::size_t size() const { return this->Count; }
   const Entry& operator[](std::size_t i) const { return this->Entries[i]; }
 
-  /// Calls visit(first, last) for the entries [first, last) that may lie in a box.
+  /// Calls visit(first, last) for ranges [first, last) of entries; together they hold all points in
+  /// a box, and others.
   template <typename Visit>
   void visitNear(const Box<D>& box, const Visit& visit) const
   {
@@ -111,7 +112,8 @@ public:
 private:
   using Counters = std::unique_ptr<std::atomic<std::uint32_t>[]>;
 
-  /// Returns the value before. One thread does without a locked instruction.
+  /// Increments a counter and returns its previous value. A single thread avoids the locked
+  /// instruction.
   static std::uint32_t next(std::atomic<std::uint32_t>& counter, bool isAlone)
   {
     if (!isAlone)
@@ -142,7 +144,7 @@ private:
     }
   }
 
-  /// Never falls where the coordinate rises.
+  /// Monotonic in the coordinate.
   std::int64_t positionOf(double coordinate, std::size_t axis) const
   {
     const double at = (coordinate - this->Bounds.Low[axis]) * this->Scale[axis];
@@ -170,7 +172,7 @@ private:
   Box<D> Bounds;
   std::array<std::int64_t, D> Sides{};
   std::array<double, D> Scale{};
-  Counters Starts; ///< at last the end of each box
+  Counters Starts; ///< in the end, the end of each box
   std::unique_ptr<Entry[]> Entries;
   std::size_t Count = 0;
 };
@@ -182,7 +184,7 @@ enum class Side
   Inside
 };
 
-/// Where a point lies in a closed cell; exact. Cells without an area or volume hold none.
+/// On which side of a closed cell's border a point lies. Exact. Degenerate cells contain no point.
 Side sideOf(const Point2 (&corners)[3], Point2 p)
 {
   const int first = orientation(corners[0], corners[1], p);
@@ -226,8 +228,8 @@ public:
     const double area = (this->B.x - this->A.x) * (this->C.y - this->A.y) -
       (this->B.y - this->A.y) * (this->C.x - this->A.x);
     area < 0 ? std::swap(this->B, this->C) : void();
-    // As in orientation(), where no product is larger than the box, with room for the rounding of
-    // the area, whose sign counts. Infinite after an overflow.
+    // The error bound of orientation(), with the box's extents as the largest factors, plus a
+    // margin for the rounding of the area, whose sign is used. Infinite after an overflow.
     constexpr double relative = 3.3306690738754716e-16;
     this->Bound = 8 * relative * (box.High[0] - box.Low[0]) * (box.High[1] - box.Low[1]) + 1e-300;
   }
@@ -235,7 +237,7 @@ public:
   /// True only if the point is outside.
   bool isOutside(const std::array<double, 2>& at) const
   {
-    // Without branches. NaN, after an overflow, is not outside.
+    // Branch-free. NaN, after an overflow, does not count as outside.
     const bool isApart = (at[0] < this->Around.Low[0]) | (at[0] > this->Around.High[0]) |
       (at[1] < this->Around.Low[1]) | (at[1] > this->Around.High[1]);
     return isApart | (this->lowest(at) < -this->Bound);
@@ -331,7 +333,7 @@ public:
 private:
   static constexpr std::int64_t testsPerItem = 32;
 
-  /// A cell that may not be the only one that holds a point.
+  /// A cell that may not be the only one to contain a point.
   struct Doubt
   {
     std::uint32_t Entry;
@@ -343,7 +345,7 @@ private:
     Locations locations(this->Take);
     std::vector<Doubt> doubts;
     std::int64_t tests = 0;
-    constexpr std::int64_t ahead = 16; // points lie anywhere in memory
+    constexpr std::int64_t ahead = 16; // prefetch distance: the points' addresses are random
     for (std::int64_t cell = begin; cell < end; ++cell)
     {
       cell + ahead < end ? this->Cells.prefetch(cell + ahead) : void();
@@ -397,7 +399,7 @@ private:
     }
   }
 
-  /// Chooses among the cells at borders, and those that overlap.
+  /// Chooses a cell for points on cell borders and in overlapping cells.
   void settleDoubts()
   {
     std::sort(this->Doubts.begin(), this->Doubts.end(),
@@ -411,7 +413,7 @@ private:
           const std::uint32_t entry = this->Doubts[i].Entry;
           if (i > 0 && this->Doubts[i - 1].Entry == entry)
           {
-            continue; // of the first one's group
+            continue; // in the same group as the first one
           }
           const Point point = pointAt(this->Buckets[entry].At);
           Choice<Access, Point> choice(this->Cells, this->CellIds, point);
@@ -436,7 +438,7 @@ private:
   const TakeLocations& Take;
   const PointBuckets<D> Buckets;
   std::unique_ptr<std::atomic<std::int32_t>[]>
-    Claims; ///< the first cell that has each entry inside
+    Claims; ///< for each entry the first cell that has it in its interior
   const std::int64_t MostTests;
   const std::size_t MostDoubts;
   std::mutex Mutex;

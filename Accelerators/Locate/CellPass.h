@@ -10,11 +10,11 @@
 namespace tipp
 {
 
-/// Finds what locatePoints() does in one pass over the cells, each of which looks for its points in
-/// a grid. It needs no locator, and is the fastest way where the points are about as many as the
-/// cells. False if that is not so for these cells and points, as many thin cells or points on many
-/// edges: then `take` has got some points only, and not always their last location. Takes about 30
-/// bytes a point. Exact; at most 2^31 - 1 points.
+/// Does the same as locatePoints() in one pass over the cells, each of which looks up its points in
+/// a grid. It needs no locator and is the fastest way if there are about as many points as cells.
+/// Returns false if the pass is too slow for this input, for example because of many thin cells or
+/// many points on edges; `take` may then have received only some points, and wrong locations. Takes
+/// about 30 bytes per point. Exact; at most 2^31 - 1 points.
 VTKTIPPACCELERATORS_EXPORT bool locateInOnePass(const SimplexMesh& mesh,
   const std::int64_t* cellIds, const AskedPoints& points, int threads, const TakeLocations& take);
 

@@ -15,12 +15,13 @@ namespace tipp
 namespace
 {
 
-constexpr std::int64_t mostCells = 700000000; // 3 numbers a triangle in 31 bits
+constexpr std::int64_t mostCells = 700000000; // 3 numbers per triangle must fit into 31 bits
 constexpr std::int64_t cellsPerSeed = 32;
 
 using Counters = std::unique_ptr<std::atomic<std::uint32_t>[]>;
 
-/// Returns the counter's value before. One thread does without a locked instruction.
+/// Increments a counter and returns its previous value. A single thread avoids the locked
+/// instruction.
 std::uint32_t addOne(std::atomic<std::uint32_t>& counter, bool isAlone)
 {
   if (!isAlone)
@@ -62,14 +63,14 @@ public:
   }
 
 private:
-  /// An edge in the list of its point of lower index.
+  /// An edge, kept in the list of its point of lower index.
   struct Edge
   {
     std::uint32_t Other; ///< the other point, and the highest bit if the edge ends at the lower one
     std::uint32_t Number; ///< 3 * triangle + the corner opposite to it
   };
 
-  /// A corner of the edge opposite to corner `i`, the edge's first or second counter-clockwise.
+  /// The first or second point, counter-clockwise, of the edge opposite to corner `i`.
   std::int64_t end(std::int64_t cell, int i, bool isSecond) const
   {
     const int after = isSecond == this->isClockwise(cell) ? 1 : 2;
@@ -94,7 +95,7 @@ private:
       [&](std::int64_t begin, std::int64_t end, int) { work(begin, end); });
   }
 
-  /// Which way the triangles turn, 0 if they do not take part.
+  /// Computes the orientation of each triangle; 0 for those that are excluded.
   void findTurns()
   {
     this->forParts(this->Mesh.Cells,
@@ -146,7 +147,7 @@ private:
       ends[std::size_t(i) + 1].store(ends[std::size_t(i) + 1] + ends[std::size_t(i)]);
     }
     const std::unique_ptr<Edge[]> edges(new Edge[ends[std::size_t(points)]]);
-    // Now the list's end moves on from its beginning.
+    // Each list's end now advances from its beginning.
     this->forParts(this->Mesh.Cells,
       [&](std::int64_t begin, std::int64_t end)
       {
@@ -194,7 +195,7 @@ private:
     return edge.Number | (this->isClockwise(edge.Number / 3) ? Turned : 0);
   }
 
-  /// Finds the edges that have one triangle; false if these are most.
+  /// Finds the edges of a single triangle. Returns false if most edges are such.
   bool findBorder()
   {
     std::mutex mutex;
@@ -215,10 +216,11 @@ private:
     return std::int64_t(this->Border.size()) <= this->Mesh.Cells / 2 + 64;
   }
 
-  /// Whether the border is one line that turns nowhere to the right.
+  /// Whether the border is a single loop without right turns.
   bool isBorderConvex() const
   {
-    std::vector<std::pair<std::int64_t, std::int64_t>> next; // from an edge's first point
+    std::vector<std::pair<std::int64_t, std::int64_t>>
+      next; // first point of an edge, and its second
     for (const std::int64_t edge : this->Border)
     {
       next.emplace_back(
@@ -246,7 +248,7 @@ private:
     return true;
   }
 
-  /// Whether a triangle meets an edge of the border, another triangle's, beyond common corners.
+  /// Whether a triangle meets a border edge of another triangle at more than common corners.
   bool borderMeetsCells() const
   {
     const std::vector<std::int64_t>& border = this->Border;
@@ -305,8 +307,8 @@ private:
     {
       if (ids[i] == ends[0] || ids[i] == ends[1])
       {
-        // It does if its angle there has the edge's other end. Two common corners are an edge that
-        // would have two triangles.
+        // It does if the edge's other end lies in its angle at that corner. Two common corners
+        // would be an edge with two triangles.
         const Point2 other = ids[i] == ends[0] ? v : u;
         return orientation(corners[i], corners[(i + 1) % 3], other) >= 0 &&
           orientation(corners[i], corners[(i + 2) % 3], other) <= 0;
@@ -330,7 +332,7 @@ private:
     return left < 3 && right < 3;
   }
 
-  /// False if there is none.
+  /// Selects the triangles that walks start from. Returns false if there is none.
   bool makeSeeds()
   {
     std::vector<std::int32_t> cells;
@@ -363,7 +365,8 @@ private:
   const int Threads;
   CellWalk& Walk;
   std::vector<signed char> Turns;
-  std::vector<std::int64_t> Border; ///< as 3 * triangle + the corner opposite to the edge
+  std::vector<std::int64_t>
+    Border; ///< border edges, as 3 * triangle + the corner opposite to the edge
 };
 
 CellWalk::CellWalk(const SimplexMesh& mesh, int threads)

@@ -26,29 +26,30 @@ inline bool isBeyondExactly(Point2 a, Point2 b, Point2 point)
   return side != 0 ? side < 0 : a.y != b.y ? a.y < b.y : b.x < a.x;
 }
 
-/// Finds the triangle that holds a point by going from triangle to triangle across common edges
-/// (Devillers, Pion and Teillaud, Walking in a Triangulation, 2002).
+/// Finds the triangle that contains a point by walking across common edges (Devillers, Pion and
+/// Teillaud, Walking in a Triangulation, 2002).
 ///
-/// A walk finds one triangle. It is the only one that holds the point if no two triangles overlap,
-/// which boundary edges (those of a single triangle) tell: the number of triangles that cover a
-/// point equals the winding number of these edges around it, so it changes only at such an edge. If
-/// two triangles overlapped, some triangle would meet a boundary edge of another one at more than
-/// their common corners. Each boundary edge is tested for that, exactly.
+/// A walk finds one triangle. It is the only one that contains the point if no triangles overlap.
+/// To establish that, it is enough to check boundary edges (those of a single triangle): the number
+/// of triangles that cover a point is the winding number of the boundary edges around it, so it
+/// changes only at such an edge. If triangles overlapped, some triangle would meet a boundary edge
+/// of another at more than common corners. Each boundary edge is tested for that, exactly.
 class VTKTIPPACCELERATORS_EXPORT CellWalk
 {
 public:
-  /// The mesh and its arrays must outlive this. Triangles that are hidden, have no area or have
-  /// coordinates that are not finite do not take part.
+  /// The mesh and its arrays must outlive this. Hidden and degenerate triangles and those with
+  /// non-finite coordinates are excluded.
   CellWalk(const SimplexMesh& mesh, int threads);
 
-  /// Whether walks are possible: no triangles overlap, and they are at most 700 million.
+  /// Whether walks are possible: no triangles overlap, and there are at most 700 million.
   bool isUsable() const { return !this->Neighbors.empty(); }
 
-  /// What a walk holds: its last triangle, and the triangles that it has passed.
+  /// The state of a walk: its current triangle, its orientation, and how many triangles were
+  /// passed.
   struct Position
   {
     std::int64_t Cell = -1;
-    bool IsClockwise = false; ///< the triangle
+    bool IsClockwise = false; ///< orientation of Cell
     std::int64_t Steps = 0;
   };
 
@@ -59,12 +60,13 @@ public:
     Unknown ///< it may be outside, in a hole, on the border, or far away
   };
 
-  /// Walks to the triangle that contains a finite point after a move by (e, e^2). Starts where `at`
-  /// is unless that is far from the point.
+  /// Walks to the triangle that contains a finite point after a move by (e, e^2), and sets `at` to
+  /// it. Starts at `at` unless that is far from the point.
   template <typename Access>
   Outcome walk(const Access& access, Point2 point, Position& at) const;
 
-  /// The bytes that are kept, and those that the constructor takes besides.
+  /// Memory in bytes: what the object keeps, and what the constructor needs temporarily in
+  /// addition.
   static std::int64_t bytesFor(std::int64_t cells) { return cells * 13 + 1024; }
   static std::int64_t bytesToMake(std::int64_t cells) { return cells * 28; }
 
@@ -72,20 +74,21 @@ private:
   template <typename Access>
   class Maker;
 
-  /// Goes to a triangle near a point.
+  /// Sets `at` to a triangle near a point.
   void jump(Point2 point, Position& at) const;
 
   static constexpr std::int64_t MostSteps = 4096;
   static constexpr std::uint32_t None = ~std::uint32_t(0);
   static constexpr std::uint32_t Turned = 0x80000000u;
 
-  /// For each corner of a triangle the edge opposite to it, as 3 * triangle + corner of the other
-  /// triangle, with the highest bit if that is clockwise. Empty if walks are not possible.
+  /// For each corner of a triangle, the neighbour across the opposite edge, as 3 * neighbour + the
+  /// neighbour's corner opposite to that edge; the highest bit is set if the neighbour is
+  /// clockwise. Empty if walks are not possible.
   std::vector<std::uint32_t> Neighbors;
-  bool IsConvex = false; ///< the border is one convex line
+  bool IsConvex = false; ///< the border is a single convex loop
   Box<2> Bounds = Box<2>::empty();
-  std::vector<std::uint64_t> SeedCodes; ///< along the curve
-  std::vector<std::uint32_t> Seeds;     ///< triangles, with the highest bit if clockwise
+  std::vector<std::uint64_t> SeedCodes; ///< Morton codes, ascending
+  std::vector<std::uint32_t> Seeds;     ///< triangles; the highest bit is set for clockwise ones
 };
 
 template <typename Access>
@@ -94,7 +97,7 @@ CellWalk::Outcome CellWalk::walk(const Access& access, Point2 point, Position& a
   struct Corner
   {
     Point2 At;
-    Point2 Offset; ///< from the point
+    Point2 Offset; ///< the point minus a
   };
   const auto corner = [&](std::int64_t cell, int i)
   {
@@ -104,7 +107,7 @@ CellWalk::Outcome CellWalk::walk(const Access& access, Point2 point, Position& a
   };
   const auto isBeyond = [&](const Corner& from, const Corner& to)
   {
-    // As orientation(), whose differences these are.
+    // The error bound of orientation(), which starts from the same differences.
     constexpr double relative = 3.3306690738754716e-16;
     constexpr double absolute = 1e-300;
     const double left = from.Offset.x * to.Offset.y;
@@ -117,7 +120,7 @@ CellWalk::Outcome CellWalk::walk(const Access& access, Point2 point, Position& a
   Corner a{};
   Corner b{};
   Corner c{};
-  int second = 1; // corner b's number minus corner a's, modulo 3, with a, b, c counter-clockwise
+  int second = 1; // (index of b - index of a) modulo 3; a, b, c are counter-clockwise
   const auto start = [&]
   {
     second = at.IsClockwise ? 2 : 1;
@@ -136,7 +139,7 @@ CellWalk::Outcome CellWalk::walk(const Access& access, Point2 point, Position& a
   }
   constexpr int turned[5] = { 0, 1, 2, 0, 1 };
   int apex = 0; // the corner that is a
-  // The corner opposite to the edge that leads on; -1: not known yet.
+  // The corner opposite to the edge to cross next; -1: not known yet.
   int exit = isBeyond(b, c) ? 0 : -1;
   exit == 0 ? std::swap(b, c) : void();
   for (std::int64_t step = 0; step < MostSteps; ++step)
@@ -149,7 +152,7 @@ CellWalk::Outcome CellWalk::walk(const Access& access, Point2 point, Position& a
       {
         return Outcome::Found;
       }
-      // Alternate: always preferring the same edge may walk in a circle.
+      // Alternates: always preferring the same edge could walk in circles.
       const bool acrossAB = isBeyondAB && (!isBeyondCA || step % 2 == 0);
       exit = turned[apex + (acrossAB ? 3 - second : second)];
       (acrossAB ? c : b) = a; // seen from beyond, bc is the common edge

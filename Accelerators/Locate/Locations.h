@@ -11,7 +11,7 @@
 namespace tipp
 {
 
-/// Hands locations on, many at once.
+/// Buffers locations and passes them to a TakeLocations in batches.
 class Locations
 {
 public:

@@ -61,7 +61,7 @@ struct Box
   }
 };
 
-/// The bounds of all boxes boxOf(0) ... boxOf(count - 1) that are not empty.
+/// The common bounds of the boxes boxOf(0) ... boxOf(count - 1), ignoring empty ones.
 template <int D, typename BoxOf>
 Box<D> boundsOf(std::int64_t count, int threads, const BoxOf& boxOf)
 {
@@ -106,7 +106,7 @@ std::uint64_t spreadBits(std::uint64_t x)
   }
 }
 
-/// The position of a box's centre along the Morton curve through `all`.
+/// The Morton code of a box's centre within the bounds `all`.
 template <int D>
 std::uint64_t mortonCode(const Box<D>& box, const Box<D>& all)
 {
@@ -124,8 +124,8 @@ std::uint64_t mortonCode(const Box<D>& box, const Box<D>& all)
   return code;
 }
 
-/// The numbers of the boxes boxOf(0) ... boxOf(count - 1) in the order of their centres along the
-/// Morton curve through `all`, their bounds; empty ones are left out. `count` is below 2^31. The
+/// The indices of the boxes boxOf(0) ... boxOf(count - 1), sorted by the Morton code of their
+/// centres within `all`, their bounds. Empty boxes are left out. `count` must be below 2^31. The
 /// order does not depend on the number of threads.
 template <int D, typename BoxOf>
 std::vector<std::int32_t> mortonOrder(
@@ -170,10 +170,10 @@ std::vector<std::int32_t> mortonOrder(
   return order;
 }
 
-/// The points at(0) ... at(count - 1), arrays of D coordinates, in an order in which successive
-/// ones are near each other: along the Morton curve through their bounds, but in any order within
-/// some of its shortest parts. Points that are not finite are left out. `count` is below 2^31. The
-/// order does not depend on the number of threads.
+/// The indices of the points at(0) ... at(count - 1), arrays of D coordinates, in an order in which
+/// successive points are near each other: approximately that of their Morton codes. Non-finite
+/// points are left out. `count` must be below 2^31. The order does not depend on the number of
+/// threads.
 template <int D, typename At>
 std::vector<std::int32_t> nearOrder(std::int64_t count, int threads, const At& at)
 {
@@ -186,7 +186,7 @@ std::vector<std::int32_t> nearOrder(std::int64_t count, int threads, const At& a
   const Box<D> all = boundsOf<D>(count, threads, boxOf);
   constexpr int digitBits = 11;
   constexpr std::size_t digits = std::size_t(1) << digitBits;
-  int passes = 1; // so that about one point has each key
+  int passes = 1; // so many that there is about one point per key
   passes += count > 1 << digitBits ? 1 : 0;
   passes += count > 1 << (2 * digitBits) ? 1 : 0;
   const int dropped = (D == 2 ? 64 : 63) - std::min(passes * digitBits, 32);
@@ -204,7 +204,7 @@ std::vector<std::int32_t> nearOrder(std::int64_t count, int threads, const At& a
           : Entry{ std::uint32_t(mortonCode(box, all) >> dropped), std::int32_t(i) };
       }
     });
-  // By one digit after the other, the lowest first; each thread moves a part of the entries.
+  // Sorts digit by digit, lowest first; each thread moves a part of the entries.
   std::vector<std::size_t> starts(digits * std::size_t(threads));
   for (int pass = 0; pass < passes; ++pass)
   {

@@ -133,7 +133,7 @@ struct Nearest
   Vector<Number, D> At{};
 };
 
-/// The nearest location of a cell's faces.
+/// The location on a cell's faces that is nearest to a point.
 template <typename Number, std::size_t D>
 Nearest<Number, D> nearestOf(const NearCell& cell, const Point3& from)
 {
@@ -183,8 +183,8 @@ Point3 pointOf(const Vector<double, 3>& v)
   return { v[0], v[1], v[2] };
 }
 
-/// Any location of the cell, wherever rounding puts it, gives an upper bound. The plane through it
-/// across the way to the point gives a lower one: all corners lie beyond it.
+/// Any location of the cell gives an upper bound, even a rounded one. The plane through it,
+/// perpendicular to the line to the point, gives a lower bound: all corners lie behind that plane.
 template <std::size_t D>
 void bound(NearCell& cell, const Point3& from)
 {
@@ -200,7 +200,7 @@ void bound(NearCell& cell, const Point3& from)
   cell.At = pointOf(nearest.At);
   cell.Low = 0;
   cell.High = HUGE_VAL;
-  // Squares of these neither overflow nor underflow by more than the error.
+  // Within these limits squares do not overflow, and underflow stays below the error bound.
   if (!(largest < 1e140 && largest > 1e-140 && distance >= 0))
   {
     return;
@@ -215,7 +215,7 @@ void bound(NearCell& cell, const Point3& from)
   cell.High = distance + error;
 }
 
-/// Whether the nearest location of the cell is certainly one of its corners, without rounding.
+/// Whether the location found is certainly one of the cell's corners, and so exact.
 bool isCorner(const NearCell& cell, const Point3& from)
 {
   double margin = 0;

@@ -13,8 +13,9 @@
 namespace tipp
 {
 
-/// A regular grid that tells quickly that a cell's box holds none of some points. Each point of a
-/// mesh is told its position in the grid once, so that its cells need no coordinates.
+/// A regular grid over a set of points, which quickly rejects cells whose box contains none of
+/// them. The position of each mesh point in the grid is computed once, so cells are tested without
+/// reading coordinates.
 template <int D>
 class PointGrid
 {
@@ -29,7 +30,7 @@ public:
   {
     for (int axis = 0; axis < D; ++axis)
     {
-      // Infinite if all points are on one line, and 0 if the extent overflows.
+      // Infinite if the extent is 0, and 0 if the extent overflows.
       const double extent = this->Bounds.High[axis] - this->Bounds.Low[axis];
       this->Scale[axis] = (Side - 2) * (1 - 1e-9) / extent;
     }
@@ -42,8 +43,8 @@ public:
 
   const Box<D>& bounds() const { return this->Bounds; }
 
-  /// Along each axis it never falls where the coordinate rises: 0 before all points, 1 and more
-  /// among them, Side - 1 behind.
+  /// The grid position of a point, monotonic along each axis: 0 before all points, 1 and more among
+  /// them, at most Side - 1.
   Position position(const std::array<double, D>& point) const
   {
     Position result;
@@ -56,7 +57,7 @@ public:
     return result;
   }
 
-  /// Whether there may be a point between two positions, the lowest and the highest of a cell's
+  /// Whether there may be a point between two positions, the minimum and the maximum over a cell's
   /// corners.
   bool mayHold(const Position& low, const Position& high) const
   {
@@ -85,7 +86,7 @@ public:
     return false;
   }
 
-  /// As above, for the corners of a cell: indices of positions.
+  /// As above, for a cell whose corners are indices into `positions`.
   template <int Corners, typename Id>
   bool mayHold(const std::vector<Position>& positions, const Id* corners) const
   {
@@ -104,7 +105,7 @@ public:
   }
 
 private:
-  static constexpr int Bits = D == 2 ? 11 : 7; ///< of a position
+  static constexpr int Bits = D == 2 ? 11 : 7; ///< bits of a position
   static constexpr int Side = 1 << Bits;
   static constexpr std::size_t MostRows = 64;
 
@@ -138,7 +139,7 @@ private:
 
   Box<D> Bounds;
   std::array<double, D> Scale{};
-  std::vector<std::uint64_t> Occupied; ///< a bit for each part of the grid
+  std::vector<std::uint64_t> Occupied; ///< one bit per grid box
 };
 
 } // namespace tipp

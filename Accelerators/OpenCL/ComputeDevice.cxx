@@ -53,7 +53,7 @@ std::vector<cl::Platform> platforms()
   }
   catch (const cl::Error&)
   {
-    // The loader throws this if no driver is installed.
+    // The OpenCL loader throws if no driver is installed.
     result.clear();
   }
   return result;
@@ -68,7 +68,7 @@ std::vector<cl::Device> devicesOf(const cl::Platform& platform)
   }
   catch (const cl::Error&)
   {
-    // A driver without a device, for example after a card was removed.
+    // The driver has no device, for example because a card was removed.
     result.clear();
   }
   return result;
@@ -101,7 +101,7 @@ std::string firstLine(const std::string& text)
   return begin == std::string::npos ? "" : text.substr(begin, text.find('\n', begin) - begin);
 }
 
-/// The OpenCL devices of all installed drivers, and those of them that are open.
+/// The OpenCL devices of all installed drivers, and the ones opened so far.
 class Drivers
 {
 public:
@@ -116,7 +116,7 @@ private:
   std::vector<DeviceDescription> Descriptions;
   std::vector<cl::Device> Devices;
   std::mutex Mutex;
-  std::vector<std::unique_ptr<ComputeDevice>> Opened; ///< each as it is, and as a card
+  std::vector<std::unique_ptr<ComputeDevice>> Opened; ///< per device: opened as it is, and AsCard
 };
 
 Drivers::Drivers()
@@ -260,7 +260,7 @@ cl::Buffer ComputeDevice::input(const void* data, std::size_t bytes) const
   return this->run(
     [&]
     {
-      // CL_MEM_READ_ONLY: kernels do not write through the const_cast pointer.
+      // The const_cast is safe: with CL_MEM_READ_ONLY kernels do not write to the memory.
       return cl::Buffer(
         this->Context, CL_MEM_READ_ONLY | CL_MEM_USE_HOST_PTR, bytes, const_cast<void*>(data));
     });
@@ -306,11 +306,11 @@ void ComputeDevice::enqueue(const cl::Kernel& kernel, std::size_t items) const
 {
   if (this->Description.Type == DeviceType::Cpu)
   {
-    // After a parallel loop OpenMP's threads spin for some milliseconds, on cores that the device
+    // After a parallel loop OpenMP's threads spin for some milliseconds on cores that a CPU device
     // needs.
     omp_pause_resource_all(omp_pause_soft);
   }
-  // Rounded up to whole groups: for a prime number some drivers choose groups of one.
+  // Rounded up to whole work groups: for a prime number of items some drivers choose groups of one.
   constexpr std::size_t usual = 64;
   const auto own = kernel.getWorkGroupInfo<CL_KERNEL_COMPILE_WORK_GROUP_SIZE>(this->Device);
   const std::size_t group = own[0] == 0 ? usual : own[0];

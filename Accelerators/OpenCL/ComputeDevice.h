@@ -50,11 +50,11 @@ public:
   const cl::Context& context() const { return this->Context; }
   const cl::CommandQueue& queue() const { return this->Queue; }
 
-  /// Whether buffers over memory of this process need no copy.
+  /// Whether the device can use this process's memory without copies.
   bool sharesHostMemory() const { return this->SharesHostMemory; }
 
-  /// Returns a new kernel for the caller. Its program is built once per process for each set of
-  /// compiler options.
+  /// Returns a new kernel, owned by the caller. Its program is built once per process for each set
+  /// of compiler options.
   cl::Kernel kernel(const KernelSource& source, const char* name, const std::string& options = "");
 
   /// Enqueues a kernel with these arguments for `items` work items, rounded up to whole groups.
@@ -74,9 +74,9 @@ public:
       });
   }
 
-  /// A buffer of `bytes` bytes of this process for kernels to read, without a copy if the memory is
-  /// shared. The data must stay valid until the kernels that read them have finished. At least one
-  /// byte is allocated.
+  /// A read-only buffer with the `bytes` bytes at `data`, without a copy if the memory is shared.
+  /// The data must stay valid until the kernels that read them have finished. At least one byte is
+  /// allocated.
   cl::Buffer input(const void* data, std::size_t bytes) const;
 
   /// An uninitialised buffer of `bytes` bytes on the device. At least one byte is allocated.
@@ -119,7 +119,7 @@ private:
   bool SharesHostMemory;
   mutable std::atomic<std::uint64_t> TransferNanoseconds{ 0 };
   std::mutex Mutex;
-  std::map<std::string, cl::Program> Programs; ///< by name and options
+  std::map<std::string, cl::Program> Programs; ///< built programs, by name and options
 };
 
 } // namespace tipp

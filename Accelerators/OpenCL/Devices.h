@@ -40,7 +40,7 @@ struct DeviceChoice
   /// GPU with double precision, or else the first device with it.
   std::string Name;
   /// With OpenCL: use a CPU device like a graphics card, with copies of all data and small work
-  /// items. Slower; for testing the code paths of cards on machines without one.
+  /// items. Slower; for testing the code paths of GPUs on machines without one.
   bool AsCard = false;
 };
 

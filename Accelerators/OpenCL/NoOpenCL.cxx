@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stands for ComputeDevice.cxx and everything that runs on a device in a build without OpenCL.
+// Replaces ComputeDevice.cxx and all code that runs on a device in a build without OpenCL.
 #include "OpenCL/Devices.h"
 #include "Partition/ClassifyCells.h"
 #include "Resample/Resample.h"

@@ -13,12 +13,12 @@
 namespace tipp
 {
 
-/// A progress callback, called by the calling thread now and then with the fraction done; returning
-/// false stops the work.
+/// A progress callback. The thread that started the work calls it now and then with the fraction
+/// done, 0 to 1; returning false stops the work.
 using Report = std::function<bool(double)>;
 
-/// A callback for the part of the work from `begin` to `end`, fractions of the whole; `report` must
-/// outlive it.
+/// Returns a callback that maps the progress of a part of the work to [begin, end], fractions of
+/// the whole. `report` must outlive it.
 inline Report partOf(const Report& report, double begin, double end)
 {
   if (!report)
@@ -81,8 +81,8 @@ bool forChunks(
 }
 
 /// The number of threads to use: as requested (0: OpenMP's default), but at most the larger of 64
-/// and 4 per processor. Without that limit a large number ends the process: OpenMP does not report
-/// that a thread cannot be started.
+/// and 4 per processor. Without that limit a large number would end the process, since OpenMP
+/// aborts if it cannot start a thread.
 inline int threadCount(int threads)
 {
   const int most = std::max(64, 4 * omp_get_num_procs());

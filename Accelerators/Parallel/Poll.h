@@ -10,13 +10,13 @@
 namespace tipp
 {
 
-/// Thrown by work that the user has stopped; not an error.
+/// Thrown by work that the user has aborted; not an error.
 struct WorkAborted
 {
 };
 
-/// While the object lives, poll() on its thread calls `goesOn`. Scopes may be nested; the innermost
-/// is used.
+/// While the object lives, poll() on its thread calls `goesOn`, which returns false to stop the
+/// work. Scopes may be nested; the innermost is used.
 class VTKTIPPACCELERATORS_EXPORT PollScope
 {
 public:
@@ -31,12 +31,12 @@ private:
   PollScope* Outer;
 };
 
-/// To be called every few thousand items by all work that may take long: throws WorkAborted if the
-/// user wants to stop. Without a PollScope on the same thread, as on the other threads of a
-/// parallel loop, it does nothing.
+/// Throws WorkAborted if the user has asked to stop. Long-running work must call it every few
+/// thousand items. It does nothing on a thread without a PollScope, such as the other threads of a
+/// parallel loop.
 VTKTIPPACCELERATORS_EXPORT void poll();
 
-/// For loops over small items: polls at some of them.
+/// For loops over small items: polls once every few thousand of them.
 inline void pollAt(std::int64_t item)
 {
   if ((item & 0x3fff) == 0)

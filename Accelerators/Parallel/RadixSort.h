@@ -13,12 +13,13 @@
 namespace tipp
 {
 
-/// Sorts words by their upper 32 bits, on several threads; equal ones keep their order.
+/// Sorts words by their upper 32 bits, on at most `threads` threads (at least 1). The sort is
+/// stable.
 inline void sortByUpperHalf(std::vector<std::uint64_t>& words, int threads)
 {
   constexpr unsigned digitBits = 11;
   constexpr std::size_t digits = std::size_t(1) << digitBits;
-  constexpr std::size_t shortest = 16384; // of a thread's share
+  constexpr std::size_t shortest = 16384; // the smallest share worth a thread
   const auto shares =
     std::int64_t(std::max<std::size_t>(1, std::min(std::size_t(threads), words.size() / shortest)));
   std::vector<std::uint64_t> sorted(words.size());

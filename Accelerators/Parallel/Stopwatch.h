@@ -28,8 +28,8 @@ private:
   Clock::time_point Start = Clock::now();
 };
 
-/// Measures the CPU time of the calling thread. Unlike a Stopwatch it excludes time when other
-/// threads use the core, so it measures a part of the work even with more threads than cores.
+/// Measures the CPU time of the calling thread. Unlike a Stopwatch it excludes the time when other
+/// threads use the core, so it is meaningful even with more threads than cores.
 class ProcessorWatch
 {
 public:

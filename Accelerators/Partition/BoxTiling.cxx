@@ -29,7 +29,7 @@ int childCountOf(int axes)
   return (axes & 1 ? 2 : 1) * (axes & 2 ? 2 : 1) * (axes & 4 ? 2 : 1);
 }
 
-// Always within [low, high], without overflow.
+// The midpoint: always within [low, high], and does not overflow.
 double middleOf(double low, double high)
 {
   const double sum = low + high;

@@ -65,11 +65,12 @@ public:
   }
 
   /// @name The flat arrays
-  /// @{
-  /// Of a grid: the number of boxes along each axis, and their n + 1 borders, axis after axis.
+  /// @{ For a grid: the number n of boxes along each axis, and their n + 1 borders, axis after
+  /// axis.
   const std::array<int, 3>& counts() const { return this->Counts; }
   const std::vector<double>& cuts() const { return this->Cuts; }
-  /// Of a tree, per node: the first child, or -1 - id for a leaf; and three coordinates of cuts.
+  /// For a tree, per node: the first child, or -1 - box id for a leaf; and the three coordinates of
+  /// the cuts.
   const std::vector<std::int32_t>& children() const { return this->Children; }
   const std::vector<double>& middles() const { return this->Middles; }
   /// The bit mask of the axes that a tree splits.
@@ -175,7 +176,7 @@ private:
     std::int32_t node, const Box3& box, std::int32_t* stack, std::size_t& size) const
   {
     const double* middle = this->Middles.data() + 3 * static_cast<std::size_t>(node);
-    // For each axis whether the box meets the lower half, and the upper half.
+    // Bit masks: along which axes the box meets the lower half, and along which the upper half.
     int lower = 0;
     int upper = 0;
     int bit = 0;
@@ -209,7 +210,7 @@ private:
   std::vector<Box3> Boxes;
   std::array<int, 3> Counts = { 1, 1, 1 };
   std::array<std::size_t, 3> CutStart = {};
-  std::array<double, 3> BoxesPerUnit = {}; // of a grid
+  std::array<double, 3> BoxesPerUnit = {}; // for a grid
   std::vector<double> Cuts;
   std::vector<std::int32_t> Children;
   std::vector<double> Middles;

@@ -24,9 +24,9 @@ typedef struct
 typedef struct
 {
   int dimension;
-  int axes;        // of a tree
-  int children;    // of a tree's node; 0 for a grid
-  int3 counts;     // of a grid
+  int axes;        // for a tree
+  int children;    // children of a tree's inner node; 0 for a grid
+  int3 counts;     // for a grid
   global const double* cuts;
   global const int* nodes;
   global const double* middles;
@@ -205,9 +205,9 @@ int both(int first, int second)
   return first == MEET && second == MEET ? MEET : UNDECIDED;
 }
 
-// The line through a and b: values of c and d (which may be c again) and of the rectangle.
-// A value ex (y - ay) - ey (x - ax) is off by 4 EPSILON of the sum of its products' magnitudes, and a
-// difference of two values rounds once more; 12 are given for each end.
+// The line through a and b: values of c and d (which may be c again) and of the rectangle. A value
+// ex (y - ay) - ey (x - ax) is off by 4 EPSILON of the sum of its products' magnitudes, and a
+// difference of two values rounds once more; 12 are allowed for at each end.
 int compareAcrossEdge(double2 a, double2 b, double2 c, double2 d, double2 low, double2 high)
 {
   const double2 e = b - a;
@@ -229,10 +229,10 @@ double3 pointOf(global const double* p)
   return (double3)(p[0], p[1], p[2]);
 }
 
-// The plane through a, b and c: values of d and of the box. A component of the normal is off by
-// 4 EPSILON of its products' magnitudes, a value by 8 EPSILON of the products of these and the reach,
-// a difference of two a little more; 24 are given for each end. A normal's component may lose 2^-1073
-// below the normal range, which the reach multiplies.
+// The plane through a, b and c: values of d and of the box. A component of the normal is off by 4
+// EPSILON of its products' magnitudes, a value by 8 EPSILON of the products of these and the reach,
+// a difference of two a little more; 24 are allowed for at each end. A normal's component may lose
+// 2^-1073 below the normal range, which the reach multiplies.
 int compareAcrossFace(double3 a, double3 b, double3 c, double3 d, double3 low, double3 high)
 {
   const double3 u = b - a;
@@ -329,8 +329,9 @@ int testInSpace(global const double* cell, int corners, double3 low, double3 hig
   const Tiling name = { dimension, axes, children, (int3)(nx, ny, nz), cuts, nodes, middles,       \
     { domain[0], domain[1], domain[2] }, { domain[3], domain[4], domain[5] } }
 
-// Per cell: 1 and its owner, if it lies in one box; 0, if it lies outside or is not finite; else
-// the number of boxes to test, or -1 for one, if the bounding box extends beyond the domain.
+// Per cell: 1, and its owner, if it lies in one box; 0 if it lies outside or is not finite; else
+// the number of boxes to test, or -1 for a single one if the bounding box extends beyond the
+// domain.
 kernel void countCandidates(TILING_ARGUMENTS, global const double* cells, int corners,
   int components, uint count, global int* counts, global int* owners)
 {

@@ -19,10 +19,10 @@ namespace tipp
 /// owned.
 struct CellsView
 {
-  int Dimension; ///< coordinates per corner: 2 or 3
-  int Corners;   ///< per cell: 3 for triangles, 4 for tetrahedra (only in 3D)
-  const double* Coordinates;
-  std::size_t Cells;
+  int Dimension;             ///< coordinates per corner: 2 or 3
+  int Corners;               ///< per cell: 3 for triangles, 4 for tetrahedra (only in 3D)
+  const double* Coordinates; ///< Dimension numbers per corner, Corners per cell
+  std::size_t Cells;         ///< number of cells
 };
 
 /// For each cell the partitions that it shares a point with: the one of lowest index owns it, the
@@ -35,13 +35,14 @@ struct Membership
   std::vector<std::int32_t> Borrowers; ///< ascending for each cell
 };
 
+/// Options of classifyCells().
 struct ClassifyOptions
 {
   DeviceChoice Device;
   /// OpenMP threads; 0 for OpenMP's default.
   int Threads = 0;
-  /// Maximum number of bytes of device memory; 0 for half of it. Larger inputs are processed in
-  /// pieces.
+  /// The limit of device memory in bytes; 0 for half of the device's memory. Larger inputs are
+  /// processed in batches.
   std::uint64_t DeviceMemory = 0;
 };
 

@@ -12,7 +12,7 @@ namespace tipp
 namespace
 {
 
-// The results of Classify.cl.
+// The verdicts of Classify.cl.
 enum Verdict : std::uint8_t
 {
   Apart = 0,

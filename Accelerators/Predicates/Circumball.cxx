@@ -121,7 +121,7 @@ Circumball::Circumball(const Point3& a, const Point3& b, const Point3& c, const 
 //
 // Radius |q^|: off by the sum of q's errors; its own rounding is 4 e r; e r each for the interval's
 // ends and their squares; in meets() a squared distance is off by 6 e, its root by 3 e. 32 e r are
-// given.
+// allowed for.
 bool Circumball::computeIntervals()
 {
   const Vector u = difference(this->Corners[1], this->Corners[0]);
@@ -157,7 +157,7 @@ bool Circumball::computeIntervals()
   }
   const double radius = std::sqrt(square(q));
   const double radiusError = errors[0] + errors[1] + errors[2] + 32.0 * Epsilon * radius;
-  // Squares of the radius and of similar distances stay finite; also false for NaN.
+  // Within this limit squares of the radius and of similar distances are finite. False for NaN.
   if (!(radius + radiusError <= 1e150))
   {
     return false;
@@ -179,34 +179,56 @@ bool Circumball::computeIntervals()
 
 // With s the longest entry of u, v and w, and thus P <= 6 s^3 and W <= 18 s^4: where D^ is at least
 // 2^-10 s^3, the error of q is below e (20 + 12 * 6 * 2^10) 9 * 2^10 s < 1e-7 s by the bounds
-// above, and so is that of the radius, 2e-7 s for all three entries. 1e-6 s are given, and for the
-// rounding of coordinates 16 e of them.
+// above, and so is that of the radius, 2e-7 s for all three entries. 1e-6 s are allowed for, plus
+// 16 e of the coordinates for their rounding.
+namespace
+{
+
+/// Of a tetrahedron: its volume times six, the square of its longest edge at a corner, and the
+/// centre of its ball from there, times twelve volumes.
+struct BallOfCorners
+{
+  BallOfCorners(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
+  {
+    const Point3 u = b - a;
+    const Point3 v = c - a;
+    const Point3 w = d - a;
+    const auto cross = [](const Point3& p, const Point3& q) -> Point3 {
+      return { p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x };
+    };
+    const Point3 vw = cross(v, w);
+    const Point3 wu = cross(w, u);
+    const Point3 uv = cross(u, v);
+    const double uu = square(u);
+    const double vv = square(v);
+    const double ww = square(w);
+    this->Volume = u.x * vw.x + u.y * vw.y + u.z * vw.z;
+    this->Edge = std::max({ uu, vv, ww });
+    this->Centre = { uu * vw.x + vv * wu.x + ww * uv.x, uu * vw.y + vv * wu.y + ww * uv.y,
+      uu * vw.z + vv * wu.z + ww * uv.z };
+  }
+
+  static double square(const Point3& p) { return p.x * p.x + p.y * p.y + p.z * p.z; }
+
+  double Volume;
+  double Edge;
+  Point3 Centre;
+};
+
+} // namespace
+
 bool Circumball::isSurelyInside(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Box3& box)
 {
-  const Point3 u = b - a;
-  const Point3 v = c - a;
-  const Point3 w = d - a;
-  const auto cross = [](const Point3& p, const Point3& q) -> Point3 {
-    return { p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x };
-  };
-  const auto square = [](const Point3& p) { return p.x * p.x + p.y * p.y + p.z * p.z; };
-  const Point3 vw = cross(v, w);
-  const Point3 wu = cross(w, u);
-  const Point3 uv = cross(u, v);
-  const double uu = square(u);
-  const double vv = square(v);
-  const double ww = square(w);
-  const double volume = u.x * vw.x + u.y * vw.y + u.z * vw.z;
-  const double s = std::sqrt(std::max({ uu, vv, ww })); // at least the longest entry
-  if (!(volume >= 0x1p-10 * (s * s * s)) || !(s >= 1e-50) || !(s <= 1e50))
+  const BallOfCorners ball(a, b, c, d);
+  const double s = std::sqrt(ball.Edge); // at least the longest entry
+  if (!(ball.Volume >= 0x1p-10 * (s * s * s)) || !(s >= 1e-50) || !(s <= 1e50))
   {
     return false;
   }
-  const double half = 0.5 / volume;
-  const Point3 q = { half * (uu * vw.x + vv * wu.x + ww * uv.x),
-    half * (uu * vw.y + vv * wu.y + ww * uv.y), half * (uu * vw.z + vv * wu.z + ww * uv.z) };
-  const double radius = std::sqrt(square(q)) + 1e-6 * s;
+  const double half = 0.5 / ball.Volume;
+  const Point3 q = { half * ball.Centre.x, half * ball.Centre.y, half * ball.Centre.z };
+  const double radius = std::sqrt(BallOfCorners::square(q)) + 1e-6 * s;
   const auto isBetween = [radius](double low, double centre, double high)
   {
     const double reach = radius + 16 * Epsilon * std::fabs(centre);
@@ -216,7 +238,20 @@ bool Circumball::isSurelyInside(
     isBetween(box.Min[1], a.y + q.y, box.Max[1]) && isBetween(box.Min[2], a.z + q.z, box.Max[2]);
 }
 
-// Intervals that decide nothing, so that every test uses exact arithmetic.
+// The same filter, squared: without root and division. The radius is at least half an edge, so the
+// rounding errors are far below the margin.
+bool Circumball::isSurelySmall(
+  const Point3& a, const Point3& b, const Point3& c, const Point3& d, double diameter)
+{
+  constexpr double margin = 0.999;
+  const BallOfCorners ball(a, b, c, d);
+  const double volume = ball.Volume * ball.Volume;
+  return ball.Volume > 0 && ball.Edge >= 1e-40 && ball.Edge <= 1e40 &&
+    volume >= 0x1p-20 * (ball.Edge * ball.Edge * ball.Edge) &&
+    BallOfCorners::square(ball.Centre) < margin * volume * (diameter * diameter);
+}
+
+// Makes the intervals infinite, so that every test uses exact arithmetic.
 void Circumball::leaveOpen()
 {
   this->Low.fill(-Infinity);

@@ -42,10 +42,15 @@ public:
     return far <= this->SmallestSquare || this->meetsExactly(box);
   }
 
-  /// Whether the ball of a tetrahedron surely lies in the interior of the box. Quick; false for
-  /// some that do: if it just does, or if the tetrahedron is thin.
+  /// A quick sufficient test: true only if the ball of the tetrahedron lies in the interior of the
+  /// box. May be false for a ball close to the box's border or for a thin tetrahedron.
   static bool isSurelyInside(
     const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Box3& box);
+
+  /// A quicker sufficient test: true only if the ball's diameter is below this one. Then it lies in
+  /// the interior of every box whose sides are that far from `a`.
+  static bool isSurelySmall(
+    const Point3& a, const Point3& b, const Point3& c, const Point3& d, double diameter);
 
 private:
   static double gap(double before, double behind)

@@ -92,7 +92,7 @@ Circumdisk::Circumdisk(Point2 a, Point2 b, Point2 c)
 //
 // Radius |q^|: off by xError + yError; its own rounding is 3 e r; e r each for the interval's ends,
 // their squares, Outer and Inner; in meets() a squared distance is off by 5 e, its root by 2.5 e.
-// With underflow less than 16 e r; 24 e r are given.
+// With underflow less than 16 e r; 24 e r are allowed for.
 bool Circumdisk::computeIntervals()
 {
   const Point2 u = { this->B.x - this->A.x, this->B.y - this->A.y };
@@ -115,7 +115,7 @@ bool Circumdisk::computeIntervals()
   const double yError = error * (std::fabs(u.x) * v2 + std::fabs(v.x) * u2);
   const double radius = std::sqrt(x * x + y * y);
   const double radiusError = xError + yError + 24.0 * Epsilon * radius;
-  // Squares of the radius and of similar distances stay finite; also false for NaN.
+  // Within this limit squares of the radius and of similar distances are finite. False for NaN.
   if (!(radius + radiusError <= 1e150))
   {
     return false;
@@ -134,7 +134,7 @@ bool Circumdisk::computeIntervals()
   return true;
 }
 
-// Intervals that decide nothing, so that every test uses exact arithmetic.
+// Makes the intervals infinite, so that every test uses exact arithmetic.
 void Circumdisk::leaveOpen()
 {
   this->Centre = { -Infinity, -Infinity, Infinity, Infinity };

@@ -66,7 +66,7 @@ Exactness modeOf(double size, double scale)
   return units < std::ldexp(1.0, Int256Digits) ? Exactness::Int256 : Exactness::General;
 }
 
-// The difference in units if doubles represent every difference exactly: up to 53 digits.
+// The difference x - y in units, for sets whose differences are exact in doubles (up to 53 digits).
 std::int64_t units(double x, double y, double scale)
 {
   return static_cast<std::int64_t>((x - y) * scale);

@@ -21,7 +21,8 @@ enum class Exactness
 
 /// The common binary grid of a point set: the lowest digit of any difference of two coordinates
 /// (the unit), and the set's extent in units. After one pass over all points, exact predicates on
-/// these points need not inspect exponents. Meant to be computed lazily, when a filter first fails.
+/// these points need not inspect exponents. Compute it lazily, when a floating-point filter first
+/// fails.
 class VTKTIPPACCELERATORS_EXPORT CoordinateGrid
 {
 public:

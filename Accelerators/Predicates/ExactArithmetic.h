@@ -156,7 +156,7 @@ public:
     return *this;
   }
 
-  /// By less than 256 bits; bits beyond the range are lost.
+  /// Shifts by less than 256 bits; overflowing bits are lost.
   Int256& operator<<=(unsigned bits)
   {
     if (bits >= 128)
@@ -266,7 +266,7 @@ public:
     if (a.Mantissa != 0 && b.Mantissa != 0)
     {
       this->Terms[this->Count] = { a.Mantissa, b.Mantissa };
-      // They are few: each is inserted where it belongs.
+      // Insertion sort: there are only a few.
       const int exponent = a.Exponent + b.Exponent;
       std::size_t at = this->Count++;
       for (; at > 0 && this->Order[at - 1].Exponent < exponent; --at)
@@ -318,7 +318,7 @@ private:
   };
 
   std::array<Term, Most> Terms;
-  std::array<Entry, Most> Order; ///< falling exponents
+  std::array<Entry, Most> Order; ///< sorted by descending exponent
   std::size_t Count = 0;
 };
 

@@ -59,7 +59,7 @@ int orientationExact(Point2 a, Point2 b, Point2 c)
 namespace
 {
 
-// Each product has one difference of each axis, so each axis may have its own power of two.
+// Each product has one factor from each axis, so each axis may be scaled by its own power of two.
 int orientationAnyLength(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
 {
   const auto x = toCommonExponent<4>({ a.x, b.x, c.x, d.x });
@@ -112,7 +112,7 @@ int orientationOfIntegers(const std::array<std::int64_t, 3>& x,
 
 int orientation3Exact(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
 {
-  // Most coplanar points are so along an axis: box borders and samples on them.
+  // Most coplanar points lie in a plane perpendicular to an axis, such as the face of a box.
   const auto level = [&](double Point3::*axis)
   { return a.*axis == d.*axis && b.*axis == d.*axis && c.*axis == d.*axis; };
   if (level(&Point3::x) || level(&Point3::y) || level(&Point3::z))
@@ -150,7 +150,7 @@ double roundedQuotient(mpz_class numerator, mpz_class denominator, int exponent)
   {
     return 0;
   }
-  // At least one digit more than a mantissa has.
+  // The quotient gets at least one digit more than a mantissa.
   const int shift = std::max(0, MantissaDigits + 2 + digits(denominator) - digits(numerator));
   numerator <<= static_cast<mp_bitcnt_t>(shift);
   exponent -= shift;

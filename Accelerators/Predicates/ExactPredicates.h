@@ -10,7 +10,8 @@
 namespace tipp
 {
 
-/// As orientation(), but directly in exact arithmetic: for callers whose own filter has failed.
+/// Like orientation(), but goes straight to exact arithmetic: for callers whose own filter has
+/// failed.
 VTKTIPPACCELERATORS_EXPORT int orientationExact(Point2 a, Point2 b, Point2 c);
 
 /// Exact for all finite coordinates: +1 if a, b, c turn counter-clockwise, -1 if clockwise, 0 if
@@ -39,7 +40,7 @@ inline int orientation(Point2 a, Point2 b, Point2 c)
   return orientationExact(a, b, c);
 }
 
-/// As orientation3(), but directly in exact arithmetic.
+/// Like orientation3(), but goes straight to exact arithmetic.
 VTKTIPPACCELERATORS_EXPORT int orientation3Exact(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
@@ -98,6 +99,7 @@ struct InCircleValue
   double lifts;
 };
 
+/// Evaluates the in-circle determinant of p and the triangle a, b, c without error control.
 inline InCircleValue inCircleValue(Point2 a, Point2 b, Point2 c, Point2 p)
 {
   const auto [ax, ay] = a - p;
@@ -129,7 +131,7 @@ inline double inCircleErrorBound(double lifts)
   return relative * (lifts * lifts) + absolute;
 }
 
-/// As inCircle(), but directly in exact arithmetic: for callers whose own filter has failed.
+/// Like inCircle(), but goes straight to exact arithmetic: for callers whose own filter has failed.
 VTKTIPPACCELERATORS_EXPORT int inCircleExact(Point2 a, Point2 b, Point2 c, Point2 p);
 
 /// The position of p relative to the circle through a, b, c, which must turn counter-clockwise.
@@ -153,9 +155,9 @@ inline int inCircle(Point2 a, Point2 b, Point2 c, Point2 p)
 //
 // Devillers and Teillaud, Perturbations for Delaunay and weighted Delaunay 3D triangulations, 2011:
 // lift the lexicographically largest of the four points by the largest infinitesimal. Then p is
-// outside if it is that point; otherwise the sign is that of the triangle with p in its place.
-// Three distinct points of a circle are not collinear, so one step decides. A p equal to a corner
-// is outside.
+// outside if it is that point; otherwise the result is the orientation of the triangle with p in
+// the place of that corner. Three distinct points of a circle are not collinear, so one step
+// decides. A p equal to a corner is outside.
 inline bool tieIsInside(Point2 a, Point2 b, Point2 c, Point2 p)
 {
   const Point2 ab = lexicographicLess(a, b) ? b : a;
@@ -181,11 +183,11 @@ inline bool inCirclePerturbed(Point2 a, Point2 b, Point2 c, Point2 p)
 // exact.
 
 /// Whether the closed triangle and the closed box share a point, in x and y; touching counts. Exact
-/// for finite coordinates, also if the triangle or the box is a segment or a point.
+/// for finite coordinates, even if the triangle or the box is a segment or a point.
 VTKTIPPACCELERATORS_EXPORT bool triangleMeetsBox(Point2 a, Point2 b, Point2 c, const Box3& box);
 
 /// Whether the closed tetrahedron and the closed box share a point; touching counts. Exact for
-/// finite coordinates, also if one is flat: with c = d this is a triangle in space.
+/// finite coordinates, even if either is flat: with c = d this tests a triangle in space.
 VTKTIPPACCELERATORS_EXPORT bool tetrahedronMeetsBox(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Box3& box);
 

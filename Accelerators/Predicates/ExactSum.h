@@ -10,8 +10,8 @@
 namespace tipp
 {
 
-/// A sum of finite doubles without any rounding: the same for any order of terms, unless it
-/// overflows (Shewchuk 1997, GROW-EXPANSION; the rounding is that of Python's math.fsum).
+/// An exact sum of finite doubles, rounded once at the end: the same for any order of terms, unless
+/// it overflows (Shewchuk 1997, GROW-EXPANSION; the rounding is that of Python's math.fsum).
 class ExactSum
 {
 public:
@@ -39,7 +39,7 @@ public:
     }
   }
 
-  /// The double nearest to the sum, of two the even one.
+  /// The double nearest to the sum; ties go to the even one.
   double value() const
   {
     auto at = this->Parts.rbegin();
@@ -52,7 +52,7 @@ public:
       sum = large + *at;
       rest = *at++ - (sum - large);
     }
-    // Half a unit is rounded to even above; what lies below decides.
+    // An exact half was rounded to even above; the next lower part breaks the tie.
     if (at != end && rest != 0 && (rest < 0) == (*at < 0))
     {
       const double further = sum + 2 * rest;
@@ -68,7 +68,7 @@ public:
   }
 
 private:
-  std::vector<double> Parts; ///< they do not overlap, the largest last
+  std::vector<double> Parts; ///< non-overlapping, the largest last
 };
 
 } // namespace tipp

@@ -17,7 +17,7 @@ namespace
 
 using Differences = std::array<std::int64_t, 4>;
 
-/// A two's complement integer of 384 bits, which sums wrap around.
+/// A two's complement integer of 384 bits. Sums wrap modulo 2^384.
 class WideSum
 {
 public:
@@ -75,7 +75,7 @@ int inSphereSign63(const Differences& x, const Differences& y, const Differences
     return square(x[i]) + square(y[i]) + square(z[i]);
   };
   WideSum sum;
-  // Of the corners without i, in the order that gives each term a positive sign.
+  // Adds corner i's term; j, k, l are the other corners, in the order that makes the term positive.
   const auto add = [&](std::size_t i, std::size_t j, std::size_t k, std::size_t l)
   {
     Int256 volume = Int256::product(minor(k, l), z[j]);
@@ -90,8 +90,8 @@ int inSphereSign63(const Differences& x, const Differences& y, const Differences
   return sum.sign();
 }
 
-/// The sign of the in-sphere determinant if doubles tell it, else 0. Sharper than isCertain() where
-/// coordinates differ more along one axis than along another: each product is bounded by itself.
+/// The sign of the in-sphere determinant if doubles can decide it, else 0. Sharper than isCertain()
+/// if the extents along the axes differ much, since each product is bounded separately.
 //
 // Shewchuk, Adaptive Precision Floating-Point Arithmetic, 1997: the error is at most
 // (16 + 224 e) e P, P the sum of the products' magnitudes. Products below the normal range are off

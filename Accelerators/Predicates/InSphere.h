@@ -15,6 +15,7 @@ struct InSphereValue
   double lifts;
 };
 
+/// Evaluates the in-sphere determinant of p and the tetrahedron a, b, c, d without error control.
 inline InSphereValue inSphereValue(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& p)
 {
@@ -61,7 +62,7 @@ inline bool isCertain(const InSphereValue& value)
     relative * (square * square) * value.lifts + absolute;
 }
 
-/// As inSphere(), for callers whose own filter has failed: by a sharper one, then in exact
+/// Like inSphere(), for callers whose own filter has failed: tries a sharper filter, then exact
 /// arithmetic.
 VTKTIPPACCELERATORS_EXPORT int inSphereExact(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& p);

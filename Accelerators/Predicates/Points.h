@@ -8,6 +8,7 @@
 namespace tipp
 {
 
+/// A point, or a vector, in the plane.
 struct Point2
 {
   double x;
@@ -44,6 +45,7 @@ struct Box2
   double ymax;
 };
 
+/// A point, or a vector, in space.
 struct Point3
 {
   double x;

@@ -11,7 +11,7 @@ namespace tipp
 namespace
 {
 
-/// Signs of the inner normal of an edge or face that the sample lies on.
+/// The signs of the components of the inner normal of an edge or face that the sample lies on.
 struct Normal
 {
   int X;
@@ -97,7 +97,7 @@ int moveRank(const Point3 (&corners)[4], Point3 sample)
 namespace
 {
 
-/// Each thread sorts a part, then the parts are merged.
+/// Sorts touches by sample: each thread sorts a part, then the parts are merged.
 void sort(std::vector<Touch>& touches, int threads)
 {
   const auto border = [&](std::int64_t share)
@@ -110,7 +110,7 @@ void sort(std::vector<Touch>& touches, int threads)
   }
 }
 
-/// Of the cells that touch a sample, the one of lowest key.
+/// The cell of lowest key among those that touch a sample.
 template <typename Access>
 std::int32_t lowestCell(
   const Access& cells, const LatticeAxes& axes, const Touch* begin, const Touch* end)

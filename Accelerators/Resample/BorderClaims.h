@@ -13,9 +13,11 @@
 namespace tipp
 {
 
-/// The rank of the move by which a closed cell that contains a sample comes to contain it properly:
-/// 0 for (e, e^2, e^3); m for the move mirrored along x if m has bit 0, along y if bit 1, along z
-/// if bit 2; `closedOnly` if none does. Of the cells at a sample the one of lowest rank claims it.
+/// moveRank() of a cell that contains a sample is the lowest rank of a symbolic move that takes the
+/// sample into the cell's interior. Rank 0 is the move by (e, e^2, e^3) with infinitesimal e. Rank
+/// m is that move mirrored along x if bit 0 of m is set, along y if bit 1, and along z if bit 2.
+/// `closedOnly` means that no move does. Among the cells at a sample, the one of lowest rank claims
+/// it.
 constexpr int closedOnly = 8;
 
 /// Exact. The corners are in any order; the triangle has an area and contains the sample.
@@ -26,8 +28,8 @@ int moveRank(const Point3 (&corners)[4], Point3 sample);
 /// A sample on the border of a cell that does not claim it.
 struct Touch
 {
-  std::int64_t Sample;
-  std::int32_t Cell;
+  std::int64_t Sample; ///< index of the sample
+  std::int32_t Cell;   ///< index of the cell
 
   bool operator<(const Touch& other) const
   {
@@ -35,7 +37,7 @@ struct Touch
   }
 };
 
-/// Touches of samples that no cell has claimed so far.
+/// The touches whose samples no cell has claimed yet.
 class TouchList
 {
 public:
@@ -52,7 +54,8 @@ public:
     }
   }
 
-  /// Removes the touches of samples that another cell has claimed; call now and then.
+  /// Removes the touches of samples that have been claimed meanwhile; call it now and then to save
+  /// memory.
   template <typename IsClaimed>
   void tidy(const IsClaimed& isClaimed)
   {
@@ -78,8 +81,8 @@ private:
   std::size_t Most = 1 << 16;
 };
 
-/// What the walks that find the cells of samples have in common: counts, and the touches of
-/// samples. `Walk::isClaimed(sample)` tells whether a cell has claimed a sample.
+/// The common base of the sinks that find the cells of samples: statistics, and the touches.
+/// `Walk::isClaimed(sample)` returns whether a cell has claimed a sample.
 template <typename Walk>
 class TouchingWalk
 {
@@ -131,7 +134,8 @@ int borderRank(
   }
 }
 
-/// Returns which of the touching cells claims each sample, by ascending sample; no other cell does.
+/// Decides which of the touching cells claims each sample; no other cell claims it. Returns the
+/// claims by ascending sample.
 VTKTIPPACCELERATORS_EXPORT std::vector<BorderClaim> borderClaims(
   const SimplexMesh& mesh, const LatticeAxes& axes, std::vector<Touch> touches, int threads);
 

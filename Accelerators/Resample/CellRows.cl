@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which samples of its rows a cell answers, as far as rounding could not change a count. After
-// LatticeAndMesh.cl. For triangles and for tetrahedra there are a Cell and setBox(), setRows() and
-// cellSpans(), to be called in this order. Each returns NOTHING, ROWS or DOUBT.
+// Finds the samples in each row that a cell claims, unless rounding could change the result
+// (DOUBT). Included after LatticeAndMesh.cl. Triangles and tetrahedra each have a Cell and
+// setBox(), setRows() and cellSpans(), to be called in this order. Each returns NOTHING, ROWS or
+// DOUBT.
 #define NOTHING 0
 #define ROWS 1
 #define DOUBT 2
 
-// Without branches, many of which would be mispredicted: a mask is 0 or -1.
+// Branch-free, since many branches would be mispredicted. A mask is 0 or -1.
 int anyOf(int4 mask)
 {
   const int2 pairs = mask.lo | mask.hi;
@@ -59,7 +60,7 @@ long indexOfRow(int row, int layer, Axis x, Axis y)
   return ((long)layer * (long)y.s7 + row) * (long)x.s7;
 }
 
-// TriangleRows.h for a device; the third axis is not used.
+// The counterpart of TriangleRows.h; the third axis is not used.
 #if CORNERS == 3
 
 typedef struct
@@ -70,7 +71,7 @@ typedef struct
 
 typedef struct
 {
-  Edge edges[3]; // the long one, the short ones below and above the middle corner
+  Edge edges[3]; // the long edge, then the short ones below and above the middle corner
   double middle;
   double top;
   double error;
@@ -86,7 +87,7 @@ Edge edgeOf(double3 low, double3 high)
   return edge;
 }
 
-// Without branches, of which half would be mispredicted.
+// Branch-free, since half of the branches would be mispredicted.
 void lowFirst(double3* a, double3* b)
 {
   const bool swap = b->y < a->y;
@@ -96,7 +97,7 @@ void lowFirst(double3* a, double3* b)
   *b = high;
 }
 
-// What range() of LatticeAxis gives along both axes.
+// Sets the box of samples: LatticeAxis::range() along both axes.
 INLINE int setBox(Cell* t, const double3* p, Axis x, Axis y, Axis z)
 {
   const double2 least = LEAST(p[0].xy, p[1].xy);
@@ -127,7 +128,7 @@ INLINE int setRows(Cell* t, const double3* p, Axis x, Axis y, Axis z)
   const double l = (a.x - b.x) * (c.y - b.y);
   const double r = (a.y - b.y) * (c.x - b.x);
   const double bound = 3.3306690738754716e-16 * (fabs(l) + fabs(r)) + 1e-300;
-  // Coordinates that are not finite make that false.
+  // False for non-finite coordinates.
   if (!(fabs(l - r) > bound))
   {
     return DOUBT;
@@ -170,11 +171,12 @@ INLINE int cellSpans(const Cell* t, int first, int last, Axis u, Axis v, Spans* 
 
 #endif
 
-// TetrahedronRows.h for a device.
+// The counterpart of TetrahedronRows.h.
 #if CORNERS == 4
 
-// Faces side by side: where each crosses the first row, in steps from the box's first column, and how
-// many steps before that for each row and each layer. In single precision: see TetrahedronLanes.h.
+// The four faces in lanes: where each crosses the first row, in steps from the box's first column,
+// and how many steps earlier with each further row and layer. In single precision, see
+// TetrahedronLanes.h.
 typedef struct
 {
   float4 position;
@@ -184,9 +186,9 @@ typedef struct
   float4 notEnd;
   float certainty;
   Box box;
-  double3 size; // of the box
+  double3 size; // size of the box
   double3 error;
-  int isSample; // the box is one sample, which is inside: the rest is not told
+  int isSample; // the box has one sample, which is inside; the other fields are undefined
 } Cell;
 
 #define BEYOND 1e30f
@@ -252,7 +254,8 @@ INLINE int setSample(const Box* box, double3 a, double3 b, double3 c, double3 d,
   return stateOf(anyOf(above) & anyOf(below), allOf(above) | allOf(below));
 }
 
-// What range() of LatticeAxis gives along all axes. A fourth axis fills the lanes: it has one sample.
+// Sets the box of samples: LatticeAxis::range() along all axes. A dummy fourth axis with one sample
+// fills the lanes.
 INLINE int setBox(Cell* t, const double3* p, Axis x, Axis y, Axis z)
 {
   const double3 leastOfTwo = LEAST(p[0], p[1]);
@@ -288,7 +291,7 @@ INLINE int setRows(Cell* t, const double3* p, Axis x, Axis y, Axis z)
   const double3 w = d - a;
   const double volume = w.x * (u.y * v.z - u.z * v.y) + w.y * (u.z * v.x - u.x * v.z) +
     w.z * (u.x * v.y - u.y * v.x);
-  // Coordinates that are not finite make that false.
+  // False for non-finite coordinates.
   if (!(fabs(volume) > ROUNDINGS * size.x * size.y * size.z + SMALLEST))
   {
     return DOUBT;

@@ -35,7 +35,7 @@ struct CellGeometry<3>
   using Lanes = TetrahedronLanes;
 };
 
-/// The axes of a lattice that a mesh's samples lie on.
+/// The lattice's axes along which a mesh is sampled: two for triangles, three for tetrahedra.
 struct LatticeAxes
 {
   LatticeAxes(const SimplexMesh& mesh, const Lattice& lattice)
@@ -63,14 +63,14 @@ struct LatticeAxes
 /// A row of a lattice's samples along the first axis.
 struct SampleRow
 {
-  std::int64_t First; ///< its first sample
+  std::int64_t First; ///< index of its first sample
   int Row;
   int Layer;
 };
 
-/// Visits the samples of all cells, each thread with a sink of its own. Calls sink.visit(samples)
-/// for each cell whose box has samples, with their number; sink.claim(row, begin, count, cell) for
-/// samples of a row that a cell claims, if count is above 0; sink.touch(row, begin, count, cell)
+/// Visits the samples of all cells; each thread has its own sink. It calls sink.visit(samples) for
+/// each cell whose box has samples, with their number; sink.claim(row, begin, count, cell) for the
+/// samples of a row that a cell claims (none if count <= 0); sink.touch(row, begin, count, cell)
 /// for those on a cell's border that it does not claim; sink.addExactTests(count); and
 /// sink.endChunk() now and then.
 template <typename Access, typename Sink>
@@ -200,7 +200,7 @@ private:
     return hidden;
   }
 
-  /// Returns false, having done nothing, for a large cell.
+  /// Visits one of four cells. Returns false, without visiting it, if the cell is large.
   template <typename CellLanes>
   [[gnu::always_inline]] bool visitLane(
     const CellLanes& lanes, int lane, std::int64_t cell, Rows& rows, Sink& sink)
@@ -236,7 +236,8 @@ private:
     return true;
   }
 
-  /// Most tetrahedra that are small compared with the spacing have at most one row.
+  /// A fast path: most tetrahedra that are small compared with the spacing have at most one row of
+  /// samples.
   template <typename CellLanes>
   [[gnu::always_inline]] void visitSingleRows(
     const CellLanes& lanes, std::int64_t first, Rows& rows, Sink& sink)
@@ -260,7 +261,7 @@ private:
     }
   }
 
-  /// If the spacing is about the size of the tetrahedra, most boxes have one sample.
+  /// A fast path: if the spacing is about the size of the tetrahedra, most boxes have one sample.
   template <typename CellLanes>
   [[gnu::always_inline]] void visitSingleSamples(
     const CellLanes& lanes, std::int64_t first, Rows& rows, int thread)

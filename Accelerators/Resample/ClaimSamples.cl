@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which cell answers each sample of a lattice. A cell for which rounding could change a count goes to
-// a list, for the host to do exactly. Host side: ResampleOnDevice.cxx.
+// Finds the cell that claims each sample of a lattice. Cells for which rounding could change the
+// result go to a list, which the host processes exactly. Host side: ResampleOnDevice.cxx.
 #include "LatticeAndMesh.cl"
 #include "CellRows.cl"
 

@@ -43,7 +43,7 @@ public:
     this->Cells.coordinates(point, p);
     for (int axis = 0; axis < D; ++axis)
     {
-      // In this order of arguments a NaN counts for nothing: its cells have no samples.
+      // With this order of arguments NaN is ignored; cells with a NaN have no samples.
       this->Low[axis] = std::min(this->Low[axis], p[axis]);
       this->High[axis] = std::max(this->High[axis], p[axis]);
     }
@@ -78,7 +78,7 @@ CellBounds<Access> boundsOf(const SimplexMesh& mesh, int threads)
 {
   std::vector<CellBounds<Access>> bounds(
     static_cast<std::size_t>(threads), CellBounds<Access>(mesh));
-  // Parts of a mesh may all have the points of the whole.
+  // Each part of a mesh may have all points of the whole mesh.
   const bool byPoints = mesh.PointCount <= mesh.Cells * Access::Corners;
   forChunks(byPoints ? mesh.PointCount : mesh.Cells, 1 << 14, threads, {},
     [&](std::int64_t begin, std::int64_t end, int thread)
@@ -128,7 +128,7 @@ SampleWindow SampleWindow::around(const SimplexMesh& mesh, const Lattice& lattic
       for (int i = 0; i < Access::Dimension; ++i)
       {
         const auto axis = std::size_t(axes[std::size_t(i)]);
-        // With such an error samples are looked for one by one, as exactly as cells contain them.
+        // With an infinite error each sample is compared exactly, just as the cells do.
         const IndexRange found =
           LatticeAxis(lattice, int(axis)).range(bounds.Low[i], bounds.High[i], HUGE_VAL);
         begins[i] = found.Begin;
@@ -148,12 +148,12 @@ namespace
 
 constexpr std::int32_t unclaimed = -1;
 
-/// A thread's state in the first walk. Cells that do not overlap write to different samples; if
-/// some overlap, more samples are claimed than there are, and another walk decides.
+/// A thread's sink in the first walk. Cells that do not overlap write to different samples. If some
+/// overlap, the number of claims exceeds the number of claimed samples, and another walk decides.
 class FirstWalk : public TouchingWalk<FirstWalk>
 {
 public:
-  /// `names`: maps a cell's index to the number to store; null: the index itself.
+  /// `names` maps a cell's index to the number to store; null: store the index itself.
   explicit FirstWalk(std::int32_t* claims, const std::int32_t* names = nullptr)
     : Claims(claims)
     , Names(names)
@@ -237,7 +237,8 @@ private:
   CellKey KnownKey = noCellKey;
 };
 
-/// Compared as unsigned numbers, so that -1, unclaimed, is the largest.
+/// Lowers *to to `cell` atomically. Compares unsigned numbers, so that -1 (unclaimed) is the
+/// largest.
 void lowerTo(std::int32_t* to, std::int32_t cell)
 {
   std::int32_t known = __atomic_load_n(to, __ATOMIC_RELAXED);
@@ -361,7 +362,7 @@ private:
           std::vector<Walk> walks(std::size_t(this->Threads), Walk(access, settle));
           return Visitor(this->Mesh, this->Axes, walks).run(this->Progress);
         };
-        // The lowest key at each sample, then the first cell that has it.
+        // First finds the lowest key at each sample, then the first cell that has it.
         this->Result.Aborted = !walk([&](std::int64_t sample, std::int32_t, CellKey key)
           { lowerTo(keys.get() + sample, key); });
         if (!this->Result.Aborted)
@@ -398,7 +399,7 @@ Claims finishClaims(const SimplexMesh& mesh, const Lattice& lattice, int threads
 namespace
 {
 
-/// Merges claims [first, last); their keys are at an offset of `shift`.
+/// Merges claims [first, last); the key of claim i is keys[i + shift].
 template <typename Access>
 void mergeRun(const Access& access, const LatticeAxes& axes, Claims& claims, std::int64_t first,
   std::int64_t last, std::int64_t shift, CellKey* keys)

@@ -19,10 +19,10 @@
 namespace tipp
 {
 
-/// Of the cells that contain a sample, the one with the lowest key claims it. A key's highest four
-/// bits are the cell's moveRank() at the sample; the others are a hash of its corners' coordinates,
-/// so that the choice between overlapping cells does not depend on order, ids and pieces. Equal
-/// keys mean copies of one cell.
+/// The key that decides which cell claims a sample: the lowest among the cells that contain it. Its
+/// highest four bits are the cell's moveRank() at the sample; the others are a hash of the corners'
+/// coordinates, so that the choice among overlapping cells does not depend on the order of cells,
+/// ids or pieces. Equal keys mean copies of one cell.
 using CellKey = std::uint64_t;
 
 constexpr CellKey noCellKey = ~CellKey(0);
@@ -71,23 +71,24 @@ inline CellKey withRank(CellKey key, int rank)
   return (key << 4 >> 4) | (CellKey(rank) << 60);
 }
 
-/// A sample that cells touch but none contains, with the key of the one that answers it.
+/// A sample that lies on the border of cells without being inside any, with the key of the cell
+/// that claims it.
 struct BorderSample
 {
-  std::int64_t Sample;
+  std::int64_t Sample; ///< index of the sample
   CellKey Key;
 };
 
-/// A box of a lattice's samples, and its position in the lattice. With it the cost of a part of a
-/// mesh depends on the part's own box, not on the whole image.
+/// A box of a lattice's samples, and its position in the lattice. It makes the cost of a part of a
+/// mesh depend on the part's own box instead of the whole image.
 ///
 /// Triangles are sampled in the plane of the two axes `mesh.Axes` of the lattice.
 class VTKTIPPACCELERATORS_EXPORT SampleWindow
 {
 public:
-  /// All samples.
+  /// The window of all samples.
   SampleWindow(const SimplexMesh& mesh, const Lattice& lattice);
-  /// The samples that the mesh's cells may claim, decided exactly.
+  /// The window of the samples in the mesh's bounding box, decided exactly.
   static SampleWindow around(const SimplexMesh& mesh, const Lattice& lattice, int threads);
 
   /// The lattice of the window. Its coordinates are bitwise equal to the whole lattice's.
@@ -102,8 +103,8 @@ public:
       ((row / this->Height) * this->AllHeight + row % this->Height) * this->AllWidth;
   }
 
-  /// Calls work(first, last, shift) for runs [first, last) of the window's samples [begin, end); in
-  /// the whole lattice they have the indices from first + shift on.
+  /// Calls work(first, last, shift) for runs [first, last) of the window's samples [begin, end),
+  /// such that sample i of the window is sample i + shift of the whole lattice.
   template <typename Work>
   void forRuns(std::int64_t begin, std::int64_t end, const Work& work) const
   {
@@ -130,24 +131,24 @@ private:
   std::int64_t Layers = 0;
   std::int64_t AllWidth;
   std::int64_t AllHeight;
-  std::int64_t First = 0; ///< index among all samples of the window's first
+  std::int64_t First = 0; ///< index, among all samples, of the window's first sample
   bool Whole = true;
 };
 
 /// A sample on the mesh's border that its cell does not contain after the move by (e, e^2, e^3).
 struct BorderClaim
 {
-  std::int64_t Sample;
-  std::int32_t Cell;
+  std::int64_t Sample; ///< index of the sample
+  std::int32_t Cell;   ///< index of the cell
 };
 
-/// Statistics of the cells that threads of this process have visited: if a device claims samples,
-/// only of the cells that it leaves undecided.
+/// Statistics of the cells that the CPU's threads have visited; if an OpenCL device claims samples,
+/// these are only the cells that it leaves undecided.
 struct ClaimStatistics
 {
-  std::int64_t VisitedCells = 0; ///< cells whose boxes contain samples
-  std::int64_t Tests = 0;        ///< samples in these boxes
-  std::int64_t ExactTests = 0;
+  std::int64_t VisitedCells = 0;      ///< cells whose boxes contain samples
+  std::int64_t Tests = 0;             ///< samples in these boxes
+  std::int64_t ExactTests = 0;        ///< exact predicate evaluations
   std::int64_t OverlappingClaims = 0; ///< samples that a cell lost to an overlapping one
 };
 
@@ -156,9 +157,9 @@ struct Claims
 {
   /// cell index per sample, the first axis fastest; -1: none
   std::unique_ptr<std::int32_t[]> Cells;
-  std::vector<BorderClaim> Border; ///< by ascending sample
+  std::vector<BorderClaim> Border; ///< sorted by sample
   ClaimStatistics Statistics;
-  bool Aborted = false;
+  bool Aborted = false; ///< whether the report stopped the work; the claims are incomplete
 };
 
 /// Returns the cell of lowest CellKey at each sample: the one that contains it after a move by (e,
@@ -171,16 +172,16 @@ struct Claims
 VTKTIPPACCELERATORS_EXPORT Claims claimSamples(
   const SimplexMesh& mesh, const Lattice& lattice, int threads, const Report& report = {});
 
-/// Completes the work of a device: `claims` has the claims of all cells but the `open` ones, which
-/// may be there in part; `claimed` is the sum of the samples that each of the other cells claims.
+/// Completes the work of a device. `claims` has the claims of all cells except `open`, whose claims
+/// may be incomplete; `claimed` is the number of claims of the other cells, overlaps counted more
+/// than once.
 Claims finishClaims(const SimplexMesh& mesh, const Lattice& lattice, int threads,
   std::unique_ptr<std::int32_t[]> claims, std::int64_t claimed,
   const std::vector<std::int32_t>& open, const Report& report);
 
-/// Sets each sample's key to the lower of its own and the claim's, and removes claims that are not
-/// lower. Several
-/// parts of a mesh can add their samples to the same arrays, in any order. The claims are of the
-/// window's samples, the keys of all.
+/// Lowers each sample's key to that of its claim, and removes claims whose key is not lower. So
+/// several parts of a mesh can contribute to the same arrays in any order. `claims` is indexed by
+/// the window's samples, `keys` by those of the whole lattice.
 VTKTIPPACCELERATORS_EXPORT void mergeClaims(
   const SimplexMesh& mesh, Claims& claims, const SampleWindow& window, int threads, CellKey* keys);
 

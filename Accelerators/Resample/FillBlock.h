@@ -54,14 +54,15 @@ public:
   }
 
 private:
-  /// Four groups' values at the first corner, and by how much they rise along each axis.
+  /// The values of four groups at their first corners, and their gradients.
   struct alignas(32) Gradients
   {
     Lanes First;
     Lanes Rise[D];
   };
 
-  /// A run's value at the first coordinate of its cell's first corner, and by how much it rises.
+  /// A run's values as a linear function of the first coordinate, relative to the cell's first
+  /// corner.
   struct Line
   {
     double First;
@@ -108,7 +109,7 @@ private:
       }
       lines[run] = { gradient.First[lane] + sum, gradient.Rise[0][lane] };
     }
-    // By pointers of their own, which stores do not make the compiler load again.
+    // Local copies of the pointers: otherwise the compiler reloads them after each store.
     const std::int64_t* const indices = this->Weighed.indices();
     const std::int32_t* const runs = this->Weighed.runsOfSamples();
     const double* const offsets = this->Weighed.offsets();
@@ -126,7 +127,7 @@ private:
     }
   }
 
-  /// Of all groups; tells where they are of use.
+  /// Computes the gradients of all groups; returns where they may be used.
   [[gnu::always_inline]] LaneMask findGradients(int component, Gradients* gradients) const
   {
     constexpr int ahead = 8;
@@ -155,8 +156,8 @@ private:
     return useful;
   }
 
-  /// Whether samples may be found by gradients: not in thin cells, and not if these are infinite,
-  /// or NaN, which the samples need not be.
+  /// Where gradients may be used: not in thin cells, and not if they are infinite or NaN, since the
+  /// samples may be finite.
   [[gnu::always_inline]] static LaneMask isUseful(
     const GroupLanes<Access>& group, const Gradients& gradient)
   {
@@ -190,7 +191,7 @@ private:
     }
   }
 
-  /// Once more the samples of groups whose gradients are of no use.
+  /// Recomputes the samples of groups whose gradients cannot be used.
   [[gnu::noinline]] void interpolateByWeights(int component, const Gradients* gradients)
   {
     for (int j = 0; j < this->Weighed.size(); ++j)
@@ -250,13 +251,13 @@ private:
   const Block& Weighed;
 };
 
-/// Whether there is something left to sample.
+/// Whether the attribute still has to be sampled.
 inline bool isSampled(const Attribute& attribute, const InterpolationOptions& options)
 {
   return attribute.Values && !(options.SkipInterpolated && isInterpolated(attribute));
 }
 
-/// Whether samples need weights.
+/// Whether any attribute needs barycentric weights.
 inline bool needsWeights(
   const std::vector<Attribute>& attributes, const InterpolationOptions& options)
 {
@@ -286,7 +287,7 @@ void fillBlock(SampleBlock<Access>& block, bool weighs, const std::vector<Attrib
   }
 }
 
-/// The null value in samples first..end - 1 for which wanted(sample).
+/// Writes the null value to the samples in [first, end) for which wanted(sample) is true.
 template <typename Wanted>
 void fillNull(
   const Attribute& attribute, std::int64_t first, std::int64_t end, const Wanted& wanted)

@@ -15,7 +15,8 @@ namespace tipp
 namespace
 {
 
-/// Samples first..last - 1 of the claims, which are found `shift` further among all.
+/// Fills the samples of claims [first, last) that do not need interpolation; claim i is sample i +
+/// shift of the whole lattice.
 void fillRest(const std::vector<Attribute>& attributes, const std::int32_t* claims,
   std::int64_t first, std::int64_t last, std::int64_t shift, const InterpolationOptions& options)
 {
@@ -40,8 +41,8 @@ void fillRest(const std::vector<Attribute>& attributes, const std::int32_t* clai
   }
 }
 
-/// Calls work(cell, row, begin, count) for runs of samples begin..end - 1 of the window that one
-/// cell claims; the row's first sample is counted among all.
+/// Calls work(cell, row, begin, count) for runs of samples that one cell claims, within the
+/// window's samples [begin, end). `row` counts samples in the whole lattice.
 template <typename Access, typename Work>
 void forCellRuns(const Access& access, const LatticeAxes& axes, const SampleWindow& window,
   const std::int32_t* claims, std::int64_t begin, std::int64_t end, const Work& work)
@@ -113,7 +114,7 @@ bool interpolate(const SimplexMesh& mesh, const SampleWindow& window, const std:
 namespace
 {
 
-/// Calls work(first, last) for runs of bytes that are 0, of begin..end - 1, which are 0 or 1.
+/// Calls work(first, last) for each run of zeros in bytes [begin, end), which are all 0 or 1.
 template <typename Work>
 void forZeros(const unsigned char* bytes, std::int64_t begin, std::int64_t end, const Work& work)
 {
@@ -130,7 +131,7 @@ void forZeros(const unsigned char* bytes, std::int64_t begin, std::int64_t end, 
   }
 }
 
-/// What a thread fills of the samples.
+/// A thread's sink, which fills samples as cells claim them.
 template <typename Access>
 class FillingWalk : public TouchingWalk<FillingWalk<Access>>
 {
@@ -195,7 +196,7 @@ private:
   SampleBlock<Access> Block;
 };
 
-/// One run for a mesh of known types.
+/// One run of sampleDirectly(), typed for the mesh.
 template <typename Access>
 class DirectSampler
 {
@@ -212,7 +213,8 @@ public:
   {
   }
 
-  /// `claimed` samples are there already. `border`: see samplePartDirectly(); may be null.
+  /// `claimed` is the number of samples that a device has filled already. For `border`, which may
+  /// be null, see samplePartDirectly().
   DirectResult run(std::int64_t claimed, std::vector<BorderSample>* border)
   {
     this->Result.Aborted =
@@ -244,7 +246,8 @@ private:
     forChunks(this->Axes.samples(), 1 << 16, this->Options.Threads, {}, work);
   }
 
-  /// Gives the samples that cells do not contain their null values; tells how many they do.
+  /// Sets the samples outside of all cells to their null values. Returns the number of samples
+  /// inside.
   std::int64_t finishSamples()
   {
     const unsigned char* const valid = this->Options.Valid;

@@ -17,13 +17,14 @@ namespace tipp
 /// An array of a mesh, and the array of samples to compute from it.
 struct Attribute
 {
-  /// Values of the points, or the cells; Components per tuple. Null: all samples get NullValue.
+  /// Values per point or per cell, Components per tuple; not owned. Null: all samples get
+  /// NullValue.
   const void* Values = nullptr;
-  void* Samples = nullptr; ///< Components per sample
-  Scalar Type = Scalar::Float64;
-  int Components = 1;
-  bool OfCells = false;
-  double NullValue = 0; ///< value of samples outside of all cells
+  void* Samples = nullptr;       ///< Components per sample; not owned
+  Scalar Type = Scalar::Float64; ///< type of Values and of Samples
+  int Components = 1;            ///< components per tuple
+  bool OfCells = false;          ///< whether Values are per cell; otherwise per point
+  double NullValue = 0;          ///< value of samples outside of all cells
 };
 
 /// Whether the array is interpolated linearly: a point array of floating-point numbers.
@@ -33,10 +34,11 @@ inline bool isInterpolated(const Attribute& attribute)
     (attribute.Type == Scalar::Float32 || attribute.Type == Scalar::Float64);
 }
 
+/// Options of interpolate() and sampleDirectly().
 struct InterpolationOptions
 {
-  int Threads = 1;
-  /// Whether samples that no cell claims get the NullValue; otherwise they are not changed.
+  int Threads = 1; ///< OpenMP threads, at least 1
+  /// Whether samples that no cell claims get NullValue; if false, they are left unchanged.
   bool FillUnclaimed = true;
   /// Whether floating-point point arrays have been sampled already.
   bool SkipInterpolated = false;
@@ -48,38 +50,38 @@ struct InterpolationOptions
   Report Progress;
 };
 
-/// Fills the attributes' samples, and Valid, of a window, whose claims they are; the other samples
-/// stay. Floating-point numbers of points are interpolated linearly in
-/// double precision; whole numbers are taken from the corner of largest weight; numbers of cells
-/// from the cell. The weights are evaluated with the corners in the lexicographic order of their
-/// coordinates, so that the same cell gives the same bits however it is stored. False if Progress
-/// stopped it.
+/// Fills the attributes' samples, and Valid, in a window from its claims; other samples are left
+/// unchanged. Floating-point point arrays are interpolated linearly in double precision; integer
+/// point arrays are taken from the corner of largest weight; cell arrays from the cell. The weights
+/// are evaluated with the corners in lexicographic order of their coordinates, so that a cell gives
+/// the same bits however it is stored. Returns false if Progress stopped it.
 VTKTIPPACCELERATORS_EXPORT bool interpolate(const SimplexMesh& mesh, const SampleWindow& window,
   const std::int32_t* claims, const std::vector<Attribute>& attributes,
   const InterpolationOptions& options);
 
+/// The result of sampleDirectly().
 struct DirectResult
 {
   ClaimStatistics Statistics;
-  double FinishSeconds = 0; ///< for null values and the mesh's border, after the walk
-  bool Overlapping = false; ///< cells claim the same samples: the result is undefined
-  bool Aborted = false;
+  double FinishSeconds = 0; ///< for null values and the mesh's border, after the main pass
+  bool Overlapping = false; ///< cells overlap at samples: the sampled values are undefined
+  bool Aborted = false;     ///< whether Progress stopped the work
 };
 
-/// Does the work of claimSamples() and interpolate() in one walk, which reads each cell once.
-/// Correct for cells that do not overlap; otherwise it sets Overlapping. All samples are filled;
+/// Does the work of claimSamples() and interpolate() in one pass, which reads each cell once. Works
+/// only for cells that do not overlap; otherwise it sets Overlapping. All samples are filled;
 /// `options.Valid` must not be null.
 VTKTIPPACCELERATORS_EXPORT DirectResult sampleDirectly(const SimplexMesh& mesh,
   const Lattice& lattice, const std::vector<Attribute>& attributes,
   const InterpolationOptions& options);
 
-/// The same of a part of a mesh. `border` gets the samples on the part's border, which other parts
-/// may contain.
+/// The same for a part of a mesh. `border` gets the samples on the part's border, which other parts
+/// may claim.
 VTKTIPPACCELERATORS_EXPORT DirectResult samplePartDirectly(const SimplexMesh& mesh,
   const Lattice& lattice, const std::vector<Attribute>& attributes,
   const InterpolationOptions& options, std::vector<BorderSample>& border);
 
-/// The part of that work that a device has done.
+/// The part of sampleDirectly()'s work that a device has done.
 struct SampledCells
 {
   std::int64_t Claimed = 0; ///< number of samples that cells claim, without those of open cells

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the cell that answers a sample says there: Weights.h for a device. Host side:
-// ResampleOnDevice.cxx.
+// Interpolates samples in the cells that claim them. Host side: ResampleOnDevice.cxx.
 #include "LatticeAndMesh.cl"
 
 typedef struct
@@ -206,8 +205,9 @@ void loadSorted(const Mesh* mesh, long cell, double (*corners)[3], int* ids)
   }
 }
 
-// Corner ids and weights of `count` samples from `first` on; each item does `share` in a row. The
-// first id of a sample that none of the cells firstCell.. answers is -1.
+// Computes the corner ids and weights of `count` samples from `first` on; each work item does
+// `share` consecutive ones. The first id is -1 for a sample that no cell of this piece (from
+// firstCell on) claims.
 kernel void weighSamples(global const Real* points, global const Id* ids, int u, int v, Axis x, Axis y, Axis z, long cells, long firstCell,
   int share, long first, long count, global const int* claims, global int* cornerIds,
   global double* weights)
@@ -250,7 +250,7 @@ kernel void weighSamples(global const Real* points, global const Id* ids, int u,
   }
 }
 
-// One array of floating-point numbers, an item a sample.
+// Interpolates one floating-point array, with a work item per sample.
 kernel void interpolateArray(global const uchar* values, int isFloat, int components,
   long first, long count, global const int* cornerIds, global const double* weights,
   global uchar* samples)

@@ -17,14 +17,14 @@
 namespace tipp
 {
 
-/// Four numbers in SIMD lanes, and four masks: 0 or -1.
+/// Four doubles in SIMD lanes, and masks of four lanes, each 0 or -1.
 using Lanes = double __attribute__((vector_size(32)));
 using LaneMask = std::int64_t __attribute__((vector_size(32)));
 using LaneInts = std::int32_t __attribute__((vector_size(16)));
 
 constexpr int laneCount = 4;
 
-/// Whether functions for AVX2 may be called.
+/// Whether this processor can run the functions compiled for AVX2.
 inline bool hasAvx2()
 {
 #ifdef __x86_64__
@@ -38,12 +38,12 @@ inline bool hasAvx2()
 {
   return Lanes{ value, value, value, value };
 }
-/// The larger; b if one is NaN.
+/// The larger value in each lane; b if one is NaN.
 [[gnu::always_inline]] inline Lanes most(Lanes a, Lanes b)
 {
   return a > b ? a : b;
 }
-/// The smaller; b if one is NaN.
+/// The smaller value in each lane; b if one is NaN.
 [[gnu::always_inline]] inline Lanes least(Lanes a, Lanes b)
 {
   return a < b ? a : b;
@@ -72,7 +72,7 @@ inline bool hasAvx2()
   return lanes;
 }
 
-/// A bit for each lane.
+/// A bit mask with one bit per lane.
 [[gnu::always_inline]] inline unsigned laneBits(LaneMask mask)
 {
 #ifdef __SSE2__
@@ -222,12 +222,12 @@ constexpr int floatLaneCount = 8;
 {
   return FloatLanes{} + value;
 }
-/// The larger; b if one is NaN.
+/// The larger value in each lane; b if one is NaN.
 [[gnu::always_inline]] inline FloatLanes most(FloatLanes a, FloatLanes b)
 {
   return a > b ? a : b;
 }
-/// The smaller; b if one is NaN.
+/// The smaller value in each lane; b if one is NaN.
 [[gnu::always_inline]] inline FloatLanes least(FloatLanes a, FloatLanes b)
 {
   return a < b ? a : b;
@@ -245,7 +245,7 @@ constexpr int floatLaneCount = 8;
   return __builtin_convertvector(a, FloatLanes);
 }
 
-/// A bit for each lane.
+/// A bit mask with one bit per lane.
 [[gnu::always_inline]] inline unsigned floatLaneBits(FloatLaneInts mask)
 {
 #ifdef __SSE__
@@ -303,7 +303,7 @@ struct alignas(32) GroupLanes
 
   LaneMask Ids[D + 1];
   Lanes Corners[D + 1][D];
-  Lanes Normals[D][D]; ///< of each corner but the first, along each axis
+  Lanes Normals[D][D]; ///< gradients of the weights of all corners but the first
   LaneMask Thin;       ///< where roundings would show in the Normals
 
 private:
@@ -352,7 +352,7 @@ private:
 
   [[gnu::always_inline]] void findNormals()
   {
-    Lanes edges[D][D]; // of each corner but the first, from that
+    Lanes edges[D][D]; // from the first corner to each of the others
     Lanes product = allLanes(1);
     for (int axis = 0; axis < D; ++axis)
     {
@@ -377,7 +377,7 @@ private:
     }
   }
 
-  /// Makes the Normals the columns of the adjugate, and returns the determinant.
+  /// Sets Normals to the columns of the adjugate matrix. Returns the determinant.
   [[gnu::always_inline]] Lanes cofactors(const Lanes (&e)[D][D])
   {
     auto& n = this->Normals;

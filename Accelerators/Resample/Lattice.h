@@ -16,9 +16,9 @@ namespace tipp
 /// parts of a lattice have the very same samples.
 struct Lattice
 {
-  std::array<double, 3> Min = {};
-  std::array<double, 3> Delta = { 1, 1, 1 };
-  std::array<int, 6> Extent = {};
+  std::array<double, 3> Min = {};            ///< coordinates of the sample with index (0, 0, 0)
+  std::array<double, 3> Delta = { 1, 1, 1 }; ///< spacing along x, y, z
+  std::array<int, 6> Extent = {};            ///< first and last index along x, y, z
 
   std::int64_t size(int axis) const
   {
@@ -53,11 +53,11 @@ struct IndexRange
 };
 
 /// Where a line or plane crosses a row: the number of samples strictly before the crossing, and the
-/// number including those on it.
+/// number before or on it.
 struct RowCrossing
 {
-  int Before;
-  int WithOn;
+  int Before; ///< number of samples strictly before the crossing
+  int WithOn; ///< number of samples before or on it
 };
 
 /// One axis of a lattice: the coordinates of its samples, and the position of other coordinates
@@ -80,7 +80,7 @@ public:
     }
     this->ErrorScale = Roundings * std::fabs(this->Inverse);
     this->ErrorOffset = this->ErrorScale * std::fabs(this->Min);
-    // A step of 0 makes it infinite: every estimate then counts for nothing.
+    // A step of 0 makes it infinite: no estimate is certain then.
     if (!(this->Inverse > 0 && this->ErrorScale < 1e270))
     {
       this->ErrorScale = this->ErrorOffset = HUGE_VAL;
@@ -89,26 +89,26 @@ public:
 
   int size() const { return this->Count; }
   double operator[](int i) const { return this->Coordinates[std::size_t(i)]; }
-  /// The coordinates, and four more.
+  /// The samples' coordinates, plus four padding values.
   const double* data() const { return this->Coordinates.data(); }
 
-  /// The position of v in steps, rounded: 1 at the first sample. Clamped to numbers whose integer
-  /// part is 0 below all samples and size() above them.
+  /// The position of v in steps, with rounding errors: 1 at the first sample. Clamped so that its
+  /// integer part is 0 below all samples and size() above them.
   double position(double v) const
   {
     return this->clamp((v - this->Min) * this->Inverse - this->First + 1);
   }
-  // In this order of arguments NaN becomes 0.5.
+  // With this order of arguments NaN becomes 0.5.
   double clamp(double position) const { return std::min(this->Limit, std::max(0.5, position)); }
   double inverse() const { return this->Inverse; }
   /// The lattice's origin, not the first sample's coordinate, which differs if its index is not 0.
   double origin() const { return this->Min; }
   double firstIndex() const { return this->First; }
 
-  /// An upper bound, in steps, on the error of position() for crossings of lines and rows in a
-  /// cell whose coordinates lie within +-reach, including the error of the samples' own
-  /// coordinates. A crossing takes ten roundings, each of at most 2^-53 of twice `reach` and Min;
-  /// the bound counts 64.
+  /// An upper bound, in steps, on the error of position() for crossings of lines and rows in a cell
+  /// whose coordinates lie within +-reach, including the error of the samples' own coordinates. A
+  /// crossing has ten roundings, each of at most 2^-53 of twice `reach` and Min; the bound allows
+  /// for 64.
   double error(double reach) const { return reach * this->ErrorScale + this->ErrorOffset; }
   double errorScale() const { return this->ErrorScale; }
   double errorOffset() const { return this->ErrorOffset; }
@@ -130,8 +130,8 @@ public:
     return position - whole < 0.5 ? whole - 1 : whole;
   }
 
-  /// The samples before a crossing whose position is uncertain, searched among `columns`. side(i)
-  /// is exact: 1 before it, 0 on it, -1 beyond.
+  /// Finds a crossing whose computed position has the given error, among `columns`. side(i) is
+  /// exact: 1 if sample i lies before the crossing, 0 on it, -1 beyond.
   template <typename Side>
   RowCrossing crossing(double position, double error, IndexRange columns, const Side& side) const
   {
@@ -149,7 +149,8 @@ public:
     return { where > 0 ? i + 1 : i, where >= 0 ? i + 1 : i };
   }
 
-  /// The samples in the closed interval [low, high]; `error` as from error() with a reach to both.
+  /// The samples in the closed interval [low, high]. `error` is error() for a reach that includes
+  /// both.
   [[gnu::always_inline]] IndexRange range(double low, double high, double error) const
   {
     const double begin = this->position(low);
@@ -164,7 +165,7 @@ public:
   /// 64 roundings of numbers up to 1.
   static constexpr double Roundings = 7.1054273576010019e-15; // 2^-47
 
-  /// As range(), if that is uncertain.
+  /// range() by exact comparisons, for uncertain positions.
   [[gnu::noinline]] IndexRange exactRange(double low, double high) const
   {
     const auto begin = this->Coordinates.begin();
@@ -191,8 +192,8 @@ private:
 struct RowSpan
 {
   int Begin;
-  int End;       ///< claimed: [Begin, End); none if End <= Begin
-  int ClosedEnd; ///< those from max(Begin, End) before this lie on its border
+  int End;       ///< [Begin, End) are claimed; none if End <= Begin
+  int ClosedEnd; ///< [max(Begin, End), ClosedEnd) lie on its border
 };
 
 } // namespace tipp

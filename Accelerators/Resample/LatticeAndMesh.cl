@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the kernels of resampling share: the lattice of samples and the mesh.
+// Shared by all resampling kernels: the lattice of samples and the mesh.
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #pragma OPENCL FP_CONTRACT OFF
 
-// For functions that are called for every cell with all that is known of the axes.
+// For functions that are called for every cell and take whole axes as arguments.
 #define INLINE __attribute__((always_inline))
 
-// The smaller or larger of numbers or vectors, or b: as processors have it, where fmin() and fmax() also
-// look for NaN.
+// The smaller or larger of two numbers or vectors; b if one is NaN. Maps to one instruction,
+// whereas fmin() and fmax() also check for NaN.
 #define LEAST(a, b) ((a) < (b) ? (a) : (b))
 #define MOST(a, b) ((a) > (b) ? (a) : (b))
 #define CLAMPED(a, low, high) LEAST(MOST(a, low), high)
@@ -15,7 +15,7 @@
 #define ROUNDINGS 0x1p-47
 #define SMALLEST 1e-280
 
-// A LatticeAxis as s0 to s7: min, inverse, first, limit, error scale, error offset, delta, size.
+// A LatticeAxis; s0 to s7 are min, inverse, first, limit, error scale, error offset, delta, size.
 typedef double8 Axis;
 
 double errorOf(Axis axis, double reach)
@@ -30,13 +30,13 @@ double4 coordinatesOf(Axis axis, int4 i)
 {
   return axis.s0 + (convert_double4(i) + axis.s2) * axis.s6;
 }
-// Where v lies, in steps: see Lattice.h.
+// The position of v in steps: LatticeAxis::position().
 double4 placesOf(Axis axis, double4 v)
 {
   const double4 position = (v - axis.s0) * axis.s1 - axis.s2 + 1;
   return CLAMPED(position, (double4)(0.5), (double4)(axis.s3));
 }
-// Whether the whole parts of these positions are certain.
+// LatticeAxis::certain().
 long4 certain(double4 position, double4 error)
 {
   return fabs(position - convert_double4(convert_int4(position)) - 0.5) < 0.5 - error;
@@ -49,7 +49,7 @@ typedef struct
   double4 inverse;
   double4 first;
   double4 delta;
-  double4 last; // the last sample's number
+  double4 last; // index of the last sample
 } Axes;
 
 INLINE Axes axesOf(Axis a, Axis b, Axis c, Axis d)
@@ -63,18 +63,19 @@ INLINE Axes axesOf(Axis a, Axis b, Axis c, Axis d)
   return axes;
 }
 
-// The samples nearest to v. Where errors are less than half a step, all others' sides of v are known.
+// The indices of the samples nearest to v. If errors are below half a step, only these can be on
+// the wrong side of v.
 INLINE int4 nearestTo(const Axes* axes, double4 v)
 {
   const double4 position = (v - axes->origin) * axes->inverse + (0.5 - axes->first);
   return convert_int4(CLAMPED(position, (double4)(0), axes->last));
 }
-// As coordinateOf().
+// The coordinates of samples, as LatticeAxis computes them.
 INLINE double4 samplesAt(const Axes* axes, int4 i)
 {
   return axes->origin + (convert_double4(i) + axes->first) * axes->delta;
 }
-// How many samples lie before v, and how many do not lie beyond. A comparison is -1 where it holds.
+// How many samples lie before v. (A comparison is -1 where it is true.)
 INLINE int4 countBefore(const Axes* axes, double4 v)
 {
   const int4 nearest = nearestTo(axes, v);
@@ -86,7 +87,7 @@ INLINE int4 countUpTo(const Axes* axes, double4 v)
   return nearest - convert_int4(samplesAt(axes, nearest) <= v);
 }
 
-// CORNERS is 3 or 4, FLOAT_POINTS and WIDE_IDS are 0 or 1: the mesh's types, told to the compiler.
+// Compiler options give the mesh's types: CORNERS is 3 or 4, FLOAT_POINTS and WIDE_IDS are 0 or 1.
 #if FLOAT_POINTS
 typedef float Real;
 #else
@@ -98,7 +99,7 @@ typedef long Id;
 typedef int Id;
 #endif
 
-// The axes u and v count, and the third of tetrahedra.
+// Points are read along the axes u and v, and for tetrahedra also along the third.
 typedef struct
 {
   global const Real* points;

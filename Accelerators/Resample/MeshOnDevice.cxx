@@ -27,7 +27,7 @@ DevicePieces piecesOnDevice(const ComputeDevice& device, const SimplexMesh& mesh
   const std::uint64_t points = std::uint64_t(mesh.PointCount);
   const std::uint64_t pointBytes = points * (mesh.Float ? PointBytes / 2 : PointBytes);
   const std::uint64_t idBytes = std::uint64_t(mesh.Cells) * corners * (mesh.Wide ? 8 : 4);
-  // Beside them two lists and a count for each cell.
+  // In addition, two lists and a count for each cell.
   const std::uint64_t listBytes = std::uint64_t(mesh.Cells) * 12;
   if (points <= std::uint64_t(std::numeric_limits<cl_int>::max()) && pointBytes <= largest &&
     idBytes <= largest && pointBytes + idBytes + listBytes + points * tuple + others <= room)
@@ -41,7 +41,7 @@ DevicePieces piecesOnDevice(const ComputeDevice& device, const SimplexMesh& mesh
     throw AcceleratorError("The OpenCL device '" + description.Name + "' has no memory for " +
       std::to_string(others) + " bytes of samples: use a smaller range or fewer samples.");
   }
-  // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): a cell has corners.
+  // NOLINTNEXTLINE(clang-analyzer-core.DivideZero): `corners` is positive.
   const std::int64_t most = std::numeric_limits<cl_int>::max() / std::int64_t(corners);
   return { false, std::min(std::int64_t(left / cellBytes), most) };
 }

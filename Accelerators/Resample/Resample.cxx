@@ -15,7 +15,7 @@ namespace tipp
 namespace
 {
 
-/// With fewer cells and samples in total, threads finish before a device has received its data.
+/// With fewer cells and samples in total, CPU threads finish before a device has received its data.
 constexpr std::int64_t worthATransfer = 1000000;
 
 class Resampler
@@ -75,7 +75,8 @@ private:
     }
   }
 
-  /// Returns false if more steps are needed: cells overlap, or the device cannot do it in one walk.
+  /// Samples in one pass. Returns false if that is not possible: cells overlap, or the device needs
+  /// several steps.
   bool sampleAtOnce()
   {
     if (this->Device && !this->Device->canSample(this->Attributes))
@@ -128,7 +129,7 @@ private:
 
   std::string deviceName() const { return this->Device ? this->Device->name() : "OpenMP"; }
 
-  /// If the device fails, it is not used again.
+  /// Runs work on the device. If the device fails, it is not used again.
   template <typename Work>
   void tryDevice(const Work& work)
   {

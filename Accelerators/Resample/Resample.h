@@ -13,22 +13,25 @@
 namespace tipp
 {
 
+/// Options of resample().
 struct ResampleOptions
 {
   DeviceChoice Device = { tipp::Device::OpenMP, -1, "" };
-  std::uint64_t DeviceMemory = 0; ///< bytes of an OpenCL device to use; 0: half of its memory
-  int Threads = 1;
-  /// If the mesh is a part of a larger one: per sample the key of the cell that claims it so far
-  /// (noCellKey: none). Only samples with lower keys are changed, and the cost depends on the
-  /// part's own box. Null: the mesh is complete, and samples that no cell claims get the
-  /// attributes' NullValue.
+  std::uint64_t DeviceMemory = 0; ///< limit of OpenCL device memory, in bytes; 0: half of it
+  int Threads = 1;                ///< OpenMP threads, at least 1
+  /// If the mesh is a part of a larger one: for each sample the key of the cell that claims it so
+  /// far (noCellKey: none). Only samples that get a lower key are changed, and the cost depends on
+  /// the part's own bounding box. Null: the mesh is complete, and samples that no cell claims get
+  /// the attributes' NullValue.
   CellKey* Keys = nullptr;
-  /// Mask, 1 for samples that a cell claims. With Keys the caller must clear it.
+  /// Mask, one byte per sample: 1 if a cell claims it, else 0. With Keys the caller must clear it
+  /// first.
   unsigned char* Valid = nullptr;
   const std::int64_t* Parents = nullptr; ///< see InterpolationOptions
   Report Progress;
 };
 
+/// The result of resample(): statistics, wall-clock times, and the device that was used.
 struct ResampleResult
 {
   ClaimStatistics Statistics;
@@ -38,8 +41,8 @@ struct ResampleResult
   double TransferSeconds = 0; ///< to and from an OpenCL device; not included in the others
   /// "OpenMP", or an OpenCL device's name; empty if a part has no samples.
   std::string Device;
-  std::string Warning; ///< why another device than the requested one was used; else empty
-  bool Aborted = false;
+  std::string Warning;  ///< why another device than the requested one was used; else empty
+  bool Aborted = false; ///< whether Progress stopped the work
 };
 
 /// Samples a mesh on a lattice: see claimSamples() and interpolate(). The attributes' sample arrays
@@ -52,7 +55,7 @@ VTKTIPPACCELERATORS_EXPORT ResampleResult resample(const SimplexMesh& mesh, cons
 class DeviceResampler
 {
 public:
-  /// Opens the device that the options choose; null if OpenMP is to be used.
+  /// Opens the device that the options choose. Returns null if OpenMP is to be used.
   static std::unique_ptr<DeviceResampler> open(
     const SimplexMesh& mesh, const ResampleOptions& options);
 

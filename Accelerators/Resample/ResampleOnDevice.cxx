@@ -16,7 +16,7 @@ namespace tipp
 namespace
 {
 
-/// What SampleCells.cl has room for.
+/// The number of arrays that SampleCells.cl supports.
 constexpr std::size_t mostArrays = 4;
 constexpr int mostComponents = 8;
 
@@ -62,7 +62,7 @@ public:
   }
 
 private:
-  /// An array for the kernels; those that there are not have no components.
+  /// An array argument of the kernels; unused ones have no components.
   struct Array
   {
     cl::Buffer Values;
@@ -204,7 +204,7 @@ public:
   }
 
 private:
-  /// No cell claims anything.
+  /// Marks all samples as unclaimed.
   void clear(std::int32_t* claims, const cl::Buffer& buffer, std::size_t bytes) const
   {
     if (!this->Device.sharesHostMemory())
@@ -357,7 +357,7 @@ private:
   std::int64_t Block = 0;
 };
 
-/// Attributes' samples in a window, in memory of their own.
+/// The attributes' samples in a window, stored separately.
 class WindowSamples
 {
 public:

@@ -27,9 +27,9 @@ struct DevicePieces
   std::int64_t Cells;
 };
 
-/// For a device with `others` bytes in use besides the mesh and point arrays of `tuple` bytes per
-/// point. `memory` is the maximum number of bytes, 0: half of the device's memory. Throws
-/// AcceleratorError if no cell fits.
+/// Computes the pieces for a device that holds point arrays of `tuple` bytes per point and `others`
+/// bytes besides the mesh. `memory` is the limit in bytes, 0 for half of the device's memory.
+/// Throws AcceleratorError if not even one cell fits.
 DevicePieces piecesOnDevice(const ComputeDevice& device, const SimplexMesh& mesh, std::size_t tuple,
   std::size_t others, std::uint64_t memory);
 
@@ -73,7 +73,8 @@ private:
   mutable std::vector<std::vector<char>> GatheredValues;
 };
 
-/// A mesh that is sent to a device, piece by piece, or as a whole if it fits; then it stays there.
+/// A mesh that is sent to a device: as a whole if it fits, in which case it stays there, else piece
+/// by piece.
 class MeshPieces
 {
 public:
@@ -221,8 +222,8 @@ inline std::int64_t rowsOfCell(const SimplexMesh& mesh, const LatticeAxes& axes,
   return rows;
 }
 
-/// What a kernel returns for the cells of a piece besides the samples: the number of samples
-/// claimed, and the cells that it has not finished because they are large or undecided.
+/// A kernel's results for a piece besides the samples: the number of claimed samples, and the cells
+/// that it skipped because they are large or undecided.
 class CellLists
 {
 public:
@@ -290,7 +291,7 @@ private:
   const cl::Buffer Counts;
   const cl::Buffer Large;
   const cl::Buffer Doubtful;
-  cl_int Length[2] = { 0, 0 }; ///< of the lists
+  cl_int Length[2] = { 0, 0 }; ///< lengths of the lists
   const OutputArray Lengths;
 };
 
@@ -307,9 +308,9 @@ SampledCells sampleOnDevice(MeshPieces& mesh, const Lattice& lattice,
 /// count only the undecided cells. Throws AcceleratorError.
 Claims claimOnDevice(MeshPieces& mesh, const Lattice& lattice, const Report& report);
 
-/// Interpolates floating-point point arrays at samples that a cell claims in `claims`; otherwise as
-/// interpolate(). If `keeps`, the other samples are not changed, else they are undefined; only the
-/// window's samples are transferred. Returns false if `report` stopped it. Throws AcceleratorError.
+/// interpolate() for floating-point point arrays, at the samples that a cell claims in `claims`.
+/// The other samples are left unchanged if `keeps`, else undefined. Only the window's samples are
+/// transferred. Returns false if `report` stopped it. Throws AcceleratorError.
 bool interpolateOnDevice(MeshPieces& mesh, const SampleWindow& window, const std::int32_t* claims,
   const std::vector<Attribute>& attributes, bool keeps, const Report& report);
 

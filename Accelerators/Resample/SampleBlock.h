@@ -61,7 +61,7 @@ public:
   }
 
 private:
-  /// Matrix becomes its LU factors, rows and columns being exchanged as Rows and Columns tell.
+  /// Replaces Matrix by its LU factors; Rows and Columns store the permutations.
   void eliminate()
   {
     auto& m = this->Matrix;
@@ -74,7 +74,7 @@ private:
     {
       this->choosePivot(step);
       first = step == 0 ? std::fabs(m[0][0]) : first;
-      // What is left of a cell flatter than the roundings says nothing.
+      // The remaining pivots are rounding errors: the cell is flat.
       constexpr double rounding = 4.4408920985006262e-16;
       const bool flat = !(std::fabs(m[step][step]) > rounding * first);
       this->Reciprocals[step] = flat ? 0 : 1 / m[step][step];
@@ -123,10 +123,10 @@ private:
   int Columns[D];
 };
 
-/// Some samples that cells claim: in runs along the first axis, and these grouped by cell.
+/// A buffer of samples that cells claim: in runs along the first axis, grouped by cell.
 ///
-/// Most cells have a few samples, and how many cannot be predicted; so samples are gathered first,
-/// and what takes time is done in loops over many cells, runs or samples.
+/// Most cells have few samples, and branch prediction cannot foresee how many. So samples are
+/// collected first, and the expensive work is done in loops over many cells, runs or samples.
 template <typename Access>
 class SampleBlock
 {
@@ -157,14 +157,14 @@ public:
     this->LastCell = -1;
   }
 
-  /// Adds samples of a row, at most room() of them; 0 or fewer: none.
+  /// Adds `count` samples of a row, at most room(); does nothing if count <= 0.
   [[gnu::always_inline]] void add(std::int32_t cell, const SampleRow& row, int begin, int count)
   {
     const int group = this->LastGroup + int(cell != this->LastCell);
     const bool any = count > 0;
     this->GroupCells[std::size_t(group)] = cell;
     this->Runs[std::size_t(this->RunCount)] = { row.Row, row.Layer, group };
-    // So many at a time, and what is too much is overwritten by the next.
+    // Always writes a whole stride; the surplus is overwritten by the next call.
     for (int i = 0; i < Stride; ++i)
     {
       this->write(i, row.First + begin, this->Axes.U.data() + begin);
@@ -179,11 +179,11 @@ public:
     this->Size += any ? count : 0;
   }
 
-  /// Finds the groups' corners and how weights rise in them, and where in them the samples lie.
+  /// Computes the groups' corners, the gradients of their weights, and the samples' offsets.
   void weigh() { hasAvx2() ? this->weighAvx2() : this->weighAll(); }
 
   int size() const { return this->Size; }
-  /// Of each sample among the lattice's.
+  /// The index of each sample in the lattice.
   const std::int64_t* indices() const { return this->Indices.data(); }
   const std::int32_t* runsOfSamples() const { return this->RunOfSamples.data(); }
   int groupOf(int j) const { return this->groupOfRun(this->RunOfSamples[std::size_t(j)]); }
@@ -196,23 +196,23 @@ public:
 
   /// The rest is known after weigh().
 
-  /// Four groups from 4 * i on.
+  /// Groups 4 * i to 4 * i + 3. Valid, like all that follows, after weigh().
   const GroupLanes<Access>& groupLanes(int i) const { return this->Groups[std::size_t(i)]; }
-  /// The corner's point id, in the lexicographic order of the coordinates.
+  /// The point index of a corner; corners are in lexicographic order of their coordinates.
   std::int64_t cornerId(int group, int corner) const
   {
     return this->groupLanes(group / laneCount).Ids[corner][group % laneCount];
   }
 
-  /// How far each sample lies from its cell's first corner along the first axis.
+  /// The offset of each sample from its cell's first corner along the first axis.
   const double* offsets() const { return this->Offsets.data(); }
-  /// And along the others.
+  /// The offset of a run's samples along the other axes.
   const double (&runOffset(int run) const)[D - 1]
   {
     return this->RunOffsets[std::size_t(run)].Along;
   }
 
-  /// The weights of a sample's corners but the first.
+  /// The weights of all corners but the first at sample j.
   void weightsOf(int j, double (&weights)[D]) const
   {
     const int group = this->groupOf(j);
@@ -245,7 +245,7 @@ public:
   }
 
 private:
-  /// Samples that add() writes at a time; the axis has room for as many.
+  /// Samples that add() writes at a time; LatticeAxis::data() is padded by as many.
   static constexpr int Stride = 4;
 
   struct Run
@@ -257,7 +257,7 @@ private:
 
   struct RunOffset
   {
-    double First; ///< coordinate of the group's first corner along the first axis
+    double First; ///< coordinate of the first corner along the first axis
     double Along[D - 1];
   };
 
@@ -281,7 +281,7 @@ private:
   [[gnu::always_inline]] void weighAll()
   {
     const int groups = this->groups();
-    // The last ones stand in for those that four lanes have too many.
+    // Unused lanes repeat the last group.
     for (int i = groups; i % laneCount != 0; ++i)
     {
       this->GroupCells[std::size_t(i)] = this->GroupCells[std::size_t(groups - 1)];
@@ -317,7 +317,7 @@ private:
   int LastGroup = -1;
   std::int32_t LastCell = -1;
   std::vector<std::int64_t> Indices;
-  std::vector<double> Offsets; ///< before weigh() the samples' coordinates
+  std::vector<double> Offsets; ///< the samples' coordinates before weigh()
   std::vector<std::int32_t> RunOfSamples;
   std::vector<Run> Runs;
   std::vector<RunOffset> RunOffsets;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The samples that cells answer and what they say there, in one walk: DirectSampling.h for a device.
-// An item does SHARE cells, step by step for all of them, so that what it reads from memory, in no
-// order, does not have to be waited for one by one.
-// A cell for which rounding could change a count, or whose weights take more than determinants, goes
-// to a list, for the host. Host side: ResampleOnDevice.cxx.
+// The device version of sampleDirectly(): finds the samples that cells claim and interpolates them,
+// in one pass. A work item does SHARE cells, each step for all of them, so that their random memory
+// reads overlap. Cells for which rounding could change the result, and thin cells, go to a list,
+// which the host processes. Host side: ResampleOnDevice.cxx.
 #include "LatticeAndMesh.cl"
 #include "CellRows.cl"
 
-// The numbers of all arrays at one point: ResampleOnDevice.cxx sees to it that there are no more.
+// The largest number of components of all arrays together; ResampleOnDevice.cxx ensures it.
 #define CHANNELS 8
 
 typedef struct
@@ -18,7 +17,7 @@ typedef struct
   int components;
 } Array;
 
-// A component of an array in a cell: the value at the first corner and its rise along the axes.
+// A component of an array in a cell: the value at the first corner, and the gradient.
 typedef struct
 {
   global uchar* samples;
@@ -55,19 +54,19 @@ double largest(double a, double b, double c)
   return fmax(fmax(fabs(a), fabs(b)), fabs(c));
 }
 
-// A cell and which corners it has.
+// A cell and its corners.
 typedef struct
 {
-  int number; // among the item's
+  int number; // index among the work item's cells
   int ids[CORNERS];
   double3 points[CORNERS];
 } Corners;
 
-// What the arrays say at a cell's corners.
+// The arrays' values at a cell's corners.
 typedef double Values[CHANNELS][CORNERS];
 
-// The corners' numbers in the lexicographic order of their points, and how the weights of all but the
-// first rise: see Lanes.h. DOUBT for a thin cell.
+// Sorts the corners lexicographically by coordinates, and computes the gradients of the weights of
+// all but the first: see GroupLanes in Lanes.h. Returns DOUBT for a thin cell.
 INLINE int setNormals(const double3* points, int* ids, double3* origin, double3* normals)
 {
   double3 p[4];
@@ -155,7 +154,7 @@ INLINE int setGradients(Gradients* gradients, const double3* points, double (*va
       {
         channel->rise += normals[corner - 1] * (at[order[corner]] - channel->first);
       }
-      // Not for infinite ones and NaN, which the samples need not be.
+      // Not if gradients are infinite or NaN: the samples may be finite.
       const double3 check = channel->rise - channel->rise;
       state = check.x + check.y + check.z == 0 ? state : DOUBT;
     }
@@ -212,7 +211,8 @@ INLINE int fillRows(const Gradients* gradients, const Spans* spans, int count, A
   return total;
 }
 
-// The first rows of a cell, counted from the first of its box, and all others up to `last` - 1.
+// Fills a cell's rows up to `last` - 1. `spans` has the first ones; rows count from the first of
+// its box.
 INLINE int fillCell(const Cell* cell, Spans* spans, int first, int last, const Gradients* gradients, Axis x,
   Axis y, Axis z, global uchar* valid, int* total)
 {
@@ -232,7 +232,7 @@ INLINE int fillCell(const Cell* cell, Spans* spans, int first, int last, const G
   }
 }
 
-// Whether a cell that meets `rows` rows of samples, the first of which are given, may hold any.
+// Whether a cell with `rows` rows of samples, of which `spans` has the first, may claim any sample.
 INLINE int isOpen(const Spans* spans, int rows)
 {
   int open = rows > ROWS_AT_ONCE;
@@ -266,8 +266,9 @@ int isOutside(const int* ids, global const uchar* sides)
       { values2, samples2, isFloat2, components2 }, { values3, samples3, isFloat3, components3 }     \
   }
 
-// Asks for what the next item reads first, where the compiler can: PoCL's prefetch() does nothing. On a
-// card items run side by side instead. What lies beyond the end is asked for in vain.
+// Prefetches what the next work item reads first, if the compiler can: PoCL's prefetch() does
+// nothing. GPUs run work items concurrently and do not need it. Prefetching beyond the end is
+// harmless.
 void askForIds(const Mesh* mesh, long cell)
 {
 #if SHARE > 1 && defined(__has_builtin)
@@ -285,15 +286,17 @@ void askForIds(const Mesh* mesh, long cell)
 typedef struct
 {
   Cell cell;
-  Spans spans; // of its first rows
+  Spans spans; // the spans of its first rows
   Corners* corners;
   int state;
 } Live;
 
-// Each item does SHARE cells in a row. Cells with more than `most` samples in their boxes and cells in
-// doubt go to the lists; `lengths` has the lists' lengths. A cell of a list counts nothing.
+// Each work item does SHARE consecutive cells. Cells with more than `most` samples in their boxes
+// and undecided cells are appended to the lists, whose lengths are in `lengths`. The samples of
+// listed cells are not counted.
 #if SHARE > 1
-// PoCL has memory for the arrays of all items of a group: those of many would not stay in the cache.
+// PoCL allocates the arrays of all work items of a group: with many items they would not fit into
+// the cache.
 __attribute__((reqd_work_group_size(1, 1, 1)))
 #endif
 kernel void sampleCells(global const Real* points, global const Id* ids, int u, int v, Axis x, Axis y,
@@ -356,7 +359,7 @@ kernel void sampleCells(global const Real* points, global const Id* ids, int u, 
     }
     if (of->state != DOUBT)
     {
-      // A cell with nothing still has nothing.
+      // NOTHING is 0, so an empty cell stays empty.
       of->state *= cellSpans(&of->cell, 0, rows, x, y, &of->spans);
     }
     if (of->state == DOUBT)
@@ -392,7 +395,8 @@ kernel void sampleCells(global const Real* points, global const Id* ids, int u, 
   counts[item] = sum;
 }
 
-// One large cell, a row an item; counts[row] is what it claims, or -1 if that is in doubt.
+// One large cell, a work item per row; counts[row] is the number of samples claimed, or -1 if that
+// is undecided.
 kernel void sampleLarge(global const Real* points, global const Id* ids, int u, int v, Axis x, Axis y,
   Axis z, long number, int rows, global uchar* valid, global int* counts, int arrayCount,
   ARRAY_PARAMETERS)

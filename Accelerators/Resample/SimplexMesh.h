@@ -22,9 +22,9 @@ struct SimplexMesh
   bool Float = false;           ///< Points are float32, else float64
   const void* Ids = nullptr;    ///< three or four point indices per cell
   bool Wide = false;            ///< Ids are int64, else int32
-  std::int64_t Cells = 0;
-  std::int64_t PointCount = 0;
-  /// cells with a value other than 0 claim nothing; may be null
+  std::int64_t Cells = 0;       ///< number of cells
+  std::int64_t PointCount = 0;  ///< number of points
+  /// one byte per cell, nonzero for cells that are ignored; may be null
   const unsigned char* Hidden = nullptr;
   /// 3 for tetrahedra. 2 for triangles, of which only the two coordinates along Axes are used.
   int Dimension = 2;
@@ -116,7 +116,7 @@ void withAccess(const SimplexMesh& mesh, const Work& work)
                       : withScalar(std::integral_constant<int, 3>());
 }
 
-/// Some cells of a mesh, none of them hidden, with the mesh's points.
+/// A subset of a mesh's cells, without hidden ones; shares the mesh's points.
 class PartMesh
 {
 public:
@@ -146,9 +146,9 @@ private:
   std::vector<std::int64_t> Ids;
 };
 
-/// For each point a mask of the lattice's sides that it lies beyond. A cell whose points all lie
-/// beyond one side has no samples. The test reads a byte per point, where the points themselves
-/// would be random accesses to memory.
+/// For each point a bit mask of the lattice's sides that it lies beyond. A cell whose points all
+/// lie beyond one side has no samples. The test reads one byte per point instead of fetching
+/// coordinates from random addresses.
 template <typename Access>
 class OutsidePoints
 {
@@ -169,7 +169,7 @@ public:
     }
   }
 
-  /// Computes the masks if most points are outside; otherwise there are none.
+  /// Computes the masks if most points are outside; otherwise leaves them null.
   void find(int threads)
   {
     if (!this->Worthwhile || !this->mostAreOutside())
@@ -188,7 +188,7 @@ public:
   }
 
   bool found() const { return this->Sides != nullptr; }
-  /// A bit for each side that a point lies beyond; null before find().
+  /// One mask per point; null if there are none.
   const unsigned char* sides() const { return this->Sides.get(); }
 
   /// Whether a cell certainly has no samples; false before find().

@@ -8,8 +8,8 @@
 namespace tipp
 {
 
-/// TetrahedronRows for four tetrahedra at a time, for rows whose result rounding errors cannot
-/// change.
+/// TetrahedronRows for four tetrahedra at a time. It handles only the rows whose result rounding
+/// errors cannot change; the others are marked as doubtful.
 class TetrahedronLanes
 {
 public:
@@ -20,7 +20,7 @@ public:
   {
   }
 
-  /// Takes the cells from `first` on.
+  /// Loads four cells, from `first` on.
   template <typename Access>
   [[gnu::always_inline]] void set(const Access& cells, std::int64_t first)
   {
@@ -71,26 +71,25 @@ public:
     this->setFace(3, corners[0], corners[1], corners[2], size, columns.Error);
   }
 
-  /// Whether that holds for all: then the rest is not told.
+  /// Whether nothing(lane) is true for all; the other results are then undefined.
   bool nothing() const { return !any(~this->Nothing); }
   /// Whether the tetrahedron's box certainly has no sample.
   bool nothing(int lane) const { return this->Nothing[lane] != 0; }
-  /// Whether the boxes of all that have samples hold one: then samples() tells all, and nothing
-  /// else is told.
+  /// Whether every box that is not empty has exactly one sample. Then only samples() is defined.
   bool haveSingleSamples() const { return this->Single; }
   /// A bit for each tetrahedron whose box may have a sample.
   unsigned visited() const { return laneBits(~this->Nothing); }
-  /// The sample of each tetrahedron's box: `Open` if it is inside, or in doubt.
+  /// The sample of each tetrahedron's box; `Open` is set if it is inside or undecided.
   const RowSpans<laneCount>& samples() const { return this->Samples; }
 
-  /// Whether the tetrahedron certainly is finite and has a volume.
+  /// Whether the tetrahedron is certainly finite and not flat.
   bool fast(int lane) const { return this->Fast[lane] != 0; }
 
   IndexRange columns(int lane) const { return this->Columns[lane]; }
   IndexRange rows(int lane) const { return this->Rows[lane]; }
   IndexRange layers(int lane) const { return this->Layers[lane]; }
 
-  /// Whether the boxes of all that have samples hold one row, as told: then singleRows() is faster.
+  /// Whether every box that is not empty has exactly one row; then singleRows() is faster.
   bool haveSingleRows() const
   {
     bool single = true;
@@ -126,7 +125,7 @@ public:
     const LaneMask open = (rows.Begin < rows.End) & ~this->Nothing;
     RowSpans<laneCount> spans;
     spans.Open = laneBits(open);
-    // What is in doubt matters only where the other faces leave something.
+    // An undecided face matters only if the other faces leave samples.
     spans.Doubtful = laneBits(~rows.Certain & open);
     const LaneInts begins = toInts(rows.Begin);
     const LaneInts ends = toInts(rows.End);
@@ -166,8 +165,8 @@ public:
     storeFloats(1 / rows, this->PerRows);
   }
 
-  /// Eight rows of a fast tetrahedron, from row `first` on, counted from the first of its first
-  /// layer. In single precision, which tells the samples of nearly all rows.
+  /// Eight rows of a fast() tetrahedron, from row `first` on, counted from the first row of its
+  /// first layer. Uses single precision, which decides nearly all rows.
   [[gnu::always_inline]] RowSpans<floatLaneCount> spans(int lane, int first) const
   {
     const IndexRange across = this->Rows[lane];
@@ -221,7 +220,7 @@ private:
   };
 
   /// A face for spans(): where it crosses the first row, in steps from the box's first column, and
-  /// how many steps before that for each row and each layer.
+  /// how many steps earlier with each further row and layer.
   struct Cut
   {
     float Position[laneCount];
@@ -235,7 +234,7 @@ private:
   static constexpr float Beyond = 1e30F;
   static constexpr double FloatSlack = 0x1p-20; ///< for the roundings of Certainty
 
-  /// What faces have left of four rows.
+  /// The part of four rows inside the faces so far.
   struct RowLanes
   {
     Lanes Begin;
@@ -247,17 +246,17 @@ private:
   [[gnu::always_inline]] void prepareCut(
     int i, const Corner& first, Lanes rows, Lanes layers, Lanes& worst)
   {
-    // A position takes seven roundings of 2^-24 of these numbers; this counts eight.
+    // A position has seven roundings of 2^-24 of these numbers; this allows for eight.
     constexpr double roundings = 0x1p-21;
-    // Farther than that from certain, single precision is of no use.
+    // With a larger error single precision decides too few rows.
     constexpr double useless = 0.25;
     const Face& face = this->Faces[i];
     const Lanes position =
       face.Position - (face.PerY * (first.y - face.AY) + face.PerZ * (first.z - face.AZ)) - first.x;
     const Lanes perRow = face.PerY * this->Y.delta();
     const Lanes perLayer = face.PerZ * this->Z.delta();
-    // Steps from the first row meet the others' coordinates but for the errors of their axes. With
-    // them the error of PerY and PerZ counts twice.
+    // Stepping from the first row reaches the other rows' coordinates up to the errors of their
+    // axes. Therefore the errors of PerY and PerZ count twice.
     const Lanes error = 2 * face.Error + absolute(perRow) * this->RowError +
       absolute(perLayer) * this->LayerError +
       roundings * (absolute(position) + absolute(perRow) * rows + absolute(perLayer) * layers);
@@ -311,11 +310,11 @@ private:
     const Lanes m12 = minor(p[1], p[2]);
     const Lanes m13 = minor(p[1], p[3]);
     const Lanes m23 = minor(p[2], p[3]);
-    // By how much each corner weighs, times the volume, which may be negative.
+    // The barycentric weights times the volume, which may be negative.
     const Lanes weights[4] = { p[1].z * m23 - p[2].z * m13 + p[3].z * m12,
       p[2].z * m03 - p[0].z * m23 - p[3].z * m02, p[0].z * m13 - p[1].z * m03 + p[3].z * m01,
       p[1].z * m02 - p[0].z * m12 - p[2].z * m01 };
-    // None of the six products exceeds the box's volume, and each takes eight roundings: 48.
+    // None of the six products exceeds the box's volume, and each has eight roundings: 48 in total.
     const Lanes bound =
       LatticeAxis::Roundings * size.x * size.y * size.z + Smallest * (1.0 + size.z);
     LaneMask allAbove = LaneMask{} - 1;
@@ -357,7 +356,8 @@ private:
     }
   }
 
-  /// orientation3() with its filter; makes all turn like VTK's.
+  /// orientation3() with its filter; reorders corners so that all orientations are positive, as in
+  /// VTK.
   [[gnu::always_inline]] void orient(Corner (&p)[4])
   {
     const Corner& d = p[3];
@@ -371,7 +371,7 @@ private:
       absolute(b.z) * (absolute(c.x * a.y) + absolute(a.x * c.y)) +
       absolute(c.z) * (absolute(a.x * b.y) + absolute(b.x * a.y));
     const Lanes bound = 7.7715611723761e-16 * permanent + 1e-300 * (1.0 + heights);
-    // Beside NaN and infinity this is false.
+    // False for NaN and infinity.
     this->Fast = absolute(minus) > bound;
     const LaneMask swap = minus > 0;
     const Corner first = p[0];
@@ -414,8 +414,8 @@ private:
   Cut Cuts[4];
   Lanes RowError;
   Lanes LayerError;
-  float Certainty[laneCount]; ///< how near to the middle of two samples a crossing is certain
-  float PerRows[laneCount];   ///< one by the number of rows in a layer
+  float Certainty[laneCount]; ///< a crossing this close to midway between samples is certain
+  float PerRows[laneCount];   ///< 1 / number of rows in a layer
   IndexRange Columns[laneCount];
   IndexRange Rows[laneCount];
   IndexRange Layers[laneCount];

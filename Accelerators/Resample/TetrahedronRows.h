@@ -13,7 +13,7 @@ namespace tipp
 /// The samples of a lattice that a tetrahedron claims after the move by (e, e^2, e^3).
 ///
 /// A row along x crosses the planes of the four faces. The samples strictly before a plane are
-/// counted by evaluating the crossing, and if rounding could change the count, by an exact
+/// counted by evaluating the crossing or, if rounding could change the count, by an exact
 /// predicate: see TriangleRows.
 class TetrahedronRows
 {
@@ -25,7 +25,7 @@ public:
   {
   }
 
-  /// Whether the tetrahedron's box has a sample and the tetrahedron is finite and has a volume.
+  /// Sets the tetrahedron. Returns whether its box has a sample and it is finite and not flat.
   [[gnu::always_inline]] bool set(const Point3 (&corners)[4])
   {
     const Point3& a = corners[0];
@@ -90,14 +90,14 @@ public:
   std::int64_t exactTests() const { return this->ExactTests; }
 
 private:
-  /// A plane; a, b, c turn counter-clockwise seen from inside.
+  /// The plane of a face; a, b, c are counter-clockwise seen from inside.
   struct Face
   {
     Point3 A;
     Point3 B;
     Point3 C;
-    double Position; ///< where on the row through A the plane is crossed, in steps
-    double PerY;     ///< the steps by which it moves back for each unit of y; PerZ: of z
+    double Position; ///< where the plane crosses the row through A, in steps
+    double PerY;     ///< by how many steps the crossing moves back per unit of y; PerZ: of z
     double PerZ;
     double Error;
     int Direction; ///< sign of the inner normal's x
@@ -145,8 +145,8 @@ private:
 
   void setFace(int i, Point3 a, Point3 b, Point3 c, double width, double depth, double height)
   {
-    // Within the cell's box every product of a plane's equation is at most twice the box's volume;
-    // less than 32 roundings of those are made, and 64 are allowed for.
+    // Within the cell's box every product of a plane's equation is at most twice the box's volume.
+    // There are fewer than 32 roundings of those; 64 are allowed for.
     constexpr double roundings = LatticeAxis::Roundings;
     constexpr double smallest = 1e-280; // keeps clear of underflow
     Face& face = this->Faces[i];
@@ -203,12 +203,12 @@ private:
     }
   }
 
-  /// A face along x: all samples of the row are on the same side.
+  /// For a face parallel to x: all samples of the row are on the same side.
   void levelSpan(const Face& face, double y, double z, RowSpan& span) const
   {
     ++this->ExactTests;
     const int side = orientation3(face.A, face.B, face.C, { face.A.x, y, z });
-    // The move goes along y, then along z.
+    // The symbolic move goes along y first, then along z.
     const int ny = side == 0
       ? orientation({ face.A.z, face.A.x }, { face.B.z, face.B.x }, { face.C.z, face.C.x })
       : 0;
@@ -221,7 +221,7 @@ private:
     }
     else if (side == 0 && (ny < 0 || (ny == 0 && nz < 0)))
     {
-      span.End = this->Columns.Begin; // none, wherever the other faces let it begin
+      span.End = this->Columns.Begin; // empty, whatever the other faces set Begin to
     }
   }
 

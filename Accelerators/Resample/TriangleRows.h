@@ -26,7 +26,7 @@ public:
   {
   }
 
-  /// Whether the triangle's box has a sample and the triangle is finite and has an area.
+  /// Sets the triangle. Returns whether its box has a sample and it is finite and not degenerate.
   [[gnu::always_inline]] bool set(const Point2 (&p)[3])
   {
     const double left = std::min(std::min(p[0].x, p[1].x), p[2].x);
@@ -42,14 +42,14 @@ public:
     const double low = p[lowest].y;
     const double high = p[highest].y;
     this->Rows = this->V.range(low, high, this->V.error(std::max(-low, high)));
-    // Only beside NaN are both the same.
+    // They are equal only with NaN.
     return !this->Rows.empty() && lowest != highest &&
       this->setEdges(p[lowest], p[3 - lowest - highest], p[highest]);
   }
 
   IndexRange columns() const { return this->Columns; }
   IndexRange rows() const { return this->Rows; }
-  /// As if the plane were the only layer of a lattice in space.
+  /// The plane counts as the only layer of a 3D lattice.
   static IndexRange layers() { return { 0, 1 }; }
 
   [[gnu::always_inline]] RowSpan span(int row, int) const
@@ -91,7 +91,7 @@ private:
     const int lower = p[1].y < p[0].y;
     return p[2].y < p[lower].y ? 2 : lower;
   }
-  /// Another than lowestOf().
+  /// Never the same corner as lowestOf().
   static int highestOf(const Point2 (&p)[3])
   {
     const int upper = p[1].y >= p[0].y;
@@ -106,7 +106,7 @@ private:
     this->LongIsLeft = side < 0;
     this->Middle = b.y;
     this->Long = edge(a, c);
-    this->Short[0] = edge(a, b); // not asked for if level: no row is below b then
+    this->Short[0] = edge(a, b); // unused if level: no row is below b then
     this->Short[1] = edge(b, c); // likewise
     // Without an overflow a slope is at most the quotient of the largest and the smallest step.
     if (!(std::fabs(this->Long.Slope) + this->slopeInUse(0) + this->slopeInUse(1) < HUGE_VAL))
@@ -147,7 +147,8 @@ private:
     return { left.Before, right.Before, right.WithOn };
   }
 
-  /// The highest row, at the height of the highest corner, is outside after the move.
+  /// The span of the highest row if it is at the height of the highest corner: its samples are
+  /// outside after the move, so they are only touched.
   RowSpan top() const
   {
     const Point2 c = this->Long.High;
@@ -158,7 +159,7 @@ private:
     return { touched.Begin, touched.Begin, touched.End };
   }
 
-  /// The samples of the row y left of the edge.
+  /// The samples of row y to the left of the edge.
   RowCrossing crossing(const Edge& edge, double y, double position) const
   {
     if (LatticeAxis::certain(position, this->Error))
@@ -185,7 +186,8 @@ private:
   mutable std::int64_t ExactTests = 0;
 };
 
-/// TriangleRows for four triangles at a time, for rows whose result rounding errors cannot change.
+/// TriangleRows for four triangles at a time. It handles only the rows whose result rounding errors
+/// cannot change; the others are marked as doubtful.
 class TriangleLanes
 {
 public:
@@ -195,7 +197,7 @@ public:
   {
   }
 
-  /// Takes the cells from `first` on.
+  /// Loads four cells, from `first` on.
   template <typename Access>
   [[gnu::always_inline]] void set(const Access& cells, std::int64_t first)
   {
@@ -223,11 +225,11 @@ public:
     this->Rows = { rows.Begin, rows.End };
   }
 
-  /// Whether that holds for all.
+  /// Whether nothing(lane) is true for all.
   bool nothing() const { return !any(~this->Nothing); }
   /// Whether the triangle's box certainly has no sample.
   bool nothing(int lane) const { return this->Nothing[lane] != 0; }
-  /// Whether the triangle certainly is finite and has an area.
+  /// Whether the triangle is certainly finite and not degenerate.
   bool fast(int lane) const { return this->Fast[lane] != 0; }
 
   IndexRange columns(int lane) const { return this->Columns.range(lane); }
@@ -236,7 +238,7 @@ public:
 
   static void prepareRows() {}
 
-  /// Four rows of a fast triangle, from its row `first` on.
+  /// Four rows of a fast() triangle, from its row `first` on.
   [[gnu::always_inline]] RowSpans<laneCount> spans(int lane, int first) const
   {
     const IndexRange rows = this->rows(lane);
@@ -287,7 +289,7 @@ private:
     y[i] = yi;
   }
 
-  /// Of the corners from low to high.
+  /// Computes the edges of corners sorted from low to high.
   [[gnu::always_inline]] void setEdges(const Lanes (&x)[3], const Lanes (&y)[3])
   {
     // An infinite coordinate, or NaN, makes NaN of this; so does the overflow of a difference.
@@ -299,7 +301,7 @@ private:
     const Lanes bound = 3.3306690738754716e-16 * (absolute(left) + absolute(right)) + 1e-300;
     this->LongIsLeft = determinant < 0;
     this->Slopes[0] = (x[2] - x[0]) / (y[2] - y[0]);
-    this->Slopes[1] = (x[1] - x[0]) / (y[1] - y[0]); // not asked for if level
+    this->Slopes[1] = (x[1] - x[0]) / (y[1] - y[0]); // unused if level
     this->Slopes[2] = (x[2] - x[1]) / (y[2] - y[1]); // likewise
     const Lanes none = allLanes(0);
     const Lanes lower = y[0] < y[1] ? absolute(this->Slopes[1]) : none;
@@ -318,10 +320,9 @@ private:
   LaneMask Nothing;
   LaneMask Fast;
   LaneMask LongIsLeft;
-  Lanes X[3]; ///< of the corners, from the lowest to the highest
+  Lanes X[3]; ///< the corners' coordinates, from the lowest corner to the highest
   Lanes Y[3];
-  Lanes Slopes[3]; ///< from the lowest to the highest corner, and of the edges below and above the
-                   ///< other
+  Lanes Slopes[3]; ///< of the longest edge in v, and of those below and above the middle corner
   Lanes Error;
   Ranges Columns;
   Ranges Rows;

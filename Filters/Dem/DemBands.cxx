@@ -52,12 +52,12 @@ std::size_t find(const std::vector<std::string>& columns, const std::string& nam
     (list.empty() ? "." : "; of those asked for they have " + list + "."));
 }
 
-/// How much the plane through three points rises along x and y.
+/// The slopes along x and y of the plane through three points.
 struct Gradient
 {
   explicit Gradient(std::array<std::array<double, 3>, 3> corners)
   {
-    // The same roundings for any order of the corners.
+    // Sorted, so that rounding does not depend on the order of the corners.
     std::sort(corners.begin(), corners.end());
     const auto& [a, b, c] = corners;
     const double bx = b[0] - a[0];
@@ -79,7 +79,7 @@ struct Gradient
 
 double shade(const Gradient& gradient)
 {
-  // Towards the light: from the north-west, 45 degrees high.
+  // The direction towards the light: north-west, 45 degrees high.
   constexpr double x = -0.5;
   constexpr double y = 0.5;
   constexpr double z = 0.70710678118654752440;

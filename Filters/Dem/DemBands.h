@@ -13,40 +13,41 @@
 namespace tipp
 {
 
-/// A band of a raster made of triangles.
+/// A band of a raster that is sampled from triangles.
 struct DemBand
 {
   enum class Kind
   {
     Column,    ///< a column of the points, linear in each triangle
-    Slope,     ///< of the triangle, in degrees
-    Aspect,    ///< where it descends to, in degrees from the north, clockwise; NaN where it is flat
-    Hillshade, ///< 1 to 255, the light coming from the north-west at 45 degrees
-    Density,   ///< points a square unit of x and y: half a point in each triangle
-    Void       ///< 0; where there is no triangle 1, see fillVoids()
+    Slope,     ///< slope of the triangle, in degrees
+    Aspect,    ///< direction of descent, in degrees clockwise from north; NaN for flat triangles
+    Hillshade, ///< 1 to 255, with light from the north-west at 45 degrees
+    Density,   ///< points per square unit of x and y, counting half a point per triangle
+    Void       ///< 0 in triangles, 1 elsewhere; see fillVoids()
   };
   std::string Name;
   Kind Is = Kind::Column;
-  std::size_t Column = 0; ///< of the points, for Kind::Column
+  std::size_t Column = 0; ///< for Kind::Column: index of the point column
 };
 
-/// The point columns that bands of these names need: "elevation" stands for z or Z or elevation,
-/// and slope, aspect and hillshade need the elevation.
+/// The names of the point columns that bands with these names need. "elevation" stands for z, Z or
+/// elevation; slope, aspect and hillshade need the elevation.
 VTKTIPPFILTERS_EXPORT std::vector<std::string> columnsForBands(
   const std::vector<std::string>& bands);
 
-/// A band's name is that of no column.
+/// Thrown if a band's name is neither a derived band nor a column.
 class VTKTIPPFILTERS_EXPORT UnknownBand : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
 };
 
-/// Bands of points with these columns, and which column is the elevation. Throws UnknownBand.
+/// The bands of a raster for points with certain columns, and which column is the elevation. The
+/// constructor throws UnknownBand.
 struct DemBands
 {
   std::vector<DemBand> Bands;
-  std::size_t Elevation = 0;
+  std::size_t Elevation = 0; ///< index of the elevation among the columns, if HasElevation
   bool HasElevation = false;
 
   std::vector<std::string> names() const;
@@ -54,10 +55,10 @@ struct DemBands
 VTKTIPPFILTERS_EXPORT DemBands findBands(
   const std::vector<std::string>& bands, const std::vector<std::string>& columns);
 
-/// Sets the values of Kind::Void where there is no triangle, which are NaN before.
+/// Sets the values of Kind::Void bands to 1 where there is no triangle; they are NaN there before.
 void fillVoids(const DemBands& bands, std::vector<std::vector<double>>& values);
 
-/// The value of a band that is not a column, in the triangle of these corners (x, y, z), in any
+/// The value of a derived band (not a column) in a triangle with these corners (x, y, z), in any
 /// order.
 double derivedValue(DemBand::Kind kind, const std::array<std::array<double, 3>, 3>& corners);
 

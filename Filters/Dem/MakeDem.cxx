@@ -34,7 +34,7 @@ Box2 boundsOf(const std::vector<double>& xy)
   return box;
 }
 
-/// In turn, with the memory of the two coordinates given back.
+/// Returns x, y and elevation interleaved, and frees the table's x and y.
 std::vector<double> takeXYZ(PointTable& points, const DemBands& bands)
 {
   std::vector<double> xyz(3 * points.size());
@@ -136,7 +136,7 @@ DemFigures makeDem(PointTable points, const DemRequest& request,
   const std::vector<double> xyz = takeXYZ(points, settings.Bands);
   TerrainPoints terrain;
   terrain.XYZ = xyz.data();
-  terrain.Count = std::int64_t(xyz.size() / 3); // with those of the constraints
+  terrain.Count = std::int64_t(xyz.size() / 3); // including the points of the constraints
   for (const PointTable::Column& column : points.Columns)
   {
     terrain.Columns.push_back(column.Values.data());

@@ -20,65 +20,66 @@
 namespace tipp
 {
 
-/// What a raster of points is to be.
+/// The parameters of a raster of points.
 struct DemRequest
 {
-  RasterRequest Raster;
+  RasterRequest Raster; ///< the pixel grid
   std::vector<std::string> Bands = { "elevation" };
-  double MaximumEdge = 0; ///< triangles with a longer one are void; 0: none are
-  int Threads = 0;        ///< 0: OpenMP's choice
-  DuplicateRule Duplicates = DuplicateRule::First;
-  std::optional<TableConstraints> Constraints; ///< breaklines and a boundary
+  double MaximumEdge = 0; ///< longest edge of triangles, in the points' unit of length; 0: no limit
+  int Threads = 0;        ///< 0: OpenMP's default
+  DuplicateRule Duplicates = DuplicateRule::First; ///< which values coincident points get
+  std::optional<TableConstraints> Constraints;     ///< breaklines and boundary
 };
 
-/// Drops the heights of lines of a VTK file, all of whose points have one, if they are 0.
+/// Removes the heights of lines from a VTK file, which always has heights, if all of them are 0.
 VTKTIPPFILTERS_EXPORT void dropPlainHeights(ConstraintTable& lines);
 
-/// Of points with these columns between these bounds. Throws std::runtime_error.
+/// Returns the settings for points with these bounds and columns. Throws std::runtime_error.
 VTKTIPPFILTERS_EXPORT TerrainSettings makeTerrainSettings(
   const DemRequest& request, const Box2& bounds, const std::vector<std::string>& columns);
 
-/// Throws std::runtime_error if the pixels cannot be in this machine's memory.
+/// Throws std::runtime_error if the pixels do not fit into this machine's memory.
 void requireMemory(const TerrainSettings& settings);
 
+/// Statistics of a raster of points.
 struct DemFigures
 {
-  std::int64_t Points = 0; ///< with those of the constraints
+  std::int64_t Points = 0; ///< including the points of the constraints
   std::int64_t Triangles = 0;
-  std::int64_t Duplicates = 0;
-  std::int64_t DisagreeingPositions = 0; ///< of several points with different elevations
+  std::int64_t Duplicates = 0;           ///< points that coincide with an earlier one
+  std::int64_t DisagreeingPositions = 0; ///< positions of several points with different elevations
   std::int64_t Rejected = 0;             ///< points that are not finite
-  std::int64_t WithoutElevation = 0;     ///< points at which triangles have no elevation
-  bool Aborted = false;
+  std::int64_t WithoutElevation = 0;     ///< points without elevation; triangles at them have none
+  bool Aborted = false;                  ///< whether the user stopped the run
 };
 
-/// A raster of points in memory: triangulates them and samples the triangles, as two steps would.
-/// Takes the points' memory. Throws std::runtime_error if there is no finite point, and
-/// std::invalid_argument for constraints.
+/// Makes a raster from points in memory: triangulates them and samples the triangles, with the same
+/// result as in two steps. Consumes the points to save memory. Throws std::runtime_error if there
+/// is no finite point, and std::invalid_argument for invalid constraints.
 VTKTIPPFILTERS_EXPORT DemFigures makeDem(PointTable points, const DemRequest& request,
   const std::function<bool(double)>& progress, TerrainSettings& settings, SampledBands& samples);
 
-/// Where the tiles of a raster are; used by several threads at once.
+/// A source of the tiles of a raster. Several threads may call its functions at once.
 struct TileSource
 {
-  /// Gives the values of a tile.
+  /// Returns the values of a tile, one vector per band.
   std::function<void(const RasterWindow&, std::vector<std::vector<double>>&)> Read;
-  /// The tile of a number if it is finished; null: none is.
+  /// Returns the tile with this number if it is already encoded. Null: no tile is.
   std::function<std::optional<FinishedTile>(std::int64_t)> ReadFinished;
 };
 
-/// Samples of a whole grid. Both must outlive the result.
+/// A source of tiles of a whole grid in memory. Both arguments must outlive the result.
 VTKTIPPFILTERS_EXPORT TileSource readFrom(const RasterGrid& grid, const SampledBands& samples);
 
-/// Sets the values of voids, see fillVoids(), and returns how many pixels of the first band have a
-/// value without that.
+/// Calls fillVoids(), and returns how many pixels of the first band had a value before.
 std::int64_t fillTile(const DemBands& bands, std::vector<std::vector<double>>& values);
 
+/// Returns a pointer to each vector's values, as RasterWriter::write() takes them.
 std::vector<const double*> pointersTo(const std::vector<std::vector<double>>& values);
 
-/// Writes all tiles. `bands`: those whose voids are to be filled, see fillVoids(). Returns the
-/// pixels whose first band has a value from a triangle, or -1 if `progress` ended it. `threads`: 0
-/// is OpenMP's choice. Throws IOError.
+/// Writes all tiles; voids of `bands` are filled, see fillVoids(). Returns the number of pixels
+/// whose first band has a value from a triangle, or -1 if `progress` stopped it. `threads` = 0 is
+/// OpenMP's default. Throws IOError.
 VTKTIPPFILTERS_EXPORT std::int64_t writeTiles(RasterWriter& writer, const RasterGrid& grid,
   const TileSource& tiles, const std::function<bool(double)>& progress, int threads,
   const DemBands& bands = {});

@@ -20,31 +20,31 @@ namespace
 
 constexpr std::int64_t fewPixels = 4 * RasterTileSize * RasterTileSize;
 
-/// What the paths of files of samples at borders have after the run's own part.
+/// The suffix of files with samples at borders, appended to the run's own path.
 constexpr const char* borderSuffix = ".border.";
 
-/// A pixel on the border of a part, with its bands' values behind it in files.
+/// A pixel on the border of a part. In files it is followed by the values of its bands.
 struct BorderPixel
 {
   std::int64_t Pixel;
   std::uint64_t Key;
 };
 
-/// The samples whose centres may lie from low to high, with a margin for roundings.
+/// The range of samples whose centres may lie in [low, high], with a margin for rounding.
 std::pair<std::int64_t, std::int64_t> samplesBetween(
   double low, double high, double origin, double size, double margin, std::int64_t count)
 {
   const double last = double(count - 1);
   const double first = (low - origin) / size - 0.5 - margin;
   const double end = (high - origin) / size - 0.5 + margin;
-  // In this order of arguments NaN gives no samples. Numbers below 0 are rounded to it.
+  // With this order of arguments NaN gives no samples. Negative numbers become 0.
   const auto ceiled = [](double value)
   { return std::int64_t(value) + (double(std::int64_t(value)) < value ? 1 : 0); };
   return { ceiled(std::min(std::max(0.0, first), last + 1)),
     end >= 0 ? std::int64_t(std::min(last, end)) : -1 };
 }
 
-/// How far roundings may move a coordinate, in samples.
+/// How far rounding may move a coordinate, in samples.
 double marginOf(double origin, double size, std::int64_t count)
 {
   constexpr double rounding = 0x1p-50;
@@ -54,10 +54,10 @@ double marginOf(double origin, double size, std::int64_t count)
 
 } // namespace
 
-/// Triangles of a part, and the samples at which they lie.
+/// A tile of samples, and the triangles of a part that may meet it.
 struct RasterSink::Tile
 {
-  std::vector<std::int32_t> Ids; ///< three a triangle
+  std::vector<std::int32_t> Ids; ///< three point indices per triangle
   RasterWindow Window;
 
   void extend(const RasterWindow& added)
@@ -78,10 +78,10 @@ struct RasterSink::Tile
   }
 };
 
-/// What is sampled together.
+/// A part of the mesh whose triangles are sampled together.
 struct RasterSink::Part
 {
-  /// Most triangles are at the tile of the one before.
+  /// Returns a tile, created if necessary. Most triangles are in the same tile as the previous one.
   Tile& tileAt(std::int64_t row, std::int64_t column)
   {
     const Place place(row, column);
@@ -94,14 +94,14 @@ struct RasterSink::Part
   }
 
   std::vector<double> XYZ;
-  std::vector<std::vector<double>> Columns; ///< only those that bands need
+  std::vector<std::vector<double>> Columns; ///< only the columns that bands need
   TerrainPoints Points;
   using Place = std::pair<std::int64_t, std::int64_t>; ///< row from the north, column
   std::map<Place, Tile> Tiles;
   Place LastPlace{ -1, -1 };
   Tile* LastTile = nullptr;
   std::int64_t Placed = 0; ///< triangles in all tiles
-  std::string Border;      ///< BorderPixels and their values
+  std::string Border;      ///< BorderPixels, each followed by its values
 };
 
 RasterSink::RasterSink(
@@ -119,7 +119,7 @@ std::uint64_t RasterSink::fileBytes(
   const double bytes = double(settings.IsSingle ? sizeof(float) : sizeof(double)) *
     double(settings.Grid.Columns) * double(settings.Grid.Rows) *
     double(settings.Bands.Bands.size());
-  constexpr double most = 0x1p60; // more than any disk has
+  constexpr double most = 0x1p60; // larger than any disk
   return std::uint64_t(std::min(bytes, most));
 }
 
@@ -185,8 +185,8 @@ void RasterSink::take(const std::string& name, const double* rows, const PointRo
       part.Points.Columns[band.Column] = column.data();
     }
   }
-  // Most triangles of a part lie side by side, so most of its window are theirs. Those at the
-  // border of all points may be long.
+  // Most triangles of a part are adjacent, so they fill most of its window. Triangles at the border
+  // of the point set may be long.
   std::int64_t count = 0;
   for (const TriangleRange& run : triangles)
   {
@@ -211,8 +211,8 @@ void RasterSink::take(const std::string& name, const double* rows, const PointRo
   this->saveBorder(part, name);
 }
 
-/// Lists each triangle at every tile that it may meet. Long triangles meet many tiles, so when the
-/// lists are full they are sampled before the rest is listed.
+/// Assigns each triangle to every tile that it may meet. Long triangles meet many tiles, so
+/// whenever the lists are full, they are sampled before the next triangles are assigned.
 void RasterSink::sampleByTile(Part& part, const std::vector<TriangleRange>& triangles) const
 {
   const auto sampleAll = [&]
@@ -237,7 +237,7 @@ void RasterSink::sampleByTile(Part& part, const std::vector<TriangleRange>& tria
   sampleAll();
 }
 
-/// The samples that may lie in a box; no columns and rows if there are none.
+/// The window of samples that may lie in a box; empty if there are none.
 RasterWindow RasterSink::windowOf(const double* low, const double* high) const
 {
   const RasterGrid& grid = this->Settings.Grid;
@@ -337,7 +337,7 @@ void RasterSink::saveBorder(const Part& part, const std::string& name) const
   }
 }
 
-/// Samples that no triangle contains, on the border of the whole mesh.
+/// Sets the samples on the border of the whole mesh, which no triangle contains.
 void RasterSink::answerBorders()
 {
   const std::size_t bands = this->Settings.Bands.Bands.size();
@@ -345,7 +345,7 @@ void RasterSink::answerBorders()
   struct Entry
   {
     BorderPixel Sample;
-    std::size_t At; ///< of the values, among all
+    std::size_t At; ///< index of its values among all
   };
   std::vector<Entry> entries;
   std::vector<double> values;

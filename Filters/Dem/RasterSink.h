@@ -17,23 +17,24 @@
 namespace tipp
 {
 
-/// Samples the triangles of a triangulation out of core, and forgets them. Pixels are kept in a
+/// Samples the triangles of an out-of-core triangulation and discards them. Pixels are kept in a
 /// TileStore until all are known.
 class VTKTIPPFILTERS_EXPORT RasterSink : public TriangleConsumer
 {
 public:
-  /// Makes the settings when the bounds and columns are known.
+  /// Returns the settings once the points' bounds and columns are known.
   using MakeSettings =
     std::function<TerrainSettings(const Box2& bounds, const std::vector<std::string>& columns)>;
-  /// Writes the raster from the values of tiles; false if `progress` ended it.
+  /// Writes the raster from its tiles. Returns false if `progress` stopped it.
   using WriteRaster = std::function<bool(const TerrainSettings& settings, const TileSource& tiles,
     const std::function<bool(double)>& progress)>;
 
-  /// `writeRaster` is called on the first rank. `encoding`: of the raster's file, for tiles that
-  /// are encoded while the run goes on; null: none are.
+  /// `writeRaster` is called on the first rank. `encoding` describes the raster's file, so that
+  /// finished tiles are encoded during the run; null: they are not.
   RasterSink(MakeSettings makeSettings, WriteRaster writeRaster, const RasterDescription* encoding);
 
-  /// Of what else than the points must be the same in a resumed run; on the first rank.
+  /// Sets a text that identifies everything besides the points that must not change in a resumed
+  /// run. First rank only.
   void setIdentity(const std::string& identity) { this->Identity = identity; }
 
   std::string identity() const override { return this->Identity; }
@@ -63,7 +64,7 @@ private:
   const WriteRaster Write;
   const std::optional<RasterDescription> Encoding;
   TerrainSettings Settings;
-  std::array<double, 2> Margins{}; ///< along x and y, how far roundings may move a coordinate
+  std::array<double, 2> Margins{}; ///< along x and y, how far rounding may move a coordinate
   std::string Files;
   std::unique_ptr<TileStore> Store;
 };

@@ -17,7 +17,7 @@ namespace tipp
 namespace
 {
 
-/// Copies all tiles to where their pixels are in the grid.
+/// Copies all tiles into the grid. Returns false if `progress` stopped it.
 bool readTiles(const TerrainSettings& settings, const TileSource& tiles,
   const std::function<bool(double)>& progress, SampledBands& samples)
 {
@@ -44,7 +44,7 @@ bool readTiles(const TerrainSettings& settings, const TileSource& tiles,
     });
 }
 
-/// Triangulates out of core in a temporary folder; `taker` takes the triangles.
+/// Triangulates out of core in a temporary folder; `taker` receives the triangles.
 OutOfCoreStatistics triangulateInto(TriangleConsumer& taker, PointStream& points,
   OutOfCoreOptions options, const std::function<bool(double)>& progress)
 {
@@ -63,7 +63,7 @@ DemFigures makeWithin(std::unique_ptr<PointStream> points, const DemRequest& req
   options.MemoryLimit = memory;
   options.Threads = request.Threads;
   options.Duplicates = request.Duplicates;
-  double before = 0; // of the progress
+  double before = 0; // last reported progress
   const auto report = [&](double done)
   { return !progress || progress(before + (1 - before) * done); };
   DemFigures figures;

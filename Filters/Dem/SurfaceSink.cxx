@@ -20,16 +20,16 @@ namespace
 
 namespace fs = std::filesystem;
 
-/// What the paths of files of answers have after the run's own part.
+/// The suffix of files with surface values, appended to the run's own path.
 constexpr const char* answersSuffix = ".surface.";
 
 struct Answer
 {
   SurfaceTriangle Triangle;
-  std::vector<double> Values; ///< of each column
+  std::vector<double> Values; ///< one per column
 };
 
-/// By the index of the position.
+/// Surface values, by index of the position.
 using Answers = std::map<std::size_t, Answer>;
 
 void choose(std::size_t position, Answer answer, Answers& answers)

@@ -17,19 +17,19 @@
 namespace tipp
 {
 
-/// Whether points of the constraints need values of the surface for these bands.
+/// Whether points of the constraints need values from the surface for these bands.
 VTKTIPPFILTERS_EXPORT bool needsSurface(
   const TableConstraints& constraints, const std::vector<std::string>& bands);
 
-/// Finds what the points of constraints get from the surface of the other points, as
-/// TableConstraints::Surface tells, in a triangulation of these out of core.
+/// Evaluates the surface of the input points at the points of constraints (see
+/// TableConstraints::Surface), during an out-of-core triangulation of the input points.
 class VTKTIPPFILTERS_EXPORT SurfaceSink : public TriangleConsumer
 {
 public:
   explicit SurfaceSink(const TableConstraints& constraints);
 
-  /// For each column the values at the points of both tables, NaN outside of the surface; on the
-  /// first rank, after the run. Gives them away.
+  /// Moves out the values: for each column those at the points of both tables, NaN outside of the
+  /// surface. On the first rank, after the run.
   std::vector<std::vector<double>> takeValues() { return std::move(this->Values); }
 
   std::string identity() const override { return this->Identity; }
@@ -49,7 +49,7 @@ private:
   std::vector<std::vector<double>> Values;
 };
 
-/// Files beside each other whose paths begin like this. Throws IOError.
+/// The files whose paths begin with this one. Throws IOError.
 std::vector<std::string> filesBeginning(const std::string& path);
 
 } // namespace tipp

@@ -31,7 +31,7 @@ Corners cornersOf(const SimplexMesh& mesh, std::int64_t triangle)
   return corners;
 }
 
-/// The arrays to sample, with what is derived from the triangles.
+/// The arrays to sample, including bands derived from the triangles.
 class BandArrays
 {
 public:

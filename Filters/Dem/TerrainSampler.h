@@ -16,47 +16,48 @@ struct BorderSample;
 struct Lattice;
 struct SimplexMesh;
 
-/// Points of triangles that are sampled.
+/// The points of the triangles to sample. Not owned.
 struct TerrainPoints
 {
-  const double* XYZ = nullptr; ///< x, y and elevation in turn
-  std::int64_t Count = 0;
-  std::vector<const double*> Columns; ///< as DemBand::Column counts them
+  const double* XYZ = nullptr;        ///< x, y and elevation, interleaved
+  std::int64_t Count = 0;             ///< number of points
+  std::vector<const double*> Columns; ///< indexed by DemBand::Column
 };
 
+/// The settings of a raster: grid, bands and precision.
 struct TerrainSettings
 {
   RasterGrid Grid;
   DemBands Bands;
   int Threads = 1;
-  bool IsSingle = false; ///< 32 bits of each value are enough
+  bool IsSingle = false; ///< values may be rounded to 32 bits
 };
 
-/// The centres of a grid's pixels as samples, from the south-west on.
+/// The lattice of a grid's pixel centres, from the south-west on.
 Lattice latticeOf(const RasterGrid& grid);
 
-/// Values at pixels, NaN where there is none.
+/// The values at pixels, NaN where there is no triangle.
 struct SampledBands
 {
-  std::vector<std::vector<double>> Values; ///< of each band, by sample
+  std::vector<std::vector<double>> Values; ///< values by band, then by sample
 };
 
-/// Samples all triangles of a mesh, which do not overlap, at all pixels. `ids`: three a triangle,
-/// of 32 or 64 bits. False if `progress` ended it.
+/// Samples all triangles of a mesh, which must not overlap, at all pixels. Returns false if
+/// `progress` stopped it.
 bool sampleTerrain(const TerrainSettings& settings, const TerrainPoints& points,
   const SimplexMesh& mesh, const std::function<bool(double)>& progress, SampledBands& samples);
 
-/// A part of a mesh at the pixels of a part of the lattice.
+/// The samples of a part of a mesh on a part of the lattice.
 struct SampledPart
 {
   SampledBands Bands;
   std::vector<unsigned char> IsInside; ///< 1 for samples that a triangle contains
-  /// Samples that none contains but that lie on the border of a triangle. The one of the lowest key
-  /// answers, here or in another part.
+  /// Samples that lie on the border of a triangle without being inside any. The triangle with the
+  /// lowest key claims each, in this or another part.
   std::vector<BorderSample> Border;
 };
 
-/// Samples some triangles of a mesh, which do not overlap, in the calling thread.
+/// Samples some triangles of a mesh, which must not overlap, in the calling thread.
 SampledPart samplePart(const TerrainSettings& settings, const TerrainPoints& points,
   const SimplexMesh& mesh, const Lattice& part);
 

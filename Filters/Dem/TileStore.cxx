@@ -21,7 +21,7 @@ namespace
 
 constexpr std::int64_t tilePixels = RasterTileSize * RasterTileSize;
 
-/// NaNs that no computation makes.
+/// The bit pattern for NaN values: a NaN that no computation produces.
 constexpr std::uint64_t missingOf(std::uint64_t)
 {
   return 0xfff8dead00000000u;
@@ -34,7 +34,7 @@ constexpr std::uint32_t missingOf(std::uint32_t)
 template <typename Word>
 using NumberOf = std::conditional_t<sizeof(Word) == sizeof(float), float, double>;
 
-/// What is stored of a value: 0, as in the holes of a file, for a pixel that has none.
+/// The stored form of a value. 0 means that the pixel is not set, as in the holes of a sparse file.
 template <typename Word>
 Word encode(double value)
 {
@@ -75,7 +75,7 @@ TileStore::~TileStore()
   close(this->Descriptor);
 }
 
-/// Tiles are those of the raster's file.
+/// The number of the tile of a pixel; tiles are those of the raster's file.
 std::int64_t TileStore::tileAt(std::int64_t column, std::int64_t row) const
 {
   const std::int64_t across = (this->Grid.Columns + RasterTileSize - 1) / RasterTileSize;
@@ -88,21 +88,21 @@ std::uint64_t TileStore::pixelBytes() const
     this->Bands;
 }
 
-/// For what does not compress, too.
+/// The bytes reserved for an encoded tile, enough for incompressible data.
 std::uint64_t TileStore::encodedRoom() const
 {
   return this->pixelBytes() / 8 * 9 + 4096;
 }
 
-/// The states of all tiles come first, then of each its pixels and what it is encoded to. Unused
-/// parts of the file are holes.
+/// The offset of a tile's pixels. The file starts with the states of all tiles; then each tile has
+/// its pixels and its encoded form. Unused parts of the file are holes.
 std::uint64_t TileStore::begin(std::int64_t tile) const
 {
   return sizeof(State) * std::uint64_t(tileCount(this->Grid)) +
     std::uint64_t(tile) * (this->pixelBytes() + this->encodedRoom());
 }
 
-/// In a tile rows are those from the north.
+/// The offset of a pixel's value; rows of a tile start in the north.
 std::uint64_t TileStore::offset(
   std::int64_t column, std::int64_t row, std::size_t band, std::size_t wordSize) const
 {
@@ -113,13 +113,14 @@ std::uint64_t TileStore::offset(
 }
 
 #ifdef F_OFD_SETLKW
-// Of a process's other locks the system takes threads of two processes for a deadlock.
+// Open-file-description locks: with locks owned by processes, threads of two processes could look
+// like a deadlock to the system.
 constexpr int setFileLockCommand = F_OFD_SETLKW;
 #else
 constexpr int setFileLockCommand = F_SETLKW;
 #endif
 
-/// Keeps other threads and processes away from a tile.
+/// Locks a tile against other threads and processes.
 class TileStore::Lock
 {
 public:
@@ -170,7 +171,7 @@ void TileStore::writeState(std::int64_t tile, State state) const
   this->writeAt(std::uint64_t(tile) * sizeof state, &state, sizeof state);
 }
 
-/// What lies beyond the end of the file is 0.
+/// Reads from the file; bytes beyond its end are 0.
 void TileStore::readAt(std::uint64_t offset, void* words, std::size_t bytes) const
 {
   auto* at = static_cast<char*>(words);
@@ -201,7 +202,8 @@ void TileStore::writeAt(std::uint64_t offset, const void* words, std::size_t byt
   writeFully(this->Descriptor, this->Path, offset, words, bytes);
 }
 
-/// A count that is too low, after a process was killed, only keeps the tile from being finished.
+/// After a process was killed the count of set pixels may be too low; then the tile is merely not
+/// finished early.
 template <typename Word>
 void TileStore::setAs(const Source& source, const std::vector<unsigned char>& isSet,
   const std::vector<std::vector<double>>& values)
@@ -212,10 +214,10 @@ void TileStore::setAs(const Source& source, const std::vector<unsigned char>& is
   State state = this->stateOf(tile);
   if (state.Encoded > 0)
   {
-    return; // a resumed run sets what is there
+    return; // a resumed run sets pixels again
   }
   const auto width = std::size_t(window.Columns);
-  // Its rows lie one after the other, the northernmost first.
+  // The rows of a band are contiguous, the northernmost first.
   std::vector<Word> rows(std::size_t(window.Rows - 1) * std::size_t(RasterTileSize) + width);
   for (std::size_t band = 0; band < this->Bands; ++band)
   {
@@ -245,7 +247,7 @@ void TileStore::setAs(const Source& source, const std::vector<unsigned char>& is
   }
 }
 
-/// With its lock.
+/// Encodes a tile whose pixels are all set. The caller holds its lock.
 template <typename Word>
 void TileStore::finish(std::int64_t tile)
 {
@@ -268,7 +270,7 @@ void TileStore::writeFinished(std::int64_t tile, const FinishedTile& finished)
   if (bytes.size() > this->encodedRoom() ||
     bytes.size() > std::numeric_limits<std::uint32_t>::max())
   {
-    return; // it is encoded at the end
+    return; // it is encoded when the raster is written
   }
   const std::uint64_t begin = this->begin(tile);
   this->writeAt(begin + this->pixelBytes(), bytes.data(), bytes.size());
@@ -276,7 +278,8 @@ void TileStore::writeFinished(std::int64_t tile, const FinishedTile& finished)
   state.Encoded = std::uint32_t(bytes.size());
   this->writeState(tile, state);
 #ifdef FALLOC_FL_PUNCH_HOLE
-  // Where the file system cannot, the pixels only take space. Most have not been on the disk yet.
+  // If the file system cannot punch holes, the pixels just keep their space. Most have not been
+  // written to the disk yet.
   const int ignored = fallocate(this->Descriptor, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE,
     off_t(begin), off_t(this->pixelBytes()));
   static_cast<void>(ignored);

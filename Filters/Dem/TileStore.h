@@ -16,26 +16,26 @@
 namespace tipp
 {
 
-/// A tile whose pixels all have values, as it goes to the raster's file.
+/// A tile whose pixels are all set, encoded for the raster's file.
 struct FinishedTile
 {
-  std::int64_t Filled = 0; ///< pixels with a value in the first band
+  std::int64_t Filled = 0; ///< number of pixels with a value in the first band
   EncodedTile Encoded;
 };
 
-/// Makes a finished tile of the values of its pixels. Called by several threads at once.
+/// Encodes a tile from the values of its pixels. Must be thread-safe.
 using FinishTile =
   std::function<FinishedTile(const RasterWindow&, std::vector<std::vector<double>>&)>;
 
-/// The pixels of a raster in a file on disk, tile by tile, so that few of them are in memory.
-/// A tile is encoded, and its pixels are removed, as soon as all of them are set: no later triangle
-/// can change them. Pixels without a value take no space. Values may be set by several threads and
-/// processes at once, and again after a process was killed, to the same values.
+/// The pixels of a raster in a file, tile by tile, so that few of them are in memory. As soon as
+/// all pixels of a tile are set, it is encoded and its pixels are removed: no later triangle can
+/// change them. Pixels that are not set take no disk space. Several threads and processes may set
+/// values at once. A run resumed after a crash may set the same values again.
 class VTKTIPPFILTERS_EXPORT TileStore
 {
 public:
-  /// Opens the file, or creates it. `isSingle`: values are kept in 32 bits. `finish`: null if tiles
-  /// are not to be encoded. Throws IOError.
+  /// Opens or creates the file. `isSingle` stores values in 32 bits. `finish` encodes tiles; null:
+  /// tiles are not encoded. Throws IOError.
   TileStore(const std::string& path, const RasterGrid& grid, std::size_t bands, bool isSingle,
     FinishTile finish);
   ~TileStore();
@@ -47,27 +47,28 @@ public:
   void set(const RasterWindow& window, const std::vector<unsigned char>& isSet,
     const std::vector<std::vector<double>>& values);
 
-  /// Sets a pixel, by its index in the grid, if it has no value.
+  /// Sets a pixel, given by its index in the grid, if it has not been set. `values` has one value
+  /// per band.
   void setIfMissing(std::int64_t pixel, const double* values);
 
-  /// The values of a tile that is not finished, NaN where there is none.
+  /// Reads the values of a tile that is not finished; NaN for pixels that are not set.
   void read(const RasterWindow& tile, std::vector<std::vector<double>>& values) const;
 
-  /// The tile of a number if it is finished.
+  /// Returns the tile with this number if it is finished.
   std::optional<FinishedTile> readFinished(std::int64_t tile) const;
 
 private:
   struct State
   {
-    std::uint32_t Set = 0;     ///< pixels
-    std::uint32_t Encoded = 0; ///< bytes; 0: it is not finished
+    std::uint32_t Set = 0;     ///< number of pixels set
+    std::uint32_t Encoded = 0; ///< size in bytes of the encoded tile; 0: not finished
   };
-  /// A window within one tile, in the values of a larger one.
+  /// A window within one tile, as a part of a larger window's values.
   struct Source
   {
     RasterWindow Window;
-    std::size_t First; ///< its first value
-    std::size_t Width; ///< of the larger one
+    std::size_t First; ///< index of its first value
+    std::size_t Width; ///< width of the larger window
   };
   class Lock;
 
@@ -99,7 +100,7 @@ private:
   const bool IsSingle;
   const FinishTile Finish;
   int Descriptor;
-  mutable std::array<std::mutex, 64> Mutexes; ///< each of some tiles
+  mutable std::array<std::mutex, 64> Mutexes; ///< each guards some of the tiles
 };
 
 } // namespace tipp

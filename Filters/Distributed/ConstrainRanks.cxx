@@ -116,7 +116,7 @@ private:
     return crossed;
   }
 
-  /// Of own points: whether other ranks have triangles there.
+  /// For each own point, whether other ranks have triangles at it.
   std::vector<char> findShared()
   {
     std::vector<std::vector<std::int64_t>> used(std::size_t(this->Ranks.size()));
@@ -135,8 +135,8 @@ private:
     return isShared;
   }
 
-  /// New triangles belong to the rank that owns their vertex of lowest id, as all do. Returns this
-  /// rank's, sorted.
+  /// Sends new triangles to the rank that owns their vertex of lowest id, to which every triangle
+  /// belongs. Returns this rank's triangles, sorted.
   std::vector<IdTriangle> toOwners(const std::vector<CrossedPart::Corners>& triangles)
   {
     std::vector<std::vector<IdTriangle>> sent(std::size_t(this->Ranks.size()));
@@ -210,7 +210,7 @@ private:
   Buffer<Id>& Corners;
   const std::int64_t First; ///< internal id of the first own point
   const std::size_t Own;
-  std::vector<Point2> Positions; ///< of own points, then of foreign ones
+  std::vector<Point2> Positions; ///< coordinates of own points, then of other ranks' points
 };
 
 } // namespace

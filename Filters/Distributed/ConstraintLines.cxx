@@ -18,7 +18,7 @@ namespace
 /// An edge of one of a rank's triangles, in the direction of the segment that it lies on.
 struct Side
 {
-  std::int64_t Order; ///< of the segment
+  std::int64_t Order; ///< index of the segment in the given order
   std::int64_t Low;   ///< internal ids
   std::int64_t High;
   bool IsLeft;      ///< the triangle is on the left
@@ -29,7 +29,7 @@ struct Side
   auto key() const { return std::tie(this->Order, this->Low, this->High); }
 };
 
-/// Asks the rank that owns an edge's lower end whether the sender keeps the edge.
+/// A question to the rank that owns an edge's lower end: does the sender keep the edge?
 struct Question
 {
   std::int64_t Order;
@@ -105,7 +105,7 @@ private:
       this->Sides.end());
   }
 
-  /// Removes sides of edges if another rank has the triangle on the left.
+  /// Removes the sides of edges that another rank keeps, since it has the triangle on the left.
   void leaveToOthers()
   {
     std::vector<std::vector<Question>> asked(std::size_t(this->Ranks.size()));
@@ -123,7 +123,7 @@ private:
     }
     const auto isLess = [](const Question& a, const Question& b) { return a.key() < b.key(); };
     std::sort(left.begin(), left.end(), isLess);
-    std::vector<std::vector<char>> answers; // in the order of the questions
+    std::vector<std::vector<char>> answers; // by rank, in the order of its questions
     for (const std::vector<Question>& part : questions)
     {
       answers.emplace_back();

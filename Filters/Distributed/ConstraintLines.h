@@ -17,8 +17,8 @@ namespace tipp
 struct NamedSegments
 {
   const ConstraintSegments& Segments;
-  const std::vector<std::int64_t>& Order; ///< of each segment: its index as given
-  const std::vector<std::int64_t>& Cells; ///< by that index
+  const std::vector<std::int64_t>& Order; ///< by segment: its index in the given order
+  const std::vector<std::int64_t>& Cells; ///< cell of the source, by index in the given order
 };
 
 /// A rank's share of the edges of all ranks' triangles that lie on constraints.
@@ -26,12 +26,12 @@ struct ConstraintLines
 {
   std::vector<std::array<std::int64_t, 2>> Ends; ///< local indices, in the constraint's direction
   std::vector<std::int64_t> Cells;
-  std::int64_t First = 0; ///< the number of those on lower ranks
+  std::int64_t First = 0; ///< number of lines on lower ranks
 };
 
-/// Each edge is on one rank that has a triangle of it, on the left of the constraint if there is
-/// one; an edge of several constraints is listed once for each. In the order of the segments as
-/// given. Collective.
+/// Finds the edges of triangles that lie on constraints. Each edge is on one rank that has a
+/// triangle beside it, preferably the one on the left of the constraint; an edge of several
+/// constraints is listed once for each. Edges are in the given order of the segments. Collective.
 VTKTIPPFILTERS_EXPORT ConstraintLines findConstraintLines(
   Communicator& ranks, const NamedSegments& segments, const DistributedTriangulation& mine);
 

@@ -46,7 +46,7 @@ struct SentByKind
   Communicator::Traffic Sent;
 };
 
-/// What a rank tells the others.
+/// What a rank reports to the others for the statistics.
 struct OfOneRank
 {
   RankStatistics Own;
@@ -99,7 +99,7 @@ namespace
 struct Survey
 {
   PointsView Points;                  ///< this rank's, scaled to a moderate magnitude
-  Box2 Bounds{};                      ///< of all ranks' finite points
+  Box2 Bounds{};                      ///< bounds of all ranks' finite points
   std::vector<std::int64_t> Rejected; ///< indices of this rank's points that are not finite
   bool IsCollinear = false;           ///< all finite points on one line, or fewer than three
 };
@@ -184,7 +184,7 @@ Survey surveyRanks(Communicator& ranks, PointsView points, int threads)
   survey.Bounds = verdict.Bounds;
   survey.IsCollinear = verdict.IsCollinear != 0;
 
-  // Either all ranks scale, or none.
+  // All ranks must scale, or none.
   const PointsView moderate = withModerateMagnitude(points, survey.Bounds);
   std::vector<std::int64_t> kept = { moderate.factor() == 1 };
   ranks.sum(kept);
@@ -255,12 +255,10 @@ public:
 private:
   void numberPoints()
   {
-    std::vector<std::int64_t> counts(static_cast<std::size_t>(this->Ranks.size()), 0);
-    counts[std::size_t(this->Ranks.rank())] = std::int64_t(this->Input.Points.size());
-    this->Ranks.sum(counts);
-    this->Input.FirstId =
-      std::accumulate(counts.begin(), counts.begin() + this->Ranks.rank(), std::int64_t(0));
-    this->Result.AllPoints = std::accumulate(counts.begin(), counts.end(), std::int64_t(0));
+    const std::vector<std::int64_t> firsts =
+      firstIndices(this->Ranks, std::int64_t(this->Input.Points.size()));
+    this->Input.FirstId = firsts[std::size_t(this->Ranks.rank())];
+    this->Result.AllPoints = firsts.back();
   }
 
   PlanInput planInput(const Survey& survey)
@@ -307,7 +305,8 @@ private:
     }
   }
 
-  /// Returns false, with nothing triangulated, if partitioning does not pay.
+  /// Triangulates in partitions. Returns false, having done nothing, if partitioning does not pay
+  /// off.
   template <typename Id>
   bool triangulate(const Plan& plan, const PointExchange& exchange, const Stopwatch& watch)
   {

@@ -4,12 +4,14 @@
 
 #include "Arrays/Buffer.h"
 #include "Constraints/ConstraintSegments.h"
+#include "Distributed/CellExchange.h"
 #include "Distributed/Plan.h"
 #include "Distributed/PointExchange.h"
 #include "Ranks/Communicator.h"
 #include "Triangulation/Triangulate.h"
 #include "vtkTIPPFiltersModule.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -23,16 +25,16 @@ namespace tipp
 struct RankStatistics
 {
   std::int64_t InputPoints = 0;
-  std::int64_t OwnedPoints = 0;
+  std::int64_t OwnedPoints = 0; ///< points that this rank owns
   std::int64_t Triangles = 0;
-  std::int64_t Partitions = 0; ///< triangulated by this rank
-  std::int64_t WorkerVertices = 0;
-  double ExchangeSeconds = 0; ///< sending points to their owners
+  std::int64_t Partitions = 0;     ///< triangulated by this rank
+  std::int64_t WorkerVertices = 0; ///< vertices triangulated by this rank's workers
+  double ExchangeSeconds = 0;      ///< sending points to their owners
   double ComputeSeconds = 0;
-  double WaitSeconds = 0; ///< idle while partitions were triangulated
-  double SendSeconds = 0;
-  double MasterSeconds = 0;    ///< as the master of the whole domain
-  double SubMasterSeconds = 0; ///< as the master of major partitions
+  double WaitSeconds = 0;      ///< idle while partitions were triangulated
+  double SendSeconds = 0;      ///< time spent in sending messages
+  double MasterSeconds = 0;    ///< time as the master of the whole domain
+  double SubMasterSeconds = 0; ///< time as the master of major partitions
   double CollectSeconds = 0;   ///< sending boundary triangles to their owners
   double TotalSeconds = 0;
 };
@@ -40,21 +42,22 @@ struct RankStatistics
 /// A master's statistics; without masters, those of the whole domain.
 struct MasterStatistics
 {
-  std::int32_t Area = 0; ///< 0: the whole domain; else its first major partition, from 1
-  std::int32_t Rank = 0;
+  std::int32_t Area = 0;        ///< 0: the whole domain; else its first major partition, from 1
+  std::int32_t Rank = 0;        ///< the master's rank
   std::int32_t GroupSize = 0;   ///< ranks that worked for it
   std::int64_t LargestMesh = 0; ///< maximum number of triangles in its inboxes
   double Seconds = 0;
   /// For the whole domain: the processor time of the slowest rank between two barriers, summed over
   /// the barriers. It is a lower bound on the computing time with one processor per rank.
   double PathSeconds = 0;
-  std::vector<TriangulationStatistics::Stage> Stages; ///< by colour, or by start of a partition
+  std::vector<TriangulationStatistics::Stage>
+    Stages; ///< stages, one per colour or per start of a partition
 };
 
 /// Messages of one kind, summed over all ranks.
 struct TrafficStatistics
 {
-  std::string Kind;
+  std::string Kind; ///< name of the message kind
   std::int64_t Messages = 0;
   std::int64_t Bytes = 0;
 };
@@ -62,44 +65,37 @@ struct TrafficStatistics
 /// The statistics of all ranks.
 struct DistributedStatistics
 {
-  std::vector<RankStatistics> Ranks;     ///< by rank
+  std::vector<RankStatistics> Ranks;     ///< one entry per rank
   std::vector<MasterStatistics> Masters; ///< the first is the whole domain's
   std::vector<TrafficStatistics> Traffic;
   std::int64_t Partitions = 0;
   std::int64_t MajorPartitions = 0; ///< 0: one master
   int ThreadsPerRank = 0;
-  double Seconds = 0; ///< of the slowest rank
+  double Seconds = 0; ///< wall-clock time of the slowest rank
 };
 
 /// Gathers all ranks' statistics on all ranks. Collective.
 DistributedStatistics gatherStatistics(
   Communicator& ranks, const RankStatistics& own, const std::vector<MasterStatistics>& masters);
 
-/// Points with their global ids and data; the arrays have the same order.
-struct PointTuples
-{
-  Buffer<Point2> Positions;
-  Buffer<PointId> GlobalIds;
-  Buffer<char> Rows; ///< as RankPoints::PackRow wrote them
-  std::size_t size() const { return this->Positions.size(); }
-};
+using PointTuples = PointTuplesOf<Point2>;
 
 /// A rank's part of a triangulation. Corners are local indices: of Owned, the rank's own points,
 /// and after them of Foreign, the other ranks' points that its triangles use. An internal id is a
 /// point's index among all ranks' owned points, rank by rank; a global id is the caller's.
 struct DistributedTriangulation
 {
-  Buffer<std::int32_t> Ids32; ///< used if every index fits
-  Buffer<std::int64_t> Ids64;
-  PointTuples Owned; ///< includes points without triangles on this rank
-  PointTuples Foreign;
-  std::size_t RowSize = 0;
+  Buffer<std::int32_t> Ids32;           ///< used if every index fits
+  Buffer<std::int64_t> Ids64;           ///< used otherwise; one of the two is empty
+  PointTuples Owned;                    ///< includes points without triangles on this rank
+  PointTuples Foreign;                  ///< other ranks' points that this rank's triangles use
+  std::size_t RowSize = 0;              ///< bytes of data per point
   std::vector<std::int64_t> ForeignIds; ///< internal ids of Foreign; ascending
   std::vector<std::int64_t> FirstIds;   ///< first internal id of each rank, and the end
 
   std::int64_t FirstTriangle = 0;    ///< index of this rank's first triangle among all ranks'
   std::vector<Duplicate> Duplicates; ///< found on this rank; global ids
-  std::vector<PointId> Rejected;     ///< of this rank's input; global ids
+  std::vector<PointId> Rejected;     ///< global ids of rejected points of this rank's input
 
   std::int64_t AllPoints = 0; ///< sum over all ranks
   std::int64_t AllTriangles = 0;
@@ -108,6 +104,14 @@ struct DistributedTriangulation
   DistributedStatistics Statistics;
 
   std::size_t triangleCount() const { return (this->Ids32.size() + this->Ids64.size()) / 3; }
+
+  /// Calls visit(local index) for the corners of all triangles.
+  template <typename Visit>
+  void forEachCorner(const Visit& visit) const
+  {
+    std::for_each(this->Ids32.begin(), this->Ids32.end(), visit);
+    std::for_each(this->Ids64.begin(), this->Ids64.end(), visit);
+  }
 };
 
 /// Returns this rank's part of the Delaunay triangulation of all ranks' points: together the ranks

@@ -13,16 +13,16 @@
 namespace tipp
 {
 
-/// Who starts partitions.
+/// Which rank keeps inboxes and starts partitions.
 enum class Masters
 {
-  Auto,   ///< no master; several where a grid of major partitions is given, or one for schedules
+  Auto,   ///< no master; but several if a grid of major partitions is given, else one for schedules
           ///< with barriers
   Single, ///< one master hands out all partitions (Algorithm 1)
   Multi   ///< a master hands major partitions to sub-masters (Algorithm 3)
 };
 
-/// How a domain or a major partition is cut into (minor) partitions.
+/// How a domain or a major partition is divided into (minor) partitions.
 enum class Division
 {
   Tree,      ///< boxes that hold equally many points
@@ -37,11 +37,11 @@ enum class GroupSizes
   Equal         ///< equal numbers
 };
 
-/// When ranks get partitions.
+/// When partitions are started on the ranks.
 enum class RankSchedule
 {
   Stages,           ///< waves of independent partitions, a barrier after each (Algorithm 1)
-  ProducerConsumer, ///< a free worker asks for the next; a barrier after each stage
+  ProducerConsumer, ///< a free worker takes the next partition; a barrier after each stage
   Dynamic           ///< no barrier
 };
 
@@ -66,12 +66,12 @@ struct DistributedOptions
   Masters Design = Masters::Auto;
   GridSize Major; ///< default: a tree with an automatic number of boxes
   Division MinorDivision = Division::Tree;
-  GridSize Minor;             ///< for Division::Grid; with one master, the partitions
-  std::int64_t Threshold = 0; ///< T, points per minor partition; 0: chosen
+  GridSize Minor;             ///< for Division::Grid; with one master, the grid of all partitions
+  std::int64_t Threshold = 0; ///< T, points per minor partition; 0: chosen automatically
   GroupSizes Groups = GroupSizes::Proportional;
   RankSchedule Order = RankSchedule::Dynamic;
-  int InitialPointsPerPartition = 0; ///< 0: chosen
-  int Threads = 0;                   ///< of each rank; 0: OpenMP's choice
+  int InitialPointsPerPartition = 0; ///< 0: chosen automatically
+  int Threads = 0;                   ///< threads of each rank; 0: OpenMP's default
   /// Called now and then with this rank's finished fraction (0 to 1); returning false ends the run
   /// on all ranks.
   std::function<bool(double)> Progress;
@@ -84,14 +84,14 @@ std::vector<std::vector<PartitionIndex>> predictStages(const Tiling& majors,
   const std::vector<Point2>& sample, const std::vector<std::int64_t>& majorCounts);
 
 /// Chooses the group of ranks for each major partition of a stage. If a stage has fewer major
-/// partitions than ranks, each group has several ranks, in proportion to the points (equation 3.2);
-/// else a group is one rank, the one with the lowest load, its points so far.
+/// partitions than ranks, each group has several ranks, in proportion to the points (equation 3.2).
+/// Otherwise a group is the one rank with the fewest points so far.
 void formGroups(const std::vector<PartitionIndex>& active,
   const std::vector<std::int64_t>& majorCounts, const std::vector<std::int32_t>& ranks,
   const DistributedOptions& options, std::vector<double> load,
   std::vector<std::vector<std::int32_t>>& groups);
 
-/// The partitions that one master hands to workers, or to masters of their own.
+/// The partitions of one master: it assigns them to workers, or to sub-masters.
 struct Area
 {
   Tiling Boxes;                       ///< its partitions
@@ -108,7 +108,7 @@ struct Area
 /// Which rank triangulates which partition. The first area is the whole domain's.
 struct VTKTIPPFILTERS_EXPORT Plan
 {
-  std::vector<Area> Areas;
+  std::vector<Area> Areas;          ///< the domain's area first, then those of major partitions
   Tiling Leaves;                    ///< all partitions that are triangulated, in one tiling
   std::vector<std::int32_t> Owners; ///< by leaf: the rank that owns its points
   bool IsAlone = false;             ///< one leaf: no initial mesh, no artificial points
@@ -130,14 +130,14 @@ void serialize(Archive& archive, Plan& plan)
   archive(plan.Areas, plan.Leaves, plan.Owners, plan.IsAlone);
 }
 
-/// What a plan depends on.
+/// The input of a plan.
 struct PlanInput
 {
-  Box2 Domain{};
-  std::int64_t Points = 0;
-  std::vector<Point2> Sample;
-  int Ranks = 1;
-  int Threads = 1; ///< sum over all ranks
+  Box2 Domain{};              ///< bounds of all ranks' finite points
+  std::int64_t Points = 0;    ///< number of points of all ranks
+  std::vector<Point2> Sample; ///< evenly spaced points of all ranks
+  int Ranks = 1;              ///< number of ranks
+  int Threads = 1;            ///< sum over all ranks
 };
 
 /// The number of sample points that a plan needs.

@@ -322,14 +322,7 @@ OwnedPoints<Id> PointExchange::exchange(
   {
     owned.Buckets.takeBack(Buffer<Id>(std::move(messages)));
   }
-  std::vector<std::int64_t> totals(std::size_t(ranks.size()), 0);
-  totals[std::size_t(ranks.rank())] = std::int64_t(total);
-  ranks.sum(totals);
-  owned.FirstIds = { 0 };
-  for (const std::int64_t count : totals)
-  {
-    owned.FirstIds.push_back(owned.FirstIds.back() + count);
-  }
+  owned.FirstIds = firstIndices(ranks, std::int64_t(total));
   return owned;
 }
 

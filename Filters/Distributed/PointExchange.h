@@ -2,6 +2,7 @@
 #ifndef tippPointExchange_h
 #define tippPointExchange_h
 
+#include "Distributed/CellExchange.h"
 #include "Distributed/Plan.h"
 #include "Predicates/Points.h"
 #include "Ranks/Archive.h"
@@ -44,9 +45,10 @@ struct PointLayout
     const std::vector<std::int64_t>& counts);
 
   std::int32_t Rank;
-  std::vector<std::vector<std::uint64_t>> Counts; ///< by source rank and leaf of this rank
-  std::vector<std::vector<std::size_t>> Firsts;   ///< index of the first of these points
-  std::vector<std::size_t> Starts;                ///< index of each leaf's first point, and the end
+  std::vector<std::vector<std::uint64_t>>
+    Counts; ///< number of points, by source rank and leaf of this rank
+  std::vector<std::vector<std::size_t>> Firsts; ///< index of the first of these points
+  std::vector<std::size_t> Starts;              ///< index of each leaf's first point, and the end
 };
 
 /// Copies what is received from another rank, part by part, to its position.
@@ -70,33 +72,23 @@ private:
     std::size_t Size;
   };
 
-  std::vector<Range> Left; ///< in reverse order
+  std::vector<Range> Left; ///< ranges still to fill, in reverse order
 };
 
 /// A rank's input points. Does not own the memory.
-struct RankPoints
+struct RankPoints : RankPointData
 {
-  PointsView Points;
-  const PointId* GlobalIds = nullptr; ///< null: consecutive ids from FirstId
-  PointId FirstId = 0;
-  /// Data sent with each point: RowSize bytes, which PackRow(point index, to) writes.
-  std::size_t RowSize = 0;
-  std::function<void(std::size_t, char*)> PackRow;
-
-  PointId globalId(std::size_t i) const
-  {
-    return this->GlobalIds ? this->GlobalIds[i] : this->FirstId + PointId(i);
-  }
+  PointsView Points; ///< coordinates of this rank's points
 };
 
 /// The points of the leaves that a rank owns, ordered by leaf.
 template <typename Id>
 struct OwnedPoints
 {
-  PointBuckets<Id> Buckets; ///< of all leaves; empty for leaves of other owners
+  PointBuckets<Id> Buckets; ///< one bucket per leaf; empty for leaves of other owners
   Buffer<Point2> Positions;
   Buffer<PointId> GlobalIds;
-  Buffer<char> Rows;
+  Buffer<char> Rows;                  ///< data of the points, RowSize bytes each
   std::vector<std::int64_t> FirstIds; ///< first internal id of each rank, and the end
 
   std::size_t size() const { return this->Positions.size(); }
@@ -136,7 +128,7 @@ private:
   const std::size_t Leaves;
   const int Threads;
   Buffer<std::uint32_t> Labels;
-  std::vector<std::vector<std::size_t>> Counts; ///< by thread and leaf
+  std::vector<std::vector<std::size_t>> Counts; ///< number of points, by thread and leaf
 };
 
 extern template OwnedPoints<std::int32_t> PointExchange::exchange(

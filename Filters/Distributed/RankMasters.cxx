@@ -13,7 +13,7 @@ namespace tipp
 namespace
 {
 
-/// Adds the stages of several masters, stage by stage.
+/// Sums the statistics of several masters stage by stage.
 void addStages(const std::vector<TriangulationStatistics::Stage>& more,
   std::vector<TriangulationStatistics::Stage>& stages)
 {

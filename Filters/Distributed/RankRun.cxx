@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/RankRun.h"
 
+#include "Engine/DoneMessage.h"
+#include "Engine/WorkerThreads.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/Tiling.h"
@@ -14,47 +16,6 @@ namespace tipp
 {
 namespace
 {
-
-/// Threads that are joined when the work ends, also by an exception.
-class WorkerThreads
-{
-public:
-  explicit WorkerThreads(ReadyPartitions& ready)
-    : Ready(ready)
-  {
-  }
-  ~WorkerThreads()
-  {
-    this->Ready.stop();
-    for (std::thread& thread : this->Threads)
-    {
-      thread.join();
-    }
-  }
-  WorkerThreads(const WorkerThreads&) = delete;
-  WorkerThreads& operator=(const WorkerThreads&) = delete;
-
-  template <typename Work>
-  void start(const Work& work)
-  {
-    this->Threads.emplace_back(
-      [this, work]()
-      {
-        try
-        {
-          work();
-        }
-        catch (...)
-        {
-          this->Ready.stop(std::current_exception());
-        }
-      });
-  }
-
-private:
-  ReadyPartitions& Ready;
-  std::vector<std::thread> Threads;
-};
 
 struct RegionEntry
 {
@@ -78,8 +39,8 @@ RankRun<Id>::RankRun(Communicator& ranks, const Plan& plan, OwnedPoints<Id>& poi
 {
 }
 
-/// Gathers all ranks' regions and initial points on all ranks; those of a partition come from one
-/// rank.
+/// Gathers the regions and initial points of all partitions on all ranks. Each partition's come
+/// from one rank.
 template <typename Id>
 void RankRun<Id>::shareInitialMesh(std::vector<BoundaryVertex>& vertices)
 {
@@ -119,7 +80,7 @@ void RankRun<Id>::shareInitialMesh(std::vector<BoundaryVertex>& vertices)
   this->Boxes = std::make_unique<Regions>(tiles, std::move(boxes), std::move(used));
 }
 
-/// By partition: whether `ranks` assigns it to this rank, and it has points.
+/// For each partition, whether `ranks` assigns it to this rank and it has points.
 template <typename Id>
 std::vector<char> RankRun<Id>::thoseOf(const std::vector<std::int32_t>& ranks) const
 {
@@ -328,7 +289,7 @@ template <typename Id>
 void RankRun<Id>::receiveDone(const Message& message)
 {
   PartitionIndex sender = -1;
-  SentMessages sent = readDone(message.Content, this->Inboxes.size(), sender);
+  SentMessages sent = readDone<VertexMessage>(message.Content, this->Inboxes.size(), sender);
   const bool isGood = message.Kind == PartitionDoneMessage && this->AwaitedMessages > 0 &&
     this->ownerOf(sender) == message.Source &&
     std::all_of(sent.begin(), sent.end(),
@@ -399,7 +360,7 @@ void RankRun<Id>::report()
 template <typename Id>
 void RankRun<Id>::coordinate()
 {
-  // Polling takes processor time from a thread that computes.
+  // Sleeps, because polling takes processor time from computing threads.
   constexpr std::chrono::microseconds shortest(300);
   constexpr std::chrono::microseconds longest(2000);
   std::chrono::microseconds pause = shortest;

@@ -25,33 +25,35 @@
 namespace tipp
 {
 
-/// Sorts the vertices by partition, and of several at a position keeps the one with the lowest id:
-/// all ranks must insert the same one, of initial and of artificial points.
+/// Sorts the vertices by partition and, of several at the same position, keeps the one with the
+/// lowest id, so that all ranks insert the same vertices. Applies to initial and to artificial
+/// points.
 VTKTIPPFILTERS_EXPORT void keepOneOfEachPosition(std::vector<BoundaryVertex>& vertices);
 
 /// A part of the initial mesh: all its triangles that meet some partitions, and their neighbours.
 ///
-/// It is made without the rest. A triangulation of all initial points of some partitions and of a
-/// few points of the others has triangles that are not in the initial mesh. Those that meet a
-/// chosen partition, and their neighbours, are in it once all initial points of the partitions
-/// that they meet are inserted: no other point is in their circumdisks. Then none is missing.
-/// (Proof. Let x be a point of a chosen region, or next to one on a circumdisk that only touches
-/// it. The triangles of the initial mesh that are in conflict with x are connected by edges, and
-/// one of them, the one that contains x, is in both meshes, as are all of the local mesh that are
-/// in conflict with x. The neighbours of these are in both meshes, so all can be reached.)
+/// It is computed without the rest of the initial mesh. A triangulation of all initial points of
+/// some partitions and of a few points of the others has triangles that are not in the initial
+/// mesh. But those that meet a chosen partition, and their neighbours, are in it as soon as all
+/// initial points of the partitions that they meet are inserted, since no other point is in their
+/// circumdisks. Then none of them is missing. (Proof. Let x be a point of a chosen region, or next
+/// to one on a circumdisk that only touches it. The triangles of the initial mesh that are in
+/// conflict with x are connected by edges, and one of them, the one that contains x, is in both
+/// meshes, as are all of the local mesh that are in conflict with x. The neighbours of these are in
+/// both meshes, so all can be reached.)
 struct InitialMeshPart
 {
   /// Computes the part for the partitions p with `isChosen[p]`. `initial` has all partitions'
-  /// initial points, as keepOneOfEachPosition() leaves those of a partition.
+  /// initial points, after keepOneOfEachPosition().
   VTKTIPPFILTERS_EXPORT InitialMeshPart(const Regions& regions,
     const std::vector<BoundaryVertex>& initial, const std::vector<BoundaryVertex>& artificial,
     const std::vector<char>& isChosen, int threads);
 
-  /// Adds to `triangles` and `met` what partitionsPay() needs. Over parts that choose each
-  /// partition once the sums are those of the whole mesh.
+  /// Adds this part's counts for partitionsPay() to `triangles` and `met`. If every partition is
+  /// chosen in exactly one part, the sums over all parts are those of the whole mesh.
   VTKTIPPFILTERS_EXPORT void countMet(std::int64_t& triangles, std::int64_t& met) const;
 
-  /// Writes the chosen partitions' conflicts. Takes long where partitions do not pay.
+  /// Writes the chosen partitions' conflicts. Slow if partitioning does not pay off.
   VTKTIPPFILTERS_EXPORT void writeConflicts(SaveArchive& writer) const;
 
   BoundaryTriangles Mesh;
@@ -80,11 +82,10 @@ constexpr MessageKind TaskMessage = kindAfter(1);
 /// A rank's part of the triangulation: it triangulates the partitions whose points it owns.
 ///
 /// Every rank finds the conflicts of some partitions in its part of the initial mesh, and computes
-/// the order from all ranks' conflicts. One rank, the *keeper*,
-/// stores a partition's inbox, is told when the partitions that this one waits for are done, and
-/// then starts it. By default it is the owner of the partition's points. With the dissertation's
-/// masters it is the first rank (Algorithm 1), or the lead of its major partition's group
-/// (Algorithm 3).
+/// the order from all ranks' conflicts. One rank, the *keeper*, stores a partition's inbox,
+/// receives a message when each partition that this one waits for is done, and then starts it. By
+/// default it is the owner of the partition's points. With the dissertation's masters it is the
+/// first rank (Algorithm 1), or the lead of its major partition's group (Algorithm 3).
 ///
 /// A finished partition is one message to each rank that keeps its inbox or that of a later
 /// conflicting partition: it contains the vertices for these, and marks the partition as done. A
@@ -102,11 +103,11 @@ public:
 
   /// Boundary triangles that have become final on this rank, by internal ids.
   std::vector<IdTriangle> Kept;
-  std::vector<Duplicate> Duplicates;       ///< by internal ids
-  std::vector<std::size_t> InteriorCounts; ///< of each partition
+  std::vector<Duplicate> Duplicates;       ///< with internal ids
+  std::vector<std::size_t> InteriorCounts; ///< number of interior triangles, by partition
   RankStatistics Statistics;
-  std::vector<MasterStatistics> Masters; ///< of the masters on this rank
-  bool PartitionsPay = true;             ///< the same on all ranks; if false, nothing was done
+  std::vector<MasterStatistics> Masters; ///< statistics of the masters on this rank
+  bool PartitionsPay = true;             ///< the same on all ranks; false: nothing was done
 
 private:
   /// A thread's part of the result.
@@ -166,7 +167,7 @@ private:
   std::vector<BoundaryVertex> Artificial;
   std::unique_ptr<Regions> Boxes;
   std::unique_ptr<PartitionOrder> Order;
-  std::vector<std::int32_t> Keepers;        ///< of each partition
+  std::vector<std::int32_t> Keepers;        ///< by partition: the rank that keeps its inbox
   std::vector<std::int32_t> AllKeepers;     ///< the different ranks in Keepers
   std::unique_ptr<ReadyPartitions> Ready;   ///< partitions that this rank keeps
   std::unique_ptr<ReadyPartitions> Started; ///< partitions that it owns; null: same as Ready
@@ -182,7 +183,7 @@ private:
 
   // Used by masters only.
   std::vector<PartitionIndex> Waiting; ///< ready, but their ranks are busy
-  std::vector<int> InFlight;           ///< by rank: started and not done
+  std::vector<int> InFlight;           ///< by rank: number of partitions started and not done
   int AllInFlight = 0;
   std::atomic<std::int64_t> KeptTriangles{ 0 }; ///< triangles in the inboxes
   MasterStatistics Figures;

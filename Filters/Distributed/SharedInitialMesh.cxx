@@ -226,11 +226,11 @@ private:
   const std::vector<BoundaryVertex>& Artificial;
   const std::vector<char>& IsChosen;
   const int Threads;
-  std::vector<std::size_t> Begins; ///< of each partition's points in Initial
+  std::vector<std::size_t> Begins; ///< index of each partition's first point in Initial
   std::vector<std::size_t> Ends;
   std::vector<char> IsComplete; ///< by partition: all its initial points are inserted
-  Box2 Bounds{};                ///< of the chosen regions
-  bool IsAny = false;           ///< a chosen partition has points
+  Box2 Bounds{};                ///< bounds of the chosen regions
+  bool IsAny = false;           ///< whether a chosen partition has points
   DelaunayKernel Kernel;
   BoundaryTriangles Mesh;
   std::vector<Index> Triangles;    ///< those of Mesh in the kernel
@@ -241,8 +241,8 @@ private:
 struct ConflictRows
 {
   std::vector<PartitionIndex> Partitions;
-  std::vector<PartitionIndex> Counts;     ///< of each one's neighbours
-  std::vector<PartitionIndex> Neighbours; ///< of the first partition, of the second and so on
+  std::vector<PartitionIndex> Counts;     ///< number of neighbours of each
+  std::vector<PartitionIndex> Neighbours; ///< of all partitions, concatenated
 };
 
 ConflictRows readRows(LoadArchive& reader, std::size_t partitions)
@@ -291,7 +291,8 @@ void InitialMeshPart::countMet(std::int64_t& triangles, std::int64_t& met) const
 {
   for (std::size_t i = 0; i < this->Mesh.size(); ++i)
   {
-    // A triangle of several parts counts in that of the first partition that it meets.
+    // A triangle in several parts is counted only in the part that chose the first partition it
+    // meets.
     const PartitionIndex* const first = this->Mesh.metBegin(i);
     if (first != this->Mesh.metEnd(i) && this->IsChosen[std::size_t(*first)])
     {

@@ -37,7 +37,8 @@ bool disagrees(const Group& group, const std::vector<ValueColumn>& columns, std:
         [&](const ValueColumn& column) { return disagrees(group, column); });
 }
 
-/// The first of those with the least value times `sign`; NaN comes after all numbers.
+/// Returns the first point with the least value times `sign`; NaN compares greater than all
+/// numbers.
 std::int64_t findLeast(const Group& group, const ValueColumn& column, double sign)
 {
   const auto valueOf = [&](std::int64_t point)

@@ -17,21 +17,21 @@ namespace tipp
 /// Which values are kept if several points coincide.
 enum class DuplicateRule
 {
-  First,   ///< those of the first point
-  Lowest,  ///< those of the first point that is lowest by findRankColumn()
-  Highest, ///< those of the first point that is highest
-  Mean     ///< of each column the mean of the values that there are
+  First,   ///< the values of the first point
+  Lowest,  ///< the values of the first point that is lowest in the column found by findRankColumn()
+  Highest, ///< the values of the first point that is highest in it
+  Mean     ///< the mean of each column, ignoring NaN
 };
 
-/// Throws IOError if the rule needs a column that findRankColumn() finds and there is none.
+/// Throws IOError if the rule needs the column of findRankColumn() and there is none.
 VTKTIPPFILTERS_EXPORT void requireElevation(
   DuplicateRule rule, const std::vector<std::string>& columns);
 
 /// A column of values, one for each point; it does not own them.
 struct ValueColumn
 {
-  double* Values;
-  std::size_t Stride;
+  double* Values;     ///< value of the first point
+  std::size_t Stride; ///< distance between the values of successive points, in doubles
 
   double& operator[](std::int64_t point) const
   {
@@ -39,10 +39,10 @@ struct ValueColumn
   }
 };
 
-/// Gives each representative the values that the rule selects among the points that coincide with
-/// it. Returns the number of representatives whose coincident points disagree: in the elevation, or
-/// in any column if there is none. `elevation` is the index of its column, or the number of
-/// columns.
+/// Sets each representative's values to those that the rule selects among the points that coincide
+/// with it. Returns the number of representatives whose coincident points differ in elevation, or
+/// in any column if there is no elevation. `elevation` is the index of its column, or the number of
+/// columns if there is none.
 std::int64_t resolveDuplicates(std::vector<Duplicate> duplicates,
   const std::vector<ValueColumn>& columns, std::size_t elevation, DuplicateRule rule);
 

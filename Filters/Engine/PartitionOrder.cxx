@@ -36,7 +36,7 @@ std::vector<std::uint32_t> ConflictGraph::colours() const
     { return this->neighbours(a).size() > this->neighbours(b).size(); });
   constexpr std::uint32_t none = ~0U;
   std::vector<std::uint32_t> colours(this->size(), none);
-  std::vector<PartitionIndex> takenFor; // by colour: the last node that could not have it
+  std::vector<PartitionIndex> takenFor; // by colour: the last node for which it was taken
   for (const PartitionIndex p : order)
   {
     for (const PartitionIndex neighbour : this->neighbours(p))
@@ -110,7 +110,7 @@ std::size_t mostConflicts(std::size_t partitions)
 std::optional<ConflictGraph> findConflicts(
   const BoundaryTriangles& initialMesh, std::size_t partitions)
 {
-  constexpr std::size_t most = std::size_t(1) << 22; // neighbours collected before they are added
+  constexpr std::size_t most = std::size_t(1) << 22; // pairs collected before they are added
   const std::size_t limit = mostConflicts(partitions);
   const PartitionSets& sets = initialMesh.Sets;
   ConflictGraph conflicts(partitions);
@@ -176,7 +176,7 @@ void PartitionOrder::setWindows(const std::vector<std::int32_t>& windows)
   this->sort(windows);
 }
 
-/// Without windows, all partitions are in one.
+/// Sorts the partitions. Without windows, all partitions are in one window.
 void PartitionOrder::sort(const std::vector<std::int32_t>& windows)
 {
   const auto key = [&](PartitionIndex p)
@@ -207,7 +207,7 @@ void PartitionOrder::sortByUrgency(const std::vector<std::int32_t>& windows)
   {
     return; // one chain
   }
-  std::vector<std::int32_t> chains(this->Positions.size(), 0); // longest from each one
+  std::vector<std::int32_t> chains(this->Positions.size(), 0); // longest chain from each partition
   for (auto p = this->Sequence.rbegin(); p != this->Sequence.rend(); ++p)
   {
     for (const PartitionIndex q : this->later(*p))

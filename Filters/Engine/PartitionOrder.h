@@ -66,12 +66,12 @@ private:
 
 struct BoundaryTriangles;
 
-/// Returns the conflicts of `partitions` partitions (Lemma 5, below). Empty if nearly all conflict,
-/// as with co-circular points: then the caller takes all partitions as conflicting.
+/// Returns the conflicts of `partitions` partitions (Lemma 5, below). Returns nullopt if nearly all
+/// conflict, as with co-circular points: the caller then treats all pairs as conflicting.
 VTKTIPPFILTERS_EXPORT std::optional<ConflictGraph> findConflicts(
   const BoundaryTriangles& initialMesh, std::size_t partitions);
 
-/// The most neighbours that the conflicts of `partitions` partitions may have in all.
+/// The largest total number of neighbours for which findConflicts() returns a graph.
 std::size_t mostConflicts(std::size_t partitions);
 
 /// Which partitions conflict, and the order in which conflicting ones are triangulated. Both

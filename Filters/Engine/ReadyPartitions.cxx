@@ -11,7 +11,7 @@ namespace tipp
 namespace
 {
 
-/// First yields the core to another thread, then sleeps.
+/// Waits: first by yielding the core to another thread, later by sleeping.
 void waitAWhile(int turn)
 {
   constexpr int yields = 32;
@@ -82,7 +82,7 @@ void ReadyPartitions::awaitEarlier()
   }
 }
 
-/// The order has no windows, so the partitions of a colour are consecutive.
+/// Releases the partitions of a colour. They are consecutive, since the order has no windows.
 void ReadyPartitions::releaseColour(std::size_t colour)
 {
   const auto& sequence = this->Order.sequence();

@@ -13,45 +13,6 @@
 namespace tipp
 {
 
-Bytes writeDone(PartitionIndex sender, const SentMessages& sent,
-  const std::function<bool(PartitionIndex)>& isIncluded)
-{
-  SaveArchive writer;
-  writer(sender);
-  for (const auto& [to, message] : sent)
-  {
-    if (isIncluded(to))
-    {
-      writer(to, message);
-    }
-  }
-  return writer.take();
-}
-
-SentMessages readDone(const Bytes& bytes, std::size_t count, PartitionIndex& sender)
-{
-  LoadArchive reader(bytes);
-  const auto requirePartition = [count](PartitionIndex p)
-  {
-    if (p < 0 || std::size_t(p) >= count)
-    {
-      throw std::runtime_error("A message from another rank is damaged: no such partition.");
-    }
-  };
-  sender = reader.get<PartitionIndex>();
-  requirePartition(sender);
-  SentMessages sent;
-  while (reader.left() > 0)
-  {
-    const auto to = reader.get<PartitionIndex>();
-    requirePartition(to);
-    sent.emplace_back(to, VertexMessage{});
-    reader(sent.back().second);
-    requirePartition(sent.back().second.Sender == sender ? sender : -1);
-  }
-  return sent;
-}
-
 std::vector<BoundaryVertex> UniqueVertices::collect(const std::vector<VertexMessage>& messages)
 {
   std::size_t count = 0;
@@ -138,7 +99,7 @@ void repairHull(std::vector<BoundaryVertex> vertices, const std::vector<Boundary
   keepUnique(vertices);
   std::vector<std::array<std::uint32_t, 3>> triangles;
   {
-    // There may be many vertices: their copies are freed as soon as possible.
+    // There may be many vertices, so their copies are freed as soon as possible.
     DelaunayKernel kernel;
     kernel.insert(positionsOf(vertices).data(), vertices.size());
     kernel.forEachTriangle(
@@ -181,7 +142,7 @@ template <typename VertexOf, typename Deliver>
 std::int64_t OutgoingTriangles::send(PartitionIndex sender, std::size_t recipients,
   const VertexOf& vertexOf, const Deliver& deliver, FinalTriangleConsumer& final)
 {
-  // A counting sort: Ends are the recipients' begins before the triangles are copied.
+  // A counting sort: until the triangles are copied, Ends has the start of each recipient's range.
   this->Ends.assign(recipients + 2, 0);
   for (const Triangle& triangle : this->Triangles)
   {

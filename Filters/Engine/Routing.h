@@ -40,16 +40,6 @@ void serialize(Archive& archive, VertexMessage& message)
 /// All messages of a finished partition, each with its recipient.
 using SentMessages = std::vector<std::pair<PartitionIndex, VertexMessage>>;
 
-/// @name Serialisation of a finished partition's messages
-/// `writeDone` writes the messages whose recipient satisfies `isIncluded`. `readDone` returns the
-/// messages and sets `sender`; it throws std::runtime_error if a partition is not below `count`.
-///@{
-VTKTIPPFILTERS_EXPORT Bytes writeDone(PartitionIndex sender, const SentMessages& sent,
-  const std::function<bool(PartitionIndex)>& isIncluded);
-VTKTIPPFILTERS_EXPORT SentMessages readDone(
-  const Bytes& bytes, std::size_t count, PartitionIndex& sender);
-///@}
-
 /// Collects the vertices of several messages, each once.
 class UniqueVertices
 {
@@ -112,8 +102,8 @@ public:
     this->Triangles.push_back({ static_cast<std::uint32_t>(recipient), corners });
   }
 
-  /// Calls deliver(recipient, message) for each recipient below `recipients` that gets triangles,
-  /// in ascending order. Triangles whose recipient is `recipients` have none, and go to `final`.
+  /// Calls deliver(recipient, message) for each recipient that gets triangles, in ascending order.
+  /// Triangles whose recipient is `recipients` have no recipient and are passed to `final`.
   /// vertexOf(index) returns a vertex. Returns the number of triangles delivered.
   template <typename VertexOf, typename Deliver>
   std::int64_t send(PartitionIndex sender, std::size_t recipients, const VertexOf& vertexOf,
@@ -127,8 +117,8 @@ private:
   };
 
   std::vector<Triangle> Triangles;
-  std::vector<std::size_t> Ends;     ///< by recipient, in Sorted
-  std::vector<Corners> Sorted;       ///< by recipient
+  std::vector<std::size_t> Ends;     ///< by recipient: end of its triangles in Sorted
+  std::vector<Corners> Sorted;       ///< triangles, sorted by recipient
   std::vector<std::uint32_t> SentTo; ///< by vertex: the last recipient it was sent to
 };
 

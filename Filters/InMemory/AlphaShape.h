@@ -17,12 +17,12 @@ using PointAt = std::function<void(PointId, double*)>;
 template <typename Id>
 struct AlphaShape
 {
-  Buffer<Id> Triangles; ///< circumradius in 3D at most alpha; in input order
-  Buffer<Id> Lines;     ///< edges at most 2 alpha long of no such triangle; ascending
-  Buffer<Id> Vertices;  ///< points of neither; ascending
+  Buffer<Id> Triangles; ///< triangles whose circumradius in 3D is at most alpha; in input order
+  Buffer<Id> Lines;     ///< edges at most 2 alpha long that belong to no such triangle; ascending
+  Buffer<Id> Vertices;  ///< points in neither; ascending
 };
 
-/// For each of `points` points 1 if it is a duplicate or rejected, else 0.
+/// Returns for each of `points` points 1 if it is a duplicate or rejected, else 0.
 std::vector<char> coveredPoints(const Triangulation& triangulation, std::int64_t points);
 
 /// Computes the alpha shape. `covered` has one entry for each point: not 0 if it cannot be a

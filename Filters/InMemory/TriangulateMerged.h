@@ -11,11 +11,11 @@ namespace tipp
 /// point kept before it is merged into that one.
 struct MergedPoints
 {
-  Buffer<double> Coordinates; ///< x, y of the kept points
-  Buffer<PointId> Ids;        ///< input point indices of the kept points, ascending
-  std::vector<Duplicate> Duplicates;
-  std::vector<PointId> Rejected; ///< input indices of points with NaN or infinite coordinates
-  bool Aborted = false;
+  Buffer<double> Coordinates;        ///< x, y of the kept points
+  Buffer<PointId> Ids;               ///< input point indices of the kept points, ascending
+  std::vector<Duplicate> Duplicates; ///< merged points, with input indices
+  std::vector<PointId> Rejected;     ///< input indices of points with NaN or infinite coordinates
+  bool Aborted = false;              ///< whether `progress` stopped the pass
 };
 
 /// Merges close points in one pass with a hash grid. `distance` is in the points' unit of length.

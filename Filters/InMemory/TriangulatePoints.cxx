@@ -31,7 +31,7 @@ void requireIds(const SourceConstraints& constraints, std::int64_t points)
 namespace
 {
 
-/// A polygon without one of its corners would not tell what is inside.
+/// Throws if a polygon has a rejected corner: without it the inside would be undefined.
 void requireClosed(PointsView points, const SourceConstraints& constraints)
 {
   for (std::size_t i = constraints.PolygonBegin; i < constraints.Constraints.size(); ++i)

@@ -61,8 +61,8 @@ bool DelaunayKernel::insert(const Point2* points, std::size_t count, const Monit
   this->PointEnd += static_cast<std::uint32_t>(count);
   this->Predicates.restart(this->Points.data(), this->Points.size());
 
-  // Euler: n vertices and the infinite one have 2 n - 2 triangles. The cavity writes one beyond
-  // them.
+  // Euler's formula: n vertices and the infinite one have 2 n - 2 triangles. The cavity writes up
+  // to one triangle beyond them.
   this->Mesh.reserve(2 * this->Points.size());
   if (!this->hasTriangles() && !this->makeFirstTriangle(this->Pending))
   {

@@ -54,7 +54,7 @@ public:
   /// Frees the triangles' memory. Vertices stay; only clear() may be called next.
   void releaseTriangles() { this->Mesh.release(); }
 
-  /// Bytes allocated for points and triangles, most of what the kernel holds.
+  /// Bytes allocated for points and triangles, which is most of the kernel's memory.
   std::size_t bytes() const;
 
   /// Called now and then with the number of points inserted so far; returning false ends the
@@ -68,8 +68,8 @@ public:
   /// False while all inserted points are collinear: there are no triangles yet.
   bool hasTriangles() const { return this->Mesh.end() > 0; }
 
-  /// @name Triangles, including those at the infinite vertex
-  /// A triangle is named by an index that only these functions interpret.
+  /// @name Triangles, including those at the infinite vertex A triangle is identified by an index
+  /// that only these functions interpret.
   ///@{
   /// The triangle's number, in the mesh's order: for arrays of triangleCount() entries.
   static std::size_t number(Index triangle) { return std::size_t(triangle / 8); }
@@ -120,7 +120,7 @@ private:
 
   HalfEdgeMesh Mesh;
   Uninitialised<Point2> Points;
-  Uninitialised<std::uint32_t> PointIndices; ///< by vertex
+  Uninitialised<std::uint32_t> PointIndices; ///< by vertex: the index of its point
   std::vector<Duplicate> Duplicates;
   std::uint32_t PointEnd = 0; ///< points inserted since clear()
   Index Pending = 1;          ///< first vertex not inserted yet: all points before it are collinear
@@ -128,7 +128,7 @@ private:
   InsertionOrder Order;
   KernelPredicates Predicates;
   Cavity Opened;
-  std::vector<InsertionScene::Coincidence> Coincidences; ///< of the vertices inserted last
+  std::vector<InsertionScene::Coincidence> Coincidences; ///< among the vertices inserted last
   const Instructions Allowed;
 };
 
@@ -152,8 +152,8 @@ private:
   std::unique_ptr<DelaunayKernel> Kernel;
 };
 
-/// Changes the triangles of a DelaunayKernel; the mesh of a SegmentInserter. Half-edges and
-/// triangles are named by indices that only this class interprets.
+/// Modifies the triangles of a DelaunayKernel, on behalf of a SegmentInserter. Half-edges and
+/// triangles are identified by indices that only this class interprets.
 class MeshEditor
 {
 public:
@@ -190,7 +190,7 @@ public:
   Index twin(Index h) const { return this->Mesh->twin(h); }
   Point2 at(Index v) const { return this->Kernel->point(v); }
 
-  /// Whether a vertex has triangles. One with the coordinates of another has none.
+  /// Whether a vertex has triangles. A duplicate has none.
   bool isUsed(Index v) const { return this->out(v) != NoHalf; }
   /// A half-edge from the vertex.
   Index out(Index v) const { return this->Out[std::size_t(v)]; }
@@ -237,7 +237,7 @@ private:
 
   DelaunayKernel* Kernel = nullptr;
   HalfEdgeMesh* Mesh = nullptr;
-  std::vector<unsigned char> Fixed; ///< by triangle: a bit for each half-edge
+  std::vector<unsigned char> Fixed; ///< by triangle: a bit mask of its half-edges
   std::vector<Index> Out;           ///< by vertex: a half-edge from it
 };
 

@@ -31,8 +31,8 @@ public:
   static Index twinOfNext(const Index* slots, Index h) { return slots[offset(h) + 5]; }
   static Index twinOfPrevious(const Index* slots, Index h) { return slots[offset(h) + 3]; }
 
-  /// The copy of half-edge 0's slot is slot 7, that of half-edge 2's is slot 3. Half-edge 1 has
-  /// none; its own slot is written twice.
+  /// Sets the twin of half-edge h. Half-edge 0's twin is repeated in slot 7, half-edge 2's in slot
+  /// 3. Half-edge 1's is not repeated; its own slot is written twice.
   static void setTwin(Index* slots, Index h, Index twin)
   {
     slots[offset(h) + 4] = twin;

@@ -347,7 +347,7 @@ inline Cavity::Index Cavity::retriangulate(HalfEdgeMesh& mesh, const Point2* poi
 /// The data that insertions read and change. Vertex 0 is the infinite one.
 struct InsertionScene
 {
-  /// A vertex with the coordinates of another one, its representative.
+  /// A vertex that coincides with another one, its representative.
   struct Coincidence
   {
     HalfEdgeMesh::Index Vertex;

@@ -101,7 +101,7 @@ inline unsigned bitsOf(PairMask mask)
 #endif
 }
 
-/// A bit for each negative lane, as in bitsOf(); unspecified for NaN.
+/// Like bitsOf(), with a bit set for each negative lane; unspecified for NaN.
 inline unsigned signsOf(Pair a)
 {
 #ifdef __SSE2__
@@ -111,7 +111,7 @@ inline unsigned signsOf(Pair a)
 #endif
 }
 
-/// The first lanes of both, or the second.
+/// Combines the first lanes of two pairs, or the second lanes.
 inline Pair low(Pair a, Pair b)
 {
   return __builtin_shufflevector(a, b, 0, 2);

@@ -12,7 +12,7 @@
 namespace tipp
 {
 
-/// The vector from a vertex to the point p that is being inserted; lanes x and y.
+/// The vector from a vertex to the point p that is being inserted, as lanes x and y.
 inline Pair towards(Pair p, const Point2* points, HalfEdgeMesh::Index vertex)
 {
   return p - pairAt(&points[HalfEdgeMesh::offset(vertex)].x);
@@ -33,6 +33,7 @@ struct Corner
   }
 };
 
+/// The cross product a x b of the corners' vectors.
 inline double cross(const Corner& a, const Corner& b)
 {
   return a.X * b.Y - a.Y * b.X;
@@ -51,7 +52,7 @@ struct EdgePair
   Pair StopY;
   Pair StopLift;
   Pair Cross; ///< start x stop
-  // Their twins. Not an array, which would keep the struct out of registers.
+  // The edges' twins. Not an array, which would prevent keeping the struct in registers.
   Index FirstOuter;
   Index SecondOuter;
   Index Start;
@@ -79,7 +80,7 @@ struct EdgePair
 /// A triangle in conflict with the point p that is being inserted.
 struct Location
 {
-  HalfEdgeMesh::Index Triangle;
+  HalfEdgeMesh::Index Triangle;  ///< the triangle's index in the mesh
   EdgePair Edges;                ///< two of its edges
   HalfEdgeMesh::Index LastOuter; ///< the twin of the third edge, from Stop to Start
   double LastCross;

@@ -4,6 +4,7 @@
 #include "Kernel/Lanes.h"
 #include "Predicates/ExactPredicates.h"
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 
@@ -47,8 +48,18 @@ void Cavity3::restart(const Point3* points, std::size_t count)
   this->EdgeTable.resize(MostInTable * MostInTable);
 }
 
+/// Whether all finite vertices of a tetrahedron are in the territory.
+inline bool Cavity3::isOwn(const Index* v) const
+{
+  const std::uint8_t* const owners = this->Within.Owners;
+  const std::uint8_t own = this->Within.Own;
+  return (v[0] == 0 || owners[v[0]] == own) && owners[v[1]] == own && owners[v[2]] == own &&
+    owners[v[3]] == own;
+}
+
 /// Walks to a tetrahedron that contains the point, or, outside of the hull, to an infinite one
 /// whose facet the point is beyond.
+template <bool IsShared>
 inline Cavity3::Location Cavity3::locate(const TetrahedronMesh& mesh, const Point3& p)
 {
   const Index* const slots = mesh.slots();
@@ -86,6 +97,10 @@ inline Cavity3::Location Cavity3::locate(const TetrahedronMesh& mesh, const Poin
     const Index across = v[next + 4];
     cell = TetrahedronMesh::cellOf(across);
     from = across & 3;
+    if (IsShared && !this->isOwn(slots + cell))
+    {
+      return { NoCell, 0 };
+    }
   }
   return { cell, 0 };
 }
@@ -152,7 +167,9 @@ inline unsigned Cavity3::conflictsAcross(
   return certain & bitsOfLanes(determinant < 0);
 }
 
-inline void Cavity3::findConflicts(TetrahedronMesh& mesh, const Point3& p, Index found)
+/// Finds the cavity and its boundary. Returns false if the cavity leaves the territory.
+template <bool IsShared>
+inline bool Cavity3::findConflicts(TetrahedronMesh& mesh, const Point3& p, Index found)
 {
   const Index* const slots = mesh.slots();
   std::uint8_t* const marks = mesh.marks();
@@ -180,6 +197,10 @@ inline void Cavity3::findConflicts(TetrahedronMesh& mesh, const Point3& p, Index
       }
       if (isIn)
       {
+        if (IsShared && !this->isOwn(slots + beyond))
+        {
+          return false;
+        }
         marks[beyond / 8] = TetrahedronMesh::InConflict;
         this->Removed.push_back(beyond);
       }
@@ -189,31 +210,61 @@ inline void Cavity3::findConflicts(TetrahedronMesh& mesh, const Point3& p, Index
       }
     }
   }
+  return true;
+}
+
+/// Makes as many tetrahedra free as the boundary has facets.
+inline void Cavity3::makeRoom(TetrahedronMesh& mesh)
+{
+  const std::size_t count = this->Boundary.size();
+  if (this->Free.size() >= count)
+  {
+    return;
+  }
+  const std::size_t needed = mesh.end() / 8 + (count - this->Free.size());
+  if (needed > TetrahedronMesh::MostSlots / 8)
+  {
+    throw std::length_error("too many points for one partition: use more partitions");
+  }
+  if (needed > mesh.capacity())
+  {
+    mesh.reserve(needed + needed / 2);
+  }
+  while (this->Free.size() < count)
+  {
+    mesh.marks()[mesh.end() / 8] = TetrahedronMesh::Free;
+    this->Free.push_back(mesh.end());
+    mesh.setEnd(mesh.end() + 8);
+  }
+}
+
+/// The same while other threads do it. Returns false if the mesh has no memory left.
+inline bool Cavity3::takeRoom(TetrahedronMesh& mesh)
+{
+  constexpr std::uint64_t together = 1024;
+  const std::uint64_t most =
+    std::min<std::uint64_t>(mesh.capacity(), TetrahedronMesh::MostSlots / 8);
+  while (this->Free.size() < this->Boundary.size())
+  {
+    const std::uint64_t begin = this->Within.End->fetch_add(8 * together);
+    if (begin / 8 + together > most)
+    {
+      this->Within.End->fetch_sub(8 * together);
+      return false;
+    }
+    for (std::uint64_t cell = begin / 8; cell < begin / 8 + together; ++cell)
+    {
+      mesh.marks()[cell] = TetrahedronMesh::Free;
+      this->Free.push_back(Index(8 * cell));
+    }
+  }
+  return true;
 }
 
 /// A new tetrahedron has the corners of the removed one on its facet, with the vertex instead of
 /// the corner opposite to the facet.
 inline void Cavity3::makeCells(TetrahedronMesh& mesh, Index vertex)
 {
-  const std::size_t count = this->Boundary.size();
-  if (this->Free.size() < count)
-  {
-    const std::size_t needed = mesh.end() / 8 + (count - this->Free.size());
-    if (needed > TetrahedronMesh::MostSlots / 8)
-    {
-      throw std::length_error("too many points for one partition: use more partitions");
-    }
-    if (needed > mesh.capacity())
-    {
-      mesh.reserve(needed + needed / 2);
-    }
-    while (this->Free.size() < count)
-    {
-      mesh.marks()[mesh.end() / 8] = TetrahedronMesh::Free;
-      this->Free.push_back(mesh.end());
-      mesh.setEnd(mesh.end() + 8);
-    }
-  }
   Index* const slots = mesh.slots();
   const Index* free = this->Free.data() + this->Free.size();
   for (Facet& facet : this->Boundary)
@@ -231,7 +282,7 @@ inline void Cavity3::makeCells(TetrahedronMesh& mesh, Index vertex)
     mesh.marks()[made / 8] = TetrahedronMesh::Live;
     facet.Made = made;
   }
-  this->Free.resize(this->Free.size() - count);
+  this->Free.resize(this->Free.size() - this->Boundary.size());
 }
 
 /// Two new tetrahedra are neighbours across an edge of the boundary, which has opposite directions
@@ -327,9 +378,9 @@ inline bool Cavity3::linkByEdges(TetrahedronMesh& mesh)
   }
 }
 
-inline void Cavity3::retriangulate(TetrahedronMesh& mesh, Index vertex, Index found)
+/// Fills the cavity that findConflicts() has found.
+inline void Cavity3::retriangulate(TetrahedronMesh& mesh, Index vertex)
 {
-  this->findConflicts(mesh, this->Points[vertex], found);
   this->makeCells(mesh, vertex);
   if (!this->linkByEdges(mesh))
   {
@@ -356,19 +407,87 @@ inline void Cavity3::insertAll(
 {
   for (Index vertex = first; vertex < end; ++vertex)
   {
-    const Location at = this->locate(mesh, this->Points[vertex]);
+    const Location at = this->locate<false>(mesh, this->Points[vertex]);
     if (__builtin_expect(at.EqualTo != 0, 0))
     {
       found.push_back({ vertex, at.EqualTo });
       continue;
     }
-    this->retriangulate(mesh, vertex, at.Cell);
+    this->findConflicts<false>(mesh, this->Points[vertex], at.Cell);
+    this->makeRoom(mesh);
+    this->retriangulate(mesh, vertex);
   }
+}
+
+/// Returns false, and changes nothing, if it is not possible within the territory.
+inline bool Cavity3::insertOne(TetrahedronMesh& mesh, Index vertex, std::vector<Coincidence>& found)
+{
+  const Location at = this->locate<true>(mesh, this->Points[vertex]);
+  if (at.Cell == NoCell)
+  {
+    return false;
+  }
+  if (at.EqualTo != 0)
+  {
+    found.push_back({ vertex, at.EqualTo });
+    return true;
+  }
+  if (!this->findConflicts<true>(mesh, this->Points[vertex], at.Cell) || !this->takeRoom(mesh))
+  {
+    for (const Index cell : this->Removed)
+    {
+      mesh.marks()[cell / 8] = TetrahedronMesh::Live;
+    }
+    return false;
+  }
+  this->retriangulate(mesh, vertex);
+  return true;
 }
 
 void Cavity3::insert(TetrahedronMesh& mesh, Index first, Index end, std::vector<Coincidence>& found)
 {
   runWith(Instructions::Best, [&] { this->insertAll(mesh, first, end, found); });
+}
+
+/// Continues elsewhere in the territory: the tetrahedra here may be an island in it, which no walk
+/// leaves. Whatever becomes of a Start, no other thread changes it.
+void Cavity3::moveOn(const TetrahedronMesh& mesh)
+{
+  const std::vector<Index>& starts = *this->Within.Starts;
+  for (std::size_t i = 0; i < starts.size(); ++i)
+  {
+    const Index start = starts[this->NextStart++ % starts.size()];
+    const Index* const v = mesh.slots() + start;
+    if (mesh.marks()[start / 8] == TetrahedronMesh::Live && v[0] != 0 && this->isOwn(v))
+    {
+      this->Recent = start;
+      return;
+    }
+  }
+}
+
+void Cavity3::insertWithin(TetrahedronMesh& mesh, const Index* begin, const Index* end,
+  std::vector<Index>& left, std::vector<Coincidence>& found)
+{
+  runWith(Instructions::Best,
+    [&]
+    {
+      for (const Index* vertex = begin; vertex != end; ++vertex)
+      {
+        if (this->insertOne(mesh, *vertex, found))
+        {
+          this->Failures = 0;
+          continue;
+        }
+        left.push_back(*vertex);
+        // The walk from elsewhere is long: less and less often.
+        constexpr std::size_t patience = 64;
+        if (++this->Failures >= patience && (this->Failures & (this->Failures - 1)) == 0)
+        {
+          this->moveOn(mesh);
+        }
+      }
+    });
 }
 
 } // namespace tipp

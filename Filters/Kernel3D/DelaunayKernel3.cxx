@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Kernel3D/DelaunayKernel3.h"
 
+#include "Kernel3D/ParallelInsertion3.h"
 #include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
@@ -17,7 +18,8 @@ bool areCollinear(const Point3& a, const Point3& b, const Point3& c)
     orientation({ a.z, a.x }, { b.z, b.x }, { c.z, c.x }) == 0;
 }
 
-bool DelaunayKernel3::triangulate(const Point3* points, std::size_t count, const Monitor& proceed)
+bool DelaunayKernel3::triangulate(
+  const Point3* points, std::size_t count, const Monitor& proceed, int threads)
 {
   if (count >= std::size_t(1) << InsertionOrder3::IndexBits)
   {
@@ -30,10 +32,11 @@ bool DelaunayKernel3::triangulate(const Point3* points, std::size_t count, const
   {
     return true;
   }
-  // Seven for each point of a uniform distribution, with a few that are free.
-  constexpr std::size_t cellsPerPoint = 7;
+  // Seven for each point of a uniform distribution, with a few that are free. More if there are
+  // threads, which cannot make room.
+  const std::size_t cellsPerPoint = threads > 1 ? 9 : 7;
   this->Mesh.reserve(cellsPerPoint * count + 64);
-  if (!this->insertAll(proceed))
+  if (!this->insertAll(proceed, threads))
   {
     this->Mesh.clear();
     this->Dimension = -1;
@@ -120,21 +123,43 @@ bool DelaunayKernel3::makeFirst()
   return true;
 }
 
-bool DelaunayKernel3::insertAll(const Monitor& proceed)
+/// By one thread. Returns false if `proceed` returned false.
+bool DelaunayKernel3::insertRange(Index first, Index end, const Monitor& proceed)
 {
   constexpr Index block = 1 << 12;
-  const Index end = this->vertexEnd();
-  std::vector<Cavity3::Coincidence> coincidences;
-  this->Opened.restart(this->Points.data(), this->Points.size());
-  for (Index first = 5; first < end; first += block)
+  for (; first < end; first += std::min(block, end - first))
   {
     if (proceed && !proceed(first))
     {
       return false;
     }
-    this->Opened.insert(this->Mesh, first, std::min(end, first + block), coincidences);
+    this->Opened.insert(this->Mesh, first, std::min(end, first + block), this->Coincidences);
   }
-  for (const Cavity3::Coincidence& found : coincidences)
+  return true;
+}
+
+bool DelaunayKernel3::insertAll(const Monitor& proceed, int threads)
+{
+  this->Coincidences.clear();
+  this->Opened.restart(this->Points.data(), this->Points.size());
+  ParallelInsertion3 together(this->Mesh, this->Points.data(), this->Points.size(), this->Opened);
+  Index first = 5;
+  for (const std::size_t last : this->Order.roundEnds())
+  {
+    const auto end = static_cast<Index>(last + 1);
+    if (end <= first)
+    {
+      continue;
+    }
+    const bool isLarge = threads > 1 && end - first >= ParallelInsertion3::Few;
+    if (!(isLarge ? together.insert(first, end, threads, proceed, this->Coincidences)
+                  : this->insertRange(first, end, proceed)))
+    {
+      return false;
+    }
+    first = end;
+  }
+  for (const Cavity3::Coincidence& found : this->Coincidences)
   {
     this->Duplicates.push_back({ this->PointIndices[found.Vertex], found.Representative });
   }
@@ -160,6 +185,7 @@ void DelaunayKernel3::release()
   Uninitialised<Point3>().swap(this->Points);
   Uninitialised<std::uint32_t>().swap(this->PointIndices);
   this->Duplicates = {};
+  this->Coincidences = {};
   this->Opened = {};
   this->Dimension = -1;
 }

@@ -24,7 +24,7 @@ bool areCollinear(const Point3& a, const Point3& b, const Point3& c);
 /// The Delaunay triangulation of points in space: incremental insertion (Bowyer 1981, Watson 1981)
 /// in biased randomised rounds, with a vertex at infinity, exact predicates, and ties broken by the
 /// points' lexicographic order. So the set of tetrahedra is unique, and none is flat.
-/// Single-threaded; reusable for many point sets.
+/// Reusable for many point sets.
 class VTKTIPPFILTERS_EXPORT DelaunayKernel3
 {
 public:
@@ -44,8 +44,10 @@ public:
   /// Triangulates `count` finite points, and forgets what was triangulated before. No product of
   /// five differences of coordinates should under- or overflow, or the exact predicates decide all.
   /// Returns false if `proceed` returned false; there is no triangulation then. Throws
-  /// std::length_error for more points than indices can name.
-  bool triangulate(const Point3* points, std::size_t count, const Monitor& proceed = {});
+  /// std::length_error for more points than indices can name. `threads`: how many insert points at
+  /// the same time (ParallelInsertion3); the set of tetrahedra is the same.
+  bool triangulate(
+    const Point3* points, std::size_t count, const Monitor& proceed = {}, int threads = 1);
 
   /// -1 without points; 0 if all have the same coordinates, 1 if they are collinear, 2 if they are
   /// coplanar: then there are neither tetrahedra nor duplicates. Else 3.
@@ -58,8 +60,16 @@ public:
   template <typename Visit>
   void forEach(const Visit& visit) const
   {
+    this->forEach(0, 1, visit);
+  }
+  /// The same for share `part` of `parts` of all.
+  template <typename Visit>
+  void forEach(std::size_t part, std::size_t parts, const Visit& visit) const
+  {
     const std::uint8_t* const marks = this->Mesh.marks();
-    for (Index t = 0; t < this->Mesh.end(); t += 8)
+    const std::size_t cells = this->Mesh.end() / 8;
+    const auto end = Index(8 * (cells * (part + 1) / parts));
+    for (auto t = Index(8 * (cells * part / parts)); t < end; t += 8)
     {
       if (marks[t / 8] == TetrahedronMesh::Live)
       {
@@ -100,13 +110,15 @@ public:
 private:
   void sortPoints(const Point3* points, std::size_t count);
   bool makeFirst();
-  bool insertAll(const Monitor& proceed);
+  bool insertAll(const Monitor& proceed, int threads);
+  bool insertRange(Index first, Index end, const Monitor& proceed);
   void findDuplicates();
 
   TetrahedronMesh Mesh;
   Uninitialised<Point3> Points;              ///< by vertex, in the order of insertion
   Uninitialised<std::uint32_t> PointIndices; ///< by vertex
   std::vector<Duplicate> Duplicates;
+  std::vector<Cavity3::Coincidence> Coincidences;
   InsertionOrder3 Order;
   Cavity3 Opened;
   int Dimension = -1;

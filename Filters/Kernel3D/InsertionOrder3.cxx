@@ -247,6 +247,7 @@ void InsertionOrder3::compute(const Point3* points, std::size_t count)
   {
     begins[round + 1] += begins[round];
   }
+  this->RoundEnds.assign(begins.begin() + 1, begins.begin() + lastRound + 2);
   std::array<std::size_t, mostRounds + 1> next = begins;
   for (std::size_t i = 0; i < count; ++i)
   {

@@ -32,6 +32,9 @@ public:
     return static_cast<std::uint32_t>(this->Entries[k]) & IndexMask;
   }
 
+  /// One past the last point of each round, among the points to insert.
+  const std::vector<std::size_t>& roundEnds() const { return this->RoundEnds; }
+
   /// Frees the memory; the order is invalid then.
   void release();
 
@@ -45,6 +48,7 @@ private:
 
   Uninitialised<std::uint64_t> Entries; ///< key and index, highest bits first
   Uninitialised<std::uint64_t> Scratch;
+  std::vector<std::size_t> RoundEnds;
 };
 
 } // namespace tipp

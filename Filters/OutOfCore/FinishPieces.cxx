@@ -59,7 +59,8 @@ void removePiece(const PieceWork& work, PartitionIndex piece)
   }
 }
 
-/// The segments near triangles, by the boxes of so many that follow each other.
+/// The segments near triangles. Looks them up by the bounding box of each run of `together`
+/// consecutive triangles.
 ConstraintSegments readNear(const PieceSegments& segments, PointsView points,
   const std::int32_t* corners, std::size_t triangles, std::size_t together)
 {
@@ -431,7 +432,7 @@ void linkCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, std::u
   std::uint64_t most = 1;
   for (const FinishedPiece& piece : pieces)
   {
-    most = std::max(most, NeighborWriter::bytesFor(piece));
+    most = std::max(most, NeighborWriter::bytesFor(mesh, piece));
   }
   NeighborWriter neighbors(mesh, pieces);
   forChunks(std::int64_t(pieces.size()), 1,

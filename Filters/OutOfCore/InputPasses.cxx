@@ -118,7 +118,16 @@ private:
   std::size_t NextInitial = 0;
 };
 
-/// In the order of PointRowLayout.
+std::vector<SpilledRows> rowsOf(const std::vector<SpilledPart>& parts)
+{
+  std::vector<SpilledRows> rows(parts.size());
+  std::transform(
+    parts.begin(), parts.end(), rows.begin(), [](const SpilledPart& part) { return part.Rows; });
+  return rows;
+}
+
+} // namespace
+
 void writeRow(const PointBlock& block, std::size_t i, char* to)
 {
   std::memcpy(to, &block.XY[2 * i], 16);
@@ -131,16 +140,6 @@ void writeRow(const PointBlock& block, std::size_t i, char* to)
   const std::int64_t id = block.First + std::int64_t(i);
   std::memcpy(to, &id, 8);
 }
-
-std::vector<SpilledRows> rowsOf(const std::vector<SpilledPart>& parts)
-{
-  std::vector<SpilledRows> rows(parts.size());
-  std::transform(
-    parts.begin(), parts.end(), rows.begin(), [](const SpilledPart& part) { return part.Rows; });
-  return rows;
-}
-
-} // namespace
 
 SpilledPart spillPart(PointStream& points, double factor, const PiecePlan& plan,
   const PointRowLayout& rows, const std::string& file, int part, std::size_t blockPoints,

@@ -22,6 +22,9 @@ namespace tipp
 class SaveArchive;
 class LoadArchive;
 
+/// Writes the row of a block's point, in the order of PointRowLayout.
+void writeRow(const PointBlock& block, std::size_t i, char* to);
+
 /// Describes a spilled part of the stream.
 struct SpilledPart
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/PieceRun.h"
 
+#include "Engine/DoneMessage.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Partitioned/GrowingPiece.h"
 
@@ -375,7 +376,7 @@ void PieceRun::receive(const Message& message)
 void PieceRun::receivePartition(const Message& message)
 {
   PartitionIndex sender = -1;
-  SentMessages sent = readDone(message.Content, this->Inboxes.size(), sender);
+  SentMessages sent = readDone<VertexMessage>(message.Content, this->Inboxes.size(), sender);
   const auto rankOf = [this](PartitionIndex p) { return this->at(this->pieceOf(p)).Rank; };
   if (rankOf(sender) != message.Source ||
     std::any_of(

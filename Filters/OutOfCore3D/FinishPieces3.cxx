@@ -72,7 +72,7 @@ void setGhosts(const PieceWork3& work, const StoredResults3& results, PieceBorde
 
 } // namespace
 
-std::uint64_t writeResult(const std::string& path, const PieceResult3& result)
+void writeResult(const std::string& path, const PieceResult3& result)
 {
   SectionFileWriter file(path);
   const PieceInterior& interior = result.Interior;
@@ -90,7 +90,7 @@ std::uint64_t writeResult(const std::string& path, const PieceResult3& result)
   {
     file.add({ MessageSection, to }, packed(message));
   }
-  return file.finish();
+  file.finish();
 }
 
 std::int64_t StoredResult3::countSent(PartitionIndex to) const

@@ -7,6 +7,7 @@
 #include "OutOfCore3D/PieceRun3.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
+#include "Partitioned/NeighborIds.h"
 
 #include <memory>
 #include <utility>
@@ -128,6 +129,11 @@ private:
       this->Mesh.Arrays.push_back({ representativeName, true, Scalar::Int64, 1, -1 });
       this->Rows.Attributes.push_back(-1);
     }
+    if (this->Options.Neighbors)
+    {
+      this->Mesh.Arrays.push_back(neighborIdsArray);
+      this->Mesh.Arrays.back().Components = 4;
+    }
   }
 
   Bounds boundsOf(const Box3& box) const
@@ -154,7 +160,7 @@ private:
   {
     const auto points = std::uint64_t(this->Plan->survey().finite());
     // Of uniform points there are 6.77 tetrahedra a point.
-    constexpr std::uint64_t cells = 7 * (16 + 4 + 1 + 8);
+    const std::uint64_t cells = 7 * (16 + 4 + 1 + 8 + (this->Options.Neighbors ? 32 : 0));
     constexpr std::uint64_t results = 100; // what pieces of 250,000 points leave for others
     this->Scratch.requireSpace(this->Path,
       points * (24 + 8 + 1 + 8 * this->Rows.Attributes.size() + cells),
@@ -188,10 +194,20 @@ private:
     numberCells(this->Mesh, this->Finished,
       [this](double done)
       {
-        this->require(0.93 + 0.05 * done);
+        this->require(0.93 + 0.02 * done);
         return true;
       });
     this->Statistics.Tetrahedra = this->Mesh.Cells;
+    if (this->Options.Neighbors)
+    {
+      linkCells(this->Mesh, this->Finished, this->Memory.PieceBytes, this->Threads,
+        [this](double done)
+        {
+          this->require(0.95 + 0.03 * done);
+          return true;
+        });
+      this->endPhase("link");
+    }
     for (std::size_t number = 0; number < this->Finished.size(); ++number)
     {
       syncToDisk(this->Mesh.piecePath(number));

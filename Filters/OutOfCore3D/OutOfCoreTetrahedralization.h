@@ -19,9 +19,13 @@ struct OutOfCoreOptions3
 {
   std::uint64_t MemoryLimit = std::uint64_t(2) << 30; ///< in bytes
   int Threads = 0;                                    ///< 0: OpenMP's choice
-  std::int64_t PiecePoints = 0; ///< about so many points a piece; 0: as memory allows
+  /// The approximate number of points of a piece; 0: as memory allows.
+  std::int64_t PiecePoints = 0;
   /// Adds the point array RepresentativePointId.
   bool MapDuplicates = false;
+  /// Adds the cell array NeighborIds: for each corner of a tetrahedron the global id of the one
+  /// across the opposite facet; -1 if there is none.
+  bool Neighbors = false;
   /// A folder on another disk for temporary files except the pieces; empty: beside the mesh.
   std::string Scratch;
   /// Called now and then with the finished fraction, by one thread at a time; false ends the run.

@@ -3,11 +3,11 @@
 
 #include "Files/IOError.h"
 #include "Kernel3D/DelaunayKernel3.h"
+#include "OutOfCore/InputPasses.h"
 #include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 namespace tipp
@@ -76,25 +76,12 @@ void requireDimension(int dimension)
 {
   constexpr const char* reasons[] = { "There is no point with finite coordinates in the input",
     "All finite points coincide", "All finite points are on one line",
-    "All finite points are in one plane, where 'tipp delaunay' makes triangles" };
+    "All finite points are in one plane" };
   if (dimension < 3)
   {
-    throw IOError(std::string(reasons[dimension + 1]) + ": there are no tetrahedra to write.");
+    throw IOError(std::string(reasons[dimension + 1]) + ": there are no tetrahedra to write" +
+      (dimension == 2 ? "; an output named .vtu or .npy gets their triangles." : "."));
   }
-}
-
-/// In the order of PointRowLayout.
-void writeRow(const PointBlock& block, std::size_t i, char* to)
-{
-  std::memcpy(to, &block.XY[2 * i], 16);
-  to += 16;
-  for (const std::vector<double>& column : block.Columns)
-  {
-    std::memcpy(to, &column[i], 8);
-    to += 8;
-  }
-  const std::int64_t id = block.First + std::int64_t(i);
-  std::memcpy(to, &id, 8);
 }
 
 } // namespace
@@ -116,8 +103,8 @@ MemoryPlan3::MemoryPlan3(std::uint64_t limit, std::int64_t piecePoints, std::siz
   this->SamplePoints =
     std::clamp<std::size_t>(std::size_t(limit / 512), std::size_t(1) << 14, std::size_t(1) << 20);
   this->PieceBytes = limit / 5 * 4;
-  // So many at the same time; never mind the threads, so that the pieces are the same for any
-  // number of them. Larger pieces would gain little.
+  // Four pieces fit into memory together, whatever the number of threads: so the pieces are the
+  // same for any number of them. Larger pieces than the most would gain little.
   constexpr std::uint64_t together = 4;
   constexpr std::int64_t unit = 1024;
   const std::uint64_t most = this->PieceBytes / together / bytesOf(unit, unit / 3, words) * unit;

@@ -9,6 +9,7 @@
 #include "Points/PointStream.h"
 #include "Triangulation3D/InitialMesh3.h"
 #include "Triangulation3D/Tiling3.h"
+#include "vtkTIPPFiltersModule.h"
 
 #include <array>
 #include <cstddef>
@@ -22,15 +23,15 @@ namespace tipp
 {
 
 /// How the memory limit is divided.
-struct MemoryPlan3
+struct VTKTIPPFILTERS_EXPORT MemoryPlan3
 {
-  /// `limit` in bytes; `piecePoints`: about so many points a piece, 0: as memory allows; `words`:
-  /// of a point's row.
+  /// `limit` in bytes; `piecePoints`: the approximate number of points of a piece, 0: as memory
+  /// allows; `words`: of a point's row.
   MemoryPlan3(std::uint64_t limit, std::int64_t piecePoints, std::size_t words);
 
   std::size_t BlockPoints;  ///< read at a time
   std::size_t SamplePoints; ///< at least, of the survey
-  std::int64_t PiecePoints; ///< about
+  std::int64_t PiecePoints; ///< of a piece, approximately
   std::uint64_t PieceBytes; ///< of pieces that are triangulated at the same time
 
   /// Bytes of a piece of `points` points while it is triangulated, with `others` vertices of other
@@ -74,7 +75,7 @@ struct InitialPoint3
 ///
 /// Points are surveyed in one pass (one more where coordinates may have to be scaled) and spilled
 /// in another one. Results do not depend on the number of threads.
-class PiecePlan3
+class VTKTIPPFILTERS_EXPORT PiecePlan3
 {
 public:
   using Progress = std::function<void(std::int64_t)>; ///< of points done; it throws to end the run

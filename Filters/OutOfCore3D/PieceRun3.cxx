@@ -123,11 +123,8 @@ bool PieceRun3::run(StoredResults3& results)
 {
   const PiecePlan3& plan = this->Work.Plan;
   results.resize(std::size_t(plan.pieces()));
-  std::vector<char> isUsed;
-  for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
-  {
-    isUsed.push_back(plan.count(piece) > 0 ? 1 : 0);
-  }
+  // Every piece has points: its box was cut around points of the sample.
+  const std::vector<char> isUsed(results.size(), 1);
   if (plan.pieces() == 1)
   {
     this->Initial.resize(1);
@@ -141,25 +138,11 @@ bool PieceRun3::run(StoredResults3& results)
   return !this->IsStopped;
 }
 
-/// Each piece that has points has a share of the points of the sample, so all have points.
 void PieceRun3::makePieces(StoredResults3& results, const PartitionOrder& order)
 {
   this->Order = &order;
   this->Results = &results;
-  std::vector<char> isToDo;
-  for (const auto& result : results)
-  {
-    isToDo.push_back(result ? 0 : 1);
-  }
-  ReadyPartitions ready(order, ReadyPartitions::Waits::ForEarlier, isToDo);
-  for (PartitionIndex piece = 0; piece < this->Work.Plan.pieces(); ++piece)
-  {
-    if (isToDo[std::size_t(piece)] == 0)
-    {
-      this->PointsDone += this->Work.Plan.count(piece);
-      ready.finish(piece);
-    }
-  }
+  ReadyPartitions ready(order, ReadyPartitions::Waits::ForEarlier);
 #pragma omp parallel num_threads(this->Threads)
   {
     try

@@ -10,6 +10,7 @@
 #include "Partitioned/GrowingPiece.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Triangulation3D/Dataflow3.h"
+#include "vtkTIPPFiltersModule.h"
 
 #include <condition_variable>
 #include <cstdint>
@@ -42,7 +43,7 @@ using BordersByOwner3 = std::map<PartitionIndex, BorderCells3>;
 
 /// Adds a tetrahedron to those of the piece that owns it: of all that the tetrahedron meets, the
 /// first in the mesh. The others borrow it.
-class BorderSorter3
+class VTKTIPPFILTERS_EXPORT BorderSorter3
 {
 public:
   explicit BorderSorter3(const PiecePlan3& plan)
@@ -73,19 +74,17 @@ struct PieceResult3
   SentMessages3 Sent;
 };
 
-/// Returns the file's bytes. Throws IOError.
-std::uint64_t writeResult(const std::string& path, const PieceResult3& result);
+/// Throws IOError.
+VTKTIPPFILTERS_EXPORT void writeResult(const std::string& path, const PieceResult3& result);
 
 /// A result on disk, read by parts. Throws IOError for what is damaged or missing.
-class StoredResult3
+class VTKTIPPFILTERS_EXPORT StoredResult3
 {
 public:
   explicit StoredResult3(const std::string& path)
     : File(path)
   {
   }
-
-  void verify() const { this->File.verify(); }
 
   /// About how many vertices a piece is sent; 0: none.
   std::int64_t countSent(PartitionIndex to) const;
@@ -105,15 +104,14 @@ using StoredResults3 = std::vector<std::unique_ptr<StoredResult3>>;
 
 /// Loads pieces, triangulates them by threads, as many at a time as there is memory for, and writes
 /// what comes of each.
-class PieceRun3
+class VTKTIPPFILTERS_EXPORT PieceRun3
 {
 public:
   /// `progress` is told how many points are done, by one thread at a time; false ends the run.
   PieceRun3(const PieceWork3& work, const MemoryPlan3& memory, int threads,
     std::function<bool(std::int64_t)> progress);
 
-  /// `results`: of pieces that are done already, by piece; gets those of all others. Returns false
-  /// if progress ended it. Throws IOError.
+  /// Sets the results of all pieces. Returns false if progress ended it. Throws IOError.
   bool run(StoredResults3& results);
 
 private:
@@ -146,8 +144,9 @@ private:
 /// adds the borders to the interiors. A piece's file is complete then, except for the global ids of
 /// cells. Returns the pieces by their numbers in the mesh; an empty list if `report` ended it.
 /// `limit`: bytes that the hull repair may take. Throws IOError.
-std::vector<FinishedPiece> finishPieces(const PieceWork3& work, const StoredResults3& results,
-  std::uint64_t limit, int threads, const Report& report, PieceFigures& figures);
+VTKTIPPFILTERS_EXPORT std::vector<FinishedPiece> finishPieces(const PieceWork3& work,
+  const StoredResults3& results, std::uint64_t limit, int threads, const Report& report,
+  PieceFigures& figures);
 
 } // namespace tipp
 

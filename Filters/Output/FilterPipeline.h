@@ -66,7 +66,7 @@ int runReported(vtkAlgorithm* filter, const std::string& what,
 /// that `outInfo` requests, if any. Returns null if the input fails.
 vtkDataObject* updatedInput(vtkAlgorithm* filter, int rank, int ranks, vtkInformation* outInfo);
 
-/// Requests a piece of a filter's input, of structured data the whole.
+/// Requests a piece of a filter's input; for structured data, the whole extent.
 void askForPiece(vtkInformation* inInfo, int piece, int pieces);
 
 /// The executive of a filter whose ranks execute together. If the upstream pipeline fails on one

@@ -35,13 +35,14 @@ FigureList phasesOf(
       column("seconds", seconds, phases, &Phase::Seconds) } };
 }
 
-FigureList ranksOf(const std::vector<RankStatistics>& ranks)
+/// `key` and `array`: the names of the triangles or tetrahedra.
+FigureList ranksOf(const std::vector<RankStatistics>& ranks, const char* key, const char* array)
 {
   using Rank = RankStatistics;
   return { "ranks", false,
     { column("input_points", "", ranks, &Rank::InputPoints),
       column("owned_points", "RankOwnedPoints", ranks, &Rank::OwnedPoints),
-      column("triangles", "RankTriangles", ranks, &Rank::Triangles),
+      column(key, array, ranks, &Rank::Triangles),
       column("partitions", "", ranks, &Rank::Partitions),
       column("worker_vertices", "", ranks, &Rank::WorkerVertices),
       column("exchange_seconds", "", ranks, &Rank::ExchangeSeconds),
@@ -179,7 +180,7 @@ RunStatistics statisticsOf(const OutOfCoreStatistics3& statistics)
 RunStatistics statisticsOf(const DistributedTriangulation& mine)
 {
   const DistributedStatistics& statistics = mine.Statistics;
-  // Only a master of the whole domain is in the table.
+  // The table only has the master of the whole domain.
   const bool hasMaster = !statistics.Masters.empty() && statistics.Masters.front().Area == 0;
   const MasterStatistics master = hasMaster ? statistics.Masters.front() : MasterStatistics();
   RunStatistics run;
@@ -194,9 +195,25 @@ RunStatistics statisticsOf(const DistributedTriangulation& mine)
   run.add("", "LargestMasterMesh", master.LargestMesh);
   run.Totals.push_back({ "", "MasterSeconds", std::vector<double>{ master.Seconds } });
   FigureList stages = stagesOf(master.Stages);
-  stages.Key.clear(); // JSON has each master's
-  run.Lists = { ranksOf(statistics.Ranks), mastersOf(statistics.Masters),
-    trafficOf(statistics.Traffic), std::move(stages) };
+  stages.Key.clear(); // JSON has the stages of each master
+  run.Lists = { ranksOf(statistics.Ranks, "triangles", "RankTriangles"),
+    mastersOf(statistics.Masters), trafficOf(statistics.Traffic), std::move(stages) };
+  return run;
+}
+
+RunStatistics statisticsOf(const DistributedTetrahedralization& mine)
+{
+  const DistributedStatistics& statistics = mine.Statistics;
+  RunStatistics run;
+  run.add("points", "Points", mine.AllPoints);
+  run.add("tetrahedra", "Tetrahedra", mine.AllCells);
+  run.add("duplicates", "DuplicatePoints", mine.AllDuplicates);
+  run.add("rejected", "RejectedPoints", mine.AllRejected);
+  run.Totals.push_back({ "seconds", "", std::vector<double>{ statistics.Seconds } });
+  run.add("threads_per_rank", "Threads", statistics.ThreadsPerRank);
+  run.add("partitions", "Partitions", statistics.Partitions);
+  run.Lists = { ranksOf(statistics.Ranks, "tetrahedra", "RankTetrahedra"),
+    trafficOf(statistics.Traffic) };
   return run;
 }
 
@@ -259,6 +276,21 @@ std::vector<std::string> warningsOf(const DistributedTriangulation& mine)
   {
     warnings.emplace_back("No triangles: all ranks together have fewer than three distinct finite "
                           "points, or all are on one line.");
+  }
+  return warnings;
+}
+
+std::vector<std::string> warningsOf(const DistributedTetrahedralization& mine)
+{
+  std::vector<std::string> warnings;
+  if (mine.AllRejected > 0)
+  {
+    warnings.push_back(std::to_string(mine.AllRejected) + " of " + std::to_string(mine.AllPoints) +
+      " points have a NaN or infinite coordinate and are in no tetrahedron.");
+  }
+  if (mine.Dimension < 3)
+  {
+    warnings.push_back(describeDimension(mine.Dimension));
   }
   return warnings;
 }

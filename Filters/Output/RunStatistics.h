@@ -4,6 +4,7 @@
 
 #include "Constraints/ResolveCrossings.h"
 #include "Distributed/DistributedTriangulation.h"
+#include "Distributed3D/DistributedTetrahedralization.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "OutOfCore3D/OutOfCoreTetrahedralization.h"
 #include "Triangulation/Triangulate.h"
@@ -15,7 +16,7 @@
 #include <variant>
 #include <vector>
 
-class vtkPolyData;
+class vtkDataObject;
 class vtkTable;
 
 namespace tipp
@@ -25,8 +26,8 @@ namespace tipp
 /// (Array); an empty name leaves them out there.
 struct Figures
 {
-  std::string Key;
-  std::string Array;
+  std::string Key;   ///< name in JSON and Python
+  std::string Array; ///< name in VTK tables
   std::variant<std::vector<bool>, std::vector<std::int64_t>, std::vector<std::uint64_t>,
     std::vector<double>, std::vector<std::string>>
     Values;
@@ -35,7 +36,7 @@ struct Figures
 /// The phases, stages or ranks of a run: columns of equal length.
 struct FigureList
 {
-  std::string Key;
+  std::string Key;      ///< name of the list in JSON and Python
   bool IsTable = false; ///< columns of the VTK table; else arrays of its field data
   std::vector<Figures> Columns;
 };
@@ -63,6 +64,7 @@ VTKTIPPFILTERS_EXPORT RunStatistics statisticsOf(
   const OutOfCoreStatistics& statistics, bool isCounted);
 VTKTIPPFILTERS_EXPORT RunStatistics statisticsOf(const OutOfCoreStatistics3& statistics);
 VTKTIPPFILTERS_EXPORT RunStatistics statisticsOf(const DistributedTriangulation& mine);
+VTKTIPPFILTERS_EXPORT RunStatistics statisticsOf(const DistributedTetrahedralization& mine);
 ///@}
 
 /// Adds the numbers of constraints, their edges, and crossings.
@@ -79,6 +81,8 @@ VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(
   const Triangulation& triangulation, std::int64_t points, bool longEdgesLeftOut);
 VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(const OutOfCoreStatistics& statistics);
 std::vector<std::string> warningsOf(const DistributedTriangulation& mine);
+VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(
+  const DistributedTetrahedralization& mine);
 ///@}
 
 /// Fills the empty table: the rows of the statistics' table, and all else as field data. The
@@ -86,7 +90,8 @@ std::vector<std::string> warningsOf(const DistributedTriangulation& mine);
 void fillStatisticsTable(const RunStatistics& statistics, vtkTable* table);
 
 /// Adds the duplicates and rejected points found on this rank as field data, by global ids.
-void addAccounts(const DistributedTriangulation& mine, vtkPolyData* output);
+void addAccounts(const std::vector<Duplicate>& duplicates, const std::vector<PointId>& rejected,
+  vtkDataObject* output);
 
 } // namespace tipp
 

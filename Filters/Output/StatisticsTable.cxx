@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Output/RunStatistics.h"
 
+#include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
-#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
@@ -80,11 +80,12 @@ void fillStatisticsTable(const RunStatistics& statistics, vtkTable* table)
   }
 }
 
-void addAccounts(const DistributedTriangulation& mine, vtkPolyData* output)
+void addAccounts(const std::vector<Duplicate>& duplicates, const std::vector<PointId>& rejected,
+  vtkDataObject* output)
 {
   std::vector<PointId> points;
   std::vector<PointId> representatives;
-  for (const Duplicate& duplicate : mine.Duplicates)
+  for (const Duplicate& duplicate : duplicates)
   {
     points.push_back(duplicate.Point);
     representatives.push_back(duplicate.Representative);
@@ -92,7 +93,7 @@ void addAccounts(const DistributedTriangulation& mine, vtkPolyData* output)
   vtkFieldData* const data = output->GetFieldData();
   data->AddArray(makeArray<vtkIdTypeArray>("DuplicatePointIds", points));
   data->AddArray(makeArray<vtkIdTypeArray>("DuplicateRepresentativeIds", representatives));
-  data->AddArray(makeArray<vtkIdTypeArray>("RejectedPointIds", mine.Rejected));
+  data->AddArray(makeArray<vtkIdTypeArray>("RejectedPointIds", rejected));
 }
 
 } // namespace tipp

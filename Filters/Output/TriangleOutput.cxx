@@ -3,6 +3,7 @@
 
 #include "Constraints/CrossedPart.h"
 #include "Meshes/MeshFiles.h"
+#include "Output/PiecePoints.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -139,7 +140,7 @@ std::vector<PointRows::Column> columnsOf(vtkPointSet* input)
   return columns;
 }
 
-/// A rank's points, or what all ranks' points have in common.
+/// The properties of a rank's points, or those that all ranks' points have in common.
 struct PointKinds
 {
   bool HasPoints = false;
@@ -212,7 +213,7 @@ PointRows::PointRows(Communicator& ranks, vtkPointSet* input)
   }
 }
 
-void PointRows::describe(RankPoints& points) const
+void PointRows::describe(RankPointData& points) const
 {
   points.GlobalIds = this->GlobalIds.empty() ? nullptr : this->GlobalIds.data();
   points.RowSize = 3 * sizeof(double);
@@ -238,155 +239,11 @@ void PointRows::describe(RankPoints& points) const
 namespace
 {
 
-/// The sources of a piece's points, in the order of its points.
-class PiecePoints
-{
-public:
-  PiecePoints(const DistributedTriangulation& mine, int rank, const GhostTriangles* ghosts)
-    : Mine(mine)
-    , Ghosts(ghosts)
-    , FirstOwn(mine.FirstIds[std::size_t(rank)])
-    , Indices(mine.Owned.size() + mine.Foreign.size(), -1)
-  {
-    const auto mark = [this](const auto& ids)
-    {
-      for (const auto index : ids)
-      {
-        this->Indices[std::size_t(index)] = 0;
-      }
-    };
-    mark(mine.Ids32);
-    mark(mine.Ids64);
-    if (ghosts)
-    {
-      for (const IdTriangle& triangle : ghosts->Triangles)
-      {
-        for (const std::int64_t id : triangle)
-        {
-          const std::ptrdiff_t index = this->localIndexOf(id);
-          if (index >= 0)
-          {
-            this->Indices[std::size_t(index)] = 0;
-          }
-        }
-      }
-    }
-    for (std::int64_t& index : this->Indices)
-    {
-      index = index < 0 ? -1 : this->Count++;
-    }
-  }
-
-  std::int64_t count() const
-  {
-    return this->Count + (this->Ghosts ? std::int64_t(this->Ghosts->PointIds.size()) : 0);
-  }
-  std::int64_t ofLocalIndex(std::size_t index) const { return this->Indices[index]; }
-  std::int64_t ofId(std::int64_t id) const
-  {
-    const std::ptrdiff_t index = this->localIndexOf(id);
-    return index >= 0 ? this->Indices[std::size_t(index)]
-                      : this->Count + rankOf(this->Ghosts->PointIds, id);
-  }
-
-  /// Calls visit(point index in the piece, tuples, index in tuples, whether this rank owns the
-  /// point).
-  template <typename Visit>
-  void forEach(Visit&& visit) const
-  {
-    const std::size_t own = this->Mine.Owned.size();
-    for (std::size_t i = 0; i < this->Indices.size(); ++i)
-    {
-      if (this->Indices[i] >= 0)
-      {
-        const bool isOwn = i < own;
-        visit(this->Indices[i], isOwn ? this->Mine.Owned : this->Mine.Foreign, isOwn ? i : i - own,
-          isOwn);
-      }
-    }
-    for (std::size_t i = 0; this->Ghosts && i < this->Ghosts->PointIds.size(); ++i)
-    {
-      visit(this->Count + std::int64_t(i), this->Ghosts->Points, i, false);
-    }
-  }
-
-private:
-  static std::ptrdiff_t rankOf(const std::vector<std::int64_t>& ids, std::int64_t id)
-  {
-    return std::lower_bound(ids.begin(), ids.end(), id) - ids.begin();
-  }
-  /// The index of an internal id among owned and then foreign points, or -1.
-  std::ptrdiff_t localIndexOf(std::int64_t id) const
-  {
-    const std::ptrdiff_t own = std::ptrdiff_t(this->Mine.Owned.size());
-    if (id >= this->FirstOwn && id < this->FirstOwn + own)
-    {
-      return std::ptrdiff_t(id - this->FirstOwn);
-    }
-    const std::ptrdiff_t at = rankOf(this->Mine.ForeignIds, id);
-    const bool found = at < std::ptrdiff_t(this->Mine.ForeignIds.size()) &&
-      this->Mine.ForeignIds[std::size_t(at)] == id;
-    return found ? own + at : -1;
-  }
-
-  const DistributedTriangulation& Mine;
-  const GhostTriangles* Ghosts;
-  const std::int64_t FirstOwn;
-  std::vector<std::int64_t> Indices; ///< of owned, then foreign points: index in the piece, or -1
-  std::int64_t Count = 0;
-};
-
-void fillPoints(const PiecePoints& piece, const PointRows& rows, std::size_t rowSize,
-  bool withGhosts, vtkPolyData* output)
-{
-  const vtkIdType count = vtkIdType(piece.count());
-  vtkNew<vtkPoints> points;
-  points->SetDataType(rows.areDoubles() ? VTK_DOUBLE : VTK_FLOAT);
-  points->SetNumberOfPoints(count);
-  vtkNew<vtkIdTypeArray> ids;
-  ids->SetName("GlobalPointIds");
-  ids->SetNumberOfValues(count);
-  vtkNew<vtkUnsignedCharArray> ghost;
-  ghost->SetName(vtkDataSetAttributes::GhostArrayName());
-  ghost->SetNumberOfValues(count);
-  std::vector<char*> values;
-  for (const PointRows::Column& column : rows.columns())
-  {
-    auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(column.Type));
-    array->SetName(column.Name.c_str());
-    array->SetNumberOfComponents(column.Components);
-    array->SetNumberOfTuples(count);
-    output->GetPointData()->AddArray(array);
-    values.push_back(static_cast<char*>(array->GetVoidPointer(0)));
-  }
-  piece.forEach(
-    [&](std::int64_t to, const PointTuples& tuples, std::size_t at, bool isOwn)
-    {
-      const char* row = tuples.Rows.data() + at * rowSize;
-      double position[3];
-      std::memcpy(position, row, sizeof(position));
-      row += sizeof(position);
-      points->SetPoint(to, position);
-      ids->SetValue(to, tuples.GlobalIds[at]);
-      ghost->SetValue(to, isOwn ? 0 : vtkDataSetAttributes::DUPLICATEPOINT);
-      for (std::size_t c = 0; c < values.size(); ++c)
-      {
-        const std::size_t size = rows.columns()[c].Size;
-        std::memcpy(values[c] + std::size_t(to) * size, row, size);
-        row += size;
-      }
-    });
-  output->SetPoints(points);
-  output->GetPointData()->SetGlobalIds(ids);
-  if (withGhosts)
-  {
-    output->GetPointData()->AddArray(ghost);
-  }
-}
+using TrianglePoints = PiecePoints<DistributedTriangulation, GhostTriangles>;
 
 /// "ConstraintEdges" of triangles, as constraintEdgesArray() makes it.
-vtkSmartPointer<vtkUnsignedCharArray> marksOf(
-  const PiecePoints& piece, const ConstraintSegments& segments, const Buffer<std::int64_t>& corners)
+vtkSmartPointer<vtkUnsignedCharArray> marksOf(const TrianglePoints& piece,
+  const ConstraintSegments& segments, const Buffer<std::int64_t>& corners)
 {
   std::vector<Point2> positions(std::size_t(piece.count()));
   piece.forEach([&](std::int64_t to, const PointTuples& tuples, std::size_t at, bool)
@@ -400,8 +257,8 @@ vtkSmartPointer<vtkUnsignedCharArray> marksOf(
   return marks;
 }
 
-void setLines(
-  const PiecePoints& piece, const ConstraintLines& lines, vtkIdType triangles, vtkPolyData* output)
+void setLines(const TrianglePoints& piece, const ConstraintLines& lines, vtkIdType triangles,
+  vtkPolyData* output)
 {
   Buffer<std::int64_t> ends(2 * lines.Ends.size());
   std::int64_t* to = ends.data();
@@ -424,10 +281,10 @@ void setLines(
 void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& rows,
   const GhostTriangles* ghosts, const PieceMarks& marks, vtkPolyData* output)
 {
-  const PiecePoints piece(mine, rank, ghosts);
+  const TrianglePoints piece(mine, rank, ghosts);
   fillPoints(piece, rows, mine.RowSize, ghosts != nullptr, output);
   const std::size_t own = mine.triangleCount();
-  const std::size_t more = ghosts ? ghosts->Triangles.size() : 0;
+  const std::size_t more = ghosts ? ghosts->Cells.size() : 0;
   const std::size_t lines = marks.Lines ? marks.Lines->Ends.size() : 0;
   Buffer<std::int64_t> corners(3 * (own + more));
   std::int64_t* to = corners.data();
@@ -440,7 +297,7 @@ void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& 
   };
   add(mine.Ids32);
   add(mine.Ids64);
-  vtkNew<vtkIdTypeArray> numbers; // lines come first as cells, but after all triangles by number
+  vtkNew<vtkIdTypeArray> numbers; // lines are the first cells but get ids after all triangles
   numbers->SetName("GlobalCellIds");
   numbers->SetNumberOfValues(vtkIdType(lines + own + more));
   vtkIdType* number = numbers->GetPointer(0);
@@ -455,7 +312,7 @@ void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& 
   for (std::size_t i = 0; i < more; ++i)
   {
     *number++ = vtkIdType(ghosts->Numbers[i]);
-    for (const std::int64_t id : ghosts->Triangles[i])
+    for (const std::int64_t id : ghosts->Cells[i])
     {
       *to++ = piece.ofId(id);
     }

@@ -64,7 +64,7 @@ public:
   bool areDoubles() const { return this->Doubles; }
 
   /// Sets the ids and rows of `points`, which refer to this object and are valid while it exists.
-  void describe(RankPoints& points) const;
+  void describe(RankPointData& points) const;
 
 private:
   std::vector<Column> Columns;
@@ -75,11 +75,11 @@ private:
   bool Doubles = false;
 };
 
-/// How a piece shows constraints; null: not.
+/// How a piece marks constraints. A null member: not in this way.
 struct PieceMarks
 {
-  const ConstraintSegments* Flags = nullptr; ///< by the array ConstraintEdges
-  const ConstraintLines* Lines = nullptr;    ///< before the triangles, and the array ConstraintId
+  const ConstraintSegments* Flags = nullptr; ///< marks them by the array ConstraintEdges
+  const ConstraintLines* Lines = nullptr;    ///< as lines, and the array ConstraintId
 };
 
 /// Fills `output` with a rank's triangles: the points that they use with their data, and global ids

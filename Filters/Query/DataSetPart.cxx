@@ -26,16 +26,16 @@ namespace tipp
 namespace
 {
 
-/// All that a part of a data set refers to.
+/// Owns everything that a MeshPart of a data set refers to.
 struct Kept
 {
   vtkSmartPointer<vtkPointSet> Mesh;
   SimplexParts Simplices;
   std::vector<vtkSmartPointer<vtkDataArray>> Arrays;
-  std::vector<std::int64_t> CellIds; ///< of simplices that cells were cut into
+  std::vector<std::int64_t> CellIds; ///< cell of each simplex that cells were divided into
 };
 
-/// With contiguous tuples.
+/// Returns the array, or a copy if its tuples are not contiguous; `kept` holds a reference.
 vtkDataArray* keep(vtkDataArray* array, Kept& kept)
 {
   vtkSmartPointer<vtkDataArray> plain = array;

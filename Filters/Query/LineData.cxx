@@ -33,7 +33,7 @@ vtkSmartPointer<vtkPoints> pointsOf(const std::vector<Point3>& positions)
   return points;
 }
 
-/// A line for each list of successive points.
+/// Creates a line for each list of successive points.
 vtkSmartPointer<vtkPolyData> linesOf(
   const std::vector<Point3>& positions, const std::vector<std::int64_t>& starts, bool isClosed)
 {

@@ -15,25 +15,26 @@
 namespace tipp
 {
 
-/// A line for each loop, closed; the points have "GlobalPointIds" as VTK's global ids.
+/// A closed line for each loop; the points have "GlobalPointIds" as VTK's global ids.
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(const BoundaryLoops& loops);
 
-/// The lines with their levels as a cell array of that name.
+/// The lines, with their levels as a cell array called `name`.
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(
   const Contours& contours, const std::string& name);
 
-/// The lines that have points, with "StartId", their number, and "PitId" as cell arrays and the
-/// values as a point array of that name.
+/// The lines that have points, with the cell arrays "StartId" (the line's index) and "PitId", and
+/// the values as a point array called `name`.
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(
   const Descents& descents, const std::string& name);
 
-/// One line with the point arrays "Distance", "CellId" and those of the answer, which it takes.
+/// One line with the point arrays "Distance", "CellId" and those of the profile, whose memory it
+/// takes over.
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(Profile&& profile);
 
 /// The points as vertices with the arrays of the answer, "CellId", "AskingRank" and "AskingId".
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(StayingAnswer&& answer);
 
-/// An array with the values of an answer, in their memory.
+/// Creates an array that takes over the memory of an answer's values.
 vtkSmartPointer<vtkDataArray> takeOver(MeshAnswer::Array& values);
 
 } // namespace tipp

@@ -17,7 +17,7 @@
 namespace tipp
 {
 
-/// The points that at(i, p) writes to p.
+/// Collects `count` points; at(i, p) writes point i to p.
 template <typename At>
 std::vector<Point3> collected(vtkIdType count, const At& at)
 {

@@ -66,7 +66,7 @@ char* bytesOf(const SampledImage::Array& array)
   return static_cast<char*>(array.Samples->GetVoidPointer(0));
 }
 
-/// What all ranks know of each rank.
+/// What every rank knows about another rank's samples.
 struct RankNote
 {
   ImageExtent Local;
@@ -289,7 +289,7 @@ private:
   int Rank;
   int Dimension = 0;
   std::vector<RankNote> Notes;
-  std::vector<std::vector<std::string>> Has; ///< by rank: the names of its arrays
+  std::vector<std::vector<std::string>> Has; ///< by rank: the names of the arrays that it has
 };
 
 } // namespace

@@ -60,7 +60,8 @@ private:
   int Piece = 0;
   bool AddsElevation = false; ///< the elevation array is added to each mesh
   bool HasOwnElevation = false;
-  tipp::HeightRange Heights; ///< of the meshes with an added elevation, for several pieces
+  tipp::HeightRange
+    Heights; ///< with several pieces: z range of the meshes whose elevation was added
   bool Stopped = false;
   bool WantsAll = true; ///< the whole image, not a part
   std::exception_ptr Problem;

@@ -30,13 +30,14 @@ struct SamplingSettings
 {
   std::function<bool(bool ofCells, const std::string& name)> Selected;
   std::vector<int> Axes = { 0, 1 }; ///< the two axes of the plane that triangles are sampled in
-  double NullValue = 0;
-  std::optional<double> NoData; ///< cells with such a corner yield no value
+  double NullValue = 0;             ///< value of samples outside of all cells
+  std::optional<double> NoData;     ///< cells with such a corner yield no value
   DeviceChoice Device;
   int Threads = 1;
   bool Merging = false; ///< several meshes are added, on this or other ranks
 };
 
+/// Counts and wall-clock times of sampling on this rank.
 struct SamplingStatistics
 {
   ClaimStatistics Claims;
@@ -69,7 +70,7 @@ public:
   bool add(vtkPointSet* mesh, const Report& progress);
 
   const Lattice& lattice() const { return this->Grid; }
-  int dimension() const { return this->Dimension; } ///< of the cells; 0: no cells so far
+  int dimension() const { return this->Dimension; } ///< dimension of the cells; 0: no cells so far
   std::vector<Array>& arrays() { return this->Arrays; }
   const std::vector<Array>& arrays() const { return this->Arrays; }
   const SamplingStatistics& statistics() const { return this->Statistics; }
@@ -117,7 +118,7 @@ private:
   vtkNew<vtkCharArray> Mask;
   std::unique_ptr<CellKey[]> Keys;
   SamplingStatistics Statistics;
-  std::set<std::string> Names[2]; ///< of points and of cells
+  std::set<std::string> Names[2]; ///< names of point arrays and of cell arrays
   std::vector<std::string> Warnings;
 };
 
@@ -139,11 +140,12 @@ void refuseTooLarge(const Lattice& local, const Lattice& wanted, bool exchanging
 /// valid samples.
 std::int64_t fillImage(SampledImage& samples, int threads, vtkImageData* image);
 
+/// The statistics of a run of the filter.
 struct SamplingReport
 {
   SamplingStatistics Statistics;
-  std::int64_t Samples = 0;
-  std::int64_t Hits = 0;
+  std::int64_t Samples = 0; ///< samples of this rank's output
+  std::int64_t Hits = 0;    ///< those of them that lie in a cell
   int Threads = 1;
   double ExchangeSeconds = 0;
   double OutputSeconds = 0;

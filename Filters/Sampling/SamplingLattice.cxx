@@ -35,8 +35,7 @@ std::array<int, 3> chosenDimensions(
   {
     if (dimensions[axis] == 0)
     {
-      const bool one =
-        (axis == 2 && surfaces) || !(*step > 0); // invalid bounds are reported later on
+      const bool one = (axis == 2 && surfaces) || !(*step > 0); // invalid bounds are reported later
       const double steps = one ? 0 : std::max(std::round(length(axis) / *step), 0.0);
       if (!(steps < std::numeric_limits<int>::max()))
       {

@@ -3,6 +3,7 @@
 #define tippSamplingLattice_h
 
 #include "Resample/Lattice.h"
+#include "vtkTIPPFiltersModule.h"
 
 #include <array>
 #include <vector>
@@ -12,7 +13,7 @@ namespace tipp
 
 /// Returns `dimensions` with each 0 replaced by the number of samples that gives the spacing of the
 /// first axis with a number; by 1 along z for surfaces. Throws std::runtime_error if all are 0.
-std::array<int, 3> chosenDimensions(
+VTKTIPPFILTERS_EXPORT std::array<int, 3> chosenDimensions(
   const std::array<double, 6>& bounds, std::array<int, 3> dimensions, bool surfaces);
 
 /// Returns the number of samples along each axis of a range: from the spacing `delta` if it is

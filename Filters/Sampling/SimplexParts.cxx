@@ -29,8 +29,8 @@ namespace tipp
 namespace
 {
 
-/// Cuts convex cells into simplices by "pulling" the lexicographically least corner: every face is
-/// triangulated from its own least corner, so that both cells at a face agree. As in Dompierre,
+/// Divides convex cells into simplices by "pulling" the lexicographically least corner: every face
+/// is triangulated from its own least corner, so that both cells at a face agree. As in Dompierre,
 /// Labbe, Vallet, Camarero, How to Subdivide Pyramids, Prisms and Hexahedra into Tetrahedra, 1999,
 /// with coordinates instead of vertex numbers.
 class CellPulling
@@ -183,7 +183,7 @@ vtkCellArray* uniformCells(vtkPointSet* mesh, int type)
     {
       return nullptr;
     }
-    // Compares each byte with the next one, the fastest way for many bytes.
+    // Compares each byte with the next one, which is fastest for many bytes.
     const unsigned char* const begin = types->GetPointer(0);
     const std::size_t pairs = std::size_t(types->GetNumberOfValues()) - 1;
     const bool uniform = *begin == type && std::memcmp(begin, begin + 1, pairs) == 0;

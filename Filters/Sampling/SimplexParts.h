@@ -20,7 +20,7 @@ namespace tipp
 /// possible; the data set must outlive it.
 struct SimplexSet
 {
-  SimplexMesh Mesh;
+  SimplexMesh Mesh; ///< a view of the simplices; its Ids and Hidden are owned by the members below
   std::vector<std::int64_t> Ids;     ///< the array behind Mesh.Ids if cells were cut
   PlainIds Stored;                   ///< the array behind Mesh.Ids if no cell was cut
   std::vector<std::int64_t> Parents; ///< cell of each simplex; empty: the same index

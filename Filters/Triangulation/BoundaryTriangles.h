@@ -34,17 +34,17 @@ public:
   }
 
 private:
-  std::vector<PartitionIndex> Members; ///< of all sets, concatenated
+  std::vector<PartitionIndex> Members; ///< partitions of all sets, concatenated
   std::vector<std::size_t> Ends;       ///< one past each set's last entry in Members
   std::unordered_multimap<std::uint64_t, std::uint32_t> ByHash; ///< numbers
   std::uint32_t Last = 0; ///< the number returned last, often repeated
 };
 
-/// A vertex with the data that any worker needs. A boundary triangle is a triangle that is not
-/// interior to one partition.
+/// A vertex of a boundary triangle, with the data that a worker needs. A boundary triangle is a
+/// triangle that is not interior to one partition.
 struct BoundaryVertex
 {
-  Point2 Position;
+  Point2 Position;          ///< coordinates of the vertex
   std::int64_t Id;          ///< the input point's id; negative for artificial points
   PartitionIndex Partition; ///< the partition that contains it
   std::int32_t Padding = 0; ///< so that all bytes of a message are defined
@@ -75,8 +75,8 @@ struct BoundaryTriangles
   using Corners = std::array<std::uint32_t, 3>; ///< indices into Vertices
 
   std::vector<BoundaryVertex> Vertices; ///< each once; some may belong to no triangle
-  std::vector<Corners> Triangles;
-  std::vector<std::uint32_t> SetOf; ///< by triangle: its set's number in Sets
+  std::vector<Corners> Triangles;       ///< counter-clockwise
+  std::vector<std::uint32_t> SetOf;     ///< by triangle: its set's number in Sets
   PartitionSets Sets;
   /// The pairs of different sets of triangles with a common edge. Only triangulateVertices() fills
   /// it.
@@ -125,12 +125,13 @@ std::vector<BoundaryVertex> chooseInitialPoints(
 BoundaryTriangles triangulateVertices(
   const Regions& regions, const std::vector<BoundaryVertex>& vertices, int threads);
 
-/// Whether partitioning pays. If circumdisks meet many partitions each (points on a circle or a
-/// parabola, or on a line with one beside it: 3.5 and more partitions each, by measurement), every
-/// worker would get nearly all vertices. Ordinary points give 1.5 to 2.8. Triangles that meet no
-/// partition do not count.
+/// Whether partitioning pays off. If each circumdisk meets many partitions, every worker would get
+/// nearly all vertices. By measurement circumdisks meet 3.5 or more partitions on average for
+/// points on a circle or a parabola, or on a line with one point beside it, but 1.5 to 2.8 for
+/// ordinary points. Triangles that meet no partition do not count.
 bool partitionsPay(const BoundaryTriangles& initialMesh);
-/// The same by counts: triangles that meet partitions, and how many they meet, summed.
+/// The same from counts: the number of triangles that meet partitions, and the sum of the numbers
+/// of partitions that they meet.
 bool partitionsPay(std::int64_t triangles, std::int64_t met);
 
 } // namespace tipp

@@ -17,7 +17,7 @@ namespace tipp
 /// The result of one pass over the points.
 struct PointSurvey
 {
-  Box2 Bounds{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL }; ///< of the finite points
+  Box2 Bounds{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL }; ///< bounds of the finite points
   std::vector<std::int64_t> Rejected; ///< ids of points that are not finite; ascending
 };
 

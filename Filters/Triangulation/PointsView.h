@@ -26,8 +26,8 @@ inline std::pair<std::size_t, std::size_t> evenShare(std::size_t n, int part, in
     n * std::size_t(part + 1) / std::size_t(parts) };
 }
 
-/// A view of points in memory: x and y are the first two of every `stride` scalars, times a factor.
-/// It does not own the memory.
+/// A view of points in memory: x and y are the first two of every `stride` scalars (floats or
+/// doubles), multiplied by a factor. It does not own the memory.
 class PointsView
 {
 public:

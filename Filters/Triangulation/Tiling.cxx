@@ -38,7 +38,7 @@ std::int32_t Tiling::addBox(const Box2& box, PartitionIndex partition)
   return node;
 }
 
-/// Adds a cut, and then what first() and second() add below it. Returns its node.
+/// Adds a cut, then the subtrees that first() and second() add below it. Returns the cut's node.
 template <typename MakeFirst, typename MakeSecond>
 std::int32_t Tiling::addCut(
   int axis, double at, const MakeFirst& makeFirst, const MakeSecond& makeSecond)
@@ -148,7 +148,7 @@ Tiling Tiling::refined(const std::vector<Tiling>& inner) const
 namespace
 {
 
-/// Without branches, so that compilers vectorise it.
+/// Branch-free, so that compilers vectorise it.
 inline void findCells(const CellGrid::Axis& columns, const CellGrid::Axis& rows,
   const Point2* points, std::size_t count, std::uint32_t* cells)
 {
@@ -250,7 +250,7 @@ void PartitionFinder::locate(
     const Point2* const block = points + begin;
     std::uint32_t* const found = partitions + begin;
     this->Cells.find(block, size, cells.data());
-    // Without branches; the few cells that lie in several boxes are processed below.
+    // Branch-free; the few points in cells that lie in several boxes are processed below.
     std::size_t openCount = 0;
     for (std::size_t i = 0; i < size; ++i)
     {

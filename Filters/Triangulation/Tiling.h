@@ -20,7 +20,7 @@
 namespace tipp
 {
 
-/// Points in a partition for which workers are fastest, by measurement.
+/// The number of points in a partition for which workers are fastest, by measurement.
 constexpr std::int64_t BestPointsInPartition = 49152;
 /// With fewer points in a partition, a worker's overhead is noticeable.
 constexpr std::int64_t FewestPointsInPartition = 4096;
@@ -211,8 +211,8 @@ private:
   std::vector<char> Used;
 };
 
-/// A grid of equal cells over a box, numbered row by row; the number after the last is that of
-/// points that are not finite.
+/// A grid of equal cells over a box, numbered row by row. Non-finite points get the number after
+/// the last cell's.
 class VTKTIPPFILTERS_EXPORT CellGrid
 {
 public:
@@ -284,8 +284,8 @@ private:
 
   const Tiling& Boxes;
   CellGrid Cells;
-  /// By cell: the node to start at, or ~p if all of it is in partition p. The cell after the last
-  /// is that of points that are not finite; it is treated as undecided.
+  /// By cell: the node to start at, or ~p if all of it is in partition p. The entry after the last
+  /// cell is for non-finite points; it is treated as undecided.
   std::vector<std::int32_t> Starts;
 };
 

@@ -28,7 +28,8 @@ std::vector<typename TriangleSink<Id>::Corners> TriangleSink<Id>::sortBoundary(
   const std::vector<std::vector<FinalTriangle>>& boundary, int threads) const
 {
   const std::size_t partitions = this->InteriorCounts.size();
-  std::vector<std::size_t> ends(partitions + 1, 0); // of each partition's triangles, shifted by one
+  std::vector<std::size_t> ends(
+    partitions + 1, 0); // end of each partition's triangles, shifted by one
   for (const std::vector<FinalTriangle>& list : boundary)
   {
     for (const FinalTriangle& triangle : list)

@@ -77,6 +77,7 @@ public:
   std::size_t interiorCount(PartitionIndex p) const { return this->InteriorCounts[std::size_t(p)]; }
 
   using Corners = std::array<Id, 3>;
+  /// A boundary triangle that is final, without artificial corners.
   struct FinalTriangle
   {
     Corners Ids;              ///< point ids, the lowest first

@@ -144,7 +144,8 @@ private:
     const PartitionOrder& Order;
     std::vector<Inbox> Inboxes;
     ReadyPartitions Ready;
-    std::vector<TriangulationStatistics::Stage> Stages; ///< by partition started, or by colour
+    std::vector<TriangulationStatistics::Stage>
+      Stages; ///< one per started partition, or per colour
     std::atomic<std::int64_t> Active{ 0 };
     std::atomic<std::int64_t> Unfinished{ 0 }; ///< triangles in inboxes and workers
 

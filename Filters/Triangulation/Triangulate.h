@@ -26,14 +26,14 @@ class PartitionEditor;
 /// When partitions are started.
 enum class Schedule
 {
-  Stages, ///< a barrier after each set of independent partitions (Algorithm 1)
-  Dynamic ///< a partition starts as soon as it is independent of all active ones
+  Stages, ///< a barrier after each colour, a set of partitions without conflicts (Algorithm 1)
+  Dynamic ///< a partition starts as soon as all conflicting earlier ones are done
 };
 
 /// Options of triangulate(). Only MaximumEdge and MakeEditor change the set of triangles.
 struct TriangulationOptions
 {
-  int Columns = 0; ///< with Rows, a grid of partitions; 0: a tiling chosen for the points
+  int Columns = 0; ///< with Rows: a grid of partitions; 0: partitions are chosen automatically
   int Rows = 0;
   int InitialPointsPerPartition = 0; ///< 0: chosen automatically
   Schedule Order = Schedule::Dynamic;
@@ -49,21 +49,23 @@ struct TriangulationOptions
   std::function<bool(double)> Progress;
 };
 
-/// A point with the coordinates of another, its representative. Both are input point ids.
+/// A point that coincides with another one, its representative. Both are input point ids.
 struct Duplicate
 {
-  PointId Point;
+  PointId Point;          ///< id of the duplicate
   PointId Representative; ///< the lowest id with the same coordinates
 };
 
 /// Counts and times of a run.
 struct TriangulationStatistics
 {
+  /// The start of a stage (with barriers), or of a partition.
   struct Stage
   {
-    std::int64_t ActivePartitions;
-    std::int64_t MeshTriangles; ///< triangles not final in memory when the stage began
+    std::int64_t ActivePartitions; ///< partitions that were being triangulated
+    std::int64_t MeshTriangles;    ///< triangles in memory that were not final when the stage began
   };
+  /// A phase of the run and its wall-clock time.
   struct Phase
   {
     std::string Name;
@@ -72,7 +74,7 @@ struct TriangulationStatistics
   std::vector<Stage> Stages;
   std::vector<Phase> Phases;
   std::int64_t Partitions = 0;
-  std::int64_t InitialPoints = 0;
+  std::int64_t InitialPoints = 0;  ///< vertices of the initial mesh, without artificial points
   std::int64_t WorkerVertices = 0; ///< sum over all workers
   int Threads = 0;
 };
@@ -88,13 +90,13 @@ struct TriangleBlock
 /// The triangles: three input point ids each, counter-clockwise.
 struct Triangulation
 {
-  Buffer<std::int32_t> Ids32; ///< used when every id fits
-  Buffer<std::int64_t> Ids64;
-  std::vector<Duplicate> Duplicates; ///< by ascending Point
+  Buffer<std::int32_t> Ids32;        ///< used when every id fits
+  Buffer<std::int64_t> Ids64;        ///< used otherwise; one of the two is empty
+  std::vector<Duplicate> Duplicates; ///< sorted by Point
   std::vector<PointId> Rejected;     ///< ids of points with NaN or infinite coordinates; ascending
   std::vector<TriangleBlock> Blocks; ///< cover most triangles, ascending; empty if unknown
   TriangulationStatistics Statistics;
-  bool Aborted = false;
+  bool Aborted = false; ///< whether Progress stopped the run; there are no triangles then
 
   std::size_t triangleCount() const { return (this->Ids32.size() + this->Ids64.size()) / 3; }
 };
@@ -106,8 +108,8 @@ struct Triangulation
 VTKTIPPFILTERS_EXPORT Triangulation triangulate(
   PointsView points, const TriangulationOptions& options = {});
 
-/// Removes the triangles with an edge longer than `longest`, in the points' unit of length; 0:
-/// none. Afterwards triangles may be unconnected, so what is inside of polygons must be found
+/// Removes the triangles with an edge longer than `longest`, in the points' unit of length; 0: no
+/// limit. The remaining triangles may be disconnected, so the inside of polygons must be found
 /// before.
 VTKTIPPFILTERS_EXPORT void leaveOutLong(PointsView points, double longest, Triangulation& mesh);
 

@@ -64,10 +64,11 @@ void Worker<Id>::triangulate(PartitionIndex partition, std::vector<BoundaryVerte
   this->separateGhosts(partition, std::move(vertices));
   this->Buckets.copyIds(bucket, this->Ids);
   this->Kernel.clear();
-  // The partition's own points first: their interior triangles then do not depend on other points.
+  // Inserts the partition's own points first, so that their interior triangles do not depend on
+  // other points.
   this->Kernel.insert(this->Buckets.points(bucket), this->Buckets.count(bucket));
   this->Kernel.insert(this->GhostPoints.data(), this->GhostPoints.size());
-  // Small memory is kept for the next partition.
+  // Small buffers are kept for the next partition.
   const bool isLarge = this->Kernel.bytes() > PooledKernel::MostBytesKept;
   if (isLarge)
   {
@@ -112,7 +113,8 @@ bool Worker<Id>::triangulateAlone(const DelaunayKernel::Monitor& proceed)
   return true;
 }
 
-/// Of the vertices, own points are only noted as known to others.
+/// Separates the inbox's vertices: vertices of other partitions become ghosts; own points are only
+/// recorded as known to other partitions.
 template <typename Id>
 void Worker<Id>::separateGhosts(PartitionIndex partition, std::vector<BoundaryVertex>&& vertices)
 {
@@ -229,7 +231,8 @@ void Worker<Id>::findBoundary(const Box2& box, const Box2& region, BoundaryConsu
 template <typename Id>
 void Worker<Id>::setVertexIds()
 {
-  // Each vertex has about six triangles, close together in memory; its point is anywhere in memory.
+  // Each vertex has about six triangles, which are close together in memory, but its point may be
+  // anywhere.
   const std::size_t own = this->Ids.size();
   this->VertexIds.resize(static_cast<std::size_t>(this->Kernel.vertexEnd()));
   for (std::size_t v = 1; v < this->VertexIds.size(); ++v)

@@ -27,7 +27,7 @@ struct Octagon
   static constexpr Box2 All{ -Most, -Most, Most, Most };
 
   Box2 Box = Nothing;
-  Box2 Diagonals = Nothing; ///< of the points' diagonals()
+  Box2 Diagonals = Nothing; ///< bounds of the points' diagonals()
 
   static Point2 diagonals(Point2 p) { return { p.x + p.y, p.x - p.y }; }
 
@@ -39,8 +39,8 @@ struct Octagon
   }
 };
 
-/// Changes the interior triangles of partitions in the kernel's mesh, before they are written.
-/// Their number and their union must stay. Each thread has its own editor.
+/// Modifies the interior triangles of a partition in the kernel's mesh before they are written.
+/// Their number and their union must not change. Each thread has its own editor.
 class PartitionEditor
 {
 public:
@@ -49,9 +49,10 @@ public:
   {
     PartitionIndex Number;
     DelaunayKernel& Kernel;
-    const Id* Ids;          ///< by kernel vertex, from 1 on; -1 for those of other partitions
-    const char* IsBoundary; ///< by number of the kernel's triangle: not 0 if it is not interior
-    Octagon Interior;       ///< of the interior triangles, in the kernel's coordinates
+    const Id* Ids; ///< by kernel vertex, from 1 on: the point's id; -1 for other partitions' points
+    const char*
+      IsBoundary;     ///< by the kernel's triangle number: not 0 if the triangle is not interior
+    Octagon Interior; ///< bounds of the interior triangles, in the kernel's coordinates
   };
 
   virtual ~PartitionEditor() = default;
@@ -72,8 +73,8 @@ public:
   virtual void add(const std::array<DelaunayKernel::Index, 3>& corners, const Circumdisk& disk) = 0;
 };
 
-/// Triangulates one partition at a time (Lemma 1): its points, and the vertices of the triangles
-/// that meet it. Keeps its memory from one partition to the next.
+/// Triangulates one partition at a time (Lemma 1): its own points and the vertices of the triangles
+/// that meet it. Its memory is reused from one partition to the next.
 template <typename Id>
 class Worker
 {
@@ -104,8 +105,8 @@ public:
 
   std::size_t interiorCount() const { return this->InteriorCount; }
 
-  /// Points of the partition with the coordinates of another. The representative is the one with
-  /// the lowest id, unless it is an initial point, which other partitions know already.
+  /// The partition's duplicates: points that coincide with another point. The representative is the
+  /// one with the lowest id, unless it is an initial point, which other partitions know already.
   const std::vector<Duplicate>& duplicates() const { return this->Duplicates; }
   std::size_t vertexCount() const { return this->VertexCount; }
 
@@ -128,12 +129,12 @@ private:
   PooledKernel Pooled;
   DelaunayKernel& Kernel;
   std::vector<Id> Ids;                ///< ids of the partition's own points
-  std::vector<Id> VertexIds;          ///< by kernel vertex; -1 for ghosts
+  std::vector<Id> VertexIds;          ///< by kernel vertex: the point's id; -1 for ghosts
   std::vector<BoundaryVertex> Ghosts; ///< vertices from the inbox, except own points
   std::vector<Point2> GhostPoints;
   std::vector<std::int64_t> KnownIds; ///< ids of own points that other partitions know; sorted
-  std::vector<char> IsBoundary;       ///< by number of the kernel's triangle
-  Octagon Interior;                   ///< of the interior triangles, if there is an editor
+  std::vector<char> IsBoundary;       ///< by the kernel's triangle number
+  Octagon Interior;                   ///< bounds of the interior triangles, if there is an editor
   std::vector<DelaunayKernel::Index> Stack;
   std::vector<Duplicate> Duplicates;
   std::size_t InteriorCount = 0;

@@ -89,9 +89,14 @@ SentMessages3 Worker3::triangulate(const PartitionPoints3& points,
   this->VertexCount += this->Points.size();
   this->Outgoing.assign(this->Order.later(points.Partition).size(), {});
   this->Ids.resize(this->Kernel.vertexEnd());
+  this->Slack.resize(this->Kernel.vertexEnd());
+  const Box3& region = this->Regions[std::size_t(points.Partition)];
   for (Index v = 1; v < this->Kernel.vertexEnd(); ++v)
   {
     this->Ids[v] = this->vertex(v).Id;
+    const Point3& p = this->Kernel.point(v);
+    this->Slack[v] = std::min({ p.x - region.Min[0], region.Max[0] - p.x, p.y - region.Min[1],
+      region.Max[1] - p.y, p.z - region.Min[2], region.Max[2] - p.z });
   }
   this->Kernel.forEach(
     [&](Index cell)
@@ -121,8 +126,13 @@ void Worker3::route(Index cell, FinalCellConsumer3& final)
 {
   const std::array<Index, 4> v = this->Kernel.corners(cell);
   const Box3& region = this->Regions[std::size_t(this->Own.Partition)];
-  if (Circumball::isSurelyInside(this->Kernel.point(v[0]), this->Kernel.point(v[1]),
-        this->Kernel.point(v[2]), this->Kernel.point(v[3]), region))
+  const Point3& a = this->Kernel.point(v[0]);
+  const Point3& b = this->Kernel.point(v[1]);
+  const Point3& c = this->Kernel.point(v[2]);
+  const Point3& d = this->Kernel.point(v[3]);
+  const double slack = this->Slack[v[0]]; // negative outside of the region
+  if ((slack > 0 && Circumball::isSurelySmall(a, b, c, d, slack)) ||
+    Circumball::isSurelyInside(a, b, c, d, region))
   {
     final.addInside({ this->Ids[v[0]], this->Ids[v[1]], this->Ids[v[2]], this->Ids[v[3]] });
     return;
@@ -217,10 +227,13 @@ void repairHull(
       {
         return;
       }
+      const Circumball ball = ballOf(kernel, v);
       const auto isInConflict = [&](const Vertex3& z)
       {
-        return inSpherePerturbed(kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2]),
-          kernel.point(v[3]), z.Position);
+        const Point3& p = z.Position;
+        return ball.meets({ { p.x, p.y, p.z }, { p.x, p.y, p.z } }) &&
+          inSpherePerturbed(kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2]),
+            kernel.point(v[3]), z.Position);
       };
       if (std::any_of(artificial.begin(), artificial.end(), isInConflict))
       {

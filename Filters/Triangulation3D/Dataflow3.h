@@ -101,6 +101,7 @@ private:
   std::vector<Vertex3> Others; ///< from the inbox
   std::vector<std::vector<DelaunayKernel3::Index>> Outgoing; ///< corners, by later partition
   std::vector<std::int64_t> Ids;                             ///< by vertex: the point's id
+  std::vector<double> Slack;         ///< by vertex: the distance from the region's sides
   std::vector<std::uint32_t> SentTo; ///< by vertex: the last recipient, counted from 1
   std::vector<Duplicate> Duplicates;
   std::size_t VertexCount = 0;

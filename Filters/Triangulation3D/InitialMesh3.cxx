@@ -24,8 +24,13 @@ double outward(double bound, double direction, double margin)
   return direction > 0 ? std::max(moved, bound) : std::min(moved, bound);
 }
 
-/// The first points with the smallest and largest coordinates, and others evenly spaced in the
-/// input's order; ascending.
+bool isUsed(const PointBuckets3& buckets, std::size_t p)
+{
+  return buckets.count(PartitionIndex(p)) > 0;
+}
+
+} // namespace
+
 std::vector<std::size_t> chooseInitialPoints(
   const Point3* points, std::size_t count, std::size_t wanted)
 {
@@ -46,14 +51,7 @@ std::vector<std::size_t> chooseInitialPoints(
   return chosen;
 }
 
-bool isUsed(const PointBuckets3& buckets, std::size_t p)
-{
-  return buckets.count(PartitionIndex(p)) > 0;
-}
-
-} // namespace
-
-std::vector<Vertex3> makeArtificialPoints(const PointBuckets3& buckets)
+std::vector<Vertex3> makeArtificialPoints(const PointBuckets3& buckets, bool areSlabs)
 {
   PointBounds domain;
   double margin = 0;
@@ -65,8 +63,9 @@ std::vector<Vertex3> makeArtificialPoints(const PointBuckets3& buckets)
       const Box3& box = buckets.Regions[p];
       domain.include({ box.Min[0], box.Min[1], box.Min[2] });
       domain.include({ box.Max[0], box.Max[1], box.Max[2] });
-      margin +=
-        std::max({ box.Max[0] - box.Min[0], box.Max[1] - box.Min[1], box.Max[2] - box.Min[2] });
+      const std::initializer_list<double> sides = { box.Max[0] - box.Min[0],
+        box.Max[1] - box.Min[1], box.Max[2] - box.Min[2] };
+      margin += areSlabs ? std::min(sides) / 2 : std::max(sides);
       ++used;
     }
   }
@@ -107,17 +106,17 @@ std::vector<Vertex3> makeArtificialPoints(const PointBuckets3& buckets)
   return vertices;
 }
 
-InitialMesh3::InitialMesh3(const PointBuckets3& buckets, const std::vector<Vertex3>& artificial)
+InitialMesh3::InitialMesh3(
+  const PointBuckets3& buckets, const std::vector<Vertex3>& artificial, std::size_t wanted)
   : Partitions(buckets.Regions.size())
 {
-  constexpr std::size_t perPartition = 48;
   for (std::size_t p = 0; p < this->Partitions; ++p)
   {
     const std::size_t begin = buckets.Begins[p];
     const std::size_t count = buckets.count(PartitionIndex(p));
     for (const std::size_t i : count == 0
         ? std::vector<std::size_t>()
-        : chooseInitialPoints(&buckets.Points[begin], count, perPartition))
+        : chooseInitialPoints(&buckets.Points[begin], count, wanted))
     {
       this->Vertices.push_back(
         { buckets.Points[begin + i], buckets.Ids[begin + i], PartitionIndex(p) });

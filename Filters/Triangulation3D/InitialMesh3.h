@@ -23,16 +23,25 @@ struct Vertex3
   bool isArtificial() const { return this->Id < 0; }
 };
 
+/// The first points with the smallest and largest coordinates, and others evenly spaced in the
+/// input's order: their indices, ascending; about `wanted`.
+std::vector<std::size_t> chooseInitialPoints(
+  const Point3* points, std::size_t count, std::size_t wanted);
+
 /// Artificial points on the sides of a box around the domain, its corners among them. Their
-/// distance from the domain and from each other is about the width of a partition. Empty if doubles
-/// cannot enclose the domain.
-std::vector<Vertex3> makeArtificialPoints(const PointBuckets3& buckets);
+/// distance from the domain and from each other is about the width of a partition: of its longest
+/// side or, for slabs, half of its shortest. Empty if doubles cannot enclose the domain.
+std::vector<Vertex3> makeArtificialPoints(const PointBuckets3& buckets, bool areSlabs = false);
 
 /// The Delaunay triangulation of some points of each partition and the artificial points, and which
 /// partitions each tetrahedron meets: its closed circumball meets their region.
 struct InitialMesh3
 {
-  InitialMesh3(const PointBuckets3& buckets, const std::vector<Vertex3>& artificial);
+  static constexpr std::size_t PointsOfPartition = 48;
+
+  /// `wanted`: about how many points of a partition.
+  InitialMesh3(const PointBuckets3& buckets, const std::vector<Vertex3>& artificial,
+    std::size_t wanted = PointsOfPartition);
 
   /// Which partitions conflict: if one tetrahedron meets both, or of two with a common facet one
   /// meets the first and the other the second (Lemma 5; the proof in PartitionOrder.h holds with

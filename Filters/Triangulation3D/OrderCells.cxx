@@ -35,17 +35,20 @@ CellIds canonical(CellIds cell)
   return cell;
 }
 
-/// Compares cells with the same first id.
-bool isBefore(const CellIds& a, const CellIds& b)
+/// Compares cells with the same first id. An object, so that sorting compiles it in.
+struct IsBefore
 {
-  if (a[1] != b[1])
+  bool operator()(const CellIds& a, const CellIds& b) const
   {
-    return a[1] < b[1];
+    if (a[1] != b[1])
+    {
+      return a[1] < b[1];
+    }
+    const auto [aLow, aHigh] = std::minmax(a[2], a[3]);
+    const auto [bLow, bHigh] = std::minmax(b[2], b[3]);
+    return aLow != bLow ? aLow < bLow : aHigh < bHigh;
   }
-  const auto [aLow, aHigh] = std::minmax(a[2], a[3]);
-  const auto [bLow, bHigh] = std::minmax(b[2], b[3]);
-  return aLow != bLow ? aLow < bLow : aHigh < bHigh;
-}
+};
 
 /// Sorts the cells whose first id is in [first, first + width), by way of `scratch`.
 void sortRange(CellIds* cells, std::size_t count, std::int32_t first, std::size_t width,
@@ -68,7 +71,7 @@ void sortRange(CellIds* cells, std::size_t count, std::int32_t first, std::size_
   std::uint32_t begin = 0;
   for (std::size_t i = 0; i < width; ++i)
   {
-    std::sort(scratch.begin() + begin, scratch.begin() + ends[i], isBefore);
+    std::sort(scratch.begin() + begin, scratch.begin() + ends[i], IsBefore());
     begin = ends[i];
   }
   std::copy(scratch.begin(), scratch.end(), cells);

@@ -21,61 +21,24 @@ namespace tipp
 namespace
 {
 
-struct Survey
-{
-  std::vector<PointId> Rejected;
-  double Largest = 0; ///< magnitude of a coordinate of the finite points
-};
-
-Survey surveyPoints(const Point3* points, std::size_t count)
-{
-  Survey survey;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const double largest =
-      std::max({ std::fabs(points[i].x), std::fabs(points[i].y), std::fabs(points[i].z) });
-    const double sum = points[i].x + points[i].y + points[i].z;
-    // The largest of NaN and a number may be either; a sum of finite numbers may overflow.
-    if (!std::isfinite(sum) &&
-      !(std::isfinite(points[i].x) && std::isfinite(points[i].y) && std::isfinite(points[i].z)))
-    {
-      survey.Rejected.push_back(PointId(i));
-    }
-    else
-    {
-      survey.Largest = std::max(survey.Largest, largest);
-    }
-  }
-  return survey;
-}
-
-/// moderateFactor(), or 1 if it would not be exact.
-double scaleOf(const Point3* points, std::size_t count, double largest)
-{
-  const double factor = moderateFactor(largest);
-  const bool areExact = factor == 1 ||
-    std::all_of(points, points + count,
-      [factor](const Point3& p) {
-        return isExactTimes(p.x, factor) && isExactTimes(p.y, factor) && isExactTimes(p.z, factor);
-      });
-  return areExact ? factor : 1;
-}
-
-/// One partition for one thread, which is fastest; for several threads enough that all find work.
+/// One partition, in which threads share a mesh, is fastest. Where there are more points than its
+/// indices can name, or many threads, each of which has a table of vertices then, as many
+/// partitions as let all threads find work.
 int choosePartitionCount(std::size_t points, int threads)
 {
   constexpr std::size_t largest = std::size_t(1) << 25;
+  constexpr int mostSharing = 16;
   constexpr std::size_t smallest = 8192;
   constexpr std::size_t best = 65536;
   constexpr std::size_t perThread = 12;
   constexpr std::size_t most = 512;
+  if (points < largest && (threads <= mostSharing || points < 4 * smallest))
+  {
+    return 1;
+  }
   if (threads == 1)
   {
     return int(std::min(most, 1 + points / largest));
-  }
-  if (points < 4 * smallest)
-  {
-    return 1;
   }
   return int(std::min(
     most, std::max(points / best, std::min(points / smallest, perThread * std::size_t(threads)))));
@@ -97,9 +60,10 @@ public:
 
   void run()
   {
-    Survey survey = surveyPoints(this->Points, this->Count);
+    PointSurvey3 survey = surveyPoints(this->Points, this->Count);
     this->Result.Rejected = std::move(survey.Rejected);
-    this->Factor = scaleOf(this->Points, this->Count, survey.Largest);
+    const double factor = moderateFactor(survey.Largest);
+    this->Factor = areExactTimes(this->Points, this->Count, factor) ? factor : 1;
     this->endPhase("survey");
     const int partitions = this->Options.Partitions > 0
       ? this->Options.Partitions
@@ -140,8 +104,10 @@ private:
     const auto idOf = [&](std::uint32_t index)
     { return areReady ? static_cast<std::int32_t>(index) : copy.Ids[index]; };
     DelaunayKernel3 kernel;
-    this->Result.Aborted = !kernel.triangulate(areReady ? this->Points : copy.Points.data(), count,
-      [&](std::size_t inserted) { return this->report(double(inserted) / double(count)); });
+    this->Result.Aborted = !kernel.triangulate(
+      areReady ? this->Points : copy.Points.data(), count,
+      [&](std::size_t inserted) { return this->report(double(inserted) / double(count)); },
+      this->Threads);
     this->Result.Dimension = kernel.dimension();
     this->Result.Statistics.WorkerVertices = std::int64_t(count);
     for (const DelaunayKernel3::Duplicate& duplicate : kernel.duplicates())
@@ -149,19 +115,27 @@ private:
       this->Result.Duplicates.push_back(
         { idOf(duplicate.Point), idOf(kernel.pointIndex(duplicate.Vertex)) });
     }
-    std::size_t cells = 0;
-    kernel.forEach([&](DelaunayKernel3::Index t) { cells += kernel.isInfinite(t) ? 0 : 1; });
-    this->Cells.resize(1);
-    this->Cells[0].reserve(cells);
-    kernel.forEach(
-      [&](DelaunayKernel3::Index t)
+    const auto parts = std::size_t(this->Threads);
+    this->Cells.resize(parts);
+    parallelFor(this->Threads, this->Threads,
+      [&](std::int64_t thread)
       {
-        if (!kernel.isInfinite(t))
-        {
-          const auto [a, b, c, d] = kernel.corners(t);
-          this->Cells[0].push_back({ idOf(kernel.pointIndex(a)), idOf(kernel.pointIndex(b)),
-            idOf(kernel.pointIndex(c)), idOf(kernel.pointIndex(d)) });
-        }
+        const auto part = std::size_t(thread);
+        std::vector<CellIds>& made = this->Cells[part];
+        std::size_t cells = 0;
+        kernel.forEach(
+          part, parts, [&](DelaunayKernel3::Index t) { cells += kernel.isInfinite(t) ? 0 : 1; });
+        made.reserve(cells);
+        kernel.forEach(part, parts,
+          [&](DelaunayKernel3::Index t)
+          {
+            if (!kernel.isInfinite(t))
+            {
+              const auto [a, b, c, d] = kernel.corners(t);
+              made.push_back({ idOf(kernel.pointIndex(a)), idOf(kernel.pointIndex(b)),
+                idOf(kernel.pointIndex(c)), idOf(kernel.pointIndex(d)) });
+            }
+          });
       });
     this->endPhase("triangulation");
   }
@@ -350,6 +324,14 @@ Tetrahedralization tetrahedralize(
   return result;
 }
 
+std::string describeDimension(int dimension)
+{
+  constexpr const char* reasons[] = { "there is no finite point", "all finite points coincide",
+    "all finite points are on one line",
+    "all finite points are in one plane: triangulate them with vtkTIPPDelaunay2D" };
+  return std::string("No tetrahedra: ") + reasons[dimension + 1] + ".";
+}
+
 std::vector<std::string> warningsOf(const Tetrahedralization& mesh, std::int64_t points)
 {
   std::vector<std::string> warnings;
@@ -361,10 +343,9 @@ std::vector<std::string> warningsOf(const Tetrahedralization& mesh, std::int64_t
   }
   if (mesh.Dimension < 3)
   {
-    constexpr const char* reasons[] = { "there is no finite point", "all finite points coincide",
-      "all finite points are on one line",
-      "all finite points are in one plane: triangulate them with vtkTIPPDelaunay2D" };
-    warnings.push_back(std::string("No tetrahedra: ") + reasons[mesh.Dimension + 1] + ".");
+    warnings.push_back(mesh.Dimension == 2
+        ? "No tetrahedra: all finite points are in one plane, so the cells are triangles."
+        : describeDimension(mesh.Dimension));
   }
   return warnings;
 }

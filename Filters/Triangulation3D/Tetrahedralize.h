@@ -49,6 +49,9 @@ struct Tetrahedralization
 VTKTIPPFILTERS_EXPORT Tetrahedralization tetrahedralize(
   const Point3* points, std::size_t count, const TetrahedralizationOptions& options = {});
 
+/// Why points of this dimension, below 3, have no tetrahedra: a sentence.
+std::string describeDimension(int dimension);
+
 /// Returns the warnings about a tetrahedralization of `points` points, one sentence each.
 VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(
   const Tetrahedralization& mesh, std::int64_t points);

@@ -46,6 +46,36 @@ void PointBounds::include(const PointBounds& other)
   }
 }
 
+PointSurvey3 surveyPoints(const Point3* points, std::size_t count)
+{
+  PointSurvey3 survey;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double largest =
+      std::max({ std::fabs(points[i].x), std::fabs(points[i].y), std::fabs(points[i].z) });
+    const double sum = points[i].x + points[i].y + points[i].z;
+    // The largest of NaN and a number may be either; a sum of finite numbers may overflow.
+    if (!std::isfinite(sum) && !isFinite(points[i]))
+    {
+      survey.Rejected.push_back(std::int64_t(i));
+    }
+    else
+    {
+      survey.Largest = std::max(survey.Largest, largest);
+    }
+  }
+  return survey;
+}
+
+bool areExactTimes(const Point3* points, std::size_t count, double factor)
+{
+  return factor == 1 ||
+    std::all_of(points, points + count,
+      [factor](const Point3& p) {
+        return isExactTimes(p.x, factor) && isExactTimes(p.y, factor) && isExactTimes(p.z, factor);
+      });
+}
+
 double moderateFactor(double largest)
 {
   // Determinants have degree five in the coordinates, and their filter squares them.
@@ -57,27 +87,56 @@ double moderateFactor(double largest)
 }
 
 Tiling3::Tiling3(std::vector<Point3> sample, int count)
+  : Tiling3(std::move(sample), PartitionGroups{ 1, std::max(count, 1) })
 {
-  this->cut(sample.begin(), sample.end(), count);
 }
 
-void Tiling3::cut(Iterator begin, Iterator end, int count)
+Tiling3::Tiling3(std::vector<Point3> sample, const PartitionGroups& groups)
+  : Groups(groups)
+{
+  this->cut(sample.begin(), sample.end(), 0, groups.Count * groups.Each);
+}
+
+/// The axis of a cut of a sample's box into `count` partitions.
+int Tiling3::axisFor(int count, const Box3& box)
+{
+  const auto side = [&box](int k) { return box.Max[std::size_t(k)] - box.Min[std::size_t(k)]; };
+  int longest = 0;
+  for (int k = 1; k < 3; ++k)
+  {
+    longest = side(k) > side(longest) ? k : longest;
+  }
+  this->SlabAxis = this->SlabAxis < 0 ? longest : this->SlabAxis;
+  const bool isSlab =
+    count > this->Groups.Each ? this->Groups.AreSlabs : this->Groups.ArePartitionsSlabs;
+  return isSlab ? this->SlabAxis : longest;
+}
+
+/// Which share of the sample the partitions before this one are to have.
+double Tiling3::shareBefore(int partition) const
+{
+  const double groups = this->Groups.Count;
+  const double rest = (1 + this->Groups.FirstLess) / groups;
+  const double first = std::max(rest - this->Groups.FirstLess, rest / 2);
+  const double before = double(partition) / this->Groups.Each; // groups
+  return before <= 1 ? before * first : first + (before - 1) * (1 - first) / (groups - 1);
+}
+
+void Tiling3::cut(Iterator begin, Iterator end, int first, int count)
 {
   const std::size_t self = this->Nodes.size();
   this->Nodes.emplace_back();
   PointBounds bounds;
   std::for_each(begin, end, [&bounds](const Point3& p) { bounds.include(p); });
-  int axis = 0;
-  for (int k = 1; k < 3; ++k)
-  {
-    const auto side = [&](int i)
-    { return bounds.Box.Max[std::size_t(i)] - bounds.Box.Min[std::size_t(i)]; };
-    axis = side(k) > side(axis) ? k : axis;
-  }
+  const int axis = this->axisFor(count, bounds.Box);
   const auto below = [axis](const Point3& p, const Point3& q)
   { return coordinate(p, axis) < coordinate(q, axis); };
-  const int lower = count / 2;
-  const Iterator middle = begin + (end - begin) * lower / std::max(count, 1);
+  const int each = count > this->Groups.Each ? this->Groups.Each : 1;
+  const int lower = count / each / 2 * each;
+  const double before = this->shareBefore(first);
+  const Iterator middle = begin +
+    std::ptrdiff_t(double(end - begin) * (this->shareBefore(first + lower) - before) /
+      (this->shareBefore(first + count) - before));
   bool canCut = count > 1 && middle != end;
   double at = 0;
   if (canCut)
@@ -89,16 +148,17 @@ void Tiling3::cut(Iterator begin, Iterator end, int count)
   if (!canCut)
   {
     this->Nodes[self].Partition = this->Count++;
+    this->Firsts.push_back(first);
     return;
   }
   // Points with the cut's coordinate belong to the upper side.
   const Iterator split =
     std::partition(begin, end, [&](const Point3& p) { return coordinate(p, axis) < at; });
-  this->cut(begin, split, lower);
+  this->cut(begin, split, first, lower);
   this->Nodes[self].Axis = axis;
   this->Nodes[self].Cut = at;
   this->Nodes[self].Upper = this->Nodes.size();
-  this->cut(split, end, count - lower);
+  this->cut(split, end, first + lower, count - lower);
 }
 
 PartitionIndex Tiling3::locate(const Point3& p) const

@@ -28,6 +28,14 @@ struct PointBounds
   Box3 Box;
 };
 
+/// What a first pass over points finds.
+struct PointSurvey3
+{
+  std::vector<std::int64_t> Rejected; ///< indices of those that are not finite; ascending
+  double Largest = 0;                 ///< magnitude of a coordinate of the finite ones
+};
+PointSurvey3 surveyPoints(const Point3* points, std::size_t count);
+
 /// A power of two that brings coordinates near 1 where the largest magnitude is very small or very
 /// large, so that the filters of predicates work; else 1.
 double moderateFactor(double largest);
@@ -36,6 +44,20 @@ inline bool isExactTimes(double x, double factor)
 {
   return !std::isfinite(x) || x * factor / factor == x;
 }
+bool areExactTimes(const Point3* points, std::size_t count, double factor);
+
+/// Groups of partitions, as of the ranks of a run.
+struct PartitionGroups
+{
+  int Count = 1;
+  int Each = 1; ///< partitions of a group
+  /// By how much less the first group has than the others: a fraction of all points.
+  double FirstLess = 0;
+  /// Whether the cuts between groups, or all cuts, are parallel: across the longest side of the
+  /// sample's box.
+  bool AreSlabs = false;
+  bool ArePartitionsSlabs = false;
+};
 
 /// Partitions of space with about equally many points of a sample: a tree of cuts across the
 /// longest side of the sample's box. A point on a cut belongs to the upper side.
@@ -45,7 +67,12 @@ public:
   /// Cuts space into at most `count` partitions; fewer if the sample has too few distinct points.
   Tiling3(std::vector<Point3> sample, int count);
 
+  /// The same for groups. Which group has a point does not depend on how many partitions each has.
+  Tiling3(std::vector<Point3> sample, const PartitionGroups& groups);
+
   PartitionIndex size() const { return this->Count; }
+  /// The group of a partition; ascending.
+  int groupOf(PartitionIndex p) const { return this->Firsts[std::size_t(p)] / this->Groups.Each; }
   PartitionIndex locate(const Point3& p) const;
 
   /// The closed boxes of all partitions, which fill `domain`.
@@ -69,7 +96,9 @@ private:
   };
 
   using Iterator = std::vector<Point3>::iterator;
-  void cut(Iterator begin, Iterator end, int count);
+  void cut(Iterator begin, Iterator end, int first, int count);
+  int axisFor(int count, const Box3& box);
+  double shareBefore(int partition) const;
   void setBoxes(std::size_t node, const Box3& box, std::vector<Box3>& boxes) const;
 
   template <typename Visit>
@@ -91,7 +120,10 @@ private:
     }
   }
 
+  PartitionGroups Groups;
+  int SlabAxis = -1;
   std::vector<Node> Nodes;
+  std::vector<int> Firsts; ///< by partition: its number, of all that are asked for
   PartitionIndex Count = 0;
 };
 
@@ -101,12 +133,12 @@ struct PartitionPoints3
   PartitionIndex Partition = -1;
   const Point3* Points = nullptr;
   std::size_t Count = 0;
-  const std::int32_t* Ids = nullptr; ///< null: consecutive from First on
+  const std::int32_t* Ids = nullptr; ///< counted from First; null: consecutive
   std::int64_t First = 0;
 
   std::int64_t id(std::size_t i) const
   {
-    return this->Ids ? this->Ids[i] : this->First + std::int64_t(i);
+    return this->First + (this->Ids ? this->Ids[i] : std::int64_t(i));
   }
 };
 
@@ -122,10 +154,11 @@ struct PointBuckets3
   {
     return this->Begins[std::size_t(p) + 1] - this->Begins[std::size_t(p)];
   }
-  PartitionPoints3 of(PartitionIndex p) const
+  /// Ids are counted from `first`.
+  PartitionPoints3 of(PartitionIndex p, std::int64_t first = 0) const
   {
     const std::size_t begin = this->Begins[std::size_t(p)];
-    return { p, this->Points.data() + begin, this->count(p), this->Ids.data() + begin, 0 };
+    return { p, this->Points.data() + begin, this->count(p), this->Ids.data() + begin, first };
   }
 };
 

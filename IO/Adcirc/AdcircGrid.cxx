@@ -165,7 +165,8 @@ private:
     }
   }
 
-  /// The two sides of a weir go on in other boundaries, or else an edge joins their ends.
+  /// The two sides of a weir are continued by other boundaries; where they are not, an edge is
+  /// added between their ends.
   void closeWeirs(AdcircGrid& grid) const
   {
     std::unordered_map<std::int64_t, int> degrees;
@@ -233,7 +234,7 @@ private:
 
   AdcircRows Rows;
   AdcircGrid Grid;
-  std::vector<std::array<std::int64_t, 2>> WeirEnds; ///< nodes opposite to each other
+  std::vector<std::array<std::int64_t, 2>> WeirEnds; ///< pairs of opposite nodes
 };
 
 } // namespace
@@ -313,7 +314,7 @@ std::vector<double> depthsOf(const PointTable& points)
   return depths;
 }
 
-/// The frame of a grid without nodes.
+/// The frame of the grid file `like`, or a new one if `like` is empty.
 AdcircFrame frameFor(const std::string& like, std::size_t points)
 {
   AdcircFrame frame;

@@ -27,7 +27,8 @@ namespace tipp
 class AdcircRows
 {
 public:
-  /// `kind` completes "check that it is ...". `path` and `text` must outlive this object.
+  /// `kind` completes the message "check that it is ...". `path` and `text` must outlive this
+  /// object.
   AdcircRows(const std::string& path, std::string_view text, std::string kind);
 
   void skipTitle();
@@ -59,8 +60,8 @@ private:
 /// of the nodes of boundaries.
 struct AdcircGrid
 {
-  std::vector<double> XY;              ///< of the nodes, in the order of the file
-  std::vector<double> Depth;           ///< below the datum, positive downwards
+  std::vector<double> XY;    ///< x and y of the nodes, interleaved, in the order of the file
+  std::vector<double> Depth; ///< below the datum, positive downwards
   std::vector<std::int64_t> Triangles; ///< three node indices, from 0, per triangle
   /// The index of each node number; numbers may have gaps and be in any order.
   std::unordered_map<std::int64_t, std::int64_t> IndexOf;
@@ -89,8 +90,8 @@ AdcircGrid readAdcircGridAndBoundaries(const std::string& path);
 VTKTIPPIO_EXPORT bool isAdcircFile(const std::string& path);
 
 /// Writes points and triangles as an ADCIRC grid. The depth of a node is the column depth, else the
-/// negated elevation, else 0. `like`: a grid whose nodes are the first points; its title, numbers
-/// of nodes and lists of boundaries are kept. Without it (empty) nodes are counted from 1, and
+/// negated elevation, else 0. `like` is the path of a grid whose nodes are the first points; its
+/// title, node numbers and boundary lists are kept. If it is empty, nodes are numbered from 1 and
 /// there are no boundaries. Returns false if `aborted` returned true; throws IOError.
 bool writeAdcircGrid(const std::string& path, const PointTable& points, TrianglesView triangles,
   const std::string& like, const std::optional<PathState>& before,
@@ -104,13 +105,13 @@ bool writeAdcircGrid(const std::string& path, const PointTable& points, Triangle
 /// an interrupted run, is rejected.
 struct AdcircValues
 {
-  int Components = 1;
-  std::vector<double> Times; ///< of the steps, in seconds
+  int Components = 1;        ///< values per node
+  std::vector<double> Times; ///< times of the steps, in seconds
   std::vector<double>
     Values; ///< step by step, in the order of the grid's nodes; -99999 at dry nodes
 };
 
-/// Throws IOError, also if the values belong to another grid.
+/// Throws IOError if the file cannot be read or its values belong to another grid.
 VTKTIPPIO_EXPORT AdcircValues readAdcircValues(const std::string& path, const AdcircGrid& grid);
 
 /// Converts an ADCIRC grid (AdcircGrid) with the point data "depth" and, for each file of values

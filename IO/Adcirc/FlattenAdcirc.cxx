@@ -79,7 +79,7 @@ private:
     }
   }
 
-  /// The index in the grid of a node number, which a step may give once.
+  /// The index in the grid of a node number. A step may list a node only once.
   std::size_t nodeOf(std::int64_t number, std::int64_t step)
   {
     const auto node = this->Grid.IndexOf.find(number);
@@ -122,7 +122,8 @@ FlatArray floats(std::string name, std::vector<double> values, int components, s
   return { std::move(name), Scalar::Float64, components, tuples, 0, kept->data(), kept };
 }
 
-/// ADCIRC's own names, such as fort.63, keep their extension: the number tells what they hold.
+/// The array's name. ADCIRC's own file names, such as fort.63, keep their extension, which
+/// identifies the content.
 std::string nameOf(const std::string& path)
 {
   const std::filesystem::path file(path);

@@ -13,7 +13,7 @@ namespace tipp
 namespace
 {
 
-/// Rows of numbers, without comments and empty lines.
+/// Reads the rows of numbers of a .poly file, skipping comments and empty lines.
 class PolyRows
 {
 public:

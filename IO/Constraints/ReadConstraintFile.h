@@ -21,7 +21,7 @@ struct ConstraintTable
 {
   std::vector<double>
     XY; ///< x and y of the file's own points; empty: ids refer to the points to triangulate
-  std::vector<double> Height; ///< of these points, if the file has three coordinates
+  std::vector<double> Height; ///< z per point of XY, if the file has three coordinates
   std::vector<std::array<std::int64_t, 2>> Edges; ///< point ids
   std::size_t PolygonBegin = 0; ///< edges from this index on belong to closed polygons
   std::vector<double> Holes;    ///< x and y of points in holes
@@ -76,7 +76,7 @@ ConstraintTable readPolyFile(const std::string& path);
 /// Lines and polygons of a VTK file. Throws IOError.
 ConstraintTable readVtkConstraints(const std::string& path);
 
-/// Reads the lines and polygons of all layers, by GDAL. Outer rings of polygons come out
+/// Reads the lines and polygons of all layers with GDAL. Outer rings of polygons become
 /// counter-clockwise, the others clockwise, whatever their orientation in the file; missing heights
 /// are NaN. Throws IOError.
 ConstraintTable readVectorFile(const std::string& path);

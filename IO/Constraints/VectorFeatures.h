@@ -11,8 +11,8 @@ namespace tipp
 {
 
 /// Calls visit(feature, geometry) for each feature of all layers of a vector file, in their order.
-/// Curves come as straight lines; the geometry may be null. Throws IOError, and what visit()
-/// throws.
+/// Curves are converted to straight lines; the geometry may be null. Throws IOError, and whatever
+/// visit() throws.
 void forFeatures(
   const std::string& path, const std::function<void(OGRFeatureH, OGRGeometryH)>& visit);
 

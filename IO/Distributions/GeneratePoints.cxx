@@ -53,7 +53,8 @@ public:
 private:
   std::int64_t size() const { return std::int64_t(this->XY.size() / 2); }
 
-  // Pareto-distributed sizes, as islands have, near a shore that is already there.
+  // Adds an island near an existing shore. Sizes are Pareto-distributed, like those of real
+  // islands.
   void addIsland()
   {
     const double u = 1 - this->Generator.uniform();
@@ -78,7 +79,7 @@ private:
   {
     const std::int64_t size = std::min(wanted, this->Count - this->size());
     const double r = this->radius(size);
-    // A hexagon whose corners move at random.
+    // Starts from a hexagon with randomly displaced corners.
     constexpr double h = 0.86602540378443865;
     constexpr Vector hexagon[corners] = { { 1, 0 }, { 0.5, h }, { -0.5, h }, { -1, 0 },
       { -0.5, -h }, { 0.5, -h } };

@@ -47,6 +47,7 @@ VTKTIPPIO_EXPORT std::vector<double> generatePoints(
 /// @name Names in lower case, as on the command line
 ///@{
 VTKTIPPIO_EXPORT std::optional<Distribution> distributionFromName(std::string_view name);
+/// All names, in the order of the enumerators.
 VTKTIPPIO_EXPORT std::vector<std::string> distributionNames();
 ///@}
 

@@ -28,7 +28,8 @@ public:
   /// The size in bytes at the time of opening.
   std::uint64_t size() const { return this->Size; }
 
-  /// Reads exactly `bytes` bytes from `offset`, in bytes; throws IOError if the file ends before.
+  /// Reads exactly `bytes` bytes from byte `offset`. Throws IOError if the file ends before that or
+  /// cannot be read.
   void read(std::uint64_t offset, void* to, std::size_t bytes) const;
   /// The same in blocks that fit in the processor's cache: calls take(data, bytes) for each.
   template <typename Take>

@@ -145,7 +145,8 @@ void moveToFree(const std::string& temporary, const std::string& path)
   }
 }
 
-/// File systems without an atomic exchange: the old one is first moved out of the way.
+/// Exchanges two paths. On file systems without an atomic exchange, the old output is first moved
+/// aside.
 int exchangePaths(const std::string& temporary, const std::string& path)
 {
   const int reason = renameAs(temporary, path, RENAME_EXCHANGE);

@@ -17,8 +17,8 @@ namespace tipp
 
 /// An output file with a temporary name in its own folder, which commit() moves to its path;
 /// without commit() the destructor removes it. So a failed or aborted run leaves no partial file,
-/// and the previous file stays. What a killed process has left is removed by the next run for the
-/// same path.
+/// and the previous file stays. Files left behind by a killed process are removed by the next run
+/// for the same path.
 class VTKTIPPIO_EXPORT PendingFile
 {
 public:
@@ -52,7 +52,7 @@ private:
 /// The condition under which an existing folder may be replaced.
 struct Replaceable
 {
-  const char* Name; ///< as "partitioned mesh"
+  const char* Name; ///< what the folder is called in messages, such as "partitioned mesh"
   std::function<bool(const std::string& path)> Is;
   /// Returns the files that make up such a folder, relative to it; throws IOError if that is
   /// unknown. A folder with any other file is not replaced.
@@ -60,8 +60,8 @@ struct Replaceable
 };
 
 /// An output folder in a hidden work folder beside its path until commit(). Without commit() it is
-/// removed; what a killed process has left is removed by the next run for the same path. A work
-/// folder is marked as created here, and only files that runs write are removed from it.
+/// removed; folders left behind by a killed process are removed by the next run for the same path.
+/// A work folder is marked as created here, and only files that runs write are removed from it.
 class VTKTIPPIO_EXPORT PendingFolder
 {
 public:
@@ -93,8 +93,9 @@ public:
   }
 
   /// Moves the folder to its path in one step and removes what was there. The caller must have
-  /// synced its files for them to survive a crash. Throws IOError, also if what is at the path has
-  /// changed or must not be replaced; then the finished folder stays in the work folder.
+  /// synced its files for them to survive a crash. Throws IOError if that fails, or if what is at
+  /// the path has changed or must not be replaced; then the finished folder stays in the work
+  /// folder.
   void commit();
 
 private:

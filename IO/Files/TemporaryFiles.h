@@ -56,6 +56,7 @@ VTKTIPPIO_EXPORT std::string shownPath(const std::string& path);
 /// Runs `move`, which moves an output to `path`; endTemporaryPaths() does not interrupt it.
 VTKTIPPIO_EXPORT void commitOutput(const std::string& path, const std::function<void()>& move);
 
+/// The result of endTemporaryPaths().
 struct EndedPaths
 {
   bool HasOutput = false; ///< an output outside of the registered paths was committed
@@ -85,7 +86,7 @@ void unmarkWorkFolder(const std::string& folder);
 /// Other files stay, since they are not ours.
 VTKTIPPIO_EXPORT void clearWorkFolder(const std::string& folder);
 
-/// As clearWorkFolder(), and removes the mark, and the folder if nothing else is left in it.
+/// Like clearWorkFolder(), but also removes the mark, and the folder itself if it is empty then.
 VTKTIPPIO_EXPORT void removeWorkFolder(const std::string& folder);
 
 } // namespace tipp

@@ -43,6 +43,7 @@ private:
 
 /// Parses a whole field as a number, ignoring blanks and quotes around it.
 bool parseNumber(std::string_view field, double& value);
+/// Parses a whole field as an integer.
 bool parseInteger(std::string_view field, std::int64_t& value);
 
 /// The number in decimal with 17 digits, from which it can be restored.
@@ -82,7 +83,7 @@ private:
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> File;
   const std::size_t BlockBytes;
   std::vector<char> Buffer;
-  std::size_t Begin = 0; ///< of the bytes that have not been returned
+  std::size_t Begin = 0; ///< start of the bytes that have not been returned
   std::size_t End = 0;
   std::int64_t Number = 0;
   std::int64_t Expected = 0;

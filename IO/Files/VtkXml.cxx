@@ -309,7 +309,7 @@ private:
   }
 
   const std::uint64_t HeaderBytes;
-  const std::uint64_t HeaderEnd; ///< in characters
+  const std::uint64_t HeaderEnd; ///< length of the encoded header, in characters
   bool IsGood = true;
   bool IsEnding = false;
   bool IsInterrupted = false;
@@ -372,7 +372,8 @@ bool XmlDataCheck::isWholeEncoded(
 bool XmlDataCheck::areWhole(const InputFile& file, std::uint64_t begin, bool isEncoded,
   std::vector<std::uint64_t> offsets) const
 {
-  constexpr std::uint64_t most = 4096; // from the end of the data to the end of the file
+  constexpr std::uint64_t most =
+    4096; // largest distance from the end of the data to the end of the file
   std::string tail(std::min(most, file.size() - begin), '\0');
   file.read(file.size() - tail.size(), tail.data(), tail.size());
   const std::size_t close = tail.rfind("</AppendedData");

@@ -19,6 +19,7 @@ namespace tipp
 class XmlScanner
 {
 public:
+  /// An opening, closing or empty tag, with its attributes.
   struct Tag
   {
     enum Kind
@@ -67,7 +68,7 @@ public:
   /// Attributes of the file's VTKFile element.
   bool IsCompressed = false;
   bool IsBigEndian = false;
-  std::uint64_t HeaderBytes = 4; ///< of the number of bytes before each array
+  std::uint64_t HeaderBytes = 4; ///< size of the byte count before each array
 
   /// Checks an array in base64 between its tags.
   bool isWholeText(std::string_view text) const;

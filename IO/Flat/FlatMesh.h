@@ -23,7 +23,7 @@ VTKTIPPIO_EXPORT std::size_t scalarSize(Scalar type);
 VTKTIPPIO_EXPORT const char* scalarName(Scalar type);
 /// The name in NumPy: "|i1", "<f8".
 VTKTIPPIO_EXPORT const char* scalarDescr(Scalar type);
-/// The inverse of both; nullopt for any other text.
+/// The inverse of scalarName() and scalarDescr(); nullopt for any other text.
 std::optional<Scalar> scalarFromName(const std::string& name);
 std::optional<Scalar> scalarFromDescr(const std::string& descr);
 
@@ -31,11 +31,11 @@ std::optional<Scalar> scalarFromDescr(const std::string& descr);
 struct RawArray
 {
   std::string Name;
-  std::string Path;
-  std::uint64_t Offset = 0; ///< of the first tuple from the file's start, in bytes
+  std::string Path;         ///< the file
+  std::uint64_t Offset = 0; ///< offset of the first tuple from the file's start, in bytes
   Scalar Type = Scalar::Float64;
-  int Components = 1;
-  std::int64_t Tuples = 0;
+  int Components = 1;      ///< components per tuple
+  std::int64_t Tuples = 0; ///< number of tuples
 
   std::size_t tupleBytes() const { return std::size_t(this->Components) * scalarSize(this->Type); }
   std::uint64_t bytes() const { return std::uint64_t(this->Tuples) * this->tupleBytes(); }
@@ -46,14 +46,14 @@ struct RawArray
 /// have not: CellReader checks them as it reads.
 struct FlatMesh
 {
-  std::string Path;
+  std::string Path; ///< the folder or the .vtu file
   int CellSize = 3; ///< points per cell: 3 for triangles, 4 for tetrahedra
   RawArray Cells;   ///< CellSize point indices per cell, Int32 or Int64
   RawArray Points;  ///< 2 or 3 coordinates per point, Float32 or Float64
   std::vector<RawArray> PointData;
   std::vector<RawArray> CellData;
 
-  std::vector<double> Times; ///< of the time steps, ascending; empty for a static mesh
+  std::vector<double> Times; ///< times of the steps, ascending; empty for a static mesh
   /// Arrays that vary in time: one RawArray per time step for each of them.
   std::vector<std::vector<RawArray>> PointSeries;
   std::vector<std::vector<RawArray>> CellSeries;
@@ -74,7 +74,8 @@ VTKTIPPIO_EXPORT FlatMesh openFlatMesh(const std::string& path);
 /// file with an appended raw, uncompressed header. Opening it may still fail.
 VTKTIPPIO_EXPORT bool isFlatMesh(const std::string& path);
 
-/// The two functions for each of the two: see FlatFolder.cxx and FlatVtu.cxx.
+/// Implement openFlatMesh() and isFlatMesh() for each of the two formats; see FlatFolder.cxx and
+/// FlatVtu.cxx.
 ///@{
 FlatMesh openFlatFolder(const std::string& path);
 bool isFlatFolder(const std::string& path);
@@ -131,19 +132,20 @@ struct FlatArray
   Scalar Type = Scalar::Float64;
   int Components = 1;
   std::int64_t Tuples = 0;
-  std::int64_t Steps = 0; ///< 0: the array does not vary in time
-  const void* Values = nullptr;
+  std::int64_t Steps = 0;            ///< 0: the array does not vary in time
+  const void* Values = nullptr;      ///< step by step, then tuple by tuple
   std::shared_ptr<const void> Owner; ///< owns Values, or null if the caller does
 };
 
+/// The content of a flat mesh to be written.
 struct FlatContent
 {
-  int CellSize = 3;
-  std::vector<std::int64_t> Cells;
-  FlatArray Points;
+  int CellSize = 3;                ///< points per cell: 3 for triangles, 4 for tetrahedra
+  std::vector<std::int64_t> Cells; ///< CellSize point indices per cell
+  FlatArray Points;                ///< 2 or 3 coordinates per point
   std::vector<FlatArray> PointData;
   std::vector<FlatArray> CellData;
-  std::vector<double> Times;
+  std::vector<double> Times; ///< times of the steps, ascending; empty for a static mesh
 };
 
 /// Writes a folder that openFlatMesh can open; point indices as int32 if they fit. The folder is

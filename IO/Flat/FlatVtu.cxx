@@ -52,7 +52,7 @@ std::optional<Value> parse(const std::string* text)
   return error == std::errc() && stop == end ? std::make_optional(value) : std::nullopt;
 }
 
-/// The XML text up to the appended data, and the offset of these in the file.
+/// The XML text up to the appended data, and the offset of the data in the file.
 struct XmlPart
 {
   std::string Text;

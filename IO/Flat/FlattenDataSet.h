@@ -25,8 +25,8 @@ struct Simplices
   std::vector<std::int64_t> Parents;
   std::map<std::string, std::int64_t>
     Cut; ///< number of cells that were cut into several, by VTK's class name
-  /// Number of cells left out, by kind: those of a lower dimension than others (points, lines, and
-  /// triangles beside tetrahedra), empty ones, and ghosts, whose owner is another piece.
+  /// Number of cells left out, by kind: cells of a lower dimension than others (points, lines, and
+  /// triangles if there are tetrahedra), empty cells, and ghost cells, which another piece owns.
   std::map<std::string, std::int64_t> LeftOut;
 
   std::int64_t count() const { return std::int64_t(this->Ids.size()) / this->CellSize; }

@@ -166,8 +166,8 @@ LasCrs readLasCrs(const InputFile& file, const LasRecordRanges& records)
   return finder.result();
 }
 
-constexpr std::size_t shortHeader = 227; ///< of versions 1.0 to 1.2
-constexpr std::size_t longHeader = 375;  ///< of version 1.4
+constexpr std::size_t shortHeader = 227; ///< header size of versions 1.0 to 1.2
+constexpr std::size_t longHeader = 375;  ///< header size of version 1.4
 
 /// The least number of bytes of a record, by format.
 constexpr std::array<std::size_t, 11> recordLengths = { 20, 28, 26, 34, 57, 63, 30, 36, 38, 59,

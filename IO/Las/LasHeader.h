@@ -16,13 +16,13 @@ namespace tipp
 /// The header of a LAS file, version 1.0 to 1.4.
 struct LasHeader
 {
-  int Minor = 0;           ///< of the version, 1.Minor
-  int Format = 0;          ///< of the points: 0 to 10
-  bool Compressed = false; ///< LAZ
-  std::size_t RecordLength = 0;
-  std::uint64_t PointOffset = 0; ///< of the first record in the file
-  std::int64_t Points = 0;
-  std::array<double, 3> Scale{};
+  int Minor = 0;                 ///< minor version: the file's version is 1.Minor
+  int Format = 0;                ///< point data record format, 0 to 10
+  bool Compressed = false;       ///< LAZ
+  std::size_t RecordLength = 0;  ///< bytes per point record
+  std::uint64_t PointOffset = 0; ///< offset of the first record, in bytes
+  std::int64_t Points = 0;       ///< number of point records
+  std::array<double, 3> Scale{}; ///< a coordinate is its stored integer * Scale + Offset
   std::array<double, 3> Offset{};
   std::array<double, 6> Bounds{}; ///< xmin, xmax, ymin ... as the header states them
   /// WKT, "EPSG:code" or "EPSG:code+code"; empty if there is none or it is not understood.
@@ -55,7 +55,8 @@ public:
   virtual void read(std::int64_t first, std::size_t count, char* records) = 0;
 };
 
-/// Opens the records of a LAS or LAZ file. Throws IOError, also for LAZ in a build without LASzip.
+/// Opens the records of a LAS or LAZ file. Throws IOError if the file cannot be opened, or for LAZ
+/// in a build without LASzip.
 std::unique_ptr<LasRecords> openLasRecords(const std::string& path, const LasHeader& header);
 
 /// Implements openLasRecords for a LAZ file, with LASzip.

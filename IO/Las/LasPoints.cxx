@@ -23,7 +23,7 @@ T valueAt(const char* record, std::size_t offset)
   return value;
 }
 
-/// Whether records are selected.
+/// Decides which records are selected.
 class RecordFilter
 {
 public:
@@ -81,7 +81,7 @@ private:
   unsigned LeftOut;
 };
 
-/// A column beside x and y.
+/// A column besides x and y.
 struct LasColumn
 {
   enum class Kind
@@ -230,7 +230,7 @@ private:
   {
     const std::int64_t count =
       std::min<std::int64_t>(std::int64_t(most), this->Header.Points - this->NextRecord);
-    // LAZ records are decompressed one after the other.
+    // LAZ records are decompressed sequentially.
     const std::int64_t shares = this->Header.Compressed
       ? 1
       : std::clamp<std::int64_t>(count / chunkRecords, 1, this->Threads);
@@ -380,7 +380,7 @@ private:
   std::unique_ptr<LasRecords> Records;
   std::vector<Share> Shares;
   std::int64_t NextRecord = 0;
-  std::int64_t Dropped = 0; ///< in this pass so far
+  std::int64_t Dropped = 0; ///< points dropped so far in this pass
   std::int64_t DroppedOfPass = 0;
   mutable std::vector<std::int64_t> KeptBefore;
 };

@@ -95,7 +95,7 @@ IdRange unite(const IdRange& a, const IdRange& b)
 
 IdRange rangeOf(const std::int64_t* ids, std::size_t count)
 {
-  constexpr std::size_t lanes = 4; // independent minima, so that they need not wait for each other
+  constexpr std::size_t lanes = 4;   // independent minima, to avoid a dependency chain
   constexpr std::size_t ahead = 512; // the hardware prefetcher stops at page boundaries
   IdRange parts[lanes] = { noIds, noIds, noIds, noIds };
   std::size_t i = 0;

@@ -62,8 +62,8 @@ std::vector<char> findActive(const std::int64_t* ids, std::size_t count, std::in
 /// Consecutive tuples that one read loads.
 struct Run
 {
-  std::int64_t First;
-  std::int64_t Size;
+  std::int64_t First; ///< index of the first tuple
+  std::int64_t Size;  ///< number of tuples
 };
 
 /// Returns the active blocks, of `block` tuples each, as runs within [low, high). Runs less than
@@ -107,7 +107,7 @@ public:
   bool isEmpty() const { return this->Used == 0; }
   std::int64_t used() const { return this->Used; } ///< tuples in use in the buffer
   std::int64_t room() const { return this->Room; } ///< capacity of the buffer in tuples
-  /// Only while no block is held: a buffer of another size does not keep its content.
+  /// Call it only while no block is held, since resizing the buffer discards its content.
   void setRoom(std::int64_t tuples) { this->Room = tuples; }
   void forget();
 

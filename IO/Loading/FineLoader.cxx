@@ -3,7 +3,8 @@
 // chunk whose vertices are close together reads little else. Active runs near each other are read
 // at once and packed, up to M vertices a pass. Blocks of a single pass stay in memory for the next
 // chunks. If the vertices are few and far apart, each is read by itself and cached. If all vertices
-// fit into M, all blocks are kept once as many bytes have been read as there are.
+// fit into M, all blocks are kept as soon as the number of bytes read exceeds the size of the
+// files.
 #include "Loading/ArrayFiles.h"
 #include "Loading/BlockCache.h"
 #include "Loading/GroupedMoves.h"
@@ -53,7 +54,7 @@ public:
     Chunk chunk = { ids, count, range.Low >> this->Shift << this->Shift, range.High, {} };
     const std::size_t blocks = std::size_t((range.High - chunk.Low) >> this->Shift) + 1;
     constexpr std::int64_t sparse = 128; // tuples read per tuple wanted
-    // then the scan for active blocks costs more than sorting the ids
+    // If true, scanning for active blocks costs more than sorting the ids.
     bool isSparse = blocks > count;
     if (!isSparse)
     {
@@ -168,8 +169,8 @@ private:
     return tuples * std::int64_t(this->Files.recordBytes());
   }
 
-  /// Whether all tuples fit and as many bytes have been read as there are: from then on all blocks
-  /// that are read are kept.
+  /// Whether all tuples fit into memory and the bytes read exceed the size of the files: from then
+  /// on all blocks that are read are kept.
   bool wantsAll() const
   {
     return this->fitsWhole() && this->Spent > this->bytesOf(this->Files.tuples());
@@ -405,14 +406,14 @@ private:
   ArrayFiles Files;
   std::int64_t M;
   int Threads;
-  std::int64_t Gap; ///< in tuples
+  std::int64_t Gap; ///< largest gap to read over, in tuples
   int Shift;        ///< a block is 2^Shift tuples
   HeldBlocks Held;  ///< blocks in the buffers
   LoadCounters Counts;
   TupleBuffers Buffers;
   std::int64_t Spent = 0;            ///< approximate number of bytes read
   RawVector<std::uint32_t> Sources;  ///< position of each of the chunk's tuples in the buffers
-  std::unique_ptr<TupleCache> Cache; ///< created by the first chunk of a few ids far apart
+  std::unique_ptr<TupleCache> Cache; ///< created for the first sparse chunk
   GroupedMoves Moves;
 };
 

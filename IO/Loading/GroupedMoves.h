@@ -117,7 +117,7 @@ private:
   /// The position of each id within its block; isWide says which of the two arrays is in use.
   RawVector<std::uint16_t> Positions;
   RawVector<std::uint32_t> WidePositions;
-  std::vector<std::uint32_t> Starts; ///< of each group in each block, and the block's size
+  std::vector<std::uint32_t> Starts; ///< start of each group in each block, and the block's size
   std::vector<char> InOrder;         ///< per block: it has one group only, and so no positions
 };
 

@@ -281,7 +281,7 @@ private:
   }
 
   ArrayFiles Files;
-  std::int64_t Block; ///< in tuples
+  std::int64_t Block; ///< size of a block, in tuples
   Divisor ByBlock;
   BlockCache Cache;
   LoadCounters Counts;

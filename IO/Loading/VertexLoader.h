@@ -25,6 +25,7 @@ struct LoadCounters
   std::int64_t CacheMisses = 0; ///< blocks that the cache did not hold (Lru)
 };
 
+/// How vertices are loaded.
 enum class Loader
 {
   Auto,   ///< Mmap if the arrays fit well within the memory limit, else Fine
@@ -37,8 +38,10 @@ enum class Loader
 /// Parses "auto", "direct", "fine", "lru" or "mmap"; throws std::invalid_argument for any other
 /// name.
 VTKTIPPIO_EXPORT Loader loaderFromName(const std::string& name);
+/// The inverse of loaderFromName().
 VTKTIPPIO_EXPORT const char* loaderName(Loader kind);
 
+/// Options of makeVertexLoader().
 struct LoaderOptions
 {
   Loader Kind = Loader::Auto;

@@ -37,8 +37,8 @@ namespace tipp
 namespace
 {
 
-// Writers take non-const arrays, but only read them. std::int64_t and VTK's 64-bit integer differ
-// only in name (long and long long).
+// VTK's writers take non-const arrays but only read them, so the const_cast is safe. std::int64_t
+// and VTK's 64-bit integer differ only in name (long and long long).
 template <typename Array, typename Value>
 vtkSmartPointer<Array> borrow(const Value* values, std::size_t count)
 {

@@ -122,6 +122,7 @@ vtkSmartPointer<vtkPolyData> makePolyData(
 vtkSmartPointer<vtkUnstructuredGrid> makeUnstructuredGrid(
   const PointTable& points, TrianglesView triangles, const MeshData& more);
 
+/// Triangles read from a file.
 struct TriangleMesh
 {
   std::vector<std::int64_t> Triangles; ///< three point ids per triangle, as stored in the file
@@ -133,6 +134,7 @@ struct TriangleMesh
 /// .vtk, .ply ... whose cells are all triangles). The ids are not checked. Throws IOError.
 VTKTIPPIO_EXPORT TriangleMesh readMesh(const std::string& path);
 
+/// Options of writeMesh().
 struct MeshOptions
 {
   /// One point id per point, written as the point array "RepresentativePointId"; empty: no such

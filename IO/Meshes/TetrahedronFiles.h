@@ -20,12 +20,14 @@ VTKTIPPIO_EXPORT std::size_t requireElevation(const PointTable& points, const st
 
 /// Writes tetrahedra of four point ids each: .npy (m x 4 int64; points are not written) or .vtu
 /// (appended raw binary: all points, and all columns but the third coordinate as point data).
-/// `neighbors`, if not empty, are four for each and written as "NeighborIds". The file appears only
-/// when it is complete. Returns false if options.Aborted returned true; throws IOError.
+/// `neighbors`, if not empty, has four tetrahedron indices per tetrahedron and is written as
+/// "NeighborIds". The file appears only when it is complete. Returns false if options.Aborted
+/// returned true; throws IOError.
 VTKTIPPIO_EXPORT bool writeTetrahedra(const std::string& path, PointTable points,
   const std::int32_t* ids, std::size_t tetrahedra, const std::vector<std::int64_t>& neighbors,
   const MeshOptions& options);
 
+/// Tetrahedra read from a file.
 struct StoredTetrahedra
 {
   std::vector<std::int64_t> Ids;       ///< four point ids each, as stored in the file
@@ -37,8 +39,8 @@ struct StoredTetrahedra
 /// cell is one. Throws IOError.
 VTKTIPPIO_EXPORT bool holdsTetrahedra(const std::string& path);
 
-/// Reads tetrahedra from such a file. The ids are not checked. Throws IOError, also if the file has
-/// other cells.
+/// Reads tetrahedra from such a file. The ids are not checked. Throws IOError if the file cannot be
+/// read or has other cells.
 VTKTIPPIO_EXPORT StoredTetrahedra readTetrahedra(const std::string& path);
 
 } // namespace tipp

@@ -20,9 +20,9 @@ class InputFile;
 /// The dictionary at the start of an .npy file.
 struct NpyHeader
 {
-  std::string Descr; ///< as "<f8"
-  bool FortranOrder = false;
-  std::vector<std::int64_t> Shape;
+  std::string Descr;               ///< NumPy's name of the scalar type, such as "<f8"
+  bool FortranOrder = false;       ///< whether the array is stored column by column
+  std::vector<std::int64_t> Shape; ///< extent along each axis
 };
 
 /// Parses the dictionary; nullopt unless it has exactly the three keys with plain values, and no

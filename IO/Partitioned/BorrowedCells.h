@@ -42,17 +42,19 @@ public:
     this->orderCells();
   }
 
-  /// Number of points that are not among the piece's own, and of cells.
+  /// The numbers of borrowed points that are not among the piece's own points, and of borrowed
+  /// cells.
   std::int64_t pointCount() const { return std::int64_t(this->NewPoints.size()); }
   std::int64_t cellCount() const { return std::int64_t(this->CellIds.size()); }
 
-  /// Writes the coordinates of the points behind those of the piece.
+  /// Appends the borrowed points' coordinates to those of the piece, whose buffer has room for
+  /// them.
   void fillCoordinates(Piece& piece) const
   {
     this->copyTuples(this->Own.find(PieceRole::Points), 0, piece.Coordinates.data());
   }
 
-  /// Appends the rest to a piece whose buffers have room for them.
+  /// Appends everything else to a piece whose buffers have room for it.
   void fill(const PieceOptions& options, Piece& piece) const
   {
     const std::size_t own = std::size_t(piece.OwnedPoints);
@@ -95,7 +97,7 @@ private:
     std::int64_t InOwner; ///< first tuple in the owner's array
     std::int64_t First;   ///< index among all borrowed tuples, as read
     std::int64_t Count;
-    std::size_t Part; ///< of the owner's arrays
+    std::size_t Part; ///< index of the part in the owner's arrays
   };
   struct Source
   {
@@ -208,8 +210,8 @@ private:
     }
   }
 
-  /// `array`: its index among a piece's arrays, which is the same in all pieces. `first`: the index
-  /// of the tuple that index 0 is.
+  /// Copies the borrowed tuples of an array to `to`. `array` is its index among a piece's arrays,
+  /// which is the same in all pieces; `first` is subtracted from the tuples' indices.
   void copyTuples(std::size_t array, std::int64_t first, char* to) const
   {
     const PieceArray& description = this->Own.arrays()[array];
@@ -271,9 +273,9 @@ private:
   std::vector<Source> Sources;
   std::int64_t PointsAsRead = 0;          ///< borrowed points, with repetitions
   std::int64_t CellsAsRead = 0;           ///< borrowed cells
-  std::vector<std::int64_t> PointIndices; ///< in the piece, of the points as read
+  std::vector<std::int64_t> PointIndices; ///< piece-local index of each point, as read
   std::vector<std::int64_t> NewPoints;    ///< global ids, ascending
-  std::vector<std::int64_t> CellIndices;  ///< among the borrowed ones, of the cells as read
+  std::vector<std::int64_t> CellIndices;  ///< index among the borrowed cells of each cell, as read
   std::vector<std::int64_t> CellIds;      ///< global ids, as read
 };
 

@@ -36,6 +36,7 @@ private:
 /// Converts to 16 hexadecimal digits in lower case, and back; the latter returns false for any
 /// other text.
 VTKTIPPIO_EXPORT std::string checksumText(std::uint64_t checksum);
+/// The inverse of checksumText(). Returns false if the text is no checksum.
 VTKTIPPIO_EXPORT bool parseChecksum(const std::string& text, std::uint64_t& checksum);
 
 } // namespace tipp

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The checksums of Checksum.cxx, compiled for processors with AVX2. No other header may be included
-// here: what is inline there would be compiled for them, too, and could be used everywhere.
+// here: its inline functions would be compiled with AVX2 as well, and the linker might use them
+// everywhere.
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 

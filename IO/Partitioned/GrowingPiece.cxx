@@ -19,8 +19,8 @@ namespace
 constexpr std::size_t bufferBytes = std::size_t(1) << 20;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Whether the array holds global ids of cells, which are known last: no cell data are stored but
-/// the neighbours' ids.
+/// Whether the array holds global ids of cells, which are known last: the cells' own ids, or the
+/// neighbours' ids, which are the only cell data.
 bool holdsCellIds(const PieceArray& array)
 {
   return array.Role == PieceRole::CellIds || array.Role == PieceRole::CellData;
@@ -112,8 +112,8 @@ void addShapes(const PieceArray& array, int cellSize, std::int64_t first, std::i
   }
 }
 
-/// Fills in what the record says of points, and returns their positions in the piece, or -1 - k
-/// for the k-th interface point.
+/// Sets the record's members for points. Returns the points' positions in the piece, or -1 - k for
+/// the k-th interface point.
 std::vector<std::int32_t> orderPoints(
   const InteriorContent& content, const PointRowLayout& layout, PieceInterior& interior)
 {
@@ -137,7 +137,7 @@ std::vector<std::int32_t> orderPoints(
   return positions;
 }
 
-/// The border's size is not known yet: reserves more than it usually takes.
+/// Reserves room for the border, whose size is not known yet: more than it usually takes.
 void makeRoom(const PartitionedMesh& mesh, std::size_t number, PieceInterior& interior)
 {
   const auto points = std::int64_t(interior.InterfacePoints.size());

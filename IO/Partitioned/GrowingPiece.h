@@ -27,10 +27,10 @@ constexpr const char* nextPieceSuffix = ".next";
 /// A piece whose own points are triangulated. Points are identified by row, except for `First`.
 struct InteriorContent
 {
-  std::int64_t First = 0; ///< index of the first own point among those of all pieces
-  std::int64_t Points = 0;
-  const double* Rows = nullptr;
-  const std::uint8_t* IsOnInterface = nullptr; ///< of each point
+  std::int64_t First = 0;       ///< index of the first own point among those of all pieces
+  std::int64_t Points = 0;      ///< number of own points
+  const double* Rows = nullptr; ///< their rows, see PointRowLayout; not owned
+  const std::uint8_t* IsOnInterface = nullptr; ///< by point: not 0 if it is on the interface
   std::vector<TriangleRange> Triangles;        ///< or tetrahedra; all except the border's
   /// Duplicates: maps a point to the one with the same coordinates that represents it.
   const std::unordered_map<std::int32_t, std::int32_t>* Representatives = nullptr;
@@ -51,8 +51,9 @@ VTKTIPPIO_EXPORT FinishedPiece writeBorder(const PartitionedMesh& mesh, std::siz
 VTKTIPPIO_EXPORT void writeCellIds(
   const PartitionedMesh& mesh, std::size_t number, std::int64_t first, FinishedPiece& piece);
 
-/// Writes an array of a finished piece's cells whose values are known last: `values` has its bytes,
-/// in the order of the cells. `attribute`: the array's index among the mesh's. May be repeated.
+/// Writes a cell array of a finished piece whose values are only known at the end. `values` has its
+/// bytes, in the order of the piece's cells; `attribute` is its index in PartitionedMesh::Arrays.
+/// May be repeated.
 VTKTIPPIO_EXPORT void writeLateArray(const PartitionedMesh& mesh, std::size_t number,
   std::int64_t attribute, const char* values, FinishedPiece& piece);
 

@@ -6,6 +6,7 @@
 #include "Partitioned/PieceWriter.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <iterator>
 
@@ -17,10 +18,10 @@ const StoredArray neighborIdsArray{ "NeighborIds", false, Scalar::Int64, 3, -1 }
 std::int64_t findNeighborIds(const PartitionedMesh& mesh)
 {
   const auto found = std::find_if(mesh.Arrays.begin(), mesh.Arrays.end(),
-    [](const StoredArray& array)
+    [&mesh](const StoredArray& array)
     {
       return array.Name == neighborIdsArray.Name && !array.OfPoints &&
-        array.Type == neighborIdsArray.Type && array.Components == neighborIdsArray.Components &&
+        array.Type == neighborIdsArray.Type && array.Components == mesh.CellSize &&
         array.Step == neighborIdsArray.Step;
     });
   return found == mesh.Arrays.end() ? -1 : found - mesh.Arrays.begin();
@@ -29,7 +30,6 @@ std::int64_t findNeighborIds(const PartitionedMesh& mesh)
 namespace
 {
 
-constexpr std::size_t tupleBytes = 3 * sizeof(std::int64_t);
 constexpr std::size_t writeBufferBytes = std::size_t(1) << 20;
 
 /// The array's index among the arrays of the piece's file.
@@ -56,10 +56,60 @@ std::vector<Value> readParts(
   return values;
 }
 
+/// The points of the facet opposite to corner h % 4 of tetrahedron h / 4, ascending.
+std::array<std::int32_t, 3> facetOf(const std::int32_t* corners, std::size_t h)
+{
+  const std::int32_t* const v = corners + h / 4 * 4;
+  const std::size_t i = h % 4;
+  std::array<std::int32_t, 3> facet = { v[i == 0 ? 1 : 0], v[i <= 1 ? 2 : 1], v[i == 3 ? 2 : 3] };
+  std::sort(facet.begin(), facet.end());
+  return facet;
+}
+
+/// As findNeighbors(), for tetrahedra that meet facet to facet.
+void findTetrahedronNeighbors(
+  const std::int32_t* corners, std::size_t tetrahedra, std::int32_t* neighbors)
+{
+  // A link to slot h is -2 - h, so it is neither a tetrahedron nor -1, the end of a list.
+  const auto link = [](std::int32_t slot) { return -2 - slot; };
+  std::size_t lists = 1;
+  while (lists < 2 * tetrahedra)
+  {
+    lists *= 2;
+  }
+  std::vector<std::int32_t> newest(lists, -1);
+  for (std::size_t h = 0; h < 4 * tetrahedra; ++h)
+  {
+    const std::array<std::int32_t, 3> facet = facetOf(corners, h);
+    constexpr std::size_t stride = 5;
+    const std::size_t list =
+      std::size_t(facet[0]) + stride * (std::size_t(facet[1]) + stride * std::size_t(facet[2]));
+    std::int32_t& first = newest[list & (lists - 1)];
+    std::int32_t* at = &first;
+    while (*at != -1 && facetOf(corners, std::size_t(link(*at))) != facet)
+    {
+      at = &neighbors[std::size_t(link(*at))];
+    }
+    if (*at == -1)
+    {
+      neighbors[h] = first;
+      first = link(std::int32_t(h));
+      continue;
+    }
+    const std::int32_t other = link(*at);
+    *at = neighbors[std::size_t(other)];
+    neighbors[h] = other / 4;
+    neighbors[std::size_t(other)] = std::int32_t(h / 4);
+  }
+  std::transform(neighbors, neighbors + 4 * tetrahedra, neighbors,
+    [](std::int32_t n) { return std::max(n, -1); });
+}
+
 } // namespace
 
 NeighborWriter::NeighborWriter(const PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces)
   : Mesh(mesh)
+  , Corners(std::size_t(mesh.CellSize))
   , Pieces(pieces)
 {
   std::int64_t cells = 0;
@@ -70,10 +120,10 @@ NeighborWriter::NeighborWriter(const PartitionedMesh& mesh, std::vector<Finished
   }
 }
 
-std::uint64_t NeighborWriter::bytesFor(const FinishedPiece& piece)
+std::uint64_t NeighborWriter::bytesFor(const PartitionedMesh& mesh, const FinishedPiece& piece)
 {
-  // Corners, neighbours and findNeighbors()' lists, and a buffer.
-  constexpr std::uint64_t perCell = 12 + 12 + 8;
+  // Corners, neighbours and the lists to find them, and a buffer.
+  const std::uint64_t perCell = mesh.CellSize == 4 ? 16 + 16 + 16 : 12 + 12 + 8;
   return perCell * std::uint64_t(piece.Summary.Cells) + writeBufferBytes;
 }
 
@@ -85,16 +135,18 @@ void NeighborWriter::add(std::size_t number)
   const std::vector<std::int64_t>& parts = file.partStarts(false);
   const auto corners = readParts<std::int32_t>(file, PieceRole::Connectivity, 0, parts.size() - 1);
   std::vector<std::int32_t> neighbors(corners.size());
-  findNeighbors(corners.data(), corners.size() / 3, neighbors.data());
-  const std::vector<OpenEdge> open = findOpenEdges(file, corners, neighbors);
+  this->Corners == 4
+    ? findTetrahedronNeighbors(corners.data(), corners.size() / 4, neighbors.data())
+    : findNeighbors(corners.data(), corners.size() / 3, neighbors.data());
+  const std::vector<OpenFacet> open = this->findOpenFacets(file, corners, neighbors);
 
   const std::int64_t first = this->FirstCells[number];
   const auto idOf = [first](std::int32_t n) { return n < 0 ? std::int64_t(-1) : first + n; };
   Border border;
   border.FirstCell = first + parts[1];
   border.Open = open.size();
-  std::transform(
-    neighbors.begin() + 3 * parts[1], neighbors.end(), std::back_inserter(border.Values), idOf);
+  std::transform(neighbors.begin() + std::ptrdiff_t(this->Corners) * parts[1], neighbors.end(),
+    std::back_inserter(border.Values), idOf);
   this->write(number, 0, 1, [&, at = neighbors.begin()]() mutable { return idOf(*at++); });
   for (auto& [completed, values] : this->match(number, std::move(border), open))
   {
@@ -102,32 +154,44 @@ void NeighborWriter::add(std::size_t number)
   }
 }
 
-/// A triangle of part 0 has all its neighbours in its piece; so has a border triangle across an
-/// edge with a point of part 0, or it has none there.
-std::vector<NeighborWriter::OpenEdge> NeighborWriter::findOpenEdges(const PieceFile& file,
-  const std::vector<std::int32_t>& corners, const std::vector<std::int32_t>& neighbors)
+/// Finds the border's facets whose neighbour may be in another piece. All neighbours of a cell of
+/// part 0 are in its piece. Across a facet with a point of part 0, a border cell's neighbour is in
+/// its piece too, if there is one.
+std::vector<NeighborWriter::OpenFacet> NeighborWriter::findOpenFacets(const PieceFile& file,
+  const std::vector<std::int32_t>& corners, const std::vector<std::int32_t>& neighbors) const
 {
   const std::vector<std::int64_t>& pointParts = file.partStarts(true);
   const auto firstPoint = std::int32_t(pointParts[1]);
   const auto ids = readParts<std::int64_t>(file, PieceRole::PointIds, 1, pointParts.size() - 1);
-  const auto firstCorner = std::size_t(3 * file.partStarts(false)[1]);
-  std::vector<OpenEdge> open;
+  const std::size_t firstCorner = this->Corners * std::size_t(file.partStarts(false)[1]);
+  std::vector<OpenFacet> open;
   for (std::size_t h = firstCorner; h < neighbors.size(); ++h)
   {
-    const std::int32_t from = corners[h % 3 == 2 ? h - 2 : h + 1] - firstPoint;
-    const std::int32_t to = corners[h % 3 == 0 ? h + 2 : h - 1] - firstPoint;
-    if (neighbors[h] < 0 && from >= 0 && to >= 0)
+    const std::size_t cell = h - h % this->Corners;
+    Facet facet = { -1, -1, -1 };
+    std::size_t next = this->Corners == 3 ? 1 : 0;
+    bool isOfBorder = neighbors[h] < 0;
+    for (std::size_t c = cell; c < cell + this->Corners && isOfBorder; ++c)
     {
-      open.push_back(
-        { std::minmax(ids[std::size_t(from)], ids[std::size_t(to)]), h - firstCorner });
+      const std::int32_t point = corners[c] - firstPoint;
+      isOfBorder = c == h || point >= 0;
+      if (c != h && isOfBorder)
+      {
+        facet[next++] = ids[std::size_t(point)];
+      }
+    }
+    if (isOfBorder)
+    {
+      std::sort(facet.begin(), facet.end());
+      open.push_back({ facet, h - firstCorner });
     }
   }
   return open;
 }
 
-/// Returns the borders that have no open edge any more.
+/// Returns the borders that have no open facet any more.
 std::vector<std::pair<std::size_t, NeighborWriter::Border>> NeighborWriter::match(
-  std::size_t number, Border border, const std::vector<OpenEdge>& open)
+  std::size_t number, Border border, const std::vector<OpenFacet>& open)
 {
   std::vector<std::pair<std::size_t, Border>> complete;
   const std::lock_guard<std::mutex> lock(this->Mutex);
@@ -140,17 +204,17 @@ std::vector<std::pair<std::size_t, NeighborWriter::Border>> NeighborWriter::matc
     }
   };
   const auto mine = this->Borders.emplace(number, std::move(border)).first;
-  for (const OpenEdge& edge : open)
+  for (const OpenFacet& facet : open)
   {
-    const auto [found, isNew] = this->Edges.emplace(edge.Ends, Waiting{ number, edge.At });
+    const auto [found, isNew] = this->Facets.emplace(facet.Points, Waiting{ number, facet.At });
     if (isNew)
     {
       continue;
     }
     const auto other = this->Borders.find(found->second.Piece);
-    mine->second.set(edge.At, other->second.cellOf(found->second.At));
-    other->second.set(found->second.At, mine->second.cellOf(edge.At));
-    this->Edges.erase(found);
+    mine->second.set(facet.At, this->cellOf(other->second, found->second.At));
+    other->second.set(found->second.At, this->cellOf(mine->second, facet.At));
+    this->Facets.erase(found);
     take(other);
   }
   take(mine);
@@ -164,7 +228,7 @@ void NeighborWriter::finish()
     this->writeBorder(number, border);
   }
   this->Borders.clear();
-  this->Edges.clear();
+  this->Facets.clear();
 }
 
 void NeighborWriter::writeBorder(std::size_t number, const Border& border)
@@ -182,10 +246,11 @@ void NeighborWriter::write(std::size_t number, std::size_t begin, std::size_t en
   const std::vector<std::int64_t> parts = piece.Table.parts(this->Mesh, piece.Summary, false);
   const std::uint64_t skipped = begin == 0 ? 0 : std::uint64_t(parts[0]);
   const OutputFile file = OutputFile::shared(this->Mesh.piecePath(number));
+  const std::uint64_t tupleBytes = this->Corners * sizeof(std::int64_t);
   ColumnWriter column(file, piece.Table.Offsets[a] + skipped * tupleBytes, writeBufferBytes);
   for (std::size_t part = begin; part < end; ++part)
   {
-    for (std::int64_t i = 0; i < 3 * parts[part]; ++i)
+    for (std::int64_t i = 0; i < std::int64_t(this->Corners) * parts[part]; ++i)
     {
       const std::int64_t id = next();
       std::memcpy(column.extend(sizeof(id)), &id, sizeof(id));

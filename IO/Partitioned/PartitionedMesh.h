@@ -19,18 +19,18 @@ using Bounds = std::array<double, 6>;
 /// The maximum number of pieces of a mesh.
 constexpr std::int64_t mostPieces = 1 << 24;
 
-/// What the index holds on a piece.
+/// The index's entry for a piece.
 struct PieceSummary
 {
   Bounds Box{};            ///< the partition: a closed box
   Bounds Extent{};         ///< bounding box of the piece's own points; min > max if there are none
-  std::int64_t Points = 0; ///< without ghost points of borrowed cells alone
+  std::int64_t Points = 0; ///< excluding GhostPoints
   std::int64_t Cells = 0;  ///< owned
-  std::int64_t BorrowedCells = 0; ///< stored by reference, or duplicated at the end of the piece
-  std::int64_t GhostPoints = 0;   ///< points that only borrowed cells use, at the end of the piece
-  std::uint64_t FileBytes = 0;    ///< size of the piece's .vtu
-  std::uint64_t TableOffset = 0;  ///< offset in bytes of its table in tables.bin
-  std::uint64_t TableBytes = 0;
+  std::int64_t BorrowedCells = 0;  ///< stored by reference, or duplicated at the end of the piece
+  std::int64_t GhostPoints = 0;    ///< points that only borrowed cells use, at the end of the piece
+  std::uint64_t FileBytes = 0;     ///< size of the piece's .vtu
+  std::uint64_t TableOffset = 0;   ///< offset in bytes of its table in tables.bin
+  std::uint64_t TableBytes = 0;    ///< size in bytes of its table
   std::uint64_t TableChecksum = 0; ///< XXH3, 64 bits
 };
 
@@ -40,8 +40,8 @@ struct StoredArray
   std::string Name;
   bool OfPoints = true; ///< false: of cells
   Scalar Type = Scalar::Float64;
-  int Components = 1;
-  int Step = -1; ///< the time step; -1: static
+  int Components = 1; ///< components per tuple
+  int Step = -1;      ///< the time step; -1: static
 };
 
 template <typename Archive>
@@ -58,18 +58,18 @@ void serialize(Archive& archive, StoredArray& array)
 /// the others.
 struct PartitionedMesh
 {
-  std::string Path; ///< the folder
-  int CellSize = 3; ///< 3: triangles, 4: tetrahedra
-  Scalar PointType = Scalar::Float64;
-  bool Duplicated = false; ///< borrowed cells are copied to the borrowers' pieces
-  std::int64_t Points = 0;
-  std::int64_t Cells = 0;
-  Bounds Domain{};
-  std::string Tiling; ///< as it was asked for: "grid:4x4", "quadtree:100000"
-  std::vector<double> Times;
-  std::vector<StoredArray> Arrays; ///< point arrays first
-  std::vector<PieceSummary> Pieces;
-  std::uint64_t PvtuBytes = 0; ///< of mesh.pvtu, once it is written
+  std::string Path;                   ///< the folder
+  int CellSize = 3;                   ///< 3: triangles, 4: tetrahedra
+  Scalar PointType = Scalar::Float64; ///< type of the coordinates
+  bool Duplicated = false;            ///< borrowed cells are copied to the borrowers' pieces
+  std::int64_t Points = 0;            ///< distinct points of the whole mesh
+  std::int64_t Cells = 0;             ///< distinct cells of the whole mesh
+  Bounds Domain{};                    ///< the box that the pieces' boxes tile
+  std::string Tiling;                 ///< as requested: "grid:4x4", "quadtree:100000"
+  std::vector<double> Times;          ///< times of the steps, ascending; empty for a static mesh
+  std::vector<StoredArray> Arrays;    ///< point arrays first
+  std::vector<PieceSummary> Pieces;   ///< in the order of piece indices
+  std::uint64_t PvtuBytes = 0;        ///< size of mesh.pvtu, once it is written
   std::uint64_t PvtuChecksum = 0;
 
   std::string piecePath(std::size_t piece) const;

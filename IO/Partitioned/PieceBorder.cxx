@@ -276,7 +276,7 @@ void OrderedBorder::orderPoints()
   }
 }
 
-/// Puts the corners into an order of the same orientation that depends on nothing else.
+/// Adds a cell, its corners permuted to a canonical order of the same orientation.
 void OrderedBorder::addCell(int set, CellCorners corners)
 {
   if (this->Of.CellSize == 3)

@@ -21,8 +21,8 @@ namespace tipp
 /// The layout of points in rows of 8-byte words: x, y, further columns, and last the global id.
 struct PointRowLayout
 {
-  std::size_t Words = 3;
-  int Z = -1; ///< the word that is the third coordinate; -1: it is 0
+  std::size_t Words = 3; ///< words per row
+  int Z = -1;            ///< the word that is the third coordinate; -1: it is 0
   /// The word of each of the mesh's point arrays; -1: the representative's id.
   std::vector<int> Attributes;
 
@@ -47,8 +47,8 @@ using CellCorners = std::array<std::int32_t, 4>;
 /// those.
 struct TriangleRange
 {
-  const std::int32_t* Begin;
-  std::size_t Triangles;
+  const std::int32_t* Begin; ///< row indices of the corners
+  std::size_t Triangles;     ///< number of triangles, or tetrahedra
 };
 
 /// Returns a hash of a triangle's point ids that is independent of which corner comes first.
@@ -95,22 +95,22 @@ private:
   std::map<std::pair<int, int>, int> Unions;
 };
 
-/// What is kept of a piece's interior from the time it is written until its border is.
+/// What is remembered of a piece's interior after it is written, until the border is written.
 ///
 /// Points are identified by index among those of all pieces; a piece's own points have consecutive
 /// indices. *Interface* points are own points that cells of the border use.
 struct VTKTIPPIO_EXPORT PieceInterior
 {
-  std::int64_t First = 0; ///< index of the first own point
-  std::int64_t OwnPoints = 0;
+  std::int64_t First = 0;                    ///< index of the first own point
+  std::int64_t OwnPoints = 0;                ///< number of own points
   PieceSummary Room;                         ///< counts that the file has room for
-  std::int64_t Points = 0;                   ///< own points without those of the interface
-  std::int64_t Cells = 0;                    ///< cells of these points alone
-  std::uint64_t TriangleSum = 0;             ///< of hashes; only without a file
-  Bounds Extent{};                           ///< of the own points
-  std::vector<std::uint64_t> Checksums;      ///< of each array's first part
+  std::int64_t Points = 0;                   ///< own points that are not on the interface
+  std::int64_t Cells = 0;                    ///< cells with only such points
+  std::uint64_t TriangleSum = 0;             ///< sum of hashTriangle(); only without a file
+  Bounds Extent{};                           ///< bounds of the own points
+  std::vector<std::uint64_t> Checksums;      ///< checksum of each array's first part
   std::vector<std::int64_t> InterfacePoints; ///< indices, ascending
-  std::vector<double> InterfaceRows;
+  std::vector<double> InterfaceRows;         ///< rows of InterfacePoints, in their order
   /// Cells of own points alone with corners on the interface: positions in the piece, or -1 - k for
   /// the k-th interface point.
   std::vector<CellCorners> InterfaceCells;
@@ -186,8 +186,9 @@ private:
   const std::size_t CellSize;
   std::vector<Cell> Cells;
   std::vector<std::int32_t> Borrowers;
-  std::vector<std::int64_t> Ghosts;                             ///< in the order of their rows
-  std::unordered_map<std::int64_t, std::int64_t> GhostPosition; ///< in Ghosts, by point
+  std::vector<std::int64_t> Ghosts; ///< indices of ghost points, in the order of their rows
+  std::unordered_map<std::int64_t, std::int64_t>
+    GhostPosition; ///< by point: its position in Ghosts
   std::vector<double> GhostRows;
 };
 
@@ -229,11 +230,11 @@ private:
   const PieceBorder& Of;
   const PieceInterior& Interior;
   SharingSets Sets;
-  std::vector<int> SetOf;             ///< of each point
-  std::vector<int> CellSets;          ///< of each added cell
-  std::vector<int> Ranks;             ///< of sets, in lexicographic order
+  std::vector<int> SetOf;             ///< by point: the number of its set
+  std::vector<int> CellSets;          ///< by added cell: the number of its set
+  std::vector<int> Ranks;             ///< by set: its position in lexicographic order
   std::vector<int> SetOfRank;         ///< the inverse
-  std::vector<std::int32_t> Position; ///< in the piece, of each point
+  std::vector<std::int32_t> Position; ///< by point: its position in the piece
 };
 
 } // namespace tipp

@@ -231,7 +231,7 @@ void PieceFile::readBlocks(std::size_t array, std::size_t first, std::size_t end
   const std::uint64_t offset = this->Table.Offsets[array] + std::uint64_t(starts[first]) * tuple;
   const std::size_t bytes = startOf(end);
   const std::size_t step = std::max(blockBytes / tuple, std::size_t(1)) * tuple;
-  Checksum sum; // of the part that began in an earlier block
+  Checksum sum; // checksum of the part that began in an earlier block
   std::size_t hashed = 0;
   std::size_t part = first;
   for (std::size_t begin = 0; begin < bytes; begin += step)

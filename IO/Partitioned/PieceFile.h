@@ -73,8 +73,8 @@ private:
 /// The cost of reading a piece.
 struct ReadCounters
 {
-  std::int64_t Reads = 0;
-  std::int64_t Bytes = 0;
+  std::int64_t Reads = 0; ///< read calls
+  std::int64_t Bytes = 0; ///< bytes read
 };
 
 /// A piece's open file, which is read part by part.
@@ -106,12 +106,12 @@ public:
   /// them only. Throws IOError.
   void read(std::size_t array, std::size_t first, std::size_t end, void* to) const;
 
-  /// Takes `count` tuples that begin with the one of index `first` among those that are visited.
-  /// False: the others are not read.
+  /// Receives `count` tuples, starting at index `first` of the visited ones. Returning false stops
+  /// reading.
   using TakeTuples =
     std::function<bool(std::int64_t first, std::int64_t count, const char* tuples)>;
-  /// Passes parts [first, end) of an array on in small blocks, in order. A block is not verified
-  /// yet: what was made of it counts once this returns. Throws IOError.
+  /// Passes parts [first, end) of an array to `take` in small blocks, in order. Blocks are passed
+  /// before they are verified, so results are valid only once this has returned. Throws IOError.
   void visit(std::size_t array, std::size_t first, std::size_t end, const TakeTuples& take) const;
   /// Verifies every byte of the file, except for arrays that have no checksums yet; throws IOError.
   void verifyAll() const;

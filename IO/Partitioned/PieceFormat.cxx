@@ -326,7 +326,7 @@ std::string pieceSections(const PieceLayout& layout)
   return text;
 }
 
-/// The XML before the padding; offsets are relative to the appended data.
+/// The XML header without its padding; array offsets are relative to the appended data.
 std::string headerText(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& piece,
   const PieceLayout& layout)
 {

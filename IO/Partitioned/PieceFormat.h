@@ -18,7 +18,7 @@ namespace tipp
 struct SharedGroup
 {
   std::vector<std::int32_t> Borrowers; ///< pieces, ascending
-  std::int64_t Count = 0;
+  std::int64_t Count = 0;              ///< number of cells or points
 };
 
 template <typename Archive>
@@ -30,8 +30,8 @@ void serialize(Archive& archive, SharedGroup& group)
 /// A group of another piece.
 struct BorrowedGroup
 {
-  std::int32_t Owner = 0;
-  std::int32_t Group = 0;
+  std::int32_t Owner = 0; ///< index of the piece that owns the group
+  std::int32_t Group = 0; ///< index of the group among the owner's
 };
 
 /// What a reader needs to know of a piece beyond its summary. Every array of the piece consists of
@@ -39,14 +39,14 @@ struct BorrowedGroup
 /// and, if borrowed cells are duplicated, the tuples of borrowed cells.
 struct PieceTable
 {
-  std::vector<std::uint64_t> Offsets; ///< in bytes, of each array's data in the piece's file
-  std::vector<SharedGroup> PointGroups;
-  std::vector<SharedGroup> CellGroups;
-  std::vector<BorrowedGroup> BorrowedPoints; ///< sorted by owner, then group
-  std::vector<BorrowedGroup> BorrowedCells;
+  std::vector<std::uint64_t> Offsets; ///< offset in bytes of each array's data in the piece's file
+  std::vector<SharedGroup> PointGroups;              ///< own points that other pieces borrow
+  std::vector<SharedGroup> CellGroups;               ///< own cells that other pieces borrow
+  std::vector<BorrowedGroup> BorrowedPoints;         ///< sorted by owner, then group
+  std::vector<BorrowedGroup> BorrowedCells;          ///< sorted by owner, then group
   std::vector<std::vector<std::uint64_t>> Checksums; ///< per array, one for each part
-  std::uint64_t HeaderBytes = 0;
-  std::uint64_t HeaderChecksum = 0;
+  std::uint64_t HeaderBytes = 0;                     ///< size of the file's XML header
+  std::uint64_t HeaderChecksum = 0;                  ///< XXH3 of the header, 64 bits
 
   /// The number of tuples in each part of the arrays of points, or of cells.
   VTKTIPPIO_EXPORT std::vector<std::int64_t> parts(
@@ -74,6 +74,7 @@ enum class PieceRole
   CellData
 };
 
+/// An array in a piece's file.
 struct PieceArray
 {
   PieceRole Role;
@@ -112,10 +113,10 @@ std::int64_t storedTuples(
 /// The offsets, in bytes, of all sections of a piece's file.
 struct PieceLayout
 {
-  std::string Header; ///< the XML up to the first array's size
-  std::vector<PieceArray> Arrays;
+  std::string Header;                 ///< the XML up to the first array's size
+  std::vector<PieceArray> Arrays;     ///< in the order of the file
   std::vector<std::uint64_t> Offsets; ///< of each array's data; the 8 bytes before hold its size
-  std::uint64_t End = 0;              ///< of the last array, where the footer begins
+  std::uint64_t End = 0;              ///< end of the last array, where the footer begins
 };
 
 /// The text after the last array.

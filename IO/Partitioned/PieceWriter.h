@@ -44,8 +44,8 @@ private:
   std::vector<std::uint64_t> Checksums;
 };
 
-/// Writes the header, which precedes the arrays, and the footer behind them, and completes the
-/// offsets in the piece's table. Returns the file's size in bytes. Throws IOError.
+/// Writes the header before the arrays and the footer after them, and completes the offsets in the
+/// piece's table. Returns the file's size in bytes. Throws IOError.
 std::uint64_t writeFrame(const OutputFile& file, const PieceLayout& layout, PieceTable& table);
 
 /// Writes a piece's file, whose counts are known, array by array in the order of tuples.
@@ -78,7 +78,7 @@ VTKTIPPIO_EXPORT extern const Replaceable replaceableMesh;
 /// A piece whose file is complete, with its summary and table except for what it borrows.
 struct FinishedPiece
 {
-  PieceSummary Summary;
+  PieceSummary Summary;          ///< the piece's entry in the index
   PieceTable Table;              ///< without checksums of arrays that are not written yet
   std::uint64_t TriangleSum = 0; ///< without a file: sum of hashTriangle()
 };
@@ -91,15 +91,16 @@ void serialize(Archive& archive, FinishedPiece& piece)
     table.HeaderBytes, table.HeaderChecksum, piece.TriangleSum);
 }
 
+/// The result of publishPieces().
 struct PublishedMesh
 {
-  std::uint64_t Bytes = 0;       ///< of all files
+  std::uint64_t Bytes = 0;       ///< size of all files
   std::uint64_t Fingerprint = 0; ///< checksum of the index, which identifies the mesh
 };
 
 /// Writes tables, .pvtu and, last, the index into the mesh's folder, and completes mesh.Pieces. The
-/// pieces' files must have been synced. Throws IOError, also if one of them does not have its
-/// expected size.
+/// pieces' files must have been synced. Throws IOError if writing fails or one of them does not
+/// have its expected size.
 VTKTIPPIO_EXPORT PublishedMesh publishPieces(
   PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces);
 

@@ -90,7 +90,8 @@ void readCells(
   verifyUnused(file, stored);
 }
 
-/// Reads the tuples of an array of cells with these indices, ascending; `tuples` have room.
+/// Reads the tuples of a cell array with the given ascending indices. The result has room for
+/// `tuples` tuples.
 Buffer<char> readChosen(const PieceFile& file, std::size_t array, std::int64_t stored,
   const std::vector<std::int64_t>& chosen, std::int64_t tuples)
 {
@@ -142,7 +143,7 @@ std::vector<std::int64_t> chooseCells(const PieceFile& file, const PieceOptions&
   return chosen;
 }
 
-/// As readCells(), of the cells that the options choose; returns their indices in the file.
+/// Like readCells(), for the cells that the options choose. Returns their indices in the file.
 std::vector<std::int64_t> readChosenCells(const PartitionedMesh& mesh, const PieceFile& file,
   const PieceOptions& options, std::int64_t stored, std::int64_t borrowed, Piece& piece)
 {
@@ -160,7 +161,7 @@ std::vector<std::int64_t> readChosenCells(const PartitionedMesh& mesh, const Pie
   return chosen;
 }
 
-/// `chosen` is null if all cells have been read.
+/// Reads the requested attributes. `chosen` has the file indices of the cells; null: all cells.
 void readAttributes(const PartitionedMesh& mesh, const PieceOptions& options, const PieceFile& file,
   std::int64_t storedPoints, std::int64_t storedCells, const std::vector<std::int64_t>* chosen,
   Piece& piece)

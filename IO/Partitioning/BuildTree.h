@@ -65,7 +65,7 @@ private:
   std::vector<std::uint8_t> Depths;
 };
 
-/// Cells of each node of a tree.
+/// Numbers of cells of each node of a tree.
 struct NodeCounts
 {
   std::vector<std::int64_t> Meeting; ///< cells that share a point with its closed box
@@ -78,9 +78,9 @@ struct NodeCounts
   }
 };
 
-/// Counts cells in the nodes of a tree that grows meanwhile: a leaf with more than `limit` fitting
-/// cells is split repeatedly, and the chunk's cells are counted in its children. Cells of earlier
-/// chunks are not counted in those.
+/// Counts cells in the nodes of a tree, which grows at the same time: a leaf with more than `limit`
+/// fitting cells is split repeatedly, and the chunk's cells are counted in its children. Cells of
+/// earlier chunks are not counted in these children.
 class VTKTIPPIO_EXPORT CellCounter
 {
 public:
@@ -115,7 +115,7 @@ private:
   int Threads;
   NodeCounts Counts;
   std::vector<std::uint8_t> Marked; // leaves to be split
-  std::vector<Visit> Visits;        // of cells to the marked leaves
+  std::vector<Visit> Visits;        // visits of cells to the marked leaves
 };
 
 /// A mesh's cells, which are read chunk by chunk and more than once.
@@ -123,18 +123,19 @@ struct CellSource
 {
   int Dimension;      ///< coordinates per corner: 2 or 3
   int Corners;        ///< 3 for triangles, 4 for tetrahedra
-  std::int64_t Cells; ///< of the whole mesh
+  std::int64_t Cells; ///< number of cells of the whole mesh
   /// Writes the corners' coordinates of `count` cells from index `first` on, cell after cell. Each
   /// rank calls it on the calling thread for its share of the cells; may throw.
   std::function<void(std::int64_t first, std::int64_t count, std::vector<double>& coordinates)>
     Read;
 };
 
+/// Options of buildTree().
 struct TreeOptions
 {
   /// The tree's dimension, 2 or 3. A quadtree uses only x and y of triangles in space.
   int Dimension = 2;
-  /// A leaf that more cells meet is split.
+  /// Leaves with more cells than this are split; see buildTree().
   std::int64_t Threshold = 100000;
   /// Levels below the root, at most BoxTiling::MaxDepth.
   int MaxDepth = BoxTiling::MaxDepth;
@@ -143,6 +144,7 @@ struct TreeOptions
   int Threads = 0; ///< 0: OpenMP's default
 };
 
+/// The result of buildTree().
 struct PartitionTree
 {
   BoxTiling Tiling;
@@ -156,10 +158,11 @@ struct PartitionTree
 /// side of the node). So the tree depends only on the cells, not on their order, the ranks, the
 /// threads or the chunks.
 ///
-/// The dissertation counts all cells that meet a node. Then the splitting would not end at cells
-/// that share a point, or at slivers side by side, since their number does not fall; so cells
-/// longer than the node are not counted. In a domain of equal sides each level then has at most 2^d
-/// Cells / Threshold splits. MaxDepth bounds the remaining case: many tiny cells in one location.
+/// The dissertation counts all cells that meet a node. Then splitting would not terminate at cells
+/// that share a point or at adjacent slivers, since splitting does not reduce their number. So
+/// cells longer than the node are not counted. In a domain of equal sides each level then has at
+/// most 2^d Cells / Threshold splits. MaxDepth bounds the remaining case: many tiny cells in one
+/// location.
 ///
 /// Each rank reads an equal share of the cells and builds a tree of its own. The trees' structures
 /// are merged in pairs and broadcast; then the cells are counted in the common tree, and that is

@@ -26,8 +26,8 @@ struct TilingChoice
 {
   /// The boxes along each axis of a regular grid.
   std::array<int, 3> Boxes{ 4, 4, 1 };
-  /// If not 0: a quadtree or octree; a node that more cells meet is split, down to
-  /// BoxTiling::MaxDepth. Only cells no longer than the node count.
+  /// If not 0: a quadtree or octree whose nodes with more than this number of cells are split, down
+  /// to BoxTiling::MaxDepth. Cells longer than the node are not counted.
   std::int64_t Threshold = 0;
 
   /// Parses "grid:4x4", "grid:4x4x2", "quadtree:100000" or "octree:100000"; nullopt for any other
@@ -35,6 +35,7 @@ struct TilingChoice
   VTKTIPPIO_EXPORT static std::optional<TilingChoice> parse(const std::string& text);
   /// The same; throws IOError for any other text.
   VTKTIPPIO_EXPORT static TilingChoice require(const std::string& text);
+  /// The inverse of parse(), for a mesh of this dimension.
   VTKTIPPIO_EXPORT std::string text(int dimension) const;
 };
 
@@ -54,7 +55,8 @@ void takeCoordinatesAs(
   }
 }
 
-/// Copies the first `dimension` coordinates of points as a file stores them; missing ones are 0.
+/// Converts points from the file's layout to `dimension` doubles each; missing coordinates become
+/// 0.
 inline void takeCoordinates(
   const RawArray& points, const char* raw, std::size_t count, int dimension, double* to)
 {
@@ -80,8 +82,8 @@ void writeOwners(const FlatMesh& mesh, const BoxTiling& tiling, const std::strin
   Communicator& ranks, int threads);
 
 /// Returns the chosen tiling of the mesh's domain. While a tree is built, `chunkCells` cells are in
-/// memory, with their coordinates twice. Collective. Throws IOError, also for more than mostPieces
-/// boxes.
+/// memory, with two copies of their coordinates. Collective. Throws IOError if reading fails or
+/// there are more than mostPieces boxes.
 BoxTiling makeTiling(const FlatMesh& mesh, const TilingChoice& choice, const LoaderOptions& loading,
   std::int64_t chunkCells, int threads, Communicator& ranks, const Box3& domain);
 

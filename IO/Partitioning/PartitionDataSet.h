@@ -22,15 +22,16 @@ namespace tipp
 vtkSmartPointer<vtkDataSet> gatherDataSets(
   vtkDataObject* data, vtkMultiProcessController* controller);
 
-/// As partitionMesh(), for a flat mesh or any file that readDataSet() supports, which the first
-/// rank reads. Throws IOError, on all ranks if on one.
+/// Like partitionMesh(), for a flat mesh or any file that readDataSet() supports, which the first
+/// rank reads. If it throws IOError on one rank, it throws on all.
 VTKTIPPIO_EXPORT PartitionStatistics partitionInput(const std::string& input,
   const std::string& output, const PartitionOptions& options,
   vtkMultiProcessController* controller = nullptr);
 
-/// As partitionMesh(), for the first rank's data set (null on the others), which is written to a
-/// temporary flat mesh beside the output; `name` is for errors. Cells other than triangles and
-/// tetrahedra are cut into these; ghosts and a partitioned mesh's ids are dropped.
+/// Like partitionMesh(), for the first rank's data set (null on the others), which is first written
+/// to a temporary flat mesh beside the output. `name` is the input's name in messages. Cells other
+/// than triangles and tetrahedra are divided into these; ghosts and the ids of a partitioned mesh
+/// are dropped.
 VTKTIPPIO_EXPORT PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
   const std::string& output, const PartitionOptions& options,
   vtkMultiProcessController* controller = nullptr);

@@ -63,8 +63,8 @@ private:
 /// A ghost point: a vertex that a piece needs but does not own.
 struct GhostPoint
 {
-  std::int64_t Point;
-  std::int32_t Piece;
+  std::int64_t Point;     ///< global point id
+  std::int32_t Piece;     ///< index of the piece that needs it
   std::int32_t GhostOnly; ///< 1 if only borrowed cells use it, else 0
 };
 
@@ -75,7 +75,7 @@ void makeDistinct(std::vector<GhostPoint>& points);
 /// The layout of cells and points in the rows that are spilled. Rows are not aligned.
 struct RowLayout
 {
-  int Corners = 3;
+  int Corners = 3;            ///< vertices per cell
   int Dimension = 2;          ///< the tiling's
   std::size_t IdBytes = 4;    ///< size of an id in a cell's row: 8 if 31 bits do not suffice
   std::size_t CellBytes = 0;  ///< the cell's id, its vertices' ids, its attributes
@@ -110,23 +110,23 @@ struct PartitionJob
   const PartitionOptions& Options;
   Communicator& Team;
   int Threads;
-  std::string Folder;
+  std::string Folder; ///< the temporary output folder
   RowLayout Rows;
   PartitionedMesh Result; ///< complete except for the pieces' counts before the cells are read
   std::optional<BoxTiling> Tiling;
   /// the arrays that Result.Arrays lists, including the steps of series
   std::vector<RawArray> PointData;
   std::vector<RawArray> CellData;
-  std::int64_t ChunkCells = 1;
-  std::int64_t ChunkPoints = 1;
+  std::int64_t ChunkCells = 1;  ///< cells that are read at once
+  std::int64_t ChunkPoints = 1; ///< points that are read at once
   PartitionStatistics Statistics;
   double Fraction = 0; ///< fraction of the work done
 
   // Keyed by piece; GhostPoints by chunk of points.
   std::optional<Spill> Cells; ///< cells that lie in one partition
-  /// owned and borrowed, followed by 4 bytes: the number of borrowers
+  /// cells with borrowers: each followed by 4 bytes, the number of borrowers
   std::optional<Spill> SharedCells;
-  std::optional<Spill> Borrowers;     ///< of SharedCells, consecutively, 4 bytes each
+  std::optional<Spill> Borrowers;     ///< borrowers of SharedCells, consecutively, 4 bytes each
   std::optional<Spill> BorrowedCells; ///< if they are duplicated
   std::optional<Spill> GhostPoints;
   std::optional<Spill> Points;
@@ -143,8 +143,8 @@ struct PartitionJob
 /// and borrow it, and the vertices that these need from other partitions. Collective. Throws
 /// IOError.
 ///
-/// A cell whose vertices all lie in one partition only lies inside that partition, which is convex.
-/// Any other cell meets at least two partitions, which its coordinates determine.
+/// A cell whose vertices all lie in one partition, and in no other, lies inside it, since
+/// partitions are convex. For any other cell the coordinates determine which partitions it meets.
 void distributeCells(PartitionJob& job);
 
 /// Reads this rank's share of the points in one pass and spills each to its owner and to the other

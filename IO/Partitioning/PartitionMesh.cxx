@@ -136,7 +136,7 @@ void requireSpace(const PartitionJob& job, const std::string& path)
 void cutDomain(PartitionJob& job)
 {
   const Box3 domain = boundsOfPoints(job.Mesh, job.Team, job.Threads);
-  // A chunk here has its coordinates in memory twice beside its ids.
+  // Here a chunk needs memory for its ids and for two copies of its coordinates.
   const std::int64_t chunk = std::max<std::int64_t>(1, job.ChunkCells / 4);
   job.Tiling.emplace(makeTiling(
     job.Mesh, job.Options.Tiling, job.loaderOptions(), chunk, job.Threads, job.Team, domain));
@@ -182,7 +182,7 @@ void prepare(PartitionJob& job, const std::string& path)
   requireSpace(job, path);
 }
 
-/// The user knows the mesh's name, but not that of its temporary folder.
+/// Replaces the temporary folder's path in a message by the mesh's name, which the user knows.
 std::string withName(std::string text, const std::string& folder, const std::string& name)
 {
   for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder, at))

@@ -21,15 +21,16 @@ class vtkMultiProcessController;
 namespace tipp
 {
 
+/// Options of partitionMesh() and the functions below.
 struct PartitionOptions
 {
   TilingChoice Tiling;
   /// Whether borrowed cells are copied to their borrowers' pieces; if not, pieces refer to the
   /// owner's.
   bool DuplicateBorrowers = false;
-  /// Whether the mesh gets a cell array NeighborIds: for each corner the id of the cell across the
-  /// opposite edge or face, of several the lowest; -1 if there is none. It replaces one of that
-  /// name.
+  /// Whether the mesh gets a cell array NeighborIds: for each corner the global id of the cell
+  /// across the opposite edge or face, the lowest if there are several, or -1. It replaces an
+  /// existing array of that name.
   bool Neighbors = false;
   /// In bytes per rank; bounds the buffers of loaders, chunks and pieces together.
   std::uint64_t MemoryLimit = std::uint64_t(2) << 30;
@@ -43,12 +44,13 @@ struct PartitionOptions
   std::function<bool(double)> Progress;
 };
 
+/// Statistics of a run. Counts and bytes are sums over all ranks.
 struct PartitionStatistics
 {
   struct Phase
   {
     std::string Name;
-    double Seconds; ///< on the first rank
+    double Seconds; ///< wall-clock seconds on the first rank
   };
   std::int64_t Points = 0;
   std::int64_t Cells = 0;
@@ -57,13 +59,13 @@ struct PartitionStatistics
   std::int64_t BorrowedCells = 0; ///< a cell counts once per borrower
   std::int64_t CopiedPoints = 0;  ///< ghost points stored in pieces
   std::uint64_t SpilledBytes = 0; ///< on all ranks
-  std::uint64_t MeshBytes = 0;    ///< of all files
+  std::uint64_t MeshBytes = 0;    ///< size of all files
   int Ranks = 1;
   int Threads = 1;
   std::string Loader; ///< the loader that was used
-  LoadCounters Loads; ///< of all ranks
+  LoadCounters Loads; ///< sum over all ranks
   std::vector<Phase> Phases;
-  bool Aborted = false; ///< by Progress; nothing was written
+  bool Aborted = false; ///< whether Progress aborted the run; then nothing was written
 };
 
 /// A new mesh may replace a partitioned mesh.
@@ -75,7 +77,7 @@ extern const Replaceable replaceableMesh;
 /// mesh at `path` is kept until then.
 ///
 /// With a controller its ranks share the work; all must call this function and have access to the
-/// same files. Throws IOError, on all ranks if on one.
+/// same files. If it throws IOError on one rank, it throws on all.
 ///
 /// A chunk of cells is loaded, classified and updated as in Algorithm 5 of the dissertation. But
 /// instead of coordinates it loads the partition of each vertex, 4 bytes, and coordinates only of
@@ -84,9 +86,9 @@ extern const Replaceable replaceableMesh;
 VTKTIPPIO_EXPORT PartitionStatistics partitionMesh(const FlatMesh& mesh, const std::string& path,
   const PartitionOptions& options = {}, vtkMultiProcessController* controller = nullptr);
 
-/// As partitionMesh(), for a mesh in memory: the first rank calls `make` and writes its result to a
-/// temporary flat mesh beside the output. `name` is for errors. A partitioned mesh's own ids are
-/// dropped. Throws IOError, on all ranks if on one.
+/// Like partitionMesh(), for a mesh in memory: the first rank calls `make` and writes its result to
+/// a temporary flat mesh beside the output. `name` is the input's name in messages. The ids of a
+/// partitioned mesh are dropped. If it throws IOError on one rank, it throws on all.
 VTKTIPPIO_EXPORT PartitionStatistics partitionInMemory(const std::function<FlatContent()>& make,
   const std::string& name, const std::string& output, const PartitionOptions& options,
   vtkMultiProcessController* controller = nullptr);

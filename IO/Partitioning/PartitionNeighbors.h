@@ -7,10 +7,11 @@
 namespace tipp
 {
 
-/// partitionMesh() with the array NeighborIds besides. Which cells are neighbours is known once the
-/// mesh is partitioned: so its cells and points alone are partitioned first, into a scratch folder
-/// beside the output; the first rank asks that mesh piece by piece, and writes the ids into a
-/// scratch file, 8 bytes a corner, which is partitioned as one more array.
+/// partitionMesh() with the additional array NeighborIds. Neighbours can be found once the mesh is
+/// partitioned. So first only its cells and points are partitioned, into a scratch folder beside
+/// the output. The first rank then finds the neighbours piece by piece and writes their ids to a
+/// scratch file, 8 bytes per corner. Finally the mesh is partitioned with that file as one more
+/// array.
 PartitionStatistics partitionWithNeighbors(const FlatMesh& mesh, const std::string& path,
   const PartitionOptions& options, vtkMultiProcessController* controller);
 

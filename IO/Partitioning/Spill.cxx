@@ -137,7 +137,7 @@ void Spill::write(const std::vector<std::uint32_t>& starts, int threads)
 SpilledRows Spill::close()
 {
   std::vector<char>().swap(this->Buffer);
-  this->Out->close(); // else other machines might not see all rows
+  this->Out->close(); // otherwise other machines might not see all rows
   this->Out.reset();
   for (const std::unique_ptr<Checksum>& sum : this->Sums)
   {

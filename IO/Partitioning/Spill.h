@@ -19,7 +19,7 @@
 namespace tipp
 {
 
-/// What is in the files of a Spill.
+/// The layout of the files of a Spill.
 struct SpilledRows
 {
   /// A rank's file.
@@ -31,7 +31,7 @@ struct SpilledRows
 
   std::vector<std::int64_t> Counts;     ///< rows per key
   std::vector<std::uint64_t> Checksums; ///< per key; empty: not protected
-  std::vector<File> Files;              ///< by rank
+  std::vector<File> Files;              ///< one file per rank
 };
 
 template <typename Archive>
@@ -68,7 +68,7 @@ public:
     const std::vector<SpilledRows>& ranks);
 
   std::size_t rowBytes() const { return this->RowBytes; }
-  /// Of content().
+  /// The size of the files in content(), in bytes.
   std::uint64_t bytes() const;
 
   /// Adds a chunk of `count` items: key(item) returns an item's key, or -1 to skip it; fill(item,
@@ -86,7 +86,7 @@ public:
   /// The same without communication: returns what the constructor above needs from each rank.
   SpilledRows close();
 
-  /// Of this rank; after exchange() of all ranks.
+  /// The layout of this rank's file, or after exchange() of all ranks' files.
   const SpilledRows& content() const { return this->Content; }
   std::int64_t rows(std::size_t key) const { return this->Content.Counts[key]; }
   /// Passes the key's rows in order, in blocks of at most `most` rows. Throws IOError; if the

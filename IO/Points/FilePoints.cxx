@@ -136,7 +136,7 @@ public:
   {
     for (std::int64_t i = 0; i < (this->InSpace ? 3 : 2) * points; ++i)
     {
-      this->Numbers.bits(); // one number per coordinate; cheap beside what is done with a point
+      this->Numbers.bits(); // one number per coordinate; cheap compared with other work
     }
     this->At += points;
   }

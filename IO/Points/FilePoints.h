@@ -49,7 +49,7 @@ std::unique_ptr<FilePoints> streamTextPoints(const std::string& path, const Poin
 /// Parses "uniform:COUNT", which stands for that many uniform points instead of a file; returns 0
 /// for other names.
 std::int64_t generatedCount(const std::string& name);
-/// `inSpace`: with a column z.
+/// Uniform points in the unit square or, if `inSpace`, in the unit cube, with a column z.
 std::unique_ptr<FilePoints> streamUniformPoints(std::int64_t count, bool inSpace);
 
 /// Reads the rows of an n x 2 or n x 3 array of float64 or float32 in order. Throws IOError.
@@ -155,8 +155,8 @@ private:
 /// missing (NaN); without names the first is z and the others column<number>.
 PointTable readTextPoints(const std::string& path, const PointOptions& options);
 
-/// Whether the path is .csv, .tsv, .txt, .xyz or .pts; .gz, .xz or .zst, which are compressed text;
-/// or "-", the standard input.
+/// Whether the path names text: .csv, .tsv, .txt, .xyz or .pts; .gz, .xz or .zst (compressed text);
+/// or "-" (standard input).
 bool isTextPath(const std::string& path);
 
 } // namespace tipp

@@ -191,7 +191,8 @@ private:
     }
   }
 
-  /// A file without a reference system is taken to be in that of the others.
+  /// Throws if files have different reference systems. A file without one is assumed to be in that
+  /// of the others.
   void requireSameCrs() const
   {
     const std::string crs = this->crs();
@@ -231,7 +232,7 @@ private:
   std::vector<std::string> Paths;
   std::vector<std::unique_ptr<FilePoints>> Files;
   std::string Identity;
-  std::vector<bool> Kept; ///< of the files' columns
+  std::vector<bool> Kept; ///< which of the files' columns are kept
   std::size_t At = 0;
   std::int64_t Points = 0;
   std::int64_t First = 0;

@@ -20,8 +20,9 @@ namespace tipp
 struct PointBlock
 {
   std::int64_t First = 0; ///< id of the first point: its index in the stream
-  std::vector<double> XY;
-  std::vector<std::vector<double>> Columns; ///< in the order of PointStream::columns()
+  std::vector<double> XY; ///< x and y of each point, interleaved
+  std::vector<std::vector<double>>
+    Columns; ///< one vector per column, in the order of PointStream::columns()
 
   std::size_t size() const { return this->XY.size() / 2; }
 };
@@ -44,7 +45,7 @@ public:
   /// Limits the passes from the next rewind() on to points [first, end).
   virtual void limitTo(std::int64_t first, std::int64_t end) = 0;
 
-  /// Names of the columns beside x and y.
+  /// Names of the columns besides x and y.
   virtual std::vector<std::string> columns() const = 0;
 
   /// The number of points that the options rejected in the last complete pass, for example by their
@@ -79,12 +80,12 @@ VTKTIPPIO_EXPORT void forEachBlock(
 
 /// Returns the points of a stream that thinning keeps, in their order. Of equally good points the
 /// first is kept; points that are not finite are all kept. The first pass reads the stream twice.
-/// Memory: one bit per point, and the squares. Throws IOError if the rule needs an elevation and
+/// Memory: one bit per point, plus the squares. Throws IOError if the rule needs an elevation and
 /// there is none.
 std::unique_ptr<PointStream> thinPoints(
   std::unique_ptr<PointStream> points, const Thinning& thinning);
 
-/// The points of a table as a stream, those that thinning keeps. Throws IOError as thinPoints().
+/// The points of a table that thinning keeps, as a stream. Throws IOError as thinPoints().
 VTKTIPPIO_EXPORT std::unique_ptr<PointStream> streamTable(
   PointTable table, const Thinning& thinning = {});
 

@@ -15,13 +15,14 @@ namespace tipp
 /// Points read from a file: x and y interleaved, and the other numeric columns by name.
 struct PointTable
 {
+  /// A named column of numbers.
   struct Column
   {
     std::string Name;
     std::vector<double> Values; ///< one per point
   };
 
-  std::vector<double> XY;
+  std::vector<double> XY; ///< x and y of each point, interleaved
   std::vector<Column> Columns;
   std::int64_t LeftOut = 0;    ///< points that the options rejected
   std::int64_t ThinnedOut = 0; ///< points that thinning removed
@@ -44,8 +45,8 @@ inline std::size_t findElevation(const std::vector<std::string>& columns)
   return columns.size();
 }
 
-/// Returns the index of the column by which the lowest and highest of points are found: the
-/// elevation, else the depth, else the only column; the number of columns if there is none.
+/// Returns the index of the column that decides which points are lowest and highest: the elevation,
+/// else the depth, else the only column. Returns the number of columns if there is none.
 inline std::size_t findRankColumn(const std::vector<std::string>& columns)
 {
   const std::size_t elevation = findElevation(columns);

@@ -137,7 +137,8 @@ PointTable readAllPoints(PointStream& stream)
   {
     table.Columns.push_back({ name, {} });
   }
-  // Untouched memory is not committed, but the system refuses what it could never commit.
+  // Untouched memory is not committed, but the system refuses reservations that it could never
+  // commit.
   constexpr std::int64_t mostReserved = std::int64_t(1) << 26;
   const auto most = std::size_t(std::min(stream.most(), mostReserved));
   table.XY.reserve(2 * most);
@@ -184,6 +185,13 @@ PointTable readPoints(const std::string& path, const PointOptions& options)
   if (isTextPath(path) && conversionAdvice(path).empty())
   {
     return readTextPoints(path, options);
+  }
+  if (path.compare(0, 8, "uniform:") == 0)
+  {
+    throw IOError(path,
+      generatedCount(path) > 0
+        ? "stands for points that are never all in memory; name an output that ends in .tipp."
+        : "has no number of points after the colon, such as uniform:1000000.");
   }
   if (!isAdcircFile(path) && !isVtkFile(path))
   {

@@ -32,7 +32,8 @@ struct LasSelection
   Returns Kind = Returns::All;
   bool KeepWithheld = false;
   bool KeepSynthetic = false;
-  /// Points of a swath that another one overlaps: a flag in formats 6 to 10, class 12 in others.
+  /// Whether to keep points flagged as overlap of another swath: a flag in formats 6 to 10, class
+  /// 12 in others.
   bool KeepOverlap = false;
 
   /// Keeps the points with a flag: "withheld", "synthetic" or "overlap".
@@ -59,7 +60,8 @@ struct LasSelection
   }
 };
 
-/// One point is kept in each square of a grid whose lines are at multiples of the cell size.
+/// Thinning: keeps one point in each square of a grid whose lines are at multiples of the cell
+/// size.
 struct Thinning
 {
   enum class Rule
@@ -69,8 +71,8 @@ struct Thinning
     Nearest ///< to the centre of the square
   };
 
-  double Cell = 0; ///< 0: all points are kept
-  Rule Keep = Rule::Nearest;
+  double Cell = 0;           ///< 0: all points are kept
+  Rule Keep = Rule::Nearest; ///< which point of a square is kept
   /// The beginning of the path of a temporary file for the squares, if they may not fit in memory;
   /// empty: they are kept in memory.
   std::string File;
@@ -80,13 +82,14 @@ struct Thinning
 
 class PointStream;
 
+/// Options of reading points.
 struct PointOptions
 {
-  /// Which columns are x and y: a name as the file's header gives it, or a number counted from 0.
-  /// Empty: by the usual names (x, y; lon, lat; longitude, latitude; easting, northing), else the
-  /// first two.
+  /// Which columns are x and y: a name in the file's header, or a column index from 0. Empty:
+  /// columns with the usual names (x, y; lon, lat; longitude, latitude; easting, northing), else
+  /// the first two.
   std::string X;
-  std::string Y;
+  std::string Y; ///< likewise
   LasSelection Las = {};
   Thinning Thin = {}; ///< applied to the points of all files together
   int Threads = 1;    ///< threads that decode LAS files; 0: OpenMP's default
@@ -121,6 +124,7 @@ VTKTIPPIO_EXPORT PointTable readAllPoints(PointStream& stream);
 VTKTIPPIO_EXPORT PointTable readPointsShare(
   const std::vector<std::string>& paths, const PointOptions& options, int part, int parts);
 
+/// The indices of the columns that are x and y.
 struct ColumnChoice
 {
   std::size_t X = 0;

@@ -141,7 +141,7 @@ void TextRows::split()
   splitFields(line, this->Delimiter, this->Row);
 }
 
-/// Afterwards Row holds the first point's fields.
+/// Reads the lines before the first point. Afterwards Row holds the first point's fields.
 void TextRows::readStart()
 {
   this->requireLine();

@@ -183,7 +183,8 @@ private:
     squares.forEach([this](std::int64_t id) { this->keep(id); });
   }
 
-  /// Squares are sorted into a file by their hash, so that few are in memory at a time.
+  /// The same with a temporary file: squares are distributed by their hash, so that only a part of
+  /// them is in memory at a time.
   void decideOnDisk()
   {
     constexpr std::size_t keys = 1024;
@@ -313,7 +314,7 @@ private:
   bool IsDecided = false;
   std::int64_t Seen = 0;
   std::int64_t KeptCount = 0;
-  std::int64_t Points = 0; ///< of this pass so far
+  std::int64_t Points = 0; ///< points of this pass so far
 };
 
 } // namespace

@@ -19,10 +19,10 @@ namespace tipp
 
 using Bytes = Buffer<char>;
 
-/// Saves values as consecutive bytes, for messages and scratch files: numbers and trivially
-/// copyable structs as they are in memory; texts and vectors with their size first; of any other
-/// type what `serialize(archive, value)` passes on. LoadArchive restores them in the same order, by
-/// the same serialize().
+/// Saves values as consecutive bytes, for messages and scratch files. Numbers and trivially
+/// copyable structs are saved as they are in memory, texts and vectors with their size first; any
+/// other type needs a function `serialize(archive, value)` that saves its members. LoadArchive
+/// restores the values in the same order with the same serialize().
 class SaveArchive
 {
 public:
@@ -61,8 +61,8 @@ public:
     this->Size += size;
   }
 
-  /// From now on passes what is saved to `sink`, block by block, instead of keeping it in memory.
-  /// flush() passes the last block.
+  /// From now on passes the saved bytes to `sink`, block by block, instead of keeping them in
+  /// memory. flush() passes the last block.
   void setSink(std::function<void(const char* data, std::size_t size)> sink)
   {
     this->Sink = std::move(sink);
@@ -104,7 +104,7 @@ private:
     }
     else
     {
-      serialize(*this, const_cast<T&>(value)); // which changes nothing when it saves
+      serialize(*this, const_cast<T&>(value)); // serialize() does not modify the value when saving
     }
   }
   template <typename T>
@@ -125,7 +125,7 @@ private:
   }
   void save(const std::string& text) { this->array(text.data(), text.size()); }
 
-  Bytes Written; ///< allocated larger than Size
+  Bytes Written; ///< may be larger than Size, to avoid reallocation
   std::size_t Size = 0;
   std::function<void(const char*, std::size_t)> Sink;
 };

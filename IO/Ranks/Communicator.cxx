@@ -18,8 +18,8 @@ constexpr std::size_t LargestPart = std::size_t(1) << 20;
 constexpr std::size_t LargestInHead = std::size_t(1) << 16;
 constexpr std::size_t LargestReason = 4096; // so that a failure's message is never in parts
 
-// Buffer for messages that are received part by part, that are discarded, or that there is no
-// memory for: receiving them must not fail, or their senders would wait forever.
+// Buffer for messages that are received in parts or discarded, and for those that do not fit into
+// memory: they must be received in any case, or their senders would wait forever.
 char Taken[LargestPart];
 
 struct Head
@@ -218,7 +218,7 @@ Bytes Communicator::receiveContent(const Arrival& arrival)
   return content;
 }
 
-/// A rank that has ended its run may have begun the next one while this rank has not.
+/// Keeps a message of a later run: another rank may have begun the next run before this rank.
 void Communicator::keepForItsRun(const Arrival& arrival)
 {
   EarlyMessage early{ arrival.About.Run,
@@ -263,8 +263,8 @@ void Communicator::receiveParts(const Arrival& arrival, const TakePart& takePart
   }
 }
 
-/// Receives the next message; returns whether it reports a failure of this run. Other messages of
-/// this run are discarded.
+/// Receives the next message and discards it unless it reports a failure or belongs to a later run.
+/// Returns whether it reports a failure of this run.
 bool Communicator::receiveOfFailure(Message& message)
 {
   const auto isOfFailure = [](MessageKind kind)
@@ -441,8 +441,8 @@ void Communicator::tellFailure(bool aborted, const std::string& why)
   }
 }
 
-/// Sends a shutdown message to every other rank and receives all messages up to theirs: no message
-/// of this run is left for the next, and all ranks know the same failures.
+/// Sends a shutdown message to every other rank and receives all messages up to theirs. Afterwards
+/// no message of this run is left for the next one, and all ranks know the same failures.
 void Communicator::partAfterFailure()
 {
   for (int to = 0; to < this->Size; ++to)

@@ -69,7 +69,7 @@ enum class MessageKind : std::uint32_t
 /// A received message.
 struct Message
 {
-  int Source = 0;
+  int Source = 0; ///< the rank that sent it
   MessageKind Kind = MessageKind::FirstFree;
   Bytes Content;
 };
@@ -89,7 +89,7 @@ public:
 };
 
 /// Messages between the ranks of a controller. Sending does not block, messages may have any size,
-/// and a rank that waits for a message is told of another rank's failure instead of waiting
+/// and a rank that waits for a message gets an exception if another rank fails, instead of waiting
 /// forever. Only one thread of each rank may use it, the one that calls MPI.
 ///
 /// All ranks construct it together and call the collective methods in the same order. A wait sleeps
@@ -132,21 +132,22 @@ public:
 
   ///@{
   /// Collective.
-  std::vector<Bytes> allToAll(std::vector<Bytes> contents); ///< one to and from each rank
-  std::vector<Bytes> gather(Bytes content);                 ///< by rank on rank 0, else empty
-  std::vector<Bytes> allGather(Bytes content);              ///< by rank, on all ranks
-  Bytes broadcast(Bytes content);                           ///< returns rank 0's
+  std::vector<Bytes> allToAll(
+    std::vector<Bytes> contents); ///< sends one to, receives one from each rank
+  std::vector<Bytes> gather(
+    Bytes content); ///< all contents, by rank, on rank 0; empty on the others
+  std::vector<Bytes> allGather(Bytes content); ///< all contents, by rank, on all ranks
+  Bytes broadcast(Bytes content);              ///< returns rank 0's content on all ranks
   void sum(std::vector<std::int64_t>& values);
   void minimum(std::vector<double>& values);
   void barrier();
   /// Combines all ranks' texts by merge(mine, other) in a binary tree. Returns the result on rank
-  /// 0, an empty text on the others. Throws as attempt() if merge throws on any rank.
+  /// 0, an empty text on the others. If merge throws on any rank, throws on all, like attempt().
   std::string reduce(std::string text,
     const std::function<std::string(const std::string&, const std::string&)>& merge);
   ///@}
 
-  ///@{
-  /// The same for anything that an archive takes.
+  /// @{ The same for any type that SaveArchive can save.
   template <typename T>
   std::vector<T> gather(const T& value)
   {
@@ -175,9 +176,9 @@ public:
   }
   ///@}
 
-  /// Runs `work`, which does not communicate except by calls of attempt(), on every rank and waits
-  /// for all. If it throws on any, this throws on all: an IOError with the message of the first
-  /// rank that failed, else WorkAborted. Collective.
+  /// Runs `work` on every rank and waits for all; `work` must not communicate except by attempt().
+  /// If it throws on any rank, this throws on all ranks: an IOError with the message of the first
+  /// rank that failed, or WorkAborted if the run was only aborted. Collective.
   void attempt(const std::function<void()>& work);
 
   /// A byte range of a buffer.
@@ -313,7 +314,7 @@ private:
   int Size = 1;
   std::uint32_t Run = 0; ///< how often together() has begun or ended
   std::deque<Message> Inbox;
-  std::deque<EarlyMessage> Early; ///< by run, then as received
+  std::deque<EarlyMessage> Early; ///< sorted by run, then as received
   std::list<Outgoing> Unsent;
   std::map<MessageKind, Traffic> Sent;
   double SendingSeconds = 0;

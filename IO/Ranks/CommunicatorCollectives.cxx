@@ -38,7 +38,7 @@ Bytes Communicator::allToAllInParts(
   }
   InParts inParts{ takePart, std::vector<char>(std::size_t(this->Size), 1) };
   inParts.IsAwaited[std::size_t(this->Rank)] = 0;
-  // Some may have arrived while this rank waited for another message.
+  // Some messages may have arrived while this rank waited for another.
   for (auto kept = this->Inbox.begin(); kept != this->Inbox.end();)
   {
     if (!inParts.concerns(*kept))

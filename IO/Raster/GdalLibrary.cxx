@@ -35,7 +35,7 @@ GdalLibrary openGdal()
 #define TIPP_FIND_FUNCTION(name) find(functions.name, #name);
   TIPP_GDAL_FUNCTIONS(TIPP_FIND_FUNCTION)
 #undef TIPP_FIND_FUNCTION
-  // GDAL must not print: its messages become part of ours.
+  // GDAL must not print: its messages are included in our exceptions.
   functions.CPLSetErrorHandler(functions.CPLQuietErrorHandler);
   functions.GDALAllRegister();
   return functions;

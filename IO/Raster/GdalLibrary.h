@@ -76,8 +76,8 @@ namespace tipp
   X(VSIGetMemFileBuffer)                                                                           \
   X(VSIUnlink)
 
-/// GDAL, loaded when it is first needed: it depends on over a hundred libraries, which would delay
-/// every start of the tool.
+/// GDAL, loaded on first use: it depends on over a hundred libraries, which would slow down every
+/// start of the tool.
 struct GdalLibrary
 {
 #define TIPP_DECLARE_FUNCTION(name) decltype(&::name) name = nullptr;

@@ -103,11 +103,11 @@ std::string runInChild(const std::function<std::string()>& work)
   if (child < 0)
   {
     close(ends[0]);
-    return work(); // no process can be made
+    return work(); // fork() failed: run in this process
   }
   std::string result = readAll(ends[0]);
   close(ends[0]);
-  int status = 0; // stays 0 where SIGCHLD is ignored
+  int status = 0; // stays 0 if SIGCHLD is ignored
   while (waitpid(child, &status, 0) < 0 && errno == EINTR)
   {
   }
@@ -127,7 +127,7 @@ std::string runInChild(const std::function<std::string()>& work)
 namespace
 {
 
-/// Fails with what GDAL says.
+/// Throws IOError with GDAL's last error message.
 [[noreturn]] void fail(const std::string& path, const std::string& what)
 {
   std::string reason = gdal().CPLGetLastErrorMsg();
@@ -139,7 +139,7 @@ namespace
   throw IOError(path, what + (reason.empty() ? "." : " (" + reason + ")."));
 }
 
-/// A list of NAME=VALUE, as GDAL takes options.
+/// A list of GDAL options, NAME=VALUE each.
 class OptionList
 {
 public:
@@ -202,7 +202,7 @@ T valueAt(const std::string& bytes, std::size_t offset)
   return value;
 }
 
-/// A GeoTIFF of one pixel in this system, as GDAL makes it.
+/// The bytes of a GeoTIFF of one pixel that GDAL writes with this reference system.
 std::string smallGeoTiff(const std::string& crs)
 {
   const SpatialReference reference(crs);
@@ -224,7 +224,7 @@ std::string smallGeoTiff(const std::string& crs)
   return content;
 }
 
-/// The fields of the GeoTIFF standard in a little-endian TIFF.
+/// Extracts the GeoTIFF fields of a little-endian TIFF.
 std::vector<TiffField> readGeoKeys(const std::string& tiff)
 {
   const std::map<std::uint16_t, std::size_t> tags = { { 34735, sizeof(std::uint16_t) },
@@ -293,7 +293,7 @@ void requireConversion(const RasterDescription& description, const std::string& 
 void convertGeoTiff(const std::string& from, const std::string& to,
   const RasterDescription& description, const std::string& path)
 {
-  constexpr std::int64_t cacheBytes = 16 << 20; // GDAL's own would be a part of the machine's
+  constexpr std::int64_t cacheBytes = 16 << 20; // GDAL's default depends on the machine's memory
   gdal().GDALSetCacheMax64(cacheBytes);
   gdal().CPLErrorReset();
   OptionList options;
@@ -314,7 +314,7 @@ void convertGeoTiff(const std::string& from, const std::string& to,
     options.set("INTERLEAVE", "BAND");
     if (description.Compression == "deflate")
     {
-      options.set("ZLEVEL", "1"); // higher ones take twice the time for a few per cent
+      options.set("ZLEVEL", "1"); // higher levels take twice the time and gain a few per cent
     }
   }
   const DataSet plain(gdal().GDALOpen(from.c_str(), GA_ReadOnly));

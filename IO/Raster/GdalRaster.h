@@ -13,17 +13,17 @@
 namespace tipp
 {
 
-/// Runs work in a process of its own, so that the libraries it opens take no memory of this one,
-/// and returns what it returns. Throws IOError with the same sentence where the work does.
+/// Runs `work` in a child process, so that the libraries it loads take no memory in this one, and
+/// returns its result. If `work` throws an IOError, throws one with the same message.
 VTKTIPPIO_EXPORT std::string runInChild(const std::function<std::string()>& work);
 
-/// What GDAL does for rasters. All throw IOError if it fails or is not there.
+/// Functions that use GDAL. All throw IOError if GDAL fails or is not installed.
 
-/// The fields of a TIFF that tell a coordinate reference system. GDAL, whose libraries take tens of
-/// megabytes, is opened in a process of its own.
+/// The TIFF fields that describe a coordinate reference system. GDAL's libraries take tens of
+/// megabytes, so it is loaded in a child process.
 const std::vector<TiffField>& geoKeysOf(const std::string& crs);
 
-/// Throws IOError, in which `path` is named, unless convertGeoTiff() can write files as described.
+/// Throws IOError, which names `path`, unless convertGeoTiff() can write such files.
 void requireConversion(const RasterDescription& description, const std::string& path);
 
 /// Copies a GeoTIFF to `to`, compressed and laid out as described. Errors name `path`.

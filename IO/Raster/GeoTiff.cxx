@@ -27,11 +27,11 @@ namespace tipp
 namespace
 {
 
-/// Room for the header of a BigTIFF; that of a TIFF has half the size.
+/// Bytes reserved for the header: the size for a BigTIFF; a TIFF header takes half of it.
 constexpr std::uint64_t headerSize = 16;
 
-/// A tile in the order in which floating-point numbers compress best, TIFF's predictor 3: of each
-/// row the first bytes of all numbers, then the second ones, and of these the differences.
+/// Applies TIFF's predictor 3, which makes floating-point tiles compress well: in each row the most
+/// significant bytes of all numbers, then the next bytes and so on, and of these the differences.
 std::string predicted(const std::string& pixels, std::size_t valueSize)
 {
   constexpr auto width = std::size_t(RasterTileSize);
@@ -69,7 +69,7 @@ struct FreeCompressor
 
 std::string deflated(const std::string& bytes)
 {
-  // Higher levels take twice the time for a few per cent.
+  // Higher levels take twice the time and gain a few per cent.
   thread_local const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
     libdeflate_alloc_compressor(1));
   if (!compressor)
@@ -79,7 +79,7 @@ std::string deflated(const std::string& bytes)
   std::string result(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), '\0');
   result.resize(libdeflate_zlib_compress(
     compressor.get(), bytes.data(), bytes.size(), result.data(), result.size()));
-  result.shrink_to_fit(); // it may wait for its turn
+  result.shrink_to_fit(); // the tile may be kept until earlier ones are written
   return result;
 }
 #else
@@ -112,13 +112,14 @@ void append(std::string& bytes, T value)
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// Offsets and counts have 32 bits in a TIFF, 64 in a BigTIFF.
+/// Appends an offset or count, which has 32 bits in a TIFF and 64 in a BigTIFF.
 void appendWord(std::string& bytes, std::uint64_t value, bool isBig)
 {
   isBig ? append(bytes, value) : append(bytes, std::uint32_t(value));
 }
 
-/// The directory at `at` in the file and, behind it, the values that do not fit into its entries.
+/// Returns the directory, to be written at offset `at`, followed by the values that do not fit into
+/// its entries.
 std::string directory(const std::vector<TiffField>& fields, std::uint64_t at, bool isBig)
 {
   const std::size_t word = isBig ? 8 : 4;
@@ -196,8 +197,8 @@ std::vector<TiffField> TiledTiff::pixelFields() const
     tiffField(258, Type::Short, repeated(this->IsDouble ? 64 : 32)), // bits
     tiffField(259, Type::Short, one(this->IsDeflated ? 8 : 1)),      // compression
     tiffField(262, Type::Short, one(1)),                             // 0 is black
-    tiffField(277, Type::Short, one(int(bands))),                    // values a pixel
-    tiffField(284, Type::Short, one(bands > 1 ? 2 : 1)),             // bands by themselves
+    tiffField(277, Type::Short, one(int(bands))),                    // samples per pixel
+    tiffField(284, Type::Short, one(bands > 1 ? 2 : 1)),             // bands stored separately
     tiffField(322, Type::Short, one(int(RasterTileSize))),
     tiffField(323, Type::Short, one(int(RasterTileSize))),
     tiffField(339, Type::Short, repeated(3)), // floating-point numbers
@@ -289,7 +290,7 @@ TiffField textField(std::uint16_t tag, const std::string& text)
   return { tag, TiffField::Type::Text, text + '\0' };
 }
 
-/// Whether GDAL makes the file, from a plain one.
+/// Whether GDAL converts the file from an uncompressed one.
 bool isConverted(const RasterDescription& description)
 {
   return description.CloudOptimized ||
@@ -302,7 +303,7 @@ bool isDeflated(const RasterDescription& description)
   return !isConverted(description) && description.Compression == "deflate";
 }
 
-/// Beyond the border of the raster a tile has no data.
+/// Encodes a band of a tile. Pixels beyond the raster's border have no data.
 template <typename T>
 EncodedTile::Band encodeBand(
   const RasterDescription& description, const RasterWindow& window, const double* values)
@@ -331,7 +332,7 @@ EncodedTile::Band encodeBand(
   return band;
 }
 
-/// Compresses tiles in the threads that write them, and puts them into the file in order.
+/// Compresses tiles in the calling threads and appends them to the file in order.
 class GeoTiffWriter : public RasterWriter
 {
 public:
@@ -398,7 +399,7 @@ public:
   }
 
 private:
-  /// Where the raster is, what its bands are called, and their statistics, as GDAL looks for them.
+  /// Adds georeferencing, band names and statistics in the form that GDAL reads.
   void addFields()
   {
     using Type = TiffField::Type;
@@ -437,11 +438,11 @@ private:
   const std::string Path;
   const RasterDescription Description;
   PendingFile Pending;
-  std::unique_ptr<PendingFile> Plain; ///< only if converted
+  std::unique_ptr<PendingFile> Plain; ///< the uncompressed file, only if it is converted
   std::vector<TiffField> Fields;
   std::unique_ptr<TiledTiff> Tiff;
-  std::mutex Mutex;                            ///< for what follows
-  std::map<std::int64_t, EncodedTile> Waiting; ///< for the tiles before them
+  std::mutex Mutex;                            ///< guards the members below
+  std::map<std::int64_t, EncodedTile> Waiting; ///< waiting for earlier tiles
   std::int64_t Written = 0;                    ///< tiles
   std::vector<BandSums> Sums;
 };

@@ -73,7 +73,7 @@ void RasterWriter::writeEncoded(std::int64_t, EncodedTile)
 namespace
 {
 
-/// Writes bands one after the other, each row by row from the south, after a header text.
+/// Writes a header text, then the bands one after another, each row by row from the south.
 class PlainWriter : public RasterWriter
 {
 public:
@@ -83,7 +83,7 @@ public:
   {
   }
 
-  /// `lengths`: whether each band is preceded by its size in bytes.
+  /// `lengths` tells whether each band is preceded by its size in bytes.
   void start(const std::string& text, bool lengths, std::size_t bands)
   {
     this->put(0, text.data(), text.size());

@@ -18,15 +18,16 @@
 namespace tipp
 {
 
-/// The pixels of a raster, in rows along x. A pixel's value is that at its centre.
+/// The pixel grid of a raster, in the units of the points; rows run along x. A pixel's value is
+/// that at its centre.
 struct RasterGrid
 {
   double West = 0;                        ///< border of the first column
   double South = 0;                       ///< border of the lowest row
   std::array<double, 2> Pixel = { 1, 1 }; ///< width and height
   std::int64_t Columns = 0;
-  std::int64_t Rows = 0;
-  std::optional<double> North; ///< border of the highest row, if it was given; else it is computed
+  std::int64_t Rows = 0;       ///< number of pixels along y
+  std::optional<double> North; ///< border of the highest row, if given; otherwise it is computed
 
   double north() const
   {
@@ -35,14 +36,14 @@ struct RasterGrid
   std::int64_t pixels() const { return this->Columns * this->Rows; }
 };
 
-/// The pixels that a user asks for.
+/// The pixel grid that a user requests.
 struct RasterRequest
 {
-  double Resolution = 0;
+  double Resolution = 0; ///< side of a pixel, in the units of the points
   /// xmin, xmax, ymin, ymax; nullopt: those of the points.
   std::optional<std::array<double, 4>> Bounds;
-  /// Whether the borders of pixels are at multiples of the resolution; if not, the first are at the
-  /// bounds.
+  /// Whether pixel borders are at multiples of the resolution; if not, the first pixel starts at
+  /// the bounds.
   bool Aligned = true;
   std::optional<RasterGrid> Like; ///< the grid of another raster, which replaces the other members
 };
@@ -53,6 +54,7 @@ struct RasterRequest
 VTKTIPPIO_EXPORT RasterGrid makeRasterGrid(
   const RasterRequest& request, const std::array<double, 4>& pointBounds);
 
+/// What a raster file contains and how it is stored.
 struct RasterDescription
 {
   RasterGrid Grid;
@@ -60,18 +62,18 @@ struct RasterDescription
   std::string Crs;       ///< WKT, "EPSG:code" or any text that GDAL understands; may be empty
   double NoData = -9999; ///< value of a GeoTIFF's pixels without data
   bool Double = false;   ///< whether a GeoTIFF's values have 64 bits or 32
-  std::string Compression = "deflate"; ///< of a GeoTIFF: deflate, lzw, zstd or none
+  std::string Compression = "deflate"; ///< for a GeoTIFF: deflate, lzw, zstd or none
   bool CloudOptimized = false; ///< whether a GeoTIFF has overviews and the layout called COG
   int Threads = 1;             ///< threads that compress
-  /// A GeoTIFF that may become larger is a BigTIFF.
+  /// A GeoTIFF that may exceed this size, in bytes, is written as a BigTIFF.
   std::uint64_t ClassicBytes = std::numeric_limits<std::uint32_t>::max();
 };
 
 /// A rectangle of pixels; columns count from the west, rows from the south.
 struct RasterWindow
 {
-  std::int64_t Column = 0;
-  std::int64_t Row = 0;
+  std::int64_t Column = 0; ///< first column
+  std::int64_t Row = 0;    ///< first row
   std::int64_t Columns = 0;
   std::int64_t Rows = 0;
 };
@@ -81,17 +83,17 @@ struct BandSums
 {
   double Least = std::numeric_limits<double>::infinity();
   double Most = -std::numeric_limits<double>::infinity();
-  double Mean = 0;
-  double Squares = 0; ///< of differences from the mean
-  double Count = 0;
-  double Hidden = 0; ///< of these values, those that equal the number for no data
+  double Mean = 0;    ///< mean of the values
+  double Squares = 0; ///< sum of squared differences from the mean
+  double Count = 0;   ///< number of values, without NaN
+  double Hidden = 0;  ///< number of values that equal NoData
 
   void add(double value);
   void add(const BandSums& other);
   double deviation() const { return std::sqrt(this->Squares / this->Count); }
 };
 
-/// The bytes of a tile as a raster file has them, in each band.
+/// An encoded tile: its bytes in the raster file, for each band.
 struct EncodedTile
 {
   struct Band
@@ -102,8 +104,8 @@ struct EncodedTile
   std::vector<Band> Bands;
 };
 
-/// Encodes a tile, see tileOf(), of a GeoTIFF whose grid, type, compression and NoData the
-/// description has. `bands` as for RasterWriter::write(). Thread-safe.
+/// Encodes a tile (see tileOf()) of a GeoTIFF with the grid, type, compression and NoData of the
+/// description. `bands` as for RasterWriter::write(). Thread-safe.
 VTKTIPPIO_EXPORT EncodedTile encodeTile(const RasterDescription& description,
   const RasterWindow& window, const std::vector<const double*>& bands);
 
@@ -113,25 +115,27 @@ class VTKTIPPIO_EXPORT RasterWriter
 public:
   virtual ~RasterWriter();
 
-  /// Writes a tile of the grid, see tileOf(); each is written once. For each band, `bands` points
-  /// to the tile's values, row by row from the south; NaN means no value. Several threads may write
-  /// at the same time; tiles that come early are kept in memory. Throws IOError.
+  /// Writes a tile of the grid (see tileOf()). Each tile must be written once, in any order. For
+  /// each band, `bands` points to the tile's values, row by row from the south; NaN means no value.
+  /// Several threads may write at the same time; tiles that arrive early are kept in memory. Throws
+  /// IOError.
   virtual void write(const RasterWindow& window, const std::vector<const double*>& bands) = 0;
 
-  /// The same for a tile of encodeTile(); of a GeoTIFF only.
+  /// The same for a tile from encodeTile(). For GeoTIFFs only.
   virtual void writeEncoded(std::int64_t tile, EncodedTile encoded);
 
   /// Completes the file and moves it to its path. Throws IOError.
   virtual void close() = 0;
 
-  /// How many values so far equal the number for no data, so that readers take them for none.
+  /// How many values so far equal NoData, so that readers will treat them as missing.
   virtual double hidden() const { return 0; }
 };
 
-/// Side, in pixels, of the square tiles in which rasters are sampled and written; that of GDAL's
-/// tiles. Tiles are numbered row by row from the north, each row from the west.
+/// The side, in pixels, of the square tiles in which rasters are sampled and written; GDAL's
+/// default. Tiles are numbered row by row from the north, in each row from the west.
 constexpr std::int64_t RasterTileSize = 256;
 
+/// The number of tiles that cover the grid.
 inline std::int64_t tileCount(const RasterGrid& grid)
 {
   const auto along = [](std::int64_t pixels)
@@ -139,7 +143,7 @@ inline std::int64_t tileCount(const RasterGrid& grid)
   return along(grid.Columns) * along(grid.Rows);
 }
 
-/// The tile of a number from 0 on.
+/// The window of a tile, given its number (from 0).
 inline RasterWindow tileOf(const RasterGrid& grid, std::int64_t number)
 {
   const std::int64_t across = (grid.Columns + RasterTileSize - 1) / RasterTileSize;
@@ -149,7 +153,7 @@ inline RasterWindow tileOf(const RasterGrid& grid, std::int64_t number)
   return { column, row, std::min(RasterTileSize, grid.Columns - column), top - row };
 }
 
-/// The number of the tile of a window.
+/// The number of the tile that a window is.
 inline std::int64_t tileNumber(const RasterGrid& grid, const RasterWindow& window)
 {
   const std::int64_t across = (grid.Columns + RasterTileSize - 1) / RasterTileSize;
@@ -166,12 +170,13 @@ VTKTIPPIO_EXPORT std::unique_ptr<RasterWriter> createRaster(
 /// Whether the path is .tif, .tiff, .npy or .vti.
 VTKTIPPIO_EXPORT bool isRasterFile(const std::string& path);
 
-/// Whether the path is that of a GeoTIFF.
+/// Whether the path is .tif or .tiff.
 VTKTIPPIO_EXPORT bool isGeoTiff(const std::string& path);
 
 std::unique_ptr<RasterWriter> createGeoTiff(
   const std::string& path, const RasterDescription& description, const PathState& before);
 
+/// The grid and the reference system of an existing raster.
 struct RasterInfo
 {
   RasterGrid Grid;

@@ -24,7 +24,7 @@ struct TiffField
     Double = 12,
     Long8 = 16
   };
-  std::uint16_t Tag = 0;
+  std::uint16_t Tag = 0; ///< the field's tag number
   Type Is = Type::Short;
   std::string Bytes; ///< the values, little-endian
 };
@@ -36,8 +36,9 @@ TiffField tiffField(std::uint16_t tag, TiffField::Type type, const std::vector<T
     std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)) };
 }
 
-/// Writes a TIFF file of floating-point bands, each in tiles of its own, from the north-west on.
-/// It becomes a BigTIFF above a number of bytes, at most those that 32-bit offsets reach.
+/// Writes a TIFF file of floating-point bands, each in its own tiles, from the north-west on. It
+/// becomes a BigTIFF if it may exceed `classicBytes`, which must not exceed the range of 32-bit
+/// offsets.
 class TiledTiff
 {
 public:
@@ -45,11 +46,13 @@ public:
   TiledTiff(const OutputFile& file, const RasterGrid& grid, std::size_t bands, bool isDouble,
     bool isDeflated, std::uint64_t classicBytes);
 
-  /// Appends the next tile of a band to the file: RasterTileSize rows of RasterTileSize values, the
-  /// most northern first, of the file's type, or these after deflateTile(). Throws IOError.
+  /// Appends the next tile of a band: RasterTileSize rows of RasterTileSize values of the file's
+  /// type, northernmost row first; for a deflated file, the result of deflateTile(). Throws
+  /// IOError.
   void append(std::size_t band, const std::string& tile);
 
-  /// Completes the file with a directory of these fields and those of the pixels. Throws IOError.
+  /// Completes the file with a directory of these fields and those that describe the pixels. Throws
+  /// IOError.
   void finish(std::vector<TiffField> fields);
 
 private:
@@ -60,19 +63,19 @@ private:
   const bool IsDouble;
   const bool IsDeflated;
   const std::uint64_t ClassicBytes;
-  std::uint64_t End; ///< of what is written
+  std::uint64_t End; ///< end of the written data
   struct Band
   {
-    std::vector<std::uint64_t> Offsets; ///< of its tiles
+    std::vector<std::uint64_t> Offsets; ///< offsets of its tiles
     std::vector<std::uint64_t> Sizes;
   };
   std::vector<Band> Bands;
 };
 
-/// Whether this program can deflate tiles itself.
+/// Whether this build can deflate tiles without GDAL.
 bool canDeflateTiles();
 
-/// The bytes of a tile of values of `valueSize` bytes as a deflated file stores them. Thread-safe.
+/// Compresses a tile of values of `valueSize` bytes for a deflated file. Thread-safe.
 std::string deflateTile(const std::string& pixels, std::size_t valueSize);
 
 } // namespace tipp

@@ -137,7 +137,7 @@ private:
 
   void number(std::vector<PointOfPiece>& found)
   {
-    // Of a point's copies the one that is not a ghost comes first.
+    // Among the copies of a point, the one that is not a ghost sorts first.
     sortRuns(found,
       [](const PointOfPiece& a, const PointOfPiece& b)
       { return std::tie(a.Id, a.Ghost, a.Piece) < std::tie(b.Id, b.Ghost, b.Piece); });

@@ -154,7 +154,7 @@ std::int64_t FlatPieces::chunkCells() const
 
 void FlatPieces::prepare(Communicator& ranks)
 {
-  // All ranks or none must go on, because the next step is collective.
+  // All ranks must agree whether to continue, because the next step is collective.
   std::vector<std::int64_t> unprepared = { this->Tiling ? 0 : 1 };
   ranks.sum(unprepared);
   if (unprepared[0] == 0)

@@ -24,11 +24,13 @@
 namespace tipp
 {
 
+/// Options of openPieceSource().
 struct SourceOptions
 {
-  TilingChoice Tiling; ///< of a flat mesh; a partitioned one has its own
-  std::uint64_t MemoryLimit = std::uint64_t(2) << 30; ///< in bytes, without the pieces themselves
-  int Threads = 0;                                    ///< 0: OpenMP's default
+  TilingChoice Tiling; ///< for a flat mesh; a partitioned one has its own
+  std::uint64_t MemoryLimit = std::uint64_t(2)
+    << 30;         ///< in bytes, not counting the pieces themselves
+  int Threads = 0; ///< 0: OpenMP's default
 };
 
 /// A source of pieces: a partitioned mesh on disk, or a flat mesh that is partitioned as it is
@@ -99,14 +101,14 @@ private:
   SourceOptions Options;
   std::vector<RawArray> Arrays; ///< the data of Mesh.Arrays
   std::optional<BoxTiling> Tiling;
-  std::vector<std::int64_t> PointCounts; ///< of each piece
+  std::vector<std::int64_t> PointCounts; ///< number of points of each piece
 };
 
 /// An LRU cache of the pieces of one mesh.
 class PieceCache
 {
 public:
-  /// Identifies what was read of a piece.
+  /// Identifies a cached piece, and what was read of it.
   struct Key
   {
     std::size_t Number;
@@ -153,8 +155,8 @@ private:
 /// A cell of one of several pieces, by its index in the piece.
 struct CellOfPiece
 {
-  std::size_t Piece;
-  std::int64_t Cell;
+  std::size_t Piece; ///< index among the given pieces
+  std::int64_t Cell; ///< index of the cell within the piece
 };
 
 /// Builds one piece from cells of several pieces, with each point once, identified by its global
@@ -176,8 +178,8 @@ public:
   const std::vector<std::size_t>& pieces() const { return this->Open; }
 
   /// Returns the cells of a piece that meet the range, and their points. `piece` must include its
-  /// borrowed cells: a cell whose owner is not among pieces() is assigned to the lowest of those
-  /// that it meets; likewise a point. `borrowed`: keep the other borrowed cells as ghosts.
+  /// borrowed cells: a cell or point whose owner is not among pieces() is assigned to the lowest of
+  /// pieces() that it meets. `borrowed` keeps the other borrowed cells as ghosts.
   Piece apply(const Piece& piece, std::size_t number, bool borrowed) const;
 
 private:

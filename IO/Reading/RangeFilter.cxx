@@ -13,7 +13,8 @@ namespace tipp
 namespace
 {
 
-constexpr std::uint8_t insideRange = 0x80; ///< used instead of the bits of sides
+constexpr std::uint8_t insideRange =
+  0x80; ///< marks points inside the range, which have no side bits
 
 bool boxesMeet(const Box3& a, const Box3& b)
 {

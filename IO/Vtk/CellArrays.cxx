@@ -143,7 +143,7 @@ int tabulated(int type)
   return type >= 0 && type < 256 ? sizes[std::size_t(type)] : unknown;
 }
 
-/// Whether the number of vertices fits a cell of higher order with the same order along all its
+/// Whether a higher-order cell can have this number of vertices, with the same order along all its
 /// edges.
 bool isHigherOrder(int type, std::int64_t size)
 {

@@ -154,7 +154,7 @@ private:
     {
       return false;
     }
-    Unsigned different = 0; // without branches, so that it is vectorised
+    Unsigned different = 0; // branch-free, so that it is vectorised
     for (std::int64_t i = begin; i < end; ++i)
     {
       different |= Unsigned(this->Offsets[i + 1]) - Unsigned(this->Offsets[i]) - size;

@@ -337,7 +337,7 @@ private:
     this->checkCellArray(cells, what, least, types, "point", this->Data->GetNumberOfPoints());
   }
 
-  /// Its ids must be in [0, count). A null array has no cells.
+  /// Checks a cell array, whose ids must be in [0, count). A null array has no cells.
   void checkCellArray(vtkCellArray* cells, const std::string& what, std::int64_t least,
     const unsigned char* types, const std::string& item, std::int64_t count) const
   {

@@ -260,7 +260,7 @@ private:
   std::string Text;
   std::size_t At = 0;
   bool Binary = false;
-  double Tuples = 1; ///< of the data that follow
+  double Tuples = 1; ///< number of tuples of the data that follow
 };
 
 } // namespace

@@ -308,7 +308,7 @@ private:
   double Cells = 0;
   std::string Section;
   XmlDataCheck Data;
-  std::vector<std::uint64_t> Offsets; ///< of the arrays in the appended data
+  std::vector<std::uint64_t> Offsets; ///< offsets of the arrays in the appended data
 };
 
 } // namespace

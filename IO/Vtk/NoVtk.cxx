@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Replaces what reads VTK's files in a build without VTK.
+// Replaces the code that reads VTK files in a build without VTK.
 #include "Vtk/VtkFiles.h"
 
 #include "Constraints/ReadConstraintFile.h"

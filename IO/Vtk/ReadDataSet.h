@@ -31,10 +31,10 @@ VTKTIPPIO_EXPORT void checkVtkFile(const std::string& path);
 /// version 5, whose counts VTK does not check.
 void checkLegacyFile(const std::string& path);
 
-/// Every VTK data set, from a file or from a pipeline, passes one of these checks before its ids
-/// are used. They throw IOError with one sentence that begins with `name`: a file, or "the input".
-///@{
-/// The points, and that no point array has fewer tuples than there are points.
+/// Checks of VTK data sets. Every data set, from a file or from a pipeline, must pass one of them
+/// before its ids are used. They throw IOError with one sentence that begins with `name`: a file,
+/// or "the input".
+/// @{ Checks the points, and that no point array has fewer tuples than there are points.
 VTKTIPPIO_EXPORT void checkPoints(vtkDataSet* data, const std::string& name);
 
 /// Checks the cells: offsets ascend and end within the vertex ids, types are known and fit the

@@ -19,12 +19,12 @@ VTKTIPPIO_EXPORT std::string cellTypeName(int type);
 /// (.pvtp ...), .vtk, .ply, .stl, .obj.
 VTKTIPPIO_EXPORT bool isVtkFile(const std::string& path);
 
-/// Reads the points of such a file, as pointsOf() returns them. Throws IOError, also in a build
-/// without VTK.
+/// Reads the points of such a file as pointsOf() returns them. Throws IOError if reading fails, and
+/// always in a build without VTK.
 VTKTIPPIO_EXPORT PointTable readVtkPoints(const std::string& path);
 
-/// A data set's points: column z and its numeric point data, the components of an array of several
-/// as name_0, name_1 ...
+/// Converts a data set's points and numeric point data to a table with a column z; an array of
+/// several components becomes columns name_0, name_1 ... ...
 VTKTIPPIO_EXPORT PointTable pointsOf(vtkDataSet* data);
 
 } // namespace tipp

@@ -15,8 +15,8 @@
 namespace tipp
 {
 
-/// An XML writer of VTK that writes to our stream: with its own it does not notice that the disk is
-/// full when the file is closed.
+/// A VTK XML writer that writes to our stream: with its own stream it would not notice if closing
+/// the file fails because the disk is full.
 template <typename Writer>
 class StreamWriter : public Writer
 {

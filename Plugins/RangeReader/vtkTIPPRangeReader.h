@@ -3,9 +3,9 @@
  * @class   vtkTIPPRangeReader
  * @brief   vtkPartitionedUnstructuredReader with a range that ParaView's box widget can hold
  *
- * The box widget has a corner and lengths where vtkPartitionedUnstructuredReader has Bounds, and
- * a switch says whether the box counts. The properties here set Bounds; setting Bounds as well
- * makes no sense.
+ * ParaView's box widget has a corner and lengths instead of bounds, and a check box that enables
+ * it. The properties here set Bounds of vtkPartitionedUnstructuredReader; do not set Bounds as
+ * well.
  *
  * @sa
  * vtkPartitionedUnstructuredReader
@@ -26,7 +26,7 @@ public:
 
   ///@{
   /**
-   * Whether only the box is read. Off by default: all of the mesh.
+   * Whether only the box is read. Off by default: the whole mesh is read.
    */
   void SetUseRange(bool use);
   vtkGetMacro(UseRange, bool);
@@ -34,7 +34,7 @@ public:
 
   ///@{
   /**
-   * The box's corner of least coordinates, (0, 0, 0) by default, in the mesh's units.
+   * The box's corner with the lowest coordinates, in the mesh's units. (0, 0, 0) by default.
    */
   void SetRangePosition(double x, double y, double z);
   vtkGetVector3Macro(RangePosition, double);
@@ -42,8 +42,8 @@ public:
 
   ///@{
   /**
-   * The box's lengths, (1, 1, 1) by default, in the mesh's units. A negative one reaches the other
-   * way.
+   * The box's side lengths, in the mesh's units. (1, 1, 1) by default. With a negative length the
+   * box extends in the opposite direction.
    */
   void SetRangeScale(double x, double y, double z);
   vtkGetVector3Macro(RangeScale, double);

@@ -1,37 +1,63 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tetrahedra beside CGAL: benchmarkDelaunay3D KIND POINTS [REPEAT]. KIND is one of pointsInSpace().
-// Points in memory to tetrahedra in memory; wall-clock seconds, of which the fastest run counts.
-#include "EngineCgal3D.h"
+// Tetrahedra beside CGAL, also on two threads by TBB, TetGen and, of up to 100,000 points,
+// vtkDelaunay3D: benchmarkDelaunay3D KIND POINTS [REPEAT]. KIND is one of pointsInSpace(). Points
+// in memory to tetrahedra in memory; wall-clock seconds, of which the fastest run counts.
+#include "Engines3D.h"
 #include "PointsInSpace.h"
 
 #include "Kernel3D/DelaunayKernel3.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation3D/Tetrahedralize.h"
 
+#include "vtkDelaunay3D.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <limits>
-#include <string>
+#include <vector>
 
 namespace
 {
 
 using namespace tipp;
+using namespace tipp::benchmark;
 
-struct Timing
+struct Engine
 {
+  const char* Name;
+  std::function<std::size_t()> Run; ///< returns the number of tetrahedra
   double Seconds = std::numeric_limits<double>::infinity();
   std::size_t Cells = 0;
-
-  void time(const std::function<std::size_t()>& work)
-  {
-    const Stopwatch watch;
-    this->Cells = work();
-    this->Seconds = std::min(this->Seconds, watch.seconds());
-  }
 };
+
+std::size_t ours(const std::vector<Point3>& points, int threads)
+{
+  TetrahedralizationOptions options;
+  options.Threads = threads;
+  return tetrahedralize(points.data(), points.size(), options).cellCount();
+}
+
+std::size_t tetrahedralizeByVtk(const std::vector<Point3>& points)
+{
+  vtkNew<vtkPoints> positions;
+  positions->SetDataTypeToDouble();
+  for (const Point3& p : points)
+  {
+    positions->InsertNextPoint(p.x, p.y, p.z);
+  }
+  vtkNew<vtkPolyData> input;
+  input->SetPoints(positions);
+  vtkNew<vtkDelaunay3D> delaunay;
+  delaunay->SetInputData(input);
+  delaunay->Update();
+  return std::size_t(delaunay->GetOutput()->GetNumberOfCells());
+}
 
 double kernelBytesPerCell(const std::vector<Point3>& points)
 {
@@ -54,30 +80,42 @@ int main(int argc, char** argv)
   }
   const auto points = test::pointsInSpace(argv[1], std::size_t(std::atof(argv[2])));
   const int repeat = argc > 3 ? std::atoi(argv[3]) : 3;
-  Timing cgal;
-  Timing one;
-  Timing two;
-  const auto ours = [&points](int threads)
+  std::vector<Engine> engines = { { "CGAL", [&] { return tetrahedralizeByCgal(points); } },
+    { "1 thread", [&] { return ours(points, 1); } },
+    { "2 threads", [&] { return ours(points, 2); } } };
+#ifdef TIPP_HAVE_TBB
+  engines.push_back(
+    { "CGAL, TBB, 2 threads", [&] { return tetrahedralizeByParallelCgal(points); } });
+#endif
+#ifdef TIPP_HAVE_TETGEN
+  engines.push_back({ "TetGen", [&] { return tetrahedralizeByTetgen(points); } });
+#endif
+  constexpr std::size_t mostOfVtk = 100'000;
+  if (points.size() <= mostOfVtk)
   {
-    TetrahedralizationOptions options;
-    options.Threads = threads;
-    return tetrahedralize(points.data(), points.size(), options).cellCount();
-  };
+    engines.push_back({ "vtkDelaunay3D", [&] { return tetrahedralizeByVtk(points); } });
+  }
   for (int i = 0; i < repeat; ++i)
   {
-    cgal.time([&] { return benchmark::tetrahedralizeByCgal(points); });
-    one.time([&] { return ours(1); });
-    two.time([&] { return ours(2); });
+    for (Engine& engine : engines)
+    {
+      const Stopwatch watch;
+      engine.Cells = engine.Run();
+      engine.Seconds = std::min(engine.Seconds, watch.seconds());
+    }
   }
-  if (cgal.Cells != one.Cells || one.Cells != two.Cells)
+  if (engines[0].Cells != engines[1].Cells || engines[1].Cells != engines[2].Cells)
   {
     std::fprintf(stderr, "benchmarkDelaunay3D: the numbers of tetrahedra differ.\n");
     return 1;
   }
-  std::printf(
-    "%-13s %9zu points %10zu tetrahedra  CGAL %8.3f s  1 thread %8.3f s (%.2fx)  2 threads "
-    "%8.3f s (%.2fx)  %.1f bytes/tetrahedron\n",
-    argv[1], points.size(), one.Cells, cgal.Seconds, one.Seconds, cgal.Seconds / one.Seconds,
-    two.Seconds, cgal.Seconds / two.Seconds, kernelBytesPerCell(points));
+  std::printf("%s: %zu points, %.1f bytes a tetrahedron\n", argv[1], points.size(),
+    kernelBytesPerCell(points));
+  for (const Engine& engine : engines)
+  {
+    std::printf("  %-20s %10zu tetrahedra %8.3f s  1 thread %5.2fx  2 threads %5.2fx\n",
+      engine.Name, engine.Cells, engine.Seconds, engine.Seconds / engines[1].Seconds,
+      engine.Seconds / engines[2].Seconds);
+  }
   return 0;
 }

@@ -114,19 +114,91 @@ Coordinates twoScales(Engine& random, int count)
   return xy;
 }
 
-void spoil(Engine& random, Coordinates& xy)
+void spoil(Engine& random, Coordinates& coordinates, std::size_t dimension)
 {
   const double never[] = { std::nan(""), HUGE_VAL, -HUGE_VAL };
-  if (!xy.empty() && below(random, 8) == 0)
+  if (!coordinates.empty() && below(random, 8) == 0)
   {
-    xy[random() % xy.size()] = never[below(random, 3)];
+    coordinates[random() % coordinates.size()] = never[below(random, 3)];
   }
-  if (!xy.empty() && below(random, 4) == 0)
+  if (!coordinates.empty() && below(random, 4) == 0)
   {
-    const std::size_t from = 2 * (random() % (xy.size() / 2));
-    const double point[2] = { xy[from], xy[from + 1] };
-    xy.insert(xy.end(), point, point + 2);
+    const std::size_t from = dimension * (random() % (coordinates.size() / dimension));
+    const Coordinates point(coordinates.begin() + std::ptrdiff_t(from),
+      coordinates.begin() + std::ptrdiff_t(from + dimension));
+    coordinates.insert(coordinates.end(), point.begin(), point.end());
   }
+}
+
+Coordinates latticeInSpace(Engine& random, int count)
+{
+  const int side = 1 + below(random, 5);
+  const int shear = below(random, 3);
+  const double scale = drawScale(random);
+  const double offsets[] = { 0, 0, 1, -3, 1e12, 1e-3 };
+  const double offset = scale * offsets[below(random, 6)];
+  Coordinates xyz;
+  for (int i = 0; i < count; ++i)
+  {
+    const int x = below(random, side);
+    const int y = below(random, side);
+    const int z = below(random, side);
+    for (const int coordinate : { x + shear * z, y, z })
+    {
+      xyz.push_back(offset + scale * coordinate);
+    }
+  }
+  return xyz;
+}
+
+/// In a plane, or on a line of it.
+Coordinates nearPlane(Engine& random, int count)
+{
+  const double slopes[] = { below(random, 5) / 3.0, below(random, 3) / 7.0 };
+  const bool isLine = below(random, 4) == 0;
+  const double scale = drawScale(random);
+  const int ulps = below(random, 3);
+  Coordinates xyz;
+  for (int i = 0; i < count; ++i)
+  {
+    const double x = scale * (below(random, 2) ? below(random, 8) : unit(random));
+    const double y = isLine ? 2 * x : scale * (below(random, 2) ? below(random, 8) : unit(random));
+    for (const double coordinate : { x, y, slopes[0] * x + slopes[1] * y })
+    {
+      xyz.push_back(nudge(random, coordinate, ulps));
+    }
+  }
+  return xyz;
+}
+
+/// Exactly on a sphere of radius 9, then scaled and nudged; now and then its centre, too.
+Coordinates nearSphere(Engine& random, int count)
+{
+  const int squaresAddTo81[][3] = { { 9, 0, 0 }, { 8, 4, 1 }, { 7, 4, 4 }, { 6, 6, 3 } };
+  const double scale = drawScale(random) / (below(random, 2) ? 8 : 9);
+  const int ulps = below(random, 3);
+  Coordinates xyz;
+  for (int i = 0; i < count; ++i)
+  {
+    const int* const triple = squaresAddTo81[below(random, 4)];
+    const int first = below(random, 3);
+    const int swapped = below(random, 2);
+    const int isCentre = below(random, 20) == 0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const int at = (first + (swapped ? 3 - axis : axis)) % 3;
+      const int sign = isCentre ? 0 : (below(random, 2) ? 1 : -1);
+      xyz.push_back(nudge(random, scale * (sign * triple[at]), ulps));
+    }
+  }
+  return xyz;
+}
+
+Coordinates mixedExponentsInSpace(Engine& random, int count)
+{
+  Coordinates xyz = mixedExponents(random, 3 * count / 2 + 1);
+  xyz.resize(std::size_t(3 * count));
+  return xyz;
 }
 
 } // namespace
@@ -137,8 +209,18 @@ Coordinates drawDegeneratePoints(Engine& random)
     Engine&, int) = { lattice, mixedExponents, nearLine, nearCircle, twoScales };
   const int count = below(random, below(random, 4) == 0 ? 61 : 13);
   Coordinates xy = kinds[below(random, 5)](random, count);
-  spoil(random, xy);
+  spoil(random, xy, 2);
   return xy;
+}
+
+Coordinates drawDegeneratePointsInSpace(Engine& random)
+{
+  Coordinates (*const kinds[])(
+    Engine&, int) = { latticeInSpace, nearPlane, nearSphere, mixedExponentsInSpace };
+  const int count = below(random, below(random, 4) == 0 ? 61 : 13);
+  Coordinates xyz = kinds[below(random, 4)](random, count);
+  spoil(random, xyz, 3);
+  return xyz;
 }
 
 } // namespace test

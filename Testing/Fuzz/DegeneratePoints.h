@@ -18,6 +18,10 @@ using Engine = std::mt19937_64;
 /// not finite.
 Coordinates drawDegeneratePoints(Engine& random);
 
+/// The same in space, x, y and z of each: lattices, mixed exponents, points an ulp beside a plane,
+/// a line or a sphere.
+Coordinates drawDegeneratePointsInSpace(Engine& random);
+
 } // namespace test
 } // namespace tipp
 

@@ -69,13 +69,14 @@ class Delaunay3D(unittest.TestCase):
         self.assertLess(np.count_nonzero(kinds == 10), len(tetrahedra(tipp.delaunay_3d(points))))
         self.assertGreater(np.count_nonzero(kinds == 5), 0)
 
-    def test_a_plane_is_a_warning(self):
+    def test_a_plane_makes_triangles_and_a_warning(self):
         points = scattered(30)
         points[:, 2] = 1
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             mesh = tipp.delaunay_3d(points)
-        self.assertEqual(mesh.GetNumberOfCells(), 0)
+        self.assertEqual(set(vtk_to_numpy(mesh.GetCellTypesArray())), {5})
+        self.assertGreater(mesh.GetNumberOfCells(), 30)
         self.assertIn("plane", str(caught[0].message))
 
     def test_wrong_arguments_are_refused(self):

@@ -5,6 +5,7 @@
 #include "Commands/Commands.h"
 #include "Files/IOError.h"
 #include "Meshes/TetrahedronFiles.h"
+#include "Partitioned/NeighborIds.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/PieceFile.h"
 #include "Partitioned/ReadPiece.h"
@@ -52,6 +53,11 @@ StoredTetrahedra readPieces(
   StoredTetrahedra stored;
   PieceOptions options;
   options.Wanted.assign(mesh.Arrays.size(), false);
+  const std::int64_t neighborIds = findNeighborIds(mesh);
+  if (neighborIds >= 0)
+  {
+    options.Wanted[std::size_t(neighborIds)] = true;
+  }
   std::size_t found = 0;
   bool areSame = true;
   for (std::size_t number = 0; number < mesh.Pieces.size(); ++number)
@@ -76,6 +82,11 @@ StoredTetrahedra readPieces(
       {
         stored.Ids.push_back(ids[piece.corner(cell, corner)]);
       }
+    }
+    if (neighborIds >= 0)
+    {
+      const auto* neighbors = piece.Attributes[0].Values.as<std::int64_t>();
+      stored.Neighbors.insert(stored.Neighbors.end(), neighbors, neighbors + 4 * piece.OwnedCells);
     }
   }
   std::size_t finite = 0;

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
+#include "Commands/Delaunay3DRuns.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Console/Process.h"
 #include "Files/InputFile.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
+#include "InMemory/TriangulatePoints.h"
 #include "Meshes/TetrahedronFiles.h"
 #include "OutOfCore3D/OutOfCoreTetrahedralization.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/PointStream.h"
 #include "Points/ReadPoints.h"
 #include "Triangulation3D/AlphaShape3.h"
+#include "Triangulation3D/CoplanarPoints.h"
 #include "Triangulation3D/Tetrahedralize.h"
 
 #include <CLI/CLI.hpp>
@@ -25,42 +28,6 @@
 
 namespace tipp
 {
-namespace
-{
-
-constexpr const char* footer =
-  R"(INPUT   as of 'tipp delaunay'; the third coordinate is the column z, Z or elevation, or
-        the third one of a file without names.
-        uniform:COUNT stands for that many points, uniform in the unit cube (to .tipp).
-OUTPUT  .vtu (all points with their data) or .npy (m x 4 int64: point ids, counted
-        from 0): all is in memory. Or .tipp, a partitioned mesh in a folder: points
-        and tetrahedra may be larger than memory, which --memory limits.
-
-Duplicates are merged, points that are not finite are left out. Ctrl-C ends the run
-with exit code 130 and no output. Seconds in the summary are those of the
-tetrahedralization alone, but of .tipp those of the whole run; memory is in millions of
-bytes. All in one process.
-
-Examples:
-  tipp delaunay3d particles.npy -o mesh.vtu
-  tipp delaunay3d cloud.las --class 2,5 -o tetrahedra.npy --threads 4
-  tipp delaunay3d uniform:50000000 -o mesh.tipp --memory 2G
-)";
-
-struct Delaunay3DArguments
-{
-  std::vector<std::string> Inputs;
-  std::string Output;
-  PointOptions Columns;
-  int Threads = 0;
-  int Partitions = 0;
-  bool MapDuplicates = false;
-  bool Neighbors = false;
-  std::string Statistics;
-  // Of a run out of core:
-  std::string Memory; ///< empty: not given
-  std::string Scratch;
-};
 
 std::vector<Point3> coordinatesOf(const PointTable& table, std::size_t elevation)
 {
@@ -84,8 +51,8 @@ PathState requireWritable(const Delaunay3DArguments& arguments)
   return output.before();
 }
 
-bool write(const Delaunay3DArguments& arguments, PointTable&& table, const Tetrahedralization& mesh,
-  const PathState& before)
+bool writeResult(const Delaunay3DArguments& arguments, PointTable&& table,
+  const Tetrahedralization& mesh, const PathState& before)
 {
   MeshOptions options;
   options.Before = before;
@@ -105,6 +72,70 @@ bool write(const Delaunay3DArguments& arguments, PointTable&& table, const Tetra
     arguments.Output, std::move(table), mesh.Ids.data(), mesh.cellCount(), neighbors, options);
 }
 
+void report(const Delaunay3DArguments& arguments, const Tetrahedralization& mesh,
+  std::int64_t points, double seconds, const nlohmann::ordered_json& figures,
+  const std::string& ranks)
+{
+  if (!arguments.Statistics.empty())
+  {
+    nlohmann::ordered_json json = { { "input", arguments.Inputs }, { "output", arguments.Output },
+      { "tetrahedralize_seconds", seconds }, { "peak_memory_bytes", peakMemoryBytes() } };
+    json.update(figures);
+    writeJson(arguments.Statistics, json);
+  }
+  fmt::print("{} points, {} tetrahedra, {} duplicates, {} rejected, {:.3f} s, {:.0f} points/s, "
+             "peak memory {:.0f} MB{}\n",
+    points, mesh.cellCount(), mesh.Duplicates.size(), mesh.Rejected.size(), seconds,
+    seconds > 0 ? double(points) / seconds : 0.0, double(peakMemoryBytes()) / 1e6, ranks);
+}
+
+namespace
+{
+
+constexpr const char* footer =
+  R"(INPUT   as of 'tipp delaunay'; the third coordinate is the column z, Z or elevation, or
+        the third one of a file without names.
+        uniform:COUNT stands for that many points, uniform in the unit cube (to .tipp).
+OUTPUT  .vtu (all points with their data) or .npy (m x 4 int64: point ids, counted
+        from 0): all is in memory. Or .tipp, a partitioned mesh in a folder: points
+        and tetrahedra may be larger than memory, which --memory limits.
+
+Points all in one plane make a warning and, in one process and not to .tipp, triangles:
+the Delaunay triangulation of their projection along the axis nearest to the plane's
+normal.
+
+Duplicates are merged, points that are not finite are left out. Ctrl-C ends the run
+with exit code 130 and no output. Seconds in the summary are those of the
+tetrahedralization alone, but of .tipp those of the whole run; memory is in millions of
+bytes. Under mpirun the points are spread over the ranks, each with its threads, and
+the first rank writes the output, the same as of one process; a .tipp is made by the
+first rank alone.
+
+Examples:
+  tipp delaunay3d particles.npy -o mesh.vtu
+  tipp delaunay3d cloud.las --class 2,5 -o tetrahedra.npy --threads 4
+  tipp delaunay3d uniform:50000000 -o mesh.tipp --memory 2G
+  mpirun -np 4 tipp delaunay3d particles.npy -o mesh.vtu --threads 2
+)";
+
+/// Those of coplanar points.
+bool writeTriangles(const Delaunay3DArguments& arguments, PointTable&& table,
+  const Tetrahedralization& mesh, const Triangulation& triangles, const PathState& before)
+{
+  MeshOptions options;
+  options.Before = before;
+  options.Aborted = isInterrupted;
+  options.Neighbors = arguments.Neighbors;
+  if (arguments.MapDuplicates)
+  {
+    const auto ids = representativeIds(mesh, table.size());
+    options.Representatives.assign(ids.begin(), ids.end());
+  }
+  table.Columns[requireElevation(table, arguments.Inputs.front())].Name = "z";
+  return writeMesh(
+    arguments.Output, table, { triangles.Ids32.data(), triangles.triangleCount() }, options);
+}
+
 int runDelaunay3D(const Delaunay3DArguments& arguments)
 {
   const PathState before = requireWritable(arguments);
@@ -118,6 +149,7 @@ int runDelaunay3D(const Delaunay3DArguments& arguments)
     return reportInterrupt();
   }
   Tetrahedralization mesh;
+  Triangulation triangles; // of coplanar points
   const Stopwatch watch;
   {
     const auto bar = std::make_unique<ProgressBar>("Tetrahedralizing");
@@ -126,23 +158,26 @@ int runDelaunay3D(const Delaunay3DArguments& arguments)
     options.Threads = arguments.Threads;
     options.Progress = progressOn(bar);
     mesh = tetrahedralize(points.data(), points.size(), options);
+    if (!mesh.Aborted && mesh.Dimension == 2)
+    {
+      triangles = triangulateCoplanar(points.data(), points.size(), options, mesh);
+      mesh.Aborted = triangles.Aborted;
+    }
   }
   const double seconds = watch.seconds();
-  if (mesh.Aborted || isInterrupted() || !write(arguments, std::move(table), mesh, before))
+  if (mesh.Aborted || isInterrupted() ||
+    !(mesh.Dimension == 2 ? writeTriangles(arguments, std::move(table), mesh, triangles, before)
+                          : writeResult(arguments, std::move(table), mesh, before)))
   {
     return reportInterrupt();
   }
-  if (!arguments.Statistics.empty())
+  nlohmann::ordered_json figures =
+    jsonOf(statisticsOf(mesh, count, std::int64_t(mesh.cellCount())));
+  if (mesh.Dimension == 2)
   {
-    nlohmann::ordered_json json = { { "input", arguments.Inputs }, { "output", arguments.Output },
-      { "tetrahedralize_seconds", seconds }, { "peak_memory_bytes", peakMemoryBytes() } };
-    json.update(jsonOf(statisticsOf(mesh, count, std::int64_t(mesh.cellCount()))));
-    writeJson(arguments.Statistics, json);
+    figures["triangles"] = triangles.triangleCount();
   }
-  fmt::print("{} points, {} tetrahedra, {} duplicates, {} rejected, {:.3f} s, {:.0f} points/s, "
-             "peak memory {:.0f} MB\n",
-    count, mesh.cellCount(), mesh.Duplicates.size(), mesh.Rejected.size(), seconds,
-    seconds > 0 ? double(count) / seconds : 0.0, double(peakMemoryBytes()) / 1e6);
+  report(arguments, mesh, count, seconds, figures, "");
   for (const std::string& warning : warningsOf(mesh, count))
   {
     fmt::print(stderr, "tipp: warning: {}\n", warning);
@@ -162,6 +197,7 @@ OutOfCoreStatistics3 makeOutOfCore(const Delaunay3DArguments& arguments)
     arguments.Memory.empty() ? options.MemoryLimit : *parseMemorySize(arguments.Memory);
   options.Threads = arguments.Threads;
   options.MapDuplicates = arguments.MapDuplicates;
+  options.Neighbors = arguments.Neighbors;
   options.Scratch = arguments.Scratch;
   const auto bar = std::make_unique<ProgressBar>("Tetrahedralizing");
   options.Progress = progressOn(bar);
@@ -219,9 +255,9 @@ void requireFitting(const Delaunay3DArguments& arguments)
       throw CLI::ValidationError(option, need);
     }
   };
-  refuse(arguments.Neighbors && extension != ".vtu", "--neighbors", "needs an output named .vtu");
-  refuse(arguments.MapDuplicates && extension == ".npy", "--map-duplicates",
-    "needs an output named .vtu or .tipp");
+  constexpr const char* needsArrays = "needs an output named .vtu or .tipp";
+  refuse(arguments.Neighbors && extension == ".npy", "--neighbors", needsArrays);
+  refuse(arguments.MapDuplicates && extension == ".npy", "--map-duplicates", needsArrays);
   refuse(arguments.Partitions > 0 && isOutOfCore, "--partitions",
     "is for outputs named .vtu or .npy; --memory decides for a .tipp");
   refuse(!arguments.Memory.empty() && !isOutOfCore, "--memory", "needs an output named .tipp");
@@ -233,8 +269,8 @@ void requireFitting(const Delaunay3DArguments& arguments)
 void addDelaunay3DCommand(CLI::App& app, int& exitCode)
 {
   auto arguments = std::make_shared<Delaunay3DArguments>();
-  CLI::App* const command = app.add_subcommand(
-    "delaunay3d", "Tetrahedralizes points: exact 3D Delaunay, on several threads");
+  CLI::App* const command =
+    app.add_subcommand("delaunay3d", "Tetrahedralizes points: exact 3D Delaunay, in parallel");
   command->add_option("input", arguments->Inputs, "The points, of one or more files")->required();
   command->add_option("-o,--output", arguments->Output, "The tetrahedra")
     ->required()
@@ -247,11 +283,11 @@ void addDelaunay3DCommand(CLI::App& app, int& exitCode)
     ->check(CLI::Range(0, 512))
     ->capture_default_str();
   command->add_flag("--map-duplicates", arguments->MapDuplicates,
-    "Add the point array RepresentativePointId to .vtu: the id of the vertex that stands for a "
+    "Add the point array RepresentativePointId: the id of the vertex that stands for a "
     "point, -1 for points that are not finite");
   command->add_flag("--neighbors", arguments->Neighbors,
-    "Add the cell array NeighborIds to .vtu: four ids a tetrahedron, those of the tetrahedra "
-    "opposite its corners, -1 at the hull");
+    "Add the cell array NeighborIds: four ids a tetrahedron, those of the tetrahedra opposite its "
+    "corners, -1 at the hull");
   command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
   command
     ->add_option("--memory", arguments->Memory,
@@ -265,9 +301,14 @@ void addDelaunay3DCommand(CLI::App& app, int& exitCode)
     {
       requireFitting(*arguments);
       arguments->Columns.InSpace = true;
-      exitCode = isIdleRank()                       ? Success
-        : extensionOf(arguments->Output) == ".tipp" ? runDelaunay3DOutOfCore(*arguments)
-                                                    : runDelaunay3D(*arguments);
+      if (extensionOf(arguments->Output) == ".tipp")
+      {
+        exitCode = isIdleRank() ? Success : runDelaunay3DOutOfCore(*arguments);
+        return;
+      }
+      const MpiSession session;
+      exitCode = session.controller() ? runDelaunay3DOnRanks(*arguments, session.controller())
+                                      : runDelaunay3D(*arguments);
     });
 }
 

@@ -2,6 +2,7 @@
 #include "Commands/Commands.h"
 
 #include "Commands/PointArguments.h"
+#include "Commands/ResampleInput.h"
 #include "Commands/ResampleOutput.h"
 #include "Console/Process.h"
 #include "Console/ProgressBar.h"
@@ -9,28 +10,18 @@
 #include "Files/InputFile.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
-#include "Flat/FlatMesh.h"
 #include "OpenCL/Devices.h"
-#include "Partitioned/PartitionedMesh.h"
 #include "Ranks/Communicator.h"
 #include "Raster/RasterFile.h"
-#include "Sampling/SamplingRange.h"
-#include "Vtk/ReadDataSet.h"
 #include "Vtk/VtkMessages.h"
-#include "vtkPartitionedUnstructuredReader.h"
 #include "vtkRangeResampleFilter.h"
 
 #include "vtkCallbackCommand.h"
-#include "vtkCellData.h"
 #include "vtkDataArray.h"
-#include "vtkDataArraySelection.h"
-#include "vtkDataSet.h"
 #include "vtkExecutive.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
-#include "vtkPointData.h"
-#include "vtkPointSet.h"
 #include "vtkTable.h"
 
 #include <CLI/CLI.hpp>
@@ -39,7 +30,6 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -52,7 +42,8 @@ constexpr const char* footer =
   R"(MESH    any VTK file of triangles, tetrahedra or cells that are cut into them; or a
         partitioned mesh of 'tipp partition' (its folder or index) or a flat one (a
         folder of .npy arrays), of which only the range of --bounds is read. Of arrays
-        that vary in time the first step is taken.
+        that vary in time the first step is taken. A partitioned mesh may be larger than
+        memory: it is read in parts of about --memory, in bytes or as 512M.
         The z of a surface is sampled as the array elevation, beside the others, unless
         all points have the same.
 IMAGE   .vti: all arrays, vtkValidPointMask (1 where the mesh answers) and
@@ -72,62 +63,6 @@ Examples:
   tipp resample surge.vtu -o peak.npy --arrays zeta_max --delta 0.01 0.01 0
     --bounds -76 -75 35 36 0 0 --no-data -99999
 )";
-
-struct ResampleArguments
-{
-  std::string Input;
-  std::string Output;
-  std::vector<double> Bounds;
-  std::vector<int> Dimensions;
-  std::vector<double> Delta;
-  std::vector<std::string> Arrays;
-  std::string Device = "auto";
-  int Threads = 0;
-  double Null = 0;
-  bool HasNull = false;
-  double NoData = 0;
-  bool HasNoData = false;
-  std::string Crs;
-};
-
-[[noreturn]] void refuseName(
-  const ResampleArguments& arguments, const std::string& name, const std::set<std::string>& names)
-{
-  throw IOError(
-    arguments.Input, "has no array '" + name + "'" + listOfNames(names, "; it has ") + ".");
-}
-
-void chooseArrays(const ResampleArguments& arguments, vtkRangeResampleFilter* filter,
-  vtkDataSet* mesh, const std::string& associations)
-{
-  if (arguments.Arrays.empty())
-  {
-    return;
-  }
-  filter->GetPointDataArraySelection()->SetUnknownArraySetting(0);
-  filter->GetCellDataArraySelection()->SetUnknownArraySetting(0);
-  for (std::size_t i = 0; i < arguments.Arrays.size(); ++i)
-  {
-    const std::string& name = arguments.Arrays[i];
-    const char association = associations[i];
-    const bool ofPoints = association == 'p';
-    (ofPoints ? filter->GetPointDataArraySelection() : filter->GetCellDataArraySelection())
-      ->EnableArray(name.c_str());
-    if (association == ' ')
-    {
-      std::set<std::string> names = arrayNames(mesh->GetPointData());
-      names.merge(arrayNames(mesh->GetCellData()));
-      refuseName(arguments, name, names);
-    }
-    vtkDataSetAttributes* const data =
-      ofPoints ? static_cast<vtkDataSetAttributes*>(mesh->GetPointData()) : mesh->GetCellData();
-    if (data->HasArray(name.c_str()) && !data->GetArray(name.c_str()))
-    {
-      throw IOError(
-        arguments.Input, "has array '" + name + "', but it holds no numbers; name another.");
-    }
-  }
-}
 
 void configure(const ResampleArguments& arguments, vtkRangeResampleFilter* filter)
 {
@@ -171,115 +106,6 @@ void summarize(const ResampleArguments& arguments, vtkRangeResampleFilter* filte
     figures->GetAbstractArray("Device")->GetVariantValue(0).ToString(), arguments.Output);
 }
 
-/// Reads only the requested range and arrays of a partitioned or a flat mesh.
-vtkSmartPointer<vtkDataSet> readRange(const ResampleArguments& arguments, Communicator& ranks)
-{
-  vtkNew<ErrorKeeper> errors;
-  vtkNew<vtkPartitionedUnstructuredReader> reader;
-  reader->AddObserver(vtkCommand::ErrorEvent, errors);
-  reader->SetController(ranks.controller());
-  reader->SetFileName(arguments.Input.c_str());
-  // For a flat mesh, which is read completely in any case.
-  reader->SetTiling(ranks.size() == 1 ? "grid:1x1" : "grid:16x16");
-  reader->SetNumberOfThreads(arguments.Threads);
-  if (!arguments.Bounds.empty())
-  {
-    reader->SetBounds(arguments.Bounds.data());
-  }
-  const auto requireGood = [&]
-  {
-    if (errors->HasError)
-    {
-      throw IOError(errors->message());
-    }
-  };
-  ranks.attempt(
-    [&]
-    {
-      reader->UpdateInformation();
-      requireGood();
-    });
-  std::set<std::string> names;
-  for (vtkDataArraySelection* const selection :
-    { reader->GetPointDataArraySelection(), reader->GetCellDataArraySelection() })
-  {
-    for (int i = 0; !arguments.Arrays.empty() && i < selection->GetNumberOfArrays(); ++i)
-    {
-      const std::string name = selection->GetArrayName(i);
-      names.insert(name);
-      const bool wanted =
-        std::find(arguments.Arrays.begin(), arguments.Arrays.end(), name) != arguments.Arrays.end();
-      selection->SetArraySetting(name.c_str(), wanted ? 1 : 0);
-    }
-  }
-  ranks.attempt(
-    [&]
-    {
-      for (const std::string& name : arguments.Arrays)
-      {
-        if (names.count(name) == 0)
-        {
-          refuseName(arguments, name, names);
-        }
-      }
-    });
-  reader->UpdatePiece(ranks.rank(), ranks.size(), 0);
-  ranks.attempt(requireGood);
-  vtkSmartPointer<vtkDataSet> mesh = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
-  // Arrays that the reader adds are not fields to sample.
-  for (vtkDataSetAttributes* const data :
-    { static_cast<vtkDataSetAttributes*>(mesh->GetPointData()),
-      static_cast<vtkDataSetAttributes*>(mesh->GetCellData()) })
-  {
-    data->RemoveArray(vtkDataSetAttributes::GhostArrayName());
-    if (data->GetGlobalIds())
-    {
-      data->RemoveArray(data->GetGlobalIds()->GetName());
-    }
-  }
-  return mesh;
-}
-
-/// This rank's part of the mesh. Collective.
-vtkSmartPointer<vtkDataSet> readMeshToSample(
-  const ResampleArguments& arguments, Communicator& ranks)
-{
-  vtkSmartPointer<vtkDataSet> mesh;
-  ranks.attempt(
-    [&]
-    {
-      // A .vtu file may be a flat mesh; if its cells are of other types, VTK's reader reads it.
-      const bool stored = isPartitionedMesh(arguments.Input) ||
-        (isFlatMesh(arguments.Input) && !isVtkFile(arguments.Input));
-      if (!stored)
-      {
-        mesh = readDataSet(arguments.Input);
-        if (!vtkPointSet::SafeDownCast(mesh))
-        {
-          throw IOError(arguments.Input,
-            std::string("holds a ") + mesh->GetClassName() +
-              ", which is a grid without points of its own; 'tipp flatten' makes a mesh of it.");
-        }
-        hideOtherShares(mesh, ranks);
-      }
-    });
-  // If a rank cannot read the mesh, readDataSet() has thrown.
-  return mesh ? mesh : readRange(arguments, ranks);
-}
-
-/// Adds the heights of a surface as an array, so that they can be selected by name.
-vtkSmartPointer<vtkDataSet> readWithElevation(
-  const ResampleArguments& arguments, Communicator& ranks)
-{
-  vtkSmartPointer<vtkDataSet> mesh = readMeshToSample(arguments, ranks);
-  auto* const points = vtkPointSet::SafeDownCast(mesh);
-  if (haveElevation({ points }, ranks))
-  {
-    mesh = withElevation(points);
-  }
-  return mesh;
-}
-
 /// Replaces the filter's property names in a message by the command's options.
 std::string reasonOf(std::string message)
 {
@@ -315,13 +141,11 @@ PathState sample(
         before = PendingFile(arguments.Output).before();
       }
     });
-  const vtkSmartPointer<vtkDataSet> mesh = readWithElevation(arguments, ranks);
-  filter->SetInputData(mesh);
   filter->SetController(ranks.controller());
   filter->GatherOnRootOn();
   configure(arguments, filter);
-  const std::string associations = associationsOf(arguments.Arrays, mesh, ranks);
-  ranks.attempt([&] { chooseArrays(arguments, filter, mesh, associations); });
+  const vtkNew<ErrorKeeper> reading;
+  connectMesh(arguments, ranks, filter, reading);
   ProgressBar bar("resampling");
   vtkNew<vtkCallbackCommand> progress;
   progress->SetClientData(&bar);
@@ -347,6 +171,10 @@ PathState sample(
         throw WorkAborted();
       }
     });
+  if (reading->HasError)
+  {
+    throw IOError(reading->message());
+  }
   if (problems->HasError)
   {
     throw IOError(arguments.Input, reasonOf(problems->message()));
@@ -440,6 +268,11 @@ void addResampleCommand(CLI::App& app, int& exitCode)
   CLI::Option* const noData = command->add_option("--no-data", arguments->NoData,
     "Cells with a corner of this value answer nothing, as -99999 for dry nodes");
   command->add_option("--crs", arguments->Crs, "Of a .tif the reference system, as EPSG:25832");
+  command
+    ->add_option("--memory", arguments->Memory,
+      "For the part of a partitioned mesh that is in memory at a time")
+    ->check(checkMemorySize)
+    ->capture_default_str();
   command->footer(footer);
   command->callback(
     [arguments, null, noData, &exitCode]()
@@ -452,7 +285,7 @@ void addResampleCommand(CLI::App& app, int& exitCode)
       }
       if (extensionOf(arguments->Output) == ".npy" && arguments->Arrays.empty())
       {
-        arguments->Arrays = { elevationName };
+        arguments->Arrays = { "elevation" };
       }
       if (extensionOf(arguments->Output) == ".npy" && arguments->Arrays.size() != 1)
       {

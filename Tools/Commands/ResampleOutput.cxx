@@ -10,69 +10,16 @@
 #include "Npy/NpyFile.h"
 #include "Vtk/WriteXmlFile.h"
 
-#include "vtkCellData.h"
 #include "vtkDataArray.h"
-#include "vtkDataSet.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkImageData.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkUnsignedCharArray.h"
 #include "vtkXMLImageDataWriter.h"
 
-#include <algorithm>
 #include <limits>
 
 namespace tipp
 {
-
-void hideOtherShares(vtkDataSet* mesh, Communicator& ranks)
-{
-  if (ranks.size() == 1)
-  {
-    return;
-  }
-  const vtkIdType cells = mesh->GetNumberOfCells();
-  vtkNew<vtkUnsignedCharArray> ghosts;
-  if (vtkUnsignedCharArray* const own = mesh->GetCellGhostArray())
-  {
-    ghosts->DeepCopy(own);
-  }
-  else
-  {
-    ghosts->SetNumberOfValues(cells);
-    ghosts->FillValue(0);
-  }
-  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-  const auto [first, last] = ranks.shareOf(cells);
-  unsigned char* const values = ghosts->GetPointer(0);
-  const auto hide = [](unsigned char& ghost)
-  { ghost = (unsigned char)(ghost | vtkDataSetAttributes::HIDDENCELL); };
-  std::for_each(values, values + first, hide);
-  std::for_each(values + last, values + cells, hide);
-  mesh->GetCellData()->AddArray(ghosts);
-}
-
-std::string associationsOf(
-  const std::vector<std::string>& arrays, vtkDataSet* mesh, Communicator& ranks)
-{
-  std::string mine;
-  for (const std::string& name : arrays)
-  {
-    mine += mesh->GetPointData()->HasArray(name.c_str()) ? 'p'
-      : mesh->GetCellData()->HasArray(name.c_str())      ? 'c'
-                                                         : ' ';
-  }
-  std::string known(arrays.size(), ' ');
-  for (const std::string& associations : ranks.allGather(mine))
-  {
-    for (std::size_t i = 0; i < known.size(); ++i)
-    {
-      known[i] = known[i] == ' ' ? associations[i] : known[i];
-    }
-  }
-  return known;
-}
 
 namespace
 {
@@ -137,6 +84,10 @@ void writeNpy(
   const std::string& path, const std::string& name, vtkImageData* image, const PathState& before)
 {
   vtkDataArray* const array = image->GetPointData()->GetArray(name.c_str());
+  if (!array)
+  {
+    throw IOError(path, "has not been written: the mesh has no '" + name + "' in this range.");
+  }
   int dimensions[3];
   image->GetDimensions(dimensions);
   std::vector<std::int64_t> shape;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks of arguments, and progress: a bar, or a function of the user's."""
+"""Argument checks, and progress: a bar or the user's function."""
 from __future__ import annotations
 
 import math
@@ -18,7 +18,7 @@ _MOST_THREADS = 4096
 
 def number(value: Any, name: str, *, at_least: float = -math.inf, finite: bool = True) -> float:
     """A real number. Without `finite` it may be infinite or NaN."""
-    if type(value) is float and at_least <= value and -math.inf < value < math.inf:  # quick for small calls
+    if type(value) is float and at_least <= value and -math.inf < value < math.inf:  # keeps small calls fast
         return value
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name} is {_shown(value)}; give a number.")
@@ -34,7 +34,7 @@ def number(value: Any, name: str, *, at_least: float = -math.inf, finite: bool =
 
 
 def whole(value: Any, name: str, *, at_least: int = 0, at_most: int = _LARGEST_INT) -> int:
-    """A whole number, which a float is not."""
+    """An integer; floats are rejected."""
     try:
         if isinstance(value, (bool, np.bool_)):
             raise TypeError
@@ -51,7 +51,7 @@ def threads(value: Any) -> int:
 
 
 def memory(value: Any, name: str) -> int:
-    """Bytes, from a number or a text as '512M'."""
+    """A number of bytes, from a number or a text such as '512M'."""
     if not isinstance(value, str):
         return whole(value, name, at_least=1, at_most=(1 << 63) - 1)
     match = re.fullmatch(r"([0-9]+)([KMG]?)", value)
@@ -86,7 +86,7 @@ def several(value: Any, name: str, count: int, check: Any, **limits: Any) -> lis
 
 
 def names(value: Any, name: str) -> list[str]:
-    """Names of arrays; a text is one name."""
+    """A list of array names; a single text counts as one name."""
     if isinstance(value, str):
         return [value]
     is_list = isinstance(value, Iterable) and not isinstance(value, (bytes, Mapping))
@@ -137,7 +137,7 @@ def data_object(value: Any, name: str, kinds: Iterable[str], wanted: str) -> Any
 
 
 def _shown(value: Any) -> str:
-    """A short value as it is written, of others the type."""
+    """The repr of a short value; the type of any other."""
     if is_vtk_object(value):
         return f"a {value.GetClassName()}"
     simple = value is None or isinstance(value, (str, bytes, bool, int, float, complex, np.generic))
@@ -164,13 +164,13 @@ def _show(fraction: float) -> None:
 
 
 def progress_of(progress_bar: Any) -> Progress | None:
-    """What `progress_bar` asks for: True, False or a function."""
+    """The progress function for an argument `progress_bar`: True, False or a function."""
     if callable(progress_bar) and not isinstance(progress_bar, type):
         return progress_bar
     return _show if flag(progress_bar, "progress_bar") else None
 
 
 def finish(progress: Progress | None) -> None:
-    """Ends the line of a bar."""
+    """Ends the progress bar's line."""
     if progress is _show:
         sys.stderr.write("\n")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arrays of points and values; meshes and images of arrays for Pythons without VTK."""
+"""Arrays of points and values, and meshes and images made of arrays, for use without VTK."""
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -14,13 +14,13 @@ if TYPE_CHECKING:
 
 
 class Data:
-    """What Mesh and Image have in common."""
+    """The common base of Mesh and Image."""
 
     point_data: dict[str, np.ndarray]
     cell_data: dict[str, np.ndarray]
 
     def array(self, name: str) -> np.ndarray:
-        """An array of the points, else of the cells, else of a mesh's lines."""
+        """Returns the array with this name of the points, else of the cells, else of a mesh's lines."""
         groups = [self.point_data, self.cell_data, getattr(self, "line_data", {})]
         for arrays in groups:
             if name in arrays:
@@ -32,9 +32,9 @@ class Data:
 class Mesh(Data):
     """A mesh of triangles or tetrahedra.
 
-    `points` are (n, 3) coordinates, `cells` (m, 3) or (m, 4) point ids; `lines` and `vertices` are what
-    delaunay_2d(alpha=...) leaves besides triangles. With marks="lines", `lines` are those of the constraints and
-    `line_data["ConstraintId"]` tells which.
+    `points` has (n, 3) coordinates, `cells` (m, 3) or (m, 4) point ids; `lines` and `vertices` are the other cells of
+    delaunay_2d(alpha=...). With marks="lines", `lines` are the edges on constraints, and `line_data["ConstraintId"]`
+    has the constraint of each.
     """
 
     points: np.ndarray
@@ -48,7 +48,7 @@ class Mesh(Data):
 
 @dataclass
 class Image(Data):
-    """Samples at origin + index * spacing; as_array() gives them in the image's shape."""
+    """Samples at origin + index * spacing; as_array() returns them in the image's shape."""
 
     origin: tuple[float, float, float]
     spacing: tuple[float, float, float]
@@ -57,7 +57,7 @@ class Image(Data):
     cell_data: dict[str, np.ndarray] = field(default_factory=dict)
 
     def array(self, name: str) -> np.ndarray:
-        """An array in the image's shape, (z, y, x) without axes of one sample."""
+        """Returns an array in the image's shape, (z, y, x) without axes of one sample."""
         values = super().array(name)
         shape = [n for n in reversed(self.dimensions) if n > 1] or [1]
         return values.reshape(*shape, *values.shape[1:])
@@ -67,10 +67,10 @@ _DOUBLE = np.dtype(np.float64)
 
 
 def taken(values: ArrayLike, name: str) -> np.ndarray:
-    """The array that every function takes its numbers from: in the machine's byte order, of a type that VTK has.
+    """Converts values to an array in the machine's byte order, of a type that VTK has.
 
-    It shares the memory of `values` where that is possible. Masked entries become NaN. Raises TypeError or ValueError
-    where a conversion would lose something.
+    It shares the memory of `values` if possible. Masked entries become NaN. Raises TypeError or ValueError if the
+    conversion would lose information.
     """
     try:
         array = values if isinstance(values, np.ma.MaskedArray) else np.asarray(values)
@@ -93,7 +93,7 @@ def taken(values: ArrayLike, name: str) -> np.ndarray:
 
 def coordinates(points: ArrayLike) -> np.ndarray:
     if type(points) is np.ndarray and points.dtype is _DOUBLE and points.ndim == 2 and points.shape[1] in (2, 3):
-        return points  # the usual array, for small calls to be quick
+        return points  # the usual case, to keep small calls fast
     if isinstance(points, np.ma.MaskedArray) and points.dtype.kind in "iu":
         points = np.ma.MaskedArray(_as_doubles(points.data, points.mask), points.mask)
     array = taken(points, "points")
@@ -105,7 +105,7 @@ def coordinates(points: ArrayLike) -> np.ndarray:
 
 
 def _as_doubles(integers: np.ndarray, mask: Any = False) -> np.ndarray:
-    """Integers as doubles, none of them rounded but those under the mask."""
+    """Converts integers to doubles; raises ValueError if an unmasked one would be rounded."""
     doubles = integers.astype(np.float64)
     beyond = np.abs(doubles) >= 2.0**53
     if beyond.any():
@@ -119,7 +119,7 @@ def _as_doubles(integers: np.ndarray, mask: Any = False) -> np.ndarray:
 
 
 def attribute(name: str, values: ArrayLike, argument: str = "point_data") -> np.ndarray:
-    """One value or one row for each point (or cell), as taken() gives it, in C order."""
+    """An array with one value or row per point (or cell), converted by taken(), in C order."""
     argument = f"{argument}['{name}']"
     array = taken(values, argument)
     if array.ndim not in (1, 2) or array.shape[-1:] == (0,) and array.ndim == 2:
@@ -142,15 +142,15 @@ def attributes(point_data: Mapping[str, ArrayLike] | None, points: int) -> dict[
 
 
 def as_array(data: Any, name: str) -> np.ndarray:
-    """An array of a data set's points or cells, in the data set's memory.
+    """Returns an array of a data set's points or cells, in the data set's memory.
 
     Parameters
     ----------
     data
-        Any VTK data set. Of an image the array has the image's shape, (z, y, x) without axes of one
-        sample, and behind it the components, if there are several.
+        Any VTK data set. For an image, the result has the image's shape, (z, y, x) without axes of one sample,
+        followed by the components if there are several.
     name
-        The array's name; points are looked at before cells.
+        The array's name; point data is searched before cell data.
 
     Returns
     -------

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A checker of triangulations of its own: signs of determinants in floating point where that is certain, else in integers."""
+"""An independent checker of triangulations: evaluates determinants in floating point, and in integers if a sign is
+uncertain."""
 from __future__ import annotations
 
 from typing import Any, Callable, NamedTuple, TYPE_CHECKING
@@ -13,19 +14,19 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 _EPSILON = 2.0**-53
-_SMALLEST = 2.0**-1000  # below it products may have underflowed
+_SMALLEST = 2.0**-1000  # below this, products may have underflowed
 _BLOCK = 1 << 18  # rows
 
 
 def _orientation(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The determinant, and the sum of the magnitudes in it."""
+    """The orientation determinant, and the sum of the magnitudes of its terms."""
     left = (b[0] - a[0]) * (c[1] - a[1])
     right = (b[1] - a[1]) * (c[0] - a[0])
     return left - right, abs(left) + abs(right)
 
 
 def _in_circle(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Above 0 if d is inside the circle through a, b and c, which turn counter-clockwise."""
+    """Positive if d is inside the circle through a, b and c, which must be counter-clockwise."""
     (ax, ay), (bx, by), (cx, cy) = ([p[0] - d[0], p[1] - d[1]] for p in (a, b, c))
     value, size = 0, 0
     for (px, py), (qx, qy), (rx, ry) in (((ax, ay), (bx, by), (cx, cy)), ((bx, by), (cx, cy), (ax, ay)),
@@ -38,7 +39,7 @@ def _in_circle(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray) -> tu
 
 def _signs(determinant: Callable[..., tuple[np.ndarray, np.ndarray]], roundings: int,
            corners: list[np.ndarray]) -> np.ndarray:
-    """-1, 0 or 1 for each row of (n, 2) corners."""
+    """The exact sign, -1, 0 or 1, of the determinant for each row of (n, 2) corners."""
     result = np.empty(len(corners[0]), np.int8)
     for begin in range(0, len(result), _BLOCK):
         rows = [corner[begin:begin + _BLOCK] for corner in corners]
@@ -56,7 +57,7 @@ def _signs(determinant: Callable[..., tuple[np.ndarray, np.ndarray]], roundings:
 
 
 def _integers(values: np.ndarray) -> np.ndarray:
-    """The numbers, times a power of two that makes whole ones of all of them, as Python's integers."""
+    """The numbers, scaled by a power of two that makes all of them integers, as Python integers."""
     mantissas, exponents = np.frexp(values)
     whole = (mantissas * 2.0**53).astype(np.int64)
     exponents = np.where(whole == 0, 0, exponents)
@@ -68,17 +69,17 @@ def _integers(values: np.ndarray) -> np.ndarray:
 
 
 def orientations(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
-    """1 where a, b and c turn counter-clockwise, -1 where clockwise, 0 where they are on one line."""
+    """1 where a, b and c are counter-clockwise, -1 where clockwise, 0 where collinear."""
     return _signs(_orientation, 8, [a, b, c])
 
 
 def in_circles(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray) -> np.ndarray:
-    """1 where d is inside the circle through a, b and c (counter-clockwise), 0 where it is on it."""
+    """1 where d is inside the circle through a, b and c (counter-clockwise), 0 where it is on the circle, else -1."""
     return _signs(_in_circle, 32, [a, b, c, d])
 
 
 class CheckReport(NamedTuple):
-    """What check() found. It is true if there are no faults."""
+    """The result of check(). It is true if there are no faults."""
 
     points: int
     distinct_points: int
@@ -103,32 +104,32 @@ def check(
     tie_rule: bool = False,
     boundary_free: bool = False,
 ) -> CheckReport:
-    """Checks in exact arithmetic that triangles are the Delaunay triangulation of points.
+    """Checks, in exact arithmetic, that triangles are the Delaunay triangulation of points.
 
-    Every edge is in at most two triangles, all triangles are counter-clockwise, every interior edge is locally
-    Delaunay, the boundary is one convex chain, and every distinct point is a corner. Where a mesh has the cell array
-    NeighborIds, the triangles at an edge name each other.
+    It checks that every edge is in at most two triangles, all triangles are counter-clockwise, every interior edge is
+    locally Delaunay, the boundary is one convex chain, and every distinct point is a corner. If a mesh has the cell
+    array NeighborIds, that is checked, too.
 
     Parameters
     ----------
     points
-        An array as delaunay() takes, or a mesh, which has triangles of its own.
+        An array as for delaunay(), or a mesh, which has its own triangles.
     triangles
-        (m, 3) point ids, or a mesh. None: those of the mesh.
+        (m, 3) point ids, or a mesh. None: the triangles of `points`, which must be a mesh.
     edges
-        Constraints as an (m, 2) array of point ids: these edges have to be there, and need not be locally Delaunay.
+        Constraints as an (m, 2) array of point ids: these edges must exist, and need not be locally Delaunay.
     tie_rule
-        Whether to check too that of the two diagonals of four points on one circle the edge is the one that does not
-        end at the lexicographically largest.
+        Whether to check also the choice between the two diagonals of four co-circular points: it must be the one that
+        does not end at the lexicographically largest point.
     boundary_free
-        Whether the mesh may have any boundary, as inside of polygons: it is not checked, nor that all points are
-        corners.
+        Whether the mesh may have any boundary, for example that of polygons. Then neither the boundary is checked, nor
+        that all points are corners.
 
     Returns
     -------
     CheckReport
-        points, distinct_points, triangles, boundary_edges, ties and faults, a dictionary, which is empty if it is
-        correct.
+        points, distinct_points, triangles, boundary_edges, ties and faults, a dictionary that is empty if the
+        triangulation is correct.
 
     Examples
     --------
@@ -148,7 +149,7 @@ def check(
 
 
 def _taken(points: Any, name: str) -> tuple[np.ndarray, np.ndarray | None, np.ndarray | None]:
-    """Coordinates (n, 2); of a mesh also the triangles, and their neighbours if there are any."""
+    """(n, 2) coordinates; for a mesh also its triangles, and their neighbours if it has them."""
     if isinstance(points, Mesh):
         return _plane(points.points), _ids(points.cells, name, 3), points.cell_data.get("NeighborIds")
     if not argument.is_vtk_object(points):
@@ -226,7 +227,7 @@ class _Checker:
         return CheckReport(len(self.xy), distinct, len(self.all), len(boundary), ties, self.faults)
 
     def match_edges(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The two half-edges of interior edges, and those of the boundary."""
+        """Returns the pairs of half-edges of interior edges, and the half-edges of the boundary."""
         order = np.argsort(self.key, kind="stable")
         _, begins, counts = np.unique(self.key[order], return_index=True, return_counts=True)
         self.count("edges in three or more triangles", (counts > 2).sum())
@@ -251,7 +252,7 @@ class _Checker:
         return int(is_tie.sum())
 
     def check_hull(self, boundary: np.ndarray) -> None:
-        """One closed chain that turns left or goes straight on, once around."""
+        """Checks that the boundary is one closed chain that winds once and never turns right."""
         what = "boundary edges that are not in one convex closed chain"
         after = dict(zip(self.start[boundary].tolist(), self.end[boundary].tolist()))
         if len(after) < len(boundary):

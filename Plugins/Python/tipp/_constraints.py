@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The constraints that delaunay_2d() takes, checked, as lists of point ids."""
+"""Checks the constraints of delaunay_2d() and converts them to lists of point ids."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Iterable, Iterator, NamedTuple
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Constraints(NamedTuple):
-    """Lines and polygons. Ids from the number of points on name the further corners."""
+    """Lines and polygons as point ids. Ids from the number of points on refer to additional corners."""
 
     lines: list[np.ndarray]
     polygons: list[np.ndarray]
@@ -28,7 +28,7 @@ def constraints_of(
     edges: ArrayLike | None,
     polygons: Iterable[Any] | None,
 ) -> Constraints | None:
-    """What the arguments name together, for `count` points; None without edges and polygons."""
+    """Combines the constraints of all arguments, for `count` points; None if there are none."""
     if edge_source is not None:
         if edges is not None or polygons is not None:
             raise ValueError("edge_source does not go with edges and polygons; give one or the others.")
@@ -58,7 +58,7 @@ def constraints_of(
 
 
 def rings_of(polygons: Any) -> Iterator[Any]:
-    """The rings of a list of polygons, each an array or a polygon of Shapely's, or of one of the latter."""
+    """The rings of a list of polygons, each an array or a Shapely polygon, or of a single Shapely polygon."""
     for polygon in _polygons(polygons):
         yield from _rings(polygon) if hasattr(polygon, "geom_type") else [polygon]
 
@@ -86,7 +86,7 @@ def _edges(edges: ArrayLike, count: int) -> list[np.ndarray]:
 
 
 def _rings(polygon: Any) -> Iterator[np.ndarray]:
-    """Of Shapely's polygons the outer rings counter-clockwise and the inner ones clockwise."""
+    """The rings of a Shapely polygon: outer rings counter-clockwise, inner ones clockwise."""
     if polygon.geom_type == "MultiPolygon":
         for part in polygon.geoms:
             yield from _rings(part)

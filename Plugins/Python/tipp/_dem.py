@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""tipp.dem: a raster of points."""
+"""tipp.dem: makes a raster from points."""
 from __future__ import annotations
 
 import os
@@ -24,7 +24,7 @@ _FLAGS = ("withheld", "synthetic", "overlap")
 
 
 class Dem(NamedTuple):
-    """A raster, as rasterio has it: rows from the north to the south."""
+    """A raster in rasterio's layout: rows from north to south."""
 
     array: np.ndarray
     """(rows, columns), or (bands, rows, columns) for several attributes; NaN where there is no triangle."""
@@ -34,7 +34,7 @@ class Dem(NamedTuple):
     """WKT or "EPSG:code" of the points' file, if it has one."""
 
     def to_xarray(self) -> Any:
-        """An xarray.DataArray with the coordinates of the pixels' centres."""
+        """Converts to an xarray.DataArray with the coordinates of the pixel centres."""
         import xarray
 
         width, _, west, _, height, north = self.transform
@@ -64,53 +64,53 @@ def dem(
     threads: int = 0,
     progress_bar: ProgressBar = False,
 ) -> Dem:
-    """A raster of elevations: the exactly triangulated surface of points at the pixels' centres.
+    """Makes a raster of elevations: the exact Delaunay surface of points, sampled at the pixel centres.
 
     Parameters
     ----------
     points
-        Coordinates of shape (n, 3), a vtkPointSet, or one or more files: .las, .laz, .npy, .csv, .xyz or any that VTK
-        reads. .laz files that this build does not read are read by laspy, if it is installed.
+        Coordinates of shape (n, 3), a vtkPointSet, or one or more files: .las, .laz, .npy, .csv, .xyz or any format
+        that VTK reads. If this build cannot read .laz files, laspy reads them if it is installed.
     resolution
         Width and height of a pixel, in the units of the points.
     bounds
-        (xmin, xmax, ymin, ymax); None: those of the points.
+        (xmin, xmax, ymin, ymax). None: the bounds of the points.
     align
-        Whether borders of pixels are at multiples of the resolution; else the first ones are at the
-        bounds.
+        Whether pixel borders are at multiples of the resolution. Otherwise the first pixel starts at the bounds.
     attributes
         The bands: "elevation" and names of point_data or of columns of the files; "slope" and "aspect" (in degrees),
-        "hillshade" (1 to 255) of the triangles, "density" (points a square unit, half a point in each triangle), and
-        "void" (1 where there is no triangle, else 0).
+        "hillshade" (1 to 255) of the triangles, "density" (points per square unit, counting half a point per
+        triangle), and "void" (1 where there is no triangle, else 0).
     point_data
-        With an array of points: arrays of values at them, by name.
+        For an array of points: a dictionary of arrays with values at the points.
     max_edge
-        Triangles with an edge longer than this, in the plane, have no values. 0: all have.
+        Triangles with an edge longer than this, measured in x and y, are removed, so that pixels there have no value.
+        0: no limit.
     duplicates
-        Of several points at one position the values of the "first", of the lowest ("min") or highest ("max"), or of each
-        column the "mean".
+        Which values to use for several points at one position: those of the "first", the lowest ("min") or the highest
+        ("max") point, or the "mean" of each column.
     thin
         (side, rule): keeps one point in each square of this side: the lowest ("min"), the highest ("max"), or the
-        "nearest" to its middle.
+        "nearest" to its centre.
     classes, returns, keep
-        Of LAS files: the classes to read (None: all), the returns ("all", "first" or "last"), and which
-        flagged points are read, too ("withheld", "synthetic", "overlap").
+        For LAS files: the classes to read (None: all), the returns ("all", "first" or "last"), and which flagged
+        points to read, too ("withheld", "synthetic", "overlap").
     breaklines
-        Lines that become edges of triangles: a file as --breaklines of `tipp dem` takes, a vtkPolyData, or a list of
-        arrays of corners of shape (k, 2) or (k, 3). Where no height is given, or all are 0, the corners have those of the
-        surface without the lines.
+        Lines that become edges of triangles: a file as for --breaklines of `tipp dem`, a vtkPolyData, or a list of
+        arrays of corners of shape (k, 2) or (k, 3). If no heights are given, or all are 0, the corners get the height
+        of the surface without breaklines.
     boundary
-        Closed lines outside of which there are no values: a file, a vtkPolyData, a list of arrays of corners, or one or
-        more of Shapely's polygons.
+        Closed lines outside of which there are no values: a file, a vtkPolyData, a list of arrays of corners, or one
+        or more Shapely polygons.
     memory
-        What points and triangles may take besides the raster and, if they are no files, the given points: bytes, or a text
-        as "512M". The rest goes to temporary files. A package built with VTK holds the points of files in memory, too. None:
-        no limit.
+        The memory limit for points and triangles, in bytes or as a text such as "512M", not counting the raster and
+        points passed as arrays. Data that does not fit is spilled to temporary files. A package built with VTK also
+        keeps the points of files in memory. None: no limit.
     threads
-        OpenMP threads; 0 is OpenMP's choice.
+        OpenMP threads; 0 is OpenMP's default.
     progress_bar
-        Whether to show progress on the standard error stream; or a function that is told the fraction done, and
-        ends the run by returning False.
+        Whether to show progress on standard error; or a function that is called with the fraction done and can stop
+        the run by returning False.
 
     Returns
     -------
@@ -122,11 +122,11 @@ def dem(
     TypeError, ValueError
         If an argument is of a wrong type or value.
     KeyError
-        If there is no such attribute.
+        If an attribute does not exist.
     RuntimeError
         If a file cannot be read, or there are no points.
     KeyboardInterrupt
-        On Ctrl-C, soon.
+        Promptly after Ctrl-C.
 
     Examples
     --------
@@ -171,7 +171,7 @@ def dem(
 
 
 def lines_of(lines: Any, name: str, is_closed: bool) -> str | tuple[np.ndarray, ...] | None:
-    """A path, or (k, 2) coordinates, heights (perhaps none), and the (m, 2) ids of the ends of edges."""
+    """Returns a path, or (k, 2) coordinates, heights (may be empty), and the (m, 2) ids of the ends of edges."""
     if lines is None:
         return None
     if isinstance(lines, (str, os.PathLike)):

@@ -34,30 +34,30 @@ def read(
     path
         A folder NAME.tipp, a folder of .npy arrays, or a .vtu file with appended, raw data.
     bounds
-        (x from, x to, y from, y to, z from, z to) in the mesh's units: only cells that share a point
-        with the closed box, of triangles by x and y alone. Pieces that it does not meet are not opened.
-        None: everything.
+        (xmin, xmax, ymin, ymax, zmin, zmax) in the mesh's units: reads only the cells that share a point with this
+        closed box; triangles are tested by x and y only. Pieces that do not meet it are not opened. None: reads
+        everything.
     time
-        Of arrays that vary in time the last step not after it. None: the first.
+        The time at which to read arrays that vary in time: the last step that is not after it. None: the first step.
     point_arrays, cell_arrays
         The name or the names of the arrays to read. None: all.
     borrowed
-        Whether pieces also have, as ghosts, the cells that they borrow.
+        Whether pieces include the cells that they borrow, as ghost cells.
     merge
-        Whether to return one vtkUnstructuredGrid, else a vtkPartitionedDataSet of pieces.
+        Whether to return one vtkUnstructuredGrid instead of a vtkPartitionedDataSet of pieces.
     tiling
         How a flat mesh is partitioned, as for write().
     memory_limit
-        Bytes that loading a flat mesh may take besides its pieces.
+        The memory limit, in bytes, for loading a flat mesh, not counting its pieces.
     progress_bar
-        Whether to show progress on the standard error stream; or a function that is told the fraction done, and
-        ends the run by returning False.
+        Whether to show progress on standard error; or a function that is called with the fraction done and can stop
+        the run by returning False.
 
     Returns
     -------
     vtkUnstructuredGrid or vtkPartitionedDataSet
-        What pyvista.wrap takes. Within tipp.ranks() each rank has its own pieces. Without VTK a tipp.Mesh, or a
-        list of them.
+        The mesh, which can be passed to pyvista.wrap(). Within tipp.ranks() each rank gets its own pieces. Without VTK
+        a tipp.Mesh, or a list of them.
 
     Raises
     ------
@@ -108,24 +108,24 @@ def write(
         A vtkDataSet or vtkPartitionedDataSet, a PyVista data set, or the path of a flat mesh or of any
         file that VTK reads.
     path
-        The folder to write, by custom NAME.tipp. A partitioned mesh there is replaced.
+        The folder to write, usually called NAME.tipp. It replaces an existing partitioned mesh.
     tiling
-        "grid:4x4", "grid:4x4x2", "quadtree:N" or "octree:N": boxes are split until about N cells or
-        fewer meet each.
+        "grid:4x4", "grid:4x4x2", "quadtree:N" or "octree:N". A tree's boxes are split until each meets at most about N
+        cells.
     duplicate_borrowers
-        Whether cells that several partitions meet are stored in each of their pieces.
+        Whether cells that meet several partitions are stored in each of their pieces.
     memory_limit
-        Bytes that it may take, the mesh in memory aside.
+        The memory limit, in bytes, not counting a mesh in memory.
     threads
-        OpenMP threads; 0 is OpenMP's choice.
+        OpenMP threads; 0 is OpenMP's default.
     progress_bar
-        Whether to show progress on the standard error stream; or a function that is told the fraction done, and
-        ends the run by returning False.
+        Whether to show progress on standard error; or a function that is called with the fraction done and can stop
+        the run by returning False.
 
     Raises
     ------
     RuntimeError
-        If the mesh cannot be written; what was at the path is still there.
+        If the mesh cannot be written. The path is then unchanged.
 
     Examples
     --------

@@ -45,68 +45,68 @@ def delaunay_file(
     threads: int = 0,
     progress_bar: ProgressBar = False,
 ) -> dict[str, int]:
-    """Exact Delaunay triangulation of points in files into a partitioned mesh, in bounded memory.
+    """Writes the exact Delaunay triangulation of points in files as a partitioned mesh, in bounded memory.
 
     Parameters
     ----------
     points
-        One or more files, which are one input: .npy, .csv, .xyz or any that VTK reads. Global ids of
-        the mesh's points are indices into it. A column z is the third coordinate, others become point
-        arrays.
+        One or more files, read as one input: .npy, .csv, .xyz or any format that VTK reads. Global ids of the mesh's
+        points are indices into this input. A column z is the third coordinate; others become point arrays.
     output
-        The folder to write, by custom NAME.tipp. A partitioned mesh there is replaced.
+        The folder to write, usually called NAME.tipp. It replaces an existing partitioned mesh.
     memory
-        What points, triangles and buffers may take in each process: bytes, or a text as "512M" or
-        "2G". What Python and the threads' kernels take comes on top.
+        The memory limit of each process for points, triangles and buffers: bytes, or a text such as "512M" or "2G".
+        Python and the threads' kernels need some more.
     partitions
-        Columns and rows of a grid of pieces. None: boxes of equally many points.
+        Columns and rows of a grid of pieces. None: boxes with equally many points.
     columns
-        Which columns are x and y, by name or number from 0. None: by the usual names, else the first two.
+        Which columns are x and y, by name or index from 0. None: columns with the usual names, else the first two.
     max_edge
-        Triangles with an edge longer than this, in the units of the points, are left out. 0: none are.
+        Triangles with an edge longer than this, in the units of the points, are removed. 0: no limit.
     map_duplicates
         Whether the mesh gets the point array RepresentativePointId.
     neighbors
-        Whether the mesh gets the cell array NeighborIds: for each corner of a triangle the global id of
-        the triangle opposite to it, -1 at the hull.
+        Whether the mesh gets the cell array NeighborIds: for each corner of a triangle the global id of the triangle
+        across the opposite edge, -1 at the border.
     constraints
-        A file of lines, whose edges are edges of the mesh, and of polygons: counter-clockwise ones keep what is
-        inside, clockwise ones are holes. .csv, .poly, .14, or any that VTK or GDAL reads.
+        A file of lines, whose edges become edges of the mesh, and of polygons: counter-clockwise ones keep their
+        inside, clockwise ones are holes. .csv, .poly, .14, or any format that VTK or GDAL reads.
     boundary
-        A file of closed lines, which are constraints, too: triangles outside of them are left out.
+        A file of closed lines, which are constraints, too; triangles outside of them are removed.
     holes
-        A point (x, y) in each hole: triangles that constraints do not part from it are left out.
+        A point (x, y) in each hole: all triangles that are not separated from it by constraints are removed.
     crossings
-        "split": constraints that cross get a new point there, after the others. "refuse": a RuntimeError.
+        "split": where constraints cross, a new point is added after the others. "refuse": crossing constraints raise
+        RuntimeError.
     mark_constraints
-        Whether the mesh gets the cell array ConstraintEdges: for each corner whether the edge opposite to it is a
-        constraint.
+        Whether the mesh gets the cell array ConstraintEdges: for each corner of a triangle whether the opposite edge
+        is part of a constraint.
     count_only
-        Whether to count triangles and sum them up instead of writing them.
+        Whether to count triangles and compute their checksum instead of writing them.
     resume
-        Whether to go on where a run for this output, input and options was killed or interrupted.
+        Whether to resume a killed or interrupted run with the same output, input and options.
     scratch
-        A folder on another disk for what is temporary. None: beside the output.
+        A folder for temporary files, for example on another disk. None: beside the output.
     threads
-        Threads; 0 is OpenMP's choice.
+        Threads; 0 is OpenMP's default.
     progress_bar
-        Whether to show progress on the standard error stream; or a function that is told the fraction done, and
-        ends the run by returning False.
+        Whether to show progress on standard error; or a function that is called with the fraction done and can stop
+        the run by returning False.
 
     Returns
     -------
     dict
-        Numbers: points, triangles, duplicates, rejected, pieces, spilled_bytes, mesh_bytes,
-        resumed (0 or 1), with count_only triangle_sum, a checksum of the triangles, and with constraints
-        constraints, constraint_edges, crossing_points and crossing_rounds (unless resumed). Where VTK's
-        global controller has several ranks, all must call this, and the numbers are on the first.
+        Statistics: points, triangles, duplicates, rejected, pieces, spilled_bytes, mesh_bytes and resumed (0 or 1).
+        With count_only also triangle_sum, a checksum of the triangles. With constraints also constraints,
+        constraint_edges, crossing_points and crossing_rounds (unless resumed). If VTK's global controller has several
+        ranks, all must call this function, and the first rank gets the statistics.
 
     Raises
     ------
     RuntimeError
-        If it failed; what was at the output is still there, and resume goes on from what was done.
+        If it failed. The output path is then unchanged, and resume=True continues the work.
     KeyboardInterrupt
-        On Ctrl-C, soon; the same holds.
+        Promptly after Ctrl-C; the same applies.
 
     Examples
     --------

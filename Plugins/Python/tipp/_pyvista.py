@@ -27,7 +27,7 @@ class Accessor:
         self._dataset = dataset
 
     def delaunay_2d(self, *, inplace: bool = False, **options: Any) -> Any:
-        """As tipp.delaunay_2d(mesh, ...); with `inplace` the data set becomes the result."""
+        """Like tipp.delaunay_2d(mesh, ...); with `inplace` the data set is replaced by the result."""
         is_inplace = flag(inplace, "inplace")
         result = delaunay_2d(self._dataset, **options)
         if not is_inplace:
@@ -37,35 +37,35 @@ class Accessor:
         return (self._dataset, *statistics) if statistics else self._dataset
 
     def delaunay_3d(self, **options: Any) -> Any:
-        """As tipp.delaunay_3d(mesh, ...)."""
+        """Like tipp.delaunay_3d(mesh, ...)."""
         return delaunay_3d(self._dataset, **options)
 
     def dem(self, resolution: float, **options: Any) -> Any:
-        """As tipp.dem(mesh, resolution, ...)."""
+        """Like tipp.dem(mesh, resolution, ...)."""
         return dem(self._dataset, resolution, **options)
 
     def resample_to_image(self, *, bounds: Sequence[float] | None = None, **options: Any) -> Any:
-        """As tipp.resample(mesh, ...)."""
+        """Like tipp.resample(mesh, ...)."""
         return resample(self._dataset, bounds, **options)
 
     def sample(self, target: Any, *, arrays: str | Iterable[str] | None = None, null_value: float = 0,
                memory: int | str = "1G", step: int = 0, threads: int = 0) -> Any:
-        """The data set with the arrays of a mesh at its points, as PyVista's sample(), but without a tolerance.
+        """Evaluates a mesh's arrays at the data set's points, like PyVista's sample(), but without a tolerance.
 
         Parameters
         ----------
         target
             The mesh, or the path of a partitioned one.
         arrays
-            Names of its arrays; None: all. "elevation" is the z of triangles.
+            The name or names of the mesh's arrays; None: all. "elevation" is the z of triangles.
         null_value
-            Of arrays of floating-point numbers outside of the mesh. Whole numbers are 0 there.
+            The value of floating-point arrays outside of the mesh. Integer arrays are 0 there.
         memory, step, threads
-            As in tipp.open().
+            As for tipp.open().
 
         Returns
         -------
-        A copy of the data set, with the arrays, "CellId", which is -1 outside, and "vtkValidPointMask".
+        A copy of the data set with the arrays, "CellId" (-1 outside) and "vtkValidPointMask".
         """
         null = number(null_value, "null_value")
         result = self._dataset.copy(deep=False)
@@ -82,12 +82,12 @@ class Accessor:
         return result
 
     def save(self, path: str, **options: Any) -> None:
-        """As tipp.write(mesh, path, ...)."""
+        """Like tipp.write(mesh, path, ...)."""
         write(self._dataset, path, **options)
 
 
 def register(pyvista: ModuleType) -> None:
-    """Gives PyVista's data sets the accessor."""
+    """Registers the accessor for PyVista's data sets."""
     if hasattr(pyvista, "register_dataset_accessor"):  # since 0.48
         pyvista.register_dataset_accessor("tipp", pyvista.DataSet)(Accessor)
     else:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""tipp.open: a mesh that answers queries."""
+"""tipp.open: opens a mesh for queries."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Iterable, NamedTuple
@@ -23,25 +23,25 @@ def open(  # pylint: disable=redefined-builtin
     step: int = 0,
     threads: int = 0,
 ) -> ResidentMesh:
-    """Opens a mesh to ask it for values at points and for what lies around its points and cells.
+    """Opens a mesh for queries: values at points, neighbours of points and cells, and more.
 
     Parameters
     ----------
     mesh
-        The path of a partitioned mesh of any size, of which only what a query needs is read; or a mesh in memory,
-        of triangles, tetrahedra or cells that can be cut into these: of VTK, PyVista or a tipp.Mesh.
+        The path of a partitioned mesh of any size, of which only the pieces that a query needs are read; or a mesh in
+        memory (of VTK or PyVista, or a tipp.Mesh) of triangles, tetrahedra or cells that can be divided into these.
     memory
-        Bytes, as a number or as '512M', for the pieces of a partitioned mesh that are in memory and what is made
-        to search them. A query that needs more for one piece is refused.
+        The memory limit for pieces of a partitioned mesh and their search structures: bytes, or a text such as '512M'.
+        A query that needs more for a single piece raises RuntimeError.
     step
-        Of a partitioned mesh's arrays that vary in time the step, counted from 0.
+        The time step at which a partitioned mesh's time-varying arrays are evaluated, as an index from 0.
     threads
-        Number of threads of a query; 0: as many as OpenMP would take.
+        Number of threads of a query; 0 is OpenMP's default.
 
     Returns
     -------
     ResidentMesh
-        Close it, or use it in a with statement. Python threads may share it.
+        The opened mesh. Close it, or use it in a with statement. Several Python threads may share it.
 
     Raises
     ------
@@ -64,7 +64,7 @@ def open(  # pylint: disable=redefined-builtin
 
 
 class Profile(NamedTuple):
-    """A mesh along a polyline; ResidentMesh.profile() makes it."""
+    """A mesh along a polyline; the result of ResidentMesh.profile()."""
 
     distances: np.ndarray
     points: np.ndarray
@@ -73,7 +73,7 @@ class Profile(NamedTuple):
 
 
 class Closest(NamedTuple):
-    """Where a mesh is nearest to points; ResidentMesh.closest() makes it."""
+    """The locations on a mesh nearest to points; the result of ResidentMesh.closest()."""
 
     cells: np.ndarray
     points: np.ndarray
@@ -81,7 +81,7 @@ class Closest(NamedTuple):
 
 
 class Zones(NamedTuple):
-    """An array of a mesh in zones, a value for each; ResidentMesh.zones() makes it."""
+    """Statistics of an array in zones, one value per zone; the result of ResidentMesh.zones()."""
 
     cells: np.ndarray
     area: np.ndarray
@@ -93,7 +93,7 @@ class Zones(NamedTuple):
 
 
 class Descent(NamedTuple):
-    """A way down; ResidentMesh.descend() makes it."""
+    """A line of steepest descent; the result of ResidentMesh.descend()."""
 
     points: np.ndarray
     values: np.ndarray
@@ -101,11 +101,11 @@ class Descent(NamedTuple):
 
 
 class ResidentMesh:
-    """A mesh that answers queries; tipp.open() makes it.
+    """A mesh that is open for queries; the result of tipp.open().
 
-    Ids of cells and points are those of the partitioned mesh's source, or the indices of a mesh in memory. Triangles
-    are found by x and y. A point on an edge, a face or a corner belongs to one cell, which is decided exactly: the
-    same for any pieces and threads.
+    Ids of cells and points are the global ids of a partitioned mesh, or indices for a mesh in memory. Triangles are
+    located by x and y. A point on an edge, face or corner belongs to exactly one cell, which does not depend on pieces
+    and threads.
     """
 
     def __init__(self, engine: Any) -> None:
@@ -119,7 +119,7 @@ class ResidentMesh:
         self.close()
 
     def close(self) -> None:
-        """Gives the memory back; queries raise ValueError from now on."""
+        """Frees the memory. Afterwards queries raise ValueError."""
         self._engine = None
 
     def _ask(self) -> Any:
@@ -130,11 +130,11 @@ class ResidentMesh:
 
     @property
     def array_names(self) -> list[str]:
-        """The arrays that interpolate() knows; "elevation" is the z of triangles."""
+        """The names of the arrays that interpolate() evaluates; "elevation" is the z of triangles."""
         return list(self._names)
 
     def locate(self, points: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
-        """The id of the cell that holds each point, -1 outside, and the barycentric weights of its corners.
+        """Finds the cell that contains each point, and the barycentric weights of the cell's corners.
 
         Parameters
         ----------
@@ -144,12 +144,13 @@ class ResidentMesh:
         Returns
         -------
         cells, weights
-            (n,) ids and (n, 3) or (n, 4) weights, which are 0 outside.
+            (n,) cell ids, -1 outside, and (n, 3) or (n, 4) weights, which are 0 outside.
         """
         return self._ask().locate(_points(points))
 
     def interpolate(self, points: ArrayLike, arrays: str | Iterable[str] | None = None) -> Any:
-        """The mesh's arrays at points: linear in each cell from its points' values, or the cell's own value.
+        """Evaluates the mesh's arrays at points: point arrays are interpolated linearly, cell arrays have the cell's
+        value.
 
         Parameters
         ----------
@@ -161,7 +162,8 @@ class ResidentMesh:
         Returns
         -------
         array, or dict of arrays
-            For one name its array, else a dict by name. Outside of the mesh NaN, or 0 in arrays of whole numbers.
+            For a single name its array, else a dict by name. Values outside of the mesh are NaN, or 0 in integer
+            arrays.
         """
         _, values = self._sample(points, arrays)
         return values[arrays] if isinstance(arrays, str) else values
@@ -169,21 +171,21 @@ class ResidentMesh:
     def _sample(
         self, points: ArrayLike, arrays: str | Iterable[str] | None
     ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-        """The cells that hold points, and the arrays there, located once."""
+        """Locates points once; returns their cells and the arrays' values there."""
         wanted = self._names if arrays is None else check.names(arrays, "arrays")
         check.require_arrays(wanted, self._names, "")
         return self._ask().sample(_points(points), wanted)
 
     def neighbors(self, cells: ArrayLike) -> np.ndarray:
-        """For each cell and each of its corners the cell across the opposite edge or face; -1: there is none."""
+        """Returns, for each cell and each of its corners, the cell across the opposite edge or face, or -1."""
         return self._ask().neighbors(_ids(cells, "cells"))
 
     def star(self, points: ArrayLike) -> list[np.ndarray]:
-        """The cells at each point, ascending."""
+        """Returns the cells at each point, in ascending order."""
         return _split(*self._ask().star(_ids(points, "points")))
 
     def ring(self, *, points: ArrayLike | None = None, cells: ArrayLike | None = None, k: int = 1) -> list[np.ndarray]:
-        """What lies within k steps around each point or cell, ascending, without itself.
+        """Returns the points or cells within k steps of each point or cell, ascending, without itself.
 
         Points are one step apart if an edge joins them, cells if they share a point.
         """
@@ -196,14 +198,15 @@ class ResidentMesh:
         return _split(*engine.ring_of_cells(_ids(cells, "cells"), steps))
 
     def boundary(self) -> list[np.ndarray]:
-        """The border of a mesh of triangles: of each loop the ids of its points, with the mesh on the left."""
+        """Returns the border of a mesh of triangles: the point ids of each loop, with the mesh on the left."""
         return _split(*self._ask().boundary())
 
     def contours(self, levels: Iterable[float], array: str = "elevation", component: int = 0
                  ) -> list[tuple[float, np.ndarray]]:
-        """Where an array of the points has these levels, on a mesh of triangles: (level, (n, 3) points) of each line.
+        """Computes contour lines of a point array on a mesh of triangles: (level, (n, 3) points) for each line.
 
-        Lines go on across pieces. The first point of a closed line is also its last. The higher side is on the left.
+        Lines continue across pieces. A closed line's first point is repeated as its last. Higher values are on the
+        left.
         """
         name = check.text(array, "array")
         check.require_arrays([name], self._names, "")
@@ -212,30 +215,30 @@ class ResidentMesh:
         return list(zip(found.tolist(), np.split(points, starts[1:-1]) if len(starts) > 1 else []))
 
     def profile(self, polyline: ArrayLike, spacing: float = 0, arrays: str | Iterable[str] | None = None) -> Profile:
-        """The mesh along a polyline.
+        """Samples the mesh along a polyline.
 
         Parameters
         ----------
         polyline
-            (n, 2) or (n, 3) coordinates; over triangles x and y count.
+            (n, 2) or (n, 3) coordinates; for triangles only x and y are used.
         spacing
-            The distance of samples; those at the polyline's corners come besides. 0: at its corners and wherever it
-            crosses an edge of triangles or a face of tetrahedra.
+            The distance between samples, in addition to those at the polyline's corners. 0: samples at its corners and
+            wherever it crosses an edge of a triangle or a face of a tetrahedron.
         arrays
             The name of an array, or names. None: all.
 
         Returns
         -------
         Profile
-            `distances`, `points` (n, 2) of triangles or (n, 3) of tetrahedra, `cells` and the arrays by name in
-            `values`. With spacing 0 `cells` are those up to the next point, -1 before a gap.
+            `distances`, `points` (n, 2) for triangles or (n, 3) for tetrahedra, `cells`, and the arrays by name in
+            `values`. With spacing 0, `cells` has the cell between each point and the next, -1 before a gap.
         """
         wanted = self._names if arrays is None else check.names(arrays, "arrays")
         check.require_arrays(wanted, self._names, "")
         return Profile(*self._ask().profile(_points(polyline), check.number(spacing, "spacing", at_least=0), wanted))
 
     def closest(self, points: ArrayLike) -> Closest:
-        """The nearest location of the mesh to each point; triangles are measured in x and y.
+        """Finds the location on the mesh nearest to each point; for triangles, distances are measured in x and y.
 
         Parameters
         ----------
@@ -245,55 +248,55 @@ class ResidentMesh:
         Returns
         -------
         Closest
-            `cells`, the nearest ones, `points` (n, 3), whose z is 0 for triangles, and `distances`, 0 inside. Of
-            cells that are as near the lowest one counts. Without cells, or for points that are not finite, -1, NaN
-            and infinity.
+            `cells`, the nearest cells; `points` (n, 3), whose z is 0 for triangles; and `distances`, 0 inside. Of
+            several nearest cells the one with the lowest id is returned. If the mesh has no cells, or for non-finite
+            points, these are -1, NaN and infinity.
         """
         return Closest(*self._ask().closest(_points(points)))
 
     def cells_in(self, *, box: Iterable[float] | None = None, polygon: Any = None, whole: bool = False) -> np.ndarray:
-        """The cells that have a point of a box or a polygon, with its border; ascending.
+        """Returns the cells that share a point with a closed box or polygon, in ascending order.
 
         Parameters
         ----------
         box
-            x min, x max, y min, y max, and for tetrahedra z min, z max.
+            xmin, xmax, ymin, ymax, and for tetrahedra zmin, zmax.
         polygon
-            A polygon over triangles, as in zones().
+            For triangles: a polygon as in zones().
         whole
-            Only the cells that lie in it.
+            Whether to return only the cells that lie inside.
         """
         return self._ask().cells_in(*_region(box, polygon), check.flag(whole, "whole"))
 
     def points_in(self, *, box: Iterable[float] | None = None, polygon: Any = None) -> np.ndarray:
-        """The mesh's points in a box or a polygon, with its border, as in cells_in(); ascending."""
+        """Returns the mesh's points in a closed box or polygon, as in cells_in(), in ascending order."""
         return self._ask().points_in(*_region(box, polygon))
 
     def zones(self, polygons: Iterable[Any], array: str = "elevation", *, component: int = 0, level: float = 0
               ) -> Zones:
-        """Statistics of an array in polygons, on a mesh of triangles.
+        """Computes statistics of an array in polygons, on a mesh of triangles.
 
-        Triangles are cut at the polygons' borders. An array of points is linear in each triangle. Triangles with a
-        value that is NaN are left out. The values do not depend on pieces and threads.
+        Triangles are clipped at the polygons' borders. Point arrays are interpolated linearly. Triangles with a NaN
+        value are left out. The values do not depend on pieces and threads.
 
         Parameters
         ----------
         polygons
-            A zone each: corners of shape (k, 2), a list of such rings of which the first is the outer one and the
-            others are holes, or a Polygon or MultiPolygon of Shapely's.
+            One zone each: corners of shape (k, 2); a list of such rings, the first of which is the outer ring and the
+            others are holes; or a Shapely Polygon or MultiPolygon.
         array
-            The name of the array; "elevation" is the z of the points.
+            The array's name; "elevation" is the z of the points.
         component
-            Of an array that has several.
+            The component of an array that has several.
         level
-            For the volume above it.
+            The level for volume_above.
 
         Returns
         -------
         Zones
-            `cells`, how many have an area in the zone, `area` of the mesh in it, `minimum`, `maximum`, `mean` (NaN
-            where there is no area), `integral`, and `volume_above`, the integral of what the array exceeds the
-            level by.
+            `cells`, the number of cells with an area in the zone; `area` of the mesh in the zone; `minimum`, `maximum`
+            and `mean` (NaN if there is no area); `integral`; and `volume_above`, the integral of the amount by which
+            the array exceeds the level.
         """
         name = check.text(array, "array")
         check.require_arrays([name], self._names, "")
@@ -302,15 +305,16 @@ class ResidentMesh:
             _rings(zones), len(zones), name, check.whole(component, "component"), check.number(level, "level")))
 
     def descend(self, points: ArrayLike, array: str = "elevation", component: int = 0) -> list[Descent]:
-        """The way down from each point, by the steepest descent of an array of the points of triangles.
+        """Follows the steepest descent of a point array from each point, on a mesh of triangles.
 
-        It leads down triangles, and along edges that both sides lead to or that are the border, to a pit.
+        A line descends across triangles, and along edges to which both sides descend or that are on the border, to a
+        pit.
 
         Returns
         -------
         list of Descent
-            For each point `points` (n, 3), the array's `values` there, which fall, and `pit`, the mesh's point at
-            the end; -1 if the line ends in a level triangle or edge, or begins outside of the mesh.
+            For each point: `points` (n, 3), the array's descending `values` there, and `pit`, the id of the mesh point
+            at the end, or -1 if the line ends in a level triangle or edge, or starts outside of the mesh.
         """
         name = check.text(array, "array")
         check.require_arrays([name], self._names, "")
@@ -319,7 +323,8 @@ class ResidentMesh:
         return [Descent(*line) for line in lines]
 
     def components(self) -> tuple[np.ndarray, np.ndarray]:
-        """The connected component of each cell, by common edges or faces, and how many cells each component has."""
+        """Returns the connected component of each cell, by common edges or faces, and each component's number of
+        cells."""
         return self._ask().components()
 
 

@@ -10,10 +10,10 @@ from . import _engine
 
 @contextlib.contextmanager
 def ranks() -> Iterator[Any]:
-    """While it is entered, the functions of this package work on all ranks of an MPI run together.
+    """A context in which the functions of this package work on all ranks of an MPI run together.
 
-    Needs mpi4py and a VTK with MPI. Each rank gives its own points, or has its own piece of a mesh.
-    Filters that were made inside must be gone when it is left: they hold VTK's controller.
+    Requires mpi4py and a VTK built with MPI. Each rank passes its own points, or has its own piece of a mesh. Delete
+    filters that were created inside before leaving it: they hold VTK's controller.
 
     Yields
     ------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What tipp.dem needs of any engine: files that laspy decompresses, and names of bands."""
+"""Helpers of tipp.dem for all engines: decompression with laspy, and band names."""
 from __future__ import annotations
 
 import contextlib
@@ -11,7 +11,7 @@ from typing import Any, Iterable, Iterator
 
 @contextlib.contextmanager
 def uncompressed(paths: list[str]) -> Iterator[list[str]]:
-    """The files, with .laz files as temporary .las files, which laspy writes, where it is installed."""
+    """Replaces .laz files by temporary .las files, which laspy writes if it is installed."""
     compressed = [path for path in paths if path.lower().endswith(".laz")]
     if not compressed or importlib.util.find_spec("laspy") is None:
         yield paths
@@ -39,7 +39,7 @@ RANKED = (1, 2)  # min and max of _dem.DUPLICATES
 
 
 def require_bands(names: Iterable[str], known: Iterable[str]) -> None:
-    """Raises KeyError for a band that is neither a column nor one of the triangles."""
+    """Raises KeyError for a band that is neither a column nor derived from the triangles."""
     columns = [*known]
     for name in names:
         if name not in (*columns, *DERIVED, "elevation"):

@@ -27,35 +27,35 @@ def resample(
     Parameters
     ----------
     mesh
-        A vtkPointSet with cells, a composite of such, or a PyVista data set.
+        A vtkPointSet with cells, a composite data set of these, or a PyVista data set.
     bounds
-        (x from, x to, y from, y to, z from, z to), both ends included, in the mesh's units; z may be left
-        out for surfaces. None: the mesh's box.
+        (xmin, xmax, ymin, ymax, zmin, zmax), both ends included, in the mesh's units; z may be omitted for surfaces.
+        None: the mesh's bounding box.
     dimensions
-        The number of samples along x, y and z, or x and y for one along z. 0 keeps the distance of the first axis with a number;
-        along z it means one sample for surfaces. None: (256, 0, 0).
+        The number of samples along x, y and z; or along x and y, with one along z. 0 uses the spacing of the first
+        axis with a number, but for surfaces means one sample along z. None: (256, 0, 0).
     spacing
-        The distance between samples along x, y and z instead, from the lower bound on; 0 along an
-        axis: as dimensions tell.
+        The distance between samples along x, y and z, from the lower bound on, instead of dimensions; 0 along an axis:
+        `dimensions` applies.
     null_value
-        What arrays have where no cell answers.
+        The value of samples outside of all cells.
     no_data
-        Cells with a corner that has this value answer nothing (as ADCIRC's -99999 at dry nodes).
+        Cells with this value at a corner are not sampled (such as ADCIRC's -99999 at dry nodes).
     arrays
         The name or the names of the arrays to sample. None: all.
     device
         "auto", "openmp", "opencl", "opencl:INDEX" or "opencl:NAME".
     threads
-        OpenMP threads; 0 is OpenMP's choice.
+        OpenMP threads; 0 is OpenMP's default.
     progress_bar
-        Whether to show progress on the standard error stream; or a function that is told the fraction done, and
-        ends the run by returning False.
+        Whether to show progress on standard error; or a function that is called with the fraction done and can stop
+        the run by returning False.
 
     Returns
     -------
     vtkImageData or pyvista.ImageData
-        With the arrays, and vtkValidPointMask, which is 1 where a cell answers. as_array() gives its
-        rows. A PyVista input makes a PyVista output. Without VTK a tipp.Image.
+        The image with the arrays and vtkValidPointMask, which is 1 for samples in a cell. as_array() returns an array
+        in the image's shape. A PyVista input gives a PyVista output. Without VTK a tipp.Image.
 
     Raises
     ------
@@ -66,7 +66,7 @@ def resample(
     RuntimeError
         If the filter failed; the message is the filter's.
     KeyboardInterrupt
-        On Ctrl-C, soon.
+        Promptly after Ctrl-C.
 
     Examples
     --------
@@ -88,7 +88,7 @@ def resample(
 
 
 def _along_axes(values: Any, name: str, count: int, convert: Any, **limits: Any) -> list[Any]:
-    """Values for x, y and z; those for z may be left out in the plane."""
+    """Values for x, y and z; z may be omitted in the plane."""
     if isinstance(values, Sequence) and not isinstance(values, (str, bytes)) and len(values) == count * 2 // 3:
         of_z = {"bounds": [0, 0], "spacing": [0], "dimensions": [1]}[name]
         values = [*values, *of_z]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs a VTK algorithm as a Python function: errors are exceptions, and Ctrl-C stops it."""
+"""Runs a VTK algorithm as a Python function: errors become exceptions, and Ctrl-C stops it."""
 from __future__ import annotations
 
 import contextlib
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def require(built: str) -> None:
-    """Raises ImportError if vtkmodules are of another release than `built`."""
+    """Raises ImportError if vtkmodules is of another release than `built`."""
     try:
         from vtkmodules.vtkCommonCore import vtkVersion
     except ImportError as error:
@@ -29,10 +29,10 @@ def require(built: str) -> None:
 
 
 class Interrupted:
-    """While it is entered, Ctrl-C aborts the algorithm; leaving it then raises KeyboardInterrupt.
+    """A context in which Ctrl-C aborts the algorithm; on exit it then raises KeyboardInterrupt.
 
-    VTK ends the program if KeyboardInterrupt reaches it from a callback, so a handler of our own takes
-    the signal. Python runs it between two steps of a Python callback, which progress gives often.
+    VTK terminates the program if KeyboardInterrupt reaches it from a callback, so our own handler catches the signal.
+    Python runs signal handlers during Python callbacks, which progress events trigger often.
     """
 
     def __init__(self, algorithm: vtkAlgorithm):
@@ -69,8 +69,8 @@ def _observed(subject: Any, event: str, callback: Callable[..., None]) -> Iterat
 
 
 def _first_sentence(text: str) -> str:
-    """What an error says, on one line, without VTK's place in the source and addresses of objects. A file in the
-    temporary form of an output is named as that output."""
+    """An error's message on one line, without VTK's source location and object addresses. The path of a temporary
+    output file is replaced by that of the output."""
     text = re.sub(r"^\s*(ERROR|Warning|Generic Warning): In .*, line \d+\s*", "", text)
     text = re.sub(r"^\s*\w+ \((0x)?[0-9a-fA-F]+\): ", "", text)
     text = re.sub(r" ?\((0x[0-9a-fA-F]+|nil)\)", "", text)
@@ -80,7 +80,7 @@ def _first_sentence(text: str) -> str:
 
 
 def run(algorithm: vtkAlgorithm, progress: Progress | None = None, call: Callable[[], Any] | None = None) -> Any:
-    """Updates the algorithm, or does `call`. Its errors become a RuntimeError, its warnings Python's."""
+    """Updates the algorithm, or runs `call`. Errors become a RuntimeError, warnings Python warnings."""
     errors: list[str] = []
     notes: list[str] = []
 

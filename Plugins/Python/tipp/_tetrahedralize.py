@@ -29,53 +29,54 @@ def delaunay_3d(
     threads: int = 0,
     progress_bar: ProgressBar = False,
 ) -> Any:
-    """Exact Delaunay tetrahedralization as a mesh; the keywords are those of PyVista's delaunay_3d.
+    """Computes the exact Delaunay tetrahedralization as a mesh, with the keywords of PyVista's delaunay_3d.
 
     Parameters
     ----------
     points
         A vtkPointSet, a PyVista data set with points, or an array of shape (n, 3).
     alpha
-        With a radius, in the units of the points, tetrahedra with a larger circumsphere are left out, and
-        facets, edges and points that are then in no tetrahedron are cells of their own. 0: all tetrahedra.
+        The largest circumradius, in the units of the points. Tetrahedra with a larger one are removed; facets, edges
+        and points that are then in no tetrahedron become triangles, lines and vertices. 0: all tetrahedra.
     tol
-        Points no farther apart than this fraction of the bounding box's diagonal are merged. 0 merges
-        coincident points.
+        Points within this fraction of the bounding box's diagonal of each other are merged. 0 merges only coincident
+        points.
     offset
-        With bound, the distance of the octahedron's corners, as a multiple of the bounding box's diagonal.
+        With bound: the distance of the octahedron's corners from the centre, as a multiple of the bounding box's
+        diagonal.
     bound
-        Whether to triangulate the corners of an octahedron around the points with them.
+        Whether to add the corners of an octahedron around the points.
     point_data
-        With an array of points: arrays of values at them, by name.
+        For an array of points: a dictionary of arrays with values at the points.
     map_duplicates
-        Whether the mesh gets the point array RepresentativePointId, if points are coincident or not finite: the
-        lowest id there, or -1.
+        Whether the mesh gets the point array RepresentativePointId, if there are coincident or non-finite points: the
+        lowest id of the coincident points, or -1 for a non-finite point.
     neighbors
-        Whether the mesh gets the cell array NeighborIds: for each corner of a tetrahedron the one opposite to it, -1
-        at the border.
+        Whether the mesh gets the cell array NeighborIds: for each corner of a tetrahedron the id of the tetrahedron
+        across the opposite facet, -1 at the border.
     return_statistics
         Whether to return (mesh, statistics): a dictionary of counts (points, tetrahedra, duplicates, rejected,
         partitions, threads, ...) and the seconds of each phase.
     partitions
-        The number of partitions, at most 512. 0 chooses. The tetrahedra are the same.
+        The number of partitions, at most 512. 0: chosen automatically. The result does not depend on it.
     threads
-        OpenMP threads; 0 is OpenMP's choice.
+        OpenMP threads; 0 is OpenMP's default.
     progress_bar
         As for delaunay().
 
     Returns
     -------
     vtkUnstructuredGrid or pyvista.UnstructuredGrid
-        The input's points and point data, and tetrahedra. A PyVista input makes a PyVista output.
+        The input's points and point data, with tetrahedra. A PyVista input gives a PyVista output.
 
     Raises
     ------
     TypeError, ValueError
         If an argument is of a wrong type or value.
     RuntimeError
-        If it failed, or if the package is the wheel, which has no tetrahedra.
+        If it failed, or in the wheel, which has no tetrahedralization.
     KeyboardInterrupt
-        On Ctrl-C, soon.
+        Promptly after Ctrl-C.
 
     Examples
     --------

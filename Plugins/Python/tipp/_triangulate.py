@@ -27,33 +27,33 @@ def delaunay(
     threads: int = 0,
     progress_bar: ProgressBar = False,
 ) -> np.ndarray:
-    """Exact Delaunay triangulation of points in the x-y plane.
+    """Computes the exact Delaunay triangulation of points in the x-y plane.
 
     Parameters
     ----------
     points
-        Coordinates of shape (n, 2) or (n, 3); z plays no part. A writable (n, 3) array of float32 or
-        float64 in C order is not copied, any other once. Masked coordinates are NaN.
+        Coordinates of shape (n, 2) or (n, 3); z is ignored. A writable (n, 3) array of float32 or float64 in C order
+        is not copied; any other array is copied once. Masked coordinates become NaN.
     tol
-        Points no farther apart than this fraction of the bounding box's diagonal are merged. 0 merges
-        coincident points.
+        Points within this fraction of the bounding box's diagonal of each other are merged. 0 merges only coincident
+        points.
     max_edge
-        Triangles with an edge longer than this, in the units of the points, are left out. 0: none are.
+        Triangles with an edge longer than this, in the units of the points, are removed. 0: no limit.
     partitions
-        Columns and rows of a grid of partitions. None chooses. The triangles are the same.
+        Columns and rows of a grid of partitions. None: chosen automatically. The triangles do not depend on it.
     schedule
-        "dynamic", "stages" or "producer-consumer". The triangles are the same.
+        "dynamic", "stages" or "producer-consumer". The triangles do not depend on it.
     threads
-        OpenMP threads; 0 is OpenMP's choice.
+        OpenMP threads; 0 is OpenMP's default.
     progress_bar
-        Whether to show progress on the standard error stream; or a function that is told the fraction done, and
-        ends the run by returning False.
+        Whether to show progress on standard error; or a function that is called with the fraction done and can stop
+        the run by returning False.
 
     Returns
     -------
     numpy.ndarray
-        (m, 3) point ids, counter-clockwise, of 32 bits where they fit, else of 64. Merged points are
-        in no triangle, nor are points that are not finite (of which a RuntimeWarning tells).
+        (m, 3) point ids, counter-clockwise, with 32 bits if they fit, else with 64. Merged points and non-finite
+        points are in no triangle; non-finite points cause a RuntimeWarning.
 
     Raises
     ------
@@ -62,12 +62,12 @@ def delaunay(
     RuntimeError
         If the triangulation failed; the message is the filter's.
     KeyboardInterrupt
-        On Ctrl-C, soon.
+        Promptly after Ctrl-C.
 
     Notes
     -----
-    Within tipp.ranks() all ranks call it together, each with points of its own; ids then count the
-    output's points, so use delaunay_2d() there.
+    Within tipp.ranks() all ranks call it together, each with its own points. The ids then refer to the output's
+    points, which only delaunay_2d() returns, so use that instead.
 
     Examples
     --------
@@ -102,43 +102,45 @@ def delaunay_2d(
     threads: int = 0,
     progress_bar: ProgressBar = False,
 ) -> Any:
-    """Exact Delaunay triangulation as a mesh; the keywords are those of PyVista's delaunay_2d.
+    """Computes the exact Delaunay triangulation as a mesh, with the keywords of PyVista's delaunay_2d.
 
     Parameters
     ----------
     points
-        A vtkPointSet, a PyVista data set with points, or an array as delaunay() takes.
+        A vtkPointSet, a PyVista data set with points, or an array as for delaunay().
     tol, max_edge, partitions, schedule, threads, progress_bar
         As for delaunay().
     alpha
-        With a radius, in the units of the points, triangles with a larger circumcircle are left out,
-        and edges and points that are then in no triangle are cells of their own. 0: all triangles.
+        The largest circumradius, in the units of the points. Triangles with a larger one are removed; edges and points
+        that are then in no triangle become lines and vertices. 0: all triangles.
     offset
-        With bound, the radius of the circle, as a multiple of the bounding box's diagonal.
+        With bound: the radius of the circle, as a multiple of the bounding box's diagonal.
     bound
-        Whether to triangulate eight points on a circle around the others with them.
+        Whether to add eight points on a circle around the others.
     point_data
-        With an array of points: arrays of values at them, by name.
+        For an array of points: a dictionary of arrays with values at the points.
     edge_source
-        A vtkPolyData or a PyVista one, whose lines and polygons are constraints: their edges are edges
-        of the triangulation. Their ids are those of `points`.
+        A vtkPolyData or pyvista.PolyData whose lines and polygons are constraints: their edges become edges of the
+        triangulation. Their point ids refer to `points`.
     edges
         Constraints as an (m, 2) array of point ids.
     polygons
-        Closed polygons: sequences of point ids; or, with new points where none of `points` is, arrays of
-        coordinates of shape (k, 2) or (k, 3), or polygons of Shapely with their holes. Counter-clockwise
-        ones keep what is inside, clockwise ones are holes; Shapely's are turned as they have to be.
+        Closed polygons: sequences of point ids; arrays of coordinates of shape (k, 2) or (k, 3), which add new points
+        where `points` has none; or Shapely polygons with their holes. Counter-clockwise polygons keep their inside,
+        clockwise ones are holes; Shapely polygons may have any orientation.
     crossings
-        "split": constraints that cross get a new point there, after the others. "refuse": a RuntimeError.
+        "split": where constraints cross, a new point is added after the others. "refuse": crossing constraints raise
+        RuntimeError.
     marks
-        How the mesh shows constraints. "lines": as lines, with the cell array ConstraintId. "flags": in the
-        cell array ConstraintEdges, for each corner whether the edge opposite to it is a constraint. "none".
+        How the mesh marks constraints. "lines": as line cells, with the cell array ConstraintId. "flags": in the cell
+        array ConstraintEdges: for each corner of a triangle whether the opposite edge is part of a constraint. "none":
+        not at all.
     map_duplicates
-        Whether the mesh gets the point array RepresentativePointId, if points are coincident or not finite: the
-        lowest id there, or -1.
+        Whether the mesh gets the point array RepresentativePointId, if there are coincident or non-finite points: the
+        lowest id of the coincident points, or -1 for a non-finite point.
     neighbors
-        Whether the mesh gets the cell array NeighborIds: for each corner of a triangle the one opposite to it, -1
-        at the border.
+        Whether the mesh gets the cell array NeighborIds: for each corner of a triangle the id of the triangle across
+        the opposite edge, -1 at the border.
     return_statistics
         Whether to return (mesh, statistics): a dictionary of counts (points, triangles, duplicates, rejected,
         partitions, threads, constraints, crossing_points, ...) and the seconds of each phase.
@@ -146,7 +148,7 @@ def delaunay_2d(
     Returns
     -------
     vtkPolyData or pyvista.PolyData
-        The input's points and point data, and triangles. A PyVista input makes a PyVista output. Without VTK a
+        The input's points and point data, with triangles. A PyVista input gives a PyVista output. Without VTK a
         tipp.Mesh.
 
     Raises
@@ -158,7 +160,7 @@ def delaunay_2d(
     --------
     >>> mesh = tipp.delaunay_2d(xyz, point_data={"depth": depth})
 
-    With breaklines between points, inside of a boundary:
+    With breaklines between points, inside a boundary:
 
     >>> mesh = tipp.delaunay_2d(xyz, edges=[[0, 17], [17, 5]], polygons=[[2, 40, 31, 8]])
     """
@@ -186,7 +188,7 @@ def _require_points(points: Any) -> None:
 
 
 def _options(tol: Any, max_edge: Any, partitions: Any, schedule: Any, threads: Any) -> dict[str, Any]:
-    """What delaunay() and delaunay_2d() have in common, checked."""
+    """The checked options that delaunay() and delaunay_2d() share."""
     return {
         "tolerance": check.number(tol, "tol", at_least=0),
         "max_edge": check.number(max_edge, "max_edge", at_least=0),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""NumPy arrays as VTK's and back, without copies where VTK allows."""
+"""Converts between NumPy and VTK arrays, without copies where possible."""
 from __future__ import annotations
 
 import ctypes
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from vtkmodules.vtkCommonCore import vtkDataArray
 
 _BLOCK = 4096  # rows
-_SHARE = 64 * _BLOCK  # of a thread, at a time
+_SHARE = 64 * _BLOCK  # rows that a thread copies at a time
 _MOST_THREADS = 8
 _MADV_POPULATE_WRITE = 23  # Linux 5.14
 # By dtype.char; C has two names for integers of 64 bits.
@@ -43,7 +43,7 @@ _CLASSES = {"f": vtkFloatArray, "d": vtkDoubleArray, "i": vtkTypeInt32Array, "l"
 
 
 def vtk_points(points: ArrayLike) -> vtkPoints:
-    """VTK's points of an (n, 2) or (n, 3) array.
+    """Converts an (n, 2) or (n, 3) array to vtkPoints.
 
     They share the memory of a writable (n, 3) array of float32 or float64 in C order; any other array is
     copied once.
@@ -58,7 +58,7 @@ def vtk_points(points: ArrayLike) -> vtkPoints:
 
 
 def _lent(array: np.ndarray, columns: int) -> vtkDataArray:
-    """As numpy_to_vtk(), which takes ten times as long: a VTK array in the memory of one in C order, which it keeps."""
+    """A VTK array that shares, and keeps alive, a C-order array. Ten times faster than numpy_to_vtk()."""
     result = _CLASSES[array.dtype.char]()
     if columns > 1:
         result.SetNumberOfComponents(columns)
@@ -68,11 +68,11 @@ def _lent(array: np.ndarray, columns: int) -> vtkDataArray:
 
 
 def _copied(points: np.ndarray, kind: np.dtype) -> vtkDataArray:
-    """x, y and z, or 0, in memory of VTK's.
+    """Copies x, y and z (0 if missing) to vtkPoints.
 
-    NumPy would ask for huge pages, whose first touch takes several times as long in a virtual machine that gives
-    free memory back. Threads share the copying, block by block, which keeps to the cache; small pages are asked for
-    many at once. Few points are copied at once.
+    NumPy would request huge pages, whose first touch takes several times as long in a virtual machine that returns
+    free memory to its host. Threads copy block by block, which suits the cache, and small pages are committed many at
+    a time. A few points are copied in one step.
     """
     if len(points) <= _BLOCK:
         few = np.zeros((len(points), 3), kind)
@@ -99,7 +99,7 @@ def _copied(points: np.ndarray, kind: np.dtype) -> vtkDataArray:
 
 
 def _touch(array: np.ndarray) -> None:
-    """Has Linux map the memory of an array that will be written; older versions do not know how and need not."""
+    """Asks Linux to commit an array's memory before it is written. Older kernels ignore this, which is harmless."""
     if sys.platform == "linux":
         begin = array.__array_interface__["data"][0]
         page = begin // mmap.PAGESIZE * mmap.PAGESIZE
@@ -110,7 +110,7 @@ def _touch(array: np.ndarray) -> None:
 def vtk_array(name: str, values: ArrayLike) -> Any:
     """A named VTK array of one value or one row for each point.
 
-    It shares the memory of values, if they are writable, contiguous and of a type that VTK has.
+    It shares the memory of values if they are writable, contiguous and of a type that VTK has.
     """
     array = attribute(name, values)
     result = numpy_to_vtk(array if array.flags.writeable else array.copy())
@@ -119,7 +119,7 @@ def vtk_array(name: str, values: ArrayLike) -> Any:
 
 
 def point_cloud(points: ArrayLike, point_data: Mapping[str, ArrayLike] | None = None) -> vtkPolyData:
-    """Points and values at them as a data set; see vtk_points for copies."""
+    """Points with point data as a data set; see vtk_points() about copies."""
     cloud = vtkPolyData()
     cloud.SetPoints(vtk_points(points))
     for name, array in attributes(point_data, cloud.GetNumberOfPoints()).items():
@@ -133,14 +133,14 @@ def triangles_of(mesh: vtkPolyData) -> np.ndarray:
 
 
 def wrapped_like(result: vtkDataObject, source: Any) -> Any:
-    """The result as a PyVista object, if the source is one."""
+    """Wraps the result as a PyVista object if the source is one."""
     pyvista = sys.modules.get("pyvista")
     if pyvista is not None and isinstance(source, pyvista.DataObject):
         return pyvista.wrap(result)
     return result
 
 
-# What the wheel needs besides.
+# Additional helpers for the wheel.
 
 _TYPES = {3: 5, 4: 10}  # VTK_TRIANGLE and VTK_TETRA, by their number of corners
 
@@ -152,7 +152,7 @@ def xyz_of(data: Any) -> np.ndarray:
 
 
 def cells_of(ids: np.ndarray) -> vtkCellArray:
-    """Cells of as many points as the array has columns, in its memory."""
+    """Cells with as many points as the array has columns, in its memory."""
     count, size = ids.shape
     cells = vtkCellArray()
     cells.SetData(_lent(np.arange(0, size * count + 1, size, dtype=ids.dtype), 1), _lent(np.ascontiguousarray(ids), 1))
@@ -173,7 +173,7 @@ def cell_lists(cells: vtkCellArray) -> list[np.ndarray]:
 
 
 def surface_of(mesh: Mesh, data: Any) -> vtkPolyData:
-    """A mesh of triangles, with the points and point data of a data set, if they are the same, for its own."""
+    """A VTK mesh of triangles, which reuses the points and point data of a data set if they are the same."""
     result = vtkPolyData()
     if data is None:
         result.SetPoints(vtk_points(mesh.points))
@@ -237,7 +237,7 @@ def image_of(image: Image) -> vtkImageData:
 
 
 def _add_ghosts(image: Image, result: vtkImageData) -> None:
-    """Hides the points without an answer and the cells that have such a corner."""
+    """Hides the samples outside of all cells, and the image's cells that have such a corner."""
     valid = image.array("vtkValidPointMask").reshape(image.dimensions[::-1]) != 0
     hidden_point, hidden_cell = 2, 32  # vtkDataSetAttributes
     of_points = np.where(valid, 0, hidden_point).astype(np.uint8)
@@ -250,13 +250,13 @@ def _add_ghosts(image: Image, result: vtkImageData) -> None:
 
 
 def arrays_of(data: Any) -> dict[str, np.ndarray]:
-    """The named arrays of numbers."""
+    """The named numeric arrays."""
     arrays = (data.GetArray(i) for i in range(data.GetNumberOfArrays()))
     return {array.GetName(): vtk_to_numpy(array) for array in arrays if array is not None and array.GetName()}
 
 
 def simplices_of(data: Any) -> Mesh:
-    """The triangles or tetrahedra of a data set, in its memory. Raises RuntimeError for other cells."""
+    """The triangles or tetrahedra of a data set, sharing its memory. Raises RuntimeError for other cells."""
     if data.IsA("vtkPolyData"):
         cells, kinds = data.GetPolys(), {5}
         is_uniform = cells.GetNumberOfCells() == data.GetNumberOfCells() and cells.IsHomogeneous() in (-1, 0, 3)

@@ -19,7 +19,7 @@ from .vtkTIPPIO import vtkTIPPPointReader
 
 def dem(points: Any, point_data: Any, options: dict[str, Any],
         progress: Progress | None) -> tuple[list[np.ndarray], tuple[float, ...], str | None]:
-    """The bands of the attributes from the north to the south, their transform and the CRS of points in files."""
+    """Computes the bands, with rows from north to south, their transform, and the CRS of points in files."""
     names, crs = options["attributes"], None
     if check.is_vtk_object(points):
         cloud = points

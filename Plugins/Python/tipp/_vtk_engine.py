@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the functions run in a package built with VTK: its wrapped filters. Arguments have been checked."""
+"""The engine of a package built with VTK: runs its wrapped filters. Arguments are already checked."""
 from __future__ import annotations
 
 from typing import Any, Callable, TYPE_CHECKING
@@ -56,7 +56,8 @@ _STATISTICS = {
 
 
 def source_of(data: vtkPointSet, options: dict[str, Any]) -> tuple[vtkPolyData | None, bool]:
-    """What the arguments of delaunay_2d() name together, or None; and whether it has points of its own."""
+    """Combines the constraints of delaunay_2d() into one source (or None); also returns whether it has its own
+    points."""
     constraints = constraints_of(
         data.GetNumberOfPoints(), options["edge_source"], options["edges"], options["polygons"])
     if constraints is None:
@@ -64,7 +65,7 @@ def source_of(data: vtkPointSet, options: dict[str, Any]) -> tuple[vtkPolyData |
     source = vtkPolyData()
     has_points = len(constraints.corners) > 0
     if has_points:
-        # Ids mean the input's points, so that these come first.
+        # Ids refer to the input's points, so these come first.
         points = data.GetPoints()
         own = vtk_to_numpy(points.GetData()) if points is not None else np.zeros((0, 3))
         source.SetPoints(vtk_points(np.concatenate([own.astype(np.float64), constraints.corners])))
@@ -82,7 +83,7 @@ def _cells(lists: list[np.ndarray]) -> vtkCellArray:
 
 
 def require_ranks() -> None:
-    """Raises where the package cannot work on several ranks."""
+    """Raises an exception if the package cannot work on several ranks."""
 
 
 def delaunay(points: Any, options: dict[str, Any], progress: Progress | None) -> np.ndarray:
@@ -137,7 +138,7 @@ def _statistics(totals: Any) -> dict[str, Any]:
 
 def _triangulated(points: Any, point_data: Any, options: dict[str, Any], progress: Progress | None,
                   add: Callable[[vtkTIPPDelaunay2D], None] = lambda algorithm: None) -> vtkTIPPDelaunay2D:
-    """The filter after its run; add() sets more than every triangulation has."""
+    """Runs the filter and returns it; add() sets further properties first."""
     algorithm = vtkTIPPDelaunay2D()
     algorithm.SetInputData(points if check.is_vtk_object(points) else point_cloud(points, point_data))
     algorithm.SetTolerance(options["tolerance"])
@@ -203,7 +204,7 @@ def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> A
 
 
 def _select(algorithm: vtkRangeResampleFilter, mesh: Any, names: list[str]) -> None:
-    """Samples these arrays only; a name that the mesh has not is a warning of the filter's."""
+    """Selects the arrays to sample; the filter warns of names that the mesh does not have."""
     of_cells = hasattr(mesh, "GetCellData") and mesh.GetCellData()
     for selection, wanted in (
         (algorithm.GetPointDataArraySelection(), [n for n in names if not (of_cells and of_cells.HasArray(n))]),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What tipp.open() runs in a package built with VTK."""
+"""The engine of tipp.open() in a package built with VTK."""
 from __future__ import annotations
 
 import threading
@@ -34,8 +34,8 @@ def open_mesh(mesh: Any, options: dict[str, Any]) -> MeshQuery:
 
 
 class MeshQuery:
-    """NumPy in and out of a vtkPartitionedMeshQuery. Its errors are events, so threads take turns; the query itself
-    works with several."""
+    """A vtkPartitionedMeshQuery with NumPy arguments and results. Its errors are VTK events, so only one Python thread
+    at a time may query; each query itself uses several threads."""
 
     def __init__(self, query: vtkPartitionedMeshQuery) -> None:
         self._query = query

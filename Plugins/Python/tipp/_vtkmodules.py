@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""VTK's classes: of `vtkmodules`, or of `cvista`, a VTK that PyVista can use in its place.
+"""VTK's classes, from `vtkmodules` or from `cvista`, a build of VTK that PyVista can use instead.
 
 `from ._vtkmodules import vtkPoints` takes the class from the module of VTK that has it.
 """
@@ -17,14 +17,14 @@ _MODULES = ("vtkCommonCore", "vtkCommonDataModel", "vtkCommonExecutionModel", "u
 
 @functools.lru_cache(maxsize=None)
 def root() -> str | None:
-    """The package of VTK's modules: PyVista's, if PyVista is imported, for objects of both do not mix; else what is
-    installed; None without VTK."""
-    if importlib.util.find_spec("._run", __package__):  # built with VTK: the package's filters are of vtkmodules
+    """The package with VTK's modules: the one that PyVista uses if it is imported, since objects of the two cannot be
+    mixed; otherwise the installed one; None without VTK."""
+    if importlib.util.find_spec("._run", __package__):  # built with VTK: the package's filters use vtkmodules
         return "vtkmodules"
     mesh = getattr(sys.modules.get("pyvista"), "PolyData", None)
     if mesh is not None:
         packages = {base.__module__.split(".")[0] for base in mesh.__mro__}
-        return "cvista" if "cvista" in packages else "vtkmodules"  # cvista names some bases as vtkmodules does
+        return "cvista" if "cvista" in packages else "vtkmodules"  # cvista uses vtkmodules' names for some bases
     return next((name for name in _PACKAGES if importlib.util.find_spec(name)), None)
 
 

@@ -133,6 +133,19 @@ std::vector<Point3> pointsInSpace(const std::string& kind, std::size_t count, un
   return points;
 }
 
+std::unique_ptr<PointStream> streamOf(const std::vector<Point3>& points)
+{
+  PointTable table;
+  table.Columns = { { "z", {} }, { "number", {} } };
+  for (const Point3& p : points)
+  {
+    table.Columns[1].Values.push_back(double(table.size()));
+    table.XY.insert(table.XY.end(), { p.x, p.y });
+    table.Columns[0].Values.push_back(p.z);
+  }
+  return streamTable(std::move(table));
+}
+
 std::vector<Tetrahedron> sortedCells(const Tetrahedralization& mesh)
 {
   std::vector<Tetrahedron> cells;

@@ -2,12 +2,14 @@
 #ifndef PointsInSpace_h
 #define PointsInSpace_h
 
+#include "Points/PointStream.h"
 #include "Predicates/Points.h"
 #include "Triangulation3D/Tetrahedralize.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,9 @@ const std::vector<std::string>& kindsOfPoints();
 
 /// About `count` points of a kind, in an order that is random.
 std::vector<Point3> pointsInSpace(const std::string& kind, std::size_t count, unsigned seed = 1);
+
+/// A stream of the points with the columns z and number, a point's index.
+std::unique_ptr<PointStream> streamOf(const std::vector<Point3>& points);
 
 using Tetrahedron = std::array<std::int64_t, 4>; ///< point ids, ascending
 

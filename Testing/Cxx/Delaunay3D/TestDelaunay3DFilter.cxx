@@ -3,6 +3,7 @@
 
 #include "PointsInSpace.h"
 
+#include "vtkTIPPDelaunay2D.h"
 #include "vtkTIPPDelaunay3D.h"
 
 #include "vtkCellData.h"
@@ -12,6 +13,7 @@
 #include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
 #include "vtkPointData.h"
+#include "vtkPolyData.h"
 #include "vtkTable.h"
 #include "vtkTetra.h"
 #include "vtkUnstructuredGrid.h"
@@ -260,21 +262,67 @@ TEST(Delaunay3DFilter, BoundingTriangulationHasAnOctahedron)
   EXPECT_EQ(106U, used.size());
 }
 
-TEST(Delaunay3DFilter, PointsInAPlaneAreAWarning)
+TEST(Delaunay3DFilter, PointsInAPlaneMakeTrianglesAndAWarning)
 {
   std::vector<Point> points = randomPoints(30);
   for (Point& p : points)
   {
     p.Z = 2;
   }
+  const auto input = dataset(points);
   vtkNew<vtkTIPPDelaunay3D> delaunay;
   Messages messages(delaunay);
-  delaunay->SetInputData(dataset(points));
+  delaunay->SetInputData(input);
+  delaunay->GenerateNeighborIdsOn();
   delaunay->Update();
-  EXPECT_EQ(0, delaunay->GetOutput()->GetNumberOfCells());
+  vtkNew<vtkTIPPDelaunay2D> reference;
+  reference->SetInputData(input);
+  reference->Update();
+  const auto found = cellsByType(delaunay->GetOutput());
+  ASSERT_EQ(1U, found.count(VTK_TRIANGLE));
+  EXPECT_EQ(reference->GetOutput()->GetNumberOfPolys(), vtkIdType(found.at(VTK_TRIANGLE).size()));
+  auto* const neighbors = delaunay->GetOutput()->GetCellData()->GetArray("NeighborIds");
+  ASSERT_NE(nullptr, neighbors);
+  EXPECT_EQ(3, neighbors->GetNumberOfComponents());
+  EXPECT_EQ(input->GetPoints(), delaunay->GetOutput()->GetPoints());
   ASSERT_EQ(1U, messages.Warnings.size());
   EXPECT_NE(std::string::npos, messages.Warnings[0].find("plane"));
   EXPECT_TRUE(messages.Errors.empty());
+}
+
+TEST(Delaunay3DFilter, AlphaAppliesToTrianglesOfAPlane)
+{
+  std::vector<Point> points;
+  for (int i = 0; i < 5; ++i)
+  {
+    points.push_back({ double(i), 0, 3 });
+    points.push_back({ double(i), 4, 3 });
+  }
+  points.push_back({ 0.5, 0.5, 3 });
+  vtkNew<vtkTIPPDelaunay3D> delaunay;
+  Messages messages(delaunay);
+  delaunay->SetInputData(dataset(points));
+  delaunay->SetAlpha(0.6);
+  delaunay->Update();
+  auto found = cellsByType(delaunay->GetOutput());
+  EXPECT_EQ((Cells{ { 0, 2, 10 } }), found[VTK_TRIANGLE]);
+  EXPECT_EQ(7U, found[VTK_LINE].size());
+  EXPECT_EQ(0U, found.count(VTK_VERTEX));
+  delaunay->AlphaLinesOff();
+  delaunay->Update();
+  found = cellsByType(delaunay->GetOutput());
+  EXPECT_EQ(0U, found.count(VTK_LINE));
+}
+
+TEST(Delaunay3DFilter, PointsOnALineAreAWarning)
+{
+  vtkNew<vtkTIPPDelaunay3D> delaunay;
+  Messages messages(delaunay);
+  delaunay->SetInputData(dataset({ { 0, 0, 0 }, { 1, 1, 1 }, { 3, 3, 3 } }));
+  delaunay->Update();
+  EXPECT_EQ(0, delaunay->GetOutput()->GetNumberOfCells());
+  ASSERT_EQ(1U, messages.Warnings.size());
+  EXPECT_NE(std::string::npos, messages.Warnings[0].find("line"));
 }
 
 TEST(Delaunay3DFilter, AnEmptyInputIsAWarning)

@@ -5,6 +5,7 @@
 
 #include "Files/IOError.h"
 #include "OutOfCore3D/OutOfCoreTetrahedralization.h"
+#include "Partitioned/NeighborIds.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/ReadPiece.h"
 #include "Points/PointStream.h"
@@ -27,19 +28,6 @@ namespace
 
 using namespace tipp;
 using namespace tipp::test;
-
-std::unique_ptr<PointStream> streamOf(const std::vector<Point3>& points)
-{
-  PointTable table;
-  table.Columns = { { "z", {} }, { "number", {} } };
-  for (const Point3& p : points)
-  {
-    table.Columns[1].Values.push_back(double(table.size()));
-    table.XY.insert(table.XY.end(), { p.x, p.y });
-    table.Columns[0].Values.push_back(p.z);
-  }
-  return streamTable(std::move(table));
-}
 
 struct StoredMesh
 {
@@ -88,6 +76,36 @@ StoredMesh read(const std::string& path, const std::vector<Point3>& points)
   EXPECT_EQ(mesh.Cells, std::int64_t(stored.Cells.size()));
   std::sort(stored.Cells.begin(), stored.Cells.end());
   return stored;
+}
+
+using FourEach = std::vector<std::int64_t>; ///< four values a tetrahedron
+
+/// Four ids a tetrahedron, from a map of all facets.
+FourEach neighborsByFacets(const FourEach& ids)
+{
+  std::map<std::array<std::int64_t, 3>, std::vector<std::size_t>> facets;
+  const auto facetOf = [&ids](std::size_t slot)
+  {
+    std::array<std::int64_t, 3> facet{};
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      facet[k] = ids[slot / 4 * 4 + (slot + k + 1) % 4];
+    }
+    std::sort(facet.begin(), facet.end());
+    return facet;
+  };
+  for (std::size_t slot = 0; slot < ids.size(); ++slot)
+  {
+    facets[facetOf(slot)].push_back(slot);
+  }
+  FourEach neighbors;
+  for (std::size_t slot = 0; slot < ids.size(); ++slot)
+  {
+    const std::vector<std::size_t>& both = facets.at(facetOf(slot));
+    const std::size_t other = both.front() == slot ? both.back() : both.front();
+    neighbors.push_back(other == slot ? -1 : std::int64_t(other / 4));
+  }
+  return neighbors;
 }
 
 /// The content of all files of a folder, by their names.
@@ -278,6 +296,47 @@ TEST_F(OutOfCore3D, TheToolMakesChecksAndResamplesAMesh)
   EXPECT_TRUE(contentOf(this->path("pieces.npy")) == contentOf(this->path("whole.npy")));
 }
 
+TEST_F(OutOfCore3D, NeighboursAreThoseOfTheFacets)
+{
+  for (const std::string& kind : kindsOfPoints())
+  {
+    const auto points = pointsInSpace(kind, kind == "lines" ? 100 : 1200, 5);
+    for (const std::int64_t pieceOf : { 60, 300, 5000 })
+    {
+      OutOfCoreOptions3 options;
+      options.PiecePoints = pieceOf;
+      options.Threads = 2;
+      options.MemoryLimit = 1 << 20;
+      options.Neighbors = true;
+      tetrahedralizeOutOfCore(*streamOf(points), this->path("mesh.tipp"), options);
+      FourEach ids;
+      FourEach neighbors;
+      const PartitionedMesh mesh = openPartitionedMesh(this->path("mesh.tipp"));
+      for (std::size_t number = 0; number < mesh.Pieces.size(); ++number)
+      {
+        const Piece piece = readPiece(mesh, number);
+        for (std::int64_t slot = 0; slot < 4 * piece.OwnedCells; ++slot)
+        {
+          ids.push_back(piece.PointIds.as<std::int64_t>()[piece.corner(slot / 4, int(slot % 4))]);
+          neighbors.push_back(piece.Attributes.at(1).Values.as<std::int64_t>()[slot]);
+        }
+      }
+      EXPECT_TRUE(neighborsByFacets(ids) == neighbors) << kind << " " << pieceOf;
+    }
+  }
+}
+
+TEST_F(OutOfCore3D, TheToolWritesNeighboursThatTheCheckProves)
+{
+  EXPECT_EQ(0,
+    runTipp(this->Folder,
+      { "delaunay3d", "uniform:9000", "-o", "mesh.tipp", "--memory", "1M", "--neighbors" })
+      .ExitCode);
+  const Outcome checked = runTipp(this->Folder, { "check", "uniform:9000", "mesh.tipp" });
+  EXPECT_EQ(0, checked.ExitCode) << checked.Out << checked.Err;
+  EXPECT_LE(0, findNeighborIds(openPartitionedMesh(this->path("mesh.tipp"))));
+}
+
 TEST_F(OutOfCore3D, TheCheckFindsOtherPoints)
 {
   EXPECT_EQ(0,
@@ -318,7 +377,6 @@ TEST_F(OutOfCore3D, WrongUsageIsRefused)
   };
   EXPECT_EQ(2, code({ "-o", "mesh.vtu", "--memory", "1M" }));
   EXPECT_EQ(2, code({ "-o", "mesh.vtu", "--scratch", "there" }));
-  EXPECT_EQ(2, code({ "-o", "mesh.tipp", "--neighbors" }));
   EXPECT_EQ(2, code({ "-o", "mesh.tipp", "--partitions", "4" }));
   EXPECT_EQ(2, code({ "-o", "mesh.tipp", "--memory", "much" }));
   const Outcome missing = runTipp(this->Folder, { "delaunay3d", "none.csv", "-o", "mesh.tipp" });

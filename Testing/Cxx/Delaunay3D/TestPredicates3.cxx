@@ -199,6 +199,36 @@ TEST(InSphere, ACornerIsOutside)
   }
 }
 
+TEST(Circumball, SurelySmallOnesReachNoFartherThanTheirDiameter)
+{
+  Hard hard(5);
+  int small = 0;
+  for (int i = 0; i < 5000; ++i)
+  {
+    const auto t = hard.tetrahedron();
+    const Ball rational(t);
+    const Point3 reach = hard.point() - t[0];
+    const double diameter = std::fabs(reach.x) + std::fabs(reach.y);
+    if (!Circumball::isSurelySmall(t[0], t[1], t[2], t[3], diameter))
+    {
+      continue;
+    }
+    ++small;
+    constexpr double far = 1e8;
+    const std::array<double, 3> at = { t[0].x, t[0].y, t[0].z };
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      Box3 beyond{ { -far, -far, -far }, { far, far, far } };
+      beyond.Min[axis] = at[axis] + diameter;
+      EXPECT_FALSE(rational.meets(beyond));
+      beyond.Min[axis] = -far;
+      beyond.Max[axis] = at[axis] - diameter;
+      EXPECT_FALSE(rational.meets(beyond));
+    }
+  }
+  EXPECT_GT(small, 100);
+}
+
 TEST(Circumball, MeetsBoxesAsRationalsSay)
 {
   Hard hard(4);

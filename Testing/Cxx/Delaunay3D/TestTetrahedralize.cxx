@@ -3,6 +3,7 @@
 
 #include "Check/TetrahedraChecker.h"
 #include "Kernel3D/DelaunayKernel3.h"
+#include "Triangulation3D/CoplanarPoints.h"
 #include "Triangulation3D/MergeClosePoints3.h"
 
 #include <gtest/gtest.h>
@@ -194,6 +195,115 @@ TEST(Tetrahedralize, PointsInAPlaneAreReported)
     EXPECT_EQ(2, dimensionOf(plane, partitions));
   }
   EXPECT_EQ(2, dimensionOf({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, 1));
+}
+
+/// The triangles of points in a plane.
+std::vector<std::int32_t> trianglesOf(const std::vector<Point3>& points, int threads = 1)
+{
+  TetrahedralizationOptions options;
+  options.Threads = threads;
+  Tetrahedralization mesh = tetrahedralize(points.data(), points.size(), options);
+  EXPECT_EQ(2, mesh.Dimension);
+  const Triangulation flat = triangulateCoplanar(points.data(), points.size(), options, mesh);
+  EXPECT_EQ(mesh.Duplicates.size(), flat.Duplicates.size());
+  return { flat.Ids32.begin(), flat.Ids32.end() };
+}
+
+TEST(CoplanarPoints, AreTriangulatedAsInTwoDimensions)
+{
+  auto uniform = pointsInSpace("uniform", 2000);
+  for (Point3& p : uniform)
+  {
+    p.z = 7;
+  }
+  uniform.push_back(uniform[3]);
+  Triangulation flat = triangulate(PointsView(&uniform[0].x, uniform.size(), 3));
+  std::vector<std::array<std::int32_t, 3>> expected;
+  for (std::size_t i = 0; i < flat.Ids32.size(); i += 3)
+  {
+    std::array<std::int32_t, 3> t = { flat.Ids32[i], flat.Ids32[i + 1], flat.Ids32[i + 2] };
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    expected.push_back(t);
+  }
+  std::sort(expected.begin(), expected.end());
+  const std::vector<std::int32_t> found = trianglesOf(uniform);
+  ASSERT_EQ(3 * expected.size(), found.size());
+  EXPECT_TRUE(std::equal(found.begin(), found.end(), expected.front().begin()));
+  EXPECT_TRUE(found == trianglesOf(uniform, 2));
+  // The same in the other coordinate planes, of which the axes come in the same order.
+  auto turned = uniform;
+  for (int turn = 0; turn < 2; ++turn)
+  {
+    for (Point3& p : turned)
+    {
+      p = { p.z, p.x, p.y };
+    }
+    EXPECT_TRUE(found == trianglesOf(turned)) << turn;
+  }
+}
+
+TEST(CoplanarPoints, OfATiltedPlaneAreFilled)
+{
+  // The plane z = x + 3 y, whose normal is longest in y, so that x and z tell the points.
+  std::vector<Point3> points;
+  for (int i = 0; i < 20 * 30; ++i)
+  {
+    points.push_back({ double(i % 20), double(i / 20), double(i % 20 + 3 * (i / 20)) });
+  }
+  const std::vector<std::int32_t> ids = trianglesOf(points);
+  double area = 0;
+  for (std::size_t i = 0; i < ids.size(); i += 3)
+  {
+    const Point3 u = points[std::size_t(ids[i + 1])] - points[std::size_t(ids[i])];
+    const Point3 v = points[std::size_t(ids[i + 2])] - points[std::size_t(ids[i])];
+    const double twice = u.z * v.x - u.x * v.z;
+    EXPECT_GT(twice, 0);
+    area += twice / 2;
+  }
+  EXPECT_EQ(19 * 29 * 3, area);
+  std::reverse(points.begin(), points.end());
+  EXPECT_EQ(ids.size(), trianglesOf(points).size());
+}
+
+TEST(CoplanarPoints, WhoseCoordinatesAreNotFiniteAreLeftOut)
+{
+  std::vector<Point3> points = { { 0, 0, 1 }, { 1, 0, 1 }, { 0, 1, 1 },
+    { 0.5, 0.5, std::numeric_limits<double>::infinity() }, { std::nan(""), 0, 1 } };
+  EXPECT_EQ((std::vector<std::int32_t>{ 0, 1, 2 }), trianglesOf(points));
+}
+
+TEST(CoplanarPoints, ThatAreCloseAreMerged)
+{
+  const std::vector<Point3> points = { { 0, 2, 0 }, { 1, 2, 0 }, { 0, 2, 1 }, { 1e-9, 2, 0 } };
+  Tetrahedralization mesh = tetrahedralizeMerged(points.data(), points.size(), 1e-6);
+  const Triangulation flat = triangulateCoplanar(points.data(), points.size(), {}, mesh);
+  ASSERT_EQ(1U, mesh.Duplicates.size());
+  EXPECT_EQ(3, mesh.Duplicates[0].Point);
+  EXPECT_EQ(1U, flat.triangleCount());
+}
+
+TEST(Tetrahedralize, ThreadsThatShareAMeshMakeTheSame)
+{
+  for (const std::string& kind : kindsOfPoints())
+  {
+    if (kind == "lines")
+    {
+      continue; // of many points it has too many tetrahedra
+    }
+    const auto points = pointsInSpace(kind, kind == "of many sizes" ? 20000 : 60000, 3);
+    const Tetrahedralization one = meshOf(points);
+    for (const int threads : { 2, 3, 7 })
+    {
+      const Tetrahedralization other = meshOf(points, threads);
+      EXPECT_TRUE(std::equal(one.Ids.begin(), one.Ids.end(), other.Ids.begin(), other.Ids.end()))
+        << kind << " " << threads;
+      EXPECT_TRUE(std::equal(one.Duplicates.begin(), one.Duplicates.end(), other.Duplicates.begin(),
+        other.Duplicates.end(),
+        [](const Duplicate& a, const Duplicate& b)
+        { return a.Point == b.Point && a.Representative == b.Representative; }))
+        << kind << " " << threads;
+    }
+  }
 }
 
 TEST(Tetrahedralize, StopsWhereProgressSaysSo)

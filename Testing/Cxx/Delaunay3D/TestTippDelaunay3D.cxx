@@ -93,11 +93,38 @@ TEST_F(TippDelaunay3D, OtherPointsAreFoundByTheCheck)
   EXPECT_NE(std::string::npos, checked.Out.find("FAULTY")) << checked.Out;
 }
 
-TEST_F(TippDelaunay3D, PointsInAPlaneAreAWarning)
+TEST_F(TippDelaunay3D, PointsInAPlaneMakeTrianglesAndAWarning)
 {
-  this->write("points.csv", { { 0, 0, 1 }, { 1, 0, 1 }, { 0, 1, 1 }, { 1, 1, 1 } });
-  const Outcome outcome = this->run({ "delaunay3d", "points.csv", "-o", "mesh.vtu" });
-  EXPECT_NE(std::string::npos, outcome.Err.find("in one plane")) << outcome.Err;
+  this->write("points.csv", { { 0, 0, 1 }, { 1, 0, 1 }, { 0, 1, 1 }, { 1, 1, 1 }, { 1, 1, 1 } });
+  for (const std::string mesh : { "mesh.vtu", "mesh.npy" })
+  {
+    const Outcome outcome =
+      this->run({ "delaunay3d", "points.csv", "-o", mesh, "--stats", "run.json" });
+    EXPECT_NE(std::string::npos, outcome.Err.find("in one plane")) << outcome.Err;
+    EXPECT_NE(std::string::npos, outcome.Out.find("1 duplicates")) << outcome.Out;
+    const auto json = nlohmann::json::parse(contentOf(this->Folder.path("run.json")));
+    EXPECT_EQ(2, json["triangles"].get<int>());
+    const Outcome checked = this->run({ "check", "points.csv", mesh });
+    EXPECT_NE(std::string::npos, checked.Out.find("correct")) << checked.Out;
+  }
+  this->run({ "delaunay3d", "points.csv", "-o", "mesh.vtu", "--neighbors", "--map-duplicates" });
+  const std::string mesh = contentOf(this->Folder.path("mesh.vtu"));
+  EXPECT_NE(std::string::npos, mesh.find("NeighborIds"));
+  EXPECT_NE(std::string::npos, mesh.find("RepresentativePointId"));
+}
+
+TEST_F(TippDelaunay3D, GeneratedPointsNeedAPartitionedMesh)
+{
+  for (const char* const command : { "delaunay3d", "delaunay" })
+  {
+    const Outcome outcome = runTipp(this->Folder, { command, "uniform:100", "-o", "mesh.vtu" });
+    EXPECT_EQ(1, outcome.ExitCode);
+    EXPECT_NE(std::string::npos, outcome.Err.find("name an output that ends in .tipp"))
+      << outcome.Err;
+    const Outcome wrong = runTipp(this->Folder, { command, "uniform:many", "-o", "mesh.vtu" });
+    EXPECT_EQ(1, wrong.ExitCode);
+    EXPECT_NE(std::string::npos, wrong.Err.find("no number of points")) << wrong.Err;
+  }
 }
 
 TEST_F(TippDelaunay3D, PointsWithoutThirdCoordinateAreAnError)

@@ -95,6 +95,30 @@ TEST_F(TippResample, OfAStoredMeshIsThatOfItsSource)
   EXPECT_TRUE(expected == this->imageOf("mesh.tipp/index.json"));
 }
 
+TEST_F(TippResample, OfAMeshReadInPartsIsThatOfTheWhole)
+{
+  this->run({ "partition", "mesh.vtu", "-o", "mesh.tipp", "--tiling", "grid:5x3" });
+  const auto imageOf = [&](const Words& words)
+  {
+    Words all = { "resample", "mesh.tipp", "-o", "image.vti" };
+    all.insert(all.end(), words.begin(), words.end());
+    const Outcome outcome = this->run(all);
+    EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
+    EXPECT_EQ("", outcome.Err);
+    return outcome.ExitCode == 0 ? contentOf(this->Folder.path("image.vti")) : "";
+  };
+  const std::vector<Words> cases = { { "--dims", "50", "0", "1" },
+    { "--delta", "0.03", "0.04", "0" },
+    { "--bounds", "0.2", "0.7", "0.1", "0.6", "-9", "9", "--dims", "20", "30", "1" },
+    { "--arrays", "height", "--dims", "9", "8", "1" } };
+  for (Words words : cases)
+  {
+    const std::string whole = imageOf(words);
+    words.insert(words.end(), { "--memory", "10K" });
+    EXPECT_TRUE(whole == imageOf(words)) << words.front();
+  }
+}
+
 TEST_F(TippResample, HasTheArraysOfTheMeshAlone)
 {
   ASSERT_EQ(0, this->run({ "partition", "mesh.vtu", "-o", "mesh.tipp" }).ExitCode);
@@ -109,7 +133,8 @@ TEST_F(TippResample, HasTheArraysOfTheMeshAlone)
 TEST_F(TippResample, NamesTheArraysThatThereAre)
 {
   ASSERT_EQ(0, this->run({ "flatten", "mesh.vtu", "-o", "flat" }).ExitCode);
-  for (const std::string& mesh : { std::string("mesh.vtu"), std::string("flat") })
+  ASSERT_EQ(0, this->run({ "partition", "flat", "-o", "mesh.tipp" }).ExitCode);
+  for (const std::string mesh : { "mesh.vtu", "flat", "mesh.tipp" })
   {
     const Outcome outcome = this->run(
       { "resample", mesh, "-o", "image.npy", "--arrays", "depth", "--dims", "8", "8", "1" });

@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippCellExchange_h
+#define tippCellExchange_h
+
+#include "Arrays/Buffer.h"
+#include "Ranks/Archive.h"
+#include "Ranks/Communicator.h"
+#include "Triangulation/Triangulate.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace tipp
+{
+
+/// Ids and data of a rank's input points. Does not own the memory.
+struct RankPointData
+{
+  const PointId* GlobalIds = nullptr; ///< null: consecutive ids from FirstId
+  PointId FirstId = 0;                ///< global id of the first point, if GlobalIds is null
+  /// Data sent with each point: RowSize bytes, which PackRow(point index, to) writes.
+  std::size_t RowSize = 0;
+  std::function<void(std::size_t, char*)> PackRow;
+
+  PointId globalId(std::size_t i) const
+  {
+    return this->GlobalIds ? this->GlobalIds[i] : this->FirstId + PointId(i);
+  }
+};
+
+/// Points with their global ids and data; the arrays have the same order.
+template <typename Position>
+struct PointTuplesOf
+{
+  Buffer<Position> Positions; ///< coordinates, one per point
+  Buffer<PointId> GlobalIds;  ///< the caller's ids, one per point
+  Buffer<char> Rows;          ///< as RankPointData::PackRow wrote them
+  std::size_t size() const { return this->Positions.size(); }
+};
+
+/// A cell: N internal ids, indices among all ranks' owned points.
+template <std::size_t N>
+using IdCell = std::array<std::int64_t, N>;
+
+/// One layer of ghosts: other ranks' cells that share a vertex with one of this rank's.
+template <std::size_t N, typename Position>
+struct GhostCells
+{
+  std::vector<IdCell<N>> Cells;
+  std::vector<std::int64_t> Numbers;  ///< indices among all ranks' cells
+  std::vector<std::int64_t> PointIds; ///< internal ids of the points this rank lacks; ascending
+  PointTuplesOf<Position> Points;     ///< the points of PointIds
+};
+
+/// The index of each rank's first item, and the end, where this rank has `count` items. Collective.
+inline std::vector<std::int64_t> firstIndices(Communicator& ranks, std::int64_t count)
+{
+  std::vector<std::int64_t> firsts(std::size_t(ranks.size()) + 1, 0);
+  firsts[std::size_t(ranks.rank()) + 1] = count;
+  ranks.sum(firsts);
+  std::partial_sum(firsts.begin(), firsts.end(), firsts.begin());
+  return firsts;
+}
+
+/// The rank that owns a point with an internal id; `firstIds` has each rank's first id, and the
+/// end. Throws std::runtime_error if no rank owns it.
+inline std::size_t ownerOf(std::int64_t id, const std::vector<std::int64_t>& firstIds)
+{
+  const auto next = std::upper_bound(firstIds.begin(), firstIds.end(), id);
+  if (next == firstIds.begin() || next == firstIds.end())
+  {
+    throw std::runtime_error("A cell from another rank is damaged: it has no such vertex.");
+  }
+  return std::size_t(next - firstIds.begin()) - 1;
+}
+
+/// Sends each cell to the rank that owns its vertex of lowest id, and returns those received.
+/// Collective.
+template <std::size_t N>
+std::vector<IdCell<N>> bringHome(Communicator& ranks, const std::vector<IdCell<N>>& cells,
+  const std::vector<std::int64_t>& firstIds)
+{
+  const auto owner = [&firstIds](const IdCell<N>& cell)
+  { return ownerOf(*std::min_element(cell.begin(), cell.end()), firstIds); };
+  std::vector<std::size_t> counts(static_cast<std::size_t>(ranks.size()), 0);
+  for (const IdCell<N>& cell : cells)
+  {
+    ++counts[owner(cell)];
+  }
+  std::vector<std::vector<IdCell<N>>> sorted(counts.size());
+  for (std::size_t rank = 0; rank < counts.size(); ++rank)
+  {
+    sorted[rank].reserve(counts[rank]);
+  }
+  for (const IdCell<N>& cell : cells)
+  {
+    sorted[owner(cell)].push_back(cell);
+  }
+  std::vector<IdCell<N>> own;
+  for (const std::vector<IdCell<N>>& received : ranks.allToAll(sorted))
+  {
+    own.insert(own.end(), received.begin(), received.end());
+  }
+  return own;
+}
+
+/// The ids of cells' vertices outside of [firstOwn, endOwn), ascending.
+template <std::size_t N>
+std::vector<std::int64_t> foreignIds(
+  const std::vector<IdCell<N>>& cells, std::int64_t firstOwn, std::int64_t endOwn)
+{
+  std::vector<std::int64_t> ids;
+  for (const IdCell<N>& cell : cells)
+  {
+    std::copy_if(cell.begin(), cell.end(), std::back_inserter(ids),
+      [&](std::int64_t id) { return id < firstOwn || id >= endOwn; });
+  }
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+/// Fetches points from their owners. `ids` are internal ids, ascending; `firstIds` has each rank's
+/// first id, and the end. Collective.
+template <typename Position>
+PointTuplesOf<Position> fetchPoints(Communicator& ranks, const std::vector<std::int64_t>& ids,
+  const std::vector<std::int64_t>& firstIds, const PointTuplesOf<Position>& own,
+  std::size_t rowSize)
+{
+  std::vector<std::vector<std::int64_t>> requests;
+  auto begin = ids.begin();
+  for (int rank = 0; rank < ranks.size(); ++rank)
+  {
+    const auto end = std::lower_bound(begin, ids.end(), firstIds[std::size_t(rank) + 1]);
+    requests.emplace_back(begin, end);
+    begin = end;
+  }
+  std::vector<Bytes> answers;
+  const std::int64_t firstOwn = firstIds[std::size_t(ranks.rank())];
+  for (const std::vector<std::int64_t>& request : ranks.allToAll(requests))
+  {
+    SaveArchive writer;
+    for (const std::int64_t id : request)
+    {
+      const std::size_t at = std::size_t(id - firstOwn);
+      if (at >= own.size())
+      {
+        throw std::runtime_error("Another rank asks for a point that is not here.");
+      }
+      writer(own.Positions[at]);
+      writer(own.GlobalIds[at]);
+      writer.raw(own.Rows.data() + at * rowSize, rowSize);
+    }
+    answers.push_back(writer.take());
+  }
+  PointTuplesOf<Position> fetched;
+  fetched.Positions = Buffer<Position>(ids.size());
+  fetched.GlobalIds = Buffer<PointId>(ids.size());
+  fetched.Rows = Buffer<char>(ids.size() * rowSize);
+  std::size_t at = 0;
+  for (const Bytes& answer : ranks.allToAll(std::move(answers)))
+  {
+    for (LoadArchive reader(answer); reader.left() > 0; ++at)
+    {
+      if (at == ids.size())
+      {
+        throw std::runtime_error("Another rank has sent more points than it was asked for.");
+      }
+      fetched.Positions[at] = reader.get<Position>();
+      fetched.GlobalIds[at] = reader.get<PointId>();
+      const char* row = reader.raw(rowSize);
+      std::copy(row, row + rowSize, fetched.Rows.data() + at * rowSize);
+    }
+  }
+  if (at != ids.size())
+  {
+    throw std::runtime_error("Other ranks have sent fewer points than they were asked for.");
+  }
+  return fetched;
+}
+
+/// For coincident points, gives the representative's entry in `points` the data of the point with
+/// the lowest global id. The duplicates have internal ids on entry and global ids on return.
+template <typename Position>
+void preferLowestGlobalIds(
+  PointTuplesOf<Position>& points, std::int64_t firstId, std::vector<Duplicate>& duplicates)
+{
+  const std::size_t rowSize = points.size() > 0 ? points.Rows.size() / points.size() : 0;
+  std::map<std::size_t, std::size_t> lowest; // by representative: lowest global id's
+  for (const Duplicate& duplicate : duplicates)
+  {
+    const std::size_t representative = std::size_t(duplicate.Representative - firstId);
+    const std::size_t point = std::size_t(duplicate.Point - firstId);
+    std::size_t& best = lowest.emplace(representative, representative).first->second;
+    best = points.GlobalIds[point] < points.GlobalIds[best] ? point : best;
+  }
+  for (const auto& [representative, best] : lowest)
+  {
+    if (representative != best)
+    {
+      std::swap(points.GlobalIds[representative], points.GlobalIds[best]);
+      char* rows = points.Rows.data();
+      std::swap_ranges(rows + representative * rowSize, rows + (representative + 1) * rowSize,
+        rows + best * rowSize);
+    }
+  }
+  for (Duplicate& duplicate : duplicates)
+  {
+    duplicate = { points.GlobalIds[std::size_t(duplicate.Point - firstId)],
+      points.GlobalIds[std::size_t(duplicate.Representative - firstId)] };
+  }
+  std::sort(duplicates.begin(), duplicates.end(),
+    [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
+}
+
+/// For each vertex that this rank shares, by internal id, the other ranks with cells at it.
+using VertexUsers = std::map<std::int64_t, std::vector<std::int32_t>>;
+
+struct SharedVertex
+{
+  std::int64_t Id;
+  std::int64_t User;
+};
+
+/// Sends the points used to their owners, and each owner sends the using ranks to all of them.
+/// Collective.
+template <typename Mesh, std::size_t N>
+VertexUsers findUsers(Communicator& ranks, const Mesh& mine, const std::vector<IdCell<N>>& cells)
+{
+  const std::int64_t firstOwn = mine.FirstIds[std::size_t(ranks.rank())];
+  std::vector<std::vector<std::int64_t>> asked(std::size_t(ranks.size()));
+  for (const std::int64_t id : mine.ForeignIds)
+  {
+    asked[ownerOf(id, mine.FirstIds)].push_back(id);
+  }
+  std::vector<char> used(mine.Owned.size(), 0);
+  for (const IdCell<N>& cell : cells)
+  {
+    for (const std::int64_t id : cell)
+    {
+      const std::size_t at = std::size_t(id - firstOwn);
+      if (at < used.size())
+      {
+        used[at] = 1;
+      }
+    }
+  }
+  VertexUsers ofOwn;
+  const auto requests = ranks.allToAll(asked);
+  for (std::size_t user = 0; user < requests.size(); ++user)
+  {
+    for (const std::int64_t id : requests[user])
+    {
+      std::vector<std::int32_t>& users = ofOwn[id];
+      if (users.empty() && used.at(std::size_t(id - firstOwn)))
+      {
+        users.push_back(ranks.rank());
+      }
+      users.push_back(std::int32_t(user));
+    }
+  }
+  std::vector<std::vector<SharedVertex>> told(std::size_t(ranks.size()));
+  for (const auto& [id, users] : ofOwn)
+  {
+    for (const std::int32_t user : users)
+    {
+      for (const std::int32_t other : users)
+      {
+        if (other != user)
+        {
+          told[std::size_t(user)].push_back({ id, other });
+        }
+      }
+    }
+  }
+  VertexUsers users;
+  for (const auto& part : ranks.allToAll(told))
+  {
+    for (const SharedVertex& shared : part)
+    {
+      users[shared.Id].push_back(std::int32_t(shared.User));
+    }
+  }
+  return users;
+}
+
+/// Returns the ghosts of this rank's cells, the first of which has the index `firstCell` among all
+/// ranks' cells. Collective.
+template <typename Position, typename Mesh, std::size_t N>
+GhostCells<N, Position> fetchGhosts(Communicator& ranks, const Mesh& mine,
+  const std::vector<IdCell<N>>& cells, std::int64_t firstCell)
+{
+  struct Sent
+  {
+    IdCell<N> Corners;
+    std::int64_t Number;
+  };
+  const VertexUsers users = findUsers(ranks, mine, cells);
+  std::vector<std::vector<Sent>> toRanks(std::size_t(ranks.size()));
+  for (std::size_t t = 0; t < cells.size(); ++t)
+  {
+    std::set<std::int32_t> to;
+    for (const std::int64_t id : cells[t])
+    {
+      const auto shared = users.find(id);
+      if (shared != users.end())
+      {
+        to.insert(shared->second.begin(), shared->second.end());
+      }
+    }
+    for (const std::int32_t rank : to)
+    {
+      toRanks[std::size_t(rank)].push_back({ cells[t], firstCell + std::int64_t(t) });
+    }
+  }
+  GhostCells<N, Position> ghosts;
+  const std::int64_t firstOwn = mine.FirstIds[std::size_t(ranks.rank())];
+  const std::int64_t endOwn = mine.FirstIds[std::size_t(ranks.rank()) + 1];
+  for (const auto& part : ranks.allToAll(toRanks))
+  {
+    for (const Sent& sent : part)
+    {
+      ghosts.Cells.push_back(sent.Corners);
+      ghosts.Numbers.push_back(sent.Number);
+      for (const std::int64_t id : sent.Corners)
+      {
+        if ((id < firstOwn || id >= endOwn) &&
+          !std::binary_search(mine.ForeignIds.begin(), mine.ForeignIds.end(), id))
+        {
+          ghosts.PointIds.push_back(id);
+        }
+      }
+    }
+  }
+  std::sort(ghosts.PointIds.begin(), ghosts.PointIds.end());
+  ghosts.PointIds.erase(
+    std::unique(ghosts.PointIds.begin(), ghosts.PointIds.end()), ghosts.PointIds.end());
+  ghosts.Points = fetchPoints(ranks, ghosts.PointIds, mine.FirstIds, mine.Owned, mine.RowSize);
+  return ghosts;
+}
+
+/// All ranks' values on the first rank, in the order of ranks; none on the others. Collective.
+template <typename T>
+Buffer<T> gatherValues(Communicator& ranks, Buffer<T> mine)
+{
+  const std::vector<Bytes> parts = ranks.gather(Bytes(std::move(mine)));
+  std::size_t size = 0;
+  for (const Bytes& part : parts)
+  {
+    size += part.size();
+  }
+  Buffer<T> all(size / sizeof(T));
+  auto* to = reinterpret_cast<char*>(all.data());
+  for (const Bytes& part : parts)
+  {
+    to = std::copy(part.begin(), part.end(), to);
+  }
+  return all;
+}
+
+/// The same of a list.
+template <typename T>
+std::vector<T> gatherList(Communicator& ranks, const std::vector<T>& mine)
+{
+  std::vector<T> all;
+  for (const std::vector<T>& part : ranks.gather(mine))
+  {
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
+} // namespace tipp
+
+#endif

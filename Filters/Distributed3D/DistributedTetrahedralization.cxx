@@ -1,0 +1,463 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Distributed3D/DistributedTetrahedralization.h"
+
+#include "Distributed3D/RankRun3.h"
+#include "Distributed3D/ShareInitialPoints3.h"
+#include "Kernel3D/DelaunayKernel3.h"
+#include "Parallel/ParallelFor.h"
+#include "Triangulation3D/InitialMesh3.h"
+#include "Triangulation3D/OrderCells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+/// Partitions for each of some ranks. Parallel slabs pass the fewest vertices on while they are
+/// thick, and every other one is ready at once. Else there are enough boxes that all find work.
+PartitionGroups chooseGroups(std::int64_t points, int ranks, int threads, int wanted)
+{
+  constexpr double thick = 10; // distances between points
+  constexpr int boxesOfThread = 12;
+  constexpr int most = 512;
+  constexpr double hull = 3; // the first rank repairs it
+  constexpr std::int64_t largest = std::int64_t(1) << 25;
+  const double slabs = std::cbrt(double(points)) / thick;
+  PartitionGroups groups;
+  groups.Count = ranks;
+  groups.FirstLess = std::min(0.5, hull / std::cbrt(double(std::max<std::int64_t>(points, 1))));
+  groups.AreSlabs = 2 * ranks <= slabs;
+  groups.ArePartitionsSlabs = groups.AreSlabs && 2 * ranks * threads <= slabs && wanted == 0;
+  groups.Each = wanted > 0 ? (wanted + ranks - 1) / ranks
+                           : (groups.ArePartitionsSlabs ? 2 : boxesOfThread) * threads;
+  groups.Each = std::clamp(groups.Each, 1, std::max(1, most / ranks));
+  groups.Each = std::max(groups.Each, int(points / ranks / largest));
+  return groups;
+}
+
+/// Adds the tetrahedra of the hull repair.
+struct HullCells : public FinalCellConsumer3
+{
+  explicit HullCells(std::vector<IdCell<4>>& cells)
+    : Cells(cells)
+  {
+  }
+  void addInside(const std::array<std::int64_t, 4>& ids) override { this->Cells.push_back(ids); }
+  void add(const std::array<Vertex3, 4>& corners) override
+  {
+    this->addInside({ corners[0].Id, corners[1].Id, corners[2].Id, corners[3].Id });
+  }
+
+  std::vector<IdCell<4>>& Cells;
+};
+
+/// One rank's run; its member functions are the steps.
+class DistributedRun3
+{
+public:
+  DistributedRun3(Communicator& ranks, const RankPoints3& points,
+    const TetrahedralizationOptions& options, DistributedTetrahedralization& result)
+    : Ranks(ranks)
+    , Input(points)
+    , Options(options)
+    , Result(result)
+    , Threads(threadCount(options.Threads))
+  {
+    result.RowSize = points.RowSize;
+  }
+
+  void run()
+  {
+    const Stopwatch watch;
+    this->survey();
+    this->shareOut();
+    this->Figures.ExchangeSeconds = watch.seconds();
+    this->Figures.OwnedPoints = std::int64_t(this->Result.Owned.size());
+    const bool isDone = this->triangulatePartitions();
+    if (!isDone)
+    {
+      this->triangulateOnFirst();
+    }
+    const Stopwatch collecting;
+    this->collect();
+    this->Figures.CollectSeconds = collecting.seconds();
+    this->Figures.TotalSeconds = watch.seconds();
+    this->finish();
+  }
+
+private:
+  /// Numbers the points, and agrees on a factor that all coordinates are multiplied by.
+  void survey()
+  {
+    const std::vector<std::int64_t> firsts =
+      firstIndices(this->Ranks, std::int64_t(this->Input.Count));
+    this->Input.FirstId = firsts[std::size_t(this->Ranks.rank())];
+    this->Result.AllPoints = firsts.back();
+    this->Figures.InputPoints = std::int64_t(this->Input.Count);
+    const PointSurvey3 found = surveyPoints(this->Input.Points, this->Input.Count);
+    for (const std::int64_t i : found.Rejected)
+    {
+      this->Result.Rejected.push_back(this->Input.globalId(std::size_t(i)));
+    }
+    std::vector<double> largest{ -found.Largest };
+    this->Ranks.minimum(largest);
+    const double factor = moderateFactor(-largest[0]);
+    std::vector<std::int64_t> sums{
+      areExactTimes(this->Input.Points, this->Input.Count, factor) ? 0 : 1,
+      std::int64_t(this->Input.Count - found.Rejected.size())
+    };
+    this->Ranks.sum(sums);
+    this->Factor = sums[0] == 0 ? factor : 1;
+    this->FinitePoints = sums[1];
+  }
+
+  /// The same sample on all ranks.
+  std::vector<Point3> sample()
+  {
+    constexpr std::int64_t wanted = 1 << 16;
+    const auto step = std::size_t(std::max<std::int64_t>(1, this->Result.AllPoints / wanted));
+    std::vector<Point3> own;
+    for (std::size_t i = step / 2; i < this->Input.Count; i += step)
+    {
+      const Point3& p = this->Input.Points[i];
+      if (isFinite(p))
+      {
+        own.push_back({ p.x * this->Factor, p.y * this->Factor, p.z * this->Factor });
+      }
+    }
+    std::vector<Point3> all;
+    for (const std::vector<Point3>& part : this->Ranks.allGather(own))
+    {
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    return all;
+  }
+
+  /// Each rank gets the points of its partitions.
+  void shareOut()
+  {
+    // Of the first rank, so that all ranks choose the same.
+    const auto threads = this->Ranks.broadcast(this->Threads);
+    this->Partitions = this->Ranks.broadcast(this->Options.Partitions);
+    this->Groups = chooseGroups(this->FinitePoints, this->Ranks.size(), threads, this->Partitions);
+    this->Tiling = std::make_unique<Tiling3>(this->sample(), this->Groups);
+    this->Result.Owned =
+      exchangePoints(this->Ranks, this->Input, *this->Tiling, this->Factor, this->Threads);
+    this->Result.FirstIds = firstIndices(this->Ranks, std::int64_t(this->Result.Owned.size()));
+    // Half of the index range is left for other ranks' points.
+    if (this->Result.Owned.size() > std::size_t(std::numeric_limits<std::int32_t>::max() / 2))
+    {
+      throw std::length_error("a rank has more than 1,073,741,823 points; use more ranks.");
+    }
+  }
+
+  std::int64_t firstOwn() const { return this->Result.FirstIds[std::size_t(this->Ranks.rank())]; }
+
+  /// Returns false, with nothing triangulated, if partitions do not pay or cannot be made.
+  bool triangulatePartitions()
+  {
+    constexpr std::int64_t fewest = 32768;
+    const bool isChosen = this->Partitions > 0;
+    if (this->Tiling->size() == 1 || (this->FinitePoints < fewest && !isChosen))
+    {
+      return false;
+    }
+    PointBuckets3 buckets = bucketPoints(this->Result.Owned.Positions.data(),
+      this->Result.Owned.size(), *this->Tiling, 1, this->Threads);
+    std::vector<std::int64_t> ids;
+    const PointBuckets3 initial =
+      shareInitialPoints(this->Ranks, *this->Tiling, this->firstOwn(), buckets, ids);
+    buckets.Regions = initial.Regions;
+    const std::vector<Vertex3> artificial =
+      makeArtificialPoints(initial, this->Groups.ArePartitionsSlabs);
+    if (artificial.empty())
+    {
+      return false;
+    }
+    InitialMesh3 mesh(initial, artificial, initial.Points.size());
+    if (!isChosen && !mesh.partitionsPay())
+    {
+      return false;
+    }
+    for (Vertex3& v : mesh.Vertices)
+    {
+      v.Id = v.isArtificial() ? v.Id : ids[std::size_t(v.Id)];
+    }
+    std::sort(ids.begin(), ids.end());
+    this->InitialIds = std::move(ids);
+    std::vector<char> isUsed;
+    for (PartitionIndex p = 0; p < this->Tiling->size(); ++p)
+    {
+      isUsed.push_back(initial.count(p) > 0 ? 1 : 0);
+    }
+    const PartitionOrder order(isUsed, mesh.conflicts());
+    const RankWork3 work{ *this->Tiling, order, this->Options, this->Threads };
+    RankRun3 run(this->Ranks, work, buckets, this->firstOwn());
+    run.Statistics = this->startedWith(run.Statistics);
+    run.run(sendInitialMesh(mesh, order));
+    this->take(run);
+    this->repairHullOnFirst(std::move(run.HullVertices), artificial);
+    this->Result.Statistics.Partitions = this->Tiling->size();
+    return this->hasCells();
+  }
+
+  RankStatistics startedWith(const RankStatistics& of) const
+  {
+    RankStatistics figures = this->Figures;
+    figures.Partitions = of.Partitions;
+    return figures;
+  }
+
+  void take(RankRun3& run)
+  {
+    this->Figures = run.Statistics;
+    this->Inside = std::move(run.Inside);
+    this->Kept = std::move(run.Kept);
+    this->Duplicates = std::move(run.Duplicates);
+  }
+
+  /// The first rank gets the tetrahedra at the hull.
+  void repairHullOnFirst(std::vector<Vertex3> own, const std::vector<Vertex3>& artificial)
+  {
+    std::vector<Vertex3> vertices = gatherList(this->Ranks, own);
+    if (this->Ranks.isFirst())
+    {
+      HullCells cells(this->Kept);
+      repairHull(std::move(vertices), artificial, cells);
+    }
+  }
+
+  /// False, and nothing is kept, if all ranks together have no tetrahedra: then all points are
+  /// coplanar, or fewer, which the kernel tells.
+  bool hasCells()
+  {
+    std::vector<std::int64_t> cells{ std::int64_t(this->Kept.size()) };
+    for (const std::vector<CellIds>& part : this->Inside)
+    {
+      cells[0] += std::int64_t(part.size());
+    }
+    this->Ranks.sum(cells);
+    if (cells[0] > 0)
+    {
+      this->Result.Dimension = 3;
+      return true;
+    }
+    this->Inside.clear();
+    this->Duplicates.clear();
+    return false;
+  }
+
+  /// Triangulates all points on the first rank. They stay with their owners.
+  void triangulateOnFirst()
+  {
+    const std::int64_t all = this->Result.FirstIds.back();
+    if (all > std::numeric_limits<std::int32_t>::max())
+    {
+      throw std::length_error("more than 2,147,483,647 points whose partitions do not pay are not "
+                              "supported in memory");
+    }
+    Buffer<Point3> own(this->Result.Owned.size());
+    std::copy(
+      this->Result.Owned.Positions.begin(), this->Result.Owned.Positions.end(), own.begin());
+    const Buffer<Point3> points = gatherValues(this->Ranks, std::move(own));
+    std::vector<std::vector<Duplicate>> duplicates(std::size_t(this->Ranks.size()));
+    this->Figures.Partitions = 0;
+    if (this->Ranks.isFirst())
+    {
+      this->triangulateAll(points, duplicates);
+    }
+    this->Duplicates.clear();
+    for (const std::vector<Duplicate>& part : this->Ranks.allToAll(duplicates))
+    {
+      this->Duplicates.insert(this->Duplicates.end(), part.begin(), part.end());
+    }
+    this->Result.Dimension = this->Ranks.broadcast(this->Result.Dimension);
+    this->Result.Statistics.Partitions = 1;
+  }
+
+  /// The points' indices are internal ids.
+  void triangulateAll(const Buffer<Point3>& points, std::vector<std::vector<Duplicate>>& duplicates)
+  {
+    const ProcessorWatch watch;
+    const auto& progress = this->Options.Progress;
+    DelaunayKernel3 kernel;
+    const bool isDone = kernel.triangulate(
+      points.data(), points.size(),
+      [&](std::size_t inserted)
+      { return !progress || progress(double(inserted) / double(points.size())); },
+      this->Threads);
+    if (!isDone)
+    {
+      throw RankFailure(this->Ranks.rank(), true, "The run was stopped.");
+    }
+    kernel.forEach(
+      [&](DelaunayKernel3::Index cell)
+      {
+        if (!kernel.isInfinite(cell))
+        {
+          const auto [a, b, c, d] = kernel.corners(cell);
+          this->Kept.push_back({ kernel.pointIndex(a), kernel.pointIndex(b), kernel.pointIndex(c),
+            kernel.pointIndex(d) });
+        }
+      });
+    for (const DelaunayKernel3::Duplicate& duplicate : kernel.duplicates())
+    {
+      duplicates[ownerOf(duplicate.Point, this->Result.FirstIds)].push_back(
+        { duplicate.Point, kernel.pointIndex(duplicate.Vertex) });
+    }
+    this->Result.Dimension = kernel.dimension();
+    this->Figures.Partitions = 1;
+    this->Figures.WorkerVertices = std::int64_t(points.size());
+    this->Figures.ComputeSeconds += watch.seconds();
+  }
+
+  /// Vertices that came from another partition may bear the id of a duplicate: only those of the
+  /// initial mesh do. Collective.
+  void useRepresentatives()
+  {
+    std::vector<Duplicate> initial;
+    for (const Duplicate& duplicate : this->Duplicates)
+    {
+      if (std::binary_search(this->InitialIds.begin(), this->InitialIds.end(), duplicate.Point))
+      {
+        initial.push_back(duplicate);
+      }
+    }
+    std::unordered_map<std::int64_t, std::int64_t> representatives;
+    for (const std::vector<Duplicate>& part : this->Ranks.allGather(initial))
+    {
+      for (const Duplicate& duplicate : part)
+      {
+        representatives.emplace(duplicate.Point, duplicate.Representative);
+      }
+    }
+    if (representatives.empty())
+    {
+      return;
+    }
+    const auto replaced = [&](std::int64_t id)
+    {
+      const auto found = representatives.find(id);
+      return found == representatives.end() ? id : found->second;
+    };
+    const std::int64_t first = this->firstOwn();
+    for (std::vector<CellIds>& part : this->Inside)
+    {
+      for (CellIds& cell : part)
+      {
+        std::transform(cell.begin(), cell.end(), cell.begin(),
+          [&](std::int32_t index) { return std::int32_t(replaced(first + index) - first); });
+      }
+    }
+    for (IdCell<4>& cell : this->Kept)
+    {
+      std::transform(cell.begin(), cell.end(), cell.begin(), replaced);
+    }
+  }
+
+  /// Brings each tetrahedron to its owner, and the points that it needs.
+  void collect()
+  {
+    this->useRepresentatives();
+    DistributedTetrahedralization& mine = this->Result;
+    const std::int64_t first = this->firstOwn();
+    const auto own = std::int64_t(mine.Owned.size());
+    const std::vector<IdCell<4>> cells =
+      bringHome(this->Ranks, std::exchange(this->Kept, {}), mine.FirstIds);
+    mine.ForeignIds = foreignIds(cells, first, first + own);
+    std::vector<CellIds> local;
+    local.reserve(cells.size());
+    for (const IdCell<4>& cell : cells)
+    {
+      CellIds& to = local.emplace_back();
+      std::transform(cell.begin(), cell.end(), to.begin(),
+        [&](std::int64_t id)
+        {
+          const auto& foreign = mine.ForeignIds;
+          const bool isOwn = first <= id && id < first + own;
+          return std::int32_t(isOwn
+              ? id - first
+              : own + (std::lower_bound(foreign.begin(), foreign.end(), id) - foreign.begin()));
+        });
+    }
+    this->Inside.push_back(std::move(local));
+    preferLowestGlobalIds(mine.Owned, first, this->Duplicates);
+    mine.Duplicates = std::move(this->Duplicates);
+    mine.Foreign =
+      fetchPoints(this->Ranks, mine.ForeignIds, mine.FirstIds, mine.Owned, mine.RowSize);
+    this->Ranks.flush(); // what others wait for
+    mine.Ids =
+      orderCells(std::move(this->Inside), mine.Owned.size() + mine.Foreign.size(), this->Threads);
+    if (this->Factor != 1)
+    {
+      this->restore(mine.Owned.Positions);
+      this->restore(mine.Foreign.Positions);
+    }
+  }
+
+  void restore(Buffer<Point3>& positions) const
+  {
+    std::transform(positions.begin(), positions.end(), positions.begin(),
+      [this](const Point3& p) {
+        return Point3{ p.x / this->Factor, p.y / this->Factor, p.z / this->Factor };
+      });
+  }
+
+  void finish()
+  {
+    DistributedTetrahedralization& mine = this->Result;
+    const std::vector<std::int64_t> firsts =
+      firstIndices(this->Ranks, std::int64_t(mine.cellCount()));
+    mine.FirstCell = firsts[std::size_t(this->Ranks.rank())];
+    mine.AllCells = firsts.back();
+    std::vector<std::int64_t> sums{ std::int64_t(mine.Duplicates.size()),
+      std::int64_t(mine.Rejected.size()) };
+    this->Ranks.sum(sums);
+    mine.AllDuplicates = sums[0];
+    mine.AllRejected = sums[1];
+    this->Figures.Triangles = std::int64_t(mine.cellCount());
+    this->Figures.SendSeconds = this->Ranks.sendingSeconds();
+    const std::int64_t partitions = mine.Statistics.Partitions;
+    mine.Statistics = gatherStatistics(this->Ranks, this->Figures, {});
+    mine.Statistics.Partitions = partitions;
+    mine.Statistics.ThreadsPerRank = this->Threads;
+  }
+
+  Communicator& Ranks;
+  RankPoints3 Input;
+  const TetrahedralizationOptions& Options;
+  DistributedTetrahedralization& Result;
+  const int Threads;
+  double Factor = 1;
+  std::int64_t FinitePoints = 0; ///< of all ranks
+  int Partitions = 0;            ///< asked for; 0: chosen
+  PartitionGroups Groups;
+  std::unique_ptr<Tiling3> Tiling;
+  std::vector<char> IsUsed;                 ///< by partition: whether it has points
+  std::vector<std::int64_t> InitialIds;     ///< internal ids of all initial points; ascending
+  std::vector<std::vector<CellIds>> Inside; ///< tetrahedra by indices of this rank's points
+  std::vector<IdCell<4>> Kept;              ///< others, by internal ids
+  std::vector<Duplicate> Duplicates;        ///< of this rank's points, by internal ids
+  RankStatistics Figures;
+};
+
+} // namespace
+
+DistributedTetrahedralization tetrahedralizeDistributed(
+  Communicator& ranks, const RankPoints3& points, const TetrahedralizationOptions& options)
+{
+  DistributedTetrahedralization result;
+  ranks.together([&]() { DistributedRun3(ranks, points, options, result).run(); });
+  return result;
+}
+
+} // namespace tipp

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippShareInitialPoints3_h
+#define tippShareInitialPoints3_h
+
+#include "Ranks/Communicator.h"
+#include "Triangulation3D/Tiling3.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tipp
+{
+
+/// Chooses initial points of this rank's partitions, whose points are in `buckets` with ids counted
+/// from `firstId`. Returns those of all ranks, with the regions of all partitions; their ids are
+/// indices into `ids`, the internal ids. A partition without points has none. Collective.
+PointBuckets3 shareInitialPoints(Communicator& ranks, const Tiling3& tiling, std::int64_t firstId,
+  const PointBuckets3& buckets, std::vector<std::int64_t>& ids);
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The points of a rank's piece of a mesh, as VTK has them.
+#ifndef tippPiecePoints_h
+#define tippPiecePoints_h
+
+#include "Output/TriangleOutput.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace tipp
+{
+
+/// The sources of a piece's points, in the order of its points.
+template <typename Mesh, typename Ghosts>
+class PiecePoints
+{
+public:
+  PiecePoints(const Mesh& mine, int rank, const Ghosts* ghosts)
+    : Mine(mine)
+    , Others(ghosts)
+    , FirstOwn(mine.FirstIds[std::size_t(rank)])
+    , Indices(mine.Owned.size() + mine.Foreign.size(), -1)
+  {
+    mine.forEachCorner([this](std::int64_t index) { this->Indices[std::size_t(index)] = 0; });
+    if (ghosts)
+    {
+      for (const auto& cell : ghosts->Cells)
+      {
+        for (const std::int64_t id : cell)
+        {
+          const std::ptrdiff_t index = this->localIndexOf(id);
+          if (index >= 0)
+          {
+            this->Indices[std::size_t(index)] = 0;
+          }
+        }
+      }
+    }
+    for (std::int64_t& index : this->Indices)
+    {
+      index = index < 0 ? -1 : this->Count++;
+    }
+  }
+
+  std::int64_t count() const
+  {
+    return this->Count + (this->Others ? std::int64_t(this->Others->PointIds.size()) : 0);
+  }
+  std::int64_t ofLocalIndex(std::size_t index) const { return this->Indices[index]; }
+  std::int64_t ofId(std::int64_t id) const
+  {
+    const std::ptrdiff_t index = this->localIndexOf(id);
+    return index >= 0 ? this->Indices[std::size_t(index)]
+                      : this->Count + rankOf(this->Others->PointIds, id);
+  }
+
+  /// Calls visit(point index in the piece, tuples, index in tuples, whether this rank owns the
+  /// point).
+  template <typename Visit>
+  void forEach(Visit&& visit) const
+  {
+    const std::size_t own = this->Mine.Owned.size();
+    for (std::size_t i = 0; i < this->Indices.size(); ++i)
+    {
+      if (this->Indices[i] >= 0)
+      {
+        const bool isOwn = i < own;
+        visit(this->Indices[i], isOwn ? this->Mine.Owned : this->Mine.Foreign, isOwn ? i : i - own,
+          isOwn);
+      }
+    }
+    for (std::size_t i = 0; this->Others && i < this->Others->PointIds.size(); ++i)
+    {
+      visit(this->Count + std::int64_t(i), this->Others->Points, i, false);
+    }
+  }
+
+private:
+  static std::ptrdiff_t rankOf(const std::vector<std::int64_t>& ids, std::int64_t id)
+  {
+    return std::lower_bound(ids.begin(), ids.end(), id) - ids.begin();
+  }
+  /// The index of an internal id among owned and then foreign points, or -1.
+  std::ptrdiff_t localIndexOf(std::int64_t id) const
+  {
+    const std::ptrdiff_t own = std::ptrdiff_t(this->Mine.Owned.size());
+    if (id >= this->FirstOwn && id < this->FirstOwn + own)
+    {
+      return std::ptrdiff_t(id - this->FirstOwn);
+    }
+    const std::ptrdiff_t at = rankOf(this->Mine.ForeignIds, id);
+    const bool found = at < std::ptrdiff_t(this->Mine.ForeignIds.size()) &&
+      this->Mine.ForeignIds[std::size_t(at)] == id;
+    return found ? own + at : -1;
+  }
+
+  const Mesh& Mine;
+  const Ghosts* Others;
+  const std::int64_t FirstOwn;
+  std::vector<std::int64_t> Indices; ///< of owned, then foreign points: index in the piece, or -1
+  std::int64_t Count = 0;
+};
+
+/// Sets the points of `output`, their data and global ids.
+template <typename Points>
+void fillPoints(const Points& piece, const PointRows& rows, std::size_t rowSize, bool withGhosts,
+  vtkPointSet* output)
+{
+  const vtkIdType count = vtkIdType(piece.count());
+  vtkNew<vtkPoints> points;
+  points->SetDataType(rows.areDoubles() ? VTK_DOUBLE : VTK_FLOAT);
+  points->SetNumberOfPoints(count);
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName("GlobalPointIds");
+  ids->SetNumberOfValues(count);
+  vtkNew<vtkUnsignedCharArray> ghost;
+  ghost->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghost->SetNumberOfValues(count);
+  std::vector<char*> values;
+  for (const PointRows::Column& column : rows.columns())
+  {
+    auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(column.Type));
+    array->SetName(column.Name.c_str());
+    array->SetNumberOfComponents(column.Components);
+    array->SetNumberOfTuples(count);
+    output->GetPointData()->AddArray(array);
+    values.push_back(static_cast<char*>(array->GetVoidPointer(0)));
+  }
+  piece.forEach(
+    [&](std::int64_t to, const auto& tuples, std::size_t at, bool isOwn)
+    {
+      const char* row = tuples.Rows.data() + at * rowSize;
+      double position[3];
+      std::memcpy(position, row, sizeof(position));
+      row += sizeof(position);
+      points->SetPoint(to, position);
+      ids->SetValue(to, tuples.GlobalIds[at]);
+      ghost->SetValue(to, isOwn ? 0 : vtkDataSetAttributes::DUPLICATEPOINT);
+      for (std::size_t c = 0; c < values.size(); ++c)
+      {
+        const std::size_t size = rows.columns()[c].Size;
+        std::memcpy(values[c] + std::size_t(to) * size, row, size);
+        row += size;
+      }
+    });
+  output->SetPoints(points);
+  output->GetPointData()->SetGlobalIds(ids);
+  if (withGhosts)
+  {
+    output->GetPointData()->AddArray(ghost);
+  }
+}
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippEngines3D_h
+#define tippEngines3D_h
+
+#include "Predicates/Points.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace tipp
+{
+namespace benchmark
+{
+
+/// Each triangulates points in space and returns the number of tetrahedra. CGAL's serial one and
+/// TetGen also write the corners' indices of all tetrahedra, as tetrahedralize() returns them.
+///@{
+std::size_t tetrahedralizeByCgal(const std::vector<Point3>& points);
+std::size_t tetrahedralizeByParallelCgal(const std::vector<Point3>& points);
+std::size_t tetrahedralizeByTetgen(const std::vector<Point3>& points);
+///@}
+
+} // namespace benchmark
+} // namespace tipp
+
+#endif

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// vtkTIPPDelaunay3D with the global controller of several ranks.
+#include "PointsInSpace.h"
+
+#include "Ranks/Communicator.h"
+#include "vtkTIPPDelaunay3D.h"
+
+#include "vtkCellData.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataAlgorithm.h"
+#include "vtkSmartPointer.h"
+#include "vtkTable.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+namespace
+{
+
+using namespace tipp;
+using namespace tipp::test;
+
+int rank()
+{
+  return vtkMultiProcessController::GetGlobalController()->GetLocalProcessId();
+}
+
+int ranks()
+{
+  return vtkMultiProcessController::GetGlobalController()->GetNumberOfProcesses();
+}
+
+vtkIdType idAt(vtkDataArray* ids, vtkIdType i)
+{
+  return static_cast<vtkIdTypeArray*>(ids)->GetValue(i);
+}
+
+/// This rank's share of the points with an array: the first rank has none if there are others.
+vtkSmartPointer<vtkPolyData> shareOf(const std::vector<Point3>& points, bool withIds)
+{
+  vtkNew<vtkPoints> own;
+  own->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> density;
+  density->SetName("density");
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName("ids");
+  const int sharing = std::max(1, ranks() - 1);
+  const auto count = std::size_t(points.size());
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const int of = withIds ? int(i) % sharing : int(i * std::size_t(sharing) / count);
+    if (of + (ranks() > 1 ? 1 : 0) == rank())
+    {
+      own->InsertNextPoint(points[i].x, points[i].y, points[i].z);
+      density->InsertNextValue(3.0 * double(i));
+      ids->InsertNextValue(vtkIdType(i));
+    }
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(own);
+  data->GetPointData()->AddArray(density);
+  if (withIds)
+  {
+    data->GetPointData()->SetGlobalIds(ids);
+  }
+  return data;
+}
+
+struct PieceCell
+{
+  Tetrahedron Corners;
+  std::int64_t Number;
+  std::int64_t IsGhost;
+};
+
+/// All ranks' cells on the first rank.
+std::vector<PieceCell> gatherCells(vtkUnstructuredGrid* mesh)
+{
+  std::vector<PieceCell> cells;
+  vtkDataArray* const ids = mesh->GetPointData()->GetGlobalIds();
+  auto* const ghosts = vtkUnsignedCharArray::SafeDownCast(
+    mesh->GetCellData()->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()));
+  for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
+  {
+    vtkIdType size = 0;
+    const vtkIdType* corners = nullptr;
+    mesh->GetCellPoints(i, size, corners);
+    PieceCell cell{ {}, idAt(mesh->GetCellData()->GetGlobalIds(), i),
+      ghosts && ghosts->GetValue(i) != 0 ? 1 : 0 };
+    std::transform(corners, corners + 4, cell.Corners.begin(),
+      [ids](vtkIdType corner) { return std::int64_t(idAt(ids, corner)); });
+    std::sort(cell.Corners.begin(), cell.Corners.end());
+    cells.push_back(cell);
+  }
+  Communicator box(vtkMultiProcessController::GetGlobalController());
+  std::vector<PieceCell> all;
+  for (const std::vector<PieceCell>& part : box.gather(cells))
+  {
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  box.barrier();
+  return all;
+}
+
+void expectWhole(vtkUnstructuredGrid* mesh, const std::vector<Point3>& points)
+{
+  std::vector<Tetrahedron> own;
+  std::vector<std::int64_t> numbers;
+  for (const PieceCell& cell : gatherCells(mesh))
+  {
+    if (cell.IsGhost == 0)
+    {
+      own.push_back(cell.Corners);
+      numbers.push_back(cell.Number);
+    }
+  }
+  if (rank() != 0)
+  {
+    return;
+  }
+  std::sort(own.begin(), own.end());
+  EXPECT_EQ(sortedCells(tetrahedralize(points.data(), points.size())), own);
+  std::sort(numbers.begin(), numbers.end());
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    ASSERT_EQ(std::int64_t(i), numbers[i]);
+  }
+}
+
+/// Gives Data, or fails.
+class FailingSource : public vtkPolyDataAlgorithm
+{
+public:
+  static FailingSource* New();
+  vtkTypeMacro(FailingSource, vtkPolyDataAlgorithm)
+  FailingSource() { this->SetNumberOfInputPorts(0); }
+
+  bool Fails = false;
+  vtkSmartPointer<vtkPolyData> Data;
+
+protected:
+  int RequestInformation(
+    vtkInformation*, vtkInformationVector**, vtkInformationVector* output) override
+  {
+    output->GetInformationObject(0)->Set(CAN_HANDLE_PIECE_REQUEST(), 1);
+    return 1;
+  }
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector* output) override
+  {
+    vtkPolyData::GetData(output)->ShallowCopy(this->Data);
+    return !this->Fails;
+  }
+};
+vtkStandardNewMacro(FailingSource);
+
+} // namespace
+
+TEST(Delaunay3DRanks, PiecesAreTheWholeTetrahedralization)
+{
+  const auto points = pointsInSpace("coarse", 1500);
+  for (const bool withIds : { true, false })
+  {
+    vtkNew<vtkTIPPDelaunay3D> filter;
+    filter->SetNumberOfPartitions(20);
+    filter->SetInputData(shareOf(points, withIds));
+    filter->Update();
+    expectWhole(filter->GetOutput(), points);
+    EXPECT_EQ(filter->GetNumberOfDuplicatePoints(),
+      vtkIdType(tetrahedralize(points.data(), points.size()).Duplicates.size()));
+    vtkDataArray* const merged = filter->GetOutput()->GetFieldData()->GetArray("DuplicatePointIds");
+    ASSERT_NE(merged, nullptr);
+    Communicator box(vtkMultiProcessController::GetGlobalController());
+    std::vector<std::int64_t> sum{ merged->GetNumberOfTuples() };
+    box.sum(sum);
+    EXPECT_EQ(filter->GetNumberOfDuplicatePoints(), sum[0]);
+  }
+}
+
+TEST(Delaunay3DRanks, PointsKeepTheirDataAndPrecision)
+{
+  const auto points = pointsInSpace("huge", 2000);
+  vtkNew<vtkTIPPDelaunay3D> filter;
+  filter->SetNumberOfPartitions(12);
+  filter->SetInputData(shareOf(points, true));
+  filter->Update();
+  vtkUnstructuredGrid* const mesh = filter->GetOutput();
+  vtkDataArray* const ids = mesh->GetPointData()->GetGlobalIds();
+  vtkDataArray* const density = mesh->GetPointData()->GetArray("density");
+  ASSERT_NE(ids, nullptr);
+  ASSERT_NE(density, nullptr);
+  ASSERT_GT(mesh->GetNumberOfPoints(), 0);
+  for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+  {
+    const vtkIdType id = idAt(ids, i);
+    ASSERT_EQ(density->GetTuple1(i), 3.0 * double(id));
+    const Point3& p = points[std::size_t(id)];
+    ASSERT_EQ(mesh->GetPoint(i)[0], p.x);
+    ASSERT_EQ(mesh->GetPoint(i)[1], p.y);
+    ASSERT_EQ(mesh->GetPoint(i)[2], p.z);
+  }
+}
+
+TEST(Delaunay3DRanks, GhostsAreCopiesOfOtherRanksCells)
+{
+  const auto points = pointsInSpace("uniform", 3000);
+  vtkNew<vtkTIPPDelaunay3D> filter;
+  filter->SetNumberOfPartitions(12);
+  filter->SetInputData(shareOf(points, true));
+  filter->UpdatePiece(rank(), ranks(), 1);
+  expectWhole(filter->GetOutput(), points);
+  std::map<std::int64_t, Tetrahedron> own;
+  const std::vector<PieceCell> all = gatherCells(filter->GetOutput());
+  for (const PieceCell& cell : all)
+  {
+    cell.IsGhost == 0 ? void(own.emplace(cell.Number, cell.Corners)) : void();
+  }
+  std::size_t ghosts = 0;
+  for (const PieceCell& cell : all)
+  {
+    ghosts += cell.IsGhost != 0 ? 1 : 0;
+    EXPECT_EQ(own.at(cell.Number), cell.Corners);
+  }
+  EXPECT_EQ(rank() == 0, ghosts > 500);
+}
+
+TEST(Delaunay3DRanks, EverythingCanBeGatheredOnTheFirstRank)
+{
+  const auto points = pointsInSpace("clustered", 3000);
+  vtkNew<vtkTIPPDelaunay3D> filter;
+  filter->SetNumberOfPartitions(12);
+  filter->GatherOnFirstRankOn();
+  filter->SetInputData(shareOf(points, true));
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells() > 0, rank() == 0);
+  expectWhole(filter->GetOutput(), points);
+}
+
+TEST(Delaunay3DRanks, StatisticsAreTheSameOnAllRanks)
+{
+  vtkNew<vtkTIPPDelaunay3D> filter;
+  filter->SetNumberOfPartitions(30);
+  filter->SetInputData(shareOf(pointsInSpace("uniform", 5000), true));
+  filter->Update();
+  vtkFieldData* const totals = filter->GetStatistics()->GetFieldData();
+  EXPECT_EQ(totals->GetArray("Points")->GetTuple1(0), 5000);
+  EXPECT_GE(totals->GetArray("Partitions")->GetTuple1(0), 30);
+  EXPECT_EQ(totals->GetArray("RankOwnedPoints")->GetNumberOfTuples(), ranks());
+  vtkDataArray* const cells = totals->GetArray("RankTetrahedra");
+  double sum = 0;
+  for (int i = 0; i < ranks(); ++i)
+  {
+    sum += cells->GetTuple1(i);
+  }
+  EXPECT_EQ(totals->GetArray("Tetrahedra")->GetTuple1(0), sum);
+}
+
+TEST(Delaunay3DRanks, WhatNeedsOneRankIsRefusedOnAll)
+{
+  for (int what = 0; what < 4; ++what)
+  {
+    vtkNew<vtkTIPPDelaunay3D> filter;
+    filter->SetAlpha(what == 0 ? 0.1 : 0);
+    filter->SetTolerance(what == 1 ? 0.01 : 0);
+    filter->SetBoundingTriangulation(what == 2);
+    filter->SetGenerateNeighborIds(what == 3);
+    filter->SetInputData(shareOf(pointsInSpace("uniform", 500), true));
+    vtkObject::GlobalWarningDisplayOff();
+    filter->Update();
+    vtkObject::GlobalWarningDisplayOn();
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+    EXPECT_NE(filter->GetErrorCode(), 0U);
+  }
+}
+
+TEST(Delaunay3DRanks, WhatFailsUpstreamOnOneRankFailsOnAll)
+{
+  vtkNew<FailingSource> source;
+  source->Fails = rank() == ranks() - 1;
+  source->Data = shareOf(pointsInSpace("uniform", 500), true);
+  vtkNew<vtkTIPPDelaunay3D> filter;
+  filter->SetInputConnection(source->GetOutputPort());
+  vtkObject::GlobalWarningDisplayOff();
+  filter->Update();
+  vtkObject::GlobalWarningDisplayOn();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+  source->Fails = false;
+  source->Modified();
+  filter->Update();
+  EXPECT_GT(filter->GetStatistics()->GetFieldData()->GetArray("Tetrahedra")->GetTuple1(0), 2500);
+}
+
+TEST(Delaunay3DRanks, WithoutAControllerARankIsAlone)
+{
+  const auto points = pointsInSpace("uniform", 300, unsigned(rank()) + 1);
+  vtkNew<vtkPoints> own;
+  for (const Point3& p : points)
+  {
+    own->InsertNextPoint(p.x, p.y, p.z);
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(own);
+  vtkNew<vtkTIPPDelaunay3D> filter;
+  filter->SetController(nullptr);
+  filter->SetInputData(data);
+  filter->Update();
+  EXPECT_GT(filter->GetOutput()->GetNumberOfCells(), 1500);
+  EXPECT_EQ(filter->GetOutput()->GetPoints(), own.Get());
+}

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The steps of a run out of core in space: plan, spilled points, results of pieces, finished
+// pieces.
+#include "ExpectIOError.h"
+#include "PointsInSpace.h"
+#include "TemporaryFolder.h"
+
+#include "OutOfCore3D/PiecePlan3.h"
+#include "OutOfCore3D/PieceRun3.h"
+#include "Predicates/ExactPredicates.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+#include <set>
+
+namespace
+{
+
+namespace fs = std::filesystem;
+using namespace tipp;
+using namespace tipp::test;
+
+constexpr std::size_t words = 5; // x, y, z, number, id
+
+/// Changes a byte of a file. Changing it again restores it.
+void flip(const std::string& path, std::uint64_t at)
+{
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekg(std::streamoff(at));
+  const char byte = char(file.get() ^ 0x21);
+  file.seekp(std::streamoff(at));
+  file.put(byte);
+}
+
+/// The plan of points whose rows are spilled.
+struct Planned
+{
+  Planned(const std::vector<Point3>& points, std::int64_t piecePoints, int threads,
+    const std::string& file)
+    : Memory(1 << 20, piecePoints, words)
+    , Stream(streamOf(points))
+    , Plan(*Stream, Memory, ignore)
+  {
+    this->Rows.Words = words;
+    this->Rows.Z = 2;
+    this->Rows.Attributes = { 3 };
+    this->Plan.divide(this->Memory, words);
+    this->Plan.spill(*this->Stream, this->Rows, file, this->Memory, threads, ignore);
+  }
+
+  static void ignore(std::int64_t) {}
+
+  std::vector<double> rowsOf(PartitionIndex piece) const
+  {
+    std::vector<double> rows(words * std::size_t(this->Plan.count(piece)));
+    this->Plan.read(piece, rows.data());
+    return rows;
+  }
+
+  MemoryPlan3 Memory;
+  std::unique_ptr<PointStream> Stream;
+  PointRowLayout Rows;
+  PiecePlan3 Plan;
+};
+
+/// All that a run has when its points are spilled.
+class PlannedRun : public Planned
+{
+public:
+  PlannedRun(const TemporaryFolder& folder, const std::vector<Point3>& points)
+    : Planned(points, 300, 2, folder.path("points"))
+    , Results(folder.path("piece"))
+  {
+    this->Mesh.Path = folder.path("mesh");
+    this->Mesh.CellSize = 4;
+    this->Mesh.Points = std::int64_t(points.size());
+    this->Mesh.Arrays = { { "number", true, Scalar::Float64, 1, -1 } };
+    this->Mesh.Pieces.resize(std::size_t(this->Plan.pieces()));
+    fs::create_directories(this->Mesh.Path + "/pieces");
+  }
+
+  PieceWork3 work() const { return { this->Plan, this->Rows, this->Mesh, this->Results }; }
+
+  void triangulate()
+  {
+    EXPECT_TRUE(PieceRun3(this->work(), this->Memory, 2,
+      [](std::int64_t) {
+        return true;
+      }).run(this->Stored));
+  }
+
+  std::vector<FinishedPiece> finish(const Report& report = {})
+  {
+    return finishPieces(this->work(), this->Stored, 1 << 20, 2, report, this->Figures);
+  }
+
+  PartitionedMesh Mesh;
+  const std::string Results;
+  StoredResults3 Stored;
+  PieceFigures Figures;
+};
+
+bool isIn(const Point3& p, const Box3& box)
+{
+  return p.x >= box.Min[0] && p.x <= box.Max[0] && p.y >= box.Min[1] && p.y <= box.Max[1] &&
+    p.z >= box.Min[2] && p.z <= box.Max[2];
+}
+
+double volumeOf(const Box3& box)
+{
+  return (box.Max[0] - box.Min[0]) * (box.Max[1] - box.Min[1]) * (box.Max[2] - box.Min[2]);
+}
+
+/// A result with something in each of its parts.
+PieceResult3 makeResult()
+{
+  PieceResult3 result;
+  result.Interior.Points = 11;
+  result.Interior.Cells = 12;
+  result.Interior.Checksums = { 5, 6 };
+  result.Interior.InterfacePoints = { 7, 9 };
+  result.Interior.InterfaceRows = { 1, 2, 3, 4, 5, 6, 7, 8, 9, 10 };
+  result.Interior.InterfaceCells = { { 1, -1, -2, 3 } };
+  result.Figures.Duplicates = 4;
+  result.Figures.WorkerVertices = 99;
+  result.HullVertices = { { { 0.5, 1.5, 2.5 }, 8, 1 } };
+  result.Borders[1].add({ 1, 2, 3, 4 }, { 1, 3, 4 });
+  result.Borders[1].add({ 5, 6, 7, 8 }, { 1 });
+  result.Sent = { { 2, { 0, { { { 3, 4, 5 }, 6, 0 }, { { 7, 8, 9 }, 10, 0 } } } } };
+  return result;
+}
+
+} // namespace
+
+TEST(PiecePlan3, EverySpilledPointIsInTheBoxOfItsPiece)
+{
+  const TemporaryFolder folder;
+  for (const char* const kind : { "uniform", "clustered", "lattice", "surface" })
+  {
+    const auto points = pointsInSpace(kind, 3000);
+    const Planned planned(points, 100, 2, folder.path("points"));
+    const PiecePlan3& plan = planned.Plan;
+    ASSERT_GT(plan.pieces(), 10) << kind;
+    std::set<double> numbers;
+    double volume = 0;
+    for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
+    {
+      const auto index = std::size_t(piece);
+      EXPECT_GT(plan.count(piece), 0);
+      const std::vector<double> rows = planned.rowsOf(piece);
+      for (std::size_t at = 0; at < rows.size(); at += words)
+      {
+        const Point3 p{ rows[at], rows[at + 1], rows[at + 2] };
+        EXPECT_TRUE(isIn(p, plan.boxes()[index]) && isIn(p, plan.regions()[index])) << kind;
+        EXPECT_TRUE(p == points.at(std::size_t(rows[at + 3])));
+        numbers.insert(rows[at + 3]);
+      }
+      EXPECT_EQ(piece, plan.pieceOf(plan.first(piece)));
+      EXPECT_EQ(piece, plan.pieceOf(plan.first(piece) + plan.count(piece) - 1));
+      volume += volumeOf(plan.boxes()[index]);
+    }
+    EXPECT_EQ(points.size(), numbers.size()) << kind;
+    EXPECT_NEAR(volumeOf(plan.survey().Bounds), volume, 1e-9 * volume) << kind;
+  }
+}
+
+TEST(PiecePlan3, IsTheSameForAnyNumberOfThreads)
+{
+  const TemporaryFolder folder;
+  const auto points = pointsInSpace("clustered", 4000);
+  const Planned one(points, 150, 1, folder.path("one"));
+  const InitialMesh3 initial = one.Plan.initialMesh();
+  for (const int threads : { 2, 5 })
+  {
+    const Planned other(points, 150, threads, folder.path("other"));
+    ASSERT_EQ(one.Plan.pieces(), other.Plan.pieces());
+    for (PartitionIndex piece = 0; piece < one.Plan.pieces(); ++piece)
+    {
+      EXPECT_TRUE(one.rowsOf(piece) == other.rowsOf(piece));
+    }
+    const InitialMesh3 mesh = other.Plan.initialMesh();
+    EXPECT_TRUE(initial.Cells == mesh.Cells);
+    EXPECT_TRUE(initial.Met == mesh.Met);
+  }
+}
+
+TEST(PiecePlan3, DamagedSpilledPointsAreRefused)
+{
+  const TemporaryFolder folder;
+  const Planned planned(pointsInSpace("uniform", 2000), 500, 2, folder.path("points"));
+  const std::string file = folder.path("points.0");
+  const std::uint64_t bytes = fs::file_size(file);
+  for (const std::uint64_t at : { bytes / 3, bytes / 2, bytes - 1 })
+  {
+    flip(file, at);
+    expectIOError(file, "is damaged",
+      [&]
+      {
+        for (PartitionIndex piece = 0; piece < planned.Plan.pieces(); ++piece)
+        {
+          planned.rowsOf(piece);
+        }
+      });
+    flip(file, at);
+  }
+}
+
+TEST(BorderSorter3, TheOwnerIsTheFirstPieceMet)
+{
+  const TemporaryFolder folder;
+  const auto points = pointsInSpace("lattice", 2200);
+  const Planned planned(points, 100, 1, folder.path("points"));
+  const PiecePlan3& plan = planned.Plan;
+  BorderSorter3 sorter(plan);
+  std::size_t most = 0;
+  for (std::size_t i = 0; i + 4 <= 800; i += 4)
+  {
+    std::array<Vertex3, 4> corners;
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+      // Some of the four are far apart, some are close.
+      const std::size_t at = i % 8 == 0 ? i + k : (i + k * k) % 11;
+      corners[k] = { points[at], std::int64_t(at), 0 };
+    }
+    std::vector<std::int32_t> expected;
+    for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
+    {
+      if (tetrahedronMeetsBox(corners[0].Position, corners[1].Position, corners[2].Position,
+            corners[3].Position, plan.boxes()[std::size_t(piece)]))
+      {
+        expected.push_back(std::int32_t(plan.number(piece)));
+      }
+    }
+    std::sort(expected.begin(), expected.end());
+    EXPECT_EQ(expected, sorter.findMet(corners));
+    BordersByOwner3 borders;
+    sorter.add(corners, expected, borders);
+    ASSERT_EQ(1U, borders.size());
+    EXPECT_EQ(std::size_t(expected.front()), plan.number(borders.begin()->first));
+    expected.erase(expected.begin());
+    EXPECT_EQ(expected, borders.begin()->second.Borrowers);
+    most = std::max(most, expected.size());
+  }
+  EXPECT_GT(most, 4U);
+}
+
+TEST(StoredResult3, ComesBackAsItWasWritten)
+{
+  const TemporaryFolder folder;
+  const PlannedRun run(folder, pointsInSpace("uniform", 1000));
+  const PieceResult3 result = makeResult();
+  writeResult(folder.path("result"), result);
+  const StoredResult3 stored(folder.path("result"));
+  const PieceInterior interior = stored.readInterior(run.work(), 1, true);
+  EXPECT_EQ(run.Plan.first(1), interior.First);
+  EXPECT_EQ(run.Plan.count(1), interior.OwnPoints);
+  EXPECT_EQ(11, interior.Points);
+  EXPECT_EQ(12, interior.Cells);
+  EXPECT_EQ(result.Interior.Checksums, interior.Checksums);
+  EXPECT_EQ(result.Interior.InterfacePoints, interior.InterfacePoints);
+  EXPECT_EQ(result.Interior.InterfaceRows, interior.InterfaceRows);
+  EXPECT_EQ(result.Interior.InterfaceCells, interior.InterfaceCells);
+  EXPECT_EQ(99, stored.readFigures().WorkerVertices);
+  ASSERT_EQ(1U, stored.readHullVertices().size());
+  EXPECT_EQ(8, stored.readHullVertices()[0].Id);
+  EXPECT_FALSE(stored.hasBorder(0));
+  ASSERT_TRUE(stored.hasBorder(1));
+  const BorderCells3 border = stored.readBorder(1);
+  EXPECT_EQ(result.Borders.at(1).Corners, border.Corners);
+  EXPECT_EQ((std::vector<std::int32_t>{ 3, 4 }), border.Borrowers);
+  EXPECT_EQ((std::vector<std::uint64_t>{ 2, 2 }), border.BorrowerEnds);
+  EXPECT_EQ(0, stored.countSent(1));
+  EXPECT_GE(stored.countSent(2), 2);
+  const VertexMessage3 message = stored.readMessage(2);
+  EXPECT_EQ(0, message.Sender);
+  ASSERT_EQ(2U, message.Vertices.size());
+  EXPECT_EQ(10, message.Vertices[1].Id);
+}
+
+TEST(StoredResult3, DamagedAnywhereItIsRefused)
+{
+  const TemporaryFolder folder;
+  const PlannedRun run(folder, pointsInSpace("uniform", 1000));
+  const std::string path = folder.path("result");
+  writeResult(path, makeResult());
+  const auto readAll = [&]
+  {
+    const StoredResult3 stored(path);
+    stored.readInterior(run.work(), 1, true);
+    stored.readFigures();
+    stored.readHullVertices();
+    stored.readBorder(1);
+    stored.readMessage(2);
+  };
+  readAll();
+  for (std::uint64_t at = 0; at < fs::file_size(path); ++at)
+  {
+    flip(path, at);
+    expectIOError(path, "is damaged", readAll);
+    flip(path, at);
+  }
+  fs::resize_file(path, fs::file_size(path) - 1);
+  EXPECT_THROW(readAll(), IOError);
+}
+
+TEST(FinishPieces3, EveryTetrahedronHasOneOwner)
+{
+  const TemporaryFolder folder;
+  const auto points = pointsInSpace("clustered", 3000);
+  PlannedRun run(folder, points);
+  run.triangulate();
+  const std::vector<FinishedPiece> finished = run.finish();
+  ASSERT_EQ(std::size_t(run.Plan.pieces()), finished.size());
+  const auto cells = std::accumulate(finished.begin(), finished.end(), std::int64_t(0),
+    [](std::int64_t sum, const FinishedPiece& piece) { return sum + piece.Summary.Cells; });
+  EXPECT_EQ(std::int64_t(tetrahedralize(points.data(), points.size()).cellCount()), cells);
+  EXPECT_GE(run.Figures.WorkerVertices, 3000);
+}
+
+TEST(FinishPieces3, EndsWhereItIsTold)
+{
+  const TemporaryFolder folder;
+  PlannedRun run(folder, pointsInSpace("uniform", 2000));
+  run.triangulate();
+  EXPECT_TRUE(run.finish([](double) { return false; }).empty());
+}
+
+TEST(FinishPieces3, ADamagedResultIsRefused)
+{
+  const TemporaryFolder folder;
+  PlannedRun run(folder, pointsInSpace("uniform", 2000));
+  run.triangulate();
+  const std::string path = run.Results + ".2";
+  ASSERT_TRUE(fs::exists(path));
+  flip(path, fs::file_size(path) / 3);
+  EXPECT_THROW(
+    {
+      run.finish();
+      for (const auto& result : run.Stored)
+      {
+        for (PartitionIndex to = 0; to < run.Plan.pieces(); ++to)
+        {
+          result->countSent(to) > 0 ? void(result->readMessage(to)) : void();
+        }
+      }
+    },
+    IOError);
+}

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippDelaunay3DRuns_h
+#define tippDelaunay3DRuns_h
+
+#include "Files/OutputPath.h"
+#include "Points/PointTable.h"
+#include "Points/ReadPoints.h"
+#include "Triangulation3D/Tetrahedralize.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+class vtkMultiProcessController;
+
+namespace tipp
+{
+
+/// The options of `tipp delaunay3d`.
+struct Delaunay3DArguments
+{
+  std::vector<std::string> Inputs;
+  std::string Output;
+  PointOptions Columns;
+  int Threads = 0;
+  int Partitions = 0;
+  bool MapDuplicates = false;
+  bool Neighbors = false;
+  std::string Statistics;
+  // Of a run out of core:
+  std::string Memory; ///< empty: not given
+  std::string Scratch;
+};
+
+/// The points in space; `elevation` is the column of the third coordinate.
+std::vector<Point3> coordinatesOf(const PointTable& table, std::size_t elevation);
+
+/// Throws IOError unless the output files can be written; call it before the work. Returns the
+/// state of the output's path; writeResult() replaces nothing else.
+PathState requireWritable(const Delaunay3DArguments& arguments);
+
+/// Returns false if the user interrupted it; then no file is written.
+bool writeResult(const Delaunay3DArguments& arguments, PointTable&& table,
+  const Tetrahedralization& mesh, const PathState& before);
+
+/// Writes the file of statistics, if one is wanted, with `figures` of the run, and prints the
+/// summary; `ranks` ends it.
+void report(const Delaunay3DArguments& arguments, const Tetrahedralization& mesh,
+  std::int64_t points, double seconds, const nlohmann::ordered_json& figures,
+  const std::string& ranks);
+
+/// Runs `tipp delaunay3d` with a result in memory on the ranks of a controller. Every rank reads
+/// its share of the points; the first one writes the output and prints messages. Returns the exit
+/// code, the same on all ranks.
+int runDelaunay3DOnRanks(
+  const Delaunay3DArguments& arguments, vtkMultiProcessController* controller);
+
+} // namespace tipp
+
+#endif
