@@ -48,14 +48,6 @@ PositionJoin::PositionJoin(const std::string& file, std::int64_t wanted, std::si
 {
 }
 
-/// Four of 64.
-std::uint64_t PositionJoin::bitsOf(std::uint64_t hash)
-{
-  constexpr std::uint64_t one = 1;
-  return one << (hash & 63) | one << (hash >> 6 & 63) | one << (hash >> 12 & 63) |
-    one << (hash >> 18 & 63);
-}
-
 void PositionJoin::want(Point2 position, std::int64_t number)
 {
   const std::uint64_t hash = PositionIndex::hashOf(position);

@@ -77,7 +77,13 @@ private:
     return (PositionIndex::hashOf(position) >> 24) % MostBuckets % this->Positions.keys();
   }
   std::uint64_t& wordOf(std::uint64_t hash) { return this->Bits[hash >> 32 & this->Mask]; }
-  static std::uint64_t bitsOf(std::uint64_t hash);
+  /// Four of 64.
+  static std::uint64_t bitsOf(std::uint64_t hash)
+  {
+    constexpr std::uint64_t one = 1;
+    return one << (hash & 63) | one << (hash >> 6 & 63) | one << (hash >> 12 & 63) |
+      one << (hash >> 18 & 63);
+  }
   std::vector<std::size_t> mayMatch(PointsView points);
   void matchBucket(std::size_t bucket, const std::function<void(const Match&)>& visit) const;
 

@@ -51,7 +51,7 @@ StoredConstraints::StoredConstraints(
 
 void StoredConstraints::store(const ConstraintTable& table, bool& isNamed)
 {
-  isNamed = table.XY.empty();
+  isNamed = table.XY.empty() && !table.Edges.empty();
   const auto positionOf = [&](std::int64_t vertex) {
     return Point2{ table.XY[2 * std::size_t(vertex)], table.XY[2 * std::size_t(vertex) + 1] };
   };

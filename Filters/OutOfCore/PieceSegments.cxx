@@ -2,6 +2,7 @@
 #include "OutOfCore/PieceSegments.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <set>
@@ -141,8 +142,10 @@ ConstraintSegments PieceSegments::readNear(const std::vector<Box2>& boxes) const
 {
   std::vector<SegmentTree::Item> items;
   std::set<PartitionIndex> pieces;
+  Box2 all{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
   for (const Box2& box : boxes)
   {
+    all = unionOf(all, box);
     items.push_back({ { box.xmin, box.ymin }, { box.xmax, box.ymax }, 0 });
     this->Plan.Pieces.visitNear(
       this->planned(box), [&pieces](PartitionIndex piece) { pieces.insert(piece); });
@@ -157,7 +160,12 @@ ConstraintSegments PieceSegments::readNear(const std::vector<Box2>& boxes) const
       [&](const Row& row)
       {
         bool isNear = false;
-        tree.visitNear(boxOf(row.Segment.A, row.Segment.B),
+        const Box2 box = boxOf(row.Segment.A, row.Segment.B);
+        if (!overlap(box, all)) // as most of other pieces
+        {
+          return;
+        }
+        tree.visitNear(box,
           [&isNear](const SegmentTree::Item&)
           {
             isNear = true;
