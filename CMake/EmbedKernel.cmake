@@ -1,7 +1,7 @@
 cmake_minimum_required(VERSION 3.22)
-# Writes HEADER, which holds the text of the OpenCL file SOURCE; see tipp_embed_kernels.
+# Writes HEADER, a C++ header with the text of the OpenCL file SOURCE; see tipp_embed_kernels.
 file(READ "${SOURCE}" text)
-# A device's compiler sees one text: what the file includes from its folder becomes a part of it.
+# A device's compiler gets a single text, so the files that SOURCE includes from its folder are inserted.
 get_filename_component(folder "${SOURCE}" DIRECTORY)
 string(REGEX MATCHALL "#include \"[A-Za-z0-9]+\\.cl\"\n" includes "${text}")
 foreach (include IN LISTS includes)

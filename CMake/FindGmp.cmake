@@ -1,5 +1,5 @@
-# Finds GMP, which has no CMake package of its own: the targets Gmp::gmp and, where MPFR is there, Gmp::mpfr.
-# Not named FindGMP, which CGAL has for itself.
+# Finds GMP, which has no CMake package. Defines the target Gmp::gmp and, if MPFR is installed, Gmp::mpfr.
+# It is not named FindGMP, because CGAL has a module with this name.
 find_path(Gmp_INCLUDE_DIR gmp.h)
 find_library(Gmp_LIBRARY gmp)
 find_library(Gmp_MPFR_LIBRARY mpfr)

@@ -1,10 +1,10 @@
 # tipp_add_module(<name> [CLASSES <class>...] [NEEDS <module>...] CORE <source>... VTK <source>...
 #   [WITHOUT_VTK <source>...])
-# A VTK module of the CORE and VTK sources. In the build for the Python wheel, which has no VTK, a static library of
-# the CORE and WITHOUT_VTK sources, linked with the modules that it NEEDS (for VTK they stand in vtk.module).
+# Adds a VTK module of the CORE and VTK sources. In the build for the Python wheel, which has no VTK, a static library of
+# the CORE and WITHOUT_VTK sources, linked with the modules that it NEEDS (for VTK, these are in vtk.module).
 function (tipp_add_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "CLASSES;NEEDS;CORE;VTK;WITHOUT_VTK")
-  foreach (source IN LISTS arg_CORE arg_WITHOUT_VTK) # for a test of them
+  foreach (source IN LISTS arg_CORE arg_WITHOUT_VTK) # a test reads this list
     set_property(GLOBAL APPEND PROPERTY TIPP_WHEEL_SOURCES "${CMAKE_CURRENT_SOURCE_DIR}/${source}")
   endforeach ()
   if (NOT TIPP_BUILD_WHEEL)

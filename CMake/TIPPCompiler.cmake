@@ -17,7 +17,7 @@ set(TIPP_SANITIZE "" CACHE STRING "Sanitizers to build with, as for -fsanitize="
 
 # Expansion arithmetic is exact only if no multiply and add are contracted.
 add_compile_options(-ffp-contract=off)
-# Lanes never cross the border of a library; later ones note that GCC 4.6 changed how they are passed.
+# GCC notes that version 4.6 changed how vectors are passed. This does not matter: none is passed between libraries.
 if (CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
   add_compile_options(-Wno-psabi)
 endif ()
@@ -28,8 +28,8 @@ endif ()
 
 find_package(OpenMP REQUIRED COMPONENTS CXX)
 
-# ThreadSanitizer learns of OpenMP's barriers from LLVM's tool Archer, which the run time of OpenMP
-# loads if the program's run path leads to it; without it every parallel loop is reported.
+# LLVM's tool Archer tells ThreadSanitizer about OpenMP's barriers; without it, every parallel loop is reported. OpenMP's
+# runtime loads Archer if it is in the program's run path.
 if (TIPP_SANITIZE MATCHES "thread")
   get_filename_component(tipp_openmp_directory "${OpenMP_omp_LIBRARY}" DIRECTORY)
   find_library(TIPP_ARCHER_LIBRARY archer HINTS "${tipp_openmp_directory}" NO_DEFAULT_PATH)
@@ -41,7 +41,7 @@ if (TIPP_SANITIZE MATCHES "thread")
   list(APPEND CMAKE_BUILD_RPATH "${tipp_archer_directory}")
 endif ()
 
-# What a target such as TIPP::TIPPIO stands for: VTK 9.7 names the targets of modules after their libraries.
+# Sets `result` to the target that an alias such as TIPP::TIPPIO refers to. VTK 9.7 names module targets after libraries.
 function (tipp_real_target result target)
   get_target_property(aliased "${target}" ALIASED_TARGET)
   if (aliased)
@@ -54,7 +54,7 @@ endfunction ()
 function (tipp_warnings target)
   tipp_real_target(target "${target}")
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic)
-  # GCC takes what a unity build includes for headers, whose anonymous namespaces it warns of.
+  # GCC treats the sources that a unity build includes as headers, and warns of their anonymous namespaces.
   if (CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
   endif ()
@@ -63,7 +63,7 @@ function (tipp_warnings target)
   endif ()
 endfunction ()
 
-# For programs that leave all work that takes long to the libraries: compiled in half the time.
+# Compiles a target with less optimisation, in half the time. For programs whose long work is done by the libraries.
 function (tipp_compile_quickly target)
   if (TIPP_SANITIZE)
     target_compile_options(${target} PRIVATE -O0)

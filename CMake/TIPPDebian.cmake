@@ -1,5 +1,5 @@
-# What `cpack` makes: Debian packages of the installed components, or of the ParaView plugin where this
-# tree builds that. Utilities/package.sh configures for them (the prefix is /usr).
+# Settings of `cpack`, which makes Debian packages of the installed components, or of the ParaView plugin if this
+# tree builds that. Utilities/package.sh configures the build for them (the prefix is /usr).
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME tipp)
 set(CPACK_PACKAGE_VERSION "${PROJECT_VERSION}")
@@ -19,7 +19,7 @@ if (TIPP_BUILD_PARAVIEW_PLUGIN)
   set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
   set(CPACK_PACKAGE_NAME paraview-tipp)
   set(CPACK_DEBIAN_PACKAGE_NAME paraview-tipp)
-  # The libraries that it is built against are those of one minor version.
+  # The plugin works with the minor version of ParaView that it was built against.
   math(EXPR next_minor "${ParaView_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_PACKAGE_DEPENDS "paraview (>= ${ParaView_VERSION_MAJOR}.${ParaView_VERSION_MINOR}), \
 paraview (<< ${ParaView_VERSION_MAJOR}.${next_minor})")
@@ -38,7 +38,8 @@ else ()
   set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
     "VTK modules for exact Delaunay triangulation, partitioned meshes and resampling")
   set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
-  # GDAL's library, which is opened when a GeoTIFF is written; the package's own name has its version.
+  # GDAL's library, which is opened when a GeoTIFF is written. It is recommended by way of gdal-bin, because the name of
+  # its own package contains its version.
   set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS gdal-bin)
 
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libtipp-dev)

@@ -1,7 +1,7 @@
 # tipp_embed_kernels(<target> <file.cl>...)
-# Makes the text of each .cl file part of a target: Folder/Name.cl becomes the header Folder/Name.cl.h
+# Embeds the text of each .cl file into a target: Folder/Name.cl becomes the header Folder/Name.cl.h
 # in the build tree, which defines `const KernelSource NameKernels` (OpenCL/ComputeDevice.h). The target
-# <target>_kernels makes these alone, for programs that read the sources.
+# <target>_kernels makes only these headers, for programs that analyse the sources.
 set(tipp_embed_kernel_script "${CMAKE_CURRENT_LIST_DIR}/EmbedKernel.cmake")
 
 function (tipp_embed_kernels target)
@@ -11,7 +11,7 @@ function (tipp_embed_kernels target)
     set(source "${CMAKE_CURRENT_SOURCE_DIR}/${file}")
     set(header "${CMAKE_CURRENT_BINARY_DIR}/${file}.h")
     get_filename_component(folder "${source}" DIRECTORY)
-    file(GLOB parts CONFIGURE_DEPENDS "${folder}/*.cl") # which it may include
+    file(GLOB parts CONFIGURE_DEPENDS "${folder}/*.cl") # the file may include these
     add_custom_command(OUTPUT "${header}"
       COMMAND "${CMAKE_COMMAND}" "-DSOURCE=${source}" "-DHEADER=${header}"
         -P "${tipp_embed_kernel_script}"

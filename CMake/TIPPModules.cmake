@@ -18,7 +18,7 @@ vtk_module_scan(
   WANT_BY_DEFAULT ON
   HIDE_MODULES_FROM_CACHE ON)
 
-# The libraries find each other wherever the installed tree is moved to, and VTK where it was.
+# The libraries find each other even if the installed tree is moved, and VTK where it was at build time.
 set(CMAKE_INSTALL_RPATH "$ORIGIN")
 set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)
 vtk_module_build(

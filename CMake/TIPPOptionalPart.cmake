@@ -1,5 +1,6 @@
 # tipp_optional_part(<name> <found> <advice>)
-# Sets TIPP_HAS_<name> by the option TIPP_USE_<name> (AUTO, ON, OFF) and whether what it needs is found.
+# Sets TIPP_HAS_<name>, given the option TIPP_USE_<name> (AUTO, ON, OFF) and whether the dependencies are <found>. <advice>
+# says what is missing.
 function (tipp_optional_part name found advice)
   set(wanted "${TIPP_USE_${name}}")
   if (NOT wanted MATCHES "^(AUTO|ON|OFF|TRUE|FALSE|YES|NO|1|0)$")

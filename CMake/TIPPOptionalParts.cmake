@@ -1,4 +1,4 @@
-# TIPP_HAS_MPI and TIPP_HAS_OPENCL: what is found of the parts that TIPP can do without.
+# Sets TIPP_HAS_MPI and TIPP_HAS_OPENCL: whether these optional dependencies are used.
 include(TIPPOptionalPart)
 
 set(found OFF)

@@ -1,4 +1,4 @@
-# What find_package(TIPP) reads, beside the targets that vtk_module_build exports.
+# Makes the files that find_package(TIPP) reads, in addition to the targets that vtk_module_build exports.
 include(CMakePackageConfigHelpers)
 
 set(tipp_package_destination "${CMAKE_INSTALL_LIBDIR}/cmake/TIPP")

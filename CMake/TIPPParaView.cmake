@@ -1,5 +1,5 @@
-# The ParaView plugin. ParaView brings its own VTK, which the libraries are built against here. They lie
-# beside the plugin, and their Python package in a folder there, apart from those for the other VTK.
+# The ParaView plugin. Here the libraries are built against ParaView's own VTK. They are beside the plugin, with the
+# Python package in a folder there, so that they are not confused with those for the other VTK.
 find_package(ParaView 5.11 REQUIRED
   COMPONENTS RemotingCore RemotingServerManager RemotingApplication)
 

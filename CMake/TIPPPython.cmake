@@ -1,22 +1,22 @@
-# The Python package tipp: the wrapped modules and, from Plugins/Python, functions over them. It lies
-# at lib/python3/dist-packages/tipp in the build tree and below the prefix. The libraries are found
-# from there, so that PYTHONPATH is all that users set.
+# The Python package tipp: the wrapped modules, and functions over them from Plugins/Python. It is in
+# lib/python3/dist-packages/tipp, in the build tree and below the prefix. It finds the libraries relative to that
+# folder, so users only set PYTHONPATH.
 if (NOT TARGET VTK::WrappingPythonCore)
   message(FATAL_ERROR
     "TIPP_WRAP_PYTHON is ON, but this VTK (${VTK_DIR}) has no Python wrapping: "
     "install its Python development files or configure with -DTIPP_WRAP_PYTHON=OFF.")
 endif ()
 
-if (NOT TIPP_BUILD_PARAVIEW_PLUGIN) # which has a place of its own
+if (NOT TIPP_BUILD_PARAVIEW_PLUGIN) # the plugin has its own folder
   set(tipp_python_destination "lib/python3/dist-packages")
 endif ()
 
-# From a wrapped module to the libraries.
+# The relative path from a wrapped module to the libraries.
 file(RELATIVE_PATH tipp_python_to_libraries
   "/${tipp_python_destination}/tipp" "/${tipp_library_destination}")
 set(CMAKE_INSTALL_RPATH "$ORIGIN/${tipp_python_to_libraries}")
 if (TIPP_BUILD_PARAVIEW_PLUGIN)
-  # A module there has a class of its name, and their wrapped code names the same statics.
+  # The plugin's module has a class with the module's name, and the wrapped code of both defines the same static names.
   set(CMAKE_UNITY_BUILD OFF)
 endif ()
 vtk_module_wrap_python(
@@ -28,9 +28,9 @@ vtk_module_wrap_python(
   INSTALL_HEADERS OFF
   WRAPPED_MODULES tipp_wrapped_modules)
 unset(CMAKE_INSTALL_RPATH)
-unset(CMAKE_UNITY_BUILD) # the cached one again
+unset(CMAKE_UNITY_BUILD) # use the cached value again
 
-# All that the package imports.
+# Builds all that the package imports.
 add_custom_target(tipp_python)
 set(tipp_python_imports "from ._run import require as _require_vtk\n\n_require_vtk(\"${VTK_VERSION}\")\n")
 set(tipp_python_more_imports "")
@@ -55,8 +55,7 @@ install(FILES "${tipp_python_package}/__init__.py" "${tipp_python_package}/_engi
   DESTINATION "${tipp_python_destination}/tipp"
   COMPONENT python)
 
-# The interpreter that VTK's own Python modules were built for is the one installed beside VTK,
-# which need not be the first on the PATH.
+# VTK's Python modules need the interpreter that is installed beside VTK, which need not be the first on the PATH.
 find_program(TIPP_PYTHON_EXECUTABLE
   NAMES python3
   HINTS "${VTK_PREFIX_PATH}/bin"

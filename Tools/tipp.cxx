@@ -19,7 +19,7 @@
 namespace
 {
 
-// One sentence instead of CLI11's two lines.
+// Returns one sentence about wrong usage, instead of CLI11's two lines.
 std::string describeMisuse(const CLI::App* app, const CLI::Error& error)
 {
   const auto chosen = app->get_subcommands();
@@ -28,7 +28,8 @@ std::string describeMisuse(const CLI::App* app, const CLI::Error& error)
   if (chosen.empty())
   {
     const std::vector<std::string> words = app->remaining();
-    problem = words.empty() ? "a command is required" : "there is no '" + words.front() + "'";
+    problem =
+      words.empty() ? "a command is required" : "there is no command '" + words.front() + "'";
   }
   return fmt::format("{}: {}; see '{} --help'.\n", command, problem, command);
 }
@@ -40,7 +41,7 @@ int run(int argc, char** argv)
   app.set_version_flag("--version", "tipp " TIPP_VERSION);
   app.require_subcommand(1);
   app.failure_message(describeMisuse);
-  app.footer("'tipp COMMAND --help' tells a command's options, units and examples.\n");
+  app.footer("'tipp COMMAND --help' shows the options of a command, their units and examples.\n");
   tipp::addDelaunayCommand(app, exitCode);
   tipp::addDelaunay3DCommand(app, exitCode);
   tipp::addDemCommand(app, exitCode);
@@ -61,8 +62,8 @@ int run(int argc, char** argv)
   {
     if (tipp::startedRank() > 0)
     {
-      // All ranks have the same arguments, and only the first reports the error: mpirun would end
-      // it before it has, if another rank failed.
+      // All ranks have the same arguments, and only the first reports the error. The others must
+      // not fail, because mpirun could end the first rank before it has printed.
       return tipp::Success;
     }
     return app.exit(error) == 0 ? tipp::Success : tipp::Usage;
@@ -70,7 +71,7 @@ int run(int argc, char** argv)
   return exitCode;
 }
 
-/// Checks standard output, which may be lost, too, for example on a full disk.
+/// Throws if standard output could not be written, for example on a full disk.
 void requireWrittenOutput()
 {
   std::cout.flush();
@@ -85,7 +86,7 @@ void requireWrittenOutput()
 
 int main(int argc, char** argv)
 {
-  // VTK's errors are reported as our own messages.
+  // VTK's errors are printed as our own messages, so turn off VTK's.
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   tipp::reportReaderCrashes();
   tipp::watchForInterrupt(tipp::startedRank());

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Builds and runs a benchmark: sh Utilities/benchmark.sh NAME [OPTION...]
-# NAME is a script in Utilities/benchmarks, whose first lines tell its options.
+# NAME is a script in Utilities/benchmarks; its first lines describe its options.
 set -eu
 
 top=$(cd "$(dirname "$0")/.." && pwd)
@@ -21,7 +21,7 @@ name=${1:-}
 [ -n "$name" ] && [ -f "$top/Utilities/benchmarks/$name.sh" ] || usage
 shift
 
-# Builds the named programs for measuring.
+# Builds the named programs.
 build_targets() {
   sh "$top/Utilities/install-packages.sh"
   cmake --preset default -B "$build" --log-level=WARNING \

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Configures and builds a preset of CMakePresets.json:
-#   sh Utilities/build.sh [PRESET [OPTION...]]      (PRESET: default, if none is named; OPTIONs: cmake --build's)
+#   sh Utilities/build.sh [PRESET [OPTION...]]      (PRESET: default if not given; OPTIONs: those of cmake --build)
 set -eu
 
 preset=${1:-default}
@@ -10,10 +10,10 @@ top=$(cd "$(dirname "$0")/.." && pwd)
 sh "$top/Utilities/install-packages.sh"
 cd "$top"
 
-# A compiler cache, where there is one, makes the second build quick.
+# If a compiler cache is installed, it makes the second build fast.
 if command -v ccache > /dev/null; then
   export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
-  export CCACHE_SLOPPINESS=pch_defines,time_macros # or it passes over precompiled headers
+  export CCACHE_SLOPPINESS=pch_defines,time_macros # without this it ignores precompiled headers
 fi
 
 if [ "$preset" = paraview ]; then

@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Tries to break the tool, at random: sh Utilities/campaign.sh NAME [--minutes M] [--trials N] [--seed S]
-#   kill      killed runs, resumed, and compared byte for byte
-#   damage    changed, cut, swapped and removed bytes in work folders and meshes
+# Runs random tests that try to break the tool: sh Utilities/campaign.sh NAME [--minutes M] [--trials N] [--seed S]
+#   kill      kills runs, resumes them, and compares the results byte for byte
+#   damage    changes, cuts, swaps and removes bytes in work folders and meshes
 #   mutants   damaged input files of every format that a command reads
 #   disk      full disks, and outputs that cannot be written
 #   ranks     lost, killed and interrupted ranks

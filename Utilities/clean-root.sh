@@ -1,13 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Tries this on a bare Debian in FOLDER/root: sh Utilities/clean-root.sh RELEASE FOLDER WHAT
+# Tries an installation on a bare Debian in FOLDER/root: sh Utilities/clean-root.sh RELEASE FOLDER WHAT
 #   demo      the README's first command, on the last commit, timed
 #   test      the README's second command, on the last commit, timed
-#   packages  the Debian packages of the last commit: made there, installed by apt on another bare one, and used
-#   plugin    the same of the package of the ParaView plugin
+#   packages  the Debian packages of the last commit: made there, installed by apt on another bare Debian, and used
+#   plugin    the same for the package of the ParaView plugin
 #   paraview  the ParaView plugin's tests, on the last commit, timed
-# RELEASE is bookworm (Debian 12) or trixie (Debian 13). Needs root and debootstrap. Later runs use the packages of Debian
-# that FOLDER keeps. If CCACHE_DIR is set, the compiler cache in that folder is used; CMAKE_BUILD_PARALLEL_LEVEL limits compilers.
+# RELEASE is bookworm (Debian 12) or trixie (Debian 13). Needs root and debootstrap. FOLDER keeps Debian's packages for
+# later runs. If CCACHE_DIR is set, the compiler cache in that folder is used; CMAKE_BUILD_PARALLEL_LEVEL limits compilers.
 set -eu
 
 [ $# -eq 3 ] || {
@@ -36,7 +36,7 @@ if [ "$(id -u)" -ne 0 ] || ! command -v debootstrap > /dev/null; then
   exit 1
 fi
 
-# Mounts left behind would make removal dangerous.
+# Unmounts everything: with mounts left behind, removing the root would be dangerous.
 leave() {
   for mount in ccache var/cache/apt/archives sys proc dev/pts dev; do
     ! mountpoint -q "$root/$mount" || umount "$root/$mount"
@@ -48,7 +48,7 @@ inside() { # COMMAND
     sh -euc "$1"
 }
 
-# A bare Debian, from the one that FOLDER keeps.
+# Makes a bare Debian as a copy of the one that FOLDER keeps.
 make_root() {
   leave
   rm -rf --one-file-system "$root"
@@ -56,18 +56,18 @@ make_root() {
   mount --bind /dev "$root/dev"
   mount --bind /dev/pts "$root/dev/pts" # tests run the tool on terminals
   mount -t proc proc "$root/proc"
-  mount -t sysfs -o ro sysfs "$root/sys" # OpenCL on the CPU reads its size there
+  mount -t sysfs -o ro sysfs "$root/sys" # PoCL reads the properties of the CPU there
   mkdir -p "$folder/archives-$release/partial"
   mount --bind "$folder/archives-$release" "$root/var/cache/apt/archives"
 }
-# As if the machine had a compiler cache, which the build uses by itself.
+# Brings the compiler cache into the root; the build uses it if it is there.
 bring_ccache() {
   [ -n "${CCACHE_DIR:-}" ] || return 0
   mkdir -p "$CCACHE_DIR" "$root/ccache"
   mount --bind "$CCACHE_DIR" "$root/ccache"
   inside "apt-get update -q && apt-get install -q -y --no-install-recommends ccache"
 }
-# The last commit, in the root's /tmp/tipp.
+# Copies the last commit to the root's /tmp/tipp.
 bring_sources() {
   git clone -q --no-hardlinks "file://$top" "$root/tmp/tipp"
   bring_ccache
@@ -112,7 +112,7 @@ case $what in
     rm -rf "$folder/packages-$release"
     cp -r "$root/tmp/packages" "$folder/packages-$release"
     cp -r "$root/tmp/tipp/Examples/Cxx" "$folder/packages-$release/consumer"
-    # Another bare one, which has nothing but what the packages depend on.
+    # Another bare Debian, which only gets the packages' dependencies.
     make_root
     cp -r "$folder/packages-$release" "$root/tmp/packages"
     inside "apt-get update -q && apt-get install -q -y --no-install-recommends /tmp/packages/*.deb"

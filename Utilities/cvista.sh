@@ -3,7 +3,7 @@
 # Builds TIPP against VTK 9.7 from PyPI and runs the tests that need no MPI and no rendering:
 #   sh Utilities/cvista.sh [FOLDER [PYTHON [TARGET...]]]
 # FOLDER (default: build-cvista) gets the package cvista-sdk and the build. PYTHON (default: python3) is 3.12 or newer.
-# TARGETs, test programs, are all that is built and run if any are named.
+# If TARGETs, test programs, are given, only these are built and run.
 set -eu
 
 cd "$(dirname "$0")/.."

@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Makes a coast-like set of a million points, triangulates it exactly, checks the result, times
-# vtkDelaunay2D on a sample beside it, and draws a picture. Everything it writes is in demo/.
-#   TIPP_DEMO_POINTS   how many points (1000000)
+# Makes a coast-like set of a million points, triangulates it exactly, checks the result, compares the time with
+# vtkDelaunay2D on a sample, and draws a picture. All files are written to demo/.
+#   TIPP_DEMO_POINTS   number of points (1000000)
 #   TIPP_BUILD_DIR     a build to use; without it, build/ is built first
 set -eu
 
@@ -14,7 +14,7 @@ if [ -z "${TIPP_BUILD_DIR:-}" ]; then
   TIPP_BUILD_DIR=$top/build
 fi
 tipp=$TIPP_BUILD_DIR/bin/tipp
-# VTK's Python modules belong to Debian's own Python, which need not be the first on PATH.
+# VTK's Python modules need Debian's own Python, which need not be the first on PATH.
 python=/usr/bin/python3
 export PYTHONPATH="$TIPP_BUILD_DIR/lib/python3/dist-packages"
 

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs what this machine lacks of packages.txt beside this script; touches nothing when none is missing.
+# Installs the packages in packages.txt (beside this script) that this machine lacks; does nothing if none is missing.
 set -eu
 
 list=$(dirname "$0")/packages.txt
@@ -10,7 +10,7 @@ if ! command -v dpkg-query > /dev/null; then
   exit 0
 fi
 
-# A release that the list does not name is served like the newest one.
+# A release that is not in the list gets the packages of the newest one.
 release=$(sed -n 's/^VERSION_CODENAME=//p' /etc/os-release)
 [ "$release" = bookworm ] || release=trixie
 

@@ -24,7 +24,7 @@ case ${2:-} in
     ;;
   *) preset=default build=build-package ;;
 esac
-# The prefix is Debian's, so that the libraries go where its linker looks.
+# The prefix is Debian's, so that the dynamic linker finds the libraries.
 cmake --preset "$preset" -B "$build" --log-level=WARNING \
   -DCMAKE_INSTALL_PREFIX=/usr -DTIPP_BUILD_TESTING=OFF -DTIPP_BUILD_BENCHMARKS=OFF
 cmake --build "$build"

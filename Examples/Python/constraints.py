@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A breakline of two edges inside of a square."""
+"""Triangulates points with a breakline of two edges, inside of a square."""
 import numpy
 import tipp
 

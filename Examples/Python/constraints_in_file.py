@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Points in a file, with breaklines in a file, triangulated out of core."""
+"""Triangulates points in a file out of core, with breaklines from another file."""
 import numpy
 import tipp
 

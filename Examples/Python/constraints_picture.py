@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Points of a lake without constraints, and beside it with its shore and islands as polygons.
+"""Draws two triangulations of a lake's points: without constraints, and with its shore and islands as polygons.
 
-Usage: constraints_picture.py POINTS.txt PICTURE.png SHORE ISLAND...      (POINTS: a line of counts, then x and y; first
-       the shore's points in order, then those of each island; SHORE, ISLAND: how many there are of each)
+Usage: constraints_picture.py POINTS.txt PICTURE.png SHORE ISLAND...      (POINTS: a line that is skipped, then x and y:
+       first the shore's points in order, then those of each island; SHORE, ISLAND: the numbers of their points)
 """
 import sys
 
@@ -17,7 +17,7 @@ EDGES, SHORE = (0.45, 0.62, 0.78), (0.70, 0.15, 0.10)
 
 
 def read_outlines(points, counts):
-    """The shore counter-clockwise, islands clockwise."""
+    """Returns the shore, counter-clockwise, and the islands, clockwise."""
     rings = np.split(points[: sum(counts)], np.cumsum(counts)[:-1])
     for i, ring in enumerate(rings):
         x, y = ring.T
@@ -27,7 +27,7 @@ def read_outlines(points, counts):
 
 
 def draw(picture, ends, low, scale, colour, left):
-    """Lines from ends[:, 0] to ends[:, 1]."""
+    """Draws lines from ends[:, 0] to ends[:, 1]."""
     for a, b in (ends - low) * scale:
         count = 2 + int(2 * np.abs(b - a).max())
         x, y = (a + (b - a) * np.linspace(0, 1, count)[:, None]).round().astype(int).T

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A raster of random points: rows from the north, as rasterio has them."""
+"""Makes a raster of random points, with rows from north to south, as in rasterio."""
 import numpy as np
 
 import tipp

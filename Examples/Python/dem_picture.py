@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A shaded picture of a raster of points.
+"""Draws a shaded picture of a raster made from points.
 
 Usage: dem_picture.py POINTS PICTURE.png RESOLUTION [ATTRIBUTE [MAX_EDGE]]      (POINTS: any file of points;
-       ATTRIBUTE: a column of it, elevation if not given; MAX_EDGE: longer edges make no surface)
+       ATTRIBUTE: one of its columns, default elevation; MAX_EDGE: triangles with longer edges are left out)
 """
 import sys
 

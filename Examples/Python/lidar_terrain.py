@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A gridded elevation model of lidar points.
+"""Makes a gridded elevation model from lidar points.
 
-Usage: lidar_terrain.py POINTS.xyz PICTURE.png [SPACING]      (SPACING in the points' units; 1 if not given)
+Usage: lidar_terrain.py POINTS.xyz PICTURE.png [SPACING]      (SPACING: in the points' units; default 1)
 """
 import sys
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A LAS file as an aircraft's scanner would return it from a made valley: ground, houses, trees, and a river without returns.
+"""Writes a LAS file as of a lidar scanner: a synthetic valley with ground, houses, trees, and a river without returns.
 
-Usage: made_lidar.py FILE.las [COUNT]      (COUNT: pulses, 200000 if not given)
+Usage: made_lidar.py FILE.las [COUNT]      (COUNT: number of pulses; default 200000)
 """
 import struct
 import sys
@@ -14,7 +14,7 @@ RECORD = np.dtype([("xyz", "<i4", 3), ("intensity", "<u2"), ("returns", "u1"), (
 
 
 def ground_at(x, y):
-    """A valley with ripples of several sizes, and a terrace."""
+    """Returns the height of the ground, a valley with ripples and a terrace, and the distance from the river."""
     away = np.abs(y - 200 - 40 * np.sin(x / 70))
     hills = sum(8 / k * np.sin(k * x / 55 + k) * np.cos(k * y / 60 - k * k) for k in (1, 2, 3, 5, 8))
     return 100 + 0.0012 * away ** 2 + hills * np.minimum(away / 60, 1) + 2 * np.tanh((x - 260) / 3), away
@@ -33,13 +33,13 @@ def main():
         z[inside], kind[inside] = ground_at(np.array(east), np.array(north))[0] + 9 - np.abs(y[inside] - north) * 0.6, HOUSE
     for east, north in random.random((120, 2)) * SIDE:
         crown = 5 ** 2 - (x - east) ** 2 - (y - north) ** 2
-        hit = (crown > 0) & (kind == GROUND) & (random.random(count) < 0.7)  # the others reach the ground
+        hit = (crown > 0) & (kind == GROUND) & (random.random(count) < 0.7)  # the other pulses reach the ground
         z[hit], kind[hit] = z[hit] + 4 + 1.5 * np.sqrt(crown[hit]), TREE
     returned = away > 9  # water returns nothing
     records = np.zeros(np.count_nonzero(returned), RECORD)
     records["xyz"] = np.column_stack([x, y, z + random.normal(0, 0.03, count)])[returned] / STEP
     records["intensity"] = (400 * kind + random.integers(0, 300, count))[returned]
-    records["returns"], records["class"] = 9, kind[returned]  # the first of one
+    records["returns"], records["class"] = 9, kind[returned]  # bits: first return of one
 
     header = bytearray(227)
     header[:4] = b"LASF"

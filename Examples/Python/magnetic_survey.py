@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A map of the magnetic field from the flight lines of a survey.
+"""Draws a map of the magnetic field from the flight lines of a survey.
 
 Usage: magnetic_survey.py SURVEY.csv[.xz] PICTURE.png [COLUMN]
 
-The table's first line names its columns, of which longitude and latitude are taken, and COLUMN
-(total_field_anomaly_nt if not given). Flight lines are far apart and points on them near each other, so
-that triangles are thin; they are exact all the same. Triangles with a circumcircle above 0.02 degrees
-would bridge places without a survey: they are left out.
+The table's first line has the names of its columns. Longitude, latitude and COLUMN (default:
+total_field_anomaly_nt) are used. Flight lines are far apart, and the points on them close together, so many
+triangles are thin. Triangles with a circumradius above 0.02 degrees are left out: they would cover areas
+without measurements.
 """
 import csv
 import lzma

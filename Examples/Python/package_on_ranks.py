@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The package's functions on the ranks of an MPI run, which share one mesh.
+"""Calls the package's functions on the ranks of an MPI run, which share one mesh.
 
 Usage: mpirun -np 2 python3 package_on_ranks.py [POINTS_PER_RANK]
 """

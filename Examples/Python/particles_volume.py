@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A volume of the temperature at particles in space, and three cuts through it.
+"""Samples the temperature of particles in space on a volume, and draws three sections through it.
 
-Usage: particles_volume.py PARTICLES.ex2 PICTURE.png [SAMPLES]      (SAMPLES along each axis; 200 if not given)
+Usage: particles_volume.py PARTICLES.ex2 PICTURE.png [SAMPLES]      (SAMPLES: along each axis; default 200)
 """
 import sys
 
@@ -14,7 +14,7 @@ from pictures import ANOMALY, coloured, save_png
 
 
 def read_particles(path):
-    """The positions and temperatures of all points of an Exodus II file; its cells are not used."""
+    """Returns the positions and temperatures of all points of an Exodus II file; its cells are not used."""
     reader = vtkExodusIIReader()
     reader.SetFileName(path)
     reader.UpdateInformation()

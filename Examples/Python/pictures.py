@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of grids, for the examples: no display is needed."""
+"""Makes pictures of grids for the examples, without a display."""
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData
@@ -10,21 +10,21 @@ ANOMALY = [(0.10, 0.20, 0.50), (0.30, 0.60, 0.85), (0.95, 0.95, 0.90), (0.95, 0.
 
 
 def coloured(grid, stops, low, high):
-    """RGB from 0 to 1; white where the grid is NaN."""
+    """Returns RGB values from 0 to 1; white where the grid is NaN."""
     place = np.clip((np.nan_to_num(grid) - low) / (high - low), 0, 1) * (len(stops) - 1)
     rgb = np.stack([np.interp(place, range(len(stops)), channel) for channel in zip(*stops)], axis=-1)
     return np.where(np.isnan(grid)[..., None], 1.0, rgb)
 
 
 def lit(rgb, grid, steepness):
-    """Light from the north-west on the grid as a surface."""
+    """Shades the colours as if light from the north-west fell on the grid's surface."""
     dy, dx = np.gradient(np.nan_to_num(grid, nan=np.nanmean(grid)) * steepness)
     brightness = (1 - dx + dy) / np.sqrt(3 * (1 + dx * dx + dy * dy))
     return np.clip(rgb * (0.35 + 1.1 * np.clip(brightness, 0, 1)[..., None]), 0, 1)
 
 
 def save_png(path, rgb):
-    """Rows from south to north, as VTK has them."""
+    """Writes a PNG file. Rows are from south to north, as in VTK."""
     image = vtkImageData()
     image.SetDimensions(rgb.shape[1], rgb.shape[0], 1)
     pixels = np.ascontiguousarray((255 * rgb).astype(np.uint8)).reshape(-1, 3)

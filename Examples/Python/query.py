@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Heights at scattered points, and what lies around a point, of a mesh on the disk."""
+"""Queries a mesh on disk: heights at scattered points, neighbours, borders, zones and descents."""
 import numpy as np
 
 import tipp

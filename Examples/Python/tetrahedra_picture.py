@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A cut through the tetrahedra of random points, by vtkDelaunay3D and by TIPP: tetrahedra_picture.py PICTURE.png"""
+"""Draws sections through the tetrahedra that vtkDelaunay3D and TIPP make of the same random points.
+
+Usage: tetrahedra_picture.py PICTURE.png
+"""
 import sys
 
 import numpy as np
@@ -29,7 +32,7 @@ def corners_of(mesh):
 
 
 def cut(points, cells):
-    """RGB of the cells at the pixels of a plane, white where there is none; and the share of pixels with a cell."""
+    """Returns the RGB of the cells at a plane's pixels, white where there is no cell, and the share of covered pixels."""
     axis = np.linspace(0, 1, PIXELS)
     x, y = np.meshgrid(axis, axis)
     rgb = np.ones((PIXELS, PIXELS, 3))

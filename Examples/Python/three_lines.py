@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From an array of points to a mesh to an image."""
+"""Makes a mesh from an array of points, and an image from the mesh."""
 import numpy as np
 
 import tipp

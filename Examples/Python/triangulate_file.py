@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Triangulates points of a file, however many, and reads a part of the mesh.
+"""Triangulates the points of a file, which may be larger than memory, and reads a part of the mesh.
 
-Usage: triangulate_file.py POINTS MESH.tipp [MEMORY], as points.npy mesh.tipp 512M
+Usage: triangulate_file.py POINTS MESH.tipp [MEMORY], for example points.npy mesh.tipp 512M
 """
 import sys
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Triangulates points that are spread over the ranks of an MPI run.
+"""Triangulates points that are distributed among the ranks of an MPI run.
 
 Usage: mpirun -np 2 python3 triangulate_on_ranks.py [POINTS_PER_RANK]
 """
@@ -35,6 +35,6 @@ piece = delaunay.GetOutput()
 total = MPI.COMM_WORLD.allreduce(piece.GetNumberOfCells())
 print(f"rank {rank}: {piece.GetNumberOfCells()} of {total} triangles", flush=True)
 
-del delaunay  # it holds the controller, which must not outlive MPI
+del delaunay  # it refers to the controller, which must not outlive MPI
 controller.SetGlobalController(None)
 controller.Finalize(1)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Points -> triangulation -> partitioned mesh -> a range of it -> image and picture, on any number of ranks.
+"""Triangulates points, writes a partitioned mesh, reads a range of it, and makes an image and a picture, on any ranks.
 
 Usage: [mpirun -np N] pvbatch made_terrain.py FOLDER [POINTS]
-Loads the plugin TIPPPlugin.so of the folder that TIPP_PLUGIN_DIR names, if that is set.
+If TIPP_PLUGIN_DIR is set, loads the plugin TIPPPlugin.so from that folder.
 """
 import os
 import sys
@@ -13,7 +13,7 @@ from paraview.servermanager import vtkProcessModule
 FOLDER = sys.argv[1]
 COUNT = int(sys.argv[2]) if len(sys.argv) > 2 else 20000
 
-# Each rank makes the points whose number leaves its own rank as the remainder.
+# Rank r makes the points r, r + size, r + 2 size and so on.
 POINTS = f"""
 import numpy as np
 from vtkmodules.numpy_interface import dataset_adapter

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Highest water levels of a storm surge on a grid, over the depth of the sea.
+"""Samples the highest water levels of a storm surge on a grid, and draws them over the depth of the sea.
 
 Usage: [mpirun -np N] pvbatch storm_surge.py MESH FOLDER
-MESH has the arrays depth and maxele, as from:  tipp flatten fort.14 -o MESH --values maxele.63
-Loads the plugin TIPPPlugin.so of the folder that TIPP_PLUGIN_DIR names, if that is set.
+MESH needs the arrays depth and maxele; it can be made by:  tipp flatten fort.14 -o MESH --values maxele.63
+If TIPP_PLUGIN_DIR is set, loads the plugin TIPPPlugin.so from that folder.
 """
 import os
 import sys
@@ -15,7 +15,7 @@ RANGE = [-80.0, -70.0, 32.0, 42.0, 0.0, 0.0]  # longitude and latitude: North Ca
 
 
 def resampled(mesh):
-    """The arrays at 1000 x 1000 samples; cells with a dry corner are left out."""
+    """Returns the arrays at 1000 x 1000 samples; cells with a dry corner are left out."""
     image = RangeResample(Input=mesh)
     image.UseInputBounds = 0
     image.SamplingBounds = RANGE
@@ -26,7 +26,7 @@ def resampled(mesh):
 
 
 def only_water(image):
-    """The samples that the mesh answers."""
+    """Returns the samples that are in a cell of the mesh."""
     water = Threshold(Input=image, Scalars=["POINTS", "vtkValidPointMask"])
     water.LowerThreshold = water.UpperThreshold = 1
     return water
@@ -58,7 +58,7 @@ def main():
         colours = GetColorTransferFunction(array)
         colours.ApplyPreset(preset, True)
         colours.RescaleTransferFunction(low, high)
-    display.Position = [0, 0, 0.1]  # the water levels lie over the depth
+    display.Position = [0, 0, 0.1]  # draw the water levels above the depth
     view.CameraPosition = [-75, 37, 40]
     view.CameraFocalPoint = [-75, 37, 0]
     view.CameraParallelScale = 5

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A running simulation hands its values to ParaView's filters after each step: no files between them.
+"""A running simulation passes its values to ParaView's filters after each step, without files.
 
 Usage: pvbatch time_loop.py FOLDER [STEPS]
-Loads the plugin TIPPPlugin.so of the folder that TIPP_PLUGIN_DIR names, if that is set; its Python
+If TIPP_PLUGIN_DIR is set, loads the plugin TIPPPlugin.so from that folder. The plugin's Python
 package must be on PYTHONPATH.
 """
 import os
@@ -18,7 +18,7 @@ STEPS = int(sys.argv[2]) if len(sys.argv) > 2 else 3
 
 
 def simulate(points, step):
-    """Rings on the water, one step on."""
+    """Returns the heights of circular waves on water at a step."""
     distance = np.hypot(points[:, 0] - 0.5, points[:, 1] - 0.5)
     return np.sin(40 * distance - step) / (1 + 9 * distance)
 
@@ -28,7 +28,7 @@ def main():
         LoadPlugin(os.path.join(os.environ["TIPP_PLUGIN_DIR"], "TIPPPlugin.so"), remote=False, ns=globals())
     points = np.random.default_rng(1).random((20000, 3))
     points[:, 2] = 0
-    level = np.zeros(len(points))  # the simulation's own memory, which the mesh shares
+    level = np.zeros(len(points))  # memory of the simulation, which the mesh shares
     mesh = tipp.delaunay_2d(points, point_data={"level": level})
 
     producer = TrivialProducer()

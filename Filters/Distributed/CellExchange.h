@@ -379,6 +379,55 @@ std::vector<T> gatherList(Communicator& ranks, const std::vector<T>& mine)
   return all;
 }
 
+/// Returns the internal id of a mesh's index among its owned and then foreign points, on `rank`.
+template <typename Mesh>
+auto internalIds(const Mesh& mine, int rank)
+{
+  const std::int64_t first = mine.FirstIds[std::size_t(rank)];
+  const auto own = std::int64_t(mine.Owned.size());
+  return [&mine, first, own](std::int64_t index)
+  { return index < own ? first + index : mine.ForeignIds[std::size_t(index - own)]; };
+}
+
+/// The same of the global id.
+template <typename Mesh>
+auto globalIds(const Mesh& mine)
+{
+  const auto own = std::int64_t(mine.Owned.size());
+  return [&mine, own](std::int64_t index)
+  {
+    return index < own ? mine.Owned.GlobalIds[std::size_t(index)]
+                       : mine.Foreign.GlobalIds[std::size_t(index - own)];
+  };
+}
+
+/// Moves to the first rank all of a mesh but its cells' corners, which are by internal ids already:
+/// owned points, duplicates and rejected points. Collective.
+template <typename Mesh>
+void gatherPoints(Communicator& ranks, Mesh& mine)
+{
+  mine.Owned.Positions = gatherValues(ranks, std::move(mine.Owned.Positions));
+  mine.Owned.GlobalIds = gatherValues(ranks, std::move(mine.Owned.GlobalIds));
+  mine.Owned.Rows = gatherValues(ranks, std::move(mine.Owned.Rows));
+  mine.Foreign = {};
+  mine.ForeignIds.clear();
+  mine.Duplicates = gatherList(ranks, mine.Duplicates);
+  mine.Rejected = gatherList(ranks, mine.Rejected);
+  std::fill(mine.FirstIds.begin() + 1, mine.FirstIds.end(), std::int64_t(mine.Owned.size()));
+}
+
+/// The duplicates and rejected points of all ranks on the first one, ascending, as those of a run
+/// in one process. Collective.
+template <typename Mesh, typename Result>
+void gatherAccounts(Communicator& ranks, const Mesh& mine, Result& all)
+{
+  all.Duplicates = gatherList(ranks, mine.Duplicates);
+  all.Rejected = gatherList(ranks, mine.Rejected);
+  std::sort(all.Rejected.begin(), all.Rejected.end());
+  std::sort(all.Duplicates.begin(), all.Duplicates.end(),
+    [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
+}
+
 } // namespace tipp
 
 #endif

@@ -90,20 +90,6 @@ template void collect(Communicator&, OwnedPoints<std::int64_t>&, const std::vect
   const std::vector<std::size_t>&, std::vector<Duplicate>, const Tiling&, int,
   DistributedTriangulation&);
 
-namespace
-{
-
-/// Returns the internal id of an index among owned and then foreign points.
-auto internalIds(const DistributedTriangulation& mine, int rank)
-{
-  const std::int64_t firstOwn = mine.FirstIds[std::size_t(rank)];
-  const std::int64_t own = std::int64_t(mine.Owned.size());
-  return [&mine, firstOwn, own](std::int64_t index)
-  { return index < own ? firstOwn + index : mine.ForeignIds[std::size_t(index - own)]; };
-}
-
-} // namespace
-
 std::vector<IdTriangle> trianglesByIds(const DistributedTriangulation& mine, int rank)
 {
   const auto idOf = internalIds(mine, rank);
@@ -154,32 +140,16 @@ DistributedTriangulation gatherOnFirst(Communicator& ranks, DistributedTriangula
 {
   mine.Ids64 = gatherCorners(ranks, mine, internalIds(mine, ranks.rank()));
   mine.Ids32 = {};
-  mine.Owned.Positions = gatherValues(ranks, std::move(mine.Owned.Positions));
-  mine.Owned.GlobalIds = gatherValues(ranks, std::move(mine.Owned.GlobalIds));
-  mine.Owned.Rows = gatherValues(ranks, std::move(mine.Owned.Rows));
-  mine.Foreign = {};
-  mine.ForeignIds.clear();
-  mine.Duplicates = gatherList(ranks, mine.Duplicates);
-  mine.Rejected = gatherList(ranks, mine.Rejected);
-  std::fill(mine.FirstIds.begin() + 1, mine.FirstIds.end(), std::int64_t(mine.Owned.size()));
+  gatherPoints(ranks, mine);
   mine.FirstTriangle = ranks.isFirst() ? 0 : mine.AllTriangles;
   return mine;
 }
 
 Triangulation gatherTriangles(Communicator& ranks, const DistributedTriangulation& mine)
 {
-  const std::int64_t own = std::int64_t(mine.Owned.size());
   Triangulation result;
-  result.Ids64 = gatherCorners(ranks, mine,
-    [&](std::int64_t index)
-    {
-      return index < own ? mine.Owned.GlobalIds[std::size_t(index)]
-                         : mine.Foreign.GlobalIds[std::size_t(index - own)];
-    });
-  result.Duplicates = gatherList(ranks, mine.Duplicates);
-  result.Rejected = gatherList(ranks, mine.Rejected);
-  std::sort(result.Duplicates.begin(), result.Duplicates.end(),
-    [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
+  result.Ids64 = gatherCorners(ranks, mine, globalIds(mine));
+  gatherAccounts(ranks, mine, result);
   return result;
 }
 

@@ -3,7 +3,7 @@
 
 #include "Distributed3D/RankRun3.h"
 #include "Distributed3D/ShareInitialPoints3.h"
-#include "Kernel3D/DelaunayKernel3.h"
+#include "Distributed3D/WholeTriangulation3.h"
 #include "Parallel/ParallelFor.h"
 #include "Triangulation3D/InitialMesh3.h"
 #include "Triangulation3D/OrderCells.h"
@@ -22,14 +22,15 @@ namespace tipp
 namespace
 {
 
-/// Partitions for each of some ranks. Parallel slabs pass the fewest vertices on while they are
-/// thick, and every other one is ready at once. Else there are enough boxes that all find work.
+/// Chooses the numbers and shapes of partitions. If slabs are thick enough, parallel slabs are
+/// best: they pass on the fewest vertices, and every other one is ready at once. Otherwise there
+/// are enough boxes to keep all threads busy.
 PartitionGroups chooseGroups(std::int64_t points, int ranks, int threads, int wanted)
 {
-  constexpr double thick = 10; // distances between points
+  constexpr double thick = 10; // in average distances between points
   constexpr int boxesOfThread = 12;
   constexpr int most = 512;
-  constexpr double hull = 3; // the first rank repairs it
+  constexpr double hull = 3; // the first rank gets fewer points because it repairs the hull
   constexpr std::int64_t largest = std::int64_t(1) << 25;
   const double slabs = std::cbrt(double(points)) / thick;
   PartitionGroups groups;
@@ -44,7 +45,7 @@ PartitionGroups chooseGroups(std::int64_t points, int ranks, int threads, int wa
   return groups;
 }
 
-/// Adds the tetrahedra of the hull repair.
+/// Collects the tetrahedra of the hull repair.
 struct HullCells : public FinalCellConsumer3
 {
   explicit HullCells(std::vector<IdCell<4>>& cells)
@@ -60,7 +61,7 @@ struct HullCells : public FinalCellConsumer3
   std::vector<IdCell<4>>& Cells;
 };
 
-/// One rank's run; its member functions are the steps.
+/// The run of one rank; its member functions are the steps.
 class DistributedRun3
 {
 public:
@@ -95,7 +96,7 @@ public:
   }
 
 private:
-  /// Numbers the points, and agrees on a factor that all coordinates are multiplied by.
+  /// Numbers the points, and agrees with other ranks on a factor for all coordinates.
   void survey()
   {
     const std::vector<std::int64_t> firsts =
@@ -120,7 +121,7 @@ private:
     this->FinitePoints = sums[1];
   }
 
-  /// The same sample on all ranks.
+  /// Returns a sample of all ranks' points; the same on all ranks.
   std::vector<Point3> sample()
   {
     constexpr std::int64_t wanted = 1 << 16;
@@ -142,10 +143,10 @@ private:
     return all;
   }
 
-  /// Each rank gets the points of its partitions.
+  /// Divides space among the ranks, and sends each rank the points of its partitions.
   void shareOut()
   {
-    // Of the first rank, so that all ranks choose the same.
+    // All ranks use the first rank's options, so that they choose the same partitions.
     const auto threads = this->Ranks.broadcast(this->Threads);
     this->Partitions = this->Ranks.broadcast(this->Options.Partitions);
     this->Groups = chooseGroups(this->FinitePoints, this->Ranks.size(), threads, this->Partitions);
@@ -153,7 +154,7 @@ private:
     this->Result.Owned =
       exchangePoints(this->Ranks, this->Input, *this->Tiling, this->Factor, this->Threads);
     this->Result.FirstIds = firstIndices(this->Ranks, std::int64_t(this->Result.Owned.size()));
-    // Half of the index range is left for other ranks' points.
+    // Half of the indices are reserved for other ranks' points.
     if (this->Result.Owned.size() > std::size_t(std::numeric_limits<std::int32_t>::max() / 2))
     {
       throw std::length_error("a rank has more than 1,073,741,823 points; use more ranks.");
@@ -162,7 +163,7 @@ private:
 
   std::int64_t firstOwn() const { return this->Result.FirstIds[std::size_t(this->Ranks.rank())]; }
 
-  /// Returns false, with nothing triangulated, if partitions do not pay or cannot be made.
+  /// Returns false, without a triangulation, if partitions do not pay or cannot be made.
   bool triangulatePartitions()
   {
     constexpr std::int64_t fewest = 32768;
@@ -225,7 +226,8 @@ private:
     this->Duplicates = std::move(run.Duplicates);
   }
 
-  /// The first rank gets the tetrahedra at the hull.
+  /// Gathers the vertices at the hull on the first rank, which repairs it and keeps the resulting
+  /// tetrahedra.
   void repairHullOnFirst(std::vector<Vertex3> own, const std::vector<Vertex3>& artificial)
   {
     std::vector<Vertex3> vertices = gatherList(this->Ranks, own);
@@ -236,8 +238,8 @@ private:
     }
   }
 
-  /// False, and nothing is kept, if all ranks together have no tetrahedra: then all points are
-  /// coplanar, or fewer, which the kernel tells.
+  /// Returns false, and discards the results, if all ranks together have no tetrahedra. Then the
+  /// points are coplanar, or too few, and the kernel finds out which.
   bool hasCells()
   {
     std::vector<std::int64_t> cells{ std::int64_t(this->Kept.size()) };
@@ -256,7 +258,7 @@ private:
     return false;
   }
 
-  /// Triangulates all points on the first rank. They stay with their owners.
+  /// Triangulates all points on the first rank. The points stay with their owners.
   void triangulateOnFirst()
   {
     const std::int64_t all = this->Result.FirstIds.back();
@@ -273,7 +275,21 @@ private:
     this->Figures.Partitions = 0;
     if (this->Ranks.isFirst())
     {
-      this->triangulateAll(points, duplicates);
+      const ProcessorWatch watch;
+      WholeTriangulation3 whole(points, this->Options, this->Threads);
+      if (whole.Aborted)
+      {
+        throw RankFailure(this->Ranks.rank(), true, "The run was stopped.");
+      }
+      this->Kept = std::move(whole.Cells);
+      for (const Duplicate& duplicate : whole.Duplicates)
+      {
+        duplicates[ownerOf(duplicate.Point, this->Result.FirstIds)].push_back(duplicate);
+      }
+      this->Result.Dimension = whole.Dimension;
+      this->Figures.Partitions = 1;
+      this->Figures.WorkerVertices = std::int64_t(points.size());
+      this->Figures.ComputeSeconds += watch.seconds();
     }
     this->Duplicates.clear();
     for (const std::vector<Duplicate>& part : this->Ranks.allToAll(duplicates))
@@ -284,44 +300,9 @@ private:
     this->Result.Statistics.Partitions = 1;
   }
 
-  /// The points' indices are internal ids.
-  void triangulateAll(const Buffer<Point3>& points, std::vector<std::vector<Duplicate>>& duplicates)
-  {
-    const ProcessorWatch watch;
-    const auto& progress = this->Options.Progress;
-    DelaunayKernel3 kernel;
-    const bool isDone = kernel.triangulate(
-      points.data(), points.size(),
-      [&](std::size_t inserted)
-      { return !progress || progress(double(inserted) / double(points.size())); },
-      this->Threads);
-    if (!isDone)
-    {
-      throw RankFailure(this->Ranks.rank(), true, "The run was stopped.");
-    }
-    kernel.forEach(
-      [&](DelaunayKernel3::Index cell)
-      {
-        if (!kernel.isInfinite(cell))
-        {
-          const auto [a, b, c, d] = kernel.corners(cell);
-          this->Kept.push_back({ kernel.pointIndex(a), kernel.pointIndex(b), kernel.pointIndex(c),
-            kernel.pointIndex(d) });
-        }
-      });
-    for (const DelaunayKernel3::Duplicate& duplicate : kernel.duplicates())
-    {
-      duplicates[ownerOf(duplicate.Point, this->Result.FirstIds)].push_back(
-        { duplicate.Point, kernel.pointIndex(duplicate.Vertex) });
-    }
-    this->Result.Dimension = kernel.dimension();
-    this->Figures.Partitions = 1;
-    this->Figures.WorkerVertices = std::int64_t(points.size());
-    this->Figures.ComputeSeconds += watch.seconds();
-  }
-
-  /// Vertices that came from another partition may bear the id of a duplicate: only those of the
-  /// initial mesh do. Collective.
+  /// Replaces duplicates by their representatives in this rank's tetrahedra. A tetrahedron with
+  /// vertices from other partitions may have duplicates as corners, but only initial points.
+  /// Collective.
   void useRepresentatives()
   {
     std::vector<Duplicate> initial;
@@ -364,7 +345,7 @@ private:
     }
   }
 
-  /// Brings each tetrahedron to its owner, and the points that it needs.
+  /// Sends each cell to its owner, and fetches the points that this rank's cells need.
   void collect()
   {
     this->useRepresentatives();
@@ -394,9 +375,10 @@ private:
     mine.Duplicates = std::move(this->Duplicates);
     mine.Foreign =
       fetchPoints(this->Ranks, mine.ForeignIds, mine.FirstIds, mine.Owned, mine.RowSize);
-    this->Ranks.flush(); // what others wait for
-    mine.Ids =
-      orderCells(std::move(this->Inside), mine.Owned.size() + mine.Foreign.size(), this->Threads);
+    this->Ranks.flush(); // other ranks wait for these messages
+    mine.Ids = mine.cellSize() == 3
+      ? orderTriangles(this->Inside.back())
+      : orderCells(std::move(this->Inside), mine.Owned.size() + mine.Foreign.size(), this->Threads);
     if (this->Factor != 1)
     {
       this->restore(mine.Owned.Positions);
@@ -424,7 +406,7 @@ private:
     this->Ranks.sum(sums);
     mine.AllDuplicates = sums[0];
     mine.AllRejected = sums[1];
-    this->Figures.Triangles = std::int64_t(mine.cellCount());
+    this->Figures.Triangles = mine.cellSize() == 3 ? 0 : std::int64_t(mine.cellCount());
     this->Figures.SendSeconds = this->Ranks.sendingSeconds();
     const std::int64_t partitions = mine.Statistics.Partitions;
     mine.Statistics = gatherStatistics(this->Ranks, this->Figures, {});
@@ -439,13 +421,12 @@ private:
   const int Threads;
   double Factor = 1;
   std::int64_t FinitePoints = 0; ///< of all ranks
-  int Partitions = 0;            ///< asked for; 0: chosen
+  int Partitions = 0;            ///< as requested; 0: chosen automatically
   PartitionGroups Groups;
   std::unique_ptr<Tiling3> Tiling;
-  std::vector<char> IsUsed;                 ///< by partition: whether it has points
   std::vector<std::int64_t> InitialIds;     ///< internal ids of all initial points; ascending
   std::vector<std::vector<CellIds>> Inside; ///< tetrahedra by indices of this rank's points
-  std::vector<IdCell<4>> Kept;              ///< others, by internal ids
+  std::vector<IdCell<4>> Kept;              ///< the other final tetrahedra, by internal ids
   std::vector<Duplicate> Duplicates;        ///< of this rank's points, by internal ids
   RankStatistics Figures;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is exchanged of a finished triangulation in space.
+// Exchange of the cells of a finished triangulation in space.
 #include "Distributed3D/DistributedTetrahedralization.h"
 
 #include "Triangulation3D/OrderCells.h"
@@ -14,16 +14,7 @@ namespace tipp
 namespace
 {
 
-/// The internal id of an index among owned and then foreign points.
-auto internalIds(const DistributedTetrahedralization& mine, int rank)
-{
-  const std::int64_t first = mine.FirstIds[std::size_t(rank)];
-  const auto own = std::int64_t(mine.Owned.size());
-  return [&mine, first, own](std::int64_t index)
-  { return index < own ? first + index : mine.ForeignIds[std::size_t(index - own)]; };
-}
-
-/// All ranks' tetrahedra on the first rank, with idOf(local index) for each corner, in order.
+/// Returns all ranks' cells on the first rank, sorted. Corners are given by idOf(local index).
 template <typename IdOf>
 Buffer<std::int32_t> gatherCells(Communicator& ranks, const DistributedTetrahedralization& mine,
   std::int64_t points, const IdOf& idOf, int threads)
@@ -36,11 +27,24 @@ Buffer<std::int32_t> gatherCells(Communicator& ranks, const DistributedTetrahedr
   Buffer<std::int32_t> ids(mine.Ids.size());
   std::transform(mine.Ids.begin(), mine.Ids.end(), ids.begin(),
     [&](std::int32_t index) { return std::int32_t(idOf(index)); });
-  const Buffer<std::int32_t> all = gatherValues(ranks, std::move(ids));
-  const auto* const cells = all.as<CellIds>();
+  if (mine.cellSize() == 3)
+  {
+    ids = gatherValues(ranks, std::move(ids));
+    orderTriangles(ids);
+    return ids;
+  }
+  // All ranks sort their cells, and the first one merges them.
+  const auto* const cells = ids.as<CellIds>();
   std::vector<std::vector<CellIds>> parts(1);
-  parts[0].assign(cells, cells + all.size() / 4);
-  return orderCells(std::move(parts), std::size_t(points), threads);
+  parts[0].assign(cells, cells + mine.cellCount());
+  ids = orderCells(std::move(parts), std::size_t(points), threads);
+  const std::vector<std::int64_t> firsts = firstIndices(ranks, std::int64_t(mine.cellCount()));
+  ids = gatherValues(ranks, std::move(ids));
+  if (ranks.isFirst())
+  {
+    mergeCells(ids, firsts);
+  }
+  return ids;
 }
 
 } // namespace
@@ -48,11 +52,14 @@ Buffer<std::int32_t> gatherCells(Communicator& ranks, const DistributedTetrahedr
 GhostTetrahedra fetchGhosts(Communicator& ranks, const DistributedTetrahedralization& mine)
 {
   const auto idOf = internalIds(mine, ranks.rank());
+  const std::size_t size = mine.cellSize();
   std::vector<IdCell<4>> cells(mine.cellCount());
-  const auto* const local = mine.Ids.as<CellIds>();
   for (std::size_t i = 0; i < cells.size(); ++i)
   {
-    std::transform(local[i].begin(), local[i].end(), cells[i].begin(), idOf);
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+      cells[i][k] = idOf(mine.Ids[size * i + std::min(k, size - 1)]);
+    }
   }
   return fetchGhosts<Point3>(ranks, mine, cells, mine.FirstCell);
 }
@@ -62,37 +69,28 @@ DistributedTetrahedralization gatherOnFirst(
 {
   mine.Ids =
     gatherCells(ranks, mine, mine.FirstIds.back(), internalIds(mine, ranks.rank()), threads);
-  mine.Owned.Positions = gatherValues(ranks, std::move(mine.Owned.Positions));
-  mine.Owned.GlobalIds = gatherValues(ranks, std::move(mine.Owned.GlobalIds));
-  mine.Owned.Rows = gatherValues(ranks, std::move(mine.Owned.Rows));
-  mine.Foreign = {};
-  mine.ForeignIds.clear();
-  mine.Duplicates = gatherList(ranks, mine.Duplicates);
-  mine.Rejected = gatherList(ranks, mine.Rejected);
-  std::fill(mine.FirstIds.begin() + 1, mine.FirstIds.end(), std::int64_t(mine.Owned.size()));
+  gatherPoints(ranks, mine);
   mine.FirstCell = ranks.isFirst() ? 0 : mine.AllCells;
   return mine;
 }
 
-Tetrahedralization gatherTetrahedra(
-  Communicator& ranks, const DistributedTetrahedralization& mine, int threads)
+Tetrahedralization gatherTetrahedra(Communicator& ranks, const DistributedTetrahedralization& mine,
+  int threads, Triangulation& triangles)
 {
-  const auto own = std::int64_t(mine.Owned.size());
   Tetrahedralization all;
   all.Dimension = mine.Dimension;
-  all.Ids = gatherCells(
-    ranks, mine, mine.AllPoints,
-    [&](std::int64_t index)
-    {
-      return index < own ? mine.Owned.GlobalIds[std::size_t(index)]
-                         : mine.Foreign.GlobalIds[std::size_t(index - own)];
-    },
-    threads);
-  all.Duplicates = gatherList(ranks, mine.Duplicates);
-  all.Rejected = gatherList(ranks, mine.Rejected);
-  std::sort(all.Rejected.begin(), all.Rejected.end());
-  std::sort(all.Duplicates.begin(), all.Duplicates.end(),
-    [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
+  Buffer<std::int32_t> ids = gatherCells(ranks, mine, mine.AllPoints, globalIds(mine), threads);
+  gatherAccounts(ranks, mine, all);
+  if (mine.Dimension == 2)
+  {
+    triangles.Ids32 = std::move(ids);
+    triangles.Duplicates = all.Duplicates;
+    triangles.Rejected = all.Rejected;
+  }
+  else
+  {
+    all.Ids = std::move(ids);
+  }
   return all;
 }
 

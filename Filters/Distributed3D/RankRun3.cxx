@@ -17,7 +17,7 @@ namespace tipp
 namespace
 {
 
-/// By partition: whether this rank owns it, and it has points.
+/// Returns for each partition whether this rank owns it and it has points.
 std::vector<char> ownPartitions(const Communicator& ranks, const RankWork3& work)
 {
   std::vector<char> isOwn(work.Order.partitionCount(), 0);
@@ -30,7 +30,7 @@ std::vector<char> ownPartitions(const Communicator& ranks, const RankWork3& work
 
 } // namespace
 
-/// Sorts a thread's final tetrahedra.
+/// Sorts the final tetrahedra of one thread.
 struct RankRun3::Cells : public FinalCellConsumer3
 {
   explicit Cells(const RankRun3& run)
@@ -87,7 +87,7 @@ RankRun3::RankRun3(
   this->Statistics.Partitions = std::int64_t(this->LeftPartitions);
 }
 
-/// The ranks that wait for p.
+/// Returns the ranks that wait for partition p.
 std::vector<std::int32_t> RankRun3::recipientsOf(PartitionIndex p) const
 {
   std::vector<std::int32_t> ranks;
@@ -100,7 +100,7 @@ std::vector<std::int32_t> RankRun3::recipientsOf(PartitionIndex p) const
   return ranks;
 }
 
-/// As ReadyPartitions::take(), but sleeps longer: what comes from other ranks takes its time.
+/// As ReadyPartitions::take(), but with longer pauses, because messages from other ranks take time.
 PartitionIndex RankRun3::take()
 {
   constexpr std::chrono::microseconds pause(300);
@@ -117,7 +117,7 @@ PartitionIndex RankRun3::take()
   return -1;
 }
 
-/// A worker thread's loop.
+/// The loop of a worker thread.
 void RankRun3::work(Cells& cells)
 {
   const ProcessorWatch watch;
@@ -135,7 +135,8 @@ void RankRun3::work(Cells& cells)
     this->Duplicates.end(), worker.duplicates().begin(), worker.duplicates().end());
 }
 
-/// Adds messages to the inboxes on this rank, and queues those to other ranks for the main thread.
+/// Adds a finished partition's messages to the inboxes on this rank, and queues those for other
+/// ranks, which the main thread sends.
 void RankRun3::finish(PartitionIndex p, SentMessages3 sent)
 {
   std::vector<Outgoing> outgoing;
@@ -163,7 +164,7 @@ void RankRun3::finish(PartitionIndex p, SentMessages3 sent)
   --this->LeftPartitions;
 }
 
-/// Receives the message that another rank's partition is done.
+/// Handles the message that a partition of another rank is done.
 void RankRun3::receive(const Message& message)
 {
   PartitionIndex sender = -1;
@@ -214,10 +215,10 @@ void RankRun3::report()
   }
 }
 
-/// The main thread's loop; only this thread communicates with other ranks.
+/// The loop of the main thread. Only this thread communicates with other ranks.
 void RankRun3::coordinate()
 {
-  // Polling takes processor time from a thread that computes.
+  // Polling takes processor time from the computing threads, so pauses grow while nothing happens.
   constexpr std::chrono::microseconds shortest(300);
   constexpr std::chrono::microseconds longest(2000);
   constexpr double untilReport = 0.05;

@@ -11,11 +11,11 @@ namespace tipp
 namespace
 {
 
-/// What one rank tells the others of its partitions, in their order.
+/// The initial points of one rank's partitions, in the order of the partitions.
 struct InitialPoints3
 {
   std::vector<Box3> Regions;
-  std::vector<std::int64_t> Chosen; ///< how many of Points each has
+  std::vector<std::int64_t> Chosen; ///< by partition: its number of Points
   std::vector<Point3> Points;
   std::vector<std::int64_t> Ids; ///< internal ids
 };
@@ -29,8 +29,8 @@ void serialize(Archive& archive, InitialPoints3& initial)
 InitialPoints3 chooseInitial(const Communicator& ranks, const Tiling3& tiling, std::int64_t firstId,
   const PointBuckets3& buckets)
 {
-  constexpr std::size_t inAll = 8192; // the finer the mesh, the fewer partitions conflict
-  constexpr std::size_t share = 16;   // of a partition's points
+  constexpr std::size_t inAll = 8192; // with more points, fewer partitions conflict
+  constexpr std::size_t share = 16;   // at most one in this many of a partition's points
   const auto each = inAll / std::size_t(tiling.size());
   InitialPoints3 initial;
   for (PartitionIndex p = 0; p < tiling.size(); ++p)

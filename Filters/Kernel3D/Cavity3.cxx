@@ -15,8 +15,8 @@ namespace
 
 using Index = TetrahedronMesh::Index;
 
-/// Four doubles side by side. Only local variables: how they are passed depends on the instruction
-/// set.
+/// Four doubles in one vector. Used for local variables only: how a function passes such a vector
+/// depends on the instruction set.
 using Quad = double __attribute__((vector_size(32)));
 using QuadMask = long long __attribute__((vector_size(32)));
 
@@ -29,7 +29,7 @@ inline Index positionOf(const Index* v, Index vertex)
   return Index(v[1] == vertex) + 2 * Index(v[2] == vertex) + 3 * Index(v[3] == vertex);
 }
 
-/// A bit for each lane.
+/// Returns a bit for each lane of the mask: lane i sets bit i.
 inline unsigned bitsOfLanes(const QuadMask& mask)
 {
   return bitsOf(__builtin_shufflevector(mask, mask, 0, 1)) |
@@ -57,15 +57,15 @@ inline bool Cavity3::isOwn(const Index* v) const
     owners[v[3]] == own;
 }
 
-/// Walks to a tetrahedron that contains the point, or, outside of the hull, to an infinite one
-/// whose facet the point is beyond.
+/// Walks to a tetrahedron that contains the point. If the point is outside of the hull, the walk
+/// ends at an infinite tetrahedron whose hull facet separates the point from the hull.
 template <bool IsShared>
 inline Cavity3::Location Cavity3::locate(const TetrahedronMesh& mesh, const Point3& p)
 {
   const Index* const slots = mesh.slots();
   const Point3* const points = this->Points;
   Index cell = this->Recent;
-  Index from = 4; // the facet that was crossed last
+  Index from = 4; // opposite to the facet that the walk crossed last; 4: none yet
   while (slots[cell] != 0)
   {
     const Index* const v = slots + cell;
@@ -105,8 +105,9 @@ inline Cavity3::Location Cavity3::locate(const TetrahedronMesh& mesh, const Poin
   return { cell, 0 };
 }
 
-/// Tests p against the spheres of a finite tetrahedron's four neighbours side by side: a bit for
-/// each that it is inside of, as far as it is certain. A neighbour at infinity has no such bits.
+/// Tests p against the spheres of the four neighbours of a finite tetrahedron, in one vector. Bit i
+/// of the result: p is certainly inside the sphere of neighbour i. Bit i of `certain`: the sign is
+/// certain. Both bits are 0 for a neighbour at infinity.
 //
 // With the neighbour's apex e, and a, b, c from FacetCorners, orientation3(e, a, b, c) is negative,
 // and so is the determinant of inSphereValue() if p is inside.
@@ -155,7 +156,7 @@ inline unsigned Cavity3::conflictsAcross(
   const Quad eac = ez * ac - az * ec + cz * ea;
   const Quad eab = ez * ab - az * eb + bz * ea;
   const Quad determinant = (eLift * abc - aLift * ebc) + (bLift * eac - cLift * eab);
-  // As isCertain().
+  // The same error bound as in isCertain().
   const Quad lifts = (eLift + aLift) + (bLift + cLift);
   const Quad square = lifts * lifts;
   const Quad bound = (9 * 0x1p-106) * (square * square) * lifts + 1e-280;
@@ -167,7 +168,8 @@ inline unsigned Cavity3::conflictsAcross(
   return certain & bitsOfLanes(determinant < 0);
 }
 
-/// Finds the cavity and its boundary. Returns false if the cavity leaves the territory.
+/// Finds the tetrahedra in conflict with p (the cavity), starting from `found`, and the cavity's
+/// boundary. Returns false if the cavity leaves the territory.
 template <bool IsShared>
 inline bool Cavity3::findConflicts(TetrahedronMesh& mesh, const Point3& p, Index found)
 {
@@ -213,7 +215,8 @@ inline bool Cavity3::findConflicts(TetrahedronMesh& mesh, const Point3& p, Index
   return true;
 }
 
-/// Makes as many tetrahedra free as the boundary has facets.
+/// Reserves as many free tetrahedra as the boundary has facets. Throws std::length_error if indices
+/// do not suffice.
 inline void Cavity3::makeRoom(TetrahedronMesh& mesh)
 {
   const std::size_t count = this->Boundary.size();
@@ -238,7 +241,7 @@ inline void Cavity3::makeRoom(TetrahedronMesh& mesh)
   }
 }
 
-/// The same while other threads do it. Returns false if the mesh has no memory left.
+/// As makeRoom(), while other threads do the same. Returns false if the mesh has no memory left.
 inline bool Cavity3::takeRoom(TetrahedronMesh& mesh)
 {
   constexpr std::uint64_t together = 1024;
@@ -261,8 +264,8 @@ inline bool Cavity3::takeRoom(TetrahedronMesh& mesh)
   return true;
 }
 
-/// A new tetrahedron has the corners of the removed one on its facet, with the vertex instead of
-/// the corner opposite to the facet.
+/// Makes a tetrahedron for each facet of the boundary: a copy of the removed one, whose corner
+/// opposite to the facet is replaced by `vertex`.
 inline void Cavity3::makeCells(TetrahedronMesh& mesh, Index vertex)
 {
   Index* const slots = mesh.slots();
@@ -285,8 +288,9 @@ inline void Cavity3::makeCells(TetrahedronMesh& mesh, Index vertex)
   this->Free.resize(this->Free.size() - this->Boundary.size());
 }
 
-/// Two new tetrahedra are neighbours across an edge of the boundary, which has opposite directions
-/// in their facets. Returns false if the boundary has too many vertices for the table.
+/// Links new tetrahedra by a table of the boundary's edges: two of them are neighbours if their
+/// facets share an edge, which they traverse in opposite directions. Returns false if the boundary
+/// has too many vertices for the table.
 inline bool Cavity3::linkByEdges(TetrahedronMesh& mesh)
 {
   // A triangulated sphere of n vertices has 2 n - 4 facets.
@@ -337,13 +341,13 @@ inline bool Cavity3::linkByEdges(TetrahedronMesh& mesh)
   return true;
 }
 
-/// The same for any number of vertices: from the facet of a new tetrahedron, goes around the edge
-/// through removed tetrahedra to the facet of its neighbour.
+/// Does the same for any number of vertices: starts at a facet of a new tetrahedron, and goes
+/// around its edge through removed tetrahedra to the neighbour's facet.
 [[gnu::noinline]] void Cavity3::linkAround(TetrahedronMesh& mesh)
 {
   Index* const slots = mesh.slots();
   std::uint8_t* const marks = mesh.marks();
-  // The removed tetrahedra lead to the new ones.
+  // Let each removed tetrahedron refer to the new one on its facet.
   for (const Facet& facet : this->Boundary)
   {
     slots[facet.Inside + 4] = facet.Made + (facet.Inside & 3);
@@ -378,7 +382,7 @@ inline bool Cavity3::linkByEdges(TetrahedronMesh& mesh)
   }
 }
 
-/// Fills the cavity that findConflicts() has found.
+/// Fills the cavity that findConflicts() has found with new tetrahedra.
 inline void Cavity3::retriangulate(TetrahedronMesh& mesh, Index vertex)
 {
   this->makeCells(mesh, vertex);
@@ -392,7 +396,7 @@ inline void Cavity3::retriangulate(TetrahedronMesh& mesh, Index vertex)
     marks[removed / 8] = TetrahedronMesh::Free;
   }
   this->Free.insert(this->Free.end(), this->Removed.begin(), this->Removed.end());
-  // The walk to the next vertex starts at a finite one.
+  // The walk to the next vertex must start at a finite tetrahedron.
   const Index* const slots = mesh.slots();
   std::size_t last = this->Boundary.size() - 1;
   while (slots[this->Boundary[last].Made] == 0)
@@ -419,7 +423,7 @@ inline void Cavity3::insertAll(
   }
 }
 
-/// Returns false, and changes nothing, if it is not possible within the territory.
+/// Returns false, and changes nothing, if the vertex cannot be inserted within the territory.
 inline bool Cavity3::insertOne(TetrahedronMesh& mesh, Index vertex, std::vector<Coincidence>& found)
 {
   const Location at = this->locate<true>(mesh, this->Points[vertex]);
@@ -449,8 +453,8 @@ void Cavity3::insert(TetrahedronMesh& mesh, Index first, Index end, std::vector<
   runWith(Instructions::Best, [&] { this->insertAll(mesh, first, end, found); });
 }
 
-/// Continues elsewhere in the territory: the tetrahedra here may be an island in it, which no walk
-/// leaves. Whatever becomes of a Start, no other thread changes it.
+/// Continues at another start of the territory. The current tetrahedra may be an island that no
+/// walk leaves. A start may have been removed meanwhile, but no other thread changes it.
 void Cavity3::moveOn(const TetrahedronMesh& mesh)
 {
   const std::vector<Index>& starts = *this->Within.Starts;
@@ -480,7 +484,7 @@ void Cavity3::insertWithin(TetrahedronMesh& mesh, const Index* begin, const Inde
           continue;
         }
         left.push_back(*vertex);
-        // The walk from elsewhere is long: less and less often.
+        // The walk from another start is long, so move on less and less often.
         constexpr std::size_t patience = 64;
         if (++this->Failures >= patience && (this->Failures & (this->Failures - 1)) == 0)
         {

@@ -15,40 +15,43 @@ namespace tipp
 {
 
 /// The part of a mesh that one of several threads may change: the tetrahedra whose finite vertices
-/// are all its own. A neighbour of such a one has three of these vertices, or two and the infinite
-/// one, so that no other thread changes it either: threads read nothing that another one writes.
+/// are all owned by the thread. Three vertices of such a tetrahedron, or two and the infinite one,
+/// are also vertices of its neighbour. So no other thread changes the neighbour, and no thread
+/// reads data that another one writes.
 struct Territory3
 {
-  const std::uint8_t* Owners; ///< by vertex: the thread that owns it
-  std::uint8_t Own;
-  const std::vector<TetrahedronMesh::Index>* Starts; ///< some of its finite tetrahedra
-  std::atomic<std::uint64_t>* End; ///< one past the last tetrahedron of all threads, in slots
+  const std::uint8_t* Owners;                        ///< by vertex: the owning thread
+  std::uint8_t Own;                                  ///< this thread's number in Owners
+  const std::vector<TetrahedronMesh::Index>* Starts; ///< some finite tetrahedra of the territory
+  std::atomic<std::uint64_t>* End; ///< of all threads: one past the last tetrahedron, in slots
 };
 
-/// Inserts vertices into a mesh whose vertex 0 is at infinity. Of a tetrahedron at that vertex it
-/// is the first corner, always.
+/// Inserts vertices into a TetrahedronMesh whose vertex 0 is at infinity. In an infinite
+/// tetrahedron, vertex 0 is always the first corner. A vertex is an index into the points given to
+/// restart(); a tetrahedron is the index of its first slot. Not thread-safe: each thread has its
+/// own object.
 class Cavity3
 {
 public:
   using Index = TetrahedronMesh::Index;
 
-  /// A vertex that was not inserted, and the one with the same coordinates.
+  /// A vertex that was not inserted, and the earlier vertex with the same coordinates.
   struct Coincidence
   {
     Index Vertex;
     Index Representative;
   };
 
-  /// Begins with a new mesh of `count` points, the vertex at infinity among them.
+  /// Prepares for a new mesh. `points` are not copied; `count` includes the vertex at infinity.
   void restart(const Point3* points, std::size_t count);
 
-  /// Inserts the vertices [first, end) one after the other. Appends to `found` those at the
-  /// position of an earlier one.
+  /// Inserts the vertices [first, end) one after the other. Appends to `found` those that have the
+  /// coordinates of an earlier vertex. Throws std::length_error if there are too many tetrahedra.
   void insert(TetrahedronMesh& mesh, Index first, Index end, std::vector<Coincidence>& found);
 
-  /// Continues at `start`, a finite tetrahedron.
+  /// Sets the tetrahedron where the walk to the next vertex starts; it must be finite.
   void continueAt(Index start) { this->Recent = start; }
-  /// Enters a territory that has Starts, for insertWithin().
+  /// Sets the territory for insertWithin(). Its Starts must not be empty.
   void enter(const Territory3& territory)
   {
     this->Within = territory;
@@ -56,31 +59,32 @@ public:
     this->Recent = territory.Starts->front();
   }
 
-  /// Inserts vertices while other threads do so in territories of their own. Appends to `left`
-  /// those that it cannot insert: the walk to them or their cavity leaves the territory, or the
-  /// mesh has no memory left.
+  /// Inserts the vertices [begin, end) while other threads do so in their territories. Appends to
+  /// `left` those that it cannot insert, because the walk to them or their cavity leaves the
+  /// territory, or because the mesh has no memory left.
   void insertWithin(TetrahedronMesh& mesh, const Index* begin, const Index* end,
     std::vector<Index>& left, std::vector<Coincidence>& found);
 
 private:
-  /// A facet of the cavity's boundary.
+  /// A facet of the cavity's boundary. The first two members are facet indices (see
+  /// TetrahedronMesh).
   struct Facet
   {
-    Index Inside;  ///< of the tetrahedron that is removed
-    Index Outside; ///< of its neighbour
-    Index Made;    ///< the new tetrahedron on it
+    Index Inside;  ///< of the removed tetrahedron
+    Index Outside; ///< the same facet of the neighbour outside
+    Index Made;    ///< the new tetrahedron on this facet
   };
 
-  /// Where a point lies: in a tetrahedron in conflict with it, or at a vertex.
+  /// Where a point is: in a tetrahedron that it is in conflict with, or at a vertex.
   struct Location
   {
-    Index Cell;    ///< NoCell: outside of the territory
-    Index EqualTo; ///< the vertex with the same coordinates, or 0
+    Index Cell;    ///< NoCell: the walk left the territory
+    Index EqualTo; ///< the vertex with the same coordinates; 0: none
   };
 
   void insertAll(TetrahedronMesh& mesh, Index first, Index end, std::vector<Coincidence>& found);
   bool insertOne(TetrahedronMesh& mesh, Index vertex, std::vector<Coincidence>& found);
-  /// `IsShared`: only within the territory.
+  /// `IsShared`: other threads change the mesh, so stay within the territory.
   template <bool IsShared>
   Location locate(const TetrahedronMesh& mesh, const Point3& p);
   template <bool IsShared>
@@ -95,23 +99,24 @@ private:
   bool linkByEdges(TetrahedronMesh& mesh);
   void linkAround(TetrahedronMesh& mesh);
 
-  /// Up to this many vertices on the cavity's boundary, neighbours are found in a table of its
-  /// edges.
+  /// If the cavity's boundary has at most this many vertices, a table of its edges gives the
+  /// neighbours.
   static constexpr std::size_t MostInTable = 64;
   static constexpr std::uint8_t NoNumber = 0xff;
   static constexpr Index NoCell = ~Index(0);
 
   const Point3* Points = nullptr;
   KernelPredicates3 Predicates;
-  Territory3 Within = {};    ///< of insertWithin()
-  std::size_t NextStart = 0; ///< of its Starts
-  std::size_t Failures = 0;  ///< vertices in a row that it could not insert
-  Index Recent = 0;          ///< a finite tetrahedron near the last insertion
+  Territory3 Within = {};    ///< the territory of insertWithin()
+  std::size_t NextStart = 0; ///< index of the next one of its Starts
+  std::size_t Failures = 0;  ///< consecutive vertices that could not be inserted
+  Index Recent = 0;          ///< a finite tetrahedron near the last inserted vertex
   std::vector<Index> Removed;
   std::vector<Facet> Boundary;
-  std::vector<Index> Free;           ///< unused indices below the mesh's end
+  std::vector<Index> Free;           ///< unused tetrahedra below the mesh's end
   std::vector<std::uint8_t> Numbers; ///< by vertex: its number on the boundary, or NoNumber
-  std::vector<Index> EdgeTable;      ///< by two numbers: the facet of the new tetrahedron there
+  /// By the numbers of two vertices: the facet of the new tetrahedron at this edge.
+  std::vector<Index> EdgeTable;
 };
 
 } // namespace tipp

@@ -10,7 +10,7 @@
 
 namespace tipp
 {
-/// Three points are collinear if they are so in projection along each axis.
+/// Three points are collinear if their projections along all three axes are.
 bool areCollinear(const Point3& a, const Point3& b, const Point3& c)
 {
   return orientation({ a.x, a.y }, { b.x, b.y }, { c.x, c.y }) == 0 &&
@@ -32,8 +32,8 @@ bool DelaunayKernel3::triangulate(
   {
     return true;
   }
-  // Seven for each point of a uniform distribution, with a few that are free. More if there are
-  // threads, which cannot make room.
+  // A uniform distribution makes seven tetrahedra per point, including a few free ones. Threads
+  // cannot enlarge the mesh, so they get more.
   const std::size_t cellsPerPoint = threads > 1 ? 9 : 7;
   this->Mesh.reserve(cellsPerPoint * count + 64);
   if (!this->insertAll(proceed, threads))
@@ -68,7 +68,8 @@ bool DelaunayKernel3::makeFirst()
   const std::size_t end = this->Points.size();
   std::size_t next = 1;
   const auto& at = this->Points;
-  // Moves the first point from `next` on that is independent of those before to position `to`.
+  // Finds the first point from `next` on that does not depend on those before `to`, and swaps it to
+  // position `to`.
   const auto extend = [&](std::size_t to, const auto& isDependent)
   {
     while (next < end && isDependent(at[next]))
@@ -108,8 +109,8 @@ bool DelaunayKernel3::makeFirst()
   }
   for (Index i = 0; i < 4; ++i)
   {
-    // Infinite tetrahedron i + 1 has the facet opposite to corner i, vertex i + 1. Across its facet
-    // opposite to a corner v is the infinite tetrahedron v, which lacks v.
+    // Infinite tetrahedron i + 1 is on the facet opposite to corner i, which is vertex i + 1.
+    // Across its facet opposite to vertex v is infinite tetrahedron v, the one that lacks v.
     this->Mesh.link(i, 8 * (i + 1));
     for (Index j = 1; j < 4; ++j)
     {
@@ -123,7 +124,7 @@ bool DelaunayKernel3::makeFirst()
   return true;
 }
 
-/// By one thread. Returns false if `proceed` returned false.
+/// Inserts vertices in this thread only. Returns false if `proceed` did.
 bool DelaunayKernel3::insertRange(Index first, Index end, const Monitor& proceed)
 {
   constexpr Index block = 1 << 12;
@@ -166,7 +167,8 @@ bool DelaunayKernel3::insertAll(const Monitor& proceed, int threads)
   return true;
 }
 
-/// A vertex gets the lowest index of the points at its coordinates.
+/// Makes the lowest index of the points at a vertex the vertex's point; the others become
+/// duplicates.
 void DelaunayKernel3::findDuplicates()
 {
   for (Duplicate& duplicate : this->Duplicates)

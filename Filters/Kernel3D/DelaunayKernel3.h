@@ -18,51 +18,54 @@
 namespace tipp
 {
 
-/// Whether points in space are collinear. Exact for all finite coordinates.
+/// Returns whether three points in space are collinear. Exact for all finite coordinates.
 bool areCollinear(const Point3& a, const Point3& b, const Point3& c);
 
-/// The Delaunay triangulation of points in space: incremental insertion (Bowyer 1981, Watson 1981)
-/// in biased randomised rounds, with a vertex at infinity, exact predicates, and ties broken by the
-/// points' lexicographic order. So the set of tetrahedra is unique, and none is flat.
-/// Reusable for many point sets.
+/// The Delaunay triangulation of points in space. Incremental insertion (Bowyer 1981, Watson 1981)
+/// in biased randomised rounds, with a vertex at infinity and exact predicates. Ties are broken by
+/// the points' lexicographic order, so the set of tetrahedra is unique, and no tetrahedron is flat.
+/// An object can triangulate many point sets, one after the other.
 class VTKTIPPFILTERS_EXPORT DelaunayKernel3
 {
 public:
   using Index = TetrahedronMesh::Index;
   static constexpr Index Infinite = 0; ///< the vertex at infinity
 
-  /// A point that is not a vertex, because another one has its coordinates.
+  /// A point that is not a vertex because another point has the same coordinates.
   struct Duplicate
   {
-    std::uint32_t Point; ///< its index
+    std::uint32_t Point; ///< its index in the input of triangulate()
     Index Vertex;        ///< the vertex with the same coordinates
   };
 
-  /// Called now and then with the number of points inserted so far; returning false ends the run.
+  /// Called regularly with the number of points inserted so far. Returns false to stop the run.
   using Monitor = std::function<bool(std::size_t)>;
 
-  /// Triangulates `count` finite points, and forgets what was triangulated before. No product of
-  /// five differences of coordinates should under- or overflow, or the exact predicates decide all.
-  /// Returns false if `proceed` returned false; there is no triangulation then. Throws
-  /// std::length_error for more points than indices can name. `threads`: how many insert points at
-  /// the same time (ParallelInsertion3); the set of tetrahedra is the same.
+  /// Triangulates `count` finite points and replaces the previous triangulation; `points` are
+  /// copied. If products of five coordinate differences under- or overflow, the result is still
+  /// exact, but slow: the filters fail then. `threads`: how many threads insert points
+  /// (ParallelInsertion3); the set of tetrahedra does not depend on it. Returns false, without a
+  /// triangulation, if `proceed` returned false. Throws std::length_error if there are more points
+  /// than indices.
   bool triangulate(
     const Point3* points, std::size_t count, const Monitor& proceed = {}, int threads = 1);
 
-  /// -1 without points; 0 if all have the same coordinates, 1 if they are collinear, 2 if they are
-  /// coplanar: then there are neither tetrahedra nor duplicates. Else 3.
+  /// The dimension of the points: -1 without points, 0 if all have the same coordinates, 1 if they
+  /// are collinear, 2 if coplanar, else 3. Below 3 there are neither tetrahedra nor duplicates.
   int dimension() const { return this->Dimension; }
 
   /// @name Tetrahedra, including those at the infinite vertex
-  /// A tetrahedron is named by an index that only these functions interpret.
+  /// A tetrahedron is an index that only these functions interpret. A vertex is its position in the
+  /// order of insertion; pointIndex() gives its index in the input.
   ///@{
-  /// Calls visit(tetrahedron) for all.
+  /// Calls visit(tetrahedron) for each tetrahedron.
   template <typename Visit>
   void forEach(const Visit& visit) const
   {
     this->forEach(0, 1, visit);
   }
-  /// The same for share `part` of `parts` of all.
+  /// Calls visit(tetrahedron) for those in part number `part` of `parts`, so that threads can share
+  /// the work.
   template <typename Visit>
   void forEach(std::size_t part, std::size_t parts, const Visit& visit) const
   {
@@ -77,7 +80,8 @@ public:
       }
     }
   }
-  /// The vertices: orientation3() of them is positive.
+  /// The four vertices, in an order whose orientation3() is positive. The infinite vertex comes
+  /// first.
   std::array<Index, 4> corners(Index tetrahedron) const
   {
     const Index* const v = this->Mesh.slots() + tetrahedron;
@@ -89,19 +93,19 @@ public:
     return TetrahedronMesh::cellOf(this->Mesh.slots()[tetrahedron + i + 4]);
   }
   bool isInfinite(Index tetrahedron) const { return this->Mesh.slots()[tetrahedron] == Infinite; }
-  /// One past the largest name.
+  /// One past the largest index of a tetrahedron.
   Index end() const { return this->Mesh.end(); }
   ///@}
 
   const Point3& point(Index vertex) const { return this->Points[vertex]; }
-  /// The index of the vertex's point: of points with the same coordinates the lowest.
+  /// The input index of the vertex's point: the lowest one of points with the same coordinates.
   std::uint32_t pointIndex(Index vertex) const { return this->PointIndices[vertex]; }
-  /// One past the last vertex. Some below it, duplicates, have no tetrahedra.
+  /// One past the last vertex. Duplicates below it have no tetrahedra.
   Index vertexEnd() const { return static_cast<Index>(this->Points.size()); }
 
   const std::vector<Duplicate>& duplicates() const { return this->Duplicates; }
 
-  /// Frees the memory, and forgets the triangulation.
+  /// Frees the memory and the triangulation.
   void release();
 
   /// Bytes allocated for points and tetrahedra.

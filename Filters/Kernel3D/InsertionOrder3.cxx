@@ -25,8 +25,8 @@ constexpr unsigned gray(unsigned n)
   return n ^ n >> 1;
 }
 
-/// The Hilbert curve in three dimensions as an automaton of 24 states (Hamilton 2006): the corner
-/// at which the curve enters a cube, and the axis along which it goes from there to the last one.
+/// The Hilbert curve in three dimensions as an automaton of 24 states (Hamilton 2006). A state is
+/// the corner where the curve enters a cube, and the axis from there to the corner where it leaves.
 struct HilbertTable
 {
   struct Step
@@ -129,12 +129,12 @@ struct Bounds
   }
 };
 
-/// Runs of at most this many points are not worth sorting: a walk among them is short.
+/// Runs of at most this many points are not sorted: a walk among them is short.
 constexpr std::size_t ShortRun = 16;
 
 } // namespace
 
-/// Least significant digit first; few are sorted by comparison.
+/// Radix sort, least significant digit first. Few entries are sorted by comparison.
 void InsertionOrder3::sortByKey(std::size_t begin, std::size_t end)
 {
   constexpr std::size_t few = 4096;
@@ -186,9 +186,9 @@ void InsertionOrder3::fillKeys(
   }
 }
 
-/// Sorts points along a curve in their own bounding box. Those that share a cell of the finest
-/// level are sorted again in theirs, until few share one: coordinates may differ by hundreds of
-/// powers of two.
+/// Sorts points along a curve in their bounding box. If more than a few share a cell of the finest
+/// level, they are sorted again in their own bounding box, and so on. This is needed because
+/// coordinates may differ by hundreds of powers of two.
 void InsertionOrder3::sortRound(const Point3* points, std::size_t begin, std::size_t end)
 {
   std::vector<std::pair<std::size_t, std::size_t>> runs = { { begin, end } };
@@ -201,7 +201,8 @@ void InsertionOrder3::sortRound(const Point3* points, std::size_t begin, std::si
     {
       bounds.include(points[(*this)[i]]);
     }
-    // If all coincide, or the box is too large or too small for doubles, a curve is no help.
+    // If all points coincide, or if the box is too large or too small for doubles, the order does
+    // not matter.
     if (!std::isnormal(bounds.scale()))
     {
       continue;

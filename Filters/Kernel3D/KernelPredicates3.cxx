@@ -15,15 +15,17 @@ void KernelPredicates3::restart(const Point3* points, std::size_t count)
   this->Points = points;
   this->Count = count;
   this->Failures = 0;
-  this->ExactLifts = -1; // never reached
+  this->ExactLifts = -1; // no sum of lifts is below this
   this->ExactDifference = 0;
 }
 
-/// Any input makes a few filters fail; after some more it pays to look for a common unit.
-//
-// With differences of at most 2^k units, all terms of the in-sphere determinant and their partial
-// sums are integers below 72 * 2^(5 k) < 2^(5 k + 6.2) times unit^5: exact for k = 9, and so if the
-// sum of the squares is at most 2^18. Of an orientation they are below 6 * 2^(3 k): k = 16.
+/// Counts uncertain results. A few occur for any input; after some more it pays to look for a
+/// common unit of the coordinates.
+///
+/// If differences are at most 2^k units, all terms of the in-sphere determinant and their partial
+/// sums are integers below 72 * 2^(5 k) < 2^(5 k + 6.2), times unit^5. Doubles hold them exactly
+/// for k = 9, and therefore if the sum of the squared differences is at most 2^18 squared units.
+/// For an orientation the integers are below 6 * 2^(3 k), which is exact for k = 16.
 void KernelPredicates3::countFailure()
 {
   constexpr std::size_t few = 32;
@@ -50,7 +52,7 @@ void KernelPredicates3::countFailure()
     }
   }
   const double unit = span.fits(63) ? 1 / span.scale() : 0;
-  // Their fifth powers must be normal numbers.
+  // The fifth power of the unit must be a normal number.
   if (unit >= 0x1p-180 && unit <= 0x1p180)
   {
     this->ExactLifts = 0x1p18 * unit * unit;

@@ -11,18 +11,19 @@
 namespace tipp
 {
 
-/// The kernel's exact predicates on vertices of a mesh whose vertex 0 is at infinity. If
-/// coordinates are multiples of one unit, as those of lattices are, doubles are exact for near
-/// points: that is found out when filters have failed a few times.
+/// The kernel's exact predicates on vertices of a mesh whose vertex 0 is at infinity. If all
+/// coordinates are multiples of one unit, as in lattices, doubles are exact for points that are
+/// close together. The object looks for such a unit once the filters have failed a few times.
 class KernelPredicates3
 {
 public:
   using Index = TetrahedronMesh::Index;
 
-  /// Begins with new points; `count` includes the vertex at infinity.
+  /// Prepares for new points, which are not copied; `count` includes the vertex at infinity.
   void restart(const Point3* points, std::size_t count);
 
-  /// Whether p is in conflict with the finite tetrahedron of these vertices, ties decided.
+  /// Returns whether p is in conflict with the finite tetrahedron of the vertices v[0..3]. Ties are
+  /// broken by lexicographic order.
   bool isInFiniteConflict(const Index* v, const Point3& p)
   {
     const InSphereValue value = inSphereValue(
@@ -31,11 +32,12 @@ public:
                                                  : this->isInFiniteConflict(v, p, value);
   }
 
-  /// Whether p is in conflict with a tetrahedron at infinity: that of the points beyond its facet,
-  /// and those in the facet's plane that its neighbour is in conflict with.
+  /// Returns whether p is in conflict with an infinite tetrahedron: p is beyond its hull facet, or
+  /// it is in the facet's plane and in conflict with the finite neighbour. `cell`: first slot of
+  /// the tetrahedron.
   bool isInInfiniteConflict(const Index* slots, Index cell, const Point3& p);
 
-  /// As orientation3().
+  /// Returns the sign of orientation3(), with the same exactness.
   int orientation(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
 private:
@@ -45,8 +47,8 @@ private:
   const Point3* Points = nullptr;
   std::size_t Count = 0;
   std::size_t Failures = 0;
-  double ExactLifts = -1;     ///< in-sphere values are exact up to this sum of lifts,
-  double ExactDifference = 0; ///< and orientations up to this largest difference
+  double ExactLifts = -1; ///< in-sphere determinants are exact up to this sum of lifts; -1: unknown
+  double ExactDifference = 0; ///< orientations are exact up to this largest coordinate difference
 };
 
 } // namespace tipp

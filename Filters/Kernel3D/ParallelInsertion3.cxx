@@ -23,7 +23,7 @@ bool ParallelInsertion3::insert(Index first, Index end, int threads, const Monit
 {
   if (this->Workers.empty())
   {
-    constexpr int mostTiles = 255; // their numbers are bytes
+    constexpr int mostTiles = 255; // Owners has a byte for a tile
     this->Workers.resize(std::size_t(std::min(threads, mostTiles)));
     this->Owners.resize(this->Count);
     for (Worker& worker : this->Workers)
@@ -47,7 +47,7 @@ bool ParallelInsertion3::insert(Index first, Index end, int threads, const Monit
   return !this->IsStopped && this->insertLeft(proceed, found);
 }
 
-/// Inserts those that are waiting as far as the threads' territories allow.
+/// Inserts waiting vertices in all threads, as far as their territories allow.
 void ParallelInsertion3::insertTogether(Index end, int threads, const Monitor& proceed)
 {
   constexpr std::size_t perTile = 1024;
@@ -98,7 +98,7 @@ void ParallelInsertion3::setOwners(const Tiling3& tiling, Index end, int threads
     });
 }
 
-/// Finds some finite tetrahedra in each territory, if it has any.
+/// Finds some finite tetrahedra in each territory that has any.
 void ParallelInsertion3::findStarts(std::size_t tiles)
 {
   for (Worker& worker : this->Workers)
@@ -145,7 +145,7 @@ void ParallelInsertion3::work(std::size_t tile, bool isCaller, const Monitor& pr
     }
     else if (worker.Left.size() > few && 2 * worker.Left.size() > first)
     {
-      // Most tetrahedra reach into other territories: it is not worth trying.
+      // Most tetrahedra reach into other territories, so inserting does not pay here.
       worker.Left.insert(worker.Left.end(), vertices + first, vertices + count);
       return;
     }
@@ -159,7 +159,7 @@ void ParallelInsertion3::work(std::size_t tile, bool isCaller, const Monitor& pr
   }
 }
 
-/// Inserts those that are waiting by this thread.
+/// Inserts the remaining vertices in this thread.
 bool ParallelInsertion3::insertLeft(
   const Monitor& proceed, std::vector<Cavity3::Coincidence>& found)
 {

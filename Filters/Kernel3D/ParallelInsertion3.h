@@ -16,39 +16,40 @@
 namespace tipp
 {
 
-/// Inserts vertices into one mesh by several threads without locks (Marot, Pellerin, Remacle, One
-/// machine, one minute, three billion tetrahedra, 2019). Space is divided into tiles, each thread
-/// owns the vertices in one of them, and changes only tetrahedra all of whose vertices it owns. The
-/// vertices that cannot be inserted so are tried again with other tiles, and the last ones are
-/// inserted by the calling thread. Which vertex is inserted when depends on the number of threads;
-/// the set of tetrahedra does not, for the kernel's ties are decided by coordinates.
+/// Inserts vertices into one mesh with several threads and without locks (Marot, Pellerin, Remacle:
+/// One machine, one minute, three billion tetrahedra, 2019). Space is divided into tiles. Each
+/// thread owns the vertices in one tile, and changes only tetrahedra whose finite vertices it all
+/// owns. Vertices that cannot be inserted this way are tried again with other tiles; the calling
+/// thread inserts the last ones. The number of threads changes the order of insertion but not the
+/// set of tetrahedra, because ties are broken by coordinates.
 class ParallelInsertion3
 {
 public:
   using Index = TetrahedronMesh::Index;
-  /// As DelaunayKernel3::Monitor; called by the calling thread.
+  /// As DelaunayKernel3::Monitor. Only the calling thread calls it.
   using Monitor = std::function<bool(std::size_t)>;
 
-  static constexpr Index Few = 1 << 14; ///< fewer vertices are not worth threads
+  static constexpr Index Few = 1 << 14; ///< fewer vertices are inserted by one thread
 
-  /// All must outlive this. `count` of `points` includes the vertex at infinity. `first`: inserts
-  /// what the threads cannot.
+  /// `mesh`, `points` and `first` must outlive this object. `count` is the number of points,
+  /// including the vertex at infinity. `first` inserts the vertices that the threads cannot insert.
   ParallelInsertion3(
     TetrahedronMesh& mesh, const Point3* points, std::size_t count, Cavity3& first);
 
-  /// Inserts the vertices [first, end). Appends to `found` those at the position of an earlier one.
-  /// Returns false if `proceed` did.
+  /// Inserts the vertices [first, end). Appends to `found` those that have the coordinates of an
+  /// earlier vertex. Returns false if `proceed` did. Throws std::length_error if there are too many
+  /// tetrahedra.
   bool insert(Index first, Index end, int threads, const Monitor& proceed,
     std::vector<Cavity3::Coincidence>& found);
 
 private:
-  /// What one thread works with.
+  /// The data of one thread.
   struct Worker
   {
     Cavity3 Opened;
-    std::vector<Index> Starts; ///< some tetrahedra of its territory
+    std::vector<Index> Starts; ///< some tetrahedra of the thread's territory
     std::vector<Index> Mine;   ///< vertices to insert
-    std::vector<Index> Left;   ///< of these, those that are left
+    std::vector<Index> Left;   ///< vertices of Mine that were not inserted
     std::vector<Cavity3::Coincidence> Found;
   };
 
@@ -63,8 +64,8 @@ private:
   const std::size_t Count;
   Cavity3& First;
   std::vector<Worker> Workers;
-  std::vector<std::uint8_t> Owners; ///< by vertex: a tile
-  std::vector<Index> Waiting;       ///< to be inserted; ascending
+  std::vector<std::uint8_t> Owners; ///< by vertex: its tile
+  std::vector<Index> Waiting;       ///< vertices that are still to be inserted; ascending
   std::atomic<std::uint64_t> End{ 0 };
   std::atomic<std::size_t> Done{ 0 };
   std::atomic<bool> IsStopped{ false };

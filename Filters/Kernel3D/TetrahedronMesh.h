@@ -11,10 +11,11 @@
 namespace tipp
 {
 
-/// Tetrahedra in one array, 32 bytes (8 slots) and a mark each: slots 0..3 hold the vertices, so
-/// that orientation3() of them is positive, and slots 4..7 the neighbours. A facet is identified by
-/// the slot of the vertex opposite to it, f = 8 t + i, and slot f + 4 holds the same facet of the
-/// neighbour, so that the neighbour's apex is one load away.
+/// Tetrahedra in one array, each with 8 slots of 32 bits and a mark. A tetrahedron is identified by
+/// its first slot t. Slots t .. t + 3 hold the vertices, in an order whose orientation3() is
+/// positive; slots t + 4 .. t + 7 hold the neighbours. A facet is identified by the slot of the
+/// opposite vertex, f = t + i. Slot f + 4 holds the same facet as the neighbour identifies it, so
+/// that one load gives the neighbour's opposite vertex.
 class TetrahedronMesh
 {
 public:
@@ -23,13 +24,15 @@ public:
   enum Mark : std::uint8_t
   {
     Live,
-    InConflict, ///< with the vertex that is being inserted
+    InConflict, ///< with the vertex being inserted
     New,        ///< made by the current insertion
     Free
   };
 
+  /// The largest end(): slots are 32-bit indices.
   static constexpr Index MostSlots = ~Index(0) & ~Index(7);
 
+  /// Returns the tetrahedron that a facet belongs to.
   static Index cellOf(Index facet) { return facet & ~Index(7); }
 
   Index* slots() { return this->Slots.data(); }
@@ -37,10 +40,11 @@ public:
   std::uint8_t* marks() { return this->Marks.data(); }
   const std::uint8_t* marks() const { return this->Marks.data(); }
 
-  /// One past the last tetrahedron, in slots.
+  /// One past the last tetrahedron, in slots. Tetrahedra below it may be free.
   Index end() const { return this->End; }
   void setEnd(Index end) { this->End = end; }
 
+  /// The number of tetrahedra that fit into the reserved memory.
   std::size_t capacity() const { return this->Marks.size(); }
   std::size_t bytes() const { return this->Slots.size() * sizeof(Index) + this->Marks.size(); }
 
@@ -62,6 +66,7 @@ public:
     this->Marks = std::move(marks);
   }
 
+  /// Makes two tetrahedra neighbours; f and g are the common facet in each of them.
   void link(Index f, Index g)
   {
     this->Slots[f + 4] = g;

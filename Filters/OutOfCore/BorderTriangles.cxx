@@ -11,7 +11,7 @@ namespace tipp
 namespace
 {
 
-/// The file that stays when a border is taken.
+/// Returns the path of an empty file that exists once the consumer has the piece's border.
 std::string takenPath(const PieceWork& work, PartitionIndex piece)
 {
   return work.resultPath(piece) + ".taken";
@@ -122,7 +122,7 @@ BorderQueue::BorderQueue(const PiecePlan& plan, const PartitionOrder& order)
     {
       if (order.isTotal())
       {
-        continue; // their borders are taken at the end
+        continue; // finishPieces() passes their borders on
       }
       for (const PartitionIndex q : order.conflicts().neighbours(p))
       {

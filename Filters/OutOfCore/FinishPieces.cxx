@@ -32,7 +32,7 @@ FinishedPiece readFinished(const std::string& path)
   return unpacked<FinishedPiece>(readCheckedFile(path));
 }
 
-/// Throws IOError for what is damaged or missing.
+/// Throws IOError if the files of the piece are damaged or missing.
 void verifyPiece(const PieceWork& work, PartitionIndex piece)
 {
   const std::size_t number = work.Plan.number(piece);
@@ -59,8 +59,8 @@ void removePiece(const PieceWork& work, PartitionIndex piece)
   }
 }
 
-/// The segments near triangles. Looks them up by the bounding box of each run of `together`
-/// consecutive triangles.
+/// Reads the segments near the triangles, by the bounding box of each `together` consecutive
+/// triangles. `corners` are indices into `points`.
 ConstraintSegments readNear(const PieceSegments& segments, PointsView points,
   const std::int32_t* corners, std::size_t triangles, std::size_t together)
 {
@@ -124,13 +124,15 @@ public:
       setGhosts(this->Work, this->results(), border);
       finished = writeBorder(this->Work.Mesh, number, this->Work.Rows, interior, border);
     }
-    // From now on the file may have another layout than the result says.
+    // The record must exist before the file is used further: the file may no longer have the layout
+    // that the result describes.
     writeCheckedFile(record, [&](SaveArchive& archive) { archive(finished); });
     return finished;
   }
 
 private:
-  /// `border`: the triangles that the piece owns.
+  /// Passes the border of a piece to the consumer, unless that was done earlier. `border`: the
+  /// triangles that the piece owns.
   void take(PartitionIndex piece, PieceBorder& border) const
   {
     if (!this->Work.takesBordersEarly())
@@ -148,7 +150,7 @@ private:
     return readInterior(this->Work, piece, *this->Results[std::size_t(piece)]);
   }
 
-  /// The triangles that replace those at artificial points belong to borders, too.
+  /// Makes the triangles that replace those at artificial points. They also belong to borders.
   void repairHull()
   {
     std::vector<BoundaryVertex> vertices;
@@ -161,8 +163,8 @@ private:
     tipp::repairHull(std::move(vertices), this->Work.Plan.Artificial, sorter);
   }
 
-  /// Inserts the constraints that are complete in no piece's interior: all triangles that they
-  /// cross, of interiors and borders, are retriangulated together.
+  /// Inserts the constraints that no piece's interior contains completely: retriangulates all
+  /// triangles that they cross, in interiors and borders, together.
   void constrain(int threads)
   {
     const PartitionIndex pieces = this->Work.Plan.pieces();
@@ -194,7 +196,7 @@ private:
     }
   }
 
-  /// The triangles that a piece owns at its border and constraints cross.
+  /// Returns the triangles that the piece owns at its border and that constraints cross.
   CrossedPart takeCrossedBorder(PartitionIndex piece) const
   {
     std::vector<CrossedPart::Corners> triangles;
@@ -220,7 +222,7 @@ private:
     return part;
   }
 
-  /// Whether triangles at the border stay, where there are constraints.
+  /// Returns for each triangle of a border whether it is kept although there are constraints.
   std::vector<char> findKept(const BorderTriangles& triangles) const
   {
     std::vector<char> isKept;
@@ -250,7 +252,7 @@ private:
     return isKept;
   }
 
-  /// Each once, ascending.
+  /// Returns the corners of the triangles, each once, ascending.
   static std::vector<std::int64_t> pointsOf(const std::vector<CrossedPart::Corners>& triangles)
   {
     std::vector<std::int64_t> points;
@@ -268,7 +270,8 @@ private:
     return points.empty() ? PointsView() : PointsView(&points.front().x, points.size(), 2);
   }
 
-  /// Visits what a piece owns at its border, from all results, and what was made since.
+  /// Visits the triangles that a piece owns at its border, from all results, and those made after
+  /// all pieces were done.
   template <typename Visit>
   void forEachBorder(PartitionIndex piece, const Visit& visit) const
   {
@@ -322,8 +325,8 @@ private:
   const PieceWork& Work;
   std::vector<std::unique_ptr<StoredResult>> Results; ///< of each piece
   PieceFigures Figures;
-  BordersByOwner Late;                        ///< triangles made when all pieces are done
-  std::vector<CrossedPart::Corners> Replaced; ///< triangles that constraints cross, ascending
+  BordersByOwner Late;                        ///< triangles made after all pieces were done
+  std::vector<CrossedPart::Corners> Replaced; ///< triangles that constraints cross; sorted
 };
 
 } // namespace
@@ -333,7 +336,7 @@ std::vector<char> verifyResults(const PieceWork& work, int threads, const Report
 {
   std::vector<char> isDone(std::size_t(work.Plan.pieces()), 0);
   std::mutex mutex;
-  std::string damaged; // the first of them
+  std::string damaged; // path of the first damaged file
   int others = -1;
   const auto verify = [&](std::int64_t at, std::int64_t, int)
   {

@@ -14,73 +14,81 @@
 namespace tipp
 {
 
-/// The result of a piece that is done.
+// Point ids in this header are indices among all spilled points (see SpilledPoints).
+
+/// Returns the result of a piece that is done.
 using ResultOf = std::function<const StoredResult&(PartitionIndex)>;
 
-/// The interior of a piece that is done. Throws IOError.
+/// Reads the interior of a piece that is done. Throws IOError.
 PieceInterior readInterior(const PieceWork& work, PartitionIndex piece, const StoredResult& result);
 
-/// Visits the rows of points at borders, which are interface points of their own pieces. `points`:
-/// ascending. Throws IOError.
+/// Calls visit(point, row) for points at borders, which are interface points of their pieces.
+/// `points` must be ascending. Throws IOError.
 void visitBorderRows(const PieceWork& work, const std::vector<std::int64_t>& points,
   const ResultOf& results, const std::function<void(std::int64_t, const double*)>& visit);
 
-/// Sets the rows of the points of other pieces that a border's triangles use. Throws IOError.
+/// Sets the rows of the points that a border's triangles use and that other pieces own. Throws
+/// IOError.
 void setGhosts(const PieceWork& work, const ResultOf& results, PieceBorder& border);
 
-/// Gives the triangles between pieces that the last partitions of `piece` have completed to the
-/// taker. All pieces that conflict with it must be done: their points are corners. Throws IOError.
+/// Passes to the consumer the triangles between pieces that became final with the last partitions
+/// of `piece`. All pieces that conflict with it must be done, because their points may be corners.
+/// Throws IOError.
 void takeBorder(const PieceWork& work, PartitionIndex piece, const ResultOf& results);
 
-/// Gives it the triangles at the border of the piece that owns them. Throws IOError.
+/// Passes to the consumer the triangles at the border of the piece that owns them. Throws IOError.
 void takeBorder(
   const PieceWork& work, PartitionIndex piece, PieceBorder& border, const ResultOf& results);
 
-/// Gives it triangles of any pieces; `name`: of this part.
+/// Passes triangles at the borders of any pieces to the consumer; `name` identifies this part (see
+/// TriangleConsumer::take()). Throws IOError.
 void takeTriangles(const PieceWork& work, const std::string& name, const BordersByOwner& triangles,
   const ResultOf& results);
 
-/// Whether takeBorder() has been completed, in this process or another one.
+/// Returns whether the first takeBorder() has been completed for a piece, in this process or an
+/// earlier one.
 bool isBorderTaken(const PieceWork& work, PartitionIndex piece);
 
-/// Tells which borders can be taken while pieces get done, in any order.
+/// Finds the pieces whose borders can be passed to the consumer. Pieces may become done in any
+/// order.
 class BorderQueue
 {
 public:
-  /// Of all partitions, of which conflicting ones are neighbours.
+  /// `order`: of all partitions; pieces with conflicting partitions are neighbours.
   BorderQueue(const PiecePlan& plan, const PartitionOrder& order);
 
-  /// Call once for each piece that gets done. Returns the pieces whose borders can be taken now.
+  /// Call this once for each piece that becomes done. Returns the pieces whose neighbours are now
+  /// all done: takeBorder() can be called for them.
   std::vector<PartitionIndex> setDone(PartitionIndex piece);
 
 private:
-  std::vector<std::vector<PartitionIndex>> Neighbours; ///< of each piece, with itself
-  std::vector<std::size_t> Open;                       ///< of these, those that are not done
+  std::vector<std::vector<PartitionIndex>> Neighbours; ///< by piece: neighbours, and itself
+  std::vector<std::size_t> Open; ///< by piece: the number of its Neighbours that are not done
 };
 
-/// Returns for each piece whether an earlier process has left its result and its share of the mesh
-/// intact; reads all of them. Damaged pieces are removed, so that they are made again, and `warn`
-/// gets a sentence about them. Returns an empty list if `report` ended it.
+/// Returns for each piece whether an earlier process left its result and its part of the mesh
+/// undamaged. Reads all of these files. Removes damaged ones, so that their pieces are made again,
+/// and passes a sentence about them to `warn`. Returns an empty list if `report` stopped the run.
 std::vector<char> verifyResults(const PieceWork& work, int threads, const Report& report,
   const std::function<void(const std::string&)>& warn);
 
-/// Completes the files of all pieces when all results are there: repairs the hull (Lemma 3) and
-/// adds the borders to the interiors. A piece's file is complete then, except for the global ids of
-/// cells and of their neighbours. Returns the pieces by their numbers in the mesh; an empty list if
-/// `report` ended it. Throws IOError.
+/// Completes the files of all pieces once all results exist: repairs the hull (Lemma 3), and adds
+/// the borders to the interiors. Then only the global ids of cells and of their neighbours are
+/// missing. Returns the pieces in the order of the mesh; an empty list if `report` stopped the run.
+/// Throws IOError.
 std::vector<FinishedPiece> finishPieces(
   const PieceWork& work, int threads, const Report& report, PieceFigures& figures);
 
-/// Writes the global ids of all cells, and sets mesh.Cells. Throws IOError.
+/// Writes the global ids of all cells, and sets mesh.Cells to their number. Throws IOError.
 void numberCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, const Report& report);
 
-/// Writes the array that marks edges of constraints, the mesh's array number `array`, after
-/// numberCells(). Constraints: null if there are none. Throws IOError.
+/// Writes the cell array that marks edges of constraints; call it after numberCells(). `array`: its
+/// index among the mesh's arrays. `constraints`: null if there are none. Throws IOError.
 void markCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, std::int64_t array,
   const PieceSegments* constraints, int threads, const Report& report);
 
-/// Writes the cell array NeighborIds, after numberCells(): by as many threads as `memory` bytes
-/// allow. Throws IOError.
+/// Writes the cell array NeighborIds; call it after numberCells(). Uses as many of the threads as
+/// `memory` bytes allow. Throws IOError.
 void linkCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, std::uint64_t memory,
   int threads, const Report& report);
 

@@ -86,7 +86,7 @@ private:
     const std::vector<InitialPoint>& initial = this->Plan.Initial;
     while (this->NextInitial < initial.size() && initial[this->NextInitial].Id < first)
     {
-      ++this->NextInitial; // of another part
+      ++this->NextInitial; // initial points of an earlier part
     }
     for (std::size_t i = 0; i < this->Labels.size(); ++i)
     {
@@ -171,7 +171,8 @@ SpilledPoints::SpilledPoints(const std::vector<SpilledPart>& parts, const InputS
   , Rows(file, std::size_t(plan.pieces()), 8 * rows.Words, rowsOf(parts))
 {
   std::int64_t seen = 0;
-  std::vector<std::int64_t> before(std::size_t(plan.pieces()), 0); // the part
+  // By piece: the points in earlier parts.
+  std::vector<std::int64_t> before(std::size_t(plan.pieces()), 0);
   auto next = plan.Initial.begin();
   for (const SpilledPart& part : parts)
   {
@@ -216,7 +217,7 @@ SpilledPoints::SpilledPoints(
   }
   if (!isOurs)
   {
-    throw IOError(file, "has points of other pieces; start again.");
+    throw IOError(file, "has the points of other pieces; start again.");
   }
 }
 
@@ -256,7 +257,7 @@ InputPasses::InputPasses(PointStream& points, Communicator* ranks, PassOptions o
 {
 }
 
-/// Other ranks answer while this one works.
+/// Stores the messages of other ranks, which answer while this one works.
 void InputPasses::poll()
 {
   Message message;
@@ -299,7 +300,8 @@ Bytes InputPasses::answerOf(int rank)
   }
 }
 
-/// One result a part, of work(), which reads what the stream is limited to and is told the part.
+/// Returns one result per part. Each other rank gets `order` and answers; if it has no result, or
+/// if there are no ranks, work(part) computes it here with the stream limited to the part.
 template <typename Result, typename Work>
 std::vector<Result> InputPasses::share(MessageKind kind, SaveArchive order, const Work& work)
 {
@@ -388,7 +390,7 @@ bool InputHelper::take(const Message& message)
   {
     this->open(order);
   }
-  Bytes answer; // empty: the first rank is to do it
+  Bytes answer; // empty: the first rank must read the part
   if (this->Points)
   {
     answer = message.Kind == SurveyMessage ? this->survey()

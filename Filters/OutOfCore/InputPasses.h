@@ -22,44 +22,49 @@ namespace tipp
 class SaveArchive;
 class LoadArchive;
 
-/// Writes the row of a block's point, in the order of PointRowLayout.
+/// Writes the row of point number i of the block to `to`, in the order of PointRowLayout.
 void writeRow(const PointBlock& block, std::size_t i, char* to);
 
-/// Describes a spilled part of the stream.
+/// Describes the spilled rows of a part of the stream.
 struct SpilledPart
 {
   std::int64_t Points = 0;
-  SpilledRows Rows;                   ///< of Spill::close()
-  std::vector<std::int64_t> Counts;   ///< of finite points, of each piece
-  std::vector<std::int64_t> InPieces; ///< indices of the part's initial points in their pieces
+  SpilledRows Rows;                 ///< as Spill::close() returned them
+  std::vector<std::int64_t> Counts; ///< by piece: finite points
+  /// By initial point of this part: its index among the part's points of the same piece.
+  std::vector<std::int64_t> InPieces;
 };
 
-/// Spills the part of the stream that `points` is limited to, to part number `part` of the file.
-/// Coordinates are scaled by `factor` to find their pieces; rows hold them as they are.
+/// Spills the part of the stream to which `points` is limited, as part number `part` of `file`. A
+/// point's piece is found with its coordinates times `factor`; rows have the original coordinates.
+/// Throws IOError.
 VTKTIPPFILTERS_EXPORT SpilledPart spillPart(PointStream& points, double factor,
   const PiecePlan& plan, const PointRowLayout& rows, const std::string& file, int part,
   std::size_t blockPoints, int threads, const std::function<void(std::int64_t)>& progress);
 
-/// The finite points as rows, piece by piece, in the order of the stream within each.
+/// The spilled points: a row for each finite point, sorted by piece, and in the order of the stream
+/// within a piece. The index of a row is the id that the triangulation out of core uses internally.
 class VTKTIPPFILTERS_EXPORT SpilledPoints
 {
 public:
-  /// Joins all parts of the stream, in their order, and sets the indices of the plan's initial
-  /// points.
+  /// Joins all parts of the stream, in their order. Sets InitialPoint::InPieces of the plan's
+  /// initial points. Throws IOError.
   SpilledPoints(const std::vector<SpilledPart>& parts, const InputSurvey& survey, PiecePlan& plan,
     const PointRowLayout& rows, const std::string& file);
 
-  /// Restores the points that another process has spilled to the file. Throws IOError.
+  /// Opens the file of points that another process has spilled. Throws IOError.
   SpilledPoints(const std::string& file, const PiecePlan& plan, const PointRowLayout& rows,
     LoadArchive& archive);
+  /// Saves what the second constructor needs besides the file.
   void save(SaveArchive& archive) const;
 
-  /// The index of each piece's first point among all, and, at the end, the number of points.
+  /// Returns the index of each piece's first row, and at the end the number of rows.
   const std::vector<std::int64_t>& starts() const { return this->Starts; }
   std::int64_t count(PartitionIndex piece) const
   {
     return this->Starts[std::size_t(piece) + 1] - this->Starts[std::size_t(piece)];
   }
+  /// Reads all rows of a piece; `rows` must have space for count(piece) of them. Throws IOError.
   void read(PartitionIndex piece, double* rows) const
   {
     this->Rows.readAll(std::size_t(piece), rows);
@@ -74,24 +79,27 @@ private:
 /// How a rank reads its part of the input.
 struct PassOptions
 {
-  std::size_t BlockPoints; ///< at a time
+  std::size_t BlockPoints; ///< points per read
   std::size_t SamplePoints;
   int Threads;
-  /// Called with the number of points of a part that are done.
+  /// Called with the number of finished points of a part.
   std::function<void(std::int64_t)> Progress;
 };
 
-/// The passes over the input before its points are triangulated; on the first rank. If the input
-/// can be divided, each rank reads a part; the first rank also reads those of ranks that do not see
-/// the same input. The results do not depend on the parts.
+/// The passes over the input before its points are triangulated; used on the first rank. If the
+/// input can be divided, each rank reads a part. The first rank also reads the parts of ranks that
+/// do not have the same input. The results do not depend on the number of parts. Methods throw
+/// IOError.
 class VTKTIPPFILTERS_EXPORT InputPasses
 {
 public:
-  /// Ranks: null for this process alone.
+  /// `ranks`: null for this process alone. Both must outlive this object.
   InputPasses(PointStream& points, Communicator* ranks, PassOptions options);
 
+  /// Reads all points, and returns what is known of them.
   InputSurvey survey();
-  /// Sets the indices of the plan's initial points. `file`: a number is appended for each part.
+  /// Spills all points, and sets the indices of the plan's initial points. `file`: the path of the
+  /// spilled points; each part appends its number.
   std::unique_ptr<SpilledPoints> spill(const InputSurvey& survey, PiecePlan& plan,
     const PointRowLayout& rows, const std::string& file);
 
@@ -106,20 +114,21 @@ private:
   PointStream& Points;
   Communicator* const Ranks;
   const PassOptions Options;
-  const std::int64_t Total; ///< points, or -1
+  const std::int64_t Total; ///< number of points; -1: unknown
   const int Parts;
   std::deque<Message> Arrived;
 };
 
-/// Reads the parts of a rank other than the first.
+/// Reads the parts of the input that belong to a rank other than the first.
 class VTKTIPPFILTERS_EXPORT InputHelper
 {
 public:
-  /// Progress throws to end the run. The other options come from the first rank.
+  /// Of `options`, Threads and Progress are used; the first rank sends the others. Progress throws
+  /// to stop the run.
   InputHelper(
     Communicator& ranks, std::function<std::unique_ptr<PointStream>()> open, PassOptions options);
 
-  /// Handles a request of the first rank; returns false if the message is something else.
+  /// Handles a request of the first rank. Returns false if the message is not one.
   bool take(const Message& message);
 
 private:
@@ -131,7 +140,7 @@ private:
   Communicator& Ranks;
   const std::function<std::unique_ptr<PointStream>()> Open;
   PassOptions Options;
-  std::unique_ptr<PointStream> Points; ///< limited to this rank's part; null if it is another input
+  std::unique_ptr<PointStream> Points; ///< limited to this rank's part; null if the input differs
 };
 
 } // namespace tipp

@@ -19,7 +19,7 @@ constexpr Box2 nothing{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
 
 } // namespace
 
-/// withModerateMagnitude's, if it is exact for each block.
+/// Returns the factor of withModerateMagnitude(), or 1 unless it is exact for each block.
 double factorOfPart(PointStream& points, std::size_t blockPoints, const Box2& bounds)
 {
   double factor = withModerateMagnitude(PointsView(), bounds).factor();

@@ -14,21 +14,22 @@ namespace tipp
 namespace
 {
 
-/// Whether a worker keeps its memory for the next partition. Where most vertices are those of other
-/// partitions, partitions do not pay, and hardly two are worked on together.
+/// Returns whether a worker should keep its memory for the next partition. If most vertices belong
+/// to other partitions, partitioning does not pay, and hardly any two partitions are triangulated
+/// at the same time.
 bool isWorthKeeping(std::size_t vertices, std::size_t points)
 {
   constexpr std::size_t some = 16384;
   return vertices <= 2 * points + some;
 }
 
-/// Of points with the same coordinates the one with the lowest index represents the others, even if
-/// another was in the initial mesh: once their partition is triangulated, all triangles at them
-/// come from its worker, so it is enough to rename them there.
+/// Of points with the same coordinates, the one with the lowest index represents the others, even
+/// if another of them is a vertex of the initial mesh. All triangles at these points come from the
+/// worker of their partition once it is done, so renaming the vertex in its triangles is enough.
 class LowestPoints
 {
 public:
-  /// Makes the lowest points the representatives.
+  /// Changes `duplicates` so that the lowest points are the representatives.
   explicit LowestPoints(std::vector<Duplicate>& duplicates)
   {
     for (const Duplicate& duplicate : duplicates)
@@ -61,7 +62,8 @@ private:
 
 } // namespace
 
-/// Sorts the final boundary triangles of one partition.
+/// Sorts the final boundary triangles of one partition into those of the piece's interior and those
+/// at borders.
 struct LoadedPiece::Finals : public FinalTriangleConsumer
 {
   Finals(const LoadedPiece& piece, const LowestPoints& lowest)
@@ -118,7 +120,7 @@ private:
     {
       corners[i] = std::int32_t(triangle[i].Id - this->Of.First);
     }
-    // Which corner comes first depends on the worker.
+    // The worker does not determine which corner is first, so put the lowest one first.
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
     this->BoundaryTriangles.push_back(corners);
   }
@@ -162,7 +164,7 @@ bool LoadedPiece::owns(const BoundaryVertex& v) const
   return v.Id >= this->First && v.Id < this->First + std::int64_t(this->IsOnInterface.size());
 }
 
-/// Has a worker for the piece's partitions.
+/// Provides a worker for the piece's partitions.
 void LoadedPiece::prepare(Workspace& space)
 {
   if (space.Piece == this->Piece && space.Triangulator)
@@ -170,7 +172,7 @@ void LoadedPiece::prepare(Workspace& space)
     return;
   }
   const PiecePlan& plan = this->Work.Plan;
-  space.Triangulator.reset(); // gives its kernel to the next
+  space.Triangulator.reset(); // before the next one is made, which reuses the kernel
   space.Triangulator =
     std::make_unique<Worker<std::int32_t>>(plan.Partitions, this->Buckets, this->First);
   space.Triangulator->setTiling(plan.Partitions, -plan.FirstPartition[std::size_t(this->Piece)]);
@@ -278,8 +280,9 @@ void LoadedPiece::markInterface(const BoundaryVertex& v)
   }
 }
 
-/// Calls filter(corners, count, partition) for the triangles of each partition of all, and for
-/// those between, whose partition is -1; it returns how many are left.
+/// Calls filter(corners, count, partition) for the triangles of each partition, and with partition
+/// -1 for the interior triangles between partitions. filter() removes triangles and returns how
+/// many are left.
 template <typename Filter>
 void LoadedPiece::filterTriangles(const Filter& filter)
 {
@@ -296,8 +299,8 @@ void LoadedPiece::filterTriangles(const Filter& filter)
   }
 }
 
-/// Inserts the other constraints that are complete in the interior; what the rest crosses is put
-/// aside.
+/// Inserts the remaining constraints that are complete in the interior. The triangles that the
+/// others cross go to Result.Crossed, and leave the interior.
 void LoadedPiece::constrain()
 {
   CrossedPart crossed;
@@ -322,7 +325,7 @@ void LoadedPiece::constrain()
   }
 }
 
-/// Sets the values of points that represent duplicates; `figures` counts those whose duplicates
+/// Sets the values of points that represent duplicates. `figures` counts the positions whose points
 /// disagree.
 void LoadedPiece::resolveDuplicates(PieceFigures& figures)
 {
@@ -390,7 +393,7 @@ PieceInterior LoadedPiece::writeInterior()
   return tipp::writeInterior(this->Work.Mesh, number, this->Work.Rows, content);
 }
 
-/// Writes the whole file of a piece without a border.
+/// Writes the complete file of a piece that has no border.
 FinishedPiece LoadedPiece::writeAlone()
 {
   const PieceInterior interior = this->writeInterior();

@@ -21,7 +21,7 @@ namespace tipp
 namespace
 {
 
-/// A file that goes away.
+/// Removes the file at the end of the scope.
 struct Mark
 {
   explicit Mark(std::string path)
@@ -46,7 +46,7 @@ std::string firstLine(const std::string& path)
   return line;
 }
 
-/// Of a rank other than the first, before there are pieces.
+/// Reports progress on a rank other than the first before there are pieces to triangulate.
 void report(const Communicator& ranks, const OutOfCoreOptions& options)
 {
   if (options.Progress && !options.Progress(0))
@@ -77,13 +77,14 @@ int threadsOf(const OutOfCoreOptions& options)
   return threadCount(options.Threads);
 }
 
-/// Helps with the input until pieces can be worked on: false if there are none to help with.
+/// Helps with the input until the setup arrives. Returns false if the run ends without pieces to
+/// triangulate.
 bool receiveSetup(Communicator& ranks, const OpenPoints& open, const OutOfCoreOptions& options,
   RunSetup& prepared, std::vector<char>& isDone)
 {
   const auto progress = [&](std::int64_t)
   {
-    Message none; // but of a failure, which is thrown
+    Message none; // no message comes; poll() throws if a rank has failed
     ranks.poll(none);
     report(ranks, options);
   };
@@ -146,9 +147,9 @@ void requireSharedFolder(Communicator& ranks, const std::string& folder)
   if (firstLine(path) != expected)
   {
     throw IOError(std::filesystem::path(path).parent_path().string(),
-      "is not there on this rank, but all ranks work in it; name folders that all of them share.");
+      "does not exist on this rank, but all ranks use it; name folders that all ranks share.");
   }
-  ranks.barrier(); // then it may go
+  ranks.barrier(); // all ranks have read the file, so it can be removed
 }
 
 void shareSetup(Communicator& ranks, RunSetup& prepared, const std::string& points,
@@ -163,7 +164,7 @@ void shareSetup(Communicator& ranks, RunSetup& prepared, const std::string& poin
     Bytes copy(bytes.size());
     std::copy(bytes.begin(), bytes.end(), copy.begin());
     ranks.post(to, SetUpMessage, std::move(copy));
-    ranks.flush(); // or there would be a copy for each rank at a time
+    ranks.flush(); // send one copy at a time, to save memory
   }
 }
 

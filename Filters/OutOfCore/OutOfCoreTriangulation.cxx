@@ -16,7 +16,7 @@
 
 namespace tipp
 {
-/// The statistics of a whole mesh that do not depend on the process.
+/// The statistics of the whole mesh, without those of this process.
 template <typename Archive>
 void serialize(Archive& archive, OutOfCoreStatistics& statistics)
 {
@@ -28,7 +28,7 @@ void serialize(Archive& archive, OutOfCoreStatistics& statistics)
 namespace
 {
 
-/// The user has stopped the run.
+/// Thrown if the user has stopped the run.
 struct Aborted
 {
 };
@@ -97,7 +97,7 @@ private:
   {
     if (this->Ranks)
     {
-      Message message; // there is none but of a failure, which is thrown
+      Message message; // no message comes; poll() throws if a rank has failed
       this->Ranks->poll(message);
     }
     this->tell(fraction);
@@ -131,7 +131,7 @@ private:
     this->Statistics.Kept = kept;
   }
 
-  /// False if there is nothing to resume.
+  /// Returns false if there is nothing to resume.
   bool resume()
   {
     if (!this->Scratch.hasRun())
@@ -161,12 +161,13 @@ private:
     this->describePlan();
   }
 
-  /// After recordWhole().
+  /// Resumes a run whose mesh is complete, as recordWhole() has recorded.
   void resumeWhole(LoadArchive& archive, bool isOurs)
   {
     archive(this->Statistics, this->Fingerprint);
     this->IsInPlace = this->Fingerprint != 0 && holdsMesh(this->Path, this->Fingerprint);
-    if (this->IsInPlace && !isOurs) // what is left of that run is of no use
+    // The other run's mesh is already published, so its remains are useless.
+    if (this->IsInPlace && !isOurs)
     {
       this->keep(false);
       this->Statistics = {};
@@ -183,7 +184,7 @@ private:
 
   bool hasMeshToPublish() const { return !this->Options.CountOnly && !this->IsInPlace; }
 
-  /// The process that made the mesh has ended, and its files may have changed since.
+  /// Verifies the mesh: the process that made it has ended, and its files may have changed since.
   void verifyWhole() const
   {
     try
@@ -202,12 +203,11 @@ private:
     if (!isOurs)
     {
       throw IOError(this->Path,
-        this->Options.Resume
-          ? "was begun with another input, or with one that has been changed since, or with other "
-            "options; give those, or remove " +
+        this->Options.Resume ? "was started with another or since changed input, or with other "
+                               "options; give those, or remove " +
             this->Pending.workPath() + " to start again."
-          : "has been begun by another run, and its work is in " + this->Pending.workPath() +
-            "; resume it, or remove that folder to start again.");
+                             : "was started by another run, whose files are in " +
+            this->Pending.workPath() + "; resume that run, or remove the folder to start again.");
     }
   }
 
@@ -252,7 +252,8 @@ private:
     requireElevation(this->Options.Duplicates, this->Input.columns());
     if (survey.Points == survey.Rejected)
     {
-      throw IOError("There is no point with finite coordinates in the input, so nothing to write.");
+      throw IOError(
+        "The input has no point with finite coordinates, so there is nothing to write.");
     }
     this->requireSpace(0, segments ? PieceSegments::fileBytes(segments->count()) : 0);
     this->Setup.Plan =
@@ -261,10 +262,10 @@ private:
     {
       this->Setup.setConstraints(this->Scratch.points(), *segments, this->Threads);
     }
-    std::vector<SampledPoint>().swap(survey.Sample); // = {} would keep the memory
+    std::vector<SampledPoint>().swap(survey.Sample); // assigning {} would keep the memory
     if (this->Setup.Plan->HasLargeInterface)
     {
-      // Each piece is sent nearly all points of those before it.
+      // Each piece gets messages with nearly all points of the pieces before it.
       constexpr std::uint64_t sent = 32 / 2;
       constexpr std::uint64_t border = 64;
       this->requireSpace(sent * std::uint64_t(this->Setup.Plan->pieces()) + border, 0);
@@ -288,16 +289,17 @@ private:
     this->Statistics.Partitions = this->Setup.Plan->Partitions.size();
   }
 
-  /// `more`: bytes per point in the scratch folder beyond the usual; `others`: besides.
+  /// `more`: bytes per point in the scratch folder beyond the usual ones; `others`: additional
+  /// bytes there.
   void requireSpace(std::uint64_t more, std::uint64_t others) const
   {
     const auto points = std::uint64_t(this->Setup.Survey.Points - this->Setup.Survey.Rejected);
     const std::uint64_t cell =
       12 + 4 + 1 + 8 + (this->Options.Neighbors ? 24 : 0) + (this->Options.MarkConstraints ? 3 : 0);
-    // Borders and ids of cells included; two triangles a point at most.
+    // Includes borders and ids of cells. There are at most two triangles per point.
     const std::uint64_t stored =
       points * (24 + 8 + 1 + 8 * this->Setup.Rows.Attributes.size() + 2 * cell) / 50 * 51;
-    constexpr std::uint64_t results = 4; // of pieces of 30,000 points
+    constexpr std::uint64_t results = 4; // bytes per point for pieces of 30,000 points
     this->Scratch.requireSpace(this->Path, this->Options.CountOnly ? 0 : stored,
       points * (8 * this->Setup.Rows.Words + results + more) + others + this->Setup.takenBytes());
   }
@@ -425,8 +427,8 @@ private:
     this->recordWhole();
   }
 
-  /// Replaces the plan: from now on nothing in the work folder but the mesh is needed, and if the
-  /// process ends, another only has to move the mesh to its path.
+  /// Replaces the plan by a record that the mesh is complete. From now on only the mesh in the work
+  /// folder is needed, and a resumed run only has to move it to its path.
   void recordWhole()
   {
     this->IsWhole = true;
@@ -444,7 +446,7 @@ private:
   {
     if (this->Options.Progress)
     {
-      this->Options.Progress(1); // too late to end it
+      this->Options.Progress(1); // too late to stop the run
     }
     if (this->hasMeshToPublish())
     {
@@ -456,7 +458,7 @@ private:
   }
 
   PointStream& Input;
-  Communicator* const Ranks; ///< null: this process alone
+  Communicator* const Ranks; ///< null: this process works alone
   const std::string Path;
   const OutOfCoreOptions& Options;
   const int Threads;
@@ -466,9 +468,9 @@ private:
   std::unique_ptr<MemoryPlan> Memory;
   RunSetup Setup;
   std::vector<FinishedPiece> Finished;
-  bool IsWhole = false;          ///< all files of the mesh are there, or all triangles are counted
-  bool IsInPlace = false;        ///< the mesh is at Path
-  std::uint64_t Fingerprint = 0; ///< of the whole mesh, where there is one
+  bool IsWhole = false;          ///< the mesh is complete, or all triangles are counted
+  bool IsInPlace = false;        ///< the mesh is already at Path
+  std::uint64_t Fingerprint = 0; ///< of the complete mesh, if there is one
   Stopwatch Watch;
 };
 

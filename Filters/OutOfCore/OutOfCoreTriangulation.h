@@ -20,31 +20,36 @@
 namespace tipp
 {
 
-/// Receives the final triangles of a triangulation out of core, instead of a mesh on disk. What it
-/// keeps must survive the process if the run is to be resumed.
+/// Receives the final triangles of a triangulation out of core instead of a mesh on disk. To resume
+/// a run in another process, the consumer must keep its state in files.
 class TriangleConsumer
 {
 public:
   virtual ~TriangleConsumer() = default;
 
-  /// Equal for takers that do the same in another run.
+  /// Returns a text that is equal for consumers that do the same, so that a run is resumed with the
+  /// same consumer.
   virtual std::string identity() const = 0;
 
-  /// About how many bytes of disk it needs where its files are.
+  /// Returns the approximate number of bytes that the consumer needs on the disk of its files.
   virtual std::uint64_t fileBytes(
     const Box2& bounds, const std::vector<std::string>& columns) const = 0;
 
-  /// Before the first triangles, when the points are known; on all ranks. `files`: how the paths of
-  /// files begin that stay until the end of the run; all ranks see them.
+  /// Called once, on all ranks, when the points are known and before the first triangles. `files`:
+  /// prefix for paths of files that stay until the end of the run; all ranks see them. `bounds`: of
+  /// the finite points. `columns`: of the input, beside x and y.
   virtual void begin(
     const Box2& bounds, const std::vector<std::string>& columns, const std::string& files) = 0;
 
-  /// Triangles of points in rows; each of the whole triangulation once, or again in a resumed run.
-  /// `name`: of this part; the same when it is made again. Called by several threads at once.
+  /// Receives triangles as corners that are indices into `points` rows. The calls together pass
+  /// each triangle of the triangulation once, or again if the run is resumed. `name` identifies
+  /// this part of the triangles: it is the same when the part is passed again. Called by several
+  /// threads at the same time.
   virtual void take(const std::string& name, const double* rows, const PointRowLayout& layout,
     std::size_t points, const std::vector<TriangleRange>& triangles) = 0;
 
-  /// When all are taken; on the first rank. False if `progress` ended it.
+  /// Called on the first rank when all triangles have been passed. Returns false if `progress`
+  /// stopped it.
   virtual bool end(const std::function<bool(double)>& progress) = 0;
 };
 
@@ -54,37 +59,40 @@ class TriangleConsumer;
 struct OutOfCoreOptions
 {
   std::uint64_t MemoryLimit = std::uint64_t(2) << 30; ///< in bytes
-  int Threads = 0;                                    ///< 0: OpenMP's choice
-  int Columns = 0; ///< with Rows, a grid of pieces; 0: boxes of equally many points
+  int Threads = 0;                                    ///< 0: OpenMP's default
+  int Columns = 0; ///< with Rows: pieces form a grid; 0: boxes of equally many points
   int Rows = 0;
-  std::int64_t PiecePoints = 0;     ///< approximate points of a piece; 0: as memory allows
-  std::int64_t PartitionPoints = 0; ///< approximate points of a partition; 0: chosen
-  double MaximumEdge = 0;           ///< triangles with a longer edge are left out; 0: none are
-  /// Which values a position with several points gets.
+  std::int64_t PiecePoints = 0;     ///< approximate points per piece; 0: as memory allows
+  std::int64_t PartitionPoints = 0; ///< approximate points per partition; 0: chosen automatically
+  double MaximumEdge = 0;           ///< triangles with a longer edge are left out; 0: all are kept
+  /// How the values are chosen for a position that several points have.
   DuplicateRule Duplicates = DuplicateRule::First;
   /// Adds the point array RepresentativePointId.
   bool MapDuplicates = false;
   /// Adds the cell array NeighborIds.
   bool Neighbors = false;
-  /// Adds the cell array ConstraintEdges: for each corner of a triangle 1 if the edge opposite to
-  /// it is one of a constraint, else 0.
+  /// Adds the cell array ConstraintEdges: three values per triangle, 1 if the edge opposite to the
+  /// corner is part of a constraint, else 0.
   bool MarkConstraints = false;
-  /// Counts and sums up the triangles instead of writing them.
+  /// Computes the number and a checksum of the triangles instead of writing them.
   bool CountOnly = false;
-  /// Takes the triangles instead of the mesh; with it CountOnly is to be set.
+  /// Receives the triangles instead of a mesh on disk; requires CountOnly. Not owned. Null: no
+  /// consumer.
   TriangleConsumer* Consumer = nullptr;
-  /// Called before the first pass over the points, unless the run is resumed: segments between
-  /// points of the stream that have to be edges. Null: there are none. They are written to a file,
-  /// and read by piece; those that cut stay in memory.
+  /// Called before the first pass over the points, unless the run is resumed. Returns the source of
+  /// the segments that must be edges; their ends are points of the stream. They are written to a
+  /// file and read piece by piece, except for those that decide which triangles are kept: these
+  /// stay in memory. Null: no constraints.
   std::function<SegmentSource&()> Constraints;
-  /// Resumes a run of this path that was killed or has failed, if there is one; without, such a run
-  /// is an error and is left as it is.
+  /// Resumes an interrupted run of the same path, if there is one. If false, such a run is an
+  /// error, and its files are left unchanged.
   bool Resume = false;
-  /// A folder on another disk for temporary files except the pieces; empty: beside the mesh.
+  /// A folder for temporary files on another disk, except the pieces. Empty: beside the mesh.
   std::string Scratch;
-  /// Called regularly with the finished fraction, in the calling thread; false ends the run.
+  /// Called regularly in the calling thread with the finished fraction (0 to 1). Returns false to
+  /// stop the run.
   std::function<bool(double)> Progress;
-  /// Called with a sentence about damaged results of an earlier run, which are made again.
+  /// Called with a sentence about damaged results of an earlier run, which are then made again.
   std::function<void(const std::string&)> Warn;
 };
 
@@ -92,9 +100,9 @@ struct OutOfCoreOptions
 struct PieceFigures
 {
   std::int64_t Duplicates = 0;
-  std::int64_t DisagreeingPositions = 0; ///< positions whose points differ in elevation
-  std::int64_t WorkerVertices = 0;       ///< that workers triangulated
-  std::uint64_t BoundaryBytes = 0; ///< of vertices that were sent to partitions of other pieces
+  std::int64_t DisagreeingPositions = 0; ///< positions whose points have different elevations
+  std::int64_t WorkerVertices = 0;       ///< vertices triangulated by workers
+  std::uint64_t BoundaryBytes = 0;       ///< of vertices sent to partitions of other pieces
 
   void add(const PieceFigures& other)
   {
@@ -114,10 +122,11 @@ struct OutOfCoreStatistics : PieceFigures
   };
   std::int64_t Points = 0;
   std::int64_t Triangles = 0;
-  std::uint64_t TriangleSum = 0; ///< where they are only counted: of hashTriangle()
+  std::uint64_t TriangleSum = 0; ///< if they are only counted: the sum of hashTriangle()
   std::int64_t Rejected = 0;
   std::int64_t WithoutElevation = 0; ///< points whose elevation is NaN or infinite
-  std::int64_t LeftOut = 0;          ///< points that the options of the input have left out
+  std::int64_t LeftOut = 0;          ///< points that the input's options exclude
+  /// Points that thinning removed.
   std::int64_t ThinnedOut = 0;
   std::int64_t Pieces = 0;
   std::int64_t Partitions = 0;
@@ -126,22 +135,23 @@ struct OutOfCoreStatistics : PieceFigures
   int Threads = 1;
   std::vector<Phase> Phases;
   bool Resumed = false;
-  bool Aborted = false; ///< by Progress
-  bool Kept = false;    ///< then the run can be resumed
+  bool Aborted = false; ///< Progress stopped the run
+  bool Kept = false;    ///< if aborted: the run can be resumed
 };
 
-/// The Delaunay triangulation of points that need not fit in memory, as the partitioned mesh
-/// `path`: the triangles of triangulate(). Ids are indices in the stream; a piece's cells have
-/// consecutive ids; the files are the same for any number of threads. A column named z is the third
-/// coordinate; the others become arrays of points.
+/// Computes the Delaunay triangulation of points that need not fit in memory, and writes it to the
+/// partitioned mesh `path`. The triangles are those of triangulate(). Global point ids are indices
+/// in the stream; the cells of a piece have consecutive global ids. The files are the same for any
+/// number of threads. A column named z is the third coordinate; other columns become point arrays.
 ///
-/// Points are read twice (once more if their coordinates are so far from 1 that they are scaled)
-/// and spilled once, by piece; triangles are written as soon as they are final. All is written to a
-/// folder ".NAME.part" beside `path`, which is renamed to `path` when it is whole. Once the points
-/// are spilled the folder is kept if the run fails or is stopped; another run can resume it and
-/// makes the same files. Throws IOError.
+/// Points are read twice (three times if coordinates are so far from 1 that they are scaled) and
+/// spilled once, sorted by piece. Triangles are written as soon as they are final. All files are in
+/// a folder ".NAME.part" beside `path`, which is renamed to `path` when the mesh is complete. Once
+/// the points are spilled, the folder is kept if the run fails or is stopped; another run can
+/// resume it and makes the same files. Throws IOError.
 ///
-/// Ranks: others that work with this first one, see triangulateOutOfCoreOnRanks(); null: none.
+/// `ranks`: the ranks that work together; this must be the first. See
+/// triangulateOutOfCoreOnRanks(). Null: this process works alone.
 VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCore(PointStream& points,
   const std::string& path, const OutOfCoreOptions& options = {}, Communicator* ranks = nullptr);
 
@@ -152,43 +162,46 @@ constexpr MessageKind pieceMessage(std::uint32_t n)
 
 /// @name From the first rank
 ///@{
-constexpr MessageKind SurveyMessage = pieceMessage(0); ///< these three for an InputHelper
+/// Handled by InputHelper, like the next two.
+constexpr MessageKind SurveyMessage = pieceMessage(0);
 constexpr MessageKind FactorMessage = pieceMessage(1);
 constexpr MessageKind SpillMessage = pieceMessage(2);
-constexpr MessageKind SetUpMessage = pieceMessage(3); ///< what was prepared
+constexpr MessageKind SetUpMessage = pieceMessage(3); ///< RunSetup, and which pieces are done
 constexpr MessageKind EndMessage = pieceMessage(4);   ///< there is no more work
 ///@}
-/// To the first rank: of the input.
+/// An InputHelper's answer to the first rank.
 constexpr MessageKind PartMessage = pieceMessage(5);
 /// @name Between any ranks
 ///@{
-constexpr MessageKind PartitionMessage = pieceMessage(6); ///< it is done; what it sends
-constexpr MessageKind PieceMessage = pieceMessage(7);     ///< its result is on disk
+/// The partition is done; contains the vertices that it sends.
+constexpr MessageKind PartitionMessage = pieceMessage(6);
+constexpr MessageKind PieceMessage = pieceMessage(7); ///< the piece is done: its result is on disk
 ///@}
 
 class RunSetup;
 
 using OpenPoints = std::function<std::unique_ptr<PointStream>()>;
 
-/// triangulateOutOfCore() on all ranks, each of which calls this with the same path and options:
-/// points are surveyed and spilled, pieces loaded and triangulated and their interiors written by
-/// all; the first one makes the plan and completes the pieces at the end. The files are those of
-/// one process. `open` is called on all ranks; where it throws an IOError or opens another input
-/// than on the first rank, that one reads this rank's part. The figures are on the first rank.
+/// Runs triangulateOutOfCore() on all ranks. All must call this with the same path and options. All
+/// ranks survey and spill points, triangulate pieces and write their interiors. The first rank
+/// makes the plan, and completes the pieces at the end. The files are those of a single process.
+/// `open` is called on all ranks. If it throws an IOError on a rank, or opens another input there
+/// than on the first rank, the first rank reads that rank's part. Only the first rank returns
+/// statistics.
 ///
-/// All ranks must see the folders. The memory limit and the threads are those of each rank. Throws
-/// RankFailure on all ranks; the statistics of a run that was ended by Progress on any rank have
-/// Aborted on all. Not to be called within Communicator::together().
+/// All ranks must see the same folders. The memory limit and the number of threads apply to each
+/// rank. Throws RankFailure on all ranks. If Progress stops the run on any rank, Aborted is set on
+/// all. Must not be called within Communicator::together().
 VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCoreOnRanks(Communicator& ranks,
   const OpenPoints& open, const std::string& path, const OutOfCoreOptions& options);
 
-/// Whether all ranks see a folder of the first rank, by a file that is there for a moment;
-/// collective. Throws IOError on a rank that does not.
+/// Checks that all ranks see a folder of the first rank, by means of a temporary file. Collective.
+/// Throws IOError on each rank that does not see it. Only the first rank's `folder` is used.
 VTKTIPPFILTERS_EXPORT void requireSharedFolder(Communicator& ranks, const std::string& folder);
 
-/// Of the first rank: sends the others, which wait for it in triangulateOutOfCoreOnRanks(), what
-/// they need to work on pieces. `points`: the file they are spilled to; `isDone`: of each piece,
-/// whether it is done already.
+/// Called on the first rank: sends the other ranks, which wait in triangulateOutOfCoreOnRanks(),
+/// the data that they need to work on pieces. `points`: the file of spilled points; `isDone`: for
+/// each piece, whether it is already done.
 VTKTIPPFILTERS_EXPORT void shareSetup(Communicator& ranks, RunSetup& prepared,
   const std::string& points, const std::vector<char>& isDone);
 

@@ -74,7 +74,8 @@ void PieceConstraints::finishInserting()
   }
 }
 
-/// Whether a segment may cross interior triangles of the partition and has no end there.
+/// Returns whether a segment that is not inserted, and that the partition's editor does not know,
+/// may cross interior triangles of the partition.
 bool PieceConstraints::isUnknownNear(PartitionIndex partition) const
 {
   const Box2& bounds = this->Inserted->interiorOf(partition).Bounds.Box;

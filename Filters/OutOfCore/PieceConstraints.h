@@ -16,31 +16,34 @@
 namespace tipp
 {
 
-/// The segments near a piece that is in memory. Those between its own points are inserted while its
-/// partitions are triangulated, if only interior triangles of one partition are in their way.
+/// The constraint segments near a piece that is in memory. A segment between two of its points is
+/// inserted while the partitions are triangulated, if it crosses only interior triangles of one
+/// partition. Points are identified by their index in the piece.
 class PieceConstraints
 {
 public:
-  /// Points: the piece's, which must outlive this.
+  /// `points`: the piece's points; they must outlive this object.
   PieceConstraints(ConstraintSegments segments, PointsView points);
 
-  /// An editor for a thread's worker, whose coordinates are those of the points times `factor`.
+  /// Returns an editor for a thread's worker, whose coordinates are those of the points times
+  /// `factor`. This object must outlive it.
   std::unique_ptr<PartitionEditor> makeEditor(double factor)
   {
     return this->Inserted->makeEditor(factor);
   }
 
-  /// Call it when all partitions are triangulated, before the following.
+  /// Call this when all partitions are triangulated, before the methods below.
   void finishInserting();
 
-  /// Removes the triangles that segments cross which are not inserted, keeps the order of the
-  /// others, and adds them to `part`; vertices are numbered from `first` on. Partition: whose
-  /// interior triangles they are, or -1. Returns the number of triangles that are left.
+  /// Removes the triangles that are crossed by segments not yet inserted, and adds them to `part`,
+  /// where vertex ids are indices plus `first`. The other triangles keep their order. `partition`:
+  /// the partition whose interior triangles these are, or -1. Returns the number of remaining
+  /// triangles.
   std::size_t takeCrossed(PartitionIndex partition, std::int64_t first, std::int32_t* corners,
     std::size_t triangles, CrossedPart& part) const;
 
-  /// After takeCrossed() of all triangles: adds their edges that lie on segments, and the vertices
-  /// in the interior of segments.
+  /// Call this after takeCrossed() of all triangles. Adds to `part` the triangles' edges that lie
+  /// on segments, and the vertices in the interior of segments.
   void addEdgesAndTouches(std::int64_t first, CrossedPart& part) const;
 
 private:
@@ -50,9 +53,9 @@ private:
   const PointsView Points;
   std::vector<ConstraintPiece> Pieces; ///< segments with an end among the points
   std::unique_ptr<PartitionConstraints> Inserted;
-  ConstraintSegments Left;             ///< segments that are not inserted
-  std::vector<std::int64_t> LeftPiece; ///< of these, the number among Pieces, or -1
-  std::vector<std::int64_t> LeftOf;    ///< of each of Pieces, its number in Left, or -1
+  ConstraintSegments Left;             ///< segments that were not inserted
+  std::vector<std::int64_t> LeftPiece; ///< by segment in Left: its index in Pieces, or -1
+  std::vector<std::int64_t> LeftOf;    ///< by segment in Pieces: its index in Left, or -1
 };
 
 } // namespace tipp

@@ -23,7 +23,8 @@ int countFor(double points, std::int64_t each, std::size_t sampled)
   return static_cast<int>(std::min({ wanted, possible, most }));
 }
 
-/// A partition's region is its box: its points have not been read yet.
+/// Returns the regions of all partitions. A region is the partition's box, because its points have
+/// not been read yet.
 Regions regionsOf(const PiecePlan& plan, const SpilledPoints& points)
 {
   std::vector<Box2> boxes;
@@ -36,7 +37,7 @@ Regions regionsOf(const PiecePlan& plan, const SpilledPoints& points)
   return { plan.Partitions, std::move(boxes), std::move(used) };
 }
 
-/// Empty if all partitions conflict.
+/// Returns the conflicts between pieces; an empty list if all partitions conflict.
 std::vector<ConflictGraph::Pair> conflictsOfPieces(
   const PartitionOrder& partitions, const std::vector<std::int32_t>& pieceOf)
 {
@@ -60,27 +61,28 @@ std::vector<ConflictGraph::Pair> conflictsOfPieces(
 
 std::uint64_t MemoryPlan::pieceBytes(std::int64_t points, std::size_t rowWords)
 {
-  // Rows; points and then triangles; labels and then numbers; interface flags.
+  // Rows; points, whose memory triangles take later; labels, later numbers; interface flags.
   return std::uint64_t(points) * (8 * rowWords + 24 + 4 + 1);
 }
 
 MemoryPlan::MemoryPlan(const OutOfCoreOptions& options, std::size_t words)
 {
-  // A taker copies coordinates, columns and triangles of the piece that it is given.
-  // Constraints need room for the triangles that they cross.
+  // A consumer copies coordinates, columns and triangles of each piece. Constraints need memory for
+  // the triangles that they cross.
   const std::size_t rowWords =
     words + (options.Consumer ? 4 + words : 0) + (options.Constraints ? 1 : 0);
-  // Of the two phases each has its share; the rest is for kernels and boundaries.
+  // The two phases, spilling and triangulating, get the same share. The rest is for kernels and
+  // boundary vertices.
   const std::uint64_t share = options.MemoryLimit / 5 * 2;
-  // Two blocks of points, their labels and rows by piece.
+  // Two blocks of points, their labels, and their rows sorted by piece.
   const std::size_t perPoint = 2 * 8 * (rowWords - 1) + 4 + 8 * rowWords;
   constexpr std::size_t mostPoints = std::size_t(1) << 22;
   this->BlockPoints = std::clamp<std::size_t>(std::size_t(share) / perPoint, 1 << 14, mostPoints);
   this->SamplePoints = std::clamp<std::size_t>(
     std::size_t(options.MemoryLimit / 512), std::size_t(1) << 14, std::size_t(1) << 20);
   this->LoadedBytes = share / pieceBytes(1, rowWords) * pieceBytes(1, words);
-  // One that is written, two that are worked on and one that is loaded; never mind the threads, so
-  // that the pieces are the same for any number of them.
+  // One piece being written, two being triangulated and one being loaded. The number does not
+  // depend on the threads, so that the pieces do not, either.
   constexpr std::uint64_t together = 4;
   const std::uint64_t most = share / together / pieceBytes(1, rowWords);
   this->PiecePoints = options.PiecePoints > 0
@@ -101,7 +103,7 @@ PiecePlan::PiecePlan(const InputSurvey& survey, const OutOfCoreOptions& options,
                             countFor(points, memory.PiecePoints, survey.Sample.size()));
   this->choosePartitions(survey, memory);
   this->Artificial = makeArtificialPoints(this->Partitions);
-  constexpr std::uint64_t kernelBytes = 250; // a point
+  constexpr std::uint64_t kernelBytes = 250; // per point
   const std::int64_t count = survey.Points - survey.Rejected;
   const bool fits = options.MemoryLimit / 2 >=
     MemoryPlan::pieceBytes(count, rowWords) + kernelBytes * std::uint64_t(count);
@@ -109,8 +111,7 @@ PiecePlan::PiecePlan(const InputSurvey& survey, const OutOfCoreOptions& options,
   {
     if (!fits)
     {
-      throw IOError(
-        "The coordinates reach too far to be enclosed by 64-bit numbers; scale them down.");
+      throw IOError("The coordinates are too large for 64-bit numbers; scale them down.");
     }
     this->takeAlone(survey);
     return;
@@ -128,7 +129,8 @@ PiecePlan::PiecePlan(const InputSurvey& survey, const OutOfCoreOptions& options,
   }
 }
 
-/// Where nearly all vertices are sent on and on, the fewer partitions the better.
+/// Makes each piece a single partition: nearly all vertices are sent from partition to partition,
+/// so fewer partitions are faster.
 void PiecePlan::takeWholePieces(const InputSurvey& survey)
 {
   for (PartitionIndex piece = 0; piece < this->pieces(); ++piece)
@@ -228,7 +230,8 @@ PiecePlan::PiecePlan(LoadArchive& archive)
   archive(this->IsAlone, this->Pieces, this->Inner, this->Initial);
   if (this->Inner.size() != std::size_t(this->Pieces.size()))
   {
-    throw std::runtime_error("The plan of a run is damaged: it has not one tiling a piece.");
+    throw std::runtime_error(
+      "The plan of a run is damaged: it does not have one tiling per piece.");
   }
   this->numberPartitions();
   if (!this->IsAlone)

@@ -20,32 +20,36 @@ class SaveArchive;
 class LoadArchive;
 class SpilledPoints;
 
-/// How the memory limit is divided.
+/// How the memory limit is divided among the phases of a run.
 struct VTKTIPPFILTERS_EXPORT MemoryPlan
 {
+  /// `rowWords`: 64-bit words of a spilled row (PointRowLayout::Words).
   MemoryPlan(const OutOfCoreOptions& options, std::size_t rowWords);
 
-  std::size_t BlockPoints;  ///< read at a time
-  std::size_t SamplePoints; ///< at least, of the survey
-  std::int64_t PiecePoints; ///< about
+  std::size_t BlockPoints;  ///< points per read
+  std::size_t SamplePoints; ///< smallest size of the survey's sample
+  std::int64_t PiecePoints; ///< approximate points per piece
+  /// Approximate points per partition.
   std::int64_t PartitionPoints;
-  std::uint64_t LoadedBytes; ///< of pieces in memory together
+  std::uint64_t LoadedBytes; ///< of all pieces in memory together
 
-  /// Bytes of a piece while its points are triangulated and written, without the kernels.
+  /// Returns the bytes of memory that a piece needs while it is triangulated and written, without
+  /// kernels.
   static std::uint64_t pieceBytes(std::int64_t points, std::size_t rowWords);
 };
 
 /// A point of the initial mesh.
 struct InitialPoint
 {
-  std::int64_t Id; ///< in the stream
+  std::int64_t Id; ///< index in the stream
+  /// Multiplied by InputSurvey::Factor.
   Point2 Position;
   PartitionIndex Partition;
-  std::int64_t InPieces = -1; ///< its index when all points are in the order of pieces
+  std::int64_t InPieces = -1; ///< index among all spilled points; -1: not known yet
 };
 
-/// The two levels of boxes: pieces, which are spilled, loaded and written, and in each the
-/// partitions that workers triangulate.
+/// The two levels of boxes. Pieces are spilled, loaded and written; each consists of partitions,
+/// which workers triangulate.
 struct VTKTIPPFILTERS_EXPORT PiecePlan
 {
   PiecePlan(const InputSurvey& survey, const OutOfCoreOptions& options, const MemoryPlan& memory,
@@ -54,29 +58,30 @@ struct VTKTIPPFILTERS_EXPORT PiecePlan
   void save(SaveArchive& archive) const;
 
   Tiling Pieces;
-  std::vector<Tiling> Inner;                  ///< of each piece
-  Tiling Partitions;                          ///< all together
-  std::vector<PartitionIndex> FirstPartition; ///< of each piece; one more at the end
-  std::vector<std::int32_t> PieceOf;          ///< of each partition
+  std::vector<Tiling> Inner;                  ///< by piece: its partitions
+  Tiling Partitions;                          ///< all partitions
+  std::vector<PartitionIndex> FirstPartition; ///< by piece; one more entry at the end
+  std::vector<std::int32_t> PieceOf;          ///< by partition
   std::vector<BoundaryVertex> Artificial;
-  std::vector<InitialPoint> Initial; ///< by id
-  /// One piece of one partition, no artificial points: partitions do not pay for such points, or
-  /// doubles cannot enclose them.
+  std::vector<InitialPoint> Initial; ///< ascending ids
+  /// There is one piece of one partition, without artificial points: partitioning does not pay for
+  /// these points, or doubles cannot enclose them.
   bool IsAlone = false;
-  /// Nearly all points may be interface points: partitions do not pay, but there is no memory for a
-  /// single one.
+  /// Nearly all points may be interface points: partitioning does not pay, but a single piece does
+  /// not fit in memory.
   bool HasLargeInterface = false;
 
   PartitionIndex pieces() const { return this->Pieces.size(); }
 
-  /// The piece's index in the mesh, where the order is the opposite: a point on a cut belongs to
-  /// the upper box here and to the first piece there.
+  /// Returns the piece's index in the mesh. It counts from the other end: here a point on a cut
+  /// belongs to the upper box, in the mesh to the piece with the lowest index.
   std::size_t number(PartitionIndex piece) const
   {
     return static_cast<std::size_t>(this->pieces() - 1 - piece);
   }
 
-  /// The vertices of the initial mesh, once the initial points have their indices.
+  /// Returns the vertices of the initial mesh. Their ids are valid once the initial points have
+  /// InPieces.
   std::vector<BoundaryVertex> initialVertices() const;
 
 private:
@@ -87,23 +92,23 @@ private:
   void takeWholePieces(const InputSurvey& survey);
 };
 
-/// The order in which pieces, and their partitions, are triangulated. It depends only on the plan
-/// and on which pieces have points, so every process computes the same order.
+/// The order in which pieces and their partitions are triangulated. It depends only on the plan and
+/// on which pieces have points, so every process computes the same order.
 ///
-/// Two pieces conflict if partitions of theirs do. Pieces are coloured and ordered by colour: those
-/// of one colour are independent, so that all threads and ranks have work. A piece is a window of
-/// the order of partitions.
+/// Two pieces conflict if some of their partitions conflict. Pieces are coloured and ordered by
+/// colour: pieces of one colour are independent, so that all threads and ranks have work. The
+/// partitions of a piece are consecutive in the order.
 class VTKTIPPFILTERS_EXPORT PieceOrder
 {
 public:
   PieceOrder(const PiecePlan& plan, const SpilledPoints& points, int threads);
 
-  /// Pieces with points, in order.
+  /// Returns the pieces that have points, in order.
   const std::vector<PartitionIndex>& sequence() const { return this->Sequence; }
   const PartitionOrder& partitions() const { return this->Partitions; }
-  /// Of all partitions.
+  /// Returns the regions of all partitions.
   const Regions& regions() const { return this->Boxes; }
-  /// May be called once.
+  /// Returns the initial mesh and gives it up: may be called only once.
   BoundaryTriangles takeInitialMesh() { return std::move(this->InitialMesh); }
 
 private:

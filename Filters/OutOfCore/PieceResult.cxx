@@ -33,7 +33,7 @@ Box3 boxOf(const Box2& box)
 
 } // namespace
 
-/// The pieces that the triangle meets, by their numbers in the mesh, ascending.
+/// Finds the pieces that the triangle meets, as indices in the mesh, ascending.
 void BorderSorter::findMet(const BoundaryTriangle& triangle)
 {
   const Point2 a = triangle[0].Position;
@@ -53,7 +53,7 @@ void BorderSorter::findMet(const BoundaryTriangle& triangle)
   if (this->Met.empty())
   {
     throw std::runtime_error(
-      "Points lie outside of the bounds that were found at first: the input has changed meanwhile; "
+      "Points are outside of the bounds that the first pass found: the input has changed; "
       "start again.");
   }
 }

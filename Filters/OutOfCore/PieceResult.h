@@ -22,23 +22,25 @@
 namespace tipp
 {
 
-/// What a run's pieces are made of and go to; the same on all ranks.
+/// The input and the destination of the work on a run's pieces. It is the same on all ranks.
+/// References and pointers are not owned.
 struct PieceWork
 {
   const PiecePlan& Plan;
   const SpilledPoints& Points;
-  double Factor; ///< of coordinates
+  double Factor; ///< multiplies the points' coordinates to give the plan's
   const PointRowLayout& Rows;
   const PartitionedMesh& Mesh;
-  std::string Results;                  ///< how the paths of pieces' results begin
-  TriangleConsumer* Consumer = nullptr; ///< null: triangles go to the mesh
-  double MaximumEdge = 0;               ///< triangles with a longer edge are left out; 0: none are
+  std::string Results;                  ///< prefix of the paths of results
+  TriangleConsumer* Consumer = nullptr; ///< null: triangles are written to the mesh
+  double MaximumEdge = 0; ///< triangles with a longer edge are left out; 0: all are kept
   DuplicateRule Duplicates = DuplicateRule::First;
-  const PieceSegments* Constraints = nullptr; ///< null: there are none
-  std::size_t Elevation = 0; ///< among the columns of rows; their number if there is none
+  const PieceSegments* Constraints = nullptr; ///< null: no constraints
+  /// Its index among the columns; the number of columns if there is none.
+  std::size_t Elevation = 0;
 
-  /// Whether Consumer gets triangles between pieces as soon as these are done: constraints may
-  /// change or remove them.
+  /// Returns whether Consumer gets the triangles between pieces as soon as these pieces are done.
+  /// With constraints it does not, because they may change or remove these triangles.
   bool takesBordersEarly() const { return this->Consumer && !this->Constraints; }
 
   std::string resultPath(PartitionIndex piece) const
@@ -51,18 +53,19 @@ struct PieceWork
   }
 };
 
-/// Triangles (3 corners) or tetrahedra (4) at the border of the piece that owns them, by indices
-/// among all spilled points.
+/// Triangles (3 corners) or tetrahedra (4 corners) at the border of the piece that owns them.
+/// Corners are indices among all spilled points.
 template <std::size_t CornerCount>
 struct BorderCells
 {
   using Cell = std::array<std::int64_t, CornerCount>;
 
   std::vector<Cell> Corners;
-  std::vector<std::int32_t> Borrowers;     ///< numbers of pieces in the mesh, ascending for each
-  std::vector<std::uint64_t> BorrowerEnds; ///< of each cell, in Borrowers
+  std::vector<std::int32_t> Borrowers;     ///< ascending per cell; pieces are indices in the mesh
+  std::vector<std::uint64_t> BorrowerEnds; ///< by cell: the end of its entries in Borrowers
 
-  /// `met`: the pieces that the cell meets, ascending; the first is its owner.
+  /// `met`: the pieces that the cell meets, as indices in the mesh, ascending. The first owns the
+  /// cell.
   void add(const Cell& cell, const std::vector<std::int32_t>& met)
   {
     this->Corners.push_back(cell);
@@ -81,13 +84,13 @@ void serialize(Archive& archive, BorderCells<CornerCount>& border)
 
 using BordersByOwner = std::map<PartitionIndex, BorderTriangles>;
 
-/// Adds each triangle at the borders of pieces to those of the piece that owns it: of all that the
-/// triangle meets, the first in the mesh. The others borrow it. Where there are constraints, which
-/// change triangles, too long ones are left out later.
+/// Adds each border triangle to those of the piece that owns it: the first in the mesh of the
+/// pieces that it meets. The others borrow it. Triangles that are too long are left out, but with
+/// constraints, which change triangles, that happens later.
 class BorderSorter : public FinalTriangleConsumer
 {
 public:
-  /// Both must outlive this.
+  /// Both arguments must outlive this object.
   BorderSorter(const PieceWork& work, BordersByOwner& borders)
     : Work(work)
     , Borders(borders)
@@ -104,34 +107,36 @@ private:
   std::vector<std::int32_t> Met;
 };
 
-/// Moves the triangles of `from` to the end of those in `to`.
+/// Appends the triangles of `from` to those of `to`.
 void append(BordersByOwner&& from, BordersByOwner& to);
 
-/// What a piece whose partitions are all triangulated leaves for others, besides the interior's
-/// share of its file in the mesh. It is written once and never changed: the set of these files is
-/// the state from which a run is resumed.
+/// The result of a piece whose partitions are all triangulated: the data that others need, besides
+/// the interior's part of the mesh file. It is written once and never changed; the set of these
+/// files is the state from which a run is resumed.
 ///
-/// A triangle belongs to the piece's interior if its circumdisk meets no other piece, and else to a
-/// border. Own points of a border's triangle, of an unfinished one, or of one with an artificial
-/// corner are interface points. They are known: by Lemma 6 the last partition of this piece that an
-/// unfinished triangle meets has just sent it, and a triangle that is made later replaces such
-/// ones.
+/// A triangle belongs to the piece's interior if its circumdisk meets no other piece, and otherwise
+/// to a border. A piece's points are interface points if they are corners of border triangles, of
+/// triangles that are not final, or of triangles with an artificial corner. All of them are known
+/// when the piece is done: by Lemma 6, the last partition of the piece that a triangle meets has
+/// sent the triangle if it is not final, and triangles that are made later replace triangles like
+/// these.
 struct PieceResult
 {
   PieceInterior Interior;
   PieceFigures Figures;
-  std::vector<BoundaryVertex> HullVertices; ///< of triangles at artificial points
+  std::vector<BoundaryVertex> HullVertices; ///< true corners of triangles with artificial corners
   BordersByOwner Borders;
-  /// Of the interior, what constraints cross that are not complete in it; these triangles are not
-  /// in the interior, and their corners are interface points.
+  /// The interior triangles that are crossed by constraints not complete in the interior. They are
+  /// left out of the interior, and their corners are interface points.
   CrossedPart Crossed;
   std::map<PartitionIndex, SentMessages> Sent; ///< by the recipient's piece
 };
 
-/// Returns the file's bytes. Throws IOError.
+/// Writes a result to a file. Returns the size of the file in bytes. Throws IOError.
 std::uint64_t writeResult(const std::string& path, const PieceResult& result);
 
-/// A result on disk, read by parts. Throws IOError for what is damaged or missing.
+/// Reads parts of a result from its file. All methods except has...() throw IOError if the file is
+/// damaged or missing.
 class VTKTIPPFILTERS_EXPORT StoredResult
 {
 public:
@@ -142,14 +147,16 @@ public:
 
   void verify() const { this->File.verify(); }
 
+  /// `to`: the piece that receives the messages.
   bool hasMessages(PartitionIndex to) const;
   SentMessages readMessages(PartitionIndex to) const;
+  /// `owner`: the piece that owns the triangles.
   bool hasBorder(PartitionIndex owner) const;
   BorderTriangles readBorder(PartitionIndex owner) const;
   std::vector<BoundaryVertex> readHullVertices() const;
   CrossedPart readCrossed() const;
   PieceFigures readFigures() const;
-  /// The caller must add the indices of the piece's own points.
+  /// Returns the interior without First and OwnPoints; see readInterior() in FinishPieces.h.
   PieceInterior readInterior() const;
 
 private:

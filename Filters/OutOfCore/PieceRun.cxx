@@ -52,8 +52,9 @@ void PieceRun::prepare(const std::vector<char>& isDone)
     this->PiecesLeft += this->isOwn(piece) || this->rank() == 0 ? 1 : 0;
     std::fill(isToDo.begin() + begin, isToDo.begin() + end, char(this->isOwn(piece)));
   }
-  // Each process makes the same messages and keeps those for its own pieces. A triangle at a point
-  // meets its partition, so those that meet none have no points that the hull repair wants.
+  // All processes make the same messages and keep those for their own pieces. A triangle with a
+  // true corner meets the corner's partition. So triangles that meet no partition have only
+  // artificial corners, which the hull repair does not need.
   FinalBoundary<std::int64_t> none;
   sendInitialMesh(
     this->Order->takeInitialMesh(), this->Order->partitions(),
@@ -81,7 +82,7 @@ void PieceRun::prepare(const std::vector<char>& isDone)
   }
 }
 
-/// Pieces without points may own triangles all the same.
+/// Pieces without points may still own triangles, so they have files, too.
 void PieceRun::writeEmptyPieces(const std::vector<char>& isDone)
 {
   for (PartitionIndex piece = 0; this->rank() == 0 && piece < this->Work.Plan.pieces(); ++piece)
@@ -98,7 +99,8 @@ void PieceRun::writeEmptyPieces(const std::vector<char>& isDone)
   }
 }
 
-/// The piece's result is on disk. Returns the pieces whose borders can be taken now.
+/// Records that the piece's result is on disk. Returns the pieces whose borders can now be passed
+/// to the consumer.
 std::vector<PartitionIndex> PieceRun::setDone(PartitionIndex piece)
 {
   this->at(piece).Result = std::make_unique<StoredResult>(this->Work.resultPath(piece));
@@ -116,8 +118,9 @@ std::vector<PartitionIndex> PieceRun::setDone(PartitionIndex piece)
   return this->Borders ? this->Borders->setDone(piece) : std::vector<PartitionIndex>();
 }
 
-/// Before other ranks are told that this piece is done: when all are, nothing is taken any more.
-/// What two ranks that finish at the same time miss is taken at the end.
+/// Passes borders to the consumer. Must happen before other ranks learn that this piece is done:
+/// once all pieces are done, PieceRun passes nothing more. If two ranks finish at the same time and
+/// miss a border, finishPieces() passes it.
 void PieceRun::takeBorders(const std::vector<PartitionIndex>& pieces)
 {
   const auto resultOf = [this](PartitionIndex piece) -> const StoredResult&
@@ -147,7 +150,7 @@ void PieceRun::loadPieces()
   }
 }
 
-/// Takes memory for the piece. False if the run was stopped.
+/// Reserves memory for the piece. Returns false if the run was stopped.
 bool PieceRun::waitForMemory(PartitionIndex piece)
 {
   const std::uint64_t bytes = LoadedPiece::bytesOf(this->Work, piece);
@@ -167,8 +170,8 @@ void PieceRun::load(PartitionIndex piece)
   auto loaded = std::make_unique<LoadedPiece>(this->Work, piece);
   std::vector<const StoredResult*> results;
   {
-    // From now on messages for its partitions go to their inboxes; those of pieces that are not
-    // done come, or are pending.
+    // From now on messages for its partitions go directly to their inboxes. Earlier messages are in
+    // Pending or, if their sender's piece is done, in its result.
     const Lock lock(this->Mutex);
     this->at(piece).Loaded = std::move(loaded);
     for (auto& [to, message] : std::exchange(this->at(piece).Pending, {}))
@@ -235,8 +238,8 @@ void PieceRun::finishPartition(PartitionIndex p, SentMessages sent)
   }
 }
 
-/// With the mutex. A partition is done, and what it sends: one message to each rank that has a
-/// later conflicting partition.
+/// Call with the mutex locked. Notifies other ranks that partition p is done: one message, with the
+/// vertices sent there, to each rank that has a later conflicting partition.
 void PieceRun::sendToRanks(PartitionIndex p, const SentMessages& sent)
 {
   if (!this->hasOtherRanks())
@@ -257,7 +260,7 @@ void PieceRun::sendToRanks(PartitionIndex p, const SentMessages& sent)
   }
 }
 
-/// With the mutex.
+/// Call with the mutex locked.
 void PieceRun::deliver(PartitionIndex to, VertexMessage message)
 {
   Piece& piece = this->at(this->pieceOf(to));
@@ -297,8 +300,8 @@ void PieceRun::finishPiece(PartitionIndex piece)
   this->Changed.notify_all();
 }
 
-/// Until all pieces that this rank waits for are done, and on ranks other than the first until it
-/// says so.
+/// Runs until all pieces that this rank waits for are done; on ranks other than the first, until
+/// the first rank ends the run.
 void PieceRun::coordinate()
 {
   constexpr auto pause = std::chrono::microseconds(300);
@@ -324,7 +327,7 @@ void PieceRun::coordinate()
   }
 }
 
-/// False if there was nothing to do.
+/// Returns false if there was nothing to do.
 bool PieceRun::sendAndReceive()
 {
   std::vector<Outgoing> outgoing;
@@ -365,14 +368,14 @@ void PieceRun::receive(const Message& message)
   }
   if (this->PiecesLeft == 0)
   {
-    return; // no piece of this rank's wants the result, which the first rank may have removed by
-            // now
+    return; // no piece of this rank needs the result, and the first rank may have removed it
   }
   this->setDone(piece);
   this->PiecesLeft -= this->rank() == 0 ? 1 : 0;
 }
 
-/// One of another rank's is done; and what it sends to this rank's.
+/// A partition of another rank is done: passes on the vertices that it sends to this rank's
+/// partitions.
 void PieceRun::receivePartition(const Message& message)
 {
   PartitionIndex sender = -1;
@@ -382,7 +385,8 @@ void PieceRun::receivePartition(const Message& message)
     std::any_of(
       sent.begin(), sent.end(), [&](const auto& to) { return rankOf(to.first) != this->rank(); }))
   {
-    throw std::runtime_error("A message from another rank is damaged: it is for another one.");
+    throw std::runtime_error(
+      "A message from another rank is damaged: it is for a partition of another rank.");
   }
   {
     const Lock lock(this->Mutex);
@@ -394,7 +398,7 @@ void PieceRun::receivePartition(const Message& message)
   this->Ready->finish(sender);
 }
 
-/// Progress, in the caller's thread. False if it ends the run.
+/// Reports progress, in the caller's thread only. Returns false if that stops the run.
 bool PieceRun::tell()
 {
   if (std::this_thread::get_id() != this->Caller)
@@ -412,7 +416,7 @@ bool PieceRun::tell()
 void PieceRun::stop(const std::exception_ptr& reason)
 {
   this->Ready->stop(reason);
-  const Lock lock(this->Mutex); // or the loading thread could miss it
+  const Lock lock(this->Mutex); // otherwise the loading thread could miss the notification
   this->Changed.notify_all();
 }
 
@@ -457,7 +461,7 @@ bool PieceRun::run(const std::vector<char>& isDone)
   this->prepare(isDone);
   if (this->hasOtherRanks())
   {
-    this->Post->barrier(); // a rank that is not set up yet could not tell what a message is about
+    this->Post->barrier(); // a rank that is not set up yet could not handle messages
   }
   this->runThreads();
   return !this->Ready->isStopped() && this->tell();

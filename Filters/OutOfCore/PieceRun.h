@@ -26,17 +26,18 @@ namespace tipp
 {
 
 /// A piece in memory: its points, whose partitions several threads triangulate, and its triangles
-/// until they are written.
+/// until they are written. Points are identified by their index in the piece, except in messages
+/// and results, where it is their index among all spilled points.
 class VTKTIPPFILTERS_EXPORT LoadedPiece
 {
 public:
-  /// Reads the points. Throws IOError.
+  /// Reads the points of the piece. `work` must outlive this object. Throws IOError.
   LoadedPiece(const PieceWork& work, PartitionIndex piece);
 
-  /// Bytes that a piece takes in memory.
+  /// Returns the bytes of memory that a piece needs.
   static std::uint64_t bytesOf(const PieceWork& work, PartitionIndex piece);
 
-  /// A thread's memory, which is kept from one partition to the next.
+  /// The memory of one thread, which is reused from partition to partition.
   struct Workspace
   {
     explicit Workspace(const PieceOrder& order)
@@ -52,12 +53,13 @@ public:
 
     const PieceOrder& Order;
     PartitionIndex Piece = -1;
-    std::unique_ptr<Worker<std::int32_t>> Triangulator; ///< for that piece
+    std::unique_ptr<Worker<std::int32_t>> Triangulator; ///< a worker for Piece
     std::unique_ptr<Routing<std::int32_t>> Router;
     UniqueVertices Unique;
   };
 
-  /// Triangulates a partition with what is in its inbox, and returns what it sends.
+  /// Triangulates a partition's points and the vertices in its inbox. Returns the messages to later
+  /// partitions. Threads may call it at the same time, each with its own `space`.
   SentMessages triangulate(
     Workspace& space, PartitionIndex partition, const std::vector<VertexMessage>& inbox);
 
@@ -67,16 +69,17 @@ public:
       this->Buckets.count(partition - this->Work.Plan.FirstPartition[std::size_t(this->Piece)]));
   }
 
-  /// When all partitions are triangulated: writes the interior's share of the piece's file in the
-  /// mesh, frees the points, and returns the rest. Throws IOError.
+  /// Call this when all partitions are triangulated. Writes the interior's part of the piece's file
+  /// in the mesh, frees the points, and returns the remaining results. Throws IOError.
   PieceResult write();
 
   /// @name A piece without a border
-  /// Write the whole file.
+  /// These methods write the complete file of the piece. They throw IOError.
   ///@{
   /// For points on one line: there are no triangles.
   FinishedPiece writePointsAlone(PieceFigures& figures);
-  /// For the only piece, of one partition without artificial points. False if `progress` ended it.
+  /// For a single piece with one partition and no artificial points. Returns false if `progress`
+  /// stopped the run.
   bool triangulateAlone(
     const DelaunayKernel::Monitor& progress, PieceFigures& figures, FinishedPiece& finished);
   ///@}
@@ -101,43 +104,46 @@ private:
   const PartitionIndex Piece;
   const std::int64_t First; ///< index of the first point among all spilled points
   Buffer<double> Rows;
-  std::unique_ptr<PieceConstraints> Constraints; ///< null: none is near
+  std::unique_ptr<PieceConstraints> Constraints; ///< null: no constraint is near
   PointBuckets<std::int32_t> Buckets;
-  std::vector<std::size_t> InteriorCounts; ///< triangles, of each partition
+  std::vector<std::size_t> InteriorCounts; ///< by partition: its number of triangles
 
-  std::mutex Mutex;                                               ///< for what follows
-  std::unordered_map<std::int32_t, std::int32_t> Representatives; ///< of duplicates
-  std::vector<std::uint8_t> IsOnInterface;                        ///< of each point
-  std::vector<std::array<std::int32_t, 3>>
-    BoundaryTriangles; ///< between partitions, but of the interior
+  std::mutex Mutex;                                               ///< protects the members below
+  std::unordered_map<std::int32_t, std::int32_t> Representatives; ///< by duplicate
+  std::vector<std::uint8_t> IsOnInterface; ///< by point: 1 if other pieces need it
+  /// Interior triangles between partitions.
+  /// Between partitions, but of the interior.
+  std::vector<std::array<std::int32_t, 3>> BoundaryTriangles;
   PieceResult Result;
 };
 
-/// Makes all pieces of a run whose pieces have no borders: the points are collinear, or there is
-/// one piece. `progress` is called with the number of points that are done. Returns the pieces by
-/// their numbers in the mesh; an empty list if `progress` ended it. Throws IOError.
+/// Makes all pieces of a run without borders: the points are collinear, or there is only one piece.
+/// `progress` is called with the number of finished points. Returns the pieces in the order of the
+/// mesh; an empty list if `progress` stopped the run. Throws IOError.
 std::vector<FinishedPiece> triangulateAlone(const PieceWork& work, bool areCollinear,
   const std::function<bool(std::int64_t)>& progress, PieceFigures& figures);
 
-/// A rank's part of a triangulation out of core: it loads its pieces one after the other, as many
-/// at a time as there is memory for, triangulates their partitions by threads, and writes what
-/// comes of a piece when its last partition is done.
+/// A rank's part of a triangulation out of core. It loads its pieces one after the other, as many
+/// at a time as fit in memory, triangulates their partitions in threads, and writes a piece's
+/// results when its last partition is done.
 ///
-/// Pieces are dealt to ranks in order, and no rank is above the others. A message for a partition
-/// goes to the rank that has its piece; it is in memory until the sender's piece is on disk, unless
-/// the recipient's piece is loaded: then it is in an inbox. So memory holds what belongs to pieces
-/// that are being worked on, and all else is in the results of pieces that are done.
+/// Pieces are assigned to ranks in order; no rank is a master. A message for a partition goes to
+/// the rank that has its piece. If that piece is loaded, the message goes to the partition's inbox;
+/// otherwise it stays in memory until the sender's piece is on disk. So only messages of unfinished
+/// pieces are in memory, and all others are in the results of finished pieces.
 class VTKTIPPFILTERS_EXPORT PieceRun
 {
 public:
-  /// `progress` is told how many points are triangulated, in the thread that runs this; false ends
-  /// the run. Ranks: null for this process alone.
+  /// `progress` is called with the number of triangulated points, in the thread that constructs
+  /// this object; false stops the run. `ranks`: null for this process alone. `work` is copied;
+  /// `memory`, `ranks` and the objects that `work` refers to must outlive this object.
   PieceRun(const PieceWork& work, const MemoryPlan& memory, int threads,
     std::function<bool(std::int64_t)> progress, Communicator* ranks = nullptr);
 
-  /// Writes the results of all pieces that are not done yet: `isDone` has an entry for each piece,
-  /// the same on all ranks. Throws IOError, and RankFailure. False if progress ended it. With
-  /// ranks, the first one returns when all are done, and the others when it tells them to end.
+  /// Triangulates all pieces that are not done, and writes their results. `isDone` has an entry for
+  /// each piece, the same on all ranks. Returns false if `progress` stopped the run. With ranks,
+  /// the first one returns when all pieces are done, and the others when the first ends the run.
+  /// Throws IOError and RankFailure.
   bool run(const std::vector<char>& isDone);
 
 private:
@@ -149,14 +155,14 @@ private:
     MessageKind Kind;
     Bytes Content;
   };
-  /// What is known of a piece.
+  /// The state of a piece.
   struct Piece
   {
-    int Rank = 0; ///< which triangulates it
+    int Rank = 0; ///< the rank that triangulates it
     PartitionIndex PartitionsLeft = 0;
     std::unique_ptr<LoadedPiece> Loaded;
-    std::unique_ptr<StoredResult> Result; ///< once it is done; only of those for this rank
-    SentMessages Pending;                 ///< to its partitions, until it is loaded
+    std::unique_ptr<StoredResult> Result; ///< once it is done; only if this rank needs it
+    SentMessages Pending;                 ///< messages to its partitions, until it is loaded
   };
 
   int rank() const { return this->Post ? this->Post->rank() : 0; }
@@ -187,7 +193,7 @@ private:
   void guard(const std::function<void()>& body);
   void stop(const std::exception_ptr& reason);
 
-  /// @name The thread that speaks to other ranks
+  /// The thread that communicates with other ranks
   ///@{
   void coordinate();
   bool sendAndReceive();
@@ -203,17 +209,17 @@ private:
   const std::thread::id Caller = std::this_thread::get_id();
   std::unique_ptr<PieceOrder> Order;
   std::unique_ptr<ReadyPartitions> Ready;
-  std::vector<Inbox> Inboxes; ///< of each partition; filled while its piece is loaded
+  std::vector<Inbox> Inboxes; ///< by partition; filled while its piece is loaded
 
-  std::mutex Mutex; ///< for what follows
+  std::mutex Mutex; ///< protects the members below
   std::condition_variable Changed;
   std::vector<Piece> Pieces;
-  std::unique_ptr<BorderQueue> Borders; ///< null: there is no taker
-  std::size_t PiecesLeft = 0;           ///< that this rank waits for
+  std::unique_ptr<BorderQueue> Borders; ///< null: no consumer
+  std::size_t PiecesLeft = 0;           ///< pieces that this rank waits for
   std::uint64_t LoadedBytes = 0;
   std::int64_t PointsDone = 0;
   std::int64_t PointsTold = -1;
-  bool IsEnded = false; ///< the first rank has told so
+  bool IsEnded = false; ///< the first rank has ended the run
   std::vector<Outgoing> ToSend;
 };
 

@@ -51,7 +51,7 @@ void PieceSegments::save(SaveArchive& archive) const
   archive(this->Rows.content(), this->Cutting.list());
 }
 
-/// A box of segments in the plan's coordinates.
+/// Returns a box of segments in the plan's coordinates.
 Box2 PieceSegments::planned(const Box2& box) const
 {
   return { box.xmin * this->Factor, box.ymin * this->Factor, box.xmax * this->Factor,
@@ -70,7 +70,7 @@ PieceSegments::Written PieceSegments::write(const std::string& file, const Piece
     PartitionIndex Piece;
   };
   constexpr std::size_t most = std::size_t(1) << 14;
-  std::vector<Place> places; // one segment may have many
+  std::vector<Place> places; // a segment may meet many pieces
   const auto writePlaces = [&]
   {
     spill.add(
@@ -86,7 +86,7 @@ PieceSegments::Written PieceSegments::write(const std::string& file, const Piece
       segment.Role != SegmentRole::Line ? written.Cutting.push_back(segment) : void();
       if (segment.Role == SegmentRole::Hole)
       {
-        return; // it is no edge of the triangulation
+        return; // a hole's outline is no edge of the triangulation
       }
       const Point2 a{ segment.A.x * factor, segment.A.y * factor };
       const Point2 b{ segment.B.x * factor, segment.B.y * factor };
@@ -103,7 +103,7 @@ PieceSegments::Written PieceSegments::write(const std::string& file, const Piece
 
 std::uint64_t PieceSegments::bytesOf(PartitionIndex piece) const
 {
-  // The segments and their tree; ends among the points; what editors know of them.
+  // The segments and their tree; their ends among the points; the data of editors.
   constexpr std::uint64_t each = 48 + 64 + 48 + 96;
   return each * std::uint64_t(this->count(piece));
 }

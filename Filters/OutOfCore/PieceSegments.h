@@ -17,41 +17,42 @@
 namespace tipp
 {
 
-/// The segments that constrain a triangulation out of core, in a file, sorted by the pieces whose
-/// boxes they may meet: a segment is there for each of these. A segment's name is its index among
-/// all. Those that tell which triangles are kept are in memory, too.
+/// The constraint segments of a triangulation out of core, in a file. They are sorted by piece: a
+/// segment is stored for each piece whose box it may meet. A segment is identified by its index in
+/// the list of all segments. The segments that decide which triangles are kept are also in memory.
 class VTKTIPPFILTERS_EXPORT PieceSegments
 {
 public:
-  /// Writes the file, whose path begins with `file`. The plan's coordinates are those of the
-  /// segments times `factor`; the plan must outlive this. Throws IOError, as all methods do.
-  /// forEach(visit) visits all segments.
+  /// Writes the file; its path begins with `file`. forEach(visit) visits all segments. The plan's
+  /// coordinates are those of the segments times `factor`. The plan must outlive this object.
+  /// Throws IOError, as all methods do.
   PieceSegments(const std::string& file, const PiecePlan& plan, double factor,
     const std::function<void(const VisitSegment&)>& forEach, int threads);
 
-  /// Opens a file of which save() told.
+  /// Opens a file that another process has written and described with save().
   PieceSegments(
     const std::string& file, const PiecePlan& plan, double factor, LoadArchive& archive);
   void save(SaveArchive& archive) const;
 
-  /// Of a piece.
+  /// Returns the number of segments stored for a piece.
   std::int64_t count(PartitionIndex piece) const { return this->Rows.rows(std::size_t(piece)); }
-  /// What a piece's constraints take in memory while the piece is triangulated.
+  /// Returns the bytes of memory that a piece's constraints need while the piece is triangulated.
   std::uint64_t bytesOf(PartitionIndex piece) const;
-  /// What `segments` take on disk, if each is in one piece.
+  /// Returns the bytes on disk of this many segments if each is in one piece.
   static std::uint64_t fileBytes(std::int64_t segments)
   {
     return sizeof(Row) * std::uint64_t(segments);
   }
 
-  /// The segments that may meet the piece's box.
+  /// Returns the segments that may meet the piece's box.
   ConstraintSegments read(PartitionIndex piece) const;
 
-  /// All segments that meet one of these boxes, and perhaps others whose bounding box overlaps one.
-  /// For triangles that lie in several pieces.
+  /// Returns all segments that meet one of these boxes, and perhaps others whose bounding box
+  /// overlaps one. For triangles that lie in several pieces. Boxes are in the coordinates of the
+  /// segments.
   ConstraintSegments readNear(const std::vector<Box2>& boxes) const;
 
-  /// The edges of polygons, boundaries and holes.
+  /// Returns the edges of polygons, boundaries and holes.
   const ConstraintSegments& cutting() const { return this->Cutting; }
 
 private:

@@ -143,7 +143,7 @@ void RunSetup::requireMemory(const std::string& path, std::uint64_t limit) const
       throw IOError(path,
         "would have a piece of " + std::to_string(this->Spilled->count(piece)) + " points" +
           (segments > 0 ? " and " + std::to_string(segments) + " segments" : "") +
-          ", which takes " + std::to_string(bytes / 1000000 + 1) + " MB; allow more memory.");
+          ", which needs " + std::to_string(bytes / 1000000 + 1) + " MB; allow more memory.");
     }
   }
 }

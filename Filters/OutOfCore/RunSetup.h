@@ -19,20 +19,22 @@
 namespace tipp
 {
 
-/// All that a process needs to work on pieces once the points are spilled, besides the folders.
+/// All data that a process needs to work on pieces once the points are spilled, except the folders.
 class VTKTIPPFILTERS_EXPORT RunSetup
 {
 public:
-  /// Columns of the input; the mesh's arrays.
+  /// Sets the columns of the input and the arrays of the mesh. Sets Rows, Mesh and Columns.
   void describeColumns(const std::vector<std::string>& columns, const OutOfCoreOptions& options);
-  /// After the plan.
+  /// Sets the domain, the number of points and the pieces' boxes of Mesh. Requires the plan.
   void describeMesh();
 
+  /// Saves the setup for another process.
   void save(SaveArchive& archive);
-  /// `points`: the file they are spilled to. Throws IOError if it is not that one.
+  /// Restores a saved setup. `points`: the file of spilled points. Throws IOError if it does not
+  /// belong to this setup.
   void load(LoadArchive& archive, const std::string& points);
 
-  /// Starts the taker, if there is one.
+  /// Calls TriangleConsumer::begin(), if there is a consumer.
   void beginTaking() const;
 
   PieceWork work() const
@@ -42,28 +44,29 @@ public:
       findRankColumn(this->Columns) };
   }
 
-  /// Throws IOError if a piece does not fit into the memory limit, in bytes; `path` is the mesh's.
-  /// Pieces are of equal size except where very many points coincide.
+  /// Throws IOError if a piece does not fit into the memory limit, which is in bytes. Pieces are of
+  /// similar size unless very many points coincide. `path`: of the mesh, for the message.
   void requireMemory(const std::string& path, std::uint64_t limit) const;
 
-  /// After the plan. `points`: the file that the points are spilled to. Throws IOError.
+  /// Writes the constraint segments beside the spilled points. Requires the plan. `points`: the
+  /// file of spilled points. Throws IOError.
   void setConstraints(const std::string& points, SegmentSource& segments, int threads);
 
-  /// Bytes that the taker needs on disk.
+  /// Returns the bytes that the consumer needs on disk.
   std::uint64_t takenBytes() const;
 
   InputSurvey Survey;
   PointRowLayout Rows;
   PartitionedMesh Mesh;
-  std::string Results; ///< how the paths of pieces' results begin
+  std::string Results; ///< prefix of the paths of results
   TriangleConsumer* Consumer = nullptr;
   double MaximumEdge = 0;
   DuplicateRule Duplicates = DuplicateRule::First;
-  std::int64_t Marks = -1; ///< the array ConstraintEdges among the mesh's; -1: there is none
-  std::vector<std::string> Columns; ///< of the input, beside x and y
+  std::int64_t Marks = -1;          ///< index of the mesh's array ConstraintEdges; -1: none
+  std::vector<std::string> Columns; ///< of the input, without x and y
   std::unique_ptr<PiecePlan> Plan;
   std::unique_ptr<SpilledPoints> Spilled;
-  std::unique_ptr<PieceSegments> Constraints; ///< null: there are none
+  std::unique_ptr<PieceSegments> Constraints; ///< null: no constraints
 
 private:
   template <typename Archive>
@@ -72,7 +75,8 @@ private:
   Box2 inputBounds() const;
 };
 
-/// Returns a text that is equal for runs that make the same mesh from the same input.
+/// Returns a text that is equal for runs that make the same mesh from the same input with the same
+/// options.
 std::string identityOf(const PointStream& input, const OutOfCoreOptions& options);
 
 } // namespace tipp

@@ -16,7 +16,7 @@ namespace tipp
 namespace
 {
 
-constexpr const char* nextSuffix = ".next"; // until a file is whole
+constexpr const char* nextSuffix = ".next"; // appended to the path until a file is complete
 
 void takeName(const std::string& path)
 {
@@ -28,7 +28,7 @@ void takeName(const std::string& path)
   }
 }
 
-/// At the beginning of a file of sections.
+/// The beginning of a file of sections.
 struct Header
 {
   std::uint64_t TableOffset;
@@ -177,7 +177,7 @@ namespace fs = std::filesystem;
 namespace
 {
 
-/// Not the folders around it: they are missing where the name is mistyped.
+/// Makes one folder. Missing parent folders are an error: the name may be mistyped.
 void makeFolder(const std::string& path)
 {
   std::error_code failure;
@@ -240,7 +240,8 @@ bool ScratchFolder::hasRun() const
 
 void ScratchFolder::clear()
 {
-  this->removeFiles(this->results()); // without a plan they would tell of one that was lost
+  // Results without a plan would look like those of a run that lost its plan.
+  this->removeFiles(this->results());
   clearWorkFolder(this->Work);
   makeFolder(this->Mesh);
   makeFolder(this->Mesh + "/pieces");
@@ -275,13 +276,13 @@ bool canResume(const std::string& path)
     std::error_code ignored;
     return fs::exists(PendingFolder::lastingPath(path) + ScratchFolder::planName, ignored);
   }
-  catch (const IOError&) // which a run would report
+  catch (const IOError&) // a run reports this error
   {
     return false;
   }
 }
 
-/// Those in Folder whose paths begin like this, followed by a dot.
+/// Returns the files in Folder whose paths begin with `begin` and a dot.
 std::vector<std::string> ScratchFolder::files(const std::string& begin) const
 {
   const std::string prefix = fs::path(begin).filename().string() + ".";

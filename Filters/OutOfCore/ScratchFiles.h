@@ -16,15 +16,16 @@
 namespace tipp
 {
 
-/// Saves what save() shows to an archive, with a checksum, and replaces the file `path` in one
-/// step; keeps little of it in memory. Returns the file's size in bytes. Throws IOError.
+/// Writes the data that save() puts into an archive, with a checksum, and replaces the file `path`
+/// in one step. Keeps only a small part of the data in memory. Returns the file's size in bytes.
+/// Throws IOError.
 VTKTIPPFILTERS_EXPORT std::uint64_t writeCheckedFile(
   const std::string& path, const std::function<void(SaveArchive&)>& save);
 
-/// Throws IOError for a file that is not what writeCheckedFile() wrote.
+/// Reads a file that writeCheckedFile() wrote. Throws IOError if it is missing or damaged.
 VTKTIPPFILTERS_EXPORT Bytes readCheckedFile(const std::string& path);
 
-/// Names a section of a file: what it holds, and which piece it is for.
+/// Identifies a section of a file: the kind of its content, and the piece that it is for.
 struct SectionKey
 {
   std::uint32_t Kind = 0;
@@ -36,7 +37,7 @@ struct SectionKey
   }
 };
 
-/// Where a section lies in its file.
+/// The position of a section in its file, in bytes.
 struct SectionEntry
 {
   SectionKey Key;
@@ -45,16 +46,16 @@ struct SectionEntry
   std::uint64_t Checksum;
 };
 
-/// Writes a file of sections, each with a checksum, which is read section by section. The file gets
-/// its name when it is whole, and is never changed.
+/// Writes a file of sections, each with a checksum, which can be read section by section. The file
+/// gets its name when it is complete, and is never changed after that.
 class VTKTIPPFILTERS_EXPORT SectionFileWriter
 {
 public:
-  /// Throws IOError, as all methods do.
+  /// Opens the file under a temporary name. Throws IOError, as all methods do.
   explicit SectionFileWriter(const std::string& path);
 
   void add(SectionKey key, const Bytes& content);
-  /// Returns how many bytes the file has.
+  /// Completes the file, and returns its size in bytes.
   std::uint64_t finish();
 
 private:
@@ -64,44 +65,45 @@ private:
   std::vector<SectionEntry> Table;
 };
 
-/// A whole file of sections. Only its table is kept in memory, and no file is kept open.
+/// A complete file of sections, for reading. Only its table is kept in memory, and the file is not
+/// kept open.
 class VTKTIPPFILTERS_EXPORT SectionFile
 {
 public:
-  /// Throws IOError for what SectionFileWriter did not write.
+  /// Reads the table. Throws IOError if SectionFileWriter did not write the file.
   explicit SectionFile(const std::string& path);
 
   const std::vector<SectionEntry>& table() const { return this->Table; }
   bool has(SectionKey key) const { return this->find(key) != nullptr; }
-  /// The section's size; 0 if it is not there.
+  /// Returns the size of a section in bytes; 0 if it does not exist.
   std::uint64_t bytes(SectionKey key) const
   {
     const SectionEntry* const entry = this->find(key);
     return entry ? entry->Size : 0;
   }
-  /// Throws IOError where the section is not there, or is damaged.
+  /// Reads a section. Throws IOError if it does not exist or is damaged.
   Bytes read(SectionKey key) const;
-  /// Reads all sections; throws IOError.
+  /// Reads all sections. Throws IOError if one is damaged.
   void verify() const;
 
 private:
   const SectionEntry* find(SectionKey key) const;
 
   std::string Path;
-  std::vector<SectionEntry> Table; ///< by key
+  std::vector<SectionEntry> Table; ///< sorted by key
 };
 
-/// The folders of a run's temporary files until its mesh is published: the spilled points, the
+/// The folder of a run's temporary files, until the mesh is published: the spilled points, the
 /// plan, and the results of pieces.
 class ScratchFolder
 {
 public:
   static constexpr const char* planName = "/.plan";
 
-  /// All files are beside the unfinished mesh if `other` is empty; else the points and the results
-  /// are in a new folder in `other`. Throws IOError.
+  /// `other`: a folder on another disk, in which a new folder gets the points and results. Empty:
+  /// all files are beside the unfinished mesh. Throws IOError.
   ScratchFolder(const PendingFolder& mesh, const std::string& other);
-  /// Removes everything but after keep().
+  /// Removes all files, unless keep() was called.
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
@@ -109,22 +111,24 @@ public:
   const std::string& folder() const { return this->Folder; }
   std::string points() const { return this->Folder + "/.points"; }
   std::string plan() const { return this->Work + planName; }
-  /// How the paths of pieces' results begin.
+  /// Returns the prefix of the paths of results.
   std::string results() const { return this->Folder + "/.piece"; }
 
-  /// Whether there is a run to resume. Results without a plan are of one whose plan was lost.
+  /// Returns whether there is a run to resume. Results without a plan are from a run that lost its
+  /// plan.
   bool hasRun() const;
-  /// Makes room for a new run, and its empty folder of pieces.
+  /// Removes the files of earlier runs, and makes an empty folder for the pieces.
   void clear();
+  /// Sets whether the destructor leaves the files, so that the run can be resumed.
   void keep(bool kept = true)
   {
     this->Kept = kept;
     this->Listed.keep(kept);
   }
-  /// Whether `bytes` more fit on the disks of the mesh and of this; throws IOError with the
-  /// numbers. `path`: the mesh's, for the error.
+  /// Throws IOError, with the numbers, unless the disks of the mesh and of this folder have space
+  /// for `mesh` and `scratch` more bytes. `path`: of the mesh, for the message.
   void requireSpace(const std::string& path, std::uint64_t mesh, std::uint64_t scratch) const;
-  /// All but the plan, which the mesh's PendingFolder takes away with itself.
+  /// Removes all files except the plan, which the mesh's PendingFolder removes with itself.
   void remove();
 
 private:
@@ -134,11 +138,11 @@ private:
   std::string Mesh;
   std::string Work;
   std::string Folder;
-  TemporaryPath Listed; ///< Folder, if it is not Work
+  TemporaryPath Listed; ///< Folder, if it differs from Work
   bool Kept = false;
 };
 
-/// Whether there is a run of this path to resume, whose points are spilled.
+/// Returns whether there is a run for this mesh to resume: its points are spilled.
 VTKTIPPFILTERS_EXPORT bool canResume(const std::string& path);
 
 } // namespace tipp

@@ -13,21 +13,24 @@
 namespace tipp
 {
 
+/// A point of a sample.
 template <typename Point>
 struct SampledPointOf
 {
-  std::int64_t Id; ///< its index in the stream
+  std::int64_t Id; ///< index in the stream
   Point Position;
 };
 
-/// Picks one point of each range of ids; ranges double in length until there are few enough. Picks
-/// at equal distances would hit one column of a lattice that is given row by row. If the number of
-/// all points is known, a part of the stream has the same picks as in the whole.
+/// Picks one point from each range of ids, at random but always the same. Ranges double in length
+/// until their number is at most twice `atLeast`. (Picks at equal distances could hit one column of
+/// a lattice given row by row.) If the number of all points is known, the picks from a part of the
+/// stream are those that the whole stream gives there.
 template <typename Point>
 class StreamSampler
 {
 public:
-  /// `points`: of all, or -1.
+  /// `atLeast`: the smallest size of the sample if the stream has that many points. `points`: the
+  /// number of points in the whole stream, or -1.
   StreamSampler(std::size_t atLeast, std::int64_t points)
     : Most(2 * std::int64_t(std::max<std::size_t>(atLeast, 1)))
     , IsKnown(points >= 0)
@@ -38,7 +41,8 @@ public:
     }
   }
 
-  /// `points`: the next ones of the stream; has size() and operator[].
+  /// Adds the next points of the stream; the first of them has the id `first`. `points` has size()
+  /// and operator[].
   template <typename View>
   void add(std::int64_t first, const View& points)
   {
@@ -49,7 +53,7 @@ public:
       ++this->Range;
       if (id < first)
       {
-        continue; // of another part
+        continue; // the pick belongs to an earlier part
       }
       this->Picks.push_back({ id, points[std::size_t(id - first)] });
       if (!this->IsKnown && this->Range == this->Most)
@@ -59,7 +63,7 @@ public:
     }
   }
 
-  /// The finite ones.
+  /// Returns the picks that are finite, and leaves none.
   std::vector<SampledPointOf<Point>> take()
   {
     this->Picks.erase(std::remove_if(this->Picks.begin(), this->Picks.end(),
@@ -71,10 +75,11 @@ public:
 private:
   std::int64_t next() const { return this->pick(this->Range, this->Doublings); }
 
+  /// Which one of two neighbouring ranges keeps its pick when ranges double.
   static std::int64_t chosenOf(std::int64_t pair) { return 2 * pair + (mixBits(pair) & 1); }
 
-  /// The id picked for a range after this many doublings. For the first ranges it was picked when
-  /// they were shorter.
+  /// Returns the id picked for a range after this many doublings. For the first half of the ranges,
+  /// it was picked when they were shorter.
   std::int64_t pick(std::int64_t range, int doublings) const
   {
     while (doublings > 0 && range < this->Most / 2)
@@ -87,6 +92,7 @@ private:
       std::int64_t(mixBits(std::uint64_t(range * 64 + doublings)) % std::uint64_t(length));
   }
 
+  /// Doubles the length of ranges.
   void halve()
   {
     const std::int64_t half = this->Most / 2;
@@ -102,7 +108,7 @@ private:
   const std::int64_t Most;
   const bool IsKnown;
   std::vector<SampledPointOf<Point>> Picks;
-  std::int64_t Range = 0; ///< the next one
+  std::int64_t Range = 0; ///< the next range to pick from
   int Doublings = 0;
 };
 

@@ -40,7 +40,7 @@ int runReported(vtkAlgorithm* filter, const std::string& what,
   catch (const std::bad_alloc&)
   {
     vtkErrorWithObjectMacro(
-      filter, << what << ": not enough memory; use a machine with more, or fewer points.");
+      filter, << what << ": not enough memory; use fewer points or a machine with more memory.");
   }
   catch (const std::exception& error)
   {
@@ -88,7 +88,8 @@ int CollectivePipeline::ForwardUpstream(vtkInformation* request)
   const int own = this->Superclass::ForwardUpstream(request);
   vtkMultiProcessController* ranks =
     this->GetAlgorithm() && this->Controller ? this->Controller() : nullptr;
-  // A rank that fails before the data request will not reach this point again; the others will.
+  // A rank that fails before the data request does not reach this point in the data request; the
+  // others do.
   if (!ranks || ranks->GetNumberOfProcesses() < 2 || (own && !request->Has(REQUEST_DATA())))
   {
     return own;
@@ -101,7 +102,7 @@ int CollectivePipeline::ForwardUpstream(vtkInformation* request)
   if (failed < none && rank == 0)
   {
     vtkErrorWithObjectMacro(this->GetAlgorithm(),
-      "Rank " << failed << ": what is upstream of the filter failed, see its message; no rank "
+      "Rank " << failed << ": the pipeline upstream of the filter failed, see its message; no rank "
               << "executes the filter.");
   }
   return failed == none;

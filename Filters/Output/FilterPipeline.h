@@ -33,10 +33,10 @@ public:
   {
   }
 
-  /// Returns false if the work is to stop.
+  /// Reports the finished fraction (0 to 1). Returns false if the work must stop.
   bool operator()(double fraction)
   {
-    constexpr double share = 0.95; // the rest is for creating the output
+    constexpr double share = 0.95; // the rest is for making the output
     if (std::this_thread::get_id() == this->Owner)
     {
       this->Done = std::max(this->Done, share * fraction);
@@ -53,17 +53,19 @@ private:
   std::atomic<bool> Stopped{ false };
 };
 
-/// Throws std::runtime_error if the value of a property is NaN or infinite: the setters' bounds let
-/// NaN pass.
+/// Throws std::runtime_error if a property is NaN or infinite. The setters' bounds do not exclude
+/// NaN.
 void requireFinite(double value, const char* name);
 
-/// Calls work(), and returns what RequestData() is to return. If work() throws, reports an error of
-/// the filter, which begins with `what`, and empties the outputs.
+/// Calls work(), and returns the result of RequestData(): 1 if work() returned normally, else 0. If
+/// work() throws, reports an error of the filter that begins with `what`, and empties the outputs.
+/// Throws nothing.
 int runReported(vtkAlgorithm* filter, const std::string& what,
   std::initializer_list<vtkDataObject*> outputs, const std::function<bool()>& work);
 
 /// Updates this rank's piece of a filter's input before the pipeline requests it, at the time step
-/// that `outInfo` requests, if any. Returns null if the input fails.
+/// that `outInfo` requests, if any. Returns null if the input fails; the filter owns the returned
+/// object.
 vtkDataObject* updatedInput(vtkAlgorithm* filter, int rank, int ranks, vtkInformation* outInfo);
 
 /// Requests a piece of a filter's input; for structured data, the whole extent.

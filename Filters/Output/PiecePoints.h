@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The points of a rank's piece of a mesh, as VTK has them.
+// The points of one rank's piece of a mesh, for a VTK data set.
 #ifndef tippPiecePoints_h
 #define tippPiecePoints_h
 
@@ -24,7 +24,11 @@
 namespace tipp
 {
 
-/// The sources of a piece's points, in the order of its points.
+/// Numbers the points of a piece: those that the rank owns and uses, those of other ranks that its
+/// cells use, and those that only ghost cells use. `Mesh` is a DistributedTriangulation or
+/// DistributedTetrahedralization; `ghosts` may be null. An id is an internal id (index among all
+/// ranks' points); a local index counts the owned points and then those of other ranks that the
+/// mesh uses.
 template <typename Mesh, typename Ghosts>
 class PiecePoints
 {
@@ -56,11 +60,14 @@ public:
     }
   }
 
+  /// The number of points of the piece.
   std::int64_t count() const
   {
     return this->Count + (this->Others ? std::int64_t(this->Others->PointIds.size()) : 0);
   }
+  /// Returns the index in the piece of a local index.
   std::int64_t ofLocalIndex(std::size_t index) const { return this->Indices[index]; }
+  /// Returns the index in the piece of an internal id.
   std::int64_t ofId(std::int64_t id) const
   {
     const std::ptrdiff_t index = this->localIndexOf(id);
@@ -68,8 +75,8 @@ public:
                       : this->Count + rankOf(this->Others->PointIds, id);
   }
 
-  /// Calls visit(point index in the piece, tuples, index in tuples, whether this rank owns the
-  /// point).
+  /// Calls visit(index in the piece, tuples, index in tuples, whether this rank owns the point) for
+  /// all points of the piece.
   template <typename Visit>
   void forEach(Visit&& visit) const
   {
@@ -94,7 +101,7 @@ private:
   {
     return std::lower_bound(ids.begin(), ids.end(), id) - ids.begin();
   }
-  /// The index of an internal id among owned and then foreign points, or -1.
+  /// Returns the local index of an internal id, or -1.
   std::ptrdiff_t localIndexOf(std::int64_t id) const
   {
     const std::ptrdiff_t own = std::ptrdiff_t(this->Mine.Owned.size());
@@ -111,11 +118,11 @@ private:
   const Mesh& Mine;
   const Ghosts* Others;
   const std::int64_t FirstOwn;
-  std::vector<std::int64_t> Indices; ///< of owned, then foreign points: index in the piece, or -1
+  std::vector<std::int64_t> Indices; ///< by local index: the index in the piece, or -1
   std::int64_t Count = 0;
 };
 
-/// Sets the points of `output`, their data and global ids.
+/// Sets the points of `output`, their data and their global ids. `rowSize`: bytes of a row.
 template <typename Points>
 void fillPoints(const Points& piece, const PointRows& rows, std::size_t rowSize, bool withGhosts,
   vtkPointSet* output)

@@ -11,7 +11,7 @@ namespace tipp
 namespace
 {
 
-/// Returns the values of a member of all items; integers become 64 bits wide.
+/// Returns the values of one member of all items. Integers are widened to 64 bits.
 template <typename Item, typename Value>
 Figures column(
   const char* key, const char* array, const std::vector<Item>& items, Value Item::*member)
@@ -35,7 +35,7 @@ FigureList phasesOf(
       column("seconds", seconds, phases, &Phase::Seconds) } };
 }
 
-/// `key` and `array`: the names of the triangles or tetrahedra.
+/// `key` and `array`: the names of the number of triangles or tetrahedra.
 FigureList ranksOf(const std::vector<RankStatistics>& ranks, const char* key, const char* array)
 {
   using Rank = RankStatistics;
@@ -98,7 +98,7 @@ FigureList stagesOf(const std::vector<TriangulationStatistics::Stage>& stages)
 namespace
 {
 
-/// The figures of a run in memory; `cells` is the name of the triangles or tetrahedra.
+/// Returns the figures of a run in memory. `key` and `array`: the names of the number of `cells`.
 template <typename Mesh>
 RunStatistics inMemory(
   const Mesh& mesh, std::int64_t points, const char* key, const char* array, std::int64_t cells)
@@ -180,7 +180,7 @@ RunStatistics statisticsOf(const OutOfCoreStatistics3& statistics)
 RunStatistics statisticsOf(const DistributedTriangulation& mine)
 {
   const DistributedStatistics& statistics = mine.Statistics;
-  // The table only has the master of the whole domain.
+  // The table only has the figures of the first rank's master, which serves the whole domain.
   const bool hasMaster = !statistics.Masters.empty() && statistics.Masters.front().Area == 0;
   const MasterStatistics master = hasMaster ? statistics.Masters.front() : MasterStatistics();
   RunStatistics run;
@@ -195,7 +195,7 @@ RunStatistics statisticsOf(const DistributedTriangulation& mine)
   run.add("", "LargestMasterMesh", master.LargestMesh);
   run.Totals.push_back({ "", "MasterSeconds", std::vector<double>{ master.Seconds } });
   FigureList stages = stagesOf(master.Stages);
-  stages.Key.clear(); // JSON has the stages of each master
+  stages.Key.clear(); // in JSON each master has its own stages
   run.Lists = { ranksOf(statistics.Ranks, "triangles", "RankTriangles"),
     mastersOf(statistics.Masters), trafficOf(statistics.Traffic), std::move(stages) };
   return run;
@@ -206,7 +206,7 @@ RunStatistics statisticsOf(const DistributedTetrahedralization& mine)
   const DistributedStatistics& statistics = mine.Statistics;
   RunStatistics run;
   run.add("points", "Points", mine.AllPoints);
-  run.add("tetrahedra", "Tetrahedra", mine.AllCells);
+  run.add("tetrahedra", "Tetrahedra", mine.cellSize() == 4 ? mine.AllCells : 0);
   run.add("duplicates", "DuplicatePoints", mine.AllDuplicates);
   run.add("rejected", "RejectedPoints", mine.AllRejected);
   run.Totals.push_back({ "seconds", "", std::vector<double>{ statistics.Seconds } });
@@ -239,7 +239,7 @@ std::vector<std::string> warningsOf(
     const std::int64_t distinct = points - std::int64_t(triangulation.Duplicates.size()) - rejected;
     warnings.push_back("No triangles: of " + std::to_string(points) + " points, " +
       std::to_string(distinct) + " are finite and distinct" +
-      (distinct < 3          ? ", and it takes three."
+      (distinct < 3          ? ", but a triangle needs three."
           : longEdgesLeftOut ? ", and all triangles have edges that are too long, or all points "
                                "are on one line."
                              : ", and all are on one line."));

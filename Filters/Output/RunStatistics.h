@@ -22,8 +22,8 @@ class vtkTable;
 namespace tipp
 {
 
-/// Figures of a run under the names that they have in JSON files and Python (Key) and in VTK tables
-/// (Array); an empty name leaves them out there.
+/// Values of a run's statistics, with their name in JSON files and Python (Key) and in VTK tables
+/// (Array). If a name is empty, the values do not appear there.
 struct Figures
 {
   std::string Key;   ///< name in JSON and Python
@@ -33,20 +33,21 @@ struct Figures
     Values;
 };
 
-/// The phases, stages or ranks of a run: columns of equal length.
+/// A list of phases, stages or ranks: columns of equal length.
 struct FigureList
 {
-  std::string Key;      ///< name of the list in JSON and Python
-  bool IsTable = false; ///< columns of the VTK table; else arrays of its field data
+  std::string Key;      ///< name of the list in JSON and Python; empty: not there
+  bool IsTable = false; ///< true: columns of the VTK table; false: its field data
   std::vector<Figures> Columns;
 };
 
-/// The statistics of a run, from which JSON files, VTK tables and Python dictionaries are made.
+/// The statistics of a run. JSON files, VTK tables and Python dictionaries are made from them.
 struct RunStatistics
 {
-  std::vector<Figures> Totals; ///< one value each
+  std::vector<Figures> Totals; ///< single values
   std::vector<FigureList> Lists;
 
+  /// Adds a single value to Totals.
   void add(const char* key, const char* array, std::int64_t value)
   {
     this->Totals.push_back({ key, array, std::vector<std::int64_t>{ value } });
@@ -54,8 +55,9 @@ struct RunStatistics
 };
 
 ///@{
-/// Returns the statistics of a run. `triangles` is given since the triangles may have been moved to
-/// the output; `isCounted`: the triangles were only counted.
+/// Returns the statistics of a run. The number of triangles or tetrahedra is an argument because
+/// the cells may have been moved to the output. `isCounted`: the triangles were only counted, not
+/// written.
 VTKTIPPFILTERS_EXPORT RunStatistics statisticsOf(
   const Triangulation& triangulation, std::int64_t points, std::int64_t triangles);
 VTKTIPPFILTERS_EXPORT RunStatistics statisticsOf(
@@ -67,16 +69,17 @@ VTKTIPPFILTERS_EXPORT RunStatistics statisticsOf(const DistributedTriangulation&
 VTKTIPPFILTERS_EXPORT RunStatistics statisticsOf(const DistributedTetrahedralization& mine);
 ///@}
 
-/// Adds the numbers of constraints, their edges, and crossings.
+/// Adds to the totals the numbers of constraints, of their edges and of crossings.
 VTKTIPPFILTERS_EXPORT void addConstraintTotals(
   const ConstraintFigures& figures, RunStatistics& statistics);
 
-/// The list "stages" of a run or a master.
+/// Returns the list "stages" of a run or of a master.
 VTKTIPPFILTERS_EXPORT FigureList stagesOf(
   const std::vector<TriangulationStatistics::Stage>& stages);
 
 ///@{
-/// Returns the warnings about a triangulation of `points` points, one sentence each.
+/// Returns the warnings about a run, one sentence each. `points`: the number of input points;
+/// `longEdgesLeftOut`: triangles with long edges were removed.
 VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(
   const Triangulation& triangulation, std::int64_t points, bool longEdgesLeftOut);
 VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(const OutOfCoreStatistics& statistics);
@@ -85,11 +88,12 @@ VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(
   const DistributedTetrahedralization& mine);
 ///@}
 
-/// Fills the empty table: the rows of the statistics' table, and all else as field data. The
+/// Fills an empty table: lists with IsTable become its columns, all else its field data. The
 /// documentation of vtkTIPPDelaunay2D and vtkTIPPOutOfCoreDelaunay2D lists the arrays.
 void fillStatisticsTable(const RunStatistics& statistics, vtkTable* table);
 
-/// Adds the duplicates and rejected points found on this rank as field data, by global ids.
+/// Adds this rank's duplicates and rejected points to the field data of `output`, as given: by
+/// global ids.
 void addAccounts(const std::vector<Duplicate>& duplicates, const std::vector<PointId>& rejected,
   vtkDataObject* output);
 

@@ -40,9 +40,10 @@ void fillPiece(const DistributedTetrahedralization& mine, int rank, const PointR
     throw std::length_error("a piece has more than 2,147,483,647 points; use more ranks.");
   }
   fillPoints(piece, rows, mine.RowSize, ghosts != nullptr, output);
+  const std::size_t size = mine.cellSize();
   const std::size_t own = mine.cellCount();
   const std::size_t more = ghosts ? ghosts->Cells.size() : 0;
-  Buffer<std::int32_t> corners(4 * (own + more));
+  Buffer<std::int32_t> corners(size * (own + more));
   std::int32_t* to = corners.data();
   mine.forEachCorner(
     [&](std::int32_t index) { *to++ = std::int32_t(piece.ofLocalIndex(std::size_t(index))); });
@@ -56,12 +57,12 @@ void fillPiece(const DistributedTetrahedralization& mine, int rank, const PointR
   for (std::size_t i = 0; i < more; ++i)
   {
     numbers->SetValue(vtkIdType(own + i), vtkIdType(ghosts->Numbers[i]));
-    for (const std::int64_t id : ghosts->Cells[i])
+    for (std::size_t k = 0; k < size; ++k)
     {
-      *to++ = std::int32_t(piece.ofId(id));
+      *to++ = std::int32_t(piece.ofId(ghosts->Cells[i][k]));
     }
   }
-  output->SetCells(VTK_TETRA, takeCells(std::move(corners), 4));
+  output->SetCells(size == 3 ? VTK_TRIANGLE : VTK_TETRA, takeCells(std::move(corners), int(size)));
   output->GetCellData()->SetGlobalIds(numbers);
   if (ghosts)
   {

@@ -34,7 +34,8 @@ vtkSmartPointer<Array> takeArray(Buffer<Value> buffer)
   auto array = vtkSmartPointer<Array>::New();
   if (!buffer.empty())
   {
-    // If long and long long both have 64 bits, VTK's type may be the one that Value is not.
+    // If long and long long both have 64 bits, Value and VTK's type may be different ones of the
+    // two.
     static_assert(sizeof(Value) == sizeof(typename Array::ValueType), "same integers");
     const vtkIdType size = vtkIdType(buffer.size());
     void* memory = buffer.release();
@@ -140,7 +141,7 @@ std::vector<PointRows::Column> columnsOf(vtkPointSet* input)
   return columns;
 }
 
-/// The properties of a rank's points, or those that all ranks' points have in common.
+/// The point type and arrays of one rank, or those that all ranks with points have in common.
 struct PointKinds
 {
   bool HasPoints = false;
@@ -206,7 +207,7 @@ PointRows::PointRows(Communicator& ranks, vtkPointSet* input)
   }
   if (agreed.HasIds)
   {
-    vtkNew<vtkIdTypeArray> exact; // a double would round ids beyond 2^53
+    vtkNew<vtkIdTypeArray> exact; // doubles would round ids beyond 2^53
     exact->DeepCopy(ids);
     const vtkIdType* values = exact->GetPointer(0);
     this->GlobalIds.assign(values, values + exact->GetNumberOfTuples());
@@ -241,7 +242,8 @@ namespace
 
 using TrianglePoints = PiecePoints<DistributedTriangulation, GhostTriangles>;
 
-/// "ConstraintEdges" of triangles, as constraintEdgesArray() makes it.
+/// Returns the cell array "ConstraintEdges" of a piece's triangles, as constraintEdgesArray() makes
+/// it.
 vtkSmartPointer<vtkUnsignedCharArray> marksOf(const TrianglePoints& piece,
   const ConstraintSegments& segments, const Buffer<std::int64_t>& corners)
 {
@@ -297,7 +299,8 @@ void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& 
   };
   add(mine.Ids32);
   add(mine.Ids64);
-  vtkNew<vtkIdTypeArray> numbers; // lines are the first cells but get ids after all triangles
+  // Lines are VTK's first cells, but their ids follow those of all triangles.
+  vtkNew<vtkIdTypeArray> numbers;
   numbers->SetName("GlobalCellIds");
   numbers->SetNumberOfValues(vtkIdType(lines + own + more));
   vtkIdType* number = numbers->GetPointer(0);

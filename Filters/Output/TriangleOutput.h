@@ -28,28 +28,31 @@ class vtkUnsignedCharArray;
 namespace tipp
 {
 
-/// Returns cells of `cellSize` point ids each that take over the memory of `ids`. 32-bit ids give
-/// 32-bit cells unless the last offset exceeds `largestOffset32`: VTK stores ids and offsets in one
-/// type, so they are then copied to 64 bits.
+/// Returns cells of `cellSize` point ids each, which take over the memory of `ids`. Cells are
+/// 32-bit if the ids are, unless the last offset exceeds `largestOffset32`: VTK stores ids and
+/// offsets with the same type, so ids are copied to 64 bits in this case.
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkCellArray> takeCells(Buffer<std::int32_t> ids,
   int cellSize, std::int64_t largestOffset32 = std::numeric_limits<std::int32_t>::max());
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkCellArray> takeCells(
   Buffer<std::int64_t> ids, int cellSize);
 
 ///@{
-/// Returns a named array of tuples that takes over the memory of its values.
+/// Returns an array with this name and number of components, which takes over the memory of
+/// `values`.
 vtkSmartPointer<vtkIdTypeArray> takeArray(
   const std::string& name, Buffer<std::int64_t> values, int components);
 vtkSmartPointer<vtkUnsignedCharArray> takeArray(
   const std::string& name, Buffer<unsigned char> values, int components);
 ///@}
 
-/// A dataset's points and point data as rows of bytes, to send with the points: the 3D coordinates,
-/// and the arrays that every rank with points has.
+/// The points and point data of a data set as rows of bytes, which are sent with the points. A row
+/// has three doubles for the coordinates, and the values of the arrays that all ranks with points
+/// have.
 class PointRows
 {
 public:
-  /// Chooses the arrays that all ranks have. Collective.
+  /// Chooses the arrays that all ranks with points have. `input` may be null. Collective: all ranks
+  /// must call it.
   PointRows(Communicator& ranks, vtkPointSet* input);
 
   struct Column
@@ -63,7 +66,7 @@ public:
   const std::vector<Column>& columns() const { return this->Columns; }
   bool areDoubles() const { return this->Doubles; }
 
-  /// Sets the ids and rows of `points`, which refer to this object and are valid while it exists.
+  /// Sets the ids and rows of `points`. They refer to this object, which must outlive them.
   void describe(RankPointData& points) const;
 
 private:
@@ -75,15 +78,16 @@ private:
   bool Doubles = false;
 };
 
-/// How a piece marks constraints. A null member: not in this way.
+/// How a piece marks its constraints. A null member: not in this way.
 struct PieceMarks
 {
-  const ConstraintSegments* Flags = nullptr; ///< marks them by the array ConstraintEdges
-  const ConstraintLines* Lines = nullptr;    ///< as lines, and the array ConstraintId
+  const ConstraintSegments* Flags = nullptr; ///< by the cell array ConstraintEdges
+  const ConstraintLines* Lines = nullptr;    ///< by line cells, with the cell array ConstraintId
 };
 
-/// Fills `output` with a rank's triangles: the points that they use with their data, and global ids
-/// of points and cells. `ghosts`, if not null, are added with the array vtkGhostType.
+/// Fills `output` with a rank's triangles: the points that they use, the points' data, and global
+/// ids of points and cells. `ghosts` may be null; otherwise their triangles are added, with the
+/// array vtkGhostType.
 void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& rows,
   const GhostTriangles* ghosts, const PieceMarks& marks, vtkPolyData* output);
 

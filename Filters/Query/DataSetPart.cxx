@@ -32,7 +32,7 @@ struct Kept
   vtkSmartPointer<vtkPointSet> Mesh;
   SimplexParts Simplices;
   std::vector<vtkSmartPointer<vtkDataArray>> Arrays;
-  std::vector<std::int64_t> CellIds; ///< cell of each simplex that cells were divided into
+  std::vector<std::int64_t> CellIds; ///< global id of the cell that each simplex is a part of
 };
 
 /// Returns the array, or a copy if its tuples are not contiguous; `kept` holds a reference.

@@ -15,26 +15,28 @@
 namespace tipp
 {
 
-/// A closed line for each loop; the points have "GlobalPointIds" as VTK's global ids.
+/// Creates a closed polyline for each loop. The points have their ids as VTK's global ids, in the
+/// array "GlobalPointIds".
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(const BoundaryLoops& loops);
 
-/// The lines, with their levels as a cell array called `name`.
+/// Creates a polyline for each contour line, with the cell array `name` of its level.
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(
   const Contours& contours, const std::string& name);
 
-/// The lines that have points, with the cell arrays "StartId" (the line's index) and "PitId", and
-/// the values as a point array called `name`.
+/// Creates a polyline for each descent that has points. Cell arrays are "StartId", the descent's
+/// index, and "PitId"; the point array `name` has the values.
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(
   const Descents& descents, const std::string& name);
 
-/// One line with the point arrays "Distance", "CellId" and those of the profile, whose memory it
-/// takes over.
+/// Creates one polyline with the point arrays "Distance", "CellId" and those of the profile, whose
+/// memory is moved into the result.
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(Profile&& profile);
 
-/// The points as vertices with the arrays of the answer, "CellId", "AskingRank" and "AskingId".
+/// Creates a vertex for each point, with the arrays of the answer, "CellId", "AskingRank" and
+/// "AskingId". The memory of the answer's arrays is moved into the result.
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(StayingAnswer&& answer);
 
-/// Creates an array that takes over the memory of an answer's values.
+/// Creates an array that takes the ownership of the values' memory, without a copy.
 vtkSmartPointer<vtkDataArray> takeOver(MeshAnswer::Array& values);
 
 } // namespace tipp

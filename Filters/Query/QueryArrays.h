@@ -17,7 +17,7 @@
 namespace tipp
 {
 
-/// Collects `count` points; at(i, p) writes point i to p.
+/// Returns `count` points. at(i, p) writes x, y and z of point i to p; z is 0 unless written.
 template <typename At>
 std::vector<Point3> collected(vtkIdType count, const At& at)
 {
@@ -32,6 +32,8 @@ std::vector<Point3> collected(vtkIdType count, const At& at)
   return points;
 }
 
+/// The points of an array of (x, y) or (x, y, z); z is 0 where it is missing. Throws
+/// std::runtime_error for another number of components, or if the array is null.
 inline std::vector<Point3> pointsOf(vtkDataArray* array)
 {
   const int components = array ? array->GetNumberOfComponents() : 0;
@@ -44,6 +46,8 @@ inline std::vector<Point3> pointsOf(vtkDataArray* array)
     array->GetNumberOfTuples(), [array](vtkIdType i, double* p) { array->GetTuple(i, p); });
 }
 
+/// Replaces the array's content by the ids, `components` per tuple. Does nothing if the array is
+/// null.
 inline void copyTo(vtkIdTypeArray* array, const std::vector<std::int64_t>& ids, int components = 1)
 {
   if (array)
@@ -55,12 +59,14 @@ inline void copyTo(vtkIdTypeArray* array, const std::vector<std::int64_t>& ids, 
   }
 }
 
+/// Copies both parts of the lists. A null array is left out.
 inline void copyTo(vtkIdTypeArray* starts, vtkIdTypeArray* ids, const IdLists& lists)
 {
   copyTo(starts, lists.Starts);
   copyTo(ids, lists.Ids);
 }
 
+/// The ids of an array, in order. Throws std::runtime_error if the array is null.
 inline std::vector<std::int64_t> idsOf(vtkIdTypeArray* array)
 {
   if (!array)

@@ -48,7 +48,7 @@ double squaredCircumradius(const Point3& a, const Point3& b, const Point3& c)
   return dot(b - a, b - a) * dot(c - b, c - b) * dot(a - c, a - c) / (4 * dot(normal, normal));
 }
 
-/// The facet opposite to corner i, ids ascending.
+/// Returns the facet opposite to corner i of a tetrahedron, ids ascending.
 Facet facetOf(const std::int32_t* cell, std::size_t i)
 {
   Facet facet = { cell[(i + 1) % 4], cell[(i + 2) % 4], cell[(i + 3) % 4] };
@@ -71,7 +71,7 @@ void keepUnique(std::vector<Cell>& cells)
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
 }
 
-/// The cells that are not among `others`; both are sorted.
+/// Returns the cells that are not in `others`; both lists are sorted.
 template <typename Cell>
 std::vector<Cell> without(const std::vector<Cell>& cells, const std::vector<Cell>& others)
 {
@@ -93,8 +93,8 @@ std::vector<std::int32_t> joined(const std::vector<Cell>& cells)
   return ids;
 }
 
-/// Facets and edges of large cells that are small themselves, and of the kept cells those that may
-/// equal them: the ones at a point of a large cell.
+/// Facets and edges of large cells that are themselves small, and the facets and edges of kept
+/// cells that may equal them: those at a point of a large cell.
 struct Faces
 {
   std::vector<Facet> Facets;
@@ -213,7 +213,8 @@ Buffer<std::int64_t> neighborIds(const Tetrahedralization& mesh, std::size_t poi
 {
   const std::size_t cells = mesh.cellCount();
   Buffer<std::int64_t> neighbors(4 * cells);
-  // Facets by their lowest id: the slot of the corner opposite to each.
+  // Sort facets by their lowest id. A facet is 4 * tetrahedron + i, where corner i is opposite to
+  // it.
   std::vector<std::size_t> ends(points + 1, 0);
   for (std::size_t slot = 0; slot < 4 * cells; ++slot)
   {

@@ -3,6 +3,7 @@
 
 #include "Kernel3D/DelaunayKernel3.h"
 #include "Predicates/NormalAxis.h"
+#include "Triangulation3D/OrderCells.h"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +17,7 @@ namespace tipp
 namespace
 {
 
-/// For each point whether it is a duplicate or rejected.
+/// Returns for each point whether it is a duplicate or rejected.
 std::vector<char> findLeftOut(const Tetrahedralization& mesh, std::size_t count)
 {
   std::vector<char> isLeftOut(count, 0);
@@ -31,7 +32,7 @@ std::vector<char> findLeftOut(const Tetrahedralization& mesh, std::size_t count)
   return isLeftOut;
 }
 
-/// Three points that are not collinear.
+/// Returns three of the points that are not collinear. Throws std::logic_error if there are none.
 std::array<Point3, 3> findTriangle(const Point3* points, const std::vector<char>& isLeftOut)
 {
   std::array<Point3, 3> found = {};
@@ -54,20 +55,6 @@ std::array<Point3, 3> findTriangle(const Point3* points, const std::vector<char>
   return found;
 }
 
-/// The lowest id first, and the triangles in lexicographic order.
-void sortTriangles(Buffer<std::int32_t>& ids)
-{
-  using Corners = std::array<std::int32_t, 3>;
-  auto* const begin = ids.as<Corners>();
-  auto* const end = begin + ids.size() / 3;
-  for (Corners* corners = begin; corners != end; ++corners)
-  {
-    std::rotate(
-      corners->begin(), std::min_element(corners->begin(), corners->end()), corners->end());
-  }
-  std::sort(begin, end);
-}
-
 } // namespace
 
 Triangulation triangulateCoplanar(const Point3* points, std::size_t count,
@@ -88,10 +75,10 @@ Triangulation triangulateCoplanar(const Point3* points, std::size_t count,
   }
   TriangulationOptions flat;
   flat.Threads = options.Threads;
-  // The points have been told to be done.
+  // Progress already stands at 1: only check whether to stop.
   flat.Progress = [&options](double) { return !options.Progress || options.Progress(1); };
   Triangulation triangles = triangulate(PointsView(projected.data(), count, 2), flat);
-  sortTriangles(triangles.Ids32);
+  orderTriangles(triangles.Ids32);
   triangles.Rejected = mesh.Rejected;
   if (!triangles.Duplicates.empty())
   {

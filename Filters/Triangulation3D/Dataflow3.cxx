@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <utility>
 
 namespace tipp
 {
@@ -63,7 +65,8 @@ Vertex3 Worker3::vertex(Index v) const
     : this->Others[i - this->Own.Count];
 }
 
-/// The partition's own points first, so that they stand for points with the same coordinates.
+/// Collects the partition's points and those of its inbox. Its own points come first, so that they
+/// represent points with the same coordinates.
 void Worker3::collect(const std::vector<VertexMessage3>& inbox)
 {
   this->Others.clear();
@@ -80,10 +83,47 @@ void Worker3::collect(const std::vector<VertexMessage3>& inbox)
   }
 }
 
+/// Returns a box around the own region, bounded by a plane for each later region: across the axis
+/// with the widest gap to that region. Returns the own region if a later one overlaps it.
+Box3 Worker3::boxBesideLater() const
+{
+  const Box3& own = this->Regions[std::size_t(this->Own.Partition)];
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Box3 box;
+  box.Min.fill(-infinity);
+  box.Max.fill(infinity);
+  for (const PartitionIndex q : this->Order.later(this->Own.Partition))
+  {
+    const Box3& later = this->Regions[std::size_t(q)];
+    double widest = -1;
+    std::size_t axis = 0;
+    bool isAbove = false;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const double above = later.Min[k] - own.Max[k];
+      const double below = own.Min[k] - later.Max[k];
+      if (std::max(above, below) > widest)
+      {
+        widest = std::max(above, below);
+        axis = k;
+        isAbove = above > below;
+      }
+    }
+    if (widest < 0)
+    {
+      return own;
+    }
+    double& side = isAbove ? box.Max[axis] : box.Min[axis];
+    side = isAbove ? std::min(side, later.Min[axis]) : std::max(side, later.Max[axis]);
+  }
+  return box;
+}
+
 SentMessages3 Worker3::triangulate(const PartitionPoints3& points,
   const std::vector<VertexMessage3>& inbox, FinalCellConsumer3& final)
 {
   this->Own = points;
+  this->Beside = this->boxBesideLater();
   this->collect(inbox);
   this->Kernel.triangulate(this->Points.data(), this->Points.size());
   this->VertexCount += this->Points.size();
@@ -130,15 +170,26 @@ void Worker3::route(Index cell, FinalCellConsumer3& final)
   const Point3& b = this->Kernel.point(v[1]);
   const Point3& c = this->Kernel.point(v[2]);
   const Point3& d = this->Kernel.point(v[3]);
-  const double slack = this->Slack[v[0]]; // negative outside of the region
+  const double slack = this->Slack[v[0]]; // negative if the vertex is outside of the region
   if ((slack > 0 && Circumball::isSurelySmall(a, b, c, d, slack)) ||
     Circumball::isSurelyInside(a, b, c, d, region))
   {
     final.addInside({ this->Ids[v[0]], this->Ids[v[1]], this->Ids[v[2]], this->Ids[v[3]] });
     return;
   }
+  const auto add = [&] {
+    final.add({ this->vertex(v[0]), this->vertex(v[1]), this->vertex(v[2]), this->vertex(v[3]) });
+  };
+  // A ball passes through its corners, so it meets the region if one of them is an own point.
+  const bool meetsRegion =
+    std::any_of(v.begin(), v.end(), [this](Index corner) { return this->isOwn(corner); });
+  if (meetsRegion && Circumball::isSurelyInside(a, b, c, d, this->Beside))
+  {
+    add();
+    return;
+  }
   const Circumball ball = ballOf(this->Kernel, v);
-  if (!ball.meets(region))
+  if (!meetsRegion && !ball.meets(region))
   {
     return;
   }
@@ -147,7 +198,7 @@ void Worker3::route(Index cell, FinalCellConsumer3& final)
     [&](PartitionIndex q) { return ball.meets(this->Regions[std::size_t(q)]); });
   if (next == later.end())
   {
-    final.add({ this->vertex(v[0]), this->vertex(v[1]), this->vertex(v[2]), this->vertex(v[3]) });
+    add();
     return;
   }
   std::vector<Index>& corners = this->Outgoing[std::size_t(next - later.begin())];
@@ -180,22 +231,29 @@ SentMessages3 Worker3::send()
 
 std::vector<VertexMessage3> sendInitialMesh(const InitialMesh3& mesh, const PartitionOrder& order)
 {
-  std::vector<VertexMessage3> messages(order.partitionCount());
+  std::vector<std::vector<std::uint32_t>> corners(order.partitionCount());
   for (std::size_t cell = 0; cell < mesh.Cells.size(); ++cell)
   {
     if (mesh.metBegin(cell) < mesh.metEnd(cell))
     {
       const PartitionIndex* const met = mesh.Met.data();
       const PartitionIndex to = order.first(met + mesh.metBegin(cell), met + mesh.metEnd(cell));
-      for (const std::uint32_t corner : mesh.Cells[cell])
-      {
-        messages[std::size_t(to)].Vertices.push_back(mesh.Vertices[corner]);
-      }
+      corners[std::size_t(to)].insert(
+        corners[std::size_t(to)].end(), mesh.Cells[cell].begin(), mesh.Cells[cell].end());
     }
   }
-  for (VertexMessage3& message : messages)
+  std::vector<VertexMessage3> messages(order.partitionCount());
+  // By vertex: its last recipient, counted from 1.
+  std::vector<std::size_t> sentTo(mesh.Vertices.size(), 0);
+  for (std::size_t to = 0; to < corners.size(); ++to)
   {
-    keepUnique(message.Vertices);
+    for (const std::uint32_t corner : corners[to])
+    {
+      if (std::exchange(sentTo[corner], to + 1) != to + 1)
+      {
+        messages[to].Vertices.push_back(mesh.Vertices[corner]);
+      }
+    }
   }
   return messages;
 }
@@ -209,7 +267,7 @@ void repairHull(
   {
     points.push_back(v.Position);
   }
-  // They are on the sides of this box.
+  // The artificial points lie on the sides of this box.
   PointBounds frame;
   for (const Vertex3& z : artificial)
   {

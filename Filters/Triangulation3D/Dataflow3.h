@@ -20,8 +20,8 @@
 namespace tipp
 {
 
-/// What a partition sends to a later one: the vertices of the tetrahedra that it passes on (Lemma
-/// 6, see Routing.h), each once.
+/// The vertices of the tetrahedra that a partition passes on to a later one, each once (Lemma 6,
+/// see Routing.h).
 struct VertexMessage3
 {
   PartitionIndex Sender = -1; ///< -1: the initial mesh
@@ -36,30 +36,31 @@ void serialize(Archive& archive, VertexMessage3& message)
 
 using Inbox3 = MessageInbox<VertexMessage3>;
 
-/// All messages of a finished partition, each with its recipient.
+/// The messages of a finished partition, each with the partition that receives it.
 using SentMessages3 = std::vector<std::pair<PartitionIndex, VertexMessage3>>;
 
-/// Receives tetrahedra that no later partition can change.
+/// Receives final tetrahedra: those that no later partition can change. Ids are those of Vertex3.
 class FinalCellConsumer3
 {
 public:
   virtual ~FinalCellConsumer3() = default;
 
-  /// One of the partition's own points, whose ball lies in the interior of its region.
+  /// Adds a tetrahedron whose corners are the partition's own points, and whose circumball lies in
+  /// the interior of the partition's region.
   virtual void addInside(const std::array<std::int64_t, 4>& ids) = 0;
-  /// Any other one; it may have artificial corners.
+  /// Adds any other tetrahedron. It may have artificial corners.
   virtual void add(const std::array<Vertex3, 4>& corners) = 0;
 };
 
-/// If the tetrahedron has an artificial corner, adds its true corners to `vertices`, which the hull
-/// repair needs, and returns true.
+/// If the tetrahedron has an artificial corner, adds its true corners to `vertices` and returns
+/// true. The hull repair needs these vertices.
 bool takeHullVertices(const std::array<Vertex3, 4>& corners, std::vector<Vertex3>& vertices);
 
-/// Keeps them in memory, by point ids.
+/// Stores final tetrahedra in memory, by the points' ids.
 struct FinalCells : public FinalCellConsumer3
 {
   std::vector<CellIds> Cells;
-  /// True corners of tetrahedra that have artificial corners; with repetitions.
+  /// True corners of tetrahedra that have artificial corners; may contain a vertex several times.
   std::vector<Vertex3> HullVertices;
 
   void addInside(const std::array<std::int64_t, 4>& ids) override;
@@ -70,54 +71,64 @@ struct FinalCells : public FinalCellConsumer3
 class Worker3
 {
 public:
-  /// `regions`: of all partitions. Both must outlive this.
+  /// `regions` has the region of each partition. Both arguments must outlive this object.
   Worker3(const std::vector<Box3>& regions, const PartitionOrder& order)
     : Regions(regions)
     , Order(order)
   {
   }
 
-  /// Triangulates a partition's points and the vertices in its inbox. Of the tetrahedra that meet
-  /// the partition, those that meet no later one are final; of the others the vertices are to be
-  /// sent to the next one.
+  /// Triangulates a partition's points and the vertices in its inbox. Tetrahedra that meet the
+  /// partition and no later one go to `final`. The vertices of those that meet a later one are
+  /// returned as messages to the next partition that the tetrahedron meets.
   SentMessages3 triangulate(const PartitionPoints3& points,
     const std::vector<VertexMessage3>& inbox, FinalCellConsumer3& final);
 
+  /// The duplicates of all partitions triangulated so far, by point ids.
   const std::vector<Duplicate>& duplicates() const { return this->Duplicates; }
-  std::size_t vertexCount() const { return this->VertexCount; } ///< of all partitions together
+  /// The number of vertices triangulated in all partitions so far.
+  std::size_t vertexCount() const { return this->VertexCount; }
 
 private:
   void collect(const std::vector<VertexMessage3>& inbox);
+  Box3 boxBesideLater() const;
   void route(DelaunayKernel3::Index cell, FinalCellConsumer3& final);
   SentMessages3 send();
   void takeDuplicates();
   Vertex3 vertex(DelaunayKernel3::Index v) const;
+  bool isOwn(DelaunayKernel3::Index v) const
+  {
+    return this->Kernel.pointIndex(v) < this->Own.Count;
+  }
 
   const std::vector<Box3>& Regions;
   const PartitionOrder& Order;
   PartitionPoints3 Own;
+  Box3 Beside; ///< contains the own region; no later region reaches into its interior
   DelaunayKernel3 Kernel;
   std::vector<Point3> Points;  ///< the partition's own, then those of Others
   std::vector<Vertex3> Others; ///< from the inbox
-  std::vector<std::vector<DelaunayKernel3::Index>> Outgoing; ///< corners, by later partition
-  std::vector<std::int64_t> Ids;                             ///< by vertex: the point's id
-  std::vector<double> Slack;         ///< by vertex: the distance from the region's sides
+  /// By later partition: corners of the tetrahedra for it.
+  std::vector<std::vector<DelaunayKernel3::Index>> Outgoing;
+  std::vector<std::int64_t> Ids; ///< by vertex: the point's id
+  std::vector<double> Slack;     ///< by vertex: a lower bound of its distance to the region's sides
   std::vector<std::uint32_t> SentTo; ///< by vertex: the last recipient, counted from 1
   std::vector<Duplicate> Duplicates;
   std::size_t VertexCount = 0;
 };
 
-/// Sends the initial mesh's tetrahedra to the first partition that each meets: returns a message
-/// for each partition. One that meets none has no true corner.
+/// Sends each tetrahedron of the initial mesh to the first partition that it meets: returns a
+/// message for each partition. Tetrahedra that meet no partition have only artificial corners and
+/// are dropped.
 std::vector<VertexMessage3> sendInitialMesh(const InitialMesh3& mesh, const PartitionOrder& order);
 
-/// Sorts vertices by id, and removes repetitions.
+/// Sorts vertices by id and removes repetitions.
 void keepUnique(std::vector<Vertex3>& vertices);
 
-/// Removes the artificial points (Lemma 3): tetrahedralizes `vertices`, the true corners of
-/// tetrahedra with artificial ones, and adds to `final` those tetrahedra that are in conflict with
-/// an artificial point. They fill the space of the tetrahedra with artificial corners. The vertices
-/// may be repeated.
+/// Removes the artificial points (Lemma 3). Tetrahedralizes `vertices`, the true corners of
+/// tetrahedra with artificial corners, and adds to `final` the resulting tetrahedra that are in
+/// conflict with an artificial point. They fill the space of the removed tetrahedra. `vertices` may
+/// contain a vertex several times.
 void repairHull(
   std::vector<Vertex3> vertices, const std::vector<Vertex3>& artificial, FinalCellConsumer3& final);
 

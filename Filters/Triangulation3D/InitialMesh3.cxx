@@ -12,8 +12,8 @@ namespace tipp
 namespace
 {
 
-/// Moves a bound outward by the margin or, if that is more, by a few units in the last place: the
-/// margin may be lost in rounding when coordinates are large and close together.
+/// Moves a bound outward by the margin, but at least by a few units in the last place: the margin
+/// may be lost in rounding if coordinates are large and close together.
 double outward(double bound, double direction, double margin)
 {
   const double moved = bound + direction * margin;
@@ -212,7 +212,7 @@ bool InitialMesh3::partitionsPay() const
   {
     meeting += this->metBegin(cell) < this->metEnd(cell) ? 1 : 0;
   }
-  // By measurement 2.1 to 2.5 in a volume, 4 on a surface and 14 on a sphere.
+  // Measured: 2.1 to 2.5 in a volume, 4 on a surface, 14 on a sphere.
   constexpr std::size_t most = 3;
   return this->Met.size() <= most * meeting;
 }

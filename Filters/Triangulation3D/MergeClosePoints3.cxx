@@ -14,14 +14,15 @@ namespace tipp
 namespace
 {
 
-/// Lists of kept points by the hash of their cell. Cells are at least twice as wide as the
-/// distance, so the points close to a position are in the cells within half a cell's width of it.
+/// A hash table of the kept points by grid cell. Cells are at least twice as wide as the distance,
+/// so all points close to a position are in the cells within half a cell's width of it.
 class HashGrid3
 {
 public:
   HashGrid3(std::size_t capacity, double distance, double largestCoordinate)
     : Distance(distance)
-    // Wide enough that cell indices are below 2^41, where `slack` exceeds the rounding errors.
+    // Cells are so wide that cell indices are below 2^41; there `reach` exceeds half a cell by more
+    // than the rounding errors.
     , Cell(std::max(
         { 2 * distance, std::ldexp(largestCoordinate, -40), std::numeric_limits<double>::min() }))
   {
@@ -42,7 +43,7 @@ public:
     for (unsigned corner = 0; corner < 8; ++corner)
     {
       std::array<std::int64_t, 3> cell;
-      bool isOther = true; // than those of the corners before
+      bool isOther = true; // other than the cells of previous corners
       for (std::size_t k = 0; k < 3; ++k)
       {
         const bool isHigh = (corner >> k & 1) != 0;
@@ -116,7 +117,7 @@ Tetrahedralization tetrahedralizeMerged(const Point3* points, std::size_t count,
     }
   }
   HashGrid3 grid(count, distance, largest);
-  std::vector<std::int32_t> ids; // of the kept points, ascending
+  std::vector<std::int32_t> ids; // original ids of the kept points, ascending
   std::vector<Duplicate> duplicates;
   std::vector<PointId> rejected;
   for (std::size_t i = 0; i < count; ++i)
@@ -137,7 +138,7 @@ Tetrahedralization tetrahedralizeMerged(const Point3* points, std::size_t count,
     }
   }
   Tetrahedralization mesh = tetrahedralize(grid.kept().data(), grid.kept().size(), options);
-  // Ids stay in order, and so do the tetrahedra.
+  // The ids keep their order, so the tetrahedra do, too.
   for (std::int32_t& id : mesh.Ids)
   {
     id = ids[std::size_t(id)];

@@ -7,9 +7,10 @@
 namespace tipp
 {
 
-/// tetrahedralize() of the points that are left after merging: by ascending id, each point within
-/// `distance` > 0 of a point kept before it is a duplicate of that one. Ids are indices into
-/// `points`. Merging is serial.
+/// Merges close points, and calls tetrahedralize() for those that are left. In ascending order of
+/// ids, each point within `distance` > 0 of a kept point becomes a duplicate of the first such
+/// point. All ids are indices into `points`; `distance` is in their unit of length. Merging uses
+/// one thread. Throws like tetrahedralize().
 VTKTIPPFILTERS_EXPORT Tetrahedralization tetrahedralizeMerged(const Point3* points,
   std::size_t count, double distance, const TetrahedralizationOptions& options = {});
 

@@ -11,7 +11,7 @@ namespace tipp
 namespace
 {
 
-/// Ascending ids; the last two are exchanged if that took an odd number of exchanges.
+/// Sorts the ids of a cell; exchanges the last two if the sorting changed the orientation.
 CellIds canonical(CellIds cell)
 {
   bool isOdd = false;
@@ -35,7 +35,8 @@ CellIds canonical(CellIds cell)
   return cell;
 }
 
-/// Compares cells with the same first id. An object, so that sorting compiles it in.
+/// Compares cells with the same first id. It is an object so that the compiler inlines it into the
+/// sort.
 struct IsBefore
 {
   bool operator()(const CellIds& a, const CellIds& b) const
@@ -50,7 +51,16 @@ struct IsBefore
   }
 };
 
-/// Sorts the cells whose first id is in [first, first + width), by way of `scratch`.
+/// Compares cells of any ids.
+struct IsBeforeAny
+{
+  bool operator()(const CellIds& a, const CellIds& b) const
+  {
+    return a[0] != b[0] ? a[0] < b[0] : IsBefore()(a, b);
+  }
+};
+
+/// Sorts the cells whose first id is in [first, first + width); `scratch` is working memory.
 void sortRange(CellIds* cells, std::size_t count, std::int32_t first, std::size_t width,
   std::vector<CellIds>& scratch)
 {
@@ -82,7 +92,8 @@ void sortRange(CellIds* cells, std::size_t count, std::int32_t first, std::size_
 Buffer<std::int32_t> orderCells(
   std::vector<std::vector<CellIds>>&& parts, std::size_t points, int threads)
 {
-  // A range's cells fit in a cache, and few ranges in the pages of one pass.
+  // Ranges of first ids: small enough that the cells of one fit in a cache, and few enough that one
+  // pass can distribute to all of them.
   constexpr std::size_t mostRanges = 1024;
   constexpr unsigned leastShift = 8;
   unsigned shift = leastShift;
@@ -132,6 +143,51 @@ Buffer<std::int32_t> orderCells(
       sortRange(cells + begins[r], begins[r + 1] - begins[r], std::int32_t(r << shift),
         std::size_t(1) << shift, scratch[std::size_t(thread)]);
     });
+  return ids;
+}
+
+void mergeCells(Buffer<std::int32_t>& ids, std::vector<std::int64_t> firsts)
+{
+  auto* const cells = ids.as<CellIds>();
+  while (firsts.size() > 2)
+  {
+    std::vector<std::int64_t> merged;
+    for (std::size_t i = 0; i + 1 < firsts.size(); i += 2)
+    {
+      merged.push_back(firsts[i]);
+      if (i + 2 < firsts.size())
+      {
+        std::inplace_merge(
+          cells + firsts[i], cells + firsts[i + 1], cells + firsts[i + 2], IsBeforeAny());
+      }
+    }
+    merged.push_back(firsts.back());
+    firsts = std::move(merged);
+  }
+}
+
+void orderTriangles(Buffer<std::int32_t>& ids)
+{
+  using Corners = std::array<std::int32_t, 3>;
+  auto* const begin = ids.as<Corners>();
+  auto* const end = begin + ids.size() / 3;
+  for (Corners* corners = begin; corners != end; ++corners)
+  {
+    std::rotate(
+      corners->begin(), std::min_element(corners->begin(), corners->end()), corners->end());
+  }
+  std::sort(begin, end);
+}
+
+Buffer<std::int32_t> orderTriangles(const std::vector<CellIds>& cells)
+{
+  Buffer<std::int32_t> ids(3 * cells.size());
+  std::int32_t* to = ids.data();
+  for (const CellIds& cell : cells)
+  {
+    to = std::copy_n(cell.begin(), 3, to);
+  }
+  orderTriangles(ids);
   return ids;
 }
 

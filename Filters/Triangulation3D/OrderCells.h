@@ -15,10 +15,22 @@ namespace tipp
 /// Four point ids, in an order whose orientation3() is positive.
 using CellIds = std::array<std::int32_t, 4>;
 
-/// Returns all cells in the order of Tetrahedralization, and frees the parts. So the result does
-/// not depend on who made which cell, nor when. Ids are below `points`.
+/// Returns the cells of all parts in the order of Tetrahedralization::Ids, and frees the parts. The
+/// result does not depend on how cells are divided among the parts. `points`: all ids are below it.
 Buffer<std::int32_t> orderCells(
   std::vector<std::vector<CellIds>>&& parts, std::size_t points, int threads);
+
+/// Merges sorted ranges of cells into one; `ids` has four ids per cell, in the order of
+/// orderCells(). `firsts`: the index of each range's first cell, and at the end the number of
+/// cells.
+void mergeCells(Buffer<std::int32_t>& ids, std::vector<std::int64_t> firsts);
+
+/// Rotates triangles, three point ids each, so that the lowest id is first, and sorts them
+/// lexicographically.
+void orderTriangles(Buffer<std::int32_t>& ids);
+/// Does the same for triangles given as the first three ids of cells, and returns three ids per
+/// triangle.
+Buffer<std::int32_t> orderTriangles(const std::vector<CellIds>& cells);
 
 } // namespace tipp
 

@@ -21,9 +21,9 @@ namespace tipp
 namespace
 {
 
-/// One partition, in which threads share a mesh, is fastest. Where there are more points than its
-/// indices can name, or many threads, each of which has a table of vertices then, as many
-/// partitions as let all threads find work.
+/// One partition whose mesh all threads share is fastest. There are several partitions if the
+/// points exceed the indices of one mesh, or if there are many threads: each thread of a shared
+/// mesh needs a table of all vertices.
 int choosePartitionCount(std::size_t points, int threads)
 {
   constexpr std::size_t largest = std::size_t(1) << 25;
@@ -200,7 +200,7 @@ private:
         [](const std::vector<CellIds>& cells) { return !cells.empty(); });
       if (!hasCells)
       {
-        // All points are coplanar, or fewer: the kernel tells.
+        // The points are coplanar, or too few: runAlone() reports the dimension.
         this->Cells.clear();
         this->Result.Duplicates.clear();
         return false;
@@ -263,7 +263,8 @@ private:
     this->endPhase("workers");
   }
 
-  /// Vertices that came from another partition may bear the id of a duplicate.
+  /// Tetrahedra with vertices from other partitions may have ids of duplicates: replaces these by
+  /// their representatives.
   void useRepresentatives()
   {
     if (this->Result.Duplicates.empty())
@@ -328,7 +329,7 @@ std::string describeDimension(int dimension)
 {
   constexpr const char* reasons[] = { "there is no finite point", "all finite points coincide",
     "all finite points are on one line",
-    "all finite points are in one plane: triangulate them with vtkTIPPDelaunay2D" };
+    "all finite points are in one plane, so the cells are triangles" };
   return std::string("No tetrahedra: ") + reasons[dimension + 1] + ".";
 }
 
@@ -343,9 +344,7 @@ std::vector<std::string> warningsOf(const Tetrahedralization& mesh, std::int64_t
   }
   if (mesh.Dimension < 3)
   {
-    warnings.push_back(mesh.Dimension == 2
-        ? "No tetrahedra: all finite points are in one plane, so the cells are triangles."
-        : describeDimension(mesh.Dimension));
+    warnings.push_back(describeDimension(mesh.Dimension));
   }
   return warnings;
 }

@@ -16,26 +16,27 @@
 namespace tipp
 {
 
-/// Options of tetrahedralize(). None changes the result.
+/// Options of tetrahedralize(). The result does not depend on them.
 struct TetrahedralizationOptions
 {
-  int Partitions = 0; ///< 0: chosen for the points and threads
-  int Threads = 0;    ///< 0: OpenMP's choice
-  /// Called now and then with the finished fraction (0 to 1), by one thread at a time; returning
-  /// false aborts the run.
+  int Partitions = 0; ///< 0: chosen by the number of points and threads
+  int Threads = 0;    ///< 0: OpenMP's default
+  /// Called regularly with the finished fraction (0 to 1), by one thread at a time. Returns false
+  /// to abort the run.
   std::function<bool(double)> Progress;
 };
 
-/// The tetrahedra: four input point ids each, so that orientation3() is positive. The lowest id is
-/// first, and the others ascend, but the last two are exchanged where the orientation asks for it.
-/// Tetrahedra are in the lexicographic order of their ascending ids.
+/// The Delaunay tetrahedra, as four point ids each: 32-bit indices into the input. orientation3()
+/// of the corners is positive. The lowest id is first and the others ascend, except that the last
+/// two are exchanged if the orientation requires it. Tetrahedra are in the lexicographic order of
+/// their ascending ids.
 struct Tetrahedralization
 {
   Buffer<std::int32_t> Ids;
-  std::vector<Duplicate> Duplicates; ///< by ascending Point
-  std::vector<PointId> Rejected;     ///< ids of points with NaN or infinite coordinates; ascending
-  /// Of the finite points: -1 without any; 0 if all have the same coordinates, 1 if they are
-  /// collinear, 2 if they are coplanar; else 3. Below 3 there are no tetrahedra.
+  std::vector<Duplicate> Duplicates; ///< ascending Point
+  std::vector<PointId> Rejected; ///< indices of points with NaN or infinite coordinates; ascending
+  /// The dimension of the finite points: -1 without any, 0 if all have the same coordinates, 1 if
+  /// they are collinear, 2 if coplanar, else 3. Below 3 there are no tetrahedra.
   int Dimension = -1;
   TriangulationStatistics Statistics;
   bool Aborted = false;
@@ -43,16 +44,16 @@ struct Tetrahedralization
   std::size_t cellCount() const { return this->Ids.size() / 4; }
 };
 
-/// Returns the Delaunay triangulation of the distinct finite points in space, ties broken by their
-/// lexicographic order: the same set of tetrahedra as CGAL's Delaunay_triangulation_3, for all
-/// options. Ids are indices into `points`. Throws std::length_error for 2^31 points and more.
+/// Returns the Delaunay triangulation of the distinct finite points. Ties are broken by the points'
+/// lexicographic order, so for all options the set of tetrahedra equals that of CGAL's
+/// Delaunay_triangulation_3. Throws std::length_error for 2^31 points or more, and std::bad_alloc.
 VTKTIPPFILTERS_EXPORT Tetrahedralization tetrahedralize(
   const Point3* points, std::size_t count, const TetrahedralizationOptions& options = {});
 
-/// Why points of this dimension, below 3, have no tetrahedra: a sentence.
+/// Returns a sentence that says why points of this dimension, below 3, have no tetrahedra.
 std::string describeDimension(int dimension);
 
-/// Returns the warnings about a tetrahedralization of `points` points, one sentence each.
+/// Returns the warnings about a tetrahedralization of `points` input points, one sentence each.
 VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(
   const Tetrahedralization& mesh, std::int64_t points);
 

@@ -54,7 +54,8 @@ PointSurvey3 surveyPoints(const Point3* points, std::size_t count)
     const double largest =
       std::max({ std::fabs(points[i].x), std::fabs(points[i].y), std::fabs(points[i].z) });
     const double sum = points[i].x + points[i].y + points[i].z;
-    // The largest of NaN and a number may be either; a sum of finite numbers may overflow.
+    // The larger of NaN and a number may be either. The sum tells, but may overflow for finite
+    // numbers.
     if (!std::isfinite(sum) && !isFinite(points[i]))
     {
       survey.Rejected.push_back(std::int64_t(i));
@@ -78,7 +79,7 @@ bool areExactTimes(const Point3* points, std::size_t count, double factor)
 
 double moderateFactor(double largest)
 {
-  // Determinants have degree five in the coordinates, and their filter squares them.
+  // Determinants have degree five in the coordinates, and their filters square them.
   constexpr int moderate = 24;
   constexpr int largestShift = 1000;
   return largest == 0 || std::abs(std::ilogb(largest)) <= moderate
@@ -97,7 +98,8 @@ Tiling3::Tiling3(std::vector<Point3> sample, const PartitionGroups& groups)
   this->cut(sample.begin(), sample.end(), 0, groups.Count * groups.Each);
 }
 
-/// The axis of a cut of a sample's box into `count` partitions.
+/// Returns the axis to cut across: for `count` partitions whose sample points have this bounding
+/// box.
 int Tiling3::axisFor(int count, const Box3& box)
 {
   const auto side = [&box](int k) { return box.Max[std::size_t(k)] - box.Min[std::size_t(k)]; };
@@ -112,7 +114,7 @@ int Tiling3::axisFor(int count, const Box3& box)
   return isSlab ? this->SlabAxis : longest;
 }
 
-/// Which share of the sample the partitions before this one are to have.
+/// Returns the share of the sample that all partitions with lower numbers get together.
 double Tiling3::shareBefore(int partition) const
 {
   const double groups = this->Groups.Count;

@@ -18,7 +18,7 @@ inline bool isFinite(const Point3& p)
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-/// The smallest box of points. Without points Min is infinite.
+/// The bounding box of points. Without points Min is +infinity and Max is -infinity.
 struct PointBounds
 {
   PointBounds();
@@ -28,58 +28,60 @@ struct PointBounds
   Box3 Box;
 };
 
-/// What a first pass over points finds.
+/// The result of a first pass over points.
 struct PointSurvey3
 {
-  std::vector<std::int64_t> Rejected; ///< indices of those that are not finite; ascending
-  double Largest = 0;                 ///< magnitude of a coordinate of the finite ones
+  std::vector<std::int64_t> Rejected; ///< indices of points that are not finite; ascending
+  double Largest = 0;                 ///< largest magnitude of a finite point's coordinate
 };
 PointSurvey3 surveyPoints(const Point3* points, std::size_t count);
 
-/// A power of two that brings coordinates near 1 where the largest magnitude is very small or very
-/// large, so that the filters of predicates work; else 1.
+/// Returns a power of two that scales coordinates of very small or very large magnitude to about 1,
+/// so that the predicates' filters work; 1 for other magnitudes.
 double moderateFactor(double largest);
-/// Whether multiplying by the factor is exact for a coordinate.
+/// Returns whether multiplying this coordinate by the factor, a power of two, is exact.
 inline bool isExactTimes(double x, double factor)
 {
   return !std::isfinite(x) || x * factor / factor == x;
 }
 bool areExactTimes(const Point3* points, std::size_t count, double factor);
 
-/// Groups of partitions, as of the ranks of a run.
+/// Groups of partitions, such as those of the ranks of a run.
 struct PartitionGroups
 {
   int Count = 1;
-  int Each = 1; ///< partitions of a group
-  /// By how much less the first group has than the others: a fraction of all points.
+  int Each = 1; ///< partitions per group
+  /// By which fraction of all points the first group has fewer points than each other group.
   double FirstLess = 0;
-  /// Whether the cuts between groups, or all cuts, are parallel: across the longest side of the
-  /// sample's box.
+  /// Whether the cuts between groups (AreSlabs), or those between the partitions of a group, are
+  /// all across one axis: the longest side of the sample's bounding box.
   bool AreSlabs = false;
   bool ArePartitionsSlabs = false;
 };
 
-/// Partitions of space with about equally many points of a sample: a tree of cuts across the
-/// longest side of the sample's box. A point on a cut belongs to the upper side.
+/// Divides space into partitions with about equal numbers of sample points: a tree of cuts, each
+/// across the longest side of its sample points' bounding box. A point on a cut belongs to the
+/// upper side.
 class Tiling3
 {
 public:
   /// Cuts space into at most `count` partitions; fewer if the sample has too few distinct points.
   Tiling3(std::vector<Point3> sample, int count);
 
-  /// The same for groups. Which group has a point does not depend on how many partitions each has.
+  /// Does the same for groups of partitions. A point's group does not depend on the number of
+  /// partitions per group.
   Tiling3(std::vector<Point3> sample, const PartitionGroups& groups);
 
   PartitionIndex size() const { return this->Count; }
-  /// The group of a partition; ascending.
+  /// Returns the group of a partition. Groups ascend with the partitions.
   int groupOf(PartitionIndex p) const { return this->Firsts[std::size_t(p)] / this->Groups.Each; }
   PartitionIndex locate(const Point3& p) const;
 
-  /// The closed boxes of all partitions, which fill `domain`.
+  /// Returns the closed boxes of all partitions. Together they fill `domain`.
   std::vector<Box3> boxes(const Box3& domain) const;
 
-  /// Calls visit(partition) for those whose closed boxes may meet the box; those of the lower side
-  /// of a cut come first.
+  /// Calls visit(partition) for the partitions whose closed boxes meet `box`, the lower side of
+  /// each cut first.
   template <typename Visit>
   void visitMet(const Box3& box, const Visit& visit) const
   {
@@ -123,7 +125,7 @@ private:
   PartitionGroups Groups;
   int SlabAxis = -1;
   std::vector<Node> Nodes;
-  std::vector<int> Firsts; ///< by partition: its number, of all that are asked for
+  std::vector<int> Firsts; ///< by partition: its number if all requested partitions had been made
   PartitionIndex Count = 0;
 };
 
@@ -133,7 +135,8 @@ struct PartitionPoints3
   PartitionIndex Partition = -1;
   const Point3* Points = nullptr;
   std::size_t Count = 0;
-  const std::int32_t* Ids = nullptr; ///< counted from First; null: consecutive
+  const std::int32_t* Ids = nullptr; ///< indices of the points, less First; null: consecutive
+  /// The id of the first point of the rank or input.
   std::int64_t First = 0;
 
   std::int64_t id(std::size_t i) const
@@ -142,19 +145,19 @@ struct PartitionPoints3
   }
 };
 
-/// The points of each partition, in the input's order, and their ids.
+/// The points of each partition, in the input's order, and their indices in the input.
 struct PointBuckets3
 {
   std::vector<Point3> Points;
   std::vector<std::int32_t> Ids;
-  std::vector<std::size_t> Begins; ///< of each partition, and one past the last
-  std::vector<Box3> Regions;       ///< the points' bounding boxes
+  std::vector<std::size_t> Begins; ///< by partition: its first point; one more entry at the end
+  std::vector<Box3> Regions;       ///< by partition: its points' bounding box
 
   std::size_t count(PartitionIndex p) const
   {
     return this->Begins[std::size_t(p) + 1] - this->Begins[std::size_t(p)];
   }
-  /// Ids are counted from `first`.
+  /// Returns the points of a partition. `first` is added to their ids.
   PartitionPoints3 of(PartitionIndex p, std::int64_t first = 0) const
   {
     const std::size_t begin = this->Begins[std::size_t(p)];
@@ -162,7 +165,8 @@ struct PointBuckets3
   }
 };
 
-/// Sorts finite points by partition. Points that are not finite are left out.
+/// Sorts the finite points by partition, and multiplies their coordinates by `factor`. Leaves out
+/// points that are not finite.
 PointBuckets3 bucketPoints(
   const Point3* points, std::size_t count, const Tiling3& tiling, double factor, int threads);
 

@@ -25,7 +25,7 @@ namespace tipp::python
 
 namespace nb = nanobind;
 
-/// A NumPy array to read, of any type. The Python side sees to it that it is in C order.
+/// A NumPy array of any type, to read only. The Python side makes sure that it is in C order.
 using InputArray = nb::ndarray<nb::ro, nb::device::cpu, nb::c_contig>;
 
 inline Scalar scalarOf(nb::dlpack::dtype type)
@@ -53,7 +53,7 @@ inline std::size_t bytesOf(Scalar scalar)
   return bytes;
 }
 
-/// A NumPy array over memory from malloc(), which it frees.
+/// Returns a NumPy array that takes over memory from malloc(), and frees it.
 inline nb::object owningArray(void* memory, Scalar scalar, const std::vector<std::size_t>& shape)
 {
   const nb::capsule owner(memory, [](void* p) noexcept { std::free(p); });
@@ -81,7 +81,7 @@ constexpr Scalar scalarType<std::int64_t>()
   return Scalar::Int64;
 }
 
-/// The buffer as rows of a NumPy array, without a copy.
+/// Returns a NumPy array that takes over the memory of the buffer, as rows of `columns` values.
 template <typename Value>
 nb::object arrayOf(Buffer<Value>&& buffer, std::size_t columns)
 {
@@ -106,9 +106,9 @@ inline nb::object copyOf(const std::vector<double>& values, std::size_t columns)
   return arrayOf(std::move(buffer), Scalar::Float64, columns);
 }
 
-/// Passes progress to a Python callable, or None, and asks Python whether to go on: on Ctrl-C, and
-/// if the callable raises or returns False, the work ends. Only the thread that made it, which has
-/// given Python's lock away, speaks with Python.
+/// Passes progress to a Python callable, which may be None, and finds out whether to continue: the
+/// work stops on Ctrl-C, or if the callable raises or returns False. Only the thread that
+/// constructed the object calls Python; it must have released the GIL.
 class Reporter
 {
 public:
@@ -118,16 +118,16 @@ public:
   {
   }
 
-  /// False if the work is to stop.
+  /// Returns false if the work must stop.
   bool operator()(double fraction);
 
-  /// As the cores take it; must not outlive this.
+  /// Returns the progress function for a core. This object must outlive it.
   std::function<bool(double)> function()
   {
     return [this](double fraction) { return (*this)(fraction); };
   }
 
-  /// Raises what stopped the work. Call it with Python's lock.
+  /// Raises the exception that stopped the work. Requires the GIL.
   void raiseIfStopped() const;
 
 private:
@@ -137,7 +137,7 @@ private:
   std::exception_ptr Raised;
 };
 
-/// Calls work() without Python's lock.
+/// Calls work() without the GIL.
 template <typename Work>
 auto withoutLock(const Work& work)
 {
@@ -145,16 +145,16 @@ auto withoutLock(const Work& work)
   return work();
 }
 
-/// Points of shape (n, 2) or (n, 3), float32 or float64, where they lie.
+/// Returns a view of points of shape (n, 2) or (n, 3), float32 or float64, without a copy.
 PointsView viewOf(const InputArray& points);
 
-/// Of the arguments that triangulations with and without constraints share. `reporter` must outlive
-/// the result.
+/// Returns the options that triangulations with and without constraints share. `reporter` must
+/// outlive the result.
 TriangulationOptions triangulationOptions(
   double maximumEdge, int columns, int rows, bool stages, int threads, Reporter& reporter);
 
-/// A triangulation of `points` points for Python: triangles, duplicates, rejected, warnings,
-/// statistics and, if wanted, neighbors. Takes the triangles' memory.
+/// Returns a triangulation of `points` points for Python: triangles, duplicates, rejected,
+/// warnings, statistics and, if requested, neighbors. Takes over the memory of the triangles.
 nb::dict triangulationDict(
   Triangulation&& triangulation, std::size_t points, bool longEdgesLeftOut, bool wantsNeighbors);
 

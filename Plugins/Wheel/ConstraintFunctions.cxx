@@ -31,7 +31,7 @@ nb::object idsOf(const std::vector<Value>& values, std::size_t columns)
   return arrayOf(std::move(ids), columns);
 }
 
-/// The id that each of the others has among the points, and which of them are new.
+/// Returns the id that each of the other points has among the points, and which of them are new.
 nb::tuple matchedPositions(const InputArray& points, const InputArray& others)
 {
   const MatchedPositions matched =
@@ -50,7 +50,8 @@ std::vector<Constraint> constraintsOf(const InputArray& pairs)
   return result;
 }
 
-/// (k, 5): x, y, the two points that a crossing lies between, and its fraction of the way.
+/// Returns rows of five values: x, y, the ids of the two points that the crossing lies between, and
+/// its relative position between them.
 nb::object crossingsArray(const std::vector<CrossingPoint>& crossings)
 {
   constexpr std::size_t columns = 5;
@@ -68,7 +69,7 @@ nb::object crossingsArray(const std::vector<CrossingPoint>& crossings)
   return arrayOf(std::move(values), Scalar::Float64, columns);
 }
 
-/// For each corner whether the edge opposite to it is one of a constraint.
+/// Returns for each corner whether the edge opposite to it is part of a constraint.
 template <typename Id>
 nb::object edgeMarks(const Buffer<Id>& ids, const ConstraintEdges& edges)
 {
@@ -93,7 +94,7 @@ nb::dict triangulateWithConstraints(const InputArray& points, const InputArray& 
     triangulationOptions(maximumEdge, columns, rows, stages, threads, reporter);
   const std::vector<Constraint> constraints = constraintsOf(pairs);
   const std::size_t given = points.shape(0);
-  std::vector<std::string> warnings; // about the triangulation before it is cut
+  std::vector<std::string> warnings; // of the triangulation before triangles are removed
   const auto cut = [&](ConstrainedTriangulation& whole)
   {
     const auto count = std::int64_t(given + whole.Constraints.Crossings.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tipp._core: the cores over NumPy arrays, for the engine in Python. Arguments are checked there.
+// tipp._core: the cores over NumPy arrays, for the engine in Python, which checks the arguments.
 #include "Binding.h"
 
 #include "Parallel/ParallelFor.h"
@@ -54,7 +54,7 @@ void Reporter::raiseIfStopped() const
 NB_MODULE(_core, module)
 {
   namespace nb = nanobind;
-  // Types that Python keeps until it ends are no leaks.
+  // Types that Python keeps until it exits are not leaks.
   nb::set_leak_warnings(false);
   nb::register_exception_translator(
     [](const std::exception_ptr& raised, void*)
@@ -67,7 +67,7 @@ NB_MODULE(_core, module)
       {
         PyErr_SetString(PyExc_RuntimeError, "there is not enough memory.");
       }
-      catch (const std::logic_error& error) // as invalid_argument
+      catch (const std::logic_error& error) // includes std::invalid_argument
       {
         PyErr_SetString(PyExc_RuntimeError, error.what());
       }

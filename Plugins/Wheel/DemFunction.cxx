@@ -29,7 +29,7 @@ std::vector<double> doublesOf(const InputArray& array)
   return { values, values + array.size() };
 }
 
-/// Returns (k, 2) coordinates, heights or an empty array, and (m, 2) ids of edges' ends.
+/// Returns (k, 2) coordinates, heights or an empty array, and the (m, 2) ids of the ends of edges.
 nb::tuple readConstraints(const std::string& path)
 {
   const ConstraintTable table = withoutLock([&] { return readConstraintFile(path); });
@@ -41,7 +41,7 @@ nb::tuple readConstraints(const std::string& path)
   return nb::make_tuple(copyOf(table.XY, 2), copyOf(table.Height, 1), arrayOf(std::move(edges), 2));
 }
 
-/// Lines as readConstraints() returns them.
+/// Converts lines in the form that readConstraints() returns.
 ConstraintTable linesOf(const nb::tuple& lines)
 {
   ConstraintTable table;
@@ -53,11 +53,11 @@ ConstraintTable linesOf(const nb::tuple& lines)
   {
     table.Edges.push_back({ ids[2 * i], ids[2 * i + 1] });
   }
-  table.PolygonBegin = table.Edges.size(); // polygons are lines, too
+  table.PolygonBegin = table.Edges.size(); // edges of polygons are lines, too
   return table;
 }
 
-/// A member of the options that the package has checked.
+/// Returns an entry of the options, which the Python side has checked.
 template <typename Value>
 Value of(const nb::dict& options, const char* name)
 {
@@ -119,7 +119,8 @@ PointOptions pointOptionsOf(const nb::dict& options, const DemRequest& request)
   return result;
 }
 
-/// Points of shape (n, 2) and columns, by name, of values at them; all are float64.
+/// Returns a table of points. `xy` has the shape (n, 2); `columns` are values at the points, by
+/// name. All are float64.
 PointTable tableOf(const InputArray& xy, const nb::dict& columns)
 {
   PointTable table;
@@ -137,9 +138,9 @@ nb::tuple tupleOf(const RasterGrid& grid)
   return nb::make_tuple(grid.West, grid.South, grid.Columns, grid.Rows);
 }
 
-/// The bands, rows from the south, then west, south, columns and rows of the grid, the reference
-/// system, and the number of points that are not finite. `points`: names of files, or coordinates
-/// and columns.
+/// Returns the bands, with rows from south to north; the west, south, columns and rows of the grid;
+/// the reference system; and the number of points that are not finite. `points`: names of files, or
+/// a tuple of coordinates and columns.
 nb::tuple makeRaster(const nb::object& points, const nb::dict& options, nb::object progress)
 {
   Reporter reporter(std::move(progress));
@@ -189,7 +190,7 @@ nb::tuple makeRaster(const nb::object& points, const nb::dict& options, nb::obje
   return nb::make_tuple(bands, tupleOf(settings.Grid), crs, figures.Rejected);
 }
 
-/// West, south, columns and rows of the pixels that cover xmin, xmax, ymin, ymax.
+/// Returns the west, south, columns and rows of the pixels that cover xmin, xmax, ymin, ymax.
 nb::tuple rasterGrid(const std::array<double, 4>& bounds, double resolution, bool isAligned)
 {
   RasterRequest request;

@@ -159,7 +159,7 @@ std::unique_ptr<PieceSource> openSource(
   return openPieceSource(path, options);
 }
 
-/// The names of a mesh's arrays of points and of cells.
+/// Returns the names of a mesh's point arrays and cell arrays.
 nb::tuple arrayNames(const std::string& path, const std::string& tiling, std::uint64_t memory)
 {
   const auto source = withoutLock([&] { return openSource(path, tiling, memory); });
@@ -324,7 +324,7 @@ void partitionFile(const std::string& input, const std::string& output, const st
       requireApart({ output }, { input });
       if (isVtkFile(input) && !isFlatMesh(input))
       {
-        readVtkPoints(input); // says what to do
+        readVtkPoints(input); // throws an error that says what to do
       }
       partitionMesh(openFlatMesh(input), output, options);
     });

@@ -37,7 +37,7 @@ constexpr Scalar kindOf<std::int64_t>()
   return Scalar::Int64;
 }
 
-/// A copy of the values as a NumPy array.
+/// Returns a copy of the values as a NumPy array.
 template <typename Value>
 nb::object copied(const std::vector<Value>& values, std::size_t columns = 1)
 {
@@ -57,7 +57,8 @@ nb::tuple listsOf(const IdLists& lists)
   return nb::make_tuple(copied(lists.Starts), copied(lists.Ids));
 }
 
-/// Of polygons: (n, 2) corners, where each ring begins and the end, its zone, whether it is a hole.
+/// Rings of polygons: (n, 2) corners, the first corner of each ring and the end, each ring's zone,
+/// and whether it is a hole.
 using RingArrays = std::tuple<InputArray, InputArray, InputArray, InputArray>;
 
 std::vector<Zone> zonesOf(const RingArrays& rings, std::size_t count)
@@ -87,8 +88,8 @@ Region regionOf(const std::vector<double>& box, const std::optional<RingArrays>&
   return region;
 }
 
-/// Answers queries with NumPy arrays, which the Python side has checked: points of shape (n, 3) and
-/// float64, ids int64. Works without Python's lock.
+/// Answers queries with NumPy arrays, which the Python side has checked: points are float64 of
+/// shape (n, 3), ids int64. Works without the GIL.
 class Query
 {
 public:
@@ -98,7 +99,8 @@ public:
   {
   }
 
-  /// A mesh in memory; `arrays` are its arrays of points first, then of cells.
+  /// Opens a mesh in memory, which it does not copy. `arrays`: first the point arrays, then the
+  /// cell arrays.
   Query(InputArray points, InputArray cells, const std::vector<std::string>& names,
     const std::vector<InputArray>& arrays, std::size_t pointArrays, int threads)
   {
@@ -238,7 +240,7 @@ public:
   }
 
 private:
-  /// Takes the memory of the answer's arrays.
+  /// Returns the answer's values. Takes over the memory of its arrays.
   static nb::dict valuesOf(MeshAnswer& answer)
   {
     nb::dict result;

@@ -35,7 +35,7 @@ SimplexMesh meshOf(const InputArray& points, const InputArray& cells,
   return mesh;
 }
 
-/// Of each sample: the number of its cell, and the mask.
+/// Bytes per sample: a 32-bit cell number and the mask.
 constexpr double claimBytes = 5;
 
 double bytesOfTuples(const std::vector<InputArray>& arrays)
@@ -49,7 +49,7 @@ double bytesOfTuples(const std::vector<InputArray>& arrays)
   return bytes;
 }
 
-/// Surfaces are sampled in one layer, which is repeated along z.
+/// Repeats the single layer in which a surface is sampled along z.
 void repeatLayers(const Lattice& lattice, std::vector<Buffer<char>>& samples)
 {
   for (Buffer<char>& buffer : samples)
@@ -62,7 +62,7 @@ void repeatLayers(const Lattice& lattice, std::vector<Buffer<char>>& samples)
   }
 }
 
-/// Returns origin, spacing, dimensions, the arrays' samples, the mask, and warnings.
+/// Returns the origin, spacing, dimensions, the arrays' samples, the mask and warnings.
 nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
   const std::optional<InputArray>& hidden, const std::vector<InputArray>& pointArrays,
   const std::vector<InputArray>& cellArrays, const std::array<double, 6>& bounds,
@@ -132,7 +132,7 @@ nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
     arrayOf(std::move(samples.back()), Scalar::Int8, 1), warnings);
 }
 
-/// Origin, spacing and numbers of samples.
+/// Returns the origin, spacing and numbers of samples.
 nb::tuple latticeOf(const std::array<double, 6>& bounds, const std::array<int, 3>& dimensions,
   const std::array<double, 3>& delta)
 {

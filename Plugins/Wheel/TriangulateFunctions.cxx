@@ -202,8 +202,8 @@ namespace
 
 constexpr std::int64_t pointsAtOnce = 4096;
 
-/// TriangleLocator over NumPy arrays, which it keeps: float64 points of two columns, int32 corners
-/// and neighbours.
+/// A TriangleLocator over NumPy arrays, which it keeps alive: float64 points of two columns, int32
+/// corners and neighbours.
 class Locator
 {
 public:
@@ -217,7 +217,7 @@ public:
   {
   }
 
-  /// The triangle of each point, or -1.
+  /// Returns the triangle that contains each point, or -1.
   nb::object find(const InputArray& points, int threads) const
   {
     Buffer<char> found(points.shape(0) * sizeof(std::int32_t));
@@ -227,7 +227,8 @@ public:
     return arrayOf(std::move(found), Scalar::Int32, 1);
   }
 
-  /// Linear in each triangle; `fill` outside. `values` are float64 rows of the triangulated points.
+  /// Interpolates linearly in each triangle; `fill` is the value outside. `values` has float64 rows
+  /// for the triangulated points.
   nb::object interpolate(
     const InputArray& points, const InputArray& values, double fill, int threads) const
   {

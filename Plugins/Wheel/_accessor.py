@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What PyVista imports at the first `mesh.tipp` (entry point group pyvista.accessors)."""
+"""PyVista imports this module at the first use of `mesh.tipp` (entry point group pyvista.accessors)."""
 import pyvista
 
 from ._pyvista import register

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the VTK filters of the wheel have in common: properties, lists of texts, selections of arrays, errors."""
+"""The base class of the wheel's VTK filters: properties, lists of texts, selections of arrays, errors."""
 from __future__ import annotations
 
 import warnings
@@ -18,19 +18,19 @@ from ._vtkmodules import (
 
 
 class Filter(VTKPythonAlgorithmBase):
-    """A filter with Set..., Get..., and of flags ...On and ...Off, for each of its PROPERTIES."""
+    """A filter with methods Set... and Get... for each of its PROPERTIES; flags also have ...On and ...Off."""
 
     PROPERTIES: dict[str, Any] = {}
-    """Names and defaults."""
+    """Names of properties, and their defaults."""
     LIMITS: dict[str, tuple[Any, Any]] = {}
-    """Values beyond these are set to them, as VTK does."""
+    """The smallest and largest values of properties. Values beyond them are clamped, as in VTK."""
     INPUTS: tuple[str, ...] = ()
     OPTIONAL_INPUTS: tuple[int, ...] = ()
     OUTPUTS: tuple[str, ...] = ()
     LIST = ""
-    """What an item of its list of texts, as names of files, is called in methods."""
+    """The name, in methods, of an item of the filter's list of texts, such as file names. Empty: no list."""
     SELECTIONS = False
-    """Whether there are selections of arrays."""
+    """Whether the filter has selections of arrays."""
 
     def __init_subclass__(cls) -> None:
         for name, default in cls.PROPERTIES.items():
@@ -61,7 +61,7 @@ class Filter(VTKPythonAlgorithmBase):
         return 1
 
     def SetInputData(self, *port_and_data: Any) -> None:
-        """Of a port, or of the first one."""
+        """Sets the data of a port, by default of the first one."""
         *port, data = port_and_data
         self.SetInputDataObject(port[0] if port else 0, data)
 
@@ -78,7 +78,7 @@ class Filter(VTKPythonAlgorithmBase):
         return self._values[name]
 
     def chosen(self, kind: str, mesh: Any) -> list[str]:
-        """The names of a mesh's arrays that are not disabled."""
+        """Returns the names of a mesh's arrays that are not disabled."""
         data = mesh.GetPointData() if kind == "Point" else mesh.GetCellData()
         arrays = [data.GetArray(i) for i in range(data.GetNumberOfArrays())]
         names = [array.GetName() for array in arrays if array is not None]
@@ -91,7 +91,7 @@ class Filter(VTKPythonAlgorithmBase):
         return not self.GetAbortExecute()
 
     def guarded(self, work: Callable[[], None]) -> int:
-        """1 if it is done. Exceptions and warnings become VTK's errors and warnings, for VTK does not know Python's."""
+        """Returns 1 if work() succeeds, else 0. Turns exceptions and warnings into VTK's errors and warnings."""
         try:
             with warnings.catch_warnings(record=True) as caught:
                 warnings.simplefilter("always")
@@ -143,7 +143,7 @@ def _add_property(cls: type, name: str, default: Any) -> None:
         return self._values[name]
 
     set_value.__name__, get_value.__name__ = f"Set{name}", f"Get{name}"
-    set_value.__doc__ = f"Sets {name}; at first it is {default!r}."
+    set_value.__doc__ = f"Sets {name}; the default is {default!r}."
     get_value.__doc__ = f"Returns {name}."
     setattr(cls, f"Set{name}", set_value)
     setattr(cls, f"Get{name}", get_value)
@@ -177,7 +177,7 @@ def _add_list(cls: type, name: str) -> None:
 
 
 def add_total(name: str, value: float, totals: Any) -> None:
-    """An array of one value as field data."""
+    """Adds an array of one value to the field data."""
     array = vtkIdTypeArray() if isinstance(value, int) else vtkDoubleArray()
     array.SetName(name)
     array.InsertNextValue(value)

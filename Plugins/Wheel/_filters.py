@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""VTK filters for pipelines, with the names and properties of the C++ classes, for any VTK that is installed.
+"""VTK filters for pipelines, with the names and properties of the C++ classes, for any installed VTK.
 
-They lack runs on several ranks, and the properties for them.
+They work on one rank only, and lack the properties for several ranks.
 """
 from __future__ import annotations
 
@@ -33,8 +33,8 @@ _GIGABYTE = 1 << 30
 
 
 class vtkTIPPDelaunay2D(Filter):
-    """Exact Delaunay triangulation of the points of a vtkPointSet in the x-y plane; of a source the lines and polygons
-    are constraints. The second output is a vtkTable with statistics as field data."""
+    """Exact Delaunay triangulation of the points of a vtkPointSet in the x-y plane. Lines and polygons of the second
+    input, the source, are constraints. The second output is a vtkTable with statistics as field data."""
 
     STAGES, DYNAMIC, PRODUCER_CONSUMER = range(3)
     NO_MARKS, LINES, EDGE_FLAGS = range(3)
@@ -103,7 +103,7 @@ class vtkTIPPDelaunay2D(Filter):
 
 class vtkTIPPOutOfCoreDelaunay2D(Filter):
     """Exact Delaunay triangulation of points in files into a partitioned mesh, in bounded memory. The output is a
-    vtkTable with numbers as field data."""
+    vtkTable with statistics as field data."""
 
     PROPERTIES = {
         "FileName": "", "MemoryLimit": 2 * _GIGABYTE, "NumberOfPartitions": (0, 0), "XColumn": "", "YColumn": "",
@@ -149,9 +149,9 @@ class vtkTIPPOutOfCoreDelaunay2D(Filter):
 
 
 class vtkTIPPPointsToImage(Filter):
-    """A regular grid of elevations (a DEM) of the points of a vtkPointSet, through their exact triangulation. The second
-    and the third input, which may be missing, are breaklines and a boundary. The output is a vtkImageData with an array
-    for each band."""
+    """Makes a regular grid of elevations (a DEM) from the points of a vtkPointSet, by their exact triangulation. The
+    second and third inputs, which are optional, are breaklines and a boundary. The output is a vtkImageData with an
+    array for each band."""
 
     DUPLICATES_FIRST, DUPLICATES_LOWEST, DUPLICATES_HIGHEST, DUPLICATES_MEAN = range(4)
     THIN_LOWEST, THIN_HIGHEST, THIN_NEAREST = range(3)
@@ -187,7 +187,7 @@ class vtkTIPPPointsToImage(Filter):
         return self.guarded(lambda: self._describe(outputs.GetInformationObject(0)))
 
     def _pixels(self) -> tuple[list[float], float]:
-        """The bounds and the resolution."""
+        """Returns the bounds and the resolution."""
         bounds, size = list(self.value("SamplingBounds")), self.value("Resolution")
         if not self.value("UseInputBounds") and size > 0:
             return bounds, size
@@ -357,8 +357,8 @@ class vtkPartitionedUnstructuredWriter(Filter):
 
 
 class vtkPartitionedMeshQuery(Filter):
-    """The values of a mesh at the points of a data set, which the output has the structure of. The mesh is the second
-    input, the source, as in vtkProbeFilter; or FileName, a partitioned mesh on disk of any size."""
+    """Evaluates a mesh at the points of a data set; the output has the structure of this data set. The mesh is the
+    second input (the source, as in vtkProbeFilter), or FileName, a partitioned mesh on disk of any size."""
 
     PROPERTIES = {
         "FileName": "", "MemoryLimit": _GIGABYTE, "Step": 0, "NullValue": 0.0, "PassPointArrays": False,
@@ -392,7 +392,7 @@ class vtkPartitionedMeshQuery(Filter):
         return 1
 
     def _mesh(self, source: Any) -> Any:
-        """The mesh, which is opened again only if it has been changed."""
+        """Returns the opened mesh. Opens it again only if it has changed."""
         options = {"memory": self.value("MemoryLimit"), "step": self.value("Step"),
                    "threads": self.value("NumberOfThreads")}
         key = (self.value("FileName") or (source, source and source.GetMTime()), options)
@@ -428,8 +428,8 @@ class vtkPartitionedMeshQuery(Filter):
 
 
 class vtkTIPPPointReader(Filter):
-    """Reads points from files: .las, .npy, .csv, .xyz; of .laz files where this build has LASzip or laspy is
-    installed. The output is a vtkPolyData."""
+    """Reads points from files: .las, .npy, .csv, .xyz, and .laz if this build has LASzip or laspy is installed. The
+    output is a vtkPolyData."""
 
     RETURNS_ALL, RETURNS_FIRST, RETURNS_LAST = range(3)
     PROPERTIES = {"Classes": "", "Returns": 0, "KeepWithheld": False, "KeepSynthetic": False, "KeepOverlap": False,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""tipp.Delaunay and tipp.LinearNDInterpolator: what programs use of scipy's classes of these names, in the plane."""
+"""tipp.Delaunay and tipp.LinearNDInterpolator: the parts of scipy's classes that programs use, in the plane."""
 from __future__ import annotations
 
 from functools import cached_property
@@ -20,19 +20,20 @@ class Delaunay:
     points
         (n, 2) coordinates, all finite.
     threads
-        OpenMP threads; 0 is OpenMP's choice.
+        OpenMP threads; 0 is OpenMP's default.
 
     Attributes
     ----------
     points : (n, 2) float64
     simplices : (m, 3) int32
-        Point ids, counter-clockwise. Of coincident points the one of lowest id is in triangles.
+        Point ids, counter-clockwise. Of coincident points, only the one with the lowest id is in triangles.
     neighbors : (m, 3) int32
-        For each corner the triangle over the opposite edge; -1 at the hull.
+        For each corner the triangle across the opposite edge; -1 at the hull.
     convex_hull : (k, 2) int32
         The edges of the hull.
     coplanar : (d, 3) int32
-        The points left out because one of lower id has their coordinates, a triangle at it, and that one.
+        For each point left out because a point with a lower id has the same coordinates: its id, a triangle at that
+        point, and that point's id.
 
     Raises
     ------
@@ -53,7 +54,7 @@ class Delaunay:
         array = coordinates(points)
         if array.shape[1] != 2:
             raise ValueError(f"points have the shape {array.shape}; give an array of shape (n, 2).")
-        self.points = np.array(array, np.float64, order="C")  # they are the class's own
+        self.points = np.array(array, np.float64, order="C")  # a copy that callers cannot change
         if not np.isfinite(self.points).all():
             raise ValueError("points have a NaN or infinite coordinate; leave these points out.")
         self._threads = check.threads(threads)
@@ -80,7 +81,7 @@ class Delaunay:
 
     @cached_property
     def vertex_to_simplex(self) -> np.ndarray:
-        """A triangle at each point; -1 for those left out."""
+        """A triangle at each point; -1 for points that were left out."""
         result = np.full(self.npoints, -1, np.int32)
         result[self.simplices.ravel()] = np.repeat(np.arange(self.nsimplex, dtype=np.int32), 3)
         return result
@@ -106,14 +107,14 @@ class Delaunay:
         return {name: value for name, value in self.__dict__.items() if name != "_locator"}
 
     def find_simplex(self, xi: Any, bruteforce: bool = False, tol: float | None = None) -> np.ndarray:
-        """The triangle that each of some points is in or on, or -1: exact, so that `bruteforce` and `tol` are not
-        used. `xi` has x and y along its last axis."""
+        """Returns the triangle that contains each point, its border included, or -1. The result is exact, so
+        `bruteforce` and `tol` are not used. `xi` has x and y along its last axis."""
         queries, shape = _queries(xi)
         return self._locator.find(queries, self._threads).reshape(shape)
 
 
 def _queries(xi: Any) -> tuple[np.ndarray, tuple[int, ...]]:
-    """As (n, 2) float64, and the shape that results have."""
+    """Returns the points as (n, 2) float64, and the shape of the results."""
     array = taken(xi, "xi")
     if array.ndim == 0 or array.shape[-1] != 2:
         raise ValueError(f"xi has the shape {array.shape}; give x and y along the last axis.")
@@ -121,7 +122,8 @@ def _queries(xi: Any) -> tuple[np.ndarray, tuple[int, ...]]:
 
 
 class LinearNDInterpolator:
-    """Values linear in each triangle of the exact Delaunay triangulation, as scipy.interpolate.LinearNDInterpolator.
+    """Interpolates linearly in each triangle of the exact Delaunay triangulation, as
+    scipy.interpolate.LinearNDInterpolator.
 
     Parameters
     ----------
@@ -130,11 +132,11 @@ class LinearNDInterpolator:
     values
         A value, or an array of values, for each point; real or complex.
     fill_value
-        What points outside the hull get.
+        The value of points outside the hull.
     rescale
-        Whether the triangulation is that of the points scaled to the unit square.
+        Whether to triangulate the points after scaling them to the unit square.
     threads
-        OpenMP threads; 0 is OpenMP's choice.
+        OpenMP threads; 0 is OpenMP's default.
 
     Examples
     --------
@@ -155,7 +157,7 @@ class LinearNDInterpolator:
                 points = (array - self._offset) / self._scale
             points = Delaunay(points, threads=threads)
         elif rescale:
-            raise ValueError("rescale goes with points, not with a Delaunay; scale its points.")
+            raise ValueError("rescale needs points, not a Delaunay; scale the points of the Delaunay.")
         self.tri = points
         array = np.asarray(values)
         if array.dtype.kind not in "fiubc" or array.ndim == 0:
@@ -170,7 +172,7 @@ class LinearNDInterpolator:
         self._columns = flat.view(np.float64)
 
     def __call__(self, *xi: Any) -> np.ndarray:
-        """At points (..., 2), or at x and y, which are broadcast."""
+        """Returns the values at points of shape (..., 2), or at x and y, which are broadcast."""
         if len(xi) == 2:
             xi = (np.stack(np.broadcast_arrays(*(taken(one, "xi") for one in xi)), axis=-1),)
         if len(xi) != 1:

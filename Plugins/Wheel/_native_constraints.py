@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Constraints in the wheel: the core over ids, and what happens to the values at points."""
+"""Constraints in the wheel: calls the core, which only uses ids, and completes the values at points."""
 from __future__ import annotations
 
 from typing import Any, NamedTuple
@@ -12,22 +12,22 @@ from ._arguments import Progress, finish
 
 
 class Segments(NamedTuple):
-    """Edges between points, and the points and values with the corners that are new."""
+    """Constraints as edges between points, and the points and their values including new corners."""
 
     points: np.ndarray
     point_data: dict[str, np.ndarray] | None
-    """None: that of the input."""
+    """None: the input's points."""
     pairs: np.ndarray
     """(m, 2) ids"""
     cells: np.ndarray
-    """Of each edge the number of its line or polygon."""
+    """The number of each edge's line or polygon."""
     polygon_begin: int
-    """Edges from here on are those of polygons."""
+    """The index of the first edge of a polygon; all following edges are polygons', too."""
     warnings: list[str]
 
 
 def segments_of(points: np.ndarray, data: dict[str, np.ndarray], options: dict[str, Any]) -> Segments | None:
-    """What the arguments of delaunay_2d() name together; None without constraints."""
+    """Combines the constraints of all arguments of delaunay_2d(). Returns None if there are none."""
     source = options["edge_source"]
     constraints = constraints_of(len(points), source, options["edges"], options["polygons"])
     if constraints is None and source is None:
@@ -66,7 +66,7 @@ def segments_of(points: np.ndarray, data: dict[str, np.ndarray], options: dict[s
 
 
 def _read_source(source: Any, count: int, has_own_points: bool) -> tuple[Any, ...]:
-    """Lines, polygons, and the points and values that the source has of its own, whose ids follow the input's."""
+    """Returns lines, polygons, and the source's own points and values, whose ids follow the input's."""
     from ._vtk import arrays_of, cell_lists, xyz_of
 
     lines, polygons = cell_lists(source.GetLines()), cell_lists(source.GetPolys())
@@ -77,7 +77,7 @@ def _read_source(source: Any, count: int, has_own_points: bool) -> tuple[Any, ..
 
 
 def _pairs(lines: Any, polygons: Any) -> tuple[np.ndarray, np.ndarray, int]:
-    """The edges of lines and closed polygons, the number of each one's cell, and where polygons begin."""
+    """Returns the edges of lines and closed polygons, each edge's cell, and the index of the first polygon's edge."""
     parts = [np.column_stack([ids[:-1], ids[1:]]) for ids in lines]
     begin = sum(len(part) for part in parts)
     parts += [np.column_stack([ids, np.roll(ids, -1)]) for ids in polygons]
@@ -86,7 +86,7 @@ def _pairs(lines: Any, polygons: Any) -> tuple[np.ndarray, np.ndarray, int]:
 
 
 def _require_closed(points: np.ndarray, pairs: np.ndarray, cells: np.ndarray, begin: int) -> None:
-    """A polygon without one of its corners would not tell what is inside."""
+    """Raises RuntimeError if a polygon has a corner that is not finite: its inside would be unknown."""
     wrong = begin + np.flatnonzero(~np.isfinite(points[pairs[begin:, 0], :2]).all(axis=1))
     if len(wrong):
         raise RuntimeError(f"cell {cells[wrong[0]]} of the source, a polygon, has the corner {pairs[wrong[0], 0]}, "
@@ -95,7 +95,7 @@ def _require_closed(points: np.ndarray, pairs: np.ndarray, cells: np.ndarray, be
 
 def triangulated(segments: Segments, points: np.ndarray, options: dict[str, Any],
                  progress: Progress | None) -> dict[str, Any]:
-    """The core's result. Points are those of the segments, perhaps with more after them."""
+    """Returns the core's result. `points` are those of the segments, perhaps followed by others."""
     result = _core.triangulate_constrained(
         points, segments.pairs, segments.polygon_begin, options["crossings"] == 1,
         options["marks"] == 2 and options["alpha"] == 0, options["max_edge"], *options["partitions"],
@@ -109,7 +109,7 @@ def triangulated(segments: Segments, points: np.ndarray, options: dict[str, Any]
 
 
 def with_crossings(points: np.ndarray, crossings: np.ndarray) -> np.ndarray:
-    """In double precision, the crossings last: exact in x and y, z interpolated."""
+    """Appends the crossings to the points, in double precision: x and y are exact, z is interpolated."""
     if len(crossings) == 0:
         return points
     result = interpolated(points.astype(np.float64), crossings)
@@ -118,14 +118,14 @@ def with_crossings(points: np.ndarray, crossings: np.ndarray) -> np.ndarray:
 
 
 def interpolated(values: np.ndarray, crossings: np.ndarray) -> np.ndarray:
-    """Values at points, and after them those at crossings, linear between the two points that each lies between."""
+    """Appends the values at crossings, interpolated linearly between the two points on either side of each crossing."""
     count = len(values)
     ends, fraction = crossings[:, 2:4].astype(np.int64), crossings[:, 4]
     result = np.empty((count + len(crossings), *values.shape[1:]), values.dtype)
     result[:count] = values
     pending = np.arange(len(crossings))
     while len(pending):
-        # A crossing may lie between others, which come first.
+        # A crossing may lie between other crossings, which must be computed first.
         is_pending = np.zeros(len(result), bool)
         is_pending[count + pending] = True
         is_ready = ~is_pending[ends[pending]].any(axis=1)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the functions run in the wheel: the cores over NumPy arrays. Arguments have been checked.
+"""The engine of the wheel: calls the C++ cores with NumPy arrays. Arguments are already checked.
 
-Data sets of VTK and PyVista, of any version, are taken and returned where VTK is installed.
+If VTK is installed, in any version, functions also accept and return data sets of VTK and PyVista.
 """
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def has_vtk() -> bool:
 
 
 def warn(sentences: Iterable[str]) -> None:
-    """Warnings at the line that called the package."""
+    """Issues warnings for the line that called the package."""
     level = 1
     here = os.path.dirname(__file__)
     frame: Any = sys._getframe()
@@ -45,12 +45,12 @@ def warn(sentences: Iterable[str]) -> None:
 
 
 def plain(points: np.ndarray) -> np.ndarray:
-    """In C order, as float32 or float64."""
+    """Returns the points in C order, as float32 or float64."""
     return np.ascontiguousarray(points, points.dtype if points.dtype == np.float32 else np.float64)
 
 
 def box(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The lowest and the highest coordinates of the points that are finite."""
+    """Returns the lowest and the highest coordinates of the finite points."""
     finite = points
     if len(points) and not np.isfinite(points.sum()):
         finite = points[np.isfinite(points).all(axis=1)]
@@ -77,8 +77,8 @@ def triangulated(points: np.ndarray, options: dict[str, Any], progress: Progress
 
 def raster(points: Any, point_data: Any, options: dict[str, Any],
            progress: Progress | None) -> tuple[list[np.ndarray], tuple[float, float, int, int], str]:
-    """The bands of the attributes as (rows, columns) from the south, the west, south, columns and rows, and the CRS of
-    points in files."""
+    """Returns the bands, each (rows, columns) from south to north; the grid's west, south, columns and rows; and the
+    CRS of points in files."""
     lines = {name: _core.read_constraints(options[name]) for name in ("breaklines", "boundary")
              if isinstance(options[name], str)}
     options = {**options, **lines}
@@ -96,14 +96,14 @@ def raster(points: Any, point_data: Any, options: dict[str, Any],
 
 def dem(points: Any, point_data: Any, options: dict[str, Any],
         progress: Progress | None) -> tuple[list[np.ndarray], tuple[float, ...], str | None]:
-    """The bands of the attributes from the north to the south, their transform and the CRS of points in files."""
+    """Returns the bands with rows from north to south, their transform, and the CRS of points in files."""
     bands, (west, south, _, rows), crs = raster(points, point_data, options, progress)
     size = options["resolution"]
     return [band[::-1] for band in bands], (size, 0.0, west, 0.0, -size, south + rows * size), crs or None
 
 
 def _table(points: Any, point_data: Any, options: dict[str, Any]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """Coordinates in the plane, and the columns that bands need."""
+    """Returns the coordinates in the plane, and the columns that the bands need."""
     if check.is_vtk_object(points):
         from ._vtk import arrays_of, xyz_of
 
@@ -125,7 +125,7 @@ def _table(points: Any, point_data: Any, options: dict[str, Any]) -> tuple[np.nd
 
 
 def read_points(paths: list[str], options: dict[str, Any]) -> tuple[np.ndarray, dict[str, np.ndarray], str]:
-    """Coordinates (n, 3), the columns by name, and the coordinate reference system."""
+    """Returns (n, 3) coordinates, the columns by name, and the coordinate reference system."""
     names = options["attributes"]
     wanted = None if names is None else [*(name for name in names if name not in DERIVED), "z", "Z"]
     with uncompressed(paths) as files:
@@ -163,7 +163,7 @@ def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
         point_data = {**points.point_data, **(point_data or {})}
         points = points.points
     array = plain(coordinates(points))
-    if array.shape[1] == 2 and options["polygons"] is not None:  # whose corners may have a height
+    if array.shape[1] == 2 and options["polygons"] is not None:  # corners of polygons may have a z
         array = np.column_stack([array, np.zeros(len(array), array.dtype)])
     mesh, statistics, _ = _meshed(array, attributes(point_data, len(array)), options, progress)
     if has_vtk():
@@ -172,7 +172,7 @@ def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
         return surface_of(mesh, None), statistics
     if mesh.points.shape[1] == 2:
         spatial = np.zeros((len(mesh.points), 3), mesh.points.dtype)
-        for axis in range(2):  # quicker than both at once
+        for axis in range(2):  # faster than copying both at once
             spatial[:, axis] = mesh.points[:, axis]
         mesh.points = spatial
     return mesh, statistics
@@ -180,7 +180,7 @@ def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
 
 def _meshed(points: np.ndarray, data: dict[str, np.ndarray], options: dict[str, Any],
             progress: Progress | None) -> tuple[Mesh, dict[str, Any], bool]:
-    """A mesh, with the points' number of columns, its statistics, and whether its points are the given ones."""
+    """Returns a mesh whose points have as many columns as `points`, statistics, and whether the points are the same."""
     given = points
     segments = constraints.segments_of(points, data, options)
     if segments is not None:
@@ -236,7 +236,7 @@ def _representatives(count: int, result: dict[str, Any]) -> np.ndarray:
 
 
 def _with_circle(points: np.ndarray, offset: float) -> np.ndarray:
-    """The points and eight on a circle around them."""
+    """Returns the points and eight more on a circle around them."""
     low, high = box(points)
     centre, radius = 0.5 * low + 0.5 * high, offset * diagonal(points)
     angles = 2 * np.pi * np.arange(8) / 8
@@ -276,7 +276,7 @@ def read(path: str, options: dict[str, Any], progress: Progress | None) -> Any:
     check.require_arrays(options["cell_arrays"], of_cells, "cell")
     bounds = options["bounds"]
     if bounds is not None and bounds[0] > bounds[1]:
-        bounds = None  # everything, as the reader's default
+        bounds = None  # read everything, which is the reader's default
     if bounds is not None and (bounds[2] > bounds[3] or bounds[4] > bounds[5]):
         raise RuntimeError("Bounds have from > to along y or z; set from <= to, or from > to along x for everything.")
     pieces = _core.read(path, bounds, options["time"], options["point_arrays"], options["cell_arrays"],
@@ -309,13 +309,13 @@ def write(mesh: Any, path: str, options: dict[str, Any], progress: Progress | No
 
 
 def _numbers(data: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """The arrays that are stored: numbers, but for those that a partitioned mesh has of its own."""
+    """Returns the arrays to store: numeric ones, except those that a partitioned mesh always has."""
     return {name: np.ascontiguousarray(values) for name, values in data.items()
             if name not in (_GHOSTS, *_OWN_IDS) and values.dtype.kind in "iuf"}
 
 
 def _simplices(mesh: Any, name: str, kinds: tuple[str, ...], wanted: str) -> Mesh:
-    """A data set of triangles or tetrahedra as arrays, checked."""
+    """Returns a data set of triangles or tetrahedra as arrays, after checking it."""
     if not isinstance(mesh, Mesh):
         check.data_object(mesh, name, kinds, wanted)
         from ._vtk import simplices_of
@@ -323,7 +323,7 @@ def _simplices(mesh: Any, name: str, kinds: tuple[str, ...], wanted: str) -> Mes
         mesh = simplices_of(mesh)
     cells = np.asarray(mesh.cells)
     if cells.ndim != 2 or cells.shape[1] not in (3, 4) or cells.dtype.kind not in "iu":
-        raise RuntimeError("the mesh's cells are no (n, 3) triangles or (n, 4) tetrahedra of whole numbers.")
+        raise RuntimeError("the mesh's cells are not (n, 3) triangles or (n, 4) tetrahedra of whole numbers.")
     if len(cells) and not 0 <= cells.min() <= cells.max() < len(mesh.points):
         raise RuntimeError(f"the mesh's cells refer to points from {cells.min()} to {cells.max()}, but there are "
                            f"{len(mesh.points)} points; repair it or write it again.")
@@ -373,7 +373,7 @@ def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> A
 
 
 def _chosen(mesh: Mesh, names: list[str] | None) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
-    """The arrays to sample, of points and of cells."""
+    """Returns the point arrays and cell arrays to sample."""
     result: tuple[dict[str, np.ndarray], dict[str, np.ndarray]] = ({}, {})
     for chosen, data in zip(result, (mesh.point_data, mesh.cell_data)):
         for name, values in data.items():
@@ -388,7 +388,7 @@ def _chosen(mesh: Mesh, names: list[str] | None) -> tuple[dict[str, np.ndarray],
 
 def _hidden(mesh: Mesh, points: np.ndarray, options: dict[str, Any],
             arrays: dict[str, np.ndarray]) -> tuple[np.ndarray | None, list[str]]:
-    """A mark for each cell that answers nothing, and what to warn of."""
+    """Returns a mark for each cell that gives no values, and warnings."""
     marks = np.zeros(len(mesh.cells), bool)
     sentences = []
     if _GHOSTS in mesh.cell_data:

@@ -17,7 +17,7 @@ struct Arguments
 {
   struct Input
   {
-    std::string Name; ///< of a point set, or of a .npy file
+    std::string Name; ///< a point set, or the path of a .npy file
     std::size_t Count;
   };
   std::vector<Input> Inputs;
@@ -31,9 +31,9 @@ struct Arguments
   bool hasPeer(const std::string& name) const;
 };
 
-/// The text of --help.
+/// The text that --help prints.
 std::string usage();
-/// Throws std::invalid_argument with one sentence for anything that is not understood.
+/// Throws std::invalid_argument with one sentence if an argument is not valid.
 Arguments parseArguments(int argc, char** argv);
 
 } // namespace benchmark

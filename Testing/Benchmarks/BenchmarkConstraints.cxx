@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Constrained triangulation beside its peers:
-// benchmarkConstraints POINTS SEGMENTS [REPEAT [vtk | alone]]; alone: no peers, but our phases.
-// POINTS: a number of uniform ones, or a .npy file. The segments are edges of the triangulation of
-// every eighth point, so that they do not cross; with SEGMENTS = 1 one goes across everything; or
-// they are a .npy file of two points' indices each, of which those that cross others are left out.
-// Points in memory to triangles in memory.
+// Compares constrained triangulation with its peers:
+// benchmarkConstraints POINTS SEGMENTS [REPEAT [vtk | alone]]
+// alone: without peers, but with the times of our phases. POINTS: a number of uniform points, or a
+// .npy file. SEGMENTS: a number of edges of the triangulation of every eighth point, which do not
+// cross; 1 is a segment across the whole domain; a .npy file has two point indices per segment, and
+// segments that cross others are left out. Times are from points in memory to triangles in memory.
 #include "Engines.h"
 #include "Measure.h"
 #include "PointSets.h"
@@ -40,11 +40,11 @@ std::vector<Constraint> makeSegments(std::vector<double>& xy, std::size_t wanted
   {
     sparse.insert(sparse.end(), { xy[2 * i], xy[2 * i + 1] });
   }
-  TriangulationOptions alone; // this process must not start threads, for measure() forks
+  TriangulationOptions alone; // this process must not start threads: measure() forks
   alone.Threads = 1;
   const Triangulation mesh = triangulate(PointsView(sparse.data(), sparse.size() / 2, 2), alone);
   const auto id = [](std::int32_t place) { return PointId(place) * PointId(step); };
-  const std::size_t edges = mesh.Ids32.size() / 2; // each is in two triangles
+  const std::size_t edges = mesh.Ids32.size() / 2; // each edge is in two triangles
   const std::size_t every = std::max<std::size_t>(1, edges / wanted);
   std::size_t count = 0;
   for (std::size_t h = 0; h < mesh.Ids32.size() && segments.size() < wanted; ++h)
@@ -64,7 +64,7 @@ bool isFile(const std::string& argument)
   return argument.size() > 4 && argument.substr(argument.size() - 4) == ".npy";
 }
 
-/// The segments of a file that cross no other.
+/// The segments of a file that cross no other segment.
 std::vector<Constraint> readSegments(const std::vector<double>& xy, const std::string& path)
 {
   const std::vector<double> ids = readPoints(path).XY;
@@ -74,7 +74,7 @@ std::vector<Constraint> readSegments(const std::vector<double>& xy, const std::s
     all.push_back({ PointId(ids[i]), PointId(ids[i + 1]) });
   }
   const PointsView points(xy.data(), xy.size() / 2, 2);
-  // This process must not start threads, for measure() forks.
+  // This process must not start threads, because measure() forks.
   std::vector<char> crosses(all.size(), 0);
   const ResolvedConstraints resolved = resolveCrossings(points, all, CrossingRule::Split, 1);
   for (const ConstraintPiece& piece : resolved.Pieces)

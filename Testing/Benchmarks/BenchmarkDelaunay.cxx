@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Triangulation beside its peers: the same points, from memory to memory, taking turns.
+// Compares triangulation with its peers: the same points, from memory to memory, alternately.
 #include "Arguments.h"
 #include "Measure.h"
 #include "PointSets.h"
@@ -71,7 +71,7 @@ std::vector<Contender> contenders(const Arguments& arguments, const std::vector<
   return all;
 }
 
-/// Shares are of the whole run's time; a phase may lie within another.
+/// Prints each phase's share of the whole run's time. A phase may be part of another one.
 void printPhases(const Run& run)
 {
   const tipp::TriangulationStatistics& statistics = run.Statistics;
@@ -89,7 +89,8 @@ void printPhases(const Run& run)
     statistics.Stages.size(), (long long)largest, (long long)statistics.InitialPoints);
 }
 
-/// Ratios are against the first contender; 'same' compares sets of triangles with it. Returns it.
+/// Ratios are relative to the first contender. 'same' says whether the triangles equal those of the
+/// first contender; this is also returned.
 bool print(const std::string& input, std::size_t count, const Contender& one,
   const Contender& first, bool phases)
 {
@@ -115,8 +116,8 @@ bool print(const std::string& input, std::size_t count, const Contender& one,
   return same;
 }
 
-/// A forked process' first look at each of its parent's pages takes the processor some time, which
-/// is no engine's: the input is meant to be in memory.
+/// Reads each page of the input. The first access to a parent's page costs a forked process time,
+/// which must not be counted as the engine's.
 void lookAt(const std::vector<double>& xy)
 {
   constexpr std::size_t perPage = 4096 / sizeof(double);
@@ -128,7 +129,7 @@ void lookAt(const std::vector<double>& xy)
   static_cast<void>(seen);
 }
 
-/// Whether all made the same triangles.
+/// Whether all contenders made the same triangles.
 bool compare(const Arguments& arguments, const Arguments::Input& input)
 {
   const std::vector<double> xy = load(input, arguments.Seed);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tetrahedra beside CGAL, also on two threads by TBB, TetGen and, of up to 100,000 points,
-// vtkDelaunay3D: benchmarkDelaunay3D KIND POINTS [REPEAT]. KIND is one of pointsInSpace(). Points
-// in memory to tetrahedra in memory; wall-clock seconds, of which the fastest run counts.
+// Compares tetrahedra with CGAL, also on two threads with TBB, with TetGen and, for up to 100,000
+// points, with vtkDelaunay3D: benchmarkDelaunay3D KIND POINTS [REPEAT]. KIND is a kind of
+// pointsInSpace(). Prints wall-clock seconds of the fastest run, from points in memory to
+// tetrahedra in memory.
 #include "Engines3D.h"
 #include "PointsInSpace.h"
 

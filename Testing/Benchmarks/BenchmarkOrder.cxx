@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What each partition costs when points are shared out to many ranks: one process triangulates all
-// partitions, one after the other, and prints for each what cluster_model.py needs to know.
+// Measures the cost of each partition when points are distributed over many ranks. One process
+// triangulates all partitions one after the other, and prints the input of cluster_model.py.
 #include "Distributed/Plan.h"
 #include "Distributed/RankRun.h"
 #include "Engine/Routing.h"
@@ -34,7 +34,7 @@ Box2 boundsOf(const PointsView& points)
   return box;
 }
 
-/// The plan that `ranks` ranks of one thread would make, and the points in its partitions.
+/// The plan that `ranks` ranks of one thread each would make, and the points in its partitions.
 struct SharedOut
 {
   SharedOut(const PointsView& points, int ranks, int perRank)
@@ -69,7 +69,7 @@ struct SharedOut
   PointBuckets<std::int32_t> Buckets;
 };
 
-/// The ranks' parts of the initial mesh, and the order that they agree on.
+/// Each rank's part of the initial mesh, and the order that all ranks compute from the parts.
 struct SharedOrder
 {
   SharedOrder(const SharedOut& shared, const Regions& regions,
@@ -100,11 +100,11 @@ struct SharedOrder
   std::vector<double> PartSeconds;
   std::unique_ptr<PartitionOrder> Order;
   double OrderSeconds = 0;
-  std::size_t Exchanged = 0; ///< bytes of all parts' conflicts
+  std::size_t Exchanged = 0; ///< bytes of the conflicts in all parts
 };
 
-/// A line for each partition in order: its rank, seconds, vertices, and of each later conflicting
-/// partition its number and how many vertices are sent to it.
+/// Prints a line for each partition, in order: rank, seconds, vertices, and for each later
+/// conflicting partition its index and the number of vertices sent to it.
 void printPartitions(SharedOut& shared)
 {
   const Tiling& tiles = shared.Of.Leaves;
@@ -118,7 +118,7 @@ void printPartitions(SharedOut& shared)
   FinalBoundary<std::int64_t> final;
   const DeliverMessage deliver = [&](PartitionIndex to, VertexMessage&& message)
   { inboxes[std::size_t(to)].put(std::move(message)); };
-  double longest = 0; // what a rank does before its first partition
+  double longest = 0; // the longest time that a rank needs before its first partition
   double sum = 0;
   for (std::size_t rank = 0; rank < agreed.Parts.size(); ++rank)
   {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Queries beside vtkProbeFilter, vtkContourFilter and resampling; see
-// Utilities/benchmarks/query.sh. Arguments: probe, order or rings, then POINTS QUERIES REPEAT;
-// contours POINTS REPEAT; or stored MESH QUERIES MEGABYTES.
+// Compares queries with vtkProbeFilter, vtkContourFilter and resampling; see
+// Utilities/benchmarks/query.sh. Arguments: 'probe', 'order' or 'rings', then POINTS QUERIES
+// REPEAT; 'contours' POINTS REPEAT; or 'stored' MESH QUERIES MEGABYTES.
 #include "ResampleSubjects.h"
 
 #include "Query/Around.h"
@@ -48,7 +48,8 @@ double processorSeconds()
   return of(usage.ru_utime) + of(usage.ru_stime);
 }
 
-/// Prints the fastest of some runs, and returns its time; `work` returns what it found.
+/// Prints and returns the time of the fastest of `repeat` runs. `work` returns the number of
+/// results.
 double row(const std::string& name, int repeat, const std::function<std::int64_t()>& work)
 {
   double wall = HUGE_VAL;
@@ -107,7 +108,7 @@ std::vector<Point3> scattered(std::int64_t count, const double* bounds)
   return points;
 }
 
-/// The samples of a grid, row by row.
+/// The points of a grid with `side` points along each axis, row by row.
 std::vector<Point3> inOrder(int side, const double* bounds)
 {
   std::vector<Point3> points;
@@ -122,7 +123,7 @@ std::vector<Point3> inOrder(int side, const double* bounds)
   return points;
 }
 
-/// A mesh of uniform points with two arrays, and the rows that ask it.
+/// A mesh of uniform points with two arrays in memory, and the rows of the table that query it.
 class MemoryRows
 {
 public:
@@ -268,7 +269,7 @@ private:
   double Bounds[6];
 };
 
-/// The largest memory since the last call, in MB; 0: the system does not tell.
+/// The peak memory since the last call, in MB, or 0 if the system does not report it.
 long peakMemory()
 {
   std::ifstream status("/proc/self/status");
@@ -288,7 +289,7 @@ void printPeak()
 
 void benchmarkStored(const std::string& path, std::int64_t queries, std::uint64_t megabytes)
 {
-  mallopt(M_MMAP_THRESHOLD, 1 << 20); // as tipp query does
+  mallopt(M_MMAP_THRESHOLD, 1 << 20); // as in tipp query
   ResidentOptions options;
   options.MemoryLimit = megabytes << 20;
   const ResidentMesh mesh(path, options);

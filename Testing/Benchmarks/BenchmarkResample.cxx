@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// vtkRangeResampleFilter beside vtkProbeFilter, taking turns in one process; see
+// Compares vtkRangeResampleFilter with vtkProbeFilter, alternately in one process; see
 // Utilities/benchmarks/resample.sh. Arguments: CASE POINTS SAMPLES-PER-AXIS REPEAT FRACTION
 // [opencl].
 #include "ResampleSubjects.h"
@@ -49,13 +49,13 @@ void ours(vtkPointSet* mesh, const double* bounds, const int* dimensions, int de
   image->ShallowCopy(filter->GetOutput());
 }
 
-/// The check of the input alone, as ours() makes it once for a mesh. The fastest of `repeat`.
+/// Seconds of checking the input, which ours() does once per mesh: the fastest of `repeat` runs.
 double checkSeconds(vtkPointSet* mesh, int repeat)
 {
   double fastest = HUGE_VAL;
   for (int i = 0; i < repeat; ++i)
   {
-    mesh->Modified(); // or it would not be checked again
+    mesh->Modified(); // otherwise it would not be checked again
     const double begin = seconds();
     tipp::checkCells(mesh, "the input");
     tipp::allPointsFinite(mesh);
@@ -105,7 +105,7 @@ int main(int argc, char* argv[])
   const bool space = kind == "tetrahedra";
   const auto mesh = space ? volume(std::atoll(argv[2])) : surface(kind, std::atoll(argv[2]));
   addArrays(mesh);
-  // Of so large an area or volume.
+  // The side of a range with this fraction of the area or volume.
   const double side = std::pow(std::atof(argv[5]), space ? 1.0 / 3 : 0.5);
   const std::array<double, 6> bounds = middleOf(mesh->GetBounds(), side);
   const int dimensions[3] = { samples, samples, space ? samples : 1 };

@@ -29,7 +29,7 @@ Run runCgalConstrained(const std::vector<double>& xy, const std::vector<Constrai
   }
   Run run;
   const auto start = std::chrono::steady_clock::now();
-  // Segments may coincide, overlap and end on each other, as those of shorelines do.
+  // Segments may coincide, overlap and end on each other, as the segments of shorelines do.
   CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Default,
     CGAL::No_constraint_intersection_requiring_constructions_tag>
     mesh;

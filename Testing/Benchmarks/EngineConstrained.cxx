@@ -20,7 +20,7 @@ namespace benchmark
 namespace
 {
 
-/// The number of segments that are edges of the triangles.
+/// The number of segments that are edges of triangles.
 std::int64_t countEdges(vtkPolyData* mesh, const std::vector<Constraint>& segments)
 {
   std::set<std::pair<vtkIdType, vtkIdType>> edges;
@@ -57,7 +57,7 @@ Run runConstrained(const std::vector<double>& xy, const std::vector<Constraint>&
   TriangleSum sum;
   const auto corner = [&](std::size_t i)
   { return &xy[2 * std::size_t(mesh.Ids32.empty() ? mesh.Ids64[i] : mesh.Ids32[i])]; };
-  // Crossings have no coordinates in the input; then there is no sum.
+  // Crossings have no coordinates in `xy`. If there are any, no checksum is computed.
   for (std::size_t t = 0; t < mesh.triangleCount() && result.Constraints.Crossings.empty(); ++t)
   {
     sum.add(corner(3 * t), corner(3 * t + 1), corner(3 * t + 2));

@@ -15,7 +15,7 @@ namespace
 
 using Triangle = SweepKernel::Triangle;
 
-/// `work` adds triangles to a list, which is as long as it can become from the beginning.
+/// `work` appends triangles to a list, whose memory is reserved before the time is measured.
 template <typename Work>
 Run runOn(const std::vector<double>& xy, const Work& work)
 {

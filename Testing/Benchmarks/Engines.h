@@ -14,17 +14,18 @@ namespace tipp
 namespace benchmark
 {
 
-/// What one run of one engine tells.
+/// The results of one run of an engine.
 struct Run
 {
-  double Seconds = 0; ///< points in memory to triangles in memory
+  double Seconds = 0; ///< from points in memory to triangles in memory
   std::int64_t Triangles = 0;
-  std::uint64_t Checksum = 0;         ///< of the set of triangles, whatever their order
-  std::int64_t Recovered = -1;        ///< segments that are edges; -1: not counted
-  TriangulationStatistics Statistics; ///< empty for the peers
+  std::uint64_t Checksum = 0;         ///< of the set of triangles, independent of their order
+  std::int64_t Recovered = -1;        ///< number of segments that are edges; -1: not counted
+  TriangulationStatistics Statistics; ///< empty for peers
 };
 
-/// An order-independent checksum of triangles given by the coordinates of their corners.
+/// A checksum of triangles by the coordinates of their corners. It does not depend on the order of
+/// triangles, or on the first corner.
 class TriangleSum
 {
 public:
@@ -35,22 +36,22 @@ private:
   std::uint64_t Sum = 0;
 };
 
-/// tipp::triangulate.
+/// Runs tipp::triangulate().
 Run runCore(const std::vector<double>& xy, const TriangulationOptions& options);
-/// vtkTIPPDelaunay2D from a vtkPolyData to a vtkPolyData.
+/// Runs vtkTIPPDelaunay2D, from a vtkPolyData to a vtkPolyData.
 Run runFilter(const std::vector<double>& xy, const TriangulationOptions& options);
-/// One DelaunayKernel for all points, one thread.
+/// Runs one DelaunayKernel for all points, with one thread.
 Run runKernel(const std::vector<double>& xy);
-/// One SweepKernel for all points, one thread.
+/// Runs one SweepKernel for all points, with one thread.
 Run runSweep(const std::vector<double>& xy);
-/// CGAL's Delaunay_triangulation_2, EPICK, range insert, one thread, without ids.
+/// Runs CGAL's Delaunay_triangulation_2 with EPICK and range insertion, on one thread, without ids.
 Run runCgal(const std::vector<double>& xy);
-/// vtkDelaunay2D with its defaults.
+/// Runs vtkDelaunay2D with its defaults.
 Run runVtk(const std::vector<double>& xy);
 
 ///@{
-/// With constraints: tipp::triangulateConstrained, CGAL's Constrained_Delaunay_triangulation_2
-/// without intersections, vtkDelaunay2D with a source.
+/// Runs a constrained triangulation: tipp::triangulateConstrained(), CGAL's
+/// Constrained_Delaunay_triangulation_2 without intersections, or vtkDelaunay2D with a source.
 Run runConstrained(const std::vector<double>& xy, const std::vector<Constraint>& segments,
   const TriangulationOptions& options);
 Run runCgalConstrained(const std::vector<double>& xy, const std::vector<Constraint>& segments);

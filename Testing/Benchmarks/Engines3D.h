@@ -12,8 +12,8 @@ namespace tipp
 namespace benchmark
 {
 
-/// Each triangulates points in space and returns the number of tetrahedra. CGAL's serial one and
-/// TetGen also write the corners' indices of all tetrahedra, as tetrahedralize() returns them.
+/// Each function triangulates points in space and returns the number of tetrahedra. Serial CGAL and
+/// TetGen also write the point indices of all tetrahedra, as tetrahedralize() does.
 ///@{
 std::size_t tetrahedralizeByCgal(const std::vector<Point3>& points);
 std::size_t tetrahedralizeByParallelCgal(const std::vector<Point3>& points);

@@ -20,7 +20,7 @@ namespace benchmark
 namespace
 {
 
-// Cells in memory, as a partition run has them chunk by chunk.
+// The first cells of a mesh in memory, like a chunk in partitioning.
 struct LoadedCells
 {
   LoadedCells(const std::string& path, int threads, std::int64_t most)
@@ -72,7 +72,7 @@ double secondsSince(std::chrono::steady_clock::time_point start)
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Nanoseconds a cell of the fastest of several runs.
+/// Nanoseconds per cell in the fastest of `repeat` runs.
 double measure(const LoadedCells& cells, const BoxTiling& tiling, const ClassifyOptions& options,
   int repeat, Membership& result)
 {
@@ -124,7 +124,7 @@ void printRow(const char* name, const BoxTiling& tiling, const LoadedCells& cell
   {
     options.Device.Kind = Device::OpenCL;
     Membership onDevice;
-    // Once for the kernels to be built.
+    // The first run builds the device's kernels and is not counted.
     measure(cells, tiling, options, 1, onDevice);
     const double device = measure(cells, tiling, options, arguments.Repeat, onDevice);
     const bool same = onThreads.Owner == onDevice.Owner &&
@@ -140,7 +140,7 @@ void printRow(const char* name, const BoxTiling& tiling, const LoadedCells& cell
 
 void benchmarkClassify(const IoArguments& arguments)
 {
-  // A chunk of the larger size that the loaders are measured with.
+  // The chunk has the largest size that is used to measure loaders.
   const LoadedCells cells(arguments.Meshes[0], arguments.Threads, 4000000);
   const bool openCl = std::any_of(listDevices().begin(), listDevices().end(),
     [](const DeviceDescription& device) { return device.Double; });

@@ -19,7 +19,7 @@ namespace benchmark
 namespace
 {
 
-/// The file system forgets the file, so that the next read comes from the disk.
+/// Removes the file from the system's cache, so that the next read comes from the disk.
 void dropFromCache(const std::string& path)
 {
   const int file = open(path.c_str(), O_RDONLY);
@@ -74,8 +74,8 @@ struct Row
 {
   const Mesh* Source;
   bool Cold;
-  std::int64_t Parts; ///< M is the number of vertices over this
-  std::int64_t Chunk; ///< in cells
+  std::int64_t Parts; ///< M is the number of vertices divided by this
+  std::int64_t Chunk; ///< number of cells
   double MicrosecondsACell[columnCount];
   LoadCounters Counters[columnCount];
 };
@@ -88,8 +88,9 @@ public:
   {
   }
 
-  /// Fills in all columns: microseconds a cell of the fastest of several runs, in which the loaders
-  /// take turns. A cache knows of no chunks: it runs once for all rows that differ in these.
+  /// Measures all columns: microseconds per cell in the fastest of several runs, in which the
+  /// loaders alternate. LRU caches do not depend on the chunk size, so they run once for all rows
+  /// that differ only in it.
   void measure(Row& row)
   {
     if (this->Cached.Source != row.Source || this->Cached.Cold != row.Cold ||
@@ -133,7 +134,7 @@ private:
     {
       options.MemoryLimit = std::uint64_t(options.M) * mesh.Points.tupleBytes();
     }
-    // A cache does not know of chunks, and is slow: of small ones some are enough.
+    // LRU caches do not depend on chunks, and are slow, so they always load small chunks.
     constexpr std::int64_t small = 4096;
     const std::int64_t chunk = std::min(column.Kind == Loader::Lru ? small : row.Chunk, cells);
     this->Out.resize(std::size_t(chunk * mesh.CellSize) * mesh.Points.tupleBytes());
@@ -141,7 +142,8 @@ private:
     {
       dropFromCache(mesh.Points.Path);
     }
-    // Of many small chunks some: runs of them, for neighbours share vertices, all over the mesh.
+    // Loads only some of many small chunks: runs of consecutive chunks, since these share vertices,
+    // from all parts of the mesh.
     constexpr std::int64_t enough = 240;
     constexpr std::int64_t together = 20;
     const std::int64_t chunks = (cells + chunk - 1) / chunk;
@@ -169,7 +171,7 @@ private:
   }
 
   const IoArguments& Arguments;
-  Row Cached{}; ///< of which the caches' columns are filled in
+  Row Cached{}; ///< the last row in which the columns of LRU caches were measured
   std::vector<char> Out;
 };
 
@@ -185,7 +187,7 @@ void printHeader()
   std::printf(" | %9s %9s %9s %9s\n", "reads", "MB", "passes", "misses");
 }
 
-/// Counters: those of Direct Load but for the misses.
+/// Prints a row. Counters are those of Direct Load, except for the misses, which are those of LRU.
 void print(const Row& row)
 {
   std::printf("%-7s %-5s n/%-4lld %9lld", row.Source->Order, row.Cold ? "cold" : "warm",
@@ -236,7 +238,8 @@ void printFineAgainstDirect(
   }
 }
 
-/// The worst row of one automatic choice against the loaders that may do the same.
+/// Prints the row in which an automatic choice was slowest, compared with the first `candidates`
+/// loaders.
 void printAuto(const std::vector<Row>& rows, std::size_t automatic, std::size_t candidates)
 {
   double worst = 0;
@@ -277,7 +280,7 @@ void benchmarkLoaders(const IoArguments& arguments)
       {
         for (const std::int64_t chunk : arguments.Chunks)
         {
-          // Read ahead of a few small chunks would be counted for the whole.
+          // The system reads ahead: a few small chunks would be charged for reading the whole file.
           if (cold && chunk < 65536)
           {
             continue;

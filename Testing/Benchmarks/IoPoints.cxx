@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading points of files, block by block.
+// Measures reading points from files, block by block.
 #include "IoSubjects.h"
 
 #include "Points/PointStream.h"
@@ -17,7 +17,7 @@ namespace
 
 double processorSeconds()
 {
-  return double(std::clock()) / CLOCKS_PER_SEC; // of all threads
+  return double(std::clock()) / CLOCKS_PER_SEC; // the sum over all threads
 }
 
 } // namespace
@@ -37,7 +37,7 @@ void benchmarkPoints(const IoArguments& arguments)
     double seconds = 0;
     double processor = 0;
     std::int64_t points = 0;
-    for (int run = 0; run <= arguments.Repeat; ++run) // the first one fills the system's cache
+    for (int run = 0; run <= arguments.Repeat; ++run) // the first run fills the system's cache
     {
       PointBlock block;
       points = 0;

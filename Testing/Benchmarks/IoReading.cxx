@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reading partitioned meshes beside vtkXMLUnstructuredGridReader on one file of the same cells.
+// Compares reading partitioned meshes with vtkXMLUnstructuredGridReader on one file of the same
+// cells.
 #include "IoSubjects.h"
 
 #include "Parallel/ParallelFor.h"
@@ -30,7 +31,7 @@ double secondsOf(const std::function<void()>& work)
   return passed.count();
 }
 
-/// The fastest of some runs.
+/// Seconds of the fastest of `repeat` runs.
 double fastest(int repeat, const std::function<void()>& work)
 {
   double best = secondsOf(work);
@@ -48,7 +49,7 @@ struct Taken
   std::int64_t Bytes = 0;
 };
 
-/// Opens the mesh and makes VTK's grids of the owned cells of the pieces in a range.
+/// Opens the mesh, and makes VTK grids of the owned cells in the pieces that meet a range.
 Taken readRange(const std::string& path, const Bounds& range, int threads)
 {
   const PartitionedMesh mesh = openPartitionedMesh(path);
@@ -84,7 +85,7 @@ Taken readRange(const std::string& path, const Bounds& range, int threads)
   return taken;
 }
 
-/// A tenth of the domain's sides in its middle: 1 % of its area.
+/// The middle of the domain: a tenth of each side, so 1 % of the area.
 Bounds middleOf(const Bounds& domain)
 {
   Bounds range = domain;

@@ -13,29 +13,29 @@ namespace benchmark
 
 struct IoArguments
 {
-  std::vector<std::string> Meshes; ///< flat meshes
+  std::vector<std::string> Meshes; ///< paths of flat meshes
   int Repeat = 3;
   int Threads = 2;
-  std::vector<std::int64_t> Parts{ 64, 8, 1 };                      ///< M is n over these
-  std::vector<std::int64_t> Chunks{ 4096, 65536, 524288, 4000000 }; ///< in cells
+  std::vector<std::int64_t> Parts{ 64, 8, 1 }; ///< M: number of vertices / these
+  std::vector<std::int64_t> Chunks{ 4096, 65536, 524288, 4000000 }; ///< numbers of cells
 };
 
-/// Loading the vertices of all cells, loader by loader, over M, chunk size and the state of the
-/// file system's cache. Vertices of the first mesh are in random order, of the second in local
-/// order.
+/// Measures loading the vertices of all cells, for each loader, M, chunk size and state of the
+/// system's file cache. The first mesh has vertices in random order, the second in local order.
 void benchmarkLoaders(const IoArguments& arguments);
 
-/// Classification of a chunk of cells, on OpenMP threads and on an OpenCL device, tiling by tiling.
+/// Measures classification of a chunk of cells on OpenMP threads and on an OpenCL device, for
+/// several tilings.
 void benchmarkClassify(const IoArguments& arguments);
 
-/// Reading a partitioned mesh, the second, beside VTK's reader on one .vtu, the first.
+/// Compares reading a partitioned mesh, the second, with VTK's reader on one .vtu, the first.
 void benchmarkReading(const IoArguments& arguments);
 
-/// Reading a piece with its borrowed cells: by reference, of the first mesh, and duplicated, of the
-/// second.
+/// Compares reading a piece with its borrowed cells: by reference from the first mesh, and
+/// duplicated from the second.
 void benchmarkBorrowing(const IoArguments& arguments);
 
-/// Reading the points of files; `arguments.Meshes` names them.
+/// Measures reading the points of the files in `arguments.Meshes`.
 void benchmarkPoints(const IoArguments& arguments);
 
 } // namespace benchmark

@@ -35,7 +35,7 @@ double peakMegabytes()
   return double(usage.ru_maxrss) * 1024 / 1e6;
 }
 
-/// One value a line; phases' names, which hold blanks, come last on theirs.
+/// One value per line. Names of phases contain spaces, so a name is last on its line.
 std::string pack(const Measurement& m)
 {
   std::ostringstream text;
@@ -88,8 +88,8 @@ bool unpack(const std::string& packed, Measurement& m)
   return bool(text);
 }
 
-/// The fastest of as many runs as fit in a tenth of a second: one short run alone would measure the
-/// first touch of memory and code more than the work.
+/// The fastest of as many runs as fit into a tenth of a second. A single short run would mostly
+/// measure the first access to memory and code.
 Run fastestOfShort(const std::function<Run()>& work)
 {
   constexpr double enough = 0.1;
@@ -113,7 +113,7 @@ Run fastestOfShort(const std::function<Run()>& work)
   try
   {
     Measurement m;
-    // The maximum of a forked process starts at what it shares with its parent.
+    // The peak of a forked process includes the memory that it shares with its parent.
     const double before = residentMegabytes();
     m.Result = fastestOfShort(work);
     m.PeakMegabytes = peakMegabytes();

@@ -14,13 +14,13 @@ namespace benchmark
 struct Measurement
 {
   Run Result;
-  double PeakMegabytes = 0; ///< of the whole process, input included
-  double OwnMegabytes = 0;  ///< the peak less what was resident before the call
+  double PeakMegabytes = 0; ///< of the whole process, including the input
+  double OwnMegabytes = 0;  ///< the peak minus the resident memory before the work
 };
 
-/// Runs `work` in a process of its own: every figure is its own, caches and allocators start equal.
-/// Short work is done several times there, and the fastest counts.
-/// The calling process must not have started threads. Throws std::runtime_error if the work fails.
+/// Runs `work` in a process of its own, so that memory, caches and allocators start equal for each
+/// measurement. Short work is repeated there, and the fastest run counts. The calling process must
+/// not have started threads. Throws std::runtime_error if the work fails.
 Measurement measure(const std::function<Run()>& work);
 
 } // namespace benchmark

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Like figure 4.12 of the dissertation: a range that is the whole domain, of a partitioned mesh.
+// As in figure 4.12 of the dissertation: samples the whole domain of a partitioned mesh.
 #include "ResampleSubjects.h"
 
 #include "vtkPartitionedUnstructuredReader.h"
@@ -22,7 +22,7 @@ namespace benchmark
 namespace
 {
 
-constexpr int Sides[] = { 1, 2, 4, 8, 16 }; ///< partitions along an axis
+constexpr int Sides[] = { 1, 2, 4, 8, 16 }; ///< number of partitions along an axis
 
 void printTitle(const std::vector<int>& sampleSides)
 {
@@ -39,7 +39,7 @@ void printTitle(const std::vector<int>& sampleSides)
   std::printf("\n");
 }
 
-/// The pieces of a mesh, cut anew and read back, so that they lie in memory as a reader gives them.
+/// Partitions the mesh and reads the pieces, so that they are in memory as a reader makes them.
 vtkSmartPointer<vtkDataObject> pieces(vtkUnstructuredGrid* grid, const std::string& path, int side)
 {
   vtkNew<vtkPartitionedUnstructuredWriter> writer;

@@ -33,7 +33,8 @@ struct Paths
   std::string Partitioned;
 };
 
-/// The same mesh in both forms: raw, uncompressed, and so that many pieces are small.
+/// Writes the same mesh as an uncompressed raw .vtu, and as a partitioned mesh of many small
+/// pieces.
 Paths store(const std::string& folder, vtkIdType points, double* bounds)
 {
   const Paths paths = { folder + "/stored.vtu", folder + "/stored.tipp" };
@@ -56,7 +57,7 @@ Paths store(const std::string& folder, vtkIdType points, double* bounds)
   return paths;
 }
 
-/// A run's seconds of reading, and in all.
+/// Seconds of reading and of the whole run, and the image.
 struct Run
 {
   double Read;
@@ -72,7 +73,7 @@ Run ours(const std::string& path, const double* bounds, int samples)
   reader->SetBounds(bounds);
   reader->Update();
   const double read = seconds() - begin;
-  // The same arrays as the .vtu's: without ids.
+  // Removes the ids, so that the mesh has the same arrays as the .vtu.
   vtkNew<vtkUnstructuredGrid> mesh;
   mesh->ShallowCopy(reader->GetOutputDataObject(0));
   mesh->GetPointData()->RemoveArray("GlobalPointIds");

@@ -17,10 +17,10 @@ namespace tipp
 namespace benchmark
 {
 
-/// Of a steady clock.
+/// The time of a steady clock.
 double seconds();
 
-/// The fastest run, and what it found.
+/// The time of the fastest run, and the number of samples it found.
 struct Best
 {
   double Seconds = HUGE_VAL;
@@ -33,32 +33,32 @@ struct Best
   }
 };
 
-/// Two point arrays, of which one is linear.
+/// Adds two point arrays, one of which is a linear field.
 void addArrays(vtkPointSet* mesh);
 
-/// A triangulation of points of a distribution; "local" points are those of a jittered lattice, row
-/// by row.
+/// A triangulation of points of a distribution. "local" is a jittered lattice whose points are
+/// ordered row by row.
 vtkSmartPointer<vtkPointSet> surface(const std::string& kind, vtkIdType count);
 
-/// A jittered lattice cut into six tetrahedra a cube.
+/// A jittered lattice whose cubes are cut into six tetrahedra each.
 vtkSmartPointer<vtkPointSet> volume(vtkIdType count);
 
-/// A surface's triangles, which are shared, as an unstructured grid.
+/// A surface as an unstructured grid, which shares the surface's triangles.
 vtkSmartPointer<vtkUnstructuredGrid> asGrid(vtkPointSet* surface);
 
-/// The middle of a box: `side` of its length along each axis.
+/// The middle of a box, with `side` times its length along each axis.
 std::array<double, 6> middleOf(const double* bounds, double side);
 
-/// The samples that a mask tells to be inside.
+/// The number of samples that the mask marks as valid.
 vtkIdType hitsOf(vtkDataSet* image);
 
-/// A range of a mesh of random points read from a partitioned mesh and sampled, beside reading the
-/// same mesh's .vtu and probing it. Arguments: FOLDER POINTS SAMPLES-PER-AXIS REPEAT FRACTION.
+/// Compares reading and sampling a range of a partitioned mesh of random points with reading and
+/// probing the .vtu of the same mesh. Arguments: FOLDER POINTS SAMPLES-PER-AXIS REPEAT FRACTION.
 void benchmarkStored(const std::vector<std::string>& arguments);
 
-/// The whole of a mesh of random points sampled for each number of partitions and of samples in
-/// one, on one thread, on all, and on an OpenCL device if asked. Arguments: FOLDER POINTS REPEAT
-/// SAMPLES-PER-AXIS-AT-MOST [opencl].
+/// Samples a whole mesh of random points, for several numbers of partitions and of samples per
+/// partition, on one thread, on all threads, and with `opencl` on an OpenCL device. Arguments:
+/// FOLDER POINTS REPEAT SAMPLES-PER-AXIS-AT-MOST [opencl].
 void benchmarkPartitions(const std::vector<std::string>& arguments);
 
 } // namespace benchmark

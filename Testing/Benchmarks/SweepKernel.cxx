@@ -13,8 +13,8 @@ namespace tipp
 namespace
 {
 
-/// The front has one or two vertices for each point on the line, so about as many as the square
-/// root of all; it is triangulated once more with each strip, so strips are many times as large.
+/// The front has one or two vertices for each point near the line, about the square root of all
+/// points. It is triangulated again with each strip, so a strip has many times as many points.
 std::size_t chooseStrip(std::size_t points)
 {
   constexpr double roots = 24;
@@ -47,7 +47,7 @@ void SweepKernel::triangulate(const Point2* points, std::size_t count, const Sin
     points, count, this->PointsInStrip > 0 ? this->PointsInStrip : chooseStrip(count));
   for (std::size_t strip = 0, next = 0; strip < strips.size(); strip = next)
   {
-    // Where disks are large so is the front: several strips at once.
+    // If circumdisks are large, the front is large too. Then several strips are inserted at once.
     constexpr std::size_t times = 4;
     const std::size_t start = strips.start(strip);
     for (next = strip + 1;
@@ -73,7 +73,7 @@ void SweepKernel::triangulate(const Point2* points, std::size_t count, const Sin
   }
 }
 
-/// The front's vertices are inserted first, so they stand for themselves.
+/// Inserts the front's vertices first, so that they are the representatives of later duplicates.
 void SweepKernel::takeStrip(const Point2* points, const std::uint32_t* places, std::size_t count)
 {
   for (std::size_t i = 0; i < count; ++i)
@@ -86,7 +86,8 @@ void SweepKernel::takeStrip(const Point2* points, const std::uint32_t* places, s
   this->Kernel.insert(this->Points.data() + this->FrontSize, count);
 }
 
-/// None of them is a vertex of a triangle yet: points of different strips have different x.
+/// Makes the lowest index the representative. Points of different strips have different x, so no
+/// duplicate is a vertex of an earlier triangle.
 void SweepKernel::nameDuplicates()
 {
   for (const DelaunayKernel::Duplicate& found : this->Kernel.duplicates())
@@ -120,9 +121,10 @@ bool SweepKernel::meets(Index triangle, const Box2& box) const
     .meets(box);
 }
 
-/// The triangles that meet the box are connected: a walk from one of them to a point of its disk in
-/// the box keeps to such triangles, and so does one through the box. All points are to the left of
-/// it, so one of them is infinite.
+/// Finds all triangles that meet the box, by a walk from one to the next: these triangles are
+/// connected, because a straight walk from one to a point of its disk in the box, and a walk inside
+/// the box, only visit triangles that meet it. All inserted points are to the left of the box, so
+/// at least one infinite triangle meets it.
 void SweepKernel::findFront(const Box2& ahead)
 {
   std::size_t first = 0;
@@ -153,8 +155,9 @@ void SweepKernel::findFront(const Box2& ahead)
   }
 }
 
-/// Of those that are not the front's. A triangle of vertices of the last front alone may be none of
-/// the whole triangulation, or one that has left already: then it does not meet what was ahead.
+/// Collects the triangles that do not belong to the new front. A triangle whose vertices are all of
+/// the last front may not be in the whole triangulation, or is already final. In both cases it does
+/// not meet the box of the points that were still missing before this strip.
 void SweepKernel::collectFinal(const Box2& before)
 {
   this->Finished.clear();

@@ -15,40 +15,40 @@
 namespace tipp
 {
 
-/// A Delaunay triangulation by a vertical line that sweeps over the points from left to right:
-/// triangles that no point behind the line can change leave at once, so that in memory are, besides
-/// the points and their order, one strip and the *front*: triangles that can still change. The
-/// triangles are those of a DelaunayKernel.
+/// A Delaunay triangulation by a vertical line that sweeps over the points from left to right.
+/// Triangles that no point to the right of the line can change are final, and are passed on at
+/// once. So memory holds the points and their order, one strip, and the *front*: the triangles that
+/// can still change. The triangles are those of a DelaunayKernel.
 ///
-/// A strip is triangulated as a partition is (Lemma 1): its points together with the front's
-/// vertices, R being the box of all points that are not inserted yet. Triangles whose closed
-/// circumdisk meets R before the strip are right, and those that still meet it after the strip are
-/// the next front.
+/// A strip is triangulated like a partition (Lemma 1), from its points and the front's vertices.
+/// Let R be the box of the points of this and all later strips. The triangles whose closed
+/// circumdisk meets R are correct. Those that meet the box of the later strips are the next front.
 class SweepKernel
 {
 public:
-  /// Counter-clockwise; places of points in their array.
+  /// Indices of three points in the input, counter-clockwise.
   using Triangle = std::array<std::uint32_t, 3>;
-  /// Takes final triangles, strip by strip.
+  /// Receives the final triangles of each strip.
   using Sink = std::function<void(const std::vector<Triangle>&)>;
 
   struct Duplicate
   {
     std::uint32_t Point;
-    std::uint32_t Representative; ///< the first of all at that place
+    std::uint32_t Representative; ///< the lowest index with these coordinates
   };
 
-  /// Approximate points of a strip; 0: chosen by their number.
+  /// `pointsInStrip` is approximate; 0 chooses it by the number of points.
   explicit SweepKernel(std::size_t pointsInStrip = 0)
     : PointsInStrip(pointsInStrip)
   {
   }
 
-  /// Finite points; collinear ones have no triangles, and their duplicates are not told.
+  /// Points must be finite. If all are collinear, there are no triangles, and duplicates are not
+  /// reported.
   void triangulate(const Point2* points, std::size_t count, const Sink& sink);
 
   const std::vector<Duplicate>& duplicates() const { return this->Duplicates; }
-  /// Of the points of all fronts together.
+  /// The number of points in all fronts together.
   std::size_t carried() const { return this->Carried; }
 
 private:
@@ -69,12 +69,12 @@ private:
 
   std::size_t PointsInStrip;
   DelaunayKernel Kernel;
-  // Of the front, and then the strip.
+  // Points of the front, followed by those of the strip.
   std::vector<Point2> Points;
   std::vector<std::uint32_t> Places;
   std::size_t FrontSize = 0;
 
-  std::vector<State> States; ///< of the kernel's triangles
+  std::vector<State> States; ///< per triangle of the kernel
   std::vector<Index> Stack;
   std::vector<Triangle> Finished;
   std::vector<Duplicate> Duplicates;

@@ -9,11 +9,13 @@ namespace tipp
 namespace
 {
 
-/// Between strips of about equally many points of a sample.
+/// The least x of each strip except the first. Each strip has about the same number of sample
+/// points.
 std::vector<double> chooseCuts(const Point2* points, std::size_t count, std::size_t strips)
 {
   constexpr std::size_t sampledInStrip = 64;
-  // Multiples of the golden ratio are spread evenly and in step with no row of a lattice.
+  // Samples at multiples of the golden ratio are evenly spread, and do not follow the rows of a
+  // lattice.
   constexpr std::uint64_t ratio = 0x9e3779b97f4a7c15U;
   std::vector<double> sample;
   for (std::size_t i = 0; i < sampledInStrip * strips; ++i)

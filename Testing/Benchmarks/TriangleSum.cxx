@@ -10,7 +10,7 @@ namespace benchmark
 namespace
 {
 
-/// The finaliser of splitmix64: every bit of the input moves every bit of the result.
+/// The last step of splitmix64: every bit of the input affects every bit of the result.
 std::uint64_t mix(std::uint64_t x)
 {
   x += 0x9e3779b97f4a7c15u;
@@ -31,7 +31,7 @@ std::uint64_t hash(const double p[2])
 
 void TriangleSum::add(const double a[2], const double b[2], const double c[2])
 {
-  // A sum over the corners does not depend on which comes first.
+  // The sum over the corners does not depend on which corner is first.
   this->Sum += mix(hash(a) + hash(b) + hash(c));
 }
 

@@ -16,7 +16,7 @@ namespace benchmark
 /// The points at z = 0, in double precision.
 vtkSmartPointer<vtkPolyData> toPolyData(const std::vector<double>& xy);
 
-/// Counts the triangles and takes their checksum.
+/// Sets the run's number of triangles and its checksum.
 void sumUp(vtkPolyData* mesh, Run& run);
 
 } // namespace benchmark

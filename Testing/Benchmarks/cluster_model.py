@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Simulates tipp delaunay on clusters, without a master: partitions, threads and messages, event by event.
+"""Simulates tipp delaunay without a master on a cluster: events of partitions, threads and messages.
 
 Usage: cluster_model.py [--costs STATISTICS.json] [--check STATISTICS.json...] [--points N...] TRACE...
 
-A TRACE is what `benchmarkOrder POINTS.npy RANKS` prints: the measured cost of each partition, the later partitions
-that it conflicts with, and how many vertices it sends to each; of several traces of the same points and ranks each
-partition's lowest cost counts. Costs of bringing points to their owners and triangles
-back are those of a measured run (--costs). Runs on several ranks (--check) are simulated on this machine's cores, so
-that the model can be judged.
+A TRACE is the output of `benchmarkOrder POINTS.npy RANKS`: the measured cost of each partition, the later partitions
+that it conflicts with, and the number of vertices that it sends to each. If there are several traces of the same
+points and ranks, the lowest cost of each partition counts. The costs of moving points to their owners, and triangles
+back, are those of a measured run (--costs). To validate the model, measured runs on several ranks (--check) are
+simulated with the number of cores that this machine has.
 """
 import argparse
 import heapq
@@ -16,13 +16,13 @@ import math
 import os
 import statistics
 
-NETWORKS = {  # seconds a message, bytes a second and rank
+NETWORKS = {  # seconds per message; bytes per second and rank
     "1 Gb/s Ethernet": (50e-6, 1.1e8),
     "10 Gb/s Ethernet": (20e-6, 1.1e9),
     "within a machine": (2e-6, 4e9),
 }
-BYTES_OF_POINT = 24   # that travel to an owner: two coordinates and an id
-BYTES_OF_VERTEX = 32  # of a message
+BYTES_OF_POINT = 24   # sent to an owner: two coordinates and an id
+BYTES_OF_VERTEX = 32  # of a vertex in a message
 NOTHING = (0.0, float("inf"))
 
 
@@ -46,7 +46,7 @@ class Trace:
                 self.vertices.append(int(words[3]))
                 self.later.append([pair.split(":") for pair in words[4:]])
         self.later = [[(numbers[q], int(vertices)) for q, vertices in pairs] for pairs in self.later]
-        self.chain = [0] * len(self.owner)  # how many partitions wait for each, one after the other
+        self.chain = [0] * len(self.owner)  # length of the longest chain of partitions that wait for each
         for p in reversed(range(len(self.owner))):
             self.chain[p] = max((1 + self.chain[q] for q, _ in self.later[p]), default=0)
 
@@ -54,7 +54,7 @@ class Trace:
         return sum(self.seconds)
 
     def cut_outliers(self):
-        """Cuts costs that are twice what a vertex costs in most partitions: the machine did something else."""
+        """Limits costs to twice the usual cost per vertex: higher ones are caused by other work of the machine."""
         usual = statistics.median(s / v for s, v in zip(self.seconds, self.vertices))
         limits = [2 * usual * v for v in self.vertices]
         self.cut = sum(s > limit for s, limit in zip(self.seconds, limits))
@@ -64,7 +64,7 @@ class Trace:
         return self.owner == other.owner and self.points == other.points
 
     def merge(self, other):
-        """Keeps the lower cost of each partition: what else the machine does only adds to it."""
+        """Keeps the lower cost of each partition, since other work of the machine only increases costs."""
         self.seconds = list(map(min, self.seconds, other.seconds))
         self.initial_seconds = min(self.initial_seconds, other.initial_seconds)
 
@@ -83,18 +83,19 @@ def read_traces(paths):
 def simulate(trace, cores, network, scale=1.0):
     """Seconds until all partitions are triangulated, if rank r computes on core r % cores.
 
-    A core takes the partition that the longest chain waits for (Engine/ReadyPartitions.h). With `scale` times the points a
-    partition costs so much more and sends the square root of it more, for vertices are sent along its boundary.
+    Of its ready partitions, a core starts the one that the longest chain waits for (Engine/ReadyPartitions.h). With
+    `scale` times the points, a partition costs `scale` times as much. It sends sqrt(scale) times as many vertices,
+    since these are at its boundary.
     """
     latency, bandwidth = network
     awaited = [0] * len(trace.owner)
     for pairs in trace.later:
         for q, _ in pairs:
             awaited[q] += 1
-    ready = [[] for _ in range(cores)]  # (minus the chain, partition)
+    ready = [[] for _ in range(cores)]  # (-chain, partition)
     ready_at = [0.0] * len(trace.owner)
     free = [True] * cores
-    events = []  # (time, kind, partition): 0 is ready, 1 is done
+    events = []  # (time, kind, partition); kind 0: is ready, 1: is done
     for p, count in enumerate(awaited):
         if count == 0:
             heapq.heappush(events, (0.0, 0, p))
@@ -127,7 +128,7 @@ def simulate(trace, cores, network, scale=1.0):
 
 
 class Costs:
-    """What one thread needs for a point besides triangulating it, from a measured run."""
+    """The time that one thread needs per point besides triangulation, from a measured run."""
 
     def __init__(self, run):
         ranks = run["ranks"]
@@ -138,8 +139,8 @@ def whole_run(trace, costs, points, network):
     """Seconds of a run with `points` points, in as many partitions as the trace has."""
     latency, bandwidth = network
     scale = points / trace.points
-    # Every rank makes its part of the initial mesh, and the whole order. The initial points, and the conflicts, are
-    # brought together on one rank and from there to all.
+    # Every rank makes its part of the initial mesh, and computes the whole order. Initial points and conflicts are
+    # gathered on one rank and then sent to all.
     exchange = (costs.exchange * points / trace.ranks + latency * trace.ranks
                 + (1 - 1 / trace.ranks) * points / trace.ranks * BYTES_OF_POINT / bandwidth)
     gathered = 8 * len(trace.owner) * BYTES_OF_VERTEX + trace.initial_bytes
@@ -148,7 +149,7 @@ def whole_run(trace, costs, points, network):
 
 
 def alone(trace, costs, points):
-    """Seconds of the same run by one rank of one thread."""
+    """Seconds of the same run on one rank with one thread."""
     return costs.exchange * points + trace.compute() * points / trace.points
 
 
@@ -161,7 +162,7 @@ def check(traces, costs, runs):
             print(f"{ranks:5} {run['points']:10}: no trace")
             continue
         cores = min(ranks, os.cpu_count())
-        # Each rank makes its part and the order: those of one core one after the other.
+        # Each rank makes its part and computes the order; ranks on the same core do so one after the other.
         initial = trace.initial_seconds * math.ceil(ranks / cores)
         seconds = (costs.exchange * trace.points / cores + initial
                    + simulate(trace, cores, NETWORKS["within a machine"]))

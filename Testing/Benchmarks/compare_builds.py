@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the same benchmark rows with two builds alternately, and prints the ratio of their fastest times.
+"""Runs the same benchmarks alternately with two builds, and prints the ratio of their fastest times.
 
 compare_builds.py OLD-BUILD NEW-BUILD INPUTS [--rows delaunay,io,resample] [--points N] [--rounds R]
 
-INPUTS is a folder that keeps the files that are read; N is the number of points of the largest inputs. A row
-whose ratio is above 1.02 is repeated with twice the rounds, so that one disturbed run is not taken for a loss.
+INPUTS is a folder in which input files are kept. N is the number of points of the largest inputs. A row whose
+ratio is above 1.02 is repeated with twice the rounds, so that one disturbed run does not look like a loss.
 """
 import argparse
 import pathlib
@@ -14,13 +14,13 @@ import subprocess
 
 
 def delaunay_times(output):
-    """By input, points and threads: nanoseconds a point."""
+    """Input, points and threads -> nanoseconds per point."""
     pattern = r"^(\S+)\s+(\d+)\s+TIPP, (\d) threads?\s+[\d.]+\s+([\d.]+)"
     return {f"{m[1]} {m[2]}, threads: {m[3]}": float(m[4]) for m in re.finditer(pattern, output, re.M)}
 
 
 def loader_times(output):
-    """By row and loader: microseconds a cell."""
+    """Row and loader -> microseconds per cell."""
     times = {}
     pattern = r"^(random|local)\s+(warm|cold)\s+(\S+)\s+(\d+)((?:\s+[\d.]+){7})"
     for m in re.finditer(pattern, output, re.M):
@@ -31,12 +31,12 @@ def loader_times(output):
 
 
 def named_times(output):
-    """By what stands before the colon: seconds."""
+    """Text before the colon -> seconds."""
     return {m[1]: float(m[2]) for m in re.finditer(r"^(.+?): ([\d.]+) s\b", output, re.M) if not m[1].startswith("vtk")}
 
 
 def table_times(output):
-    """By a table's first cell: the first seconds of ours."""
+    """First cell of a table's row -> the first time of ours, in seconds."""
     times = {}
     for m in re.finditer(r"^\| ([^|]+?) \|(?: \d+ and \d+ \|)? ([\d.]+) s", output, re.M):
         times[re.sub(r"; of it.*", "", m[1])] = float(m[2])
@@ -44,7 +44,7 @@ def table_times(output):
 
 
 def cases(rows, inputs, points):
-    """The commands of the rows asked for, each with what reads its output; {bin} is a build's bin folder."""
+    """The commands of the requested rows, each with the function that reads its output; {bin}: a build's bin folder."""
     large, mesh = inputs / f"mesh-{points}", inputs / f"local-{points}"
     delaunay = ["{bin}/benchmarkDelaunay", "--peers", "none", "--repeat", "1"]
     resample = ["{bin}/benchmarkResample"]
@@ -72,7 +72,7 @@ def cases(rows, inputs, points):
 
 
 def make_inputs(build, inputs, points):
-    """The meshes that the rows of io read, made once."""
+    """The meshes that the rows of io read; they are made once."""
     tipp = build / "bin" / "tipp"
     repository = pathlib.Path(__file__).parent
 
@@ -96,7 +96,7 @@ def make_inputs(build, inputs, points):
 
 
 def compare(builds, command, read, rounds):
-    """By row: the fastest time with each build, run alternately."""
+    """Row -> the fastest time with each build. The builds run alternately."""
     fastest = {}
     for turn in range(rounds):
         for which in (0, 1) if turn % 2 == 0 else (1, 0):

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The columns 'longitude' and 'latitude' of an .xz-compressed CSV as an n x 2 .npy, in file order."""
+"""Writes the columns 'longitude' and 'latitude' of an .xz-compressed CSV as an n x 2 .npy, in the file's order."""
 import csv
 import lzma
 import sys

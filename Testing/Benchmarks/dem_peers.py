@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`tipp dem` beside gdal_grid, startinpy and scipy, from a LAS file to a GeoTIFF, and within a limit of memory.
+"""Compares `tipp dem` with gdal_grid, startinpy and scipy, from a LAS file to a GeoTIFF, and within a memory limit.
 
 Usage: dem_peers.py BINARIES AUTZEN.las FOLDER [--tile N] [--small N] [--large N] [--repeat R] [--part PART]...
 
-BINARIES is the folder of tipp and benchmarkIo, PART is peers, read, same or large. Every program runs in a process of
-its own, from file to file; wall-clock and processor seconds, and the largest memory. Behind a ratio is the one that is
-asked for. Peers that are not installed are named and left out. The inputs stay in FOLDER for the next run.
+BINARIES is the folder of tipp and benchmarkIo, PART is peers, read, same or large. Each program runs as a process from
+file to file. Prints wall-clock and processor seconds, and the peak memory. Behind each ratio is its target. Peers
+that are not installed are named and left out. The inputs stay in FOLDER for the next run.
 """
 import argparse
 import importlib.util
@@ -58,8 +58,8 @@ with rasterio.open(sys.argv[2], "w", driver="GTiff", width=columns, height=rows,
 
 
 def make_tile(source, path, count, seed, column=0):
-    """Copies of the points side by side, each with jitter, as LAS 1.2 of format 0, the tile of a column of tiles from
-    the west. Returns west, south and the sides. A file that is there is not made again."""
+    """Writes jittered copies of the points side by side as LAS 1.2 of format 0. The tile is in the given column of
+    tiles, counted from the west. Returns west, south, width and height. A file that exists is kept."""
     with open(source, "rb") as file:
         data = file.read()
     offset, length = struct.unpack_from("<I", data, 96)[0], struct.unpack_from("<H", data, 105)[0]
@@ -98,7 +98,7 @@ def make_tile(source, path, count, seed, column=0):
 
 
 def make_tiles(options, folder, points):
-    """Four files side by side, and the size of pixels that are as many as the points."""
+    """The paths of four files side by side, the pixel size that makes as many pixels as points, and both extents."""
     count = points // 4
     paths = [folder / f"part-{count}-{i}.las" for i in range(4)]
     for number, path in enumerate(paths):
@@ -107,7 +107,7 @@ def make_tiles(options, folder, points):
 
 
 def measure(command, repeat=1):
-    """The fastest run's wall-clock and processor seconds, and its memory in MB; None if it fails."""
+    """Wall-clock and processor seconds of the fastest run, and its memory in MB; None if it fails."""
     best = None
     for _ in range(repeat):
         start = time.perf_counter()
@@ -162,7 +162,7 @@ def beside_peers(options, folder):
 
 
 def compare(ours, theirs):
-    """How far a peer's pixels are ours."""
+    """Prints how many pixels of a peer agree with ours."""
     if importlib.util.find_spec("rasterio") is None:
         return
     import rasterio
@@ -176,7 +176,7 @@ def compare(ours, theirs):
 
 
 def gdal_command(options, folder, path, output, bounds, columns, rows):
-    """It reads no LAS: the ground points as .csv, whose writing is not timed."""
+    """gdal_grid does not read LAS: writes the ground points as .csv, which is not timed."""
     ground = folder / f"ground-{options.tile}.csv"
     data = np.fromfile(path, RECORD, offset=HEADER)
     data = data[data["class"] & 31 == 2]
@@ -201,7 +201,7 @@ ALL = ["--keep", "overlap,synthetic,withheld", "--threads", 2]
 def read_rate(options, folder):
     paths, *_ = make_tiles(options, folder, options.small)
     for threads in (1, 2):
-        print(f"Reading {options.small // 4} points of LAS on {threads} threads (asked: 15 million a second and thread)", flush=True)
+        print(f"Reading {options.small // 4} points of LAS on {threads} threads (target: 15 million per second and thread)", flush=True)
         subprocess.run([options.binaries / "benchmarkIo", "points", "--threads", str(threads), paths[0]], check=True)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes a flat mesh of triangles as one .vtu with appended, raw data: flat-to-vtu.py FOLDER FILE.vtu"""
+"""Writes a flat mesh of triangles as one .vtu with raw appended data: flat-to-vtu.py FOLDER FILE.vtu"""
 import os
 import sys
 

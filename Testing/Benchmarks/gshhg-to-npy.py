@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every shore vertex of a binned GSHHG file as an n x 2 .npy of longitude and latitude, in file order.
+"""Writes all shore vertices of a binned GSHHG file as an n x 2 .npy of longitude and latitude, in the file's order.
 
-A vertex is stored as two unsigned 16-bit fractions of its bin, counted from the bin's south-west
-corner; bins go eastwards from longitude 0, row by row from the north pole (GMT, gmt_shore.c).
+A vertex is stored as two unsigned 16-bit fractions of its bin, counted from the bin's south-west corner. Bins go
+eastwards from longitude 0, row by row from the north pole (GMT, gmt_shore.c).
 
-With a third file: the edges of the shorelines in their bins, as two indices of vertices each, in float64.
+A third file gets the shoreline edges inside bins: two vertex indices each, in float64.
 """
 import sys
 
@@ -47,5 +47,5 @@ if len(sys.argv) == 4:
     is_last = numpy.zeros(len(dx), bool)
     is_last[first_point + points_of_segment - 1] = True
     first = numpy.flatnonzero(~is_last)
-    first = first[abs(longitude[first] - longitude[first + 1]) < 180]  # not round the earth
+    first = first[abs(longitude[first] - longitude[first + 1]) < 180]  # leaves out edges around the earth
     numpy.save(sys.argv[3], numpy.column_stack((first, first + 1)).astype(float))

@@ -8,7 +8,7 @@ LEVELS = 20
 
 
 def hilbert_index(x, y):
-    """Place along the curve of integer coordinates below 2^LEVELS (Skilling's transform in 2D)."""
+    """The position along the curve of integer coordinates below 2^LEVELS (Skilling's transform in 2D)."""
     index = np.zeros(len(x), np.int64)
     for level in reversed(range(LEVELS)):
         side = np.int64(1) << level

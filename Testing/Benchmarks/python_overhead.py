@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What tipp.delaunay costs beside the triangulation itself, which the filter times.
+"""Measures what tipp.delaunay costs in addition to the triangulation, which the filter times.
 
 Usage: python3 python_overhead.py [POINTS] [REPEATS]      (or in ParaView: pvbatch python_overhead.py ...)
 
-In one process, alternately: the filter's Update() on points that are VTK's already, and tipp.delaunay on arrays of three
-columns, which are not copied, and of two, which are once. Each run is set against the core's seconds in that run: the
-phases of the filter's statistics without those that read and make VTK's objects. The least of all repeats is printed.
-Copies: what making VTK's points of the array adds to the process's memory, in arrays of three columns of float64.
+Runs alternately in one process: the filter's Update() on points that are VTK objects already, tipp.delaunay on arrays
+of three columns, which are not copied, and on arrays of two columns, which are copied once. From each run, the seconds
+of the core in that run are subtracted: the phases of the filter's statistics, except those that read and make VTK
+objects. Prints the least of all repeats. Copies: the memory that making VTK points of an array adds to the process,
+in arrays of three columns of float64.
 """
 import sys
 import time
@@ -16,12 +17,12 @@ import numpy as np
 import tipp
 import tipp._triangulate
 
-# Phases that are not the core's, or that others hold.
+# Phases that do not belong to the core, or are part of other phases.
 BESIDE = ("projection", "VTK output")
 
 
 class Remembered:
-    """Stands for the filter's class in tipp, and keeps the filter that was made last."""
+    """Replaces the filter's class in tipp, and keeps the last filter that was made."""
 
     Kind = tipp.vtkTIPPDelaunay2D
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""tipp.open beside scipy's LinearNDInterpolator, which has one thread.
+"""Compares tipp.open with scipy's LinearNDInterpolator, which uses one thread.
 
 Usage: query_scipy.py POINTS QUERIES      (set OMP_NUM_THREADS=1 to have one thread here too)
 
-Two values at uniform points, at scattered points. scipy's triangulation is not counted. It is asked a tenth of the
-points, in a random order, and its time taken ten times.
+Interpolates two values of uniform points at scattered points. The time of scipy's triangulation is not counted. scipy
+gets a tenth of the points, in random order, and its time is multiplied by ten.
 """
 import importlib.util
 import sys

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Prints one line of a table from what `tipp delaunay --stats` wrote on ranks.
+"""Prints one row of a table from the statistics of `tipp delaunay --stats` on several ranks.
 
-Usage: rank_row.py LABEL STATISTICS.json   (LABEL "head": the columns' names)
+Usage: rank_row.py LABEL STATISTICS.json   (LABEL "head" prints the names of the columns)
 """
 import json
 import sys
@@ -26,10 +26,10 @@ def main():
     compute = [rank["compute_seconds"] for rank in run["ranks"]]
     mean = sum(compute) / len(compute)
     master = sum(m["seconds"] for m in run["masters"] if m["area"] == 0)
-    # The rank that computes longest between two barriers, summed over these.
+    # The sum over all stages of the longest computation of a rank between two barriers.
     path = sum(m["path_seconds"] for m in run["masters"] if m["area"] == 0)
     largest = max((m["largest_mesh"] for m in run["masters"]), default=0)
-    # Besides the points' own way to their owners: vertices of boundary triangles.
+    # Without the points' way to their owners: only vertices of boundary triangles.
     sent = sum(t["bytes"] for t in run["traffic"] if t["kind"] in ("task", "partition done"))
     row((sys.argv[1], f"{seconds:.3f}", f"{run['points'] / seconds:.0f}",
          f"{master / seconds:.2%}",

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Times ParaView's vtkRedistributeDataSetFilter, boundary cells duplicated: pvbatch redistribute.py MESH.vtu PIECES
+"""Times ParaView's vtkRedistributeDataSetFilter with duplicated boundary cells: pvbatch redistribute.py MESH.vtu PIECES
 
-The mesh is read first and not timed.
+Reading the mesh is not timed.
 """
 import resource
 import sys

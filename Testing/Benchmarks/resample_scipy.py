@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""tipp.resample beside scipy's LinearNDInterpolator, which has one thread.
+"""Compares tipp.resample with scipy's LinearNDInterpolator, which uses one thread.
 
 Usage: resample_scipy.py POINTS SAMPLES [REPEATS]      (set OMP_NUM_THREADS=1 to have one thread here too)
 
-Two values at uniform points, sampled SAMPLES times along x and y. Triangulations are timed apart: scipy's is made
-once, for it takes long. Samples are the least of all repeats.
+Samples two values of uniform points, SAMPLES times along x and y. Triangulations are timed separately; scipy's is made
+only once, because it takes long. Times of sampling are the least of all repeats.
 """
 import importlib.util
 import os

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Prints a row of figures of the fastest of some runs: run_row.py TITLE STATISTICS.json..."""
+"""Prints a row of figures of the fastest of several runs: run_row.py TITLE STATISTICS.json..."""
 import json
 import sys
 

@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scattered points, and meshes, to a grid, beside scipy, gdal_grid, VTK and matplotlib.
+"""Compares gridding of scattered points and meshes with scipy, gdal_grid, VTK and matplotlib.
 
-Usage: use_cases.py TIPP NAME=INPUT:WIDTH...   (TIPP: the tool; INPUT: POINTS.npy, x, y and a value,
-       n x 3, or a mesh of triangles that tipp.read reads; WIDTH: samples along x)
+Usage: use_cases.py TIPP NAME=INPUT:WIDTH...   (TIPP: the tool; INPUT: a .npy file of x, y and a value per point,
+       or a mesh of triangles that tipp.read reads; WIDTH: samples along x)
 
-In memory: from NumPy arrays to a NumPy grid, tipp.delaunay_2d and tipp.resample beside scipy's
-LinearNDInterpolator. From file to file: `tipp delaunay` and `tipp resample` beside gdal_grid with its
-linear algorithm, which triangulates too. The points' arrays of a mesh are sampled by tipp.resample beside
-vtkProbeFilter, and one of them beside matplotlib's LinearTriInterpolator. Each peer is run once, ours three
-times.
+In memory, from NumPy arrays to a NumPy grid: tipp.delaunay_2d and tipp.resample against scipy's
+LinearNDInterpolator. From file to file: `tipp delaunay` and `tipp resample` against gdal_grid with its linear
+algorithm, which triangulates too. Meshes: all point arrays are sampled by tipp.resample and vtkProbeFilter, and one
+array by matplotlib's LinearTriInterpolator. Each peer runs once, ours three times.
 """
 import importlib.util
 import pathlib
@@ -23,7 +22,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import tipp
 
-PATIENCE = 300  # seconds for gdal_grid
+PATIENCE = 300  # seconds that gdal_grid may take
 
 VRT = """<OGRVRTDataSource><OGRVRTLayer name="points"><SrcDataSource>{csv}</SrcDataSource>
 <GeometryType>wkbPoint</GeometryType>
@@ -42,7 +41,7 @@ def timed(work, repeat=1):
 
 
 class Grid:
-    """Samples as tipp.resample places them: from bound to bound, the last one on it."""
+    """Positions of samples as in tipp.resample: from bound to bound, with the last sample on the upper bound."""
 
     def __init__(self, points, width):
         (self.x0, self.y0), (self.x1, self.y1) = points[:, :2].min(axis=0), points[:, :2].max(axis=0)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What all campaigns share: the loop over random trials, and running the tool under limits.
+"""Shared by all campaigns: the loop over random trials, and running the tool under limits.
 
-A campaign is a script beside this file that calls main() with a function trial(random, folder, tools). The
-function raises Failure if the tool did something that Documentation/Reliability.md rules out. Each trial has its
-own seed, so that a failure can be repeated alone: --seed SEED --trials 1.
+A campaign is a script in this folder that calls main() with a function trial(random, folder, tools). The function
+raises Failure if the tool breaks a promise of Documentation/Reliability.md. Each trial has its own seed, so that a
+failed trial can be repeated alone: --seed SEED --trials 1.
 """
 import argparse
 import dataclasses
@@ -19,12 +19,12 @@ import time
 
 GIGABYTE = 1 << 30
 
-# What no message for a user contains: where in a source file, and object addresses.
+# Messages for users must not contain these: positions in source files, and addresses of objects.
 INTERNAL = re.compile(r"\.(cxx|cpp|h|hxx|py)[:,] ?(line )?\d+|0x[0-9a-f]{6,}|Traceback|terminate called|what\(\):")
 
 
 class Failure(Exception):
-    """The tool broke a promise; the text says which."""
+    """The tool broke a promise; the text says which one."""
 
 
 @dataclasses.dataclass
@@ -36,7 +36,7 @@ class Tools:
 
 @dataclasses.dataclass
 class Result:
-    """How a command ended: `code` is negative for a signal, as in subprocess."""
+    """How a command ended. `code` is its exit code, or minus a signal's number, as in subprocess."""
     command: list
     code: int
     output: str
@@ -63,7 +63,7 @@ def run(command, *, timeout=120, memory=4 * GIGABYTE, cwd=None, env=None):
 
 
 def require_clear_end(result, allowed=(0, 1, 2)):
-    """The command succeeded, or failed with a message for its user: no signal, no internals."""
+    """Fails unless the command succeeded, or failed with a message for its user: no signal, no internals."""
     if result.code not in allowed:
         raise Failure(f"{result}")
     if result.code != 0 and not result.error.strip():
@@ -73,13 +73,13 @@ def require_clear_end(result, allowed=(0, 1, 2)):
 
 
 def contents(folder):
-    """Relative path -> bytes of every file below a folder."""
+    """Relative path -> bytes, for all files in a folder and its subfolders."""
     folder = pathlib.Path(folder)
     return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
 
 
 def main(name, trial, description):
-    """Runs trials until the time or the number is used up, prints what happened, and returns the exit code."""
+    """Runs trials until the time or the number is reached, prints the results, and returns the exit code."""
     parser = argparse.ArgumentParser(prog=f"campaign.sh {name}", description=description)
     parser.add_argument("--tipp", required=True, help="the program under test")
     parser.add_argument("--mpiexec", default="mpiexec")

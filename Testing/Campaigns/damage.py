@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Damages files of work folders, of partitioned meshes and of flat ones, and uses them.
+"""Damages files of work folders, partitioned meshes and flat meshes, and then uses them.
 
-A resumed run must make the mesh of an undisturbed one, byte for byte, or name what is damaged and keep all work.
-`tipp check` must name any damage of a partitioned mesh; a reader must refuse it, or give what the undamaged mesh
-gives. A flat mesh has no checksums: there a reader must end clearly. A trial returns the number of damaged folders.
+A resumed run must make the same files as an uninterrupted one, byte for byte, or name the damaged file and keep all
+work. `tipp check` must report any damage of a partitioned mesh. A reader must refuse the mesh, or return what it
+returns for the undamaged one. Flat meshes have no checksums: there, a reader must only end clearly. A trial returns the
+number of damaged folders.
 """
 import pathlib
 import random
@@ -15,27 +16,27 @@ import sys
 from campaign import Failure, Tools, contents, main, require_clear_end, run
 from kill import Killed, kill_at_call
 
-FOLDERS = 8  # that a trial damages
+FOLDERS = 8  # folders that a trial damages
 
 
 def flip(rng, data):
-    """One bit of a byte anywhere."""
+    """Flips a random bit."""
     at = rng.randrange(len(data))
     return data[:at] + bytes([data[at] ^ (1 << rng.randrange(8))]) + data[at + 1:]
 
 
 def cut(rng, data):
-    """The end is missing."""
+    """Cuts off the end."""
     return data[:-min(len(data), rng.choice((1, 8, 100, rng.randint(1, len(data)))))]
 
 
 def append(rng, data):
-    """More than there was."""
+    """Appends bytes."""
     return data + bytes(rng.randrange(256) for _ in range(rng.choice((1, 8, 100))))
 
 
 def swap(rng, data):
-    """Two blocks are exchanged."""
+    """Exchanges two blocks."""
     size = min(rng.choice((8, 64, 512, 4096)), len(data) // 2)
     first = rng.randint(0, len(data) - 2 * size)
     second = rng.randint(first + size, len(data) - size)
@@ -44,12 +45,12 @@ def swap(rng, data):
 
 
 def empty(_rng, _data):
-    """Nothing is left."""
+    """Leaves an empty file."""
     return b""
 
 
 def remove(_rng, _data):
-    """The file is gone."""
+    """Removes the file."""
     return None
 
 
@@ -57,7 +58,7 @@ DAMAGES = (flip, flip, cut, append, swap, empty, remove)
 
 
 def damage(rng, folder):
-    """Damages one file; returns its path in the folder and a description, or None where nothing has changed."""
+    """Damages one file. Returns its path in the folder and a description, or None if nothing has changed."""
     kinds = {}
     for path in sorted(folder.rglob("*")):
         if path.is_file():
@@ -77,7 +78,7 @@ def damage(rng, folder):
 
 
 def make_points(rng, folder, tools, least, most):
-    """points.npy"""
+    """Makes points.npy."""
     distribution = rng.choice(("uniform", "clustered", "coast", "lattice"))
     require_clear_end(run([tools.tipp, "points", "--distribution", distribution, "--count",
                            rng.randint(least, most) * 1000, "--seed", rng.randint(1, 1000), "-o", "points.npy"],
@@ -85,7 +86,7 @@ def make_points(rng, folder, tools, least, most):
 
 
 def count_of(folder):
-    """How many files a folder has, which a run may remove meanwhile."""
+    """The number of files in a folder, which a run may remove at any time."""
     try:
         return len(list(folder.iterdir()))
     except OSError:
@@ -93,7 +94,7 @@ def count_of(folder):
 
 
 def make_work(rng, folder, tools, command):
-    """Leaves the work of a killed run; False if none is left."""
+    """Kills a run and leaves its work folder. Returns False if no run left one."""
     library = kill_at_call(tools)
     for _ in range(20):
         env = {}
@@ -114,7 +115,7 @@ def make_work(rng, folder, tools, command):
 
 
 def require_kept(before, after, result, what):
-    """A failed run has lost nothing that the next one needs."""
+    """Fails if a failed run has lost something that the next run needs."""
     made_again = re.compile(r"^\.piece\.|\.next$")
     lost = [name for name in before if name not in after and not made_again.search(name)]
     lost += [name for name in before if name.startswith((".plan", ".points")) and before[name] != after.get(name)]
@@ -123,7 +124,7 @@ def require_kept(before, after, result, what):
 
 
 def work_trial(rng, folder, tools):
-    """Work folders of killed runs."""
+    """Damages work folders of killed runs."""
     make_points(rng, folder, tools, 20, 60)
     command = [tools.tipp, "delaunay", "points.npy", "-o", "mesh.tipp", "--memory", f"{rng.randint(1, 3)}M",
                "--threads", rng.randint(1, 2)]
@@ -163,7 +164,7 @@ def work_trial(rng, folder, tools):
 
 
 def resample(tools, folder, mesh, bounds):
-    """What a reader makes of the mesh, and how it ended."""
+    """What a reader outputs for the mesh, and how it ended."""
     image = folder / "image.vti"
     image.unlink(missing_ok=True)
     result = run([tools.tipp, "resample", mesh, "-o", "image.vti", "--dims", 64, 64, 1, "--device", "openmp", *bounds],
@@ -173,7 +174,7 @@ def resample(tools, folder, mesh, bounds):
 
 
 def make_partitioned(rng, folder, tools):
-    """mesh.tipp, by either command."""
+    """Makes mesh.tipp with either command."""
     if rng.random() < 0.5:
         options = ["--neighbors"] if rng.random() < 0.5 else []
         options += ["--map-duplicates"] if rng.random() < 0.5 else []
@@ -186,7 +187,7 @@ def make_partitioned(rng, folder, tools):
 
 
 def mesh_trial(rng, folder, tools):
-    """Partitioned meshes."""
+    """Damages partitioned meshes."""
     make_points(rng, folder, tools, 5, 20)
     make_partitioned(rng, folder, tools)
     bounds = ["--bounds", 0.1, 0.4, 0.1, 0.5, 0, 0] if rng.random() < 0.4 else []
@@ -210,7 +211,7 @@ def mesh_trial(rng, folder, tools):
 
 
 def flat_trial(rng, folder, tools):
-    """Flat meshes."""
+    """Damages flat meshes."""
     make_points(rng, folder, tools, 5, 20)
     require_clear_end(run([tools.tipp, "delaunay", "points.npy", "-o", "mesh.vtu"], cwd=folder), (0,))
     require_clear_end(run([tools.tipp, "flatten", "mesh.vtu", "-o", "good"], cwd=folder), (0,))
@@ -227,7 +228,7 @@ def flat_trial(rng, folder, tools):
 
 
 def trial(rng: random.Random, folder: pathlib.Path, tools: Tools):
-    """One folder, damaged in several ways, each time anew."""
+    """Makes a folder, and damages several copies of it in different ways."""
     return rng.choice((work_trial, work_trial, mesh_trial, mesh_trial, flat_trial))(rng, folder, tools)
 
 

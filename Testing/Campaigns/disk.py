@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Full disks: outputs are whole or absent, old ones stay, and nothing of a user's is removed.
+"""Full disks: outputs must be complete or absent, old outputs stay, and no file of the user is removed.
 
-A disk is a small tmpfs of random size. Where none can be mounted (that takes root), a limit on the size of files
-stands for it, which the last line says.
+A disk is a small tmpfs of random size. If none can be mounted, which takes root, a limit on the size of files is used
+instead; the last line says so.
 """
 import os
 import pathlib
@@ -15,8 +15,8 @@ import tempfile
 import campaign
 from campaign import Failure, contents, require_clear_end
 
-MOUNTS = None  # whether a tmpfs can be mounted, once that was tried
-KEPT = (".part",)  # work that a message tells how to resume
+MOUNTS = None  # whether a tmpfs can be mounted; None before the first try
+KEPT = (".part",)  # work files that the message tells how to resume
 
 
 def mount(folder, size):
@@ -25,7 +25,7 @@ def mount(folder, size):
 
 
 def prepare(tools):
-    """Points and meshes that all trials read, made once a process."""
+    """Points and meshes that all trials read. They are made once per process."""
     global MOUNTS
     if prepare.folder is None:
         prepare.keeper = tempfile.TemporaryDirectory(prefix="tipp-disk-inputs-")
@@ -52,7 +52,7 @@ prepare.folder = None
 
 
 def choose(random, inputs, disk, other):
-    """A command, its output, how to check that, and about how many bytes it needs."""
+    """A command, its output, the command that checks the output, and its approximate size in bytes."""
     count = random.choice((300, 3000, 12000))
     points, mesh, flat = (inputs / f"{name}" for name in (f"points{count}.npy", f"mesh{count}.vtu", f"flat{count}"))
     kind = random.choice(("npy", "vtp", "vtu", "tipp", "tipp", "scratch", "vti", "partition", "partition-vtu",
@@ -86,7 +86,7 @@ def choose(random, inputs, disk, other):
 
 
 def run_limited(command, size):
-    """With files of at most `size` bytes instead of a small disk."""
+    """Runs with files of at most `size` bytes instead of on a small disk."""
     def limit():
         resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
     words = [str(word) for word in command]
@@ -96,7 +96,7 @@ def run_limited(command, size):
 
 
 def make_old(random, tools, inputs, output):
-    """Sometimes an output is there already: what the tool may replace. Sometimes with a user's file in it."""
+    """Sometimes makes an output that the tool may replace, and sometimes puts a file of the user into it."""
     if random.random() < 0.5:
         return
     if output.suffix == ".tipp":

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Kills random runs at random moments, several times each, and finishes them.
+"""Kills random runs at random moments, several times each, and then finishes them.
 
-The finished mesh must be that of an undisturbed run, byte for byte, and nothing else may be left behind. A trial
+The finished mesh must equal that of an uninterrupted run byte for byte, and no other file may be left. A trial
 returns the number of kills.
 """
 import os
@@ -19,7 +19,7 @@ DISTRIBUTIONS = ("uniform", "clustered", "kuzmin", "lattice", "coast", "circle")
 
 
 def kill_at_call(tools: Tools):
-    """The library that kills a process before a call of the system, if it is built."""
+    """The library that kills a process before a system call, or None if it is not built."""
     build = pathlib.Path(tools.tipp).resolve().parent.parent
     return next(iter(sorted(build.glob("Testing/Cxx/Tools/*TIPPKillAtCall.so")) +
                      sorted(build.glob("lib/**/*TIPPKillAtCall.so"))), None)
@@ -40,7 +40,7 @@ def processes_of(session):
 
 
 class Killed:
-    """A command in a session of its own, to be killed."""
+    """A command in its own session, so that all its processes can be killed."""
     def __init__(self, command, folder, env=None):
         self.command = [str(word) for word in command]
         self.errors = folder / "errors.txt"
@@ -49,7 +49,7 @@ class Killed:
                                             env=dict(os.environ, **(env or {})), start_new_session=True)
 
     def wait(self, seconds):
-        """Whether it has ended by then."""
+        """Waits for this time, and returns whether the command has ended."""
         try:
             self.process.wait(seconds)
             return True
@@ -57,7 +57,7 @@ class Killed:
             return False
 
     def signal(self, number, rng):
-        """Sends the signal to the command or, SIGKILL alone, to any process that it has started."""
+        """Sends the signal to the command. SIGKILL may also go to any process that the command has started."""
         targets = [self.process.pid]
         if number == signal.SIGKILL:
             targets += [pid for pid, _ in processes_of(self.process.pid)]
@@ -67,10 +67,10 @@ class Killed:
             pass
 
     def end(self):
-        """Waits until all of its processes have ended. Returns the exit code and what it wrote to stderr.
+        """Waits until all processes have ended. Returns the exit code, and what the command wrote to stderr.
 
-        Open MPI's mpirun now and then does not notice that all its ranks have ended. It is ended then, and that is
-        printed: none of the tool's processes lives any more.
+        Sometimes Open MPI's mpirun does not notice that all its ranks have ended. Then it is killed, and a line is
+        printed: no process of the tool is alive any more.
         """
         lonely = 0
         for _ in range(60):
@@ -98,7 +98,7 @@ class Killed:
 
 
 def delaunay(rng, folder, tools):
-    """A command that can be resumed, and the same without others that share the work."""
+    """A command that can be resumed, and the same command without other processes that share the work."""
     distribution = rng.choice(DISTRIBUTIONS)
     count = rng.randint(20, 40 if distribution == "circle" else 200) * 1000
     require_clear_end(run([tools.tipp, "points", "--distribution", distribution, "--count", count, "--seed",
@@ -114,7 +114,7 @@ def delaunay(rng, folder, tools):
 
 
 def partition(rng, folder, tools):
-    """A command that starts again."""
+    """A command that starts from the beginning each time."""
     require_clear_end(run([tools.tipp, "points", "--distribution", "clustered", "--count", rng.randint(20, 60) * 1000,
                            "-o", "points.npy"], cwd=folder), (0,))
     require_clear_end(run([tools.tipp, "delaunay", "points.npy", "-o", "mesh.vtu"], cwd=folder), (0,))
@@ -125,7 +125,7 @@ def partition(rng, folder, tools):
 
 
 def trial(rng: random.Random, folder: pathlib.Path, tools: Tools):
-    """One command, killed until it was killed often enough, and compared."""
+    """Kills one command several times, finishes it and compares its output."""
     plain, command, resume = (delaunay if rng.random() < 0.8 else partition)(rng, folder, tools)
     undisturbed = run(plain, cwd=folder)
     require_clear_end(undisturbed, (0,))
@@ -148,7 +148,7 @@ def trial(rng: random.Random, folder: pathlib.Path, tools: Tools):
                 raise Failure(f"{killed.command}: another mesh after {kills} kills")
             if kills >= wanted or attempt >= 3 * wanted:
                 break
-            if rng.random() < 0.7:  # else it takes the place of the one before
+            if rng.random() < 0.7:  # otherwise it replaces the one before
                 run(["rm", "-r", mesh])
             continue
         if code > 0 and code not in (130, 143) and command[0] == tools.tipp:

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Damaged input files of every format that a command reads. Each command must succeed, or end with a clear message
-and exit code 1 or 2, within 2 GB of memory, files of 256 MB and 20 s; the ids of a mesh that it writes must be in
-range."""
+"""Damages input files of every format that a command reads. Each command must succeed, or end with a clear message and
+exit code 1 or 2, within 2 GB of memory, files of 256 MB and 20 s. The ids of a mesh that it writes must be in range."""
 import concurrent.futures
 import functools
 import os
@@ -16,11 +15,11 @@ import sys
 import campaign
 import seeds
 
-MUTANTS = 40  # a trial
+MUTANTS = 40  # per trial
 AT_ONCE = 2
 SECONDS = 20
 MEMORY = 2 << 30
-FILE = 256 << 20  # so that points far apart do not make images that take the disk longer than the time limit
+FILE = 256 << 20  # so that images of distant points do not take longer to write than the time limit
 HOSTILE = ["-1", "0", "1", "4", "255", "4294967296", "4294967299", "999999999999", "9000000000000000000",
            "18446744073709551616", "nan", "inf", "-inf", "1e308", "-1e308", "1e-320", "", "x", "2147483647", "-2147483648"]
 NUMBER = re.compile(rb"[-+]?[0-9]+\.?[0-9]*([eE][-+]?[0-9]+)?")
@@ -39,7 +38,7 @@ def change(random, data):
 
 
 def word(random, data):
-    """Eight or four bytes as a hostile number, at a place that is often a multiple of these."""
+    """Replaces four or eight bytes by a hostile number, mostly at a multiple of that many bytes."""
     size, code = random.choice([(4, "i"), (8, "q"), (8, "d"), (4, "f")])
     values = [-1, 0, 16, 2**31 - 1, -2**31] if size == 4 else [-1, 0, 16, 2**32, 2**32 + 3, 999999999999, 2**62, -2**63]
     if code in "df":
@@ -126,7 +125,7 @@ def write_folder(folder, files):
 
 
 def make_input(random, folder, tipp):
-    """Writes a mutant; returns its path and whether it has cells."""
+    """Writes a mutant. Returns its path, and whether the format has cells."""
     kind = random.random()
     if kind < 0.12:
         files = seeds.flat_folder() if random.random() < 0.5 else partitioned(tipp)
@@ -149,7 +148,7 @@ def make_input(random, folder, tipp):
 
 
 def make_command(random, path, has_cells, folder):
-    """The words after `tipp`, and what it writes."""
+    """The arguments of `tipp`, and the output of the command."""
     is_file = path.is_file()
     choices = ["delaunay", "delaunay", "dem", "info", "like", "store"] if is_file else []
     choices += ["check"] if is_file else []
@@ -184,10 +183,10 @@ def make_command(random, path, has_cells, folder):
 
 
 def read_npy(path):
-    """The shape and the values of integers."""
+    """The shape and the values of an array of integers."""
     data = path.read_bytes()
     size = struct.unpack("<H", data[8:10])[0]
-    header = eval(data[10:10 + size].decode(), {"__builtins__": {}})  # of a file that tipp has written
+    header = eval(data[10:10 + size].decode(), {"__builtins__": {}})  # the file was written by tipp
     code = {"i8": "q", "i4": "i", "u4": "I"}.get(header["descr"][1:])
     body = data[10 + size:]
     return header["shape"], struct.unpack(f"<{len(body) // struct.calcsize(code)}{code}", body) if code else None
@@ -239,7 +238,7 @@ def mutant(job):
 
 def trial(random, folder, tools):
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, resource.RLIM_INFINITY))  # which the commands inherit
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, resource.RLIM_INFINITY))  # the commands inherit the limit
     resource.setrlimit(resource.RLIMIT_FSIZE, (FILE, resource.RLIM_INFINITY))
     env = {**os.environ, "OMP_NUM_THREADS": "2", "OMP_WAIT_POLICY": "passive"}
     jobs = []

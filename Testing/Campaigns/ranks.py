@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A rank that is lost, ended, interrupted, stopped for a while, or sees another input than the others.
+"""A rank is killed, terminated, interrupted, stopped for a while, or reads another input than the others.
 
-Each trial disturbs one command under mpirun at a random moment. It must end in good time: with success and the right
-output, or with a failure and no output. The next run then gives the output of an undisturbed one and leaves nothing
-else.
+Each trial disturbs one command under mpirun at a random moment. The command must end in time: with success and the
+correct output, or with a failure and no output. The next run must make the output of an undisturbed run and leave no
+other file.
 """
 import os
 import pathlib
@@ -20,7 +20,7 @@ LIMIT = 60  # seconds, far more than any of these runs takes
 ENVIRONMENT = dict(os.environ, OMP_WAIT_POLICY="passive", OMP_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1",
                    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMPI_MCA_mpi_yield_when_idle="1")
 
-# Name -> arguments, of which {input} and {output} are paths, and the option of the next run.
+# Name -> arguments, in which {input} and {output} are paths, and the options of the next run.
 COMMANDS = {
     "delaunay": (["delaunay", "{input}", "-o", "{output}"], "points.npy", "out.npy", []),
     "out of core": (["delaunay", "{input}", "-o", "{output}", "--memory", "1M"], "points.npy", "out.tipp", ["--resume"]),
@@ -30,7 +30,7 @@ COMMANDS = {
 
 
 class Scene:
-    """The inputs, and for each command what an undisturbed run makes and how long it takes."""
+    """The inputs, and for each command the output of an undisturbed run and its duration."""
 
     def __init__(self, base, tools):
         self.base = base
@@ -45,7 +45,7 @@ class Scene:
                 raise campaign.Failure(str(result))
 
     def of(self, name, ranks):
-        """The output's bytes and the seconds of an undisturbed run."""
+        """The output's bytes and the duration of an undisturbed run."""
         if (name, ranks) not in self.expected:
             folder = self.base / f"{name} {ranks}"
             folder.mkdir()
@@ -62,7 +62,7 @@ def output_of(path):
 
 
 def command_line(scene, name, ranks, folder, more=(), other=None):
-    """With `other` the last rank sees that input."""
+    """Starts the command. If `other` is given, the last rank reads that input."""
     words, data, output, _ = COMMANDS[name]
 
     def tipp(path):
@@ -80,7 +80,7 @@ def ranks_of(mpirun, tipp):
     for entry in pathlib.Path("/proc").glob("[0-9]*"):
         try:
             is_child = int((entry / "stat").read_text().rpartition(")")[2].split()[1]) == mpirun
-            if is_child and os.path.samefile(entry / "exe", tipp):  # else still a copy of mpirun
+            if is_child and os.path.samefile(entry / "exe", tipp):  # otherwise it is still a copy of mpirun
                 found.append(int(entry.name))
         except (OSError, IndexError, ValueError):
             pass
@@ -95,7 +95,7 @@ def send(number, pid):
 
 
 def disturb(random, run, ranks, seconds, tipp):
-    """Does something to a rank of the run while it lasts, and tells what."""
+    """Disturbs a rank of the run, and returns the signal."""
     while run.poll() is None and len(ranks_of(run.pid, tipp)) < ranks:
         time.sleep(0.005)
     time.sleep(random.uniform(0, seconds))
@@ -112,8 +112,8 @@ def disturb(random, run, ranks, seconds, tipp):
 
 
 def finish(run, what, tipp):
-    """Waits for the end. Open MPI's mpirun now and then does not notice that all its ranks have ended; it is ended
-    then, for that is no fault of the tool's."""
+    """Waits for the end. Sometimes Open MPI's mpirun does not notice that all its ranks have ended. Then it is killed,
+    and this does not count as a failure of the tool."""
     end = time.monotonic() + LIMIT
     lonely = 0
     while True:
@@ -134,7 +134,7 @@ def finish(run, what, tipp):
 
 
 def worse_input(random, scene, data, folder):
-    """The input as one rank sees it: missing, or cut short."""
+    """The input for one rank: missing, or truncated."""
     path = folder / "other" / data
     path.parent.mkdir()
     source = scene.base / data

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Small whole files of every format that a command reads, for mutants.py. Nothing but Python's own library."""
+"""Makes small valid files of every format that a command reads, for mutants.py, with Python's standard library only."""
 import base64
 import struct
 import zlib
@@ -19,7 +19,7 @@ class Mesh:
     def __init__(self, points, cells, faces=None):
         self.points = points
         self.cells = cells
-        self.faces = faces  # of the only cell, a polyhedron
+        self.faces = faces  # the faces of the only cell, a polyhedron
 
     @property
     def connectivity(self):
@@ -58,7 +58,7 @@ def flat(tuples):
 
 
 class Xml:
-    """One VTK XML file; `mode` is ascii, base64, zlib, raw or encoded."""
+    """A VTK XML file; `mode` is ascii, base64, zlib, raw or encoded."""
     NAMES = {"d": "Float64", "f": "Float32", "q": "Int64", "i": "Int32", "B": "UInt8"}
 
     def __init__(self, kind, mode):
@@ -173,7 +173,7 @@ def pvtu(source):
 
 
 class Legacy:
-    """One legacy file, ascii or binary."""
+    """A legacy VTK file, ascii or binary."""
     NAMES = {"d": "double", "i": "int", "q": "vtktypeint64"}
 
     def __init__(self, kind, binary, version):
@@ -292,7 +292,7 @@ def flat_folder():
 
 
 def meshes():
-    """Name -> bytes of files with points and cells."""
+    """Name -> bytes, for files with points and cells."""
     files = {"ascii.vtp": vtp("ascii"), "raw.vtp": vtp("raw"), "points.ply": ply(), "points.stl": stl(), "points.obj": obj(),
              "polyhedral.vtu": vtu(POLYHEDRAL, "ascii"), "polyhedral.vtk": legacy_grid(POLYHEDRAL, False, "4.2"),
              "solids.vtu": vtu(SOLIDS, "ascii"), "solids.vtk": legacy_grid(SOLIDS, True, "4.2"), "fort.14": adcirc()}
@@ -333,6 +333,6 @@ def las(minor, form):
 
 
 def points():
-    """Name -> bytes of files with points alone."""
+    """Name -> bytes, for files with points only."""
     return {"old.las": las(2, 3), "plain.las": las(1, 1), "new.las": las(4, 7), "points.npy": npy("d", (len(POINTS), 2), flat(p[:2] for p in POINTS)),
             "points.csv": table(",", "x,y,height"), "points.txt": table(" ", ""), "points.xyz": table(" ", "")}

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every public class, method and property of the plugin is documented.
+"""Checks that every public class, method and property of the plugin is documented.
 
 Usage: check_documented.py SOURCE SCRATCH [DOXYGEN]
-       check_documented.py --gaps SOURCE SCRATCH [DOXYGEN]     (that gaps made on purpose are found)
+       check_documented.py --gaps SOURCE SCRATCH [DOXYGEN]     (checks that removed documentation is found)
 
-DOXYGEN's own warnings tell of the methods (Documentation/Doxyfile); without it they are passed over.
+DOXYGEN's warnings show undocumented methods (Documentation/Doxyfile). Without it, methods are not checked.
 """
 import pathlib
 import re
@@ -21,7 +21,7 @@ def is_empty(element):
 
 
 def gaps_in_xml(text, name):
-    """What lacks a text: a proxy's short and long help, or a property's documentation."""
+    """Missing texts: a proxy's short and long help, or a property's documentation."""
     gaps = []
     proxies = [element for element in ElementTree.fromstring(text).iter() if element.tag in PROXIES]
     if not proxies:
@@ -38,7 +38,7 @@ def gaps_in_xml(text, name):
 
 
 def public_headers(source):
-    """The headers of VTK classes, but for the compatibility and export headers, which declare none."""
+    """The headers that declare VTK classes, relative to the source folder."""
     return {str(path.relative_to(source)) for folder in ("Accelerators", "IO", "Filters", "Plugins")
             for path in (source / folder).rglob("vtk*.h") if "public vtk" in path.read_text(encoding="utf-8")}
 
@@ -71,7 +71,7 @@ def check(source, scratch, doxygen):
 
 
 def check_xml_gaps(source):
-    """Each text of each file, left out in turn, must be missed."""
+    """Removes each text of each file in turn, and returns the files in which this was not found."""
     unseen = []
     for file in plugin_files(source):
         text = file.read_text(encoding="utf-8")
@@ -83,7 +83,7 @@ def check_xml_gaps(source):
 
 
 def check_header_gaps(source, scratch, doxygen):
-    """A copy of the headers with one comment left out, and one with a header that no page is made of."""
+    """Checks that a header without a page, and a method without a comment, are found in a copy of the headers."""
     copy = scratch / "copy"
     shutil.rmtree(copy, ignore_errors=True)
     for header in public_headers(source) | {"Documentation/Doxyfile"}:

@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs what a Markdown file tells its readers to type.
+"""Runs the commands that a Markdown file shows.
 
 Usage: run_document.py SOURCE_DIR BUILD_DIR DOCUMENT SCRATCH_DIR
 
 The blocks of a document are run in order, in a scratch copy of the tracked files, in one shell:
 
   ```sh                      run
-  ```cpp, ```cmake, ```python  the listing of a file in Examples/, word for word (which the tests run)
+    ```cpp, ```cmake, ```python  must equal the listing of a file in Examples/ (which tests run)
   ```text                    shown, not run
 
-A document that names $DATA needs the real data sets, whose folder TIPP_SHARED_DATA names, and one that
-names build-paraview/ needs the plugin that is built there; where that is missing the test is skipped.
+A document that names $DATA needs the real data sets in the folder TIPP_SHARED_DATA. A document that names
+build-paraview/ needs the plugin, which must be built there. If one is missing, the test is skipped.
 
-A document that configures is run on that copy, any other on the build at hand as build/. A command
-that would repeat the whole build or this test is run in its light form, see LIGHT. For xvfb-run stands
-display.py of the ParaView tests, whose servers start one at a time.
+If a document runs configure, it uses this copy; otherwise the existing build is used as build/. A command that would
+repeat the whole build or this test is replaced by a short form, see LIGHT. xvfb-run is replaced by display.py of the
+ParaView tests, which starts one server at a time.
 """
 import os
 import pathlib
@@ -27,7 +27,7 @@ FENCE = re.compile(r"^```(\S*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 LISTINGS = {"cpp", "cmake", "python"}
 SKIPPED = 77
 
-# Command (a pattern over one line), and what runs in its place.
+# Command (a pattern for one line), and what runs instead of it.
 LIGHT = [
     (r"^sh Utilities/test\.sh$", r"sh Utilities/test.sh format"),
     (r"^sh Utilities/test\.sh build.*$", r"sh Utilities/test.sh format"),
@@ -54,7 +54,7 @@ def without_licence(text):
 
 
 def script_of(source, document, text):
-    """The document's commands as one script; exits if a block is of no known kind."""
+    """The document's commands as one script. Exits if a block is of an unknown kind."""
     known = [without_licence(t) for t in examples(source)]
     lines = ["set -eu"]
     for match in FENCE.finditer(text):
@@ -92,7 +92,7 @@ def skip(reason):
 
 
 def needs(source, scratch, script):
-    """What the commands need besides the build: settings of the environment; exits where it is missing."""
+    """Environment variables that the commands need. Exits if something that they need is missing."""
     settings = {}
     if "$DATA" in script:
         data = pathlib.Path(os.environ.get("TIPP_SHARED_DATA", ""))
@@ -108,7 +108,7 @@ def needs(source, scratch, script):
 
 
 def locked_display(source, folder):
-    """Puts a program xvfb-run into the folder."""
+    """Writes a program xvfb-run into the folder."""
     folder.mkdir()
     program = folder / "xvfb-run"
     display = source / "Testing" / "ParaView" / "display.py"
@@ -118,7 +118,7 @@ def locked_display(source, folder):
 
 def environment(source, scratch, build, own_build):
     settings = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "DESTDIR")}
-    # A repository of its own: scripts that ask git for the tracked files get the scratch copy's.
+    # A git repository of its own, so that scripts that list tracked files list those of the scratch copy.
     subprocess.run(["git", "init", "-q", scratch], check=True)
     subprocess.run(["git", "-C", scratch, "add", "--all"], check=True)
     programs = scratch / ".git" / "programs"

@@ -42,7 +42,7 @@ TEST(ExtendingDeviceKernel, AgreesWithThreads)
   std::vector<double> corners;
   for (int i = 0; i < 600; ++i)
   {
-    corners.push_back((i * i * 37) % 101); // small integers: both are exact
+    corners.push_back((i * i * 37) % 101); // small integers, so that both results are exact
   }
   const std::vector<double> onThreads = twiceAreas(corners, parseDeviceChoice("openmp"));
   EXPECT_EQ(onThreads, twiceAreas(corners, parseDeviceChoice("opencl")));

@@ -36,7 +36,7 @@ protected:
       output->SetLines(this->edgesOf(input->GetPoints()));
       return 1;
     }
-    catch (const std::exception& error) // no exception leaves a VTK class
+    catch (const std::exception& error) // no exception may leave a VTK class
     {
       vtkErrorMacro("Triangulating " << input->GetNumberOfPoints() << " points: " << error.what());
       output->Initialize();
@@ -75,7 +75,7 @@ private:
     return edges;
   }
 
-  /// Whether no triangle has the edge in the other direction.
+  /// Whether no triangle has the edge from b to a.
   static bool isHullEdge(const tipp::Triangulation& mesh, vtkIdType a, vtkIdType b)
   {
     for (std::size_t i = 0; i < mesh.Ids32.size(); ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An output format: the text format OFF, which many mesh programs read.
+// An output format: OFF, a text format that many mesh programs read.
 #include "Files/PendingOutput.h"
 #include "Meshes/MeshFiles.h"
 #include "Points/PointTable.h"
@@ -16,11 +16,11 @@ namespace
 
 using namespace tipp;
 
-/// Throws IOError if the file cannot be written; then a file that was there before stays.
+/// Throws IOError if the file cannot be written. An existing file is then kept.
 void writeOff(const std::string& path, const PointTable& points, TrianglesView triangles)
 {
   std::ostringstream text;
-  text.precision(17); // every double reads back as the same double
+  text.precision(17); // enough digits to read back the same double
   text << "OFF\n" << points.size() << ' ' << triangles.size() << " 0\n";
   for (std::size_t i = 0; i < points.size(); ++i)
   {
@@ -38,7 +38,7 @@ void writeOff(const std::string& path, const PointTable& points, TrianglesView t
   const std::string content = text.str();
   PendingFile file(path);
   file.file().write(0, content.data(), content.size());
-  file.commit(); // the file appears whole, or not at all
+  file.commit(); // renames the file to its final path
 }
 
 TEST(ExtendingOutputFormat, WritesPointsAndTriangles)

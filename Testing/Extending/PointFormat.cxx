@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A point format: files that hold x and y of each point as two doubles.
+// A point format: binary files with x and y of each point as doubles.
 #include "Files/IOError.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Points/PointStream.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sink of final triangles: adds up their areas instead of writing a mesh.
+// A sink for final triangles, which adds up their areas instead of writing a mesh.
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Points/PointStream.h"
 

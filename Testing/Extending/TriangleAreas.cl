@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Twice the areas of triangles: x and y of three corners each. Host side: DeviceKernel.cxx.
+// Computes twice the area of each triangle, from x and y of its three corners. The host code is in
+// DeviceKernel.cxx.
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 
 kernel void twiceAreas(global const double* corners, uint triangles, global double* areas)
@@ -7,7 +8,7 @@ kernel void twiceAreas(global const double* corners, uint triangles, global doub
   const uint t = get_global_id(0);
   if (t >= triangles)
   {
-    return; // whole groups are started
+    return; // the global size is rounded up to whole work groups
   }
   const double2 a = vload2(3 * t, corners);
   const double2 u = vload2(3 * t + 1, corners) - a;

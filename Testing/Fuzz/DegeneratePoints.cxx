@@ -20,7 +20,7 @@ double unit(Engine& random)
   return double(random() >> 11) * 0x1p-53;
 }
 
-/// One of many scales; the last are denormal, and so large that squares overflow.
+/// A random scale, from denormal coordinates to coordinates whose squares overflow.
 double drawScale(Engine& random)
 {
   const double scales[] = { 1, 1, 1, 0.1, 1.0 / 3, 1e-3, 1e7, 1e12, 0x1p-1074, 1e-310, 1e-300,
@@ -58,7 +58,7 @@ Coordinates mixedExponents(Engine& random, int count)
   return xy;
 }
 
-/// Moves a coordinate by up to `ulps` to either side.
+/// Moves a coordinate by up to `ulps` units in the last place, up or down.
 double nudge(Engine& random, double value, int ulps)
 {
   for (int i = below(random, 2 * ulps + 1) - ulps; i != 0; i += i < 0 ? 1 : -1)
@@ -83,7 +83,7 @@ Coordinates nearLine(Engine& random, int count)
   return xy;
 }
 
-/// Exactly on circles of integer radius, then nudged.
+/// Points exactly on circles of integer radius, then moved by a few ulps.
 Coordinates nearCircle(Engine& random, int count)
 {
   const int triples[][2] = { { 65, 0 }, { 63, 16 }, { 60, 25 }, { 56, 33 }, { 52, 39 } };
@@ -151,7 +151,7 @@ Coordinates latticeInSpace(Engine& random, int count)
   return xyz;
 }
 
-/// In a plane, or on a line of it.
+/// Points in a plane, or on a line in it, then moved by a few ulps.
 Coordinates nearPlane(Engine& random, int count)
 {
   const double slopes[] = { below(random, 5) / 3.0, below(random, 3) / 7.0 };
@@ -171,7 +171,8 @@ Coordinates nearPlane(Engine& random, int count)
   return xyz;
 }
 
-/// Exactly on a sphere of radius 9, then scaled and nudged; now and then its centre, too.
+/// Points exactly on a sphere of radius 9 and sometimes its centre, then scaled and moved by a few
+/// ulps.
 Coordinates nearSphere(Engine& random, int count)
 {
   const int squaresAddTo81[][3] = { { 9, 0, 0 }, { 8, 4, 1 }, { 7, 4, 4 }, { 6, 6, 3 } };

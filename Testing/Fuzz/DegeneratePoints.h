@@ -13,13 +13,12 @@ namespace test
 
 using Engine = std::mt19937_64;
 
-/// 0 to 60 points of a kind drawn too: small lattices (scaled, moved, sheared), mixed exponents,
-/// points an ulp beside a line or a circle, lines, with duplicates and now and then a point that is
-/// not finite.
+/// Draws 0 to 60 points of a random kind: small lattices (scaled, moved, sheared), mixed exponents,
+/// lines, points an ulp away from a line or a circle. Some are duplicates, and some are not finite.
 Coordinates drawDegeneratePoints(Engine& random);
 
-/// The same in space, x, y and z of each: lattices, mixed exponents, points an ulp beside a plane,
-/// a line or a sphere.
+/// The same in space, with x, y and z of each point: lattices, mixed exponents, and points an ulp
+/// away from a plane, a line or a sphere.
 Coordinates drawDegeneratePointsInSpace(Engine& random);
 
 } // namespace test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws point sets, constraints and options, triangulates, and compares with the oracle. A case is
-// known by its number and the seed: 'fuzzConstraints --seed S --case N' repeats one.
+// Draws point sets, constraints and options, triangulates them, and compares with the oracle. A
+// seed and a number identify a case: 'fuzzConstraints --seed S --case N' repeats it.
 #include "Comparison.h"
 #include "ConstrainedOracle.h"
 #include "DegeneratePoints.h"
@@ -54,7 +54,7 @@ testing::AssertionResult check(const Coordinates& xy, const std::vector<Constrai
   }
 }
 
-/// Draws and compares one case; prints it if it fails.
+/// Runs one case, and prints it if it fails.
 bool passes(std::uint64_t seed, std::uint64_t number)
 {
   std::seed_seq both{ seed, number };

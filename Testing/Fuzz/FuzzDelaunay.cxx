@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws point sets and options, triangulates, and compares with the oracle. A case is known by its
-// number and the seed: 'fuzzDelaunay --seed S --case N' repeats one.
+// Draws point sets and options, triangulates them, and compares with the oracle. A seed and a
+// number identify a case: 'fuzzDelaunay --seed S --case N' repeats it.
 #include "Comparison.h"
 #include "DegeneratePoints.h"
 #include "FuzzDriver.h"
@@ -26,7 +26,7 @@ TriangulationOptions drawOptions(Engine& random)
   return options;
 }
 
-/// Draws and compares one case; prints its points if it fails.
+/// Runs one case, and prints its points if it fails.
 bool passes(std::uint64_t seed, std::uint64_t number)
 {
   std::seed_seq both{ seed, number };

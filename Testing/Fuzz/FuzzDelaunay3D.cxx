@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws points in space, triangulates them with several partitions and threads, and lets an exact
-// checker prove the result. A case is known by its number and the seed:
-// 'fuzzDelaunay3D --seed S --case N' repeats one.
+// Draws points in space, triangulates them with several partitions and threads, and checks the
+// result with an exact checker. A seed and a number identify a case: 'fuzzDelaunay3D --seed S
+// --case N' repeats it.
 #include "Check/TetrahedraChecker.h"
 #include "DegeneratePoints.h"
 #include "FuzzDriver.h"
@@ -33,7 +33,8 @@ Tetrahedralization meshOf(const Coordinates& xyz, int partitions, int threads)
   return tetrahedralize(points.data(), points.size(), options);
 }
 
-/// What is wrong with the lists of points that are no vertices; empty: nothing.
+/// Describes an error in the lists of duplicates and rejected points; an empty string if there is
+/// none.
 std::string faultOfLists(const Coordinates& xyz, const Tetrahedralization& mesh)
 {
   std::map<std::array<double, 3>, PointId> first;
@@ -47,7 +48,7 @@ std::string faultOfLists(const Coordinates& xyz, const Tetrahedralization& mesh)
       rejected.push_back(id);
       continue;
     }
-    // Adding 0 makes a positive zero of a negative one.
+    // Adding 0 turns -0 into +0.
     const auto [at, isNew] =
       first.emplace(std::array<double, 3>{ xyz[i] + 0.0, xyz[i + 1] + 0.0, xyz[i + 2] + 0.0 }, id);
     if (isNew)
@@ -76,7 +77,7 @@ std::string faultOf(const Coordinates& xyz, const Tetrahedralization& mesh)
   return !faults.empty() ? faults.front() : mesh.Dimension == 3 ? faultOfLists(xyz, mesh) : "";
 }
 
-/// Draws and checks one case; prints its points if it fails.
+/// Runs one case, and prints its points if it fails.
 bool passes(std::uint64_t seed, std::uint64_t number)
 {
   std::seed_seq both{ seed, number };

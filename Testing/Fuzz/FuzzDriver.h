@@ -9,9 +9,9 @@ namespace tipp
 namespace test
 {
 
-/// main() of a fuzzer: `NAME [--seconds N] [--seed S] [--case N]` runs cases by number for N
-/// seconds (60), or the one case. `passes` draws a case from the seed and the number alone, and
-/// prints what is wrong if it does not pass.
+/// main() of a fuzzer. `NAME [--seconds N] [--seed S] [--case N]` runs one case after the other for
+/// N seconds (60 by default), or only the given case. `passes` must derive the case from the seed
+/// and the number alone, print an error, and return whether the case passed.
 int fuzz(const char* name, int argc, char** argv,
   bool (*passes)(std::uint64_t seed, std::uint64_t number));
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Changes the bytes of valid flat meshes, folders of .npy and .vtu files, and opens them: what
-// opens must lie in its files and be read without a fault, all else must be an IOError.
+// Changes bytes of valid flat meshes (folders of .npy files, and .vtu files) and opens them. If a
+// mesh opens, all its arrays must lie inside its files and be readable. Otherwise the error must be
+// an IOError.
 #include "Files/IOError.h"
 #include "Flat/FlatMesh.h"
 #include "FuzzDriver.h"
@@ -33,7 +34,7 @@ std::string contentOf(const fs::path& path)
   return { std::istreambuf_iterator<char>(file), {} };
 }
 
-/// Valid meshes to start from, in a folder that goes away with the program.
+/// Valid meshes to start with, in a temporary folder.
 class Seeds
 {
 public:
@@ -114,7 +115,7 @@ const Seeds& seeds()
 std::string mutated(const fs::path& path, std::mt19937_64& random)
 {
   const std::string bytes = contentOf(path);
-  // An .npy header has 128 bytes here; the XML part of a .vtu ends where its data begin.
+  // The length of the header: 128 bytes in these .npy files, the XML part in a .vtu file.
   const std::size_t data = bytes.find("encoding=\"raw\"");
   return test::mutate(bytes, data == std::string::npos ? 128 : data + 40, random);
 }
@@ -124,7 +125,7 @@ void write(const fs::path& path, const std::string& bytes)
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// One file of the folder or the .vtu file, changed.
+/// A random mesh with one changed file, or a changed .vtu file.
 std::string drawMesh(std::mt19937_64& random)
 {
   if (random() % 2)
@@ -146,7 +147,7 @@ std::string drawMesh(std::mt19937_64& random)
   return folder.string();
 }
 
-/// Everything that the mesh says it has; throws IOError where that is not so.
+/// Reads all arrays of the mesh. Throws IOError if they cannot be read.
 void readAll(const FlatMesh& mesh, Loader kind)
 {
   std::vector<RawArray> arrays = mesh.PointData;

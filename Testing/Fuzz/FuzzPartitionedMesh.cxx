@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Damages the index, the tables and the pieces of a partitioned mesh, gives them right checksums,
-// and reads all pieces: that works or ends with an IOError, and nothing else. A case is known by
-// its number and the seed: 'fuzzPartitionedMesh --seed S --case N' repeats one.
+// Damages the index, the tables and the pieces of a partitioned mesh, corrects their checksums, and
+// reads all pieces. This must succeed or throw an IOError. A seed and a number identify a case:
+// 'fuzzPartitionedMesh --seed S --case N' repeats it.
 #include "ForgedMesh.h"
 #include "FuzzDriver.h"
 #include "SourceMesh.h"
@@ -38,7 +38,7 @@ std::uint64_t drawWord(Engine& random)
   return kinds[below(random, 6)];
 }
 
-/// A number in the text becomes another, or a byte does.
+/// Replaces a number in the text, or a byte.
 void damageText(Engine& random, std::string& text)
 {
   std::size_t at = below(random, text.size());
@@ -63,7 +63,7 @@ void damageWords(Engine& random, std::string& tables)
   std::memcpy(tables.data() + 8 * below(random, tables.size() / 8), &word, 8);
 }
 
-/// Ids more often than by chance alone: the reader counts on them.
+/// Damages ids more often than other bytes, because the reader relies on them.
 void damagePiece(Engine& random, test::ForgedMesh& forged)
 {
   const std::size_t piece = below(random, forged.pieces());
@@ -100,7 +100,7 @@ public:
   FuzzedMesh(const FuzzedMesh&) = delete;
   FuzzedMesh& operator=(const FuzzedMesh&) = delete;
 
-  /// Whether all that came out was a mesh or an IOError.
+  /// Whether reading returned a mesh or threw an IOError.
   bool survives(std::uint64_t seed, std::uint64_t number) const
   {
     std::seed_seq both{ seed, number };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws quadruples of points that are degenerate or an ulp beside it, and compares every predicate
-// that has an answer for them with rational arithmetic.
+// Draws four points that are degenerate or an ulp away from it, and compares all predicates that
+// apply to them with rational arithmetic.
 #include "ExactOracle.h"
 #include "FuzzDriver.h"
 #include "NearDegenerate.h"
@@ -48,7 +48,7 @@ Points drawQuadruple(NearDegenerate& draw)
       return draw.integer(0, 9) == 0 ? draw.fewMagnitudes(-1074, 1020)
                                      : draw.fewMagnitudes(-100, 100);
     default:
-      // Rationals of thousands of bits are slow: one in fifty.
+      // Only one case in fifty, because rationals of thousands of bits are slow.
       return draw.integer(0, 49) == 0 ? draw.mixedExponents(-1030, 1000)
                                       : draw.mixedExponents(-40, 40);
   }
@@ -79,7 +79,7 @@ bool agree(Points q)
     grid.inCircle(q[0], q[1], q[2], q[3]) == side;
 }
 
-/// A case is a thousand quadruples.
+/// A case consists of a thousand draws.
 bool passes(std::uint64_t seed, std::uint64_t number)
 {
   NearDegenerate draw(unsigned(seed * 1000003 + number));

@@ -11,7 +11,7 @@ namespace test
 namespace
 {
 
-/// Numbers that are hard on counts and offsets.
+/// Numbers that are likely to break the handling of counts and offsets.
 const char* const hardNumbers[] = { "0", "1", "-1", "2", "3", "7", "255", "65536", "2147483647",
   "2147483648", "4294967295", "4294967296", "9223372036854775807", "9223372036854775808",
   "18446744073709551615", "99999999999999999999", "1e3", "", " ", "0x10" };

@@ -10,8 +10,9 @@ namespace tipp
 namespace test
 {
 
-/// Changes a file's bytes in one to four ways, mostly within its first `header` bytes: bits and
-/// bytes, digits and whole numbers, pieces doubled, moved or taken out, an end cut off or put on.
+/// Changes a file's bytes in one to four ways, mostly in its first `header` bytes: changes bits,
+/// bytes, digits or whole numbers; duplicates, moves or removes parts; truncates or extends the
+/// end.
 std::string mutate(std::string bytes, std::size_t header, std::mt19937_64& random);
 
 } // namespace test

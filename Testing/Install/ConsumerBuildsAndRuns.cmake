@@ -1,5 +1,5 @@
 cmake_minimum_required(VERSION 3.22)
-# Builds the example project against the package in PREFIX and runs its programs.
+# Builds the example project against the package in PREFIX, and runs its programs.
 file(REMOVE_RECURSE "${WORK}")
 foreach (command IN ITEMS
     "-S;${SOURCE};-B;${WORK};-DCMAKE_PREFIX_PATH=${PREFIX};-DCMAKE_CXX_COMPILER=${CXX};-DVTK_DIR=${VTK}"

@@ -1,6 +1,6 @@
 cmake_minimum_required(VERSION 3.22)
-# Makes the Debian packages of BUILD, unpacks them into one root and uses what lies there, as on a machine
-# where they are installed. VERSION is the one they must have.
+# Makes the Debian packages of BUILD, unpacks them into one folder and uses them there, as if they
+# were installed. They must have VERSION.
 find_program(DPKG_DEB dpkg-deb)
 find_program(DPKG_SHLIBDEPS dpkg-shlibdeps)
 if (NOT DPKG_DEB OR NOT DPKG_SHLIBDEPS)

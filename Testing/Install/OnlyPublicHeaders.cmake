@@ -1,5 +1,5 @@
 cmake_minimum_required(VERSION 3.22)
-# The core's headers are internal: only those of VTK classes and modules are installed.
+# The core's headers are internal: only the headers of VTK classes and modules may be installed.
 file(GLOB_RECURSE headers RELATIVE "${PREFIX}/include" "${PREFIX}/include/*")
 if (NOT "tipp/vtkTIPPDelaunay2D.h" IN_LIST headers)
   message(FATAL_ERROR "vtkTIPPDelaunay2D.h is not installed.")

@@ -1,4 +1,4 @@
-# Calls tipp_optional_part(PART FOUND ...) with TIPP_USE_PART as WANTED, and prints what comes of it.
+# Calls tipp_optional_part(PART FOUND ...) with TIPP_USE_PART set to WANTED, and prints the result.
 include("${SOURCE}/CMake/TIPPOptionalPart.cmake")
 set(TIPP_USE_PART "${WANTED}")
 tipp_optional_part(PART "${FOUND}" "it is not found; install it.")

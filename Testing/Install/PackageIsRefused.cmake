@@ -1,5 +1,5 @@
 cmake_minimum_required(VERSION 3.22)
-# A project that asks for REQUEST must fail to configure, with MESSAGE among its words.
+# A project that requests REQUEST must fail to configure, with a message that contains MESSAGE.
 file(REMOVE_RECURSE "${WORK}")
 file(WRITE "${WORK}/CMakeLists.txt"
   "cmake_minimum_required(VERSION 3.22)\nproject(Consumer LANGUAGES C CXX)\n"
@@ -8,7 +8,7 @@ execute_process(
   COMMAND "${CMAKE_COMMAND}" -S "${WORK}" -B "${WORK}/build" "-DCMAKE_PREFIX_PATH=${PREFIX}"
     "-DCMAKE_CXX_COMPILER=${CXX}" "-DVTK_DIR=${VTK}"
   RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-# CMake wraps its messages.
+# CMake breaks the lines of its messages.
 string(REGEX REPLACE "[ \n]+" " " output "${output}")
 string(FIND "${output}" "${MESSAGE}" place)
 if (status EQUAL 0 OR place EQUAL -1)

@@ -1,5 +1,5 @@
 cmake_minimum_required(VERSION 3.22)
-# The installed tool finds its libraries beside it, with no help from the environment.
+# The installed tool must find its libraries in the prefix, without environment variables.
 set(tool "${PREFIX}/bin/tipp")
 execute_process(COMMAND "${CMAKE_COMMAND}" -E env --unset=LD_LIBRARY_PATH
   "${tool}" points --distribution uniform --count 1000 --seed 1 -o "${PREFIX}/points.npy"

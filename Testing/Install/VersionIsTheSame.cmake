@@ -1,5 +1,5 @@
 cmake_minimum_required(VERSION 3.22)
-# CITATION.cff and the newest entry of CHANGELOG.md in SOURCE must be of VERSION.
+# CITATION.cff and the newest entry of CHANGELOG.md in SOURCE must state VERSION.
 foreach (check IN ITEMS "CITATION.cff|version: ([0-9.]+)" "CHANGELOG.md|## ([0-9.]+)")
   string(REPLACE "|" ";" check "${check}")
   list(GET check 0 file)

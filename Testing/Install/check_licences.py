@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fails if the libraries or the tool were compiled with a CGAL header under the GPL.
 
-CGAL's kernels and number types are LGPL, many of its algorithms GPL; each header says which.
+CGAL's kernels and number types are LGPL, but many of its algorithms are GPL; each header states its licence.
 
 Usage: check_licences.py NINJA BUILD_DIR
 """
@@ -15,7 +15,7 @@ GPL = re.compile(r"SPDX-License-Identifier:.*(?<!L)GPL")
 
 
 def headers_of_shipped_objects(listing):
-    """Pairs of object and header, from `ninja -t deps`: 'object: ...' and indented headers."""
+    """Pairs of an object and a header, from `ninja -t deps`: lines 'object: ...', followed by indented headers."""
     shipped = None
     for line in listing.splitlines():
         if line.startswith(" "):

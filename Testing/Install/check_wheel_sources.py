@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fails if a source of the Python wheel, which is built without VTK, reaches a header of VTK.
+"""Fails if a source of the Python wheel, which is built without VTK, includes a VTK header directly or indirectly.
 
 Usage: python check_wheel_sources.py TOP SOURCE...
 """
@@ -8,17 +8,17 @@ import re
 import sys
 
 MODULES = ("Accelerators", "IO", "Filters", "Plugins/Wheel")
-OWN = re.compile(r"vtkTIPP\w+Module\.h")  # made by CMake, in the wheel's build too
+OWN = re.compile(r"vtkTIPP\w+Module\.h")  # made by CMake, also in the wheel's build
 
 
 def vtk_headers(top, sources):
-    """Headers of VTK that the sources include, each with the file that includes it and how that is reached."""
+    """VTK headers that the sources include, each with the including file and the chain of includes."""
     waiting = [(source, "") for source in sources]
     seen = set(sources)
     while waiting:
         file, through = waiting.pop()
         text = file.read_text()
-        if "TIPP_WITHOUT_VTK" in text:  # its lines on VTK are left out
+        if "TIPP_WITHOUT_VTK" in text:  # its lines about VTK are not compiled
             continue
         for name in re.findall(r'^\s*#\s*include "(.+?)"', text, re.MULTILINE):
             if name.startswith("vtk") and not OWN.fullmatch(name):

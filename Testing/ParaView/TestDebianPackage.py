@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Debian package of the plugin, unpacked anywhere, is loaded by the list of plugins in it."""
+"""Unpacks the plugin's Debian package anywhere, and loads the plugin by the list of plugins in the package."""
 import os
 import shutil
 import subprocess

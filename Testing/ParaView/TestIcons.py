@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every icon that the proxies name is in the plugin, as an SVG; no other is."""
+"""The plugin must contain every icon that its proxies name as an SVG, and no others."""
 import re
 import xml.etree.ElementTree as ElementTree
 
 from run_paraview import Session, expect
 
-# The icons are Qt resources, which Qt itself is asked for.
+# Icons are Qt resources, so the test queries Qt.
 PROGRAM = """
 import ctypes, os, pathlib
 from paraview.simple import *

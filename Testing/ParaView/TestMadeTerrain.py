@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Examples/pvbatch/made_terrain.py gives the same image on any number of ranks, and the picture it gave."""
+"""Examples/pvbatch/made_terrain.py must give the same image on any number of ranks, and the picture of the baseline."""
 import numpy as np
 
 from run_paraview import Session, expect, expect_picture, parallel_image
@@ -11,7 +11,7 @@ image, arrays = parallel_image(session.scratch / "terrain.pvti")
 expect(image.GetDimensions() == (301, 201, 1), f"the image has {image.GetDimensions()} samples")
 expect((arrays["vtkValidPointMask"] == 1).all(), "samples in the mesh were not found")
 
-# The same points, triangulated and sampled in this process with the other VTK, bit for bit.
+# For comparison, the same points are triangulated and sampled in this process with the other VTK.
 import tipp
 
 xy = np.random.default_rng(3).random((20000, 2))
@@ -20,7 +20,7 @@ mesh = tipp.delaunay_2d(xy, point_data={"height": height})
 expected = tipp.as_array(tipp.resample(mesh, (0.2, 0.8, 0.2, 0.6, 0, 0), (301, 201, 1)), "height")
 np.testing.assert_array_equal(arrays["height"].reshape(201, 301), expected)
 
-# The stored mesh has each triangle once, however many ranks wrote it.
+# The stored mesh must have each triangle once, however many ranks wrote it.
 stored = tipp.read(session.scratch / "terrain.tipp").GetNumberOfCells()
 expect(stored == mesh.GetNumberOfPolys(), f"{stored} triangles were stored, {mesh.GetNumberOfPolys()} were made")
 

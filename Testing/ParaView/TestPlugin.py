@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The plugin loads without a warning, and its proxies have the properties of those they stand in for."""
+"""The plugin must load without a warning, and its proxies have the properties of the proxies that they replace."""
 from run_paraview import Session, expect
 
 PROGRAM = """

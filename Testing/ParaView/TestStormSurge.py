@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Examples/pvbatch/storm_surge.py on the EC95d grid: the samples, and the picture it gave."""
+"""Examples/pvbatch/storm_surge.py on the EC95d grid must give the expected samples and the picture of the baseline."""
 import numpy as np
 
 from run_paraview import Session, expect, expect_picture, parallel_image

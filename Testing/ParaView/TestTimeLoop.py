@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Examples/pvbatch/time_loop.py samples what the simulation's memory holds at each step."""
+"""Examples/pvbatch/time_loop.py samples a simulation's data in memory at each time step."""
 from run_paraview import Session, expect
 
 session = Session(__doc__)

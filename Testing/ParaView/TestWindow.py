@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""ParaView's window loads the plugin by itself, and shows the filters without a warning.
+"""ParaView's window must load the plugin automatically, and show the filters without a warning.
 
-Its pictures stay in the scratch folder; Documentation/Pictures/paraview.png and range.png were made so.
+The pictures stay in the scratch folder. Documentation/Pictures/paraview.png and range.png were made by this test.
 """
 import shutil
 
@@ -23,7 +23,7 @@ else:
     session.tipp("delaunay", points, "-o", session.scratch / "mesh.vtu")
     session.tipp("partition", session.scratch / "mesh.vtu", "-o", session.scratch / "surge")
     array, colours = "vtkValidPointMask", (0, 1)
-# The reader with a range, whose box the window shows.
+# The reader with a range. The window shows the range as a box.
 RANGE = """
 mesh.UseRange = 1
 mesh.RangePosition = [-80, 25, 0]
@@ -41,6 +41,6 @@ for name, more in (("paraview", ""), ("range", RANGE if surge.exists() else ""))
     save_png(rows, session.scratch / f"{name}.png")
     expect("information: (0, 1023," in text, "the filter made no image")
     expect(not COMPLAINT.search(text), "the client warned or failed, see above")
-    # The view in the middle shows more colours than a window without a picture has.
+    # The view in the middle must have more colours than an empty view.
     view = rows[200:700, 500:1200].reshape(-1, 3)
     expect(len(np.unique(view, axis=0)) > 50, "the view is empty")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A virtual display of one's own. (xvfb-run -a may give two programs that start together the same one.)
+"""Runs a program on its own virtual display. (xvfb-run -a may give two programs that start together the same one.)
 
 Usage: display.py COMMAND [ARGUMENT...]     runs the command on such a display
 """
@@ -13,7 +13,7 @@ import tempfile
 
 @contextlib.contextmanager
 def one_at_a_time():
-    """Servers that start together may take each other's socket."""
+    """Two servers that start together may use the same socket, so only one may start at a time."""
     with open(os.path.join(tempfile.gettempdir(), f"tipp-display-{os.getuid()}.lock"), "w", encoding="utf-8") as file:
         fcntl.flock(file, fcntl.LOCK_EX)
         yield
@@ -21,9 +21,9 @@ def one_at_a_time():
 
 @contextlib.contextmanager
 def virtual_display(size=(1280, 1024), frames=None):
-    """The display's name. Xvfb keeps what it shows in the folder `frames`, if there is one."""
+    """The name of the display. If `frames` is a folder, Xvfb keeps the display's pixels there."""
     read_end, write_end = os.pipe()
-    # A server that resets when its last program leaves refuses the next one meanwhile.
+    # Without -noreset, the server resets when its last program ends, and refuses other programs meanwhile.
     command = ["Xvfb", "-displayfd", str(write_end), "-nolisten", "tcp", "-noreset",
                "-screen", "0", f"{size[0]}x{size[1]}x24"]
     if frames:
@@ -32,7 +32,7 @@ def virtual_display(size=(1280, 1024), frames=None):
         server = subprocess.Popen(command, pass_fds=[write_end], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(write_end)
         with os.fdopen(read_end) as answer:
-            number = answer.readline().strip()  # empty if the server ended
+            number = answer.readline().strip()  # empty if the server has ended
     try:
         if not number:
             raise RuntimeError("Xvfb did not start.")

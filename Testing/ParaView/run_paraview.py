@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs programs in ParaView with the plugin, for the tests beside this file."""
+"""Runs programs in ParaView with the plugin, for the tests in this folder."""
 import argparse
 import os
 import pathlib
@@ -38,7 +38,7 @@ class Session:
         self.scratch.mkdir(parents=True)
 
     def data_file(self, name):
-        """A file of the real data; the test is skipped where it is missing."""
+        """The path of a file of the real data; skips the test if the file does not exist."""
         path = self.data / name
         if not path.exists():
             skip(f"there is no {path}")
@@ -50,7 +50,7 @@ class Session:
                 "TIPP_PLUGIN_DIR": str(self.plugin), "OMP_NUM_THREADS": "1", "HOME": str(self.scratch)}
 
     def run(self, command, timeout=100):
-        """What the command prints; the test fails if it fails."""
+        """The output of a command; the test fails if the command fails."""
         with virtual_display() as display:
             result = subprocess.run([str(c) for c in command], env={**self.environment(), "DISPLAY": display},
                                     text=True, timeout=timeout, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
@@ -60,7 +60,7 @@ class Session:
         return result.stdout
 
     def pvbatch(self, script, *arguments):
-        """Runs a script on the session's ranks; nothing but what it prints may be printed."""
+        """Runs a script on the session's ranks and returns its output; other messages are failures."""
         mpirun = ["mpirun", "--oversubscribe", "--bind-to", "none", "-np", self.ranks] if self.ranks > 1 else []
         output = self.run([*mpirun, "pvbatch", script, *arguments])
         expect(not COMPLAINT.search(output), "ParaView warned or failed, see above.")

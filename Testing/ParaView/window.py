@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Starts ParaView's window on a virtual display, with the plugin loaded by itself, and takes its picture."""
+"""Starts ParaView's window on a virtual display, where the plugin is loaded automatically, and takes a picture."""
 import os
 import struct
 import subprocess
@@ -9,7 +9,7 @@ import numpy as np
 
 from display import virtual_display
 
-# Run by the client: the filters, then a mark that the window shows them.
+# Runs in the client: shows the filters, and then writes a file that says so.
 SCRIPT = """
 from paraview.simple import *
 mesh = TIPPReader(FileName={mesh!r})
@@ -35,7 +35,7 @@ open({mark!r}, "w").close()
 
 
 def screen(path):
-    """What a virtual display shows, from the file that Xvfb keeps it in (format XWD), as RGB rows."""
+    """The pixels of a virtual display as RGB rows, from the file in which Xvfb keeps them (format XWD)."""
     data = path.read_bytes()
     header = struct.unpack(">25I", data[:100])
     size, width, height, row, colours = header[0], header[4], header[5], header[12], header[19]
@@ -54,7 +54,7 @@ def wait_for(condition, seconds, process):
 
 def photograph(plugin, environment, scratch, mesh, array, preset="Viridis (matplotlib)", colours=(0, 1),
                more="", size=(1280, 800)):
-    """The window as RGB rows, after the lines `more` of Python, and what the client printed."""
+    """The window's pixels as RGB rows, after the Python lines `more` have run, and the client's output."""
     scratch.mkdir()
     frames, mark = scratch / "frames", scratch / "shown"
     frames.mkdir()
@@ -71,7 +71,7 @@ def photograph(plugin, environment, scratch, mesh, array, preset="Viridis (matpl
             stderr=subprocess.STDOUT, env={**environment, "DISPLAY": display, "PV_PLUGIN_CONFIG_FILE": str(plugins)})
         try:
             shown = wait_for(mark.exists, 80, client)
-            time.sleep(4)  # panels are drawn after the script
+            time.sleep(4)  # panels are drawn later than the script runs
             picture = screen(frames / "Xvfb_screen0")
             text = log.read_text(encoding="utf-8")
         finally:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every argument of every public function, given what it does not take: one sentence that names it."""
+"""Every argument of every public function gets invalid values: the error must be one sentence that names it."""
 import importlib.util
 import inspect
 import os
@@ -16,7 +16,7 @@ import tipp
 NAN, INF = float("nan"), float("inf")
 POINTS = np.random.default_rng(2).random((40, 2))
 
-# For each kind of argument what is of a wrong type, and what is of a right type and a wrong value.
+# For each kind of argument: values of a wrong type, and wrong values of a right type.
 NUMBER = ([None, "1", [1], {}, True, 1j], [NAN, INF, -INF, 10**400])
 IS_WHEEL = importlib.util.find_spec("tipp._core") is not None
 LENGTH = (NUMBER[0], NUMBER[1] + [-1])
@@ -32,7 +32,7 @@ DATA = ([None, "text", 3, {}, [], np.zeros((3, 3)), vtkTable(), vtkPolyData], []
 
 
 def several(wrong_types, wrong_values, good, count, fewer=None):
-    """A sequence of wrong length, and with one wrong value."""
+    """A sequence of wrong length, and one with a wrong value."""
     fewer = count - 1 if fewer is None else fewer
     types = [3, 1.5, True, "abc"[:count], {1: 2}, {1, 2}] + [[good] * (count - 1) + [w] for w in wrong_types]
     values = [[], [good] * fewer, [good] * (count + 1)] + [[w] + [good] * (count - 1) for w in wrong_values]
@@ -110,7 +110,7 @@ class Arguments(unittest.TestCase):
         self.output = os.path.join(self.folder.name, "out.tipp")
 
     def good(self, function):
-        """The arguments that a function needs."""
+        """The arguments that a function requires."""
         return {
             "delaunay": {"points": POINTS}, "delaunay_2d": {"points": POINTS},
             "delaunay_3d": {"points": np.c_[POINTS, POINTS[:, 0] * POINTS[:, 1]]},
@@ -129,7 +129,7 @@ class Arguments(unittest.TestCase):
     def test_wrong_types_and_values_are_refused_in_one_sentence_that_names_the_argument(self):
         for function, arguments in TABLE.items():
             if IS_WHEEL and function == "delaunay_3d":
-                continue  # it refuses all
+                continue  # no argument of this function can be valid
             for argument, (types, values) in arguments.items():
                 default = inspect.signature(getattr(tipp, function)).parameters[argument].default
                 wrong = [(TypeError, value) for value in types if value is not None or default is not None]
@@ -169,10 +169,10 @@ class Arguments(unittest.TestCase):
 
 
 class Messages(unittest.TestCase):
-    """What VTK says as an error is the exception's one sentence."""
+    """Errors of VTK become exceptions of one sentence."""
 
     @unittest.skipIf(IS_WHEEL, "the wheel takes no sentences from VTK")
-    def test_places_in_the_source_and_addresses_are_left_out(self):
+    def test_source_positions_and_addresses_are_left_out(self):
         told = "ERROR: In /build/Filters/vtkThing.cxx, line 57\nvtkThing (0x55d0c8a0): the mesh\n has no cells.\n\n"
         self.assertEqual(tipp._run._first_sentence(told), "the mesh has no cells.")
         told = "vtkCompositeDataPipeline (0x1f): Input for algorithm vtkThing(0x55d0c8a0) is missing."
@@ -181,7 +181,7 @@ class Messages(unittest.TestCase):
                 "  Modified Time: 117\n")
         self.assertEqual(tipp._run._first_sentence(told), "Algorithm vtkThing returned failure.")
 
-    def test_a_temporary_file_is_named_as_the_output_that_it_is_for(self):
+    def test_messages_name_the_output_and_not_its_temporary_file(self):
         program = (
             "import resource, signal, numpy as np, tipp\n"
             "mesh = tipp.delaunay_2d(np.random.default_rng(1).random((3000, 2)))\n"
@@ -202,13 +202,13 @@ class Messages(unittest.TestCase):
 
 
 class Limits(unittest.TestCase):
-    """What is too large is an exception, and Python goes on."""
+    """Requests that are too large become exceptions, and Python continues."""
 
     def run_python(self, program):
         program = "import numpy as np, tipp\np = np.random.default_rng(1).random((3000, 2))\n" + program
         return subprocess.run([sys.executable, "-c", program], text=True, capture_output=True, timeout=250)
 
-    def test_an_image_larger_than_memory_tells_its_bytes(self):
+    def test_an_image_larger_than_memory_reports_its_bytes(self):
         for dimensions in ("(100000, 100000, 100)", "(10**9, 10**9, 1)"):
             done = self.run_python(f"tipp.resample(tipp.delaunay_2d(p), dimensions={dimensions})")
             self.assertRegex(done.stderr.splitlines()[-1], "^(RuntimeError|MemoryError): .* GB of memory, and this")
@@ -217,7 +217,7 @@ class Limits(unittest.TestCase):
         done = self.run_python("tipp.delaunay(p, partitions=(10**9, 10**9))")
         self.assertRegex(done.stderr.splitlines()[-1], "^RuntimeError: .*partitions are too many")
 
-    def test_more_threads_than_can_be_of_use_change_nothing(self):
+    def test_too_many_threads_change_nothing(self):
         done = self.run_python(
             "a = tipp.delaunay(p, threads=4096)\n"
             "assert (np.sort(a, axis=None) == np.sort(tipp.delaunay(p), axis=None)).all()\n"
@@ -225,7 +225,7 @@ class Limits(unittest.TestCase):
         self.assertEqual((done.stdout.strip(), done.returncode), ("90000", 0), done.stderr)
 
     @unittest.skipIf(IS_WHEEL, "the wheel has no VTK classes")
-    def test_more_threads_of_the_class_than_can_be_of_use_change_nothing(self):
+    def test_too_many_threads_of_the_class_change_nothing(self):
         done = self.run_python(
             "f = tipp.vtkRangeResampleFilter()\n"
             "f.SetInputDataObject(tipp.delaunay_2d(p))\n"
@@ -236,7 +236,7 @@ class Limits(unittest.TestCase):
         self.assertEqual((done.stdout.strip(), done.returncode), ("90000", 0), done.stderr)
 
     @unittest.skipIf(IS_WHEEL, "the wheel has no VTK classes")
-    def test_numbers_that_are_none_are_refused_by_the_class_too(self):
+    def test_nan_is_refused_by_the_class_too(self):
         for name, value in (("Alpha", "nan"), ("Offset", "nan"), ("Tolerance", "nan")):
             f = tipp.vtkTIPPDelaunay2D()
             f.SetInputData(tipp.delaunay_2d(POINTS))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arrays of every type and layout: taken with their values, or refused in one sentence."""
+"""Arrays of every type and layout are used with their values, or refused in one sentence."""
 import os
 import tempfile
 import unittest
@@ -17,13 +17,13 @@ def random_points(columns=3):
 
 
 def stored(values):
-    """The values of a point array as the mesh has them."""
+    """The values of a point array in the mesh."""
     mesh = tipp.delaunay_2d(random_points(), point_data={"v": values})
     return tipp.as_array(mesh, "v")
 
 
 def coordinates(points):
-    """The coordinates as the mesh has them."""
+    """The coordinates in the mesh."""
     return vtk_to_numpy(tipp.delaunay_2d(points).GetPoints().GetData())
 
 
@@ -57,13 +57,13 @@ class PointData(unittest.TestCase):
             values = np.ma.masked_equal(np.arange(COUNT).astype(kind), 5)
             np.testing.assert_array_equal(np.flatnonzero(np.isnan(stored(values))), [5])
 
-    def test_masked_integers_are_refused_and_unmasked_ones_taken(self):
+    def test_masked_integers_are_refused_and_unmasked_ones_accepted(self):
         values = np.ma.masked_equal(np.arange(COUNT), 5)
         with self.assertRaisesRegex(ValueError, r"^point_data\['v'\] has masked entries .* filled\(-1\)"):
             stored(values)
         np.testing.assert_array_equal(stored(np.ma.array(np.arange(COUNT))), np.arange(COUNT))
 
-    def test_what_is_no_real_number_is_refused(self):
+    def test_values_that_are_not_real_numbers_are_refused(self):
         for values in (np.zeros(COUNT, complex), np.zeros(COUNT, object), np.full(COUNT, "a"), np.full(COUNT, b"a"),
                        np.zeros(COUNT, "M8[s]"), np.zeros(COUNT, "m8[s]"), np.zeros(COUNT, [("a", "f8")]),
                        [None] * COUNT, "text"):
@@ -120,7 +120,7 @@ class Points(unittest.TestCase):
         np.testing.assert_array_equal(coordinates(p), p)
         self.assertNotEqual(coordinates(p).__array_interface__["data"][0], p.__array_interface__["data"][0])
 
-    def test_what_is_no_real_number_is_refused(self):
+    def test_values_that_are_not_real_numbers_are_refused(self):
         for kind in (complex, object, "U3", "S3", "M8[s]", [("a", "f8")], bool, np.longdouble):
             if np.dtype(kind) != np.float64:
                 with self.assertRaisesRegex(TypeError, "^points (is|are) of type"):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""tipp.check finds no fault in what is correct, and every fault that is put in."""
+"""tipp.check finds no error in correct meshes, and finds each error that a test inserts."""
 import unittest
 
 import numpy as np
@@ -30,7 +30,7 @@ class Correct(unittest.TestCase):
                 self.assertTrue(report)
         self.assertEqual(19 * 29, tipp.check(clouds["grid"], tipp.delaunay(clouds["grid"])).ties)
 
-    def test_a_mesh_brings_its_points_and_neighbors(self):
+    def test_points_and_neighbors_are_taken_from_a_mesh(self):
         mesh = tipp.delaunay_2d(RANDOM.random((500, 2)), neighbors=True)
         self.assertTrue(tipp.check(mesh))
 
@@ -64,7 +64,7 @@ class Faulty(unittest.TestCase):
         self.triangles[7] = self.triangles[7, ::-1]
         self.assertEqual(1, self.faults(self.triangles)["triangles that are clockwise or flat"])
 
-    def test_ids_of_no_point_and_of_one_that_is_not_finite(self):
+    def test_invalid_ids_and_ids_of_points_that_are_not_finite(self):
         self.points[self.triangles[3, 0]] = np.nan
         self.assertIn("triangles that name no point, or one that is not finite", self.faults(self.triangles))
         self.triangles[3, 0] = 300
@@ -114,7 +114,7 @@ class Faulty(unittest.TestCase):
         self.assertEqual({}, self.faults(self.triangles[inside], boundary_free=True))
 
     def test_arguments_are_named(self):
-        with self.assertRaisesRegex(ValueError, "triangles are None"):
+        with self.assertRaisesRegex(ValueError, "triangles is None"):
             tipp.check(self.points)
         with self.assertRaisesRegex(ValueError, "triangles have the shape"):
             tipp.check(self.points, [[0, 1]])
@@ -161,7 +161,7 @@ def _points(mesh):
 
 
 def _cells(mesh):
-    """Lines and triangles."""
+    """Constraints: lines and triangles."""
     if isinstance(mesh, tipp.Mesh):
         return mesh.lines, mesh.cells
     from vtkmodules.util.numpy_support import vtk_to_numpy

@@ -24,7 +24,7 @@ def on_ranks(ranks, *arguments):
 
 
 def rank_process(mpirun, rank):
-    """The process of that rank, a child of mpirun."""
+    """The process of the given rank, a child of mpirun."""
     for entry in pathlib.Path("/proc").glob("[0-9]*"):
         try:
             parent = int((entry / "stat").read_text().rpartition(")")[2].split()[1])
@@ -54,7 +54,7 @@ class Commands(unittest.TestCase):
         self.make("points", "--distribution", "uniform", "--count", count, "-o", "points.npy")
 
     def make_surface(self):
-        """mesh.vtu with an array of the points and one of the cells, mesh.tipp and the flat mesh."""
+        """Makes mesh.vtu with a point array and a cell array, mesh.tipp and a flat mesh."""
         rng = np.random.default_rng(3)
         points = rng.random((4000, 3)) * (1, 1, 0)
         np.save(self.folder / "points.npy", points[:, :2])
@@ -111,7 +111,7 @@ class Resample(Commands):
                                              "--bounds", 0.05, 0.2, 0.05, 0.2, 0, 0)
 
     def test_mixed_cells_give_the_image_of_one_process(self):
-        """Two blocks of hexahedra and a tetrahedron behind triangles, which a mesh of volumes ignores."""
+        """Two blocks of hexahedra, and a tetrahedron after triangles, which are ignored beside solid cells."""
         points = np.array([(x, y, z) for z in range(2) for y in range(2) for x in range(3)], dtype=float)
         cube = [0, 1, 4, 3, 6, 7, 10, 9]
         cells = [(VTK_TRIANGLE, (0, 1, 3))] * 9
@@ -135,7 +135,7 @@ class Resample(Commands):
 
 
 class FirstRankAlone(Commands):
-    """Commands that have nothing to share are done once."""
+    """Commands that cannot be distributed run on one rank only."""
 
     def expect_once(self, *arguments):
         alone = self.run_tipp(1, *arguments)
@@ -165,7 +165,7 @@ class FirstRankAlone(Commands):
     def test_devices_are_listed_once(self):
         self.expect_once("devices")
 
-    def test_wrong_usage_is_told_once(self):
+    def test_wrong_usage_is_reported_once(self):
         run = self.run_tipp(3, "points", "--count", "many")
         self.assertEqual(run.returncode, 2)
         self.assertEqual(run.stderr.count("see 'tipp points --help'"), 1, run.stderr)
@@ -175,13 +175,13 @@ class SignalToOneRank(Commands):
     """A rank hangs in a call that reads or writes a file, so that only the signal can end the run."""
 
     def hang(self, call, rank, *arguments):
-        """The run, hanging; None if it ended before that call."""
+        """Starts the run and waits until it hangs. Returns None if it ended before that call."""
         mark = self.folder / "mark"
         mark.unlink(missing_ok=True)
         environment = dict(os.environ, TIPP_HANG_AT=str(call), TIPP_HANG_MARK=str(mark), TIPP_HANG_RANK=str(rank))
         command = on_ranks(2, *arguments)
         at = command.index(TIPP)
-        # mpirun itself is not to hang.
+        # Only the rank must hang, not mpirun.
         command = [*command[:at], "env", f"LD_PRELOAD={HANG_AT_CALL}", *command[at:]]
         run = subprocess.Popen(command, cwd=self.folder, env=environment, text=True, stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE)
@@ -257,14 +257,14 @@ class SignalToOneRank(Commands):
 
 class Launcher(Commands):
     def test_rank_ends_when_its_launcher_is_killed(self):
-        # The rank waits for input that never comes, where MPI cannot notice.
+        # The rank waits for input that is never written. MPI cannot notice anything there.
         read, write = os.pipe()
         launcher = subprocess.Popen(
             ["sh", "-c", f'"$0" delaunay - -o "$1" <&{read} & echo $!; exec sleep 1000', TIPP, str(self.folder / "t.npy")],
             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, pass_fds=[read], env=dict(os.environ, PMI_RANK="0"),
             text=True)
         rank = pathlib.Path("/proc") / launcher.stdout.readline().strip()
-        while len(list((rank / "task").iterdir())) < 2:  # signals are watched by a thread
+        while len(list((rank / "task").iterdir())) < 2:  # signals are handled by a second thread
             time.sleep(0.01)
         launcher.kill()
         launcher.wait()

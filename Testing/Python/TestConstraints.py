@@ -8,7 +8,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import tipp
 
-# A square, and in it a smaller one with a point in the middle.
+# A square, and inside it a smaller square with a point in the middle.
 SQUARES = np.array([[0, 0], [8, 0], [8, 8], [0, 8], [3, 3], [5, 3], [5, 5], [3, 5], [4, 4.25]], float)
 INNER = [4, 5, 6, 7]
 
@@ -70,7 +70,7 @@ class Polygons(unittest.TestCase):
     def test_clockwise_is_a_hole(self):
         self.assertEqual(60, area(tipp.delaunay_2d(SQUARES, polygons=[INNER[::-1]])))
 
-    def test_coordinates_are_points_where_there_are_some(self):
+    def test_coordinates_of_points_refer_to_these_points(self):
         mesh = tipp.delaunay_2d(SQUARES, polygons=[SQUARES[INNER]])
         self.assertEqual(9, mesh.GetNumberOfPoints())
         self.assertEqual(4, area(mesh))
@@ -102,13 +102,13 @@ class Arguments(unittest.TestCase):
         cases = [
             ({"edges": [[0, 1, 2]]}, ValueError, "edges have the shape"),
             ({"edges": [[0.5, 1.5]]}, ValueError, "edges have the shape"),
-            ({"polygons": 5}, TypeError, "polygons are no list"),
+            ({"polygons": 5}, TypeError, "polygons is not a list"),
             ({"polygons": [[0.5, 1.5]]}, ValueError, r"polygons\[0\] has the shape"),
             ({"edge_source": SQUARES}, TypeError, "edge_source is"),
-            ({"edge_source": tipp.delaunay_2d(SQUARES), "edges": [[0, 1]]}, ValueError, "edge_source does not go"),
+            ({"edge_source": tipp.delaunay_2d(SQUARES), "edges": [[0, 1]]}, ValueError, "edge_source cannot be combined"),
             ({"crossings": "keep"}, ValueError, "crossings is 'keep'"),
             ({"marks": "dots"}, ValueError, "marks is 'dots'"),
-            ({"edges": [[0, 9]]}, ValueError, "edges: there is no point 9, for there are 9 points"),
+            ({"edges": [[0, 9]]}, ValueError, "edges: there is no point 9, because there are 9 points"),
         ]
         for arguments, error, text in cases:
             with self.subTest(text=text), self.assertRaisesRegex(error, text):

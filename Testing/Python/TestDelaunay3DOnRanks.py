@@ -57,7 +57,7 @@ class Delaunay3DOnRanks(unittest.TestCase):
         options = ("--neighbors", "--map-duplicates")
         self.assertEqual(self.output(3, "out.vtu", *options), self.output(1, "out.vtu", *options))
 
-    def test_statistics_tell_of_every_rank(self):
+    def test_statistics_have_every_rank(self):
         self.output(3, "out.npy", "--stats", "run.json")
         statistics = json.loads((self.folder / "run.json").read_text())
         self.assertEqual(statistics["points"], 40000)
@@ -80,11 +80,18 @@ class Delaunay3DOnRanks(unittest.TestCase):
         self.assertNotEqual(run.returncode, 0)
         self.assertEqual(run.stderr.count("column z"), 1, run.stderr)
 
-    def test_points_in_a_plane_are_one_warning(self):
-        np.save(self.folder / "points.npy", np.random.default_rng(1).random((1000, 3)) * (1, 1, 0))
-        run = self.run_tipp(3, "points.npy", "-o", "out.npy")
-        self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertEqual(run.stderr.count("in one plane"), 1, run.stderr)
+    def test_points_in_a_plane_make_the_triangles_of_one_process_and_one_warning(self):
+        points = np.random.default_rng(1).random((1000, 3)) * (1, 0, 1)
+        points[900:] = points[:100]
+        np.save(self.folder / "points.npy", points)
+        for name in ("out.npy", "out.vtu"):
+            alone = self.output(1, name)
+            for ranks in (2, 3, 5):
+                run = self.run_tipp(ranks, "points.npy", "-o", name, "--stats", "run.json")
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assertEqual(run.stderr.count("in one plane"), 1, run.stderr)
+                self.assertEqual((self.folder / name).read_bytes(), alone, f"{name} of {ranks} ranks")
+                self.assertGreater(json.loads((self.folder / "run.json").read_text())["triangles"], 1700)
 
     @unittest.skipUnless(importlib.util.find_spec("mpi4py"), "no mpi4py")
     def test_python_ranks_make_one_mesh(self):

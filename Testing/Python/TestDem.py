@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""tipp.dem and `tipp dem` against exact arithmetic, GDAL and each other.
+"""Compares tipp.dem and `tipp dem` with exact arithmetic, with GDAL and with each other.
 
 Usage: TestDem.py TIPP [unittest arguments]
 """
@@ -21,7 +21,7 @@ TIPP = os.path.abspath(sys.argv.pop(1))
 
 
 def exact_height(corners, x, y):
-    """The plane through three points, in rational numbers, if they contain (x, y)."""
+    """The height at (x, y) of the plane through three points, in rational numbers; None outside their triangle."""
     (ax, ay, az), (bx, by, bz), (cx, cy, cz) = [[Fraction(float(v)) for v in p] for p in corners]
     x, y = Fraction(x), Fraction(y)
     area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
@@ -31,7 +31,7 @@ def exact_height(corners, x, y):
 
 
 def thinness(corners):
-    """The square of the longest edge by the area."""
+    """The square of the longest edge, divided by the area."""
     edges = corners - np.roll(corners, 1, axis=0)
     return (edges ** 2).sum(axis=1).max() / abs(np.cross(edges[0], edges[1]) / 2)
 
@@ -68,7 +68,7 @@ class Dem(unittest.TestCase):
             self.assertEqual(not found, bool(np.isnan(grid[row, column])))
             if found:
                 exact, triangle = found[0]
-                # Rounding errors grow with the thinness of the triangle.
+                # Rounding errors grow as triangles become thinner.
                 bound = 1e-14 * (100 + thinness(corners[triangle][:, :2]))
                 self.assertLess(abs(Fraction(float(grid[row, column])) - exact), bound)
                 checked += 1
@@ -89,7 +89,7 @@ class Dem(unittest.TestCase):
         np.testing.assert_allclose(bands, np.load(self.path("dem.npy"))[:, ::-1], rtol=1e-12)
         self.assertEqual(set(np.unique(bands[3])), {0.0, 1.0})
 
-    def test_equal_places_and_thinning_are_those_of_the_tool(self):
+    def test_duplicates_and_thinning_are_those_of_the_tool(self):
         self.points[:, :2] = np.round(self.points[:, :2])
         np.save(self.path("points.npy"), self.points)
         grids = []
@@ -126,7 +126,7 @@ class Dem(unittest.TestCase):
             tipp.dem(self.points, 1, boundary=[ring[:, 0]])
 
     def write_las(self, name, integers):
-        """LAS 1.2 of format 0 with steps of 0.01."""
+        """Writes LAS 1.2 of format 0, with a scale of 0.01."""
         header = bytearray(227)
         struct.pack_into("<4s", header, 0, b"LASF")
         struct.pack_into("<BB", header, 24, 1, 2)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`tipp dem` between the libraries that people read and write such files with: laspy and rasterio.
+"""Tests files of `tipp dem` with the libraries that users read and write them with: laspy and rasterio.
 
 Usage: TestDemFiles.py TIPP [unittest arguments]
 """
@@ -97,7 +97,7 @@ class DemFiles(unittest.TestCase):
                     self.assertAlmostEqual(float(tags["STATISTICS_STDDEV"]), inside.std(), 3)
 
     def pixels_beside_others(self):
-        """Points, our pixels, and the centres of these."""
+        """The points, our pixels, and the centres of the pixels."""
         points = self.save_points(5000, (637000, 849000))
         self.dem("points.npy", "-o", "dem.npy", "--resolution", 0.5, "--bounds", 637000, 637100, 849000, 849100)
         x, y = np.meshgrid(637000.25 + 0.5 * np.arange(200), 849000.25 + 0.5 * np.arange(200))
@@ -107,7 +107,7 @@ class DemFiles(unittest.TestCase):
         expected = np.reshape(expected, pixels.shape)
         both = ~np.isnan(expected) & ~np.isnan(pixels)
         self.assertGreater(both.mean(), 0.97)
-        self.assertLess((np.isnan(expected) != np.isnan(pixels)).mean(), 1e-4)  # on the border
+        self.assertLess((np.isnan(expected) != np.isnan(pixels)).mean(), 1e-4)  # pixels at the border may differ
         np.testing.assert_allclose(pixels[both], expected[both], atol=1e-6)
 
     @needs("scipy")
@@ -128,7 +128,7 @@ class DemFiles(unittest.TestCase):
         self.expect_near(triangulation.interpolate({"method": "TIN"}, centres, strict=False), pixels)
 
     @needs("rasterio")
-    def test_a_raster_without_reference_system_has_its_place(self):
+    def test_a_raster_without_reference_system_keeps_its_position(self):
         import rasterio
 
         self.save_points(low=(-30, 1000))
@@ -139,7 +139,7 @@ class DemFiles(unittest.TestCase):
             self.assertEqual(raster.shape, (100, 100))
 
     @needs("rasterio")
-    def test_like_takes_the_very_transform_of_another_raster(self):
+    def test_like_uses_exactly_the_transform_of_another_raster(self):
         import rasterio
 
         points = self.save_points(low=(636000.1, -50), side=80)

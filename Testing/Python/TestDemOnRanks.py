@@ -26,7 +26,7 @@ class DemOnRanks(unittest.TestCase):
         with open(self.folder / "points.csv", "w", encoding="ascii") as file:
             file.write("x,y,z,intensity\n")
             for i in range(count):
-                # Some places are shared, and some pixels' centres are points.
+                # Some points have equal positions, and some are centres of pixels.
                 x, y = (numbers.randrange(4000) / 40 for _ in range(2))
                 file.write(f"{x},{y},{(x - y) ** 2 / 50},{i % 255}\n")
 
@@ -94,13 +94,13 @@ class DemOnRanks(unittest.TestCase):
         self.make_points(3000)
         self.assertEqual(self.make(2, "shared.npy"), self.make(1, "alone.npy"))
 
-    def test_killed_ranks_are_followed_by_others(self):
+    def test_killed_runs_are_resumed(self):
         self.make_points(60000)
         (self.folder / "lines.csv").write_text("x1,y1,x2,y2\n5,5,90,93\n7,80,88.1,12\n")
         alone = self.make(1, "alone.npy", "--breaklines", "lines.csv")
         arguments = ("--memory", "2M", "--resume", "--breaklines", "lines.csv")
         for number in range(6):
-            # A session of its own, all of which is killed.
+            # The run has its own session, all processes of which are killed.
             run = subprocess.Popen(self.command(2 + number % 2, "shared.npy", *arguments), cwd=self.folder,
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
             time.sleep(0.5 + 0.1 * number)
@@ -114,7 +114,7 @@ class DemOnRanks(unittest.TestCase):
                                  timeout=250)
             if "another process" not in run.stderr:
                 break
-            time.sleep(0.1)  # mpirun's children notice a little later that it is gone
+            time.sleep(0.1)  # mpirun's children notice its end a little later
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertEqual((self.folder / "shared.npy").read_bytes(), alone)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""import tipp beside another VTK than the one that it was built with."""
+"""import tipp with another VTK than the one that tipp was built with."""
 import pathlib
 import subprocess
 import sys
@@ -10,7 +10,7 @@ from vtkmodules.vtkCommonCore import vtkVersion
 
 
 def import_tipp(modules):
-    """What `import tipp` says in a Python that finds these modules first."""
+    """The output of `import tipp` in a Python that finds these modules first."""
     with tempfile.TemporaryDirectory() as folder:
         for name, text in modules.items():
             path = pathlib.Path(folder, name)
@@ -34,7 +34,7 @@ class ForeignVtk(unittest.TestCase):
         self.assertEqual(1, run.returncode, run.stderr)
         self.assertRegex(run.stderr.splitlines()[-1], "^ImportError: tipp needs the Python modules of VTK 9[.]")
 
-    def test_the_same_vtk_is_taken(self):
+    def test_the_same_vtk_is_accepted(self):
         self.assertEqual(0, import_tipp({}).returncode)
 
 

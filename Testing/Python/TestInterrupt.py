@@ -24,7 +24,7 @@ def files_in(folder):
 
 class Interrupt(unittest.TestCase):
     def setUp(self):
-        # A shell that starts this in the background has it ignore Ctrl-C.
+        # A shell that starts this program in the background makes it ignore Ctrl-C.
         self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
 
     def test_ctrl_c_stops_a_triangulation(self):
@@ -36,7 +36,7 @@ class Interrupt(unittest.TestCase):
         self.assertEqual(tipp.delaunay(points[:100]).shape[1], 3)
 
     def interrupt_at(self, call, work):
-        """Ctrl-C when progress is shown for that time. Returns how often it was shown in all."""
+        """Sends Ctrl-C when progress has been shown that many times. Returns how often it was shown in all."""
         calls = []
 
         def show(fraction):

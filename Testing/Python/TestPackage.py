@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The functions of the package tipp, on NumPy arrays."""
+"""The functions of the package tipp on NumPy arrays."""
 import inspect
 import os
 import pathlib
@@ -37,7 +37,7 @@ def public():
 
 
 def memory_of(kind):
-    """Bytes of this process, by a name of Linux's."""
+    """Bytes of memory of this process, by the name that Linux gives the figure."""
     with open("/proc/self/status", encoding="ascii") as file:
         return next(int(line.split()[1]) * 1024 for line in file if line.startswith(kind + ":"))
 
@@ -54,7 +54,7 @@ class Delaunay(unittest.TestCase):
         p = random_points(500)
         np.testing.assert_array_equal(tipp.delaunay(p), tipp.delaunay(p[:, :2]))
 
-    def test_whole_numbers_and_other_orders_in_memory_are_taken(self):
+    def test_integers_and_other_memory_layouts_are_accepted(self):
         p = np.random.default_rng(1).integers(0, 1000, (300, 2))
         expected = edges_of(tipp.delaunay(p.astype(float)))
         self.assertEqual(edges_of(tipp.delaunay(p)), expected)
@@ -87,7 +87,7 @@ class Delaunay(unittest.TestCase):
         p = random_points(2_000_000, 2)
         once = len(p) * 24
         with open("/proc/self/clear_refs", "w", encoding="ascii") as file:
-            file.write("5")  # the peak counts from here
+            file.write("5")  # resets the peak
         before = memory_of("VmRSS")
         points = tipp._vtk.vtk_points(p)
         self.assertLess(memory_of("VmHWM") - before, 1.2 * once)
@@ -107,7 +107,7 @@ class Delaunay(unittest.TestCase):
         self.assertEqual((triangles.min(), triangles.max()), (0, 49999))
         del trash
 
-    def test_rejected_points_are_warned_of(self):
+    def test_rejected_points_give_a_warning(self):
         p = random_points(100, 2)
         p[7] = np.nan
         with self.assertWarnsRegex(RuntimeWarning, "the first is point 7"):
@@ -132,7 +132,7 @@ class Delaunay(unittest.TestCase):
         self.assertLess(tipp.delaunay_2d(p, alpha=0.02).GetNumberOfPolys(),
                         tipp.delaunay_2d(p).GetNumberOfPolys())
 
-    def test_a_data_set_passes_its_own_data_on(self):
+    def test_the_data_of_a_data_set_are_kept(self):
         mesh = tipp.delaunay_2d(random_points(50), point_data={"v": np.arange(50)})
         again = tipp.delaunay_2d(mesh)
         np.testing.assert_array_equal(tipp.as_array(again, "v"), np.arange(50))
@@ -149,11 +149,11 @@ class MeshOptions(unittest.TestCase):
             warnings.simplefilter("ignore")
             return tipp.delaunay_2d(self.points, **options)
 
-    def test_representatives_are_the_lowest_points_at_a_place(self):
+    def test_representatives_are_the_lowest_of_equal_points(self):
         ids = tipp.as_array(self.mesh(map_duplicates=True), "RepresentativePointId")
         self.assertEqual([*range(400), 0, 1, 2, -1], ids.tolist())
 
-    def test_neighbors_name_each_other(self):
+    def test_neighbors_are_mutual(self):
         mesh = self.mesh(neighbors=True)
         neighbors = tipp.as_array(mesh, "NeighborIds")
         triangles = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
@@ -164,7 +164,7 @@ class MeshOptions(unittest.TestCase):
                     self.assertNotIn(triangles[triangle][corner], triangles[other])
         self.assertEqual(len(edges_of(triangles)), (neighbors >= 0).sum() // 2 + (neighbors < 0).sum())
 
-    def test_statistics_count_what_there_is(self):
+    def test_statistics_count_points_and_triangles(self):
         mesh, statistics = self.mesh(return_statistics=True)
         expected = {"points": 404, "triangles": mesh.GetNumberOfPolys(), "duplicates": 3, "rejected": 1}
         self.assertEqual(expected, {name: statistics[name] for name in expected})
@@ -234,7 +234,7 @@ class Meshes(unittest.TestCase):
     def tearDown(self):
         self.folder.cleanup()
 
-    def test_a_mesh_comes_back_whole(self):
+    def test_a_mesh_is_read_as_written(self):
         back = tipp.read(self.path)
         self.assertEqual(back.GetNumberOfCells(), self.mesh.GetNumberOfCells())
 
@@ -250,7 +250,7 @@ class Meshes(unittest.TestCase):
         with self.assertRaisesRegex(KeyError, "no point array 'h'"):
             tipp.read(self.path, point_arrays=["h"])
 
-    def test_pieces_come_unmerged(self):
+    def test_pieces_can_be_read_separately(self):
         self.assertEqual(tipp.read(self.path, merge=False).GetNumberOfPartitions(), 9)
 
     def test_a_mesh_that_was_read_can_be_written_again(self):
@@ -313,7 +313,7 @@ class Files(unittest.TestCase):
         self.assertEqual(mesh.GetPointData().HasArray("height"), 1)
         self.assertEqual(mesh.GetPointData().HasArray("RepresentativePointId"), 1)
 
-    def test_neighbors_name_each_other(self):
+    def test_neighbors_are_mutual(self):
         tipp.delaunay_file(self.input, self.output, memory="1M", neighbors=True)
         mesh = tipp.read(self.output)
         cells = tipp.as_array(mesh, "GlobalCellIds")
@@ -348,7 +348,7 @@ class Files(unittest.TestCase):
         self.assertGreater(made["triangle_sum"], 0)
         self.assertEqual(os.listdir(self.folder.name), ["points.npy"])
 
-    def test_misuse_is_told(self):
+    def test_misuse_is_reported(self):
         for memory in (0, -5, "2T", "", "1.5G", 1 << 70):
             with self.assertRaisesRegex(ValueError, "memory is"):
                 tipp.delaunay_file(self.input, self.output, memory=memory)
@@ -392,7 +392,7 @@ class Package(unittest.TestCase):
             return subprocess.run([sys.executable, "-c", textwrap.dedent(program)], text=True, check=True,
                                   env={**os.environ, "PYTHONPATH": path}, capture_output=True).stdout.strip()
 
-    # What PyVista gives packages like this one to register with, before and since version 0.48.
+    # The functions with which packages like this one register in PyVista, before and since version 0.48.
     OLD = """
         class DataObject: pass
         class DataSet(DataObject): pass
@@ -421,7 +421,7 @@ class Package(unittest.TestCase):
         self.assertEqual(self.run_python(program, pyvista=self.NEW), "Accessor")
 
     @unittest.skipIf("site-packages" in tipp.__file__, "the package lies where PyVista does")
-    def test_a_missing_pyvista_is_missing_as_ever(self):
+    def test_a_missing_pyvista_is_still_an_import_error(self):
         program = """
             import sys
             sys.path = [p for p in sys.path if "site-packages" not in p]

@@ -11,7 +11,7 @@ from tipp import vtkPartitionedUnstructuredReader
 
 
 def write_flat(folder, n=20):
-    """A lattice of triangles, its points in random order, in the three lines of the documentation."""
+    """Writes a lattice of triangles with points in random order, by the three lines in the documentation."""
     x, y = np.meshgrid(np.arange(n), np.arange(n))
     number = np.random.default_rng(1).permutation(n * n).reshape(n, n)
     points = np.empty((n * n, 2))
@@ -38,7 +38,7 @@ class Read(unittest.TestCase):
         self.reader.Update()
         return self.reader.GetOutputDataObject(0)
 
-    def test_numpy_arrays_come_back_by_global_ids(self):
+    def test_numpy_arrays_are_read_by_global_ids(self):
         mesh = self.output()
         ids = vtk_to_numpy(mesh.GetPointData().GetGlobalIds())
         self.assertEqual(sorted(ids), list(range(len(self.points))))
@@ -51,11 +51,11 @@ class Read(unittest.TestCase):
         corners = vtk_to_numpy(mesh.GetCells().GetConnectivityArray()).reshape(-1, 3)
         np.testing.assert_array_equal(ids[corners], self.cells[cells])
 
-    def test_range_leaves_the_rest_out(self):
+    def test_only_a_range_is_read(self):
         self.reader.SetBounds(2.5, 3.5, 2.5, 3.5, 0, 0)
         self.assertEqual(self.output().GetNumberOfCells(), 2 * 4)
 
-    def test_pieces_come_as_a_partitioned_data_set(self):
+    def test_pieces_are_a_partitioned_data_set(self):
         self.reader.MergePiecesOff()
         self.reader.SetTiling("grid:2x3")
         pieces = self.output()
@@ -69,7 +69,7 @@ class Read(unittest.TestCase):
         selection.DisableArray("heat")
         self.assertFalse(self.output().GetPointData().HasArray("heat"))
 
-    def test_files_are_told_apart(self):
+    def test_can_read_file_recognizes_meshes(self):
         self.assertTrue(self.reader.CanReadFile(str(self.folder)))
         self.assertFalse(self.reader.CanReadFile(str(self.folder / "cells.npy")))
 

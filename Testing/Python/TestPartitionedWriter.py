@@ -71,7 +71,7 @@ class PartitionedWriter(unittest.TestCase):
         ids = vtk_to_numpy(read(self.path).GetPointData().GetGlobalIds())
         self.assertEqual(len(np.unique(ids)), 21 * 11)
 
-    def test_takes_a_flat_mesh(self):
+    def test_accepts_a_flat_mesh(self):
         flat = self.folder / "flat"
         flat.mkdir()
         np.save(flat / "cells.npy", np.array([[0, 1, 2], [0, 2, 3]], dtype=np.int32))
@@ -81,7 +81,7 @@ class PartitionedWriter(unittest.TestCase):
         self.assertEqual(self.writer.Write(), 1)
         self.assertEqual(read(self.path).GetNumberOfCells(), 2)
 
-    def test_reports_what_is_wrong(self):
+    def test_reports_errors(self):
         self.writer.SetInputFileName(str(self.folder / "none"))
         self.assertEqual(self.writer.Write(), 0)
         self.writer.SetInputFileName(None)
@@ -92,7 +92,7 @@ class PartitionedWriter(unittest.TestCase):
         self.assertGreaterEqual(len(self.errors), 2)
         self.assertFalse(self.path.exists())
 
-    def test_stops_when_told(self):
+    def test_stops_on_request(self):
         self.writer.SetInputData(plane())
         self.writer.AddObserver(
             vtkCommand.ProgressEvent, lambda writer, _: writer.SetAbortExecute(1))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""vtkTIPPPointsToImage as Python programs use it: of a package built with VTK, and of the wheel."""
+"""vtkTIPPPointsToImage as Python programs use it, from a package built with VTK and from the wheel."""
 import unittest
 
 import numpy as np
@@ -76,7 +76,7 @@ class PointsToImage(unittest.TestCase):
             image = self.run_filter(data_of(cloud), Resolution=0.9, **properties)
             np.testing.assert_array_equal(tipp.dem(cloud, 0.9, **options).array, values_of(image, "elevation"), str(options))
 
-    def test_lines_shape_the_surface_and_a_boundary_ends_it(self):
+    def test_breaklines_shape_the_surface_and_a_boundary_limits_it(self):
         lines = data_of([[5, 5, 9], [95, 60, 9]], lines=[(0, 1)])
         area = data_of([[10, 10, 0], [90, 15, 0], [80, 90, 0], [15, 80, 0]], polygons=[(0, 1, 2, 3)])
         expected = tipp.dem(self.xyz, 0.5, breaklines=lines, boundary=area)
@@ -96,7 +96,7 @@ class PointsToImage(unittest.TestCase):
         self.assertAlmostEqual(3000, image.GetNumberOfPoints(), delta=200)
         self.assertEqual(0, self.filter.GetResolution())
 
-    def test_errors_are_told_and_not_raised(self):
+    def test_errors_are_reported_and_not_raised(self):
         for data, bands, sentence in ((data_of(np.full((2, 3), np.nan)), ("elevation",), "no point with finite"),
                                       (data_of(self.xyz), ("density", "missing"), "missing"),
                                       (data_of(self.xyz), (), "no band")):

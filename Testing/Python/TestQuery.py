@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""tipp.open: meshes that answer queries."""
+"""tipp.open, which returns meshes for queries."""
 import importlib.util
 import pathlib
 import tempfile
@@ -72,7 +72,7 @@ class Query(unittest.TestCase):
             for values in found:
                 np.testing.assert_array_equal(values, expected)
 
-    def test_sixteen_threads_ask_all_questions(self):
+    def test_sixteen_threads_run_all_queries(self):
         box = (0.2, 0.7, 0.1, 0.6)
         square = [(0.15, 0.2), (0.8, 0.25), (0.5, 0.9)]
         questions = [
@@ -119,7 +119,7 @@ class Query(unittest.TestCase):
             np.testing.assert_array_equal(ours.distances == 0, inside)
             apart = np.hypot(*(ours.points[:, :2] - self.asked).T)
             np.testing.assert_allclose(apart, ours.distances, atol=1e-12)
-            # No point of the border is nearer.
+            # No point of the border may be nearer.
             border = self.points[mesh.boundary()[0]]
             for point, distance in zip(self.asked[~inside], ours.distances[~inside]):
                 self.assertLessEqual(distance, np.hypot(*(border - point).T).min() + 1e-12)
@@ -159,7 +159,8 @@ class Query(unittest.TestCase):
             np.testing.assert_allclose(zones.minimum[:2], [0.2 - 1.4] * 2, atol=1e-12)
             np.testing.assert_allclose(zones.maximum[:2], [0.8 - 0.4] * 2, atol=1e-12)
             np.testing.assert_allclose(zones.mean[:2], zones.integral[:2] / zones.area[:2])
-            # Above -0.2 is what lies right of the line from (0.2, 0.2) to (0.8, 0.5): a triangle, 0.6 high at the end.
+            # The plane is above -0.2 to the right of the line from (0.2, 0.2) to (0.8, 0.5): in a triangle that is 0.6
+            # high at its end.
             self.assertAlmostEqual(zones.volume_above[0], 0.6 * 0.3 / 2 * 0.2)
             self.assertTrue(np.isnan(zones.mean[2]))
             self.assertEqual(zones.cells[2], 0)
@@ -220,7 +221,7 @@ class Query(unittest.TestCase):
 
             np.testing.assert_allclose(ordered(middles)[:, :2], ordered(expected)[:, :2], atol=1e-6)
 
-    def test_what_lies_around(self):
+    def test_neighbors_rings_boundary_and_components(self):
         triangles = tipp.delaunay(self.points)
         with tipp.open(self.path) as mesh:
             cells = np.arange(len(triangles))
@@ -246,7 +247,7 @@ class Query(unittest.TestCase):
             np.testing.assert_array_equal(labels, 0)
             np.testing.assert_array_equal(sizes, [len(triangles)])
 
-    def test_the_filter_takes_the_place_of_vtk_probe_filter(self):
+    def test_the_filter_can_replace_vtk_probe_filter(self):
         from vtkmodules.util.numpy_support import vtk_to_numpy
         from vtkmodules.vtkFiltersCore import vtkProbeFilter
 
@@ -274,7 +275,7 @@ class Query(unittest.TestCase):
             np.testing.assert_array_equal(cells >= 0, mask != 0)
             self.assertEqual(np.abs(vtk_to_numpy(ours.GetArray("height"))[mask == 0]).max(), 0)
 
-    def test_direct_questions_update_the_source(self):
+    def test_direct_queries_update_the_source(self):
         from vtkmodules.vtkCommonCore import vtkIdTypeArray
         from vtkmodules.vtkFiltersGeneral import vtkShrinkFilter
 
@@ -284,7 +285,7 @@ class Query(unittest.TestCase):
         query.SetSourceConnection(shrink.GetOutputPort())
         cells, sizes = vtkIdTypeArray(), vtkIdTypeArray()
         self.assertEqual(query.Components(cells, sizes), 1)
-        self.assertEqual(sizes.GetNumberOfValues(), self.mesh.GetNumberOfCells())  # each cell by itself
+        self.assertEqual(sizes.GetNumberOfValues(), self.mesh.GetNumberOfCells())  # no two cells are connected
 
     def test_contours_of_a_plane_are_straight(self):
         with tipp.open(self.path) as mesh, tipp.open(self.mesh) as whole:

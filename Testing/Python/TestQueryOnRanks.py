@@ -45,7 +45,7 @@ class QueryOnRanks(unittest.TestCase):
         self.run_tipp(1, "delaunay", "hills.csv", "-o", "hills.vtu")
         self.run_tipp(1, "partition", "hills.vtu", "-o", "hills.tipp", "--tiling", "grid:3x3")
 
-    def test_ways_down_are_the_same_on_any_ranks(self):
+    def test_descents_are_the_same_on_any_ranks(self):
         self.make_hills()
         for mesh in ("hills.tipp", "hills.vtu"):
             files = []

@@ -53,7 +53,7 @@ class Resample(unittest.TestCase):
         self.filter.Update()
         return self.filter.GetOutput()
 
-    def test_a_linear_field_comes_back_in_every_sample_of_clustered_points(self):
+    def test_a_linear_field_of_clustered_points_is_reproduced_in_every_sample(self):
         p = clustered(20000)
         image = self.run_filter(
             surface(p, f=1 + 2 * p[:, 0] - 3 * p[:, 1]), SamplingDimensions=(300, 200, 1)
@@ -73,7 +73,7 @@ class Resample(unittest.TestCase):
         image = self.run_filter(surface(p), SamplingDimensions=(80, 80, 1))
         valid = arrays_of(image)["vtkValidPointMask"].astype(bool)
         samples = np.array([image.GetPoint(i)[:2] for i in range(image.GetNumberOfPoints())])
-        # A sample is outside if some line through it leaves all points on one side.
+        # A sample is outside if all points are on one side of some line through it.
         angles = np.linspace(0, 2 * np.pi, 721)
         directions = np.stack([np.cos(angles), np.sin(angles)])
         outside = (samples @ directions > (p[:, :2] @ directions).max(axis=0) + 1e-12).any(axis=1)

@@ -14,7 +14,7 @@ MPIEXEC, TIPP = sys.argv[1:3]
 
 
 def canonical(triangles):
-    """As a sorted list, each triangle from its lowest id on."""
+    """The triangles as a sorted list, each starting with its lowest id."""
     first = np.argmin(triangles, axis=1)
     turned = np.stack([np.roll(t, -f) for t, f in zip(triangles, first)])
     return turned[np.lexsort(turned.T[::-1])]
@@ -60,7 +60,7 @@ class TippOnRanks(unittest.TestCase):
                 self.assertIn("tipp: 3001 points of LAS files are not used", run.stderr)
 
     def write_las(self, name, points):
-        """Version 1.2, format 0; every third point is of class 1, the others of class 2."""
+        """Version 1.2, format 0. Every third point has class 1, the others class 2."""
         header = bytearray(227)
         header[:4] = b"LASF"
         struct.pack_into("<BB", header, 24, 1, 2)
@@ -70,7 +70,7 @@ class TippOnRanks(unittest.TestCase):
                         for i, p in enumerate(points))
         (self.folder / name).write_bytes(bytes(header) + body)
 
-    def test_statistics_tell_of_every_rank(self):
+    def test_statistics_have_every_rank(self):
         self.triangles(3, "--stats", "run.json", "--masters", "multi", "--major", "2x2", "--minor", "3x3")
         statistics = json.loads((self.folder / "run.json").read_text())
         self.assertEqual(len(statistics["ranks"]), 3)

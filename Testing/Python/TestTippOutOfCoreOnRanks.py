@@ -49,13 +49,13 @@ class OutOfCoreOnRanks(unittest.TestCase):
         for ranks in (2, 3):
             self.assertEqual(self.make(ranks, "points.npy", "--memory", "1M"), alone)
 
-    def test_killed_ranks_are_followed_by_any_number(self):
+    def test_any_number_of_ranks_resumes_a_killed_run(self):
         self.make_points("coast", 200000)
         arguments = ("points.npy", "--memory", "2M", "--resume")
         alone = self.make(1, *arguments)
         kills = 0
         for number in range(12):
-            # A session of its own, all of which is killed.
+            # The run has its own session, all processes of which are killed.
             run = subprocess.Popen(self.command(1 + number % 3, *arguments), cwd=self.folder,
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                                    start_new_session=True)
@@ -72,7 +72,7 @@ class OutOfCoreOnRanks(unittest.TestCase):
         self.assertEqual(sorted(os.listdir(self.folder)), ["points.npy"])
 
     def wait_for_the_ranks(self):
-        """mpirun's children notice a little later that it is gone."""
+        """Waits, since mpirun's children notice its end a little later."""
         for _ in range(1000):
             run = self.run_tipp(1, "points.npy", "--memory", "2M")
             if "another process" not in run.stderr:
@@ -84,18 +84,18 @@ class OutOfCoreOnRanks(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         memory = json.loads((self.folder / "run.json").read_text())["rank_memory_bytes"]
         self.assertEqual(len(memory), 3)
-        # As for one process, and what MPI takes.
+        # The limit for one process, plus what MPI needs.
         self.assertLess(max(memory), (32 << 20) + 70e6)
 
-    def test_a_full_disk_is_one_sentence_and_the_run_goes_on(self):
+    def test_a_full_disk_is_one_sentence_and_the_run_is_resumed(self):
         self.make_points("uniform", 400000)
         arguments = ("points.npy", "--partitions", "2x1")
         alone = self.make(1, *arguments)
-        # A limit on the size of files stands for a full disk: spilled points fit, but no piece does.
+        # A limit on the size of files simulates a full disk: spilled points fit, but no piece.
         small = ["sh", "-c", 'trap "" XFSZ; ulimit -f 28000; exec "$@"', "sh"]
         command = self.command(2, *arguments)
         at = command.index(TIPP)
-        # Open MPI's shared memory is a file too, and larger.
+        # Open MPI's shared memory is a file too, and would exceed the limit.
         network = {**os.environ, "OMPI_MCA_btl": "self,tcp", "OMPI_MCA_btl_tcp_if_include": "lo"}
         run = subprocess.run([*command[:at], *small, *command[at:]], cwd=self.folder, capture_output=True, text=True,
                              timeout=250, env=network)
@@ -106,7 +106,7 @@ class OutOfCoreOnRanks(unittest.TestCase):
         self.assertFalse(self.made.exists())
         self.assertEqual(self.make(3, *arguments, "--resume"), alone)
 
-    def test_an_interrupt_leaves_a_run_that_goes_on(self):
+    def test_an_interrupted_run_is_resumed(self):
         arguments = ("uniform:3000000", "--memory", "16M", "--sink", "count")
         alone = self.run_tipp(1, *arguments)
         run = subprocess.Popen(self.command(2, *arguments), cwd=self.folder, stdout=subprocess.DEVNULL,
@@ -122,7 +122,7 @@ class OutOfCoreOnRanks(unittest.TestCase):
     def test_options_of_runs_in_memory_are_refused(self):
         run = self.run_tipp(1, "uniform:1000", "--masters", "multi")
         self.assertEqual(run.returncode, 2)
-        self.assertIn("do not go with an output named .tipp", run.stderr)
+        self.assertIn("cannot be combined with an output named .tipp", run.stderr)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The benchmark of use cases runs without scipy and gdal, and says so.
+"""The benchmark of use cases must run without scipy and gdal, and report that they are missing.
 
 Usage: TestUseCases.py PROGRAM TIPP [unittest's options]
 """
@@ -24,7 +24,7 @@ specification.loader.exec_module(use_cases)
 
 
 def lines_of_input(name, path, width):
-    """What the benchmark prints where no peer is installed."""
+    """The output of the benchmark if no peer is installed."""
     printed = io.StringIO()
     with mock.patch.object(sys, "argv", [PROGRAM, TOOL, f"{name}={path}:{width}"]), \
             mock.patch("importlib.util.find_spec", return_value=None), \
@@ -44,7 +44,7 @@ class UseCases(unittest.TestCase):
     def setUp(self):
         self.points = np.random.default_rng(1).random((500, 3)) * (2, 1, 10)
 
-    def test_absent_peers_are_told(self):
+    def test_absent_peers_are_reported(self):
         head, memory, files = lines_of(self.points, 20)
         self.assertRegex(head, r"^small: 500 points, 20 x 10 samples$")
         self.assertRegex(memory, r"^  in memory: ours \d+\.\d{3} s; scipy is not installed$")
@@ -63,7 +63,7 @@ class UseCases(unittest.TestCase):
         self.points[7, 2] = np.nan
         self.assertIn("499 points", lines_of(self.points, 20)[0])
 
-    def test_arguments_are_asked_for(self):
+    def test_missing_arguments_show_the_usage(self):
         with mock.patch.object(sys, "argv", [PROGRAM, TOOL]), self.assertRaisesRegex(SystemExit, "Usage"):
             use_cases.main()
 

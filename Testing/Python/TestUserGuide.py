@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Documentation/UserGuide.md tells every property of the classes, in the section of its class.
+"""Documentation/UserGuide.md must describe every property of each class, in the section of the class.
 
 Usage: TestUserGuide.py USER_GUIDE
 """
@@ -12,7 +12,7 @@ import tipp
 
 GUIDE = open(sys.argv.pop(1), encoding="utf-8").read()
 SECTIONS = dict(re.findall(r"^## (\S+)\n(.*?)(?=^## |\Z)", GUIDE, re.MULTILINE | re.DOTALL))
-# Short names for others of the same class.
+# Methods that are short forms of others of the same class.
 SHORTHAND = re.compile(r"(\w+)(On|Off|ToStages|ToDynamic|ToProducerConsumer|ToOwned|ToOwnedAndBorrowed)$")
 
 

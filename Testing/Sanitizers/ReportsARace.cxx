@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adds to one variable from many threads without an order: a data race.
+// A data race: several threads add to one variable without synchronization.
 #include <cstdio>
 
 int main()

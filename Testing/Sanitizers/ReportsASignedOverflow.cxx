@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Adds to the largest int.
+// A signed overflow: adds to the largest int.
 #include <limits>
 
 int main(int argc, char**)

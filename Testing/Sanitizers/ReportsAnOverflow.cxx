@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads one element past the end of a heap block.
+// A buffer overflow: reads one element past the end of a heap block.
 #include <vector>
 
 int main(int argc, char**)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shares data between threads in every way the project does, each ordered by OpenMP or an atomic:
-// any report here would be a false one.
+// Shares data between threads in every way that the project uses, always synchronized by OpenMP or
+// an atomic. Any report would be a false positive.
 #include <omp.h>
 
 #include <atomic>

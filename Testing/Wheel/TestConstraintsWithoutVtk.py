@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Constraints and rasters of the wheel in an environment with NumPy alone."""
+"""Constraints and rasters of the wheel, in an environment with only NumPy."""
 import importlib.util
 import os
 import tempfile
@@ -10,7 +10,7 @@ import numpy as np
 
 import tipp
 
-# A square, and in it a smaller one with a point in the middle.
+# A square, and inside it a smaller square with a point in the middle.
 SQUARES = np.array([[0, 0], [8, 0], [8, 8], [0, 8], [3, 3], [5, 3], [5, 5], [3, 5], [4, 4.25]], float)
 INNER = [4, 5, 6, 7]
 
@@ -74,7 +74,7 @@ class Constraints(unittest.TestCase):
         self.assertEqual(4, area(tipp.delaunay_2d(SQUARES, polygons=[INNER])))
         self.assertEqual(60, area(tipp.delaunay_2d(SQUARES, polygons=[INNER[::-1]])))
 
-    def test_coordinates_are_points_where_there_are_some_else_new_ones(self):
+    def test_coordinates_are_existing_or_new_points(self):
         mesh = tipp.delaunay_2d(SQUARES, polygons=[SQUARES[INNER]])
         self.assertEqual((9, 4), (len(mesh.points), area(mesh)))
         with self.assertWarnsRegex(RuntimeWarning, "1 point arrays of the input are left out"):
@@ -88,7 +88,7 @@ class Constraints(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "a polygon, has the corner 5, which is NaN"):
             tipp.delaunay_2d(points, polygons=[INNER])
 
-    def test_a_tolerance_does_not_go_with_constraints(self):
+    def test_a_tolerance_is_refused_with_constraints(self):
         with self.assertRaisesRegex(RuntimeError, "tol does not go with constraints"):
             tipp.delaunay_2d(SQUARES, edges=[[0, 1]], tol=0.1)
 
@@ -156,7 +156,7 @@ class Rasters(unittest.TestCase):
 
 
 def exact_height(corners, x, y):
-    """The plane through three points, in rational numbers, if they contain (x, y)."""
+    """The height at (x, y) of the plane through three points, in rational numbers; None outside their triangle."""
     (ax, ay, az), (bx, by, bz), (cx, cy, cz) = [[Fraction(float(v)) for v in p] for p in corners]
     x, y = Fraction(x), Fraction(y)
     whole = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)

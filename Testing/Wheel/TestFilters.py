@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The wheel's VTK filters in pipelines of the VTK that is installed."""
+"""The wheel's VTK filters in pipelines of the installed VTK."""
 import os
 import tempfile
 import unittest
@@ -77,7 +77,7 @@ class Delaunay2D(unittest.TestCase):
         self.assertEqual(mesh.GetNumberOfPolys(), totals.GetArray("Triangles").GetValue(0))
         self.assertEqual(0, self.filter.GetNumberOfDuplicatePoints())
 
-    def test_a_source_constrains(self):
+    def test_a_source_adds_constraints(self):
         self.filter.SetInputData(cloud(100))
         self.filter.SetSourceData(polygon([3, 40, 70]))
         self.filter.SetConstraintMarks(tipp.vtkTIPPDelaunay2D.LINES)
@@ -106,7 +106,7 @@ class Delaunay2D(unittest.TestCase):
         self.filter.Update()
         self.assertRegex(self.errors[-1], "^Alpha is nan; give a finite number.$|returned failure")
 
-    def test_progress_is_told_and_abort_ends_the_run(self):
+    def test_progress_is_reported_and_abort_ends_the_run(self):
         self.filter.SetInputData(cloud(200_000))
         heard = []
         tag = self.filter.AddObserver("ProgressEvent", lambda *_: heard.append(self.filter.GetProgress()))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The wheel as a guest of Python: threads, forks, layouts of arrays, memory, progress, Ctrl-C, help."""
+"""The wheel inside Python: threads, forks, layouts of arrays, memory, progress, Ctrl-C, help."""
 import multiprocessing
 import os
 import pickle
@@ -25,7 +25,7 @@ def canonical(triangles):
 
 
 def resident():
-    """Bytes of this process in memory."""
+    """The resident memory of this process in bytes."""
     with open("/proc/self/statm", encoding="ascii") as file:
         return int(file.read().split()[1]) * resource.getpagesize()
 
@@ -75,7 +75,7 @@ class Interpreter(unittest.TestCase):
         expected = len(tipp.delaunay(points))
         context = multiprocessing.get_context("fork")
         queue = context.Queue()
-        # With one thread: GNU's OpenMP library cannot start threads in a child of a process that had some.
+        # With one thread, since GNU's OpenMP library cannot start threads in the child of a process that has used some.
         child = context.Process(target=lambda: queue.put(len(tipp.delaunay(points, threads=1))))
         child.start()
         self.assertEqual(expected, queue.get(timeout=60))
@@ -102,7 +102,7 @@ class Interpreter(unittest.TestCase):
         calls(int(os.environ.get("TIPP_SMALL_CALLS", "100000")))
         self.assertLess(resident() - before, 4 << 20)
 
-    def test_references_are_given_back(self):
+    def test_references_are_released(self):
         points = random_points(1000)
         triangles = tipp.delaunay(points)
         before = sys.getrefcount(points)
@@ -120,7 +120,7 @@ class Interpreter(unittest.TestCase):
         flat = tipp.Mesh(mesh.points, mesh.simplices)
         np.testing.assert_array_equal(flat.cells, pickle.loads(pickle.dumps(flat)).cells)
 
-    def test_a_progress_function_hears_of_the_run_and_can_stop_it(self):
+    def test_a_progress_function_is_called_and_can_stop_the_run(self):
         points = random_points(200_000)
         heard = []
         tipp.delaunay(points, progress_bar=heard.append)

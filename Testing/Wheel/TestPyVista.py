@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The wheel beside PyVista, with either of its back ends: VTK or cvista."""
+"""The wheel with PyVista, for both of its back ends: VTK and cvista."""
 import subprocess
 import sys
 import unittest

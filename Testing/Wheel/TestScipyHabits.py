@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""tipp.Delaunay and tipp.LinearNDInterpolator beside scipy's."""
+"""tipp.Delaunay and tipp.LinearNDInterpolator, compared with those of scipy."""
 import unittest
 
 import numpy as np

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The wheel's OpenMP library beside the one that scikit-learn brings, in one process."""
+"""The wheel's OpenMP library and that of scikit-learn in one process."""
 import re
 import threading
 import unittest
@@ -11,7 +11,7 @@ import tipp
 
 
 def runtimes():
-    """The OpenMP libraries of this process."""
+    """The OpenMP libraries that this process has loaded."""
     with open("/proc/self/maps", encoding="ascii") as file:
         return set(re.findall(r"/\S*/lib(?:gomp|omp|iomp5)\S*", file.read()))
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The wheel in an environment with NumPy alone."""
+"""The wheel in an environment with only NumPy."""
 import importlib.util
 import pathlib
 import tempfile
@@ -85,7 +85,7 @@ class WithoutVtk(unittest.TestCase):
     def test_a_bounding_circle_adds_eight_points(self):
         self.assertEqual(len(self.points) + 8, len(tipp.delaunay_2d(self.points, bound=True).points))
 
-    def test_rejected_points_are_warned_of_where_the_function_is_called(self):
+    def test_the_warning_of_rejected_points_names_the_callers_file(self):
         points = self.points.copy()
         points[7] = np.nan
         with self.assertWarnsRegex(RuntimeWarning, "the first is point 7") as caught:
@@ -96,7 +96,7 @@ class WithoutVtk(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "refer to points from 0 to 9, but there are 3 points"):
             tipp.resample(tipp.Mesh(np.zeros((3, 3)), np.array([[0, 1, 9]])), dimensions=(2, 2))
 
-    def test_no_device_is_an_answer_that_tells_of_the_build(self):
+    def test_the_warning_of_a_missing_device_names_the_build(self):
         with self.assertWarnsRegex(RuntimeWarning, "built without OpenCL.*OpenMP does it instead"):
             tipp.resample(self.mesh, dimensions=(5, 4), device="opencl")
 

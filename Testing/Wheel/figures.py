@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures of the wheel beside scipy, VTK and the Debian build, each with the bound that it is to keep.
+"""Compares the wheel with scipy, VTK and the Debian build, and prints each figure with its target.
 
 Usage: python figures.py WHEEL WITH_PEERS ALONE DEBIAN [POINTS [QUERIES [REPEATS]]]
-WITH_PEERS and ALONE are Pythons that have the wheel: the one with VTK 9.7, PyVista and scipy, the other with NumPy alone.
-DEBIAN is the folder of the Debian build's Python package, or -. Run by Utilities/benchmark.sh, which makes them.
+WITH_PEERS and ALONE are Python interpreters with the wheel: one with VTK 9.7, PyVista and scipy, the other with only
+NumPy. DEBIAN is the folder of the Debian build's Python package, or -. Utilities/benchmark.sh makes them and runs this.
 
-Each figure is measured in a process of its own; of repeated runs the least time counts.
+Each figure is measured in its own process. Of repeated runs, the least time counts.
 """
 import json
 import os
@@ -32,7 +32,7 @@ def points_of(count):
 
 
 def measure_triangulation(count, repeats):
-    """Seconds of tipp.delaunay(), in whichever Python has tipp."""
+    """Seconds of tipp.delaunay() in this Python."""
     import tipp
 
     points = points_of(count)
@@ -48,7 +48,7 @@ def measure_scipy(count):
 
 
 def measure_vtk(count):
-    """PyVista's delaunay_2d with vtkDelaunay2D's quicker order, which PyVista has no keyword for."""
+    """PyVista's delaunay_2d with vtkDelaunay2D's faster order of points, for which PyVista has no keyword."""
     import pyvista
     from vtkmodules.vtkFiltersCore import vtkDelaunay2D
 
@@ -66,7 +66,7 @@ def measure_vtk(count):
 
 
 def measure_interpolation(count, queries, repeats):
-    """Seconds of samples at scattered places, when both have their triangulations."""
+    """Seconds of interpolation at scattered points, without the time for the triangulations."""
     import scipy.interpolate
     import tipp
 
@@ -87,7 +87,7 @@ def measure_interpolation(count, queries, repeats):
 
 
 def measure_small_calls(calls):
-    """Of 1,000 points, with one thread: seconds of a call, and what of them is not the triangulation's; the same of
+    """Times for 1,000 points on one thread: a call, the part of it that is not the triangulation, and the same part of
     delaunay(), which returns an array."""
     import tipp
 
@@ -107,10 +107,10 @@ def measure_small_calls(calls):
 
 
 def measure_vtk_objects(calls):
-    """Seconds that VTK takes to make the objects of such a mesh and to delete them, of arrays that are there; after a
-    triangulation, as in a call."""
+    """Seconds that VTK needs to make the objects of such a mesh from existing arrays, and to delete them, after a
+    triangulation as in a call."""
     import tipp
-    from vtkmodules.util import numpy_support  # the classes of arrays become NumPy's, as beside tipp
+    from vtkmodules.util import numpy_support  # replaces VTK's array classes by those of NumPy, as in tipp
     from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints, vtkTypeInt32Array
     from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
@@ -123,7 +123,7 @@ def measure_vtk_objects(calls):
         result = kind()
         result.SetNumberOfComponents(components)
         result.SetVoidArray(array, len(array), 1)
-        result._numpy_reference = array  # as numpy_to_vtk() keeps the memory
+        result._numpy_reference = array  # keeps the memory alive, as numpy_to_vtk() does
         return result
 
     def run():

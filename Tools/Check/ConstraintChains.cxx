@@ -41,7 +41,7 @@ public:
     {
       const auto end = std::find_if(
         begin, this->Edges.end(), [begin](const FixedEdge& edge) { return edge != *begin; });
-      if (end - begin == 1) // of one triangle
+      if (end - begin == 1) // an edge of one triangle only: at the mesh's border
       {
         this->Border.insert((*begin)[0]);
       }
@@ -50,13 +50,13 @@ public:
     this->Edges.erase(std::unique(this->Edges.begin(), this->Edges.end()), this->Edges.end());
     for (const FixedEdge& edge : this->Edges)
     {
-      // Of points with equal coordinates the mesh uses one.
+      // Of several points with equal coordinates, the mesh uses one: find it by the coordinates.
       this->VertexAt[{ this->x(edge[0]), this->y(edge[0]) }] = edge[0];
     }
   }
 
-  /// The same for a constraint that the mesh, which is cut, has in part: gaps of its chain begin
-  /// and end at the mesh's border.
+  /// Does the same as find() for a constraint of which a cut mesh has only a part. Gaps in its
+  /// chain begin and end at the mesh's border.
   bool findParts(std::int64_t first, std::int64_t last, std::vector<FixedEdge>& edges)
   {
     this->A = first;
@@ -111,7 +111,8 @@ public:
     }
     this->A = a->second;
     this->B = b->second;
-    // Depth-first search: if vertices are a few units apart, a path may be a dead end.
+    // A depth-first search, because a path may be a dead end if vertices are only a few roundings
+    // apart.
     std::vector<Ids> open{ this->onward(this->A) };
     Ids way{ this->A };
     while (!open.empty() && way.back() != this->B)
@@ -145,7 +146,8 @@ private:
     return this->x(a) == this->x(b) && this->y(a) == this->y(b);
   }
 
-  /// Neighbours on the constraint that are nearer to its end, the nearest to the vertex last.
+  /// Returns the vertex's neighbours on the constraint that are nearer to its end, in descending
+  /// order of their distance from the vertex.
   Ids onward(std::int64_t vertex) const
   {
     Ids next;
@@ -192,7 +194,7 @@ private:
   }
 
   const std::vector<double>& XY;
-  std::vector<FixedEdge> Edges; ///< in both directions, sorted
+  std::vector<FixedEdge> Edges; ///< both directions of each edge; sorted
   std::map<std::pair<double, double>, std::int64_t> VertexAt;
   std::set<std::int64_t> Border; ///< vertices of edges with one triangle
   std::int64_t A = 0;            ///< the ends of the current constraint

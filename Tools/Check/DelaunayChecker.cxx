@@ -20,7 +20,7 @@ namespace
 using check::DirectedEdge;
 using check::Position;
 
-// Index is std::uint32_t if all ids and half-edges fit: that halves the memory.
+// Index is std::uint32_t if all ids and half-edges fit, which halves the memory.
 template <typename Index>
 class Checker
 {
@@ -61,12 +61,12 @@ private:
   enum class State : char
   {
     Sound,
-    BadTurn, // its edges count, its circumcircle does not
-    BadIds   // the triangle cannot be used at all
+    BadTurn, // edges are checked for it, circumcircles are not
+    BadIds   // it is not checked further
   };
 
-  // Half-edge h goes from corner h % 3 of triangle h / 3 to the next corner. Each is stored under
-  // the lower of its two ids.
+  // Half-edge h goes from corner h % 3 of triangle h / 3 to the next corner. It is stored at the
+  // lower of its two ids.
   struct HalfEdge
   {
     Index Higher;
@@ -120,7 +120,7 @@ private:
     }
   }
 
-  // Each distinct point must be a vertex under one id only, unless the points are collinear.
+  // Each distinct point must be a vertex under exactly one id, unless all points are collinear.
   void checkPoints()
   {
     struct Placed
@@ -160,7 +160,7 @@ private:
     }
   }
 
-  // A counting sort by the lower id.
+  // Sorts the half-edges by their lower id, by counting.
   void gatherEdges()
   {
     this->Starts.assign(this->XY.size() / 2 + 1, 0);
@@ -241,8 +241,8 @@ private:
       FixedEdge{ std::min(a, b), std::max(a, b) });
   }
 
-  /// Whether the half-edge's triangle names `triangle` as its neighbour, or there is nothing to
-  /// compare.
+  /// Returns whether the half-edge's triangle stores `triangle` as its neighbour, or no neighbours
+  /// are stored.
   bool isNeighbor(std::size_t h, std::int64_t triangle) const
   {
     return this->Neighbors.empty() || this->Neighbors[h % 3 == 0 ? h + 2 : h - 1] == triangle;
@@ -270,7 +270,7 @@ private:
   {
     if (this->Ids.empty())
     {
-      return; // then every point is unused, or the points are collinear
+      return; // no point is a vertex, or the points are collinear
     }
     this->Report.BadHullEdges = check::countHullFaults(this->XY, this->Boundary);
     this->Report.EulerMismatch =
@@ -299,18 +299,18 @@ std::vector<std::string> CheckReport::faults() const
     const char* Text;
   };
   const Kind kinds[] = {
-    { this->BadIds, "triangles name a point that does not exist or is not finite" },
+    { this->BadIds, "triangles have a point that does not exist or is not finite" },
     { this->BadTurns, "triangles are clockwise or flat" },
     { this->BadEdges, "edges are in three or more triangles or twice in one direction" },
     { this->BadCircles, "edges are not locally Delaunay" },
-    { this->BadTies, "edges break a tie against the rule" },
+    { this->BadTies, "edges break a tie differently than the rule" },
     { this->UnusedPoints, "distinct points are in no triangle" },
-    { this->TwinVertices, "vertices lie where another vertex lies" },
+    { this->TwinVertices, "vertices have the coordinates of another vertex" },
     { this->BadHullEdges, "boundary edges are not in one convex chain" },
-    { this->LostConstraints, "constraints are no chain of edges" },
-    { this->OpenBoundary, "boundary edges are neither constraints nor of the convex hull" },
-    { this->BadNeighbors, "edges have triangles that name other neighbours" },
-    { this->EulerMismatch, "triangles too many (negative: too few) by Euler's count" },
+    { this->LostConstraints, "constraints are not chains of edges" },
+    { this->OpenBoundary, "boundary edges are neither constraints nor edges of the convex hull" },
+    { this->BadNeighbors, "edges have triangles that store wrong neighbours" },
+    { this->EulerMismatch, "more triangles (negative: fewer) than Euler's formula gives" },
   };
   std::vector<std::string> lines;
   for (const Kind& kind : kinds)

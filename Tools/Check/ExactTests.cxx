@@ -51,8 +51,8 @@ public:
   {
   }
 
-  // Follows the chain from its first edge. A chain that always turns left may still wind around
-  // several times; then it has several lexicographic minima.
+  // Follows the chain from its first edge. A chain that always turns left may wind around several
+  // times; then it has several lexicographic minima.
   std::int64_t countFaults() const
   {
     std::int64_t faults = 0;
@@ -93,7 +93,7 @@ private:
     return { this->XY[2 * std::size_t(id)], this->XY[2 * std::size_t(id) + 1] };
   }
 
-  // Null if no edge or several edges start there.
+  // Returns the edge that starts at a point; null if none or several do.
   const DirectedEdge* edgeFrom(std::int64_t id) const
   {
     const auto [first, last] =
@@ -133,7 +133,7 @@ std::int64_t countOffHull(const std::vector<double>& xy, const std::vector<Direc
   std::sort(points.begin(), points.end(), isBefore);
   const auto isSame = [](Position a, Position b) { return a.x == b.x && a.y == b.y; };
   points.erase(std::unique(points.begin(), points.end(), isSame), points.end());
-  // The lower chain from left to right, then the upper one back.
+  // The lower hull from left to right, then the upper hull back.
   std::set<std::array<double, 4>> hull;
   for (int side = 0; side < 2; ++side)
   {

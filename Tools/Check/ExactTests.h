@@ -10,7 +10,7 @@ namespace tipp
 namespace check
 {
 
-/// The checker's own point type and tests: it shares no code with the algorithm that it checks.
+/// The checker's own point type and tests. It shares no code with the algorithm that it checks.
 struct Position
 {
   double x;
@@ -22,28 +22,30 @@ inline bool isBefore(Position a, Position b)
   return a.x < b.x || (a.x == b.x && a.y < b.y);
 }
 
-/// +1 if a, b, c turn counter-clockwise, -1 if clockwise, 0 if they are collinear.
+/// Returns +1 if a, b, c turn counter-clockwise, -1 if clockwise, 0 if they are collinear.
 int turn(Position a, Position b, Position c);
 
-/// +1 if d lies inside the circle of the counter-clockwise a, b, c, -1 outside, 0 on it.
+/// Returns +1 if d is inside the circle of the counter-clockwise a, b, c, -1 outside, 0 on it.
 int inCircle(Position a, Position b, Position c, Position d);
 
 } // namespace check
 namespace check
 {
 
+/// A directed edge between two points, given by their indices in `xy`.
 struct DirectedEdge
 {
   std::int64_t From;
   std::int64_t To;
 };
 
-/// Counts the edges that keep `edges` from being one closed convex counter-clockwise chain,
-/// collinear runs allowed; 0 if they are one. Sorts the edges by From.
+/// Returns 0 if the edges form one closed convex counter-clockwise chain, which may have collinear
+/// edges; otherwise the number of edges that violate this. Sorts `edges` by From. `xy`: x and y of
+/// each point.
 std::int64_t countHullFaults(const std::vector<double>& xy, std::vector<DirectedEdge>& edges);
 
-/// Counts the edges that are not edges of the convex hull of the finite points, where all points on
-/// the hull are vertices of it.
+/// Counts the edges that are not edges of the convex hull of the finite points. All points on the
+/// hull count as its vertices, so a hull edge joins two consecutive ones.
 std::int64_t countOffHull(const std::vector<double>& xy, const std::vector<DirectedEdge>& edges);
 
 } // namespace check

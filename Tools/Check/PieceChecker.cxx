@@ -76,8 +76,9 @@ void PieceChecker::checkTriangles(const CheckedPiece& piece)
   }
 }
 
-/// All triangles at one of the piece's own points are in the piece, and points with equal
-/// coordinates are in one piece.
+/// Counts the piece's own points, the distinct ones, and those that no triangle uses. No other
+/// piece is needed: a piece has all triangles at its own points, and owns all points with the same
+/// coordinates.
 void PieceChecker::checkPoints(const CheckedPiece& piece)
 {
   std::vector<bool> used(piece.Ids.size(), false);
@@ -132,7 +133,8 @@ void PieceChecker::checkPoints(const CheckedPiece& piece)
   }
 }
 
-/// Points: in lexicographic order. Those on the hull's edges are kept, too.
+/// Keeps the points of the piece's convex hull, including those inside its edges. `points` are in
+/// lexicographic order.
 void PieceChecker::keepHull(const CheckedPiece& piece, const std::vector<std::int32_t>& points)
 {
   for (const int side : { 1, -1 })
@@ -169,7 +171,7 @@ PieceChecker::Edge PieceChecker::edgeOf(const CheckedPiece& piece, std::size_t h
     piece.Neighbors.empty() ? none : piece.Neighbors[opposite] };
 }
 
-/// A counting sort by the lower point, then a sort of each point's few edges.
+/// Sorts the half-edges by their lower point, by counting, and then the few of each point.
 void PieceChecker::checkEdges(const CheckedPiece& piece)
 {
   struct HalfEdge
@@ -260,7 +262,7 @@ void PieceChecker::checkPair(const Edge& a, const Edge& b)
   }
 }
 
-/// Matches the edges between pieces; those that remain are the hull's.
+/// Matches the edges between pieces. The remaining ones must be on the hull.
 void PieceChecker::matchEdges()
 {
   std::sort(this->Open.begin(), this->Open.end(),
@@ -355,7 +357,7 @@ NearConstraints::NearConstraints(
     if (std::isnan(sum) || std::isinf(segment.A.x) || std::isinf(segment.A.y) ||
       std::isinf(segment.B.x) || std::isinf(segment.B.y))
     {
-      continue; // such constraints are left out
+      continue; // constraints that are not finite are ignored
     }
     this->Segments.push_back(segment);
     for (const Position p : { segment.A, segment.B })
@@ -389,14 +391,14 @@ NearConstraints::NearConstraints(
 
 std::int64_t NearConstraints::cellOf(double value, std::size_t axis) const
 {
-  // Halves, since a difference may overflow.
+  // Halved, because the difference could overflow.
   const double length = this->High[axis] / 2 - this->Low[axis] / 2;
   const double part = (value / 2 - this->Low[axis] / 2) / length;
   return part > 0 ? std::min(std::int64_t(std::min(part, 1.0) * double(this->Side)), this->Side - 1)
                   : 0;
 }
 
-/// The cells of a segment and those beside them.
+/// Visits the cells that a segment crosses and their neighbours.
 template <typename Visit>
 void NearConstraints::visitCells(const Segment& segment, const Visit& visit) const
 {
@@ -406,7 +408,7 @@ void NearConstraints::visitCells(const Segment& segment, const Visit& visit) con
     std::minmax({ this->cellOf(segment.A.y, 1), this->cellOf(segment.B.y, 1) });
   const double height = this->High[1] / 2 - this->Low[1] / 2;
   const double rise = segment.B.y / 2 - segment.A.y / 2;
-  // Where the segment is when it is at the lower border of a row.
+  // Returns the column of the segment at the lower border of a row of cells.
   const auto columnAt = [&](std::int64_t row)
   {
     const double y = this->Low[1] / 2 + height * (double(row) / double(this->Side));
@@ -439,7 +441,7 @@ bool NearConstraints::isNear(Position p, const Segment& segment) const
   const double dy = b.y / 2 - a.y / 2;
   const double length = std::hypot(dx, dy);
   const double off = std::fabs(dx / length * (p.y - a.y) - dy / length * (p.x - a.x));
-  return !(off > tolerance); // also after an overflow
+  return !(off > tolerance); // true if the computation has overflowed
 }
 
 bool NearConstraints::mayHave(Position a, Position b) const

@@ -15,7 +15,7 @@ namespace tipp
 namespace
 {
 
-// The checker's own tests: it shares no code with the algorithm that it checks.
+// The checker's own predicates: it shares no code with the algorithm that it checks.
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Id = std::int64_t;
@@ -24,10 +24,10 @@ using Id = std::int64_t;
 struct Side
 {
   std::array<Id, 3> Ids;
-  std::size_t Slot; ///< 4 times the tetrahedron's index, plus the corner
+  std::size_t Slot; ///< 4 * index of the tetrahedron + that corner
 };
 
-/// An edge of a facet of the hull: ends ascending, and the corner opposite to it.
+/// An edge of a hull facet, ends ascending, and the corner opposite to it.
 struct HullEdge
 {
   std::array<Id, 2> Ends;
@@ -97,7 +97,7 @@ private:
     }
   }
 
-  /// Each distinct point must be a vertex under one id only, unless all points are in one plane.
+  /// Each distinct point must be a vertex under exactly one id, unless all points are in one plane.
   void checkPoints()
   {
     std::vector<Id> order;
@@ -222,8 +222,10 @@ private:
     }
   }
 
-  /// Lifted to the paraboloid, five points on a sphere are raised, the lexicographically largest
-  /// most by far, then the next: whether `other` comes to lie below the tetrahedron's hyperplane.
+  /// Returns how the tie rule decides for five points on a sphere: whether `other` is in conflict
+  /// with the tetrahedron. Lifted to the paraboloid, each point is raised by an infinitesimal, and
+  /// the lexicographically larger point by infinitely more. `other` is in conflict if it is then
+  /// below the tetrahedron's hyperplane.
   bool isRaisedInside(const Id* v, Id other) const
   {
     std::array<std::size_t, 5> order = { 0, 1, 2, 3, 4 };
@@ -247,7 +249,7 @@ private:
     return false;
   }
 
-  /// Every edge of the hull must be in two facets, which are convex there or coplanar.
+  /// Every edge of the hull must be in exactly two facets, which are convex there or coplanar.
   void checkHull()
   {
     this->Report.HullFacets = Id(this->Hull.size());
@@ -278,7 +280,7 @@ private:
         ++this->Report.BadHullEdges;
       }
     }
-    // A closed surface of which every part is convex is convex if it goes round once.
+    // A closed surface that is convex everywhere is convex as a whole if it winds around once.
     std::vector<Id> vertices;
     for (const HullEdge& edge : edges)
     {
@@ -290,7 +292,7 @@ private:
     this->Report.EulerMismatch += this->Hull.empty() ? 0 : std::abs(sphere - 2);
   }
 
-  /// The corners, such that the tetrahedron is on the positive side.
+  /// Returns the corners of a hull facet, ordered so that the tetrahedron is on its positive side.
   std::array<Id, 3> hullFacet(std::size_t facet) const
   {
     const std::size_t slot = this->Hull[facet];
@@ -331,7 +333,7 @@ private:
   const bool TieRule;
   TetrahedraReport Report;
   std::vector<bool> Used;
-  std::vector<std::size_t> Hull; ///< slots of the corners opposite to the hull's facets
+  std::vector<std::size_t> Hull; ///< facets of the hull, as Side::Slot
   Id Facets = 0;
 };
 
@@ -347,17 +349,17 @@ std::vector<std::string> TetrahedraReport::faults() const
       lines.push_back(std::to_string(count) + " " + text);
     }
   };
-  add(this->BadIds, "tetrahedra with an id that is no finite point's");
-  add(this->BadTurns, "tetrahedra inverted or flat");
-  add(this->BadFacets, "facets of three or more tetrahedra, or of two on the same side");
-  add(this->BadSpheres, "interior facets with a point inside the sphere");
-  add(this->BadTies, "ties broken against the rule");
-  add(this->UnusedPoints, "points in no tetrahedron");
-  add(this->TwinVertices, "vertices with the coordinates of another");
-  add(this->BadHullEdges, "edges of the hull where it is not closed or not convex");
+  add(this->BadIds, "tetrahedra have a point that does not exist or is not finite");
+  add(this->BadTurns, "tetrahedra are inverted or flat");
+  add(this->BadFacets, "facets are in three or more tetrahedra, or in two on the same side");
+  add(this->BadSpheres, "interior facets are not locally Delaunay");
+  add(this->BadTies, "facets break a tie differently than the rule");
+  add(this->UnusedPoints, "distinct points are in no tetrahedron");
+  add(this->TwinVertices, "vertices have the coordinates of another vertex");
+  add(this->BadHullEdges, "hull edges are where the hull is not closed or not convex");
   add(this->EulerMismatch,
-    "vertices, edges, facets or tetrahedra too many or too few by Euler's formula");
-  add(this->BadNeighbors, "corners whose NeighborIds name another tetrahedron");
+    "is the difference from Euler's formula for vertices, edges, facets and tetrahedra");
+  add(this->BadNeighbors, "corners have a wrong tetrahedron in NeighborIds");
   return lines;
 }
 

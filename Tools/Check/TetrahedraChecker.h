@@ -9,39 +9,42 @@
 namespace tipp
 {
 
-/// The result of checkTetrahedra(); all but the first block counts faults.
+/// The result of checkTetrahedra(). The members after the first block count faults.
 struct TetrahedraReport
 {
   std::int64_t Points = 0;
-  std::int64_t DistinctPoints = 0; ///< with finite coordinates
+  std::int64_t DistinctPoints = 0; ///< distinct points with finite coordinates
   std::int64_t Tetrahedra = 0;
   std::int64_t HullFacets = 0; ///< facets of one tetrahedron
-  std::int64_t Ties = 0;       ///< interior facets whose five points are on one sphere
+  std::int64_t Ties = 0;       ///< interior facets whose two tetrahedra are on one sphere
 
-  /// tetrahedra with an id that is no point's, or a point's that is not finite
+  /// Tetrahedra with an id that does not exist, or whose point is not finite.
   std::int64_t BadIds = 0;
-  std::int64_t BadTurns = 0;      ///< tetrahedra inverted or flat
-  std::int64_t BadFacets = 0;     ///< facets of three or more, or of two on the same side
-  std::int64_t BadSpheres = 0;    ///< interior facets with a point inside the sphere
-  std::int64_t BadTies = 0;       ///< ties broken against the rule, if it is required
-  std::int64_t UnusedPoints = 0;  ///< distinct points in no tetrahedron
-  std::int64_t TwinVertices = 0;  ///< further ids in use for the coordinates of another vertex
-  std::int64_t BadHullEdges = 0;  ///< edges where the hull's facets are not closed and convex
-  std::int64_t EulerMismatch = 0; ///< vertices - edges + facets - tetrahedra - 1, also of the hull
-  std::int64_t BadNeighbors = 0;  ///< corners whose neighbour is another one, if they are given
+  std::int64_t BadTurns = 0;     ///< tetrahedra that are inverted or flat
+  std::int64_t BadFacets = 0;    ///< facets of three or more tetrahedra, or of two on the same side
+  std::int64_t BadSpheres = 0;   ///< interior facets with a point inside the neighbour's sphere
+  std::int64_t BadTies = 0;      ///< ties broken against the rule; counted with `tieRule` only
+  std::int64_t UnusedPoints = 0; ///< distinct points in no tetrahedron
+  std::int64_t TwinVertices = 0; ///< vertices that have the coordinates of another vertex
+  std::int64_t BadHullEdges = 0; ///< hull edges at which the hull is not closed or not convex
+  std::int64_t EulerMismatch = 0; ///< vertices - edges + facets - tetrahedra - 1; also of the hull
+  /// Corners with a wrong neighbour; counted if `neighbors` are given.
+  std::int64_t BadNeighbors = 0;
 
   bool isCorrect() const { return this->faults().empty(); }
 
-  /// One line per kind of fault, with its count.
+  /// Returns a line for each kind of fault, with its count.
   std::vector<std::string> faults() const;
 };
 
-/// Checks whether tetrahedra (four point indices each) are the Delaunay triangulation of the
-/// distinct finite points (x, y, z interleaved), by exact arithmetic and without computing a
-/// triangulation: by Delaunay's lemma it suffices that positively oriented tetrahedra are locally
-/// Delaunay and meet facet to facet within one closed convex surface. Ties between points on a
-/// sphere may be broken either way unless `tieRule` is set. Points in one plane have no tetrahedra.
-/// `neighbors` holds for each corner the index of the opposite tetrahedron; empty: not checked.
+/// Checks in exact arithmetic whether tetrahedra are the Delaunay triangulation of the distinct
+/// finite points. It does not compute a triangulation: by Delaunay's lemma it is enough that the
+/// tetrahedra are positively oriented, locally Delaunay, and meet facet to facet within one closed
+/// convex surface. Ties between points on a sphere may be broken either way unless `tieRule` is
+/// set. Points in one plane have no tetrahedra.
+///
+/// `xyz` holds the coordinates of each point, `tetrahedra` four indices of points each. `neighbors`
+/// holds for each corner the index of the tetrahedron opposite to it, or -1; empty: not checked.
 TetrahedraReport checkTetrahedra(const std::vector<double>& xyz,
   const std::vector<std::int64_t>& tetrahedra, bool tieRule,
   const std::vector<std::int64_t>& neighbors = {});

@@ -86,7 +86,7 @@ CheckedPiece readChecked(const PartitionedMesh& mesh, std::size_t number)
 struct InputSum
 {
   std::int64_t All = 0;
-  std::int64_t Points = 0; ///< with finite coordinates
+  std::int64_t Points = 0; ///< points with finite coordinates
   std::uint64_t Sum = 0;
 };
 
@@ -118,11 +118,11 @@ struct CheckArguments
   std::string Points;
   std::string Mesh;
   PointOptions Columns;
-  std::string Constraints; ///< a file; empty: none
+  std::string Constraints; ///< path of a file; empty: none
   CheckOptions Options;
 };
 
-/// Gives a table whose edges name points coordinates of its own.
+/// If the table's edges are ids of input points, reads these points' coordinates into the table.
 void takePositions(const CheckArguments& arguments, ConstraintTable& table)
 {
   if (!table.XY.empty())
@@ -158,8 +158,9 @@ void takePositions(const CheckArguments& arguments, ConstraintTable& table)
   }
 }
 
-/// The constraints' edges in the mesh, by global ids. Keeps the triangles beside constraints only;
-/// of a mesh that is cut all those at vertices on constraints, which tell what its border is there.
+/// Finds the constraints' edges in the mesh; returns them by global ids. Keeps in memory only
+/// triangles near constraints: those with an edge on one, or in a cut mesh all those at vertices on
+/// constraints, which show its border there.
 ConstraintChains findChains(const PartitionedMesh& mesh, const ConstraintTable& table, bool isCut)
 {
   const NearConstraints near(table.XY, table.Edges);
@@ -196,7 +197,7 @@ ConstraintChains findChains(const PartitionedMesh& mesh, const ConstraintTable& 
       }
     }
   }
-  // A point may be in several pieces: the one with its coordinates that comes first stands for it.
+  // A point may be in several pieces. The first one with its coordinates represents all.
   std::map<std::pair<double, double>, std::int64_t> positions;
   for (std::int64_t& corner : triangles)
   {
@@ -220,9 +221,9 @@ ConstraintChains findChains(const PartitionedMesh& mesh, const ConstraintTable& 
   return chains;
 }
 
-/// checkDelaunay() of a partitioned mesh and of points that are read block by block; one piece at a
-/// time is in memory, and what lies beside constraints. Throws IOError, also if the mesh's points
-/// are not these.
+/// Does the same as checkDelaunay() for a partitioned mesh and points that are read block by block.
+/// One piece at a time and the triangles near constraints are in memory. Throws IOError if a file
+/// cannot be read, or if the mesh was made from other points.
 CheckReport checkPartitioned(const CheckArguments& arguments)
 {
   const PartitionedMesh mesh = openPartitionedMesh(arguments.Mesh);
@@ -264,18 +265,21 @@ CheckReport checkPartitioned(const CheckArguments& arguments)
 }
 
 constexpr const char* footer =
-  R"(Exact, and without a triangulation of its own: every edge in at most two
-triangles, all triangles counter-clockwise, every interior edge locally
-Delaunay, the boundary one convex chain, the number of triangles Euler's, every
-distinct point a vertex. Where the mesh has the cell array NeighborIds, the two
-triangles of every edge name each other. A partitioned mesh is read piece by
-piece and may be larger than memory. Exit code 0: no fault, 1: faults or a file that cannot
-be read, 2: wrong usage.
-With constraints, their edges need not be locally Delaunay, and the mesh may have
-more points after the given ones; where constraints have polygons or holes, each edge of
-its boundary must be one of theirs or of the convex hull. Which triangles lie inside is not checked.
-Constraints may lie outside of such a mesh.
-Tetrahedra are checked likewise, in memory: facets for edges, spheres for circles.
+  R"(The check is exact and computes no triangulation of its own. It requires: every edge is in
+at most two triangles, all triangles are counter-clockwise, every interior edge is locally
+Delaunay, the boundary is one convex chain, the number of triangles follows Euler's formula,
+and every distinct point is a vertex. If the mesh has the cell array NeighborIds, the two
+triangles of every edge must store each other. A partitioned mesh is read piece by piece
+and may be larger than memory. Exit codes: 0: no fault; 1: faults, or a file that cannot be
+read; 2: wrong usage.
+
+With --constraints, the constraints' edges need not be locally Delaunay, and the mesh may
+have more points after the given ones. With --cut, or if the constraints have polygons or
+holes, each boundary edge must be an edge of a constraint or of the convex hull, and
+constraints may lie outside of the mesh. Whether the right triangles were removed is not
+checked.
+
+Tetrahedra are checked in the same way, in memory.
 
 Examples:
   tipp check points.npy triangles.npy
@@ -286,13 +290,13 @@ Examples:
   tipp check particles.npy tetrahedra.vtu --tie-rule
 )";
 
-// Here NaN equals NaN.
+// Compares numbers; NaN equals NaN here.
 bool isSame(double a, double b)
 {
   return a == b || (a != a && b != b);
 }
 
-// If the mesh stores points, they must equal these.
+// Throws IOError if the mesh stores points other than these.
 void requireSamePoints(
   const CheckArguments& arguments, const std::vector<double>& xy, const std::vector<double>& own)
 {
@@ -305,8 +309,8 @@ void requireSamePoints(
   }
 }
 
-/// The constraints' points as indices of the mesh's points: the first with equal coordinates, or
-/// -1.
+/// Returns the constraints as indices of the mesh's points: the first one with equal coordinates,
+/// or -1.
 std::vector<std::array<std::int64_t, 2>> constraintsAmong(
   const std::vector<double>& xy, const ConstraintTable& table)
 {
@@ -334,7 +338,7 @@ std::vector<std::array<std::int64_t, 2>> constraintsAmong(
   return constraints;
 }
 
-/// Checks a mesh whose first points are the input points.
+/// Checks a mesh with constraints, whose first points are the input points.
 CheckReport checkConstrained(
   const CheckArguments& arguments, const PointTable& points, const TriangleMesh& mesh)
 {
@@ -367,7 +371,7 @@ CheckReport checkConstrained(
 CheckReport check(const CheckArguments& arguments)
 {
   std::error_code ignored;
-  // No other kind of mesh is a folder; the error for a missing index is clear.
+  // Only a partitioned mesh is a folder. If its index is missing, the error message says so.
   if (isPartitionedMesh(arguments.Mesh) || std::filesystem::is_directory(arguments.Mesh, ignored))
   {
     return checkPartitioned(arguments);
@@ -417,16 +421,15 @@ void addCheckCommand(CLI::App& app, int& exitCode)
     ->required();
   addPointOptions(*command, arguments->Columns);
   command->add_flag("--tie-rule", arguments->Options.TieRule,
-    "Also check that ties between co-circular points are broken by the lexicographic order of the "
-    "points, which makes the triangulation unique");
+    "Also check that ties between co-circular points are broken by the points' lexicographic "
+    "order, which makes the triangulation unique");
   command->add_flag("--boundary-free", arguments->Options.BoundaryFree,
-    "The mesh has a boundary of its own: do not check the hull and Euler's count");
+    "The mesh need not fill the convex hull: do not check its boundary and Euler's formula");
   command->add_option("--constraints", arguments->Constraints,
-    "A file of segments that must be edges, as of 'tipp delaunay'; the mesh may have more points, "
-    "after "
-    "the given ones");
+    "The file of constraints that 'tipp delaunay' used; the mesh may have more points after the "
+    "given ones");
   command->add_flag("--cut", arguments->Options.IsCut,
-    "With --constraints: triangles outside of them are removed, as by --hole");
+    "With --constraints: the mesh lacks triangles outside of polygons or in holes");
   command->footer(footer);
   command->callback(
     [arguments, &exitCode]() { exitCode = isIdleRank() ? Success : runCheck(*arguments); });

@@ -28,7 +28,7 @@ bool isStoredInPieces(const std::string& mesh)
   return isPartitionedMesh(mesh) || std::filesystem::is_directory(mesh, ignored);
 }
 
-// Here NaN equals NaN.
+// Compares numbers; NaN equals NaN here.
 bool isSame(double a, double b)
 {
   return a == b || (a != a && b != b);
@@ -43,8 +43,8 @@ bool isSame(double a, double b)
       count, points, input));
 }
 
-/// Reads the tetrahedra of a partitioned mesh; `xyz` are the points, whose finite ones it must
-/// have.
+/// Reads the tetrahedra of a partitioned mesh. Throws IOError unless its points are the finite ones
+/// among `xyz`.
 StoredTetrahedra readPieces(
   const std::string& path, const std::vector<double>& xyz, const std::string& input)
 {

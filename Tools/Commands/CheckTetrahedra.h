@@ -9,11 +9,11 @@
 namespace tipp
 {
 
-/// Whether a file or a partitioned mesh is of tetrahedra. Throws IOError.
+/// Returns whether a file or partitioned mesh holds tetrahedra. Throws IOError.
 bool isOfTetrahedra(const std::string& mesh);
 
-/// Checks tetrahedra in memory, and prints the result. Returns the exit code. Throws IOError, also
-/// if the mesh's points are not these.
+/// Checks tetrahedra in memory and prints the result. Returns the exit code. Throws IOError if a
+/// file cannot be read, or if the mesh was made from other points.
 int runCheckTetrahedra(
   const std::string& points, const std::string& mesh, PointOptions columns, bool tieRule);
 

@@ -10,7 +10,7 @@ class App;
 namespace tipp
 {
 
-/// Exit codes of every command; usage errors are found while the command line is parsed.
+/// Exit codes of all commands. Usage errors are found while the command line is parsed.
 enum ExitCode
 {
   Success = 0,
@@ -18,8 +18,8 @@ enum ExitCode
   Usage = 2
 };
 
-/// Each function adds its subcommand, which sets `exitCode` when it has run; it may throw IOError
-/// and std::bad_alloc.
+/// Each function adds a subcommand to `app`. When the subcommand has run, `exitCode` is set. It may
+/// throw IOError and std::bad_alloc.
 void addCheckCommand(CLI::App& app, int& exitCode);
 void addContourCommand(CLI::App& app, int& exitCode);
 void addDelaunayCommand(CLI::App& app, int& exitCode);

@@ -30,13 +30,13 @@ namespace
 
 constexpr const char* footer =
   R"(MESH    a partitioned mesh of triangles, which is read piece by piece; or any VTK file of
-        triangles or cells that are cut into them.
-LINES   .gpkg, a GeoPackage, by GDAL; or .vtp. Each line has its level, and its points
-        have the z of the surface.
+        triangles, or of other cells, which are cut into triangles.
+LINES   .gpkg: a GeoPackage, which needs GDAL; or .vtp. Each line stores its level, and its
+        points have the z of the surface.
 
-A line goes on across pieces; lines are the same for any pieces, threads and ranks. The
+Lines continue from piece to piece; they do not depend on pieces, threads and ranks. The
 higher side is on the left. Under mpirun the ranks share the pieces of a partitioned
-mesh. Memory is in bytes, or with K, M, G for 2^10, 2^20, 2^30 of them, and of each rank.
+mesh. --memory is the limit of each rank, in bytes or such as 512M (2^20 bytes) or 2G.
 
 Examples:
   tipp contour terrain.tipp -o contours.gpkg --interval 5 --crs EPSG:25832
@@ -54,7 +54,7 @@ struct ContourArguments
   std::string Crs;
 };
 
-/// The multiples of the interval in the array's range. Collective.
+/// Returns the multiples of the interval within the array's range. Collective.
 std::vector<double> levelsOf(
   Communicator& ranks, const ResidentMesh& mesh, const ContourArguments& arguments)
 {
@@ -65,7 +65,7 @@ std::vector<double> levelsOf(
     throw IOError("An interval of " + fmt::format("{}", arguments.Interval) +
       " would give more than 1000000 levels; give a larger one.");
   }
-  // Larger multiples are not all doubles.
+  // Beyond 2^53, doubles do not hold all multiples.
   if (std::max(std::fabs(low), std::fabs(high)) / arguments.Interval > 0x1p53 && low <= high)
   {
     throw IOError("An interval of " + fmt::format("{}", arguments.Interval) +
@@ -93,7 +93,8 @@ void write(const ContourArguments& arguments, const Contours& contours, const Pa
   pending.commit();
 }
 
-/// The ranks share the pieces, and the first one writes the file. Collective.
+/// Makes the contour lines of all pieces, which the ranks share. The first rank writes the file.
+/// Collective.
 void makeContours(const ContourArguments& arguments, Communicator& ranks)
 {
   PathState before;
@@ -102,7 +103,7 @@ void makeContours(const ContourArguments& arguments, Communicator& ranks)
     requireApart({ arguments.Output }, { arguments.Mesh.Path });
     before = PendingFile(arguments.Output).before(); // fails early if it cannot be written
   }
-  // A file that is not partitioned is in the memory of the first rank.
+  // Only the first rank reads a mesh that is not partitioned.
   const std::unique_ptr<ResidentMesh> mesh =
     ranks.isFirst() || isPartitionedMesh(arguments.Mesh.Path)
     ? openQueryMesh(arguments.Mesh)
@@ -137,17 +138,21 @@ void addContourCommand(CLI::App& app, int& exitCode)
           ? ""
           : "'" + path + "' does not end in .gpkg or .vtp";
       });
-  command->add_option("--array", arguments->Array, "An array of the points, or elevation")
+  command->add_option("--array", arguments->Array, "The name of a point array, or elevation for z")
     ->capture_default_str();
-  command->add_option("--component", arguments->Component, "Of an array that has several")
+  command
+    ->add_option("--component", arguments->Component,
+      "The component of an array that has several, counted from 0")
     ->check(CLI::NonNegativeNumber)
     ->capture_default_str();
   CLI::Option_group* const levels = command->add_option_group("levels");
-  levels->add_option("--levels", arguments->Levels, "The values")->delimiter(',');
-  levels->add_option("--interval", arguments->Interval, "All multiples of this")
+  levels->add_option("--levels", arguments->Levels, "The values of the lines, separated by commas")
+    ->delimiter(',');
+  levels->add_option("--interval", arguments->Interval, "Lines at all multiples of this value")
     ->check(CLI::PositiveNumber);
   levels->require_option(1);
-  command->add_option("--crs", arguments->Crs, "Of a .gpkg the reference system, as EPSG:25832");
+  command->add_option(
+    "--crs", arguments->Crs, "The reference system of a .gpkg, such as EPSG:25832");
   addQueryMeshOptions(*command, arguments->Mesh);
   command->footer(footer);
   command->callback([arguments, &exitCode]()

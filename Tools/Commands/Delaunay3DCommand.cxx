@@ -72,6 +72,23 @@ bool writeResult(const Delaunay3DArguments& arguments, PointTable&& table,
     arguments.Output, std::move(table), mesh.Ids.data(), mesh.cellCount(), neighbors, options);
 }
 
+bool writeTriangles(const Delaunay3DArguments& arguments, PointTable&& table,
+  const Tetrahedralization& mesh, const Triangulation& triangles, const PathState& before)
+{
+  MeshOptions options;
+  options.Before = before;
+  options.Aborted = isInterrupted;
+  options.Neighbors = arguments.Neighbors;
+  if (arguments.MapDuplicates)
+  {
+    const auto ids = representativeIds(mesh, table.size());
+    options.Representatives.assign(ids.begin(), ids.end());
+  }
+  table.Columns[requireElevation(table, arguments.Inputs.front())].Name = "z";
+  return writeMesh(
+    arguments.Output, table, { triangles.Ids32.data(), triangles.triangleCount() }, options);
+}
+
 void report(const Delaunay3DArguments& arguments, const Tetrahedralization& mesh,
   std::int64_t points, double seconds, const nlohmann::ordered_json& figures,
   const std::string& ranks)
@@ -93,23 +110,22 @@ namespace
 {
 
 constexpr const char* footer =
-  R"(INPUT   as of 'tipp delaunay'; the third coordinate is the column z, Z or elevation, or
-        the third one of a file without names.
-        uniform:COUNT stands for that many points, uniform in the unit cube (to .tipp).
+  R"(INPUT   files as for 'tipp delaunay'. The third coordinate is the column z, Z or elevation,
+        or the third column of a file without names. With a .tipp output also
+        uniform:COUNT: that many random points, uniform in the unit cube.
 OUTPUT  .vtu (all points with their data) or .npy (m x 4 int64: point ids, counted
-        from 0): all is in memory. Or .tipp, a partitioned mesh in a folder: points
-        and tetrahedra may be larger than memory, which --memory limits.
+        from 0): computed in memory. Or .tipp: a partitioned mesh in a folder. Points
+        and tetrahedra may then be larger than memory, which --memory limits.
 
-Points all in one plane make a warning and, in one process and not to .tipp, triangles:
-the Delaunay triangulation of their projection along the axis nearest to the plane's
-normal.
+If all points are in one plane, there is a warning, and triangles are written to .vtu or
+.npy: the Delaunay triangulation of the points' projection along the axis nearest to the
+plane's normal.
 
-Duplicates are merged, points that are not finite are left out. Ctrl-C ends the run
-with exit code 130 and no output. Seconds in the summary are those of the
-tetrahedralization alone, but of .tipp those of the whole run; memory is in millions of
-bytes. Under mpirun the points are spread over the ranks, each with its threads, and
-the first rank writes the output, the same as of one process; a .tipp is made by the
-first rank alone.
+Duplicates are merged, points that are not finite are left out. Ctrl-C stops the run
+with exit code 130 and no output. The summary shows the seconds of the tetrahedralization
+alone (for .tipp, of the whole run) and memory in millions of bytes. Under mpirun the
+points are distributed among the ranks, each with its threads, and the first rank writes
+the output, which is that of one process; a .tipp is made by the first rank alone.
 
 Examples:
   tipp delaunay3d particles.npy -o mesh.vtu
@@ -117,24 +133,6 @@ Examples:
   tipp delaunay3d uniform:50000000 -o mesh.tipp --memory 2G
   mpirun -np 4 tipp delaunay3d particles.npy -o mesh.vtu --threads 2
 )";
-
-/// Those of coplanar points.
-bool writeTriangles(const Delaunay3DArguments& arguments, PointTable&& table,
-  const Tetrahedralization& mesh, const Triangulation& triangles, const PathState& before)
-{
-  MeshOptions options;
-  options.Before = before;
-  options.Aborted = isInterrupted;
-  options.Neighbors = arguments.Neighbors;
-  if (arguments.MapDuplicates)
-  {
-    const auto ids = representativeIds(mesh, table.size());
-    options.Representatives.assign(ids.begin(), ids.end());
-  }
-  table.Columns[requireElevation(table, arguments.Inputs.front())].Name = "z";
-  return writeMesh(
-    arguments.Output, table, { triangles.Ids32.data(), triangles.triangleCount() }, options);
-}
 
 int runDelaunay3D(const Delaunay3DArguments& arguments)
 {
@@ -149,7 +147,7 @@ int runDelaunay3D(const Delaunay3DArguments& arguments)
     return reportInterrupt();
   }
   Tetrahedralization mesh;
-  Triangulation triangles; // of coplanar points
+  Triangulation triangles; // if the points are coplanar
   const Stopwatch watch;
   {
     const auto bar = std::make_unique<ProgressBar>("Tetrahedralizing");
@@ -187,7 +185,7 @@ int runDelaunay3D(const Delaunay3DArguments& arguments)
 
 OutOfCoreStatistics3 makeOutOfCore(const Delaunay3DArguments& arguments)
 {
-  // Large blocks go back to the system when they are freed, whatever was freed before.
+  // With this threshold, large blocks are always returned to the system when they are freed.
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
   PointOptions columns = arguments.Columns;
   setThinningFile(columns, arguments.Scratch, arguments.Output);
@@ -243,7 +241,7 @@ std::string checkTetrahedronFile(const std::string& path)
     : "'" + path + "' does not end in .vtu, .npy or .tipp";
 }
 
-/// Throws CLI::ValidationError for an option that the kind of output does not have.
+/// Throws CLI::ValidationError for options that the kind of output does not support.
 void requireFitting(const Delaunay3DArguments& arguments)
 {
   const std::string extension = extensionOf(arguments.Output);
@@ -259,7 +257,7 @@ void requireFitting(const Delaunay3DArguments& arguments)
   refuse(arguments.Neighbors && extension == ".npy", "--neighbors", needsArrays);
   refuse(arguments.MapDuplicates && extension == ".npy", "--map-duplicates", needsArrays);
   refuse(arguments.Partitions > 0 && isOutOfCore, "--partitions",
-    "is for outputs named .vtu or .npy; --memory decides for a .tipp");
+    "needs an output named .vtu or .npy; for .tipp, --memory determines the partitions");
   refuse(!arguments.Memory.empty() && !isOutOfCore, "--memory", "needs an output named .tipp");
   refuse(!arguments.Scratch.empty() && !isOutOfCore, "--scratch", "needs an output named .tipp");
 }
@@ -279,22 +277,22 @@ void addDelaunay3DCommand(CLI::App& app, int& exitCode)
   addThreadsOption(*command, arguments->Threads);
   command
     ->add_option(
-      "--partitions", arguments->Partitions, "The number of partitions; 0: chosen for the points")
+      "--partitions", arguments->Partitions, "The number of partitions; 0: chosen automatically")
     ->check(CLI::Range(0, 512))
     ->capture_default_str();
   command->add_flag("--map-duplicates", arguments->MapDuplicates,
-    "Add the point array RepresentativePointId: the id of the vertex that stands for a "
-    "point, -1 for points that are not finite");
+    "Add the point array RepresentativePointId: for each point the id of the vertex with its "
+    "coordinates, -1 if it is not finite");
   command->add_flag("--neighbors", arguments->Neighbors,
-    "Add the cell array NeighborIds: four ids a tetrahedron, those of the tetrahedra opposite its "
-    "corners, -1 at the hull");
+    "Add the cell array NeighborIds: for each corner the id of the tetrahedron opposite to it, -1 "
+    "at the hull");
   command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
   command
     ->add_option("--memory", arguments->Memory,
-      "With a .tipp output: what the process may take, as 512M; without: 2G")
+      "With a .tipp output: the memory limit of the process, such as 512M (default: 2G)")
     ->check(checkMemorySize);
   command->add_option("--scratch", arguments->Scratch,
-    "With a .tipp output: a folder for temporary files; without: beside the output");
+    "With a .tipp output: a folder for temporary files (default: that of the output)");
   command->footer(footer);
   command->callback(
     [arguments, &exitCode]()

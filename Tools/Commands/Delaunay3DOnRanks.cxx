@@ -21,12 +21,12 @@ namespace tipp
 namespace
 {
 
-/// This rank's share of the points.
+/// Returns this rank's share of the points.
 std::vector<Point3> readShare(const Communicator& ranks, const Delaunay3DArguments& arguments)
 {
   const PointTable table =
     readPointsShare(arguments.Inputs, arguments.Columns, ranks.rank(), ranks.size());
-  if (ranks.isFirst()) // which counts those of all files
+  if (ranks.isFirst()) // it counts the points of all files
   {
     reportLeftOut(table.LeftOut, table.ThinnedOut);
   }
@@ -35,24 +35,31 @@ std::vector<Point3> readShare(const Communicator& ranks, const Delaunay3DArgumen
     : coordinatesOf(table, requireElevation(table, arguments.Inputs.front()));
 }
 
-/// The first rank writes the file, completely or not at all; the others wait for its outcome.
+/// Writes the file on the first rank, completely or not at all; the others wait for the outcome.
 void writeOnFirst(Communicator& ranks, const Delaunay3DArguments& arguments,
   const DistributedTetrahedralization& mine, double seconds, const PathState& before)
 {
-  const Tetrahedralization all = gatherTetrahedra(ranks, mine, arguments.Threads);
+  Triangulation triangles; // of coplanar points
+  const Tetrahedralization all = gatherTetrahedra(ranks, mine, arguments.Threads, triangles);
   if (!ranks.isFirst())
   {
     return;
   }
-  // An output of tetrahedra alone has no use for the points.
-  PointTable table = extensionOf(arguments.Output) == ".npy"
+  // An .npy output of tetrahedra needs no points.
+  PointTable table = extensionOf(arguments.Output) == ".npy" && all.Dimension != 2
     ? PointTable()
     : readPoints(arguments.Inputs, arguments.Columns);
-  if (!writeResult(arguments, std::move(table), all, before))
+  nlohmann::ordered_json figures = jsonOf(statisticsOf(mine));
+  if (all.Dimension == 2)
+  {
+    figures["triangles"] = triangles.triangleCount();
+  }
+  if (!(all.Dimension == 2 ? writeTriangles(arguments, std::move(table), all, triangles, before)
+                           : writeResult(arguments, std::move(table), all, before)))
   {
     throw RankFailure(0, true, "interrupted");
   }
-  report(arguments, all, mine.AllPoints, seconds, jsonOf(statisticsOf(mine)),
+  report(arguments, all, mine.AllPoints, seconds, figures,
     fmt::format(", {} ranks of {} threads", ranks.size(), mine.Statistics.ThreadsPerRank));
   for (const std::string& warning : warningsOf(mine))
   {

@@ -30,31 +30,35 @@ struct Delaunay3DArguments
   bool MapDuplicates = false;
   bool Neighbors = false;
   std::string Statistics;
-  // Of a run out of core:
+  // For a run out of core:
   std::string Memory; ///< empty: not given
   std::string Scratch;
 };
 
-/// The points in space; `elevation` is the column of the third coordinate.
+/// Returns the points in space. `elevation`: the index of the column with the third coordinate.
 std::vector<Point3> coordinatesOf(const PointTable& table, std::size_t elevation);
 
-/// Throws IOError unless the output files can be written; call it before the work. Returns the
-/// state of the output's path; writeResult() replaces nothing else.
+/// Throws IOError unless the output files can be written. Call it before the computation. Returns
+/// the state of the output's path; writeResult() refuses to replace anything else.
 PathState requireWritable(const Delaunay3DArguments& arguments);
 
-/// Returns false if the user interrupted it; then no file is written.
+/// Writes the output. Returns false, without a file, if the user interrupted it. Throws IOError.
 bool writeResult(const Delaunay3DArguments& arguments, PointTable&& table,
   const Tetrahedralization& mesh, const PathState& before);
 
-/// Writes the file of statistics, if one is wanted, with `figures` of the run, and prints the
-/// summary; `ranks` ends it.
+/// Writes the triangles of coplanar points; otherwise as writeResult().
+bool writeTriangles(const Delaunay3DArguments& arguments, PointTable&& table,
+  const Tetrahedralization& mesh, const Triangulation& triangles, const PathState& before);
+
+/// Prints the summary, which ends with `ranks`, and writes the file of statistics, with `figures`
+/// of the run, if one is requested.
 void report(const Delaunay3DArguments& arguments, const Tetrahedralization& mesh,
   std::int64_t points, double seconds, const nlohmann::ordered_json& figures,
   const std::string& ranks);
 
-/// Runs `tipp delaunay3d` with a result in memory on the ranks of a controller. Every rank reads
-/// its share of the points; the first one writes the output and prints messages. Returns the exit
-/// code, the same on all ranks.
+/// Runs `tipp delaunay3d`, in memory, on the ranks of a controller. Every rank reads its share of
+/// the points; the first one writes the output and prints messages. Returns the exit code, which is
+/// the same on all ranks.
 int runDelaunay3DOnRanks(
   const Delaunay3DArguments& arguments, vtkMultiProcessController* controller);
 

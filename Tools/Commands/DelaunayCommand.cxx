@@ -21,34 +21,34 @@ namespace
 {
 
 constexpr const char* footer =
-  R"(INPUT   - for text from standard input; .npy (n x 2 or n x 3, float64 or float32); .csv, .txt, .xyz (one point a
-        line, columns parted by comma, semicolon, tab or blanks; a line of names
-        or of the count is found); .las (1.0 to 1.4), .laz with LASzip; .14, .grd
-        (ADCIRC); any VTK file. Several files are one set of points, if they have the
-        same columns. With a .tipp output also uniform:COUNT: COUNT uniform points
-        are uniform in the unit square. Of LAS files, points flagged as withheld,
-        synthetic or overlap are left out unless --keep names the flag.
+  R"(INPUT   -: text from standard input; .npy (n x 2 or n x 3, float64 or float32); .csv,
+        .txt, .xyz (a point per line, columns separated by comma, semicolon, tab or
+        blanks; a first line of names or of the count is recognized); .las (1.0 to 1.4),
+        .laz if built with LASzip; .14, .grd (ADCIRC); any VTK file. Several files with
+        the same columns are one set of points. With a .tipp output also uniform:COUNT:
+        that many random points, uniform in the unit square. Points of LAS files flagged
+        as withheld, synthetic or overlap are left out unless --keep names the flag.
 OUTPUT  .vtp, .vtu (all points with their data, a column named z as third
-        coordinate) or .npy (m x 3 int64: point ids, counted from 0,
-        counter-clockwise); .14 (ADCIRC: node numbers and boundaries of a .14 input are
-        kept; depth is the column depth or else minus z); or .tipp, a partitioned mesh, made out of core: points
-        and triangles may be larger than memory. .npy .las and text are read in
-        blocks, other points as a whole.
+        coordinate); .npy (m x 3 int64: point ids, counted from 0, counter-clockwise);
+        .14 (ADCIRC: node numbers and boundaries of a .14 input are kept; depth is the
+        column depth, else minus z); or .tipp: a partitioned mesh, made out of core.
+        Points and triangles may then be larger than memory: .npy, .las and text are
+        read in blocks, other files as a whole.
 
-CONSTRAINTS  .poly (Triangle); .csv, .txt (a segment a line: x and y of both ends, or
+CONSTRAINTS  .poly (Triangle); .csv, .txt (a segment per line: x and y of both ends, or
         two ids of points counted from 0); .14, .grd (ADCIRC: the boundaries); any VTK
-        file: lines, and polygons, of which counter-clockwise ones keep their inside
-        and clockwise ones are holes. Its points that are not in INPUT are added.
-        They stay in memory, on each rank.
+        file: lines and polygons. Only triangles inside of counter-clockwise polygons
+        are kept; clockwise ones are holes. Points that are not in INPUT are added.
+        Constraints stay in memory, on each rank.
 
-Under mpirun the points are spread over the ranks, each with its threads; the
+Under mpirun the points are distributed among the ranks, each with its threads; the
 first rank writes the output. --masters, --major, --minor and --groups choose how
 the ranks share the work. A .tipp output is written by all ranks, which must all
-see its folder and that of --scratch; --memory is that of each.
+see its folder and that of --scratch; --memory is the limit of each.
 
-Duplicates are merged, points that are not finite are left out. Ctrl-C ends the
-run with exit code 130 and no output. Seconds in the summary are those of the
-triangulation alone; memory is in millions of bytes.
+Duplicates are merged, points that are not finite are left out. Ctrl-C stops the
+run with exit code 130 and no output. The summary shows the seconds of the
+triangulation alone and memory in millions of bytes.
 
 Examples:
   tipp delaunay points.npy -o triangles.npy
@@ -77,7 +77,7 @@ TriangulationOptions makeOptions(
   return options;
 }
 
-/// With constraints new points are appended, and `report` receives a line about them.
+/// If there are constraints, appends their new points, and sets `report` to a line about them.
 Triangulation triangulatePoints(
   const DelaunayArguments& arguments, PointTable& points, std::string& report)
 {
@@ -146,12 +146,12 @@ std::string checkPartitions(const std::string& text)
 {
   return parseGrid(text)
     ? ""
-    : "'" + text + "' is neither auto nor COLUMNSxROWS of 1 to 10000 each, as 8x8";
+    : "'" + text + "' is neither auto nor COLUMNSxROWS of 1 to 10000 each, such as 8x8";
 }
 
 std::string checkMinor(const std::string& text)
 {
-  return parseMinor(text) ? "" : "'" + text + "' is none of auto, COLUMNSxROWS, auto:T and tree:T";
+  return parseMinor(text) ? "" : "'" + text + "' is not auto, COLUMNSxROWS, auto:T or tree:T";
 }
 
 void addTuning(CLI::App& command, DelaunayArguments& arguments)
@@ -159,40 +159,42 @@ void addTuning(CLI::App& command, DelaunayArguments& arguments)
   addThreadsOption(command, arguments.Threads);
   command
     .add_option("--partitions", arguments.Partitions,
-      "Columns and rows of partitions, as 8x8, or auto: chosen for the points")
+      "Columns and rows of partitions, such as 8x8; auto: chosen automatically")
     ->check(checkPartitions)
     ->capture_default_str();
   command
     .add_option("--schedule", arguments.Order,
-      "stages: independent partitions together, then the next; dynamic: each as soon as it can; "
-      "producer-consumer: stages without a barrier after each shift of the ranks")
+      "dynamic: each partition as soon as those that it waits for are done; stages: all "
+      "independent partitions, then a barrier; producer-consumer: as stages, but a free rank takes "
+      "the next partition of a stage at once")
     ->check(CLI::IsMember({ "stages", "producer-consumer", "dynamic" }))
     ->capture_default_str();
   command
     .add_option("--masters", arguments.Masters,
-      "auto: no master; single: one master hands out all partitions; multi: sub-masters, a major "
-      "partition each")
+      "auto: no master; single: one master starts all partitions; multi: a sub-master for each "
+      "major partition")
     ->check(CLI::IsMember({ "auto", "single", "multi" }))
     ->capture_default_str();
   command
     .add_option("--major", arguments.Major,
-      "Columns and rows of major partitions, as 4x4, or auto: boxes of equally many points")
+      "Columns and rows of major partitions, such as 4x4; auto: boxes of equally many points")
     ->check(checkPartitions)
     ->capture_default_str();
   command
     .add_option("--minor", arguments.Minor,
-      "Partitions of each major one: columns and rows, as 8x8; auto:T: a square grid of about T "
-      "points each; tree:T: boxes of equally many points, about T; auto: tree, T chosen")
+      "Minor partitions of a major one: columns and rows, such as 8x8; auto:T: a square grid, "
+      "about T points each; tree:T: boxes of equally many points, about T each; auto: a tree, T "
+      "chosen automatically")
     ->check(checkMinor)
     ->capture_default_str();
   command
     .add_option("--groups", arguments.Groups,
-      "Partitions and ranks are shared out by points (proportional) or by number (equal)")
+      "Distribute partitions and ranks by points (proportional) or by number (equal)")
     ->check(CLI::IsMember({ "proportional", "equal" }))
     ->capture_default_str();
   command
     .add_option("--initial-points", arguments.InitialPoints,
-      "Points of each partition in the initial mesh; 0: chosen")
+      "Points of each partition in the initial mesh; 0: chosen automatically")
     ->check(CLI::Range(0, 1000000))
     ->capture_default_str();
 }
@@ -200,21 +202,21 @@ void addTuning(CLI::App& command, DelaunayArguments& arguments)
 void addConstraints(CLI::App& command, DelaunayArguments& arguments)
 {
   command.add_option("--constraints", arguments.Constraints.Lines,
-    "A file of segments that must be edges, and of polygons whose inside alone is kept");
+    "A file of segments that must be edges, and of polygons outside of which triangles are "
+    "removed");
   command.add_option("--boundary", arguments.Constraints.Boundary,
-    "A file of closed lines: only the triangles inside of them are kept");
+    "A file of closed lines, outside of which triangles are removed");
   command.add_flag(
     "--refuse-crossings",
     [&arguments](std::int64_t) { arguments.Constraints.Crossings = CrossingRule::Refuse; },
-    "An error if two constraints cross; without: they are split at a new point");
+    "Fail if two constraints cross; otherwise they are split at a new point");
   command.add_flag("--mark-constraints", arguments.MarkConstraints,
     "Add the cell array ConstraintEdges to .tipp: for each corner 1 if the edge opposite to it is "
-    "a "
-    "constraint, else 0");
+    "a constraint, else 0");
   command
     .add_option("--hole", arguments.Constraints.Holes,
-      "x and y of a point in a hole, whose triangles are removed up to the constraints around it; "
-      "may be given several times")
+      "x and y of a point in a hole: triangles are removed from there up to the constraints around "
+      "it; may be given several times")
     ->allow_extra_args(false);
 }
 
@@ -248,31 +250,30 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
   addTuning(*command, *arguments);
   command
     ->add_option("--max-edge", arguments->MaximumEdge,
-      "Leaves out triangles with an edge longer than this, in the units of the points")
+      "Leave out triangles with an edge longer than this, in the units of the points")
     ->check(checkPositive);
   command->add_flag("--map-duplicates", arguments->MapDuplicates,
-    "Add the point array RepresentativePointId to .vtp or .vtu: the id of the vertex that stands "
-    "for a "
-    "point, -1 for points that are not finite");
+    "Add the point array RepresentativePointId to .vtp or .vtu: for each point the id of the "
+    "vertex with its coordinates, -1 if it is not finite");
   command->add_flag("--neighbors", arguments->Neighbors,
-    "Add the cell array NeighborIds to .vtp, .vtu or .tipp: three ids a triangle, those of the "
-    "triangles opposite its corners, -1 at the hull");
+    "Add the cell array NeighborIds to .vtp, .vtu or .tipp: for each corner the id of the triangle "
+    "opposite to it, -1 at the hull");
   addConstraints(*command, *arguments);
   command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
   command
     ->add_option("--memory", arguments->Memory,
-      "With a .tipp output: what each process may take, as 512M; without: 2G")
+      "With a .tipp output: the memory limit of each process, such as 512M (default: 2G)")
     ->check(checkMemorySize);
   command
     ->add_option("--sink", arguments->Sink,
-      "With a .tipp output: mesh, or count: nothing is written but the number of triangles and "
-      "a checksum of them")
+      "With a .tipp output: mesh: write it; count: only print the number of triangles and their "
+      "checksum")
     ->check(CLI::IsMember({ "mesh", "count" }))
     ->capture_default_str();
   command->add_flag("--resume", arguments->Resume,
-    "With a .tipp output: goes on where a run that was killed, interrupted or failed has been");
+    "With a .tipp output: resume a run that was killed, interrupted or failed");
   command->add_option("--scratch", arguments->Scratch,
-    "With a .tipp output: a folder for the spilled points; without: beside the output");
+    "With a .tipp output: a folder for temporary files (default: that of the output)");
   command->footer(footer);
   command->callback(
     [arguments, &exitCode]()
@@ -280,22 +281,22 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
       if (arguments->MapDuplicates && !holdsArrays(arguments->Output))
       {
         throw CLI::ValidationError(
-          "--map-duplicates", "needs an output of points, so .vtp or .vtu");
+          "--map-duplicates", "needs an output named .vtp or .vtu, which has all points");
       }
       if (arguments->Duplicates != DuplicateRule::First && extensionOf(arguments->Output) == ".npy")
       {
         throw CLI::ValidationError(
-          "--duplicates", "needs an output of points with data, so .vtp, .vtu or .tipp");
+          "--duplicates", "needs an output named .vtp, .vtu or .tipp, which has point data");
       }
       if (arguments->Neighbors && !holdsArrays(arguments->Output))
       {
         throw CLI::ValidationError(
-          "--neighbors", "needs an output of cells with data, so .vtp, .vtu or .tipp");
+          "--neighbors", "needs an output named .vtp, .vtu or .tipp, which has cell data");
       }
       if (arguments->Partitions != "auto" && arguments->isForRanks())
       {
         throw CLI::ValidationError(
-          "--partitions", "does not go with --masters, --major and --minor; give --minor");
+          "--partitions", "cannot be combined with --masters, --major and --minor; give --minor");
       }
       arguments->Input = arguments->Inputs.front();
       arguments->Columns.Threads = arguments->Threads;
@@ -304,7 +305,7 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
       if (isOutOfCore(*arguments) && arguments->isForRanks())
       {
         throw CLI::ValidationError(
-          "--masters, --major and --minor", "do not go with an output named .tipp");
+          "--masters, --major and --minor", "cannot be combined with an output named .tipp");
       }
       if (!isOutOfCore(*arguments) && !misplaced.empty())
       {

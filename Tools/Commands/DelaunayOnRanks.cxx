@@ -26,16 +26,17 @@ namespace tipp
 namespace
 {
 
-/// Constraints, on all ranks, and what the first rank knows of them.
+/// The constraints, which all ranks have, and data about them that only the first rank has.
 struct SharedConstraints
 {
-  std::unique_ptr<ConstraintSegments> Segments; ///< null: there are none
+  std::unique_ptr<ConstraintSegments> Segments; ///< null: no constraints
   std::vector<double> AddedXY;
-  PointBlock Added; ///< the same points with all columns; on the first rank
+  PointBlock Added; ///< on the first rank: the added points with all columns
   ConstraintFigures Figures;
 };
 
-/// Reads them on the first rank, which makes a pass over all points. Collective.
+/// Reads the constraints on the first rank, which reads all points for this, and sends them to the
+/// others. Collective.
 SharedConstraints shareConstraints(Communicator& ranks, const DelaunayArguments& arguments)
 {
   SharedConstraints shared;
@@ -84,7 +85,7 @@ void appendPoints(const PointBlock& added, PointTable& points)
   }
 }
 
-/// The first rank writes the file, completely or not at all; the others wait for its outcome.
+/// Writes the file on the first rank, completely or not at all; the others wait for the outcome.
 void writeOnFirst(Communicator& ranks, const DelaunayArguments& arguments, DelaunayRun& run,
   const DistributedTriangulation& mine, const SharedConstraints& constraints,
   const PathState& before)
@@ -95,7 +96,7 @@ void writeOnFirst(Communicator& ranks, const DelaunayArguments& arguments, Delau
     return;
   }
   Stopwatch watch;
-  // An output of triangles alone has no use for them.
+  // An .npy output of triangles needs no points.
   PointTable points =
     extensionOf(arguments.Output) == ".npy" ? PointTable() : readPointsFor(arguments);
   if (constraints.Added.size() > 0)
@@ -134,13 +135,13 @@ void runTogether(Communicator& ranks, const DelaunayArguments& arguments)
   PointTable points =
     readPointsShare(arguments.Inputs, arguments.Columns, ranks.rank(), ranks.size());
   const SharedConstraints constraints = shareConstraints(ranks, arguments);
-  if (ranks.rank() == ranks.size() - 1) // so that their ids come last
+  if (ranks.rank() == ranks.size() - 1) // the last rank, so that their ids come last
   {
     points.XY.insert(points.XY.end(), constraints.AddedXY.begin(), constraints.AddedXY.end());
   }
   ranks.barrier();
   run.ReadSeconds = watch.restart();
-  if (ranks.isFirst()) // which counts those of all files
+  if (ranks.isFirst()) // it counts the points of all files
   {
     reportLeftOut(points.LeftOut, points.ThinnedOut);
   }

@@ -82,7 +82,7 @@ std::string summarize(const OutOfCoreStatistics& statistics, const std::vector<P
   const double seconds = totalSeconds(statistics.Phases);
   const std::string rejected =
     statistics.Rejected == 0 ? "" : fmt::format(", {} rejected", statistics.Rejected);
-  const std::string each = ranks.size() == 1 ? "" : " on a rank at most";
+  const std::string each = ranks.size() == 1 ? "" : " of the largest rank";
   return fmt::format("{} points, {} triangles, {}{}, {} pieces, {:.0f} MB, {:.3f} s, "
                      "{:.0f} points/s, peak memory {:.0f} MB{}",
     statistics.Points, statistics.Triangles,
@@ -95,7 +95,8 @@ void reportMade(const DelaunayArguments& arguments, const OutOfCoreStatistics& s
   const ConstraintFigures& constraints, const std::vector<ProcessUsage>& ranks)
 {
   const bool isCounted = arguments.Sink == "count";
-  const bool hasConstraints = constraints.Constraints > 0; // not if the run was resumed
+  // The constraints are not read when a run is resumed.
+  const bool hasConstraints = constraints.Constraints > 0;
   if (!arguments.Statistics.empty())
   {
     RunStatistics all = statisticsOf(statistics, isCounted);
@@ -142,7 +143,7 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessCont
         { arguments.Output, arguments.Statistics, scratchIn(arguments.Scratch) }, arguments.Inputs);
       if (!arguments.Statistics.empty())
       {
-        // fails early if the file cannot be written
+        // Throws here, before the computation, if the file cannot be written.
         const PendingFile writable(arguments.Statistics);
       }
     }

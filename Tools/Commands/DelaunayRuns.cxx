@@ -112,7 +112,7 @@ namespace
 
 std::string describeLeftOut(std::int64_t notFinite)
 {
-  return notFinite > 0 ? fmt::format(", {} left out, since an end is not finite", notFinite) : "";
+  return notFinite > 0 ? fmt::format(", {} left out because an end is not finite", notFinite) : "";
 }
 
 std::string describe(const ResolvedConstraints& resolved, std::size_t constraints)
@@ -131,8 +131,8 @@ std::string describeSegments(const ConstraintFigures& figures)
 
 std::string describeAdded(std::int64_t points, const DelaunayArguments& arguments)
 {
-  return fmt::format("it adds {} points to those of {}, which an output named .npy does not hold; "
-                     "name it .vtp or .vtu.",
+  return fmt::format("it adds {} points to those of {}, which an .npy output does not store; name "
+                     "the output .vtp or .vtu.",
     points, arguments.Input);
 }
 
@@ -171,15 +171,16 @@ TrianglesView viewOf(const Triangulation& result)
                               : TrianglesView(result.Ids64.data(), result.triangleCount());
 }
 
-/// Boundaries are lists of nodes, which are there only where no point was left out.
+/// Warns if boundaries are lost: they are lists of nodes, and thinning has removed some of the
+/// nodes.
 void warnOfLostBoundaries(const DelaunayArguments& arguments)
 {
   const std::string boundaries = readAdcircFrame(arguments.Input).Boundaries;
-  constexpr std::ptrdiff_t linesOfNone = 4; // counts alone
+  constexpr std::ptrdiff_t linesOfNone = 4; // a grid without boundaries has only the counts
   if (std::count(boundaries.begin(), boundaries.end(), '\n') > linesOfNone)
   {
     fmt::print(stderr,
-      "tipp: warning: {} has none of the boundaries of {}, since --thin has left out some of its "
+      "tipp: warning: {} has none of the boundaries of {}, because --thin has left out some of its "
       "nodes.\n",
       arguments.Output, arguments.Input);
   }
@@ -203,7 +204,7 @@ PointTable readPointsFor(const DelaunayArguments& arguments)
   requireElevation(arguments.Duplicates, names);
   if (extensionOf(arguments.Output) == ".npy")
   {
-    points.Columns.clear(); // only .vtp and .vtu keep them
+    points.Columns.clear(); // only .vtp and .vtu store the columns
   }
   return points;
 }

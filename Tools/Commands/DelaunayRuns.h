@@ -25,7 +25,7 @@ namespace tipp
 struct DelaunayArguments
 {
   std::vector<std::string> Inputs;
-  std::string Input; ///< the first
+  std::string Input; ///< the first of Inputs
   std::string Output;
   PointOptions Columns;
   int Threads = 0;
@@ -43,97 +43,101 @@ struct DelaunayArguments
   ConstraintFiles Constraints;
   bool MarkConstraints = false;
   std::string Statistics;
-  // Of a run out of core:
+  // For a run out of core:
   std::string Memory; ///< empty: not given
   std::string Sink = "mesh";
   bool Resume = false;
   std::string Scratch;
 
-  /// Whether an option is given that only a run on ranks has; a single rank can run it, too.
+  /// Returns whether an option is given that needs the code for several ranks, even if there is
+  /// one.
   bool isForRanks() const
   {
     return this->Masters != "auto" || this->Major != "auto" || this->Minor != "auto";
   }
 };
 
-/// Parses "auto" (no columns and rows) or a grid; nullopt for any other text.
+/// Parses "auto", which gives no columns and rows, or a grid such as "8x8"; nullopt for other text.
 std::optional<GridSize> parseGrid(const std::string& text);
 
+/// How a major partition is divided into minor ones.
 struct MinorChoice
 {
   Division Kind = Division::Tree;
   GridSize Grid;
   std::int64_t Threshold = 0;
 };
+/// Parses "auto", a grid such as "8x8", "auto:T" or "tree:T"; nullopt for other text.
 std::optional<MinorChoice> parseMinor(const std::string& text);
 
+/// Returns the options of a run on ranks.
 DistributedOptions makeDistributedOptions(const DelaunayArguments& arguments);
 
-/// A line of a report.
+/// Returns a line about the constraints, for the report of a run.
 std::string describeSegments(const ConstraintFigures& figures);
 
-/// What is wrong if constraints add points, but the output holds triangles alone.
+/// Returns an error message: constraints add points, but the output stores triangles only.
 std::string describeAdded(std::int64_t points, const DelaunayArguments& arguments);
 
-/// Triangulates with the constraints that --constraints and --boundary name. The points of their
-/// files that are not among the points come after these, then the points where constraints cross. A
-/// column of the new points is what the constraints' file has as height, if it is named z; else
-/// NaN. A column of a crossing is interpolated. `report` becomes a line about the constraints.
-/// Throws IOError.
+/// Triangulates with the constraints that --constraints and --boundary name. Appends to `points`
+/// those of their files that are not in it yet, and then the points where constraints cross. In the
+/// column z, a new point has the height from the constraints' file; its other columns are NaN.
+/// Columns of a crossing are interpolated. Sets `report` to a line about the constraints. Throws
+/// IOError.
 Triangulation triangulateWithConstraints(const DelaunayArguments& arguments, PointTable& points,
   const TriangulationOptions& options, std::string& report);
 
-/// Runs `tipp delaunay` on the ranks of a controller, or on this process alone (null). Every rank
+/// Runs `tipp delaunay` on the ranks of a controller, or in this process alone (null). Every rank
 /// reads its share of the points; the first one writes the output and prints messages. Returns the
-/// exit code, the same on all ranks.
+/// exit code, which is the same on all ranks.
 int runDelaunayOnRanks(const DelaunayArguments& arguments, vtkMultiProcessController* controller);
 
-/// Whether the output is a partitioned mesh, which is computed out of core.
+/// Returns whether the output is a partitioned mesh, which is computed out of core.
 bool isOutOfCore(const DelaunayArguments& arguments);
 
-/// Runs `tipp delaunay` with such an output on the ranks of a controller, or on this process alone
-/// (null). Returns the exit code, the same on all ranks.
+/// Runs `tipp delaunay` out of core on the ranks of a controller, or in this process alone (null).
+/// Returns the exit code, which is the same on all ranks.
 int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessController* controller);
 
-/// Returns the given options that are valid only for such an output, if the output is another one;
-/// empty if there are none.
+/// If the output is not a partitioned mesh: returns a given option that only runs out of core
+/// support, or an empty text.
 std::string misplacedOutOfCoreOption(const DelaunayArguments& arguments);
 
-/// Whether such an output holds arrays of points and cells; not .npy and .14.
+/// Returns whether a file of this kind stores arrays of points and cells; .npy and .14 do not.
 bool holdsArrays(const std::string& path);
 
-/// The whole input, without columns that the output does not keep.
+/// Reads the whole input, without the columns that the output does not store. Throws IOError.
 PointTable readPointsFor(const DelaunayArguments& arguments);
 
-/// Throws IOError unless the output files can be written; call it before the work. Returns the
-/// state of the output's path; writeResult() replaces nothing else.
+/// Throws IOError unless the output files can be written. Call it before the computation. Returns
+/// the state of the output's path; writeResult() refuses to replace anything else.
 PathState requireWritable(const DelaunayArguments& arguments);
 
-/// Returns false if the user interrupted it; then no file is written.
+/// Writes the output. Returns false, without a file, if the user interrupted it. Throws IOError.
 bool writeResult(const DelaunayArguments& arguments, const PointTable& points,
   const Triangulation& result, const PathState& before);
 
-/// What `tipp delaunay` reports of a run besides the result's own statistics.
+/// The figures of a run of `tipp delaunay`, besides the result's own statistics.
 struct DelaunayRun
 {
   std::string Input;
   std::string Output;
-  std::int64_t DisagreeingPositions = 0; ///< of several points with different elevations
+  std::int64_t DisagreeingPositions = 0; ///< positions whose points have different elevations
   std::int64_t Points = 0;
   double ReadSeconds = 0; ///< all times are wall-clock seconds
   double TriangulateSeconds = 0;
   double WriteSeconds = 0;
 };
 
-/// One line: points, triangles, duplicates, rejected points if any, seconds and points per second
-/// of the triangulation alone, and peak memory of the process.
+/// Returns the summary, one line: points, triangles, duplicates, rejected points if any, seconds
+/// and points per second of the triangulation alone, and peak memory of the process.
 std::string summarize(const DelaunayRun& run, const Triangulation& result);
 
-/// Writes the same and all of TriangulationStatistics to a JSON file; throws IOError.
+/// Writes these figures and all of TriangulationStatistics to a JSON file. Throws IOError.
 void writeStatistics(const std::string& path, const DelaunayRun& run, const Triangulation& result);
 
 ///@{
-/// The same of a run on ranks.
+/// The same functions for a run on ranks.
 std::string summarize(
   const DelaunayRun& run, const Triangulation& all, const DistributedStatistics& statistics);
 void writeStatistics(

@@ -32,7 +32,7 @@ RasterDescription describeRaster(const DemArguments& arguments, const std::strin
   }
   if (isGeoTiff(arguments.Output) && !description.Crs.empty())
   {
-    requireCrs(description.Crs); // before the work rather than after it
+    requireCrs(description.Crs); // fail before the computation rather than after it
   }
   return description;
 }
@@ -59,7 +59,7 @@ std::string summarize(const DemArguments& arguments, const DemReport& report)
     figures.Points, figures.Triangles,
     describeDuplicates(figures.Duplicates, figures.DisagreeingPositions), rejected, grid.Columns,
     grid.Rows, report.Filled, report.ReadSeconds + report.MakeSeconds + report.WriteSeconds,
-    double(report.PeakMemory) / 1e6, report.Ranks == 1 ? "" : " on a rank at most",
+    double(report.PeakMemory) / 1e6, report.Ranks == 1 ? "" : " of the largest rank",
     arguments.Output);
 }
 
@@ -111,7 +111,7 @@ IOError demError(const DemArguments& arguments, const std::runtime_error& error)
   const bool isColumn = dynamic_cast<const UnknownBand*>(&error) != nullptr;
   return IOError(arguments.Inputs.front(),
     std::string("cannot be made a raster: ") + error.what() +
-      (isColumn ? " 'tipp info' lists all columns; --attributes names those to take." : ""));
+      (isColumn ? " 'tipp info' lists all columns; name those to use with --attributes." : ""));
 }
 
 void finishDem(const DemArguments& arguments, const DemReport& report)
@@ -123,22 +123,22 @@ void finishDem(const DemArguments& arguments, const DemReport& report)
   fmt::print("{}\n", summarize(arguments, report));
   if (report.Figures.WithoutElevation > 0)
   {
-    fmt::print(stderr, "tipp: {} points have no elevation; triangles at them have none, either.\n",
+    fmt::print(stderr,
+      "tipp: {} points have no elevation; pixels in triangles at them have no elevation.\n",
       report.Figures.WithoutElevation);
   }
   warnOfHidden(report.Hidden, arguments.NoData);
   if (report.Figures.Triangles == 0)
   {
     fmt::print(stderr,
-      "tipp: warning: no pixel has a value, since there are fewer than three distinct points or "
+      "tipp: warning: no pixel has a value, because there are fewer than three distinct points or "
       "all lie on one line.\n");
   }
   else if (report.Filled == 0)
   {
     fmt::print(stderr,
-      "tipp: warning: no pixel has a value: check --bounds, --like and --max-edge against what "
-      "'tipp "
-      "info' tells of the points.\n");
+      "tipp: warning: no pixel has a value; compare --bounds, --like and --max-edge with the "
+      "bounds that 'tipp info' prints.\n");
   }
 }
 

@@ -17,7 +17,7 @@ class vtkMultiProcessController;
 namespace tipp
 {
 
-/// What `tipp dem` was asked for.
+/// The options of `tipp dem`.
 struct DemArguments
 {
   std::vector<std::string> Inputs;
@@ -31,51 +31,54 @@ struct DemArguments
   std::string Type = "float32";
   std::string Compression = "deflate";
   bool CloudOptimized = false;
-  std::string Breaklines; ///< a file; empty: none
-  std::string Boundary;   ///< the same
+  std::string Breaklines; ///< path of a file; empty: none
+  std::string Boundary;   ///< path of a file; empty: none
   std::string Statistics;
   std::string Memory; ///< empty: not given
   bool Resume = false;
   std::string Scratch;
 
-  /// For messages.
+  /// Returns the file of constraints that messages name.
   std::string constraintFile() const
   {
     return this->Breaklines.empty() ? this->Boundary : this->Breaklines;
   }
 };
 
+/// The figures of a run of `tipp dem`.
 struct DemReport
 {
   DemFigures Figures;
   TerrainSettings Settings;
   std::int64_t Filled = 0; ///< pixels with a value
-  double Hidden = 0;       ///< values that equal --nodata
+  double Hidden = 0;       ///< number of values that equal --nodata
   double ReadSeconds = 0;
   double MakeSeconds = 0;
   double WriteSeconds = 0;
-  std::int64_t PeakMemory = 0; ///< of the process, or the largest of all ranks
+  std::int64_t PeakMemory = 0; ///< in bytes, of the process; with ranks, the largest of all
   int Ranks = 1;
 };
 
-/// How a GeoTIFF stores values; the same on all ranks.
+/// Returns how a GeoTIFF stores values; the same on all ranks.
 RasterDescription describeEncoding(const DemArguments& arguments);
-/// All but the grid and the bands, for points in this reference system. Throws IOError for what
-/// GDAL does not know.
+/// Returns the description of the raster without its grid and bands. `pointCrs`: the reference
+/// system of the points. Throws IOError if GDAL does not know the reference system.
 RasterDescription describeRaster(const DemArguments& arguments, const std::string& pointCrs);
+/// Adds the grid and the bands to a description.
 void describeGrid(const TerrainSettings& settings, RasterDescription& description);
 
-/// Throws IOError if an output is an input or cannot be written: before the work.
+/// Throws IOError if an output is also an input, or cannot be written. Call it before the
+/// computation.
 void requireDemWritable(const DemArguments& arguments);
 
-/// What is thrown where the points cannot be made a raster.
+/// Returns the error to throw if no raster can be made from the points.
 IOError demError(const DemArguments& arguments, const std::runtime_error& error);
 
-/// Prints the summary, and writes the statistics if they are asked for.
+/// Prints the summary, and writes the statistics if they are requested.
 void finishDem(const DemArguments& arguments, const DemReport& report);
 
-/// `tipp dem` with a limit of memory, on the ranks of a controller or on this process alone (null).
-/// Returns the exit code, the same on all ranks.
+/// Runs `tipp dem` with a memory limit, on the ranks of a controller or in this process alone
+/// (null). Returns the exit code, which is the same on all ranks.
 int runDemOutOfCore(
   const DemArguments& arguments, vtkMultiProcessController* controller, DemReport& report);
 

@@ -31,21 +31,21 @@ namespace
 {
 
 constexpr const char* footer =
-  R"(INPUT   Points as 'tipp delaunay' takes them: .las, .laz, .npy, .csv, .txt, .xyz and
-        others, one or more files. The elevation is the column z or elevation.
-OUTPUT  .tif: a GeoTIFF, tiled and compressed, of float32. .npy: float64, rows x columns,
-        the lowest y first; for several bands these come before. .vti: an array of
-        float64 for each band. Where there is no triangle, a GeoTIFF has the number of
-        --nodata and the others NaN.
+  R"(INPUT   one or more files of points, as for 'tipp delaunay': .las, .laz, .npy, .csv,
+        .txt, .xyz and others. The elevation is the column z or elevation.
+OUTPUT  .tif: a tiled and compressed GeoTIFF of float32. .npy: float64, rows x columns, the
+        row of lowest y first; several bands: bands x rows x columns. .vti: a float64
+        array for each band. Where there is no triangle, pixels of a GeoTIFF have the
+        number of --nodata, and those of other files NaN.
 
-A pixel has the value of the triangulated surface at its centre: those of 'tipp
-delaunay' and then 'tipp resample'. The raster covers the points; borders of pixels
+A pixel has the value of the triangulated surface at its centre: the value that 'tipp
+delaunay' and then 'tipp resample' give. The raster covers the points; borders of pixels
 are at multiples of the resolution. Triangles are not stored.
 
-Without --memory all is done in memory. With it points, triangles and pixels may be
-larger than memory; they are kept in a folder beside the output, or that of --scratch.
-The pixels are the same. Under mpirun the work is shared among the ranks in this way,
-each with the memory of --memory, or 2G; all must see these folders.
+Without --memory everything is in memory. With it, points, triangles and pixels may be
+larger than memory: they are stored in a folder beside the output, or in that of
+--scratch. The pixels are the same. Under mpirun the ranks share the work in this way,
+each with the limit --memory, or 2G; all ranks must see these folders.
 
 Examples:
   tipp dem tiles/*.las -o dem.tif --resolution 1 --class 2
@@ -134,13 +134,13 @@ int runDem(const DemArguments& arguments)
 void addConstraintOptions(CLI::App& command, DemArguments& arguments)
 {
   command.add_option("--breaklines", arguments.Breaklines,
-    "A file of lines that are edges of triangles; their points have the file's heights, or those "
-    "of the surface without them");
+    "A file of lines that become edges of triangles; their points have the file's heights, else "
+    "those of the surface without the lines");
   command.add_option("--boundary", arguments.Boundary,
-    "A file of closed lines: pixels have values inside of them only");
+    "A file of closed lines: only pixels inside of them have values");
 }
 
-/// Reads them.
+/// Reads the files of breaklines and boundary.
 void takeConstraints(DemArguments& arguments)
 {
   TableConstraints constraints;
@@ -148,7 +148,8 @@ void takeConstraints(DemArguments& arguments)
   if (!arguments.Breaklines.empty())
   {
     constraints.Lines = readConstraintFile(arguments.Breaklines);
-    constraints.Lines.PolygonBegin = constraints.Lines.Edges.size(); // polygons are lines, too
+    // Edges of polygons are breaklines, too.
+    constraints.Lines.PolygonBegin = constraints.Lines.Edges.size();
     constraints.Lines.Holes.clear();
     isVtkFile(arguments.Breaklines) ? dropPlainHeights(constraints.Lines) : void();
   }
@@ -176,61 +177,67 @@ void addGridOptions(CLI::App& command, DemArguments& arguments)
       "--resolution", raster.Resolution, "Width and height of a pixel, in the units of the points")
     ->check(checkPositive);
   command
-    .add_option(
-      "--bounds", arguments.Bounds, "The range: xmin xmax ymin ymax; else that of the points")
+    .add_option("--bounds", arguments.Bounds,
+      "The range of the raster: xmin xmax ymin ymax (default: that of the points)")
     ->expected(4);
   command
     .add_option_function<std::string>(
       "--align", [&raster](const std::string& which) { raster.Aligned = which == "grid"; },
-      "Where borders of pixels are: grid, at multiples of the resolution (the default), or bounds, "
-      "from the lower left of the bounds on")
+      "Where pixels have their borders: grid: at multiples of the resolution (default); bounds: "
+      "counted from the lower left corner of the bounds")
     ->check(CLI::IsMember({ "grid", "bounds" }));
   command.add_option("--like", arguments.Like,
-    "A raster whose pixels to take, instead of --resolution and --bounds");
+    "A raster with the same pixels, instead of --resolution and --bounds");
 }
 
 void addValueOptions(CLI::App& command, DemArguments& arguments)
 {
   command
     .add_option("--attributes", arguments.Request.Bands,
-      "The bands: elevation, columns of the points as intensity, slope, aspect, hillshade "
-      "and density (points a square unit) of the triangles, and void (1 where there is no "
-      "triangle, else 0); without: elevation")
+      "The bands: elevation; columns of the points, such as intensity; slope, aspect, hillshade "
+      "and density (points per square unit) of the triangles; void: 1 where there is no triangle, "
+      "else 0 (default: elevation)")
     ->delimiter(',')
     ->allow_extra_args(false);
   command
     .add_option("--max-edge", arguments.Request.MaximumEdge,
-      "Triangles with an edge longer than this, in the plane, have no values")
+      "Pixels in triangles with an edge longer than this, in the plane, have no value")
     ->check(checkPositive);
-  command.add_option("--nodata", arguments.NoData, "What a GeoTIFF has where there is no triangle")
+  command
+    .add_option(
+      "--nodata", arguments.NoData, "The number that a GeoTIFF has where there is no triangle")
     ->capture_default_str();
   command.add_option("--crs", arguments.Crs,
-    "The coordinate reference system, as EPSG:25832; without: that of the LAS files or of --like");
-  command.add_option("--type", arguments.Type, "Of a GeoTIFF's values: float32 or float64")
+    "The coordinate reference system, such as EPSG:25832 (default: that of the LAS files or of "
+    "--like)");
+  command
+    .add_option("--type", arguments.Type, "The type of a GeoTIFF's values: float32 or float64")
     ->check(CLI::IsMember({ "float32", "float64" }))
     ->capture_default_str();
   command
-    .add_option("--compress", arguments.Compression, "A GeoTIFF's: deflate, lzw, zstd or none")
+    .add_option("--compress", arguments.Compression,
+      "The compression of a GeoTIFF: deflate, lzw, zstd or none")
     ->check(CLI::IsMember({ "deflate", "lzw", "zstd", "none" }))
     ->capture_default_str();
-  command.add_flag("--cog", arguments.CloudOptimized, "A cloud optimized GeoTIFF, with overviews");
+  command.add_flag(
+    "--cog", arguments.CloudOptimized, "Write a cloud optimized GeoTIFF, with overviews");
 }
 
-/// Options that would do nothing are refused.
+/// Throws CLI::ValidationError for options that would have no effect.
 void requireUseful(const CLI::App& command, const DemArguments& arguments)
 {
   for (const char* const name : { "--nodata", "--crs", "--type", "--compress", "--cog" })
   {
     if (command.count(name) > 0 && !isGeoTiff(arguments.Output))
     {
-      throw CLI::ValidationError(name, "is for a GeoTIFF (.tif) only");
+      throw CLI::ValidationError(name, "needs an output named .tif");
     }
   }
   for (const char* const name : { "--bounds", "--align" })
   {
     if (command.count(name) > 0 && !arguments.Like.empty())
     {
-      throw CLI::ValidationError(name, "does not go with --like");
+      throw CLI::ValidationError(name, "cannot be combined with --like");
     }
   }
   std::vector<std::string> bands = arguments.Request.Bands;
@@ -238,7 +245,7 @@ void requireUseful(const CLI::App& command, const DemArguments& arguments)
   const auto twice = std::adjacent_find(bands.begin(), bands.end());
   if (twice != bands.end())
   {
-    throw CLI::ValidationError("--attributes", "has '" + *twice + "' twice");
+    throw CLI::ValidationError("--attributes", "lists '" + *twice + "' twice");
   }
 }
 
@@ -246,19 +253,18 @@ void requireGood(const DemArguments& arguments)
 {
   if (arguments.Like.empty() == (arguments.Request.Raster.Resolution == 0))
   {
-    throw CLI::ValidationError(
-      "--resolution", arguments.Like.empty() ? "or --like is required" : "does not go with --like");
+    throw CLI::ValidationError("--resolution",
+      arguments.Like.empty() ? "or --like is required" : "cannot be combined with --like");
   }
   if (arguments.Type == "float32" && std::isfinite(arguments.NoData) &&
     std::fabs(arguments.NoData) > double(std::numeric_limits<float>::max()))
   {
     throw CLI::ValidationError(
-      "--nodata", "is no number of 32 bits; give another or --type float64");
+      "--nodata", "is not a 32-bit number; give another one, or --type float64");
   }
   if (arguments.Memory.empty() && (arguments.Resume || !arguments.Scratch.empty()))
   {
-    throw CLI::ValidationError(
-      arguments.Resume ? "--resume" : "--scratch", "needs --memory, with which files are kept");
+    throw CLI::ValidationError(arguments.Resume ? "--resume" : "--scratch", "needs --memory");
   }
 }
 
@@ -267,8 +273,8 @@ void requireGood(const DemArguments& arguments)
 void addDemCommand(CLI::App& app, int& exitCode)
 {
   auto arguments = std::make_shared<DemArguments>();
-  CLI::App* const command = app.add_subcommand(
-    "dem", "Makes a raster of points: the triangulated surface at the pixels' centres");
+  CLI::App* const command = app.add_subcommand("dem",
+    "Makes a raster from points: the values of the triangulated surface at the pixels' centres");
   command->add_option("input", arguments->Inputs, "The points, of one or more files")->required();
   command->add_option("-o,--output", arguments->Output, "The raster")
     ->required()
@@ -279,12 +285,13 @@ void addDemCommand(CLI::App& app, int& exitCode)
   addPointOptions(*command, arguments->Points);
   addDuplicatesOption(*command, arguments->Request.Duplicates);
   addThreadsOption(*command, arguments->Request.Threads);
-  command->add_option("--memory", arguments->Memory, "What the process may take, as 512M")
+  command
+    ->add_option("--memory", arguments->Memory, "The memory limit of each process, such as 512M")
     ->check(checkMemorySize);
   command->add_flag("--resume", arguments->Resume,
-    "With --memory: goes on where a run that was killed, interrupted or failed has been");
+    "With --memory: resume a run that was killed, interrupted or failed");
   command->add_option("--scratch", arguments->Scratch,
-    "With --memory: a folder for what is temporary; without: beside the output");
+    "With --memory: a folder for temporary files (default: that of the output)");
   command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
   command->footer(footer);
   command->callback(

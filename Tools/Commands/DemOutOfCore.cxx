@@ -27,7 +27,8 @@ namespace tipp
 namespace
 {
 
-/// What else than the points and the memory a resumed run must have in common with the first one.
+/// Returns a text of the options that a resumed run must have in common with the first one, besides
+/// the points and the memory.
 std::string identityOf(const DemArguments& arguments, const RasterDescription& description)
 {
   const RasterRequest& raster = arguments.Request.Raster;
@@ -50,7 +51,7 @@ std::string identityOf(const DemArguments& arguments, const RasterDescription& d
   return text;
 }
 
-/// Of the folders beside the output that runs keep their files in.
+/// Suffixes of the folders beside the output in which runs keep their files.
 constexpr const char* workSuffix = ".pixels";
 constexpr const char* surfaceSuffix = ".surface";
 
@@ -69,8 +70,8 @@ OutOfCoreOptions optionsOf(const DemArguments& arguments)
   return options;
 }
 
-/// Sets the values of the surface at the points of constraints, on the first rank, unless none
-/// needs them or the run that uses them has begun. Returns the exit code.
+/// Sets the surface's values at the points of constraints, on the first rank. Does nothing if no
+/// point needs them, or if the run that uses them has already begun. Returns the exit code.
 int findSurface(const DemArguments& arguments, Communicator& ranks, const OpenPoints& open,
   std::vector<std::vector<double>>& values, DemReport& report)
 {
@@ -119,7 +120,7 @@ int runDemOutOfCore(
     [&](const TerrainSettings& settings, const TileSource& tiles,
       const std::function<bool(double)>& progress)
     {
-      malloc_trim(0); // what pieces have freed
+      malloc_trim(0); // return the memory of pieces to the system
       RasterDescription whole = description;
       describeGrid(settings, whole);
       report.Settings = settings;
@@ -154,7 +155,7 @@ int runDemOutOfCore(
   {
     return surfaceCode;
   }
-  ConstrainedPoints* constrained = nullptr; // of the first rank
+  ConstrainedPoints* constrained = nullptr; // on the first rank
   const auto openConstrained = [&]() -> std::unique_ptr<PointStream>
   {
     auto stream = open();

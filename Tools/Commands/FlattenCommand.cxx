@@ -27,10 +27,10 @@ constexpr const char* footer =
 FOLDER  cells.npy, points.npy, point_data/NAME.npy, cell_data/NAME.npy and, for
         values that vary in time, time.npy. It must not exist yet.
 
-Cells other than triangles and tetrahedra are cut into these; what is cut and
-what is left out (cells of a lower dimension, ghost cells, arrays of strings) is
-told. A .vtu file with appended, raw, uncompressed triangles or tetrahedra needs
-no flattening: it is read in place.
+Other cells are cut into triangles or tetrahedra. Cells of a lower dimension, ghost
+cells and arrays of strings are left out. The command reports the cells that it has cut
+or left out. A .vtu file with appended, raw, uncompressed triangles or tetrahedra need
+not be flattened: other commands read it in place.
 
 Examples:
   tipp flatten bracket.vtu -o bracket
@@ -56,8 +56,8 @@ void reportCut(const FlattenArguments& arguments, const Flattened& flattened)
   }
   for (const std::string& name : flattened.ArraysLeftOut)
   {
-    fmt::print(
-      stderr, "tipp: warning: {}: array '{}' holds no numbers, left out.\n", arguments.Input, name);
+    fmt::print(stderr, "tipp: warning: {}: array '{}' holds no numbers and is left out.\n",
+      arguments.Input, name);
   }
 }
 
@@ -79,7 +79,7 @@ bool writeContent(const FlattenArguments& arguments, const FlatContent& content)
 int runFlatten(const FlattenArguments& arguments)
 {
   {
-    // Checked before the work.
+    // Check the paths before the computation.
     std::vector<std::string> inputs = arguments.Values;
     inputs.push_back(arguments.Input);
     requireApart({ arguments.Output }, inputs);
@@ -105,19 +105,19 @@ int runFlatten(const FlattenArguments& arguments)
 void addFlattenCommand(CLI::App& app, int& exitCode)
 {
   auto arguments = std::make_shared<FlattenArguments>();
-  CLI::App* const command = app.add_subcommand(
-    "flatten", "Writes a mesh as a folder of .npy arrays: triangles or tetrahedra, as they lie");
+  CLI::App* const command = app.add_subcommand("flatten",
+    "Writes the triangles or tetrahedra of a mesh as a folder of .npy arrays, in their order");
   command->add_option("input", arguments->Input, "The mesh")->required();
   command->add_option("-o,--output", arguments->Output, "The folder to write")->required();
   command->add_option("--values", arguments->Values,
-    "ADCIRC output at the nodes in ASCII (fort.63, maxele.63 ...), with an ADCIRC grid");
+    "With an ADCIRC grid: ASCII output at its nodes (fort.63, maxele.63 ...)");
   command->footer(footer);
   command->callback(
     [arguments, &exitCode]()
     {
       if (!arguments->Values.empty() && !isAdcircFile(arguments->Input))
       {
-        throw CLI::ValidationError("--values goes with an ADCIRC grid (.14, .grd)");
+        throw CLI::ValidationError("--values needs an ADCIRC grid (.14, .grd)");
       }
       exitCode = isIdleRank() ? Success : runFlatten(*arguments);
     });

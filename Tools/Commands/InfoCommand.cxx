@@ -24,9 +24,9 @@ namespace
 {
 
 constexpr const char* footer =
-  R"(Reads all points of the files, as 'tipp delaunay' does, in blocks, and prints how many there
-are, their bounds, the columns with their ranges, the coordinate reference system, how many points
-have the coordinates of another, and a resolution for 'tipp dem' that has about one point a pixel.
+  R"(Reads all points of the files, in blocks, as 'tipp delaunay' does. Prints their number, their
+bounds, the columns and their ranges, the coordinate reference system, the number of
+duplicates, and a resolution for 'tipp dem' that gives about one point per pixel.
 
 Examples:
   tipp info tile.las
@@ -43,7 +43,7 @@ struct Range
 {
   double Low = std::numeric_limits<double>::infinity();
   double High = -std::numeric_limits<double>::infinity();
-  std::int64_t Missing = 0; ///< values that are not finite
+  std::int64_t Missing = 0; ///< number of values that are not finite
 
   void add(double value)
   {
@@ -71,7 +71,7 @@ struct Summary
   Range X;
   Range Y;
   std::vector<Range> Columns;
-  /// The finite points, unless there are too many to search for duplicates.
+  /// The finite points, to find duplicates; empty if there are too many.
   std::vector<Point2> Compared;
 };
 
@@ -114,7 +114,7 @@ std::string duplicatesOf(std::vector<Point2>& points)
 {
   if (points.size() > mostCompared)
   {
-    return fmt::format("not counted, for more than {} points", mostCompared);
+    return fmt::format("not counted: more than {} points", mostCompared);
   }
   std::sort(points.begin(), points.end(),
     [](Point2 a, Point2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
@@ -123,7 +123,7 @@ std::string duplicatesOf(std::vector<Point2>& points)
   return std::to_string(points.end() - end);
 }
 
-/// The nearest of 1, 2 or 5 times a power of ten.
+/// Returns the nearest number that is 1, 2 or 5 times a power of ten.
 double roundNumber(double value)
 {
   const double power = std::pow(10, std::floor(std::log10(value)));
@@ -138,7 +138,8 @@ void describeLas(const std::string& path)
     header.Compressed ? ", compressed" : "", header.Points);
   if (header.HasUnknownCrs)
   {
-    fmt::print("  its coordinate reference system has no EPSG code; give --crs where it matters\n");
+    fmt::print(
+      "  its coordinate reference system has no EPSG code; give --crs if an output needs it\n");
   }
 }
 
@@ -175,7 +176,7 @@ int runInfo(const InfoArguments& arguments)
   const double area = (summary.X.High - summary.X.Low) * (summary.Y.High - summary.Y.Low);
   if (area > 0 && std::isfinite(area))
   {
-    fmt::print("resolution  {}, for about a point a pixel\n",
+    fmt::print("resolution  {}, for about one point per pixel\n",
       roundNumber(std::sqrt(area / double(summary.Points - summary.NotFinite))));
   }
   return Success;
@@ -187,7 +188,7 @@ void addInfoCommand(CLI::App& app, int& exitCode)
 {
   auto arguments = std::make_shared<InfoArguments>();
   CLI::App* const command =
-    app.add_subcommand("info", "Tells what files of points hold: counts, bounds, columns");
+    app.add_subcommand("info", "Describes files of points: their number, bounds and columns");
   command->add_option("input", arguments->Inputs, "The points, of one or more files")->required();
   addPointOptions(*command, arguments->Points);
   command->footer(footer);
@@ -199,9 +200,9 @@ namespace
 {
 
 constexpr const char* devicesFooter =
-  R"(One line a device: INDEX, CPU, GPU or other, memory, whether it has the double
-precision that resampling needs, NAME, and the driver. --device of other
-commands takes opencl:INDEX or opencl:NAME, NAME being any part of the name.
+  R"(One line per device: INDEX; CPU, GPU or other; memory; whether it has the double
+precision that resampling needs; NAME; and the driver. The option --device of other
+commands accepts opencl:INDEX or opencl:NAME, where NAME is any part of the name.
 
 Example:
   tipp devices

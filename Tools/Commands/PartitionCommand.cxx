@@ -19,7 +19,7 @@ namespace tipp
 namespace
 {
 
-/// One line for the user.
+/// Returns the summary, one line.
 std::string summarize(const PartitionStatistics& statistics)
 {
   return fmt::format("{} cells, {} points, {} pieces, {} borrowed cells, {:.0f} MB, {:.3f} s, peak "
@@ -29,7 +29,7 @@ std::string summarize(const PartitionStatistics& statistics)
     double(peakMemoryBytes()) / 1e6);
 }
 
-/// Writes a JSON file; throws IOError.
+/// Writes a JSON file. Throws IOError.
 void writeReport(const std::string& path, const std::string& input, const std::string& output,
   const PartitionStatistics& statistics)
 {
@@ -68,14 +68,14 @@ constexpr const char* footer =
         place whatever its size; or any VTK file of triangles or tetrahedra that
         fits in memory.
 MESH    a folder: mesh.pvtu, which ParaView and vtkXMLPUnstructuredGridReader read,
-        the pieces, and an index. A partitioned mesh that is there already is
-        replaced when the new one is whole.
+        the pieces, and an index. An existing partitioned mesh is replaced when the new
+        one is complete.
 
 A cell belongs to the first partition that it meets; the other partitions it meets
 borrow it, by reference or as ghost cells in their own pieces. Under mpirun all ranks
-share the work, and the files come out the same. Ctrl-C ends the run with exit code
-130 and no output. Memory is in bytes, or with K, M, G for 2^10, 2^20, 2^30 of them,
-and of each rank.
+share the work, and the files are the same. Ctrl-C stops the run with exit code 130 and
+no output. --memory is the limit of each rank, in bytes or such as 512M (2^20 bytes) or
+2G.
 
 Examples:
   tipp partition mesh -o mesh.tipp --tiling grid:8x8
@@ -125,7 +125,7 @@ int runPartition(const PartitionArguments& arguments)
   PartitionStatistics statistics;
   try
   {
-    // Checked before the work; a failure on one rank fails on all.
+    // Check the paths before the computation. A failure on one rank fails on all.
     Communicator(session.controller())
       .attempt(
         [&]
@@ -167,35 +167,38 @@ void addPartitionCommand(CLI::App& app, int& exitCode)
   CLI::App* const command =
     app.add_subcommand("partition", "Cuts a mesh larger than memory into pieces on the disk");
   command->add_option("input", arguments->Input, "The mesh")->required();
-  command->add_option("-o,--output", arguments->Output, "The partitioned mesh, as mesh.tipp")
+  command->add_option("-o,--output", arguments->Output, "The partitioned mesh, such as mesh.tipp")
     ->required();
   command
     ->add_option("--tiling", arguments->Tiling,
-      "grid:COLUMNSxROWS[xLAYERS], or quadtree:CELLS (octree:CELLS): partitions that meet at most "
-      "CELLS cells no longer than themselves")
+      "grid:COLUMNSxROWS[xLAYERS]; or quadtree:CELLS (octree:CELLS): partitions are divided until "
+      "each meets at most CELLS cells that are not longer than the partition")
     ->check(checkTiling)
     ->capture_default_str();
   command
     ->add_option("--borrowers", arguments->Borrowers,
-      "reference: borrowed cells stay in their owners' pieces; duplicate: they are copied too")
+      "reference: borrowed cells are only in their owners' pieces; duplicate: they are also copied "
+      "to the pieces that borrow them")
     ->check(CLI::IsMember({ "reference", "duplicate" }))
     ->capture_default_str();
   command->add_flag("--neighbors", arguments->Neighbors,
-    "Also the number of the cell across each edge or face, as NeighborIds; partitions twice");
-  command->add_option("--memory", arguments->Memory, "What the run may take, as 512M")
+    "Add the cell array NeighborIds: the id of the cell across each edge or face; this partitions "
+    "the mesh twice");
+  command->add_option("--memory", arguments->Memory, "The memory limit of each rank, such as 512M")
     ->check(checkMemorySize)
     ->capture_default_str();
   command
     ->add_option("--loader", arguments->Loader,
-      "How vertices are read: Direct Load, its fine form, a cache of blocks, mapped files")
+      "How vertices are read: direct: Direct Load; fine: with smaller reads; lru: a cache of "
+      "blocks; mmap: mapped files; auto: chosen automatically")
     ->check(CLI::IsMember({ "auto", "direct", "fine", "lru", "mmap" }))
     ->capture_default_str();
   command
     ->add_option("--device", arguments->Device,
-      "What classifies cells at borders: openmp, opencl, opencl:NAME or auto")
+      "The device that classifies cells at borders: openmp, opencl, opencl:NAME or auto")
     ->capture_default_str();
   addThreadsOption(*command, arguments->Threads);
-  command->add_option("--stats", arguments->Statistics, "Writes what the run did to a JSON file");
+  command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
   command->footer(footer);
   command->callback([arguments, &exitCode]() { exitCode = runPartition(*arguments); });
 }

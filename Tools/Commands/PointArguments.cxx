@@ -39,12 +39,12 @@ std::string checkPositive(const std::string& text)
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, value);
   const bool isGood = error == std::errc() && stop == end && value > 0 && std::isfinite(value);
-  return isGood ? "" : "'" + text + "' is no number above 0";
+  return isGood ? "" : "'" + text + "' is not a number above 0";
 }
 
 std::string checkMemorySize(const std::string& text)
 {
-  return parseMemorySize(text) ? "" : "'" + text + "' is no number of bytes, as 512M or 2G";
+  return parseMemorySize(text) ? "" : "'" + text + "' is not a number of bytes, such as 512M or 2G";
 }
 
 namespace
@@ -54,10 +54,10 @@ std::string checkClass(const std::string& text)
 {
   return LasSelection::parseClass(text)
     ? ""
-    : "'" + text + "' is not a class; give numbers from 0 to 255, as 2,9";
+    : "'" + text + "' is not a class; give numbers from 0 to 255, such as 2,9";
 }
 
-/// Nothing if the text is not CELL:RULE.
+/// Parses CELL:RULE; nullopt for other text.
 std::optional<Thinning> parseThinning(const std::string& text)
 {
   const std::map<std::string, Thinning::Rule> rules = { { "min", Thinning::Rule::Lowest },
@@ -83,15 +83,15 @@ std::string checkThinning(const std::string& text)
 {
   return parseThinning(text)
     ? ""
-    : "'" + text + "' is not the side of a square and min, max or nearest, as 0.5:min";
+    : "'" + text + "' is not the side of a square and min, max or nearest, such as 0.5:min";
 }
 
 } // namespace
 
 void addPointOptions(CLI::App& command, PointOptions& options)
 {
-  command.add_option("--x", options.X, "Column of x: a name, or a number from 0");
-  command.add_option("--y", options.Y, "Column of y: a name, or a number from 0");
+  command.add_option("--x", options.X, "Column of x: a name, or a number counted from 0");
+  command.add_option("--y", options.Y, "Column of y: a name, or a number counted from 0");
   command
     .add_option_function<std::vector<std::string>>(
       "--class",
@@ -102,7 +102,7 @@ void addPointOptions(CLI::App& command, PointOptions& options)
           options.Las.Classes.push_back(std::stoi(number));
         }
       },
-      "Of LAS files the points of these classes, as 2,9; without: all")
+      "Read only points of these classes from LAS files, such as 2,9 (default: all)")
     ->delimiter(',')
     ->allow_extra_args(false)
     ->check(checkClass);
@@ -115,7 +115,7 @@ void addPointOptions(CLI::App& command, PointOptions& options)
           : which == "last"                 ? LasSelection::Returns::Last
                                             : LasSelection::Returns::All;
       },
-      "Of LAS files the first, the last or all returns of a pulse; without: all")
+      "Read the first, the last or all returns of a pulse from LAS files (default: all)")
     ->check(CLI::IsMember({ "first", "last", "all" }));
   command
     .add_option_function<std::vector<std::string>>(
@@ -127,15 +127,15 @@ void addPointOptions(CLI::App& command, PointOptions& options)
           options.Las.keep(flag);
         }
       },
-      "Of LAS files also points with these flags: withheld, synthetic, overlap")
+      "Also read points with these flags from LAS files: withheld, synthetic, overlap")
     ->delimiter(',')
     ->allow_extra_args(false)
     ->check(CLI::IsMember({ "withheld", "synthetic", "overlap" }));
   command
     .add_option_function<std::string>(
       "--thin", [&options](const std::string& text) { options.Thin = *parseThinning(text); },
-      "Keeps one point in each square of this side, as 0.5:min: min, max (the lowest or highest), "
-      "or nearest (to the middle)")
+      "Keep one point in each square with this side, such as 0.5:min: the lowest (min), the "
+      "highest (max), or the nearest to the middle (nearest)")
     ->check(checkThinning);
 }
 
@@ -147,15 +147,14 @@ void addDuplicatesOption(CLI::App& command, DuplicateRule& rule)
   command
     .add_option_function<std::string>(
       "--duplicates", [&rule, rules](const std::string& name) { rule = rules.at(name); },
-      "Of several points with equal coordinates the values of the first, of the lowest (min) or "
-      "highest "
-      "(max), or the mean of each column; without: first")
+      "The values of points with equal coordinates: those of the first, of the lowest (min) or "
+      "highest (max), or the mean of each column (default: first)")
     ->check(CLI::IsMember({ "first", "min", "max", "mean" }));
 }
 
 void addThreadsOption(CLI::App& command, int& threads)
 {
-  command.add_option("--threads", threads, "Number of threads; 0: OpenMP's choice")
+  command.add_option("--threads", threads, "Number of threads; 0: OpenMP's default")
     ->check(CLI::Range(0, 4096))
     ->capture_default_str();
 }
@@ -173,8 +172,8 @@ void reportLeftOut(std::int64_t points, std::int64_t thinnedOut)
   if (points > 0)
   {
     fmt::print(stderr,
-      "tipp: {} points of LAS files are not used: of other classes or returns, or flagged as "
-      "withheld, synthetic or overlap.\n",
+      "tipp: {} points of LAS files are not used: they have other classes or returns, or are "
+      "flagged as withheld, synthetic or overlap.\n",
       points);
   }
   if (thinnedOut > 0)

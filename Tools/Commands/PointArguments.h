@@ -17,34 +17,35 @@ class App;
 namespace tipp
 {
 
-/// Adds the options that tell which points and columns of files are read.
+/// Adds the options that select the points and columns to read.
 void addPointOptions(CLI::App& command, PointOptions& options);
 
-/// Adds the option that tells whose values coincident points get.
+/// Adds the option --duplicates, which selects the values of points with equal coordinates.
 void addDuplicatesOption(CLI::App& command, DuplicateRule& rule);
 
 /// Adds the option --threads.
 void addThreadsOption(CLI::App& command, int& threads);
 
-/// For a run in bounded memory: thinning keeps its squares in a temporary file, in the folder
-/// `scratch` or, if that is empty, beside the output.
+/// Sets a temporary file for thinning, for runs with a memory limit: in the folder `scratch`, or
+/// beside the output if that is empty.
 void setThinningFile(PointOptions& options, const std::string& scratch, const std::string& output);
 
-/// Tells on the standard error stream how many points of LAS files were not selected, and how many
-/// thinning has left out.
+/// Prints to stderr how many points of LAS files were not selected, and how many were removed by
+/// thinning.
 void reportLeftOut(std::int64_t points, std::int64_t thinnedOut);
 
-/// What a summary says of duplicates, as "3 duplicates, 1 location with different elevations".
+/// Returns text about duplicates for a summary, such as "3 duplicates, 1 location with different
+/// elevations".
 std::string describeDuplicates(std::int64_t duplicates, std::int64_t disagreeing);
 
-/// Parses a number of bytes, or with the suffix K, M, G of 2^10, 2^20, 2^30 bytes, such as "512M";
-/// nullopt for any other text and for 0.
+/// Parses a number of bytes, which may have the suffix K, M or G for 2^10, 2^20 or 2^30 bytes, such
+/// as "512M". Returns nullopt for other text and for 0.
 std::optional<std::uint64_t> parseMemorySize(const std::string& text);
 
-/// A validator for the command line: returns an error message, or an empty string.
+/// Validates a memory size on the command line: returns an error message, or an empty text.
 std::string checkMemorySize(const std::string& text);
 
-/// The same for a finite number above 0.
+/// Validates a finite number above 0, likewise.
 std::string checkPositive(const std::string& text);
 
 } // namespace tipp

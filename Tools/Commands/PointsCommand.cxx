@@ -22,21 +22,24 @@ namespace tipp
 namespace
 {
 
-/// Returns `count` points, x and y interleaved, distributed like those of a file: each is uniform
-/// in a triangle of the file's Delaunay triangulation; all triangles are equally likely, so that
-/// dense areas stay dense (the dissertation's chapter 3.3.3 enlarges its storm-surge meshes in this
-/// way). Throws IOError, and std::runtime_error if the file's points have no triangles.
+/// Returns `count` points, x and y of each, with about the same distribution as those of a file.
+/// Each is uniform in a triangle of the file's Delaunay triangulation, and all triangles are
+/// equally likely, so dense areas stay dense. The dissertation's chapter 3.3.3 enlarges its
+/// storm-surge meshes in this way. Throws IOError, and std::runtime_error if the file's points have
+/// no triangles.
 std::vector<double> pointsLike(const std::string& path, std::int64_t count, std::uint64_t seed)
 {
   const PointTable table = readPoints(path);
   TriangulationOptions options;
-  // the order of the triangles, and so the points, must be the same on every machine
+  // With several threads, the order of the triangles, and so the points, could depend on the
+  // machine.
   options.Threads = 1;
   const Triangulation mesh = triangulate(PointsView(table.XY.data(), table.size(), 2), options);
   const std::int64_t triangles = std::int64_t(mesh.triangleCount());
   if (triangles == 0)
   {
-    throw std::runtime_error("'" + path + "' has no three points off one line to be like.");
+    throw std::runtime_error(
+      "'" + path + "': its points have no triangles, because all lie on one line.");
   }
   const auto corner = [&](std::int64_t triangle, std::int64_t i)
   {
@@ -69,15 +72,15 @@ std::vector<double> pointsLike(const std::string& path, std::int64_t count, std:
 
 constexpr const char* footer = R"(Distributions:
   uniform    independent and uniform in the unit square
-  clustered  100 Gaussian clusters in it, standard deviations 1e-5 to 1e-2
+  clustered  100 Gaussian clusters in the unit square, standard deviations 1e-5 to 1e-2
   kuzmin     Kuzmin's disk: dense at the centre, unbounded
-  lattice    integer points row by row, ceil(sqrt(N)) a row
+  lattice    integer points row by row, ceil(sqrt(N)) per row
   coast      fractal shorelines in degrees, 6 decimals, in polyline order
-  circle     random points of the unit circle
-  collinear  exactly on a line, in random order
+  circle     random points on the unit circle
+  collinear  points exactly on a line, in random order
 
---like takes any file of points that tipp delaunay reads: the new ones lie in the
-triangles between them, equally many in each.
+--like accepts any file of points that 'tipp delaunay' reads. The new points are random in
+the triangles of its points' triangulation, all triangles being equally likely.
 
 Example:
   tipp points --distribution coast --count 1000000 --seed 7 -o coast.npy
@@ -97,7 +100,7 @@ void runPoints(const PointsArguments& arguments)
 {
   const bool isLike = !arguments.Like.empty();
   requireApart({ arguments.Output }, { arguments.Like });
-  // fails early if the file cannot be written
+  // Throws here, before the computation, if the file cannot be written.
   const PathState before = PendingFile(arguments.Output).before();
   writePoints(arguments.Output,
     isLike ? pointsLike(arguments.Like, arguments.Count, arguments.Seed)
@@ -118,15 +121,14 @@ void addPointsCommand(CLI::App& app, int& exitCode)
     "Writes points of a known distribution as an .npy file (N x 2 float64), the same on every "
     "machine");
   CLI::Option_group* const kind = command->add_option_group("kind");
-  kind->add_option("--distribution", arguments->Distribution, "Which, see below")
+  kind->add_option("--distribution", arguments->Distribution, "The distribution, see below")
     ->check(CLI::IsMember(distributionNames()));
-  kind->add_option(
-    "--like", arguments->Like, "A file whose points they are to be distributed like");
+  kind->add_option("--like", arguments->Like, "A file of points with the wanted distribution");
   kind->require_option(1);
   command->add_option("--count", arguments->Count, "Number of points")
     ->required()
     ->check(CLI::Range(std::int64_t(0), std::int64_t(1) << 40));
-  command->add_option("--seed", arguments->Seed, "Another number gives other points")
+  command->add_option("--seed", arguments->Seed, "The seed of the random numbers")
     ->check(CLI::NonNegativeNumber)
     ->capture_default_str();
   command->add_option("-o,--output", arguments->Output, "The .npy file to write")

@@ -30,29 +30,29 @@ namespace
 {
 
 constexpr const char* footer =
-  R"(POINTS  any file of points that tipp delaunay reads. In a mesh of tetrahedra they need a
+  R"(POINTS  any file of points that 'tipp delaunay' reads. For a mesh of tetrahedra it needs a
         column z.
-MESH    a partitioned mesh of 'tipp partition' or 'tipp delaunay', of which only the
-        pieces that points lie in are read; or any VTK file of triangles, tetrahedra or
-        cells that are cut into them.
-VALUES  .csv: a line for each point with its coordinates, the number of the cell that
-        holds it (-1: outside), and the arrays' values, empty outside. .npy: the arrays
-        alone, as float64, a row for each point, nan outside.
+MESH    a partitioned mesh, made by 'tipp partition' or 'tipp delaunay', of which only
+        pieces with points in them are read; or any VTK file of triangles, tetrahedra or
+        other cells, which are cut into these.
+VALUES  .csv: a line for each point with its coordinates, the id of the cell that contains
+        it (-1: outside), and the arrays' values, empty outside. .npy: only the arrays,
+        as float64, a row for each point, nan outside.
 
 ZONES   with --zones: polygons of a .gpkg, .shp, .geojson or .fgb file, or of a .csv file
         with a column WKT, instead of points. VALUES is then a .csv file with a line for
-        each feature: the number of its cells, its area on the mesh, and for each array the
+        each feature: the number of its cells, its area on the mesh, and for each array
         minimum, maximum, mean, integral and the volume above --level. Triangles are cut at
-        the border.
+        the zone's border.
 
 IDS     with --ids cells or --ids points, instead of points: VALUES (.csv or .npy) is then a
-        list of the ids in a region: --bounds, or the --polygons of a file as for --zones.
-        Cells need one point in it, with --whole all of them.
+        list of the ids in a region: --bounds, or --polygons, a file as for --zones. A cell
+        is listed if it has a point in the region, with --whole if all of it is in there.
 
-A point on an edge, a face or a corner belongs to one cell, the same for any pieces,
-threads and ranks, as in tipp resample. Under mpirun the ranks share the pieces and the
-points, and the first one writes the file. Memory is in bytes, or with K, M, G for 2^10,
-2^20, 2^30 of them, and of each rank.
+A point on an edge, a face or a corner belongs to one cell, by the rule of 'tipp
+resample'; it does not depend on pieces, threads and ranks. Under mpirun the ranks share
+the pieces and the points, and the first one writes the file. --memory is the limit of
+each rank, in bytes or such as 512M (2^20 bytes) or 2G.
 
 Examples:
   tipp query stations.csv coast.tipp -o levels.csv --arrays elevation
@@ -71,18 +71,18 @@ struct QueryArguments
   std::vector<std::string> Arrays;
   bool Weights = false;
   bool Closest = false;
-  std::string Descend; ///< an array; empty: no
+  std::string Descend; ///< name of an array; empty: not given
   ZoneArguments Zones;
   RegionArguments Region;
   PointOptions Reading;
 
-  /// Whether there are no points.
+  /// Returns whether the query is about the mesh alone, without points.
   bool isOfMesh() const { return !this->Zones.Path.empty() || !this->Region.Ids.empty(); }
 
   bool toNpy() const { return extensionOf(this->Output) == ".npy"; }
 };
 
-/// This rank's share of the points. Throws IOError if points in space have no z.
+/// Returns this rank's share of the points. Throws IOError if points in space have no column z.
 std::vector<Point3> readShare(const QueryArguments& arguments, bool inSpace, int rank, int ranks)
 {
   PointOptions reading = arguments.Reading;
@@ -107,7 +107,7 @@ std::vector<Point3> readShare(const QueryArguments& arguments, bool inSpace, int
   return points;
 }
 
-/// Calls work(value) with the value of a component at a point, in its type.
+/// Calls work(value) with component k of an array at a point, in the array's type.
 template <typename Work>
 void withValue(const MeshAnswer::Array& array, std::size_t point, std::size_t k, const Work& work)
 {
@@ -150,7 +150,7 @@ std::string headerLine(
   return line + "\n";
 }
 
-/// This rank's lines of a .csv file.
+/// Returns this rank's lines of a .csv file.
 std::string linesOf(const std::vector<Point3>& points, const MeshAnswer& answer, int corners,
   const ClosestLocations& closest)
 {
@@ -189,7 +189,7 @@ std::string linesOf(const std::vector<Point3>& points, const MeshAnswer& answer,
   return text;
 }
 
-/// This rank's rows of an .npy file, as bytes.
+/// Returns this rank's rows of an .npy file, as bytes.
 std::string rowsOf(const MeshAnswer& answer)
 {
   std::string bytes;
@@ -233,8 +233,8 @@ void write(const QueryArguments& arguments, const PathState& before, const std::
   pending.commit();
 }
 
-/// Answers --zones, --ids and --descend. The ranks share the pieces of a partitioned mesh; another
-/// mesh is asked by the first one alone.
+/// Answers --zones, --ids and --descend. If the mesh is partitioned, the ranks share its pieces;
+/// otherwise the first rank works alone.
 void answerTogether(const QueryArguments& arguments, Communicator& ranks)
 {
   const bool isShared = ranks.size() > 1 && isPartitionedMesh(arguments.Mesh.Path);
@@ -268,7 +268,7 @@ void answerTogether(const QueryArguments& arguments, Communicator& ranks)
   }
 }
 
-/// Answers all ranks' points and writes the file on the first rank. Collective.
+/// Answers all ranks' points, and writes the file on the first rank. Collective.
 void answerAll(const QueryArguments& arguments, Communicator& ranks)
 {
   PathState before;
@@ -291,7 +291,7 @@ void answerAll(const QueryArguments& arguments, Communicator& ranks)
   const int corners = mesh->mesh().CellSize;
   const std::vector<Point3> points = readShare(arguments, corners == 4, ranks.rank(), ranks.size());
   const auto count = std::int64_t(points.size());
-  // A file that is not partitioned is in the memory of every rank.
+  // If the mesh is not partitioned, every rank has read all of it.
   const MeshAnswer answer = mesh->isStored() && ranks.size() > 1
     ? answerOnRanks(ranks, *mesh, points.data(), count, options)
     : mesh->answer(points.data(), count, options);
@@ -311,14 +311,14 @@ void answerAll(const QueryArguments& arguments, Communicator& ranks)
   }
 }
 
-/// Collective.
+/// Runs the query on all ranks. Collective.
 void runQuery(const QueryArguments& arguments, Communicator& ranks)
 {
   arguments.isOfMesh() || !arguments.Descend.empty() ? answerTogether(arguments, ranks)
                                                      : answerAll(arguments, ranks);
 }
 
-/// Throws CLI::ValidationError unless the output's name and the options go together.
+/// Throws CLI::ValidationError unless the output's extension suits the options.
 void checkOutput(const QueryArguments& arguments)
 {
   const std::string extension = extensionOf(arguments.Output);
@@ -348,27 +348,30 @@ void checkOutput(const QueryArguments& arguments)
 void addQueryCommand(CLI::App& app, int& exitCode)
 {
   auto arguments = std::make_shared<QueryArguments>();
-  CLI::App* const command =
-    app.add_subcommand("query", "Tells which cells of a mesh hold points, and its arrays there");
-  command->add_option("points", arguments->Points, "A file of points; not with --zones and --ids")
+  CLI::App* const command = app.add_subcommand(
+    "query", "Finds the cells of a mesh that contain points, and interpolates its arrays there");
+  command
+    ->add_option("points", arguments->Points, "A file of points; left out with --zones and --ids")
     ->required();
   command->add_option("mesh", arguments->Mesh.Path, "The mesh, see below");
   command->add_option("-o,--output", arguments->Output, "The file to write, see below")->required();
   command
     ->add_option("--arrays", arguments->Arrays,
-      "Names of arrays, or elevation, the z of a surface (default: all)")
+      "Names of arrays, or elevation for the z of a surface (default: all)")
     ->delimiter(',');
   CLI::Option* const weights = command->add_flag(
-    "--weights", arguments->Weights, "Also the barycentric weights of each cell's corners (.csv)");
+    "--weights", arguments->Weights, "Add the barycentric weights of the cell's corners (.csv)");
   CLI::Option* const closest = command->add_flag("--closest", arguments->Closest,
-    "Also the nearest location of the mesh and its distance (.csv)");
+    "Add the nearest location on the mesh and its distance (.csv)");
   CLI::Option* const zones =
     command->add_option("--zones", arguments->Zones.Path, "Statistics in polygons, see below")
       ->excludes(closest)
       ->excludes(weights);
-  command->add_option("--zone-names", arguments->Zones.Field, "The field with the zones' names")
+  command
+    ->add_option("--zone-names", arguments->Zones.Field, "The field with the names of the zones")
     ->needs(zones);
-  command->add_option("--level", arguments->Zones.Level, "For volumes above it")
+  command
+    ->add_option("--level", arguments->Zones.Level, "The value above which volumes are computed")
     ->capture_default_str()
     ->needs(zones);
   CLI::Option* const ids = addRegionOptions(*command, arguments->Region)
@@ -376,8 +379,8 @@ void addQueryCommand(CLI::App& app, int& exitCode)
                              ->excludes(weights)
                              ->excludes(zones);
   command
-    ->add_option(
-      "--descend", arguments->Descend, "The way down this array from each point, as lines (.vtp)")
+    ->add_option("--descend", arguments->Descend,
+      "Lines of steepest descent of this array from each point (.vtp)")
     ->excludes(closest)
     ->excludes(weights)
     ->excludes(zones)
@@ -392,17 +395,17 @@ void addQueryCommand(CLI::App& app, int& exitCode)
       if (isOfMesh != arguments->Mesh.Path.empty())
       {
         throw CLI::ValidationError(isOfMesh
-            ? "with --zones or --ids give the mesh alone, without points"
+            ? "give only the mesh with --zones or --ids, without points"
             : "give points and a mesh");
       }
       if (!arguments->Region.Ids.empty() && arguments->Region.Bounds.empty() &&
         arguments->Region.Polygons.empty())
       {
-        throw CLI::ValidationError("with --ids give a region, as --bounds or --polygons");
+        throw CLI::ValidationError("--ids needs a region: --bounds or --polygons");
       }
       if (arguments->Region.Bounds.size() == 5)
       {
-        throw CLI::ValidationError("--bounds are four numbers, or six for tetrahedra");
+        throw CLI::ValidationError("--bounds needs four numbers, or six for tetrahedra");
       }
       isOfMesh ? std::swap(arguments->Points, arguments->Mesh.Path) : void();
       checkOutput(*arguments);

@@ -21,12 +21,13 @@ namespace tipp
 
 void addQueryMeshOptions(CLI::App& command, QueryMeshArguments& arguments)
 {
-  command.add_option("--step", arguments.Step, "Time step of arrays that vary in time")
+  command
+    .add_option(
+      "--step", arguments.Step, "The time step of arrays that vary in time, counted from 0")
     ->check(CLI::NonNegativeNumber)
     ->capture_default_str();
   command
-    .add_option(
-      "--memory", arguments.Memory, "For the pieces of a partitioned mesh that stay in memory")
+    .add_option("--memory", arguments.Memory, "The memory limit for pieces of a partitioned mesh")
     ->check(checkMemorySize)
     ->capture_default_str();
   addThreadsOption(command, arguments.Threads);
@@ -73,7 +74,8 @@ std::unique_ptr<ResidentMesh> openQueryMesh(const QueryMeshArguments& arguments)
 
 int runOnRanks(const std::function<void(Communicator&)>& work)
 {
-  // Large blocks, as of pieces, go back to the system when they are freed.
+  // With this threshold, large blocks, such as pieces, are returned to the system when they are
+  // freed.
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
   const MpiSession session;
   try

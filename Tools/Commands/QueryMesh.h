@@ -21,11 +21,13 @@ namespace tipp
 
 class Communicator;
 
-/// The mesh that a command queries.
+/// The mesh that a command queries, and how.
 struct QueryMeshArguments
 {
   std::string Path;
+  /// Memory limit for the pieces of a partitioned mesh, as text.
   std::string Memory = "1G";
+  /// Time step of arrays that vary in time.
   int Step = 0;
   int Threads = 0;
 };
@@ -33,48 +35,51 @@ struct QueryMeshArguments
 /// Adds --step, --memory and --threads.
 void addQueryMeshOptions(CLI::App& command, QueryMeshArguments& arguments);
 
-/// Opens a partitioned mesh, or reads any VTK file. Throws IOError.
+/// Opens a partitioned mesh, or reads a VTK file of any kind. Throws IOError.
 std::unique_ptr<ResidentMesh> openQueryMesh(const QueryMeshArguments& arguments);
 
-/// Runs a collective function on all ranks, until Ctrl-C; returns the command's exit code. Reports
-/// what the function throws.
+/// Runs a collective function on all ranks, until it returns or Ctrl-C is pressed. Prints the
+/// message of any exception. Returns the command's exit code.
 int runOnRanks(const std::function<void(Communicator&)>& work);
 
-/// A name as a field of a .csv file, in quotes if it needs them.
+/// Returns a name as a field of a .csv file, in quotes if necessary.
 std::string quotedField(const std::string& name);
 
+/// The options of --zones.
 struct ZoneArguments
 {
   std::string Path;
-  std::string Field; ///< with the zones' names; empty: they are numbered
-  double Level = 0;  ///< for the volumes above it
+  std::string Field; ///< the field with the zones' names; empty: zones are numbered
+  double Level = 0;  ///< volumes are computed above this value
 };
 
-/// Cells or points in a region.
+/// The options of --ids.
 struct RegionArguments
 {
-  std::string Ids; ///< "cells" or "points"; empty: not asked
+  std::string Ids; ///< "cells" or "points"; empty: not given
   std::vector<double> Bounds;
-  std::string Polygons; ///< a file
-  bool Whole = false;   ///< only cells that lie in it
+  std::string Polygons; ///< path of a file
+  bool Whole = false;   ///< only cells that lie completely in the region
 };
 
-/// Adds --ids and the options of regions; returns --ids.
+/// Adds --ids and the options that define regions. Returns the option --ids.
 CLI::Option* addRegionOptions(CLI::App& command, RegionArguments& arguments);
 
-// Each function asks the mesh, or if all ranks share it, all of them, and writes the file on the
+// Each of these functions queries the mesh, and writes the file on the first rank. `shared`: the
+// ranks that share the mesh, all of which must call the function; null: this process alone.
+// `before`: the state of the output's path before the query. They throw IOError.
 // first rank; `before` is its own. Collective if shared. They throw IOError.
 
-/// Statistics of arrays in the zones of a file, as .csv.
+/// Writes statistics of arrays in the zones of a file, as .csv.
 void writeZones(Communicator* shared, const ResidentMesh& mesh, const ZoneArguments& arguments,
   const std::vector<std::string>& arrays, const std::string& output, const PathState& before);
 
-/// The ways down from this rank's points, as .vtp.
+/// Writes the lines of steepest descent from this rank's points, as .vtp.
 void writeDescents(Communicator* shared, const ResidentMesh& mesh,
   const std::vector<Point3>& points, const std::string& array, const std::string& output,
   const PathState& before);
 
-/// The ids of the cells or points in a region, as .csv or .npy.
+/// Writes the ids of the cells or points in a region, as .csv or .npy.
 void writeRegion(Communicator* shared, const ResidentMesh& mesh, const RegionArguments& arguments,
   const std::string& output, const PathState& before);
 

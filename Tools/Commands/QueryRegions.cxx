@@ -30,7 +30,7 @@ Region regionOf(const RegionArguments& arguments, const ResidentMesh& mesh)
     const auto wanted = std::size_t(mesh.mesh().CellSize == 4 ? 6 : 4);
     if (arguments.Bounds.size() < wanted)
     {
-      throw IOError("--bounds of a mesh of tetrahedra are xmin xmax ymin ymax zmin zmax.");
+      throw IOError("--bounds needs xmin xmax ymin ymax zmin zmax for a mesh of tetrahedra.");
     }
     std::copy(arguments.Bounds.begin(), arguments.Bounds.end(), region.Box.begin());
     return region;
@@ -51,16 +51,18 @@ Region regionOf(const RegionArguments& arguments, const ResidentMesh& mesh)
 CLI::Option* addRegionOptions(CLI::App& command, RegionArguments& arguments)
 {
   CLI::Option* const ids =
-    command.add_option("--ids", arguments.Ids, "The ids of cells or points in a region, see below")
+    command
+      .add_option("--ids", arguments.Ids, "Write the ids of cells or points in a region, see below")
       ->check(CLI::IsMember({ "cells", "points" }));
   CLI::Option* const bounds =
     command.add_option("--bounds", arguments.Bounds, "The region: xmin xmax ymin ymax [zmin zmax]")
       ->expected(4, 6)
       ->needs(ids);
-  command.add_option("--polygons", arguments.Polygons, "The region: the polygons of a file")
+  command.add_option("--polygons", arguments.Polygons, "The region: a file of polygons")
     ->needs(ids)
     ->excludes(bounds);
-  command.add_flag("--whole", arguments.Whole, "Only cells that lie in the region")->needs(ids);
+  command.add_flag("--whole", arguments.Whole, "Only cells that lie completely in the region")
+    ->needs(ids);
   return ids;
 }
 

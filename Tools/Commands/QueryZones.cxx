@@ -24,7 +24,7 @@ namespace tipp
 namespace
 {
 
-/// The statistics as lines of a .csv file.
+/// Returns the statistics as lines of a .csv file.
 std::string tableOf(const std::vector<NamedZone>& zones, const std::vector<std::string>& arrays,
   const std::vector<ZoneStatistics>& statistics)
 {
@@ -40,7 +40,7 @@ std::string tableOf(const std::vector<NamedZone>& zones, const std::vector<std::
   text += '\n';
   for (std::size_t i = 0; i < zones.size(); ++i)
   {
-    // Cells and area are those with values of the first array.
+    // The number of cells and the area count cells that have values of the first array.
     fmt::format_to(
       out, "{},{},{}", quotedField(zones[i].Name), statistics[0].Cells[i], statistics[0].Area[i]);
     for (const ZoneStatistics& of : statistics)
@@ -96,7 +96,7 @@ void writeZones(Communicator* shared, const ResidentMesh& mesh, const ZoneArgume
 namespace
 {
 
-/// The lines of all ranks, on the first one.
+/// Returns the lines of all ranks on the first one.
 Descents gathered(Communicator& ranks, const Descents& own)
 {
   Descents all;

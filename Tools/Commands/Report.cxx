@@ -59,8 +59,8 @@ void warnOfNoTriangles(std::int64_t triangles)
   if (triangles == 0)
   {
     fmt::print(stderr,
-      "tipp: warning: no triangles, since there are fewer than three distinct points or all lie on "
-      "one line.\n");
+      "tipp: warning: no triangles, because there are fewer than three distinct points or all lie "
+      "on one line.\n");
   }
 }
 
@@ -78,7 +78,7 @@ void warnOfHidden(double values, double noData)
 void writeJson(const std::string& path, const nlohmann::ordered_json& json)
 {
   PendingFile pending(path);
-  // File names need not be UTF-8.
+  // File names need not be UTF-8, so replace invalid bytes.
   const std::string text =
     json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
   pending.file().write(0, text.data(), text.size());
@@ -88,8 +88,8 @@ void writeJson(const std::string& path, const nlohmann::ordered_json& json)
 namespace
 {
 
-/// What the process has read and written so far, in bytes: "rchar" and "wchar" of Linux's
-/// /proc/self/io.
+/// Returns the bytes that the process has read or written so far: `name` is "rchar" or "wchar", a
+/// field of Linux's /proc/self/io.
 std::int64_t movedBytes(const std::string& name)
 {
   std::ifstream file("/proc/self/io");
@@ -129,7 +129,7 @@ int reportRankFailure(const RankFailure& failure, const Communicator& ranks)
 int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints& open,
   const std::string& path, OutOfCoreOptions options, OutOfCoreStatistics& statistics)
 {
-  // Large blocks go back to the system when they are freed, whatever was freed before.
+  // With this threshold, large blocks are always returned to the system when they are freed.
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
   const bool isFirst = ranks.rank() == 0;
   std::unique_ptr<ProgressBar> bar;
@@ -159,7 +159,7 @@ int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints
   bar.reset();
   return statistics.Aborted
     ? reportInterrupt(
-        statistics.Kept ? "the same command with --resume goes on" : "nothing was written")
+        statistics.Kept ? "to continue, run the same command with --resume" : "nothing was written")
     : Success;
 }
 

@@ -18,37 +18,38 @@
 namespace tipp
 {
 
-/// The peak memory of this process so far.
+/// Returns the peak memory of this process so far, in bytes.
 std::int64_t peakMemoryBytes();
 
-/// The figures of a run that have a Key: totals, and for each list an array of objects.
+/// Returns the statistics of a run that have a Key: totals as values, lists as arrays of objects.
 nlohmann::ordered_json jsonOf(const RunStatistics& statistics);
-/// An object for each row of a list.
+/// Returns an array with an object for each row of the list.
 nlohmann::ordered_json jsonOf(const FigureList& list);
 
 /// Prints a warning if a run has made no triangles.
 void warnOfNoTriangles(std::int64_t triangles);
 
-/// Prints a warning if values of a raster equal the number for no data.
+/// Prints a warning if `values` > 0: the number of a raster's values that equal the number for no
+/// data.
 void warnOfHidden(double values, double noData);
 
-/// Writes a JSON file; throws IOError.
+/// Writes a JSON file. Throws IOError.
 void writeJson(const std::string& path, const nlohmann::ordered_json& json);
 
-/// triangulateOutOfCoreOnRanks() with a progress bar of this title, warnings, and Ctrl-C. `open` is
-/// called on all ranks. Returns Success on all ranks, or the exit code of a failed or interrupted
-/// run, about which the user has been told.
+/// Calls triangulateOutOfCoreOnRanks() with a progress bar of this title, warnings, and Ctrl-C.
+/// `open` is called on all ranks. Returns Success on all ranks, or the exit code of a failed or
+/// interrupted run, after printing a message.
 int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints& open,
   const std::string& path, OutOfCoreOptions options, OutOfCoreStatistics& statistics);
 
-/// Passes progress to a bar, if there is one, and tells whether to go on: not after Ctrl-C. The bar
-/// must outlive the function.
+/// Returns a function that passes progress to a bar, if there is one, and returns false after
+/// Ctrl-C. `bar` must outlive the function.
 std::function<bool(double)> progressOn(const std::unique_ptr<ProgressBar>& bar);
 
-/// Prints, on the first rank, which rank has failed and why. Returns Failure.
+/// Prints on the first rank which rank has failed, and why. Returns Failure.
 int reportRankFailure(const RankFailure& failure, const Communicator& ranks);
 
-/// The sum of the phases' seconds.
+/// Returns the sum of the phases' seconds.
 template <typename Phase>
 double totalSeconds(const std::vector<Phase>& phases)
 {
@@ -56,7 +57,7 @@ double totalSeconds(const std::vector<Phase>& phases)
     [](double sum, const Phase& phase) { return sum + phase.Seconds; });
 }
 
-/// What a process has used, which /proc and the system know.
+/// The resources that a process has used so far, in bytes.
 struct ProcessUsage
 {
   ProcessUsage();
@@ -66,9 +67,10 @@ struct ProcessUsage
   std::int64_t Written;
 };
 
-/// On the first rank, of all; collective.
+/// Returns the usage of all ranks on the first rank. Collective.
 std::vector<ProcessUsage> gatherUsage(Communicator& ranks);
 
+/// Returns the largest peak memory of a rank, in bytes.
 std::int64_t largestMemory(const std::vector<ProcessUsage>& ranks);
 
 } // namespace tipp

@@ -39,23 +39,22 @@ namespace
 {
 
 constexpr const char* footer =
-  R"(MESH    any VTK file of triangles, tetrahedra or cells that are cut into them; or a
-        partitioned mesh of 'tipp partition' (its folder or index) or a flat one (a
-        folder of .npy arrays), of which only the range of --bounds is read. Of arrays
-        that vary in time the first step is taken. A partitioned mesh may be larger than
-        memory: it is read in parts of about --memory, in bytes or as 512M.
-        The z of a surface is sampled as the array elevation, beside the others, unless
-        all points have the same.
-IMAGE   .vti: all arrays, vtkValidPointMask (1 where the mesh answers) and
-        vtkGhostType. .npy: one array (--arrays NAME; without: elevation) as float64 or
-        whatever it is, rows x columns, the first row at the lowest y; for a volume layers x
-        rows x columns. Components come last. NaN where no cell answers, unless
-        --null gives another number. .tif: a GeoTIFF by GDAL, a band for each array,
-        whose pixels have the samples as centres; --null is its number for no value
-        (-9999).
+  R"(MESH    any VTK file of triangles, tetrahedra or other cells, which are cut into these; or
+        a partitioned mesh (its folder or index) or a flat one (a folder of .npy
+        arrays), of which only the range of --bounds is read. The first step of arrays
+        that vary in time is sampled. A partitioned mesh may be larger than memory: it
+        is read in parts of about --memory, in bytes or such as 512M. The z of a surface
+        is sampled as the array elevation, unless all points have the same z.
+IMAGE   .vti: all arrays, vtkValidPointMask (1 where a cell contains the sample) and
+        vtkGhostType. .npy: one array (--arrays NAME, default: elevation), in its own
+        type or float64: rows x columns, the row of lowest y first; for a volume layers
+        x rows x columns. Components come last. Samples in no cell are NaN, or the
+        number of --null. .tif: a GeoTIFF, which needs GDAL, with a band for each array;
+        the samples are the pixels' centres, and --null is its number for no value
+        (default: -9999).
 
-Under mpirun the ranks share the cells, and the first one writes the image. A VTK file is
-read by every rank; of a partitioned or flat mesh each reads its own part.
+Under mpirun the ranks share the cells, and the first one writes the image. Every rank
+reads the whole of a VTK file, but only its own part of a partitioned or flat mesh.
 
 Examples:
   tipp resample surge.vtu -o surge.vti --dims 2048 2048 1
@@ -80,7 +79,7 @@ void configure(const ResampleArguments& arguments, vtkRangeResampleFilter* filte
     filter->SetSamplingDimensions(1, 1, 1);
     filter->SetDelta(arguments.Delta.data());
   }
-  parseDeviceChoice(arguments.Device); // throws here what the filter would only report
+  parseDeviceChoice(arguments.Device); // throw here; the filter would only report an error
   filter->SetDeviceChoice(arguments.Device.c_str());
   filter->SetNumberOfThreads(arguments.Threads);
   const bool npy = extensionOf(arguments.Output) == ".npy";
@@ -106,7 +105,7 @@ void summarize(const ResampleArguments& arguments, vtkRangeResampleFilter* filte
     figures->GetAbstractArray("Device")->GetVariantValue(0).ToString(), arguments.Output);
 }
 
-/// Replaces the filter's property names in a message by the command's options.
+/// Replaces the filter's property names in a message by the options of the command.
 std::string reasonOf(std::string message)
 {
   const std::vector<std::pair<std::string, std::string>> names = {
@@ -126,7 +125,7 @@ std::string reasonOf(std::string message)
   return "cannot be resampled: " + message;
 }
 
-/// Returns the state of the output's path before the work.
+/// Returns the state of the output's path before the computation.
 PathState sample(
   const ResampleArguments& arguments, vtkRangeResampleFilter* filter, Communicator& ranks)
 {
@@ -136,7 +135,7 @@ PathState sample(
     {
       if (ranks.isFirst())
       {
-        // Checked before the work.
+        // Check the paths before the computation.
         requireApart({ arguments.Output }, { arguments.Input });
         before = PendingFile(arguments.Output).before();
       }
@@ -245,32 +244,33 @@ void addResampleCommand(CLI::App& app, int& exitCode)
     ->check(checkOutput);
   command
     ->add_option("--bounds", arguments->Bounds,
-      "The range: xmin xmax ymin ymax zmin zmax; else that of the mesh")
+      "The range: xmin xmax ymin ymax zmin zmax (default: that of the mesh)")
     ->expected(6);
   CLI::Option* const dimensions = command
                                     ->add_option("--dims", arguments->Dimensions,
-                                      "Samples along x, y and z; 0: as far apart as along the "
-                                      "first axis with a number, one along z for "
-                                      "surfaces")
+                                      "Number of samples along x, y and z; 0: spaced as along the "
+                                      "first axis with a number; surfaces have one along z")
                                     ->expected(3);
   CLI::Option* const delta = command
                                ->add_option("--delta", arguments->Delta,
-                                 "Distance of samples along x, y and z; 0: one sample")
+                                 "Distance between samples along x, y and z; 0: one sample")
                                ->expected(3);
   delta->excludes(dimensions);
-  command->add_option("--arrays", arguments->Arrays, "Names of arrays; else all, and elevation");
+  command->add_option(
+    "--arrays", arguments->Arrays, "Names of arrays (default: all, and elevation)");
   command
     ->add_option("--device", arguments->Device, "auto, openmp, opencl, opencl:INDEX or opencl:NAME")
     ->capture_default_str();
   addThreadsOption(*command, arguments->Threads);
   CLI::Option* const null =
-    command->add_option("--null", arguments->Null, "What samples outside the mesh get");
+    command->add_option("--null", arguments->Null, "The value of samples outside of the mesh");
   CLI::Option* const noData = command->add_option("--no-data", arguments->NoData,
-    "Cells with a corner of this value answer nothing, as -99999 for dry nodes");
-  command->add_option("--crs", arguments->Crs, "Of a .tif the reference system, as EPSG:25832");
+    "Cells with a corner of this value give no samples, such as -99999 for dry nodes");
+  command->add_option(
+    "--crs", arguments->Crs, "The reference system of a .tif, such as EPSG:25832");
   command
     ->add_option("--memory", arguments->Memory,
-      "For the part of a partitioned mesh that is in memory at a time")
+      "The memory limit for the part of a partitioned mesh that is in memory")
     ->check(checkMemorySize)
     ->capture_default_str();
   command->footer(footer);

@@ -31,7 +31,7 @@ namespace tipp
 namespace
 {
 
-/// What a cell takes in memory, with its share of the points and of what sampling it needs.
+/// Approximate bytes of memory per cell, including its share of the points and of the samples.
 constexpr std::uint64_t bytesOfCell = 128;
 
 [[noreturn]] void refuseName(
@@ -73,7 +73,7 @@ void chooseArrays(const ResampleArguments& arguments, vtkRangeResampleFilter* fi
   }
 }
 
-/// If every rank has read the whole mesh: hides the cells of the other ranks' shares.
+/// Hides the cells of the other ranks' shares, because every rank has read the whole mesh.
 void hideOtherShares(vtkDataSet* mesh, Communicator& ranks)
 {
   if (ranks.size() == 1)
@@ -101,8 +101,9 @@ void hideOtherShares(vtkDataSet* mesh, Communicator& ranks)
   mesh->GetCellData()->AddArray(ghosts);
 }
 
-/// For each name what it is in the mesh of all ranks: 'p' for a point array, 'c' for a cell array,
-/// ' ' for neither. Ranks without a cell may lack arrays that others have. Collective.
+/// Returns a letter for each array name: 'p' if it is a point array in the mesh of all ranks, 'c'
+/// for a cell array, ' ' if it is neither. Ranks without cells may lack arrays that others have.
+/// Collective.
 std::string associationsOf(
   const std::vector<std::string>& arrays, vtkDataSet* mesh, Communicator& ranks)
 {
@@ -142,7 +143,8 @@ void throwFirst(const ErrorKeeper* errors)
   }
 }
 
-/// A reader of the range of a partitioned or a flat mesh, with the named arrays alone. Collective.
+/// Returns a reader of the range of a partitioned or flat mesh, with the named arrays only.
+/// Collective.
 vtkSmartPointer<vtkPartitionedUnstructuredReader> openReader(
   const ResampleArguments& arguments, Communicator& ranks, ErrorKeeper* errors)
 {
@@ -151,7 +153,7 @@ vtkSmartPointer<vtkPartitionedUnstructuredReader> openReader(
   reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, errors);
   reader->SetController(ranks.controller());
   reader->SetFileName(arguments.Input.c_str());
-  // For a flat mesh, which is read completely in any case.
+  // The tiling is for a flat mesh, which is read completely in any case.
   reader->SetTiling(ranks.size() == 1 ? "grid:1x1" : "grid:16x16");
   reader->SetNumberOfThreads(arguments.Threads);
   if (!arguments.Bounds.empty())
@@ -178,12 +180,12 @@ vtkSmartPointer<vtkPartitionedUnstructuredReader> openReader(
   return reader;
 }
 
-/// What the index of a partitioned mesh tells of it.
+/// Data from the index of a partitioned mesh.
 struct StoredMesh
 {
-  Bounds Extent = { 1, -1, 1, -1, 1, -1 }; ///< of its points
+  Bounds Extent = { 1, -1, 1, -1, 1, -1 }; ///< bounds of its points
   bool IsSurface = true;
-  std::int64_t CellsInRange = 0; ///< of the pieces that meet the range
+  std::int64_t CellsInRange = 0; ///< cells of the pieces that meet the range
 };
 
 StoredMesh describe(const ResampleArguments& arguments)
@@ -213,7 +215,7 @@ StoredMesh describe(const ResampleArguments& arguments)
   return stored;
 }
 
-/// Selects what `arguments` name, or all but what the reader adds.
+/// Selects the arrays that `arguments` name, or all except those that the reader adds.
 void chooseStoredArrays(const ResampleArguments& arguments, const StoredMesh& stored,
   vtkPartitionedUnstructuredReader* reader, vtkRangeResampleFilter* filter)
 {
@@ -244,8 +246,8 @@ void chooseStoredArrays(const ResampleArguments& arguments, const StoredMesh& st
   }
 }
 
-/// Gives the filter the range and the number of samples, which it cannot ask a mesh for that it
-/// reads piece by piece.
+/// Sets the filter's range and number of samples. The filter cannot find them itself, because it
+/// reads the mesh piece by piece.
 void setRange(
   const ResampleArguments& arguments, const StoredMesh& stored, vtkRangeResampleFilter* filter)
 {
@@ -262,7 +264,7 @@ void setRange(
   }
 }
 
-/// How many parts each rank reads one after the other.
+/// Returns into how many parts each rank divides its reading.
 int batches(const ResampleArguments& arguments, const StoredMesh& stored, const Communicator& ranks)
 {
   const std::uint64_t memory = *parseMemorySize(arguments.Memory);
@@ -307,7 +309,7 @@ vtkSmartPointer<vtkDataSet> readFlat(const ResampleArguments& arguments, Communi
   reader->UpdatePiece(ranks.rank(), ranks.size(), 0);
   ranks.attempt([&] { throwFirst(errors); });
   vtkSmartPointer<vtkDataSet> mesh = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
-  // Arrays that the reader adds are not fields to sample.
+  // Remove the arrays that the reader adds: they are not fields to sample.
   for (vtkDataSetAttributes* const data :
     { static_cast<vtkDataSetAttributes*>(mesh->GetPointData()),
       static_cast<vtkDataSetAttributes*>(mesh->GetCellData()) })
@@ -321,14 +323,14 @@ vtkSmartPointer<vtkDataSet> readFlat(const ResampleArguments& arguments, Communi
   return mesh;
 }
 
-/// This rank's part of a mesh that is not partitioned. Collective.
+/// Returns this rank's part of a mesh that is not partitioned. Collective.
 vtkSmartPointer<vtkDataSet> readMesh(const ResampleArguments& arguments, Communicator& ranks)
 {
   vtkSmartPointer<vtkDataSet> mesh;
   ranks.attempt(
     [&]
     {
-      // A .vtu file may be a flat mesh; if its cells are of other types, VTK's reader reads it.
+      // A .vtu file may be a flat mesh. If it has cells of other types, VTK's reader reads it.
       if (!isFlatMesh(arguments.Input) || isVtkFile(arguments.Input))
       {
         mesh = readDataSet(arguments.Input);
@@ -336,12 +338,12 @@ vtkSmartPointer<vtkDataSet> readMesh(const ResampleArguments& arguments, Communi
         {
           throw IOError(arguments.Input,
             std::string("holds a ") + mesh->GetClassName() +
-              ", which is a grid without points of its own; 'tipp flatten' makes a mesh of it.");
+              ", which stores no points; convert it with 'tipp flatten'.");
         }
         hideOtherShares(mesh, ranks);
       }
     });
-  // If a rank cannot read the mesh, readDataSet() has thrown.
+  // If a rank cannot read the mesh, attempt() throws on all ranks.
   return mesh ? mesh : readFlat(arguments, ranks);
 }
 
@@ -356,7 +358,7 @@ void connectMesh(const ResampleArguments& arguments, Communicator& ranks,
     return;
   }
   vtkSmartPointer<vtkDataSet> mesh = readMesh(arguments, ranks);
-  // The heights of a surface are an array that can be named.
+  // Add the elevation of a surface as an array, so that users can select it by name.
   auto* const points = vtkPointSet::SafeDownCast(mesh);
   if (haveElevation({ points }, ranks))
   {

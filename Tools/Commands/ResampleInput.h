@@ -13,13 +13,14 @@ class vtkRangeResampleFilter;
 namespace tipp
 {
 
-/// What 'tipp resample' is asked for.
+/// The options of 'tipp resample'.
 struct ResampleArguments
 {
   std::string Input;
   std::string Output;
   std::vector<double> Bounds;  ///< empty: those of the mesh
-  std::vector<int> Dimensions; ///< empty: by Delta
+  std::vector<int> Dimensions; ///< number of samples; empty: given by Delta
+  /// Distance of samples; empty: given by Dimensions.
   std::vector<double> Delta;
   std::vector<std::string> Arrays; ///< empty: all
   std::string Device = "auto";
@@ -29,13 +30,13 @@ struct ResampleArguments
   double NoData = 0;
   bool HasNoData = false;
   std::string Crs;
-  std::string Memory = "1G"; ///< for the part of a partitioned mesh that is read at a time
+  std::string Memory = "1G"; ///< of the part of a partitioned mesh that is in memory at a time
 };
 
-/// Makes the mesh the input of a filter that has its range and lattice, and selects the arrays to
-/// sample. A partitioned mesh is read while the filter works, in batches of pieces, so that it may
-/// be larger than memory; `reading` then keeps the reader's errors. Any other mesh is read here.
-/// Collective. Throws IOError on all ranks.
+/// Connects the mesh to a filter, sets the filter's range and numbers of samples, and selects the
+/// arrays to sample. A partitioned mesh is read while the filter runs, in batches of pieces, so it
+/// may be larger than memory; `reading` then collects the reader's errors. Any other mesh is read
+/// here. Collective. Throws IOError on all ranks.
 void connectMesh(const ResampleArguments& arguments, Communicator& ranks,
   vtkRangeResampleFilter* filter, ErrorKeeper* reading);
 

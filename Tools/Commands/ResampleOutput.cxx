@@ -45,7 +45,7 @@ RasterGrid gridOf(const std::string& path, vtkImageData* image)
   return grid;
 }
 
-/// The arrays with one component; NaN at samples that no cell contains.
+/// Returns the arrays with one component, NaN at samples that no cell contains.
 SampledBands bandsOf(vtkImageData* image, std::vector<std::string>& names)
 {
   vtkPointData* const data = image->GetPointData();
@@ -86,7 +86,7 @@ void writeNpy(
   vtkDataArray* const array = image->GetPointData()->GetArray(name.c_str());
   if (!array)
   {
-    throw IOError(path, "has not been written: the mesh has no '" + name + "' in this range.");
+    throw IOError(path, "was not written: the mesh has no array '" + name + "' in this range.");
   }
   int dimensions[3];
   image->GetDimensions(dimensions);
@@ -115,7 +115,7 @@ void writeGeoTiff(const std::string& path, vtkImageData* image, const std::strin
   const SampledBands bands = bandsOf(image, description.Bands);
   if (bands.Values.empty())
   {
-    throw IOError(path, "would have no band; the mesh has no array of one component.");
+    throw IOError(path, "would have no band, because the mesh has no array with one component.");
   }
   description.Crs = crs;
   description.NoData = noData;

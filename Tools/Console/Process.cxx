@@ -48,7 +48,7 @@ int startedRank()
 
 MpiSession::MpiSession()
 {
-  // MPI_Init() in a process that was not started as a rank takes time, and may fail without a
+  // MPI_Init() takes time in a process that was not started as a rank, and may fail without a
   // network.
   if (startedRank() < 0)
   {
@@ -62,8 +62,9 @@ MpiSession::MpiSession()
   this->Controller->Initialize(nullptr, nullptr, 1);
   vtkMultiProcessController::SetGlobalController(this->Controller);
 #else
-  throw std::runtime_error("this tipp was built without MPI and cannot run on several ranks; start "
-                           "it without mpirun, or build it with -DTIPP_USE_MPI=ON.");
+  throw std::runtime_error(
+    "this tipp was built without MPI and cannot run on several ranks; start it "
+    "without mpirun, or build it with -DTIPP_USE_MPI=ON.");
 #endif
 }
 
@@ -93,7 +94,7 @@ bool MpiSession::isFirst() const
 namespace
 {
 
-// A signal handler may only call write(), _exit() and the like.
+// Prints with write(): a signal handler may call few other functions.
 void print(const char* text)
 {
   [[maybe_unused]] const auto written = write(STDERR_FILENO, text, std::strlen(text));
@@ -104,15 +105,14 @@ extern "C" void onCrash(int signal)
   const char* const path = fileBeingRead();
   if (!path)
   {
-    // The default action, which has been restored, ends the program when this returns.
+    // When this returns, the default action, which has been restored, ends the program.
     raise(signal);
     return;
   }
   print("tipp: ");
   print(path);
-  print(
-    ": cannot be read as a VTK file (VTK's reader crashed); check that it is whole and that its "
-    "extension is right.\n");
+  print(": cannot be read as a VTK file (VTK's reader crashed); check that it is complete and that "
+        "its extension is right.\n");
   _exit(Failure);
 }
 
@@ -122,9 +122,9 @@ void reportReaderCrashes()
 {
   if (dlsym(RTLD_DEFAULT, "__sanitizer_set_death_callback"))
   {
-    return; // the sanitizer's own report is more useful
+    return; // the sanitizer's report is more useful
   }
-  // A separate stack, because a reader may have exhausted the normal one.
+  // Handlers get a stack of their own, because a reader may have exhausted the normal one.
   static char stack[1 << 16];
   stack_t alternative = {};
   alternative.ss_sp = stack;
@@ -132,7 +132,7 @@ void reportReaderCrashes()
   sigaltstack(&alternative, nullptr);
   for (const int signal : { SIGSEGV, SIGBUS, SIGFPE, SIGABRT })
   {
-    // Replaces the handler of UCX, which Open MPI may load.
+    // This replaces a handler of UCX, which Open MPI may load.
     struct sigaction action = {};
     action.sa_handler = onCrash;
     action.sa_flags = SA_ONSTACK | SA_RESETHAND;
@@ -155,8 +155,8 @@ pid_t parent = 0;
 std::atomic<bool> isOrphan{ false };
 sem_t signals;
 
-/// The thread that holds it decides how the process ends. Never destroyed, because the thread may
-/// still run while static objects are destroyed.
+/// Returns the mutex of the right to end the process: the thread that holds it decides how the
+/// process ends. Never destroyed, because threads may still run while static objects are destroyed.
 std::mutex& ending()
 {
   static auto* const mutex = new std::mutex;
@@ -169,7 +169,7 @@ extern "C" void onSignal(int number)
   sem_post(&signals);
 }
 
-/// Waits for a signal. Returns false if none came in time.
+/// Waits for a signal. Returns false if none arrived in time.
 bool waitForSignal(long nanoseconds)
 {
   timespec until = {};
@@ -189,7 +189,7 @@ void say(const char* what, const std::string& consequence)
   if (!isSaid.exchange(true))
   {
     const char* const clear = isatty(STDERR_FILENO) == 1 ? "\r\033[K" : ""; // clears a progress bar
-    // Does not throw if stderr cannot be written.
+    // Unlike fmt::print(), this does not throw if stderr cannot be written.
     std::fputs(fmt::format("{}tipp: {}; {}.\n", clear, what, consequence).c_str(), stderr);
   }
 }
@@ -199,17 +199,18 @@ void say(const char* what, const std::string& consequence)
   ending().lock(); // never released
   const EndedPaths paths = endTemporaryPaths();
   say(interrupted ? "interrupted"
-      : isOrphan  ? "ended, since mpirun has ended"
-      : isRank    ? "ended by SIGTERM, which mpirun sends to all ranks when one has ended"
+      : isOrphan  ? "ended because mpirun has ended"
+      : isRank    ? "ended by SIGTERM, which mpirun sends to all ranks when one of them ends"
                   : "ended by SIGTERM",
     paths.HasOutput   ? "the output was already written"
-      : paths.HasKept ? "the same command with --resume goes on"
+      : paths.HasKept ? "to continue, run the same command with --resume"
                       : "nothing was written");
   std::fflush(stderr);
   _exit(interrupted ? interruptedExitCode : 128 + SIGTERM);
 }
 
-/// A rank whose mpirun was killed may wait for ever for others, if MPI does not notice.
+/// Watches for signals, and for the end of mpirun: if mpirun was killed, a rank could wait for
+/// others forever.
 void watch()
 {
   while (!waitForSignal(second) && !isOrphan)
@@ -218,7 +219,7 @@ void watch()
   }
   if (!terminated && !isOrphan)
   {
-    waitForSignal(grace); // the work's time to stop by itself
+    waitForSignal(grace); // time for the work to stop by itself
   }
   endProcess();
 }
@@ -275,7 +276,7 @@ int reportFailure()
 
 void endWatch()
 {
-  static bool hasEnded = false; // of the main thread
+  static bool hasEnded = false; // used by the main thread only
   if (!hasEnded)
   {
     ending().lock(); // never released

@@ -9,19 +9,19 @@ class vtkMultiProcessController;
 namespace tipp
 {
 
-/// The rank that mpirun or a batch system started this process as; -1: none. Does not need MPI to
-/// be initialised.
+/// Returns the rank with which mpirun or a batch system started this process; -1 if it is not a
+/// rank. Works before MPI is initialised.
 int startedRank();
 
-/// Whether this process is a rank other than the first, which has no work in a command that runs on
-/// the first rank only.
+/// Returns whether this process is a rank other than the first. Such a rank has no work in commands
+/// that run on the first rank only.
 inline bool isIdleRank()
 {
   return startedRank() > 0;
 }
 
-/// Initialises MPI for the object's lifetime if mpirun or a batch system started the process.
-/// Throws std::runtime_error if that is so in a build without MPI.
+/// Initialises MPI for the object's lifetime if mpirun or a batch system started the process. In a
+/// build without MPI, it throws std::runtime_error in this case.
 class MpiSession
 {
 public:
@@ -30,36 +30,37 @@ public:
   MpiSession(const MpiSession&) = delete;
   MpiSession& operator=(const MpiSession&) = delete;
 
-  /// Null for a process without MPI. Not owned by the caller.
+  /// Returns null for a process without MPI. Not owned by the caller.
   vtkMultiProcessController* controller() const;
-  /// Whether this is the first rank, the one that prints messages.
+  /// Returns whether this is the first rank, which prints messages.
   bool isFirst() const;
 
 private:
   vtkMultiProcessController* Controller = nullptr;
 };
 
-/// The shell's exit code of a program that Ctrl-C ended.
+/// The exit code that shells use for a program ended by Ctrl-C.
 constexpr int interruptedExitCode = 130;
 
-/// Makes Ctrl-C (SIGINT) set a flag for isInterrupted(). If the process still runs a moment later,
-/// or at a second signal or SIGTERM, a separate thread removes the temporary files, prints one
-/// sentence and ends the process. So commands need not poll the flag often, or at all. `rank` is
-/// the process's rank, or -1; only the first rank prints.
+/// Makes Ctrl-C (SIGINT) set the flag that isInterrupted() returns. If the process still runs a
+/// moment later, or after a second signal or SIGTERM, a separate thread removes the temporary
+/// files, prints one sentence and ends the process. So commands need not check the flag often, or
+/// at all. `rank` is the process's rank, or -1; only the first rank prints.
 void watchForInterrupt(int rank);
+/// Returns whether Ctrl-C has been pressed.
 bool isInterrupted();
-/// Prints a message, once and only on the first rank, and returns the exit code.
+/// Prints that the command was interrupted, once and only on the first rank. Returns the exit code.
 int reportInterrupt(const std::string& consequence = "nothing was written");
-/// Prints the message of the exception being handled, only on the first rank, and returns the exit
+/// Prints the message of the exception being handled, only on the first rank. Returns the exit
 /// code. With several ranks, call it before MPI_Finalize(): mpirun ends the first rank once another
-/// one has failed.
+/// rank has failed.
 int reportFailure();
-/// Call it before the process reports its outcome: blocks for ever if the thread is ending the
-/// process, and otherwise keeps it from doing so.
+/// Call this before the process reports its outcome. From then on the thread does not end the
+/// process; if it is already doing so, this function never returns.
 void endWatch();
 
-/// Installs signal handlers: a crash of VTK's readers then ends the program with a message that
-/// names the file, and exit code 1. Other crashes are not affected.
+/// Installs signal handlers. A crash of VTK's readers then ends the program with exit code 1 and a
+/// message that names the file. Other crashes are not affected.
 void reportReaderCrashes();
 
 } // namespace tipp

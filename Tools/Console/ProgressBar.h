@@ -9,13 +9,13 @@
 namespace tipp
 {
 
-/// Estimates the remaining time of a task from the progress since the first report: work that an
+/// Estimates the remaining time of a task from the progress since the first update. Work that an
 /// earlier, interrupted run did is not counted.
 class TimeLeft
 {
 public:
-  /// Returns text such as "about 12 min left"; empty while there is too little data. `seconds` is
-  /// the time on any clock of the caller's.
+  /// Returns text such as "about 12 min left"; empty while there is too little data. `fraction`:
+  /// finished, 0 to 1. `seconds`: the time on any clock.
   std::string update(double fraction, double seconds);
 
 private:
@@ -23,7 +23,7 @@ private:
   double FirstSeconds = 0;
 };
 
-/// A progress line on stderr, cleared at the end; prints nothing if stderr is not a terminal.
+/// A progress line on stderr, removed at the end. Prints nothing if stderr is not a terminal.
 class ProgressBar
 {
 public:
@@ -32,7 +32,8 @@ public:
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// Sets the fraction done; redraws when the percentage changes or a second has passed.
+  /// Sets the finished fraction (0 to 1). Redraws when the percentage changes or a second has
+  /// passed.
   void update(double fraction);
 
 private:

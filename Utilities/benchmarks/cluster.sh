@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # cluster [--points N] [--ranks R,R...]
-#   --points N  of each traced run (100000000); a tenth of them for the costs of bringing points to their owners
+#   --points N  points of each traced run (100000000); the costs of sending points to their owners are measured with a tenth
 #   --ranks R   numbers of ranks that the model simulates (64,1024)
 points=100000000
 ranks=64,1024

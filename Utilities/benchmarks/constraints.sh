@@ -2,8 +2,8 @@
 # constraints [--repeat R] [--large] [--part short|one|shores|vtk|out-of-core]
 #   --repeat R  runs of each; the fastest counts (3)
 #   --part P    only these rows
-#   --large     out of core also 500 million points, and 5 million segments: counted, for the disk holds
-#               the points alone (15 GB)
+#   --large     also 500 million points and 5 million segments out of core; triangles are only counted, because the points
+#               alone take 15 GB on disk
 repeat=3
 large=no
 part=all
@@ -50,7 +50,7 @@ if wants vtk; then
     echo "vtkDelaunay2D gave no result in 150 s."
 fi
 
-# Segments are short beside a cell of a square grid, and each has a cell of its own.
+# Each segment is in a cell of a square grid by itself, and is short compared to the cell.
 make_segments() { # COUNT
   [ -f "$inputs/segments-$1.csv" ] && return
   /usr/bin/python3 - "$1" "$inputs/unfinished.csv" << 'END'

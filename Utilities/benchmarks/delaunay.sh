@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # delaunay [--slow] [--large] [--repeat R]
-#   --slow   vtkDelaunay2D on the million survey points too (minutes)
-#   --large  50 million points too (about 8 GB)
+#   --slow   also vtkDelaunay2D on the million survey points (minutes)
+#   --large  also 50 million points (about 8 GB)
 survey=$data/points/osborne-magnetic.csv.xz
 repeat=3
 slow=no
@@ -23,7 +23,7 @@ done
 
 build_targets benchmarkDelaunay
 
-# An input is made once; an unfinished file never counts as made.
+# Makes an input unless it exists. An unfinished file has another name.
 make_input() { # NAME COMMAND...
   name=$1
   shift

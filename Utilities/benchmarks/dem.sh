@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # dem [--part PART]... [--tile N] [--small N] [--large N] [--repeat R]
-#   --part PART  peers, read, same or large; without: all four (more than once)
-#                peers: a synthetic lidar tile, copies with jitter of the data's, made a raster of 1.5 pixels a point
-#                       beside startinpy, gdal_grid and scipy, as far as they are installed for $TIPP_PEERS_PYTHON
-#                       (/usr/bin/python3), with laspy and rasterio, and on the PATH
-#                read:  LAS files decoded, on one thread and on two
-#                same:  LAS files in 128 MB: the same pixels as in 4 GB
-#                large: LAS files in 512 MB, beside `tipp delaunay --sink count`
+#   --part PART  peers, read, same or large; may be given several times (default: all four)
+#                peers: a raster of 1.5 pixels per point from a synthetic lidar tile (jittered copies of the data's tile),
+#                       compared with startinpy, gdal_grid and scipy, if they are installed for $TIPP_PEERS_PYTHON
+#                       (/usr/bin/python3; also needs laspy and rasterio) or are on the PATH
+#                read:  decoding of LAS files, with one thread and with two
+#                same:  LAS files with 128 MB: must give the same pixels as with 4 GB
+#                large: LAS files with 512 MB, compared with `tipp delaunay --sink count`
 #   --tile N     points of the tile (15000000)
 #   --small N    points of the same pixels (100000000)
 #   --large N    points of the large run (500000000)
-#   --repeat R   runs of each of ours on the tile; the fastest counts (2)
-# The inputs are kept in $TIPP_DEM_INPUTS (the build's inputs), 20 bytes a point.
+#   --repeat R   runs of each of our programs on the tile; the fastest counts (2)
+# The inputs are kept in $TIPP_DEM_INPUTS (default: the build's folder for inputs), 20 bytes per point.
 tile=15000000
 small=100000000
 large=500000000

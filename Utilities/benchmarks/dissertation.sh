@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # dissertation [--points N] [--ranks "1 2"] [--table NAME]
 #   The experiments of the dissertation's chapters 2 and 3 (Documentation/Reproduction.md).
-#   --points N  of the largest uniform set, 10000000 if not given
-#   --ranks     numbers of ranks to run, "1 2" if not given
-#   --table     one of table2.1 figure3.4 figure3.6 figure3.5 figure3.8 model; all if not given
+#   --points N  points of the largest uniform set (10000000)
+#   --ranks     numbers of ranks ("1 2")
+#   --table     one of table2.1 figure3.4 figure3.6 figure3.5 figure3.8 model (default: all)
 points=10000000
 ranks="1 2"
 table=all
@@ -41,7 +41,7 @@ export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 
 wanted() { [ "$table" = all ] || [ "$table" = "$1" ]; }
 
-# An input is made once; an unfinished file never counts as made.
+# Makes an input unless it exists. An unfinished file has another name.
 make_points() { # NAME OPTION...
   name=$1
   shift
@@ -50,7 +50,7 @@ make_points() { # NAME OPTION...
   mv "$inputs/unfinished.npy" "$inputs/$name.npy"
 }
 
-# Runs on ranks of one thread each; keeps the figures under the label.
+# Runs on ranks of one thread each, and stores the figures under the label.
 on_ranks() { # LABEL RANKS INPUT OPTION...
   label=$1
   number=$2

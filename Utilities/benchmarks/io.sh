@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # io [--points N] [--repeat R]
-#   --points N  of the mesh (5000000)
+#   --points N  points of the mesh (5000000)
 #   --repeat R  runs of each loader; the fastest counts (3; the LRU cache runs once)
 points=5000000
 repeat=3
@@ -18,7 +18,7 @@ done
 build_targets benchmarkIo tipp
 tipp=$build/bin/tipp
 
-# Flat meshes, each made once; an unfinished one never counts as made.
+# Makes a flat mesh unless it exists. An unfinished one has another name.
 make_mesh() { # NAME COMMAND-THAT-WRITES-POINTS...
   mesh=$inputs/$1-$points
   shift

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # outofcore [--points N] [--memory M] [--repeat R] [--slow]
-#   --points N  of the large input (100000000); the small one has a tenth
-#   --memory M  limit of the large input's run (512M)
+#   --points N  points of the large input (100000000); the small one has a tenth
+#   --memory M  memory limit of the large input's run (512M)
 #   --repeat R  runs of each; the fastest counts (2)
-#   --slow      also 500 million points in 2G, and in 256M: to a mesh if 60 GB are free, else counted
+#   --slow      also 500 million points with 2G, and with 256M: a mesh is written if 60 GB are free, else triangles are counted
 points=100000000
 memory=512M
 repeat=2

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # python [--points N] [--repeat R]
-#   What the Python package adds to the triangulation, in python3 and, where the plugin is built, in pvbatch
-#   --points N  (10000000)
+#   The time that the Python package adds to the triangulation, in python3 and, if the plugin is built, in pvbatch
+#   --points N  points (10000000)
 #   --repeat R  runs of each, alternating; the fastest counts (5)
 points=10000000
 repeat=5

@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # query [--points N] [--queries N] [--repeat R] [--rows NAME,...]
-#   --points N  of the triangulation that is asked (5000000: 10 million triangles)
-#   --queries N points to ask for (10000000)
+#   --points N  points of the mesh (5000000: 10 million triangles)
+#   --queries N points at which the mesh is queried (10000000)
 #   --repeat R  runs of each; the fastest counts (3)
-#   --rows      of probe (scattered points, one thread, beside vtkProbeFilter), order (points in rows, beside
-#               resampling), rings (a million), contours (of twice as many points, beside vtkContourFilter), scipy
-#               (a tenth of the points, one thread, beside its LinearNDInterpolator; of the interpreter that TIPP_SCIPY_PYTHON names, else /usr/bin/python3),
-#               ranks (tipp query on 1 to 8 ranks of one thread each), and stored: a partitioned mesh of 200 million
-#               triangles in 256 MB. It is made in the folder that TIPP_QUERY_STORE names and stays there, else it is
-#               removed; needs 25 GB on the disk. All but stored by default
+#   --rows      the rows to measure (default: all but stored):
+#               probe     scattered points, one thread, compared with vtkProbeFilter
+#               order     points in rows, compared with resampling
+#               rings     a million rings
+#               contours  twice as many points, compared with vtkContourFilter
+#               scipy     a tenth of the points, one thread, compared with scipy's LinearNDInterpolator, in the interpreter
+#                         that TIPP_SCIPY_PYTHON names (/usr/bin/python3)
+#               ranks     tipp query on 1 to 8 ranks of one thread each
+#               stored    a partitioned mesh of 200 million triangles in 256 MB; needs 25 GB of disk. It is made, and kept,
+#                         in the folder that TIPP_QUERY_STORE names; without this, it is removed afterwards
 points=5000000
 queries=10000000
 repeat=3
@@ -31,7 +35,7 @@ for name in $(echo "$rows" | tr , " "); do
   esac
 done
 
-# Points in rows of x, y and z, a smooth surface: surface_points COUNT FILE
+# Writes points of a smooth surface, as rows of x, y and z: surface_points COUNT FILE
 surface_points() {
   /usr/bin/python3 - "$1" "$2" <<'PYTHON'
 import sys
@@ -47,7 +51,7 @@ for first in range(0, count, 1_000_000):
 PYTHON
 }
 
-# The seconds that a command and its children take, and those of the processor: timed COMMAND...
+# Prints the wall-clock and processor seconds of a command and its children: timed COMMAND...
 timed() {
   /usr/bin/python3 - "$@" <<'PYTHON'
 import resource
@@ -100,7 +104,7 @@ for name in $(echo "$rows" | tr , " "); do
         "$build/bin/tipp" delaunay "$store/points.npy" -o "$store/mesh.tipp" --memory 1G
         rm "$store/points.npy"
       fi
-      cat "$store"/mesh.tipp/pieces/* > /dev/null # from the system's cache
+      cat "$store"/mesh.tipp/pieces/* > /dev/null # read from the system's cache below
       "$build/bin/benchmarkQuery" stored "$store/mesh.tipp" 1000000 256
       [ -n "${TIPP_QUERY_STORE:-}" ] || rm -rf "$store"
       ;;

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # resample [--repeat R] [--opencl] [--rows NAME,...]
 #   --repeat R  runs of each; the fastest counts (3)
-#   --opencl    the first OpenCL device too
-#   --rows      of probe (beside vtkProbeFilter), stored (a partitioned mesh beside a .vtu), scipy (beside its
-#               LinearNDInterpolator; of the interpreter that TIPP_SCIPY_PYTHON names, else /usr/bin/python3) and
-#               partitions (a table over the number of partitions and of samples); all
+#   --opencl    also the first OpenCL device
+#   --rows      the rows to measure (default: all): probe (compared with vtkProbeFilter), stored (a partitioned mesh
+#               compared with a .vtu), scipy (compared with scipy's LinearNDInterpolator, in the interpreter that
+#               TIPP_SCIPY_PYTHON names, /usr/bin/python3) and partitions (a table of numbers of partitions and samples)
 repeat=3
 opencl=
 rows=probe,stored,scipy,partitions

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # usecases
-#   Scattered points and a mesh to a grid beside scipy, gdal_grid, VTK and matplotlib, where those
-#   are installed (python3-scipy, gdal-bin, python3-matplotlib), on the data of
+#   Makes grids from scattered points and from a mesh, compared with scipy, gdal_grid, VTK and matplotlib
+#   if these are installed (python3-scipy, gdal-bin, python3-matplotlib), with the data of
 #   Documentation/UseCases.md.
 [ $# -eq 0 ] || usage
 [ -d "$data" ] || {

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # wheel [--wheel FILE] [--folder FOLDER] [--python PYTHON] [--package FOLDER] [--points N] [--queries N] [--repeat R]
-#   The Python wheel beside scipy, VTK and PyVista of PyPI, and the Debian build, and the bounds that it is to keep
+#   The Python wheel compared with scipy, VTK and PyVista from PyPI and with the Debian build, and the bounds that it must keep
 #   --wheel FILE      made by sh Utilities/wheel.sh (wheels/tipp-*.whl)
-#   --folder FOLDER   for the environments, which are made where they are missing (build-wheel/figures)
+#   --folder FOLDER   for the virtual environments, which are made if they are missing (build-wheel/figures)
 #   --python PYTHON   3.11 or newer (python3)
 #   --package FOLDER  the Debian build's Python package (build/lib/python3/dist-packages, which is built)
-#   --points N        of the triangulations (1000000)
-#   --queries N       places to interpolate at (4000000)
-#   --repeat R        runs of each; the quickest counts (5)
+#   --points N        points of the triangulations (1000000)
+#   --queries N       points to interpolate at (4000000)
+#   --repeat R        runs of each; the fastest counts (5)
 wheel=$(ls wheels/tipp-*.whl 2> /dev/null | tail -n 1)
 environments=build-wheel/figures
 python=python3
@@ -43,7 +43,7 @@ if [ -z "$package" ]; then
   package=$top/build/lib/python3/dist-packages
 fi
 
-# environment NAME PACKAGE...: these and the wheel
+# environment NAME PACKAGE...: makes a virtual environment with the packages and the wheel
 environment() {
   name=$1
   shift
@@ -52,7 +52,7 @@ environment() {
   "$environments/$name/bin/python" -m pip -q install --force-reinstall --no-deps "$wheel"
 }
 
-# A machine with a display, or a virtual one, and no packages of Python.
+# Measures the time from nothing to a picture, with the display of the machine or a virtual one.
 display=
 [ -n "${DISPLAY:-}" ] || ! command -v xvfb-run > /dev/null || display="xvfb-run -a"
 rm -rf "$environments/first"

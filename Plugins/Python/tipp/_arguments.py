@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Argument checks, and progress: a bar or the user's function."""
+"""Checks of arguments, and progress: a progress bar or the user's function."""
 from __future__ import annotations
 
 import math
@@ -17,8 +17,8 @@ _MOST_THREADS = 4096
 
 
 def number(value: Any, name: str, *, at_least: float = -math.inf, finite: bool = True) -> float:
-    """A real number. Without `finite` it may be infinite or NaN."""
-    if type(value) is float and at_least <= value and -math.inf < value < math.inf:  # keeps small calls fast
+    """Returns the value as a float. Without `finite` it may be infinite or NaN."""
+    if type(value) is float and at_least <= value and -math.inf < value < math.inf:  # fast path for small calls
         return value
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name} is {_shown(value)}; give a number.")
@@ -34,7 +34,7 @@ def number(value: Any, name: str, *, at_least: float = -math.inf, finite: bool =
 
 
 def whole(value: Any, name: str, *, at_least: int = 0, at_most: int = _LARGEST_INT) -> int:
-    """An integer; floats are rejected."""
+    """Returns the value as an integer. Floats are rejected."""
     try:
         if isinstance(value, (bool, np.bool_)):
             raise TypeError
@@ -51,13 +51,13 @@ def threads(value: Any) -> int:
 
 
 def memory(value: Any, name: str) -> int:
-    """A number of bytes, from a number or a text such as '512M'."""
+    """Returns a number of bytes, from a number or a text such as '512M'."""
     if not isinstance(value, str):
         return whole(value, name, at_least=1, at_most=(1 << 63) - 1)
     match = re.fullmatch(r"([0-9]+)([KMG]?)", value)
     size = int(match[1]) << {"": 0, "K": 10, "M": 20, "G": 30}[match[2]] if match and len(value) < 30 else 0
     if not 0 < size < 1 << 63:
-        raise ValueError(f"{name} is {_shown(value)}; it is a number of bytes, as 536870912 or '512M' or '2G'.")
+        raise ValueError(f"{name} is {_shown(value)}; give a number of bytes, such as 536870912, '512M' or '2G'.")
     return size
 
 
@@ -76,7 +76,7 @@ def a_list(values: Any, name: str) -> list[Any]:
 
 
 def several(value: Any, name: str, count: int, check: Any, **limits: Any) -> list[Any]:
-    """`count` values, each of which passes `check`."""
+    """Returns `count` values, each converted by `check`."""
     if isinstance(value, (str, bytes, Mapping, set, frozenset)) or not isinstance(value, Iterable):
         raise TypeError(f"{name} is {_shown(value)}; give {count} numbers.")
     values = list(value)
@@ -86,7 +86,7 @@ def several(value: Any, name: str, count: int, check: Any, **limits: Any) -> lis
 
 
 def names(value: Any, name: str) -> list[str]:
-    """A list of array names; a single text counts as one name."""
+    """Returns a list of array names; a single text is one name."""
     if isinstance(value, str):
         return [value]
     is_list = isinstance(value, Iterable) and not isinstance(value, (bytes, Mapping))
@@ -130,27 +130,27 @@ def is_vtk_object(value: Any) -> bool:
 
 
 def data_object(value: Any, name: str, kinds: Iterable[str], wanted: str) -> Any:
-    """A VTK object of one of these classes."""
+    """Returns the value if it is a VTK object of one of these classes."""
     if not is_vtk_object(value) or not any(value.IsA(kind) for kind in kinds):
         raise TypeError(f"{name} is {_shown(value)}; give {wanted}.")
     return value
 
 
 def _shown(value: Any) -> str:
-    """The repr of a short value; the type of any other."""
+    """Returns the repr of a short value, or the type of a long one."""
     if is_vtk_object(value):
         return f"a {value.GetClassName()}"
     simple = value is None or isinstance(value, (str, bytes, bool, int, float, complex, np.generic))
     try:
         shown = repr(value) if simple else ""
-    except ValueError:  # an int of too many digits
+    except ValueError:  # an int with too many digits for repr()
         shown = ""
     shown = " ".join(shown.split())
     return shown if shown and len(shown) <= 60 else f"of type {type(value).__name__}"
 
 
 Progress = Callable[[float], Any]
-"""Told the fraction done; the run ends if it returns False or raises."""
+"""Called with the finished fraction. Returns False, or raises an exception, to stop the run."""
 ProgressBar = Union[bool, Progress]
 
 STOPPED = "the progress callback stopped the run."
@@ -164,7 +164,7 @@ def _show(fraction: float) -> None:
 
 
 def progress_of(progress_bar: Any) -> Progress | None:
-    """The progress function for an argument `progress_bar`: True, False or a function."""
+    """Returns the progress function for an argument `progress_bar`, which is True, False or a function."""
     if callable(progress_bar) and not isinstance(progress_bar, type):
         return progress_bar
     return _show if flag(progress_bar, "progress_bar") else None

@@ -75,17 +75,17 @@ def taken(values: ArrayLike, name: str) -> np.ndarray:
     try:
         array = values if isinstance(values, np.ma.MaskedArray) else np.asarray(values)
     except (TypeError, ValueError) as error:
-        raise type(error)(f"{name} cannot be made an array of numbers; give rows of equal length.") from None
+        raise type(error)(f"{name} cannot be converted to an array of numbers; give rows of equal length.") from None
     kind, size = array.dtype.kind, array.dtype.itemsize
     if kind not in "fiub":
         raise TypeError(f"{name} is of type {array.dtype}; give real numbers.")
     if kind == "f" and size > 8:
         raise TypeError(f"{name} is of type {array.dtype}, which VTK does not have; give float64, "
-                        "as by astype(numpy.float64), which rounds.")
+                        "for example by astype(numpy.float64), which rounds.")
     if np.ma.is_masked(array):
         if kind != "f":
             raise ValueError(f"{name} has masked entries and is of type {array.dtype}, which has no NaN; give floats, "
-                             "or a value for them, as by filled(-1).")
+                             "or a value for them, for example by filled(-1).")
         array = array.filled(np.nan)
     native = "u1" if kind == "b" else "f4" if kind == "f" and size == 2 else f"{kind}{size}"
     return np.asarray(array).astype(native, copy=False)
@@ -119,7 +119,7 @@ def _as_doubles(integers: np.ndarray, mask: Any = False) -> np.ndarray:
 
 
 def attribute(name: str, values: ArrayLike, argument: str = "point_data") -> np.ndarray:
-    """An array with one value or row per point (or cell), converted by taken(), in C order."""
+    """Returns an array with one value or row per point (or cell), converted by taken(), in C order."""
     argument = f"{argument}['{name}']"
     array = taken(values, argument)
     if array.ndim not in (1, 2) or array.shape[-1:] == (0,) and array.ndim == 2:
@@ -128,9 +128,9 @@ def attribute(name: str, values: ArrayLike, argument: str = "point_data") -> np.
 
 
 def attributes(point_data: Mapping[str, ArrayLike] | None, points: int) -> dict[str, np.ndarray]:
-    """The arrays of `point_data`, checked."""
+    """Returns the arrays of `point_data` after checking them."""
     if point_data is not None and not isinstance(point_data, Mapping):
-        raise TypeError("point_data is no mapping; give a dictionary of arrays by name.")
+        raise TypeError("point_data is not a mapping; give a dictionary of arrays by name.")
     result = {}
     for name, values in (point_data or {}).items():
         if not isinstance(name, str):

@@ -19,14 +19,15 @@ _BLOCK = 1 << 18  # rows
 
 
 def _orientation(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The orientation determinant, and the sum of the magnitudes of its terms."""
+    """Returns the orientation determinant, and the sum of the magnitudes of its terms."""
     left = (b[0] - a[0]) * (c[1] - a[1])
     right = (b[1] - a[1]) * (c[0] - a[0])
     return left - right, abs(left) + abs(right)
 
 
 def _in_circle(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Positive if d is inside the circle through a, b and c, which must be counter-clockwise."""
+    """Returns the same for the in-circle determinant: positive if d is inside the circle through a, b and c, which must
+    be counter-clockwise."""
     (ax, ay), (bx, by), (cx, cy) = ([p[0] - d[0], p[1] - d[1]] for p in (a, b, c))
     value, size = 0, 0
     for (px, py), (qx, qy), (rx, ry) in (((ax, ay), (bx, by), (cx, cy)), ((bx, by), (cx, cy), (ax, ay)),
@@ -39,7 +40,7 @@ def _in_circle(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray) -> tu
 
 def _signs(determinant: Callable[..., tuple[np.ndarray, np.ndarray]], roundings: int,
            corners: list[np.ndarray]) -> np.ndarray:
-    """The exact sign, -1, 0 or 1, of the determinant for each row of (n, 2) corners."""
+    """Returns the exact sign (-1, 0 or 1) of the determinant for each row of (n, 2) corners."""
     result = np.empty(len(corners[0]), np.int8)
     for begin in range(0, len(result), _BLOCK):
         rows = [corner[begin:begin + _BLOCK] for corner in corners]
@@ -57,7 +58,7 @@ def _signs(determinant: Callable[..., tuple[np.ndarray, np.ndarray]], roundings:
 
 
 def _integers(values: np.ndarray) -> np.ndarray:
-    """The numbers, scaled by a power of two that makes all of them integers, as Python integers."""
+    """Returns the numbers as Python integers, multiplied by a power of two that makes all of them integers."""
     mantissas, exponents = np.frexp(values)
     whole = (mantissas * 2.0**53).astype(np.int64)
     exponents = np.where(whole == 0, 0, exponents)
@@ -69,28 +70,28 @@ def _integers(values: np.ndarray) -> np.ndarray:
 
 
 def orientations(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
-    """1 where a, b and c are counter-clockwise, -1 where clockwise, 0 where collinear."""
+    """Returns 1 where a, b and c are counter-clockwise, -1 where clockwise, 0 where collinear."""
     return _signs(_orientation, 8, [a, b, c])
 
 
 def in_circles(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray) -> np.ndarray:
-    """1 where d is inside the circle through a, b and c (counter-clockwise), 0 where it is on the circle, else -1."""
+    """Returns 1 where d is inside the circle through a, b and c (counter-clockwise), 0 where on the circle, else -1."""
     return _signs(_in_circle, 32, [a, b, c, d])
 
 
 class CheckReport(NamedTuple):
-    """The result of check(). It is true if there are no faults."""
+    """The result of check(). Its truth value is True if there are no faults."""
 
     points: int
     distinct_points: int
-    """With finite coordinates."""
+    """Distinct points with finite coordinates."""
     triangles: int
     boundary_edges: int
     """Edges of one triangle."""
     ties: int
     """Interior edges whose four points are on one circle."""
     faults: dict[str, int]
-    """How many there are of each kind."""
+    """The number of faults of each kind."""
 
     def __bool__(self) -> bool:
         return not self.faults
@@ -119,7 +120,7 @@ def check(
     edges
         Constraints as an (m, 2) array of point ids: these edges must exist, and need not be locally Delaunay.
     tie_rule
-        Whether to check also the choice between the two diagonals of four co-circular points: it must be the one that
+        Whether to check also which of the two diagonals of four co-circular points is an edge: it must be the one that
         does not end at the lexicographically largest point.
     boundary_free
         Whether the mesh may have any boundary, for example that of polygons. Then neither the boundary is checked, nor
@@ -143,13 +144,13 @@ def check(
     if triangles is not None:
         own, neighbors = _triangles(triangles)
     if own is None:
-        raise ValueError("triangles are None, and points are no mesh; give the triangles.")
+        raise ValueError("triangles is None, and points is not a mesh; give the triangles.")
     pairs = np.empty((0, 2), np.int64) if edges is None else _ids(edges, "edges", 2)
     return _Checker(xy, own, neighbors, pairs).report(ties_matter, is_free)
 
 
 def _taken(points: Any, name: str) -> tuple[np.ndarray, np.ndarray | None, np.ndarray | None]:
-    """(n, 2) coordinates; for a mesh also its triangles, and their neighbours if it has them."""
+    """Returns (n, 2) coordinates; for a mesh also its triangles, and their neighbours if it has them."""
     if isinstance(points, Mesh):
         return _plane(points.points), _ids(points.cells, name, 3), points.cell_data.get("NeighborIds")
     if not argument.is_vtk_object(points):

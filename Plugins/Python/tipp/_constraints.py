@@ -28,10 +28,10 @@ def constraints_of(
     edges: ArrayLike | None,
     polygons: Iterable[Any] | None,
 ) -> Constraints | None:
-    """Combines the constraints of all arguments, for `count` points; None if there are none."""
+    """Combines the constraints of all arguments, for `count` points. Returns None if there are none."""
     if edge_source is not None:
         if edges is not None or polygons is not None:
-            raise ValueError("edge_source does not go with edges and polygons; give one or the others.")
+            raise ValueError("edge_source cannot be combined with edges and polygons; give one or the others.")
         check.data_object(edge_source, "edge_source", ("vtkPolyData",), "a vtkPolyData")
         return None
     if edges is None and polygons is None:
@@ -58,7 +58,7 @@ def constraints_of(
 
 
 def rings_of(polygons: Any) -> Iterator[Any]:
-    """The rings of a list of polygons, each an array or a Shapely polygon, or of a single Shapely polygon."""
+    """Yields the rings of a list of polygons (arrays or Shapely polygons), or of a single Shapely polygon."""
     for polygon in _polygons(polygons):
         yield from _rings(polygon) if hasattr(polygon, "geom_type") else [polygon]
 
@@ -67,14 +67,14 @@ def _polygons(polygons: Any) -> Iterable[Any]:
     if hasattr(polygons, "geom_type"):
         return [polygons]
     if isinstance(polygons, (str, bytes)) or not isinstance(polygons, Iterable):
-        raise TypeError("polygons are no list; give a list of polygons.")
+        raise TypeError("polygons is not a list; give a list of polygons.")
     return polygons
 
 
 def _require_ids(ids: np.ndarray, count: int, name: str) -> None:
     wrong = ids[(ids < 0) | (ids >= count)]
     if wrong.size > 0:
-        raise ValueError(f"{name}: there is no point {wrong.flat[0]}, for there are {count} points; ids count from 0.")
+        raise ValueError(f"{name}: there is no point {wrong.flat[0]}, because there are {count} points; ids count from 0.")
 
 
 def _edges(edges: ArrayLike, count: int) -> list[np.ndarray]:
@@ -86,7 +86,7 @@ def _edges(edges: ArrayLike, count: int) -> list[np.ndarray]:
 
 
 def _rings(polygon: Any) -> Iterator[np.ndarray]:
-    """The rings of a Shapely polygon: outer rings counter-clockwise, inner ones clockwise."""
+    """Yields the rings of a Shapely polygon: outer rings counter-clockwise, inner ones clockwise."""
     if polygon.geom_type == "MultiPolygon":
         for part in polygon.geoms:
             yield from _rings(part)

@@ -160,11 +160,11 @@ def dem(
     progress = progress_of(progress_bar)
     if _are_files(points):
         if point_data is not None:
-            raise ValueError("point_data goes with an array of points; files have columns of their own.")
+            raise ValueError("point_data needs an array of points; files have their own columns.")
         points = [check.path(p, "points") for p in ([points] if isinstance(points, (str, os.PathLike)) else points)]
     elif check.is_vtk_object(points):
         if point_data is not None:
-            raise ValueError("point_data goes with an array of points; a data set has its own.")
+            raise ValueError("point_data needs an array of points; a data set has its own.")
         check.data_object(points, "points", ("vtkPointSet",), "a vtkPointSet, an array or names of files")
     bands, transform, crs = _engine.dem(points, point_data, options, progress)
     return Dem(bands[0] if isinstance(attributes, str) else np.stack(bands), transform, crs)
@@ -207,7 +207,7 @@ def _corners(part: Any, name: str) -> np.ndarray:
 def _thinning(thin: Any) -> dict[str, Any]:
     pair = check.a_list(thin, "thin")
     if len(pair) != 2:
-        raise ValueError(f"thin is {thin!r}; give a side and a rule, as (0.5, 'min').")
+        raise ValueError(f"thin is {thin!r}; give a side and a rule, such as (0.5, 'min').")
     side = check.number(pair[0], "thin")
     if not side > 0:
         raise ValueError(f"thin is {thin!r}; give a side above 0.")

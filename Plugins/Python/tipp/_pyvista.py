@@ -95,7 +95,7 @@ def register(pyvista: ModuleType) -> None:
 
 
 class _Loader(importlib.abc.Loader):
-    """Loads a module as its own loader does, then registers."""
+    """Loads a module with its own loader, then registers the accessor."""
 
     def __init__(self, loader: Any, finder: _Finder):
         self._loader = loader
@@ -112,7 +112,7 @@ class _Loader(importlib.abc.Loader):
 
 
 class _Finder(importlib.abc.MetaPathFinder):
-    """Waits for the import of pyvista, so that importing tipp does not cost it."""
+    """Waits until pyvista is imported, so that `import tipp` does not import it."""
 
     def find_spec(self, name: str, path: Any, target: Any = None) -> importlib.machinery.ModuleSpec | None:
         if name != "pyvista":
@@ -121,7 +121,7 @@ class _Finder(importlib.abc.MetaPathFinder):
         try:
             spec = importlib.util.find_spec(name)
         finally:
-            sys.meta_path.insert(0, self)  # the search need not be for an import
+            sys.meta_path.insert(0, self)  # find_spec() may also be called without an import
         if spec is not None and spec.loader is not None:
             spec.loader = _Loader(spec.loader, self)
         return spec

@@ -329,7 +329,7 @@ class ResidentMesh:
 
 
 def _region(box: Any, polygon: Any) -> tuple[list[float], Any]:
-    """The six bounds of a box, or the rings of a polygon."""
+    """Returns the bounds of a box, or the rings of a polygon."""
     if (box is None) == (polygon is None):
         raise ValueError("give either box or polygon.")
     if box is None:
@@ -341,7 +341,7 @@ def _region(box: Any, polygon: Any) -> tuple[list[float], Any]:
 
 
 def _rings(zones: list[Any]) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """(n, 2) corners, where each ring begins and the end, its zone, and whether it is a hole."""
+    """Returns (n, 2) corners, the first corner of each ring and the end, each ring's zone, and whether it is a hole."""
     corners, zone_of, holes = [np.zeros((0, 2))], [], []
     for number, zone in enumerate(zones):
         for ring, is_hole in _rings_of(zone, f"polygons[{number}]"):

@@ -11,7 +11,7 @@ from typing import Any, Iterable, Iterator
 
 @contextlib.contextmanager
 def uncompressed(paths: list[str]) -> Iterator[list[str]]:
-    """Replaces .laz files by temporary .las files, which laspy writes if it is installed."""
+    """Yields the paths, with .laz files replaced by temporary .las files, which laspy writes if it is installed."""
     compressed = [path for path in paths if path.lower().endswith(".laz")]
     if not compressed or importlib.util.find_spec("laspy") is None:
         yield paths

@@ -35,8 +35,8 @@ def resample(
         The number of samples along x, y and z; or along x and y, with one along z. 0 uses the spacing of the first
         axis with a number, but for surfaces means one sample along z. None: (256, 0, 0).
     spacing
-        The distance between samples along x, y and z, from the lower bound on, instead of dimensions; 0 along an axis:
-        `dimensions` applies.
+        The distance between samples along x, y and z, from the lower bound on. Used instead of `dimensions` along axes
+        where it is not 0.
     null_value
         The value of samples outside of all cells.
     no_data
@@ -88,7 +88,7 @@ def resample(
 
 
 def _along_axes(values: Any, name: str, count: int, convert: Any, **limits: Any) -> list[Any]:
-    """Values for x, y and z; z may be omitted in the plane."""
+    """Returns values for x, y and z; z may be omitted."""
     if isinstance(values, Sequence) and not isinstance(values, (str, bytes)) and len(values) == count * 2 // 3:
         of_z = {"bounds": [0, 0], "spacing": [0], "dimensions": [1]}[name]
         values = [*values, *of_z]

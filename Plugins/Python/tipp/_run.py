@@ -25,7 +25,7 @@ def require(built: str) -> None:
     found = vtkVersion.GetVTKVersion()
     if found.split(".")[:2] != built.split(".")[:2]:
         raise ImportError(f"tipp was built with VTK {built} and cannot be used beside VTK {found}, which Python finds; "
-                          "take that one off the path, or use the wheel of tipp, which works with any.")
+                          "remove that one from the path, or use the wheel of tipp, which works with any VTK.")
 
 
 class Interrupted:

@@ -95,7 +95,7 @@ def delaunay_3d(
     if check.is_vtk_object(points):
         check.data_object(points, "points", ("vtkPointSet",), "a vtkPointSet or an array")
         if point_data is not None:
-            raise ValueError("point_data goes with an array of points; a data set has its own.")
+            raise ValueError("point_data needs an array of points; a data set has its own.")
     elif np.ndim(points) == 2 and np.shape(points)[1] == 2 and np.asarray(points).dtype.kind in "iuf":
         raise ValueError(f"points has the shape {np.shape(points)}; points in space have the shape (n, 3).")
     wants_statistics = check.flag(return_statistics, "return_statistics")

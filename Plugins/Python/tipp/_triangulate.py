@@ -170,7 +170,7 @@ def delaunay_2d(
     options["bound"] = check.flag(bound, "bound")
     if check.is_vtk_object(points):
         if point_data is not None:
-            raise ValueError("point_data goes with an array of points; a data set has its own.")
+            raise ValueError("point_data needs an array of points; a data set has its own.")
     _require_points(points)
     options["edge_source"], options["edges"], options["polygons"] = edge_source, edges, polygons
     options["crossings"] = check.choice(crossings, "crossings", _CROSSINGS)
@@ -188,7 +188,7 @@ def _require_points(points: Any) -> None:
 
 
 def _options(tol: Any, max_edge: Any, partitions: Any, schedule: Any, threads: Any) -> dict[str, Any]:
-    """The checked options that delaunay() and delaunay_2d() share."""
+    """Checks and returns the options that delaunay() and delaunay_2d() share."""
     return {
         "tolerance": check.number(tol, "tol", at_least=0),
         "max_edge": check.number(max_edge, "max_edge", at_least=0),

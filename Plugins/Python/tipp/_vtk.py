@@ -58,7 +58,7 @@ def vtk_points(points: ArrayLike) -> vtkPoints:
 
 
 def _lent(array: np.ndarray, columns: int) -> vtkDataArray:
-    """A VTK array that shares, and keeps alive, a C-order array. Ten times faster than numpy_to_vtk()."""
+    """Returns a VTK array that shares a C-order array and keeps it alive. Ten times faster than numpy_to_vtk()."""
     result = _CLASSES[array.dtype.char]()
     if columns > 1:
         result.SetNumberOfComponents(columns)
@@ -108,7 +108,7 @@ def _touch(array: np.ndarray) -> None:
 
 
 def vtk_array(name: str, values: ArrayLike) -> Any:
-    """A named VTK array of one value or one row for each point.
+    """Returns a named VTK array of one value or one row for each point.
 
     It shares the memory of values if they are writable, contiguous and of a type that VTK has.
     """
@@ -119,7 +119,7 @@ def vtk_array(name: str, values: ArrayLike) -> Any:
 
 
 def point_cloud(points: ArrayLike, point_data: Mapping[str, ArrayLike] | None = None) -> vtkPolyData:
-    """Points with point data as a data set; see vtk_points() about copies."""
+    """Returns points with point data as a data set; see vtk_points() about copies."""
     cloud = vtkPolyData()
     cloud.SetPoints(vtk_points(points))
     for name, array in attributes(point_data, cloud.GetNumberOfPoints()).items():
@@ -128,7 +128,7 @@ def point_cloud(points: ArrayLike, point_data: Mapping[str, ArrayLike] | None = 
 
 
 def triangles_of(mesh: vtkPolyData) -> np.ndarray:
-    """The (n, 3) point ids of a mesh of triangles, in the memory of the mesh."""
+    """Returns the (n, 3) point ids of a mesh of triangles, in the memory of the mesh."""
     return vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
 
 
@@ -146,13 +146,13 @@ _TYPES = {3: 5, 4: 10}  # VTK_TRIANGLE and VTK_TETRA, by their number of corners
 
 
 def xyz_of(data: Any) -> np.ndarray:
-    """The coordinates of a vtkPointSet's points."""
+    """Returns the coordinates of a vtkPointSet's points."""
     points = data.GetPoints()
     return vtk_to_numpy(points.GetData()) if points and points.GetNumberOfPoints() else np.empty((0, 3))
 
 
 def cells_of(ids: np.ndarray) -> vtkCellArray:
-    """Cells with as many points as the array has columns, in its memory."""
+    """Returns cells with as many points as the array has columns, in the array's memory."""
     count, size = ids.shape
     cells = vtkCellArray()
     cells.SetData(_lent(np.arange(0, size * count + 1, size, dtype=ids.dtype), 1), _lent(np.ascontiguousarray(ids), 1))
@@ -160,20 +160,20 @@ def cells_of(ids: np.ndarray) -> vtkCellArray:
 
 
 def cell_lists(cells: vtkCellArray) -> list[np.ndarray]:
-    """The point ids of each cell."""
+    """Returns the point ids of each cell."""
     legacy = vtkIdTypeArray()
     cells.ExportLegacyFormat(legacy)
     values = vtk_to_numpy(legacy).astype(np.int64)
     lists = []
     at = 0
-    while at < len(values):  # a count, then as many ids
+    while at < len(values):  # the number of ids, then the ids
         lists.append(values[at + 1:at + 1 + values[at]])
         at += 1 + int(values[at])
     return lists
 
 
 def surface_of(mesh: Mesh, data: Any) -> vtkPolyData:
-    """A VTK mesh of triangles, which reuses the points and point data of a data set if they are the same."""
+    """Returns a VTK mesh of triangles. Reuses the points and point data of a data set if they are the same."""
     result = vtkPolyData()
     if data is None:
         result.SetPoints(vtk_points(mesh.points))
@@ -192,7 +192,7 @@ def surface_of(mesh: Mesh, data: Any) -> vtkPolyData:
     for name, values in mesh.cell_data.items():
         result.GetCellData().AddArray(vtk_array(name, values))
     for name, values in mesh.line_data.items():
-        triangles = np.full(len(mesh.cells), -1, values.dtype)  # cells are counted with lines first
+        triangles = np.full(len(mesh.cells), -1, values.dtype)  # VTK numbers lines before triangles
         result.GetCellData().AddArray(vtk_array(name, np.concatenate([values, triangles])))
     return result
 
@@ -250,13 +250,13 @@ def _add_ghosts(image: Image, result: vtkImageData) -> None:
 
 
 def arrays_of(data: Any) -> dict[str, np.ndarray]:
-    """The named numeric arrays."""
+    """Returns the numeric arrays that have a name."""
     arrays = (data.GetArray(i) for i in range(data.GetNumberOfArrays()))
     return {array.GetName(): vtk_to_numpy(array) for array in arrays if array is not None and array.GetName()}
 
 
 def simplices_of(data: Any) -> Mesh:
-    """The triangles or tetrahedra of a data set, sharing its memory. Raises RuntimeError for other cells."""
+    """Returns the triangles or tetrahedra of a data set, sharing its memory. Raises RuntimeError for other cells."""
     if data.IsA("vtkPolyData"):
         cells, kinds = data.GetPolys(), {5}
         is_uniform = cells.GetNumberOfCells() == data.GetNumberOfCells() and cells.IsHomogeneous() in (-1, 0, 3)
@@ -267,8 +267,8 @@ def simplices_of(data: Any) -> Mesh:
     else:
         cells, kinds, is_uniform = None, set(), False
     if not is_uniform:
-        raise RuntimeError(f"the mesh is a {data.GetClassName()} with other cells than triangles alone or tetrahedra "
-                           "alone; make them so first, as by PyVista's triangulate().")
+        raise RuntimeError(f"the mesh is a {data.GetClassName()} whose cells are not only triangles or only tetrahedra; "
+                           "convert them first, for example by PyVista's triangulate().")
     corners = 4 if kinds == {10} else 3
     ids = vtk_to_numpy(cells.GetConnectivityArray()) if cells.GetNumberOfCells() else np.empty(0, np.int64)
     return Mesh(xyz_of(data), ids.reshape(-1, corners), arrays_of(data.GetPointData()), arrays_of(data.GetCellData()))

@@ -17,7 +17,8 @@ from ._vtk import arrays_of, grid_of, vtk_points, xyz_of
 from .vtkTIPPFilters import vtkPartitionedMeshQuery
 
 Rings = Tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
-"""Of polygons: (n, 2) corners, where each ring begins and the end, its zone, whether it is a hole"""
+"""Rings of polygons: (n, 2) corners, the first corner of each ring and the end, each ring's zone, and whether it is a
+hole."""
 
 
 def open_mesh(mesh: Any, options: dict[str, Any]) -> MeshQuery:

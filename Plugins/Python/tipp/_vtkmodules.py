@@ -17,8 +17,8 @@ _MODULES = ("vtkCommonCore", "vtkCommonDataModel", "vtkCommonExecutionModel", "u
 
 @functools.lru_cache(maxsize=None)
 def root() -> str | None:
-    """The package with VTK's modules: the one that PyVista uses if it is imported, since objects of the two cannot be
-    mixed; otherwise the installed one; None without VTK."""
+    """Returns the name of the package with VTK's modules, or None without VTK. If PyVista is imported, it is the package
+    that PyVista uses, because objects of two packages cannot be mixed."""
     if importlib.util.find_spec("._run", __package__):  # built with VTK: the package's filters use vtkmodules
         return "vtkmodules"
     mesh = getattr(sys.modules.get("pyvista"), "PolyData", None)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Many constraints among many points, beside CGAL's constrained triangulation.
+// Many constraints among many points, compared with CGAL's constrained triangulation.
 #include "Comparison.h"
 #include "ConstrainedOracle.h"
 
@@ -16,7 +16,8 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-/// Segments that do not cross: edges and longer ones of triangulations of every `step`-th point.
+/// Returns each `every`-th edge of the Delaunay triangulation of each `step`-th point. These
+/// segments do not cross, and many are long.
 std::vector<Constraint> sparseEdges(const Coordinates& xy, std::size_t step, std::size_t every)
 {
   Ids ids;
@@ -47,7 +48,7 @@ class ConstrainedSets : public testing::TestWithParam<std::string>
 {
 };
 
-TEST_P(ConstrainedSets, AreTheOraclesForEveryDensity)
+TEST_P(ConstrainedSets, EqualTheOracleForEveryDensity)
 {
   const Coordinates xy = makePointSet(GetParam(), 3000);
   for (const std::size_t step : { 2, 7, 60, 500 })
@@ -79,7 +80,7 @@ TEST_P(ConstrainedSets, AreTheSameForPartitionsAndThreads)
   }
 }
 
-TEST_P(ConstrainedSets, HaveTheirCrossingsSplit)
+TEST_P(ConstrainedSets, AreSplitAtCrossings)
 {
   const Coordinates xy = makePointSet(GetParam(), 600);
   const std::size_t points = xy.size() / 2;
@@ -103,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(PointSets, ConstrainedSets,
     return name;
   });
 
-TEST(Constrain, TakesLongSegmentsAcrossEverything)
+TEST(Constrain, InsertsLongSegmentsAcrossTheDomain)
 {
   Coordinates xy = makePointSet("uniform", 30000);
   xy.insert(xy.end(), { -0.1, 0.3, 1.1, 0.7, -0.1, 0.31, 1.1, 0.72, -0.1, 0.9, 1.1, 0.9 });
@@ -115,8 +116,8 @@ TEST(Constrain, TakesLongSegmentsAcrossEverything)
     xy, constraints, triangulateConstrained(view(xy), constraints, CrossingRule::Split, options)));
 }
 
-/// Triangles are left out when the constraints are in, and not before.
-TEST(Constrain, LeavesOutLongTrianglesAtTheEnd)
+/// Long triangles are removed after the constraints have been inserted, not before.
+TEST(Constrain, RemovesLongTrianglesAfterInsertingConstraints)
 {
   Coordinates xy = makePointSet("uniform", 2000);
   xy.insert(xy.end(), { -0.1, 0.3, 1.1, 0.7 });
@@ -141,7 +142,7 @@ TEST(Constrain, LeavesOutLongTrianglesAtTheEnd)
   EXPECT_TRUE(sameTriangles(xy, trianglesOf(some), expected));
 }
 
-/// The same bytes, not only the same triangles.
+/// The ids must be equal byte for byte, including the order of triangles.
 TEST(Constrain, OrdersTrianglesTheSameForAllThreads)
 {
   const Coordinates xy = makePointSet("clustered", 20000);
@@ -156,12 +157,12 @@ TEST(Constrain, OrdersTrianglesTheSameForAllThreads)
     one.Mesh.Ids32.begin(), one.Mesh.Ids32.end(), four.Mesh.Ids32.begin(), four.Mesh.Ids32.end()));
 }
 
-TEST(Constrain, NestedPolygonsThatTouchAtPoints)
+TEST(Constrain, NestedPolygonsMayTouchAtPoints)
 {
   Coordinates xy = makePointSet("uniform", 4000);
   std::vector<Constraint> constraints;
   const std::int64_t first = 4000;
-  // Squares in each other, each with its corners on the middles of the sides of the one around it.
+  // Nested squares: the corners of each lie at the middles of the sides of the next larger one.
   double corners[4][2] = { { 0.1, 0.1 }, { 0.9, 0.1 }, { 0.9, 0.9 }, { 0.1, 0.9 } };
   for (std::int64_t depth = 0; depth < 6; ++depth)
   {

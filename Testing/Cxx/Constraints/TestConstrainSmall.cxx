@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Constraints between few points, each kind by itself.
+// Constraints between a few points; each test is about one kind.
 #include "Comparison.h"
 #include "ConstrainedOracle.h"
 
@@ -21,12 +21,12 @@ ConstrainedTriangulation run(const Coordinates& xy, const std::vector<Constraint
   return triangulateConstrained(view(xy), constraints, crossings);
 }
 
-TEST(Constrain, IsPlainWithoutConstraints)
+TEST(Constrain, IsDelaunayWithoutConstraints)
 {
   EXPECT_TRUE(sameTriangles(Square, trianglesOf(run(Square, {}).Mesh), reference(Square).Mesh));
 }
 
-TEST(Constrain, ExchangesADiagonal)
+TEST(Constrain, FlipsADiagonal)
 {
   const Coordinates xy{ 0, 0, 2, -1, 4, 0, 2, 1 };
   const std::vector<Constraint> constraints{ { 0, 2 } };
@@ -34,7 +34,7 @@ TEST(Constrain, ExchangesADiagonal)
   EXPECT_TRUE(isConstrained(xy, constraints, run(xy, constraints)));
 }
 
-TEST(Constrain, KeepsAnEdgeThatIsThere)
+TEST(Constrain, KeepsAnExistingEdge)
 {
   const std::vector<Constraint> constraints{ { 0, 1 }, { 4, 5 } };
   const ConstrainedTriangulation result = run(Square, constraints);
@@ -53,7 +53,7 @@ TEST(Constrain, SplitsAtAPointOnTheSegment)
   EXPECT_EQ(6, result.Constraints.Pieces[0].B);
 }
 
-TEST(Constrain, TakesOverlappingDoubledAndReversedSegments)
+TEST(Constrain, AcceptsOverlappingRepeatedAndReversedSegments)
 {
   const Coordinates xy{ 0, 0, 1, 0, 2, 0, 3, 0, 1.5, 0.25, 1.5, -0.25, 0, 3, 3, -3 };
   const std::vector<Constraint> constraints{ { 0, 2 }, { 1, 3 }, { 3, 0 }, { 0, 2 }, { 4, 4 } };
@@ -62,7 +62,7 @@ TEST(Constrain, TakesOverlappingDoubledAndReversedSegments)
   EXPECT_EQ(1, result.Constraints.ZeroLength);
 }
 
-TEST(Constrain, MapsEndsToThePointsThatStandForThem)
+TEST(Constrain, MapsEndsToRepresentatives)
 {
   Coordinates xy = Square;
   xy.insert(xy.end(), { 0, 0, 4, 4 });
@@ -83,13 +83,13 @@ TEST(Constrain, LeavesOutEndsThatAreNotFinite)
   EXPECT_EQ(2, result.Constraints.NotFinite);
 }
 
-TEST(Constrain, HasNoTrianglesWhereAllPointsAreOnALine)
+TEST(Constrain, CollinearPointsHaveNoTriangles)
 {
   const Coordinates xy{ 0, 0, 1, 1, 2, 2 };
   EXPECT_EQ(0u, run(xy, { { 0, 2 } }).Mesh.triangleCount());
 }
 
-TEST(Constrain, RefusesAnIdThatNoPointHas)
+TEST(Constrain, RefusesAnInvalidPointId)
 {
   for (const Constraint& constraint : { Constraint{ 0, 6 }, Constraint{ -1, 2 } })
   {
@@ -106,8 +106,8 @@ TEST(Constrain, RefusesAnIdThatNoPointHas)
   }
 }
 
-/// A star of segments at the first point, across two rings of points.
-TEST(Constrain, TakesAStarOfAThousandSegments)
+/// Segments from the first point to all points of the outer ring, across the inner ring.
+TEST(Constrain, InsertsAStarOfAThousandSegments)
 {
   constexpr int rays = 1000;
   Coordinates xy{ 0, 0 };
@@ -127,8 +127,9 @@ TEST(Constrain, TakesAStarOfAThousandSegments)
   EXPECT_TRUE(isConstrained(xy, constraints, run(xy, constraints)));
 }
 
-/// A comb whose long teeth the constraint passes between: edges that stick into its cavity.
-TEST(Constrain, TakesEdgesThatStickIntoTheCavity)
+/// The constraint passes between the long teeth of two combs. Edges of the teeth end inside the
+/// cavity.
+TEST(Constrain, EdgesMayEndInsideTheCavity)
 {
   Coordinates xy{ 0, 0, 100, 0 };
   for (int i = 1; i < 20; ++i)
@@ -145,8 +146,8 @@ TEST(Constrain, TakesEdgesThatStickIntoTheCavity)
   EXPECT_TRUE(isConstrained(xy, constraints, run(xy, constraints)));
 }
 
-/// Segments along and across the lines of a lattice, through many of its points.
-TEST(Constrain, TakesSegmentsThroughLatticePoints)
+/// Segments along, across and diagonal to the lines of a lattice, through many of its points.
+TEST(Constrain, InsertsSegmentsThroughLatticePoints)
 {
   constexpr int side = 12;
   for (const double scale : { 1.0, 0.1, 1e-300, 1e300, 0x1p-1074 })

@@ -17,7 +17,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-/// A closed polygon of a file that begins with the number of its corners.
+/// Reads a closed polygon. The file begins with the number of its corners.
 Coordinates readPolygon(const std::string& path)
 {
   std::ifstream file(path);
@@ -59,7 +59,7 @@ TEST_P(RealConstraints, PolygonIsInTheTriangulation)
 INSTANTIATE_TEST_SUITE_P(Files, RealConstraints, testing::Values("LakeSuperior", "Sweden"),
   [](const auto& info) { return info.param; });
 
-/// The edges of a mesh as constraints leave no choice: the mesh comes back.
+/// With all edges of a mesh as constraints, the result must include all its triangles.
 void expectElementsBack(const AdcircMesh& mesh)
 {
   std::vector<Constraint> edges;
@@ -80,19 +80,19 @@ void expectElementsBack(const AdcircMesh& mesh)
   EXPECT_TRUE(isConstrained(mesh.Nodes, edges, result));
 }
 
-TEST(RealConstraints, GiveBackEveryElementOfEC95d)
+TEST(RealConstraints, ReproduceEveryElementOfEC95d)
 {
   TIPP_REQUIRE_REAL_DATA(path, "adcirc/ec95d/ec95d.grd");
   expectElementsBack(readAdcirc(path));
 }
 
-TEST(RealConstraints, GiveBackEveryElementOfInternalOverflow)
+TEST(RealConstraints, ReproduceEveryElementOfInternalOverflow)
 {
   TIPP_REQUIRE_REAL_DATA(path, "adcirc/internal_overflow/internal_overflow.grd");
   expectElementsBack(readAdcirc(path));
 }
 
-/// A mesh of FreeFem: vertices, triangles and edges of the border, each with a label.
+/// A mesh in FreeFem's format: vertices, triangles and border edges, each with a label.
 struct FreeFemMesh
 {
   AdcircMesh Mesh;
@@ -133,7 +133,7 @@ FreeFemMesh readFreeFem(const std::string& path)
   return result;
 }
 
-/// Weirs are slots, whose two sides go on in other boundaries or are closed at their ends.
+/// A weir is a slot in the mesh. Its two sides continue in other boundaries or meet at their ends.
 TEST(RealConstraints, BoundariesCutGridsWithWeirs)
 {
   for (const char* const name :
@@ -147,18 +147,18 @@ TEST(RealConstraints, BoundariesCutGridsWithWeirs)
     constraints.Boundary = readBoundary(path);
     const ConstrainedTriangulation result = triangulateTable(points, constraints, {});
     EXPECT_EQ(grid.XY.size(), points.XY.size());
-    // By Euler's formula all triangulations inside have as many.
+    // By Euler's formula, all triangulations of the inside have this number of triangles.
     EXPECT_EQ(grid.Triangles.size() / 3, result.Mesh.triangleCount()) << name;
   }
 }
 
-TEST(RealConstraints, GiveBackEveryElementOfLacLeman)
+TEST(RealConstraints, ReproduceEveryElementOfLacLeman)
 {
   TIPP_REQUIRE_REAL_DATA(path, "constraints/lac-leman-v4.msh");
   expectElementsBack(readFreeFem(path).Mesh);
 }
 
-/// The lake's shore and those of its islands, whichever way round they go.
+/// The borders are the lake's shore and those of its islands, in any orientation.
 TEST(RealConstraints, BorderOfLacLemanCutsTheLake)
 {
   TIPP_REQUIRE_REAL_DATA(path, "constraints/lac-leman-v4.msh");
@@ -167,23 +167,23 @@ TEST(RealConstraints, BorderOfLacLemanCutsTheLake)
     triangulateConstrained(view(lake.Mesh.Nodes), lake.Border, CrossingRule::Refuse);
   const std::vector<ConstraintPiece>& pieces = result.Constraints.Pieces;
   keepInside(view(lake.Mesh.Nodes), result.Mesh, pieces, { {}, pieces, {} });
-  // By Euler's formula all triangulations of the lake have as many.
+  // By Euler's formula, all triangulations of the lake have this number of triangles.
   EXPECT_EQ(lake.Mesh.Elements.size(), result.Mesh.triangleCount());
 }
 
-/// Shorelines come one after the other, each closed by a point equal to its first.
+/// The file lists one shoreline after the other. The last point of each equals its first.
 TEST(RealConstraints, ShorelinesAreInTheTriangulation)
 {
   TIPP_REQUIRE_REAL_DATA(path, "coast/gshhg-2.3.7-full-ec95d-box.lonlat.txt.xz");
   Coordinates xy = readCompressedTable(path, ' ', false, 0, 1);
-  constexpr std::size_t most = 20000; // what the oracle has time for
+  constexpr std::size_t most = 20000; // more take the oracle too long
   xy.resize(2 * most);
   std::vector<Constraint> constraints;
   for (std::size_t i = 1; i < most; ++i)
   {
     const double dx = xy[2 * i] - xy[2 * i - 2];
     const double dy = xy[2 * i + 1] - xy[2 * i - 1];
-    constexpr double longest = 0.05; // degrees: a longer step leads to another shoreline
+    constexpr double longest = 0.05; // in degrees; a longer step leads to the next shoreline
     if (dx * dx + dy * dy < longest * longest)
     {
       constraints.push_back({ std::int64_t(i - 1), std::int64_t(i) });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What out-of-core runs and ranks do with crossed triangles: jobs, and parts of a triangulation.
+// Jobs of crossed triangles, and parts of a triangulation, as in out-of-core runs and on ranks.
 #include "Comparison.h"
 #include "ConstrainedOracle.h"
 #include "PointSets.h"
@@ -25,7 +25,7 @@ TEST(ConstraintJobs, JoinPiecesThatCrossTheSameTriangle)
   crossed.Triangles = { 3, 8, 9, 20, 21 };
   crossed.Pieces = { 1, 4, /**/ 2, /**/ 4, 5, /**/ 2, /**/ 5 };
   crossed.Starts = { 0, 2, 3, 5, 6, 7 };
-  // Jobs are numbered by their first piece: 1, 4 and 5 are the first, 2 is the second.
+  // Jobs are numbered by their first piece: 1, 4 and 5 are job 0, 2 is job 1.
   EXPECT_EQ((std::vector<std::int64_t>{ 0, 1, 0, 1, 0 }), jobsOfTriangles(crossed, 7));
 }
 
@@ -54,7 +54,7 @@ TEST(ConstraintJobs, LeavePiecesWithoutTouchesWhole)
   EXPECT_EQ(1u, split.Parts.size());
 }
 
-/// A Delaunay triangulation, and segments between its points that do not cross.
+/// A Delaunay triangulation, and constraint segments that do not cross each other.
 struct Scene
 {
   explicit Scene(const std::string& set, unsigned seed, int count)
@@ -74,7 +74,7 @@ struct Scene
     {
       this->Segments.push_back({ this->at(piece.A), this->at(piece.B), SegmentRole::Line });
     }
-    // As well where points lie on a segment: it need not be split there.
+    // Adds a segment with points on it: a segment need not be split at the points on it.
     const Constraint& first = this->Constraints.front();
     if (this->Whole.Constraints.Crossings.empty())
     {
@@ -94,7 +94,7 @@ struct Scene
   std::vector<ConstraintSegment> Segments;
 };
 
-/// The triangles that are not crossed; those that are go to `part`.
+/// Returns the triangles that no segment crosses, and moves the others to `part`.
 Triangles takeFrom(
   const Scene& scene, const ConstraintSegments& segments, const Triangles& mesh, CrossedPart& part)
 {
@@ -138,7 +138,8 @@ TEST_P(CrossedParts, AreRetriangulatedAsAWhole)
   EXPECT_TRUE(sameTriangles(scene.XY, sorted(mesh), trianglesOf(scene.Whole.Mesh)));
 }
 
-/// Parts are stripes of triangles: first what is complete in each, then the rest of all together.
+/// Each part is a vertical stripe of triangles. First each stripe retriangulates what lies inside
+/// it alone, then the rest of all stripes is retriangulated together.
 TEST_P(CrossedParts, AreRetriangulatedInTwoSteps)
 {
   const Scene scene(GetParam(), 5, 9);
@@ -155,7 +156,7 @@ TEST_P(CrossedParts, AreRetriangulatedInTwoSteps)
   {
     const auto begin = byX.begin() + std::ptrdiff_t(byX.size() * stripe / stripes);
     const auto end = byX.begin() + std::ptrdiff_t(byX.size() * (stripe + 1) / stripes);
-    std::set<std::int64_t> elsewhere; // points of other stripes' triangles
+    std::set<std::int64_t> elsewhere; // points of other stripes
     for (auto t = byX.begin(); t != byX.end(); ++t)
     {
       if (t < begin || t >= end)
@@ -178,7 +179,7 @@ TEST_P(CrossedParts, AreRetriangulatedInTwoSteps)
   EXPECT_TRUE(sameTriangles(scene.XY, sorted(mesh), trianglesOf(scene.Whole.Mesh)));
 }
 
-TEST_P(CrossedParts, AreNamedAnew)
+TEST_P(CrossedParts, MayBeRenumbered)
 {
   const Scene scene(GetParam(), 3, 12);
   const ConstraintSegments segments(scene.Segments);
@@ -222,8 +223,9 @@ TEST_P(CrossedParts, MarkTheEdgesOfSegments)
 INSTANTIATE_TEST_SUITE_P(
   PointSets, CrossedParts, testing::Values("uniform", "lattice", "cocircular", "clustered"));
 
-/// What rays tell and what ways across triangles tell are the same.
-TEST(ConstraintSegments, KeepWhatIsKeptInMemory)
+/// Polygons, boundaries and holes keep the same triangles whether rays or walks across triangles
+/// decide.
+TEST(ConstraintSegments, KeepTheSameTrianglesAsInMemory)
 {
   Coordinates xy = makePointSet("uniform", 400);
   std::vector<Constraint> constraints;
@@ -243,7 +245,7 @@ TEST(ConstraintSegments, KeepWhatIsKeptInMemory)
   const std::size_t polygonEnd = constraints.size();
   addRing(0.6, 0.5, 0.3, 9);
   const std::size_t boundaryEnd = constraints.size();
-  addRing(0.8, 0.55, 0.1, 4); // lines, in which is a hole
+  addRing(0.8, 0.55, 0.1, 4); // lines around a hole
   ConstrainedTriangulation made = triangulateConstrained(view(xy), constraints);
   xy = withCrossings(xy, made);
   const std::vector<ConstraintPiece>& pieces = made.Constraints.Pieces;
@@ -283,7 +285,7 @@ TEST(ConstraintSegments, KeepWhatIsKeptInMemory)
   EXPECT_TRUE(sameTriangles(xy, kept, trianglesOf(made.Mesh)));
   EXPECT_GT(kept.size(), 20u);
   EXPECT_LT(kept.size(), all.size());
-  // The same from what is saved.
+  // Also with the segments that are saved and restored.
   const ConstraintSegments again(cutting.list());
   EXPECT_EQ(segments.size(), again.list().size());
   EXPECT_TRUE(std::all_of(kept.begin(), kept.end(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What crosses what, beside CGAL's constrained triangulation with exact intersections.
+// Which segments cross, compared with CGAL's constrained triangulation with exact intersections.
 #include "Comparison.h"
 #include "ConstrainedOracle.h"
 
@@ -18,7 +18,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-/// How many vertices there are, and how many edges that constraints are made of.
+/// The numbers of vertices and of edges on constraints.
 using Counts = std::pair<std::size_t, std::size_t>;
 
 Counts countsOfCgal(const Coordinates& xy, const std::vector<Constraint>& constraints)
@@ -59,7 +59,7 @@ Counts countsOfTipp(const Coordinates& xy, const std::vector<Constraint>& constr
     edges.size() };
 }
 
-/// Segments between points of a lattice.
+/// Compares random segments between points of a lattice with `side` points per row.
 void compareRandom(std::uint64_t side, int segments, std::uint64_t seed)
 {
   std::mt19937_64 random(seed);
@@ -77,7 +77,7 @@ void compareRandom(std::uint64_t side, int segments, std::uint64_t seed)
     << side << " " << segments << " " << seed;
 }
 
-TEST(CrossingTopology, OfRandomSegmentsIsThatOfExactCoordinates)
+TEST(CrossingTopology, OfRandomSegmentsEqualsExactCoordinates)
 {
   for (std::uint64_t seed = 0; seed < 10; ++seed)
   {
@@ -85,8 +85,8 @@ TEST(CrossingTopology, OfRandomSegmentsIsThatOfExactCoordinates)
   }
 }
 
-/// Many cross in one point, overlap, or end on each other.
-TEST(CrossingTopology, OfSegmentsOfALatticeIsThatOfExactCoordinates)
+/// In a small lattice, many segments cross at one point, overlap, or end on each other.
+TEST(CrossingTopology, OfLatticeSegmentsEqualsExactCoordinates)
 {
   for (std::uint64_t seed = 0; seed < 60; ++seed)
   {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Constraints that cross.
+// Constraints that cross each other.
 #include "Comparison.h"
 #include "ConstrainedOracle.h"
 
@@ -31,7 +31,7 @@ TEST(SegmentCrossing, NeedsAPointInsideBoth)
   EXPECT_FALSE(crossProperly({ 0, 0 }, { 2, 2 }, { 5, 0 }, { 0, 5 })) << "beyond an end";
 }
 
-/// No double is nearer to the exact coordinate.
+/// Expects that no other double is closer to the exact coordinate.
 void expectNearest(double rounded, const mpq_class& exact)
 {
   const auto off = [&exact](double value) -> mpq_class { return abs(mpq_class(value) - exact); };
@@ -84,7 +84,7 @@ TEST(Crossings, BecomePoints)
   EXPECT_EQ(1, result.Constraints.Rounds);
 }
 
-TEST(Crossings, OfManyAtOnePlaceAreOnePoint)
+TEST(Crossings, OfManySegmentsAtOnePositionAreOnePoint)
 {
   Coordinates xy;
   std::vector<Constraint> constraints;
@@ -98,9 +98,9 @@ TEST(Crossings, OfManyAtOnePlaceAreOnePoint)
   EXPECT_EQ(1u, result.Constraints.Crossings.size());
 }
 
-TEST(Crossings, OfAnEdgeThatIsAConstraintAreFound)
+TEST(Crossings, WithADelaunayEdgeAreFound)
 {
-  // The short one is an edge of the Delaunay triangulation, which the other one crosses.
+  // The short segment is an edge of the Delaunay triangulation, and the other segment crosses it.
   const Coordinates xy{ 0, -1, 0, 1, -9, 0, 9, 0.5 };
   const std::vector<Constraint> constraints{ { 2, 3 }, { 0, 1 } };
   const ConstrainedTriangulation result = triangulateSplit(xy, constraints);
@@ -124,7 +124,7 @@ TEST(Crossings, AreRefusedNamingTheFirst)
   }
 }
 
-TEST(Crossings, AreNotRefusedWhereThereAreNone)
+TEST(Crossings, AreNotReportedIfThereAreNone)
 {
   const Coordinates xy{ 0, 0, 4, 4, 0, 4, 2, 2 };
   const std::vector<Constraint> constraints{ { 0, 1 }, { 2, 3 } };
@@ -151,7 +151,7 @@ TEST(Crossings, OfLongSegmentsAreSplitUntilNothingCrosses)
   EXPECT_GT(result.Constraints.Crossings.size(), 1000u);
 }
 
-/// Short segments are compared in groups, long ones one by one.
+/// The implementation compares short segments in groups, and long ones individually.
 TEST(Crossings, OfShortAndLongSegmentsAreAllFound)
 {
   std::mt19937_64 random(8);
@@ -186,8 +186,8 @@ TEST(Crossings, OfShortAndLongSegmentsAreAllFound)
   EXPECT_EQ(resolved.Crossings.size(), expected);
 }
 
-/// Parts that cross again a unit further, over twelve orders of magnitude: rounded to doubles alone
-/// they do so in over 300 rounds.
+/// Split segments cross again one unit farther, over twelve orders of magnitude. If crossings were
+/// only rounded to doubles, this would take over 300 rounds.
 TEST(Crossings, OfNearlyParallelSegmentsOverOrdersOfMagnitudeEnd)
 {
   const Coordinates xy{ 0x1.d1a94a200cp+0, 0x1.d1a94a2004p+0, 0x1.d1a94a200ep+0, 0x1.d1a94a2006p+0,
@@ -200,7 +200,8 @@ TEST(Crossings, OfNearlyParallelSegmentsOverOrdersOfMagnitudeEnd)
   EXPECT_LT(result.Constraints.Rounds, 30);
 }
 
-/// The line misses the box of what is rounded to a vertex by a ten-thousandth of its size.
+/// The line passes the box of all points that round to a vertex at a ten-thousandth of its size, so
+/// it must not be bent to this vertex.
 TEST(Crossings, DoNotMoveConstraintsByMoreThanRounding)
 {
   const Coordinates xy = { 0x1.d6f0382099999p+38, 0x1.d6f0382099997p+38, 0x1.977420dc00001p+42,
@@ -214,7 +215,7 @@ TEST(Crossings, DoNotMoveConstraintsByMoreThanRounding)
   EXPECT_EQ(1, resolved.Pieces[1].B);
 }
 
-/// Segments one unit in the last place beside each other: crossings are rounded far along them.
+/// The segments are one unit in the last place apart, so a rounded crossing may be far along them.
 TEST(Crossings, OfNearlyParallelSegmentsEnd)
 {
   Coordinates xy;

@@ -78,7 +78,7 @@ public:
     return { scale * this->uniform(), scale * this->uniform(), scale * this->uniform() };
   }
 
-  /// Points i + shift of a lattice, jittered.
+  /// Appends jittered lattice points: points shift, shift + 1, ... of the lattice.
   void addLattice(std::size_t count, double shift, double jitter, std::vector<Point3>& points)
   {
     const int side = int(std::lround(std::cbrt(double(count))));

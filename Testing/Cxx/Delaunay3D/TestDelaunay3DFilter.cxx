@@ -29,7 +29,7 @@ using namespace testing_delaunay;
 namespace
 {
 
-/// Cells of each type as sorted point ids.
+/// The cells of each type, each as its sorted point ids.
 std::map<int, Cells> cellsByType(vtkUnstructuredGrid* grid)
 {
   std::map<int, Cells> cells;
@@ -58,7 +58,7 @@ TEST(Delaunay3DFilter, TetrahedraAreThoseOfVtkDelaunay3D)
   vtkNew<vtkDelaunay3D> reference;
   reference->SetInputData(input);
   reference->SetTolerance(0);
-  reference->SetOffset(1000); // or its border is not convex
+  reference->SetOffset(1000); // VTK's border is convex only with a large offset
   reference->Update();
   vtkNew<vtkTIPPDelaunay3D> delaunay;
   delaunay->SetInputData(input);
@@ -147,7 +147,7 @@ TEST(Delaunay3DFilter, MapsDuplicatesAndRejectedPoints)
   EXPECT_EQ(3, ids->GetValue(3));
 }
 
-TEST(Delaunay3DFilter, NeighborIdsNameEachOther)
+TEST(Delaunay3DFilter, NeighborIdsAreMutual)
 {
   vtkNew<vtkTIPPDelaunay3D> delaunay;
   delaunay->SetInputData(dataset(randomPoints(100)));
@@ -173,7 +173,7 @@ TEST(Delaunay3DFilter, NeighborIdsNameEachOther)
   }
 }
 
-TEST(Delaunay3DFilter, AlphaShapeIsThatOfVtkDelaunay3D)
+TEST(Delaunay3DFilter, AlphaShapeEqualsVtkDelaunay3D)
 {
   const auto input = dataset(randomPoints(200));
   for (const double alpha : { 0.08, 0.12, 0.2 })
@@ -192,7 +192,7 @@ TEST(Delaunay3DFilter, AlphaShapeIsThatOfVtkDelaunay3D)
     auto found = cellsByType(delaunay->GetOutput());
     EXPECT_EQ(expected[VTK_TETRA], found[VTK_TETRA]) << alpha;
     EXPECT_GT(found[VTK_TETRA].size(), 0U);
-    // Every point is in a cell, and no cell is a part of another.
+    // Every point must be in a cell, and no triangle may be a face of a tetrahedron.
     std::set<vtkIdType> covered;
     for (const auto& [type, cells] : found)
     {

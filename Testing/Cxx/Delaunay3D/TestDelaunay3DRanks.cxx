@@ -5,7 +5,9 @@
 #include "Ranks/Communicator.h"
 #include "vtkTIPPDelaunay3D.h"
 
+#include "vtkCell.h"
 #include "vtkCellData.h"
+#include "vtkCellType.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -28,6 +30,7 @@
 
 #include <algorithm>
 #include <map>
+#include <vector>
 
 namespace
 {
@@ -50,7 +53,7 @@ vtkIdType idAt(vtkDataArray* ids, vtkIdType i)
   return static_cast<vtkIdTypeArray*>(ids)->GetValue(i);
 }
 
-/// This rank's share of the points with an array: the first rank has none if there are others.
+/// This rank's share of the points, with a point array. With several ranks, the first has none.
 vtkSmartPointer<vtkPolyData> shareOf(const std::vector<Point3>& points, bool withIds)
 {
   vtkNew<vtkPoints> own;
@@ -88,7 +91,7 @@ struct PieceCell
   std::int64_t IsGhost;
 };
 
-/// All ranks' cells on the first rank.
+/// Gathers the cells of all ranks on the first rank.
 std::vector<PieceCell> gatherCells(vtkUnstructuredGrid* mesh)
 {
   std::vector<PieceCell> cells;
@@ -142,7 +145,7 @@ void expectWhole(vtkUnstructuredGrid* mesh, const std::vector<Point3>& points)
   }
 }
 
-/// Gives Data, or fails.
+/// A source that outputs `Data`, or fails.
 class FailingSource : public vtkPolyDataAlgorithm
 {
 public:
@@ -250,6 +253,49 @@ TEST(Delaunay3DRanks, EverythingCanBeGatheredOnTheFirstRank)
   expectWhole(filter->GetOutput(), points);
 }
 
+TEST(Delaunay3DRanks, CoplanarPointsMakeTriangles)
+{
+  auto points = pointsInSpace("uniform", 500);
+  for (Point3& p : points)
+  {
+    p.y = 2 * p.x;
+  }
+  for (const bool isGathered : { false, true })
+  {
+    vtkNew<vtkTIPPDelaunay3D> filter;
+    filter->SetGatherOnFirstRank(isGathered);
+    filter->SetInputData(shareOf(points, true));
+    vtkObject::GlobalWarningDisplayOff();
+    filter->UpdatePiece(rank(), ranks(), 1);
+    vtkObject::GlobalWarningDisplayOn();
+    vtkUnstructuredGrid* const mesh = filter->GetOutput();
+    auto* const ghosts = vtkUnsignedCharArray::SafeDownCast(
+      mesh->GetCellData()->GetAbstractArray(vtkDataSetAttributes::GhostArrayName()));
+    double area = 0;
+    for (vtkIdType i = 0; i < mesh->GetNumberOfCells(); ++i)
+    {
+      ASSERT_EQ(VTK_TRIANGLE, mesh->GetCellType(i));
+      double p[3][3];
+      for (int k = 0; k < 3; ++k)
+      {
+        mesh->GetPoint(mesh->GetCell(i)->GetPointId(k), p[k]);
+      }
+      const double twice =
+        (p[1][0] - p[0][0]) * (p[2][2] - p[0][2]) - (p[1][2] - p[0][2]) * (p[2][0] - p[0][0]);
+      EXPECT_GT(twice, 0);
+      area += ghosts->GetValue(i) != 0 ? 0 : twice / 2;
+    }
+    Communicator box(vtkMultiProcessController::GetGlobalController());
+    double sum = 0;
+    for (const std::vector<double>& part : box.allGather(std::vector<double>{ area }))
+    {
+      sum += part[0];
+    }
+    EXPECT_NEAR(sum, 0.97, 0.02); // of the hull, projected along y
+    EXPECT_EQ(isGathered && rank() > 0, mesh->GetNumberOfCells() == 0);
+  }
+}
+
 TEST(Delaunay3DRanks, StatisticsAreTheSameOnAllRanks)
 {
   vtkNew<vtkTIPPDelaunay3D> filter;
@@ -269,7 +315,7 @@ TEST(Delaunay3DRanks, StatisticsAreTheSameOnAllRanks)
   EXPECT_EQ(totals->GetArray("Tetrahedra")->GetTuple1(0), sum);
 }
 
-TEST(Delaunay3DRanks, WhatNeedsOneRankIsRefusedOnAll)
+TEST(Delaunay3DRanks, OptionsForOneRankAreRefusedOnAll)
 {
   for (int what = 0; what < 4; ++what)
   {
@@ -287,7 +333,7 @@ TEST(Delaunay3DRanks, WhatNeedsOneRankIsRefusedOnAll)
   }
 }
 
-TEST(Delaunay3DRanks, WhatFailsUpstreamOnOneRankFailsOnAll)
+TEST(Delaunay3DRanks, AnUpstreamFailureOnOneRankFailsOnAll)
 {
   vtkNew<FailingSource> source;
   source->Fails = rank() == ranks() - 1;
@@ -304,7 +350,7 @@ TEST(Delaunay3DRanks, WhatFailsUpstreamOnOneRankFailsOnAll)
   EXPECT_GT(filter->GetStatistics()->GetFieldData()->GetArray("Tetrahedra")->GetTuple1(0), 2500);
 }
 
-TEST(Delaunay3DRanks, WithoutAControllerARankIsAlone)
+TEST(Delaunay3DRanks, WithoutAControllerEachRankWorksAlone)
 {
   const auto points = pointsInSpace("uniform", 300, unsigned(rank()) + 1);
   vtkNew<vtkPoints> own;

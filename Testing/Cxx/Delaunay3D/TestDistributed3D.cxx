@@ -3,6 +3,7 @@
 #include "PointsInSpace.h"
 
 #include "Distributed3D/DistributedTetrahedralization.h"
+#include "Triangulation3D/CoplanarPoints.h"
 
 #include "vtkMultiProcessController.h"
 
@@ -21,7 +22,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-/// One rank's points, and their ids among all.
+/// One rank's points with their global ids.
 struct Part
 {
   std::vector<Point3> Points;
@@ -81,17 +82,26 @@ void expectSame(
   EXPECT_TRUE(isSame) << what;
 }
 
-/// Expects the result of one process, byte for byte, in the ranks' results together.
+/// Expects that the gathered results of all ranks equal the result of one process, byte for byte.
 void expectThatOfOne(const std::vector<Point3>& points, const TetrahedralizationOptions& options,
   const std::string& what, const RankOf& rankOf = roundRobin)
 {
   Communicator ranks(vtkMultiProcessController::GetGlobalController());
   const Part part = partOf(points, ranks, rankOf);
   const DistributedTetrahedralization mine = tetrahedralizeDistributed(ranks, part.view(), options);
-  const Tetrahedralization found = gatherTetrahedra(ranks, mine, 1);
+  Triangulation triangles;
+  const Tetrahedralization found = gatherTetrahedra(ranks, mine, 1, triangles);
   if (ranks.isFirst())
   {
-    expectSame(tetrahedralize(points.data(), points.size(), with(1, 1)), found, what);
+    Tetrahedralization expected = tetrahedralize(points.data(), points.size(), with(1, 1));
+    const Triangulation flat = expected.Dimension == 2
+      ? triangulateCoplanar(points.data(), points.size(), with(1, 1), expected)
+      : Triangulation();
+    expectSame(expected, found, what);
+    EXPECT_TRUE(std::equal(
+      flat.Ids32.begin(), flat.Ids32.end(), triangles.Ids32.begin(), triangles.Ids32.end()))
+      << what << ": " << flat.triangleCount() << " and " << triangles.triangleCount()
+      << " triangles";
   }
   ranks.barrier();
 }
@@ -161,11 +171,12 @@ TEST(Distributed3D, DuplicatesOnSeveralRanksAreMerged)
     const auto own = pointsInSpace("coarse", 700);
     auto more = pointsInSpace("uniform", 2000);
     more.insert(more.end(), own.begin(), own.end());
-    RankPoints3 points; // the same on each, with ids that count on
+    RankPoints3 points; // the same on all ranks; ids are counted over ranks
     points.Points = more.data();
     points.Count = more.size();
     const auto mine = tetrahedralizeDistributed(ranks, points, with(1, partitions));
-    const Tetrahedralization found = gatherTetrahedra(ranks, mine, 1);
+    Triangulation none;
+    const Tetrahedralization found = gatherTetrahedra(ranks, mine, 1, none);
     EXPECT_GE(mine.AllDuplicates, std::int64_t(more.size()) * (ranks.size() - 1) + 484);
     std::vector<Point3> all;
     for (int rank = 0; rank < ranks.size(); ++rank)
@@ -180,7 +191,7 @@ TEST(Distributed3D, DuplicatesOnSeveralRanksAreMerged)
   }
 }
 
-TEST(Distributed3D, TheLowestGlobalIdRepresentsWhereverItIs)
+TEST(Distributed3D, TheLowestGlobalIdIsTheRepresentativeOnAnyRank)
 {
   Communicator ranks(vtkMultiProcessController::GetGlobalController());
   auto points = pointsInSpace("coarse", 2500);
@@ -191,7 +202,8 @@ TEST(Distributed3D, TheLowestGlobalIdRepresentsWhereverItIs)
   }
   std::reverse(points.begin(), points.end());
   const auto mine = tetrahedralizeDistributed(ranks, part.view(), with(1, 12));
-  const Tetrahedralization found = gatherTetrahedra(ranks, mine, 1);
+  Triangulation none;
+  const Tetrahedralization found = gatherTetrahedra(ranks, mine, 1, none);
   if (ranks.isFirst())
   {
     expectSame(tetrahedralize(points.data(), points.size()), found, "reversed");
@@ -212,7 +224,7 @@ TEST(Distributed3D, PointsThatAreNotFiniteAreRejected)
   }
 }
 
-TEST(Distributed3D, PointsWithoutTetrahedraAreToldByTheirDimension)
+TEST(Distributed3D, PointsWithoutTetrahedraReportTheirDimension)
 {
   std::vector<Point3> line;
   std::vector<Point3> plane;
@@ -233,6 +245,49 @@ TEST(Distributed3D, PointsWithoutTetrahedraAreToldByTheirDimension)
   }
 }
 
+TEST(Distributed3D, CoplanarPointsMakeTheTrianglesOfOneProcess)
+{
+  auto tilted = pointsInSpace("uniform", 40000); // enough for several partitions
+  for (Point3& p : tilted)
+  {
+    p.x = std::ldexp(std::round(std::ldexp(p.x, 20)), -20);
+    p.y = std::ldexp(std::round(std::ldexp(p.y, 20)), -20);
+    p.z = p.x - 2 * p.y;
+  }
+  auto lattice = pointsInSpace("coarse", 4000); // with duplicates on several ranks
+  for (Point3& p : lattice)
+  {
+    p.y = 0x1p-300;
+  }
+  lattice[17].x = std::nan("");
+  for (const int partitions : { 0, 8 })
+  {
+    expectThatOfOne(tilted, with(1, partitions), "tilted");
+    expectThatOfOne(lattice, with(2, partitions), "lattice");
+  }
+}
+
+TEST(Distributed3D, ATriangleIsOnOneRankAndAGhostOnOthers)
+{
+  Communicator ranks(vtkMultiProcessController::GetGlobalController());
+  auto points = pointsInSpace("uniform", 2000);
+  for (Point3& p : points)
+  {
+    p.z = 1;
+  }
+  const auto mine =
+    tetrahedralizeDistributed(ranks, partOf(points, ranks, roundRobin).view(), with(1, 0));
+  EXPECT_EQ(3U, mine.cellSize());
+  std::vector<std::int64_t> cells{ std::int64_t(mine.cellCount()) };
+  ranks.sum(cells);
+  EXPECT_EQ(mine.AllCells, cells[0]);
+  const GhostTetrahedra ghosts = fetchGhosts(ranks, mine);
+  std::vector<std::int64_t> sum{ std::int64_t(ghosts.Cells.size()) };
+  ranks.sum(sum);
+  EXPECT_EQ(ranks.size() > 1, sum[0] > 0);
+  EXPECT_LT(sum[0], mine.AllCells * ranks.size() / 2);
+}
+
 TEST(Distributed3D, RowsTravelWithTheirPoints)
 {
   Communicator ranks(vtkMultiProcessController::GetGlobalController());
@@ -246,7 +301,7 @@ TEST(Distributed3D, RowsTravelWithTheirPoints)
     to[sizeof(value)] = 'x';
   };
   const auto mine = tetrahedralizeDistributed(ranks, points, with(1, 10));
-  if (ranks.isFirst()) // whose ids are the lowest
+  if (ranks.isFirst()) // the lowest ids are on the first rank
   {
     EXPECT_EQ(ranks.size() > 1, mine.Foreign.size() > 0);
   }
@@ -328,7 +383,7 @@ TEST(Distributed3D, ARankThatFailsEndsAllWithItsReason)
     EXPECT_STREQ(failure.what(), "This row is lost.");
     EXPECT_FALSE(failure.Aborted);
   }
-  points.RowSize = 0; // the next run is a good one
+  points.RowSize = 0; // after the failure, the next run must succeed
   EXPECT_GT(tetrahedralizeDistributed(ranks, points, with(1, 8)).AllCells, 15000);
 }
 

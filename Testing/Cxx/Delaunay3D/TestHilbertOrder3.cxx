@@ -35,8 +35,8 @@ TEST(InsertionOrder3, HasEveryPointOnce)
 
 TEST(InsertionOrder3, NeighboursOfALatticeFollowEachOther)
 {
-  // The last round visits the points in the order of a Hilbert curve: with one point in each cell
-  // of it, consecutive points would be neighbours; seven in eight of them are in the last round.
+  // The last round has seven in eight of the points, in the order of a Hilbert curve. If it had all
+  // points, consecutive ones would be neighbours.
   std::vector<Point3> points;
   for (int i = 0; i < 32 * 32 * 32; ++i)
   {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kernel's predicates give the answers of the exact ones, also where they have found a common
-// unit of the coordinates and trust doubles.
+// The kernel's predicates agree with the exact ones, even after they have found a common unit of
+// the coordinates and then rely on doubles.
 #include "Kernel3D/KernelPredicates3.h"
 #include "Predicates/ExactPredicates.h"
 
@@ -15,11 +15,11 @@ namespace
 
 using namespace tipp;
 
-/// Points of a lattice, half of them near each other, so that many lie on common spheres. The
-/// others almost do, and sums of products of doubles cannot tell.
+/// Points of a lattice. Half of them are close together, and many of these lie on common spheres.
+/// The others lie almost on common spheres, which sums of products in doubles cannot decide.
 std::vector<Point3> latticePoints(double unit, double offset, std::mt19937& random)
 {
-  std::vector<Point3> points(1); // at infinity
+  std::vector<Point3> points(1); // index 0 is the infinite vertex
   std::uniform_int_distribution<int> near(0, 6);
   std::uniform_int_distribution<int> beside(-1, 1);
   for (int i = 0; i < 4000; ++i)
@@ -65,10 +65,11 @@ TEST_P(KernelPredicates3On, Lattice)
     ties += inSphere(a, b, c, d, p) == 0 ? 1 : 0;
     ASSERT_EQ(inSpherePerturbed(a, b, c, d, p), predicates.isInFiniteConflict(v, p));
   }
-  EXPECT_GT(ties, 100); // the common unit has been looked for
+  EXPECT_GT(ties, 100); // enough calls that the predicates have looked for a common unit
 }
 
-// Units that have fifth powers in the range of doubles and one that has not; 0.1 is none.
+// Units whose fifth powers are in the range of doubles, and some whose are not. Multiples of 0.1
+// have no common unit, since they are rounded.
 INSTANTIATE_TEST_SUITE_P(Units, KernelPredicates3On,
   testing::Values(std::pair(1.0, 0.0), std::pair(0.25, 4096.0), std::pair(0.1, 0.0),
     std::pair(0x1p-170, 0.0), std::pair(0x1p-200, 0.0), std::pair(0x1p170, 0.0)));

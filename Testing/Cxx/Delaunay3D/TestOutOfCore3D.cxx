@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tetrahedra out of core: the same as in memory.
+// The out-of-core triangulation in space gives the same tetrahedra as the one in memory.
 #include "PointsInSpace.h"
 #include "RunTipp.h"
 
@@ -32,11 +32,11 @@ using namespace tipp::test;
 struct StoredMesh
 {
   std::vector<Tetrahedron> Cells;              ///< sorted
-  std::map<std::int64_t, std::int64_t> Points; ///< representatives
+  std::map<std::int64_t, std::int64_t> Points; ///< representative of each point
 };
 
-/// Reads all pieces, and expects points with their coordinates and data, tetrahedra of positive
-/// orientation, and consecutive cell ids.
+/// Reads all pieces. Checks that points have their coordinates and data, tetrahedra have positive
+/// orientation, and cell ids are consecutive.
 StoredMesh read(const std::string& path, const std::vector<Point3>& points)
 {
   const PartitionedMesh mesh = openPartitionedMesh(path);
@@ -78,9 +78,9 @@ StoredMesh read(const std::string& path, const std::vector<Point3>& points)
   return stored;
 }
 
-using FourEach = std::vector<std::int64_t>; ///< four values a tetrahedron
+using FourEach = std::vector<std::int64_t>; ///< four values per tetrahedron
 
-/// Four ids a tetrahedron, from a map of all facets.
+/// Four neighbour ids per tetrahedron, computed with a map of all facets.
 FourEach neighborsByFacets(const FourEach& ids)
 {
   std::map<std::array<std::int64_t, 3>, std::vector<std::size_t>> facets;
@@ -108,7 +108,7 @@ FourEach neighborsByFacets(const FourEach& ids)
   return neighbors;
 }
 
-/// The content of all files of a folder, by their names.
+/// The contents of all files in a folder, by relative path.
 std::map<std::string, std::string> filesOf(const std::string& folder)
 {
   std::map<std::string, std::string> files;
@@ -138,7 +138,7 @@ protected:
 
   std::string path(const std::string& name) const { return this->Folder.path(name); }
 
-  /// Expects what tetrahedralize() makes.
+  /// Expects the mesh of tetrahedralize().
   void expectSame(const std::vector<Point3>& points, const std::string& what) const
   {
     const Tetrahedralization mesh = tetrahedralize(points.data(), points.size());
@@ -151,7 +151,7 @@ protected:
     }
   }
 
-  /// The sentence of the error that a run ends with.
+  /// The error message of a run, or an empty string if it succeeds.
   std::string errorOf(const std::vector<Point3>& points, std::uint64_t memory = 1 << 20) const
   {
     try
@@ -184,7 +184,7 @@ TEST_F(OutOfCore3D, TetrahedraAreThoseInMemory)
   }
 }
 
-TEST_F(OutOfCore3D, PiecesAreMadeAndMostPointsAreSentNowhere)
+TEST_F(OutOfCore3D, MostPointsAreNotSentToOtherPieces)
 {
   const auto points = pointsInSpace("uniform", 20000);
   const OutOfCoreStatistics3 made = this->make(points, 2000, 2);
@@ -209,7 +209,7 @@ TEST_F(OutOfCore3D, FilesAreTheSameForAnyNumberOfThreads)
   }
 }
 
-TEST_F(OutOfCore3D, MemoryDecidesOnPieces)
+TEST_F(OutOfCore3D, TheMemoryLimitDecidesTheNumberOfPieces)
 {
   const auto points = pointsInSpace("uniform", 30000);
   EXPECT_EQ(1, this->make(points, 0, 2, 1 << 28).Pieces);
@@ -218,7 +218,7 @@ TEST_F(OutOfCore3D, MemoryDecidesOnPieces)
   this->expectSame(points, "little memory");
 }
 
-TEST_F(OutOfCore3D, SurfacesAreOnePieceWhereThereIsMemory)
+TEST_F(OutOfCore3D, SurfacesAreOnePieceIfMemoryAllows)
 {
   const auto points = pointsInSpace("sphere", 2500);
   EXPECT_EQ(1, this->make(points, 300, 2, 1 << 26).Pieces);
@@ -252,7 +252,7 @@ TEST_F(OutOfCore3D, PointsWithoutTetrahedraAreAnError)
   EXPECT_TRUE(filesOf(this->Folder.path("")).empty());
 }
 
-TEST_F(OutOfCore3D, ProgressEndsTheRunAndLeavesNothing)
+TEST_F(OutOfCore3D, AnAbortedRunLeavesNoFiles)
 {
   const auto points = pointsInSpace("uniform", 5000);
   for (const double end : { 0.0, 0.05, 0.3, 0.9, 0.97 })
@@ -296,7 +296,7 @@ TEST_F(OutOfCore3D, TheToolMakesChecksAndResamplesAMesh)
   EXPECT_TRUE(contentOf(this->path("pieces.npy")) == contentOf(this->path("whole.npy")));
 }
 
-TEST_F(OutOfCore3D, NeighboursAreThoseOfTheFacets)
+TEST_F(OutOfCore3D, NeighboursShareAFacet)
 {
   for (const std::string& kind : kindsOfPoints())
   {
@@ -326,7 +326,7 @@ TEST_F(OutOfCore3D, NeighboursAreThoseOfTheFacets)
   }
 }
 
-TEST_F(OutOfCore3D, TheToolWritesNeighboursThatTheCheckProves)
+TEST_F(OutOfCore3D, TheToolWritesNeighboursThatPassTheCheck)
 {
   EXPECT_EQ(0,
     runTipp(this->Folder,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The steps of a run out of core in space: plan, spilled points, results of pieces, finished
+// The steps of an out-of-core run in space: plan, spilled points, results of pieces, finished
 // pieces.
 #include "ExpectIOError.h"
 #include "PointsInSpace.h"
@@ -27,7 +27,7 @@ using namespace tipp::test;
 
 constexpr std::size_t words = 5; // x, y, z, number, id
 
-/// Changes a byte of a file. Changing it again restores it.
+/// Changes one byte of a file. A second call restores it.
 void flip(const std::string& path, std::uint64_t at)
 {
   std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
@@ -37,7 +37,7 @@ void flip(const std::string& path, std::uint64_t at)
   file.put(byte);
 }
 
-/// The plan of points whose rows are spilled.
+/// A plan, and the points that it has spilled by piece.
 struct Planned
 {
   Planned(const std::vector<Point3>& points, std::int64_t piecePoints, int threads,
@@ -68,7 +68,7 @@ struct Planned
   PiecePlan3 Plan;
 };
 
-/// All that a run has when its points are spilled.
+/// The state of a run after its points have been spilled.
 class PlannedRun : public Planned
 {
 public:
@@ -116,7 +116,7 @@ double volumeOf(const Box3& box)
   return (box.Max[0] - box.Min[0]) * (box.Max[1] - box.Min[1]) * (box.Max[2] - box.Min[2]);
 }
 
-/// A result with something in each of its parts.
+/// A result without empty parts.
 PieceResult3 makeResult()
 {
   PieceResult3 result;
@@ -223,7 +223,7 @@ TEST(BorderSorter3, TheOwnerIsTheFirstPieceMet)
     std::array<Vertex3, 4> corners;
     for (std::size_t k = 0; k < 4; ++k)
     {
-      // Some of the four are far apart, some are close.
+      // Every second tetrahedron has corners among the first eleven points.
       const std::size_t at = i % 8 == 0 ? i + k : (i + k * k) % 11;
       corners[k] = { points[at], std::int64_t(at), 0 };
     }
@@ -249,7 +249,7 @@ TEST(BorderSorter3, TheOwnerIsTheFirstPieceMet)
   EXPECT_GT(most, 4U);
 }
 
-TEST(StoredResult3, ComesBackAsItWasWritten)
+TEST(StoredResult3, IsReadAsWritten)
 {
   const TemporaryFolder folder;
   const PlannedRun run(folder, pointsInSpace("uniform", 1000));
@@ -282,7 +282,7 @@ TEST(StoredResult3, ComesBackAsItWasWritten)
   EXPECT_EQ(10, message.Vertices[1].Id);
 }
 
-TEST(StoredResult3, DamagedAnywhereItIsRefused)
+TEST(StoredResult3, IsRefusedIfAnyByteIsDamaged)
 {
   const TemporaryFolder folder;
   const PlannedRun run(folder, pointsInSpace("uniform", 1000));
@@ -322,7 +322,7 @@ TEST(FinishPieces3, EveryTetrahedronHasOneOwner)
   EXPECT_GE(run.Figures.WorkerVertices, 3000);
 }
 
-TEST(FinishPieces3, EndsWhereItIsTold)
+TEST(FinishPieces3, StopsWhenAborted)
 {
   const TemporaryFolder folder;
   PlannedRun run(folder, pointsInSpace("uniform", 2000));

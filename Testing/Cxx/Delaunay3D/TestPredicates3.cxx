@@ -22,7 +22,7 @@ Vector exact(const Point3& p)
   return { mpq_class(p.x), mpq_class(p.y), mpq_class(p.z) };
 }
 
-/// The centre and the squared radius of a tetrahedron's ball.
+/// The centre and the squared radius of a tetrahedron's circumscribed ball.
 struct Ball
 {
   explicit Ball(const std::array<Point3, 4>& p)
@@ -83,7 +83,7 @@ struct Ball
   mpq_class Square;
 };
 
-/// Points whose tests are hard in different ways.
+/// Draws points with coordinates of very different magnitudes, and small integers for ties.
 class Hard
 {
 public:
@@ -112,7 +112,7 @@ public:
     return { coordinate(), coordinate(), coordinate() };
   }
 
-  /// Positively oriented.
+  /// A tetrahedron of positive orientation.
   std::array<Point3, 4> tetrahedron()
   {
     for (;;)
@@ -181,7 +181,7 @@ TEST(InSphere, TiesDoNotDependOnTheOrderOfCorners)
   std::array<Point3, 4> t = { { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
   ASSERT_EQ(0, inSphere(t[0], t[1], t[2], t[3], p));
   const bool inside = inSpherePerturbed(t[0], t[1], t[2], t[3], p);
-  EXPECT_FALSE(inside); // the lexicographically largest is outside
+  EXPECT_FALSE(inside); // the lexicographically largest point is outside
   EXPECT_EQ(inside, inSpherePerturbed(t[1], t[2], t[0], t[3], p));
   EXPECT_EQ(inside, inSpherePerturbed(t[1], t[0], t[3], t[2], p));
 }
@@ -199,7 +199,7 @@ TEST(InSphere, ACornerIsOutside)
   }
 }
 
-TEST(Circumball, SurelySmallOnesReachNoFartherThanTheirDiameter)
+TEST(Circumball, SurelySmallBallsReachNoFartherThanTheirDiameter)
 {
   Hard hard(5);
   int small = 0;
@@ -229,7 +229,7 @@ TEST(Circumball, SurelySmallOnesReachNoFartherThanTheirDiameter)
   EXPECT_GT(small, 100);
 }
 
-TEST(Circumball, MeetsBoxesAsRationalsSay)
+TEST(Circumball, MeetsBoxesAsInRationals)
 {
   Hard hard(4);
   int meetings = 0;
@@ -264,7 +264,7 @@ TEST(Circumball, MeetsBoxesAsRationalsSay)
 
 TEST(Circumball, TouchingIsMeeting)
 {
-  // The unit sphere touches the plane x = 1.
+  // The unit sphere touches the plane x = 1 at (1, 0, 0).
   const Circumball ball({ 1, 0, 0 }, { 0, 1, 0 }, { -1, 0, 0 }, { 0, 0, 1 });
   EXPECT_TRUE(ball.meets({ { 1, -1, -1 }, { 2, 1, 1 } }));
   EXPECT_FALSE(ball.meets({ { std::nextafter(1.0, 2.0), -1, -1 }, { 2, 1, 1 } }));

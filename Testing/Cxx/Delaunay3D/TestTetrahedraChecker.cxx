@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The checker finds each kind of fault.
+// The checker finds each kind of error.
 #include "PointsInSpace.h"
 
 #include "Check/TetrahedraChecker.h"
@@ -66,7 +66,7 @@ TEST_F(TetrahedraCheckerTest, FindsARepeatedTetrahedron)
   EXPECT_GT(this->check().BadFacets, 0);
 }
 
-TEST_F(TetrahedraCheckerTest, FindsAnIdThatIsNoPoint)
+TEST_F(TetrahedraCheckerTest, FindsAnInvalidPointId)
 {
   this->Ids[5] = 125;
   EXPECT_EQ(1, this->check().BadIds);
@@ -80,7 +80,8 @@ TEST_F(TetrahedraCheckerTest, FindsAPointThatIsNoVertex)
 
 TEST_F(TetrahedraCheckerTest, FindsAPointInsideASphere)
 {
-  // The cubes' corners are on common spheres: one that is moved a little is inside of some.
+  // The eight corners of a cube are on a common sphere. After a corner has moved slightly inwards,
+  // it is inside of some spheres.
   const Point3 middle{ 2, 2, 2 };
   const auto found = std::find(this->Points.begin(), this->Points.end(), middle);
   this->XYZ[3 * std::size_t(found - this->Points.begin())] += 0.01;
@@ -89,9 +90,9 @@ TEST_F(TetrahedraCheckerTest, FindsAPointInsideASphere)
   EXPECT_EQ(0, report.BadTurns);
 }
 
-TEST_F(TetrahedraCheckerTest, FindsTiesBrokenAnotherWay)
+TEST_F(TetrahedraCheckerTest, FindsTiesThatBreakTheTieRule)
 {
-  // Mirrored, the lattice is itself, but the rule is not.
+  // Mirroring maps the lattice to itself, but not the tie rule.
   for (std::size_t i = 0; i < this->XYZ.size(); i += 3)
   {
     this->XYZ[i] = 4 - this->XYZ[i];

@@ -40,7 +40,7 @@ std::string faultsOf(const std::vector<Point3>& points, const Tetrahedralization
 
 std::size_t countFor(const std::string& kind)
 {
-  // Points on lines have a tetrahedron for each pair of two lines' points.
+  // The number of tetrahedra of points on skew lines is quadratic.
   return kind == "lines" ? 150 : (kind == "of many sizes" ? 500 : 3000);
 }
 
@@ -126,7 +126,7 @@ TEST(Tetrahedralize, CellsAreInLexicographicOrder)
 
 TEST(Tetrahedralize, ALargeCavityIsFilled)
 {
-  // The last point is inserted into the sphere's inside: all tetrahedra are in conflict with it.
+  // The last point is the sphere's centre, so all tetrahedra conflict with it.
   auto points = pointsInSpace("sphere", 2000);
   points.push_back({ 0, 0, 0 });
   EXPECT_EQ(cellsOfCgal(points), sortedCells(meshOf(points)));
@@ -230,7 +230,8 @@ TEST(CoplanarPoints, AreTriangulatedAsInTwoDimensions)
   ASSERT_EQ(3 * expected.size(), found.size());
   EXPECT_TRUE(std::equal(found.begin(), found.end(), expected.front().begin()));
   EXPECT_TRUE(found == trianglesOf(uniform, 2));
-  // The same in the other coordinate planes, of which the axes come in the same order.
+  // Points in the other two coordinate planes must give the same triangles. The cyclic exchange of
+  // axes keeps the orientation.
   auto turned = uniform;
   for (int turn = 0; turn < 2; ++turn)
   {
@@ -244,7 +245,7 @@ TEST(CoplanarPoints, AreTriangulatedAsInTwoDimensions)
 
 TEST(CoplanarPoints, OfATiltedPlaneAreFilled)
 {
-  // The plane z = x + 3 y, whose normal is longest in y, so that x and z tell the points.
+  // In the plane z = x + 3 y, the normal is longest in y, so the points are projected to x and z.
   std::vector<Point3> points;
   for (int i = 0; i < 20 * 30; ++i)
   {
@@ -265,7 +266,7 @@ TEST(CoplanarPoints, OfATiltedPlaneAreFilled)
   EXPECT_EQ(ids.size(), trianglesOf(points).size());
 }
 
-TEST(CoplanarPoints, WhoseCoordinatesAreNotFiniteAreLeftOut)
+TEST(CoplanarPoints, ThatAreNotFiniteAreLeftOut)
 {
   std::vector<Point3> points = { { 0, 0, 1 }, { 1, 0, 1 }, { 0, 1, 1 },
     { 0.5, 0.5, std::numeric_limits<double>::infinity() }, { std::nan(""), 0, 1 } };
@@ -282,31 +283,7 @@ TEST(CoplanarPoints, ThatAreCloseAreMerged)
   EXPECT_EQ(1U, flat.triangleCount());
 }
 
-TEST(Tetrahedralize, ThreadsThatShareAMeshMakeTheSame)
-{
-  for (const std::string& kind : kindsOfPoints())
-  {
-    if (kind == "lines")
-    {
-      continue; // of many points it has too many tetrahedra
-    }
-    const auto points = pointsInSpace(kind, kind == "of many sizes" ? 20000 : 60000, 3);
-    const Tetrahedralization one = meshOf(points);
-    for (const int threads : { 2, 3, 7 })
-    {
-      const Tetrahedralization other = meshOf(points, threads);
-      EXPECT_TRUE(std::equal(one.Ids.begin(), one.Ids.end(), other.Ids.begin(), other.Ids.end()))
-        << kind << " " << threads;
-      EXPECT_TRUE(std::equal(one.Duplicates.begin(), one.Duplicates.end(), other.Duplicates.begin(),
-        other.Duplicates.end(),
-        [](const Duplicate& a, const Duplicate& b)
-        { return a.Point == b.Point && a.Representative == b.Representative; }))
-        << kind << " " << threads;
-    }
-  }
-}
-
-TEST(Tetrahedralize, StopsWhereProgressSaysSo)
+TEST(Tetrahedralize, StopsWhenProgressReturnsFalse)
 {
   const auto points = pointsInSpace("uniform", 20000);
   for (const int partitions : { 1, 12 })
@@ -340,7 +317,7 @@ TEST(Tetrahedralize, ClosePointsAreMerged)
   EXPECT_EQ(cellsOfCgal(points), sortedCells(mesh));
 }
 
-TEST(DelaunayKernel3, TakesAtMost45BytesATetrahedron)
+TEST(DelaunayKernel3, UsesAtMost45BytesPerTetrahedron)
 {
   const auto points = pointsInSpace("uniform", 50000);
   DelaunayKernel3 kernel;
@@ -350,11 +327,11 @@ TEST(DelaunayKernel3, TakesAtMost45BytesATetrahedron)
   EXPECT_LE(kernel.bytes(), 45 * finite);
 }
 
-TEST(DelaunayKernel3, NeighboursNameEachOther)
+TEST(DelaunayKernel3, NeighboursAreMutual)
 {
   const auto points = pointsInSpace("coarse", 300);
   DelaunayKernel3 kernel;
-  for (int turn = 0; turn < 2; ++turn) // it is reusable
+  for (int turn = 0; turn < 2; ++turn) // the kernel can be used again
   {
     kernel.triangulate(points.data(), points.size());
     kernel.forEach(

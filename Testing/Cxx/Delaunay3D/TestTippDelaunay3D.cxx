@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tipp delaunay3d, and tipp check of tetrahedra.
+// The commands 'tipp delaunay3d' and 'tipp check' for tetrahedra.
 #include "PointsInSpace.h"
 #include "RunTipp.h"
 
@@ -31,7 +31,7 @@ protected:
     }
   }
 
-  /// Runs it and expects success.
+  /// Runs the tool and expects success.
   Outcome run(const std::vector<std::string>& words) const
   {
     Outcome outcome = runTipp(this->Folder, words);
@@ -44,7 +44,7 @@ protected:
 
 } // namespace
 
-TEST_F(TippDelaunay3D, ItsMeshesPassTheCheck)
+TEST_F(TippDelaunay3D, MeshesPassTheCheck)
 {
   for (const char* const kind : { "uniform", "lattice", "coarse" })
   {
@@ -83,7 +83,7 @@ TEST_F(TippDelaunay3D, NeighboursAndDuplicatesAreWritten)
   EXPECT_GT(json["tetrahedra"].get<int>(), 500);
 }
 
-TEST_F(TippDelaunay3D, OtherPointsAreFoundByTheCheck)
+TEST_F(TippDelaunay3D, TheCheckFindsOtherPoints)
 {
   this->write("points.csv", pointsInSpace("uniform", 300, 1));
   this->write("others.csv", pointsInSpace("uniform", 300, 2));

@@ -66,7 +66,8 @@ RankShare shareOf(const Coordinates& xy, Share share, int rank, int ranks)
 namespace
 {
 
-/// Global ids of a triangle's corners; a fault if a point is not where its id belongs.
+/// Translates a triangle's local ids to global ids. Sets Fault if a point's coordinates are not
+/// those of its global id.
 class Corners
 {
 public:

@@ -17,19 +17,19 @@ namespace tipp
 namespace test
 {
 
-/// How the points of a set are shared out to the ranks.
+/// How the points of a set are distributed over the ranks.
 enum class Share
 {
-  Blocks,     ///< consecutive ones
-  RoundRobin, ///< one to each in turn
+  Blocks,     ///< consecutive points per rank
+  RoundRobin, ///< one point to each rank in turn
   AllOnLast,  ///< the other ranks have none
-  Uneven,     ///< the first rank none, the others more and more
-  Copies      ///< every rank has them all, with the same global ids
+  Uneven,     ///< no points on the first rank, and more and more on the others
+  Copies      ///< all points on every rank, with the same global ids
 };
 
 std::string nameOf(Share share);
 
-/// One rank's points: their places and global ids.
+/// One rank's points: coordinates and global ids.
 struct RankShare
 {
   Coordinates XY;
@@ -37,25 +37,26 @@ struct RankShare
 };
 RankShare shareOf(const Coordinates& xy, Share share, int rank, int ranks);
 
-/// All ranks' triangles and points, on rank 0.
+/// The triangles and points of all ranks, gathered on rank 0.
 struct Gathered
 {
-  Triangles Mesh;                    ///< by global ids, sorted
-  std::vector<Duplicate> Duplicates; ///< by ascending point
-  std::vector<PointId> Rejected;     ///< ascending
-  std::vector<std::string> Faults;   ///< of single ranks, e.g. a point at the wrong place
+  Triangles Mesh;                    ///< global ids, sorted
+  std::vector<Duplicate> Duplicates; ///< sorted by point
+  std::vector<PointId> Rejected;     ///< in ascending order
+  std::vector<std::string> Faults;   ///< errors that ranks found, e.g. a point at a wrong position
 };
 
-/// Triangulates over all ranks of the global controller and brings everything together. `xy` has
-/// the place of every global id. Constraints: inserted if they are not null.
+/// Triangulates on all ranks of the global controller, and gathers the result on rank 0. `xy` has
+/// the coordinates of each global id. Inserts the constraints, unless they are null.
 Gathered triangulateShares(const Coordinates& xy, Share share, const DistributedOptions& options,
   const ConstraintSegments* constraints = nullptr);
 
-/// Is it the reference: the same triangles, and every point accounted for?
+/// Whether the result has the reference's triangles, and every point is a vertex, a duplicate or
+/// rejected.
 testing::AssertionResult matches(
   const Coordinates& xy, const Gathered& result, const Reference& expected);
 
-/// The last reference made is kept: the tests of one input come one after the other.
+/// The reference of `xy`. Keeps the last one, since the tests of one input follow each other.
 const Reference& cachedReference(const std::string& key, const Coordinates& xy);
 
 int rank();

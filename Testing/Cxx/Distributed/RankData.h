@@ -23,7 +23,7 @@ namespace tipp
 namespace test
 {
 
-/// This rank's share of the points, with z, an array and, if wanted, global ids.
+/// This rank's share of the points, with z, a point array and, if `withIds`, global ids.
 inline vtkSmartPointer<vtkPolyData> shareAsData(const Coordinates& xy, bool withIds)
 {
   const RankShare mine = shareOf(xy, withIds ? Share::RoundRobin : Share::Blocks, rank(), ranks());
@@ -50,7 +50,7 @@ inline vtkSmartPointer<vtkPolyData> shareAsData(const Coordinates& xy, bool with
   return data;
 }
 
-/// Updates a filter that fails on all ranks.
+/// Updates a filter, and expects that it fails and outputs no cells.
 inline void expectNoOutput(vtkTIPPDelaunay2D* filter)
 {
   vtkObject::GlobalWarningDisplayOff();
@@ -59,7 +59,7 @@ inline void expectNoOutput(vtkTIPPDelaunay2D* filter)
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
 }
 
-/// A global id, which a double may not hold.
+/// The global id of point i, which a double may not represent exactly.
 inline vtkIdType idAt(vtkDataArray* ids, vtkIdType i)
 {
   return static_cast<vtkIdTypeArray*>(ids)->GetValue(i);

@@ -15,7 +15,8 @@ namespace
 class AttemptOnRanks : public testing::Test
 {
 protected:
-  /// How attempt() ends if the first rank's work and the last one's do this.
+  /// The result of attempt() in which the first rank runs `first` and the last rank `last`: the
+  /// error message, "aborted", or an empty string.
   template <typename First, typename Last>
   std::string outcome(const First& first, const Last& last)
   {
@@ -75,12 +76,12 @@ TEST_F(AttemptOnRanks, AbortTogether)
   EXPECT_EQ("aborted", this->outcome(nothing, abortWork));
 }
 
-TEST_F(AttemptOnRanks, TellOfAFailureRatherThanOfAnAbort)
+TEST_F(AttemptOnRanks, ReportAFailureRatherThanAnAbort)
 {
   EXPECT_EQ("no luck", this->outcome(abortWork, failWork));
 }
 
-TEST_F(AttemptOnRanks, GatherEverybodysBytesInOrder)
+TEST_F(AttemptOnRanks, GatherAllRanksBytesInOrder)
 {
   const std::vector<std::string> all =
     this->All.allGather(std::string(std::size_t(this->All.rank()), 'x'));
@@ -91,7 +92,7 @@ TEST_F(AttemptOnRanks, GatherEverybodysBytesInOrder)
   }
 }
 
-TEST_F(AttemptOnRanks, ShareNumbersOutWithoutGapOrOverlap)
+TEST_F(AttemptOnRanks, DivideARangeWithoutGapOrOverlap)
 {
   for (const std::int64_t count : { 0, 1, 2, 17, 1000 })
   {

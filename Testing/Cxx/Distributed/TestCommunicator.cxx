@@ -42,7 +42,7 @@ TEST(Communicator, MessagesOfARankArriveInOrder)
   box.barrier();
 }
 
-TEST(Communicator, LargeMessagesCross)
+TEST(Communicator, AllRanksMaySendLargeMessagesAtOnce)
 {
   Communicator box(controller());
   constexpr std::size_t size = 20'000'000;
@@ -60,7 +60,7 @@ TEST(Communicator, LargeMessagesCross)
   box.barrier();
 }
 
-TEST(Communicator, AFailureEndsTheOthersWaiting)
+TEST(Communicator, AFailureEndsTheWaitOfOtherRanks)
 {
   for (int failing = 0; failing < controller()->GetNumberOfProcesses(); ++failing)
   {
@@ -74,7 +74,7 @@ TEST(Communicator, AFailureEndsTheOthersWaiting)
           {
             throw std::runtime_error("no more ink");
           }
-          box.wait(Note, failing); // which never comes
+          box.wait(Note, failing); // a message that is never sent
         });
       FAIL() << "nothing was thrown";
     }
@@ -101,8 +101,8 @@ TEST(Communicator, AFailureLeavesNoLargeMessageBehind)
   }
 }
 
-/// A rank may be well ahead of one that has not heard of the last failure yet.
-TEST(Communicator, WorksOnAfterFailures)
+/// One rank may start new work while another has not yet received the last failure.
+TEST(Communicator, WorksAfterFailures)
 {
   Communicator box(controller());
   for (int run = 0; run < 200; ++run)
@@ -117,7 +117,7 @@ TEST(Communicator, WorksOnAfterFailures)
           {
             throw std::runtime_error(std::to_string(run));
           }
-          box.wait(Note, failing); // which never comes
+          box.wait(Note, failing); // a message that is never sent
         });
       FAIL() << "nothing was thrown";
     }
@@ -140,7 +140,7 @@ TEST(Communicator, AFailureMayHaveALongReason)
     {
       throw std::runtime_error(std::string(200'000, 'x'));
     }
-    box.wait(Note, 0); // which never comes
+    box.wait(Note, 0); // a message that is never sent
   };
   try
   {
@@ -153,7 +153,7 @@ TEST(Communicator, AFailureMayHaveALongReason)
   }
 }
 
-TEST(Communicator, WorkWithinWorkFailsOnceOnAllRanks)
+TEST(Communicator, NestedWorkFailsOnceOnAllRanks)
 {
   Communicator box(controller());
   const auto inner = [&]()
@@ -176,7 +176,7 @@ TEST(Communicator, WorkWithinWorkFailsOnceOnAllRanks)
   }
 }
 
-TEST(Communicator, OfSeveralFailuresAllRanksHearOfTheLowestRanks)
+TEST(Communicator, AllRanksReportTheFailureOfTheLowestRank)
 {
   Communicator box(controller());
   try
@@ -190,7 +190,7 @@ TEST(Communicator, OfSeveralFailuresAllRanksHearOfTheLowestRanks)
   }
 }
 
-TEST(Communicator, TellsWhatWasSentByKind)
+TEST(Communicator, CountsSentBytesByKind)
 {
   Communicator box(controller());
   box.post((box.rank() + 1) % box.size(), Note, filled(100, 'x'));
@@ -198,7 +198,7 @@ TEST(Communicator, TellsWhatWasSentByKind)
   const auto sent = box.traffic().find(Note);
   if (box.size() == 1)
   {
-    EXPECT_EQ(sent, box.traffic().end()); // to oneself costs nothing
+    EXPECT_EQ(sent, box.traffic().end()); // messages of a rank to itself are not counted
   }
   else
   {

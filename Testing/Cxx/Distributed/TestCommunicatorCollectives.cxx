@@ -11,7 +11,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-TEST(CommunicatorCollectives, AllToAllGivesEachRankItsOwn)
+TEST(CommunicatorCollectives, AllToAllSendsEachRankItsOwnPart)
 {
   Communicator box(controller());
   std::vector<Bytes> contents;
@@ -30,7 +30,8 @@ TEST(CommunicatorCollectives, AllToAllGivesEachRankItsOwn)
   box.barrier();
 }
 
-/// A stretch for each other rank, of bytes that tell who sent them, and room between them.
+/// A buffer with a range of bytes for each other rank, and gaps between them. The bytes are the
+/// sender's rank.
 struct InOneMemory
 {
   InOneMemory(const Communicator& box, std::size_t size)
@@ -47,7 +48,7 @@ struct InOneMemory
   std::vector<Communicator::Stretch> Contents;
 };
 
-TEST(CommunicatorCollectives, AllToAllInPartsHandsOnAllAndGivesTheMemoryBack)
+TEST(CommunicatorCollectives, AllToAllInPartsDeliversAllPartsAndReturnsTheMemory)
 {
   Communicator box(controller());
   for (const std::size_t size : { 0, 5, 70'000, 3'000'001 })
@@ -70,14 +71,14 @@ TEST(CommunicatorCollectives, AllToAllInPartsHandsOnAllAndGivesTheMemoryBack)
   box.barrier();
 }
 
-TEST(CommunicatorCollectives, PartsThatComeWhileARankIsBehindAreNotLost)
+TEST(CommunicatorCollectives, PartsForASlowRankAreNotLost)
 {
   Communicator box(controller());
   constexpr std::size_t size = 200'000;
   for (int i = 0; box.rank() == 0 && i < 100; ++i)
   {
     Message message;
-    EXPECT_FALSE(box.poll(message)); // what the others have sent is taken in
+    EXPECT_FALSE(box.poll(message)); // receives what other ranks have sent
     box.pause();
   }
   InOneMemory sent(box, size);
@@ -91,7 +92,7 @@ TEST(CommunicatorCollectives, PartsThatComeWhileARankIsBehindAreNotLost)
   box.barrier();
 }
 
-TEST(CommunicatorCollectives, ATakerThatFailsEndsAllRanksAndLeavesNothingBehind)
+TEST(CommunicatorCollectives, AFailingReceiverEndsAllRanks)
 {
   constexpr std::size_t size = 5'000'000;
   for (int run = 0; run < 2; ++run)
@@ -116,7 +117,7 @@ TEST(CommunicatorCollectives, ATakerThatFailsEndsAllRanksAndLeavesNothingBehind)
   }
 }
 
-TEST(CommunicatorCollectives, GatherComesByRank)
+TEST(CommunicatorCollectives, GatherIsOrderedByRank)
 {
   Communicator box(controller());
   const std::vector<Bytes> all = box.gather(filled(std::size_t(box.rank()) + 1, 'g'));

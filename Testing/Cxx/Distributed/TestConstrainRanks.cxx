@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Constraints on ranks: the triangles are those of one process.
+// Constraints on several ranks give the triangles of one process.
 #include "DistributedTesting.h"
 
 #include "Comparison.h"
@@ -15,7 +15,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-/// The points of constraints and crossings are among the points; no segment crosses another.
+/// Points and segments without crossings: all end points and crossings are among the points.
 struct Case
 {
   Coordinates XY;
@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(PointSets, ConstrainRanks,
   testing::Values("uniform", "clustered", "lattice", "duplicates", "cocircular", "tiny-1e-300",
     "one-far-away", "circle", "with-rejected"));
 
-TEST(ConstrainRanksTo, WhatPolygonsKeep)
+TEST(ConstrainRanksTo, PolygonsKeepTheTrianglesOfOneProcess)
 {
   Coordinates xy = makePointSet("uniform", 2000);
   std::vector<Constraint> constraints = randomConstraints(2000, 5);
@@ -110,7 +110,7 @@ TEST(ConstrainRanksTo, WhatPolygonsKeep)
   for (const int corners : { 11, -7 })
   {
     const auto first = std::int64_t(xy.size() / 2);
-    const int count = std::abs(corners); // clockwise if negative
+    const int count = std::abs(corners); // negative for clockwise
     for (int i = 0; i < count; ++i)
     {
       const double angle = 2 * pi * i / corners;

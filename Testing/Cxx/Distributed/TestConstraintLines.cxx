@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The edges on constraints that each rank lists.
+// The edges on constraints, of which each rank lists its own.
 #include "DistributedTesting.h"
 
 #include "Distributed/ConstraintLines.h"
@@ -20,7 +20,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-/// A lattice of 20 x 20 points, one apart, shared by all ranks, with constraints between them.
+/// A lattice of 20 x 20 points with spacing 1, distributed over all ranks, with constraints.
 class ConstraintLinesOnRanks : public testing::Test
 {
 protected:
@@ -28,7 +28,7 @@ protected:
 
   static ConstraintSegment segment(Point2 a, Point2 b) { return { a, b, SegmentRole::Line }; }
 
-  /// Numbers the segments' cells from 100 on.
+  /// Triangulates with the given segments, whose source cells are 100, 101, ...
   ConstraintLines find(const std::vector<ConstraintSegment>& given)
   {
     for (int i = 0; i < Side * Side; ++i)
@@ -68,7 +68,7 @@ protected:
                        : this->Result.Foreign.GlobalIds[std::size_t(local - own)];
   }
 
-  /// The edges of this rank's triangles, which lie on their left.
+  /// This rank's triangle edges, directed so that the triangle is on their left.
   std::set<std::array<std::int64_t, 2>> edges() const
   {
     std::set<std::array<std::int64_t, 2>> edges;
@@ -87,12 +87,12 @@ protected:
 
 TEST_F(ConstraintLinesOnRanks, ListEachEdgeOnceForEachConstraintOnIt)
 {
-  // The second lies on the first, the other way round; the third is on the hull, its triangles on
-  // the right; the last is one long edge.
+  // The second segment overlaps the first in the opposite direction. The third is on the hull, with
+  // triangles only on its right. The last is a single long edge.
   const ConstraintLines mine = this->find({ segment({ 2, 3 }, { 12, 3 }),
     segment({ 9, 3 }, { 5, 3 }), segment({ 0, 4 }, { 0, 9 }), segment({ 1, 15 }, { 18, 16 }) });
   const std::set<std::array<std::int64_t, 2>> edges = this->edges();
-  std::vector<std::vector<std::int64_t>> rows; // cell, ends, whether a triangle is on the left
+  std::vector<std::vector<std::int64_t>> rows; // cell, both ends, 1 if a triangle is on the left
   ASSERT_EQ(mine.Ends.size(), mine.Cells.size());
   for (std::size_t i = 0; i < mine.Ends.size(); ++i)
   {

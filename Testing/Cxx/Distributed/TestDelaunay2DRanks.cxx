@@ -37,7 +37,8 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-/// Gives Data, or fails: early, when it is asked what it has, or when it is to give it.
+/// A source that outputs `Data`, or fails: in RequestInformation if `Early`, otherwise in
+/// RequestData.
 class FailingSource : public vtkPolyDataAlgorithm
 {
 public:
@@ -109,7 +110,7 @@ std::vector<PieceCell> cellsOf(vtkPolyData* mesh)
   return cells;
 }
 
-/// All ranks' cells, on rank 0.
+/// Gathers the cells of all ranks on rank 0.
 std::vector<std::vector<PieceCell>> gatherCells(vtkPolyData* mesh)
 {
   Communicator box(vtkMultiProcessController::GetGlobalController());
@@ -174,7 +175,7 @@ TEST(Delaunay2DRanks, PointsKeepTheirDataAndThirdCoordinate)
   filter->Update();
   if (ranks() == 1)
   {
-    return; // the input's own points
+    return; // the output has the input's own points
   }
   vtkPolyData* mesh = filter->GetOutput();
   vtkDataArray* ids = mesh->GetPointData()->GetGlobalIds();
@@ -190,7 +191,7 @@ TEST(Delaunay2DRanks, PointsKeepTheirDataAndThirdCoordinate)
   }
 }
 
-TEST(Delaunay2DRanks, GhostsAreTheOtherTrianglesAtAPiecesPoints)
+TEST(Delaunay2DRanks, GhostsAreOtherRanksTrianglesAtOwnPoints)
 {
   const Coordinates xy = makePointSet("clustered", 5000);
   vtkNew<vtkTIPPDelaunay2D> filter;
@@ -266,7 +267,7 @@ TEST(Delaunay2DRanks, StatisticsAreTheSameOnAllRanks)
   EXPECT_GT(filter->GetStatistics()->GetNumberOfRows(), 0);
 }
 
-TEST(Delaunay2DRanks, WhatNeedsOneRankIsRefusedOnAll)
+TEST(Delaunay2DRanks, OptionsForOneRankAreRefusedOnAll)
 {
   for (const bool wantsAlpha : { true, false })
   {
@@ -282,7 +283,7 @@ TEST(Delaunay2DRanks, WhatNeedsOneRankIsRefusedOnAll)
   }
 }
 
-TEST(Delaunay2DRanks, AGhostLayerAskedForByOneRankComesThere)
+TEST(Delaunay2DRanks, AGhostLayerIsMadeOnTheRankThatRequestsIt)
 {
   vtkNew<vtkTIPPDelaunay2D> filter;
   filter->SetPointsPerPartition(200);
@@ -320,7 +321,7 @@ TEST(Delaunay2DRanks, AMissingTransformFailsOnAll)
   expectNoOutput(filter);
 }
 
-TEST(Delaunay2DRanks, WhatFailsUpstreamOnOneRankFailsOnAll)
+TEST(Delaunay2DRanks, AnUpstreamFailureOnOneRankFailsOnAll)
 {
   for (const bool early : { true, false })
   {
@@ -338,10 +339,10 @@ TEST(Delaunay2DRanks, WhatFailsUpstreamOnOneRankFailsOnAll)
   }
 }
 
-TEST(CollectivePipeline, IsTheFiltersAndRunsAloneWithoutRanks)
+TEST(CollectivePipeline, BelongsToTheFilterAndRunsAloneWithoutAController)
 {
   vtkNew<FailingSource> source;
-  source->Fails = rank() == 0; // of the others nobody waits for it
+  source->Fails = rank() == 0; // other ranks do not wait for rank 0
   source->Data = shareAsData(makePointSet("uniform", 500), true);
   vtkNew<vtkTIPPDelaunay2D> filter;
   auto* const executive = dynamic_cast<CollectivePipeline*>(filter->GetExecutive());
@@ -385,7 +386,7 @@ TEST(Delaunay2DRanks, GlobalIdsBeyondAllDoublesStayExact)
   }
 }
 
-TEST(Delaunay2DRanks, WithoutAControllerARankIsAlone)
+TEST(Delaunay2DRanks, WithoutAControllerEachRankWorksAlone)
 {
   const Coordinates xy = makePointSet("uniform", 300, std::uint64_t(rank()) + 1);
   vtkNew<vtkPoints> points;

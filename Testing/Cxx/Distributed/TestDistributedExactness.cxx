@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The set of triangles is CGAL's for every input, number of ranks, design, division and schedule.
+// The triangles are those of CGAL for every input, number of ranks, design of masters, division and
+// schedule.
 #include "DistributedTesting.h"
 
 #include <cctype>
@@ -65,7 +66,7 @@ TEST_P(DistributedExactness, IsCgalsForAllSchedules)
   {
     if (order != RankSchedule::Dynamic && design.Options.isMasterless())
     {
-      continue; // schedules with barriers have a master, as the designs below
+      continue; // schedules with barriers need a master, as in the designs below
     }
     DistributedOptions options = design.Options;
     options.Order = order;

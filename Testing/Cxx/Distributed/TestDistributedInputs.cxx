@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Any rank may hold any points.
+// Any distribution of points over the ranks.
 #include "DistributedTesting.h"
 
 #include "Distributed/TriangleExchange.h"
@@ -38,7 +38,7 @@ void expectReference(const std::string& set, std::size_t count, Share share)
       Reference expected = reference(xy);
       if (share == Share::Copies)
       {
-        // Each copy but one of every point is a duplicate of a point with the same global id.
+        // Duplicates are not compared: here they have the same global id as their representative.
         EXPECT_TRUE(result.Mesh == expected.Mesh);
         continue;
       }
@@ -157,7 +157,7 @@ TEST(DistributedInputs, GlobalIdsAreCountedOverRanksWhenNoneAreGiven)
   EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), std::ptrdiff_t(seen.size()));
 }
 
-TEST(GhostTriangles, AreTheOthersTrianglesAtOwnVerticesEachOnce)
+TEST(GhostTriangles, AreOtherRanksTrianglesAtOwnVerticesEachOnce)
 {
   const Coordinates xy = makePointSet("uniform", 3000);
   Communicator box(vtkMultiProcessController::GetGlobalController());
@@ -169,7 +169,8 @@ TEST(GhostTriangles, AreTheOthersTrianglesAtOwnVerticesEachOnce)
   const GhostTriangles ghosts = fetchGhosts(box, result);
   const std::vector<IdTriangle> own = trianglesByIds(result, box.rank());
 
-  // All ranks' triangles on every rank: the ghosts by definition.
+  // For comparison, gathers the triangles of all ranks on every rank, and selects the ghosts by
+  // their definition.
   std::vector<IdTriangle> every;
   for (const std::vector<IdTriangle>& part : box.allGather(own))
   {
@@ -221,7 +222,7 @@ TEST_P(DistributedDesign, StoppingOneRankStopsAll)
   }
 }
 
-TEST_P(DistributedDesign, AFailureOnOneRankIsEveryRanks)
+TEST_P(DistributedDesign, AFailureOnOneRankFailsAll)
 {
   const Coordinates xy = makePointSet("uniform", 20000);
   const auto run = [&](bool fails)
@@ -251,7 +252,7 @@ TEST_P(DistributedDesign, AFailureOnOneRankIsEveryRanks)
     EXPECT_STREQ(failure.what(), "the disk is on fire");
     EXPECT_EQ(failure.Rank, ranks() - 1);
   }
-  // Nothing is left behind: the next run is a good one.
+  // The failure must not affect the next run.
   EXPECT_GT(run(false), 0);
 }
 
@@ -262,7 +263,7 @@ INSTANTIATE_TEST_SUITE_P(Masters, DistributedDesign,
     return info.param == Masters::Auto ? "None" : info.param == Masters::Single ? "One" : "Several";
   });
 
-/// Messages leave and are looked at whenever the main thread comes to it.
+/// The main thread sends and receives messages at random times.
 TEST(DistributedInputs, DelayedMessagesChangeNothing)
 {
   const Coordinates xy = makePointSet("clustered", 4000);

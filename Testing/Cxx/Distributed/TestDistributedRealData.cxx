@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A storm-surge mesh's nodes and a magnetic survey over several ranks.
+// The nodes of a storm-surge mesh and a magnetic survey, on several ranks.
 #include "DistributedTesting.h"
 #include "RealData.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From a stored mesh to an image, every filter on all ranks.
+// A pipeline from a stored mesh to an image, with every filter on all ranks.
 #include "DistributedTesting.h"
 #include "RangeResampleTesting.h"
 #include "TemporaryFolder.h"
@@ -58,7 +58,8 @@ void writeMesh(const Coordinates& xy, const std::string& path)
   writer->Write();
 }
 
-/// Reads the mesh, triangulates its points anew and samples that, all with the controller.
+/// Reads the mesh, triangulates its points again and samples the result, all with the same
+/// controller.
 struct Pipeline
 {
   Pipeline(const std::string& path, vtkMultiProcessController* controller)
@@ -66,7 +67,7 @@ struct Pipeline
     this->Reader->SetController(controller);
     this->Reader->SetFileName(path.c_str());
     this->Delaunay->SetController(controller);
-    this->Delaunay->SetPointsPerPartition(100); // else one rank would do it all
+    this->Delaunay->SetPointsPerPartition(100); // otherwise one rank would triangulate all points
     this->Delaunay->SetInputConnection(this->Reader->GetOutputPort());
     this->Resample->SetController(controller);
     this->Resample->SetInputConnection(this->Delaunay->GetOutputPort());
@@ -101,7 +102,7 @@ protected:
     this->Path = name.data();
   }
 
-  // Nobody removes the files while another reads them.
+  // Waits, so that no rank removes files that another rank still reads.
   void TearDown() override { this->Controller->Barrier(); }
 
   vtkMultiProcessController* const Controller = vtkMultiProcessController::GetGlobalController();
@@ -111,7 +112,7 @@ protected:
 
 } // namespace
 
-TEST_P(PipelineOnRanks, GivesTheImageOfOneProcessBitForBit)
+TEST_P(PipelineOnRanks, MakesTheImageOfOneProcessBitForBit)
 {
   Pipeline together(this->Path, this->Controller);
   Pipeline alone(this->Path, nullptr);
@@ -119,7 +120,7 @@ TEST_P(PipelineOnRanks, GivesTheImageOfOneProcessBitForBit)
   EXPECT_GT(together.Delaunay->GetOutput()->GetNumberOfCells(), 0);
   ASSERT_EQ(61 * 47, image->GetNumberOfPoints());
   ASSERT_NE(nullptr, image->GetPointData()->GetArray("height"));
-  // Together there are ids of cells as well.
+  // On several ranks, the image also has ids of cells.
   image->GetPointData()->RemoveArray("GlobalCellIds");
   EXPECT_TRUE(sameArrays(alone.image(), image));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How the domain is divided, and shared out among ranks.
+// How the domain is divided, and how its leaves are assigned to ranks.
 #include "../Schedule/ScheduleTesting.h"
 
 #include "Distributed/Plan.h"
@@ -57,14 +57,14 @@ std::vector<std::int64_t> pointsOfRanks(
   return points;
 }
 
-TEST(Plan, FewPointsAreOneRanks)
+TEST(Plan, FewPointsGoToOneRank)
 {
   const Plan plan = divide(inputOf(makePointSet("uniform", 1000), 4), {});
   EXPECT_TRUE(plan.IsAlone);
   EXPECT_EQ(plan.Leaves.size(), 1);
 }
 
-TEST(Plan, OneMasterHasTheLeavesAsItsPartitions)
+TEST(Plan, ThePartitionsOfOneMasterAreTheLeaves)
 {
   DistributedOptions options;
   options.Design = Masters::Single;
@@ -76,7 +76,7 @@ TEST(Plan, OneMasterHasTheLeavesAsItsPartitions)
   EXPECT_EQ(plan.Leaves.size(), 32);
 }
 
-TEST(Plan, SeveralMastersHaveMinorPartitionsOfTheirMajorOne)
+TEST(Plan, SeveralMastersHaveTheMinorPartitionsOfTheirMajorPartition)
 {
   const Plan plan =
     divide(inputOf(makePointSet("uniform", 20000), 4), multiMaster({ 2, 2 }, { 3, 3 }));
@@ -92,7 +92,7 @@ TEST(Plan, SeveralMastersHaveMinorPartitionsOfTheirMajorOne)
   }
 }
 
-TEST(Plan, AnAreasPartitionIsTheLeafOfTheSamePlace)
+TEST(Plan, AnAreasPartitionAndTheLeafAtAPointAreTheSame)
 {
   const Coordinates xy = makePointSet("clustered", 20000);
   const Plan plan = divide(inputOf(xy, 4), multiMaster({ 3, 2 }, { 4, 2 }));
@@ -134,7 +134,7 @@ TEST(Plan, ATreesRanksHaveEquallyManyPoints)
   }
 }
 
-TEST(Plan, GroupsAreInProportionToPointsUnlessAskedToBeEqual)
+TEST(Plan, GroupsAreProportionalToPointsUnlessEqualOnesAreRequested)
 {
   constexpr int ranks = 8;
   const Coordinates xy = makePointSet("clustered", 40000);
@@ -153,7 +153,7 @@ TEST(Plan, GroupsAreInProportionToPointsUnlessAskedToBeEqual)
   EXPECT_LE(heaviest(GroupSizes::Proportional), heaviest(GroupSizes::Equal));
 }
 
-TEST(Plan, SharesOfWholePartitionsEvenOutOverMajorPartitions)
+TEST(Plan, RanksHaveSimilarNumbersOfPointsOverAllMajorPartitions)
 {
   const Coordinates xy = makePointSet("coast", 100000);
   for (const Division division : { Division::Tree, Division::Threshold })
@@ -175,7 +175,7 @@ TEST(Plan, SharesOfWholePartitionsEvenOutOverMajorPartitions)
   }
 }
 
-TEST(Plan, ComesBackFromItsBytes)
+TEST(Plan, IsRestoredFromItsBytes)
 {
   const Coordinates xy = makePointSet("uniform", 20000);
   const DistributedOptions options = multiMaster({ 2, 2 }, { 3, 3 });

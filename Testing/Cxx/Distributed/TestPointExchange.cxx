@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The points' way to their owners: PointExchange and the PointLayout it makes.
+// How points get to their owners: PointExchange and the resulting PointLayout.
 #include "Distributed/PointExchange.h"
 
 #include "vtkMultiProcessController.h"
@@ -17,14 +17,14 @@ using namespace tipp;
 
 constexpr std::size_t RowSize = 3;
 
-/// What one rank brings along: some points of which one is not finite, and a row with each.
+/// The points that one rank starts with, one of which is not finite, and a row of bytes for each.
 struct Share
 {
   explicit Share(int rank)
   {
     std::mt19937 random(std::uint32_t(rank) + 1);
     std::uniform_real_distribution<double> place(0, 1);
-    const int count = rank == 1 ? 0 : 200 + 50 * rank; // a rank may have none
+    const int count = rank == 1 ? 0 : 200 + 50 * rank; // rank 1 has no points
     for (int i = 0; i < count; ++i)
     {
       this->Positions.push_back({ place(random), place(random) });
@@ -65,7 +65,7 @@ Tiling leaves()
   return Tiling::grid({ 0, 0, 1, 1 }, 4, 3);
 }
 
-/// Leaves go to the ranks in turn, and the last two to the last rank.
+/// The owner of each leaf: the ranks in turn, and the last rank for the last two leaves.
 std::vector<std::int32_t> ownersOf(int ranks)
 {
   std::vector<std::int32_t> owners;
@@ -119,7 +119,7 @@ TEST_P(PointExchangeOf, OwnersGetAllRanksPointsLeafByLeafInTheOrderOfRanks)
 
 INSTANTIATE_TEST_SUITE_P(Threads, PointExchangeOf, testing::Values(1, 3));
 
-TEST(PointReceiver, MoreOrFewerPointsThanTheirRankToldAreRefused)
+TEST(PointReceiver, RefusesAnotherNumberOfPointsThanAnnounced)
 {
   Communicator box(vtkMultiProcessController::GetGlobalController());
   const std::vector<std::int32_t> owners(1, 0);

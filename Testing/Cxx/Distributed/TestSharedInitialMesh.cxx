@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ranks make the initial mesh in parts: they are parts of the whole, and tell all its conflicts.
+// Ranks make parts of the initial mesh. Each part must agree with the whole mesh, and together they
+// must show all conflicts.
 #include "../Engine/DataflowScene.h"
 
 #include "Distributed/RankRun.h"
@@ -12,7 +13,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-/// Triangles by their vertices' ids, each with the partitions that it meets.
+/// The vertex ids of each triangle, and the partitions that it meets.
 using MetTriangles = std::set<std::pair<std::array<std::int64_t, 3>, std::vector<PartitionIndex>>>;
 
 MetTriangles trianglesThatMeet(const BoundaryTriangles& mesh, const std::vector<char>& isChosen)
@@ -75,7 +76,7 @@ TEST_P(SharedInitialMesh, PartsAreThoseOfTheWholeMesh)
   {
     const SharedScene scene(GetParam(), 5000, partitions);
     const std::size_t count = scene.Boxes.areUsed().size();
-    // Where they do not pay, conflicts are not asked for: nearly all partitions conflict.
+    // If partitions do not pay, nearly all of them conflict, and conflicts are not computed.
     const bool partitionsPay = tipp::partitionsPay(scene.Whole);
     const auto expected = partitionsPay ? findConflicts(scene.Whole, count) : std::nullopt;
     for (const std::size_t ranks : { std::size_t(1), std::size_t(5), std::size_t(40) })
@@ -112,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(Sets, SharedInitialMesh,
   testing::Values("uniform", "clustered", "lattice-shuffled", "survey-lines", "cocircular",
     "duplicates", "circle", "collinear-and-one"));
 
-/// A part is made from the points around it, not from all.
+/// A part is made from the initial points around it only.
 TEST(InitialMeshPart, APartHasFewVertices)
 {
   const SharedScene scene("uniform", 40000, 4000);
@@ -128,7 +129,7 @@ TEST(InitialMeshPart, DamagedConflictsAreRejected)
   SaveArchive writer;
   scene.part(scene.Boxes.areUsed()).writeConflicts(writer);
   const Bytes good = writer.take();
-  EXPECT_THROW(readConflicts(good, 3), std::runtime_error); // fewer partitions
+  EXPECT_THROW(readConflicts(good, 3), std::runtime_error); // ids of too many partitions
   SaveArchive shortened;
   shortened.raw(good.data(), good.size() - 4);
   EXPECT_THROW(readConflicts(shortened.take(), 40), std::runtime_error);

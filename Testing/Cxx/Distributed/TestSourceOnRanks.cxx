@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sources of vtkTIPPDelaunay2D on several ranks.
+// vtkTIPPDelaunay2D with constraints from its source, on several ranks.
 #include "DistributedTesting.h"
 #include "RankData.h"
 
@@ -24,7 +24,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-/// How ranks have the source.
+/// How the source is distributed over the ranks.
 enum class SourceShare
 {
   Copies,
@@ -32,7 +32,7 @@ enum class SourceShare
   Split
 };
 
-/// Lines that cross, between points of the input and others, and around them a polygon.
+/// Crossing lines between points of the input and new points, and a polygon around them.
 class TestSource
 {
 public:
@@ -42,7 +42,7 @@ public:
   {
   }
 
-  /// Lines [begin, end) of Lines, and the polygon after the last.
+  /// Returns the lines [begin, end); after the last line also the polygon.
   vtkSmartPointer<vtkPolyData> part(int begin, int end) const
   {
     vtkNew<vtkPoints> points;
@@ -99,13 +99,14 @@ private:
 };
 
 /// A vertex's coordinates and values; triangles with their marks.
+/// The points and triangles of a mesh, for comparison.
 struct ConstrainedCells
 {
-  std::map<std::int64_t, std::vector<double>> Points;
-  std::set<std::vector<std::int64_t>> Cells; ///< corners from the lowest, and the marks of these
+  std::map<std::int64_t, std::vector<double>> Points; ///< x, y, z and height by id
+  std::set<std::vector<std::int64_t>> Cells; ///< id and mark of each corner, lowest id first
 };
 
-/// `ids`: null: points are numbered as they are.
+/// `ids` are the points' global ids. If null, a point's index is its id.
 ConstrainedCells constrainedCells(vtkPolyData* mesh, vtkDataArray* ids)
 {
   ConstrainedCells all;
@@ -136,7 +137,7 @@ ConstrainedCells constrainedCells(vtkPolyData* mesh, vtkDataArray* ids)
   return all;
 }
 
-/// All points in one process, as shareAsData() of all ranks.
+/// All points in one process, with the data that shareAsData() makes.
 vtkSmartPointer<vtkPolyData> allAsData(const Coordinates& xy)
 {
   vtkNew<vtkPoints> points;
@@ -154,7 +155,7 @@ vtkSmartPointer<vtkPolyData> allAsData(const Coordinates& xy)
   return data;
 }
 
-TEST(SourceOnRanks, InsertASourceAsOneRankDoes)
+TEST(SourceOnRanks, InsertTheSourceLikeOneRank)
 {
   const Coordinates xy = makePointSet("duplicates", 3000);
   for (const bool merges : { true, false })
@@ -184,7 +185,7 @@ TEST(SourceOnRanks, InsertASourceAsOneRankDoes)
       ASSERT_EQ(0u, filter->GetErrorCode());
       EXPECT_GT(
         filter->GetStatistics()->GetFieldData()->GetArray("CrossingPoints")->GetTuple1(0), 0);
-      // One process with all points.
+      // The expected result: one process triangulates all points.
       if (rank() == 0)
       {
         prepare(alone);
@@ -197,14 +198,14 @@ TEST(SourceOnRanks, InsertASourceAsOneRankDoes)
         EXPECT_TRUE(expected.Cells == made.Cells)
           << merges << int(share) << ": " << expected.Cells.size() << " " << made.Cells.size();
         EXPECT_TRUE(expected.Points == made.Points) << merges << int(share);
-        EXPECT_GT(expected.Points.rbegin()->first, std::int64_t(xy.size() / 2)); // of crossings
+        EXPECT_GT(expected.Points.rbegin()->first, std::int64_t(xy.size() / 2)); // crossings
       }
       box.barrier();
     }
   }
 }
 
-TEST(SourceOnRanks, MarksOfConstraintsComeWithGhosts)
+TEST(SourceOnRanks, GhostsHaveMarksOfConstraints)
 {
   const Coordinates xy = makePointSet("uniform", 3000);
   const TestSource source(xy, true);
@@ -222,7 +223,7 @@ TEST(SourceOnRanks, MarksOfConstraintsComeWithGhosts)
   const auto cells = constrainedCells(mesh, ids).Cells;
   Communicator box(vtkMultiProcessController::GetGlobalController());
   const std::vector<std::vector<std::int64_t>> own(cells.begin(), cells.end());
-  std::map<std::vector<std::int64_t>, std::vector<std::int64_t>> marksOf; // by corners
+  std::map<std::vector<std::int64_t>, std::vector<std::int64_t>> marksOf; // marks by corners
   std::size_t shared = 0;
   for (const auto& rank : box.allGather(own))
   {
@@ -238,7 +239,7 @@ TEST(SourceOnRanks, MarksOfConstraintsComeWithGhosts)
   box.barrier();
 }
 
-/// The ends of lines, by `ids` or as they are, and their ConstraintId.
+/// The ends of each line, as global ids if `ids` is not null, and its ConstraintId.
 std::vector<std::array<vtkIdType, 3>> linesOf(vtkPolyData* mesh, vtkDataArray* ids)
 {
   std::vector<std::array<vtkIdType, 3>> lines;
@@ -257,7 +258,7 @@ std::vector<std::array<vtkIdType, 3>> linesOf(vtkPolyData* mesh, vtkDataArray* i
   return lines;
 }
 
-TEST(SourceOnRanks, LinesOfConstraintsAreThoseOfOneRank)
+TEST(SourceOnRanks, ListTheLinesThatOneRankLists)
 {
   const Coordinates xy = makePointSet("duplicates", 3000);
   const TestSource source(xy, false);
@@ -313,11 +314,11 @@ TEST(SourceOnRanks, LinesOfConstraintsAreThoseOfOneRank)
   }
 }
 
-TEST(SourceOnRanks, ComesToRanksWithoutPointsAndSource)
+TEST(SourceOnRanks, RanksMayHaveNoPointsOrNoSource)
 {
   const Coordinates xy = makePointSet("uniform", 2000);
   const int last = ranks() - 1;
-  // The rank of the points and the rank of the source.
+  // The only rank with points, and the only rank with a source.
   for (const auto& [points, lines] : { std::pair(0, last), std::pair(last, 0), std::pair(0, 0) })
   {
     for (const bool merges : { true, false })
@@ -355,7 +356,7 @@ TEST(SourceOnRanks, ComesToRanksWithoutPointsAndSource)
   }
 }
 
-TEST(SourceOnRanks, SourceThatNamesNoPointFailsOnAll)
+TEST(SourceOnRanks, AnInvalidPointIdInTheSourceFailsOnAll)
 {
   const Coordinates xy = makePointSet("uniform", 500);
   vtkNew<vtkCellArray> lines;

@@ -19,7 +19,7 @@ namespace tipp
 namespace test
 {
 
-/// The parts of a run before the first worker: points in partitions, regions and the initial mesh.
+/// What a run has before its first worker: points in partitions, regions and the initial mesh.
 struct DataflowScene
 {
   DataflowScene(const Coordinates& xy, const Tiling& tiling)
@@ -56,11 +56,11 @@ struct DataflowScene
   PointBuckets<std::int32_t> Buckets;
   Regions Boxes;
   std::vector<BoundaryVertex> Artificial;
-  std::vector<BoundaryVertex> Initial; ///< the artificial ones last
+  std::vector<BoundaryVertex> Initial; ///< the artificial points are last
   BoundaryTriangles Mesh;
 };
 
-/// A run of one thread that takes any ready partition, and keeps what the run tells.
+/// A run on one thread, which takes ready partitions in random order and records the messages.
 class DataflowRun
 {
 public:
@@ -87,7 +87,7 @@ public:
     sendInitialMesh(scene.Mesh, order, this->deliver(), this->Final);
   }
 
-  /// The triangulation of all points; ready partitions are taken at random.
+  /// Returns the triangulation of all points.
   Triangles run(std::mt19937_64& random)
   {
     Worker<std::int32_t> worker(this->Scene.Tiles, this->Scene.Buckets);
@@ -110,7 +110,7 @@ public:
     return sorted(std::move(all));
   }
 
-  /// Asked of each inbox before its partition is triangulated.
+  /// Called with each partition's inbox before the partition is triangulated.
   std::function<void(PartitionIndex, const std::vector<VertexMessage>&)> Look;
   std::size_t Done = 0;
 
@@ -141,7 +141,8 @@ private:
     }
   }
 
-  /// A worker may name a point by a duplicate that is not the lowest; the sink renames these.
+  /// A worker may use a duplicate that is not the lowest as representative. This renames these
+  /// points, as the sink does.
   void nameByLowest(Triangles& all) const
   {
     const Ids lowest = reference(this->Scene.XY).Representative;

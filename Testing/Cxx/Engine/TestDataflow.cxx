@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole runs: whatever the tiling and the order, the triangles are CGAL's.
+// Whole runs: for every tiling and order, the triangles are those of CGAL.
 #include "DataflowScene.h"
 
 #include <set>
@@ -20,7 +20,7 @@ std::vector<std::int32_t> randomWindows(PartitionIndex count, std::mt19937_64& r
   return windows;
 }
 
-/// A grid, or boxes of equally many points of a random sample.
+/// A grid, or boxes that hold equal numbers of points of a random sample.
 Tiling randomTiling(const Coordinates& xy, std::mt19937_64& random)
 {
   const Box2 bounds = test::boundsOf(xy);
@@ -54,8 +54,8 @@ TEST_P(Dataflow, AnyTilingAndOrderGiveTheSameTriangles)
   }
 }
 
-/// Lemma 5, for every triangle of a run: those that meet two partitions which do not conflict are
-/// looked for among all triangles of the final mesh, and of the mesh after each partition.
+/// Lemma 5. Every triangle that ever exists in a run is in the mesh after some partition, so these
+/// meshes are searched for one that meets two partitions without a conflict.
 TEST_P(Dataflow, NoTriangleMeetsPartitionsThatDoNotConflict)
 {
   std::mt19937_64 random(11);
@@ -128,7 +128,7 @@ TEST_P(Dataflow, AnInboxHoldsEachVertexOfASenderOnce)
   EXPECT_GT(messages, order.sequence().size());
 }
 
-/// What a partition is sent, sender by sender.
+/// The messages that a partition receives: sender and vertex ids, in the inbox's order.
 using Sent = std::vector<std::pair<PartitionIndex, std::vector<std::int64_t>>>;
 
 std::vector<Sent> inboxesOf(DataflowScene& scene, const PartitionOrder& order, std::uint64_t seed)
@@ -152,7 +152,7 @@ std::vector<Sent> inboxesOf(DataflowScene& scene, const PartitionOrder& order, s
   return inboxes;
 }
 
-/// So whoever triangulates what when, each partition is sent the same messages, bit for bit.
+/// Partitions commute if every order of execution sends each partition the same messages.
 TEST_P(Dataflow, PartitionsThatDoNotConflictCommute)
 {
   const Coordinates xy = makePointSet(GetParam(), 700);
@@ -160,7 +160,7 @@ TEST_P(Dataflow, PartitionsThatDoNotConflictCommute)
   std::vector<Sent> expected;
   for (std::uint64_t seed = 1; seed <= 6; ++seed)
   {
-    DataflowScene scene(xy, tiling); // a run writes over its points
+    DataflowScene scene(xy, tiling); // a run overwrites the points of its scene
     const std::vector<Sent> inboxes = inboxesOf(scene, scene.order(), seed);
     expected = seed == 1 ? inboxes : expected;
     EXPECT_TRUE(expected == inboxes) << seed;

@@ -32,7 +32,7 @@ std::vector<std::int64_t> idsOf(const std::vector<BoundaryVertex>& vertices)
   return ids;
 }
 
-TEST(Inbox, GivesMessagesBySenderWhateverTheOrderOfArrival)
+TEST(Inbox, SortsMessagesBySender)
 {
   std::vector<PartitionIndex> senders(20);
   std::iota(senders.begin(), senders.end(), -1);
@@ -98,7 +98,7 @@ TEST(UniqueVertices, CollectsEachVertexOnceInOrderOfFirstAppearance)
     idsOf(UniqueVertices().collect({ messageOf(0, { 5, -1, 7 }), messageOf(1, { 7, 3, -1 }) })));
 }
 
-TEST(UniqueVertices, OfNoMessagesAreNone)
+TEST(UniqueVertices, WithoutMessagesThereAreNone)
 {
   EXPECT_TRUE(UniqueVertices().collect({}).empty());
 }

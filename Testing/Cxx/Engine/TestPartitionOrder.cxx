@@ -11,8 +11,8 @@ using namespace tipp::test;
 
 using Partitions = std::vector<PartitionIndex>;
 
-/// A mesh of made-up triangles that meet these partitions; neighbours: pairs of triangles that have
-/// a common edge.
+/// An artificial mesh: triangle i meets the partitions `met[i]`. `neighbours` lists the pairs of
+/// triangles with a common edge.
 BoundaryTriangles meshOf(const std::vector<Partitions>& met,
   const std::vector<std::pair<std::size_t, std::size_t>>& neighbours)
 {
@@ -33,8 +33,8 @@ PartitionOrder orderOf(std::size_t partitions, const BoundaryTriangles& mesh)
   return PartitionOrder(std::vector<char>(partitions, 1), mesh);
 }
 
-/// A path of four, the middle of which has most conflicts, and one by itself.
-TEST(ConflictGraph, GivesDifferentColoursToWhatConflicts)
+/// Four partitions in a path, whose middle ones have most conflicts, and one without conflicts.
+TEST(ConflictGraph, ConflictingPartitionsGetDifferentColours)
 {
   std::vector<ConflictGraph::Pair> pairs;
   for (const auto& [a, b] : { std::pair{ 0, 1 }, { 1, 2 }, { 2, 3 }, { 1, 2 } })
@@ -81,7 +81,7 @@ TEST(PartitionOrder, UnusedPartitionsAreNotInTheSequence)
   EXPECT_EQ((Partitions{ 0, 2 }), sequence);
 }
 
-TEST(PartitionOrder, NoPartitionsAreNoSequence)
+TEST(PartitionOrder, WithoutPartitionsTheSequenceIsEmpty)
 {
   const PartitionOrder order({ 0, 0 }, meshOf({ {} }, {}));
   EXPECT_TRUE(order.sequence().empty());
@@ -160,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(PointSets, PartitionOrderOf,
     return name;
   });
 
-TEST(PartitionOrder, TheFirstOfASetIsTheOneThatComesFirst)
+TEST(PartitionOrder, TheFirstOfASetIsTheEarliestInTheSequence)
 {
   const DataflowScene scene("uniform", 900, 6, 6);
   const PartitionOrder order = scene.order();
@@ -176,8 +176,8 @@ TEST(PartitionOrder, UniformPointsNeedFewColours)
   EXPECT_LE(scene.order().colourCount(), 12U);
 }
 
-/// One set of all partitions: there is no need to list all pairs.
-TEST(PartitionOrder, IsTotalWhereTooManyPartitionsConflict)
+/// The partitions form one set, so that the conflicting pairs need not be listed.
+TEST(PartitionOrder, IsTotalIfTooManyPartitionsConflict)
 {
   constexpr PartitionIndex count = 5000;
   Partitions all(count);

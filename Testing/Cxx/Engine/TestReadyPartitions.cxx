@@ -35,7 +35,7 @@ protected:
   }
 };
 
-TEST(ReadyPartitions, HandOutOwnPartitionsThatAreLoadedAndWhoseEarlierOnesAreDone)
+TEST(ReadyPartitions, OwnPartitionsAreReadyOnceLoadedAndEarlierOnesAreDone)
 {
   const PartitionOrder order = pairOrder();
   const PartitionIndex first = order.sequence()[0];
@@ -46,12 +46,12 @@ TEST(ReadyPartitions, HandOutOwnPartitionsThatAreLoadedAndWhoseEarlierOnesAreDon
   EXPECT_EQ(-1, ready.tryTake());
   ready.setLoaded(second);
   EXPECT_EQ(-1, ready.tryTake());
-  ready.finish(first); // another rank's
+  ready.finish(first); // a partition of another rank
   EXPECT_EQ(second, ready.tryTake());
   EXPECT_EQ(-1, ready.take());
 }
 
-TEST(ReadyPartitions, OfThoseThatAreReadyTheLongestChainComesFirst)
+TEST(ReadyPartitions, TheLongestChainComesFirst)
 {
   // 0, 1 and 2 conflict with each other, 3 with nothing.
   BoundaryTriangles mesh;
@@ -62,12 +62,12 @@ TEST(ReadyPartitions, OfThoseThatAreReadyTheLongestChainComesFirst)
   ReadyPartitions ready(order, ReadyPartitions::Waits::ForEarlier);
   EXPECT_EQ(0, ready.tryTake());
   ready.finish(0);
-  EXPECT_EQ(1, ready.tryTake()); // before 3, which was ready sooner
+  EXPECT_EQ(1, ready.tryTake()); // before 3, which was ready earlier
   EXPECT_EQ(3, ready.tryTake());
   EXPECT_EQ(-1, ready.tryTake());
 }
 
-TEST(ReadyPartitions, HandOutWhatIsLoadedWhereNothingElseIsWaitedFor)
+TEST(ReadyPartitions, LoadedPartitionsAreReadyIfOnlyLoadingCounts)
 {
   const PartitionOrder order = pairOrder();
   ReadyPartitions ready(order, ReadyPartitions::Waits::ForLoad);

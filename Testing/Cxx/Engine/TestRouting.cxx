@@ -29,7 +29,7 @@ TEST(FinalBoundary, TrianglesBeginWithTheLowestIdAndKeepTheirOrientation)
   }
 }
 
-TEST(FinalBoundary, OfTrianglesAtArtificialPointsTheTrueCornersAreKept)
+TEST(FinalBoundary, KeepsTheTrueCornersOfTrianglesAtArtificialPoints)
 {
   Final final;
   final.add(triangleOf(9, -4, 7));
@@ -69,7 +69,7 @@ TEST(FinalBoundary, HullRepairCompletesTheTriangulation)
   EXPECT_TRUE(sameTriangles(xy, sorted(std::move(made)), reference(xy).Mesh));
 }
 
-/// Each triangle that meets a partition goes to the first one that it meets; others are final.
+/// Each triangle goes to the first partition that it meets. A triangle that meets none is final.
 TEST(Routing, SendsTheInitialMeshToTheFirstPartitions)
 {
   const DataflowScene scene("uniform", 800, 4, 4);

@@ -2,7 +2,7 @@
 #ifndef Delaunay2DTesting_h
 #define Delaunay2DTesting_h
 
-// What the tests of vtkTIPPDelaunay2D share.
+// Shared by the tests of vtkTIPPDelaunay2D.
 
 #include "vtkTIPPDelaunay2D.h"
 
@@ -44,7 +44,7 @@ inline vtkSmartPointer<vtkPolyData> dataset(
   return data;
 }
 
-/// Points in the unit cube, in general position in every coordinate plane.
+/// Random points in the unit cube. No three are collinear in any coordinate plane.
 inline std::vector<Point> randomPoints(int count, unsigned seed = 1)
 {
   std::mt19937 generator(seed);
@@ -59,7 +59,7 @@ inline std::vector<Point> randomPoints(int count, unsigned seed = 1)
 
 using Cells = std::multiset<std::vector<vtkIdType>>;
 
-/// Cells as sorted point ids, to compare them whatever their order.
+/// The cells, each as its sorted point ids, so that they compare equal in any order.
 inline Cells cellsOf(vtkCellArray* cells)
 {
   Cells result;
@@ -74,7 +74,7 @@ inline Cells cellsOf(vtkCellArray* cells)
   return result;
 }
 
-/// Counts an algorithm's warnings and errors in place of printing them.
+/// Counts the warnings and errors of an algorithm instead of printing them.
 class Messages
 {
 public:
@@ -98,7 +98,7 @@ private:
   }
 };
 
-/// An algorithm's triangles.
+/// Updates an algorithm and returns its triangles.
 inline Cells trianglesOf(vtkPolyDataAlgorithm* algorithm)
 {
   algorithm->Update();

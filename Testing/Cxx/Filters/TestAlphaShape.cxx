@@ -13,7 +13,7 @@ namespace
 
 using namespace tipp;
 
-/// A small triangle 0 1 2, and two long ones beside it, the last with a short edge 3 4.
+/// A small triangle 0 1 2, and two large ones beside it, the second with a short edge 3 4.
 class AlphaShapeTest : public testing::Test
 {
 public:
@@ -69,13 +69,13 @@ TEST_F(AlphaShapeTest, ShortEdgesOutsideTrianglesAreLines)
 
 TEST_F(AlphaShapeTest, EdgesBetweenDroppedTrianglesAppearOnce)
 {
-  // Circumradius of 0 1 2: 0.707; its edges 0 1 and 0 2 are 1 long, 1 2 1.41.
+  // The circumradius of 0 1 2 is 0.707. Its edges 0 1 and 0 2 have length 1, and 1 2 has 1.41.
   const auto shape = this->shape(0.6);
   EXPECT_TRUE(shape.Triangles.empty());
   EXPECT_EQ((List{ 0, 1, 0, 2, 3, 4 }), list(shape.Lines));
 }
 
-TEST_F(AlphaShapeTest, WhatNothingCoversIsAVertex)
+TEST_F(AlphaShapeTest, UncoveredPointsAreVertices)
 {
   const auto shape = this->shape(0.1);
   EXPECT_TRUE(shape.Triangles.empty());
@@ -89,7 +89,7 @@ TEST_F(AlphaShapeTest, CoveredPointsAreNoVertices)
   EXPECT_EQ((List{ 0, 2, 3 }), list(shape.Vertices));
 }
 
-TEST_F(AlphaShapeTest, IdsOfEitherSizeGiveTheSame)
+TEST_F(AlphaShapeTest, IdsOfEitherSizeGiveTheSameShape)
 {
   const auto wide =
     alphaShape(triangles<std::int64_t>(), this->pointAt(), 0.6, std::vector<char>(5, 0));

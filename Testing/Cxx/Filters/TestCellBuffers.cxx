@@ -36,7 +36,7 @@ void expectAscendingCells(vtkCellArray* cells, vtkIdType count, vtkIdType size)
 
 } // namespace
 
-TEST(CellBuffers, IdsOf32BitsStayWhereTheyAre)
+TEST(CellBuffers, IdsOf32BitsAreNotCopied)
 {
   auto ids = ascending<std::int32_t>(12);
   const void* memory = ids.data();
@@ -46,7 +46,7 @@ TEST(CellBuffers, IdsOf32BitsStayWhereTheyAre)
   expectAscendingCells(cells, 4, 3);
 }
 
-TEST(CellBuffers, IdsOf64BitsStayWhereTheyAre)
+TEST(CellBuffers, IdsOf64BitsAreNotCopied)
 {
   auto ids = ascending<std::int64_t>(12);
   const void* memory = ids.data();
@@ -72,7 +72,7 @@ TEST(CellBuffers, NoIdsMakeNoCells)
   EXPECT_TRUE(cells->IsValid());
 }
 
-TEST(CellBuffers, LargeBuffersAreTakenToo)
+TEST(CellBuffers, LargeBuffersAreNotCopiedEither)
 {
   const auto cells = tipp::takeCells(ascending<std::int32_t>(6000000), 3);
   EXPECT_EQ(2000000, cells->GetNumberOfCells());

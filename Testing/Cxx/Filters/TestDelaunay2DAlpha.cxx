@@ -12,7 +12,7 @@ using namespace testing_delaunay;
 namespace
 {
 
-/// Two clumps and a few stray points: an alpha shape of triangles, lines and vertices.
+/// Two clusters and a few isolated points, whose alpha shape has triangles, lines and vertices.
 std::vector<Point> clumps()
 {
   auto points = randomPoints(120);
@@ -61,7 +61,7 @@ TEST(Delaunay2DAlpha, CellsAreThoseOfVtkDelaunay2D)
   }
 }
 
-TEST(Delaunay2DAlpha, ARadiusInBetweenLeavesAllKindsOfCells)
+TEST(Delaunay2DAlpha, AMediumRadiusMakesAllKindsOfCells)
 {
   vtkNew<vtkTIPPDelaunay2D> delaunay;
   delaunay->SetInputData(dataset(clumps()));
@@ -72,7 +72,7 @@ TEST(Delaunay2DAlpha, ARadiusInBetweenLeavesAllKindsOfCells)
   EXPECT_FALSE(shape.Vertices.empty());
 }
 
-TEST(Delaunay2DAlpha, EachKindOfCellIsSwitchedByItself)
+TEST(Delaunay2DAlpha, EachFlagControlsOneKindOfCell)
 {
   vtkNew<vtkTIPPDelaunay2D> delaunay;
   delaunay->SetInputData(dataset(clumps()));

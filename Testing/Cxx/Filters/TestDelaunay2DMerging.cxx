@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every input point is accounted for: a vertex, merged into one, or rejected.
+// Every input point is a vertex, merged into another point, or rejected.
 #include "Delaunay2DTesting.h"
 
 #include "vtkIdTypeArray.h"
@@ -38,7 +38,7 @@ void expectNoTrianglesAndOneWarning(const std::vector<Point>& points)
 
 } // namespace
 
-TEST(Delaunay2DMerging, DuplicatesAreMappedToTheLowestIdAtTheirPlace)
+TEST(Delaunay2DMerging, DuplicatesAreMappedToTheLowestIdOfEqualPoints)
 {
   vtkNew<vtkTIPPDelaunay2D> delaunay;
   delaunay->SetInputData(
@@ -64,7 +64,7 @@ TEST(Delaunay2DMerging, NegativeZeroIsZero)
   EXPECT_EQ(1, delaunay->GetNumberOfDuplicatePoints());
 }
 
-TEST(Delaunay2DMerging, NothingMergedMakesNoArray)
+TEST(Delaunay2DMerging, ThereIsNoArrayIfNothingIsMerged)
 {
   vtkNew<vtkTIPPDelaunay2D> delaunay;
   delaunay->SetInputData(dataset(randomPoints(30)));
@@ -138,7 +138,7 @@ TEST(Delaunay2DMerging, InputWithoutPointsObjectMakesAnEmptyOutput)
 
 TEST(Delaunay2DMerging, ToleranceIsAFractionOfTheDiagonal)
 {
-  // The diagonal is 5; 0.02 of it is 0.1.
+  // The diagonal's length is 5, so the tolerance 0.02 is a distance of 0.1.
   const auto input =
     dataset({ { 0, 0, 0 }, { 3, 0, 0 }, { 0, 4, 0 }, { 0.09, 0, 0 }, { 3, 0.11, 0 }, { 3, 4, 0 } });
   vtkNew<vtkTIPPDelaunay2D> delaunay;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What comes out of vtkTIPPDelaunay2D for the kinds of data that go in.
+// The output of vtkTIPPDelaunay2D for different kinds of input.
 #include "Delaunay2DTesting.h"
 
 #include "vtkCellData.h"
@@ -25,7 +25,7 @@ Cells reference(vtkPointSet* input)
   vtkNew<vtkDelaunay2D> delaunay;
   delaunay->SetInputData(input);
   delaunay->SetTolerance(0);
-  delaunay->SetOffset(1000); // or its border is not convex
+  delaunay->SetOffset(1000); // VTK's border is convex only with a large offset
   return trianglesOf(delaunay);
 }
 
@@ -46,7 +46,7 @@ std::vector<vtkIdType> cornersOf(vtkPolyData* mesh, vtkIdType cell)
 
 } // namespace
 
-TEST(Delaunay2DOutput, TrianglesAreThoseOfVtkDelaunay2D)
+TEST(Delaunay2DOutput, TrianglesEqualVtkDelaunay2D)
 {
   for (unsigned seed = 1; seed <= 5; ++seed)
   {
@@ -120,7 +120,7 @@ TEST(Delaunay2DOutput, ZIsIgnored)
   EXPECT_EQ(expected, triangulated(dataset(points)));
 }
 
-TEST(Delaunay2DOutput, FloatPointsAreTriangulatedAsTheyAre)
+TEST(Delaunay2DOutput, FloatPointsAreNotConverted)
 {
   const auto input = dataset(randomPoints(200), VTK_FLOAT);
   EXPECT_EQ(reference(input), triangulated(input));
@@ -201,7 +201,7 @@ TEST(Delaunay2DOutput, OrderOfThePointsDoesNotMatterOnALattice)
   EXPECT_EQ(forward, renumbered);
 }
 
-/// NeighborArray, by the edges' own account.
+/// The array is compared with VTK's GetCellEdgeNeighbors().
 TEST(Delaunay2DOutput, NeighborsAreTheTrianglesOppositeToEachCorner)
 {
   vtkNew<vtkTIPPDelaunay2D> delaunay;

@@ -16,7 +16,7 @@ using namespace testing_delaunay;
 namespace
 {
 
-/// Points on a steep plane with some noise.
+/// Points near a steep plane.
 std::vector<Point> slope()
 {
   auto points = randomPoints(150);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How vtkTIPPDelaunay2D runs in a pipeline: when, how far, how it ends, what it tells.
+// How vtkTIPPDelaunay2D runs in a pipeline: when it executes, its progress, abort, errors and
+// statistics.
 #include "Delaunay2DTesting.h"
 
 #include "vtkDoubleArray.h"
@@ -38,7 +39,7 @@ private:
   void hear() { ++this->Runs; }
 };
 
-/// Notes progress, and asks to stop when it has got so far.
+/// Records progress, and aborts the algorithm once progress reaches `stopAt`.
 class ProgressListener
 {
 public:
@@ -64,7 +65,7 @@ private:
   std::thread::id Owner = std::this_thread::get_id();
 };
 
-/// A transform that fails, as memory may.
+/// A transform that throws, for example because memory is exhausted.
 template <typename Exception>
 class FailingTransform : public vtkTransform
 {
@@ -103,7 +104,7 @@ double total(vtkTable* statistics, const char* name)
 
 } // namespace
 
-TEST(Delaunay2DRun, OnlyAChangeMakesItRunAgain)
+TEST(Delaunay2DRun, RunsAgainOnlyAfterAChange)
 {
   const auto input = dataset(randomPoints(50));
   vtkNew<vtkTIPPDelaunay2D> delaunay;
@@ -156,7 +157,7 @@ TEST(Delaunay2DRun, AbortInMidRunLeavesBothOutputsEmpty)
   ProgressListener progress(delaunay, 0.2);
   delaunay->Update();
   EXPECT_GT(progress.Heard.back(), 0.1);
-  // VTK 9.3 and later report 1 after an aborted run, too.
+  // VTK 9.3 and later report progress 1 even after an aborted run.
   EXPECT_TRUE(std::none_of(progress.Heard.begin(), progress.Heard.end(),
     [](double fraction) { return fraction > 0.5 && fraction < 1; }));
   EXPECT_EQ(0, delaunay->GetOutput()->GetNumberOfPoints());
@@ -174,7 +175,7 @@ TEST(Delaunay2DRun, AbortWhileMergingLeavesTheOutputEmpty)
   EXPECT_EQ(0, delaunay->GetOutput()->GetNumberOfPoints());
 }
 
-TEST(Delaunay2DRun, RunAfterAnAbortIsWhole)
+TEST(Delaunay2DRun, RunAfterAnAbortIsComplete)
 {
   vtkNew<vtkTIPPDelaunay2D> delaunay;
   delaunay->SetInputData(dataset(randomPoints(1000)));
@@ -186,12 +187,12 @@ TEST(Delaunay2DRun, RunAfterAnAbortIsWhole)
     delaunay->RemoveAllObservers();
   }
   ASSERT_EQ(0, delaunay->GetOutput()->GetNumberOfCells());
-  delaunay->SetAbortExecute(0); // VTK 9.3 and later leave that to the caller
+  delaunay->SetAbortExecute(0); // VTK 9.3 and later do not reset it
   delaunay->Modified();
   EXPECT_EQ(expected, trianglesOf(delaunay));
 }
 
-TEST(Delaunay2DRun, NumberOfThreadsIsNotLeftToTheCaller)
+TEST(Delaunay2DRun, DoesNotChangeTheCallersNumberOfThreads)
 {
   const int before = omp_get_max_threads();
   vtkNew<vtkTIPPDelaunay2D> delaunay;
@@ -248,7 +249,7 @@ TEST(Delaunay2DRun, PartitionsScheduleAndThreadsDoNotChangeTheTriangles)
   }
 }
 
-TEST(Delaunay2DRun, StatisticsTellTheTotals)
+TEST(Delaunay2DRun, StatisticsHaveTheTotals)
 {
   auto points = randomPoints(500);
   points.push_back(points.front());
@@ -264,7 +265,7 @@ TEST(Delaunay2DRun, StatisticsTellTheTotals)
   EXPECT_GE(total(statistics, "Threads"), 1);
 }
 
-TEST(Delaunay2DRun, StatisticsNameThePhasesAndTheirSeconds)
+TEST(Delaunay2DRun, StatisticsHaveThePhasesAndTheirSeconds)
 {
   vtkNew<vtkTIPPDelaunay2D> delaunay;
   delaunay->SetInputData(dataset(randomPoints(500)));
@@ -311,7 +312,7 @@ TEST(Delaunay2DRun, PropertiesHaveTheDefaultsOfVtkDelaunay2D)
   EXPECT_EQ(0, delaunay->GetTolerance());
 }
 
-TEST(Delaunay2DRun, PrintTellsEveryProperty)
+TEST(Delaunay2DRun, PrintShowsEveryProperty)
 {
   vtkNew<vtkTIPPDelaunay2D> delaunay;
   delaunay->SetNumberOfPartitions(6, 5);

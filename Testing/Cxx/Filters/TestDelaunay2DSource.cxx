@@ -23,7 +23,7 @@ namespace
 using namespace testing_delaunay;
 using Ids = std::vector<vtkIdType>;
 
-/// Lines and polygons between the input's points.
+/// A source of lines and polygons between points of the input.
 vtkSmartPointer<vtkPolyData> sourceOf(
   const std::vector<Ids>& lines, const std::vector<Ids>& polygons)
 {
@@ -42,7 +42,7 @@ vtkSmartPointer<vtkPolyData> sourceOf(
   return source;
 }
 
-/// A square with its centre and, inside, a smaller square.
+/// A square with a centre point, and a smaller square inside it.
 const std::vector<Point> Squares{ { 0, 0, 0 }, { 8, 0, 0 }, { 8, 8, 8 }, { 0, 8, 8 }, { 3, 3, 0 },
   { 5, 3, 0 }, { 5, 5, 0 }, { 3, 5, 0 }, { 4, 4.25, 0 } };
 
@@ -107,7 +107,7 @@ protected:
 
   vtkNew<vtkTIPPDelaunay2D> Filter;
   Messages Heard{ this->Filter.Get() };
-  Messages OfPipeline{ this->Filter->GetExecutive() }; // so that they are not printed
+  Messages OfPipeline{ this->Filter->GetExecutive() }; // suppresses their printing
 };
 
 TEST_F(Source, PolylineIsAChainOfEdges)
@@ -138,14 +138,14 @@ TEST_F(Source, ClockwisePolygonIsAHole)
 
 TEST_F(Source, PolygonsNest)
 {
-  // An island in a lake in a country.
+  // A country with a lake, which has an island.
   std::vector<Point> points = Squares;
   points.insert(points.end(), { { 1, 1, 0 }, { 7, 1, 0 }, { 7, 7, 0 }, { 1, 7, 0 } });
   const auto source = sourceOf({}, { { 0, 1, 2, 3 }, { 12, 11, 10, 9 }, { 4, 5, 6, 7 } });
   EXPECT_EQ(64 - 36 + 4, areaOf(this->run(dataset(points), source)));
 }
 
-TEST_F(Source, PolygonsThatShareAnEdgeAreBothKept)
+TEST_F(Source, PolygonsMayShareAnEdge)
 {
   const std::vector<Point> points{ { 0, 0, 0 }, { 2, 0, 0 }, { 2, 2, 0 }, { 0, 2, 0 }, { 4, 0, 0 },
     { 4, 2, 0 }, { 9, 9, 0 } };
@@ -177,7 +177,7 @@ TEST_F(Source, CrossingIsANewPointWithInterpolatedData)
   EXPECT_EQ(64, areaOf(mesh));
 }
 
-TEST_F(Source, CrossingIsAnErrorIfNotToBeSplit)
+TEST_F(Source, CrossingIsAnErrorUnlessSplit)
 {
   this->Filter->SplitCrossingsOff();
   this->run(dataset(Squares), sourceOf({ { 0, 2 }, { 5, 7 } }, {}));
@@ -185,7 +185,7 @@ TEST_F(Source, CrossingIsAnErrorIfNotToBeSplit)
   EXPECT_EQ(0, this->Filter->GetOutput()->GetNumberOfPolys());
 }
 
-TEST_F(Source, IdThatNoPointHasIsAnError)
+TEST_F(Source, InvalidPointIdIsAnError)
 {
   this->run(dataset(Squares), sourceOf({ { 0, 9 } }, {}));
   EXPECT_TRUE(
@@ -209,7 +209,7 @@ TEST_F(Source, LineWithAnEndThatIsNotFiniteIsLeftOutWithAWarning)
   EXPECT_TRUE(tells(this->Heard.Warnings, "2 edges of the source have an end"));
 }
 
-TEST_F(Source, PointsOfItsOwnAreMergedByCoordinates)
+TEST_F(Source, SourcePointsAreMergedByCoordinates)
 {
   const auto source = dataset({ { 8, 8, 99 }, { 4, 0, 1 }, { 0, 0, 5 } });
   source->SetLines(sourceOf({ { 2, 1, 0 } }, {})->GetLines());
@@ -283,7 +283,7 @@ TEST_F(Source, ToleranceIsRefused)
   EXPECT_TRUE(tells(this->Heard.Errors, "Tolerance does not go with a source"));
 }
 
-TEST_F(Source, RemovedSourceLeavesThePlainTriangulation)
+TEST_F(Source, WithoutItTheTriangulationIsPlainAgain)
 {
   this->run(dataset(Squares), sourceOf({}, { { 4, 5, 6, 7 } }));
   EXPECT_NE(nullptr, this->Filter->GetSource());

@@ -61,7 +61,7 @@ std::vector<double> randomCoordinates(int points, double scale, double shift)
 
 } // namespace
 
-TEST(MergeClosePoints, ResultIsThatOfComparingAllPairs)
+TEST(MergeClosePoints, ResultEqualsAComparisonOfAllPairs)
 {
   const double scales[][2] = { { 1, 0 }, { 1, -1e3 }, { 1e-200, 0 }, { 1e200, 0 }, { 1, 1e13 } };
   for (const auto& [scale, shift] : scales)
@@ -77,7 +77,7 @@ TEST(MergeClosePoints, ResultIsThatOfComparingAllPairs)
 
 TEST(MergeClosePoints, PointsExactlyAsFarAsTheDistanceAreMerged)
 {
-  // Lattice points at every multiple of the distance: each second one goes.
+  // Points on a line at multiples of the distance: every second one is merged.
   std::vector<double> xy;
   for (int i = -20; i < 20; ++i)
   {
@@ -92,7 +92,7 @@ TEST(MergeClosePoints, DistanceZeroMergesEqualPointsOnly)
   EXPECT_EQ((Pairs{ { 2, 0 } }), mergedPairs({ 0, 0, 5e-324, 0, 0, -0.0 }, 0));
 }
 
-TEST(MergeClosePoints, ProgressEndsThePass)
+TEST(MergeClosePoints, ProgressCanStopIt)
 {
   const auto xy = randomCoordinates(10, 1, 0);
   const auto merged =

@@ -29,7 +29,7 @@
 namespace
 {
 
-/// Points of a square of side 100, with their x times 3 as the array a.
+/// Random points in a square of side 100, with an array 'a' of the values 3 x.
 vtkSmartPointer<vtkPolyData> makePoints(int count)
 {
   tipp::Random random(3);
@@ -73,7 +73,7 @@ std::vector<double> valuesOf(vtkImageData* image, const char* name)
   for (vtkIdType i = 0; array && i < array->GetNumberOfTuples(); ++i)
   {
     const double value = array->GetComponent(i, 0);
-    values.push_back(std::isnan(value) ? -1e300 : value); // to be compared
+    values.push_back(std::isnan(value) ? -1e300 : value); // NaN would not compare equal
   }
   return values;
 }
@@ -132,7 +132,7 @@ TEST(PointsToImage, IsTheSameWithinAMemoryLimit)
   EXPECT_FALSE(slopes.empty());
 }
 
-TEST(PointsToImage, HasAboutAPixelAPointUnlessItIsTold)
+TEST(PointsToImage, HasAboutOnePixelPerPointByDefault)
 {
   vtkNew<vtkTIPPPointsToImage> maker;
   maker->SetInputData(makePoints(2500));
@@ -143,7 +143,7 @@ TEST(PointsToImage, HasAboutAPixelAPointUnlessItIsTold)
   EXPECT_NEAR(50, size[1], 2);
 }
 
-TEST(PointsToImage, LinesShapeTheSurfaceAndABoundaryEndsIt)
+TEST(PointsToImage, BreaklinesShapeTheSurfaceAndABoundaryLimitsIt)
 {
   vtkNew<vtkPoints> corners;
   for (const double x : { 0.0, 10.0 })
@@ -160,14 +160,14 @@ TEST(PointsToImage, LinesShapeTheSurfaceAndABoundaryEndsIt)
   maker->Update();
   const std::vector<double> valley = valuesOf(maker->GetOutput(), "elevation");
   ASSERT_EQ(100U, valley.size());
-  EXPECT_NEAR(2.8, valley[4], 1e-12); // of the pixel at 4.5
+  EXPECT_NEAR(2.8, valley[4], 1e-12); // the pixel at x = 4.5
   EXPECT_NEAR(2.8, valley[55], 1e-12);
   EXPECT_NEAR(9.2, valley[0], 1e-12);
   maker->SetBoundaryData(makeLine({ { 2, 2, 0 }, { 8, 2, 0 }, { 8, 8, 0 }, { 2, 8, 0 } }, true));
   maker->Update();
   const std::vector<double> cut = valuesOf(maker->GetOutput(), "elevation");
   EXPECT_EQ(-1e300, cut[11]);
-  // Corners of a boundary have the elevation of the points alone: 10 at x = 8, 2 at the line.
+  // Corners of a boundary get their elevation from the points alone: 10 at x = 8. The line has 2.
   EXPECT_NEAR(2 + 8 * 0.5 / 3, cut[55], 1e-12);
 }
 
@@ -199,7 +199,7 @@ TEST(PointsToImage, ThinsAndMergesPoints)
   EXPECT_LT(valuesOf(maker->GetOutput(), "elevation").at(0), 3);
 }
 
-TEST(PointsToImage, TellsWhatIsWrong)
+TEST(PointsToImage, ReportsErrors)
 {
   vtkNew<vtkTIPPPointsToImage> maker;
   const testing_delaunay::Messages messages(maker);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bounds, bounding points and views of a dataset's points.
+// Bounds, bounding points and views of a data set's points.
 #include "Projection/ProjectedPoints.h"
 
 #include "vtkFloatArray.h"
@@ -40,7 +40,7 @@ TEST(FiniteBounds, AreThoseOfAllFinitePoints)
   EXPECT_EQ(13, bounds.diagonal());
 }
 
-TEST(FiniteBounds, APointWithOneCoordinateThatIsNotFiniteDoesNotCount)
+TEST(FiniteBounds, IgnoreAPointWithACoordinateThatIsNotFinite)
 {
   const auto points = box();
   points->InsertNextPoint(100, 100, NaN);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Renders a triangulated terrain, lit, seen from above, or with --raster its shaded raster, and
-// compares the picture with a baseline. Arguments: [--raster] [FILE of a count and lines 'x y z']
-// -V BASELINE -T FOLDER. Without a FILE the terrain is a formula on scattered points. Exit code
-// 125: FILE is not there.
+// Renders a triangulated terrain from above with light, or with --raster its shaded raster, and
+// compares the picture with a baseline. Arguments: [--raster] [FILE] -V BASELINE -T FOLDER. FILE
+// has the number of points and then lines 'x y z'. Without it, the terrain is a formula at
+// scattered points. If FILE does not exist, the exit code is 125.
 #include "vtkTIPPDelaunay2D.h"
 #include "vtkTIPPPointsToImage.h"
 
@@ -32,7 +32,8 @@ namespace
 
 constexpr int skipped = 125;
 
-/// The digits of i in a base, mirrored at the point: scattered evenly in [0, 1), without a pattern.
+/// The digits of i in the given base, mirrored at the decimal point: evenly scattered numbers in
+/// [0, 1).
 double radicalInverse(int i, int base)
 {
   double result = 0;
@@ -86,8 +87,8 @@ vtkSmartPointer<vtkActor> terrainActor(vtkPoints* points)
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
   actor->GetProperty()->SetInterpolationToFlat();
-  actor->GetProperty()->BackfaceCullingOn(); // a clockwise triangle is a hole
-  constexpr vtkIdType mostWithEdges = 5000;  // more would be all edges
+  actor->GetProperty()->BackfaceCullingOn(); // so a clockwise triangle is a hole
+  constexpr vtkIdType mostWithEdges = 5000;  // with more, the picture would show only edges
   actor->GetProperty()->SetEdgeVisibility(points->GetNumberOfPoints() <= mostWithEdges);
   return actor;
 }

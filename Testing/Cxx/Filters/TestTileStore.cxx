@@ -22,7 +22,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-/// A raster of two tiles, 256 and 44 pixels wide and 10 high.
+/// A raster of two tiles, 256 and 44 pixels wide. Both are 10 pixels high.
 class TileStores : public testing::Test
 {
 protected:
@@ -55,7 +55,7 @@ protected:
 TEST_F(TileStores, FinishATileWhenItsLastPixelIsSet)
 {
   auto store = this->open();
-  set(*store, { 0, 0, 300, 6 }, 3); // both tiles
+  set(*store, { 0, 0, 300, 6 }, 3); // touches both tiles
   EXPECT_FALSE(store->readFinished(0));
   set(*store, { 0, 4, 256, 5 }, 3);
   EXPECT_FALSE(store->readFinished(0));
@@ -85,7 +85,7 @@ TEST_F(TileStores, KeepFinishedTilesForAResumedRun)
   EXPECT_EQ("encoded 3.000000", store->readFinished(0)->Encoded.Bands[0].Bytes);
 }
 
-/// Sets pixels of both tiles from two threads; returns how many calls fail.
+/// Sets pixels of both tiles from two threads. Returns the number of calls that fail.
 int setFromThreads(TileStore& store)
 {
   std::atomic<int> failures{ 0 };
@@ -110,7 +110,7 @@ int setFromThreads(TileStore& store)
   return failures;
 }
 
-TEST_F(TileStores, TakeThreadsOfTwoProcessesForNoDeadlock)
+TEST_F(TileStores, ThreadsOfTwoProcessesCauseNoDeadlockError)
 {
   const pid_t child = fork();
   if (child == 0)
@@ -123,7 +123,7 @@ TEST_F(TileStores, TakeThreadsOfTwoProcessesForNoDeadlock)
   EXPECT_EQ(0, status);
 }
 
-TEST_F(TileStores, KeepNothingFinishedThatDoesNotFit)
+TEST_F(TileStores, TilesThatDoNotFitAreNotFinished)
 {
   TileStore store(this->Folder.path("pixels"), this->Grid, 1, true,
     [](const RasterWindow&, std::vector<std::vector<double>>&)

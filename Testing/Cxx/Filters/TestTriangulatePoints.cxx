@@ -14,7 +14,7 @@ namespace
 
 using namespace tipp;
 
-/// A square of side 4 and a square of side 2 in its middle, counter-clockwise each.
+/// A square of side 4, and a square of side 2 in its middle. Both are counter-clockwise.
 const std::vector<double> squares{ 0, 0, 4, 0, 4, 4, 0, 4, 1, 1, 3, 1, 3, 3, 1, 3 };
 
 PointsView viewOf(const std::vector<double>& xy)
@@ -22,7 +22,7 @@ PointsView viewOf(const std::vector<double>& xy)
   return { xy.data(), xy.size() / 2, 2 };
 }
 
-/// The inner square as a polygon, cell 7 of its source.
+/// The inner square as a polygon, which is cell 7 of its source.
 SourceConstraints innerSquare()
 {
   return { { { 4, 5 }, { 5, 6 }, { 6, 7 }, { 7, 4 } }, { 7, 7, 7, 7 }, 0 };
@@ -68,7 +68,7 @@ TEST(TriangulatePoints, MergesPointsWithinTheDistance)
     std::vector<std::int64_t>(ids.begin(), ids.end()));
 }
 
-TEST(TriangulatePoints, WarnsOfPointsThatAreNotFinite)
+TEST(TriangulatePoints, WarnsAboutPointsThatAreNotFinite)
 {
   std::vector<double> xy = squares;
   xy[8] = NAN;
@@ -103,7 +103,7 @@ TEST(TriangulatePoints, MarksTheEdgesOfConstraints)
   std::vector<std::string> warnings;
   const ConstrainedTriangulation result = triangulatePoints(viewOf(squares), request, warnings);
   const Buffer<unsigned char> marks = constraintMarks(result.Mesh, result.Constraints.Pieces);
-  EXPECT_EQ(4, std::count(marks.begin(), marks.end(), 1)); // all but the diagonal
+  EXPECT_EQ(4, std::count(marks.begin(), marks.end(), 1)); // all edges except the diagonal
   const Buffer<std::int64_t> neighbors = neighborIds(result.Mesh);
   for (std::size_t i = 0; i < marks.size(); ++i)
   {

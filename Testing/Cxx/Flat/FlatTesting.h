@@ -15,7 +15,7 @@ namespace tipp
 namespace test
 {
 
-/// A folder of .npy arrays, written without the code under test.
+/// Writes a folder of .npy arrays, independently of the code under test.
 class FlatFolderMaker
 {
 public:
@@ -32,7 +32,7 @@ public:
     return this->Folder.file("mesh/" + name, npyBytes(npyHeader(descr, shape), bytesOf(values)));
   }
 
-  /// Two triangles over a unit square.
+  /// Writes two triangles that make a unit square.
   void writeSquare() const
   {
     this->write<std::int32_t>("cells.npy", "<i4", "(2, 3)", { 0, 1, 2, 0, 2, 3 });
@@ -43,7 +43,7 @@ private:
   TemporaryFolder Folder;
 };
 
-/// An array's numbers, read without the code under test.
+/// Reads an array's values, independently of the code under test.
 template <typename Value>
 std::vector<Value> valuesOf(const RawArray& array)
 {

@@ -9,7 +9,7 @@ TEST(ArrayFileName, KeepsBlanksAndLetters)
   EXPECT_EQ("h\xc3\xb6he", tipp::arrayFileName("h\xc3\xb6he"));
 }
 
-TEST(ArrayFileName, HidesWhatNoFileNameMayHold)
+TEST(ArrayFileName, EncodesCharactersThatFileNamesMayNotHave)
 {
   EXPECT_EQ("a%2Fb", tipp::arrayFileName("a/b"));
   EXPECT_EQ("%2E.", tipp::arrayFileName(".."));
@@ -17,7 +17,7 @@ TEST(ArrayFileName, HidesWhatNoFileNameMayHold)
   EXPECT_EQ("a%0Ab", tipp::arrayFileName("a\nb"));
 }
 
-TEST(ArrayFileName, ComesBack)
+TEST(ArrayFileName, IsDecodedToTheSameName)
 {
   for (const std::string name :
     { "a/b", "..", ".hidden", "100%", "%2F", "a\\b", "%", "%4", "tab\there", "plain" })
@@ -26,7 +26,7 @@ TEST(ArrayFileName, ComesBack)
   }
 }
 
-TEST(ArrayFileName, OfAPerCentSignWithoutDigitsStandsForItself)
+TEST(ArrayFileName, APercentSignWithoutDigitsIsItself)
 {
   EXPECT_EQ("50%", tipp::arrayNameOf("50%"));
   EXPECT_EQ("50%zz", tipp::arrayNameOf("50%zz"));

@@ -50,7 +50,7 @@ protected:
 
 } // namespace
 
-TEST_P(Cells, ComeInChunksOfAnySize)
+TEST_P(Cells, AreReadInChunksOfAnySize)
 {
   const Ids ids = randomIds(1000, 77);
   const tipp::FlatMesh mesh = this->open(ids, 77);
@@ -69,7 +69,7 @@ TEST_P(Cells, ComeInChunksOfAnySize)
   }
 }
 
-TEST_P(Cells, OfARangeAreThoseOfTheWhole)
+TEST_P(Cells, OfARangeEqualThoseOfTheWholeMesh)
 {
   const Ids ids = randomIds(1000, 77);
   CellReader reader(this->open(ids, 77), 300, 310);
@@ -91,7 +91,7 @@ TEST_P(Cells, AreTheSameForAnyNumberOfThreads)
   }
 }
 
-TEST_P(Cells, WithABadIdAreRefusedAndTheFirstOfThemIsNamed)
+TEST_P(Cells, WithAnInvalidIdAreRefusedNamingTheFirst)
 {
   for (const std::int64_t bad : { std::int64_t(77), std::int64_t(-1) })
   {
@@ -119,7 +119,7 @@ TEST_P(Cells, BeyondTheMeshAreNoChunk)
   EXPECT_THROW(CellReader(mesh).read(9, 2, ids.data()), std::out_of_range);
 }
 
-TEST_P(Cells, NoneGiveNoChunk)
+TEST_P(Cells, OfAnEmptyMeshGiveNoChunk)
 {
   CellReader reader(this->open({}, 0));
   Ids part;

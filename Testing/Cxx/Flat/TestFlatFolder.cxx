@@ -67,7 +67,7 @@ TEST_F(FlatFolder, HoldsDataOfEveryType)
   EXPECT_EQ(Scalar::UInt8, mesh.CellData[0].Type);
 }
 
-TEST_F(FlatFolder, PassesOverOtherFiles)
+TEST_F(FlatFolder, IgnoresOtherFiles)
 {
   this->Maker.writeSquare();
   this->Maker.write<double>("point_data/notes.txt", "<f8", "(4,)", { 1, 2, 3, 4 });
@@ -93,8 +93,9 @@ TEST_F(FlatFolder, WithTimesHasArraysThatVary)
   EXPECT_EQ(2, mesh.PointSeries[1][0].Components);
 }
 
-// Two steps and two cells: an array of 2 x 2 varies in time.
-TEST_F(FlatFolder, TakesALeadingAxisOfTimeFirst)
+// There are two time steps and two cells: an array of shape (2, 2) is a series in time, not a
+// vector per cell.
+TEST_F(FlatFolder, InterpretsTheFirstAxisAsTime)
 {
   this->Maker.writeSquare();
   this->Maker.write<double>("time.npy", "<f8", "(2,)", { 0, 1 });
@@ -189,7 +190,7 @@ TEST_F(FlatFolder, WithTimesThatDoNotAscendIsRefused)
   }
 }
 
-TEST_F(FlatFolder, OrFileOfAnotherKindIsRefused)
+TEST_F(FlatFolder, OfAnotherKindIsRefused)
 {
   const tipp::test::TemporaryFolder folder;
   const std::string path = folder.file("mesh.txt", "0 1 2");

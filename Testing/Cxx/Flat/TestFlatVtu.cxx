@@ -72,7 +72,7 @@ protected:
     tipp::test::expectIOError(this->Path, words, [this] { openFlatMesh(this->Path); });
   }
 
-  /// Replaces the first such text in the file by another.
+  /// Replaces the first occurrence of `old` in the file by `now`.
   void replace(const std::string& old, const std::string& now) const
   {
     std::string content = contentOf(this->Path);
@@ -161,7 +161,7 @@ TEST_F(FlatVtu, WithoutCellsOpens)
   EXPECT_EQ(0, openFlatMesh(this->Path).Cells.Tuples);
 }
 
-TEST_F(FlatVtu, PassesOverStrings)
+TEST_F(FlatVtu, IgnoresStringArrays)
 {
   this->makeTriangles();
   vtkNew<vtkStringArray> names;
@@ -192,14 +192,15 @@ TEST_F(FlatVtu, OfTrianglesAndTetrahedraIsRefused)
   this->expectError("cell 2, vtkTetra");
 }
 
-TEST_F(FlatVtu, WithALongHeaderOpensWhereverTheDataBegin)
+TEST_F(FlatVtu, OpensWithALongHeader)
 {
   this->makeTriangles();
   this->Writer->Write();
   const std::string content = contentOf(this->Path);
   const std::size_t tag = content.find("<AppendedData");
   const std::size_t mark = content.find('_', tag);
-  // The header is read in rounds of 64 KiB; the tag and the data's mark may lie in different ones.
+  // The header is read in blocks of 64 KiB. The tag, and the mark where the data begin, may be in
+  // different blocks.
   const std::string wide = content.substr(0, mark) + std::string(500, ' ') + content.substr(mark);
   for (const int before : { -3, 3, 70, 300, 505 })
   {
@@ -234,12 +235,12 @@ TEST_F(FlatVtu, ThatIsNotRawAppendedNamesTheRemedy)
   this->expectError("little-endian");
 }
 
-TEST_F(FlatVtu, ThatIsCutOffAnywhereIsRefused)
+TEST_F(FlatVtu, ThatIsTruncatedAnywhereIsRefused)
 {
   this->makeTriangles();
   this->Writer->Write();
   const std::string whole = contentOf(this->Path);
-  // The last lines, after the data, are of no use to us.
+  // The lines after the data are not needed.
   const std::size_t needed = whole.rfind("\n  </AppendedData>");
   ASSERT_NE(std::string::npos, needed);
   for (std::size_t size = 0; size < needed; size += 1 + size / 50)
@@ -286,7 +287,7 @@ TEST_F(FlatVtu, WithHostileCountsIsRefused)
 TEST_F(FlatVtu, WithOffsetsOfOtherCellsIsRefused)
 {
   this->makeTriangles();
-  this->Grid->GetCells()->ConvertTo64BitStorage(); // the default of VTK 9.7 is another
+  this->Grid->GetCells()->ConvertTo64BitStorage(); // not the default in VTK 9.7
   this->Writer->SetHeaderTypeToUInt64();
   this->Writer->Write();
   const std::vector<std::int64_t> good{ 3, 6 };

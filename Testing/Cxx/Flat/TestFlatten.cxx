@@ -42,7 +42,7 @@ protected:
     return openFlatMesh(this->out());
   }
 
-  /// Of a grid of two triangles.
+  /// Writes an ADCIRC grid of two triangles, and returns its path.
   std::string grid() const
   {
     return this->Folder.file(
@@ -101,7 +101,7 @@ vtkSmartPointer<vtkUnstructuredGrid> quadAndTriangle()
 
 } // namespace
 
-TEST_F(Flatten, ADataSetKeepsItsNumbersAndTheCellsOrigin)
+TEST_F(Flatten, ADataSetKeepsItsArraysAndTheIdsOfDividedCells)
 {
   const auto grid = quadAndTriangle();
   const tipp::Flattened flattened = tipp::flattenDataSet(grid, "grid.vtu");
@@ -142,7 +142,7 @@ TEST_F(Flatten, GhostsAreLeftOutWithTheirMarks)
   EXPECT_THROW(arrayNamed(mesh.CellData, "vtkGhostType"), std::runtime_error);
 }
 
-TEST_F(Flatten, WritesNothingOverAnotherFolder)
+TEST_F(Flatten, DoesNotReplaceAnotherFolder)
 {
   std::filesystem::create_directory(this->out());
   this->Folder.file("flat/notes", "mine");
@@ -161,7 +161,7 @@ TEST_F(Flatten, LeavesNothingBehindWhenStopped)
   EXPECT_EQ(0U, this->Folder.fileCount());
 }
 
-TEST_F(Flatten, ArraysOfOneNameAreRefusedWithoutARest)
+TEST_F(Flatten, ArraysOfOneNameAreRefusedAndNothingIsLeft)
 {
   const auto grid = quadAndTriangle();
   tipp::Flattened flattened = tipp::flattenDataSet(grid, "grid.vtu");
@@ -184,7 +184,7 @@ TEST_F(Flatten, AnAdcircGridWithOneStepHasNoTimes)
 
 TEST_F(Flatten, AnAdcircGridWithStepsVariesInTime)
 {
-  // The second step gives two of the nodes alone.
+  // The second time step has values for two of the four nodes only.
   const std::string values = this->Folder.file(
     "fort.64", "title\n2 4 1 1 2\n10 1\n1 1 2\n2 3 4\n3 5 6\n4 7 8\n20 2 2 -9\n1 0 0\n3 1 1\n");
   const FlatMesh mesh = this->written(tipp::flattenAdcirc(this->grid(), { values }));

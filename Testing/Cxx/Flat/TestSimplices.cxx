@@ -53,7 +53,7 @@ protected:
   const vtkNew<vtkUnstructuredGrid> Grid;
 };
 
-/// Areas or volumes of all, each of which must be positive for tetrahedra.
+/// The sum of all areas or volumes. Volumes must be positive.
 double measure(vtkDataSet* data, const Simplices& simplices)
 {
   double sum = 0;
@@ -85,7 +85,7 @@ double measure(vtkDataSet* data, const Simplices& simplices)
   return sum;
 }
 
-/// How often each triangle is a side of a tetrahedron.
+/// For each triangle, the number of tetrahedra that have it as a facet.
 std::map<std::array<std::int64_t, 3>, int> sides(const Simplices& simplices)
 {
   std::map<std::array<std::int64_t, 3>, int> counts;
@@ -170,8 +170,8 @@ TEST_F(SimplicesOf, EveryKindOfSolidCellFillIt)
   }
 }
 
-// Cubes of a lattice whose points are numbered at random: neighbours must cut their common face
-// along the same diagonal, so that no side of a tetrahedron inside is left alone.
+// Cubes of a lattice whose points are numbered at random. Neighbouring cubes must cut their common
+// face along the same diagonal: each facet inside belongs to two tetrahedra.
 TEST_F(SimplicesOf, NeighboursAgreeOnTheirFaces)
 {
   constexpr vtkIdType n = 5;
@@ -217,7 +217,7 @@ TEST_F(SimplicesOf, AnImageFillIt)
   EXPECT_EQ(6, simplices.Cut.at("vtkVoxel"));
 }
 
-TEST_F(SimplicesOf, MixedDimensionsTellWhatIsLeftOut)
+TEST_F(SimplicesOf, OfMixedDimensionsReportTheCellsLeftOut)
 {
   this->insertUnitCube();
   this->insert(VTK_TRIANGLE, { 0, 1, 2 });
@@ -244,7 +244,7 @@ TEST_F(SimplicesOf, GhostCellsAreLeftOut)
   EXPECT_EQ(1, simplices.LeftOut.at("ghost cell"));
 }
 
-TEST_F(SimplicesOf, NothingWithAnAreaAreRefused)
+TEST_F(SimplicesOf, DataWithoutAreaAreRefused)
 {
   this->insertPoints({ { 0, 0, 0 }, { 1, 0, 0 } });
   this->insert(VTK_LINE, { 0, 1 });
@@ -252,7 +252,7 @@ TEST_F(SimplicesOf, NothingWithAnAreaAreRefused)
     "a.vtu", "no cells with an area", [&] { simplicesOf(this->Grid, "a.vtu"); });
 }
 
-TEST_F(SimplicesOf, CurvedCellsAreCutAlongTheirPointsOrRefused)
+TEST_F(SimplicesOf, OfCurvedCellsFollowTheirPointsOrAreRefused)
 {
   this->insertPoints(
     { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0.5, 0, 0 }, { 0.5, 0.5, 0 }, { 0, 0.5, 0 } });

@@ -8,7 +8,8 @@ namespace
 
 using Tag = tipp::XmlScanner::Tag;
 
-/// Tags as "+name", "-name" and "=name"; "!" at the end of a text that is not well formed.
+/// The tags of a text: "+name" opens, "-name" closes, "=name" is empty. A "!" at the end means that
+/// the text is not well formed.
 std::string outline(const std::string& text)
 {
   tipp::XmlScanner scanner(text);
@@ -22,12 +23,12 @@ std::string outline(const std::string& text)
 
 } // namespace
 
-TEST(XmlScanner, NamesTagsInOrder)
+TEST(XmlScanner, FindsTagsInOrder)
 {
   EXPECT_EQ("+a=b-a", outline("<a> text <b/> more </a>"));
 }
 
-TEST(XmlScanner, PassesOverCommentsAndInstructions)
+TEST(XmlScanner, IgnoresCommentsAndInstructions)
 {
   EXPECT_EQ("+a-a", outline("<?xml version=\"1.0\"?><!-- <b> --><a><!----></a>"));
 }

@@ -13,7 +13,8 @@ namespace tipp
 namespace test
 {
 
-/// The action fails with one sentence that starts with the path and holds the words.
+/// Expects that the action throws an IOError of one sentence that starts with the path and contains
+/// `words`.
 template <typename Action>
 void expectIOError(const std::string& path, const std::string& words, Action action)
 {

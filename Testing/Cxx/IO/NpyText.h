@@ -10,7 +10,7 @@ namespace tipp
 namespace test
 {
 
-/// The bytes of an .npy file of version 1 with any header text.
+/// The bytes of an .npy file of version 1 with the given header.
 inline std::string npyBytes(const std::string& header, const std::string& data)
 {
   const std::string text = header + "\n";

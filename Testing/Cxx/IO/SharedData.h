@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-/// The path of a real data file; the test is skipped where there is none.
+/// Sets the path of a real data file, or skips the test if the file does not exist.
 #define TIPP_REQUIRE_DATA(path, name)                                                              \
   const std::string path = std::string(TIPP_SHARED_DATA) + "/" + (name);                           \
   if (!std::filesystem::exists(path))                                                              \

@@ -16,7 +16,7 @@ namespace tipp
 namespace test
 {
 
-/// An empty folder that goes away with the object.
+/// An empty folder, which is removed by the destructor.
 class TemporaryFolder
 {
 public:

@@ -51,7 +51,7 @@ TEST_F(AdcircGrid, NodeNumbersMayHaveGapsAndAnyOrder)
   EXPECT_EQ((Ids{ 1, 2, 0 }), tipp::readMesh(path).Triangles);
 }
 
-TEST_F(AdcircGrid, RealGridIsWhole)
+TEST_F(AdcircGrid, RealGridIsReadCompletely)
 {
   TIPP_REQUIRE_DATA(path, "adcirc/ec95d/ec95d.grd");
   const tipp::AdcircGrid grid = tipp::readAdcircGrid(path);
@@ -88,7 +88,7 @@ TEST_F(AdcircGrid, TextWhereNumbersBelongIsReportedWithItsLine)
   this->expectError("title\n0 1\n1 0 0\n", "line 3: has too few numbers for a node");
 }
 
-TEST_F(AdcircGrid, ElementsThatAreNoTrianglesOfNodesAreReported)
+TEST_F(AdcircGrid, InvalidElementsAreReported)
 {
   this->expectError("title\n1 3\n" + this->Nodes + "1 4 1 2 3 1\n", "not a triangle");
   this->expectError("title\n1 3\n" + this->Nodes + "1 3 1 2 4\n", "names node 4");

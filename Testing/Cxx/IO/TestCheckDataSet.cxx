@@ -82,20 +82,20 @@ void expectRefusal(vtkDataSet* data, const std::string& words)
   tipp::test::expectIOError("the input", words, [&] { tipp::checkDataSet(data, "the input"); });
 }
 
-/// The bad ones, and what the message says.
+/// Invalid ids for a data set of four points, and how the message shows them.
 const CellIds badIds = { -1, 4, 4294967299, 999999999999,
   std::numeric_limits<vtkTypeInt64>::min() };
 
 } // namespace
 
-TEST(CheckDataSet, WholeDataSetsPass)
+TEST(CheckDataSet, ValidDataSetsPass)
 {
   EXPECT_NO_THROW(tipp::checkDataSet(twoTriangles(), "the input"));
   EXPECT_NO_THROW(tipp::checkDataSet(vtkNew<vtkUnstructuredGrid>(), "the input"));
   EXPECT_NO_THROW(tipp::checkDataSet(vtkNew<vtkPolyData>(), "the input"));
 }
 
-TEST(CheckDataSet, RefusesIdsOfPointsThatAreNotThere)
+TEST(CheckDataSet, RefusesInvalidPointIds)
 {
   for (const vtkTypeInt64 id : badIds)
   {
@@ -139,7 +139,7 @@ TEST(CheckDataSet, RefusesIdsInAllCellsOfASurface)
   }
 }
 
-/// VTK's GetCellType() crashes on these.
+/// VTK's GetCellType() crashes for these cells.
 TEST(CheckDataSet, RefusesCellsOfTooFewVertices)
 {
   using Set = void (vtkPolyData::*)(vtkCellArray*);
@@ -297,7 +297,7 @@ TEST(CheckDataSet, RefusesArraysOfTooFewValues)
   expectRefusal(ofCells, "its array 'heat' has 1 values for 2 cells");
 }
 
-TEST(CheckDataSet, LooksAgainAtADataSetThatWasModified)
+TEST(CheckDataSet, ChecksAModifiedDataSetAgain)
 {
   const auto grid = twoTriangles();
   EXPECT_NO_THROW(tipp::checkDataSet(grid, "the input"));

@@ -66,7 +66,7 @@ protected:
 
 } // namespace
 
-TEST_F(CheckVtkFile, WholeFilesPass)
+TEST_F(CheckVtkFile, ValidFilesPass)
 {
   EXPECT_TRUE(tipp::readDataSet(this->Folder.file("whole.vtu", wholeXml)));
   EXPECT_TRUE(tipp::readDataSet(this->Folder.file("whole.vtk", wholeLegacy)));
@@ -117,7 +117,7 @@ TEST_F(CheckVtkFile, ImagesLargerThanTheirFileAreRefused)
     "range.vti", changed(image, "99999\"", "99999999999\""), "no range of points");
 }
 
-/// Files as VTK's writer makes them.
+/// Files that VTK's writer makes.
 class CheckVtkFileData : public CheckVtkFile
 {
 protected:
@@ -143,7 +143,7 @@ protected:
     return { std::istreambuf_iterator<char>(file), {} };
   }
 
-  /// The text in the middle of the file's last array.
+  /// The index of a character in the middle of the file's last array.
   static std::size_t middle(const std::string& text, Kind kind)
   {
     return kind == Kind::Inline ? text.rfind("</DataArray>") - 20
@@ -151,7 +151,7 @@ protected:
   }
 };
 
-TEST_F(CheckVtkFileData, WhatVtkWritesPasses)
+TEST_F(CheckVtkFileData, FilesOfVtksWriterPass)
 {
   for (const Kind kind : { Kind::Inline, Kind::Encoded, Kind::Raw })
   {
@@ -206,13 +206,13 @@ TEST_F(CheckVtkFile, LegacyCellsThatDoNotFitTheirCountAreRefused)
     "bad.vtk", changed(wholeLegacy, "POLYGONS 1 4", "POLYGONS 2 4"), "does not fit");
 }
 
-TEST_F(CheckVtkFile, WhatAReadersOwnReaderSaysIsAnError)
+TEST_F(CheckVtkFile, ErrorsOfVtksReaderAreErrors)
 {
   this->expectRefusal(
     "bad.vtk", changed(wholeLegacy, "FIELD", "FEILD"), "(Unsupported point attribute");
 }
 
-TEST(PlainMessage, HasNoPlaceInTheSourceAndNoAddress)
+TEST(PlainMessage, HasNoSourcePositionAndNoAddress)
 {
   EXPECT_EQ(tipp::plainMessage("ERROR: In /build/x (1)/vtkThing.cxx, line 98\n"
                                "vtkThing (0x55d0c2): File a): b.vtu is cut.\n\n"),
@@ -224,7 +224,7 @@ TEST(PlainMessage, HasNoPlaceInTheSourceAndNoAddress)
   EXPECT_EQ(tipp::plainMessage("plain"), "plain");
 }
 
-TEST(ErrorKeeper, KeepsAllMessagesAndLeavesOutThePipelinesEcho)
+TEST(ErrorKeeper, KeepsAllMessagesExceptThoseOfThePipeline)
 {
   vtkNew<tipp::ErrorKeeper> keeper;
   const auto say = [&](unsigned long event, std::string text)

@@ -14,7 +14,7 @@ namespace
 
 using namespace tipp;
 
-TEST(ChildProcess, GivesItsResultWhole)
+TEST(ChildProcess, ReturnsItsWholeResult)
 {
   const std::string large(1 << 20, 'x');
   EXPECT_EQ(large, runInChild([&] { return large; }));
@@ -26,7 +26,7 @@ TEST(ChildProcess, RunsInAnotherProcess)
   EXPECT_NE(std::to_string(getpid()), runInChild([] { return std::to_string(getpid()); }));
 }
 
-TEST(ChildProcess, PassesOnErrors)
+TEST(ChildProcess, ForwardsErrors)
 {
   try
   {
@@ -39,7 +39,7 @@ TEST(ChildProcess, PassesOnErrors)
   }
 }
 
-TEST(ChildProcess, IsNotTakenForDoneWhenItWasKilled)
+TEST(ChildProcess, ReportsThatItWasKilled)
 {
   EXPECT_THROW(runInChild([]() -> std::string { _exit(0); }), IOError);
   EXPECT_THROW(runInChild(

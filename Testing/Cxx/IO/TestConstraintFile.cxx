@@ -137,7 +137,7 @@ TEST_F(ConstraintFile, UnknownExtensionIsAnError)
   this->expectError("a.xyz", "", "has no extension that tells a kind of constraints");
 }
 
-/// Of files that GDAL reads.
+/// Tests of files that GDAL reads. They are skipped if GDAL is missing.
 class ConstraintVectorFile : public ConstraintFile
 {
 protected:
@@ -150,7 +150,7 @@ protected:
     catch (const tipp::IOError& error)
     {
       const std::string text = error.what();
-      // Any other failure is one of ours.
+      // GDAL is missing only if the message says so. All other errors are failures.
       ASSERT_TRUE(text.find("needs GDAL") != std::string::npos ||
         text.find("need the library GDAL") != std::string::npos)
         << text;
@@ -175,7 +175,8 @@ TEST_F(ConstraintVectorFile, GeoJsonLinesAndHeights)
   EXPECT_EQ(6, table.Height[1]);
 }
 
-/// Rings are turned: here the outer one is clockwise, and so is the hole.
+/// Rings are reversed if necessary: here both rings are clockwise. Outer rings become
+/// counter-clockwise, holes clockwise.
 TEST_F(ConstraintVectorFile, GeoJsonPolygonsWithHoles)
 {
   const ConstraintTable table = this->read("a.geojson",
@@ -186,7 +187,7 @@ TEST_F(ConstraintVectorFile, GeoJsonPolygonsWithHoles)
   EXPECT_TRUE(table.Height.empty());
 }
 
-/// The files .shp and .shx of one shape, as the specification of 1998 says.
+/// Makes the .shp and .shx files of one shape, by ESRI's specification of 1998.
 class Shapefile
 {
 public:
@@ -213,7 +214,7 @@ public:
     append(std::int32_t(parts.size()), shape);
     append(count, shape);
     shape += starts + points;
-    constexpr std::int32_t first = 50; // the header's length; lengths are in words of 16 bits
+    constexpr std::int32_t first = 50; // length of the header, in 16-bit words like all lengths
     const auto words = std::int32_t(shape.size() / 2);
     this->Shapes = header(kind, first + 4 + words) + bigEndian(1) + bigEndian(words) + shape;
     this->Index = header(kind, first + 4) + bigEndian(first) + bigEndian(words);
@@ -224,7 +225,7 @@ public:
 
 private:
   template <typename Value>
-  static void append(Value value, std::string& bytes) // of a little-endian machine
+  static void append(Value value, std::string& bytes) // for little-endian machines
   {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
@@ -265,7 +266,7 @@ TEST_F(ConstraintVectorFile, ShapefileLines)
   EXPECT_EQ(3u, table.PolygonBegin);
 }
 
-/// In such files outer rings are clockwise, and holes are not.
+/// In a shapefile, outer rings are clockwise and holes are counter-clockwise. They are reversed.
 TEST_F(ConstraintVectorFile, ShapefilePolygonsWithHoles)
 {
   const Shapefile file(

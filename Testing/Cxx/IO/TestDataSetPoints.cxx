@@ -24,7 +24,7 @@ using tipp::PointTable;
 using tipp::readPoints;
 using Values = std::vector<double>;
 
-// A triangle with a scalar, a vector and a text array.
+// A triangle with three point arrays: a scalar, a vector and text.
 vtkSmartPointer<vtkPolyData> triangle()
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();

@@ -10,7 +10,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-TEST(FileLines, AreThoseOfTheWholeTextForBlocksOfAnySize)
+TEST(FileLines, AreTheSameForBlocksOfAnySize)
 {
   const TemporaryFolder folder;
   for (const std::string text : { "", "\n", "a", "a\n", "one\r\ntwo\n\nfour\r",
@@ -34,7 +34,7 @@ TEST(FileLines, AreThoseOfTheWholeTextForBlocksOfAnySize)
   }
 }
 
-TEST(FileLines, TheirNumberIsGuessed)
+TEST(FileLines, TheirNumberIsEstimated)
 {
   const TemporaryFolder folder;
   std::string text;
@@ -46,7 +46,7 @@ TEST(FileLines, TheirNumberIsGuessed)
   EXPECT_NEAR(1000, FileLines(folder.path("lines.txt")).expectedLines(), 2);
 }
 
-TEST(FileLines, WhatIsNoTextIsRefused)
+TEST(FileLines, BinaryFilesAreRefused)
 {
   const TemporaryFolder folder;
   const std::string path = folder.file("binary.txt", std::string("ab\0c", 4));

@@ -30,7 +30,7 @@ std::set<std::pair<double, double>> distinct(const std::vector<double>& xy)
   return points;
 }
 
-// The share of the points in the fullest hundredth of a 100 x 100 grid's cells.
+// The fraction of the points in the 100 fullest cells of a 100 x 100 grid.
 double crowding(const std::vector<double>& xy)
 {
   double low = xy[0];
@@ -66,7 +66,7 @@ struct Checksum
   XXH64_hash_t Value;
 };
 
-// CTest's names of the tests.
+// CTest shows this name for the test.
 std::ostream& operator<<(std::ostream& stream, const Checksum& checksum)
 {
   return stream << checksum.Name;
@@ -87,7 +87,7 @@ TEST_P(EveryDistribution, FirstThousandPointsAreTheSameEverywhere)
   EXPECT_EQ(GetParam().Value, XXH64(xy.data(), xy.size() * sizeof(double), 0));
 }
 
-TEST_P(EveryDistribution, HasExactlyAsManyFinitePointsAsAskedFor)
+TEST_P(EveryDistribution, HasExactlyTheRequestedNumberOfFinitePoints)
 {
   for (const std::int64_t count : { 0, 1, 2, 3, 10, 99, 12345 })
   {
@@ -160,7 +160,7 @@ TEST(GeneratePoints, CoastIsMoreUnevenThanClustersAtEveryLevel)
 {
   const std::vector<double> xy = generatePoints(Distribution::Coast, 100000, 3);
   EXPECT_GT(crowding(xy), 0.4);
-  // Steps along the shore differ by orders of magnitude.
+  // Distances between consecutive points of the shore differ by orders of magnitude.
   std::vector<double> steps;
   for (std::size_t i = 2; i < xy.size(); i += 2)
   {
@@ -221,7 +221,7 @@ TEST(GeneratePoints, NegativeAndAbsurdCountsAreRefused)
     generatePoints(Distribution::Uniform, std::int64_t(1) << 41, 0), std::invalid_argument);
 }
 
-TEST(GeneratePoints, UnknownNameIsNone)
+TEST(GeneratePoints, UnknownNameIsNoDistribution)
 {
   EXPECT_FALSE(tipp::distributionFromName("gaussian"));
 }

@@ -27,7 +27,7 @@ protected:
     this->Description.Compression = "none";
   }
 
-  /// Each pixel has its column plus a thousandth of its row from the south.
+  /// The value of a pixel is its column plus a thousandth of its row, counted from the south.
   static std::vector<double> valuesOf(const RasterWindow& window)
   {
     std::vector<double> values;
@@ -64,7 +64,7 @@ protected:
     return value;
   }
 
-  /// The first value of a field of a BigTIFF.
+  /// The first value of a BigTIFF's field with this tag.
   static std::uint64_t fieldOf(const std::string& bytes, std::uint16_t tag)
   {
     const auto directory = at<std::uint64_t>(bytes, 8);
@@ -87,7 +87,7 @@ protected:
   TemporaryFolder Folder;
 };
 
-TEST_F(GeoTiff, IsABigTiffAboveTheBytesOfAClassicOne)
+TEST_F(GeoTiff, IsABigTiffIfLargerThanAClassicTiffMayBe)
 {
   const std::string classic = this->write();
   EXPECT_EQ(42, at<std::uint16_t>(classic, 2));
@@ -97,13 +97,13 @@ TEST_F(GeoTiff, IsABigTiffAboveTheBytesOfAClassicOne)
   EXPECT_EQ(8, at<std::uint16_t>(big, 4));
   EXPECT_EQ(300U, fieldOf(big, 256) & 0xffffffffU);
   const std::uint64_t tile = fieldOf(big, 324);
-  // The north-western pixel, and the one to its east.
+  // The north-western pixel, and the pixel to the east of it.
   EXPECT_EQ(0.019F, at<float>(big, tile));
   EXPECT_EQ(1.019F, at<float>(big, tile + 4));
   EXPECT_EQ(classic.substr(16, 2 * 4 * 256 * 256), big.substr(16, 2 * 4 * 256 * 256));
 }
 
-TEST_F(GeoTiff, TilesMayBeEncodedBefore)
+TEST_F(GeoTiff, TilesMayBeEncodedInAdvance)
 {
   for (const char* const compression : { "none", "deflate" })
   {

@@ -25,7 +25,7 @@ using namespace tipp::test;
 
 using Values = std::vector<double>;
 
-/// A LAS file in memory, written after its specification.
+/// Makes a LAS file in memory, by the specification.
 class LasText
 {
 public:
@@ -58,7 +58,7 @@ public:
   std::size_t length() const
   {
     constexpr std::size_t lengths[] = { 20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67 };
-    return lengths[this->Format] + 3; // of which three are extra bytes
+    return lengths[this->Format] + 3; // each format has three extra bytes
   }
   bool isExtended() const { return this->Format >= 6; }
 
@@ -97,7 +97,7 @@ public:
     return std::string(this->Header.data(), this->Header.size()) + this->Between + this->Records;
   }
 
-  /// A variable length record before the points.
+  /// Adds a variable length record before the points.
   void addRecord(int id, const std::string& content)
   {
     std::string record(54, '\0');
@@ -110,7 +110,7 @@ public:
     this->header(100, ++this->RecordCount);
   }
 
-  /// Bytes before the points.
+  /// Adds bytes before the points.
   void addBytes(const std::string& bytes)
   {
     this->Between += bytes;
@@ -126,7 +126,7 @@ private:
   std::size_t Count = 0;
 };
 
-/// GeoTIFF's key directory of these keys with their values in place.
+/// A GeoTIFF key directory with these keys and values.
 std::string keysOf(const std::vector<std::pair<int, int>>& keys)
 {
   std::vector<std::uint16_t> numbers = { 1, 1, 0, std::uint16_t(keys.size()) };
@@ -165,15 +165,15 @@ protected:
     expectIOError(path, words, [&] { readPoints(path); });
   }
 
-  /// Points of classes 1, 2 and 12, and one with each flag.
+  /// Points of classes 1, 2 and 12, and a point with each flag.
   static LasText classes(int minor, int format)
   {
     LasText las(minor, format);
     las.add(1, 0, 10, 1);
     las.add(2, 0, 20, 2);
     las.add(3, 0, 30, 12);
-    las.add(4, 0, 40, 2, 1); // synthetic
-    las.add(5, 0, 50, 2, 4); // withheld
+    las.add(4, 0, 40, 2, 1); // flag 'synthetic'
+    las.add(5, 0, 50, 2, 4); // flag 'withheld'
     las.isExtended() ? las.add(6, 0, 60, 2, 8) : void();
     return las;
   }
@@ -191,7 +191,7 @@ protected:
   TemporaryFolder Folder;
 };
 
-TEST_F(Las, OfEveryVersionAndFormatIsRead)
+TEST_F(Las, EveryVersionAndFormatIsRead)
 {
   for (int minor = 0; minor <= 4; ++minor)
   {
@@ -220,7 +220,7 @@ TEST_F(Las, OfEveryVersionAndFormatIsRead)
   }
 }
 
-/// Version 1.0 has two bytes before the points, and as many before each record.
+/// Version 1.0 has a signature of two bytes before the points, and before each record.
 TEST_F(Las, PointsFollowTheSignatureOfTheFirstVersion)
 {
   LasText las(0, 1);
@@ -261,7 +261,7 @@ TEST_F(Las, ClassesAndReturnsAreSelected)
   EXPECT_EQ((Values{ 3 }), xs(this->read(las, selection)));
 }
 
-TEST_F(Las, FilesAreOneStreamThatStartsAnywhere)
+TEST_F(Las, SeveralFilesAreOneStream)
 {
   LasText las(4, 7);
   constexpr int count = 40000;
@@ -289,7 +289,7 @@ TEST_F(Las, FilesAreOneStreamThatStartsAnywhere)
   EXPECT_EQ(2 * count - 2 * 13333, int(at));
 }
 
-TEST_F(Las, TellsTheReferenceSystem)
+TEST_F(Las, ReferenceSystemIsRead)
 {
   LasText keys(2, 0);
   keys.addRecord(34735, keysOf({ { 1024, 1 }, { 3072, 26910 }, { 4096, 5703 } }));
@@ -357,7 +357,7 @@ TEST_F(Las, DamagedRecordsOfTheReferenceSystemAreIgnored)
 }
 
 #ifdef TIPP_HAVE_LASZIP
-/// Has LASzip write the points of a .las file to a .laz file.
+/// Compresses a .las file to a .laz file with LASzip.
 void compress(const std::string& from, const std::string& to)
 {
   laszip_POINTER reader = nullptr;
@@ -396,7 +396,7 @@ void expectSame(const PointTable& expected, const PointTable& points)
   }
 }
 
-TEST_F(Las, CompressedFilesHoldWhatUncompressedOnesDo)
+TEST_F(Las, CompressedFilesHaveTheSamePoints)
 {
   for (const int format : { 0, 1, 2, 3, 6, 7, 8 })
   {

@@ -81,7 +81,7 @@ TEST(MeshDataSet, ConnectivityAndColumnsAreNotCopied)
     table.Columns[1].Values.data(), data->GetPointData()->GetArray("depth")->GetVoidPointer(0));
 }
 
-TEST(MeshDataSet, RepresentativesAreAnArrayOfTheirOwn)
+TEST(MeshDataSet, RepresentativesAreASeparateArray)
 {
   const PointTable table = square();
   const std::vector<std::int64_t> representatives{ 0, 1, 2, 1 };

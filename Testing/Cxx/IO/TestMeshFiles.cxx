@@ -43,21 +43,21 @@ using EveryMeshFormat = MeshFiles;
 
 } // namespace
 
-TEST_P(EveryMeshFormat, TrianglesOf32BitIdsComeBack)
+TEST_P(EveryMeshFormat, TrianglesOf32BitIdsAreReadAsWritten)
 {
   const std::string path = this->Folder.path(GetParam());
   ASSERT_TRUE(tipp::writeMesh(path, this->Points, this->view32()));
   EXPECT_EQ(this->Triangles, readMesh(path).Triangles);
 }
 
-TEST_P(EveryMeshFormat, TrianglesOf64BitIdsComeBack)
+TEST_P(EveryMeshFormat, TrianglesOf64BitIdsAreReadAsWritten)
 {
   const std::string path = this->Folder.path(GetParam());
   ASSERT_TRUE(tipp::writeMesh(path, this->Points, this->view64()));
   EXPECT_EQ(this->Triangles, readMesh(path).Triangles);
 }
 
-TEST_P(EveryMeshFormat, NoTrianglesComeBackAsNone)
+TEST_P(EveryMeshFormat, AMeshWithoutTrianglesIsReadAsWritten)
 {
   const std::string path = this->Folder.path(GetParam());
   ASSERT_TRUE(tipp::writeMesh(path, this->Points, {}));
@@ -129,7 +129,7 @@ TEST_F(MeshFiles, RepresentativesAreAPointArray)
 
 TEST_F(MeshFiles, NeighborsAreACellArray)
 {
-  // A strip of two triangles and one that only touches them.
+  // Two triangles with a common edge, and a third that touches them only at a vertex.
   const Ids strip = { 0, 1, 2, 2, 1, 3, 3, 4, 5 };
   const std::vector<std::int32_t> strip32(strip.begin(), strip.end());
   this->Points.XY.resize(12);
@@ -161,7 +161,7 @@ TEST_F(MeshFiles, IdsOfAllIntegerTypesAreRead)
   EXPECT_EQ((Ids{ 0, 1, 2 }), read("<u8", bytesOf<std::uint64_t>({ 0, 1, 2 })));
 }
 
-TEST_F(MeshFiles, ManyTrianglesFitTogetherFromChunks)
+TEST_F(MeshFiles, ManyTrianglesAreReadInChunks)
 {
   std::vector<std::int32_t> ids;
   for (std::int32_t i = 0; i < 300000; ++i)
@@ -173,7 +173,7 @@ TEST_F(MeshFiles, ManyTrianglesFitTogetherFromChunks)
   EXPECT_EQ(Ids(ids.begin(), ids.end()), readMesh(path).Triangles);
 }
 
-TEST_F(MeshFiles, ArraysThatAreNoTrianglesAreReported)
+TEST_F(MeshFiles, ArraysOfOtherShapesAreReported)
 {
   const std::string floats =
     this->Folder.file("floats.npy", npyBytes(npyHeader("<f8", "(1, 3)"), std::string(24, '\0')));
@@ -183,7 +183,7 @@ TEST_F(MeshFiles, ArraysThatAreNoTrianglesAreReported)
   tipp::test::expectIOError(quads, "does not hold triangles", [&]() { readMesh(quads); });
 }
 
-TEST_F(MeshFiles, CellsThatAreNoTrianglesAreReported)
+TEST_F(MeshFiles, OtherCellsAreReported)
 {
   vtkNew<vtkPolyData> data;
   vtkNew<vtkPoints> points;

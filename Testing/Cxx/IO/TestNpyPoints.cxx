@@ -25,7 +25,7 @@ protected:
     return this->Folder.file("points.npy", npyBytes(header, data));
   }
 
-  // Reading the file fails with these words.
+  // Expects that reading the file fails with a message that contains `words`.
   void expectError(const std::string& path, const std::string& words) const
   {
     tipp::test::expectIOError(path, words, [&]() { readPoints(path); });
@@ -37,7 +37,7 @@ protected:
 
 } // namespace
 
-TEST_F(NpyPoints, WrittenPointsComeBackBitForBit)
+TEST_F(NpyPoints, PointsAreReadAsWrittenBitForBit)
 {
   const std::vector<double> xy{ 0.1, -1e300, std::numeric_limits<double>::denorm_min(), -0.0,
     std::numeric_limits<double>::infinity(), 1 / 3.0 };
@@ -53,7 +53,7 @@ TEST_F(NpyPoints, DataOfWrittenFilesStartAtAMultipleOf64)
   EXPECT_EQ(0U, (tipp::test::contentOf(path).size() - 16) % 64);
 }
 
-TEST_F(NpyPoints, NoPointsAreAPointSetToo)
+TEST_F(NpyPoints, AFileMayHaveNoPoints)
 {
   const std::string path = this->Folder.path("points.npy");
   tipp::writePoints(path, {});
@@ -77,7 +77,7 @@ TEST_F(NpyPoints, Float32IsWidened)
   EXPECT_EQ((std::vector<double>{ double(0.1F), 2, 3, 4 }), points.XY);
 }
 
-TEST_F(NpyPoints, ChunksOfALongFileFitTogether)
+TEST_F(NpyPoints, ALongFileIsReadInChunks)
 {
   std::vector<float> values;
   for (int i = 0; i < 300000; ++i)
@@ -102,7 +102,7 @@ TEST_F(NpyPoints, ColumnsCanBeChosen)
   EXPECT_EQ("y", points.Columns.at(0).Name);
 }
 
-TEST_F(NpyPoints, SwappedColumnsOfTwoAreSwapped)
+TEST_F(NpyPoints, TwoColumnsCanBeSwapped)
 {
   const std::string path = this->file(npyHeader("<f8", "(2, 2)"), this->TwoPoints);
   EXPECT_EQ((std::vector<double>{ 2, 1, 4, 3 }), readPoints(path, { "1", "0" }).XY);
@@ -199,7 +199,7 @@ TEST_F(NpyPoints, NegativeCountIsReported)
     this->file(npyHeader("<f8", "(-2, 2)"), this->TwoPoints), "does not describe a plain array");
 }
 
-TEST_F(NpyPoints, HugeCountsTakeNoMemory)
+TEST_F(NpyPoints, HugeCountsAllocateNoMemory)
 {
   this->expectError(
     this->file(npyHeader("<f8", "(1000000000000, 2)"), this->TwoPoints), "need 16000000000000");

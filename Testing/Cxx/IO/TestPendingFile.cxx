@@ -146,7 +146,7 @@ TEST_F(PendingFiles, FolderWithoutPermissionIsReported)
   tipp::test::expectIOError(path, "cannot be written to", [&]() { PendingFile{ path }; });
 }
 
-TEST_F(PendingFiles, FolderOrDeviceIsNoFile)
+TEST_F(PendingFiles, FolderOrDeviceIsRefused)
 {
   const std::string folder = this->Folder.path("");
   tipp::test::expectIOError(folder, "not an ordinary file", [&]() { PendingFile{ folder }; });
@@ -154,7 +154,7 @@ TEST_F(PendingFiles, FolderOrDeviceIsNoFile)
     "/dev/null", "not an ordinary file", []() { PendingFile{ "/dev/null" }; });
 }
 
-TEST_F(PendingFiles, RemovesWhatAKilledProcessHasLeft)
+TEST_F(PendingFiles, RemovesFilesOfAKilledProcess)
 {
   const std::string path = this->Folder.path("result");
   const std::string left = PendingFile(path).temporaryPath();
@@ -166,8 +166,8 @@ TEST_F(PendingFiles, RemovesWhatAKilledProcessHasLeft)
   EXPECT_FALSE(std::filesystem::exists(left));
 }
 
-/// Names that only look like those of temporary files.
-TEST_F(PendingFiles, LeavesFilesOfTheUser)
+/// Files whose names look like those of temporary files, but are not.
+TEST_F(PendingFiles, KeepsFilesOfTheUser)
 {
   for (const char* name : { ".result.123456789.tmp", ".result.old.tmp", ".result.12-0123abcd.tmp" })
   {
@@ -179,7 +179,7 @@ TEST_F(PendingFiles, LeavesFilesOfTheUser)
   }
 }
 
-TEST_F(PendingFiles, LeavesWhatALivingProcessWrites)
+TEST_F(PendingFiles, KeepsFilesOfALivingProcess)
 {
   const PendingFile pending(this->Folder.path("result"));
   {

@@ -44,7 +44,7 @@ TEST(PlainIds, CopiesOtherLayoutsAndTypes)
   EXPECT_EQ((std::vector<std::int64_t>{ 7, -8 }), valuesOf(tipp::PlainIds(shorts)));
 }
 
-TEST(PlainIds, NoArrayHasNoIds)
+TEST(PlainIds, ANullArrayHasNoIds)
 {
   EXPECT_EQ(0, tipp::PlainIds().count());
   EXPECT_EQ(nullptr, tipp::PlainIds(nullptr).data());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Streams of text: TextFilePoints behind openPointStream().
+// Text files as streams: openPointStream() makes TextFilePoints for them.
 #include "Points/PointStream.h"
 
 #include "ExpectIOError.h"
@@ -14,7 +14,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-/// All points of the stream, read in blocks of a given size.
+/// All points of the stream, read in blocks of at most `most` points.
 PointTable collect(PointStream& stream, std::size_t most)
 {
   PointTable table;
@@ -38,7 +38,7 @@ PointTable collect(PointStream& stream, std::size_t most)
   return table;
 }
 
-/// NaN is equal to itself here.
+/// The table as text, in which NaN is equal to NaN.
 std::string textOf(const PointTable& table)
 {
   std::ostringstream text;
@@ -66,7 +66,7 @@ const char* const survey = "station,y,depth,x,name,note,t\n"
                            "9,nan,6,1e300,west,three,\n"
                            "9,5,,6,,4,";
 
-TEST(PointStream, TextInBlocksIsTheTextAsAWhole)
+TEST(PointStream, TextInBlocksEqualsTheWholeText)
 {
   const TemporaryFolder folder;
   for (const char* text :
@@ -99,7 +99,7 @@ TEST(PointStream, FilesOfTextFollowEachOther)
   EXPECT_EQ("1 2 4 5 7 8 \nz: 3 6 9", textOf(collect(*stream, 2)));
 }
 
-TEST(PointStream, TextThatIsWrongAtItsEndIsRefusedAtOnce)
+TEST(PointStream, AnErrorAtTheEndOfTextIsReportedAtOnce)
 {
   const TemporaryFolder folder;
   std::string text = "x,y\n";
@@ -113,7 +113,7 @@ TEST(PointStream, TextThatIsWrongAtItsEndIsRefusedAtOnce)
   expectIOError(counted, "announces 4 points", [&] { openPointStream({ counted }); });
 }
 
-TEST(PointStream, TextThatChangesMeanwhileIsNoticed)
+TEST(PointStream, AChangeOfTheFileIsNoticed)
 {
   const TemporaryFolder folder;
   const std::string path = folder.file("points.csv", "1,2,3\n4,5,6\n");

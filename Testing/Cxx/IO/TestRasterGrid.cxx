@@ -28,14 +28,14 @@ TEST(RasterGrid, CoversTheBoundsWithBordersAtMultiples)
   EXPECT_EQ(40, grid.north());
 }
 
-TEST(RasterGrid, RoundingsMakeNoFurtherPixel)
+TEST(RasterGrid, RoundingAddsNoPixel)
 {
   const RasterGrid grid = gridFor(0.1, { 0.3, 0.7, 0, 0.1 });
   EXPECT_EQ(4, grid.Columns);
   EXPECT_EQ(1, grid.Rows);
 }
 
-TEST(RasterGrid, BeginsAtTheBoundsOnRequest)
+TEST(RasterGrid, StartsAtTheBoundsOnRequest)
 {
   const RasterGrid grid = gridFor(10, { -3, 27, 11, 40 }, false);
   EXPECT_EQ(-3, grid.West);
@@ -51,7 +51,7 @@ TEST(RasterGrid, OfASinglePointIsAPixel)
   EXPECT_EQ(1, grid.Rows);
 }
 
-TEST(RasterGrid, RefusesBoundsThatAreNoRangeAndTooManyPixels)
+TEST(RasterGrid, RefusesInvalidBoundsAndTooManyPixels)
 {
   EXPECT_THROW(gridFor(1, { 1, 0, 0, 1 }), std::runtime_error);
   EXPECT_THROW(gridFor(1e-9, { 0, 10, 0, 1 }), std::runtime_error);

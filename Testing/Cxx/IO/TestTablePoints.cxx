@@ -21,7 +21,8 @@ PointTable tableOf(std::size_t points)
   return table;
 }
 
-/// All points of the stream, read in blocks of `most`; checks that blocks follow each other.
+/// All points of the stream, read in blocks of `most` points. Checks that the numbers of points
+/// continue from block to block.
 PointTable readAll(PointStream& stream, std::size_t most, std::int64_t first)
 {
   PointTable read;
@@ -55,7 +56,7 @@ void expectRange(
 
 } // namespace
 
-TEST(TablePoints, ComeInBlocksAndAgainAfterRewind)
+TEST(TablePoints, AreReadInBlocksAndAgainAfterRewind)
 {
   const PointTable table = tableOf(100);
   const auto stream = streamTable(table);
@@ -67,7 +68,7 @@ TEST(TablePoints, ComeInBlocksAndAgainAfterRewind)
   }
 }
 
-TEST(TablePoints, ARangeOfThemKeepsTheirNumbers)
+TEST(TablePoints, ARangeKeepsThePointsNumbers)
 {
   const PointTable table = tableOf(100);
   const auto stream = streamTable(table);

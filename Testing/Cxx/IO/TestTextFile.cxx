@@ -31,7 +31,7 @@ Fields fieldsOf(std::string_view line, char delimiter)
   return fields;
 }
 
-TEST(TextFile, IsReadWhole)
+TEST(TextFile, IsReadCompletely)
 {
   const TemporaryFolder folder;
   std::string text;
@@ -43,7 +43,7 @@ TEST(TextFile, IsReadWhole)
   EXPECT_EQ("", readTextFile(folder.file("empty.txt", "")));
 }
 
-TEST(TextFile, WhatIsNoTextIsRefused)
+TEST(TextFile, BinaryFilesAreRefused)
 {
   const TemporaryFolder folder;
   const std::string path = folder.file("binary.txt", std::string("ab\0c", 4));
@@ -83,25 +83,25 @@ TEST(SplitFields, ADelimiterSeparatesEvenEmptyFields)
   EXPECT_EQ(Fields{ "" }, fieldsOf("", ','));
 }
 
-TEST(SplitFields, AnyRunOfBlanksIsOneSpace)
+TEST(SplitFields, ConsecutiveBlanksAreOneSeparator)
 {
   EXPECT_EQ((Fields{ "1", "2", "3" }), fieldsOf("  1 \t2   3 ", ' '));
   EXPECT_TRUE(fieldsOf(" \t ", ' ').empty());
 }
 
-TEST(SplitFields, QuotesHoldTheDelimiter)
+TEST(SplitFields, QuotedFieldsMayHoldTheDelimiter)
 {
   EXPECT_EQ((Fields{ "\"a,b\"", "c" }), fieldsOf("\"a,b\",c", ','));
   EXPECT_EQ(Fields{ "\"never closed,c" }, fieldsOf("\"never closed,c", ','));
 }
 
-TEST(TrimField, TakesBlanksAndOnePairOfQuotesAway)
+TEST(TrimField, RemovesBlanksAndOnePairOfQuotes)
 {
   EXPECT_EQ("a b", trimField(" \" a b \"\t"));
   EXPECT_EQ("\"", trimField("\""));
 }
 
-TEST(ParseNumber, TakesAWholeField)
+TEST(ParseNumber, ParsesAWholeField)
 {
   double value = 0;
   EXPECT_TRUE(parseNumber(" \"+1.5e3\" ", value));
@@ -114,7 +114,7 @@ TEST(ParseNumber, TakesAWholeField)
   }
 }
 
-TEST(ParseNumber, OutOfRangeIsTheNearest)
+TEST(ParseNumber, OutOfRangeGivesTheNearestDouble)
 {
   double value = 0;
   EXPECT_TRUE(parseNumber("1e999", value));
@@ -123,7 +123,7 @@ TEST(ParseNumber, OutOfRangeIsTheNearest)
   EXPECT_EQ(0, value);
 }
 
-TEST(ParseInteger, TakesAWholeFieldInRange)
+TEST(ParseInteger, ParsesAWholeFieldInRange)
 {
   std::int64_t value = 0;
   EXPECT_TRUE(parseInteger(" -9223372036854775808 ", value));

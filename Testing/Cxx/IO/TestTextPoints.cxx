@@ -95,7 +95,7 @@ TEST_F(TextPoints, UsualNamesAreFoundInAnyOrderAndCase)
   EXPECT_EQ((Values{ 1, 2 }), this->read("Northing;Easting\n2;1\n").XY);
 }
 
-TEST_F(TextPoints, UnusualNamesMeanTheFirstTwoColumns)
+TEST_F(TextPoints, UnusualNamesSelectTheFirstTwoColumns)
 {
   EXPECT_EQ((Values{ 1, 2 }), this->read("a,b,c\n1,2,3\n").XY);
 }
@@ -161,7 +161,7 @@ TEST_F(TextPoints, TitleCommentsEmptyLinesAndWindowsLineEndsAreNoPoints)
   EXPECT_EQ((Values{ 1, 2 }), this->read("\xef\xbb\xbfx,y\n1,2").XY);
 }
 
-TEST_F(TextPoints, NumbersBeyondDoublesAreNearest)
+TEST_F(TextPoints, NumbersOutOfRangeGiveTheNearestDouble)
 {
   const PointTable points = this->read("1e-400,1e400\n+1,-1e-300\n");
   EXPECT_EQ(0, points.XY[0]);
@@ -170,7 +170,7 @@ TEST_F(TextPoints, NumbersBeyondDoublesAreNearest)
   EXPECT_EQ(-1e-300, points.XY[3]);
 }
 
-TEST_F(TextPoints, NotANumberIsReadAsSuch)
+TEST_F(TextPoints, NaNIsRead)
 {
   EXPECT_TRUE(std::isnan(this->read("1,2\nnan,3\n").XY[2]));
 }

@@ -12,7 +12,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-TEST(TextRows, TellNumbersFromMissingOnesAndText)
+TEST(TextRows, DistinguishNumbersMissingValuesAndText)
 {
   const TemporaryFolder folder;
   TextRows rows(folder.file("points.csv", "name,y,x,h\nbuoy,2,1,3.5\n7,4,3,N/A\n"), {});
@@ -36,7 +36,7 @@ TEST(TextRows, TellNumbersFromMissingOnesAndText)
   EXPECT_FALSE(rows.next());
 }
 
-TEST(TextRows, OfOtherWidthAreNamedByTheirLine)
+TEST(TextRows, OfOtherWidthAreReportedWithTheirLine)
 {
   const TemporaryFolder folder;
   const std::string path = folder.file("points.csv", "# begin\n1,2\n\n3,4,5\n");

@@ -17,7 +17,7 @@ namespace test
 {
 
 ///@{
-/// Of a half-edge's triangle, counter-clockwise.
+/// The next and previous half-edge of h in its triangle, counter-clockwise.
 inline HalfEdgeMesh::Index nextOf(HalfEdgeMesh::Index h)
 {
   return h - h % 8 + (h % 8 + 1) % 3;
@@ -59,7 +59,7 @@ inline void insert(DelaunayKernel& kernel, const std::vector<Point2>& points)
   kernel.insert(points.data(), points.size());
 }
 
-/// The finite triangles by the places of their points.
+/// The finite triangles, as indices of the inserted points.
 inline Triangles finiteTriangles(const DelaunayKernel& kernel)
 {
   Triangles triangles;
@@ -75,7 +75,7 @@ inline Triangles finiteTriangles(const DelaunayKernel& kernel)
   return sorted(std::move(triangles));
 }
 
-/// Which of the points inserted stands for each, as the kernel tells.
+/// For each inserted point the index of its representative, as the kernel reports it.
 inline Ids representatives(const DelaunayKernel& kernel)
 {
   Ids ids;
@@ -90,8 +90,8 @@ inline Ids representatives(const DelaunayKernel& kernel)
   return ids;
 }
 
-/// Are the kernel's triangles those of CGAL, and every duplicate sent to a vertex at its place? For
-/// points inserted in one or more batches.
+/// Whether the kernel has CGAL's triangles, and every duplicate has a representative with its
+/// coordinates. `points` are all points inserted, in one or more batches.
 inline testing::AssertionResult isDelaunay(
   const DelaunayKernel& kernel, const std::vector<Point2>& points)
 {
@@ -101,7 +101,8 @@ inline testing::AssertionResult isDelaunay(
   {
     if (!(points[i] == points[std::size_t(standsFor[i])]))
     {
-      return testing::AssertionFailure() << "point " << i << " stands for one elsewhere";
+      return testing::AssertionFailure()
+        << "point " << i << " has a representative with other coordinates";
     }
     if (standsFor[i] == std::int64_t(i))
     {

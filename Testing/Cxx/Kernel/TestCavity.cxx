@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One insertion at a time, against every triangle's circumdisk.
+// Each insertion of a point is checked against the circumdisks of all triangles.
 #include "KernelTesting.h"
 
 #include "Kernel/Insertion.h"
@@ -14,7 +14,7 @@ using namespace tipp;
 using namespace tipp::test;
 using Index = HalfEdgeMesh::Index;
 
-/// A copy of a finished triangulation into which one more point goes, as the last vertex.
+/// A copy of a finished triangulation, into which one more point is inserted as the last vertex.
 class CavityTest : public testing::TestWithParam<const char*>
 {
 public:
@@ -40,7 +40,7 @@ public:
     }
   }
 
-  using Corners = std::array<Index, 3>; // turned so that the lowest vertex comes first
+  using Corners = std::array<Index, 3>; // rotated so that the lowest vertex is first
 
   Corners corners(Index t) const
   {
@@ -143,8 +143,8 @@ TEST_P(CavityTest, ReturnsAFiniteTriangleAtTheVertex)
 INSTANTIATE_TEST_SUITE_P(
   PointSets, CavityTest, testing::Values("uniform", "lattice-shuffled", "cocircular"));
 
-// All of a circle's triangles are in conflict with its centre: far more than a cavity has room for
-// at first.
+// All triangles of points on a circle conflict with the circle's centre. This is more than a cavity
+// has space for at first.
 TEST(Cavity, GrowsAsLargeAsNeeded)
 {
   constexpr std::size_t count = 500;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What holds for every triangulation that the kernel makes, over many kinds of point sets.
+// Properties of every triangulation by the kernel, checked for many kinds of point sets.
 #include "KernelTesting.h"
 
 #include <algorithm>
@@ -44,7 +44,7 @@ TEST_P(Kernel, ATwinsTwinIsTheHalfEdgeItself)
   }
 }
 
-TEST_P(Kernel, TwinsShareTheirVerticesTheOtherWayRound)
+TEST_P(Kernel, TwinsHaveTheSameVerticesInReverseOrder)
 {
   const HalfEdgeMesh& mesh = this->Made.mesh();
   for (Index t = 0; t < mesh.end(); t += 8)
@@ -58,8 +58,8 @@ TEST_P(Kernel, TwinsShareTheirVerticesTheOtherWayRound)
   }
 }
 
-/// Euler: a sphere of n vertices and the infinite one.
-TEST_P(Kernel, TheNumberOfTrianglesIsEulers)
+/// Euler's formula for a sphere whose vertices are the n points and the infinite one.
+TEST_P(Kernel, TheNumberOfTrianglesFollowsEuler)
 {
   EXPECT_EQ(2 * this->vertexCount() - 2, this->Made.mesh().end() / 8);
 }
@@ -78,7 +78,7 @@ TEST_P(Kernel, FiniteTrianglesAreCounterClockwise)
   }
 }
 
-/// Locally Delaunay everywhere is Delaunay.
+/// A triangulation is Delaunay if it is so at each edge.
 TEST_P(Kernel, NoNeighboursApexIsInATrianglesDisk)
 {
   const HalfEdgeMesh& mesh = this->Made.mesh();
@@ -94,7 +94,7 @@ TEST_P(Kernel, NoNeighboursApexIsInATrianglesDisk)
   }
 }
 
-/// Beyond a hull edge (u, w), seen from the infinite vertex, lies no vertex at all.
+/// A vertex beyond the hull edge (u, w) would be visible from the infinite vertex.
 TEST_P(Kernel, NoVertexLiesBeyondAHullEdge)
 {
   const HalfEdgeMesh& mesh = this->Made.mesh();
@@ -118,7 +118,7 @@ TEST_P(Kernel, TheTrianglesAreCgals)
   EXPECT_TRUE(isDelaunay(this->Made, this->Points));
 }
 
-TEST_P(Kernel, AClearedKernelMakesTheSameInTheSamePlaces)
+TEST_P(Kernel, AClearedKernelMakesTheSameTrianglesInTheSameOrder)
 {
   DelaunayKernel used;
   insert(used, pointSet("spiral", 3000));

@@ -10,7 +10,8 @@ using namespace tipp;
 using namespace tipp::test;
 using Index = HalfEdgeMesh::Index;
 
-/// Triangles near both ends of the range of names.
+/// Triangles at both ends of the index range. A triangle's index is that of its first half-edge, a
+/// multiple of 8.
 constexpr Index Named[] = { 0, 8, 16, 24, 1000 * 8, 0x7ffffff0, 0x7ffffff8 };
 
 TEST(HalfEdgeMesh, AHalfEdgeKnowsItsTriangle)
@@ -83,7 +84,7 @@ TEST(HalfEdgeMesh, ReservingMoreKeepsTheTriangles)
   }
 }
 
-TEST(HalfEdgeMesh, ReservingLessKeepsTheRoom)
+TEST(HalfEdgeMesh, ReservingLessKeepsTheCapacity)
 {
   HalfEdgeMesh mesh;
   mesh.reserve(100);

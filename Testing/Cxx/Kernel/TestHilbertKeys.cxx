@@ -13,7 +13,7 @@ using tipp::hilbertKey;
 
 constexpr std::uint32_t Side = 1U << 16;
 
-// The cells of a square whose side is a power of two, at the curve's start, by their keys.
+// The cells of the square at the curve's start, sorted by their keys. `side` is a power of two.
 std::vector<std::pair<int, int>> cellsByKey(std::uint32_t side)
 {
   std::vector<std::pair<int, int>> cells(std::size_t(side) * side, { -1, -1 });
@@ -27,7 +27,7 @@ std::vector<std::pair<int, int>> cellsByKey(std::uint32_t side)
   return cells;
 }
 
-TEST(HilbertKeys, NameEveryCellOfASquareOnce)
+TEST(HilbertKeys, AreUniqueForEachCellOfASquare)
 {
   for (const auto& cell : cellsByKey(256))
   {
@@ -35,7 +35,7 @@ TEST(HilbertKeys, NameEveryCellOfASquareOnce)
   }
 }
 
-TEST(HilbertKeys, SuccessiveOnesAreOfCellsSideBySide)
+TEST(HilbertKeys, SuccessiveKeysAreOfAdjacentCells)
 {
   const std::vector<std::pair<int, int>> cells = cellsByKey(256);
   for (std::size_t i = 1; i < cells.size(); ++i)

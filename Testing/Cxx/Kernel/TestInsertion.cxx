@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The processor's better instructions change the speed alone.
+// AVX2 instructions change only the speed of insertion, not the mesh.
 #include "KernelTesting.h"
 
 #include "Kernel/Insertion.h"
@@ -50,7 +50,7 @@ TEST(Insertion, CommonInstructionsGiveTheDelaunayTriangulation)
   EXPECT_TRUE(isDelaunay(kernel, points));
 }
 
-TEST(Insertion, DuplicatesAreToldWithEitherInstructions)
+TEST(Insertion, DuplicatesAreReportedWithEitherInstructions)
 {
   std::vector<Point2> points = pointSet("uniform", 500);
   const std::vector<Point2> copy = points;

@@ -42,7 +42,7 @@ testing::AssertionResult isPermutation(Order order, std::size_t count)
     : testing::AssertionFailure() << "not a permutation of " << count << " indices";
 }
 
-/// The way from each point of [begin, end) to the next.
+/// The length of the path through the points from index `begin` on, in this order.
 double wayLength(const std::vector<Point2>& points, const Order& order, std::size_t begin)
 {
   double sum = 0;
@@ -55,7 +55,7 @@ double wayLength(const std::vector<Point2>& points, const Order& order, std::siz
   return sum;
 }
 
-TEST(InsertionOrder, NamesEveryPointOnce)
+TEST(InsertionOrder, ContainsEveryPointOnce)
 {
   for (const std::size_t count : { 2, 3, 255, 256, 257, 5000, 8191, 8192 })
   {
@@ -81,14 +81,14 @@ TEST(InsertionOrder, InstructionsDoNotChangeIt)
   }
 }
 
-/// Which round a point belongs to depends on its position alone, and the last round is the largest.
+/// A point's round depends only on its position, and the last round is the largest.
 TEST(InsertionOrder, AnEarlierRoundHoldsAboutOnePointInEight)
 {
   const std::size_t count = 80000;
   const std::vector<Point2> points = pointSet("uniform", count);
   const Order order = orderOf(points);
-  // The last round is one walk along the curve, whose steps are short. A round's first step leads
-  // back from the curve's end to its start.
+  // Within a round, the steps along the curve are short. The first step of a round is long: it goes
+  // from the curve's end to its start. So the last long step shows where the last round begins.
   std::size_t lastBegin = 0;
   for (std::size_t i = 1; i < count; ++i)
   {
@@ -109,7 +109,7 @@ TEST(InsertionOrder, NeighboursInARoundAreNearInThePlane)
   EXPECT_LT(20 * wayLength(points, orderOf(points), 0), wayLength(points, random, 0));
 }
 
-/// Rounds that followed the input would not be random for sorted input.
+/// The first rounds must be a random sample, so they must not follow the order of sorted input.
 TEST(InsertionOrder, TheFirstPointsAreSpreadOverSortedInput)
 {
   const std::size_t count = 20000;
@@ -126,7 +126,7 @@ TEST(InsertionOrder, TheFirstPointsAreSpreadOverSortedInput)
   EXPECT_LT(low, count / 8 - count / 20);
 }
 
-/// Evenly spread points are told apart by the curve's coarse levels, these only by its finest.
+/// Coarse levels of the curve are enough for evenly spread points; these need the finest levels.
 TEST(InsertionOrder, NeighboursInATightClusterAreNearInThePlane)
 {
   const std::size_t count = 3000;
@@ -144,8 +144,8 @@ TEST(InsertionOrder, NeighboursInATightClusterAreNearInThePlane)
   EXPECT_LT(10 * wayLength(points, order, 0), unordered);
 }
 
-/// Clusters beside the origin, each a millionth of the one before: no fixed number of levels tells
-/// the points of the last ones apart.
+/// Clusters around the origin, each a millionth of the size of the one before. No fixed number of
+/// levels separates the points of the smallest clusters.
 TEST(InsertionOrder, NeighboursInEveryOfManyNestedClustersAreNear)
 {
   const std::size_t count = 3000;
@@ -177,12 +177,12 @@ TEST(InsertionOrder, NeighboursInEveryOfManyNestedClustersAreNear)
   }
 }
 
-TEST(InsertionOrder, PointsAtOnePlaceAllComeUp)
+TEST(InsertionOrder, ContainsAllCopiesOfAPoint)
 {
   EXPECT_TRUE(isPermutation(orderOf(std::vector<Point2>(1000, { 3, -4 })), 1000));
 }
 
-TEST(InsertionOrder, PointsOnAnAxisAllComeUp)
+TEST(InsertionOrder, ContainsAllPointsOnAnAxis)
 {
   std::vector<Point2> points;
   for (int i = 0; i < 1000; ++i)
@@ -192,7 +192,7 @@ TEST(InsertionOrder, PointsOnAnAxisAllComeUp)
   EXPECT_TRUE(isPermutation(orderOf(points), 1000));
 }
 
-TEST(InsertionOrder, AnExtentBeyondDoublesIsNoProblem)
+TEST(InsertionOrder, AcceptsAnExtentBeyondDoubles)
 {
   std::vector<Point2> points;
   for (int i = 0; i < 300; ++i)
@@ -202,7 +202,7 @@ TEST(InsertionOrder, AnExtentBeyondDoublesIsNoProblem)
   EXPECT_TRUE(isPermutation(orderOf(points), 300));
 }
 
-TEST(InsertionOrder, TheSmallestExtentIsNoProblem)
+TEST(InsertionOrder, AcceptsTheSmallestExtent)
 {
   std::vector<Point2> points;
   for (int i = 0; i < 300; ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points in several batches, and points in awkward places.
+// Insertion in several batches, and degenerate input.
 #include "KernelTesting.h"
 
 #include "Predicates/Circumdisk.h"
@@ -58,8 +58,8 @@ Points triangle()
   return { { 0, 0 }, { 4, 0 }, { 0, 4 } };
 }
 
-/// The names of triangles with vertices among the first `vertices` alone, in the kernel's order,
-/// whose circumdisk keeps to the unit box's middle.
+/// Index and vertices of each triangle whose vertices are among the first `vertices` and whose
+/// circumdisk lies in the middle of the unit square, in the kernel's order.
 std::vector<Index> placesInTheMiddle(const DelaunayKernel& kernel, Index vertices)
 {
   const Box2 middle{ 0.2, 0.2, 0.8, 0.8 };
@@ -77,7 +77,7 @@ std::vector<Index> placesInTheMiddle(const DelaunayKernel& kernel, Index vertice
   return places;
 }
 
-TEST(KernelBatches, SeveralBatchesMakeWhatOneMakes)
+TEST(KernelBatches, SeveralBatchesGiveTheTrianglesOfOne)
 {
   const Points points = pointSet("uniform", 900);
   EXPECT_TRUE(batchesAreDelaunay(
@@ -85,8 +85,9 @@ TEST(KernelBatches, SeveralBatchesMakeWhatOneMakes)
       {}, Points(points.begin() + 400, points.end()) }));
 }
 
-/// A worker's interior triangles: their order must not depend on what else belongs.
-TEST(KernelBatches, LaterBatchesLeaveOtherTrianglesInTheirPlaces)
+/// A worker inserts its own points first, and then vertices of others. The order of its interior
+/// triangles must not depend on the latter.
+TEST(KernelBatches, LaterBatchesKeepTheOrderOfOtherTriangles)
 {
   const Points own = pointSet("uniform", 2000);
   DelaunayKernel alone;
@@ -103,7 +104,7 @@ TEST(KernelBatches, LaterBatchesLeaveOtherTrianglesInTheirPlaces)
   }
 }
 
-TEST(KernelBatches, PlacesCountOverAllBatches)
+TEST(KernelBatches, PointIndicesContinueOverAllBatches)
 {
   DelaunayKernel kernel;
   insert(kernel, triangle());
@@ -202,7 +203,7 @@ TEST(KernelBatches, APointFarOutsideSeesHalfOfALargeCircle)
   }
 }
 
-/// The cavity holds finite and infinite triangles.
+/// The cavity includes finite and infinite triangles.
 TEST(KernelBatches, APointJustOutsideAnEmptyArcTakesFiniteTrianglesToo)
 {
   Points arc;
@@ -242,7 +243,7 @@ TEST(KernelBatches, APointOnAnInnerEdgeSplitsBothTriangles)
   EXPECT_TRUE(batchesAreDelaunay({ { { 0, 0 }, { 4, 1 }, { 4, 4 }, { 0, 3 } }, { { 2, 2 } } }));
 }
 
-/// Every tie at once: each insertion has cocircular and collinear vertices around it.
+/// Every insertion has co-circular and collinear vertices around it.
 TEST(KernelBatches, ALatticeInAnyOrderIsTheSame)
 {
   for (std::uint64_t seed = 1; seed <= 10; ++seed)
@@ -253,7 +254,7 @@ TEST(KernelBatches, ALatticeInAnyOrderIsTheSame)
   }
 }
 
-/// Arithmetic that is exact for the lattice alone is not for what follows.
+/// Arithmetic that is exact for a lattice is not exact for the points that follow.
 TEST(KernelBatches, PointsJustOffALatticeAreSeparatedFromIt)
 {
   const Points lattice = pointSet("lattice-shuffled", 100);
@@ -277,7 +278,7 @@ TEST(KernelBatches, PointsAFractionOfAnUlpOffALineAreTriangulated)
   EXPECT_TRUE(batchesAreDelaunay({ points }));
 }
 
-TEST(KernelBatches, DuplicatesAreFoundWhereDifferencesOverflow)
+TEST(KernelBatches, DuplicatesAreFoundIfDifferencesOverflow)
 {
   const double most = 1.7e308;
   const Points corners{ { -most, -most }, { most, -most }, { most, most }, { -most, most } };
@@ -288,7 +289,7 @@ TEST(KernelBatches, DuplicatesAreFoundWhereDifferencesOverflow)
   EXPECT_EQ(6, kernel.mesh().end() / 8);
 }
 
-TEST(KernelBatches, ReservedRoomIsEnoughForAllBatches)
+TEST(KernelBatches, ReservedMemoryIsEnoughForAllBatches)
 {
   DelaunayKernel kernel;
   kernel.reserve(1000);

@@ -9,7 +9,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-TEST(KernelPool, TheNextKernelGetsTheMemory)
+TEST(KernelPool, TheNextKernelReusesTheMemory)
 {
   const std::vector<Point2> points = pointSet("uniform", 5000);
   std::size_t used = 0;
@@ -40,7 +40,7 @@ TEST(KernelPool, AKernelUsedBeforeGivesTheSameTriangles)
   EXPECT_TRUE(isDelaunay(*pooled, points));
 }
 
-TEST(KernelPool, KernelsInUseTogetherAreDifferentOnes)
+TEST(KernelPool, KernelsInUseAtTheSameTimeAreDifferent)
 {
   PooledKernel a;
   PooledKernel b;

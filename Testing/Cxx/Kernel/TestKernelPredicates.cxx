@@ -22,8 +22,8 @@ std::vector<Point2> withInfinite(const std::vector<Point2>& points)
   return all;
 }
 
-/// Vertices 1 and 2 are (0, 0) and (4, 0); the hull lies above, so that the infinite triangle's
-/// edge leads from 2 to 1.
+/// The infinite triangle at the hull edge from vertex 2 = (4, 0) to vertex 1 = (0, 0). The hull is
+/// above the edge.
 class InfiniteTriangle : public testing::Test
 {
 public:
@@ -31,7 +31,7 @@ public:
   {
     bool first = true;
     bool result = false;
-    // The infinite vertex may have any slot.
+    // The result must not depend on which corner is the infinite vertex.
     for (const auto& corners : std::vector<std::array<Index, 3>>{
            { InfiniteVertex, 2, 1 }, { 1, InfiniteVertex, 2 }, { 2, 1, InfiniteVertex } })
     {
@@ -84,7 +84,8 @@ TEST(KernelPredicates, AFiniteTrianglesDiskIsExactWithTiesBroken)
   KernelPredicates predicates(points.data(), points.size());
   const Index lower[] = { 1, 2, 3 };
   const Index other[] = { 2, 3, 4 };
-  // Four corners of a square: one diagonal or the other.
+  // Two triangles of a square: their circles pass through all four corners, so the tie rule
+  // decides.
   EXPECT_EQ(inCirclePerturbed(points[1], points[2], points[3], points[4]),
     predicates.isInConflict(lower, points[4]));
   EXPECT_EQ(inCirclePerturbed(points[2], points[3], points[4], points[1]),
@@ -92,7 +93,7 @@ TEST(KernelPredicates, AFiniteTrianglesDiskIsExactWithTiesBroken)
   EXPECT_FALSE(predicates.isInConflict(lower, points[1]));
 }
 
-/// The first answers come from another arithmetic than later ones.
+/// After some calls, the predicates look for faster arithmetic that is exact for these points.
 TEST(KernelPredicates, TheThousandthTurnIsAsExactAsTheFirst)
 {
   std::mt19937_64 random(3);
@@ -112,7 +113,7 @@ TEST(KernelPredicates, TheThousandthTurnIsAsExactAsTheFirst)
   }
 }
 
-/// Points that the earlier ones' common grid does not hold.
+/// The new points are no multiples of the unit that the first points have.
 TEST(KernelPredicates, PointsAddedLaterAreSeenAfterARestart)
 {
   std::vector<Point2> points = withInfinite({ { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } });

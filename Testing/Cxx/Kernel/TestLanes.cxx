@@ -20,7 +20,7 @@ TEST(Lanes, MagnitudeDropsTheSignOfEachLane)
   EXPECT_EQ(HUGE_VAL, b[1]);
 }
 
-TEST(Lanes, TheBitsTellWhichLanesHold)
+TEST(Lanes, TheBitsShowWhichComparisonsHold)
 {
   const Pair zero{ 0, 0 };
   EXPECT_EQ(0U, bitsOf(Pair{ -1, -1 } > zero));
@@ -29,7 +29,7 @@ TEST(Lanes, TheBitsTellWhichLanesHold)
   EXPECT_EQ(3U, bitsOf(Pair{ 1, 1 } > zero));
 }
 
-/// The filters stand on it: what overflowed is undecided.
+/// The filters rely on this: after an overflow, no comparison decides.
 TEST(Lanes, AComparisonWithNaNFails)
 {
   const Pair nan{ std::nan(""), std::nan("") };

@@ -12,7 +12,7 @@ using namespace tipp;
 using namespace tipp::test;
 using Index = HalfEdgeMesh::Index;
 
-/// A finished triangulation to walk in.
+/// A finished triangulation, in which points are located.
 class PointLocationTest : public testing::TestWithParam<std::string>
 {
 public:
@@ -32,7 +32,7 @@ public:
     }
   }
 
-  /// The predicates know the point, as they do for one that is being inserted.
+  /// Locates p. The predicates include p among their points, as during an insertion.
   Location find(Index start, Point2 p)
   {
     std::vector<Point2> points = this->Points;
@@ -82,7 +82,7 @@ TEST_P(PointLocationTest, ATriangleInConflictIsFoundFromAnywhere)
   }
 }
 
-TEST_P(PointLocationTest, AVertexIsFoundWhereThePointIs)
+TEST_P(PointLocationTest, AVertexAtThePointIsFound)
 {
   for (std::size_t v = 1; v < this->Points.size(); v += 23)
   {
@@ -107,7 +107,7 @@ TEST_P(PointLocationTest, AMidpointOfAnEdgeIsInConflictWithTheTriangleFound)
     }
     else
     {
-      EXPECT_EQ(p, this->Points[std::size_t(at.EqualTo)]); // a lattice of even spacing
+      EXPECT_EQ(p, this->Points[std::size_t(at.EqualTo)]); // a midpoint in a lattice
     }
   }
 }
@@ -123,7 +123,7 @@ TEST_P(PointLocationTest, APointOutsideIsInConflictWithTheTriangleFound)
   }
 }
 
-TEST_P(PointLocationTest, TheTriangleItCameFromIsNotInConflict)
+TEST_P(PointLocationTest, TheLastVisitedTriangleIsNotInConflict)
 {
   std::size_t walked = 0;
   for (const Index target : this->Starts)
@@ -142,7 +142,7 @@ TEST_P(PointLocationTest, TheTriangleItCameFromIsNotInConflict)
   EXPECT_LT(0U, walked);
 }
 
-TEST_P(PointLocationTest, CornersEdgesAndNeighboursGoTogether)
+TEST_P(PointLocationTest, CornersEdgesAndNeighboursMatch)
 {
   const Point2 p = this->middle(this->Starts[1]);
   const HalfEdgeMesh& mesh = this->Made.mesh();
@@ -159,7 +159,7 @@ TEST_P(PointLocationTest, CornersEdgesAndNeighboursGoTogether)
     EXPECT_EQ(e.StartY[1], e.StopY[0]);
     for (std::size_t i = 0; i < 3; ++i)
     {
-      // Behind edge i, from corner i to the next, lies the triangle with that edge reversed.
+      // The edge from corner i to the next one, reversed, belongs to the neighbour behind it.
       const std::size_t next = (i + 1) % 3;
       ASSERT_EQ(HalfEdgeMesh::triangleOf(mesh.twin(outers[i])), at.Triangle);
       ASSERT_EQ(mesh.vertex(previousOf(outers[i])), corners[i]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sweep makes the triangles of CGAL and of the kernel, and keeps no more than its front.
+// The sweep makes the triangles of CGAL and of the kernel, and keeps only its front in memory.
 #include "KernelTesting.h"
 
 #include "SweepKernel.h"
@@ -16,7 +16,7 @@ using namespace tipp::test;
 
 struct Swept
 {
-  Triangles Made; ///< as often as they came
+  Triangles Made; ///< a triangle that was reported twice is here twice
   std::vector<SweepKernel::Duplicate> Duplicates;
   std::size_t Strips = 0;
   std::size_t Carried = 0;
@@ -41,7 +41,7 @@ Swept sweep(const std::vector<Point2>& points, std::size_t pointsInStrip)
   return swept;
 }
 
-/// The first point of each place.
+/// For each distinct position, the first point there.
 Ids firstOfPlaces(const std::vector<Point2>& points)
 {
   std::map<std::pair<double, double>, std::int64_t> first;
@@ -93,14 +93,14 @@ TEST(SweepKernel, MakesTheKernelsTriangles)
   EXPECT_TRUE(sameTriangles(asCoordinates(points), swept.Made, finiteTriangles(kernel)));
 }
 
-TEST(SweepKernel, KeepsAFrontOfAFewPointsForEachOnTheLine)
+TEST(SweepKernel, TheFrontGrowsWithTheSquareRootOfThePoints)
 {
   constexpr std::size_t count = 40000;
   const Swept swept = sweep(pointSet("uniform", count), 2000);
   EXPECT_LT(double(swept.Carried), 4 * std::sqrt(double(count)) * double(swept.Strips));
 }
 
-TEST(SweepKernel, NamesTheFirstPointOfAPlaceForItsDuplicates)
+TEST(SweepKernel, ReportsTheFirstOfEqualPointsAsRepresentative)
 {
   const std::vector<Point2> points = pointSet("duplicates", 3000);
   const Ids first = firstOfPlaces(points);
@@ -131,7 +131,7 @@ TEST(SweepKernel, WaitsForAPointOffTheLine)
   EXPECT_TRUE(sweep({ { 1, 2 } }, 10).Made.empty());
 }
 
-TEST(SweepStrips, HaveTheirPointsFromLeftToRight)
+TEST(SweepStrips, OrderPointsFromLeftToRight)
 {
   const std::vector<Point2> points = pointSet("clustered", 5000);
   const SweepStrips strips(points.data(), points.size(), 300);
@@ -154,11 +154,11 @@ TEST(SweepStrips, HaveTheirPointsFromLeftToRight)
   }
 }
 
-TEST(SweepStrips, PutPointsOfOneXIntoOneStrip)
+TEST(SweepStrips, PointsWithEqualXAreInOneStrip)
 {
   const std::vector<Point2> points = pointSet("lattice", 900);
   const SweepStrips strips(points.data(), points.size(), 10);
-  EXPECT_EQ(31U, strips.size()); // the first is empty: nothing is to the left of the least x
+  EXPECT_EQ(31U, strips.size()); // the first one is empty: it ends at the least x
 }
 
 } // namespace

@@ -13,7 +13,7 @@ namespace
 
 using tipp::BlockCache;
 
-/// The cache as a plain list, the most recently used block last.
+/// The cache as a plain list, with the most recently used block last.
 class Model
 {
 public:
@@ -68,7 +68,7 @@ TEST(BlockCache, AgreesWithAListOnRandomUse)
       std::map<std::uint64_t, std::uint32_t> held;
       for (int i = 0; i < 5000; ++i)
       {
-        // Blocks whose hash positions in the table collide, too.
+        // Half of the blocks have ids that collide in the hash table.
         const std::uint64_t block = random() % blocks << (i % 2 ? 0 : 40);
         const BlockCache::Found found = cache.use(block);
         ASSERT_EQ(model.isMiss(block), found.Miss) << i;

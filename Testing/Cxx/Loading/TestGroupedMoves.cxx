@@ -17,8 +17,8 @@ namespace
 
 using Groups = std::vector<std::size_t>;
 
-/// Tuples that tell their id, in one array of four bytes and one of three: a group is `inGroup` of
-/// them that follow each other, and what the buffers hold.
+/// Two arrays whose tuples hold their own id: one of 4 and one of 3 bytes per tuple. A group is a
+/// range of `inGroup` tuples, and the buffers hold one group at a time.
 class GroupSource
 {
 public:
@@ -48,8 +48,8 @@ public:
   tipp::TupleBuffers Buffers;
 };
 
-/// Moves the ids' tuples, group by group in the order that `arrange` makes of the wanted ones, and
-/// compares each with its id.
+/// Gathers the tuples of these ids, in the order of groups that `arrange` makes, and compares each
+/// tuple with its id.
 template <typename Arrange>
 void expectMoved(GroupSource& source, const std::vector<std::uint32_t>& ids, std::size_t groups,
   int threads, const Arrange& arrange)
@@ -87,7 +87,7 @@ std::vector<std::uint32_t> randomIds(std::size_t count, std::size_t below)
 
 } // namespace
 
-TEST(GroupedMoves, BringTuplesToEveryPlaceThatWantsThem)
+TEST(GroupedMoves, CopyTuplesToEveryPositionThatNeedsThem)
 {
   GroupSource source(5, 300);
   for (const std::size_t count : { 1, 8191, 8192, 8193, 50000 })
@@ -96,14 +96,14 @@ TEST(GroupedMoves, BringTuplesToEveryPlaceThatWantsThem)
   }
 }
 
-TEST(GroupedMoves, TakeGroupsInAnyOrder)
+TEST(GroupedMoves, AcceptGroupsInAnyOrder)
 {
   GroupSource source(9, 100);
   expectMoved(source, randomIds(30000, 9 * 100), 9, 2,
     [](Groups& groups) { std::reverse(groups.begin(), groups.end()); });
 }
 
-TEST(GroupedMoves, LeaveIdsThatAreInOneGroupWhereTheyAre)
+TEST(GroupedMoves, KeepTheOrderOfIdsInOneGroup)
 {
   GroupSource source(4, 10000);
   std::vector<std::uint32_t> ids(40000);
@@ -111,13 +111,13 @@ TEST(GroupedMoves, LeaveIdsThatAreInOneGroupWhereTheyAre)
   expectMoved(source, ids, 4, 2, leave);
 }
 
-TEST(GroupedMoves, SortIntoMoreGroupsThanABlockOfShortPlacesHolds)
+TEST(GroupedMoves, SortIntoMoreGroupsThanABlockOfShortPositionsHolds)
 {
   GroupSource source(6000, 2);
   expectMoved(source, randomIds(200000, 6000 * 2), 6000, 3, leave);
 }
 
-TEST(GroupedMoves, TellWhichGroupsAreWanted)
+TEST(GroupedMoves, ListTheGroupsThatAreNeeded)
 {
   tipp::GroupedMoves moves;
   const std::vector<std::size_t> groupOf{ 7, 2, 7, 4 };

@@ -15,7 +15,7 @@ using Ids = std::vector<std::int64_t>;
 using Places = std::vector<std::uint32_t>;
 using FirstsAndSizes = std::vector<std::pair<std::int64_t, std::int64_t>>;
 
-/// Blocks of 4 of 30 tuples, the third and the fourth held, and room for 20 tuples.
+/// 30 tuples in blocks of 4, with space for 20 tuples. The third and fourth block are in memory.
 HeldBlocks someHeld()
 {
   HeldBlocks places(2, 30);
@@ -25,14 +25,14 @@ HeldBlocks someHeld()
   return places;
 }
 
-/// As find() gives them; none if it refuses.
+/// The positions that find() returns, or an empty list if it returns false.
 Places found(HeldBlocks& places, const Ids& ids)
 {
   Places found(ids.size());
   return places.find(ids.data(), ids.size(), found.data()) ? found : Places();
 }
 
-/// What is to be read: first tuples and sizes.
+/// The runs of tuples that have to be read: first tuple and size.
 FirstsAndSizes toRead(const HeldBlocks& places)
 {
   FirstsAndSizes runs;
@@ -53,7 +53,7 @@ TEST(HeldBlocks, FindTuplesOfHeldBlocks)
   EXPECT_EQ(5U, places.finder()(13));
 }
 
-TEST(HeldBlocks, GiveOtherBlocksPlacesBehindThoseHeld)
+TEST(HeldBlocks, PutNewBlocksBehindHeldOnes)
 {
   HeldBlocks places = someHeld();
   EXPECT_EQ(Places({ 9, 8, 13, 4, 3, 2, 1, 0 }), found(places, { 17, 16, 21, 12, 11, 10, 9, 8 }));
@@ -70,12 +70,12 @@ TEST(HeldBlocks, ReadTheLastBlockUpToTheLastTuple)
   EXPECT_EQ((FirstsAndSizes{ { 28, 2 }, { 4, 4 } }), toRead(places));
 }
 
-TEST(HeldBlocks, RefuseWhatTheyHaveNoRoomFor)
+TEST(HeldBlocks, RefuseBlocksThatDoNotFit)
 {
   HeldBlocks places = someHeld();
   EXPECT_TRUE(found(places, Ids{ 0, 4, 16, 20, 24, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }).empty());
   EXPECT_TRUE(places.found().empty());
-  EXPECT_EQ(Places({ 8, 9, 10, 11 }), found(places, { 20, 21, 22, 23 })); // as if nothing had been
+  EXPECT_EQ(Places({ 8, 9, 10, 11 }), found(places, { 20, 21, 22, 23 })); // nothing has changed
 }
 
 TEST(HeldBlocks, RefuseToReadMoreTuplesThanThereAreIds)
@@ -85,7 +85,7 @@ TEST(HeldBlocks, RefuseToReadMoreTuplesThanThereAreIds)
   EXPECT_FALSE(found(places, { 0, 1, 2, 3 }).empty());
 }
 
-TEST(HeldBlocks, RefuseIdsThatAreNoTuples)
+TEST(HeldBlocks, RefuseInvalidIds)
 {
   for (const std::int64_t id : { std::int64_t(-1), std::int64_t(30), INT64_MIN, INT64_MAX })
   {
@@ -100,10 +100,10 @@ TEST(HeldBlocks, LoseBlocksWhoseReadFailed)
   EXPECT_FALSE(found(places, { 0, 1, 2, 3 }).empty());
   places.loseFound();
   EXPECT_EQ(8, places.used());
-  EXPECT_TRUE(found(places, { 0 }).empty()); // one id is not worth a block
+  EXPECT_TRUE(found(places, { 0 }).empty()); // a block is not read for a single id
 }
 
-TEST(HeldBlocks, TellWhichActiveBlocksAreNotHeld)
+TEST(HeldBlocks, ListActiveBlocksThatAreNotHeld)
 {
   HeldBlocks places = someHeld();
   EXPECT_EQ(std::vector<char>({ 1, 0, 0, 0 }), places.missing({ 1, 0, 1, 0 }, 0));

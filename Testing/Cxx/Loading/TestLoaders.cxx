@@ -24,7 +24,7 @@ using Ids = std::vector<std::int64_t>;
 
 constexpr std::int64_t tuples = 5000;
 
-/// Three arrays in two files, each tuple telling its own id.
+/// Three arrays in two files, whose tuples hold their own id.
 class Source
 {
 public:
@@ -65,7 +65,7 @@ const Source& source()
   return made;
 }
 
-/// Loads ids in chunks and compares each tuple with what its id demands.
+/// Loads ids in chunks and compares each tuple with its id.
 void expectRight(tipp::VertexLoader& loader, const Ids& ids, std::size_t chunk)
 {
   for (std::size_t first = 0; first < ids.size(); first += chunk)
@@ -88,7 +88,7 @@ void expectRight(tipp::VertexLoader& loader, const Ids& ids, std::size_t chunk)
   }
 }
 
-/// Ids of many patterns: random, ascending, the same, both ends, clusters far apart.
+/// Lists of ids: random, ascending, all equal, from both ends, in clusters that are far apart.
 std::vector<Ids> patterns()
 {
   std::mt19937_64 random(11);
@@ -125,7 +125,7 @@ std::vector<Case> cases()
   for (const Loader kind :
     { Loader::Direct, Loader::Fine, Loader::Lru, Loader::Mmap, Loader::Auto })
   {
-    // 1 vertex a segment, sizes around a power of two, half, all but one, all, more than all.
+    // M of 1, around a power of two, half of the tuples, one less than all, all, and more than all.
     for (const std::int64_t m : { 1, 2, 7, 100, 1023, 1024, 1025, 2500, 4999, 5000, 100000, 0 })
     {
       all.push_back({ kind, m });
@@ -134,7 +134,7 @@ std::vector<Case> cases()
   return all;
 }
 
-/// Tuples of one array, each its own id, in a file that can be cut off.
+/// An array whose tuples are their own ids, in a file that can be truncated.
 class OwnIds
 {
 public:
@@ -184,7 +184,7 @@ Ids from(std::int64_t first, std::size_t count)
 
 } // namespace
 
-TEST_P(Loaders, GiveEveryTupleForAnyChunk)
+TEST_P(Loaders, LoadEveryTupleForAnyChunk)
 {
   for (const Ids& ids : patterns())
   {
@@ -201,7 +201,7 @@ TEST_P(Loaders, GiveEveryTupleForAnyChunk)
   }
 }
 
-TEST_P(Loaders, RefuseIdsThatAreNoTuples)
+TEST_P(Loaders, RefuseInvalidIds)
 {
   LoaderOptions options;
   options.Kind = GetParam().Kind;
@@ -231,7 +231,7 @@ TEST_P(Loaders, DoNothingForNoIds)
 INSTANTIATE_TEST_SUITE_P(Each, Loaders, testing::ValuesIn(cases()),
   [](const auto& info) { return testing::PrintToString(info.param); });
 
-TEST(Loader, GivesTheSameWithAnyNumberOfThreads)
+TEST(Loader, LoadsTheSameWithAnyNumberOfThreads)
 {
   std::mt19937_64 random(2);
   Ids ids(400000);
@@ -257,7 +257,8 @@ TEST(DirectLoader, ReadsEachActiveSegmentOnce)
   const auto loader = makeVertexLoader({ source().Arrays[0] }, options);
   std::vector<double> xyz(3 * 4);
   void* const out[] = { xyz.data() };
-  // From 100 on: segments 0, 3 and 4 of five; the last ends with the range.
+  // From tuple 100 on, the ids are in segments 0, 3 and 4 of five. The last segment ends with the
+  // range.
   const Ids ids{ 100, 4500, 3200, 150 };
   loader->load(ids.data(), ids.size(), out);
   EXPECT_EQ(3, loader->counters().Reads);
@@ -266,7 +267,7 @@ TEST(DirectLoader, ReadsEachActiveSegmentOnce)
   EXPECT_EQ(4 * 24, loader->counters().UsefulBytes);
 }
 
-TEST(DirectLoader, ReadsTheRangeAloneWhereItFits)
+TEST(DirectLoader, ReadsOnlyTheRangeIfItFits)
 {
   LoaderOptions options;
   options.Kind = Loader::Direct;
@@ -280,7 +281,7 @@ TEST(DirectLoader, ReadsTheRangeAloneWhereItFits)
   EXPECT_EQ(1000 * 24, loader->counters().Bytes);
 }
 
-TEST(FineLoader, ReadsLittleBesideWhatIsAsked)
+TEST(FineLoader, ReadsLittleMoreThanRequested)
 {
   LoaderOptions options;
   options.Kind = Loader::Fine;
@@ -295,7 +296,7 @@ TEST(FineLoader, ReadsLittleBesideWhatIsAsked)
   EXPECT_EQ(2 * 24, loader->counters().Bytes);
 }
 
-TEST(FineLoader, ReadsNothingTwiceForLongWhereAllFits)
+TEST(FineLoader, SoonReadsNothingTwiceIfAllFits)
 {
   LoaderOptions options;
   options.Kind = Loader::Fine;
@@ -313,11 +314,11 @@ TEST(FineLoader, ReadsNothingTwiceForLongWhereAllFits)
   EXPECT_GT(loader->counters().UsefulBytes, 100 * whole / 2);
 }
 
-TEST(FineLoader, ReadsBlocksThatTheLastChunksHadOnlyOnce)
+TEST(FineLoader, ReadsTheBlocksOfConsecutiveChunksOnce)
 {
   LoaderOptions options;
   options.Kind = Loader::Fine;
-  options.M = 4000; // not all, but more than the two chunks want
+  options.M = 4000; // fewer than all tuples, but more than both chunks need
   const auto loader = makeVertexLoader(source().Arrays, options);
   Ids ids(1500);
   std::iota(ids.begin(), ids.end(), 0);
@@ -330,7 +331,7 @@ TEST(FineLoader, ReadsBlocksThatTheLastChunksHadOnlyOnce)
   EXPECT_EQ(once + 1024 * (24 + 1 + 10), loader->counters().Bytes);
 }
 
-TEST(FineLoader, IsRightWhereFewIdsFollowBlocksAndGroups)
+TEST(FineLoader, IsCorrectForFewIdsAfterBlocksAndGroups)
 {
   LoaderOptions options;
   options.Kind = Loader::Fine;
@@ -353,7 +354,7 @@ TEST(FineLoader, FewIdsInSeveralPassesAreAllFound)
   options.M = 2;
   const auto loader = makeVertexLoader(source().Arrays, options);
   expectRight(*loader, { 4999, 3, 4999, 2500, 3, 1200, 0, 3 }, 8);
-  EXPECT_EQ(4, loader->counters().Passes); // 0 to 3 are read together, two at a time
+  EXPECT_EQ(4, loader->counters().Passes); // ids 0 and 3 are read together
 }
 
 TEST(FineLoader, KeepsFewFarIdsForTheNextChunks)
@@ -375,7 +376,7 @@ TEST(FineLoader, KeepsFewFarIdsForTheNextChunks)
   EXPECT_EQ(10, xyz[6]);
 }
 
-TEST(FineLoader, IsRightAgainAfterAReadThatFailed)
+TEST(FineLoader, IsCorrectAfterAFailedRead)
 {
   const OwnIds source(1000);
   const auto loader = source.fineLoader(64);
@@ -386,7 +387,7 @@ TEST(FineLoader, IsRightAgainAfterAReadThatFailed)
   EXPECT_EQ(ids, OwnIds::loaded(*loader, ids));
 }
 
-TEST(FineLoader, IsRightAgainAfterAReadForNeighboursThatFailed)
+TEST(FineLoader, IsCorrectAfterAFailedReadOfNeighbours)
 {
   const OwnIds source(1000);
   const auto loader = source.fineLoader(800);
@@ -397,7 +398,7 @@ TEST(FineLoader, IsRightAgainAfterAReadForNeighboursThatFailed)
   EXPECT_EQ(from(300, 300), OwnIds::loaded(*loader, from(300, 300)));
 }
 
-TEST(FineLoader, IsRightFromWhenAllStays)
+TEST(FineLoader, IsCorrectOnceAllTuplesAreKept)
 {
   const OwnIds source(300000);
   const auto loader = source.fineLoader(300000);
@@ -426,7 +427,7 @@ TEST(LruLoader, CountsAMissForEachBlockThatItReads)
   EXPECT_EQ(2 * 100 * (24 + 1 + 10), loader->counters().Bytes);
 }
 
-TEST(AutoLoader, MapsWhatFitsIntoHalfTheMemory)
+TEST(AutoLoader, MapsAFileThatFitsIntoHalfTheMemory)
 {
   LoaderOptions options;
   options.MemoryLimit = 2 * 24 * tuples;
@@ -456,7 +457,7 @@ TEST(MakeVertexLoader, RefusesArraysThatDiffer)
   EXPECT_THROW(makeVertexLoader({ source().Arrays[0], shorter }), std::invalid_argument);
 }
 
-TEST(MakeVertexLoader, NamesTheFileThatIsCutOffBehindItsBack)
+TEST(MakeVertexLoader, ReportsAFileThatIsTruncatedMeanwhile)
 {
   const tipp::test::TemporaryFolder folder;
   const std::string path = folder.file("data", std::string(8000, 'x'));
@@ -475,7 +476,7 @@ TEST(MakeVertexLoader, NamesTheFileThatIsCutOffBehindItsBack)
   }
 }
 
-TEST(LoaderNames, ComeBack)
+TEST(LoaderNames, AreParsedBack)
 {
   for (const Loader kind :
     { Loader::Auto, Loader::Direct, Loader::Fine, Loader::Lru, Loader::Mmap })

@@ -43,7 +43,7 @@ TEST(Runs, WithASmallGapBecomeOne)
   EXPECT_EQ((Runs{ { 0, 30 } }), runsOfBlocks({ 1, 0, 1 }, 10, 0, 29, 11));
 }
 
-TEST(Runs, OfIdsTakeEachOnce)
+TEST(Runs, OfIdsContainEachOnce)
 {
   const std::vector<std::pair<std::int64_t, std::uint32_t>> ids{ { 3, 0 }, { 4, 9 }, { 9, 1 },
     { 9, 5 }, { 100, 2 } };

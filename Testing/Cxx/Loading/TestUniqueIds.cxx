@@ -11,7 +11,7 @@ namespace
 
 using tipp::UniqueIds;
 
-TEST(UniqueIds, AscendAndEachIdOfTheChunkHasItsNumber)
+TEST(UniqueIds, AscendAndNumberTheIdsOfTheChunk)
 {
   std::mt19937_64 random(3);
   for (const std::int64_t most : { std::int64_t(1), std::int64_t(50), std::int64_t(1) << 60 })

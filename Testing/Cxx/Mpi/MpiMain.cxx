@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// main() of a test program that runs on several ranks: every rank runs every test, and the program
-// fails if a test fails on any rank. The global controller is VTK's MPI controller; in a build
-// without MPI, that of one rank.
+// main() of a test program for several ranks. Every rank runs every test, and the program fails if
+// a test fails on any rank. The global controller is VTK's MPI controller, or in a build without
+// MPI a controller of one rank.
 #include "vtkNew.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ int main(int argc, char* argv[])
 namespace
 {
 
-/// Ranks other than the first only speak of failures.
+/// Only the first rank prints successes; the others print failures.
 void silenceSuccesses()
 {
   testing::TestEventListeners& listeners = testing::UnitTest::GetInstance()->listeners();
@@ -52,7 +52,7 @@ void silenceSuccesses()
 
 int main(int argc, char* argv[])
 {
-  // FUNNELED: OpenMP threads beside a main thread that alone speaks MPI.
+  // FUNNELED: other threads run beside the main thread, but only the main thread calls MPI.
   int provided = MPI_THREAD_SINGLE;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
   testing::InitGoogleTest(&argc, argv);

@@ -6,7 +6,7 @@
 
 #include <cstdlib>
 
-TEST(MpiMain, GivesTheGlobalControllerEveryRankThatMpirunStarted)
+TEST(MpiMain, TheGlobalControllerHasAllRanks)
 {
   vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
   ASSERT_NE(controller, nullptr);
@@ -15,7 +15,7 @@ TEST(MpiMain, GivesTheGlobalControllerEveryRankThatMpirunStarted)
   EXPECT_EQ(controller->GetNumberOfProcesses(), std::atoi(started));
 }
 
-TEST(MpiMain, LetsRanksSpeakToEachOther)
+TEST(MpiMain, RanksCanCommunicate)
 {
   vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
   const int one = 1;

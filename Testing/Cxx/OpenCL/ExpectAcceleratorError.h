@@ -8,7 +8,7 @@
 
 #include <string>
 
-/// Runs `work`, which must throw AcceleratorError with `words` in its sentence.
+/// Expects that `work` throws an AcceleratorError whose message contains `words`.
 template <typename Work>
 void expectAcceleratorError(Work&& work, const std::string& words)
 {

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-/// Ends a test visibly on a machine without an OpenCL device with double precision.
+/// Skips a test if there is no OpenCL device with double precision.
 #define TIPP_REQUIRE_OPENCL()                                                                      \
   if (std::none_of(tipp::listDevices().begin(), tipp::listDevices().end(),                         \
         [](const tipp::DeviceDescription& device) { return device.Double; }))                      \

@@ -70,7 +70,7 @@ TEST(ComputeDevice, IsOpenedOnceAProcess)
   EXPECT_EQ(device, ComputeDevice::open(byName));
 }
 
-TEST(ComputeDevice, CanBeUsedAsACardBesideAsItIs)
+TEST(ComputeDevice, CanBeUsedAsACardAndAsItIsAtOnce)
 {
   TIPP_REQUIRE_OPENCL();
   const ComputeDevice* const device = ComputeDevice::open(anyDevice());
@@ -99,7 +99,7 @@ TEST(ComputeDevice, RunsAKernel)
     (std::vector<double>{ 3.0, -0.5, 2e300 }));
 }
 
-TEST(ComputeDevice, ServesThreadsSideBySide)
+TEST(ComputeDevice, ServesSeveralThreadsAtOnce)
 {
   TIPP_REQUIRE_OPENCL();
   ComputeDevice& device = *ComputeDevice::open(anyDevice());
@@ -120,7 +120,7 @@ TEST(ComputeDevice, ServesThreadsSideBySide)
   }
 }
 
-TEST(ComputeDevice, SaysWhichKernelsItCannotCompile)
+TEST(ComputeDevice, ReportsKernelsThatDoNotCompile)
 {
   TIPP_REQUIRE_OPENCL();
   ComputeDevice& device = *ComputeDevice::open(anyDevice());
@@ -137,7 +137,7 @@ TEST(ComputeDevice, RefusesAKernelThatTheProgramLacks)
     "The OpenCL device '" + device.description().Name + "' failed: ");
 }
 
-TEST(ComputeDevice, MakesAnErrorOfWhatOpenCLThrows)
+TEST(ComputeDevice, TurnsOpenCLsExceptionsIntoErrors)
 {
   TIPP_REQUIRE_OPENCL();
   const ComputeDevice& device = *ComputeDevice::open(anyDevice());
@@ -146,7 +146,7 @@ TEST(ComputeDevice, MakesAnErrorOfWhatOpenCLThrows)
     "failed: the device has not enough memory (clFinish).");
 }
 
-TEST(ComputeDevice, TakesEmptyInput)
+TEST(ComputeDevice, AcceptsEmptyInput)
 {
   TIPP_REQUIRE_OPENCL();
   const ComputeDevice& device = *ComputeDevice::open(anyDevice());

@@ -24,7 +24,7 @@ TEST(DeviceChoice, NamesABackEnd)
   EXPECT_EQ(choice.Name, "");
 }
 
-TEST(DeviceChoice, TellsAnIndexFromAName)
+TEST(DeviceChoice, DistinguishesAnIndexFromAName)
 {
   EXPECT_EQ(parseDeviceChoice("opencl:12").Index, 12);
   EXPECT_EQ(parseDeviceChoice("opencl:12").Name, "");
@@ -40,7 +40,7 @@ TEST(DeviceChoice, RefusesOtherWords)
   }
 }
 
-TEST(DeviceChoice, RefusesAnIndexThatNoIntegerHolds)
+TEST(DeviceChoice, RefusesAnIndexThatOverflows)
 {
   expectAcceleratorError([] { parseDeviceChoice("opencl:99999999999999999999"); },
     "There is no OpenCL device 99999999999999999999");

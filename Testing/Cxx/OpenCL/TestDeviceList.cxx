@@ -68,7 +68,7 @@ TEST(DeviceList, OpenMPNeedsNoDevice)
   EXPECT_EQ(chosen(choice, someDevices()), -1);
 }
 
-TEST(DeviceList, OpenCLAlonePrefersAGpuAndTakesAnyDeviceWithDoublePrecision)
+TEST(DeviceList, OpenCLPrefersAGpuButAcceptsAnyDeviceWithDoublePrecision)
 {
   EXPECT_EQ(chosen(openCl(-1, ""), someDevices()), 3);
   EXPECT_EQ(chosen(openCl(-1, ""), { device(0, "Processor", DeviceType::Cpu, true) }), 0);
@@ -85,7 +85,7 @@ TEST(DeviceList, ADeviceIsChosenByAPartOfItsNameInAnyCase)
   EXPECT_EQ(chosen(openCl(-1, "DESKTOP"), someDevices()), 3);
 }
 
-TEST(DeviceList, OfSeveralDevicesOfANameTheFirstWithDoublePrecisionIsTaken)
+TEST(DeviceList, OfEqualNamesTheFirstDeviceWithDoublePrecisionIsChosen)
 {
   EXPECT_EQ(chosen(openCl(-1, "processor"), someDevices()), 1);
   EXPECT_EQ(chosen(openCl(-1, "gpu"), someDevices()), 3);
@@ -114,13 +114,13 @@ TEST(DeviceList, AMachineWithoutDevicesIsAnErrorThatSaysWhatToInstall)
     [] { chooseDevice(openCl(-1, ""), {}); }, "This machine has no OpenCL device");
 }
 
-TEST(DeviceList, ChoicesAreTheDevicesOfUse)
+TEST(DeviceList, ChoicesAreTheUsableDevices)
 {
   EXPECT_EQ(tipp::deviceChoices(someDevices()),
     (std::vector<std::string>{ "auto", "openmp", "opencl:Large Processor", "opencl:Desktop GPU" }));
 }
 
-TEST(DeviceList, ChoicesTellDevicesOfOneNameApart)
+TEST(DeviceList, ChoicesDistinguishDevicesOfEqualNames)
 {
   const std::vector<DeviceDescription> twins = { device(0, "GPU", DeviceType::Gpu, true),
     device(1, "GPU", DeviceType::Gpu, true), device(2, "7", DeviceType::Cpu, true) };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Run with OCL_ICD_VENDORS=/nonexistent, which makes this a machine without an OpenCL driver.
+// CTest sets OCL_ICD_VENDORS=/nonexistent, so that no OpenCL driver is found.
 #include "OpenCL/ComputeDevice.h"
 
 #include "ExpectAcceleratorError.h"
@@ -16,7 +16,7 @@ TEST(NoOpenCLDevice, AutoIsOpenMP)
   EXPECT_EQ(tipp::ComputeDevice::open({}), nullptr);
 }
 
-TEST(NoOpenCLDevice, AskingForOneIsAnError)
+TEST(NoOpenCLDevice, RequestingADeviceIsAnError)
 {
   expectAcceleratorError([] { tipp::ComputeDevice::open(tipp::parseDeviceChoice("opencl")); },
     "This machine has no OpenCL device: install");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A build without OpenCL.
+// Tests of a build without OpenCL.
 #include "ExpectAcceleratorError.h"
 #include "OpenCL/Devices.h"
 
@@ -15,7 +15,7 @@ TEST(WithoutOpenCL, AutoIsOpenMP)
   EXPECT_FALSE(tipp::chooseDevice({}, tipp::listDevices()));
 }
 
-TEST(WithoutOpenCL, AskingForADeviceIsAnErrorThatTellsOfTheBuild)
+TEST(WithoutOpenCL, RequestingADeviceIsAnErrorThatNamesTheBuild)
 {
   expectAcceleratorError([]
     { tipp::chooseDevice(tipp::parseDeviceChoice("opencl"), tipp::listDevices()); },

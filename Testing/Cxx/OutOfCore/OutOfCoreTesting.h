@@ -22,21 +22,22 @@ namespace tipp
 namespace test
 {
 
-/// Writes the points as .npy and triangulates that file into mesh.tipp, both in the folder.
+/// Writes the points to a .npy file in the folder, and triangulates the file into mesh.tipp there.
 OutOfCoreStatistics triangulateFile(
   const TemporaryFolder& folder, const Coordinates& xy, const OutOfCoreOptions& options);
 
-/// The triangles that pieces own, by global ids; sorted.
+/// The triangles of all pieces, each from its owner, as sorted global ids.
 Triangles trianglesOfMesh(const std::string& path);
 
-/// Is the mesh the reference? Tells the first difference.
+/// Whether the mesh is that of the reference. The failure shows the first difference.
 testing::AssertionResult meshMatches(
   const std::string& path, const Coordinates& xy, const Reference& expected);
 
-/// The mesh with its cells in the order of their global ids, to be checked against itself.
+/// The mesh with its cells in the order of their global ids, so that MeshChecks can check the
+/// pieces against it.
 SourceMesh sourceOf(const std::string& path, const Coordinates& xy);
 
-/// The steps of a run, up to its pieces, in pieces of 300 points and partitions of 80.
+/// Makes the steps of a run one by one, with pieces of 300 points and partitions of 80.
 class Steps
 {
 public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grids of pieces of points for which partitions do not pay, and of others, in no memory at all.
+// Grids of pieces, with the smallest memory limit, also for points for which partitions do not pay.
 #include "OutOfCoreTesting.h"
 
 #include "Npy/NpyFile.h"
@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 using namespace tipp;
 using namespace tipp::test;
 
-/// A grid of pieces, so that points for which partitions do not pay have them, too.
+/// With a grid the number of pieces is fixed, so there are several even if partitions do not pay.
 class GridOfPieces : public testing::TestWithParam<std::string>
 {
 protected:
@@ -41,7 +41,7 @@ protected:
   const std::string Mesh = Folder.path("mesh.tipp");
 };
 
-TEST_P(GridOfPieces, ChangesNothing)
+TEST_P(GridOfPieces, GivesTheSameFilesForAnyMemoryAndThreads)
 {
   const std::uint64_t bytes = this->run(Much).BoundaryBytes;
   EXPECT_GT(bytes, 0U);
@@ -56,7 +56,7 @@ TEST_P(GridOfPieces, ChangesNothing)
   }
 }
 
-TEST_P(GridOfPieces, IsThereAgainAfterARunThatWasEnded)
+TEST_P(GridOfPieces, GivesTheSameFilesAfterInterruptedRuns)
 {
   this->run(1);
   const auto expected = filesOf(this->Mesh);
@@ -70,10 +70,10 @@ TEST_P(GridOfPieces, IsThereAgainAfterARunThatWasEnded)
     int ended = 0;
     do
     {
-      // More from run to run: verifying what earlier ones have written takes calls, too.
+      // Later runs need more calls, since they verify what earlier ones have written.
       int calls = int(random() % 40) + 2 * ended++;
       this->Options.Progress = [&calls](double) { return calls-- > 0; };
-      // What a killed run leaves of a file in the making is of no use, and does no harm.
+      // A killed run may leave an unfinished file, which the next run ignores.
       if (fs::exists(this->Folder.path(".mesh.tipp.part")))
       {
         this->Folder.file(".mesh.tipp.part/.piece.0.next", "left over");

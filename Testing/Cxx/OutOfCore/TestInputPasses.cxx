@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the passes over the input tell does not depend on how it is divided.
+// The results of the passes over the input do not depend on how the input is divided among ranks.
 #include "Comparison.h"
 #include "TemporaryFolder.h"
 
@@ -23,12 +23,13 @@ InputSurvey surveyOf(PointStream& points)
   return InputPasses(points, nullptr, { 1 << 14, 1 << 10, 2, [](std::int64_t) {} }).survey();
 }
 
-TEST(InputSurvey, IsTheSameHoweverTheInputIsDivided)
+TEST(InputSurvey, IsTheSameForAnyDivisionOfTheInput)
 {
   const TemporaryFolder folder;
   const std::vector<std::string> names{ folder.path("points.npy"), "uniform:3000" };
   writePoints(names[0], makePointSet("lattice", 7001));
-  // As of an input whose size is not known: the sample is thinned out while it is read.
+  // The number of points in a text file is unknown, so its sample is thinned while the file is
+  // read.
   std::vector<double> xy;
   const auto whole = openPointStream(names);
   forEachBlock(
@@ -64,7 +65,7 @@ TEST(InputSurvey, IsTheSameHoweverTheInputIsDivided)
   }
 }
 
-TEST(InputSurvey, PartsOnDifferentLinesAreNotOnOne)
+TEST(InputSurvey, PartsOnDifferentLinesAreNotCollinear)
 {
   PartialSurvey a;
   a.Line = { { 0, 0 }, { 1, 1 } };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The neighbours that a mesh in pieces names are those that its edges tell.
+// The neighbour ids in a mesh in pieces, compared with neighbours computed from its edges.
 #include "OutOfCoreTesting.h"
 
 #include "ExpectIOError.h"
@@ -23,7 +23,7 @@ using namespace tipp::test;
 
 using Ids = std::vector<std::int64_t>;
 
-/// Three ids a triangle, from a map of all edges.
+/// Three neighbour ids per triangle, computed with a map of all edges.
 Ids neighborsByEdges(const Ids& corners)
 {
   std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::size_t>> edges;
@@ -48,7 +48,7 @@ Ids neighborsByEdges(const Ids& corners)
   return neighbors;
 }
 
-/// What the mesh says, by the cells' global ids.
+/// The mesh's array of neighbours, in the order of the cells' global ids.
 Ids neighborsIn(const std::string& path)
 {
   const PartitionedMesh mesh = openPartitionedMesh(path);
@@ -94,7 +94,7 @@ protected:
   OutOfCoreOptions Options;
 };
 
-TEST_P(NeighborIds, AreThoseOfTheEdgesForAllPiecesAndThreads)
+TEST_P(NeighborIds, EqualThoseOfTheEdgesForAllPiecesAndThreads)
 {
   const Coordinates xy = makePointSet(GetParam(), 1500);
   for (const std::int64_t points : { 0, 60, 400 })
@@ -123,14 +123,14 @@ INSTANTIATE_TEST_SUITE_P(PointSets, NeighborIds,
     return name;
   });
 
-TEST_F(NeighborIds, AreLeftOutUnlessAskedFor)
+TEST_F(NeighborIds, AreMadeOnlyOnRequest)
 {
   this->Options.Neighbors = false;
   this->triangulate(makePointSet("uniform", 500));
   EXPECT_EQ(-1, findNeighborIds(openPartitionedMesh(this->Mesh)));
 }
 
-TEST_F(NeighborIds, KeepToLittleMemory)
+TEST_F(NeighborIds, NeedLittleMemory)
 {
   const Coordinates xy = makePointSet("clustered", 20000);
   this->Options.MemoryLimit = 1 << 20;
@@ -138,7 +138,7 @@ TEST_F(NeighborIds, KeepToLittleMemory)
   EXPECT_EQ(neighborsByEdges(sourceOf(this->Mesh, xy).Cells), neighborsIn(this->Mesh));
 }
 
-TEST_F(NeighborIds, AreTheSameWhereverTheirWritingWasEnded)
+TEST_F(NeighborIds, AreTheSameAfterInterruptedRuns)
 {
   this->cutIntoPiecesOf(150);
   this->Options.MapDuplicates = true;
@@ -157,7 +157,7 @@ TEST_F(NeighborIds, AreTheSameWhereverTheirWritingWasEnded)
     EXPECT_TRUE(!isEnded || this->resume().Resumed);
     ASSERT_TRUE(expected == filesOf(this->Mesh)) << after;
   }
-  EXPECT_GT(after, 35); // one call a piece for ids and one for neighbours, at least
+  EXPECT_GT(after, 35); // at least one call per piece for ids, and one for neighbours
 }
 
 class NeighborIdsOfDamagedPieces : public NeighborIds
@@ -187,7 +187,7 @@ TEST_F(NeighborIdsOfDamagedPieces, AreNotMade)
 {
   this->Options.Progress = [this, isDone = false](double done) mutable
   {
-    if (done >= 0.92 && !std::exchange(isDone, true)) // pieces are about to be linked
+    if (done >= 0.92 && !std::exchange(isDone, true)) // just before neighbours are found
     {
       this->damage();
     }
@@ -198,7 +198,7 @@ TEST_F(NeighborIdsOfDamagedPieces, AreNotMade)
   EXPECT_TRUE(fs::exists(this->Folder.path(".mesh.tipp.part/.points.0")));
 }
 
-TEST_F(NeighborIdsOfDamagedPieces, AreMadeOnceThePiecesAreMadeAgain)
+TEST_F(NeighborIdsOfDamagedPieces, AreMadeAfterThePiecesAreRemade)
 {
   this->resume();
   const auto expected = filesOf(this->Mesh);
@@ -223,7 +223,7 @@ void expectNeighbors(const Ids& corners)
   EXPECT_EQ(neighborsByEdges(corners), Ids(neighbors.begin(), neighbors.end()));
 }
 
-TEST(FindNeighbors, AreThoseOfTheEdgesInAnyOrder)
+TEST(FindNeighbors, EqualThoseOfTheEdgesInAnyOrder)
 {
   std::mt19937 random(1);
   for (const std::size_t count : { 3, 4, 5, 10, 1000 })
@@ -247,7 +247,7 @@ TEST(FindNeighbors, AreFoundAroundAHubOfManyTriangles)
   Ids corners;
   for (std::int64_t i = 0; i < spokes; ++i)
   {
-    const std::int64_t j = i * 99991 % spokes; // a stride without common factor
+    const std::int64_t j = i * 99991 % spokes; // a stride that is coprime to the number of spokes
     corners.insert(corners.end(), { 0, 1 + j, 1 + (j + 1) % spokes });
   }
   expectNeighbors<std::int32_t>(corners);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Constraints out of core: the triangles are those that are made in memory.
+// Constraints out of core give the triangles that are made in memory.
 #include "OutOfCoreTesting.h"
 
 #include "Constraints/ConstrainedPoints.h"
@@ -24,7 +24,7 @@ using namespace tipp::test;
 
 constexpr double Pi = 3.14159265358979323846;
 
-/// Random segments between points, and between new ones.
+/// Random segments between points of the input, and between new points.
 ConstraintTable randomSegments(const Coordinates& xy, int count, unsigned seed)
 {
   std::mt19937_64 random(seed);
@@ -49,7 +49,7 @@ ConstraintTable randomSegments(const Coordinates& xy, int count, unsigned seed)
 void addPolygon(double x, double y, double radius, int corners, ConstraintTable& table)
 {
   const auto first = std::int64_t(table.XY.size() / 2);
-  const int count = std::abs(corners); // clockwise if negative
+  const int count = std::abs(corners); // negative for clockwise
   for (int i = 0; i < count; ++i)
   {
     const double angle = 2 * Pi * i / corners;
@@ -96,10 +96,10 @@ public:
   std::string mesh() const { return this->Folder.path("mesh.tipp"); }
 
   TableConstraints Constraints;
-  PointTable All; ///< the points, and after makeExpected() those of the constraints
+  PointTable All; ///< all points; makeExpected() adds those of the constraints
   OutOfCoreOptions Options;
   Triangles Expected;
-  std::vector<ConstraintPiece> Pieces; ///< of the expected mesh's constraints
+  std::vector<ConstraintPiece> Pieces; ///< the expected mesh's edges on constraints
   TemporaryFolder Folder;
 };
 
@@ -107,7 +107,7 @@ class OutOfCoreConstraints : public testing::TestWithParam<std::string>
 {
 };
 
-TEST_P(OutOfCoreConstraints, MakeTheTrianglesOfMemoryForAllPiecesAndThreads)
+TEST_P(OutOfCoreConstraints, GiveTheTrianglesMadeInMemoryForAllPiecesAndThreads)
 {
   const Coordinates xy = makePointSet(GetParam(), 2000);
   for (const int count : { 3, 60 })
@@ -135,7 +135,7 @@ class ConstrainedPieces : public testing::TestWithParam<std::string>
 {
 };
 
-TEST_P(ConstrainedPieces, OwnAndBorrowAsTheFormatSays)
+TEST_P(ConstrainedPieces, FollowTheFormat)
 {
   const Coordinates xy = makePointSet(GetParam(), 1200);
   TableConstraints constraints;
@@ -148,7 +148,7 @@ TEST_P(ConstrainedPieces, OwnAndBorrowAsTheFormatSays)
   expectBelongs(run.mesh(), sourceOf(run.mesh(), run.All.XY));
 }
 
-TEST_P(ConstrainedPieces, AreTheSameWhereverTheRunWasEnded)
+TEST_P(ConstrainedPieces, AreTheSameAfterInterruptedRuns)
 {
   const Coordinates xy = makePointSet(GetParam(), 2000);
   TableConstraints constraints;
@@ -190,7 +190,7 @@ INSTANTIATE_TEST_SUITE_P(PointSets, OutOfCoreConstraints,
     return name;
   });
 
-TEST(OutOfCoreConstraint, MayBeNamedByIdsOfPoints)
+TEST(OutOfCoreConstraint, MayReferToPointIds)
 {
   const Coordinates xy = makePointSet("duplicates", 1500);
   TableConstraints constraints;
@@ -202,7 +202,7 @@ TEST(OutOfCoreConstraint, MayBeNamedByIdsOfPoints)
   EXPECT_TRUE(run.matches());
 }
 
-TEST(OutOfCoreConstraint, CutsAwayWhatIsOutsideOfPolygonsAndInHoles)
+TEST(OutOfCoreConstraint, RemovesTrianglesOutsidePolygonsAndInHoles)
 {
   const Coordinates xy = makePointSet("uniform", 3000);
   for (const bool hasInside : { true, false })
@@ -220,7 +220,7 @@ TEST(OutOfCoreConstraint, CutsAwayWhatIsOutsideOfPolygonsAndInHoles)
   }
 }
 
-/// Lattice points lie on the polygons' edges, some of which are vertical.
+/// Lattice points lie on the edges of polygons, some of which are vertical.
 TEST(OutOfCoreConstraint, CutsAlongLatticeLines)
 {
   const Coordinates xy = makePointSet("lattice", 2500);
@@ -241,8 +241,8 @@ TEST(OutOfCoreConstraint, CutsAlongLatticeLines)
   constraints.Lines = randomSegments(xy, 40, 3);
   const double radius = 0.2 * std::min(high[0] - low[0], high[1] - low[1]);
   addPolygon(middle[0], middle[1], radius, 9, constraints.Lines);
-  constraints.Lines.PolygonBegin = constraints.Lines.Edges.size(); // lines all of them
-  // One is on a line's end, and lines reach the hull.
+  constraints.Lines.PolygonBegin = constraints.Lines.Edges.size(); // all are lines
+  // One seed is the end of a line. Some lines end at the hull.
   const auto end = std::array<double, 2>{ constraints.Lines.XY[0], constraints.Lines.XY[1] };
   for (const auto& seeds : { std::vector<std::array<double, 2>>{ at(0.5, 0.51) },
          { at(0.6, 0.62), at(0.47, 0.5), at(0.501, 0.75) }, { end } })
@@ -260,10 +260,10 @@ TEST(OutOfCoreConstraint, CutsAlongLatticeLines)
   }
 }
 
-/// A hole's border is no way out for what tells inside of a polygon, in memory and out of core.
+/// Whether a triangle is inside a polygon must not depend on a hole's border around it.
 TEST(OutOfCoreConstraint, CutsHolesInsideOfPolygonsAndBoundaries)
 {
-  const Coordinates xy = makePointSet("lattice-shuffled", 900); // 30 x 30, one apart
+  const Coordinates xy = makePointSet("lattice-shuffled", 900); // 30 x 30 points with spacing 1
   const auto addSquare = [](double low, double high, ConstraintTable& table)
   {
     const auto first = std::int64_t(table.XY.size() / 2);
@@ -281,7 +281,7 @@ TEST(OutOfCoreConstraint, CutsHolesInsideOfPolygonsAndBoundaries)
   constraints.Lines.Holes = { 10.5, 12.25 };
   ConstrainedRun run(xy, constraints);
   run.makeExpected();
-  EXPECT_EQ(std::size_t(2 * (15 * 15 - 6 * 6)), run.Expected.size()); // two triangles a square
+  EXPECT_EQ(std::size_t(2 * (15 * 15 - 6 * 6)), run.Expected.size()); // two triangles per square
   run.run();
   EXPECT_TRUE(run.matches());
   run.Constraints.Lines.Holes = { -4, 1 };
@@ -358,13 +358,13 @@ TEST(PieceSegments, AreReadByPieceAndNearBoxes)
     EXPECT_TRUE(std::includes(overlapping.begin(), overlapping.end(), near.begin(), near.end()));
     all += expected.size();
   }
-  EXPECT_GT(all, segments.size()); // some are in several pieces
+  EXPECT_GT(all, segments.size()); // some segments are in several pieces
   EXPECT_TRUE(stored.readNear({}).tree().items().empty());
   EXPECT_EQ(200u, stored.cutting().list().size());
 }
 
-/// The memory of a piece is what limits them, not that of all.
-TEST(OutOfCoreConstraint, MayTakeMoreThanTheMemory)
+/// Only the constraints of loaded pieces must fit into memory, not all constraints.
+TEST(OutOfCoreConstraint, MayExceedTheMemoryLimit)
 {
   const Coordinates xy = makePointSet("uniform", 20000);
   TableConstraints constraints;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The triangles are CGAL's and the pieces what their format says, for every input, number of
+// The triangles are those of CGAL and the pieces follow their format, for every input, number of
 // threads and size of pieces.
 #include "OutOfCoreTesting.h"
 
@@ -58,7 +58,7 @@ class OutOfCorePieces : public testing::TestWithParam<std::string>
 {
 };
 
-TEST_P(OutOfCorePieces, OwnAndBorrowAsTheFormatSays)
+TEST_P(OutOfCorePieces, FollowTheFormat)
 {
   const Coordinates xy = makePointSet(GetParam(), 1200);
   const TemporaryFolder folder;

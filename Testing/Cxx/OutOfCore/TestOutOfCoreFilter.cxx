@@ -52,7 +52,7 @@ protected:
     (event == vtkCommand::ErrorEvent ? this->Errors : this->Warnings) += text;
   }
 
-  /// The error of an update, of which nothing comes.
+  /// The error message of an update that fails and has no output.
   std::string failure()
   {
     this->Filter->Update();
@@ -75,7 +75,7 @@ protected:
   std::string Warnings;
 };
 
-TEST_F(OutOfCoreFilter, WritesAMeshThatTheReaderBehindItReads)
+TEST_F(OutOfCoreFilter, TheConnectedReaderReadsTheMesh)
 {
   this->Filter->Update();
   EXPECT_EQ("", this->Errors + this->Warnings);
@@ -90,7 +90,7 @@ TEST_F(OutOfCoreFilter, WritesAMeshThatTheReaderBehindItReads)
     vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0))->GetNumberOfCells());
 }
 
-TEST_F(OutOfCoreFilter, NamesNeighborsThatTheReaderBehindItReads)
+TEST_F(OutOfCoreFilter, TheConnectedReaderReadsNeighborIds)
 {
   this->Filter->GenerateNeighborIdsOn();
   this->Filter->Update();
@@ -109,7 +109,7 @@ TEST_F(OutOfCoreFilter, NamesNeighborsThatTheReaderBehindItReads)
     std::min({ neighbors->GetRange(0)[0], neighbors->GetRange(1)[0], neighbors->GetRange(2)[0] }));
 }
 
-TEST_F(OutOfCoreFilter, TellsTheRunsFigures)
+TEST_F(OutOfCoreFilter, HasTheRunsStatistics)
 {
   this->Filter->Update();
   EXPECT_EQ(3000, this->total("Points"));
@@ -135,7 +135,7 @@ TEST_F(OutOfCoreFilter, CountsWithoutWriting)
   EXPECT_EQ(1U, this->Folder.fileCount());
 }
 
-TEST_F(OutOfCoreFilter, GoesOnAfterAnAbort)
+TEST_F(OutOfCoreFilter, ResumesAfterAnAbort)
 {
   this->Filter->SetNumberOfPartitions(0, 0);
   this->Filter->SetMemoryLimit(1);
@@ -163,7 +163,7 @@ TEST_F(OutOfCoreFilter, GoesOnAfterAnAbort)
   EXPECT_TRUE(expected == filesOf(this->Folder.path("mesh.tipp")));
 }
 
-TEST_F(OutOfCoreFilter, TakesColumnsByNameAndFilesInTheirOrder)
+TEST_F(OutOfCoreFilter, ReadsColumnsByNameAndFilesInOrder)
 {
   this->Filter->SetInputFileName(
     this->Folder.file("a.csv", "height,south,west\n1,0,0\n2,0,4\n").c_str());
@@ -213,25 +213,25 @@ TEST_F(OutOfCoreFilter, WarnsOfRejectedPointsAndOfNoTriangles)
   EXPECT_NE(std::string::npos, this->Warnings.find("No triangles"));
 }
 
-TEST_F(OutOfCoreFilter, NamesAFileThatIsMissing)
+TEST_F(OutOfCoreFilter, ReportsAMissingFile)
 {
   this->Filter->AddInputFileName(this->Folder.path("nothing.npy").c_str());
   EXPECT_NE(std::string::npos, this->failure().find("nothing.npy: cannot be opened"));
 }
 
-TEST_F(OutOfCoreFilter, SaysThatNoInputIsNamed)
+TEST_F(OutOfCoreFilter, ReportsThatNoInputIsSet)
 {
   this->Filter->ClearInputFileNames();
   EXPECT_NE(std::string::npos, this->failure().find("no files of points"));
 }
 
-TEST_F(OutOfCoreFilter, SaysThatNoOutputIsNamed)
+TEST_F(OutOfCoreFilter, ReportsThatNoOutputIsSet)
 {
   this->Filter->SetFileName(nullptr);
   EXPECT_NE(std::string::npos, this->failure().find("FileName is not set"));
 }
 
-TEST_F(OutOfCoreFilter, TakesOneByteForTheSmallestLimit)
+TEST_F(OutOfCoreFilter, AcceptsALimitOfOneByte)
 {
   this->Filter->SetMemoryLimit(-5);
   EXPECT_EQ(1, this->Filter->GetMemoryLimit());
@@ -266,7 +266,7 @@ TEST_F(OutOfCoreFilter, InsertsConstraintsOfFiles)
   this->Filter->Update();
   EXPECT_EQ("", this->Errors);
   EXPECT_EQ(6, this->total("Constraints"));
-  EXPECT_EQ(1, this->total("CrossingPoints")); // the lines meet at the corners of the boundary
+  EXPECT_EQ(1, this->total("CrossingPoints")); // both lines cross at the boundary's corners
   vtkNew<vtkPartitionedUnstructuredReader> reader;
   reader->SetFileName(this->Filter->GetFileName());
   reader->Update();
@@ -285,7 +285,7 @@ TEST_F(OutOfCoreFilter, InsertsConstraintsOfFiles)
     area +=
       ((p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[2][0] - p[0][0]) * (p[1][1] - p[0][1])) / 2;
   }
-  EXPECT_NEAR(0.75 * 0.36, area, 1e-12); // of the four parts one is a hole
+  EXPECT_NEAR(0.75 * 0.36, area, 1e-12); // one of the four parts is a hole
   vtkDataArray* const marks = mesh->GetCellData()->GetArray("ConstraintEdges");
   ASSERT_TRUE(marks);
   EXPECT_GT(marks->GetRange(-1)[1], 0);

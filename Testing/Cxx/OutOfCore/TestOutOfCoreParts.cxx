@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run begins with: checkpoints, survey, plan, spilled points.
+// The first steps of a run: checkpoints, survey, plan, spilled points.
 #include "OutOfCoreTesting.h"
 
 #include "ExpectIOError.h"
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using namespace tipp;
 using namespace tipp::test;
 
-TEST(CheckedFile, ComesBackAsItWasSaved)
+TEST(CheckedFile, IsReadAsSaved)
 {
   const TemporaryFolder folder;
   const std::vector<double> many(20000, 0.5);
@@ -53,7 +53,7 @@ TEST(CheckedFile, ComesBackAsItWasSaved)
   EXPECT_EQ(1U, folder.fileCount());
 }
 
-TEST(CheckedFile, DamagedAnywhereItIsRefused)
+TEST(CheckedFile, IsRefusedIfAnyByteIsDamaged)
 {
   const TemporaryFolder folder;
   const std::string path = folder.path("state");
@@ -76,7 +76,7 @@ TEST(CheckedFile, DamagedAnywhereItIsRefused)
   EXPECT_THROW(readCheckedFile(path), IOError);
 }
 
-/// Sections {0, 3} and {2, 1}.
+/// Writes a file with two sections, {0, 3} and {2, 1}.
 void writeSections(const std::string& path)
 {
   SectionFileWriter file(path);
@@ -85,7 +85,7 @@ void writeSections(const std::string& path)
   file.finish();
 }
 
-TEST(SectionFile, GivesBackEachSection)
+TEST(SectionFile, ReturnsEachSection)
 {
   const TemporaryFolder folder;
   writeSections(folder.path("file"));
@@ -97,7 +97,7 @@ TEST(SectionFile, GivesBackEachSection)
   expectIOError(folder.path("file"), "is damaged", [&] { file.read({ 1, 1 }); });
 }
 
-TEST(SectionFile, HasItsNameWhenItIsWhole)
+TEST(SectionFile, AppearsOnlyWhenComplete)
 {
   const TemporaryFolder folder;
   SectionFileWriter file(folder.path("file"));
@@ -108,7 +108,7 @@ TEST(SectionFile, HasItsNameWhenItIsWhole)
   EXPECT_EQ(1U, folder.fileCount());
 }
 
-TEST(SectionFile, DamagedAnywhereItIsRefused)
+TEST(SectionFile, IsRefusedIfAnyByteIsDamaged)
 {
   const TemporaryFolder folder;
   const std::string path = folder.path("file");
@@ -163,7 +163,7 @@ TEST(InputSurvey, SamplesTheSamePointsInBlocksOfAnySize)
   }
 }
 
-TEST(InputSurvey, TellsPointsOnOneLine)
+TEST(InputSurvey, DetectsPointsOnOneLine)
 {
   Coordinates xy;
   for (int i = 0; i < 3000; ++i)
@@ -213,7 +213,7 @@ TEST(PiecePlan, LessMemoryMakesMorePieces)
   EXPECT_GT(steps.plan().pieces(), few);
 }
 
-TEST(PiecePlan, KnowsWhereTheRimWillBeLarge)
+TEST(PiecePlan, PredictsALargeBoundary)
 {
   Steps circle(makePointSet("circle", 4000));
   EXPECT_TRUE(circle.plan().IsAlone);
@@ -226,7 +226,7 @@ TEST(PiecePlan, KnowsWhereTheRimWillBeLarge)
   EXPECT_FALSE(uniform.plan().HasLargeInterface);
 }
 
-TEST(PiecePlan, ComesBackFromAnArchive)
+TEST(PiecePlan, IsRestoredFromAnArchive)
 {
   const Coordinates xy = makePointSet("clustered", 4000);
   const PiecePlan plan = Steps(xy).plan();
@@ -287,7 +287,7 @@ TEST(SpilledPoints, RefuseAnInputThatHasChanged)
   }
 }
 
-TEST(SpilledPoints, KeepsNoFileOpenThatOthersRead)
+TEST(SpilledPoints, ClosesFilesThatOthersRead)
 {
   Steps steps(makePointSet("uniform", 4000));
   PiecePlan plan = steps.plan();
@@ -295,19 +295,19 @@ TEST(SpilledPoints, KeepsNoFileOpenThatOthersRead)
   ASSERT_TRUE(fs::exists(steps.Folder.path("spill.0")));
   for (const fs::directory_entry& open : fs::directory_iterator("/proc/self/fd"))
   {
-    std::error_code gone; // the iterator's own
+    std::error_code gone; // an entry may disappear while the folder is listed
     EXPECT_NE(fs::path(steps.Folder.path("spill.0")), fs::read_symlink(open.path(), gone));
   }
 }
 
-TEST(SpilledPoints, ThoseOfOtherPiecesAreRefused)
+TEST(SpilledPoints, OfOtherPiecesAreRefused)
 {
   Steps steps(makePointSet("uniform", 4000));
   PiecePlan plan = steps.plan();
   const SpilledPoints spilled = steps.spill(plan);
   SaveArchive out;
   spilled.save(out);
-  for (const std::size_t at : { 8, 16 }) // the first two of starts(), behind their number
+  for (const std::size_t at : { 8, 16 }) // the first two entries of starts(), after its length
   {
     Bytes bytes(out.size());
     std::copy_n(out.data(), bytes.size(), bytes.begin());
@@ -318,7 +318,7 @@ TEST(SpilledPoints, ThoseOfOtherPiecesAreRefused)
   }
 }
 
-TEST(SpilledPoints, DamagedAreRefusedPieceByPiece)
+TEST(SpilledPoints, AreRefusedPerPieceIfDamaged)
 {
   Steps steps(makePointSet("clustered", 4000));
   PiecePlan plan = steps.plan();

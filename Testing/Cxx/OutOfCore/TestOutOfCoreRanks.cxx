@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Several ranks make the files of one process, and end together.
+// Several ranks make the same files as one process, and end together.
 #include "OutOfCoreTesting.h"
 
 #include "Constraints/ConstrainedPoints.h"
@@ -73,12 +73,12 @@ protected:
 
   OutOfCoreStatistics runTogether()
   {
-    Communicator ranks(this->Controller); // is of no use after a failure
+    Communicator ranks(this->Controller); // a new one, since it cannot be used after a failure
     return triangulateOutOfCoreOnRanks(
       ranks, [this] { return this->open(); }, this->mesh(), this->Options);
   }
 
-  /// Of the first rank, the others waiting.
+  /// Runs on the first rank alone, while the other ranks wait.
   OutOfCoreStatistics runAlone()
   {
     OutOfCoreStatistics statistics;
@@ -92,7 +92,7 @@ protected:
     return statistics;
   }
 
-  /// The mesh's, which is removed.
+  /// Returns the files of the mesh, and removes the mesh.
   Files takeFiles() const
   {
     Files files;
@@ -105,7 +105,7 @@ protected:
     return files;
   }
 
-  /// What the ranks throw when one of them fails.
+  /// The message of the error that all ranks throw if one fails.
   std::string failure()
   {
     try
@@ -121,7 +121,7 @@ protected:
 
   vtkMultiProcessController* const Controller = vtkMultiProcessController::GetGlobalController();
   Communicator Ranks;
-  /// Whether there were spilled points of the last rank's when all were.
+  /// Whether the last rank had a file of spilled points during the run.
   bool lastRankSpills()
   {
     bool isThere = false;
@@ -139,11 +139,11 @@ protected:
 
   OutOfCoreOptions Options;
   std::unique_ptr<TemporaryFolder> Folder;
-  std::size_t InputFiles = 1; ///< in the folder
-  std::string Points;         ///< the file, on all ranks
-  int GoodPasses = 100;       ///< over it on this rank
+  std::size_t InputFiles = 1; ///< number of input files in the folder
+  std::string Points;         ///< path of the points, the same on all ranks
+  int GoodPasses = 100;       ///< passes over the input before it fails on this rank
   TableConstraints Constraints;
-  mutable ConstrainedPoints* Constrained = nullptr; ///< of the first rank
+  mutable ConstrainedPoints* Constrained = nullptr; ///< set on the first rank only
 };
 
 TEST_P(OutOfCoreRanks, MakeTheFilesOfOneProcess)
@@ -162,7 +162,7 @@ TEST_P(OutOfCoreRanks, MakeTheFilesOfOneProcess)
   }
 }
 
-TEST_P(OutOfCoreRanks, GoOnWhereAnyNumberOfRanksWasEnded)
+TEST_P(OutOfCoreRanks, ResumeRunsOfAnyNumberOfRanks)
 {
   this->makePoints(GetParam());
   this->runAlone();
@@ -175,13 +175,14 @@ TEST_P(OutOfCoreRanks, GoOnWhereAnyNumberOfRanksWasEnded)
     bool isDone = false;
     while (!isDone)
     {
-      // Of progress; more from run to run, for verifying what is written takes calls, too.
+      // The number of progress calls. It grows, since later runs also verify what is already
+      // written.
       int calls = int(random() % 8) + aborted / 2;
       const bool isTogether = random() % 3 > 0;
       const int by = int(random() % 2) % this->Ranks.size();
       this->Options.Progress = [&](double fraction)
       {
-        constexpr double triangulated = 0.9; // what follows has many calls
+        constexpr double triangulated = 0.9; // later steps make many progress calls
         return fraction > triangulated || calls-- > 0 || (isTogether && by != this->Ranks.rank());
       };
       const OutOfCoreStatistics statistics = isTogether ? this->runTogether() : this->runAlone();
@@ -219,7 +220,7 @@ TEST_P(OutOfCoreRanks, InsertTheConstraintsOfOneProcess)
   }
 }
 
-/// Where partitions do not pay, nearly all vertices are sent from piece to piece.
+/// If partitions do not pay, nearly all vertices are sent from piece to piece.
 class OutOfCoreRanksWithALargeRim : public OutOfCoreRanks
 {
 };
@@ -252,7 +253,7 @@ TEST_F(OutOfCoreRanks, ReadTheirPartsOfTheInput)
   EXPECT_TRUE(expected == this->takeFiles());
 }
 
-TEST_F(OutOfCoreRanks, LeaveToTheFirstAnInputThatOthersDoNotSee)
+TEST_F(OutOfCoreRanks, OnlyTheFirstReadsAnInputThatOthersCannotSee)
 {
   this->makePoints("uniform", 5000);
   this->runAlone();
@@ -265,7 +266,7 @@ TEST_F(OutOfCoreRanks, LeaveToTheFirstAnInputThatOthersDoNotSee)
   EXPECT_TRUE(expected == this->takeFiles());
 }
 
-TEST_F(OutOfCoreRanks, LeaveToTheFirstAnInputThatIsNotToBeDivided)
+TEST_F(OutOfCoreRanks, OnlyTheFirstReadsAnInputThatCannotBeDivided)
 {
   const Coordinates xy = makePointSet("uniform", 5000);
   this->Points.replace(this->Points.size() - 3, 3, "xyz");
@@ -284,7 +285,7 @@ TEST_F(OutOfCoreRanks, LeaveToTheFirstAnInputThatIsNotToBeDivided)
   EXPECT_TRUE(expected == this->takeFiles());
 }
 
-TEST_F(OutOfCoreRanks, AllEndWhereThePartOfOneCannotBeRead)
+TEST_F(OutOfCoreRanks, AllEndIfOneCannotReadItsPart)
 {
   this->makePoints("uniform", 5000);
   this->runAlone();
@@ -300,7 +301,7 @@ TEST_F(OutOfCoreRanks, AllEndWhereThePartOfOneCannotBeRead)
   }
 }
 
-TEST_F(OutOfCoreRanks, FindTheFactorOfTheirPartsTogether)
+TEST_F(OutOfCoreRanks, FindACommonScaleFactor)
 {
   Coordinates xy = makePointSet("uniform", 5000);
   for (double& coordinate : xy)
@@ -317,7 +318,7 @@ TEST_F(OutOfCoreRanks, FindTheFactorOfTheirPartsTogether)
   EXPECT_TRUE(expected == this->takeFiles());
 }
 
-TEST_F(OutOfCoreRanks, LeaveToTheFirstWhatHasNoPartitions)
+TEST_F(OutOfCoreRanks, OnlyTheFirstTriangulatesIfPartitionsDoNotPay)
 {
   for (const char* const set : { "collinear", "parabola" })
   {
@@ -341,11 +342,11 @@ TEST_F(OutOfCoreRanks, CountTheTrianglesOfOneProcess)
   EXPECT_EQ(alone.Triangles, together.Triangles);
 }
 
-/// The first rank puts the mesh in place, and what it was made of is gone, before a slow one has
-/// heard of the last pieces.
-TEST_F(OutOfCoreRanks, SlowOnesMayLearnOfPiecesWhenTheseAreGone)
+/// The first rank may finish the mesh and remove temporary files before a slow rank receives the
+/// message that the last pieces are done.
+TEST_F(OutOfCoreRanks, SlowRanksMayFallBehindTheEndOfTheRun)
 {
-  this->makePoints("uniform", 200); // two pieces: the first rank has the last one
+  this->makePoints("uniform", 200); // two pieces, the second on the first rank
   this->runAlone();
   const Files expected = this->takeFiles();
   this->Options.Progress = [this](double)
@@ -363,13 +364,13 @@ TEST_F(OutOfCoreRanks, SlowOnesMayLearnOfPiecesWhenTheseAreGone)
   }
 }
 
-TEST_F(OutOfCoreRanks, AllEndWithTheReasonOfTheOneThatFails)
+TEST_F(OutOfCoreRanks, AllReportTheFailureOfOne)
 {
   this->makePoints("uniform", 60000);
   this->Options.PiecePoints = 1000;
   this->runAlone();
   const Files expected = this->takeFiles();
-  const double spilled = 0.2; // of the first rank's fraction; another fails at once
+  const double spilled = 0.2; // the first rank fails after spilling, others at once
   for (int failing = 0; failing < this->Ranks.size(); ++failing)
   {
     this->Options.Progress = [&](double fraction)
@@ -412,7 +413,7 @@ TEST_F(OutOfCoreRanks, UpdateTheFilterTogether)
       filter->AddHole(0.5, 0.6);
       filter->GenerateConstraintEdgesOn();
     }
-    // As in ParaView: each rank asks for a piece of its own.
+    // Each rank requests its own piece, as in ParaView.
     const bool isShared = controller != nullptr;
     EXPECT_TRUE(
       filter->UpdatePiece(isShared ? this->Ranks.rank() : 0, isShared ? this->Ranks.size() : 1, 0));
@@ -440,12 +441,12 @@ TEST_F(OutOfCoreRanks, UpdateTheFilterTogether)
   }
 }
 
-TEST_F(OutOfCoreRanks, AllLearnThatTheInputIsMissing)
+TEST_F(OutOfCoreRanks, AllReportAMissingInput)
 {
   EXPECT_NE(std::string::npos, this->failure().find("points.npy: cannot be opened"));
 }
 
-TEST_F(OutOfCoreRanks, SayWhichFolderIsNotShared)
+TEST_F(OutOfCoreRanks, ReportAFolderThatIsNotShared)
 {
   if (this->isFirst())
   {
@@ -457,7 +458,7 @@ TEST_F(OutOfCoreRanks, SayWhichFolderIsNotShared)
   {
     return;
   }
-  // A rank in another folder does not see what a relative path names.
+  // In another working folder, a relative path means another file.
   const fs::path here = fs::current_path();
   const TemporaryFolder elsewhere;
   fs::current_path(this->isFirst() ? this->Folder->path("") : elsewhere.path(""));
@@ -473,7 +474,7 @@ TEST_F(OutOfCoreRanks, SayWhichFolderIsNotShared)
     reason = failure.what();
   }
   fs::current_path(here);
-  EXPECT_EQ(0U, reason.find("shared: is not there on this rank")) << reason;
+  EXPECT_EQ(0U, reason.find("shared: does not exist on this rank")) << reason;
   if (this->isFirst())
   {
     EXPECT_TRUE(fs::is_empty(this->Folder->path("shared")));

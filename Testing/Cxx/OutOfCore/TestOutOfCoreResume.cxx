@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A run that was ended can go on, and makes the same files.
+// An interrupted run can be resumed, and makes the same files.
 #include "OutOfCoreTesting.h"
 
 #include "ExpectIOError.h"
@@ -41,7 +41,7 @@ protected:
   TemporaryFolder Folder;
 };
 
-TEST_P(OutOfCoreResume, MakesTheSameFilesWhereverItWasEnded)
+TEST_P(OutOfCoreResume, MakesTheSameFilesAfterAnyInterruption)
 {
   writePoints(this->Folder.path("points.npy"), makePointSet(GetParam(), 2500));
   this->run();
@@ -57,7 +57,7 @@ TEST_P(OutOfCoreResume, MakesTheSameFilesWhereverItWasEnded)
     int ended = 0;
     do
     {
-      // More from run to run: verifying what earlier ones have written takes calls, too.
+      // Later runs need more calls, since they verify what earlier ones have written.
       int calls = int(random() % 60) + 2 * ended++;
       this->Options.Progress = [&calls](double) { return calls-- > 0; };
       statistics = this->run();
@@ -85,7 +85,7 @@ protected:
   {
     writePoints(this->Folder.path("points.npy"), makePointSet("uniform", 2500));
     this->Options.Progress = [](double fraction) { return fraction < 0.6; };
-    // With one thread, for where two have got to when they are told to end depends on the load.
+    // With one thread, the run always ends at the same step.
     this->Options.Threads = 1;
     ASSERT_TRUE(this->run().Kept);
     this->Options.Threads = 2;
@@ -93,7 +93,7 @@ protected:
   }
 };
 
-TEST_F(OutOfCoreBegun, RefusesToStartAgainWithoutBeingTold)
+TEST_F(OutOfCoreBegun, IsResumedOnlyOnRequest)
 {
   expectIOError(this->Folder.path("mesh.tipp"), "resume it", [this] { this->run(); });
   this->Options.Resume = true;
@@ -114,7 +114,7 @@ TEST_F(OutOfCoreBegun, RefusesOtherOptions)
   expectIOError(this->Folder.path("mesh.tipp"), "other options", [this] { this->run(); });
 }
 
-TEST_F(OutOfCoreBegun, NamesADamagedPlan)
+TEST_F(OutOfCoreBegun, ReportsADamagedPlan)
 {
   const std::string plan = this->Folder.path(".mesh.tipp.part/.plan");
   std::string content = contentOf(plan);
@@ -124,7 +124,7 @@ TEST_F(OutOfCoreBegun, NamesADamagedPlan)
   expectIOError(plan, "is damaged", [this] { this->run(); });
 }
 
-TEST_F(OutOfCoreBegun, NamesAMissingPlan)
+TEST_F(OutOfCoreBegun, ReportsAMissingPlan)
 {
   const std::string plan = this->Folder.path(".mesh.tipp.part/.plan");
   fs::remove(plan);
@@ -136,7 +136,8 @@ TEST_F(OutOfCoreBegun, NamesAMissingPlan)
 class OutOfCoreDamaged : public OutOfCoreBegun
 {
 protected:
-  /// Resumes, and expects a warning that names the file, and the files of an undisturbed run.
+  /// Resumes the run. Expects a warning that names the damaged file, and the files of an
+  /// uninterrupted run.
   void expectMadeAgain(const std::string& damaged)
   {
     std::vector<std::string> warnings;
@@ -152,7 +153,7 @@ protected:
     EXPECT_EQ(1U, warnings.size());
   }
 
-  /// Of the pieces that were finished.
+  /// The paths of the finished pieces' results.
   std::vector<std::string> results() const
   {
     std::vector<std::string> paths;
@@ -181,7 +182,7 @@ protected:
   const std::string Results = Folder.path(".mesh.tipp.part/.piece.");
 };
 
-TEST_F(OutOfCoreDamaged, MakesPiecesAgainThatHaveChanged)
+TEST_F(OutOfCoreDamaged, RemakesChangedPieces)
 {
   for (const auto& piece : fs::directory_iterator(this->Pieces))
   {
@@ -190,7 +191,7 @@ TEST_F(OutOfCoreDamaged, MakesPiecesAgainThatHaveChanged)
   this->expectMadeAgain(this->Pieces);
 }
 
-TEST_F(OutOfCoreDamaged, MakesPiecesAgainThatAreCutShort)
+TEST_F(OutOfCoreDamaged, RemakesTruncatedPieces)
 {
   for (const auto& piece : fs::directory_iterator(this->Pieces))
   {
@@ -199,13 +200,13 @@ TEST_F(OutOfCoreDamaged, MakesPiecesAgainThatAreCutShort)
   this->expectMadeAgain(this->Pieces);
 }
 
-TEST_F(OutOfCoreDamaged, MakesPiecesAgainThatAreMissing)
+TEST_F(OutOfCoreDamaged, RemakesMissingPieces)
 {
   fs::remove_all(this->Pieces);
   this->expectMadeAgain(this->Pieces);
 }
 
-TEST_F(OutOfCoreDamaged, MakesPiecesAgainWhoseResultsHaveChanged)
+TEST_F(OutOfCoreDamaged, RemakesPiecesWithChangedResults)
 {
   for (const std::string& result : this->results())
   {
@@ -214,14 +215,14 @@ TEST_F(OutOfCoreDamaged, MakesPiecesAgainWhoseResultsHaveChanged)
   this->expectMadeAgain(this->Results);
 }
 
-TEST_F(OutOfCoreDamaged, MakesAgainTheOneThatIsDamagedAlone)
+TEST_F(OutOfCoreDamaged, RemakesOnlyTheDamagedPiece)
 {
   const std::string result = this->results().front();
   this->change(result);
   this->expectMadeAgain(result + ": is damaged or missing; its piece is made again");
 }
 
-TEST_F(OutOfCoreDamaged, LeavesNothingOfWhatIsAppendedToPieces)
+TEST_F(OutOfCoreDamaged, RemovesBytesAppendedToPieces)
 {
   for (const auto& piece : fs::directory_iterator(this->Pieces))
   {
@@ -235,7 +236,7 @@ TEST_F(OutOfCoreDamaged, LeavesNothingOfWhatIsAppendedToPieces)
   EXPECT_TRUE(resumed == this->files());
 }
 
-TEST_F(OutOfCoreBegun, NamesSpilledPointsThatAreCutShort)
+TEST_F(OutOfCoreBegun, ReportsTruncatedSpilledPoints)
 {
   const std::string points = this->Folder.path(".mesh.tipp.part/.points.0");
   fs::resize_file(points, fs::file_size(points) - 100);
@@ -243,7 +244,7 @@ TEST_F(OutOfCoreBegun, NamesSpilledPointsThatAreCutShort)
   expectIOError(points, "shorter", [this] { this->run(); });
 }
 
-TEST_F(OutOfCoreBegun, NamesSpilledPointsThatAreDamaged)
+TEST_F(OutOfCoreBegun, ReportsDamagedSpilledPoints)
 {
   const std::string points = this->Folder.path(".mesh.tipp.part/.points.0");
   std::string content = contentOf(points);
@@ -257,7 +258,7 @@ TEST_F(OutOfCoreBegun, NamesSpilledPointsThatAreDamaged)
   EXPECT_FALSE(fs::exists(this->Folder.path("mesh.tipp")));
 }
 
-TEST_F(OutOfCoreBegun, LeavesAnOlderMeshUntilItIsWhole)
+TEST_F(OutOfCoreBegun, KeepsAnOlderMeshUntilItIsComplete)
 {
   fs::create_directory(this->Folder.path("mesh.tipp"));
   this->Options.Resume = true;
@@ -265,7 +266,7 @@ TEST_F(OutOfCoreBegun, LeavesAnOlderMeshUntilItIsWhole)
   EXPECT_EQ(2500, openPartitionedMesh(this->Folder.path("mesh.tipp")).Points);
 }
 
-/// A run that was killed when its mesh was whole, but not in its place.
+/// A run that was killed after it finished its mesh, but before it renamed it to its final path.
 class OutOfCoreWhole : public OutOfCoreResume
 {
 protected:
@@ -314,7 +315,7 @@ protected:
   std::map<std::string, std::string> Expected;
 };
 
-TEST_F(OutOfCoreWhole, IsPutInPlaceThoughItsPointsAreGone)
+TEST_F(OutOfCoreWhole, IsRenamedEvenIfItsPointsAreMissing)
 {
   for (const char* name : { ".points.0", ".piece.0", ".piece.1.finished" })
   {
@@ -325,9 +326,9 @@ TEST_F(OutOfCoreWhole, IsPutInPlaceThoughItsPointsAreGone)
   EXPECT_TRUE(this->Expected == this->files());
 }
 
-TEST_F(OutOfCoreWhole, IsPutInPlaceWithoutBeingTold)
+TEST_F(OutOfCoreWhole, IsRenamedWithoutARequestToResume)
 {
-  this->Options.Progress = [](double) { return false; }; // too late
+  this->Options.Progress = [](double) { return false; }; // no effect: only renaming is left
   this->expectTheSame(this->run());
   EXPECT_TRUE(this->Expected == this->files());
 }
@@ -341,14 +342,14 @@ TEST_F(OutOfCoreWhole, IsRefusedForAnotherInput)
   EXPECT_TRUE(this->Expected == filesOf(this->Part + "/mesh.tipp"));
 }
 
-TEST_F(OutOfCoreWhole, IsRefusedWhereAFileOfItsMeshIsMissing)
+TEST_F(OutOfCoreWhole, IsRefusedIfAFileIsMissing)
 {
   fs::remove(this->Part + "/mesh.tipp/pieces/000003.vtu");
   this->Options.Resume = true;
   expectIOError(this->Part + "/mesh.tipp", "is damaged", [this] { this->run(); });
 }
 
-TEST_F(OutOfCoreWhole, IsRefusedWhereAnyOfItsFilesHasChanged)
+TEST_F(OutOfCoreWhole, IsRefusedIfAFileHasChanged)
 {
   this->Options.Resume = true;
   const std::string mesh = this->Part + "/mesh.tipp/";
@@ -365,7 +366,7 @@ TEST_F(OutOfCoreWhole, IsRefusedWhereAnyOfItsFilesHasChanged)
   EXPECT_TRUE(this->Expected == this->files());
 }
 
-TEST_F(OutOfCoreWhole, IsLeftAloneWhereItTookAnotherMeshsPlace)
+TEST_F(OutOfCoreWhole, IsKeptAfterItReplacedAnotherMesh)
 {
   this->publish();
   fs::remove_all(this->Part + "/mesh.tipp");
@@ -377,7 +378,7 @@ TEST_F(OutOfCoreWhole, IsLeftAloneWhereItTookAnotherMeshsPlace)
   EXPECT_TRUE(this->Expected == this->files());
 }
 
-TEST_F(OutOfCoreWhole, GivesWayToAnotherInputOnceItIsInPlace)
+TEST_F(OutOfCoreWhole, MayBeReplacedByAnotherInputOnceRenamed)
 {
   this->publish();
   const Coordinates xy = makePointSet("uniform", 1000, 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run makes of its input and options.
+// How a run handles its input and options.
 #include "OutOfCoreTesting.h"
 
 #include "Distributions/GeneratePoints.h"
@@ -43,7 +43,7 @@ TEST(OutOfCore, MakesTheSameFilesWithAnyNumberOfThreads)
   }
 }
 
-TEST(OutOfCore, TakesAGridOfPieces)
+TEST(OutOfCore, AcceptsAGridOfPieces)
 {
   const Coordinates xy = makePointSet("clustered", 2000);
   const TemporaryFolder folder;
@@ -54,7 +54,7 @@ TEST(OutOfCore, TakesAGridOfPieces)
   EXPECT_TRUE(meshMatches(folder.path("mesh.tipp"), xy, reference(xy)));
 }
 
-TEST(OutOfCore, KeepsToItsPiecesForAbsurdlyLittleMemory)
+TEST(OutOfCore, AcceptsAbsurdlyLittleMemory)
 {
   const Coordinates xy = makePointSet("coast", 30000);
   const Reference expected = reference(xy);
@@ -98,7 +98,7 @@ TEST(OutOfCore, CountsAndMapsDuplicates)
   EXPECT_GT(duplicates, 100);
 }
 
-TEST(OutOfCore, CarriesColumnsOfAllFiles)
+TEST(OutOfCore, WritesTheColumnsOfAllFiles)
 {
   const TemporaryFolder folder;
   const Coordinates xy = makePointSet("uniform", 2000);
@@ -158,7 +158,7 @@ TEST(OutOfCore, RefusesFilesOfDifferentColumns)
     });
 }
 
-TEST(OutOfCore, WritesPointsWithoutTrianglesWhereAllAreOnALine)
+TEST(OutOfCore, WritesCollinearPointsWithoutTriangles)
 {
   const Coordinates xy = makePointSet("collinear", 500);
   const TemporaryFolder folder;
@@ -174,7 +174,7 @@ TEST(OutOfCore, WritesPointsWithoutTrianglesWhereAllAreOnALine)
   EXPECT_EQ(500, points);
 }
 
-TEST(OutOfCore, SaysThatThereAreNoPoints)
+TEST(OutOfCore, ReportsThatThereAreNoPoints)
 {
   const TemporaryFolder folder;
   const Coordinates none = { NAN, 0, 0, INFINITY };
@@ -182,7 +182,7 @@ TEST(OutOfCore, SaysThatThereAreNoPoints)
   EXPECT_EQ(1U, folder.fileCount());
 }
 
-TEST(OutOfCore, NamesAnInputThatEndsEarly)
+TEST(OutOfCore, ReportsAnInputThatEndsEarly)
 {
   const TemporaryFolder folder;
   writePoints(folder.path("points.npy"), makePointSet("uniform", 2000));
@@ -289,7 +289,7 @@ TEST(OutOfCore, CountsAndSumsTrianglesWithoutWritingThem)
   EXPECT_EQ(1U, folder.fileCount());
 }
 
-TEST(OutOfCore, TakesUniformPointsThatAreMadeAsTheyAreWanted)
+TEST(OutOfCore, TriangulatesGeneratedPoints)
 {
   const TemporaryFolder folder;
   const auto points = openPointStream({ "uniform:3000" });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pieces: the order in which they are triangulated, their results, and what other ranks need of
-// them.
+// Pieces: the order of their triangulation, their results, and the parts of these that other ranks
+// need.
 #include "OutOfCoreTesting.h"
 
 #include "OutOfCore/FinishPieces.h"
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using namespace tipp;
 using namespace tipp::test;
 
-/// Of partitions with random conflicts.
+/// The order of `count` partitions with random conflicts.
 PartitionOrder randomOrder(PartitionIndex count, std::mt19937& random)
 {
   std::vector<ConflictGraph::Pair> pairs;
@@ -38,7 +38,7 @@ PartitionOrder randomOrder(PartitionIndex count, std::mt19937& random)
   return PartitionOrder(std::vector<char>(std::size_t(count), 1), conflicts);
 }
 
-TEST(BorderQueue, GivesABorderOnceAllPiecesThatConflictAreDone)
+TEST(BorderQueue, ABorderIsReadyOnceAllConflictingPiecesAreDone)
 {
   Steps steps(makePointSet("uniform", 4000));
   const PiecePlan plan = steps.plan();
@@ -80,7 +80,7 @@ TEST(BorderQueue, GivesABorderOnceAllPiecesThatConflictAreDone)
   }
 }
 
-TEST(BorderQueue, GivesNoneIfEveryPartitionConflictsWithEveryOther)
+TEST(BorderQueue, IsEmptyIfAllPartitionsConflict)
 {
   Steps steps(makePointSet("uniform", 4000));
   const PiecePlan plan = steps.plan();
@@ -111,7 +111,7 @@ TEST(PieceOrder, TriangulatesOnePieceAfterTheOther)
   EXPECT_EQ(order.sequence(), pieces);
 }
 
-TEST(PieceOrder, BeginsWithPiecesThatDoNotConflict)
+TEST(PieceOrder, StartsWithPiecesThatDoNotConflict)
 {
   Steps steps(makePointSet("uniform", 20000));
   PiecePlan plan = steps.plan();
@@ -132,7 +132,7 @@ TEST(PieceOrder, BeginsWithPiecesThatDoNotConflict)
   }
 }
 
-TEST(RunSetup, ComesBackOnAnotherRank)
+TEST(RunSetup, IsRestoredOnAnotherRank)
 {
   Steps steps(makePointSet("clustered", 4000));
   RunSetup run;
@@ -160,7 +160,7 @@ TEST(RunSetup, ComesBackOnAnotherRank)
   EXPECT_EQ(run.Spilled->starts(), back.work().Points.starts());
 }
 
-/// Pieces of points, the triangles of which are counted.
+/// A run over pieces that only counts triangles.
 class PieceRuns : public testing::Test
 {
 protected:
@@ -213,12 +213,12 @@ TEST_F(PieceRuns, LeaveAResultOfEveryPiece)
   this->expectAllTriangles();
 }
 
-TEST_F(PieceRuns, EndWhereTheyAreTold)
+TEST_F(PieceRuns, StopWhenAborted)
 {
   EXPECT_FALSE(this->run(this->None, [](std::int64_t done) { return done < 1000; }));
 }
 
-TEST_F(PieceRuns, GoOnFromAnyResults)
+TEST_F(PieceRuns, ResumeFromAnyResults)
 {
   ASSERT_TRUE(this->run(this->None));
   for (const std::size_t kept : { 2, 3, 5 })
@@ -238,7 +238,7 @@ TEST_F(PieceRuns, GoOnFromAnyResults)
   }
 }
 
-TEST_F(PieceRuns, GiveTheSameResultsAgain)
+TEST_F(PieceRuns, MakeTheSameResultsAgain)
 {
   ASSERT_TRUE(this->run(this->None));
   std::vector<std::string> results;

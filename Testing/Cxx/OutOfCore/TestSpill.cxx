@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The files of rows by key that the out-of-core run and the partitioner write.
+// The files of rows by key, which the out-of-core run and the partitioner write.
 #include "ExpectIOError.h"
 #include "TemporaryFolder.h"
 
@@ -27,10 +27,10 @@ using Row = std::array<std::int32_t, 3>;
 
 int keyOf(std::size_t row)
 {
-  return int(row * row % 7) - 1; // of 0, 1, 2 and 4 squares; some are left out
+  return int(row * row % 7) - 1; // keys 0, 1 and 3; other rows (-1) are not stored
 }
 
-/// A rank's chunks of rows from `first` on.
+/// The rows from `first` on, written by one rank in `chunks` chunks.
 class Written
 {
 public:
@@ -53,7 +53,7 @@ public:
   Spill Rows;
 };
 
-/// The only rank's, to be read.
+/// Rows written by a single rank, for reading.
 class WrittenAlone : public Written
 {
 public:
@@ -91,7 +91,7 @@ std::vector<std::int32_t> expectedNumbers(std::size_t key, std::size_t rows)
   return numbers;
 }
 
-TEST(Spill, GivesEachKeysRowsInTheOrderOfTheChunks)
+TEST(Spill, ReadsEachKeysRowsInTheOrderOfTheChunks)
 {
   const TemporaryFolder folder;
   const WrittenAlone written(folder, 4);
@@ -102,7 +102,7 @@ TEST(Spill, GivesEachKeysRowsInTheOrderOfTheChunks)
   }
 }
 
-TEST(Spill, GivesRowsABlockAtATime)
+TEST(Spill, ReadsRowsInBlocks)
 {
   const TemporaryFolder folder;
   const WrittenAlone written(folder, 4);
@@ -136,7 +136,7 @@ TEST(Spill, JoinsTheRowsOfRanksInTheirOrder)
   }
 }
 
-TEST(Spill, KeepsNothingForEachPairOfChunkAndKey)
+TEST(Spill, SavedStateDoesNotGrowWithChunksTimesKeys)
 {
   const TemporaryFolder folder;
   const std::size_t few = packed(WrittenAlone(folder, 10).Rows.content()).size();
@@ -144,12 +144,12 @@ TEST(Spill, KeepsNothingForEachPairOfChunkAndKey)
     few + 20 * sizeof(std::uint64_t), packed(WrittenAlone(folder, 30).Rows.content()).size());
 }
 
-TEST(Spill, NamesAListOfAChunkThatIsDamaged)
+TEST(Spill, ReportsADamagedList)
 {
   const TemporaryFolder folder;
   const WrittenAlone written(folder, 2);
   const std::uint32_t wrong = 77;
-  OutputFile::shared(folder.path("rows.0")).write(4, &wrong, 4); // where key 1 begins
+  OutputFile::shared(folder.path("rows.0")).write(4, &wrong, 4); // start of key 1
   for (const std::size_t key : { std::size_t(0), std::size_t(1) })
   {
     expectIOError(folder.path("rows.0"), "is damaged", [&] { written.Rows.readAll(key); });
@@ -157,7 +157,7 @@ TEST(Spill, NamesAListOfAChunkThatIsDamaged)
   EXPECT_EQ(expectedNumbers(3, 2 * chunkRows), numbersOf(written.Rows, 3));
 }
 
-TEST(Spill, RefusesWhatIsSavedOfOthers)
+TEST(Spill, RefusesTheStateOfAnotherSpill)
 {
   const TemporaryFolder folder;
   const SpilledRows saved = WrittenAlone(folder, 2).Rows.content();

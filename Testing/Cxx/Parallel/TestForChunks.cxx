@@ -29,7 +29,7 @@ TEST(ForChunks, DoesEachPieceOnce)
   }
 }
 
-TEST(ForChunks, ThrowsWhatTheLowestThrew)
+TEST(ForChunks, ThrowsTheExceptionOfTheLowestChunk)
 {
   for (int repetition = 0; repetition < 50; ++repetition)
   {
@@ -52,7 +52,7 @@ TEST(ForChunks, ThrowsWhatTheLowestThrew)
   }
 }
 
-TEST(ForChunks, StopsWhenTheReportSaysSo)
+TEST(ForChunks, StopsWhenProgressReturnsFalse)
 {
   int pieces = 0;
   const bool completed = tipp::forChunks(
@@ -62,7 +62,7 @@ TEST(ForChunks, StopsWhenTheReportSaysSo)
   EXPECT_EQ(pieces, 50);
 }
 
-TEST(ForChunks, APartOfAReportCountsWithinIt)
+TEST(ForChunks, NestedProgressIsAPartOfTheWhole)
 {
   std::vector<double> heard;
   const tipp::Report whole = [&](double done)
@@ -77,7 +77,7 @@ TEST(ForChunks, APartOfAReportCountsWithinIt)
   EXPECT_FALSE(tipp::partOf({}, 0, 1));
 }
 
-TEST(ParallelFor, DoesEachOnceOnAnyThreads)
+TEST(ParallelFor, RunsEachOnceOnAnyNumberOfThreads)
 {
   for (const int threads : { 0, 1, 5 })
   {
@@ -90,7 +90,7 @@ TEST(ParallelFor, DoesEachOnceOnAnyThreads)
   }
 }
 
-TEST(ParallelFor, LowerOnesAreDoneBeforeAFailureComesOut)
+TEST(ParallelFor, FinishesLowerIndicesBeforeAFailureIsThrown)
 {
   std::vector<int> done(40, 0);
   EXPECT_THROW(tipp::parallelFor(40, 4,

@@ -7,7 +7,7 @@
 
 using tipp::Scalar;
 
-TEST(ScalarTypes, OfVtkAreThoseOfTheirSizeAndSign)
+TEST(ScalarTypes, OfVtkAreMappedBySizeAndSign)
 {
   EXPECT_EQ(tipp::scalarOf(VTK_FLOAT), Scalar::Float32);
   EXPECT_EQ(tipp::scalarOf(VTK_DOUBLE), Scalar::Float64);
@@ -18,13 +18,13 @@ TEST(ScalarTypes, OfVtkAreThoseOfTheirSizeAndSign)
   EXPECT_EQ(tipp::scalarOf(VTK_ID_TYPE), sizeof(vtkIdType) == 8 ? Scalar::Int64 : Scalar::Int32);
 }
 
-TEST(ScalarTypes, OfBitsAndStringsThereAreNone)
+TEST(ScalarTypes, DoNotExistForBitsAndStrings)
 {
   EXPECT_FALSE(tipp::scalarOf(VTK_BIT));
   EXPECT_FALSE(tipp::scalarOf(VTK_STRING));
 }
 
-TEST(ScalarTypes, ComeBackFromVtk)
+TEST(ScalarTypes, AreMappedToVtkAndBack)
 {
   for (int i = int(Scalar::Int8); i <= int(Scalar::Float64); ++i)
   {

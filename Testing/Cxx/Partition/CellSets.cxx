@@ -14,7 +14,7 @@ using tipp::Point3;
 namespace
 {
 
-// Nodes of a lattice over the unit square or cube.
+// The nodes of a lattice over the unit square or cube.
 class Lattice
 {
 public:
@@ -113,7 +113,8 @@ CellSet latticeTriangles(int n, double jitter, unsigned seed)
 
 CellSet latticeTetrahedra(int n, double jitter, unsigned seed)
 {
-  // Kuhn's six: from one corner of the cube to the opposite one along the axes in each order.
+  // Kuhn's six tetrahedra: paths along the axes, in each order, from one corner to the opposite
+  // one.
   static const int orders[6][3] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 }, { 0, 2, 1 }, { 2, 1, 0 },
     { 1, 0, 2 } };
   const Lattice lattice(n, 3, jitter, seed);

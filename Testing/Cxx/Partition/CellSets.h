@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// Cells with their coordinates, made to a kind.
+/// Cells of one kind with the coordinates of their corners.
 struct CellSet
 {
   int Dimension = 2;
@@ -16,32 +16,32 @@ struct CellSet
 
   tipp::CellsView view() const;
   std::size_t size() const;
-  /// Bounds of the cells; flat in z where the set lies in the plane.
+  /// The bounds of all corners. For cells in the plane, z is 0.
   tipp::Box3 bounds() const;
 };
 
 /// n x n squares of two triangles, or n x n x n cubes of six tetrahedra, on a lattice whose nodes
-/// are moved by up to `jitter` of its step: with 0, cells touch the boxes of many a grid.
+/// are moved by up to `jitter` of its step. With 0, cells touch the boxes of many grids.
 CellSet latticeTriangles(int n, double jitter, unsigned seed = 1);
 CellSet latticeTetrahedra(int n, double jitter, unsigned seed = 1);
 
-/// The triangles in space: z is a function of x and y.
+/// The triangles as a surface in space: z is a function of x and y.
 CellSet surface(const CellSet& triangles);
 
-/// Cells of all lengths, anywhere in the unit square or cube, long slivers and flat ones among
-/// them; most coordinates are multiples of 1/16, the others have all digits.
+/// `count` random cells of all sizes in the unit square or cube, some of them long or flat. Most
+/// coordinates are multiples of 1/16; the others use all digits.
 CellSet cellSoup(int dimension, int corners, std::size_t count, unsigned seed);
 
-/// Triangles around one point, from long ones to tiny ones.
+/// Triangles around one point, of very different sizes.
 CellSet fan(std::size_t count);
 
-/// A tree tiling of the cells' bounds: a node of depth below `depth` is split if the seed says so.
+/// A tiling of the domain by the leaves of a random tree, which is at most `depth` levels deep.
 tipp::BoxTiling randomTree(int dimension, const tipp::Box3& domain, int depth, unsigned seed);
 
-/// By clipping in rationals, each cell against each box.
+/// The partitions that each cell meets, by clipping each cell with each box in rational arithmetic.
 tipp::Membership bruteForce(const CellSet& cells, const tipp::BoxTiling& tiling);
 
-/// Word by word; the first difference is a test failure.
+/// Expects equal words, and reports the first difference.
 void expectEqual(const tipp::Membership& expected, const tipp::Membership& actual);
 
 #endif

@@ -10,7 +10,7 @@
 #include <ostream>
 #include <random>
 
-/// A cell and a box that touch, or lie an ulp or so from it. In the plane z is 0 throughout.
+/// A cell and a box that touch each other, or almost do. In the plane, z is 0.
 struct CellAndBox
 {
   std::array<tipp::Point3, 4> Corners;
@@ -31,7 +31,7 @@ inline void PrintTo(const CellAndBox& scene, std::ostream* out)
   *out << std::defaultfloat;
 }
 
-/// Draws such scenes. The same seed gives the same scenes.
+/// Draws degenerate cells and boxes. The same seed gives the same ones.
 class DegenerateCells
 {
 public:
@@ -41,19 +41,20 @@ public:
   {
   }
 
-  /// All coordinates nodes of a small lattice: cells and boxes that touch, flat ones among them.
+  /// All coordinates are nodes of a small lattice, so cells and boxes often touch, and some are
+  /// flat.
   CellAndBox onLattice(int size, double step, double offset)
   {
     return this->scene([&] { return offset + step * this->integer(0, size - 1); });
   }
 
-  /// The same, every other coordinate moved by up to two ulps.
+  /// As onLattice(), but about half of the coordinates are moved by up to two ulps.
   CellAndBox besideLattice(int size, double step, double offset)
   {
     return this->scene([&] { return this->nudged(offset + step * this->integer(0, size - 1)); });
   }
 
-  /// The box's lowest corner by the cell: on an edge or a face, up to rounding.
+  /// A corner of the box lies on an edge or a face of the cell, up to rounding.
   CellAndBox cornerByTheCell()
   {
     CellAndBox result = this->scene([&] { return this->real(-1.0, 1.0); });
@@ -75,7 +76,7 @@ public:
     return result;
   }
 
-  /// Every coordinate with an exponent of its own between the given powers of two.
+  /// Every coordinate has its own exponent, between the two given ones.
   CellAndBox mixedExponents(int lowest, int highest)
   {
     return this->scene(

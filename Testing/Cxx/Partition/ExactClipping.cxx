@@ -67,7 +67,7 @@ mpq_class determinant(const Point& a, const Point& b, const Point& c, const Poin
     u[2] * (v[0] * w[1] - v[1] * w[0]);
 }
 
-// Strictly inside; a point on the border is on a face, which is tested by itself.
+// Whether q is strictly inside. The caller tests the faces separately.
 bool contains(const std::array<Point, 4>& p, const Point& q)
 {
   const int whole = sgn(determinant(p[0], p[1], p[2], p[3]));
@@ -90,7 +90,7 @@ bool tetrahedronMeetsBox(const std::array<tipp::Point3, 4>& corners, const tipp:
   std::transform(corners.begin(), corners.end(), p.begin(), exact);
   return polygonMeetsBox({ p[0], p[1], p[2] }, box) || polygonMeetsBox({ p[0], p[1], p[3] }, box) ||
     polygonMeetsBox({ p[0], p[2], p[3] }, box) || polygonMeetsBox({ p[1], p[2], p[3] }, box) ||
-    // Meets no face, so the box lies in the tetrahedron or they are apart.
+    // The box meets no face, so it is either inside the tetrahedron or disjoint from it.
     contains(p, exact({ box.Min[0], box.Min[1], box.Min[2] }));
 }
 

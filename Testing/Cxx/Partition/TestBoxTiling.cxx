@@ -35,7 +35,8 @@ std::vector<std::int32_t> meeting(const BoxTiling& tiling, const Box3& box)
   return ids;
 }
 
-// Boxes of all sizes, many with borders on the tiling's, some beyond the domain.
+// Compares for boxes of all sizes. Many have borders on those of the tiling, and some are outside
+// the domain.
 void expectMeetingAsByBruteForce(const BoxTiling& tiling)
 {
   std::mt19937_64 engine(1);
@@ -167,7 +168,7 @@ TEST(BoxTiling, MoreCutsThanDoublesGiveFlatBoxes)
   expectMeetingAsByBruteForce(tiling);
 }
 
-TEST(BoxTiling, RefusesADomainThatIsNone)
+TEST(BoxTiling, RefusesAnInvalidDomain)
 {
   const Box3 inverted = { { 1, 0, 0 }, { 0, 1, 0 } };
   const Box3 infinite = { { 0, 0, 0 }, { HUGE_VAL, 1, 0 } };
@@ -200,7 +201,7 @@ TEST(BoxTiling, RefusesAGridOfNoOrTooManyBoxes)
   expectAcceleratorError([] { BoxTiling::grid(4, Square, { 1, 1, 1 }); }, "2 or 3 dimensions");
 }
 
-TEST(BoxTiling, RefusesNodesThatAreNoTree)
+TEST(BoxTiling, RefusesInvalidNodes)
 {
   const auto expectRefused = [](const std::vector<std::int32_t>& nodes)
   {
@@ -214,7 +215,7 @@ TEST(BoxTiling, RefusesNodesThatAreNoTree)
   expectRefused({ 1, -1, -1, -1, -1, -1 });
   expectRefused({ 1, 0, -1, -1, -1 });
   expectRefused({ 1, 5, 5, -1, -1, -1, -1, -1, -1 });
-  // 25 levels below the root.
+  // The tree has 25 levels below the root.
   std::vector<std::int32_t> deep;
   for (std::int32_t level = 0; level < 25; ++level)
   {

@@ -20,7 +20,7 @@ Point2 flat(const Point3& p)
   return { p.x, p.y };
 }
 
-// How often each answer came.
+// How often each result was returned.
 struct Answers
 {
   int Apart = 0;
@@ -134,7 +134,7 @@ TEST(Orientation3, ExactForMixedExponents)
 
 TEST(TriangleMeetsBox, TouchingAtOnePointCounts)
 {
-  // The hypotenuse passes through the box's corner (1, 1).
+  // The hypotenuse passes through the corner (1, 1) of the box.
   EXPECT_TRUE(tipp::triangleMeetsBox({ 0, 0 }, { 2, 0 }, { 0, 2 }, { { 1, 1, 0 }, { 3, 3, 0 } }));
   const double beyond = std::nextafter(1.0, 2.0);
   EXPECT_FALSE(
@@ -149,7 +149,7 @@ TEST(TriangleMeetsBox, ABoxWithinTheTriangleAndATriangleWithinTheBoxMeet)
     tipp::triangleMeetsBox({ -9, -9 }, { 9, -9 }, { 0, 9 }, { { -99, -99, 0 }, { 99, 99, 0 } }));
 }
 
-TEST(TriangleMeetsBox, SegmentsAndPointsAreTrianglesToo)
+TEST(TriangleMeetsBox, AcceptsSegmentsAndPoints)
 {
   const Box3 box = { { 1, 0, 0 }, { 2, 1, 0 } };
   EXPECT_TRUE(tipp::triangleMeetsBox({ 0, 1 }, { 1, 1 }, { 0.5, 1 }, box));
@@ -195,9 +195,9 @@ TEST(TetrahedronMeetsBox, TouchingAtOnePointCounts)
   EXPECT_FALSE(tipp::tetrahedronMeetsBox(O, x, y, z, { { 1, beyond, 1 }, { 2, 2, 2 } }));
 }
 
-TEST(TetrahedronMeetsBox, EdgesThatPassEachOtherAreApart)
+TEST(TetrahedronMeetsBox, EdgesThatPassEachOtherDoNotMeet)
 {
-  // An edge that crosses the box's edge x = y = 1 at z = 0.5, then moved outward.
+  // An edge that crosses the box's edge x = y = 1 at z = 0.5. Then it is moved outwards.
   const Box3 box = { { 0, 0, 0 }, { 1, 1, 1 } };
   EXPECT_TRUE(tipp::tetrahedronMeetsBox({ 2, 0, 0 }, { 0, 2, 1 }, { 5, 5, 0 }, { 5, 5, 1 }, box));
   EXPECT_FALSE(tipp::tetrahedronMeetsBox(

@@ -62,7 +62,7 @@ CellSet oneTriangle(double x0, double y0, double x1, double y1, double x2, doubl
 TEST(ClassifyCells, TheLowestPartitionMetOwnsAndTheOthersBorrow)
 {
   const BoxTiling tiling = BoxTiling::grid(2, { { 0, 0, 0 }, { 4, 4, 0 } }, { 2, 2, 1 });
-  // Across the lower two, into the upper right one, past the upper left one.
+  // The triangle meets the lower two boxes and the upper right one, but not the upper left one.
   const CellSet cells = oneTriangle(1, 1, 3, 1, 3, 2.5);
   const Membership result = classifyCells(cells.view(), tiling, threads(1));
   EXPECT_EQ(result.Owner, (std::vector<std::int32_t>{ 0 }));
@@ -79,7 +79,7 @@ TEST(ClassifyCells, TouchingAPartitionsCornerCounts)
   EXPECT_EQ(result.Borrowers, (std::vector<std::int32_t>{ 1, 2, 3 }));
 }
 
-TEST(ClassifyCells, NoCellsAreNoMembers)
+TEST(ClassifyCells, WithoutCellsThereAreNoMembers)
 {
   const CellSet cells;
   const BoxTiling tiling = BoxTiling::grid(2, { { 0, 0, 0 }, { 1, 1, 0 } }, { 2, 2, 1 });
@@ -96,7 +96,7 @@ TEST(ClassifyCells, ExactInAGridWhoseBordersPassThroughTheNodes)
   expectExact(tetrahedra, gridOf(tetrahedra, 2));
 }
 
-TEST(ClassifyCells, ExactInAGridWhoseBordersPassBesideTheNodes)
+TEST(ClassifyCells, ExactInAGridWhoseBordersPassNextToTheNodes)
 {
   const CellSet triangles = latticeTriangles(14, 0.0);
   expectExact(triangles, gridOf(triangles, 5));
@@ -137,7 +137,7 @@ TEST(ClassifyCells, ExactForTrianglesInSpace)
   expectExact(cells, randomTree(3, cells.bounds(), 3, 6));
 }
 
-TEST(ClassifyCells, ATilingOfThePlaneTakesTrianglesInSpaceByTheirXAndY)
+TEST(ClassifyCells, ATilingOfThePlaneUsesXAndYOfTrianglesInSpace)
 {
   const CellSet flat = latticeTriangles(10, 0.3);
   const CellSet inSpace = surface(flat);
@@ -163,7 +163,7 @@ TEST(ClassifyCells, ADomainWithoutExtentIsOnePartitionAlongThatAxis)
   EXPECT_EQ(result.Borrowers, (std::vector<std::int32_t>{ 1, 2 }));
 }
 
-TEST(ClassifyCells, NamesTheFirstCellWithoutAPlace)
+TEST(ClassifyCells, ReportsTheFirstInvalidCell)
 {
   CellSet cells = latticeTriangles(100, 0.0);
   const BoxTiling tiling = gridOf(cells, 4);
@@ -244,14 +244,14 @@ TEST(ClassifyOnDevice, GivesTheSameIdsForTinyAndHugeCoordinates)
   }
 }
 
-TEST(ClassifyOnDevice, ATilingOfThePlaneTakesTrianglesInSpaceByTheirXAndY)
+TEST(ClassifyOnDevice, ATilingOfThePlaneUsesXAndYOfTrianglesInSpace)
 {
   TIPP_REQUIRE_OPENCL();
   const CellSet flat = latticeTriangles(10, 0.3);
   expectSameOnDevice(surface(flat), gridOf(flat, 4));
 }
 
-TEST(ClassifyOnDevice, ChunksLargerThanItsMemoryAreCut)
+TEST(ClassifyOnDevice, ChunksLargerThanItsMemoryAreDivided)
 {
   TIPP_REQUIRE_OPENCL();
   const CellSet triangles = cellSoup(2, 3, 700, 10);
@@ -264,7 +264,7 @@ TEST(ClassifyOnDevice, ChunksLargerThanItsMemoryAreCut)
   }
 }
 
-TEST(ClassifyOnDevice, NoCellsAreNoMembers)
+TEST(ClassifyOnDevice, WithoutCellsThereAreNoMembers)
 {
   TIPP_REQUIRE_OPENCL();
   CellSet cells = latticeTriangles(2, 0.0);
@@ -273,7 +273,7 @@ TEST(ClassifyOnDevice, NoCellsAreNoMembers)
   expectSameOnDevice(cells, tiling);
 }
 
-TEST(ClassifyOnDevice, NamesTheSameCellWithoutAPlace)
+TEST(ClassifyOnDevice, ReportsTheSameInvalidCell)
 {
   TIPP_REQUIRE_OPENCL();
   CellSet cells = latticeTriangles(40, 0.0);

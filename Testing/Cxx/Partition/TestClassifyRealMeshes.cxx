@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Real meshes: the owner and the borrowers of each cell, against brute force over all partitions.
+// The owner and the borrowers of each cell of real meshes, compared with a test of all partitions.
 #include "CellSets.h"
 #include "ExactClipping.h"
 #include "RealData.h"
@@ -71,7 +71,7 @@ CellSet readTriangles(const std::string& path)
   return cells;
 }
 
-// The cells whose bounding boxes meet more than one box, every `step`-th of them.
+// Every `step`-th of the cells whose bounding boxes meet several boxes.
 CellSet borderCells(const CellSet& cells, const BoxTiling& tiling, std::size_t step)
 {
   CellSet result = { cells.Dimension, cells.Corners, {} };

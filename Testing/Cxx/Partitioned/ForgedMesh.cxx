@@ -27,7 +27,7 @@ void writeTo(const std::string& path, const std::string& content)
   std::ofstream(path, std::ios::binary) << content;
 }
 
-/// Gives each piece's table, and then the index, a right checksum.
+/// Sets the correct checksum of each piece's table, and then of the index.
 std::string withChecksums(std::string index, const std::string& tables)
 {
   std::size_t at = 0;

@@ -15,8 +15,8 @@ namespace tipp
 namespace test
 {
 
-/// The files of a good mesh, to be changed and written back with right checksums: what remains
-/// wrong, the reader must find out by itself.
+/// The files of a valid mesh. A test changes them, and write() writes them with correct checksums,
+/// so that the reader has to find the error without checksums.
 class ForgedMesh
 {
 public:
@@ -29,7 +29,7 @@ public:
   std::size_t arrays(std::size_t piece) const { return this->PieceTables[piece].Offsets.size(); }
   std::size_t find(std::size_t piece, PieceRole role) const;
   std::size_t arrayBytes(std::size_t piece, std::size_t array) const;
-  /// Puts 8 bytes into a piece's array, `at` bytes from its beginning.
+  /// Overwrites 8 bytes of a piece's array, `at` bytes from its start.
   void putWord(std::size_t piece, std::size_t array, std::size_t at, std::uint64_t word);
 
   void write() const;

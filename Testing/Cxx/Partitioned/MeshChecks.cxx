@@ -146,7 +146,7 @@ private:
   Piece Read;
 };
 
-/// By clipping in rationals.
+/// Whether the cell meets the box, by clipping in rational arithmetic.
 bool meets(const SourceMesh& source, std::size_t cell, const Box3& box)
 {
   std::array<Point3, 4> corners{};
@@ -161,7 +161,7 @@ bool meets(const SourceMesh& source, std::size_t cell, const Box3& box)
                     : oracle::triangleMeetsBox({ corners[0], corners[1], corners[2] }, box);
 }
 
-/// The partitions that each cell meets, box by box.
+/// The partitions that each cell meets, by a test of each cell with each box.
 Membership membersOf(const PartitionedMesh& mesh, const SourceMesh& source)
 {
   std::vector<std::vector<std::int32_t>> met(source.cells());

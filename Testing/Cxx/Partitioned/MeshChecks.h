@@ -14,18 +14,18 @@ namespace tipp
 namespace test
 {
 
-/// Reads all pieces with their borrowed cells: every cell is owned once, by the lowest partition
-/// that it meets in rational arithmetic, and borrowed by all others it meets; every point belongs
-/// to one piece; ids, coordinates and attributes are the source's.
+/// Reads all pieces with their borrowed cells. Each cell must be owned by the lowest partition that
+/// it meets in rational arithmetic, and borrowed by all others that it meets. Each point must
+/// belong to one piece. Ids, coordinates and attributes must be those of the source.
 void expectHolds(const std::string& path, const SourceMesh& source);
 
-/// The same but for attributes.
+/// As expectHolds(), without the attributes.
 void expectBelongs(const std::string& path, const SourceMesh& source);
 
-/// The same bytes in all that was read.
+/// Expects that two pieces, as read, are equal byte for byte.
 void expectEqual(const Piece& a, const Piece& b);
 
-/// Each file of a folder and those below it, by its path in the folder.
+/// The contents of all files in a folder and its subfolders, by relative path.
 std::map<std::string, std::string> filesOf(const std::string& folder);
 
 } // namespace test

@@ -45,7 +45,7 @@ SourceMesh makeSource(const CellSet& cells, unsigned seed)
     const std::vector<double> point(from, from + std::ptrdiff_t(dimension));
     mesh.Cells.push_back(ids.emplace(point, std::int64_t(ids.size())).first->second);
   }
-  // The point of no cell is a copy of one in the middle.
+  // The point that is in no cell has the coordinates of a point in the middle.
   std::vector<std::vector<double>> points(ids.size() + 1);
   for (const auto& [point, id] : ids)
   {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioned/Checksum.h"
 
-// The library's code for any processor, without vector instructions.
+// xxHash without vector instructions, inlined into this file.
 #define XXH_INLINE_ALL
 #define XXH_VECTOR XXH_SCALAR
 #include <xxhash.h>
@@ -56,8 +56,8 @@ TEST(Checksum, OfPartsIsThatOfTheWhole)
 namespace
 {
 
-/// Where the processor has AVX2, Checksum.cxx calls ChecksumAvx2.cxx: long inputs, at any alignment
-/// and split anywhere.
+/// If the processor has AVX2, Checksum.cxx calls ChecksumAvx2.cxx. Tested for long inputs at any
+/// alignment, split anywhere.
 class ChecksumAvx2 : public testing::Test
 {
 protected:

@@ -21,7 +21,7 @@ using namespace tipp::test;
 namespace
 {
 
-/// A good mesh, to be damaged.
+/// A valid mesh, which each test damages.
 class DamagedMesh : public testing::Test
 {
 protected:
@@ -59,7 +59,7 @@ protected:
     expectIOError(this->path(name), words, [this] { this->readAll(); });
   }
 
-  /// Replaces a text in the index and gives it a right checksum.
+  /// Replaces a text in the index, and corrects the checksum.
   void editIndex(const std::string& from, const std::string& to) const
   {
     ForgedMesh forged(this->path());
@@ -69,7 +69,7 @@ protected:
     forged.write();
   }
 
-  /// The last id of the last piece that has such, in the good mesh, becomes another.
+  /// Replaces the last id of the first piece's array, and expects an error. Then restores the mesh.
   void expectIdIsRefused(PieceRole role, std::int64_t id) const
   {
     const ForgedMesh good(this->path());
@@ -84,7 +84,7 @@ protected:
   TemporaryFolder Folder;
 };
 
-TEST_F(DamagedMesh, IsReadWhileItIsWhole)
+TEST_F(DamagedMesh, IsReadIfUndamaged)
 {
   this->readAll();
 }
@@ -101,7 +101,7 @@ TEST_F(DamagedMesh, LacksAPiece)
   this->expectRefused("pieces/000002.vtu", "missing");
 }
 
-TEST_F(DamagedMesh, LacksThePvtuOrHasHalfOfIt)
+TEST_F(DamagedMesh, LacksThePvtuOrAPartOfIt)
 {
   fs::resize_file(this->path("mesh.pvtu"), 10);
   this->expectRefused("mesh.pvtu", "10 bytes where the index says");
@@ -141,7 +141,7 @@ TEST_F(DamagedMesh, HasChangedTables)
 
 TEST_F(DamagedMesh, HasSwappedPieces)
 {
-  // Made alike in size, so that sizes do not tell.
+  // The pieces must have equal sizes, so that their sizes do not reveal the exchange.
   const PartitionedMesh mesh = openPartitionedMesh(this->path());
   std::string first = contentOf(mesh.piecePath(0));
   std::string second = contentOf(mesh.piecePath(1));
@@ -152,11 +152,11 @@ TEST_F(DamagedMesh, HasSwappedPieces)
   this->expectRefused("pieces/000000.vtu", "does not have the checksum of piece 0");
 }
 
-/// A mesh with each way of borrowing.
+/// Meshes with borrowed cells by reference and with duplicated ones.
 class DamagedArrays : public DamagedMesh
 {
 protected:
-  /// Calls body() for a mesh of each kind.
+  /// Calls body() for each kind of mesh.
   template <typename Body>
   void forEachKind(const Body& body) const
   {
@@ -183,7 +183,7 @@ protected:
   }
 };
 
-TEST_F(DamagedArrays, AreRefusedByTheReaderWhicheverOfThemHasChanged)
+TEST_F(DamagedArrays, AreRefusedByTheReaderIfAnyHasChanged)
 {
   this->forEachKind(
     [this]
@@ -208,7 +208,7 @@ TEST_F(DamagedArrays, AreRefusedByTheReaderWhicheverOfThemHasChanged)
     });
 }
 
-TEST_F(DamagedArrays, AreFoundByteForByte)
+TEST_F(DamagedArrays, AreFoundByTheCheckForEachByte)
 {
   this->forEachKind(
     [this]
@@ -252,7 +252,7 @@ TEST_F(DamagedMesh, HasAHugeCount)
   this->expectRefused("index.json", "wrong ghost_points");
 }
 
-TEST_F(DamagedMesh, HasATableFarAway)
+TEST_F(DamagedMesh, HasATableBeyondTheFile)
 {
   this->editIndex("\"table\":[0,", "\"table\":[9223372036854775800,");
   this->expectRefused("index.json", "wrong table");
@@ -270,7 +270,7 @@ TEST_F(DamagedMesh, HasAnArrayLargerThanItsFile)
   this->expectRefused("tables.bin", "behind its file");
 }
 
-TEST_F(DamagedMesh, HasIdsOfNoPointOrCell)
+TEST_F(DamagedMesh, HasInvalidIds)
 {
   for (const bool duplicate : { false, true })
   {
@@ -290,7 +290,7 @@ TEST_F(DamagedMesh, HasIdsOfNoPointOrCell)
   }
 }
 
-TEST_F(DamagedMesh, IsNotThere)
+TEST_F(DamagedMesh, IsMissing)
 {
   expectIOError(this->path("other/index.json"), "cannot be opened",
     [this] { openPartitionedMesh(this->path("other/index.json")); });

@@ -72,7 +72,7 @@ TEST(GlobalIdMap, FindsNothingInAnEmptyMap)
   EXPECT_EQ(-1, none.find(5));
 }
 
-TEST(GlobalIdMap, GivesTheValuesThatItWasGiven)
+TEST(GlobalIdMap, ReturnsTheGivenValues)
 {
   const std::vector<std::int64_t> ids{ 3, 5, 900 };
   const std::vector<std::int64_t> values{ 2, 0, 1 };
@@ -83,7 +83,7 @@ TEST(GlobalIdMap, GivesTheValuesThatItWasGiven)
   EXPECT_EQ((std::vector<std::int32_t>{ 1, 2, 2, 0 }), found);
 }
 
-TEST(GlobalIdMap, SaysWhenAnIdHasNoValue)
+TEST(GlobalIdMap, ReportsAnIdWithoutValue)
 {
   const std::vector<std::int64_t> ids{ 3, 5 };
   const GlobalIdMap map(ids.data(), nullptr, ids.size());

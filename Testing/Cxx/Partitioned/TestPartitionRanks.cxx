@@ -32,7 +32,7 @@ public:
   int Count = 0;
 };
 
-/// A folder that all ranks see.
+/// Tests in a folder that all ranks can read.
 class PartitionRanks : public testing::Test
 {
 protected:
@@ -77,7 +77,8 @@ protected:
     this->Controller->Barrier();
   }
 
-  /// The first rank's Progress stops the run at its call of that number.
+  /// Runs with a Progress that stops the first rank after `calls` calls. Returns whether the run
+  /// was aborted.
   bool isAborted(int calls)
   {
     PartitionOptions options;
@@ -102,25 +103,25 @@ protected:
   std::string Path;
 };
 
-TEST_F(PartitionRanks, MakeTheFilesOfOneAloneInTheGrid)
+TEST_F(PartitionRanks, MakeTheFilesOfOneRankForAGrid)
 {
   this->write(makeSource(latticeTriangles(12, 0.3)));
   this->expectSameFilesAsAlone("grid:4x3");
 }
 
-TEST_F(PartitionRanks, MakeTheFilesOfOneAloneInTheQuadtree)
+TEST_F(PartitionRanks, MakeTheFilesOfOneRankForAQuadtree)
 {
   this->write(makeSource(latticeTriangles(12, 0.3)));
   this->expectSameFilesAsAlone("quadtree:40");
 }
 
-TEST_F(PartitionRanks, MakeTheFilesOfOneAloneInSpace)
+TEST_F(PartitionRanks, MakeTheFilesOfOneRankInSpace)
 {
   this->write(makeSource(latticeTetrahedra(4, 0.3)));
   this->expectSameFilesAsAlone("octree:100");
 }
 
-TEST_F(PartitionRanks, MoreThanCellsAndPieces)
+TEST_F(PartitionRanks, MayOutnumberCellsAndPieces)
 {
   this->write(makeSource(latticeTriangles(1, 0)));
   this->expectSameFilesAsAlone("grid:1x2");
@@ -144,7 +145,7 @@ TEST_F(PartitionRanks, AllFailWithOneMessage)
   EXPECT_FALSE(std::filesystem::exists(this->Path + "mesh"));
 }
 
-TEST_F(PartitionRanks, WriteWhatEachOfThemHas)
+TEST_F(PartitionRanks, WriteTheCellsOfAllRanks)
 {
   this->write(makeSource(latticeTriangles(12, 0.3)));
   this->make("mesh", "grid:4x3", false);
@@ -177,11 +178,11 @@ TEST_F(PartitionRanks, AllFailWhenOneHasNoInput)
   EXPECT_EQ(1, errors->Count);
 }
 
-TEST_F(PartitionRanks, AllStopWhenTheFirstIsTold)
+TEST_F(PartitionRanks, AllStopIfTheFirstIsStopped)
 {
   this->write(makeSource(latticeTriangles(12, 0.3)));
   int calls = 0;
-  // In every phase, and at last too late.
+  // Stops in every phase. The last run ends before it is stopped.
   while (this->isAborted(calls))
   {
     this->Controller->Barrier();

@@ -49,7 +49,7 @@ TEST_F(PartitionedWriter, WritesAgainAfterAnAbort)
   EXPECT_EQ(0, this->Writer->Write());
   EXPECT_FALSE(std::filesystem::exists(this->Folder.path("mesh")));
   this->Writer->RemoveObserver(observer);
-  this->Writer->SetAbortExecute(0); // VTK 9.3 and later keep it
+  this->Writer->SetAbortExecute(0); // VTK 9.3 and later do not reset it
   EXPECT_EQ(1, this->Writer->Write());
   expectHolds(this->Folder.path("mesh"), this->Source);
 }
@@ -66,7 +66,7 @@ TEST_F(PartitionedWriter, RefusesToReplaceItsInput)
   EXPECT_TRUE(before == filesOf(this->Folder.path("mesh")));
 }
 
-TEST_F(PartitionedWriter, TakesWhatTheReaderGives)
+TEST_F(PartitionedWriter, AcceptsTheReadersOutput)
 {
   ASSERT_EQ(1, this->Writer->Write());
   vtkNew<vtkPartitionedUnstructuredReader> reader;
@@ -83,7 +83,7 @@ TEST_F(PartitionedWriter, TakesWhatTheReaderGives)
   EXPECT_EQ(std::int64_t(this->Source.points()), again.Points);
 }
 
-TEST_F(PartitionedWriter, RefusesIdsOfPointsThatAreNotThere)
+TEST_F(PartitionedWriter, RefusesInvalidPointIds)
 {
   vtkNew<vtkPoints> points;
   points->SetNumberOfPoints(4);

@@ -34,7 +34,7 @@ protected:
       openFlatMesh(this->Folder.path("flat")), this->Folder.path("mesh"), options);
   }
 
-  /// A finished mesh that was not put in its place.
+  /// The path of a finished mesh that could not be renamed, or an empty string.
   std::string finished() const
   {
     for (const fs::directory_entry& entry : fs::directory_iterator(this->Folder.path("")))
@@ -51,7 +51,7 @@ protected:
   TemporaryFolder Folder;
 };
 
-TEST_F(Publication, LeavesNothingBesideTheMesh)
+TEST_F(Publication, LeavesNoOtherFiles)
 {
   this->make();
   EXPECT_EQ(2U, this->Folder.fileCount());
@@ -61,7 +61,7 @@ TEST_F(Publication, LeavesNothingBesideTheMesh)
   }
 }
 
-TEST_F(Publication, LeavesNothingOfARunThatIsStopped)
+TEST_F(Publication, LeavesNoFilesOfAStoppedRun)
 {
   for (int calls = 0; calls < 6; ++calls)
   {
@@ -74,7 +74,7 @@ TEST_F(Publication, LeavesNothingOfARunThatIsStopped)
   }
 }
 
-TEST_F(Publication, EndsAtTheFirstWishToStopWhereverItComes)
+TEST_F(Publication, StopsAtTheFirstRequestInAnyPhase)
 {
   int calls = 0;
   for (bool aborted = true; aborted; ++calls)
@@ -95,10 +95,10 @@ TEST_F(Publication, EndsAtTheFirstWishToStopWhereverItComes)
   EXPECT_GT(calls, 50);
 }
 
-TEST_F(Publication, AsksInEveryPhaseWhetherToGoOnHoweverLargeTheChunks)
+TEST_F(Publication, CallsProgressOftenInEveryPhaseForLargeChunks)
 {
   writeFlat(makeSource(latticeTriangles(300, 0.3)), this->Folder.path("flat")); // 180,000 cells
-  std::map<double, int> calls; // by the fraction that was done
+  std::map<double, int> calls; // number of calls by the fraction that was done
   PartitionOptions options;
   options.Threads = 1;
   options.Tiling = *TilingChoice::parse("quadtree:20000");
@@ -122,7 +122,7 @@ TEST_F(Publication, AsksInEveryPhaseWhetherToGoOnHoweverLargeTheChunks)
   EXPECT_GT(count(0.7, 0.95), 50) << "pieces";
 }
 
-TEST_F(Publication, ToldToStopWhenTheMeshIsThereKeepsIt)
+TEST_F(Publication, KeepsAFinishedMeshIfStoppedAtTheEnd)
 {
   PartitionOptions options;
   options.Progress = [](double fraction) { return fraction < 1; };
@@ -138,7 +138,7 @@ TEST_F(Publication, RefusesMorePiecesThanAMeshCanHave)
   EXPECT_EQ(1U, this->Folder.fileCount());
 }
 
-TEST_F(Publication, LeavesTheSourceAlone)
+TEST_F(Publication, DoesNotChangeTheSource)
 {
   const auto before = filesOf(this->Folder.path("flat"));
   this->make();
@@ -167,7 +167,7 @@ TEST_F(Publication, KeepsAnOldMeshWhenARunIsStopped)
   EXPECT_TRUE(before == filesOf(this->Folder.path("mesh")));
 }
 
-TEST_F(Publication, TakesAnEmptyFolder)
+TEST_F(Publication, AcceptsAnEmptyFolder)
 {
   fs::create_directory(this->Folder.path("mesh"));
   this->make();
@@ -182,7 +182,7 @@ TEST_F(Publication, RefusesAFolderOfOtherThings)
   EXPECT_EQ("years of work", contentOf(this->Folder.path("mesh/thesis.tex")));
 }
 
-TEST_F(Publication, LeavesAFolderThatAppearsMeanwhile)
+TEST_F(Publication, KeepsAFolderThatAppearsMeanwhile)
 {
   PartitionOptions options;
   const std::string notes = this->Folder.path("mesh/thesis.tex");
@@ -196,11 +196,11 @@ TEST_F(Publication, LeavesAFolderThatAppearsMeanwhile)
   EXPECT_EQ("years of work", contentOf(notes));
   expectHolds(this->finished(), this->Source);
   fs::rename(this->Folder.path("mesh"), this->Folder.path("other"));
-  this->make(); // does not clear away the finished one
+  this->make(); // must not remove the finished mesh
   expectHolds(this->finished(), this->Source);
 }
 
-TEST_F(Publication, LeavesAFileThatIsPutIntoTheOldMeshMeanwhile)
+TEST_F(Publication, KeepsAFileAddedToTheOldMeshMeanwhile)
 {
   this->make();
   PartitionOptions options;
@@ -216,7 +216,7 @@ TEST_F(Publication, LeavesAFileThatIsPutIntoTheOldMeshMeanwhile)
   expectHolds(this->finished(), this->Source);
 }
 
-TEST_F(Publication, LeavesAMeshThatTookTheOldOnesPlaceMeanwhile)
+TEST_F(Publication, KeepsAMeshThatReplacedTheOldOneMeanwhile)
 {
   this->make();
   fs::copy(this->Folder.path("mesh"), this->Folder.path("copy"), fs::copy_options::recursive);
@@ -252,7 +252,7 @@ TEST_F(Publication, ReplacesAnOldMeshWhosePiecesAreMissing)
   expectHolds(this->Folder.path("mesh"), this->Source);
 }
 
-TEST_F(Publication, LeavesAUsersFolderOfAWorkFoldersName)
+TEST_F(Publication, KeepsAUsersFolderNamedLikeAWorkFolder)
 {
   fs::create_directories(this->Folder.path(".mesh.tmp.Ab3dEf"));
   this->Folder.file(".mesh.tmp.Ab3dEf/thesis.tex", "years of work");
@@ -260,7 +260,7 @@ TEST_F(Publication, LeavesAUsersFolderOfAWorkFoldersName)
   EXPECT_EQ("years of work", contentOf(this->Folder.path(".mesh.tmp.Ab3dEf/thesis.tex")));
 }
 
-TEST_F(Publication, LeavesAUsersFileInALeftoverWorkFolder)
+TEST_F(Publication, KeepsAUsersFileInALeftoverWorkFolder)
 {
   fs::create_directories(this->Folder.path(".mesh.tmp.Ab3dEf/mesh/pieces"));
   this->Folder.file(".mesh.tmp.Ab3dEf/.tipp-work", "");
@@ -280,7 +280,7 @@ TEST_F(Publication, RemovesALeftoverWorkFolderWithAnUnfinishedPiece)
   EXPECT_FALSE(fs::exists(this->Folder.path(".mesh.tmp.Ab3dEf")));
 }
 
-TEST_F(Publication, TellsTheSameOfAUsersFolderEachTime)
+TEST_F(Publication, ReportsAUsersFolderEachTime)
 {
   this->Folder.file(".mesh.part", "a file");
   for (int time = 0; time < 2; ++time)
@@ -291,7 +291,7 @@ TEST_F(Publication, TellsTheSameOfAUsersFolderEachTime)
   fs::remove(this->Folder.path(".mesh.part"));
   fs::create_directory(this->Folder.path(".mesh.part"));
   this->Folder.file(".mesh.part/notes.txt", "years of work");
-  for (int time = 0; time < 2; ++time) // the lock is released
+  for (int time = 0; time < 2; ++time) // the second time shows that the lock was released
   {
     expectIOError(this->Folder.path(".mesh.part"), "is there already with other files",
       [&] { PendingFolder::lasting(this->Folder.path("mesh"), nullptr); });
@@ -312,7 +312,7 @@ TEST_F(Publication, NamesAMissingFolder)
     path, "does not exist", [&] { partitionMesh(openFlatMesh(this->Folder.path("flat")), path); });
 }
 
-TEST_F(Publication, ClearsAwayWhatAKilledRunHasLeft)
+TEST_F(Publication, RemovesFilesOfAKilledRun)
 {
   fs::create_directories(this->Folder.path(".mesh.tmp.Ab3dEf/pieces"));
   fs::create_directories(this->Folder.path(".other.tmp.Ab3dEf"));
@@ -321,7 +321,7 @@ TEST_F(Publication, ClearsAwayWhatAKilledRunHasLeft)
   EXPECT_TRUE(fs::exists(this->Folder.path(".other.tmp.Ab3dEf")));
 }
 
-TEST_F(Publication, NamesAVertexIdThatIsNoPoints)
+TEST_F(Publication, ReportsAnInvalidVertexId)
 {
   SourceMesh bad = this->Source;
   bad.Cells[10] = 1000000;

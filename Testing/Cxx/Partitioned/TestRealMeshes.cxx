@@ -28,7 +28,7 @@ using namespace tipp::test;
 namespace
 {
 
-/// Partitions a flat mesh and compares all owned cells and own points with the source.
+/// Partitions a flat mesh, and compares all owned cells and own points with the source.
 void expectSame(const std::string& flat, const std::string& output, const std::string& tiling)
 {
   const FlatMesh source = openFlatMesh(flat);
@@ -72,25 +72,25 @@ void expectAdcircSame(const std::string& grid, const std::string& tiling)
   expectSame(folder.path("flat"), folder.path("mesh"), tiling);
 }
 
-TEST(RealMeshes, TheEastCoastComesBack)
+TEST(RealMeshes, TheEastCoastIsReadAsWritten)
 {
   TIPP_REQUIRE_REAL_DATA(grid, "adcirc/ec95d/ec95d.grd")
   expectAdcircSame(grid, "grid:5x4");
 }
 
-TEST(RealMeshes, TheEastCoastComesBackFromAQuadtree)
+TEST(RealMeshes, TheEastCoastIsReadFromAQuadtree)
 {
   TIPP_REQUIRE_REAL_DATA(grid, "adcirc/ec95d/ec95d.grd")
   expectAdcircSame(grid, "quadtree:3000");
 }
 
-TEST(RealMeshes, TheSoundsOfNorthCarolinaComeBack)
+TEST(RealMeshes, TheSoundsOfNorthCarolinaAreReadAsWritten)
 {
   TIPP_REQUIRE_REAL_DATA(grid, "adcirc/apes/fort.14")
   expectAdcircSame(grid, "quadtree:2000");
 }
 
-TEST(RealMeshes, TheOverflowComesBackWithItsSteps)
+TEST(RealMeshes, TheOverflowIsReadWithItsTimeSteps)
 {
   TIPP_REQUIRE_REAL_DATA(grid, "adcirc/internal_overflow/internal_overflow.grd")
   TIPP_REQUIRE_REAL_DATA(steps, "adcirc/internal_overflow/fort.63")
@@ -126,7 +126,7 @@ TEST(RealMeshes, TheOverflowComesBackWithItsSteps)
   }
 }
 
-TEST(RealMeshes, TheBracketOfTetrahedraComesBack)
+TEST(RealMeshes, TheBracketOfTetrahedraIsReadAsWritten)
 {
   TIPP_REQUIRE_REAL_DATA(path, "tets/bracket_appended_compressed.vtu")
   const TemporaryFolder folder;
@@ -135,7 +135,8 @@ TEST(RealMeshes, TheBracketOfTetrahedraComesBack)
   expectSame(folder.path("flat"), folder.path("mesh"), "octree:20000");
 }
 
-/// Cells and points by their global ids, as vtkPartitionedUnstructuredReader gives them.
+/// Expects the source's cells and points, identified by global ids, from
+/// vtkPartitionedUnstructuredReader.
 void expectReaderGives(const std::string& path, const TetrahedralMesh& source)
 {
   vtkNew<vtkPartitionedUnstructuredReader> reader;
@@ -171,7 +172,7 @@ void expectReaderGives(const std::string& path, const TetrahedralMesh& source)
   EXPECT_EQ(source.Cells, cells);
 }
 
-TEST(RealMeshes, TheAneurysmsTetrahedraComeBack)
+TEST(RealMeshes, TheAneurysmsTetrahedraAreReadAsWritten)
 {
   TIPP_REQUIRE_REAL_DATA(path, "tets/aneurysm.xml.gz")
   const TetrahedralMesh source = readDolfin(path);

@@ -31,7 +31,7 @@ using namespace tipp::test;
 namespace
 {
 
-/// A source on the disk and partitioned meshes made of it.
+/// A flat mesh in files, and partitioned meshes made from it.
 class RoundTrip : public testing::Test
 {
 protected:
@@ -133,7 +133,7 @@ TEST_F(RoundTrip, KeepsTheLeavesOfAnOctree)
 
 TEST_F(RoundTrip, KeepsEmptyPieces)
 {
-  // Two squares far apart; the partitions between them have nothing.
+  // Two squares that are far apart; the partitions between them are empty.
   CellSet cells = latticeTriangles(2, 0);
   const std::size_t half = cells.Coordinates.size();
   for (std::size_t i = 0; i < half; ++i)
@@ -144,7 +144,7 @@ TEST_F(RoundTrip, KeepsEmptyPieces)
   this->expectBothHold("grid:8x8");
 }
 
-TEST_F(RoundTrip, KeepsAMeshThatIsAPointOnly)
+TEST_F(RoundTrip, KeepsAMeshAtASinglePoint)
 {
   SourceMesh mesh = makeSource(latticeTriangles(1, 0));
   mesh.Coordinates.assign(mesh.Coordinates.size(), 0.5);
@@ -152,7 +152,7 @@ TEST_F(RoundTrip, KeepsAMeshThatIsAPointOnly)
   this->expectBothHold("grid:2x2");
 }
 
-TEST_F(RoundTrip, ReadsOnlyTheArraysThatAreWanted)
+TEST_F(RoundTrip, ReadsOnlySelectedArrays)
 {
   this->use(makeSource(latticeTriangles(8, 0.3)));
   const PartitionedMesh mesh = openPartitionedMesh(this->make("grid:2x2"));
@@ -266,7 +266,7 @@ TEST_F(RoundTrip, IsReadByVtkThroughThePvtu)
   }
 }
 
-TEST_F(RoundTrip, GivesVtkTheGridOfAPiece)
+TEST_F(RoundTrip, MakesAVtkGridOfAPiece)
 {
   this->use(makeSource(latticeTetrahedra(4, 0.2)));
   const PartitionedMesh mesh = openPartitionedMesh(this->make("grid:2x2x1", duplicating()));
@@ -335,7 +335,7 @@ TEST_F(RoundTrip, ShowsVtkEachTimeStepAsAnArray)
   }
 }
 
-TEST_F(RoundTrip, RefusesArraysNamedAsItsOwn)
+TEST_F(RoundTrip, RefusesReservedArrayNames)
 {
   this->use(makeSource(latticeTriangles(2, 0)));
   std::filesystem::rename(this->Folder.path("flat/cell_data/label.npy"),

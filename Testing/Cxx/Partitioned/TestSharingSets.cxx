@@ -19,7 +19,7 @@ TEST(SharingSets, HaveOneNumberEach)
   EXPECT_EQ((Set{ 1, 4 }), sets.set(a));
 }
 
-TEST(SharingSets, UniteWithTheEmptyOneToThemselves)
+TEST(SharingSets, AreUnchangedByAUnionWithTheEmptySet)
 {
   SharingSets sets;
   const int a = sets.number({ 1, 4 });
@@ -38,7 +38,7 @@ TEST(SharingSets, UniteToAscendingSets)
   EXPECT_EQ(both, sets.unite(b, a));
 }
 
-TEST(SharingSets, GroupThingsInLexicographicOrder)
+TEST(SharingSets, AreGroupedInLexicographicOrder)
 {
   SharingSets sets;
   const int last = sets.number({ 7 });

@@ -14,7 +14,7 @@ TEST(TilingChoice, ReadsGridsAndTrees)
   EXPECT_EQ("octree:1000", TilingChoice::parse("octree:1000")->text(3));
 }
 
-TEST(TilingChoice, RefusesAllElse)
+TEST(TilingChoice, RefusesOtherTexts)
 {
   for (const char* const text : { "", "grid", "grid:", "grid:4", "grid:4x", "grid:0x4", "grid:4x-1",
          "grid:4x4x4x4", "grid:4x4x", "grid:10001x1", "4x4", "quadtree:0",

@@ -7,7 +7,8 @@
 #include <CGAL/Gmpq.h>
 #include <CGAL/Simple_cartesian.h>
 
-// What the predicates must answer: CGAL's predicates and constructions over exact rationals.
+// The correct results of the predicates: from CGAL's predicates and constructions over exact
+// rationals.
 namespace oracle
 {
 

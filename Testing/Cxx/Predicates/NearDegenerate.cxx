@@ -42,7 +42,7 @@ NearDegenerate::Points NearDegenerate::lattice(int size, double step, tipp::Poin
 
 NearDegenerate::Points NearDegenerate::cocircular(double step, tipp::Point2 offset)
 {
-  // Integer points at distance 5, 25 or 65 from a node, with their mirror images.
+  // Integer vectors of length 5, 25 or 65; their mirror images are used as well.
   static const int legs[][2] = { { 3, 4 }, { 5, 0 }, { 7, 24 }, { 15, 20 }, { 25, 0 }, { 16, 63 },
     { 25, 60 }, { 33, 56 }, { 39, 52 }, { 65, 0 } };
   static const int first[] = { 0, 2, 5 };
@@ -115,7 +115,7 @@ std::int64_t NearDegenerate::bits(int count)
 
 tipp::Point2 NearDegenerate::nudged(tipp::Point2 point)
 {
-  // Half of all points stay, so that exact ties survive.
+  // Half of all points are not moved, so that exact ties remain.
   if (this->integer(0, 1) != 0)
   {
     return point;

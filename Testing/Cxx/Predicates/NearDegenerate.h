@@ -14,8 +14,8 @@ namespace tipp
 void PrintTo(const Point2& point, std::ostream* out);
 }
 
-/// Draws points that are degenerate, or an ulp or so beside it. The same seed gives the same
-/// points.
+/// Draws points that are degenerate or differ from that by about an ulp. The same seed gives the
+/// same points on every machine.
 class NearDegenerate
 {
 public:
@@ -26,18 +26,18 @@ public:
   {
   }
 
-  /// Distinct or equal nodes of a lattice of size x size around an offset, spaced by step.
+  /// Random nodes of a size x size lattice, which may be equal. `step` is the spacing.
   Points lattice(int size, double step, tipp::Point2 offset);
-  /// Four points of one circle around a node, before rounding; then each moved by up to two ulps.
+  /// Four points on a circle around a lattice node, rounded and then moved by up to two ulps each.
   Points cocircular(double step, tipp::Point2 offset);
-  /// Four points of one line, before rounding; then each moved by up to two ulps.
+  /// Four points on a line, rounded and then moved by up to two ulps each.
   Points collinear(double step, tipp::Point2 offset);
-  /// Every coordinate with an exponent of its own between the given powers of two.
+  /// Every coordinate has its own exponent, between the two given ones.
   Points mixedExponents(int lowest, int highest);
-  /// Every coordinate one of a few powers of two between the given ones, times a small integer:
-  /// ties between numbers far apart.
+  /// Every coordinate is a small integer times one of a few powers of two between the given ones:
+  /// ties between numbers of very different magnitude.
   Points fewMagnitudes(int lowest, int highest);
-  /// The unit circle's points in doubles, four random angles: all digits in use.
+  /// Points at four random angles on the unit circle, rounded to doubles: all digits are in use.
   Points unitCircle();
 
   int integer(int low, int high)

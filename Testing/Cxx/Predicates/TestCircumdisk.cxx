@@ -42,7 +42,8 @@ struct Counts
   int inside[2] = { 0, 0 };
 };
 
-// Boxes around the disk's own corners, its bounds and random places, each side nudged.
+// A box with random sides, near the points, near the disk's bounds, or unbounded; each moved by a
+// few ulps.
 Box2 drawBox(NearDegenerate& draw, const NearDegenerate::Points& q, const Box2& bounds)
 {
   const auto x = [&]() -> double
@@ -85,7 +86,7 @@ Counts compareWithRationals(NearDegenerate& draw, int count, Draw drawPoints)
     for (int j = 0; j < 4; ++j)
     {
       const Box2 box = drawBox(draw, q, disk.bounds());
-      // A box beyond all numbers is no box.
+      // Skips boxes that begin at infinity and so contain no point.
       if (box.xmin == Infinity || box.ymin == Infinity || box.xmax == -Infinity ||
         box.ymax == -Infinity)
       {

@@ -19,7 +19,8 @@ using tipp::CoordinateGrid;
 using tipp::Exactness;
 using tipp::Point2;
 
-// Points that span exactly 2^bits - 1 units of 2^exponent, corners of the square among them.
+// Points with coordinates from 0 to 2^bits - 1 units of 2^exponent, among them the square's
+// corners.
 std::vector<Point2> pointsSpanning(int bits, int exponent, Point2 offset, unsigned seed)
 {
   NearDegenerate draw(seed);
@@ -38,7 +39,7 @@ std::vector<Point2> pointsSpanning(int bits, int exponent, Point2 offset, unsign
   return points;
 }
 
-// All four-tuples of the first points, and random ones of the rest, against rationals.
+// Compares tuples of the first points, and random tuples of all points, with rational arithmetic.
 void expectExact(const std::vector<Point2>& points, const CoordinateGrid& grid, int count)
 {
   NearDegenerate draw(99);
@@ -70,7 +71,7 @@ void expectModeAndExact(const std::vector<Point2>& points, Exactness mode, int c
   expectExact(points, grid, count);
 }
 
-// 2^62 units and an odd one at the far end, which needs more than one double a difference.
+// Integers from 0 to almost 2^bits, whose differences need more digits than a double has.
 std::vector<Point2> withTails(int bits)
 {
   const double far = std::ldexp(1.0, bits - 1);

@@ -13,11 +13,11 @@
 namespace
 {
 
-// How often each answer came: outside, on the circle, inside.
+// How many results were outside, on the circle, and inside.
 using Answers = std::array<int, 3>;
 
-// The answer and the exact path taken alone, against rationals, for triangles turned
-// counter-clockwise; collinear draws are left out.
+// Compares inCircle(), and its exact path alone, with rational arithmetic. Triangles are made
+// counter-clockwise first; collinear draws are skipped.
 template <typename Draw>
 Answers compareWithRationals(int count, Draw draw)
 {

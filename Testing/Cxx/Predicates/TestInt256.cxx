@@ -24,7 +24,7 @@ mpz_class toGmp(Int128 value)
   return result + static_cast<unsigned long>(value);
 }
 
-// Random digits, then as many of them as a random length.
+// A number of random length with random digits.
 Int128 draw(std::mt19937_64& engine)
 {
   const UInt128 digits = (static_cast<UInt128>(engine()) << 64) | engine();
@@ -65,14 +65,14 @@ TEST(Int256, SignOfASumOfProductsAgreesWithGmp)
   std::mt19937_64 engine(1);
   for (int i = 0; i < 100000; ++i)
   {
-    // Below 2^126, so that the sum of four products fits.
+    // Below 2^126, so that the sum of four products fits into 256 bits.
     Int128 v[8];
     for (Int128& value : v)
     {
       value = draw(engine) / 2;
     }
-    // A near cancellation: the last product repeats the first one with the opposite sign, but
-    // for 1.
+    // The sum almost cancels: the last product is the first one with the opposite sign, except for
+    // 1.
     v[6] = -v[0];
     v[7] = v[1] + (i % 3 - 1);
     Int256 sum = Int256::product(v[0], v[1]);

@@ -12,11 +12,11 @@
 namespace
 {
 
-// How often each answer came: right turns, ties, left turns.
+// How many results were right turns, collinear, and left turns.
 using Answers = std::array<int, 3>;
 
-// The answer, the exact path taken alone, and the answer for the reversed triangle, all against
-// rationals.
+// Compares orientation(), its exact path alone, and the result for the reversed triangle with
+// rational arithmetic.
 template <typename Draw>
 Answers compareWithRationals(int count, Draw draw)
 {

@@ -15,7 +15,7 @@ namespace
 using tipp::BinaryNumber;
 using tipp::binaryNumber;
 
-/// A factor of up to 106 digits: the product of two doubles.
+/// A factor with up to 106 bits, made as the product of two doubles.
 struct Factor
 {
   double A;
@@ -69,7 +69,7 @@ std::vector<Product> drawProducts(std::mt19937_64& random, int exponents)
   return products;
 }
 
-/// Adds the opposite of every product, with its factors exchanged.
+/// Appends the negative of every product, with exchanged factors, so that the sum is zero.
 void cancel(std::vector<Product>& products)
 {
   for (std::size_t i = 0, count = products.size(); i < count; ++i)

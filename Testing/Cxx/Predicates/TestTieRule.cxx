@@ -77,8 +77,8 @@ TEST(TieRule, AgreesWithCgalOnCircles)
 
 TEST(TieRule, OneDiagonalWinsFromBothSides)
 {
-  // A square a, b, c, d: d is inside the circle of a, b, c exactly if b is inside that of c, d, a's
-  // other diagonal. Both flips asking for each other would loop.
+  // In a square a, b, c, d, d must be inside the circle of a, b, c exactly if b is inside that of
+  // c, d, a. Otherwise flipping would never end.
   NearDegenerate draw(3);
   for (int i = 0; i < 1000; ++i)
   {

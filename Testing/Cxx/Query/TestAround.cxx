@@ -44,7 +44,7 @@ Ids listOf(const IdLists& lists, std::size_t i)
   return { lists.Ids.begin() + lists.Starts[i], lists.Ids.begin() + lists.Starts[i + 1] };
 }
 
-/// By comparing all cells with all others.
+/// Neighbour ids by comparing each cell with all others.
 Ids neighborsByForce(const SourceMesh& source)
 {
   std::map<Ids, Ids> cellsOfFaces;
@@ -75,7 +75,7 @@ Ids neighborsByForce(const SourceMesh& source)
   return neighbors;
 }
 
-/// All cells at a set of points.
+/// The ids of all cells that have one of the points.
 std::set<std::int64_t> cellsAt(const SourceMesh& source, const std::set<std::int64_t>& points)
 {
   std::set<std::int64_t> cells;
@@ -98,7 +98,7 @@ std::set<std::int64_t> pointsOf(const SourceMesh& source, const std::set<std::in
   return points;
 }
 
-/// A mesh, also stored in several ways, each once for all tests.
+/// A mesh with holes, in memory and stored in several ways. It is made once for all tests.
 struct Stored
 {
   explicit Stored(SourceMesh source)
@@ -118,7 +118,7 @@ struct Stored
   TemporaryFolder Folder;
 };
 
-/// Calls work(mesh) for the mesh in memory and stored.
+/// Calls work(mesh) for the mesh in memory and for each stored one.
 template <typename Work>
 void withEach(const Stored& stored, const Work& work)
 {
@@ -132,7 +132,7 @@ void withEach(const Stored& stored, const Work& work)
   }
 }
 
-/// With holes, and with parts that touch at points.
+/// Meshes with holes, and with parts that touch only at points.
 class Around : public testing::Test
 {
 protected:
@@ -185,7 +185,7 @@ TEST_F(Around, PartitioningStoresNeighborIds)
     }
     EXPECT_EQ(neighborsByForce(scene->Source), neighborsOf(mesh, allIds(scene->Source.cells())));
     const auto left = std::filesystem::directory_iterator(folder.path(""));
-    EXPECT_EQ(2, std::distance(begin(left), end(left))); // no scratch
+    EXPECT_EQ(2, std::distance(begin(left), end(left))); // no temporary files are left
   }
 }
 
@@ -293,7 +293,7 @@ TEST_F(Around, BoundaryHasEachEdgeWithOneTriangleOnce)
     }
     EXPECT_EQ(std::count_if(uses.begin(), uses.end(), [](auto& use) { return use.second == 1; }),
       std::int64_t(found.size()));
-    // With the mesh on the left, so that the loops' areas add up to the triangles'.
+    // With the mesh on their left, the loops' areas add up to that of the triangles.
     double triangles = 0;
     for (std::size_t cell = 0; cell < source.cells(); ++cell)
     {
@@ -307,9 +307,9 @@ TEST_F(Around, BoundaryHasEachEdgeWithOneTriangleOnce)
   }
 }
 
-TEST_F(Around, BordersThatTouchAtAPointFollowTheirOwnTriangles)
+TEST_F(Around, BordersThatTouchAtAPointAreSeparate)
 {
-  // Two triangles that share the point 2 alone.
+  // Two triangles that share only point 2.
   SourceMesh source;
   source.Coordinates = { 0, 0, 1, 0, 1, 1, 2, 1, 1, 2 };
   source.Cells = { 0, 1, 2, 2, 3, 4 };

@@ -34,8 +34,8 @@ mpq_class dot(const Exact& a, const Exact& b)
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// The square of the distance from the simplex of one to four corners, the least of all faces into
-/// whose inside the point projects: by the normal equations, without the code under test.
+/// The squared distance of p from a simplex of one to four corners: the minimum over all faces into
+/// whose interior p projects, by the normal equations. Independent of the code under test.
 mpq_class squareTo(const std::vector<Exact>& corners, const Exact& p)
 {
   const Exact to = minus(p, corners[0]);
@@ -53,7 +53,7 @@ mpq_class squareTo(const std::vector<Exact>& corners, const Exact& p)
     }
     rows[i][n] = dot(minus(corners[i + 1], corners[0]), to);
   }
-  for (std::size_t i = 0; i < n; ++i) // the matrix is positive definite: no pivot is 0
+  for (std::size_t i = 0; i < n; ++i) // the matrix is positive definite, so no pivot is 0
   {
     for (std::size_t k = 0; k < n; ++k)
     {
@@ -167,22 +167,22 @@ void expectAsBruteForce(const SourceMesh& source)
 
 } // namespace
 
-TEST(Closest, TrianglesAreThoseOfBruteForceInRationals)
+TEST(Closest, TrianglesEqualBruteForceInRationals)
 {
   expectAsBruteForce(withHoles(makeSource(latticeTriangles(9, 0.3)), 3));
 }
 
-TEST(Closest, OfTrianglesThatAreAsNearTheLowestCounts)
+TEST(Closest, TheLowestOfEquallyNearTrianglesIsFound)
 {
   expectAsBruteForce(withHoles(makeSource(latticeTriangles(8, 0)), 2));
 }
 
-TEST(Closest, TetrahedraAreThoseOfBruteForceInRationals)
+TEST(Closest, TetrahedraEqualBruteForceInRationals)
 {
   expectAsBruteForce(withHoles(makeSource(latticeTetrahedra(3, 0.3)), 3));
 }
 
-TEST(Closest, OfTetrahedraThatAreAsNearTheLowestCounts)
+TEST(Closest, TheLowestOfEquallyNearTetrahedraIsFound)
 {
   expectAsBruteForce(withHoles(makeSource(latticeTetrahedra(3, 0)), 2));
 }
@@ -202,7 +202,7 @@ TEST(Closest, IsExactVeryNearTheBorder)
     });
 }
 
-TEST(Closest, OfNoMeshAndOfPointsThatAreNotFiniteIsNone)
+TEST(Closest, NothingIsFoundInAnEmptyMeshOrForPointsThatAreNotFinite)
 {
   const ResidentMesh empty{ MeshPart() };
   const Point3 points[2] = { { 0, 0, 0 }, { NAN, 0, 0 } };

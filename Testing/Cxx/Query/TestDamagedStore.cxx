@@ -21,7 +21,7 @@ using namespace tipp::test;
 namespace
 {
 
-/// Every kind of question.
+/// Every kind of query.
 std::vector<std::function<void(const ResidentMesh&)>> questions()
 {
   const std::vector<Point3> points = { { 0.2, 0.2, 0.2 }, { 0.8, 0.3, 0.6 }, { 1.4, 0.5, 0.5 },
@@ -59,7 +59,7 @@ std::vector<std::function<void(const ResidentMesh&)>> questions()
   };
 }
 
-/// Whether the question was refused, in one sentence.
+/// Whether the query fails with one sentence.
 bool isRefused(const std::function<void()>& ask)
 {
   try
@@ -83,7 +83,7 @@ std::string contentOfFile(const std::string& path)
   return { std::istreambuf_iterator<char>(file), {} };
 }
 
-/// Changes a byte, cuts the file or puts another's part in its place.
+/// Truncates the content, appends a part of it, or changes one bit.
 std::string damaged(std::string content, std::mt19937& random)
 {
   const std::size_t at = random() % std::max<std::size_t>(content.size(), 1);
@@ -118,7 +118,7 @@ void expectRefusals(const SourceMesh& source, const std::string& tiling, bool du
     const std::string& file = files[std::size_t(round) % files.size()];
     SCOPED_TRACE(file + ", round " + std::to_string(round));
     const std::string before = contentOfFile(file);
-    // Half of the times while the mesh is open already.
+    // In every second round, the mesh is opened before it is damaged.
     const bool isOpen = round % 2 == 0;
     ResidentOptions options;
     options.Threads = 2;

@@ -16,7 +16,7 @@ using namespace tipp::test;
 namespace
 {
 
-/// A lattice over the unit square whose values are height(x, y).
+/// A lattice over the unit square with values height(x, y).
 template <typename Height>
 SourceMesh terrain(int n, double jitter, const Height& height)
 {
@@ -31,7 +31,7 @@ SourceMesh terrain(int n, double jitter, const Height& height)
 
 double hills(double x, double y)
 {
-  return std::sin(9 * x + 0.5) * std::cos(7 * y) + 0.3 * x; // no side of the square is level
+  return std::sin(9 * x + 0.5) * std::cos(7 * y) + 0.3 * x; // the values vary along all sides
 }
 
 std::vector<Point3> starts(int n)
@@ -46,7 +46,7 @@ std::vector<Point3> starts(int n)
 
 } // namespace
 
-TEST(Descent, FallsToAPointWithoutALowerNeighbor)
+TEST(Descent, EndsAtAPointWithoutALowerNeighbor)
 {
   const SourceMesh source = terrain(24, 0.3, hills);
   const ResidentMesh mesh(inMemory(source));
@@ -92,10 +92,10 @@ TEST(Descent, FollowsTheGradientInTriangles)
     const double length = std::hypot(b.x - a.x, b.y - a.y);
     const MeshAnswer at = mesh.answer(&middle, 1, options);
     ASSERT_LE(0, at.Cells[0]);
-    // The values along a line are those of the mesh: it lies in one triangle.
+    // A line within one triangle has the mesh's values.
     EXPECT_NEAR((lines.Values[i] + lines.Values[i + 1]) / 2,
       double(at.Arrays[0].Values.as<float>()[0]), 1e-6);
-    // In the inside of a triangle no other direction falls faster.
+    // Inside a triangle, no other direction descends faster.
     const double step = 1e-3 * length;
     Point3 sides[2];
     for (int s = 0; s < 2; ++s)
@@ -123,18 +123,18 @@ TEST(Descent, FollowsTheGradientInTriangles)
   EXPECT_LT(50, across);
 }
 
-TEST(Descent, OfAPlaneIsStraightAndThenAlongTheBorder)
+TEST(Descent, OnAPlaneIsStraightAndThenFollowsTheBorder)
 {
   const SourceMesh source = terrain(10, 0, [](double x, double y) { return 2 * x + y; });
   const ResidentMesh mesh(inMemory(source));
   const Descents lines = descentsOf(mesh, { { 0.35, 0.93, 0 }, { 5, 5, 0 } }, "value", 0);
-  ASSERT_EQ(lines.Starts[1], lines.Starts[2]); // it begins outside
+  ASSERT_EQ(lines.Starts[1], lines.Starts[2]); // the second point is outside the mesh
   EXPECT_EQ(-1, lines.Pits[1]);
   const Point3 pit = pointOf(source, lines.Pits[0]);
   EXPECT_EQ(0, pit.x + pit.y);
   for (const Point3& p : lines.Points)
   {
-    // Down (-2, -1) as far as x = 0, then along this border.
+    // Down in direction (-2, -1) to x = 0, then along this border.
     EXPECT_NEAR(p.x > 1e-5 ? 0.93 - 0.5 * (0.35 - p.x) : p.y, p.y, 1e-5);
   }
 }

@@ -16,7 +16,7 @@ using namespace tipp::test;
 namespace
 {
 
-/// Stores a mesh in several ways and calls work(mesh) for each.
+/// Partitions a mesh in several ways, and calls work(mesh) for each.
 template <typename Work>
 void withEachStore(const SourceMesh& source, const Work& work)
 {
@@ -31,7 +31,7 @@ void withEachStore(const SourceMesh& source, const Work& work)
   }
 }
 
-/// A lattice over the unit square with values of x + 2 y, in the first component.
+/// A lattice over the unit square with two components, the first of which is x + 2 y.
 SourceMesh slope(double jitter)
 {
   SourceMesh source = makeSource(latticeTriangles(12, jitter));
@@ -73,7 +73,7 @@ TEST(Contours, OfAPlaneAreStraightLinesFromBorderToBorder)
       const Point3& p = lines.Points[std::size_t(k)];
       EXPECT_NEAR(lines.Levels[i], p.x + 2 * p.y, 1e-6);
     }
-    // The higher side is on the left.
+    // The higher side must be on the line's left.
     const Point3& first = lines.Points[std::size_t(lines.Starts[i])];
     const Point3& last = lines.Points[std::size_t(lines.Starts[i + 1] - 1)];
     EXPECT_GT(first.y, last.y + 0.1);
@@ -124,10 +124,10 @@ TEST(Contours, AroundAHillAreClosed)
     area += (a.x * b.y - a.y * b.x) / 2;
     EXPECT_FALSE(a == b);
   }
-  EXPECT_NEAR(3.14159265 * 0.09, area, 0.01); // counter-clockwise, for the hill is inside
+  EXPECT_NEAR(3.14159265 * 0.09, area, 0.01); // counter-clockwise, since the higher side is inside
 }
 
-TEST(Contours, RefuseWhatHasNone)
+TEST(Contours, RefuseInvalidArraysAndLevelsAndTetrahedra)
 {
   const ResidentMesh triangles(inMemory(slope(0)));
   EXPECT_THROW(contoursOf(triangles, "label", 0, { 1 }), IOError);
@@ -160,7 +160,7 @@ TEST(Profile, HasEveryCrossingOnce)
   const Point3 a{ 0.013, 0.027, 0 };
   const Point3 b{ 0.93, 0.81, 0 };
   const Profile profile = profileOf(mesh, { a, b }, 0, { "value", "label" });
-  // As many cells as there are points but for the last, all different from their neighbours.
+  // Each interval between points has a cell, different from that of its neighbours.
   for (std::size_t i = 0; i + 1 < profile.Points.size(); ++i)
   {
     EXPECT_LT(profile.Distances[i], profile.Distances[i + 1]);
@@ -176,7 +176,7 @@ TEST(Profile, HasEveryCrossingOnce)
 
 TEST(Profile, IsTheSameForAnyPieces)
 {
-  for (const double jitter : { 0.3, 0.0 }) // without jitter along edges and through points
+  for (const double jitter : { 0.3, 0.0 }) // 0: along edges and through points
   {
     const SourceMesh source = slope(jitter);
     const ResidentMesh whole(inMemory(source));
@@ -219,7 +219,7 @@ TEST(Profile, OfTetrahedraHasEveryFaceOnce)
     const Point3& p = profile.Points[i];
     EXPECT_NEAR(
       p.x + 2 * p.y - p.z, double(profile.Answer.Arrays[0].Values.as<float>()[2 * i]), 1e-5);
-    if (i > 0) // two cells with a common face
+    if (i > 0) // consecutive cells have a common face
     {
       const auto cornersOf = [&](std::size_t at)
       {
@@ -240,7 +240,7 @@ TEST(Profile, OfTetrahedraHasEveryFaceOnce)
 
 TEST(Profile, OfTetrahedraIsTheSameForAnyPieces)
 {
-  for (const double jitter : { 0.3, 0.0 }) // without jitter along faces, edges and through points
+  for (const double jitter : { 0.3, 0.0 }) // 0: along faces, edges and through points
   {
     const SourceMesh source = makeSource(latticeTetrahedra(4, jitter));
     const std::vector<Point3> polyline = { { -0.2, 0.25, 0.5 }, { 0.75, 0.25, 0.5 },

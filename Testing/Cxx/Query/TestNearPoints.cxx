@@ -20,7 +20,7 @@ using namespace tipp::test;
 namespace
 {
 
-/// A few points in a part of the mesh that several pieces have.
+/// Points in a part of the mesh that is divided among several pieces.
 std::vector<Point3> pointsInCorner(const SourceMesh& source, std::size_t most)
 {
   std::vector<Point3> points;
@@ -98,7 +98,7 @@ TEST(NearPoints, AreAnsweredWithoutKeepingThePieces)
   }
 }
 
-TEST(NearPoints, PiecesStayInMemoryOnceTheyAreAskedOften)
+TEST(NearPoints, PiecesStayInMemoryIfTheyAreQueriedOften)
 {
   const SourceMesh source = makeSource(latticeTriangles(40, 0.3));
   const TemporaryFolder folder;
@@ -117,7 +117,7 @@ TEST(NearPoints, PiecesStayInMemoryOnceTheyAreAskedOften)
   EXPECT_EQ(loads, mesh.pieces().loads());
 }
 
-TEST(NearPoints, AnswersCountInTheMemoryLimitWherePiecesLeaveRoom)
+TEST(NearPoints, AnswersCountTowardsTheMemoryLimit)
 {
   ResidentPieces pieces(
     1000, [](std::size_t, const PieceNeeds&) { return std::uint64_t(600); },
@@ -133,20 +133,20 @@ TEST(NearPoints, AnswersCountInTheMemoryLimitWherePiecesLeaveRoom)
   {
     const ResidentPieces::Share answers = pieces.note(500);
     EXPECT_FALSE(pieces.take(1001));
-    EXPECT_TRUE(pieces.take(300)); // displaces the piece
+    EXPECT_TRUE(pieces.take(300)); // makes room by removing the piece
     EXPECT_EQ(0U, pieces.bytes());
-    pieces.get(1, {}); // more than is left, but it is needed
+    pieces.get(1, {}); // exceeds the limit, since the piece is needed
     EXPECT_EQ(600U, pieces.bytes());
   }
-  EXPECT_TRUE(pieces.take(300)); // has room beside the piece
+  EXPECT_TRUE(pieces.take(300)); // fits beside the piece
   EXPECT_EQ(600U, pieces.bytes());
 }
 
-TEST(OnePass, LocatesAsLocatorsDoAlsoWhereCellsOverlap)
+TEST(OnePass, LocatesLikeLocatorsEvenIfCellsOverlap)
 {
   SourceMesh overlapping = makeSource(latticeTriangles(12, 0.3));
   const std::vector<std::int64_t> cells = overlapping.Cells;
-  for (std::size_t i = 0; i + 4 < cells.size(); i += 9) // triangles of corners of two
+  for (std::size_t i = 0; i + 4 < cells.size(); i += 9) // triangles of corners of two cells
   {
     overlapping.Cells.insert(overlapping.Cells.end(), { cells[i], cells[i + 4], cells[i + 2] });
     overlapping.Labels.push_back(7);
@@ -187,11 +187,11 @@ TEST(OnePass, LocatesAsLocatorsDoAlsoWhereCellsOverlap)
   }
 }
 
-TEST(OnePass, GivesUpWhereThinCellsWouldTestTooManyPoints)
+TEST(OnePass, GivesUpIfThinCellsWouldTestTooManyPoints)
 {
   SourceMesh fan;
   fan.CellSize = 3;
-  const int count = 400; // long triangles around the origin, with boxes of a quarter of all
+  const int count = 400; // long triangles around the origin; each box is a quarter of the domain
   fan.Coordinates = { 0, 0 };
   for (int i = 0; i < count; ++i)
   {
@@ -226,7 +226,7 @@ TEST(OnePass, GivesUpWhereThinCellsWouldTestTooManyPoints)
   EXPECT_EQ(0, std::count(answer.Cells.begin(), answer.Cells.end(), -1));
 }
 
-TEST(PointGrid, NeverPassesOverABoxThatHoldsAPoint)
+TEST(PointGrid, NeverMissesABoxThatContainsAPoint)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::mt19937 random(1);
@@ -240,8 +240,8 @@ TEST(PointGrid, NeverPassesOverABoxThatHoldsAPoint)
     inSpace.push_back({ at(random), 0.1 * at(random), at(random) });
   }
   std::vector<std::array<double, 2>> points = { { 0.5, 0.5 } };
-  expectGridFindsAll<2>(points, corners); // a single one
-  points.push_back({ 0.5, 0.9 });         // along a line
+  expectGridFindsAll<2>(points, corners); // a single point
+  points.push_back({ 0.5, 0.9 });         // points on a line
   expectGridFindsAll<2>(points, corners);
   points.insert(points.end(), corners.begin() + 20, corners.begin() + 60);
   expectGridFindsAll<2>(points, corners);
@@ -257,7 +257,7 @@ TEST(NearCell, IsNearestByExactDistanceAndThenByLowestId)
   const NearCell farther = triangle(1, { { 0, above, 0 }, { 1, above, 0 }, { 0.5, 1, 0 } }, from);
   EXPECT_TRUE(asNear.isBetterThan(touching, from));
   EXPECT_FALSE(touching.isBetterThan(asNear, from));
-  EXPECT_TRUE(touching.isBetterThan(farther, from)); // by less than a double can tell
+  EXPECT_TRUE(touching.isBetterThan(farther, from)); // the difference is less than an ulp
   NearCell measured = touching;
   EXPECT_DOUBLE_EQ(1, measured.distance(from));
   EXPECT_DOUBLE_EQ(0.5, measured.At.x);

@@ -30,7 +30,7 @@ using namespace tipp::test;
 namespace
 {
 
-/// Every rank asks its own share of the points, the last rank none.
+/// Each rank queries its own share of the points, the last rank none.
 class QueryRanks : public testing::Test
 {
 protected:
@@ -90,7 +90,7 @@ protected:
     expectEqual(whole.answer(points.data(), std::int64_t(points.size()), options), answer);
   }
 
-  /// Of count ids every rank asks for its own ones, the last rank for none.
+  /// This rank's share of the ids below `count`; the last rank has none.
   std::vector<std::int64_t> ownIds(std::size_t count) const
   {
     std::vector<std::int64_t> own;
@@ -139,7 +139,7 @@ protected:
       });
   }
 
-  /// Each rank has a polyline of its own, the last one none.
+  /// Each rank queries its own polyline, the last rank none.
   void expectProfilesAsAlone(const ResidentMesh& mesh, const ResidentMesh& whole)
   {
     const double shift = 0.05 * this->Ranks.rank();
@@ -157,7 +157,7 @@ protected:
     }
   }
 
-  /// On the first rank.
+  /// Borders and contours, which the first rank gets.
   void expectLinesAsAlone(const ResidentMesh& mesh, const ResidentMesh& whole)
   {
     const BoundaryLoops border = boundaryOnRanks(this->Ranks, mesh);
@@ -243,7 +243,7 @@ TEST_F(QueryRanks, CellsWithoutIdsAreNumberedRankByRank)
   }
 }
 
-TEST_F(QueryRanks, TellWhatLiesAroundInAStoredMesh)
+TEST_F(QueryRanks, FindNeighborsInAStoredMesh)
 {
   for (const SourceMesh& source : { makeSource(latticeTriangles(10, 0.3)),
          makeSource(latticeTriangles(8, 0)), makeSource(latticeTetrahedra(3, 0.3)) })
@@ -253,7 +253,7 @@ TEST_F(QueryRanks, TellWhatLiesAroundInAStoredMesh)
   }
 }
 
-TEST_F(QueryRanks, TellWhatLiesAroundInPartsInMemory)
+TEST_F(QueryRanks, FindNeighborsInPartsInMemory)
 {
   const int holders = std::max(1, this->Ranks.size() - 1);
   for (const SourceMesh& source : { makeSource(latticeTriangles(10, 0.3)),
@@ -284,7 +284,7 @@ TEST_F(QueryRanks, ShareTheCellsOfZones)
         for (const char* const array : { "value", "label" })
         {
           const ZoneStatistics expected = statisticsOf(whole, zones, array, 0, 0.25);
-          // Only the first rank's zones count.
+          // Zones of other ranks than the first are ignored.
           const ZoneStatistics found = statisticsOnRanks(
             this->Ranks, mesh, this->Ranks.isFirst() ? zones : std::vector<Zone>(), array, 0, 0.25);
           EXPECT_EQ(expected.Cells, found.Cells);
@@ -311,7 +311,7 @@ TEST_F(QueryRanks, ShareTheCellsOfZones)
     ResidentMesh(this->isLast() ? MeshPart() : inMemory(source, 0, this->Ranks.rank(), holders)));
 }
 
-TEST_F(QueryRanks, ShareWhatLiesInRegions)
+TEST_F(QueryRanks, ShareTheCellsAndPointsOfRegions)
 {
   const SourceMesh source = makeSource(latticeTriangles(12, 0));
   this->store(source, "grid:3x2");
@@ -332,7 +332,7 @@ TEST_F(QueryRanks, ShareWhatLiesInRegions)
     });
 }
 
-TEST_F(QueryRanks, FollowWaysDownFromRankToRank)
+TEST_F(QueryRanks, FollowDescentsFromRankToRank)
 {
   const SourceMesh source = makeSource(latticeTriangles(16, 0.3));
   const ResidentMesh whole(inMemory(source));
@@ -358,7 +358,7 @@ TEST_F(QueryRanks, FollowWaysDownFromRankToRank)
 
 TEST_F(QueryRanks, AnswersMayStayWhereTheCellsAre)
 {
-  const SourceMesh source = makeSource(latticeTriangles(16, 0)); // points on common edges
+  const SourceMesh source = makeSource(latticeTriangles(16, 0)); // points lie on common edges
   const std::vector<Point3> all = pointsAround(source, 200);
   const std::vector<Point3> own = this->ownOf(all);
   const ResidentMesh whole(inMemory(source));
@@ -395,7 +395,7 @@ TEST_F(QueryRanks, AnswersMayStayWhereTheCellsAre)
   expectAsAlone(ResidentMesh(inMemory(source, 0, this->Ranks.rank(), this->Ranks.size())));
 }
 
-TEST_F(QueryRanks, TheFilterLeavesValuesOnOwnersAndSharesZonesAndWaysDown)
+TEST_F(QueryRanks, TheFilterLeavesValuesOnOwnersAndSharesZonesAndDescents)
 {
   const SourceMesh source = makeSource(latticeTriangles(10, 0.3));
   this->store(source, "grid:3x3");
@@ -435,7 +435,7 @@ TEST_F(QueryRanks, TheFilterLeavesValuesOnOwnersAndSharesZonesAndWaysDown)
   EXPECT_EQ(double(source.cells()), statistics->GetArray("Cells")->GetComponent(0, 0));
 }
 
-TEST_F(QueryRanks, TheFilterAsksAllRanksTogether)
+TEST_F(QueryRanks, TheFilterQueriesAllRanksTogether)
 {
   const SourceMesh source = makeSource(latticeTriangles(10, 0.3));
   this->store(source, "grid:3x3");
@@ -465,7 +465,7 @@ TEST_F(QueryRanks, TheFilterAsksAllRanksTogether)
   EXPECT_EQ(this->Ranks.isFirst() ? 40 : 0, border->GetNumberOfPoints());
 }
 
-TEST_F(QueryRanks, PartsWithoutIdsAndIdsThatNobodyHasAreRefused)
+TEST_F(QueryRanks, PartsWithoutIdsAndUnknownIdsAreRefused)
 {
   const SourceMesh source = makeSource(latticeTriangles(6, 0.3));
   const auto expectFailure = [](const MeshPart& part, std::int64_t id, const char* message)
@@ -497,7 +497,7 @@ TEST_F(QueryRanks, AFailureOfOneRankEndsAll)
   this->store(source, "grid:4x4");
   const ResidentMesh mesh(this->Path);
   this->Ranks.barrier();
-  if (this->Ranks.isFirst()) // the last piece is the last rank's
+  if (this->Ranks.isFirst()) // the last piece is on the last rank
   {
     const std::string piece = mesh.mesh().piecePath(15);
     std::string content = contentOf(piece);

@@ -61,7 +61,7 @@ protected:
         options.Threads = threads;
         const ResidentMesh mesh(this->path(), options);
         expectEqual(expected, answerOf(mesh, points));
-        expectEqual(expected, answerOf(mesh, points)); // from memory
+        expectEqual(expected, answerOf(mesh, points)); // the second answer comes from memory
       }
     }
   }
@@ -130,7 +130,7 @@ TEST_F(ResidentMeshTest, AnswersDoNotDependOnTheOrderOfQueries)
   std::vector<Point3> points = pointsAround(source, 200);
   const ResidentMesh mesh(this->path());
   const MeshAnswer expected = answerOf(mesh, points);
-  for (std::size_t i = 0; i < points.size(); i += 5) // one by one
+  for (std::size_t i = 0; i < points.size(); i += 5) // one query per point
   {
     EXPECT_EQ(expected.Cells[i], mesh.answer(&points[i], 1).Cells[0]);
   }
@@ -172,23 +172,23 @@ TEST_F(ResidentMeshTest, PiecesStayInMemoryWithinTheLimit)
   }
 }
 
-TEST_F(ResidentMeshTest, DoesWithoutWhatDoesNotFitIntoTheLimit)
+TEST_F(ResidentMeshTest, WorksWithoutLocatorsThatExceedTheLimit)
 {
   const SourceMesh source = makeSource(latticeTriangles(20, 0.3));
   store(source, this->path(), "grid:1x1", false);
   const std::vector<Point3> points = pointsAround(source, 500);
   const ResidentMesh free(this->path());
   const MeshAnswer expected = answerOf(free, points);
-  closestTo(free, points.data(), std::int64_t(points.size())); // makes a locator
+  closestTo(free, points.data(), std::int64_t(points.size())); // this makes a locator
   ResidentOptions options;
   options.MemoryLimit = free.pieces().bytes() - 1;
   const ResidentMesh mesh(this->path(), options);
   expectEqual(expected, answerOf(mesh, points));
-  for (std::size_t i = 0; i < 8; ++i) // often enough to want a locator
+  for (std::size_t i = 0; i < 8; ++i) // so often that a locator would be made
   {
     EXPECT_EQ(expected.Cells[7 * i], mesh.answer(&points[7 * i], 1).Cells[0]);
   }
-  EXPECT_EQ(2U, starsOf(mesh, { 0 }).Starts.size()); // now without the arrays
+  EXPECT_EQ(2U, starsOf(mesh, { 0 }).Starts.size()); // loads the piece without its arrays
   EXPECT_LE(mesh.pieces().bytes(), options.MemoryLimit);
   expectEqual(expected, answerOf(mesh, points));
 }
@@ -241,7 +241,7 @@ TEST_F(ResidentMeshTest, ThreadsShareOneMeshInLittleMemory)
   }
 }
 
-TEST_F(ResidentMeshTest, ReadsOnlyThePiecesThatPointsLieIn)
+TEST_F(ResidentMeshTest, ReadsOnlyThePiecesThatContainPoints)
 {
   store(makeSource(latticeTriangles(20, 0.3)), this->path(), "grid:4x4", true);
   const ResidentMesh mesh(this->path());
@@ -254,7 +254,7 @@ TEST_F(ResidentMeshTest, ReadsOnlyThePiecesThatPointsLieIn)
   EXPECT_EQ(1, mesh.pieces().loads());
 }
 
-TEST_F(ResidentMeshTest, TakesTheStepOfArraysThatVaryInTime)
+TEST_F(ResidentMeshTest, UsesTheTimeStepOfArraysThatVaryInTime)
 {
   SourceMesh source = makeSource(latticeTriangles(10, 0.3));
   addSeries(source, 3);
@@ -308,7 +308,7 @@ TEST_F(ResidentMeshTest, NamesADamagedPieceAndAnswersInTheOthers)
   EXPECT_LE(0, mesh.answer(&points[0], 1).Cells[0]);
 }
 
-TEST_F(ResidentMeshTest, AnEmptyMeshAndNoPointsAreFine)
+TEST_F(ResidentMeshTest, AcceptsAnEmptyMeshAndNoPoints)
 {
   const ResidentMesh empty{ MeshPart() };
   const Point3 point{ 0, 0, 0 };

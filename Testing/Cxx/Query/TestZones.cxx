@@ -19,7 +19,7 @@ using namespace tipp::test;
 namespace
 {
 
-/// x, y and a value.
+/// x, y and the value at a point.
 using Exact = std::array<mpq_class, 3>;
 
 mpq_class turn(const Exact& a, const Exact& b, const Exact& c)
@@ -33,7 +33,7 @@ Exact between(const Exact& a, const Exact& b, const mpq_class& share)
     mpq_class(a[2] + share * (b[2] - a[2])) };
 }
 
-/// Keeps the side of a closed line where side(p) is not negative (Sutherland and Hodgman).
+/// Clips a closed line to the side where side(p) >= 0 (Sutherland and Hodgman).
 template <typename Side>
 std::vector<Exact> clipped(const std::vector<Exact>& line, const Side& side)
 {
@@ -50,7 +50,8 @@ std::vector<Exact> clipped(const std::vector<Exact>& line, const Side& side)
   return result;
 }
 
-/// The integral of the value over a closed line, counter-clockwise positive; of 1 the area.
+/// The integral of the value over a closed line, or of 1, which is the area. Positive for
+/// counter-clockwise lines.
 mpq_class integral(const std::vector<Exact>& line, bool ofOne)
 {
   mpq_class sum = 0;
@@ -62,7 +63,8 @@ mpq_class integral(const std::vector<Exact>& line, bool ofOne)
   return sum;
 }
 
-/// Area, integral and volume above the level: each ring is clipped by each triangle, in rationals.
+/// Area, integral and volume above the level: each ring is clipped by each triangle, in rational
+/// arithmetic.
 std::array<mpq_class, 3> bruteForce(const SourceMesh& source, const Zone& zone, double level)
 {
   std::array<mpq_class, 3> sums;
@@ -94,7 +96,7 @@ std::array<mpq_class, 3> bruteForce(const SourceMesh& source, const Zone& zone, 
       {
         line = clipped(line, [&](const Exact& p) { return turn(t[i], t[(i + 1) % 3], p); });
       }
-      // The rings of these tests are counter-clockwise.
+      // Outer rings and holes are all counter-clockwise in these tests.
       const int sign = ring.IsHole ? -1 : 1;
       sums[0] += sign * integral(line, true);
       sums[1] += sign * integral(line, false);
@@ -106,7 +108,8 @@ std::array<mpq_class, 3> bruteForce(const SourceMesh& source, const Zone& zone, 
   return sums;
 }
 
-/// The cells of which a zone has an area, or all, and the points in it.
+/// The cells that have an area in the zone, those that lie inside as a whole, and the points
+/// inside.
 struct InZone
 {
   std::vector<std::int64_t> Met;
@@ -129,7 +132,7 @@ InZone bruteForce(const SourceMesh& source, const Zone& zone)
   }
   for (std::size_t i = 0; i < source.points(); ++i)
   {
-    // By crossings of a ray, or on an edge.
+    // The number of crossings of a ray tells whether the point is inside; points on edges count.
     const Point3 p = pointOf(source, std::int64_t(i));
     const Exact at = { mpq_class(p.x), mpq_class(p.y), mpq_class(0) };
     bool isInside = false;
@@ -172,7 +175,8 @@ ZoneRing rectangle(double xmin, double xmax, double ymin, double ymax, bool isHo
   return { { { xmin, ymin }, { xmax, ymin }, { xmax, ymax }, { xmin, ymax } }, isHole };
 }
 
-/// Polygons at random, along mesh edges, through mesh points, inside of one triangle, with holes.
+/// Random polygons, and polygons along mesh edges, through mesh points, inside one triangle, and
+/// with holes.
 std::vector<Zone> manyZones()
 {
   std::vector<Zone> zones;
@@ -259,7 +263,7 @@ TEST(Zones, AreTheSameBitForBitForAnyPieces)
   }
 }
 
-TEST(Zones, OnMeshEdgesTakeNothingOfTheTrianglesBeside)
+TEST(Zones, OnMeshEdgesLeaveOutAdjacentTriangles)
 {
   const SourceMesh source = wavy(8, 0);
   const ResidentMesh mesh(inMemory(source));
@@ -295,7 +299,7 @@ TEST(Zones, HaveTheExtremesOfTheirCorners)
   EXPECT_NEAR(0.9, found.High[1], 1e-6);
 }
 
-TEST(Zones, NearlyAlongMeshEdgesHaveTheirArea)
+TEST(Zones, NearlyOnMeshEdgesHaveTheExactArea)
 {
   const SourceMesh source = wavy(8, 0);
   const ResidentMesh mesh(inMemory(source));
@@ -329,7 +333,7 @@ TEST(Zones, NearlyAlongMeshEdgesHaveTheirArea)
   }
 }
 
-TEST(Zones, MayTurnEitherWay)
+TEST(Zones, MayHaveEitherOrientation)
 {
   const SourceMesh source = wavy(6, 0.3);
   const ResidentMesh mesh(inMemory(source));
@@ -338,7 +342,7 @@ TEST(Zones, MayTurnEitherWay)
   for (ZoneRing& ring : zone)
   {
     std::reverse(ring.Corners.begin(), ring.Corners.end());
-    ring.Corners.push_back(ring.Corners.front()); // and be closed
+    ring.Corners.push_back(ring.Corners.front()); // the last corner may equal the first
   }
   EXPECT_EQ(area, statisticsOf(mesh, { zone }, "value", 0).Area[0]);
 }
@@ -374,7 +378,7 @@ TEST(Regions, HaveTheCellsAndPointsOfBruteForce)
   {
     const SourceMesh source = wavy(6, jitter);
     std::vector<Zone> zones = manyZones();
-    zones.pop_back(); // the one without rings
+    zones.pop_back(); // the last zone has no rings
     std::vector<InZone> expected;
     for (const Zone& zone : zones)
     {
@@ -389,7 +393,7 @@ TEST(Regions, HaveTheCellsAndPointsOfBruteForce)
           const InZone& in = expected[i];
           const std::vector<std::int64_t> found = cellsIn(mesh, { {}, zones[i] }, false);
           EXPECT_TRUE(std::includes(found.begin(), found.end(), in.Met.begin(), in.Met.end()));
-          if (jitter > 0) // no triangle is only touched
+          if (jitter > 0) // with jitter, no triangle is only touched
           {
             EXPECT_EQ(in.Met, found);
           }
@@ -400,7 +404,7 @@ TEST(Regions, HaveTheCellsAndPointsOfBruteForce)
   }
 }
 
-TEST(Regions, HoldPointsOnTheirBorder)
+TEST(Regions, ContainPointsOnTheirBorder)
 {
   const ZoneShape shape(
     { rectangle(0.25, 0.75, 0.25, 0.5), rectangle(0.375, 0.5, 0.375, 0.5, true) }, 0);
@@ -421,7 +425,7 @@ TEST(Regions, BoxesOfTetrahedraAreTheSameForAnyPieces)
   const ResidentMesh whole(inMemory(source));
   const std::vector<std::int64_t> cells = cellsIn(whole, box, false);
   const std::vector<std::int64_t> points = pointsIn(whole, box);
-  EXPECT_EQ(6U, points.size()); // 2 x 3 of the lattice on the plane z = 0.5
+  EXPECT_EQ(6U, points.size()); // 2 x 3 lattice points on the plane z = 0.5
   EXPECT_LT(20U, cells.size());
   EXPECT_TRUE(cellsIn(whole, box, true).empty());
   EXPECT_EQ(source.cells(), cellsIn(whole, { { 0, 1, 0, 1, 0, 1 }, {} }, true).size());
@@ -447,7 +451,7 @@ TEST(ExactSum, IsTheNearestDoubleInAnyOrder)
       terms.push_back(std::ldexp(mantissa(random), exponent(random)));
       exact += mpq_class(terms.back());
     }
-    terms.push_back(-exact.get_d()); // what is left is small
+    terms.push_back(-exact.get_d()); // so that the sum is small
     exact += mpq_class(terms.back());
     double first = 0;
     for (int order = 0; order < 3; ++order)

@@ -29,19 +29,19 @@ namespace tipp
 namespace test
 {
 
-/// A mesh in memory with whole coordinates, small enough for exact arithmetic in 64 bits.
+/// A mesh in memory with integer coordinates, small enough for exact arithmetic in 64 bits.
 struct SmallMesh
 {
   int CellSize = 3;
-  std::vector<double> Points; ///< 3 a point
+  std::vector<double> Points; ///< x, y and z per point
   std::vector<std::int64_t> Cells;
 
   std::size_t pointCount() const { return this->Points.size() / 3; }
   std::size_t cellCount() const { return this->Cells.size() / std::size_t(this->CellSize); }
 };
 
-/// A jittered lattice of n x n (x n) points, cut into triangles or tetrahedra, points and cells in
-/// random order; the last point is in no cell.
+/// A jittered lattice of n x n (x n) points, cut into triangles or tetrahedra. Points and cells are
+/// in random order; the last point is in no cell.
 inline SmallMesh makeMesh(int cellSize, int n)
 {
   SmallMesh mesh;
@@ -54,7 +54,7 @@ inline SmallMesh makeMesh(int cellSize, int n)
   mesh.Points.resize(3 * number.size());
   const auto at = [&](int i, int j, int k) { return number[std::size_t(i + n * (j + n * k))]; };
   const auto jitter = [&](int i) { return double(12 * i + int(random() % 5)); };
-  // The paths from one corner of a cube to the other along its edges.
+  // The paths along the cube's edges from one corner to the opposite one.
   const int paths[6][2] = { { 1, 3 }, { 1, 5 }, { 2, 3 }, { 2, 6 }, { 4, 5 }, { 4, 6 } };
   std::vector<std::vector<std::int64_t>> cells;
   for (int k = 0; k < layers; ++k)
@@ -93,7 +93,8 @@ inline SmallMesh makeMesh(int cellSize, int n)
   return mesh;
 }
 
-/// Point data "twice" = 2 id, that varies in time as "late" = id + 1000 step; cell data "square".
+/// Writes the mesh with point data "twice" = 2 id and the time series "late" = id + 1000 step, and
+/// cell data "square".
 inline void writeMesh(const SmallMesh& mesh, const std::string& path)
 {
   const auto points = std::int64_t(mesh.pointCount());
@@ -124,7 +125,7 @@ inline void writeMesh(const SmallMesh& mesh, const std::string& path)
   writeFlatMesh(path, content);
 }
 
-/// A grid as sets, by global ids.
+/// A grid's cells and points, by global ids.
 struct Content
 {
   struct Point
@@ -139,7 +140,7 @@ struct Content
   };
   struct Cell
   {
-    std::vector<std::int64_t> Corners; ///< global
+    std::vector<std::int64_t> Corners; ///< global point ids
     int Ghost;
     std::vector<double> Data;
     bool operator==(const Cell& o) const

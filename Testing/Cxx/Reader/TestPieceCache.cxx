@@ -14,7 +14,7 @@ PieceCache::Key keyOf(std::size_t number)
   return { number, false, { true }, 0 };
 }
 
-TEST(PieceCache, GivesWhatWasReadInThatWayOnly)
+TEST(PieceCache, ReturnsPiecesReadWithTheSameSelectionOnly)
 {
   PieceCache cache;
   const auto piece = std::make_shared<const Piece>();
@@ -26,7 +26,7 @@ TEST(PieceCache, GivesWhatWasReadInThatWayOnly)
   EXPECT_EQ(nullptr, cache.find({ 3, false, { true }, 1 }));
 }
 
-TEST(PieceCache, DropsWhatWasUsedLongestAgo)
+TEST(PieceCache, DropsTheLeastRecentlyUsedPiece)
 {
   PieceCache cache;
   for (std::size_t number = 0; number < 3; ++number)

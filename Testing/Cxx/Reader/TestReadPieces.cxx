@@ -18,7 +18,8 @@ using tipp::test::Content;
 using tipp::test::contentOf;
 using tipp::test::SmallMesh;
 
-/// A mesh, flat and stored both ways, in the plane or in space.
+/// A flat mesh in the plane or in space, and two partitioned ones: with and without duplicated
+/// cells.
 class ReadPieces : public testing::TestWithParam<int>
 {
 protected:
@@ -52,7 +53,7 @@ protected:
     return vtkUnstructuredGrid::SafeDownCast(reader->GetOutputDataObject(0));
   }
 
-  /// What an update gives, piece by piece.
+  /// Updates the reader, and returns the content of each piece.
   static std::vector<Content> piecesOf(vtkPartitionedUnstructuredReader* reader)
   {
     reader->Update();
@@ -66,7 +67,7 @@ protected:
     return pieces;
   }
 
-  /// Every cell and point of the mesh, as the source has them.
+  /// Expects every cell and point of the mesh, as in the source.
   void expectWhole(const Content& content) const
   {
     EXPECT_EQ(this->Mesh.pointCount(), content.Points.size());
@@ -110,7 +111,7 @@ TEST_P(ReadPieces, MergedAreTheWholeMesh)
   }
 }
 
-TEST_P(ReadPieces, OfAFlatMeshAreThoseOfTheStoredOne)
+TEST_P(ReadPieces, OfAFlatMeshEqualThoseOfTheStoredMesh)
 {
   for (const int mode : { 0, 1 })
   {
@@ -132,7 +133,7 @@ TEST_P(ReadPieces, OfAFlatMeshAreThoseOfTheStoredOne)
   }
 }
 
-TEST_P(ReadPieces, OfATreeOverAFlatMeshAreThoseOfTheStoredOne)
+TEST_P(ReadPieces, OfATreeOverAFlatMeshEqualThoseOfTheStoredMesh)
 {
   const char* const tiling = GetParam() == 3 ? "quadtree:40" : "octree:200";
   tipp::PartitionOptions options;
@@ -176,7 +177,7 @@ TEST_P(ReadPieces, OfManyRequestsHaveEachCellOnce)
 TEST_P(ReadPieces, WithGhostLevelsHaveBorrowedCells)
 {
   const auto reader = this->reader("reference");
-  // The first partition owns all that it meets; the last one borrows.
+  // The first partition owns all cells that it meets, and so borrows none. The last one borrows.
   reader->UpdatePiece(5, 6, 1);
   int ghosts = 0;
   for (const auto& [id, cell] : contentOf(gridOf(reader)).Cells)
@@ -207,7 +208,7 @@ TEST_P(ReadPieces, AreOfTheRequestedTime)
   }
 }
 
-TEST_P(ReadPieces, HaveTheSelectedArraysAlone)
+TEST_P(ReadPieces, HaveOnlyTheSelectedArrays)
 {
   for (const char* const form : forms)
   {
@@ -262,7 +263,7 @@ TEST_P(ReadPieces, AreTheSameFromTheCache)
   }
 }
 
-TEST_P(ReadPieces, AreThoseOfAFileThatHasChanged)
+TEST_P(ReadPieces, AreReadAgainIfTheFileHasChanged)
 {
   const auto reader = this->reader("flat");
   reader->SetCacheSize(100);
@@ -290,7 +291,7 @@ TEST_P(ReadPieces, AreTheSameForEveryNumberOfThreads)
   }
 }
 
-TEST_P(ReadPieces, ComeWithinASmallMemoryLimit)
+TEST_P(ReadPieces, AreReadWithinASmallMemoryLimit)
 {
   const auto reader = this->reader("flat");
   reader->SetMemoryLimit(1000);

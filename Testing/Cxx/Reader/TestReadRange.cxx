@@ -43,8 +43,8 @@ bool areApartAlong(const Vector& axis, const std::vector<Vector>& a, const std::
   return ra.first > rb.second || rb.first > ra.second;
 }
 
-/// Whether two convex hulls share a point, by every separating axis there could be: exact, for
-/// whole coordinates.
+/// Whether two convex hulls share a point, tested with all possible separating axes. Exact for
+/// integer coordinates.
 bool hullsMeet(const std::vector<Vector>& a, const std::vector<Vector>& b, bool plane)
 {
   const std::vector<Vector> units{ { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
@@ -90,7 +90,7 @@ protected:
       tipp::openFlatMesh(this->Folder.path("flat")), this->Folder.path("stored"), options);
   }
 
-  /// The cells that meet the range, by brute force over the source.
+  /// The cells that meet the range, by a test of all cells of the source.
   std::vector<std::int64_t> expected(const std::array<int, 6>& range) const
   {
     const bool plane = this->Mesh.CellSize == 3;
@@ -137,7 +137,7 @@ protected:
 std::vector<std::array<int, 6>> ranges()
 {
   std::mt19937 random(9);
-  // A point, a line through a partition's border, all, nothing.
+  // A point, a line through a partition's border, the whole domain, and a range outside it.
   std::vector<std::array<int, 6>> all{ { 30, 30, 30, 30, 30, 30 }, { 0, 160, 41, 41, 20, 20 },
     { -10, 1000, -10, 1000, -10, 1000 }, { 500, 600, 500, 600, 500, 600 } };
   for (int i = 0; i < 25; ++i)
@@ -155,7 +155,7 @@ std::vector<std::array<int, 6>> ranges()
 
 } // namespace
 
-TEST_P(ReadRange, GivesTheCellsOfABruteForceFilter)
+TEST_P(ReadRange, EqualsABruteForceFilter)
 {
   for (const auto& range : ranges())
   {
@@ -177,7 +177,7 @@ TEST_P(ReadRange, GivesTheCellsOfABruteForceFilter)
   }
 }
 
-TEST_P(ReadRange, GivesEachCellToOnePieceAlone)
+TEST_P(ReadRange, EachCellIsInOnePiece)
 {
   for (const auto& range : ranges())
   {

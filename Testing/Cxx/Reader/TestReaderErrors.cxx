@@ -57,7 +57,7 @@ TEST_F(ReaderErrors, NoMeshAtThePath)
   this->expectError("neither a partitioned mesh");
 }
 
-TEST_F(ReaderErrors, ATilingThatIsNone)
+TEST_F(ReaderErrors, AnInvalidTiling)
 {
   this->Reader->SetFileName(this->path("flat").c_str());
   this->Reader->SetTiling("hexagons");
@@ -81,7 +81,7 @@ TEST_F(ReaderErrors, BoundsThatAreNoBox)
   this->expectError("from > to");
 }
 
-TEST_F(ReaderErrors, ACutOffPieceIsNamed)
+TEST_F(ReaderErrors, ATruncatedPieceIsNamed)
 {
   const std::string piece = this->path("stored/pieces/000003.vtu");
   std::filesystem::resize_file(piece, std::filesystem::file_size(piece) / 2);
@@ -89,7 +89,7 @@ TEST_F(ReaderErrors, ACutOffPieceIsNamed)
   this->expectError("000003.vtu");
 }
 
-TEST_F(ReaderErrors, AnIdOfNoPointIsNamed)
+TEST_F(ReaderErrors, AnInvalidPointIdIsNamed)
 {
   const std::string cells = this->path("flat/cells.npy");
   std::fstream file(cells, std::ios::in | std::ios::out | std::ios::binary);
@@ -100,7 +100,7 @@ TEST_F(ReaderErrors, AnIdOfNoPointIsNamed)
   this->expectError("the vertex id 2147483647");
 }
 
-TEST_F(ReaderErrors, AreOverOnceTheMeshIsGood)
+TEST_F(ReaderErrors, EndOnceTheMeshIsValid)
 {
   this->Reader->SetFileName(this->path("none").c_str());
   this->Reader->Update();
@@ -111,7 +111,7 @@ TEST_F(ReaderErrors, AreOverOnceTheMeshIsGood)
     vtkUnstructuredGrid::SafeDownCast(this->Reader->GetOutputDataObject(0))->GetNumberOfCells());
 }
 
-TEST_F(ReaderErrors, CanReadFileTellsMeshesFromOthers)
+TEST_F(ReaderErrors, CanReadFileRecognizesMeshes)
 {
   EXPECT_EQ(1, this->Reader->CanReadFile(this->path("flat").c_str()));
   EXPECT_EQ(1, this->Reader->CanReadFile(this->path("stored").c_str()));
@@ -121,7 +121,7 @@ TEST_F(ReaderErrors, CanReadFileTellsMeshesFromOthers)
   EXPECT_EQ(0, this->Reader->CanReadFile(nullptr));
 }
 
-/// The reader makes the types itself, but a damaged file is refused.
+/// The reader does not need the array of types, but a damaged array is still an error.
 TEST_F(ReaderErrors, APieceWhoseTypesHaveChanged)
 {
   const tipp::PartitionedMesh mesh = tipp::openPartitionedMesh(this->path("stored"));
@@ -134,7 +134,7 @@ TEST_F(ReaderErrors, APieceWhoseTypesHaveChanged)
   this->expectError("the array types does not have its checksum");
 }
 
-TEST_F(ReaderErrors, StoppedAnywhereItGivesNothingAndNoError)
+TEST_F(ReaderErrors, AnAbortLeavesNoOutputAndNoError)
 {
   struct Stop
   {
@@ -161,7 +161,7 @@ TEST_F(ReaderErrors, StoppedAnywhereItGivesNothingAndNoError)
     for (stop.Calls = 1; isStopped && stop.Calls < 100; ++stop.Calls)
     {
       stop.Made = 0;
-      this->Reader->SetAbortExecute(0); // VTK 9.3 and later leave that to the caller
+      this->Reader->SetAbortExecute(0); // VTK 9.3 and later do not reset it
       this->Reader->Modified();
       this->Reader->Update();
       auto* const grid = vtkUnstructuredGrid::SafeDownCast(this->Reader->GetOutputDataObject(0));

@@ -13,7 +13,7 @@
 namespace
 {
 
-/// Meshes that the first rank makes for all.
+/// Meshes that the first rank writes for all ranks.
 class ReaderOnRanks : public testing::Test
 {
 protected:
@@ -34,7 +34,7 @@ protected:
     this->Path = name.data();
   }
 
-  // Nobody removes the files while another reads them.
+  // Waits, so that no rank removes files that another rank still reads.
   void TearDown() override { this->Controller->Barrier(); }
 
   long long sum(long long value) const
@@ -53,7 +53,7 @@ protected:
 
 } // namespace
 
-TEST_F(ReaderOnRanks, EachCellIsOnOneOfThem)
+TEST_F(ReaderOnRanks, EachCellIsOnOneRank)
 {
   constexpr long long cells = 5 * 5 * 5 * 6;
   for (const char* const form : { "flat", "stored" })
@@ -72,11 +72,11 @@ TEST_F(ReaderOnRanks, EachCellIsOnOneOfThem)
   }
 }
 
-TEST_F(ReaderOnRanks, AnErrorOfOneIsAnErrorOfAll)
+TEST_F(ReaderOnRanks, AnErrorOnOneRankIsReportedOnAll)
 {
   if (this->Rank == 0)
   {
-    // The right size, so that its reader alone finds the fault.
+    // The file's size does not change, so only the rank that reads it finds the error.
     std::fstream piece(
       this->Path + "stored/pieces/000000.vtu", std::ios::in | std::ios::out | std::ios::binary);
     piece.seekp(3000);
@@ -94,7 +94,7 @@ TEST_F(ReaderOnRanks, AnErrorOfOneIsAnErrorOfAll)
   EXPECT_NE(std::string::npos, errors->Text.find("000000.vtu")) << errors->Text;
 }
 
-TEST_F(ReaderOnRanks, AMissingMeshIsAnErrorOfAll)
+TEST_F(ReaderOnRanks, AMissingMeshIsReportedOnAll)
 {
   vtkNew<tipp::test::MessageCounter> errors;
   vtkNew<tipp::test::MessageCounter> others;

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-/// The values of an ADCIRC file of one step at as many nodes.
+/// Reads an ADCIRC file of node values with one time step for this number of nodes.
 inline vtkSmartPointer<vtkDoubleArray> readMaximum(const std::string& path, vtkIdType nodes)
 {
   const auto array = vtkSmartPointer<vtkDoubleArray>::New();
@@ -28,7 +28,7 @@ inline vtkSmartPointer<vtkDoubleArray> readMaximum(const std::string& path, vtkI
   return array;
 }
 
-/// Throws std::runtime_error if the file is not an ADCIRC mesh.
+/// The ADCIRC mesh as a grid. Throws std::runtime_error if the file is not an ADCIRC mesh.
 inline vtkSmartPointer<vtkUnstructuredGrid> gridOfAdcirc(const std::string& path)
 {
   const tipp::test::AdcircMesh mesh = tipp::test::readAdcirc(path);

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-/// Where vtkProbeFilter finds a sample, so do we, with its value.
+/// Every sample that vtkProbeFilter finds must be valid in the filter's image, with the same value.
 inline void expectAllThatVtkFinds(
   vtkRangeResampleFilter* filter, vtkDataSet* mesh, const char* name, double tolerance)
 {
@@ -37,8 +37,8 @@ inline void expectAllThatVtkFinds(
   EXPECT_GT(found, ours->GetNumberOfPoints() / 20);
 }
 
-/// A linear field on a mesh of cells with a volume is sampled exactly, where vtkProbeFilter finds
-/// it.
+/// Samples a linear field on a mesh of solid cells. The values must be those of the field, and
+/// every sample that vtkProbeFilter finds must be valid.
 inline void expectLinearWhereVtkFindsIt(vtkDataSet* mesh)
 {
   vtkNew<vtkDoubleArray> linear;
@@ -48,7 +48,8 @@ inline void expectLinearWhereVtkFindsIt(vtkDataSet* mesh)
     linear->InsertNextValue(linearField(mesh->GetPoint(i)));
   }
   mesh->GetPointData()->AddArray(linear);
-  // On the faces, whose points are not quite in a plane, vtkProbeFilter's tolerance would tell.
+  // The range leaves out the outer faces. These are not exactly planar, and vtkProbeFilter finds
+  // samples within its tolerance there.
   double b[6];
   mesh->GetBounds(b);
   for (int axis = 0; axis < 3; ++axis)

@@ -11,7 +11,7 @@ namespace
 {
 
 using Rational = CGAL::Gmpq;
-/// A number with infinitesimals: the coefficients of 1, e, e^2, e^3.
+/// A polynomial in the infinitesimal e: the coefficients of 1, e, e^2, e^3.
 using Moved = std::array<Rational, 4>;
 
 int signOf(const Moved& number)
@@ -37,8 +37,8 @@ Rational determinant(const std::vector<std::array<Rational, 3>>& rows, int dimen
     rows[0][2] * (rows[1][0] * rows[2][1] - rows[1][1] * rows[2][0]);
 }
 
-/// The barycentric coordinates of the moved sample, each times the determinant of the cell, and
-/// that determinant's sign, by Cramer's rule: the sample's coordinates stand for a corner's.
+/// The signs of the moved sample's barycentric coordinates, each times the determinant of the cell,
+/// and the sign of this determinant. By Cramer's rule: the sample replaces one corner.
 class Location
 {
 public:
@@ -97,7 +97,8 @@ private:
     }
     Moved number;
     number[0] = this->volume(corners);
-    // The volume is linear in the sample: what a unit step along an axis adds.
+    // The volume is linear in the sample's coordinates. This is its change for a unit step along an
+    // axis.
     for (int axis = 0; axis < this->Dimension && move >= 0; ++axis)
     {
       auto stepped = corners;

@@ -6,15 +6,16 @@
 
 #include <vector>
 
-// Which cells contain a sample, by CGAL's rationals and nothing of the code under test.
+// Finds the cells that contain a sample with CGAL's rational numbers, independently of the code
+// under test.
 namespace oracle
 {
 
-/// The cells that contain the sample after it has been moved by (s0 e, s1 e^2, s2 e^3) with
-/// e -> 0. Signs are those of `move`: bit 0, 1, 2 set mean -1 along x, y, z.
+/// The cells that contain the sample after a move by (s0 e, s1 e^2, s2 e^3) with e -> 0. The signs
+/// s0, s1 and s2 are -1 where bit 0, 1 or 2 of `move` is set.
 std::vector<int> cellsAfterMove(const Scene& scene, const double* sample, int move);
 
-/// The cells that contain the sample as closed sets. Cells without an area or volume do not count.
+/// The cells that, as closed sets, contain the sample. Cells without area or volume are left out.
 std::vector<int> closedCells(const Scene& scene, const double* sample);
 
 } // namespace oracle

@@ -10,14 +10,14 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnstructuredGridAlgorithm.h"
 
-/// Gives the cells of a scene by piece: each nth cell.
+/// A source whose piece i of n has each n-th cell of a scene, from cell i on.
 class PieceSource : public vtkUnstructuredGridAlgorithm
 {
 public:
   static PieceSource* New() { VTK_STANDARD_NEW_BODY(PieceSource); }
   Scene Cells;
   int Requests = 0;
-  double Time = 0; ///< of the last request
+  double Time = 0; ///< time of the last request
   int FailingPiece = -1;
 
 protected:

@@ -25,7 +25,7 @@ inline double linearField(const double* p)
   return 3 + 2 * p[0] - 5 * p[1] + 7 * p[2];
 }
 
-/// The scene's cells from `begin` on, each `step`th, with the point array "linear".
+/// Each `step`-th cell of the scene from `begin` on, with the point array "linear".
 inline vtkSmartPointer<vtkUnstructuredGrid> gridOf(const Scene& scene, int begin = 0, int step = 1)
 {
   const auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
@@ -53,7 +53,7 @@ inline vtkSmartPointer<vtkUnstructuredGrid> gridOf(const Scene& scene, int begin
   return grid;
 }
 
-/// An image of the unit square or cube, n samples along each of its axes.
+/// A filter for an image of the unit square or cube with n samples along each axis.
 inline vtkSmartPointer<vtkRangeResampleFilter> unitFilter(int dimension, int n)
 {
   const auto filter = vtkSmartPointer<vtkRangeResampleFilter>::New();
@@ -78,7 +78,7 @@ inline vtkIdType countValid(vtkImageData* image)
   return count;
 }
 
-/// The largest difference of the array "linear" from the field where the mask is 1.
+/// The largest error of the array "linear" among the valid samples.
 inline double linearError(vtkImageData* image, int dimension)
 {
   vtkDataArray* const samples = image->GetPointData()->GetArray("linear");

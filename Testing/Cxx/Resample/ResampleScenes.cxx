@@ -83,8 +83,8 @@ Scene Scene::shuffled(unsigned seed) const
 namespace
 {
 
-/// The simplices of the cube along its diagonals (Kuhn): the paths from the least corner to the
-/// greatest.
+/// Adds the simplices of a cube (Kuhn): the paths along its edges from the lowest corner to the
+/// highest.
 void addCube(Scene& scene, int steps, std::array<int, 3> at)
 {
   std::vector<int> axes =
@@ -161,7 +161,7 @@ Scene sliverScene()
   Scene scene;
   scene.Name = "slivers";
   constexpr int columns = 9;
-  // Between the lines y = 0 and y = 1 a band a few ulps high around y = x / 3.
+  // Between the lines y = 0 and y = 1, there is a band a few ulps high around y = x / 3.
   for (int i = 0; i <= columns; ++i)
   {
     const double x = double(i) / columns;
@@ -189,7 +189,7 @@ Scene fanScene(int wedges)
   Scene scene;
   scene.Name = "fan";
   scene.Points = { 0.5, 0.5, 0 };
-  constexpr double full = 6.0; // less than 2 pi
+  constexpr double full = 6.0; // slightly less than 2 pi
   for (int i = 0; i <= wedges; ++i)
   {
     const double angle = 0.1 + full * i / wedges;
@@ -259,7 +259,7 @@ std::vector<Scene> tilesOf(const Scene& scene, int side, bool ownPoints)
 
 std::vector<Scene> planeScenes()
 {
-  Scene corner; // only its corner at (0.5, 0.5) is in reach of no mirrored move
+  Scene corner; // a sample at its corner (0.5, 0.5) is only found in the closed cell, by no move
   corner.Name = "corner";
   corner.Points = { 0.5, 0.5, 0, 0.9, 1, 0, 1, 0.9, 0 };
   corner.Ids = { 0, 1, 2 };
@@ -273,7 +273,7 @@ std::vector<Scene> spaceScenes()
   corner.Dimension = 3;
   corner.Points = { 0.5, 0.5, 0.5, 0.9, 1, 1, 1, 0.9, 1, 1, 1, 0.9 };
   corner.Ids = { 0, 1, 2, 3 };
-  Scene flat = jitteredScene(3, 3, 2); // its middle layer is one ulp high
+  Scene flat = jitteredScene(3, 3, 2); // the middle layer is one ulp high
   flat.Name = "flat";
   for (std::size_t i = 2; i < flat.Points.size(); i += 3)
   {

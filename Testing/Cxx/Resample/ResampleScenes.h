@@ -14,7 +14,7 @@ struct Scene
 {
   std::string Name;
   int Dimension = 2;
-  std::vector<double> Points; ///< x, y, z in a row
+  std::vector<double> Points; ///< x, y, z of each point
   std::vector<std::int64_t> Ids;
 
   int cells() const { return int(this->Ids.size()) / (this->Dimension + 1); }
@@ -22,9 +22,9 @@ struct Scene
   bool boxContains(int cell, const double* sample) const;
   tipp::SimplexMesh mesh() const;
 
-  /// The same mesh with coordinates that float32 holds.
+  /// The same mesh with coordinates rounded to float32.
   Scene rounded() const;
-  /// The same mesh with its cells and the corners within them in another order.
+  /// The same mesh with its cells, and the corners in each cell, in another order.
   Scene shuffled(unsigned seed) const;
   const double* corner(int cell, int i) const
   {
@@ -32,7 +32,7 @@ struct Scene
   }
 };
 
-/// A scene's mesh in memory of its own, with float32 points and int32 ids on request.
+/// A copy of a scene's mesh, with float32 points and int32 ids on request.
 struct StoredMesh
 {
   StoredMesh(const Scene& scene, bool singlePrecision, bool narrowIds);
@@ -44,28 +44,30 @@ struct StoredMesh
   tipp::SimplexMesh Mesh;
 };
 
-/// Regular, of the unit square or cube, cut by diagonals: samples fall on edges and corners.
+/// A regular mesh of the unit square or cube, cut by diagonals, so that samples fall on edges and
+/// corners.
 Scene regularScene(int dimension, int steps);
-/// The same with its inner points moved at random.
+/// As regularScene(), with the inner points moved at random.
 Scene jitteredScene(int dimension, int steps, unsigned seed);
-/// Triangles as flat as can be: points in columns whose heights differ by a few ulps.
+/// Extremely flat triangles: the points are in columns, and heights in a column differ by a few
+/// ulps.
 Scene sliverScene();
-/// A fan of triangles around (0.5, 0.5), each a thin wedge, with a gap.
+/// A fan of thin triangles around (0.5, 0.5), with a gap.
 Scene fanScene(int wedges);
-/// Triangles at random places: they overlap.
+/// Triangles at random positions, which overlap.
 Scene overlappingScene(int triangles, unsigned seed);
 
-/// The scene's cells by the tile that their centre lies in, `side` along each axis; each part with
-/// all points, or with those that it uses.
+/// Divides the scene into `side` tiles along each axis, by the centres of its cells. Each part has
+/// its own points, or all points.
 std::vector<Scene> tilesOf(const Scene& scene, int side, bool ownPoints);
 
 std::vector<Scene> planeScenes();
 std::vector<Scene> spaceScenes();
 
-/// n samples along each axis of the mesh's dimension, from low to high.
+/// A lattice with n samples along each axis of the mesh's dimension, from low to high.
 tipp::Lattice latticeOf(int dimension, int n, double low, double high);
 
-/// The coordinates of a sample by its number.
+/// The coordinates of the sample with this index.
 void sampleOf(const tipp::Lattice& lattice, std::int64_t sample, double (&coordinates)[3]);
 
 #endif

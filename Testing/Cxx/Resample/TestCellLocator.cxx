@@ -16,7 +16,8 @@ using namespace tipp;
 namespace
 {
 
-/// The locations of points, by a locator or by one of the points.
+/// The locations of points, by a locator of the cells or by a pass over the cells with a locator of
+/// the points.
 std::vector<CellLocation> locate(const SimplexMesh& mesh, const std::int64_t* cellIds,
   const std::vector<Point3>& points, int threads, bool byLocator)
 {
@@ -34,7 +35,7 @@ std::vector<CellLocation> locate(const SimplexMesh& mesh, const std::int64_t* ce
   return locations;
 }
 
-/// The scene's points, the middles of its cells' edges, and points at random in a larger box.
+/// The scene's points, the middles of its edges, and random points in a larger box.
 std::vector<Point3> pointsToFind(const Scene& scene, int atRandom)
 {
   std::vector<Point3> points;
@@ -57,8 +58,8 @@ std::vector<Point3> pointsToFind(const Scene& scene, int atRandom)
   return points;
 }
 
-/// The cells that may answer a point: those after the first move that leads into some, or last
-/// those that hold it as closed sets.
+/// The cells that may be returned for a point: those of the first move after which any cell
+/// contains it, otherwise the closed cells that contain it.
 std::vector<int> expectedCells(const Scene& scene, const Point3& point)
 {
   const double sample[3] = { point.x, point.y, point.z };
@@ -118,7 +119,7 @@ Scene moved(Scene scene, double factor, double by)
 
 } // namespace
 
-TEST(CellLocator, FindsTheCellsThatRationalsFind)
+TEST(CellLocator, FindsTheSameCellsAsRationals)
 {
   for (const Scene& scene : allScenes())
   {
@@ -126,7 +127,7 @@ TEST(CellLocator, FindsTheCellsThatRationalsFind)
   }
 }
 
-TEST(CellLocator, FindsThemFarFromTheOrigin)
+TEST(CellLocator, FindsCellsFarFromTheOrigin)
 {
   const Scene scene = moved(jitteredScene(2, 12, 3), 0x1p-10, 0x1p22);
   std::vector<Point3> points = pointsToFind(jitteredScene(2, 12, 3), 300);
@@ -137,7 +138,7 @@ TEST(CellLocator, FindsThemFarFromTheOrigin)
   expectAsOracle(scene, points);
 }
 
-TEST(CellLocator, FindsThemWhereSinglePrecisionOverflows)
+TEST(CellLocator, FindsCellsIfSinglePrecisionOverflows)
 {
   const Scene scene = moved(jitteredScene(2, 8, 5), 1e300, 0);
   std::vector<Point3> points = pointsToFind(jitteredScene(2, 8, 5), 100);
@@ -173,7 +174,7 @@ TEST(CellLocator, AnswersDoNotDependOnTheOrderOfCells)
   }
 }
 
-TEST(CellLocator, WeightsGiveThePointBack)
+TEST(CellLocator, WeightsReproduceThePoint)
 {
   for (const Scene& scene : allScenes())
   {
@@ -203,7 +204,7 @@ TEST(CellLocator, WeightsGiveThePointBack)
   }
 }
 
-TEST(CellLocator, CellsWithInfiniteOrHiddenCornersHoldNothing)
+TEST(CellLocator, CellsThatAreInfiniteOrHiddenContainNothing)
 {
   Scene scene = regularScene(2, 2);
   const std::vector<Point3> points = pointsToFind(scene, 200);
@@ -239,7 +240,7 @@ TEST(CellLocator, PointsThatAreNotFiniteAreOutside)
   }
 }
 
-TEST(CellLocator, AMeshWithoutCellsHoldsNothing)
+TEST(CellLocator, AMeshWithoutCellsContainsNothing)
 {
   Scene scene = regularScene(2, 2);
   scene.Ids.clear();
@@ -247,7 +248,7 @@ TEST(CellLocator, AMeshWithoutCellsHoldsNothing)
   EXPECT_TRUE(locate(scene.mesh(), nullptr, {}, 2, false).empty());
 }
 
-TEST(CellLocator, OfCopiesOfACellTheLowestIdCounts)
+TEST(CellLocator, TheLowestIdOfEqualCellsIsFound)
 {
   Scene scene = regularScene(2, 1);
   const std::vector<std::int64_t> ids = scene.Ids;

@@ -27,7 +27,7 @@ bool isUsable(const Scene& scene)
   return answer;
 }
 
-/// Appends a mesh, with its own points, moved by (x, y) and enlarged.
+/// Appends a copy of a mesh with its own points, scaled and then moved by (x, y).
 void append(Scene& to, const Scene& scene, double x, double y, double factor)
 {
   const auto first = std::int64_t(to.Points.size() / 3);
@@ -42,7 +42,7 @@ void append(Scene& to, const Scene& scene, double x, double y, double factor)
   }
 }
 
-/// A strip of triangles around the origin, `turns` times.
+/// A strip of triangles that winds around the origin `turns` times.
 Scene windingScene(double turns)
 {
   Scene scene;
@@ -65,7 +65,7 @@ Scene windingScene(double turns)
   return scene;
 }
 
-/// Leaves out the triangles whose first corner is in a disk.
+/// Removes the triangles whose first corner is inside a disk.
 Scene withHole(Scene scene, double x, double y, double radius)
 {
   std::vector<std::int64_t> ids;
@@ -90,7 +90,7 @@ Scene turned(Scene scene)
   return scene;
 }
 
-/// Many points, in rows or at random, in and around the unit square.
+/// Many points in and around the unit square, in rows or at random.
 std::vector<Point3> manyPoints(bool inRows)
 {
   std::vector<Point3> points;
@@ -123,7 +123,7 @@ std::vector<std::int64_t> located(
 
 } // namespace
 
-TEST(CellWalk, IsUsableWhereNoTrianglesOverlap)
+TEST(CellWalk, IsUsableIfNoTrianglesOverlap)
 {
   Scene apart = jitteredScene(2, 9, 1);
   append(apart, jitteredScene(2, 9, 2), 1.5, 0, 1);
@@ -139,7 +139,7 @@ TEST(CellWalk, IsUsableWhereNoTrianglesOverlap)
   }
 }
 
-TEST(CellWalk, IsNotUsableWhereTrianglesOverlap)
+TEST(CellWalk, IsNotUsableIfTrianglesOverlap)
 {
   Scene overCorner = jitteredScene(2, 9, 1);
   append(overCorner, jitteredScene(2, 9, 2), 0.9, 0.9, 1);
@@ -158,7 +158,7 @@ TEST(CellWalk, IsNotUsableWhereTrianglesOverlap)
   }
 }
 
-TEST(CellWalk, FindsWhatTheCellsFindByThemselves)
+TEST(CellWalk, FindsTheSameCellsAsAPassOverAllCells)
 {
   Scene clusters = withHole(regularScene(2, 40), 0.4, 0.6, 0.2);
   append(clusters, jitteredScene(2, 30, 4), 0.3, 0.5, 0.1);
@@ -175,7 +175,7 @@ TEST(CellWalk, FindsWhatTheCellsFindByThemselves)
   }
 }
 
-TEST(CellWalk, KnowsWhatIsOutsideOfAConvexMesh)
+TEST(CellWalk, RecognizesPointsOutsideAConvexMesh)
 {
   const Scene hollow = withHole(jitteredScene(2, 20, 3), 0.5, 0.5, 0.3);
   const Scene notched = withHole(jitteredScene(2, 20, 3), 0, 0, 0.2);
@@ -201,7 +201,7 @@ TEST(CellWalk, KnowsWhatIsOutsideOfAConvexMesh)
   }
 }
 
-TEST(CellWalk, WeighsAsThinWeightsDoes)
+TEST(CellWalk, HasTheWeightsOfThinWeights)
 {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> anywhere(-1, 1);
@@ -210,7 +210,7 @@ TEST(CellWalk, WeighsAsThinWeightsDoes)
     double edges[2][2] = { { anywhere(random), anywhere(random) },
       { anywhere(random), anywhere(random) } };
     const double offset[2] = { anywhere(random), anywhere(random) };
-    if (i % 3 == 0) // thin, or flat
+    if (i % 3 == 0) // thin, or without area
     {
       edges[1][0] = edges[0][0] * (1 + (i % 2) * 0x1p-50);
       edges[1][1] = edges[0][1];
@@ -224,7 +224,7 @@ TEST(CellWalk, WeighsAsThinWeightsDoes)
   }
 }
 
-TEST(CellWalk, GoesFromPointToPointInAFewSteps)
+TEST(CellWalk, NeedsFewStepsFromPointToPoint)
 {
   const Scene scene = jitteredScene(2, 200, 1);
   const SimplexMesh mesh = scene.mesh();
@@ -236,7 +236,7 @@ TEST(CellWalk, GoesFromPointToPointInAFewSteps)
       if constexpr (std::decay_t<decltype(access)>::Dimension == 2)
       {
         CellWalk::Position at;
-        for (int i = 0; i < 1000; ++i) // each beside the one before, then far away
+        for (int i = 0; i < 1000; ++i) // points next to each other, and some far away
         {
           const bool isFar = i % 100 == 0;
           const Point2 point{ 0.05 + 0.0008 * i + (isFar ? 0.1 : 0), isFar ? 0.9 : 0.3 };

@@ -13,8 +13,8 @@
 namespace
 {
 
-/// Each sample's cell against rationals: after the first move that puts it into any cell, else in
-/// a closed one; and none if there is none.
+/// Compares each sample's cell with rational arithmetic: the cell after the first move that leads
+/// into a cell, otherwise a closed cell that contains the sample, otherwise none.
 void expectExact(const Scene& scene, const tipp::Lattice& lattice)
 {
   const tipp::Claims claims = tipp::claimSamples(scene.mesh(), lattice, 2);
@@ -52,7 +52,7 @@ TEST(Claims, AreExactWhereSamplesFallOnEdgesAndCorners)
   }
 }
 
-TEST(Claims, AreExactForSamplesBetween)
+TEST(Claims, AreExactForSamplesInsideCells)
 {
   for (const Scene& scene : planeScenes())
   {
@@ -60,7 +60,7 @@ TEST(Claims, AreExactForSamplesBetween)
   }
 }
 
-TEST(Claims, AreExactForMoreSamplesThanDoublesBetween)
+TEST(Claims, AreExactIfSamplesAreDenserThanDoubles)
 {
   tipp::Lattice lattice = latticeOf(2, 60, 0.5, 0.5);
   lattice.Delta = { 0x1p-55, 0x1p-54, 1 };
@@ -80,7 +80,7 @@ TEST(Claims, AreExactForCellsFarFromTheLattice)
   expectExact(scene, latticeOf(2, 30, -1, 1));
 }
 
-TEST(Claims, AreExactWhereEverySampleIsTheSame)
+TEST(Claims, AreExactIfAllSamplesAreEqual)
 {
   tipp::Lattice lattice = latticeOf(2, 5, 0.5, 0.5);
   for (const Scene& scene : planeScenes())
@@ -122,7 +122,7 @@ TEST(Claims, DoNotDependOnTheNumberOfThreads)
   }
 }
 
-TEST(Claims, OfCellsThatOverlapGoToTheSameInAnyOrder)
+TEST(Claims, OfOverlappingCellsDoNotDependOnTheirOrder)
 {
   const Scene scene = overlappingScene(60, 2);
   const Scene other = scene.shuffled(3);
@@ -146,7 +146,7 @@ TEST(Claims, OfCellsThatOverlapGoToTheSameInAnyOrder)
   }
 }
 
-TEST(Claims, OfCopiesGoToTheFirst)
+TEST(Claims, OfEqualCellsAreOfTheFirst)
 {
   Scene scene = jitteredScene(2, 4, 1);
   const int cells = scene.cells();
@@ -161,7 +161,7 @@ TEST(Claims, OfCopiesGoToTheFirst)
   }
 }
 
-TEST(Claims, ShareOutACellOfManySamples)
+TEST(Claims, ThreadsShareACellOfManySamples)
 {
   Scene scene;
   scene.Points = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
@@ -223,7 +223,7 @@ TEST(Claims, AreTheSameForEveryTypeOfPointsAndIds)
   }
 }
 
-TEST(Claims, StopWhenTheReportSaysSo)
+TEST(Claims, StopWhenProgressReturnsFalse)
 {
   const Scene scene = regularScene(2, 100);
   const tipp::Claims claims =
@@ -239,7 +239,7 @@ TEST(Claims, InSpaceAreExactWhereSamplesFallOnFacesEdgesAndCorners)
   }
 }
 
-TEST(Claims, InSpaceAreExactForSamplesBetween)
+TEST(Claims, InSpaceAreExactForSamplesInsideCells)
 {
   for (const Scene& scene : spaceScenes())
   {
@@ -247,7 +247,7 @@ TEST(Claims, InSpaceAreExactForSamplesBetween)
   }
 }
 
-TEST(Claims, InSpaceAreExactWhereBoxesHoldASampleAtMost)
+TEST(Claims, InSpaceAreExactIfBoxesHaveAtMostOneSample)
 {
   std::vector<Scene> scenes = spaceScenes();
   scenes.push_back(jitteredScene(3, 6, 1));
@@ -258,7 +258,7 @@ TEST(Claims, InSpaceAreExactWhereBoxesHoldASampleAtMost)
   }
 }
 
-TEST(Claims, InSpaceLeaveOutCellsOfASampleAndACoordinateThatIsNotFinite)
+TEST(Claims, InSpaceLeaveOutCellsWithASampleAndACoordinateThatIsNotFinite)
 {
   const Scene scene = jitteredScene(3, 6, 1);
   const tipp::Lattice lattice = latticeOf(3, 4, 0.013, 0.9871);
@@ -285,7 +285,7 @@ TEST(Claims, InSpaceLeaveOutCellsOfASampleAndACoordinateThatIsNotFinite)
   }
 }
 
-TEST(Claims, InSpaceAreExactForMoreSamplesThanDoublesBetween)
+TEST(Claims, InSpaceAreExactIfSamplesAreDenserThanDoubles)
 {
   tipp::Lattice lattice = latticeOf(3, 6, 0.5, 0.5);
   lattice.Delta = { 0x1p-54, 0x1p-53, 0x1p-55 };

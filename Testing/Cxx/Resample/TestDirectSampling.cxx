@@ -18,7 +18,7 @@
 namespace
 {
 
-/// Samples of a point array, a cell array and an array of whole numbers, and the mask.
+/// The samples of a point array, a cell array and an integer array, and the mask.
 struct FilledArrays
 {
   FilledArrays(const Scene& scene, const tipp::Lattice& lattice)
@@ -76,7 +76,7 @@ void expectAsInTwoWalks(const Scene& scene, const tipp::Lattice& lattice)
   EXPECT_EQ(result.Statistics.Tests, claims.Statistics.Tests) << scene.Name;
 }
 
-/// Lanes of tetrahedra whose boxes have one sample each tell nothing of rows.
+/// Whether the lanes have rows. Lanes of tetrahedra have none if each box has a single sample.
 template <typename Lanes>
 bool tellsRows(const Lanes& lanes)
 {
@@ -87,7 +87,8 @@ bool tellsRows(const Lanes& lanes)
   return true;
 }
 
-/// What lanes tell of the first rows of cells is what rows tell; returns for how many they do.
+/// Compares the first rows of cells in lanes with those of the scalar code. Returns the number of
+/// rows that the lanes could decide.
 template <typename Access, typename Lanes, typename Rows>
 int expectLanesLikeRows(const Scene& scene, Lanes lanes, Rows rows)
 {
@@ -141,7 +142,7 @@ int expectLanesLikeRows(const Scene& scene, Lanes lanes, Rows rows)
 
 } // namespace
 
-TEST(DirectSampling, GivesTheBitsOfTwoWalksInThePlane)
+TEST(DirectSampling, EqualsClaimsAndInterpolationInThePlane)
 {
   for (const Scene& scene : planeScenes())
   {
@@ -150,7 +151,7 @@ TEST(DirectSampling, GivesTheBitsOfTwoWalksInThePlane)
   }
 }
 
-TEST(DirectSampling, GivesTheBitsOfTwoWalksInSpace)
+TEST(DirectSampling, EqualsClaimsAndInterpolationInSpace)
 {
   for (const Scene& scene : spaceScenes())
   {
@@ -159,7 +160,7 @@ TEST(DirectSampling, GivesTheBitsOfTwoWalksInSpace)
   }
 }
 
-TEST(DirectSampling, TellsThatCellsOverlap)
+TEST(DirectSampling, ReportsThatCellsOverlap)
 {
   const Scene scene = overlappingScene(20, 1);
   const tipp::Lattice lattice = latticeOf(2, 50, 0, 1);
@@ -168,7 +169,7 @@ TEST(DirectSampling, TellsThatCellsOverlap)
     tipp::sampleDirectly(scene.mesh(), lattice, sampled.Attributes, sampled.Options).Overlapping);
 }
 
-TEST(DirectSampling, StopsWhenAsked)
+TEST(DirectSampling, StopsWhenProgressReturnsFalse)
 {
   const Scene scene = jitteredScene(2, 100, 1);
   const tipp::Lattice lattice = latticeOf(2, 50, 0, 1);
@@ -178,7 +179,7 @@ TEST(DirectSampling, StopsWhenAsked)
     tipp::sampleDirectly(scene.mesh(), lattice, sampled.Attributes, sampled.Options).Aborted);
 }
 
-TEST(TriangleLanes, TellWhatRowsTell)
+TEST(TriangleLanes, EqualTheScalarCode)
 {
   const Scene scene = jitteredScene(2, 40, 5);
   const tipp::Lattice lattice = latticeOf(2, 90, -0.1, 1.2);
@@ -188,7 +189,7 @@ TEST(TriangleLanes, TellWhatRowsTell)
   EXPECT_GT(told, scene.cells() / 2);
 }
 
-TEST(TetrahedronLanes, TellWhatRowsTell)
+TEST(TetrahedronLanes, EqualTheScalarCode)
 {
   const Scene scene = jitteredScene(3, 8, 5);
   const tipp::Lattice lattice = latticeOf(3, 30, -0.1, 1.2);
@@ -198,7 +199,7 @@ TEST(TetrahedronLanes, TellWhatRowsTell)
   EXPECT_GT(told, scene.cells() / 2);
 }
 
-TEST(TetrahedronLanes, TellTheSamplesOfBoxesThatHaveOneLikeRows)
+TEST(TetrahedronLanes, SingleSamplesEqualTheScalarCode)
 {
   const Scene scene = jitteredScene(3, 12, 5);
   const tipp::LatticeAxes axes(scene.mesh(), latticeOf(3, 8, -0.1, 1.2));
@@ -231,14 +232,14 @@ TEST(TetrahedronLanes, TellTheSamplesOfBoxesThatHaveOneLikeRows)
       ++(open ? inside : outside);
     }
   }
-  EXPECT_EQ(inside, 5 * 5 * 5); // all that the mesh holds
+  EXPECT_EQ(inside, 5 * 5 * 5); // all samples inside the mesh
   EXPECT_GT(outside, inside);
 }
 
-TEST(BorderClaims, GiveEachTouchedSampleOneCellInAnyOrder)
+TEST(BorderClaims, AssignEachTouchedSampleToOneCellInAnyOrder)
 {
   const Scene scene = regularScene(2, 4);
-  const tipp::Lattice lattice = latticeOf(2, 5, 0, 1); // a sample on each corner
+  const tipp::Lattice lattice = latticeOf(2, 5, 0, 1); // each corner has a sample
   const tipp::LatticeAxes axes(scene.mesh(), lattice);
   std::vector<tipp::Touch> touches;
   for (std::int64_t i = 0; i < lattice.samples(); ++i)
@@ -268,7 +269,7 @@ TEST(BorderClaims, GiveEachTouchedSampleOneCellInAnyOrder)
   }
 }
 
-TEST(OutsidePoints, AreThoseOfCellsBeyondASideOfASmallLattice)
+TEST(OutsidePoints, AreThePointsOfCellsBeyondASideOfASmallLattice)
 {
   using Access = tipp::SimplexAccess<2, double, std::int64_t>;
   const Scene scene = jitteredScene(2, 40, 5);
@@ -295,7 +296,7 @@ TEST(OutsidePoints, AreThoseOfCellsBeyondASideOfASmallLattice)
   expectAsInTwoWalks(scene, lattice);
 }
 
-TEST(OutsidePoints, AreNotLookedForWhereTheLatticeHoldsMost)
+TEST(OutsidePoints, AreNotUsedIfTheLatticeCoversMostOfTheMesh)
 {
   const Scene scene = jitteredScene(2, 40, 5);
   const tipp::LatticeAxes axes(scene.mesh(), latticeOf(2, 30, 0, 1));

@@ -78,7 +78,7 @@ void expectLinear(const Scene& scene, const tipp::Lattice& lattice)
 
 } // namespace
 
-TEST(Interpolation, GivesLinearFieldsBackExactly)
+TEST(Interpolation, ReproducesLinearFieldsExactly)
 {
   for (const Scene& scene : planeScenes())
   {
@@ -87,7 +87,7 @@ TEST(Interpolation, GivesLinearFieldsBackExactly)
   }
 }
 
-TEST(Interpolation, InSpaceGivesLinearFieldsBackExactly)
+TEST(Interpolation, InSpaceReproducesLinearFieldsExactly)
 {
   for (const Scene& scene : spaceScenes())
   {
@@ -96,11 +96,11 @@ TEST(Interpolation, InSpaceGivesLinearFieldsBackExactly)
   }
 }
 
-TEST(Interpolation, InSliversGivesLinearFieldsBackExactly)
+TEST(Interpolation, InSliversReproducesLinearFieldsExactly)
 {
   const Scene scene = sliverScene();
   tipp::Lattice lattice = latticeOf(2, 10, 0, 1);
-  // Samples at the corners of the flat triangles, and an ulp beside.
+  // The samples are at the corners of the flat triangles, or an ulp away from them.
   lattice.Delta[1] = lattice.Delta[0] / 3;
   expectLinear(scene, lattice);
   lattice.Min[1] = 0x1p-54;
@@ -125,7 +125,7 @@ TEST(Interpolation, HasTheSameBitsForAnyThreadsAndOrder)
   }
 }
 
-TEST(Interpolation, TakesWholeNumbersFromTheHeaviestCorner)
+TEST(Interpolation, TakesIntegersFromTheCornerOfLargestWeight)
 {
   Scene scene;
   scene.Points = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
@@ -166,7 +166,7 @@ TEST(Interpolation, RoundsFloatsOnce)
   }
 }
 
-TEST(Interpolation, HandlesComponentsOneByOne)
+TEST(Interpolation, InterpolatesEachComponentSeparately)
 {
   const Scene scene = jitteredScene(2, 6, 1);
   const std::vector<double> first = valuesOf<double>(scene);
@@ -205,10 +205,10 @@ TEST(Interpolation, TakesCellValuesFromTheParent)
   options.Parents = parents.data();
   tipp::resample(scene.mesh(), latticeOf(2, 5, 0, 1), { array }, options);
   EXPECT_EQ(samples[3], 44);  // below the diagonal
-  EXPECT_EQ(samples[15], 22); // above it
+  EXPECT_EQ(samples[15], 22); // above the diagonal
 }
 
-TEST(Interpolation, KeepsNaNToTheCellsThatHaveIt)
+TEST(Interpolation, RestrictsNaNToTheCellsThatHaveIt)
 {
   const Scene scene = regularScene(2, 4);
   std::vector<double> values = valuesOf<double>(scene);
@@ -221,7 +221,7 @@ TEST(Interpolation, KeepsNaNToTheCellsThatHaveIt)
   EXPECT_FALSE(std::isnan(samples[33 * 2 + 2]));
 }
 
-TEST(Interpolation, MakesNoNaNOfAnInfiniteValueWhereItHasWeight)
+TEST(Interpolation, AnInfiniteValueWithWeightDoesNotBecomeNaN)
 {
   const Scene scene = regularScene(2, 1);
   std::vector<double> values(4, 1);
@@ -231,7 +231,7 @@ TEST(Interpolation, MakesNoNaNOfAnInfiniteValueWhereItHasWeight)
   EXPECT_EQ(samples[33 * 29 + 30], values[3]);
 }
 
-TEST(Interpolation, OfPartsInAnyOrderIsThatOfTheWhole)
+TEST(Interpolation, OfPartsInAnyOrderEqualsTheWhole)
 {
   const Scene whole = overlappingScene(80, 7);
   const tipp::Lattice lattice = latticeOf(2, 33, 0, 1);

@@ -23,7 +23,7 @@
 namespace
 {
 
-/// What the filter warns of.
+/// The warnings of an update.
 std::string warningsOf(vtkRangeResampleFilter* filter)
 {
   vtkNew<tipp::test::MessageCounter> warnings;
@@ -76,7 +76,7 @@ TEST(RangeResampleArrays, KeepTheirTypesComponentsAndNames)
   }
 }
 
-TEST(RangeResampleArrays, AreAsVtkProbeFilterHasThem)
+TEST(RangeResampleArrays, EqualVtkProbeFilter)
 {
   const auto grid = gridOf(jitteredScene(3, 6, 1));
   const auto filter = unitFilter(3, 10);
@@ -145,7 +145,7 @@ TEST(RangeResampleArrays, ThatAreNotNumbersMakeAWarning)
   EXPECT_NE(warnings->Text.find("'names'"), std::string::npos);
 }
 
-TEST(RangeResampleArrays, AreNullAndBlankWhereNoCellAnswers)
+TEST(RangeResampleArrays, AreNullAndBlankOutsideAllCells)
 {
   const auto grid = gridOf(regularScene(2, 1));
   addArray<vtkUnsignedCharArray>(grid->GetCellData(), "byte", grid->GetNumberOfCells());
@@ -175,12 +175,12 @@ TEST(RangeResampleArrays, HideCellsWithNoDataOnRequest)
   filter->Update();
   vtkDataArray* const samples = filter->GetOutput()->GetPointData()->GetArray("linear");
   EXPECT_FALSE(isValid(filter->GetOutput(), 0));
-  EXPECT_EQ(samples->GetTuple1(6), 0); // inside the cells of the dry corner
+  EXPECT_EQ(samples->GetTuple1(6), 0); // inside the cells at the dry corner
   EXPECT_TRUE(isValid(filter->GetOutput(), 12));
   EXPECT_LT(linearError(filter->GetOutput(), 2), 1e-13);
 }
 
-TEST(RangeResampleArrays, OfWholeNumbersKnowNoDataByItsValue)
+TEST(RangeResampleArrays, OfIntegersCompareNoDataByValue)
 {
   const auto grid = gridOf(regularScene(2, 2));
   addArray<vtkUnsignedCharArray>(grid->GetPointData(), "depth", grid->GetNumberOfPoints());
@@ -197,7 +197,7 @@ TEST(RangeResampleArrays, OfWholeNumbersKnowNoDataByItsValue)
   EXPECT_LT(countValid(filter->GetOutput()), 25);
 }
 
-TEST(RangeResampleArrays, WithoutStandardLayoutHaveNoDataToo)
+TEST(RangeResampleArrays, WithoutStandardLayoutSupportNoData)
 {
   const auto grid = gridOf(regularScene(2, 2));
   addArray<vtkSOADataArrayTemplate<double>>(
@@ -228,7 +228,7 @@ TEST(RangeResampleArrays, OfTooFewValuesAreNullWithAWarning)
   }
 }
 
-TEST(RangeResampleArrays, OfOneKindButOtherNamesOfTypesAreOne)
+TEST(RangeResampleArrays, OfEqualTypesWithDifferentNamesAreCombined)
 {
   const auto first = gridOf(jitteredScene(2, 6, 1), 0, 2);
   const auto second = gridOf(jitteredScene(2, 6, 1), 1, 2);
@@ -281,7 +281,7 @@ TEST(RangeResampleElevation, OfASurfaceIsSampled)
   EXPECT_FALSE(filter->GetOutput()->GetPointData()->HasArray("elevation"));
 }
 
-TEST(RangeResampleElevation, GivesWayToAnArrayOfItsName)
+TEST(RangeResampleElevation, IsLeftOutIfAnArrayHasItsName)
 {
   Scene scene = jitteredScene(2, 6, 1);
   scene.Points[2] = 1;

@@ -19,7 +19,7 @@
 namespace
 {
 
-/// A grid with the unit cube's corners moved a little, and cells of one type.
+/// A grid of the unit cube with slightly moved points, and cells of one type.
 class CubeGrid
 {
 public:
@@ -46,7 +46,7 @@ public:
 
   vtkIdType id(int x, int y, int z) const { return x + 3 * (y + 3 * z); }
 
-  /// The corners of a cube of the grid in the order of VTK_HEXAHEDRON.
+  /// The corners of a cube of the grid, in the order of VTK_HEXAHEDRON.
   std::vector<vtkIdType> cube(int x, int y, int z) const
   {
     return { id(x, y, z), id(x + 1, y, z), id(x + 1, y + 1, z), id(x, y + 1, z), id(x, y, z + 1),
@@ -122,7 +122,7 @@ TEST(RangeResampleCells, HexahedraLeaveNoHolesThoughTheirFacesAreNotPlanar)
   expectFilled(sampleCubes(cubes, [&](const auto& ids) { cubes.add(VTK_HEXAHEDRON, ids); }));
 }
 
-/// Whichever way VTK stores the cells.
+/// For each storage that vtkCellArray has.
 TEST(RangeResampleCells, EveryStorageOfCellsMakesTheSameImage)
 {
   vtkNew<vtkPoints> points;
@@ -257,7 +257,7 @@ TEST(RangeResampleCells, ReflexQuadsAreCutInside)
   vtkNew<vtkUnstructuredGrid> grid;
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  // An arrow head whose notch is at (0.5, 0.5).
+  // An arrow head with its notch at (0.5, 0.5).
   points->InsertNextPoint(0, 0, 0);
   points->InsertNextPoint(1, 0.5, 0);
   points->InsertNextPoint(0, 1, 0);
@@ -268,11 +268,11 @@ TEST(RangeResampleCells, ReflexQuadsAreCutInside)
   const auto filter = unitFilter(2, 5);
   filter->SetInputData(grid);
   filter->Update();
-  EXPECT_FALSE(isValid(filter->GetOutput(), 11)); // (0.25, 0.5)
-  EXPECT_TRUE(isValid(filter->GetOutput(), 13));  // (0.75, 0.5)
+  EXPECT_FALSE(isValid(filter->GetOutput(), 11)); // at (0.25, 0.5)
+  EXPECT_TRUE(isValid(filter->GetOutput(), 13));  // at (0.75, 0.5)
 }
 
-TEST(RangeResampleCells, SlopesAndNoiseInZLoseNoSamples)
+TEST(RangeResampleCells, SteepAndNoisySurfacesLoseNoSamples)
 {
   Scene scene = jitteredScene(2, 8, 1);
   std::mt19937 random(1);
@@ -324,7 +324,7 @@ TEST(RangeResampleCells, ASurfaceInABoxRepeatsItsValuesAlongZ)
   }
 }
 
-TEST(RangeResampleCells, HiddenCellsAnswerNothingAndBorrowedOnesDoNoHarm)
+TEST(RangeResampleCells, HiddenCellsAreIgnoredAndDuplicatesAreNot)
 {
   const auto grid = gridOf(regularScene(2, 1));
   vtkNew<vtkUnsignedCharArray> ghosts;
@@ -338,23 +338,23 @@ TEST(RangeResampleCells, HiddenCellsAnswerNothingAndBorrowedOnesDoNoHarm)
   EXPECT_EQ(countValid(filter->GetOutput()), 15);
 }
 
-TEST(RangeResampleCells, HiddenCellsAndNoDataGoTogether)
+TEST(RangeResampleCells, HiddenCellsAndNoDataCanBeCombined)
 {
-  const auto grid = gridOf(regularScene(2, 2)); // cells 0 and 1 fill the first quarter
+  const auto grid = gridOf(regularScene(2, 2)); // cells 0 and 1 are the lower left quarter
   vtkNew<vtkUnsignedCharArray> ghosts;
   ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
   ghosts->SetNumberOfValues(8);
   ghosts->Fill(0);
   ghosts->SetValue(0, vtkDataSetAttributes::HIDDENCELL);
   grid->GetCellData()->AddArray(ghosts);
-  grid->GetPointData()->GetArray("linear")->SetTuple1(8, -99999); // the opposite corner
+  grid->GetPointData()->GetArray("linear")->SetTuple1(8, -99999); // the upper right corner
   const auto filter = unitFilter(2, 9);
   filter->SetInputData(grid);
   filter->UseNoDataValueOn();
   filter->Update();
   EXPECT_FALSE(isValid(filter->GetOutput(), 9 * 1 + 3)); // in the hidden cell
   EXPECT_TRUE(isValid(filter->GetOutput(), 9 * 3 + 1));
-  EXPECT_FALSE(isValid(filter->GetOutput(), 9 * 7 + 6)); // in a cell of the corner
+  EXPECT_FALSE(isValid(filter->GetOutput(), 9 * 7 + 6)); // in a cell at that corner
   EXPECT_TRUE(isValid(filter->GetOutput(), 9 * 1 + 6));
 }
 

@@ -43,7 +43,7 @@ vtkIdType cellsAt(vtkUnstructuredGrid* grid, vtkIdType point)
   return cells->GetNumberOfIds();
 }
 
-/// The grid without the cells at a point.
+/// The grid without the cells that have this point.
 vtkSmartPointer<vtkUnstructuredGrid> without(vtkUnstructuredGrid* grid, vtkIdType point)
 {
   const auto rest = vtkSmartPointer<vtkUnstructuredGrid>::New();
@@ -84,7 +84,7 @@ vtkSmartPointer<vtkUnstructuredGrid> hexahedra()
 
 } // namespace
 
-TEST(RangeResampleDamaged, IdsOfPointsThatAreNotThereAreAnError)
+TEST(RangeResampleDamaged, InvalidPointIdsAreAnError)
 {
   for (const vtkTypeInt64 id :
     { vtkTypeInt64(-1), vtkTypeInt64(4), vtkTypeInt64(4294967299), vtkTypeInt64(999999999999) })
@@ -209,7 +209,7 @@ TEST(RangeResampleDamaged, ARangeOutsideOfTheMeshIsAWarning)
   EXPECT_NE(said.Warnings.find("No sample lies in a cell of the mesh"), std::string::npos);
 }
 
-TEST(RangeResampleDamaged, AnUnknownArrayIsAnsweredWithTheNamesThereAre)
+TEST(RangeResampleDamaged, AnUnknownArrayIsAnErrorThatListsTheArrays)
 {
   const auto filter = unitFilter(2, 9);
   filter->SetInputData(gridOf(jitteredScene(2, 4, 1)));

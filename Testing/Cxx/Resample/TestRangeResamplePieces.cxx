@@ -21,7 +21,7 @@ vtkSmartPointer<vtkPartitionedDataSet> partsOf(const std::vector<Scene>& tiles)
   return parts;
 }
 
-/// Whether the filter makes of the scene's tiles what it makes of the scene.
+/// Expects the same image from the scene's tiles as from the whole scene.
 void expectTheSame(const Scene& scene, int side, vtkRangeResampleFilter* filter)
 {
   filter->SetInputData(gridOf(scene));
@@ -44,9 +44,9 @@ void expectTheSame(const Scene& scene, int side, vtkRangeResampleFilter* filter)
 
 } // namespace
 
-TEST(RangeResamplePieces, Of16x16MakeTheImageOfOneMesh)
+TEST(RangeResamplePieces, GridOf16x16MakesTheImageOfOneMesh)
 {
-  // Of the regular one, samples fall on the corners and edges that pieces share.
+  // In the regular scene, samples fall on corners and edges that pieces share.
   for (const Scene& scene : { jitteredScene(2, 48, 3), regularScene(2, 48), fanScene(97) })
   {
     const auto filter = unitFilter(2, 97);

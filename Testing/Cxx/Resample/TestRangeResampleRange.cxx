@@ -123,7 +123,7 @@ TEST(RangeResampleRange, InputBoundsAreTheDefault)
   EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 9);
 }
 
-TEST(RangeResampleRange, OutsideTheMeshAllIsMasked)
+TEST(RangeResampleRange, OutsideTheMeshAllSamplesAreMasked)
 {
   const auto filter = unitFilter(2, 9);
   filter->SetInputData(square());
@@ -134,7 +134,7 @@ TEST(RangeResampleRange, OutsideTheMeshAllIsMasked)
   EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("linear")->GetTuple1(3), -5);
 }
 
-TEST(RangeResampleRange, OneSampleALineAndAPlaneWork)
+TEST(RangeResampleRange, ASampleALineAndAPlaneAreValidRanges)
 {
   const auto filter = unitFilter(2, 1);
   filter->SetInputData(square());
@@ -167,13 +167,13 @@ TEST(RangeResampleRange, AnEmptyMeshMakesAMaskedImage)
   EXPECT_EQ(countValid(filter->GetOutput()), 0);
 }
 
-TEST(RangeResampleRange, RangesWithoutSenseAreErrors)
+TEST(RangeResampleRange, InvalidRangesAreErrors)
 {
   const auto filter = unitFilter(2, 3);
   filter->SetInputData(square());
   filter->SetSamplingBounds(1, 0, 0, 1, 0, 0);
   EXPECT_NE(errorOf(filter).find("lower one first"), std::string::npos);
-  filter->SetSamplingBounds(-1e308, 1e308, 0, 1, 0, 0); // their difference is infinite
+  filter->SetSamplingBounds(-1e308, 1e308, 0, 1, 0, 0); // their difference overflows
   EXPECT_NE(errorOf(filter).find("give finite bounds"), std::string::npos);
   filter->SetSamplingBounds(0, 1, 0, 1, 0, 0);
   filter->SetSamplingDimensions(-1, 3, 1);

@@ -23,14 +23,14 @@ vtkMultiProcessController* controller()
   return vtkMultiProcessController::GetGlobalController();
 }
 
-/// This rank's cells of a scene: every nth, or none.
+/// This rank's cells of a scene: each n-th cell for n ranks, or none.
 vtkSmartPointer<vtkUnstructuredGrid> share(const Scene& scene, bool empty = false)
 {
   const int rank = controller()->GetLocalProcessId();
   return gridOf(scene, empty ? scene.cells() : rank, controller()->GetNumberOfProcesses());
 }
 
-/// What one process makes of the whole scene.
+/// The image of the whole scene, made by this rank alone.
 vtkSmartPointer<vtkImageData> alone(const Scene& scene, int n)
 {
   const auto filter = unitFilter(scene.Dimension, n);
@@ -40,7 +40,7 @@ vtkSmartPointer<vtkImageData> alone(const Scene& scene, int n)
   return filter->GetOutput();
 }
 
-/// Updates it and gives what it and its pipeline say.
+/// Updates the filter, and returns the errors of the filter and its pipeline.
 std::string errorsOf(vtkRangeResampleFilter* filter)
 {
   vtkNew<tipp::test::MessageCounter> errors;
@@ -115,7 +115,7 @@ TEST(RangeResampleRanks, InputBoundsAreThoseOfAllRanks)
   EXPECT_TRUE(sameArrays(alone(scene, 33), filter->GetOutput()));
 }
 
-TEST(RangeResampleRanks, ForInputBoundsWithDeltaEachReadsItsShareOnce)
+TEST(RangeResampleRanks, WithInputBoundsAndDeltaEachRankReadsItsShareOnce)
 {
   vtkNew<PieceSource> source;
   source->Cells = jitteredScene(2, 12, 3);
@@ -130,7 +130,7 @@ TEST(RangeResampleRanks, ForInputBoundsWithDeltaEachReadsItsShareOnce)
 TEST(RangeResampleRanks, RanksWithoutCellsOrArraysTakePart)
 {
   Scene scene = jitteredScene(2, 12, 3);
-  scene.Points.back() = 1; // a height, which only one rank knows of
+  scene.Points.back() = 1; // z is not 0, which only the last rank knows
   const int last = controller()->GetNumberOfProcesses() - 1;
   const auto filter = unitFilter(2, 33);
   vtkNew<vtkUnstructuredGrid> empty;
@@ -140,7 +140,7 @@ TEST(RangeResampleRanks, RanksWithoutCellsOrArraysTakePart)
   EXPECT_TRUE(sameArrays(alone(scene, 33), filter->GetOutput()));
 }
 
-TEST(RangeResampleRanks, ARankOutsideTheRangeBringsItsArrays)
+TEST(RangeResampleRanks, ARankOutsideTheRangeContributesItsArrays)
 {
   const auto grid = gridOf(jitteredScene(2, 4, 3));
   const int rank = controller()->GetLocalProcessId();
@@ -189,7 +189,7 @@ TEST(RangeResampleRanks, ArraysThatDifferInTypeAreNullWithAWarning)
   EXPECT_EQ(made->GetRange()[0], several ? 0 : 1);
 }
 
-TEST(RangeResampleRanks, ANameOfPointsHereAndCellsThereMakesAWarning)
+TEST(RangeResampleRanks, ANameForPointAndCellArraysMakesAWarning)
 {
   const auto grid = share(jitteredScene(2, 12, 3));
   const bool ofPoints = controller()->GetLocalProcessId() == 0;
@@ -226,7 +226,7 @@ TEST(RangeResampleRanks, ALeafThatIsNoMeshOnOneEndsAll)
   }
   for (const double delta : { 0.0, 0.1 })
   {
-    vtkNew<vtkRangeResampleFilter> filter; // whose range is the input's bounds, of all ranks
+    vtkNew<vtkRangeResampleFilter> filter; // samples the bounds of all ranks' inputs
     filter->SetDelta(delta, delta, delta);
     filter->SetInputData(parts);
     const std::string text = errorsOf(filter);
@@ -239,7 +239,7 @@ TEST(RangeResampleRanks, APieceThatFailsOnOneEndsAll)
 {
   vtkNew<PieceSource> source;
   source->Cells = jitteredScene(2, 12, 3);
-  source->FailingPiece = 1; // of the first rank, of its three
+  source->FailingPiece = 1; // the first rank has three pieces
   const auto filter = unitFilter(2, 33);
   filter->SetInputConnection(source->GetOutputPort());
   filter->SetNumberOfInputPieces(3);
@@ -268,11 +268,11 @@ TEST(RangeResampleRanks, AFailureOnOneEndsAll)
   const bool fails = controller()->GetLocalProcessId() == 0;
   filter->SetInputData(share(jitteredScene(2, 4, 3)));
   filter->SetSamplingDimensions(fails ? 1 << 20 : 33, fails ? 1 << 20 : 33, 1);
-  EXPECT_NE(errorsOf(filter).find("GB of memory"), std::string::npos); // on all
+  EXPECT_NE(errorsOf(filter).find("GB of memory"), std::string::npos); // on all ranks
   EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("linear"), nullptr);
 }
 
-TEST(RangeResampleRanks, TheFirstCountsTheCellsOfAllThatAreNotFinite)
+TEST(RangeResampleRanks, TheFirstCountsCellsThatAreNotFiniteOnAllRanks)
 {
   const auto grid = share(jitteredScene(2, 4, 1));
   grid->GetPoints()->SetPoint(12, std::nan(""), 0.5, 0);

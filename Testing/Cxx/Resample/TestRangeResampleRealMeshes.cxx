@@ -18,7 +18,7 @@ constexpr double dry = -99999;
 
 } // namespace
 
-TEST(RangeResampleRealMeshes, TheEastCoastsWaterIsAsVtkProbeFilterHasIt)
+TEST(RangeResampleRealMeshes, TheEastCoastsWaterEqualsVtkProbeFilter)
 {
   TIPP_REQUIRE_REAL_DATA(path, "adcirc/ec95d/ec95d.grd");
   TIPP_REQUIRE_REAL_DATA(maximum, "adcirc/ec95d/maxele.63");
@@ -40,7 +40,8 @@ TEST(RangeResampleRealMeshes, TheEastCoastsDryNodesAreLeftOutOnRequest)
   TIPP_REQUIRE_REAL_DATA(maximum, "adcirc/ec95d/maxele.63");
   const auto grid = gridOfAdcirc(path);
   const auto values = readMaximum(maximum, grid->GetNumberOfPoints());
-  // The file's own dry nodes lie in cells too small for these samples.
+  // The dry nodes in the file are in cells that are too small for these samples. So other nodes are
+  // made dry.
   for (vtkIdType i = 0; i < values->GetNumberOfValues(); i += 100)
   {
     values->SetValue(i, dry);

@@ -43,7 +43,7 @@ TEST(RangeResampleRun, ReadsPieceByPieceTheSameImage)
   }
 }
 
-TEST(RangeResampleRun, EndsIfAPieceFailsAndStartsAfresh)
+TEST(RangeResampleRun, FailsIfAPieceFailsAndThenWorksAgain)
 {
   const Scene scene = jitteredScene(2, 12, 3);
   vtkNew<PieceSource> source;
@@ -71,7 +71,7 @@ TEST(RangeResampleRun, EndsIfAPieceFailsAndStartsAfresh)
   EXPECT_TRUE(sameArrays(whole, filter->GetOutput()));
 }
 
-TEST(RangeResampleRun, ProgressOverMeshesAndPiecesIsOfTheWhole)
+TEST(RangeResampleRun, ProgressCoversAllMeshesAndPieces)
 {
   vtkNew<vtkPartitionedDataSet> parts;
   for (unsigned i = 0; i < 4; ++i)
@@ -94,14 +94,14 @@ TEST(RangeResampleRun, ProgressOverMeshesAndPiecesIsOfTheWhole)
   filter->Update();
   for (const double of : { 1 / 8.0, 3 / 8.0, 7 / 8.0 })
   {
-    const double expected = of * 0.95; // the rest is for making the output
+    const double expected = of * 0.95; // the last 5 % are for the output
     EXPECT_TRUE(std::any_of(
       steps.begin(), steps.end(), [&](double step) { return std::fabs(step - expected) < 1e-12; }))
       << of;
   }
 }
 
-TEST(RangeResampleRun, UpdatesItsInputAtTheTimeThatIsAskedFor)
+TEST(RangeResampleRun, UpdatesItsInputAtTheRequestedTime)
 {
   vtkNew<PieceSource> source;
   source->Cells = jitteredScene(2, 4, 3);
@@ -114,7 +114,7 @@ TEST(RangeResampleRun, UpdatesItsInputAtTheTimeThatIsAskedFor)
   EXPECT_EQ(source->Time, 3.0);
 }
 
-TEST(RangeResampleRun, GivesTheSameBitsOnAnyThreads)
+TEST(RangeResampleRun, MakesTheSameBitsOnAnyNumberOfThreads)
 {
   for (const Scene& scene : { jitteredScene(2, 40, 3), jitteredScene(3, 8, 3) })
   {
@@ -134,7 +134,7 @@ TEST(RangeResampleRun, GivesTheSameBitsOnAnyThreads)
   }
 }
 
-TEST(RangeResampleRun, TellsWhatItDid)
+TEST(RangeResampleRun, HasStatistics)
 {
   const auto filter = unitFilter(2, 17);
   filter->SetInputData(gridOf(regularScene(2, 8)));
@@ -148,10 +148,10 @@ TEST(RangeResampleRun, TellsWhatItDid)
   EXPECT_EQ(statistic(filter, "Threads"), 2);
   EXPECT_GT(statistic(filter, "ExactTests"), 0);
   EXPECT_EQ(statistic(filter, "VisitedCells"), 128);
-  EXPECT_EQ(statistic(filter, "Tests"), 128 * 9); // each box has three by three samples
+  EXPECT_EQ(statistic(filter, "Tests"), 128 * 9); // each box has 3 x 3 samples
   vtkFieldData* const figures = filter->GetStatistics()->GetFieldData();
   ASSERT_EQ(figures->GetAbstractArray("PhaseName")->GetNumberOfValues(), 6);
-  for (const int phase : { 0, 1, 2, 5 }) // none was exchanged or went to a device
+  for (const int phase : { 0, 1, 2, 5 }) // no exchange, and no device
   {
     EXPECT_GT(figures->GetArray("PhaseSeconds")->GetTuple1(phase), 0)
       << figures->GetAbstractArray("PhaseName")->GetVariantValue(phase).ToString();

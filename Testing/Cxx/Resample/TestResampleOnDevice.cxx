@@ -46,8 +46,7 @@ Sampled sampled(const Scene& scene, const tipp::Lattice& lattice, tipp::DeviceCh
 
 const tipp::DeviceChoice openMP{ tipp::Device::OpenMP, -1, "", false };
 
-/// Arrays of every kind at once: float64, float32 with three components, whole numbers, and numbers
-/// of cells.
+/// Arrays of all kinds: float64, float32 with three components, integers, and integers at cells.
 struct Kinds
 {
   std::vector<double> Double;
@@ -104,7 +103,8 @@ void expectNear(const Kinds& a, const Kinds& b)
   }
 }
 
-/// A device as it is, and treated as a graphics card, so that this code is tested without one.
+/// Each test runs with the device as it is, and with the device treated as a graphics card, so that
+/// no graphics card is needed.
 class ResampleOnDevice : public testing::TestWithParam<bool>
 {
 protected:
@@ -150,14 +150,14 @@ TEST_P(ResampleOnDevice, InSpaceAgreesWithOpenMP)
   }
 }
 
-TEST_P(ResampleOnDevice, AgreesWhereBoxesHoldASampleAtMost)
+TEST_P(ResampleOnDevice, AgreesIfBoxesHaveAtMostOneSample)
 {
   const Scene scene = jitteredScene(3, 12, 5);
   expectAgreement(scene, latticeOf(3, 8, -0.1, 1.2));
   expectAgreement(scene, latticeOf(3, 7, 0, 1)); // on faces, edges and corners of the border
 }
 
-TEST_P(ResampleOnDevice, DoesCellsWhoseCornersAreLevelWithSamples)
+TEST_P(ResampleOnDevice, HandlesCellsWithCornersOnRowsOfSamples)
 {
   const Scene triangle = { "triangle", 2, { 0.25, 0.1, 0, 0.6, 0.3, 0, 0.3, 0.7, 0 }, { 0, 1, 2 } };
   const Scene tetrahedron = { "tetrahedron", 3,
@@ -176,7 +176,7 @@ TEST_P(ResampleOnDevice, AgreesOnASmallRangeOfALargeMesh)
   expectAgreement(jitteredScene(3, 12, 5), latticeOf(3, 11, 0.4, 0.5));
 }
 
-/// Numbers of cells and integers are not for SampleOnDevice, so here are none.
+/// SampleOnDevice samples no integers and no cell arrays, so this test has none.
 TEST_P(ResampleOnDevice, SamplesArraysOfPointsWithSeveralComponentsLikeOpenMP)
 {
   for (const int dimension : { 2, 3 })
@@ -184,7 +184,7 @@ TEST_P(ResampleOnDevice, SamplesArraysOfPointsWithSeveralComponentsLikeOpenMP)
     const Scene scene = jitteredScene(dimension, 12, 4);
     const tipp::Lattice lattice = latticeOf(dimension, 31, -0.1, 1.1);
     Kinds kinds = Kinds::of(scene);
-    kinds.Double[5] = HUGE_VAL; // which the threads do
+    kinds.Double[5] = HUGE_VAL; // cells with this value are left to the threads
     const auto sampledOn = [&](const tipp::DeviceChoice& device)
     {
       Kinds samples = Kinds::sized(std::size_t(lattice.samples()), std::size_t(lattice.samples()));
@@ -196,7 +196,7 @@ TEST_P(ResampleOnDevice, SamplesArraysOfPointsWithSeveralComponentsLikeOpenMP)
       EXPECT_EQ(tipp::resample(scene.mesh(), lattice, attributes, options).Warning, "");
       for (double& value : samples.Double)
       {
-        value = std::isfinite(value) ? value : 1e6; // so that they can be compared
+        value = std::isfinite(value) ? value : 1e6; // NaN would not compare equal
       }
       return samples;
     };
@@ -217,7 +217,7 @@ TEST_P(ResampleOnDevice, AgreesWhereACellIsLarge)
   expectAgreement(jitteredScene(3, 2, 3), latticeOf(3, 61, 0.0013, 0.997));
 }
 
-TEST_P(ResampleOnDevice, TakesALargerMeshInPieces)
+TEST_P(ResampleOnDevice, DividesALargerMesh)
 {
   const Scene scene = jitteredScene(2, 60, 3);
   const tipp::Lattice lattice = latticeOf(2, 33, 0.0013, 0.997);
@@ -271,7 +271,7 @@ TEST_P(ResampleOnDevice, LeavesOutHiddenCells)
   EXPECT_NE(std::count(here.Double.begin(), here.Double.end(), -7), 0);
 }
 
-TEST_P(ResampleOnDevice, PutsPartsTogetherLikeOpenMP)
+TEST_P(ResampleOnDevice, CombinesPartsLikeOpenMP)
 {
   const Scene scene = overlappingScene(60, 2);
   const tipp::Lattice lattice = latticeOf(2, 65, -0.013, 1.017);
@@ -298,14 +298,14 @@ TEST_P(ResampleOnDevice, PutsPartsTogetherLikeOpenMP)
   expectNear(together(openMP), together(openCL));
 }
 
-TEST_P(ResampleOnDevice, PutsTilesTogetherToTheWhole)
+TEST_P(ResampleOnDevice, CombinesTilesToTheWholeImage)
 {
   const Scene scene = jitteredScene(2, 12, 2);
   const tipp::Lattice lattice = latticeOf(2, 65, -0.013, 1.017);
   const Kinds values = Kinds::of(scene);
   Kinds whole = Kinds::sized(65 * 65, 65 * 65);
   std::vector<tipp::Attribute> points = values.into(whole);
-  points.pop_back(); // that of cells, which tiles number otherwise
+  points.pop_back(); // removes the cell array, since tiles number cells differently
   tipp::resample(scene.mesh(), lattice, points, {});
   Kinds tiled = Kinds::sized(65 * 65, 65 * 65);
   std::fill(tiled.Double.begin(), tiled.Double.end(), -7);
@@ -328,7 +328,7 @@ TEST_P(ResampleOnDevice, PutsTilesTogetherToTheWhole)
   expectNear(whole, tiled);
 }
 
-TEST_P(ResampleOnDevice, TellsItsTimesAndStopsOnRequest)
+TEST_P(ResampleOnDevice, ReportsItsTimesAndStopsOnRequest)
 {
   const Scene scene = jitteredScene(2, 60, 3);
   const tipp::Lattice lattice = latticeOf(2, 33, 0.0013, 0.997);
@@ -342,7 +342,7 @@ TEST_P(ResampleOnDevice, TellsItsTimesAndStopsOnRequest)
   EXPECT_GT(result.ClaimSeconds, 0);
   EXPECT_GT(result.InterpolationSeconds, 0);
   EXPECT_GT(result.TransferSeconds, 0);
-  for (const double until : { 0.1, 0.75 }) // during the claims and during the interpolation
+  for (const double until : { 0.1, 0.75 }) // during claims and during interpolation
   {
     double last = 0;
     options.Progress = [&](double done)
@@ -355,7 +355,7 @@ TEST_P(ResampleOnDevice, TellsItsTimesAndStopsOnRequest)
   }
 }
 
-TEST_P(ResampleOnDevice, WithoutMemoryForTheSamplesOpenMPDoesIt)
+TEST_P(ResampleOnDevice, WithoutDeviceMemoryForTheSamplesOpenMPIsUsed)
 {
   const Scene scene = jitteredScene(2, 8, 3);
   const Sampled result = sampled(scene, latticeOf(2, 65, 0, 1), openCL, 1000);

@@ -13,7 +13,7 @@
 namespace
 {
 
-/// The samples in the box of the scene's cells.
+/// The samples inside the bounding box of the scene's cells.
 std::set<std::int64_t> inBox(const Scene& scene, const tipp::Lattice& lattice)
 {
   double low[3] = { HUGE_VAL, HUGE_VAL, HUGE_VAL };
@@ -60,7 +60,7 @@ std::set<std::int64_t> inWindow(const tipp::SampleWindow& window)
 
 } // namespace
 
-TEST(SampleWindow, HoldsTheSamplesInTheBoxOfTheCells)
+TEST(SampleWindow, ContainsTheSamplesInTheBoxOfTheCells)
 {
   for (const Scene& scene :
     { regularScene(2, 12), jitteredScene(2, 12, 3), jitteredScene(3, 6, 3) })
@@ -97,7 +97,7 @@ TEST(SampleWindow, HasTheSamplesOfTheWholeLattice)
     });
 }
 
-TEST(SampleWindow, IsWholeWhereCellsReachBeyondAllSamples)
+TEST(SampleWindow, IsTheWholeLatticeIfCellsReachBeyondAllSamples)
 {
   const Scene scene = jitteredScene(2, 5, 3);
   EXPECT_TRUE(tipp::SampleWindow::around(scene.mesh(), latticeOf(2, 9, 0.1, 0.9), 1).isWhole());
@@ -110,7 +110,7 @@ TEST(SampleWindow, IsEmptyBesideTheLattice)
   EXPECT_EQ(window.samples(), 0);
 }
 
-TEST(SampleWindow, PassesOverCoordinatesThatAreNotNumbers)
+TEST(SampleWindow, IgnoresCoordinatesThatAreNotFinite)
 {
   Scene scene = jitteredScene(2, 4, 3);
   const tipp::Lattice lattice = latticeOf(2, 9, -1, 2);

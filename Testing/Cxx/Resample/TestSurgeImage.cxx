@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Samples the maximum water level of an ADCIRC run on a grid, renders it from above, and compares
-// the picture with a baseline. Arguments: MESH MAXIMUM -V BASELINE -T FOLDER. Exit code 125: a file
-// is not there.
+// the picture with a baseline. Arguments: MESH MAXIMUM -V BASELINE -T FOLDER. If a file does not
+// exist, the exit code is 125.
 #include "AdcircWater.h"
 
 #include "vtkActor.h"

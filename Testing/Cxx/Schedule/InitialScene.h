@@ -11,7 +11,7 @@ namespace tipp
 namespace test
 {
 
-/// A run as it stands when the master takes over: partitions with points, and the initial mesh.
+/// What a run has before its first worker: partitions with points, and the initial mesh.
 struct InitialScene
 {
   InitialScene(const std::string& set, std::size_t count, int columns, int rows)
@@ -42,7 +42,7 @@ struct InitialScene
   Tiling Boxes;
   PointBuckets<std::int32_t> Buckets;
   std::vector<BoundaryVertex> Artificial;
-  std::vector<BoundaryVertex> Vertices; ///< the artificial ones last
+  std::vector<BoundaryVertex> Vertices; ///< the artificial points are last
   BoundaryTriangles Mesh;
 };
 

@@ -20,7 +20,7 @@ namespace tipp
 namespace test
 {
 
-/// What parts that depend on the size of ids are tested with.
+/// The two sizes of ids that typed tests run with.
 using IdTypes = testing::Types<std::int32_t, std::int64_t>;
 struct IdNames
 {
@@ -51,7 +51,7 @@ inline Box2 boundsOf(const Coordinates& xy)
   return surveyPoints(view(xy), 1).Bounds;
 }
 
-/// A boundary triangle whose vertices lie in these partitions.
+/// A boundary triangle with vertices in the partitions a, b and c.
 inline BoundaryTriangle boundaryTriangle(
   std::int64_t id, PartitionIndex a, PartitionIndex b, PartitionIndex c)
 {

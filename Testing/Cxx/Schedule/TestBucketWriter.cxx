@@ -17,7 +17,8 @@ template <typename Id>
 class BucketWriterTest : public testing::Test
 {
 public:
-  /// Buckets one after another with one item between them that nobody writes.
+  /// Writes buckets of these sizes, in random order. The first begins at index `firstPlace`; after
+  /// each bucket one item stays unwritten.
   void distribute(const std::vector<std::size_t>& sizes, std::size_t firstPlace, unsigned seed)
   {
     std::vector<std::size_t> starts;
@@ -59,12 +60,12 @@ public:
 
 TYPED_TEST_SUITE(BucketWriterTest, IdTypes, IdNames);
 
-TYPED_TEST(BucketWriterTest, EachBucketHasItsItemsInOrderAndNothingBeside)
+TYPED_TEST(BucketWriterTest, WritesEachBucketInOrderAndNothingElse)
 {
   this->distribute({ 100, 1, 0, 64, 63, 65, 1000, 7 }, 0, 1);
 }
 
-TYPED_TEST(BucketWriterTest, BucketsMayBeginAnywhereInALine)
+TYPED_TEST(BucketWriterTest, BucketsMayBeginAnywhereInACacheLine)
 {
   for (std::size_t first = 1; first < 17; ++first)
   {

@@ -13,7 +13,7 @@ namespace
 
 using namespace tipp;
 
-/// A small one and one of many pages.
+/// Less than a page, and many pages.
 constexpr std::size_t Sizes[] = { 1, 1000, 3000000 };
 
 Buffer<int> counting(std::size_t size)
@@ -41,7 +41,7 @@ TEST(Buffer, WithoutElementsIsEmpty)
   EXPECT_EQ(nullptr, Buffer<int>(0).data());
 }
 
-TEST(Buffer, TruncatingKeepsTheFirst)
+TEST(Buffer, TruncatingKeepsTheFirstElements)
 {
   Buffer<int> buffer = counting(100);
   buffer.truncate(7);
@@ -62,7 +62,7 @@ TEST(Buffer, ReleasedMemoryIsFreedWithFree)
   }
 }
 
-TEST(Buffer, MovingHandsTheMemoryOver)
+TEST(Buffer, MovingTransfersTheMemory)
 {
   Buffer<int> buffer = counting(100);
   const int* const memory = buffer.data();
@@ -79,7 +79,7 @@ TEST(Buffer, AMovedFromBufferIsEmpty)
   EXPECT_TRUE(buffer.empty());
 }
 
-/// The number of bytes of the larger one would wrap around to a small one.
+/// Computed modulo 2^64, the larger count of bytes would be a small number.
 TEST(Buffer, MoreThanCanBeAddressedThrows)
 {
   constexpr std::size_t most = std::numeric_limits<std::size_t>::max();

@@ -52,7 +52,7 @@ TEST_P(CellGridTest, PointsThatAreNotFiniteAreInTheCellAfterTheLast)
     find(grid, { { nan, 1 }, { 1, nan }, { HUGE_VAL, 1 }, { 1, -HUGE_VAL }, { 1.5, 1.5 } }));
 }
 
-TEST_P(CellGridTest, ACellRisesWithTheCoordinate)
+TEST_P(CellGridTest, CellIndicesRiseWithTheCoordinate)
 {
   const CellGrid grid({ 0.1, 0, 0.7, 1 }, 1000);
   std::vector<Point2> points;

@@ -19,7 +19,7 @@ double factorFor(const Coordinates& xy)
   return withModerateMagnitude(view(xy), boundsOf(xy)).factor();
 }
 
-TEST(AreCollinear, NoneOneAndTwoPointsAre)
+TEST(AreCollinear, UpToTwoPointsAre)
 {
   EXPECT_TRUE(areCollinear(PointsView()));
   EXPECT_TRUE(areCollinear(view({ 1, 2 })));
@@ -32,7 +32,7 @@ TEST(AreCollinear, EqualPointsAre)
   EXPECT_TRUE(areCollinear(view({ 1, 2, 3, 4, 1, 2, 3, 4, 3, 4 })));
 }
 
-TEST(AreCollinear, PointsOfALineInAnyOrderAre)
+TEST(AreCollinear, PointsOnALineInAnyOrderAre)
 {
   EXPECT_TRUE(areCollinear(view({ 3, 6, 1, 2, -5, -10, 0, 0, 100, 200 })));
 }
@@ -68,14 +68,14 @@ TEST(ModerateMagnitude, OrdinaryCoordinatesStay)
   EXPECT_EQ(1, factorFor({ 1e12, 1e-12, -1e40, 3, 5, 1e50 }));
 }
 
-TEST(ModerateMagnitude, VerySmallOnesAreBroughtNearOne)
+TEST(ModerateMagnitude, VerySmallCoordinatesAreScaledToAboutOne)
 {
   const double factor = factorFor({ 0, 0, 3e-300, 0, 0, -5e-300 });
   EXPECT_LE(1, 5e-300 * factor);
   EXPECT_GT(2, 5e-300 * factor);
 }
 
-TEST(ModerateMagnitude, VeryLargeOnesAreBroughtNearOne)
+TEST(ModerateMagnitude, VeryLargeCoordinatesAreScaledToAboutOne)
 {
   const double factor = factorFor({ 1e300, 0, -3e300, 2e299, 0, 1e300 });
   EXPECT_LE(1, 3e300 * factor);
@@ -92,13 +92,13 @@ TEST(ModerateMagnitude, FactorsArePowersOfTwo)
   }
 }
 
-TEST(ModerateMagnitude, MixedMagnitudesStayAsDigitsWouldBeLost)
+TEST(ModerateMagnitude, MixedMagnitudesStayIfDigitsWouldBeLost)
 {
   EXPECT_EQ(1, factorFor({ 0, 0, 1e300, 0, 0, 1e-300 }));
   EXPECT_EQ(1, factorFor({ 1e300, 1e300, 4.9406564584124654e-324, 0, 0, 1 }));
 }
 
-TEST(ModerateMagnitude, MixedMagnitudesAreScaledWhereNothingIsLost)
+TEST(ModerateMagnitude, MixedMagnitudesAreScaledIfNothingIsLost)
 {
   EXPECT_NE(1, factorFor({ 0, 0, 1e300, 0, 0, 1e200 }));
 }
@@ -125,7 +125,7 @@ std::vector<std::pair<PointId, PointId>> duplicatesOf(const Coordinates& xy)
 
 using Pairs = std::vector<std::pair<PointId, PointId>>;
 
-TEST(SortOutDuplicates, TheLowestIdStandsForAllAtItsPlace)
+TEST(SortOutDuplicates, TheLowestIdRepresentsEqualPoints)
 {
   EXPECT_EQ((Pairs{ { 2, 1 }, { 3, 0 }, { 5, 1 }, { 6, 0 } }),
     duplicatesOf({ 9, 9, 1, 1, 1, 1, 9, 9, 5, 5, 1, 1, 9, 9 }));
@@ -142,7 +142,7 @@ TEST(SortOutDuplicates, PointsThatAreNotFiniteHaveNone)
     (Pairs{ { 4, 1 } }), duplicatesOf({ NaN, 0, 1, 1, NaN, 0, HUGE_VAL, 1, 1, 1, HUGE_VAL, 1 }));
 }
 
-TEST(SortOutDuplicates, ZerosOfEitherSignAreOnePlace)
+TEST(SortOutDuplicates, ZerosOfEitherSignAreEqual)
 {
   EXPECT_EQ((Pairs{ { 1, 0 }, { 2, 0 } }), duplicatesOf({ -0.0, 1, 0.0, 1, -0.0, 1 }));
 }

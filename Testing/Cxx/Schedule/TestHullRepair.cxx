@@ -12,8 +12,8 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-/// All points and the artificial ones of a tiling, triangulated at once. Small partitions bring
-/// artificial points close to the hull.
+/// The triangulation of all points and of a tiling's artificial points. The smaller the partitions,
+/// the closer the artificial points are to the hull.
 struct Enclosed
 {
   Enclosed(const Coordinates& xy, int side)
@@ -34,7 +34,7 @@ struct Enclosed
   std::vector<BoundaryTriangle> Final;
 };
 
-/// What is left when the artificial points are gone.
+/// The triangulation after the artificial points have been removed.
 Triangles repaired(
   const std::vector<BoundaryTriangle>& final, const std::vector<BoundaryVertex>& artificial)
 {
@@ -62,7 +62,7 @@ class HullOf : public testing::TestWithParam<std::string>
 {
 };
 
-TEST_P(HullOf, IsCgalsOnceArtificialPointsAreGone)
+TEST_P(HullOf, IsCgalsWithoutArtificialPoints)
 {
   const Coordinates xy = makePointSet(GetParam(), 300);
   for (const int side : { 1, 3, 20, 100 })
@@ -90,7 +90,7 @@ TEST(HullRepair, ThreePointsKeepTheirTriangle)
   }
 }
 
-/// None of its triangles was there while artificial points were.
+/// As long as artificial points exist, none of these triangles does.
 TEST(HullRepair, AFlatHullIsFilled)
 {
   Coordinates xy{ 0, 0, 1, 0 };
@@ -102,8 +102,8 @@ TEST(HullRepair, AFlatHullIsFilled)
   EXPECT_TRUE(isRepaired(xy, 64));
 }
 
-/// Few points of a lattice that the artificial points continue: many circles of true points go
-/// through these.
+/// A few points of a 5 x 5 lattice. The artificial points lie on the same lattice, so many circles
+/// through true points contain artificial ones.
 TEST(HullRepair, ArtificialPointsOnACircleAreDecidedByTheTieRule)
 {
   std::mt19937_64 random(6);
@@ -149,7 +149,7 @@ TEST(HullRepair, TrianglesOfTruePointsStay)
   EXPECT_TRUE(std::includes(after.begin(), after.end(), before.begin(), before.end()));
 }
 
-/// Cut off from the artificial points, as where a run has no triangles at them.
+/// As in a run without triangles at artificial points.
 TEST(HullRepair, WithoutTrianglesAtArtificialPointsNothingChanges)
 {
   const std::vector<BoundaryTriangle> final{ boundaryTriangle(1, 0, 0, 0),

@@ -42,7 +42,7 @@ TEST(ArtificialPoints, EncloseTheDomainStrictly)
   }
 }
 
-/// So that their convex hull is the rectangle.
+/// The rectangle is then the convex hull of the artificial points.
 TEST(ArtificialPoints, StandAtTheRectanglesCorners)
 {
   for (const Box2& domain : Domains)
@@ -92,11 +92,11 @@ TEST(ArtificialPoints, StandAsFarApartAsPartitionsAreWide)
 {
   const std::vector<BoundaryVertex> points =
     makeArtificialPoints(Tiling::grid({ 0, 0, 8, 8 }, 8, 8));
-  // A square of side 10 with points one apart.
+  // One point per unit of length around a square of side 10.
   EXPECT_EQ(40U, points.size());
 }
 
-TEST(ArtificialPoints, ThereAreNoneWhereDoublesEnd)
+TEST(ArtificialPoints, ThereAreNoneIfCoordinatesWouldOverflow)
 {
   EXPECT_TRUE(
     makeArtificialPoints(Tiling::grid({ -1.7e308, -1.7e308, 1.7e308, 1.7e308 }, 4, 4)).empty());
@@ -109,7 +109,7 @@ class InitialPoints : public testing::Test
 
 TYPED_TEST_SUITE(InitialPoints, IdTypes, IdNames);
 
-/// 100 points in the left half, 3 in the upper right quarter, and none in the lower one.
+/// 100 points in the left half, 3 in the upper right quarter, none in the lower right quarter.
 Coordinates unevenPoints()
 {
   Coordinates xy;
@@ -121,7 +121,7 @@ Coordinates unevenPoints()
   return xy;
 }
 
-TYPED_TEST(InitialPoints, AreEquallyManyAPartitionAndFewerWhereThereAreFewer)
+TYPED_TEST(InitialPoints, AreEightPerPartitionOrAllIfThereAreFewer)
 {
   const Coordinates xy = unevenPoints();
   const Tiling tiling = Tiling::grid({ 0, 0, 1, 1 }, 2, 2);
@@ -169,7 +169,7 @@ TYPED_TEST(InitialPoints, AreSpreadOverTheInputsOrder)
   }
 }
 
-TYPED_TEST(InitialPoints, AmongThemAreTheOutmostOfEachPartition)
+TYPED_TEST(InitialPoints, IncludeTheOutermostPointsOfEachPartition)
 {
   const Coordinates xy = makePointSet("clustered", 2000);
   const Tiling tiling = Tiling::grid(test::boundsOf(xy), 3, 3);
@@ -227,7 +227,7 @@ TEST(InitialMesh, IsInTheSameOrderForAnyNumberOfThreads)
   }
 }
 
-/// Otherwise a partition's worker would begin without vertices around.
+/// Without such triangles, a partition's worker would start without vertices around it.
 TEST(InitialMesh, EveryPartitionHasTrianglesThatBelongToIt)
 {
   const InitialScene scene("one-far-away", 500, 6, 6);
@@ -242,7 +242,7 @@ TEST(InitialMesh, EveryPartitionHasTrianglesThatBelongToIt)
   }
 }
 
-TEST(InitialMesh, InitialPointsAtOnePlaceAreOneVertex)
+TEST(InitialMesh, EqualInitialPointsAreOneVertex)
 {
   const Tiling tiling = Tiling::grid({ 0, 0, 1, 1 }, 2, 2);
   std::vector<BoundaryVertex> vertices = makeArtificialPoints(tiling);
@@ -259,7 +259,7 @@ TEST(InitialMesh, InitialPointsAtOnePlaceAreOneVertex)
   EXPECT_EQ(artificial + 1, used.size());
 }
 
-/// The initial mesh of eight partitions of equally many points.
+/// The initial mesh of eight partitions with equal numbers of points.
 BoundaryTriangles initialMeshOfEight(const std::string& set)
 {
   const Coordinates xy = makePointSet(set, 40'000);

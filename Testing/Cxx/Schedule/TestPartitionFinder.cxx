@@ -13,7 +13,8 @@ namespace
 
 using namespace tipp;
 
-/// Random points, and such on and beside the boxes' corners and sides, inside the domain and out.
+/// Random points inside and outside the domain, and points on and next to the sides and corners of
+/// the boxes.
 std::vector<Point2> pointsAround(const Tiling& tiling)
 {
   std::mt19937_64 random(11);
@@ -68,18 +69,18 @@ std::vector<Point2> gathered(std::size_t count)
   return sample;
 }
 
-TEST(PartitionFinder, FindsPointsOfAGridAsOneByOne)
+TEST(PartitionFinder, FindsManyPointsInAGridLikeSinglePoints)
 {
   expectSameAsOneByOne(Tiling::grid({ 0, 0, 5, 3 }, 5, 3));
   expectSameAsOneByOne(Tiling::grid({ -0.1, 1e3, 0.7, 1e3 + 1e-9 }, 13, 7));
 }
 
-TEST(PartitionFinder, FindsPointsOfBoxesOfAllSizesAsOneByOne)
+TEST(PartitionFinder, FindsManyPointsInBoxesOfAllSizesLikeSinglePoints)
 {
   expectSameAsOneByOne(Tiling::balanced({ -10, -10, 10, 10 }, gathered(20000), 300));
 }
 
-TEST(PartitionFinder, FindsPointsOfNestedTilingsAsOneByOne)
+TEST(PartitionFinder, FindsManyPointsInNestedTilingsLikeSinglePoints)
 {
   const Tiling outer = Tiling::grid({ 0, 0, 4, 4 }, 2, 2);
   std::vector<Tiling> inner;
@@ -95,7 +96,7 @@ TEST(PartitionFinder, OneBoxHasAllPoints)
   expectSameAsOneByOne(Tiling::grid({ 1, 1, 2, 2 }, 1, 1));
 }
 
-TEST(PartitionFinder, ExtentsAtTheLimitsOfDoublesAreNoProblem)
+TEST(PartitionFinder, AcceptsExtentsAtTheLimitsOfDoubles)
 {
   constexpr double large = std::numeric_limits<double>::max();
   constexpr double tiny = std::numeric_limits<double>::denorm_min();

@@ -18,7 +18,7 @@ std::uint32_t numberOf(PartitionSets& sets, const List& list)
   return sets.number(list.data(), list.data() + list.size());
 }
 
-TEST(PartitionSets, NumbersListsInTheOrderInWhichTheyCome)
+TEST(PartitionSets, NumbersListsInOrderOfFirstAppearance)
 {
   PartitionSets sets;
   EXPECT_EQ(0U, numberOf(sets, { 3, 4 }));
@@ -29,7 +29,7 @@ TEST(PartitionSets, NumbersListsInTheOrderInWhichTheyCome)
   EXPECT_EQ(3U, sets.size());
 }
 
-TEST(PartitionSets, KeepsWhatIsInAList)
+TEST(PartitionSets, KeepsTheContentOfAList)
 {
   PartitionSets sets;
   std::map<List, std::uint32_t> expected;

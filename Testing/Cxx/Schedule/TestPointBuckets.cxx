@@ -17,7 +17,7 @@ class BucketsOf : public testing::Test
 
 TYPED_TEST_SUITE(BucketsOf, IdTypes, IdNames);
 
-/// Points of the unit square, some of which are not finite: a number that no batch divides.
+/// Points of the unit square, some of which are not finite. Their number is no multiple of a batch.
 Coordinates pointsWithHoles()
 {
   Coordinates xy = makePointSet("uniform", 5003);
@@ -93,14 +93,14 @@ TYPED_TEST(BucketsOf, MoreThreadsThanPointsAreFine)
   EXPECT_EQ(1, buckets.id(someTiling().locate({ 0.9, 0.9 }), 0));
 }
 
-TYPED_TEST(BucketsOf, NothingButRejectedPointsLeavesAllBucketsEmpty)
+TYPED_TEST(BucketsOf, RejectedPointsAreInNoBucket)
 {
   const Coordinates xy(200, std::nan(""));
   const auto buckets = bucketPoints<TypeParam>(view(xy), someTiling(), 2);
   EXPECT_EQ(0U, buckets.size());
 }
 
-TYPED_TEST(BucketsOf, PointsElsewhereAreNotOverwrittenAndTheirPlacesAreTheirIds)
+TYPED_TEST(BucketsOf, PointsInForeignMemoryAreKeptAndTheirIndicesAreTheirIds)
 {
   const std::vector<Point2> points{ { 1, 2 }, { 3, 4 }, { 5, 6 }, { 7, 8 } };
   PointBuckets<TypeParam> buckets({ 0, 1, 1, 4 }, points.data(), 1);
@@ -116,7 +116,7 @@ TYPED_TEST(BucketsOf, PointsElsewhereAreNotOverwrittenAndTheirPlacesAreTheirIds)
   EXPECT_EQ(3U * (2 * 4 + 1), buckets.release().size());
 }
 
-TYPED_TEST(BucketsOf, TrianglesHaveRoomForTwoAPoint)
+TYPED_TEST(BucketsOf, ThereIsSpaceForTwoTrianglesPerPoint)
 {
   const Coordinates xy = makePointSet("uniform", 1000);
   auto buckets = bucketPoints<TypeParam>(view(xy), someTiling(), 1);
@@ -127,7 +127,7 @@ TYPED_TEST(BucketsOf, TrianglesHaveRoomForTwoAPoint)
   EXPECT_EQ(6000U, buckets.release().size());
 }
 
-TEST(PointSurvey, NamesPointsThatAreNotFiniteInAscendingOrder)
+TEST(PointSurvey, ListsPointsThatAreNotFiniteInAscendingOrder)
 {
   const Coordinates xy = pointsWithHoles();
   std::vector<std::int64_t> expected;
@@ -169,7 +169,7 @@ TEST(PointSample, IsSpreadEvenlyOverTheInput)
   }
 }
 
-TEST(PointSample, IsAllPointsWhereThereAreNoMore)
+TEST(PointSample, IsAllPointsOfASmallInput)
 {
   const Coordinates xy = makePointSet("uniform", 20);
   EXPECT_EQ(20U, samplePoints(view(xy), 100).size());

@@ -16,14 +16,14 @@ namespace
 
 using tipp::populatePages;
 
-TEST(PopulatePages, LeavesWhatIsThere)
+TEST(PopulatePages, KeepsTheContentOfMemory)
 {
   std::vector<char> memory(1000001, 'x');
   populatePages(memory.data() + 3, memory.size() - 3);
   EXPECT_EQ(std::ptrdiff_t(memory.size()), std::count(memory.begin(), memory.end(), 'x'));
 }
 
-TEST(PopulatePages, TakesNothingAndLessThanAPage)
+TEST(PopulatePages, AcceptsRangesSmallerThanAPage)
 {
   char memory[100] = {};
   populatePages(nullptr, 0);
@@ -32,8 +32,8 @@ TEST(PopulatePages, TakesNothingAndLessThanAPage)
 }
 
 #ifdef MADV_POPULATE_WRITE
-/// Of whole pages only: those at the ends belong to others as well.
-TEST(PopulatePages, ThePagesOfFreshMemoryAreThere)
+/// Only whole pages are committed: other data may lie in the pages at the ends.
+TEST(PopulatePages, CommitsWholePagesOfFreshMemory)
 {
   const auto page = std::size_t(sysconf(_SC_PAGESIZE));
   constexpr std::size_t count = 64;
@@ -49,7 +49,7 @@ TEST(PopulatePages, ThePagesOfFreshMemoryAreThere)
   ASSERT_EQ(0, present());
   populatePages(static_cast<char*>(fresh) + 1, (count - 1) * page);
   const auto after = present();
-  const bool isKnown = madvise(fresh, page, MADV_POPULATE_WRITE) == 0; // Linux 5.14
+  const bool isKnown = madvise(fresh, page, MADV_POPULATE_WRITE) == 0; // since Linux 5.14
   EXPECT_EQ(isKnown ? std::ptrdiff_t(count) - 2 : 0, after);
   munmap(fresh, count * page);
 }

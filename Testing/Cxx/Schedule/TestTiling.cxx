@@ -18,7 +18,7 @@ double areaOf(const Box2& box)
   return (box.xmax - box.xmin) * (box.ymax - box.ymin);
 }
 
-/// Do the boxes lie in the domain, share no area and make it up?
+/// Whether the boxes cover the domain, lie in it and share no area.
 testing::AssertionResult tiles(const Tiling& tiling)
 {
   const Box2& domain = tiling.domain();
@@ -78,7 +78,7 @@ TEST(Tiling, AGridsBoxesAreEqual)
   }
 }
 
-TEST(Tiling, EveryPointIsInTheClosedBoxItIsFoundIn)
+TEST(Tiling, TheBoxFoundForAPointContainsIt)
 {
   const std::vector<Point2> points = somePoints(3000);
   for (const Tiling& tiling :
@@ -105,7 +105,7 @@ TEST(Tiling, APointOnACutBelongsToTheUpperBox)
   }
 }
 
-/// Artificial points have a partition too.
+/// This is needed for artificial points, which have a partition too.
 TEST(Tiling, APointOutsideTheDomainIsFoundInANearestBox)
 {
   const Tiling tiling = Tiling::grid({ 0, 0, 4, 4 }, 4, 4);
@@ -122,7 +122,7 @@ TEST(Tiling, OneBoxIsTheDomain)
   EXPECT_EQ(3, tiling.box(0).xmax);
 }
 
-/// There are no 100 doubles between: boxes without extent are boxes.
+/// Fewer than 100 doubles lie between the bounds, so some boxes have no extent.
 TEST(Tiling, MoreBoxesThanDoublesBetweenTheBoundsTileTheDomain)
 {
   const double x = 1e12;
@@ -171,7 +171,7 @@ TEST(Tiling, BalancedBoxesHoldEquallyManyPointsOfTheSample)
   EXPECT_GE(131, *std::max_element(counts.begin(), counts.end()));
 }
 
-TEST(Tiling, AnIdenticalSampleEndsInNoMoreBoxesThanAskedFor)
+TEST(Tiling, EqualSamplePointsGiveNoMoreBoxesThanRequested)
 {
   const std::vector<Point2> sample(1000, Point2{ 0.25, 0.75 });
   const Tiling tiling = unitBalanced(sample, 16);
@@ -229,7 +229,7 @@ TEST(Tiling, ADiskMeetsTheBoxesThatBruteForceFinds)
   {
     for (std::size_t i = 0; i + 2 < points.size(); i += 3)
     {
-      // Of all sizes, around the first corner.
+      // Triangles of all sizes around the first corner.
       const double size = std::ldexp(1.0, -int(i / 3 % 12));
       const auto near = [&](Point2 p) {
         return Point2{ points[i].x + size * (p.x - 0.5), points[i].y + size * (p.y - 0.5) };
@@ -261,7 +261,7 @@ TEST(Tiling, ASliversHugeDiskMeetsTheBoxesThatBruteForceFinds)
   }
 }
 
-/// The circle about (2, 2) through lattice points touches cuts from one side.
+/// The circle about (2, 2) touches cuts from one side, at lattice points.
 TEST(Tiling, ADiskThatTouchesABoxMeetsIt)
 {
   const Tiling tiling = Tiling::grid({ 0, 0, 4, 4 }, 4, 4);
@@ -269,7 +269,7 @@ TEST(Tiling, ADiskThatTouchesABoxMeetsIt)
   std::vector<PartitionIndex> met;
   tiling.visitMet(
     Circumdisk({ 2, 1 }, { 3, 2 }, { 1, 2 }), [&](PartitionIndex i) { met.push_back(i); });
-  // Four boxes hold the disk; on each side two more are touched, at one common corner.
+  // Four boxes share the disk. It touches two more on each side, at their common corner.
   EXPECT_EQ(12U, met.size());
 }
 

@@ -15,7 +15,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-/// In two lists, as two threads make them.
+/// The final triangles in two lists, as from two threads.
 template <typename Id>
 std::vector<std::vector<typename TriangleSink<Id>::FinalTriangle>> finalOnes(
   const std::vector<BoundaryTriangle>& triangles)
@@ -38,7 +38,7 @@ struct SinkRun
   {
   }
 
-  /// Made-up triangles, as a worker writes its interior ones.
+  /// Writes artificial triangles to a partition's buffer, as a worker writes its interior ones.
   void writeInterior(PartitionIndex p, std::size_t count)
   {
     for (std::size_t i = 0; i < count; ++i)
@@ -51,7 +51,7 @@ struct SinkRun
     this->Sink.setInteriorCount(p, count);
   }
 
-  /// Made-up triangles whose lowest vertices lie in all partitions with points.
+  /// Artificial triangles whose lowest vertices are spread over all partitions with points.
   std::vector<BoundaryTriangle> boundary(std::size_t count)
   {
     std::vector<BoundaryTriangle> triangles;
@@ -81,7 +81,7 @@ struct SinkRun
   Triangles Expected;
 };
 
-/// By the type of ids.
+/// Tests for both sizes of ids.
 template <typename Id>
 class SinkOf
   : public testing::Test
@@ -91,7 +91,7 @@ class SinkOf
 
 TYPED_TEST_SUITE(SinkOf, IdTypes, IdNames);
 
-TEST(LongTriangles, AreToldAtAnyMagnitude)
+TEST(LongTriangles, AreFoundAtAnyMagnitude)
 {
   for (const double unit : { 1e-300, 1.0, 1e300 })
   {
@@ -103,9 +103,9 @@ TEST(LongTriangles, AreToldAtAnyMagnitude)
   }
 }
 
-TYPED_TEST(SinkOf, InteriorAndBoundaryTrianglesAreAllThere)
+TYPED_TEST(SinkOf, HasAllInteriorAndBoundaryTriangles)
 {
-  // There is room for 10, 0, 6 and 8 triangles.
+  // Each partition's buffer holds two triangles per point: 10, 0, 6 and 8.
   for (const std::size_t boundaryCount : { 0, 1, 2, 5, 9, 13 })
   {
     for (const auto& [first, third, last] : { std::tuple{ 0, 0, 0 }, { 3, 2, 5 }, { 10, 0, 0 },
@@ -120,7 +120,7 @@ TYPED_TEST(SinkOf, InteriorAndBoundaryTrianglesAreAllThere)
   }
 }
 
-TYPED_TEST(SinkOf, ThereIsRoomForTwoTrianglesAPoint)
+TYPED_TEST(SinkOf, ThereIsSpaceForTwoTrianglesPerPoint)
 {
   this->writeInterior(0, 10);
   this->writeInterior(2, 4);
@@ -128,7 +128,7 @@ TYPED_TEST(SinkOf, ThereIsRoomForTwoTrianglesAPoint)
   this->expectAll(this->Sink.assemble(finalOnes<TypeParam>(this->boundary(7)), 1));
 }
 
-TYPED_TEST(SinkOf, NothingIsEmpty)
+TYPED_TEST(SinkOf, WithoutTrianglesTheResultIsEmpty)
 {
   EXPECT_TRUE(this->Sink.assemble({}, 1).empty());
 }
@@ -142,7 +142,7 @@ TYPED_TEST(SinkOf, InteriorTrianglesStayWhereTheyAre)
 }
 
 /// Workers may add their triangles in any order.
-TYPED_TEST(SinkOf, TheOrderDoesNotDependOnThatOfTheBoundary)
+TYPED_TEST(SinkOf, TheOrderDoesNotDependOnTheOrderOfBoundaryTriangles)
 {
   std::mt19937_64 random(2);
   std::vector<TypeParam> expected;
@@ -159,7 +159,7 @@ TYPED_TEST(SinkOf, TheOrderDoesNotDependOnThatOfTheBoundary)
     }
     for (BoundaryTriangle& t : boundary)
     {
-      // The same triangle from another corner.
+      // The same triangle, starting at another corner.
       std::rotate(t.begin(), t.begin() + draw % 3, t.end());
     }
     const Buffer<TypeParam> ids = run.Sink.assemble(finalOnes<TypeParam>(boundary), 1 + draw % 3);
@@ -197,7 +197,7 @@ Pairs pairsOf(const std::vector<Duplicate>& duplicates)
   return pairs;
 }
 
-TYPED_TEST(SinkOf, LowerDuplicatesTakeTheirRepresentativesPlace)
+TYPED_TEST(SinkOf, ALowerDuplicateReplacesItsRepresentative)
 {
   Buffer<TypeParam> ids = bufferOf<TypeParam>({ 1, 5, 9, 5, 7, 9 });
   std::vector<Duplicate> duplicates{ { 3, 5 } };
@@ -207,7 +207,7 @@ TYPED_TEST(SinkOf, LowerDuplicatesTakeTheirRepresentativesPlace)
   EXPECT_EQ((Pairs{ { 5, 3 } }), pairsOf(duplicates));
 }
 
-TYPED_TEST(SinkOf, TheLowestOfSeveralDuplicatesStandsForAll)
+TYPED_TEST(SinkOf, TheLowestOfSeveralDuplicatesRepresentsAll)
 {
   Buffer<TypeParam> ids = bufferOf<TypeParam>({ 8, 0, 1 });
   std::vector<Duplicate> duplicates{ { 6, 8 }, { 12, 8 }, { 2, 8 }, { 4, 8 } };
@@ -225,7 +225,7 @@ TYPED_TEST(SinkOf, HigherDuplicatesChangeNothing)
   EXPECT_EQ((Pairs{ { 4, 2 }, { 9, 1 } }), pairsOf(duplicates));
 }
 
-TYPED_TEST(SinkOf, DuplicatesOfDifferentPlacesAreKeptApart)
+TYPED_TEST(SinkOf, DuplicatesOfDifferentPointsAreIndependent)
 {
   Buffer<TypeParam> ids = bufferOf<TypeParam>({ 5, 6, 7 });
   std::vector<Duplicate> duplicates{ { 1, 6 }, { 2, 5 }, { 9, 5 }, { 8, 6 } };
@@ -234,8 +234,8 @@ TYPED_TEST(SinkOf, DuplicatesOfDifferentPlacesAreKeptApart)
   EXPECT_EQ((Pairs{ { 5, 2 }, { 6, 1 }, { 8, 1 }, { 9, 2 } }), pairsOf(duplicates));
 }
 
-/// What is looked up quickly is looked up by a few digits of the id.
-TYPED_TEST(SinkOf, IdsThatAreFarApartAreNotMixedUp)
+/// Ids are looked up in a table by their low 14 bits, which are equal here.
+TYPED_TEST(SinkOf, IdsWithEqualLowBitsAreDistinguished)
 {
   const TypeParam apart = 1 << 14;
   Buffer<TypeParam> ids = bufferOf<TypeParam>({ 7, 7 + apart, 7 + 2 * apart });

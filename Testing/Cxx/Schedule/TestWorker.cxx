@@ -24,7 +24,8 @@ Interior interiorOf(
   return Interior(ids, ids + 3 * worker.interiorCount());
 }
 
-/// A partition's boundary triangles, and which boxes of a tiling their circumdisks meet.
+/// Collects a partition's boundary triangles, and the boxes of a tiling that their circumdisks
+/// meet.
 class Boundary : public BoundaryConsumer
 {
 public:
@@ -61,7 +62,7 @@ private:
   std::vector<std::pair<std::array<DelaunayKernel::Index, 3>, Met>> Found;
 };
 
-/// All triangles that some unfinished partition meets, and those that are final.
+/// The triangles that some unfinished partition meets, and the final ones.
 class UnfinishedMesh
 {
 public:
@@ -81,7 +82,8 @@ public:
     }
   }
 
-  /// The partition's triangles are replaced by its worker's, which are to be added next.
+  /// Removes the triangles that partition p meets. The worker's triangles replace them, and are
+  /// added next.
   void finish(PartitionIndex p)
   {
     this->Entries.erase(std::remove_if(this->Entries.begin(), this->Entries.end(),
@@ -102,7 +104,7 @@ public:
     return triangles;
   }
 
-  /// When all partitions are finished, these are all that were added last.
+  /// All triangles. Once all partitions are finished, these are the final ones.
   std::vector<BoundaryTriangle> all() const
   {
     std::vector<BoundaryTriangle> triangles;
@@ -143,7 +145,7 @@ std::vector<BoundaryVertex> uniqueVertices(const std::vector<BoundaryTriangle>& 
   return vertices;
 }
 
-/// Partitions that workers take one after the other.
+/// Triangulates partitions one after the other, and keeps the mesh between them.
 class WorkerRun
 {
 public:
@@ -154,7 +156,7 @@ public:
 
   {
     this->Mesh.add(this->Scene.Mesh);
-    // Artificial points come after the true ones, so that both are named by their place.
+    // In XY the artificial points follow the true ones, so that an index into XY identifies either.
     for (const BoundaryVertex& v : this->Scene.Artificial)
     {
       this->Inserted.push_back(std::int64_t(this->XY.size() / 2));
@@ -193,7 +195,7 @@ public:
     return v.isArtificial() ? std::int64_t(this->Scene.XY.size() / 2) - 1 - v.Id : v.Id;
   }
 
-  /// The last partition's interior triangles and the boundary, by places in XY.
+  /// The interior and boundary triangles of the last partition, as indices into XY.
   Triangles made(const Interior& interior) const
   {
     std::vector<BoundaryTriangle> boundary;
@@ -247,7 +249,7 @@ TEST_P(WorkerOn, MakesTheTrianglesThatBelongToItsPartition)
   }
 }
 
-/// Lemma 2: what is final when all are through is the triangulation, without a gap.
+/// Lemma 2: when all partitions are done, the final triangles are the whole triangulation.
 TEST_P(WorkerOn, InteriorTrianglesAndFinalBoundaryTrianglesAreTheTriangulation)
 {
   WorkerRun run(GetParam(), 800, 4);
@@ -265,7 +267,7 @@ TEST_P(WorkerOn, InteriorTrianglesAndFinalBoundaryTrianglesAreTheTriangulation)
   EXPECT_TRUE(sameTriangles(run.XY, sorted(std::move(all)), delaunay(run.XY, run.Inserted)));
 }
 
-/// Whatever belongs: first, last or between, a partition's interior is the same, in the same order.
+/// The interior triangles and their order are the same if the partition is first, last or between.
 TEST_P(WorkerOn, InteriorTrianglesDoNotDependOnTheSchedule)
 {
   std::vector<std::vector<Interior>> runs;
@@ -290,7 +292,7 @@ TEST_P(WorkerOn, InteriorTrianglesDoNotDependOnTheSchedule)
   EXPECT_EQ(runs[0], runs[2]);
 }
 
-/// They are nobody else's: the disk lies inside the partition.
+/// The circumdisk lies inside the partition, so it meets no other one.
 TEST_P(WorkerOn, InteriorTrianglesBelongToNoOtherPartition)
 {
   WorkerRun run(GetParam(), 1000, 3);
@@ -338,8 +340,9 @@ TEST(Worker, CountsItsOwnPointsAndTheVerticesAround)
   EXPECT_EQ(run.Scene.Buckets.count(0) + foreign.size(), run.Work.vertexCount());
 }
 
-/// Three points on a circle in the middle of 3 x 3 partitions, about the middle plus (dx, dy).
-/// Tells how many triangles are interior to its partition, which is 4 wide.
+/// Inserts three points into the middle one of 3 x 3 partitions, each 4 wide. They lie on a circle
+/// about the partition's centre plus (dx, dy). Returns the number of the partition's interior
+/// triangles.
 std::size_t interiorCountWithCircle(double dx, double dy, double radius)
 {
   const double x = 6 + dx;
@@ -362,7 +365,7 @@ TEST(Worker, ADiskInsideThePartitionIsInterior)
   EXPECT_EQ(1U, interiorCountWithCircle(0, 0, 1));
 }
 
-/// It touches the neighbour, which is closed: a point there might lie on it.
+/// Boxes are closed: a point of the neighbour may lie where the disk touches it.
 TEST(Worker, ADiskThatTouchesTheBorderFromInsideIsNotInterior)
 {
   EXPECT_EQ(0U, interiorCountWithCircle(-1, 0, 1));
@@ -387,7 +390,7 @@ TEST(Worker, AloneMakesAllTriangles)
   EXPECT_TRUE(sameTriangles(xy, sorted(std::move(made)), reference(xy).Mesh));
 }
 
-TEST(Worker, AloneTheLowestIdStandsForItsDuplicates)
+TEST(Worker, AloneTheLowestIdRepresentsItsDuplicates)
 {
   const Coordinates xy = makePointSet("duplicates", 600);
   const Tiling tiling = Tiling::grid(boundsOf(xy), 1, 1);
@@ -402,8 +405,8 @@ TEST(Worker, AloneTheLowestIdStandsForItsDuplicates)
   }
 }
 
-/// Others already hold triangles at it.
-TEST(Worker, AnInitialPointStandsForLowerDuplicates)
+/// Other partitions already have triangles at the initial point, so it stays the representative.
+TEST(Worker, AnInitialPointRepresentsLowerDuplicates)
 {
   const Coordinates xy{ 0.1, 0.1, 0.3, 0.2, 0.3, 0.2, 0.3, 0.2, 0.9, 0.3, 0.4, 0.9, 0.8, 0.8 };
   const Tiling tiling = Tiling::grid({ 0, 0, 1, 1 }, 2, 2);

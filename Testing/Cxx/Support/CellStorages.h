@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-/// The storages of vtkCellArray in the VTK that the tests are built with.
+/// The storages that vtkCellArray has in the VTK of this build.
 enum class CellStorage
 {
   Int32,

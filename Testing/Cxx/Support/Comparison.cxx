@@ -24,7 +24,7 @@ std::string tell(const Coordinates& xy, const Triangle& triangle)
   return text.str();
 }
 
-/// The first triangle of `these` that `those` lacks.
+/// Fails with the first triangle of `these` that is not in `those`; `what` describes it.
 testing::AssertionResult allIn(
   const Coordinates& xy, const Triangles& these, const Triangles& those, const std::string& what)
 {
@@ -40,7 +40,8 @@ testing::AssertionResult allIn(
     << tell(xy, surplus.front());
 }
 
-/// What Reference::Representative would be for the result; -2 for a point told of twice.
+/// Computes what Reference::Representative should be from the result; -2 for a point that is
+/// reported twice.
 Ids account(const Triangulation& result, std::size_t count)
 {
   Ids stands(count, -3);
@@ -102,7 +103,7 @@ testing::AssertionResult sameTriangles(
     return extra;
   }
   const auto twice = std::adjacent_find(actual.begin(), actual.end());
-  return testing::AssertionFailure() << "a triangle is there twice:" << tell(xy, *twice);
+  return testing::AssertionFailure() << "a triangle occurs twice:" << tell(xy, *twice);
 }
 
 testing::AssertionResult matches(
@@ -120,7 +121,7 @@ testing::AssertionResult matches(
     const auto id = wrong - stands.begin();
     return testing::AssertionFailure()
       << "point " << id << " is said to be represented by " << *wrong << ", should be by "
-      << expected.Representative[std::size_t(id)] << " (-1 rejected, -2 told of twice)";
+      << expected.Representative[std::size_t(id)] << " (-1 rejected, -2 reported twice)";
   }
   if (!ascending(result))
   {

@@ -15,19 +15,19 @@ namespace test
 
 PointsView view(const Coordinates& xy);
 
-/// The triangles of a result, sorted; empty ones too.
+/// The triangles of a result in canonical form, sorted.
 Triangles trianglesOf(const Triangulation& result);
 
-/// Is the result the reference: the same triangles, and every point accounted for? Tells the first
-/// difference with its coordinates.
+/// Whether the result has the reference's triangles, and every point is a vertex, a duplicate or
+/// rejected. The failure shows the coordinates of the first difference.
 testing::AssertionResult matches(
   const Coordinates& xy, const Triangulation& result, const Reference& expected);
 
-/// Are the two sorted sets of triangles the same? Tells the first difference with its coordinates.
+/// Whether two sorted sets of triangles are equal. The failure shows the first difference.
 testing::AssertionResult sameTriangles(
   const Coordinates& xy, const Triangles& actual, const Triangles& expected);
 
-/// "2 threads, 8x8 partitions, stages".
+/// For messages, for example "2 threads, 8x8 partitions, stages".
 std::string describe(const TriangulationOptions& options);
 
 } // namespace test

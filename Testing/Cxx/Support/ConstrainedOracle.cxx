@@ -34,8 +34,8 @@ Epick::Point_2 pointOf(const Coordinates& xy, std::int64_t id)
   return { xy[std::size_t(2 * id)], xy[std::size_t(2 * id + 1)] };
 }
 
-/// Flips edges whose four points are co-circular until the lexicographically largest of the four is
-/// on none of them.
+/// Applies the tie rule: flips an edge of four co-circular points if the lexicographically largest
+/// of them is one of its ends.
 class TieBreaker
 {
 public:
@@ -111,7 +111,7 @@ private:
   }
 
   const Coordinates& XY;
-  std::map<Edge, std::int64_t> Apex; ///< of the triangle on the left of a directed edge
+  std::map<Edge, std::int64_t> Apex; ///< apex of the triangle on the left of a directed edge
   std::set<Edge> Fixed;
   std::vector<Edge> Suspects;
 };
@@ -121,9 +121,9 @@ double oracleUnit(double value)
   return std::nextafter(std::fabs(value), HUGE_VAL) - std::fabs(value);
 }
 
-/// Whether a point lies on a constraint, but for rounding: by half a unit in the last place of the
-/// constraint's coordinates in each of the first ten rounds; later by half of 1, 2, 4 ... units of
-/// any point's coordinates.
+/// Whether a point lies on a constraint within rounding errors. In each of the first ten rounds the
+/// error may grow by half a unit in the last place of the constraint's coordinates, and in later
+/// rounds by half of 1, 2, 4 ... units of the largest coordinate.
 bool isNearLine(const Coordinates& xy, const Constraint& constraint, std::int64_t id, int rounds)
 {
   const auto x = [&](std::int64_t i) { return mpq_class(xy[std::size_t(2 * i)]); };
@@ -145,7 +145,7 @@ bool isNearLine(const Coordinates& xy, const Constraint& constraint, std::int64_
   const mpq_class off = dx * (y(id) - y(constraint.A)) - dy * (x(id) - x(constraint.A));
   const double all = std::min(rounds, roundsOfDoubles) +
     (isCoarse ? std::ldexp(1, std::min(rounds - roundsOfDoubles, 1000)) : 0);
-  const mpq_class units = mpq_class(all) * mpq_class(0.500001); // the last digit is an estimate
+  const mpq_class units = mpq_class(all) * mpq_class(0.500001); // above 1/2: the unit is rounded
   return abs(off) <= units * (abs(dx) * unit(1) + abs(dy) * unit(0));
 }
 
@@ -162,7 +162,7 @@ std::set<Edge> edgesOf(const Triangles& triangles)
   return edges;
 }
 
-/// Whether each constraint's pieces lead from one end to the other.
+/// Whether each constraint's pieces form a chain of edges from its first point to its second.
 testing::AssertionResult areChains(const Coordinates& all,
   const std::vector<Constraint>& constraints, const ResolvedConstraints& resolved,
   const Ids& representative, const std::set<Edge>& edges)
@@ -238,7 +238,7 @@ Triangles constrainedDelaunay(const Coordinates& xy, const std::vector<Constrain
       vertices[i]->info() = std::int64_t(i);
     }
   }
-  std::set<Edge> edges; // CGAL takes a segment that comes twice for one that crosses
+  std::set<Edge> edges; // a set, because CGAL reports a repeated segment as a crossing
   for (const Constraint& segment : segments)
   {
     edges.insert(std::minmax(

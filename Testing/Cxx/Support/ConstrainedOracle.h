@@ -15,17 +15,17 @@ namespace tipp
 namespace test
 {
 
-/// The points of the input, then the crossings of a result.
+/// x and y of the input's points, then of the crossings in the result.
 Coordinates withCrossings(const Coordinates& xy, const ConstrainedTriangulation& result);
 
-/// CGAL's Constrained_Delaunay_triangulation_2 of the distinct finite points with segments that do
-/// not cross, its edges flipped where a tie is broken against the rule. Throws
-/// CGAL's Intersection_of_constraints_exception if they do.
+/// CGAL's Constrained_Delaunay_triangulation_2 of the distinct finite points and of segments that
+/// do not cross. Edges that break a tie against the tie rule are flipped. Throws CGAL's
+/// Intersection_of_constraints_exception if segments cross.
 Triangles constrainedDelaunay(const Coordinates& xy, const std::vector<Constraint>& segments);
 
-/// Is the result what it has to be? Every constraint is a chain of edges from its first point to
-/// its second that bends by rounding only, and the triangles are the oracle's of all points and the
-/// chains' edges.
+/// Whether the result is correct. Every constraint must be a chain of edges from its first point to
+/// its second, straight within rounding errors. The triangles must be the oracle's for all points
+/// and the chains' edges.
 testing::AssertionResult isConstrained(const Coordinates& xy,
   const std::vector<Constraint>& constraints, const ConstrainedTriangulation& result);
 

@@ -26,7 +26,7 @@ Kernel::Point_2 point(const Coordinates& xy, std::int64_t id)
   return { xy[std::size_t(2 * id)], xy[std::size_t(2 * id + 1)] };
 }
 
-/// CGAL takes quadratic time to find this out.
+/// Whether all points lie on one line. CGAL takes quadratic time for such points.
 bool collinear(const Coordinates& xy, const Ids& ids)
 {
   return ids.size() < 3 ||

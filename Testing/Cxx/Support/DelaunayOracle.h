@@ -13,26 +13,26 @@ namespace tipp
 namespace test
 {
 
-/// Counter-clockwise ids of points, the lowest first: one form for each triangle.
+/// Point ids counter-clockwise, starting with the lowest, so that equal triangles compare equal.
 using Triangle = std::array<std::int64_t, 3>;
-/// Sorted, so that sets compare with ==.
+/// Sorted, so that sets of triangles can be compared with ==.
 using Triangles = std::vector<Triangle>;
 using Ids = std::vector<std::int64_t>;
 
 Triangle canonical(std::int64_t a, std::int64_t b, std::int64_t c);
 Triangles sorted(Triangles triangles);
 
-/// What a triangulation has to give.
+/// The correct triangulation of a point set.
 struct Reference
 {
-  Triangles Mesh;     ///< of the points that stand for themselves
-  Ids Representative; ///< for each point the lowest id at its place, or -1 if it is not finite
+  Triangles Mesh;     ///< uses representatives only
+  Ids Representative; ///< per point the lowest id with its coordinates, or -1 if not finite
 };
 
 /// CGAL's Delaunay_triangulation_2 of the distinct finite points.
 Reference reference(const Coordinates& xy);
 
-/// CGAL's Delaunay_triangulation_2 of the points named, which are distinct.
+/// CGAL's Delaunay_triangulation_2 of the points `ids`, which must be distinct.
 Triangles delaunay(const Coordinates& xy, const Ids& ids);
 
 } // namespace test

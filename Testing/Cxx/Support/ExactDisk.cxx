@@ -33,7 +33,7 @@ Rational area(const Coordinates& xy, const Triangle& t)
     (coordinate(xy, t[1], 1) - y) * (coordinate(xy, t[2], 0) - x);
 }
 
-/// The centre solves |c - a| = |c - b| = |c - d|, two linear equations in c - a (Cramer's rule).
+/// The centre c solves |c - a| = |c - b| = |c - d|: two equations, linear in c - a (Cramer's rule).
 Disk circumdisk(const Coordinates& xy, const Triangle& t)
 {
   const Rational ax = coordinate(xy, t[0], 0);
@@ -67,7 +67,7 @@ int sideOfDisk(const Coordinates& xy, const Triangle& triangle, double x, double
 bool diskMeetsBox(const Coordinates& xy, const Triangle& triangle, const Box& box)
 {
   const Disk disk = circumdisk(xy, triangle);
-  // The box's point nearest to the centre.
+  // The point of the box closest to the centre.
   const Rational x = std::min(std::max(disk.X, Rational(box.XMin)), Rational(box.XMax));
   const Rational y = std::min(std::max(disk.Y, Rational(box.YMin)), Rational(box.YMax));
   return sideOf(disk, x, y) <= 0;

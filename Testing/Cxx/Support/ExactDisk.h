@@ -16,17 +16,17 @@ struct Box
   bool holds(double x, double y) const { return XMin <= x && x <= XMax && YMin <= y && y <= YMax; }
 };
 
-/// In rational arithmetic: the sign of |centre - p|^2 - radius^2 for the circle through the
-/// triangle's corners; -1 inside, 0 on it, 1 outside.
+/// Whether (x, y) is inside (-1), on (0) or outside (1) the triangle's circumcircle. Computed in
+/// rational arithmetic, as the sign of |centre - p|^2 - radius^2.
 int sideOfDisk(const Coordinates& xy, const Triangle& triangle, double x, double y);
 
-/// In rational arithmetic: does the closed circumdisk of the triangle meet the box?
+/// Whether the triangle's closed circumdisk meets the box, in rational arithmetic.
 bool diskMeetsBox(const Coordinates& xy, const Triangle& triangle, const Box& box);
 
-/// In rational arithmetic: the sign of the triangle's area.
+/// The sign of the triangle's area, in rational arithmetic.
 int orientationOf(const Coordinates& xy, const Triangle& triangle);
 
-/// Those triangles whose closed circumdisk meets the box: they belong to it.
+/// The triangles that belong to a partition: their closed circumdisk meets its box.
 Triangles belonging(const Coordinates& xy, const Triangles& triangles, const Box& box);
 
 } // namespace test

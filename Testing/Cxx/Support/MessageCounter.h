@@ -11,7 +11,7 @@ namespace tipp
 namespace test
 {
 
-/// Counts the errors or warnings that it is told of and keeps their texts instead of printing them.
+/// Observes VTK's error or warning events: counts them and keeps their texts instead of printing.
 class MessageCounter : public vtkCommand
 {
 public:
@@ -22,7 +22,7 @@ public:
     this->Text += text ? static_cast<const char*>(text) : "";
   }
   int Count = 0;
-  std::string Text; ///< of all
+  std::string Text; ///< all texts, joined
 };
 
 } // namespace test

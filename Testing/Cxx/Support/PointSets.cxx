@@ -18,7 +18,7 @@ namespace
 
 constexpr double Pi = 3.14159265358979323846;
 
-/// The engine's sequence is fixed by the standard; its distributions' are not, so none is used.
+/// Uses no distribution of <random>: the standard fixes the sequence of the engine only.
 class Random
 {
 public:
@@ -47,7 +47,7 @@ void add(Coordinates& xy, double x, double y)
   xy.push_back(y);
 }
 
-/// Calls make(i) -> adds one point, count times.
+/// Calls make(i) `count` times; each call returns one point.
 template <typename Make>
 Coordinates repeat(std::size_t count, Make make)
 {
@@ -70,7 +70,7 @@ Coordinates uniform(std::size_t count, Random random)
     });
 }
 
-/// Square lattice, shuffled: neighbours in space are none in the input's order.
+/// A square lattice in random order, so that neighbours are far apart in the input.
 Coordinates lattice(std::size_t count, double step, double jitter, Random random)
 {
   const auto side = std::size_t(std::sqrt(double(count)) + 0.5);
@@ -89,7 +89,7 @@ Coordinates lattice(std::size_t count, double step, double jitter, Random random
     });
 }
 
-/// Row by row, as a raster file gives it.
+/// A jittered lattice row by row, like the pixels of a raster file.
 Coordinates jittered(std::size_t count, Random random)
 {
   const auto side = std::size_t(std::sqrt(double(count)) + 0.5);
@@ -140,7 +140,7 @@ Coordinates collinearAndOne(std::size_t count, Random)
   return xy;
 }
 
-/// Ten parallel survey lines: collinear runs, exactly so.
+/// Points on ten parallel survey lines, exactly collinear.
 Coordinates surveyLines(std::size_t count, Random random)
 {
   return repeat(count,
@@ -153,14 +153,15 @@ Coordinates duplicates(std::size_t count, Random random)
   Coordinates xy = uniform(count / 2, random);
   for (std::size_t i = xy.size() / 2; i < count; ++i)
   {
-    // One point in four of the rest is a copy of one single point.
+    // A quarter of the remaining points are copies of point 0, the others of random points.
     const std::size_t from = i % 4 == 0 ? 0 : random.below(i);
     add(xy, xy[2 * from], xy[2 * from + 1]);
   }
   return xy;
 }
 
-/// A coarse lattice drawn with repetition: many copies, also on the borders between partitions.
+/// Random points of a coarse lattice, with repetition: many duplicates, some of them on borders of
+/// partitions.
 Coordinates duplicateLattice(std::size_t count, Random random)
 {
   return repeat(count,
@@ -171,7 +172,7 @@ Coordinates duplicateLattice(std::size_t count, Random random)
     });
 }
 
-/// Uniform points scaled and moved.
+/// Uniform points, scaled and then translated.
 Coordinates placed(std::size_t count, Random random, double scale, double offset)
 {
   Coordinates xy = uniform(count, random);
@@ -182,7 +183,8 @@ Coordinates placed(std::size_t count, Random random, double scale, double offset
   return xy;
 }
 
-/// Multiples of 1e-310's neighbourhood: all coordinates denormal, on few bits, so with ties.
+/// Small multiples of the smallest doubles: all coordinates are denormal, with few bits, so there
+/// are ties.
 Coordinates denormal(std::size_t count, Random random)
 {
   return repeat(count,
@@ -194,7 +196,7 @@ Coordinates denormal(std::size_t count, Random random)
     });
 }
 
-/// Differences of these overflow.
+/// Coordinates so large that their differences overflow.
 Coordinates largestDoubles(std::size_t count, Random random)
 {
   Coordinates xy = placed(count, random, 2, -1);
@@ -205,7 +207,7 @@ Coordinates largestDoubles(std::size_t count, Random random)
   return xy;
 }
 
-/// 1e12 plus a few of the smallest possible steps.
+/// 1e12 plus a few units in the last place.
 Coordinates tinySteps(std::size_t count, Random random)
 {
   const double ulp = std::nextafter(1e12, 2e12) - 1e12;

@@ -12,12 +12,13 @@ namespace tipp
 namespace test
 {
 
-/// x and y interleaved.
+/// x and y of one point after the other.
 using Coordinates = std::vector<double>;
 
-/// A point set of tests and benchmarks by its name (see pointSetNames()), of about `count` points:
-/// lattices have a square number, sets with one odd point out count that one in. The same for the
-/// same arguments everywhere. Throws std::invalid_argument for an unknown name.
+/// The point set of this name (see pointSetNames()) for tests and benchmarks. It has about `count`
+/// points: a lattice has a square number, and sets with one special point include it in the count.
+/// The same arguments give the same points on every machine. Throws std::invalid_argument for an
+/// unknown name.
 Coordinates makePointSet(const std::string& name, std::size_t count, std::uint64_t seed = 1);
 
 std::vector<std::string> pointSetNames();

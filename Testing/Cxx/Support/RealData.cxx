@@ -16,7 +16,7 @@ namespace test
 namespace
 {
 
-/// What `program` (xz or gzip) makes of a file.
+/// The output of `program` (xz or gzip) for a compressed file.
 std::string decompressed(const std::string& program, const std::string& path)
 {
   const std::string command = program + " --decompress --stdout '" + path + "'";

@@ -13,38 +13,39 @@ namespace tipp
 namespace test
 {
 
-/// The path of a file of the real data sets, or an empty string if it is not there.
+/// The path of a file of the real data sets, or an empty string if the file does not exist.
 std::string realData(const std::string& name);
 
-/// A mesh in ADCIRC's format: its elements, which are counted from 1 there, by ids from 0.
+/// A mesh in ADCIRC's format. Ids start at 0 here, at 1 in the file.
 struct AdcircMesh
 {
   Coordinates Nodes;
-  std::vector<Triangle> Elements; ///< in the file's order
+  std::vector<Triangle> Elements; ///< in the order of the file
 };
 
-/// Throws std::runtime_error if the file is not such a mesh.
+/// Reads a mesh in ADCIRC's format. Throws std::runtime_error if the file is not such a mesh.
 AdcircMesh readAdcirc(const std::string& path);
 
-/// Tetrahedra with x, y and z of their points.
+/// A mesh of tetrahedra.
 struct TetrahedralMesh
 {
   std::vector<double> Points;
-  std::vector<std::int64_t> Cells; ///< four ids each
+  std::vector<std::int64_t> Cells; ///< four point ids per tetrahedron
 };
 
-/// A mesh of tetrahedra as dolfin writes it, compressed: an element a line. Throws
-/// std::runtime_error if there is none in the file.
+/// Reads a compressed mesh of tetrahedra in dolfin's XML, with one element per line. Throws
+/// std::runtime_error if the file has no tetrahedra.
 TetrahedralMesh readDolfin(const std::string& path);
 
-/// Two columns, counted from 0, of an .xz-compressed table. Throws std::runtime_error.
+/// Reads columns `x` and `y`, counted from 0, of an .xz-compressed table. Throws std::runtime_error
+/// if it cannot be read.
 Coordinates readCompressedTable(
   const std::string& path, char separator, bool header, std::size_t x, std::size_t y);
 
 } // namespace test
 } // namespace tipp
 
-/// Ends a test visibly where the real data set is absent.
+/// Skips a test if the real data set is missing.
 #define TIPP_REQUIRE_REAL_DATA(path, name)                                                         \
   const std::string path = tipp::test::realData(name);                                             \
   if (path.empty())                                                                                \

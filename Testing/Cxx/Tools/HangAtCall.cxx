@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A library to be preloaded: the thread that reads, writes or syncs an ordinary file for the
-// TIPP_HANG_AT-th time makes the file TIPP_HANG_MARK and never comes back. With TIPP_HANG_RANK only
-// this rank of mpirun does. Calls count once the program handles SIGTERM: before that the libraries
-// it is linked to may read files.
+// A library for LD_PRELOAD. It counts reads, writes and syncs of regular files. In call
+// TIPP_HANG_AT, the thread creates the file TIPP_HANG_MARK and then hangs. With TIPP_HANG_RANK,
+// only this rank of mpirun hangs. Counting starts when the program handles SIGTERM, since shared
+// libraries may read files before that.
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
@@ -63,7 +63,7 @@ Result callOrHang(const char* name, int file, Arguments... arguments)
 
 } // namespace
 
-// In place of the C library's.
+// Replaces functions of the C library.
 extern "C"
 {
   ssize_t read(int file, void* to, size_t count)

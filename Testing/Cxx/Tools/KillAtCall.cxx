@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A library to be preloaded: the process is killed before it renames or removes a file or folder
+// A library for LD_PRELOAD. It kills the process just before it renames or removes a file or folder
 // for the TIPP_KILL_AT-th time.
 #include <atomic>
 #include <csignal>
@@ -25,7 +25,7 @@ int callOrDie(const char* name, Arguments... arguments)
 
 } // namespace
 
-// In place of the C library's.
+// Replaces functions of the C library.
 extern "C"
 {
   int rename(const char* from, const char* to) noexcept

@@ -17,7 +17,7 @@ namespace test
 namespace
 {
 
-// In the child: only calls that are safe after fork().
+// Runs in the child process, where only async-signal-safe functions may be called.
 [[noreturn]] void execute(const char* folder, char* const* arguments, int terminal)
 {
   const int mode = O_WRONLY | O_CREAT | O_TRUNC;

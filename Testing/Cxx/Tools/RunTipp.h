@@ -18,16 +18,16 @@ namespace test
 
 struct Outcome
 {
-  int ExitCode; ///< or minus the signal that ended it
+  int ExitCode; ///< or minus the number of the signal that ended the process
   std::string Out;
   std::string Err;
 };
 
-/// The command-line tool as a process of its own, in a folder of its own.
+/// Runs the command-line tool as a process in a folder.
 class TippProcess
 {
 public:
-  /// `terminal` is a file descriptor for stderr, or -1 for a file.
+  /// `terminal` is a file descriptor for stderr; -1 writes stderr to a file.
   TippProcess(
     const TemporaryFolder& folder, const std::vector<std::string>& arguments, int terminal = -1);
 
@@ -36,12 +36,11 @@ public:
   void signal(int number) const;
   bool hasEnded() const;
   Outcome wait() const;
-  /// Returns when the condition holds, or the process has ended.
+  /// Waits until the condition holds or the process has ended.
   void waitUntil(const std::function<bool()>& condition) const;
-  /// As wait(), but kills the process if it is still there after a time far longer than it should
-  /// be.
+  /// Waits for the end, but kills the process after a time limit that is far longer than any test.
   Outcome waitOrKill() const;
-  /// The same without what it printed.
+  /// Waits for the end, and returns only the exit code.
   int exitCode() const;
 
 private:
@@ -51,7 +50,7 @@ private:
 
 Outcome runTipp(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
 
-/// The same with a terminal for stderr.
+/// As runTipp(), with a terminal for stderr.
 Outcome runTippOnTerminal(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
 
 } // namespace test

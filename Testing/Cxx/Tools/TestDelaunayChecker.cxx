@@ -29,7 +29,7 @@ Ids triangulate(const Coordinates& xy)
   return { result.Ids32.begin(), result.Ids32.end() };
 }
 
-// The options with which nothing is let pass.
+// Options under which every error is reported.
 CheckOptions strict()
 {
   CheckOptions options;
@@ -44,7 +44,7 @@ CheckOptions boundaryFree()
   return options;
 }
 
-// A correct triangulation to spoil.
+// A correct triangulation, into which tests insert errors.
 class Spoiled : public testing::Test
 {
 protected:
@@ -98,7 +98,7 @@ protected:
     FAIL() << "no such triangle";
   }
 
-  // Flips the first edge between two triangles that make a convex quadrilateral.
+  // Flips the first edge whose two triangles form a convex quadrilateral.
   void flipAnEdge()
   {
     for (std::size_t t = 0; t < this->Triangles.size(); t += 3)
@@ -117,7 +117,7 @@ protected:
     FAIL() << "no edge to flip";
   }
 
-  // The first triangle without, or with, an edge of the hull.
+  // The first triangle with an edge on the hull, or the first without.
   std::size_t findTriangle(bool onHull) const
   {
     for (std::size_t t = 0; t < this->Triangles.size(); t += 3)
@@ -165,7 +165,7 @@ TEST_P(CorrectTriangulation, HasNoFault)
 INSTANTIATE_TEST_SUITE_P(DelaunayChecker, CorrectTriangulation,
   testing::ValuesIn(tipp::distributionNames()), [](const auto& info) { return info.param; });
 
-TEST_F(Spoiled, ByANeighborThatIsNotBeyondTheEdge)
+TEST_F(Spoiled, WrongNeighborIsFound)
 {
   Ids neighbors(this->Triangles.size());
   tipp::findNeighbors(this->Triangles.data(), this->Triangles.size() / 3, neighbors.data());
@@ -183,7 +183,7 @@ TEST_F(Spoiled, ByANeighborThatIsNotBeyondTheEdge)
   EXPECT_EQ(2, bad());
 }
 
-TEST_F(Spoiled, NotAtAllIsCorrect)
+TEST_F(Spoiled, HasNoErrorIfUnchanged)
 {
   const CheckReport report = this->check(strict());
   EXPECT_TRUE(report.isCorrect()) << testing::PrintToString(report.faults());
@@ -277,7 +277,7 @@ TEST_F(Spoiled, DuplicateOfAVertexIsNotMissed)
   EXPECT_EQ(500, report.DistinctPoints);
 }
 
-TEST_F(Spoiled, TwoIdsForOnePlaceAreTwins)
+TEST_F(Spoiled, EqualVerticesWithTwoIdsAreTwins)
 {
   this->XY.insert(this->XY.end(), { this->XY[0], this->XY[1] });
   *std::find(this->Triangles.begin(), this->Triangles.end(), 0) = 500;
@@ -291,7 +291,7 @@ TEST_F(Spoiled, PointsThatAreNotFiniteNeedNoTriangle)
   EXPECT_TRUE(this->check().isCorrect());
 }
 
-TEST_F(Spoiled, IdsThatAreNoPointAreReported)
+TEST_F(Spoiled, InvalidPointIdsAreReported)
 {
   this->XY.insert(this->XY.end(), { std::nan(""), 0.5 });
   for (const std::int64_t id : { std::int64_t(-1), std::int64_t(501), std::int64_t(500),
@@ -310,18 +310,18 @@ TEST_F(Spoiled, ClosedCornerIsFlat)
   EXPECT_EQ(1, this->check().BadTurns);
 }
 
-TEST_F(Spoiled, EveryFaultIsNamed)
+TEST_F(Spoiled, EveryErrorIsReported)
 {
   CheckReport report;
   EXPECT_TRUE(report.faults().empty());
   report.BadTurns = 3;
   report.EulerMismatch = -2;
   EXPECT_EQ((std::vector<std::string>{ "3 triangles are clockwise or flat",
-              "-2 triangles too many (negative: too few) by Euler's count" }),
+              "-2 more triangles (negative: fewer) than Euler's formula gives" }),
     report.faults());
 }
 
-TEST(DelaunayChecker, TieMayBeBrokenEitherWayUnlessTheRuleIsAskedFor)
+TEST(DelaunayChecker, TiesMayBeBrokenEitherWayUnlessTheRuleIsRequired)
 {
   const Ids byRule{ 0, 1, 2, 1, 3, 2 };
   const Ids againstRule{ 0, 1, 3, 0, 3, 2 };
@@ -346,7 +346,7 @@ TEST(DelaunayChecker, UlpDecidesBetweenTheDiagonals)
   EXPECT_EQ(1, checkDelaunay(far, throughOrigin).BadCircles);
 }
 
-TEST(DelaunayChecker, CoordinatesAreNotTooSmallOrLarge)
+TEST(DelaunayChecker, CoordinatesMayBeVerySmallOrLarge)
 {
   for (const double scale : { 1e-300, 1e150 })
   {
@@ -359,7 +359,7 @@ TEST(DelaunayChecker, CoordinatesAreNotTooSmallOrLarge)
   }
 }
 
-TEST(DelaunayChecker, NoTrianglesAreRightForCollinearPoints)
+TEST(DelaunayChecker, CollinearPointsNeedNoTriangles)
 {
   for (const Coordinates& xy : { Coordinates{}, Coordinates{ 1, 2 }, Coordinates{ 1, 2, 3, 4 },
          Coordinates{ 1, 2, 1, 2, 1, 2 }, Coordinates{ 0, 0, 3, 3, 1, 1, 2, 2 } })
@@ -368,7 +368,7 @@ TEST(DelaunayChecker, NoTrianglesAreRightForCollinearPoints)
   }
 }
 
-TEST(DelaunayChecker, NoTrianglesAreWrongForOtherPoints)
+TEST(DelaunayChecker, OtherPointsNeedTriangles)
 {
   EXPECT_EQ(4, checkDelaunay(square, {}).UnusedPoints);
 }
@@ -385,7 +385,7 @@ TEST(DelaunayChecker, TwoSeparateMeshesAreNotOneHull)
   EXPECT_EQ(3, report.BadHullEdges);
 }
 
-TEST(DelaunayChecker, MeshesOfKnownFaultsHaveThem)
+TEST(DelaunayChecker, FindsTheKnownErrorsOfMeshes)
 {
   struct Known
   {

@@ -34,7 +34,7 @@ TEST(Hull, ClockwiseChainIsWrongEverywhere)
   EXPECT_GE(faults(pentagon, { { 1, 0 }, { 2, 1 }, { 3, 2 }, { 4, 3 }, { 0, 4 } }), 5);
 }
 
-TEST(Hull, StarThatGoesRoundTwiceIsWrongThoughItTurnsLeft)
+TEST(Hull, StarThatWindsTwiceIsWrongAlthoughItTurnsLeft)
 {
   EXPECT_GE(faults(pentagon, { { 0, 2 }, { 2, 4 }, { 4, 1 }, { 1, 3 }, { 3, 0 } }), 1);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The check of meshes in pieces finds what the check of whole ones finds.
+// The check of a mesh in pieces finds the same errors as the check of a whole mesh.
 #include "Check/PieceChecker.h"
 
 #include "Triangulation/Triangulate.h"
@@ -39,7 +39,7 @@ Mesh makeMesh(std::size_t count, bool isLattice)
   return mesh;
 }
 
-/// Points belong to one of four columns; a triangle to the lowest of its points' columns.
+/// The column of a point, of four. A triangle belongs to the lowest column of its points.
 std::size_t columnOf(const Mesh& mesh, std::int64_t point)
 {
   return std::min<std::size_t>(3, std::size_t(mesh.XY[2 * std::size_t(point)] / 5));
@@ -122,7 +122,7 @@ TEST(PieceChecker, AcceptsALatticeWithTheTieRule)
   expectAsWhole(makeMesh(300, true), true, options);
 }
 
-TEST(PieceChecker, FindsAMissingTriangleWhereverItIs)
+TEST(PieceChecker, FindsAnyMissingTriangle)
 {
   const Mesh mesh = makeMesh(300, false);
   for (std::size_t t = 0; t < mesh.count(); t += 7)
@@ -134,7 +134,7 @@ TEST(PieceChecker, FindsAMissingTriangleWhereverItIs)
   }
 }
 
-TEST(PieceChecker, FindsAClockwiseTriangleWhereverItIs)
+TEST(PieceChecker, FindsAnyClockwiseTriangle)
 {
   const Mesh mesh = makeMesh(300, false);
   for (std::size_t t = 0; t < mesh.count(); t += 7)
@@ -156,7 +156,7 @@ TEST(PieceChecker, FindsEdgesThatAreNotLocallyDelaunay)
   EXPECT_GT(checkInPieces(mesh).BadCircles, 0);
 }
 
-TEST(PieceChecker, FindsATriangleThatIsThereTwice)
+TEST(PieceChecker, FindsARepeatedTriangle)
 {
   Mesh mesh = makeMesh(300, false);
   for (std::size_t i = 0; i < 3; ++i)
@@ -166,7 +166,7 @@ TEST(PieceChecker, FindsATriangleThatIsThereTwice)
   EXPECT_GT(checkInPieces(mesh).BadEdges, 0);
 }
 
-TEST(PieceChecker, FindsAPointThatAnotherPieceHasElsewhere)
+TEST(PieceChecker, FindsAPointWithOtherCoordinatesInAnotherPiece)
 {
   const Mesh mesh = makeMesh(300, false);
   PieceChecker checker({});
@@ -184,10 +184,11 @@ TEST(PieceChecker, FindsAPointThatAnotherPieceHasElsewhere)
   EXPECT_FALSE(checker.finish().isCorrect());
 }
 
-/// The places of triangles in the mesh as their ids, and their neighbours from all pairs of edges.
+/// Pieces whose cell ids are the triangles' indices in the mesh, with neighbours computed from all
+/// edges.
 std::vector<CheckedPiece> piecesWithNeighbors(const Mesh& mesh)
 {
-  std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> cellOf; // by a directed edge
+  std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> cellOf; // left of an edge
   const auto edge = [&](std::size_t t, std::size_t i)
   {
     const std::int64_t* const ids = &mesh.Triangles[3 * t];
@@ -242,7 +243,7 @@ TEST(PieceChecker, AcceptsTheNeighborsAcrossEachEdge)
   EXPECT_EQ(0, countBadNeighbors(piecesWithNeighbors(makeMesh(300, false))));
 }
 
-TEST(PieceChecker, FindsAWrongNeighborWhereverItIs)
+TEST(PieceChecker, FindsAnyWrongNeighbor)
 {
   const std::vector<CheckedPiece> pieces = piecesWithNeighbors(makeMesh(300, false));
   for (std::size_t p = 0; p < pieces.size(); ++p)

@@ -8,7 +8,7 @@ namespace
 
 using tipp::TimeLeft;
 
-TEST(TimeLeft, TellsNothingBeforeItCan)
+TEST(TimeLeft, IsUnknownAtFirst)
 {
   TimeLeft left;
   EXPECT_EQ("", left.update(0, 0));
@@ -17,7 +17,7 @@ TEST(TimeLeft, TellsNothingBeforeItCan)
   EXPECT_EQ("", left.update(1, 100));
 }
 
-TEST(TimeLeft, GoesOnAtTheSpeedSoFar)
+TEST(TimeLeft, AssumesTheSpeedSoFar)
 {
   TimeLeft left;
   left.update(0, 50);
@@ -25,7 +25,7 @@ TEST(TimeLeft, GoesOnAtTheSpeedSoFar)
   EXPECT_EQ("about 10 s left", left.update(0.75, 80));
 }
 
-TEST(TimeLeft, DoesNotCountWhatWasDoneBeforeItBegan)
+TEST(TimeLeft, IgnoresWorkDoneBeforeTheStart)
 {
   TimeLeft left;
   left.update(0.6, 0);

@@ -38,7 +38,7 @@ protected:
     tipp::writePoints(this->path("points.npy"), tipp::generatePoints(distribution, 2000, 9));
   }
 
-  // The file's triangles, each from its lowest id on.
+  // The triangles of a file, each starting with its lowest id.
   std::set<std::array<std::int64_t, 3>> triangles(const std::string& name) const
   {
     const std::vector<std::int64_t> ids = tipp::readMesh(this->path(name)).Triangles;
@@ -56,7 +56,7 @@ protected:
   const tipp::test::TemporaryFolder Folder;
 };
 
-// One sentence for a person, nothing for a program.
+// Expects one sentence with `words` on stderr, and nothing on stdout.
 void expectSentence(const Outcome& outcome, int exitCode, const std::string& words)
 {
   EXPECT_EQ(exitCode, outcome.ExitCode);
@@ -73,7 +73,7 @@ struct Misuse
   const char* Answer;
 };
 
-// CTest's names of the tests.
+// CTest shows this name for the test.
 std::ostream& operator<<(std::ostream& stream, const Misuse& misuse)
 {
   return stream << misuse.Name;
@@ -150,7 +150,7 @@ class TippTuning
 
 } // namespace
 
-TEST_F(Tipp, VersionIsTold)
+TEST_F(Tipp, VersionIsPrinted)
 {
   const Outcome outcome = this->run({ "--version" });
   EXPECT_EQ(0, outcome.ExitCode);
@@ -353,7 +353,7 @@ TEST_F(Tipp, CheckAsksForTheTieRuleOnlyOnRequest)
   EXPECT_EQ(1, this->run({ "check", "tie.14", "tie.14", "--tie-rule" }).ExitCode);
 }
 
-TEST_F(Tipp, CheckAllowsABoundaryOfItsOwnOnRequest)
+TEST_F(Tipp, CheckAllowsAnyBoundaryOnRequest)
 {
   this->Folder.file(
     "bent.14", "t\n2 4\n1 0 0 0\n2 2 0 0\n3 0.1 0.2 0\n4 0 2 0\n1 3 1 2 3\n2 3 1 3 4\n");
@@ -372,7 +372,7 @@ TEST_F(Tipp, CheckRefusesAMeshOfOtherPoints)
 
 TEST_F(Tipp, InterruptEndsTheRunWithoutAnOutput)
 {
-  // The tool waits for its input in a pipe, which never comes.
+  // The tool waits for input from a pipe, into which nothing is written.
   const std::string pipe = this->path("points.csv");
   ASSERT_EQ(0, mkfifo(pipe.c_str(), 0600));
   const TippProcess process(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// tipp delaunay --constraints
+// The command 'tipp delaunay' with --constraints.
 #include "RunTipp.h"
 
 #include "Meshes/MeshFiles.h"
@@ -15,7 +15,7 @@ namespace
 using namespace tipp::test;
 using Words = std::vector<std::string>;
 
-/// A square, and in it a smaller one around a point.
+/// A square, and inside it a smaller square around a point.
 class TippConstraints : public testing::Test
 {
 protected:
@@ -60,11 +60,12 @@ protected:
   const TemporaryFolder Folder;
 };
 
-TEST_F(TippConstraints, CrossingIsAddedAndTold)
+TEST_F(TippConstraints, CrossingIsAddedAndReported)
 {
   const Outcome outcome = this->delaunay({ "-o", "mesh.vtp", "--constraints", "cross.csv" });
   ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
-  // The middle splits the first one too: it goes through two corners of the smaller square.
+  // The first line passes through two corners of the smaller square and the crossing: it has four
+  // edges.
   EXPECT_NE(std::string::npos, outcome.Out.find("2 constraints of 8 edges, 1 crossings"))
     << outcome.Out;
   const tipp::PointTable points = tipp::readPoints(this->Folder.path("mesh.vtp"));
@@ -117,7 +118,7 @@ TEST_F(TippConstraints, HolesAreRemovedBySeeds)
   EXPECT_EQ(1, this->delaunay(hole).ExitCode);
 }
 
-/// Whichever way round the lines go; an inner ring is a hole.
+/// Boundary lines may have any orientation. An inner ring is a hole.
 TEST_F(TippConstraints, BoundaryRemovesWhatIsOutside)
 {
   this->Folder.file("ring.csv",
@@ -127,8 +128,8 @@ TEST_F(TippConstraints, BoundaryRemovesWhatIsOutside)
   EXPECT_EQ(32, this->area("mesh.vtp"));
 }
 
-/// Only the smaller square is left, which no triangle joins to the boundary any more.
-TEST_F(TippConstraints, BoundaryGoesWithALongestEdge)
+/// Only the smaller square is left: the triangles between it and the boundary have long edges.
+TEST_F(TippConstraints, BoundaryCanBeCombinedWithALongestEdge)
 {
   this->Folder.file("square.csv", "x1,y1,x2,y2\n1,1,7,1\n7,1,7,7\n7,7,1,7\n1,7,1,1\n");
   const Outcome outcome =
@@ -137,7 +138,7 @@ TEST_F(TippConstraints, BoundaryGoesWithALongestEdge)
   EXPECT_EQ(4, this->area("mesh.vtp"));
 }
 
-TEST_F(TippConstraints, BoundaryGoesWithConstraints)
+TEST_F(TippConstraints, BoundaryCanBeCombinedWithConstraints)
 {
   this->Folder.file("square.csv", "x1,y1,x2,y2\n1,1,7,1\n7,1,7,7\n7,7,1,7\n1,7,1,1\n");
   const Outcome outcome =
@@ -156,7 +157,7 @@ TEST_F(TippConstraints, BoundaryMustBeClosed)
     << outcome.Err;
 }
 
-TEST_F(TippConstraints, OptionsThatDoNotGoTogetherAreUsageErrors)
+TEST_F(TippConstraints, ConflictingOptionsAreUsageErrors)
 {
   this->expectUsageError({ "-o", "mesh.vtp", "--constraints", "cross.csv", "--mark-constraints" },
     "an output named .tipp");
@@ -164,7 +165,7 @@ TEST_F(TippConstraints, OptionsThatDoNotGoTogetherAreUsageErrors)
   this->expectUsageError({ "-o", "mesh.vtp", "--hole", "1", "2" }, "needs --constraints");
 }
 
-TEST_F(TippConstraints, CheckProvesThem)
+TEST_F(TippConstraints, CheckVerifiesThem)
 {
   ASSERT_EQ(0, this->delaunay({ "-o", "mesh.vtp", "--constraints", "cross.csv" }).ExitCode);
   const auto check = [this](const Words& more)
@@ -179,10 +180,10 @@ TEST_F(TippConstraints, CheckProvesThem)
   this->Folder.file("other.csv", "0,8\n");
   const Outcome lost = check({ "--constraints", "other.csv" });
   EXPECT_EQ(1, lost.ExitCode);
-  EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are no chain of edges")) << lost.Out;
+  EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are not chains of edges")) << lost.Out;
 }
 
-TEST_F(TippConstraints, CheckTakesAMeshThatIsCut)
+TEST_F(TippConstraints, CheckAcceptsAMeshThatIsCut)
 {
   this->Folder.file("square.poly",
     "4 2 0 0\n1 3 3\n2 5 3\n3 5 5\n4 3 5\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n1\n1 4 4\n");
@@ -192,8 +193,8 @@ TEST_F(TippConstraints, CheckTakesAMeshThatIsCut)
   EXPECT_EQ(0, outcome.ExitCode) << outcome.Out << outcome.Err;
 }
 
-/// A line leaves the polygon, and another one lies outside of it.
-TEST_F(TippConstraints, CheckTakesConstraintsOutsideOfAMeshThatIsCut)
+/// One line leaves the polygon, and another line is outside it.
+TEST_F(TippConstraints, CheckAcceptsConstraintsOutsideAMeshThatIsCut)
 {
   this->Folder.file("lines.vtk",
     "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOINTS 8 double\n0 0 0\n8 8 0\n1 1 "
@@ -208,12 +209,12 @@ TEST_F(TippConstraints, CheckTakesConstraintsOutsideOfAMeshThatIsCut)
     const Outcome good = outcome("lines.vtk");
     EXPECT_EQ(0, good.ExitCode) << mesh << good.Out << good.Err;
     EXPECT_NE(
-      std::string::npos, outcome("other.csv").Out.find("1 constraints are no chain of edges"))
+      std::string::npos, outcome("other.csv").Out.find("1 constraints are not chains of edges"))
       << "the second is crossed";
   }
 }
 
-/// One rank works as several do.
+/// One rank uses the same code as several ranks.
 TEST_F(TippConstraints, AreInsertedOnRanks)
 {
   const Outcome outcome =
@@ -226,7 +227,7 @@ TEST_F(TippConstraints, AreInsertedOnRanks)
   EXPECT_EQ(0, checked.ExitCode) << checked.Out << checked.Err;
 }
 
-TEST_F(TippConstraints, PartitionedMeshesAreMadeAndProved)
+TEST_F(TippConstraints, PartitionedMeshesAreMadeAndChecked)
 {
   const Outcome made = this->delaunay({ "-o", "mesh.tipp", "--memory", "1M", "--constraints",
     "cross.csv", "--neighbors", "--mark-constraints" });
@@ -245,7 +246,7 @@ TEST_F(TippConstraints, PartitionedMeshesAreMadeAndProved)
   this->Folder.file("other.csv", "0,8\n");
   const Outcome lost = check("other.csv");
   EXPECT_EQ(1, lost.ExitCode);
-  EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are no chain of edges")) << lost.Out;
+  EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are not chains of edges")) << lost.Out;
 }
 
 TEST_F(TippConstraints, PartitionedMeshesAreCutToABoundary)
@@ -260,7 +261,7 @@ TEST_F(TippConstraints, PartitionedMeshesAreCutToABoundary)
   EXPECT_EQ(0, outcome.ExitCode) << outcome.Out << outcome.Err;
 }
 
-TEST_F(TippConstraints, HolesByPointsGoWithPartitionedMeshesAndRanks)
+TEST_F(TippConstraints, HolesByPointsWorkWithPartitionedMeshesAndRanks)
 {
   this->Folder.file("square.poly",
     "4 2 0 0\n1 3 3\n2 5 3\n3 5 5\n4 3 5\n4 0\n1 1 2\n2 2 3\n3 3 4\n4 4 1\n1\n1 4 4\n");

@@ -11,7 +11,7 @@ using namespace tipp::test;
 namespace
 {
 
-/// A square of two triangles, with a height of x + 10 y.
+/// A square of two triangles, with heights x + 10 y.
 class TippContour : public testing::Test
 {
 protected:
@@ -55,13 +55,13 @@ TEST_F(TippContour, WritesGeoPackages)
   }
   EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
   EXPECT_EQ("SQLite format 3", this->content("lines.gpkg").substr(0, 15));
-  // What was written is read as constraints of a triangulation.
+  // The written lines can be read as constraints.
   const Outcome constrained =
     this->run({ "delaunay", "corners.csv", "--constraints", "lines.gpkg", "-o", "again.vtu" });
   EXPECT_EQ(0, constrained.ExitCode) << constrained.Err;
 }
 
-TEST_F(TippContour, RefusesWhatHasNoLines)
+TEST_F(TippContour, RefusesMeshesWithoutLines)
 {
   const auto expect =
     [this](const std::vector<std::string>& more, int exitCode, const std::string& message)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `tipp dem`: a raster of points.
+// The command 'tipp dem', which makes a raster from points.
 #include "TippDem.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace
 
 using namespace tipp::test;
 
-TEST_F(TippDem, MakesThePixelsOfTwoSteps)
+TEST_F(TippDem, EqualsTriangulationAndResampling)
 {
   this->makePoints(3000);
   ASSERT_EQ(0, this->run({ "delaunay", "points.csv", "-o", "mesh.vtu" }).ExitCode);
@@ -77,7 +77,7 @@ TEST_F(TippDem, MakesTheSameGeoTiffForAnyMemory)
   }
 }
 
-TEST_F(TippDem, MakesTheSameWherePixelsLieOnPoints)
+TEST_F(TippDem, MakesTheSamePixelsIfTheyAreAtPoints)
 {
   std::ofstream csv(this->Folder.path("points.csv"));
   csv << "x,y,z\n";
@@ -96,7 +96,7 @@ TEST_F(TippDem, MakesTheSameWherePixelsLieOnPoints)
   ASSERT_EQ(120U * 120, values.size());
   for (std::size_t i = 0; i < values.size(); ++i)
   {
-    ASSERT_EQ(double(i % 120 * (i / 120) % 17), values[i]); // the far border, too
+    ASSERT_EQ(double(i % 120 * (i / 120) % 17), values[i]); // also on the far border
   }
 }
 
@@ -121,7 +121,7 @@ TEST_F(TippDem, DensityIsHalfAPointInEachTriangle)
   EXPECT_EQ(1.0 / 16, this->valuesOf("dem.npy").front());
 }
 
-TEST_F(TippDem, LeavesTrianglesWithLongEdgesVoid)
+TEST_F(TippDem, LeavesOutTrianglesWithLongEdges)
 {
   this->Folder.file("points.csv", "x,y,z\n0,0,1\n2,0,1\n0,2,1\n2,2,1\n9,1,1\n");
   this->make("dem.npy", { "--resolution", "1", "--max-edge", "3" });
@@ -159,7 +159,7 @@ TEST_F(TippDem, WritesAnImageThatResampleReadsBack)
   EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
 }
 
-TEST_F(TippDem, InfoTellsCountsBoundsAndDuplicates)
+TEST_F(TippDem, InfoShowsCountsBoundsAndDuplicates)
 {
   this->Folder.file("points.csv", "x,y,z\n0,0,1\n10,0,-2\n0,10,\n0,0,4\n,3,1\n");
   const Outcome outcome = this->run({ "info", "points.csv" });
@@ -181,7 +181,7 @@ TEST_F(TippDem, RefusesMorePixelsThanTheMemoryHolds)
   EXPECT_NE(std::string::npos, outcome.Err.find("10000000 x 10000000 pixels")) << outcome.Err;
 }
 
-TEST_F(TippDem, TellsWhereThereIsNoTriangle)
+TEST_F(TippDem, VoidBandMarksPixelsWithoutATriangle)
 {
   this->Folder.file("points.csv", "x,y\n0,0\n4,0\n0,4\n");
   for (const Words& more : { Words{}, Words{ "--memory", "2M" } })
@@ -259,7 +259,7 @@ TEST_F(TippDem, WarnsWhereNoPixelHasAValue)
 
 TEST_F(TippDem, LongTrianglesOverManyTilesAreTheSameForAnyMemory)
 {
-  // A row of points and one far away: slivers across most tiles.
+  // Points in a row and one point far away: thin triangles across most tiles.
   std::ofstream csv(this->Folder.path("points.csv"));
   csv << "x,y,z\n4000,3500,9\n";
   for (int i = 0; i < 4000; ++i)
@@ -281,7 +281,7 @@ TEST_F(TippDem, ManyBandsAreTheSameForAnyMemory)
   EXPECT_TRUE(this->content("whole.npy") == this->content("dem.npy"));
 }
 
-TEST_F(TippDem, NamesAColumnThatIsNotThere)
+TEST_F(TippDem, ReportsAMissingColumn)
 {
   this->makePoints(50);
   const Outcome outcome = this->run(
@@ -303,7 +303,7 @@ TEST_F(TippDem, ListsEndWithTheirWord)
   EXPECT_EQ(8U, this->valuesOf("dem.npy").size());
 }
 
-TEST_F(TippDem, RefusesOptionsThatDoNotGoTogether)
+TEST_F(TippDem, RefusesConflictingOptions)
 {
   EXPECT_EQ(2, this->run({ "dem", "points.csv", "-o", "dem.npy" }).ExitCode);
   EXPECT_EQ(2, this->run({ "dem", "points.csv", "-o", "dem.png", "--resolution", "1" }).ExitCode);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `tipp dem --breaklines` and `--boundary`.
+// The command 'tipp dem' with --breaklines and --boundary.
 #include "TippDem.h"
 
 #include <nlohmann/json.hpp>
@@ -9,7 +9,7 @@ namespace
 
 using namespace tipp::test;
 
-/// Points of a valley between two slopes, but for the line at its bottom.
+/// Points of a valley between two slopes, without points on the line at its bottom.
 class TippDemBreaklines : public TippDem
 {
 protected:
@@ -44,7 +44,7 @@ TEST_F(TippDemBreaklines, OfGivenHeightShapeTheSurface)
   }
 }
 
-TEST_F(TippDemBreaklines, WithoutHeightTakeThatOfTheSurface)
+TEST_F(TippDemBreaklines, WithoutHeightTakeTheSurfacesHeight)
 {
   for (const double value : this->values({ "--breaklines", "soft.csv" }))
   {
@@ -78,8 +78,8 @@ TEST_F(TippDemBreaklines, RefusesABoundaryThatIsNotClosed)
     << outcome.Err;
 }
 
-/// Points of a lattice and others, some of them twice, with lines that cross each other and a
-/// boundary. Corners of these are points, lie on edges of triangles, and inside.
+/// Points of a lattice and other points, some of them twice, with crossing lines and a boundary.
+/// Their corners are points, lie on edges of triangles, or inside triangles.
 class TippDemConstrained : public TippDem
 {
 protected:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// --duplicates and --thin of the commands that read points.
+// The options --duplicates and --thin of the commands that read points.
 #include "RunTipp.h"
 
 #include "Arrays/Random.h"
@@ -25,7 +25,7 @@ using Words = std::vector<std::string>;
 class TippDuplicates : public testing::Test
 {
 protected:
-  /// Runs it and expects success.
+  /// Runs the tool and expects success.
   Outcome run(const Words& words) const
   {
     Outcome outcome = runTipp(this->Folder, words);
@@ -33,7 +33,7 @@ protected:
     return outcome;
   }
 
-  /// Points on a coarse lattice, several on most places, with different heights.
+  /// Random points of a coarse lattice: most positions have several points, with different heights.
   void makePlaces(int count) const
   {
     tipp::Random random(7);
@@ -57,7 +57,7 @@ protected:
   TemporaryFolder Folder;
 };
 
-TEST_F(TippDuplicates, APlaceHasTheChosenValues)
+TEST_F(TippDuplicates, EqualPointsHaveTheChosenValues)
 {
   this->Folder.file("points.csv",
     "x,y,z,intensity\n0,0,5,10\n4,0,1,1\n0,0,2,40\n0,4,1,1\n0,0,8,70\n4,4,1,1\n4,4,1,2\n");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Kinds of files that commands read and write.
+// File formats that commands read and write.
 #include "RunTipp.h"
 
 #include "Points/ReadPoints.h"
@@ -27,7 +27,7 @@ protected:
   }
   std::string content(const std::string& name) const { return contentOf(this->Folder.path(name)); }
 
-  /// With its standard input from a file.
+  /// Runs the tool with a file as standard input.
   int runWithInput(const std::string& input, const std::string& words) const
   {
     const std::string command = "cd '" + this->Folder.path("") + "' && " TIPP_EXECUTABLE " " +
@@ -90,7 +90,7 @@ TEST_F(TippFormats, AnAdcircGridOfOtherPointsHasDepthsAndNoBoundaries)
     << this->content("out.14");
 }
 
-TEST_F(TippFormats, AnAdcircGridHoldsNoPointThatIsNotFinite)
+TEST_F(TippFormats, AnAdcircGridCannotHavePointsThatAreNotFinite)
 {
   this->Folder.file("points.csv", "x,y,z\n0,0,1\n1,0,2\n0,1,0\nnan,1,1\n");
   const Outcome outcome = runTipp(this->Folder, { "delaunay", "points.csv", "-o", "out.14" });
@@ -99,7 +99,7 @@ TEST_F(TippFormats, AnAdcircGridHoldsNoPointThatIsNotFinite)
   EXPECT_FALSE(std::filesystem::exists(this->Folder.path("out.14")));
 }
 
-TEST_F(TippFormats, AnAdcircGridHoldsNoArrays)
+TEST_F(TippFormats, AnAdcircGridCannotHaveArrays)
 {
   this->Folder.file("points.csv", "x,y\n0,0\n1,0\n0,1\n");
   for (const std::string option : { "--neighbors", "--map-duplicates" })
@@ -141,7 +141,7 @@ TEST_F(TippFormats, NumbersMayHaveDecimalCommas)
     EXPECT_EQ(xy, points.XY) << text;
     EXPECT_EQ((std::vector<double>{ 7, 8.5 }), points.Columns.at(0).Values) << text;
   }
-  // Commas that part columns stay what they are.
+  // Commas that separate columns are not decimal commas.
   EXPECT_EQ((std::vector<double>{ 1, 5, 3, 4 }),
     tipp::readPoints(this->Folder.file("plain.txt", "1, 5, 2\n3, 4, 7\n")).XY);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `tipp delaunay` with a partitioned mesh for output.
+// The command 'tipp delaunay' with a partitioned mesh as output.
 #include "MeshChecks.h"
 #include "RunTipp.h"
 
@@ -45,11 +45,11 @@ protected:
     return { "delaunay", this->Points, "-o", this->Mesh, "--memory", "2M", "--threads", "2" };
   }
 
-  /// Of the hidden folder beside the mesh.
+  /// The number of files in the work folder, which is hidden beside the mesh.
   std::size_t workFiles() const
   {
     const std::string work = this->Folder.path(".mesh.tipp.part");
-    std::error_code ignored; // files come and go
+    std::error_code ignored; // files may disappear meanwhile
     std::size_t count = 0;
     for (std::filesystem::recursive_directory_iterator at(work, ignored), end; at != end;
          at.increment(ignored))
@@ -59,7 +59,7 @@ protected:
     return count;
   }
 
-  /// What the process takes by itself; it depends on VTK's libraries.
+  /// The peak memory of a run with four points. It depends on VTK's libraries.
   double peakOfSmallRun() const
   {
     const std::string points = this->Folder.path("few.csv");
@@ -71,8 +71,8 @@ protected:
     return nlohmann::json::parse(contentOf(stats))["peak_memory_bytes"].get<double>();
   }
 
-  /// Runs and resumes, each killed when it has made a few files more, until one comes to its end.
-  /// Returns the number of those killed.
+  /// Starts and resumes runs, and kills each after it has made a few more files, until a run
+  /// finishes. Returns the number of killed runs.
   int killUntilDone(std::vector<std::string> more, std::mt19937& random) const
   {
     std::vector<std::string> arguments = this->command();
@@ -127,7 +127,7 @@ TEST_F(TippOutOfCore, ChecksTheNeighborsThatAMeshNames)
   const Outcome refused =
     runTipp(this->Folder, { "delaunay", this->Points, "-o", ids, "--neighbors" });
   EXPECT_EQ(2, refused.ExitCode);
-  EXPECT_NE(std::string::npos, refused.Err.find("--neighbors: needs an output of cells"))
+  EXPECT_NE(std::string::npos, refused.Err.find("--neighbors: needs an output named"))
     << refused.Err;
 }
 
@@ -155,7 +155,7 @@ TEST_F(TippOutOfCore, ChecksAgainstTheRightPointsOnly)
   EXPECT_NE(std::string::npos, checked.Err.find("are not the 3000 points"));
 }
 
-TEST_F(TippOutOfCore, EndsWithTheSameBytesAfterTwentyKills)
+TEST_F(TippOutOfCore, MakesTheSameBytesAfterTwentyKills)
 {
   this->makePoints("coast", "60000");
   ASSERT_EQ(0, this->run({ "--neighbors" }).ExitCode);
@@ -171,11 +171,12 @@ TEST_F(TippOutOfCore, EndsWithTheSameBytesAfterTwentyKills)
   }
 }
 
-/// Kills runs before each call in turn that renames or removes something, and resumes them.
+/// Kills runs before the first call that renames or removes something, then before the second, and
+/// so on, and resumes each.
 class TippKilledAtACall : public TippOutOfCore
 {
 protected:
-  /// Calls check() after each resumed run.
+  /// Calls prepare() before each killed run, and check() after each resumed one.
   template <typename Prepare, typename Check>
   void killAtEachCall(
     const std::vector<std::string>& more, const Prepare& prepare, const Check& check) const
@@ -205,7 +206,7 @@ protected:
   }
 };
 
-TEST_F(TippKilledAtACall, LeavesNothingInTheMeshNorBesideIt)
+TEST_F(TippKilledAtACall, LeavesNoOtherFiles)
 {
   this->makePoints("coast", "20000");
   ASSERT_EQ(0, this->run({}).ExitCode);
@@ -220,7 +221,7 @@ TEST_F(TippKilledAtACall, LeavesNothingInTheMeshNorBesideIt)
     });
 }
 
-TEST_F(TippKilledAtACall, ReplacesAnOlderMeshOrLeavesIt)
+TEST_F(TippKilledAtACall, ReplacesAnOlderMeshOrKeepsIt)
 {
   this->makePoints("uniform", "100");
   ASSERT_EQ(0, this->run({}).ExitCode);
@@ -277,7 +278,7 @@ TEST_F(TippOutOfCore, ResumesAfterInterrupt)
   EXPECT_EQ(0, runTipp(this->Folder, { "check", this->Points, this->Mesh }).ExitCode);
 }
 
-TEST_F(TippOutOfCore, MakesPiecesAgainThatAreDamagedBeforeItIsResumed)
+TEST_F(TippOutOfCore, RemakesPiecesThatAreDamagedBeforeItIsResumed)
 {
   this->makePoints("uniform", "100000");
   ASSERT_EQ(0, this->run({}).ExitCode);
@@ -299,7 +300,7 @@ TEST_F(TippOutOfCore, MakesPiecesAgainThatAreDamagedBeforeItIsResumed)
   EXPECT_TRUE(expected == filesOf(this->Mesh));
 }
 
-TEST_F(TippOutOfCore, CheckNamesTheFileOfAMeshThatIsDamaged)
+TEST_F(TippOutOfCore, CheckReportsTheDamagedFile)
 {
   this->makePoints("clustered", "10000");
   ASSERT_EQ(0, this->run({ "--neighbors" }).ExitCode);
@@ -315,11 +316,11 @@ TEST_F(TippOutOfCore, CheckNamesTheFileOfAMeshThatIsDamaged)
   }
 }
 
-TEST_F(TippOutOfCore, GoesOnAfterADiskThatIsFull)
+TEST_F(TippOutOfCore, ResumesAfterAFullDisk)
 {
   this->makePoints("uniform", "50000");
-  // A limit on the size of files stands for a full disk: first for the spilled points, then for
-  // pieces.
+  // A limit on the size of files simulates a full disk: first while points are spilled, then while
+  // pieces are written.
   for (const rlim_t most : { 100000, 1300000 })
   {
     rlimit before{};
@@ -339,12 +340,12 @@ TEST_F(TippOutOfCore, GoesOnAfterADiskThatIsFull)
   }
 }
 
-/// Points for which partitions do not pay: nearly all of them are on the rim, most of which is in a
-/// file.
+/// Points for which partitions do not pay: nearly all points are sent between pieces, mostly
+/// through a file.
 class TippLargeRim : public TippOutOfCore
 {
 protected:
-  /// y as it comes from x, which is -1 to 1.
+  /// Makes points (x, curve(x)) with x from -1 to 1.
   template <typename Curve>
   void makeCurve(int count, const Curve& curve)
   {
@@ -360,7 +361,7 @@ protected:
     }
   }
 
-  /// What Documentation/OutOfCore.md says of two threads.
+  /// Expects the memory bound that Documentation/OutOfCore.md gives for two threads.
   void expectSmall(double count) const
   {
     const Outcome made = this->run({ "--stats", this->Folder.path("run.json") });
@@ -368,7 +369,7 @@ protected:
     const auto json = nlohmann::json::parse(contentOf(this->Folder.path("run.json")));
     EXPECT_EQ(count, json["points"].get<double>());
     EXPECT_GT(json["boundary_bytes"], 0);
-    const double onTop = this->peakOfSmallRun() + 30e6; // for what two threads' kernels keep
+    const double onTop = this->peakOfSmallRun() + 30e6; // memory that two threads' kernels keep
     constexpr double perPoint = 300;
     EXPECT_LT(json["peak_memory_bytes"].get<double>(), 2 * 0x1p20 + onTop + perPoint * count);
     EXPECT_EQ(0, runTipp(this->Folder, { "check", this->Points, this->Mesh }).ExitCode);
@@ -394,7 +395,7 @@ TEST_F(TippLargeRim, OfALineAndAPointTakesLittleMemory)
   this->expectSmall(60000);
 }
 
-TEST_F(TippLargeRim, IsMadeAgainAfterKills)
+TEST_F(TippLargeRim, IsRemadeAfterKills)
 {
   this->makePoints("circle", "30000");
   ASSERT_EQ(0, this->run({}).ExitCode);
@@ -407,7 +408,7 @@ TEST_F(TippLargeRim, IsMadeAgainAfterKills)
   EXPECT_FALSE(std::filesystem::exists(this->Folder.path(".mesh.tipp.part")));
 }
 
-TEST_F(TippLargeRim, GoesOnAfterADiskThatIsFull)
+TEST_F(TippLargeRim, ResumesAfterAFullDisk)
 {
   this->makePoints("circle", "30000");
   const std::string scratch = this->Folder.path("scratch");
@@ -426,13 +427,13 @@ TEST_F(TippLargeRim, GoesOnAfterADiskThatIsFull)
   EXPECT_NE(std::string::npos, resumed.Out.find("30000 points")) << resumed.Out;
 }
 
-/// What Documentation/OutOfCore.md says of two threads.
+/// Expects the memory bound that Documentation/OutOfCore.md gives for two threads.
 class TippMemory : public TippOutOfCore
 {
 protected:
   void expectKept(const std::string& points, const std::string& sink, int limit) const
   {
-    const double onTop = this->peakOfSmallRun() + 30e6; // for what two threads' kernels keep
+    const double onTop = this->peakOfSmallRun() + 30e6; // memory that two threads' kernels keep
     const std::string report = this->Folder.path("run.json");
     const Outcome made = runTipp(this->Folder,
       { "delaunay", "uniform:" + points, "-o", this->Mesh, "--sink", sink, "--threads", "2",
@@ -454,7 +455,7 @@ TEST_F(TippMemory, IsWithinTheLimitForTwentyMillionPoints)
   this->expectKept("20000000", "count", 64);
 }
 
-TEST_F(TippOutOfCore, TellsTheTimeLeftOnATerminal)
+TEST_F(TippOutOfCore, ShowsTheTimeLeftOnATerminal)
 {
   const Outcome outcome = runTippOnTerminal(this->Folder,
     { "delaunay", "uniform:5000000", "-o", this->Mesh, "--sink", "count", "--threads", "1",
@@ -463,7 +464,7 @@ TEST_F(TippOutOfCore, TellsTheTimeLeftOnATerminal)
   EXPECT_NE(std::string::npos, outcome.Err.find(" s left")) << outcome.Err;
 }
 
-TEST_F(TippOutOfCore, NamesOptionsThatNeedSuchAnOutput)
+TEST_F(TippOutOfCore, ReportsOptionsThatNeedAPartitionedOutput)
 {
   this->makePoints("uniform", "100");
   for (const std::vector<std::string>& more :

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What becomes of outputs that cannot be written, are inputs as well, or have unusual names.
+// Outputs that cannot be written, are also inputs, or have unusual names.
 #include "MeshChecks.h"
 #include "RunTipp.h"
 
@@ -39,7 +39,7 @@ protected:
     ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
   }
 
-  /// No file can be larger, as if the disk were full.
+  /// Runs the tool with a limit on the size of files, as if the disk were full.
   Outcome runOnFullDisk(const Words& arguments, rlim_t bytes) const
   {
     rlimit before{};
@@ -52,7 +52,7 @@ protected:
     return outcome;
   }
 
-  /// One sentence and exit code 1, and all files are as before.
+  /// Expects one sentence, exit code 1, and unchanged files.
   void expectRefused(const Words& arguments, const std::string& words) const
   {
     const auto before = this->files();
@@ -86,11 +86,11 @@ struct FullDisk
 {
   const char* Name;
   Words Arguments;
-  rlim_t Bytes; ///< fewer than the output has
+  rlim_t Bytes; ///< less than the size of the output
   bool IsFile;
 };
 
-// CTest's names of the tests.
+// CTest shows this name for the test.
 std::ostream& operator<<(std::ostream& stream, const FullDisk& disk)
 {
   return stream << disk.Name;
@@ -115,11 +115,11 @@ TEST_P(TippFullDisk, FailsAndKeepsTheOldFile)
   EXPECT_NE(std::string::npos, outcome.Err.find("cannot be written (")) << outcome.Err;
   EXPECT_NE(std::string::npos, outcome.Err.find(output)) << outcome.Err;
   auto after = this->files();
-  after.erase("out.npy"); // the mesh whose figures cannot be written
+  after.erase("out.npy"); // this mesh was written, but not its statistics
   EXPECT_TRUE(before == after) << outcome.Err;
 }
 
-// out.vtu has 174816 bytes; the last ones are written as the file is closed.
+// out.vtu has 174,816 bytes. The last ones are written when the file is closed.
 INSTANTIATE_TEST_SUITE_P(Outputs, TippFullDisk,
   testing::Values(FullDisk{ "vtu", { "delaunay", "points.npy", "-o", "out.vtu" }, 100000, true },
     FullDisk{ "vtuAtItsEnd", { "delaunay", "points.npy", "-o", "out.vtu" }, 174000, true },
@@ -157,7 +157,7 @@ TEST_F(TippOutputs, PrintingToAFullDiskFails)
   }
 }
 
-TEST_F(TippOutputs, DeviceIsNoOutput)
+TEST_F(TippOutputs, ADeviceIsRefused)
 {
   fs::create_symlink("/dev/full", this->path("full.vtu"));
   this->expectRefused({ "delaunay", "points.npy", "-o", "full.vtu" }, "is not an ordinary file");
@@ -165,7 +165,7 @@ TEST_F(TippOutputs, DeviceIsNoOutput)
     { "delaunay", "points.npy", "-o", "a.npy", "--stats", "/dev/full" }, "is not an ordinary file");
 }
 
-TEST_F(TippOutputs, InputIsNoOutput)
+TEST_F(TippOutputs, AnInputIsRefused)
 {
   this->Folder.file("run.json", "old");
   fs::create_symlink("points.npy", this->path("link.npy"));
@@ -190,7 +190,7 @@ TEST_F(TippOutputs, InputIsNoOutput)
   this->expectRefused({ "partition", "flat", "-o", "x.tipp", "--stats", "flat/points.npy" }, also);
 }
 
-TEST_F(TippOutputs, FolderOfAnInputIsNoOutput)
+TEST_F(TippOutputs, TheFolderOfAnInputIsRefused)
 {
   const std::string holds = "holds an input";
   for (const char* const name : { "mesh.tipp", "mesh.tipp/", "./sub/../mesh.tipp" })
@@ -274,14 +274,14 @@ TEST_F(TippOutputs, MessagesNameTheOutputAndNotItsTemporaryFiles)
   EXPECT_EQ(std::string::npos, flatten.Err.find(".tmp")) << flatten.Err;
 }
 
-TEST_F(TippOutputs, FileInPlaceOfTheWorkFolderIsNamed)
+TEST_F(TippOutputs, AFileWithTheWorkFoldersNameIsReported)
 {
   this->Folder.file(".x.tipp.part", "mine");
   this->expectRefused(
     { "delaunay", "points.npy", "-o", "x.tipp" }, ".x.tipp.part: is a file where the work folder");
 }
 
-TEST_F(TippOutputs, UsersWorkFoldersAreLeftAlone)
+TEST_F(TippOutputs, UsersFoldersNamedLikeWorkFoldersAreKept)
 {
   fs::create_directory(this->path(".x.tipp.part"));
   this->Folder.file(".x.tipp.part/notes.txt", "mine");
@@ -293,22 +293,22 @@ TEST_F(TippOutputs, UsersWorkFoldersAreLeftAlone)
   EXPECT_EQ("mine", contentOf(this->path(".y.tipp.tmp.Ab3dEf/notes.txt")));
 }
 
-TEST_F(TippOutputs, UsersFilesInAMeshAreLeftAlone)
+TEST_F(TippOutputs, UsersFilesInAMeshAreKept)
 {
   this->Folder.file("mesh.tipp/notes.txt", "mine");
   this->expectRefused({ "partition", "flat", "-o", "mesh.tipp" }, "holds 'notes.txt'");
   this->expectRefused({ "delaunay", "points.npy", "-o", "mesh.tipp" }, "holds 'notes.txt'");
 }
 
-/// The run waits for its input in a pipe while the file appears.
-TEST_F(TippOutputs, FileThatAppearsDuringTheRunIsLeftAlone)
+/// The file appears while the run waits for its input from a pipe.
+TEST_F(TippOutputs, FileThatAppearsDuringTheRunIsKept)
 {
   for (const char* output : { "out.npy", "out.vtu", "out.vtp" })
   {
     const std::string pipe = this->path("pipe.csv");
     ASSERT_EQ(0, mkfifo(pipe.c_str(), 0600));
     const TippProcess process(this->Folder, { "delaunay", "pipe.csv", "-o", output });
-    std::ofstream input(pipe); // opens when the run reads, after it has looked at its output
+    std::ofstream input(pipe); // returns once the tool reads, after it has checked its output
     this->Folder.file(output, "the user's");
     input << "0,0\n1,0\n0,1\n" << std::flush;
     input.close();

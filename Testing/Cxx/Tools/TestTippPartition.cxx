@@ -42,7 +42,7 @@ protected:
     return runTipp(this->Folder, words);
   }
 
-  /// The hidden folders of runs.
+  /// The number of hidden folders that runs have left.
   int leftovers() const
   {
     int count = 0;
@@ -57,9 +57,9 @@ protected:
   TemporaryFolder Folder;
 };
 
-TEST_F(TippPartition, NamesTheFileThatItWasGiven)
+TEST_F(TippPartition, ReportsTheGivenFile)
 {
-  // Big-endian: a square, two coordinates of which are 1, one is NaN.
+  // Big-endian doubles: a square with two coordinates of 1 and one of NaN.
   std::string doubles(12 * 8, '\0');
   for (const std::size_t value : { 3, 9, 10 })
   {
@@ -77,7 +77,7 @@ TEST_F(TippPartition, NamesTheFileThatItWasGiven)
     outcome.Err);
 }
 
-TEST_F(TippPartition, SaysWhatItMade)
+TEST_F(TippPartition, ReportsTheMesh)
 {
   const Outcome outcome = this->run({ "--stats", "run.json", "--threads", "2" });
   EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
@@ -93,7 +93,7 @@ TEST_F(TippPartition, SaysWhatItMade)
   EXPECT_EQ(5U, json["phases"].size());
 }
 
-TEST_F(TippPartition, TakesAVtkFile)
+TEST_F(TippPartition, AcceptsAVtkFile)
 {
   this->run({});
   const Outcome outcome = runTipp(
@@ -104,7 +104,7 @@ TEST_F(TippPartition, TakesAVtkFile)
   EXPECT_GT(again.Pieces.size(), 4U);
 }
 
-TEST_F(TippPartition, RefusesAFlatMeshWithArraysNamedAsItsOwn)
+TEST_F(TippPartition, RefusesAFlatMeshWithReservedArrayNames)
 {
   this->run({});
   const Outcome outcome =
@@ -126,8 +126,8 @@ TEST_F(TippPartition, RefusesWrongUsage)
   EXPECT_EQ(0, this->leftovers());
 }
 
-// Wherever the run is killed, there is no mesh or a whole one, the source is as it was, and the
-// next run clears away what was left.
+// Wherever the run is killed, there is either no mesh or a complete one, and the source is
+// unchanged. The next run removes what is left of it.
 TEST_F(TippPartition, SurvivesBeingKilled)
 {
   const auto source = filesOf(this->Folder.path("flat"));
@@ -155,7 +155,8 @@ TEST_F(TippPartition, SurvivesBeingKilled)
   EXPECT_TRUE(source == filesOf(this->Folder.path("flat")));
 }
 
-/// Runs an action in a process with a small disk of its own at `where`; 77 if that is not allowed.
+/// Runs an action in a process that has a small disk mounted at `where`. Returns 77 if mounting is
+/// not permitted.
 template <typename Action>
 int onSmallDisk(const std::string& where, const char* size, const Action& action)
 {
@@ -175,7 +176,7 @@ int onSmallDisk(const std::string& where, const char* size, const Action& action
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-TEST_F(TippPartition, SaysThatTheDiskIsTooSmallBeforeItBegins)
+TEST_F(TippPartition, ReportsATooSmallDiskBeforeItStarts)
 {
   const int result = onSmallDisk(this->Folder.path("disk"), "size=100k",
     [this]
@@ -191,9 +192,10 @@ TEST_F(TippPartition, SaysThatTheDiskIsTooSmallBeforeItBegins)
   EXPECT_EQ(0, result);
 }
 
-TEST_F(TippPartition, SaysThatTheDiskIsFullAndLeavesNothing)
+TEST_F(TippPartition, ReportsAFullDiskAndLeavesNoFiles)
 {
-  // Cells that all borders cross need more room than is asked for in advance.
+  // These cells cross all borders, so the mesh needs more space than the tool checks for in
+  // advance.
   const SourceMesh soup = makeSource(cellSoup(2, 3, 3000, 3));
   writeFlat(soup, this->Folder.path("flat"));
   const int result = onSmallDisk(this->Folder.path("disk"), "size=1200k",

@@ -17,7 +17,7 @@ namespace
 
 using Words = std::vector<std::string>;
 
-/// A square of two triangles, stored and as a file, with a height of x + 10 y.
+/// A square of two triangles with heights x + 10 y, partitioned and as a file.
 class TippQuery : public testing::Test
 {
 protected:
@@ -54,7 +54,7 @@ TEST_F(TippQuery, WritesCellsAndArraysAsCsv)
   EXPECT_EQ("9,9,-1,,", line);
 }
 
-TEST_F(TippQuery, GivesTheSameOfAFileThatIsNotPartitioned)
+TEST_F(TippQuery, AnswersTheSameForAFileThatIsNotPartitioned)
 {
   EXPECT_EQ(0, this->run({ "query", "asked.csv", "mesh.tipp", "-o", "a.csv" }).ExitCode);
   EXPECT_EQ(0, this->run({ "query", "asked.csv", "mesh.vtu", "-o", "b.csv" }).ExitCode);
@@ -145,7 +145,7 @@ TEST_F(TippQuery, ListsCellsAndPointsOfARegion)
   EXPECT_EQ(std::string(8, '\0') + '\1' + std::string(7, '\0'), npy.substr(npy.size() - 16));
 }
 
-TEST_F(TippQuery, WritesWaysDownAsLines)
+TEST_F(TippQuery, WritesDescentsAsLines)
 {
   const Outcome outcome =
     this->run({ "query", "asked.csv", "mesh.tipp", "-o", "out.vtp", "--descend", "height" });
@@ -153,7 +153,7 @@ TEST_F(TippQuery, WritesWaysDownAsLines)
   EXPECT_NE(std::string::npos, this->content("out.vtp").find("PitId"));
 }
 
-TEST_F(TippQuery, RefusesOptionsThatDoNotGoTogether)
+TEST_F(TippQuery, RefusesConflictingOptions)
 {
   const auto expect = [this](const Words& words, const std::string& message)
   {
@@ -167,16 +167,16 @@ TEST_F(TippQuery, RefusesOptionsThatDoNotGoTogether)
     { "query", "asked.csv", "mesh.tipp", "-o", "out.npy", "--closest" }, "does not end in .csv");
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.csv", "--descend", "height" },
     "does not end in .vtp");
-  expect({ "query", "mesh.tipp", "-o", "ids.csv", "--ids", "cells" }, "give a region");
+  expect({ "query", "mesh.tipp", "-o", "ids.csv", "--ids", "cells" }, "--ids needs a region");
   expect({ "query", "mesh.tipp", "-o", "ids.csv", "--ids", "cells", "--bounds", "0", "1", "2", "3",
            "4" },
     "four numbers");
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "ids.csv", "--ids", "cells", "--bounds", "0",
            "1", "0", "1" },
-    "give the mesh alone");
+    "give only the mesh");
 }
 
-TEST_F(TippQuery, RefusesWhatItCannotAnswer)
+TEST_F(TippQuery, RefusesInvalidQueries)
 {
   const auto expect = [this](const Words& words, int exitCode, const std::string& message)
   {

@@ -20,7 +20,7 @@ namespace
 
 using Words = std::vector<std::string>;
 
-/// A triangulation with the field z at its points, as a VTK file.
+/// A VTK file of a triangulation with the field z at its points.
 class TippMesh : public testing::Test
 {
 protected:
@@ -43,7 +43,7 @@ protected:
     return std::filesystem::exists(this->Folder.path(name));
   }
 
-  /// The .npy image of the range of a mesh.
+  /// The .npy image of a range of the mesh.
   std::string imageOf(const std::string& mesh) const
   {
     const Outcome outcome = this->run({ "resample", mesh, "-o", "image.npy", "--arrays", "height",
@@ -68,7 +68,7 @@ TEST_F(TippFlatten, WritesAFolderOfArrays)
   EXPECT_TRUE(this->exists("flat/point_data/height.npy"));
 }
 
-TEST_F(TippFlatten, LeavesAFolderOfOthersAlone)
+TEST_F(TippFlatten, KeepsAFolderOfOthers)
 {
   std::filesystem::create_directory(this->Folder.path("flat"));
   this->Folder.file("flat/notes", "mine");
@@ -83,7 +83,7 @@ TEST_F(TippFlatten, RefusesValuesWithoutAGrid)
   EXPECT_EQ(2, this->run({ "flatten", "mesh.vtu", "-o", "flat", "--values", "fort.63" }).ExitCode);
 }
 
-TEST_F(TippResample, OfAStoredMeshIsThatOfItsSource)
+TEST_F(TippResample, OfAStoredMeshEqualsThatOfItsSource)
 {
   ASSERT_EQ(0, this->run({ "flatten", "mesh.vtu", "-o", "flat" }).ExitCode);
   ASSERT_EQ(
@@ -95,7 +95,7 @@ TEST_F(TippResample, OfAStoredMeshIsThatOfItsSource)
   EXPECT_TRUE(expected == this->imageOf("mesh.tipp/index.json"));
 }
 
-TEST_F(TippResample, OfAMeshReadInPartsIsThatOfTheWhole)
+TEST_F(TippResample, OfAMeshReadInPartsEqualsThatOfTheWhole)
 {
   this->run({ "partition", "mesh.vtu", "-o", "mesh.tipp", "--tiling", "grid:5x3" });
   const auto imageOf = [&](const Words& words)
@@ -119,7 +119,7 @@ TEST_F(TippResample, OfAMeshReadInPartsIsThatOfTheWhole)
   }
 }
 
-TEST_F(TippResample, HasTheArraysOfTheMeshAlone)
+TEST_F(TippResample, HasOnlyTheArraysOfTheMesh)
 {
   ASSERT_EQ(0, this->run({ "partition", "mesh.vtu", "-o", "mesh.tipp" }).ExitCode);
   const Outcome outcome =
@@ -130,7 +130,7 @@ TEST_F(TippResample, HasTheArraysOfTheMeshAlone)
   EXPECT_EQ(std::string::npos, image.find("Global"));
 }
 
-TEST_F(TippResample, NamesTheArraysThatThereAre)
+TEST_F(TippResample, ListsTheArraysOfTheMesh)
 {
   ASSERT_EQ(0, this->run({ "flatten", "mesh.vtu", "-o", "flat" }).ExitCode);
   ASSERT_EQ(0, this->run({ "partition", "flat", "-o", "mesh.tipp" }).ExitCode);
@@ -143,7 +143,7 @@ TEST_F(TippResample, NamesTheArraysThatThereAre)
   }
 }
 
-TEST_F(TippResample, SaysWhatFailedInOneSentence)
+TEST_F(TippResample, ReportsAFailureInOneSentence)
 {
   const Outcome outcome = this->run({ "resample", "mesh.vtu", "-o", "image.vti", "--dims", "8", "8",
     "1", "--bounds", "nan", "1", "0", "1", "0", "0" });
@@ -164,7 +164,7 @@ TEST_F(TippResample, WarnsOfARangeOutsideOfTheMesh)
     outcome.Err);
 }
 
-TEST_F(TippResample, RefusesAGridWithoutPointsOfItsOwn)
+TEST_F(TippResample, RefusesAGridWithImplicitPoints)
 {
   ASSERT_EQ(
     0, this->run({ "resample", "mesh.vtu", "-o", "image.vti", "--dims", "8", "8", "1" }).ExitCode);
@@ -174,11 +174,11 @@ TEST_F(TippResample, RefusesAGridWithoutPointsOfItsOwn)
   EXPECT_NE(std::string::npos, outcome.Err.find("holds a vtkImageData")) << outcome.Err;
 }
 
-/// Files that crash or stop VTK's readers, or whose ids are those of no point.
+/// Files that crash or end VTK's readers, or with ids of points that do not exist.
 class TippDamagedFile : public testing::Test
 {
 protected:
-  /// All commands that read the mesh fail with one line that starts so.
+  /// Expects that all commands that read the mesh fail with one line that begins with `start`.
   void expectRefusal(const std::string& file, const std::string& start) const
   {
     for (const Words& words :
@@ -191,7 +191,7 @@ protected:
       EXPECT_EQ(0U, outcome.Err.find("tipp: " + file + ": " + start)) << words[0] << outcome.Err;
       EXPECT_EQ(outcome.Err.size() - 1, outcome.Err.find('\n')) << words[0] << outcome.Err;
     }
-    EXPECT_EQ(1U, this->Folder.fileCount() - 2); // beside what runTipp() keeps
+    EXPECT_EQ(1U, this->Folder.fileCount() - 2); // runTipp() keeps two files
   }
 
   static std::string surface(const std::string& components, const std::string& id)
@@ -214,7 +214,7 @@ protected:
   TemporaryFolder Folder;
 };
 
-TEST_F(TippDamagedFile, WithIdsOfNoPointIsRefused)
+TEST_F(TippDamagedFile, WithInvalidPointIdsIsRefused)
 {
   for (const char* const id : { "-1", "3", "4294967299", "999999999999" })
   {
@@ -257,7 +257,7 @@ TEST_F(TippResample, SamplesTheHeightsOfASurface)
     << flat.Err;
 }
 
-TEST_F(TippResample, NamesAnArrayThatIsNotThere)
+TEST_F(TippResample, ReportsAMissingArray)
 {
   for (const char* const mesh : { "mesh.vtu", "mesh.tipp" })
   {
@@ -289,7 +289,7 @@ TEST_F(TippResample, ChecksTheOutputBeforeTheWork)
   EXPECT_NE(std::string::npos, outcome.Err.find("none/image.vti")) << outcome.Err;
 }
 
-TEST_F(TippPointsLike, LieInTheBoxOfTheOthers)
+TEST_F(TippPointsLike, AreInTheBoxOfTheOthers)
 {
   const Outcome outcome = this->run(
     { "points", "--like", "points.csv", "--count", "300", "--seed", "4", "-o", "more.npy" });

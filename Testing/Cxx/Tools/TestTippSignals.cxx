@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Signals at any moment, without regard to how fast the machine is: the tool is made to hang in a
-// call that reads or writes a file, each call in turn, so that only the signal can end it.
+// Signals at any moment, independent of the machine's speed: the tool is made to hang in one call
+// that reads or writes a file after the other, so that only the signal can end it.
 #include "RunTipp.h"
 
 #include <gtest/gtest.h>
@@ -55,8 +55,8 @@ protected:
     return names;
   }
 
-  /// Runs the command until it hangs in that call; sends the signal then. False if the command
-  /// ended before.
+  /// Runs the command until it hangs in this call, and sends the signal. Returns false if the
+  /// command ended before.
   bool hangAndSignal(
     const std::vector<std::string>& arguments, int call, int number, Outcome& outcome)
   {
@@ -80,7 +80,7 @@ protected:
     return hangs;
   }
 
-  /// In every call or, where there are many, in some.
+  /// Signals every call that reads or writes a file or, if there are many, some of them.
   void expectClearEndsOf(const std::vector<std::string>& arguments, const std::string& output,
     const std::vector<std::string>& mayStay = {})
   {
@@ -178,7 +178,7 @@ TEST_F(TippSignals, TerminationRemovesTemporaryFiles)
   }
 }
 
-TEST_F(TippSignals, StateOfAnEarlierRunStaysWhereTheNextIsInterrupted)
+TEST_F(TippSignals, AnInterruptKeepsTheStateOfAnEarlierRun)
 {
   this->makePoints();
   const std::vector<std::string> arguments{ "delaunay", "points.npy", "-o", "out.tipp",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tool of a build without MPI.
+// The tool in a build without MPI.
 #include "RunTipp.h"
 
 #include <gtest/gtest.h>

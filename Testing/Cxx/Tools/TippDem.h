@@ -19,7 +19,7 @@ namespace tipp::test
 
 using Words = std::vector<std::string>;
 
-/// Points of a hilly square of side 100, at whose corners there are points.
+/// Points of hilly terrain in a square of side 100, with points at its corners.
 class TippDem : public testing::Test
 {
 protected:
@@ -46,7 +46,7 @@ protected:
 
   Outcome run(const Words& words) const { return runTipp(this->Folder, words); }
 
-  /// Of a raster of points.csv.
+  /// Makes a raster of points.csv.
   void make(const std::string& output, const Words& more) const
   {
     Words words{ "dem", "points.csv", "-o", output };
@@ -57,7 +57,7 @@ protected:
 
   std::string content(const std::string& name) const { return contentOf(this->Folder.path(name)); }
 
-  /// The numbers of an .npy file.
+  /// The values of an .npy file.
   std::vector<double> valuesOf(const std::string& name) const
   {
     const std::string file = this->content(name);

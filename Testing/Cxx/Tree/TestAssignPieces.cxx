@@ -27,7 +27,7 @@ std::int64_t heaviest(const std::vector<std::int64_t>& weights, const Starts& st
   return most;
 }
 
-// Over all ways to cut.
+// The smallest possible weight of the heaviest run, by a search of all divisions.
 std::int64_t best(const std::vector<std::int64_t>& weights, std::size_t begin, int ranks)
 {
   std::int64_t sum = 0;
@@ -57,7 +57,7 @@ TEST(AssignPieces, OneRankHasAll)
   EXPECT_EQ(assignPieces({ 1, 2, 3 }, 0), (Starts{ 0, 3 }));
 }
 
-TEST(AssignPieces, AHeavyPieceStandsAlone)
+TEST(AssignPieces, AHeavyPieceIsARunOfItsOwn)
 {
   EXPECT_EQ(assignPieces({ 1, 1, 100, 1, 1 }, 3), (Starts{ 0, 2, 3, 5 }));
 }
@@ -68,13 +68,13 @@ TEST(AssignPieces, MoreRanksThanPiecesGiveEmptyRuns)
   EXPECT_EQ(assignPieces({}, 2), (Starts{ 0, 0, 0 }));
 }
 
-TEST(AssignPieces, PiecesWithoutWeightAreGivenOutToo)
+TEST(AssignPieces, PiecesWithoutWeightAreAssignedToo)
 {
   EXPECT_EQ(assignPieces({ 0, 0, 0, 0 }, 2).back(), 4u);
   EXPECT_EQ(assignPieces({ -3, 4, -3 }, 2).back(), 3u);
 }
 
-TEST(AssignPieces, TheHeaviestRunIsAsLightAsCanBeAndNoRunIsEmpty)
+TEST(AssignPieces, TheHeaviestRunIsAsLightAsPossibleAndNoRunIsEmpty)
 {
   std::mt19937 engine(1);
   for (int i = 0; i < 300; ++i)

@@ -42,7 +42,7 @@ void expectSameTree(const PartitionTree& expected, const PartitionTree& actual)
   EXPECT_EQ(expected.Cells, actual.Cells);
 }
 
-// Beside each other along the square's diagonal.
+// Slivers beside each other along the square's diagonal.
 CellSet slivers(std::size_t count)
 {
   CellSet cells;
@@ -57,7 +57,7 @@ CellSet slivers(std::size_t count)
 
 } // namespace
 
-TEST(BuildTree, IsTheTreeOfTheRuleForTriangles)
+TEST(BuildTree, EqualsTheReferenceTreeForTriangles)
 {
   for (const CellSet& cells : { latticeTriangles(16, 0.0), latticeTriangles(15, 0.4) })
   {
@@ -68,7 +68,7 @@ TEST(BuildTree, IsTheTreeOfTheRuleForTriangles)
   }
 }
 
-TEST(BuildTree, IsTheTreeOfTheRuleForTetrahedra)
+TEST(BuildTree, EqualsTheReferenceTreeForTetrahedra)
 {
   for (const CellSet& cells : { latticeTetrahedra(4, 0.0), latticeTetrahedra(4, 0.4) })
   {
@@ -79,7 +79,7 @@ TEST(BuildTree, IsTheTreeOfTheRuleForTetrahedra)
   }
 }
 
-TEST(BuildTree, IsTheTreeOfTheRuleForCellsOfAllLengths)
+TEST(BuildTree, EqualsTheReferenceTreeForCellsOfAllSizes)
 {
   const CellSet triangles = cellSoup(2, 3, 500, 1);
   expectTree(referenceTree(triangles, 20), build(triangles, 20));
@@ -107,7 +107,7 @@ TEST(BuildTree, TheOrderOfTheCellsChangesNothing)
   const CellSet cells = cellSoup(2, 3, 2000, 5);
   CellSet reversed = cells;
   std::reverse(reversed.Coordinates.begin(), reversed.Coordinates.end());
-  // Corners come back as (y, x); put each in order again.
+  // Each corner is now (y, x); exchanges the coordinates.
   for (std::size_t i = 0; i < reversed.Coordinates.size(); i += 2)
   {
     std::swap(reversed.Coordinates[i], reversed.Coordinates[i + 1]);
@@ -126,7 +126,7 @@ TEST(BuildTree, ThreadsChangeNothing)
     buildTree(sourceOf(cells), cells.bounds(), five));
 }
 
-TEST(BuildTree, ALeafsNumberIsThatOfTheCellsThatClassificationGivesIt)
+TEST(BuildTree, ALeafCountsTheCellsThatClassificationAssigns)
 {
   for (const CellSet& cells : { latticeTriangles(40, 0.0), cellSoup(3, 4, 2000, 7) })
   {
@@ -170,7 +170,7 @@ TEST(BuildTree, AMeshOfOneChunkIsReadOnce)
 
 TEST(BuildTree, ManyCellsAtOnePointAreNotSplitForEver)
 {
-  // All triangles meet the centre; none is shorter than a quarter of the square.
+  // All triangles have the centre as a corner, and are at least a quarter of the square long.
   CellSet cells;
   for (int i = 0; i < 500; ++i)
   {
@@ -189,7 +189,7 @@ TEST(BuildTree, SliversBesideEachOtherAreNotSplitForEver)
   EXPECT_LE(tree.Tiling.count(), 16);
 }
 
-TEST(BuildTree, TinyCellsAtOnePlaceEndAtTheGreatestDepth)
+TEST(BuildTree, TinyCellsAtOnePointEndAtTheGreatestDepth)
 {
   CellSet cells = latticeTriangles(2, 0.0);
   for (int i = 0; i < 100; ++i)
@@ -205,8 +205,8 @@ TEST(BuildTree, TinyCellsAtOnePlaceEndAtTheGreatestDepth)
   EXPECT_EQ(buildTree(sourceOf(cells), cells.bounds(), shallow).Tiling.count(), 16);
 }
 
-// A lattice, one point of which is far away: its cells are as wide as the domain, and each other's
-// boxes never hold few of them.
+// A lattice with one point far away. The cells at this point are as wide as the domain, so no box
+// meets only a few of them.
 TEST(BuildTree, CellsThatOverlapEverywhereAreRefused)
 {
   const auto pointAt = [](int i, int j)
@@ -237,7 +237,7 @@ TEST(BuildTree, CellsThatOverlapEverywhereAreRefused)
   }
 }
 
-TEST(BuildTree, NoCellsAreOneLeaf)
+TEST(BuildTree, WithoutCellsThereIsOneLeaf)
 {
   CellSet cells = latticeTriangles(2, 0.0);
   const tipp::Box3 domain = cells.bounds();
@@ -247,7 +247,7 @@ TEST(BuildTree, NoCellsAreOneLeaf)
   EXPECT_EQ(tree.Cells, (std::vector<std::int64_t>{ 0 }));
 }
 
-TEST(BuildTree, TrianglesInSpaceAreTakenByTheirXAndYInAQuadtree)
+TEST(BuildTree, AQuadtreeUsesXAndYOfTrianglesInSpace)
 {
   const CellSet flat = latticeTriangles(20, 0.3);
   const CellSet inSpace = surface(flat);
@@ -268,7 +268,7 @@ TEST(BuildTree, AFlatMeshInSpaceIsCutAlongItsTwoAxes)
   EXPECT_EQ(build(cells, 30).Cells, build(flat, 30).Cells);
 }
 
-TEST(BuildTree, NamesACellWithoutAPlace)
+TEST(BuildTree, ReportsAnInvalidCell)
 {
   CellSet cells = latticeTriangles(20, 0.0);
   const tipp::Box3 domain = cells.bounds();
@@ -284,7 +284,7 @@ TEST(BuildTree, NamesACellWithoutAPlace)
     "Cell 333 lies outside the domain");
 }
 
-TEST(BuildTree, RefusesAThresholdBelowOneAndADomainThatIsNone)
+TEST(BuildTree, RefusesAThresholdBelowOneAndAnInvalidDomain)
 {
   const CellSet cells = latticeTriangles(2, 0.0);
   expectFailure([&] { build(cells, 0); }, "needs a threshold of at least one cell, not 0");
@@ -293,7 +293,7 @@ TEST(BuildTree, RefusesAThresholdBelowOneAndADomainThatIsNone)
     "no finite bounds along axis 0");
 }
 
-TEST(BuildTree, RefusesAReaderThatGivesTooFewCoordinates)
+TEST(BuildTree, RefusesAReaderWithTooFewCoordinates)
 {
   const CellSet cells = latticeTriangles(2, 0.0);
   tipp::CellSource source = sourceOf(cells);

@@ -27,7 +27,7 @@ TEST(RefinementTree, ItsStructureIsDepthFirst)
   EXPECT_EQ(tree.structure(), "1100000100000");
 }
 
-TEST(RefinementTree, ComesBackFromItsStructure)
+TEST(RefinementTree, IsRestoredFromItsStructure)
 {
   RefinementTree tree(2, Square);
   tree.split(0);
@@ -50,14 +50,14 @@ TEST(RefinementTree, AMergedStructureHasTheSplitsOfBoth)
   EXPECT_EQ(RefinementTree::merged(third, first, 4), "1100000100000");
 }
 
-TEST(RefinementTree, RefusesAStructureThatIsNone)
+TEST(RefinementTree, RefusesAnInvalidStructure)
 {
   for (const char* broken : { "", "1", "1000", "100000", "x", "1000x", "1111111" })
   {
     expectFailure([&] { RefinementTree::merged("0", broken, 4); }, "do not make a tree");
     expectFailure([&] { RefinementTree::merged(broken, "10000", 4); }, "do not make a tree");
   }
-  // Deeper than any tree.
+  // A structure that is deeper than any tree may be.
   expectFailure([]
     { RefinementTree::merged("0", std::string(100, '1') + std::string(301, '0'), 4); },
     "do not make a tree");
@@ -77,7 +77,7 @@ TEST(RefinementTree, IsCutBackToATiling)
   EXPECT_EQ(tiling.box(4).Max, tree.box(2).Max);
 }
 
-TEST(RefinementTree, ABoxWhoseHalvesDoublesCannotTellIsNotSplit)
+TEST(RefinementTree, ABoxTooSmallForDoublesIsNotSplit)
 {
   const Box3 thin = { { 1, 0, 0 }, { std::nextafter(1.0, 2.0), 1, 0 } };
   EXPECT_FALSE(RefinementTree(2, thin).canSplit(0, 24));

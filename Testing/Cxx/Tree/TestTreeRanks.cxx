@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Run on several ranks: each builds the tree alone too and compares.
+// Each rank also builds the tree alone, and compares it with that of all ranks.
 #include "Partitioning/BuildTree.h"
 #include "Ranks/Communicator.h"
 
@@ -53,7 +53,7 @@ void expectTreeOfOneRank(const CellSet& cells, std::int64_t threshold)
 
 } // namespace
 
-TEST(TreeRanks, AnyNumberGivesTheTreeOfOneForTriangles)
+TEST(TreeRanks, AnyNumberOfRanksMakesTheTreeOfOneForTriangles)
 {
   for (const std::int64_t threshold : { 1, 2, 4, 30, 200, 100000 })
   {
@@ -64,7 +64,7 @@ TEST(TreeRanks, AnyNumberGivesTheTreeOfOneForTriangles)
   expectTreeOfOneRank(fan(1000), 20);
 }
 
-TEST(TreeRanks, AnyNumberGivesTheTreeOfOneForTetrahedra)
+TEST(TreeRanks, AnyNumberOfRanksMakesTheTreeOfOneForTetrahedra)
 {
   for (const std::int64_t threshold : { 5, 40, 300 })
   {
@@ -73,14 +73,14 @@ TEST(TreeRanks, AnyNumberGivesTheTreeOfOneForTetrahedra)
   }
 }
 
-TEST(TreeRanks, ItIsTheTreeOfTheRule)
+TEST(TreeRanks, EqualsTheReferenceTree)
 {
   const CellSet cells = cellSoup(2, 3, 300, 3);
   expectTree(referenceTree(cells, 15),
     buildTree(sourceOf(cells), cells.bounds(), options(cells, 15, 20), world()));
 }
 
-TEST(TreeRanks, FewerCellsThanRanksAreATreeToo)
+TEST(TreeRanks, AcceptsFewerCellsThanRanks)
 {
   expectTreeOfOneRank(latticeTriangles(1, 0.0), 1);
 }
@@ -96,7 +96,7 @@ TEST(TreeRanks, ADummyControllerIsOneRank)
   EXPECT_EQ(alone.Tiling.children(), withDummy.Tiling.children());
 }
 
-TEST(TreeRanks, AnErrorOnOneIsAnErrorOnAll)
+TEST(TreeRanks, AnErrorOnOneRankIsReportedOnAll)
 {
   CellSet cells = latticeTriangles(20, 0.0);
   const tipp::Box3 domain = cells.bounds();

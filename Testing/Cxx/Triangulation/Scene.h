@@ -12,15 +12,15 @@ namespace tipp
 namespace test
 {
 
-/// Points inside artificial ones, cut into partitions, some inserted at first: what the lemmas
-/// speak of.
+/// The input of the lemmas: partitions with their points, the initial points, and artificial points
+/// around all of them.
 struct Scene
 {
-  Coordinates XY; ///< the artificial points come first
+  Coordinates XY; ///< the artificial points are first
   std::int64_t Artificial = 0;
   std::vector<Box> Partitions;
-  std::vector<Ids> Points; ///< of each partition, without its initial points
-  Ids Initial;             ///< true points of the initial mesh
+  std::vector<Ids> Points; ///< per partition, without the initial points
+  Ids Initial;             ///< the initial points, without the artificial ones
 
   Ids artificial() const
   {
@@ -57,8 +57,8 @@ inline Ids verticesOf(const Triangles& triangles)
   return together(ids, {});
 }
 
-/// `side` x `side` partitions over the points of a set, every `every`-th of which is initial.
-/// `margin`: of the artificial points, in lengths of the domain.
+/// `side` x `side` partitions over a point set, every `every`-th point of which is initial. The
+/// artificial points are `margin` times the domain's width away from it.
 inline Scene makeScene(const std::string& set, std::size_t count, int side, std::size_t every,
   double margin, std::uint64_t seed)
 {
@@ -88,7 +88,7 @@ inline Scene makeScene(const std::string& set, std::size_t count, int side, std:
   }
   scene.Artificial = std::int64_t(scene.XY.size() / 2);
   scene.XY.insert(scene.XY.end(), points.begin(), points.end());
-  // The last cut is the domain's end itself: sums would round.
+  // The last cut is exactly the domain's end, which a sum would miss by rounding.
   const auto cut = [&](double low, double high, int at)
   { return at == side ? high : low + at * (high - low) / side; };
   for (int i = 0; i < side * side; ++i)
@@ -103,7 +103,7 @@ inline Scene makeScene(const std::string& set, std::size_t count, int side, std:
   for (std::size_t i = 0; i < points.size() / 2; ++i)
   {
     const auto id = scene.Artificial + std::int64_t(i);
-    // A point on a shared border belongs to the first of its partitions.
+    // A point on a common border belongs to the first of the partitions there.
     const auto owner = std::find_if(scene.Partitions.begin(), scene.Partitions.end(),
       [&](const Box& box) { return box.holds(points[2 * i], points[2 * i + 1]); });
     Ids& ids =

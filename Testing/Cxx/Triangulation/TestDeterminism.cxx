@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The same options give the same triangles in the same order.
+// Two runs with the same options give the same triangles in the same order.
 #include "Comparison.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ bool sameOrder(const Triangulation& a, const Triangulation& b)
     std::equal(a.Ids64.begin(), a.Ids64.end(), b.Ids64.begin(), b.Ids64.end());
 }
 
-TEST_P(Determinism, TheOrderOfTrianglesIsThatOfTheOptions)
+TEST_P(Determinism, TheOrderOfTrianglesDependsOnlyOnTheOptions)
 {
   const Coordinates xy = makePointSet("clustered", 60000);
   TriangulationOptions options;
@@ -43,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(Schedules, Determinism,
   testing::Values(Schedule::Stages, Schedule::Dynamic),
   [](const auto& info) { return info.param == Schedule::Stages ? "Stages" : "Dynamic"; });
 
-TEST(Determinism, TheOrderOfPointsChangesIdsAlone)
+TEST(Determinism, TheOrderOfPointsChangesOnlyIds)
 {
   // Ties are broken by coordinates, not by ids.
   const Coordinates xy = makePointSet("lattice", 2500);

@@ -34,7 +34,7 @@ TEST(Duplicates, EveryPointIsAccountedFor)
   EXPECT_EQ(xy.size() / 2, vertices + result.Duplicates.size() + result.Rejected.size());
 }
 
-TEST(Duplicates, TheRepresentativeIsTheLowestIdEvenIfACopyComesSortedFirst)
+TEST(Duplicates, TheRepresentativeIsTheLowestIdEvenIfACopyIsInsertedFirst)
 {
   // The copies of each corner lie far apart in the input.
   Coordinates xy = makePointSet("uniform", 1000);
@@ -52,9 +52,9 @@ TEST(Duplicates, TheRepresentativeIsTheLowestIdEvenIfACopyComesSortedFirst)
   }
 }
 
-TEST(Duplicates, CopiesOnTheBordersOfPartitionsMeet)
+TEST(Duplicates, CopiesOnPartitionBordersAreFound)
 {
-  // 8 x 8 partitions of [0, 8] x [0, 8]: every point lies on a border, and four times in the input.
+  // 8 x 8 partitions of [0, 8] x [0, 8]. Every point lies on a border, and occurs four times.
   Coordinates xy;
   for (int copy = 0; copy < 4; ++copy)
   {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The set of triangles is CGAL's for every input, partitioning, thread count and schedule.
+// The triangles are those of CGAL for every input, partitioning, thread count and schedule.
 #include "Comparison.h"
 
 #include <cctype>
@@ -22,7 +22,7 @@ struct PointSet
   std::size_t Count;
 };
 
-/// The last reference made: the tests of one input come one after the other.
+/// Keeps the last reference, since the tests of one input follow each other.
 const Reference& cachedReference(const std::string& name, const Coordinates& xy)
 {
   static std::string of;
@@ -86,7 +86,7 @@ std::string nameOf(const testing::TestParamInfo<Exactness::ParamType>& info)
 INSTANTIATE_TEST_SUITE_P(PointSets, Exactness,
   testing::Combine(testing::ValuesIn(pointSets), testing::ValuesIn(grids)), nameOf);
 
-/// Large enough that a tiling of the program's own choice has many boxes.
+/// Large enough for many boxes in a tiling of automatic size.
 class ManyPoints : public testing::TestWithParam<std::string>
 {
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When may two partitions be active together? Not as soon as no circumdisk meets both: an edge
-// between two triangles, one belonging to each, lets their points meet across it.
+// Which partitions may be triangulated at the same time? It is not enough that no circumdisk meets
+// both. If two triangles with a common edge belong to one partition each, an edge across it may
+// join a point of one partition to a point of the other.
 #include "Comparison.h"
 #include "Scene.h"
 
@@ -12,7 +13,7 @@ namespace
 
 using namespace tipp::test;
 
-/// A triangle belongs to both.
+/// Whether a triangle belongs to both partitions.
 bool shareATriangle(const Triangles& p, const Triangles& q)
 {
   Triangles common;
@@ -33,7 +34,7 @@ std::set<std::pair<std::int64_t, std::int64_t>> edgesOf(const Triangles& triangl
   return edges;
 }
 
-/// A triangle belongs to both, or two that share an edge belong to one each.
+/// Whether a triangle belongs to both, or of two triangles with a common edge one to each.
 bool shareAnEdge(const Triangles& p, const Triangles& q)
 {
   const auto edges = edgesOf(p);
@@ -47,7 +48,8 @@ bool shareAnEdge(const Triangles& p, const Triangles& q)
   return false;
 }
 
-/// The ids 0 and 1 are a and b, 2 and 3 the apexes of their triangles; the last two are x and y.
+/// Ids 0 and 1 are the ends a and b of the common edge, 2 and 3 the apexes of its triangles. The
+/// last two are x in P and y in Q, which a new edge joins.
 struct Counterexample
 {
   Coordinates XY{ -1, 0, 1, 0, 0.5, 1.5, 0.5, -1.5, -0.5, 1.75, -0.5, -1.75, 2, 0, -2, 0, 8, 8, -8,
@@ -86,7 +88,7 @@ TEST(ConflictRule, ACommonEdgeShowsTheConflict)
     shareAnEdge(belonging(example.XY, mesh, example.P), belonging(example.XY, mesh, example.Q)));
 }
 
-/// A random box of at most a fifth of the unit square's width.
+/// A random box in the unit square, at most 0.2 wide and high.
 Box randomBox(std::mt19937_64& random)
 {
   const auto unit = [&] { return double(random() >> 11) * 0x1p-53; };
@@ -95,7 +97,7 @@ Box randomBox(std::mt19937_64& random)
   return { x, y, x + 0.02 + 0.18 * unit(), y + 0.02 + 0.18 * unit() };
 }
 
-/// An initial mesh, two boxes, and the points of each.
+/// An initial mesh, two boxes, and the points in each box.
 struct Draw
 {
   Coordinates XY;
@@ -129,7 +131,7 @@ Draw drawUniform(std::mt19937_64& random)
   return draw;
 }
 
-/// Co-circular points everywhere, and disks that touch boxes.
+/// Many co-circular points, and disks that touch boxes.
 Draw drawLattice(std::mt19937_64& random)
 {
   Draw draw;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The four facts that the parallel triangulation rests on, each alone: CGAL triangulates, rational
-// arithmetic decides about disks and boxes.
+// Tests each lemma of the parallel triangulation by itself. CGAL triangulates; rational arithmetic
+// decides which disks meet which boxes.
 #include "Comparison.h"
 #include "Scene.h"
 
@@ -26,16 +26,16 @@ public:
   }
 };
 
-/// Grown by a relative hair on each side, as the gathering of a worker's triangles needs it.
+/// The box, slightly larger on each side. Gathering more triangles than necessary does no harm.
 Box grown(const Box& box)
 {
   const double hair = 1e-9 * (box.XMax - box.XMin + box.YMax - box.YMin);
   return { box.XMin - hair, box.YMin - hair, box.XMax + hair, box.YMax + hair };
 }
 
-/// Lemma 1, for partitions taken one after the other, as a run does. A worker that sees the
-/// vertices of the triangles belonging to its partition makes the triangles belonging to it that
-/// all points inserted so far make.
+/// Lemma 1, for partitions one after the other, as in a run. A worker sees only the vertices of the
+/// triangles that belong to its partition. The triangles that it makes there are those of the
+/// triangulation of all points inserted so far.
 TEST_P(Lemma, Worker_TheVerticesAroundAPartitionSuffice)
 {
   const Scene scene = this->scene();
@@ -54,7 +54,7 @@ TEST_P(Lemma, Worker_TheVerticesAroundAPartitionSuffice)
   }
 }
 
-/// The other half of what a worker's result is for: triangles not belonging to the partition stay.
+/// The rest of Lemma 1: a worker changes no triangle that does not belong to its partition.
 TEST_P(Lemma, Worker_TrianglesNotBelongingToThePartitionStay)
 {
   const Scene scene = this->scene(2);
@@ -101,7 +101,7 @@ TEST_P(Lemma, Final_ATriangleThatMeetsNoUnfinishedPartitionStays)
   EXPECT_GT(finalOnes, last.size()) << "hardly a triangle was final before the end";
 }
 
-/// Lemma 3: the hull is repaired by the true neighbours of artificial points alone.
+/// Lemma 3: the true neighbours of artificial points are enough to repair the hull.
 TEST_P(Lemma, Hull_NeighboursOfArtificialPointsRepairIt)
 {
   for (const double margin : { 0.001, 0.05, 1.0, 100.0 })
@@ -116,7 +116,7 @@ TEST_P(Lemma, Hull_NeighboursOfArtificialPointsRepairIt)
     Triangles atArtificial;
     for (const Triangle& t : delaunay(scene.XY, together(all, scene.artificial())))
     {
-      // Ids of artificial points are the lowest, and a triangle's lowest comes first.
+      // Artificial points have the lowest ids, and a triangle starts with its lowest id.
       (t[0] < scene.Artificial ? atArtificial : kept).push_back(t);
     }
     Ids neighbours = verticesOf(atArtificial);
@@ -133,7 +133,7 @@ TEST_P(Lemma, Hull_NeighboursOfArtificialPointsRepairIt)
         }
       }
     }
-    // A triangle with an artificial point on its circle may have been kept too.
+    // A triangle with an artificial point on its circle may be in `kept` twice.
     kept = sorted(std::move(kept));
     kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
     ASSERT_TRUE(sameTriangles(scene.XY, kept, delaunay(scene.XY, all))) << "margin " << margin;
@@ -152,8 +152,9 @@ INSTANTIATE_TEST_SUITE_P(PointSets, Lemma,
     return name + "_" + std::to_string(info.param.Side) + "x" + std::to_string(info.param.Side);
   });
 
-/// Lemma 4: lattices, boxes whose sides pass through lattice points or touch circles from outside,
-/// initial points that leave large empty disks: the two halves of the mesh fit together.
+/// Lemma 4: the triangles of adjacent partitions match even for ties. The points are a lattice;
+/// sides of boxes pass through its points or touch circles from outside, and few initial points
+/// leave large empty disks.
 TEST(LemmaTies, PartitionsOfALatticeAgreeOnTouchingDisks)
 {
   for (const int side : { 9, 11, 13 })

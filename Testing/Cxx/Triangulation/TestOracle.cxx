@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The oracle itself, against rational arithmetic: every corner of every triangle's neighbours lies
-// outside its circumdisk or on the circle, and ties do not depend on the order of insertion.
+// Tests the oracle itself in rational arithmetic. No neighbour's apex lies inside a triangle's
+// circumdisk, and ties do not depend on the order of insertion.
 #include "Comparison.h"
 #include "ExactDisk.h"
 
@@ -18,7 +18,7 @@ class Oracle : public testing::TestWithParam<std::string>
 {
 };
 
-/// The corner beyond each directed edge: of the triangle on its left.
+/// For each directed edge, the third corner of the triangle on its left.
 std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> apexes(const Triangles& mesh)
 {
   std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> result;
@@ -70,7 +70,7 @@ TEST_P(Oracle, BreaksTiesByCoordinatesAlone)
   for (int order = 0; order < 5; ++order)
   {
     std::shuffle(ids.begin(), ids.end(), random);
-    // Other ids for the same places: CGAL sorts what it inserts.
+    // The same points with other ids; CGAL also changes the order, since it sorts the points.
     Coordinates shuffled;
     for (const std::int64_t id : ids)
     {

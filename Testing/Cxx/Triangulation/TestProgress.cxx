@@ -56,7 +56,7 @@ TEST_P(Abort, EndsTheRunEarlyWithoutTriangles)
   const Triangulation result = triangulate(view(xy), options);
   EXPECT_TRUE(result.Aborted);
   EXPECT_EQ(0u, result.triangleCount());
-  EXPECT_LE(calls, 4) << "the run was told to end and asked again";
+  EXPECT_LE(calls, 4) << "progress was reported after the abort";
 }
 
 std::string nameOf(const testing::TestParamInfo<Abort::ParamType>& info)
@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Runs, Abort,
   testing::Combine(testing::Values(Schedule::Stages, Schedule::Dynamic), testing::Values(1, 2, 4)),
   nameOf);
 
-TEST(AbortedRun, OnePartitionAloneIsEndedEarlyToo)
+TEST(AbortedRun, EndsEarlyWithOnePartition)
 {
   const Coordinates xy = makePointSet("uniform", 200000);
   TriangulationOptions options;
@@ -83,7 +83,7 @@ TEST(AbortedRun, OnePartitionAloneIsEndedEarlyToo)
   EXPECT_EQ(2, calls);
 }
 
-TEST(AbortedRun, AtOnceIsHeard)
+TEST(AbortedRun, StopsAtTheFirstCall)
 {
   const Coordinates xy = makePointSet("uniform", 50000);
   TriangulationOptions options = withPartitions();
@@ -91,7 +91,7 @@ TEST(AbortedRun, AtOnceIsHeard)
   EXPECT_TRUE(triangulate(view(xy), options).Aborted);
 }
 
-TEST(AbortedRun, LeavesTheNextRunAlone)
+TEST(AbortedRun, DoesNotAffectTheNextRun)
 {
   const Coordinates xy = makePointSet("uniform", 5000);
   TriangulationOptions options = withPartitions();

@@ -11,7 +11,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-/// The elements, counted from 1 as in the file, that a triangulation lacks.
+/// The elements of the mesh, counted from 1 as in the file, that are not among the triangles.
 std::vector<std::size_t> lackingElements(const AdcircMesh& mesh, const Triangles& triangles)
 {
   std::vector<std::size_t> lacking;
@@ -32,19 +32,20 @@ TriangulationOptions twoThreads()
   return options;
 }
 
-TEST(RealData, TheNodesOfEC95dGiveItsMeshBack)
+TEST(RealData, TheNodesOfEC95dGiveItsMesh)
 {
   TIPP_REQUIRE_REAL_DATA(path, "adcirc/ec95d/ec95d.grd");
   const AdcircMesh mesh = readAdcirc(path);
   const Triangles triangles = trianglesOf(triangulate(view(mesh.Nodes), twoThreads()));
-  // 2 n - 2 - h: as doubles, 36 of the 31,435 nodes lie on the hull's border, one of them amid a
-  // side. (With 62,833 triangles, one would be without area.)
+  // 2 n - 2 - h triangles, where h = 36 of the n = 31,435 nodes lie on the hull's border as
+  // doubles. One of these lies in the middle of a side: 62,833 triangles would include one without
+  // area.
   EXPECT_EQ(62832u, triangles.size());
   // One element at the open boundary is not Delaunay.
   EXPECT_EQ(std::vector<std::size_t>{ 58167 }, lackingElements(mesh, triangles));
 }
 
-TEST(RealData, TheNodesOfInternalOverflowGiveItsMeshBack)
+TEST(RealData, TheNodesOfInternalOverflowGiveItsMesh)
 {
   TIPP_REQUIRE_REAL_DATA(path, "adcirc/internal_overflow/internal_overflow.grd");
   const AdcircMesh mesh = readAdcirc(path);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Few points, flat ones, and points that are none.
+// Few points, almost collinear points, and points that are not finite.
 #include "Comparison.h"
 
 #include <cmath>
@@ -26,7 +26,7 @@ class FewPoints : public testing::TestWithParam<int>
 
 TEST_P(FewPoints, AreTriangulatedAsByCgal)
 {
-  // On a 4 x 4 lattice: with duplicates, ties and collinear points.
+  // Random points of a 4 x 4 lattice: duplicates, ties and collinear points.
   std::mt19937_64 random(static_cast<std::uint64_t>(GetParam()));
   for (int draw = 0; draw < 200; ++draw)
   {
@@ -61,7 +61,7 @@ TEST(SmallInputs, AFlatTriangleOfOneUlpIsFound)
   EXPECT_EQ(canonical(0, 1, 2), trianglesOf(result).front());
 }
 
-TEST(SmallInputs, TheSmallestTriangleThereIsIsFound)
+TEST(SmallInputs, TheSmallestPossibleTriangleIsFound)
 {
   const double least = 4.9406564584124654e-324;
   const Coordinates xy{ 0, 0, least, 0, 0, least };
@@ -69,7 +69,7 @@ TEST(SmallInputs, TheSmallestTriangleThereIsIsFound)
   EXPECT_EQ(1u, triangulate(view(xy)).triangleCount());
 }
 
-TEST(SmallInputs, TheLargestTriangleThereIsIsFound)
+TEST(SmallInputs, TheLargestPossibleTriangleIsFound)
 {
   const double most = 1.7976931348623157e308;
   const Coordinates xy{ -most, -most, most, -most, 0, most };
@@ -92,7 +92,7 @@ TEST(SmallInputs, MixedExponentsAreTriangulatedAsByCgal)
   EXPECT_TRUE(matches(xy, triangulate(view(xy), withGrid(4, 4)), expected));
 }
 
-/// How a coordinate is drawn whose exponent is anywhere in the range of doubles.
+/// Functions that draw the coordinates of a point, with exponents from the whole range of doubles.
 struct WideCoordinate
 {
   std::string Name;
@@ -204,7 +204,7 @@ TEST(SmallInputs, CollinearDuplicatesAreReported)
   EXPECT_TRUE(matches(xy, triangulate(view(xy)), reference(xy)));
 }
 
-TEST(SmallInputs, ZerosOfEitherSignAreTheSamePlace)
+TEST(SmallInputs, ZerosOfEitherSignAreEqual)
 {
   const Coordinates xy{ -0.0, 0.0, 1, 0, 0, 1, 0.0, -0.0, 1, -0.0 };
   const Triangulation result = triangulate(view(xy));
@@ -214,7 +214,7 @@ TEST(SmallInputs, ZerosOfEitherSignAreTheSamePlace)
   EXPECT_EQ(1u, result.triangleCount());
 }
 
-TEST(SmallInputs, PointsThatAreNotFiniteAreRejectedOneByOne)
+TEST(SmallInputs, EachPointThatIsNotFiniteIsRejected)
 {
   const double nan = std::nan("");
   const Coordinates xy{ nan, 0, 0, 0, HUGE_VAL, 1, 1, 0, 3, -HUGE_VAL, 0, 1, nan, nan };
@@ -224,7 +224,7 @@ TEST(SmallInputs, PointsThatAreNotFiniteAreRejectedOneByOne)
   EXPECT_EQ(canonical(1, 3, 5), trianglesOf(result).front());
 }
 
-TEST(SmallInputs, NothingButRejectedPointsHasNoTriangles)
+TEST(SmallInputs, RejectedPointsHaveNoTriangles)
 {
   const Coordinates xy(2000, std::nan(""));
   const Triangulation result = triangulate(view(xy));
@@ -232,7 +232,7 @@ TEST(SmallInputs, NothingButRejectedPointsHasNoTriangles)
   EXPECT_EQ(0u, result.triangleCount());
 }
 
-TEST(SmallInputs, MorePartitionsThanPointsAreFine)
+TEST(SmallInputs, AcceptsMorePartitionsThanPoints)
 {
   const Coordinates xy = makePointSet("uniform", 20);
   EXPECT_TRUE(matches(xy, triangulate(view(xy), withGrid(32, 32)), reference(xy)));

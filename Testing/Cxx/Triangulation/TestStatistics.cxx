@@ -47,7 +47,7 @@ TEST(Statistics, StagesActivateEachPartitionOnce)
   EXPECT_LT(statistics.Stages.size(), 64u) << "no two partitions were active together";
 }
 
-TEST(Statistics, WorkersTogetherTriangulateEveryPointAndFewTwice)
+TEST(Statistics, WorkersTriangulateEveryPointAndFewTwice)
 {
   TriangulationOptions options;
   options.Columns = 4;
@@ -57,7 +57,7 @@ TEST(Statistics, WorkersTogetherTriangulateEveryPointAndFewTwice)
   EXPECT_LE(statistics.WorkerVertices, 150000);
 }
 
-TEST(Statistics, InitialPointsAreAsManyAsAskedFor)
+TEST(Statistics, ThereAreAsManyInitialPointsAsRequested)
 {
   TriangulationOptions options;
   options.Columns = 4;

@@ -13,7 +13,7 @@ namespace
 
 using namespace tipp;
 
-/// Random points, and points on a lattice, whose edges hold others.
+/// Random points, or points of a lattice, where a point may lie on an edge.
 class TriangleLocatorTest : public testing::TestWithParam<bool>
 {
 public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Points where they lie: single precision, and coordinates that are not side by side.
+// Input that is not an array of doubles (x, y): single precision, strides, and a third coordinate.
 #include "Comparison.h"
 
 #include <cmath>
@@ -10,7 +10,7 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-TEST(PointsView, SinglePrecisionIsTriangulatedAsItsDoubles)
+TEST(PointsView, SinglePrecisionIsTriangulatedLikeDoubles)
 {
   const Coordinates xy = makePointSet("uniform", 2000);
   const std::vector<float> floats(xy.begin(), xy.end());
