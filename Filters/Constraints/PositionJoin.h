@@ -16,23 +16,24 @@
 namespace tipp
 {
 
-/// Finds on disk which of many positions points of a stream have. Positions, and the points that
-/// may have one of them by a few bits of a hash, are sorted into buckets by that hash; the buckets
-/// are then joined one by one. Memory: the bits, and a bucket.
+/// Looks up many positions among the points of a stream, on disk. Positions are sorted into buckets
+/// by a hash. So are points that may have one of these positions, as a few bits of the hash tell.
+/// Then the buckets are joined one by one. In memory are the bits and one bucket.
 class VTKTIPPFILTERS_EXPORT PositionJoin
 {
 public:
-  /// Temporary files' paths begin with `file`. Wanted: how many calls of want() follow.
-  /// Columns: values of a point that are kept. Memory: in bytes; about an eighth is used.
+  /// Paths of temporary files begin with `file`. `wanted`: the number of calls of want() that
+  /// follow. `columns`: the number of values kept per point. `memory`: in bytes; about an eighth of
+  /// it is used.
   PositionJoin(const std::string& file, std::int64_t wanted, std::size_t columns,
     std::uint64_t memory, int threads);
 
-  /// A position that is looked for; `number` is the caller's. It must be finite.
+  /// Adds a position to be looked up, which must be finite. `number` identifies it for the caller.
   void want(Point2 position, std::int64_t number);
-  /// After all want() and before add().
+  /// Call it once, between the last want() and the first add().
   void seal();
 
-  /// Adds the next points of the stream. valueOf(i, column): of the points.
+  /// Adds the next points of the stream. valueOf(i, column) returns a value of point i.
   template <typename ValueOf>
   void add(PointsView points, const ValueOf& valueOf)
   {
@@ -49,20 +50,20 @@ public:
     }
   }
 
-  /// After all points.
+  /// Call it once, after the last point.
   void finish();
 
-  /// A position that was looked for.
+  /// The result for one call of want().
   struct Match
   {
     Point2 Position;
     std::int64_t Number;
-    std::int64_t First;   ///< the number of the first want() of the position
-    const double* Values; ///< of the first point at the position; null: there is none
+    std::int64_t First;   ///< number of the first want() with this position
+    const double* Values; ///< of the first point at the position; null: no point has it
   };
 
-  /// After finish(): calls visit() for each want(), those of equal positions in their order. May be
-  /// called several times.
+  /// Calls visit() once per want(); those with equal positions in their order. Requires finish().
+  /// May be called several times.
   void forEachMatch(const std::function<void(const Match&)>& visit) const;
 
 private:
@@ -77,7 +78,7 @@ private:
     return (PositionIndex::hashOf(position) >> 24) % MostBuckets % this->Positions.keys();
   }
   std::uint64_t& wordOf(std::uint64_t hash) { return this->Bits[hash >> 32 & this->Mask]; }
-  /// Four of 64.
+  /// Sets four of 64 bits.
   static std::uint64_t bitsOf(std::uint64_t hash)
   {
     constexpr std::uint64_t one = 1;
@@ -91,7 +92,7 @@ private:
 
   const std::size_t Columns;
   const int Threads;
-  std::uint64_t Mask;              ///< of an index in Bits
+  std::uint64_t Mask;              ///< for indices of Bits
   std::vector<std::uint64_t> Bits; ///< a few are set for each position
   KeyedRows Positions;             ///< Wanted
   KeyedRows Candidates;            ///< points that may match: x, y and the values

@@ -12,25 +12,26 @@
 namespace tipp
 {
 
-/// Constraints on disk that are split where they cross.
+/// The result of splitting constraints on disk where they cross.
 struct SplitConstraints
 {
   /// A part of a constraint.
   struct Part
   {
-    std::int64_t Number; ///< of the constraint
+    std::int64_t Number; ///< the constraint's
     Point2 A;
     Point2 B;
   };
-  std::vector<Part> Parts;                 ///< of those that are split, in their order
+  std::vector<Part> Parts;                 ///< of split constraints, by number, then along them
   std::vector<Point2> Crossings;           ///< the new points
-  std::vector<std::vector<double>> Values; ///< of each column, at these
+  std::vector<std::vector<double>> Values; ///< per column, a value for each of these
   int Rounds = 0;                          ///< of splitting
 };
 
-/// What resolveCrossings() would do with all of them: by tiles, those that cross others are found;
-/// it then gets these and all that come so near to them that rounding may matter. Constraints whose
-/// ends are not finite, or are one, are left out. Throws as it does.
+/// Splits constraints where they cross, with the result of resolveCrossings() for all of them.
+/// Finds the constraints that cross others, tile by tile. Only these, and constraints so near that
+/// rounding may matter, are then passed to resolveCrossings(). Omits constraints with an end that
+/// is not finite, or with equal ends. Throws as resolveCrossings() does.
 SplitConstraints splitStored(const StoredConstraints& constraints, CrossingRule rule,
   std::size_t columns, const DiskWork& work);
 

@@ -20,40 +20,40 @@
 namespace tipp
 {
 
-/// Where temporary files go, and how much memory their readers may take.
+/// Where temporary files are written, and how much memory the work on them may take.
 struct DiskWork
 {
-  std::string Files; ///< how their paths begin
-  std::uint64_t Memory;
+  std::string Files;    ///< the paths begin with this
+  std::uint64_t Memory; ///< in bytes
   int Threads;
 };
 
-/// Constraints on disk, of which no memory holds all, and what the points of a stream have to do
-/// with their ends. Numbers are those of the constraints, first the lines', then the boundary's.
+/// Constraints in temporary files, which may be larger than memory, matched with the points of a
+/// stream. Constraints are identified by their numbers: lines first, then those of the boundary.
 ///
-/// An end is either a vertex of the constraints' own, known by its position, or names a point by
-/// its id.
+/// An end of a constraint is either a vertex with a position of its own or the id of a point.
 class VTKTIPPFILTERS_EXPORT StoredConstraints
 {
 public:
-  /// What crossing points and new points need of a stream's points.
+  /// The columns of the stream's points, which crossing points and new points also get.
   struct Columns
   {
     std::vector<std::string> Names;
-    /// Of each column, for own vertices that are no points where the file has no height; perhaps
-    /// none.
+    /// Per column, a value for each vertex. Used for a vertex that is no point of the stream and
+    /// has no height in the file. May be empty.
     std::vector<std::vector<double>> Surface;
   };
 
-  /// Writes all to disk. Lines: those of a text file, instead of constraints.Lines; or null. Throws
-  /// IOError, as all methods do.
+  /// Writes the constraints to disk. `lines`: lines of a text file, used instead of
+  /// constraints.Lines; or null. Throws IOError, as all methods do.
   StoredConstraints(
     DiskWork work, TableConstraints constraints, SegmentRows* lines, Columns columns);
 
-  /// The next points of the stream.
+  /// Adds the next points of the stream.
   void add(const PointBlock& block);
 
-  /// After all points. Throws std::invalid_argument for an id that no point has.
+  /// Matches ends with points. Call it once, after all points. Throws std::invalid_argument for an
+  /// id that no point has.
   void match();
 
   std::int64_t count() const { return this->Keys->count(); }
@@ -66,7 +66,7 @@ public:
 
   /// @name After match()
   ///@{
-  /// Calls visit(number, a, b) with the ends of all constraints, in their order.
+  /// Calls visit(number, a, b) with the positions of the ends, for all constraints by number.
   template <typename Visit>
   void forEach(const Visit& visit) const
   {
@@ -75,25 +75,25 @@ public:
       { visit(number, segment.A, segment.B); });
   }
 
-  /// Calls visit(position, values) for the vertices that are no points, each position once, in
-  /// their order. They are to follow the stream's points. Values: of each column.
+  /// Calls visit(position, values) for the vertices that are no points of the stream, in their
+  /// order, each position once. They follow the stream's points. `values`: one per column.
   void forEachNew(const std::function<void(Point2, const double*)>& visit) const;
 
   /// Ends of some constraints.
   struct Ends
   {
-    std::vector<Point2> Positions; ///< of each end, by its index; some indices are not used
-    std::vector<Constraint> Edges; ///< the indices of each constraint's ends
-    std::size_t OwnCount = 0;      ///< indices before this one are those of Own
+    std::vector<Point2> Positions; ///< by index of the end; some indices are unused
+    std::vector<Constraint> Edges; ///< per constraint, the indices of its ends
+    std::size_t OwnCount = 0;      ///< lower indices are those of Own
     std::unique_ptr<PositionIndex> Own;
-    std::unique_ptr<PositionIndex> Named; ///< of ids as x
+    std::unique_ptr<PositionIndex> Named; ///< x is the point's id
   };
 
-  /// Of those for which isTaken(number) is true.
+  /// Returns the ends of the constraints for which isTaken(number) is true.
   Ends endsOf(const std::function<bool(std::int64_t)>& isTaken) const;
 
-  /// Calls visit(end, id, values) with the id and the values of the point at each end, several
-  /// times for some.
+  /// Calls visit(end, id, values) with the id and the column values of the point at each end. May
+  /// visit an end several times.
   void lookUp(
     const Ends& ends, const std::function<void(std::size_t, PointId, const double*)>& visit) const;
   ///@}
@@ -127,13 +127,13 @@ private:
   std::int64_t BoundaryBegin = 0;
   bool AreLinesNamed = false;
   bool IsBoundaryNamed = false;
-  std::int64_t Points = 0; ///< of the stream so far
+  std::int64_t Points = 0; ///< number of points of the stream so far
   std::unique_ptr<RowFile> Vertices;
-  std::unique_ptr<RowFile> Keys;       ///< Segments as they are given
-  std::unique_ptr<RowFile> Places;     ///< their positions; null: they are the keys
-  std::vector<bool> IsNew;             ///< of vertices: no point, and the first one at its position
-  std::unique_ptr<PositionJoin> Own;   ///< of vertices; values: the point's id, and columns
-  std::unique_ptr<PositionJoin> Named; ///< of ids; values: the point's position, and columns
+  std::unique_ptr<RowFile> Keys;       ///< of Segment, as given
+  std::unique_ptr<RowFile> Places;     ///< of Segment, with positions; null: Keys has these
+  std::vector<bool> IsNew;             ///< by vertex: it is no point, and the first at its position
+  std::unique_ptr<PositionJoin> Own;   ///< vertices; values: the point's id, then the columns
+  std::unique_ptr<PositionJoin> Named; ///< ids; values: the point's position, then the columns
 };
 
 } // namespace tipp

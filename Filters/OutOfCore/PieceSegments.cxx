@@ -2,7 +2,6 @@
 #include "OutOfCore/PieceSegments.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <set>
@@ -142,10 +141,8 @@ ConstraintSegments PieceSegments::readNear(const std::vector<Box2>& boxes) const
 {
   std::vector<SegmentTree::Item> items;
   std::set<PartitionIndex> pieces;
-  Box2 all{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
   for (const Box2& box : boxes)
   {
-    all = unionOf(all, box);
     items.push_back({ { box.xmin, box.ymin }, { box.xmax, box.ymax }, 0 });
     this->Plan.Pieces.visitNear(
       this->planned(box), [&pieces](PartitionIndex piece) { pieces.insert(piece); });
@@ -160,12 +157,7 @@ ConstraintSegments PieceSegments::readNear(const std::vector<Box2>& boxes) const
       [&](const Row& row)
       {
         bool isNear = false;
-        const Box2 box = boxOf(row.Segment.A, row.Segment.B);
-        if (!overlap(box, all)) // as most of other pieces
-        {
-          return;
-        }
-        tree.visitNear(box,
+        tree.visitNear(boxOf(row.Segment.A, row.Segment.B),
           [&isNear](const SegmentTree::Item&)
           {
             isNear = true;
