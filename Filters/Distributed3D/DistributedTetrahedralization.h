@@ -23,7 +23,8 @@ using GhostTetrahedra = GhostCells<4, Point3>;
 
 /// A rank's part of a triangulation in space. Corners are local indices: they count the rank's own
 /// points (Owned), and then the other ranks' points that its cells use (Foreign). An internal id is
-/// a point's index among all ranks' owned points, rank by rank. A global id is the caller's.
+/// a point's index among all ranks' owned points, rank by rank. A global id is the id that the
+/// caller gave the point.
 ///
 /// A cell is on the rank that owns its vertex of lowest internal id. Cells are in the order of
 /// Tetrahedralization::Ids, but by local indices. So a part does not depend on threads and
