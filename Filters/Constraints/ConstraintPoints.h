@@ -28,6 +28,19 @@ public:
 
   const std::vector<Point2>& points() const { return this->Points; }
 
+  /// Of its coordinates; all digits depend on both.
+  static std::uint64_t hashOf(Point2 position)
+  {
+    // Zeros of both signs are equal.
+    const double xy[2] = { position.x + 0.0, position.y + 0.0 };
+    std::uint64_t bits[2];
+    std::memcpy(bits, xy, sizeof bits);
+    std::uint64_t hash = bits[0] * 0x9e3779b97f4a7c15U + bits[1];
+    hash ^= hash >> 32;
+    hash *= 0xd6e8feb86659fd93U;
+    return hash ^ hash >> 32;
+  }
+
   /// The first point with these coordinates; -1: none. NaN and infinity are not found.
   std::int64_t find(Point2 position) const;
 
@@ -56,17 +69,6 @@ public:
   }
 
 private:
-  static std::uint64_t hashOf(Point2 position)
-  {
-    // Zeros of both signs are equal.
-    const double xy[2] = { position.x + 0.0, position.y + 0.0 };
-    std::uint64_t bits[2];
-    std::memcpy(bits, xy, sizeof bits);
-    std::uint64_t hash = bits[0] * 0x9e3779b97f4a7c15U + bits[1];
-    hash ^= hash >> 32;
-    hash *= 0xd6e8feb86659fd93U;
-    return hash ^ hash >> 32;
-  }
   bool isMarked(std::uint64_t hash) const
   {
     return (this->markOf(hash) >> (hash >> 32 & 7) & 1) != 0;

@@ -9,6 +9,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <string>
 #include <vector>
 
 namespace tipp
@@ -30,6 +32,29 @@ struct ConstraintSegment
   Point2 A;
   Point2 B;
   SegmentRole Role;
+};
+
+using VisitSegment = std::function<void(const ConstraintSegment&)>;
+
+/// Gives the segments that constrain a triangulation out of core, none crossing another, after the
+/// first pass over its points. They need not fit in memory. All methods throw IOError.
+class SegmentSource
+{
+public:
+  virtual ~SegmentSource() = default;
+
+  /// Before the first pass. The paths of temporary files begin with `files`; `memory` is what the
+  /// run may take, in bytes.
+  virtual void begin(const std::string& files, std::uint64_t memory) = 0;
+
+  /// @name After the first pass
+  ///@{
+  virtual std::int64_t count() const = 0;
+  /// Visits all segments, in an order that is always the same.
+  virtual void forEach(const VisitSegment& visit) = 0;
+  /// Frees what only the segments need.
+  virtual void end() = 0;
+  ///@}
 };
 
 /// All segments that constrain a triangulation of which no process may hold all points or

@@ -245,16 +245,20 @@ std::size_t moveCrossed(PointsView points, const ConstraintSegments& segments, s
   CrossedPart& part)
 {
   std::vector<std::int64_t> used;
-  std::size_t kept = crossings.empty() ? triangles : std::size_t(crossings.front().Triangle);
-  auto crossing = crossings.begin();
-  for (std::size_t t = kept; t < triangles; ++t)
+  std::size_t kept = 0;
+  std::size_t next = 0; // the first triangle that is not moved yet
+  const auto keepUntil = [&](std::size_t end)
   {
+    kept < next ? void(std::copy(corners + 3 * next, corners + 3 * end, corners + 3 * kept))
+                : void();
+    kept += end - next;
+  };
+  for (auto crossing = crossings.begin(); crossing != crossings.end();)
+  {
+    const auto t = std::size_t(crossing->Triangle);
+    keepUntil(t);
+    next = t + 1;
     const Id* const its = corners + 3 * t;
-    if (crossing == crossings.end() || crossing->Triangle != std::int64_t(t))
-    {
-      std::copy_n(its, 3, corners + 3 * kept++);
-      continue;
-    }
     part.Triangles.push_back({ first + its[0], first + its[1], first + its[2] });
     part.Positions.push_back(
       { points[std::size_t(its[0])], points[std::size_t(its[1])], points[std::size_t(its[2])] });
@@ -265,6 +269,7 @@ std::size_t moveCrossed(PointsView points, const ConstraintSegments& segments, s
     }
     part.SegmentEnds.push_back(part.Segments.size());
   }
+  keepUntil(triangles);
   keepUniqueItems(used);
   for (const std::int64_t segment : used)
   {

@@ -5,6 +5,7 @@
 #include "Kernel/DelaunayKernel.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace tipp
@@ -242,17 +243,30 @@ private:
   void findEnds(const Partition<Id>& partition)
   {
     const PieceEnds& ends = this->Of.EndPoints;
-    constexpr Index ahead = 16;
+    constexpr Index group = 64;
+    std::array<Index, group> likely;
     this->Found.clear();
-    const Index end = partition.Kernel.vertexEnd();
-    for (Index v = 1; v < end; ++v)
+    const Index last = partition.Kernel.vertexEnd();
+    for (Index begin = 1; begin < last; begin += group)
     {
-      const PointId id = partition.Ids[v];
-      const PointId later = partition.Ids[std::min(v + ahead, end - 1)];
-      ends.expect(later);
-      if (id >= 0 && ends.has(id))
+      std::size_t count = 0;
+      const Index end = std::min(begin + group, last);
+      for (Index v = begin; v < end; ++v)
       {
-        this->Found.push_back({ ends.rank(id), v });
+        likely[count] = v;
+        count += std::size_t(ends.mayHave(partition.Ids[v]));
+      }
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        ends.expect(partition.Ids[likely[i]]);
+      }
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        const PointId id = partition.Ids[likely[i]];
+        if (ends.has(id))
+        {
+          this->Found.push_back({ ends.rank(id), likely[i] });
+        }
       }
     }
   }

@@ -18,9 +18,15 @@ class PieceEnds
 public:
   PieceEnds(std::size_t points, const std::vector<ConstraintPiece>& pieces, int threads);
 
+  /// False for most ids if there are few ends: then the words need not be fetched. Id: may be
+  /// negative.
+  bool mayHave(PointId id) const
+  {
+    return (this->Marks[std::size_t(id) / 64 % MarkWords] >> (std::size_t(id) % 64) & 1) != 0;
+  }
   bool has(PointId id) const
   {
-    return this->mayHave(id) &&
+    return id >= 0 && this->mayHave(id) &&
       (this->Words[std::size_t(id) / 64].Bits >> (std::size_t(id) % 64) & 1) != 0;
   }
 
@@ -42,10 +48,7 @@ public:
   /// Prefetches what has(), expectVisit() and visit() will read; negative ids are ignored.
   void expect(PointId id) const
   {
-    if (id >= 0 && this->mayHave(id))
-    {
-      __builtin_prefetch(&this->Words[std::size_t(id) / 64]);
-    }
+    id >= 0 ? __builtin_prefetch(&this->Words[std::size_t(id) / 64]) : void();
   }
   void expectEntries(std::size_t rank) const { __builtin_prefetch(&this->Starts[rank]); }
   void expectVisit(std::size_t rank) const
@@ -61,12 +64,6 @@ private:
     std::uint64_t Bits = 0;
     std::uint64_t Before = 0; ///< the number of bits in the words before
   };
-
-  /// False for most ids if there are few ends: then the words need not be fetched.
-  bool mayHave(PointId id) const
-  {
-    return (this->Marks[std::size_t(id) / 64 % MarkWords] >> (std::size_t(id) % 64) & 1) != 0;
-  }
 
   static constexpr std::size_t MarkWords = 1024; ///< so few that they stay in the nearest cache
 

@@ -314,8 +314,8 @@ private:
     {
       names.push_back(this->VertexIds[v]);
     }
-    const ResolvedConstraints resolved =
-      resolveCrossings(view, constraints, this->Options.Crossings, this->Options.Threads, names);
+    const ResolvedConstraints resolved = resolveCrossings(
+      view, constraints, this->Options.Crossings, this->Options.Threads, { names, {} });
     if (resolved.NotFinite > 0 &&
       std::find(this->Roles.begin(), this->Roles.end(), SegmentRole::Polygon) != this->Roles.end())
     {

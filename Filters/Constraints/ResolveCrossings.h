@@ -76,12 +76,22 @@ struct ConstraintFigures
 ResolvedConstraints takeConstraints(
   PointsView points, const std::vector<Constraint>& constraints, int threads);
 
+/// What points and constraints are called in messages; empty: by their numbers.
+struct ConstraintNames
+{
+  std::vector<PointId> Points;
+  std::vector<std::int64_t> Constraints;
+};
+
+/// Rounds of splitting in which crossings are rounded to doubles, then to coarser grids.
+constexpr int RoundsOfDoubles = 10;
+
 /// Splits constraints where they cross: a crossing, rounded to doubles, becomes a point of both.
 /// This is snap rounding (Hobby 1999) on the grid of doubles: a constraint that crosses others is
 /// led through all ends and crossings of constraints that points of it would be rounded to, so that
 /// it moves by half a unit in the last place of its coordinates at most. Throws
 /// std::invalid_argument for an id that no point has and, where crossings are refused, for the
-/// first one; `names` are what points are called there, by default their ids.
+/// first one.
 ///
 /// The grid of doubles is not uniform, so that parts may still cross; these crossings are rounded
 /// and split too, in further rounds, each of which may move a constraint by half a unit more. It
@@ -95,7 +105,7 @@ ResolvedConstraints takeConstraints(
 /// that are there: few rounds are left.
 VTKTIPPFILTERS_EXPORT ResolvedConstraints resolveCrossings(PointsView points,
   const std::vector<Constraint>& constraints, CrossingRule rule, int threads,
-  const std::vector<PointId>& names = {});
+  const ConstraintNames& names = {});
 
 } // namespace tipp
 

@@ -37,9 +37,12 @@ std::uint32_t mortonKey(const SegmentTree::Item& item, const Box2& all)
     spread(cellOf(item.A.y / 2 + item.B.y / 2, all.ymin, all.ymax)) << 1;
 }
 
-Box2 boxOfAll(const std::vector<SegmentTree::Item>& segments, int threads)
+} // namespace
+
+Box2 SegmentTree::boxOfAll(const std::vector<Item>& segments, int threads)
 {
-  const Box2 first = boxOf(segments.front().A, segments.front().B);
+  const Box2 first = segments.empty() ? Box2{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL }
+                                      : boxOf(segments.front().A, segments.front().B);
   std::vector<Box2> boxes(std::size_t(threads), first);
   forChunks(std::int64_t(segments.size()), SegmentTree::Chunk, threads, {},
     [&](std::int64_t begin, std::int64_t end, int thread)
@@ -47,7 +50,7 @@ Box2 boxOfAll(const std::vector<SegmentTree::Item>& segments, int threads)
       Box2 box = first;
       for (std::int64_t i = begin; i < end; ++i)
       {
-        const SegmentTree::Item& item = segments[std::size_t(i)];
+        const Item& item = segments[std::size_t(i)];
         box = unionOf(box, boxOf(item.A, item.B));
       }
       Box2& all = boxes[std::size_t(thread)];
@@ -55,8 +58,6 @@ Box2 boxOfAll(const std::vector<SegmentTree::Item>& segments, int threads)
     });
   return std::accumulate(boxes.begin(), boxes.end(), first, unionOf);
 }
-
-} // namespace
 
 SegmentTree::SegmentTree(std::vector<Item> segments, int threads)
 {

@@ -24,6 +24,11 @@ inline bool overlap(const Box2& a, const Box2& b)
   return a.xmin <= b.xmax && b.xmin <= a.xmax && a.ymin <= b.ymax && b.ymin <= a.ymax;
 }
 
+inline Box2 expanded(const Box2& box, double margin)
+{
+  return { box.xmin - margin, box.ymin - margin, box.xmax + margin, box.ymax + margin };
+}
+
 /// Whether the line through a and b may meet the closed box: false only if it certainly does not.
 inline bool lineMayMeet(Point2 a, Point2 b, const Box2& box)
 {
@@ -61,6 +66,9 @@ public:
 
   static constexpr std::int64_t Chunk = 8192; ///< items that a thread takes at a time
 
+  /// What holds the segments; for none, a box that nothing is in.
+  static Box2 boxOfAll(const std::vector<Item>& segments, int threads);
+
   const std::vector<Item>& items() const { return this->Items; }
 
   /// Makes the items' Ids their positions among the items; returns what they were.
@@ -74,13 +82,13 @@ public:
       [&](const Item& item) { return !overlap(box, boxOf(item.A, item.B)) || visit(item); });
   }
 
-  /// The same for those whose bounding box a segment may meet.
+  /// The same for those whose bounding box a segment may meet, or come within `margin` of.
   template <typename Visit>
-  void visitNear(const Item& segment, const Visit& visit) const
+  void visitNear(const Item& segment, const Visit& visit, double margin = 0) const
   {
-    const Box2 box = boxOf(segment.A, segment.B);
+    const Box2 box = expanded(boxOf(segment.A, segment.B), margin);
     const auto isNear = [&](const Box2& node)
-    { return overlap(box, node) && lineMayMeet(segment.A, segment.B, node); };
+    { return overlap(box, node) && lineMayMeet(segment.A, segment.B, expanded(node, margin)); };
     this->visitNodes(isNear,
       [&](const Item& item) { return !overlap(box, boxOf(item.A, item.B)) || visit(item); });
   }
