@@ -13,7 +13,7 @@
 namespace tipp
 {
 
-/// A hash of what the constraints are.
+/// A hash of all constraints and rules.
 std::string identityOf(const TableConstraints& constraints)
 {
   std::uint64_t hash = 0;
@@ -146,7 +146,7 @@ PointBlock ConstrainedPoints::added() const
   return all;
 }
 
-/// Writes the vertices that the input does not have, and then the crossings.
+/// Writes the vertices that are not points of the input, and then the crossings.
 void ConstrainedPoints::addPoints()
 {
   const std::size_t columns = this->columns().size();

@@ -13,12 +13,12 @@ namespace tipp
 namespace
 {
 
-/// Tells segments that are short beside a box.
+/// Whether segments are short compared with a box.
 class IsShortIn
 {
 public:
   explicit IsShortIn(const Box2& box)
-    : Width(part * (box.xmax / 2 - box.xmin / 2)) // halves, for a difference overflows
+    : Width(part * (box.xmax / 2 - box.xmin / 2)) // halves, because a difference may overflow
     , Height(part * (box.ymax / 2 - box.ymin / 2))
   {
   }
@@ -48,8 +48,8 @@ void compare(
 
 } // namespace
 
-/// Short segments are compared group by group, the few long ones with all others one by one, since
-/// a group with a long segment would be near everything.
+/// Short segments are compared in groups. The few long ones are compared individually with all
+/// others, since the box of a group with a long segment would overlap most groups.
 std::vector<CrossingPair> findCrossingPairs(std::vector<SegmentTree::Item> all, int threads)
 {
   const auto firstLong =

@@ -12,10 +12,10 @@
 namespace tipp
 {
 
-/// The Ids of two segments that cross; the lower first.
+/// The Ids of two segments that cross, the lower first.
 using CrossingPair = std::array<std::int64_t, 2>;
 
-/// All pairs of segments that cross at a point inside of both, sorted. Exact.
+/// All pairs of segments that cross at a point in the interior of both, sorted. Exact.
 VTKTIPPFILTERS_EXPORT std::vector<CrossingPair> findCrossingPairs(
   std::vector<SegmentTree::Item> segments, int threads);
 

@@ -13,7 +13,7 @@ namespace tipp
 namespace
 {
 
-/// Words of 64 bits, a power of two: 16 bits a position, if memory allows.
+/// The number of 64-bit words, a power of two: 16 bits per position, if memory allows.
 std::size_t wordsFor(std::int64_t wanted, std::uint64_t memory)
 {
   constexpr std::uint64_t perWord = 4;
@@ -29,7 +29,7 @@ std::size_t wordsFor(std::int64_t wanted, std::uint64_t memory)
 std::size_t bucketsFor(
   std::int64_t wanted, std::size_t columns, std::uint64_t memory, std::size_t most)
 {
-  // Position, number, the point's row, and the index.
+  // Position and number, the point's row, and the entry in an index.
   const std::uint64_t each = 24 + 8 + 8 * columns + 36;
   const std::uint64_t share = std::max<std::uint64_t>(1, memory / 16);
   return std::size_t(std::clamp<std::uint64_t>(std::uint64_t(wanted) * each / share, 1, most));
@@ -61,11 +61,11 @@ void PositionJoin::seal()
   this->Positions.finish();
 }
 
-/// The indices of the points that may be wanted.
+/// The indices of points whose hash passes the filter.
 std::vector<std::size_t> PositionJoin::mayMatch(PointsView points)
 {
   constexpr std::int64_t chunk = 8192;
-  constexpr std::size_t group = 32; // so that it waits less for memory
+  constexpr std::size_t group = 32; // so many hashes are prefetched at a time
   const auto count = std::int64_t(points.size());
   std::vector<std::vector<std::size_t>> found(std::size_t((count + chunk - 1) / chunk));
   const auto look =
@@ -128,10 +128,10 @@ void PositionJoin::matchBucket(
     [](const Wanted& one) { return one.Position; });
   const PositionIndex index(std::move(positions));
   constexpr std::int64_t none = -1;
-  std::vector<std::int64_t> rowOf(wanted.size(), none); // of the first ones at their positions
+  std::vector<std::int64_t> rowOf(wanted.size(), none); // row of the first point at each position
   std::vector<double> rows;
   std::int64_t count = 0;
-  const std::size_t words = this->Columns + 1; // so that there is one
+  const std::size_t words = this->Columns + 1; // at least one word per row
   this->Candidates.forEach(bucket,
     [&](const char* bytes)
     {

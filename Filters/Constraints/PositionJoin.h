@@ -93,9 +93,9 @@ private:
   const std::size_t Columns;
   const int Threads;
   std::uint64_t Mask;              ///< for indices of Bits
-  std::vector<std::uint64_t> Bits; ///< a few are set for each position
-  KeyedRows Positions;             ///< Wanted
-  KeyedRows Candidates;            ///< points that may match: x, y and the values
+  std::vector<std::uint64_t> Bits; ///< the filter: a few bits are set for each position
+  KeyedRows Positions;             ///< rows of Wanted
+  KeyedRows Candidates;            ///< points that passed the filter: x, y and values
 };
 
 } // namespace tipp

@@ -22,13 +22,14 @@ namespace tipp
 namespace
 {
 
-/// The exact sign of what the box of points that are rounded to p reaches beyond the line through a
-/// and b, towards its left (`side` 1) or right (-1): negative if the line passes on that side.
+/// By how much the box of points that round to p extends beyond the line through a and b, on its
+/// left (`side` 1) or right (-1), as an exact sign. Negative if the whole box is on the other side.
 int signOfReach(Point2 a, Point2 b, Point2 p, int side)
 {
   const auto sign = [](double from, double to) { return to < from ? -1 : 1; };
   ProductSum<24, 106> sum;
-  // Adds from - to, multiplied by the reach along an axis and, with a sign, by the distance.
+  // Adds (from - to) times the extent of the box along an axis and, with a sign, times the
+  // distance.
   const auto addAxis = [&](double from, double to, double at, double value, int offSign)
   {
     const double below = std::nextafter(value, -HUGE_VAL);
@@ -54,11 +55,11 @@ int signOfReach(Point2 a, Point2 b, Point2 p, int side)
   return sum.sign();
 }
 
-/// Whether the line through a and b passes through the inside of the box of points that are rounded
-/// to p. Exact.
+/// Whether the line through a and b passes through the interior of the box of points that round to
+/// p. Exact.
 bool roundsTo(Point2 a, Point2 b, Point2 p)
 {
-  using Long = long double; // its exponents hold all products
+  using Long = long double; // its exponent range holds all products
   struct Range
   {
     explicit Range(double value)
@@ -75,7 +76,7 @@ bool roundsTo(Point2 a, Point2 b, Point2 p)
   const Range y(p.y);
   if (!std::isfinite(x.half()) || !std::isfinite(y.half()))
   {
-    return false; // the largest doubles
+    return false; // next to the largest doubles
   }
   const Long dx = Long(b.x) - a.x;
   const Long dy = Long(b.y) - a.y;
@@ -113,7 +114,7 @@ public:
     };
     std::vector<char> kinds(constraints.size());
     const Point2* const all = this->Points.contiguous();
-    const auto expect = [&](PointId id) // points lie anywhere in memory
+    const auto expect = [&](PointId id) // points are accessed at random
     {
       if (all && std::size_t(id) < this->Points.size())
       {
@@ -217,10 +218,10 @@ private:
     throw std::invalid_argument(text.str());
   }
 
-  /// How far p is from a to b, for a p between them.
+  /// The position of p on the segment ab, as a fraction.
   static double fraction(Point2 a, Point2 b, Point2 p)
   {
-    // Halves, since a difference may overflow.
+    // Halves, because a difference may overflow.
     const double dx = b.x / 2 - a.x / 2;
     const double dy = b.y / 2 - a.y / 2;
     const double part =
@@ -228,8 +229,8 @@ private:
     return part > 0 ? std::min(part, 1.0) : 0;
   }
 
-  /// The id of the point where the two cross: an end of one of them, if it is rounded to that, else
-  /// a new one, or that of another crossing at the same position.
+  /// The id of the point where two pieces cross: an end of one of them, if the crossing rounds to
+  /// it, or the point of another crossing at this position, or a new point.
   PointId pointOf(const CrossingPair& crossing)
   {
     const ConstraintPiece& one = this->Result.Pieces[std::size_t(crossing[0])];
@@ -253,7 +254,8 @@ private:
     return known->second;
   }
 
-  /// Where two pieces cross, rounded to doubles; to a coarser grid after some rounds.
+  /// The position where two pieces cross, rounded to doubles, and after some rounds to a coarser
+  /// grid.
   Point2 positionOf(const ConstraintPiece& one, const ConstraintPiece& other) const
   {
     const Point2 a = this->at(one.A);
@@ -267,8 +269,8 @@ private:
                             rounded(p.y, { a.y, b.y }, { c.y, d.y }, coarser) };
   }
 
-  /// A coordinate of a crossing as a multiple of the largest end's unit in the last place times a
-  /// power of two; but between the ends of both.
+  /// Rounds a coordinate of a crossing to a multiple of the largest end's unit in the last place,
+  /// times a power of two. The result stays between the ends of both pieces.
   static double rounded(
     double value, std::pair<double, double> one, std::pair<double, double> other, int coarser)
   {
@@ -276,7 +278,7 @@ private:
     const auto [itsLow, itsHigh] = std::minmax(other.first, other.second);
     const double largest =
       std::max({ std::fabs(low), std::fabs(high), std::fabs(itsLow), std::fabs(itsHigh) });
-    constexpr int whole = 60; // then all is rounded to 0
+    constexpr int whole = 60; // at this size, everything rounds to 0
     const double unit =
       std::ldexp(largest - std::nextafter(largest, 0), std::min(coarser, whole) - 1);
     const double multiple = unit > 0 && std::isfinite(unit) ? std::nearbyint(value / unit) : 0;
@@ -323,7 +325,7 @@ private:
     }
   }
 
-  /// Ends and crossings.
+  /// The vertices of all constraints: ends and crossings.
   std::vector<PointId> constraintVertices() const
   {
     std::vector<PointId> vertices;
@@ -341,7 +343,7 @@ private:
     return vertices;
   }
 
-  /// Rounding keeps the order of both coordinates along a segment.
+  /// Rounding keeps the order of both coordinates along a segment, so points are sorted by them.
   void appendParts(const ConstraintPiece& whole, std::vector<PointId>& points)
   {
     const Point2 a = this->at(whole.A);

@@ -15,7 +15,7 @@ namespace tipp
 
 int SegmentTiles::tilesFor(std::int64_t segments, std::uint64_t memory)
 {
-  constexpr std::uint64_t each = 128; // segments and their tree
+  constexpr std::uint64_t each = 128; // bytes of a segment and its tree
   constexpr std::uint64_t most = 4096;
   const std::uint64_t share = std::max<std::uint64_t>(1, memory / 16);
   return int(std::clamp<std::uint64_t>(std::uint64_t(segments) * each / share, 1, most));
@@ -41,7 +41,7 @@ SegmentTiles::SegmentTiles(const std::string& file,
   {
     sample.push_back(position);
   }
-  constexpr double relative = 0x1p-44; // of the largest coordinate
+  constexpr double relative = 0x1p-44; // relative to the largest coordinate
   this->Margin = count == 0 ? 0
                             : relative *
       std::max({ std::fabs(domain.xmin), std::fabs(domain.ymin), std::fabs(domain.xmax),

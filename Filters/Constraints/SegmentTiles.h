@@ -35,8 +35,8 @@ public:
   void findCrossings(const std::function<void(std::int64_t, std::int64_t)>& found) const;
 
   /// Calls near(id) for each segment near one for which isWanted(id) is true, and for that one
-  /// itself. Near is a distance below 128 units in the last place of the largest coordinate. May
-  /// find a segment several times.
+  /// itself. Finds all at a distance below 128 units in the last place of the largest coordinate,
+  /// and some that are farther. May find a segment several times.
   void findNear(const std::function<bool(std::int64_t)>& isWanted,
     const std::function<void(std::int64_t)>& near) const;
 

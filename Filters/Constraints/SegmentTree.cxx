@@ -13,7 +13,7 @@ namespace tipp
 namespace
 {
 
-/// The lower 16 bits of a number, each followed by a zero.
+/// The lower 16 bits of a number, each followed by a zero bit.
 std::uint32_t spread(std::uint32_t bits)
 {
   bits = (bits | bits << 8) & 0x00ff00ffU;
@@ -23,7 +23,7 @@ std::uint32_t spread(std::uint32_t bits)
   return bits;
 }
 
-/// Where a coordinate lies in a range, as 16 bits.
+/// The position of a coordinate in a range, as 16 bits.
 std::uint32_t cellOf(double value, double low, double high)
 {
   constexpr double cells = 65535;
@@ -71,7 +71,7 @@ SegmentTree::SegmentTree(std::vector<Item> segments, int threads)
   }
   const Box2 all = boxOfAll(segments, threads);
   const auto count = std::int64_t(segments.size());
-  std::vector<std::uint64_t> order(segments.size()); // keys and then indices
+  std::vector<std::uint64_t> order(segments.size()); // first sort keys, then indices
   const auto forAll = [threads](std::int64_t items, const auto& body)
   {
     forChunks(items, Chunk, threads, {},

@@ -15,9 +15,9 @@ namespace tipp
 namespace
 {
 
-using Marks = std::vector<bool>; ///< by number of constraint
+using Marks = std::vector<bool>; ///< by index of the constraint
 
-/// Those whose ends are finite, and two.
+/// Visits the constraints whose ends are finite and different.
 template <typename Visit>
 void forEachWhole(const StoredConstraints& constraints, const Visit& visit)
 {
@@ -110,9 +110,10 @@ private:
     throw std::logic_error("Constraints cross, and do not when they are looked at again.");
   }
 
-  /// Crossing: all that cross others. In a round, parts of these move by a unit at most; what they
-  /// come to cross then is near, and may be led through what is near to it. If it is split, it is
-  /// one of those that cross. Other constraints cannot change.
+  /// `crossing` marks all constraints that cross others. In a round, parts of these move by at most
+  /// a unit. So constraints that they newly cross are near them, and these may be led through
+  /// points near themselves. Once such a constraint is split, it counts as crossing. No other
+  /// constraint can change.
   SplitConstraints splitNear(Marks crossing) const
   {
     bool isAll = false;
@@ -127,7 +128,7 @@ private:
       const StoredConstraints::Ends ends =
         this->Constraints.endsOf([&](std::int64_t number) { return taken[std::size_t(number)]; });
       const ResolvedConstraints resolved = this->resolve(ends, CrossingRule::Split);
-      if (!isAll && resolved.Rounds > RoundsOfDoubles) // they may move far
+      if (!isAll && resolved.Rounds > RoundsOfDoubles) // now they may move far
       {
         isAll = true;
         continue;
@@ -148,7 +149,7 @@ private:
     }
   }
 
-  /// Of those that are split.
+  /// Collects the parts of constraints that are split.
   void takeParts(const StoredConstraints::Ends& ends, const ResolvedConstraints& resolved,
     const std::vector<std::int64_t>& numbers, SplitConstraints& result) const
   {

@@ -18,7 +18,7 @@ struct SplitConstraints
   /// A part of a constraint.
   struct Part
   {
-    std::int64_t Number; ///< the constraint's
+    std::int64_t Number; ///< number of the constraint
     Point2 A;
     Point2 B;
   };

@@ -159,13 +159,13 @@ void StoredConstraints::match()
   }
 }
 
-/// Writes the positions of all constraints: ends that are joined by id come by bucket, so they are
-/// sorted by ranges of constraints first.
+/// Writes the positions of all constraints. Matches by id arrive bucket by bucket, so they are
+/// first sorted by ranges of constraints.
 void StoredConstraints::placeNamed()
 {
   struct End
   {
-    std::int64_t Number; ///< twice the constraint's, and one more for its end B
+    std::int64_t Number; ///< twice the index of the constraint, plus 1 for its end B
     Point2 Position;
   };
   constexpr std::uint64_t fewest = 65536;
@@ -249,7 +249,7 @@ StoredConstraints::Ends StoredConstraints::endsOf(
 {
   std::vector<std::int64_t> numbers;
   Ends ends;
-  std::vector<Point2> positions; // two of each constraint
+  std::vector<Point2> positions; // two per constraint
   this->forEach(
     [&](std::int64_t number, Point2 a, Point2 b)
     {

@@ -106,7 +106,7 @@ private:
   };
   struct Segment
   {
-    Point2 A; ///< or the id as x
+    Point2 A; ///< position, or id as x
     Point2 B;
   };
 

@@ -19,7 +19,7 @@ namespace
 
 using Edge = std::array<std::int64_t, 2>;
 
-/// All parts of the file as one table.
+/// Reads all blocks of a text file into one table.
 ConstraintTable readText(const std::string& path)
 {
   SegmentRows rows(path);
@@ -122,7 +122,7 @@ bool SegmentRows::next(ConstraintTable& table)
   {
     const auto column = [&](std::size_t c) { return block.Columns[c][i]; };
     const auto id = std::int64_t(table.XY.size() / 2);
-    const std::size_t end = hasHeights ? 1 : 0; // the column of the second end's x
+    const std::size_t end = hasHeights ? 1 : 0; // column of x of the second end
     table.XY.insert(
       table.XY.end(), { block.XY[2 * i], block.XY[2 * i + 1], column(end), column(end + 1) });
     if (hasHeights)

@@ -45,20 +45,20 @@ struct ConstraintTable
 /// Throws IOError.
 VTKTIPPIO_EXPORT ConstraintTable readConstraintFile(const std::string& path);
 
-/// The segments of a text file (.csv, .txt), block by block.
+/// Reads the segments of a text file (.csv, .txt) block by block.
 class VTKTIPPIO_EXPORT SegmentRows
 {
 public:
   static bool isFor(const std::string& path);
 
-  /// Throws IOError, as next() does.
+  /// Opens the file. The constructor and next() throw IOError.
   explicit SegmentRows(const std::string& path);
 
-  /// Replaces a table by the next segments, whose ids count the table's own points; returns false
-  /// at the end.
+  /// Replaces the content of `table` by the next segments. Their ids are indices in the table's own
+  /// points, if it has any. Returns false at the end.
   bool next(ConstraintTable& table);
 
-  /// Identifies the file across runs: its name, size and time.
+  /// A text that identifies the file across runs: name, size and time.
   std::string identity() const { return this->Rows->identity(); }
 
 private:
