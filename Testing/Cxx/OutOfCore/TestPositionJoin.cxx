@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The join on disk of constraints' ends and points, and the rows in files that it uses.
+// Tests PositionJoin, which matches the ends of constraints with points on disk, and RowFile.
 #include "TemporaryFolder.h"
 
 #include "Constraints/PositionJoin.h"
@@ -21,7 +21,7 @@ using namespace tipp::test;
 
 using Key = std::pair<double, double>;
 
-/// Few different positions, so that many are equal; some coordinates are zeros of either sign.
+/// Only a few different positions, so that many are equal. Some coordinates are 0 or -0.
 std::vector<Point2> randomPositions(std::size_t count, int side, unsigned seed)
 {
   std::mt19937 random(seed);
@@ -40,7 +40,7 @@ std::vector<Point2> randomPositions(std::size_t count, int side, unsigned seed)
 
 struct Expected
 {
-  std::int64_t First = -1; ///< that is looked for
+  std::int64_t First = -1; ///< the first number that is wanted at the position
   std::int64_t Point = -1;
 };
 
@@ -103,7 +103,7 @@ TEST_P(PositionJoins, FindTheFirstPointsAtPositions)
   EXPECT_TRUE(std::filesystem::is_empty(folder.path("")));
 }
 
-// Many buckets and few bits; one bucket.
+// Memory for many small buckets, in between, and for only one bucket.
 INSTANTIATE_TEST_SUITE_P(
   Memory, PositionJoins, testing::Values(1024, 65536, std::uint64_t(1) << 30));
 
@@ -112,7 +112,7 @@ TEST(RowFile, ReadsBackAnyRangeOfWhatWasAppended)
   const TemporaryFolder folder;
   {
     RowFile rows(folder.path("rows"), sizeof(std::int64_t));
-    constexpr std::int64_t count = 300000; // several buffers
+    constexpr std::int64_t count = 300000; // fills the file's buffer several times
     for (std::int64_t i = 0; i < count; ++i)
     {
       const std::int64_t row = i * i;

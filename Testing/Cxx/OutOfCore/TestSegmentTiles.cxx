@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Crossings and neighbours that are found tile by tile, beside all pairs.
+// Compares crossings and near segments from SegmentTiles with tests of all pairs.
 #include "TemporaryFolder.h"
 
 #include "Constraints/SegmentTiles.h"
@@ -23,7 +23,8 @@ using namespace tipp::test;
 using Items = std::vector<SegmentTree::Item>;
 using Pair = std::pair<std::int64_t, std::int64_t>;
 
-/// `kind` 0: any; 1: short ones and some long ones; 2: on lattice lines, with common ends.
+/// `kind` 0: segments of any length; 1: mostly short segments; 2: ends at lattice points, so that
+/// segments have common ends and overlap.
 Items randomSegments(int kind, std::size_t count, double scale, unsigned seed)
 {
   std::mt19937_64 random(seed);
@@ -93,12 +94,13 @@ TEST_P(Tiles, FindAllPairsThatCross)
   }
 }
 
-TEST_P(Tiles, FindWhatIsNear)
+TEST_P(Tiles, FindSegmentsNearOthers)
 {
   const TemporaryFolder folder;
   Items items = randomSegments(1, 300, 1, 7);
   const std::size_t random = items.size();
-  for (std::size_t i = 0; i < random; ++i) // beside each, so near that rounding may matter; farther
+  // Each segment gets a copy so near that rounding may matter, and another far from it.
+  for (std::size_t i = 0; i < random; ++i)
   {
     const auto [a, b, id] = items[i];
     constexpr double unit = 0x1p-53;

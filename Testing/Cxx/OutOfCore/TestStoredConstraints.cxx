@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Constraints that are matched and split on disk, beside those in memory.
+// Compares constraints that are matched and split on disk with those in memory.
 #include "OutOfCoreTesting.h"
 
 #include "Constraints/ConstrainedPoints.h"
@@ -22,7 +22,7 @@ PointsView viewOf(const Coordinates& xy)
   return PointsView(xy.data(), xy.size() / 2, 2);
 }
 
-/// Bits, for NaN is to be equal to itself.
+/// Compared instead of the numbers, since NaN is not equal to itself.
 std::vector<std::uint64_t> bitsOf(const std::vector<double>& values)
 {
   std::vector<std::uint64_t> bits(values.size());
@@ -30,13 +30,13 @@ std::vector<std::uint64_t> bitsOf(const std::vector<double>& values)
   return bits;
 }
 
-/// What the input's points get.
+/// The height of an input point.
 double heightOf(std::size_t point)
 {
   return 0.37 * double(point % 101);
 }
 
-/// New points, and parts of constraints as four coordinates each.
+/// The new points, and the parts of constraints as four coordinates each.
 struct Outcome
 {
   std::vector<double> XY;
@@ -147,8 +147,8 @@ void expectSame(const Outcome& expected, const Outcome& made, const std::string&
   EXPECT_EQ(bitsOf(expected.Parts), bitsOf(made.Parts)) << what;
 }
 
-/// Between points and between new positions; `reach`: how far apart their indices are, so that some
-/// sets have few that cross.
+/// Segments between points, and some to new positions. The ends' indices differ by less than
+/// `reach`. A small value makes few crossings in some point sets.
 ConstraintTable randomSegments(const Coordinates& xy, int count, std::size_t reach, unsigned seed)
 {
   std::mt19937_64 random(seed);
@@ -175,7 +175,7 @@ class StoredConstraintSets : public testing::TestWithParam<std::string>
 {
 };
 
-TEST_P(StoredConstraintSets, AreSplitAsInMemoryWhateverMemoryThereIs)
+TEST_P(StoredConstraintSets, AreSplitAsInMemoryForAnyMemoryLimit)
 {
   const Coordinates xy = makePointSet(GetParam(), 1000);
   unsigned seed = 1;
@@ -204,8 +204,8 @@ INSTANTIATE_TEST_SUITE_P(PointSets, StoredConstraintSets,
     return name;
   });
 
-/// Segments between a few points along a diagonal, over twelve orders of magnitude: their parts
-/// cross again a unit further. And some that are far from them.
+/// Segments between a few points along a diagonal that spans twelve orders of magnitude: the parts
+/// of split segments cross again after rounding. Also segments far from these.
 ConstraintTable nearlyParallelSegments(unsigned seed)
 {
   std::mt19937_64 random(seed);
@@ -284,7 +284,7 @@ TEST(StoredConstraint, MayNamePointsByIds)
   }
 }
 
-TEST(StoredConstraint, IsRefusedIfItCrossesOrNamesNoPoint)
+TEST(StoredConstraint, IsRefusedIfItCrossesOthersOrNamesAnUnknownPoint)
 {
   const Coordinates xy{ 0, 0, 4, 4, 0, 4, 4, 0, 9, 1 };
   const auto run = [&](ConstraintTable table)
@@ -303,7 +303,7 @@ TEST(StoredConstraint, IsRefusedIfItCrossesOrNamesNoPoint)
   expectIOError("lines.csv",
     "constraint 1 (points 0 and 1) crosses constraint 2 (points 2 and 3) at (2, 2)",
     [&] { run(named); });
-  ConstraintTable own; // its third point is new, and gets the id 5
+  ConstraintTable own; // the third point is new, and gets the id 5
   own.XY = { 9, 1, 0, 0, 1, 5, 3, -1, 4, 4 };
   own.Height = { 0, 0, 0, 0, 0 };
   own.Edges = { { 0, 1 }, { 2, 3 }, { 1, 4 } };
