@@ -23,22 +23,23 @@ namespace
 {
 
 /// Partitions for each of some ranks. Parallel slabs pass the fewest vertices on while they are
-/// thick, and every other one is ready at once. Else there are enough boxes that all find work.
+/// thick: one for each thread, which triangulates its points while it waits for the neighbours'
+/// vertices. Else there are enough boxes that all find work.
 PartitionGroups chooseGroups(std::int64_t points, int ranks, int threads, int wanted)
 {
   constexpr double thick = 10; // distances between points
   constexpr int boxesOfThread = 12;
   constexpr int most = 512;
-  constexpr double hull = 3; // the first rank repairs it
+  constexpr double hull = 2; // the first rank repairs it
   constexpr std::int64_t largest = std::int64_t(1) << 25;
   const double slabs = std::cbrt(double(points)) / thick;
   PartitionGroups groups;
   groups.Count = ranks;
   groups.FirstLess = std::min(0.5, hull / std::cbrt(double(std::max<std::int64_t>(points, 1))));
-  groups.AreSlabs = 2 * ranks <= slabs;
-  groups.ArePartitionsSlabs = groups.AreSlabs && 2 * ranks * threads <= slabs && wanted == 0;
+  groups.AreSlabs = ranks <= slabs;
+  groups.ArePartitionsSlabs = groups.AreSlabs && ranks * threads <= slabs && wanted == 0;
   groups.Each = wanted > 0 ? (wanted + ranks - 1) / ranks
-                           : (groups.ArePartitionsSlabs ? 2 : boxesOfThread) * threads;
+                           : (groups.ArePartitionsSlabs ? 1 : boxesOfThread) * threads;
   groups.Each = std::clamp(groups.Each, 1, std::max(1, most / ranks));
   groups.Each = std::max(groups.Each, int(points / ranks / largest));
   return groups;

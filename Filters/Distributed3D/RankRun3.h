@@ -11,6 +11,7 @@
 #include "Triangulation3D/Tetrahedralize.h"
 
 #include <atomic>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
@@ -58,6 +59,7 @@ private:
   struct Cells;
 
   PartitionIndex take();
+  bool waitFor(PartitionIndex p);
   void work(Cells& cells);
   std::vector<std::int32_t> recipientsOf(PartitionIndex p) const;
   void finish(PartitionIndex p, SentMessages3 sent);
@@ -78,12 +80,17 @@ private:
   const PointBuckets3& Points;
   const std::int64_t FirstId;
   ReadyPartitions Ready;
+  std::vector<std::atomic<char>> IsReady; ///< by partition; only of those that threads have begun
+  std::vector<PartitionIndex> OwnPartitions; ///< in order
+  std::atomic<std::size_t> NextOwn{ 0 };
   std::vector<Inbox3> Inboxes;
   std::size_t AwaitedMessages = 0; ///< of other ranks' finished partitions
   std::atomic<std::size_t> LeftPartitions{ 0 };
   std::atomic<std::size_t> LeftToTake{ 0 };
   std::atomic<std::size_t> PointsDone{ 0 };
-  std::mutex Mutex; ///< for ToSend, and for results when a thread ends
+  std::atomic<int> Idle{ 0 };         ///< threads that look for a partition
+  std::condition_variable IsFinished; ///< a partition is
+  std::mutex Mutex;                   ///< for ToSend, and for results when a thread ends
   std::vector<Outgoing> ToSend;
   Stopwatch SinceReport;
 };

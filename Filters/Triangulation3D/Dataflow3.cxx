@@ -31,6 +31,19 @@ void keepUnique(std::vector<Vertex3>& vertices)
     vertices.end());
 }
 
+namespace
+{
+
+void appendPositions(const std::vector<Vertex3>& vertices, std::vector<Point3>& points)
+{
+  for (const Vertex3& v : vertices)
+  {
+    points.push_back(v.Position);
+  }
+}
+
+} // namespace
+
 bool takeHullVertices(const std::array<Vertex3, 4>& corners, std::vector<Vertex3>& vertices)
 {
   if (std::none_of(
@@ -65,8 +78,7 @@ Vertex3 Worker3::vertex(Index v) const
     : this->Others[i - this->Own.Count];
 }
 
-/// Collects the partition's points and those of its inbox. Its own points come first, so that they
-/// represent points with the same coordinates.
+/// Takes the inbox's vertices of other partitions.
 void Worker3::collect(const std::vector<VertexMessage3>& inbox)
 {
   this->Others.clear();
@@ -76,11 +88,6 @@ void Worker3::collect(const std::vector<VertexMessage3>& inbox)
       [this](const Vertex3& v) { return v.Partition != this->Own.Partition; });
   }
   keepUnique(this->Others);
-  this->Points.assign(this->Own.Points, this->Own.Points + this->Own.Count);
-  for (const Vertex3& v : this->Others)
-  {
-    this->Points.push_back(v.Position);
-  }
 }
 
 Box3 Worker3::boxBesideLater() const
@@ -117,25 +124,65 @@ Box3 Worker3::boxBesideLater() const
   return box;
 }
 
+void Worker3::measureVertices()
+{
+  this->Ids.resize(this->Kernel.vertexEnd());
+  this->Slack.resize(this->Kernel.vertexEnd());
+  const Box3& box = this->Interior;
+  for (Index v = 1; v < this->Kernel.vertexEnd(); ++v)
+  {
+    const std::size_t i = this->Kernel.pointIndex(v);
+    const bool isOwn = i < this->Own.Count;
+    this->Ids[v] = isOwn ? this->Own.id(i) : this->Others[i - this->Own.Count].Id;
+    const Point3& p = this->Kernel.point(v);
+    this->Slack[v] = isOwn ? std::min({ p.x - box.Min[0], box.Max[0] - p.x, p.y - box.Min[1],
+                               box.Max[1] - p.y, p.z - box.Min[2], box.Max[2] - p.z })
+                           : -1;
+  }
+}
+
 SentMessages3 Worker3::triangulate(const PartitionPoints3& points,
   const std::vector<VertexMessage3>& inbox, FinalCellConsumer3& final)
 {
   this->Own = points;
-  this->Beside = this->boxBesideLater();
   this->collect(inbox);
+  // The partition's own points first, so that they represent points with the same coordinates.
+  this->Points.assign(points.Points, points.Points + points.Count);
+  appendPositions(this->Others, this->Points);
   this->Kernel.triangulate(this->Points.data(), this->Points.size());
-  this->VertexCount += this->Points.size();
-  this->Outgoing.assign(this->Order.later(points.Partition).size(), {});
-  this->Ids.resize(this->Kernel.vertexEnd());
-  this->Slack.resize(this->Kernel.vertexEnd());
-  const Box3& region = this->Regions[std::size_t(points.Partition)];
-  for (Index v = 1; v < this->Kernel.vertexEnd(); ++v)
+  return this->routeAll(final);
+}
+
+void Worker3::begin(const PartitionPoints3& points, const DelaunayKernel3::Monitor& proceed)
+{
+  this->Own = points;
+  this->Kernel.triangulate(points.Points, points.Count, proceed, 1, points.Count / 8);
+}
+
+SentMessages3 Worker3::finish(const std::vector<VertexMessage3>& inbox, FinalCellConsumer3& final)
+{
+  if (this->Kernel.dimension() < 3)
   {
-    this->Ids[v] = this->vertex(v).Id;
-    const Point3& p = this->Kernel.point(v);
-    this->Slack[v] = std::min({ p.x - region.Min[0], region.Max[0] - p.x, p.y - region.Min[1],
-      region.Max[1] - p.y, p.z - region.Min[2], region.Max[2] - p.z });
+    return this->triangulate(this->Own, inbox, final);
   }
+  this->collect(inbox);
+  this->Points.clear();
+  appendPositions(this->Others, this->Points);
+  this->Kernel.add(this->Points.data(), this->Points.size());
+  return this->routeAll(final);
+}
+
+/// Routes the tetrahedra of the partition's own points and Others.
+SentMessages3 Worker3::routeAll(FinalCellConsumer3& final)
+{
+  this->VertexCount += this->Own.Count + this->Others.size();
+  const PartitionOrder::Range later = this->Order.later(this->Own.Partition);
+  this->Outgoing.assign(later.size(), {});
+  this->Beside = this->boxBesideLater();
+  const bool isAny = this->Inside == InsideCells::Any;
+  this->Interior = isAny ? this->Beside : this->Regions[std::size_t(this->Own.Partition)];
+  this->IsOpen = isAny && later.size() == 0;
+  this->measureVertices();
   this->Kernel.forEach(
     [&](Index cell)
     {
@@ -163,14 +210,15 @@ void Worker3::takeDuplicates()
 void Worker3::route(Index cell, FinalCellConsumer3& final)
 {
   const std::array<Index, 4> v = this->Kernel.corners(cell);
-  const Box3& region = this->Regions[std::size_t(this->Own.Partition)];
   const Point3& a = this->Kernel.point(v[0]);
   const Point3& b = this->Kernel.point(v[1]);
   const Point3& c = this->Kernel.point(v[2]);
   const Point3& d = this->Kernel.point(v[3]);
-  const double slack = this->Slack[v[0]]; // negative if the vertex is outside of the region
-  if ((slack > 0 && Circumball::isSurelySmall(a, b, c, d, slack)) ||
-    Circumball::isSurelyInside(a, b, c, d, region))
+  const auto isOwn = [this](Index corner) { return this->Slack[corner] >= 0; };
+  const bool areOwn = std::all_of(v.begin(), v.end(), isOwn);
+  if (areOwn &&
+    (this->IsOpen || Circumball::isSurelySmall(a, b, c, d, this->Slack[v[0]]) ||
+      Circumball::isSurelyInside(a, b, c, d, this->Interior)))
   {
     final.addInside({ this->Ids[v[0]], this->Ids[v[1]], this->Ids[v[2]], this->Ids[v[3]] });
     return;
@@ -178,15 +226,15 @@ void Worker3::route(Index cell, FinalCellConsumer3& final)
   const auto add = [&] {
     final.add({ this->vertex(v[0]), this->vertex(v[1]), this->vertex(v[2]), this->vertex(v[3]) });
   };
-  const bool meetsRegion =
-    std::any_of(v.begin(), v.end(), [this](Index corner) { return this->isOwn(corner); });
+  // The ball of an own corner meets the region.
+  const bool meetsRegion = areOwn || std::any_of(v.begin(), v.end(), isOwn);
   if (meetsRegion && Circumball::isSurelyInside(a, b, c, d, this->Beside))
   {
     add();
     return;
   }
   const Circumball ball = ballOf(this->Kernel, v);
-  if (!meetsRegion && !ball.meets(region))
+  if (!meetsRegion && !ball.meets(this->Regions[std::size_t(this->Own.Partition)]))
   {
     return;
   }
@@ -254,42 +302,104 @@ std::vector<VertexMessage3> sendInitialMesh(const InitialMesh3& mesh, const Part
   return messages;
 }
 
+namespace
+{
+
+/// Artificial points, which are on the sides of a box, in groups of neighbours with boxes of their
+/// own.
+class ArtificialGroups
+{
+public:
+  explicit ArtificialGroups(const std::vector<Vertex3>& artificial)
+  {
+    for (const Vertex3& z : artificial)
+    {
+      this->Bounds.include(z.Position);
+    }
+    const Box3& box = this->Bounds.Box;
+    std::array<std::vector<Point3>, 6> sides;
+    for (const Vertex3& z : artificial)
+    {
+      const Point3& p = z.Position;
+      const std::array<bool, 6> isOn = { p.x == box.Min[0], p.x == box.Max[0], p.y == box.Min[1],
+        p.y == box.Max[1], p.z == box.Min[2], true };
+      sides[std::size_t(std::find(isOn.begin(), isOn.end(), true) - isOn.begin())].push_back(p);
+    }
+    for (const std::vector<Point3>& side : sides)
+    {
+      this->addGroups(side);
+    }
+  }
+
+  /// The box that all points are on.
+  const Box3& box() const { return this->Bounds.Box; }
+
+  /// Whether the tetrahedron of these corners is in conflict with one of the points.
+  bool areInConflict(const Point3& a, const Point3& b, const Point3& c, const Point3& d) const
+  {
+    const Circumball ball(a, b, c, d);
+    const auto isInConflict = [&](const Point3& p)
+    {
+      return ball.meets({ { p.x, p.y, p.z }, { p.x, p.y, p.z } }) &&
+        inSpherePerturbed(a, b, c, d, p);
+    };
+    return std::any_of(this->Groups.begin(), this->Groups.end(),
+      [&](const Group& group)
+      {
+        return ball.meets(group.Bounds.Box) &&
+          std::any_of(group.Points.begin(), group.Points.end(), isInConflict);
+      });
+  }
+
+private:
+  struct Group
+  {
+    PointBounds Bounds;
+    std::vector<Point3> Points;
+  };
+
+  void addGroups(const std::vector<Point3>& side)
+  {
+    constexpr std::size_t most = 16;
+    for (std::size_t i = 0; i < side.size(); ++i)
+    {
+      if (i % most == 0)
+      {
+        this->Groups.emplace_back();
+      }
+      this->Groups.back().Points.push_back(side[i]);
+      this->Groups.back().Bounds.include(side[i]);
+    }
+  }
+
+  PointBounds Bounds;
+  std::vector<Group> Groups;
+};
+
+} // namespace
+
 void repairHull(
   std::vector<Vertex3> vertices, const std::vector<Vertex3>& artificial, FinalCellConsumer3& final)
 {
   keepUnique(vertices);
   std::vector<Point3> points;
-  for (const Vertex3& v : vertices)
-  {
-    points.push_back(v.Position);
-  }
-  // The artificial points lie on the sides of this box.
-  PointBounds frame;
-  for (const Vertex3& z : artificial)
-  {
-    frame.include(z.Position);
-  }
+  appendPositions(vertices, points);
+  const ArtificialGroups groups(artificial);
   DelaunayKernel3 kernel;
   kernel.triangulate(points.data(), points.size());
   kernel.forEach(
     [&](Index cell)
     {
-      const std::array<Index, 4> v = kernel.corners(cell);
-      if (kernel.isInfinite(cell) ||
-        Circumball::isSurelyInside(kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2]),
-          kernel.point(v[3]), frame.Box))
+      if (kernel.isInfinite(cell))
       {
         return;
       }
-      const Circumball ball = ballOf(kernel, v);
-      const auto isInConflict = [&](const Vertex3& z)
-      {
-        const Point3& p = z.Position;
-        return ball.meets({ { p.x, p.y, p.z }, { p.x, p.y, p.z } }) &&
-          inSpherePerturbed(kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2]),
-            kernel.point(v[3]), z.Position);
-      };
-      if (std::any_of(artificial.begin(), artificial.end(), isInConflict))
+      const std::array<Index, 4> v = kernel.corners(cell);
+      const Point3& a = kernel.point(v[0]);
+      const Point3& b = kernel.point(v[1]);
+      const Point3& c = kernel.point(v[2]);
+      const Point3& d = kernel.point(v[3]);
+      if (!Circumball::isSurelyInside(a, b, c, d, groups.box()) && groups.areInConflict(a, b, c, d))
       {
         const auto vertex = [&](Index corner) { return vertices[kernel.pointIndex(corner)]; };
         final.add({ vertex(v[0]), vertex(v[1]), vertex(v[2]), vertex(v[3]) });

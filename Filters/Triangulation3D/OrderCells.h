@@ -20,9 +20,8 @@ using CellIds = std::array<std::int32_t, 4>;
 Buffer<std::int32_t> orderCells(
   std::vector<std::vector<CellIds>>&& parts, std::size_t points, int threads);
 
-/// Merges ranges of cells that are in this order each. `firsts`: the index of each range's first
-/// cell, and the end.
-void mergeCells(Buffer<std::int32_t>& ids, std::vector<std::int64_t> firsts);
+/// Merges lists of cells that are in this order each, and frees them.
+Buffer<std::int32_t> mergeCells(std::vector<Buffer<char>> parts);
 
 /// Sorts triangles, three point ids each, by their ids, and rotates each so that its lowest id is
 /// first.
