@@ -18,7 +18,7 @@ namespace
 {
 
 /// Between looks for what comes from other ranks.
-constexpr std::chrono::microseconds ShortPause(300);
+constexpr std::chrono::microseconds ShortPause(500);
 
 /// By partition: whether this rank owns it, and it has points.
 std::vector<char> ownPartitions(const Communicator& ranks, const RankWork3& work)
@@ -124,21 +124,33 @@ PartitionIndex RankRun3::take()
   return p;
 }
 
+/// Wakes the threads that wait for a change: partitions are done.
+void RankRun3::notify()
+{
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex); // they look under it
+  }
+  this->Changed.notify_all();
+}
+
 /// Waits until a partition that this thread has begun is ready. Returns false if the run was
 /// stopped.
 bool RankRun3::waitFor(PartitionIndex p)
 {
+  constexpr std::chrono::milliseconds pause(10);
   ++this->Idle;
+  std::unique_lock<std::mutex> lock(this->Mutex);
   while (this->IsReady[std::size_t(p)] == 0 && !this->Ready.isStopped())
   {
     const PartitionIndex ready = this->Ready.tryTake();
     if (ready >= 0)
     {
       this->IsReady[std::size_t(ready)] = 1;
+      this->Changed.notify_all(); // its thread may be another one
     }
     else
     {
-      std::this_thread::sleep_for(ShortPause);
+      this->Changed.wait_for(lock, pause);
     }
   }
   --this->Idle;
@@ -212,7 +224,7 @@ void RankRun3::finish(PartitionIndex p, SentMessages3 sent)
   }
   this->Ready.finish(p);
   --this->LeftPartitions;
-  this->IsFinished.notify_one();
+  this->notify();
 }
 
 /// Receives the message that another rank's partition is done.
@@ -234,6 +246,7 @@ void RankRun3::receive(const Message& message)
   }
   --this->AwaitedMessages;
   this->Ready.finish(sender);
+  this->notify();
 }
 
 /// Returns false if there was nothing to send or receive.
@@ -282,7 +295,7 @@ void RankRun3::coordinate()
       std::unique_lock<std::mutex> lock(this->Mutex);
       if (this->ToSend.empty())
       {
-        this->IsFinished.wait_for(lock, areWaiting ? ShortPause : longest);
+        this->Changed.wait_for(lock, areWaiting ? ShortPause : longest);
       }
     }
     if (this->SinceReport.seconds() > untilReport)

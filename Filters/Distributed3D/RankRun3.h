@@ -59,6 +59,7 @@ private:
   struct Cells;
 
   PartitionIndex take();
+  void notify();
   bool waitFor(PartitionIndex p);
   void work(Cells& cells);
   std::vector<std::int32_t> recipientsOf(PartitionIndex p) const;
@@ -88,9 +89,9 @@ private:
   std::atomic<std::size_t> LeftPartitions{ 0 };
   std::atomic<std::size_t> LeftToTake{ 0 };
   std::atomic<std::size_t> PointsDone{ 0 };
-  std::atomic<int> Idle{ 0 };         ///< threads that look for a partition
-  std::condition_variable IsFinished; ///< a partition is
-  std::mutex Mutex;                   ///< for ToSend, and for results when a thread ends
+  std::atomic<int> Idle{ 0 };      ///< threads that look for a partition
+  std::condition_variable Changed; ///< a partition is done, here or on another rank
+  std::mutex Mutex;                ///< for ToSend, and for results when a thread ends
   std::vector<Outgoing> ToSend;
   Stopwatch SinceReport;
 };

@@ -126,18 +126,17 @@ Box3 Worker3::boxBesideLater() const
 
 void Worker3::measureVertices()
 {
-  this->Ids.resize(this->Kernel.vertexEnd());
-  this->Slack.resize(this->Kernel.vertexEnd());
+  this->Vertices.resize(this->Kernel.vertexEnd());
   const Box3& box = this->Interior;
   for (Index v = 1; v < this->Kernel.vertexEnd(); ++v)
   {
     const std::size_t i = this->Kernel.pointIndex(v);
     const bool isOwn = i < this->Own.Count;
-    this->Ids[v] = isOwn ? this->Own.id(i) : this->Others[i - this->Own.Count].Id;
     const Point3& p = this->Kernel.point(v);
-    this->Slack[v] = isOwn ? std::min({ p.x - box.Min[0], box.Max[0] - p.x, p.y - box.Min[1],
-                               box.Max[1] - p.y, p.z - box.Min[2], box.Max[2] - p.z })
-                           : -1;
+    this->Vertices[v] = isOwn ? Measured{ this->Own.id(i),
+      std::min({ p.x - box.Min[0], box.Max[0] - p.x, p.y - box.Min[1], box.Max[1] - p.y,
+        p.z - box.Min[2], box.Max[2] - p.z }) }
+                              : Measured{ this->Others[i - this->Own.Count].Id, -1 };
   }
 }
 
@@ -173,6 +172,12 @@ SentMessages3 Worker3::finish(const std::vector<VertexMessage3>& inbox, FinalCel
 }
 
 /// Routes the tetrahedra of the partition's own points and Others.
+//
+// Few need their circumball tested. If the ball of a tetrahedron t reaches a half-space beyond a
+// side of Interior at a point q, follow a ray from t to q: the powers of q do not increase along
+// it, so all balls on the way reach q, up to a tetrahedron that contains q or is at the hull. Own
+// points are inside, so the former has a corner with Slack <= 0. From such tetrahedra, all those
+// that are not inside are reached across facets.
 SentMessages3 Worker3::routeAll(FinalCellConsumer3& final)
 {
   this->VertexCount += this->Own.Count + this->Others.size();
@@ -181,18 +186,56 @@ SentMessages3 Worker3::routeAll(FinalCellConsumer3& final)
   this->Beside = this->boxBesideLater();
   const bool isAny = this->Inside == InsideCells::Any;
   this->Interior = isAny ? this->Beside : this->Regions[std::size_t(this->Own.Partition)];
-  this->IsOpen = isAny && later.size() == 0;
   this->measureVertices();
+  this->IsTested.assign(this->Kernel.end() / 8, 0);
+  this->ToTest.clear();
+  this->Kernel.forEach([&](Index cell) { this->findBorder(cell); });
+  for (std::size_t i = 0; i < this->ToTest.size(); ++i)
+  {
+    this->route(this->ToTest[i], final);
+  }
   this->Kernel.forEach(
     [&](Index cell)
     {
-      if (!this->Kernel.isInfinite(cell))
+      if (!this->Kernel.isInfinite(cell) && this->IsTested[cell / 8] == 0)
       {
-        this->route(cell, final);
+        this->addInside(cell, final);
       }
     });
   this->takeDuplicates();
   return this->send();
+}
+
+void Worker3::test(Index cell)
+{
+  if (!this->Kernel.isInfinite(cell) && this->IsTested[cell / 8] == 0)
+  {
+    this->IsTested[cell / 8] = 1;
+    this->ToTest.push_back(cell);
+  }
+}
+
+/// Chooses the tetrahedra that are tested first.
+void Worker3::findBorder(Index cell)
+{
+  if (this->Kernel.isInfinite(cell))
+  {
+    this->test(this->Kernel.neighbour(cell, 0));
+    return;
+  }
+  const std::array<Index, 4> v = this->Kernel.corners(cell);
+  if (std::any_of(
+        v.begin(), v.end(), [this](Index corner) { return !(this->Vertices[corner].Slack > 0); }))
+  {
+    this->test(cell);
+  }
+}
+
+void Worker3::addInside(Index cell, FinalCellConsumer3& final) const
+{
+  const std::array<Index, 4> v = this->Kernel.corners(cell);
+  final.addInside({ this->Vertices[v[0]].Id, this->Vertices[v[1]].Id, this->Vertices[v[2]].Id,
+    this->Vertices[v[3]].Id });
 }
 
 void Worker3::takeDuplicates()
@@ -214,14 +257,18 @@ void Worker3::route(Index cell, FinalCellConsumer3& final)
   const Point3& b = this->Kernel.point(v[1]);
   const Point3& c = this->Kernel.point(v[2]);
   const Point3& d = this->Kernel.point(v[3]);
-  const auto isOwn = [this](Index corner) { return this->Slack[corner] >= 0; };
+  const auto isOwn = [this](Index corner) { return this->Vertices[corner].Slack >= 0; };
   const bool areOwn = std::all_of(v.begin(), v.end(), isOwn);
   if (areOwn &&
-    (this->IsOpen || Circumball::isSurelySmall(a, b, c, d, this->Slack[v[0]]) ||
+    (Circumball::isSurelySmall(a, b, c, d, this->Vertices[v[0]].Slack) ||
       Circumball::isSurelyInside(a, b, c, d, this->Interior)))
   {
-    final.addInside({ this->Ids[v[0]], this->Ids[v[1]], this->Ids[v[2]], this->Ids[v[3]] });
+    this->addInside(cell, final);
     return;
+  }
+  for (Index i = 0; i < 4; ++i)
+  {
+    this->test(this->Kernel.neighbour(cell, i));
   }
   const auto add = [&] {
     final.add({ this->vertex(v[0]), this->vertex(v[1]), this->vertex(v[2]), this->vertex(v[3]) });
@@ -246,8 +293,8 @@ void Worker3::route(Index cell, FinalCellConsumer3& final)
     add();
     return;
   }
-  std::vector<Index>& corners = this->Outgoing[std::size_t(next - later.begin())];
-  corners.insert(corners.end(), v.begin(), v.end());
+  std::vector<Index>& outgoing = this->Outgoing[std::size_t(next - later.begin())];
+  outgoing.insert(outgoing.end(), v.begin(), v.end());
 }
 
 SentMessages3 Worker3::send()

@@ -109,26 +109,35 @@ private:
   Box3 boxBesideLater() const;
   SentMessages3 routeAll(FinalCellConsumer3& final);
   void measureVertices();
+  void test(DelaunayKernel3::Index cell);
+  void findBorder(DelaunayKernel3::Index cell);
+  void addInside(DelaunayKernel3::Index cell, FinalCellConsumer3& final) const;
   void route(DelaunayKernel3::Index cell, FinalCellConsumer3& final);
   SentMessages3 send();
   void takeDuplicates();
   Vertex3 vertex(DelaunayKernel3::Index v) const;
 
+  struct Measured
+  {
+    std::int64_t Id; ///< the point's
+    double Slack;    ///< the distance from the sides of Interior; -1: another partition's point
+  };
+
   const std::vector<Box3>& Regions;
   const PartitionOrder& Order;
   const InsideCells Inside;
   PartitionPoints3 Own;
-  Box3 Beside;         ///< around the own region; no later partition reaches into its interior
-  Box3 Interior;       ///< of the tetrahedra for addInside(): Beside, or the own region
-  bool IsOpen = false; ///< whether Interior has no sides
+  Box3 Beside;   ///< around the own region; no later partition reaches into its interior
+  Box3 Interior; ///< of the tetrahedra for addInside(): Beside, or the own region
   DelaunayKernel3 Kernel;
   std::vector<Point3> Points;  ///< positions to triangulate
   std::vector<Vertex3> Others; ///< from the inbox
   /// By later partition: corners of the tetrahedra for it.
   std::vector<std::vector<DelaunayKernel3::Index>> Outgoing;
-  std::vector<std::int64_t> Ids; ///< by vertex: the point's id
-  std::vector<double> Slack; ///< by vertex: the distance from the sides of Interior; -1: not own
-  std::vector<std::uint32_t> SentTo; ///< by vertex: the last recipient, counted from 1
+  std::vector<Measured> Vertices;             ///< by vertex
+  std::vector<char> IsTested;                 ///< by tetrahedron
+  std::vector<DelaunayKernel3::Index> ToTest; ///< whose circumballs are tested, in this order
+  std::vector<std::uint32_t> SentTo;          ///< by vertex: the last recipient, counted from 1
   std::vector<Duplicate> Duplicates;
   std::size_t VertexCount = 0;
 };
