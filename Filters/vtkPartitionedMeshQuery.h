@@ -23,7 +23,7 @@
  *
  * With a Controller of several ranks, all ranks must update the filter together, and must call the
  * collective methods together: Locate(), Interpolate(), InterpolateOnOwners(), ZoneStatistics(),
- * Descend() and the methods from Neighbors() to Profile(). Each rank handles some pieces of the
+ * Descend() and the methods from Neighbors() to Closest(). Each rank handles some pieces of the
  * stored mesh, or has a part of the source; every rank's query is answered from the cells of all
  * ranks. A rank may pass no points or ids, and may have no cells.
  *
@@ -249,19 +249,18 @@ public:
   /**
    * Finds the location on the mesh nearest to each point, its cell (-1 if the mesh has no cells)
    * and the distance (0 inside). Of several nearest cells the one with the lowest id is returned.
-   * For triangles, distances are measured in x and y. `locations` and `distances` may be null. On
-   * several ranks this and the following methods for regions need a stored mesh; they are not
-   * collective.
+   * For triangles, distances are measured in x and y. `locations` and `distances` may be null.
    */
   int Closest(vtkDataArray* points, vtkIdTypeArray* cells, vtkDoubleArray* locations = nullptr,
     vtkDoubleArray* distances = nullptr);
 
   ///@{
   /**
-   * Finds the cells that share a point with a closed box or, for triangles, with closed polygons,
-   * or with `whole` only the cells inside; or the mesh's points inside. The box has the order of
-   * GetBounds(); its z range applies to tetrahedra only. Polygons are given as polygons and closed
-   * lines; those with a nonzero cell array "IsHole" are holes.
+   * Finds the cells that share a point with a closed box or with closed polygons, or with `whole`
+   * only the cells inside; or the mesh's points inside. The box has the order of GetBounds(); its z
+   * range applies to tetrahedra only. Polygons are given as polygons and closed lines; those with a
+   * nonzero cell array "IsHole" are holes. Over tetrahedra polygons are columns of unlimited
+   * height. On several ranks these methods need a stored mesh; they are not collective.
    */
   int CellsInBox(const double box[6], bool whole, vtkIdTypeArray* cells);
   int CellsInPolygons(vtkPolyData* polygons, bool whole, vtkIdTypeArray* cells);

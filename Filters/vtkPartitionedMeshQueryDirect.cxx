@@ -265,12 +265,14 @@ int vtkPartitionedMeshQuery::Profile(vtkDataArray* polyline, double spacing, vtk
 int vtkPartitionedMeshQuery::Closest(
   vtkDataArray* points, vtkIdTypeArray* cells, vtkDoubleArray* locations, vtkDoubleArray* distances)
 {
-  return this->Direct(
-    [&]
+  return this->Around(
+    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
     {
       const std::vector<tipp::Point3> asked = pointsOf(points);
-      const tipp::ClosestLocations found =
-        tipp::closestTo(*this->OpenWhole(), asked.data(), std::int64_t(asked.size()));
+      const auto count = std::int64_t(asked.size());
+      const tipp::ClosestLocations found = ranks
+        ? tipp::closestOnRanks(*ranks, mesh, asked.data(), count)
+        : tipp::closestTo(mesh, asked.data(), count);
       copyTo(cells, found.Cells);
       if (locations)
       {

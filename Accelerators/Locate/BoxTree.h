@@ -3,6 +3,7 @@
 #define tippBoxTree_h
 
 #include "Locate/MortonOrder.h"
+#include "Predicates/Points.h"
 
 #include <algorithm>
 #include <array>
@@ -15,6 +16,16 @@
 
 namespace tipp
 {
+
+/// The first D coordinates.
+template <int D>
+std::array<double, D> coordinatesOf(const Point3& point)
+{
+  const double coordinates[3] = { point.x, point.y, point.z };
+  std::array<double, D> at;
+  std::copy_n(coordinates, D, at.begin());
+  return at;
+}
 
 /// Finds which of many boxes meet a given box: a packed R-tree (Kamel and Faloutsos, On Packing
 /// R-trees, 1993) over the boxes, sorted by their centres along the Morton curve. A node stores the
@@ -55,9 +66,9 @@ public:
   void search(const Box<D>& box, const Visit& visit) const
   {
     this->forMet(box,
-      [&](const Node&, int, std::int32_t place)
+      [&](const Node&, int, std::int32_t entry)
       {
-        visit(this->Order[std::size_t(place)]);
+        visit(this->Order[std::size_t(entry)]);
         return true;
       });
   }
@@ -122,7 +133,7 @@ public:
   {
     to.Count = 0;
     const bool isWhole = this->forMet(region,
-      [&](const Node& node, int child, std::int32_t place)
+      [&](const Node& node, int child, std::int32_t entry)
       {
         if (to.Count == Gathered::Most)
         {
@@ -133,7 +144,7 @@ public:
           to.Low[axis][to.Count] = node.Low[axis][child];
           to.High[axis][to.Count] = node.High[axis][child];
         }
-        to.Numbers[std::size_t(to.Count++)] = this->Order[std::size_t(place)];
+        to.Numbers[std::size_t(to.Count++)] = this->Order[std::size_t(entry)];
         return true;
       });
     for (int axis = 0; axis < D; ++axis) // the last four may be fewer
@@ -217,8 +228,8 @@ private:
     return std::sqrt(squared) * (1 - 1e-14) - largest * 1e-15;
   }
 
-  /// Calls visit(node, child, place) for the boxes in leaves that meet a box, until it returns
-  /// false. Returns false if it did.
+  /// Calls visit(node, child, entry) for each stored box that meets `box`, until visit() returns
+  /// false; Order[entry] is the stored box's number. Returns false if visit() did.
   template <typename Visit>
   bool forMet(const Box<D>& box, const Visit& visit) const
   {
@@ -245,12 +256,12 @@ private:
       for (; met != 0; met &= met - 1)
       {
         const int child = __builtin_ctz(met);
-        const std::int32_t place = at.Number * Width + child;
+        const std::int32_t entry = at.Number * Width + child;
         if (at.Level > 0)
         {
-          stack[top++] = { at.Level - 1, place };
+          stack[top++] = { at.Level - 1, entry };
         }
-        else if (!visit(node, child, place))
+        else if (!visit(node, child, entry))
         {
           return false;
         }

@@ -3,6 +3,8 @@
 
 #include "Locate/CellChoice.h"
 #include "Locate/Locations.h"
+#include "Locate/PointBuckets.h"
+#include "Locate/PointRows.h"
 
 #include <algorithm>
 #include <array>
@@ -19,163 +21,6 @@ namespace tipp
 {
 namespace
 {
-
-/// Points sorted into the boxes of a regular grid, about two per box. The points of boxes that are
-/// consecutive along x are contiguous.
-template <int D>
-class PointBuckets
-{
-public:
-  struct Entry
-  {
-    std::array<double, D> At;
-    std::int32_t Number;
-  };
-
-  /// Sorts the points at(0) ... at(count - 1); non-finite points are left out.
-  template <typename At>
-  PointBuckets(std::int64_t count, int threads, const At& at)
-    : Bounds(boundsOf<D>(count, threads, [&at](std::int64_t i) { return Box<D>::of(at(i)); }))
-  {
-    this->chooseSides(count);
-    std::size_t buckets = 1;
-    for (const std::int64_t side : this->Sides)
-    {
-      buckets *= std::size_t(side);
-    }
-    this->Starts = Counters(new std::atomic<std::uint32_t>[buckets + 1]());
-    const auto forPoints = [&](const auto& work)
-    {
-      forChunks(count, 1 << 14, threads, {},
-        [&](std::int64_t begin, std::int64_t end, int)
-        {
-          for (std::int64_t i = begin; i < end; ++i)
-          {
-            const std::array<double, D> point = at(i);
-            Box<D>::of(point).isEmpty() ? void() : work(i, point, this->bucketOf(point));
-          }
-        });
-    };
-    const bool isAlone = threads == 1;
-    forPoints([&](std::int64_t, const auto&, std::size_t bucket)
-      { next(this->Starts[bucket + 1], isAlone); });
-    std::uint32_t sum = 0;
-    for (std::size_t bucket = 0; bucket < buckets; ++bucket)
-    {
-      this->Starts[bucket].store(sum, std::memory_order_relaxed);
-      sum += this->Starts[bucket + 1].load(std::memory_order_relaxed);
-    }
-    this->Count = sum;
-    this->Entries = std::unique_ptr<Entry[]>(new Entry[sum]);
-    // Each start is advanced to the end of its box, which is the start of the next.
-    forPoints(
-      [&](std::int64_t i, const auto& point, std::size_t bucket) {
-        this->Entries[next(this->Starts[bucket], isAlone)] = { point, std::int32_t(i) };
-      });
-  }
-
-  std::size_t size() const { return this->Count; }
-  const Entry& operator[](std::size_t i) const { return this->Entries[i]; }
-
-  /// Calls visit(first, last) for ranges [first, last) of entries; together they hold all points in
-  /// a box, and others.
-  template <typename Visit>
-  void visitNear(const Box<D>& box, const Visit& visit) const
-  {
-    std::array<std::int64_t, D> low;
-    std::array<std::int64_t, D> high;
-    for (std::size_t axis = 0; axis < D; ++axis)
-    {
-      if (box.High[axis] < this->Bounds.Low[axis] || this->Bounds.High[axis] < box.Low[axis])
-      {
-        return;
-      }
-      low[axis] = this->positionOf(box.Low[axis], axis);
-      high[axis] = this->positionOf(box.High[axis], axis);
-    }
-    std::array<std::int64_t, D> at = low;
-    for (bool isInside = true; isInside;)
-    {
-      const std::size_t first = this->indexOf(at);
-      const std::size_t last = first + std::size_t(high[0] - low[0]);
-      visit(first > 0 ? this->Starts[first - 1].load(std::memory_order_relaxed) : 0,
-        this->Starts[last].load(std::memory_order_relaxed));
-      std::size_t axis = 1;
-      for (; axis < D && at[axis]++ == high[axis]; ++axis)
-      {
-        at[axis] = low[axis];
-      }
-      isInside = axis < D;
-    }
-  }
-
-private:
-  using Counters = std::unique_ptr<std::atomic<std::uint32_t>[]>;
-
-  /// Increments a counter and returns its previous value. A single thread avoids the locked
-  /// instruction.
-  static std::uint32_t next(std::atomic<std::uint32_t>& counter, bool isAlone)
-  {
-    if (!isAlone)
-    {
-      return counter.fetch_add(1, std::memory_order_relaxed);
-    }
-    const std::uint32_t before = counter.load(std::memory_order_relaxed);
-    counter.store(before + 1, std::memory_order_relaxed);
-    return before;
-  }
-
-  void chooseSides(std::int64_t count)
-  {
-    constexpr std::int64_t most = D == 2 ? 1 << 14 : 1 << 9;
-    double volume = 1;
-    std::array<double, D> extents;
-    for (std::size_t axis = 0; axis < D; ++axis)
-    {
-      extents[axis] = this->Bounds.High[axis] - this->Bounds.Low[axis];
-      volume *= extents[axis];
-    }
-    const double width = std::pow(volume / std::max(double(count) / 2, 1.0), 1.0 / D);
-    for (std::size_t axis = 0; axis < D; ++axis)
-    {
-      const double wanted = extents[axis] / width; // NaN or infinite if the points are flat
-      this->Sides[axis] = wanted >= 1 ? std::int64_t(std::min(wanted, double(most))) : 1;
-      this->Scale[axis] = double(this->Sides[axis]) / extents[axis];
-    }
-  }
-
-  /// Monotonic in the coordinate.
-  std::int64_t positionOf(double coordinate, std::size_t axis) const
-  {
-    const double at = (coordinate - this->Bounds.Low[axis]) * this->Scale[axis];
-    return at > 0 ? std::int64_t(std::min(at, double(this->Sides[axis] - 1))) : 0;
-  }
-  std::size_t indexOf(const std::array<std::int64_t, D>& at) const
-  {
-    std::int64_t index = 0;
-    for (std::size_t axis = D; axis-- > 0;)
-    {
-      index = index * this->Sides[axis] + at[axis];
-    }
-    return std::size_t(index);
-  }
-  std::size_t bucketOf(const std::array<double, D>& point) const
-  {
-    std::array<std::int64_t, D> at;
-    for (std::size_t axis = 0; axis < D; ++axis)
-    {
-      at[axis] = this->positionOf(point[axis], axis);
-    }
-    return this->indexOf(at);
-  }
-
-  Box<D> Bounds;
-  std::array<std::int64_t, D> Sides{};
-  std::array<double, D> Scale{};
-  Counters Starts; ///< in the end, the end of each box
-  std::unique_ptr<Entry[]> Entries;
-  std::size_t Count = 0;
-};
 
 enum class Side
 {
@@ -286,8 +131,8 @@ private:
   const Box<3>& Around;
 };
 
-/// The pass over the cells of a mesh.
-template <typename Access>
+/// The pass over the cells of a mesh, which look for their points in PointBuckets or PointRows.
+template <typename Access, typename Search>
 class Pass
 {
 public:
@@ -295,20 +140,19 @@ public:
   using Point = decltype(pointAt(std::array<double, D>()));
 
   Pass(const Access& access, const SimplexMesh& mesh, const std::int64_t* cellIds,
-    const AskedPoints& points, int threads, const TakeLocations& take)
+    const AskedPoints& points, const Search& search, int threads, const TakeLocations& take)
     : Cells(access)
     , Mesh(mesh)
     , CellIds(cellIds)
     , Points(points)
+    , Near(search)
     , Threads(threads)
     , Take(take)
-    , Buckets(points.Count, threads,
-        [&](std::int64_t i) { return arrayOf(flattened<D>(mesh, points.at(i))); })
-    , Claims(new std::atomic<std::int32_t>[this->Buckets.size()])
+    , Claims(new std::atomic<std::int32_t>[search.size()])
     , MostTests(testsPerItem * (mesh.Cells + points.Count))
     , MostDoubts(8 * std::size_t(points.Count) + 1024)
   {
-    forChunks(std::int64_t(this->Buckets.size()), 1 << 16, threads, {},
+    forChunks(std::int64_t(search.size()), 1 << 16, threads, {},
       [&](std::int64_t begin, std::int64_t end, int)
       {
         for (std::int64_t i = begin; i < end; ++i)
@@ -323,11 +167,12 @@ public:
     forChunks(this->Mesh.Cells, 1 << 12, this->Threads, {},
       [&](std::int64_t begin, std::int64_t end, int)
       { this->IsTooMuch ? void() : this->addCells(begin, end); });
-    if (!this->IsTooMuch)
+    if (this->IsTooMuch || !this->isEachClaimKept())
     {
-      this->settleDoubts();
+      return false;
     }
-    return !this->IsTooMuch;
+    this->settleDoubts();
+    return true;
   }
 
 private:
@@ -345,10 +190,16 @@ private:
     Locations locations(this->Take);
     std::vector<Doubt> doubts;
     std::int64_t tests = 0;
-    constexpr std::int64_t ahead = 16; // prefetch distance: the points' addresses are random
+    std::int64_t claims = 0;
+    constexpr std::int64_t ahead = 32; // prefetch distance: the points' addresses are random
     for (std::int64_t cell = begin; cell < end; ++cell)
     {
-      cell + ahead < end ? this->Cells.prefetch(cell + ahead) : void();
+      // Many at once, so that the waits for their pages overlap.
+      for (std::int64_t next = cell == begin ? begin : cell + ahead;
+           (cell - begin) % ahead == 0 && next < std::min(cell + 2 * ahead, end); ++next)
+      {
+        this->Cells.prefetch(next);
+      }
       const Box<D> box = boxOfCell(this->Cells, this->Mesh, cell);
       if (box.isEmpty())
       {
@@ -357,18 +208,24 @@ private:
       Point corners[Access::Corners];
       this->Cells.corners(cell, corners);
       const std::conditional_t<D == 2, TriangleFilter, BoxFilter> filter(corners, box);
-      this->Buckets.visitNear(box,
-        [&](std::uint32_t first, std::uint32_t last)
+      this->Near.visitNear(box,
+        [&](std::uint32_t entry, const std::array<double, D>& at)
         {
-          tests += last - first;
-          for (std::uint32_t entry = first; entry < last; ++entry)
+          ++tests;
+          if (!filter.isOutside(at))
           {
-            const auto& at = this->Buckets[entry].At;
-            if (!filter.isOutside(at))
+            const Point point = pointAt(at);
+            const Doubt here{ entry, std::int32_t(cell) };
+            const Side side = filter.isInside(at) ? Side::Inside : sideOf(corners, point);
+            if (side == Side::Inside && this->claim(here))
             {
-              const Point point = pointAt(at);
-              this->offer({ entry, std::int32_t(cell) }, point,
-                filter.isInside(at) ? Side::Inside : sideOf(corners, point), locations, doubts);
+              ++claims;
+              locations.add(
+                this->Points.index(this->Near.number(entry)), weighed(this->Cells, cell, point));
+            }
+            else if (side != Side::Outside)
+            {
+              doubts.push_back(here);
             }
           }
         });
@@ -376,6 +233,7 @@ private:
     locations.flush();
     const std::lock_guard<std::mutex> lock(this->Mutex);
     this->Tests += tests;
+    this->ClaimCount += claims;
     this->Doubts.insert(this->Doubts.end(), doubts.begin(), doubts.end());
     if (this->Tests > this->MostTests || this->Doubts.size() > this->MostDoubts)
     {
@@ -383,20 +241,27 @@ private:
     }
   }
 
-  void offer(
-    Doubt at, const Point& point, Side side, Locations& locations, std::vector<Doubt>& doubts)
+  /// Without a locked instruction, which would wait for all that is being fetched. So if cells
+  /// overlap two threads may claim a point at once.
+  bool claim(Doubt at)
   {
-    std::int32_t none = -1;
-    if (side == Side::Inside &&
-      this->Claims[at.Entry].compare_exchange_strong(none, at.Cell, std::memory_order_relaxed))
-    {
-      locations.add(
-        this->Points.index(this->Buckets[at.Entry].Number), weighed(this->Cells, at.Cell, point));
-    }
-    else if (side != Side::Outside)
-    {
-      doubts.push_back(at);
-    }
+    std::atomic<std::int32_t>& claim = this->Claims[at.Entry];
+    const bool isFree = claim.load(std::memory_order_relaxed) < 0;
+    isFree ? claim.store(at.Cell, std::memory_order_relaxed) : void();
+    return isFree;
+  }
+
+  /// Whether no point has been claimed by two threads at once.
+  bool isEachClaimKept() const
+  {
+    std::atomic<std::int64_t> kept{ 0 };
+    forChunks(std::int64_t(this->Near.size()), 1 << 16, this->Threads, {},
+      [&](std::int64_t begin, std::int64_t end, int)
+      {
+        kept += std::count_if(this->Claims.get() + begin, this->Claims.get() + end,
+          [](const auto& claim) { return claim.load(std::memory_order_relaxed) >= 0; });
+      });
+    return kept == this->ClaimCount;
   }
 
   /// Chooses a cell for points on cell borders and in overlapping cells.
@@ -415,7 +280,7 @@ private:
           {
             continue; // in the same group as the first one
           }
-          const Point point = pointAt(this->Buckets[entry].At);
+          const Point point = pointAt(this->Near.at(entry));
           Choice<Access, Point> choice(this->Cells, this->CellIds, point);
           const std::int32_t claim = this->Claims[entry];
           claim >= 0 ? choice.offer(claim) : void();
@@ -423,7 +288,7 @@ private:
           {
             choice.offer(this->Doubts[k].Cell);
           }
-          locations.add(this->Points.index(this->Buckets[entry].Number),
+          locations.add(this->Points.index(this->Near.number(entry)),
             weighed(this->Cells, choice.cell(), point));
         }
         locations.flush();
@@ -434,15 +299,16 @@ private:
   const SimplexMesh& Mesh;
   const std::int64_t* CellIds;
   const AskedPoints& Points;
+  const Search& Near;
   const int Threads;
   const TakeLocations& Take;
-  const PointBuckets<D> Buckets;
   std::unique_ptr<std::atomic<std::int32_t>[]>
     Claims; ///< for each entry the first cell that has it in its interior
   const std::int64_t MostTests;
   const std::size_t MostDoubts;
   std::mutex Mutex;
   std::int64_t Tests = 0;
+  std::int64_t ClaimCount = 0;
   std::vector<Doubt> Doubts;
   std::atomic<bool> IsTooMuch{ false };
 };
@@ -459,7 +325,17 @@ bool locateInOnePass(const SimplexMesh& mesh, const std::int64_t* cellIds,
       [&](const auto& access)
       {
         using Access = std::decay_t<decltype(access)>;
-        isDone = Pass<Access>(access, mesh, cellIds, points, threads, take).run();
+        constexpr int D = Access::Dimension;
+        const auto at = [&](std::int64_t i) { return arrayOf(flattened<D>(mesh, points.at(i))); };
+        const auto passes = [&](const auto& search)
+        {
+          return Pass<Access, std::decay_t<decltype(search)>>(
+            access, mesh, cellIds, points, search, threads, take)
+            .run();
+        };
+        const PointRows<D> rows(points.Count, threads, at);
+        isDone =
+          rows.size() > 0 ? passes(rows) : passes(PointBuckets<D>(points.Count, threads, at));
       });
   }
   return isDone;

@@ -186,7 +186,7 @@ std::vector<std::int32_t> nearOrder(std::int64_t count, int threads, const At& a
   const Box<D> all = boundsOf<D>(count, threads, boxOf);
   constexpr int digitBits = 11;
   constexpr std::size_t digits = std::size_t(1) << digitBits;
-  int passes = 1; // so many that there is about one point per key
+  int passes = 1; // as many as give about one point per key
   passes += count > 1 << digitBits ? 1 : 0;
   passes += count > 1 << (2 * digitBits) ? 1 : 0;
   const int dropped = (D == 2 ? 64 : 63) - std::min(passes * digitBits, 32);

@@ -155,8 +155,8 @@ inline int inCircle(Point2 a, Point2 b, Point2 c, Point2 p)
 //
 // Devillers and Teillaud, Perturbations for Delaunay and weighted Delaunay 3D triangulations, 2011:
 // lift the lexicographically largest of the four points by the largest infinitesimal. Then p is
-// outside if it is that point; otherwise the result is the orientation of the triangle with p in
-// the place of that corner. Three distinct points of a circle are not collinear, so one step
+// outside if it is that point; otherwise the result is the orientation of the triangle with p
+// instead of that corner. Three distinct points of a circle are not collinear, so one step
 // decides. A p equal to a corner is outside.
 inline bool tieIsInside(Point2 a, Point2 b, Point2 c, Point2 p)
 {

@@ -179,8 +179,8 @@ Claims finishClaims(const SimplexMesh& mesh, const Lattice& lattice, int threads
   std::unique_ptr<std::int32_t[]> claims, std::int64_t claimed,
   const std::vector<std::int32_t>& open, const Report& report);
 
-/// Lowers each sample's key to that of its claim, and removes claims whose key is not lower. So
-/// several parts of a mesh can contribute to the same arrays in any order. `claims` is indexed by
+/// Sets a sample's key to that of its claim where the claim's key is lower, and removes the other
+/// claims. So several parts of a mesh can be merged in any order. `claims` is indexed by
 /// the window's samples, `keys` by those of the whole lattice.
 VTKTIPPACCELERATORS_EXPORT void mergeClaims(
   const SimplexMesh& mesh, Claims& claims, const SampleWindow& window, int threads, CellKey* keys);

@@ -82,7 +82,8 @@ using PointTuples = PointTuplesOf<Point2>;
 
 /// A rank's part of a triangulation. Corners are local indices: of Owned, the rank's own points,
 /// and after them of Foreign, the other ranks' points that its triangles use. An internal id is a
-/// point's index among all ranks' owned points, rank by rank; a global id is the caller's.
+/// point's index among all ranks' owned points, rank by rank; a global id is the id that the caller
+/// gave the point.
 struct DistributedTriangulation
 {
   Buffer<std::int32_t> Ids32;           ///< used if every index fits

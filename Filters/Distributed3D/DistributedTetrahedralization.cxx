@@ -22,15 +22,16 @@ namespace tipp
 namespace
 {
 
-/// Partitions for each of some ranks. Parallel slabs pass the fewest vertices on while they are
-/// thick: one for each thread, which triangulates its points while it waits for the neighbours'
-/// vertices. Else there are enough boxes that all find work.
+/// Chooses the numbers and shapes of partitions. If slabs are thick enough, parallel slabs are
+/// best, because they pass on the fewest vertices: one per thread, which triangulates its points
+/// while it waits for the neighbours' vertices. Otherwise there are enough boxes to keep all
+/// threads busy.
 PartitionGroups chooseGroups(std::int64_t points, int ranks, int threads, int wanted)
 {
-  constexpr double thick = 10; // distances between points
+  constexpr double thick = 10; // in average distances between points
   constexpr int boxesOfThread = 12;
   constexpr int most = 512;
-  constexpr double hull = 2; // the first rank repairs it
+  constexpr double hull = 2; // the first rank gets fewer points because it repairs the hull
   constexpr std::int64_t largest = std::int64_t(1) << 25;
   const double slabs = std::cbrt(double(points)) / thick;
   PartitionGroups groups;
@@ -45,7 +46,7 @@ PartitionGroups chooseGroups(std::int64_t points, int ranks, int threads, int wa
   return groups;
 }
 
-/// Adds the tetrahedra of the hull repair.
+/// Collects the tetrahedra of the hull repair.
 struct HullCells : public FinalCellConsumer3
 {
   explicit HullCells(std::vector<IdCell<4>>& cells)
@@ -61,7 +62,7 @@ struct HullCells : public FinalCellConsumer3
   std::vector<IdCell<4>>& Cells;
 };
 
-/// One rank's run; its member functions are the steps.
+/// The run of one rank; its member functions are the steps.
 class DistributedRun3
 {
 public:
@@ -96,7 +97,7 @@ public:
   }
 
 private:
-  /// Numbers the points, and agrees on a factor that all coordinates are multiplied by.
+  /// Numbers the points, and agrees with other ranks on a factor for all coordinates.
   void survey()
   {
     const std::vector<std::int64_t> firsts =
@@ -121,7 +122,7 @@ private:
     this->FinitePoints = sums[1];
   }
 
-  /// The same sample on all ranks.
+  /// Returns a sample of all ranks' points; the same on all ranks.
   std::vector<Point3> sample()
   {
     constexpr std::int64_t wanted = 1 << 16;
@@ -143,10 +144,10 @@ private:
     return all;
   }
 
-  /// Each rank gets the points of its partitions.
+  /// Divides space among the ranks, and sends each rank the points of its partitions.
   void shareOut()
   {
-    // Of the first rank, so that all ranks choose the same.
+    // All ranks use the first rank's options, so that they choose the same partitions.
     const auto threads = this->Ranks.broadcast(this->Threads);
     this->Partitions = this->Ranks.broadcast(this->Options.Partitions);
     this->Groups = chooseGroups(this->FinitePoints, this->Ranks.size(), threads, this->Partitions);
@@ -154,7 +155,7 @@ private:
     this->Result.Owned =
       exchangePoints(this->Ranks, this->Input, *this->Tiling, this->Factor, this->Threads);
     this->Result.FirstIds = firstIndices(this->Ranks, std::int64_t(this->Result.Owned.size()));
-    // Half of the index range is left for other ranks' points.
+    // Half of the indices are reserved for other ranks' points.
     if (this->Result.Owned.size() > std::size_t(std::numeric_limits<std::int32_t>::max() / 2))
     {
       throw std::length_error("a rank has more than 1,073,741,823 points; use more ranks.");
@@ -163,7 +164,7 @@ private:
 
   std::int64_t firstOwn() const { return this->Result.FirstIds[std::size_t(this->Ranks.rank())]; }
 
-  /// Returns false, with nothing triangulated, if partitions do not pay or cannot be made.
+  /// Returns false, without a triangulation, if partitions do not pay or cannot be made.
   bool triangulatePartitions()
   {
     constexpr std::int64_t fewest = 32768;
@@ -226,7 +227,8 @@ private:
     this->Duplicates = std::move(run.Duplicates);
   }
 
-  /// The first rank gets the tetrahedra at the hull.
+  /// Gathers the vertices at the hull on the first rank, which repairs it and keeps the resulting
+  /// tetrahedra.
   void repairHullOnFirst(std::vector<Vertex3> own, const std::vector<Vertex3>& artificial)
   {
     std::vector<Vertex3> vertices = gatherList(this->Ranks, own);
@@ -237,8 +239,8 @@ private:
     }
   }
 
-  /// False, and nothing is kept, if all ranks together have no tetrahedra: then all points are
-  /// coplanar, or fewer, which the kernel tells.
+  /// Returns false, and discards the results, if all ranks together have no tetrahedra. Then the
+  /// points are coplanar, or too few, and the kernel finds out which.
   bool hasCells()
   {
     std::vector<std::int64_t> cells{ std::int64_t(this->Kept.size()) };
@@ -257,7 +259,7 @@ private:
     return false;
   }
 
-  /// Triangulates all points on the first rank. They stay with their owners.
+  /// Triangulates all points on the first rank. The points stay with their owners.
   void triangulateOnFirst()
   {
     const std::int64_t all = this->Result.FirstIds.back();
@@ -299,8 +301,9 @@ private:
     this->Result.Statistics.Partitions = 1;
   }
 
-  /// Vertices that came from another partition may bear the id of a duplicate: only those of the
-  /// initial mesh do. Collective.
+  /// Replaces duplicates by their representatives in this rank's tetrahedra. A tetrahedron with
+  /// vertices from other partitions may have duplicates as corners, but only initial points.
+  /// Collective.
   void useRepresentatives()
   {
     std::vector<Duplicate> initial;
@@ -343,7 +346,7 @@ private:
     }
   }
 
-  /// Brings each cell to its owner, and the points that it needs.
+  /// Sends each cell to its owner, and fetches the points that this rank's cells need.
   void collect()
   {
     this->useRepresentatives();
@@ -373,7 +376,7 @@ private:
     mine.Duplicates = std::move(this->Duplicates);
     mine.Foreign =
       fetchPoints(this->Ranks, mine.ForeignIds, mine.FirstIds, mine.Owned, mine.RowSize);
-    this->Ranks.flush(); // what others wait for
+    this->Ranks.flush(); // other ranks wait for these messages
     mine.Ids = mine.cellSize() == 3
       ? orderTriangles(this->Inside.back())
       : orderCells(std::move(this->Inside), mine.Owned.size() + mine.Foreign.size(), this->Threads);
@@ -419,12 +422,12 @@ private:
   const int Threads;
   double Factor = 1;
   std::int64_t FinitePoints = 0; ///< of all ranks
-  int Partitions = 0;            ///< asked for; 0: chosen
+  int Partitions = 0;            ///< as requested; 0: chosen automatically
   PartitionGroups Groups;
   std::unique_ptr<Tiling3> Tiling;
   std::vector<std::int64_t> InitialIds;     ///< internal ids of all initial points; ascending
   std::vector<std::vector<CellIds>> Inside; ///< tetrahedra by indices of this rank's points
-  std::vector<IdCell<4>> Kept;              ///< others, by internal ids
+  std::vector<IdCell<4>> Kept;              ///< the other final tetrahedra, by internal ids
   std::vector<Duplicate> Duplicates;        ///< of this rank's points, by internal ids
   RankStatistics Figures;
 };

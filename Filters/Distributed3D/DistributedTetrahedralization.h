@@ -18,30 +18,33 @@
 namespace tipp
 {
 
-/// Triangles have their last corner twice.
+/// Ghost cells. In triangles, the last corner is repeated.
 using GhostTetrahedra = GhostCells<4, Point3>;
 
-/// A rank's part of a triangulation in space. Corners are local indices: of Owned, the rank's own
-/// points, and after them of Foreign, the other ranks' points that its tetrahedra use. An internal
-/// id is a point's index among all ranks' owned points, rank by rank; a global id is the caller's.
+/// A rank's part of a triangulation in space. Corners are local indices: they count the rank's own
+/// points (Owned), and then the other ranks' points that its cells use (Foreign). An internal id is
+/// a point's index among all ranks' owned points, rank by rank. A global id is the id that the
+/// caller gave the point.
 ///
-/// A tetrahedron is on the rank that owns its vertex of lowest internal id. Tetrahedra are in the
-/// order of Tetrahedralization, but by local indices. So a part is the same for any threads and
-/// partitions. Coplanar points have triangles instead, those of triangulateCoplanar().
+/// A cell is on the rank that owns its vertex of lowest internal id. Cells are in the order of
+/// Tetrahedralization::Ids, but by local indices. So a part does not depend on threads and
+/// partitions. Coplanar points have triangles instead of tetrahedra: those of
+/// triangulateCoplanar().
 struct DistributedTetrahedralization
 {
-  /// Local indices, cellSize() for each cell; orientation3() of a tetrahedron's is positive.
+  /// Local indices, cellSize() of them per cell. orientation3() of a tetrahedron's corners is
+  /// positive.
   Buffer<std::int32_t> Ids;
-  PointTuples3 Owned; ///< includes points without tetrahedra on this rank
-  PointTuples3 Foreign;
-  std::size_t RowSize = 0;
+  PointTuples3 Owned;                   ///< includes points without cells on this rank
+  PointTuples3 Foreign;                 ///< other ranks' points that this rank's cells use
+  std::size_t RowSize = 0;              ///< bytes of data per point
   std::vector<std::int64_t> ForeignIds; ///< internal ids of Foreign; ascending
   std::vector<std::int64_t> FirstIds;   ///< first internal id of each rank, and the end
 
-  std::int64_t FirstCell = 0;        ///< index of this rank's first tetrahedron among all ranks'
+  std::int64_t FirstCell = 0;        ///< index of this rank's first cell among all ranks'
   std::vector<Duplicate> Duplicates; ///< found on this rank; global ids
   std::vector<PointId> Rejected;     ///< of this rank's input; global ids
-  int Dimension = -1;                ///< of all ranks' points: as of Tetrahedralization
+  int Dimension = -1;                ///< of all ranks' points; see Tetrahedralization
 
   std::int64_t AllPoints = 0; ///< sum over all ranks
   std::int64_t AllCells = 0;
@@ -49,7 +52,7 @@ struct DistributedTetrahedralization
   std::int64_t AllRejected = 0;
   DistributedStatistics Statistics;
 
-  /// Corners of a cell.
+  /// Returns the number of corners of a cell.
   std::size_t cellSize() const { return this->Dimension == 2 ? 3 : 4; }
   std::size_t cellCount() const { return this->Ids.size() / this->cellSize(); }
 
@@ -61,25 +64,26 @@ struct DistributedTetrahedralization
   }
 };
 
-/// Returns this rank's part of the Delaunay triangulation of all ranks' points: together the ranks
-/// have the tetrahedra that tetrahedralize() returns. Of coincident points, on any ranks, the one
-/// with the lowest global id represents all. Collective; throws RankFailure on all ranks if any
-/// rank fails or its Progress stops the run.
+/// Returns this rank's part of the Delaunay triangulation of all ranks' points. Together, the ranks
+/// have the tetrahedra that tetrahedralize() returns. Of coincident points on any ranks, the one
+/// with the lowest global id represents the others. Collective. Throws RankFailure on all ranks if
+/// any rank fails, or if its Progress stops the run.
 VTKTIPPFILTERS_EXPORT DistributedTetrahedralization tetrahedralizeDistributed(
   Communicator& ranks, const RankPoints3& points, const TetrahedralizationOptions& options = {});
 
-/// Returns one layer of ghosts of this rank's tetrahedra. Collective.
+/// Returns one layer of ghost cells around this rank's cells. Collective. Throws RankFailure.
 VTKTIPPFILTERS_EXPORT GhostTetrahedra fetchGhosts(
   Communicator& ranks, const DistributedTetrahedralization& mine);
 
-/// Moves everything to the first rank; the others return an empty triangulation. Collective.
+/// Moves all cells and points to the first rank; the others return an empty triangulation.
+/// Collective.
 VTKTIPPFILTERS_EXPORT DistributedTetrahedralization gatherOnFirst(
   Communicator& ranks, DistributedTetrahedralization mine, int threads);
 
-/// Returns all ranks' tetrahedra, duplicates and rejected points on the first rank, as
-/// tetrahedralize() does for points in the order of global ids, which must be 0, 1, ...; an empty
-/// triangulation on the others. `triangles`: those of coplanar points, as of triangulateCoplanar().
-/// Collective.
+/// Returns on the first rank the tetrahedra, duplicates and rejected points of all ranks, as
+/// tetrahedralize() returns them for the points in the order of their global ids, which must be 0,
+/// 1, 2 and so on. Other ranks return an empty triangulation. `triangles`: set for coplanar points,
+/// as by triangulateCoplanar(). Collective.
 VTKTIPPFILTERS_EXPORT Tetrahedralization gatherTetrahedra(Communicator& ranks,
   const DistributedTetrahedralization& mine, int threads, Triangulation& triangles);
 

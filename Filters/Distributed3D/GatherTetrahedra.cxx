@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is exchanged of a finished triangulation in space.
+// Exchange of the cells of a finished triangulation in space.
 #include "Distributed3D/DistributedTetrahedralization.h"
 
 #include "Triangulation3D/OrderCells.h"
@@ -15,7 +15,7 @@ namespace tipp
 namespace
 {
 
-/// All ranks' cells on the first rank, with idOf(local index) for each corner, in order.
+/// Returns all ranks' cells on the first rank, sorted. Corners are given by idOf(local index).
 template <typename IdOf>
 Buffer<std::int32_t> gatherCells(Communicator& ranks, const DistributedTetrahedralization& mine,
   std::int64_t points, const IdOf& idOf, int threads)
@@ -34,7 +34,7 @@ Buffer<std::int32_t> gatherCells(Communicator& ranks, const DistributedTetrahedr
     orderTriangles(ids);
     return ids;
   }
-  // All ranks sort, and the first one merges.
+  // All ranks sort their cells, and the first one merges them.
   std::vector<std::vector<CellIds>> cells(1);
   cells[0].reserve(mine.cellCount());
   std::transform(mine.Ids.as<CellIds>(), mine.Ids.as<CellIds>() + mine.cellCount(),

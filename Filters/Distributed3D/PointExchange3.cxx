@@ -29,7 +29,7 @@ struct MessageArrays
   char* Rows;
 };
 
-/// The rank that owns each point; -1 if it is not finite.
+/// Returns the rank that owns each point; -1 if it is not finite.
 Buffer<std::int32_t> findOwners(
   const RankPoints3& points, const Tiling3& tiling, double factor, int threads)
 {

@@ -21,9 +21,9 @@ struct RankPoints3 : RankPointData
 
 using PointTuples3 = PointTuplesOf<Point3>;
 
-/// Sends each finite point to the rank whose group of partitions contains it, its coordinates times
-/// `factor`. A rank's points come in the order of the ranks that had them, and of each in its
-/// order. Collective.
+/// Sends each finite point to the rank that owns the partition containing it, and multiplies its
+/// coordinates by `factor`. Returns this rank's points: sorted by the rank that had them, and then
+/// in that rank's order. Collective. Throws RankFailure.
 PointTuples3 exchangePoints(Communicator& ranks, const RankPoints3& points, const Tiling3& tiling,
   double factor, int threads);
 

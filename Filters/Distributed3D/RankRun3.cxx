@@ -17,10 +17,10 @@ namespace tipp
 namespace
 {
 
-/// Between looks for what comes from other ranks.
+/// The pause between looks for messages from other ranks.
 constexpr std::chrono::microseconds ShortPause(500);
 
-/// By partition: whether this rank owns it, and it has points.
+/// Returns for each partition whether this rank owns it and it has points.
 std::vector<char> ownPartitions(const Communicator& ranks, const RankWork3& work)
 {
   std::vector<char> isOwn(work.Order.partitionCount(), 0);
@@ -33,7 +33,7 @@ std::vector<char> ownPartitions(const Communicator& ranks, const RankWork3& work
 
 } // namespace
 
-/// Sorts a thread's final tetrahedra.
+/// Sorts the final tetrahedra of one thread.
 struct RankRun3::Cells : public FinalCellConsumer3
 {
   explicit Cells(const RankRun3& run)
@@ -92,7 +92,7 @@ RankRun3::RankRun3(
   this->Statistics.Partitions = std::int64_t(this->OwnPartitions.size());
 }
 
-/// The ranks that wait for p.
+/// Returns the ranks that wait for partition p.
 std::vector<std::int32_t> RankRun3::recipientsOf(PartitionIndex p) const
 {
   std::vector<std::int32_t> ranks;
@@ -105,7 +105,7 @@ std::vector<std::int32_t> RankRun3::recipientsOf(PartitionIndex p) const
   return ranks;
 }
 
-/// As ReadyPartitions::take(), but sleeps longer: what comes from other ranks takes its time.
+/// As ReadyPartitions::take(), but with longer pauses, because messages from other ranks take time.
 PartitionIndex RankRun3::take()
 {
   PartitionIndex p = -1;
@@ -157,7 +157,7 @@ bool RankRun3::waitFor(PartitionIndex p)
   return this->IsReady[std::size_t(p)] != 0;
 }
 
-/// A worker thread's loop.
+/// The loop of a worker thread.
 void RankRun3::work(Cells& cells)
 {
   const ProcessorWatch watch;
@@ -198,7 +198,8 @@ void RankRun3::work(Cells& cells)
     this->Duplicates.end(), worker.duplicates().begin(), worker.duplicates().end());
 }
 
-/// Adds messages to the inboxes on this rank, and queues those to other ranks for the main thread.
+/// Adds a finished partition's messages to the inboxes on this rank, and queues those for other
+/// ranks, which the main thread sends.
 void RankRun3::finish(PartitionIndex p, SentMessages3 sent)
 {
   std::vector<Outgoing> outgoing;
@@ -227,7 +228,7 @@ void RankRun3::finish(PartitionIndex p, SentMessages3 sent)
   this->notify();
 }
 
-/// Receives the message that another rank's partition is done.
+/// Handles the message that a partition of another rank is done.
 void RankRun3::receive(const Message& message)
 {
   PartitionIndex sender = -1;
@@ -279,10 +280,10 @@ void RankRun3::report()
   }
 }
 
-/// The main thread's loop; only this thread communicates with other ranks.
+/// The loop of the main thread. Only this thread communicates with other ranks.
 void RankRun3::coordinate()
 {
-  // Polling takes processor time from the threads that compute: it is frequent only while one of
+  // Polling takes processor time from the computing threads. So it is frequent only while one of
   // them waits for other ranks, or all are done.
   constexpr std::chrono::microseconds longest(5000);
   constexpr double untilReport = 0.05;

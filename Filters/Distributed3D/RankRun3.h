@@ -20,10 +20,10 @@
 namespace tipp
 {
 
-/// What all ranks know of a run.
+/// The parts of a run that are the same on all ranks.
 struct RankWork3
 {
-  const Tiling3& Tiling;       ///< the groups of its partitions are the ranks'
+  const Tiling3& Tiling;       ///< each rank owns one of its groups of partitions
   const PartitionOrder& Order; ///< computed by each rank from the same initial mesh
   const TetrahedralizationOptions& Options;
   int Threads;
@@ -31,27 +31,29 @@ struct RankWork3
   int ownerOf(PartitionIndex p) const { return this->Tiling.groupOf(p); }
 };
 
-/// A rank's part of a triangulation in space: it triangulates the partitions whose points it owns.
+/// A rank's part of a triangulation in space: the rank triangulates the partitions whose points it
+/// owns.
 ///
-/// A finished partition is one message to each rank that owns a later conflicting one: it has the
-/// vertices for these, and tells that the partition is done. A rank has finished when its
-/// partitions are done and all such messages have come. Results do not depend on when that is.
+/// When a partition is done, one message goes to each rank that owns a later conflicting one. It
+/// has the vertices for these partitions, and says that the partition is done. A rank has finished
+/// when its partitions are done and all such messages have arrived. Results do not depend on the
+/// order of these events.
 class RankRun3
 {
 public:
-  /// `points`: by partition, of this rank's partitions; with the regions of all. Their ids are
-  /// counted from `firstId`, which gives internal ids.
+  /// `points`: the points of this rank's partitions, and the regions of all partitions. Internal
+  /// ids are the ids in `points` plus `firstId`. All references must outlive this object.
   RankRun3(
     Communicator& ranks, const RankWork3& work, const PointBuckets3& points, std::int64_t firstId);
 
-  /// Runs the triangulation; `initial` has the initial mesh's messages to all partitions.
+  /// Runs the triangulation. `initial`: the messages of the initial mesh to all partitions.
   /// Collective. Throws RankFailure.
   void run(std::vector<VertexMessage3> initial);
 
-  /// Tetrahedra of this rank's points alone, by indices among these; of each thread.
+  /// By thread: tetrahedra whose corners are all this rank's points, by indices of these.
   std::vector<std::vector<CellIds>> Inside;
-  std::vector<IdCell<4>> Kept;       ///< the other ones that became final here, by internal ids
-  std::vector<Vertex3> HullVertices; ///< of tetrahedra with artificial corners
+  std::vector<IdCell<4>> Kept; ///< other tetrahedra that became final on this rank, by internal ids
+  std::vector<Vertex3> HullVertices; ///< true corners of tetrahedra with artificial corners
   std::vector<Duplicate> Duplicates; ///< by internal ids
   RankStatistics Statistics;
 
@@ -69,7 +71,7 @@ private:
   void coordinate();
   void report();
 
-  /// A finished partition's messages to another rank.
+  /// A message to another rank about a finished partition.
   struct Outgoing
   {
     int Rank;
@@ -81,17 +83,17 @@ private:
   const PointBuckets3& Points;
   const std::int64_t FirstId;
   ReadyPartitions Ready;
-  std::vector<std::atomic<char>> IsReady; ///< by partition; only of those that threads have begun
-  std::vector<PartitionIndex> OwnPartitions; ///< in order
+  std::vector<std::atomic<char>> IsReady;    ///< by partition, if a thread has begun it
+  std::vector<PartitionIndex> OwnPartitions; ///< in the order of work
   std::atomic<std::size_t> NextOwn{ 0 };
   std::vector<Inbox3> Inboxes;
-  std::size_t AwaitedMessages = 0; ///< of other ranks' finished partitions
-  std::atomic<std::size_t> LeftPartitions{ 0 };
-  std::atomic<std::size_t> LeftToTake{ 0 };
+  std::size_t AwaitedMessages = 0; ///< number of messages that will come from other ranks
+  std::atomic<std::size_t> LeftPartitions{ 0 }; ///< this rank's partitions that are not done
+  std::atomic<std::size_t> LeftToTake{ 0 };     ///< those that no thread has taken
   std::atomic<std::size_t> PointsDone{ 0 };
-  std::atomic<int> Idle{ 0 };      ///< threads that look for a partition
-  std::condition_variable Changed; ///< a partition is done, here or on another rank
-  std::mutex Mutex;                ///< for ToSend, and for results when a thread ends
+  std::atomic<int> Idle{ 0 };      ///< threads that wait for a partition
+  std::condition_variable Changed; ///< signalled when a partition is done, here or on another rank
+  std::mutex Mutex;                ///< protects ToSend, and results when a thread ends
   std::vector<Outgoing> ToSend;
   Stopwatch SinceReport;
 };

@@ -11,11 +11,11 @@ namespace tipp
 namespace
 {
 
-/// What one rank tells the others of its partitions, in their order.
+/// The initial points of one rank's partitions, in the order of the partitions.
 struct InitialPoints3
 {
   std::vector<Box3> Regions;
-  std::vector<std::int64_t> Chosen; ///< how many of Points each has
+  std::vector<std::int64_t> Chosen; ///< by partition: its number of Points
   std::vector<Point3> Points;
   std::vector<std::int64_t> Ids; ///< internal ids
 };
@@ -29,10 +29,10 @@ void serialize(Archive& archive, InitialPoints3& initial)
 InitialPoints3 chooseInitial(const Communicator& ranks, const Tiling3& tiling, std::int64_t firstId,
   const PointBuckets3& buckets)
 {
-  // The finer the mesh, the fewer partitions conflict; it is fine enough where its tetrahedra are
-  // much smaller than partitions, also if these are slabs.
+  // With more points, fewer partitions conflict. There are enough if tetrahedra are much smaller
+  // than partitions, even if these are slabs.
   constexpr std::size_t most = 8192;
-  constexpr std::size_t share = 16; // of a partition's points
+  constexpr std::size_t share = 16; // at most one in this many of a partition's points
   const auto partitions = std::size_t(tiling.size());
   const std::size_t each = std::min(most, 128 * partitions * partitions * partitions) / partitions;
   InitialPoints3 initial;

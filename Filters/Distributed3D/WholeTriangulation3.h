@@ -11,17 +11,17 @@
 namespace tipp
 {
 
-/// What one rank makes of all points: tetrahedra or, of points in one plane, triangles. Ids are
-/// indices into the points.
+/// The triangulation of all points by one rank: tetrahedra or, if the points are coplanar,
+/// triangles. Ids are indices into the points.
 struct WholeTriangulation3
 {
   WholeTriangulation3(
     const Buffer<Point3>& points, const TetrahedralizationOptions& options, int threads);
 
-  std::vector<IdCell<4>> Cells; ///< triangles have their last corner twice
+  std::vector<IdCell<4>> Cells; ///< in triangles, the last corner is repeated
   std::vector<Duplicate> Duplicates;
-  int Dimension = -1;   ///< as of Tetrahedralization
-  bool Aborted = false; ///< by Progress
+  int Dimension = -1;   ///< see Tetrahedralization
+  bool Aborted = false; ///< Progress stopped the run
 
 private:
   void takeTriangles(const Buffer<Point3>& points, const TetrahedralizationOptions& options);

@@ -3,61 +3,20 @@
 
 #include "Files/IOError.h"
 #include "OutOfCore/ScratchFiles.h"
+#include "OutOfCore/StoredPieces.h"
 #include "Partitioned/GrowingPiece.h"
 #include "Partitioned/NeighborIds.h"
 #include "Partitioned/PieceFile.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
-#include <mutex>
 #include <utility>
 
 namespace tipp
 {
 namespace
 {
-
-namespace fs = std::filesystem;
-
-bool exists(const std::string& path)
-{
-  std::error_code ignored;
-  return fs::exists(path, ignored);
-}
-
-FinishedPiece readFinished(const std::string& path)
-{
-  return unpacked<FinishedPiece>(readCheckedFile(path));
-}
-
-/// Throws IOError if the files of the piece are damaged or missing.
-void verifyPiece(const PieceWork& work, PartitionIndex piece)
-{
-  const std::size_t number = work.Plan.number(piece);
-  const StoredResult result(work.resultPath(piece));
-  result.verify();
-  if (exists(work.finishedPath(piece)))
-  {
-    verifyFinished(work.Mesh, number, readFinished(work.finishedPath(piece)));
-    return;
-  }
-  verifyInterior(work.Mesh, number, readInterior(work, piece, result));
-}
-
-void removePiece(const PieceWork& work, PartitionIndex piece)
-{
-  std::error_code ignored;
-  fs::remove(work.resultPath(piece), ignored);
-  fs::remove(work.finishedPath(piece), ignored);
-  if (!work.Mesh.Path.empty())
-  {
-    const std::string file = work.Mesh.piecePath(work.Plan.number(piece));
-    fs::remove(file + nextPieceSuffix, ignored);
-    fs::create_directories(fs::path(file).parent_path(), ignored);
-  }
-}
 
 /// Reads the segments near the triangles, by the bounding box of each `together` consecutive
 /// triangles. `corners` are indices into `points`.
@@ -101,11 +60,12 @@ public:
 
   FinishedPiece finish(PartitionIndex piece) const
   {
-    const std::string record = this->Work.finishedPath(piece);
-    if (exists(record))
-    {
-      return readFinished(record);
-    }
+    return finishOnce(this->Work.finishedPath(piece), [&] { return this->make(piece); });
+  }
+
+private:
+  FinishedPiece make(PartitionIndex piece) const
+  {
     const std::size_t number = this->Work.Plan.number(piece);
     const PieceInterior interior = this->interiorOf(piece);
     PieceBorder border(interior, this->Work.Rows);
@@ -124,13 +84,9 @@ public:
       setGhosts(this->Work, this->results(), border);
       finished = writeBorder(this->Work.Mesh, number, this->Work.Rows, interior, border);
     }
-    // The record must exist before the file is used further: the file may no longer have the layout
-    // that the result describes.
-    writeCheckedFile(record, [&](SaveArchive& archive) { archive(finished); });
     return finished;
   }
 
-private:
   /// Passes the border of a piece to the consumer, unless that was done earlier. `border`: the
   /// triangles that the piece owns.
   void take(PartitionIndex piece, PieceBorder& border) const
@@ -334,41 +290,11 @@ private:
 std::vector<char> verifyResults(const PieceWork& work, int threads, const Report& report,
   const std::function<void(const std::string&)>& warn)
 {
-  std::vector<char> isDone(std::size_t(work.Plan.pieces()), 0);
-  std::mutex mutex;
-  std::string damaged; // path of the first damaged file
-  int others = -1;
-  const auto verify = [&](std::int64_t at, std::int64_t, int)
-  {
-    const auto piece = static_cast<PartitionIndex>(at);
-    try
-    {
-      if (exists(work.resultPath(piece)))
-      {
-        verifyPiece(work, piece);
-        isDone[std::size_t(piece)] = 1;
-        return;
-      }
-    }
-    catch (const IOError& error)
-    {
-      const std::lock_guard<std::mutex> lock(mutex);
-      damaged = damaged.empty() || error.path() < damaged ? error.path() : damaged;
-      ++others;
-    }
-    removePiece(work, piece);
-  };
-  if (!forChunks(work.Plan.pieces(), 1, threads, report, verify))
-  {
-    return {};
-  }
-  if (!damaged.empty())
-  {
-    warn(damaged + ": is damaged or missing; its piece" +
-      (others > 0 ? " and " + std::to_string(others) + " more are" : " is") +
-      " made again from the points that were spilled.");
-  }
-  return isDone;
+  return verifyPieces(
+    work.Mesh, storedPieces(work),
+    [&](PartitionIndex piece)
+    { return readInterior(work, piece, StoredResult(work.resultPath(piece))); },
+    threads, report, warn);
 }
 
 std::vector<FinishedPiece> finishPieces(

@@ -6,6 +6,7 @@
 #include "OutOfCore/FinishPieces.h"
 #include "OutOfCore/InputPasses.h"
 #include "OutOfCore/PieceRun.h"
+#include "OutOfCore/RunRecord.h"
 #include "OutOfCore/RunSetup.h"
 #include "OutOfCore/ScratchFiles.h"
 #include "Parallel/ParallelFor.h"
@@ -45,6 +46,7 @@ public:
     , Threads(threadCount(options.Threads))
     , Pending(PendingFolder::lasting(path, &replaceableMesh))
     , Scratch(this->Pending, options.Scratch)
+    , Record(path, identityOf(points, options), this->Pending, this->Scratch)
   {
     this->Statistics.Threads = this->Threads;
     this->Setup.Mesh.Path = options.CountOnly ? "" : this->Pending.temporaryPath();
@@ -68,7 +70,7 @@ public:
         this->survey();
         this->spill();
       }
-      if (!this->IsWhole)
+      if (!this->Record.isWhole())
       {
         this->Setup.beginTaking();
         this->triangulate();
@@ -89,6 +91,7 @@ public:
       }
       this->Statistics.Aborted = true;
     }
+    this->Statistics.Kept = this->Record.isKept();
     return std::move(this->Statistics);
   }
 
@@ -124,91 +127,20 @@ private:
     this->Statistics.Phases.push_back({ name, this->Watch.restart() });
   }
 
-  void keep(bool kept = true)
-  {
-    this->Pending.keep(kept);
-    this->Scratch.keep(kept);
-    this->Statistics.Kept = kept;
-  }
-
   /// Returns false if there is nothing to resume.
   bool resume()
   {
-    if (!this->Scratch.hasRun())
-    {
-      return false;
-    }
-    this->keep();
-    const Bytes bytes = readCheckedFile(this->Scratch.plan());
-    LoadArchive archive(bytes);
-    std::string identity;
-    archive(identity);
-    const bool isOurs = identity == identityOf(this->Input, this->Options);
-    std::uint8_t isWhole = 0;
-    archive(isWhole);
-    this->IsWhole = isWhole == 1;
-    this->IsWhole ? this->resumeWhole(archive, isOurs) : this->resumeBegun(archive, isOurs);
-    this->Statistics.Resumed = this->Statistics.Kept;
-    this->endPhase("resume");
+    this->Statistics.Resumed = this->Record.resume(
+      this->Options.Resume, this->Threads,
+      [this](LoadArchive& archive)
+      {
+        this->Setup.load(archive, this->Scratch.points());
+        this->planMemory(this->Setup.Rows.Words);
+        this->describePlan();
+      },
+      [this](LoadArchive& archive) { archive(this->Statistics); });
+    this->Statistics.Resumed ? this->endPhase("resume") : void();
     return this->Statistics.Resumed;
-  }
-
-  void resumeBegun(LoadArchive& archive, bool isOurs)
-  {
-    this->requireOurs(isOurs && this->Options.Resume);
-    this->Setup.load(archive, this->Scratch.points());
-    this->planMemory(this->Setup.Rows.Words);
-    this->describePlan();
-  }
-
-  /// Resumes a run whose mesh is complete, as recordWhole() has recorded.
-  void resumeWhole(LoadArchive& archive, bool isOurs)
-  {
-    archive(this->Statistics, this->Fingerprint);
-    this->IsInPlace = this->Fingerprint != 0 && holdsMesh(this->Path, this->Fingerprint);
-    // The other run's mesh is already published, so its remains are useless.
-    if (this->IsInPlace && !isOurs)
-    {
-      this->keep(false);
-      this->Statistics = {};
-      this->Statistics.Threads = this->Threads;
-      this->IsWhole = this->IsInPlace = false;
-      return;
-    }
-    this->requireOurs(isOurs);
-    if (this->hasMeshToPublish())
-    {
-      this->verifyWhole();
-    }
-  }
-
-  bool hasMeshToPublish() const { return !this->Options.CountOnly && !this->IsInPlace; }
-
-  /// Verifies the mesh: the process that made it has ended, and its files may have changed since.
-  void verifyWhole() const
-  {
-    try
-    {
-      verifyMesh(this->Pending.temporaryPath(), this->Fingerprint, this->Threads);
-    }
-    catch (const IOError& error)
-    {
-      throw IOError(error.path(),
-        "is damaged or missing; remove " + this->Pending.workPath() + " and start again.");
-    }
-  }
-
-  void requireOurs(bool isOurs) const
-  {
-    if (!isOurs)
-    {
-      throw IOError(this->Path,
-        this->Options.Resume ? "was started with another or since changed input, or with other "
-                               "options; give those, or remove " +
-            this->Pending.workPath() + " to start again."
-                             : "was started by another run, whose files are in " +
-            this->Pending.workPath() + "; resume that run, or remove the folder to start again.");
-    }
   }
 
   void planMemory(std::size_t words)
@@ -216,21 +148,9 @@ private:
     this->Memory = std::make_unique<MemoryPlan>(this->Options, words);
   }
 
-  void savePlan()
-  {
-    writeCheckedFile(this->Scratch.plan(),
-      [this](SaveArchive& archive)
-      {
-        archive(identityOf(this->Input, this->Options));
-        archive(std::uint8_t(this->IsWhole));
-        this->Setup.save(archive);
-      });
-    this->keep();
-  }
-
   void survey()
   {
-    this->keep(false);
+    this->Record.keep(false);
     this->Scratch.clear();
     this->planMemory(3 + this->Input.columns().size());
     InputSurvey& survey = this->Setup.Survey;
@@ -307,7 +227,7 @@ private:
         .spill(survey, *this->Setup.Plan, this->Setup.Rows, this->Scratch.points());
     this->Statistics.SpilledBytes = this->Setup.Spilled->bytes();
     this->Setup.requireMemory(this->Path, this->Options.MemoryLimit);
-    this->savePlan();
+    this->Record.saveBegun([this](SaveArchive& archive) { this->Setup.save(archive); });
     this->endPhase("spill");
   }
 
@@ -382,7 +302,7 @@ private:
       this->Statistics.Triangles += piece.Summary.Cells;
       this->Statistics.TriangleSum += piece.TriangleSum;
     }
-    this->recordWhole();
+    this->Record.saveCounted([this](SaveArchive& archive) { archive(this->Statistics); });
   }
 
   void publish()
@@ -416,23 +336,8 @@ private:
     }
     const PublishedMesh published = publishPieces(mesh, this->Finished);
     this->Statistics.MeshBytes = published.Bytes;
-    this->Fingerprint = published.Fingerprint;
-    this->recordWhole();
-  }
-
-  /// Replaces the plan by a record that the mesh is complete. From now on only the mesh in the work
-  /// folder is needed, and a resumed run only has to move it to its path.
-  void recordWhole()
-  {
-    this->IsWhole = true;
-    writeCheckedFile(this->Scratch.plan(),
-      [this](SaveArchive& archive)
-      {
-        archive(identityOf(this->Input, this->Options), std::uint8_t(this->IsWhole),
-          this->Statistics, this->Fingerprint);
-      });
-    syncToDisk(this->Scratch.plan());
-    syncToDisk(this->Pending.workPath());
+    this->Record.saveWhole(
+      published.Fingerprint, [this](SaveArchive& archive) { archive(this->Statistics); });
   }
 
   void putInPlace()
@@ -441,12 +346,8 @@ private:
     {
       this->Options.Progress(1); // too late to stop the run
     }
-    if (this->hasMeshToPublish())
-    {
-      this->Pending.commit();
-    }
     this->Setup.Spilled.reset();
-    this->keep(false);
+    this->Record.putInPlace();
     this->endPhase("publish");
   }
 
@@ -457,13 +358,11 @@ private:
   const int Threads;
   PendingFolder Pending;
   ScratchFolder Scratch;
+  RunRecord Record;
   OutOfCoreStatistics Statistics;
   std::unique_ptr<MemoryPlan> Memory;
   RunSetup Setup;
   std::vector<FinishedPiece> Finished;
-  bool IsWhole = false;          ///< the mesh is complete, or all triangles are counted
-  bool IsInPlace = false;        ///< the mesh is already at Path
-  std::uint64_t Fingerprint = 0; ///< of the complete mesh, if there is one
   Stopwatch Watch;
 };
 

@@ -149,7 +149,7 @@ void RunSetup::requireMemory(const std::string& path, std::uint64_t limit) const
 
 std::string identityOf(const PointStream& input, const OutOfCoreOptions& options)
 {
-  return "TIPP out of core 12\n" + input.identity() + std::to_string(options.Columns) + "x" +
+  return "TIPP out of core 13\n" + input.identity() + std::to_string(options.Columns) + "x" +
     std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
     std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
     (options.Neighbors ? " linked" : "") + (options.MarkConstraints ? " marked" : "") +

@@ -2,6 +2,7 @@
 #include "OutOfCore3D/PieceRun3.h"
 
 #include "Files/IOError.h"
+#include "OutOfCore/StoredPieces.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ enum SectionKind : std::uint32_t
   MessageSection
 };
 
-/// Adds the tetrahedra of the hull repair to borders.
+/// Collects the tetrahedra of the hull repair by the piece that owns them.
 struct LateCells : public FinalCellConsumer3
 {
   explicit LateCells(const PiecePlan3& plan)
@@ -51,7 +52,7 @@ void addCells(const BorderCells3& cells, PieceBorder& border)
   }
 }
 
-/// Sets the rows of the points of other pieces that a border's tetrahedra use.
+/// Sets the rows of the points that a border's tetrahedra use and that other pieces own.
 void setGhosts(const PieceWork3& work, const StoredResults3& results, PieceBorder& border)
 {
   std::vector<std::int64_t> ghosts = border.ghosts();
@@ -68,6 +69,28 @@ void setGhosts(const PieceWork3& work, const StoredResults3& results, PieceBorde
     }
     border.setGhost(point, owner.interfaceRow(point, work.Rows));
   }
+}
+
+/// Adds the border to the file of a piece. `late`: tetrahedra of the hull repair.
+FinishedPiece finishPiece(const PieceWork3& work, const StoredResults3& results,
+  PartitionIndex piece, const BordersByOwner3& late)
+{
+  const PieceInterior interior = results[std::size_t(piece)]->readInterior(work, piece, true);
+  PieceBorder border(interior, work.Rows, 4);
+  for (const auto& result : results)
+  {
+    if (result->hasBorder(piece))
+    {
+      addCells(result->readBorder(piece), border);
+    }
+  }
+  const auto added = late.find(piece);
+  if (added != late.end())
+  {
+    addCells(added->second, border);
+  }
+  setGhosts(work, results, border);
+  return writeBorder(work.Mesh, work.Plan.number(piece), work.Rows, interior, border);
 }
 
 } // namespace
@@ -142,6 +165,16 @@ PieceInterior StoredResult3::readInterior(
   return interior;
 }
 
+std::vector<char> verifyResults(const PieceWork3& work, int threads, const Report& report,
+  const std::function<void(const std::string&)>& warn)
+{
+  return verifyPieces(
+    work.Mesh, storedPieces(work),
+    [&](PartitionIndex piece)
+    { return StoredResult3(work.resultPath(piece)).readInterior(work, piece, true); },
+    threads, report, warn);
+}
+
 std::vector<FinishedPiece> finishPieces(const PieceWork3& work, const StoredResults3& results,
   std::uint64_t limit, int threads, const Report& report, PieceFigures& figures)
 {
@@ -167,23 +200,8 @@ std::vector<FinishedPiece> finishPieces(const PieceWork3& work, const StoredResu
     [&](std::int64_t at, std::int64_t, int)
     {
       const auto piece = PartitionIndex(at);
-      const PieceInterior interior = results[std::size_t(at)]->readInterior(work, piece, true);
-      PieceBorder border(interior, work.Rows, 4);
-      for (const auto& result : results)
-      {
-        if (result->hasBorder(piece))
-        {
-          addCells(result->readBorder(piece), border);
-        }
-      }
-      const auto added = late.Borders.find(piece);
-      if (added != late.Borders.end())
-      {
-        addCells(added->second, border);
-      }
-      setGhosts(work, results, border);
-      const std::size_t number = work.Plan.number(piece);
-      finished[number] = writeBorder(work.Mesh, number, work.Rows, interior, border);
+      finished[work.Plan.number(piece)] = finishOnce(
+        work.finishedPath(piece), [&] { return finishPiece(work, results, piece, late.Borders); });
     });
   return isDone ? std::move(finished) : std::vector<FinishedPiece>();
 }

@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "OutOfCore/FinishPieces.h"
+#include "OutOfCore/RunRecord.h"
 #include "OutOfCore/ScratchFiles.h"
 #include "OutOfCore3D/PieceRun3.h"
 #include "Parallel/ParallelFor.h"
@@ -14,26 +15,37 @@
 
 namespace tipp
 {
+
+/// The statistics of the whole mesh, without those of this process.
+template <typename Archive>
+void serialize(Archive& archive, OutOfCoreStatistics3& statistics)
+{
+  archive(statistics.Points, statistics.Tetrahedra, statistics.Rejected, statistics.LeftOut,
+    statistics.ThinnedOut, statistics.Pieces, static_cast<PieceFigures&>(statistics),
+    statistics.SpilledBytes, statistics.MeshBytes);
+}
+
 namespace
 {
 
 constexpr const char* representativeName = "RepresentativePointId";
 
-/// The user has stopped the run.
+/// Thrown if the user has stopped the run.
 struct Aborted
 {
 };
 
-/// The hidden folder in which a new run works.
-PendingFolder openFolder(const std::string& path)
+/// Returns a text that is equal for runs that make the same mesh from the same input with the same
+/// options.
+std::string identityOf(const PointStream& input, const OutOfCoreOptions3& options)
 {
-  if (canResume(path))
+  std::string text = "TIPP out of core in space 1\n" + input.identity();
+  for (const std::string& column : input.columns())
   {
-    throw IOError(path,
-      "has been begun by a run of 'tipp delaunay', and its work is in " +
-        PendingFolder::lastingPath(path) + "; resume that one, or remove the folder.");
+    text += column + "\n";
   }
-  return PendingFolder::lasting(path, &replaceableMesh);
+  return text + std::to_string(options.PiecePoints) + (options.MapDuplicates ? " mapped" : "") +
+    (options.Neighbors ? " linked" : "") + "\n" + options.Scratch;
 }
 
 class Run
@@ -45,11 +57,10 @@ public:
     , Options(options)
     , Threads(threadCount(options.Threads))
     , Memory(options.MemoryLimit, options.PiecePoints, 3 + points.columns().size())
-    , Pending(openFolder(path))
+    , Pending(PendingFolder::lasting(path, &replaceableMesh))
     , Scratch(this->Pending, options.Scratch)
+    , Record(path, identityOf(points, options), this->Pending, this->Scratch)
   {
-    this->Pending.keep(false);
-    this->Scratch.keep(false);
     this->Statistics.Threads = this->Threads;
   }
 
@@ -57,15 +68,22 @@ public:
   {
     try
     {
-      this->Scratch.clear();
-      this->prepare();
-      this->triangulate();
-      this->publish();
+      if (!this->resume())
+      {
+        this->prepare();
+      }
+      if (!this->Record.isWhole())
+      {
+        this->triangulate();
+        this->publish();
+      }
+      this->putInPlace();
     }
     catch (const Aborted&)
     {
       this->Statistics.Aborted = true;
     }
+    this->Statistics.Kept = this->Record.isKept();
     return std::move(this->Statistics);
   }
 
@@ -88,25 +106,52 @@ private:
     this->Statistics.Phases.push_back({ name, this->Watch.restart() });
   }
 
+  /// Returns false if there is nothing to resume.
+  bool resume()
+  {
+    this->Statistics.Resumed = this->Record.resume(
+      this->Options.Resume, this->Threads,
+      [this](LoadArchive& archive)
+      {
+        this->Plan = std::make_unique<PiecePlan3>(
+          archive, 3 + this->Input.columns().size(), this->Scratch.points());
+        this->describeColumns();
+        this->describePlan();
+      },
+      [this](LoadArchive& archive) { archive(this->Statistics); });
+    this->Statistics.Resumed ? this->endPhase("resume") : void();
+    return this->Statistics.Resumed;
+  }
+
   void prepare()
   {
+    this->Record.keep(false);
+    this->Scratch.clear();
     this->Plan = std::make_unique<PiecePlan3>(
       this->Input, this->Memory, [this](std::int64_t) { this->require(0); });
+    this->describeColumns();
+    this->requireSpace();
+    this->Plan->divide(this->Memory, this->Rows.Words);
+    this->endPhase("survey");
+    const double all = double(this->Plan->survey().Points);
+    this->Plan->spill(this->Input, this->Rows, this->Scratch.points(), this->Memory, this->Threads,
+      [&](std::int64_t done) { this->require(0.1 * double(done) / all); });
+    this->Record.saveBegun([this](SaveArchive& archive) { this->Plan->save(archive); });
+    this->describePlan();
+    this->endPhase("spill");
+  }
+
+  /// Sets the statistics that are known once the points are spilled.
+  void describePlan()
+  {
     const InputSurvey3& survey = this->Plan->survey();
     this->Statistics.Points = survey.Points;
     this->Statistics.Rejected = survey.Rejected;
     this->Statistics.LeftOut = survey.LeftOut;
     this->Statistics.ThinnedOut = survey.ThinnedOut;
-    this->describeColumns();
-    this->requireSpace();
-    this->Plan->divide(this->Memory, this->Rows.Words);
     this->Statistics.Pieces = this->Plan->pieces();
-    this->describeMesh();
-    this->endPhase("survey");
-    this->Plan->spill(this->Input, this->Rows, this->Scratch.points(), this->Memory, this->Threads,
-      [&](std::int64_t done) { this->require(0.1 * double(done) / double(survey.Points)); });
     this->Statistics.SpilledBytes = this->Plan->spilledBytes();
-    this->endPhase("spill");
+    this->describeMesh();
   }
 
   void describeColumns()
@@ -159,9 +204,10 @@ private:
   void requireSpace() const
   {
     const auto points = std::uint64_t(this->Plan->survey().finite());
-    // Of uniform points there are 6.77 tetrahedra a point.
+    // Uniform points give 6.77 tetrahedra per point.
     const std::uint64_t cells = 7 * (16 + 4 + 1 + 8 + (this->Options.Neighbors ? 32 : 0));
-    constexpr std::uint64_t results = 100; // what pieces of 250,000 points leave for others
+    // Bytes per point of results, for pieces of 250,000 points.
+    constexpr std::uint64_t results = 100;
     this->Scratch.requireSpace(this->Path,
       points * (24 + 8 + 1 + 8 * this->Rows.Attributes.size() + cells),
       points * (8 * this->Rows.Words + results));
@@ -171,10 +217,15 @@ private:
   {
     const PieceWork3 work{ *this->Plan, this->Rows, this->Mesh, this->Scratch.results() };
     const double all = double(this->Plan->survey().finite());
+    const std::vector<char> isDone = verifyResults(
+      work, this->Threads, [this](double) { return this->proceed(0.1); },
+      [this](const std::string& sentence)
+      { this->Options.Warn ? this->Options.Warn(sentence) : void(); });
     StoredResults3 results;
-    if (!PieceRun3(work, this->Memory, this->Threads,
-          [&](std::int64_t done) { return this->proceed(0.1 + 0.75 * double(done) / all); })
-           .run(results))
+    if (isDone.empty() ||
+      !PieceRun3(work, this->Memory, this->Threads,
+        [&](std::int64_t done) { return this->proceed(0.1 + 0.75 * double(done) / all); })
+         .run(isDone, results))
     {
       throw Aborted();
     }
@@ -213,9 +264,16 @@ private:
       syncToDisk(this->Mesh.piecePath(number));
       this->require(0.98 + 0.02 * double(number) / double(this->Finished.size()));
     }
-    this->Statistics.MeshBytes = publishPieces(this->Mesh, this->Finished).Bytes;
-    this->proceed(1); // too late to end it
-    this->Pending.commit();
+    const PublishedMesh published = publishPieces(this->Mesh, this->Finished);
+    this->Statistics.MeshBytes = published.Bytes;
+    this->Record.saveWhole(
+      published.Fingerprint, [this](SaveArchive& archive) { archive(this->Statistics); });
+  }
+
+  void putInPlace()
+  {
+    this->proceed(1); // too late to stop the run
+    this->Record.putInPlace();
     this->endPhase("publish");
   }
 
@@ -226,6 +284,7 @@ private:
   const MemoryPlan3 Memory;
   PendingFolder Pending;
   ScratchFolder Scratch;
+  RunRecord Record;
   OutOfCoreStatistics3 Statistics;
   std::unique_ptr<PiecePlan3> Plan;
   PointRowLayout Rows;

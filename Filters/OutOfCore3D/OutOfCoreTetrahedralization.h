@@ -18,44 +18,56 @@ namespace tipp
 struct OutOfCoreOptions3
 {
   std::uint64_t MemoryLimit = std::uint64_t(2) << 30; ///< in bytes
-  int Threads = 0;                                    ///< 0: OpenMP's choice
-  /// The approximate number of points of a piece; 0: as memory allows.
+  int Threads = 0;                                    ///< 0: OpenMP's default
+  /// The approximate number of points per piece; 0: as memory allows.
   std::int64_t PiecePoints = 0;
   /// Adds the point array RepresentativePointId.
   bool MapDuplicates = false;
-  /// Adds the cell array NeighborIds: for each corner of a tetrahedron the global id of the one
-  /// across the opposite facet; -1 if there is none.
+  /// Adds the cell array NeighborIds: for each corner of a tetrahedron the global id of the
+  /// tetrahedron opposite to it, -1 at the hull.
   bool Neighbors = false;
-  /// A folder on another disk for temporary files except the pieces; empty: beside the mesh.
+  /// Resumes an interrupted run of the same path, if there is one. If false, such a run is an
+  /// error, and its files are left unchanged.
+  bool Resume = false;
+  /// A folder for temporary files on another disk, except the pieces. Empty: beside the mesh.
   std::string Scratch;
-  /// Called now and then with the finished fraction, by one thread at a time; false ends the run.
+  /// Called regularly with the finished fraction (0 to 1), by one thread at a time. Returns false
+  /// to stop the run.
   std::function<bool(double)> Progress;
+  /// Called with a sentence about damaged results of an earlier run, which are then made again.
+  std::function<void(const std::string&)> Warn;
 };
 
+/// Statistics of a run out of core in space.
 struct OutOfCoreStatistics3 : PieceFigures
 {
   std::int64_t Points = 0;
   std::int64_t Tetrahedra = 0;
   std::int64_t Rejected = 0;
-  std::int64_t LeftOut = 0; ///< points that the options of the input have left out
-  std::int64_t ThinnedOut = 0;
+  std::int64_t LeftOut = 0;    ///< points that the input's options exclude
+  std::int64_t ThinnedOut = 0; ///< points that thinning removed
   std::int64_t Pieces = 0;
   std::uint64_t SpilledBytes = 0;
   std::uint64_t MeshBytes = 0;
   int Threads = 1;
   std::vector<OutOfCoreStatistics::Phase> Phases;
-  bool Aborted = false; ///< by Progress
+  bool Resumed = false;
+  bool Aborted = false; ///< Progress stopped the run
+  bool Kept = false;    ///< if aborted: the run can be resumed
 };
 
-/// The Delaunay triangulation of points in space that need not fit in memory, as the partitioned
-/// mesh `path`: the tetrahedra of tetrahedralize(). Ids are indices in the stream; a piece's cells
-/// have consecutive ids; the files are the same for any number of threads. A column named z, Z or
-/// elevation is the third coordinate; the others become arrays of points.
+/// Computes the Delaunay triangulation of points in space that need not fit in memory, and writes
+/// it to the partitioned mesh `path`. The tetrahedra are those of tetrahedralize(). Global point
+/// ids are indices in the stream; the cells of a piece have consecutive global ids. The files are
+/// the same for any number of threads. A column named z, Z or elevation is the third coordinate;
+/// other columns become point arrays.
 ///
-/// Points are read twice (once more if their coordinates are so far from 1 that they are scaled)
-/// and spilled once, by piece; tetrahedra are written as soon as they are final. All is written to
-/// a folder beside `path`, which is renamed to `path` when it is whole, and removed if the run
-/// fails. Throws IOError, also for points in one plane.
+/// Points are read twice (three times if coordinates are so far from 1 that they are scaled) and
+/// spilled once, sorted by piece. Tetrahedra are written as soon as they are final. All files are
+/// in a folder ".NAME.part" beside `path`, which is renamed to `path` when the mesh is complete.
+/// Once the points are spilled, the folder is kept if the run fails or is stopped. Another run can
+/// resume it, even with another number of threads or memory limit, and makes the same files. Throws
+/// IOError, also if all points are in one plane.
 VTKTIPPFILTERS_EXPORT OutOfCoreStatistics3 tetrahedralizeOutOfCore(
   PointStream& points, const std::string& path, const OutOfCoreOptions3& options = {});
 

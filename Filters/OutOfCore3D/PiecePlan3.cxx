@@ -15,10 +15,10 @@ namespace tipp
 namespace
 {
 
-/// Points of the initial mesh in each piece, besides those at the sides of its region.
+/// The number of initial points per piece, besides those on the sides of its region.
 constexpr std::size_t initialPointsOfPiece = 48;
 
-/// The points of a block, times a factor.
+/// The points of a block; coordinates are multiplied by a factor.
 class BlockView3
 {
 public:
@@ -44,7 +44,7 @@ private:
   double Factor;
 };
 
-/// The dimension of the points that were added: see Tetrahedralization::Dimension.
+/// Finds the dimension of the points that are added (see Tetrahedralization::Dimension).
 class DimensionTest
 {
 public:
@@ -88,14 +88,15 @@ void requireDimension(int dimension)
 
 std::uint64_t MemoryPlan3::bytesOf(std::int64_t points, std::int64_t others, std::size_t words)
 {
-  // Coordinates twice; seven tetrahedra of the kernel and the piece; ids and tables of vertices.
+  // Coordinates twice; seven tetrahedra per point, in the kernel and in the piece; ids and tables
+  // of vertices.
   constexpr std::uint64_t vertex = 2 * 24 + 7 * (33 + 16) + 32;
   return std::uint64_t(points) * 8 * words + std::uint64_t(points + others) * vertex;
 }
 
 MemoryPlan3::MemoryPlan3(std::uint64_t limit, std::int64_t piecePoints, std::size_t words)
 {
-  // Two blocks of points, their labels and rows by piece.
+  // Two blocks of points, their labels, and their rows sorted by piece.
   const std::size_t perPoint = 2 * 8 * (words - 1) + 4 + 8 * words;
   constexpr std::size_t mostPoints = std::size_t(1) << 22;
   this->BlockPoints =
@@ -103,8 +104,8 @@ MemoryPlan3::MemoryPlan3(std::uint64_t limit, std::int64_t piecePoints, std::siz
   this->SamplePoints =
     std::clamp<std::size_t>(std::size_t(limit / 512), std::size_t(1) << 14, std::size_t(1) << 20);
   this->PieceBytes = limit / 5 * 4;
-  // Four pieces fit into memory together, whatever the number of threads: so the pieces are the
-  // same for any number of them. Larger pieces than the most would gain little.
+  // Four pieces fit into memory together. The number does not depend on the threads, so that the
+  // pieces do not, either. Larger pieces than the maximum would gain little.
   constexpr std::uint64_t together = 4;
   constexpr std::int64_t unit = 1024;
   const std::uint64_t most = this->PieceBytes / together / bytesOf(unit, unit / 3, words) * unit;
@@ -157,7 +158,7 @@ PiecePlan3::PiecePlan3(PointStream& points, const MemoryPlan3& memory, const Pro
   this->findFactor(points, memory.BlockPoints, largest);
 }
 
-/// Sets the factor if it is exact for all points.
+/// Sets the factor, if multiplying by it is exact for all points.
 void PiecePlan3::findFactor(PointStream& points, std::size_t blockPoints, double largest)
 {
   double factor = moderateFactor(largest);
@@ -189,7 +190,8 @@ void PiecePlan3::findFactor(PointStream& points, std::size_t blockPoints, double
 void PiecePlan3::divide(const MemoryPlan3& memory, std::size_t words)
 {
   const std::int64_t count = this->Survey.finite();
-  constexpr std::int64_t mostAlone = std::int64_t(1) << 26; // which indices of the kernel can name
+  // One kernel has indices for this many points.
+  constexpr std::int64_t mostAlone = std::int64_t(1) << 26;
   const bool fits = count < mostAlone && MemoryPlan3::bytesOf(count, 0, words) <= memory.PieceBytes;
   const double wanted = double(count) / double(memory.PiecePoints);
   const double possible = double(this->Sample.size()) / 8;
@@ -209,7 +211,7 @@ void PiecePlan3::divide(const MemoryPlan3& memory, std::size_t words)
   this->chooseInitialPoints();
 }
 
-/// Whether partitions pay, as far as the sample tells.
+/// Returns whether partitioning pays, judged by the sample.
 bool PiecePlan3::samplePays() const
 {
   std::vector<Point3> sample;
@@ -222,7 +224,7 @@ bool PiecePlan3::samplePays() const
   return !artificial.empty() && InitialMesh3(buckets, artificial).partitionsPay();
 }
 
-/// Keeps a few sampled points of each piece.
+/// Keeps a few sampled points of each piece as its initial points.
 void PiecePlan3::chooseInitialPoints()
 {
   std::vector<std::vector<Sampled>> sampled(std::size_t(this->pieces()));
@@ -243,7 +245,8 @@ void PiecePlan3::chooseInitialPoints()
     [](const Sampled& a, const Sampled& b) { return a.Id < b.Id; });
 }
 
-/// Which piece each point of a block is in, and what is known of the pieces.
+/// Finds the pieces of a block's points, and collects the counts, regions and initial points of
+/// pieces.
 struct PiecePlan3::Labels
 {
   explicit Labels(PiecePlan3& plan)
@@ -305,8 +308,8 @@ struct PiecePlan3::Labels
 
   PiecePlan3& Plan;
   std::vector<SpilledPiece3> Pieces;
-  std::vector<PartitionIndex> Of; ///< of the block's points; -1: rejected
-  std::size_t Next = 0;           ///< of the sampled points
+  std::vector<PartitionIndex> Of; ///< by point of the block: its piece; -1: rejected
+  std::size_t Next = 0;           ///< index in the sample of the next sampled point
   std::int64_t Points = 0;
 };
 
@@ -350,6 +353,12 @@ void PiecePlan3::spill(PointStream& points, const PointRowLayout& rows, const st
     throwChanged();
   }
   std::vector<Sampled>().swap(this->Sample);
+  this->enclose();
+}
+
+/// Sets the artificial points around all regions. Throws IOError if doubles cannot enclose them.
+void PiecePlan3::enclose()
+{
   this->Artificial =
     this->pieces() > 1 ? makeArtificialPoints(this->initialBuckets()) : std::vector<Vertex3>();
   if (this->pieces() > 1 && this->Artificial.empty())
@@ -359,13 +368,47 @@ void PiecePlan3::spill(PointStream& points, const PointRowLayout& rows, const st
   }
 }
 
+/// Saves or loads the survey by members, because its bytes include padding.
+template <typename Archive, typename Survey>
+void exchangeSurvey(Archive& archive, Survey& survey)
+{
+  archive(survey.Points, survey.Rejected, survey.LeftOut, survey.ThinnedOut, survey.Bounds,
+    survey.Factor, survey.Dimension, survey.Elevation);
+}
+
+void PiecePlan3::save(SaveArchive& archive) const
+{
+  exchangeSurvey(archive, this->Survey);
+  archive(
+    this->Tiling, this->Boxes, this->Regions, this->Initial, this->Starts, this->Rows->content());
+}
+
+PiecePlan3::PiecePlan3(LoadArchive& archive, std::size_t words, const std::string& file)
+{
+  exchangeSurvey(archive, this->Survey);
+  archive(this->Tiling, this->Boxes, this->Regions, this->Initial, this->Starts);
+  const auto pieces = std::size_t(this->pieces());
+  this->Rows = std::make_unique<Spill>(file, pieces, 8 * words, archive.get<SpilledRows>());
+  bool isOurs = pieces > 0 && this->Boxes.size() == pieces && this->Regions.size() == pieces &&
+    this->Initial.size() == pieces && this->Starts.size() == pieces + 1 && this->Starts[0] == 0;
+  for (PartitionIndex piece = 0; isOurs && piece < this->pieces(); ++piece)
+  {
+    isOurs = this->count(piece) == this->Rows->rows(std::size_t(piece));
+  }
+  if (!isOurs)
+  {
+    throw IOError(file, "has points of other pieces; start again.");
+  }
+  this->enclose();
+}
+
 PartitionIndex PiecePlan3::pieceOf(std::int64_t index) const
 {
   return PartitionIndex(
     std::upper_bound(this->Starts.begin(), this->Starts.end(), index) - this->Starts.begin() - 1);
 }
 
-/// The initial points alone, numbered one after the other.
+/// Returns the initial points only, with consecutive ids.
 PointBuckets3 PiecePlan3::initialBuckets() const
 {
   PointBuckets3 buckets;

@@ -22,20 +22,20 @@
 namespace tipp
 {
 
-/// How the memory limit is divided.
+/// How the memory limit is divided among the phases of a run.
 struct VTKTIPPFILTERS_EXPORT MemoryPlan3
 {
-  /// `limit` in bytes; `piecePoints`: the approximate number of points of a piece, 0: as memory
-  /// allows; `words`: of a point's row.
+  /// `limit`: in bytes. `piecePoints`: the approximate number of points per piece, or 0: as memory
+  /// allows. `words`: 64-bit words of a point's row.
   MemoryPlan3(std::uint64_t limit, std::int64_t piecePoints, std::size_t words);
 
-  std::size_t BlockPoints;  ///< read at a time
-  std::size_t SamplePoints; ///< at least, of the survey
-  std::int64_t PiecePoints; ///< of a piece, approximately
-  std::uint64_t PieceBytes; ///< of pieces that are triangulated at the same time
+  std::size_t BlockPoints;  ///< points per read
+  std::size_t SamplePoints; ///< smallest size of the survey's sample
+  std::int64_t PiecePoints; ///< approximate points per piece
+  std::uint64_t PieceBytes; ///< of all pieces that are triangulated at the same time
 
-  /// Bytes of a piece of `points` points while it is triangulated, with `others` vertices of other
-  /// pieces.
+  /// Returns the bytes of memory that a piece needs while it is triangulated. `points`: its points;
+  /// `others`: vertices of other pieces; `words`: as above.
   static std::uint64_t bytesOf(std::int64_t points, std::int64_t others, std::size_t words);
 };
 
@@ -43,77 +43,92 @@ struct VTKTIPPFILTERS_EXPORT MemoryPlan3
 struct InputSurvey3
 {
   std::int64_t Points = 0;
-  std::int64_t Rejected = 0; ///< NaN or infinite coordinates
-  std::int64_t LeftOut = 0;  ///< by the options of the input
-  std::int64_t ThinnedOut = 0;
-  Box3 Bounds;        ///< of the finite points, times Factor
-  double Factor = 1;  ///< a power of two that brings coordinates near 1, where they are far from it
-  int Dimension = -1; ///< of the finite points: see Tetrahedralization
-  std::size_t Elevation = 0; ///< which column is the third coordinate
+  std::int64_t Rejected = 0;   ///< points with NaN or infinite coordinates
+  std::int64_t LeftOut = 0;    ///< points that the input's options exclude
+  std::int64_t ThinnedOut = 0; ///< points that thinning removed
+  Box3 Bounds;                 ///< of the finite points; coordinates times Factor
+  /// A power of two that brings very small or large coordinates to about 1; else 1.
+  double Factor = 1;
+  int Dimension = -1;        ///< of the finite points; see Tetrahedralization
+  std::size_t Elevation = 0; ///< index of the column with the third coordinate
 
+  /// Returns the number of finite points.
   std::int64_t finite() const { return this->Points - this->Rejected; }
 };
 
-/// What is known of a piece when its points are spilled.
+/// Data about a piece that is collected while its points are spilled.
 struct SpilledPiece3
 {
   std::int64_t Count = 0;
-  PointBounds Region;                       ///< the bounding box of its points
-  std::array<std::int64_t, 6> Extreme = {}; ///< indices of points at the region's sides
+  PointBounds Region; ///< the bounding box of its points
+  /// Indices in the piece of points on the region's six sides.
+  std::array<std::int64_t, 6> Extreme = {};
   std::array<Point3, 6> ExtremePositions = {};
 };
 
-/// A point of the initial mesh: its index among all spilled points, and where it is.
+/// A point of the initial mesh.
 struct InitialPoint3
 {
-  std::int64_t Index;
-  Point3 Position;
+  std::int64_t Index; ///< among all spilled points
+  Point3 Position;    ///< times InputSurvey3::Factor
 };
 
-/// The pieces of a triangulation in space out of core. A piece is a partition: it is spilled,
-/// loaded, triangulated and written at once.
+/// The pieces of a triangulation in space out of core. Each piece is one partition, which is
+/// spilled, loaded, triangulated and written as a whole.
 ///
-/// Points are surveyed in one pass (one more where coordinates may have to be scaled) and spilled
-/// in another one. Results do not depend on the number of threads.
+/// The points are surveyed in one pass (two if coordinates may have to be scaled) and spilled in
+/// another one. Results do not depend on the number of threads. Points are identified by their
+/// index among all spilled points, which are sorted by piece.
 class VTKTIPPFILTERS_EXPORT PiecePlan3
 {
 public:
-  using Progress = std::function<void(std::int64_t)>; ///< of points done; it throws to end the run
+  /// Called with the number of finished points; throws to stop the run.
+  using Progress = std::function<void(std::int64_t)>;
 
-  /// The first pass. Throws IOError, also if there is no finite point or they are coplanar.
+  /// Surveys the points. Throws IOError, also if there is no finite point, or all are in one plane.
   PiecePlan3(PointStream& points, const MemoryPlan3& memory, const Progress& progress);
 
-  /// Divides space. Throws IOError if coordinates reach too far.
+  /// Restores a saved plan. `words`: 64-bit words of a point's row; `file`: the spilled points.
+  /// Throws IOError if the file does not belong to the plan.
+  PiecePlan3(LoadArchive& archive, std::size_t words, const std::string& file);
+  /// Saves the plan; call it after spill().
+  void save(SaveArchive& archive) const;
+
+  /// Divides space into pieces. Throws IOError if the coordinates are too large.
   void divide(const MemoryPlan3& memory, std::size_t words);
 
-  /// The second pass: spills rows of points by piece to `file`.
+  /// Spills rows of the points to `file`, sorted by piece. Throws IOError.
   void spill(PointStream& points, const PointRowLayout& rows, const std::string& file,
     const MemoryPlan3& memory, int threads, const Progress& progress);
 
   const InputSurvey3& survey() const { return this->Survey; }
   PartitionIndex pieces() const { return this->Tiling.size(); }
   const Tiling3& tiling() const { return this->Tiling; }
-  const std::vector<Box3>& boxes() const { return this->Boxes; }     ///< which fill the bounds
-  const std::vector<Box3>& regions() const { return this->Regions; } ///< of their points
+  const std::vector<Box3>& boxes() const { return this->Boxes; } ///< together they fill the bounds
+  /// Bounding boxes of the pieces' points.
+  const std::vector<Box3>& regions() const { return this->Regions; }
   const std::vector<Vertex3>& artificial() const { return this->Artificial; }
 
-  /// The piece's index in the mesh, where the order is the opposite: a point on a cut belongs to
-  /// the upper box here and to the first piece there.
+  /// Returns the piece's index in the mesh. It counts from the other end: here a point on a cut
+  /// belongs to the upper box, in the mesh to the piece with the lowest index.
   std::size_t number(PartitionIndex piece) const { return std::size_t(this->pieces() - 1 - piece); }
 
+  /// Returns the index of the piece's first point among all spilled points.
   std::int64_t first(PartitionIndex piece) const { return this->Starts[std::size_t(piece)]; }
   std::int64_t count(PartitionIndex piece) const
   {
     return this->Starts[std::size_t(piece) + 1] - this->first(piece);
   }
+  /// Returns the piece of a point, given by its index among all spilled points.
   PartitionIndex pieceOf(std::int64_t index) const;
+  /// Reads all rows of a piece; `rows` must have space for count(piece) of them. Throws IOError.
   void read(PartitionIndex piece, double* rows) const
   {
     this->Rows->readAll(std::size_t(piece), rows);
   }
   std::uint64_t spilledBytes() const { return this->Rows->bytes(); }
 
-  /// After spill().
+  /// Returns the initial mesh; call it after spill().
   InitialMesh3 initialMesh() const;
 
 private:
@@ -122,17 +137,19 @@ private:
 
   void findFactor(PointStream& points, std::size_t blockPoints, double largest);
   bool samplePays() const;
+  void enclose();
   void chooseInitialPoints();
   PointBuckets3 initialBuckets() const;
 
   InputSurvey3 Survey;
-  std::vector<Sampled> Sample; ///< by id; until spill() one of few for each piece
+  std::vector<Sampled> Sample; ///< ascending ids; after divide(), only the initial points
   Tiling3 Tiling{ {}, 1 };
   std::vector<Box3> Boxes;
   std::vector<Box3> Regions;
   std::vector<Vertex3> Artificial;
-  std::vector<std::vector<InitialPoint3>> Initial; ///< of each piece
-  std::vector<std::int64_t> Starts; ///< index of each piece's first point; and one past the last
+  std::vector<std::vector<InitialPoint3>> Initial; ///< by piece
+  /// By piece: index of its first point; one more entry at the end.
+  std::vector<std::int64_t> Starts;
   std::unique_ptr<Spill> Rows;
 };
 

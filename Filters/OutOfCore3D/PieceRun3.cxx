@@ -49,7 +49,7 @@ void BorderSorter3::add(const std::array<Vertex3, 4>& corners, const std::vector
   borders[owner].add({ corners[0].Id, corners[1].Id, corners[2].Id, corners[3].Id }, met);
 }
 
-/// Sorts the final tetrahedra of a piece.
+/// Sorts the final tetrahedra of a piece into those of the interior and those at borders.
 struct PieceRun3::Cells : public FinalCellConsumer3
 {
   Cells(const PiecePlan3& plan, PartitionIndex piece)
@@ -103,7 +103,7 @@ struct PieceRun3::Cells : public FinalCellConsumer3
   const std::int32_t Number;
   const std::int64_t First;
   BorderSorter3 Sorter;
-  std::vector<std::int32_t> Interior; ///< four own points each
+  std::vector<std::int32_t> Interior; ///< four indices of the piece's points each
   std::vector<std::uint8_t> IsOnInterface;
   std::vector<Vertex3> HullVertices;
   BordersByOwner3 Borders;
@@ -119,30 +119,52 @@ PieceRun3::PieceRun3(const PieceWork3& work, const MemoryPlan3& memory, int thre
 {
 }
 
-bool PieceRun3::run(StoredResults3& results)
+bool PieceRun3::run(const std::vector<char>& isDone, StoredResults3& results)
 {
   const PiecePlan3& plan = this->Work.Plan;
   results.resize(std::size_t(plan.pieces()));
-  // Every piece has points: its box was cut around points of the sample.
+  this->Results = &results;
+  // Every piece has points, because its box holds points of the sample.
   const std::vector<char> isUsed(results.size(), 1);
   if (plan.pieces() == 1)
   {
     this->Initial.resize(1);
-    this->makePieces(results, PartitionOrder(isUsed, ConflictGraph(1)));
+    this->makePieces(isDone, PartitionOrder(isUsed, ConflictGraph(1)));
     return !this->IsStopped;
   }
   const InitialMesh3 mesh = plan.initialMesh();
   const PartitionOrder order(isUsed, mesh.conflicts());
   this->Initial = sendInitialMesh(mesh, order);
-  this->makePieces(results, order);
+  this->makePieces(isDone, order);
   return !this->IsStopped;
 }
 
-void PieceRun3::makePieces(StoredResults3& results, const PartitionOrder& order)
+/// Marks pieces that are done: later pieces find their messages in the results.
+void PieceRun3::skipDone(const std::vector<char>& isDone, ReadyPartitions& ready)
+{
+  for (std::size_t piece = 0; piece < isDone.size(); ++piece)
+  {
+    if (isDone[piece])
+    {
+      const auto index = PartitionIndex(piece);
+      (*this->Results)[piece] = std::make_unique<StoredResult3>(this->Work.resultPath(index));
+      this->Initial[piece] = {};
+      this->PointsDone += this->Work.Plan.count(index);
+      ready.finish(index);
+    }
+  }
+}
+
+void PieceRun3::makePieces(const std::vector<char>& isDone, const PartitionOrder& order)
 {
   this->Order = &order;
-  this->Results = &results;
-  ReadyPartitions ready(order, ReadyPartitions::Waits::ForEarlier);
+  std::vector<char> isToDo;
+  for (const char done : isDone)
+  {
+    isToDo.push_back(char(done == 0));
+  }
+  ReadyPartitions ready(order, ReadyPartitions::Waits::ForEarlier, isToDo);
+  this->skipDone(isDone, ready);
 #pragma omp parallel num_threads(this->Threads)
   {
     try
@@ -178,7 +200,8 @@ void PieceRun3::makePieces(StoredResults3& results, const PartitionOrder& order)
   }
 }
 
-/// Waits until there is memory for the piece, and returns how many bytes; 0 if the run was stopped.
+/// Waits until there is memory for the piece. Returns the reserved bytes, or 0 if the run was
+/// stopped.
 std::uint64_t PieceRun3::takeMemory(PartitionIndex piece)
 {
   std::unique_lock<std::mutex> lock(this->Mutex);
@@ -265,7 +288,7 @@ void PieceRun3::make(PartitionIndex piece)
   (*this->Results)[std::size_t(piece)] = std::move(stored);
 }
 
-/// Writes the interior's share of the piece's file.
+/// Writes the interior's part of the piece's file in the mesh. Returns the remaining results.
 PieceResult3 PieceRun3::write(PartitionIndex piece, const Buffer<double>& rows, Cells& cells,
   const std::vector<Duplicate>& duplicates)
 {
@@ -299,7 +322,7 @@ PieceResult3 PieceRun3::write(PartitionIndex piece, const Buffer<double>& rows, 
   return result;
 }
 
-/// With the mutex. False if the run is to end.
+/// Call with the mutex locked. Returns false if the run must stop.
 bool PieceRun3::finish(PartitionIndex piece)
 {
   this->PointsDone += this->Work.Plan.count(piece);

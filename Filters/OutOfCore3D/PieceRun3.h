@@ -24,25 +24,31 @@
 namespace tipp
 {
 
-/// What a run's pieces are made of and go to.
+class ReadyPartitions;
+
+/// The input and the destination of the work on a run's pieces. References are not owned.
 struct PieceWork3
 {
   const PiecePlan3& Plan;
   const PointRowLayout& Rows;
   const PartitionedMesh& Mesh;
-  std::string Results; ///< how the paths of pieces' results begin
+  std::string Results; ///< prefix of the paths of results
 
   std::string resultPath(PartitionIndex piece) const
   {
     return this->Results + "." + std::to_string(this->Plan.number(piece));
+  }
+  std::string finishedPath(PartitionIndex piece) const
+  {
+    return this->resultPath(piece) + ".finished";
   }
 };
 
 using BorderCells3 = BorderCells<4>;
 using BordersByOwner3 = std::map<PartitionIndex, BorderCells3>;
 
-/// Adds a tetrahedron to those of the piece that owns it: of all that the tetrahedron meets, the
-/// first in the mesh. The others borrow it.
+/// Adds border tetrahedra to those of the piece that owns them: the first in the mesh of the pieces
+/// that a tetrahedron meets. The others borrow it.
 class VTKTIPPFILTERS_EXPORT BorderSorter3
 {
 public:
@@ -51,10 +57,10 @@ public:
   {
   }
 
-  /// The numbers of the pieces in the mesh that the tetrahedron meets, ascending; valid until the
-  /// next call.
+  /// Returns the pieces that the tetrahedron meets, as indices in the mesh, ascending. Valid until
+  /// the next call.
   const std::vector<std::int32_t>& findMet(const std::array<Vertex3, 4>& corners);
-  /// Adds it to the borders; `met`: of findMet().
+  /// Adds the tetrahedron to `borders`. `met`: the result of findMet().
   void add(const std::array<Vertex3, 4>& corners, const std::vector<std::int32_t>& met,
     BordersByOwner3& borders) const;
 
@@ -63,21 +69,22 @@ private:
   std::vector<std::int32_t> Met;
 };
 
-/// What a piece that is done leaves for others, besides the interior's share of its file in the
-/// mesh; see PieceResult, which is the same in the plane.
+/// The result of a piece that is done: the data that others need, besides the interior's part of
+/// the mesh file. See PieceResult, which does the same in the plane. It is written once and never
+/// changed; the set of these files is the state from which a run is resumed.
 struct PieceResult3
 {
   PieceInterior Interior;
   PieceFigures Figures;
-  std::vector<Vertex3> HullVertices; ///< of tetrahedra at artificial points
+  std::vector<Vertex3> HullVertices; ///< true corners of tetrahedra with artificial corners
   BordersByOwner3 Borders;
   SentMessages3 Sent;
 };
 
-/// Throws IOError.
+/// Writes a result to a file. Throws IOError.
 VTKTIPPFILTERS_EXPORT void writeResult(const std::string& path, const PieceResult3& result);
 
-/// A result on disk, read by parts. Throws IOError for what is damaged or missing.
+/// Reads parts of a result from its file. Methods throw IOError if it is damaged or missing.
 class VTKTIPPFILTERS_EXPORT StoredResult3
 {
 public:
@@ -86,14 +93,16 @@ public:
   {
   }
 
-  /// About how many vertices a piece is sent; 0: none.
+  /// Returns the approximate number of vertices sent to the piece `to`; 0: none.
   std::int64_t countSent(PartitionIndex to) const;
+  /// `to`: the piece that receives the message.
   VertexMessage3 readMessage(PartitionIndex to) const;
+  /// `owner`: the piece that owns the tetrahedra.
   bool hasBorder(PartitionIndex owner) const;
   BorderCells3 readBorder(PartitionIndex owner) const;
   std::vector<Vertex3> readHullVertices() const;
   PieceFigures readFigures() const;
-  /// Points on the interface, and their rows; `all`: the rest of the interior too.
+  /// Reads the interface points and their rows. `all`: also the rest of the interior.
   PieceInterior readInterior(const PieceWork3& work, PartitionIndex piece, bool all) const;
 
 private:
@@ -102,22 +111,30 @@ private:
 
 using StoredResults3 = std::vector<std::unique_ptr<StoredResult3>>;
 
-/// Loads pieces, triangulates them by threads, as many at a time as there is memory for, and writes
-/// what comes of each.
+/// Returns for each piece whether an earlier process left its files undamaged; see verifyPieces().
+VTKTIPPFILTERS_EXPORT std::vector<char> verifyResults(const PieceWork3& work, int threads,
+  const Report& report, const std::function<void(const std::string&)>& warn);
+
+/// Loads pieces, as many at a time as fit in memory, triangulates them in threads, and writes their
+/// results.
 class VTKTIPPFILTERS_EXPORT PieceRun3
 {
 public:
-  /// `progress` is told how many points are done, by one thread at a time; false ends the run.
+  /// `progress` is called with the number of finished points, by one thread at a time; false stops
+  /// the run. `work` is copied; `memory` and the objects that `work` refers to must outlive this
+  /// object.
   PieceRun3(const PieceWork3& work, const MemoryPlan3& memory, int threads,
     std::function<bool(std::int64_t)> progress);
 
-  /// Sets the results of all pieces. Returns false if progress ended it. Throws IOError.
-  bool run(StoredResults3& results);
+  /// Triangulates all pieces that are not done (`isDone` has an entry for each piece), and sets the
+  /// results of all. Returns false if `progress` stopped the run. Throws IOError.
+  bool run(const std::vector<char>& isDone, StoredResults3& results);
 
 private:
   struct Cells;
 
-  void makePieces(StoredResults3& results, const PartitionOrder& order);
+  void makePieces(const std::vector<char>& isDone, const PartitionOrder& order);
+  void skipDone(const std::vector<char>& isDone, ReadyPartitions& ready);
   std::uint64_t takeMemory(PartitionIndex piece);
   void make(PartitionIndex piece);
   std::vector<VertexMessage3> readInbox(PartitionIndex piece);
@@ -131,19 +148,19 @@ private:
   const std::function<bool(std::int64_t)> Progress;
   const PartitionOrder* Order = nullptr;
   StoredResults3* Results = nullptr;
-  std::vector<VertexMessage3> Initial; ///< from the initial mesh, to each piece
+  std::vector<VertexMessage3> Initial; ///< by piece: its message from the initial mesh
 
-  std::mutex Mutex; ///< for what follows and Results
+  std::mutex Mutex; ///< protects the members below and Results
   std::condition_variable Changed;
   std::uint64_t LoadedBytes = 0;
   std::int64_t PointsDone = 0;
   bool IsStopped = false;
 };
 
-/// Completes the files of all pieces when all results are there: repairs the hull (Lemma 3) and
-/// adds the borders to the interiors. A piece's file is complete then, except for the global ids of
-/// cells. Returns the pieces by their numbers in the mesh; an empty list if `report` ended it.
-/// `limit`: bytes that the hull repair may take. Throws IOError.
+/// Completes the files of all pieces once all results exist: repairs the hull (Lemma 3), and adds
+/// the borders to the interiors, unless an earlier process did so. Then only the global ids of
+/// cells and of their neighbours are missing. `limit`: bytes of memory for the hull repair. Returns
+/// the pieces in the order of the mesh; an empty list if `report` stopped the run. Throws IOError.
 VTKTIPPFILTERS_EXPORT std::vector<FinishedPiece> finishPieces(const PieceWork3& work,
   const StoredResults3& results, std::uint64_t limit, int threads, const Report& report,
   PieceFigures& figures);

@@ -172,6 +172,7 @@ RunStatistics statisticsOf(const OutOfCoreStatistics3& statistics)
   run.add("boundary_bytes", "BoundaryBytes", std::int64_t(statistics.BoundaryBytes));
   run.add("spilled_bytes", "SpilledBytes", std::int64_t(statistics.SpilledBytes));
   run.add("mesh_bytes", "MeshBytes", std::int64_t(statistics.MeshBytes));
+  run.Totals.push_back({ "resumed", "Resumed", std::vector<bool>{ statistics.Resumed } });
   run.add("threads", "Threads", statistics.Threads);
   run.Lists = { phasesOf(statistics.Phases, true, "Phase", "Seconds") };
   return run;

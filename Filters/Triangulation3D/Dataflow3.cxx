@@ -90,6 +90,8 @@ void Worker3::collect(const std::vector<VertexMessage3>& inbox)
   keepUnique(this->Others);
 }
 
+/// Returns a box around the own region, bounded by a plane for each later region: across the axis
+/// with the widest gap to that region. Returns the own region if a later one overlaps it.
 Box3 Worker3::boxBesideLater() const
 {
   const Box3& own = this->Regions[std::size_t(this->Own.Partition)];
@@ -273,7 +275,7 @@ void Worker3::route(Index cell, FinalCellConsumer3& final)
   const auto add = [&] {
     final.add({ this->vertex(v[0]), this->vertex(v[1]), this->vertex(v[2]), this->vertex(v[3]) });
   };
-  // The ball of an own corner meets the region.
+  // A ball passes through its corners, so it meets the region if one of them is an own point.
   const bool meetsRegion = areOwn || std::any_of(v.begin(), v.end(), isOwn);
   if (meetsRegion && Circumball::isSurelyInside(a, b, c, d, this->Beside))
   {
@@ -335,7 +337,8 @@ std::vector<VertexMessage3> sendInitialMesh(const InitialMesh3& mesh, const Part
     }
   }
   std::vector<VertexMessage3> messages(order.partitionCount());
-  std::vector<std::size_t> sentTo(mesh.Vertices.size(), 0); // counted from 1
+  // By vertex: its last recipient, counted from 1.
+  std::vector<std::size_t> sentTo(mesh.Vertices.size(), 0);
   for (std::size_t to = 0; to < corners.size(); ++to)
   {
     for (const std::uint32_t corner : corners[to])

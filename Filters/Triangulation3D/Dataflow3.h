@@ -127,8 +127,8 @@ private:
   const PartitionOrder& Order;
   const InsideCells Inside;
   PartitionPoints3 Own;
-  Box3 Beside;   ///< around the own region; no later partition reaches into its interior
-  Box3 Interior; ///< of the tetrahedra for addInside(): Beside, or the own region
+  Box3 Beside;   ///< contains the own region; no later region reaches into its interior
+  Box3 Interior; ///< Beside or the own region, see InsideCells
   DelaunayKernel3 Kernel;
   std::vector<Point3> Points;  ///< positions to triangulate
   std::vector<Vertex3> Others; ///< from the inbox

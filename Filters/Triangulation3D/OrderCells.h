@@ -20,13 +20,14 @@ using CellIds = std::array<std::int32_t, 4>;
 Buffer<std::int32_t> orderCells(
   std::vector<std::vector<CellIds>>&& parts, std::size_t points, int threads);
 
-/// Merges lists of cells that are in this order each, and frees them.
+/// Merges lists of cells, each in the order of orderCells(), into one.
 Buffer<std::int32_t> mergeCells(std::vector<Buffer<char>> parts);
 
-/// Sorts triangles, three point ids each, by their ids, and rotates each so that its lowest id is
-/// first.
+/// Rotates triangles, three point ids each, so that the lowest id is first, and sorts them
+/// lexicographically.
 void orderTriangles(Buffer<std::int32_t>& ids);
-/// The same of the first three ids of cells.
+/// Does the same for triangles given as the first three ids of cells, and returns three ids per
+/// triangle.
 Buffer<std::int32_t> orderTriangles(const std::vector<CellIds>& cells);
 
 } // namespace tipp

@@ -72,6 +72,13 @@ public:
   /// partitions per group.
   Tiling3(std::vector<Point3> sample, const PartitionGroups& groups);
 
+  /// Saves or restores a tiling; its groups are not saved.
+  template <typename Archive>
+  friend void serialize(Archive& archive, Tiling3& tiling)
+  {
+    archive(tiling.Nodes, tiling.Firsts, tiling.Count);
+  }
+
   PartitionIndex size() const { return this->Count; }
   /// Returns the group of a partition. Groups ascend with the partitions.
   int groupOf(PartitionIndex p) const { return this->Firsts[std::size_t(p)] / this->Groups.Each; }
@@ -91,10 +98,10 @@ public:
 private:
   struct Node
   {
-    int Axis = -1; ///< -1: a partition
     double Cut = 0;
-    PartitionIndex Partition = 0;
     std::size_t Upper = 0; ///< the lower side's node follows this one
+    int Axis = -1;         ///< -1: a partition
+    PartitionIndex Partition = 0;
   };
 
   using Iterator = std::vector<Point3>::iterator;

@@ -19,28 +19,20 @@ namespace tipp
 namespace
 {
 
-/// A piece gets a locator after this many searches without one, or when a single search has more
+/// A locator is made for a piece after this many searches without one, or for a search with more
 /// than one point per `cellsPerPoint` cells.
 constexpr int searchesWithoutLocator = 4;
 constexpr std::int64_t cellsPerPoint = 8;
 
-/// For more points than one per so many cells a pass over the cells is the fastest.
+/// For a search with more than one point per this many cells, a pass over all cells is fastest.
 constexpr std::int64_t cellsPerPointOfPass = 2;
-constexpr std::uint64_t bytesOfPass = 40; ///< a point
+constexpr std::uint64_t bytesOfPass = 40; ///< of memory, per point
 
-/// At most this share of a piece's cells is read without the others.
+/// Cells near the points are read without the others if they are at most one in this many.
 constexpr std::int64_t cellsPerNearOne = 3;
 
-template <int D>
-std::array<double, D> coordinatesOf(const Point3& point)
-{
-  const double coordinates[3] = { point.x, point.y, point.z };
-  std::array<double, D> at;
-  std::copy_n(coordinates, D, at.begin());
-  return at;
-}
-
-/// Chooses the cells that may hold some points, at most so many.
+/// Selects the cells whose bounding boxes may contain one of the points. Stops if there are more
+/// than `most`.
 template <int D, typename Coordinate>
 class NearCells
 {
@@ -78,7 +70,7 @@ private:
   void choose(
     std::int64_t first, std::int64_t count, const Id* ids, std::vector<std::int64_t>& chosen) const
   {
-    constexpr std::int64_t ahead = 16; // positions lie anywhere in memory
+    constexpr std::int64_t ahead = 16; // prefetch distance, since positions are accessed at random
     for (std::int64_t i = 0; i < count; ++i)
     {
       for (int k = 0; k <= D && i + ahead < count; ++k)
@@ -93,7 +85,7 @@ private:
   }
 
   PointGrid<D> Grid;
-  std::vector<typename PointGrid<D>::Position> Positions; ///< of the piece's points
+  std::vector<typename PointGrid<D>::Position> Positions; ///< of the piece's points, by local index
   std::int64_t Most;
 };
 
@@ -110,21 +102,26 @@ PieceOptions::Choose nearCells(
                  : PieceOptions::Choose(NearCells<3, double>(asked, most));
 }
 
-/// Whether points lie in less than half of a box.
+/// Whether the bounding box of the points covers less than half of a box.
 template <int D>
 bool areNarrow(const AskedPoints& asked, const Bounds& box)
 {
-  const Box<D> around = boundsOf<D>(
-    asked.Count, 1, [&asked](std::int64_t i) { return Box<D>::of(coordinatesOf<D>(asked.at(i))); });
-  double share = 1;
-  for (std::size_t axis = 0; axis < D; ++axis)
+  const auto are = [&](std::int64_t count)
   {
-    share *= (around.High[axis] - around.Low[axis]) / (box[2 * axis + 1] - box[2 * axis]);
-  }
-  return share < 0.5;
+    const Box<D> around = boundsOf<D>(
+      count, 1, [&asked](std::int64_t i) { return Box<D>::of(coordinatesOf<D>(asked.at(i))); });
+    double share = 1;
+    for (std::size_t axis = 0; axis < D; ++axis)
+    {
+      share *= (around.High[axis] - around.Low[axis]) / (box[2 * axis + 1] - box[2 * axis]);
+    }
+    return share < 0.5;
+  };
+  constexpr std::int64_t some = 1 << 10; // in most cases, so many show that all are not narrow
+  return (asked.Count <= some || are(some)) && are(asked.Count);
 }
 
-/// NaN, or 0 in whole numbers.
+/// Fills an array with NaN, or with 0 if it is an integer array.
 void fillNull(MeshAnswer::Array& array)
 {
   withScalar(array.Type,
@@ -164,7 +161,7 @@ PieceGroups groupByPiece(const std::vector<std::int32_t>& pieces, std::size_t co
   std::vector<std::int64_t> ends(count + 1, 0);
   for (const std::int32_t piece : pieces)
   {
-    ends[std::size_t(piece + 1)] += 1; // the first counts those of no piece
+    ends[std::size_t(piece + 1)] += 1; // the first entry counts items without a piece
   }
   ends[0] = 0;
   PieceGroups result;
@@ -185,7 +182,8 @@ PieceGroups groupByPiece(const std::vector<std::int32_t>& pieces, std::size_t co
   return result;
 }
 
-/// Answers in a part of the mesh where locate(take) finds the points; returns what that returns.
+/// Evaluates arrays at points in a part of the mesh. locate(take) locates the points and passes the
+/// locations to take(); its result is returned.
 bool ResidentMesh::answerPart(const MeshPart& part, const AskedPoints& asked,
   const AnswerOptions& options, const Locate& locate, MeshAnswer& answer) const
 {
@@ -218,7 +216,8 @@ bool ResidentMesh::answerPart(const MeshPart& part, const AskedPoints& asked,
     });
 }
 
-/// False if that is not the fastest; then some answers may be there.
+/// Answers with a pass over all cells. Returns false if this is not the fastest method; then
+/// `answer` may already have some points.
 bool ResidentMesh::answerInOnePass(const MeshPart& part, const AskedPoints& asked,
   const AnswerOptions& options, int threads, MeshAnswer& answer) const
 {
@@ -235,7 +234,7 @@ bool ResidentMesh::answerInOnePass(const MeshPart& part, const AskedPoints& aske
     answer);
 }
 
-/// The locator may be null.
+/// Answers with a locator or, if it is null, by searching the cells.
 void ResidentMesh::answerBy(const CellLocator* locator, const MeshPart& part,
   const AskedPoints& asked, const AnswerOptions& options, int threads, MeshAnswer& answer) const
 {
@@ -249,8 +248,8 @@ void ResidentMesh::answerBy(const CellLocator* locator, const MeshPart& part,
     answer);
 }
 
-/// Whether it is better to read only the cells near the points than to have the whole piece in
-/// memory. `mayStay`: so would all pieces that are asked now.
+/// Whether to read only the cells near the points instead of the whole piece. `mayStay` says
+/// whether all pieces of this query fit into memory together.
 bool ResidentMesh::wantsNear(
   std::size_t number, const PieceNeeds& needs, const AskedPoints& asked, bool mayStay) const
 {
@@ -264,7 +263,8 @@ bool ResidentMesh::wantsNear(
     (this->Mesh.CellSize == 3 ? areNarrow<2>(asked, piece.Box) : areNarrow<3>(asked, piece.Box));
 }
 
-/// False, with nothing done, if the cells near the points are too many or the memory too little.
+/// Reads only the cells near the points and answers with them. Returns false, without any answer,
+/// if there are too many such cells or too little memory.
 bool ResidentMesh::answerNear(std::size_t number, const PieceNeeds& needs, const AskedPoints& asked,
   const AnswerOptions& options, int threads, MeshAnswer& answer) const
 {
@@ -324,15 +324,15 @@ void ResidentMesh::answerPiece(std::size_t number, const AskedPoints& asked,
   this->answerBy(piece->Locator.get(), *piece->Part, asked, options, threads, answer);
 }
 
-MeshAnswer ResidentMesh::answer(
-  const Point3* points, std::int64_t count, const AnswerOptions& options) const
+MeshAnswer ResidentMesh::answer(const Point3* points, std::int64_t count,
+  const AnswerOptions& options, std::vector<std::int32_t> pieceOf) const
 {
   if (count > std::numeric_limits<std::int32_t>::max())
   {
     throw IOError("More than 2147483647 points are asked for at once; ask in parts.");
   }
   std::vector<StoredArray> arrays;
-  std::uint64_t bytes = 3 * sizeof(std::int64_t); // a point, with its index and piece
+  std::uint64_t bytes = 3 * sizeof(std::int64_t); // a point, its index and its piece
   bytes += options.Weights ? std::uint64_t(this->Mesh.CellSize) * sizeof(double) : 0;
   bytes += options.Keys ? sizeof(CellKey) : 0;
   for (const std::string& name : options.Arrays)
@@ -352,8 +352,10 @@ MeshAnswer ResidentMesh::answer(
     this->answerPiece(0, { points, nullptr, count }, options, threads, true, answer);
     return answer;
   }
-  PieceGroups groups = groupByPiece(this->piecesOf(points, count), this->Mesh.Pieces.size());
-  // The pieces in memory first, before others displace them.
+  pieceOf = pieceOf.empty() ? this->piecesOf(points, count) : std::move(pieceOf);
+  PieceGroups groups = groupByPiece(pieceOf, this->Mesh.Pieces.size());
+  pieceOf = {};
+  // Pieces that are in memory come first, before others displace them.
   std::stable_partition(groups.Groups.begin(), groups.Groups.end(),
     [&](const PieceGroups::Group& group) { return this->Resident.isResident(group.Piece); });
   PieceNeeds needs = this->needsOf(options.Arrays);
@@ -365,7 +367,8 @@ MeshAnswer ResidentMesh::answer(
   }
   const bool mayStay = together <= this->Options.MemoryLimit;
   const auto pieces = std::int64_t(groups.Groups.size());
-  // Threads share out the pieces, or the points of one piece after the other if these are few.
+  // If there are many pieces, each thread processes a piece at a time. Otherwise all threads share
+  // the points of one piece after the other.
   const bool manyPieces = pieces >= 2 * threads;
   forChunks(pieces, 1, manyPieces ? threads : 1, {},
     [&](std::int64_t g, std::int64_t, int)

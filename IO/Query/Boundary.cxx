@@ -18,13 +18,13 @@ namespace tipp
 namespace
 {
 
-/// An edge of the border, and the end of the next one.
+/// A border edge as global point ids, with the end point of the next border edge.
 struct BorderEdge
 {
   std::int64_t From;
   std::int64_t To;
   std::int64_t Next;
-  Point3 At; ///< of To
+  Point3 At; ///< position of To
 
   bool operator<(const BorderEdge& other) const
   {
@@ -32,7 +32,7 @@ struct BorderEdge
   }
 };
 
-/// The border at the points that one piece owns.
+/// Collects the border edges that end at points that a piece owns.
 class PieceBorderEdges
 {
 public:
@@ -65,7 +65,8 @@ public:
   }
 
 private:
-  /// The cell's corners counter-clockwise; as they are if it has no area.
+  /// Writes the cell's corners in counter-clockwise order to `turned`. Keeps their order if the
+  /// cell has no area.
   void counterClockwise(std::int64_t cell, int (&turned)[3]) const
   {
     Point2 p[3];
@@ -78,7 +79,8 @@ private:
     orientation(p[0], p[1], p[2]) < 0 ? std::swap(turned[1], turned[2]) : void();
   }
 
-  /// The cell across the face opposite to a corner: of several the one of lowest id; -1: none.
+  /// The cell across the face opposite to a corner, or -1 if there is none. Of several, the one
+  /// with the lowest global id. Cells are local indices.
   std::int64_t across(std::int64_t cell, int face) const
   {
     std::int64_t found = -1;
@@ -91,15 +93,16 @@ private:
     return found;
   }
 
-  /// Turns around `point` from the cell's border edge that ends there to the one that begins there;
-  /// returns its end. `opposite` is the cell's corner that is not on the edge.
+  /// Goes around `point`, from the cell's border edge that ends there to the border edge that
+  /// starts there. Returns the end of the latter. `opposite` is the cell's corner that is not on
+  /// its edge.
   std::int64_t next(std::int64_t cell, int opposite, std::int64_t point) const
   {
     std::int64_t end = this->Topology.corner(cell, opposite);
     const auto cells = this->Topology.cellsAt(point);
     for (auto left = cells.end() - cells.begin(); left > 0; --left)
     {
-      int before = 0; // the corner that is neither the point nor the end
+      int before = 0; // the corner that is neither `point` nor `end`
       while (
         this->Topology.corner(cell, before) == point || this->Topology.corner(cell, before) == end)
       {
@@ -146,7 +149,7 @@ BoundaryLoops linked(std::vector<BorderEdge> edges)
     }
     if (loops.Points.Ids.size() > begin)
     {
-      // From the lowest edge's first point on, which came last.
+      // The loop starts with the first point of the lowest edge, which was added last.
       std::rotate(loops.Points.Ids.begin() + std::ptrdiff_t(begin), loops.Points.Ids.end() - 1,
         loops.Points.Ids.end());
       std::rotate(loops.Positions.begin() + std::ptrdiff_t(begin), loops.Positions.end() - 1,
@@ -165,7 +168,7 @@ void requireTriangles(int cellSize)
   }
 }
 
-/// The border at the points that the pieces [first, end) own.
+/// The border edges that end at points owned by the pieces [first, end).
 std::vector<BorderEdge> borderIn(const ResidentMesh& mesh, std::size_t first, std::size_t end)
 {
   std::vector<BorderEdge> edges;
@@ -181,13 +184,14 @@ std::vector<BorderEdge> borderIn(const ResidentMesh& mesh, std::size_t first, st
   return edges;
 }
 
-/// The triangles at the points of edges that one triangle of a part in memory has.
+/// Border triangles of a part in memory: those at the ends of edges that only one triangle of the
+/// part has.
 struct OpenCells
 {
-  std::vector<std::int64_t> Cells;  ///< ids
-  std::vector<std::int64_t> Points; ///< ids, three a cell
-  std::vector<Point3> Positions;    ///< of Points
-  std::vector<std::int64_t> Ends;   ///< ids of the points of these edges
+  std::vector<std::int64_t> Cells;  ///< global ids
+  std::vector<std::int64_t> Points; ///< global ids, three per cell
+  std::vector<Point3> Positions;    ///< position of each of Points
+  std::vector<std::int64_t> Ends;   ///< global ids of the ends of these edges
 };
 
 template <typename Archive>
@@ -232,7 +236,7 @@ OpenCells openCells(const MeshPart& part, const PartTopology& topology)
   return open;
 }
 
-/// The border of the parts in the memory of all ranks, by the triangles near it.
+/// The border of the parts in the memory of all ranks, from the triangles near it.
 std::vector<BorderEdge> borderOfParts(const std::vector<OpenCells>& parts)
 {
   std::set<std::int64_t> ends;

@@ -3,6 +3,7 @@
 
 #include "Locate/CellLocator.h"
 #include "Query/ForPieces.h"
+#include "Query/RankAnswer.h"
 
 #include <array>
 #include <cmath>
@@ -14,16 +15,7 @@ namespace tipp
 namespace
 {
 
-template <int D>
-std::array<double, D> arrayOf(const Point3& p)
-{
-  std::array<double, D> result;
-  const double coordinates[3] = { p.x, p.y, p.z };
-  std::copy_n(coordinates, D, result.begin());
-  return result;
-}
-
-/// Finds the pieces near points by their boxes. Each location of the mesh is in the box of a piece
+/// Finds pieces near points by their boxes. Every location of the mesh is in the box of a piece
 /// that has all cells there.
 template <int D>
 class NearPieces
@@ -36,7 +28,7 @@ public:
   {
   }
 
-  /// The nearest piece that has cells; -1: none.
+  /// The piece with cells whose box is nearest to the point, or -1.
   std::int32_t nearest(const Point3& point) const
   {
     if (!this->IsStored)
@@ -45,7 +37,7 @@ public:
     }
     std::int32_t found = -1;
     double least = std::numeric_limits<double>::infinity();
-    this->Tree.searchNear(arrayOf<D>(point),
+    this->Tree.searchNear(coordinatesOf<D>(point),
       [&](std::int32_t piece)
       {
         const double apart = this->distance(piece, point);
@@ -59,13 +51,14 @@ public:
     return found;
   }
 
-  /// Calls visit(piece) for all pieces but `but` that may be within the distance `most`.
+  /// Calls visit(piece) for all pieces except `but` whose boxes may be within the distance `most`
+  /// of the point.
   template <typename Visit>
   void visitOthers(const Point3& point, std::int32_t but, double most, const Visit& visit) const
   {
     if (this->IsStored)
     {
-      this->Tree.searchNear(arrayOf<D>(point),
+      this->Tree.searchNear(coordinatesOf<D>(point),
         [&](std::int32_t piece)
         {
           piece != but&& this->distance(piece, point) <= most ? visit(piece) : void();
@@ -87,11 +80,11 @@ private:
     return box;
   }
 
-  /// At most the distance of a point from a piece's box.
+  /// A lower bound of the distance between a point and a piece's box.
   double distance(std::int32_t piece, const Point3& point) const
   {
     const Box<D> box = this->box(piece);
-    const std::array<double, D> at = arrayOf<D>(point);
+    const std::array<double, D> at = coordinatesOf<D>(point);
     double apart[3] = { 0, 0, 0 };
     for (std::size_t axis = 0; axis < D; ++axis)
     {
@@ -105,13 +98,14 @@ private:
   BoxTree<D> Tree;
 };
 
-/// Searches the pieces of the items, pieces[i] for the point with the index asked[i].
+/// Searches pieces[i] for the cell nearest to the point with the index asked[i], and keeps it in
+/// `best` if it is nearer than the cell there.
 void searchPieces(const ResidentMesh& mesh, const std::vector<std::int32_t>& pieces,
   const std::vector<std::int64_t>& asked, const Point3* points, std::vector<NearCell>& best)
 {
   PieceNeeds needs;
   needs.Locator = true;
-  std::array<std::mutex, 64> locks; // several pieces may search for one point
+  std::array<std::mutex, 64> locks; // several threads may search for the same point
   const PieceGroups groups = groupByPiece(pieces, mesh.mesh().Pieces.size());
   forPieces(mesh, groups, needs,
     [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
@@ -134,9 +128,11 @@ void searchPieces(const ResidentMesh& mesh, const std::vector<std::int32_t>& pie
     });
 }
 
-template <int D>
-void findOutside(
-  const ResidentMesh& mesh, const std::vector<Point3>& points, std::vector<NearCell>& best)
+/// Finds the nearest cells to points outside the mesh. Calls search(pieces, asked, points, best),
+/// which does the same as searchPieces().
+template <int D, typename Search>
+void findOutside(const ResidentMesh& mesh, const std::vector<Point3>& points, const Search& search,
+  std::vector<NearCell>& best)
 {
   const NearPieces<D> near(mesh);
   std::vector<std::int32_t> first;
@@ -146,7 +142,7 @@ void findOutside(
     first.push_back(near.nearest(points[i]));
     asked.push_back(std::int64_t(i));
   }
-  searchPieces(mesh, first, asked, points.data(), best);
+  search(first, asked, points.data(), best);
   std::vector<std::int32_t> others;
   asked.clear();
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -158,22 +154,108 @@ void findOutside(
         asked.push_back(std::int64_t(i));
       });
   }
-  searchPieces(mesh, others, asked, points.data(), best);
+  search(others, asked, points.data(), best);
 }
 
-} // namespace
-
-ClosestLocations closestTo(const ResidentMesh& mesh, const Point3* points, std::int64_t count)
+/// Searches the pieces of all ranks. For a mesh in memory, rank i has piece i.
+class RankSearch
 {
-  const bool inSpace = mesh.mesh().CellSize == 4;
+public:
+  RankSearch(Communicator& ranks, const ResidentMesh& mesh, std::int64_t firstCell)
+    : Ranks(ranks)
+    , Mesh(mesh)
+    , FirstCell(firstCell)
+  {
+  }
+
+  /// As searchPieces(). Each rank sends its points to the ranks that have the pieces. Collective.
+  void operator()(const std::vector<std::int32_t>& pieces, const std::vector<std::int64_t>& asked,
+    const Point3* points, std::vector<NearCell>& best) const
+  {
+    const bool isStored = this->Mesh.isStored();
+    std::vector<std::vector<Question>> questions(std::size_t(this->Ranks.size()));
+    std::vector<std::vector<std::size_t>> items(questions.size());
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+    {
+      if (pieces[i] >= 0)
+      {
+        const auto item = std::size_t(asked[i]);
+        const std::size_t rank =
+          isStored ? rankOfPiece(this->Ranks, this->Mesh, pieces[i]) : std::size_t(pieces[i]);
+        questions[rank].push_back({ points[item], isStored ? pieces[i] : 0, best[item] });
+        items[rank].push_back(item);
+      }
+    }
+    std::vector<std::vector<NearCell>> answers;
+    for (const std::vector<Question>& received : this->Ranks.allToAll(questions))
+    {
+      answers.push_back(this->answer(received));
+    }
+    answers = this->Ranks.allToAll(answers);
+    for (std::size_t rank = 0; rank < answers.size(); ++rank)
+    {
+      for (std::size_t i = 0; i < items[rank].size(); ++i)
+      {
+        const NearCell& found = answers[rank].at(i);
+        const std::size_t item = items[rank][i];
+        best[item] =
+          found.Id >= 0 && found.isBetterThan(best[item], points[item]) ? found : best[item];
+      }
+    }
+  }
+
+private:
+  struct Question
+  {
+    Point3 At;
+    std::int32_t Piece;
+    NearCell Best; ///< the nearest cell found so far
+  };
+
+  std::vector<NearCell> answer(const std::vector<Question>& questions) const
+  {
+    std::vector<std::int32_t> pieces;
+    std::vector<std::int64_t> asked;
+    std::vector<Point3> points;
+    std::vector<NearCell> best;
+    for (const Question& question : questions)
+    {
+      asked.push_back(std::int64_t(points.size()));
+      pieces.push_back(question.Piece);
+      points.push_back(question.At);
+      best.push_back(question.Best);
+    }
+    searchPieces(this->Mesh, pieces, asked, points.data(), best);
+    for (NearCell& cell : best)
+    {
+      cell.Id += cell.Id >= 0 ? this->FirstCell : 0;
+    }
+    return best;
+  }
+
+  Communicator& Ranks;
+  const ResidentMesh& Mesh;
+  const std::int64_t FirstCell; ///< added to this rank's cell ids; 0 if these are global
+};
+
+/// The points that are finite and that no cell contains.
+struct PointsOutside
+{
+  std::vector<std::size_t> Indices;
+  std::vector<Point3> Points;
+};
+
+/// The locations of the points that are in cells. Collects all other finite points in `outside`,
+/// and leaves their results undefined.
+ClosestLocations insideOf(
+  std::vector<std::int64_t> cells, bool inSpace, const Point3* points, PointsOutside& outside)
+{
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   ClosestLocations result;
-  result.Cells = mesh.answer(points, count).Cells;
-  result.Points.assign(std::size_t(count), { nan, nan, nan });
-  result.Distances.assign(std::size_t(count), std::numeric_limits<double>::infinity());
-  std::vector<std::size_t> indices;
-  std::vector<Point3> outside;
-  for (std::size_t i = 0; i < std::size_t(count); ++i)
+  result.Cells = std::move(cells);
+  result.Points.assign(result.Cells.size(), { nan, nan, nan });
+  result.Distances.assign(result.Cells.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < result.Cells.size(); ++i)
   {
     const Point3 p{ points[i].x, points[i].y, inSpace ? points[i].z : 0 };
     if (result.Cells[i] >= 0)
@@ -183,21 +265,86 @@ ClosestLocations closestTo(const ResidentMesh& mesh, const Point3* points, std::
     }
     else if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))
     {
-      indices.push_back(i);
-      outside.push_back(p);
+      outside.Indices.push_back(i);
+      outside.Points.push_back(p);
     }
   }
-  std::vector<NearCell> best(outside.size());
-  inSpace ? findOutside<3>(mesh, outside, best) : findOutside<2>(mesh, outside, best);
+  return result;
+}
+
+void setOutside(const PointsOutside& outside, std::vector<NearCell>& best, ClosestLocations& result)
+{
   for (std::size_t k = 0; k < best.size(); ++k)
   {
     if (best[k].Id >= 0)
     {
-      result.Cells[indices[k]] = best[k].Id;
-      result.Distances[indices[k]] = best[k].distance(outside[k]);
-      result.Points[indices[k]] = best[k].At;
+      result.Cells[outside.Indices[k]] = best[k].Id;
+      result.Distances[outside.Indices[k]] = best[k].distance(outside.Points[k]);
+      result.Points[outside.Indices[k]] = best[k].At;
     }
   }
+}
+
+/// Describes a rank's part of a mesh in memory.
+struct RankCells
+{
+  std::int64_t Cells;
+  std::int32_t CellSize;
+};
+
+} // namespace
+
+ClosestLocations closestTo(const ResidentMesh& mesh, const Point3* points, std::int64_t count)
+{
+  const bool inSpace = mesh.mesh().CellSize == 4;
+  PointsOutside outside;
+  ClosestLocations result = insideOf(mesh.answer(points, count).Cells, inSpace, points, outside);
+  std::vector<NearCell> best(outside.Points.size());
+  const auto search = [&mesh](auto&&... arguments) { searchPieces(mesh, arguments...); };
+  inSpace ? findOutside<3>(mesh, outside.Points, search, best)
+          : findOutside<2>(mesh, outside.Points, search, best);
+  setOutside(outside, best, result);
+  return result;
+}
+
+ClosestLocations closestOnRanks(
+  Communicator& ranks, const ResidentMesh& mesh, const Point3* points, std::int64_t count)
+{
+  std::vector<std::int64_t> cells = answerOnRanks(ranks, mesh, points, count).Cells;
+  const std::vector<RankCells> parts =
+    ranks.allGather(RankCells{ mesh.mesh().Cells, mesh.mesh().CellSize });
+  bool inSpace = false;
+  std::int64_t firstCell = 0;
+  for (std::size_t rank = 0; rank < parts.size(); ++rank)
+  {
+    inSpace = inSpace || (parts[rank].Cells > 0 && parts[rank].CellSize == 4);
+    firstCell += rank < std::size_t(ranks.rank()) ? parts[rank].Cells : 0;
+  }
+  PointsOutside outside;
+  ClosestLocations result = insideOf(std::move(cells), inSpace, points, outside);
+  std::vector<NearCell> best(outside.Points.size());
+  const RankSearch search(ranks, mesh, mesh.isStored() || mesh.hasCellIds() ? 0 : firstCell);
+  if (mesh.isStored())
+  {
+    inSpace ? findOutside<3>(mesh, outside.Points, search, best)
+            : findOutside<2>(mesh, outside.Points, search, best);
+  }
+  else
+  {
+    // Each rank may have the nearest cell.
+    std::vector<std::int32_t> pieces;
+    std::vector<std::int64_t> asked;
+    for (std::size_t rank = 0; rank < parts.size(); ++rank)
+    {
+      for (std::size_t i = 0; i < outside.Points.size() && parts[rank].Cells > 0; ++i)
+      {
+        pieces.push_back(std::int32_t(rank));
+        asked.push_back(std::int64_t(i));
+      }
+    }
+    search(pieces, asked, outside.Points.data(), best);
+  }
+  setOutside(outside, best, result);
   return result;
 }
 

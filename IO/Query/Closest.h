@@ -3,6 +3,7 @@
 #define tippClosest_h
 
 #include "Query/ResidentMesh.h"
+#include "Ranks/Communicator.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstdint>
@@ -11,21 +12,28 @@
 namespace tipp
 {
 
-/// The nearest locations of a mesh to some points.
+/// The location in a mesh that is nearest to each point.
 struct ClosestLocations
 {
   std::vector<std::int64_t>
-    Cells;                    ///< global ids; -1: the mesh has no cell, or the point is not finite
-  std::vector<Point3> Points; ///< of triangles with z = 0; NaN if there is none
-  std::vector<double> Distances; ///< 0 inside; infinite if there is none
+    Cells;                    ///< global ids; -1 if the mesh has no cell or the point is not finite
+  std::vector<Point3> Points; ///< z is 0 for triangles; NaN if there is none
+  std::vector<double> Distances; ///< 0 for points in the mesh; infinite if there is none
 };
 
-/// Finds the nearest location of the mesh to each point, of triangles in x and y. A point in the
-/// mesh is its own, with the cell of ResidentMesh::answer(). Outside the nearest cell is found
-/// exactly, and of several that are as near the one with the lowest id. Cells without an area or
-/// volume do not count. The same for any pieces and threads. Throws IOError and WorkAborted.
+/// Finds the location in the mesh that is nearest to each point. Triangles are searched in x and y.
+/// A point in the mesh is its own nearest location, in the cell of ResidentMesh::answer(). For
+/// other points, the nearest cell is determined exactly; of equally near cells, the one with the
+/// lowest id. Cells without area or volume are ignored. Results do not depend on pieces and
+/// threads. Throws IOError and WorkAborted.
 VTKTIPPIO_EXPORT ClosestLocations closestTo(
   const ResidentMesh& mesh, const Point3* points, std::int64_t count);
+
+/// As closestTo() for this rank's points, in the meshes of all ranks together (see
+/// answerOnRanks()). Each rank has its own points, or none. Collective; call it within
+/// Communicator::together(). Throws IOError.
+VTKTIPPIO_EXPORT ClosestLocations closestOnRanks(
+  Communicator& ranks, const ResidentMesh& mesh, const Point3* points, std::int64_t count);
 
 } // namespace tipp
 

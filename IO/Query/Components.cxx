@@ -30,7 +30,7 @@ Components componentsOf(const ResidentMesh& mesh)
         count = std::max(count, part.Rows[cell] + 1);
       }
     });
-  std::vector<std::int64_t> parent(std::size_t(count), -1); // of a hidden cell: -1
+  std::vector<std::int64_t> parent(std::size_t(count), -1); // -1 for hidden cells
   const auto rootOf = [&parent](std::int64_t cell)
   {
     while (parent[std::size_t(cell)] != cell)
@@ -69,7 +69,7 @@ Components componentsOf(const ResidentMesh& mesh)
         }
       }
     });
-  // A root is the lowest cell of its component.
+  // The root of a component is its cell with the lowest id.
   Components result;
   result.OfCells = std::move(parent);
   for (std::int64_t cell = 0; cell < count; ++cell)
@@ -82,7 +82,7 @@ Components componentsOf(const ResidentMesh& mesh)
     }
     else if (label >= 0)
     {
-      label = result.OfCells[std::size_t(label)]; // which is lower, and has its label
+      label = result.OfCells[std::size_t(label)]; // the parent's label, which is set already
       ++result.Sizes[std::size_t(label)];
     }
   }
@@ -100,7 +100,7 @@ void makeUnique(Ids& ids)
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
-/// Two cells, or components, that are connected.
+/// A connection between two cells or two components.
 struct Link
 {
   std::int64_t A;
@@ -113,10 +113,10 @@ struct Link
   bool operator==(const Link& other) const { return this->A == other.A && this->B == other.B; }
 };
 
-/// A face that has one cell on a rank; unused points are -1.
+/// A face with only one cell on a rank. Unused points are -1.
 struct OpenFace
 {
-  std::array<std::int64_t, 3> Points; ///< ascending
+  std::array<std::int64_t, 3> Points; ///< global ids, ascending
   std::int64_t Cell;
 
   bool operator<(const OpenFace& other) const
@@ -125,7 +125,7 @@ struct OpenFace
   }
 };
 
-/// The components of a rank's own cells; a component is known by its lowest cell.
+/// The components of a rank's own cells. A component is identified by its lowest cell id.
 class OwnComponents
 {
 public:
@@ -167,7 +167,7 @@ private:
     return place;
   }
 
-  Ids Cells; ///< ascending
+  Ids Cells; ///< global ids, ascending
   std::vector<std::size_t> Parent;
 };
 
@@ -188,7 +188,8 @@ OpenFace faceOf(const MeshPart& part, const PartTopology& topology, std::int64_t
   return face;
 }
 
-/// Links between the components of different ranks, by faces that have one cell on some rank.
+/// Finds connections between components of different ranks: common faces that have only one cell on
+/// each of these ranks.
 std::vector<Link> linksAcross(
   Communicator& ranks, const std::vector<OpenFace>& open, OwnComponents& own)
 {
@@ -264,7 +265,7 @@ RankComponents componentsOnRanks(Communicator& ranks, const ResidentMesh& mesh)
         !hasOwn || hasForeign ? open.push_back(faceOf(part, topology, cell, face)) : void();
       }
     });
-  // The lowest component of those that are linked.
+  // The lowest component among those connected with each other.
   std::map<std::int64_t, std::int64_t> above;
   const auto rootOf = [&above](std::int64_t component)
   {

@@ -19,7 +19,10 @@ namespace tipp
 namespace
 {
 
-/// An edge by the global ids of its points.
+/// The bytes of a segment, and of the structures that join it to a line.
+constexpr std::uint64_t bytesOfSegment = 160;
+
+/// An edge as global ids of its points.
 struct Edge
 {
   std::int64_t Low;
@@ -35,10 +38,10 @@ struct Edge
   }
 };
 
-/// The part of a contour in one triangle.
+/// The part of a contour line in one triangle.
 struct Segment
 {
-  std::int32_t Level; ///< index
+  std::int32_t Level; ///< index of the level
   Edge From;
   Edge To;
   Point3 Begin;
@@ -58,7 +61,8 @@ struct Corner
   double Value;
 };
 
-/// The point of the level on an edge; the same bits for both of its triangles.
+/// The point on an edge where the values cross the level. Both triangles of the edge get the same
+/// bits.
 Point3 crossing(Corner a, Corner b, double level)
 {
   b.Id < a.Id ? std::swap(a, b) : void();
@@ -72,7 +76,7 @@ Edge edgeOf(const Corner& a, const Corner& b)
   return { std::min(a.Id, b.Id), std::max(a.Id, b.Id) };
 }
 
-/// Adds the segments of one triangle, counter-clockwise corners.
+/// Adds the segments in one triangle. Its corners are counter-clockwise.
 void addSegments(const Corner (&corners)[3],
   const std::vector<std::pair<double, std::int32_t>>& levels, std::vector<Segment>& segments)
 {
@@ -81,7 +85,7 @@ void addSegments(const Corner (&corners)[3],
     levels.begin(), levels.end(), low, [](double value, const auto& l) { return value < l.first; });
   for (; level != levels.end() && level->first <= high; ++level)
   {
-    // The corner that is alone on its side.
+    // The corner that is the only one on its side of the level.
     bool above[3];
     std::transform(corners, corners + 3, above,
       [&](const Corner& corner) { return corner.Value >= level->first; });
@@ -100,7 +104,8 @@ void addSegments(const Corner (&corners)[3],
   }
 }
 
-/// A component of an array at a part's points, as doubles.
+/// The values of one component of an array at a part's points, as doubles. Points are local
+/// indices.
 class PointValues
 {
 public:
@@ -161,8 +166,9 @@ void addCells(const Access& access, const MeshPart& part, const PointValues& val
     addSegments(corners, levels, segments);
   }
 }
-/// Follows the segments, each once: open lines from their beginning, closed ones from their lowest
-/// edge.
+
+/// Joins segments to lines: first open lines, from their start, then closed lines, from their
+/// lowest edge.
 class LineJoiner
 {
 public:
@@ -207,7 +213,8 @@ public:
   }
 
 private:
-  /// The segment that begins where another ends; the number of segments if there is none.
+  /// The index of the segment that starts where this one ends, or the number of segments if there
+  /// is none.
   std::size_t after(const Segment& segment) const
   {
     const Segment wanted{ segment.Level, segment.To, { -1, -1 }, {}, {} };
@@ -226,7 +233,7 @@ private:
          at = this->Next[at])
     {
       this->IsUsed[at] = 1;
-      // At a point that has the level several edges are crossed in the same place.
+      // If a point of the mesh has exactly the level's value, several edges are crossed there.
       lines.Points.back() == this->Segments[at].End
         ? void()
         : lines.Points.push_back(this->Segments[at].End);
@@ -279,12 +286,14 @@ std::pair<double, double> rangeIn(const ResidentMesh& mesh, const std::string& a
   double low = HUGE_VAL;
   double high = -HUGE_VAL;
   std::mutex mutex;
+  const PieceNeeds needs = mesh.needsOf({ array });
+  const bool stay = mesh.pieces().fit(first, end, needs);
   forChunks(std::int64_t(end - first), 1, threadCount(mesh.options().Threads), {},
     [&](std::int64_t number, std::int64_t, int)
     {
       poll();
       const ResidentPieces::Lease piece =
-        mesh.pieces().get(first + std::size_t(number), mesh.needsOf({ array }));
+        mesh.pieces().get(first + std::size_t(number), needs, stay);
       const PartValues values(*piece->Part, description);
       double ownLow = HUGE_VAL;
       double ownHigh = -HUGE_VAL;
@@ -301,8 +310,15 @@ std::pair<double, double> rangeIn(const ResidentMesh& mesh, const std::string& a
   return { low, high };
 }
 
+/// Segments, with a note of their memory: pieces leave space for it.
+struct Segments
+{
+  std::vector<Segment> All;
+  std::vector<ResidentPieces::Share> Notes;
+};
+
 /// The segments in the cells that the pieces [first, end) own, in any order.
-std::vector<Segment> segmentsIn(const ResidentMesh& mesh, const std::string& array, int component,
+Segments segmentsIn(const ResidentMesh& mesh, const std::string& array, int component,
   const std::vector<double>& levels, std::size_t firstPiece, std::size_t endPiece)
 {
   const StoredArray* const description = fieldOf(mesh, array, component);
@@ -316,8 +332,10 @@ std::vector<Segment> segmentsIn(const ResidentMesh& mesh, const std::string& arr
     sorted.emplace_back(levels[i], std::int32_t(i));
   }
   std::sort(sorted.begin(), sorted.end());
-  std::vector<Segment> segments;
+  Segments segments;
   std::mutex mutex;
+  const PieceNeeds needs = mesh.needsOf({ array });
+  const bool stay = mesh.pieces().fit(firstPiece, endPiece, needs);
   const int threads = threadCount(mesh.options().Threads);
   const auto pieces = std::int64_t(endPiece - firstPiece);
   forChunks(pieces, 1, pieces > 1 ? threads : 1, {},
@@ -325,7 +343,7 @@ std::vector<Segment> segmentsIn(const ResidentMesh& mesh, const std::string& arr
     {
       poll();
       const ResidentPieces::Lease piece =
-        mesh.pieces().get(firstPiece + std::size_t(number), mesh.needsOf({ array }));
+        mesh.pieces().get(firstPiece + std::size_t(number), needs, stay);
       const MeshPart& part = *piece->Part;
       const PartValues described(part, description);
       const PointValues values(part, described, component);
@@ -336,7 +354,8 @@ std::vector<Segment> segmentsIn(const ResidentMesh& mesh, const std::string& arr
           withAccess(part.Mesh,
             [&](const auto& access) { addCells(access, part, values, sorted, begin, end, own); });
           const std::lock_guard<std::mutex> lock(mutex);
-          segments.insert(segments.end(), own.begin(), own.end());
+          segments.All.insert(segments.All.end(), own.begin(), own.end());
+          segments.Notes.push_back(mesh.pieces().note(own.size() * bytesOfSegment));
         });
     });
   return segments;
@@ -366,23 +385,32 @@ std::pair<double, double> rangeOnRanks(
 Contours contoursOf(const ResidentMesh& mesh, const std::string& array, int component,
   const std::vector<double>& levels)
 {
-  return LineJoiner(segmentsIn(mesh, array, component, levels, 0, mesh.mesh().Pieces.size()))
-    .join(levels);
+  Segments segments = segmentsIn(mesh, array, component, levels, 0, mesh.mesh().Pieces.size());
+  return LineJoiner(std::move(segments.All)).join(levels);
 }
 
 Contours contoursOnRanks(Communicator& ranks, const ResidentMesh& mesh, const std::string& array,
   int component, const std::vector<double>& levels)
 {
   requireIdsOnRanks(ranks, mesh);
-  std::vector<Segment> segments;
+  Segments segments;
   if (mesh.mesh().Cells > 0)
   {
     const auto [first, end] = piecesOfRank(ranks, mesh);
     segments = segmentsIn(mesh, array, component, levels, first, end);
   }
-  std::vector<Segment> all;
-  for (const std::vector<Segment>& part : ranks.gather(segments))
+  std::vector<Segment>& all = segments.All;
+  Bytes own;
+  if (!ranks.isFirst())
   {
+    own = packed(all);
+    all = {};
+  }
+  for (Bytes& message : ranks.gather(std::move(own)))
+  {
+    const Bytes content = std::move(message);
+    const auto part =
+      content.empty() ? std::vector<Segment>() : unpacked<std::vector<Segment>>(content);
     all.insert(all.end(), part.begin(), part.end());
   }
   return LineJoiner(std::move(all)).join(levels);

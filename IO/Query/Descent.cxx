@@ -13,7 +13,7 @@ namespace tipp
 namespace
 {
 
-/// The pieces that walks which are not over go on in; -1 for the others.
+/// For each walk, the piece in which it continues, or -1 if it has ended.
 std::vector<std::int32_t> piecesOf(const ResidentMesh& mesh, const std::vector<Walk>& walks)
 {
   std::vector<std::size_t> open;
@@ -40,7 +40,7 @@ std::vector<std::int32_t> piecesOf(const ResidentMesh& mesh, const std::vector<W
   return pieces;
 }
 
-/// Leads walks on as long as they are in the pieces [first, end).
+/// Continues walks as long as they are in the pieces [first, end).
 void follow(const ResidentMesh& mesh, const std::string& array, int component,
   std::pair<std::size_t, std::size_t> range, std::vector<Walk>& walks)
 {
@@ -99,8 +99,8 @@ Descents linesOf(const std::vector<Walk>& walks)
   return result;
 }
 
-/// Sends each open walk to the rank that has its piece, which leads it on; returns whether there
-/// was one on any rank.
+/// Sends each unfinished walk to the rank that has its piece, which continues it. Returns whether
+/// there was one on any rank.
 bool followOnRanks(Communicator& ranks, const ResidentMesh& mesh, const std::string& array,
   int component, std::vector<Walk>& walks)
 {
@@ -114,7 +114,7 @@ bool followOnRanks(Communicator& ranks, const ResidentMesh& mesh, const std::str
     {
       const std::size_t rank = rankOfPiece(ranks, mesh, pieces[i]);
       sent[rank].push_back(i);
-      messages[rank].push_back(walks[i]); // what has been found so far stays here
+      messages[rank].push_back(walks[i]); // its points so far stay on this rank
       messages[rank].back().Points.clear();
       messages[rank].back().Values.clear();
       ++open[0];

@@ -35,8 +35,8 @@ inline bool owns(const MeshPart& part, std::int64_t point)
   return !part.Ghosts || part.Ghosts[point] == 0;
 }
 
-/// Calls work(piece, begin, end) for the items of each group, groups.Items[begin] ... [end - 1], on
-/// several threads: each has a piece, or all have the same one.
+/// Calls work(piece, begin, end) for the items groups.Items[begin] ... [end - 1] of each group.
+/// Several threads are used: for different pieces, or for the items of the same piece.
 template <typename Work>
 void forPieces(
   const ResidentMesh& mesh, const PieceGroups& groups, const PieceNeeds& needs, const Work& work)
@@ -56,16 +56,17 @@ void forPieces(
     });
 }
 
-/// The pieces [first, end), without items.
+/// Calls work(part, topology) for the pieces [first, end), one after the other.
 template <typename Work>
 void forPieceRange(const ResidentMesh& mesh, std::size_t first, std::size_t end, const Work& work)
 {
   PieceNeeds needs;
   needs.Topology = true;
+  const bool stay = mesh.pieces().fit(first, end, needs);
   for (std::size_t i = first; i < end; ++i)
   {
     poll();
-    const ResidentPieces::Lease piece = mesh.pieces().get(i, needs);
+    const ResidentPieces::Lease piece = mesh.pieces().get(i, needs, stay);
     work(*piece->Part, *piece->Topology);
   }
 }
@@ -90,10 +91,10 @@ inline std::pair<std::size_t, std::size_t> allPieces(const ResidentMesh& mesh)
   return { 0, mesh.mesh().Pieces.size() };
 }
 
-/// Calls work(part, box, begin, end) on several threads for parts of the cells of each piece of
-/// [first, last) whose box wants(box): those that it owns and those that it borrows. Each cell that
-/// meets a box is in its piece, so cells may come several times. The box is null for a mesh in
-/// memory.
+/// Calls work(part, box, begin, end) for the cells [begin, end) of each piece of [first, last)
+/// whose box satisfies wants(box), on several threads. These include borrowed cells: every piece
+/// has all cells that meet its box, so a cell may be passed several times. For a mesh in memory,
+/// `box` is null.
 template <typename Wants, typename Work>
 void forCells(const ResidentMesh& mesh, std::pair<std::size_t, std::size_t> pieces,
   const PieceNeeds& needs, const Wants& wants, const Work& work)
@@ -125,13 +126,17 @@ inline PieceNeeds topologyNeeded()
   return needs;
 }
 
-inline PieceGroups groupsOf(
-  const ResidentMesh& mesh, const std::vector<std::int64_t>& ids, bool ofPoints)
+/// Groups ids by the pieces that own them. `pieces` may be the result of mesh.piecesOfIds() for
+/// these ids; if it is empty, the pieces are looked up.
+inline PieceGroups groupsOf(const ResidentMesh& mesh, const std::vector<std::int64_t>& ids,
+  bool ofPoints, const std::vector<std::int32_t>& pieces)
 {
-  return groupByPiece(mesh.piecesOfIds(ids, ofPoints), mesh.mesh().Pieces.size());
+  return groupByPiece(pieces.size() == ids.size() ? pieces : mesh.piecesOfIds(ids, ofPoints),
+    mesh.mesh().Pieces.size());
 }
 
-/// The index of an id in the piece that owns it.
+/// The local index of a global id in the piece that owns it. Throws IOError if the piece does not
+/// have it.
 inline std::int64_t indexOf(
   const ResidentMesh& mesh, const PartTopology& topology, std::int64_t id, bool ofPoints)
 {

@@ -77,7 +77,7 @@ Value PartValues::valueAt(const CellLocation& at, int component) const
     double sum = 0;
     for (int i = 0; i < this->Corners; ++i)
     {
-      // A corner without weight may have NaN.
+      // A corner with weight 0 may have the value NaN, which must not count.
       const double value = double(values[this->corner(at.Cell, i) * this->Stride]);
       sum += at.Weights[i] == 0 ? 0 : at.Weights[i] * value;
     }
@@ -98,13 +98,19 @@ void PartValues::sample(
     {
       using Value = decltype(zero);
       const auto components = std::size_t(this->Description.Components);
-      constexpr std::int64_t ahead = 16; // values of points lie anywhere in memory
+      constexpr std::int64_t ahead = 32; // values are accessed at random
       for (std::int64_t i = 0; i < count; ++i)
       {
-        for (int k = 0; k < this->Corners && i + ahead < count && this->Description.OfPoints; ++k)
+        // Prefetches this many at once, so that the accesses to their pages overlap.
+        for (std::int64_t next = i == 0 ? 0 : i + ahead;
+             i % ahead == 0 && this->Description.OfPoints && next < std::min(i + 2 * ahead, count);
+             ++next)
         {
-          __builtin_prefetch(static_cast<const Value*>(this->Values) +
-            this->corner(at[i + ahead].Cell, k) * this->Stride);
+          for (int k = 0; k < this->Corners; ++k)
+          {
+            __builtin_prefetch(static_cast<const Value*>(this->Values) +
+              this->corner(at[next].Cell, k) * this->Stride);
+          }
         }
         char* const to = values + std::size_t(tuples[i]) * components * sizeof(Value);
         for (std::size_t k = 0; k < components; ++k)

@@ -15,8 +15,8 @@
 namespace tipp
 {
 
-/// Triangles or tetrahedra in memory with their arrays: a whole mesh, or a piece of one with the
-/// cells that it borrows.
+/// Triangles or tetrahedra in memory with their arrays: a whole mesh, or a piece with its borrowed
+/// cells. Cells and points are local indices. The pointers refer to memory that Keeps owns.
 struct MeshPart
 {
   struct Array
@@ -26,15 +26,15 @@ struct MeshPart
   };
 
   SimplexMesh Mesh;
-  std::int64_t OwnedCells = 0;            ///< the first ones; the others are borrowed
-  const std::int64_t* CellIds = nullptr;  ///< global ids; null: the index
-  const std::int64_t* PointIds = nullptr; ///< global ids; null: the index
-  /// For each point whether another piece owns it (not 0); null: none.
+  std::int64_t OwnedCells = 0;            ///< these come first, borrowed cells follow
+  const std::int64_t* CellIds = nullptr;  ///< global id of each cell; null: its index
+  const std::int64_t* PointIds = nullptr; ///< global id of each point; null: its index
+  /// Per point: not 0 if another piece owns it. Null if all are owned.
   const std::uint8_t* Ghosts = nullptr;
-  /// For each cell the index of its values in the arrays of cells; null: its own index.
+  /// Per cell: index of its tuple in cell arrays. Null if this is the cell's index.
   const std::int64_t* Rows = nullptr;
   std::vector<Array> Arrays;
-  std::int64_t Bytes = 0; ///< memory that it keeps
+  std::int64_t Bytes = 0; ///< size of the memory that Keeps owns
   std::shared_ptr<const void> Keeps;
 
   std::int64_t cellId(std::int64_t cell) const
@@ -47,26 +47,27 @@ struct MeshPart
   }
 };
 
-/// A stored piece, whose memory the result keeps.
+/// The part of a stored piece. The result owns the piece's memory.
 MeshPart partOf(Piece piece);
 
-/// What piecewise linear interpolation in one array of a part gives: floating-point numbers of
-/// points are interpolated in double precision, whole numbers are taken from the corner of largest
-/// weight, numbers of cells from the cell.
+/// Evaluates one array of a part by piecewise linear interpolation. Floating-point point arrays are
+/// interpolated in double precision. Integer point arrays have the value of the corner with the
+/// largest weight, and cell arrays that of the cell.
 class PartValues
 {
 public:
-  /// The array with this description; if it is null the z of points. Throws std::logic_error if the
-  /// part does not have it.
+  /// Uses the array with this description or, if it is null, the z of points. `part` must outlive
+  /// this. Throws std::logic_error if the part does not have the array.
   PartValues(const MeshPart& part, const StoredArray* array);
 
-  /// Writes the values at `count` locations, in the array's type: those at at[i] become tuple
+  /// Writes the values at `count` locations in the array's type: the value at at[i] becomes tuple
   /// tuples[i] of `values`, which need not be aligned.
   void sample(
     const CellLocation* at, const std::int64_t* tuples, std::int64_t count, char* values) const;
-  /// The value of a component at a point of the part.
+  /// The value of a component at a point of the part (a local index; a cell's row for cell arrays).
   double atPoint(std::int64_t point, int component) const;
-  /// The values at all points, if they are float64 and lie one after the other; else null.
+  /// The values at all points, if they are contiguous float64 values with one component; otherwise
+  /// null.
   const double* doubles() const
   {
     return this->Description.OfPoints && this->Description.Type == Scalar::Float64 &&

@@ -13,15 +13,15 @@ namespace tipp
 namespace
 {
 
-/// A face whose points all belong to other pieces than its cell.
+/// A face, none of whose points is owned by the piece that owns its cell. Ids are global.
 struct ForeignFace
 {
-  std::int64_t At; ///< in the result
+  std::int64_t At; ///< index in the result
   std::int64_t Cell;
   std::array<std::int64_t, 3> Points;
 };
 
-/// The lowest id of the cells across a face; -1: none.
+/// The lowest global id of the cells across a face, or -1.
 std::int64_t lowestAcross(
   const MeshPart& part, const PartTopology& topology, std::int64_t cell, int face)
 {
@@ -35,12 +35,11 @@ std::int64_t lowestAcross(
   return lowest;
 }
 
-std::vector<std::int64_t> storedNeighbors(
-  const ResidentMesh& mesh, const std::vector<std::int64_t>& cells, std::size_t array)
+std::vector<std::int64_t> storedNeighbors(const ResidentMesh& mesh,
+  const std::vector<std::int64_t>& cells, const PieceGroups& groups, std::size_t array)
 {
   const auto corners = std::size_t(mesh.mesh().CellSize);
   std::vector<std::int64_t> result(cells.size() * corners, -1);
-  const PieceGroups groups = groupsOf(mesh, cells, false);
   PieceNeeds needs = topologyNeeded();
   needs.Arrays.assign(mesh.mesh().Arrays.size(), false);
   needs.Arrays[array] = true;
@@ -59,8 +58,8 @@ std::vector<std::int64_t> storedNeighbors(
   return result;
 }
 
-/// The neighbours across faces that the owners of their cells cannot tell: the owner of one of the
-/// face's points has all cells there.
+/// Finds neighbours across faces of which the owner of the cell may not have all cells. The piece
+/// that owns one of the face's points has all cells there.
 void findForeign(const ResidentMesh& mesh, const std::vector<ForeignFace>& faces,
   const std::vector<Point3>& positions, std::vector<std::int64_t>& result)
 {
@@ -80,7 +79,7 @@ void findForeign(const ResidentMesh& mesh, const std::vector<ForeignFace>& faces
         std::int64_t& lowest = result[std::size_t(face.At)];
         if (*std::min_element(points, points + count) < 0)
         {
-          continue; // no cell of this piece has the face
+          continue; // no cell of this piece has this face
         }
         for (const std::int32_t cell : topology.cellsAt(points[0]))
         {
@@ -94,7 +93,7 @@ void findForeign(const ResidentMesh& mesh, const std::vector<ForeignFace>& faces
     });
 }
 
-/// Of cells that are grouped by the pieces that own them.
+/// Computes the neighbours of cells that are grouped by the pieces that own them.
 std::vector<std::int64_t> computedNeighbors(
   const ResidentMesh& mesh, const PieceGroups& groups, const std::vector<std::int64_t>& cells)
 {
@@ -140,8 +139,8 @@ std::vector<std::int64_t> computedNeighbors(
 
 } // namespace
 
-std::vector<std::int64_t> neighborsOf(
-  const ResidentMesh& mesh, const std::vector<std::int64_t>& cells)
+std::vector<std::int64_t> neighborsOf(const ResidentMesh& mesh,
+  const std::vector<std::int64_t>& cells, const std::vector<std::int32_t>& pieces)
 {
   const std::vector<StoredArray>& arrays = mesh.mesh().Arrays;
   const int corners = mesh.mesh().CellSize;
@@ -151,11 +150,12 @@ std::vector<std::int64_t> neighborsOf(
       return !array.OfPoints && array.Name == neighborIdsArray.Name &&
         array.Type == Scalar::Int64 && array.Components == corners && array.Step < 0;
     });
+  const PieceGroups groups = groupsOf(mesh, cells, false, pieces);
   if (mesh.isStored() && stored != arrays.end())
   {
-    return storedNeighbors(mesh, cells, std::size_t(stored - arrays.begin()));
+    return storedNeighbors(mesh, cells, groups, std::size_t(stored - arrays.begin()));
   }
-  return computedNeighbors(mesh, groupsOf(mesh, cells, false), cells);
+  return computedNeighbors(mesh, groups, cells);
 }
 
 OwnedNeighbors neighborsInPiece(const ResidentMesh& mesh, std::size_t piece)

@@ -11,7 +11,7 @@ namespace tipp
 namespace
 {
 
-/// From global ids to indices.
+/// A map from global ids to local indices; none if the ids are the indices.
 std::optional<GlobalIdMap> mapOf(const std::int64_t* ids, std::int64_t count)
 {
   if (!ids)

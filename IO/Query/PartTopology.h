@@ -12,22 +12,24 @@
 namespace tipp
 {
 
-/// The cells at each point of a part, and where its global ids are. Hidden cells do not count.
+/// The cells at each point of a part, and a map from global ids to local indices. Hidden cells are
+/// left out.
 ///
-/// At a point that the part's piece owns these are all cells of the mesh at it, since all of them
-/// meet the piece's box.
+/// At a point that the piece owns, these are all cells of the whole mesh: they all meet the piece's
+/// box.
 class PartTopology
 {
 public:
   explicit PartTopology(const MeshPart& part);
 
-  /// The indices of the cells that have a point as a corner, ascending.
+  /// Local indices of the cells with a given point as a corner, ascending.
   struct Cells
   {
     const std::int32_t* First;
     const std::int32_t* Last;
     const std::int32_t* begin() const { return this->First; }
     const std::int32_t* end() const { return this->Last; }
+    bool empty() const { return this->First == this->Last; }
   };
   Cells cellsAt(std::int64_t point) const
   {
@@ -36,7 +38,7 @@ public:
       this->AtPoints.data() + this->Starts[at + 1] };
   }
 
-  /// Has the processor fetch the cells at points, which may be anywhere in memory.
+  /// Prefetches the cells at points (local indices), which are accessed at random.
   [[gnu::always_inline]] void prefetch(const std::int64_t* points, std::int64_t count) const
   {
     for (std::int64_t i = 0; i < count; ++i)
@@ -57,11 +59,11 @@ public:
     }
   }
 
-  /// The index of a global id; -1 if the part does not have it.
+  /// The local index of a global id, or -1 if the part does not have it.
   std::int64_t findPoint(std::int64_t id) const { return find(this->PointMap, id, this->Points); }
   std::int64_t findCell(std::int64_t id) const { return find(this->CellMap, id, this->AllCells); }
 
-  /// The corner of a cell.
+  /// Corner i of a cell, as the local index of a point.
   std::int64_t corner(std::int64_t cell, int i) const
   {
     const std::int64_t index = cell * this->Corners + i;
@@ -70,8 +72,8 @@ public:
   }
   int corners() const { return this->Corners; }
 
-  /// The cells, other than `cell`, that have all corners of its face opposite to corner `face`;
-  /// calls visit(index) for each, ascending.
+  /// Calls visit(index) for each cell, except `cell`, that has all points of the face opposite to
+  /// the cell's corner `face`, in ascending order. Local indices.
   template <typename Visit>
   void visitAcross(std::int64_t cell, int face, const Visit& visit) const
   {
@@ -122,7 +124,7 @@ private:
   std::int64_t AllCells;
   std::vector<std::int64_t> Starts;
   std::vector<std::int32_t> AtPoints;
-  std::optional<GlobalIdMap> PointMap; ///< none: ids are indices
+  std::optional<GlobalIdMap> PointMap; ///< none: global ids are local indices
   std::optional<GlobalIdMap> CellMap;
 };
 

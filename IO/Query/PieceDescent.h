@@ -14,16 +14,17 @@
 namespace tipp
 {
 
-/// A point of the mesh on the way down.
+/// A point of the mesh, as a corner of a triangle on a path.
 struct SlopeCorner
 {
-  std::int64_t Index; ///< in the piece
+  std::int64_t Index; ///< local index in the piece
   std::int64_t Id;
   Point3 At;
   double Value;
 };
 
-/// A triangle, counter-clockwise, and the way down its plane; no way if it is level.
+/// A counter-clockwise triangle, and the direction in which its values fall fastest; (0, 0) if it
+/// is level.
 struct Slope
 {
   SlopeCorner Corners[3];
@@ -42,13 +43,13 @@ inline Point2 apart(const Point3& a, const Point3& b)
   return { a.x - b.x, a.y - b.y };
 }
 
-/// Where a walk is: at a point of the mesh, or on an edge between two.
+/// A path and its current position: in a cell, at a point, or on an edge. Ids are global.
 struct Walk
 {
-  std::int64_t Cell = -1; ///< at its beginning the cell that holds it; -1: it is over
-  std::int64_t Low = -1;  ///< the point, or the edge's one of lower id; -1: in the cell
-  std::int64_t High = -1; ///< -1: not on an edge
-  Point3 OfLow{};         ///< where that point is: its piece has all cells there
+  std::int64_t Cell = -1; ///< at first the cell that contains the start; -1: the path has ended
+  std::int64_t Low = -1;  ///< the point, or the edge's end of lower id; -1: in the cell
+  std::int64_t High = -1; ///< the other end of the edge; -1: not on an edge
+  Point3 OfLow{};         ///< position of Low, whose piece has all cells there
   Point3 At{};
   double Value = 0;
   std::int64_t Pit = -1;
@@ -63,7 +64,7 @@ void serialize(Archive& archive, Walk& walk)
     walk.Values);
 }
 
-/// Leads walks down within one piece.
+/// Follows paths within one piece.
 class PieceDescent
 {
 public:
@@ -75,7 +76,7 @@ public:
   {
   }
 
-  /// Goes on until the walk is over or another piece has the cells around it.
+  /// Continues until the path ends, or another piece has the cells around its position.
   void follow(Walk& walk) const
   {
     for (std::int64_t step = 0; walk.Cell >= 0 && this->isHere(walk); ++step)
@@ -104,7 +105,7 @@ private:
       this->Values.atPoint(index, this->Component) };
   }
 
-  /// False if the cell has no slope because of its coordinates or values.
+  /// Computes the slope of a cell. Returns false if its coordinates or values give none.
   bool slopeOf(std::int64_t cell, Slope& slope) const
   {
     slope.Cell = this->Part.cellId(cell);
@@ -148,7 +149,7 @@ private:
     walk.Cell = -1;
   }
 
-  /// To a corner of the slope if it is lower; else the walk is over.
+  /// Continues at the lowest corner of the triangle if that is lower; otherwise ends the path.
   static void toLowest(Walk& walk, const Slope& slope)
   {
     const SlopeCorner* lowest = &slope.Corners[0];
@@ -157,14 +158,14 @@ private:
       lowest =
         std::tie(corner.Value, corner.Id) < std::tie(lowest->Value, lowest->Id) ? &corner : lowest;
     }
-    // Very near a point the value is rounded to that point's.
+    // Very near a point, the current value may be rounded to the point's value.
     const bool mayBeEqual = (walk.Low < 0 || walk.High >= 0) && slope.Steepness > 0;
     lowest->Value < walk.Value || (lowest->Value == walk.Value && mayBeEqual)
       ? toPoint(walk, *lowest)
       : end(walk);
   }
 
-  /// To the edge between two corners that the way down of a slope crosses from `from`.
+  /// Continues on the edge ab, where the direction of descent from `from` crosses it.
   static void toEdge(
     Walk& walk, const Slope& slope, Point3 from, SlopeCorner a, SlopeCorner b, bool isFirst = false)
   {
@@ -173,7 +174,7 @@ private:
     const double ofB = std::fabs(turn(slope.Down, apart(b.At, from)));
     const double share = ofA + ofB > 0 ? ofA / (ofA + ofB) : 0;
     const double value = a.Value + share * (b.Value - a.Value);
-    // Each step is lower than the one before, whatever rounding does: so the walk ends.
+    // Requires a lower value for each step, so that the path ends in spite of rounding.
     if (!(value < walk.Value || (isFirst && value == walk.Value)))
     {
       toLowest(walk, slope);
@@ -204,7 +205,7 @@ private:
       end(walk);
       return;
     }
-    // The value and the height where the walk begins.
+    // Computes value and height at the start.
     const auto& [a, b, c] = slope.Corners;
     const double whole = turn(apart(b.At, a.At), apart(c.At, a.At));
     const double ofB = turn(apart(walk.At, a.At), apart(c.At, a.At)) / whole;
@@ -234,12 +235,13 @@ private:
     toLowest(walk, slope);
   }
 
-  /// The steepest way from a point: down a triangle, or along an edge to the point of lowest id.
+  /// Continues in the steepest direction from a point: down a triangle, or along an edge. Of equal
+  /// slopes, the lowest id is used.
   void leavePoint(Walk& walk) const
   {
     const std::int64_t point = this->Topology.findPoint(walk.Low);
     Slope best{};
-    int exit = -1; // the corner that the way passes on the left; -1: there is none
+    int exit = -1; // the corner of `best` where the path starts; -1: it follows an edge
     SlopeCorner next{};
     std::tuple<double, bool, std::int64_t> steepest(0, false, 0);
     const auto isSteeper = [&](double steepness, bool isEdge, std::int64_t id)
@@ -291,14 +293,15 @@ private:
       : toEdge(walk, best, walk.At, best.Corners[(exit + 1) % 3], best.Corners[(exit + 2) % 3]);
   }
 
-  /// Down the steepest triangle at an edge, or along the edge if none leads away from it.
+  /// Continues from an edge, down its steepest triangle, or along the edge if no triangle descends
+  /// from it.
   void leaveEdge(Walk& walk) const
   {
     const std::int64_t ends[2] = { this->Topology.findPoint(walk.Low),
       this->Topology.findPoint(walk.High) };
     if (ends[0] < 0 || ends[1] < 0)
     {
-      end(walk); // only in a store that is damaged
+      end(walk); // happens only if the stored mesh is damaged
       return;
     }
     Slope best{};

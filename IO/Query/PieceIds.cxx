@@ -12,12 +12,12 @@
 namespace tipp
 {
 
-/// The ids of the cells, or points, that a piece owns.
+/// Reads the global ids of the cells or points that a piece owns.
 std::vector<std::int64_t> PieceIds::read(std::size_t piece, bool ofPoints) const
 {
   ReadCounters counters;
   const PieceFile file(this->Mesh, piece, counters);
-  // What is borrowed comes last, in a part of its own.
+  // Borrowed cells are in the last part of the piece, if they are duplicated.
   const std::size_t parts = file.partStarts(ofPoints).size() - 1 - (this->Mesh.Duplicated ? 1 : 0);
   const auto count = std::size_t(file.partStarts(ofPoints)[parts]);
   std::vector<std::int64_t> ids(count);
@@ -52,7 +52,7 @@ std::vector<std::int32_t> PieceIds::find(const std::vector<std::int64_t>& ids, b
     this->Ranges[ofPoints].resize(this->Mesh.Pieces.size());
     ranges = this->Ranges[ofPoints];
   }
-  // Those whose range is known first: they may have all.
+  // Searches pieces with a known range of ids first, since these may own all ids.
   std::vector<std::size_t> order(endPiece - firstPiece);
   std::iota(order.begin(), order.end(), firstPiece);
   std::stable_partition(order.begin(), order.end(),

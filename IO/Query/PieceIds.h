@@ -12,9 +12,9 @@
 namespace tipp
 {
 
-/// Finds the pieces that own cells or points of a stored mesh by their global ids. The ids are in
-/// no index: those of the pieces are read, and of each piece their range is remembered, so that
-/// later calls read only pieces that may have an id.
+/// Finds the pieces that own cells or points of a stored mesh, by global ids. The mesh has no index
+/// of ids, so the id arrays of pieces are read. The range of each piece's ids is remembered, so
+/// that later calls read only pieces that may own an id.
 class PieceIds
 {
 public:
@@ -23,7 +23,8 @@ public:
   {
   }
 
-  /// -1: none of the pieces [first, end) owns it. Throws IOError. Several threads may call it.
+  /// For each global id, the piece of [first, end) that owns it, or -1. Throws IOError.
+  /// Thread-safe.
   std::vector<std::int32_t> find(const std::vector<std::int64_t>& ids, bool ofPoints, int threads,
     std::size_t first, std::size_t end) const;
 
@@ -38,7 +39,7 @@ private:
 
   const PartitionedMesh& Mesh;
   mutable std::mutex Mutex;
-  mutable std::vector<Range> Ranges[2]; ///< of cells, of points
+  mutable std::vector<Range> Ranges[2]; ///< ranges of cells, ranges of points; by piece
 };
 
 } // namespace tipp

@@ -21,13 +21,13 @@ double distance(const Point3& a, const Point3& b)
                     : std::hypot(b.x - a.x, b.y - a.y, b.z - a.z);
 }
 
-/// A location between two others.
+/// The point at the fraction `share` of the way from a to b.
 Point3 between(const Point3& a, const Point3& b, double share)
 {
   return { a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z) };
 }
 
-/// Puts a number into an array of the answer, in its type.
+/// Writes a value to an array of the answer, in the array's type.
 void put(MeshAnswer::Array& array, std::size_t at, double value)
 {
   withScalar(array.Type,
@@ -41,7 +41,7 @@ void put(MeshAnswer::Array& array, std::size_t at, double value)
 void addSamples(const Point3& a, const Point3& b, double before, double spacing, Profile& profile)
 {
   const double length = distance(a, b);
-  // The multiples of the spacing that lie inside of the segment.
+  // The multiples of the spacing inside the segment.
   for (auto i = std::int64_t(std::floor(before / spacing)) + 1;
        double(i) * spacing < before + length; ++i)
   {
@@ -75,11 +75,11 @@ void requirePolyline(const std::vector<Point3>& polyline, double spacing)
 
 using Crossings = std::vector<std::vector<Crossing>>;
 
-/// What a profile asks of a mesh, or of the meshes of all ranks.
+/// The functions through which a profile queries one mesh, or the meshes of all ranks.
 struct ProfileSource
 {
   bool InSpace = false;
-  std::vector<char> OfPoints; ///< for each array whether it has values at points
+  std::vector<char> OfPoints; ///< per array: whether it has values at points
   std::function<MeshAnswer(const std::vector<Point3>&, const AnswerOptions&)> Answer;
   std::function<Crossings(const std::vector<Point3>&)> CrossingsOf;
 };
@@ -103,7 +103,7 @@ Profile profileOf(const ProfileSource& source, const std::vector<Point3>& given,
   Profile profile;
   Crossings crossings = spacing == 0 ? source.CrossingsOf(polyline) : Crossings();
   crossings.resize(polyline.size());
-  std::vector<const Crossing*> found; // of each point of the profile; null: none
+  std::vector<const Crossing*> found; // per point of the profile; null for others
   double before = 0;
   for (std::size_t i = 0; i < polyline.size(); ++i)
   {
@@ -113,7 +113,7 @@ Profile profileOf(const ProfileSource& source, const std::vector<Point3>& given,
     const double length = i + 1 < polyline.size() ? distance(polyline[i], polyline[i + 1]) : 0;
     for (const Crossing& crossing : crossings[i])
     {
-      // The corners of the polyline are there anyway.
+      // Corners of the polyline are added anyway.
       if (!(crossing.At == polyline[i]) && !(crossing.At == polyline[i + 1]))
       {
         profile.Distances.push_back(before + crossing.Share * length);
@@ -132,7 +132,8 @@ Profile profileOf(const ProfileSource& source, const std::vector<Point3>& given,
     profile.Answer = source.Answer(profile.Points, options);
     return profile;
   }
-  // The cells between the points, and their values; values of points are those of the crossings.
+  // Cells and cell values are those at the middles between points; point values are those of the
+  // crossings.
   std::vector<Point3> middles = profile.Points;
   for (std::size_t i = 0; i + 1 < middles.size(); ++i)
   {
@@ -169,7 +170,7 @@ Profile profileOf(const ProfileSource& source, const std::vector<Point3>& given,
   return profile;
 }
 
-/// Without the functions.
+/// Describes the mesh, without the functions.
 ProfileSource describe(const ResidentMesh& mesh, const std::vector<std::string>& arrays)
 {
   ProfileSource source;
@@ -206,7 +207,7 @@ Profile profileOnRanks(Communicator& ranks, const ResidentMesh& mesh,
   {
     source = of.OfPoints.size() == arrays.size() && source.OfPoints.empty() ? of : source;
   }
-  source.OfPoints.resize(arrays.size(), 1); // no rank has cells
+  source.OfPoints.resize(arrays.size(), 1); // if no rank has cells
   source.Answer = [&](const std::vector<Point3>& points, const AnswerOptions& options)
   { return answerOnRanks(ranks, mesh, points.data(), std::int64_t(points.size()), options); };
   source.CrossingsOf = [&](const std::vector<Point3>& own)

@@ -2,10 +2,10 @@
 #include "Query/RankAround.h"
 
 #include "Files/IOError.h"
-#include "Query/ForPieces.h"
-#include "Query/RankAnswer.h"
+#include "Query/RankQuestions.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <map>
 #include <utility>
@@ -15,186 +15,7 @@ namespace tipp
 namespace
 {
 
-using Ids = std::vector<std::int64_t>;
-
-/// A list for each id that a rank is asked for.
-struct ListReply
-{
-  std::vector<char> Known; ///< whether the rank has it
-  IdLists Lists;
-};
-
-template <typename Archive>
-void serialize(Archive& archive, ListReply& reply)
-{
-  archive(reply.Known, reply.Lists.Starts, reply.Lists.Ids);
-}
-
-Ids sortedUnique(Ids ids)
-{
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-  return ids;
-}
-
-Ids without(const Ids& ids, const Ids& others)
-{
-  Ids result;
-  std::set_difference(
-    ids.begin(), ids.end(), others.begin(), others.end(), std::back_inserter(result));
-  return result;
-}
-
-Ids listOf(const IdLists& lists, std::size_t i)
-{
-  return { lists.Ids.begin() + lists.Starts[i], lists.Ids.begin() + lists.Starts[i + 1] };
-}
-
-void append(IdLists& lists, const Ids& list)
-{
-  lists.Ids.insert(lists.Ids.end(), list.begin(), list.end());
-  lists.Starts.push_back(std::int64_t(lists.Ids.size()));
-}
-
-/// Asks all ranks for lists of ids.
-class RankQuestions
-{
-public:
-  RankQuestions(Communicator& ranks, const ResidentMesh& mesh)
-    : Ranks(ranks)
-    , Mesh(mesh)
-  {
-    requireIdsOnRanks(ranks, mesh);
-  }
-
-  /// For each id the list of the first rank that has it, which answer(ids) makes of any ids as a
-  /// ListReply; or, if `united`, what the ranks' lists have together, ascending.
-  template <typename Answer>
-  IdLists ask(const Ids& ids, bool ofPoints, bool united, const Answer& answer) const
-  {
-    std::vector<ListReply> replies;
-    for (const Ids& asked : this->Ranks.allGather(ids))
-    {
-      replies.push_back(asked.empty() ? ListReply() : answer(asked));
-    }
-    replies = this->Ranks.allToAll(replies);
-    IdLists result;
-    for (std::size_t i = 0; i < ids.size(); ++i)
-    {
-      Ids list;
-      bool isKnown = false;
-      for (const ListReply& reply : replies)
-      {
-        if (reply.Known[i] && (united || !isKnown))
-        {
-          const Ids part = listOf(reply.Lists, i);
-          list.insert(list.end(), part.begin(), part.end());
-          isKnown = true;
-        }
-      }
-      isKnown ? void() : this->Mesh.refuseId(ids[i], ofPoints);
-      append(result, united ? sortedUnique(std::move(list)) : list);
-    }
-    return result;
-  }
-
-  /// Of a stored mesh: lists that work(ids) makes on the rank that has their pieces.
-  template <typename Work>
-  IdLists askOwners(const Ids& ids, bool ofPoints, const Work& work) const
-  {
-    const std::int64_t count = ofPoints ? this->Mesh.mesh().Points : this->Mesh.mesh().Cells;
-    for (const std::int64_t id : ids)
-    {
-      id < 0 || id >= count ? this->Mesh.refuseId(id, ofPoints) : void();
-    }
-    const auto [first, end] = piecesOfRank(this->Ranks, this->Mesh);
-    return this->ask(ids, ofPoints, false,
-      [&, firstPiece = first, endPiece = end](const Ids& asked)
-      {
-        const std::vector<std::int32_t> pieces =
-          this->Mesh.findIds(asked, ofPoints, firstPiece, endPiece);
-        Ids own;
-        for (std::size_t i = 0; i < asked.size(); ++i)
-        {
-          pieces[i] >= 0 ? own.push_back(asked[i]) : void();
-        }
-        const IdLists lists = own.empty() ? IdLists() : work(own);
-        ListReply reply;
-        std::size_t next = 0;
-        for (const std::int32_t piece : pieces)
-        {
-          reply.Known.push_back(char(piece >= 0));
-          append(reply.Lists, piece >= 0 ? listOf(lists, next++) : Ids());
-        }
-        return reply;
-      });
-  }
-
-  /// Of parts in memory: the cells at points, ascending.
-  IdLists stars(const Ids& points) const
-  {
-    return this->ask(points, true, true,
-      [this](const Ids& asked)
-      {
-        const ResidentPieces::Lease piece = this->Mesh.pieces().get(0, topologyNeeded());
-        ListReply reply;
-        for (const std::int64_t id : asked)
-        {
-          Ids list;
-          const std::int64_t index = piece->Topology->findPoint(id);
-          if (index >= 0)
-          {
-            for (const std::int32_t cell : piece->Topology->cellsAt(index))
-            {
-              list.push_back(piece->Part->cellId(cell));
-            }
-          }
-          reply.Known.push_back(char(index >= 0));
-          append(reply.Lists, list);
-        }
-        return reply;
-      });
-  }
-
-  /// Of parts in memory: the points of cells, in the cells' order.
-  IdLists corners(const Ids& cells) const
-  {
-    return this->ask(cells, false, false,
-      [this](const Ids& asked)
-      {
-        const ResidentPieces::Lease piece = this->Mesh.pieces().get(0, topologyNeeded());
-        ListReply reply;
-        for (const std::int64_t id : asked)
-        {
-          Ids list;
-          const std::int64_t index = piece->Topology->findCell(id);
-          for (int i = 0; i < piece->Topology->corners() && index >= 0; ++i)
-          {
-            list.push_back(piece->Part->pointId(piece->Topology->corner(index, i)));
-          }
-          reply.Known.push_back(char(index >= 0));
-          append(reply.Lists, list);
-        }
-        return reply;
-      });
-  }
-
-  bool isStored() const { return this->Mesh.isStored(); }
-  const ResidentMesh& mesh() const { return this->Mesh; }
-  /// Whether it is so on any rank.
-  bool any(bool isSo) const
-  {
-    std::vector<std::int64_t> count = { isSo ? 1 : 0 };
-    this->Ranks.sum(count);
-    return count[0] > 0;
-  }
-
-private:
-  Communicator& Ranks;
-  const ResidentMesh& Mesh;
-};
-
-/// Lists by id.
+/// Lists that are found by id.
 class ListsById
 {
 public:
@@ -203,23 +24,24 @@ public:
   {
     for (std::size_t i = 0; i < ids.size(); ++i)
     {
-      this->Places[ids[i]] = i;
+      this->Indices[ids[i]] = i;
     }
   }
-  Ids of(std::int64_t id) const { return listOf(this->Lists, this->Places.at(id)); }
+  Ids of(std::int64_t id) const { return listOf(this->Lists, this->Indices.at(id)); }
 
 private:
   IdLists Lists;
-  std::map<std::int64_t, std::size_t> Places;
+  std::map<std::int64_t, std::size_t> Indices;
 };
 
-/// What k steps reach from each seed in parts in memory, without the seed.
-IdLists ringsInMemory(const RankQuestions& questions, const Ids& seeds, int k, bool ofPoints)
+/// As ringsInMemory(), for rings that need the cells of several ranks. All grow together, step by
+/// step.
+IdLists ringsAcrossRanks(const RankQuestions& questions, const Ids& seeds, int k, bool ofPoints)
 {
   struct Ring
   {
-    Ids Points; ///< ascending
-    Ids Cells;  ///< ascending
+    Ids Points; ///< found so far, ascending
+    Ids Cells;  ///< found so far, ascending
     Ids Front;
   };
   std::vector<Ring> rings(seeds.size());
@@ -253,7 +75,8 @@ IdLists ringsInMemory(const RankQuestions& questions, const Ids& seeds, int k, b
         const Ids star = stars.of(point);
         cells.insert(cells.end(), star.begin(), star.end());
       }
-      ring.Front = without(sortedUnique(std::move(cells)), ring.Cells); // cells until the next loop
+      // Until the end of this step, the front consists of cells.
+      ring.Front = without(sortedUnique(std::move(cells)), ring.Cells);
       ring.Cells.insert(ring.Cells.end(), ring.Front.begin(), ring.Front.end());
       std::sort(ring.Cells.begin(), ring.Cells.end());
     }
@@ -280,7 +103,36 @@ IdLists ringsInMemory(const RankQuestions& questions, const Ids& seeds, int k, b
   return result;
 }
 
-/// In parts in memory, as neighborsOf().
+/// For parts in memory: the ids that are reached in k steps from each seed, without the seed.
+IdLists ringsInMemory(const RankQuestions& questions, const Ids& seeds, int k, bool ofPoints)
+{
+  IdLists within = questions.ringsWithinParts(seeds, k, ofPoints);
+  const auto leaves = [&within](std::size_t i)
+  {
+    return within.Starts[i] < within.Starts[i + 1] &&
+      within.Ids[std::size_t(within.Starts[i])] == -1;
+  };
+  Ids others;
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+  {
+    leaves(i) ? others.push_back(seeds[i]) : void();
+  }
+  const IdLists across = ringsAcrossRanks(questions, others, k, ofPoints);
+  if (others.empty())
+  {
+    return within;
+  }
+  IdLists result;
+  result.Ids.reserve(within.Ids.size() + across.Ids.size());
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+  {
+    leaves(i) ? append(result, across, next++) : append(result, within, i);
+  }
+  return result;
+}
+
+/// As neighborsOf(), for parts in memory.
 IdLists neighborsInMemory(const RankQuestions& questions, const Ids& cells)
 {
   const IdLists corners = questions.corners(cells);
@@ -344,9 +196,9 @@ std::vector<std::int64_t> neighborsOnRanks(
   }
   return questions
     .askOwners(cells, false,
-      [&](const Ids& own)
+      [&](const Ids& own, const std::vector<std::int32_t>& pieces)
       {
-        const std::vector<std::int64_t> found = neighborsOf(mesh, own);
+        const std::vector<std::int64_t> found = neighborsOf(mesh, own, pieces);
         const auto corners = std::size_t(mesh.mesh().CellSize);
         IdLists lists;
         for (std::size_t at = 0; at < found.size(); at += corners)
@@ -363,7 +215,8 @@ IdLists starsOnRanks(
 {
   const RankQuestions questions(ranks, mesh);
   return questions.isStored()
-    ? questions.askOwners(points, true, [&](const Ids& own) { return starsOf(mesh, own); })
+    ? questions.askOwners(points, true,
+        [&](const Ids& own, const auto& pieces) { return starsOf(mesh, own, pieces); })
     : questions.stars(points);
 }
 
@@ -372,7 +225,8 @@ IdLists ringsOfPointsOnRanks(
 {
   const RankQuestions questions(ranks, mesh);
   return questions.isStored()
-    ? questions.askOwners(points, true, [&](const Ids& own) { return ringsOfPoints(mesh, own, k); })
+    ? questions.askOwners(points, true,
+        [&](const Ids& own, const auto& pieces) { return ringsOfPoints(mesh, own, k, pieces); })
     : ringsInMemory(questions, points, k, true);
 }
 
@@ -381,7 +235,8 @@ IdLists ringsOfCellsOnRanks(
 {
   const RankQuestions questions(ranks, mesh);
   return questions.isStored()
-    ? questions.askOwners(cells, false, [&](const Ids& own) { return ringsOfCells(mesh, own, k); })
+    ? questions.askOwners(cells, false,
+        [&](const Ids& own, const auto& pieces) { return ringsOfCells(mesh, own, k, pieces); })
     : ringsInMemory(questions, cells, k, false);
 }
 

@@ -12,12 +12,12 @@
 namespace tipp
 {
 
-// What lies around cells and points of a mesh that several ranks have, as in answerOnRanks(): all
-// have opened the same stored mesh, or each has a part in memory. Parts in memory need global ids
-// of points and cells, no cell twice but where it is hidden, and at most two cells at a face. Each
-// rank asks for ids of its own and gets their answers, which are those of the whole mesh in one
-// process. Any rank may ask for nothing, or have no cells. All functions are collective; call them
-// within Communicator::together(). They throw IOError.
+// Topological queries for meshes of several ranks, as in Around.h. As for answerOnRanks(), all
+// ranks have opened the same stored mesh, or each has a part in memory. Parts in memory need global
+// ids of points and cells; only hidden cells may occur in several parts, and a face may have at
+// most two cells. Each rank passes its own ids, possibly none, and gets their results, which equal
+// those of the whole mesh in one process. A rank may have no cells. All functions are collective;
+// call them within Communicator::together(). They throw IOError.
 
 VTKTIPPIO_EXPORT std::vector<std::int64_t> neighborsOnRanks(
   Communicator& ranks, const ResidentMesh& mesh, const std::vector<std::int64_t>& cells);
@@ -28,21 +28,21 @@ VTKTIPPIO_EXPORT IdLists ringsOfPointsOnRanks(
 VTKTIPPIO_EXPORT IdLists ringsOfCellsOnRanks(
   Communicator& ranks, const ResidentMesh& mesh, const std::vector<std::int64_t>& cells, int k);
 
-/// The whole border on the first rank; the others get none.
+/// The whole border on the first rank. Other ranks get none.
 VTKTIPPIO_EXPORT BoundaryLoops boundaryOnRanks(Communicator& ranks, const ResidentMesh& mesh);
 
-/// The connected parts of a mesh, with the labels of the cells that a rank has.
+/// The connected components of a mesh, with the labels of a rank's cells.
 struct RankComponents
 {
-  std::vector<std::int64_t> Cells;   ///< ids of this rank's cells, ascending
-  std::vector<std::int64_t> OfCells; ///< the component of each
-  std::vector<std::int64_t> Sizes;   ///< of all components, on every rank
+  std::vector<std::int64_t> Cells;   ///< global ids of this rank's cells, ascending
+  std::vector<std::int64_t> OfCells; ///< component of each of these cells
+  std::vector<std::int64_t> Sizes;   ///< cells per component of the whole mesh, on every rank
 };
 
-/// As componentsOf(), with results that stay on the ranks.
+/// As componentsOf(), but labels stay on the ranks with the cells.
 VTKTIPPIO_EXPORT RankComponents componentsOnRanks(Communicator& ranks, const ResidentMesh& mesh);
 
-/// Throws IOError unless the rank's part, if several have cells, has global ids. Collective.
+/// Throws IOError if several ranks have cells and this rank's part lacks global ids. Collective.
 void requireIdsOnRanks(Communicator& ranks, const ResidentMesh& mesh);
 
 } // namespace tipp

@@ -17,9 +17,10 @@ struct NamedZone
   Zone Polygons;
 };
 
-/// Reads a zone of each feature of all layers of a GeoPackage, Shapefile, GeoJSON, FlatGeobuf, or
-/// .csv file with a column WKT, by GDAL. Features that are no polygons have no rings. The name is
-/// the value of `field`, or, if that is empty, the feature's number from 0. Throws IOError.
+/// Reads zones with GDAL: one per feature of all layers of a GeoPackage, Shapefile, GeoJSON,
+/// FlatGeobuf, or .csv file with a column WKT. Features that are not polygons give zones without
+/// rings. A zone's name is the feature's value of `field` or, if `field` is empty, its index from
+/// 0. Throws IOError.
 VTKTIPPIO_EXPORT std::vector<NamedZone> readZones(
   const std::string& path, const std::string& field);
 

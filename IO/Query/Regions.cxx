@@ -16,7 +16,7 @@ namespace tipp
 namespace
 {
 
-/// Decides what is in a region.
+/// Decides which points and cells are in a region.
 class RegionTest
 {
 public:
@@ -26,11 +26,6 @@ public:
     , IsBox(region.Polygons.empty())
     , Shape(region.Polygons, 0)
   {
-    if (!this->IsBox && this->Dimension == 3)
-    {
-      throw IOError(mesh.isStored() ? mesh.mesh().Path : "the mesh",
-        "has tetrahedra, of which a polygon holds none; give a box.");
-    }
     for (std::size_t axis = 0; axis < std::size_t(this->Dimension) && this->IsBox; ++axis)
     {
       if (!(this->Box[2 * axis] <= this->Box[2 * axis + 1]))
@@ -38,7 +33,12 @@ public:
         throw IOError("The box has a minimum above its maximum, or bounds that are no numbers.");
       }
     }
-    this->Box = this->IsBox ? this->Box : boundsOf(this->Shape.bounds());
+    if (!this->IsBox)
+    {
+      this->Box = boundsOf(this->Shape.bounds());
+      this->Box[4] = -HUGE_VAL;
+      this->Box[5] = HUGE_VAL;
+    }
   }
 
   bool wants(const Bounds& box) const { return meets(box, this->Box, this->Dimension); }
@@ -50,7 +50,8 @@ public:
       (this->IsBox || this->Shape.holds({ p.x, p.y }));
   }
 
-  /// Whether a cell that has an area or volume has a point of the region, or lies in it.
+  /// Whether a cell meets the region or, if `whole`, lies inside it. Cells without area or volume
+  /// do not.
   bool has(const Point2 (&t)[3], bool whole) const
   {
     if (!this->IsBox)
@@ -79,11 +80,36 @@ public:
     {
       return false;
     }
+    if (!this->IsBox)
+    {
+      return this->columnHas(t, whole);
+    }
     return whole ? std::all_of(t, t + 4, [this](const Point3& p) { return this->holds(p); })
                  : tetrahedronMeetsBox(t[0], t[1], t[2], t[3], this->box());
   }
 
 private:
+  /// A tetrahedron's projection to x and y is the union of its faces' projections. Faces whose
+  /// projections have no area add nothing.
+  bool columnHas(const Point3 (&t)[4], bool whole) const
+  {
+    bool hasAny = false;
+    bool hasAll = true;
+    for (int i = 0; i < 4; ++i)
+    {
+      const Point3& a = t[i];
+      const Point3& b = t[(i + 1) % 4];
+      const Point3& c = t[(i + 2) % 4];
+      const Point2 face[3] = { { a.x, a.y }, { b.x, b.y }, { c.x, c.y } };
+      if (orientation(face[0], face[1], face[2]) != 0)
+      {
+        hasAny = hasAny || this->has(face, false);
+        hasAll = hasAll && this->has(face, true);
+      }
+    }
+    return whole ? hasAll : hasAny;
+  }
+
   Box3 box() const
   {
     Box3 result;
@@ -103,7 +129,7 @@ private:
 
 using Pieces = std::pair<std::size_t, std::size_t>;
 
-/// In the pieces [first, last); a cell may come several times.
+/// The global ids of cells in the pieces [first, last). A cell may occur several times.
 std::vector<std::int64_t> cellsIn(
   const ResidentMesh& mesh, Pieces pieces, const Region& region, bool whole)
 {
@@ -160,7 +186,7 @@ std::vector<std::int64_t> sorted(std::vector<std::int64_t> ids)
   return ids;
 }
 
-/// The ids of all ranks, on the first one.
+/// The ids of all ranks, on the first rank.
 std::vector<std::int64_t> gathered(Communicator& ranks, std::vector<std::int64_t> own)
 {
   std::vector<std::int64_t> all;

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <utility>
 #include <variant>
@@ -33,15 +32,6 @@ Box<D> boxOf(const Bounds& bounds)
   return box;
 }
 
-template <int D>
-std::array<double, D> positionOf(const Point3& point)
-{
-  const double coordinates[3] = { point.x, point.y, point.z };
-  std::array<double, D> at;
-  std::copy_n(coordinates, D, at.begin());
-  return at;
-}
-
 } // namespace
 
 /// A tree of the boxes of all pieces.
@@ -55,7 +45,7 @@ public:
                              : void(this->Tree = this->make<3>());
   }
 
-  /// The first piece whose closed box holds a point; -1: none.
+  /// The first piece whose closed box contains a point, or -1.
   std::int32_t find(const Point3& point) const
   {
     return std::visit([&](const auto& tree) { return this->search(tree, point); }, this->Tree);
@@ -73,7 +63,7 @@ private:
   std::int32_t search(const BoxTree<D>& tree, const Point3& point) const
   {
     std::int32_t found = -1;
-    const std::array<double, D> at = positionOf<D>(point);
+    const std::array<double, D> at = coordinatesOf<D>(point);
     const auto offer = [&](std::int32_t piece)
     {
       const bool isFirst = found < 0 || piece < found;
@@ -91,7 +81,7 @@ private:
 namespace
 {
 
-PartitionedMesh describe(const MeshPart& part)
+PartitionedMesh describe(const MeshPart& part, int threads)
 {
   PartitionedMesh mesh;
   mesh.CellSize = part.Mesh.Dimension + 1;
@@ -104,20 +94,38 @@ PartitionedMesh describe(const MeshPart& part)
   }
   constexpr double infinity = std::numeric_limits<double>::infinity();
   mesh.Domain = { infinity, -infinity, infinity, -infinity, infinity, -infinity };
+  const auto extend = [](Bounds& bounds, std::size_t axis, double low, double high)
+  {
+    // The comparisons are false for NaN.
+    bounds[2 * axis] = low < bounds[2 * axis] ? low : bounds[2 * axis];
+    bounds[2 * axis + 1] = high > bounds[2 * axis + 1] ? high : bounds[2 * axis + 1];
+  };
+  std::vector<Bounds> domains(std::size_t(threads), mesh.Domain);
   withAccess(part.Mesh,
     [&](const auto& access)
     {
-      for (std::int64_t i = 0; i < part.Mesh.PointCount; ++i)
-      {
-        const Point3 p = access.point(i);
-        const double coordinates[3] = { p.x, p.y, p.z };
-        for (std::size_t axis = 0; axis < 3; ++axis) // fmin() and fmax() pass over NaN
+      forChunks(part.Mesh.PointCount, 1 << 14, threads, {},
+        [&](std::int64_t begin, std::int64_t end, int thread)
         {
-          mesh.Domain[2 * axis] = std::fmin(mesh.Domain[2 * axis], coordinates[axis]);
-          mesh.Domain[2 * axis + 1] = std::fmax(mesh.Domain[2 * axis + 1], coordinates[axis]);
-        }
-      }
+          Bounds domain = domains[std::size_t(thread)];
+          for (std::int64_t i = begin; i < end; ++i)
+          {
+            const std::array<double, 3> at = coordinatesOf<3>(access.point(i));
+            for (std::size_t axis = 0; axis < 3; ++axis)
+            {
+              extend(domain, axis, at[axis], at[axis]);
+            }
+          }
+          domains[std::size_t(thread)] = domain;
+        });
     });
+  for (const Bounds& domain : domains)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      extend(mesh.Domain, axis, domain[2 * axis], domain[2 * axis + 1]);
+    }
+  }
   mesh.Pieces.emplace_back();
   mesh.Pieces[0].Points = mesh.Points;
   mesh.Pieces[0].Cells = mesh.Cells;
@@ -141,7 +149,7 @@ ResidentMesh::ResidentMesh(const std::string& path, const ResidentOptions& optio
 }
 
 ResidentMesh::ResidentMesh(MeshPart part, const ResidentOptions& options)
-  : Mesh(describe(part))
+  : Mesh(describe(part, threadCount(options.Threads)))
   , Options(options)
   , InMemory(std::make_shared<const MeshPart>(std::move(part)))
   , Ids(this->Mesh)
@@ -206,7 +214,7 @@ PieceNeeds ResidentMesh::needsOf(const std::vector<std::string>& names) const
 namespace
 {
 
-/// The bytes of arrays for a point, or for a cell.
+/// Bytes per point, or per cell, in the needed arrays.
 std::uint64_t bytesOfArrays(const PartitionedMesh& mesh, const PieceNeeds& needs, bool ofPoints)
 {
   std::uint64_t bytes = 0;
@@ -227,7 +235,7 @@ std::uint64_t ResidentMesh::estimate(std::size_t number, const PieceNeeds& needs
   const PieceSummary& piece = this->Mesh.Pieces[number];
   const auto cells = std::uint64_t(piece.Cells + piece.BorrowedCells);
   const auto points = std::uint64_t(piece.Points + piece.BorrowedCells);
-  // With its position in a search by points.
+  // Includes a pass over the cells, which needs a position per point.
   const std::uint64_t ofPoint =
     3 * scalarSize(this->Mesh.PointType) + 8 + 1 + 6 + bytesOfArrays(this->Mesh, needs, true);
   const std::uint64_t ofCell =
@@ -240,19 +248,20 @@ std::uint64_t ResidentMesh::estimate(std::size_t number, const PieceNeeds& needs
   return bytes;
 }
 
-/// Of a piece's points and at most so many of its cells, for some asked points.
+/// An upper bound of the bytes that answerNear() needs for all points of the piece, at most `most`
+/// of its cells, and a query of `asked` points.
 std::uint64_t ResidentMesh::estimateNear(
   std::size_t number, const PieceNeeds& needs, std::int64_t most, std::int64_t asked) const
 {
   const PieceSummary& piece = this->Mesh.Pieces[number];
   const auto points = std::uint64_t(piece.Points + piece.BorrowedCells);
   const auto cells = std::uint64_t(most + piece.BorrowedCells);
-  // Points with their positions, and ids to find borrowed ones by; cells with their indices.
+  // A point has its position and, to find borrowed points, its id. A cell has its index.
   const std::uint64_t ofPoint =
     3 * scalarSize(this->Mesh.PointType) + 8 + 6 + bytesOfArrays(this->Mesh, needs, true);
   const std::uint64_t ofCell =
     2 * std::uint64_t(this->Mesh.CellSize) * 4 + 16 + bytesOfArrays(this->Mesh, needs, false);
-  constexpr std::uint64_t ofAsked = 128; // a tree, and what may hold each
+  constexpr std::uint64_t ofAsked = 128; // bytes of a tree, and of the cells near the point
   constexpr std::uint64_t blocks = 1 << 20;
   return points * ofPoint + cells * ofCell +
     std::uint64_t(CellLocator::bytesFor(std::int64_t(cells), this->Mesh.CellSize - 1)) +
@@ -294,7 +303,7 @@ ResidentPiece ResidentMesh::load(
   const MeshPart& part = *piece.Part;
   if (needs.Locator && !piece.Locator)
   {
-    // The calling thread may be one of many: each makes its own piece's.
+    // For a stored mesh, several threads may be making locators for different pieces.
     const int threads = this->InMemory ? threadCount(this->Options.Threads) : 1;
     piece.Locator = std::make_shared<const CellLocator>(part.Mesh, part.CellIds, threads);
   }
@@ -335,7 +344,7 @@ std::vector<std::int32_t> ResidentMesh::piecesOfIds(
 {
   if (this->InMemory)
   {
-    return std::vector<std::int32_t>(ids.size(), 0); // the piece's topology refuses others
+    return std::vector<std::int32_t>(ids.size(), 0); // the topology refuses ids that do not exist
   }
   const std::int64_t count = ofPoints ? this->Mesh.Points : this->Mesh.Cells;
   for (const std::int64_t id : ids)

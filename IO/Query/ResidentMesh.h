@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+class vtkMultiProcessController;
+
 namespace tipp
 {
 
@@ -27,15 +29,15 @@ using TakeLocations =
 
 struct ResidentOptions
 {
-  /// In bytes, for the pieces of a stored mesh that are in memory and what is made to search them.
-  /// Answers of points count, too, as far as one piece has room beside them. A query that needs
-  /// more for one piece is refused.
+  /// Limit in bytes for the pieces of a stored mesh in memory, and for the structures to search
+  /// them. The answers count too, as long as they leave space for one piece. If a single piece
+  /// exceeds the limit, a query throws IOError.
   std::uint64_t MemoryLimit = std::uint64_t(1) << 30;
   int Threads = 0; ///< 0: OpenMP's default
-  int Step = 0;    ///< the step of arrays that vary in time
+  int Step = 0;    ///< time step of arrays that vary in time
 };
 
-/// What a mesh has at some points.
+/// Cells and values of a mesh at some points.
 struct MeshAnswer
 {
   struct Array
@@ -43,7 +45,7 @@ struct MeshAnswer
     std::string Name;
     Scalar Type = Scalar::Float64;
     int Components = 1;
-    /// `Components` a point; outside of the mesh NaN, in arrays of whole numbers 0.
+    /// `Components` values per point. Outside the mesh they are NaN, or 0 in integer arrays.
     Buffer<char> Values;
 
     std::size_t tupleBytes() const
@@ -52,92 +54,103 @@ struct MeshAnswer
     }
   };
 
-  std::vector<std::int64_t> Cells; ///< global id of the cell that holds each point; -1: outside
-  /// Barycentric weights, as many a point as a cell has corners, in the order of its corners; zeros
-  /// outside. Empty if they were not wanted.
+  std::vector<std::int64_t> Cells; ///< global id of the cell that contains each point; -1: none
+  /// Barycentric coordinates per point, in the order of the cell's corners; zeros outside the mesh.
+  /// Empty if they were not requested.
   std::vector<double> Weights;
-  std::vector<CellKey> Keys; ///< keyAt() of the cells, if they were wanted
-  std::vector<Array> Arrays; ///< in the order asked for
+  std::vector<CellKey> Keys; ///< keyAt() of the cells, if requested
+  std::vector<Array> Arrays; ///< in the order of the request
 };
 
-/// Items by the piece that they concern.
+/// Indices of items, grouped by the pieces that they belong to.
 struct PieceGroups
 {
   struct Group
   {
     std::size_t Piece;
-    std::int64_t Begin; ///< in Items
+    std::int64_t Begin; ///< index in Items
     std::int64_t End;
   };
-  std::vector<Group> Groups; ///< those that have items, by piece
+  std::vector<Group> Groups; ///< only pieces with items, in ascending order
   std::vector<std::int64_t> Items;
 };
 
-/// pieces[i] is that of item i, of `count` pieces; items with -1 are left out.
+/// Groups items by pieces: pieces[i] is the piece of item i, or -1 to leave it out. `count` is the
+/// number of pieces.
 PieceGroups groupByPiece(const std::vector<std::int32_t>& pieces, std::size_t count);
 
-/// An answer for points outside of a mesh; of the arrays' descriptions name, type and components
-/// count.
+/// An answer for points that are all outside the mesh. Name, type and components of the arrays are
+/// used.
 MeshAnswer emptyAnswer(std::int64_t count, const std::vector<StoredArray>& arrays, int corners,
   bool withWeights, bool withKeys);
 
-/// What to compute at points besides their cells.
+/// What to compute for points, in addition to their cells.
 struct AnswerOptions
 {
-  std::vector<std::string> Arrays; ///< of ResidentMesh::names()
+  std::vector<std::string> Arrays; ///< names from ResidentMesh::names()
   bool Weights = false;
   bool Keys = false;
 };
 
-/// A mesh of triangles or tetrahedra that answers queries: a partitioned mesh on disk, whose pieces
-/// are read when a query needs them, or arrays in memory. Triangles are found by x and y.
+/// A mesh of triangles or tetrahedra for queries: a partitioned mesh on disk, whose pieces are read
+/// when a query needs them, or arrays in memory. Points are located in triangles by x and y.
 ///
 /// A point on an edge, a face or a corner belongs to one cell, by the rule of the resampling
-/// (CellLocator). So answers depend neither on pieces nor on threads nor on the order of queries.
-/// Several threads may use it at once.
+/// (CellLocator). So results do not depend on pieces, threads or the order of queries. Thread-safe.
 class VTKTIPPIO_EXPORT ResidentMesh
 {
 public:
-  /// Opens a partitioned mesh; throws IOError.
+  /// Opens a partitioned mesh. Throws IOError.
   explicit ResidentMesh(const std::string& path, const ResidentOptions& options = {});
-  /// A mesh in memory, which `part` keeps.
+  /// Uses a mesh in memory, and keeps `part`.
   explicit ResidentMesh(MeshPart part, const ResidentOptions& options = {});
   ResidentMesh(const ResidentMesh&) = delete;
   ResidentMesh& operator=(const ResidentMesh&) = delete;
 
-  /// Counts, arrays and pieces; a mesh in memory is one piece.
+  /// Counts, arrays and pieces. A mesh in memory has one piece.
   const PartitionedMesh& mesh() const { return this->Mesh; }
   const ResidentOptions& options() const { return this->Options; }
   bool isStored() const { return !this->InMemory; }
-  /// Whether cells have global ids of their own; else these are indices.
+  /// Whether cells have global ids; otherwise, their ids are indices.
   bool hasCellIds() const { return !this->InMemory || this->InMemory->CellIds; }
-  /// The names of arrays, each once, and "elevation", the z of the points of triangles, if no array
-  /// has this name.
+  /// The names of all arrays, each once. For triangles also "elevation", the z of points, unless an
+  /// array has this name.
   std::vector<std::string> names() const;
-  /// The array of that name at the step of the options; null: the elevation. Throws IOError if
-  /// there is none.
+  /// The array of this name, at the time step of the options; null for the elevation. Throws
+  /// IOError if there is no such array.
   const StoredArray* find(const std::string& name) const;
 
-  /// Locates points and evaluates arrays there. Reads the pieces that points lie in, each once.
-  /// Throws IOError, also for a name that is not among names(), and WorkAborted.
-  MeshAnswer answer(
-    const Point3* points, std::int64_t count, const AnswerOptions& options = {}) const;
+  /// Locates points and evaluates arrays there. Reads the pieces that contain points, each once.
+  /// Throws IOError, also for a name that is not in names(), and WorkAborted.
+  /// `pieceOf` may be what piecesOf() says of the points.
+  MeshAnswer answer(const Point3* points, std::int64_t count, const AnswerOptions& options = {},
+    std::vector<std::int32_t> pieceOf = {}) const;
 
-  /// The piece that each point belongs to, the first whose closed box holds it; -1: none.
+  /// For each point, the first piece whose closed box contains it, or -1.
   std::vector<std::int32_t> piecesOf(const Point3* points, std::int64_t count) const;
 
-  /// The pieces that own cells or points by their global ids. Throws IOError for an id that the
-  /// mesh does not have.
+  /// For each global id of a cell or point, the piece that owns it. Throws IOError for an id that
+  /// the mesh does not have.
   std::vector<std::int32_t> piecesOfIds(const std::vector<std::int64_t>& ids, bool ofPoints) const;
-  /// As piecesOfIds(), of a stored mesh and the pieces [first, end); -1: none owns it.
+  /// As piecesOfIds(), for the pieces [first, end) of a stored mesh; -1 if none of them owns the
+  /// id.
   std::vector<std::int32_t> findIds(
     const std::vector<std::int64_t>& ids, bool ofPoints, std::size_t first, std::size_t end) const;
   [[noreturn]] void refuseId(std::int64_t id, bool ofPoints) const;
 
-  /// What queries of these arrays need of a piece. Throws IOError.
+  /// What a query of these arrays needs from a piece. Throws IOError for an unknown name.
   PieceNeeds needsOf(const std::vector<std::string>& names) const;
   /// The pieces in memory.
   ResidentPieces& pieces() const { return this->Resident; }
+
+  /// Of a part of a mesh in memory: whether another rank of `Of` has each point, too. Queries on
+  /// ranks keep it here for the next one.
+  struct SharedPoints
+  {
+    const vtkMultiProcessController* Of = nullptr; ///< null: not known
+    std::vector<std::uint8_t> Are;
+  };
+  SharedPoints& sharedPoints() const { return this->Shared; }
 
 private:
   void answerPiece(std::size_t number, const AskedPoints& asked, const AnswerOptions& options,
@@ -162,10 +175,11 @@ private:
 
   PartitionedMesh Mesh;
   ResidentOptions Options;
-  std::shared_ptr<const MeshPart> InMemory; ///< null: stored
-  std::shared_ptr<const PieceBoxes> Boxes;  ///< null: in memory
+  std::shared_ptr<const MeshPart> InMemory; ///< null: stored mesh
+  std::shared_ptr<const PieceBoxes> Boxes;  ///< null: mesh in memory
   PieceIds Ids;
   mutable ResidentPieces Resident;
+  mutable SharedPoints Shared;
 };
 
 } // namespace tipp

@@ -29,7 +29,17 @@ void PieceNeeds::add(const PieceNeeds& other)
   this->Topology = this->Topology || other.Topology;
 }
 
-ResidentPieces::Lease ResidentPieces::get(std::size_t number, const PieceNeeds& needs)
+bool ResidentPieces::fit(std::size_t first, std::size_t end, const PieceNeeds& needs) const
+{
+  std::uint64_t bytes = 0;
+  for (std::size_t number = first; number < end; ++number)
+  {
+    bytes += this->BytesOf(number, needs);
+  }
+  return bytes <= this->Limit;
+}
+
+ResidentPieces::Lease ResidentPieces::get(std::size_t number, const PieceNeeds& needs, bool stays)
 {
   std::unique_lock<std::mutex> lock(this->Mutex);
   Slot& slot = this->Slots[number];
@@ -70,14 +80,15 @@ ResidentPieces::Lease ResidentPieces::get(std::size_t number, const PieceNeeds& 
       throw;
     }
   }
+  slot.Stays = slot.Stays || stays;
   ++slot.Users;
   ++slot.Uses;
   ++this->Active;
   return { *this, number, slot.Held };
 }
 
-/// What is needed and what the piece has already; or what is needed alone, if both together are
-/// beyond the limit. Then the piece is dropped once nobody uses it.
+/// Returns what a piece has already together with `needs`. If both together exceed the limit, waits
+/// until the piece is not in use, drops it, and returns only `needs`.
 PieceNeeds ResidentPieces::needsWithin(
   std::unique_lock<std::mutex>& lock, std::size_t number, const PieceNeeds& needs, Slot& slot)
 {
@@ -98,12 +109,17 @@ void ResidentPieces::release(Lease& lease)
 {
   lease.Held = {};
   const std::lock_guard<std::mutex> lock(this->Mutex);
-  --this->Slots[lease.Number].Users;
+  Slot& slot = this->Slots[lease.Number];
+  --slot.Users;
   --this->Active;
+  if (slot.Users == 0 && !slot.Stays && !slot.Loading)
+  {
+    this->drop(slot);
+  }
   this->Changed.notify_all();
 }
 
-/// Drops the piece that was used longest ago; false if none can be dropped.
+/// Drops the least recently used piece except `keep`. Returns false if none can be dropped.
 bool ResidentPieces::dropOldest(const Slot& keep)
 {
   Slot* oldest = nullptr;
@@ -125,9 +141,11 @@ void ResidentPieces::drop(Slot& slot)
   slot.Held = {};
   slot.Bytes = 0;
   slot.Uses = 0;
+  slot.Stays = false;
 }
 
-/// Closes other pieces until `bytes` for this slot, which the limit allows, fit.
+/// Drops other pieces, or waits, until there is space for `bytes` in this slot. `bytes` must be
+/// within the limit.
 void ResidentPieces::makeRoom(std::unique_lock<std::mutex>& lock, Slot& slot, std::uint64_t bytes)
 {
   while (this->Used + this->Noted - slot.Bytes + bytes > this->Limit)
@@ -138,13 +156,13 @@ void ResidentPieces::makeRoom(std::unique_lock<std::mutex>& lock, Slot& slot, st
     }
     if (this->Active == 0 && slot.Held.Part)
     {
-      // All others wait, too, with pieces that they want to have more of.
+      // All other threads wait as well, for more memory for their own pieces.
       this->drop(slot);
       this->Changed.notify_all();
     }
     if (this->Active == 0 && this->Used - slot.Bytes + bytes <= this->Limit)
     {
-      return; // what is noted leaves no room, but somebody has to go on
+      return; // memory of note() leaves no space, but some thread must continue
     }
     this->Changed.wait(lock);
   }

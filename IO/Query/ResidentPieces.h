@@ -22,10 +22,10 @@ namespace tipp
 class CellLocator;
 class PartTopology;
 
-/// What a query needs of a piece.
+/// What a query needs from a piece.
 struct PieceNeeds
 {
-  std::vector<bool> Arrays; ///< for each of PartitionedMesh::Arrays; empty: none
+  std::vector<bool> Arrays; ///< per array of PartitionedMesh::Arrays; empty: none
   bool Locator = false;
   bool Topology = false;
 
@@ -33,7 +33,7 @@ struct PieceNeeds
   void add(const PieceNeeds& other);
 };
 
-/// A piece in memory and what has been made for queries; null where nobody needed it.
+/// A piece in memory, and the structures made for queries; null if no query needed them so far.
 struct ResidentPiece
 {
   std::shared_ptr<const MeshPart> Part;
@@ -42,16 +42,17 @@ struct ResidentPiece
   PieceNeeds Has;
 };
 
-/// The pieces of a mesh that are in memory, within a limit: those used last. Threads may share it.
+/// The most recently used pieces of a mesh, within a memory limit. Thread-safe.
 class VTKTIPPIO_EXPORT ResidentPieces
 {
 public:
-  /// Loads a piece with its arrays, or returns what it is given first with more.
+  /// Loads a piece with what is needed. `before` is the piece as it is in memory, which may lack
+  /// something.
   using Load = std::function<ResidentPiece(
     std::size_t number, const PieceNeeds& needs, const ResidentPiece& before)>;
-  /// The memory in bytes that a piece takes.
+  /// Estimates the bytes of memory for a piece with what is needed.
   using Estimate = std::function<std::uint64_t(std::size_t number, const PieceNeeds& needs)>;
-  /// Throws, since a piece takes more than the limit.
+  /// Throws an exception, because a piece needs more memory than the limit.
   using Refuse = std::function<void(std::size_t number, std::uint64_t bytes)>;
 
   ResidentPieces(std::uint64_t limit, Estimate estimate, Load load, Refuse refuse)
@@ -62,14 +63,16 @@ public:
   {
   }
 
-  /// Whether a piece with what is needed is within the limit.
+  /// Whether a piece with these needs is within the limit.
   bool fits(std::size_t number, const PieceNeeds& needs) const
   {
     return this->BytesOf(number, needs) <= this->Limit;
   }
+  /// Whether the pieces [first, end) with these needs are together within the limit.
+  bool fit(std::size_t first, std::size_t end, const PieceNeeds& needs) const;
 
-  /// A piece in use: it stays in memory as long as this lives. A thread holds one at a time; else
-  /// threads could wait for each other's memory forever.
+  /// A piece in use, which stays in memory as long as the Lease exists. A thread may hold only one:
+  /// otherwise threads could wait for each other's memory forever.
   class Lease
   {
   public:
@@ -98,12 +101,14 @@ public:
     ResidentPiece Held;
   };
 
-  /// Returns a piece with what is needed, loading it and dropping others as required. Waits while
-  /// other threads use the memory. A piece that is larger than the limit is refused. What `load`
-  /// throws is passed on.
-  Lease get(std::size_t number, const PieceNeeds& needs);
+  /// Returns a piece with what is needed. Loads it, and drops others, if necessary. Waits while
+  /// other threads use the memory. Calls `refuse` if the piece exceeds the limit. Forwards
+  /// exceptions of `load`. Without `stays`, the piece is dropped after its use unless another user
+  /// wants it to stay: a query that reads more pieces than fit, each of them once, would only
+  /// displace others.
+  Lease get(std::size_t number, const PieceNeeds& needs, bool stays = true);
 
-  /// Memory for other things than pieces, until it ends.
+  /// Memory that is used for something other than pieces, until the destructor.
   class Share
   {
   public:
@@ -129,22 +134,22 @@ public:
     bool IsActive;
   };
 
-  /// For what is made of a piece that does not stay in memory; waits as get(), and counts as a
-  /// load. A thread holds no lease meanwhile. None if it is more than the limit.
+  /// Reserves memory for data of a piece that are not kept in memory. Waits like get(), and counts
+  /// as a load. The thread must not hold a lease meanwhile. Returns nothing if `bytes` exceeds the
+  /// limit.
   std::optional<Share> take(std::uint64_t bytes);
-  /// Memory that is needed anyway. Pieces leave room for it where they can.
+  /// Counts memory that is used in any case. Pieces leave space for it if possible.
   Share note(std::uint64_t bytes);
 
-  /// Whether a piece is in memory, with what is needed, and how often it has been asked for since
-  /// it was loaded.
+  /// Whether a piece is in memory with what is needed; and how often get() has returned it since it
+  /// was loaded.
   bool isResident(std::size_t number, const PieceNeeds& needs = {}) const;
   int uses(std::size_t number) const;
-  /// Counts a question to a piece; returns how many there were before, whether it is in memory or
-  /// not.
+  /// Counts a query of a piece, whether it is in memory or not. Returns the number of earlier ones.
   int countQuestion(std::size_t number);
 
-  std::int64_t loads() const;  ///< how many pieces have been loaded so far
-  std::uint64_t bytes() const; ///< of the pieces in memory
+  std::int64_t loads() const;  ///< number of pieces loaded so far
+  std::uint64_t bytes() const; ///< memory of the pieces
 
 private:
   struct Slot
@@ -156,6 +161,7 @@ private:
     int Uses = 0;
     int Questions = 0;
     bool Loading = false;
+    bool Stays = false;
   };
 
   void release(Lease& lease);
@@ -173,11 +179,11 @@ private:
   mutable std::mutex Mutex;
   std::condition_variable Changed;
   std::unordered_map<std::size_t, Slot> Slots;
-  std::uint64_t Used = 0;  ///< by pieces in memory and those being loaded
-  std::uint64_t Noted = 0; ///< by other things
+  std::uint64_t Used = 0;  ///< bytes of pieces in memory and of those being loaded
+  std::uint64_t Noted = 0; ///< bytes of other data, from note()
   std::uint64_t Clock = 0;
   std::int64_t Loads = 0;
-  int Active = 0; ///< leases, and loads that have their memory
+  int Active = 0; ///< number of leases, and of loads that have reserved their memory
 };
 
 } // namespace tipp

@@ -14,7 +14,7 @@ namespace tipp
 namespace
 {
 
-/// Puts lists made by several threads together.
+/// Concatenates lists that were made by several threads.
 IdLists joined(const std::vector<std::vector<std::int64_t>>& lists)
 {
   IdLists result;
@@ -28,10 +28,11 @@ IdLists joined(const std::vector<std::vector<std::int64_t>>& lists)
 
 } // namespace
 
-IdLists starsOf(const ResidentMesh& mesh, const std::vector<std::int64_t>& points)
+IdLists starsOf(const ResidentMesh& mesh, const std::vector<std::int64_t>& points,
+  const std::vector<std::int32_t>& pieces)
 {
   std::vector<std::vector<std::int64_t>> lists(points.size());
-  const PieceGroups groups = groupsOf(mesh, points, true);
+  const PieceGroups groups = groupsOf(mesh, points, true, pieces);
   forPieces(mesh, groups, topologyNeeded(),
     [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
     {
@@ -52,7 +53,8 @@ IdLists starsOf(const ResidentMesh& mesh, const std::vector<std::int64_t>& point
 namespace
 {
 
-/// A point that a ring has reached, and from there its cells are yet to be visited.
+/// A point that a ring has reached, and whose cells have not been visited yet. Point is a global
+/// id, Seed an index.
 struct Reached
 {
   std::int64_t Seed;
@@ -65,18 +67,20 @@ struct Reached
   }
 };
 
-/// Walks around one seed within one piece.
+/// Computes the ring of one seed within one piece.
 class LocalRing
 {
 public:
-  explicit LocalRing(const ResidentPiece& piece)
-    : Part(*piece.Part)
+  /// `shared` is that of ringsWithin(). If null, the points are used that the piece does not own.
+  LocalRing(const ResidentPiece& piece, const std::uint8_t* shared)
+    : Shared(shared ? shared : piece.Part->Ghosts)
     , Topology(*piece.Topology)
   {
   }
 
-  /// Visits the cells at the first points, at those that these reach, and so on, k times. False if
-  /// that leads to a point of another piece. `first`, ascending, and the result are indices.
+  /// Visits the cells at the points `first`, at the points of these cells, and so on, k times.
+  /// Returns false if this reaches a point of another piece. `first`, which is ascending, and the
+  /// results are local indices.
   bool grow(const std::vector<std::int64_t>& first, int k, bool wantsCells)
   {
     this->Points = first;
@@ -87,13 +91,13 @@ public:
       this->Next.clear();
       for (const std::int64_t point : this->Front)
       {
-        if (!owns(this->Part, point))
+        if (this->Shared && this->Shared[point] != 0)
         {
           return false;
         }
         this->visit(point, wantsCells);
       }
-      if (step + 1 == k) // nothing goes on from there
+      if (step + 1 == k) // the last points are not visited
       {
         this->Points.insert(this->Points.end(), this->Next.begin(), this->Next.end());
         return true;
@@ -109,8 +113,8 @@ public:
     return true;
   }
 
-  std::vector<std::int64_t> Points; ///< with repetitions
-  std::vector<std::int64_t> Cells;  ///< with repetitions
+  std::vector<std::int64_t> Points; ///< may have repetitions
+  std::vector<std::int64_t> Cells;  ///< may have repetitions
 
 private:
   void visit(std::int64_t point, bool wantsCells)
@@ -125,14 +129,14 @@ private:
     }
   }
 
-  const MeshPart& Part;
+  const std::uint8_t* const Shared;
   const PartTopology& Topology;
   std::vector<std::int64_t> Front;
   std::vector<std::int64_t> Next;
 };
 
-/// The rings around many seeds: each within the piece of its seed, or, where it leaves this, step
-/// by step, each step piece by piece.
+/// Computes the rings of many seeds. A ring that stays in the piece of its seed is computed there.
+/// All others grow together, step by step, and each step visits one piece after the other.
 class RingGrowth
 {
 public:
@@ -145,10 +149,10 @@ public:
   {
   }
 
-  /// What k steps reach, without the seeds.
-  IdLists grown(int k)
+  /// The ids that are reached in k steps, without the seeds.
+  IdLists grown(int k, const std::vector<std::int32_t>& pieces)
   {
-    this->start(k);
+    this->start(k, pieces, nullptr);
     for (int step = 0; step < k && !this->Front.empty(); ++step)
     {
       this->grow();
@@ -161,6 +165,16 @@ public:
       sortUnique(list);
       list.erase(std::remove(list.begin(), list.end(), this->Seeds[std::size_t(item)]), list.end());
       this->Done.push_back({ list, { item }, { std::int64_t(list.size()) } });
+    }
+    return this->joined();
+  }
+
+  IdLists grownWithin(int k, const std::uint8_t* shared)
+  {
+    this->start(k, {}, shared);
+    for (const std::int64_t item : this->Left)
+    {
+      this->Done.push_back({ { -1 }, { item }, { 1 } });
     }
     return this->joined();
   }
@@ -183,7 +197,7 @@ private:
       [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
       {
         std::vector<Reached> reached;
-        std::vector<std::pair<std::int64_t, std::int64_t>> cells; // seed, id
+        std::vector<std::pair<std::int64_t, std::int64_t>> cells; // seed, global id
         for (std::int64_t i = begin; i < end; ++i)
         {
           const Reached& from = this->Front[std::size_t(groups.Items[std::size_t(i)])];
@@ -199,12 +213,12 @@ private:
     this->take(std::move(next));
   }
 
-  /// The complete lists of some items, one after the other.
+  /// The lists of some items that are complete, concatenated.
   struct Finished
   {
     std::vector<std::int64_t> Ids;
     std::vector<std::int64_t> Items;
-    std::vector<std::int64_t> Ends; ///< in Ids
+    std::vector<std::int64_t> Ends; ///< end of each item's list in Ids
   };
 
   IdLists joined() const
@@ -234,14 +248,14 @@ private:
     return result;
   }
 
-  void start(int k)
+  void start(int k, const std::vector<std::int32_t>& pieces, const std::uint8_t* shared)
   {
-    const PieceGroups groups = groupsOf(this->Mesh, this->Seeds, this->OfPoints);
+    const PieceGroups groups = groupsOf(this->Mesh, this->Seeds, this->OfPoints, pieces);
     std::vector<Reached> first;
     forPieces(this->Mesh, groups, topologyNeeded(),
       [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
       {
-        LocalRing ring(piece);
+        LocalRing ring(piece, shared);
         std::vector<Reached> reached;
         std::vector<std::int64_t> left;
         Finished done;
@@ -279,7 +293,7 @@ private:
     this->take(std::move(first));
   }
 
-  /// The indices of the seeds of items [begin, end), whose surroundings are fetched meanwhile.
+  /// Finds the local indices of the seeds of items [begin, end), and prefetches the cells there.
   void findIndices(const ResidentPiece& piece, const PieceGroups& groups, std::int64_t begin,
     std::int64_t end, std::int64_t* indices) const
   {
@@ -306,14 +320,14 @@ private:
     {
       std::sort(done.Ids.begin() + std::ptrdiff_t(begin), done.Ids.end());
     }
-    // Pieces that a cell was cut into have one id.
+    // Parts that a cell was divided into have the same id.
     done.Ids.erase(
       std::unique(done.Ids.begin() + std::ptrdiff_t(begin), done.Ids.end()), done.Ids.end());
     done.Items.push_back(item);
     done.Ends.push_back(std::int64_t(done.Ids.size()));
   }
 
-  /// Leaves a seed to grow().
+  /// Leaves the ring of a seed to grow().
   static void leave(const ResidentPiece& piece, std::int64_t item,
     const std::vector<std::int64_t>& points, std::vector<Reached>& reached)
   {
@@ -331,7 +345,7 @@ private:
     const std::int64_t point = topology.findPoint(from.Point);
     if (point < 0)
     {
-      return; // no cell has it
+      return; // no cell has this point
     }
     const std::size_t first = reached.size();
     for (const std::int32_t cell : topology.cellsAt(point))
@@ -349,7 +363,7 @@ private:
       reached.end());
   }
 
-  /// The points that are new become the front.
+  /// The new points become the front.
   void take(std::vector<Reached> reached)
   {
     std::sort(reached.begin(), reached.end());
@@ -383,21 +397,30 @@ private:
   std::mutex Mutex;
   std::vector<Reached> Front;
   std::vector<Finished> Done;
-  std::vector<std::int64_t> Left; ///< items whose rings go beyond their piece; the others have no:
-  std::vector<std::vector<std::int64_t>> PointLists; ///< of each seed, ascending
-  std::vector<std::vector<std::int64_t>> CellLists;  ///< of each seed, with repetitions
+  /// Items with rings that leave their pieces. Only these have lists below.
+  std::vector<std::int64_t> Left;
+  std::vector<std::vector<std::int64_t>> PointLists; ///< lists per seed, ascending
+  std::vector<std::vector<std::int64_t>> CellLists;  ///< lists per seed, with repetitions
 };
 
 } // namespace
 
-IdLists ringsOfPoints(const ResidentMesh& mesh, const std::vector<std::int64_t>& points, int k)
+IdLists ringsOfPoints(const ResidentMesh& mesh, const std::vector<std::int64_t>& points, int k,
+  const std::vector<std::int32_t>& pieces)
 {
-  return RingGrowth(mesh, points, true).grown(k);
+  return RingGrowth(mesh, points, true).grown(k, pieces);
 }
 
-IdLists ringsOfCells(const ResidentMesh& mesh, const std::vector<std::int64_t>& cells, int k)
+IdLists ringsOfCells(const ResidentMesh& mesh, const std::vector<std::int64_t>& cells, int k,
+  const std::vector<std::int32_t>& pieces)
 {
-  return RingGrowth(mesh, cells, false).grown(k);
+  return RingGrowth(mesh, cells, false).grown(k, pieces);
+}
+
+IdLists ringsWithin(const ResidentMesh& part, const std::vector<std::int64_t>& seeds, bool ofPoints,
+  int k, const std::uint8_t* shared)
+{
+  return RingGrowth(part, seeds, ofPoints).grownWithin(k, shared);
 }
 
 } // namespace tipp

@@ -33,12 +33,12 @@ Point3 cross(const Point3& a, const Point3& b)
 /// A corner of a cell.
 struct CellCorner
 {
-  std::int64_t Index; ///< in the piece
-  std::int64_t Id;    ///< global
+  std::int64_t Index; ///< local index in the piece
+  std::int64_t Id;    ///< global id
   Point3 At;
 };
 
-/// The crossings of one segment with the cells of a piece; those at its ends may be left out.
+/// Finds where one segment crosses the cells of a piece. Crossings at its ends may be left out.
 class SegmentCrossings
 {
 public:
@@ -76,7 +76,8 @@ public:
     }
   }
 
-  /// The border of a face in whose plane the segment lies is crossed in the cell's other faces.
+  /// If the segment is in the plane of a face, its crossings with the face's edges are found in the
+  /// cell's other faces.
   void addCell(const CellCorner (&corners)[4])
   {
     for (int face = 0; face < 4; ++face)
@@ -127,7 +128,8 @@ private:
     this->add({ point.Id, point.Id, point.Id }, point.At, &point, &one, 1);
   }
 
-  /// By the distances of the ends from the line, in doubles; the same bits for all cells.
+  /// The position is weighted by the distances of the edge's ends from the line, in doubles. All
+  /// cells at the edge compute the same bits.
   void addEdge(CellCorner a, CellCorner b)
   {
     b.Id < a.Id ? std::swap(a, b) : void();
@@ -145,7 +147,7 @@ private:
     this->add({ a.Id, b.Id, b.Id }, at, ends, weights, 2);
   }
 
-  /// A face, the ends of the segment on both sides of its plane.
+  /// The ends of the segment are on different sides of the face's plane.
   void addFace(CellCorner a, CellCorner b, CellCorner c)
   {
     b.Id < a.Id ? std::swap(a, b) : void();
@@ -157,7 +159,7 @@ private:
     const auto [low, high] = std::minmax({ ofA, ofB, ofC });
     if (low < 0 && high > 0)
     {
-      return; // it passes the face
+      return; // the segment passes beside the face
     }
     const int zeros = (ofA == 0) + (ofB == 0) + (ofC == 0);
     if (zeros == 2)
@@ -221,7 +223,7 @@ template <typename Access>
 void addCells(const Access& access, const MeshPart& part, SegmentCrossings& crossings)
 {
   constexpr int corners = Access::Corners;
-  // A cell that another piece owns may cross the segment in this box alone.
+  // Includes borrowed cells, since only in this piece's box may they meet the segment.
   for (std::int64_t cell = 0; cell < part.Mesh.Cells; ++cell)
   {
     if (part.Mesh.Hidden && part.Mesh.Hidden[cell])

@@ -14,15 +14,15 @@
 namespace tipp
 {
 
-/// Where a segment crosses an edge of triangles or a face of tetrahedra.
+/// A point where a segment crosses an edge of triangles, or a face of tetrahedra.
 struct Crossing
 {
-  double Share; ///< of the segment
-  /// The global ids, ascending, of the points of the face, edge or point that it crosses; the last
-  /// one is repeated.
+  double Share; ///< fraction of the segment's length
+  /// Ascending global ids of the points of the crossed face, edge or point. If there are fewer than
+  /// three, the last is repeated.
   std::array<std::int64_t, 3> Ids;
-  Point3 At;                  ///< of triangles with z = 0
-  std::vector<double> Values; ///< of the arrays of points, component by component
+  Point3 At;                  ///< z is 0 for triangles
+  std::vector<double> Values; ///< all components of each point array
 
   bool operator<(const Crossing& other) const
   {
@@ -37,14 +37,14 @@ void serialize(Archive& archive, Crossing& crossing)
   archive(crossing.Share, crossing.Ids, crossing.At, crossing.Values);
 }
 
-/// The crossings of each segment of a polyline with the cells of the pieces [first, end), in its
-/// order and each once, decided exactly; those at the ends of a segment may be left out. The same
-/// for any pieces and threads. Throws IOError and WorkAborted.
+/// For each segment of a polyline, its crossings with the cells of the pieces [first, end): in the
+/// segment's direction, each once, and decided exactly. Crossings at the ends of a segment may be
+/// left out. Results do not depend on pieces and threads. Throws IOError and WorkAborted.
 std::vector<std::vector<Crossing>> crossingsIn(const ResidentMesh& mesh,
   const std::vector<Point3>& polyline, const std::vector<std::string>& arrays, std::size_t first,
   std::size_t end);
 
-/// Puts crossings of one segment in order, each once.
+/// Sorts the crossings of one segment and removes repeated ones.
 void orderCrossings(std::vector<Crossing>& crossings);
 
 } // namespace tipp

@@ -18,7 +18,7 @@ namespace tipp
 namespace
 {
 
-/// In memory, from where the finished file is written.
+/// GDAL writes the file in memory; the complete file is then written to its path.
 constexpr const char* memoryPath = "/vsimem/contours.gpkg";
 
 [[noreturn]] void refusePackage(const std::string& path)

@@ -11,10 +11,10 @@
 namespace tipp
 {
 
-/// Writes contours as a GeoPackage (.gpkg), by GDAL: a layer "contours" of lines in three
-/// dimensions with the level as a field of the array's name. `crs` is a reference system as
-/// "EPSG:25832", or empty; `before` as for PendingFile. Throws IOError, also in a build without
-/// GDAL.
+/// Writes contour lines as a GeoPackage (.gpkg) with GDAL: a layer "contours" of lines in three
+/// dimensions, and a field with the array's name for the level. `crs` is a reference system, for
+/// example "EPSG:25832", or empty. See PendingFile for `before`. Throws IOError, also in a build
+/// without GDAL.
 VTKTIPPIO_EXPORT void writeGeoPackage(const std::string& path, const Contours& contours,
   const std::string& array, const std::string& crs, const PathState& before);
 

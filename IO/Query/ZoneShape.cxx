@@ -30,8 +30,8 @@ double product(Point2 a, Point2 b)
   return a.x * b.y - a.y * b.x;
 }
 
-/// Whether a ring turns counter-clockwise: at its first corner in the lexicographic order, or,
-/// where it goes out and back there, by its area.
+/// Whether a ring is counter-clockwise. Decided by the turn at its lexicographically first corner
+/// or, if the ring goes back on itself there, by its area.
 bool isCounterClockwise(const std::vector<Point2>& ring)
 {
   const std::size_t count = ring.size();
@@ -47,12 +47,12 @@ bool isCounterClockwise(const std::vector<Point2>& ring)
   return turn != 0 ? turn > 0 : area > 0;
 }
 
-/// A triangle whose corners turn counter-clockwise, and where an edge lies of it.
+/// The position of a zone's edge relative to a counter-clockwise triangle, as exact signs.
 struct Sides
 {
-  int OfFrom[3]; ///< of the triangle's edges: 1 on the triangle's side, 0 on the edge's line
+  int OfFrom[3]; ///< per edge of the triangle: 1 inside, 0 on its line, -1 outside
   int OfTo[3];
-  int OfCorners[3]; ///< of the edge's line: 1 on its left
+  int OfCorners[3]; ///< per corner: 1 left of the edge's line, 0 on it, -1 right
 
   Sides(const Point2 (&triangle)[3], Point2 from, Point2 to)
   {
@@ -64,7 +64,7 @@ struct Sides
     }
   }
 
-  /// Two convex sets are disjoint only if the line of a side of one of them lies between them.
+  /// Two convex sets are disjoint only if a line through a side of one of them separates them.
   bool meetsClosed() const
   {
     for (int i = 0; i < 3; ++i)
@@ -90,8 +90,8 @@ struct Sides
     return low < 0 && high > 0;
   }
 
-  /// Whether the edge crosses side i of the triangle between its ends, seen from a little inside of
-  /// the triangle: 1 inward, -1 outward.
+  /// Whether the edge crosses side i of the triangle between its ends: 1 inwards, -1 outwards, 0 if
+  /// not. An end on the side's line counts as outside.
   int crossing(int i) const
   {
     const bool isInward = this->OfFrom[i] <= 0 && this->OfTo[i] > 0;
@@ -179,8 +179,8 @@ void ZoneShape::refuseCrossings(std::size_t number) const
   }
 }
 
-/// How often the rings go around the point a + e (b - a) + e^2 n for all small e, where n points to
-/// the left of ab. a and b differ.
+/// The winding number of the rings around the point a + e (b - a) + e^2 n for all small e > 0,
+/// where n points to the left of ab. a and b must differ.
 int ZoneShape::windingBeside(Point2 a, Point2 b) const
 {
   const bool isLower = b.y < a.y || (b.y == a.y && b.x < a.x);
@@ -196,7 +196,7 @@ int ZoneShape::windingBeside(Point2 a, Point2 b) const
       }
       int side = orientation(edge.From, edge.To, a);
       side = side != 0 ? side : orientation(edge.From, edge.To, b);
-      if (side == 0) // all on one line
+      if (side == 0) // all three are on one line
       {
         side = lexicographicLess(edge.From, edge.To) == lexicographicLess(a, b) ? 1 : -1;
       }
@@ -221,7 +221,7 @@ bool ZoneShape::holds(Point2 point) const
 namespace
 {
 
-/// Counter-clockwise; false if the triangle has no area or is not finite.
+/// Makes a triangle counter-clockwise. Returns false if it has no area or is not finite.
 template <std::size_t N>
 bool turned(Point2 (&triangle)[3], double (&values)[N])
 {
@@ -232,7 +232,8 @@ bool turned(Point2 (&triangle)[3], double (&values)[N])
     std::swap(triangle[1], triangle[2]);
     std::swap(values[1], values[2]);
   }
-  // The lowest corner first: the same roundings whatever their order.
+  // Starts with the lexicographically lowest corner, so that roundings do not depend on the order
+  // of the corners.
   int first = 0;
   for (int i = 1; i < 3; ++i)
   {
@@ -281,9 +282,10 @@ ZoneShape::Relation ZoneShape::relationTo(const Point2 (&corners)[3]) const
                                                             : Relation::Apart;
 }
 
-/// The part of a triangle in a zone, by Green's theorem: the border is made of the zone's edges in
-/// the triangle, and of the parts of the triangle's sides in the zone. Where an edge crosses a side
-/// both take the same point, so that the border stays closed whatever rounding does to that point.
+/// Integrates over the part of a triangle in a zone by Green's theorem. The border of this part
+/// consists of the zone's edges inside the triangle, and of the parts of the triangle's sides
+/// inside the zone. Where an edge crosses a side, both use the same rounded point, so that the
+/// border is always closed.
 class ZoneShape::CutTriangle
 {
 public:
@@ -299,10 +301,10 @@ public:
     this->SlopeY = ((values[2] - values[0]) * u.x - (values[1] - values[0]) * v.x) / area;
   }
 
-  /// An edge of the zone that meets the interior.
+  /// Adds an edge of the zone that meets the triangle's interior.
   void addEdge(const Sides& sides, Point2 from, Point2 to)
   {
-    Place ends[2] = { this->inside(from), this->inside(to) };
+    FieldPoint ends[2] = { this->inside(from), this->inside(to) };
     const auto isInside = [](const int(&of)[3]) { return of[0] >= 0 && of[1] >= 0 && of[2] >= 0; };
     bool isFound[2] = { isInside(sides.OfFrom), isInside(sides.OfTo) };
     for (int i = 0; i < 3; ++i)
@@ -310,17 +312,17 @@ public:
       const int sign = sides.crossing(i);
       if (sign != 0)
       {
-        const Place at = this->onSide(i, sides, from, to);
+        const FieldPoint at = this->onSide(i, sides, from, to);
         this->Jumps[i] += sign;
         this->addPart(at, this->corner((i + 1) % 3), -sign);
-        // An edge that ends on the side ends there.
-        Place& end = ends[sign > 0 ? 0 : 1];
+        // If the edge ends on the side, the crossing is this end.
+        FieldPoint& end = ends[sign > 0 ? 0 : 1];
         bool& isEnd = isFound[sign > 0 ? 0 : 1];
         end = isEnd ? end : at;
         isEnd = true;
       }
     }
-    for (int i = 0; i < 3; ++i) // it enters or leaves at a corner
+    for (int i = 0; i < 3; ++i) // whether the edge enters or leaves at a corner
     {
       for (int k = 0; k < 2 && sides.OfCorners[i] == 0; ++k)
       {
@@ -332,7 +334,7 @@ public:
     this->extend(ends[1].Value);
   }
 
-  /// A side of the triangle, where the zone goes around its beginning `winding` times.
+  /// Adds a side of the triangle. `winding` is the zone's winding number at the start of the side.
   void addSide(int side, int winding)
   {
     this->addPart(this->corner(side), this->corner((side + 1) % 3), winding);
@@ -340,7 +342,7 @@ public:
     winding - this->Jumps[side] != 0 ? this->extend(this->Values[(side + 1) % 3]) : void();
   }
 
-  /// After all edges and sides.
+  /// Adds the result to the integral, after all edges and sides.
   void finish()
   {
     const double whole =
@@ -351,15 +353,19 @@ public:
   }
 
 private:
-  struct Place
+  /// A point in the triangle, and the value of the field there.
+  struct FieldPoint
   {
-    Point2 At; ///< from the first corner
+    Point2 At; ///< relative to the first corner
     double Value;
   };
 
-  Place corner(int i) const { return { this->Corners[i] - this->Corners[0], this->Values[i] }; }
+  FieldPoint corner(int i) const
+  {
+    return { this->Corners[i] - this->Corners[0], this->Values[i] };
+  }
 
-  Place inside(Point2 p) const
+  FieldPoint inside(Point2 p) const
   {
     const Point2 at = p - this->Corners[0];
     const auto [low, high] = std::minmax({ this->Values[0], this->Values[1], this->Values[2] });
@@ -367,15 +373,15 @@ private:
     return { at, value >= low ? std::min(value, high) : low };
   }
 
-  /// Where an edge crosses a side.
-  Place onSide(int side, const Sides& sides, Point2 from, Point2 to) const
+  /// The point where an edge crosses a side.
+  FieldPoint onSide(int side, const Sides& sides, Point2 from, Point2 to) const
   {
     if (sides.OfFrom[side] == 0 || sides.OfTo[side] == 0)
     {
       return this->inside(sides.OfFrom[side] == 0 ? from : to);
     }
-    const Place a = this->corner(side);
-    const Place b = this->corner((side + 1) % 3);
+    const FieldPoint a = this->corner(side);
+    const FieldPoint b = this->corner((side + 1) % 3);
     const Point2 along = to - from;
     const double ofA = std::fabs(product(along, this->Corners[side] - from));
     const double ofB = std::fabs(product(along, this->Corners[(side + 1) % 3] - from));
@@ -384,7 +390,7 @@ private:
       a.Value + share * (b.Value - a.Value) };
   }
 
-  void addPart(const Place& a, const Place& b, int times)
+  void addPart(const FieldPoint& a, const FieldPoint& b, int times)
   {
     const double area = times * product(a.At, b.At) / 2;
     this->Area += area;

@@ -14,7 +14,7 @@
 namespace tipp
 {
 
-/// A closed line of x and y; the last corner is joined to the first one, or equals it.
+/// A closed polygon in x and y. The last corner is connected to the first, or equals it.
 struct ZoneRing
 {
   std::vector<Point2> Corners;
@@ -30,47 +30,47 @@ void serialize(Archive& archive, ZoneRing& ring)
 /// One or several polygons with holes.
 using Zone = std::vector<ZoneRing>;
 
-/// A zone prepared for many questions. Where rings lie on, or touch, edges and corners is decided
-/// exactly. Several threads may use it.
+/// A zone prepared for many queries. Whether rings touch, or lie on, edges and corners is decided
+/// exactly. Thread-safe.
 class VTKTIPPIO_EXPORT ZoneShape
 {
 public:
-  /// Outer rings may turn either way, and holes, too. `number` is the zone's, for errors. Throws
-  /// IOError if a corner is not finite, or if edges cross.
+  /// Rings may have any orientation; IsHole tells holes from outer rings. `number` is the zone's
+  /// index, for messages. Throws IOError if a corner is not finite, or if edges cross.
   ZoneShape(const Zone& zone, std::size_t number);
 
   const Box<2>& bounds() const { return this->Bounds; }
 
-  /// Whether the zone, with its border, has a point.
+  /// Whether the point is inside the zone or on its border.
   bool holds(Point2 point) const;
 
   enum class Relation
   {
-    Apart,   ///< they have no point in common
-    Touches, ///< only points of their borders
-    Cut,     ///< a part of the triangle, but not all
-    Inside   ///< all of the triangle
+    Apart,   ///< no point in common
+    Touches, ///< only border points in common
+    Cut,     ///< a part of the triangle is inside
+    Inside   ///< the whole triangle is inside
   };
   Relation relationTo(const Point2 (&triangle)[3]) const;
 
-  /// What a zone has of linear fields on triangles.
+  /// Integrals of linear fields over the parts of triangles in a zone.
   struct Integral
   {
     double Area = 0;
-    double Sum = 0; ///< the field's integral
+    double Sum = 0; ///< integral of the field
     double Low = std::numeric_limits<double>::infinity();
     double High = -std::numeric_limits<double>::infinity();
-    bool IsMet = false; ///< whether the zone has an area of a triangle
+    bool IsMet = false; ///< whether any triangle has an area in the zone
   };
-  /// Adds the part of a triangle in the zone, whose field is linear from the corners' values.
-  /// Triangles without an area have none. Accurate to roundings of the triangle's own area, without
-  /// regard to the order of its corners.
+  /// Adds the part of a triangle that is in the zone. The field is linear, with these values at the
+  /// corners. Triangles without area are ignored. The error is a few roundings of the triangle's
+  /// own integral, and does not depend on the order of its corners.
   void integrate(const Point2 (&triangle)[3], const double (&values)[3], Integral& integral) const;
 
 private:
   struct Edge
   {
-    Point2 From; ///< with the zone on its left
+    Point2 From; ///< the zone is on the left
     Point2 To;
   };
 

@@ -19,7 +19,7 @@ namespace tipp
 namespace
 {
 
-/// What a zone has of a cell.
+/// The integrals of one cell in one zone.
 struct Contribution
 {
   std::int32_t Zone;
@@ -37,11 +37,11 @@ struct Contribution
   }
 };
 
-/// The integral of what a field exceeds a level by: over the part of the triangle above it.
+/// The integral of (field - level) over the part of the triangle where the field exceeds the level.
 double above(
   const ZoneShape& zone, const Point2 (&corners)[3], const double (&values)[3], double level)
 {
-  // A convex polygon of at most four corners.
+  // This part is a convex polygon with at most four corners.
   Point2 at[4];
   double over[4];
   int count = 0;
@@ -105,11 +105,11 @@ void serialize(Archive& archive, ZoneSums& sums)
   archive(sums.Cells, sums.Area, sums.Sum, sums.Above, sums.Low, sums.High);
 }
 
-/// What a rank has of the zones.
+/// The results of some pieces.
 struct ZoneParts
 {
   std::vector<ZoneSums> Sums;
-  std::vector<Contribution> Shared; ///< of cells that several pieces may have
+  std::vector<Contribution> Shared; ///< of cells that other pieces may have too
 };
 
 template <typename Archive>
@@ -118,7 +118,7 @@ void serialize(Archive& archive, ZoneParts& parts)
   archive(parts.Sums, parts.Shared);
 }
 
-/// Brings parts of all pieces together.
+/// Combines the results of all pieces. Removes repeated contributions.
 ZoneStatistics resultOf(ZoneParts parts)
 {
   std::sort(parts.Shared.begin(), parts.Shared.end());
@@ -141,7 +141,7 @@ ZoneStatistics resultOf(ZoneParts parts)
   return result;
 }
 
-/// Collects the contributions of all cells, each once.
+/// Collects the contributions of cells to zones.
 class ZoneCollector
 {
 public:
@@ -184,7 +184,7 @@ public:
     this->Parts.Shared.insert(this->Parts.Shared.end(), shared.begin(), shared.end());
   }
 
-  /// What has been collected.
+  /// Returns the collected contributions.
   ZoneParts take() { return std::move(this->Parts); }
 
   bool wants(const Bounds& box) const
@@ -209,7 +209,7 @@ private:
       extent.extend({ { p.x, p.y }, { p.x, p.y } });
     }
     bool isRead = false;
-    // A cell in the inside of a piece's box is in no other piece.
+    // No other piece has a cell that is strictly inside this piece's box.
     const bool isInner = !box ||
       ((*box)[0] < extent.Low[0] && extent.High[0] < (*box)[1] && (*box)[2] < extent.Low[1] &&
         extent.High[1] < (*box)[3]);
@@ -263,10 +263,15 @@ private:
   ZoneParts Parts;
 };
 
-/// What the pieces [first, last) have of the zones.
+/// The contributions of the cells in the pieces [first, last).
 ZoneParts partsIn(const ResidentMesh& mesh, std::pair<std::size_t, std::size_t> pieces,
   const std::vector<Zone>& zones, const std::string& array, int component, double level)
 {
+  if (mesh.mesh().CellSize != 3)
+  {
+    throw IOError(mesh.isStored() ? mesh.mesh().Path : "the mesh",
+      "has tetrahedra; statistics of zones are made over the area of triangles, so ask a surface.");
+  }
   const StoredArray* const description = fieldOf(mesh, array, component, true);
   if (!std::isfinite(level))
   {

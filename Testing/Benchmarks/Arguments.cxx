@@ -21,7 +21,7 @@ std::size_t toCount(const std::string& text)
   const double value = std::strtod(text.c_str(), &end);
   if (text.empty() || *end != 0 || !(value >= 1 && value <= 1e11))
   {
-    throw std::invalid_argument("'" + text + "' is no count; write 10000000 or 1e7");
+    throw std::invalid_argument("'" + text + "' is not a number; write 10000000 or 1e7");
   }
   return std::size_t(value);
 }
@@ -70,7 +70,7 @@ void setPartitions(const std::string& text, TriangulationOptions& options)
     (std::sscanf(text.c_str(), "%dx%d%c", &options.Columns, &options.Rows, &rest) != 2 ||
       options.Columns < 1 || options.Rows < 1))
   {
-    throw std::invalid_argument("'" + text + "' is no grid of partitions; write auto or 8x8");
+    throw std::invalid_argument("'" + text + "' is not a grid of partitions; write auto or 8x8");
   }
 }
 

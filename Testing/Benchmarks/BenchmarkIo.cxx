@@ -19,7 +19,7 @@ int toCount(const std::string& text)
   const long value = std::strtol(text.c_str(), &end, 10);
   if (text.empty() || *end != 0 || value < 1 || value > 1000000000)
   {
-    throw std::invalid_argument("'" + text + "' is no count");
+    throw std::invalid_argument("'" + text + "' is not a number from 1 to 1e9");
   }
   return int(value);
 }

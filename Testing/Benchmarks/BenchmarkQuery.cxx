@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares queries with vtkProbeFilter, vtkContourFilter and resampling; see
 // Utilities/benchmarks/query.sh. Arguments: 'probe', 'order' or 'rings', then POINTS QUERIES
-// REPEAT; 'contours' POINTS REPEAT; or 'stored' MESH QUERIES MEGABYTES.
+// REPEAT; 'contours' POINTS REPEAT; 'stored' MESH QUERIES MEGABYTES; or, also under mpirun,
+// 'rank-rings' POINTS QUERIES REPEAT.
 #include "ResampleSubjects.h"
 
 #include "Query/Around.h"
 #include "Query/DataSetPart.h"
 #include "Query/Lines.h"
+#include "Query/RankAround.h"
 #include "Query/ResidentMesh.h"
 #include "vtkPartitionedMeshQuery.h"
 #include "vtkRangeResampleFilter.h"
+#include "vtkTIPPDelaunay2D.h"
 
 #include "vtkContourFilter.h"
 #include "vtkDataArray.h"
@@ -19,6 +22,9 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkProbeFilter.h"
+#ifdef TIPP_USE_MPI
+#include "vtkMPIController.h"
+#endif
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +32,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -316,6 +323,64 @@ void benchmarkStored(const std::string& path, std::int64_t queries, std::uint64_
   printPeak();
 }
 
+#ifdef TIPP_USE_MPI
+/// Computes rings in a mesh of uniform points whose triangles are distributed over the ranks. Each
+/// rank requests its share of the rings.
+void benchmarkRankRings(
+  vtkMPIController* controller, std::int64_t points, std::int64_t queries, int repeat)
+{
+  Communicator ranks(controller);
+  const auto [firstPoint, lastPoint] = ranks.shareOf(points);
+  std::vector<Point3> own;
+  std::mt19937_64 random(std::uint64_t(ranks.rank()) + 1);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (std::int64_t i = firstPoint; i < lastPoint; ++i)
+  {
+    const double x = unit(random);
+    own.push_back({ x, unit(random), 0 });
+  }
+  vtkNew<vtkTIPPDelaunay2D> delaunay;
+  delaunay->SetController(controller);
+  delaunay->SetInputData(asPolyData(own));
+  delaunay->Update();
+  const ResidentMesh resident(partOf(delaunay->GetOutput(), 1));
+  const auto [firstId, lastId] = ranks.shareOf(queries);
+  std::vector<std::int64_t> ids(std::size_t(lastId - firstId));
+  std::iota(ids.begin(), ids.end(), firstId);
+  const auto measure = [&](const char* name, int k, const auto& rings)
+  {
+    double wall = 1e300;
+    std::int64_t found = 0;
+    double processor = 1e300;
+    const auto once = [&](bool counts)
+    {
+      ranks.barrier();
+      const double begin = seconds();
+      const double beginOfProcessor = processorSeconds();
+      std::vector<std::int64_t> sums(2);
+      sums[0] = std::int64_t(rings(ranks, resident, ids, k).Ids.size());
+      sums[1] = std::int64_t(1e6 * (processorSeconds() - beginOfProcessor));
+      ranks.sum(sums);
+      found = sums[0];
+      wall = counts ? std::min(wall, seconds() - begin) : wall;
+      processor = counts ? std::min(processor, 1e-6 * double(sums[1])) : processor;
+    };
+    for (int i = 0; i <= repeat; ++i)
+    {
+      ranks.together([&] { once(i > 0); }); // the first run prepares the mesh, and is not measured
+    }
+    if (ranks.isFirst())
+    {
+      std::printf("| %d | %s | %.3f s | %.3f s | %lld |\n", ranks.size(), name, wall, processor,
+        static_cast<long long>(found));
+    }
+  };
+  measure("one-rings of points", 1, ringsOfPointsOnRanks);
+  measure("two-rings of points", 2, ringsOfPointsOnRanks);
+  measure("one-rings of cells", 1, ringsOfCellsOnRanks);
+}
+#endif
+
 } // namespace
 
 int main(int argc, char* argv[])
@@ -341,8 +406,19 @@ int main(int argc, char* argv[])
     benchmarkStored(argv[2], number(3), std::uint64_t(number(4)));
     return 0;
   }
+#ifdef TIPP_USE_MPI
+  if (what == "rank-rings" && argc == 5)
+  {
+    vtkNew<vtkMPIController> controller;
+    controller->Initialize(&argc, &argv);
+    benchmarkRankRings(controller, number(2), number(3), int(number(4)));
+    controller->Finalize();
+    return 0;
+  }
+#endif
   std::fprintf(stderr,
     "benchmarkQuery probe|order|rings POINTS QUERIES REPEAT\n"
+    "benchmarkQuery rank-rings POINTS QUERIES REPEAT\n"
     "benchmarkQuery contours POINTS REPEAT\n"
     "benchmarkQuery stored MESH QUERIES MEGABYTES\n");
   return 2;

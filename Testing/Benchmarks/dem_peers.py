@@ -201,7 +201,7 @@ ALL = ["--keep", "overlap,synthetic,withheld", "--threads", 2]
 def read_rate(options, folder):
     paths, *_ = make_tiles(options, folder, options.small)
     for threads in (1, 2):
-        print(f"Reading {options.small // 4} points of LAS on {threads} threads (asked: 15 million a second and thread)", flush=True)
+        print(f"Reading {options.small // 4} points of LAS on {threads} threads (target: 15 million per second and thread)", flush=True)
         subprocess.run([options.binaries / "benchmarkIo", "points", "--threads", str(threads), paths[0]], check=True)
 
 

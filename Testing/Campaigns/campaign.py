@@ -78,6 +78,20 @@ def contents(folder):
     return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
 
 
+def write_points_in_space(rng, path, count):
+    """A file of points with x, y, z and a column of data."""
+    kind = rng.choice(("uniform", "clustered", "lattice"))
+    with open(path, "w", encoding="ascii") as file:
+        file.write("x,y,z,weight\n")
+        for i in range(count):
+            p = [rng.random() for _ in range(3)]
+            if kind == "clustered":
+                p = [4 * (i % 7 * (k + 1) % 7) + x ** 3 for k, x in enumerate(p)]
+            elif kind == "lattice":  # with duplicates
+                p = [int(30 * x) for x in p]
+            file.write(f"{p[0]},{p[1]},{p[2]},{i % 100}\n")
+
+
 def main(name, trial, description):
     """Runs trials until the time or the number is reached, prints the results, and returns the exit code."""
     parser = argparse.ArgumentParser(prog=f"campaign.sh {name}", description=description)

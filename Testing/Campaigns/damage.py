@@ -13,7 +13,7 @@ import shutil
 import signal
 import sys
 
-from campaign import Failure, Tools, contents, main, require_clear_end, run
+from campaign import Failure, Tools, contents, main, require_clear_end, run, write_points_in_space
 from kill import Killed, kill_at_call
 
 FOLDERS = 8  # folders that a trial damages
@@ -125,9 +125,13 @@ def require_kept(before, after, result, what):
 
 def work_trial(rng, folder, tools):
     """Damages work folders of killed runs."""
-    make_points(rng, folder, tools, 20, 60)
-    command = [tools.tipp, "delaunay", "points.npy", "-o", "mesh.tipp", "--memory", f"{rng.randint(1, 3)}M",
-               "--threads", rng.randint(1, 2)]
+    if rng.random() < 0.4:
+        write_points_in_space(rng, folder / "points.csv", rng.randint(15, 40) * 1000)
+        command = [tools.tipp, "delaunay3d", "points.csv"]
+    else:
+        make_points(rng, folder, tools, 20, 60)
+        command = [tools.tipp, "delaunay", "points.npy"]
+    command += ["-o", "mesh.tipp", "--memory", f"{rng.randint(1, 3)}M", "--threads", rng.randint(1, 2)]
     command += ["--neighbors"] if rng.random() < 0.3 else []
     require_clear_end(run(command, cwd=folder), (0,))
     expected = contents(folder / "mesh.tipp")

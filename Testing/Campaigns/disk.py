@@ -55,14 +55,17 @@ def choose(random, inputs, disk, other):
     """A command, its output, the command that checks the output, and its approximate size in bytes."""
     count = random.choice((300, 3000, 12000))
     points, mesh, flat = (inputs / f"{name}" for name in (f"points{count}.npy", f"mesh{count}.vtu", f"flat{count}"))
-    kind = random.choice(("npy", "vtp", "vtu", "tipp", "tipp", "scratch", "vti", "partition", "partition-vtu",
+    kind = random.choice(("npy", "vtp", "vtu", "tipp", "tipp", "space", "scratch", "vti", "partition", "partition-vtu",
                           "flatten", "points", "stats"))
-    output = disk / {"scratch": "out.tipp", "partition": "out.tipp", "partition-vtu": "out.tipp", "flatten": "out",
-                     "points": "out.npy", "stats": "out.json"}.get(kind, f"out.{kind}")
+    output = disk / {"scratch": "out.tipp", "space": "out.tipp", "partition": "out.tipp", "partition-vtu": "out.tipp",
+                     "flatten": "out", "points": "out.npy", "stats": "out.json"}.get(kind, f"out.{kind}")
     if kind in ("npy", "vtp", "vtu"):
         return ["delaunay", points, "-o", output], output, ["check", points, output], 90 * count
     if kind == "tipp":
         return ["delaunay", points, "-o", output, "--memory", "2M"], output, ["check", points, output], 200 * count
+    if kind == "space":
+        points = f"uniform:{count}"
+        return ["delaunay3d", points, "-o", output, "--memory", "1M"], output, ["check", points, output], 400 * count
     if kind == "scratch":
         output = other / "out.tipp"
         command = ["delaunay", points, "-o", output, "--memory", "2M", "--scratch", disk]

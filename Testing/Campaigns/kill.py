@@ -12,7 +12,7 @@ import subprocess
 import sys
 import time
 
-from campaign import Failure, Tools, contents, main, require_clear_end, run
+from campaign import Failure, Tools, contents, main, require_clear_end, run, write_points_in_space
 
 SIGNALS = (signal.SIGKILL, signal.SIGKILL, signal.SIGTERM, signal.SIGINT)
 DISTRIBUTIONS = ("uniform", "clustered", "kuzmin", "lattice", "coast", "circle")
@@ -113,6 +113,17 @@ def delaunay(rng, folder, tools):
     return plain, command, [*command, "--resume"]
 
 
+def delaunay3d(rng, folder, tools):
+    """The same of points in space, resumed with any number of threads."""
+    write_points_in_space(rng, folder / "points.csv", rng.randint(5, 40) * 1000)
+    options = ["--memory", f"{rng.randint(1, 4)}M"]
+    options += ["--neighbors"] if rng.random() < 0.4 else []
+    options += ["--map-duplicates"] if rng.random() < 0.2 else []
+    options += ["--scratch", "scratch"] if rng.random() < 0.2 else []
+    plain = [tools.tipp, "delaunay3d", "points.csv", "-o", "mesh.tipp", *options, "--threads", "2"]
+    return plain, [*plain[:-1], rng.randint(1, 3)], [*plain[:-1], rng.randint(1, 3), "--resume"]
+
+
 def partition(rng, folder, tools):
     """A command that starts from the beginning each time."""
     require_clear_end(run([tools.tipp, "points", "--distribution", "clustered", "--count", rng.randint(20, 60) * 1000,
@@ -126,7 +137,8 @@ def partition(rng, folder, tools):
 
 def trial(rng: random.Random, folder: pathlib.Path, tools: Tools):
     """Kills one command several times, finishes it and compares its output."""
-    plain, command, resume = (delaunay if rng.random() < 0.8 else partition)(rng, folder, tools)
+    kind = rng.choices((delaunay, delaunay3d, partition), (5, 3, 2))[0]
+    plain, command, resume = kind(rng, folder, tools)
     undisturbed = run(plain, cwd=folder)
     require_clear_end(undisturbed, (0,))
     expected = contents(folder)
@@ -164,8 +176,9 @@ def trial(rng: random.Random, folder: pathlib.Path, tools: Tools):
         changed = sorted(name for name in left.keys() | expected.keys() if left.get(name) != expected.get(name))
         raise Failure(f"{' '.join(map(str, resume))}: after {kills} kills these differ from an undisturbed run, or "
                       f"are left over or missing: {', '.join(changed[:9])}")
-    known = {name.split("/")[0] for name in expected}
-    others = sorted(path.name for path in folder.iterdir() if path.name not in known)
+    known = {name.split("/")[0] for name in expected} | {"scratch"}
+    others = sorted(path.name for path in [*folder.iterdir(), *(folder / "scratch").glob("*")]
+                    if path.name not in known)
     if others:
         raise Failure(f"{' '.join(map(str, resume))}: leaves {', '.join(others)}")
     return kills

@@ -85,7 +85,7 @@ class Interrupt(unittest.TestCase):
             with unittest.mock.patch("tipp._arguments._show", press), self.assertRaises(KeyboardInterrupt):
                 tipp.delaunay_file(points, mesh, memory="1M", progress_bar=True)
             self.assertFalse(os.path.exists(mesh))
-            with self.assertRaisesRegex(RuntimeError, "resume it"):
+            with self.assertRaisesRegex(RuntimeError, "resume that run"):
                 tipp.delaunay_file(points, mesh, memory="1M")
             self.assertEqual(tipp.delaunay_file(points, mesh, memory="1M", resume=True)["resumed"], 1)
             self.assertEqual(files_in(mesh), files_in(whole))

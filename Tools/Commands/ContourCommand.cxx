@@ -104,14 +104,14 @@ void makeContours(const ContourArguments& arguments, Communicator& ranks)
     before = PendingFile(arguments.Output).before(); // fails early if it cannot be written
   }
   // Only the first rank reads a mesh that is not partitioned.
-  const std::unique_ptr<ResidentMesh> mesh =
-    ranks.isFirst() || isPartitionedMesh(arguments.Mesh.Path)
+  std::unique_ptr<ResidentMesh> mesh = ranks.isFirst() || isPartitionedMesh(arguments.Mesh.Path)
     ? openQueryMesh(arguments.Mesh)
     : std::make_unique<ResidentMesh>(MeshPart());
   const std::vector<double> levels =
     arguments.Interval > 0 ? levelsOf(ranks, *mesh, arguments) : arguments.Levels;
   const Contours contours =
     contoursOnRanks(ranks, *mesh, arguments.Array, arguments.Component, levels);
+  mesh.reset(); // its memory is free for the file's
   if (ranks.isFirst())
   {
     write(arguments, contours, before);

@@ -122,15 +122,17 @@ If all points are in one plane, there is a warning, and triangles are written to
 plane's normal.
 
 Duplicates are merged, points that are not finite are left out. Ctrl-C stops the run
-with exit code 130 and no output. The summary shows the seconds of the tetrahedralization
-alone (for .tipp, of the whole run) and memory in millions of bytes. Under mpirun the
-points are distributed among the ranks, each with its threads, and the first rank writes
-the output, which is that of one process; a .tipp is made by the first rank alone.
+with exit code 130 and no output; --resume continues a run with a .tipp output. The
+summary shows the seconds of the tetrahedralization alone (for .tipp, of the whole run)
+and memory in millions of bytes. Under mpirun the points are distributed among the
+ranks, each with its threads, and the first rank writes the output, which is that of one
+process; a .tipp is made by the first rank alone.
 
 Examples:
   tipp delaunay3d particles.npy -o mesh.vtu
   tipp delaunay3d cloud.las --class 2,5 -o tetrahedra.npy --threads 4
   tipp delaunay3d uniform:50000000 -o mesh.tipp --memory 2G
+  tipp delaunay3d uniform:50000000 -o mesh.tipp --memory 2G --resume
   mpirun -np 4 tipp delaunay3d particles.npy -o mesh.vtu --threads 2
 )";
 
@@ -196,9 +198,12 @@ OutOfCoreStatistics3 makeOutOfCore(const Delaunay3DArguments& arguments)
   options.Threads = arguments.Threads;
   options.MapDuplicates = arguments.MapDuplicates;
   options.Neighbors = arguments.Neighbors;
+  options.Resume = arguments.Resume;
   options.Scratch = arguments.Scratch;
-  const auto bar = std::make_unique<ProgressBar>("Tetrahedralizing");
+  const std::string title = "Tetrahedralizing";
+  auto bar = std::make_unique<ProgressBar>(title);
   options.Progress = progressOn(bar);
+  options.Warn = warnAbove(bar, title);
   return tetrahedralizeOutOfCore(*points, arguments.Output, options);
 }
 
@@ -213,7 +218,7 @@ int runDelaunay3DOutOfCore(const Delaunay3DArguments& arguments)
   const OutOfCoreStatistics3 made = makeOutOfCore(arguments);
   if (made.Aborted)
   {
-    return reportInterrupt();
+    return reportInterruptedRun(made.Kept);
   }
   const double seconds = totalSeconds(made.Phases);
   if (!arguments.Statistics.empty())
@@ -259,6 +264,7 @@ void requireFitting(const Delaunay3DArguments& arguments)
   refuse(arguments.Partitions > 0 && isOutOfCore, "--partitions",
     "needs an output named .vtu or .npy; for .tipp, --memory determines the partitions");
   refuse(!arguments.Memory.empty() && !isOutOfCore, "--memory", "needs an output named .tipp");
+  refuse(arguments.Resume && !isOutOfCore, "--resume", "needs an output named .tipp");
   refuse(!arguments.Scratch.empty() && !isOutOfCore, "--scratch", "needs an output named .tipp");
 }
 
@@ -291,6 +297,8 @@ void addDelaunay3DCommand(CLI::App& app, int& exitCode)
     ->add_option("--memory", arguments->Memory,
       "With a .tipp output: the memory limit of the process, such as 512M (default: 2G)")
     ->check(checkMemorySize);
+  command->add_flag("--resume", arguments->Resume,
+    "With a .tipp output: resume a run that was killed, interrupted or failed");
   command->add_option("--scratch", arguments->Scratch,
     "With a .tipp output: a folder for temporary files (default: that of the output)");
   command->footer(footer);

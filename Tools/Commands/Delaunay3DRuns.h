@@ -32,6 +32,7 @@ struct Delaunay3DArguments
   std::string Statistics;
   // For a run out of core:
   std::string Memory; ///< empty: not given
+  bool Resume = false;
   std::string Scratch;
 };
 

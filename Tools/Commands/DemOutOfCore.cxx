@@ -70,8 +70,9 @@ OutOfCoreOptions optionsOf(const DemArguments& arguments)
   return options;
 }
 
-/// Sets the surface's values at the points of constraints, on the first rank. Does nothing if no
-/// point needs them, or if the run that uses them has already begun. Returns the exit code.
+/// Triangulates the points without constraints, and sets `values` on the first rank: the heights
+/// of this surface at the points of constraints. Does nothing if no point needs a height, or if the
+/// run that uses them has already begun. Returns the exit code.
 int findSurface(const DemArguments& arguments, Communicator& ranks, const OpenPoints& open,
   std::vector<std::vector<double>>& values, DemReport& report)
 {

@@ -190,9 +190,15 @@ std::string linesOf(const std::vector<Point3>& points, const MeshAnswer& answer,
 }
 
 /// Returns this rank's rows of an .npy file, as bytes.
-std::string rowsOf(const MeshAnswer& answer)
+Bytes rowsOf(const MeshAnswer& answer)
 {
-  std::string bytes;
+  std::size_t columns = 0;
+  for (const MeshAnswer::Array& array : answer.Arrays)
+  {
+    columns += std::size_t(array.Components);
+  }
+  Bytes bytes(answer.Cells.size() * columns * sizeof(double));
+  auto* to = bytes.as<double>();
   for (std::size_t i = 0; i < answer.Cells.size(); ++i)
   {
     for (const MeshAnswer::Array& array : answer.Arrays)
@@ -202,20 +208,27 @@ std::string rowsOf(const MeshAnswer& answer)
         double number = std::numeric_limits<double>::quiet_NaN();
         answer.Cells[i] >= 0 ? withValue(array, i, k, [&](auto value) { number = double(value); })
                              : void();
-        bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+        *to++ = number;
       }
     }
   }
   return bytes;
 }
 
+Bytes bytesOf(const std::string& text)
+{
+  Bytes bytes(text.size());
+  std::copy(text.begin(), text.end(), bytes.begin());
+  return bytes;
+}
+
 void write(const QueryArguments& arguments, const PathState& before, const std::string& header,
-  const std::vector<std::string>& parts, const std::vector<std::int64_t>& shape)
+  const std::vector<Bytes>& parts, const std::vector<std::int64_t>& shape)
 {
   if (arguments.toNpy())
   {
     NpyWriter writer(arguments.Output, "<f8", shape, before);
-    for (const std::string& part : parts)
+    for (const Bytes& part : parts)
     {
       writer.write(part.data(), part.size());
     }
@@ -225,7 +238,7 @@ void write(const QueryArguments& arguments, const PathState& before, const std::
   PendingFile pending(arguments.Output, before);
   pending.file().write(0, header.data(), header.size());
   std::uint64_t end = header.size();
-  for (const std::string& part : parts)
+  for (const Bytes& part : parts)
   {
     pending.file().write(end, part.data(), part.size());
     end += part.size();
@@ -292,16 +305,20 @@ void answerAll(const QueryArguments& arguments, Communicator& ranks)
   const std::vector<Point3> points = readShare(arguments, corners == 4, ranks.rank(), ranks.size());
   const auto count = std::int64_t(points.size());
   // If the mesh is not partitioned, every rank has read all of it.
-  const MeshAnswer answer = mesh->isStored() && ranks.size() > 1
-    ? answerOnRanks(ranks, *mesh, points.data(), count, options)
-    : mesh->answer(points.data(), count, options);
-  const ClosestLocations closest =
-    arguments.Closest ? closestTo(*mesh, points.data(), count) : ClosestLocations();
+  const bool isShared = mesh->isStored() && ranks.size() > 1;
+  const MeshAnswer answer = isShared ? answerOnRanks(ranks, *mesh, points.data(), count, options)
+                                     : mesh->answer(points.data(), count, options);
+  ClosestLocations closest;
+  if (arguments.Closest)
+  {
+    closest = isShared ? closestOnRanks(ranks, *mesh, points.data(), count)
+                       : closestTo(*mesh, points.data(), count);
+  }
   std::vector<std::int64_t> sums = { count,
     std::count(answer.Cells.begin(), answer.Cells.end(), -1) };
   ranks.sum(sums);
-  const std::vector<std::string> parts =
-    ranks.gather(arguments.toNpy() ? rowsOf(answer) : linesOf(points, answer, corners, closest));
+  const std::vector<Bytes> parts = ranks.gather(
+    arguments.toNpy() ? rowsOf(answer) : bytesOf(linesOf(points, answer, corners, closest)));
   if (ranks.isFirst())
   {
     const std::vector<std::string> columns = columnsOf(arrays);

@@ -116,6 +116,23 @@ std::function<bool(double)> progressOn(const std::unique_ptr<ProgressBar>& bar)
   };
 }
 
+std::function<void(const std::string&)> warnAbove(
+  std::unique_ptr<ProgressBar>& bar, const std::string& title)
+{
+  return [&bar, title](const std::string& sentence)
+  {
+    bar.reset();
+    fmt::print(stderr, "tipp: warning: {}\n", sentence);
+    bar = std::make_unique<ProgressBar>(title);
+  };
+}
+
+int reportInterruptedRun(bool kept)
+{
+  return reportInterrupt(
+    kept ? "to continue, run the same command with --resume" : "nothing was written");
+}
+
 int reportRankFailure(const RankFailure& failure, const Communicator& ranks)
 {
   if (ranks.isFirst())
@@ -133,18 +150,12 @@ int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
   const bool isFirst = ranks.rank() == 0;
   std::unique_ptr<ProgressBar> bar;
-  const auto start = [&] { bar = std::make_unique<ProgressBar>(title); };
   options.Progress = progressOn(bar);
-  options.Warn = [&](const std::string& sentence)
-  {
-    bar.reset();
-    fmt::print(stderr, "tipp: warning: {}\n", sentence);
-    start();
-  };
+  options.Warn = warnAbove(bar, title);
   const auto openFirst = [&]
   {
     auto points = open();
-    isFirst ? start() : void();
+    bar = isFirst ? std::make_unique<ProgressBar>(title) : nullptr;
     return points;
   };
   try
@@ -157,10 +168,7 @@ int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints
     return reportRankFailure(failure, ranks);
   }
   bar.reset();
-  return statistics.Aborted
-    ? reportInterrupt(
-        statistics.Kept ? "to continue, run the same command with --resume" : "nothing was written")
-    : Success;
+  return statistics.Aborted ? reportInterruptedRun(statistics.Kept) : Success;
 }
 
 ProcessUsage::ProcessUsage()

@@ -46,6 +46,14 @@ int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints
 /// Ctrl-C. `bar` must outlive the function.
 std::function<bool(double)> progressOn(const std::unique_ptr<ProgressBar>& bar);
 
+/// Returns a function that prints a warning and starts the progress bar again below it. `bar` must
+/// outlive the function.
+std::function<void(const std::string&)> warnAbove(
+  std::unique_ptr<ProgressBar>& bar, const std::string& title);
+
+/// Calls reportInterrupt() for a run out of core; `kept`: it can be resumed.
+int reportInterruptedRun(bool kept);
+
 /// Prints on the first rank which rank has failed, and why. Returns Failure.
 int reportRankFailure(const RankFailure& failure, const Communicator& ranks);
 

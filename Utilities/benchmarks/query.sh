@@ -10,7 +10,7 @@
 #               contours  twice as many points, compared with vtkContourFilter
 #               scipy     a tenth of the points, one thread, compared with scipy's LinearNDInterpolator, in the interpreter
 #                         that TIPP_SCIPY_PYTHON names (/usr/bin/python3)
-#               ranks     tipp query on 1 to 8 ranks of one thread each
+#               ranks     tipp query, and rings of points in memory, on 1 to 8 ranks of one thread each
 #               stored    a partitioned mesh of 200 million triangles in 256 MB; needs 25 GB of disk. It is made, and kept,
 #                         in the folder that TIPP_QUERY_STORE names; without this, it is removed afterwards
 points=5000000
@@ -95,6 +95,13 @@ for name in $(echo "$rows" | tr , " "); do
           "$inputs/query-ranks/mesh.tipp" -o "$inputs/query-ranks/values.npy" --threads 1
       done
       rm -rf "$inputs/query-ranks"
+      echo
+      echo "| ranks | what | time | processor | found |"
+      echo "|---|---|---|---|---|"
+      for ranks in 1 2 4 8; do
+        OMP_NUM_THREADS=1 mpirun --allow-run-as-root --oversubscribe --bind-to none --mca mpi_yield_when_idle 1 \
+          -np "$ranks" "$build/bin/benchmarkQuery" rank-rings "$points" 1000000 "$repeat"
+      done
       ;;
     stored)
       store=${TIPP_QUERY_STORE:-$inputs/query}

@@ -69,8 +69,8 @@ def delaunay_file(
         Whether the mesh gets the cell array NeighborIds: for each corner of a triangle the global id of the triangle
         across the opposite edge, -1 at the border.
     constraints
-        A file of lines, whose edges become edges of the mesh, and of polygons: counter-clockwise ones keep their
-        inside, clockwise ones are holes. .csv, .poly, .14, or any format that VTK or GDAL reads.
+        A file of lines and polygons, whose edges become edges of the mesh. Only triangles inside of counter-clockwise
+        polygons are kept; clockwise ones are holes. .csv, .poly, .14, or any format that VTK or GDAL reads.
     boundary
         A file of closed lines, which are constraints, too; triangles outside of them are removed.
     holes

@@ -126,8 +126,8 @@ def delaunay_2d(
         Constraints as an (m, 2) array of point ids.
     polygons
         Closed polygons: sequences of point ids; arrays of coordinates of shape (k, 2) or (k, 3), which add new points
-        where `points` has none; or Shapely polygons with their holes. Counter-clockwise polygons keep their inside,
-        clockwise ones are holes; Shapely polygons may have any orientation.
+        where `points` has none; or Shapely polygons with their holes. Only triangles inside of counter-clockwise polygons
+        are kept; clockwise ones are holes. Shapely polygons may have any orientation.
     crossings
         "split": where constraints cross, a new point is added after the others. "refuse": crossing constraints raise
         RuntimeError.

@@ -247,7 +247,7 @@ TEST(Distributed3D, PointsWithoutTetrahedraReportTheirDimension)
 
 TEST(Distributed3D, CoplanarPointsMakeTheTrianglesOfOneProcess)
 {
-  auto tilted = pointsInSpace("uniform", 40000); // as many as make partitions
+  auto tilted = pointsInSpace("uniform", 40000); // enough for several partitions
   for (Point3& p : tilted)
   {
     p.x = std::ldexp(std::round(std::ldexp(p.x, 20)), -20);

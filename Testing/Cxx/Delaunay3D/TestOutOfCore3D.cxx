@@ -252,7 +252,7 @@ TEST_F(OutOfCore3D, PointsWithoutTetrahedraAreAnError)
   EXPECT_TRUE(filesOf(this->Folder.path("")).empty());
 }
 
-TEST_F(OutOfCore3D, AnAbortedRunLeavesNoFiles)
+TEST_F(OutOfCore3D, AnAbortedRunIsKeptOnceThePointsAreSpilled)
 {
   const auto points = pointsInSpace("uniform", 5000);
   for (const double end : { 0.0, 0.05, 0.3, 0.9, 0.97 })
@@ -261,9 +261,17 @@ TEST_F(OutOfCore3D, AnAbortedRunLeavesNoFiles)
     options.PiecePoints = 300;
     options.Threads = 2;
     options.Progress = [end](double done) { return done <= end; };
-    EXPECT_TRUE(
-      tetrahedralizeOutOfCore(*streamOf(points), this->path("mesh.tipp"), options).Aborted);
-    EXPECT_TRUE(std::filesystem::is_empty(this->path("."))) << end;
+    const auto run = [&]
+    { return tetrahedralizeOutOfCore(*streamOf(points), this->path("mesh.tipp"), options); };
+    const OutOfCoreStatistics3 ended = run();
+    EXPECT_TRUE(ended.Aborted);
+    EXPECT_EQ(end > 0.1, ended.Kept) << end;
+    EXPECT_EQ(!ended.Kept, std::filesystem::is_empty(this->path("."))) << end;
+    options.Progress = {};
+    options.Resume = true;
+    EXPECT_EQ(ended.Kept, run().Resumed) << end;
+    EXPECT_EQ(1U, this->Folder.fileCount()) << end;
+    std::filesystem::remove_all(this->path("mesh.tipp"));
   }
 }
 
@@ -349,7 +357,7 @@ TEST_F(OutOfCore3D, TheCheckFindsOtherPoints)
   EXPECT_NE(std::string::npos, bad.Err.find("are not the")) << bad.Err;
 }
 
-TEST_F(OutOfCore3D, AFullDiskIsReportedAndNothingIsLeft)
+TEST_F(OutOfCore3D, GoesOnAfterADiskThatIsFull)
 {
   for (const rlim_t most : { 100000, 400000 })
   {
@@ -358,12 +366,17 @@ TEST_F(OutOfCore3D, AFullDiskIsReportedAndNothingIsLeft)
     const rlimit small{ most, before.rlim_max };
     setrlimit(RLIMIT_FSIZE, &small);
     std::signal(SIGXFSZ, SIG_IGN);
-    const Outcome outcome =
-      runTipp(this->Folder, { "delaunay3d", "uniform:12000", "-o", "mesh.tipp", "--memory", "1M" });
+    const std::vector<std::string> words = { "delaunay3d", "uniform:12000", "-o", "mesh.tipp",
+      "--memory", "1M", "--resume" };
+    const Outcome outcome = runTipp(this->Folder, words);
     setrlimit(RLIMIT_FSIZE, &before);
     EXPECT_EQ(1, outcome.ExitCode) << most;
     EXPECT_NE(std::string::npos, outcome.Err.find("cannot be written")) << outcome.Err;
     EXPECT_FALSE(std::filesystem::exists(this->path("mesh.tipp")));
+    const Outcome resumed = runTipp(this->Folder, words);
+    EXPECT_EQ(0, resumed.ExitCode) << resumed.Err;
+    EXPECT_EQ(0, runTipp(this->Folder, { "check", "uniform:12000", "mesh.tipp" }).ExitCode);
+    std::filesystem::remove_all(this->path("mesh.tipp"));
   }
 }
 
@@ -377,6 +390,7 @@ TEST_F(OutOfCore3D, WrongUsageIsRefused)
   };
   EXPECT_EQ(2, code({ "-o", "mesh.vtu", "--memory", "1M" }));
   EXPECT_EQ(2, code({ "-o", "mesh.vtu", "--scratch", "there" }));
+  EXPECT_EQ(2, code({ "-o", "mesh.vtu", "--resume" }));
   EXPECT_EQ(2, code({ "-o", "mesh.tipp", "--partitions", "4" }));
   EXPECT_EQ(2, code({ "-o", "mesh.tipp", "--memory", "much" }));
   const Outcome missing = runTipp(this->Folder, { "delaunay3d", "none.csv", "-o", "mesh.tipp" });

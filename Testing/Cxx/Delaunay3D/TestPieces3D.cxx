@@ -88,10 +88,11 @@ public:
 
   void triangulate()
   {
+    const std::vector<char> isDone(std::size_t(this->Plan.pieces()), 0);
     EXPECT_TRUE(PieceRun3(this->work(), this->Memory, 2,
       [](std::int64_t) {
         return true;
-      }).run(this->Stored));
+      }).run(isDone, this->Stored));
   }
 
   std::vector<FinishedPiece> finish(const Report& report = {})
@@ -187,6 +188,53 @@ TEST(PiecePlan3, IsTheSameForAnyNumberOfThreads)
     EXPECT_TRUE(initial.Cells == mesh.Cells);
     EXPECT_TRUE(initial.Met == mesh.Met);
   }
+}
+
+TEST(PiecePlan3, ComesBackAsItWasSaved)
+{
+  const TemporaryFolder folder;
+  auto points = pointsInSpace("clustered", 3000);
+  points[7].y = std::nan("");
+  const Planned planned(points, 150, 2, folder.path("points"));
+  const PiecePlan3& plan = planned.Plan;
+  SaveArchive saved;
+  plan.save(saved);
+  const Bytes bytes = saved.take();
+  LoadArchive archive(bytes);
+  const PiecePlan3 restored(archive, words, folder.path("points"));
+  EXPECT_EQ(0U, archive.left());
+  EXPECT_EQ(1, restored.survey().Rejected);
+  EXPECT_EQ(plan.survey().finite(), restored.survey().finite());
+  ASSERT_EQ(plan.pieces(), restored.pieces());
+  for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
+  {
+    EXPECT_EQ(plan.boxes()[std::size_t(piece)].Min, restored.boxes()[std::size_t(piece)].Min);
+    EXPECT_EQ(plan.regions()[std::size_t(piece)].Max, restored.regions()[std::size_t(piece)].Max);
+    const std::vector<double> rows = planned.rowsOf(piece);
+    std::vector<double> again(rows.size());
+    ASSERT_EQ(plan.count(piece), restored.count(piece));
+    restored.read(piece, again.data());
+    EXPECT_TRUE(rows == again);
+    const Point3 first{ rows[0], rows[1], rows[2] };
+    EXPECT_EQ(piece, restored.tiling().locate(first));
+  }
+  EXPECT_TRUE(plan.initialMesh().Cells == restored.initialMesh().Cells);
+  EXPECT_TRUE(plan.initialMesh().Met == restored.initialMesh().Met);
+}
+
+TEST(PiecePlan3, IsRefusedWithSpilledPointsOfOtherPieces)
+{
+  const TemporaryFolder folder;
+  const auto points = pointsInSpace("uniform", 2000);
+  const Planned planned(points, 300, 2, folder.path("points"));
+  SaveArchive saved;
+  planned.Plan.save(saved);
+  const Bytes bytes = saved.take();
+  const Planned other(points, 900, 2, folder.path("points"));
+  LoadArchive archive(bytes);
+  fs::resize_file(folder.path("points.0"), fs::file_size(folder.path("points.0")) / 2);
+  expectIOError(
+    folder.path("points.0"), "shorter", [&] { PiecePlan3(archive, words, folder.path("points")); });
 }
 
 TEST(PiecePlan3, DamagedSpilledPointsAreRefused)
@@ -328,6 +376,43 @@ TEST(FinishPieces3, StopsWhenAborted)
   PlannedRun run(folder, pointsInSpace("uniform", 2000));
   run.triangulate();
   EXPECT_TRUE(run.finish([](double) { return false; }).empty());
+}
+
+TEST(PieceRun3, MakesThePiecesAgainThatAreNotDone)
+{
+  const TemporaryFolder folder;
+  PlannedRun run(folder, pointsInSpace("clustered", 3000));
+  run.triangulate();
+  const PartitionIndex pieces = run.Plan.pieces();
+  ASSERT_GT(pieces, 6);
+  std::vector<std::string> results;
+  std::vector<char> isDone;
+  for (PartitionIndex piece = 0; piece < pieces; ++piece)
+  {
+    const std::string path = run.work().resultPath(piece);
+    results.push_back(contentOf(path));
+    isDone.push_back(char(piece % 3 != 0));
+    if (piece % 3 == 0)
+    {
+      fs::remove(path);
+    }
+  }
+  const auto ignore = [](const std::string& sentence) { FAIL() << sentence; };
+  EXPECT_EQ(isDone, verifyResults(run.work(), 2, {}, ignore));
+  StoredResults3 stored;
+  std::int64_t told = 0;
+  EXPECT_TRUE(PieceRun3(run.work(), run.Memory, 2,
+    [&](std::int64_t done)
+    {
+      told = done;
+      return true;
+    }).run(isDone, stored));
+  EXPECT_EQ(3000, told);
+  for (PartitionIndex piece = 0; piece < pieces; ++piece)
+  {
+    EXPECT_TRUE(results[std::size_t(piece)] == contentOf(run.work().resultPath(piece))) << piece;
+    EXPECT_TRUE(stored[std::size_t(piece)]) << piece;
+  }
 }
 
 TEST(FinishPieces3, ADamagedResultIsRefused)

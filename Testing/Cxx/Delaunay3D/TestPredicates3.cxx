@@ -2,6 +2,7 @@
 #include "Predicates/Circumball.h"
 #include "Predicates/ExactPredicates.h"
 #include "Predicates/InSphere.h"
+#include "Predicates/NormalAxis.h"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>
@@ -268,4 +269,49 @@ TEST(Circumball, TouchingIsMeeting)
   const Circumball ball({ 1, 0, 0 }, { 0, 1, 0 }, { -1, 0, 0 }, { 0, 0, 1 });
   EXPECT_TRUE(ball.meets({ { 1, -1, -1 }, { 2, 1, 1 } }));
   EXPECT_FALSE(ball.meets({ { std::nextafter(1.0, 2.0), -1, -1 }, { 2, 1, 1 } }));
+}
+
+TEST(NormalAxis, IsTheLastOfTheLargestComponents)
+{
+  EXPECT_EQ(normalAxis({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }), 2);
+  EXPECT_EQ(normalAxis({ 0, 0, 0 }, { 1, 0, 0 }, { 0, 0, 1 }), 1);
+  EXPECT_EQ(normalAxis({ 0, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }), 0);
+  EXPECT_EQ(normalAxis({ 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }), 2); // the normal is (1, 1, 1)
+  EXPECT_EQ(normalAxis({ 1, 0, 0 }, { 0, 1, 0 }, { 0, 1, 1 }), 1); // the normal is (1, 1, 0)
+}
+
+TEST(NormalAxis, ComparesComponentsExactly)
+{
+  // The normal is (-1, 0, 1 + 2^-52) in the first plane, and (-1 - 2^-52, 0, 1) in the second one.
+  const double more = std::nextafter(1.0, 2.0);
+  EXPECT_EQ(normalAxis({ 0, 0, 0 }, { more, 0, 1 }, { 0, 1, 0 }), 2);
+  EXPECT_EQ(normalAxis({ 0, 0, 0 }, { 1, 0, more }, { 0, 1, 0 }), 0);
+  // Products of these coordinates overflow or vanish.
+  EXPECT_EQ(normalAxis({ 0, 0, 0 }, { 1e300, 0, 2e300 }, { 0, 1e300, 0 }), 0);
+  EXPECT_EQ(normalAxis({ 0, 0, 0 }, { 2e-300, 0, 1e-300 }, { 0, 1e-300, 0 }), 2);
+}
+
+TEST(NormalAxis, IsTheSameForAnyCornersOfAPlane)
+{
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> whole(-1000, 1000);
+  for (int round = 0; round < 100; ++round)
+  {
+    const double u = whole(random);
+    const double v = whole(random);
+    const auto onPlane = [&]
+    {
+      const double x = whole(random);
+      const double y = whole(random);
+      return Point3{ x, y, u * x + v * y };
+    };
+    const int asked = std::abs(u) > std::max(std::abs(v), 1.0) ? 0 : std::abs(v) > 1 ? 1 : 2;
+    const Point3 a = onPlane();
+    const Point3 b = onPlane();
+    const Point3 c = onPlane();
+    if (orientation(Point2{ a.x, a.y }, Point2{ b.x, b.y }, Point2{ c.x, c.y }) != 0)
+    {
+      EXPECT_EQ(normalAxis(a, b, c), asked);
+    }
+  }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Threads that insert points into one mesh, and those that triangulate partitions.
+// Threads that insert points into one mesh, and threads that triangulate partitions.
 #include "PointsInSpace.h"
 
 #include <gtest/gtest.h>
@@ -34,13 +34,13 @@ void expectSame(
 
 } // namespace
 
-TEST(SharedMesh3, EveryNumberOfThreadsMakesTheSame)
+TEST(SharedMesh3, AnyNumberOfThreadsMakesTheSameTetrahedra)
 {
   for (const std::string& kind : kindsOfPoints())
   {
     if (kind == "lines")
     {
-      continue; // too many tetrahedra, their number is quadratic
+      continue; // too many tetrahedra: their number is quadratic in that of points
     }
     const auto points = pointsInSpace(kind, kind == "of many sizes" ? 20000 : 60000, 3);
     const Tetrahedralization one = meshOf(points, 1);
@@ -51,7 +51,7 @@ TEST(SharedMesh3, EveryNumberOfThreadsMakesTheSame)
   }
 }
 
-TEST(SharedMesh3, ThreadsOfPartitionsMakeTheSame)
+TEST(SharedMesh3, ThreadsOfPartitionsMakeTheSameTetrahedra)
 {
   for (const char* const kind : { "uniform", "clustered", "coarse" })
   {

@@ -101,7 +101,8 @@ inline testing::AssertionResult isDelaunay(
   {
     if (!(points[i] == points[std::size_t(standsFor[i])]))
     {
-      return testing::AssertionFailure() << "point " << i << " stands for one elsewhere";
+      return testing::AssertionFailure()
+        << "point " << i << " has a representative with other coordinates";
     }
     if (standsFor[i] == std::int64_t(i))
     {

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An interrupted run can be resumed, and makes the same files.
-#include "OutOfCoreTesting.h"
+// An interrupted run can be resumed, and makes the same files: triangles and tetrahedra.
+#include "ResumeTesting.h"
 
-#include "ExpectIOError.h"
-#include "Npy/NpyFile.h"
-
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <set>
+#include <utility>
+
+#include <sys/stat.h>
 
 namespace
 {
@@ -16,74 +18,48 @@ namespace fs = std::filesystem;
 using namespace tipp;
 using namespace tipp::test;
 
-class OutOfCoreResume : public testing::TestWithParam<std::string>
+TYPED_TEST_SUITE(OutOfCoreResume, Engines, );
+
+TYPED_TEST(OutOfCoreResume, MakesTheSameFilesAfterAnyInterruption)
 {
-protected:
-  OutOfCoreResume()
+  for (const std::string& kind : TypeParam::kinds())
   {
-    this->Options.PiecePoints = 150;
-    this->Options.PartitionPoints = 40;
-    this->Options.Threads = 2;
-  }
-
-  OutOfCoreStatistics run() const
-  {
-    const auto points = openPointStream({ this->Folder.path("points.npy") });
-    return triangulateOutOfCore(*points, this->Folder.path("mesh.tipp"), this->Options);
-  }
-
-  std::map<std::string, std::string> files() const
-  {
-    return filesOf(this->Folder.path("mesh.tipp"));
-  }
-
-  OutOfCoreOptions Options;
-  TemporaryFolder Folder;
-};
-
-TEST_P(OutOfCoreResume, MakesTheSameFilesAfterAnyInterruption)
-{
-  writePoints(this->Folder.path("points.npy"), makePointSet(GetParam(), 2500));
-  this->run();
-  const auto expected = this->files();
-  std::mt19937 random(1);
-  this->Options.Resume = true;
-  int resumed = 0;
-  for (int round = 0; round < 8; ++round)
-  {
-    fs::remove_all(this->Folder.path("mesh.tipp"));
-    this->Options.MemoryLimit = round % 2 == 0 ? 1 : OutOfCoreOptions().MemoryLimit;
-    OutOfCoreStatistics statistics;
-    int ended = 0;
-    do
+    this->Options = TypeParam::options();
+    this->makePoints(kind);
+    this->run();
+    const auto expected = this->files();
+    std::mt19937 random(1);
+    this->Options.Resume = true;
+    int resumed = 0;
+    for (int round = 0; round < 8; ++round)
     {
-      // Later runs need more calls, since they verify what earlier ones have written.
-      int calls = int(random() % 60) + 2 * ended++;
-      this->Options.Progress = [&calls](double) { return calls-- > 0; };
-      statistics = this->run();
-      resumed += statistics.Resumed ? 1 : 0;
-    } while (statistics.Aborted);
-    ASSERT_TRUE(expected == this->files()) << round;
-    ASSERT_EQ(2U, this->Folder.fileCount());
+      fs::remove_all(this->Folder.path("mesh.tipp"));
+      bool isAborted = true;
+      for (int ended = 0; isAborted; ++ended)
+      {
+        this->Options.Threads = 1 + (round + ended) % 3;
+        this->Options.MemoryLimit = (round + ended) % 2 == 0 ? 1 : 1 << 20;
+        // Later runs need more calls, since they verify what earlier ones have written.
+        int calls = int(random() % 60) + 2 * ended;
+        this->Options.Progress = [&calls](double) { return calls-- > 0; };
+        const auto statistics = this->run();
+        resumed += statistics.Resumed ? 1 : 0;
+        isAborted = statistics.Aborted;
+      }
+      ASSERT_TRUE(expected == this->files()) << kind << " " << round;
+      ASSERT_EQ(2U, this->Folder.fileCount());
+    }
+    EXPECT_GT(resumed, 8) << kind;
   }
-  EXPECT_GT(resumed, 8);
 }
 
-INSTANTIATE_TEST_SUITE_P(PointSets, OutOfCoreResume,
-  testing::Values("uniform", "clustered", "duplicates", "lattice", "two-clusters"),
-  [](const auto& info)
-  {
-    std::string name = info.param;
-    name.erase(std::remove(name.begin(), name.end(), '-'), name.end());
-    return name;
-  });
-
-class OutOfCoreBegun : public OutOfCoreResume
+template <typename Engine>
+class OutOfCoreBegun : public OutOfCoreResume<Engine>
 {
 protected:
   void SetUp() override
   {
-    writePoints(this->Folder.path("points.npy"), makePointSet("uniform", 2500));
+    this->makePoints("uniform");
     this->Options.Progress = [](double fraction) { return fraction < 0.6; };
     // With one thread, the run always ends at the same step.
     this->Options.Threads = 1;
@@ -91,30 +67,93 @@ protected:
     this->Options.Threads = 2;
     this->Options.Progress = {};
   }
-};
 
-TEST_F(OutOfCoreBegun, IsResumedOnlyOnRequest)
+  /// The paths of the finished pieces' results.
+  std::vector<std::string> results() const
+  {
+    std::vector<std::string> paths;
+    for (const auto& entry : fs::directory_iterator(this->Folder.path(".mesh.tipp.part")))
+    {
+      if (entry.path().string().compare(0, this->Results.size(), this->Results) == 0)
+      {
+        paths.push_back(entry.path().string());
+      }
+    }
+    EXPECT_GT(paths.size(), 1U);
+    return paths;
+  }
+
+  const std::string Pieces = this->Folder.path(".mesh.tipp.part/mesh.tipp/pieces");
+  const std::string Results = this->Folder.path(".mesh.tipp.part/.piece.");
+};
+TYPED_TEST_SUITE(OutOfCoreBegun, Engines, );
+
+TYPED_TEST(OutOfCoreBegun, IsResumedOnlyOnRequest)
 {
-  expectIOError(this->Folder.path("mesh.tipp"), "resume it", [this] { this->run(); });
+  expectIOError(this->Folder.path("mesh.tipp"), "resume that run", [this] { this->run(); });
   this->Options.Resume = true;
   EXPECT_TRUE(this->run().Resumed);
 }
 
-TEST_F(OutOfCoreBegun, RefusesAnInputThatHasChanged)
+TYPED_TEST(OutOfCoreBegun, RefusesAnInputThatHasChanged)
 {
-  writePoints(this->Folder.path("points.npy"), makePointSet("uniform", 2500, 2));
+  this->makePoints("uniform", 2500, 2);
   this->Options.Resume = true;
-  expectIOError(this->Folder.path("mesh.tipp"), "changed since", [this] { this->run(); });
+  expectIOError(this->Folder.path("mesh.tipp"), "since changed input", [this] { this->run(); });
 }
 
-TEST_F(OutOfCoreBegun, RefusesOtherOptions)
+TYPED_TEST(OutOfCoreBegun, RefusesOtherOptions)
 {
   this->Options.Resume = true;
   this->Options.PiecePoints = 200;
   expectIOError(this->Folder.path("mesh.tipp"), "other options", [this] { this->run(); });
 }
 
-TEST_F(OutOfCoreBegun, ReportsADamagedPlan)
+TYPED_TEST(OutOfCoreBegun, RefusesTheOtherKindOfMesh)
+{
+  using Other = std::conditional_t<std::is_same_v<TypeParam, Plane>, Space, Plane>;
+  auto options = Other::options();
+  const auto run = [&]
+  { Other::run(this->Folder.path("points.npy"), this->Folder.path("mesh.tipp"), options); };
+  expectIOError(this->Folder.path("mesh.tipp"), "another run", run);
+  options.Resume = true;
+  expectIOError(this->Folder.path("mesh.tipp"), "other options", run);
+  EXPECT_GT(this->results().size(), 1U);
+}
+
+TYPED_TEST(OutOfCoreBegun, RefusesTheWorkOfAnotherVersion)
+{
+  writeCheckedFile(this->Folder.path(".mesh.tipp.part/.plan"),
+    [](SaveArchive& archive)
+    { archive(std::string("TIPP out of core 0\n"), std::uint8_t(0), std::uint64_t(0)); });
+  this->Options.Resume = true;
+  expectIOError(this->Folder.path("mesh.tipp"), "another version of TIPP", [this] { this->run(); });
+  EXPECT_GT(this->results().size(), 1U);
+}
+
+TYPED_TEST(OutOfCoreBegun, MakesNoPieceAgainThatIsDone)
+{
+  const auto identities = [this]
+  {
+    std::set<std::pair<std::string, ino_t>> found;
+    for (const std::string& path : this->results())
+    {
+      struct stat status = {};
+      EXPECT_EQ(0, stat(path.c_str(), &status));
+      found.emplace(path, status.st_ino);
+    }
+    return found;
+  };
+  const auto before = identities();
+  this->Options.Resume = true;
+  this->Options.Progress = [](double fraction) { return fraction < 0.8; };
+  EXPECT_TRUE(this->run().Aborted);
+  const auto after = identities();
+  EXPECT_TRUE(std::includes(after.begin(), after.end(), before.begin(), before.end()));
+  EXPECT_GT(after.size(), before.size());
+}
+
+TYPED_TEST(OutOfCoreBegun, ReportsADamagedPlan)
 {
   const std::string plan = this->Folder.path(".mesh.tipp.part/.plan");
   std::string content = contentOf(plan);
@@ -124,7 +163,7 @@ TEST_F(OutOfCoreBegun, ReportsADamagedPlan)
   expectIOError(plan, "is damaged", [this] { this->run(); });
 }
 
-TEST_F(OutOfCoreBegun, ReportsAMissingPlan)
+TYPED_TEST(OutOfCoreBegun, ReportsAMissingPlan)
 {
   const std::string plan = this->Folder.path(".mesh.tipp.part/.plan");
   fs::remove(plan);
@@ -133,7 +172,8 @@ TEST_F(OutOfCoreBegun, ReportsAMissingPlan)
   EXPECT_FALSE(fs::is_empty(this->Folder.path(".mesh.tipp.part/mesh.tipp/pieces")));
 }
 
-class OutOfCoreDamaged : public OutOfCoreBegun
+template <typename Engine>
+class OutOfCoreDamaged : public OutOfCoreBegun<Engine>
 {
 protected:
   /// Resumes the run. Expects a warning that names the damaged file, and the files of an
@@ -153,21 +193,6 @@ protected:
     EXPECT_EQ(1U, warnings.size());
   }
 
-  /// The paths of the finished pieces' results.
-  std::vector<std::string> results() const
-  {
-    std::vector<std::string> paths;
-    for (const auto& entry : fs::directory_iterator(this->Folder.path(".mesh.tipp.part")))
-    {
-      if (entry.path().string().compare(0, this->Results.size(), this->Results) == 0)
-      {
-        paths.push_back(entry.path().string());
-      }
-    }
-    EXPECT_GT(paths.size(), 1U);
-    return paths;
-  }
-
   void change(const std::string& path) const
   {
     std::string content = contentOf(path);
@@ -177,12 +202,10 @@ protected:
     }
     std::ofstream(path, std::ios::binary) << content;
   }
-
-  const std::string Pieces = Folder.path(".mesh.tipp.part/mesh.tipp/pieces");
-  const std::string Results = Folder.path(".mesh.tipp.part/.piece.");
 };
+TYPED_TEST_SUITE(OutOfCoreDamaged, Engines, );
 
-TEST_F(OutOfCoreDamaged, RemakesChangedPieces)
+TYPED_TEST(OutOfCoreDamaged, RemakesChangedPieces)
 {
   for (const auto& piece : fs::directory_iterator(this->Pieces))
   {
@@ -191,7 +214,7 @@ TEST_F(OutOfCoreDamaged, RemakesChangedPieces)
   this->expectMadeAgain(this->Pieces);
 }
 
-TEST_F(OutOfCoreDamaged, RemakesTruncatedPieces)
+TYPED_TEST(OutOfCoreDamaged, RemakesTruncatedPieces)
 {
   for (const auto& piece : fs::directory_iterator(this->Pieces))
   {
@@ -200,13 +223,13 @@ TEST_F(OutOfCoreDamaged, RemakesTruncatedPieces)
   this->expectMadeAgain(this->Pieces);
 }
 
-TEST_F(OutOfCoreDamaged, RemakesMissingPieces)
+TYPED_TEST(OutOfCoreDamaged, RemakesMissingPieces)
 {
   fs::remove_all(this->Pieces);
   this->expectMadeAgain(this->Pieces);
 }
 
-TEST_F(OutOfCoreDamaged, RemakesPiecesWithChangedResults)
+TYPED_TEST(OutOfCoreDamaged, RemakesPiecesWithChangedResults)
 {
   for (const std::string& result : this->results())
   {
@@ -215,14 +238,14 @@ TEST_F(OutOfCoreDamaged, RemakesPiecesWithChangedResults)
   this->expectMadeAgain(this->Results);
 }
 
-TEST_F(OutOfCoreDamaged, RemakesOnlyTheDamagedPiece)
+TYPED_TEST(OutOfCoreDamaged, RemakesOnlyTheDamagedPiece)
 {
   const std::string result = this->results().front();
   this->change(result);
   this->expectMadeAgain(result + ": is damaged or missing; its piece is made again");
 }
 
-TEST_F(OutOfCoreDamaged, RemovesBytesAppendedToPieces)
+TYPED_TEST(OutOfCoreDamaged, RemovesBytesAppendedToPieces)
 {
   for (const auto& piece : fs::directory_iterator(this->Pieces))
   {
@@ -236,7 +259,7 @@ TEST_F(OutOfCoreDamaged, RemovesBytesAppendedToPieces)
   EXPECT_TRUE(resumed == this->files());
 }
 
-TEST_F(OutOfCoreBegun, ReportsTruncatedSpilledPoints)
+TYPED_TEST(OutOfCoreBegun, ReportsTruncatedSpilledPoints)
 {
   const std::string points = this->Folder.path(".mesh.tipp.part/.points.0");
   fs::resize_file(points, fs::file_size(points) - 100);
@@ -244,7 +267,7 @@ TEST_F(OutOfCoreBegun, ReportsTruncatedSpilledPoints)
   expectIOError(points, "shorter", [this] { this->run(); });
 }
 
-TEST_F(OutOfCoreBegun, ReportsDamagedSpilledPoints)
+TYPED_TEST(OutOfCoreBegun, ReportsDamagedSpilledPoints)
 {
   const std::string points = this->Folder.path(".mesh.tipp.part/.points.0");
   std::string content = contentOf(points);
@@ -258,152 +281,12 @@ TEST_F(OutOfCoreBegun, ReportsDamagedSpilledPoints)
   EXPECT_FALSE(fs::exists(this->Folder.path("mesh.tipp")));
 }
 
-TEST_F(OutOfCoreBegun, KeepsAnOlderMeshUntilItIsComplete)
+TYPED_TEST(OutOfCoreBegun, KeepsAnOlderMeshUntilItIsComplete)
 {
   fs::create_directory(this->Folder.path("mesh.tipp"));
   this->Options.Resume = true;
   this->run();
   EXPECT_EQ(2500, openPartitionedMesh(this->Folder.path("mesh.tipp")).Points);
-}
-
-/// A run that was killed after it finished its mesh, but before it renamed it to its final path.
-class OutOfCoreWhole : public OutOfCoreResume
-{
-protected:
-  void SetUp() override { this->makeWhole(); }
-
-  void makeWhole()
-  {
-    writePoints(this->Folder.path("points.npy"), makePointSet("duplicates", 2500));
-    this->Options.Progress = [this](double fraction)
-    {
-      if (fraction == 1)
-      {
-        fs::copy(this->Part, this->Folder.path("copy"), fs::copy_options::recursive);
-      }
-      return true;
-    };
-    this->Whole = this->run();
-    this->Options.Progress = {};
-    if (!this->Options.CountOnly)
-    {
-      this->Expected = this->files();
-      fs::rename(this->Folder.path("mesh.tipp"), this->Folder.path("published"));
-    }
-    fs::rename(this->Folder.path("copy"), this->Part);
-  }
-
-  void publish() const
-  {
-    fs::rename(this->Folder.path("published"), this->Folder.path("mesh.tipp"));
-  }
-
-  void expectTheSame(const OutOfCoreStatistics& statistics) const
-  {
-    EXPECT_TRUE(statistics.Resumed);
-    EXPECT_EQ(2500, statistics.Points);
-    EXPECT_EQ(this->Whole.Triangles, statistics.Triangles);
-    EXPECT_EQ(this->Whole.TriangleSum, statistics.TriangleSum);
-    EXPECT_EQ(this->Whole.Duplicates, statistics.Duplicates);
-    EXPECT_EQ(this->Whole.Pieces, statistics.Pieces);
-    EXPECT_EQ(this->Whole.MeshBytes, statistics.MeshBytes);
-    EXPECT_FALSE(fs::exists(this->Part));
-  }
-
-  const std::string Part = Folder.path(".mesh.tipp.part");
-  OutOfCoreStatistics Whole;
-  std::map<std::string, std::string> Expected;
-};
-
-TEST_F(OutOfCoreWhole, IsRenamedEvenIfItsPointsAreMissing)
-{
-  for (const char* name : { ".points.0", ".piece.0", ".piece.1.finished" })
-  {
-    ASSERT_TRUE(fs::remove(this->Part + "/" + name)) << name;
-  }
-  this->Options.Resume = true;
-  this->expectTheSame(this->run());
-  EXPECT_TRUE(this->Expected == this->files());
-}
-
-TEST_F(OutOfCoreWhole, IsRenamedWithoutARequestToResume)
-{
-  this->Options.Progress = [](double) { return false; }; // no effect: only renaming is left
-  this->expectTheSame(this->run());
-  EXPECT_TRUE(this->Expected == this->files());
-}
-
-TEST_F(OutOfCoreWhole, IsRefusedForAnotherInput)
-{
-  writePoints(this->Folder.path("points.npy"), makePointSet("uniform", 2500, 2));
-  expectIOError(this->Folder.path("mesh.tipp"), "another run", [this] { this->run(); });
-  this->Options.Resume = true;
-  expectIOError(this->Folder.path("mesh.tipp"), "changed since", [this] { this->run(); });
-  EXPECT_TRUE(this->Expected == filesOf(this->Part + "/mesh.tipp"));
-}
-
-TEST_F(OutOfCoreWhole, IsRefusedIfAFileIsMissing)
-{
-  fs::remove(this->Part + "/mesh.tipp/pieces/000003.vtu");
-  this->Options.Resume = true;
-  expectIOError(this->Part + "/mesh.tipp", "is damaged", [this] { this->run(); });
-}
-
-TEST_F(OutOfCoreWhole, IsRefusedIfAFileHasChanged)
-{
-  this->Options.Resume = true;
-  const std::string mesh = this->Part + "/mesh.tipp/";
-  for (const auto& [name, content] : this->Expected)
-  {
-    std::string damaged = content;
-    damaged[damaged.size() - 8] ^= 1;
-    std::ofstream(mesh + name, std::ios::binary) << damaged;
-    expectIOError(mesh + name, "is damaged", [this] { this->run(); });
-    EXPECT_FALSE(fs::exists(this->Folder.path("mesh.tipp")));
-    std::ofstream(mesh + name, std::ios::binary) << content;
-  }
-  this->expectTheSame(this->run());
-  EXPECT_TRUE(this->Expected == this->files());
-}
-
-TEST_F(OutOfCoreWhole, IsKeptAfterItReplacedAnotherMesh)
-{
-  this->publish();
-  fs::remove_all(this->Part + "/mesh.tipp");
-  const TemporaryFolder other;
-  triangulateFile(other, makePointSet("uniform", 500), {});
-  fs::rename(other.path("mesh.tipp"), this->Part + "/mesh.tipp");
-  this->Options.Resume = true;
-  this->expectTheSame(this->run());
-  EXPECT_TRUE(this->Expected == this->files());
-}
-
-TEST_F(OutOfCoreWhole, MayBeReplacedByAnotherInputOnceRenamed)
-{
-  this->publish();
-  const Coordinates xy = makePointSet("uniform", 1000, 2);
-  writePoints(this->Folder.path("points.npy"), xy);
-  EXPECT_FALSE(this->run().Resumed);
-  EXPECT_TRUE(meshMatches(this->Folder.path("mesh.tipp"), xy, reference(xy)));
-  EXPECT_FALSE(fs::exists(this->Part));
-}
-
-class OutOfCoreCounted : public OutOfCoreWhole
-{
-protected:
-  void SetUp() override
-  {
-    this->Options.CountOnly = true;
-    this->makeWhole();
-  }
-};
-
-TEST_F(OutOfCoreCounted, IsNotCountedAgain)
-{
-  ASSERT_TRUE(fs::remove(this->Part + "/.points.0"));
-  this->Options.Resume = true;
-  this->expectTheSame(this->run());
-  EXPECT_EQ(1U, this->Folder.fileCount());
 }
 
 } // namespace

@@ -102,6 +102,24 @@ TEST(Contours, AreTheSameForAnyPieces)
   }
 }
 
+TEST(Contours, KeepPiecesInMemoryOnlyIfAllFit)
+{
+  const SourceMesh source = slope(0.3);
+  const TemporaryFolder folder;
+  const std::string path = folder.path("mesh.tipp");
+  store(source, path, "grid:3x3", false);
+  const ResidentMesh roomy(path);
+  const Contours expected = contoursOf(roomy, "value", 0, { 1, 2 });
+  const std::uint64_t all = roomy.pieces().bytes();
+  EXPECT_LT(0U, all);
+  ResidentOptions options;
+  options.MemoryLimit = all / 2;
+  const ResidentMesh narrow(path, options);
+  EXPECT_EQ(expected.Points, contoursOf(narrow, "value", 0, { 1, 2 }).Points);
+  EXPECT_EQ(9, narrow.pieces().loads());
+  EXPECT_EQ(0U, narrow.pieces().bytes());
+}
+
 TEST(Contours, AroundAHillAreClosed)
 {
   SourceMesh source = makeSource(latticeTriangles(30, 0.2));

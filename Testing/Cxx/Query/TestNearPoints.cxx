@@ -5,6 +5,7 @@
 #include "Locate/CellPass.h"
 #include "Locate/NearCell.h"
 #include "Locate/PointGrid.h"
+#include "Locate/PointRows.h"
 
 #include <gtest/gtest.h>
 
@@ -71,6 +72,38 @@ NearCell triangle(std::int64_t id, const Point3 (&corners)[3], const Point3& fro
   std::copy_n(corners, 3, cell.Corners);
   cell.measure(from);
   return cell;
+}
+
+/// Expects the same cells and weights from a locator and from a pass over the cells.
+void expectAsByLocator(const MeshPart& part, const std::vector<Point3>& points)
+{
+  const AskedPoints asked = { points.data(), nullptr, std::int64_t(points.size()) };
+  const auto located = [&](const std::function<void(const TakeLocations&)>& locate)
+  {
+    std::vector<CellLocation> found(points.size());
+    locate(
+      [&found](const std::int64_t* indices, const CellLocation* at, std::int64_t count)
+      {
+        for (std::int64_t i = 0; i < count; ++i)
+        {
+          found[std::size_t(indices[i])] = at[i];
+        }
+      });
+    return found;
+  };
+  const CellLocator locator(part.Mesh, part.CellIds, 1);
+  const std::vector<CellLocation> expected = located([&](const TakeLocations& take)
+    { locatePoints(part.Mesh, part.CellIds, &locator, asked, 1, take); });
+  for (const int threads : { 1, 3 })
+  {
+    const std::vector<CellLocation> found = located([&](const TakeLocations& take)
+      { EXPECT_TRUE(locateInOnePass(part.Mesh, part.CellIds, asked, threads, take)); });
+    for (std::size_t i = 0; i < points.size(); ++i)
+    {
+      ASSERT_EQ(expected[i].Cell, found[i].Cell) << i;
+      EXPECT_TRUE(std::equal(expected[i].Weights, expected[i].Weights + 4, found[i].Weights));
+    }
+  }
 }
 
 } // namespace
@@ -154,37 +187,60 @@ TEST(OnePass, LocatesLikeLocatorsEvenIfCellsOverlap)
   for (const SourceMesh& source : { makeSource(latticeTriangles(16, 0)), overlapping,
          makeSource(latticeTetrahedra(4, 0)), makeSource(latticeTetrahedra(4, 0.3)) })
   {
-    const MeshPart part = inMemory(source);
     std::vector<Point3> points = pointsAround(source, 2000);
     points.push_back({ std::numeric_limits<double>::quiet_NaN(), 0, 0 });
-    const AskedPoints asked = { points.data(), nullptr, std::int64_t(points.size()) };
-    const auto located = [&](const std::function<void(const TakeLocations&)>& locate)
+    expectAsByLocator(inMemory(source), points);
+  }
+}
+
+TEST(OnePass, FindsPointsInRowsLikeOtherPoints)
+{
+  const std::vector<double> x = { -0.1, 0, 0.125, 0.3, 0.3125, 0.75, 1 };
+  const std::vector<double> y = { 1.5, 1, 0.5, 0.4, 0.0625 };
+  const std::vector<double> z = { 0.25, 0.5, 0.6 };
+  const auto at = [](const Point3& p) { return coordinatesOf<3>(p); };
+  for (const int fastest : { 0, 1, 2 })
+  {
+    std::vector<Point3> points;
+    for (std::size_t i = 0; i < x.size() * y.size() * z.size(); ++i)
     {
-      std::vector<CellLocation> found(points.size());
-      locate(
-        [&found](const std::int64_t* indices, const CellLocation* at, std::int64_t count)
-        {
-          for (std::int64_t i = 0; i < count; ++i)
-          {
-            found[std::size_t(indices[i])] = at[i];
-          }
-        });
-      return found;
-    };
-    const CellLocator locator(part.Mesh, part.CellIds, 1);
-    const std::vector<CellLocation> expected = located([&](const TakeLocations& take)
-      { locatePoints(part.Mesh, part.CellIds, &locator, asked, 1, take); });
-    for (const int threads : { 1, 3 })
+      const std::size_t step[3] = { fastest == 0 ? 1 : z.size() * (fastest == 1 ? y.size() : 1),
+        fastest == 1     ? 1
+          : fastest == 0 ? x.size()
+                         : x.size() * z.size(),
+        fastest == 2     ? 1
+          : fastest == 0 ? x.size() * y.size()
+                         : y.size() };
+      points.push_back(
+        { x[i / step[0] % x.size()], y[i / step[1] % y.size()], z[i / step[2] % z.size()] });
+    }
+    const auto count = std::int64_t(points.size());
+    const auto pointAt = [&](std::int64_t i) { return at(points[std::size_t(i)]); };
+    EXPECT_EQ(points.size(), PointRows<3>(count, 1, pointAt).size());
+    for (const double jitter : { 0.0, 0.3 })
     {
-      const std::vector<CellLocation> found = located([&](const TakeLocations& take)
-        { EXPECT_TRUE(locateInOnePass(part.Mesh, part.CellIds, asked, threads, take)); });
-      for (std::size_t i = 0; i < points.size(); ++i)
-      {
-        ASSERT_EQ(expected[i].Cell, found[i].Cell) << i;
-        EXPECT_TRUE(std::equal(expected[i].Weights, expected[i].Weights + 4, found[i].Weights));
-      }
+      expectAsByLocator(inMemory(makeSource(latticeTetrahedra(4, jitter))), points);
+    }
+    std::swap(points[3], points[20]);
+    EXPECT_EQ(0U, PointRows<3>(count, 1, pointAt).size());
+  }
+  std::vector<Point3> plane;
+  for (const double v : y)
+  {
+    for (const double u : x)
+    {
+      plane.push_back({ u, v, 0 });
     }
   }
+  const auto planeAt = [&](std::int64_t i) { return coordinatesOf<2>(plane[std::size_t(i)]); };
+  for (const double jitter : { 0.0, 0.3 })
+  {
+    expectAsByLocator(inMemory(makeSource(latticeTriangles(16, jitter))), plane);
+  }
+  EXPECT_EQ(
+    x.size(), PointRows<2>(std::int64_t(x.size()), 1, planeAt).size()); // all points are in one row
+  plane[1 + 2 * x.size()].x = -0.0;
+  EXPECT_EQ(0U, PointRows<2>(std::int64_t(plane.size()), 1, planeAt).size());
 }
 
 TEST(OnePass, GivesUpIfThinCellsWouldTestTooManyPoints)

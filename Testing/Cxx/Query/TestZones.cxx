@@ -404,39 +404,6 @@ TEST(Regions, HaveTheCellsAndPointsOfBruteForce)
   }
 }
 
-TEST(Regions, ContainPointsOnTheirBorder)
-{
-  const ZoneShape shape(
-    { rectangle(0.25, 0.75, 0.25, 0.5), rectangle(0.375, 0.5, 0.375, 0.5, true) }, 0);
-  EXPECT_TRUE(shape.holds({ 0.25, 0.3 }));
-  EXPECT_TRUE(shape.holds({ 0.75, 0.5 }));
-  EXPECT_TRUE(shape.holds({ 0.4, 0.375 }));
-  EXPECT_TRUE(shape.holds({ 0.3, 0.4 }));
-  EXPECT_FALSE(shape.holds({ 0.4, 0.4 }));
-  EXPECT_FALSE(shape.holds({ 0.1, 0.25 }));
-  EXPECT_FALSE(shape.holds({ 0.8, 0.5 }));
-  EXPECT_FALSE(shape.holds({ std::nextafter(0.25, 0.0), 0.3 }));
-}
-
-TEST(Regions, BoxesOfTetrahedraAreTheSameForAnyPieces)
-{
-  const SourceMesh source = makeSource(latticeTetrahedra(4, 0));
-  const Region box = { { 0.25, 0.6, 0.25, 0.75, 0.5, 0.5 }, {} };
-  const ResidentMesh whole(inMemory(source));
-  const std::vector<std::int64_t> cells = cellsIn(whole, box, false);
-  const std::vector<std::int64_t> points = pointsIn(whole, box);
-  EXPECT_EQ(6U, points.size()); // 2 x 3 lattice points on the plane z = 0.5
-  EXPECT_LT(20U, cells.size());
-  EXPECT_TRUE(cellsIn(whole, box, true).empty());
-  EXPECT_EQ(source.cells(), cellsIn(whole, { { 0, 1, 0, 1, 0, 1 }, {} }, true).size());
-  withEachMesh(source,
-    [&](const ResidentMesh& mesh)
-    {
-      EXPECT_EQ(cells, cellsIn(mesh, box, false));
-      EXPECT_EQ(points, pointsIn(mesh, box));
-    });
-}
-
 TEST(ExactSum, IsTheNearestDoubleInAnyOrder)
 {
   std::mt19937 random(3);

@@ -62,7 +62,7 @@ private:
   std::vector<std::pair<std::array<DelaunayKernel::Index, 3>, Met>> Found;
 };
 
-/// The triangles that some unfinished partition meets, and the final ones.
+/// The triangles whose circumdisks meet unfinished partitions, and the final triangles.
 class UnfinishedMesh
 {
 public:
@@ -82,8 +82,8 @@ public:
     }
   }
 
-  /// Removes the triangles that partition p meets. The worker's triangles replace them, and are
-  /// added next.
+  /// Removes the triangles whose circumdisks meet partition p. The caller then adds the worker's
+  /// triangles, which replace them.
   void finish(PartitionIndex p)
   {
     this->Entries.erase(std::remove_if(this->Entries.begin(), this->Entries.end(),

@@ -103,7 +103,7 @@ testing::AssertionResult sameTriangles(
     return extra;
   }
   const auto twice = std::adjacent_find(actual.begin(), actual.end());
-  return testing::AssertionFailure() << "a triangle is there twice:" << tell(xy, *twice);
+  return testing::AssertionFailure() << "a triangle occurs twice:" << tell(xy, *twice);
 }
 
 testing::AssertionResult matches(
@@ -121,7 +121,7 @@ testing::AssertionResult matches(
     const auto id = wrong - stands.begin();
     return testing::AssertionFailure()
       << "point " << id << " is said to be represented by " << *wrong << ", should be by "
-      << expected.Representative[std::size_t(id)] << " (-1 rejected, -2 told of twice)";
+      << expected.Representative[std::size_t(id)] << " (-1 rejected, -2 reported twice)";
   }
   if (!ascending(result))
   {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command 'tipp delaunay' with a partitioned mesh as output.
-#include "MeshChecks.h"
-#include "RunTipp.h"
+#include "TippOutOfCore.h"
 
 #include "vtkTIPPOutOfCoreDelaunay2D.h"
 
@@ -21,82 +20,6 @@ namespace
 {
 
 using namespace tipp::test;
-
-class TippOutOfCore : public testing::Test
-{
-protected:
-  void makePoints(const std::string& distribution, const std::string& count) const
-  {
-    ASSERT_EQ(0,
-      runTipp(this->Folder,
-        { "points", "--distribution", distribution, "--count", count, "-o", this->Points })
-        .ExitCode);
-  }
-
-  Outcome run(const std::vector<std::string>& more) const
-  {
-    std::vector<std::string> arguments = this->command();
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return runTipp(this->Folder, arguments);
-  }
-
-  std::vector<std::string> command() const
-  {
-    return { "delaunay", this->Points, "-o", this->Mesh, "--memory", "2M", "--threads", "2" };
-  }
-
-  /// The number of files in the work folder, which is hidden beside the mesh.
-  std::size_t workFiles() const
-  {
-    const std::string work = this->Folder.path(".mesh.tipp.part");
-    std::error_code ignored; // files may disappear meanwhile
-    std::size_t count = 0;
-    for (std::filesystem::recursive_directory_iterator at(work, ignored), end; at != end;
-         at.increment(ignored))
-    {
-      ++count;
-    }
-    return count;
-  }
-
-  /// The peak memory of a run with four points. It depends on VTK's libraries.
-  double peakOfSmallRun() const
-  {
-    const std::string points = this->Folder.path("few.csv");
-    const std::string stats = this->Folder.path("few.json");
-    std::ofstream(points) << "x,y\n0,0\n1,0\n0,1\n1,2\n";
-    const Outcome made = runTipp(
-      this->Folder, { "delaunay", points, "-o", this->Folder.path("few.tipp"), "--stats", stats });
-    EXPECT_EQ(0, made.ExitCode) << made.Err;
-    return nlohmann::json::parse(contentOf(stats))["peak_memory_bytes"].get<double>();
-  }
-
-  /// Starts and resumes runs, and kills each after it has made a few more files, until a run
-  /// finishes. Returns the number of killed runs.
-  int killUntilDone(std::vector<std::string> more, std::mt19937& random) const
-  {
-    std::vector<std::string> arguments = this->command();
-    more.emplace_back("--resume");
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    for (int kills = 0;; ++kills)
-    {
-      const std::size_t enough = this->workFiles() + 1 + random() % 4;
-      const TippProcess process(this->Folder, arguments);
-      process.waitUntil([&] { return this->workFiles() >= enough; });
-      process.kill();
-      const Outcome outcome = process.wait();
-      if (outcome.ExitCode != -SIGKILL)
-      {
-        EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
-        return kills;
-      }
-    }
-  }
-
-  TemporaryFolder Folder;
-  std::string Points = this->Folder.path("points.npy");
-  std::string Mesh = this->Folder.path("mesh.tipp");
-};
 
 TEST_F(TippOutOfCore, MakesAMeshThatTheCheckAccepts)
 {
@@ -153,115 +76,6 @@ TEST_F(TippOutOfCore, ChecksAgainstTheRightPointsOnly)
   const Outcome checked = runTipp(this->Folder, { "check", this->Points, this->Mesh });
   EXPECT_EQ(1, checked.ExitCode);
   EXPECT_NE(std::string::npos, checked.Err.find("are not the 3000 points"));
-}
-
-TEST_F(TippOutOfCore, MakesTheSameBytesAfterTwentyKills)
-{
-  this->makePoints("coast", "60000");
-  ASSERT_EQ(0, this->run({ "--neighbors" }).ExitCode);
-  const auto expected = filesOf(this->Mesh);
-  std::mt19937 random(3);
-  int kills = 0;
-  for (int round = 0; kills < 20; ++round)
-  {
-    ASSERT_LT(round, 60) << "runs end before they are killed";
-    std::filesystem::remove_all(this->Mesh);
-    kills += this->killUntilDone({ "--neighbors" }, random);
-    ASSERT_TRUE(expected == filesOf(this->Mesh)) << round;
-  }
-}
-
-/// Kills runs before the first call that renames or removes something, then before the second, and
-/// so on, and resumes each.
-class TippKilledAtACall : public TippOutOfCore
-{
-protected:
-  /// Calls prepare() before each killed run, and check() after each resumed one.
-  template <typename Prepare, typename Check>
-  void killAtEachCall(
-    const std::vector<std::string>& more, const Prepare& prepare, const Check& check) const
-  {
-    int at = 1;
-    for (;; ++at)
-    {
-      ASSERT_LT(at, 200) << "no run has come to its end";
-      prepare();
-      setenv("LD_PRELOAD", TIPP_KILL_AT_CALL, 1);
-      setenv("TIPP_KILL_AT", std::to_string(at).c_str(), 1);
-      const Outcome killed = this->run(more);
-      unsetenv("TIPP_KILL_AT");
-      unsetenv("LD_PRELOAD");
-      if (killed.ExitCode == 0)
-      {
-        break;
-      }
-      ASSERT_EQ(-SIGKILL, killed.ExitCode) << killed.Err;
-      std::vector<std::string> resume = more;
-      resume.emplace_back("--resume");
-      const Outcome resumed = this->run(resume);
-      ASSERT_EQ(0, resumed.ExitCode) << at << ": " << resumed.Err;
-      ASSERT_NO_FATAL_FAILURE(check(at, resumed));
-    }
-    EXPECT_GT(at, 5);
-  }
-};
-
-TEST_F(TippKilledAtACall, LeavesNoOtherFiles)
-{
-  this->makePoints("coast", "20000");
-  ASSERT_EQ(0, this->run({}).ExitCode);
-  const auto expected = filesOf(this->Mesh);
-  const std::size_t files = this->Folder.fileCount();
-  this->killAtEachCall(
-    {}, [&] { std::filesystem::remove_all(this->Mesh); },
-    [&](int at, const Outcome&)
-    {
-      ASSERT_TRUE(expected == filesOf(this->Mesh)) << at;
-      ASSERT_EQ(files, this->Folder.fileCount()) << at;
-    });
-}
-
-TEST_F(TippKilledAtACall, ReplacesAnOlderMeshOrKeepsIt)
-{
-  this->makePoints("uniform", "100");
-  ASSERT_EQ(0, this->run({}).ExitCode);
-  const std::string older = this->Folder.path("older.tipp");
-  std::filesystem::rename(this->Mesh, older);
-  this->makePoints("coast", "20000");
-  ASSERT_EQ(0, this->run({}).ExitCode);
-  const auto expected = filesOf(this->Mesh);
-  const std::size_t files = this->Folder.fileCount();
-  this->killAtEachCall(
-    {},
-    [&]
-    {
-      std::filesystem::remove_all(this->Mesh);
-      std::filesystem::copy(older, this->Mesh, std::filesystem::copy_options::recursive);
-    },
-    [&](int at, const Outcome&)
-    {
-      ASSERT_TRUE(expected == filesOf(this->Mesh)) << at;
-      ASSERT_EQ(files, this->Folder.fileCount()) << at;
-    });
-}
-
-TEST_F(TippKilledAtACall, CountsTheSameTriangles)
-{
-  this->makePoints("coast", "20000");
-  const auto checksum = [](const Outcome& outcome)
-  { return outcome.Out.substr(outcome.Out.find("checksum")); };
-  const std::vector<std::string> more{ "--sink", "count", "--scratch",
-    this->Folder.path("scratch") };
-  const std::string expected = checksum(this->run(more));
-  const std::size_t files = this->Folder.fileCount();
-  this->killAtEachCall(
-    more, [] {},
-    [&](int at, const Outcome& outcome)
-    {
-      ASSERT_EQ(expected, checksum(outcome)) << at;
-      ASSERT_EQ(files, this->Folder.fileCount()) << at;
-      ASSERT_TRUE(std::filesystem::is_empty(this->Folder.path("scratch"))) << at;
-    });
 }
 
 TEST_F(TippOutOfCore, ResumesAfterInterrupt)

@@ -56,7 +56,7 @@ TEST_P(Abort, EndsTheRunEarlyWithoutTriangles)
   const Triangulation result = triangulate(view(xy), options);
   EXPECT_TRUE(result.Aborted);
   EXPECT_EQ(0u, result.triangleCount());
-  EXPECT_LE(calls, 4) << "the run was told to end and asked again";
+  EXPECT_LE(calls, 4) << "progress was reported after the abort";
 }
 
 std::string nameOf(const testing::TestParamInfo<Abort::ParamType>& info)

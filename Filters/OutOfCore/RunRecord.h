@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippRunRecord_h
+#define tippRunRecord_h
+
+#include "OutOfCore/ScratchFiles.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace tipp
+{
+
+/// The record of a run out of core, a file in its work folder: how far the run is, and the data
+/// that another process needs to resume it. A record is written after the files that it refers to
+/// are on disk.
+class RunRecord
+{
+public:
+  using Save = std::function<void(SaveArchive&)>;
+  using Load = std::function<void(LoadArchive&)>;
+
+  /// `path`: of the mesh. `identity`: a text that is equal for runs that make the same mesh from
+  /// the same input. Both folders must outlive this object.
+  RunRecord(const std::string& path, const std::string& identity, PendingFolder& pending,
+    ScratchFolder& scratch)
+    : Path(path)
+    , Identity(identity)
+    , Pending(pending)
+    , Scratch(scratch)
+  {
+  }
+
+  /// Reads the record of an earlier process, if there is one. Calls `begun` with the data that
+  /// saveBegun() saved, or `whole` with the data of saveWhole() or saveCounted(). Verifies the mesh
+  /// if it is complete. Returns false if there is nothing to resume. Throws IOError if the record
+  /// is damaged or belongs to another run, or if the mesh is incomplete and `resumes` is false; the
+  /// work folder is kept in these cases.
+  bool resume(bool resumes, int threads, const Load& begun, const Load& whole);
+
+  /// Records that the points are spilled. From now on the work folder is kept. Throws IOError, as
+  /// the following functions do.
+  void saveBegun(const Save& save);
+  /// Records that the mesh is complete. From now on only the mesh in the work folder is needed, and
+  /// a resumed run only has to move it to its path. `fingerprint`: of the mesh.
+  void saveWhole(std::uint64_t fingerprint, const Save& save);
+  /// Records that all triangles or tetrahedra are counted, for a run that makes no mesh.
+  void saveCounted(const Save& save);
+
+  /// Returns whether the mesh is complete, or all is counted.
+  bool isWhole() const { return this->Reached != Stage::Begun; }
+  /// Moves a complete mesh to its path, unless it is already there. The rest of the work folder is
+  /// no longer kept.
+  void putInPlace();
+
+  /// Sets whether the work folder is kept when this process ends.
+  void keep(bool kept);
+  bool isKept() const { return this->Pending.isKept(); }
+
+private:
+  enum class Stage : std::uint8_t
+  {
+    Begun,
+    Whole,
+    Counted
+  };
+
+  void write(Stage stage, const Save& save);
+  bool hasMeshToPublish() const { return this->Reached == Stage::Whole && !this->IsInPlace; }
+  void requireOurs(bool isOurs, bool resumes) const;
+  void verifyWhole(int threads) const;
+
+  const std::string Path;
+  const std::string Identity;
+  PendingFolder& Pending;
+  ScratchFolder& Scratch;
+  Stage Reached = Stage::Begun;
+  std::uint64_t Fingerprint = 0; ///< of the complete mesh, if there is one
+  bool IsInPlace = false;        ///< the mesh is already at Path
+};
+
+} // namespace tipp
+
+#endif
