@@ -186,7 +186,8 @@ private:
       return false;
     }
     InitialMesh3 mesh(initial, artificial, initial.Points.size());
-    if (!isChosen && !mesh.partitionsPay())
+    constexpr double most = 3; // fewer if there are few partitions to meet
+    if (!isChosen && !mesh.partitionsPay(std::min(most, (1 + this->Tiling->size()) / 2.0)))
     {
       return false;
     }

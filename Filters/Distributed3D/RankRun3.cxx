@@ -154,7 +154,7 @@ bool RankRun3::waitFor(PartitionIndex p)
     }
   }
   --this->Idle;
-  return this->IsReady[std::size_t(p)] != 0;
+  return this->IsReady[std::size_t(p)] != 0 && !this->Ready.isStopped();
 }
 
 /// The loop of a worker thread.

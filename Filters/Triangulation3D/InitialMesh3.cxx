@@ -205,18 +205,14 @@ ConflictGraph InitialMesh3::conflicts() const
   return graph;
 }
 
-bool InitialMesh3::partitionsPay() const
+bool InitialMesh3::partitionsPay(double most) const
 {
   std::size_t meeting = 0;
   for (std::size_t cell = 0; cell < this->Cells.size(); ++cell)
   {
     meeting += this->metBegin(cell) < this->metEnd(cell) ? 1 : 0;
   }
-  // Measured with many partitions: 2.1 to 2.5 in a volume, 4 on a surface, 14 on a sphere. Of few
-  // partitions a tetrahedron cannot meet more.
-  constexpr double most = 3;
-  const double limit = std::min(most, double(1 + this->Partitions) / 2);
-  return double(this->Met.size()) <= limit * double(meeting);
+  return double(this->Met.size()) <= most * double(meeting);
 }
 
 } // namespace tipp
