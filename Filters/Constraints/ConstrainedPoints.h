@@ -3,6 +3,9 @@
 #define tippConstrainedPoints_h
 
 #include "Constraints/ConstraintSegments.h"
+#include "Constraints/KeepInside.h"
+#include "Constraints/SplitStored.h"
+#include "Constraints/StoredConstraints.h"
 #include "Constraints/TableConstraints.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Points/PointStream.h"
@@ -17,20 +20,24 @@
 namespace tipp
 {
 
-/// Differs for other constraints.
+/// A hash of the constraints, to recognize them in a resumed run.
 std::string identityOf(const TableConstraints& constraints);
 
-/// The points of a stream and, after them, those of constraints that are not among them, and their
-/// crossings: the points that triangulateTable() triangulates, in the same order and with the same
-/// values; those of TableConstraints::Surface must be set. Which they are is found out in the first
-/// pass. The constraints stay in memory.
-class VTKTIPPFILTERS_EXPORT ConstrainedPoints : public PointStream
+/// The points of a stream, followed by the constraints' points that are not among them, and by
+/// crossings. These are the points of triangulateTable(), in the same order and with the same
+/// values; TableConstraints::Surface must be set. The first pass finds the additional points, on
+/// disk. In memory are only the constraints that cross others and those near them; with holes, all
+/// segments.
+class VTKTIPPFILTERS_EXPORT ConstrainedPoints
+  : public PointStream
+  , public SegmentSource
 {
 public:
-  /// `name`: of the constraints' file, for messages. Throws IOError, in the first pass, for all
+  /// `name` is that of the constraints' file, for messages. `lines` are those of a text file, and
+  /// replace constraints.Lines; null uses the latter. The first pass throws IOError for everything
   /// that triangulateTable() refuses.
   ConstrainedPoints(std::unique_ptr<PointStream> points, TableConstraints constraints,
-    std::string name, int threads);
+    std::string name, int threads, std::unique_ptr<SegmentRows> lines = nullptr);
   ~ConstrainedPoints() override;
 
   bool next(PointBlock& block, std::size_t most) override;
@@ -43,44 +50,55 @@ public:
   std::string crs() const override { return this->Input->crs(); }
   std::string identity() const override;
 
-  /// Before the first pass: what points that the input does not have get where no height is given,
-  /// as TableConstraints::Surface tells. For each column the values at the points of both tables.
+  /// Call before the first pass. For each column, the values at the points of both tables. A new
+  /// point gets them if it has no given height, see TableConstraints::Surface.
   void setSurface(std::vector<std::vector<double>> values) { this->Surface = std::move(values); }
 
-  /// After the first pass: the constraints, split where they cross, and edges around holes. Gives
-  /// them away.
-  std::vector<ConstraintSegment> takeSegments();
+  /// Writes the constraints to disk. Call before the first pass.
+  void begin(const std::string& files, std::uint64_t memory) override;
+  /// The number of segments: parts of constraints split at crossings, and edges around holes.
+  std::int64_t count() const override;
+  void forEach(const VisitSegment& visit) override;
+  void end() override;
 
-  /// After the first pass: the points after the input's.
-  const PointBlock& added() const { return this->Added; }
+  /// After the first pass: the additional points.
+  PointBlock added() const;
 
-  /// Copies the figures there after the first pass; `figures` must outlive this.
+  /// Copies the statistics to `figures` after the first pass. `figures` must outlive this.
   void setReport(ConstraintFigures& figures) { this->Report = &figures; }
 
 private:
-  struct Matching;
-  void addVertices();
-  ResolvedConstraints split(std::vector<Point2>& positions);
   void resolve();
-  void addHoles(const std::vector<Point2>& positions);
+  void addPoints();
+  void countSegments();
+  void addHoles();
   bool nextAdded(PointBlock& block, std::size_t most);
+  void readAdded(std::int64_t first, std::size_t count, PointBlock& block) const;
 
   const std::unique_ptr<PointStream> Input;
   const std::string Name;
   const int Threads;
-  const std::string Own; ///< identifies the constraints
+  const CrossingRule Crossings;
+  const std::vector<Point2> Seeds; ///< points in holes
+  TableConstraints Given;          ///< emptied by begin()
+  std::unique_ptr<SegmentRows> Lines;
+  const std::string Own; ///< hash of the constraints
   ConstraintFigures Counts;
   ConstraintFigures* Report = nullptr;
-  std::unique_ptr<Matching> First;          ///< in the first pass
-  std::vector<std::vector<double>> Surface; ///< see setSurface(); perhaps none
-  std::vector<ConstraintSegment> Segments;
-  std::int64_t InputPoints = 0; ///< of this pass so far
-  bool IsInputRead = false;     ///< in this pass
-  PointBlock Added;             ///< the points after the input's
-  std::size_t NextAdded = 0;
+  std::vector<std::vector<double>> Surface; ///< see setSurface(); empty if not set
+  DiskWork Work{};
+  std::unique_ptr<StoredConstraints> Stored; ///< exists from begin() to end()
+  SplitConstraints Split;
+  std::vector<PositionPair> HoleEdges;
+  HullOfPoints Hull; ///< used if there are holes
+  bool IsResolved = false;
+  std::int64_t InputPoints = 0;   ///< read in this pass so far
+  bool IsInputRead = false;       ///< whether this pass has read all input points
+  std::unique_ptr<RowFile> Added; ///< the additional points: x, y and columns
+  std::int64_t NextAdded = 0;
 };
 
-/// The constraints of files, for a triangulation out of core: to be joined with its points.
+/// The constraints of files for an out-of-core triangulation.
 class VTKTIPPFILTERS_EXPORT ConstrainedInput
 {
 public:
@@ -90,20 +108,23 @@ public:
   {
   }
 
-  /// The points, with those of the constraints if there are files. Throws IOError.
+  /// Returns the points joined with the constraints' points, if there are files. Throws IOError.
   std::unique_ptr<PointStream> join(std::unique_ptr<PointStream> points);
 
-  /// Sets OutOfCoreOptions::Constraints of a run that opens its points by join(). Throws IOError
-  /// for holes, or marks of constraints, without constraints.
+  /// As join(), for a stream of its own. There must be files.
+  std::unique_ptr<ConstrainedPoints> joined(std::unique_ptr<PointStream> points) const;
+
+  /// Sets OutOfCoreOptions::Constraints for a run whose points are opened with join(). Throws
+  /// IOError if holes or marks of constraints are requested without constraints.
   void describe(OutOfCoreOptions& options);
 
-  /// After the first pass over the points; all 0 if a run was resumed.
+  /// The statistics, after the first pass over the points. All are 0 in a resumed run.
   const ConstraintFigures& figures() const { return this->Counts; }
 
 private:
   const ConstraintFiles Files;
   const int Threads;
-  ConstrainedPoints* Joined = nullptr; ///< the last one
+  ConstrainedPoints* Joined = nullptr; ///< made by the last join()
   ConstraintFigures Counts;
 };
 

@@ -19,7 +19,7 @@ std::vector<ConstraintPiece> piecesOf(
 
 ConstraintEdges::ConstraintEdges(const std::vector<ConstraintPiece>& pieces)
 {
-  constexpr std::size_t most = std::size_t(1) << 22; // what caches hold
+  constexpr std::size_t most = std::size_t(1) << 22; // fits into caches
   std::size_t marks = 1;
   while (marks < most && marks < 8 * pieces.size())
   {

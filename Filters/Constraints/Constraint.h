@@ -14,22 +14,23 @@
 namespace tipp
 {
 
-/// A segment between two points that has to be an edge of the triangulation, or a chain of edges.
+/// A segment between two points (point ids) that must be an edge of the triangulation, or a chain
+/// of edges.
 struct Constraint
 {
   PointId A;
   PointId B;
 };
 
-/// A part of a constraint between two points, in the constraint's direction.
+/// A part of a constraint between two points (point ids), directed like the constraint.
 struct ConstraintPiece
 {
   PointId A;
   PointId B;
-  std::int64_t Constraint; ///< its number
+  std::int64_t Constraint; ///< index of the constraint
 };
 
-/// Thrown where pieces turn out to cross, which must not be where they were split at crossings.
+/// Thrown if pieces cross that should have been split at all crossings.
 struct CrossingFound : std::logic_error
 {
   CrossingFound()
@@ -38,11 +39,11 @@ struct CrossingFound : std::logic_error
   }
 };
 
-/// Those of constraints begin to end - 1.
+/// The pieces of constraints [begin, end).
 VTKTIPPFILTERS_EXPORT std::vector<ConstraintPiece> piecesOf(
   const std::vector<ConstraintPiece>& pieces, std::size_t begin, std::size_t end);
 
-/// The edges of constraints, to be looked up.
+/// A set of constraint edges to be found by their ends.
 class VTKTIPPFILTERS_EXPORT ConstraintEdges
 {
 public:
@@ -50,18 +51,18 @@ public:
 
   bool contains(PointId a, PointId b) const;
 
-  /// How many more constraints go from a to b than from b to a.
+  /// The number of constraints from a to b minus the number from b to a.
   int balance(PointId a, PointId b) const;
 
-  /// How many constraints join the two.
+  /// The number of constraints between a and b.
   int count(PointId a, PointId b) const;
 
 private:
-  using Ends = std::pair<PointId, PointId>; ///< the lower first
+  using Ends = std::pair<PointId, PointId>; ///< the lower id first
   struct Edge
   {
     Ends Ids;
-    int Direction; ///< 1 if the constraint goes from the lower end to the higher, else -1
+    int Direction; ///< 1 from the lower id to the higher, -1 for the opposite
   };
 
   bool mayContain(PointId lower) const
@@ -70,8 +71,8 @@ private:
   }
   std::vector<Edge>::const_iterator find(const Ends& ends) const;
 
-  std::vector<Edge> Edges;   ///< by their ends
-  std::vector<char> IsLower; ///< of ids, by their last digits: whether an edge has it as lower end
+  std::vector<Edge> Edges;   ///< sorted by ends
+  std::vector<char> IsLower; ///< by low bits of ids: whether one is a lower end
 };
 
 } // namespace tipp

@@ -14,10 +14,10 @@ namespace tipp
 namespace
 {
 
-/// Lists of numbers, concatenated.
+/// Concatenated lists of numbers.
 struct Lists
 {
-  std::vector<std::int64_t> Starts; ///< and the end
+  std::vector<std::int64_t> Starts; ///< start of each list, and the end of the last
   std::vector<std::int64_t> Items;
 
   const std::int64_t* begin(std::size_t list) const
@@ -34,8 +34,8 @@ struct Lists
   }
 };
 
-/// For each list the indices i with names[i] equal to its number, ascending; a negative name is in
-/// no list.
+/// For each list, the ascending indices i for which names[i] is the list's index. Negative names
+/// are in no list.
 Lists listsOf(const std::vector<std::int64_t>& names, std::size_t lists)
 {
   Lists result;
@@ -57,7 +57,7 @@ Lists listsOf(const std::vector<std::int64_t>& names, std::size_t lists)
   return result;
 }
 
-/// Sets of pieces, joined one by one.
+/// Disjoint sets of pieces (union-find).
 class PieceSets
 {
 public:
@@ -67,7 +67,7 @@ public:
     std::iota(this->Parents.begin(), this->Parents.end(), std::int64_t(0));
   }
 
-  /// The lowest piece of its set.
+  /// The lowest piece in the set of a piece, which represents the set.
   std::int64_t find(std::int64_t piece)
   {
     while (this->parent(piece) != piece)
@@ -90,11 +90,11 @@ private:
   std::vector<std::int64_t> Parents;
 };
 
-/// The jobs: what is retriangulated together.
+/// Jobs: groups of triangles and pieces that are retriangulated together.
 struct Jobs
 {
   std::size_t Count = 0;
-  std::vector<std::int64_t> OfPiece; ///< -1: it crosses nothing
+  std::vector<std::int64_t> OfPiece; ///< -1 if the piece crosses no triangle
   std::vector<std::int64_t> OfTriangle;
 };
 
@@ -133,7 +133,7 @@ Jobs makeJobs(const CrossedTriangles& crossed, std::size_t pieces)
   return jobs;
 }
 
-/// The jobs' triangles and pieces.
+/// The triangles and pieces of each job.
 struct JobLists
 {
   explicit JobLists(const Jobs& jobs)
@@ -142,18 +142,18 @@ struct JobLists
   {
   }
 
-  Lists Triangles; ///< positions in CrossedTriangles::Triangles
+  Lists Triangles; ///< indices in CrossedTriangles::Triangles
   Lists Pieces;
 };
 
-/// A thread's workspace for jobs.
+/// A thread's workspace for retriangulation.
 template <typename Id>
 class JobWorker
 {
 public:
   using Corners = std::array<PointId, 3>;
 
-  /// `known` are constraints that may be edges between the jobs' triangles.
+  /// `known` are constraints that may already be edges between triangles of a job.
   JobWorker(PointsView points, Id* triangles, const CrossedTriangles& crossed, const JobLists& jobs,
     const SplitPieces& split, const ConstraintEdges& known)
     : Points(points)
@@ -227,7 +227,7 @@ private:
     }
   }
 
-  /// Most jobs: the only segment joins the far corners of two triangles.
+  /// The most frequent job: one segment replaces the common edge of two triangles.
   void exchangeDiagonal(std::size_t job) const
   {
     const std::int64_t* const both = this->All.Triangles.begin(job);

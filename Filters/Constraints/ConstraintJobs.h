@@ -14,26 +14,27 @@
 namespace tipp
 {
 
-/// The pieces' parts between the vertices that lie on them.
+/// Pieces that are split at the vertices on them.
 struct SplitPieces
 {
   std::vector<ConstraintPiece> Parts;
-  std::vector<std::int64_t> Starts; ///< of each piece's parts, and the end; empty: one each
+  std::vector<std::int64_t> Starts; ///< first part of each piece; empty if all have one part
 };
 
-/// Touches: sorted by piece. Pieces are moved into the result.
+/// `touches` must be sorted by piece. The pieces are moved into the result.
 VTKTIPPFILTERS_EXPORT SplitPieces splitPieces(PointsView points,
   std::vector<ConstraintPiece>& pieces, const std::vector<CrossedTriangles::Touch>& touches);
 
-/// For each triangle of `crossed` its job: pieces that cross the same triangle form one job with
-/// the triangles that they cross. Jobs are numbered by their first piece, of `pieces`.
+/// The job of each triangle in `crossed`. Pieces that cross a common triangle belong to the same
+/// job, with all triangles that they cross. Jobs are numbered by their first piece; `pieces` is the
+/// number of pieces.
 VTKTIPPFILTERS_EXPORT std::vector<std::int64_t> jobsOfTriangles(
   const CrossedTriangles& crossed, std::size_t pieces);
 
-/// Retriangulates all jobs, which do not depend on each other. The new triangles of a job take the
-/// positions of the old ones in `triangles`, both in their order, so that the result is the same
-/// for any number of threads. `known` are constraints that may be edges between a job's triangles.
-/// Throws CrossingFound.
+/// Retriangulates all jobs, which are independent of each other. A job's new triangles replace its
+/// old ones in `triangles`, in order, so the result does not depend on the number of threads.
+/// `known` are constraints that may already be edges between triangles of a job. Throws
+/// CrossingFound.
 template <typename Id>
 void retriangulateJobs(PointsView points, Id* triangles, const CrossedTriangles& crossed,
   std::size_t pieces, const SplitPieces& split, const ConstraintEdges& known, int threads);

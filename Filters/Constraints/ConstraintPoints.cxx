@@ -21,7 +21,7 @@ PositionIndex::PositionIndex(std::vector<Point2> points)
     throw std::length_error("There are too many constraints; give fewer.");
   }
   std::size_t slots = 16;
-  while (slots < 4 * this->Points.size()) // few points are compared with one that is not there
+  while (slots < 4 * this->Points.size()) // sparse, since most lookups do not find a point
   {
     slots *= 2;
   }
@@ -155,7 +155,7 @@ std::array<Point2, 3> cornersOf(PointsView points, const Id* ids, std::int64_t t
     points[std::size_t(corners[2])] };
 }
 
-/// The triangle that answers each position, or NoTriangle.
+/// The triangle that gives each position its value, or NoTriangle.
 template <typename Id>
 std::vector<std::int64_t> findAnswers(
   const std::vector<Point2>& positions, PointsView points, const Buffer<Id>& ids, int threads)
@@ -238,7 +238,7 @@ void interpolateTuples(const std::vector<CrossingPoint>& crossings, std::size_t 
         {
           const double value =
             double(a[c]) * (1 - crossing.Fraction) + double(b[c]) * crossing.Fraction;
-          // as VTK rounds
+          // Rounds like VTK.
           *to++ = toScalar<Value>(
             std::is_integral_v<Value> ? std::trunc(value + std::copysign(0.5, value)) : value);
         }

@@ -20,7 +20,7 @@
 namespace tipp
 {
 
-/// Points to be looked up by their coordinates.
+/// A hash table of points by their coordinates.
 class PositionIndex
 {
 public:
@@ -28,11 +28,24 @@ public:
 
   const std::vector<Point2>& points() const { return this->Points; }
 
-  /// The first point with these coordinates; -1: none. NaN and infinity are not found.
+  /// A hash of the coordinates, all bits of which depend on both.
+  static std::uint64_t hashOf(Point2 position)
+  {
+    // -0 becomes +0, since both are equal.
+    const double xy[2] = { position.x + 0.0, position.y + 0.0 };
+    std::uint64_t bits[2];
+    std::memcpy(bits, xy, sizeof bits);
+    std::uint64_t hash = bits[0] * 0x9e3779b97f4a7c15U + bits[1];
+    hash ^= hash >> 32;
+    hash *= 0xd6e8feb86659fd93U;
+    return hash ^ hash >> 32;
+  }
+
+  /// The index of the first point with these coordinates, or -1. NaN and infinity are not found.
   std::int64_t find(Point2 position) const;
 
-  /// Calls found(i, index) for each of `count` positions that is there; it waits less for memory
-  /// than find() of each.
+  /// Calls found(i, index) for each of `count` positions that equals a point. Faster than find()
+  /// for each, because memory is prefetched.
   template <typename Found>
   void findAll(const Point2* positions, std::size_t count, const Found& found) const
   {
@@ -56,17 +69,6 @@ public:
   }
 
 private:
-  static std::uint64_t hashOf(Point2 position)
-  {
-    // Zeros of both signs are equal.
-    const double xy[2] = { position.x + 0.0, position.y + 0.0 };
-    std::uint64_t bits[2];
-    std::memcpy(bits, xy, sizeof bits);
-    std::uint64_t hash = bits[0] * 0x9e3779b97f4a7c15U + bits[1];
-    hash ^= hash >> 32;
-    hash *= 0xd6e8feb86659fd93U;
-    return hash ^ hash >> 32;
-  }
   bool isMarked(std::uint64_t hash) const
   {
     return (this->markOf(hash) >> (hash >> 32 & 7) & 1) != 0;
@@ -80,39 +82,40 @@ private:
   static constexpr std::uint32_t Nobody = 0xffffffff;
 
   std::vector<Point2> Points;
-  std::vector<std::uint32_t> Slots; ///< indices, or Nobody; their number is a power of two
-  /// Bits by other digits of the hash, four a slot: most points that are not there are told by
-  /// them, and caches hold more of them than of the slots.
+  std::vector<std::uint32_t> Slots; ///< point indices, or Nobody; the size is a power of two
+  /// A filter by other bits of the hash, with four bits per slot. It rejects most positions that
+  /// are not found, and more of it than of the slots fits into caches.
   std::vector<std::uint8_t> Marks;
 };
 
-/// The ids of other points among those of a triangulation.
+/// The ids of other points after they have been added to a triangulation's points.
 struct MatchedPositions
 {
-  std::vector<PointId> Ids;     ///< by other point: the first point at its position, or a new id
-  std::vector<std::size_t> New; ///< the other points with new ids, which follow those of the points
+  std::vector<PointId> Ids;     ///< per other point: the first point equal to it, or a new id
+  std::vector<std::size_t> New; ///< other points with new ids, which follow those of the points
 };
 
 VTKTIPPFILTERS_EXPORT MatchedPositions matchPositions(PointsView points, PointsView others);
 
-/// Fills the tuples of an array after the first `points` ones: those of the crossings, each linear
-/// between the two points that it lies between. Integers are rounded.
+/// Sets the tuples of the crossings, which follow the first `points` tuples of an array. A
+/// crossing's value is linear between the two points that it lies between. Integers are rounded.
 void interpolateTuples(const std::vector<CrossingPoint>& crossings, std::size_t points, Scalar type,
   std::size_t components, void* values);
 
-/// A triangle of a surface, with its corners in the order of their coordinates, so that values in
-/// it do not depend on how a triangulation orders triangles and corners.
+/// A triangle of a surface with its corners sorted by coordinates, so that values do not depend on
+/// the order of corners.
 struct SurfaceTriangle
 {
   explicit SurfaceTriangle(const std::array<Point2, 3>& corners);
 
   std::array<Point2, 3> Corners;
-  std::array<std::size_t, 3> Order{ 0, 1, 2 }; ///< of each, its index among the given corners
+  std::array<std::size_t, 3> Order{ 0, 1, 2 }; ///< index of each corner among the given ones
 
-  /// Of two triangles that contain a position the one before answers it.
+  /// If several triangles contain a position, the first one in this order gives the value.
   bool isBefore(const SurfaceTriangle& other) const;
 
-  /// The value at a position, linear in the triangle. valueOf(i): that of the given corner i.
+  /// The value at a position, linear in the triangle. valueOf(i) is the value at the given corner
+  /// i.
   template <typename ValueOf>
   double valueAt(Point2 position, const ValueOf& valueOf) const
   {
@@ -120,7 +123,7 @@ struct SurfaceTriangle
     double sum = 0;
     for (std::size_t i = 0; i < 3; ++i)
     {
-      // A corner without weight may be one without value.
+      // A corner with weight 0 may have the value NaN, which must not count.
       sum += weights[i] > 0 ? weights[i] * valueOf(this->Order[i]) : 0;
     }
     return sum;
@@ -130,14 +133,15 @@ private:
   std::array<double, 3> weightsAt(Point2 position) const;
 };
 
-/// Positions whose values on a triangulated surface are wanted.
+/// Positions on a triangulated surface whose values are requested.
 class VTKTIPPFILTERS_EXPORT SurfacePositions
 {
 public:
-  /// NaN and infinite ones lie in no triangle.
+  /// Positions that are not finite are in no triangle.
   explicit SurfacePositions(const std::vector<Point2>& positions);
 
-  /// visit(index, position) for those in a counter-clockwise triangle or on its border.
+  /// Calls visit(index, position) for the positions inside a counter-clockwise triangle or on its
+  /// border.
   template <typename Visit>
   void visitInside(const std::array<Point2, 3>& p, const Visit& visit) const
   {
@@ -155,15 +159,15 @@ public:
       });
   }
 
-  /// Whether one may be in the box.
+  /// Whether a position may be in the box.
   bool meets(const Box2& box) const;
 
 private:
   SegmentTree Tree;
 };
 
-/// The values at positions on the surface of points, of each column; NaN outside of it.
-/// `columns`: of each one the values of the points.
+/// The values of each column at positions on the surface of `points`; NaN outside it. `columns` has
+/// the values of each column at the points.
 std::vector<std::vector<double>> valuesOnSurface(const std::vector<Point2>& positions,
   PointsView points, const Triangulation& triangles, const std::vector<const double*>& columns,
   int threads);

@@ -139,7 +139,8 @@ void ConstraintRegion::insert(PointId a, PointId b)
   }
 }
 
-/// The half-edge ab or its twin; or the one from a in whose triangle b's direction lies; or None.
+/// Returns the half-edge ab or its twin if ab is an edge; otherwise the half-edge from a in whose
+/// triangle the segment ab starts, or None.
 ConstraintRegion::Index ConstraintRegion::findToward(Index a, Index b, bool& isEdge) const
 {
   auto border = std::lower_bound(this->Borders.begin(), this->Borders.end(), a,
@@ -156,7 +157,8 @@ ConstraintRegion::Index ConstraintRegion::findToward(Index a, Index b, bool& isE
   return found;
 }
 
-/// The same among the triangles round a vertex from one of its half-edges on, counter-clockwise.
+/// As findToward(), for the triangles around a vertex, counter-clockwise from `first`, one of its
+/// half-edges.
 ConstraintRegion::Index ConstraintRegion::sweep(Index first, Index b, bool& isEdge) const
 {
   const Index a = this->from(first);
@@ -181,7 +183,7 @@ ConstraintRegion::Index ConstraintRegion::sweep(Index first, Index b, bool& isEd
   return None;
 }
 
-/// Inserts ab, which begins in the triangle of `first`, a half-edge from a.
+/// Inserts ab, which starts in the triangle of `first`, a half-edge from a.
 void ConstraintRegion::insertAcross(Index a, Index b, Index first)
 {
   this->Crossed.assign(1, next(first));

@@ -13,8 +13,8 @@
 namespace tipp
 {
 
-/// Triangles of a triangulation that are retriangulated together: segments are inserted one by one,
-/// and what comes out is the constrained Delaunay triangulation under the tie rule.
+/// A region of triangles that are retriangulated together. Segments are inserted one by one. The
+/// result is the constrained Delaunay triangulation under the tie rule.
 //
 // Half-edge h goes from corner h % 3 of triangle h / 3 to the next one.
 class ConstraintRegion
@@ -24,15 +24,15 @@ public:
 
   void clear();
 
-  /// A counter-clockwise triangle; before finish().
+  /// Adds a counter-clockwise triangle. Call before finish().
   void add(const std::array<PointId, 3>& ids, const std::array<Point2, 3>& positions);
   void finish();
 
-  /// Makes ab an edge, unless it is outside of the region or on its border, where it is one
-  /// already. No vertex and no other inserted segment may be in the way.
+  /// Makes ab an edge, unless it is outside the region or on its border, where it is an edge
+  /// already. No vertex and no inserted segment may be between a and b.
   void insert(PointId a, PointId b);
 
-  /// Keeps the edges ab inside of the region that are constraints: isConstraint(a, b).
+  /// Fixes the edges ab inside the region for which isConstraint(a, b) is true.
   template <typename IsConstraint>
   void fixEdges(const IsConstraint& isConstraint)
   {
@@ -60,7 +60,7 @@ private:
   };
   struct BorderEdge
   {
-    Index From; ///< its vertex
+    Index From; ///< the vertex where it starts
     Index Half;
   };
   static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
@@ -96,17 +96,17 @@ private:
   Index sweep(Index first, Index b, bool& isEdge) const;
   void insertAcross(Index a, Index b, Index first);
 
-  std::vector<Vertex> Vertices; ///< by id
-  std::vector<Index> Corners;   ///< their vertices
-  std::vector<Index> Twins;     ///< of half-edges: the half-edge on the other side, or ~(border)
+  std::vector<Vertex> Vertices; ///< sorted by id
+  std::vector<Index> Corners;   ///< vertex of each corner
+  std::vector<Index> Twins;     ///< per half-edge: its twin, or ~(index of the border edge)
   static constexpr char FixedBit = 1;
-  static constexpr char RemovedBit = 2; ///< of a triangle's first half-edge
+  static constexpr char RemovedBit = 2; ///< in Fixed, of a triangle's first half-edge
 
-  std::vector<char> Fixed;         ///< of half-edges: whether a segment is inserted there
-  std::vector<BorderEdge> Borders; ///< by From
-  std::vector<Index> Out;          ///< of vertices: a half-edge from there
-  std::vector<PointId> AddedIds;   ///< of corners, before finish()
-  std::vector<Index> Crossed;      ///< half-edges that a segment crosses
+  std::vector<char> Fixed;         ///< per half-edge: whether it is on an inserted segment
+  std::vector<BorderEdge> Borders; ///< sorted by From
+  std::vector<Index> Out;          ///< per vertex: a half-edge that starts there
+  std::vector<PointId> AddedIds;   ///< per corner, until finish()
+  std::vector<Index> Crossed;      ///< half-edges that the current segment crosses
   SegmentInserter<ConstraintRegion> Inserter;
 };
 

@@ -12,8 +12,7 @@ namespace tipp
 namespace
 {
 
-/// The segments that lie round holes, or the others, as a tree; Ids are their indices in
-/// `segments`.
+/// A tree of the segments around holes, or of all others. The items' Ids are indices in `segments`.
 SegmentTree treeOf(const std::vector<ConstraintSegment>& segments, bool areHoles)
 {
   std::vector<SegmentTree::Item> items;
@@ -29,7 +28,7 @@ SegmentTree treeOf(const std::vector<ConstraintSegment>& segments, bool areHoles
   return SegmentTree(std::move(items));
 }
 
-/// A corner of a triangle, and the others.
+/// A corner of a triangle, and the other two corners.
 struct Wedge
 {
   Point2 Corner;
@@ -39,7 +38,7 @@ struct Wedge
 
 const auto isLower = [](Point2 a, Point2 b) { return lexicographicLess(a, b); };
 
-/// At the lexicographically lowest corner.
+/// The wedge at the lexicographically lowest corner.
 Wedge lowestWedge(const std::array<Point2, 3>& triangle)
 {
   const auto low =
@@ -47,13 +46,15 @@ Wedge lowestWedge(const std::array<Point2, 3>& triangle)
   return { triangle[low], triangle[(low + 1) % 3], triangle[(low + 2) % 3] };
 }
 
-/// Calls visit(item, sign) for each segment of a tree that a ray upward crosses: 1 if the segment
-/// goes to the left there, else -1. The ray begins inside of the wedge, so near its corner that
-/// only segments through the corner have to be told apart by it; none goes into the wedge.
+/// Calls visit(item, sign) for each segment of a tree that crosses an upward ray: the sign is 1 if
+/// the segment goes to the left there, otherwise -1. The ray starts inside the triangle, so close
+/// to the corner that among the segments through the corner no others need to be compared; no
+/// segment enters the wedge.
 template <typename Visit>
 void visitAbove(const SegmentTree& tree, const Wedge& wedge, const Visit& visit)
 {
-  // The other corners are not left of the corner, so the ray's x is a bit more than the corner's.
+  // The other corners are not to the left of the corner, so the ray's x is slightly larger than the
+  // corner's.
   const Point2 p = wedge.Corner;
   const double infinity = std::numeric_limits<double>::infinity();
   tree.visitNear(Box2{ p.x, p.y, p.x, infinity },
@@ -66,7 +67,7 @@ void visitAbove(const SegmentTree& tree, const Wedge& wedge, const Visit& visit)
       {
         return true;
       }
-      int side = orientation(left, right, p); // of the ray's beginning: above is 1
+      int side = orientation(left, right, p); // where the ray starts: 1 is above the segment
       for (const Point2 other : { wedge.One, wedge.Other })
       {
         side = side == 0 ? orientation(left, right, other) : side;
@@ -79,7 +80,7 @@ void visitAbove(const SegmentTree& tree, const Wedge& wedge, const Visit& visit)
     });
 }
 
-/// How often the segments of a tree that are taken go round a wedge counter-clockwise.
+/// The winding number of the segments for which isTaken() is true, around a point inside the wedge.
 template <typename IsTaken>
 int windingOf(const SegmentTree& tree, const Wedge& wedge, const IsTaken& isTaken)
 {
@@ -89,8 +90,8 @@ int windingOf(const SegmentTree& tree, const Wedge& wedge, const IsTaken& isTake
   return winding;
 }
 
-/// How many more of them go round the left side of an edge than round its right side, if the edge
-/// goes from its lexicographically lower end, `low`, to `high`.
+/// The winding number on the left of an edge minus that on its right. The edge goes from its
+/// lexicographically lower end, `low`, to `high`.
 template <typename IsTaken>
 int windingAcross(const SegmentTree& tree, Point2 low, Point2 high, const IsTaken& isTaken)
 {
@@ -119,7 +120,7 @@ ConstraintSegments::ConstraintSegments(
   : All(treeOf(segments, false))
   , Holes(treeOf(segments, true))
 {
-  // Items are named by their position, which is the same wherever the tree is made.
+  // Items are identified by their index in the tree, which is the same on all ranks.
   std::vector<std::int64_t> names = this->All.nameByPosition();
   for (const std::int64_t segment : names)
   {
@@ -152,7 +153,8 @@ bool ConstraintSegments::has(SegmentRole role) const
   return std::find(this->Roles.begin(), this->Roles.end(), std::uint8_t(role)) != this->Roles.end();
 }
 
-/// Whether polygons go round anything counter-clockwise: then also on one side of an edge.
+/// Whether the winding number of the polygons is positive anywhere, which then is so on one side of
+/// some edge.
 bool ConstraintSegments::haveInside() const
 {
   const auto isPolygon = [this](const SegmentTree::Item& item)
@@ -165,7 +167,7 @@ bool ConstraintSegments::haveInside() const
         return false;
       }
       const auto [low, high] = std::minmax(item.A, item.B, isLower);
-      // Above the edge, or on the right of a vertical one.
+      // The winding number above the edge, or on the right of a vertical edge.
       const int winding = windingOf(this->All, Wedge{ low, high, high }, isPolygon);
       const int across = windingAcross(this->All, low, high, isPolygon);
       return winding > 0 || winding + (low.x == high.x ? across : -across) > 0;

@@ -9,22 +9,24 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <string>
 #include <vector>
 
 namespace tipp
 {
 
-/// What a segment is an edge of.
+/// The kind of line that a segment belongs to.
 enum class SegmentRole : std::int64_t
 {
   Line,
   Polygon,  ///< see Cuts::Polygons
   Boundary, ///< see Cuts::Boundary
-  Hole      ///< no constraint: an odd number of these goes round triangles that are removed
+  Hole      ///< not a constraint: triangles inside an odd number of such loops are removed
 };
 
-/// A segment that has to be an edge of the triangulation, or a chain of edges. Its ends are
-/// vertices, known by their coordinates.
+/// A segment that must be an edge of the triangulation, or a chain of edges. Its ends are vertices,
+/// identified by their coordinates.
 struct ConstraintSegment
 {
   Point2 A;
@@ -32,44 +34,68 @@ struct ConstraintSegment
   SegmentRole Role;
 };
 
-/// All segments that constrain a triangulation of which no process may hold all points or
-/// triangles. None crosses another, except at ends.
+using VisitSegment = std::function<void(const ConstraintSegment&)>;
+
+/// Provides the segments that constrain an out-of-core triangulation, after the first pass over its
+/// points. No segment crosses another. The segments need not fit into memory. All methods throw
+/// IOError.
+class SegmentSource
+{
+public:
+  virtual ~SegmentSource() = default;
+
+  /// Call before the first pass. `files` is the beginning of the paths of temporary files. `memory`
+  /// is the run's memory limit in bytes.
+  virtual void begin(const std::string& files, std::uint64_t memory) = 0;
+
+  /// @name After the first pass
+  ///@{
+  virtual std::int64_t count() const = 0;
+  /// Visits all segments, in the same order each time.
+  virtual void forEach(const VisitSegment& visit) = 0;
+  /// Frees the memory that is only needed for the segments.
+  virtual void end() = 0;
+  ///@}
+};
+
+/// All segments that constrain a triangulation whose points and triangles are distributed. Segments
+/// cross only at common ends.
 class VTKTIPPFILTERS_EXPORT ConstraintSegments
 {
 public:
-  /// `indices` gets, for each item of the tree, its index in `segments`.
+  /// If `indices` is not null, it gets the index in `segments` of each item of the tree.
   explicit ConstraintSegments(
     const std::vector<ConstraintSegment>& segments, std::vector<std::int64_t>* indices = nullptr);
 
-  /// Some of all segments, without their roles: they cut nothing. `names` has for each its number
-  /// among all.
+  /// A subset of the segments, without roles, so that it does not remove triangles. `names` has the
+  /// index of each among all segments.
   ConstraintSegments(const std::vector<ConstraintSegment>& segments,
     const std::vector<std::int64_t>& names, std::vector<std::int64_t>* indices = nullptr);
 
-  /// All segments again, in the order of the trees.
+  /// All segments, in the order of the trees.
   std::vector<ConstraintSegment> list() const;
 
-  /// The constraints by where they lie. An item's Id is its index among the items.
+  /// A tree of the constraints. An item's Id is its index among the items.
   const SegmentTree& tree() const { return this->All; }
   const SegmentTree::Item& at(std::int64_t segment) const
   {
     return this->All.items()[std::size_t(segment)];
   }
-  /// An item's number among all segments: its index, if these are all.
+  /// The index of an item among all segments; if this has all segments, the item's own index.
   std::int64_t nameOf(std::int64_t segment) const
   {
     return this->Names.empty() ? segment : this->Names[std::size_t(segment)];
   }
 
-  /// Whether polygons, a boundary or holes tell which triangles are kept.
+  /// Whether there are polygons, a boundary or holes, so that triangles may be removed.
   bool cuts() const { return this->HasPolygons || this->HasBoundary || this->Holes.groups() > 0; }
 
-  /// Whether no edge of a polygon, boundary or hole may meet the box: then all triangles in it are
-  /// kept, or none is.
+  /// Whether no edge of a polygon, boundary or hole can meet the box. Then either all triangles in
+  /// the box are kept or none.
   bool isUncut(const Box2& box) const;
 
-  /// Whether polygons, boundary and holes keep the triangle, which is counter-clockwise and crosses
-  /// no edge of theirs. Exact.
+  /// Whether polygons, boundary and holes keep a triangle. It must be counter-clockwise and cross
+  /// none of their edges. Exact.
   bool keeps(const std::array<Point2, 3>& triangle) const;
 
 private:
@@ -82,11 +108,11 @@ private:
 
   SegmentTree All;
   SegmentTree Holes;
-  std::vector<std::uint8_t> Roles; ///< of the items of All
-  std::vector<std::int64_t> Names; ///< of these; empty: their indices
+  std::vector<std::uint8_t> Roles; ///< per item of All
+  std::vector<std::int64_t> Names; ///< index of each item among all segments; empty if this has all
   bool HasPolygons = false;
   bool HasBoundary = false;
-  bool OnlyHoles = false; ///< no polygon goes round anything counter-clockwise
+  bool OnlyHoles = false; ///< polygons have no positive winding number anywhere, so all are holes
 };
 
 } // namespace tipp

@@ -41,7 +41,7 @@ std::size_t segmentBegin(const CrossedPart& part, std::size_t triangle)
   return triangle == 0 ? 0 : std::size_t(part.SegmentEnds[triangle - 1]);
 }
 
-/// The part's segments, ascending.
+/// The segments that cross triangles of the part, ascending.
 std::vector<std::int64_t> segmentsOf(const CrossedPart& part)
 {
   std::vector<std::int64_t> segments = part.Segments;
@@ -49,7 +49,7 @@ std::vector<std::int64_t> segmentsOf(const CrossedPart& part)
   return segments;
 }
 
-/// Sorts the part's known segments, each once.
+/// Sorts the part's known segments and removes repeated ones.
 void sortKnown(CrossedPart& part)
 {
   using Item = SegmentTree::Item;
@@ -60,7 +60,7 @@ void sortKnown(CrossedPart& part)
     part.Known.end());
 }
 
-/// After sortKnown().
+/// The item of a segment. Call after sortKnown().
 const SegmentTree::Item& knownOf(const CrossedPart& part, std::int64_t segment)
 {
   return *std::lower_bound(part.Known.begin(), part.Known.end(), segment,
@@ -73,8 +73,8 @@ std::size_t indexIn(const std::vector<Item>& sorted, const Item& item)
   return std::size_t(std::lower_bound(sorted.begin(), sorted.end(), item) - sorted.begin());
 }
 
-/// The part's triangles and the segments that cross them, by indices in `segments`, which has them
-/// all.
+/// The part's triangles and the segments that cross them, as indices in `segments`, which must
+/// contain them all.
 CrossedTriangles crossingsOf(const CrossedPart& part, const std::vector<std::int64_t>& segments)
 {
   CrossedTriangles crossed;
@@ -99,9 +99,9 @@ void addTriangle(const CrossedPart& from, std::size_t t, CrossedPart& to)
   to.SegmentEnds.push_back(to.Segments.size());
 }
 
-/// Of each of `segments`: whether it is complete in the part. If it crosses a triangle, it can be
-/// followed from there to both ends: it leaves a triangle by an edge, where the part must have the
-/// next triangle, or by a vertex all of whose triangles are in the part.
+/// For each of `segments`, whether it is complete in the part. A segment that crosses a triangle is
+/// followed from there to both ends. It leaves a triangle across an edge, then the part must have
+/// the next triangle, or at a vertex, then the part must have all triangles at this vertex.
 std::vector<char> findComplete(const CrossedPart& part, const std::vector<std::int64_t>& segments,
   const std::function<bool(std::int64_t)>& isInner)
 {
@@ -160,8 +160,8 @@ std::vector<char> findComplete(const CrossedPart& part, const std::vector<std::i
   return isComplete;
 }
 
-/// The vertices of a part, by index: first those that have numbers, by these, then ends of segments
-/// that are no vertices of the part.
+/// The vertices of a part. First those with numbers, sorted by these; then ends of segments that
+/// are not vertices of the part.
 struct PartVertices
 {
   std::vector<std::int64_t> Numbers;
@@ -205,7 +205,7 @@ struct PartVertices
 
   PointId indexOf(std::int64_t number) const { return PointId(indexIn(this->Numbers, number)); }
 
-  /// A new index if no vertex of the part is there.
+  /// The index of the vertex at this position. A new index is added if there is none.
   PointId indexAt(Point2 position)
   {
     const auto found = std::lower_bound(this->ByPosition.begin(), this->ByPosition.end(), position,
@@ -219,7 +219,7 @@ struct PartVertices
   }
 
 private:
-  std::vector<std::size_t> ByPosition; ///< those with numbers
+  std::vector<std::size_t> ByPosition; ///< vertices with numbers, sorted by position
 };
 
 } // namespace
@@ -245,16 +245,20 @@ std::size_t moveCrossed(PointsView points, const ConstraintSegments& segments, s
   CrossedPart& part)
 {
   std::vector<std::int64_t> used;
-  std::size_t kept = crossings.empty() ? triangles : std::size_t(crossings.front().Triangle);
-  auto crossing = crossings.begin();
-  for (std::size_t t = kept; t < triangles; ++t)
+  std::size_t kept = 0;
+  std::size_t next = 0; // the first triangle that has not been moved yet
+  const auto keepUntil = [&](std::size_t end)
   {
+    kept < next ? void(std::copy(corners + 3 * next, corners + 3 * end, corners + 3 * kept))
+                : void();
+    kept += end - next;
+  };
+  for (auto crossing = crossings.begin(); crossing != crossings.end();)
+  {
+    const auto t = std::size_t(crossing->Triangle);
+    keepUntil(t);
+    next = t + 1;
     const Id* const its = corners + 3 * t;
-    if (crossing == crossings.end() || crossing->Triangle != std::int64_t(t))
-    {
-      std::copy_n(its, 3, corners + 3 * kept++);
-      continue;
-    }
     part.Triangles.push_back({ first + its[0], first + its[1], first + its[2] });
     part.Positions.push_back(
       { points[std::size_t(its[0])], points[std::size_t(its[1])], points[std::size_t(its[2])] });
@@ -265,6 +269,7 @@ std::size_t moveCrossed(PointsView points, const ConstraintSegments& segments, s
     }
     part.SegmentEnds.push_back(part.Segments.size());
   }
+  keepUntil(triangles);
   keepUniqueItems(used);
   for (const std::int64_t segment : used)
   {
@@ -309,7 +314,7 @@ CrossedPart splitIncomplete(CrossedPart& part, const std::function<bool(std::int
   const std::vector<char> isComplete = findComplete(part, used, isInner);
   const CrossedTriangles crossed = crossingsOf(part, used);
   const std::vector<std::int64_t> jobs = jobsOfTriangles(crossed, used.size());
-  std::vector<char> isLeft(used.size(), 0); // of jobs
+  std::vector<char> isLeft(used.size(), 0); // per job
   for (std::size_t t = 0; t < jobs.size(); ++t)
   {
     for (std::int64_t i = crossed.Starts[t]; i < crossed.Starts[t + 1]; ++i)
@@ -334,7 +339,7 @@ CrossedPart splitIncomplete(CrossedPart& part, const std::function<bool(std::int
   { return std::binary_search(vertices.begin(), vertices.end(), vertex); };
   std::copy_if(part.FixedEdges.begin(), part.FixedEdges.end(), std::back_inserter(rest.FixedEdges),
     [&](const auto& edge) { return isOfRest(edge[0]) && isOfRest(edge[1]); });
-  // A segment that crosses nothing here may do so elsewhere.
+  // A segment that crosses no triangle of the remaining part may cross triangles of other parts.
   const std::vector<std::int64_t> done = segmentsOf(whole);
   std::copy_if(part.Touches.begin(), part.Touches.end(), std::back_inserter(rest.Touches),
     [&](const CrossedPart::Touch& touch)
@@ -372,7 +377,7 @@ void retriangulate(CrossedPart& part, int threads)
   std::vector<ConstraintPiece> known;
   for (const auto& edge : part.FixedEdges)
   {
-    if (vertices.has(edge[0]) && vertices.has(edge[1])) // else of triangles that are put aside
+    if (vertices.has(edge[0]) && vertices.has(edge[1])) // others were moved to the rest
     {
       known.push_back({ vertices.indexOf(edge[0]), vertices.indexOf(edge[1]), 0 });
     }

@@ -17,33 +17,33 @@
 namespace tipp
 {
 
-/// Crossed triangles of a part of a triangulation, with all that is needed to retriangulate them.
-/// Vertices and segments are named by numbers that all parts agree on
-/// (ConstraintSegments::nameOf()).
+/// Crossed triangles of a part of a triangulation, with everything that is needed to retriangulate
+/// them. Vertices and segments have numbers that all parts agree on (ConstraintSegments::nameOf()).
 ///
-/// A segment is *complete* in a part if all triangles that it crosses are in the part. Parts are
-/// retriangulated in two steps: each the jobs whose segments are complete, which change no other
-/// part's triangles; and then the rest of all parts together.
+/// A segment is *complete* in a part if the part has all triangles that the segment crosses. Parts
+/// are retriangulated in two steps. First, each part retriangulates the jobs whose segments are all
+/// complete; this changes no triangle of other parts. Then the rest of all parts is retriangulated
+/// together.
 struct CrossedPart
 {
   using Corners = std::array<std::int64_t, 3>;
   struct Touch
   {
     std::int64_t Segment;
-    std::int64_t Vertex; ///< in the interior of the segment
+    std::int64_t Vertex; ///< number of a vertex in the interior of the segment
     Point2 Position;
   };
 
   std::vector<Corners> Triangles;
-  std::vector<std::array<Point2, 3>> Positions; ///< of each triangle's corners
-  std::vector<std::uint64_t> SegmentEnds;       ///< of each triangle, in Segments
-  std::vector<std::int64_t> Segments;           ///< that cross each triangle
-  std::vector<SegmentTree::Item> Known;         ///< these, some perhaps several times
-  /// Edges of these triangles that lie on segments.
+  std::vector<std::array<Point2, 3>> Positions; ///< of the corners of each triangle
+  std::vector<std::uint64_t> SegmentEnds;       ///< end of each triangle's range in Segments
+  std::vector<std::int64_t> Segments;           ///< segments that cross each triangle, concatenated
+  std::vector<SegmentTree::Item> Known;         ///< these segments, possibly repeated
+  /// Edges of these triangles that are on segments, as vertex numbers.
   std::vector<std::array<std::int64_t, 2>> FixedEdges;
   std::vector<Touch> Touches;
 
-  /// Replaces the numbers of all vertices.
+  /// Replaces the numbers of all vertices by newNumber(number).
   template <typename NewNumber>
   void rename(const NewNumber& newNumber)
   {
@@ -69,45 +69,46 @@ void serialize(Archive& archive, CrossedPart& part)
     part.FixedEdges, part.Touches);
 }
 
-/// Moves the triangles of `from` to the end of those in `to`.
+/// Appends the content of `from` to `to`.
 VTKTIPPFILTERS_EXPORT void append(CrossedPart&& from, CrossedPart& to);
 
-/// Removes the triangles that segments cross, keeps the order of the others, and adds them to
-/// `part`. Corners are indices of points; the number of a vertex is its index plus `first`. Returns
-/// the number of triangles that are left.
+/// Moves the triangles that segments cross to `part`, and keeps the order of the others. `corners`
+/// are indices of points; a vertex has the number index + `first`. Returns the number of remaining
+/// triangles.
 template <typename Id>
 VTKTIPPFILTERS_EXPORT std::size_t takeCrossed(PointsView points, const ConstraintSegments& segments,
   std::int64_t first, Id* corners, std::size_t triangles, CrossedPart& part);
 
-/// The same where it is known which segments cross which triangles: by indices among `segments`,
-/// ascending by triangle. Adds no edges and vertices that lie on segments.
+/// As takeCrossed(), if the crossings are known: segments are indices in `segments`, and crossings
+/// are sorted by triangle. Edges and vertices on segments are not added.
 template <typename Id>
 VTKTIPPFILTERS_EXPORT std::size_t moveCrossed(PointsView points, const ConstraintSegments& segments,
   std::int64_t first, const std::vector<ScannedTriangles::Crossing>& crossings, Id* corners,
   std::size_t triangles, CrossedPart& part);
 
-/// Removes the triangles of jobs with segments that are not complete, and returns them. isInner():
-/// whether all triangles at a vertex are in the part.
+/// Removes the triangles of jobs with incomplete segments, and returns them. isInner(vertex) says
+/// whether the part has all triangles at a vertex.
 VTKTIPPFILTERS_EXPORT CrossedPart splitIncomplete(
   CrossedPart& part, const std::function<bool(std::int64_t)>& isInner);
 
-/// Replaces the triangles of whole jobs by those of the constrained triangulation, their lowest
-/// corners first.
+/// Replaces the part's triangles by those of the constrained triangulation, each starting with its
+/// lowest vertex. All jobs must be complete.
 VTKTIPPFILTERS_EXPORT void retriangulate(CrossedPart& part, int threads);
 
-/// The edges of constrained triangles that lie on segments; an edge on several segments is listed
-/// once for each.
+/// The edges of constrained triangles that are on segments. An edge on several segments is listed
+/// for each of them.
 template <typename Id>
 std::vector<ScannedTriangles::Edge> edgesOnSegments(
   PointsView points, const ConstraintSegments& segments, const Id* corners, std::size_t triangles);
 
-/// Sets marks[c] for each corner c of the constrained triangles to 1 if the edge opposite to it
-/// lies on a segment, else to 0.
+/// Sets marks[c] of each corner c of the constrained triangles: 1 if the edge opposite to the
+/// corner is on a segment, otherwise 0.
 template <typename Id>
 VTKTIPPFILTERS_EXPORT void markEdges(PointsView points, const ConstraintSegments& segments,
   const Id* corners, std::size_t triangles, std::uint8_t* marks);
 
-/// Removes the triangles that polygons and boundary do not keep; returns the number of the others.
+/// Removes the triangles that polygons and boundary do not keep. Returns the number of remaining
+/// triangles.
 template <typename Id>
 std::size_t cutTriangles(
   PointsView points, const ConstraintSegments& segments, Id* corners, std::size_t triangles);

@@ -18,10 +18,11 @@ struct TriangleRange
 {
   std::size_t Begin;
   std::size_t End;
-  PartitionIndex Partition; ///< whose interior triangles they are, or -1
+  PartitionIndex Partition; ///< partition whose interior triangles these are; -1 for others
 };
 
-/// The triangles in ranges of a few, without blocks that only known pieces are near, or none.
+/// Divides the triangles into small ranges. Leaves out blocks that no piece is near, except pieces
+/// whose crossings are known there.
 std::vector<TriangleRange> makeRanges(std::size_t triangles,
   const std::vector<TriangleBlock>& blocks, const SegmentTree& tree,
   const PartitionConstraints& inserted)
@@ -43,7 +44,8 @@ std::vector<TriangleRange> makeRanges(std::size_t triangles,
     tree.visitNear(bounds.Box,
       [&](const SegmentTree::Item& item)
       {
-        // Rounding keeps the order of sums and differences, and equal ones overlap.
+        // Rounding keeps the order of sums and differences, and equal bounds overlap, so no
+        // crossing is missed.
         const Box2 diagonals = boxOf(Octagon::diagonals(item.A), Octagon::diagonals(item.B));
         isNear = !inserted.isKnown(item.Id, partition) && overlap(diagonals, bounds.Diagonals) &&
           lineMayMeet(item.A, item.B, bounds.Box);
@@ -67,7 +69,8 @@ std::vector<TriangleRange> makeRanges(std::size_t triangles,
 
 using TriangleCrossing = ScannedTriangles::Crossing;
 
-/// The noted crossings of triangles in blocks, ascending; the other triangles have been scanned.
+/// The crossings recorded for triangles in blocks, ascending. The other triangles have been
+/// scanned.
 std::vector<TriangleCrossing> notedIn(
   const std::vector<TriangleBlock>& blocks, const PartitionConstraints& inserted)
 {
@@ -85,7 +88,7 @@ std::vector<TriangleCrossing> notedIn(
   return noted;
 }
 
-/// Sorted lists as one.
+/// Merges sorted lists into one.
 std::vector<TriangleCrossing> merged(std::vector<std::vector<TriangleCrossing>> lists)
 {
   for (std::size_t step = 1; step < lists.size(); step *= 2)
@@ -102,7 +105,7 @@ std::vector<TriangleCrossing> merged(std::vector<std::vector<TriangleCrossing>> 
   return std::move(lists.front());
 }
 
-/// By triangle. Crossings: sorted.
+/// Groups sorted crossings by triangle.
 CrossedTriangles listed(
   std::vector<TriangleCrossing>&& crossings, std::vector<CrossedTriangles::Touch>&& touches)
 {
@@ -131,7 +134,7 @@ CrossedTriangles listed(
   return all;
 }
 
-/// The segments of pieces that were not inserted; their Ids are those of pieces.
+/// A tree of the pieces that have not been inserted. An item's Id is the index of the piece.
 SegmentTree treeOfOthers(PointsView points, const std::vector<ConstraintPiece>& pieces,
   const PartitionConstraints& inserted)
 {

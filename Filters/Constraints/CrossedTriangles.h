@@ -13,7 +13,7 @@ namespace tipp
 
 class PartitionConstraints;
 
-/// The triangles that constraints cross, and the vertices that they touch.
+/// The triangles that pieces of constraints cross, and the vertices on pieces.
 struct CrossedTriangles
 {
   /// A vertex in the interior of a piece.
@@ -23,16 +23,16 @@ struct CrossedTriangles
     PointId Vertex;
   };
 
-  std::vector<std::int64_t> Triangles; ///< those whose interior a piece meets, ascending
-  std::vector<std::int64_t> Starts;    ///< of each one's pieces; and the end
+  std::vector<std::int64_t> Triangles; ///< triangles whose interior a piece meets, ascending
+  std::vector<std::int64_t> Starts;    ///< start of each triangle's range in Pieces, and the end
   std::vector<std::int64_t> Pieces;
-  std::vector<Touch> Touches; ///< sorted by piece and vertex, each once
+  std::vector<Touch> Touches; ///< sorted by piece and vertex, without repetition
 };
 
-/// Finds the triangles that pieces cross, except pieces that were inserted already. Pieces and
-/// triangles use the same vertex ids. `blocks` are interior triangles of partitions, by ascending
-/// position: blocks with no piece near are skipped. `inserted` has what was found while the points
-/// were triangulated.
+/// Finds the triangles that pieces cross, except for pieces that have been inserted already. Pieces
+/// and corners use the same vertex ids. `blocks` are ranges of interior triangles of partitions,
+/// ascending; blocks with no piece nearby are skipped. `inserted` has what was found during the
+/// triangulation of the points.
 template <typename Id>
 CrossedTriangles findCrossedTriangles(PointsView points, const Id* corners, std::size_t triangles,
   const std::vector<TriangleBlock>& blocks, const std::vector<ConstraintPiece>& pieces,

@@ -17,7 +17,7 @@ namespace tipp
 {
 
 ///@{
-/// A data set as a message. Throws std::runtime_error if it cannot be packed, or read.
+/// Packs a data set into a message, and unpacks it. Throws std::runtime_error on failure.
 Bytes packDataSet(vtkPolyData* data);
 vtkSmartPointer<vtkPolyData> unpackDataSet(const Bytes& bytes);
 ///@}
@@ -25,13 +25,13 @@ vtkSmartPointer<vtkPolyData> unpackDataSet(const Bytes& bytes);
 /// A point of one of several data sets.
 struct DataSetRow
 {
-  PointId To; ///< its order among the rows of all sets
+  PointId To; ///< its position among the rows of all sets
   std::size_t Set;
   vtkIdType Row;
 };
 
-/// The rows of data sets, in the order of `rows`, with the point data that all data sets have; no
-/// global ids, and coordinates in double precision.
+/// Copies rows of data sets in the order of `rows`. The result has the point arrays that all data
+/// sets have, without global ids, and coordinates in double precision.
 vtkSmartPointer<vtkPolyData> copyRows(
   const std::vector<vtkSmartPointer<vtkPolyData>>& from, const std::vector<DataSetRow>& rows);
 

@@ -22,7 +22,7 @@ void keepTriangles(Buffer<Id>& ids, const IsKept& isKept)
   ids.truncate(3 * tipp::keepTriangles(ids.data(), ids.size() / 3, isKept));
 }
 
-/// For each corner of a triangle the triangle opposite to it, or -1.
+/// For each corner of a triangle, the triangle across the opposite edge, or -1.
 template <typename Id>
 std::vector<std::int64_t> neighborsOf(const Buffer<Id>& ids)
 {
@@ -31,7 +31,7 @@ std::vector<std::int64_t> neighborsOf(const Buffer<Id>& ids)
   return neighbors;
 }
 
-/// The ends of the edge opposite to a corner, with the triangle on their left.
+/// The ends of the edge opposite to a corner, directed with the triangle on the left.
 template <typename Id>
 std::array<PointId, 2> edgeOpposite(const Buffer<Id>& ids, std::size_t corner)
 {
@@ -39,8 +39,9 @@ std::array<PointId, 2> edgeOpposite(const Buffer<Id>& ids, std::size_t corner)
   return { PointId(ids[first + (corner + 1) % 3]), PointId(ids[first + (corner + 2) % 3]) };
 }
 
-/// Of each triangle the sum of crossed(a, b) over the edges, with the triangle on their left, that
-/// a way from outside into it crosses. The triangles are those of a convex hull.
+/// For each triangle, the sum of crossed(a, b) over the edges that a path from outside to the
+/// triangle crosses. Edges are directed with the triangle that the path enters on the left. The
+/// triangles must fill a convex hull.
 template <typename Id, typename Crossed>
 std::vector<int> sumsFromOutside(
   const Buffer<Id>& ids, const std::vector<std::int64_t>& neighbors, const Crossed& crossed)
@@ -64,7 +65,7 @@ std::vector<int> sumsFromOutside(
   };
   const auto hull = std::find_if(
     neighbors.begin(), neighbors.end(), [](std::int64_t neighbor) { return neighbor < 0; });
-  if (hull != neighbors.end()) // all others are reached from there
+  if (hull != neighbors.end()) // all other triangles are reached from here
   {
     const auto corner = std::size_t(hull - neighbors.begin());
     enter(corner / 3, across(corner));
@@ -84,7 +85,7 @@ std::vector<int> sumsFromOutside(
   return result;
 }
 
-/// Calls visit(t) for the triangles that hold the point, also those whose border it is on.
+/// Calls visit(t) for each triangle with the point inside it or on its border.
 template <typename Id, typename Visit>
 void visitHolders(PointsView points, const Buffer<Id>& ids, Point2 p, const Visit& visit)
 {
@@ -103,7 +104,7 @@ void visitHolders(PointsView points, const Buffer<Id>& ids, Point2 p, const Visi
   }
 }
 
-/// Of each triangle: whether it can be reached from a seed without crossing a constraint.
+/// For each triangle, whether it can be reached from a seed without crossing a constraint.
 template <typename Id>
 std::vector<char> reachedFrom(PointsView points, const Buffer<Id>& ids,
   const std::vector<std::int64_t>& neighbors, const std::vector<ConstraintPiece>& pieces,
@@ -153,7 +154,8 @@ template <typename Id>
 void keepInside(
   PointsView points, Buffer<Id>& ids, const std::vector<ConstraintPiece>& edges, const Cuts& cuts)
 {
-  // All is found before a triangle is removed, for then ways from outside would end.
+  // Computes everything before triangles are removed, because then paths from outside would be
+  // interrupted.
   const std::vector<std::int64_t> neighbors = neighborsOf(ids);
   std::vector<char> isRemoved(ids.size() / 3, 0);
   if (!cuts.Holes.empty())
@@ -222,7 +224,7 @@ void keepInside(PointsView points, Triangulation& triangulation,
 std::vector<PositionPair> edgesAroundHoles(const std::vector<Point2>& hull,
   const std::vector<PositionPair>& segments, const std::vector<Point2>& seeds, int threads)
 {
-  // What can be reached depends on constraints and the hull alone, so their points are enough.
+  // The holes depend only on the constraints and the hull, so their points are enough.
   std::vector<Point2> points = hull;
   std::vector<Constraint> constraints;
   for (const auto& [a, b] : segments)
@@ -271,7 +273,7 @@ bool HullOfPoints::isInside(Point2 p) const
   return corners > 2;
 }
 
-/// Andrew's monotone chain.
+/// Andrew's monotone chain algorithm.
 void HullOfPoints::reduce()
 {
   std::vector<Point2>& points = this->Points;
@@ -292,7 +294,7 @@ void HullOfPoints::reduce()
   if (points.size() > 1)
   {
     std::for_each(points.rbegin() + 1, points.rend(), [&](Point2 p) { extend(upper, p); });
-    hull.pop_back(); // the first again
+    hull.pop_back(); // equals the first corner
   }
   points = std::move(hull);
   constexpr std::size_t few = 8;

@@ -5,6 +5,7 @@
 #include "Kernel/DelaunayKernel.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace tipp
@@ -16,30 +17,30 @@ using Index = DelaunayKernel::Index;
 
 constexpr Index NoVertex = -1;
 
-/// A part of a piece, from a vertex to the next one on it, in a kernel's mesh.
+/// A step along a piece in a kernel's mesh: from a vertex to the next vertex on the piece.
 struct Walk
 {
   enum class End
   {
-    Reached, ///< the piece's end
-    Touched, ///< another vertex, on the piece
-    Left     ///< the piece goes on where the mesh is not the final one
+    Reached, ///< it ends at the piece's end
+    Touched, ///< it ends at another vertex, which is on the piece
+    Left     ///< it leaves the part of the mesh that is final
   };
   End How = End::Left;
-  Index Vertex = NoVertex; ///< unless Left
-  Index Edge = NoVertex;   ///< from the first vertex to this one, if there is one
+  Index Vertex = NoVertex; ///< where it ends, unless Left
+  Index Edge = NoVertex;   ///< from the first vertex to Vertex, if these have an edge
 };
 
-/// A piece's line, for walks along it.
+/// The line of a piece.
 struct Line
 {
-  Point2 A; ///< where walks begin
+  Point2 A; ///< where the piece starts
   Point2 B;
-  Index Goal; ///< the vertex at B, if it is known
+  Index Goal; ///< the vertex at B, or NoVertex if it is not known
 
   int side(Point2 p) const { return orientation(this->A, this->B, p); }
 
-  /// Whether a point of the line lies between two of it, the second ahead.
+  /// Whether p, a point on the line, is between `from` and B.
   bool isBetween(Point2 from, Point2 p) const
   {
     return lexicographicLess(this->A, this->B)
@@ -48,7 +49,7 @@ struct Line
   }
 };
 
-/// Finds the edges that a line crosses.
+/// Follows a line through a mesh, and finds the edges that it crosses.
 class Walker
 {
 public:
@@ -57,7 +58,7 @@ public:
   {
   }
 
-  /// From a vertex of the line on.
+  /// Follows the line from vertex a, which is on it, to the next vertex on it.
   Walk walk(const Line& line, Index a)
   {
     this->Crossed.clear();
@@ -70,11 +71,12 @@ public:
     return walk;
   }
 
-  /// The half-edges that the last walk crossed, in the triangles that it left there.
+  /// The half-edges that the last walk crossed, each in the triangle that the walk left there.
   const std::vector<Index>& crossed() const { return this->Crossed; }
 
 private:
-  /// The half-edge from a in whose triangle the line goes on, unless it goes on along an edge.
+  /// The half-edge from a in whose triangle the line continues. NoVertex if the line continues
+  /// along an edge, which is written to `walk`, or leaves the mesh.
   Index findFirst(const Line& line, Index a, Walk& walk) const
   {
     const Index begin = this->Mesh.out(a);
@@ -100,7 +102,7 @@ private:
     return NoVertex;
   }
 
-  static constexpr int Unknown = -2; ///< of the vertex at infinity
+  static constexpr int Unknown = -2; ///< of the infinite vertex
 
   int sideOf(const Line& line, Index v) const
   {
@@ -120,7 +122,7 @@ private:
         orientation(this->Mesh.at(this->Mesh.from(crossed)), this->Mesh.at(this->Mesh.to(crossed)),
           line.B) >= 0)
       {
-        return; // it ends in this triangle, where a vertex of another partition will be
+        return; // B is in this triangle; another partition will add its vertex
       }
       if (this->Mesh.isFixed(crossed))
       {
@@ -157,7 +159,7 @@ private:
 
 } // namespace
 
-/// One thread's.
+/// The editor of one thread.
 class PartitionConstraints::Editor : public PartitionEditor
 {
 public:
@@ -172,12 +174,12 @@ public:
   void edit(const Partition<std::int64_t>& partition) override { this->editAny(partition); }
 
 private:
-  /// A piece from an end in the partition on.
+  /// A piece that starts at a vertex of the partition.
   struct BegunPiece
   {
-    std::int64_t Entry; ///< of PieceEnds: the end
+    std::int64_t Entry; ///< entry of PieceEnds for the start
     Index From;
-    Index To; ///< the vertex at the other end, if it is the partition's
+    Index To; ///< vertex at the other end, or NoVertex if another partition has it
   };
 
   template <typename Id>
@@ -200,7 +202,7 @@ private:
     this->placeEnds(partition.Number);
     this->findBegun(partition.Number);
     const auto idOf = [&](Index v) { return PointId(partition.Ids[v]); };
-    // First all that can be inserted, for this changes what the others cross.
+    // First inserts what can be inserted, because this changes the edges that other pieces cross.
     for (const BegunPiece& piece : this->Whole)
     {
       if (this->follow(piece, true, idOf))
@@ -218,7 +220,8 @@ private:
     }
   }
 
-  /// Pieces with an end in the partition; those with both are Whole, once each.
+  /// Finds the pieces with an end in the partition. Those with both ends are in Whole, once each;
+  /// the others are in Begun.
   void findBegun(PartitionIndex partition)
   {
     this->Whole.clear();
@@ -236,23 +239,36 @@ private:
     }
   }
 
-  /// Ends of pieces among the vertices. What is known of points and pieces lies anywhere in memory,
-  /// so it is asked for early.
+  /// Finds ends of pieces among the vertices. Data of points and pieces are accessed at random, and
+  /// so are prefetched.
   template <typename Id>
   void findEnds(const Partition<Id>& partition)
   {
     const PieceEnds& ends = this->Of.EndPoints;
-    constexpr Index ahead = 16;
+    constexpr Index group = 64;
+    std::array<Index, group> likely;
     this->Found.clear();
-    const Index end = partition.Kernel.vertexEnd();
-    for (Index v = 1; v < end; ++v)
+    const Index last = partition.Kernel.vertexEnd();
+    for (Index begin = 1; begin < last; begin += group)
     {
-      const PointId id = partition.Ids[v];
-      const PointId later = partition.Ids[std::min(v + ahead, end - 1)];
-      ends.expect(later);
-      if (id >= 0 && ends.has(id))
+      std::size_t count = 0;
+      const Index end = std::min(begin + group, last);
+      for (Index v = begin; v < end; ++v)
       {
-        this->Found.push_back({ ends.rank(id), v });
+        likely[count] = v;
+        count += std::size_t(ends.mayHave(partition.Ids[v]));
+      }
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        ends.expect(partition.Ids[likely[i]]);
+      }
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        const PointId id = partition.Ids[likely[i]];
+        if (ends.has(id))
+        {
+          this->Found.push_back({ ends.rank(id), likely[i] });
+        }
       }
     }
   }
@@ -297,7 +313,7 @@ private:
     }
   }
 
-  /// The vertex at the other end, if it is this partition's.
+  /// The vertex at the other end, or NoVertex if it is not in this partition.
   Index otherEnd(std::int64_t entry, PartitionIndex partition) const
   {
     const Ends& ends = this->Of.EndsOf[std::size_t(entry / 2)];
@@ -306,7 +322,7 @@ private:
                                                                               : NoVertex;
   }
 
-  /// Of the piece's other end.
+  /// The position of the piece's other end, in the kernel's scale.
   Point2 otherPosition(std::int64_t entry) const
   {
     const ConstraintPiece& ids = this->Of.Pieces[std::size_t(entry / 2)];
@@ -314,8 +330,9 @@ private:
     return { p.x * this->Factor, p.y * this->Factor };
   }
 
-  /// Follows a piece from one end on, part by part, and inserts parts that only interior triangles
-  /// are in the way of, or notes which interior ones it crosses. Whether it is all there.
+  /// Follows a piece from one end. If `inserts`, inserts its parts that only cross interior
+  /// triangles; otherwise records the interior triangles that it crosses. Returns whether all parts
+  /// are edges.
   template <typename IdOf>
   bool follow(const BegunPiece& begun, bool inserts, const IdOf& idOf)
   {
@@ -404,7 +421,7 @@ private:
     std::sort(this->Noted.begin(), this->Noted.end());
     this->Noted.erase(std::unique(this->Noted.begin(), this->Noted.end()), this->Noted.end());
     std::size_t at = 0;
-    std::size_t before = 0; // interior triangles before `at`
+    std::size_t before = 0; // number of interior triangles before `at`
     interior.Crossings.reserve(this->Noted.size());
     for (const auto& [triangle, piece] : this->Noted)
     {
@@ -430,11 +447,11 @@ private:
     std::size_t Rank;
     Index Vertex;
   };
-  std::vector<FoundEnd> Found;                             ///< points that are ends
-  std::vector<std::pair<std::int64_t, Index>> EndVertices; ///< entries of PieceEnds
+  std::vector<FoundEnd> Found;                             ///< vertices that are ends of pieces
+  std::vector<std::pair<std::int64_t, Index>> EndVertices; ///< entries of PieceEnds, vertices
   std::vector<BegunPiece> Whole;
-  std::vector<BegunPiece> Begun; ///< those that are not inserted here
-  std::vector<Crossing> Noted;   ///< triangles by their numbers in the kernel
+  std::vector<BegunPiece> Begun; ///< pieces that are not inserted here
+  std::vector<Crossing> Noted;   ///< triangles are indices in the kernel
   std::vector<CrossedTriangles::Touch> Touches;
 };
 

@@ -20,54 +20,55 @@
 namespace tipp
 {
 
-/// Inserts pieces of constraints while the points are triangulated. If a partition contains both
-/// ends of a piece, and all triangles that the piece crosses are interior, it is inserted into the
-/// partition's mesh, which is in the processor's cache and has neighbours. Interior triangles are
-/// final, and different partitions have no triangle in common, so the result is the same as if the
-/// pieces were inserted afterwards. Other pieces are left for later, and the interior triangles
-/// that they cross are recorded. An editor throws CrossingFound where pieces cross; of two pieces
-/// that cross, either an editor or a job of retriangulateJobs() finds the other's edge in its way.
+/// Inserts pieces of constraints while the points are triangulated. A piece is inserted into a
+/// partition's mesh if the partition has both ends and all triangles that the piece crosses are
+/// interior. At this time the mesh is in the processor's cache and has neighbour relations.
+/// Interior triangles are final, and partitions have no common triangles, so the result is the same
+/// as if the pieces were inserted at the end. Other pieces are left for later, and the interior
+/// triangles that they cross are recorded. If two pieces cross, an editor or a job of
+/// retriangulateJobs() finds that one blocks the other, and throws CrossingFound.
 class PartitionConstraints
 {
 public:
-  /// `others`: the positions of ends that are no points, whose ids follow those of the points.
+  /// `others` are the positions of ends that are not points; their ids follow those of the points.
   PartitionConstraints(PointsView points, const std::vector<ConstraintPiece>& pieces, int threads,
     std::vector<Point2> others = {});
 
-  /// Makes a thread's editor. The kernel's coordinates have been multiplied by `factor`.
+  /// Makes the editor of a thread. `factor` is the factor by which the kernel's coordinates have
+  /// been multiplied.
   std::unique_ptr<PartitionEditor> makeEditor(double factor);
 
   bool isDone(std::size_t piece) const { return this->Done[piece] != 0; }
 
-  /// Whether one of the piece's ends lies in the partition: then Interior::Crossings has all
-  /// interior triangles of the partition that the piece crosses, unless it is done.
+  /// Whether one of the piece's ends is in the partition. Then Interior::Crossings has all interior
+  /// triangles of the partition that the piece crosses, unless the piece was inserted.
   bool isKnown(std::int64_t piece, PartitionIndex partition) const
   {
     const Ends& ends = this->EndsOf[std::size_t(piece)];
     return partition >= 0 && (ends.Partition[0] == partition || ends.Partition[1] == partition);
   }
 
-  /// A crossed triangle, counted among the interior ones of its partition, and a piece.
+  /// The index of a crossed triangle among the partition's interior ones, and the index of a piece.
   using Crossing = std::pair<std::size_t, std::int64_t>;
 
-  /// A partition's interior triangles.
+  /// The interior triangles of a partition.
   struct Interior
   {
-    Octagon Bounds;                  ///< of all
-    std::vector<Crossing> Crossings; ///< ascending, each once
+    Octagon Bounds;                  ///< of all interior triangles
+    std::vector<Crossing> Crossings; ///< ascending, without repetition
   };
   const Interior& interiorOf(PartitionIndex partition) const
   {
     return this->Interiors.at(partition);
   }
-  /// Vertices in the interior of pieces, also of those that are left for later.
+  /// Vertices in the interior of pieces, including pieces that are left for later.
   std::vector<CrossedTriangles::Touch>& touches() { return this->Touches; }
   const std::vector<CrossedTriangles::Touch>& touches() const { return this->Touches; }
 
 private:
   class Editor;
 
-  /// Each end is written by the thread that has its partition, while others read.
+  /// The ends of a piece. Each is written by the thread that has its partition, while others read.
   struct Ends
   {
     std::array<std::atomic<PartitionIndex>, 2> Partition{ -1, -1 };

@@ -12,7 +12,7 @@ namespace tipp
 namespace
 {
 
-/// Without the instruction, which not all processors have, the compiler calls a function.
+/// The compiler calls a function if the processor lacks the instruction.
 std::size_t bitsIn(std::uint64_t word)
 {
   word -= word >> 1 & 0x5555555555555555U;

@@ -12,23 +12,28 @@
 namespace tipp
 {
 
-/// The points that are ends of pieces, by id, and the pieces that end at each.
+/// The point ids that are ends of pieces, and the pieces that end at each.
 class PieceEnds
 {
 public:
   PieceEnds(std::size_t points, const std::vector<ConstraintPiece>& pieces, int threads);
 
+  /// A quick filter: false for most ids if there are few ends. Ids may be negative.
+  bool mayHave(PointId id) const
+  {
+    return (this->Marks[std::size_t(id) / 64 % MarkWords] >> (std::size_t(id) % 64) & 1) != 0;
+  }
   bool has(PointId id) const
   {
-    return this->mayHave(id) &&
+    return id >= 0 && this->mayHave(id) &&
       (this->Words[std::size_t(id) / 64].Bits >> (std::size_t(id) % 64) & 1) != 0;
   }
 
-  /// The position of an id, which must be an end, among all ends.
+  /// The rank of an id among all ends. The id must be an end.
   std::size_t rank(PointId id) const;
 
-  /// Calls visit(entry) for each piece that ends at the end of this rank: twice the piece's number
-  /// for its end A, and one more for its end B.
+  /// Calls visit(entry) for each piece that ends at the end with this rank. The entry is twice the
+  /// index of the piece, plus 1 for its end B.
   template <typename Visit>
   void visit(std::size_t rank, const Visit& visit) const
   {
@@ -39,13 +44,10 @@ public:
   }
 
   ///@{
-  /// Prefetches what has(), expectVisit() and visit() will read; negative ids are ignored.
+  /// Prefetches what has(), expectVisit() and visit() read. Negative ids are ignored.
   void expect(PointId id) const
   {
-    if (id >= 0 && this->mayHave(id))
-    {
-      __builtin_prefetch(&this->Words[std::size_t(id) / 64]);
-    }
+    id >= 0 ? __builtin_prefetch(&this->Words[std::size_t(id) / 64]) : void();
   }
   void expectEntries(std::size_t rank) const { __builtin_prefetch(&this->Starts[rank]); }
   void expectVisit(std::size_t rank) const
@@ -55,24 +57,18 @@ public:
   ///@}
 
 private:
-  /// Of 64 ids.
+  /// A bit for each of 64 ids: whether it is an end.
   struct Word
   {
     std::uint64_t Bits = 0;
-    std::uint64_t Before = 0; ///< the number of bits in the words before
+    std::uint64_t Before = 0; ///< number of bits in all words before
   };
 
-  /// False for most ids if there are few ends: then the words need not be fetched.
-  bool mayHave(PointId id) const
-  {
-    return (this->Marks[std::size_t(id) / 64 % MarkWords] >> (std::size_t(id) % 64) & 1) != 0;
-  }
+  static constexpr std::size_t MarkWords = 1024; ///< so few that they stay in the first-level cache
 
-  static constexpr std::size_t MarkWords = 1024; ///< so few that they stay in the nearest cache
-
-  std::array<std::uint64_t, MarkWords> Marks{}; ///< the bits of all words, one above the other
-  std::vector<Word> Words;                      ///< by id
-  std::vector<std::int64_t> Starts;             ///< by rank, and the end
+  std::array<std::uint64_t, MarkWords> Marks{}; ///< the union of all words, folded to this size
+  std::vector<Word> Words;                      ///< by id / 64
+  std::vector<std::int64_t> Starts;             ///< first entry of each end, by rank
   std::vector<std::int64_t> Entries;
 };
 

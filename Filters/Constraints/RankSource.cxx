@@ -24,18 +24,18 @@ namespace tipp
 namespace
 {
 
-/// A vertex, and the id of the point that it is.
+/// A vertex of a constraint, and the id of the point at it.
 struct Found
 {
   std::int64_t Vertex;
   std::int64_t Id;
 };
 
-/// How a rank's input is numbered.
+/// How the points of a rank's input are numbered.
 struct Numbering
 {
   std::int64_t Points = 0;
-  std::int64_t EndOfIds = 0; ///< above all global ids
+  std::int64_t EndOfIds = 0; ///< larger than all global ids
   bool HasIds = false;
 };
 
@@ -83,7 +83,7 @@ private:
       vtkNew<vtkPolyData> sent;
       if (this->Options.WantsCells)
       {
-        sent->SetVerts(source->GetVerts()); // they come first among a source's cells
+        sent->SetVerts(source->GetVerts()); // their cells are numbered before lines
       }
       sent->SetLines(source->GetLines());
       sent->SetPolys(source->GetPolys());
@@ -112,7 +112,7 @@ private:
     Numbering mine{ this->Input->GetNumberOfPoints(), 0, ids != nullptr };
     if (ids)
     {
-      this->Ids->DeepCopy(ids); // a double would round ids beyond 2^53
+      this->Ids->DeepCopy(ids); // exact, while a double would round ids beyond 2^53
       for (vtkIdType i = 0; i < this->Ids->GetNumberOfTuples(); ++i)
       {
         mine.EndOfIds = std::max<std::int64_t>(mine.EndOfIds, this->Ids->GetValue(i) + 1);
@@ -135,7 +135,7 @@ private:
                         : this->First + std::int64_t(point);
   }
 
-  /// Appends a source's constraints, whose ids are vertices after `index` has replaced them.
+  /// Appends the constraints of a source. index(id) turns the source's point ids into vertices.
   template <typename Index>
   void takeConstraints(vtkPolyData* source, const Index& index)
   {
@@ -150,7 +150,7 @@ private:
     this->FirstCell += source->GetNumberOfCells();
   }
 
-  /// Vertices are the sources' points, one source after the other.
+  /// Uses the points of all sources, one source after the other, as vertices.
   void takePoints()
   {
     for (vtkPolyData* const source : this->Sources)
@@ -169,7 +169,7 @@ private:
     }
   }
 
-  /// Vertices are the points that the sources name, by their ids.
+  /// Uses the points that the sources refer to by id as vertices.
   void takeIds()
   {
     for (vtkPolyData* const source : this->Sources)
@@ -192,15 +192,15 @@ private:
     }
   }
 
-  /// -1: no source names the point.
+  /// The vertex of a point id, or -1 if no source refers to it.
   std::int64_t vertexNamed(std::int64_t id) const
   {
     const auto at = std::lower_bound(this->Named.begin(), this->Named.end(), id);
     return at != this->Named.end() && *at == id ? at - this->Named.begin() : -1;
   }
 
-  /// Sets the vertices' ids. Returns, for each vertex, the index of the point that it is here, or
-  /// -1 if it is none of this rank's, or another rank has one of lower id.
+  /// Sets the ids of vertices. Returns, for each vertex, the index of the point at it on this rank;
+  /// -1 if there is none or another rank has one of lower id.
   std::vector<std::int64_t> findVertices()
   {
     constexpr std::int64_t none = -1;
@@ -267,7 +267,7 @@ private:
     }
   }
 
-  /// Sends the points of vertices to the last rank, which gets a data set of each rank.
+  /// Sends the points at vertices to the last rank, which gets a data set from each rank.
   std::vector<Bytes> sendRows(const std::vector<std::int64_t>& own)
   {
     vtkNew<vtkPolyData> rows;
@@ -314,8 +314,8 @@ private:
     {
       names.push_back(this->VertexIds[v]);
     }
-    const ResolvedConstraints resolved =
-      resolveCrossings(view, constraints, this->Options.Crossings, this->Options.Threads, names);
+    const ResolvedConstraints resolved = resolveCrossings(
+      view, constraints, this->Options.Crossings, this->Options.Threads, { names, {} });
     if (resolved.NotFinite > 0 &&
       std::find(this->Roles.begin(), this->Roles.end(), SegmentRole::Polygon) != this->Roles.end())
     {
@@ -352,7 +352,7 @@ private:
     }
   }
 
-  /// Vertices with different ids, by these, as in memory; new ones are last.
+  /// Sorts the vertices with different ids by their ids, as in memory. New points are last.
   void sortVertices()
   {
     for (std::size_t v = 0; v < this->Same.size(); ++v)
@@ -373,7 +373,7 @@ private:
     return this->RankOfVertex[std::size_t(this->Same[std::size_t(vertex)])];
   }
 
-  /// The sorted vertices with the point data that all of them have.
+  /// The sorted vertices, with the point arrays that all of them have.
   vtkSmartPointer<vtkPolyData> makeVertices(const std::vector<Bytes>& rows) const
   {
     std::vector<vtkSmartPointer<vtkPolyData>> from;
@@ -431,7 +431,7 @@ private:
     return positions;
   }
 
-  /// Appends the points from `begin` on to the input.
+  /// Appends the points from index `begin` on to the input.
   void appendTo(vtkPolyData* extended, std::size_t begin, RankSource& result) const
   {
     const ProjectedPoints projected(this->Input->GetPoints(), this->Options.ToPlane);
@@ -470,22 +470,22 @@ private:
   Communicator& Ranks;
   vtkPointSet* const Input;
   const RankSourceOptions& Options;
-  std::vector<vtkSmartPointer<vtkPolyData>> Sources; ///< different ones, the same on all ranks
-  vtkNew<vtkIdTypeArray> Ids;                        ///< of the input's points, if it has some
-  bool HasIds = false;                               ///< all ranks' points have ids
-  std::int64_t First = 0;                            ///< of this rank's points, if they do not
-  std::int64_t EndOfIds = 0;                         ///< above those of all inputs' points
-  std::vector<Point2> Positions;                     ///< of vertices, where points are merged
-  std::unique_ptr<PositionIndex> Index;              ///< the same
-  std::vector<std::int64_t> Named;     ///< ids of vertices, where points are not merged
-  std::vector<std::int64_t> Same;      ///< of vertices: the first one at the position
-  std::vector<std::int64_t> VertexIds; ///< of the first ones
-  std::vector<std::size_t> Sorted;     ///< the first ones by their ids
-  std::vector<PointId> RankOfVertex;   ///< of the first ones: the position in Sorted
-  std::vector<Constraint> Constraints; ///< by vertices
-  std::vector<SegmentRole> Roles;      ///< of constraints
-  std::vector<std::int64_t> Cells;     ///< of constraints
-  std::int64_t FirstCell = 0;          ///< of the next source
+  std::vector<vtkSmartPointer<vtkPolyData>> Sources; ///< the distinct sources of all ranks
+  vtkNew<vtkIdTypeArray> Ids;                        ///< ids of the input's points, if it has ids
+  bool HasIds = false;                               ///< whether the points of all ranks have ids
+  std::int64_t First = 0;                            ///< first id of this rank if they have none
+  std::int64_t EndOfIds = 0;                         ///< larger than all ids of the inputs' points
+  std::vector<Point2> Positions;                     ///< per vertex, if points are merged
+  std::unique_ptr<PositionIndex> Index;              ///< of Positions
+  std::vector<std::int64_t> Named;     ///< point id per vertex, if points are not merged
+  std::vector<std::int64_t> Same;      ///< per vertex: the first vertex at its position
+  std::vector<std::int64_t> VertexIds; ///< of the first vertex at each position
+  std::vector<std::size_t> Sorted;     ///< first vertices, sorted by id
+  std::vector<PointId> RankOfVertex;   ///< per first vertex: its index in Sorted
+  std::vector<Constraint> Constraints; ///< between vertices
+  std::vector<SegmentRole> Roles;      ///< per constraint
+  std::vector<std::int64_t> Cells;     ///< source cell per constraint
+  std::int64_t FirstCell = 0;          ///< cell number at which the next source starts
   std::vector<ConstraintSegment> Segments;
 };
 

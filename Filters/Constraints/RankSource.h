@@ -18,33 +18,35 @@ class vtkPolyData;
 namespace tipp
 {
 
-/// The sources of all ranks as constraints between the points of all ranks.
+/// The sources of all ranks, as constraints between the points of all ranks.
 struct RankSource
 {
-  /// This rank's input; on the last rank with the source's new points and the crossings after it.
+  /// This rank's input. On the last rank, the source's new points and the crossings are appended.
   vtkSmartPointer<vtkPointSet> Input;
-  std::vector<Point2> Positions; ///< of Input's points in the plane; empty: not changed
+  std::vector<Point2> Positions; ///< projected positions of Input's points; empty if unchanged
   std::unique_ptr<ConstraintSegments> Segments; ///< the same on all ranks
-  std::vector<std::int64_t> Order; ///< of each segment: its index in the constraints' order
-  std::vector<std::int64_t> Cells; ///< by that index: see RankSourceOptions::WantsCells
+  std::vector<std::int64_t> Order; ///< per segment: its index in the order of the constraints
+  std::vector<std::int64_t> Cells; ///< source cell by this index, see RankSourceOptions::WantsCells
   ConstraintFigures Figures;       ///< the same on all ranks
 };
 
 struct RankSourceOptions
 {
-  /// Whether the source's points are merged with the input's by their coordinates; else its ids are
-  /// those of the input's points: their global ids, or else counted from the first rank on.
+  /// Whether the source's points are merged with the input's points by their coordinates. Otherwise
+  /// its point ids refer to the input's points: global ids, or if these are missing, indices
+  /// counted over the ranks.
   bool MergesPoints = false;
   CrossingRule Crossings = CrossingRule::Split;
-  /// Whether to record which cell each segment is part of. Cells are counted over all distinct
+  /// Whether to record the source cell of each segment. Cells are counted over all distinct
   /// sources, in the order of ranks.
   bool WantsCells = false;
   vtkAbstractTransform* ToPlane = nullptr;
   int Threads = 0;
 };
 
-/// Ranks may have different sources, or none (null); what several have alike counts once.
-/// Collective; throws std::invalid_argument, on some ranks or all.
+/// Gathers the sources of all ranks. Ranks may have different sources or none (null); a source that
+/// several ranks have counts once. Collective. Throws std::invalid_argument for an invalid source,
+/// on all ranks or only on some.
 RankSource shareSource(
   Communicator& ranks, vtkPointSet* input, vtkPolyData* source, const RankSourceOptions& options);
 

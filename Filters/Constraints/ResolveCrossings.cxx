@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/ResolveCrossings.h"
 
+#include "Constraints/CrossingPairs.h"
 #include "Constraints/SegmentTree.h"
 #include "Parallel/ParallelFor.h"
 #include "Predicates/ExactArithmetic.h"
@@ -10,7 +11,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -22,38 +22,14 @@ namespace tipp
 namespace
 {
 
-/// Two pieces that cross; the lower number first.
-using Crossing = std::array<std::int64_t, 2>;
-
-/// Tells segments that are short beside a box.
-class IsShortIn
-{
-public:
-  explicit IsShortIn(const Box2& box)
-    : Width(part * (box.xmax / 2 - box.xmin / 2)) // halves, for a difference overflows
-    , Height(part * (box.ymax / 2 - box.ymin / 2))
-  {
-  }
-
-  bool operator()(const SegmentTree::Item& item) const
-  {
-    return std::fabs(item.B.x / 2 - item.A.x / 2) <= this->Width &&
-      std::fabs(item.B.y / 2 - item.A.y / 2) <= this->Height;
-  }
-
-private:
-  static constexpr double part = 1.0 / 64;
-  double Width;
-  double Height;
-};
-
-/// The exact sign of what the box of points that are rounded to p reaches beyond the line through a
-/// and b, towards its left (`side` 1) or right (-1): negative if the line passes on that side.
+/// By how much the box of points that round to p extends beyond the line through a and b, on its
+/// left (`side` 1) or right (-1), as an exact sign. Negative if the whole box is on the other side.
 int signOfReach(Point2 a, Point2 b, Point2 p, int side)
 {
   const auto sign = [](double from, double to) { return to < from ? -1 : 1; };
   ProductSum<24, 106> sum;
-  // Adds from - to, multiplied by the reach along an axis and, with a sign, by the distance.
+  // Adds (from - to) times the extent of the box along an axis and, with a sign, times the
+  // distance.
   const auto addAxis = [&](double from, double to, double at, double value, int offSign)
   {
     const double below = std::nextafter(value, -HUGE_VAL);
@@ -79,11 +55,11 @@ int signOfReach(Point2 a, Point2 b, Point2 p, int side)
   return sum.sign();
 }
 
-/// Whether the line through a and b passes through the inside of the box of points that are rounded
-/// to p. Exact.
+/// Whether the line through a and b passes through the interior of the box of points that round to
+/// p. Exact.
 bool roundsTo(Point2 a, Point2 b, Point2 p)
 {
-  using Long = long double; // its exponents hold all products
+  using Long = long double; // its exponent range holds all products
   struct Range
   {
     explicit Range(double value)
@@ -100,7 +76,7 @@ bool roundsTo(Point2 a, Point2 b, Point2 p)
   const Range y(p.y);
   if (!std::isfinite(x.half()) || !std::isfinite(y.half()))
   {
-    return false; // the largest doubles
+    return false; // next to the largest doubles
   }
   const Long dx = Long(b.x) - a.x;
   const Long dy = Long(b.y) - a.y;
@@ -120,7 +96,7 @@ class Resolver
 {
 public:
   Resolver(
-    PointsView points, ResolvedConstraints& result, int threads, const std::vector<PointId>& names)
+    PointsView points, ResolvedConstraints& result, int threads, const ConstraintNames& names)
     : Points(points)
     , Result(result)
     , Threads(threadCount(threads))
@@ -138,7 +114,7 @@ public:
     };
     std::vector<char> kinds(constraints.size());
     const Point2* const all = this->Points.contiguous();
-    const auto expect = [&](PointId id) // points lie anywhere in memory
+    const auto expect = [&](PointId id) // points are accessed at random
     {
       if (all && std::size_t(id) < this->Points.size())
       {
@@ -173,7 +149,7 @@ public:
 
   void resolve(CrossingRule rule)
   {
-    for (std::vector<Crossing> crossings = this->findCrossings(); !crossings.empty();
+    for (std::vector<CrossingPair> crossings = this->findCrossings(); !crossings.empty();
          crossings = this->findCrossings())
     {
       if (rule == CrossingRule::Refuse)
@@ -204,98 +180,37 @@ private:
                                    : this->Result.Crossings[std::size_t(id) - input].Position;
   }
 
-  /// All pieces, and in `box` what holds them.
-  std::vector<SegmentTree::Item> makeItems(Box2& box) const
+  std::vector<CrossingPair> findCrossings() const
   {
     const std::vector<ConstraintPiece>& pieces = this->Result.Pieces;
     std::vector<SegmentTree::Item> all(pieces.size());
-    std::vector<Box2> boxes(std::size_t(this->Threads), box);
     forChunks(std::int64_t(all.size()), SegmentTree::Chunk, this->Threads, {},
-      [&](std::int64_t begin, std::int64_t end, int thread)
+      [&](std::int64_t begin, std::int64_t end, int)
       {
-        Box2 its = box;
         for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
         {
           all[i] = { this->at(pieces[i].A), this->at(pieces[i].B), std::int64_t(i) };
-          its = unionOf(its, boxOf(all[i].A, all[i].B));
-        }
-        boxes[std::size_t(thread)] = unionOf(boxes[std::size_t(thread)], its);
-      });
-    box = std::accumulate(boxes.begin(), boxes.end(), box, unionOf);
-    return all;
-  }
-
-  /// Sorted. Short pieces are compared group by group, the few long ones with all others one by
-  /// one, since a group with a long piece would be near everything.
-  std::vector<Crossing> findCrossings() const
-  {
-    Box2 box{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
-    std::vector<SegmentTree::Item> all = this->makeItems(box);
-    const auto firstLong = std::stable_partition(all.begin(), all.end(), IsShortIn(box));
-    const SegmentTree longOnes(std::vector<SegmentTree::Item>(firstLong, all.end()), this->Threads);
-    all.erase(firstLong, all.end());
-    const SegmentTree shortOnes(std::move(all), this->Threads);
-    const auto groups = std::int64_t(shortOnes.groups());
-    std::vector<std::vector<Crossing>> found(std::size_t(this->Threads));
-    constexpr std::int64_t chunk = 128;
-    forChunks(groups + std::int64_t(longOnes.items().size()), chunk, this->Threads, {},
-      [&](std::int64_t begin, std::int64_t end, int thread)
-      {
-        std::vector<Crossing>& its = found[std::size_t(thread)];
-        const auto compare = [&](const SegmentTree::Item& one, const SegmentTree::Item& other)
-        { this->compare(one, other, its); };
-        for (std::int64_t i = begin; i < std::min(end, groups); ++i)
-        {
-          shortOnes.visitPairs(std::size_t(i), compare);
-        }
-        for (std::int64_t i = std::max(begin, groups); i < end; ++i)
-        {
-          const SegmentTree::Item& one = longOnes.items()[std::size_t(i - groups)];
-          const auto compareWith = [&](const SegmentTree::Item& other)
-          {
-            compare(one, other);
-            return true;
-          };
-          shortOnes.visitNear(one, compareWith);
-          longOnes.visitNear(one,
-            [&](const SegmentTree::Item& other)
-            { return other.Id <= one.Id || compareWith(other); });
         }
       });
-    std::vector<Crossing> crossings;
-    for (const std::vector<Crossing>& part : found)
-    {
-      crossings.insert(crossings.end(), part.begin(), part.end());
-    }
-    std::sort(crossings.begin(), crossings.end());
-    return crossings;
+    return findCrossingPairs(std::move(all), this->Threads);
   }
 
-  void compare(const SegmentTree::Item& one, const SegmentTree::Item& other,
-    std::vector<Crossing>& found) const
+  static std::string textOf(const std::vector<std::int64_t>& names, std::int64_t number)
   {
-    const ConstraintPiece& piece = this->Result.Pieces[std::size_t(one.Id)];
-    const ConstraintPiece& its = this->Result.Pieces[std::size_t(other.Id)];
-    const bool isConnected =
-      piece.A == its.A || piece.A == its.B || piece.B == its.A || piece.B == its.B;
-    if (!isConnected && crossProperly(one.A, one.B, other.A, other.B))
-    {
-      found.push_back({ std::min(one.Id, other.Id), std::max(one.Id, other.Id) });
-    }
+    return std::to_string(names.empty() ? number : names[std::size_t(number)]);
   }
 
-  [[noreturn]] void refuse(const Crossing& crossing) const
+  [[noreturn]] void refuse(const CrossingPair& crossing) const
   {
     const ConstraintPiece& one = this->Result.Pieces[std::size_t(crossing[0])];
     const ConstraintPiece& other = this->Result.Pieces[std::size_t(crossing[1])];
     const Point2 position =
       crossingPoint(this->at(one.A), this->at(one.B), this->at(other.A), this->at(other.B));
-    const auto name = [this](PointId id)
-    { return std::to_string(this->Names.empty() ? id : this->Names[std::size_t(id)]); };
+    const auto name = [this](PointId id) { return textOf(this->Names.Points, id); };
     const auto describe = [&](const ConstraintPiece& piece)
     {
-      return "constraint " + std::to_string(piece.Constraint) + " (points " + name(piece.A) +
-        " and " + name(piece.B) + ")";
+      return "constraint " + textOf(this->Names.Constraints, piece.Constraint) + " (points " +
+        name(piece.A) + " and " + name(piece.B) + ")";
     };
     std::ostringstream text;
     text << describe(one) << " crosses " << describe(other) << " at (" << position.x << ", "
@@ -303,10 +218,10 @@ private:
     throw std::invalid_argument(text.str());
   }
 
-  /// How far p is from a to b, for a p between them.
+  /// The position of p on the segment ab, as a fraction.
   static double fraction(Point2 a, Point2 b, Point2 p)
   {
-    // Halves, since a difference may overflow.
+    // Halves, because a difference may overflow.
     const double dx = b.x / 2 - a.x / 2;
     const double dy = b.y / 2 - a.y / 2;
     const double part =
@@ -314,9 +229,9 @@ private:
     return part > 0 ? std::min(part, 1.0) : 0;
   }
 
-  /// The id of the point where the two cross: an end of one of them, if it is rounded to that, else
-  /// a new one, or that of another crossing at the same position.
-  PointId pointOf(const Crossing& crossing)
+  /// The id of the point where two pieces cross: an end of one of them, if the crossing rounds to
+  /// it, or the point of another crossing at this position, or a new point.
+  PointId pointOf(const CrossingPair& crossing)
   {
     const ConstraintPiece& one = this->Result.Pieces[std::size_t(crossing[0])];
     const ConstraintPiece& other = this->Result.Pieces[std::size_t(crossing[1])];
@@ -339,7 +254,8 @@ private:
     return known->second;
   }
 
-  /// Where two pieces cross, rounded to doubles; to a coarser grid after some rounds.
+  /// The position where two pieces cross, rounded to doubles, and after some rounds to a coarser
+  /// grid.
   Point2 positionOf(const ConstraintPiece& one, const ConstraintPiece& other) const
   {
     const Point2 a = this->at(one.A);
@@ -353,8 +269,8 @@ private:
                             rounded(p.y, { a.y, b.y }, { c.y, d.y }, coarser) };
   }
 
-  /// A coordinate of a crossing as a multiple of the largest end's unit in the last place times a
-  /// power of two; but between the ends of both.
+  /// Rounds a coordinate of a crossing to a multiple of the largest end's unit in the last place,
+  /// times a power of two. The result stays between the ends of both pieces.
   static double rounded(
     double value, std::pair<double, double> one, std::pair<double, double> other, int coarser)
   {
@@ -362,7 +278,7 @@ private:
     const auto [itsLow, itsHigh] = std::minmax(other.first, other.second);
     const double largest =
       std::max({ std::fabs(low), std::fabs(high), std::fabs(itsLow), std::fabs(itsHigh) });
-    constexpr int whole = 60; // then all is rounded to 0
+    constexpr int whole = 60; // at this size, everything rounds to 0
     const double unit =
       std::ldexp(largest - std::nextafter(largest, 0), std::min(coarser, whole) - 1);
     const double multiple = unit > 0 && std::isfinite(unit) ? std::nearbyint(value / unit) : 0;
@@ -370,10 +286,10 @@ private:
       multiple == 0 ? 0 : multiple * unit, std::max(low, itsLow), std::min(high, itsHigh));
   }
 
-  void split(const std::vector<Crossing>& crossings)
+  void split(const std::vector<CrossingPair>& crossings)
   {
     std::vector<std::vector<PointId>> through(this->Result.Pieces.size());
-    for (const Crossing& crossing : crossings)
+    for (const CrossingPair& crossing : crossings)
     {
       const PointId point = this->pointOf(crossing);
       through[std::size_t(crossing[0])].push_back(point);
@@ -409,7 +325,7 @@ private:
     }
   }
 
-  /// Ends and crossings.
+  /// The vertices of all constraints: ends and crossings.
   std::vector<PointId> constraintVertices() const
   {
     std::vector<PointId> vertices;
@@ -427,7 +343,7 @@ private:
     return vertices;
   }
 
-  /// Rounding keeps the order of both coordinates along a segment.
+  /// Rounding keeps the order of both coordinates along a segment, so points are sorted by them.
   void appendParts(const ConstraintPiece& whole, std::vector<PointId>& points)
   {
     const Point2 a = this->at(whole.A);
@@ -453,12 +369,10 @@ private:
     this->Result.Pieces.push_back({ from, whole.B, whole.Constraint });
   }
 
-  static constexpr int RoundsOfDoubles = 10; ///< then crossings are rounded to coarser grids
-
   PointsView Points;
   ResolvedConstraints& Result;
   const int Threads;
-  const std::vector<PointId>& Names;                  ///< of the input's points; empty: their ids
+  const ConstraintNames& Names;
   std::map<std::pair<double, double>, PointId> Known; ///< crossings by position
 };
 
@@ -473,7 +387,7 @@ ResolvedConstraints takeConstraints(
 }
 
 ResolvedConstraints resolveCrossings(PointsView points, const std::vector<Constraint>& constraints,
-  CrossingRule rule, int threads, const std::vector<PointId>& names)
+  CrossingRule rule, int threads, const ConstraintNames& names)
 {
   ResolvedConstraints result;
   Resolver resolver(points, result, threads, names);

@@ -16,38 +16,38 @@ namespace tipp
 
 enum class CrossingRule
 {
-  Split, ///< two constraints that cross are split at a new point
-  Refuse ///< an error
+  Split, ///< constraints that cross are split at a new point
+  Refuse ///< constraints that cross are an error
 };
 
 /// A new point where two constraints cross.
 struct CrossingPoint
 {
   Point2 Position;
-  PointId A;       ///< It lies between these two, which come before it, on the constraint
-  PointId B;       ///< of lower number,
-  double Fraction; ///< this far from A to B.
-  std::array<std::int64_t, 2> Constraints; ///< the lower first
+  PointId A;       ///< it lies between A and B, on the constraint of lower index;
+  PointId B;       ///< both have lower ids than the crossing
+  double Fraction; ///< the fraction of the way from A to B
+  std::array<std::int64_t, 2> Constraints; ///< indices; the lower first
 };
 
-/// Constraints none of which crosses another, except at points of both.
+/// Constraints that cross each other only at common points.
 struct ResolvedConstraints
 {
-  std::vector<ConstraintPiece> Pieces;  ///< constraint by constraint, each from its A to its B
+  std::vector<ConstraintPiece> Pieces;  ///< sorted by constraint, each from its A to its B
   std::vector<CrossingPoint> Crossings; ///< their ids follow those of the input's points
-  int Rounds = 0;                       ///< of splitting
-  std::int64_t NotFinite = 0;           ///< constraints left out: an end that is NaN or infinite
-  std::int64_t ZeroLength = 0;          ///< left out: both ends at one position
+  int Rounds = 0;                       ///< rounds of splitting
+  std::int64_t NotFinite = 0;           ///< constraints left out: an end is not finite
+  std::int64_t ZeroLength = 0;          ///< constraints left out: both ends are equal
 };
 
 /// The statistics of resolved constraints.
 struct ConstraintFigures
 {
-  std::int64_t Constraints = 0; ///< as given
-  std::int64_t Segments = 0;    ///< edges of constraints
+  std::int64_t Constraints = 0; ///< number of given constraints
+  std::int64_t Segments = 0;    ///< number of edges on constraints
   std::int64_t Crossings = 0;
-  int Rounds = 0;             ///< of splitting crossings
-  std::int64_t NotFinite = 0; ///< constraints left out
+  int Rounds = 0;             ///< rounds of splitting at crossings
+  std::int64_t NotFinite = 0; ///< number of constraints left out
 
   ConstraintFigures() = default;
   ConstraintFigures(const ResolvedConstraints& resolved, std::size_t constraints)
@@ -59,8 +59,8 @@ struct ConstraintFigures
   {
   }
 
-  /// Calls visit(key, array, value) for each figure: `key` is its name in JSON files and Python,
-  /// `array` that in VTK tables.
+  /// Calls visit(key, array, value) for each figure. `key` is its name in JSON files and Python,
+  /// `array` its name in VTK tables.
   template <typename Visit>
   void visit(const Visit& visit) const
   {
@@ -71,31 +71,40 @@ struct ConstraintFigures
   }
 };
 
-/// The constraints without those of length zero and those with ends that are not finite; they may
-/// cross. Throws as resolveCrossings() for an id that no point has.
+/// The constraints without those that have equal ends or ends that are not finite. They may cross.
+/// Throws like resolveCrossings() for an invalid point id.
 ResolvedConstraints takeConstraints(
   PointsView points, const std::vector<Constraint>& constraints, int threads);
 
-/// Splits constraints where they cross: a crossing, rounded to doubles, becomes a point of both.
-/// This is snap rounding (Hobby 1999) on the grid of doubles: a constraint that crosses others is
-/// led through all ends and crossings of constraints that points of it would be rounded to, so that
-/// it moves by half a unit in the last place of its coordinates at most. Throws
-/// std::invalid_argument for an id that no point has and, where crossings are refused, for the
-/// first one; `names` are what points are called there, by default their ids.
+/// How messages identify points and constraints; if empty, by their indices.
+struct ConstraintNames
+{
+  std::vector<PointId> Points;
+  std::vector<std::int64_t> Constraints;
+};
+
+/// After this many rounds, crossings are rounded to coarser grids than that of doubles.
+constexpr int RoundsOfDoubles = 10;
+
+/// Splits constraints where they cross. A crossing is rounded to doubles and becomes a point of
+/// both constraints. This is snap rounding (Hobby 1999) on the grid of doubles: a constraint that
+/// crosses others is led through all ends and crossings to which points on it round. So it moves by
+/// at most half a unit in the last place of its coordinates. Throws std::invalid_argument for an
+/// invalid point id and, if `rule` refuses crossings, for the first crossing.
 ///
-/// The grid of doubles is not uniform, so that parts may still cross; these crossings are rounded
-/// and split too, in further rounds, each of which may move a constraint by half a unit more. It
-/// ends: a crossing is rounded to a point in the bounding boxes of both parts that cross, so that
-/// it is not an end of both, and a part that it splits becomes parts with smaller boxes; and there
-/// are finitely many boxes whose corners are doubles.
+/// The grid of doubles is not uniform, so parts may cross again. These crossings are rounded and
+/// split in further rounds, each of which may move a constraint by another half unit. The rounds
+/// end: a crossing is rounded to a point in the bounding boxes of both parts, but not to an end of
+/// both. So at least one part is split into parts with smaller boxes, and there are finitely many
+/// boxes with doubles as corners.
 ///
-/// That could take long where constraints are within a unit of each other over many orders of
-/// magnitude. So after ten rounds units are those of the largest end, and twice as large in each
-/// further round. When they are larger than all coordinates, crossings only combine coordinates
-/// that are there: few rounds are left.
+/// This may take long if constraints are within a unit of each other over many orders of magnitude.
+/// So after ten rounds, all units are those of the largest end, and they double in each further
+/// round. Once they exceed all coordinates, crossings only combine existing coordinates, and few
+/// rounds remain.
 VTKTIPPFILTERS_EXPORT ResolvedConstraints resolveCrossings(PointsView points,
   const std::vector<Constraint>& constraints, CrossingRule rule, int threads,
-  const std::vector<PointId>& names = {});
+  const ConstraintNames& names = {});
 
 } // namespace tipp
 

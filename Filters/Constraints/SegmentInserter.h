@@ -15,31 +15,32 @@ namespace tipp
 
 /// Inserts segments one by one into a constrained Delaunay triangulation.
 ///
-/// A segment replaces the triangles that it crosses (Anglada 1997). On each side of it their
-/// vertices are a chain from one end to the other. An ear of the chain is cut off until the segment
-/// is left. There always is one: every vertex sees the segment along an edge that was crossed,
-/// these lines of sight do not meet, and so three vertices in a row that turn away from the segment
-/// enclose nothing. Then edges are flipped until all are locally Delaunay, as in CGAL's
-/// triangulation.
+/// A segment replaces the triangles that it crosses (Anglada 1997). On each side of the segment,
+/// the vertices of these triangles form a chain from one end to the other. Ears are cut off the
+/// chain until only the segment remains. An ear always exists: every vertex sees the segment along
+/// a crossed edge, and these lines of sight do not meet; so three consecutive vertices that turn
+/// away from the segment enclose no other. Then edges are flipped until all are locally Delaunay,
+/// as in CGAL's triangulation.
 ///
-/// `Mesh` has counter-clockwise triangles and the half-edge half(triangle, i) from corner i to the
-/// next; next(), previous(), from(), to(), twin() and triangleOf() of half-edges;
-/// setCorners(triangle, corners), which removes the triangle's connections, and its mark of
-/// markRemoved(triangle), which isRemoved(triangle) tells; join(half, other) for
-/// twins; isFixed(half) and setFixed(half, fixed) for one side of an edge; turn(a, b, c) of
-/// vertices; and mustFlip(half), false for edges that are fixed or have one triangle.
+/// `Mesh` has counter-clockwise triangles, whose half-edge half(triangle, i) goes from corner i to
+/// the next. For half-edges it has next(), previous(), from(), to(), twin() and triangleOf().
+/// setCorners(triangle, corners) replaces a triangle and removes its twins and its mark;
+/// markRemoved(triangle) sets this mark, and isRemoved(triangle) returns it. join(half, other)
+/// makes twins. isFixed(half) and setFixed(half, fixed) concern one side of an edge. turn(a, b, c)
+/// is the orientation of three vertices. mustFlip(half) is false for fixed edges and edges with a
+/// single triangle.
 template <typename Mesh>
 class SegmentInserter
 {
 public:
   using Index = std::int32_t;
 
-  /// Makes ab an edge. Crossed: the half-edges that it crosses, from a on, each in the triangle
-  /// that it leaves there; none of them is fixed.
+  /// Makes ab an edge. `crossed` are the half-edges that ab crosses, in order from a, each in the
+  /// triangle that ab leaves there. None of them may be fixed.
   void insert(Mesh& mesh, Index a, Index b, const std::vector<Index>& crossed)
   {
     this->makeChains(mesh, a, crossed);
-    if (!this->NewInner.empty()) // clear() is slow even then
+    if (!this->NewInner.empty()) // clear() takes time even if the map is empty
     {
       this->NewInner.clear();
     }
@@ -54,16 +55,16 @@ public:
 private:
   static constexpr Index None = -1;
 
-  /// An edge of a chain, from the vertex before to this one, with the cavity on its right.
+  /// An edge of a chain, from the previous vertex to this one. The cavity is on its right.
   struct Link
   {
     Index To;
-    Index Outer;     ///< the half-edge on its left
-    Index OldInner;  ///< the half-edge of the removed triangle on its right
-    bool IsFixed;    ///< an inserted segment
-    bool IsDangling; ///< the cavity is on both sides
+    Index Outer;     ///< the half-edge on the left
+    Index OldInner;  ///< the half-edge of the removed triangle on the right
+    bool IsFixed;    ///< whether it is an inserted segment
+    bool IsDangling; ///< whether the cavity is on both sides
   };
-  /// Links in their order; memory of Room.
+  /// Consecutive links in the memory of Room.
   struct Chain
   {
     Link* Begin;
@@ -75,10 +76,10 @@ private:
     return { to, mesh.twin(inner), inner, mesh.isFixed(inner), false };
   }
 
-  /// What the segment leaves on its two sides.
+  /// Makes the chains on both sides of the segment.
   void makeChains(Mesh& mesh, Index a, const std::vector<Index>& crossed)
   {
-    const std::size_t most = crossed.size() + 1; // links of a chain
+    const std::size_t most = crossed.size() + 1; // at most this many links per chain
     if (this->Room.size() < 2 * most)
     {
       this->Room.resize(4 * most);
@@ -88,7 +89,7 @@ private:
     this->Right = { this->Room.data() + 2 * most, this->Room.data() + 2 * most };
     const auto addLeft = [&](Index to, Index inner)
     { *this->Left.End++ = makeLink(mesh, to, inner); };
-    // On the right from b to a, so from the last link on.
+    // The right chain goes from b to a, so it is filled from its last link.
     Index onRight = a;
     const auto addRight = [&](Index from, Index inner)
     {
@@ -103,7 +104,7 @@ private:
     {
       const Index half = mesh.twin(crossed[i]);
       this->Removed[i + 1] = mesh.triangleOf(half);
-      const Index right = mesh.next(half); // from the right to the new vertex
+      const Index right = mesh.next(half); // from the right end to the new vertex
       const Index left = mesh.previous(half);
       const Index apex = mesh.to(right);
       const Index leftBy = i + 1 < crossed.size() ? crossed[i + 1] : None;
@@ -113,7 +114,7 @@ private:
     this->markDangling(mesh);
   }
 
-  /// An edge with the cavity on both sides is in the chains twice, once for each of its half-edges.
+  /// An edge with the cavity on both sides has a link for each of its half-edges.
   void markDangling(Mesh& mesh)
   {
     for (const Index triangle : this->Removed)
@@ -129,11 +130,12 @@ private:
     }
   }
 
-  /// Triangulates between a chain and the segment of its ends. Returns the half-edge of the
-  /// segment.
+  /// Triangulates the area between a chain and the segment that joins its ends. Returns the
+  /// segment's half-edge.
   Index fill(Mesh& mesh, Index from, const Chain& chain)
   {
-    // The vertex before the first link is `from`. What is left of the chain overwrites it.
+    // The vertex before the first link is `from`. The remaining links overwrite the start of the
+    // chain.
     Link* const rest = chain.Begin;
     std::size_t count = 0;
     for (const Link* link = chain.Begin; link != chain.End; ++link)
@@ -158,11 +160,11 @@ private:
     {
       throw std::logic_error("A constraint's cavity cannot be triangulated.");
     }
-    this->Suspects.pop_back(); // the segment
+    this->Suspects.pop_back(); // the segment itself
     return rest->Outer;
   }
 
-  /// The triangle on the right of two links; returns the half-edge that replaces them.
+  /// Makes the triangle on the right of two links. Returns the half-edge that replaces them.
   Index makeTriangle(Mesh& mesh, const Link& first, Index from, const Link& second)
   {
     const Index triangle = this->Removed.back();
@@ -173,7 +175,7 @@ private:
     return mesh.half(triangle, 0);
   }
 
-  /// Joins a new half-edge with what was on the other side of the removed one.
+  /// Makes a new half-edge the twin of the half-edge outside the removed one.
   void attach(Mesh& mesh, Index half, const Link& link)
   {
     mesh.setFixed(half, link.IsFixed);
@@ -210,7 +212,7 @@ private:
   void flip(Mesh& mesh, Index h)
   {
     const Index g = mesh.twin(h);
-    // p, q: the edge; r on its left, s on its right.
+    // The edge goes from p to q; r is the apex on its left, s on its right.
     const Index p = mesh.from(h);
     const Index q = mesh.to(h);
     const Index r = mesh.from(mesh.previous(h));
@@ -242,12 +244,12 @@ private:
     mesh.join(mesh.half(one, 1), mesh.half(other, 2));
   }
 
-  std::vector<Index> Removed; ///< crossed triangles that are not used again yet
-  std::vector<Link> Room;     ///< for Left and Right
+  std::vector<Index> Removed; ///< crossed triangles that have not been reused yet
+  std::vector<Link> Room;     ///< memory of the links of Left and Right
   Chain Left{};
   Chain Right{};
   std::vector<Index> Suspects;               ///< half-edges that may have to be flipped
-  std::unordered_map<Index, Index> NewInner; ///< of old half-edges at dangling edges: the new ones
+  std::unordered_map<Index, Index> NewInner; ///< new half-edges by old ones, at dangling edges
 };
 
 } // namespace tipp

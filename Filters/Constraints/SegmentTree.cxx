@@ -13,7 +13,7 @@ namespace tipp
 namespace
 {
 
-/// The lower 16 bits of a number, each followed by a zero.
+/// The lower 16 bits of a number, each followed by a zero bit.
 std::uint32_t spread(std::uint32_t bits)
 {
   bits = (bits | bits << 8) & 0x00ff00ffU;
@@ -23,7 +23,7 @@ std::uint32_t spread(std::uint32_t bits)
   return bits;
 }
 
-/// Where a coordinate lies in a range, as 16 bits.
+/// The position of a coordinate in a range, as 16 bits.
 std::uint32_t cellOf(double value, double low, double high)
 {
   constexpr double cells = 65535;
@@ -37,9 +37,12 @@ std::uint32_t mortonKey(const SegmentTree::Item& item, const Box2& all)
     spread(cellOf(item.A.y / 2 + item.B.y / 2, all.ymin, all.ymax)) << 1;
 }
 
-Box2 boxOfAll(const std::vector<SegmentTree::Item>& segments, int threads)
+} // namespace
+
+Box2 SegmentTree::boxOfAll(const std::vector<Item>& segments, int threads)
 {
-  const Box2 first = boxOf(segments.front().A, segments.front().B);
+  const Box2 first = segments.empty() ? Box2{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL }
+                                      : boxOf(segments.front().A, segments.front().B);
   std::vector<Box2> boxes(std::size_t(threads), first);
   forChunks(std::int64_t(segments.size()), SegmentTree::Chunk, threads, {},
     [&](std::int64_t begin, std::int64_t end, int thread)
@@ -47,7 +50,7 @@ Box2 boxOfAll(const std::vector<SegmentTree::Item>& segments, int threads)
       Box2 box = first;
       for (std::int64_t i = begin; i < end; ++i)
       {
-        const SegmentTree::Item& item = segments[std::size_t(i)];
+        const Item& item = segments[std::size_t(i)];
         box = unionOf(box, boxOf(item.A, item.B));
       }
       Box2& all = boxes[std::size_t(thread)];
@@ -55,8 +58,6 @@ Box2 boxOfAll(const std::vector<SegmentTree::Item>& segments, int threads)
     });
   return std::accumulate(boxes.begin(), boxes.end(), first, unionOf);
 }
-
-} // namespace
 
 SegmentTree::SegmentTree(std::vector<Item> segments, int threads)
 {
@@ -70,7 +71,7 @@ SegmentTree::SegmentTree(std::vector<Item> segments, int threads)
   }
   const Box2 all = boxOfAll(segments, threads);
   const auto count = std::int64_t(segments.size());
-  std::vector<std::uint64_t> order(segments.size()); // keys and then indices
+  std::vector<std::uint64_t> order(segments.size()); // first sort keys, then indices
   const auto forAll = [threads](std::int64_t items, const auto& body)
   {
     forChunks(items, Chunk, threads, {},

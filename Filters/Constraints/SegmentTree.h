@@ -24,10 +24,15 @@ inline bool overlap(const Box2& a, const Box2& b)
   return a.xmin <= b.xmax && b.xmin <= a.xmax && a.ymin <= b.ymax && b.ymin <= a.ymax;
 }
 
-/// Whether the line through a and b may meet the closed box: false only if it certainly does not.
+inline Box2 expanded(const Box2& box, double margin)
+{
+  return { box.xmin - margin, box.ymin - margin, box.xmax + margin, box.ymax + margin };
+}
+
+/// Whether the line through a and b may meet the closed box. False only if it certainly does not.
 inline bool lineMayMeet(Point2 a, Point2 b, const Box2& box)
 {
-  // Every sum and product below has a relative error of 2^-53; this is ninety of them.
+  // Every operation below has a relative error of 2^-53; this is ninety times as much.
   constexpr double relative = 1e-14;
   constexpr double absolute = 1e-300;    // for products that underflow
   constexpr double smallest = 0x1p-1070; // for halves of denormal numbers
@@ -43,10 +48,10 @@ inline bool lineMayMeet(Point2 a, Point2 b, const Box2& box)
       (std::fabs(dx) * (std::fabs(centerY) + std::fabs(a.y) + halfY) +
         std::fabs(dy) * (std::fabs(centerX) + std::fabs(a.x) + halfX)) +
     smallest * (std::fabs(dx) + std::fabs(dy)) + absolute;
-  return !(distance > reach + error); // also after an overflow
+  return !(distance > reach + error); // also true after an overflow
 }
 
-/// Segments by where they lie: a packed tree of bounding boxes over segments sorted along a curve.
+/// A packed tree of bounding boxes over segments that are sorted along a curve.
 class SegmentTree
 {
 public:
@@ -54,19 +59,23 @@ public:
   {
     Point2 A;
     Point2 B;
-    std::int64_t Id; ///< the caller's
+    std::int64_t Id; ///< chosen by the caller
   };
 
   explicit SegmentTree(std::vector<Item> segments, int threads = 1);
 
-  static constexpr std::int64_t Chunk = 8192; ///< items that a thread takes at a time
+  static constexpr std::int64_t Chunk = 8192; ///< number of items that a thread processes at a time
+
+  /// The bounding box of all segments; without segments, an empty box.
+  static Box2 boxOfAll(const std::vector<Item>& segments, int threads);
 
   const std::vector<Item>& items() const { return this->Items; }
 
-  /// Makes the items' Ids their positions among the items; returns what they were.
+  /// Sets the Id of each item to its index among the items. Returns the previous Ids.
   std::vector<std::int64_t> nameByPosition();
 
-  /// visit(item) for every segment whose bounding box overlaps the box, until it returns false.
+  /// Calls visit(item) for each segment whose bounding box overlaps the box, until it returns
+  /// false.
   template <typename Visit>
   void visitNear(const Box2& box, const Visit& visit) const
   {
@@ -74,22 +83,23 @@ public:
       [&](const Item& item) { return !overlap(box, boxOf(item.A, item.B)) || visit(item); });
   }
 
-  /// The same for those whose bounding box a segment may meet.
+  /// As above, for segments whose bounding box this segment may meet, or come within `margin` of.
   template <typename Visit>
-  void visitNear(const Item& segment, const Visit& visit) const
+  void visitNear(const Item& segment, const Visit& visit, double margin = 0) const
   {
-    const Box2 box = boxOf(segment.A, segment.B);
+    const Box2 box = expanded(boxOf(segment.A, segment.B), margin);
     const auto isNear = [&](const Box2& node)
-    { return overlap(box, node) && lineMayMeet(segment.A, segment.B, node); };
+    { return overlap(box, node) && lineMayMeet(segment.A, segment.B, expanded(node, margin)); };
     this->visitNodes(isNear,
       [&](const Item& item) { return !overlap(box, boxOf(item.A, item.B)) || visit(item); });
   }
 
-  /// Groups of neighbours, for visitPairs().
+  /// The number of groups of neighbouring items, for visitPairs().
   std::size_t groups() const { return this->Levels.empty() ? 0 : this->Levels.front().size(); }
 
-  /// visit(item, item) for all pairs whose bounding boxes overlap, of an item of a group and one of
-  /// this or a later group. For short segments: one search serves the whole group.
+  /// Calls visit(item, item) for all pairs with overlapping bounding boxes, of an item in this
+  /// group and an item in this or a later group. For short segments, since the whole group is
+  /// searched at once.
   template <typename Visit>
   void visitPairs(std::size_t group, const Visit& visit) const
   {
@@ -144,7 +154,7 @@ private:
   }
 
   std::vector<Item> Items;
-  std::vector<std::vector<Box2>> Levels; ///< boxes of items, boxes of these, ... the root
+  std::vector<std::vector<Box2>> Levels; ///< boxes of groups of items, of these, ..., the root
 };
 
 } // namespace tipp

@@ -24,7 +24,7 @@ namespace tipp
 namespace
 {
 
-/// Appends the edges of all cells; polygons are closed.
+/// Appends the edges of all cells. Polygons are closed.
 void appendEdges(vtkCellArray* cells, vtkIdType firstCell, bool isClosed,
   const std::vector<PointId>& ids, SourceConstraints& result)
 {
@@ -45,7 +45,7 @@ void appendEdges(vtkCellArray* cells, vtkIdType firstCell, bool isClosed,
   }
 }
 
-/// The new points' values, if the source has any.
+/// Appends the values of new points, if the source has values.
 void appendValues(vtkPointData* from, vtkPointData* source,
   const std::vector<std::size_t>& newPoints, vtkIdType inputPoints, vtkPointData* to,
   std::size_t& lost)

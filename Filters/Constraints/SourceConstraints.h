@@ -19,36 +19,36 @@ class vtkPolyData;
 namespace tipp
 {
 
-/// The lines and polygons of a data set. Ids: of each point of the source, the point that it is in
-/// the triangulation. Empty: the same.
+/// The lines and polygons of a data set. `ids` has, for each point of the source, the id of its
+/// point in the triangulation; if it is empty, the ids are equal.
 SourceConstraints readConstraints(vtkPolyData* source, const std::vector<PointId>& ids);
 
 /// A data set with the points of a source.
 struct JoinedPoints
 {
   vtkSmartPointer<vtkPointSet> Data; ///< the input, or a new data set if there are new points
-  std::vector<PointId> Ids;          ///< of the source's points: where they are
-  std::size_t NewPoints = 0;         ///< after the input's
-  std::size_t LostArrays = 0;        ///< of the input, that the source has no values of
+  std::vector<PointId> Ids;          ///< per point of the source: its id in Data
+  std::size_t NewPoints = 0;         ///< number of new points, after those of the input
+  std::size_t LostArrays = 0;        ///< number of the input's arrays that the source lacks
 };
 
-/// A point of the source at the position, in the plane, of one of the input's is that one (the
-/// first), each other position is a new point. New points have the source's values of point arrays;
-/// arrays that the source lacks are left out if there are new points.
+/// Merges points of the source with points of the input that have the same position in the plane
+/// (the first of them). All other positions become new points. New points have the source's values
+/// of point arrays. If there are new points, arrays that the source lacks are left out.
 JoinedPoints joinPoints(vtkPointSet* input, vtkPolyData* source, vtkAbstractTransform* toPlane);
 
-/// The points and, in double precision after them, the crossings. The plane is x and y, in which
-/// they are exact, unless there is a transform; other coordinates are interpolated.
+/// The points, followed by the crossings in double precision. If `isPlaneXY`, the crossings' x and
+/// y are exact and z is interpolated; otherwise all coordinates are interpolated.
 vtkSmartPointer<vtkPoints> appendCrossings(
   vtkPoints* points, const std::vector<CrossingPoint>& crossings, bool isPlaneXY);
 
-/// Point data of the points and, interpolated along the constraint of lower number, of the
-/// crossings.
+/// Copies the point data, and appends the crossings' data, interpolated along the constraint of
+/// lower index.
 void interpolateCrossings(vtkPointData* from, vtkIdType points,
   const std::vector<CrossingPoint>& crossings, vtkPointData* to);
 
-/// Adds the edges of constraints as lines, before the triangles, with the cell array
-/// "ConstraintId": the source's cell, and -1 of triangles.
+/// Adds the edges on constraints as lines, before the triangles, and the cell array "ConstraintId":
+/// the cell of the source, or -1 for triangles.
 void addConstraintLines(const ResolvedConstraints& constraints,
   const std::vector<std::int64_t>& sourceCells, vtkPolyData* output);
 

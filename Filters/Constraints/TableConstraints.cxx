@@ -22,10 +22,10 @@ PointsView viewOf(const std::vector<double>& xy)
   return PointsView(xy.data(), xy.size() / 2, 2);
 }
 
-/// Appends the table's points that are not there, and its edges to the constraints.
+/// Appends the table's points, except those that exist already, and its edges.
 void join(const ConstraintTable& table, PointTable& points, std::vector<Constraint>& constraints)
 {
-  if (table.XY.empty()) // its edges name the points
+  if (table.XY.empty()) // its edges refer to the points
   {
     for (const auto& edge : table.Edges)
     {
@@ -50,7 +50,8 @@ void join(const ConstraintTable& table, PointTable& points, std::vector<Constrai
   }
 }
 
-/// Fills what is NaN of the points from `given` on by the surface of those before.
+/// Sets the NaN values of points from index `given` on, by interpolation on the surface of the
+/// points before.
 void takeSurface(
   std::size_t given, DuplicateRule rule, const TriangulationOptions& options, PointTable& points)
 {
@@ -115,7 +116,7 @@ void cutOutside(
   const std::size_t lines = constraints.Lines.Edges.size();
   const Cuts cuts{ piecesOf(pieces, constraints.Lines.PolygonBegin, lines),
     piecesOf(pieces, lines, lines + constraints.Boundary.Edges.size()), constraints.Lines.holes() };
-  // A polygon that lacks an edge has no inside.
+  // A polygon with a missing edge has no inside.
   if (!(cuts.Polygons.empty() && cuts.Boundary.empty()) && result.Constraints.NotFinite > 0)
   {
     throw std::invalid_argument(
@@ -190,7 +191,7 @@ void requireClosedBoundary(const ConstraintTable& boundary)
     throw std::invalid_argument(
       "it has no lines with coordinates, so it is no boundary; give closed lines or polygons.");
   }
-  std::map<std::pair<double, double>, int> ends; // odd ones are open
+  std::map<std::pair<double, double>, int> ends; // number of edges; odd ends are open
   for (const auto& edge : boundary.Edges)
   {
     for (const std::int64_t end : edge)

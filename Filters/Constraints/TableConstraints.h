@@ -16,51 +16,52 @@
 namespace tipp
 {
 
-/// What constrains the triangulation of a table of points, as files give it.
+/// The constraints of a triangulation of a table of points, as read from files.
 struct TableConstraints
 {
-  ConstraintTable Lines;    ///< with polygons and holes; perhaps none
-  ConstraintTable Boundary; ///< closed lines, which are constraints, too; perhaps none
+  ConstraintTable Lines;    ///< with polygons and holes; may be empty
+  ConstraintTable Boundary; ///< closed lines, which are constraints too; may be empty
   CrossingRule Crossings = CrossingRule::Split;
-  /// If it is given, new points have the values of the surface of the others where no height is
-  /// given: of its triangle there, or NaN outside of it; at coincident points it has those of the
-  /// rule. Else these are NaN.
+  /// If set, new points without a given height get the value of the surface of the other points: of
+  /// the triangle there, or NaN outside the surface. At equal points, the rule chooses the value.
+  /// If not set, their values are NaN.
   std::optional<DuplicateRule> Surface;
 };
 
-/// Whether a column of this name has the heights of constraints: z, Z or elevation.
+/// Whether a column with this name has heights for constraints: z, Z or elevation.
 bool isHeightColumn(const std::string& name);
 
-/// The constrained Delaunay triangulation of the points and those of the constraints, which are
+/// Computes the constrained Delaunay triangulation of the points and of the constraints' points.
+/// The latter are appended to the table unless they exist already, followed by the crossings.
 /// appended to the table unless they are there already, and then the crossings.
 ///
-/// Triangles are removed outside of polygons, in holes, and outside of the boundary: a triangle is
-/// inside if a way out of it crosses the boundary's lines an odd number of times. Throws
-/// std::invalid_argument.
+/// Removes triangles outside polygons, in holes, and outside the boundary: a triangle is inside the
+/// boundary if a path to it from outside crosses the boundary's lines an odd number of times.
+/// Throws std::invalid_argument.
 VTKTIPPFILTERS_EXPORT ConstrainedTriangulation triangulateTable(
   PointTable& points, const TableConstraints& constraints, const TriangulationOptions& options);
 
-/// Files of constraints, and how they are used.
+/// Files of constraints, and options for their use.
 struct ConstraintFiles
 {
-  std::string Lines;    ///< a path; empty: none
-  std::string Boundary; ///< the same
+  std::string Lines;    ///< path, or empty
+  std::string Boundary; ///< path, or empty
   std::vector<std::pair<double, double>>
-    Holes; ///< x and y of points in holes, beside those of Lines
+    Holes; ///< x and y of points in holes, in addition to those of Lines
   CrossingRule Crossings = CrossingRule::Split;
 
   bool areGiven() const { return !this->Lines.empty() || !this->Boundary.empty(); }
-  /// For messages.
+  /// The name of a file, for messages.
   const std::string& name() const { return this->Lines.empty() ? this->Boundary : this->Lines; }
 };
 
-/// Throws IOError.
+/// Reads both files. Throws IOError.
 VTKTIPPFILTERS_EXPORT TableConstraints readConstraints(const ConstraintFiles& files);
 
 /// Reads the closed lines of a boundary. Throws IOError.
 VTKTIPPFILTERS_EXPORT ConstraintTable readBoundary(const std::string& path);
 
-/// Throws std::invalid_argument unless the lines of a boundary are closed.
+/// Throws std::invalid_argument unless all lines of a boundary are closed.
 VTKTIPPFILTERS_EXPORT void requireClosedBoundary(const ConstraintTable& boundary);
 
 } // namespace tipp

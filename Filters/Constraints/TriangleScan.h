@@ -17,7 +17,7 @@
 namespace tipp
 {
 
-/// What a scan finds.
+/// The results of a scan.
 struct ScannedTriangles
 {
   struct Crossing
@@ -35,19 +35,19 @@ struct ScannedTriangles
       return this->Triangle == other.Triangle && this->Piece == other.Piece;
     }
   };
-  /// An edge that lies on a segment.
+  /// An edge of a triangle that is on a segment.
   struct Edge
   {
     std::int64_t Triangle;
-    std::size_t From;     ///< of its corners, the one where the edge begins
-    std::int64_t Segment; ///< its Id
+    std::size_t From;     ///< the corner where the edge starts, 0 to 2
+    std::int64_t Segment; ///< Id of the segment
   };
   std::vector<Crossing> Crossings;
   std::vector<CrossedTriangles::Touch> Touches;
-  std::vector<Edge> Edges; ///< of triangles that are crossed, or of all
+  std::vector<Edge> Edges; ///< of crossed triangles, or of all triangles
 };
 
-/// A raster over some triangles: which segments are near each of its cells.
+/// A raster over some triangles, whose cells list the segments near them.
 class SegmentRaster
 {
 public:
@@ -68,7 +68,7 @@ public:
           }
         });
     }
-    // A counting sort by cell.
+    // Counting sort by cell.
     this->Starts.fill(0);
     for (const auto& entry : this->Near)
     {
@@ -91,7 +91,7 @@ public:
     }
   }
 
-  /// visit(segment) for all near a box, some of them several times.
+  /// Calls visit(segment) for all segments near a box. A segment may be visited several times.
   template <typename Visit>
   void visitNear(const Box2& box, const Visit& visit) const
   {
@@ -103,7 +103,7 @@ public:
     {
       if ((this->Used[std::size_t(y)] & columns) == 0)
       {
-        continue; // most triangles are near no segment
+        continue; // most triangles have no segment nearby
       }
       const auto* const starts = &this->Starts[std::size_t(y) * Cells];
       for (auto i = starts[xBegin]; i < starts[xEnd + 1]; ++i)
@@ -114,7 +114,7 @@ public:
   }
 
 private:
-  static constexpr int Cells = 32; ///< along each axis; bits of a row of Used
+  static constexpr int Cells = 32; ///< cells per axis; also the bits of a row of Used
 
   struct Entry
   {
@@ -122,8 +122,8 @@ private:
     std::int32_t Segment;
   };
 
-  /// Cells along an axis; all of it is the first one if they would be too small or too large for
-  /// doubles.
+  /// The cells along an axis. If cells would be too small or too large for doubles, only the first
+  /// one is used.
   struct Axis
   {
     Axis() = default;
@@ -143,7 +143,7 @@ private:
       }
     }
 
-    /// Monotone.
+    /// The cell of a coordinate; never decreases with it.
     int cellOf(double value) const
     {
       const double cell = (value - this->Low) * this->Scale;
@@ -165,7 +165,7 @@ private:
     double Margin = 0;
   };
 
-  /// A box that holds all points of a cell, in spite of rounding.
+  /// A box that contains all points of a cell, with a margin for rounding.
   Box2 cell(int x, int y) const
   {
     return { this->X.begin(x), this->Y.begin(y), this->X.end(x), this->Y.end(y) };
@@ -189,19 +189,19 @@ private:
   Axis Y;
   std::vector<Entry> Near;
   std::array<std::int32_t, std::size_t(Cells) * Cells + 1> Starts{};
-  std::array<std::uint32_t, Cells> Used{}; ///< by row: a bit for each cell that segments are near
+  std::array<std::uint32_t, Cells> Used{}; ///< per row: a bit for each cell with segments nearby
   std::vector<std::int32_t> Sorted;
 };
 
-/// Finds which triangles segments cross, a few triangles at a time. The ends of segments are
-/// vertices, known by their coordinates.
+/// Finds the triangles that segments cross, a few triangles at a time. The ends of segments are
+/// vertices, identified by their coordinates.
 template <typename Id>
 class TriangleScan
 {
 public:
   static constexpr std::size_t MostTriangles = 2048;
 
-  /// Which edges on segments are noted.
+  /// Which edges on segments are recorded.
   enum class NotedEdges
   {
     OfCrossed,
@@ -215,8 +215,8 @@ public:
   {
   }
 
-  /// Looks at triangles [begin, end), MostTriangles at most, of those whose corners are given.
-  /// Segments for which isSkipped(id) is true are not looked at.
+  /// Scans the triangles [begin, end), at most MostTriangles. Segments for which isSkipped(id) is
+  /// true are ignored.
   template <typename IsSkipped>
   void scan(const Id* corners, std::size_t begin, std::size_t end, const IsSkipped& isSkipped,
     ScannedTriangles& found)
@@ -251,7 +251,7 @@ private:
     Box2 box{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
     const Id* corner = corners + 3 * begin;
     const Id* const last = corners + 3 * end - 1;
-    constexpr std::ptrdiff_t ahead = 24; // points lie anywhere in memory
+    constexpr std::ptrdiff_t ahead = 24; // prefetch distance, since points are accessed at random
     const Point2* const all = this->Points.contiguous();
     for (Point2& position : this->Positions)
     {
@@ -291,8 +291,8 @@ private:
     }
   }
 
-  /// Whether the segment meets the triangle's interior; and notes corners inside the segment, and
-  /// an edge on it.
+  /// Whether the segment meets the triangle's interior. Records corners inside the segment, and an
+  /// edge on it.
   static bool crosses(const SegmentTree::Item& segment, std::size_t t, const Id* ids,
     const Point2* p, ScannedTriangles& found)
   {
@@ -314,8 +314,8 @@ private:
       const std::size_t next = (i + 1) % 3;
       if (side[i] * side[next] < 0)
       {
-        // The line passes through the interior, and leaves it by this edge. The ends of the segment
-        // are vertices, so they are not in between.
+        // The line passes through the interior and leaves it across this edge. No end of the
+        // segment is in the interior, since ends are vertices.
         return orientation(p[i], p[next], segment.A) * orientation(p[i], p[next], segment.B) < 0;
       }
       if (isOn[i] && isOn[next])
@@ -327,7 +327,7 @@ private:
     return false;
   }
 
-  /// Of a point on the segment's line.
+  /// Whether p, a point on the segment's line, is strictly between its ends.
   static bool isBetween(const SegmentTree::Item& segment, Point2 p)
   {
     return lexicographicLess(segment.A, segment.B)
@@ -340,7 +340,7 @@ private:
   const NotedEdges Noted;
   std::vector<Point2> Positions;
   std::vector<const SegmentTree::Item*> Segments;
-  std::vector<std::size_t> LastTriangle; ///< that each segment was tested with
+  std::vector<std::size_t> LastTriangle; ///< the triangle that each segment was last tested with
   SegmentRaster Raster;
 };
 

@@ -19,12 +19,12 @@ namespace tipp
 namespace
 {
 
-/// The parts with both ends at vertices of crossed triangles.
+/// The parts whose ends both may be vertices of crossed triangles.
 template <typename Id>
 ConstraintEdges edgesNear(const CrossedTriangles& crossed, const Id* triangles,
   const std::vector<ConstraintPiece>& parts, int threads)
 {
-  constexpr std::size_t marks = std::size_t(1) << 20; // by the ids' last digits
+  constexpr std::size_t marks = std::size_t(1) << 20; // by the low bits of ids
   std::vector<char> isVertex(marks, 0);
   for (const std::int64_t t : crossed.Triangles)
   {
@@ -61,7 +61,7 @@ void constrainTriangles(PointsView points, Buffer<Id>& ids,
   pieces = std::move(split.Parts);
 }
 
-/// Replaces the ends of pieces by their representatives.
+/// Replaces the ends of pieces and touches by their representatives.
 void nameRepresentatives(const std::vector<Duplicate>& duplicates,
   std::vector<ConstraintPiece>& pieces, std::vector<CrossedTriangles::Touch>& touches)
 {
@@ -85,14 +85,13 @@ void nameRepresentatives(const std::vector<Duplicate>& duplicates,
   }
 }
 
-/// Turns the triangulation of points, in which some of these pieces were inserted already, into the
-/// constrained Delaunay triangulation of all, in place. No piece crosses another. Afterwards pieces
-/// name the points that stand for their ends, and are split at vertices that lie on them.
+/// Turns a triangulation of points into the constrained Delaunay triangulation with these pieces,
+/// in place. `inserted` has pieces that were inserted during the triangulation. No piece crosses
+/// another. Afterwards the pieces refer to representatives, and are split at the vertices on them.
 ///
-/// Only triangles that a piece crosses change. Pieces that cross the same triangle form one job
-/// with the triangles that they cross; jobs do not depend on each other. The new triangles of a job
-/// take the positions of the old ones, both in their order, so that the result is the same for any
-/// number of threads.
+/// Only triangles that a piece crosses change. Pieces that cross a common triangle form one job,
+/// with all triangles that they cross; jobs are independent of each other. A job's new triangles
+/// replace its old ones, in order, so the result does not depend on the number of threads.
 void constrain(PointsView points, Triangulation& triangulation,
   std::vector<ConstraintPiece>& pieces, PartitionConstraints& inserted, int threads)
 {
@@ -113,7 +112,7 @@ void constrain(PointsView points, Triangulation& triangulation,
   }
 }
 
-/// The input's points and the crossings.
+/// The points of the input, followed by the crossings.
 std::vector<Point2> allPoints(PointsView points, const std::vector<CrossingPoint>& crossings)
 {
   std::vector<Point2> all;
@@ -138,10 +137,10 @@ public:
     , Threads(threadCount(options.Threads))
   {
     this->Plain = options;
-    this->Plain.MaximumEdge = 0; // triangles are left out at the end
+    this->Plain.MaximumEdge = 0; // long triangles are removed at the end
     if (options.Progress)
     {
-      // It does not go back if the triangulation is begun again.
+      // Progress must not decrease if the triangulation is repeated.
       this->Plain.Progress = [this](double done)
       { return this->Options.Progress(this->Done = std::max(this->Done, done)); };
     }
@@ -153,7 +152,7 @@ public:
     ResolvedConstraints resolved = takeConstraints(this->Input, constraints, this->Threads);
     try
     {
-      // Most constraints do not cross, and if they do this shows when they are inserted.
+      // Most constraints do not cross. If they do, the insertion finds it.
       return this->insert(std::move(resolved));
     }
     catch (const CrossingFound&)
@@ -201,7 +200,7 @@ private:
   const std::function<void(ConstrainedTriangulation&)>& Cut;
   const int Threads;
   TriangulationOptions Plain;
-  double Done = 0; ///< the fraction told last
+  double Done = 0; ///< the last reported fraction
   Stopwatch Watch;
 };
 

@@ -15,15 +15,16 @@ namespace tipp
 struct ConstrainedTriangulation
 {
   Triangulation Mesh; ///< of the points and, after them, the crossings
-  /// The constraints as chains of edges between the points that stand for their vertices.
+  /// The constraints as chains of edges between representatives of their vertices.
   ResolvedConstraints Constraints;
 };
 
-/// The constrained Delaunay triangulation of the distinct finite points: every constraint is a
-/// chain of edges, and a triangle's circumdisk holds no vertex that it sees past the constraints;
-/// ties are broken as without constraints. The same set of triangles for every option and order.
-/// Throws as resolveCrossings() does. `cut` may remove triangles, as those outside of polygons; it
-/// is called before triangles with too long an edge are removed.
+/// Computes the constrained Delaunay triangulation of the distinct finite points. Every constraint
+/// is a chain of edges. A triangle's circumdisk contains no vertex that is visible from the
+/// triangle's interior, where constraints block the view. Ties are broken as without constraints.
+/// The set of triangles does not depend on the options or on the order. Throws like
+/// resolveCrossings(). `cut` may remove triangles, for example outside polygons; it is called
+/// before triangles with too long edges are removed.
 VTKTIPPFILTERS_EXPORT ConstrainedTriangulation triangulateConstrained(PointsView points,
   const std::vector<Constraint>& constraints, CrossingRule crossings = CrossingRule::Split,
   const TriangulationOptions& options = {},

@@ -4,46 +4,18 @@
 #include "Constraints/ConstrainedPoints.h"
 #include "Dem/RasterSink.h"
 #include "Dem/SurfaceSink.h"
-#include "Files/OutputFile.h"
 #include "Files/TemporaryFiles.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
 #include <string>
-#include <system_error>
 #include <utility>
 
 namespace tipp
 {
 namespace
 {
-
-/// A temporary folder, removed with its content by the destructor.
-struct ScratchDirectory
-{
-  ScratchDirectory()
-    : Path((std::filesystem::temp_directory_path() / "tipp-XXXXXX").string())
-  {
-    if (!mkdtemp(this->Path.data()))
-    {
-      failToWrite(this->Path);
-    }
-    this->Listed.list(this->Path);
-  }
-  ~ScratchDirectory()
-  {
-    std::error_code ignored;
-    std::filesystem::remove_all(this->Path, ignored);
-  }
-  ScratchDirectory(const ScratchDirectory&) = delete;
-  ScratchDirectory& operator=(const ScratchDirectory&) = delete;
-
-  std::string Path;
-  TemporaryPath Listed;
-};
 
 /// Copies all tiles into the grid. Returns false if `progress` stopped it.
 bool readTiles(const TerrainSettings& settings, const TileSource& tiles,
@@ -80,7 +52,7 @@ OutOfCoreStatistics triangulateInto(TriangleConsumer& taker, PointStream& points
   options.CountOnly = true;
   options.Consumer = &taker;
   options.Progress = progress;
-  return triangulateOutOfCore(points, folder.Path + "/dem", options);
+  return triangulateOutOfCore(points, folder.path() + "/dem", options);
 }
 
 DemFigures makeWithin(std::unique_ptr<PointStream> points, const DemRequest& request,
@@ -113,7 +85,7 @@ DemFigures makeWithin(std::unique_ptr<PointStream> points, const DemRequest& req
     auto constrained = std::make_unique<ConstrainedPoints>(
       std::move(points), *request.Constraints, "the constraints", request.Threads);
     constrained->setSurface(surface.takeValues());
-    options.Constraints = [&from = *constrained] { return from.takeSegments(); };
+    options.Constraints = [&from = *constrained]() -> SegmentSource& { return from; };
     points = std::move(constrained);
   }
   RasterSink sink(

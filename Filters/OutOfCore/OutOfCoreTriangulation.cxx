@@ -153,6 +153,12 @@ private:
     this->Record.keep(false);
     this->Scratch.clear();
     this->planMemory(3 + this->Input.columns().size());
+    SegmentSource* const segments =
+      this->Options.Constraints ? &this->Options.Constraints() : nullptr;
+    if (segments)
+    {
+      segments->begin(this->Scratch.points() + ".constraints", this->Options.MemoryLimit);
+    }
     InputSurvey& survey = this->Setup.Survey;
     survey = InputPasses(this->Input, this->Ranks,
       this->passOptions(
@@ -169,12 +175,13 @@ private:
       throw IOError(
         "The input has no point with finite coordinates, so there is nothing to write.");
     }
-    const std::vector<ConstraintSegment> segments =
-      this->Options.Constraints ? this->Options.Constraints() : std::vector<ConstraintSegment>();
-    this->requireSpace(0, PieceSegments::fileBytes(segments.size()));
+    this->requireSpace(0, segments ? PieceSegments::fileBytes(segments->count()) : 0);
     this->Setup.Plan =
       std::make_unique<PiecePlan>(survey, this->Options, *this->Memory, words, this->Threads);
-    this->Setup.setConstraints(this->Scratch.points(), segments, this->Threads);
+    if (segments)
+    {
+      this->Setup.setConstraints(this->Scratch.points(), *segments, this->Threads);
+    }
     std::vector<SampledPoint>().swap(survey.Sample); // assigning {} would keep the memory
     if (this->Setup.Plan->HasLargeInterface)
     {

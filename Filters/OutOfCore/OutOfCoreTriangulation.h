@@ -79,11 +79,11 @@ struct OutOfCoreOptions
   /// Receives the triangles instead of a mesh on disk; requires CountOnly. Not owned. Null: no
   /// consumer.
   TriangleConsumer* Consumer = nullptr;
-  /// Called after the first pass over the points, unless the run is resumed. Returns the segments
-  /// that must be edges, by the ids of their ends in the stream; they must not cross each other.
-  /// They are written to a file and read piece by piece, except for those that decide which
-  /// triangles are kept: these stay in memory. Null: no constraints.
-  std::function<std::vector<ConstraintSegment>()> Constraints;
+  /// Called before the first pass over the points, unless the run is resumed. Returns the source of
+  /// the segments that must be edges; their ends are points of the stream. They are written to a
+  /// file and read piece by piece, except for those that decide which triangles are kept: these
+  /// stay in memory. Null: no constraints.
+  std::function<SegmentSource&()> Constraints;
   /// Resumes an interrupted run of the same path, if there is one. If false, such a run is an
   /// error, and its files are left unchanged.
   bool Resume = false;

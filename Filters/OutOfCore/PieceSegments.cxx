@@ -18,29 +18,21 @@ std::string pathOf(const std::string& file)
   return file + ".segments";
 }
 
-std::vector<ConstraintSegment> cuttingOnes(const std::vector<ConstraintSegment>& segments)
-{
-  std::vector<ConstraintSegment> cutting;
-  std::copy_if(segments.begin(), segments.end(), std::back_inserter(cutting),
-    [](const ConstraintSegment& segment) { return segment.Role != SegmentRole::Line; });
-  return cutting;
-}
-
 } // namespace
 
 PieceSegments::PieceSegments(const std::string& file, const PiecePlan& plan, double factor,
-  const std::vector<ConstraintSegment>& segments, int threads)
+  const std::function<void(const VisitSegment&)>& forEach, int threads)
+  : PieceSegments(file, plan, factor, write(file, plan, factor, forEach, threads))
+{
+}
+
+PieceSegments::PieceSegments(
+  const std::string& file, const PiecePlan& plan, double factor, const Written& written)
   : Plan(plan)
   , Factor(factor)
   , Rows(pathOf(file), std::size_t(plan.pieces()), sizeof(Row),
-      [&]
-      {
-        Spill spill(pathOf(file), 0, std::size_t(plan.pieces()), sizeof(Row));
-        spill.protect();
-        this->writeRows(spill, segments, threads);
-        return std::vector<SpilledRows>{ spill.close() };
-      }())
-  , Cutting(cuttingOnes(segments))
+      std::vector<SpilledRows>{ written.Rows })
+  , Cutting(written.Cutting)
 {
 }
 
@@ -65,43 +57,47 @@ Box2 PieceSegments::planned(const Box2& box) const
     box.ymax * this->Factor };
 }
 
-void PieceSegments::writeRows(
-  Spill& spill, const std::vector<ConstraintSegment>& segments, int threads) const
+PieceSegments::Written PieceSegments::write(const std::string& file, const PiecePlan& plan,
+  double factor, const std::function<void(const VisitSegment&)>& forEach, int threads)
 {
+  Spill spill(pathOf(file), 0, std::size_t(plan.pieces()), sizeof(Row));
+  spill.protect();
+  Written written;
   struct Place
   {
-    std::size_t Segment;
+    Row Content;
     PartitionIndex Piece;
   };
-  constexpr std::size_t most = std::size_t(1) << 16;
+  constexpr std::size_t most = std::size_t(1) << 14;
   std::vector<Place> places; // a segment may meet many pieces
-  const auto write = [&]
+  const auto writePlaces = [&]
   {
     spill.add(
       places.size(), threads, [&](std::size_t i) { return std::int64_t(places[i].Piece); },
-      [&](std::size_t i, char* to)
-      {
-        const Row row{ segments[places[i].Segment], std::int64_t(places[i].Segment) };
-        std::memcpy(to, &row, sizeof row);
-      });
+      [&](std::size_t i, char* to) { std::memcpy(to, &places[i].Content, sizeof(Row)); });
     places.clear();
   };
-  for (std::size_t i = 0; i < segments.size(); ++i)
-  {
-    const ConstraintSegment& segment = segments[i];
-    if (segment.Role == SegmentRole::Hole)
+  std::int64_t name = 0;
+  forEach(
+    [&](const ConstraintSegment& segment)
     {
-      continue; // a hole's outline is no edge of the triangulation
-    }
-    const Point2 a{ segment.A.x * this->Factor, segment.A.y * this->Factor };
-    const Point2 b{ segment.B.x * this->Factor, segment.B.y * this->Factor };
-    this->Plan.Pieces.visitNear(boxOf(a, b),
-      [&](PartitionIndex piece) {
-        lineMayMeet(a, b, this->Plan.Pieces.box(piece)) ? places.push_back({ i, piece }) : void();
-      });
-    places.size() >= most ? write() : void();
-  }
-  places.empty() ? void() : write();
+      const Row row{ segment, name++ };
+      segment.Role != SegmentRole::Line ? written.Cutting.push_back(segment) : void();
+      if (segment.Role == SegmentRole::Hole)
+      {
+        return; // a hole's outline is no edge of the triangulation
+      }
+      const Point2 a{ segment.A.x * factor, segment.A.y * factor };
+      const Point2 b{ segment.B.x * factor, segment.B.y * factor };
+      plan.Pieces.visitNear(boxOf(a, b),
+        [&](PartitionIndex piece) {
+          lineMayMeet(a, b, plan.Pieces.box(piece)) ? places.push_back({ row, piece }) : void();
+        });
+      places.size() >= most ? writePlaces() : void();
+    });
+  places.empty() ? void() : writePlaces();
+  written.Rows = spill.close();
+  return written;
 }
 
 std::uint64_t PieceSegments::bytesOf(PartitionIndex piece) const

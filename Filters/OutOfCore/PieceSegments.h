@@ -23,10 +23,11 @@ namespace tipp
 class VTKTIPPFILTERS_EXPORT PieceSegments
 {
 public:
-  /// Writes the file; its path begins with `file`. The plan's coordinates are those of the segments
-  /// times `factor`. The plan must outlive this object. Throws IOError, as all methods do.
+  /// Writes the file; its path begins with `file`. forEach(visit) visits all segments. The plan's
+  /// coordinates are those of the segments times `factor`. The plan must outlive this object.
+  /// Throws IOError, as all methods do.
   PieceSegments(const std::string& file, const PiecePlan& plan, double factor,
-    const std::vector<ConstraintSegment>& segments, int threads);
+    const std::function<void(const VisitSegment&)>& forEach, int threads);
 
   /// Opens a file that another process has written and described with save().
   PieceSegments(
@@ -38,7 +39,10 @@ public:
   /// Returns the bytes of memory that a piece's constraints need while the piece is triangulated.
   std::uint64_t bytesOf(PartitionIndex piece) const;
   /// Returns the bytes on disk of this many segments if each is in one piece.
-  static std::uint64_t fileBytes(std::size_t segments) { return sizeof(Row) * segments; }
+  static std::uint64_t fileBytes(std::int64_t segments)
+  {
+    return sizeof(Row) * std::uint64_t(segments);
+  }
 
   /// Returns the segments that may meet the piece's box.
   ConstraintSegments read(PartitionIndex piece) const;
@@ -58,7 +62,16 @@ private:
     std::int64_t Name;
   };
 
-  void writeRows(Spill& spill, const std::vector<ConstraintSegment>& segments, int threads) const;
+  struct Written
+  {
+    SpilledRows Rows;
+    std::vector<ConstraintSegment> Cutting;
+  };
+
+  PieceSegments(
+    const std::string& file, const PiecePlan& plan, double factor, const Written& written);
+  static Written write(const std::string& file, const PiecePlan& plan, double factor,
+    const std::function<void(const VisitSegment&)>& forEach, int threads);
   Box2 planned(const Box2& box) const;
   void visit(PartitionIndex piece, const std::function<void(const Row&)>& visit) const;
 

@@ -120,12 +120,13 @@ Bounds RunSetup::boundsOf(const Box2& box) const
   return { box.xmin / factor, box.xmax / factor, box.ymin / factor, box.ymax / factor, 0, 0 };
 }
 
-void RunSetup::setConstraints(
-  const std::string& points, const std::vector<ConstraintSegment>& segments, int threads)
+void RunSetup::setConstraints(const std::string& points, SegmentSource& segments, int threads)
 {
-  this->Constraints = segments.empty()
+  const auto forEach = [&segments](const VisitSegment& visit) { segments.forEach(visit); };
+  this->Constraints = segments.count() == 0
     ? nullptr
-    : std::make_unique<PieceSegments>(points, *this->Plan, this->Survey.Factor, segments, threads);
+    : std::make_unique<PieceSegments>(points, *this->Plan, this->Survey.Factor, forEach, threads);
+  segments.end();
 }
 
 void RunSetup::requireMemory(const std::string& path, std::uint64_t limit) const

@@ -50,8 +50,7 @@ public:
 
   /// Writes the constraint segments beside the spilled points. Requires the plan. `points`: the
   /// file of spilled points. Throws IOError.
-  void setConstraints(
-    const std::string& points, const std::vector<ConstraintSegment>& segments, int threads);
+  void setConstraints(const std::string& points, SegmentSource& segments, int threads);
 
   /// Returns the bytes that the consumer needs on disk.
   std::uint64_t takenBytes() const;

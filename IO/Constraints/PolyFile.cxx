@@ -79,7 +79,7 @@ public:
     return std::int64_t(value);
   }
 
-  /// The first field: the number of rows that follow.
+  /// The first field of a row, which is the number of rows that follow.
   std::int64_t count() const
   {
     const std::int64_t result = this->integer(0);
@@ -102,7 +102,7 @@ private:
   std::vector<double> Row;
 };
 
-/// Vertices, numbered from 0 or 1.
+/// The vertices of a file, numbered from 0 or 1 there.
 struct Vertices
 {
   std::vector<double> XY;

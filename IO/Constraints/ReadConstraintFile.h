@@ -2,12 +2,14 @@
 #ifndef tippReadConstraintFile_h
 #define tippReadConstraintFile_h
 
+#include "Points/PointStream.h"
 #include "Predicates/Points.h"
 #include "vtkTIPPIOModule.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -42,6 +44,29 @@ struct ConstraintTable
 /// .fgb (lines and polygons of a GIS); any VTK file (its lines, and its polygons as polygons).
 /// Throws IOError.
 VTKTIPPIO_EXPORT ConstraintTable readConstraintFile(const std::string& path);
+
+/// Reads the segments of a text file (.csv, .txt) block by block.
+class VTKTIPPIO_EXPORT SegmentRows
+{
+public:
+  static bool isFor(const std::string& path);
+
+  /// Opens the file. The constructor and next() throw IOError.
+  explicit SegmentRows(const std::string& path);
+
+  /// Replaces the content of `table` by the next segments. Their ids are indices in the table's own
+  /// points, if it has any. Returns false at the end.
+  bool next(ConstraintTable& table);
+
+  /// A text that identifies the file across runs: name, size and time.
+  std::string identity() const { return this->Rows->identity(); }
+
+private:
+  void takeIds(const PointBlock& block, ConstraintTable& table) const;
+
+  std::string Path;
+  std::unique_ptr<PointStream> Rows;
+};
 
 /// A .poly file of Shewchuk's Triangle (https://www.cs.cmu.edu/~quake/triangle.poly.html):
 /// vertices, segments and holes; later lines are ignored. If it has no vertices, those of the .node

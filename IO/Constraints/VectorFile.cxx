@@ -29,7 +29,7 @@ public:
       this->addLine(geometry, this->Table.Edges);
       return;
     }
-    // The rings of a polygon, or the members of a collection; other kinds have neither.
+    // The rings of a polygon, or the members of a collection. Other kinds of geometry have none.
     const int parts = gdal().OGR_G_GetGeometryCount(geometry);
     for (int i = 0; i < parts; ++i)
     {
@@ -59,7 +59,7 @@ private:
     return gdal().OGR_GT_Flatten(gdal().OGR_G_GetGeometryType(geometry));
   }
 
-  /// Returns the index of its first point.
+  /// Appends the edges of a line. Returns the index of its first point.
   std::size_t addLine(OGRGeometryH line, Edges& edges)
   {
     const auto first = std::int64_t(this->Table.XY.size() / 2);

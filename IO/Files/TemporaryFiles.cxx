@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <map>
@@ -72,6 +73,22 @@ void TemporaryPath::list(const std::string& path)
   const std::lock_guard<std::mutex> lock(listed().Mutex);
   this->Path = path;
   ++listed().Count[path];
+}
+
+ScratchDirectory::ScratchDirectory()
+  : Path((fs::temp_directory_path() / "tipp-XXXXXX").string())
+{
+  if (!mkdtemp(this->Path.data()))
+  {
+    failToWrite(this->Path);
+  }
+  this->Listed.list(this->Path);
+}
+
+ScratchDirectory::~ScratchDirectory()
+{
+  std::error_code ignored;
+  fs::remove_all(this->Path, ignored);
 }
 
 void TemporaryPath::unlist()

@@ -33,6 +33,23 @@ private:
   std::string Shown; ///< the folder that messages replace by its final path
 };
 
+/// A folder among the system's temporary files, removed with its content by the destructor. Throws
+/// IOError.
+class VTKTIPPIO_EXPORT ScratchDirectory
+{
+public:
+  ScratchDirectory();
+  ~ScratchDirectory();
+  ScratchDirectory(const ScratchDirectory&) = delete;
+  ScratchDirectory& operator=(const ScratchDirectory&) = delete;
+
+  const std::string& path() const { return this->Path; }
+
+private:
+  std::string Path;
+  TemporaryPath Listed;
+};
+
 /// Returns the path to show to the user: for a path in a registered folder, the finished output's.
 VTKTIPPIO_EXPORT std::string shownPath(const std::string& path);
 

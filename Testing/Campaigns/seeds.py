@@ -282,7 +282,7 @@ def table(separator, header):
 
 
 def flat_folder():
-    """Relative path -> bytes."""
+    """The files of a flat mesh: contents by relative path."""
     return {
         "points.npy": npy("d", (len(POINTS), 3), [float(v) for v in flat(POINTS)]),
         "cells.npy": npy("q", (len(TRIANGLES), 3), flat(TRIANGLES)),

@@ -23,7 +23,7 @@ def stored(values):
 
 
 def coordinates(points):
-    """The coordinates in the mesh."""
+    """The coordinates of the mesh that is made of these points."""
     return vtk_to_numpy(tipp.delaunay_2d(points).GetPoints().GetData())
 
 

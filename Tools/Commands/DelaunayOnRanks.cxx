@@ -10,6 +10,7 @@
 #include "Distributed/TriangleExchange.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/TemporaryFiles.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/PointStream.h"
 #include "Ranks/Communicator.h"
@@ -46,9 +47,14 @@ SharedConstraints shareConstraints(Communicator& ranks, const DelaunayArguments&
   SaveArchive writer;
   if (ranks.rank() == 0)
   {
-    ConstrainedPoints points(openPointStream(arguments.Inputs, arguments.Columns),
-      readConstraints(arguments.Constraints), arguments.Constraints.name(), arguments.Threads);
+    const ScratchDirectory folder;
+    const std::unique_ptr<ConstrainedPoints> joined =
+      ConstrainedInput(arguments.Constraints, arguments.Threads)
+        .joined(openPointStream(arguments.Inputs, arguments.Columns));
+    ConstrainedPoints& points = *joined;
     points.setReport(shared.Figures);
+    constexpr std::uint64_t memory = std::uint64_t(1) << 30;
+    points.begin(folder.path() + "/constraints", memory);
     constexpr std::size_t blockPoints = 1 << 18;
     forEachBlock(points, blockPoints, [](PointBlock&) {});
     shared.Added = points.added();
@@ -57,7 +63,9 @@ SharedConstraints shareConstraints(Communicator& ranks, const DelaunayArguments&
       throw IOError(
         arguments.Constraints.name(), describeAdded(std::int64_t(shared.Added.size()), arguments));
     }
-    writer(points.takeSegments(), shared.Added.XY);
+    std::vector<ConstraintSegment> segments;
+    points.forEach([&segments](const ConstraintSegment& segment) { segments.push_back(segment); });
+    writer(segments, shared.Added.XY);
   }
   const Bytes bytes = ranks.broadcast(writer.take());
   LoadArchive reader(bytes);

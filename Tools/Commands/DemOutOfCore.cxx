@@ -175,7 +175,7 @@ int runDemOutOfCore(
   options.Consumer = &sink;
   if (arguments.Request.Constraints)
   {
-    options.Constraints = [&constrained] { return constrained->takeSegments(); };
+    options.Constraints = [&constrained]() -> SegmentSource& { return *constrained; };
   }
   OutOfCoreStatistics statistics;
   const int code = runOutOfCore(ranks, "Making the raster", openConstrained,

@@ -84,7 +84,7 @@ public:
   {
     ConstrainedPoints points(openPointStream({ this->Folder.path("points.npy") }),
       this->Constraints, "constraints.csv", 2);
-    this->Options.Constraints = [&points] { return points.takeSegments(); };
+    this->Options.Constraints = [&points]() -> SegmentSource& { return points; };
     return triangulateOutOfCore(points, this->mesh(), this->Options);
   }
 
@@ -316,7 +316,9 @@ TEST(PieceSegments, AreReadByPieceAndNearBoxes)
   ASSERT_GT(plan.pieces(), 10);
   TemporaryFolder folder;
   SaveArchive saved;
-  PieceSegments(folder.path("points"), plan, factor, segments, 2).save(saved);
+  const auto forEach = [&segments](const VisitSegment& visit)
+  { std::for_each(segments.begin(), segments.end(), visit); };
+  PieceSegments(folder.path("points"), plan, factor, forEach, 2).save(saved);
   const Bytes bytes = saved.take();
   LoadArchive archive(bytes);
   const PieceSegments stored(folder.path("points"), plan, factor, archive);

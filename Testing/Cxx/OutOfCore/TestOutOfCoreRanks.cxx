@@ -208,7 +208,7 @@ TEST_P(OutOfCoreRanks, InsertTheConstraintsOfOneProcess)
     lines.Edges.push_back({ 80 * i, (1237 * i + 31) % 2500 });
   }
   lines.PolygonBegin = lines.Edges.size();
-  this->Options.Constraints = [this] { return this->Constrained->takeSegments(); };
+  this->Options.Constraints = [this]() -> SegmentSource& { return *this->Constrained; };
   const OutOfCoreStatistics alone = this->runAlone();
   const Files expected = this->takeFiles();
   for (const int threads : { 1, 3 })

@@ -50,8 +50,8 @@ std::vector<Exact> clipped(const std::vector<Exact>& line, const Side& side)
   return result;
 }
 
-/// The integral of the value over a closed line, or of 1, which is the area. Positive for
-/// counter-clockwise lines.
+/// The integral of the value over the polygon inside a closed line or, if `ofOne`, the integral of
+/// 1: the polygon's area. Clockwise lines have the opposite sign.
 mpq_class integral(const std::vector<Exact>& line, bool ofOne)
 {
   mpq_class sum = 0;

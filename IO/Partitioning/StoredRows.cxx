@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Partitioning/StoredRows.h"
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr std::size_t bufferBytes = std::size_t(1) << 20;
+
+void removeFile(const std::string& path)
+{
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+}
+
+void appendBytes(const void* row, std::size_t bytes, std::vector<char>& buffer)
+{
+  const char* const begin = static_cast<const char*>(row);
+  buffer.insert(buffer.end(), begin, begin + bytes);
+}
+
+} // namespace
+
+RowFile::RowFile(const std::string& path, std::size_t rowBytes)
+  : Path(path)
+  , RowBytes(rowBytes)
+  , Out(std::make_unique<OutputFile>(path))
+{
+}
+
+RowFile::~RowFile()
+{
+  removeFile(this->Path);
+}
+
+void RowFile::append(const void* row)
+{
+  appendBytes(row, this->RowBytes, this->Buffer);
+  ++this->Count;
+  this->Buffer.size() >= bufferBytes ? this->flush() : void();
+}
+
+void RowFile::flush()
+{
+  this->Out->write(this->Written, this->Buffer.data(), this->Buffer.size());
+  this->Written += this->Buffer.size();
+  this->Buffer.clear();
+}
+
+void RowFile::finish()
+{
+  this->flush();
+  std::vector<char>().swap(this->Buffer);
+  this->Out->close();
+  this->Out.reset();
+  this->In = std::make_unique<InputFile>(this->Path);
+}
+
+void RowFile::read(std::int64_t first, std::size_t count, void* to) const
+{
+  this->In->read(std::uint64_t(first) * this->RowBytes, to, count * this->RowBytes);
+}
+
+KeyedRows::KeyedRows(std::string path, std::size_t keys, std::size_t rowBytes)
+  : Path(std::move(path))
+  , Keys(keys)
+  , RowBytes(rowBytes)
+  , Rows(std::in_place, this->Path, 0, keys, rowBytes)
+{
+}
+
+KeyedRows::~KeyedRows()
+{
+  removeFile(this->Path + ".0"); // the name that Spill gives it
+}
+
+void KeyedRows::add(std::size_t key, const void* row)
+{
+  this->BufferedKeys.push_back(std::uint32_t(key));
+  appendBytes(row, this->RowBytes, this->Buffer);
+  this->Buffer.size() >= bufferBytes ? this->flush() : void();
+}
+
+void KeyedRows::flush()
+{
+  this->Rows->add(
+    this->BufferedKeys.size(), 1, [this](std::size_t i) { return this->BufferedKeys[i]; },
+    [this](std::size_t i, char* to)
+    { std::memcpy(to, this->Buffer.data() + i * this->RowBytes, this->RowBytes); });
+  this->BufferedKeys.clear();
+  this->Buffer.clear();
+}
+
+void KeyedRows::finish()
+{
+  this->flush();
+  std::vector<char>().swap(this->Buffer);
+  std::vector<std::uint32_t>().swap(this->BufferedKeys);
+  const std::vector<SpilledRows> written{ this->Rows->close() };
+  this->Rows.emplace(this->Path, this->Keys, this->RowBytes, written);
+}
+
+} // namespace tipp
