@@ -23,23 +23,24 @@ namespace
 {
 
 /// Chooses the numbers and shapes of partitions. If slabs are thick enough, parallel slabs are
-/// best: they pass on the fewest vertices, and every other one is ready at once. Otherwise there
-/// are enough boxes to keep all threads busy.
+/// best, because they pass on the fewest vertices: one per thread, which triangulates its points
+/// while it waits for the neighbours' vertices. Otherwise there are enough boxes to keep all
+/// threads busy.
 PartitionGroups chooseGroups(std::int64_t points, int ranks, int threads, int wanted)
 {
   constexpr double thick = 10; // in average distances between points
   constexpr int boxesOfThread = 12;
   constexpr int most = 512;
-  constexpr double hull = 3; // the first rank gets fewer points because it repairs the hull
+  constexpr double hull = 2; // the first rank gets fewer points because it repairs the hull
   constexpr std::int64_t largest = std::int64_t(1) << 25;
   const double slabs = std::cbrt(double(points)) / thick;
   PartitionGroups groups;
   groups.Count = ranks;
   groups.FirstLess = std::min(0.5, hull / std::cbrt(double(std::max<std::int64_t>(points, 1))));
-  groups.AreSlabs = 2 * ranks <= slabs;
-  groups.ArePartitionsSlabs = groups.AreSlabs && 2 * ranks * threads <= slabs && wanted == 0;
+  groups.AreSlabs = ranks <= slabs;
+  groups.ArePartitionsSlabs = groups.AreSlabs && ranks * threads <= slabs && wanted == 0;
   groups.Each = wanted > 0 ? (wanted + ranks - 1) / ranks
-                           : (groups.ArePartitionsSlabs ? 2 : boxesOfThread) * threads;
+                           : (groups.ArePartitionsSlabs ? 1 : boxesOfThread) * threads;
   groups.Each = std::clamp(groups.Each, 1, std::max(1, most / ranks));
   groups.Each = std::max(groups.Each, int(points / ranks / largest));
   return groups;
@@ -185,7 +186,8 @@ private:
       return false;
     }
     InitialMesh3 mesh(initial, artificial, initial.Points.size());
-    if (!isChosen && !mesh.partitionsPay())
+    constexpr double most = 3; // fewer if there are few partitions to meet
+    if (!isChosen && !mesh.partitionsPay(std::min(most, (1 + this->Tiling->size()) / 2.0)))
     {
       return false;
     }

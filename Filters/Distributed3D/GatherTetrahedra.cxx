@@ -5,6 +5,7 @@
 #include "Triangulation3D/OrderCells.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -24,27 +25,25 @@ Buffer<std::int32_t> gatherCells(Communicator& ranks, const DistributedTetrahedr
     throw std::length_error("more than 2,147,483,647 points in space are not supported on one "
                             "rank.");
   }
-  Buffer<std::int32_t> ids(mine.Ids.size());
-  std::transform(mine.Ids.begin(), mine.Ids.end(), ids.begin(),
-    [&](std::int32_t index) { return std::int32_t(idOf(index)); });
+  const auto convert = [&](std::int32_t index) { return std::int32_t(idOf(index)); };
   if (mine.cellSize() == 3)
   {
+    Buffer<std::int32_t> ids(mine.Ids.size());
+    std::transform(mine.Ids.begin(), mine.Ids.end(), ids.begin(), convert);
     ids = gatherValues(ranks, std::move(ids));
     orderTriangles(ids);
     return ids;
   }
   // All ranks sort their cells, and the first one merges them.
-  const auto* const cells = ids.as<CellIds>();
-  std::vector<std::vector<CellIds>> parts(1);
-  parts[0].assign(cells, cells + mine.cellCount());
-  ids = orderCells(std::move(parts), std::size_t(points), threads);
-  const std::vector<std::int64_t> firsts = firstIndices(ranks, std::int64_t(mine.cellCount()));
-  ids = gatherValues(ranks, std::move(ids));
-  if (ranks.isFirst())
-  {
-    mergeCells(ids, firsts);
-  }
-  return ids;
+  std::vector<std::vector<CellIds>> cells(1);
+  cells[0].reserve(mine.cellCount());
+  std::transform(mine.Ids.as<CellIds>(), mine.Ids.as<CellIds>() + mine.cellCount(),
+    std::back_inserter(cells[0]),
+    [&](const CellIds& cell) -> CellIds {
+      return { convert(cell[0]), convert(cell[1]), convert(cell[2]), convert(cell[3]) };
+    });
+  return mergeCells(
+    ranks.gather(Bytes(orderCells(std::move(cells), std::size_t(points), threads))));
 }
 
 } // namespace

@@ -17,6 +17,9 @@ namespace tipp
 namespace
 {
 
+/// The pause between looks for messages from other ranks.
+constexpr std::chrono::microseconds ShortPause(500);
+
 /// Returns for each partition whether this rank owns it and it has points.
 std::vector<char> ownPartitions(const Communicator& ranks, const RankWork3& work)
 {
@@ -73,18 +76,20 @@ RankRun3::RankRun3(
   , Points(points)
   , FirstId(firstId)
   , Ready(work.Order, ReadyPartitions::Waits::ForEarlier, ownPartitions(ranks, work))
+  , IsReady(work.Order.partitionCount())
   , Inboxes(work.Order.partitionCount())
 {
   for (const PartitionIndex p : work.Order.sequence())
   {
     const bool isOwn = work.ownerOf(p) == ranks.rank();
     const std::vector<std::int32_t> to = this->recipientsOf(p);
-    this->LeftPartitions += isOwn ? 1 : 0;
+    isOwn ? this->OwnPartitions.push_back(p) : void();
     this->AwaitedMessages +=
       !isOwn && std::find(to.begin(), to.end(), ranks.rank()) != to.end() ? 1 : 0;
   }
-  this->LeftToTake = this->LeftPartitions.load();
-  this->Statistics.Partitions = std::int64_t(this->LeftPartitions);
+  this->LeftPartitions = this->OwnPartitions.size();
+  this->LeftToTake = this->OwnPartitions.size();
+  this->Statistics.Partitions = std::int64_t(this->OwnPartitions.size());
 }
 
 /// Returns the ranks that wait for partition p.
@@ -103,18 +108,53 @@ std::vector<std::int32_t> RankRun3::recipientsOf(PartitionIndex p) const
 /// As ReadyPartitions::take(), but with longer pauses, because messages from other ranks take time.
 PartitionIndex RankRun3::take()
 {
-  constexpr std::chrono::microseconds pause(300);
+  PartitionIndex p = -1;
+  ++this->Idle;
   while (this->LeftToTake > 0 && !this->Ready.isStopped())
   {
-    const PartitionIndex p = this->Ready.tryTake();
+    p = this->Ready.tryTake();
     if (p >= 0)
     {
       --this->LeftToTake;
-      return p;
+      break;
     }
-    std::this_thread::sleep_for(pause);
+    std::this_thread::sleep_for(ShortPause);
   }
-  return -1;
+  --this->Idle;
+  return p;
+}
+
+/// Wakes the threads that wait for a change: partitions are done.
+void RankRun3::notify()
+{
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex); // they look under it
+  }
+  this->Changed.notify_all();
+}
+
+/// Waits until a partition that this thread has begun is ready. Returns false if the run was
+/// stopped.
+bool RankRun3::waitFor(PartitionIndex p)
+{
+  constexpr std::chrono::milliseconds pause(10);
+  ++this->Idle;
+  std::unique_lock<std::mutex> lock(this->Mutex);
+  while (this->IsReady[std::size_t(p)] == 0 && !this->Ready.isStopped())
+  {
+    const PartitionIndex ready = this->Ready.tryTake();
+    if (ready >= 0)
+    {
+      this->IsReady[std::size_t(ready)] = 1;
+      this->Changed.notify_all(); // its thread may be another one
+    }
+    else
+    {
+      this->Changed.wait_for(lock, pause);
+    }
+  }
+  --this->Idle;
+  return this->IsReady[std::size_t(p)] != 0 && !this->Ready.isStopped();
 }
 
 /// The loop of a worker thread.
@@ -122,11 +162,34 @@ void RankRun3::work(Cells& cells)
 {
   const ProcessorWatch watch;
   Worker3 worker(this->Points.Regions, this->Work.Order);
-  for (PartitionIndex p = this->take(); p >= 0; p = this->take())
+  const auto inboxOf = [this](PartitionIndex p) { return this->Inboxes[std::size_t(p)].take(); };
+  if (this->OwnPartitions.size() <= std::size_t(this->Work.Threads))
   {
-    SentMessages3 sent = worker.triangulate(
-      this->Points.of(p, this->FirstId), this->Inboxes[std::size_t(p)].take(), cells);
-    this->finish(p, std::move(sent));
+    // No thread has anything else to do until its partition is ready.
+    const std::size_t next = this->NextOwn++;
+    if (next < this->OwnPartitions.size())
+    {
+      const PartitionIndex p = this->OwnPartitions[next];
+      std::size_t inserted = 0;
+      worker.begin(this->Points.of(p, this->FirstId),
+        [&](std::size_t now)
+        {
+          this->PointsDone += now - std::exchange(inserted, now);
+          return !this->Ready.isStopped();
+        });
+      if (this->waitFor(p))
+      {
+        this->PointsDone -= inserted;
+        this->finish(p, worker.finish(inboxOf(p), cells));
+      }
+    }
+  }
+  else
+  {
+    for (PartitionIndex p = this->take(); p >= 0; p = this->take())
+    {
+      this->finish(p, worker.triangulate(this->Points.of(p, this->FirstId), inboxOf(p), cells));
+    }
   }
   const std::lock_guard<std::mutex> lock(this->Mutex);
   this->Statistics.WorkerVertices += std::int64_t(worker.vertexCount());
@@ -162,6 +225,7 @@ void RankRun3::finish(PartitionIndex p, SentMessages3 sent)
   }
   this->Ready.finish(p);
   --this->LeftPartitions;
+  this->notify();
 }
 
 /// Handles the message that a partition of another rank is done.
@@ -183,6 +247,7 @@ void RankRun3::receive(const Message& message)
   }
   --this->AwaitedMessages;
   this->Ready.finish(sender);
+  this->notify();
 }
 
 /// Returns false if there was nothing to send or receive.
@@ -218,22 +283,21 @@ void RankRun3::report()
 /// The loop of the main thread. Only this thread communicates with other ranks.
 void RankRun3::coordinate()
 {
-  // Polling takes processor time from the computing threads, so pauses grow while nothing happens.
-  constexpr std::chrono::microseconds shortest(300);
-  constexpr std::chrono::microseconds longest(2000);
+  // Polling takes processor time from the computing threads. So it is frequent only while one of
+  // them waits for other ranks, or all are done.
+  constexpr std::chrono::microseconds longest(5000);
   constexpr double untilReport = 0.05;
-  std::chrono::microseconds pause = shortest;
   this->report();
   while ((this->LeftPartitions > 0 || this->AwaitedMessages > 0) && !this->Ready.isStopped())
   {
-    if (this->sendAndReceive())
+    if (!this->sendAndReceive())
     {
-      pause = shortest;
-    }
-    else
-    {
-      std::this_thread::sleep_for(pause);
-      pause = std::min(2 * pause, longest);
+      const bool areWaiting = this->Idle > 0 || this->LeftPartitions == 0;
+      std::unique_lock<std::mutex> lock(this->Mutex);
+      if (this->ToSend.empty())
+      {
+        this->Changed.wait_for(lock, areWaiting ? ShortPause : longest);
+      }
     }
     if (this->SinceReport.seconds() > untilReport)
     {

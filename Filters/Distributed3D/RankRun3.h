@@ -11,6 +11,7 @@
 #include "Triangulation3D/Tetrahedralize.h"
 
 #include <atomic>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
@@ -60,6 +61,8 @@ private:
   struct Cells;
 
   PartitionIndex take();
+  void notify();
+  bool waitFor(PartitionIndex p);
   void work(Cells& cells);
   std::vector<std::int32_t> recipientsOf(PartitionIndex p) const;
   void finish(PartitionIndex p, SentMessages3 sent);
@@ -80,12 +83,17 @@ private:
   const PointBuckets3& Points;
   const std::int64_t FirstId;
   ReadyPartitions Ready;
+  std::vector<std::atomic<char>> IsReady;    ///< by partition, if a thread has begun it
+  std::vector<PartitionIndex> OwnPartitions; ///< in the order of work
+  std::atomic<std::size_t> NextOwn{ 0 };
   std::vector<Inbox3> Inboxes;
   std::size_t AwaitedMessages = 0; ///< number of messages that will come from other ranks
   std::atomic<std::size_t> LeftPartitions{ 0 }; ///< this rank's partitions that are not done
   std::atomic<std::size_t> LeftToTake{ 0 };     ///< those that no thread has taken
   std::atomic<std::size_t> PointsDone{ 0 };
-  std::mutex Mutex; ///< protects ToSend, and results when a thread ends
+  std::atomic<int> Idle{ 0 };      ///< threads that wait for a partition
+  std::condition_variable Changed; ///< signalled when a partition is done, here or on another rank
+  std::mutex Mutex;                ///< protects ToSend, and results when a thread ends
   std::vector<Outgoing> ToSend;
   Stopwatch SinceReport;
 };

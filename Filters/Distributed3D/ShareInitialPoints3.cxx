@@ -29,9 +29,12 @@ void serialize(Archive& archive, InitialPoints3& initial)
 InitialPoints3 chooseInitial(const Communicator& ranks, const Tiling3& tiling, std::int64_t firstId,
   const PointBuckets3& buckets)
 {
-  constexpr std::size_t inAll = 8192; // with more points, fewer partitions conflict
-  constexpr std::size_t share = 16;   // at most one in this many of a partition's points
-  const auto each = inAll / std::size_t(tiling.size());
+  // With more points, fewer partitions conflict. There are enough if tetrahedra are much smaller
+  // than partitions, even if these are slabs.
+  constexpr std::size_t most = 8192;
+  constexpr std::size_t share = 16; // at most one in this many of a partition's points
+  const auto partitions = std::size_t(tiling.size());
+  const std::size_t each = std::min(most, 128 * partitions * partitions * partitions) / partitions;
   InitialPoints3 initial;
   for (PartitionIndex p = 0; p < tiling.size(); ++p)
   {

@@ -40,12 +40,18 @@ inline unsigned bitsOfLanes(const QuadMask& mask)
 
 void Cavity3::restart(const Point3* points, std::size_t count)
 {
-  this->Points = points;
-  this->Predicates.restart(points, count);
   this->Recent = 0;
   this->Free.clear();
-  this->Numbers.assign(count, NoNumber);
+  this->Numbers.clear();
   this->EdgeTable.resize(MostInTable * MostInTable);
+  this->extend(points, count);
+}
+
+void Cavity3::extend(const Point3* points, std::size_t count)
+{
+  this->Points = points;
+  this->Predicates.restart(points, count);
+  this->Numbers.resize(count, NoNumber);
 }
 
 /// Whether all finite vertices of a tetrahedron are in the territory.

@@ -45,6 +45,9 @@ public:
   /// Prepares for a new mesh. `points` are not copied; `count` includes the vertex at infinity.
   void restart(const Point3* points, std::size_t count);
 
+  /// Continues with the same mesh and more points: `points` begin with those so far.
+  void extend(const Point3* points, std::size_t count);
+
   /// Inserts the vertices [first, end) one after the other. Appends to `found` those that have the
   /// coordinates of an earlier vertex. Throws std::length_error if there are too many tetrahedra.
   void insert(TetrahedronMesh& mesh, Index first, Index end, std::vector<Coincidence>& found);

@@ -19,15 +19,17 @@ bool areCollinear(const Point3& a, const Point3& b, const Point3& c)
 }
 
 bool DelaunayKernel3::triangulate(
-  const Point3* points, std::size_t count, const Monitor& proceed, int threads)
+  const Point3* points, std::size_t count, const Monitor& proceed, int threads, std::size_t more)
 {
-  if (count >= std::size_t(1) << InsertionOrder3::IndexBits)
-  {
-    throw std::length_error("too many points for one partition: use more partitions");
-  }
   this->Mesh.clear();
   this->Duplicates.clear();
-  this->sortPoints(points, count);
+  this->Coincidences.clear();
+  this->Points.reserve(1 + count + more);
+  this->Points.resize(1);
+  this->Points[0] = {};
+  this->PointIndices.reserve(1 + count + more);
+  this->PointIndices.resize(1);
+  this->append(points, count);
   if (!this->makeFirst())
   {
     return true;
@@ -35,27 +37,42 @@ bool DelaunayKernel3::triangulate(
   // A uniform distribution makes seven tetrahedra per point, including a few free ones. Threads
   // cannot enlarge the mesh, so they get more.
   const std::size_t cellsPerPoint = threads > 1 ? 9 : 7;
-  this->Mesh.reserve(cellsPerPoint * count + 64);
+  this->Mesh.reserve(cellsPerPoint * (count + more) + 64);
   if (!this->insertAll(proceed, threads))
   {
     this->Mesh.clear();
     this->Dimension = -1;
     return false;
   }
-  this->findDuplicates();
+  this->takeCoincidences();
   return true;
 }
 
-void DelaunayKernel3::sortPoints(const Point3* points, std::size_t count)
+void DelaunayKernel3::add(const Point3* points, std::size_t count)
 {
+  const Index first = this->vertexEnd();
+  this->append(points, count);
+  this->Opened.extend(this->Points.data(), this->Points.size());
+  this->insertRange(first, this->vertexEnd(), {});
+  this->takeCoincidences();
+}
+
+/// Adds vertices in the order of insertion.
+void DelaunayKernel3::append(const Point3* points, std::size_t count)
+{
+  const std::size_t first = this->Points.size();
+  const std::size_t before = first - 1; // points
+  if (before + count >= std::size_t(1) << InsertionOrder3::IndexBits)
+  {
+    throw std::length_error("too many points for one partition: use more partitions");
+  }
   this->Order.compute(points, count);
-  this->Points.resize(count + 1);
-  this->PointIndices.resize(count + 1);
-  this->Points[0] = {};
+  this->Points.resize(first + count);
+  this->PointIndices.resize(first + count);
   for (std::size_t k = 0; k < count; ++k)
   {
-    this->Points[k + 1] = points[this->Order[k]];
-    this->PointIndices[k + 1] = this->Order[k];
+    this->Points[first + k] = points[this->Order[k]];
+    this->PointIndices[first + k] = static_cast<std::uint32_t>(before + this->Order[k]);
   }
   this->Order.release();
 }
@@ -141,7 +158,6 @@ bool DelaunayKernel3::insertRange(Index first, Index end, const Monitor& proceed
 
 bool DelaunayKernel3::insertAll(const Monitor& proceed, int threads)
 {
-  this->Coincidences.clear();
   this->Opened.restart(this->Points.data(), this->Points.size());
   ParallelInsertion3 together(this->Mesh, this->Points.data(), this->Points.size(), this->Opened);
   Index first = 5;
@@ -160,25 +176,24 @@ bool DelaunayKernel3::insertAll(const Monitor& proceed, int threads)
     }
     first = end;
   }
-  for (const Cavity3::Coincidence& found : this->Coincidences)
-  {
-    this->Duplicates.push_back({ this->PointIndices[found.Vertex], found.Representative });
-  }
   return true;
 }
 
 /// Makes the lowest index of the points at a vertex the vertex's point; the others become
 /// duplicates.
-void DelaunayKernel3::findDuplicates()
+void DelaunayKernel3::takeCoincidences()
 {
-  for (Duplicate& duplicate : this->Duplicates)
+  for (const Cavity3::Coincidence& found : this->Coincidences)
   {
-    std::uint32_t& own = this->PointIndices[duplicate.Vertex];
-    if (duplicate.Point < own)
+    std::uint32_t point = this->PointIndices[found.Vertex];
+    std::uint32_t& own = this->PointIndices[found.Representative];
+    if (point < own)
     {
-      std::swap(duplicate.Point, own);
+      std::swap(point, own);
     }
+    this->Duplicates.push_back({ point, found.Representative });
   }
+  this->Coincidences.clear();
 }
 
 void DelaunayKernel3::release()

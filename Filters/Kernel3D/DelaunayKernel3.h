@@ -42,13 +42,17 @@ public:
   using Monitor = std::function<bool(std::size_t)>;
 
   /// Triangulates `count` finite points and replaces the previous triangulation; `points` are
-  /// copied. If products of five coordinate differences under- or overflow, the result is still
-  /// exact, but slow: the filters fail then. `threads`: how many threads insert points
-  /// (ParallelInsertion3); the set of tetrahedra does not depend on it. Returns false, without a
-  /// triangulation, if `proceed` returned false. Throws std::length_error if there are more points
-  /// than indices.
-  bool triangulate(
-    const Point3* points, std::size_t count, const Monitor& proceed = {}, int threads = 1);
+  /// copied. `more`: about how many points add() will bring; memory for them is reserved. If
+  /// products of five coordinate differences under- or overflow, the result is still exact, but
+  /// slow: the filters fail then. `threads`: how many threads insert points (ParallelInsertion3);
+  /// the set of tetrahedra does not depend on it. Returns false, without a triangulation, if
+  /// `proceed` returned false. Throws std::length_error if there are more points than indices.
+  bool triangulate(const Point3* points, std::size_t count, const Monitor& proceed = {},
+    int threads = 1, std::size_t more = 0);
+
+  /// Adds points to a triangulation of Dimension 3. Their indices follow those of the points so
+  /// far. Throws std::length_error as triangulate().
+  void add(const Point3* points, std::size_t count);
 
   /// The dimension of the points: -1 without points, 0 if all have the same coordinates, 1 if they
   /// are collinear, 2 if coplanar, else 3. Below 3 there are neither tetrahedra nor duplicates.
@@ -112,11 +116,11 @@ public:
   std::size_t bytes() const;
 
 private:
-  void sortPoints(const Point3* points, std::size_t count);
+  void append(const Point3* points, std::size_t count);
   bool makeFirst();
   bool insertAll(const Monitor& proceed, int threads);
   bool insertRange(Index first, Index end, const Monitor& proceed);
-  void findDuplicates();
+  void takeCoincidences();
 
   TetrahedronMesh Mesh;
   Uninitialised<Point3> Points;              ///< by vertex, in the order of insertion

@@ -269,7 +269,7 @@ void PieceRun3::make(PartitionIndex piece)
       const double* const row = rows.data() + i * words;
       points[i] = { row[0] * factor, row[1] * factor, row[z] * factor };
     }
-    Worker3 worker(plan.regions(), *this->Order);
+    Worker3 worker(plan.regions(), *this->Order, InsideCells::OfRegion);
     const PartitionPoints3 own{ piece, points.data(), count, nullptr, plan.first(piece) };
     cells.Sent = worker.triangulate(own, this->readInbox(piece), cells);
     duplicates = worker.duplicates();

@@ -31,6 +31,19 @@ void keepUnique(std::vector<Vertex3>& vertices)
     vertices.end());
 }
 
+namespace
+{
+
+void appendPositions(const std::vector<Vertex3>& vertices, std::vector<Point3>& points)
+{
+  for (const Vertex3& v : vertices)
+  {
+    points.push_back(v.Position);
+  }
+}
+
+} // namespace
+
 bool takeHullVertices(const std::array<Vertex3, 4>& corners, std::vector<Vertex3>& vertices)
 {
   if (std::none_of(
@@ -65,8 +78,7 @@ Vertex3 Worker3::vertex(Index v) const
     : this->Others[i - this->Own.Count];
 }
 
-/// Collects the partition's points and those of its inbox. Its own points come first, so that they
-/// represent points with the same coordinates.
+/// Takes the inbox's vertices of other partitions.
 void Worker3::collect(const std::vector<VertexMessage3>& inbox)
 {
   this->Others.clear();
@@ -76,11 +88,6 @@ void Worker3::collect(const std::vector<VertexMessage3>& inbox)
       [this](const Vertex3& v) { return v.Partition != this->Own.Partition; });
   }
   keepUnique(this->Others);
-  this->Points.assign(this->Own.Points, this->Own.Points + this->Own.Count);
-  for (const Vertex3& v : this->Others)
-  {
-    this->Points.push_back(v.Position);
-  }
 }
 
 /// Returns a box around the own region, bounded by a plane for each later region: across the axis
@@ -119,35 +126,118 @@ Box3 Worker3::boxBesideLater() const
   return box;
 }
 
+void Worker3::measureVertices()
+{
+  this->Vertices.resize(this->Kernel.vertexEnd());
+  const Box3& box = this->Interior;
+  for (Index v = 1; v < this->Kernel.vertexEnd(); ++v)
+  {
+    const std::size_t i = this->Kernel.pointIndex(v);
+    const bool isOwn = i < this->Own.Count;
+    const Point3& p = this->Kernel.point(v);
+    this->Vertices[v] = isOwn ? Measured{ this->Own.id(i),
+      std::min({ p.x - box.Min[0], box.Max[0] - p.x, p.y - box.Min[1], box.Max[1] - p.y,
+        p.z - box.Min[2], box.Max[2] - p.z }) }
+                              : Measured{ this->Others[i - this->Own.Count].Id, -1 };
+  }
+}
+
 SentMessages3 Worker3::triangulate(const PartitionPoints3& points,
   const std::vector<VertexMessage3>& inbox, FinalCellConsumer3& final)
 {
   this->Own = points;
-  this->Beside = this->boxBesideLater();
   this->collect(inbox);
+  // The partition's own points first, so that they represent points with the same coordinates.
+  this->Points.assign(points.Points, points.Points + points.Count);
+  appendPositions(this->Others, this->Points);
   this->Kernel.triangulate(this->Points.data(), this->Points.size());
-  this->VertexCount += this->Points.size();
-  this->Outgoing.assign(this->Order.later(points.Partition).size(), {});
-  this->Ids.resize(this->Kernel.vertexEnd());
-  this->Slack.resize(this->Kernel.vertexEnd());
-  const Box3& region = this->Regions[std::size_t(points.Partition)];
-  for (Index v = 1; v < this->Kernel.vertexEnd(); ++v)
+  return this->routeAll(final);
+}
+
+void Worker3::begin(const PartitionPoints3& points, const DelaunayKernel3::Monitor& proceed)
+{
+  this->Own = points;
+  this->Kernel.triangulate(points.Points, points.Count, proceed, 1, points.Count / 8);
+}
+
+SentMessages3 Worker3::finish(const std::vector<VertexMessage3>& inbox, FinalCellConsumer3& final)
+{
+  if (this->Kernel.dimension() < 3)
   {
-    this->Ids[v] = this->vertex(v).Id;
-    const Point3& p = this->Kernel.point(v);
-    this->Slack[v] = std::min({ p.x - region.Min[0], region.Max[0] - p.x, p.y - region.Min[1],
-      region.Max[1] - p.y, p.z - region.Min[2], region.Max[2] - p.z });
+    return this->triangulate(this->Own, inbox, final);
+  }
+  this->collect(inbox);
+  this->Points.clear();
+  appendPositions(this->Others, this->Points);
+  this->Kernel.add(this->Points.data(), this->Points.size());
+  return this->routeAll(final);
+}
+
+/// Routes the tetrahedra of the partition's own points and Others.
+//
+// Few need their circumball tested. If the ball of a tetrahedron t reaches a half-space beyond a
+// side of Interior at a point q, follow a ray from t to q: the powers of q do not increase along
+// it, so all balls on the way reach q, up to a tetrahedron that contains q or is at the hull. Own
+// points are inside, so the former has a corner with Slack <= 0. From such tetrahedra, all those
+// that are not inside are reached across facets.
+SentMessages3 Worker3::routeAll(FinalCellConsumer3& final)
+{
+  this->VertexCount += this->Own.Count + this->Others.size();
+  const PartitionOrder::Range later = this->Order.later(this->Own.Partition);
+  this->Outgoing.assign(later.size(), {});
+  this->Beside = this->boxBesideLater();
+  const bool isAny = this->Inside == InsideCells::Any;
+  this->Interior = isAny ? this->Beside : this->Regions[std::size_t(this->Own.Partition)];
+  this->measureVertices();
+  this->IsTested.assign(this->Kernel.end() / 8, 0);
+  this->ToTest.clear();
+  this->Kernel.forEach([&](Index cell) { this->findBorder(cell); });
+  for (std::size_t i = 0; i < this->ToTest.size(); ++i)
+  {
+    this->route(this->ToTest[i], final);
   }
   this->Kernel.forEach(
     [&](Index cell)
     {
-      if (!this->Kernel.isInfinite(cell))
+      if (!this->Kernel.isInfinite(cell) && this->IsTested[cell / 8] == 0)
       {
-        this->route(cell, final);
+        this->addInside(cell, final);
       }
     });
   this->takeDuplicates();
   return this->send();
+}
+
+void Worker3::test(Index cell)
+{
+  if (!this->Kernel.isInfinite(cell) && this->IsTested[cell / 8] == 0)
+  {
+    this->IsTested[cell / 8] = 1;
+    this->ToTest.push_back(cell);
+  }
+}
+
+/// Chooses the tetrahedra that are tested first.
+void Worker3::findBorder(Index cell)
+{
+  if (this->Kernel.isInfinite(cell))
+  {
+    this->test(this->Kernel.neighbour(cell, 0));
+    return;
+  }
+  const std::array<Index, 4> v = this->Kernel.corners(cell);
+  if (std::any_of(
+        v.begin(), v.end(), [this](Index corner) { return !(this->Vertices[corner].Slack > 0); }))
+  {
+    this->test(cell);
+  }
+}
+
+void Worker3::addInside(Index cell, FinalCellConsumer3& final) const
+{
+  const std::array<Index, 4> v = this->Kernel.corners(cell);
+  final.addInside({ this->Vertices[v[0]].Id, this->Vertices[v[1]].Id, this->Vertices[v[2]].Id,
+    this->Vertices[v[3]].Id });
 }
 
 void Worker3::takeDuplicates()
@@ -165,31 +255,35 @@ void Worker3::takeDuplicates()
 void Worker3::route(Index cell, FinalCellConsumer3& final)
 {
   const std::array<Index, 4> v = this->Kernel.corners(cell);
-  const Box3& region = this->Regions[std::size_t(this->Own.Partition)];
   const Point3& a = this->Kernel.point(v[0]);
   const Point3& b = this->Kernel.point(v[1]);
   const Point3& c = this->Kernel.point(v[2]);
   const Point3& d = this->Kernel.point(v[3]);
-  const double slack = this->Slack[v[0]]; // negative if the vertex is outside of the region
-  if ((slack > 0 && Circumball::isSurelySmall(a, b, c, d, slack)) ||
-    Circumball::isSurelyInside(a, b, c, d, region))
+  const auto isOwn = [this](Index corner) { return this->Vertices[corner].Slack >= 0; };
+  const bool areOwn = std::all_of(v.begin(), v.end(), isOwn);
+  if (areOwn &&
+    (Circumball::isSurelySmall(a, b, c, d, this->Vertices[v[0]].Slack) ||
+      Circumball::isSurelyInside(a, b, c, d, this->Interior)))
   {
-    final.addInside({ this->Ids[v[0]], this->Ids[v[1]], this->Ids[v[2]], this->Ids[v[3]] });
+    this->addInside(cell, final);
     return;
+  }
+  for (Index i = 0; i < 4; ++i)
+  {
+    this->test(this->Kernel.neighbour(cell, i));
   }
   const auto add = [&] {
     final.add({ this->vertex(v[0]), this->vertex(v[1]), this->vertex(v[2]), this->vertex(v[3]) });
   };
   // A ball passes through its corners, so it meets the region if one of them is an own point.
-  const bool meetsRegion =
-    std::any_of(v.begin(), v.end(), [this](Index corner) { return this->isOwn(corner); });
+  const bool meetsRegion = areOwn || std::any_of(v.begin(), v.end(), isOwn);
   if (meetsRegion && Circumball::isSurelyInside(a, b, c, d, this->Beside))
   {
     add();
     return;
   }
   const Circumball ball = ballOf(this->Kernel, v);
-  if (!meetsRegion && !ball.meets(region))
+  if (!meetsRegion && !ball.meets(this->Regions[std::size_t(this->Own.Partition)]))
   {
     return;
   }
@@ -201,8 +295,8 @@ void Worker3::route(Index cell, FinalCellConsumer3& final)
     add();
     return;
   }
-  std::vector<Index>& corners = this->Outgoing[std::size_t(next - later.begin())];
-  corners.insert(corners.end(), v.begin(), v.end());
+  std::vector<Index>& outgoing = this->Outgoing[std::size_t(next - later.begin())];
+  outgoing.insert(outgoing.end(), v.begin(), v.end());
 }
 
 SentMessages3 Worker3::send()
@@ -258,42 +352,104 @@ std::vector<VertexMessage3> sendInitialMesh(const InitialMesh3& mesh, const Part
   return messages;
 }
 
+namespace
+{
+
+/// Artificial points, which are on the sides of a box, in groups of neighbours with boxes of their
+/// own.
+class ArtificialGroups
+{
+public:
+  explicit ArtificialGroups(const std::vector<Vertex3>& artificial)
+  {
+    for (const Vertex3& z : artificial)
+    {
+      this->Bounds.include(z.Position);
+    }
+    const Box3& box = this->Bounds.Box;
+    std::array<std::vector<Point3>, 6> sides;
+    for (const Vertex3& z : artificial)
+    {
+      const Point3& p = z.Position;
+      const std::array<bool, 6> isOn = { p.x == box.Min[0], p.x == box.Max[0], p.y == box.Min[1],
+        p.y == box.Max[1], p.z == box.Min[2], true };
+      sides[std::size_t(std::find(isOn.begin(), isOn.end(), true) - isOn.begin())].push_back(p);
+    }
+    for (const std::vector<Point3>& side : sides)
+    {
+      this->addGroups(side);
+    }
+  }
+
+  /// The box that all points are on.
+  const Box3& box() const { return this->Bounds.Box; }
+
+  /// Whether the tetrahedron of these corners is in conflict with one of the points.
+  bool areInConflict(const Point3& a, const Point3& b, const Point3& c, const Point3& d) const
+  {
+    const Circumball ball(a, b, c, d);
+    const auto isInConflict = [&](const Point3& p)
+    {
+      return ball.meets({ { p.x, p.y, p.z }, { p.x, p.y, p.z } }) &&
+        inSpherePerturbed(a, b, c, d, p);
+    };
+    return std::any_of(this->Groups.begin(), this->Groups.end(),
+      [&](const Group& group)
+      {
+        return ball.meets(group.Bounds.Box) &&
+          std::any_of(group.Points.begin(), group.Points.end(), isInConflict);
+      });
+  }
+
+private:
+  struct Group
+  {
+    PointBounds Bounds;
+    std::vector<Point3> Points;
+  };
+
+  void addGroups(const std::vector<Point3>& side)
+  {
+    constexpr std::size_t most = 16;
+    for (std::size_t i = 0; i < side.size(); ++i)
+    {
+      if (i % most == 0)
+      {
+        this->Groups.emplace_back();
+      }
+      this->Groups.back().Points.push_back(side[i]);
+      this->Groups.back().Bounds.include(side[i]);
+    }
+  }
+
+  PointBounds Bounds;
+  std::vector<Group> Groups;
+};
+
+} // namespace
+
 void repairHull(
   std::vector<Vertex3> vertices, const std::vector<Vertex3>& artificial, FinalCellConsumer3& final)
 {
   keepUnique(vertices);
   std::vector<Point3> points;
-  for (const Vertex3& v : vertices)
-  {
-    points.push_back(v.Position);
-  }
-  // The artificial points lie on the sides of this box.
-  PointBounds frame;
-  for (const Vertex3& z : artificial)
-  {
-    frame.include(z.Position);
-  }
+  appendPositions(vertices, points);
+  const ArtificialGroups groups(artificial);
   DelaunayKernel3 kernel;
   kernel.triangulate(points.data(), points.size());
   kernel.forEach(
     [&](Index cell)
     {
-      const std::array<Index, 4> v = kernel.corners(cell);
-      if (kernel.isInfinite(cell) ||
-        Circumball::isSurelyInside(kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2]),
-          kernel.point(v[3]), frame.Box))
+      if (kernel.isInfinite(cell))
       {
         return;
       }
-      const Circumball ball = ballOf(kernel, v);
-      const auto isInConflict = [&](const Vertex3& z)
-      {
-        const Point3& p = z.Position;
-        return ball.meets({ { p.x, p.y, p.z }, { p.x, p.y, p.z } }) &&
-          inSpherePerturbed(kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2]),
-            kernel.point(v[3]), z.Position);
-      };
-      if (std::any_of(artificial.begin(), artificial.end(), isInConflict))
+      const std::array<Index, 4> v = kernel.corners(cell);
+      const Point3& a = kernel.point(v[0]);
+      const Point3& b = kernel.point(v[1]);
+      const Point3& c = kernel.point(v[2]);
+      const Point3& d = kernel.point(v[3]);
+      if (!Circumball::isSurelyInside(a, b, c, d, groups.box()) && groups.areInConflict(a, b, c, d))
       {
         const auto vertex = [&](Index corner) { return vertices[kernel.pointIndex(corner)]; };
         final.add({ vertex(v[0]), vertex(v[1]), vertex(v[2]), vertex(v[3]) });

@@ -45,8 +45,7 @@ class FinalCellConsumer3
 public:
   virtual ~FinalCellConsumer3() = default;
 
-  /// Adds a tetrahedron whose corners are the partition's own points, and whose circumball lies in
-  /// the interior of the partition's region.
+  /// Adds a tetrahedron whose corners are the partition's own points; see InsideCells.
   virtual void addInside(const std::array<std::int64_t, 4>& ids) = 0;
   /// Adds any other tetrahedron. It may have artificial corners.
   virtual void add(const std::array<Vertex3, 4>& corners) = 0;
@@ -67,14 +66,23 @@ struct FinalCells : public FinalCellConsumer3
   void add(const std::array<Vertex3, 4>& corners) override;
 };
 
+/// Which tetrahedra of its own points a worker gives to FinalCellConsumer3::addInside().
+enum class InsideCells
+{
+  OfRegion, ///< those whose circumball lies in the interior of the partition's region
+  Any       ///< most of the final ones; fewer circumballs are computed
+};
+
 /// Triangulates partitions, one at a time, on one thread.
 class Worker3
 {
 public:
-  /// `regions` has the region of each partition. Both arguments must outlive this object.
-  Worker3(const std::vector<Box3>& regions, const PartitionOrder& order)
+  /// `regions` has the region of each partition. It and `order` must outlive this object.
+  Worker3(const std::vector<Box3>& regions, const PartitionOrder& order,
+    InsideCells inside = InsideCells::Any)
     : Regions(regions)
     , Order(order)
+    , Inside(inside)
   {
   }
 
@@ -84,6 +92,13 @@ public:
   SentMessages3 triangulate(const PartitionPoints3& points,
     const std::vector<VertexMessage3>& inbox, FinalCellConsumer3& final);
 
+  ///@{
+  /// The same in two steps: the points alone can be triangulated before the inbox is complete.
+  /// Call finish() only if `proceed` has not returned false.
+  void begin(const PartitionPoints3& points, const DelaunayKernel3::Monitor& proceed);
+  SentMessages3 finish(const std::vector<VertexMessage3>& inbox, FinalCellConsumer3& final);
+  ///@}
+
   /// The duplicates of all partitions triangulated so far, by point ids.
   const std::vector<Duplicate>& duplicates() const { return this->Duplicates; }
   /// The number of vertices triangulated in all partitions so far.
@@ -92,27 +107,37 @@ public:
 private:
   void collect(const std::vector<VertexMessage3>& inbox);
   Box3 boxBesideLater() const;
+  SentMessages3 routeAll(FinalCellConsumer3& final);
+  void measureVertices();
+  void test(DelaunayKernel3::Index cell);
+  void findBorder(DelaunayKernel3::Index cell);
+  void addInside(DelaunayKernel3::Index cell, FinalCellConsumer3& final) const;
   void route(DelaunayKernel3::Index cell, FinalCellConsumer3& final);
   SentMessages3 send();
   void takeDuplicates();
   Vertex3 vertex(DelaunayKernel3::Index v) const;
-  bool isOwn(DelaunayKernel3::Index v) const
+
+  struct Measured
   {
-    return this->Kernel.pointIndex(v) < this->Own.Count;
-  }
+    std::int64_t Id; ///< the point's
+    double Slack;    ///< the distance from the sides of Interior; -1: another partition's point
+  };
 
   const std::vector<Box3>& Regions;
   const PartitionOrder& Order;
+  const InsideCells Inside;
   PartitionPoints3 Own;
-  Box3 Beside; ///< contains the own region; no later region reaches into its interior
+  Box3 Beside;   ///< contains the own region; no later region reaches into its interior
+  Box3 Interior; ///< Beside or the own region, see InsideCells
   DelaunayKernel3 Kernel;
-  std::vector<Point3> Points;  ///< the partition's own, then those of Others
+  std::vector<Point3> Points;  ///< positions to triangulate
   std::vector<Vertex3> Others; ///< from the inbox
   /// By later partition: corners of the tetrahedra for it.
   std::vector<std::vector<DelaunayKernel3::Index>> Outgoing;
-  std::vector<std::int64_t> Ids; ///< by vertex: the point's id
-  std::vector<double> Slack;     ///< by vertex: a lower bound of its distance to the region's sides
-  std::vector<std::uint32_t> SentTo; ///< by vertex: the last recipient, counted from 1
+  std::vector<Measured> Vertices;             ///< by vertex
+  std::vector<char> IsTested;                 ///< by tetrahedron
+  std::vector<DelaunayKernel3::Index> ToTest; ///< whose circumballs are tested, in this order
+  std::vector<std::uint32_t> SentTo;          ///< by vertex: the last recipient, counted from 1
   std::vector<Duplicate> Duplicates;
   std::size_t VertexCount = 0;
 };

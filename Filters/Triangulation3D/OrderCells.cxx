@@ -87,6 +87,16 @@ void sortRange(CellIds* cells, std::size_t count, std::int32_t first, std::size_
   std::copy(scratch.begin(), scratch.end(), cells);
 }
 
+Buffer<char> merged(const Buffer<char>& a, const Buffer<char>& b)
+{
+  Buffer<char> both(a.size() + b.size());
+  const auto* const cellsOfA = a.as<CellIds>();
+  const auto* const cellsOfB = b.as<CellIds>();
+  std::merge(cellsOfA, cellsOfA + a.size() / sizeof(CellIds), cellsOfB,
+    cellsOfB + b.size() / sizeof(CellIds), both.as<CellIds>(), IsBeforeAny());
+  return both;
+}
+
 } // namespace
 
 Buffer<std::int32_t> orderCells(
@@ -146,24 +156,24 @@ Buffer<std::int32_t> orderCells(
   return ids;
 }
 
-void mergeCells(Buffer<std::int32_t>& ids, std::vector<std::int64_t> firsts)
+Buffer<std::int32_t> mergeCells(std::vector<Buffer<char>> parts)
 {
-  auto* const cells = ids.as<CellIds>();
-  while (firsts.size() > 2)
+  // Neighbours in pairs, until one list is left.
+  while (parts.size() > 1)
   {
-    std::vector<std::int64_t> merged;
-    for (std::size_t i = 0; i + 1 < firsts.size(); i += 2)
+    const std::size_t pairs = parts.size() / 2;
+    for (std::size_t i = 0; i < pairs; ++i)
     {
-      merged.push_back(firsts[i]);
-      if (i + 2 < firsts.size())
-      {
-        std::inplace_merge(
-          cells + firsts[i], cells + firsts[i + 1], cells + firsts[i + 2], IsBeforeAny());
-      }
+      parts[i] = merged(parts[2 * i], parts[2 * i + 1]);
+      parts[2 * i + 1] = {};
     }
-    merged.push_back(firsts.back());
-    firsts = std::move(merged);
+    if (parts.size() % 2 == 1)
+    {
+      parts[pairs] = std::move(parts.back());
+    }
+    parts.resize(parts.size() - pairs);
   }
+  return parts.empty() ? Buffer<std::int32_t>() : Buffer<std::int32_t>(std::move(parts[0]));
 }
 
 void orderTriangles(Buffer<std::int32_t>& ids)

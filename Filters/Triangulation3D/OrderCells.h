@@ -20,10 +20,8 @@ using CellIds = std::array<std::int32_t, 4>;
 Buffer<std::int32_t> orderCells(
   std::vector<std::vector<CellIds>>&& parts, std::size_t points, int threads);
 
-/// Merges sorted ranges of cells into one; `ids` has four ids per cell, in the order of
-/// orderCells(). `firsts`: the index of each range's first cell, and at the end the number of
-/// cells.
-void mergeCells(Buffer<std::int32_t>& ids, std::vector<std::int64_t> firsts);
+/// Merges lists of cells, each in the order of orderCells(), into one.
+Buffer<std::int32_t> mergeCells(std::vector<Buffer<char>> parts);
 
 /// Rotates triangles, three point ids each, so that the lowest id is first, and sorts them
 /// lexicographically.

@@ -327,6 +327,44 @@ TEST(DelaunayKernel3, UsesAtMost45BytesPerTetrahedron)
   EXPECT_LE(kernel.bytes(), 45 * finite);
 }
 
+TEST(DelaunayKernel3, PointsAddedLaterMakeTheSameTetrahedra)
+{
+  for (const std::string& kind : kindsOfPoints())
+  {
+    // The upper half of the points is added later, with 20 duplicates of points of the lower half.
+    auto points = pointsInSpace(kind, countFor(kind), 7);
+    const auto [lowest, highest] = std::minmax_element(
+      points.begin(), points.end(), [](const Point3& p, const Point3& q) { return p.z < q.z; });
+    const double middle = lowest->z / 2 + highest->z / 2;
+    const auto upper = std::partition(
+      points.begin(), points.end(), [middle](const Point3& p) { return p.z < middle; });
+    const auto first = std::size_t(upper - points.begin());
+    const std::vector<Point3> again(points.begin(), points.begin() + 20);
+    points.insert(points.end(), again.begin(), again.end());
+    DelaunayKernel3 kernel;
+    kernel.triangulate(points.data(), first, {}, 1, points.size() - first);
+    ASSERT_EQ(3, kernel.dimension()) << kind;
+    kernel.add(points.data() + first, 10);
+    kernel.add(points.data() + first + 10, points.size() - first - 10);
+    std::vector<Tetrahedron> cells;
+    kernel.forEach(
+      [&](DelaunayKernel3::Index t)
+      {
+        if (!kernel.isInfinite(t))
+        {
+          Tetrahedron& cell = cells.emplace_back();
+          const auto corners = kernel.corners(t);
+          std::transform(corners.begin(), corners.end(), cell.begin(),
+            [&](DelaunayKernel3::Index v) { return kernel.pointIndex(v); });
+          std::sort(cell.begin(), cell.end());
+        }
+      });
+    std::sort(cells.begin(), cells.end());
+    EXPECT_EQ(cellsOfCgal(points), cells) << kind;
+    EXPECT_GE(kernel.duplicates().size(), 20U);
+  }
+}
+
 TEST(DelaunayKernel3, NeighboursAreMutual)
 {
   const auto points = pointsInSpace("coarse", 300);
