@@ -58,7 +58,7 @@ private:
 
   std::vector<Point2> Points; ///< the hull of these is the hull of all points
   std::vector<Point2> Inner;  ///< some corners, counter-clockwise; unused if fewer than 3
-  std::size_t Most = std::size_t(1) << 16; ///< size of Points at which they are reduced
+  std::size_t Most = std::size_t(1) << 16; ///< size of Points at which reduce() is called
 };
 
 } // namespace tipp

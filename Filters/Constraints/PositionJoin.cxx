@@ -65,7 +65,7 @@ void PositionJoin::seal()
 std::vector<std::size_t> PositionJoin::mayMatch(PointsView points)
 {
   constexpr std::int64_t chunk = 8192;
-  constexpr std::size_t group = 32; // so many hashes are prefetched at a time
+  constexpr std::size_t group = 32; // number of hashes prefetched at a time
   const auto count = std::int64_t(points.size());
   std::vector<std::vector<std::size_t>> found(std::size_t((count + chunk - 1) / chunk));
   const auto look =

@@ -14,13 +14,13 @@ import subprocess
 
 
 def delaunay_times(output):
-    """Input, points and threads -> nanoseconds per point."""
+    """TIPP's nanoseconds per point in a table of benchmarkDelaunay, by input, number of points and threads."""
     pattern = r"^(\S+)\s+(\d+)\s+TIPP, (\d) threads?\s+[\d.]+\s+([\d.]+)"
     return {f"{m[1]} {m[2]}, threads: {m[3]}": float(m[4]) for m in re.finditer(pattern, output, re.M)}
 
 
 def loader_times(output):
-    """Row and loader -> microseconds per cell."""
+    """The microseconds per cell in the table of loaders of benchmarkIo, by row and loader."""
     times = {}
     pattern = r"^(random|local)\s+(warm|cold)\s+(\S+)\s+(\d+)((?:\s+[\d.]+){7})"
     for m in re.finditer(pattern, output, re.M):
@@ -31,12 +31,12 @@ def loader_times(output):
 
 
 def named_times(output):
-    """Text before the colon -> seconds."""
+    """The times in lines such as `name: 1.5 s`, in seconds, by name."""
     return {m[1]: float(m[2]) for m in re.finditer(r"^(.+?): ([\d.]+) s\b", output, re.M) if not m[1].startswith("vtk")}
 
 
 def table_times(output):
-    """First cell of a table's row -> the first time of ours, in seconds."""
+    """TIPP's first time in each row of a table, in seconds, by the text of the row's first cell."""
     times = {}
     for m in re.finditer(r"^\| ([^|]+?) \|(?: \d+ and \d+ \|)? ([\d.]+) s", output, re.M):
         times[re.sub(r"; of it.*", "", m[1])] = float(m[2])
@@ -96,7 +96,7 @@ def make_inputs(build, inputs, points):
 
 
 def compare(builds, command, read, rounds):
-    """Row -> the fastest time with each build. The builds run alternately."""
+    """The fastest time of each build, by the names that `read` returns. The builds run alternately."""
     fastest = {}
     for turn in range(rounds):
         for which in (0, 1) if turn % 2 == 0 else (1, 0):

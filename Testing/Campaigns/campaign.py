@@ -73,7 +73,7 @@ def require_clear_end(result, allowed=(0, 1, 2)):
 
 
 def contents(folder):
-    """Relative path -> bytes, for all files in a folder and its subfolders."""
+    """The contents of all files in a folder and its subfolders, by relative path."""
     folder = pathlib.Path(folder)
     return {str(path.relative_to(folder)): path.read_bytes() for path in sorted(folder.rglob("*")) if path.is_file()}
 

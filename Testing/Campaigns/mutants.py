@@ -108,7 +108,7 @@ def mutate(random, data):
 
 @functools.lru_cache(maxsize=None)
 def partitioned(tipp):
-    """Relative path -> bytes of a partitioned mesh."""
+    """The contents of the files of a partitioned mesh, by relative path."""
     import tempfile
     with tempfile.TemporaryDirectory() as folder:
         source = pathlib.Path(folder) / "mesh.vtu"

@@ -282,7 +282,7 @@ def table(separator, header):
 
 
 def flat_folder():
-    """The files of a flat mesh: contents by relative path."""
+    """The contents of the files of a flat mesh, by relative path."""
     return {
         "points.npy": npy("d", (len(POINTS), 3), [float(v) for v in flat(POINTS)]),
         "cells.npy": npy("q", (len(TRIANGLES), 3), flat(TRIANGLES)),
@@ -292,7 +292,7 @@ def flat_folder():
 
 
 def meshes():
-    """Name -> bytes, for files with points and cells."""
+    """The contents of files with points and cells, by name."""
     files = {"ascii.vtp": vtp("ascii"), "raw.vtp": vtp("raw"), "points.ply": ply(), "points.stl": stl(), "points.obj": obj(),
              "polyhedral.vtu": vtu(POLYHEDRAL, "ascii"), "polyhedral.vtk": legacy_grid(POLYHEDRAL, False, "4.2"),
              "solids.vtu": vtu(SOLIDS, "ascii"), "solids.vtk": legacy_grid(SOLIDS, True, "4.2"), "fort.14": adcirc()}
@@ -333,6 +333,6 @@ def las(minor, form):
 
 
 def points():
-    """Name -> bytes, for files with points only."""
+    """The contents of files with points only, by name."""
     return {"old.las": las(2, 3), "plain.las": las(1, 1), "new.las": las(4, 7), "points.npy": npy("d", (len(POINTS), 2), flat(p[:2] for p in POINTS)),
             "points.csv": table(",", "x,y,height"), "points.txt": table(" ", ""), "points.xyz": table(" ", "")}

@@ -331,7 +331,7 @@ TEST(DelaunayKernel3, PointsAddedLaterMakeTheSameTetrahedra)
 {
   for (const std::string& kind : kindsOfPoints())
   {
-    // Those that are added are on one side of the others, but some have the same coordinates.
+    // The upper half of the points is added later, with 20 duplicates of points of the lower half.
     auto points = pointsInSpace(kind, countFor(kind), 7);
     const auto [lowest, highest] = std::minmax_element(
       points.begin(), points.end(), [](const Point3& p, const Point3& q) { return p.z < q.z; });

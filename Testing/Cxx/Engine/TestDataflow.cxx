@@ -54,8 +54,8 @@ TEST_P(Dataflow, AnyTilingAndOrderGiveTheSameTriangles)
   }
 }
 
-/// Lemma 5. Every triangle that ever exists in a run is in the mesh after some partition, so these
-/// meshes are searched for one that meets two partitions without a conflict.
+/// Lemma 5. Every triangle that ever exists in a run is in the mesh after some partition. So these
+/// meshes are searched for triangles that meet two partitions between which there is no conflict.
 TEST_P(Dataflow, NoTriangleMeetsPartitionsThatDoNotConflict)
 {
   std::mt19937_64 random(11);

@@ -197,7 +197,8 @@ TEST(TetrahedronMeetsBox, TouchingAtOnePointCounts)
 
 TEST(TetrahedronMeetsBox, EdgesThatPassEachOtherDoNotMeet)
 {
-  // An edge that crosses the box's edge x = y = 1 at z = 0.5. Then it is moved outwards.
+  // The first tetrahedron has an edge that crosses the box's edge x = y = 1 at z = 0.5. That of the
+  // second one passes slightly farther outside.
   const Box3 box = { { 0, 0, 0 }, { 1, 1, 1 } };
   EXPECT_TRUE(tipp::tetrahedronMeetsBox({ 2, 0, 0 }, { 0, 2, 1 }, { 5, 5, 0 }, { 5, 5, 1 }, box));
   EXPECT_FALSE(tipp::tetrahedronMeetsBox(

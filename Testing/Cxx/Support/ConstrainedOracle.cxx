@@ -145,7 +145,7 @@ bool isNearLine(const Coordinates& xy, const Constraint& constraint, std::int64_
   const mpq_class off = dx * (y(id) - y(constraint.A)) - dy * (x(id) - x(constraint.A));
   const double all = std::min(rounds, roundsOfDoubles) +
     (isCoarse ? std::ldexp(1, std::min(rounds - roundsOfDoubles, 1000)) : 0);
-  const mpq_class units = mpq_class(all) * mpq_class(0.500001); // above 1/2: the unit is rounded
+  const mpq_class units = mpq_class(all) * mpq_class(0.500001); // > 1/2, since units are rounded
   return abs(off) <= units * (abs(dx) * unit(1) + abs(dy) * unit(0));
 }
 
