@@ -31,7 +31,7 @@ PartitionGroups chooseGroups(std::int64_t points, int ranks, int threads, int wa
   constexpr double thick = 10; // in average distances between points
   constexpr int boxesOfThread = 12;
   constexpr int most = 512;
-  constexpr double hull = 2; // the first rank gets fewer points because it repairs the hull
+  constexpr double hull = 1; // the first rank gets fewer points because it repairs the hull
   constexpr std::int64_t largest = std::int64_t(1) << 25;
   const double slabs = std::cbrt(double(points)) / thick;
   PartitionGroups groups;
