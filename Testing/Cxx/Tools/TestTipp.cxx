@@ -87,7 +87,7 @@ class TippMisuse
 
 const Misuse misuses[] = {
   { "NoCommand", {}, "a command is required" },
-  { "UnknownCommand", { "triangulate", "--fast" }, "no 'triangulate'" },
+  { "UnknownCommand", { "triangulate", "--fast" }, "no command 'triangulate'" },
   { "UnknownOption", { "delaunay", "points.npy", "-o", "a.npy", "--fast" }, "--fast" },
   { "NoInput", { "delaunay", "-o", "a.npy" }, "input" },
   { "NoOutput", { "delaunay", "points.npy" }, "--output" },
