@@ -96,8 +96,6 @@
 #include "vtkSmartPointer.h"      // For smart pointer
 #include "vtkTIPPFiltersModule.h" // For export macro
 
-#include <memory> // For std::unique_ptr
-
 class vtkAbstractTransform;
 class vtkAlgorithmOutput;
 class vtkMultiProcessController;
@@ -107,11 +105,7 @@ class vtkTable;
 
 namespace tipp
 {
-class Communicator;
 struct ConstrainedTriangulation;
-struct DistributedOptions;
-struct DistributedTriangulation;
-struct RankSource;
 struct SourceConstraints;
 struct Triangulation;
 }
@@ -491,13 +485,8 @@ private:
   void operator=(const vtkTIPPDelaunay2D&) = delete;
 
   bool Execute(vtkPointSet* input, vtkPolyData* source, vtkPolyData* output, vtkTable* statistics);
-  bool HasSeveralRanks() const;
   bool ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, bool wantsGhosts,
     vtkPolyData* output, vtkTable* statistics);
-  std::unique_ptr<tipp::RankSource> ShareSource(
-    tipp::Communicator& ranks, vtkPointSet* input, vtkPolyData* source, bool wantsCells);
-  tipp::DistributedOptions OptionsForRanks() const;
-  const char* WhatNeedsOneRank();
   vtkSmartPointer<vtkPointSet> ReadSource(vtkPointSet* input, vtkPolyData* source,
     vtkAbstractTransform* toPlane, tipp::SourceConstraints& constraints);
   tipp::ConstrainedTriangulation Triangulate(

@@ -250,11 +250,9 @@ private:
   vtkTIPPDelaunay3D(const vtkTIPPDelaunay3D&) = delete;
   void operator=(const vtkTIPPDelaunay3D&) = delete;
 
-  bool HasSeveralRanks() const;
   bool ExecuteOnRanks(
     vtkPointSet* input, bool wantsGhosts, vtkUnstructuredGrid* output, vtkTable* statistics);
-  const char* WhatNeedsOneRank();
-  void Execute(vtkPointSet* input, vtkUnstructuredGrid* output, vtkTable* statistics);
+  bool Execute(vtkPointSet* input, vtkUnstructuredGrid* output, vtkTable* statistics);
   tipp::Tetrahedralization Triangulate(
     const tipp::Point3* points, vtkIdType count, double diagonal, tipp::Triangulation& triangles);
   void SetCells(tipp::Tetrahedralization& mesh, const tipp::Point3* points, vtkIdType count,

@@ -47,6 +47,24 @@ struct PointTuplesOf
   std::size_t size() const { return this->Positions.size(); }
 };
 
+/// The points of a rank's part of a triangulation, and totals over all ranks. Cells refer to points
+/// by local indices: of Owned, and after them of Foreign. An internal id is a point's index among
+/// all ranks' owned points, rank by rank; a global id is the id that the caller gave the point.
+template <typename Position>
+struct RankPart
+{
+  PointTuplesOf<Position> Owned;        ///< this rank's points, also those without cells here
+  PointTuplesOf<Position> Foreign;      ///< other ranks' points that this rank's cells use
+  std::size_t RowSize = 0;              ///< bytes of data per point
+  std::vector<std::int64_t> ForeignIds; ///< internal ids of Foreign; ascending
+  std::vector<std::int64_t> FirstIds;   ///< first internal id of each rank, and the end
+  std::vector<Duplicate> Duplicates;    ///< found on this rank; global ids
+  std::vector<PointId> Rejected;        ///< rejected points of this rank's input; global ids
+  std::int64_t AllPoints = 0;           ///< sum over all ranks, as the following ones
+  std::int64_t AllDuplicates = 0;
+  std::int64_t AllRejected = 0;
+};
+
 /// A cell: N internal ids, indices among all ranks' owned points.
 template <std::size_t N>
 using IdCell = std::array<std::int64_t, N>;

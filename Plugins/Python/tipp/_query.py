@@ -172,9 +172,14 @@ class ResidentMesh:
         self, points: ArrayLike, arrays: str | Iterable[str] | None
     ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
         """Locates points once; returns their cells and the arrays' values there."""
+        wanted = self._wanted(arrays)
+        return self._ask().sample(_points(points), wanted)
+
+    def _wanted(self, arrays: str | Iterable[str] | None) -> list[str]:
+        """Returns the names of the arrays to evaluate. Raises KeyError if the mesh lacks one."""
         wanted = self._names if arrays is None else check.names(arrays, "arrays")
         check.require_arrays(wanted, self._names, "")
-        return self._ask().sample(_points(points), wanted)
+        return wanted
 
     def neighbors(self, cells: ArrayLike) -> np.ndarray:
         """Returns, for each cell and each of its corners, the cell across the opposite edge or face, or -1."""
@@ -225,7 +230,7 @@ class ResidentMesh:
             The distance between samples, in addition to those at the polyline's corners. 0: samples at its corners and
             wherever it crosses an edge of a triangle or a face of a tetrahedron.
         arrays
-            The name of an array, or names. None: all.
+            As for interpolate().
 
         Returns
         -------
@@ -233,9 +238,8 @@ class ResidentMesh:
             `distances`, `points` (n, 2) for triangles or (n, 3) for tetrahedra, `cells`, and the arrays by name in
             `values`. With spacing 0, `cells` has the cell between each point and the next, -1 before a gap.
         """
-        wanted = self._names if arrays is None else check.names(arrays, "arrays")
-        check.require_arrays(wanted, self._names, "")
-        return Profile(*self._ask().profile(_points(polyline), check.number(spacing, "spacing", at_least=0), wanted))
+        distance = check.number(spacing, "spacing", at_least=0)
+        return Profile(*self._ask().profile(_points(polyline), distance, self._wanted(arrays)))
 
     def closest(self, points: ArrayLike) -> Closest:
         """Finds the location on the mesh nearest to each point; for triangles, distances are measured in x and y.
