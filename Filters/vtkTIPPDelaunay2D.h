@@ -57,8 +57,9 @@
  * and "RankTriangles"; "MasterSeconds", "LargestMasterMesh"; "MessageKind", "MessageCount" and
  * "MessageBytes". If one rank fails, all fail and the first rank reports the error. That includes
  * failures upstream, unless the application sets its own default executive
- * (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView does. Alpha, Tolerance,
- * BoundingTriangulation and the best fitting plane work on a single rank only.
+ * (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView does. Alpha, MaximumEdgeLength,
+ * Tolerance, BoundingTriangulation, GenerateNeighborIds and the best fitting plane work on a single
+ * rank only.
  *
  * An aborted or failed run leaves both outputs empty. A failure is reported as an error.
  *
@@ -319,8 +320,7 @@ public:
   /**
    * Whether the output has the cell array "NeighborIds" (vtkIdTypeArray, three components): for
    * each corner of a triangle, the id of the triangle across the opposite edge, or -1 at the
-   * border. With Alpha the array is omitted, with a warning. On several ranks it is an error. Off
-   * by default.
+   * border. With Alpha the array is omitted, with a warning. Off by default.
    */
   vtkSetMacro(GenerateNeighborIds, vtkTypeBool);
   vtkGetMacro(GenerateNeighborIds, vtkTypeBool);

@@ -21,11 +21,12 @@
  * are rejected, with one warning. If there is a merged or rejected point, the output has the point
  * array "RepresentativePointId" (see GenerateRepresentativeIds).
  *
- * Points all in one plane make triangles, and a warning: the exact 2D Delaunay triangulation of
- * their projection along the axis in which the plane's normal is longest (of equal ones z, then y).
- * If the plane is parallel to two axes, that is the plane's own Delaunay triangulation. Alpha and
- * GenerateNeighborIds (three components then) apply to the triangles. Points all on one line, or
- * fewer than three distinct points, make an output without cells and a warning.
+ * If all points are in one plane, the output has triangles, and a warning is issued. They are the
+ * exact 2D Delaunay triangulation of the points' projection along the axis in which the plane's
+ * normal is longest (of equal ones z, then y). If the plane is parallel to two axes, that is the
+ * plane's own Delaunay triangulation. Alpha and GenerateNeighborIds (three components then) apply
+ * to the triangles. If all points are on one line, or fewer than three are distinct, the output has
+ * no cells, and a warning is issued.
  *
  * Output port 1, also returned by GetStatistics(), is a vtkTable whose field data has arrays of one
  * value each: Points, Tetrahedra (before Alpha), DuplicatePoints, RejectedPoints, Partitions,
@@ -189,8 +190,8 @@ public:
 
   ///@{
   /**
-   * The ranks that triangulate together. The global controller by default; null, or a controller of
-   * one rank: this process alone.
+   * The ranks that triangulate together. The global controller by default. With null or a
+   * controller of one rank, this process works alone.
    */
   virtual void SetController(vtkMultiProcessController*);
   vtkGetObjectMacro(Controller, vtkMultiProcessController);
@@ -198,8 +199,8 @@ public:
 
   ///@{
   /**
-   * On several ranks: whether the first one's output has all tetrahedra, and the others' none. Off
-   * by default.
+   * On several ranks: whether the first rank's output gets all tetrahedra and the others' are
+   * empty. Off by default.
    */
   vtkSetMacro(GatherOnFirstRank, vtkTypeBool);
   vtkGetMacro(GatherOnFirstRank, vtkTypeBool);
@@ -208,14 +209,15 @@ public:
 
   ///@{
   /**
-   * How many points the last run merged and rejected, on all ranks together.
+   * Of the last run, on all ranks together: the points merged into another one, and the points
+   * rejected.
    */
   vtkGetMacro(NumberOfDuplicatePoints, vtkIdType);
   vtkGetMacro(NumberOfRejectedPoints, vtkIdType);
   ///@}
 
   /**
-   * The table of output port 1.
+   * Output port 1.
    */
   vtkTable* GetStatistics();
 

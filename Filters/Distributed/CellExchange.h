@@ -249,7 +249,8 @@ struct SharedVertex
   std::int64_t User;
 };
 
-/// Sends the points used to their owners, and each owner sends the using ranks to all of them.
+/// Each rank sends the ids of the points that it uses to their owners. Each owner returns, to all
+/// ranks that use a point, the list of these ranks.
 /// Collective.
 template <typename Mesh, std::size_t N>
 VertexUsers findUsers(Communicator& ranks, const Mesh& mine, const std::vector<IdCell<N>>& cells)
@@ -385,7 +386,7 @@ Buffer<T> gatherValues(Communicator& ranks, Buffer<T> mine)
   return all;
 }
 
-/// The same of a list.
+/// All ranks' lists, concatenated on the first rank; an empty list on the others. Collective.
 template <typename T>
 std::vector<T> gatherList(Communicator& ranks, const std::vector<T>& mine)
 {
@@ -397,7 +398,7 @@ std::vector<T> gatherList(Communicator& ranks, const std::vector<T>& mine)
   return all;
 }
 
-/// Returns the internal id of a mesh's index among its owned and then foreign points, on `rank`.
+/// Returns a function from the local indices of a mesh on `rank` (see RankPart) to internal ids.
 template <typename Mesh>
 auto internalIds(const Mesh& mine, int rank)
 {
@@ -407,7 +408,7 @@ auto internalIds(const Mesh& mine, int rank)
   { return index < own ? first + index : mine.ForeignIds[std::size_t(index - own)]; };
 }
 
-/// The same of the global id.
+/// Returns a function from the local indices of a mesh to global ids.
 template <typename Mesh>
 auto globalIds(const Mesh& mine)
 {
@@ -419,8 +420,8 @@ auto globalIds(const Mesh& mine)
   };
 }
 
-/// Moves to the first rank all of a mesh but its cells' corners, which are by internal ids already:
-/// owned points, duplicates and rejected points. Collective.
+/// Moves owned points, duplicates and rejected points of a mesh to the first rank, but not its
+/// cells, whose corners must be internal ids already. Collective.
 template <typename Mesh>
 void gatherPoints(Communicator& ranks, Mesh& mine)
 {
@@ -434,8 +435,8 @@ void gatherPoints(Communicator& ranks, Mesh& mine)
   std::fill(mine.FirstIds.begin() + 1, mine.FirstIds.end(), std::int64_t(mine.Owned.size()));
 }
 
-/// The duplicates and rejected points of all ranks on the first one, ascending, as those of a run
-/// in one process. Collective.
+/// Sets the duplicates and rejected points of all ranks on the first one, sorted as in a run of one
+/// process. Collective.
 template <typename Mesh, typename Result>
 void gatherAccounts(Communicator& ranks, const Mesh& mine, Result& all)
 {

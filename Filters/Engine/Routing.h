@@ -94,7 +94,7 @@ class OutgoingTriangles
 public:
   using Corners = std::array<DelaunayKernel::Index, 3>;
 
-  /// Removes all triangles. Vertices of the next ones are below `vertexEnd`.
+  /// Removes all triangles. Those added next have vertex indices below `vertexEnd`.
   void clear(std::size_t vertexEnd);
 
   void add(std::size_t recipient, const Corners& corners)

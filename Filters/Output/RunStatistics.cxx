@@ -35,7 +35,7 @@ FigureList phasesOf(
       column("seconds", seconds, phases, &Phase::Seconds) } };
 }
 
-/// `key` and `array`: the names of the number of triangles or tetrahedra.
+/// `key` and `array` are the names under which the number of triangles or tetrahedra is stored.
 FigureList ranksOf(const std::vector<RankStatistics>& ranks, const char* key, const char* array)
 {
   using Rank = RankStatistics;
@@ -98,7 +98,8 @@ FigureList stagesOf(const std::vector<TriangulationStatistics::Stage>& stages)
 namespace
 {
 
-/// Returns the figures of a run in memory. `key` and `array`: the names of the number of `cells`.
+/// Returns the statistics of a run in memory. `key` and `array` are the names under which the
+/// number of cells is stored.
 template <typename Mesh>
 RunStatistics inMemory(
   const Mesh& mesh, std::int64_t points, const char* key, const char* array, std::int64_t cells)
@@ -117,7 +118,7 @@ RunStatistics inMemory(
   return run;
 }
 
-/// Adds the figures that follow the number of pieces, for a run out of core.
+/// Adds, for a run out of core, the statistics that follow the number of pieces.
 template <typename Statistics>
 void addOutOfCore(const Statistics& statistics, RunStatistics& run)
 {
