@@ -163,7 +163,7 @@ bool vtkTIPPDelaunay2D::ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, 
     tipp::fillPiece(mine, ranks.rank(), rows, wantsGhosts ? ghosts.get() : nullptr, marks, output);
     if (this->GenerateRepresentativeIds)
     {
-      tipp::addAccounts(mine.Duplicates, mine.Rejected, output);
+      tipp::addDuplicatesAndRejected(mine.Duplicates, mine.Rejected, output);
     }
     tipp::RunStatistics all = tipp::statisticsOf(mine);
     shared ? tipp::addConstraintTotals(shared->Figures, all) : void();

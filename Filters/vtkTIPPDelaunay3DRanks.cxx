@@ -83,7 +83,7 @@ bool vtkTIPPDelaunay3D::ExecuteOnRanks(
     tipp::fillPiece(mine, ranks.rank(), rows, wantsGhosts ? ghosts.get() : nullptr, output);
     if (this->GenerateRepresentativeIds)
     {
-      tipp::addAccounts(mine.Duplicates, mine.Rejected, output);
+      tipp::addDuplicatesAndRejected(mine.Duplicates, mine.Rejected, output);
     }
     tipp::fillStatisticsTable(tipp::statisticsOf(mine), statistics);
   };

@@ -48,19 +48,19 @@ struct PointTuplesOf
 };
 
 /// The points of a rank's part of a triangulation, and totals over all ranks. Cells refer to points
-/// by local indices: of Owned, and after them of Foreign. An internal id is a point's index among
+/// by local indices: of Owned, and after them of Ghosts. An internal id is a point's index among
 /// all ranks' owned points, rank by rank; a global id is the id that the caller gave the point.
 template <typename Position>
 struct RankPart
 {
-  PointTuplesOf<Position> Owned;        ///< this rank's points, also those without cells here
-  PointTuplesOf<Position> Foreign;      ///< other ranks' points that this rank's cells use
-  std::size_t RowSize = 0;              ///< bytes of data per point
-  std::vector<std::int64_t> ForeignIds; ///< internal ids of Foreign; ascending
-  std::vector<std::int64_t> FirstIds;   ///< first internal id of each rank, and the end
-  std::vector<Duplicate> Duplicates;    ///< found on this rank; global ids
-  std::vector<PointId> Rejected;        ///< rejected points of this rank's input; global ids
-  std::int64_t AllPoints = 0;           ///< sum over all ranks, as the following ones
+  PointTuplesOf<Position> Owned;      ///< this rank's points, also those without cells here
+  PointTuplesOf<Position> Ghosts;     ///< other ranks' points that this rank's cells use
+  std::size_t RowSize = 0;            ///< bytes of data per point
+  std::vector<std::int64_t> GhostIds; ///< internal ids of Ghosts; ascending
+  std::vector<std::int64_t> FirstIds; ///< first internal id of each rank, and the end
+  std::vector<Duplicate> Duplicates;  ///< found on this rank; global ids
+  std::vector<PointId> Rejected;      ///< rejected points of this rank's input; global ids
+  std::int64_t AllPoints = 0;         ///< sum over all ranks, as the following ones
   std::int64_t AllDuplicates = 0;
   std::int64_t AllRejected = 0;
 };
@@ -104,7 +104,7 @@ inline std::size_t ownerOf(std::int64_t id, const std::vector<std::int64_t>& fir
 /// Sends each cell to the rank that owns its vertex of lowest id, and returns those received.
 /// Collective.
 template <std::size_t N>
-std::vector<IdCell<N>> bringHome(Communicator& ranks, const std::vector<IdCell<N>>& cells,
+std::vector<IdCell<N>> sendToOwners(Communicator& ranks, const std::vector<IdCell<N>>& cells,
   const std::vector<std::int64_t>& firstIds)
 {
   const auto owner = [&firstIds](const IdCell<N>& cell)
@@ -133,7 +133,7 @@ std::vector<IdCell<N>> bringHome(Communicator& ranks, const std::vector<IdCell<N
 
 /// The ids of cells' vertices outside of [firstOwn, endOwn), ascending.
 template <std::size_t N>
-std::vector<std::int64_t> foreignIds(
+std::vector<std::int64_t> ghostIds(
   const std::vector<IdCell<N>>& cells, std::int64_t firstOwn, std::int64_t endOwn)
 {
   std::vector<std::int64_t> ids;
@@ -257,7 +257,7 @@ VertexUsers findUsers(Communicator& ranks, const Mesh& mine, const std::vector<I
 {
   const std::int64_t firstOwn = mine.FirstIds[std::size_t(ranks.rank())];
   std::vector<std::vector<std::int64_t>> asked(std::size_t(ranks.size()));
-  for (const std::int64_t id : mine.ForeignIds)
+  for (const std::int64_t id : mine.GhostIds)
   {
     asked[ownerOf(id, mine.FirstIds)].push_back(id);
   }
@@ -287,7 +287,7 @@ VertexUsers findUsers(Communicator& ranks, const Mesh& mine, const std::vector<I
       users.push_back(std::int32_t(user));
     }
   }
-  std::vector<std::vector<SharedVertex>> told(std::size_t(ranks.size()));
+  std::vector<std::vector<SharedVertex>> sharers(std::size_t(ranks.size()));
   for (const auto& [id, users] : ofOwn)
   {
     for (const std::int32_t user : users)
@@ -296,13 +296,13 @@ VertexUsers findUsers(Communicator& ranks, const Mesh& mine, const std::vector<I
       {
         if (other != user)
         {
-          told[std::size_t(user)].push_back({ id, other });
+          sharers[std::size_t(user)].push_back({ id, other });
         }
       }
     }
   }
   VertexUsers users;
-  for (const auto& part : ranks.allToAll(told))
+  for (const auto& part : ranks.allToAll(sharers))
   {
     for (const SharedVertex& shared : part)
     {
@@ -353,7 +353,7 @@ GhostCells<N, Position> fetchGhosts(Communicator& ranks, const Mesh& mine,
       for (const std::int64_t id : sent.Corners)
       {
         if ((id < firstOwn || id >= endOwn) &&
-          !std::binary_search(mine.ForeignIds.begin(), mine.ForeignIds.end(), id))
+          !std::binary_search(mine.GhostIds.begin(), mine.GhostIds.end(), id))
         {
           ghosts.PointIds.push_back(id);
         }
@@ -405,7 +405,7 @@ auto internalIds(const Mesh& mine, int rank)
   const std::int64_t first = mine.FirstIds[std::size_t(rank)];
   const auto own = std::int64_t(mine.Owned.size());
   return [&mine, first, own](std::int64_t index)
-  { return index < own ? first + index : mine.ForeignIds[std::size_t(index - own)]; };
+  { return index < own ? first + index : mine.GhostIds[std::size_t(index - own)]; };
 }
 
 /// Returns a function from the local indices of a mesh to global ids.
@@ -416,7 +416,7 @@ auto globalIds(const Mesh& mine)
   return [&mine, own](std::int64_t index)
   {
     return index < own ? mine.Owned.GlobalIds[std::size_t(index)]
-                       : mine.Foreign.GlobalIds[std::size_t(index - own)];
+                       : mine.Ghosts.GlobalIds[std::size_t(index - own)];
   };
 }
 
@@ -428,8 +428,8 @@ void gatherPoints(Communicator& ranks, Mesh& mine)
   mine.Owned.Positions = gatherValues(ranks, std::move(mine.Owned.Positions));
   mine.Owned.GlobalIds = gatherValues(ranks, std::move(mine.Owned.GlobalIds));
   mine.Owned.Rows = gatherValues(ranks, std::move(mine.Owned.Rows));
-  mine.Foreign = {};
-  mine.ForeignIds.clear();
+  mine.Ghosts = {};
+  mine.GhostIds.clear();
   mine.Duplicates = gatherList(ranks, mine.Duplicates);
   mine.Rejected = gatherList(ranks, mine.Rejected);
   std::fill(mine.FirstIds.begin() + 1, mine.FirstIds.end(), std::int64_t(mine.Owned.size()));
@@ -438,7 +438,7 @@ void gatherPoints(Communicator& ranks, Mesh& mine)
 /// Sets the duplicates and rejected points of all ranks on the first one, sorted as in a run of one
 /// process. Collective.
 template <typename Mesh, typename Result>
-void gatherAccounts(Communicator& ranks, const Mesh& mine, Result& all)
+void gatherDuplicatesAndRejected(Communicator& ranks, const Mesh& mine, Result& all)
 {
   all.Duplicates = gatherList(ranks, mine.Duplicates);
   all.Rejected = gatherList(ranks, mine.Rejected);

@@ -103,10 +103,10 @@ private:
       Message message; // no message comes; poll() throws if a rank has failed
       this->Ranks->poll(message);
     }
-    this->tell(fraction);
+    this->reportLocally(fraction);
   }
 
-  void tell(double fraction) const
+  void reportLocally(double fraction) const
   {
     if (this->Options.Progress && !this->Options.Progress(fraction))
     {
@@ -163,7 +163,7 @@ private:
     survey = InputPasses(this->Input, this->Ranks,
       this->passOptions(
         [this](std::int64_t) {
-          this->tell(0);
+          this->reportLocally(0);
         })).survey();
     this->Statistics.LeftOut = this->Input.leftOut();
     this->Statistics.ThinnedOut = this->Input.thinnedOut();
@@ -228,7 +228,7 @@ private:
   {
     const InputSurvey& survey = this->Setup.Survey;
     const auto progress = [&](std::int64_t done)
-    { this->tell(0.2 * double(done) / double(survey.Points)); };
+    { this->reportLocally(0.2 * double(done) / double(survey.Points)); };
     this->Setup.Spilled =
       InputPasses(this->Input, this->Ranks, this->passOptions(progress))
         .spill(survey, *this->Setup.Plan, this->Setup.Rows, this->Scratch.points());

@@ -319,13 +319,13 @@ private:
   {
     const std::size_t width = sizeof(Point3) + (withPieces ? sizeof(std::int32_t) : 0);
     std::vector<std::int64_t> counts;
-    std::vector<Communicator::Stretch> stretches;
+    std::vector<Communicator::ByteRange> byteRanges;
     std::size_t size = 0;
     for (std::size_t rank = 0; rank < this->Asked.size(); ++rank)
     {
       counts.push_back(std::int64_t(this->Asked[rank].size()));
-      stretches.push_back({ size, rank == this->Own ? 0 : this->Asked[rank].size() * width });
-      size += stretches.back().Size;
+      byteRanges.push_back({ size, rank == this->Own ? 0 : this->Asked[rank].size() * width });
+      size += byteRanges.back().Size;
     }
     this->Begins = { 0 };
     for (const std::int64_t count : ranks.allToAll(counts))
@@ -338,14 +338,14 @@ private:
     for (std::size_t rank = 0; rank < this->Asked.size(); ++rank)
     {
       const std::size_t begin = this->Begins[rank];
-      char* const message = memory.data() + stretches[rank].Begin;
+      char* const message = memory.data() + byteRanges[rank].Begin;
       rank == this->Own
         ? this->pack(rank, points, pieces, this->pointBytes(begin), this->pieceBytes(begin))
         : this->pack(
             rank, points, pieces, message, message + this->Asked[rank].size() * sizeof(Point3));
     }
     std::vector<std::size_t> done(this->Asked.size(), 0);
-    ranks.allToAllInParts(std::move(memory), stretches,
+    ranks.allToAllInParts(std::move(memory), byteRanges,
       [&](int from, const char* part, std::size_t bytes)
       {
         const auto rank = std::size_t(from);

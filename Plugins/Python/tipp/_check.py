@@ -278,8 +278,8 @@ class _Checker:
     def check_neighbors(self, first: np.ndarray, second: np.ndarray, boundary: np.ndarray) -> None:
         if self.neighbors is None or not self.are_all_good or len(self.neighbors) != len(self.all):
             return
-        told = np.asarray(self.neighbors).reshape(-1)
-        wrong = (told[first] != second // 3).sum() + (told[second] != first // 3).sum() + (told[boundary] != -1).sum()
+        stored = np.asarray(self.neighbors).reshape(-1)
+        wrong = (stored[first] != second // 3).sum() + (stored[second] != first // 3).sum() + (stored[boundary] != -1).sum()
         self.count("neighbours that are not those over the edge", wrong)
 
 

@@ -38,7 +38,7 @@ def constraints_of(
         return None
     lines = [] if edges is None else _edges(edges, count)
     by_id: list[np.ndarray] = []
-    by_place: list[np.ndarray] = []
+    by_position: list[np.ndarray] = []
     for number, polygon in enumerate([] if polygons is None else _polygons(polygons)):
         name = f"polygons[{number}]"
         rings = list(_rings(polygon)) if hasattr(polygon, "geom_type") else [polygon]
@@ -48,13 +48,13 @@ def constraints_of(
                 _require_ids(array, count, name)
                 by_id.append(array)
             elif array.ndim == 2 and array.shape[1] in (2, 3) and array.dtype.kind in "fiu":
-                by_place.append(_spatial(array))
+                by_position.append(_spatial(array))
             else:
                 raise ValueError(f"{name} has the shape {array.shape} and type {array.dtype}; give point ids, or "
                                  "coordinates of shape (k, 2) or (k, 3).")
-    starts = np.cumsum([count, *(len(corners) for corners in by_place)])
-    by_id += [np.arange(first, first + len(corners)) for first, corners in zip(starts, by_place)]
-    return Constraints(lines, by_id, np.concatenate([np.zeros((0, 3)), *by_place]))
+    starts = np.cumsum([count, *(len(corners) for corners in by_position)])
+    by_id += [np.arange(first, first + len(corners)) for first, corners in zip(starts, by_position)]
+    return Constraints(lines, by_id, np.concatenate([np.zeros((0, 3)), *by_position]))
 
 
 def rings_of(polygons: Any) -> Iterator[Any]:
