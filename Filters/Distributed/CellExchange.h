@@ -51,7 +51,7 @@ struct PointTuplesOf
 /// by local indices: of Owned, and after them of Ghosts. An internal id is a point's index among
 /// all ranks' owned points, rank by rank; a global id is the id that the caller gave the point.
 template <typename Position>
-struct RankPart
+struct DistributedPoints
 {
   PointTuplesOf<Position> Owned;      ///< this rank's points, also those without cells here
   PointTuplesOf<Position> Ghosts;     ///< other ranks' points that this rank's cells use
@@ -398,7 +398,8 @@ std::vector<T> gatherList(Communicator& ranks, const std::vector<T>& mine)
   return all;
 }
 
-/// Returns a function from the local indices of a mesh on `rank` (see RankPart) to internal ids.
+/// Returns a function from the local indices of a mesh on `rank` (see DistributedPoints) to
+/// internal ids.
 template <typename Mesh>
 auto internalIds(const Mesh& mine, int rank)
 {

@@ -80,8 +80,8 @@ DistributedStatistics gatherStatistics(
 
 using PointTuples = PointTuplesOf<Point2>;
 
-/// A rank's part of a triangulation. Corners are local indices (see RankPart).
-struct DistributedTriangulation : RankPart<Point2>
+/// A rank's part of a triangulation. Corners are local indices (see DistributedPoints).
+struct DistributedTriangulation : DistributedPoints<Point2>
 {
   Buffer<std::int32_t> Ids32;     ///< used if every index fits
   Buffer<std::int64_t> Ids64;     ///< used otherwise; one of the two is empty

@@ -21,13 +21,13 @@ namespace tipp
 /// Ghost cells. In triangles, the last corner is repeated.
 using GhostTetrahedra = GhostCells<4, Point3>;
 
-/// A rank's part of a triangulation in space. Corners are local indices (see RankPart).
+/// A rank's part of a triangulation in space. Corners are local indices (see DistributedPoints).
 ///
 /// A cell is on the rank that owns its vertex of lowest internal id. Cells are in the order of
 /// Tetrahedralization::Ids, but by local indices. So a part does not depend on threads and
 /// partitions. Coplanar points have triangles instead of tetrahedra: those of
 /// triangulateCoplanar().
-struct DistributedTetrahedralization : RankPart<Point3>
+struct DistributedTetrahedralization : DistributedPoints<Point3>
 {
   /// Local indices, cellSize() of them per cell. orientation3() of a tetrahedron's corners is
   /// positive.
