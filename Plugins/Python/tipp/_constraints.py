@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Iterable, Iterator, NamedTuple
 import numpy as np
 
 from . import _arguments as check
-from ._arrays import taken
+from ._arrays import converted
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -43,7 +43,7 @@ def constraints_of(
         name = f"polygons[{number}]"
         rings = list(_rings(polygon)) if hasattr(polygon, "geom_type") else [polygon]
         for ring in rings:
-            array = taken(ring, name)
+            array = converted(ring, name)
             if array.ndim == 1 and array.dtype.kind in "iu":
                 _require_ids(array, count, name)
                 by_id.append(array)
@@ -78,7 +78,7 @@ def _require_ids(ids: np.ndarray, count: int, name: str) -> None:
 
 
 def _edges(edges: ArrayLike, count: int) -> list[np.ndarray]:
-    array = taken(edges, "edges")
+    array = converted(edges, "edges")
     if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
         raise ValueError(f"edges have the shape {array.shape} and type {array.dtype}; give point ids of shape (m, 2).")
     _require_ids(array, count, "edges")

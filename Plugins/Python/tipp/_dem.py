@@ -10,7 +10,7 @@ import numpy as np
 from . import _arguments as check
 from . import _engine
 from ._arguments import ProgressBar, progress_of
-from ._arrays import taken
+from ._arrays import converted
 from ._constraints import rings_of
 
 if TYPE_CHECKING:
@@ -193,7 +193,7 @@ def lines_of(lines: Any, name: str, is_closed: bool) -> str | tuple[np.ndarray, 
 
 
 def _corners(part: Any, name: str) -> np.ndarray:
-    array = taken(part, name)
+    array = converted(part, name)
     if array.ndim != 2 or array.shape[1] not in (2, 3) or array.dtype.kind not in "fiu":
         raise ValueError(f"{name} has the shape {array.shape} and type {array.dtype}; give corners of shape (k, 2) or (k, 3).")
     return np.column_stack([array, np.zeros((len(array), 3 - array.shape[1]))]).astype(np.float64)
