@@ -90,10 +90,13 @@ public:
   ///@{
   /**
    * The largest circumradius of the output's cells, in the units of the points. 0 (the default)
-   * outputs all tetrahedra and nothing else. With any other value the output has the tetrahedra of
-   * at most this circumradius; as triangles, the facets of the other tetrahedra that are within the
-   * limit and belong to no output tetrahedron; as lines, their edges that are at most twice as long
-   * as the limit and belong to none of these cells; and the remaining points as vertices.
+   * outputs all tetrahedra and nothing else. With any other value the output has
+   * - the tetrahedra of at most this circumradius;
+   * - as triangles, the facets of the other tetrahedra that are within the limit and belong to no
+   *   output tetrahedron;
+   * - as lines, the edges of the other tetrahedra that are at most twice as long as the limit and
+   *   belong to none of these cells;
+   * - the remaining points as vertices.
    */
   vtkSetClampMacro(Alpha, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Alpha, double);
