@@ -336,15 +336,8 @@ private:
       markCells(mesh, this->Finished, this->Setup.Marks, this->Setup.Constraints.get(),
         this->Threads, reportTo(0.97, 0.01));
     }
-    for (std::size_t number = 0; number < this->Finished.size(); ++number)
-    {
-      syncToDisk(mesh.piecePath(number));
-      this->report(0.98 + 0.02 * double(number) / double(this->Finished.size()));
-    }
-    const PublishedMesh published = publishPieces(mesh, this->Finished);
-    this->Statistics.MeshBytes = published.Bytes;
-    this->Record.saveWhole(
-      published.Fingerprint, [this](SaveArchive& archive) { archive(this->Statistics); });
+    this->Record.publish(mesh, this->Finished, this->Statistics,
+      [this](double done) { this->report(0.98 + 0.02 * done); });
   }
 
   void putInPlace()
