@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares queries with vtkProbeFilter, vtkContourFilter and resampling; see
 // Utilities/benchmarks/query.sh. Arguments: 'probe', 'order' or 'rings', then POINTS QUERIES
-// REPEAT; 'contours' POINTS REPEAT; 'stored' MESH QUERIES MEGABYTES; or, also under mpirun,
+// REPEAT; 'contours' POINTS REPEAT; 'stored' MESH QUERIES MEGABYTES;
+// 'stored-contours' MESH MEGABYTES; or, also under mpirun,
 // 'rank-rings' POINTS QUERIES REPEAT.
 #include "ResampleSubjects.h"
 
@@ -294,12 +295,17 @@ void printPeak()
   std::printf("| its peak memory, %ld MB | | | |\n", peakMemory());
 }
 
-void benchmarkStored(const std::string& path, std::int64_t queries, std::uint64_t megabytes)
+ResidentMesh openStored(const std::string& path, std::uint64_t megabytes)
 {
   mallopt(M_MMAP_THRESHOLD, 1 << 20); // as in tipp query
   ResidentOptions options;
   options.MemoryLimit = megabytes << 20;
-  const ResidentMesh mesh(path, options);
+  return ResidentMesh(path, options);
+}
+
+void benchmarkStored(const std::string& path, std::int64_t queries, std::uint64_t megabytes)
+{
+  const ResidentMesh mesh = openStored(path, megabytes);
   std::printf(
     "%lld cells in %zu pieces, %lld points, %llu MB\n\n| what | time | processor | found |\n"
     "|---|---|---|---|\n",
@@ -317,6 +323,12 @@ void benchmarkStored(const std::string& path, std::int64_t queries, std::uint64_
   row("points of one region, 2 % of each side", 3,
     [&] { return hits(mesh.answer(near.data(), queries)); });
   printPeak();
+}
+
+void benchmarkStoredContours(const std::string& path, std::uint64_t megabytes)
+{
+  const ResidentMesh mesh = openStored(path, megabytes);
+  const Bounds& domain = mesh.mesh().Domain;
   const std::vector<double> levels = MemoryRows::tenLevels(domain[4], domain[5]);
   row("contours of ten levels", 1,
     [&] { return std::int64_t(contoursOf(mesh, "elevation", 0, levels).Points.size()); });
@@ -406,6 +418,11 @@ int main(int argc, char* argv[])
     benchmarkStored(argv[2], number(3), std::uint64_t(number(4)));
     return 0;
   }
+  if (what == "stored-contours" && argc == 4)
+  {
+    benchmarkStoredContours(argv[2], std::uint64_t(number(3)));
+    return 0;
+  }
 #ifdef TIPP_USE_MPI
   if (what == "rank-rings" && argc == 5)
   {
@@ -420,6 +437,7 @@ int main(int argc, char* argv[])
     "benchmarkQuery probe|order|rings POINTS QUERIES REPEAT\n"
     "benchmarkQuery rank-rings POINTS QUERIES REPEAT\n"
     "benchmarkQuery contours POINTS REPEAT\n"
-    "benchmarkQuery stored MESH QUERIES MEGABYTES\n");
+    "benchmarkQuery stored MESH QUERIES MEGABYTES\n"
+    "benchmarkQuery stored-contours MESH MEGABYTES\n");
   return 2;
 }

@@ -8,7 +8,7 @@
 #               order     points in rows, compared with resampling
 #               rings     a million rings
 #               contours  twice as many points, compared with vtkContourFilter
-#               scipy     a tenth of the points, one thread, compared with scipy's LinearNDInterpolator, in the interpreter
+#               scipy     a hundredth of the points, one thread, compared with scipy's LinearNDInterpolator, in the interpreter
 #                         that TIPP_SCIPY_PYTHON names (/usr/bin/python3)
 #               ranks     tipp query, and rings of points in memory, on 1 to 8 ranks of one thread each
 #               stored    a partitioned mesh of 200 million triangles in 256 MB; needs 25 GB of disk. It is made, and kept,
@@ -113,6 +113,7 @@ for name in $(echo "$rows" | tr , " "); do
       fi
       cat "$store"/mesh.tipp/pieces/* > /dev/null # read from the system's cache below
       "$build/bin/benchmarkQuery" stored "$store/mesh.tipp" 1000000 256
+      "$build/bin/benchmarkQuery" stored-contours "$store/mesh.tipp" 256
       [ -n "${TIPP_QUERY_STORE:-}" ] || rm -rf "$store"
       ;;
   esac
