@@ -97,6 +97,16 @@ class Killed:
         return self.process.returncode, error
 
 
+def write_segments(rng, path, count):
+    """Writes segments in the unit square, most of them short. Some cross others."""
+    with open(path, "w", encoding="ascii") as file:
+        file.write("x1,y1,x2,y2\n")
+        for _ in range(count):
+            x, y = rng.random(), rng.random()
+            length = 1 if rng.random() < 0.02 else 0.02
+            file.write(f"{x!r},{y!r},{x + length * (rng.random() - 0.5)!r},{y + length * (rng.random() - 0.5)!r}\n")
+
+
 def delaunay(rng, folder, tools):
     """A command that can be resumed, and the same command without other processes that share the work."""
     distribution = rng.choice(DISTRIBUTIONS)
@@ -106,6 +116,10 @@ def delaunay(rng, folder, tools):
     options = ["--memory", f"{rng.randint(2, 16)}M"]
     options += ["--neighbors"] if rng.random() < 0.4 else []
     options += ["--map-duplicates"] if rng.random() < 0.2 else []
+    if rng.random() < 0.4:
+        write_segments(rng, folder / "segments.csv", rng.randint(1, 400))
+        options += ["--constraints", "segments.csv"]
+        options += ["--mark-constraints"] if rng.random() < 0.5 else []
     plain = [tools.tipp, "delaunay", "points.npy", "-o", "mesh.tipp", *options, "--threads", "2"]
     command = plain[:-1] + [rng.randint(1, 3)]
     if tools.mpiexec and rng.random() < 0.15:

@@ -59,6 +59,9 @@ TEST_F(TippContour, WritesGeoPackages)
   const Outcome constrained =
     this->run({ "delaunay", "corners.csv", "--constraints", "lines.gpkg", "-o", "again.vtu" });
   EXPECT_EQ(0, constrained.ExitCode) << constrained.Err;
+  const Outcome checked =
+    this->run({ "check", "corners.csv", "again.vtu", "--constraints", "lines.gpkg" });
+  EXPECT_EQ(0, checked.ExitCode) << checked.Err;
 }
 
 TEST_F(TippContour, RefusesMeshesWithoutLines)
