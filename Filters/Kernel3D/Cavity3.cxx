@@ -46,17 +46,14 @@ void Cavity3::extend(const Point3* points, std::size_t count)
 /// Tests on which sides of a tetrahedron's facets p is, in one vector. Bit i of the result: p is
 /// certainly beyond the facet opposite to corner i. Bit i of `inside`: it is certainly not.
 //
-// The determinants are those of orientation3(p, a, b, c), with a, b, c from FacetCorners. A product
-// of sums is at least the permanent in the error bound of orientation3().
+// The determinants are those of orientation3(p, a, b, c), with a, b, c from FacetCorners. But for
+// rounding, the product of sizes is at least the permanent in the error bound of orientation3().
 inline unsigned Cavity3::facetsBefore(const Index* v, const Point3& p, unsigned& inside) const
 {
-  const Point3& v0 = this->Points[v[0]];
-  const Point3& v1 = this->Points[v[1]];
-  const Point3& v2 = this->Points[v[2]];
-  const Point3& v3 = this->Points[v[3]];
-  const Quad x = Quad{ v0.x, v1.x, v2.x, v3.x } - p.x;
-  const Quad y = Quad{ v0.y, v1.y, v2.y, v3.y } - p.y;
-  const Quad z = Quad{ v0.z, v1.z, v2.z, v3.z } - p.z;
+  const Point3* const at = this->Points;
+  const Quad x = Quad{ at[v[0]].x, at[v[1]].x, at[v[2]].x, at[v[3]].x } - p.x;
+  const Quad y = Quad{ at[v[0]].y, at[v[1]].y, at[v[2]].y, at[v[3]].y } - p.y;
+  const Quad z = Quad{ at[v[0]].z, at[v[1]].z, at[v[2]].z, at[v[3]].z } - p.z;
   const Quad size = (x < 0 ? -x : x) + (y < 0 ? -y : y) + (z < 0 ? -z : z);
   const Quad ax = __builtin_shufflevector(x, x, 1, 0, 0, 0);
   const Quad ay = __builtin_shufflevector(y, y, 1, 0, 0, 0);
@@ -72,7 +69,9 @@ inline unsigned Cavity3::facetsBefore(const Index* v, const Point3& p, unsigned&
   const Quad cSize = __builtin_shufflevector(size, size, 3, 2, 3, 1);
   const Quad determinant =
     (az * (bx * cy - cx * by) - bz * (ax * cy - cx * ay)) + cz * (ax * by - bx * ay);
-  const Quad bound = 7.7715611723761e-16 * (aSize * bSize * cSize) + 1e-300 * (1.0 + size);
+  // After an overflow the last term is NaN, and both comparisons are false.
+  const Quad bound =
+    8e-16 * (aSize * bSize * cSize) + 1e-300 * (1.0 + aSize + bSize + cSize) + 0.0 * determinant;
   inside = bitsOfLanes(determinant > bound);
   return bitsOfLanes(-determinant > bound);
 }

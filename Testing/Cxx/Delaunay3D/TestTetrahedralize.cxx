@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <set>
 
 namespace
@@ -73,6 +74,22 @@ TEST(Tetrahedralize, PassesTheExactCheckerWithItsTieRule)
   {
     const auto points = pointsInSpace(kind, countFor(kind), 11);
     EXPECT_EQ("", faultsOf(points, meshOf(points))) << kind;
+  }
+}
+
+TEST(Tetrahedralize, DeterminantsMayOverflow)
+{
+  for (unsigned seed = 1; seed <= 20; ++seed)
+  {
+    std::mt19937 random(seed);
+    const auto coordinate = [&random](double unit) { return (double(random() % 19) - 9) * unit; };
+    std::vector<Point3> points;
+    for (int i = 0; i < 40; ++i)
+    {
+      const double unit = i % 2 == 0 ? 1e299 : 5e-324;
+      points.push_back({ coordinate(unit), coordinate(unit), coordinate(unit) });
+    }
+    EXPECT_EQ("", faultsOf(points, meshOf(points))) << seed;
   }
 }
 
