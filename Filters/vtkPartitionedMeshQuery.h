@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkPartitionedMeshQuery
- * @brief   the values of a mesh at points, and what lies around its points and cells
+ * @brief   evaluates a mesh at points, and finds neighbours of its points and cells
  *
  * As a filter it has the ports of vtkProbeFilter: the first input is a data set, at whose points
  * the mesh is evaluated; the second, the source, is the mesh, a vtkPointSet of triangles,

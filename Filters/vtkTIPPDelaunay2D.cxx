@@ -16,6 +16,7 @@
 #include "vtkAlgorithmOutput.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkErrorCode.h"
 #include "vtkExecutive.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
@@ -25,7 +26,6 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 #include "vtkTransform.h"
 #include "vtkUnsignedCharArray.h"
@@ -115,22 +115,21 @@ int vtkTIPPDelaunay2D::RequestData(
   const tipp::ThreadLimit limit(this->NumberOfThreads);
   const auto work = [&]
   {
-    tipp::requireFinite(this->Alpha, "Alpha");
-    tipp::requireFinite(this->MaximumEdgeLength, "MaximumEdgeLength");
-    tipp::requireFinite(this->Tolerance, "Tolerance");
-    tipp::requireFinite(this->Offset, "Offset");
-    if (this->HasSeveralRanks())
-    {
-      const bool wantsGhosts =
-        outputVector->GetInformationObject(0)->Get(
-          vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()) > 0;
-      return this->ExecuteOnRanks(input, source, wantsGhosts, output, statistics);
-    }
-    return this->Execute(input, source, output, statistics);
+    tipp::requireFinite(
+      { { "Alpha", this->Alpha }, { "MaximumEdgeLength", this->MaximumEdgeLength },
+        { "Tolerance", this->Tolerance }, { "Offset", this->Offset } });
+    return tipp::hasSeveralRanks(this->Controller)
+      ? this->ExecuteOnRanks(input, source, tipp::wantsGhosts(outputVector), output, statistics)
+      : this->Execute(input, source, output, statistics);
   };
   const std::string what =
     "Triangulating " + std::to_string(input->GetNumberOfPoints()) + " points";
-  return tipp::runReported(this, what, { output, statistics }, work);
+  const int isDone = tipp::runReported(this, this->Controller, what, { output, statistics }, work);
+  if (!isDone && tipp::hasSeveralRanks(this->Controller))
+  {
+    this->SetErrorCode(vtkErrorCode::UserError); // not every rank reports the error
+  }
+  return isDone;
 }
 
 bool vtkTIPPDelaunay2D::Execute(
@@ -262,9 +261,9 @@ tipp::ConstrainedTriangulation vtkTIPPDelaunay2D::Triangulate(
     // A single partition is triangulated without progress reports.
     result.Mesh.Aborted = result.Mesh.Aborted || !monitor(1);
   }
-  for (const std::string& warning : result.Mesh.Aborted ? std::vector<std::string>() : warnings)
+  if (!result.Mesh.Aborted)
   {
-    vtkWarningMacro(<< warning);
+    tipp::warn(this, warnings);
   }
   auto& phases = result.Mesh.Statistics.Phases;
   phases.insert(phases.begin(), { "projection", projectionSeconds });

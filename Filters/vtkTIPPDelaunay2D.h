@@ -57,8 +57,9 @@
  * and "RankTriangles"; "MasterSeconds", "LargestMasterMesh"; "MessageKind", "MessageCount" and
  * "MessageBytes". If one rank fails, all fail and the first rank reports the error. That includes
  * failures upstream, unless the application sets its own default executive
- * (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView does. Alpha, Tolerance,
- * BoundingTriangulation and the best fitting plane work on a single rank only.
+ * (vtkAlgorithm::SetDefaultExecutivePrototype), as ParaView does. Alpha, MaximumEdgeLength,
+ * Tolerance, BoundingTriangulation, GenerateNeighborIds and the best fitting plane work on a single
+ * rank only.
  *
  * An aborted or failed run leaves both outputs empty. A failure is reported as an error.
  *
@@ -96,8 +97,6 @@
 #include "vtkSmartPointer.h"      // For smart pointer
 #include "vtkTIPPFiltersModule.h" // For export macro
 
-#include <memory> // For std::unique_ptr
-
 class vtkAbstractTransform;
 class vtkAlgorithmOutput;
 class vtkMultiProcessController;
@@ -107,11 +106,7 @@ class vtkTable;
 
 namespace tipp
 {
-class Communicator;
 struct ConstrainedTriangulation;
-struct DistributedOptions;
-struct DistributedTriangulation;
-struct RankSource;
 struct SourceConstraints;
 struct Triangulation;
 }
@@ -325,8 +320,7 @@ public:
   /**
    * Whether the output has the cell array "NeighborIds" (vtkIdTypeArray, three components): for
    * each corner of a triangle, the id of the triangle across the opposite edge, or -1 at the
-   * border. With Alpha the array is omitted, with a warning. On several ranks it is an error. Off
-   * by default.
+   * border. With Alpha the array is omitted, with a warning. Off by default.
    */
   vtkSetMacro(GenerateNeighborIds, vtkTypeBool);
   vtkGetMacro(GenerateNeighborIds, vtkTypeBool);
@@ -491,13 +485,8 @@ private:
   void operator=(const vtkTIPPDelaunay2D&) = delete;
 
   bool Execute(vtkPointSet* input, vtkPolyData* source, vtkPolyData* output, vtkTable* statistics);
-  bool HasSeveralRanks() const;
   bool ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, bool wantsGhosts,
     vtkPolyData* output, vtkTable* statistics);
-  std::unique_ptr<tipp::RankSource> ShareSource(
-    tipp::Communicator& ranks, vtkPointSet* input, vtkPolyData* source, bool wantsCells);
-  tipp::DistributedOptions OptionsForRanks() const;
-  const char* WhatNeedsOneRank();
   vtkSmartPointer<vtkPointSet> ReadSource(vtkPointSet* input, vtkPolyData* source,
     vtkAbstractTransform* toPlane, tipp::SourceConstraints& constraints);
   tipp::ConstrainedTriangulation Triangulate(

@@ -11,19 +11,65 @@
 #include "Projection/ProjectedPoints.h"
 #include "Vtk/ReadDataSet.h"
 
-#include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+namespace
+{
+
+tipp::DistributedOptions optionsFor(vtkTIPPDelaunay2D* filter)
+{
+  const tipp::RankSchedule schedules[] = { tipp::RankSchedule::Stages, tipp::RankSchedule::Dynamic,
+    tipp::RankSchedule::ProducerConsumer };
+  const tipp::Masters masters[] = { tipp::Masters::Auto, tipp::Masters::Single,
+    tipp::Masters::Multi };
+  tipp::DistributedOptions options;
+  options.Order = schedules[filter->GetSchedule()];
+  options.Design = masters[filter->GetMasters()];
+  options.Major = { filter->GetNumberOfMajorPartitions()[0],
+    filter->GetNumberOfMajorPartitions()[1] };
+  options.Minor = { filter->GetNumberOfPartitions()[0], filter->GetNumberOfPartitions()[1] };
+  options.MinorDivision = options.Minor.isGiven()                ? tipp::Division::Grid
+    : filter->GetMinorDivision() == vtkTIPPDelaunay2D::THRESHOLD ? tipp::Division::Threshold
+                                                                 : tipp::Division::Tree;
+  options.Threshold = filter->GetPointsPerPartition();
+  options.Groups =
+    filter->GetEqualGroups() ? tipp::GroupSizes::Equal : tipp::GroupSizes::Proportional;
+  options.InitialPointsPerPartition = filter->GetInitialPointsPerPartition();
+  options.Threads = filter->GetNumberOfThreads();
+  return options;
+}
+
+/// Combines the sources of all ranks. Returns null if no rank has a source.
+std::unique_ptr<tipp::RankSource> shareSource(vtkTIPPDelaunay2D* filter, tipp::Communicator& ranks,
+  vtkPointSet* input, vtkPolyData* source, bool wantsCells)
+{
+  std::vector<std::int64_t> sources{ source ? 1 : 0 };
+  ranks.sum(sources);
+  if (sources[0] == 0)
+  {
+    return nullptr;
+  }
+  tipp::RankSourceOptions options;
+  options.MergesPoints = filter->GetMergeSourcePoints() != 0;
+  options.Crossings =
+    filter->GetSplitCrossings() ? tipp::CrossingRule::Split : tipp::CrossingRule::Refuse;
+  options.WantsCells = wantsCells;
+  options.ToPlane = filter->GetTransform();
+  options.Threads = filter->GetNumberOfThreads();
+  return std::make_unique<tipp::RankSource>(tipp::shareSource(ranks, input, source, options));
+}
+
+} // namespace
 
 vtkExecutive* vtkTIPPDelaunay2D::CreateDefaultExecutive()
 {
@@ -36,81 +82,22 @@ vtkExecutive* vtkTIPPDelaunay2D::CreateDefaultExecutive()
   return executive;
 }
 
-bool vtkTIPPDelaunay2D::HasSeveralRanks() const
-{
-  return this->Controller && this->Controller->GetNumberOfProcesses() > 1;
-}
-
 int vtkTIPPDelaunay2D::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  if (!this->HasSeveralRanks())
+  if (!tipp::hasSeveralRanks(this->Controller))
   {
     return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
   }
   // Whichever piece is requested, every rank contributes its share of the points and of the source.
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
     if (vtkInformation* input = inputVector[port]->GetInformationObject(0))
     {
-      input->Set(Pipeline::UPDATE_PIECE_NUMBER(), this->Controller->GetLocalProcessId());
-      input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), this->Controller->GetNumberOfProcesses());
-      input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+      tipp::askForRankPiece(input, this->Controller);
     }
   }
   return 1;
-}
-
-tipp::DistributedOptions vtkTIPPDelaunay2D::OptionsForRanks() const
-{
-  const tipp::RankSchedule schedules[] = { tipp::RankSchedule::Stages, tipp::RankSchedule::Dynamic,
-    tipp::RankSchedule::ProducerConsumer };
-  const tipp::Masters masters[] = { tipp::Masters::Auto, tipp::Masters::Single,
-    tipp::Masters::Multi };
-  tipp::DistributedOptions options;
-  options.Order = schedules[this->Schedule];
-  options.Design = masters[this->Masters];
-  options.Major = { this->NumberOfMajorPartitions[0], this->NumberOfMajorPartitions[1] };
-  options.Minor = { this->NumberOfPartitions[0], this->NumberOfPartitions[1] };
-  options.MinorDivision = options.Minor.isGiven() ? tipp::Division::Grid
-    : this->MinorDivision == THRESHOLD            ? tipp::Division::Threshold
-                                                  : tipp::Division::Tree;
-  options.Threshold = this->PointsPerPartition;
-  options.Groups = this->EqualGroups ? tipp::GroupSizes::Equal : tipp::GroupSizes::Proportional;
-  options.InitialPointsPerPartition = this->InitialPointsPerPartition;
-  options.Threads = this->NumberOfThreads;
-  return options;
-}
-
-const char* vtkTIPPDelaunay2D::WhatNeedsOneRank()
-{
-  return this->Alpha != 0                                 ? "Alpha"
-    : this->MaximumEdgeLength > 0                         ? "MaximumEdgeLength"
-    : this->Tolerance > 0                                 ? "Tolerance"
-    : this->BoundingTriangulation                         ? "BoundingTriangulation"
-    : this->GenerateNeighborIds                           ? "GenerateNeighborIds"
-    : this->ProjectionPlaneMode == VTK_BEST_FITTING_PLANE ? "the best fitting plane"
-                                                          : nullptr;
-}
-
-/// Combines the sources of all ranks. Returns null if no rank has a source.
-std::unique_ptr<tipp::RankSource> vtkTIPPDelaunay2D::ShareSource(
-  tipp::Communicator& ranks, vtkPointSet* input, vtkPolyData* source, bool wantsCells)
-{
-  std::vector<std::int64_t> sources{ source ? 1 : 0 };
-  ranks.sum(sources);
-  if (sources[0] == 0)
-  {
-    return nullptr;
-  }
-  tipp::RankSourceOptions options;
-  options.MergesPoints = this->MergeSourcePoints != 0;
-  options.Crossings = this->SplitCrossings ? tipp::CrossingRule::Split : tipp::CrossingRule::Refuse;
-  options.WantsCells = wantsCells;
-  options.ToPlane = this->Transform;
-  options.Threads = this->NumberOfThreads;
-  return std::make_unique<tipp::RankSource>(tipp::shareSource(ranks, input, source, options));
 }
 
 bool vtkTIPPDelaunay2D::ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, bool wantsGhosts,
@@ -123,25 +110,25 @@ bool vtkTIPPDelaunay2D::ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, 
   std::unique_ptr<tipp::RankSource> shared;
   const auto run = [&]()
   {
-    if (const char* what = this->WhatNeedsOneRank())
-    {
-      throw std::invalid_argument(
-        std::string(what) + " needs a single rank: set the controller to null on one rank.");
-    }
+    tipp::requireUnused({ { "Alpha", this->Alpha != 0 },
+      { "MaximumEdgeLength", this->MaximumEdgeLength > 0 }, { "Tolerance", this->Tolerance > 0 },
+      { "BoundingTriangulation", this->BoundingTriangulation != 0 },
+      { "GenerateNeighborIds", this->GenerateNeighborIds != 0 },
+      { "the best fitting plane", this->ProjectionPlaneMode == VTK_BEST_FITTING_PLANE } });
     if (this->ProjectionPlaneMode == VTK_SET_TRANSFORM_PLANE && !this->Transform)
     {
       throw std::invalid_argument("ProjectionPlaneMode is VTK_SET_TRANSFORM_PLANE, but there is no "
                                   "Transform: call SetTransform, or choose another mode.");
     }
     tipp::Monitor monitor(this);
-    tipp::DistributedOptions options = this->OptionsForRanks();
+    tipp::DistributedOptions options = optionsFor(this);
     options.Progress = [&monitor](double fraction) { return monitor(fraction); };
     tipp::checkPoints(given, "the input");
     // Collective steps must be done by all ranks or by none, even if their properties differ.
     std::vector<std::int64_t> wishes{ ranks.rank() == 0 && this->GatherOnFirstRank, wantsGhosts,
       this->ConstraintMarks == LINES };
     ranks.sum(wishes);
-    shared = this->ShareSource(ranks, given, source, wishes[2] > 0);
+    shared = shareSource(this, ranks, given, source, wishes[2] > 0);
     vtkPointSet* const input = shared ? shared->Input.Get() : given;
     const tipp::PointRows rows(ranks, input);
     const tipp::ProjectedPoints projected(input->GetPoints(), this->Transform);
@@ -176,37 +163,18 @@ bool vtkTIPPDelaunay2D::ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, 
     tipp::fillPiece(mine, ranks.rank(), rows, wantsGhosts ? ghosts.get() : nullptr, marks, output);
     if (this->GenerateRepresentativeIds)
     {
-      tipp::addAccounts(mine.Duplicates, mine.Rejected, output);
+      tipp::addDuplicatesAndRejected(mine.Duplicates, mine.Rejected, output);
     }
     tipp::RunStatistics all = tipp::statisticsOf(mine);
     shared ? tipp::addConstraintTotals(shared->Figures, all) : void();
     tipp::fillStatisticsTable(all, statistics);
   };
-  try
-  {
-    ranks.together(run);
-  }
-  catch (const tipp::RankFailure& failure)
-  {
-    output->Initialize();
-    statistics->Initialize();
-    if (failure.Aborted)
-    {
-      return true;
-    }
-    this->SetErrorCode(vtkErrorCode::UserError);
-    if (ranks.rank() == 0)
-    {
-      vtkErrorMacro("Rank " << failure.Rank << ": " << failure.what());
-    }
-    return false;
-  }
+  ranks.together(run);
   this->NumberOfDuplicatePoints = mine.AllDuplicates;
   this->NumberOfRejectedPoints = mine.AllRejected;
-  for (const std::string& warning :
-    ranks.isFirst() ? tipp::warningsOf(mine) : std::vector<std::string>())
+  if (ranks.isFirst())
   {
-    vtkWarningMacro(<< warning);
+    tipp::warn(this, tipp::warningsOf(mine));
   }
   if (ranks.isFirst() && shared && shared->Figures.NotFinite > 0)
   {

@@ -20,6 +20,7 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
+#include "vtkErrorCode.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -30,7 +31,6 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkSmartPointer.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
@@ -140,25 +140,23 @@ int vtkTIPPDelaunay3D::RequestData(
   const tipp::ThreadLimit limit(this->NumberOfThreads);
   const auto work = [&]
   {
-    tipp::requireFinite(this->Alpha, "Alpha");
-    tipp::requireFinite(this->Tolerance, "Tolerance");
-    tipp::requireFinite(this->Offset, "Offset");
-    if (this->HasSeveralRanks())
-    {
-      const bool wantsGhosts =
-        outputVector->GetInformationObject(0)->Get(
-          vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS()) > 0;
-      return this->ExecuteOnRanks(input, wantsGhosts, output, statistics);
-    }
-    this->Execute(input, output, statistics);
-    return true;
+    tipp::requireFinite(
+      { { "Alpha", this->Alpha }, { "Tolerance", this->Tolerance }, { "Offset", this->Offset } });
+    return tipp::hasSeveralRanks(this->Controller)
+      ? this->ExecuteOnRanks(input, tipp::wantsGhosts(outputVector), output, statistics)
+      : this->Execute(input, output, statistics);
   };
   const std::string what =
     "Tetrahedralizing " + std::to_string(input->GetNumberOfPoints()) + " points";
-  return tipp::runReported(this, what, { output, statistics }, work);
+  const int isDone = tipp::runReported(this, this->Controller, what, { output, statistics }, work);
+  if (!isDone && tipp::hasSeveralRanks(this->Controller))
+  {
+    this->SetErrorCode(vtkErrorCode::UserError); // not every rank reports the error
+  }
+  return isDone;
 }
 
-void vtkTIPPDelaunay3D::Execute(
+bool vtkTIPPDelaunay3D::Execute(
   vtkPointSet* input, vtkUnstructuredGrid* output, vtkTable* statistics)
 {
   this->NumberOfDuplicatePoints = 0;
@@ -181,7 +179,7 @@ void vtkTIPPDelaunay3D::Execute(
     this->Triangulate(coordinates, count, tipp::finiteBounds(points).diagonal(), triangles);
   if (mesh.Aborted)
   {
-    return;
+    return true;
   }
   this->NumberOfDuplicatePoints = vtkIdType(mesh.Duplicates.size());
   this->NumberOfRejectedPoints = vtkIdType(mesh.Rejected.size());
@@ -217,6 +215,7 @@ void vtkTIPPDelaunay3D::Execute(
   }
   mesh.Statistics.Phases.push_back({ "VTK output", watch.seconds() });
   tipp::fillStatisticsTable(tipp::statisticsOf(mesh, count, tetrahedra), statistics);
+  return true;
 }
 
 tipp::Tetrahedralization vtkTIPPDelaunay3D::Triangulate(
@@ -244,10 +243,7 @@ tipp::Tetrahedralization vtkTIPPDelaunay3D::Triangulate(
   mesh.Aborted = mesh.Aborted || !monitor(1);
   if (!mesh.Aborted)
   {
-    for (const std::string& warning : tipp::warningsOf(mesh, count))
-    {
-      vtkWarningMacro(<< warning);
-    }
+    tipp::warn(this, tipp::warningsOf(mesh, count));
   }
   return mesh;
 }

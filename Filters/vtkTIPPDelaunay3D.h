@@ -21,11 +21,12 @@
  * are rejected, with one warning. If there is a merged or rejected point, the output has the point
  * array "RepresentativePointId" (see GenerateRepresentativeIds).
  *
- * Points all in one plane make triangles, and a warning: the exact 2D Delaunay triangulation of
- * their projection along the axis in which the plane's normal is longest (of equal ones z, then y).
- * If the plane is parallel to two axes, that is the plane's own Delaunay triangulation. Alpha and
- * GenerateNeighborIds (three components then) apply to the triangles. Points all on one line, or
- * fewer than three distinct points, make an output without cells and a warning.
+ * If all points are in one plane, the output has triangles, and a warning is issued. They are the
+ * exact 2D Delaunay triangulation of the points' projection along the axis in which the plane's
+ * normal is longest (of equal ones z, then y). If the plane is parallel to two axes, that is the
+ * plane's own Delaunay triangulation. Alpha and GenerateNeighborIds (three components then) apply
+ * to the triangles. If all points are on one line, or fewer than three are distinct, the output has
+ * no cells, and a warning is issued.
  *
  * Output port 1, also returned by GetStatistics(), is a vtkTable whose field data has arrays of one
  * value each: Points, Tetrahedra (before Alpha), DuplicatePoints, RejectedPoints, Partitions,
@@ -89,10 +90,13 @@ public:
   ///@{
   /**
    * The largest circumradius of the output's cells, in the units of the points. 0 (the default)
-   * outputs all tetrahedra and nothing else. With any other value the output has the tetrahedra of
-   * at most this circumradius; as triangles, the facets of the other tetrahedra that are within the
-   * limit and belong to no output tetrahedron; as lines, their edges that are at most twice as long
-   * as the limit and belong to none of these cells; and the remaining points as vertices.
+   * outputs all tetrahedra and nothing else. With any other value the output has
+   * - the tetrahedra of at most this circumradius;
+   * - as triangles, the facets of the other tetrahedra that are within the limit and belong to no
+   *   output tetrahedron;
+   * - as lines, the edges of the other tetrahedra that are at most twice as long as the limit and
+   *   belong to none of these cells;
+   * - the remaining points as vertices.
    */
   vtkSetClampMacro(Alpha, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Alpha, double);
@@ -189,8 +193,8 @@ public:
 
   ///@{
   /**
-   * The ranks that triangulate together. The global controller by default; null, or a controller of
-   * one rank: this process alone.
+   * The ranks that triangulate together. The global controller by default. With null or a
+   * controller of one rank, this process works alone.
    */
   virtual void SetController(vtkMultiProcessController*);
   vtkGetObjectMacro(Controller, vtkMultiProcessController);
@@ -198,8 +202,8 @@ public:
 
   ///@{
   /**
-   * On several ranks: whether the first one's output has all tetrahedra, and the others' none. Off
-   * by default.
+   * On several ranks: whether the first rank's output gets all tetrahedra and the others' are
+   * empty. Off by default.
    */
   vtkSetMacro(GatherOnFirstRank, vtkTypeBool);
   vtkGetMacro(GatherOnFirstRank, vtkTypeBool);
@@ -208,14 +212,15 @@ public:
 
   ///@{
   /**
-   * How many points the last run merged and rejected, on all ranks together.
+   * Of the last run, on all ranks together: the points merged into another one, and the points
+   * rejected.
    */
   vtkGetMacro(NumberOfDuplicatePoints, vtkIdType);
   vtkGetMacro(NumberOfRejectedPoints, vtkIdType);
   ///@}
 
   /**
-   * The table of output port 1.
+   * Output port 1.
    */
   vtkTable* GetStatistics();
 
@@ -250,11 +255,9 @@ private:
   vtkTIPPDelaunay3D(const vtkTIPPDelaunay3D&) = delete;
   void operator=(const vtkTIPPDelaunay3D&) = delete;
 
-  bool HasSeveralRanks() const;
   bool ExecuteOnRanks(
     vtkPointSet* input, bool wantsGhosts, vtkUnstructuredGrid* output, vtkTable* statistics);
-  const char* WhatNeedsOneRank();
-  void Execute(vtkPointSet* input, vtkUnstructuredGrid* output, vtkTable* statistics);
+  bool Execute(vtkPointSet* input, vtkUnstructuredGrid* output, vtkTable* statistics);
   tipp::Tetrahedralization Triangulate(
     const tipp::Point3* points, vtkIdType count, double diagonal, tipp::Triangulation& triangles);
   void SetCells(tipp::Tetrahedralization& mesh, const tipp::Point3* points, vtkIdType count,

@@ -8,12 +8,10 @@
 #include "Output/TetrahedronOutput.h"
 #include "Vtk/ReadDataSet.h"
 
-#include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
 #include "vtkPointSet.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkTable.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -26,41 +24,23 @@ vtkExecutive* vtkTIPPDelaunay3D::CreateDefaultExecutive()
 {
   if (DefaultExecutivePrototype)
   {
-    return this->Superclass::CreateDefaultExecutive(); // an application's own, e.g. ParaView's
+    return this->Superclass::CreateDefaultExecutive(); // the application's own, such as ParaView's
   }
   auto* executive = tipp::CollectivePipeline::New();
   executive->Controller = [this]() { return this->Controller; };
   return executive;
 }
 
-bool vtkTIPPDelaunay3D::HasSeveralRanks() const
-{
-  return this->Controller && this->Controller->GetNumberOfProcesses() > 1;
-}
-
 int vtkTIPPDelaunay3D::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  if (!this->HasSeveralRanks())
+  if (!tipp::hasSeveralRanks(this->Controller))
   {
     return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
   }
-  // Whatever piece is asked for, every rank brings its share of the points.
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  vtkInformation* const input = inputVector[0]->GetInformationObject(0);
-  input->Set(Pipeline::UPDATE_PIECE_NUMBER(), this->Controller->GetLocalProcessId());
-  input->Set(Pipeline::UPDATE_NUMBER_OF_PIECES(), this->Controller->GetNumberOfProcesses());
-  input->Set(Pipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  // Whichever piece is requested, every rank contributes its share of the points.
+  tipp::askForRankPiece(inputVector[0]->GetInformationObject(0), this->Controller);
   return 1;
-}
-
-const char* vtkTIPPDelaunay3D::WhatNeedsOneRank()
-{
-  return this->Alpha != 0         ? "Alpha"
-    : this->Tolerance > 0         ? "Tolerance"
-    : this->BoundingTriangulation ? "BoundingTriangulation"
-    : this->GenerateNeighborIds   ? "GenerateNeighborIds"
-                                  : nullptr;
 }
 
 bool vtkTIPPDelaunay3D::ExecuteOnRanks(
@@ -72,18 +52,16 @@ bool vtkTIPPDelaunay3D::ExecuteOnRanks(
   tipp::DistributedTetrahedralization mine;
   const auto run = [&]()
   {
-    if (const char* what = this->WhatNeedsOneRank())
-    {
-      throw std::invalid_argument(
-        std::string(what) + " needs a single rank: set the controller to null on one rank.");
-    }
+    tipp::requireUnused({ { "Alpha", this->Alpha != 0 }, { "Tolerance", this->Tolerance > 0 },
+      { "BoundingTriangulation", this->BoundingTriangulation != 0 },
+      { "GenerateNeighborIds", this->GenerateNeighborIds != 0 } });
     tipp::Monitor monitor(this);
     tipp::TetrahedralizationOptions options;
     options.Partitions = this->NumberOfPartitions;
     options.Threads = this->NumberOfThreads;
     options.Progress = [&monitor](double fraction) { return monitor(fraction); };
     tipp::checkPoints(input, "the input");
-    // What is collective is done by all ranks or by none, whatever single ones are set to.
+    // Collective steps must be done by all ranks or by none, even if their properties differ.
     std::vector<std::int64_t> wishes{ ranks.isFirst() && this->GatherOnFirstRank, wantsGhosts };
     ranks.sum(wishes);
     const tipp::PointRows rows(ranks, input);
@@ -105,35 +83,16 @@ bool vtkTIPPDelaunay3D::ExecuteOnRanks(
     tipp::fillPiece(mine, ranks.rank(), rows, wantsGhosts ? ghosts.get() : nullptr, output);
     if (this->GenerateRepresentativeIds)
     {
-      tipp::addAccounts(mine.Duplicates, mine.Rejected, output);
+      tipp::addDuplicatesAndRejected(mine.Duplicates, mine.Rejected, output);
     }
     tipp::fillStatisticsTable(tipp::statisticsOf(mine), statistics);
   };
-  try
-  {
-    ranks.together(run);
-  }
-  catch (const tipp::RankFailure& failure)
-  {
-    output->Initialize();
-    statistics->Initialize();
-    if (failure.Aborted)
-    {
-      return true;
-    }
-    this->SetErrorCode(vtkErrorCode::UserError);
-    if (ranks.isFirst())
-    {
-      vtkErrorMacro("Rank " << failure.Rank << ": " << failure.what());
-    }
-    return false;
-  }
+  ranks.together(run);
   this->NumberOfDuplicatePoints = mine.AllDuplicates;
   this->NumberOfRejectedPoints = mine.AllRejected;
-  for (const std::string& warning :
-    ranks.isFirst() ? tipp::warningsOf(mine) : std::vector<std::string>())
+  if (ranks.isFirst())
   {
-    vtkWarningMacro(<< warning);
+    tipp::warn(this, tipp::warningsOf(mine));
   }
   return true;
 }

@@ -109,7 +109,7 @@ int vtkTIPPOutOfCoreDelaunay2D::RequestInformation(
 {
   vtkInformation* const info = outputVector->GetInformationObject(0);
   info->Remove(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST());
-  if (this->Controller && this->Controller->GetNumberOfProcesses() > 1)
+  if (tipp::hasSeveralRanks(this->Controller))
   {
     info->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
   }
@@ -174,7 +174,7 @@ void vtkTIPPOutOfCoreDelaunay2D::Execute(vtkTable* output)
     tipp::triangulateOutOfCoreOnRanks(ranks, open, path, options);
   if (!statistics.Aborted && ranks.rank() == 0)
   {
-    this->Report(statistics);
+    tipp::warn(this, tipp::warningsOf(statistics));
     tipp::RunStatistics all = tipp::statisticsOf(statistics, options.CountOnly);
     if (constraints.figures().Constraints > 0)
     {
@@ -199,14 +199,6 @@ tipp::OutOfCoreOptions vtkTIPPOutOfCoreDelaunay2D::Options() const
   options.Resume = this->Resume != 0;
   options.Scratch = textOf(this->ScratchFolder);
   return options;
-}
-
-void vtkTIPPOutOfCoreDelaunay2D::Report(const tipp::OutOfCoreStatistics& statistics)
-{
-  for (const std::string& warning : tipp::warningsOf(statistics))
-  {
-    vtkWarningMacro(<< warning);
-  }
 }
 
 void vtkTIPPOutOfCoreDelaunay2D::PrintSelf(ostream& os, vtkIndent indent)

@@ -74,7 +74,6 @@ class vtkMultiProcessController;
 namespace tipp
 {
 struct OutOfCoreOptions;
-struct OutOfCoreStatistics;
 }
 
 class VTKTIPPFILTERS_EXPORT vtkTIPPOutOfCoreDelaunay2D : public vtkTableAlgorithm
@@ -298,7 +297,6 @@ private:
 
   void Execute(vtkTable* output);
   tipp::OutOfCoreOptions Options() const;
-  void Report(const tipp::OutOfCoreStatistics& statistics);
 };
 
 #endif

@@ -147,7 +147,7 @@ public:
         to.Numbers[std::size_t(to.Count++)] = this->Order[std::size_t(entry)];
         return true;
       });
-    for (int axis = 0; axis < D; ++axis) // the last four may be fewer
+    for (int axis = 0; axis < D; ++axis) // completes the last four
     {
       std::fill_n(to.Low[axis] + to.Count, 4, std::numeric_limits<float>::quiet_NaN());
     }

@@ -38,12 +38,12 @@ struct AskedPoints
 using TakeLocations =
   std::function<void(const std::int64_t* points, const CellLocation* at, std::int64_t count)>;
 
-/// Finds the cells of a SimplexMesh that contain given points, by the same rule as resampling: the
-/// cell that contains the point after a symbolic move by (e, e^2, e^3) with infinitesimal e; at the
-/// mesh's border, the first mirrored move that leads into a cell; among overlapping cells, the one
-/// with the lowest CellKey. So each point has one cell, whatever the order of cells and points.
-/// Exact for all finite coordinates. Degenerate cells, hidden cells and cells with infinite or NaN
-/// coordinates contain no point.
+/// Finds the cells of a SimplexMesh that contain given points, by the same rule as resampling. A
+/// point's cell is the one that contains it after a symbolic move by (e, e^2, e^3) with
+/// infinitesimal e. At the mesh's border, it is the cell into which the first of the mirrored moves
+/// leads. Among overlapping cells, it is the one with the lowest CellKey. So each point has one
+/// cell, whatever the order of cells and points. Exact for all finite coordinates. Degenerate
+/// cells, hidden cells and cells with infinite or NaN coordinates contain no point.
 ///
 /// Triangles that do not overlap are found by walks (CellWalk) from the previous point. Points that
 /// walks do not find, and other meshes, are searched with a tree of the cells' boxes, which is

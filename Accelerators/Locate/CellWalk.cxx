@@ -37,10 +37,10 @@ std::uint32_t addOne(std::atomic<std::uint32_t>& counter, bool isAlone)
 
 /// Fills a CellWalk, or leaves it without neighbours.
 template <typename Access>
-class CellWalk::Maker
+class CellWalk::Builder
 {
 public:
-  Maker(const SimplexMesh& mesh, const Access& access, int threads, CellWalk& walk)
+  Builder(const SimplexMesh& mesh, const Access& access, int threads, CellWalk& walk)
     : Mesh(mesh)
     , Cells(access)
     , Threads(threads)
@@ -381,7 +381,7 @@ CellWalk::CellWalk(const SimplexMesh& mesh, int threads)
       using Access = std::decay_t<decltype(access)>;
       if constexpr (Access::Dimension == 2)
       {
-        Maker<Access>(mesh, access, threads, *this).make();
+        Builder<Access>(mesh, access, threads, *this).make();
       }
     });
 }

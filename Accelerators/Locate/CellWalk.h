@@ -72,7 +72,7 @@ public:
 
 private:
   template <typename Access>
-  class Maker;
+  class Builder;
 
   /// Sets `at` to a triangle near a point.
   void jump(Point2 point, Position& at) const;

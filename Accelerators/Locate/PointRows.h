@@ -85,8 +85,8 @@ private:
   struct Axis
   {
     std::vector<double> Values; ///< ascending
-    std::int64_t Step = 1;      ///< from an entry to that of the next value
-    double Scale = 0;           ///< values a unit of length, about
+    std::int64_t Step = 1;      ///< distance between the entries of successive values
+    double Scale = 0;           ///< about the number of values per unit of length
 
     /// The index of the first value that is not lower.
     std::int64_t firstFrom(double value) const
@@ -231,7 +231,7 @@ private:
     forChunks(count, 1 << 14, threads, {},
       [&](std::int64_t begin, std::int64_t end, int)
       {
-        std::array<std::size_t, D> index; // of the point's values along the axes
+        std::array<std::size_t, D> index; // of the point's coordinate in Values, per axis
         std::array<std::int64_t, D> left; // points until the value changes
         for (std::size_t axis = 0; axis < D; ++axis)
         {

@@ -54,8 +54,8 @@ inline void sortByUpperHalf(std::vector<std::uint64_t>& words, int threads)
     parallelFor(shares, threads,
       [&](std::int64_t share)
       {
-        auto& places = next[std::size_t(share)];
-        forShare(share, [&](std::uint64_t word) { sorted[places[digitOf(word)]++] = word; });
+        auto& positions = next[std::size_t(share)];
+        forShare(share, [&](std::uint64_t word) { sorted[positions[digitOf(word)]++] = word; });
       });
     words.swap(sorted);
   }

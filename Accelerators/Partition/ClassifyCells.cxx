@@ -75,9 +75,9 @@ public:
     forChunks(static_cast<std::int64_t>(this->Borrowers.size()), 1, this->Threads, {},
       [&](std::int64_t block, std::int64_t, int)
       { this->classify(static_cast<std::size_t>(block)); });
-    if (this->Homeless.load() < this->Count)
+    if (this->FirstOutside.load() < this->Count)
     {
-      failForCell(this->Shape, this->Homeless.load());
+      failForCell(this->Shape, this->FirstOutside.load());
     }
     this->gather();
     return std::move(this->Result);
@@ -121,7 +121,7 @@ private:
     }
     if (owner < 0)
     {
-      this->reportHomeless(index);
+      this->reportOutside(index);
     }
     return owner;
   }
@@ -160,10 +160,10 @@ private:
     return owner;
   }
 
-  void reportHomeless(std::size_t index)
+  void reportOutside(std::size_t index)
   {
-    std::size_t first = this->Homeless.load();
-    while (index < first && !this->Homeless.compare_exchange_weak(first, index))
+    std::size_t first = this->FirstOutside.load();
+    while (index < first && !this->FirstOutside.compare_exchange_weak(first, index))
     {
     }
   }
@@ -197,7 +197,7 @@ private:
   int Threads;
   std::vector<std::vector<std::int32_t>> Borrowers;
   Membership Result;
-  std::atomic<std::size_t> Homeless{ static_cast<std::size_t>(-1) };
+  std::atomic<std::size_t> FirstOutside{ static_cast<std::size_t>(-1) };
 };
 
 } // namespace

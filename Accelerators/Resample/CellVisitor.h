@@ -269,7 +269,7 @@ private:
     Sink& sink = this->Sinks[std::size_t(thread)];
     const auto& spans = lanes.samples();
     const unsigned visited = lanes.visited() & ~this->hiddenLanes(first);
-    for (unsigned told = visited & ~spans.Doubtful; told != 0; told &= told - 1)
+    for (unsigned decided = visited & ~spans.Doubtful; decided != 0; decided &= decided - 1)
     {
       sink.visit(1);
     }

@@ -147,7 +147,7 @@ private:
   const SimplexMesh& Mesh;
   LatticeAxes Axes;
   const std::vector<Attribute>& Attributes;
-  std::vector<OutputArray> Outputs; ///< the mask, and each attribute's
+  std::vector<OutputArray> Outputs; ///< for the mask, and then for each attribute
   SampledCells Result;
 };
 

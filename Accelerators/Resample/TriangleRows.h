@@ -100,7 +100,7 @@ private:
 
   [[gnu::always_inline]] bool setEdges(Point2 a, Point2 b, Point2 c)
   {
-    // An infinite coordinate, or NaN, makes NaN of this; so does the overflow of a difference.
+    // NaN if a coordinate is infinite or NaN, or if a difference overflows.
     const double width = (b.x - a.x) + (c.x - a.x) + (c.y - a.y);
     const int side = width - width == 0 || finite(a, b, c) ? orientation(a, c, b) : 0;
     this->LongIsLeft = side < 0;
@@ -292,7 +292,7 @@ private:
   /// Computes the edges of corners sorted from low to high.
   [[gnu::always_inline]] void setEdges(const Lanes (&x)[3], const Lanes (&y)[3])
   {
-    // An infinite coordinate, or NaN, makes NaN of this; so does the overflow of a difference.
+    // NaN if a coordinate is infinite or NaN, or if a difference overflows.
     const Lanes width = (x[1] - x[0]) + (x[2] - x[0]) + (y[2] - y[0]);
     // orientation(low, high, middle) with its filter: see ExactPredicates.h.
     const Lanes left = (x[0] - x[1]) * (y[2] - y[1]);

@@ -60,7 +60,7 @@ void sortKnown(CrossedPart& part)
     part.Known.end());
 }
 
-/// The item of a segment. Call after sortKnown().
+/// The item in part.Known of a segment, given by its Id. Call after sortKnown().
 const SegmentTree::Item& knownOf(const CrossedPart& part, std::int64_t segment)
 {
   return *std::lower_bound(part.Known.begin(), part.Known.end(), segment,

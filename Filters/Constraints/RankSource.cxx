@@ -15,6 +15,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -186,10 +187,8 @@ private:
     {
       constraint = { this->vertexNamed(constraint.A), this->vertexNamed(constraint.B) };
     }
-    for (std::size_t v = 0; v < this->Named.size(); ++v)
-    {
-      this->Same.push_back(std::int64_t(v));
-    }
+    this->Same.resize(this->Named.size());
+    std::iota(this->Same.begin(), this->Same.end(), std::int64_t(0));
   }
 
   /// The vertex of a point id, or -1 if no source refers to it.

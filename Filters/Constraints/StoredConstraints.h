@@ -131,7 +131,7 @@ private:
   std::unique_ptr<RowFile> Vertices;
   std::unique_ptr<RowFile> Keys;       ///< of Segment, as given
   std::unique_ptr<RowFile> Places;     ///< of Segment, with positions; null: Keys has these
-  std::vector<bool> IsNew;             ///< by vertex: it is no point, and the first at its position
+  std::vector<bool> IsNew;             ///< by vertex: no point, and the first at its position
   std::unique_ptr<PositionJoin> Own;   ///< vertices; values: the point's id, then the columns
   std::unique_ptr<PositionJoin> Named; ///< ids; values: the point's position, then the columns
 };

@@ -33,7 +33,6 @@ bool isHeightColumn(const std::string& name);
 
 /// Computes the constrained Delaunay triangulation of the points and of the constraints' points.
 /// The latter are appended to the table unless they exist already, followed by the crossings.
-/// appended to the table unless they are there already, and then the crossings.
 ///
 /// Removes triangles outside polygons, in holes, and outside the boundary: a triangle is inside the
 /// boundary if a path to it from outside crosses the boundary's lines an odd number of times.

@@ -84,11 +84,11 @@ struct RasterSink::Part
   /// Returns a tile, created if necessary. Most triangles are in the same tile as the previous one.
   Tile& tileAt(std::int64_t row, std::int64_t column)
   {
-    const Place place(row, column);
-    if (place != this->LastPlace)
+    const TileIndex index(row, column);
+    if (index != this->LastIndex)
     {
-      this->LastTile = &this->Tiles[place];
-      this->LastPlace = place;
+      this->LastTile = &this->Tiles[index];
+      this->LastIndex = index;
     }
     return *this->LastTile;
   }
@@ -96,12 +96,12 @@ struct RasterSink::Part
   std::vector<double> XYZ;
   std::vector<std::vector<double>> Columns; ///< only the columns that bands need
   TerrainPoints Points;
-  using Place = std::pair<std::int64_t, std::int64_t>; ///< row from the north, column
-  std::map<Place, Tile> Tiles;
-  Place LastPlace{ -1, -1 };
+  using TileIndex = std::pair<std::int64_t, std::int64_t>; ///< row from the north, column
+  std::map<TileIndex, Tile> Tiles;
+  TileIndex LastIndex{ -1, -1 };
   Tile* LastTile = nullptr;
-  std::int64_t Placed = 0; ///< triangles in all tiles
-  std::string Border;      ///< BorderPixels, each followed by its values
+  std::int64_t Assigned = 0; ///< triangles in all tiles
+  std::string Border;        ///< BorderPixels, each followed by its values
 };
 
 RasterSink::RasterSink(
@@ -217,21 +217,21 @@ void RasterSink::sampleByTile(Part& part, const std::vector<TriangleRange>& tria
 {
   const auto sampleAll = [&]
   {
-    for (const auto& [place, tile] : part.Tiles)
+    for (const auto& [index, tile] : part.Tiles)
     {
       this->sampleTile(part, tile);
     }
     part.Tiles.clear();
-    part.LastPlace = { -1, -1 };
-    part.Placed = 0;
+    part.LastIndex = { -1, -1 };
+    part.Assigned = 0;
   };
-  const std::int64_t mostPlaced = fewPixels + 4 * part.Points.Count;
+  const std::int64_t mostAssigned = fewPixels + 4 * part.Points.Count;
   for (const TriangleRange& run : triangles)
   {
     for (std::size_t t = 0; t < run.Triangles; ++t)
     {
       this->addTriangle(part, run.Begin + 3 * t);
-      part.Placed > mostPlaced ? sampleAll() : void();
+      part.Assigned > mostAssigned ? sampleAll() : void();
     }
   }
   sampleAll();
@@ -291,7 +291,7 @@ void RasterSink::addTriangle(Part& part, const std::int32_t* corners) const
     {
       Tile& tile = part.tileAt(tileRow, i);
       tile.Ids.insert(tile.Ids.end(), corners, corners + 3);
-      ++part.Placed;
+      ++part.Assigned;
       const std::int64_t column = std::max(window.Column, i * RasterTileSize);
       tile.extend({ column, row, std::min(right, (i + 1) * RasterTileSize) - column,
         std::min(top, end) - row });

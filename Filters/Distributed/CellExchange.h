@@ -47,6 +47,24 @@ struct PointTuplesOf
   std::size_t size() const { return this->Positions.size(); }
 };
 
+/// The points of a rank's part of a triangulation, and totals over all ranks. Cells refer to points
+/// by local indices: of Owned, and after them of Ghosts. An internal id is a point's index among
+/// all ranks' owned points, rank by rank; a global id is the id that the caller gave the point.
+template <typename Position>
+struct DistributedPoints
+{
+  PointTuplesOf<Position> Owned;      ///< this rank's points, also those without cells here
+  PointTuplesOf<Position> Ghosts;     ///< other ranks' points that this rank's cells use
+  std::size_t RowSize = 0;            ///< bytes of data per point
+  std::vector<std::int64_t> GhostIds; ///< internal ids of Ghosts; ascending
+  std::vector<std::int64_t> FirstIds; ///< first internal id of each rank, and the end
+  std::vector<Duplicate> Duplicates;  ///< found on this rank; global ids
+  std::vector<PointId> Rejected;      ///< rejected points of this rank's input; global ids
+  std::int64_t AllPoints = 0;         ///< sum over all ranks, as the following ones
+  std::int64_t AllDuplicates = 0;
+  std::int64_t AllRejected = 0;
+};
+
 /// A cell: N internal ids, indices among all ranks' owned points.
 template <std::size_t N>
 using IdCell = std::array<std::int64_t, N>;
@@ -86,7 +104,7 @@ inline std::size_t ownerOf(std::int64_t id, const std::vector<std::int64_t>& fir
 /// Sends each cell to the rank that owns its vertex of lowest id, and returns those received.
 /// Collective.
 template <std::size_t N>
-std::vector<IdCell<N>> bringHome(Communicator& ranks, const std::vector<IdCell<N>>& cells,
+std::vector<IdCell<N>> sendToOwners(Communicator& ranks, const std::vector<IdCell<N>>& cells,
   const std::vector<std::int64_t>& firstIds)
 {
   const auto owner = [&firstIds](const IdCell<N>& cell)
@@ -115,7 +133,7 @@ std::vector<IdCell<N>> bringHome(Communicator& ranks, const std::vector<IdCell<N
 
 /// The ids of cells' vertices outside of [firstOwn, endOwn), ascending.
 template <std::size_t N>
-std::vector<std::int64_t> foreignIds(
+std::vector<std::int64_t> ghostIds(
   const std::vector<IdCell<N>>& cells, std::int64_t firstOwn, std::int64_t endOwn)
 {
   std::vector<std::int64_t> ids;
@@ -231,14 +249,15 @@ struct SharedVertex
   std::int64_t User;
 };
 
-/// Sends the points used to their owners, and each owner sends the using ranks to all of them.
+/// Each rank sends the ids of the points that it uses to their owners. Each owner returns, to all
+/// ranks that use a point, the list of these ranks.
 /// Collective.
 template <typename Mesh, std::size_t N>
 VertexUsers findUsers(Communicator& ranks, const Mesh& mine, const std::vector<IdCell<N>>& cells)
 {
   const std::int64_t firstOwn = mine.FirstIds[std::size_t(ranks.rank())];
   std::vector<std::vector<std::int64_t>> asked(std::size_t(ranks.size()));
-  for (const std::int64_t id : mine.ForeignIds)
+  for (const std::int64_t id : mine.GhostIds)
   {
     asked[ownerOf(id, mine.FirstIds)].push_back(id);
   }
@@ -268,7 +287,7 @@ VertexUsers findUsers(Communicator& ranks, const Mesh& mine, const std::vector<I
       users.push_back(std::int32_t(user));
     }
   }
-  std::vector<std::vector<SharedVertex>> told(std::size_t(ranks.size()));
+  std::vector<std::vector<SharedVertex>> sharers(std::size_t(ranks.size()));
   for (const auto& [id, users] : ofOwn)
   {
     for (const std::int32_t user : users)
@@ -277,13 +296,13 @@ VertexUsers findUsers(Communicator& ranks, const Mesh& mine, const std::vector<I
       {
         if (other != user)
         {
-          told[std::size_t(user)].push_back({ id, other });
+          sharers[std::size_t(user)].push_back({ id, other });
         }
       }
     }
   }
   VertexUsers users;
-  for (const auto& part : ranks.allToAll(told))
+  for (const auto& part : ranks.allToAll(sharers))
   {
     for (const SharedVertex& shared : part)
     {
@@ -334,7 +353,7 @@ GhostCells<N, Position> fetchGhosts(Communicator& ranks, const Mesh& mine,
       for (const std::int64_t id : sent.Corners)
       {
         if ((id < firstOwn || id >= endOwn) &&
-          !std::binary_search(mine.ForeignIds.begin(), mine.ForeignIds.end(), id))
+          !std::binary_search(mine.GhostIds.begin(), mine.GhostIds.end(), id))
         {
           ghosts.PointIds.push_back(id);
         }
@@ -367,7 +386,7 @@ Buffer<T> gatherValues(Communicator& ranks, Buffer<T> mine)
   return all;
 }
 
-/// The same of a list.
+/// All ranks' lists, concatenated on the first rank; an empty list on the others. Collective.
 template <typename T>
 std::vector<T> gatherList(Communicator& ranks, const std::vector<T>& mine)
 {
@@ -379,17 +398,18 @@ std::vector<T> gatherList(Communicator& ranks, const std::vector<T>& mine)
   return all;
 }
 
-/// Returns the internal id of a mesh's index among its owned and then foreign points, on `rank`.
+/// Returns a function from the local indices of a mesh on `rank` (see DistributedPoints) to
+/// internal ids.
 template <typename Mesh>
 auto internalIds(const Mesh& mine, int rank)
 {
   const std::int64_t first = mine.FirstIds[std::size_t(rank)];
   const auto own = std::int64_t(mine.Owned.size());
   return [&mine, first, own](std::int64_t index)
-  { return index < own ? first + index : mine.ForeignIds[std::size_t(index - own)]; };
+  { return index < own ? first + index : mine.GhostIds[std::size_t(index - own)]; };
 }
 
-/// The same of the global id.
+/// Returns a function from the local indices of a mesh to global ids.
 template <typename Mesh>
 auto globalIds(const Mesh& mine)
 {
@@ -397,29 +417,29 @@ auto globalIds(const Mesh& mine)
   return [&mine, own](std::int64_t index)
   {
     return index < own ? mine.Owned.GlobalIds[std::size_t(index)]
-                       : mine.Foreign.GlobalIds[std::size_t(index - own)];
+                       : mine.Ghosts.GlobalIds[std::size_t(index - own)];
   };
 }
 
-/// Moves to the first rank all of a mesh but its cells' corners, which are by internal ids already:
-/// owned points, duplicates and rejected points. Collective.
+/// Moves owned points, duplicates and rejected points of a mesh to the first rank, but not its
+/// cells, whose corners must be internal ids already. Collective.
 template <typename Mesh>
 void gatherPoints(Communicator& ranks, Mesh& mine)
 {
   mine.Owned.Positions = gatherValues(ranks, std::move(mine.Owned.Positions));
   mine.Owned.GlobalIds = gatherValues(ranks, std::move(mine.Owned.GlobalIds));
   mine.Owned.Rows = gatherValues(ranks, std::move(mine.Owned.Rows));
-  mine.Foreign = {};
-  mine.ForeignIds.clear();
+  mine.Ghosts = {};
+  mine.GhostIds.clear();
   mine.Duplicates = gatherList(ranks, mine.Duplicates);
   mine.Rejected = gatherList(ranks, mine.Rejected);
   std::fill(mine.FirstIds.begin() + 1, mine.FirstIds.end(), std::int64_t(mine.Owned.size()));
 }
 
-/// The duplicates and rejected points of all ranks on the first one, ascending, as those of a run
-/// in one process. Collective.
+/// Sets the duplicates and rejected points of all ranks on the first one, sorted as in a run of one
+/// process. Collective.
 template <typename Mesh, typename Result>
-void gatherAccounts(Communicator& ranks, const Mesh& mine, Result& all)
+void gatherDuplicatesAndRejected(Communicator& ranks, const Mesh& mine, Result& all)
 {
   all.Duplicates = gatherList(ranks, mine.Duplicates);
   all.Rejected = gatherList(ranks, mine.Rejected);

@@ -74,17 +74,16 @@ private:
   /// The internal id of a corner.
   std::int64_t idOf(std::int64_t corner) const
   {
-    return corner < std::int64_t(this->Own)
-      ? this->First + corner
-      : this->Mine.ForeignIds[std::size_t(corner) - this->Own];
+    return corner < std::int64_t(this->Own) ? this->First + corner
+                                            : this->Mine.GhostIds[std::size_t(corner) - this->Own];
   }
 
   void loadPositions()
   {
     const auto& owned = this->Mine.Owned.Positions;
-    const auto& foreign = this->Mine.Foreign.Positions;
+    const auto& ghosts = this->Mine.Ghosts.Positions;
     this->Positions.assign(owned.begin(), owned.end());
-    this->Positions.insert(this->Positions.end(), foreign.begin(), foreign.end());
+    this->Positions.insert(this->Positions.end(), ghosts.begin(), ghosts.end());
   }
 
   CrossedPart takeCrossed()
@@ -120,7 +119,7 @@ private:
   std::vector<char> findShared()
   {
     std::vector<std::vector<std::int64_t>> used(std::size_t(this->Ranks.size()));
-    for (const std::int64_t id : this->Mine.ForeignIds)
+    for (const std::int64_t id : this->Mine.GhostIds)
     {
       used[ownerOf(id, this->Mine.FirstIds)].push_back(id);
     }
@@ -154,7 +153,7 @@ private:
     return own;
   }
 
-  bool isForeign(std::int64_t id) const
+  bool isGhost(std::int64_t id) const
   {
     return id < this->First || id >= this->First + std::int64_t(this->Own);
   }
@@ -162,22 +161,21 @@ private:
   /// Adds triangles, and fetches the points that they need.
   void setTriangles(const std::vector<IdTriangle>& added)
   {
-    std::vector<std::int64_t> foreign;
-    const auto note = [&](std::int64_t id)
-    { this->isForeign(id) ? foreign.push_back(id) : void(); };
+    std::vector<std::int64_t> ghosts;
+    const auto note = [&](std::int64_t id) { this->isGhost(id) ? ghosts.push_back(id) : void(); };
     std::for_each(this->Corners.begin(), this->Corners.end(),
       [&](Id corner) { note(this->idOf(std::int64_t(corner))); });
     for (const IdTriangle& triangle : added)
     {
       std::for_each(triangle.begin(), triangle.end(), note);
     }
-    std::sort(foreign.begin(), foreign.end());
-    foreign.erase(std::unique(foreign.begin(), foreign.end()), foreign.end());
+    std::sort(ghosts.begin(), ghosts.end());
+    ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
     const auto indexOf = [&](std::int64_t id)
     {
-      return Id(this->isForeign(id) ? std::int64_t(this->Own) +
-            (std::lower_bound(foreign.begin(), foreign.end(), id) - foreign.begin())
-                                    : id - this->First);
+      return Id(this->isGhost(id) ? std::int64_t(this->Own) +
+            (std::lower_bound(ghosts.begin(), ghosts.end(), id) - ghosts.begin())
+                                  : id - this->First);
     };
     Buffer<Id> corners(this->Corners.size() + 3 * added.size());
     Id* to = std::transform(this->Corners.begin(), this->Corners.end(), corners.begin(),
@@ -187,9 +185,9 @@ private:
       to = std::transform(triangle.begin(), triangle.end(), to, indexOf);
     }
     this->Corners = std::move(corners);
-    this->Mine.Foreign =
-      fetchPoints(this->Ranks, foreign, this->Mine.FirstIds, this->Mine.Owned, this->Mine.RowSize);
-    this->Mine.ForeignIds = std::move(foreign);
+    this->Mine.Ghosts =
+      fetchPoints(this->Ranks, ghosts, this->Mine.FirstIds, this->Mine.Owned, this->Mine.RowSize);
+    this->Mine.GhostIds = std::move(ghosts);
   }
 
   void countTriangles()

@@ -51,7 +51,7 @@ public:
     , Positions(mine.Owned.Positions.begin(), mine.Owned.Positions.end())
   {
     this->Positions.insert(
-      this->Positions.end(), mine.Foreign.Positions.begin(), mine.Foreign.Positions.end());
+      this->Positions.end(), mine.Ghosts.Positions.begin(), mine.Ghosts.Positions.end());
   }
 
   ConstraintLines find()
@@ -67,7 +67,7 @@ private:
   std::int64_t idOf(std::int64_t local) const
   {
     const auto own = std::int64_t(this->Mine.Owned.size());
-    return local < own ? this->First + local : this->Mine.ForeignIds[std::size_t(local - own)];
+    return local < own ? this->First + local : this->Mine.GhostIds[std::size_t(local - own)];
   }
 
   template <typename Id>

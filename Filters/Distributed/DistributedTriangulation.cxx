@@ -47,7 +47,7 @@ struct SentByKind
 };
 
 /// What a rank reports to the others for the statistics.
-struct OfOneRank
+struct StatisticsOfRank
 {
   RankStatistics Own;
   std::vector<MasterStatistics> Masters;
@@ -55,7 +55,7 @@ struct OfOneRank
 };
 
 template <typename Archive>
-void serialize(Archive& archive, OfOneRank& one)
+void serialize(Archive& archive, StatisticsOfRank& one)
 {
   archive(one.Own, one.Masters, one.Traffic);
 }
@@ -65,14 +65,14 @@ void serialize(Archive& archive, OfOneRank& one)
 DistributedStatistics gatherStatistics(
   Communicator& ranks, const RankStatistics& own, const std::vector<MasterStatistics>& masters)
 {
-  OfOneRank mine{ own, masters, {} };
+  StatisticsOfRank mine{ own, masters, {} };
   for (const auto& [kind, sent] : ranks.traffic())
   {
     mine.Traffic.push_back({ kind, sent });
   }
   DistributedStatistics statistics;
   std::map<MessageKind, Communicator::Traffic> traffic;
-  for (const OfOneRank& one : ranks.allGather(mine))
+  for (const StatisticsOfRank& one : ranks.allGather(mine))
   {
     statistics.Ranks.push_back(one.Own);
     statistics.Masters.insert(statistics.Masters.end(), one.Masters.begin(), one.Masters.end());
@@ -401,7 +401,7 @@ private:
     if (factor != 1)
     {
       for (Buffer<Point2>* positions :
-        { &this->Result.Owned.Positions, &this->Result.Foreign.Positions })
+        { &this->Result.Owned.Positions, &this->Result.Ghosts.Positions })
       {
         std::transform(positions->begin(), positions->end(), positions->begin(),
           [factor](Point2 p) {

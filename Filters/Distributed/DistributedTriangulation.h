@@ -80,28 +80,13 @@ DistributedStatistics gatherStatistics(
 
 using PointTuples = PointTuplesOf<Point2>;
 
-/// A rank's part of a triangulation. Corners are local indices: of Owned, the rank's own points,
-/// and after them of Foreign, the other ranks' points that its triangles use. An internal id is a
-/// point's index among all ranks' owned points, rank by rank; a global id is the id that the caller
-/// gave the point.
-struct DistributedTriangulation
+/// A rank's part of a triangulation. Corners are local indices (see DistributedPoints).
+struct DistributedTriangulation : DistributedPoints<Point2>
 {
-  Buffer<std::int32_t> Ids32;           ///< used if every index fits
-  Buffer<std::int64_t> Ids64;           ///< used otherwise; one of the two is empty
-  PointTuples Owned;                    ///< includes points without triangles on this rank
-  PointTuples Foreign;                  ///< other ranks' points that this rank's triangles use
-  std::size_t RowSize = 0;              ///< bytes of data per point
-  std::vector<std::int64_t> ForeignIds; ///< internal ids of Foreign; ascending
-  std::vector<std::int64_t> FirstIds;   ///< first internal id of each rank, and the end
-
-  std::int64_t FirstTriangle = 0;    ///< index of this rank's first triangle among all ranks'
-  std::vector<Duplicate> Duplicates; ///< found on this rank; global ids
-  std::vector<PointId> Rejected;     ///< global ids of rejected points of this rank's input
-
-  std::int64_t AllPoints = 0; ///< sum over all ranks
-  std::int64_t AllTriangles = 0;
-  std::int64_t AllDuplicates = 0;
-  std::int64_t AllRejected = 0;
+  Buffer<std::int32_t> Ids32;     ///< used if every index fits
+  Buffer<std::int64_t> Ids64;     ///< used otherwise; one of the two is empty
+  std::int64_t FirstTriangle = 0; ///< index of this rank's first triangle among all ranks'
+  std::int64_t AllTriangles = 0;  ///< sum over all ranks
   DistributedStatistics Statistics;
 
   std::size_t triangleCount() const { return (this->Ids32.size() + this->Ids64.size()) / 3; }

@@ -16,8 +16,8 @@ namespace tipp
 /// Which rank keeps inboxes and starts partitions.
 enum class Masters
 {
-  Auto,   ///< no master; but several if a grid of major partitions is given, else one for schedules
-          ///< with barriers
+  Auto,   ///< no master, unless a grid of major partitions is given (then several) or the schedule
+          ///< has barriers (then one)
   Single, ///< one master hands out all partitions (Algorithm 1)
   Multi   ///< a master hands major partitions to sub-masters (Algorithm 3)
 };

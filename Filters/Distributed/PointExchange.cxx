@@ -27,7 +27,7 @@ void requireSize(std::size_t actual, std::size_t expected)
 
 /// Sends the counts to the leaves' owners; returns by rank the counts of this rank's leaves.
 /// Collective.
-std::vector<std::vector<std::uint64_t>> tellCounts(Communicator& ranks,
+std::vector<std::vector<std::uint64_t>> exchangeCounts(Communicator& ranks,
   const std::vector<std::int32_t>& owners, const std::vector<std::int64_t>& counts)
 {
   std::vector<std::vector<std::uint64_t>> countsOf(static_cast<std::size_t>(ranks.size()));
@@ -36,12 +36,12 @@ std::vector<std::vector<std::uint64_t>> tellCounts(Communicator& ranks,
     countsOf[std::size_t(owners[leaf])].push_back(std::uint64_t(counts[leaf]));
   }
   const std::size_t leaves = countsOf[std::size_t(ranks.rank())].size();
-  std::vector<std::vector<std::uint64_t>> told = ranks.allToAll(countsOf);
-  for (const std::vector<std::uint64_t>& of : told)
+  std::vector<std::vector<std::uint64_t>> received = ranks.allToAll(countsOf);
+  for (const std::vector<std::uint64_t>& of : received)
   {
     requireSize(of.size() * sizeof(std::uint64_t), leaves * sizeof(std::uint64_t));
   }
-  return told;
+  return received;
 }
 
 } // namespace
@@ -61,7 +61,7 @@ std::size_t PointArrays::bytes(std::size_t points, std::size_t rowSize)
 PointLayout::PointLayout(Communicator& ranks, const std::vector<std::int32_t>& owners,
   const std::vector<std::int64_t>& counts)
   : Rank(ranks.rank())
-  , Counts(tellCounts(ranks, owners, counts))
+  , Counts(exchangeCounts(ranks, owners, counts))
   , Firsts(this->Counts.size())
   , Starts(1, 0)
 {
@@ -110,7 +110,8 @@ void PointReceiver::take(const char* part, std::size_t size)
   {
     if (this->Left.empty())
     {
-      throw std::runtime_error("Points from another rank are damaged: they are more than it told.");
+      throw std::runtime_error(
+        "Points from another rank are damaged: they are more than it announced.");
     }
     Range& range = this->Left.back();
     const std::size_t taken = std::min(size, range.Size);
@@ -129,7 +130,8 @@ void PointReceiver::requireComplete() const
 {
   if (!this->Left.empty())
   {
-    throw std::runtime_error("Points from another rank are damaged: they are fewer than it told.");
+    throw std::runtime_error(
+      "Points from another rank are damaged: they are fewer than it announced.");
   }
 }
 
@@ -260,7 +262,7 @@ void PointExchange::pack(const std::vector<std::int32_t>& owners, const Packing&
   std::vector<PointArrays> arrays;
   for (std::size_t to = 0; to < packing.Sizes.size(); ++to)
   {
-    const Communicator::Stretch& message = packing.Messages[to];
+    const Communicator::ByteRange& message = packing.Messages[to];
     arrays.push_back(
       message.Size == 0 ? destination : PointArrays(messages + message.Begin, packing.Sizes[to]));
   }
@@ -296,8 +298,8 @@ OwnedPoints<Id> PointExchange::exchange(
     [&](std::int64_t part) { owned.Buckets.populate(int(part), this->Threads); });
   // Messages are packed into the triangles' memory if they fit: fresh memory takes time.
   Bytes messages(owned.Buckets.release());
-  const bool isLent = packing.Size <= messages.size();
-  if (!isLent)
+  const bool fits = packing.Size <= messages.size();
+  if (!fits)
   {
     owned.Buckets.takeBack(Buffer<Id>(std::move(messages)));
     messages = Bytes(packing.Size);
@@ -318,7 +320,7 @@ OwnedPoints<Id> PointExchange::exchange(
       receivers[source].requireComplete();
     }
   }
-  if (isLent)
+  if (fits)
   {
     owned.Buckets.takeBack(Buffer<Id>(std::move(messages)));
   }

@@ -115,7 +115,7 @@ private:
   {
     std::vector<std::size_t> Sizes;  ///< number of points to each rank
     std::vector<std::size_t> Begins; ///< index of each leaf's first point in its owner's message
-    std::vector<Communicator::Stretch> Messages;
+    std::vector<Communicator::ByteRange> Messages;
     std::size_t Size = 0; ///< bytes of all messages
   };
 

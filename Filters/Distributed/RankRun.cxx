@@ -39,8 +39,8 @@ RankRun<Id>::RankRun(Communicator& ranks, const Plan& plan, OwnedPoints<Id>& poi
 {
 }
 
-/// Gathers the regions and initial points of all partitions on all ranks. Each partition's come
-/// from one rank.
+/// Gathers the regions and initial points of all partitions on all ranks. Those of a partition come
+/// from its owner.
 template <typename Id>
 void RankRun<Id>::shareInitialMesh(std::vector<BoundaryVertex>& vertices)
 {

@@ -15,10 +15,10 @@ namespace tipp
 namespace
 {
 
-/// Converts internal ids to indices into Owned and, after these, Foreign.
+/// Converts internal ids to indices into Owned and, after these, Ghosts.
 template <typename Id>
 std::vector<typename TriangleSink<Id>::FinalTriangle> localised(
-  const std::vector<IdTriangle>& triangles, const std::vector<std::int64_t>& foreign,
+  const std::vector<IdTriangle>& triangles, const std::vector<std::int64_t>& ghosts,
   std::int64_t firstOwn, const Buffer<Point2>& positions, const Tiling& leaves)
 {
   std::vector<typename TriangleSink<Id>::FinalTriangle> local;
@@ -36,8 +36,8 @@ std::vector<typename TriangleSink<Id>::FinalTriangle> localised(
       }
       else
       {
-        const auto found = std::lower_bound(foreign.begin(), foreign.end(), triangle[i]);
-        ids[i] = static_cast<Id>(own + (found - foreign.begin()));
+        const auto found = std::lower_bound(ghosts.begin(), ghosts.end(), triangle[i]);
+        ids[i] = static_cast<Id>(own + (found - ghosts.begin()));
       }
     }
     ids = TriangleSink<Id>::fromLowest(ids);
@@ -56,8 +56,8 @@ void collect(Communicator& ranks, OwnedPoints<Id>& points, const std::vector<IdT
   const std::size_t rowSize = result.RowSize;
   const std::int64_t firstOwn = points.FirstIds[std::size_t(ranks.rank())];
   result.FirstIds = points.FirstIds;
-  const std::vector<IdTriangle> boundary = bringHome(ranks, kept, points.FirstIds);
-  result.ForeignIds = foreignIds(boundary, firstOwn, firstOwn + std::int64_t(points.size()));
+  const std::vector<IdTriangle> boundary = sendToOwners(ranks, kept, points.FirstIds);
+  result.GhostIds = ghostIds(boundary, firstOwn, firstOwn + std::int64_t(points.size()));
 
   TriangleSink<Id> sink(points.Buckets);
   for (std::size_t leaf = 0; leaf < interiorCounts.size(); ++leaf)
@@ -65,7 +65,7 @@ void collect(Communicator& ranks, OwnedPoints<Id>& points, const std::vector<IdT
     sink.setInteriorCount(static_cast<PartitionIndex>(leaf), interiorCounts[leaf]);
   }
   Buffer<Id> ids = sink.assemble(
-    { localised<Id>(boundary, result.ForeignIds, firstOwn, points.Positions, leaves) }, threads);
+    { localised<Id>(boundary, result.GhostIds, firstOwn, points.Positions, leaves) }, threads);
   if constexpr (sizeof(Id) == 4)
   {
     result.Ids32 = std::move(ids);
@@ -80,7 +80,7 @@ void collect(Communicator& ranks, OwnedPoints<Id>& points, const std::vector<IdT
   result.Owned.Rows = std::move(points.Rows);
   preferLowestGlobalIds(result.Owned, firstOwn, duplicates);
   result.Duplicates = std::move(duplicates);
-  result.Foreign = fetchPoints(ranks, result.ForeignIds, points.FirstIds, result.Owned, rowSize);
+  result.Ghosts = fetchPoints(ranks, result.GhostIds, points.FirstIds, result.Owned, rowSize);
 }
 
 template void collect(Communicator&, OwnedPoints<std::int32_t>&, const std::vector<IdTriangle>&,
@@ -149,7 +149,7 @@ Triangulation gatherTriangles(Communicator& ranks, const DistributedTriangulatio
 {
   Triangulation result;
   result.Ids64 = gatherCorners(ranks, mine, globalIds(mine));
-  gatherAccounts(ranks, mine, result);
+  gatherDuplicatesAndRejected(ranks, mine, result);
   return result;
 }
 

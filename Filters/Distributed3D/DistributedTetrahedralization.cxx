@@ -355,8 +355,8 @@ private:
     const std::int64_t first = this->firstOwn();
     const auto own = std::int64_t(mine.Owned.size());
     const std::vector<IdCell<4>> cells =
-      bringHome(this->Ranks, std::exchange(this->Kept, {}), mine.FirstIds);
-    mine.ForeignIds = foreignIds(cells, first, first + own);
+      sendToOwners(this->Ranks, std::exchange(this->Kept, {}), mine.FirstIds);
+    mine.GhostIds = ghostIds(cells, first, first + own);
     std::vector<CellIds> local;
     local.reserve(cells.size());
     for (const IdCell<4>& cell : cells)
@@ -365,26 +365,25 @@ private:
       std::transform(cell.begin(), cell.end(), to.begin(),
         [&](std::int64_t id)
         {
-          const auto& foreign = mine.ForeignIds;
+          const auto& ghosts = mine.GhostIds;
           const bool isOwn = first <= id && id < first + own;
           return std::int32_t(isOwn
               ? id - first
-              : own + (std::lower_bound(foreign.begin(), foreign.end(), id) - foreign.begin()));
+              : own + (std::lower_bound(ghosts.begin(), ghosts.end(), id) - ghosts.begin()));
         });
     }
     this->Inside.push_back(std::move(local));
     preferLowestGlobalIds(mine.Owned, first, this->Duplicates);
     mine.Duplicates = std::move(this->Duplicates);
-    mine.Foreign =
-      fetchPoints(this->Ranks, mine.ForeignIds, mine.FirstIds, mine.Owned, mine.RowSize);
+    mine.Ghosts = fetchPoints(this->Ranks, mine.GhostIds, mine.FirstIds, mine.Owned, mine.RowSize);
     this->Ranks.flush(); // other ranks wait for these messages
     mine.Ids = mine.cellSize() == 3
       ? orderTriangles(this->Inside.back())
-      : orderCells(std::move(this->Inside), mine.Owned.size() + mine.Foreign.size(), this->Threads);
+      : orderCells(std::move(this->Inside), mine.Owned.size() + mine.Ghosts.size(), this->Threads);
     if (this->Factor != 1)
     {
       this->restore(mine.Owned.Positions);
-      this->restore(mine.Foreign.Positions);
+      this->restore(mine.Ghosts.Positions);
     }
   }
 

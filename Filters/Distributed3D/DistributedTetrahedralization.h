@@ -21,35 +21,20 @@ namespace tipp
 /// Ghost cells. In triangles, the last corner is repeated.
 using GhostTetrahedra = GhostCells<4, Point3>;
 
-/// A rank's part of a triangulation in space. Corners are local indices: they count the rank's own
-/// points (Owned), and then the other ranks' points that its cells use (Foreign). An internal id is
-/// a point's index among all ranks' owned points, rank by rank. A global id is the id that the
-/// caller gave the point.
+/// A rank's part of a triangulation in space. Corners are local indices (see DistributedPoints).
 ///
 /// A cell is on the rank that owns its vertex of lowest internal id. Cells are in the order of
 /// Tetrahedralization::Ids, but by local indices. So a part does not depend on threads and
 /// partitions. Coplanar points have triangles instead of tetrahedra: those of
 /// triangulateCoplanar().
-struct DistributedTetrahedralization
+struct DistributedTetrahedralization : DistributedPoints<Point3>
 {
   /// Local indices, cellSize() of them per cell. orientation3() of a tetrahedron's corners is
   /// positive.
   Buffer<std::int32_t> Ids;
-  PointTuples3 Owned;                   ///< includes points without cells on this rank
-  PointTuples3 Foreign;                 ///< other ranks' points that this rank's cells use
-  std::size_t RowSize = 0;              ///< bytes of data per point
-  std::vector<std::int64_t> ForeignIds; ///< internal ids of Foreign; ascending
-  std::vector<std::int64_t> FirstIds;   ///< first internal id of each rank, and the end
-
-  std::int64_t FirstCell = 0;        ///< index of this rank's first cell among all ranks'
-  std::vector<Duplicate> Duplicates; ///< found on this rank; global ids
-  std::vector<PointId> Rejected;     ///< of this rank's input; global ids
-  int Dimension = -1;                ///< of all ranks' points; see Tetrahedralization
-
-  std::int64_t AllPoints = 0; ///< sum over all ranks
-  std::int64_t AllCells = 0;
-  std::int64_t AllDuplicates = 0;
-  std::int64_t AllRejected = 0;
+  std::int64_t FirstCell = 0; ///< index of this rank's first cell among all ranks'
+  std::int64_t AllCells = 0;  ///< sum over all ranks
+  int Dimension = -1;         ///< of all ranks' points; see Tetrahedralization
   DistributedStatistics Statistics;
 
   /// Returns the number of corners of a cell.

@@ -79,7 +79,7 @@ Tetrahedralization gatherTetrahedra(Communicator& ranks, const DistributedTetrah
   Tetrahedralization all;
   all.Dimension = mine.Dimension;
   Buffer<std::int32_t> ids = gatherCells(ranks, mine, mine.AllPoints, globalIds(mine), threads);
-  gatherAccounts(ranks, mine, all);
+  gatherDuplicatesAndRejected(ranks, mine, all);
   if (mine.Dimension == 2)
   {
     triangles.Ids32 = std::move(ids);

@@ -124,11 +124,11 @@ PartitionIndex RankRun3::take()
   return p;
 }
 
-/// Wakes the threads that wait for a change: partitions are done.
+/// Wakes the threads that wait for partitions to be done.
 void RankRun3::notify()
 {
   {
-    const std::lock_guard<std::mutex> lock(this->Mutex); // they look under it
+    const std::lock_guard<std::mutex> lock(this->Mutex); // waiting threads check with it locked
   }
   this->Changed.notify_all();
 }

@@ -112,7 +112,7 @@ public:
   {
   }
 
-  /// The same from known conflicts; none: every partition conflicts with every other.
+  /// As above, with the conflicts given; nullopt: every partition conflicts with every other.
   PartitionOrder(const std::vector<char>& isUsed, std::optional<ConflictGraph> conflicts);
 
   /// Orders the partitions by window first. `windows` has one entry for each partition.

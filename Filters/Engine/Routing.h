@@ -94,7 +94,7 @@ class OutgoingTriangles
 public:
   using Corners = std::array<DelaunayKernel::Index, 3>;
 
-  /// Removes all triangles. Vertices of the next ones are below `vertexEnd`.
+  /// Removes all triangles. Those added next have vertex indices below `vertexEnd`.
   void clear(std::size_t vertexEnd);
 
   void add(std::size_t recipient, const Corners& corners)
@@ -128,8 +128,8 @@ private:
 /// The triangle is sent to the next of them only, and is final if there is none. (Proof. Two
 /// partitions that one triangle of any later mesh meets conflict by Lemma 5. At any time the inbox
 /// of q holds each triangle of the mesh before q that meets q exactly once, sent by the last
-/// earlier partition that it meets, or by the initial mesh: it exists there, because its vertices
-/// are initial or lie in partitions that it meets, and partitions in between do not meet it, so it
+/// earlier partition that it meets, or by the initial mesh. It exists there, because its vertices
+/// are initial or lie in partitions that it meets. Partitions in between do not meet it, so it
 /// survives them. When q is done, its triangles that still exist are among the output of q's
 /// worker.)
 template <typename Id>

@@ -146,7 +146,7 @@ void DelaunayKernel::insertVertices(Index first, Index end)
   tipp::insertVertices({ this->Mesh, this->Points.data(), this->Predicates, this->Opened,
                          this->Recent, this->Coincidences },
     first, end, this->Allowed);
-  for (const InsertionScene::Coincidence& found : this->Coincidences)
+  for (const InsertionData::Coincidence& found : this->Coincidences)
   {
     this->Duplicates.push_back(
       { this->PointIndices[std::size_t(found.Vertex)], found.Representative });

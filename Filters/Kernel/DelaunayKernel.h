@@ -128,7 +128,7 @@ private:
   InsertionOrder Order;
   KernelPredicates Predicates;
   Cavity Opened;
-  std::vector<InsertionScene::Coincidence> Coincidences; ///< among the vertices inserted last
+  std::vector<InsertionData::Coincidence> Coincidences; ///< among the vertices inserted last
   const Instructions Allowed;
 };
 

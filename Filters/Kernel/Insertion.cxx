@@ -24,12 +24,12 @@ namespace
 
 using Index = HalfEdgeMesh::Index;
 
-[[gnu::noinline]] void addCoincidence(const InsertionScene& scene, Index vertex, Index equal)
+[[gnu::noinline]] void addCoincidence(const InsertionData& scene, Index vertex, Index equal)
 {
   scene.Coincidences.push_back({ vertex, equal });
 }
 
-inline void insertInto(const InsertionScene& scene, Index first, Index end)
+inline void insertInto(const InsertionData& scene, Index first, Index end)
 {
   HalfEdgeMesh& mesh = scene.Mesh;
   const Point2* const points = scene.Points;
@@ -50,7 +50,7 @@ inline void insertInto(const InsertionScene& scene, Index first, Index end)
 
 } // namespace
 
-void insertVertices(const InsertionScene& scene, HalfEdgeMesh::Index first, HalfEdgeMesh::Index end,
+void insertVertices(const InsertionData& scene, HalfEdgeMesh::Index first, HalfEdgeMesh::Index end,
   Instructions instructions)
 {
   runWith(instructions, [&] { insertInto(scene, first, end); });

@@ -345,7 +345,7 @@ inline Cavity::Index Cavity::retriangulate(HalfEdgeMesh& mesh, const Point2* poi
 }
 
 /// The data that insertions read and change. Vertex 0 is the infinite one.
-struct InsertionScene
+struct InsertionData
 {
   /// A vertex that coincides with another one, its representative.
   struct Coincidence
@@ -364,7 +364,7 @@ struct InsertionScene
 
 /// Inserts vertices [first, end) in order into a mesh that has triangles, and capacity for two more
 /// for each vertex.
-void insertVertices(const InsertionScene& scene, HalfEdgeMesh::Index first, HalfEdgeMesh::Index end,
+void insertVertices(const InsertionData& scene, HalfEdgeMesh::Index first, HalfEdgeMesh::Index end,
   Instructions instructions);
 
 } // namespace tipp

@@ -5,7 +5,6 @@
 #include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 
 namespace tipp
@@ -20,15 +19,6 @@ using Index = TetrahedronMesh::Index;
 using Quad = double __attribute__((vector_size(32)));
 using QuadMask = long long __attribute__((vector_size(32)));
 
-/// The corners of the facet opposite to corner i, such that orientation3(p, ...) is that of the
-/// tetrahedron with p instead of corner i.
-constexpr Index FacetCorners[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
-
-inline Index positionOf(const Index* v, Index vertex)
-{
-  return Index(v[1] == vertex) + 2 * Index(v[2] == vertex) + 3 * Index(v[3] == vertex);
-}
-
 /// Returns a bit for each lane of the mask: lane i sets bit i.
 inline unsigned bitsOfLanes(const QuadMask& mask)
 {
@@ -42,8 +32,7 @@ void Cavity3::restart(const Point3* points, std::size_t count)
 {
   this->Recent = 0;
   this->Free.clear();
-  this->Numbers.clear();
-  this->EdgeTable.resize(MostInTable * MostInTable);
+  this->Filling.restart();
   this->extend(points, count);
 }
 
@@ -51,64 +40,98 @@ void Cavity3::extend(const Point3* points, std::size_t count)
 {
   this->Points = points;
   this->Predicates.restart(points, count);
-  this->Numbers.resize(count, NoNumber);
+  this->Filling.extend(count);
 }
 
-/// Whether all finite vertices of a tetrahedron are in the territory.
-inline bool Cavity3::isOwn(const Index* v) const
+/// Tests on which sides of a tetrahedron's facets p is, in one vector. Bit i of the result: p is
+/// certainly beyond the facet opposite to corner i. Bit i of `inside`: it is certainly not.
+//
+// The determinants are those of orientation3(p, a, b, c), with a, b, c from FacetCorners. A product
+// of sums is at least the permanent in the error bound of orientation3().
+inline unsigned Cavity3::facetsBefore(const Index* v, const Point3& p, unsigned& inside) const
 {
-  const std::uint8_t* const owners = this->Within.Owners;
-  const std::uint8_t own = this->Within.Own;
-  return (v[0] == 0 || owners[v[0]] == own) && owners[v[1]] == own && owners[v[2]] == own &&
-    owners[v[3]] == own;
+  const Point3& v0 = this->Points[v[0]];
+  const Point3& v1 = this->Points[v[1]];
+  const Point3& v2 = this->Points[v[2]];
+  const Point3& v3 = this->Points[v[3]];
+  const Quad x = Quad{ v0.x, v1.x, v2.x, v3.x } - p.x;
+  const Quad y = Quad{ v0.y, v1.y, v2.y, v3.y } - p.y;
+  const Quad z = Quad{ v0.z, v1.z, v2.z, v3.z } - p.z;
+  const Quad size = (x < 0 ? -x : x) + (y < 0 ? -y : y) + (z < 0 ? -z : z);
+  const Quad ax = __builtin_shufflevector(x, x, 1, 0, 0, 0);
+  const Quad ay = __builtin_shufflevector(y, y, 1, 0, 0, 0);
+  const Quad bx = __builtin_shufflevector(x, x, 2, 3, 1, 2);
+  const Quad by = __builtin_shufflevector(y, y, 2, 3, 1, 2);
+  const Quad cx = __builtin_shufflevector(x, x, 3, 2, 3, 1);
+  const Quad cy = __builtin_shufflevector(y, y, 3, 2, 3, 1);
+  const Quad az = __builtin_shufflevector(z, z, 1, 0, 0, 0);
+  const Quad bz = __builtin_shufflevector(z, z, 2, 3, 1, 2);
+  const Quad cz = __builtin_shufflevector(z, z, 3, 2, 3, 1);
+  const Quad aSize = __builtin_shufflevector(size, size, 1, 0, 0, 0);
+  const Quad bSize = __builtin_shufflevector(size, size, 2, 3, 1, 2);
+  const Quad cSize = __builtin_shufflevector(size, size, 3, 2, 3, 1);
+  const Quad determinant =
+    (az * (bx * cy - cx * by) - bz * (ax * cy - cx * ay)) + cz * (ax * by - bx * ay);
+  const Quad bound = 7.7715611723761e-16 * (aSize * bSize * cSize) + 1e-300 * (1.0 + size);
+  inside = bitsOfLanes(determinant > bound);
+  return bitsOfLanes(-determinant > bound);
 }
 
 /// Walks to a tetrahedron that contains the point. If the point is outside of the hull, the walk
 /// ends at an infinite tetrahedron whose hull facet separates the point from the hull.
-template <bool IsShared>
+//
+// A walk among other threads may read tetrahedra that are removed or reused. All their corners and
+// neighbours are valid indices, so it ends somewhere, or is given up.
+template <typename Access>
 inline Cavity3::Location Cavity3::locate(const TetrahedronMesh& mesh, const Point3& p)
 {
+  constexpr int mostSteps = 1 << 16; // among other threads
   const Index* const slots = mesh.slots();
   const Point3* const points = this->Points;
-  Index cell = this->Recent;
+  Location at = { this->Recent, 0, {} };
   Index from = 4; // opposite to the facet that the walk crossed last; 4: none yet
-  while (slots[cell] != 0)
+  for (int step = 0; !Access::IsShared || step < mostSteps; ++step)
   {
-    const Index* const v = slots + cell;
-    bool isOnFacet = false;
-    Index next = 4;
-    for (Index i = 0; i < 4 && next == 4; ++i)
+    const Index* const cell = slots + at.Cell;
+    const Index v[4] = { Access::load(cell[0]), Access::load(cell[1]), Access::load(cell[2]),
+      Access::load(cell[3]) };
+    if (Access::IsShared)
     {
-      if (i == from)
+      std::copy_n(v, 4, at.Corners.begin());
+    }
+    if (v[0] == 0)
+    {
+      return at;
+    }
+    unsigned inside = 0;
+    const unsigned before = this->facetsBefore(v, p, inside) & ~(1U << from);
+    const unsigned unknown = 15 & ~(before | inside | 1U << from);
+    bool isOnFacet = false;
+    Index next = before != 0 ? Index(__builtin_ctz(before)) : 4;
+    for (Index i = 0; unknown != 0 && i < 4 && next == 4; ++i)
+    {
+      if ((unknown >> i & 1) != 0)
       {
-        continue;
+        const Index* const f = TetrahedronMesh::FacetCorners[i];
+        const int side =
+          this->Predicates.orientation(p, points[v[f[0]]], points[v[f[1]]], points[v[f[2]]]);
+        isOnFacet |= side == 0;
+        next = side < 0 ? i : next;
       }
-      const Index* const f = FacetCorners[i];
-      const int side =
-        this->Predicates.orientation(p, points[v[f[0]]], points[v[f[1]]], points[v[f[2]]]);
-      isOnFacet |= side == 0;
-      next = side < 0 ? i : next;
     }
     if (next == 4)
     {
       for (Index i = 0; isOnFacet && i < 4; ++i)
       {
-        if (points[v[i]] == p)
-        {
-          return { cell, v[i] };
-        }
+        at.EqualTo = points[v[i]] == p ? v[i] : at.EqualTo;
       }
-      return { cell, 0 };
+      return at;
     }
-    const Index across = v[next + 4];
-    cell = TetrahedronMesh::cellOf(across);
+    const Index across = Access::load(cell[next + 4]);
+    at.Cell = TetrahedronMesh::cellOf(across);
     from = across & 3;
-    if (IsShared && !this->isOwn(slots + cell))
-    {
-      return { NoCell, 0 };
-    }
   }
-  return { cell, 0 };
+  return { NoCell, 0, {} };
 }
 
 /// Tests p against the spheres of the four neighbours of a finite tetrahedron, in one vector. Bit i
@@ -118,7 +141,7 @@ inline Cavity3::Location Cavity3::locate(const TetrahedronMesh& mesh, const Poin
 // With the neighbour's apex e, and a, b, c from FacetCorners, orientation3(e, a, b, c) is negative,
 // and so is the determinant of inSphereValue() if p is inside.
 inline unsigned Cavity3::conflictsAcross(
-  const Index* slots, Index cell, const Point3& p, unsigned& certain)
+  const Index* slots, Index cell, const Links& across, const Point3& p, unsigned& certain)
 {
   const Index* const v = slots + cell;
   const Point3* const points = this->Points;
@@ -126,7 +149,8 @@ inline unsigned Cavity3::conflictsAcross(
   const Point3& v1 = points[v[1]];
   const Point3& v2 = points[v[2]];
   const Point3& v3 = points[v[3]];
-  const Index apexes[4] = { slots[v[4]], slots[v[5]], slots[v[6]], slots[v[7]] };
+  const Index apexes[4] = { slots[across[0]], slots[across[1]], slots[across[2]],
+    slots[across[3]] };
   const Point3& e0 = points[apexes[0]];
   const Point3& e1 = points[apexes[1]];
   const Point3& e2 = points[apexes[2]];
@@ -174,47 +198,129 @@ inline unsigned Cavity3::conflictsAcross(
   return certain & bitsOfLanes(determinant < 0);
 }
 
-/// Finds the tetrahedra in conflict with p (the cavity), starting from `found`, and the cavity's
-/// boundary. Returns false if the cavity leaves the territory.
-template <bool IsShared>
-inline bool Cavity3::findConflicts(TetrahedronMesh& mesh, const Point3& p, Index found)
+/// Reads the links of a claimed tetrahedron. Returns false if another thread claims or has just
+/// removed a neighbour.
+//
+// If a thread replaces a neighbour, it changes the link before it frees the neighbour. So if the
+// neighbour is live and the link is still the same, it is the neighbour, and it stays.
+template <typename Access>
+inline bool Cavity3::readLinks(const TetrahedronMesh& mesh, Index cell, Links& across) const
+{
+  const Index* const links = mesh.slots() + cell + 4;
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    across[i] = Access::load(links[i]);
+  }
+  bool areStable = true;
+  for (std::size_t i = 0; Access::IsShared && i < 4; ++i)
+  {
+    const std::uint8_t mark = Access::markOf(mesh.marks()[across[i] / 8]);
+    areStable &= mark == TetrahedronMesh::Live || mark == this->Claim;
+    areStable &= Access::load(links[i]) == across[i];
+  }
+  return areStable;
+}
+
+/// Claims the tetrahedron where a walk has ended. Returns false if another thread has claimed it or
+/// if it is not in conflict with p.
+//
+// The corners are compared too, because the walk has seen that p is at none of them. The sphere is
+// tested because the walk may have entered the tetrahedron from one that is no longer its
+// neighbour.
+template <typename Access>
+inline bool Cavity3::claimFirst(TetrahedronMesh& mesh, const Point3& p, const Location& at)
+{
+  this->Removed.clear();
+  this->Boundary.clear();
+  if (!Access::claim(mesh.marks()[at.Cell / 8], this->Claim))
+  {
+    return false;
+  }
+  this->Removed.push_back(at.Cell);
+  if (!Access::IsShared)
+  {
+    return true;
+  }
+  const Index* const v = mesh.slots() + at.Cell;
+  const Point3* const points = this->Points;
+  if (!std::equal(v, v + 4, at.Corners.begin()))
+  {
+    return false;
+  }
+  return v[0] != 0 ? this->Predicates.isInFiniteConflict(v, p)
+                   : this->Predicates.orientation(p, points[v[1]], points[v[2]], points[v[3]]) > 0;
+}
+
+/// Tests p against an infinite neighbour of the cavity. The test may read the neighbour's finite
+/// neighbour, so the neighbour is claimed meanwhile. Returns false if it cannot be claimed.
+template <typename Access>
+[[gnu::noinline]] bool Cavity3::testInfinite(
+  TetrahedronMesh& mesh, Index cell, const Point3& p, bool& isIn)
+{
+  std::uint8_t& mark = mesh.marks()[cell / 8];
+  if (Access::IsShared && !Access::claim(mark, this->Claim))
+  {
+    return false;
+  }
+  Links across;
+  const bool areStable = this->readLinks<Access>(mesh, cell, across);
+  isIn = areStable && this->Predicates.isInInfiniteConflict(mesh.slots(), cell, p);
+  if (Access::IsShared)
+  {
+    Access::setMark(mark, TetrahedronMesh::Live);
+  }
+  return areStable;
+}
+
+/// Finds the tetrahedra in conflict with p (the cavity), starting from the claimed one, and the
+/// cavity's boundary. Returns false if another thread is at work there.
+template <typename Access>
+inline bool Cavity3::findConflicts(TetrahedronMesh& mesh, const Point3& p)
 {
   const Index* const slots = mesh.slots();
   std::uint8_t* const marks = mesh.marks();
-  this->Removed.assign(1, found);
-  this->Boundary.clear();
-  marks[found / 8] = TetrahedronMesh::InConflict;
+  const std::uint8_t own = this->Claim;
   for (std::size_t k = 0; k < this->Removed.size(); ++k)
   {
     const Index cell = this->Removed[k];
+    Links across;
+    if (!this->readLinks<Access>(mesh, cell, across))
+    {
+      return false;
+    }
     unsigned certain = 0;
-    const unsigned inside = slots[cell] != 0 ? this->conflictsAcross(slots, cell, p, certain) : 0;
+    const unsigned inside =
+      slots[cell] != 0 ? this->conflictsAcross(slots, cell, across, p, certain) : 0;
     for (Index i = 0; i < 4; ++i)
     {
-      const Index across = slots[cell + i + 4];
-      const Index beyond = TetrahedronMesh::cellOf(across);
-      if (marks[beyond / 8] == TetrahedronMesh::InConflict)
+      const Index beyond = TetrahedronMesh::cellOf(across[i]);
+      if (Access::markOf(marks[beyond / 8]) == own)
       {
         continue;
       }
       bool isIn = (inside >> i & 1) != 0;
       if (__builtin_expect((certain >> i & 1) == 0, 0))
       {
-        isIn = slots[beyond] != 0 ? this->Predicates.isInFiniteConflict(slots + beyond, p)
-                                  : this->Predicates.isInInfiniteConflict(slots, beyond, p);
-      }
-      if (isIn)
-      {
-        if (IsShared && !this->isOwn(slots + beyond))
+        if (slots[beyond] != 0)
+        {
+          isIn = this->Predicates.isInFiniteConflict(slots + beyond, p);
+        }
+        else if (!this->testInfinite<Access>(mesh, beyond, p, isIn))
         {
           return false;
         }
-        marks[beyond / 8] = TetrahedronMesh::InConflict;
+      }
+      if (!isIn)
+      {
+        this->Boundary.push_back({ cell + i, across[i], 0 });
+      }
+      else if (Access::claim(marks[beyond / 8], own))
+      {
         this->Removed.push_back(beyond);
       }
       else
       {
-        this->Boundary.push_back({ cell + i, across, 0 });
+        return false;
       }
     }
   }
@@ -251,16 +357,17 @@ inline void Cavity3::makeRoom(TetrahedronMesh& mesh)
 inline bool Cavity3::takeRoom(TetrahedronMesh& mesh)
 {
   constexpr std::uint64_t together = 1024;
-  const std::uint64_t most =
-    std::min<std::uint64_t>(mesh.capacity(), TetrahedronMesh::MostSlots / 8);
+  const auto most = std::min<std::uint64_t>(mesh.capacity(), TetrahedronMesh::MostSlots / 8);
   while (this->Free.size() < this->Boundary.size())
   {
-    const std::uint64_t begin = this->Within.End->fetch_add(8 * together);
+    const std::uint64_t begin = this->SharedEnd->fetch_add(8 * together);
     if (begin / 8 + together > most)
     {
-      this->Within.End->fetch_sub(8 * together);
+      this->SharedEnd->fetch_sub(8 * together);
       return false;
     }
+    // Other threads' walks may enter a tetrahedron before it is complete.
+    std::fill_n(mesh.slots() + begin, 8 * together, Index(0));
     for (std::uint64_t cell = begin / 8; cell < begin / 8 + together; ++cell)
     {
       mesh.marks()[cell] = TetrahedronMesh::Free;
@@ -270,169 +377,85 @@ inline bool Cavity3::takeRoom(TetrahedronMesh& mesh)
   return true;
 }
 
-/// Makes a tetrahedron for each facet of the boundary: a copy of the removed one, whose corner
-/// opposite to the facet is replaced by `vertex`.
-inline void Cavity3::makeCells(TetrahedronMesh& mesh, Index vertex)
-{
-  Index* const slots = mesh.slots();
-  const Index* free = this->Free.data() + this->Free.size();
-  for (Facet& facet : this->Boundary)
-  {
-    const Index old = TetrahedronMesh::cellOf(facet.Inside);
-    const Index i = facet.Inside & 3;
-    const Index made = *--free;
-    for (Index corner = 0; corner < 4; ++corner)
-    {
-      slots[made + corner] = slots[old + corner];
-    }
-    slots[made + i] = vertex;
-    slots[made + i + 4] = facet.Outside;
-    slots[facet.Outside + 4] = made + i;
-    mesh.marks()[made / 8] = TetrahedronMesh::Live;
-    facet.Made = made;
-  }
-  this->Free.resize(this->Free.size() - this->Boundary.size());
-}
-
-/// Links new tetrahedra by a table of the boundary's edges: two of them are neighbours if their
-/// facets share an edge, which they traverse in opposite directions. Returns false if the boundary
-/// has too many vertices for the table.
-inline bool Cavity3::linkByEdges(TetrahedronMesh& mesh)
-{
-  // A triangulated sphere of n vertices has 2 n - 4 facets.
-  if (this->Boundary.size() > 2 * MostInTable - 4)
-  {
-    return false;
-  }
-  Index* const slots = mesh.slots();
-  std::array<Index, MostInTable + 1> vertices;
-  unsigned count = 0;
-  std::array<std::array<std::uint16_t, 3>, 2 * MostInTable> edges;
-  for (std::size_t k = 0; k < this->Boundary.size(); ++k)
-  {
-    const Index made = this->Boundary[k].Made;
-    const Index* const f = FacetCorners[this->Boundary[k].Inside & 3];
-    std::array<unsigned, 3> numbers;
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      const Index v = slots[made + f[i]];
-      const unsigned known = this->Numbers[v];
-      const bool isNew = known == NoNumber;
-      vertices[count] = v;
-      numbers[i] = isNew ? count : known;
-      this->Numbers[v] = static_cast<std::uint8_t>(numbers[i]);
-      count += isNew ? 1 : 0;
-    }
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      const unsigned from = numbers[(i + 1) % 3];
-      const unsigned to = numbers[(i + 2) % 3];
-      this->EdgeTable[from * MostInTable + to] = made + f[i];
-      edges[k][i] = static_cast<std::uint16_t>(to * MostInTable + from);
-    }
-  }
-  for (std::size_t k = 0; k < this->Boundary.size(); ++k)
-  {
-    const Index made = this->Boundary[k].Made;
-    const Index* const f = FacetCorners[this->Boundary[k].Inside & 3];
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      slots[made + f[i] + 4] = this->EdgeTable[edges[k][i]];
-    }
-  }
-  for (unsigned i = 0; i < count; ++i)
-  {
-    this->Numbers[vertices[i]] = NoNumber;
-  }
-  return true;
-}
-
-/// Does the same for any number of vertices: starts at a facet of a new tetrahedron, and goes
-/// around its edge through removed tetrahedra to the neighbour's facet.
-[[gnu::noinline]] void Cavity3::linkAround(TetrahedronMesh& mesh)
-{
-  Index* const slots = mesh.slots();
-  std::uint8_t* const marks = mesh.marks();
-  // Let each removed tetrahedron refer to the new one on its facet.
-  for (const Facet& facet : this->Boundary)
-  {
-    slots[facet.Inside + 4] = facet.Made + (facet.Inside & 3);
-    marks[facet.Made / 8] = TetrahedronMesh::New;
-  }
-  for (const Facet& facet : this->Boundary)
-  {
-    for (Index j = 0; j < 4; ++j)
-    {
-      if (j == (facet.Inside & 3))
-      {
-        continue;
-      }
-      Index cell = TetrahedronMesh::cellOf(facet.Inside);
-      Index before = facet.Inside & 3; // opposite to the facet that was crossed last
-      Index after = j;                 // opposite to the facet to cross next
-      Index across = slots[cell + after + 4];
-      while (marks[across / 8] != TetrahedronMesh::New)
-      {
-        const Index carried = slots[cell + before];
-        cell = TetrahedronMesh::cellOf(across);
-        before = across & 3;
-        after = positionOf(slots + cell, carried);
-        across = slots[cell + after + 4];
-      }
-      slots[facet.Made + j + 4] = TetrahedronMesh::cellOf(across) + before;
-    }
-  }
-  for (const Facet& facet : this->Boundary)
-  {
-    marks[facet.Made / 8] = TetrahedronMesh::Live;
-  }
-}
-
 /// Fills the cavity that findConflicts() has found with new tetrahedra.
+template <typename Access>
 inline void Cavity3::retriangulate(TetrahedronMesh& mesh, Index vertex)
 {
-  this->makeCells(mesh, vertex);
-  if (!this->linkByEdges(mesh))
-  {
-    this->linkAround(mesh);
-  }
-  std::uint8_t* const marks = mesh.marks();
-  for (const Index removed : this->Removed)
-  {
-    marks[removed / 8] = TetrahedronMesh::Free;
-  }
-  this->Free.insert(this->Free.end(), this->Removed.begin(), this->Removed.end());
-  // The walk to the next vertex must start at a finite tetrahedron.
-  const Index* const slots = mesh.slots();
+  this->Filling.fill<Access>(mesh, vertex, this->Boundary, this->Free);
+  // The walk to the next vertex must start at a finite tetrahedron. Other threads may already
+  // change the new ones, so the removed ones are read.
   std::size_t last = this->Boundary.size() - 1;
-  while (slots[this->Boundary[last].Made] == 0)
+  const auto isFinite = [&mesh](Index inside)
+  { return (inside & 3) == 0 || mesh.slots()[TetrahedronMesh::cellOf(inside)] != 0; };
+  while (!isFinite(this->Boundary[last].Inside))
   {
     --last;
   }
   this->Recent = this->Boundary[last].Made;
+  this->setMarks<Access>(mesh, TetrahedronMesh::Free);
+  this->Free.insert(this->Free.end(), this->Removed.begin(), this->Removed.end());
+}
+
+/// Sets the marks of the removed tetrahedra.
+template <typename Access>
+inline void Cavity3::setMarks(TetrahedronMesh& mesh, std::uint8_t mark) const
+{
+  for (const Index cell : this->Removed)
+  {
+    Access::setMark(mesh.marks()[cell / 8], mark);
+  }
 }
 
 inline void Cavity3::insertAll(
   TetrahedronMesh& mesh, Index first, Index end, std::vector<Coincidence>& found)
 {
+  using Access = AloneAccess3;
   for (Index vertex = first; vertex < end; ++vertex)
   {
-    const Location at = this->locate<false>(mesh, this->Points[vertex]);
+    const Point3& p = this->Points[vertex];
+    const Location at = this->locate<Access>(mesh, p);
     if (__builtin_expect(at.EqualTo != 0, 0))
     {
       found.push_back({ vertex, at.EqualTo });
       continue;
     }
-    this->findConflicts<false>(mesh, this->Points[vertex], at.Cell);
+    this->claimFirst<Access>(mesh, p, at);
+    this->findConflicts<Access>(mesh, p);
     this->makeRoom(mesh);
-    this->retriangulate(mesh, vertex);
+    this->retriangulate<Access>(mesh, vertex);
   }
 }
 
-/// Returns false, and changes nothing, if the vertex cannot be inserted within the territory.
+void Cavity3::insert(TetrahedronMesh& mesh, Index first, Index end, std::vector<Coincidence>& found)
+{
+  this->Claim = TetrahedronMesh::InConflict;
+  runWith(Instructions::Best, [&] { this->insertAll(mesh, first, end, found); });
+}
+
+/// If another thread has removed the tetrahedron where the next walk would start, chooses the first
+/// finite one in the mesh.
+inline void Cavity3::renewStart(const TetrahedronMesh& mesh)
+{
+  using Access = SharedAccess3;
+  const auto isStart = [&mesh](Index cell)
+  {
+    return Access::markOf(mesh.marks()[cell / 8]) == TetrahedronMesh::Live &&
+      Access::load(mesh.slots()[cell]) != 0;
+  };
+  for (Index cell = 0; !isStart(this->Recent) && cell < mesh.end(); cell += 8)
+  {
+    this->Recent = cell;
+  }
+}
+
+/// Returns false, and changes nothing, if another thread is at work at the vertex or if the mesh
+/// has no memory left.
 inline bool Cavity3::insertOne(TetrahedronMesh& mesh, Index vertex, std::vector<Coincidence>& found)
 {
-  const Location at = this->locate<true>(mesh, this->Points[vertex]);
+  using Access = SharedAccess3;
+  const Point3& p = this->Points[vertex];
+  this->renewStart(mesh);
+  const Location at = this->locate<Access>(mesh, p);
   if (at.Cell == NoCell)
   {
     return false;
@@ -442,41 +465,23 @@ inline bool Cavity3::insertOne(TetrahedronMesh& mesh, Index vertex, std::vector<
     found.push_back({ vertex, at.EqualTo });
     return true;
   }
-  if (!this->findConflicts<true>(mesh, this->Points[vertex], at.Cell) || !this->takeRoom(mesh))
+  if (!this->claimFirst<Access>(mesh, p, at) || !this->findConflicts<Access>(mesh, p) ||
+    !this->takeRoom(mesh))
   {
-    for (const Index cell : this->Removed)
-    {
-      mesh.marks()[cell / 8] = TetrahedronMesh::Live;
-    }
+    this->setMarks<Access>(mesh, TetrahedronMesh::Live);
     return false;
   }
-  this->retriangulate(mesh, vertex);
+  this->retriangulate<Access>(mesh, vertex);
   return true;
 }
 
-void Cavity3::insert(TetrahedronMesh& mesh, Index first, Index end, std::vector<Coincidence>& found)
+void Cavity3::share(std::uint8_t thread, std::atomic<std::uint64_t>& end)
 {
-  runWith(Instructions::Best, [&] { this->insertAll(mesh, first, end, found); });
+  this->Claim = static_cast<std::uint8_t>(TetrahedronMesh::Claimed + thread);
+  this->SharedEnd = &end;
 }
 
-/// Continues at another start of the territory. The current tetrahedra may be an island that no
-/// walk leaves. A start may have been removed meanwhile, but no other thread changes it.
-void Cavity3::moveOn(const TetrahedronMesh& mesh)
-{
-  const std::vector<Index>& starts = *this->Within.Starts;
-  for (std::size_t i = 0; i < starts.size(); ++i)
-  {
-    const Index start = starts[this->NextStart++ % starts.size()];
-    const Index* const v = mesh.slots() + start;
-    if (mesh.marks()[start / 8] == TetrahedronMesh::Live && v[0] != 0 && this->isOwn(v))
-    {
-      this->Recent = start;
-      return;
-    }
-  }
-}
-
-void Cavity3::insertWithin(TetrahedronMesh& mesh, const Index* begin, const Index* end,
+void Cavity3::insertShared(TetrahedronMesh& mesh, const Index* begin, const Index* end,
   std::vector<Index>& left, std::vector<Coincidence>& found)
 {
   runWith(Instructions::Best,
@@ -484,17 +489,9 @@ void Cavity3::insertWithin(TetrahedronMesh& mesh, const Index* begin, const Inde
     {
       for (const Index* vertex = begin; vertex != end; ++vertex)
       {
-        if (this->insertOne(mesh, *vertex, found))
+        if (!this->insertOne(mesh, *vertex, found))
         {
-          this->Failures = 0;
-          continue;
-        }
-        left.push_back(*vertex);
-        // The walk from another start is long, so move on less and less often.
-        constexpr std::size_t patience = 64;
-        if (++this->Failures >= patience && (this->Failures & (this->Failures - 1)) == 0)
-        {
-          this->moveOn(mesh);
+          left.push_back(*vertex);
         }
       }
     });

@@ -5,6 +5,7 @@
 #include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -159,7 +160,7 @@ bool DelaunayKernel3::insertRange(Index first, Index end, const Monitor& proceed
 bool DelaunayKernel3::insertAll(const Monitor& proceed, int threads)
 {
   this->Opened.restart(this->Points.data(), this->Points.size());
-  ParallelInsertion3 together(this->Mesh, this->Points.data(), this->Points.size(), this->Opened);
+  std::optional<ParallelInsertion3> together;
   Index first = 5;
   for (const std::size_t last : this->Order.roundEnds())
   {
@@ -169,7 +170,11 @@ bool DelaunayKernel3::insertAll(const Monitor& proceed, int threads)
       continue;
     }
     const bool isLarge = threads > 1 && end - first >= ParallelInsertion3::Few;
-    if (!(isLarge ? together.insert(first, end, threads, proceed, this->Coincidences)
+    if (isLarge && !together)
+    {
+      together.emplace(this->Mesh, this->Points.data(), this->Points.size(), this->Opened, threads);
+    }
+    if (!(isLarge ? together->insert(first, end, proceed, this->Coincidences)
                   : this->insertRange(first, end, proceed)))
     {
       return false;

@@ -4,8 +4,6 @@
 
 #include "Kernel3D/Cavity3.h"
 #include "Kernel3D/TetrahedronMesh.h"
-#include "Predicates/Points.h"
-#include "Triangulation3D/Tiling3.h"
 
 #include <atomic>
 #include <cstddef>
@@ -16,12 +14,11 @@
 namespace tipp
 {
 
-/// Inserts vertices into one mesh with several threads and without locks (Marot, Pellerin, Remacle:
-/// One machine, one minute, three billion tetrahedra, 2019). Space is divided into tiles. Each
-/// thread owns the vertices in one tile, and changes only tetrahedra whose finite vertices it all
-/// owns. Vertices that cannot be inserted this way are tried again with other tiles; the calling
-/// thread inserts the last ones. The number of threads changes the order of insertion but not the
-/// set of tetrahedra, because ties are broken by coordinates.
+/// Inserts vertices into one mesh with several threads and without locks. The vertices are along a
+/// curve, and each thread has a part of it. A thread claims the tetrahedra that it removes, see
+/// SharedAccess3. If another thread is at work there, the vertex is tried again later. This is
+/// rare, because the threads are far apart on the curve. The number of threads changes the order of
+/// insertion but not the set of tetrahedra, because ties are broken by coordinates.
 class ParallelInsertion3
 {
 public:
@@ -29,43 +26,44 @@ public:
   /// As DelaunayKernel3::Monitor. Only the calling thread calls it.
   using Monitor = std::function<bool(std::size_t)>;
 
-  static constexpr Index Few = 1 << 14; ///< fewer vertices are inserted by one thread
+  static constexpr Index Few = 1 << 12; ///< fewer vertices are inserted by one thread
 
   /// `mesh`, `points` and `first` must outlive this object. `count` is the number of points,
-  /// including the vertex at infinity. `first` inserts the vertices that the threads cannot insert.
+  /// including the vertex at infinity. `first` inserts the vertices that the threads leave.
   ParallelInsertion3(
-    TetrahedronMesh& mesh, const Point3* points, std::size_t count, Cavity3& first);
+    TetrahedronMesh& mesh, const Point3* points, std::size_t count, Cavity3& first, int threads);
 
   /// Inserts the vertices [first, end). Appends to `found` those that have the coordinates of an
   /// earlier vertex. Returns false if `proceed` did. Throws std::length_error if there are too many
   /// tetrahedra.
-  bool insert(Index first, Index end, int threads, const Monitor& proceed,
-    std::vector<Cavity3::Coincidence>& found);
+  bool insert(
+    Index first, Index end, const Monitor& proceed, std::vector<Cavity3::Coincidence>& found);
 
 private:
   /// The data of one thread.
   struct Worker
   {
     Cavity3 Opened;
-    std::vector<Index> Starts; ///< some tetrahedra of the thread's territory
-    std::vector<Index> Mine;   ///< vertices to insert
-    std::vector<Index> Left;   ///< vertices of Mine that were not inserted
+    std::vector<Index> Left; ///< vertices that were not inserted
     std::vector<Cavity3::Coincidence> Found;
   };
 
-  void insertTogether(Index end, int threads, const Monitor& proceed);
-  void setOwners(const Tiling3& tiling, Index end, int threads);
-  void findStarts(std::size_t tiles);
-  void work(std::size_t tile, bool isCaller, const Monitor& proceed);
+  /// The first vertex of the worker's part of Waiting.
+  std::size_t beginOf(std::size_t worker) const
+  {
+    return this->Waiting.size() * worker / this->Workers.size();
+  }
+  Index startOf(std::size_t worker) const;
+  void reserveFor(std::size_t count);
+  void insertTogether(const Monitor& proceed);
+  void work(std::size_t number, bool isCaller, const Monitor& proceed);
   bool insertLeft(const Monitor& proceed, std::vector<Cavity3::Coincidence>& found);
 
   TetrahedronMesh& Mesh;
-  const Point3* const Points;
-  const std::size_t Count;
   Cavity3& First;
   std::vector<Worker> Workers;
-  std::vector<std::uint8_t> Owners; ///< by vertex: its tile
-  std::vector<Index> Waiting;       ///< vertices that are still to be inserted; ascending
+  std::vector<std::atomic<std::size_t>> Next; ///< by worker: in Waiting, the first vertex to take
+  std::vector<Index> Waiting;                 ///< vertices that are still to be inserted; ascending
   std::atomic<std::uint64_t> End{ 0 };
   std::atomic<std::size_t> Done{ 0 };
   std::atomic<bool> IsStopped{ false };

@@ -26,14 +26,26 @@ public:
     Live,
     InConflict, ///< with the vertex being inserted
     New,        ///< made by the current insertion
-    Free
+    Free,
+    Claimed ///< Claimed + k: by thread k of those that share the mesh
   };
 
   /// The largest end(): slots are 32-bit indices.
   static constexpr Index MostSlots = ~Index(0) & ~Index(7);
 
+  /// The corners of the facet opposite to corner i, such that orientation3(p, ...) is that of the
+  /// tetrahedron with p instead of corner i.
+  static constexpr Index FacetCorners[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 },
+    { 0, 2, 1 } };
+
   /// Returns the tetrahedron that a facet belongs to.
   static Index cellOf(Index facet) { return facet & ~Index(7); }
+
+  /// Returns which of the four corners v[0..3] is `vertex`.
+  static Index positionOf(const Index* v, Index vertex)
+  {
+    return Index(v[1] == vertex) + 2 * Index(v[2] == vertex) + 3 * Index(v[3] == vertex);
+  }
 
   Index* slots() { return this->Slots.data(); }
   const Index* slots() const { return this->Slots.data(); }

@@ -64,9 +64,9 @@ private:
 
 /// Sorts the final boundary triangles of one partition into those of the piece's interior and those
 /// at borders.
-struct LoadedPiece::Finals : public FinalTriangleConsumer
+struct LoadedPiece::FinalTriangleSorter : public FinalTriangleConsumer
 {
-  Finals(const LoadedPiece& piece, const LowestPoints& lowest)
+  FinalTriangleSorter(const LoadedPiece& piece, const LowestPoints& lowest)
     : Of(piece)
     , Lowest(lowest)
     , Sorter(piece.Work, this->Borders)
@@ -200,7 +200,7 @@ SentMessages LoadedPiece::triangulate(
 
   std::vector<Duplicate> duplicates = worker.duplicates();
   const LowestPoints lowest(duplicates);
-  Finals finals(*this, lowest);
+  FinalTriangleSorter sorter(*this, lowest);
   SentMessages sent;
   routing.send(
     worker,
@@ -212,7 +212,7 @@ SentMessages LoadedPiece::triangulate(
       }
       sent.emplace_back(to, std::move(message));
     },
-    finals);
+    sorter);
 
   const PartitionIndex inPiece =
     partition - this->Work.Plan.FirstPartition[std::size_t(this->Piece)];
@@ -229,23 +229,23 @@ SentMessages LoadedPiece::triangulate(
     space.clear();
   }
   const std::lock_guard<std::mutex> lock(this->Mutex);
-  this->take(finals, sent);
+  this->take(sorter, sent);
   this->take(duplicates);
   this->Result.Figures.WorkerVertices += std::int64_t(vertices);
   return sent;
 }
 
-void LoadedPiece::take(Finals& finals, const SentMessages& sent)
+void LoadedPiece::take(FinalTriangleSorter& sorter, const SentMessages& sent)
 {
-  this->BoundaryTriangles.insert(this->BoundaryTriangles.end(), finals.BoundaryTriangles.begin(),
-    finals.BoundaryTriangles.end());
-  for (const BoundaryVertex& v : finals.InterfaceVertices)
+  this->BoundaryTriangles.insert(this->BoundaryTriangles.end(), sorter.BoundaryTriangles.begin(),
+    sorter.BoundaryTriangles.end());
+  for (const BoundaryVertex& v : sorter.InterfaceVertices)
   {
     this->markInterface(v);
   }
   this->Result.HullVertices.insert(
-    this->Result.HullVertices.end(), finals.HullVertices.begin(), finals.HullVertices.end());
-  append(std::move(finals.Borders), this->Result.Borders);
+    this->Result.HullVertices.end(), sorter.HullVertices.begin(), sorter.HullVertices.end());
+  append(std::move(sorter.Borders), this->Result.Borders);
   for (const auto& [to, message] : sent)
   {
     const PartitionIndex piece = this->Work.Plan.PieceOf[std::size_t(to)];

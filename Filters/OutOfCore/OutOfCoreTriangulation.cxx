@@ -103,10 +103,10 @@ private:
       Message message; // no message comes; poll() throws if a rank has failed
       this->Ranks->poll(message);
     }
-    this->tell(fraction);
+    this->reportLocally(fraction);
   }
 
-  void tell(double fraction) const
+  void reportLocally(double fraction) const
   {
     if (this->Options.Progress && !this->Options.Progress(fraction))
     {
@@ -163,7 +163,7 @@ private:
     survey = InputPasses(this->Input, this->Ranks,
       this->passOptions(
         [this](std::int64_t) {
-          this->tell(0);
+          this->reportLocally(0);
         })).survey();
     this->Statistics.LeftOut = this->Input.leftOut();
     this->Statistics.ThinnedOut = this->Input.thinnedOut();
@@ -228,7 +228,7 @@ private:
   {
     const InputSurvey& survey = this->Setup.Survey;
     const auto progress = [&](std::int64_t done)
-    { this->tell(0.2 * double(done) / double(survey.Points)); };
+    { this->reportLocally(0.2 * double(done) / double(survey.Points)); };
     this->Setup.Spilled =
       InputPasses(this->Input, this->Ranks, this->passOptions(progress))
         .spill(survey, *this->Setup.Plan, this->Setup.Rows, this->Scratch.points());
@@ -336,15 +336,8 @@ private:
       markCells(mesh, this->Finished, this->Setup.Marks, this->Setup.Constraints.get(),
         this->Threads, reportTo(0.97, 0.01));
     }
-    for (std::size_t number = 0; number < this->Finished.size(); ++number)
-    {
-      syncToDisk(mesh.piecePath(number));
-      this->report(0.98 + 0.02 * double(number) / double(this->Finished.size()));
-    }
-    const PublishedMesh published = publishPieces(mesh, this->Finished);
-    this->Statistics.MeshBytes = published.Bytes;
-    this->Record.saveWhole(
-      published.Fingerprint, [this](SaveArchive& archive) { archive(this->Statistics); });
+    this->Record.publish(mesh, this->Finished, this->Statistics,
+      [this](double done) { this->report(0.98 + 0.02 * done); });
   }
 
   void putInPlace()

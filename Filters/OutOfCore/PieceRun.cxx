@@ -207,7 +207,7 @@ void PieceRun::work()
   {
     LoadedPiece& piece = *this->at(this->pieceOf(p)).Loaded;
     this->finishPartition(p, piece.triangulate(space, p, this->Inboxes[std::size_t(p)].take()));
-    if (!this->tell())
+    if (!this->reportProgress())
     {
       this->stop(nullptr);
     }
@@ -308,7 +308,7 @@ void PieceRun::coordinate()
   for (;;)
   {
     const bool moved = this->sendAndReceive();
-    if (!this->tell())
+    if (!this->reportProgress())
     {
       throw RankFailure(this->rank(), true, "The run was stopped.");
     }
@@ -399,7 +399,7 @@ void PieceRun::receivePartition(const Message& message)
 }
 
 /// Reports progress, in the caller's thread only. Returns false if that stops the run.
-bool PieceRun::tell()
+bool PieceRun::reportProgress()
 {
   if (std::this_thread::get_id() != this->Caller)
   {
@@ -464,7 +464,7 @@ bool PieceRun::run(const std::vector<char>& isDone)
     this->Post->barrier(); // a rank that is not set up yet could not handle messages
   }
   this->runThreads();
-  return !this->Ready->isStopped() && this->tell();
+  return !this->Ready->isStopped() && this->reportProgress();
 }
 
 } // namespace tipp

@@ -85,11 +85,11 @@ public:
   ///@}
 
 private:
-  struct Finals;
+  struct FinalTriangleSorter;
 
   PointsView points() const;
   void prepare(Workspace& space);
-  void take(Finals& finals, const SentMessages& sent);
+  void take(FinalTriangleSorter& sorter, const SentMessages& sent);
   void take(const std::vector<Duplicate>& duplicates);
   bool owns(const BoundaryVertex& v) const;
   void markInterface(const BoundaryVertex& v);
@@ -187,7 +187,7 @@ private:
   void finishPiece(PartitionIndex piece);
   std::vector<PartitionIndex> setDone(PartitionIndex piece);
   void takeBorders(const std::vector<PartitionIndex>& pieces);
-  bool tell();
+  bool reportProgress();
 
   void runThreads();
   void guard(const std::function<void()>& body);

@@ -63,19 +63,19 @@ PieceSegments::Written PieceSegments::write(const std::string& file, const Piece
   Spill spill(pathOf(file), 0, std::size_t(plan.pieces()), sizeof(Row));
   spill.protect();
   Written written;
-  struct Place
+  struct RowOfPiece
   {
     Row Content;
     PartitionIndex Piece;
   };
   constexpr std::size_t most = std::size_t(1) << 14;
-  std::vector<Place> places; // a segment may meet many pieces
-  const auto writePlaces = [&]
+  std::vector<RowOfPiece> rows; // a segment may meet many pieces
+  const auto writeRows = [&]
   {
     spill.add(
-      places.size(), threads, [&](std::size_t i) { return std::int64_t(places[i].Piece); },
-      [&](std::size_t i, char* to) { std::memcpy(to, &places[i].Content, sizeof(Row)); });
-    places.clear();
+      rows.size(), threads, [&](std::size_t i) { return std::int64_t(rows[i].Piece); },
+      [&](std::size_t i, char* to) { std::memcpy(to, &rows[i].Content, sizeof(Row)); });
+    rows.clear();
   };
   std::int64_t name = 0;
   forEach(
@@ -91,11 +91,11 @@ PieceSegments::Written PieceSegments::write(const std::string& file, const Piece
       const Point2 b{ segment.B.x * factor, segment.B.y * factor };
       plan.Pieces.visitNear(boxOf(a, b),
         [&](PartitionIndex piece) {
-          lineMayMeet(a, b, plan.Pieces.box(piece)) ? places.push_back({ row, piece }) : void();
+          lineMayMeet(a, b, plan.Pieces.box(piece)) ? rows.push_back({ row, piece }) : void();
         });
-      places.size() >= most ? writePlaces() : void();
+      rows.size() >= most ? writeRows() : void();
     });
-  places.empty() ? void() : writePlaces();
+  rows.empty() ? void() : writeRows();
   written.Rows = spill.close();
   return written;
 }

@@ -2,11 +2,14 @@
 #ifndef tippRunRecord_h
 #define tippRunRecord_h
 
+#include "Files/OutputFile.h"
 #include "OutOfCore/ScratchFiles.h"
+#include "Partitioned/PieceWriter.h"
 
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace tipp
 {
@@ -44,6 +47,23 @@ public:
   /// Records that the mesh is complete. From now on only the mesh in the work folder is needed, and
   /// a resumed run only has to move it to its path. `fingerprint`: of the mesh.
   void saveWhole(std::uint64_t fingerprint, const Save& save);
+
+  /// Syncs the files of the pieces, writes the mesh's index, and records that the mesh is complete.
+  /// progress() is called with the fraction done, and throws to stop.
+  template <typename Statistics, typename Progress>
+  void publish(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, Statistics& statistics,
+    const Progress& progress)
+  {
+    for (std::size_t number = 0; number < pieces.size(); ++number)
+    {
+      syncToDisk(mesh.piecePath(number));
+      progress(double(number) / double(pieces.size()));
+    }
+    const PublishedMesh published = publishPieces(mesh, pieces);
+    statistics.MeshBytes = published.Bytes;
+    this->saveWhole(published.Fingerprint, [&](SaveArchive& archive) { archive(statistics); });
+  }
+
   /// Records that all triangles or tetrahedra are counted, for a run that makes no mesh.
   void saveCounted(const Save& save);
 

@@ -24,9 +24,9 @@ enum SectionKind : std::uint32_t
 };
 
 /// Collects the tetrahedra of the hull repair by the piece that owns them.
-struct LateCells : public FinalCellConsumer3
+struct HullRepairCells : public FinalCellConsumer3
 {
-  explicit LateCells(const PiecePlan3& plan)
+  explicit HullRepairCells(const PiecePlan3& plan)
     : Sorter(plan)
   {
   }
@@ -71,9 +71,9 @@ void setGhosts(const PieceWork3& work, const StoredResults3& results, PieceBorde
   }
 }
 
-/// Adds the border to the file of a piece. `late`: tetrahedra of the hull repair.
+/// Adds the border to the file of a piece. `repaired`: tetrahedra of the hull repair.
 FinishedPiece finishPiece(const PieceWork3& work, const StoredResults3& results,
-  PartitionIndex piece, const BordersByOwner3& late)
+  PartitionIndex piece, const BordersByOwner3& repaired)
 {
   const PieceInterior interior = results[std::size_t(piece)]->readInterior(work, piece, true);
   PieceBorder border(interior, work.Rows, 4);
@@ -84,8 +84,8 @@ FinishedPiece finishPiece(const PieceWork3& work, const StoredResults3& results,
       addCells(result->readBorder(piece), border);
     }
   }
-  const auto added = late.find(piece);
-  if (added != late.end())
+  const auto added = repaired.find(piece);
+  if (added != repaired.end())
   {
     addCells(added->second, border);
   }
@@ -193,15 +193,15 @@ std::vector<FinishedPiece> finishPieces(const PieceWork3& work, const StoredResu
       " points at the convex hull, which take " + std::to_string(bytes / 1000000 + 1) +
       " MB; allow more memory.");
   }
-  LateCells late(work.Plan);
-  repairHull(std::move(hull), work.Plan.artificial(), late);
+  HullRepairCells repaired(work.Plan);
+  repairHull(std::move(hull), work.Plan.artificial(), repaired);
   std::vector<FinishedPiece> finished(results.size());
   const bool isDone = forChunks(std::int64_t(results.size()), 1, threads, report,
     [&](std::int64_t at, std::int64_t, int)
     {
       const auto piece = PartitionIndex(at);
-      finished[work.Plan.number(piece)] = finishOnce(
-        work.finishedPath(piece), [&] { return finishPiece(work, results, piece, late.Borders); });
+      finished[work.Plan.number(piece)] = finishOnce(work.finishedPath(piece),
+        [&] { return finishPiece(work, results, piece, repaired.Borders); });
     });
   return isDone ? std::move(finished) : std::vector<FinishedPiece>();
 }

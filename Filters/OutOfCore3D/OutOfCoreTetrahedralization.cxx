@@ -259,15 +259,8 @@ private:
         });
       this->endPhase("link");
     }
-    for (std::size_t number = 0; number < this->Finished.size(); ++number)
-    {
-      syncToDisk(this->Mesh.piecePath(number));
-      this->require(0.98 + 0.02 * double(number) / double(this->Finished.size()));
-    }
-    const PublishedMesh published = publishPieces(this->Mesh, this->Finished);
-    this->Statistics.MeshBytes = published.Bytes;
-    this->Record.saveWhole(
-      published.Fingerprint, [this](SaveArchive& archive) { archive(this->Statistics); });
+    this->Record.publish(this->Mesh, this->Finished, this->Statistics,
+      [this](double done) { this->require(0.98 + 0.02 * done); });
   }
 
   void putInPlace()

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Output/FilterPipeline.h"
 
+#include "Ranks/Communicator.h"
+
 #include "vtkAlgorithm.h"
 #include "vtkCommunicator.h"
 #include "vtkDataObject.h"
@@ -21,21 +23,59 @@ namespace tipp
 
 using Executive = vtkStreamingDemandDrivenPipeline;
 
-void requireFinite(double value, const char* name)
+void requireFinite(std::initializer_list<std::pair<const char*, double>> properties)
 {
-  if (!std::isfinite(value))
+  for (const auto& [name, value] : properties)
   {
-    throw std::runtime_error(
-      std::string(name) + " is " + std::to_string(value) + ": give a finite number.");
+    if (!std::isfinite(value))
+    {
+      throw std::runtime_error(
+        std::string(name) + " is " + std::to_string(value) + ": give a finite number.");
+    }
   }
 }
 
-int runReported(vtkAlgorithm* filter, const std::string& what,
-  std::initializer_list<vtkDataObject*> outputs, const std::function<bool()>& work)
+void requireUnused(std::initializer_list<std::pair<const char*, bool>> properties)
 {
+  for (const auto& [name, isUsed] : properties)
+  {
+    if (isUsed)
+    {
+      throw std::invalid_argument(
+        std::string(name) + " needs a single rank: set the controller to null on one rank.");
+    }
+  }
+}
+
+void warn(vtkAlgorithm* filter, const std::vector<std::string>& warnings)
+{
+  for (const std::string& warning : warnings)
+  {
+    vtkWarningWithObjectMacro(filter, << warning);
+  }
+}
+
+bool hasSeveralRanks(vtkMultiProcessController* controller)
+{
+  return controller && controller->GetNumberOfProcesses() > 1;
+}
+
+int runReported(vtkAlgorithm* filter, vtkMultiProcessController* controller,
+  const std::string& what, std::initializer_list<vtkDataObject*> outputs,
+  const std::function<bool()>& work)
+{
+  bool isStopped = false;
   try
   {
     return work() ? 1 : 0;
+  }
+  catch (const RankFailure& failure)
+  {
+    isStopped = failure.Aborted;
+    if (!isStopped && (!controller || controller->GetLocalProcessId() == 0))
+    {
+      vtkErrorWithObjectMacro(filter, "Rank " << failure.Rank << ": " << failure.what());
+    }
   }
   catch (const std::bad_alloc&)
   {
@@ -50,7 +90,7 @@ int runReported(vtkAlgorithm* filter, const std::string& what,
   {
     output->Initialize();
   }
-  return 0;
+  return isStopped ? 1 : 0;
 }
 
 vtkDataObject* updatedInput(vtkAlgorithm* filter, int rank, int ranks, vtkInformation* outInfo)
@@ -69,6 +109,18 @@ vtkDataObject* updatedInput(vtkAlgorithm* filter, int rank, int ranks, vtkInform
   return source->Update(port, requests) ? source->GetOutputDataObject(port) : nullptr;
 }
 
+namespace
+{
+
+void setPiece(vtkInformation* inInfo, int piece, int pieces)
+{
+  inInfo->Set(Executive::UPDATE_PIECE_NUMBER(), piece);
+  inInfo->Set(Executive::UPDATE_NUMBER_OF_PIECES(), pieces);
+  inInfo->Set(Executive::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+}
+
+} // namespace
+
 void askForPiece(vtkInformation* inInfo, int piece, int pieces)
 {
   inInfo->Remove(Executive::UPDATE_EXTENT());
@@ -76,9 +128,17 @@ void askForPiece(vtkInformation* inInfo, int piece, int pieces)
   {
     inInfo->Set(Executive::UPDATE_EXTENT(), inInfo->Get(Executive::WHOLE_EXTENT()), 6);
   }
-  inInfo->Set(Executive::UPDATE_PIECE_NUMBER(), piece);
-  inInfo->Set(Executive::UPDATE_NUMBER_OF_PIECES(), pieces);
-  inInfo->Set(Executive::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  setPiece(inInfo, piece, pieces);
+}
+
+void askForRankPiece(vtkInformation* inInfo, vtkMultiProcessController* controller)
+{
+  setPiece(inInfo, controller->GetLocalProcessId(), controller->GetNumberOfProcesses());
+}
+
+bool wantsGhosts(vtkInformationVector* outputs)
+{
+  return outputs->GetInformationObject(0)->Get(Executive::UPDATE_NUMBER_OF_GHOST_LEVELS()) > 0;
 }
 
 vtkStandardNewMacro(CollectivePipeline);

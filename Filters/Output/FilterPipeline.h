@@ -14,9 +14,12 @@
 #include <initializer_list>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 class vtkDataObject;
 class vtkInformation;
+class vtkInformationVector;
 class vtkMultiProcessController;
 
 namespace tipp
@@ -53,15 +56,27 @@ private:
   std::atomic<bool> Stopped{ false };
 };
 
-/// Throws std::runtime_error if a property is NaN or infinite. The setters' bounds do not exclude
-/// NaN.
-void requireFinite(double value, const char* name);
+/// Throws std::runtime_error if a property, given by name and value, is NaN or infinite. The
+/// setters' bounds do not exclude NaN.
+void requireFinite(std::initializer_list<std::pair<const char*, double>> properties);
 
-/// Calls work(), and returns the result of RequestData(): 1 if work() returned normally, else 0. If
-/// work() throws, reports an error of the filter that begins with `what`, and empties the outputs.
-/// Throws nothing.
-int runReported(vtkAlgorithm* filter, const std::string& what,
-  std::initializer_list<vtkDataObject*> outputs, const std::function<bool()>& work);
+/// Throws std::invalid_argument if one of these properties, which work on a single rank only, is in
+/// use. Each is given by name and whether it is in use.
+void requireUnused(std::initializer_list<std::pair<const char*, bool>> properties);
+
+/// Issues warnings of a filter.
+void warn(vtkAlgorithm* filter, const std::vector<std::string>& warnings);
+
+/// Returns whether a filter with this controller works on several ranks. Null: it does not.
+bool hasSeveralRanks(vtkMultiProcessController* controller);
+
+/// Calls work(), and returns the result of RequestData(): 1 if work() returned true or the user
+/// stopped the ranks, else 0. If work() throws, empties the outputs and reports an error of the
+/// filter. The error begins with `what`; of a RankFailure, only the first rank of `controller`
+/// reports it. Throws nothing.
+int runReported(vtkAlgorithm* filter, vtkMultiProcessController* controller,
+  const std::string& what, std::initializer_list<vtkDataObject*> outputs,
+  const std::function<bool()>& work);
 
 /// Updates this rank's piece of a filter's input before the pipeline requests it, at the time step
 /// that `outInfo` requests, if any. Returns null if the input fails; the filter owns the returned
@@ -70,6 +85,12 @@ vtkDataObject* updatedInput(vtkAlgorithm* filter, int rank, int ranks, vtkInform
 
 /// Requests a piece of a filter's input; for structured data, the whole extent.
 void askForPiece(vtkInformation* inInfo, int piece, int pieces);
+
+/// Requests the piece of this rank, without ghost cells.
+void askForRankPiece(vtkInformation* inInfo, vtkMultiProcessController* controller);
+
+/// Returns whether ghost cells are requested of a filter's first output.
+bool wantsGhosts(vtkInformationVector* outputs);
 
 /// The executive of a filter whose ranks execute together. If the upstream pipeline fails on one
 /// rank, that rank would not execute, and the others would wait for it forever. So the ranks first

@@ -37,7 +37,7 @@ public:
     : Mine(mine)
     , Others(ghosts)
     , FirstOwn(mine.FirstIds[std::size_t(rank)])
-    , Indices(mine.Owned.size() + mine.Foreign.size(), -1)
+    , Indices(mine.Owned.size() + mine.Ghosts.size(), -1)
   {
     mine.forEachCorner([this](std::int64_t index) { this->Indices[std::size_t(index)] = 0; });
     if (ghosts)
@@ -86,7 +86,7 @@ public:
       if (this->Indices[i] >= 0)
       {
         const bool isOwn = i < own;
-        visit(this->Indices[i], isOwn ? this->Mine.Owned : this->Mine.Foreign, isOwn ? i : i - own,
+        visit(this->Indices[i], isOwn ? this->Mine.Owned : this->Mine.Ghosts, isOwn ? i : i - own,
           isOwn);
       }
     }
@@ -109,9 +109,9 @@ private:
     {
       return std::ptrdiff_t(id - this->FirstOwn);
     }
-    const std::ptrdiff_t at = rankOf(this->Mine.ForeignIds, id);
-    const bool found = at < std::ptrdiff_t(this->Mine.ForeignIds.size()) &&
-      this->Mine.ForeignIds[std::size_t(at)] == id;
+    const std::ptrdiff_t at = rankOf(this->Mine.GhostIds, id);
+    const bool found =
+      at < std::ptrdiff_t(this->Mine.GhostIds.size()) && this->Mine.GhostIds[std::size_t(at)] == id;
     return found ? own + at : -1;
   }
 

@@ -35,7 +35,7 @@ FigureList phasesOf(
       column("seconds", seconds, phases, &Phase::Seconds) } };
 }
 
-/// `key` and `array`: the names of the number of triangles or tetrahedra.
+/// `key` and `array` are the names under which the number of triangles or tetrahedra is stored.
 FigureList ranksOf(const std::vector<RankStatistics>& ranks, const char* key, const char* array)
 {
   using Rank = RankStatistics;
@@ -98,7 +98,8 @@ FigureList stagesOf(const std::vector<TriangulationStatistics::Stage>& stages)
 namespace
 {
 
-/// Returns the figures of a run in memory. `key` and `array`: the names of the number of `cells`.
+/// Returns the statistics of a run in memory. `key` and `array` are the names under which the
+/// number of cells is stored.
 template <typename Mesh>
 RunStatistics inMemory(
   const Mesh& mesh, std::int64_t points, const char* key, const char* array, std::int64_t cells)
@@ -117,7 +118,7 @@ RunStatistics inMemory(
   return run;
 }
 
-/// Adds the figures that follow the number of pieces, for a run out of core.
+/// Adds, for a run out of core, the statistics that follow the number of pieces.
 template <typename Statistics>
 void addOutOfCore(const Statistics& statistics, RunStatistics& run)
 {
@@ -225,17 +226,28 @@ void addConstraintTotals(const ConstraintFigures& figures, RunStatistics& statis
     { statistics.add(key, array, value); });
 }
 
+namespace
+{
+
+/// Returns a warning about rejected points, if there are any.
+std::vector<std::string> warnOfRejected(
+  std::int64_t rejected, std::int64_t points, const std::string& consequence)
+{
+  return rejected == 0
+    ? std::vector<std::string>()
+    : std::vector<std::string>{ std::to_string(rejected) + " of " + std::to_string(points) +
+        " points have a NaN or infinite coordinate and are " + consequence + "." };
+}
+
+} // namespace
+
 std::vector<std::string> warningsOf(
   const Triangulation& triangulation, std::int64_t points, bool longEdgesLeftOut)
 {
-  std::vector<std::string> warnings;
   const auto rejected = std::int64_t(triangulation.Rejected.size());
-  if (rejected > 0)
-  {
-    warnings.push_back(std::to_string(rejected) + " of " + std::to_string(points) +
-      " points have a NaN or infinite coordinate and are in no triangle; the first is point " +
-      std::to_string(triangulation.Rejected.front()) + ".");
-  }
+  std::vector<std::string> warnings = warnOfRejected(rejected, points,
+    "in no triangle; the first is point " +
+      (rejected > 0 ? std::to_string(triangulation.Rejected.front()) : ""));
   if (triangulation.triangleCount() == 0)
   {
     const std::int64_t distinct = points - std::int64_t(triangulation.Duplicates.size()) - rejected;
@@ -251,13 +263,8 @@ std::vector<std::string> warningsOf(
 
 std::vector<std::string> warningsOf(const OutOfCoreStatistics& statistics)
 {
-  std::vector<std::string> warnings;
-  if (statistics.Rejected > 0)
-  {
-    warnings.push_back(std::to_string(statistics.Rejected) + " of " +
-      std::to_string(statistics.Points) +
-      " points have a NaN or infinite coordinate and are left out.");
-  }
+  std::vector<std::string> warnings =
+    warnOfRejected(statistics.Rejected, statistics.Points, "left out");
   if (statistics.Triangles == 0)
   {
     warnings.emplace_back(
@@ -268,12 +275,8 @@ std::vector<std::string> warningsOf(const OutOfCoreStatistics& statistics)
 
 std::vector<std::string> warningsOf(const DistributedTriangulation& mine)
 {
-  std::vector<std::string> warnings;
-  if (mine.AllRejected > 0)
-  {
-    warnings.push_back(std::to_string(mine.AllRejected) + " of " + std::to_string(mine.AllPoints) +
-      " points have a NaN or infinite coordinate and are in no triangle.");
-  }
+  std::vector<std::string> warnings =
+    warnOfRejected(mine.AllRejected, mine.AllPoints, "in no triangle");
   if (mine.AllTriangles == 0)
   {
     warnings.emplace_back("No triangles: all ranks together have fewer than three distinct finite "
@@ -284,12 +287,8 @@ std::vector<std::string> warningsOf(const DistributedTriangulation& mine)
 
 std::vector<std::string> warningsOf(const DistributedTetrahedralization& mine)
 {
-  std::vector<std::string> warnings;
-  if (mine.AllRejected > 0)
-  {
-    warnings.push_back(std::to_string(mine.AllRejected) + " of " + std::to_string(mine.AllPoints) +
-      " points have a NaN or infinite coordinate and are in no tetrahedron.");
-  }
+  std::vector<std::string> warnings =
+    warnOfRejected(mine.AllRejected, mine.AllPoints, "in no tetrahedron");
   if (mine.Dimension < 3)
   {
     warnings.push_back(describeDimension(mine.Dimension));

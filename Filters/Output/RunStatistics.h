@@ -94,8 +94,8 @@ void fillStatisticsTable(const RunStatistics& statistics, vtkTable* table);
 
 /// Adds this rank's duplicates and rejected points to the field data of `output`, as given: by
 /// global ids.
-void addAccounts(const std::vector<Duplicate>& duplicates, const std::vector<PointId>& rejected,
-  vtkDataObject* output);
+void addDuplicatesAndRejected(const std::vector<Duplicate>& duplicates,
+  const std::vector<PointId>& rejected, vtkDataObject* output);
 
 } // namespace tipp
 

@@ -80,8 +80,8 @@ void fillStatisticsTable(const RunStatistics& statistics, vtkTable* table)
   }
 }
 
-void addAccounts(const std::vector<Duplicate>& duplicates, const std::vector<PointId>& rejected,
-  vtkDataObject* output)
+void addDuplicatesAndRejected(const std::vector<Duplicate>& duplicates,
+  const std::vector<PointId>& rejected, vtkDataObject* output)
 {
   std::vector<PointId> points;
   std::vector<PointId> representatives;

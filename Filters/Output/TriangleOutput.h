@@ -78,7 +78,7 @@ private:
   bool Doubles = false;
 };
 
-/// How a piece marks its constraints. A null member: not in this way.
+/// How a piece marks its constraints; null members are not used.
 struct PieceMarks
 {
   const ConstraintSegments* Flags = nullptr; ///< by the cell array ConstraintEdges

@@ -67,7 +67,7 @@ char* bytesOf(const SampledImage::Array& array)
 }
 
 /// What every rank knows about another rank's samples.
-struct RankNote
+struct SamplesOfRank
 {
   ImageExtent Local;
   ImageExtent Wanted;
@@ -87,7 +87,7 @@ public:
 
   void run()
   {
-    this->shareNotes();
+    this->exchangeSummaries();
     this->merge(this->Rank, this->pack(this->Rank));
     // The ranks exchange in pairs, so that few messages are in memory at a time.
     for (int round = 0; round < this->Ranks.size(); ++round)
@@ -102,9 +102,9 @@ public:
   }
 
 private:
-  void shareNotes()
+  void exchangeSummaries()
   {
-    const RankNote mine{ this->Local.lattice().Extent, this->Result.lattice().Extent,
+    const SamplesOfRank mine{ this->Local.lattice().Extent, this->Result.lattice().Extent,
       this->Local.dimension() };
     std::vector<Bytes> contents;
     for (int rank = 0; rank < this->Ranks.size(); ++rank)
@@ -117,8 +117,8 @@ private:
     for (const Bytes& content : this->Ranks.allToAll(std::move(contents)))
     {
       LoadArchive reader(content);
-      this->Notes.push_back(reader.get<RankNote>());
-      this->Dimension = std::max(this->Dimension, this->Notes.back().Dimension);
+      this->Others.push_back(reader.get<SamplesOfRank>());
+      this->Dimension = std::max(this->Dimension, this->Others.back().Dimension);
       this->Has.push_back(this->learnArrays(reader));
     }
   }
@@ -181,12 +181,12 @@ private:
   /// The extent that one rank sends to another; may be empty.
   ImageExtent part(int from, int to) const
   {
-    const RankNote& note = this->Notes[std::size_t(from)];
-    if (note.Dimension < this->Dimension || note.Dimension == 0)
+    const SamplesOfRank& other = this->Others[std::size_t(from)];
+    if (other.Dimension < this->Dimension || other.Dimension == 0)
     {
       return { 0, -1, 0, -1, 0, -1 };
     }
-    return overlap(note.Local, this->Notes[std::size_t(to)].Wanted);
+    return overlap(other.Local, this->Others[std::size_t(to)].Wanted);
   }
 
   std::size_t bytes(int from, const ImageExtent& extent) const
@@ -288,7 +288,7 @@ private:
   Communicator& Ranks;
   int Rank;
   int Dimension = 0;
-  std::vector<RankNote> Notes;
+  std::vector<SamplesOfRank> Others;
   std::vector<std::vector<std::string>> Has; ///< by rank: the names of the arrays that it has
 };
 

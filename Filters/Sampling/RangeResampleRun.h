@@ -31,7 +31,7 @@ public:
   }
 
   ///@{
-  /// Begin and end of the execution. Throw tipp::RankFailure on all ranks. Collective.
+  /// Begin and end the execution. Throw tipp::RankFailure on all ranks. Collective.
   void start(vtkInformationVector* input, vtkInformation* outInfo);
   void finish(vtkImageData* output);
   ///@}

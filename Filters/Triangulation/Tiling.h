@@ -125,7 +125,7 @@ private:
   {
     double At;
     std::int32_t Axis;
-    std::int32_t Child[2]; ///< below the cut, and from it on; of a box, the box itself
+    std::int32_t Child[2]; ///< nodes below the cut and above it; for a box, itself
     PartitionIndex Partition;
 
     bool isBox() const { return this->Partition >= 0; }

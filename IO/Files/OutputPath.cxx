@@ -217,7 +217,7 @@ fs::path resolved(const std::string& path)
 }
 
 /// The path that the output will have once links are resolved, even if the target does not exist.
-fs::path placeOf(const std::string& output)
+fs::path finalPath(const std::string& output)
 {
   try
   {
@@ -318,8 +318,8 @@ void requireApart(const std::vector<std::string>& outputs, const std::vector<std
     for (std::size_t j = 0; j < i; ++j)
     {
       const bool isSame = !outputs[j].empty() &&
-        (isWithin(placeOf(output), placeOf(outputs[j])) ||
-          isWithin(placeOf(outputs[j]), placeOf(output)) ||
+        (isWithin(finalPath(output), finalPath(outputs[j])) ||
+          isWithin(finalPath(outputs[j]), finalPath(output)) ||
           fs::equivalent(output, outputs[j], failure));
       if (isSame)
       {

@@ -17,7 +17,7 @@ namespace tipp
 namespace
 {
 
-struct ScalarFacts
+struct ScalarInfo
 {
   std::size_t Size;
   const char* Name;
@@ -25,7 +25,7 @@ struct ScalarFacts
 };
 
 // In the order of the enumerators of Scalar.
-constexpr ScalarFacts facts[] = {
+constexpr ScalarInfo scalars[] = {
   { 1, "Int8", "|i1" },
   { 1, "UInt8", "|u1" },
   { 2, "Int16", "<i2" },
@@ -38,11 +38,11 @@ constexpr ScalarFacts facts[] = {
   { 8, "Float64", "<f8" },
 };
 
-std::optional<Scalar> find(const char* ScalarFacts::*text, const std::string& wanted)
+std::optional<Scalar> find(const char* ScalarInfo::*text, const std::string& wanted)
 {
-  for (std::size_t type = 0; type < std::size(facts); ++type)
+  for (std::size_t type = 0; type < std::size(scalars); ++type)
   {
-    if (wanted == facts[type].*text)
+    if (wanted == scalars[type].*text)
     {
       return Scalar(int(type));
     }
@@ -54,27 +54,27 @@ std::optional<Scalar> find(const char* ScalarFacts::*text, const std::string& wa
 
 std::size_t scalarSize(Scalar type)
 {
-  return facts[int(type)].Size;
+  return scalars[int(type)].Size;
 }
 
 const char* scalarName(Scalar type)
 {
-  return facts[int(type)].Name;
+  return scalars[int(type)].Name;
 }
 
 const char* scalarDescr(Scalar type)
 {
-  return facts[int(type)].Descr;
+  return scalars[int(type)].Descr;
 }
 
 std::optional<Scalar> scalarFromName(const std::string& name)
 {
-  return find(&ScalarFacts::Name, name);
+  return find(&ScalarInfo::Name, name);
 }
 
 std::optional<Scalar> scalarFromDescr(const std::string& descr)
 {
-  return find(&ScalarFacts::Descr, descr);
+  return find(&ScalarInfo::Descr, descr);
 }
 
 FlatMesh openFlatMesh(const std::string& path)

@@ -199,8 +199,8 @@ private:
     }
     this->hold(runs);
     gatherAll(chunk.Count, this->Files, this->Buffers, out, this->Threads,
-      [placeOf = this->Held.finder(), ids = chunk.Ids](std::size_t i)
-      { return placeOf(std::uint64_t(ids[i])); });
+      [positionOf = this->Held.finder(), ids = chunk.Ids](std::size_t i)
+      { return positionOf(std::uint64_t(ids[i])); });
   }
 
   /// The number of tuples in blocks that are kept for the next chunks: neighbouring chunks share

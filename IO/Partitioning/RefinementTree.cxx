@@ -26,7 +26,7 @@ public:
   std::string run()
   {
     this->mergeNode(0);
-    if (this->InA != this->A.size() || this->InB != this->B.size())
+    if (this->PositionInA != this->A.size() || this->PositionInB != this->B.size())
     {
       fail();
     }
@@ -50,8 +50,8 @@ private:
 
   void mergeNode(int depth)
   {
-    const bool splitInA = this->next(this->A, this->InA) == '1';
-    const bool splitInB = this->next(this->B, this->InB) == '1';
+    const bool splitInA = this->next(this->A, this->PositionInA) == '1';
+    const bool splitInB = this->next(this->B, this->PositionInB) == '1';
     this->Result.push_back(splitInA || splitInB ? '1' : '0');
     this->checkDepth(depth);
     for (int i = 0; i < this->ChildCount && splitInA && splitInB; ++i)
@@ -60,7 +60,8 @@ private:
     }
     if (splitInA != splitInB)
     {
-      this->copyChildren(splitInA ? this->A : this->B, splitInA ? this->InA : this->InB, depth);
+      this->copyChildren(
+        splitInA ? this->A : this->B, splitInA ? this->PositionInA : this->PositionInB, depth);
     }
   }
 
@@ -89,8 +90,8 @@ private:
   const std::string& A;
   const std::string& B;
   int ChildCount;
-  std::size_t InA = 0;
-  std::size_t InB = 0;
+  std::size_t PositionInA = 0;
+  std::size_t PositionInB = 0;
   std::string Result;
 };
 

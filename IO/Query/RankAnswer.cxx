@@ -57,12 +57,8 @@ RankPart commonPart(const std::vector<RankPart>& parts)
   RankPart common;
   for (const RankPart& part : parts)
   {
-    if (part.CellSize == 0)
-    {
-      continue;
-    }
     const auto kind = [](const RankPart& p) { return std::tie(p.CellSize, p.Types, p.Components); };
-    if (common.CellSize != 0 && kind(common) != kind(part))
+    if (part.CellSize != 0 && common.CellSize != 0 && kind(common) != kind(part))
     {
       throw IOError("The ranks' parts of the mesh differ in their type of cells or arrays.");
     }
@@ -117,11 +113,8 @@ struct Column
 /// The first `count` rows of the columns, column by column.
 Bytes messageOf(const std::vector<Column>& columns, std::size_t count)
 {
-  std::size_t width = 0;
-  for (const Column& column : columns)
-  {
-    width += column.Width;
-  }
+  const std::size_t width = std::accumulate(columns.begin(), columns.end(), std::size_t(0),
+    [](std::size_t sum, const Column& column) { return sum + column.Width; });
   Bytes message(width * count);
   char* to = message.data();
   for (const Column& column : columns)
@@ -319,13 +312,13 @@ private:
   {
     const std::size_t width = sizeof(Point3) + (withPieces ? sizeof(std::int32_t) : 0);
     std::vector<std::int64_t> counts;
-    std::vector<Communicator::Stretch> stretches;
+    std::vector<Communicator::ByteRange> byteRanges;
     std::size_t size = 0;
     for (std::size_t rank = 0; rank < this->Asked.size(); ++rank)
     {
       counts.push_back(std::int64_t(this->Asked[rank].size()));
-      stretches.push_back({ size, rank == this->Own ? 0 : this->Asked[rank].size() * width });
-      size += stretches.back().Size;
+      byteRanges.push_back({ size, rank == this->Own ? 0 : this->Asked[rank].size() * width });
+      size += byteRanges.back().Size;
     }
     this->Begins = { 0 };
     for (const std::int64_t count : ranks.allToAll(counts))
@@ -338,14 +331,14 @@ private:
     for (std::size_t rank = 0; rank < this->Asked.size(); ++rank)
     {
       const std::size_t begin = this->Begins[rank];
-      char* const message = memory.data() + stretches[rank].Begin;
+      char* const message = memory.data() + byteRanges[rank].Begin;
       rank == this->Own
         ? this->pack(rank, points, pieces, this->pointBytes(begin), this->pieceBytes(begin))
         : this->pack(
             rank, points, pieces, message, message + this->Asked[rank].size() * sizeof(Point3));
     }
     std::vector<std::size_t> done(this->Asked.size(), 0);
-    ranks.allToAllInParts(std::move(memory), stretches,
+    ranks.allToAllInParts(std::move(memory), byteRanges,
       [&](int from, const char* part, std::size_t bytes)
       {
         const auto rank = std::size_t(from);
@@ -363,15 +356,15 @@ private:
   void pack(std::size_t rank, const Point3* points, const std::vector<std::int32_t>& pieces,
     char* to, char* toPieces) const
   {
-    for (const std::int64_t i : this->Asked[rank])
+    const std::vector<std::int64_t>& asked = this->Asked[rank];
+    for (std::size_t k = 0; k < asked.size(); ++k)
     {
-      std::memcpy(to, points + i, sizeof(Point3));
-      to += sizeof(Point3);
-    }
-    for (std::size_t k = 0; k < this->Asked[rank].size() && !pieces.empty(); ++k)
-    {
-      std::memcpy(toPieces, &pieces[std::size_t(this->Asked[rank][k])], sizeof(std::int32_t));
-      toPieces += sizeof(std::int32_t);
+      std::memcpy(to + k * sizeof(Point3), points + asked[k], sizeof(Point3));
+      if (!pieces.empty())
+      {
+        std::memcpy(toPieces + k * sizeof(std::int32_t), &pieces[std::size_t(asked[k])],
+          sizeof(std::int32_t));
+      }
     }
   }
 

@@ -22,7 +22,7 @@ constexpr std::size_t LargestReason = 4096; // so that a failure's message is ne
 // memory: they must be received in any case, or their senders would wait forever.
 char Taken[LargestPart];
 
-struct Head
+struct MessageHeader
 {
   std::uint64_t Size;
   MessageKind Kind;
@@ -34,16 +34,16 @@ struct Head
 } // namespace
 
 /// The first part of a message, already received.
-struct Communicator::Arrival
+struct Communicator::Arriving
 {
   int Source = 0;
-  Head About = {};
-  std::array<char, sizeof(Head) + LargestInHead> First;
+  MessageHeader Header = {};
+  std::array<char, sizeof(MessageHeader) + LargestInHead> First;
 };
 
 struct Communicator::Outgoing
 {
-  Bytes Head;
+  Bytes First; ///< the header, and a content that fits beside it
   std::shared_ptr<Bytes> Content;
   std::vector<std::unique_ptr<RankTransport::Sending>> Parts;
 
@@ -66,7 +66,7 @@ Communicator::Communicator(vtkMultiProcessController* controller)
     this->Rank = this->Transport->rank();
     this->Size = this->Transport->size();
   }
-  this->HasParted.assign(std::size_t(this->Size), 0);
+  this->HasShutDown.assign(std::size_t(this->Size), 0);
 }
 
 /// Buffers must not be freed before their sends complete. Receivers still wait for these messages.
@@ -82,46 +82,46 @@ void Communicator::post(int to, MessageKind kind, Bytes content)
     this->Inbox.push_back({ to, kind, std::move(content) });
     return;
   }
-  const Stretch whole{ 0, content.size() };
-  this->postStretch(to, kind, std::make_shared<Bytes>(std::move(content)), whole);
+  const ByteRange whole{ 0, content.size() };
+  this->postRange(to, kind, std::make_shared<Bytes>(std::move(content)), whole);
 }
 
-void Communicator::postStretch(
-  int to, MessageKind kind, const std::shared_ptr<Bytes>& memory, const Stretch& stretch)
+void Communicator::postRange(
+  int to, MessageKind kind, const std::shared_ptr<Bytes>& memory, const ByteRange& range)
 {
   const Stopwatch watch;
   Traffic& traffic = this->Sent[kind];
   ++traffic.Messages;
-  traffic.Bytes += std::int64_t(sizeof(Head) + stretch.Size);
-  this->sendTo(to, kind, memory, stretch);
+  traffic.Bytes += std::int64_t(sizeof(MessageHeader) + range.Size);
+  this->sendTo(to, kind, memory, range);
   this->testOutgoing();
   this->SendingSeconds += watch.seconds();
 }
 
 void Communicator::sendTo(int to, MessageKind kind, Bytes content)
 {
-  const Stretch whole{ 0, content.size() };
+  const ByteRange whole{ 0, content.size() };
   this->sendTo(to, kind, std::make_shared<Bytes>(std::move(content)), whole);
 }
 
 void Communicator::sendTo(
-  int to, MessageKind kind, const std::shared_ptr<Bytes>& memory, const Stretch& stretch)
+  int to, MessageKind kind, const std::shared_ptr<Bytes>& memory, const ByteRange& range)
 {
-  const char* const content = memory->data() + stretch.Begin;
-  const std::size_t size = stretch.Size;
-  const Head head{ size, kind, this->Run };
-  const bool complete = head.isComplete();
+  const char* const content = memory->data() + range.Begin;
+  const std::size_t size = range.Size;
+  const MessageHeader header{ size, kind, this->Run };
+  const bool complete = header.isComplete();
   this->Unsent.emplace_back();
   Outgoing& outgoing = this->Unsent.back();
-  outgoing.Head = Bytes(sizeof(Head) + (complete ? size : 0));
-  std::memcpy(outgoing.Head.data(), &head, sizeof(Head));
+  outgoing.First = Bytes(sizeof(MessageHeader) + (complete ? size : 0));
+  std::memcpy(outgoing.First.data(), &header, sizeof(MessageHeader));
   if (complete && size > 0)
   {
-    std::memcpy(outgoing.Head.data() + sizeof(Head), content, size);
+    std::memcpy(outgoing.First.data() + sizeof(MessageHeader), content, size);
   }
   const auto send = [&](const char* data, std::size_t bytes, int tag)
   { outgoing.Parts.push_back(this->Transport->send(data, bytes, to, tag)); };
-  send(outgoing.Head.data(), outgoing.Head.size(), HeadTag);
+  send(outgoing.First.data(), outgoing.First.size(), HeadTag);
   if (!complete)
   {
     outgoing.Content = memory;
@@ -140,7 +140,7 @@ void Communicator::testOutgoing()
   }
 }
 
-bool Communicator::probe(Arrival& arrival)
+bool Communicator::probe(Arriving& arriving)
 {
   if (!this->Transport)
   {
@@ -148,53 +148,53 @@ bool Communicator::probe(Arrival& arrival)
   }
   this->testOutgoing();
   int size = 0;
-  if (!this->Transport->probe(HeadTag, arrival.Source, size))
+  if (!this->Transport->probe(HeadTag, arriving.Source, size))
   {
     return false;
   }
-  this->Transport->receive(arrival.First.data(), std::size_t(size), arrival.Source, HeadTag);
-  std::memcpy(&arrival.About, arrival.First.data(), sizeof(Head));
+  this->Transport->receive(arriving.First.data(), std::size_t(size), arriving.Source, HeadTag);
+  std::memcpy(&arriving.Header, arriving.First.data(), sizeof(MessageHeader));
   return true;
 }
 
-bool Communicator::receive(Message& message, const InParts* inParts)
+bool Communicator::receive(Message& message, const PartReceiver* receiver)
 {
   if (!this->Early.empty() && this->Early.front().Run <= this->Run)
   {
     message = std::move(this->Early.front().Content);
     this->Early.pop_front();
-    if (inParts && inParts->concerns(message))
+    if (receiver && receiver->concerns(message))
     {
-      inParts->Take(message.Source, message.Content.data(), message.Content.size());
+      receiver->Take(message.Source, message.Content.data(), message.Content.size());
     }
     return true;
   }
-  Arrival arrival;
-  while (this->probe(arrival))
+  Arriving arriving;
+  while (this->probe(arriving))
   {
-    message.Source = arrival.Source;
-    message.Kind = arrival.About.Kind;
-    if (arrival.About.Run > this->Run)
+    message.Source = arriving.Source;
+    message.Kind = arriving.Header.Kind;
+    if (arriving.Header.Run > this->Run)
     {
-      this->keepForItsRun(arrival);
+      this->keepForItsRun(arriving);
     }
-    else if (inParts && inParts->concerns(message))
+    else if (receiver && receiver->concerns(message))
     {
-      this->receiveParts(arrival, inParts->Take);
+      this->receiveParts(arriving, receiver->Take);
       return true;
     }
     else
     {
-      message.Content = this->receiveContent(arrival);
+      message.Content = this->receiveContent(arriving);
       return true;
     }
   }
   return false;
 }
 
-Bytes Communicator::receiveContent(const Arrival& arrival)
+Bytes Communicator::receiveContent(const Arriving& arriving)
 {
-  const std::size_t size = arrival.About.Size;
+  const std::size_t size = arriving.Header.Size;
   Bytes content;
   try
   {
@@ -202,38 +202,38 @@ Bytes Communicator::receiveContent(const Arrival& arrival)
   }
   catch (...)
   {
-    this->discardParts(arrival);
+    this->discardParts(arriving);
     throw;
   }
-  if (arrival.About.isComplete())
+  if (arriving.Header.isComplete())
   {
-    std::copy_n(arrival.First.data() + sizeof(Head), size, content.data());
+    std::copy_n(arriving.First.data() + sizeof(MessageHeader), size, content.data());
     return content;
   }
   for (std::size_t at = 0; at < size; at += LargestPart)
   {
     const std::size_t part = std::min(LargestPart, size - at);
-    this->Transport->receive(content.data() + at, part, arrival.Source, PartTag);
+    this->Transport->receive(content.data() + at, part, arriving.Source, PartTag);
   }
   return content;
 }
 
 /// Keeps a message of a later run: another rank may have begun the next run before this rank.
-void Communicator::keepForItsRun(const Arrival& arrival)
+void Communicator::keepForItsRun(const Arriving& arriving)
 {
-  EarlyMessage early{ arrival.About.Run,
-    { arrival.Source, arrival.About.Kind, this->receiveContent(arrival) } };
+  EarlyMessage early{ arriving.Header.Run,
+    { arriving.Source, arriving.Header.Kind, this->receiveContent(arriving) } };
   const auto isLater = [&](const EarlyMessage& other) { return other.Run > early.Run; };
   this->Early.insert(
     std::find_if(this->Early.begin(), this->Early.end(), isLater), std::move(early));
 }
 
 /// Receives all parts, even if `takePart` fails.
-void Communicator::receiveParts(const Arrival& arrival, const TakePart& takePart)
+void Communicator::receiveParts(const Arriving& arriving, const TakePart& takePart)
 {
-  if (arrival.About.isComplete())
+  if (arriving.Header.isComplete())
   {
-    takePart(arrival.Source, arrival.First.data() + sizeof(Head), arrival.About.Size);
+    takePart(arriving.Source, arriving.First.data() + sizeof(MessageHeader), arriving.Header.Size);
     return;
   }
   std::exception_ptr failure;
@@ -241,17 +241,17 @@ void Communicator::receiveParts(const Arrival& arrival, const TakePart& takePart
   {
     try
     {
-      takePart(arrival.Source, Taken, size);
+      takePart(arriving.Source, Taken, size);
     }
     catch (...)
     {
       failure = std::current_exception();
     }
   };
-  for (std::size_t at = 0; at < arrival.About.Size; at += LargestPart)
+  for (std::size_t at = 0; at < arriving.Header.Size; at += LargestPart)
   {
-    const std::size_t part = std::min(LargestPart, std::size_t(arrival.About.Size) - at);
-    this->Transport->receive(Taken, part, arrival.Source, PartTag);
+    const std::size_t part = std::min(LargestPart, std::size_t(arriving.Header.Size) - at);
+    this->Transport->receive(Taken, part, arriving.Source, PartTag);
     if (!failure)
     {
       take(part);
@@ -278,36 +278,36 @@ bool Communicator::receiveOfFailure(Message& message)
       return true;
     }
   }
-  Arrival arrival;
-  while (this->probe(arrival))
+  Arriving arriving;
+  while (this->probe(arriving))
   {
-    if (arrival.About.Run > this->Run)
+    if (arriving.Header.Run > this->Run)
     {
-      this->keepForItsRun(arrival);
+      this->keepForItsRun(arriving);
     }
-    else if (isOfFailure(arrival.About.Kind))
+    else if (isOfFailure(arriving.Header.Kind))
     {
-      message = { arrival.Source, arrival.About.Kind, this->receiveContent(arrival) };
+      message = { arriving.Source, arriving.Header.Kind, this->receiveContent(arriving) };
       return true;
     }
     else
     {
-      this->discardParts(arrival);
+      this->discardParts(arriving);
     }
   }
   return false;
 }
 
-void Communicator::discardParts(const Arrival& arrival)
+void Communicator::discardParts(const Arriving& arriving)
 {
-  if (arrival.About.isComplete())
+  if (arriving.Header.isComplete())
   {
     return;
   }
-  for (std::size_t at = 0; at < arrival.About.Size; at += LargestPart)
+  for (std::size_t at = 0; at < arriving.Header.Size; at += LargestPart)
   {
-    const std::size_t part = std::min(LargestPart, std::size_t(arrival.About.Size) - at);
-    this->Transport->receive(Taken, part, arrival.Source, PartTag);
+    const std::size_t part = std::min(LargestPart, std::size_t(arriving.Header.Size) - at);
+    this->Transport->receive(Taken, part, arriving.Source, PartTag);
   }
 }
 
@@ -334,9 +334,9 @@ bool Communicator::poll(Message& message)
 }
 
 /// Receives the next message, if any. Throws if it reports a failure.
-bool Communicator::receiveGood(Message& message, const InParts* inParts)
+bool Communicator::receiveGood(Message& message, const PartReceiver* receiver)
 {
-  if (!this->receive(message, inParts))
+  if (!this->receive(message, receiver))
   {
     return false;
   }
@@ -419,14 +419,14 @@ void Communicator::noteFailure(const Message& message)
   }
   else
   {
-    this->HasParted[std::size_t(message.Source)] = 1;
+    this->HasShutDown[std::size_t(message.Source)] = 1;
     this->note(this->Size, false, "Another rank has ended the run.");
   }
 }
 
-void Communicator::tellFailure(bool aborted, const std::string& why)
+void Communicator::announceFailure(bool aborted, const std::string& why)
 {
-  this->Told = true;
+  this->HasAnnounced = true;
   const std::string reason = why.substr(0, LargestReason);
   this->note(this->Rank, aborted, reason);
   for (int to = 0; to < this->Size; ++to)
@@ -443,7 +443,7 @@ void Communicator::tellFailure(bool aborted, const std::string& why)
 
 /// Sends a shutdown message to every other rank and receives all messages up to theirs. Afterwards
 /// no message of this run is left for the next one, and all ranks know the same failures.
-void Communicator::partAfterFailure()
+void Communicator::shutDown()
 {
   for (int to = 0; to < this->Size; ++to)
   {
@@ -452,22 +452,23 @@ void Communicator::partAfterFailure()
       this->sendTo(to, MessageKind::Shutdown, Bytes());
     }
   }
-  this->HasParted[std::size_t(this->Rank)] = 1;
-  while (!this->Unsent.empty() || std::count(this->HasParted.begin(), this->HasParted.end(), 0) > 0)
+  this->HasShutDown[std::size_t(this->Rank)] = 1;
+  while (
+    !this->Unsent.empty() || std::count(this->HasShutDown.begin(), this->HasShutDown.end(), 0) > 0)
   {
     Message message;
     this->receiveOfFailure(message) ? this->noteFailure(message) : this->pause();
   }
   const RankFailure failure = *this->Failure;
   this->Failure.reset();
-  this->Told = false;
-  this->HasParted.assign(this->HasParted.size(), 0);
+  this->HasAnnounced = false;
+  this->HasShutDown.assign(this->HasShutDown.size(), 0);
   this->Inbox.clear();
-  this->turnTogether(false);
+  this->setTogether(false);
   throw RankFailure(failure);
 }
 
-void Communicator::turnTogether(bool together)
+void Communicator::setTogether(bool together)
 {
   this->IsTogether = together;
   ++this->Run;

@@ -182,7 +182,7 @@ public:
   void attempt(const std::function<void()>& work);
 
   /// A byte range of a buffer.
-  struct Stretch
+  struct ByteRange
   {
     std::size_t Begin = 0;
     std::size_t Size = 0;
@@ -194,7 +194,7 @@ public:
   /// in parts, so that none has to be in memory as a whole: the parts of one rank in order, those
   /// of different ranks interleaved.
   Bytes allToAllInParts(
-    Bytes memory, const std::vector<Stretch>& contents, const TakePart& takePart);
+    Bytes memory, const std::vector<ByteRange>& contents, const TakePart& takePart);
 
   /// Runs `work` on every rank. If it throws on any rank, it ends on all ranks, every rank throws
   /// the same RankFailure, and no message is left, so that the next call starts afresh. A nested
@@ -207,37 +207,37 @@ public:
       work();
       return;
     }
-    this->turnTogether(true);
+    this->setTogether(true);
     try
     {
       work();
       this->barrier(); // no rank leaves while another may still fail
       this->flush();
-      this->turnTogether(false);
+      this->setTogether(false);
       return;
     }
     catch (const RankFailure& failure)
     {
       this->note(failure.Rank, failure.Aborted, failure.what());
-      if (failure.Rank == this->Rank && !this->Told)
+      if (failure.Rank == this->Rank && !this->HasAnnounced)
       {
-        this->tellFailure(failure.Aborted, failure.what());
+        this->announceFailure(failure.Aborted, failure.what());
       }
     }
     catch (const std::bad_alloc&)
     {
-      this->tellFailure(
+      this->announceFailure(
         false, "there is not enough memory; use more ranks on more machines, or fewer points.");
     }
     catch (const std::exception& error)
     {
-      this->tellFailure(false, error.what());
+      this->announceFailure(false, error.what());
     }
     catch (...)
     {
-      this->tellFailure(false, "an error of unknown kind ended the work.");
+      this->announceFailure(false, "an error of unknown kind ended the work.");
     }
-    this->partAfterFailure();
+    this->shutDown();
   }
 
   /// The number of messages and of their bytes.
@@ -252,7 +252,7 @@ public:
 
 private:
   struct Outgoing;
-  struct Arrival;
+  struct Arriving;
 
   /// A message of a later run than this rank's.
   struct EarlyMessage
@@ -261,8 +261,8 @@ private:
     Message Content;
   };
 
-  /// The receiver of message parts, and the ranks that they are awaited from.
-  struct InParts
+  /// Receives messages in parts, and knows the ranks from which they are awaited.
+  struct PartReceiver
   {
     const TakePart& Take;
     std::vector<char> IsAwaited;
@@ -284,25 +284,25 @@ private:
     return values;
   }
 
-  bool probe(Arrival& arrival);
-  bool receive(Message& message, const InParts* inParts);
-  Bytes receiveContent(const Arrival& arrival);
-  void keepForItsRun(const Arrival& arrival);
-  void receiveParts(const Arrival& arrival, const TakePart& takePart);
+  bool probe(Arriving& arriving);
+  bool receive(Message& message, const PartReceiver* receiver);
+  Bytes receiveContent(const Arriving& arriving);
+  void keepForItsRun(const Arriving& arriving);
+  void receiveParts(const Arriving& arriving, const TakePart& takePart);
   bool receiveOfFailure(Message& message);
-  void discardParts(const Arrival& arrival);
-  bool receiveGood(Message& message, const InParts* inParts = nullptr);
+  void discardParts(const Arriving& arriving);
+  bool receiveGood(Message& message, const PartReceiver* receiver = nullptr);
   void testOutgoing();
-  void postStretch(
-    int to, MessageKind kind, const std::shared_ptr<Bytes>& memory, const Stretch& stretch);
+  void postRange(
+    int to, MessageKind kind, const std::shared_ptr<Bytes>& memory, const ByteRange& range);
   void sendTo(
-    int to, MessageKind kind, const std::shared_ptr<Bytes>& memory, const Stretch& stretch);
+    int to, MessageKind kind, const std::shared_ptr<Bytes>& memory, const ByteRange& range);
   void sendTo(int to, MessageKind kind, Bytes content);
-  void tellFailure(bool aborted, const std::string& why);
+  void announceFailure(bool aborted, const std::string& why);
   void note(int rank, bool aborted, const std::string& reason);
   void noteFailure(const Message& message);
-  [[noreturn]] void partAfterFailure();
-  void turnTogether(bool together);
+  [[noreturn]] void shutDown();
+  void setTogether(bool together);
   Bytes combine(Bytes mine, const std::function<Bytes(Bytes, const Bytes&)>& merge);
   template <typename Value, typename Operation>
   void allReduce(std::vector<Value>& values, const Operation& operation);
@@ -320,9 +320,9 @@ private:
   double SendingSeconds = 0;
   int Pauses = 0;
   bool IsTogether = false;
-  bool Told = false; ///< the other ranks have been told of this rank's failure
+  bool HasAnnounced = false; ///< this rank has sent its failure to the others
   std::unique_ptr<RankFailure> Failure;
-  std::vector<char> HasParted;
+  std::vector<char> HasShutDown;
 };
 
 } // namespace tipp

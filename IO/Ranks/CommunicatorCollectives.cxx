@@ -28,38 +28,38 @@ std::vector<Bytes> Communicator::allToAll(std::vector<Bytes> contents)
 }
 
 Bytes Communicator::allToAllInParts(
-  Bytes memory, const std::vector<Stretch>& contents, const TakePart& takePart)
+  Bytes memory, const std::vector<ByteRange>& contents, const TakePart& takePart)
 {
   const auto shared = std::make_shared<Bytes>(std::move(memory));
   for (int step = 1; step < this->Size; ++step)
   {
     const int to = (this->Rank + step) % this->Size;
-    this->postStretch(to, MessageKind::AllToAll, shared, contents[std::size_t(to)]);
+    this->postRange(to, MessageKind::AllToAll, shared, contents[std::size_t(to)]);
   }
-  InParts inParts{ takePart, std::vector<char>(std::size_t(this->Size), 1) };
-  inParts.IsAwaited[std::size_t(this->Rank)] = 0;
+  PartReceiver receiver{ takePart, std::vector<char>(std::size_t(this->Size), 1) };
+  receiver.IsAwaited[std::size_t(this->Rank)] = 0;
   // Some messages may have arrived while this rank waited for another.
   for (auto kept = this->Inbox.begin(); kept != this->Inbox.end();)
   {
-    if (!inParts.concerns(*kept))
+    if (!receiver.concerns(*kept))
     {
       ++kept;
       continue;
     }
-    inParts.IsAwaited[std::size_t(kept->Source)] = 0;
+    receiver.IsAwaited[std::size_t(kept->Source)] = 0;
     takePart(kept->Source, kept->Content.data(), kept->Content.size());
     kept = this->Inbox.erase(kept);
   }
-  while (std::count(inParts.IsAwaited.begin(), inParts.IsAwaited.end(), 1) > 0)
+  while (std::count(receiver.IsAwaited.begin(), receiver.IsAwaited.end(), 1) > 0)
   {
     Message message;
-    if (!this->receiveGood(message, &inParts))
+    if (!this->receiveGood(message, &receiver))
     {
       this->pause();
     }
-    else if (inParts.concerns(message))
+    else if (receiver.concerns(message))
     {
-      inParts.IsAwaited[std::size_t(message.Source)] = 0;
+      receiver.IsAwaited[std::size_t(message.Source)] = 0;
     }
     else
     {

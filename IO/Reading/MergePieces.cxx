@@ -251,7 +251,7 @@ private:
   static constexpr std::int64_t wanted = -2;
 
   std::vector<const Piece*> Pieces;
-  /// of each piece's points: index in the result, or absent, or wanted
+  /// By piece and point: the index in the result; or absent or wanted.
   std::vector<std::vector<std::int64_t>> Indices;
   std::vector<PointOfPiece> Points;
   std::vector<CellOfPiece> Cells;

@@ -99,13 +99,13 @@ class Filter(VTKPythonAlgorithmBase):
         except Exception as error:  # pylint: disable=broad-except
             if str(error) == STOPPED and self.GetAbortExecute():
                 return 1
-            self._tell("ErrorEvent", str(error.args[0]) if error.args else type(error).__name__)
+            self._report("ErrorEvent", str(error.args[0]) if error.args else type(error).__name__)
             return 0
         for warning in caught:
-            self._tell("WarningEvent", str(warning.message))
+            self._report("WarningEvent", str(warning.message))
         return 1
 
-    def _tell(self, event: str, sentence: str) -> None:
+    def _report(self, event: str, sentence: str) -> None:
         if self.HasObserver(event):
             self.InvokeEvent(event, sentence)
             return

@@ -63,12 +63,12 @@ class vtkTIPPDelaunay2D(Filter):
         return self.GetOutputDataObject(1)
 
     def GetNumberOfDuplicatePoints(self) -> int:
-        return self._counted("DuplicatePoints")
+        return self._statistic("DuplicatePoints")
 
     def GetNumberOfRejectedPoints(self) -> int:
-        return self._counted("RejectedPoints")
+        return self._statistic("RejectedPoints")
 
-    def _counted(self, name: str) -> int:
+    def _statistic(self, name: str) -> int:
         array = self.GetStatistics().GetFieldData().GetArray(name)
         return int(array.GetValue(0)) if array else 0
 

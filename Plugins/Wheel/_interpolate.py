@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _arguments as check
 from . import _core
-from ._arrays import coordinates, taken
+from ._arrays import converted, coordinates
 
 
 class Delaunay:
@@ -115,7 +115,7 @@ class Delaunay:
 
 def _queries(xi: Any) -> tuple[np.ndarray, tuple[int, ...]]:
     """Returns the points as (n, 2) float64, and the shape of the results."""
-    array = taken(xi, "xi")
+    array = converted(xi, "xi")
     if array.ndim == 0 or array.shape[-1] != 2:
         raise ValueError(f"xi has the shape {array.shape}; give x and y along the last axis.")
     return np.ascontiguousarray(array.reshape(-1, 2), np.float64), array.shape[:-1]
@@ -174,7 +174,7 @@ class LinearNDInterpolator:
     def __call__(self, *xi: Any) -> np.ndarray:
         """Returns the values at points of shape (..., 2), or at x and y, which are broadcast."""
         if len(xi) == 2:
-            xi = (np.stack(np.broadcast_arrays(*(taken(one, "xi") for one in xi)), axis=-1),)
+            xi = (np.stack(np.broadcast_arrays(*(converted(one, "xi") for one in xi)), axis=-1),)
         if len(xi) != 1:
             raise TypeError(f"there are {len(xi)} arguments; give points, or x and y.")
         queries, shape = _queries(xi[0])

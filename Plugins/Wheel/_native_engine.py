@@ -86,7 +86,7 @@ def raster(points: Any, point_data: Any, options: dict[str, Any],
         with uncompressed(points) as files:
             made = _core.dem(files, options, progress)
     else:
-        made = _core.dem(_table(points, point_data, options), options, progress)
+        made = _core.dem(_points_and_columns(points, point_data, options), options, progress)
     finish(progress)
     bands, grid, crs, rejected = made
     if rejected:
@@ -102,7 +102,7 @@ def dem(points: Any, point_data: Any, options: dict[str, Any],
     return [band[::-1] for band in bands], (size, 0.0, west, 0.0, -size, south + rows * size), crs or None
 
 
-def _table(points: Any, point_data: Any, options: dict[str, Any]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+def _points_and_columns(points: Any, point_data: Any, options: dict[str, Any]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """Returns the coordinates in the plane, and the columns that the bands need."""
     if check.is_vtk_object(points):
         from ._vtk import arrays_of, xyz_of
@@ -165,7 +165,7 @@ def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
     array = plain(coordinates(points))
     if array.shape[1] == 2 and options["polygons"] is not None:  # corners of polygons may have a z
         array = np.column_stack([array, np.zeros(len(array), array.dtype)])
-    mesh, statistics, _ = _meshed(array, attributes(point_data, len(array)), options, progress)
+    mesh, statistics, _ = _triangulated(array, attributes(point_data, len(array)), options, progress)
     if has_vtk():
         from ._vtk import surface_of
 
@@ -178,7 +178,7 @@ def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
     return mesh, statistics
 
 
-def _meshed(points: np.ndarray, data: dict[str, np.ndarray], options: dict[str, Any],
+def _triangulated(points: np.ndarray, data: dict[str, np.ndarray], options: dict[str, Any],
             progress: Progress | None) -> tuple[Mesh, dict[str, Any], bool]:
     """Returns a mesh whose points have as many columns as `points`, statistics, and whether the points are the same."""
     given = points
@@ -251,7 +251,7 @@ def _delaunay_of_data_set(data: Any, options: dict[str, Any],
 
     has_constraints = any(options[name] is not None for name in ("edge_source", "edges", "polygons"))
     arrays = arrays_of(data.GetPointData()) if has_constraints else {}
-    mesh, statistics, is_same = _meshed(plain(xyz_of(data)), arrays, options, progress)
+    mesh, statistics, is_same = _triangulated(plain(xyz_of(data)), arrays, options, progress)
     return wrapped_like(surface_of(mesh, None if options["bound"] or not is_same else data), data), statistics
 
 
@@ -303,12 +303,12 @@ def write(mesh: Any, path: str, options: dict[str, Any], progress: Progress | No
         if _GHOSTS in cell_data:
             owned = cell_data[_GHOSTS] == 0
             cells, cell_data = cells[owned], {name: values[owned] for name, values in cell_data.items()}
-        _core.partition_arrays(plain(mesh.points), np.ascontiguousarray(cells), _numbers(mesh.point_data),
-                               _numbers(cell_data), *how)
+        _core.partition_arrays(plain(mesh.points), np.ascontiguousarray(cells), _numeric_arrays(mesh.point_data),
+                               _numeric_arrays(cell_data), *how)
     finish(progress)
 
 
-def _numbers(data: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+def _numeric_arrays(data: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
     """Returns the arrays to store: numeric ones, except those that a partitioned mesh always has."""
     return {name: np.ascontiguousarray(values) for name, values in data.items()
             if name not in (_GHOSTS, *_OWN_IDS) and values.dtype.kind in "iuf"}
@@ -336,7 +336,7 @@ def open_mesh(mesh: Any, options: dict[str, Any]) -> Any:
     if isinstance(mesh, str):
         return _core.Query(mesh, options["memory"], options["step"], options["threads"])
     mesh = _simplices(mesh, "mesh", ("vtkPolyData", "vtkUnstructuredGrid"), "a mesh")
-    of_points, of_cells = _numbers(mesh.point_data), _numbers(mesh.cell_data)
+    of_points, of_cells = _numeric_arrays(mesh.point_data), _numeric_arrays(mesh.cell_data)
     points = plain(mesh.points)
     if points.shape[1] == 2:
         points = np.column_stack([points, np.zeros(len(points), points.dtype)])
@@ -353,8 +353,8 @@ def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> A
     if options["bounds"] is None and not np.isfinite(points).all(axis=1).any():
         raise RuntimeError("the input has no points with finite coordinates, so its bounds give no range: "
                            "give bounds.")
-    chosen = _chosen(mesh, options["arrays"])
-    hidden, sentences = _hidden(mesh, points, options, chosen[0])
+    chosen = _selected_arrays(mesh, options["arrays"])
+    hidden, sentences = _hidden_cells(mesh, points, options, chosen[0])
     origin, spacing, dimensions, samples, mask, more = _core.resample(
         points, mesh.cells, hidden, list(chosen[0].values()), list(chosen[1].values()), bounds,
         options["dimensions"], options["spacing"] or [0.0, 0.0, 0.0], options["null_value"], options["device"],
@@ -372,7 +372,7 @@ def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> A
     return wrapped_like(image_of(image), source)
 
 
-def _chosen(mesh: Mesh, names: list[str] | None) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+def _selected_arrays(mesh: Mesh, names: list[str] | None) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
     """Returns the point arrays and cell arrays to sample."""
     result: tuple[dict[str, np.ndarray], dict[str, np.ndarray]] = ({}, {})
     for chosen, data in zip(result, (mesh.point_data, mesh.cell_data)):
@@ -386,7 +386,7 @@ def _chosen(mesh: Mesh, names: list[str] | None) -> tuple[dict[str, np.ndarray],
     return result
 
 
-def _hidden(mesh: Mesh, points: np.ndarray, options: dict[str, Any],
+def _hidden_cells(mesh: Mesh, points: np.ndarray, options: dict[str, Any],
             arrays: dict[str, np.ndarray]) -> tuple[np.ndarray | None, list[str]]:
     """Returns a mark for each cell that gives no values, and warnings."""
     marks = np.zeros(len(mesh.cells), bool)

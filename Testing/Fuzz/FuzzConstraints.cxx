@@ -17,16 +17,37 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
+/// Pairs of points, the segments of a star, a chain of segments, or constraints that follow each
+/// other back and forth: overlapping ones, where points are on a line.
 std::vector<Constraint> drawConstraints(Engine& random, std::size_t points)
 {
   std::vector<Constraint> constraints;
-  if (points > 0)
+  if (points == 0)
   {
-    const std::size_t count = random() % (random() % 3 == 0 ? 20 : 5);
-    for (std::size_t i = 0; i < count; ++i)
+    return constraints;
+  }
+  enum class Kind
+  {
+    Pairs,
+    Star,
+    Chain,
+    BackAndForth
+  };
+  const Kind kinds[] = { Kind::Pairs, Kind::Pairs, Kind::Star, Kind::Chain, Kind::BackAndForth };
+  const Kind kind = kinds[random() % 5];
+  const std::size_t mosts[] = { 5, 5, 12, 25 };
+  const std::size_t count = 1 + random() % mosts[random() % 4];
+  const auto draw = [&] { return PointId(random() % points); };
+  PointId from = draw();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const PointId to = draw();
+    constraints.push_back({ from, to });
+    if (kind == Kind::BackAndForth)
     {
-      constraints.push_back({ PointId(random() % points), PointId(random() % points) });
+      constraints.push_back({ to, draw() });
     }
+    from = kind == Kind::Star ? from : kind == Kind::Chain ? to : draw();
   }
   return constraints;
 }

@@ -2,6 +2,7 @@
 #include "FuzzDriver.h"
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -15,7 +16,7 @@ namespace
 
 int usage(const char* name)
 {
-  std::fprintf(stderr, "usage: %s [--seconds N] [--seed S] [--case N]\n", name);
+  std::fprintf(stderr, "usage: %s [--seconds N | --cases N] [--seed S] [--case N]\n", name);
   return 2;
 }
 
@@ -25,6 +26,7 @@ int fuzz(
   const char* name, int argc, char** argv, bool (*passes)(std::uint64_t seed, std::uint64_t number))
 {
   double seconds = 60;
+  std::uint64_t most = UINT64_MAX;
   std::uint64_t seed = 1;
   for (int i = 1; i < argc; i += 2)
   {
@@ -37,6 +39,11 @@ int fuzz(
     if (std::strcmp(argv[i], "--seconds") == 0)
     {
       seconds = value;
+    }
+    else if (std::strcmp(argv[i], "--cases") == 0)
+    {
+      most = std::uint64_t(value);
+      seconds = HUGE_VAL;
     }
     else if (std::strcmp(argv[i], "--seed") == 0)
     {
@@ -52,10 +59,12 @@ int fuzz(
     }
   }
   const auto now = [] { return std::chrono::steady_clock::now(); };
-  const auto end = now() + std::chrono::duration<double>(seconds);
+  const auto begin = now();
+  const auto isOver = [&]
+  { return std::chrono::duration<double>(now() - begin).count() >= seconds; };
   std::uint64_t cases = 0;
   std::uint64_t failures = 0;
-  for (; now() < end && failures < 10; ++cases)
+  for (; cases < most && failures < 10 && !isOver(); ++cases)
   {
     failures += passes(seed, cases) ? 0 : 1;
   }

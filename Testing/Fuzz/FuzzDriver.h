@@ -9,9 +9,10 @@ namespace tipp
 namespace test
 {
 
-/// main() of a fuzzer. `NAME [--seconds N] [--seed S] [--case N]` runs one case after the other for
-/// N seconds (60 by default), or only the given case. `passes` must derive the case from the seed
-/// and the number alone, print an error, and return whether the case passed.
+/// main() of a fuzzer. `NAME [--seconds N | --cases N] [--seed S] [--case N]` runs one case after
+/// the other for N seconds (60 by default) or until N cases are done, or runs only the given case.
+/// `passes` must derive the case from the seed and the number alone, print an error, and return
+/// whether the case passed.
 int fuzz(const char* name, int argc, char** argv,
   bool (*passes)(std::uint64_t seed, std::uint64_t number));
 

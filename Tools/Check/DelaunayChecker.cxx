@@ -123,12 +123,12 @@ private:
   // Each distinct point must be a vertex under exactly one id, unless all points are collinear.
   void checkPoints()
   {
-    struct Placed
+    struct Vertex
     {
       Position At;
       bool Used;
     };
-    std::vector<Placed> points;
+    std::vector<Vertex> points;
     points.reserve(this->XY.size() / 2);
     for (std::int64_t id = 0; id < this->Report.Points; ++id)
     {
@@ -138,7 +138,7 @@ private:
       }
     }
     std::sort(points.begin(), points.end(),
-      [](const Placed& a, const Placed& b) { return check::isBefore(a.At, b.At); });
+      [](const Vertex& a, const Vertex& b) { return check::isBefore(a.At, b.At); });
     bool collinear = true;
     for (std::size_t first = 0, last = 0; first < points.size(); first = last)
     {

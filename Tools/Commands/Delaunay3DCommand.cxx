@@ -6,8 +6,6 @@
 #include "Commands/Report.h"
 #include "Console/Process.h"
 #include "Files/InputFile.h"
-#include "Files/OutputPath.h"
-#include "Files/PendingOutput.h"
 #include "InMemory/TriangulatePoints.h"
 #include "Meshes/TetrahedronFiles.h"
 #include "OutOfCore3D/OutOfCoreTetrahedralization.h"
@@ -38,17 +36,6 @@ std::vector<Point3> coordinatesOf(const PointTable& table, std::size_t elevation
     points[i] = { table.XY[2 * i], table.XY[2 * i + 1], z[i] };
   }
   return points;
-}
-
-PathState requireWritable(const Delaunay3DArguments& arguments)
-{
-  requireApart({ arguments.Output, arguments.Statistics }, arguments.Inputs);
-  const PendingFile output(arguments.Output);
-  if (!arguments.Statistics.empty())
-  {
-    const PendingFile statistics(arguments.Statistics);
-  }
-  return output.before();
 }
 
 bool writeResult(const Delaunay3DArguments& arguments, PointTable&& table,
@@ -138,7 +125,8 @@ Examples:
 
 int runDelaunay3D(const Delaunay3DArguments& arguments)
 {
-  const PathState before = requireWritable(arguments);
+  const PathState before =
+    requireWritable(arguments.Output, arguments.Statistics, arguments.Inputs);
   PointTable table = readPoints(arguments.Inputs, arguments.Columns);
   const auto count = std::int64_t(table.size());
   reportLeftOut(table.LeftOut, table.ThinnedOut);
@@ -209,12 +197,7 @@ OutOfCoreStatistics3 makeOutOfCore(const Delaunay3DArguments& arguments)
 
 int runDelaunay3DOutOfCore(const Delaunay3DArguments& arguments)
 {
-  requireApart(
-    { arguments.Output, arguments.Statistics, scratchIn(arguments.Scratch) }, arguments.Inputs);
-  if (!arguments.Statistics.empty())
-  {
-    const PendingFile writable(arguments.Statistics); // fails early if it cannot be written
-  }
+  checkOutputs(arguments.Output, arguments.Statistics, arguments.Scratch, arguments.Inputs);
   const OutOfCoreStatistics3 made = makeOutOfCore(arguments);
   if (made.Aborted)
   {
@@ -297,10 +280,7 @@ void addDelaunay3DCommand(CLI::App& app, int& exitCode)
     ->add_option("--memory", arguments->Memory,
       "With a .tipp output: the memory limit of the process, such as 512M (default: 2G)")
     ->check(checkMemorySize);
-  command->add_flag("--resume", arguments->Resume,
-    "With a .tipp output: resume a run that was killed, interrupted or failed");
-  command->add_option("--scratch", arguments->Scratch,
-    "With a .tipp output: a folder for temporary files (default: that of the output)");
+  addResumeOptions(*command, "With a .tipp output", arguments->Resume, arguments->Scratch);
   command->footer(footer);
   command->callback(
     [arguments, &exitCode]()

@@ -67,9 +67,11 @@ void writeOnFirst(Communicator& ranks, const Delaunay3DArguments& arguments,
   }
 }
 
-void runTogether(Communicator& ranks, const Delaunay3DArguments& arguments)
+void triangulateShares(Communicator& ranks, const Delaunay3DArguments& arguments)
 {
-  const PathState before = ranks.isFirst() ? requireWritable(arguments) : PathState();
+  const PathState before = ranks.isFirst()
+    ? requireWritable(arguments.Output, arguments.Statistics, arguments.Inputs)
+    : PathState();
   const std::vector<Point3> own = readShare(ranks, arguments);
   ranks.barrier();
   const Stopwatch watch;
@@ -91,16 +93,7 @@ void runTogether(Communicator& ranks, const Delaunay3DArguments& arguments)
 int runDelaunay3DOnRanks(
   const Delaunay3DArguments& arguments, vtkMultiProcessController* controller)
 {
-  Communicator ranks(controller);
-  try
-  {
-    ranks.together([&]() { runTogether(ranks, arguments); });
-  }
-  catch (const RankFailure& failure)
-  {
-    return failure.Aborted ? reportInterrupt() : reportRankFailure(failure, ranks);
-  }
-  return Success;
+  return runTogether(controller, [&](Communicator& ranks) { triangulateShares(ranks, arguments); });
 }
 
 } // namespace tipp

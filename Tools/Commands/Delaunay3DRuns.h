@@ -39,11 +39,8 @@ struct Delaunay3DArguments
 /// Returns the points in space. `elevation`: the index of the column with the third coordinate.
 std::vector<Point3> coordinatesOf(const PointTable& table, std::size_t elevation);
 
-/// Throws IOError unless the output files can be written. Call it before the computation. Returns
-/// the state of the output's path; writeResult() refuses to replace anything else.
-PathState requireWritable(const Delaunay3DArguments& arguments);
-
-/// Writes the output. Returns false, without a file, if the user interrupted it. Throws IOError.
+/// Writes the output. `before`: from requireWritable(). Returns false, without a file, if the user
+/// interrupted it. Throws IOError.
 bool writeResult(const Delaunay3DArguments& arguments, PointTable&& table,
   const Tetrahedralization& mesh, const PathState& before);
 

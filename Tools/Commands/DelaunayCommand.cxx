@@ -270,10 +270,7 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
       "checksum")
     ->check(CLI::IsMember({ "mesh", "count" }))
     ->capture_default_str();
-  command->add_flag("--resume", arguments->Resume,
-    "With a .tipp output: resume a run that was killed, interrupted or failed");
-  command->add_option("--scratch", arguments->Scratch,
-    "With a .tipp output: a folder for temporary files (default: that of the output)");
+  addResumeOptions(*command, "With a .tipp output", arguments->Resume, arguments->Scratch);
   command->footer(footer);
   command->callback(
     [arguments, &exitCode]()

@@ -121,7 +121,7 @@ void writeOnFirst(Communicator& ranks, const DelaunayArguments& arguments, Delau
   warnOfNoTriangles(mine.AllTriangles);
 }
 
-void runTogether(Communicator& ranks, const DelaunayArguments& arguments)
+void triangulateShares(Communicator& ranks, const DelaunayArguments& arguments)
 {
   if (arguments.MaximumEdge > 0)
   {
@@ -165,16 +165,7 @@ void runTogether(Communicator& ranks, const DelaunayArguments& arguments)
 
 int runDelaunayOnRanks(const DelaunayArguments& arguments, vtkMultiProcessController* controller)
 {
-  Communicator ranks(controller);
-  try
-  {
-    ranks.together([&]() { runTogether(ranks, arguments); });
-  }
-  catch (const RankFailure& failure)
-  {
-    return failure.Aborted ? reportInterrupt() : reportRankFailure(failure, ranks);
-  }
-  return Success;
+  return runTogether(controller, [&](Communicator& ranks) { triangulateShares(ranks, arguments); });
 }
 
 } // namespace tipp

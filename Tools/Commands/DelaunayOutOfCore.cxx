@@ -6,8 +6,6 @@
 #include "Commands/Report.h"
 #include "Constraints/ConstrainedPoints.h"
 #include "Files/InputFile.h"
-#include "Files/OutputPath.h"
-#include "Files/PendingOutput.h"
 
 #include <fmt/format.h>
 
@@ -139,13 +137,7 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessCont
   {
     if (ranks.rank() == 0)
     {
-      requireApart(
-        { arguments.Output, arguments.Statistics, scratchIn(arguments.Scratch) }, arguments.Inputs);
-      if (!arguments.Statistics.empty())
-      {
-        // Throws here, before the computation, if the file cannot be written.
-        const PendingFile writable(arguments.Statistics);
-      }
+      checkOutputs(arguments.Output, arguments.Statistics, arguments.Scratch, arguments.Inputs);
     }
     PointOptions points = arguments.Columns;
     setThinningFile(points, arguments.Scratch, arguments.Output);

@@ -7,8 +7,6 @@
 #include "Console/Process.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
-#include "Files/OutputPath.h"
-#include "Files/PendingOutput.h"
 #include "InMemory/TriangulatePoints.h"
 #include "Meshes/MeshFiles.h"
 
@@ -237,13 +235,7 @@ PathState requireWritable(const DelaunayArguments& arguments)
   std::vector<std::string> inputs = arguments.Inputs;
   inputs.push_back(arguments.Constraints.Lines);
   inputs.push_back(arguments.Constraints.Boundary);
-  requireApart({ arguments.Output, arguments.Statistics }, inputs);
-  const PendingFile output(arguments.Output);
-  if (!arguments.Statistics.empty())
-  {
-    const PendingFile statistics(arguments.Statistics);
-  }
-  return output.before();
+  return requireWritable(arguments.Output, arguments.Statistics, inputs);
 }
 
 namespace

@@ -99,8 +99,8 @@ bool isOutOfCore(const DelaunayArguments& arguments);
 /// Returns the exit code, which is the same on all ranks.
 int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessController* controller);
 
-/// If the output is not a partitioned mesh: returns a given option that only runs out of core
-/// support, or an empty text.
+/// Returns the name of a given option that only runs out of core support; an empty text if there is
+/// none.
 std::string misplacedOutOfCoreOption(const DelaunayArguments& arguments);
 
 /// Returns whether a file of this kind stores arrays of points and cells; .npy and .14 do not.

@@ -4,9 +4,6 @@
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 
-#include "Files/OutputPath.h"
-#include "Files/PendingOutput.h"
-
 #include <fmt/format.h>
 
 namespace tipp
@@ -99,11 +96,7 @@ void requireDemWritable(const DemArguments& arguments)
 {
   std::vector<std::string> inputs = arguments.Inputs;
   inputs.insert(inputs.end(), { arguments.Breaklines, arguments.Boundary });
-  requireApart({ arguments.Output, arguments.Statistics, scratchIn(arguments.Scratch) }, inputs);
-  if (!arguments.Statistics.empty())
-  {
-    const PendingFile writable(arguments.Statistics);
-  }
+  checkOutputs(arguments.Output, arguments.Statistics, arguments.Scratch, inputs);
 }
 
 IOError demError(const DemArguments& arguments, const std::runtime_error& error)

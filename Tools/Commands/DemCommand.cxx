@@ -288,10 +288,7 @@ void addDemCommand(CLI::App& app, int& exitCode)
   command
     ->add_option("--memory", arguments->Memory, "The memory limit of each process, such as 512M")
     ->check(checkMemorySize);
-  command->add_flag("--resume", arguments->Resume,
-    "With --memory: resume a run that was killed, interrupted or failed");
-  command->add_option("--scratch", arguments->Scratch,
-    "With --memory: a folder for temporary files (default: that of the output)");
+  addResumeOptions(*command, "With --memory", arguments->Resume, arguments->Scratch);
   command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
   command->footer(footer);
   command->callback(

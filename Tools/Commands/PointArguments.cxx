@@ -159,6 +159,15 @@ void addThreadsOption(CLI::App& command, int& threads)
     ->capture_default_str();
 }
 
+void addResumeOptions(
+  CLI::App& command, const std::string& condition, bool& resume, std::string& scratch)
+{
+  command.add_flag(
+    "--resume", resume, condition + ": resume a run that was killed, interrupted or failed");
+  command.add_option("--scratch", scratch,
+    condition + ": a folder for temporary files (default: that of the output)");
+}
+
 void setThinningFile(PointOptions& options, const std::string& scratch, const std::string& output)
 {
   namespace fs = std::filesystem;

@@ -26,6 +26,11 @@ void addDuplicatesOption(CLI::App& command, DuplicateRule& rule);
 /// Adds the option --threads.
 void addThreadsOption(CLI::App& command, int& threads);
 
+/// Adds the options --resume and --scratch. `condition` begins their help text: it says to which
+/// runs they apply.
+void addResumeOptions(
+  CLI::App& command, const std::string& condition, bool& resume, std::string& scratch);
+
 /// Sets a temporary file for thinning, for runs with a memory limit: in the folder `scratch`, or
 /// beside the output if that is empty.
 void setThinningFile(PointOptions& options, const std::string& scratch, const std::string& output);

@@ -67,8 +67,7 @@ CLI::Option* addRegionOptions(CLI::App& command, RegionArguments& arguments);
 
 // Each of these functions queries the mesh, and writes the file on the first rank. `shared`: the
 // ranks that share the mesh, all of which must call the function; null: this process alone.
-// `before`: the state of the output's path before the query. They throw IOError.
-// first rank; `before` is its own. Collective if shared. They throw IOError.
+// `before`: the first rank's state of the output's path before the query. They throw IOError.
 
 /// Writes statistics of arrays in the zones of a file, as .csv.
 void writeZones(Communicator* shared, const ResidentMesh& mesh, const ZoneArguments& arguments,

@@ -75,6 +75,23 @@ void warnOfHidden(double values, double noData)
   }
 }
 
+void checkOutputs(const std::string& output, const std::string& statistics,
+  const std::string& scratch, const std::vector<std::string>& inputs)
+{
+  requireApart({ output, statistics, scratchIn(scratch) }, inputs);
+  if (!statistics.empty())
+  {
+    const PendingFile writable(statistics);
+  }
+}
+
+PathState requireWritable(
+  const std::string& output, const std::string& statistics, const std::vector<std::string>& inputs)
+{
+  checkOutputs(output, statistics, "", inputs);
+  return PendingFile(output).before();
+}
+
 void writeJson(const std::string& path, const nlohmann::ordered_json& json)
 {
   PendingFile pending(path);
@@ -141,6 +158,21 @@ int reportRankFailure(const RankFailure& failure, const Communicator& ranks)
       ranks.size() > 1 ? fmt::format("rank {}: ", failure.Rank) : "", failure.what());
   }
   return Failure;
+}
+
+int runTogether(
+  vtkMultiProcessController* controller, const std::function<void(Communicator&)>& work)
+{
+  Communicator ranks(controller);
+  try
+  {
+    ranks.together([&] { work(ranks); });
+  }
+  catch (const RankFailure& failure)
+  {
+    return failure.Aborted ? reportInterrupt() : reportRankFailure(failure, ranks);
+  }
+  return Success;
 }
 
 int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints& open,

@@ -3,6 +3,7 @@
 #define tippReport_h
 
 #include "Console/ProgressBar.h"
+#include "Files/OutputPath.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Output/RunStatistics.h"
 
@@ -33,6 +34,17 @@ void warnOfNoTriangles(std::int64_t triangles);
 /// data.
 void warnOfHidden(double values, double noData);
 
+/// Throws IOError if an output is also an input (see requireApart()), or if the file of statistics,
+/// which may be empty, cannot be written. Call it before the computation.
+void checkOutputs(const std::string& output, const std::string& statistics,
+  const std::string& scratch, const std::vector<std::string>& inputs);
+
+/// Throws IOError unless the output files can be written and differ from the inputs. Call it before
+/// the computation. `statistics` may be empty. Returns the state of the output's path; code that
+/// writes the output later refuses to replace anything else.
+PathState requireWritable(
+  const std::string& output, const std::string& statistics, const std::vector<std::string>& inputs);
+
 /// Writes a JSON file. Throws IOError.
 void writeJson(const std::string& path, const nlohmann::ordered_json& json);
 
@@ -56,6 +68,11 @@ int reportInterruptedRun(bool kept);
 
 /// Prints on the first rank which rank has failed, and why. Returns Failure.
 int reportRankFailure(const RankFailure& failure, const Communicator& ranks);
+
+/// Calls work() on all ranks of a controller, or in this process alone (null). Returns the exit
+/// code, the same on all ranks, after printing a message if a rank failed or the user stopped it.
+int runTogether(
+  vtkMultiProcessController* controller, const std::function<void(Communicator&)>& work);
 
 /// Returns the sum of the phases' seconds.
 template <typename Phase>

@@ -136,6 +136,14 @@ def data_object(value: Any, name: str, kinds: Iterable[str], wanted: str) -> Any
     return value
 
 
+def require_point_set(points: Any, point_data: Any = None, wanted: str = "a vtkPointSet or an array") -> None:
+    """Checks a VTK object that is given as points; arrays are checked when they are converted."""
+    if is_vtk_object(points):
+        if point_data is not None:
+            raise ValueError("point_data needs an array of points; a data set has its own.")
+        data_object(points, "points", ("vtkPointSet",), wanted)
+
+
 def _shown(value: Any) -> str:
     """Returns the repr of a short value, or the type of a long one."""
     if is_vtk_object(value):

@@ -66,7 +66,7 @@ class Image(Data):
 _DOUBLE = np.dtype(np.float64)
 
 
-def taken(values: ArrayLike, name: str) -> np.ndarray:
+def converted(values: ArrayLike, name: str) -> np.ndarray:
     """Converts values to an array in the machine's byte order, of a type that VTK has.
 
     It shares the memory of `values` if possible. Masked entries become NaN. Raises TypeError or ValueError if the
@@ -96,7 +96,7 @@ def coordinates(points: ArrayLike) -> np.ndarray:
         return points  # the usual case, to keep small calls fast
     if isinstance(points, np.ma.MaskedArray) and points.dtype.kind in "iu":
         points = np.ma.MaskedArray(_as_doubles(points.data, points.mask), points.mask)
-    array = taken(points, "points")
+    array = converted(points, "points")
     if array.ndim != 2 or array.shape[1] not in (2, 3):
         raise ValueError(f"points have the shape {array.shape}; give an array of shape (n, 2) or (n, 3).")
     if np.asarray(points).dtype.kind == "b":
@@ -119,9 +119,9 @@ def _as_doubles(integers: np.ndarray, mask: Any = False) -> np.ndarray:
 
 
 def attribute(name: str, values: ArrayLike, argument: str = "point_data") -> np.ndarray:
-    """Returns an array with one value or row per point (or cell), converted by taken(), in C order."""
+    """Returns an array with one value or row per point (or cell), as by converted(), in C order."""
     argument = f"{argument}['{name}']"
-    array = taken(values, argument)
+    array = converted(values, argument)
     if array.ndim not in (1, 2) or array.shape[-1:] == (0,) and array.ndim == 2:
         raise ValueError(f"{argument} has the shape {array.shape}; give one value or one row for each point.")
     return np.ascontiguousarray(array)

@@ -8,7 +8,7 @@ from typing import Any, Callable, NamedTuple, TYPE_CHECKING
 import numpy as np
 
 from . import _arguments as argument
-from ._arrays import coordinates, Mesh, taken
+from ._arrays import converted, coordinates, Mesh
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -140,7 +140,7 @@ def check(
     """
     ties_matter = argument.flag(tie_rule, "tie_rule")
     is_free = argument.flag(boundary_free, "boundary_free")
-    xy, own, neighbors = _taken(points, "points")
+    xy, own, neighbors = _points_and_triangles(points, "points")
     if triangles is not None:
         own, neighbors = _triangles(triangles)
     if own is None:
@@ -149,7 +149,7 @@ def check(
     return _Checker(xy, own, neighbors, pairs).report(ties_matter, is_free)
 
 
-def _taken(points: Any, name: str) -> tuple[np.ndarray, np.ndarray | None, np.ndarray | None]:
+def _points_and_triangles(points: Any, name: str) -> tuple[np.ndarray, np.ndarray | None, np.ndarray | None]:
     """Returns (n, 2) coordinates; for a mesh also its triangles, and their neighbours if it has them."""
     if isinstance(points, Mesh):
         return _plane(points.points), _ids(points.cells, name, 3), points.cell_data.get("NeighborIds")
@@ -166,7 +166,7 @@ def _taken(points: Any, name: str) -> tuple[np.ndarray, np.ndarray | None, np.nd
 
 def _triangles(triangles: Any) -> tuple[np.ndarray, np.ndarray | None]:
     if isinstance(triangles, Mesh) or argument.is_vtk_object(triangles):
-        _, own, neighbors = _taken(triangles, "triangles")
+        _, own, neighbors = _points_and_triangles(triangles, "triangles")
         return (np.empty((0, 3), np.int64) if own is None else own), neighbors
     return _ids(triangles, "triangles", 3), None
 
@@ -176,7 +176,7 @@ def _plane(points: np.ndarray) -> np.ndarray:
 
 
 def _ids(values: Any, name: str, columns: int) -> np.ndarray:
-    array = taken(values, name)
+    array = converted(values, name)
     if array.size == 0:
         return np.empty((0, columns), np.int64)
     if array.ndim != 2 or array.shape[1] != columns or array.dtype.kind not in "iu":
@@ -278,8 +278,8 @@ class _Checker:
     def check_neighbors(self, first: np.ndarray, second: np.ndarray, boundary: np.ndarray) -> None:
         if self.neighbors is None or not self.are_all_good or len(self.neighbors) != len(self.all):
             return
-        told = np.asarray(self.neighbors).reshape(-1)
-        wrong = (told[first] != second // 3).sum() + (told[second] != first // 3).sum() + (told[boundary] != -1).sum()
+        stored = np.asarray(self.neighbors).reshape(-1)
+        wrong = (stored[first] != second // 3).sum() + (stored[second] != first // 3).sum() + (stored[boundary] != -1).sum()
         self.count("neighbours that are not those over the edge", wrong)
 
 

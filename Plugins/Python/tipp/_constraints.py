@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Iterable, Iterator, NamedTuple
 import numpy as np
 
 from . import _arguments as check
-from ._arrays import taken
+from ._arrays import converted
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -38,23 +38,23 @@ def constraints_of(
         return None
     lines = [] if edges is None else _edges(edges, count)
     by_id: list[np.ndarray] = []
-    by_place: list[np.ndarray] = []
+    by_position: list[np.ndarray] = []
     for number, polygon in enumerate([] if polygons is None else _polygons(polygons)):
         name = f"polygons[{number}]"
         rings = list(_rings(polygon)) if hasattr(polygon, "geom_type") else [polygon]
         for ring in rings:
-            array = taken(ring, name)
+            array = converted(ring, name)
             if array.ndim == 1 and array.dtype.kind in "iu":
                 _require_ids(array, count, name)
                 by_id.append(array)
             elif array.ndim == 2 and array.shape[1] in (2, 3) and array.dtype.kind in "fiu":
-                by_place.append(_spatial(array))
+                by_position.append(_spatial(array))
             else:
                 raise ValueError(f"{name} has the shape {array.shape} and type {array.dtype}; give point ids, or "
                                  "coordinates of shape (k, 2) or (k, 3).")
-    starts = np.cumsum([count, *(len(corners) for corners in by_place)])
-    by_id += [np.arange(first, first + len(corners)) for first, corners in zip(starts, by_place)]
-    return Constraints(lines, by_id, np.concatenate([np.zeros((0, 3)), *by_place]))
+    starts = np.cumsum([count, *(len(corners) for corners in by_position)])
+    by_id += [np.arange(first, first + len(corners)) for first, corners in zip(starts, by_position)]
+    return Constraints(lines, by_id, np.concatenate([np.zeros((0, 3)), *by_position]))
 
 
 def rings_of(polygons: Any) -> Iterator[Any]:
@@ -78,7 +78,7 @@ def _require_ids(ids: np.ndarray, count: int, name: str) -> None:
 
 
 def _edges(edges: ArrayLike, count: int) -> list[np.ndarray]:
-    array = taken(edges, "edges")
+    array = converted(edges, "edges")
     if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
         raise ValueError(f"edges have the shape {array.shape} and type {array.dtype}; give point ids of shape (m, 2).")
     _require_ids(array, count, "edges")

@@ -10,7 +10,7 @@ import numpy as np
 from . import _arguments as check
 from . import _engine
 from ._arguments import ProgressBar, progress_of
-from ._arrays import taken
+from ._arrays import converted
 from ._constraints import rings_of
 
 if TYPE_CHECKING:
@@ -106,11 +106,8 @@ def dem(
         The memory limit for points and triangles, in bytes or as a text such as "512M", not counting the raster and
         points passed as arrays. Data that does not fit is spilled to temporary files. A package built with VTK also
         keeps the points of files in memory. None: no limit.
-    threads
-        OpenMP threads; 0 is OpenMP's default.
-    progress_bar
-        Whether to show progress on standard error; or a function that is called with the fraction done and can stop
-        the run by returning False.
+    threads, progress_bar
+        As for delaunay().
 
     Returns
     -------
@@ -162,10 +159,8 @@ def dem(
         if point_data is not None:
             raise ValueError("point_data needs an array of points; files have their own columns.")
         points = [check.path(p, "points") for p in ([points] if isinstance(points, (str, os.PathLike)) else points)]
-    elif check.is_vtk_object(points):
-        if point_data is not None:
-            raise ValueError("point_data needs an array of points; a data set has its own.")
-        check.data_object(points, "points", ("vtkPointSet",), "a vtkPointSet, an array or names of files")
+    else:
+        check.require_point_set(points, point_data, "a vtkPointSet, an array or names of files")
     bands, transform, crs = _engine.dem(points, point_data, options, progress)
     return Dem(bands[0] if isinstance(attributes, str) else np.stack(bands), transform, crs)
 
@@ -198,7 +193,7 @@ def lines_of(lines: Any, name: str, is_closed: bool) -> str | tuple[np.ndarray, 
 
 
 def _corners(part: Any, name: str) -> np.ndarray:
-    array = taken(part, name)
+    array = converted(part, name)
     if array.ndim != 2 or array.shape[1] not in (2, 3) or array.dtype.kind not in "fiu":
         raise ValueError(f"{name} has the shape {array.shape} and type {array.dtype}; give corners of shape (k, 2) or (k, 3).")
     return np.column_stack([array, np.zeros((len(array), 3 - array.shape[1]))]).astype(np.float64)

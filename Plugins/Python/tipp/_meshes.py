@@ -50,8 +50,7 @@ def read(
     memory_limit
         The memory limit, in bytes, for loading a flat mesh, not counting its pieces.
     progress_bar
-        Whether to show progress on standard error; or a function that is called with the fraction done and can stop
-        the run by returning False.
+        As for delaunay().
 
     Returns
     -------
@@ -116,11 +115,8 @@ def write(
         Whether cells that meet several partitions are stored in each of their pieces.
     memory_limit
         The memory limit, in bytes, not counting a mesh in memory.
-    threads
-        OpenMP threads; 0 is OpenMP's default.
-    progress_bar
-        Whether to show progress on standard error; or a function that is called with the fraction done and can stop
-        the run by returning False.
+    threads, progress_bar
+        As for delaunay().
 
     Raises
     ------

@@ -87,11 +87,8 @@ def delaunay_file(
         Whether to resume a killed or interrupted run with the same output, input and options.
     scratch
         A folder for temporary files, for example on another disk. None: beside the output.
-    threads
-        Threads; 0 is OpenMP's default.
-    progress_bar
-        Whether to show progress on standard error; or a function that is called with the fraction done and can stop
-        the run by returning False.
+    threads, progress_bar
+        As for delaunay().
 
     Returns
     -------

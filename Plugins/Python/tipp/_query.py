@@ -122,7 +122,7 @@ class ResidentMesh:
         """Frees the memory. Afterwards queries raise ValueError."""
         self._engine = None
 
-    def _ask(self) -> Any:
+    def _opened(self) -> Any:
         engine = self._engine
         if engine is None:
             raise ValueError("the mesh is closed; open it again.")
@@ -146,7 +146,7 @@ class ResidentMesh:
         cells, weights
             (n,) cell ids, -1 outside, and (n, 3) or (n, 4) weights, which are 0 outside.
         """
-        return self._ask().locate(_points(points))
+        return self._opened().locate(_points(points))
 
     def interpolate(self, points: ArrayLike, arrays: str | Iterable[str] | None = None) -> Any:
         """Evaluates the mesh's arrays at points: point arrays are interpolated linearly, cell arrays have the cell's
@@ -172,17 +172,22 @@ class ResidentMesh:
         self, points: ArrayLike, arrays: str | Iterable[str] | None
     ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
         """Locates points once; returns their cells and the arrays' values there."""
+        wanted = self._wanted(arrays)
+        return self._opened().sample(_points(points), wanted)
+
+    def _wanted(self, arrays: str | Iterable[str] | None) -> list[str]:
+        """Returns the names of the arrays to evaluate. Raises KeyError if the mesh lacks one."""
         wanted = self._names if arrays is None else check.names(arrays, "arrays")
         check.require_arrays(wanted, self._names, "")
-        return self._ask().sample(_points(points), wanted)
+        return wanted
 
     def neighbors(self, cells: ArrayLike) -> np.ndarray:
         """Returns, for each cell and each of its corners, the cell across the opposite edge or face, or -1."""
-        return self._ask().neighbors(_ids(cells, "cells"))
+        return self._opened().neighbors(_ids(cells, "cells"))
 
     def star(self, points: ArrayLike) -> list[np.ndarray]:
         """Returns the cells at each point, in ascending order."""
-        return _split(*self._ask().star(_ids(points, "points")))
+        return _split(*self._opened().star(_ids(points, "points")))
 
     def ring(self, *, points: ArrayLike | None = None, cells: ArrayLike | None = None, k: int = 1) -> list[np.ndarray]:
         """Returns the points or cells within k steps of each point or cell, ascending, without itself.
@@ -192,14 +197,14 @@ class ResidentMesh:
         if (points is None) == (cells is None):
             raise ValueError("give either points or cells.")
         steps = check.whole(k, "k")
-        engine = self._ask()
+        engine = self._opened()
         if points is not None:
             return _split(*engine.ring_of_points(_ids(points, "points"), steps))
         return _split(*engine.ring_of_cells(_ids(cells, "cells"), steps))
 
     def boundary(self) -> list[np.ndarray]:
         """Returns the border of a mesh of triangles: the point ids of each loop, with the mesh on the left."""
-        return _split(*self._ask().boundary())
+        return _split(*self._opened().boundary())
 
     def contours(self, levels: Iterable[float], array: str = "elevation", component: int = 0
                  ) -> list[tuple[float, np.ndarray]]:
@@ -210,7 +215,7 @@ class ResidentMesh:
         """
         name = check.text(array, "array")
         check.require_arrays([name], self._names, "")
-        starts, found, points = self._ask().contours(
+        starts, found, points = self._opened().contours(
             name, check.whole(component, "component"), np.array([check.number(v, "levels") for v in levels], np.float64))
         return list(zip(found.tolist(), np.split(points, starts[1:-1]) if len(starts) > 1 else []))
 
@@ -225,7 +230,7 @@ class ResidentMesh:
             The distance between samples, in addition to those at the polyline's corners. 0: samples at its corners and
             wherever it crosses an edge of a triangle or a face of a tetrahedron.
         arrays
-            The name of an array, or names. None: all.
+            As for interpolate().
 
         Returns
         -------
@@ -233,9 +238,8 @@ class ResidentMesh:
             `distances`, `points` (n, 2) for triangles or (n, 3) for tetrahedra, `cells`, and the arrays by name in
             `values`. With spacing 0, `cells` has the cell between each point and the next, -1 before a gap.
         """
-        wanted = self._names if arrays is None else check.names(arrays, "arrays")
-        check.require_arrays(wanted, self._names, "")
-        return Profile(*self._ask().profile(_points(polyline), check.number(spacing, "spacing", at_least=0), wanted))
+        distance = check.number(spacing, "spacing", at_least=0)
+        return Profile(*self._opened().profile(_points(polyline), distance, self._wanted(arrays)))
 
     def closest(self, points: ArrayLike) -> Closest:
         """Finds the location on the mesh nearest to each point; for triangles, distances are measured in x and y.
@@ -252,7 +256,7 @@ class ResidentMesh:
             several nearest cells the one with the lowest id is returned. If the mesh has no cells, or for non-finite
             points, these are -1, NaN and infinity.
         """
-        return Closest(*self._ask().closest(_points(points)))
+        return Closest(*self._opened().closest(_points(points)))
 
     def cells_in(self, *, box: Iterable[float] | None = None, polygon: Any = None, whole: bool = False) -> np.ndarray:
         """Returns the cells that share a point with a closed box or polygon, in ascending order.
@@ -266,11 +270,11 @@ class ResidentMesh:
         whole
             Whether to return only the cells that lie inside.
         """
-        return self._ask().cells_in(*_region(box, polygon), check.flag(whole, "whole"))
+        return self._opened().cells_in(*_region(box, polygon), check.flag(whole, "whole"))
 
     def points_in(self, *, box: Iterable[float] | None = None, polygon: Any = None) -> np.ndarray:
         """Returns the mesh's points in a closed box or polygon, as in cells_in(), in ascending order."""
-        return self._ask().points_in(*_region(box, polygon))
+        return self._opened().points_in(*_region(box, polygon))
 
     def zones(self, polygons: Iterable[Any], array: str = "elevation", *, component: int = 0, level: float = 0
               ) -> Zones:
@@ -301,7 +305,7 @@ class ResidentMesh:
         name = check.text(array, "array")
         check.require_arrays([name], self._names, "")
         zones = [polygons] if hasattr(polygons, "geom_type") else check.a_list(polygons, "polygons")
-        return Zones(*self._ask().zones(
+        return Zones(*self._opened().zones(
             _rings(zones), len(zones), name, check.whole(component, "component"), check.number(level, "level")))
 
     def descend(self, points: ArrayLike, array: str = "elevation", component: int = 0) -> list[Descent]:
@@ -318,14 +322,14 @@ class ResidentMesh:
         """
         name = check.text(array, "array")
         check.require_arrays([name], self._names, "")
-        starts, found, values, pits = self._ask().descend(_points(points), name, check.whole(component, "component"))
+        starts, found, values, pits = self._opened().descend(_points(points), name, check.whole(component, "component"))
         lines = zip(_split(starts, found), _split(starts, values), pits.tolist())
         return [Descent(*line) for line in lines]
 
     def components(self) -> tuple[np.ndarray, np.ndarray]:
         """Returns the connected component of each cell, by common edges or faces, and each component's number of
         cells."""
-        return self._ask().components()
+        return self._opened().components()
 
 
 def _region(box: Any, polygon: Any) -> tuple[list[float], Any]:

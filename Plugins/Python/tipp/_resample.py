@@ -45,11 +45,8 @@ def resample(
         The name or the names of the arrays to sample. None: all.
     device
         "auto", "openmp", "opencl", "opencl:INDEX" or "opencl:NAME".
-    threads
-        OpenMP threads; 0 is OpenMP's default.
-    progress_bar
-        Whether to show progress on standard error; or a function that is called with the fraction done and can stop
-        the run by returning False.
+    threads, progress_bar
+        As for delaunay().
 
     Returns
     -------

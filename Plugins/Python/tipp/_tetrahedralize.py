@@ -59,9 +59,7 @@ def delaunay_3d(
         partitions, threads, ...) and the seconds of each phase.
     partitions
         The number of partitions, at most 512. 0: chosen automatically. The result does not depend on it.
-    threads
-        OpenMP threads; 0 is OpenMP's default.
-    progress_bar
+    threads, progress_bar
         As for delaunay().
 
     Returns
@@ -92,11 +90,9 @@ def delaunay_3d(
         "partitions": check.whole(partitions, "partitions", at_most=512),
         "threads": check.threads(threads),
     }
-    if check.is_vtk_object(points):
-        check.data_object(points, "points", ("vtkPointSet",), "a vtkPointSet or an array")
-        if point_data is not None:
-            raise ValueError("point_data needs an array of points; a data set has its own.")
-    elif np.ndim(points) == 2 and np.shape(points)[1] == 2 and np.asarray(points).dtype.kind in "iuf":
+    check.require_point_set(points, point_data)
+    is_array = not check.is_vtk_object(points) and np.ndim(points) == 2
+    if is_array and np.shape(points)[1] == 2 and np.asarray(points).dtype.kind in "iuf":
         raise ValueError(f"points has the shape {np.shape(points)}; points in space have the shape (n, 3).")
     wants_statistics = check.flag(return_statistics, "return_statistics")
     mesh, statistics = _engine.delaunay_3d(points, point_data, options, progress_of(progress_bar))

@@ -76,7 +76,7 @@ def delaunay(
     (199964, 3)
     """
     options = _options(tol, max_edge, partitions, schedule, threads)
-    _require_points(points)
+    check.require_point_set(points)
     return _engine.delaunay(points, options, progress_of(progress_bar))
 
 
@@ -168,10 +168,7 @@ def delaunay_2d(
     options["alpha"] = check.number(alpha, "alpha", at_least=0)
     options["offset"] = check.number(offset, "offset", at_least=0)
     options["bound"] = check.flag(bound, "bound")
-    if check.is_vtk_object(points):
-        if point_data is not None:
-            raise ValueError("point_data needs an array of points; a data set has its own.")
-    _require_points(points)
+    check.require_point_set(points, point_data)
     options["edge_source"], options["edges"], options["polygons"] = edge_source, edges, polygons
     options["crossings"] = check.choice(crossings, "crossings", _CROSSINGS)
     options["marks"] = check.choice(marks, "marks", _MARKS)
@@ -180,11 +177,6 @@ def delaunay_2d(
     wants_statistics = check.flag(return_statistics, "return_statistics")
     mesh, statistics = _engine.delaunay_2d(points, point_data, options, progress_of(progress_bar))
     return (mesh, statistics) if wants_statistics else mesh
-
-
-def _require_points(points: Any) -> None:
-    if check.is_vtk_object(points):
-        check.data_object(points, "points", ("vtkPointSet",), "a vtkPointSet or an array")
 
 
 def _options(tol: Any, max_edge: Any, partitions: Any, schedule: Any, threads: Any) -> dict[str, Any]:

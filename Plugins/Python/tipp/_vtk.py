@@ -53,11 +53,11 @@ def vtk_points(points: ArrayLike) -> vtkPoints:
     kind = array.dtype if has_kind else np.dtype(np.float64)
     is_shared = array.shape[1] == 3 and has_kind and array.flags.carray  # in C order, aligned and writable
     result = vtkPoints()
-    result.SetData(_lent(array, 3) if is_shared else _copied(array, kind))
+    result.SetData(_shared(array, 3) if is_shared else _copied(array, kind))
     return result
 
 
-def _lent(array: np.ndarray, columns: int) -> vtkDataArray:
+def _shared(array: np.ndarray, columns: int) -> vtkDataArray:
     """Returns a VTK array that shares a C-order array and keeps it alive. Ten times faster than numpy_to_vtk()."""
     result = _CLASSES[array.dtype.char]()
     if columns > 1:
@@ -78,7 +78,7 @@ def _copied(points: np.ndarray, kind: np.dtype) -> vtkDataArray:
         few = np.zeros((len(points), 3), kind)
         for axis in range(points.shape[1]):
             few[:, axis] = points[:, axis]
-        return _lent(few, 3)
+        return _shared(few, 3)
     result = vtkFloatArray() if kind == np.float32 else vtkDoubleArray()
     result.SetNumberOfComponents(3)
     result.SetNumberOfTuples(len(points))
@@ -155,7 +155,7 @@ def cells_of(ids: np.ndarray) -> vtkCellArray:
     """Returns cells with as many points as the array has columns, in the array's memory."""
     count, size = ids.shape
     cells = vtkCellArray()
-    cells.SetData(_lent(np.arange(0, size * count + 1, size, dtype=ids.dtype), 1), _lent(np.ascontiguousarray(ids), 1))
+    cells.SetData(_shared(np.arange(0, size * count + 1, size, dtype=ids.dtype), 1), _shared(np.ascontiguousarray(ids), 1))
     return cells
 
 

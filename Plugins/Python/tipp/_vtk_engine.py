@@ -99,11 +99,7 @@ def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
             algorithm.SetMergeSourcePoints(has_points)
         algorithm.SetSplitCrossings(options["crossings"])
         algorithm.SetConstraintMarks(options["marks"])
-        algorithm.SetAlpha(options["alpha"])
-        algorithm.SetOffset(options["offset"])
-        algorithm.SetBoundingTriangulation(options["bound"])
-        algorithm.SetGenerateRepresentativeIds(options["map_duplicates"])
-        algorithm.SetGenerateNeighborIds(options["neighbors"])
+        _set_mesh_options(algorithm, options)
 
     algorithm = _triangulated(points, point_data, options, progress, add)
     return wrapped_like(algorithm.GetOutput(), points), _statistics(algorithm.GetStatistics().GetFieldData())
@@ -114,16 +110,20 @@ def delaunay_3d(points: Any, point_data: Any, options: dict[str, Any],
     data = points if check.is_vtk_object(points) else point_cloud(points, point_data)
     algorithm = vtkTIPPDelaunay3D()
     algorithm.SetInputData(data)
-    algorithm.SetAlpha(options["alpha"])
     algorithm.SetTolerance(options["tolerance"])
-    algorithm.SetOffset(options["offset"])
-    algorithm.SetBoundingTriangulation(options["bound"])
-    algorithm.SetGenerateRepresentativeIds(options["map_duplicates"])
-    algorithm.SetGenerateNeighborIds(options["neighbors"])
+    _set_mesh_options(algorithm, options)
     algorithm.SetNumberOfPartitions(options["partitions"])
     algorithm.SetNumberOfThreads(options["threads"])
     run(algorithm, progress)
     return wrapped_like(algorithm.GetOutput(), points), _statistics(algorithm.GetStatistics().GetFieldData())
+
+
+def _set_mesh_options(algorithm: vtkTIPPDelaunay2D | vtkTIPPDelaunay3D, options: dict[str, Any]) -> None:
+    algorithm.SetAlpha(options["alpha"])
+    algorithm.SetOffset(options["offset"])
+    algorithm.SetBoundingTriangulation(options["bound"])
+    algorithm.SetGenerateRepresentativeIds(options["map_duplicates"])
+    algorithm.SetGenerateNeighborIds(options["neighbors"])
 
 
 def _statistics(totals: Any) -> dict[str, Any]:

@@ -147,7 +147,7 @@ TEST(Distributed3D, PiecesDoNotDependOnThreadsAndPartitions)
     EXPECT_TRUE(std::equal(one.Ids.begin(), one.Ids.end(), other.Ids.begin(), other.Ids.end()));
     EXPECT_TRUE(std::equal(one.Owned.GlobalIds.begin(), one.Owned.GlobalIds.end(),
       other.Owned.GlobalIds.begin(), other.Owned.GlobalIds.end()));
-    EXPECT_EQ(one.ForeignIds, other.ForeignIds);
+    EXPECT_EQ(one.GhostIds, other.GhostIds);
     EXPECT_EQ(one.FirstCell, other.FirstCell);
   }
   EXPECT_GT(one.cellCount(), 6 * points.size() / std::size_t(ranks.size()) / 2);
@@ -303,9 +303,9 @@ TEST(Distributed3D, RowsTravelWithTheirPoints)
   const auto mine = tetrahedralizeDistributed(ranks, points, with(1, 10));
   if (ranks.isFirst()) // the lowest ids are on the first rank
   {
-    EXPECT_EQ(ranks.size() > 1, mine.Foreign.size() > 0);
+    EXPECT_EQ(ranks.size() > 1, mine.Ghosts.size() > 0);
   }
-  for (const PointTuples3* tuples : { &mine.Owned, &mine.Foreign })
+  for (const PointTuples3* tuples : { &mine.Owned, &mine.Ghosts })
   {
     for (std::size_t i = 0; i < tuples->size(); ++i)
     {
@@ -332,7 +332,7 @@ TEST(Distributed3D, GhostsAreTheOtherTetrahedraAtOwnVertices)
     IdCell<4>& cell = own.emplace_back();
     std::transform(mine.Ids.begin() + i, mine.Ids.begin() + i + 4, cell.begin(),
       [&](std::int64_t index)
-      { return index < owned ? first + index : mine.ForeignIds[std::size_t(index - owned)]; });
+      { return index < owned ? first + index : mine.GhostIds[std::size_t(index - owned)]; });
   }
   std::set<std::int64_t> vertices;
   for (const IdCell<4>& cell : own)

@@ -79,7 +79,7 @@ public:
   std::int64_t idOf(std::int64_t place)
   {
     const std::int64_t own = std::int64_t(this->Result.Owned.size());
-    const PointTuples& tuples = place < own ? this->Result.Owned : this->Result.Foreign;
+    const PointTuples& tuples = place < own ? this->Result.Owned : this->Result.Ghosts;
     const std::size_t at = std::size_t(place < own ? place : place - own);
     const PointId id = tuples.GlobalIds[at];
     const Point2 p = tuples.Positions[at];

@@ -45,7 +45,7 @@ struct InOneMemory
   }
 
   Bytes Memory;
-  std::vector<Communicator::Stretch> Contents;
+  std::vector<Communicator::ByteRange> Contents;
 };
 
 TEST(CommunicatorCollectives, AllToAllInPartsDeliversAllPartsAndReturnsTheMemory)

@@ -65,7 +65,7 @@ protected:
   {
     const auto own = std::int64_t(this->Result.Owned.size());
     return local < own ? this->Result.Owned.GlobalIds[std::size_t(local)]
-                       : this->Result.Foreign.GlobalIds[std::size_t(local - own)];
+                       : this->Result.Ghosts.GlobalIds[std::size_t(local - own)];
   }
 
   /// This rank's triangle edges, directed so that the triangle is on their left.

@@ -128,7 +128,7 @@ TEST(DistributedInputs, RowsTravelWithTheirPoints)
     to[sizeof(value)] = 'x';
   };
   const auto result = triangulateDistributed(box, points, manyPartitions(Masters::Single));
-  for (const PointTuples* tuples : { &result.Owned, &result.Foreign })
+  for (const PointTuples* tuples : { &result.Owned, &result.Ghosts })
   {
     for (std::size_t i = 0; i < tuples->size(); ++i)
     {
