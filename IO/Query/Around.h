@@ -55,10 +55,11 @@ VTKTIPPIO_EXPORT IdLists ringsOfCells(const ResidentMesh& mesh,
   const std::vector<std::int64_t>& cells, int k, const std::vector<std::int32_t>& pieces = {});
 
 /// As ringsOfPoints() or ringsOfCells(), for a part of a mesh in memory: the rings as far as they
-/// can be computed without the other parts. shared[i] is not 0 if other parts, too, have cells at
-/// point i (a local index). If a ring needs the cells of other parts, its list is only { -1 }.
-IdLists ringsWithin(const ResidentMesh& part, const std::vector<std::int64_t>& seeds, bool ofPoints,
-  int k, const std::uint8_t* shared);
+/// can be computed without the other parts. `indices` are the local indices of the seeds, at least
+/// one. shared[i] is not 0 if other parts, too, have cells at point i (a local index). If a ring
+/// needs the cells of other parts, its list is only { -1 }.
+IdLists ringsWithin(const ResidentMesh& part, const std::vector<std::int64_t>& seeds,
+  const std::vector<std::int64_t>& indices, bool ofPoints, int k, const std::uint8_t* shared);
 
 /// The border of a mesh of triangles as closed lines.
 struct BoundaryLoops

@@ -3,6 +3,7 @@
 #define tippRankQuestions_h
 
 #include "Query/ForPieces.h"
+#include "Query/IdDirectory.h"
 #include "Query/RankAnswer.h"
 #include "Query/RankAround.h"
 
@@ -10,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -134,7 +136,8 @@ public:
   template <typename Answer>
   IdLists ask(const Ids& ids, bool ofPoints, bool united, const Answer& answer) const
   {
-    const std::vector<ListReply> replies = this->repliesTo(ids, answer);
+    const std::vector<ListReply> replies =
+      this->repliesTo(std::vector<Ids>(std::size_t(this->Ranks.size()), ids), answer);
     IdLists result;
     std::size_t size = 0;
     for (const ListReply& reply : replies)
@@ -162,6 +165,36 @@ public:
         result.Ids.erase(std::unique(first, result.Ids.end()), result.Ids.end());
       }
       result.Starts.push_back(std::int64_t(result.Ids.size()));
+    }
+    return result;
+  }
+
+  /// As ask() for parts in memory, but only the first rank that has an id is asked.
+  template <typename Answer>
+  IdLists askFirst(const Ids& ids, bool ofPoints, const Answer& answer) const
+  {
+    const std::vector<std::int32_t> first = this->firstRanksOf(ids, ofPoints);
+    std::vector<Ids> asked(std::size_t(this->Ranks.size()));
+    for (std::size_t i = 0; i < ids.size(); ++i)
+    {
+      first[i] < 0 ? this->Mesh.refuseId(ids[i], ofPoints) : void();
+      asked[std::size_t(first[i])].push_back(ids[i]);
+    }
+    const std::vector<ListReply> replies = this->repliesTo(asked, answer);
+    IdLists result;
+    result.Starts.reserve(ids.size() + 1);
+    std::size_t size = 0;
+    for (const ListReply& reply : replies)
+    {
+      size += reply.Lists.Ids.size();
+    }
+    result.Ids.reserve(size);
+    std::vector<std::size_t> next(asked.size(), 0);
+    for (std::size_t i = 0; i < ids.size(); ++i)
+    {
+      const ListReply& reply = replies[std::size_t(first[i])];
+      const std::size_t at = next[std::size_t(first[i])]++;
+      reply.Known.at(at) ? append(result, reply.Lists, at) : this->Mesh.refuseId(ids[i], ofPoints);
     }
     return result;
   }
@@ -204,21 +237,27 @@ public:
   IdLists ringsWithinParts(const Ids& seeds, int k, bool ofPoints) const
   {
     const std::vector<std::uint8_t>& shared = this->sharedPoints();
-    return this->ask(seeds, ofPoints, false,
+    return this->askFirst(seeds, ofPoints,
       [&](const Ids& asked)
       {
         const ResidentPieces::Lease piece = this->Mesh.pieces().get(0, topologyNeeded());
         Ids own;
+        Ids indices;
         ListReply reply;
         for (const std::int64_t id : asked)
         {
-          const bool isKnown =
-            (ofPoints ? piece->Topology->findPoint(id) : piece->Topology->findCell(id)) >= 0;
-          reply.Known.push_back(char(isKnown));
-          isKnown ? own.push_back(id) : void();
+          const std::int64_t index =
+            ofPoints ? piece->Topology->findPoint(id) : piece->Topology->findCell(id);
+          reply.Known.push_back(char(index >= 0));
+          if (index >= 0)
+          {
+            own.push_back(id);
+            indices.push_back(index);
+          }
         }
-        reply.setLists(
-          own.empty() ? IdLists() : ringsWithin(this->Mesh, own, ofPoints, k, shared.data()));
+        reply.setLists(own.empty()
+            ? IdLists()
+            : ringsWithin(this->Mesh, own, indices, ofPoints, k, shared.data()));
         return reply;
       });
   }
@@ -252,7 +291,7 @@ public:
   /// For parts in memory: the points of each cell, in the cell's order.
   IdLists corners(const Ids& cells) const
   {
-    return this->ask(cells, false, false,
+    return this->askFirst(cells, false,
       [this](const Ids& asked)
       {
         const ResidentPieces::Lease piece = this->Mesh.pieces().get(0, topologyNeeded());
@@ -283,13 +322,13 @@ public:
   }
 
 private:
-  /// The reply of each rank for this rank's ids.
+  /// The reply of each rank for the ids that this rank asks of it.
   template <typename Answer>
-  std::vector<ListReply> repliesTo(const Ids& ids, const Answer& answer) const
+  std::vector<ListReply> repliesTo(const std::vector<Ids>& ids, const Answer& answer) const
   {
     Ids all;
     std::vector<std::size_t> starts = { 0 };
-    for (const Ids& asked : this->Ranks.allGather(ids))
+    for (const Ids& asked : this->Ranks.allToAll(ids))
     {
       all.insert(all.end(), asked.begin(), asked.end());
       starts.push_back(all.size());
@@ -312,14 +351,49 @@ private:
     return replies;
   }
 
+  /// What is known about the other ranks' parts; forgotten if the ranks have changed.
+  ResidentMesh::OtherParts& otherParts() const
+  {
+    ResidentMesh::OtherParts& others = this->Mesh.otherParts();
+    if (this->any(others.Of != this->Ranks.controller()))
+    {
+      others = {};
+      others.Of = this->Ranks.controller();
+    }
+    return others;
+  }
+
+  /// The lowest rank that has each id, or -1. For a single rank always 0.
+  std::vector<std::int32_t> firstRanksOf(const Ids& ids, bool ofPoints) const
+  {
+    if (this->Ranks.size() == 1)
+    {
+      return std::vector<std::int32_t>(ids.size(), 0);
+    }
+    ResidentMesh::OtherParts& others = this->otherParts();
+    std::shared_ptr<const IdDirectory>& directory = ofPoints ? others.Points : others.Cells;
+    if (this->any(!directory))
+    {
+      const ResidentPieces::Lease piece = this->Mesh.pieces().get(0, topologyNeeded());
+      const MeshPart& part = *piece->Part;
+      Ids own(std::size_t(ofPoints ? part.Mesh.PointCount : part.Mesh.Cells));
+      for (std::size_t i = 0; i < own.size(); ++i)
+      {
+        own[i] = ofPoints ? part.pointId(std::int64_t(i)) : part.cellId(std::int64_t(i));
+      }
+      directory = std::make_shared<const IdDirectory>(this->Ranks, own);
+    }
+    return directory->ranksOf(this->Ranks, ids);
+  }
+
   /// For each point of this rank's part (by local index), whether cells of other ranks have it,
   /// too. Kept in the mesh for the next query.
   const std::vector<std::uint8_t>& sharedPoints() const
   {
-    ResidentMesh::SharedPoints& shared = this->Mesh.sharedPoints();
-    if (!this->any(shared.Of != this->Ranks.controller()))
+    ResidentMesh::OtherParts& others = this->otherParts();
+    if (!this->any(!others.HavePoint))
     {
-      return shared.Are;
+      return *others.HavePoint;
     }
     const ResidentPieces::Lease piece = this->Mesh.pieces().get(0, topologyNeeded());
     const std::vector<Ids> points = this->pointsInBoxes(*piece->Part);
@@ -337,16 +411,15 @@ private:
         [&piece](std::int64_t id) { return !cellsAtId(*piece->Topology, id).empty(); });
     }
     replies = this->Ranks.allToAll(replies);
-    shared.Are.assign(std::size_t(piece->Part->Mesh.PointCount), 0);
+    std::vector<std::uint8_t> shared(std::size_t(piece->Part->Mesh.PointCount), 0);
     for (std::size_t rank = 0; rank < points.size(); ++rank)
     {
       for (std::size_t i = 0; i < points[rank].size(); ++i)
       {
-        shared.Are[std::size_t(points[rank][i])] |= std::uint8_t(replies[rank].at(i));
+        shared[std::size_t(points[rank][i])] |= std::uint8_t(replies[rank].at(i));
       }
     }
-    shared.Of = this->Ranks.controller();
-    return shared.Are;
+    return others.HavePoint.emplace(std::move(shared));
   }
 
   /// For each other rank, the points (local indices) in the bounding box of its part. Only these

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ class vtkMultiProcessController;
 
 namespace tipp
 {
+class IdDirectory;
 
 struct AskedPoints;
 class PieceBoxes;
@@ -143,14 +145,16 @@ public:
   /// The pieces in memory.
   ResidentPieces& pieces() const { return this->Resident; }
 
-  /// Of a part of a mesh in memory: whether another rank of `Of` has each point, too. Queries on
-  /// ranks keep it here for the next one.
-  struct SharedPoints
+  /// What is known about the other ranks' parts of a mesh in memory. Queries on ranks keep it here
+  /// for the next one.
+  struct OtherParts
   {
-    const vtkMultiProcessController* Of = nullptr; ///< null: not known
-    std::vector<std::uint8_t> Are;
+    const vtkMultiProcessController* Of = nullptr;      ///< null: nothing is known
+    std::optional<std::vector<std::uint8_t>> HavePoint; ///< per point; none: not known
+    std::shared_ptr<const IdDirectory> Points;          ///< null: not made yet
+    std::shared_ptr<const IdDirectory> Cells;
   };
-  SharedPoints& sharedPoints() const { return this->Shared; }
+  OtherParts& otherParts() const { return this->Others; }
 
 private:
   void answerPiece(std::size_t number, const AskedPoints& asked, const AnswerOptions& options,
@@ -179,7 +183,7 @@ private:
   std::shared_ptr<const PieceBoxes> Boxes;  ///< null: mesh in memory
   PieceIds Ids;
   mutable ResidentPieces Resident;
-  mutable SharedPoints Shared;
+  mutable OtherParts Others;
 };
 
 } // namespace tipp

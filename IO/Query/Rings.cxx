@@ -135,6 +135,28 @@ private:
   std::vector<std::int64_t> Next;
 };
 
+/// The numbers of `indices`, roughly in the order of the indices. What lies near in memory is then
+/// visited together. There must be at least one index.
+std::vector<std::int64_t> orderedBy(const std::vector<std::int64_t>& indices)
+{
+  constexpr std::int64_t buckets = 4096;
+  const std::int64_t count = *std::max_element(indices.begin(), indices.end()) + 1;
+  const auto bucketOf = [count](std::int64_t index)
+  { return std::size_t(index * buckets / count); };
+  std::vector<std::int64_t> next(std::size_t(buckets) + 1, 0);
+  for (const std::int64_t index : indices)
+  {
+    ++next[bucketOf(index) + 1];
+  }
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<std::int64_t> order(indices.size());
+  for (std::size_t i = 0; i < indices.size(); ++i)
+  {
+    order[std::size_t(next[bucketOf(indices[i])]++)] = std::int64_t(i);
+  }
+  return order;
+}
+
 /// Computes the rings of many seeds. A ring that stays in the piece of its seed is computed there.
 /// All others grow together, step by step, and each step visits one piece after the other.
 class RingGrowth
@@ -152,7 +174,7 @@ public:
   /// The ids that are reached in k steps, without the seeds.
   IdLists grown(int k, const std::vector<std::int32_t>& pieces)
   {
-    this->start(k, pieces, nullptr);
+    this->start(k, groupsOf(this->Mesh, this->Seeds, this->OfPoints, pieces), nullptr);
     for (int step = 0; step < k && !this->Front.empty(); ++step)
     {
       this->grow();
@@ -169,9 +191,10 @@ public:
     return this->joined();
   }
 
-  IdLists grownWithin(int k, const std::uint8_t* shared)
+  IdLists grownWithin(int k, const std::vector<std::int64_t>& indices, const std::uint8_t* shared)
   {
-    this->start(k, {}, shared);
+    this->Indices = indices.data();
+    this->start(k, { { { 0, 0, std::int64_t(indices.size()) } }, orderedBy(indices) }, shared);
     for (const std::int64_t item : this->Left)
     {
       this->Done.push_back({ { -1 }, { item }, { 1 } });
@@ -248,9 +271,8 @@ private:
     return result;
   }
 
-  void start(int k, const std::vector<std::int32_t>& pieces, const std::uint8_t* shared)
+  void start(int k, const PieceGroups& groups, const std::uint8_t* shared)
   {
-    const PieceGroups groups = groupsOf(this->Mesh, this->Seeds, this->OfPoints, pieces);
     std::vector<Reached> first;
     forPieces(this->Mesh, groups, topologyNeeded(),
       [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
@@ -300,7 +322,9 @@ private:
     for (std::int64_t i = begin; i < end; ++i)
     {
       const auto item = std::size_t(groups.Items[std::size_t(i)]);
-      indices[i - begin] = indexOf(this->Mesh, *piece.Topology, this->Seeds[item], this->OfPoints);
+      indices[i - begin] = this->Indices
+        ? this->Indices[item]
+        : indexOf(this->Mesh, *piece.Topology, this->Seeds[item], this->OfPoints);
     }
     this->OfPoints ? piece.Topology->prefetch(indices, end - begin) : void();
   }
@@ -394,6 +418,7 @@ private:
   const ResidentMesh& Mesh;
   const std::vector<std::int64_t>& Seeds;
   const bool OfPoints;
+  const std::int64_t* Indices = nullptr; ///< local indices of the seeds, if they are known
   std::mutex Mutex;
   std::vector<Reached> Front;
   std::vector<Finished> Done;
@@ -417,10 +442,10 @@ IdLists ringsOfCells(const ResidentMesh& mesh, const std::vector<std::int64_t>& 
   return RingGrowth(mesh, cells, false).grown(k, pieces);
 }
 
-IdLists ringsWithin(const ResidentMesh& part, const std::vector<std::int64_t>& seeds, bool ofPoints,
-  int k, const std::uint8_t* shared)
+IdLists ringsWithin(const ResidentMesh& part, const std::vector<std::int64_t>& seeds,
+  const std::vector<std::int64_t>& indices, bool ofPoints, int k, const std::uint8_t* shared)
 {
-  return RingGrowth(part, seeds, ofPoints).grownWithin(k, shared);
+  return RingGrowth(part, seeds, ofPoints).grownWithin(k, indices, shared);
 }
 
 } // namespace tipp

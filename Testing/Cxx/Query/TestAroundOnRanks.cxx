@@ -6,6 +6,7 @@
 #include "Query/RankAround.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -172,6 +173,53 @@ TEST_F(AroundOnRanks, PartsWithoutIdsAndUnknownIdsAreRefused)
   {
     expectFailure(part, 0, "no global ids");
   }
+}
+
+TEST_F(AroundOnRanks, UnknownSeedsOfRingsEndAllRanks)
+{
+  const SourceMesh source = makeSource(latticeTriangles(6, 0.3));
+  const ResidentMesh mesh(inMemory(source, 0, this->Ranks.rank(), this->Ranks.size()));
+  const bool asksUnknown = this->Ranks.rank() + 1 == this->Ranks.size();
+  for (const std::int64_t unknown : { std::int64_t(-1), std::int64_t(1) << 40 })
+  {
+    for (const bool ofPoints : { true, false })
+    {
+      // Only the last rank asks for an id that no rank has.
+      const std::vector<std::int64_t> seeds = { 5, asksUnknown ? unknown : 3, 5 };
+      try
+      {
+        this->Ranks.together(
+          [&]
+          {
+            ofPoints ? ringsOfPointsOnRanks(this->Ranks, mesh, seeds, 1)
+                     : ringsOfCellsOnRanks(this->Ranks, mesh, seeds, 1);
+          });
+        ADD_FAILURE() << "not refused: " << unknown;
+      }
+      catch (const RankFailure& failure)
+      {
+        EXPECT_NE(std::string::npos, std::string(failure.what()).find(std::to_string(unknown)))
+          << failure.what();
+      }
+    }
+  }
+}
+
+TEST_F(AroundOnRanks, RingsOfRepeatedSeedsInAnyOrderAreInTheOrderOfTheSeeds)
+{
+  const SourceMesh source = makeSource(latticeTriangles(10, 0.3));
+  const ResidentMesh whole(inMemory(source));
+  const ResidentMesh mesh(inMemory(source, 0, this->Ranks.rank(), this->Ranks.size()));
+  std::vector<std::int64_t> seeds;
+  for (std::int64_t i = 0; i < 2 * std::int64_t(source.points()); ++i)
+  {
+    seeds.push_back((i * 37 + this->Ranks.rank()) % std::int64_t(source.points()));
+  }
+  const IdLists expected = ringsOfPoints(whole, seeds, 2);
+  IdLists found;
+  this->Ranks.together([&] { found = ringsOfPointsOnRanks(this->Ranks, mesh, seeds, 2); });
+  EXPECT_EQ(expected.Starts, found.Starts);
+  EXPECT_EQ(expected.Ids, found.Ids);
 }
 
 TEST_F(AroundOnRanks, FollowDescentsFromRankToRank)
