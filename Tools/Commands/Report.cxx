@@ -154,6 +154,8 @@ int reportRankFailure(const RankFailure& failure, const Communicator& ranks)
 {
   if (ranks.isFirst())
   {
+    // mpirun may send SIGTERM as soon as another rank has ended; that would be a second sentence.
+    endWatch();
     fmt::print(stderr, "tipp: {}{}\n",
       ranks.size() > 1 ? fmt::format("rank {}: ", failure.Rank) : "", failure.what());
   }
