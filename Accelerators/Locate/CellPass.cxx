@@ -83,9 +83,9 @@ public:
   bool isOutside(const std::array<double, 2>& at) const
   {
     // Branch-free. NaN, after an overflow, does not count as outside.
-    const bool isApart = (at[0] < this->Around.Low[0]) | (at[0] > this->Around.High[0]) |
-      (at[1] < this->Around.Low[1]) | (at[1] > this->Around.High[1]);
-    return isApart | (this->lowest(at) < -this->Bound);
+    const int isApart = int(at[0] < this->Around.Low[0]) | int(at[0] > this->Around.High[0]) |
+      int(at[1] < this->Around.Low[1]) | int(at[1] > this->Around.High[1]);
+    return (isApart | int(this->lowest(at) < -this->Bound)) != 0;
   }
   /// True only if the point of the box is strictly inside.
   bool isInside(const std::array<double, 2>& at) const { return this->lowest(at) > this->Bound; }

@@ -206,8 +206,8 @@ int both(int first, int second)
 }
 
 // Compares c and d (which may be c again) with the rectangle along the normal of the line through a
-// and b. A value ex (y - ay) - ey (x - ax) is off by 4 EPSILON of the sum of its products' magnitudes, and a
-// difference of two values rounds once more; 12 are allowed for at each end.
+// and b. A value ex (y - ay) - ey (x - ax) is off by 4 EPSILON of the sum of its products'
+// magnitudes, and a difference of two values rounds once more; 12 are allowed for at each end.
 int compareAcrossEdge(double2 a, double2 b, double2 c, double2 d, double2 low, double2 high)
 {
   const double2 e = b - a;
@@ -231,8 +231,8 @@ double3 pointOf(global const double* p)
 
 // Compares d with the box along the normal of the plane through a, b and c. A component of the
 // normal is off by 4 EPSILON of its products' magnitudes, a value by 8 EPSILON of the products of
-// these and the reach, a difference of two a little more; 24 are allowed for at each end. A normal's
-// component may lose 2^-1073 below the normal range, which the reach multiplies.
+// these and the reach, a difference of two a little more; 24 are allowed for at each end. A
+// component of the normal may lose 2^-1073 below the normal range, which the reach multiplies.
 int compareAcrossFace(double3 a, double3 b, double3 c, double3 d, double3 low, double3 high)
 {
   const double3 u = b - a;

@@ -102,7 +102,8 @@ def dem(points: Any, point_data: Any, options: dict[str, Any],
     return [band[::-1] for band in bands], (size, 0.0, west, 0.0, -size, south + rows * size), crs or None
 
 
-def _points_and_columns(points: Any, point_data: Any, options: dict[str, Any]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+def _points_and_columns(points: Any, point_data: Any, options: dict[str, Any]
+                        ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """Returns the coordinates in the plane, and the columns that the bands need."""
     if check.is_vtk_object(points):
         from ._vtk import arrays_of, xyz_of
@@ -179,7 +180,7 @@ def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
 
 
 def _triangulated(points: np.ndarray, data: dict[str, np.ndarray], options: dict[str, Any],
-            progress: Progress | None) -> tuple[Mesh, dict[str, Any], bool]:
+                  progress: Progress | None) -> tuple[Mesh, dict[str, Any], bool]:
     """Returns a mesh whose points have as many columns as `points`, statistics, and whether the points are the same."""
     given = points
     segments = constraints.segments_of(points, data, options)
@@ -387,7 +388,7 @@ def _selected_arrays(mesh: Mesh, names: list[str] | None) -> tuple[dict[str, np.
 
 
 def _hidden_cells(mesh: Mesh, points: np.ndarray, options: dict[str, Any],
-            arrays: dict[str, np.ndarray]) -> tuple[np.ndarray | None, list[str]]:
+                  arrays: dict[str, np.ndarray]) -> tuple[np.ndarray | None, list[str]]:
     """Returns a mark for each cell that gives no values, and warnings."""
     marks = np.zeros(len(mesh.cells), bool)
     sentences = []

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares queries with vtkProbeFilter, vtkContourFilter and resampling; see
 // Utilities/benchmarks/query.sh. Arguments: 'probe', 'order' or 'rings', then POINTS QUERIES
-// REPEAT; 'contours' POINTS REPEAT; 'stored' MESH QUERIES MEGABYTES;
-// 'stored-contours' MESH MEGABYTES; or, also under mpirun,
-// 'rank-rings' POINTS QUERIES REPEAT.
+// REPEAT; 'contours' POINTS REPEAT; 'stored' MESH QUERIES MEGABYTES; 'stored-contours' MESH
+// MEGABYTES; or, also under mpirun, 'rank-rings' POINTS QUERIES REPEAT.
 #include "ResampleSubjects.h"
 
 #include "Query/Around.h"

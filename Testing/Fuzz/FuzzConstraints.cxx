@@ -36,7 +36,7 @@ std::vector<Constraint> drawConstraints(Engine& random, std::size_t points)
   const Kind kinds[] = { Kind::Pairs, Kind::Pairs, Kind::Star, Kind::Chain, Kind::BackAndForth };
   const Kind kind = kinds[random() % 5];
   const std::size_t mosts[] = { 5, 5, 12, 25 };
-  const std::size_t count = 1 + random() % mosts[random() % 4];
+  const std::size_t count = random() % mosts[random() % 4];
   const auto draw = [&] { return PointId(random() % points); };
   PointId from = draw();
   for (std::size_t i = 0; i < count; ++i)

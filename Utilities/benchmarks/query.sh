@@ -8,8 +8,8 @@
 #               order     points in rows, compared with resampling
 #               rings     a million rings
 #               contours  twice as many points, compared with vtkContourFilter
-#               scipy     a hundredth of the points, one thread, compared with scipy's LinearNDInterpolator, in the interpreter
-#                         that TIPP_SCIPY_PYTHON names (/usr/bin/python3)
+#               scipy     a hundredth of the points, one thread, compared with scipy's LinearNDInterpolator, in the
+#                         interpreter that TIPP_SCIPY_PYTHON names (/usr/bin/python3)
 #               ranks     tipp query, and rings of points in memory, on 1 to 8 ranks of one thread each
 #               stored    a partitioned mesh of 200 million triangles in 256 MB; needs 25 GB of disk. It is made, and kept,
 #                         in the folder that TIPP_QUERY_STORE names; without this, it is removed afterwards

@@ -279,7 +279,8 @@ class _Checker:
         if self.neighbors is None or not self.are_all_good or len(self.neighbors) != len(self.all):
             return
         stored = np.asarray(self.neighbors).reshape(-1)
-        wrong = (stored[first] != second // 3).sum() + (stored[second] != first // 3).sum() + (stored[boundary] != -1).sum()
+        wrong = (stored[first] != second // 3).sum() + (stored[second] != first // 3).sum()
+        wrong += (stored[boundary] != -1).sum()
         self.count("neighbours that are not those over the edge", wrong)
 
 

@@ -155,7 +155,8 @@ def cells_of(ids: np.ndarray) -> vtkCellArray:
     """Returns cells with as many points as the array has columns, in the array's memory."""
     count, size = ids.shape
     cells = vtkCellArray()
-    cells.SetData(_shared(np.arange(0, size * count + 1, size, dtype=ids.dtype), 1), _shared(np.ascontiguousarray(ids), 1))
+    offsets = np.arange(0, size * count + 1, size, dtype=ids.dtype)
+    cells.SetData(_shared(offsets, 1), _shared(np.ascontiguousarray(ids), 1))
     return cells
 
 
