@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <map>
 #include <utility>
 
 namespace tipp
@@ -19,19 +18,21 @@ namespace
 class ListsById
 {
 public:
+  /// `ids` are ascending.
   ListsById(const Ids& ids, IdLists lists)
-    : Lists(std::move(lists))
+    : Sorted(ids)
+    , Lists(std::move(lists))
   {
-    for (std::size_t i = 0; i < ids.size(); ++i)
-    {
-      this->Indices[ids[i]] = i;
-    }
   }
-  Ids of(std::int64_t id) const { return listOf(this->Lists, this->Indices.at(id)); }
+  Ids of(std::int64_t id) const
+  {
+    const auto found = std::lower_bound(this->Sorted.begin(), this->Sorted.end(), id);
+    return listOf(this->Lists, std::size_t(found - this->Sorted.begin()));
+  }
 
 private:
-  IdLists Lists;
-  std::map<std::int64_t, std::size_t> Indices;
+  const Ids& Sorted;
+  const IdLists Lists;
 };
 
 /// As ringsInMemory(), for rings that need the cells of several ranks. All grow together, step by

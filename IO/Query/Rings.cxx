@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Query/Around.h"
 #include "Query/ForPieces.h"
+#include "Query/LocalRing.h"
 
 #include <algorithm>
-#include <iterator>
 #include <mutex>
 #include <numeric>
 #include <tuple>
@@ -67,74 +67,6 @@ struct Reached
   }
 };
 
-/// Computes the ring of one seed within one piece.
-class LocalRing
-{
-public:
-  /// `shared` is that of ringsWithin(). If null, the points are used that the piece does not own.
-  LocalRing(const ResidentPiece& piece, const std::uint8_t* shared)
-    : Shared(shared ? shared : piece.Part->Ghosts)
-    , Topology(*piece.Topology)
-  {
-  }
-
-  /// Visits the cells at the points `first`, at the points of these cells, and so on, k times.
-  /// Returns false if this reaches a point of another piece. `first`, which is ascending, and the
-  /// results are local indices.
-  bool grow(const std::vector<std::int64_t>& first, int k, bool wantsCells)
-  {
-    this->Points = first;
-    this->Cells.clear();
-    this->Front = first;
-    for (int step = 0; step < k; ++step)
-    {
-      this->Next.clear();
-      for (const std::int64_t point : this->Front)
-      {
-        if (this->Shared && this->Shared[point] != 0)
-        {
-          return false;
-        }
-        this->visit(point, wantsCells);
-      }
-      if (step + 1 == k) // the last points are not visited
-      {
-        this->Points.insert(this->Points.end(), this->Next.begin(), this->Next.end());
-        return true;
-      }
-      sortUnique(this->Next);
-      this->Front.clear();
-      std::set_difference(this->Next.begin(), this->Next.end(), this->Points.begin(),
-        this->Points.end(), std::back_inserter(this->Front));
-      const auto middle = std::ptrdiff_t(this->Points.size());
-      this->Points.insert(this->Points.end(), this->Front.begin(), this->Front.end());
-      std::inplace_merge(this->Points.begin(), this->Points.begin() + middle, this->Points.end());
-    }
-    return true;
-  }
-
-  std::vector<std::int64_t> Points; ///< may have repetitions
-  std::vector<std::int64_t> Cells;  ///< may have repetitions
-
-private:
-  void visit(std::int64_t point, bool wantsCells)
-  {
-    for (const std::int32_t cell : this->Topology.cellsAt(point))
-    {
-      wantsCells ? this->Cells.push_back(cell) : void();
-      for (int i = 0; i < this->Topology.corners(); ++i)
-      {
-        this->Next.push_back(this->Topology.corner(cell, i));
-      }
-    }
-  }
-
-  const std::uint8_t* const Shared;
-  const PartTopology& Topology;
-  std::vector<std::int64_t> Front;
-  std::vector<std::int64_t> Next;
-};
-
 /// The numbers of `indices`, roughly in the order of the indices. What lies near in memory is then
 /// visited together. There must be at least one index.
 std::vector<std::int64_t> orderedBy(const std::vector<std::int64_t>& indices)
@@ -194,7 +126,12 @@ public:
   IdLists grownWithin(int k, const std::vector<std::int64_t>& indices, const std::uint8_t* shared)
   {
     this->Indices = indices.data();
-    this->start(k, { { { 0, 0, std::int64_t(indices.size()) } }, orderedBy(indices) }, shared);
+    // For a single step, finding the cells takes longer than their order saves.
+    const bool byCell = this->OfPoints && k > 1;
+    this->start(k,
+      { { { 0, 0, std::int64_t(indices.size()) } },
+        orderedBy(byCell ? this->firstCells(indices) : indices) },
+      shared);
     for (const std::int64_t item : this->Left)
     {
       this->Done.push_back({ { -1 }, { item }, { 1 } });
@@ -203,6 +140,21 @@ public:
   }
 
 private:
+  /// The first cell at each point (a local index; 0 if there is none). Cells that are near in space
+  /// are mostly near in memory, too; points are often in any order.
+  std::vector<std::int64_t> firstCells(const std::vector<std::int64_t>& indices) const
+  {
+    const ResidentPieces::Lease piece = this->Mesh.pieces().get(0, topologyNeeded());
+    std::vector<std::int64_t> cells(indices.size());
+    std::transform(indices.begin(), indices.end(), cells.begin(),
+      [&piece](std::int64_t point)
+      {
+        const PartTopology::Cells at = piece->Topology->cellsAt(point);
+        return at.empty() ? 0 : *at.begin();
+      });
+    return cells;
+  }
+
   /// Visits the cells at the points that the last step has reached.
   void grow()
   {
@@ -297,7 +249,6 @@ private:
             {
               corners.push_back(piece.Topology->corner(indices[at], corner));
             }
-            sortUnique(corners);
           }
           if (ring.grow(corners, k, !this->OfPoints))
           {
@@ -329,24 +280,18 @@ private:
     this->OfPoints ? piece.Topology->prefetch(indices, end - begin) : void();
   }
 
-  void take(const MeshPart& part, LocalRing& ring, std::int64_t item, Finished& done) const
+  void take(const MeshPart& part, const LocalRing& ring, std::int64_t item, Finished& done) const
   {
-    std::vector<std::int64_t>& list = this->OfPoints ? ring.Points : ring.Cells;
-    sortUnique(list);
     const std::int64_t seed = this->Seeds[std::size_t(item)];
-    const std::size_t begin = done.Ids.size();
-    for (const std::int64_t index : list)
+    const auto begin = std::ptrdiff_t(done.Ids.size());
+    for (const std::int64_t index : this->OfPoints ? ring.Points : ring.Cells)
     {
       const std::int64_t id = this->OfPoints ? part.pointId(index) : part.cellId(index);
       id != seed ? done.Ids.push_back(id) : void();
     }
-    if (this->OfPoints ? part.PointIds : part.CellIds)
-    {
-      std::sort(done.Ids.begin() + std::ptrdiff_t(begin), done.Ids.end());
-    }
+    std::sort(done.Ids.begin() + begin, done.Ids.end());
     // Parts that a cell was divided into have the same id.
-    done.Ids.erase(
-      std::unique(done.Ids.begin() + std::ptrdiff_t(begin), done.Ids.end()), done.Ids.end());
+    done.Ids.erase(std::unique(done.Ids.begin() + begin, done.Ids.end()), done.Ids.end());
     done.Items.push_back(item);
     done.Ends.push_back(std::int64_t(done.Ids.size()));
   }

@@ -356,10 +356,17 @@ void benchmarkRankRings(
   delaunay->Update();
   const ResidentMesh resident(partOf(delaunay->GetOutput(), 1));
   const auto [firstId, lastId] = ranks.shareOf(queries);
-  std::vector<std::int64_t> ids(std::size_t(lastId - firstId));
-  std::iota(ids.begin(), ids.end(), firstId);
-  const auto measure = [&](const char* name, int k, const auto& rings)
+  // A rank's points and cells have consecutive ids, so the requested ids are spread over all.
+  std::vector<std::int64_t> cells = { resident.mesh().Cells };
+  ranks.sum(cells);
+  const auto measure = [&, first = firstId, last = lastId](
+                         const char* name, int k, std::int64_t count, const auto& rings)
   {
+    std::vector<std::int64_t> ids;
+    for (std::int64_t i = first; i < last; ++i)
+    {
+      ids.push_back(i * count / queries);
+    }
     double wall = 1e300;
     std::int64_t found = 0;
     double processor = 1e300;
@@ -386,9 +393,9 @@ void benchmarkRankRings(
         static_cast<long long>(found));
     }
   };
-  measure("one-rings of points", 1, ringsOfPointsOnRanks);
-  measure("two-rings of points", 2, ringsOfPointsOnRanks);
-  measure("one-rings of cells", 1, ringsOfCellsOnRanks);
+  measure("one-rings of points", 1, points, ringsOfPointsOnRanks);
+  measure("two-rings of points", 2, points, ringsOfPointsOnRanks);
+  measure("one-rings of cells", 1, cells[0], ringsOfCellsOnRanks);
 }
 #endif
 

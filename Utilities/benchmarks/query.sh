@@ -51,19 +51,22 @@ for first in range(0, count, 1_000_000):
 PYTHON
 }
 
-# Prints the wall-clock and processor seconds of a command and its children: timed COMMAND...
+# Prints the least wall-clock and processor seconds of $repeat runs of a command with its children: timed COMMAND...
 timed() {
-  /usr/bin/python3 - "$@" <<'PYTHON'
-import resource
+  /usr/bin/python3 - "$repeat" "$@" <<'PYTHON'
+import os
 import subprocess
 import sys
 import time
 
-begin = time.perf_counter()
-subprocess.run(sys.argv[1:], check=True, stdout=subprocess.DEVNULL)
-wall = time.perf_counter() - begin
-used = resource.getrusage(resource.RUSAGE_CHILDREN)
-print(f"{wall:.2f} s | {used.ru_utime + used.ru_stime:.2f} s |")
+walls, processors = [], []
+for _ in range(int(sys.argv[1])):
+    begin, before = time.perf_counter(), os.times()
+    subprocess.run(sys.argv[2:], check=True, stdout=subprocess.DEVNULL)
+    after = os.times()
+    walls.append(time.perf_counter() - begin)
+    processors.append(after.children_user - before.children_user + after.children_system - before.children_system)
+print(f"{min(walls):.2f} s | {min(processors):.2f} s |")
 PYTHON
 }
 
