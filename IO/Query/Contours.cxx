@@ -333,6 +333,8 @@ Segments segmentsIn(const ResidentMesh& mesh, const std::string& array, int comp
   }
   std::sort(sorted.begin(), sorted.end());
   Segments segments;
+  // One vector for all would be copied as it grows, while pieces are in memory, too.
+  std::vector<std::vector<Segment>> parts;
   std::mutex mutex;
   const PieceNeeds needs = mesh.needsOf({ array });
   const bool stay = mesh.pieces().fit(firstPiece, endPiece, needs);
@@ -353,11 +355,23 @@ Segments segmentsIn(const ResidentMesh& mesh, const std::string& array, int comp
           std::vector<Segment> own;
           withAccess(part.Mesh,
             [&](const auto& access) { addCells(access, part, values, sorted, begin, end, own); });
+          own.shrink_to_fit();
           const std::lock_guard<std::mutex> lock(mutex);
-          segments.All.insert(segments.All.end(), own.begin(), own.end());
           segments.Notes.push_back(mesh.pieces().note(own.size() * bytesOfSegment));
+          parts.push_back(std::move(own));
         });
     });
+  std::size_t count = 0;
+  for (const std::vector<Segment>& part : parts)
+  {
+    count += part.size();
+  }
+  segments.All.reserve(count);
+  for (std::vector<Segment>& part : parts)
+  {
+    segments.All.insert(segments.All.end(), part.begin(), part.end());
+    part = {};
+  }
   return segments;
 }
 
