@@ -258,19 +258,18 @@ private:
 const StoredArray* fieldOf(
   const ResidentMesh& mesh, const std::string& array, int component, bool orOfCells)
 {
-  const std::string name = mesh.isStored() ? mesh.mesh().Path : "the mesh";
   if (mesh.mesh().CellSize != 3)
   {
-    throw IOError(name, "has tetrahedra; ask this of a mesh of triangles.");
+    mesh.refuse("has tetrahedra; ask this of a mesh of triangles.");
   }
   const StoredArray* const description = mesh.find(array);
   if (description && !description->OfPoints && !orOfCells)
   {
-    throw IOError(name, "has '" + array + "' at cells; this needs an array of points.");
+    mesh.refuse("has '" + array + "' at cells; this needs an array of points.");
   }
   if (component < 0 || component >= (description ? description->Components : 1))
   {
-    throw IOError(name, "has no component " + std::to_string(component) + " of '" + array + "'.");
+    mesh.refuse("has no component " + std::to_string(component) + " of '" + array + "'.");
   }
   return description;
 }

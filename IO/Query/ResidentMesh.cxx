@@ -190,9 +190,8 @@ const StoredArray* ResidentMesh::find(const std::string& name) const
   const std::vector<std::string> known = this->names();
   if (name != elevation || std::find(known.begin(), known.end(), name) == known.end())
   {
-    throw IOError(this->isStored() ? this->Mesh.Path : "the mesh",
-      "has no array '" + name + "'" + listOfNames({ known.begin(), known.end() }, "; there are ") +
-        ".");
+    this->refuse("has no array '" + name + "'" +
+      listOfNames({ known.begin(), known.end() }, "; there are ") + ".");
   }
   return nullptr;
 }
@@ -334,9 +333,13 @@ std::vector<std::int32_t> ResidentMesh::piecesOf(const Point3* points, std::int6
 void ResidentMesh::refuseId(std::int64_t id, bool ofPoints) const
 {
   const std::string item = ofPoints ? "point" : "cell";
-  throw IOError(this->isStored() ? this->Mesh.Path : "the mesh",
-    "has no " + item + " " + std::to_string(id) + "; ids are from 0 to " +
-      std::to_string((ofPoints ? this->Mesh.Points : this->Mesh.Cells) - 1) + ".");
+  this->refuse("has no " + item + " " + std::to_string(id) + "; ids are from 0 to " +
+    std::to_string((ofPoints ? this->Mesh.Points : this->Mesh.Cells) - 1) + ".");
+}
+
+void ResidentMesh::refuse(const std::string& problem) const
+{
+  throw this->isStored() ? IOError(this->Mesh.Path, problem) : IOError("The mesh " + problem);
 }
 
 std::vector<std::int32_t> ResidentMesh::piecesOfIds(

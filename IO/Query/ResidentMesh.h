@@ -139,6 +139,8 @@ public:
   std::vector<std::int32_t> findIds(
     const std::vector<std::int64_t>& ids, bool ofPoints, std::size_t first, std::size_t end) const;
   [[noreturn]] void refuseId(std::int64_t id, bool ofPoints) const;
+  /// Throws IOError: "PATH: PROBLEM", or "The mesh PROBLEM" for a mesh in memory.
+  [[noreturn]] void refuse(const std::string& problem) const;
 
   /// What a query of these arrays needs from a piece. Throws IOError for an unknown name.
   PieceNeeds needsOf(const std::vector<std::string>& names) const;

@@ -269,8 +269,8 @@ ZoneParts partsIn(const ResidentMesh& mesh, std::pair<std::size_t, std::size_t> 
 {
   if (mesh.mesh().CellSize != 3)
   {
-    throw IOError(mesh.isStored() ? mesh.mesh().Path : "the mesh",
-      "has tetrahedra; statistics of zones are made over the area of triangles, so ask a surface.");
+    mesh.refuse("has tetrahedra; statistics of zones are made over the area of triangles, so ask a "
+                "surface.");
   }
   const StoredArray* const description = fieldOf(mesh, array, component, true);
   if (!std::isfinite(level))

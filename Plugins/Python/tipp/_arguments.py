@@ -97,11 +97,11 @@ def names(value: Any, name: str) -> list[str]:
     return [str(one) for one in result]
 
 
-def require_arrays(wanted: list[str] | None, known: list[str], what: str) -> None:
-    """Raises KeyError for a name that the mesh does not have."""
+def require_arrays(wanted: list[str] | None, known: list[str], kind: str = "") -> None:
+    """Raises KeyError for a name that the mesh does not have; `kind` is 'point', 'cell' or empty."""
     for name in wanted or []:
         if name not in known:
-            raise KeyError(f"the mesh has no {what} array '{name}'; it has {known}.")
+            raise KeyError(f"the mesh has no {kind and kind + ' '}array '{name}'; it has {known}.")
 
 
 def text(value: Any, name: str) -> str:

@@ -178,7 +178,7 @@ class ResidentMesh:
     def _wanted(self, arrays: str | Iterable[str] | None) -> list[str]:
         """Returns the names of the arrays to evaluate. Raises KeyError if the mesh lacks one."""
         wanted = self._names if arrays is None else check.names(arrays, "arrays")
-        check.require_arrays(wanted, self._names, "")
+        check.require_arrays(wanted, self._names)
         return wanted
 
     def neighbors(self, cells: ArrayLike) -> np.ndarray:
@@ -214,7 +214,7 @@ class ResidentMesh:
         left.
         """
         name = check.text(array, "array")
-        check.require_arrays([name], self._names, "")
+        check.require_arrays([name], self._names)
         starts, found, points = self._opened().contours(
             name, check.whole(component, "component"), np.array([check.number(v, "levels") for v in levels], np.float64))
         return list(zip(found.tolist(), np.split(points, starts[1:-1]) if len(starts) > 1 else []))
@@ -303,7 +303,7 @@ class ResidentMesh:
             the array exceeds the level.
         """
         name = check.text(array, "array")
-        check.require_arrays([name], self._names, "")
+        check.require_arrays([name], self._names)
         zones = [polygons] if hasattr(polygons, "geom_type") else check.a_list(polygons, "polygons")
         return Zones(*self._opened().zones(
             _rings(zones), len(zones), name, check.whole(component, "component"), check.number(level, "level")))
@@ -321,7 +321,7 @@ class ResidentMesh:
             at the end, or -1 if the line ends in a level triangle or edge, or starts outside of the mesh.
         """
         name = check.text(array, "array")
-        check.require_arrays([name], self._names, "")
+        check.require_arrays([name], self._names)
         starts, found, values, pits = self._opened().descend(_points(points), name, check.whole(component, "component"))
         lines = zip(_split(starts, found), _split(starts, values), pits.tolist())
         return [Descent(*line) for line in lines]
