@@ -210,7 +210,7 @@ Piece readPiece(const PartitionedMesh& mesh, std::size_t number, const PieceOpti
     piece.Points = storedPoints + borrowed->pointCount();
     piece.Cells = storedCells + borrowed->cellCount();
     piece.PointIds = options.Cells ? Buffer<char>() : Buffer<char>(std::size_t(piece.Points) * 8);
-    options.Cells ? void() : void(std::memcpy(piece.PointIds.data(), ids.data(), ids.size()));
+    options.Cells ? void() : void(std::copy_n(ids.data(), ids.size(), piece.PointIds.data()));
   }
   else
   {

@@ -25,8 +25,11 @@ PointsView viewOf(const Coordinates& xy)
 /// Compared instead of the numbers, since NaN is not equal to itself.
 std::vector<std::uint64_t> bitsOf(const std::vector<double>& values)
 {
-  std::vector<std::uint64_t> bits(values.size());
-  std::memcpy(bits.data(), values.data(), 8 * values.size());
+  std::vector<std::uint64_t> bits;
+  for (const double value : values)
+  {
+    std::memcpy(&bits.emplace_back(), &value, sizeof(value));
+  }
   return bits;
 }
 
