@@ -105,7 +105,7 @@ void addColumn(vtkDataSetAttributes* table, const char* name, const std::vector<
 /// Returns the mesh; throws unless all of it is accessible to this process.
 std::shared_ptr<const tipp::ResidentMesh> vtkPartitionedMeshQuery::OpenWhole()
 {
-  const auto mesh = this->Open();
+  auto mesh = this->Open();
   if (this->Controller && this->Controller->GetNumberOfProcesses() > 1 && !mesh->isStored())
   {
     throw std::runtime_error(

@@ -76,6 +76,7 @@ public:
         return;
       }
     }
+    // NOLINTNEXTLINE(bugprone-branch-clone): in the plane, the last two are the same
     this->Fastest == 0     ? this->visitRows<0>(begin, end, visit)
       : this->Fastest == 1 ? this->visitRows<1>(begin, end, visit)
                            : this->visitRows<D - 1>(begin, end, visit);

@@ -297,6 +297,7 @@ private:
     }
     const std::vector<PointId> vertices = this->constraintVertices();
     std::vector<SegmentTree::Item> items;
+    items.reserve(vertices.size());
     for (const PointId vertex : vertices)
     {
       items.push_back({ this->at(vertex), this->at(vertex), std::int64_t(items.size()) });

@@ -178,6 +178,7 @@ std::int64_t fillTile(const DemBands& bands, std::vector<std::vector<double>>& v
 std::vector<const double*> pointersTo(const std::vector<std::vector<double>>& values)
 {
   std::vector<const double*> pointers;
+  pointers.reserve(values.size());
   for (const std::vector<double>& band : values)
   {
     pointers.push_back(band.data());

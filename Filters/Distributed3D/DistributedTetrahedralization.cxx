@@ -197,10 +197,10 @@ private:
     }
     std::sort(ids.begin(), ids.end());
     this->InitialIds = std::move(ids);
-    std::vector<char> isUsed;
+    std::vector<char> isUsed(std::size_t(this->Tiling->size()));
     for (PartitionIndex p = 0; p < this->Tiling->size(); ++p)
     {
-      isUsed.push_back(initial.count(p) > 0 ? 1 : 0);
+      isUsed[std::size_t(p)] = initial.count(p) > 0 ? 1 : 0;
     }
     const PartitionOrder order(isUsed, mesh.conflicts());
     const RankWork3 work{ *this->Tiling, order, this->Options, this->Threads };
@@ -230,7 +230,7 @@ private:
 
   /// Gathers the vertices at the hull on the first rank, which repairs it and keeps the resulting
   /// tetrahedra.
-  void repairHullOnFirst(std::vector<Vertex3> own, const std::vector<Vertex3>& artificial)
+  void repairHullOnFirst(const std::vector<Vertex3>& own, const std::vector<Vertex3>& artificial)
   {
     std::vector<Vertex3> vertices = gatherList(this->Ranks, own);
     if (this->Ranks.isFirst())

@@ -200,7 +200,7 @@ void RankRun3::work(Cells& cells)
 
 /// Adds a finished partition's messages to the inboxes on this rank, and queues those for other
 /// ranks, which the main thread sends.
-void RankRun3::finish(PartitionIndex p, SentMessages3 sent)
+void RankRun3::finish(PartitionIndex p, SentMessages3&& sent)
 {
   std::vector<Outgoing> outgoing;
   for (const std::int32_t rank : this->recipientsOf(p))

@@ -65,7 +65,7 @@ private:
   bool waitFor(PartitionIndex p);
   void work(Cells& cells);
   std::vector<std::int32_t> recipientsOf(PartitionIndex p) const;
-  void finish(PartitionIndex p, SentMessages3 sent);
+  void finish(PartitionIndex p, SentMessages3&& sent);
   void receive(const Message& message);
   bool sendAndReceive();
   void coordinate();

@@ -195,6 +195,7 @@ void PiecePlan::chooseInitialPoints(const InputSurvey& survey)
   for (const std::vector<InitialPoint>& points : sampled)
   {
     std::vector<Point2> positions;
+    positions.reserve(points.size());
     for (const InitialPoint& p : points)
     {
       positions.push_back(p.Position);

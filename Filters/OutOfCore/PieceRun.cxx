@@ -214,7 +214,7 @@ void PieceRun::work()
   }
 }
 
-void PieceRun::finishPartition(PartitionIndex p, SentMessages sent)
+void PieceRun::finishPartition(PartitionIndex p, SentMessages&& sent)
 {
   const PartitionIndex piece = this->pieceOf(p);
   bool isLast = false;

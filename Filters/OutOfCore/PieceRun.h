@@ -181,7 +181,7 @@ private:
   bool waitForMemory(PartitionIndex piece);
   void load(PartitionIndex piece);
   void work();
-  void finishPartition(PartitionIndex p, SentMessages sent);
+  void finishPartition(PartitionIndex p, SentMessages&& sent);
   void sendToRanks(PartitionIndex p, const SentMessages& sent);
   void deliver(PartitionIndex to, VertexMessage message);
   void finishPiece(PartitionIndex piece);

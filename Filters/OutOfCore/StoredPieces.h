@@ -39,6 +39,7 @@ template <typename Work>
 std::vector<StoredPiece> storedPieces(const Work& work)
 {
   std::vector<StoredPiece> pieces;
+  pieces.reserve(std::size_t(work.Plan.pieces()));
   for (PartitionIndex piece = 0; piece < work.Plan.pieces(); ++piece)
   {
     pieces.push_back({ work.Plan.number(piece), work.resultPath(piece), work.finishedPath(piece) });

@@ -159,6 +159,7 @@ void PieceRun3::makePieces(const std::vector<char>& isDone, const PartitionOrder
 {
   this->Order = &order;
   std::vector<char> isToDo;
+  isToDo.reserve(isDone.size());
   for (const char done : isDone)
   {
     isToDo.push_back(char(done == 0));

@@ -98,7 +98,7 @@ vtkSmartPointer<vtkCellArray> takeCells(Buffer<std::int64_t> ids, int cellSize)
 vtkSmartPointer<vtkIdTypeArray> takeArray(
   const std::string& name, Buffer<std::int64_t> values, int components)
 {
-  const auto array = takeArray<vtkIdTypeArray>(std::move(values));
+  auto array = takeArray<vtkIdTypeArray>(std::move(values));
   array->SetName(name.c_str());
   array->SetNumberOfComponents(components);
   return array;
@@ -107,7 +107,7 @@ vtkSmartPointer<vtkIdTypeArray> takeArray(
 vtkSmartPointer<vtkUnsignedCharArray> takeArray(
   const std::string& name, Buffer<unsigned char> values, int components)
 {
-  const auto array = takeArray<vtkUnsignedCharArray>(std::move(values));
+  auto array = takeArray<vtkUnsignedCharArray>(std::move(values));
   array->SetName(name.c_str());
   array->SetNumberOfComponents(components);
   return array;

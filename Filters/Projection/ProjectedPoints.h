@@ -7,6 +7,9 @@
 
 #include "vtkSmartPointer.h"
 
+#include <array>
+#include <vector>
+
 class vtkAbstractTransform;
 class vtkDataArray;
 class vtkPoints;

@@ -78,14 +78,14 @@ vtkSmartPointer<vtkDataArray> takeOver(MeshAnswer::Array& values)
 
 vtkSmartPointer<vtkPolyData> polyDataOf(const BoundaryLoops& loops)
 {
-  const vtkSmartPointer<vtkPolyData> data = linesOf(loops.Positions, loops.Points.Starts, true);
+  vtkSmartPointer<vtkPolyData> data = linesOf(loops.Positions, loops.Points.Starts, true);
   data->GetPointData()->SetGlobalIds(arrayOf<vtkIdTypeArray>("GlobalPointIds", loops.Points.Ids));
   return data;
 }
 
 vtkSmartPointer<vtkPolyData> polyDataOf(const Contours& contours, const std::string& name)
 {
-  const vtkSmartPointer<vtkPolyData> data = linesOf(contours.Points, contours.Starts, false);
+  vtkSmartPointer<vtkPolyData> data = linesOf(contours.Points, contours.Starts, false);
   data->GetCellData()->SetScalars(arrayOf<vtkDoubleArray>(name.c_str(), contours.Levels));
   return data;
 }
@@ -104,7 +104,7 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const Descents& descents, const std::str
       pits.push_back(descents.Pits[i]);
     }
   }
-  const vtkSmartPointer<vtkPolyData> data = linesOf(descents.Points, starts, false);
+  vtkSmartPointer<vtkPolyData> data = linesOf(descents.Points, starts, false);
   data->GetCellData()->AddArray(arrayOf<vtkIdTypeArray>("StartId", numbers));
   data->GetCellData()->AddArray(arrayOf<vtkIdTypeArray>("PitId", pits));
   data->GetPointData()->SetScalars(arrayOf<vtkDoubleArray>(name.c_str(), descents.Values));
@@ -114,7 +114,7 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const Descents& descents, const std::str
 vtkSmartPointer<vtkPolyData> polyDataOf(Profile&& profile)
 {
   const auto count = std::int64_t(profile.Points.size());
-  const vtkSmartPointer<vtkPolyData> data = linesOf(profile.Points,
+  vtkSmartPointer<vtkPolyData> data = linesOf(profile.Points,
     count > 0 ? std::vector<std::int64_t>{ 0, count } : std::vector<std::int64_t>{ 0 }, false);
   vtkPointData* const values = data->GetPointData();
   values->AddArray(arrayOf<vtkDoubleArray>("Distance", profile.Distances));

@@ -176,10 +176,10 @@ private:
     this->Result.Statistics.Partitions = tiling.size();
     this->Result.Statistics.InitialPoints =
       std::int64_t(initial.Vertices.size() - artificial.size());
-    std::vector<char> isUsed;
+    std::vector<char> isUsed(std::size_t(tiling.size()));
     for (PartitionIndex p = 0; p < tiling.size(); ++p)
     {
-      isUsed.push_back(buckets.count(p) > 0 ? 1 : 0);
+      isUsed[std::size_t(p)] = buckets.count(p) > 0 ? 1 : 0;
     }
     const PartitionOrder order(isUsed, initial.conflicts());
     std::vector<Inbox3> inboxes(order.partitionCount());

@@ -115,18 +115,17 @@ std::string conversionAdvice(const std::string& path)
   const bool isCompressed = extensionOf(path) == ".gz";
   const std::string plain = isCompressed ? fs::path(name).stem().string() : name;
   const std::string extension = extensionOf(plain) + " ";
-  for (const Kind& kind : kinds)
+  const auto kind = std::find_if(kinds.begin(), kinds.end(),
+    [&extension](const Kind& k)
+    { return (k.Extensions + std::string(" ")).find(extension) != std::string::npos; });
+  if (extension == " " || kind == kinds.end())
   {
-    if (extension != " " &&
-      (kind.Extensions + std::string(" ")).find(extension) != std::string::npos)
-    {
-      const std::string unpack = isCompressed ? "gunzip " + name + " && " : "";
-      const std::string output = *kind.Output ? std::string(" ") + kind.Output : "";
-      return std::string("is ") + kind.Name + ", which is not read here; convert it, as with '" +
-        unpack + kind.Command + " " + plain + output + "'.";
-    }
+    return "";
   }
-  return "";
+  const std::string unpack = isCompressed ? "gunzip " + name + " && " : "";
+  const std::string output = *kind->Output ? std::string(" ") + kind->Output : "";
+  return std::string("is ") + kind->Name + ", which is not read here; convert it, as with '" +
+    unpack + kind->Command + " " + plain + output + "'.";
 }
 
 void refuseKind(const std::string& path, const std::string& problem)

@@ -227,9 +227,10 @@ int valueOf(char c)
     int value = 0;
     for (const char* ranges : { "AZ", "az", "09", "++", "//" })
     {
-      for (int c = ranges[0]; c <= ranges[1]; ++c)
+      const auto last = static_cast<unsigned char>(ranges[1]);
+      for (auto c = static_cast<unsigned char>(ranges[0]); c <= last; ++c)
       {
-        made[std::size_t(c)] = static_cast<signed char>(value++);
+        made[c] = static_cast<signed char>(value++);
       }
     }
     made[std::size_t('=')] = padding;

@@ -74,7 +74,7 @@ public:
       {
         return;
       }
-      const bool isProjection = std::strncmp(bytes.data() + 2, "LASF_Projection", 16) == 0;
+      const bool isProjection = std::memcmp(bytes.data() + 2, "LASF_Projection", 16) == 0;
       if (isProjection && length <= longest)
       {
         this->take(

@@ -195,7 +195,7 @@ namespace
 
 PartitionedMesh openMesh(const std::string& path, std::uint64_t fingerprint)
 {
-  const PartitionedMesh mesh = openPartitionedMesh(path);
+  PartitionedMesh mesh = openPartitionedMesh(path);
   const std::string index = readTextFile(mesh.indexPath());
   if (checksumOf(index.data(), index.size()) != fingerprint)
   {

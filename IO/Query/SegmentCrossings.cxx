@@ -285,6 +285,7 @@ std::vector<std::vector<Crossing>> crossingsIn(const ResidentMesh& mesh,
       const ResidentPieces::Lease piece = mesh.pieces().get(number, mesh.needsOf(arrays));
       const MeshPart& part = *piece->Part;
       std::vector<PartValues> values;
+      values.reserve(arrays.size());
       for (const std::string& name : arrays)
       {
         values.emplace_back(part, mesh.find(name));

@@ -168,6 +168,7 @@ public:
   std::vector<T> allToAll(const std::vector<T>& values)
   {
     std::vector<Bytes> contents;
+    contents.reserve(values.size());
     for (const T& value : values)
     {
       contents.push_back(packed(value));
@@ -277,6 +278,7 @@ private:
   static std::vector<T> allUnpacked(const std::vector<Bytes>& contents)
   {
     std::vector<T> values;
+    values.reserve(contents.size());
     for (const Bytes& content : contents)
     {
       values.push_back(unpacked<T>(content));

@@ -80,6 +80,7 @@ namespace tipp
 /// start of the tool.
 struct GdalLibrary
 {
+  // NOLINTNEXTLINE(bugprone-macro-parentheses): a declared name cannot have them
 #define TIPP_DECLARE_FUNCTION(name) decltype(&::name) name = nullptr;
   TIPP_GDAL_FUNCTIONS(TIPP_DECLARE_FUNCTION)
 #undef TIPP_DECLARE_FUNCTION

@@ -65,6 +65,7 @@ RasterGrid makeRasterGrid(const RasterRequest& request, const std::array<double,
 
 RasterWriter::~RasterWriter() = default;
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): overrides keep the tile
 void RasterWriter::writeEncoded(std::int64_t, EncodedTile)
 {
   throw std::logic_error("encoded tiles are those of GeoTIFFs");

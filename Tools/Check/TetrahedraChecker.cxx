@@ -282,6 +282,7 @@ private:
     }
     // A closed surface that is convex everywhere is convex as a whole if it winds around once.
     std::vector<Id> vertices;
+    vertices.reserve(edges.size());
     for (const HullEdge& edge : edges)
     {
       vertices.push_back(edge.Apex);

@@ -64,6 +64,7 @@ void writeZones(Communicator* shared, const ResidentMesh& mesh, const ZoneArgume
   const std::vector<NamedZone> named =
     isFirst ? readZones(arguments.Path, arguments.Field) : std::vector<NamedZone>();
   std::vector<Zone> zones;
+  zones.reserve(named.size());
   for (const NamedZone& zone : named)
   {
     zones.push_back(zone.Polygons);
