@@ -208,7 +208,7 @@ private:
     run.Statistics = this->startedWith(run.Statistics);
     run.run(sendInitialMesh(mesh, order));
     this->take(run);
-    this->repairHullOnFirst(std::move(run.HullVertices), artificial);
+    this->repairHullOnFirst(run.HullVertices, artificial);
     this->Result.Statistics.Partitions = this->Tiling->size();
     return this->hasCells();
   }
