@@ -165,7 +165,7 @@ public:
     {
       for (unsigned met = metOf(gathered, part, low, high); met != 0; met &= met - 1)
       {
-        visit(gathered.Numbers[std::size_t(part + __builtin_ctz(met))]);
+        visit(gathered.Numbers[std::size_t(part) + std::size_t(__builtin_ctz(met))]);
       }
     }
   }

@@ -106,7 +106,8 @@ void ConstraintRegion::join(Index half, Index outer)
   this->Twins[std::size_t(half)] = outer;
   if (outer < 0)
   {
-    this->Borders[std::size_t(~outer)].Half = half;
+    const Index border = ~outer;
+    this->Borders[std::size_t(border)].Half = half;
   }
   else
   {
@@ -219,8 +220,8 @@ void ConstraintRegion::setCorners(Index triangle, const std::array<Index, 3>& co
   for (Index i = 0; i < 3; ++i)
   {
     const Index v = corners[std::size_t(i)];
-    this->Corners[std::size_t(3 * triangle + i)] = v;
-    this->Fixed[std::size_t(3 * triangle + i)] = 0;
+    this->Corners[3 * std::size_t(triangle) + std::size_t(i)] = v;
+    this->Fixed[3 * std::size_t(triangle) + std::size_t(i)] = 0;
     this->Out[std::size_t(v)] = 3 * triangle + i;
   }
 }

@@ -80,10 +80,10 @@ private:
   static Index triangleOf(Index h) { return h / 3; }
   bool isFixed(Index h) const { return (this->Fixed[std::size_t(h)] & FixedBit) != 0; }
   void setFixed(Index h, bool isFixed) { this->Fixed[std::size_t(h)] = isFixed ? FixedBit : 0; }
-  void markRemoved(Index triangle) { this->Fixed[std::size_t(3 * triangle)] |= RemovedBit; }
+  void markRemoved(Index triangle) { this->Fixed[3 * std::size_t(triangle)] |= RemovedBit; }
   bool isRemoved(Index triangle) const
   {
-    return (this->Fixed[std::size_t(3 * triangle)] & RemovedBit) != 0;
+    return (this->Fixed[3 * std::size_t(triangle)] & RemovedBit) != 0;
   }
   void setCorners(Index triangle, const std::array<Index, 3>& corners);
   bool mustFlip(Index half) const;

@@ -49,14 +49,14 @@ void fillPiece(const DistributedTetrahedralization& mine, int rank, const PointR
     [&](std::int32_t index) { *to++ = std::int32_t(piece.ofLocalIndex(std::size_t(index))); });
   vtkNew<vtkIdTypeArray> numbers;
   numbers->SetName("GlobalCellIds");
-  numbers->SetNumberOfValues(vtkIdType(own + more));
+  numbers->SetNumberOfValues(vtkIdType(own) + vtkIdType(more));
   for (std::size_t i = 0; i < own; ++i)
   {
-    numbers->SetValue(vtkIdType(i), vtkIdType(mine.FirstCell + std::int64_t(i)));
+    numbers->SetValue(vtkIdType(i), vtkIdType(mine.FirstCell) + vtkIdType(i));
   }
   for (std::size_t i = 0; i < more; ++i)
   {
-    numbers->SetValue(vtkIdType(own + i), vtkIdType(ghosts->Numbers[i]));
+    numbers->SetValue(vtkIdType(own) + vtkIdType(i), vtkIdType(ghosts->Numbers[i]));
     for (std::size_t k = 0; k < size; ++k)
     {
       *to++ = std::int32_t(piece.ofId(ghosts->Cells[i][k]));
@@ -68,7 +68,7 @@ void fillPiece(const DistributedTetrahedralization& mine, int rank, const PointR
   {
     vtkNew<vtkUnsignedCharArray> ghost;
     ghost->SetName(vtkDataSetAttributes::GhostArrayName());
-    ghost->SetNumberOfValues(vtkIdType(own + more));
+    ghost->SetNumberOfValues(vtkIdType(own) + vtkIdType(more));
     std::fill_n(ghost->GetPointer(0), own, static_cast<unsigned char>(0));
     std::fill_n(ghost->GetPointer(0) + own, more,
       static_cast<unsigned char>(vtkDataSetAttributes::DUPLICATECELL));

@@ -302,15 +302,15 @@ void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& 
   // Lines are VTK's first cells, but their ids follow those of all triangles.
   vtkNew<vtkIdTypeArray> numbers;
   numbers->SetName("GlobalCellIds");
-  numbers->SetNumberOfValues(vtkIdType(lines + own + more));
+  numbers->SetNumberOfValues(vtkIdType(lines) + vtkIdType(own) + vtkIdType(more));
   vtkIdType* number = numbers->GetPointer(0);
   for (std::size_t i = 0; i < lines; ++i)
   {
-    *number++ = vtkIdType(mine.AllTriangles + marks.Lines->First + std::int64_t(i));
+    *number++ = vtkIdType(mine.AllTriangles) + vtkIdType(marks.Lines->First) + vtkIdType(i);
   }
   for (std::size_t i = 0; i < own; ++i)
   {
-    *number++ = vtkIdType(mine.FirstTriangle + std::int64_t(i));
+    *number++ = vtkIdType(mine.FirstTriangle) + vtkIdType(i);
   }
   for (std::size_t i = 0; i < more; ++i)
   {
@@ -326,7 +326,7 @@ void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& 
   }
   if (marks.Lines)
   {
-    setLines(piece, *marks.Lines, vtkIdType(own + more), output);
+    setLines(piece, *marks.Lines, vtkIdType(own) + vtkIdType(more), output);
   }
   output->SetPolys(takeCells(std::move(corners), 3));
   output->GetCellData()->SetGlobalIds(numbers);
@@ -334,7 +334,7 @@ void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& 
   {
     vtkNew<vtkUnsignedCharArray> ghost;
     ghost->SetName(vtkDataSetAttributes::GhostArrayName());
-    ghost->SetNumberOfValues(vtkIdType(lines + own + more));
+    ghost->SetNumberOfValues(vtkIdType(lines) + vtkIdType(own) + vtkIdType(more));
     std::fill_n(ghost->GetPointer(0), lines + own, static_cast<unsigned char>(0));
     std::fill_n(ghost->GetPointer(0) + lines + own, more,
       static_cast<unsigned char>(vtkDataSetAttributes::DUPLICATECELL));

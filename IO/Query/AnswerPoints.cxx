@@ -161,7 +161,7 @@ PieceGroups groupByPiece(const std::vector<std::int32_t>& pieces, std::size_t co
   std::vector<std::int64_t> ends(count + 1, 0);
   for (const std::int32_t piece : pieces)
   {
-    ends[std::size_t(piece + 1)] += 1; // the first entry counts items without a piece
+    ends[std::size_t(std::int64_t(piece) + 1)] += 1; // the first entry counts items without a piece
   }
   ends[0] = 0;
   PieceGroups result;
