@@ -33,33 +33,41 @@ void withSize(std::index_sequence<Sizes...>, std::size_t bytes, const Work& work
 
 using UsualSizes = std::index_sequence<1, 4, 8, 12, 16, 24>;
 
+// The loops are functions of their own: with the lambda's captures, the compiler would load these
+// again after each copy, which might have changed them.
+template <typename Bytes>
+void scatter(const char* from, const std::uint64_t* sources, char* to, const std::uint64_t* targets,
+  std::size_t count, Bytes bytes)
+{
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    std::memcpy(to + targets[i] * bytes, from + sources[i] * bytes, bytes);
+  }
+}
+
+template <typename Source, typename Bytes>
+void gather(const char* from, const Source* sources, char* to, std::size_t count, Bytes bytes)
+{
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    std::memcpy(to + i * bytes, from + sources[i] * bytes, bytes);
+  }
+}
+
 } // namespace
 
 void scatterTuples(const char* from, const std::uint64_t* sources, char* to,
   const std::uint64_t* targets, std::size_t count, std::size_t bytes)
 {
-  withSize(UsualSizes(), bytes,
-    [=](auto size)
-    {
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        std::memcpy(to + targets[i] * size, from + sources[i] * size, size);
-      }
-    });
+  withSize(
+    UsualSizes(), bytes, [=](auto size) { scatter(from, sources, to, targets, count, size); });
 }
 
 template <typename Source>
 void gatherTuples(
   const char* from, const Source* sources, char* to, std::size_t count, std::size_t bytes)
 {
-  withSize(UsualSizes(), bytes,
-    [=](auto size)
-    {
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        std::memcpy(to + i * size, from + sources[i] * size, size);
-      }
-    });
+  withSize(UsualSizes(), bytes, [=](auto size) { gather(from, sources, to, count, size); });
 }
 
 template void gatherTuples(
