@@ -269,7 +269,7 @@ void PieceFile::readBlocks(std::size_t array, std::size_t first, std::size_t end
 void PieceFile::read(std::size_t array, std::size_t first, std::size_t end, void* to) const
 {
   const std::size_t tuple = this->Arrays[array].tupleBytes();
-  std::vector<char> unused(to ? 0 : std::max(blockBytes, tuple));
+  Buffer<char> unused(to ? 0 : std::max(blockBytes, tuple));
   this->readBlocks(
     array, first, end,
     [&](std::size_t begin) { return to ? static_cast<char*>(to) + begin : unused.data(); },
