@@ -98,37 +98,33 @@ struct Jobs
   std::vector<std::int64_t> OfTriangle;
 };
 
+/// Jobs are in the order of their first triangles, so that a job's memory is near the last one's.
 Jobs makeJobs(const CrossedTriangles& crossed, std::size_t pieces)
 {
   PieceSets sets(pieces);
-  std::vector<char> crosses(pieces, 0);
   for (std::size_t t = 0; t < crossed.Triangles.size(); ++t)
   {
     const std::int64_t first = crossed.Pieces[std::size_t(crossed.Starts[t])];
-    for (std::int64_t i = crossed.Starts[t]; i < crossed.Starts[t + 1]; ++i)
+    for (std::int64_t i = crossed.Starts[t] + 1; i < crossed.Starts[t + 1]; ++i)
     {
-      const std::int64_t piece = crossed.Pieces[std::size_t(i)];
-      crosses[std::size_t(piece)] = 1;
-      sets.join(first, piece);
+      sets.join(first, crossed.Pieces[std::size_t(i)]);
     }
   }
   Jobs jobs;
   constexpr std::int64_t none = -1;
-  std::vector<std::int64_t>& jobOfPiece = jobs.OfPiece;
-  jobOfPiece.assign(pieces, none);
-  for (std::size_t p = 0; p < pieces; ++p)
+  jobs.OfPiece.assign(pieces, none);
+  jobs.OfTriangle.resize(crossed.Triangles.size());
+  for (std::size_t t = 0; t < crossed.Triangles.size(); ++t)
   {
-    if (crosses[p])
+    const std::int64_t begin = crossed.Starts[t];
+    const auto set = std::size_t(sets.find(crossed.Pieces[std::size_t(begin)]));
+    std::int64_t& job = jobs.OfPiece[set];
+    job = job == none ? std::int64_t(jobs.Count++) : job;
+    jobs.OfTriangle[t] = job;
+    for (std::int64_t i = begin; i < crossed.Starts[t + 1]; ++i)
     {
-      const auto first = std::size_t(sets.find(std::int64_t(p)));
-      jobOfPiece[p] = first == p ? std::int64_t(jobs.Count++) : jobOfPiece[first];
+      jobs.OfPiece[std::size_t(crossed.Pieces[std::size_t(i)])] = job;
     }
-  }
-  std::vector<std::int64_t>& jobOfTriangle = jobs.OfTriangle;
-  jobOfTriangle.resize(crossed.Triangles.size());
-  for (std::size_t t = 0; t < jobOfTriangle.size(); ++t)
-  {
-    jobOfTriangle[t] = jobOfPiece[std::size_t(crossed.Pieces[std::size_t(crossed.Starts[t])])];
   }
   return jobs;
 }

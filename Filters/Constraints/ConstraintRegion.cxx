@@ -226,12 +226,17 @@ void ConstraintRegion::setCorners(Index triangle, const std::array<Index, 3>& co
   }
 }
 
+bool ConstraintRegion::isInCircle(Index a, Index b, Index c, Index d) const
+{
+  return inCirclePerturbed(this->at(a), this->at(b), this->at(c), this->at(d));
+}
+
 bool ConstraintRegion::mustFlip(Index half) const
 {
   const Index twin = this->twin(half);
   return twin >= 0 && !this->isFixed(half) &&
-    inCirclePerturbed(this->at(this->from(half)), this->at(this->to(half)),
-      this->at(this->from(previous(half))), this->at(this->from(previous(twin))));
+    this->isInCircle(
+      this->from(half), this->to(half), this->from(previous(half)), this->from(previous(twin)));
 }
 
 } // namespace tipp

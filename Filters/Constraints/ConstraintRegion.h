@@ -86,6 +86,7 @@ private:
     return (this->Fixed[3 * std::size_t(triangle)] & RemovedBit) != 0;
   }
   void setCorners(Index triangle, const std::array<Index, 3>& corners);
+  bool isInCircle(Index a, Index b, Index c, Index d) const;
   bool mustFlip(Index half) const;
   ///@}
 

@@ -37,27 +37,11 @@ std::vector<TriangleRange> makeRanges(std::size_t triangles,
       ranges.push_back({ i, std::min(i + most, end), partition });
     }
   };
-  const auto isNear = [&](PartitionIndex partition)
-  {
-    const Octagon& bounds = inserted.interiorOf(partition).Bounds;
-    bool isNear = false;
-    tree.visitNear(bounds.Box,
-      [&](const SegmentTree::Item& item)
-      {
-        // Rounding keeps the order of sums and differences, and equal bounds overlap, so no
-        // crossing is missed.
-        const Box2 diagonals = boxOf(Octagon::diagonals(item.A), Octagon::diagonals(item.B));
-        isNear = !inserted.isKnown(item.Id, partition) && overlap(diagonals, bounds.Diagonals) &&
-          lineMayMeet(item.A, item.B, bounds.Box);
-        return !isNear;
-      });
-    return isNear;
-  };
   std::size_t done = 0;
   for (const TriangleBlock& block : blocks)
   {
     append(done, block.Begin, none);
-    if (isNear(block.Partition))
+    if (inserted.mayEnter(tree, block.Partition, [](std::int64_t piece) { return piece; }))
     {
       append(block.Begin, block.End, block.Partition);
     }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace tipp
@@ -191,7 +192,7 @@ private:
     {
       this->insertAll(partition);
     }
-    this->publish(partition.Number, partition.Interior);
+    this->publish(partition.Number, partition.Border);
   }
 
   template <typename Id>
@@ -408,16 +409,18 @@ private:
     return false;
   }
 
-  Box2 unscaled(const Box2& box) const
-  {
-    const double scale = 1 / this->Factor; // a power of two
-    return { box.xmin * scale, box.ymin * scale, box.xmax * scale, box.ymax * scale };
-  }
-
-  void publish(PartitionIndex partition, const Octagon& bounds)
+  void publish(PartitionIndex partition, const std::vector<std::array<Point2, 2>>& border)
   {
     Interior interior;
-    interior.Bounds = { this->unscaled(bounds.Box), this->unscaled(bounds.Diagonals) };
+    const auto unscaled = [scale = 1 / this->Factor](Point2 p) // a power of two
+    {
+      return Point2{ p.x * scale, p.y * scale };
+    };
+    interior.Border.reserve(border.size());
+    for (const auto& [from, to] : border)
+    {
+      interior.Border.push_back({ unscaled(from), unscaled(to) });
+    }
     std::sort(this->Noted.begin(), this->Noted.end());
     this->Noted.erase(std::unique(this->Noted.begin(), this->Noted.end()), this->Noted.end());
     std::size_t at = 0;
@@ -464,6 +467,47 @@ PartitionConstraints::PartitionConstraints(PointsView points,
   , EndsOf(pieces.size())
   , Done(pieces.size(), 0)
 {
+}
+
+/// Whether an end is a point but no vertex, since another point coincides with it.
+bool PartitionConstraints::endsAtDuplicate(std::int64_t piece) const
+{
+  const ConstraintPiece& ids = this->Pieces[std::size_t(piece)];
+  const Ends& ends = this->EndsOf[std::size_t(piece)];
+  const auto points = PointId(this->Points.size());
+  return (ids.A < points && ends.Partition[0] < 0) || (ids.B < points && ends.Partition[1] < 0);
+}
+
+bool PartitionConstraints::mayEnter(const SegmentTree& tree, PartitionIndex partition,
+  const std::function<std::int64_t(std::int64_t)>& pieceOf) const
+{
+  const auto& border = this->interiorOf(partition).Border;
+  Box2 box{ -HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL };
+  for (std::size_t i = 0; i < border.size(); ++i)
+  {
+    const Box2 edge = boxOf(border[i][0], border[i][1]);
+    box = i == 0 ? edge : unionOf(box, edge);
+  }
+  bool isNear = false;
+  tree.visitNear(box,
+    [&](const SegmentTree::Item& item)
+    {
+      const std::int64_t piece = pieceOf(item.Id);
+      if (piece >= 0 && this->isKnown(piece, partition))
+      {
+        return true;
+      }
+      // Unless an end is a duplicate, no end is a vertex of an interior triangle.
+      isNear = border.empty() || (piece >= 0 && this->endsAtDuplicate(piece)) ||
+        std::any_of(border.begin(), border.end(),
+          [&item](const auto& edge)
+          {
+            const Box2 near = boxOf(edge[0], edge[1]);
+            return overlap(boxOf(item.A, item.B), near) && lineMayMeet(item.A, item.B, near);
+          });
+      return !isNear;
+    });
+  return isNear;
 }
 
 std::unique_ptr<PartitionEditor> PartitionConstraints::makeEditor(double factor)

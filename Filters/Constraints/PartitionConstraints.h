@@ -5,12 +5,14 @@
 #include "Constraints/Constraint.h"
 #include "Constraints/CrossedTriangles.h"
 #include "Constraints/PieceEnds.h"
+#include "Constraints/SegmentTree.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Worker.h"
 
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <unordered_map>
@@ -48,13 +50,20 @@ public:
     return partition >= 0 && (ends.Partition[0] == partition || ends.Partition[1] == partition);
   }
 
+  /// Whether a piece that is not known, or another segment without ends among the points, may cross
+  /// interior triangles of the partition. `tree` has the segments; pieceOf(id) is the piece of the
+  /// segment with this id, or -1.
+  bool mayEnter(const SegmentTree& tree, PartitionIndex partition,
+    const std::function<std::int64_t(std::int64_t)>& pieceOf) const;
+
   /// The index of a crossed triangle among the partition's interior ones, and the index of a piece.
   using Crossing = std::pair<std::size_t, std::int64_t>;
 
   /// The interior triangles of a partition.
   struct Interior
   {
-    Octagon Bounds;                  ///< of all interior triangles
+    /// Edges between these and other triangles. Empty if all triangles are interior.
+    std::vector<std::array<Point2, 2>> Border;
     std::vector<Crossing> Crossings; ///< ascending, without repetition
   };
   const Interior& interiorOf(PartitionIndex partition) const
@@ -75,6 +84,7 @@ private:
     std::array<DelaunayKernel::Index, 2> Vertex{};
   };
 
+  bool endsAtDuplicate(std::int64_t piece) const;
   Point2 at(PointId id) const
   {
     const std::size_t count = this->Points.size();

@@ -15,20 +15,28 @@ namespace tipp
 
 /// Inserts segments one by one into a constrained Delaunay triangulation.
 ///
-/// A segment replaces the triangles that it crosses (Anglada 1997). On each side of the segment,
-/// the vertices of these triangles form a chain from one end to the other. Ears are cut off the
-/// chain until only the segment remains. An ear always exists: every vertex sees the segment along
-/// a crossed edge, and these lines of sight do not meet; so three consecutive vertices that turn
-/// away from the segment enclose no other. Then edges are flipped until all are locally Delaunay,
-/// as in CGAL's triangulation.
+/// A segment replaces the triangles that it crosses. On each side of the segment, the vertices of
+/// these triangles form a chain from one end to the other. Every vertex sees the segment along a
+/// crossed edge, and these lines of sight do not meet.
+///
+/// A short chain is triangulated by recursion (Anglada 1997): the vertex whose circle with the
+/// segment's ends contains no other is the apex of the segment's triangle, whose other sides take
+/// the segment's part for the two halves of the chain. All vertices of a half are beyond its side,
+/// since their lines of sight cross it.
+///
+/// The recursion takes quadratic time at worst, and an edge that is in a chain twice has two
+/// equal circles. So other chains lose ears until only the segment remains: three consecutive
+/// vertices that turn away from the segment enclose no other, because of the lines of sight. Then
+/// edges are flipped until all are locally Delaunay, as in CGAL's triangulation.
 ///
 /// `Mesh` has counter-clockwise triangles, whose half-edge half(triangle, i) goes from corner i to
 /// the next. For half-edges it has next(), previous(), from(), to(), twin() and triangleOf().
 /// setCorners(triangle, corners) replaces a triangle and removes its twins and its mark;
 /// markRemoved(triangle) sets this mark, and isRemoved(triangle) returns it. join(half, other)
 /// makes twins. isFixed(half) and setFixed(half, fixed) concern one side of an edge. turn(a, b, c)
-/// is the orientation of three vertices. mustFlip(half) is false for fixed edges and edges with a
-/// single triangle.
+/// is the orientation of three vertices. isInCircle(a, b, c, d) says whether d is inside the circle
+/// of a counter-clockwise triangle under the tie rule. mustFlip(half) is false for fixed edges and
+/// edges with a single triangle.
 template <typename Mesh>
 class SegmentInserter
 {
@@ -40,7 +48,7 @@ public:
   void insert(Mesh& mesh, Index a, Index b, const std::vector<Index>& crossed)
   {
     this->makeChains(mesh, a, crossed);
-    if (!this->NewInner.empty()) // clear() takes time even if the map is empty
+    if (this->HasDangling)
     {
       this->NewInner.clear();
     }
@@ -87,19 +95,12 @@ private:
     this->Removed.resize(most);
     this->Left = { this->Room.data(), this->Room.data() };
     this->Right = { this->Room.data() + 2 * most, this->Room.data() + 2 * most };
-    const auto addLeft = [&](Index to, Index inner)
-    { *this->Left.End++ = makeLink(mesh, to, inner); };
-    // The right chain goes from b to a, so it is filled from its last link.
-    Index onRight = a;
-    const auto addRight = [&](Index from, Index inner)
-    {
-      *--this->Right.Begin = makeLink(mesh, onRight, inner);
-      onRight = from;
-    };
     const Index first = crossed.front();
     this->Removed[0] = mesh.triangleOf(first);
-    addLeft(mesh.to(first), mesh.next(first));
-    addRight(mesh.from(first), mesh.previous(first));
+    *this->Left.End++ = makeLink(mesh, mesh.to(first), mesh.next(first));
+    // The right chain goes from b to a, so it is filled from its last link.
+    *--this->Right.Begin = makeLink(mesh, a, mesh.previous(first));
+    Index onRight = mesh.from(first);
     for (std::size_t i = 0; i < crossed.size(); ++i)
     {
       const Index half = mesh.twin(crossed[i]);
@@ -108,8 +109,12 @@ private:
       const Index left = mesh.previous(half);
       const Index apex = mesh.to(right);
       const Index leftBy = i + 1 < crossed.size() ? crossed[i + 1] : None;
-      leftBy != right ? addRight(apex, right) : void();
-      leftBy != left ? addLeft(apex, left) : void();
+      // Writes both and keeps one, because a branch would be mispredicted half of the time.
+      *this->Left.End = makeLink(mesh, apex, left);
+      this->Left.End += leftBy != left ? 1 : 0;
+      this->Right.Begin[-1] = makeLink(mesh, onRight, right);
+      this->Right.Begin -= leftBy != right ? 1 : 0;
+      onRight = leftBy != right ? apex : onRight;
     }
     this->markDangling(mesh);
   }
@@ -121,11 +126,13 @@ private:
     {
       mesh.markRemoved(triangle);
     }
+    this->HasDangling = false;
     for (const Chain& chain : { this->Left, this->Right })
     {
       for (Link* link = chain.Begin; link != chain.End; ++link)
       {
         link->IsDangling = link->Outer >= 0 && mesh.isRemoved(mesh.triangleOf(link->Outer));
+        this->HasDangling |= link->IsDangling;
       }
     }
   }
@@ -133,6 +140,34 @@ private:
   /// Triangulates the area between a chain and the segment that joins its ends. Returns the
   /// segment's half-edge.
   Index fill(Mesh& mesh, Index from, const Chain& chain)
+  {
+    constexpr std::ptrdiff_t shortChain = 32;
+    return chain.End - chain.Begin > shortChain || this->HasDangling
+      ? this->cutEars(mesh, from, chain)
+      : this->replace(mesh, from, chain).Outer;
+  }
+
+  /// Triangulates the area between a chain, which starts at `from`, and the segment that joins its
+  /// ends. Returns the link that replaces the chain.
+  Link replace(Mesh& mesh, Index from, const Chain& chain)
+  {
+    if (chain.End - chain.Begin == 1)
+    {
+      return *chain.Begin;
+    }
+    const Index to = chain.End[-1].To;
+    Link* apex = chain.Begin;
+    for (Link* link = apex + 1; link + 1 != chain.End; ++link)
+    {
+      apex = mesh.isInCircle(from, to, apex->To, link->To) ? link : apex;
+    }
+    const Link first = this->replace(mesh, from, { chain.Begin, apex + 1 });
+    const Link second = this->replace(mesh, apex->To, { apex + 1, chain.End });
+    return { to, this->makeTriangle(mesh, first, from, second), None, false, false };
+  }
+
+  /// As fill(), for all chains.
+  Index cutEars(Mesh& mesh, Index from, const Chain& chain)
   {
     // The vertex before the first link is `from`. The remaining links overwrite the start of the
     // chain.
@@ -248,6 +283,7 @@ private:
   std::vector<Link> Room;     ///< memory of the links of Left and Right
   Chain Left{};
   Chain Right{};
+  bool HasDangling = false;                  ///< whether a link of Left or Right is dangling
   std::vector<Index> Suspects;               ///< half-edges that may have to be flipped
   std::unordered_map<Index, Index> NewInner; ///< new half-edges by old ones, at dangling edges
 };

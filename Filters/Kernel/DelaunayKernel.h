@@ -223,12 +223,15 @@ public:
   {
     return orientation(this->at(a), this->at(b), this->at(c));
   }
+  bool isInCircle(Index a, Index b, Index c, Index d) const
+  {
+    return inCirclePerturbed(this->at(a), this->at(b), this->at(c), this->at(d));
+  }
   bool mustFlip(Index h) const
   {
     const Index beyond = this->apex(this->twin(h));
     return beyond != DelaunayKernel::Infinite && !this->isFixed(h) &&
-      inCirclePerturbed(
-        this->at(this->from(h)), this->at(this->to(h)), this->at(this->apex(h)), this->at(beyond));
+      this->isInCircle(this->from(h), this->to(h), this->apex(h), beyond);
   }
 
 private:

@@ -74,27 +74,12 @@ void PieceConstraints::finishInserting()
   }
 }
 
-/// Returns whether a segment that is not inserted, and that the partition's editor does not know,
-/// may cross interior triangles of the partition.
-bool PieceConstraints::isUnknownNear(PartitionIndex partition) const
-{
-  const Box2& bounds = this->Inserted->interiorOf(partition).Bounds.Box;
-  bool isNear = false;
-  this->Left.tree().visitNear(bounds,
-    [&](const SegmentTree::Item& item)
-    {
-      const std::int64_t piece = this->LeftPiece[std::size_t(item.Id)];
-      isNear = !(piece >= 0 && this->Inserted->isKnown(piece, partition)) &&
-        lineMayMeet(item.A, item.B, bounds);
-      return !isNear;
-    });
-  return isNear;
-}
-
 std::size_t PieceConstraints::takeCrossed(PartitionIndex partition, std::int64_t first,
   std::int32_t* corners, std::size_t triangles, CrossedPart& part) const
 {
-  if (triangles == 0 || partition < 0 || this->isUnknownNear(partition))
+  const auto pieceOf = [this](std::int64_t left) { return this->LeftPiece[std::size_t(left)]; };
+  if (triangles == 0 || partition < 0 ||
+    this->Inserted->mayEnter(this->Left.tree(), partition, pieceOf))
   {
     return tipp::takeCrossed(this->Points, this->Left, first, corners, triangles, part);
   }

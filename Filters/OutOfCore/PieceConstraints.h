@@ -47,8 +47,6 @@ public:
   void addEdgesAndTouches(std::int64_t first, CrossedPart& part) const;
 
 private:
-  bool isUnknownNear(PartitionIndex partition) const;
-
   const ConstraintSegments Segments;
   const PointsView Points;
   std::vector<ConstraintPiece> Pieces; ///< segments with an end among the points

@@ -103,7 +103,7 @@ bool Worker<Id>::triangulateAlone(const DelaunayKernel::Monitor& proceed)
   this->setVertexIds();
   if (this->Editor)
   {
-    this->Interior = { Octagon::All, Octagon::All };
+    this->Border.clear();
     this->IsBoundary.clear();
     this->Kernel.forEachTriangle(
       [this](Index t) { this->IsBoundary.push_back(this->Kernel.isInfinite(t)); });
@@ -184,7 +184,7 @@ void Worker<Id>::findBoundary(const Box2& box, const Box2& region, BoundaryConsu
 {
   const Box2 open = openBox(box);
   this->IsBoundary.assign(this->Kernel.triangleCount(), 0);
-  this->Interior = {};
+  this->Border.clear();
   std::size_t first = 0;
   while (!this->Kernel.isInfinite(DelaunayKernel::triangle(first)))
   {
@@ -211,9 +211,11 @@ void Worker<Id>::findBoundary(const Box2& box, const Box2& region, BoundaryConsu
           this->Kernel.point(v[0]), this->Kernel.point(v[1]), this->Kernel.point(v[2]));
         if (disk.inside(open))
         {
-          for (std::size_t k = 0; this->Editor && k < 3; ++k)
+          if (this->Editor)
           {
-            this->Interior.add(this->Kernel.point(v[k]));
+            const std::array<Index, 3> other = this->Kernel.corners(t);
+            this->Border.push_back({ this->Kernel.point(other[std::size_t(i + 1) % 3]),
+              this->Kernel.point(other[std::size_t(i + 2) % 3]) });
           }
           continue;
         }
@@ -248,7 +250,7 @@ void Worker<Id>::edit(PartitionIndex partition)
   if (this->Editor)
   {
     this->Editor->edit(PartitionEditor::Partition<Id>{
-      partition, this->Kernel, this->VertexIds.data(), this->IsBoundary.data(), this->Interior });
+      partition, this->Kernel, this->VertexIds.data(), this->IsBoundary.data(), this->Border });
   }
 }
 

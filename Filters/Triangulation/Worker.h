@@ -11,33 +11,12 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
 
 namespace tipp
 {
-
-/// The bounds of points along the axes and, rounded, along the diagonals.
-struct Octagon
-{
-  static constexpr double Most = std::numeric_limits<double>::infinity();
-  static constexpr Box2 Nothing{ Most, Most, -Most, -Most };
-  static constexpr Box2 All{ -Most, -Most, Most, Most };
-
-  Box2 Box = Nothing;
-  Box2 Diagonals = Nothing; ///< bounds of the points' diagonals()
-
-  static Point2 diagonals(Point2 p) { return { p.x + p.y, p.x - p.y }; }
-
-  void add(Point2 p)
-  {
-    const Point2 d = diagonals(p);
-    this->Box = unionOf(this->Box, { p.x, p.y, p.x, p.y });
-    this->Diagonals = unionOf(this->Diagonals, { d.x, d.y, d.x, d.y });
-  }
-};
 
 /// Modifies the interior triangles of a partition in the kernel's mesh before they are written.
 /// Their number and their union must not change. Each thread has its own editor.
@@ -51,8 +30,10 @@ public:
     DelaunayKernel& Kernel;
     const Id* Ids; ///< by kernel vertex, from 1 on: the point's id; -1 for other partitions' points
     const char*
-      IsBoundary;     ///< by the kernel's triangle number: not 0 if the triangle is not interior
-    Octagon Interior; ///< bounds of the interior triangles, in the kernel's coordinates
+      IsBoundary; ///< by the kernel's triangle number: not 0 if the triangle is not interior
+    /// The edges between interior and other triangles, in the kernel's coordinates. Empty if all
+    /// triangles are interior.
+    const std::vector<std::array<Point2, 2>>& Border;
   };
 
   virtual ~PartitionEditor() = default;
@@ -134,7 +115,7 @@ private:
   std::vector<Point2> GhostPoints;
   std::vector<std::int64_t> KnownIds; ///< ids of own points that other partitions know; sorted
   std::vector<char> IsBoundary;       ///< by the kernel's triangle number
-  Octagon Interior;                   ///< bounds of the interior triangles, if there is an editor
+  std::vector<std::array<Point2, 2>> Border; ///< of the interior triangles, if there is an editor
   std::vector<DelaunayKernel::Index> Stack;
   std::vector<Duplicate> Duplicates;
   std::size_t InteriorCount = 0;
