@@ -269,20 +269,26 @@ SplitPieces splitPieces(PointsView points, std::vector<ConstraintPiece>& pieces,
     return split;
   }
   const auto at = [&](PointId id) { return points[std::size_t(id)]; };
+  split.Parts.reserve(pieces.size() + touches.size());
+  split.Starts.reserve(pieces.size() + 1);
   auto touch = touches.begin();
   std::vector<PointId> vertices;
   for (std::size_t p = 0; p < pieces.size(); ++p)
   {
     const ConstraintPiece& piece = pieces[p];
-    const bool isAscending = lexicographicLess(at(piece.A), at(piece.B));
     vertices.clear();
     for (; touch != touches.end() && touch->Piece == std::int64_t(p); ++touch)
     {
       vertices.push_back(touch->Vertex);
     }
-    std::sort(vertices.begin(), vertices.end(),
-      [&](PointId a, PointId b)
-      { return isAscending ? lexicographicLess(at(a), at(b)) : lexicographicLess(at(b), at(a)); });
+    if (!vertices.empty()) // seldom; positions are anywhere in memory
+    {
+      const bool isAscending = lexicographicLess(at(piece.A), at(piece.B));
+      std::sort(vertices.begin(), vertices.end(),
+        [&](PointId a, PointId b) {
+          return isAscending ? lexicographicLess(at(a), at(b)) : lexicographicLess(at(b), at(a));
+        });
+    }
     vertices.push_back(piece.B);
     split.Starts.push_back(std::int64_t(split.Parts.size()));
     PointId from = piece.A;

@@ -469,15 +469,6 @@ PartitionConstraints::PartitionConstraints(PointsView points,
 {
 }
 
-/// Whether an end is a point but no vertex, since another point coincides with it.
-bool PartitionConstraints::endsAtDuplicate(std::int64_t piece) const
-{
-  const ConstraintPiece& ids = this->Pieces[std::size_t(piece)];
-  const Ends& ends = this->EndsOf[std::size_t(piece)];
-  const auto points = PointId(this->Points.size());
-  return (ids.A < points && ends.Partition[0] < 0) || (ids.B < points && ends.Partition[1] < 0);
-}
-
 bool PartitionConstraints::mayEnter(const SegmentTree& tree, PartitionIndex partition,
   const std::function<std::int64_t(std::int64_t)>& pieceOf) const
 {
@@ -498,7 +489,7 @@ bool PartitionConstraints::mayEnter(const SegmentTree& tree, PartitionIndex part
         return true;
       }
       // Unless an end is a duplicate, no end is a vertex of an interior triangle.
-      isNear = border.empty() || (piece >= 0 && this->endsAtDuplicate(piece)) ||
+      isNear = border.empty() || (piece >= 0 && this->mayEndAtDuplicate(piece)) ||
         std::any_of(border.begin(), border.end(),
           [&item](const auto& edge)
           {

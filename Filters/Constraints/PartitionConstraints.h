@@ -84,7 +84,14 @@ private:
     std::array<DelaunayKernel::Index, 2> Vertex{};
   };
 
-  bool endsAtDuplicate(std::int64_t piece) const;
+  /// Whether an end may be a point that is no vertex, since another point coincides with it.
+  bool mayEndAtDuplicate(std::int64_t piece) const
+  {
+    const Ends& ends = this->EndsOf[std::size_t(piece)];
+    const ConstraintPiece& ids = this->Pieces[std::size_t(piece)];
+    const auto points = PointId(this->Points.size());
+    return (ids.A < points && ends.Partition[0] < 0) || (ids.B < points && ends.Partition[1] < 0);
+  }
   Point2 at(PointId id) const
   {
     const std::size_t count = this->Points.size();

@@ -5,6 +5,7 @@
 #include "Parallel/RadixSort.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace tipp
@@ -26,52 +27,78 @@ std::size_t bitsIn(std::uint64_t word)
 PieceEnds::PieceEnds(std::size_t points, const std::vector<ConstraintPiece>& pieces, int threads)
   : Words(points / 64 + 1)
 {
-  this->Entries.reserve(2 * pieces.size());
-  PointId last = -1;
-  const auto append = [&](PointId id, std::int64_t entry)
-  {
-    if (id != last)
-    {
-      this->Words[std::size_t(id) / 64].Bits |= std::uint64_t(1) << (std::size_t(id) % 64);
-      this->Starts.push_back(std::int64_t(this->Entries.size()));
-      last = id;
-    }
-    this->Entries.push_back(entry);
-  };
   const auto idOf = [&](std::size_t entry)
   { return entry % 2 == 0 ? pieces[entry / 2].A : pieces[entry / 2].B; };
-  if (points <= UINT32_MAX && 2 * pieces.size() <= UINT32_MAX)
+  const std::size_t count = 2 * pieces.size();
+  if (points <= UINT32_MAX && count <= UINT32_MAX)
   {
-    std::vector<std::uint64_t> words(2 * pieces.size());
+    this->Entries.resize(count);
     constexpr std::int64_t chunk = 16384;
-    forChunks(std::int64_t(words.size()), chunk, threads, {},
+    forChunks(std::int64_t(count), chunk, threads, {},
       [&](std::int64_t begin, std::int64_t end, int)
       {
         for (auto entry = std::size_t(begin); entry < std::size_t(end); ++entry)
         {
-          words[entry] = std::uint64_t(idOf(entry)) << 32 | entry;
+          this->Entries[entry] = std::uint64_t(idOf(entry)) << 32 | entry;
         }
       });
-    sortByUpperHalf(words, threads);
-    for (const std::uint64_t word : words)
-    {
-      append(PointId(word >> 32), std::int64_t(word & UINT32_MAX));
-    }
+    sortByUpperHalf(this->Entries, threads);
+    this->EntryMask = UINT32_MAX;
+    this->makeIndex([this](std::size_t i) { return this->Entries[i] >> 32; }, threads);
   }
   else
   {
-    std::vector<std::pair<PointId, std::int64_t>> words;
-    for (std::size_t entry = 0; entry < 2 * pieces.size(); ++entry)
+    std::vector<std::pair<PointId, std::uint64_t>> sorted;
+    for (std::size_t entry = 0; entry < count; ++entry)
     {
-      words.emplace_back(idOf(entry), std::int64_t(entry));
+      sorted.emplace_back(idOf(entry), entry);
     }
-    std::sort(words.begin(), words.end());
-    for (const auto& [id, entry] : words)
-    {
-      append(id, entry);
-    }
+    std::sort(sorted.begin(), sorted.end());
+    std::transform(sorted.begin(), sorted.end(), std::back_inserter(this->Entries),
+      [](const auto& entry) { return entry.second; });
+    this->makeIndex([&](std::size_t i) { return std::uint64_t(sorted[i].first); }, threads);
   }
-  this->Starts.push_back(std::int64_t(this->Entries.size()));
+}
+
+/// Makes all but Entries. idOf(i) is the id of entry i, and never decreases.
+template <typename IdOf>
+void PieceEnds::makeIndex(const IdOf& idOf, int threads)
+{
+  // Blocks of ids have words and starts of their own.
+  constexpr std::size_t blockWords = 4096;
+  const std::size_t blocks = (this->Words.size() + blockWords - 1) / blockWords;
+  const auto firstEntry = [&](std::size_t block)
+  {
+    const std::uint64_t id = std::uint64_t(64) * blockWords * block;
+    std::size_t low = 0;
+    std::size_t high = this->Entries.size();
+    while (low < high)
+    {
+      const std::size_t middle = low + (high - low) / 2;
+      idOf(middle) < id ? low = middle + 1 : high = middle;
+    }
+    return low;
+  };
+  // Calls visit(i) for each entry that is the first of its id.
+  const auto forEnds = [&](std::size_t block, const auto& visit)
+  {
+    const std::size_t begin = firstEntry(block);
+    const std::size_t end = firstEntry(block + 1);
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      if (i == begin || idOf(i) != idOf(i - 1))
+      {
+        visit(i);
+      }
+    }
+  };
+  parallelFor(std::int64_t(blocks), threads,
+    [&](std::int64_t block)
+    {
+      forEnds(std::size_t(block),
+        [&](std::size_t i)
+        { this->Words[idOf(i) / 64].Bits |= std::uint64_t(1) << (idOf(i) % 64); });
+    });
   std::uint64_t ends = 0;
   for (std::size_t w = 0; w < this->Words.size(); ++w)
   {
@@ -80,6 +107,13 @@ PieceEnds::PieceEnds(std::size_t points, const std::vector<ConstraintPiece>& pie
     word.Before = ends;
     ends += bitsIn(word.Bits);
   }
+  this->Starts.resize(ends + 1, std::int64_t(this->Entries.size()));
+  parallelFor(std::int64_t(blocks), threads,
+    [&](std::int64_t block)
+    {
+      std::size_t next = this->Words[std::size_t(block) * blockWords].Before;
+      forEnds(std::size_t(block), [&](std::size_t i) { this->Starts[next++] = std::int64_t(i); });
+    });
 }
 
 std::size_t PieceEnds::rank(PointId id) const

@@ -39,7 +39,7 @@ public:
   {
     for (std::int64_t i = this->Starts[rank]; i < this->Starts[rank + 1]; ++i)
     {
-      visit(this->Entries[std::size_t(i)]);
+      visit(std::int64_t(this->Entries[std::size_t(i)] & this->EntryMask));
     }
   }
 
@@ -64,12 +64,16 @@ private:
     std::uint64_t Before = 0; ///< number of bits in all words before
   };
 
+  template <typename IdOf>
+  void makeIndex(const IdOf& idOf, int threads);
+
   static constexpr std::size_t MarkWords = 1024; ///< so few that they stay in the first-level cache
 
   std::array<std::uint64_t, MarkWords> Marks{}; ///< the union of all words, folded to this size
   std::vector<Word> Words;                      ///< by id / 64
   std::vector<std::int64_t> Starts;             ///< first entry of each end, by rank
-  std::vector<std::int64_t> Entries;
+  std::vector<std::uint64_t> Entries;           ///< sorted by id
+  std::uint64_t EntryMask = ~std::uint64_t(0);  ///< of the bits of an entry; the others are its id
 };
 
 } // namespace tipp

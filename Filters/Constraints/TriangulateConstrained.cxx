@@ -63,7 +63,7 @@ void constrainTriangles(PointsView points, Buffer<Id>& ids,
 
 /// Replaces the ends of pieces and touches by their representatives.
 void nameRepresentatives(const std::vector<Duplicate>& duplicates,
-  std::vector<ConstraintPiece>& pieces, std::vector<CrossedTriangles::Touch>& touches)
+  std::vector<ConstraintPiece>& pieces, std::vector<CrossedTriangles::Touch>& touches, int threads)
 {
   const auto representative = [&](PointId id)
   {
@@ -73,11 +73,17 @@ void nameRepresentatives(const std::vector<Duplicate>& duplicates,
   };
   if (!duplicates.empty())
   {
-    for (ConstraintPiece& piece : pieces)
-    {
-      piece.A = representative(piece.A);
-      piece.B = representative(piece.B);
-    }
+    constexpr std::int64_t chunk = 65536;
+    forChunks(std::int64_t(pieces.size()), chunk, threads, {},
+      [&](std::int64_t begin, std::int64_t end, int)
+      {
+        std::for_each(pieces.begin() + begin, pieces.begin() + end,
+          [&](ConstraintPiece& piece)
+          {
+            piece.A = representative(piece.A);
+            piece.B = representative(piece.B);
+          });
+      });
     for (CrossedTriangles::Touch& touch : touches)
     {
       touch.Vertex = representative(touch.Vertex);
@@ -95,7 +101,7 @@ void nameRepresentatives(const std::vector<Duplicate>& duplicates,
 void constrain(PointsView points, Triangulation& triangulation,
   std::vector<ConstraintPiece>& pieces, PartitionConstraints& inserted, int threads)
 {
-  nameRepresentatives(triangulation.Duplicates, pieces, inserted.touches());
+  nameRepresentatives(triangulation.Duplicates, pieces, inserted.touches(), threads);
   if (pieces.empty() || triangulation.triangleCount() == 0)
   {
     return;
