@@ -198,13 +198,13 @@ void completeStatistics(PartitionJob& job)
   PartitionStatistics& all = job.Statistics;
   std::vector<std::int64_t> sums = { all.BorderCells, all.BorrowedCells, all.CopiedPoints,
     std::int64_t(all.SpilledBytes), all.Loads.Reads, all.Loads.Bytes, all.Loads.UsefulBytes,
-    all.Loads.Passes, all.Loads.CacheMisses };
+    all.Loads.Passes };
   job.Team.sum(sums);
   all.BorderCells = sums[0];
   all.BorrowedCells = sums[1];
   all.CopiedPoints = sums[2];
   all.SpilledBytes = std::uint64_t(sums[3]);
-  all.Loads = { sums[4], sums[5], sums[6], sums[7], sums[8] };
+  all.Loads = { sums[4], sums[5], sums[6], sums[7] };
   all.Points = job.Mesh.Points.Tuples;
   all.Cells = job.Mesh.Cells.Tuples;
   all.Pieces = std::int64_t(job.pieces());
