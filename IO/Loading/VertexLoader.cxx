@@ -104,16 +104,6 @@ private:
   std::vector<std::unique_ptr<Mapping>> Mappings;
 };
 
-} // namespace
-
-std::unique_ptr<VertexLoader> makeMmapLoader(ArrayFiles files, int threads)
-{
-  return std::make_unique<MmapLoader>(std::move(files), threads);
-}
-
-namespace
-{
-
 class DirectLoader : public VertexLoader
 {
 public:
@@ -182,16 +172,6 @@ private:
   GroupedMoves Moves;
 };
 
-} // namespace
-
-std::unique_ptr<VertexLoader> makeDirectLoader(ArrayFiles files, std::int64_t m, int threads)
-{
-  return std::make_unique<DirectLoader>(std::move(files), m, threads);
-}
-
-namespace
-{
-
 constexpr std::uint64_t defaultMemoryLimit = std::uint64_t(512) << 20;
 
 /// Mapped files share the memory with the caller's data, so they may take at most half of it.
@@ -230,16 +210,19 @@ std::unique_ptr<VertexLoader> makeVertexLoader(
   switch (options.Kind)
   {
     case Loader::Direct:
-      return makeDirectLoader(std::move(files), m, options.Threads);
+      return std::make_unique<DirectLoader>(std::move(files), m, options.Threads);
     case Loader::Fine:
       return makeFineLoader(std::move(files), m, options.Threads);
     case Loader::Mmap:
-      return makeMmapLoader(std::move(files), options.Threads);
+      return std::make_unique<MmapLoader>(std::move(files), options.Threads);
     case Loader::Auto:
       break;
   }
-  return fitsWell(files, limit) ? makeMmapLoader(std::move(files), options.Threads)
-                                : makeFineLoader(std::move(files), m, options.Threads);
+  if (fitsWell(files, limit))
+  {
+    return std::make_unique<MmapLoader>(std::move(files), options.Threads);
+  }
+  return makeFineLoader(std::move(files), m, options.Threads);
 }
 
 } // namespace tipp
