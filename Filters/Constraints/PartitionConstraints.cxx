@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/PartitionConstraints.h"
 
+#include "Arrays/SortUnique.h"
 #include "Constraints/SegmentInserter.h"
 #include "Kernel/DelaunayKernel.h"
 
@@ -408,18 +409,14 @@ private:
     return false;
   }
 
-  Box2 unscaled(const Box2& box) const
-  {
-    const double scale = 1 / this->Factor; // a power of two
-    return { box.xmin * scale, box.ymin * scale, box.xmax * scale, box.ymax * scale };
-  }
+  /// Exact: the factor is a power of two.
+  Box2 unscaled(const Box2& box) const { return scaled(box, 1 / this->Factor); }
 
   void publish(PartitionIndex partition, const Octagon& bounds)
   {
     Interior interior;
     interior.Bounds = { this->unscaled(bounds.Box), this->unscaled(bounds.Diagonals) };
-    std::sort(this->Noted.begin(), this->Noted.end());
-    this->Noted.erase(std::unique(this->Noted.begin(), this->Noted.end()), this->Noted.end());
+    sortUnique(this->Noted);
     std::size_t at = 0;
     std::size_t before = 0; // number of interior triangles before `at`
     interior.Crossings.reserve(this->Noted.size());
