@@ -133,9 +133,8 @@ bool vtkTIPPDelaunay2D::ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, 
     const tipp::PointRows rows(ranks, input);
     const tipp::ProjectedPoints projected(input->GetPoints(), this->Transform);
     tipp::RankPoints points;
-    points.Points = shared && !shared->Positions.empty()
-      ? tipp::PointsView(&shared->Positions.front().x, shared->Positions.size(), 2)
-      : projected.view();
+    points.Points =
+      shared && !shared->Positions.empty() ? tipp::PointsView(shared->Positions) : projected.view();
     rows.describe(points);
     mine = tipp::triangulateDistributed(ranks, points, options);
     if (shared)

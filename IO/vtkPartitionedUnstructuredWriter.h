@@ -96,7 +96,7 @@ public:
 
   ///@{
   /**
-   * How vertices are loaded: "auto" (the default), "direct", "fine", "lru" or "mmap".
+   * How vertices are loaded: "auto" (the default), "direct", "fine" or "mmap".
    */
   vtkSetStringMacro(Loader);
   vtkGetStringMacro(Loader);

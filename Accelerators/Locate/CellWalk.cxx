@@ -2,6 +2,7 @@
 #include "Locate/CellWalk.h"
 
 #include "Locate/BoxTree.h"
+#include "Parallel/Counters.h"
 #include "Parallel/ParallelFor.h"
 
 #include <atomic>
@@ -17,21 +18,6 @@ namespace
 
 constexpr std::int64_t mostCells = 700000000; // 3 numbers per triangle must fit into 31 bits
 constexpr std::int64_t cellsPerSeed = 32;
-
-using Counters = std::unique_ptr<std::atomic<std::uint32_t>[]>;
-
-/// Increments a counter and returns its previous value. A single thread avoids the locked
-/// instruction.
-std::uint32_t addOne(std::atomic<std::uint32_t>& counter, bool isAlone)
-{
-  if (!isAlone)
-  {
-    return counter.fetch_add(1, std::memory_order_relaxed);
-  }
-  const std::uint32_t before = counter.load(std::memory_order_relaxed);
-  counter.store(before + 1, std::memory_order_relaxed);
-  return before;
-}
 
 } // namespace
 
@@ -135,7 +121,7 @@ private:
   {
     const std::int64_t points = this->Mesh.PointCount;
     const bool isAlone = this->Threads == 1;
-    const Counters ends(new std::atomic<std::uint32_t>[std::size_t(points) + 1]());
+    const SharedCounters ends(new std::atomic<std::uint32_t>[std::size_t(points) + 1]());
     this->forParts(this->Mesh.Cells,
       [&](std::int64_t begin, std::int64_t end)
       {

@@ -3,15 +3,14 @@
 #define tippPointBuckets_h
 
 #include "Locate/MortonOrder.h"
+#include "Parallel/Counters.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 
 namespace tipp
 {
@@ -33,7 +32,7 @@ public:
     {
       buckets *= std::size_t(side);
     }
-    this->Starts = Counters(new std::atomic<std::uint32_t>[buckets + 1]());
+    this->Starts = SharedCounters(new std::atomic<std::uint32_t>[buckets + 1]());
     const auto forPoints = [&](const auto& work)
     {
       forChunks(count, 1 << 14, threads, {},
@@ -48,7 +47,7 @@ public:
     };
     const bool isAlone = threads == 1;
     forPoints([&](std::int64_t, const auto&, std::size_t bucket)
-      { next(this->Starts[bucket + 1], isAlone); });
+      { addOne(this->Starts[bucket + 1], isAlone); });
     std::uint32_t sum = 0;
     for (std::size_t bucket = 0; bucket < buckets; ++bucket)
     {
@@ -60,7 +59,7 @@ public:
     // Each start is advanced to the end of its box, which is the start of the next.
     forPoints(
       [&](std::int64_t i, const auto& point, std::size_t bucket) {
-        this->Entries[next(this->Starts[bucket], isAlone)] = { point, std::int32_t(i) };
+        this->Entries[addOne(this->Starts[bucket], isAlone)] = { point, std::int32_t(i) };
       });
   }
 
@@ -111,21 +110,6 @@ private:
     std::int32_t Number;
   };
 
-  using Counters = std::unique_ptr<std::atomic<std::uint32_t>[]>;
-
-  /// Increments a counter and returns its previous value. A single thread avoids the locked
-  /// instruction.
-  static std::uint32_t next(std::atomic<std::uint32_t>& counter, bool isAlone)
-  {
-    if (!isAlone)
-    {
-      return counter.fetch_add(1, std::memory_order_relaxed);
-    }
-    const std::uint32_t before = counter.load(std::memory_order_relaxed);
-    counter.store(before + 1, std::memory_order_relaxed);
-    return before;
-  }
-
   void chooseSides(std::int64_t count)
   {
     constexpr std::int64_t most = D == 2 ? 1 << 14 : 1 << 9;
@@ -173,7 +157,7 @@ private:
   Box<D> Bounds;
   std::array<std::int64_t, D> Sides{};
   std::array<double, D> Scale{};
-  Counters Starts; ///< in the end, the end of each box
+  SharedCounters Starts; ///< in the end, the end of each box
   std::unique_ptr<Entry[]> Entries;
   std::size_t Count = 0;
 };

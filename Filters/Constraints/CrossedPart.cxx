@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/CrossedPart.h"
 
+#include "Arrays/SortUnique.h"
 #include "Constraints/ConstraintJobs.h"
 #include "Constraints/TriangleScan.h"
 #include "Triangulation/TriangleSink.h"
@@ -17,13 +18,6 @@ namespace
 {
 
 using TouchOfPiece = CrossedTriangles::Touch;
-
-template <typename Item>
-void keepUniqueItems(std::vector<Item>& items)
-{
-  std::sort(items.begin(), items.end());
-  items.erase(std::unique(items.begin(), items.end()), items.end());
-}
 
 void keepUniqueTouches(std::vector<CrossedPart::Touch>& touches)
 {
@@ -45,7 +39,7 @@ std::size_t segmentBegin(const CrossedPart& part, std::size_t triangle)
 std::vector<std::int64_t> segmentsOf(const CrossedPart& part)
 {
   std::vector<std::int64_t> segments = part.Segments;
-  keepUniqueItems(segments);
+  sortUnique(segments);
   return segments;
 }
 
@@ -270,7 +264,7 @@ std::size_t moveCrossed(PointsView points, const ConstraintSegments& segments, s
     part.SegmentEnds.push_back(part.Segments.size());
   }
   keepUntil(triangles);
-  keepUniqueItems(used);
+  sortUnique(used);
   for (const std::int64_t segment : used)
   {
     const SegmentTree::Item& item = segments.at(segment);
@@ -334,7 +328,7 @@ CrossedPart splitIncomplete(CrossedPart& part, const std::function<bool(std::int
   {
     vertices.insert(vertices.end(), triangle.begin(), triangle.end());
   }
-  keepUniqueItems(vertices);
+  sortUnique(vertices);
   const auto isOfRest = [&](std::int64_t vertex)
   { return std::binary_search(vertices.begin(), vertices.end(), vertex); };
   std::copy_if(part.FixedEdges.begin(), part.FixedEdges.end(), std::back_inserter(rest.FixedEdges),
@@ -395,7 +389,7 @@ void retriangulate(CrossedPart& part, int threads)
     const PointId a = vertices.indexAt(segment.A);
     pieces.push_back({ a, vertices.indexAt(segment.B), std::int64_t(i) });
   }
-  const PointsView view(&vertices.Positions.front().x, vertices.Positions.size(), 2);
+  const PointsView view(vertices.Positions);
   const SplitPieces split = splitPieces(view, pieces, crossed.Touches);
   retriangulateJobs(
     view, corners.data(), crossed, used.size(), split, ConstraintEdges(known), threads);

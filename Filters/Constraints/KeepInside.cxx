@@ -232,7 +232,7 @@ std::vector<PositionPair> edgesAroundHoles(const std::vector<Point2>& hull,
     constraints.push_back({ PointId(points.size()), PointId(points.size() + 1) });
     points.insert(points.end(), { a, b });
   }
-  const PointsView view(points.empty() ? nullptr : &points.front().x, points.size(), 2);
+  const PointsView view(points);
   TriangulationOptions options;
   options.Threads = threads;
   const ConstrainedTriangulation all =

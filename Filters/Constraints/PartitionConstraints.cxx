@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/PartitionConstraints.h"
 
+#include "Arrays/SortUnique.h"
 #include "Constraints/SegmentInserter.h"
 #include "Kernel/DelaunayKernel.h"
 
@@ -421,8 +422,7 @@ private:
     {
       interior.Border.push_back({ unscaled(from), unscaled(to) });
     }
-    std::sort(this->Noted.begin(), this->Noted.end());
-    this->Noted.erase(std::unique(this->Noted.begin(), this->Noted.end()), this->Noted.end());
+    sortUnique(this->Noted);
     std::size_t at = 0;
     std::size_t before = 0; // number of interior triangles before `at`
     interior.Crossings.reserve(this->Noted.size());

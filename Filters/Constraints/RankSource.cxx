@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/RankSource.h"
 
+#include "Arrays/SortUnique.h"
 #include "Constraints/ConstraintPoints.h"
 #include "Constraints/DataSetRows.h"
 #include "Constraints/SourceConstraints.h"
@@ -181,8 +182,7 @@ private:
     {
       this->Named.insert(this->Named.end(), { constraint.A, constraint.B });
     }
-    std::sort(this->Named.begin(), this->Named.end());
-    this->Named.erase(std::unique(this->Named.begin(), this->Named.end()), this->Named.end());
+    sortUnique(this->Named);
     for (Constraint& constraint : this->Constraints)
     {
       constraint = { this->vertexNamed(constraint.A), this->vertexNamed(constraint.B) };
@@ -302,7 +302,7 @@ private:
     this->sortVertices();
     const vtkSmartPointer<vtkPolyData> vertices = this->makeVertices(rows);
     const std::vector<Point2> positions = this->positionsOf(vertices);
-    const PointsView view(positions.empty() ? nullptr : &positions.front().x, positions.size(), 2);
+    const PointsView view(positions);
     std::vector<Constraint> constraints;
     for (const Constraint& constraint : this->Constraints)
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/ResolveCrossings.h"
 
+#include "Arrays/SortUnique.h"
 #include "Constraints/CrossingPairs.h"
 #include "Constraints/SegmentTree.h"
 #include "Parallel/ParallelFor.h"
@@ -339,8 +340,7 @@ private:
     {
       vertices.push_back(PointId(this->Points.size() + i));
     }
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    sortUnique(vertices);
     return vertices;
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/SegmentTree.h"
 
+#include "Kernel/InsertionOrder.h"
 #include "Parallel/RadixSort.h"
 #include "Triangulation/PointsView.h"
 
@@ -13,16 +14,6 @@ namespace tipp
 namespace
 {
 
-/// The lower 16 bits of a number, each followed by a zero bit.
-std::uint32_t spread(std::uint32_t bits)
-{
-  bits = (bits | bits << 8) & 0x00ff00ffU;
-  bits = (bits | bits << 4) & 0x0f0f0f0fU;
-  bits = (bits | bits << 2) & 0x33333333U;
-  bits = (bits | bits << 1) & 0x55555555U;
-  return bits;
-}
-
 /// The position of a coordinate in a range, as 16 bits.
 std::uint32_t cellOf(double value, double low, double high)
 {
@@ -33,8 +24,8 @@ std::uint32_t cellOf(double value, double low, double high)
 
 std::uint32_t mortonKey(const SegmentTree::Item& item, const Box2& all)
 {
-  return spread(cellOf(item.A.x / 2 + item.B.x / 2, all.xmin, all.xmax)) |
-    spread(cellOf(item.A.y / 2 + item.B.y / 2, all.ymin, all.ymax)) << 1;
+  return spreadBits(cellOf(item.A.x / 2 + item.B.x / 2, all.xmin, all.xmax)) |
+    spreadBits(cellOf(item.A.y / 2 + item.B.y / 2, all.ymin, all.ymax)) << 1;
 }
 
 } // namespace

@@ -93,8 +93,8 @@ private:
   ResolvedConstraints resolve(
     const StoredConstraints::Ends& ends, CrossingRule rule, const ConstraintNames& names = {}) const
   {
-    return resolveCrossings(PointsView(&ends.Positions.front().x, ends.Positions.size(), 2),
-      ends.Edges, rule, this->Work.Threads, names);
+    return resolveCrossings(
+      PointsView(ends.Positions), ends.Edges, rule, this->Work.Threads, names);
   }
 
   [[noreturn]] void refuse(const CrossingPair& pair) const

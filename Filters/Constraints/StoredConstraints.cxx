@@ -132,7 +132,7 @@ void StoredConstraints::add(const PointBlock& block)
     {
       keys.push_back(keyOf(block.First + std::int64_t(i)));
     }
-    this->Named->add(PointsView(&keys.front().x, keys.size(), 2),
+    this->Named->add(PointsView(keys),
       [&block](std::size_t i, std::size_t c)
       { return c < 2 ? block.XY[2 * i + c] : block.Columns[c - 2][i]; });
   }

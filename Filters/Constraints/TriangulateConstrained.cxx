@@ -179,7 +179,7 @@ private:
     if (!result.Constraints.Crossings.empty())
     {
       withCrossings = allPoints(this->Input, result.Constraints.Crossings);
-      points = PointsView(&withCrossings.front().x, withCrossings.size(), 2);
+      points = PointsView(withCrossings);
     }
     PartitionConstraints inserted(points, result.Constraints.Pieces, this->Threads);
     this->Plain.MakeEditor = [&inserted](double factor) { return inserted.makeEditor(factor); };

@@ -99,11 +99,7 @@ TerrainSettings makeTerrainSettings(
 DemFigures makeDem(PointTable points, const DemRequest& request,
   const std::function<bool(double)>& progress, TerrainSettings& settings, SampledBands& samples)
 {
-  std::vector<std::string> columns;
-  for (const PointTable::Column& column : points.Columns)
-  {
-    columns.push_back(column.Name);
-  }
+  const std::vector<std::string> columns = points.names();
   const Box2 bounds = boundsOf(points.XY);
   if (!(bounds.xmin <= bounds.xmax))
   {

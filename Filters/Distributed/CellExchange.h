@@ -3,6 +3,7 @@
 #define tippCellExchange_h
 
 #include "Arrays/Buffer.h"
+#include "Arrays/SortUnique.h"
 #include "Ranks/Archive.h"
 #include "Ranks/Communicator.h"
 #include "Triangulation/Triangulate.h"
@@ -142,8 +143,7 @@ std::vector<std::int64_t> ghostIds(
     std::copy_if(cell.begin(), cell.end(), std::back_inserter(ids),
       [&](std::int64_t id) { return id < firstOwn || id >= endOwn; });
   }
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  sortUnique(ids);
   return ids;
 }
 
@@ -360,9 +360,7 @@ GhostCells<N, Position> fetchGhosts(Communicator& ranks, const Mesh& mine,
       }
     }
   }
-  std::sort(ghosts.PointIds.begin(), ghosts.PointIds.end());
-  ghosts.PointIds.erase(
-    std::unique(ghosts.PointIds.begin(), ghosts.PointIds.end()), ghosts.PointIds.end());
+  sortUnique(ghosts.PointIds);
   ghosts.Points = fetchPoints(ranks, ghosts.PointIds, mine.FirstIds, mine.Owned, mine.RowSize);
   return ghosts;
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/DistributedTriangulation.h"
 
+#include "Arrays/SortUnique.h"
 #include "Constraints/CrossedPart.h"
 #include "Distributed/TriangleExchange.h"
 #include "Parallel/ParallelFor.h"
 #include "Ranks/Archive.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -64,12 +64,7 @@ public:
 
 private:
   std::size_t triangles() const { return this->Corners.size() / 3; }
-  PointsView view() const
-  {
-    return this->Positions.empty()
-      ? PointsView()
-      : PointsView(&this->Positions.front().x, this->Positions.size(), 2);
-  }
+  PointsView view() const { return PointsView(this->Positions); }
 
   /// The internal id of a corner.
   std::int64_t idOf(std::int64_t corner) const
@@ -169,8 +164,7 @@ private:
     {
       std::for_each(triangle.begin(), triangle.end(), note);
     }
-    std::sort(ghosts.begin(), ghosts.end());
-    ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
+    sortUnique(ghosts);
     const auto indexOf = [&](std::int64_t id)
     {
       return Id(this->isGhost(id) ? std::int64_t(this->Own) +
@@ -192,13 +186,10 @@ private:
 
   void countTriangles()
   {
-    std::vector<std::int64_t> counts(static_cast<std::size_t>(this->Ranks.size()), 0);
-    const auto rank = this->Ranks.rank();
-    counts[std::size_t(rank)] = std::int64_t(this->triangles());
-    this->Ranks.sum(counts);
-    this->Mine.FirstTriangle =
-      std::accumulate(counts.begin(), counts.begin() + rank, std::int64_t(0));
-    this->Mine.AllTriangles = std::accumulate(counts.begin(), counts.end(), std::int64_t(0));
+    const std::vector<std::int64_t> firsts =
+      firstIndices(this->Ranks, std::int64_t(this->triangles()));
+    this->Mine.FirstTriangle = firsts[std::size_t(this->Ranks.rank())];
+    this->Mine.AllTriangles = firsts.back();
   }
 
   Communicator& Ranks;

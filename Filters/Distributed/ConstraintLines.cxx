@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -77,7 +76,7 @@ private:
     {
       return;
     }
-    const PointsView view(&this->Positions.front().x, this->Positions.size(), 2);
+    const PointsView view(this->Positions);
     for (const ScannedTriangles::Edge& edge :
       edgesOnSegments(view, this->Named.Segments, corners.data(), corners.size() / 3))
     {
@@ -162,11 +161,8 @@ private:
       result.Ends.push_back(side.Ends);
       result.Cells.push_back(this->Named.Cells.at(std::size_t(side.Order)));
     }
-    std::vector<std::int64_t> counts(std::size_t(this->Ranks.size()), 0);
-    const auto rank = this->Ranks.rank();
-    counts[std::size_t(rank)] = std::int64_t(this->Sides.size());
-    this->Ranks.sum(counts);
-    result.First = std::accumulate(counts.begin(), counts.begin() + rank, std::int64_t(0));
+    result.First =
+      firstIndices(this->Ranks, std::int64_t(this->Sides.size()))[std::size_t(this->Ranks.rank())];
     return result;
   }
 

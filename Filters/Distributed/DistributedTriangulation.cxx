@@ -146,10 +146,7 @@ Verdict judge(const std::vector<RankSurvey>& surveys)
     {
       continue;
     }
-    verdict.Bounds = { std::min(verdict.Bounds.xmin, survey.Bounds.xmin),
-      std::min(verdict.Bounds.ymin, survey.Bounds.ymin),
-      std::max(verdict.Bounds.xmax, survey.Bounds.xmax),
-      std::max(verdict.Bounds.ymax, survey.Bounds.ymax) };
+    verdict.Bounds = unionOf(verdict.Bounds, survey.Bounds);
     verdict.IsCollinear = verdict.IsCollinear && survey.IsCollinear;
     ends.insert(ends.end(), { survey.Ends[0], survey.Ends[1] });
   }
@@ -159,7 +156,7 @@ Verdict judge(const std::vector<RankSurvey>& surveys)
   }
   else if (verdict.IsCollinear)
   {
-    verdict.IsCollinear = areCollinear(PointsView(&ends.front().x, ends.size(), 2));
+    verdict.IsCollinear = areCollinear(PointsView(ends));
   }
   return verdict;
 }
@@ -191,9 +188,7 @@ Survey surveyRanks(Communicator& ranks, PointsView points, int threads)
   if (kept[0] == 0)
   {
     survey.Points = moderate;
-    const double factor = moderate.factor();
-    survey.Bounds = { survey.Bounds.xmin * factor, survey.Bounds.ymin * factor,
-      survey.Bounds.xmax * factor, survey.Bounds.ymax * factor };
+    survey.Bounds = scaled(survey.Bounds, moderate.factor());
   }
   return survey;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/RankRun.h"
 
+#include "Arrays/SortUnique.h"
 #include "Engine/DoneMessage.h"
 #include "Engine/WorkerThreads.h"
 #include "Parallel/Stopwatch.h"
@@ -130,9 +131,7 @@ void RankRun<Id>::decideWhoWaits()
   const bool isMasterless = this->Options.isMasterless();
   const bool hasBarriers = this->Options.Order != RankSchedule::Dynamic;
   this->AllKeepers = this->Keepers;
-  std::sort(this->AllKeepers.begin(), this->AllKeepers.end());
-  this->AllKeepers.erase(
-    std::unique(this->AllKeepers.begin(), this->AllKeepers.end()), this->AllKeepers.end());
+  sortUnique(this->AllKeepers);
   this->InFlight.assign(std::size_t(this->Ranks.size()), 0);
   this->Ready = std::make_unique<ReadyPartitions>(
     *this->Order, hasBarriers ? Waits::ForColour : Waits::ForEarlier, this->thoseOf(this->Keepers));
@@ -170,8 +169,7 @@ std::vector<std::int32_t> RankRun<Id>::recipientsOf(PartitionIndex p) const
   {
     ranks.insert(ranks.end(), this->AllKeepers.begin(), this->AllKeepers.end());
   }
-  std::sort(ranks.begin(), ranks.end());
-  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  sortUnique(ranks);
   return ranks;
 }
 

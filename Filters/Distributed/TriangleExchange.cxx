@@ -122,15 +122,7 @@ Buffer<std::int64_t> gatherCorners(
 {
   Buffer<std::int64_t> ids(3 * mine.triangleCount());
   std::int64_t* to = ids.data();
-  const auto fill = [&](const auto& indices)
-  {
-    for (const std::int64_t index : indices)
-    {
-      *to++ = idOf(index);
-    }
-  };
-  fill(mine.Ids32);
-  fill(mine.Ids64);
+  mine.forEachCorner([&](std::int64_t index) { *to++ = idOf(index); });
   return gatherValues(ranks, std::move(ids));
 }
 

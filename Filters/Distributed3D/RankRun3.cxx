@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed3D/RankRun3.h"
 
+#include "Arrays/SortUnique.h"
 #include "Distributed/RankRun.h"
 #include "Engine/DoneMessage.h"
 #include "Engine/WorkerThreads.h"
@@ -100,8 +101,7 @@ std::vector<std::int32_t> RankRun3::recipientsOf(PartitionIndex p) const
   {
     ranks.push_back(this->Work.ownerOf(q));
   }
-  std::sort(ranks.begin(), ranks.end());
-  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  sortUnique(ranks);
   return ranks;
 }
 

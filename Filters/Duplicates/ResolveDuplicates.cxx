@@ -119,13 +119,11 @@ std::int64_t resolveDuplicates(
   PointTable& points, std::vector<Duplicate> duplicates, DuplicateRule rule)
 {
   std::vector<ValueColumn> columns;
-  std::vector<std::string> names;
   for (PointTable::Column& column : points.Columns)
   {
     columns.push_back({ column.Values.data(), 1 });
-    names.push_back(column.Name);
   }
-  return resolveDuplicates(std::move(duplicates), columns, findRankColumn(names), rule);
+  return resolveDuplicates(std::move(duplicates), columns, findRankColumn(points.names()), rule);
 }
 
 } // namespace tipp

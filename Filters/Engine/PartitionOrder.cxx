@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Engine/PartitionOrder.h"
 
+#include "Arrays/SortUnique.h"
 #include "Triangulation/BoundaryTriangles.h"
 
 #include <algorithm>
@@ -21,8 +22,7 @@ void ConflictGraph::add(const std::vector<Pair>& pairs)
   this->Count = 0;
   for (std::vector<PartitionIndex>& neighbours : this->Neighbours)
   {
-    std::sort(neighbours.begin(), neighbours.end());
-    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+    sortUnique(neighbours);
     this->Count += neighbours.size();
   }
 }

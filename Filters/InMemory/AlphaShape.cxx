@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InMemory/AlphaShape.h"
 
+#include "Arrays/SortUnique.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -87,8 +89,7 @@ std::vector<Edge<Id>> shortEdgesOfDropped(
       }
     }
   }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  sortUnique(edges);
   return edges;
 }
 

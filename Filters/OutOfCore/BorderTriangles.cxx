@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/FinishPieces.h"
 
+#include "Arrays/SortUnique.h"
+#include "Files/FileSystem.h"
 #include "Files/OutputFile.h"
 
 #include <algorithm>
-#include <filesystem>
 
 namespace tipp
 {
@@ -105,8 +106,7 @@ void takeBorder(
 
 bool isBorderTaken(const PieceWork& work, PartitionIndex piece)
 {
-  std::error_code ignored;
-  return std::filesystem::exists(takenPath(work, piece), ignored);
+  return pathExists(takenPath(work, piece));
 }
 
 BorderQueue::BorderQueue(const PiecePlan& plan, const PartitionOrder& order)
@@ -129,8 +129,7 @@ BorderQueue::BorderQueue(const PiecePlan& plan, const PartitionOrder& order)
         those.push_back(plan.PieceOf[std::size_t(q)]);
       }
     }
-    std::sort(those.begin(), those.end());
-    those.erase(std::unique(those.begin(), those.end()), those.end());
+    sortUnique(those);
     this->Open[std::size_t(piece)] = those.size() + (order.isTotal() ? 1 : 0);
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/FinishPieces.h"
 
+#include "Arrays/SortUnique.h"
 #include "Files/IOError.h"
 #include "OutOfCore/ScratchFiles.h"
 #include "OutOfCore/StoredPieces.h"
@@ -171,9 +172,9 @@ private:
       }
     }
     CrossedPart part;
-    takeCrossed(viewOf(positions),
-      readNear(*this->Work.Constraints, viewOf(positions), corners.data(), triangles.size(), 1), 0,
-      corners.data(), triangles.size(), part);
+    takeCrossed(PointsView(positions),
+      readNear(*this->Work.Constraints, PointsView(positions), corners.data(), triangles.size(), 1),
+      0, corners.data(), triangles.size(), part);
     part.rename([&points](std::int64_t index) { return points[std::size_t(index)]; });
     return part;
   }
@@ -216,14 +217,8 @@ private:
     {
       points.insert(points.end(), triangle.begin(), triangle.end());
     }
-    std::sort(points.begin(), points.end());
-    points.erase(std::unique(points.begin(), points.end()), points.end());
+    sortUnique(points);
     return points;
-  }
-
-  static PointsView viewOf(const std::vector<Point2>& points)
-  {
-    return points.empty() ? PointsView() : PointsView(&points.front().x, points.size(), 2);
   }
 
   /// Visits the triangles that a piece owns at its border, from all results, and those made after

@@ -41,8 +41,7 @@ bool mayNeedFactor(const InputSurvey& survey)
 void applyFactor(InputSurvey& survey, double factor)
 {
   survey.Factor = factor;
-  survey.Bounds = { survey.Bounds.xmin * factor, survey.Bounds.ymin * factor,
-    survey.Bounds.xmax * factor, survey.Bounds.ymax * factor };
+  survey.Bounds = scaled(survey.Bounds, factor);
   for (SampledPoint& p : survey.Sample)
   {
     p.Position = { p.Position.x * factor, p.Position.y * factor };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/OutOfCoreTriangulation.h"
 
+#include "Files/FileSystem.h"
 #include "Files/IOError.h"
 #include "OutOfCore/InputPasses.h"
 #include "OutOfCore/PieceRun.h"
@@ -20,24 +21,6 @@ namespace tipp
 {
 namespace
 {
-
-/// Removes the file at the end of the scope.
-struct Mark
-{
-  explicit Mark(std::string path)
-    : Path(std::move(path))
-  {
-  }
-  ~Mark()
-  {
-    std::error_code ignored;
-    std::filesystem::remove(this->Path, ignored);
-  }
-  Mark(const Mark&) = delete;
-  Mark& operator=(const Mark&) = delete;
-
-  const std::string Path;
-};
 
 std::string firstLine(const std::string& path)
 {
@@ -130,7 +113,7 @@ void help(Communicator& ranks, const OpenPoints& open, const OutOfCoreOptions& o
 void requireSharedFolder(Communicator& ranks, const std::string& folder)
 {
   const bool isFirst = ranks.rank() == 0;
-  const Mark mark(isFirst ? folder + "/.ranks" : "");
+  const RemovedFile mark(isFirst ? folder + "/.ranks" : "");
   std::string expected;
   if (isFirst)
   {

@@ -21,8 +21,7 @@ PieceConstraints::PieceConstraints(ConstraintSegments segments, PointsView point
   {
     ends.insert(ends.end(), { segment.A, segment.B });
   }
-  const MatchedPositions matched =
-    matchPositions(points, PointsView(ends.empty() ? nullptr : &ends.front().x, ends.size(), 2));
+  const MatchedPositions matched = matchPositions(points, PointsView(ends));
   const auto count = PointId(points.size());
   for (std::size_t i = 0; 2 * i < ends.size(); ++i)
   {

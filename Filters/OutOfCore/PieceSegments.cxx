@@ -53,8 +53,7 @@ void PieceSegments::save(SaveArchive& archive) const
 /// Returns a box of segments in the plan's coordinates.
 Box2 PieceSegments::planned(const Box2& box) const
 {
-  return { box.xmin * this->Factor, box.ymin * this->Factor, box.xmax * this->Factor,
-    box.ymax * this->Factor };
+  return scaled(box, this->Factor);
 }
 
 PieceSegments::Written PieceSegments::write(const std::string& file, const PiecePlan& plan,

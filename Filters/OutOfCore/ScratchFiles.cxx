@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/ScratchFiles.h"
 
+#include "Files/FileSystem.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/TemporaryFiles.h"
@@ -74,8 +75,7 @@ std::uint64_t writeCheckedFile(
 
 Bytes readCheckedFile(const std::string& path)
 {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored))
+  if (!pathExists(path))
   {
     throw IOError(path, "is missing; remove its folder and start again.");
   }
@@ -195,19 +195,6 @@ bool areOnOneDisk(const std::string& a, const std::string& b)
   return stat(a.c_str(), &ofA) == 0 && stat(b.c_str(), &ofB) == 0 && ofA.st_dev == ofB.st_dev;
 }
 
-void requireFree(const std::string& path, const std::string& folder, std::uint64_t needed)
-{
-  std::error_code failure;
-  const fs::space_info space = fs::space(folder, failure);
-  if (!failure && space.available < needed)
-  {
-    throw IOError(path,
-      "needs about " + std::to_string(needed / 1000000 + 1) +
-        " MB while it is made, and the disk of " + folder + " has " +
-        std::to_string(space.available / 1000000) + " MB free; free space or name another disk.");
-  }
-}
-
 } // namespace
 
 ScratchFolder::ScratchFolder(const PendingFolder& mesh, const std::string& other)
@@ -234,8 +221,7 @@ ScratchFolder::~ScratchFolder()
 
 bool ScratchFolder::hasRun() const
 {
-  std::error_code ignored;
-  return fs::exists(this->plan(), ignored) || !this->files(this->results()).empty();
+  return pathExists(this->plan()) || !this->files(this->results()).empty();
 }
 
 void ScratchFolder::clear()
@@ -252,11 +238,11 @@ void ScratchFolder::requireSpace(
 {
   if (areOnOneDisk(this->Work, this->Folder))
   {
-    requireFree(path, this->Folder, mesh + scratch);
+    requireFreeSpace(path, this->Folder, mesh + scratch);
     return;
   }
-  requireFree(path, this->Work, mesh);
-  requireFree(path, this->Folder, scratch);
+  requireFreeSpace(path, this->Work, mesh);
+  requireFreeSpace(path, this->Folder, scratch);
 }
 
 void ScratchFolder::remove()
@@ -273,8 +259,7 @@ bool canResume(const std::string& path)
 {
   try
   {
-    std::error_code ignored;
-    return fs::exists(PendingFolder::lastingPath(path) + ScratchFolder::planName, ignored);
+    return pathExists(PendingFolder::lastingPath(path) + ScratchFolder::planName);
   }
   catch (const IOError&) // a run reports this error
   {
@@ -302,8 +287,7 @@ void ScratchFolder::removeFiles(const std::string& begin) const
 {
   for (const std::string& path : this->files(begin))
   {
-    std::error_code ignored;
-    fs::remove(path, ignored);
+    removeFile(path);
   }
 }
 

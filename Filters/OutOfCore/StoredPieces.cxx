@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/StoredPieces.h"
 
+#include "Files/FileSystem.h"
 #include "Files/IOError.h"
 #include "OutOfCore/ScratchFiles.h"
 #include "Partitioned/GrowingPiece.h"
@@ -15,12 +16,6 @@ namespace
 
 namespace fs = std::filesystem;
 
-bool exists(const std::string& path)
-{
-  std::error_code ignored;
-  return fs::exists(path, ignored);
-}
-
 FinishedPiece readFinished(const std::string& path)
 {
   return unpacked<FinishedPiece>(readCheckedFile(path));
@@ -28,13 +23,13 @@ FinishedPiece readFinished(const std::string& path)
 
 void removePiece(const PartitionedMesh& mesh, const StoredPiece& piece)
 {
-  std::error_code ignored;
-  fs::remove(piece.Result, ignored);
-  fs::remove(piece.Finished, ignored);
+  removeFile(piece.Result);
+  removeFile(piece.Finished);
   if (!mesh.Path.empty())
   {
     const std::string file = mesh.piecePath(piece.Number);
-    fs::remove(file + nextPieceSuffix, ignored);
+    removeFile(file + nextPieceSuffix);
+    std::error_code ignored;
     fs::create_directories(fs::path(file).parent_path(), ignored);
   }
 }
@@ -54,11 +49,12 @@ std::vector<char> verifyPieces(const PartitionedMesh& mesh, const std::vector<St
     const StoredPiece& piece = pieces[std::size_t(at)];
     try
     {
-      if (exists(piece.Result))
+      if (pathExists(piece.Result))
       {
         SectionFile(piece.Result).verify();
-        exists(piece.Finished) ? verifyFinished(mesh, piece.Number, readFinished(piece.Finished))
-                               : verifyInterior(mesh, piece.Number, interior(PartitionIndex(at)));
+        pathExists(piece.Finished)
+          ? verifyFinished(mesh, piece.Number, readFinished(piece.Finished))
+          : verifyInterior(mesh, piece.Number, interior(PartitionIndex(at)));
         isDone[std::size_t(at)] = 1;
         return;
       }
@@ -86,7 +82,7 @@ std::vector<char> verifyPieces(const PartitionedMesh& mesh, const std::vector<St
 
 FinishedPiece finishOnce(const std::string& path, const std::function<FinishedPiece()>& finish)
 {
-  if (exists(path))
+  if (pathExists(path))
   {
     return readFinished(path);
   }

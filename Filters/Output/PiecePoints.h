@@ -5,6 +5,7 @@
 
 #include "Output/TriangleOutput.h"
 
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkIdTypeArray.h"
@@ -170,6 +171,18 @@ void fillPoints(const Points& piece, const PointRows& rows, std::size_t rowSize,
   {
     output->GetPointData()->AddArray(ghost);
   }
+}
+
+/// Adds the cell array vtkGhostType: the first `own` cells are the piece's own, the others copies.
+inline void addCellGhosts(std::size_t own, std::size_t copies, vtkDataSet* output)
+{
+  vtkNew<vtkUnsignedCharArray> ghost;
+  ghost->SetName(vtkDataSetAttributes::GhostArrayName());
+  ghost->SetNumberOfValues(vtkIdType(own) + vtkIdType(copies));
+  std::fill_n(ghost->GetPointer(0), own, static_cast<unsigned char>(0));
+  std::fill_n(ghost->GetPointer(0) + own, copies,
+    static_cast<unsigned char>(vtkDataSetAttributes::DUPLICATECELL));
+  output->GetCellData()->AddArray(ghost);
 }
 
 } // namespace tipp

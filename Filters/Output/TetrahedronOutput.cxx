@@ -66,13 +66,7 @@ void fillPiece(const DistributedTetrahedralization& mine, int rank, const PointR
   output->GetCellData()->SetGlobalIds(numbers);
   if (ghosts)
   {
-    vtkNew<vtkUnsignedCharArray> ghost;
-    ghost->SetName(vtkDataSetAttributes::GhostArrayName());
-    ghost->SetNumberOfValues(vtkIdType(own) + vtkIdType(more));
-    std::fill_n(ghost->GetPointer(0), own, static_cast<unsigned char>(0));
-    std::fill_n(ghost->GetPointer(0) + own, more,
-      static_cast<unsigned char>(vtkDataSetAttributes::DUPLICATECELL));
-    output->GetCellData()->AddArray(ghost);
+    addCellGhosts(own, more, output);
   }
 }
 

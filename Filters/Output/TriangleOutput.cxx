@@ -254,7 +254,7 @@ vtkSmartPointer<vtkUnsignedCharArray> marksOf(const TrianglePoints& piece,
   marks->SetName("ConstraintEdges");
   marks->SetNumberOfComponents(3);
   marks->SetNumberOfTuples(vtkIdType(corners.size() / 3));
-  const PointsView view(positions.empty() ? nullptr : &positions.front().x, positions.size(), 2);
+  const PointsView view(positions);
   markEdges(view, segments, corners.data(), corners.size() / 3, marks->GetPointer(0));
   return marks;
 }
@@ -290,15 +290,7 @@ void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& 
   const std::size_t lines = marks.Lines ? marks.Lines->Ends.size() : 0;
   Buffer<std::int64_t> corners(3 * (own + more));
   std::int64_t* to = corners.data();
-  const auto add = [&](const auto& ids)
-  {
-    for (const auto index : ids)
-    {
-      *to++ = piece.ofLocalIndex(std::size_t(index));
-    }
-  };
-  add(mine.Ids32);
-  add(mine.Ids64);
+  mine.forEachCorner([&](std::int64_t index) { *to++ = piece.ofLocalIndex(std::size_t(index)); });
   // Lines are VTK's first cells, but their ids follow those of all triangles.
   vtkNew<vtkIdTypeArray> numbers;
   numbers->SetName("GlobalCellIds");
@@ -332,13 +324,7 @@ void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& 
   output->GetCellData()->SetGlobalIds(numbers);
   if (ghosts)
   {
-    vtkNew<vtkUnsignedCharArray> ghost;
-    ghost->SetName(vtkDataSetAttributes::GhostArrayName());
-    ghost->SetNumberOfValues(vtkIdType(lines) + vtkIdType(own) + vtkIdType(more));
-    std::fill_n(ghost->GetPointer(0), lines + own, static_cast<unsigned char>(0));
-    std::fill_n(ghost->GetPointer(0) + lines + own, more,
-      static_cast<unsigned char>(vtkDataSetAttributes::DUPLICATECELL));
-    output->GetCellData()->AddArray(ghost);
+    addCellGhosts(lines + own, more, output);
   }
 }
 

@@ -29,34 +29,18 @@ namespace tipp
 namespace
 {
 
-/// Divides convex cells into simplices by "pulling" the lexicographically least corner: every face
-/// is triangulated from its own least corner, so that both cells at a face agree. As in Dompierre,
-/// Labbe, Vallet, Camarero, How to Subdivide Pyramids, Prisms and Hexahedra into Tetrahedra, 1999,
-/// with coordinates instead of vertex numbers.
-class CellPulling
+// Convex cells are divided into simplices by "pulling" the lexicographically least corner: every
+// face is triangulated from its own least corner, so that both cells at a face agree. As in
+// Dompierre, Labbe, Vallet, Camarero, How to Subdivide Pyramids, Prisms and Hexahedra into
+// Tetrahedra, 1999, with coordinates instead of vertex numbers.
+
+/// A corner of a cell: its coordinates and its point id.
+struct Corner
 {
-public:
-  /// A corner of a cell: its coordinates and its point id.
-  struct Corner
-  {
-    Point3 Position;
-    std::int64_t Id;
-  };
-  using Face = std::vector<int>; ///< corners in order around the face
-
-  /// The faces of VTK_HEXAHEDRON, VTK_VOXEL, VTK_WEDGE or VTK_PYRAMID; none for other types.
-  static const std::vector<Face>& facesOf(int cellType);
-
-  /// Appends triangles to `ids`, three point ids each. A quad with a reflex corner is cut along the
-  /// diagonal inside; other polygons must be convex.
-  static void polygon(const std::vector<Corner>& corners, std::vector<std::int64_t>& ids);
-  /// Appends tetrahedra to `ids`, four point ids each.
-  static void polyhedron(const std::vector<Corner>& corners, const std::vector<Face>& faces,
-    std::vector<std::int64_t>& ids);
+  Point3 Position;
+  std::int64_t Id;
 };
-
-using Corner = CellPulling::Corner;
-using Face = CellPulling::Face;
+using Face = std::vector<int>; ///< corners in order around the face
 
 /// The index in `face` of its lexicographically least corner.
 std::size_t leastOf(const std::vector<Corner>& corners, const Face& face)
@@ -81,9 +65,8 @@ bool cutsInside(Point3 a, Point3 b, Point3 c, Point3 d)
   return u.x * v.x + u.y * v.y + u.z * v.z > 0;
 }
 
-} // namespace
-
-const std::vector<Face>& CellPulling::facesOf(int cellType)
+/// The faces of VTK_HEXAHEDRON, VTK_VOXEL, VTK_WEDGE or VTK_PYRAMID; none for other types.
+const std::vector<Face>& facesOf(int cellType)
 {
   static const std::vector<Face> none;
   static const std::vector<Face> hexahedron = { { 0, 4, 7, 3 }, { 1, 2, 6, 5 }, { 0, 1, 5, 4 },
@@ -109,7 +92,9 @@ const std::vector<Face>& CellPulling::facesOf(int cellType)
   }
 }
 
-void CellPulling::polygon(const std::vector<Corner>& corners, std::vector<std::int64_t>& ids)
+/// Appends triangles to `ids`, three point ids each. A quad with a reflex corner is cut along the
+/// diagonal inside; other polygons must be convex.
+void cutPolygon(const std::vector<Corner>& corners, std::vector<std::int64_t>& ids)
 {
   Face face(corners.size());
   for (std::size_t i = 0; i < face.size(); ++i)
@@ -131,7 +116,8 @@ void CellPulling::polygon(const std::vector<Corner>& corners, std::vector<std::i
   }
 }
 
-void CellPulling::polyhedron(const std::vector<Corner>& corners, const std::vector<Face>& faces,
+/// Appends tetrahedra to `ids`, four point ids each.
+void cutPolyhedron(const std::vector<Corner>& corners, const std::vector<Face>& faces,
   std::vector<std::int64_t>& ids)
 {
   Face all(corners.size());
@@ -156,9 +142,6 @@ void CellPulling::polyhedron(const std::vector<Corner>& corners, const std::vect
     }
   }
 }
-
-namespace
-{
 
 vtkSmartPointer<vtkDataArray> coordinatesOf(vtkPointSet* mesh)
 {
@@ -239,15 +222,14 @@ public:
         {
           std::swap(this->Corners[2], this->Corners[3]);
         }
-        CellPulling::polygon(this->Corners, this->Parts.Triangles.Ids);
+        cutPolygon(this->Corners, this->Parts.Triangles.Ids);
         break;
       case VTK_HEXAHEDRON:
       case VTK_VOXEL:
       case VTK_WEDGE:
       case VTK_PYRAMID:
         this->loadCorners(cell);
-        CellPulling::polyhedron(
-          this->Corners, CellPulling::facesOf(type), this->Parts.Tetrahedra.Ids);
+        cutPolyhedron(this->Corners, facesOf(type), this->Parts.Tetrahedra.Ids);
         break;
       default:
         this->cutAsVtk(cell);
@@ -293,7 +275,7 @@ private:
 
   vtkPointSet* Mesh;
   SimplexParts& Parts;
-  std::vector<CellPulling::Corner> Corners;
+  std::vector<Corner> Corners;
   vtkNew<vtkIdList> Ids;
   vtkNew<vtkPoints> Points;
   vtkNew<vtkGenericCell> Cell;

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace tipp
 {
@@ -17,6 +18,12 @@ inline Box2 unionOf(const Box2& a, const Box2& b)
 {
   return { std::min(a.xmin, b.xmin), std::min(a.ymin, b.ymin), std::max(a.xmax, b.xmax),
     std::max(a.ymax, b.ymax) };
+}
+
+/// A box of points that are multiplied by a factor above 0.
+inline Box2 scaled(const Box2& box, double factor)
+{
+  return { box.xmin * factor, box.ymin * factor, box.xmax * factor, box.ymax * factor };
 }
 
 /// The range [begin, end) of n items that is share `part` of `parts` equal shares.
@@ -42,6 +49,10 @@ public:
     : Floats(scalars)
     , Count(count)
     , Stride(stride)
+  {
+  }
+  explicit PointsView(const std::vector<Point2>& points)
+    : PointsView(reinterpret_cast<const double*>(points.data()), points.size(), 2)
   {
   }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation3D/AlphaShape3.h"
 
+#include "Arrays/SortUnique.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -67,8 +69,7 @@ std::array<Edge, 6> edgesOf(const std::int32_t* cell)
 template <typename Cell>
 void keepUnique(std::vector<Cell>& cells)
 {
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  sortUnique(cells);
 }
 
 /// Returns the cells that are not in `others`; both lists are sorted.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation3D/InitialMesh3.h"
 
+#include "Arrays/SortUnique.h"
 #include "Kernel3D/DelaunayKernel3.h"
 #include "Predicates/Circumball.h"
 
@@ -46,8 +47,7 @@ std::vector<std::size_t> chooseInitialPoints(
   {
     chosen.push_back((2 * i + 1) * count / (2 * wanted));
   }
-  std::sort(chosen.begin(), chosen.end());
-  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+  sortUnique(chosen);
   return chosen;
 }
 

@@ -294,11 +294,7 @@ void append(std::string& line, double value)
 
 std::vector<double> depthsOf(const PointTable& points)
 {
-  std::vector<std::string> names;
-  for (const PointTable::Column& column : points.Columns)
-  {
-    names.push_back(column.Name);
-  }
+  const std::vector<std::string> names = points.names();
   const auto depth = std::find(names.begin(), names.end(), "depth");
   if (depth != names.end())
   {

@@ -2,10 +2,10 @@
 #include "Files/InputFile.h"
 
 #include "Files/IOError.h"
+#include "Files/TextFile.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -73,10 +73,7 @@ void InputFile::read(std::uint64_t offset, void* to, std::size_t bytes) const
 std::string extensionOf(const std::string& path)
 {
   const std::size_t end = path.find_last_not_of('/'); // "mesh.tipp/" is a folder's name, too
-  std::string extension = std::filesystem::path(path.substr(0, end + 1)).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
+  return lowerCase(std::filesystem::path(path.substr(0, end + 1)).extension().string());
 }
 
 namespace

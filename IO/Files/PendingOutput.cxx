@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/PendingOutput.h"
 
+#include "Files/FileSystem.h"
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
 #include "Files/TemporaryFiles.h"
@@ -117,8 +118,7 @@ PendingFile::~PendingFile()
 {
   if (!this->Temporary.empty())
   {
-    std::error_code ignored;
-    fs::remove(this->Temporary, ignored);
+    removeFile(this->Temporary);
   }
 }
 
@@ -128,12 +128,9 @@ void PendingFile::commit()
   this->File->close();
   const std::string finished = std::exchange(this->Temporary, "");
   commitOutput(this->Path, [&] { publish(finished, this->Path, this->Before, {}); });
-  std::error_code ignored;
-  fs::remove(finished, ignored); // the previous file
+  removeFile(finished); // the previous file
   syncToDisk(fs::path(this->Path).parent_path().string());
 }
-
-namespace fs = std::filesystem;
 
 namespace
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/TemporaryFiles.h"
 
+#include "Files/FileSystem.h"
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
 #include "Files/TextFile.h"
@@ -169,8 +170,6 @@ EndedPaths endTemporaryPaths()
   return ended;
 }
 
-namespace fs = std::filesystem;
-
 namespace
 {
 
@@ -316,8 +315,7 @@ bool isWorkFolder(const std::string& folder)
 
 void unmarkWorkFolder(const std::string& folder)
 {
-  std::error_code ignored;
-  fs::remove(markOf(folder), ignored);
+  removeFile(markOf(folder));
 }
 
 void clearWorkFolder(const std::string& folder)

@@ -5,6 +5,7 @@
 #include "Files/InputFile.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
@@ -204,6 +205,13 @@ bool LineReader::next(std::string_view& line)
 std::int64_t LineReader::remainingLines() const
 {
   return 1 + std::count(this->Rest.begin(), this->Rest.end(), '\n');
+}
+
+std::string lowerCase(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
 }
 
 std::string_view trimField(std::string_view field)

@@ -4,12 +4,15 @@
 
 #include "vtkTIPPIOModule.h"
 
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace tipp
@@ -40,6 +43,19 @@ private:
   std::string_view Rest;
   std::int64_t Number = 0;
 };
+
+/// The text with lower-case letters; letters beyond ASCII stay.
+std::string lowerCase(std::string text);
+
+/// The number that the whole text is, without blanks around it; nullopt for other text.
+template <typename Number>
+std::optional<Number> wholeNumber(std::string_view text)
+{
+  Number value{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && stop == end ? std::make_optional(value) : std::nullopt;
+}
 
 /// Parses a whole field as a number, ignoring blanks and quotes around it.
 bool parseNumber(std::string_view field, double& value);

@@ -395,6 +395,39 @@ bool XmlDataCheck::areWhole(const InputFile& file, std::uint64_t begin, bool isE
   return true;
 }
 
+XmlHead readXmlHead(const InputFile& file, std::uint64_t most)
+{
+  constexpr std::uint64_t step = 1 << 16;
+  XmlHead head;
+  std::string& text = head.Text;
+  std::size_t begin = std::string::npos;
+  for (std::uint64_t at = 0; at < std::min(file.size(), most) && begin == std::string::npos;)
+  {
+    const auto bytes = std::size_t(std::min(file.size() - at, std::max(step, at)));
+    const std::size_t searched = text.size() - std::min<std::size_t>(text.size(), 64);
+    text.resize(text.size() + bytes);
+    file.read(at, text.data() + at, bytes);
+    at += bytes;
+    begin = text.find("<AppendedData", searched);
+  }
+  if (begin == std::string::npos)
+  {
+    return head;
+  }
+  text.resize(begin);
+  constexpr std::uint64_t longestTag = 4096;
+  std::string tagText(std::size_t(std::min(longestTag, file.size() - begin)), '\0');
+  file.read(begin, tagText.data(), tagText.size());
+  XmlScanner scanner(tagText);
+  XmlScanner::Tag tag;
+  const std::size_t data =
+    scanner.next(tag) ? tagText.find('_', scanner.position()) : std::string::npos;
+  head.DataStart = data == std::string::npos ? 0 : begin + data + 1;
+  const std::string* const encoding = tag.find("encoding");
+  head.Encoding = encoding ? *encoding : "base64";
+  return head;
+}
+
 std::string escapedXml(const std::string& text)
 {
   std::string out;

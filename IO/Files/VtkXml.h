@@ -85,6 +85,17 @@ private:
   bool isWholeEncoded(const InputFile& file, std::uint64_t begin, std::uint64_t end) const;
 };
 
+/// The beginning of a VTK XML file.
+struct XmlHead
+{
+  std::string Text;            ///< up to the tag of the appended data, if there are any
+  std::string Encoding;        ///< of the appended data
+  std::uint64_t DataStart = 0; ///< offset of the appended data in the file; 0: there are none
+};
+
+/// Reads a file up to its appended data, whose tag is in the first `most` bytes or so.
+XmlHead readXmlHead(const InputFile& file, std::uint64_t most);
+
 /// The text as it stands in an XML file: special and control characters as numbers.
 std::string escapedXml(const std::string& text);
 

@@ -4,11 +4,11 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/TextFile.h"
 #include "Files/VtkXml.h"
 #include "Vtk/VtkFiles.h"
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <optional>
 #include <string>
@@ -42,57 +42,7 @@ constexpr const char* flatten = "; 'tipp flatten' makes a flat mesh of it.";
 template <typename Value>
 std::optional<Value> parse(const std::string* text)
 {
-  Value value{};
-  if (!text)
-  {
-    return std::nullopt;
-  }
-  const char* const end = text->data() + text->size();
-  const auto [stop, error] = std::from_chars(text->data(), end, value);
-  return error == std::errc() && stop == end ? std::make_optional(value) : std::nullopt;
-}
-
-/// The XML text up to the appended data, and the offset of the data in the file.
-struct XmlPart
-{
-  std::string Text;
-  std::size_t AppendedTag = 0; ///< offset of the tag in the text
-  std::uint64_t DataStart = 0;
-};
-
-XmlPart readXmlPart(const InputFile& file)
-{
-  constexpr std::uint64_t limit = std::uint64_t(64) << 20;
-  constexpr std::uint64_t step = 1 << 16;
-  XmlPart part;
-  std::size_t tag = std::string::npos;
-  for (std::uint64_t at = 0; at < std::min(file.size(), limit);)
-  {
-    const auto bytes = std::size_t(std::min(file.size() - at, std::max(step, at)));
-    const std::size_t searched = part.Text.size() - std::min<std::size_t>(part.Text.size(), 64);
-    part.Text.resize(part.Text.size() + bytes);
-    file.read(at, part.Text.data() + at, bytes);
-    at += bytes;
-    tag = tag == std::string::npos ? part.Text.find("<AppendedData", searched) : tag;
-    if (tag == std::string::npos)
-    {
-      continue;
-    }
-    const std::size_t mark = part.Text.find('_', std::min(part.Text.find('>', tag), at));
-    if (mark != std::string::npos)
-    {
-      part.DataStart = mark + 1;
-      part.AppendedTag = tag;
-      part.Text.resize(mark);
-      return part;
-    }
-    // The tag or the '_' may lie in the bytes that follow, but not far away.
-    if (at - tag > 4096)
-    {
-      break;
-    }
-  }
-  throw IOError(file.path(), std::string("has no appended data") + flatten);
+  return text ? wholeNumber<Value>(*text) : std::nullopt;
 }
 
 class HeaderReader
@@ -107,11 +57,19 @@ public:
   /// data.
   VtuHeader read()
   {
-    const XmlPart part = readXmlPart(this->File);
-    this->DataStart = part.DataStart;
+    constexpr std::uint64_t mostText = std::uint64_t(64) << 20;
+    const XmlHead head = readXmlHead(this->File, mostText);
+    this->DataStart = head.DataStart;
+    if (head.DataStart == 0)
+    {
+      this->fail(std::string("has no appended data") + flatten);
+    }
     // Checked first: in an encoded file the byte counts are meaningless.
-    this->requireRaw(part.Text.substr(part.AppendedTag));
-    XmlScanner scanner(part.Text);
+    if (head.Encoding != "raw")
+    {
+      this->fail(std::string("has appended data that are encoded, not raw") + flatten);
+    }
+    XmlScanner scanner(head.Text);
     for (Tag tag; scanner.next(tag);)
     {
       this->take(tag);
@@ -208,17 +166,6 @@ private:
     }
     this->Header.Points = *points;
     this->Header.Cells = *cells;
-  }
-
-  void requireRaw(const std::string& appendedTag) const
-  {
-    XmlScanner scanner(appendedTag);
-    Tag tag;
-    const std::string* const encoding = scanner.next(tag) ? tag.find("encoding") : nullptr;
-    if (!encoding || *encoding != "raw")
-    {
-      this->fail(std::string("has appended data that are encoded, not raw") + flatten);
-    }
   }
 
   std::optional<Scalar> scalarOf(const Tag& tag) const

@@ -89,11 +89,8 @@ private:
   std::int64_t Tuples = 0;
 };
 
-/// One function per kind of Loader, over the same files; `m` is at least 1.
-std::unique_ptr<VertexLoader> makeDirectLoader(ArrayFiles files, std::int64_t m, int threads);
+/// Creates a loader of the kind Loader::Fine; `m` is at least 1.
 std::unique_ptr<VertexLoader> makeFineLoader(ArrayFiles files, std::int64_t m, int threads);
-std::unique_ptr<VertexLoader> makeLruLoader(ArrayFiles files, std::int64_t m, std::int64_t blocks);
-std::unique_ptr<VertexLoader> makeMmapLoader(ArrayFiles files, int threads);
 
 /// to[targets[i]] = from[sources[i]]; positions are in tuples of `bytes` bytes.
 void scatterTuples(const char* from, const std::uint64_t* sources, char* to,

@@ -307,12 +307,6 @@ BlockCache::Found BlockCache::use(std::uint64_t block)
   return { slot, true };
 }
 
-void BlockCache::forget(std::uint32_t slot)
-{
-  this->erase(this->Slots[slot].Block);
-  this->Slots[slot].Block = nothing;
-}
-
 // Knuth's algorithm 6.4 R: later entries move into the gap unless that precedes their hash
 // position.
 void BlockCache::erase(std::uint64_t block)

@@ -167,9 +167,6 @@ public:
   /// replaces the least recently used one.
   Found use(std::uint64_t block);
 
-  /// Empties the slot; call it if the block of a miss could not be read.
-  void forget(std::uint32_t slot);
-
   /// Prefetches the table entry that use(block) will read first.
   void prefetch(std::uint64_t block) const
   {

@@ -75,7 +75,7 @@ public:
   }
 
   const LoadCounters& counters() const override { return this->Counts; }
-  Loader kind() const override { return Loader::Fine; }
+  const char* name() const override { return "fine"; }
 
 private:
   struct Chunk
@@ -342,7 +342,6 @@ private:
   void fillCache(
     const std::vector<std::pair<std::int64_t, std::uint32_t>>& missing, std::int64_t low)
   {
-    this->Counts.CacheMisses += std::int64_t(missing.size());
     if (missing.empty())
     {
       return;

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Direct Load: Algorithm 4 of the dissertation "Efficient Generating and Processing of Large-Scale
 // Unstructured Meshes".
-// The cache that Direct Load is compared with (dissertation, section 4.5.1): M vertices in blocks
-// of equal size, the least recently used one being replaced.
 #include "Loading/VertexLoader.h"
 
 #include "Files/IOError.h"
 #include "Loading/ArrayFiles.h"
-#include "Loading/BlockCache.h"
 #include "Loading/GroupedMoves.h"
 #include "Parallel/ParallelFor.h"
 
@@ -98,7 +95,7 @@ public:
   }
 
   const LoadCounters& counters() const override { return this->Counts; }
-  Loader kind() const override { return Loader::Mmap; }
+  const char* name() const override { return "mmap"; }
 
 private:
   ArrayFiles Files;
@@ -106,16 +103,6 @@ private:
   LoadCounters Counts;
   std::vector<std::unique_ptr<Mapping>> Mappings;
 };
-
-} // namespace
-
-std::unique_ptr<VertexLoader> makeMmapLoader(ArrayFiles files, int threads)
-{
-  return std::make_unique<MmapLoader>(std::move(files), threads);
-}
-
-namespace
-{
 
 class DirectLoader : public VertexLoader
 {
@@ -164,7 +151,7 @@ public:
   }
 
   const LoadCounters& counters() const override { return this->Counts; }
-  Loader kind() const override { return Loader::Direct; }
+  const char* name() const override { return "direct"; }
 
 private:
   void readSegment(std::int64_t first, std::int64_t size)
@@ -185,121 +172,6 @@ private:
   GroupedMoves Moves;
 };
 
-} // namespace
-
-std::unique_ptr<VertexLoader> makeDirectLoader(ArrayFiles files, std::int64_t m, int threads)
-{
-  return std::make_unique<DirectLoader>(std::move(files), m, threads);
-}
-
-namespace
-{
-
-class LruLoader : public VertexLoader
-{
-public:
-  LruLoader(ArrayFiles files, std::int64_t m, std::int64_t blocks)
-    : Files(std::move(files))
-    , Block(std::max<std::int64_t>(m / std::max<std::int64_t>(blocks, 1), 1))
-    , ByBlock(std::uint64_t(this->Block))
-    , Cache(slotsFor(m / this->Block))
-  {
-    this->Buffers.resize(this->Files, std::int64_t(slotsFor(m / this->Block)) * this->Block);
-  }
-
-  void load(const std::int64_t* ids, std::size_t count, void* const* out) override
-  {
-    this->Files.range(ids, count, 1);
-    this->Counts.UsefulBytes += std::int64_t(count * this->Files.recordBytes());
-    constexpr std::size_t ahead = 16;
-    std::uint64_t last = ~std::uint64_t(0);
-    std::uint32_t slot = 0;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      if (i + ahead < count)
-      {
-        this->Cache.prefetch(this->ByBlock.quotient(std::uint64_t(ids[i + ahead])));
-      }
-      const std::uint64_t block = this->ByBlock.quotient(std::uint64_t(ids[i]));
-      if (block != last)
-      {
-        slot = this->slotOf(block);
-        last = block;
-      }
-      const std::int64_t inside = ids[i] - std::int64_t(block) * this->Block;
-      this->copy(std::size_t(std::int64_t(slot) * this->Block + inside), i, out);
-    }
-  }
-
-  const LoadCounters& counters() const override { return this->Counts; }
-  Loader kind() const override { return Loader::Lru; }
-
-private:
-  static std::uint32_t slotsFor(std::int64_t blocks)
-  {
-    return std::uint32_t(std::clamp<std::int64_t>(blocks, 1, std::int64_t(1) << 30));
-  }
-
-  std::uint32_t slotOf(std::uint64_t block)
-  {
-    const BlockCache::Found found = this->Cache.use(block);
-    if (found.Miss)
-    {
-      ++this->Counts.CacheMisses;
-      this->readBlock(std::int64_t(block) * this->Block, found.Slot);
-    }
-    return found.Slot;
-  }
-
-  void readBlock(std::int64_t first, std::uint32_t slot)
-  {
-    const std::int64_t size = std::min(this->Block, this->Files.tuples() - first);
-    try
-    {
-      for (std::size_t a = 0; a < this->Files.count(); ++a)
-      {
-        const std::size_t at =
-          std::size_t(std::int64_t(slot) * this->Block) * this->Files.tupleBytes(a);
-        this->Files.read(a, first, size, this->Buffers.data(a) + at, 1, this->Counts);
-      }
-    }
-    catch (...)
-    {
-      this->Cache.forget(slot);
-      throw;
-    }
-  }
-
-  void copy(std::size_t from, std::size_t to, void* const* out)
-  {
-    for (std::size_t a = 0; a < this->Files.count(); ++a)
-    {
-      const std::size_t bytes = this->Files.tupleBytes(a);
-      std::memcpy(
-        static_cast<char*>(out[a]) + to * bytes, this->Buffers.data(a) + from * bytes, bytes);
-    }
-  }
-
-  ArrayFiles Files;
-  std::int64_t Block; ///< size of a block, in tuples
-  Divisor ByBlock;
-  BlockCache Cache;
-  LoadCounters Counts;
-  TupleBuffers Buffers;
-};
-
-} // namespace
-
-std::unique_ptr<VertexLoader> makeLruLoader(ArrayFiles files, std::int64_t m, std::int64_t blocks)
-{
-  return std::make_unique<LruLoader>(std::move(files), m, blocks);
-}
-
-namespace
-{
-
-constexpr std::array<const char*, 5> names = { "auto", "direct", "fine", "lru", "mmap" };
-
 constexpr std::uint64_t defaultMemoryLimit = std::uint64_t(512) << 20;
 
 /// Mapped files share the memory with the caller's data, so they may take at most half of it.
@@ -315,6 +187,7 @@ VertexLoader::~VertexLoader() = default;
 
 Loader loaderFromName(const std::string& name)
 {
+  constexpr std::array<const char*, 4> names = { "auto", "direct", "fine", "mmap" };
   for (std::size_t kind = 0; kind < names.size(); ++kind)
   {
     if (name == names[kind])
@@ -323,12 +196,7 @@ Loader loaderFromName(const std::string& name)
     }
   }
   throw std::invalid_argument(
-    "no loader is called '" + name + "'; there are auto, direct, fine, lru and mmap");
-}
-
-const char* loaderName(Loader kind)
-{
-  return names[std::size_t(kind)];
+    "no loader is called '" + name + "'; there are auto, direct, fine and mmap");
 }
 
 std::unique_ptr<VertexLoader> makeVertexLoader(
@@ -342,18 +210,19 @@ std::unique_ptr<VertexLoader> makeVertexLoader(
   switch (options.Kind)
   {
     case Loader::Direct:
-      return makeDirectLoader(std::move(files), m, options.Threads);
+      return std::make_unique<DirectLoader>(std::move(files), m, options.Threads);
     case Loader::Fine:
       return makeFineLoader(std::move(files), m, options.Threads);
-    case Loader::Lru:
-      return makeLruLoader(std::move(files), m, options.Blocks);
     case Loader::Mmap:
-      return makeMmapLoader(std::move(files), options.Threads);
+      return std::make_unique<MmapLoader>(std::move(files), options.Threads);
     case Loader::Auto:
       break;
   }
-  return fitsWell(files, limit) ? makeMmapLoader(std::move(files), options.Threads)
-                                : makeFineLoader(std::move(files), m, options.Threads);
+  if (fitsWell(files, limit))
+  {
+    return std::make_unique<MmapLoader>(std::move(files), options.Threads);
+  }
+  return makeFineLoader(std::move(files), m, options.Threads);
 }
 
 } // namespace tipp

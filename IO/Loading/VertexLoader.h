@@ -21,8 +21,7 @@ struct LoadCounters
   std::int64_t Bytes = 0; ///< bytes read from files
   /// bytes returned to the caller; repeated vertices count repeatedly
   std::int64_t UsefulBytes = 0;
-  std::int64_t Passes = 0;      ///< segments (Direct) or groups of runs (Fine) that were loaded
-  std::int64_t CacheMisses = 0; ///< blocks that the cache did not hold (Lru)
+  std::int64_t Passes = 0; ///< segments (Direct) or groups of runs (Fine) that were loaded
 };
 
 /// How vertices are loaded.
@@ -31,15 +30,11 @@ enum class Loader
   Auto,   ///< Mmap if the arrays fit well within the memory limit, else Fine
   Direct, ///< Direct Load, Algorithm 4 of the dissertation
   Fine,   ///< Direct Load with a bit per 1,024 or so vertices instead of one per M
-  Lru,    ///< a cache of blocks with least-recently-used replacement
   Mmap    ///< memory-mapped files
 };
 
-/// Parses "auto", "direct", "fine", "lru" or "mmap"; throws std::invalid_argument for any other
-/// name.
+/// Parses "auto", "direct", "fine" or "mmap"; throws std::invalid_argument for any other name.
 VTKTIPPIO_EXPORT Loader loaderFromName(const std::string& name);
-/// The inverse of loaderFromName().
-VTKTIPPIO_EXPORT const char* loaderName(Loader kind);
 
 /// Options of makeVertexLoader().
 struct LoaderOptions
@@ -48,10 +43,9 @@ struct LoaderOptions
   /// Vertices in memory at once (the dissertation's vertex memory threshold M); 0: as many as fit
   /// in MemoryLimit. Mmap ignores it.
   std::int64_t M = 0;
-  std::int64_t Blocks = 262144; ///< number of blocks that Lru divides its M vertices into
   /// Bytes for the vertices in memory; 0: 512 MiB.
   std::uint64_t MemoryLimit = 0;
-  int Threads = 0; ///< 0: OpenMP's default. Lru uses one.
+  int Threads = 0; ///< 0: OpenMP's default.
 };
 
 /// Loads tuples of arrays in files by their index in the array, in any order: the "load" phase of a
@@ -69,7 +63,8 @@ public:
   /// a file cannot be read or an id is not a tuple's index.
   virtual void load(const std::int64_t* ids, std::size_t count, void* const* out) = 0;
   virtual const LoadCounters& counters() const = 0;
-  virtual Loader kind() const = 0;
+  /// The name of the loader that was chosen, such as "mmap".
+  virtual const char* name() const = 0;
 };
 
 /// Creates a loader of arrays with equal numbers of tuples. Throws IOError if a file cannot be

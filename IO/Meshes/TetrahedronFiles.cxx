@@ -86,11 +86,7 @@ vtkSmartPointer<vtkCellArray> cellsOf(const std::int32_t* ids, std::size_t tetra
 
 std::size_t requireElevation(const PointTable& points, const std::string& path)
 {
-  std::vector<std::string> names;
-  for (const PointTable::Column& column : points.Columns)
-  {
-    names.push_back(column.Name);
-  }
+  const std::vector<std::string> names = points.names();
   const std::size_t found = findElevation(names);
   if (found == names.size())
   {

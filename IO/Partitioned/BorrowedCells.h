@@ -2,6 +2,7 @@
 #ifndef tippBorrowedCells_h
 #define tippBorrowedCells_h
 
+#include "Arrays/SortUnique.h"
 #include "Partitioned/PieceFile.h"
 #include "Partitioned/ReadPiece.h"
 
@@ -167,8 +168,7 @@ private:
   void matchPoints(const std::vector<std::int64_t>& ids, const std::int64_t* ownIds)
   {
     std::vector<std::int64_t> distinct = ids;
-    std::sort(distinct.begin(), distinct.end());
-    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+    sortUnique(distinct);
     const GlobalIdMap borrowed(distinct.data(), nullptr, distinct.size());
     std::vector<std::int64_t> indices(distinct.size(), -1);
     const std::int64_t own = this->Own.summary().Points;

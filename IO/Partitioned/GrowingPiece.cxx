@@ -369,22 +369,21 @@ FinishedPiece writeBorder(const PartitionedMesh& mesh, std::size_t number,
   return finished;
 }
 
-void writeCellIds(
-  const PartitionedMesh& mesh, std::size_t number, std::int64_t first, FinishedPiece& piece)
+namespace
 {
-  const std::vector<PieceArray> arrays = pieceArrays(mesh, piece.Summary);
-  const auto found = std::find_if(arrays.begin(), arrays.end(),
-    [](const PieceArray& array) { return array.Role == PieceRole::CellIds; });
-  const auto a = std::size_t(found - arrays.begin());
-  const std::string path = mesh.piecePath(number);
-  takeNextFile(path);
-  const OutputFile file = OutputFile::shared(path);
+
+/// Writes array `a` of a piece's cells; writeNext(to) writes the value of the next cell.
+template <typename WriteNext>
+void writeCellArray(const PartitionedMesh& mesh, std::size_t number, std::size_t a,
+  std::size_t bytes, FinishedPiece& piece, const WriteNext& writeNext)
+{
+  const OutputFile file = OutputFile::shared(mesh.piecePath(number));
   ColumnWriter column(file, piece.Table.Offsets[a], bufferBytes);
   for (const std::int64_t count : piece.Table.parts(mesh, piece.Summary, false))
   {
-    for (std::int64_t i = 0; i < count; ++i, ++first)
+    for (std::int64_t i = 0; i < count; ++i)
     {
-      std::memcpy(column.extend(8), &first, 8);
+      writeNext(column.extend(bytes));
     }
     column.endPart();
   }
@@ -393,26 +392,36 @@ void writeCellIds(
   piece.Table.Checksums[a] = column.checksums();
 }
 
+} // namespace
+
+void writeCellIds(
+  const PartitionedMesh& mesh, std::size_t number, std::int64_t first, FinishedPiece& piece)
+{
+  const std::vector<PieceArray> arrays = pieceArrays(mesh, piece.Summary);
+  const auto found = std::find_if(arrays.begin(), arrays.end(),
+    [](const PieceArray& array) { return array.Role == PieceRole::CellIds; });
+  takeNextFile(mesh.piecePath(number));
+  writeCellArray(mesh, number, std::size_t(found - arrays.begin()), sizeof(first), piece,
+    [&first](char* to)
+    {
+      std::memcpy(to, &first, sizeof(first));
+      ++first;
+    });
+}
+
 void writeLateArray(const PartitionedMesh& mesh, std::size_t number, std::int64_t attribute,
   const char* values, FinishedPiece& piece)
 {
   const std::vector<PieceArray> arrays = pieceArrays(mesh, piece.Summary);
   const auto found = std::find_if(arrays.begin(), arrays.end(),
     [attribute](const PieceArray& array) { return array.Attribute == attribute; });
-  const auto a = std::size_t(found - arrays.begin());
-  const OutputFile file = OutputFile::shared(mesh.piecePath(number));
-  ColumnWriter column(file, piece.Table.Offsets[a], bufferBytes);
-  for (const std::int64_t count : piece.Table.parts(mesh, piece.Summary, false))
-  {
-    for (std::int64_t i = 0; i < count; ++i, values += found->tupleBytes())
+  const std::size_t bytes = found->tupleBytes();
+  writeCellArray(mesh, number, std::size_t(found - arrays.begin()), bytes, piece,
+    [&values, bytes](char* to)
     {
-      std::memcpy(column.extend(found->tupleBytes()), values, found->tupleBytes());
-    }
-    column.endPart();
-  }
-  column.flush();
-  file.startWriteback();
-  piece.Table.Checksums[a] = column.checksums();
+      std::memcpy(to, values, bytes);
+      values += bytes;
+    });
 }
 
 void verifyInterior(const PartitionedMesh& mesh, std::size_t number, const PieceInterior& interior)

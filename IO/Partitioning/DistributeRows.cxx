@@ -90,7 +90,7 @@ void CellDistribution::run()
     this->Job.report(0.05 + 0.45 * done / double(last - first));
   }
   PartitionStatistics& statistics = this->Job.Statistics;
-  statistics.Loader = loaderName(this->OwnerLoader->kind());
+  statistics.Loader = this->OwnerLoader->name();
   for (const VertexLoader* loader : { this->OwnerLoader.get(), this->PointLoader.get() })
   {
     const LoadCounters& counters = loader->counters();
@@ -98,7 +98,6 @@ void CellDistribution::run()
     statistics.Loads.Bytes += counters.Bytes;
     statistics.Loads.UsefulBytes += counters.UsefulBytes;
     statistics.Loads.Passes += counters.Passes;
-    statistics.Loads.CacheMisses += counters.CacheMisses;
   }
 }
 

@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
+#include "Files/TextFile.h"
 #include "Flat/FlatMesh.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
@@ -33,10 +34,8 @@ std::optional<std::string_view> after(std::string_view text, std::string_view st
 std::optional<TilingChoice> parseTree(std::string_view number)
 {
   TilingChoice choice;
-  const char* const end = number.data() + number.size();
-  const auto [stop, error] = std::from_chars(number.data(), end, choice.Threshold);
-  const bool good = error == std::errc() && stop == end && choice.Threshold >= 1;
-  return good ? std::make_optional(choice) : std::nullopt;
+  choice.Threshold = wholeNumber<std::int64_t>(number).value_or(0);
+  return choice.Threshold >= 1 ? std::make_optional(choice) : std::nullopt;
 }
 
 std::optional<TilingChoice> parseGrid(std::string_view counts)

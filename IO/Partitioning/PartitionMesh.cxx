@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioning/PartitionMesh.h"
 
+#include "Files/FileSystem.h"
 #include "Files/IOError.h"
 #include "Files/PendingOutput.h"
 #include "Files/TemporaryFiles.h"
@@ -118,21 +119,6 @@ std::uint64_t neededBytes(const PartitionJob& job)
   return spilled + stored;
 }
 
-void requireSpace(const PartitionJob& job, const std::string& path)
-{
-  std::error_code failure;
-  const fs::space_info space = fs::space(job.Folder, failure);
-  const std::uint64_t needed = neededBytes(job);
-  if (!failure && space.available < needed)
-  {
-    throw IOError(path,
-      "needs about " + std::to_string(needed / 1000000 + 1) +
-        " MB while it is made, and its disk "
-        "has " +
-        std::to_string(space.available / 1000000) + " MB free; free space or name another disk.");
-  }
-}
-
 void cutDomain(PartitionJob& job)
 {
   const Box3 domain = boundsOfPoints(job.Mesh, job.Team, job.Threads);
@@ -179,7 +165,7 @@ void prepare(PartitionJob& job, const std::string& path)
   }
   layOutRows(job);
   chooseChunks(job);
-  requireSpace(job, path);
+  requireFreeSpace(path, job.Folder, neededBytes(job));
 }
 
 /// Replaces the temporary folder's path in a message by the mesh's name, which the user knows.
@@ -198,13 +184,13 @@ void completeStatistics(PartitionJob& job)
   PartitionStatistics& all = job.Statistics;
   std::vector<std::int64_t> sums = { all.BorderCells, all.BorrowedCells, all.CopiedPoints,
     std::int64_t(all.SpilledBytes), all.Loads.Reads, all.Loads.Bytes, all.Loads.UsefulBytes,
-    all.Loads.Passes, all.Loads.CacheMisses };
+    all.Loads.Passes };
   job.Team.sum(sums);
   all.BorderCells = sums[0];
   all.BorrowedCells = sums[1];
   all.CopiedPoints = sums[2];
   all.SpilledBytes = std::uint64_t(sums[3]);
-  all.Loads = { sums[4], sums[5], sums[6], sums[7], sums[8] };
+  all.Loads = { sums[4], sums[5], sums[6], sums[7] };
   all.Points = job.Mesh.Points.Tuples;
   all.Cells = job.Mesh.Cells.Tuples;
   all.Pieces = std::int64_t(job.pieces());

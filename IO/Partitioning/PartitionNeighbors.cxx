@@ -3,6 +3,7 @@
 
 #include "Files/OutputFile.h"
 #include "Npy/NpyFile.h"
+#include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
 #include "Partitioned/NeighborIds.h"
 #include "Query/Around.h"
@@ -19,15 +20,11 @@ namespace
 {
 
 /// Options for a part of the work.
-PartitionOptions partOf(const PartitionOptions& options, double begin, double end)
+PartitionOptions stepOf(const PartitionOptions& options, double begin, double end)
 {
   PartitionOptions part = options;
   part.Neighbors = false;
-  if (options.Progress)
-  {
-    part.Progress = [&options, begin, end](double done)
-    { return options.Progress(begin + done * (end - begin)); };
-  }
+  part.Progress = partOf(options.Progress, begin, end);
   return part;
 }
 
@@ -87,7 +84,7 @@ PartitionStatistics partitionWithNeighbors(const FlatMesh& mesh, const std::stri
   bare.Times.clear();
   bare.PointSeries.clear();
   bare.CellSeries.clear();
-  PartitionOptions first = partOf(options, 0, 0.3);
+  PartitionOptions first = stepOf(options, 0, 0.3);
   first.DuplicateBorrowers = false;
   PartitionStatistics statistics = partitionMesh(bare, folder + "/bare", first, controller);
   if (statistics.Aborted)
@@ -124,7 +121,7 @@ PartitionStatistics partitionWithNeighbors(const FlatMesh& mesh, const std::stri
     statistics.Aborted = true;
     return statistics;
   }
-  return partitionMesh(whole, path, partOf(options, 0.5, 1), controller);
+  return partitionMesh(whole, path, stepOf(options, 0.5, 1), controller);
 }
 
 } // namespace tipp

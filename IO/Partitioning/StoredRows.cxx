@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioning/StoredRows.h"
 
-#include <filesystem>
-#include <system_error>
+#include "Files/FileSystem.h"
+
 #include <utility>
 
 namespace tipp
@@ -11,12 +11,6 @@ namespace
 {
 
 constexpr std::size_t bufferBytes = std::size_t(1) << 20;
-
-void removeFile(const std::string& path)
-{
-  std::error_code ignored;
-  std::filesystem::remove(path, ignored);
-}
 
 void appendBytes(const void* row, std::size_t bytes, std::vector<char>& buffer)
 {

@@ -4,11 +4,11 @@
 #include "Arrays/Random.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/TextFile.h"
 #include "Las/LasHeader.h"
 #include "Points/ReadPoints.h"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <utility>
 
@@ -89,6 +89,18 @@ PointTable readNpyPoints(const std::string& path, const PointOptions& options, i
   return table;
 }
 
+void copyPoints(const PointTable& table, std::int64_t first, std::int64_t count, PointBlock& block)
+{
+  const auto copy = [&](const std::vector<double>& from, int width, std::vector<double>& to)
+  { to.assign(from.begin() + width * first, from.begin() + width * (first + count)); };
+  copy(table.XY, 2, block.XY);
+  block.Columns.resize(table.Columns.size());
+  for (std::size_t i = 0; i < block.Columns.size(); ++i)
+  {
+    copy(table.Columns[i].Values, 1, block.Columns[i]);
+  }
+}
+
 namespace
 {
 
@@ -158,15 +170,13 @@ private:
 std::int64_t generatedCount(const std::string& name)
 {
   const std::string start = "uniform:";
-  std::int64_t count = 0;
-  const char* const end = name.data() + name.size();
   if (name.compare(0, start.size(), start) != 0)
   {
     return 0;
   }
-  const auto [stop, error] = std::from_chars(name.data() + start.size(), end, count);
+  const auto count = wholeNumber<std::int64_t>(name.substr(start.size()));
   constexpr std::int64_t most = std::int64_t(1) << 40;
-  return error == std::errc() && stop == end && count > 0 && count <= most ? count : 0;
+  return count && *count > 0 && *count <= most ? *count : 0;
 }
 
 std::unique_ptr<FilePoints> streamUniformPoints(std::int64_t count, bool inSpace)
@@ -238,10 +248,7 @@ public:
     , Options(options)
   {
     this->load();
-    for (const PointTable::Column& column : this->Table->Columns)
-    {
-      this->Names.push_back(column.Name);
-    }
+    this->Names = this->Table->names();
     this->rewind();
   }
 
@@ -249,24 +256,9 @@ public:
   {
     this->load();
     const std::size_t count = std::min(most, this->Table->size() - this->At);
-    if (count == 0)
-    {
-      return false;
-    }
-    const auto take =
-      [&](const std::vector<double>& values, std::size_t width, std::vector<double>& to)
-    {
-      const auto begin = values.begin() + std::ptrdiff_t(width * this->At);
-      to.assign(begin, begin + std::ptrdiff_t(width * count));
-    };
-    take(this->Table->XY, 2, block.XY);
-    block.Columns.resize(this->Table->Columns.size());
-    for (std::size_t i = 0; i < block.Columns.size(); ++i)
-    {
-      take(this->Table->Columns[i].Values, 1, block.Columns[i]);
-    }
+    copyPoints(*this->Table, std::int64_t(this->At), std::int64_t(count), block);
     this->At += count;
-    return true;
+    return count > 0;
   }
 
   void rewind() override

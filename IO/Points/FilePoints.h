@@ -43,6 +43,9 @@ public:
 /// Opens a file by its extension. Throws IOError.
 std::unique_ptr<FilePoints> openFilePoints(const std::string& path, const PointOptions& options);
 
+/// Copies the points [first, first + count) of a table to a block.
+void copyPoints(const PointTable& table, std::int64_t first, std::int64_t count, PointBlock& block);
+
 /// A text file, read in blocks.
 std::unique_ptr<FilePoints> streamTextPoints(const std::string& path, const PointOptions& options);
 

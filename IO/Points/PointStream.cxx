@@ -287,16 +287,8 @@ public:
   bool next(PointBlock& block, std::size_t most) override
   {
     const std::int64_t count = std::min(std::int64_t(most), this->End - this->At);
-    const auto copy =
-      [&](const std::vector<double>& from, std::int64_t width, std::vector<double>& to)
-    { to.assign(from.begin() + width * this->At, from.begin() + width * (this->At + count)); };
+    copyPoints(this->Table, this->At, count, block);
     block.First = this->At;
-    copy(this->Table.XY, 2, block.XY);
-    block.Columns.resize(this->Table.Columns.size());
-    for (std::size_t i = 0; i < block.Columns.size(); ++i)
-    {
-      copy(this->Table.Columns[i].Values, 1, block.Columns[i]);
-    }
     this->At += count;
     return count > 0;
   }
@@ -311,15 +303,7 @@ public:
     this->End = std::clamp(end, this->Begin, this->divisible());
   }
 
-  std::vector<std::string> columns() const override
-  {
-    std::vector<std::string> names;
-    for (const PointTable::Column& column : this->Table.Columns)
-    {
-      names.push_back(column.Name);
-    }
-    return names;
-  }
+  std::vector<std::string> columns() const override { return this->Table.names(); }
 
   std::int64_t most() const override { return this->divisible(); }
   std::string identity() const override { return "table"; }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,14 @@ struct PointTable
   std::int64_t ThinnedOut = 0; ///< points that thinning removed
 
   std::size_t size() const { return this->XY.size() / 2; }
+  /// The names of Columns.
+  std::vector<std::string> names() const
+  {
+    std::vector<std::string> names;
+    std::transform(this->Columns.begin(), this->Columns.end(), std::back_inserter(names),
+      [](const Column& column) { return column.Name; });
+    return names;
+  }
 };
 
 /// Returns the index of the elevation column, which is named z, Z or elevation; the number of

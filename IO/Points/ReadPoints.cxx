@@ -4,6 +4,7 @@
 #include "Adcirc/AdcircGrid.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/TextFile.h"
 #include "Las/LasHeader.h"
 #include "Points/FilePoints.h"
 #include "Points/PointStream.h"
@@ -11,8 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
 #include <optional>
 #include <utility>
 
@@ -24,13 +23,6 @@ namespace
 constexpr std::array<std::pair<const char*, const char*>, 6> usualNames = { { { "x", "y" },
   { "lon", "lat" }, { "longitude", "latitude" }, { "easting", "northing" }, { "lng", "lat" },
   { "long", "lat" } } };
-
-std::string lowerCase(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 std::optional<std::size_t> find(const std::vector<std::string>& names, const std::string& name)
 {
@@ -55,12 +47,10 @@ std::size_t resolve(const std::string& path, const std::string& wanted,
   {
     return *named;
   }
-  std::size_t number = 0;
-  const char* const end = wanted.data() + wanted.size();
-  const auto [stop, error] = std::from_chars(wanted.data(), end, number);
-  if (error == std::errc() && stop == end && number < count)
+  const auto number = wholeNumber<std::size_t>(wanted);
+  if (number && *number < count)
   {
-    return number;
+    return *number;
   }
   throw IOError(path, "has no column '" + wanted + "'; choose from " + listed(names, count) + ".");
 }
@@ -69,11 +59,8 @@ std::size_t resolve(const std::string& path, const std::string& wanted,
 
 std::optional<int> LasSelection::parseClass(const std::string& text)
 {
-  int number = -1;
-  const char* const end = text.data() + text.size();
-  const auto parsed = std::from_chars(text.data(), end, number);
-  const bool good = parsed.ec == std::errc() && parsed.ptr == end && number >= 0 && number <= 255;
-  return good ? std::make_optional(number) : std::nullopt;
+  const auto number = wholeNumber<int>(text);
+  return number && *number >= 0 && *number <= 255 ? number : std::nullopt;
 }
 
 ColumnChoice chooseColumns(const std::string& path, const std::vector<std::string>& names,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Points/PointStream.h"
 
+#include "Files/FileSystem.h"
 #include "Files/IOError.h"
 #include "Files/TemporaryFiles.h"
 #include "Parallel/Poll.h"
@@ -10,7 +11,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <limits>
 #include <utility>
 
@@ -191,16 +191,7 @@ private:
     const std::string path = this->Rule.File + ".0"; // the name that Spill gives it
     TemporaryPath listed;
     listed.list(path);
-    struct Remove
-    {
-      const std::string& Path;
-      ~Remove()
-      {
-        std::error_code ignored;
-        std::filesystem::remove(this->Path, ignored);
-      }
-    };
-    const Remove remove{ path };
+    const RemovedFile removed(path);
     Spill spill(this->Rule.File, 0, keys, sizeof(Candidate));
     this->forEachCandidate(
       [&](const std::vector<Candidate>& candidates)

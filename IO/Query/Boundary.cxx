@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Query/Around.h"
 
+#include "Arrays/SortUnique.h"
 #include "Files/IOError.h"
 #include "Predicates/ExactPredicates.h"
 #include "Query/ForPieces.h"
@@ -246,8 +247,7 @@ std::vector<BorderEdge> borderOfParts(const std::vector<OpenCells>& parts)
     ends.insert(open.Ends.begin(), open.Ends.end());
     pointIds.insert(pointIds.end(), open.Points.begin(), open.Points.end());
   }
-  std::sort(pointIds.begin(), pointIds.end());
-  pointIds.erase(std::unique(pointIds.begin(), pointIds.end()), pointIds.end());
+  sortUnique(pointIds);
   std::vector<Point3> positions(pointIds.size());
   std::vector<std::int64_t> corners;
   std::vector<std::int64_t> cellIds;

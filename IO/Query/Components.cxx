@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Arrays/SortUnique.h"
 #include "Query/Around.h"
 #include "Query/ForPieces.h"
 #include "Query/RankAnswer.h"
@@ -96,8 +97,7 @@ using Ids = std::vector<std::int64_t>;
 
 void makeUnique(Ids& ids)
 {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  sortUnique(ids);
 }
 
 /// A connection between two cells or two components.
@@ -218,8 +218,7 @@ std::vector<Link> linksAcross(
       links.push_back({ faces[i - 1].Cell, faces[i].Cell });
     }
   }
-  std::sort(links.begin(), links.end());
-  links.erase(std::unique(links.begin(), links.end()), links.end());
+  sortUnique(links);
   return links;
 }
 

@@ -2,6 +2,7 @@
 #ifndef tippForPieces_h
 #define tippForPieces_h
 
+#include "Arrays/SortUnique.h"
 #include "Locate/MortonOrder.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
@@ -22,12 +23,6 @@ inline Point3 positionOf(const MeshPart& part, std::int64_t point)
   Point3 position{};
   withAccess(part.Mesh, [&](const auto& access) { position = access.point(point); });
   return position;
-}
-
-inline void sortUnique(std::vector<std::int64_t>& ids)
-{
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
 inline bool owns(const MeshPart& part, std::int64_t point)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Query/PieceIds.h"
 
+#include "Arrays/SortUnique.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
 #include "Partitioned/PieceFile.h"
@@ -42,8 +43,7 @@ std::vector<std::int32_t> PieceIds::find(const std::vector<std::int64_t>& ids, b
   int threads, std::size_t firstPiece, std::size_t endPiece) const
 {
   std::vector<std::int64_t> asked = ids;
-  std::sort(asked.begin(), asked.end());
-  asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
+  sortUnique(asked);
   const GlobalIdMap map(asked.data(), nullptr, asked.size());
   std::vector<std::int32_t> owners(asked.size(), -1);
   std::vector<Range> ranges;

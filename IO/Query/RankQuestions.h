@@ -2,6 +2,7 @@
 #ifndef tippRankQuestions_h
 #define tippRankQuestions_h
 
+#include "Arrays/SortUnique.h"
 #include "Query/ForPieces.h"
 #include "Query/IdDirectory.h"
 #include "Query/RankAnswer.h"
@@ -73,8 +74,7 @@ void serialize(Archive& archive, ListReply& reply)
 
 inline Ids sortedUnique(Ids ids)
 {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  sortUnique(ids);
   return ids;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Query/SegmentCrossings.h"
 
+#include "Arrays/SortUnique.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
 #include "Predicates/ExactPredicates.h"
@@ -249,8 +250,7 @@ void addCells(const Access& access, const MeshPart& part, SegmentCrossings& cros
 
 void orderCrossings(std::vector<Crossing>& crossings)
 {
-  std::sort(crossings.begin(), crossings.end());
-  crossings.erase(std::unique(crossings.begin(), crossings.end()), crossings.end());
+  sortUnique(crossings);
 }
 
 std::vector<std::vector<Crossing>> crossingsIn(const ResidentMesh& mesh,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Reading/PieceSource.h"
 
+#include "Arrays/SortUnique.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Flat/FlatMesh.h"
@@ -93,8 +94,7 @@ std::vector<std::int64_t> united(
 
 std::vector<std::int64_t> distinct(std::vector<std::int64_t> ids)
 {
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  sortUnique(ids);
   return ids;
 }
 

@@ -7,8 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -27,23 +25,12 @@ using Words = std::vector<std::string_view>;
 
 std::string lower(std::string_view word)
 {
-  std::string result(word);
-  std::transform(result.begin(), result.end(), result.begin(),
-    [](unsigned char letter) { return char(std::tolower(letter)); });
-  return result;
+  return lowerCase(std::string(word));
 }
 
 bool isBlank(char letter)
 {
   return letter == ' ' || letter == '\t' || letter == '\r' || letter == '\n';
-}
-
-std::optional<std::int64_t> numberIn(std::string_view word)
-{
-  std::int64_t value = 0;
-  const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && stop == word.data() + word.size() ? std::make_optional(value)
-                                                                   : std::nullopt;
 }
 
 /// The words of a line that may be a header; none if the line is too long, as in binary data.
@@ -99,8 +86,9 @@ private:
   /// The count in a word of the line; each item has `each` values.
   double count(const Words& words, std::size_t index, double each = 1) const
   {
-    const std::optional<std::int64_t> value =
-      index < words.size() ? numberIn(words[index]) : std::make_optional<std::int64_t>(0);
+    const std::optional<std::int64_t> value = index < words.size()
+      ? wholeNumber<std::int64_t>(words[index])
+      : std::make_optional<std::int64_t>(0);
     // VTK reports words that are not numbers.
     if (value && (*value < 0 || double(*value) * each > double(this->Text.size())))
     {
@@ -174,7 +162,7 @@ private:
     double points = 1;
     for (std::size_t axis = 1; axis < words.size() && axis < 4; ++axis)
     {
-      const std::optional<std::int64_t> value = numberIn(words[axis]);
+      const std::optional<std::int64_t> value = wholeNumber<std::int64_t>(words[axis]);
       if (value && (*value < 0 || *value > std::numeric_limits<int>::max()))
       {
         points = HUGE_VAL;
@@ -235,7 +223,7 @@ private:
     {
       ++this->At;
     }
-    return numberIn(std::string_view(this->Text).substr(begin, this->At - begin));
+    return wholeNumber<std::int64_t>(std::string_view(this->Text).substr(begin, this->At - begin));
   }
 
   bool skipNumbers(std::int64_t count)

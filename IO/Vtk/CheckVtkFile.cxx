@@ -3,12 +3,12 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/TextFile.h"
 #include "Files/VtkXml.h"
 #include "Vtk/VtkMessages.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -34,37 +34,11 @@ bool isXml(const std::string& extension)
   return std::find(known.begin(), known.end(), extension) != known.end();
 }
 
-/// The text up to the tag of the appended data.
-std::string readText(const InputFile& file)
-{
-  constexpr std::uint64_t step = 1 << 16;
-  std::string text;
-  for (std::uint64_t at = 0; at < file.size();)
-  {
-    const auto bytes = std::size_t(std::min(file.size() - at, std::max(step, at)));
-    const std::size_t searched = text.size() - std::min<std::size_t>(text.size(), 64);
-    text.resize(text.size() + bytes);
-    file.read(at, text.data() + at, bytes);
-    at += bytes;
-    const std::size_t tag = text.find("<AppendedData", searched);
-    if (tag != std::string::npos)
-    {
-      text.resize(tag);
-      break;
-    }
-  }
-  return text;
-}
-
 std::optional<std::int64_t> parseCount(std::string text)
 {
   text.erase(0, text.find_first_not_of(" \t\r\n"));
   text.erase(text.find_last_not_of(" \t\r\n") + 1);
-  std::int64_t value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && stop == end && !text.empty() ? std::make_optional(value)
-                                                              : std::nullopt;
+  return wholeNumber<std::int64_t>(text);
 }
 
 class XmlCheck
@@ -78,7 +52,8 @@ public:
 
   void run()
   {
-    const std::string text = readText(this->File);
+    const XmlHead head = readXmlHead(this->File, this->File.size());
+    const std::string& text = head.Text;
     XmlScanner scanner(text);
     for (Tag tag; scanner.next(tag);)
     {
@@ -98,7 +73,8 @@ public:
     }
     if (text.size() < this->File.size())
     {
-      this->checkAppended(text.size());
+      this->requireWhole(head.DataStart > 0 &&
+        this->Data.areWhole(this->File, head.DataStart, head.Encoding == "base64", this->Offsets));
     }
   }
 
@@ -121,21 +97,6 @@ private:
   {
     return tag.What == Tag::Open && (tag.Name == "DataArray" || tag.Name == "Array") &&
       hasFormat(tag, "binary");
-  }
-
-  /// Checks the data after the tag at byte `begin`.
-  void checkAppended(std::uint64_t begin) const
-  {
-    constexpr std::uint64_t most = 4096;
-    std::string text(std::size_t(std::min(most, this->File.size() - begin)), '\0');
-    this->File.read(begin, text.data(), text.size());
-    XmlScanner scanner(text);
-    Tag tag;
-    const std::size_t data = scanner.next(tag) ? text.find('_', scanner.position()) : text.npos;
-    const std::string* const encoding = tag.find("encoding");
-    this->requireWhole(data != text.npos &&
-      this->Data.areWhole(
-        this->File, begin + data + 1, !encoding || *encoding == "base64", this->Offsets));
   }
 
   [[noreturn]] void fail(const std::string& problem) const

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Arrays/SortUnique.h"
 #include "Check/ConstraintChains.h"
 #include "Check/DelaunayChecker.h"
 #include "Check/PieceChecker.h"
@@ -23,11 +24,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <map>
 #include <memory>
-#include <system_error>
 #include <unordered_map>
 
 namespace tipp
@@ -37,14 +36,7 @@ namespace
 
 CheckedPiece readChecked(const PartitionedMesh& mesh, std::size_t number)
 {
-  PieceOptions options;
-  options.Wanted.assign(mesh.Arrays.size(), false);
-  const std::int64_t neighborIds = findNeighborIds(mesh);
-  if (neighborIds >= 0)
-  {
-    options.Wanted[std::size_t(neighborIds)] = true;
-  }
-  Piece piece = readPiece(mesh, number, options);
+  Piece piece = readPiece(mesh, number, withNeighborsOnly(mesh));
   CheckedPiece checked;
   const auto points = std::size_t(piece.Points);
   checked.XY.resize(2 * points);
@@ -73,7 +65,7 @@ CheckedPiece readChecked(const PartitionedMesh& mesh, std::size_t number)
   const auto* corners = piece.Connectivity.as<std::int32_t>();
   checked.Triangles.assign(corners, corners + 3 * piece.Cells);
   checked.OwnTriangles = piece.OwnedCells;
-  if (neighborIds >= 0)
+  if (!piece.Attributes.empty())
   {
     const auto* cells = piece.CellIds.as<std::int64_t>();
     checked.CellIds.assign(cells, cells + piece.OwnedCells);
@@ -134,8 +126,7 @@ void takePositions(const CheckArguments& arguments, ConstraintTable& table)
   {
     named.insert(named.end(), edge.begin(), edge.end());
   }
-  std::sort(named.begin(), named.end());
-  named.erase(std::unique(named.begin(), named.end()), named.end());
+  sortUnique(named);
   table.XY.assign(2 * named.size(), std::nan(""));
   constexpr std::size_t blockPoints = 1 << 18;
   const auto stream = openPointStream({ arguments.Points }, arguments.Columns);
@@ -256,10 +247,8 @@ CheckReport checkPartitioned(const CheckArguments& arguments)
   report.LostConstraints = chains.Lost;
   if (input.Points != checker.givenPoints() || input.Sum != checker.pointSum())
   {
-    throw IOError(arguments.Mesh,
-      fmt::format("its {} points are not the {} points of {}; check it against the points that it "
-                  "was made from.",
-        checker.givenPoints(), input.Points, arguments.Points));
+    refuseOtherPoints(arguments.Mesh, std::size_t(checker.givenPoints()), std::size_t(input.Points),
+      arguments.Points);
   }
   return report;
 }
@@ -290,22 +279,13 @@ Examples:
   tipp check particles.npy tetrahedra.vtu --tie-rule
 )";
 
-// Compares numbers; NaN equals NaN here.
-bool isSame(double a, double b)
-{
-  return a == b || (a != a && b != b);
-}
-
 // Throws IOError if the mesh stores points other than these.
 void requireSamePoints(
   const CheckArguments& arguments, const std::vector<double>& xy, const std::vector<double>& own)
 {
-  if (!own.empty() && !std::equal(xy.begin(), xy.end(), own.begin(), own.end(), isSame))
+  if (!own.empty() && !std::equal(xy.begin(), xy.end(), own.begin(), own.end(), isSameNumber))
   {
-    throw IOError(arguments.Mesh,
-      fmt::format("its {} points are not the {} points of {}; check it against the points that it "
-                  "was made from.",
-        own.size() / 2, xy.size() / 2, arguments.Points));
+    refuseOtherPoints(arguments.Mesh, own.size() / 2, xy.size() / 2, arguments.Points);
   }
 }
 
@@ -344,7 +324,7 @@ CheckReport checkConstrained(
 {
   const std::vector<double>& xy = mesh.XY.empty() ? points.XY : mesh.XY;
   if (xy.size() < points.XY.size() ||
-    !std::equal(points.XY.begin(), points.XY.end(), xy.begin(), isSame))
+    !std::equal(points.XY.begin(), points.XY.end(), xy.begin(), isSameNumber))
   {
     throw IOError(arguments.Mesh,
       fmt::format("its first {} points are not those of {}; check it against the points that it "
@@ -370,9 +350,7 @@ CheckReport checkConstrained(
 
 CheckReport check(const CheckArguments& arguments)
 {
-  std::error_code ignored;
-  // Only a partitioned mesh is a folder. If its index is missing, the error message says so.
-  if (isPartitionedMesh(arguments.Mesh) || std::filesystem::is_directory(arguments.Mesh, ignored))
+  if (isStoredInPieces(arguments.Mesh))
   {
     return checkPartitioned(arguments);
   }
@@ -395,14 +373,9 @@ int runCheck(const CheckArguments& arguments)
       arguments.Points, arguments.Mesh, arguments.Columns, arguments.Options.TieRule);
   }
   const CheckReport report = check(arguments);
-  fmt::print("{} points ({} distinct), {} triangles, {} boundary edges, {} co-circular ties: {}\n",
-    report.Points, report.DistinctPoints, report.Triangles, report.BoundaryEdges, report.Ties,
-    report.isCorrect() ? "correct" : "FAULTY");
-  for (const std::string& fault : report.faults())
-  {
-    fmt::print("  {}\n", fault);
-  }
-  return report.isCorrect() ? Success : Failure;
+  fmt::print("{} points ({} distinct), {} triangles, {} boundary edges, {} co-circular ties: ",
+    report.Points, report.DistinctPoints, report.Triangles, report.BoundaryEdges, report.Ties);
+  return printFaults(report);
 }
 
 } // namespace

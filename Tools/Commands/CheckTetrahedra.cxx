@@ -2,24 +2,17 @@
 #include "Commands/CheckTetrahedra.h"
 
 #include "Check/TetrahedraChecker.h"
-#include "Commands/Commands.h"
 #include "Files/IOError.h"
 #include "Meshes/TetrahedronFiles.h"
 #include "Partitioned/NeighborIds.h"
-#include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/PieceFile.h"
-#include "Partitioned/ReadPiece.h"
 #include "Points/PointStream.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 namespace tipp
-{
-namespace
 {
 
 bool isStoredInPieces(const std::string& mesh)
@@ -28,13 +21,19 @@ bool isStoredInPieces(const std::string& mesh)
   return isPartitionedMesh(mesh) || std::filesystem::is_directory(mesh, ignored);
 }
 
-// Compares numbers; NaN equals NaN here.
-bool isSame(double a, double b)
+PieceOptions withNeighborsOnly(const PartitionedMesh& mesh)
 {
-  return a == b || (a != a && b != b);
+  PieceOptions options;
+  options.Wanted.assign(mesh.Arrays.size(), false);
+  const std::int64_t neighborIds = findNeighborIds(mesh);
+  if (neighborIds >= 0)
+  {
+    options.Wanted[std::size_t(neighborIds)] = true;
+  }
+  return options;
 }
 
-[[noreturn]] void refuse(
+void refuseOtherPoints(
   const std::string& mesh, std::size_t count, std::size_t points, const std::string& input)
 {
   throw IOError(mesh,
@@ -42,6 +41,9 @@ bool isSame(double a, double b)
                 "was made from.",
       count, points, input));
 }
+
+namespace
+{
 
 /// Reads the tetrahedra of a partitioned mesh. Throws IOError unless its points are the finite ones
 /// among `xyz`.
@@ -51,13 +53,7 @@ StoredTetrahedra readPieces(
   const PartitionedMesh mesh = openPartitionedMesh(path);
   verifyPvtu(mesh);
   StoredTetrahedra stored;
-  PieceOptions options;
-  options.Wanted.assign(mesh.Arrays.size(), false);
-  const std::int64_t neighborIds = findNeighborIds(mesh);
-  if (neighborIds >= 0)
-  {
-    options.Wanted[std::size_t(neighborIds)] = true;
-  }
+  const PieceOptions options = withNeighborsOnly(mesh);
   std::size_t found = 0;
   bool areSame = true;
   for (std::size_t number = 0; number < mesh.Pieces.size(); ++number)
@@ -83,7 +79,7 @@ StoredTetrahedra readPieces(
         stored.Ids.push_back(ids[piece.corner(cell, corner)]);
       }
     }
-    if (neighborIds >= 0)
+    if (!piece.Attributes.empty())
     {
       const auto* neighbors = piece.Attributes[0].Values.as<std::int64_t>();
       stored.Neighbors.insert(stored.Neighbors.end(), neighbors, neighbors + 4 * piece.OwnedCells);
@@ -96,7 +92,7 @@ StoredTetrahedra readPieces(
   }
   if (!areSame || found != finite)
   {
-    refuse(path, found, finite, input);
+    refuseOtherPoints(path, found, finite, input);
   }
   return stored;
 }
@@ -123,19 +119,14 @@ int runCheckTetrahedra(
   const StoredTetrahedra stored =
     isStoredInPieces(mesh) ? readPieces(mesh, xyz, points) : readTetrahedra(mesh);
   if (!stored.XYZ.empty() &&
-    !std::equal(xyz.begin(), xyz.end(), stored.XYZ.begin(), stored.XYZ.end(), isSame))
+    !std::equal(xyz.begin(), xyz.end(), stored.XYZ.begin(), stored.XYZ.end(), isSameNumber))
   {
-    refuse(mesh, stored.XYZ.size() / 3, table.size(), points);
+    refuseOtherPoints(mesh, stored.XYZ.size() / 3, table.size(), points);
   }
   const TetrahedraReport report = checkTetrahedra(xyz, stored.Ids, tieRule, stored.Neighbors);
-  fmt::print("{} points ({} distinct), {} tetrahedra, {} hull facets, {} co-spherical ties: {}\n",
-    report.Points, report.DistinctPoints, report.Tetrahedra, report.HullFacets, report.Ties,
-    report.isCorrect() ? "correct" : "FAULTY");
-  for (const std::string& fault : report.faults())
-  {
-    fmt::print("  {}\n", fault);
-  }
-  return report.isCorrect() ? Success : Failure;
+  fmt::print("{} points ({} distinct), {} tetrahedra, {} hull facets, {} co-spherical ties: ",
+    report.Points, report.DistinctPoints, report.Tetrahedra, report.HullFacets, report.Ties);
+  return printFaults(report);
 }
 
 } // namespace tipp

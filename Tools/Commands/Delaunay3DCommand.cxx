@@ -39,7 +39,7 @@ std::vector<Point3> coordinatesOf(const PointTable& table, std::size_t elevation
 }
 
 bool writeResult(const Delaunay3DArguments& arguments, PointTable&& table,
-  const Tetrahedralization& mesh, const PathState& before)
+  const Tetrahedralization& mesh, const Triangulation& triangles, const PathState& before)
 {
   MeshOptions options;
   options.Before = before;
@@ -48,6 +48,13 @@ bool writeResult(const Delaunay3DArguments& arguments, PointTable&& table,
   {
     const auto ids = representativeIds(mesh, table.size());
     options.Representatives.assign(ids.begin(), ids.end());
+  }
+  if (mesh.Dimension == 2)
+  {
+    options.Neighbors = arguments.Neighbors;
+    table.Columns[requireElevation(table, arguments.Inputs.front())].Name = "z";
+    return writeMesh(
+      arguments.Output, table, { triangles.Ids32.data(), triangles.triangleCount() }, options);
   }
   std::vector<std::int64_t> neighbors;
   if (arguments.Neighbors)
@@ -59,32 +66,19 @@ bool writeResult(const Delaunay3DArguments& arguments, PointTable&& table,
     arguments.Output, std::move(table), mesh.Ids.data(), mesh.cellCount(), neighbors, options);
 }
 
-bool writeTriangles(const Delaunay3DArguments& arguments, PointTable&& table,
-  const Tetrahedralization& mesh, const Triangulation& triangles, const PathState& before)
-{
-  MeshOptions options;
-  options.Before = before;
-  options.Aborted = isInterrupted;
-  options.Neighbors = arguments.Neighbors;
-  if (arguments.MapDuplicates)
-  {
-    const auto ids = representativeIds(mesh, table.size());
-    options.Representatives.assign(ids.begin(), ids.end());
-  }
-  table.Columns[requireElevation(table, arguments.Inputs.front())].Name = "z";
-  return writeMesh(
-    arguments.Output, table, { triangles.Ids32.data(), triangles.triangleCount() }, options);
-}
-
 void report(const Delaunay3DArguments& arguments, const Tetrahedralization& mesh,
-  std::int64_t points, double seconds, const nlohmann::ordered_json& figures,
-  const std::string& ranks)
+  const Triangulation& triangles, std::int64_t points, double seconds,
+  const RunStatistics& statistics, const std::string& ranks)
 {
   if (!arguments.Statistics.empty())
   {
     nlohmann::ordered_json json = { { "input", arguments.Inputs }, { "output", arguments.Output },
       { "tetrahedralize_seconds", seconds }, { "peak_memory_bytes", peakMemoryBytes() } };
-    json.update(figures);
+    json.update(jsonOf(statistics));
+    if (mesh.Dimension == 2)
+    {
+      json["triangles"] = triangles.triangleCount();
+    }
     writeJson(arguments.Statistics, json);
   }
   fmt::print("{} points, {} tetrahedra, {} duplicates, {} rejected, {:.3f} s, {:.0f} points/s, "
@@ -154,18 +148,12 @@ int runDelaunay3D(const Delaunay3DArguments& arguments)
   }
   const double seconds = watch.seconds();
   if (mesh.Aborted || isInterrupted() ||
-    !(mesh.Dimension == 2 ? writeTriangles(arguments, std::move(table), mesh, triangles, before)
-                          : writeResult(arguments, std::move(table), mesh, before)))
+    !writeResult(arguments, std::move(table), mesh, triangles, before))
   {
     return reportInterrupt();
   }
-  nlohmann::ordered_json figures =
-    jsonOf(statisticsOf(mesh, count, std::int64_t(mesh.cellCount())));
-  if (mesh.Dimension == 2)
-  {
-    figures["triangles"] = triangles.triangleCount();
-  }
-  report(arguments, mesh, count, seconds, figures, "");
+  report(arguments, mesh, triangles, count, seconds,
+    statisticsOf(mesh, count, std::int64_t(mesh.cellCount())), "");
   for (const std::string& warning : warningsOf(mesh, count))
   {
     fmt::print(stderr, "tipp: warning: {}\n", warning);
@@ -234,21 +222,14 @@ void requireFitting(const Delaunay3DArguments& arguments)
 {
   const std::string extension = extensionOf(arguments.Output);
   const bool isOutOfCore = extension == ".tipp";
-  const auto refuse = [](bool isMisplaced, const char* option, const char* need)
-  {
-    if (isMisplaced)
-    {
-      throw CLI::ValidationError(option, need);
-    }
-  };
   constexpr const char* needsArrays = "needs an output named .vtu or .tipp";
-  refuse(arguments.Neighbors && extension == ".npy", "--neighbors", needsArrays);
-  refuse(arguments.MapDuplicates && extension == ".npy", "--map-duplicates", needsArrays);
-  refuse(arguments.Partitions > 0 && isOutOfCore, "--partitions",
+  refuseIf(arguments.Neighbors && extension == ".npy", "--neighbors", needsArrays);
+  refuseIf(arguments.MapDuplicates && extension == ".npy", "--map-duplicates", needsArrays);
+  refuseIf(arguments.Partitions > 0 && isOutOfCore, "--partitions",
     "needs an output named .vtu or .npy; for .tipp, --memory determines the partitions");
-  refuse(!arguments.Memory.empty() && !isOutOfCore, "--memory", "needs an output named .tipp");
-  refuse(arguments.Resume && !isOutOfCore, "--resume", "needs an output named .tipp");
-  refuse(!arguments.Scratch.empty() && !isOutOfCore, "--scratch", "needs an output named .tipp");
+  refuseIf(!arguments.Memory.empty() && !isOutOfCore, "--memory", "needs an output named .tipp");
+  refuseIf(arguments.Resume && !isOutOfCore, "--resume", "needs an output named .tipp");
+  refuseIf(!arguments.Scratch.empty() && !isOutOfCore, "--scratch", "needs an output named .tipp");
 }
 
 } // namespace

@@ -49,17 +49,11 @@ void writeOnFirst(Communicator& ranks, const Delaunay3DArguments& arguments,
   PointTable table = extensionOf(arguments.Output) == ".npy" && all.Dimension != 2
     ? PointTable()
     : readPoints(arguments.Inputs, arguments.Columns);
-  nlohmann::ordered_json figures = jsonOf(statisticsOf(mine));
-  if (all.Dimension == 2)
-  {
-    figures["triangles"] = triangles.triangleCount();
-  }
-  if (!(all.Dimension == 2 ? writeTriangles(arguments, std::move(table), all, triangles, before)
-                           : writeResult(arguments, std::move(table), all, before)))
+  if (!writeResult(arguments, std::move(table), all, triangles, before))
   {
     throw RankFailure(0, true, "interrupted");
   }
-  report(arguments, all, mine.AllPoints, seconds, figures,
+  report(arguments, all, triangles, mine.AllPoints, seconds, statisticsOf(mine),
     fmt::format(", {} ranks of {} threads", ranks.size(), mine.Statistics.ThreadsPerRank));
   for (const std::string& warning : warningsOf(mine))
   {

@@ -3,11 +3,10 @@
 #define tippDelaunay3DRuns_h
 
 #include "Files/OutputPath.h"
+#include "Output/RunStatistics.h"
 #include "Points/PointTable.h"
 #include "Points/ReadPoints.h"
 #include "Triangulation3D/Tetrahedralize.h"
-
-#include <nlohmann/json.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -39,20 +38,16 @@ struct Delaunay3DArguments
 /// Returns the points in space. `elevation`: the index of the column with the third coordinate.
 std::vector<Point3> coordinatesOf(const PointTable& table, std::size_t elevation);
 
-/// Writes the output. `before`: from requireWritable(). Returns false, without a file, if the user
-/// interrupted it. Throws IOError.
+/// Writes the tetrahedra, or the triangles of coplanar points. `before`: from requireWritable().
+/// Returns false, without a file, if the user interrupted it. Throws IOError.
 bool writeResult(const Delaunay3DArguments& arguments, PointTable&& table,
-  const Tetrahedralization& mesh, const PathState& before);
-
-/// Writes the triangles of coplanar points; otherwise as writeResult().
-bool writeTriangles(const Delaunay3DArguments& arguments, PointTable&& table,
   const Tetrahedralization& mesh, const Triangulation& triangles, const PathState& before);
 
-/// Prints the summary, which ends with `ranks`, and writes the file of statistics, with `figures`
-/// of the run, if one is requested.
+/// Prints the summary, which ends with `ranks`, and writes the file of statistics, if one is
+/// requested.
 void report(const Delaunay3DArguments& arguments, const Tetrahedralization& mesh,
-  std::int64_t points, double seconds, const nlohmann::ordered_json& figures,
-  const std::string& ranks);
+  const Triangulation& triangles, std::int64_t points, double seconds,
+  const RunStatistics& statistics, const std::string& ranks);
 
 /// Runs `tipp delaunay3d`, in memory, on the ranks of a controller. Every rank reads its share of
 /// the points; the first one writes the output and prints messages. Returns the exit code, which is

@@ -102,8 +102,6 @@ int runDelaunay(const DelaunayArguments& arguments)
   }
   const PathState before = requireWritable(arguments);
   DelaunayRun run;
-  run.Input = arguments.Input;
-  run.Output = arguments.Output;
   Stopwatch watch;
   PointTable points = readPointsFor(arguments);
   run.Points = std::int64_t(points.size());
@@ -124,7 +122,7 @@ int runDelaunay(const DelaunayArguments& arguments)
   run.WriteSeconds = watch.restart();
   if (!arguments.Statistics.empty())
   {
-    writeStatistics(arguments.Statistics, run, result);
+    writeStatistics(arguments, run, result);
   }
   fmt::print("{}\n", summarize(run, result));
   if (!constraintReport.empty())
@@ -222,16 +220,12 @@ void addConstraints(CLI::App& command, DelaunayArguments& arguments)
 
 void requireValidConstraints(const DelaunayArguments& arguments)
 {
-  if (arguments.MarkConstraints && !(arguments.Constraints.areGiven() && isOutOfCore(arguments)))
-  {
-    throw CLI::ValidationError(
-      "--mark-constraints", "needs --constraints or --boundary, and an output named .tipp");
-  }
+  refuseIf(
+    arguments.MarkConstraints && !(arguments.Constraints.areGiven() && isOutOfCore(arguments)),
+    "--mark-constraints", "needs --constraints or --boundary, and an output named .tipp");
   const bool refuses = arguments.Constraints.Crossings == CrossingRule::Refuse;
-  if (!arguments.Constraints.areGiven() && (refuses || !arguments.Constraints.Holes.empty()))
-  {
-    throw CLI::ValidationError(refuses ? "--refuse-crossings" : "--hole", "needs --constraints");
-  }
+  refuseIf(!arguments.Constraints.areGiven() && (refuses || !arguments.Constraints.Holes.empty()),
+    refuses ? "--refuse-crossings" : "--hole", "needs --constraints");
 }
 
 } // namespace
@@ -275,39 +269,23 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
   command->callback(
     [arguments, &exitCode]()
     {
-      if (arguments->MapDuplicates && !holdsArrays(arguments->Output))
-      {
-        throw CLI::ValidationError(
-          "--map-duplicates", "needs an output named .vtp or .vtu, which has all points");
-      }
-      if (arguments->Duplicates != DuplicateRule::First && extensionOf(arguments->Output) == ".npy")
-      {
-        throw CLI::ValidationError(
-          "--duplicates", "needs an output named .vtp, .vtu or .tipp, which has point data");
-      }
-      if (arguments->Neighbors && !holdsArrays(arguments->Output))
-      {
-        throw CLI::ValidationError(
-          "--neighbors", "needs an output named .vtp, .vtu or .tipp, which has cell data");
-      }
-      if (arguments->Partitions != "auto" && arguments->isForRanks())
-      {
-        throw CLI::ValidationError(
-          "--partitions", "cannot be combined with --masters, --major and --minor; give --minor");
-      }
+      refuseIf(arguments->MapDuplicates && !holdsArrays(arguments->Output), "--map-duplicates",
+        "needs an output named .vtp or .vtu, which has all points");
+      refuseIf(
+        arguments->Duplicates != DuplicateRule::First && extensionOf(arguments->Output) == ".npy",
+        "--duplicates", "needs an output named .vtp, .vtu or .tipp, which has point data");
+      refuseIf(arguments->Neighbors && !holdsArrays(arguments->Output), "--neighbors",
+        "needs an output named .vtp, .vtu or .tipp, which has cell data");
+      refuseIf(arguments->Partitions != "auto" && arguments->isForRanks(), "--partitions",
+        "cannot be combined with --masters, --major and --minor; give --minor");
       arguments->Input = arguments->Inputs.front();
       arguments->Columns.Threads = arguments->Threads;
       const std::string misplaced = misplacedOutOfCoreOption(*arguments);
       requireValidConstraints(*arguments);
-      if (isOutOfCore(*arguments) && arguments->isForRanks())
-      {
-        throw CLI::ValidationError(
-          "--masters, --major and --minor", "cannot be combined with an output named .tipp");
-      }
-      if (!isOutOfCore(*arguments) && !misplaced.empty())
-      {
-        throw CLI::ValidationError(misplaced, "needs an output named .tipp");
-      }
+      refuseIf(isOutOfCore(*arguments) && arguments->isForRanks(), "--masters, --major and --minor",
+        "cannot be combined with an output named .tipp");
+      refuseIf(
+        !isOutOfCore(*arguments) && !misplaced.empty(), misplaced, "needs an output named .tipp");
       exitCode = runDelaunay(*arguments);
     });
 }

@@ -111,7 +111,7 @@ void writeOnFirst(Communicator& ranks, const DelaunayArguments& arguments, Delau
   run.WriteSeconds = watch.restart();
   if (!arguments.Statistics.empty())
   {
-    writeStatistics(arguments.Statistics, run, mine);
+    writeStatistics(arguments, run, mine);
   }
   fmt::print("{}\n", summarize(run, all, mine.Statistics));
   if (constraints.Segments)
@@ -129,8 +129,6 @@ void triangulateShares(Communicator& ranks, const DelaunayArguments& arguments)
   }
   const PathState before = ranks.rank() == 0 ? requireWritable(arguments) : PathState();
   DelaunayRun run;
-  run.Input = arguments.Input;
-  run.Output = arguments.Output;
   Stopwatch watch;
   PointTable points =
     readPointsShare(arguments.Inputs, arguments.Columns, ranks.rank(), ranks.size());

@@ -7,6 +7,7 @@
 #include "Console/Process.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/TextFile.h"
 #include "InMemory/TriangulatePoints.h"
 #include "Meshes/MeshFiles.h"
 
@@ -19,20 +20,6 @@
 
 namespace tipp
 {
-namespace
-{
-
-std::optional<std::int64_t> parseCount(const std::string& text)
-{
-  std::int64_t count = 0;
-  const char* const end = text.data() + text.size();
-  const auto parsed = std::from_chars(text.data(), end, count);
-  return parsed.ec == std::errc() && parsed.ptr == end && count >= 1 ? std::make_optional(count)
-                                                                     : std::nullopt;
-}
-
-} // namespace
-
 std::optional<GridSize> parseGrid(const std::string& text)
 {
   if (text == "auto")
@@ -69,8 +56,8 @@ std::optional<MinorChoice> parseMinor(const std::string& text)
     return choice;
   }
   const std::string kind = text.substr(0, colon);
-  const std::optional<std::int64_t> threshold = parseCount(text.substr(colon + 1));
-  if (!threshold || (kind != "auto" && kind != "tree"))
+  const auto threshold = wholeNumber<std::int64_t>(text.substr(colon + 1));
+  if (!threshold || *threshold < 1 || (kind != "auto" && kind != "tree"))
   {
     return std::nullopt;
   }
@@ -194,12 +181,7 @@ bool holdsArrays(const std::string& path)
 PointTable readPointsFor(const DelaunayArguments& arguments)
 {
   PointTable points = readPoints(arguments.Inputs, arguments.Columns);
-  std::vector<std::string> names;
-  for (const PointTable::Column& column : points.Columns)
-  {
-    names.push_back(column.Name);
-  }
-  requireElevation(arguments.Duplicates, names);
+  requireElevation(arguments.Duplicates, points.names());
   if (extensionOf(arguments.Output) == ".npy")
   {
     points.Columns.clear(); // only .vtp and .vtu store the columns
@@ -246,11 +228,11 @@ double pointsPerSecond(const DelaunayRun& run)
   return run.TriangulateSeconds > 0 ? double(run.Points) / run.TriangulateSeconds : 0;
 }
 
-nlohmann::ordered_json describeRun(const DelaunayRun& run)
+nlohmann::ordered_json describeRun(const DelaunayArguments& arguments, const DelaunayRun& run)
 {
   return {
-    { "input", run.Input },
-    { "output", run.Output },
+    { "input", arguments.Input },
+    { "output", arguments.Output },
     { "points", run.Points },
     { "disagreeing_places", run.DisagreeingPositions },
     { "read_seconds", run.ReadSeconds },
@@ -274,11 +256,12 @@ std::string summarize(const DelaunayRun& run, const Triangulation& result)
     run.TriangulateSeconds, pointsPerSecond(run), double(peakMemoryBytes()) / 1e6);
 }
 
-void writeStatistics(const std::string& path, const DelaunayRun& run, const Triangulation& result)
+void writeStatistics(
+  const DelaunayArguments& arguments, const DelaunayRun& run, const Triangulation& result)
 {
-  nlohmann::ordered_json json = describeRun(run);
+  nlohmann::ordered_json json = describeRun(arguments, run);
   json.update(jsonOf(statisticsOf(result, run.Points, std::int64_t(result.triangleCount()))));
-  writeJson(path, json);
+  writeJson(arguments.Statistics, json);
 }
 
 std::string summarize(
@@ -288,16 +271,16 @@ std::string summarize(
     statistics.ThreadsPerRank);
 }
 
-void writeStatistics(
-  const std::string& path, const DelaunayRun& run, const DistributedTriangulation& result)
+void writeStatistics(const DelaunayArguments& arguments, const DelaunayRun& run,
+  const DistributedTriangulation& result)
 {
-  nlohmann::ordered_json json = describeRun(run);
+  nlohmann::ordered_json json = describeRun(arguments, run);
   json.update(jsonOf(statisticsOf(result)));
   for (std::size_t i = 0; i < result.Statistics.Masters.size(); ++i)
   {
     json["masters"][i]["stages"] = jsonOf(stagesOf(result.Statistics.Masters[i].Stages));
   }
-  writeJson(path, json);
+  writeJson(arguments.Statistics, json);
 }
 
 } // namespace tipp

@@ -120,8 +120,6 @@ bool writeResult(const DelaunayArguments& arguments, const PointTable& points,
 /// The figures of a run of `tipp delaunay`, besides the result's own statistics.
 struct DelaunayRun
 {
-  std::string Input;
-  std::string Output;
   std::int64_t DisagreeingPositions = 0; ///< positions whose points have different elevations
   std::int64_t Points = 0;
   double ReadSeconds = 0; ///< all times are wall-clock seconds
@@ -133,15 +131,16 @@ struct DelaunayRun
 /// and points per second of the triangulation alone, and peak memory of the process.
 std::string summarize(const DelaunayRun& run, const Triangulation& result);
 
-/// Writes these figures and all of TriangulationStatistics to a JSON file. Throws IOError.
-void writeStatistics(const std::string& path, const DelaunayRun& run, const Triangulation& result);
+/// Writes these figures and all of TriangulationStatistics to the file of --stats. Throws IOError.
+void writeStatistics(
+  const DelaunayArguments& arguments, const DelaunayRun& run, const Triangulation& result);
 
 ///@{
 /// The same functions for a run on ranks.
 std::string summarize(
   const DelaunayRun& run, const Triangulation& all, const DistributedStatistics& statistics);
-void writeStatistics(
-  const std::string& path, const DelaunayRun& run, const DistributedTriangulation& result);
+void writeStatistics(const DelaunayArguments& arguments, const DelaunayRun& run,
+  const DistributedTriangulation& result);
 ///@}
 
 } // namespace tipp

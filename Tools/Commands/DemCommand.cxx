@@ -228,17 +228,13 @@ void requireUseful(const CLI::App& command, const DemArguments& arguments)
 {
   for (const char* const name : { "--nodata", "--crs", "--type", "--compress", "--cog" })
   {
-    if (command.count(name) > 0 && !isGeoTiff(arguments.Output))
-    {
-      throw CLI::ValidationError(name, "needs an output named .tif");
-    }
+    refuseIf(
+      command.count(name) > 0 && !isGeoTiff(arguments.Output), name, "needs an output named .tif");
   }
   for (const char* const name : { "--bounds", "--align" })
   {
-    if (command.count(name) > 0 && !arguments.Like.empty())
-    {
-      throw CLI::ValidationError(name, "cannot be combined with --like");
-    }
+    refuseIf(
+      command.count(name) > 0 && !arguments.Like.empty(), name, "cannot be combined with --like");
   }
   std::vector<std::string> bands = arguments.Request.Bands;
   std::sort(bands.begin(), bands.end());
@@ -251,21 +247,13 @@ void requireUseful(const CLI::App& command, const DemArguments& arguments)
 
 void requireGood(const DemArguments& arguments)
 {
-  if (arguments.Like.empty() == (arguments.Request.Raster.Resolution == 0))
-  {
-    throw CLI::ValidationError("--resolution",
-      arguments.Like.empty() ? "or --like is required" : "cannot be combined with --like");
-  }
-  if (arguments.Type == "float32" && std::isfinite(arguments.NoData) &&
-    std::fabs(arguments.NoData) > double(std::numeric_limits<float>::max()))
-  {
-    throw CLI::ValidationError(
-      "--nodata", "is not a 32-bit number; give another one, or --type float64");
-  }
-  if (arguments.Memory.empty() && (arguments.Resume || !arguments.Scratch.empty()))
-  {
-    throw CLI::ValidationError(arguments.Resume ? "--resume" : "--scratch", "needs --memory");
-  }
+  refuseIf(arguments.Like.empty() == (arguments.Request.Raster.Resolution == 0), "--resolution",
+    arguments.Like.empty() ? "or --like is required" : "cannot be combined with --like");
+  refuseIf(arguments.Type == "float32" && std::isfinite(arguments.NoData) &&
+      std::fabs(arguments.NoData) > double(std::numeric_limits<float>::max()),
+    "--nodata", "is not a 32-bit number; give another one, or --type float64");
+  refuseIf(arguments.Memory.empty() && (arguments.Resume || !arguments.Scratch.empty()),
+    arguments.Resume ? "--resume" : "--scratch", "needs --memory");
 }
 
 } // namespace

@@ -52,7 +52,7 @@ void writeReport(const std::string& path, const std::string& input, const std::s
     { "loader", statistics.Loader },
     { "loads",
       { { "reads", loads.Reads }, { "bytes", loads.Bytes }, { "useful_bytes", loads.UsefulBytes },
-        { "passes", loads.Passes }, { "cache_misses", loads.CacheMisses } } },
+        { "passes", loads.Passes } } },
     { "phases", nlohmann::ordered_json::array() },
   };
   for (const PartitionStatistics::Phase& phase : statistics.Phases)
@@ -189,9 +189,9 @@ void addPartitionCommand(CLI::App& app, int& exitCode)
     ->capture_default_str();
   command
     ->add_option("--loader", arguments->Loader,
-      "How vertices are read: direct: Direct Load; fine: with smaller reads; lru: a cache of "
-      "blocks; mmap: mapped files; auto: chosen automatically")
-    ->check(CLI::IsMember({ "auto", "direct", "fine", "lru", "mmap" }))
+      "How vertices are read: direct: Direct Load; fine: with smaller reads; mmap: mapped files; "
+      "auto: chosen automatically")
+    ->check(CLI::IsMember({ "auto", "direct", "fine", "mmap" }))
     ->capture_default_str();
   command
     ->add_option("--device", arguments->Device,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/PointArguments.h"
 
+#include "Files/TextFile.h"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -35,11 +37,9 @@ std::optional<std::uint64_t> parseMemorySize(const std::string& text)
 
 std::string checkPositive(const std::string& text)
 {
-  double value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  const bool isGood = error == std::errc() && stop == end && value > 0 && std::isfinite(value);
-  return isGood ? "" : "'" + text + "' is not a number above 0";
+  const auto value = wholeNumber<double>(text);
+  return value && *value > 0 && std::isfinite(*value) ? ""
+                                                      : "'" + text + "' is not a number above 0";
 }
 
 std::string checkMemorySize(const std::string& text)
@@ -198,6 +198,14 @@ std::string describeDuplicates(std::int64_t duplicates, std::int64_t disagreeing
     : fmt::format(
         ", {} location{} with different elevations", disagreeing, disagreeing == 1 ? "" : "s");
   return fmt::format("{} duplicates{}", duplicates, positions);
+}
+
+void refuseIf(bool isMisplaced, const std::string& option, const std::string& problem)
+{
+  if (isMisplaced)
+  {
+    throw CLI::ValidationError(option, problem);
+  }
 }
 
 } // namespace tipp

@@ -53,6 +53,9 @@ std::string checkMemorySize(const std::string& text);
 /// Validates a finite number above 0, likewise.
 std::string checkPositive(const std::string& text);
 
+/// Throws CLI::ValidationError if an option does not suit the others; `problem` follows its name.
+void refuseIf(bool isMisplaced, const std::string& option, const std::string& problem);
+
 } // namespace tipp
 
 #endif

@@ -89,11 +89,7 @@ std::vector<Point3> readShare(const QueryArguments& arguments, bool inSpace, int
   reading.Threads = arguments.Mesh.Threads;
   const PointTable table = readPointsShare({ arguments.Points }, reading, rank, ranks);
   reportLeftOut(table.LeftOut, table.ThinnedOut);
-  std::vector<std::string> names;
-  for (const PointTable::Column& column : table.Columns)
-  {
-    names.push_back(column.Name);
-  }
+  const std::vector<std::string> names = table.names();
   const std::size_t z = findElevation(names);
   if (inSpace && z == names.size() && table.size() > 0)
   {

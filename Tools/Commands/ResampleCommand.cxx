@@ -279,18 +279,14 @@ void addResampleCommand(CLI::App& app, int& exitCode)
     {
       arguments->HasNull = null->count() > 0;
       arguments->HasNoData = noData->count() > 0;
-      if (arguments->Dimensions.empty() && arguments->Delta.empty())
-      {
-        throw CLI::ValidationError("--dims", "or --delta is required");
-      }
+      refuseIf(arguments->Dimensions.empty() && arguments->Delta.empty(), "--dims",
+        "or --delta is required");
       if (extensionOf(arguments->Output) == ".npy" && arguments->Arrays.empty())
       {
         arguments->Arrays = { "elevation" };
       }
-      if (extensionOf(arguments->Output) == ".npy" && arguments->Arrays.size() != 1)
-      {
-        throw CLI::ValidationError("--arrays", "must name one array for an .npy file");
-      }
+      refuseIf(extensionOf(arguments->Output) == ".npy" && arguments->Arrays.size() != 1,
+        "--arrays", "must name one array for an .npy file");
       exitCode = runResample(*arguments);
     });
 }

@@ -334,6 +334,18 @@ TEST(Tetrahedralize, ClosePointsAreMerged)
   EXPECT_EQ(cellsOfCgal(points), sortedCells(mesh));
 }
 
+TEST(Tetrahedralize, PointsInTheMiddleOfAGridCellAreMerged)
+{
+  // Cells of the grid are 2 wide. The second point is in the middle of the first one's cell along
+  // x, and both neighbouring cells are within its reach.
+  const std::vector<Point3> points = { { 3.4, 0, 0 }, { 3, 0, 0 }, { 9, 0, 0 }, { 0, 9, 0 },
+    { 0, 0, 9 } };
+  const Tetrahedralization mesh = tetrahedralizeMerged(points.data(), points.size(), 1);
+  ASSERT_EQ(1U, mesh.Duplicates.size());
+  EXPECT_EQ(1, mesh.Duplicates[0].Point);
+  EXPECT_EQ(0, mesh.Duplicates[0].Representative);
+}
+
 TEST(DelaunayKernel3, UsesAtMost45BytesPerTetrahedron)
 {
   const auto points = pointsInSpace("uniform", 50000);

@@ -82,13 +82,3 @@ TEST(BlockCache, AgreesWithAListOnRandomUse)
     }
   }
 }
-
-TEST(BlockCache, ForgetsABlockThatCouldNotBeRead)
-{
-  BlockCache cache(3);
-  const auto first = cache.use(1);
-  cache.use(2);
-  cache.forget(first.Slot);
-  EXPECT_TRUE(cache.use(1).Miss);
-  EXPECT_FALSE(cache.use(2).Miss);
-}

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippSortUnique_h
+#define tippSortUnique_h
+
+#include <algorithm>
+#include <vector>
+
+namespace tipp
+{
+
+/// Sorts the items and removes repeated ones.
+template <typename Item>
+void sortUnique(std::vector<Item>& items)
+{
+  std::sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
+}
+
+} // namespace tipp
+
+#endif
