@@ -132,6 +132,7 @@ bool areCollinear(PointsView points)
 std::vector<Duplicate> sortOutDuplicates(PointsView points)
 {
   std::vector<PointId> order;
+  order.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     if (isFinite(points[i]))
