@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace tipp
@@ -410,17 +411,13 @@ private:
     return false;
   }
 
-  void publish(PartitionIndex partition, const std::vector<std::array<Point2, 2>>& border)
+  void publish(PartitionIndex partition, const std::vector<Box2>& border)
   {
     Interior interior;
-    const auto unscaled = [scale = 1 / this->Factor](Point2 p) // a power of two
-    {
-      return Point2{ p.x * scale, p.y * scale };
-    };
     interior.Border.reserve(border.size());
-    for (const auto& [from, to] : border)
+    for (const Box2& edge : border)
     {
-      interior.Border.push_back({ unscaled(from), unscaled(to) });
+      interior.Border.push_back(scaled(edge, 1 / this->Factor)); // exact: a power of two
     }
     sortUnique(this->Noted);
     std::size_t at = 0;
@@ -473,29 +470,20 @@ bool PartitionConstraints::mayEnter(const SegmentTree& tree, PartitionIndex part
   const std::function<std::int64_t(std::int64_t)>& pieceOf) const
 {
   const auto& border = this->interiorOf(partition).Border;
-  Box2 box{ -HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL };
-  for (std::size_t i = 0; i < border.size(); ++i)
-  {
-    const Box2 edge = boxOf(border[i][0], border[i][1]);
-    box = i == 0 ? edge : unionOf(box, edge);
-  }
+  const Box2 all{ -HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL };
+  const Box2 box =
+    border.empty() ? all : std::accumulate(border.begin(), border.end(), border.front(), unionOf);
   bool isNear = false;
   tree.visitNear(box,
     [&](const SegmentTree::Item& item)
     {
       const std::int64_t piece = pieceOf(item.Id);
-      if (piece >= 0 && this->isKnown(piece, partition))
-      {
-        return true;
-      }
       // Unless an end is a duplicate, no end is a vertex of an interior triangle.
-      isNear = border.empty() || (piece >= 0 && this->mayEndAtDuplicate(piece)) ||
-        std::any_of(border.begin(), border.end(),
-          [&item](const auto& edge)
-          {
-            const Box2 near = boxOf(edge[0], edge[1]);
-            return overlap(boxOf(item.A, item.B), near) && lineMayMeet(item.A, item.B, near);
-          });
+      isNear = !(piece >= 0 && this->isKnown(piece, partition)) &&
+        (border.empty() || (piece >= 0 && this->mayEndAtDuplicate(piece)) ||
+          std::any_of(border.begin(), border.end(),
+            [&item](const Box2& edge)
+            { return overlap(boxOf(item.A, item.B), edge) && lineMayMeet(item.A, item.B, edge); }));
       return !isNear;
     });
   return isNear;
