@@ -16,6 +16,14 @@ void sortUnique(std::vector<Item>& items)
   items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
+/// The items, sorted and without repetition.
+template <typename Item>
+std::vector<Item> sortedUnique(std::vector<Item> items)
+{
+  sortUnique(items);
+  return items;
+}
+
 } // namespace tipp
 
 #endif

@@ -38,9 +38,7 @@ std::size_t segmentBegin(const CrossedPart& part, std::size_t triangle)
 /// The segments that cross triangles of the part, ascending.
 std::vector<std::int64_t> segmentsOf(const CrossedPart& part)
 {
-  std::vector<std::int64_t> segments = part.Segments;
-  sortUnique(segments);
-  return segments;
+  return sortedUnique(part.Segments);
 }
 
 /// Sorts the part's known segments and removes repeated ones.

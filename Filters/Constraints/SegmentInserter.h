@@ -24,10 +24,11 @@ namespace tipp
 /// the segment's part for the two halves of the chain. All vertices of a half are beyond its side,
 /// since their lines of sight cross it.
 ///
-/// The recursion takes quadratic time at worst, and an edge that is in a chain twice has two
-/// equal circles. So other chains lose ears until only the segment remains: three consecutive
-/// vertices that turn away from the segment enclose no other, because of the lines of sight. Then
-/// edges are flipped until all are locally Delaunay, as in CGAL's triangulation.
+/// The recursion takes quadratic time at worst, and cannot tell the two places of a vertex in a
+/// chain that goes along an edge and back. So ears are cut off other chains until only the segment
+/// remains: three consecutive vertices that turn away from the segment enclose no other, because of
+/// the lines of sight. Then edges are flipped until all are locally Delaunay, as in CGAL's
+/// triangulation.
 ///
 /// `Mesh` has counter-clockwise triangles, whose half-edge half(triangle, i) goes from corner i to
 /// the next. For half-edges it has next(), previous(), from(), to(), twin() and triangleOf().
@@ -166,7 +167,7 @@ private:
     return { to, this->makeTriangle(mesh, first, from, second), None, false, false };
   }
 
-  /// As fill(), for all chains.
+  /// As fill(), for any chain. The edges inside are not locally Delaunay until legalize().
   Index cutEars(Mesh& mesh, Index from, const Chain& chain)
   {
     // The vertex before the first link is `from`. The remaining links overwrite the start of the

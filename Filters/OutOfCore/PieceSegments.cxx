@@ -50,12 +50,6 @@ void PieceSegments::save(SaveArchive& archive) const
   archive(this->Rows.content(), this->Cutting.list());
 }
 
-/// Returns a box of segments in the plan's coordinates.
-Box2 PieceSegments::planned(const Box2& box) const
-{
-  return scaled(box, this->Factor);
-}
-
 PieceSegments::Written PieceSegments::write(const std::string& file, const PiecePlan& plan,
   double factor, const std::function<void(const VisitSegment&)>& forEach, int threads)
 {
@@ -144,7 +138,7 @@ ConstraintSegments PieceSegments::readNear(const std::vector<Box2>& boxes) const
   {
     items.push_back({ { box.xmin, box.ymin }, { box.xmax, box.ymax }, 0 });
     this->Plan.Pieces.visitNear(
-      this->planned(box), [&pieces](PartitionIndex piece) { pieces.insert(piece); });
+      scaled(box, this->Factor), [&pieces](PartitionIndex piece) { pieces.insert(piece); });
   }
   const SegmentTree tree(std::move(items));
   std::vector<ConstraintSegment> segments;

@@ -72,7 +72,6 @@ private:
     const std::string& file, const PiecePlan& plan, double factor, const Written& written);
   static Written write(const std::string& file, const PiecePlan& plan, double factor,
     const std::function<void(const VisitSegment&)>& forEach, int threads);
-  Box2 planned(const Box2& box) const;
   void visit(PartitionIndex piece, const std::function<void(const Row&)>& visit) const;
 
   const PiecePlan& Plan;

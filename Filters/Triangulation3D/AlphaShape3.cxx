@@ -66,12 +66,6 @@ std::array<Edge, 6> edgesOf(const std::int32_t* cell)
   return { edge(0, 1), edge(0, 2), edge(0, 3), edge(1, 2), edge(1, 3), edge(2, 3) };
 }
 
-template <typename Cell>
-void keepUnique(std::vector<Cell>& cells)
-{
-  sortUnique(cells);
-}
-
 /// Returns the cells that are not in `others`; both lists are sorted.
 template <typename Cell>
 std::vector<Cell> without(const std::vector<Cell>& cells, const std::vector<Cell>& others)
@@ -178,16 +172,16 @@ AlphaShape3 alphaShape(
     out = kept[t] != 0 ? std::copy_n(&mesh.Ids[4 * t], 4, out) : out;
   }
   Faces faces = facesOf(mesh, kept, points, count, square);
-  keepUnique(faces.Facets);
-  keepUnique(faces.KeptFacets);
+  sortUnique(faces.Facets);
+  sortUnique(faces.KeptFacets);
   const std::vector<Facet> triangles = without(faces.Facets, faces.KeptFacets);
   for (const Facet& f : triangles)
   {
     faces.KeptEdges.insert(
       faces.KeptEdges.end(), { Edge{ f[0], f[1] }, Edge{ f[0], f[2] }, Edge{ f[1], f[2] } });
   }
-  keepUnique(faces.Edges);
-  keepUnique(faces.KeptEdges);
+  sortUnique(faces.Edges);
+  sortUnique(faces.KeptEdges);
   shape.Triangles = joined(triangles);
   shape.Lines = joined(without(faces.Edges, faces.KeptEdges));
   std::vector<char> covered(count, 0);

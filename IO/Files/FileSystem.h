@@ -40,8 +40,8 @@ struct RemovedFile
   const std::string Path;
 };
 
-/// Throws IOError unless the disk of a folder has `needed` bytes free, for making what is to be at
-/// `path`.
+/// Throws IOError, about the output `path`, if the disk of a folder has less free space than the
+/// `needed` bytes.
 inline void requireFreeSpace(
   const std::string& path, const std::string& folder, std::uint64_t needed)
 {

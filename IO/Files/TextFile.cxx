@@ -207,11 +207,12 @@ std::int64_t LineReader::remainingLines() const
   return 1 + std::count(this->Rest.begin(), this->Rest.end(), '\n');
 }
 
-std::string lowerCase(std::string text)
+std::string lowerCase(std::string_view text)
 {
-  std::transform(text.begin(), text.end(), text.begin(),
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
+  return lower;
 }
 
 std::string_view trimField(std::string_view field)

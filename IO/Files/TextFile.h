@@ -45,7 +45,7 @@ private:
 };
 
 /// The text with lower-case letters; letters beyond ASCII stay.
-std::string lowerCase(std::string text);
+std::string lowerCase(std::string_view text);
 
 /// The number that the whole text is, without blanks around it; nullopt for other text.
 template <typename Number>

@@ -167,8 +167,7 @@ private:
   /// Finds each borrowed point's index in the piece: among its own points, or after them.
   void matchPoints(const std::vector<std::int64_t>& ids, const std::int64_t* ownIds)
   {
-    std::vector<std::int64_t> distinct = ids;
-    sortUnique(distinct);
+    const std::vector<std::int64_t> distinct = sortedUnique(ids);
     const GlobalIdMap borrowed(distinct.data(), nullptr, distinct.size());
     std::vector<std::int64_t> indices(distinct.size(), -1);
     const std::int64_t own = this->Own.summary().Points;

@@ -95,11 +95,6 @@ namespace
 
 using Ids = std::vector<std::int64_t>;
 
-void makeUnique(Ids& ids)
-{
-  sortUnique(ids);
-}
-
 /// A connection between two cells or two components.
 struct Link
 {
@@ -133,7 +128,7 @@ public:
     : Cells(std::move(cells))
     , Parent(Cells.size())
   {
-    makeUnique(this->Cells);
+    sortUnique(this->Cells);
     this->Parent.resize(this->Cells.size());
     std::iota(this->Parent.begin(), this->Parent.end(), std::size_t(0));
   }
@@ -291,13 +286,13 @@ RankComponents componentsOnRanks(Communicator& ranks, const ResidentMesh& mesh)
     result.OfCells.push_back(rootOf(own.rootOf(cell)));
   }
   roots = result.OfCells;
-  makeUnique(roots);
+  sortUnique(roots);
   Ids all;
   for (const Ids& part : ranks.allGather(roots))
   {
     all.insert(all.end(), part.begin(), part.end());
   }
-  makeUnique(all);
+  sortUnique(all);
   result.Sizes.assign(all.size(), 0);
   for (std::int64_t& component : result.OfCells)
   {

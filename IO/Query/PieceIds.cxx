@@ -42,8 +42,7 @@ std::vector<std::int64_t> PieceIds::read(std::size_t piece, bool ofPoints) const
 std::vector<std::int32_t> PieceIds::find(const std::vector<std::int64_t>& ids, bool ofPoints,
   int threads, std::size_t firstPiece, std::size_t endPiece) const
 {
-  std::vector<std::int64_t> asked = ids;
-  sortUnique(asked);
+  const std::vector<std::int64_t> asked = sortedUnique(ids);
   const GlobalIdMap map(asked.data(), nullptr, asked.size());
   std::vector<std::int32_t> owners(asked.size(), -1);
   std::vector<Range> ranges;

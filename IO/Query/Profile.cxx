@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Arrays/SortUnique.h"
 #include "Files/IOError.h"
 #include "Query/Lines.h"
 #include "Query/RankAnswer.h"
@@ -226,7 +227,7 @@ Profile profileOnRanks(Communicator& ranks, const ResidentMesh& mesh,
         result[i].insert(result[i].end(), part[i].begin(), part[i].end());
       }
     }
-    std::for_each(result.begin(), result.end(), orderCrossings);
+    std::for_each(result.begin(), result.end(), sortUnique<Crossing>);
     return result;
   };
   return profileOf(source, polyline, spacing, arrays);

@@ -72,12 +72,6 @@ void serialize(Archive& archive, ListReply& reply)
   archive(reply.Known, reply.Lists.Starts, reply.Lists.Ids);
 }
 
-inline Ids sortedUnique(Ids ids)
-{
-  sortUnique(ids);
-  return ids;
-}
-
 inline Ids without(const Ids& ids, const Ids& others)
 {
   Ids result;

@@ -248,11 +248,6 @@ void addCells(const Access& access, const MeshPart& part, SegmentCrossings& cros
 
 } // namespace
 
-void orderCrossings(std::vector<Crossing>& crossings)
-{
-  sortUnique(crossings);
-}
-
 std::vector<std::vector<Crossing>> crossingsIn(const ResidentMesh& mesh,
   const std::vector<Point3>& polyline, const std::vector<std::string>& arrays, std::size_t first,
   std::size_t end)
@@ -301,7 +296,7 @@ std::vector<std::vector<Crossing>> crossingsIn(const ResidentMesh& mesh,
     });
   for (std::vector<Crossing>& list : result)
   {
-    orderCrossings(list);
+    sortUnique(list);
   }
   return result;
 }

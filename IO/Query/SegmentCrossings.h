@@ -44,9 +44,6 @@ std::vector<std::vector<Crossing>> crossingsIn(const ResidentMesh& mesh,
   const std::vector<Point3>& polyline, const std::vector<std::string>& arrays, std::size_t first,
   std::size_t end);
 
-/// Sorts the crossings of one segment and removes repeated ones.
-void orderCrossings(std::vector<Crossing>& crossings);
-
 } // namespace tipp
 
 #endif

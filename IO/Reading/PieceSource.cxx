@@ -92,12 +92,6 @@ std::vector<std::int64_t> united(
   return all;
 }
 
-std::vector<std::int64_t> distinct(std::vector<std::int64_t> ids)
-{
-  sortUnique(ids);
-  return ids;
-}
-
 Buffer<char> bufferOf(const std::vector<std::int64_t>& values)
 {
   Buffer<char> buffer(values.size() * sizeof(std::int64_t));
@@ -312,9 +306,9 @@ std::vector<Piece> FlatPieces::read(
 Piece FlatPieces::finish(const Draft& draft, const PieceOptions& options) const
 {
   Piece piece;
-  const std::vector<std::int64_t> owned = united(draft.OwnPoints, distinct(draft.Corners));
+  const std::vector<std::int64_t> owned = united(draft.OwnPoints, sortedUnique(draft.Corners));
   std::vector<std::int64_t> ghosts;
-  const std::vector<std::int64_t> ofBorrowed = distinct(draft.BorrowedCorners);
+  const std::vector<std::int64_t> ofBorrowed = sortedUnique(draft.BorrowedCorners);
   std::set_difference(
     ofBorrowed.begin(), ofBorrowed.end(), owned.begin(), owned.end(), std::back_inserter(ghosts));
   piece.CellSize = this->Flat.CellSize;

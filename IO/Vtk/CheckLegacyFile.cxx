@@ -23,11 +23,6 @@ namespace
 constexpr const char* advice = "; copy or write it again.";
 using Words = std::vector<std::string_view>;
 
-std::string lower(std::string_view word)
-{
-  return lowerCase(std::string(word));
-}
-
 bool isBlank(char letter)
 {
   return letter == ' ' || letter == '\t' || letter == '\r' || letter == '\n';
@@ -67,11 +62,11 @@ public:
       this->At = std::min(end + 1, text.size());
       if (line == 2)
       {
-        this->Binary = !words.empty() && lower(words[0]) == "binary";
+        this->Binary = !words.empty() && lowerCase(words[0]) == "binary";
       }
       if (line > 2 && words.size() > 1)
       {
-        this->take(lower(words[0]), words);
+        this->take(lowerCase(words[0]), words);
       }
       at = this->At;
     }
@@ -136,7 +131,7 @@ private:
     {
       this->takeDimensions(words);
     }
-    else if (words.size() == 4 && isType(lower(words[3])))
+    else if (words.size() == 4 && isType(lowerCase(words[3])))
     {
       const double components = this->count(words, 1);
       this->count(words, 2, std::max(components, 1.0));
@@ -181,7 +176,7 @@ private:
   {
     const std::string_view rest = std::string_view(this->Text).substr(this->At);
     const Words next = wordsOf(rest.substr(0, std::min(rest.find('\n'), rest.size())));
-    if (!next.empty() && lower(next[0]) == "offsets")
+    if (!next.empty() && lowerCase(next[0]) == "offsets")
     {
       return;
     }
