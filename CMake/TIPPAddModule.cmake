@@ -1,17 +1,19 @@
-# tipp_add_module(<name> [CLASSES <class>...] [NEEDS <module>...] CORE <source>... VTK <source>...
+# tipp_add_module(<name> [CLASSES <class>...] [HEADERS <header>...] [NEEDS <module>...] CORE <source>... VTK <source>...
 #   [WITHOUT_VTK <source>...])
-# Adds a VTK module of the CORE and VTK sources. In the build for the Python wheel, which has no VTK, a static library of
+# Adds a VTK module of the CORE and VTK sources; HEADERS are installed beside those of the CLASSES. In the build for the Python wheel, which has no VTK, a static library of
 # the CORE and WITHOUT_VTK sources, linked with the modules that it NEEDS (for VTK, these are in vtk.module).
 function (tipp_add_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "CLASSES;NEEDS;CORE;VTK;WITHOUT_VTK")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "CLASSES;HEADERS;NEEDS;CORE;VTK;WITHOUT_VTK")
   foreach (source IN LISTS arg_CORE arg_WITHOUT_VTK) # a test reads this list
     set_property(GLOBAL APPEND PROPERTY TIPP_WHEEL_SOURCES "${CMAKE_CURRENT_SOURCE_DIR}/${source}")
   endforeach ()
   if (NOT TIPP_BUILD_WHEEL)
-    if (arg_CLASSES)
-      list(PREPEND arg_CLASSES CLASSES)
-    endif ()
-    vtk_module_add_module(${name} ${arg_CLASSES} SOURCES ${arg_CORE} ${arg_VTK})
+    foreach (list IN ITEMS CLASSES HEADERS)
+      if (arg_${list})
+        list(PREPEND arg_${list} ${list})
+      endif ()
+    endforeach ()
+    vtk_module_add_module(${name} ${arg_CLASSES} ${arg_HEADERS} SOURCES ${arg_CORE} ${arg_VTK})
     return ()
   endif ()
   string(REPLACE "TIPP::" "" target "${name}")

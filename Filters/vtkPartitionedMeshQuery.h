@@ -36,6 +36,7 @@
 
 #include "vtkDataSetAlgorithm.h"
 #include "vtkTIPPFiltersModule.h" // For export macro
+#include "vtkTIPPSetGet.h"        // For property macros
 
 #include <functional> // For Direct
 #include <memory>     // For Mesh
@@ -91,8 +92,7 @@ public:
    * The memory limit, in bytes, for pieces of a stored mesh and their search structures. A query
    * that needs more for a single piece is an error. Default: 2^30.
    */
-  vtkSetClampMacro(MemoryLimit, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
-  vtkGetMacro(MemoryLimit, vtkTypeInt64);
+  vtkTIPPClampedMacro(MemoryLimit, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
   ///@}
 
   ///@{
@@ -100,8 +100,7 @@ public:
    * The time step at which a stored mesh's time-varying arrays are evaluated, as an index from 0.
    * Default: 0.
    */
-  vtkSetClampMacro(Step, int, 0, VTK_INT_MAX);
-  vtkGetMacro(Step, int);
+  vtkTIPPClampedMacro(Step, int, 0, VTK_INT_MAX);
   ///@}
 
   ///@{
@@ -128,15 +127,9 @@ public:
    * Whether the first input's point, cell and field arrays are passed to the output. Default: on
    * for field arrays, off for the others, as in vtkProbeFilter.
    */
-  vtkSetMacro(PassPointArrays, bool);
-  vtkGetMacro(PassPointArrays, bool);
-  vtkBooleanMacro(PassPointArrays, bool);
-  vtkSetMacro(PassCellArrays, bool);
-  vtkGetMacro(PassCellArrays, bool);
-  vtkBooleanMacro(PassCellArrays, bool);
-  vtkSetMacro(PassFieldArrays, bool);
-  vtkGetMacro(PassFieldArrays, bool);
-  vtkBooleanMacro(PassFieldArrays, bool);
+  vtkTIPPSwitchMacro(PassPointArrays, bool);
+  vtkTIPPSwitchMacro(PassCellArrays, bool);
+  vtkTIPPSwitchMacro(PassFieldArrays, bool);
   ///@}
 
   ///@{
@@ -151,8 +144,7 @@ public:
   /**
    * Number of threads. Default 0: OpenMP's default.
    */
-  vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
-  vtkGetMacro(NumberOfThreads, int);
+  vtkTIPPClampedMacro(NumberOfThreads, int, 0, 4096);
   ///@}
 
   ///@{
@@ -292,8 +284,8 @@ protected:
   vtkPartitionedMeshQuery();
   ~vtkPartitionedMeshQuery() override;
 
-  vtkExecutive* CreateDefaultExecutive() override;
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  vtkExecutive* CreateDefaultExecutive() override;
   int RequestUpdateExtent(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*) override;
   int RequestData(

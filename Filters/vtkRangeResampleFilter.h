@@ -61,6 +61,7 @@
 #include "vtkImageAlgorithm.h"
 #include "vtkNew.h"               // For the table
 #include "vtkTIPPFiltersModule.h" // For export macro
+#include "vtkTIPPSetGet.h"        // For property macros
 
 #include <array>  // For dimensions
 #include <vector> // For the meshes of an input
@@ -97,9 +98,7 @@ public:
   /**
    * Whether the range is the bounding box of the input (the default) and SamplingBounds is ignored.
    */
-  vtkSetMacro(UseInputBounds, bool);
-  vtkGetMacro(UseInputBounds, bool);
-  vtkBooleanMacro(UseInputBounds, bool);
+  vtkTIPPSwitchMacro(UseInputBounds, bool);
   ///@}
 
   ///@{
@@ -156,9 +155,7 @@ public:
    * value NoDataValue at one of its corners, which is how storm-surge models mark dry nodes. -99999
    * by default.
    */
-  vtkSetMacro(UseNoDataValue, bool);
-  vtkGetMacro(UseNoDataValue, bool);
-  vtkBooleanMacro(UseNoDataValue, bool);
+  vtkTIPPSwitchMacro(UseNoDataValue, bool);
   vtkSetMacro(NoDataValue, double);
   vtkGetMacro(NoDataValue, double);
   ///@}
@@ -169,18 +166,14 @@ public:
    * is omitted if all points have the same z, if the input has an array of that name, if
    * PointDataArraySelection disables it, or if the surface is not projected along z.
    */
-  vtkSetMacro(SampleElevation, bool);
-  vtkGetMacro(SampleElevation, bool);
-  vtkBooleanMacro(SampleElevation, bool);
+  vtkTIPPSwitchMacro(SampleElevation, bool);
   ///@}
 
   ///@{
   /**
    * Whether the input's field data is passed on. On by default.
    */
-  vtkSetMacro(PassFieldArrays, bool);
-  vtkGetMacro(PassFieldArrays, bool);
-  vtkBooleanMacro(PassFieldArrays, bool);
+  vtkTIPPSwitchMacro(PassFieldArrays, bool);
   ///@}
 
   ///@{
@@ -188,8 +181,7 @@ public:
    * A DeviceType; DEVICE_AUTO by default. The results of the devices differ by at most 1e-12 of the
    * largest value at the cell's corners.
    */
-  vtkSetClampMacro(Device, int, DEVICE_AUTO, DEVICE_OPENCL);
-  vtkGetMacro(Device, int);
+  vtkTIPPClampedMacro(Device, int, DEVICE_AUTO, DEVICE_OPENCL);
   ///@}
 
   ///@{
@@ -219,8 +211,7 @@ public:
   /**
    * The number of OpenMP threads. 0 (the default): OpenMP's choice.
    */
-  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
-  vtkGetMacro(NumberOfThreads, int);
+  vtkTIPPClampedMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   ///@}
 
   ///@{
@@ -228,8 +219,7 @@ public:
    * How many pieces each rank requests from its input, one after another. 1 by default. With more,
    * UseInputBounds must be off.
    */
-  vtkSetClampMacro(NumberOfInputPieces, int, 1, VTK_INT_MAX);
-  vtkGetMacro(NumberOfInputPieces, int);
+  vtkTIPPClampedMacro(NumberOfInputPieces, int, 1, VTK_INT_MAX);
   ///@}
 
   ///@{
@@ -246,9 +236,7 @@ public:
    * Whether rank 0 gets the whole image and the others an empty one. Off by default: each rank gets
    * the extent requested from it.
    */
-  vtkSetMacro(GatherOnRoot, bool);
-  vtkGetMacro(GatherOnRoot, bool);
-  vtkBooleanMacro(GatherOnRoot, bool);
+  vtkTIPPSwitchMacro(GatherOnRoot, bool);
   ///@}
 
   /**

@@ -96,6 +96,7 @@
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkSmartPointer.h"      // For smart pointer
 #include "vtkTIPPFiltersModule.h" // For export macro
+#include "vtkTIPPSetGet.h"        // For property macros
 
 class vtkAbstractTransform;
 class vtkAlgorithmOutput;
@@ -179,9 +180,7 @@ public:
    * the input's points, with the source's point data. Point arrays that the source lacks are then
    * omitted, with a warning. Off by default: the source's cells refer to the input's points.
    */
-  vtkSetMacro(MergeSourcePoints, vtkTypeBool);
-  vtkGetMacro(MergeSourcePoints, vtkTypeBool);
-  vtkBooleanMacro(MergeSourcePoints, vtkTypeBool);
+  vtkTIPPSwitchMacro(MergeSourcePoints, vtkTypeBool);
   ///@}
 
   ///@{
@@ -189,9 +188,7 @@ public:
    * Whether constraints that cross are split at a new point. If off, crossing constraints are an
    * error. On by default.
    */
-  vtkSetMacro(SplitCrossings, vtkTypeBool);
-  vtkGetMacro(SplitCrossings, vtkTypeBool);
-  vtkBooleanMacro(SplitCrossings, vtkTypeBool);
+  vtkTIPPSwitchMacro(SplitCrossings, vtkTypeBool);
   ///@}
 
   ///@{
@@ -203,8 +200,7 @@ public:
    * three components, 1 if the edge opposite to that corner of the triangle is part of a
    * constraint, else 0. With Alpha constraints are not marked, and a warning is issued.
    */
-  vtkSetClampMacro(ConstraintMarks, int, NO_MARKS, EDGE_FLAGS);
-  vtkGetMacro(ConstraintMarks, int);
+  vtkTIPPClampedMacro(ConstraintMarks, int, NO_MARKS, EDGE_FLAGS);
   ///@}
 
   ///@{
@@ -215,8 +211,17 @@ public:
    * long and belong to no output triangle; and the remaining points as vertices. Lengths are
    * measured in space, not in the plane.
    */
-  vtkSetClampMacro(Alpha, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(Alpha, double);
+  vtkTIPPClampedMacro(Alpha, double, 0.0, VTK_DOUBLE_MAX);
+  ///@}
+
+  ///@{
+  /**
+   * Which kinds of cells are output if Alpha is not 0. Each switch affects only its own kind. All
+   * are on by default.
+   */
+  vtkTIPPSwitchMacro(AlphaTris, vtkTypeBool);
+  vtkTIPPSwitchMacro(AlphaLines, vtkTypeBool);
+  vtkTIPPSwitchMacro(AlphaVerts, vtkTypeBool);
   ///@}
 
   ///@{
@@ -225,56 +230,16 @@ public:
    * removed; their points stay. 0 (the default): no limit. Unlike Alpha, it adds no lines or
    * vertices.
    */
-  vtkSetClampMacro(MaximumEdgeLength, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(MaximumEdgeLength, double);
+  vtkTIPPClampedMacro(MaximumEdgeLength, double, 0.0, VTK_DOUBLE_MAX);
   ///@}
 
   ///@{
   /**
-   * Which kinds of cells are output if Alpha is not 0. Each switch affects only its own kind. All
-   * are on by default.
+   * The plane of the triangulation. VTK_DELAUNAY_XY_PLANE (the default): x and y of the points,
+   * transformed by Transform if there is one. VTK_SET_TRANSFORM_PLANE: the same, but it is an error
+   * if there is no Transform. VTK_BEST_FITTING_PLANE: see ComputeBestFittingPlane.
    */
-  vtkSetMacro(AlphaTris, vtkTypeBool);
-  vtkGetMacro(AlphaTris, vtkTypeBool);
-  vtkBooleanMacro(AlphaTris, vtkTypeBool);
-  vtkSetMacro(AlphaLines, vtkTypeBool);
-  vtkGetMacro(AlphaLines, vtkTypeBool);
-  vtkBooleanMacro(AlphaLines, vtkTypeBool);
-  vtkSetMacro(AlphaVerts, vtkTypeBool);
-  vtkGetMacro(AlphaVerts, vtkTypeBool);
-  vtkBooleanMacro(AlphaVerts, vtkTypeBool);
-  ///@}
-
-  ///@{
-  /**
-   * A point within this distance of a kept point of lower id, in the plane, is merged into it. The
-   * distance is a fraction of the diagonal of the points' bounding box. 0 (the default) merges only
-   * points at the same position. Other values cost a serial pass over the points.
-   */
-  vtkSetClampMacro(Tolerance, double, 0.0, 1.0);
-  vtkGetMacro(Tolerance, double);
-  ///@}
-
-  ///@{
-  /**
-   * The radius of the circle of the BoundingTriangulation's points, as a multiple of the diagonal
-   * of the points' bounding box. 1 by default. Without BoundingTriangulation it has no effect: the
-   * border is always the convex hull.
-   */
-  vtkSetClampMacro(Offset, double, 0.75, VTK_DOUBLE_MAX);
-  vtkGetMacro(Offset, double);
-  ///@}
-
-  ///@{
-  /**
-   * Whether eight points on a circle around all others are triangulated too. The output then has
-   * its own double-precision points, with the eight after the input's, and none of the input's
-   * point data, since the eight have no values. It applies to the x-y plane only: with a transform
-   * or the best fitting plane it is ignored, with a warning. Off by default.
-   */
-  vtkSetMacro(BoundingTriangulation, vtkTypeBool);
-  vtkGetMacro(BoundingTriangulation, vtkTypeBool);
-  vtkBooleanMacro(BoundingTriangulation, vtkTypeBool);
+  vtkTIPPClampedMacro(ProjectionPlaneMode, int, VTK_DELAUNAY_XY_PLANE, VTK_BEST_FITTING_PLANE);
   ///@}
 
   ///@{
@@ -284,16 +249,6 @@ public:
    */
   virtual void SetTransform(vtkAbstractTransform*);
   vtkGetObjectMacro(Transform, vtkAbstractTransform);
-  ///@}
-
-  ///@{
-  /**
-   * The plane of the triangulation. VTK_DELAUNAY_XY_PLANE (the default): x and y of the points,
-   * transformed by Transform if there is one. VTK_SET_TRANSFORM_PLANE: the same, but it is an error
-   * if there is no Transform. VTK_BEST_FITTING_PLANE: see ComputeBestFittingPlane.
-   */
-  vtkSetClampMacro(ProjectionPlaneMode, int, VTK_DELAUNAY_XY_PLANE, VTK_BEST_FITTING_PLANE);
-  vtkGetMacro(ProjectionPlaneMode, int);
   ///@}
 
   /**
@@ -306,14 +261,40 @@ public:
 
   ///@{
   /**
+   * A point within this distance of a kept point of lower id, in the plane, is merged into it. The
+   * distance is a fraction of the diagonal of the points' bounding box. 0 (the default) merges only
+   * points at the same position. Other values cost a serial pass over the points.
+   */
+  vtkTIPPClampedMacro(Tolerance, double, 0.0, 1.0);
+  ///@}
+
+  ///@{
+  /**
+   * The radius of the circle of the BoundingTriangulation's points, as a multiple of the diagonal
+   * of the points' bounding box. 1 by default. Without BoundingTriangulation it has no effect: the
+   * border is always the convex hull.
+   */
+  vtkTIPPClampedMacro(Offset, double, 0.75, VTK_DOUBLE_MAX);
+  ///@}
+
+  ///@{
+  /**
+   * Whether eight points on a circle around all others are triangulated too. The output then has
+   * its own double-precision points, with the eight after the input's, and none of the input's
+   * point data, since the eight have no values. It applies to the x-y plane only: with a transform
+   * or the best fitting plane it is ignored, with a warning. Off by default.
+   */
+  vtkTIPPSwitchMacro(BoundingTriangulation, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
    * Whether an output with merged or rejected points gets the point array "RepresentativePointId"
    * (vtkIdTypeArray): for each point its own id; for a merged point, the id of the point it was
    * merged into; for a rejected point, -1. On by default. Without merged or rejected points the
    * array is never added.
    */
-  vtkSetMacro(GenerateRepresentativeIds, vtkTypeBool);
-  vtkGetMacro(GenerateRepresentativeIds, vtkTypeBool);
-  vtkBooleanMacro(GenerateRepresentativeIds, vtkTypeBool);
+  vtkTIPPSwitchMacro(GenerateRepresentativeIds, vtkTypeBool);
   ///@}
 
   ///@{
@@ -322,9 +303,7 @@ public:
    * each corner of a triangle, the id of the triangle across the opposite edge, or -1 at the
    * border. With Alpha the array is omitted, with a warning. Off by default.
    */
-  vtkSetMacro(GenerateNeighborIds, vtkTypeBool);
-  vtkGetMacro(GenerateNeighborIds, vtkTypeBool);
-  vtkBooleanMacro(GenerateNeighborIds, vtkTypeBool);
+  vtkTIPPSwitchMacro(GenerateNeighborIds, vtkTypeBool);
   ///@}
 
   ///@{
@@ -341,16 +320,14 @@ public:
    * How many points of each partition are in the initial mesh. 0 (the default): chosen
    * automatically.
    */
-  vtkSetClampMacro(InitialPointsPerPartition, int, 0, VTK_INT_MAX);
-  vtkGetMacro(InitialPointsPerPartition, int);
+  vtkTIPPClampedMacro(InitialPointsPerPartition, int, 0, VTK_INT_MAX);
   ///@}
 
   ///@{
   /**
    * A ScheduleType; DYNAMIC by default.
    */
-  vtkSetClampMacro(Schedule, int, STAGES, PRODUCER_CONSUMER);
-  vtkGetMacro(Schedule, int);
+  vtkTIPPClampedMacro(Schedule, int, STAGES, PRODUCER_CONSUMER);
   void SetScheduleToStages() { this->SetSchedule(STAGES); }
   void SetScheduleToDynamic() { this->SetSchedule(DYNAMIC); }
   void SetScheduleToProducerConsumer() { this->SetSchedule(PRODUCER_CONSUMER); }
@@ -369,8 +346,7 @@ public:
   /**
    * On several ranks: a MastersType, AUTO_MASTERS by default.
    */
-  vtkSetClampMacro(Masters, int, AUTO_MASTERS, MULTI_MASTER);
-  vtkGetMacro(Masters, int);
+  vtkTIPPClampedMacro(Masters, int, AUTO_MASTERS, MULTI_MASTER);
   ///@}
 
   ///@{
@@ -385,24 +361,20 @@ public:
 
   ///@{
   /**
-   * On several ranks, if NumberOfPartitions is not given: a MinorDivisionType, TREE by default, and
-   * the target number of points per partition; 0 (the default): chosen automatically.
-   */
-  vtkSetClampMacro(MinorDivision, int, TREE, THRESHOLD);
-  vtkGetMacro(MinorDivision, int);
-  vtkSetClampMacro(PointsPerPartition, vtkIdType, 0, VTK_ID_MAX);
-  vtkGetMacro(PointsPerPartition, vtkIdType);
-  ///@}
-
-  ///@{
-  /**
    * On several ranks: whether every rank gets the same number of partitions, and every major
    * partition the same number of ranks, instead of numbers in proportion to points (equation 3.2).
    * Off by default.
    */
-  vtkSetMacro(EqualGroups, vtkTypeBool);
-  vtkGetMacro(EqualGroups, vtkTypeBool);
-  vtkBooleanMacro(EqualGroups, vtkTypeBool);
+  vtkTIPPSwitchMacro(EqualGroups, vtkTypeBool);
+  ///@}
+
+  ///@{
+  /**
+   * On several ranks, if NumberOfPartitions is not given: a MinorDivisionType, TREE by default, and
+   * the target number of points per partition; 0 (the default): chosen automatically.
+   */
+  vtkTIPPClampedMacro(MinorDivision, int, TREE, THRESHOLD);
+  vtkTIPPClampedMacro(PointsPerPartition, vtkIdType, 0, VTK_ID_MAX);
   ///@}
 
   ///@{
@@ -410,17 +382,14 @@ public:
    * On several ranks: whether the first rank's output gets all triangles and the others' are empty.
    * Off by default.
    */
-  vtkSetMacro(GatherOnFirstRank, vtkTypeBool);
-  vtkGetMacro(GatherOnFirstRank, vtkTypeBool);
-  vtkBooleanMacro(GatherOnFirstRank, vtkTypeBool);
+  vtkTIPPSwitchMacro(GatherOnFirstRank, vtkTypeBool);
   ///@}
 
   ///@{
   /**
    * The OpenMP threads to use. 0 (the default) leaves it to OpenMP: OMP_NUM_THREADS, or all cores.
    */
-  vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
-  vtkGetMacro(NumberOfThreads, int);
+  vtkTIPPClampedMacro(NumberOfThreads, int, 0, 4096);
   ///@}
 
   ///@{
@@ -451,32 +420,32 @@ protected:
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
+  vtkTypeBool MergeSourcePoints = false;
+  vtkTypeBool SplitCrossings = true;
+  int ConstraintMarks = NO_MARKS;
   double Alpha = 0;
+  vtkTypeBool AlphaTris = true;
+  vtkTypeBool AlphaLines = true;
+  vtkTypeBool AlphaVerts = true;
   double MaximumEdgeLength = 0;
-  vtkTypeBool AlphaTris = 1;
-  vtkTypeBool AlphaLines = 1;
-  vtkTypeBool AlphaVerts = 1;
+  int ProjectionPlaneMode = VTK_DELAUNAY_XY_PLANE;
+  vtkAbstractTransform* Transform = nullptr;
   double Tolerance = 0;
   double Offset = 1;
-  vtkTypeBool BoundingTriangulation = 0;
-  vtkAbstractTransform* Transform = nullptr;
-  int ProjectionPlaneMode = VTK_DELAUNAY_XY_PLANE;
-  vtkTypeBool GenerateRepresentativeIds = 1;
-  vtkTypeBool GenerateNeighborIds = 0;
-  vtkTypeBool MergeSourcePoints = 0;
-  vtkTypeBool SplitCrossings = 1;
-  int ConstraintMarks = NO_MARKS;
+  vtkTypeBool BoundingTriangulation = false;
+  vtkTypeBool GenerateRepresentativeIds = true;
+  vtkTypeBool GenerateNeighborIds = false;
   int NumberOfPartitions[2] = { 0, 0 };
   int InitialPointsPerPartition = 0;
   int Schedule = DYNAMIC;
-  int NumberOfThreads = 0;
   vtkMultiProcessController* Controller = nullptr;
   int Masters = AUTO_MASTERS;
   int NumberOfMajorPartitions[2] = { 0, 0 };
+  vtkTypeBool EqualGroups = false;
   int MinorDivision = TREE;
   vtkIdType PointsPerPartition = 0;
-  vtkTypeBool EqualGroups = 0;
-  vtkTypeBool GatherOnFirstRank = 0;
+  vtkTypeBool GatherOnFirstRank = false;
+  int NumberOfThreads = 0;
   vtkIdType NumberOfDuplicatePoints = 0;
   vtkIdType NumberOfRejectedPoints = 0;
 

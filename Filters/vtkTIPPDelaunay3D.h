@@ -67,6 +67,7 @@
 #define vtkTIPPDelaunay3D_h
 
 #include "vtkTIPPFiltersModule.h" // For export macro
+#include "vtkTIPPSetGet.h"        // For property macros
 #include "vtkUnstructuredGridAlgorithm.h"
 
 class vtkMultiProcessController;
@@ -98,8 +99,7 @@ public:
    *   belong to none of these cells;
    * - the remaining points as vertices.
    */
-  vtkSetClampMacro(Alpha, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(Alpha, double);
+  vtkTIPPClampedMacro(Alpha, double, 0.0, VTK_DOUBLE_MAX);
   ///@}
 
   ///@{
@@ -107,18 +107,10 @@ public:
    * Which kinds of cells are output if Alpha is not 0. Each switch affects only its own kind. All
    * are on by default.
    */
-  vtkSetMacro(AlphaTets, vtkTypeBool);
-  vtkGetMacro(AlphaTets, vtkTypeBool);
-  vtkBooleanMacro(AlphaTets, vtkTypeBool);
-  vtkSetMacro(AlphaTris, vtkTypeBool);
-  vtkGetMacro(AlphaTris, vtkTypeBool);
-  vtkBooleanMacro(AlphaTris, vtkTypeBool);
-  vtkSetMacro(AlphaLines, vtkTypeBool);
-  vtkGetMacro(AlphaLines, vtkTypeBool);
-  vtkBooleanMacro(AlphaLines, vtkTypeBool);
-  vtkSetMacro(AlphaVerts, vtkTypeBool);
-  vtkGetMacro(AlphaVerts, vtkTypeBool);
-  vtkBooleanMacro(AlphaVerts, vtkTypeBool);
+  vtkTIPPSwitchMacro(AlphaTets, vtkTypeBool);
+  vtkTIPPSwitchMacro(AlphaTris, vtkTypeBool);
+  vtkTIPPSwitchMacro(AlphaLines, vtkTypeBool);
+  vtkTIPPSwitchMacro(AlphaVerts, vtkTypeBool);
   ///@}
 
   ///@{
@@ -127,8 +119,7 @@ public:
    * fraction of the diagonal of the points' bounding box. 0 (the default) merges only points at the
    * same position. Other values cost a serial pass over the points.
    */
-  vtkSetClampMacro(Tolerance, double, 0.0, 1.0);
-  vtkGetMacro(Tolerance, double);
+  vtkTIPPClampedMacro(Tolerance, double, 0.0, 1.0);
   ///@}
 
   ///@{
@@ -136,8 +127,7 @@ public:
    * The distance of the BoundingTriangulation's points from the centre of the points' bounding box,
    * as a multiple of its diagonal. 2.5 by default. Without BoundingTriangulation it has no effect.
    */
-  vtkSetClampMacro(Offset, double, 2.5, VTK_DOUBLE_MAX);
-  vtkGetMacro(Offset, double);
+  vtkTIPPClampedMacro(Offset, double, 2.5, VTK_DOUBLE_MAX);
   ///@}
 
   ///@{
@@ -146,9 +136,7 @@ public:
    * then has its own double-precision points, with the six after the input's, and none of the
    * input's point data, since the six have no values. Off by default.
    */
-  vtkSetMacro(BoundingTriangulation, vtkTypeBool);
-  vtkGetMacro(BoundingTriangulation, vtkTypeBool);
-  vtkBooleanMacro(BoundingTriangulation, vtkTypeBool);
+  vtkTIPPSwitchMacro(BoundingTriangulation, vtkTypeBool);
   ///@}
 
   ///@{
@@ -158,9 +146,7 @@ public:
    * merged into; for a rejected point, -1. On by default. Without merged or rejected points the
    * array is never added.
    */
-  vtkSetMacro(GenerateRepresentativeIds, vtkTypeBool);
-  vtkGetMacro(GenerateRepresentativeIds, vtkTypeBool);
-  vtkBooleanMacro(GenerateRepresentativeIds, vtkTypeBool);
+  vtkTIPPSwitchMacro(GenerateRepresentativeIds, vtkTypeBool);
   ///@}
 
   ///@{
@@ -169,9 +155,7 @@ public:
    * corner of a tetrahedron, the id of the tetrahedron across the opposite facet, or -1 at the
    * hull. With Alpha the array is omitted, with a warning. Off by default.
    */
-  vtkSetMacro(GenerateNeighborIds, vtkTypeBool);
-  vtkGetMacro(GenerateNeighborIds, vtkTypeBool);
-  vtkBooleanMacro(GenerateNeighborIds, vtkTypeBool);
+  vtkTIPPSwitchMacro(GenerateNeighborIds, vtkTypeBool);
   ///@}
 
   ///@{
@@ -179,16 +163,14 @@ public:
    * The number of partitions, at most 512. 0 (the default): chosen automatically. On several ranks
    * each has an equal share of them, rounded up.
    */
-  vtkSetClampMacro(NumberOfPartitions, int, 0, 512);
-  vtkGetMacro(NumberOfPartitions, int);
+  vtkTIPPClampedMacro(NumberOfPartitions, int, 0, 512);
   ///@}
 
   ///@{
   /**
    * The OpenMP threads to use. 0 (the default) leaves it to OpenMP: OMP_NUM_THREADS, or all cores.
    */
-  vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
-  vtkGetMacro(NumberOfThreads, int);
+  vtkTIPPClampedMacro(NumberOfThreads, int, 0, 4096);
   ///@}
 
   ///@{
@@ -205,9 +187,7 @@ public:
    * On several ranks: whether the first rank's output gets all tetrahedra and the others' are
    * empty. Off by default.
    */
-  vtkSetMacro(GatherOnFirstRank, vtkTypeBool);
-  vtkGetMacro(GatherOnFirstRank, vtkTypeBool);
-  vtkBooleanMacro(GatherOnFirstRank, vtkTypeBool);
+  vtkTIPPSwitchMacro(GatherOnFirstRank, vtkTypeBool);
   ///@}
 
   ///@{
@@ -228,26 +208,26 @@ protected:
   vtkTIPPDelaunay3D();
   ~vtkTIPPDelaunay3D() override;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillInputPortInformation(int, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   vtkExecutive* CreateDefaultExecutive() override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   double Alpha = 0;
-  vtkTypeBool AlphaTets = 1;
-  vtkTypeBool AlphaTris = 1;
-  vtkTypeBool AlphaLines = 1;
-  vtkTypeBool AlphaVerts = 1;
+  vtkTypeBool AlphaTets = true;
+  vtkTypeBool AlphaTris = true;
+  vtkTypeBool AlphaLines = true;
+  vtkTypeBool AlphaVerts = true;
   double Tolerance = 0;
   double Offset = 2.5;
-  vtkTypeBool BoundingTriangulation = 0;
-  vtkTypeBool GenerateRepresentativeIds = 1;
-  vtkTypeBool GenerateNeighborIds = 0;
+  vtkTypeBool BoundingTriangulation = false;
+  vtkTypeBool GenerateRepresentativeIds = true;
+  vtkTypeBool GenerateNeighborIds = false;
   int NumberOfPartitions = 0;
   int NumberOfThreads = 0;
   vtkMultiProcessController* Controller = nullptr;
-  vtkTypeBool GatherOnFirstRank = 0;
+  vtkTypeBool GatherOnFirstRank = false;
   vtkIdType NumberOfDuplicatePoints = 0;
   vtkIdType NumberOfRejectedPoints = 0;
 

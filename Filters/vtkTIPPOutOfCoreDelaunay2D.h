@@ -63,6 +63,7 @@
 #define vtkTIPPOutOfCoreDelaunay2D_h
 
 #include "vtkTIPPFiltersModule.h" // For export macro
+#include "vtkTIPPSetGet.h"        // For property macros
 #include "vtkTableAlgorithm.h"
 
 #include <string>  // For InputFileNames
@@ -122,8 +123,7 @@ public:
    * itself and the threads' kernels need some more. Default: 2^31. However low the limit, pieces
    * have at least 4,096 points.
    */
-  vtkSetClampMacro(MemoryLimit, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
-  vtkGetMacro(MemoryLimit, vtkTypeInt64);
+  vtkTIPPClampedMacro(MemoryLimit, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
   ///@}
 
   ///@{
@@ -140,8 +140,7 @@ public:
    * Triangles with an edge longer than this, measured in x and y in the units of the points, are
    * removed; their points stay. 0 (the default): no limit.
    */
-  vtkSetClampMacro(MaximumEdgeLength, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(MaximumEdgeLength, double);
+  vtkTIPPClampedMacro(MaximumEdgeLength, double, 0.0, VTK_DOUBLE_MAX);
   ///@}
 
   ///@{
@@ -149,9 +148,7 @@ public:
    * Whether the mesh has the point array "RepresentativePointId": each point's own global id or,
    * for a merged point, that of the point it was merged into. Off by default.
    */
-  vtkSetMacro(GenerateRepresentativeIds, vtkTypeBool);
-  vtkGetMacro(GenerateRepresentativeIds, vtkTypeBool);
-  vtkBooleanMacro(GenerateRepresentativeIds, vtkTypeBool);
+  vtkTIPPSwitchMacro(GenerateRepresentativeIds, vtkTypeBool);
   ///@}
 
   ///@{
@@ -160,9 +157,7 @@ public:
    * triangle, the global id of the triangle across the opposite edge, or -1 at the border. Off by
    * default.
    */
-  vtkSetMacro(GenerateNeighborIds, vtkTypeBool);
-  vtkGetMacro(GenerateNeighborIds, vtkTypeBool);
-  vtkBooleanMacro(GenerateNeighborIds, vtkTypeBool);
+  vtkTIPPSwitchMacro(GenerateNeighborIds, vtkTypeBool);
   ///@}
 
   ///@{
@@ -197,9 +192,7 @@ public:
    * Whether constraints that cross are split at a new point. If off, crossing constraints are an
    * error. On by default.
    */
-  vtkSetMacro(SplitCrossings, vtkTypeBool);
-  vtkGetMacro(SplitCrossings, vtkTypeBool);
-  vtkBooleanMacro(SplitCrossings, vtkTypeBool);
+  vtkTIPPSwitchMacro(SplitCrossings, vtkTypeBool);
   ///@}
 
   ///@{
@@ -207,9 +200,7 @@ public:
    * Whether the mesh has the cell array "ConstraintEdges" (three components): 1 if the edge
    * opposite to that corner of the triangle is part of a constraint, else 0. Off by default.
    */
-  vtkSetMacro(GenerateConstraintEdges, vtkTypeBool);
-  vtkGetMacro(GenerateConstraintEdges, vtkTypeBool);
-  vtkBooleanMacro(GenerateConstraintEdges, vtkTypeBool);
+  vtkTIPPSwitchMacro(GenerateConstraintEdges, vtkTypeBool);
   ///@}
 
   ///@{
@@ -217,9 +208,7 @@ public:
    * Whether triangles are only counted and summed (TriangleSum, a checksum that does not depend on
    * their order) instead of written. Off by default.
    */
-  vtkSetMacro(CountOnly, vtkTypeBool);
-  vtkGetMacro(CountOnly, vtkTypeBool);
-  vtkBooleanMacro(CountOnly, vtkTypeBool);
+  vtkTIPPSwitchMacro(CountOnly, vtkTypeBool);
   ///@}
 
   ///@{
@@ -228,9 +217,7 @@ public:
    * there is one. The files are the same as those of an uninterrupted run. Off by default:
    * left-over work of such a run is then an error, and is kept.
    */
-  vtkSetMacro(Resume, vtkTypeBool);
-  vtkGetMacro(Resume, vtkTypeBool);
-  vtkBooleanMacro(Resume, vtkTypeBool);
+  vtkTIPPSwitchMacro(Resume, vtkTypeBool);
   ///@}
 
   ///@{
@@ -246,8 +233,7 @@ public:
   /**
    * Number of threads. Default 0: OpenMP's default.
    */
-  vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
-  vtkGetMacro(NumberOfThreads, int);
+  vtkTIPPClampedMacro(NumberOfThreads, int, 0, 4096);
   ///@}
 
   ///@{
@@ -275,19 +261,19 @@ protected:
   char* XColumn = nullptr;
   char* YColumn = nullptr;
   char* FileName = nullptr;
+  char* ConstraintsFileName = nullptr;
+  char* BoundaryFileName = nullptr;
+  char* ScratchFolder = nullptr;
   vtkTypeInt64 MemoryLimit = vtkTypeInt64(1) << 31;
   int NumberOfPartitions[2] = { 0, 0 };
   double MaximumEdgeLength = 0;
-  vtkTypeBool GenerateRepresentativeIds = 0;
-  vtkTypeBool GenerateNeighborIds = 0;
-  char* ConstraintsFileName = nullptr;
-  char* BoundaryFileName = nullptr;
+  vtkTypeBool GenerateRepresentativeIds = false;
+  vtkTypeBool GenerateNeighborIds = false;
   std::vector<std::pair<double, double>> Holes;
-  vtkTypeBool SplitCrossings = 1;
-  vtkTypeBool GenerateConstraintEdges = 0;
-  vtkTypeBool CountOnly = 0;
-  vtkTypeBool Resume = 0;
-  char* ScratchFolder = nullptr;
+  vtkTypeBool SplitCrossings = true;
+  vtkTypeBool GenerateConstraintEdges = false;
+  vtkTypeBool CountOnly = false;
+  vtkTypeBool Resume = false;
   int NumberOfThreads = 0;
   vtkMultiProcessController* Controller = nullptr;
 

@@ -41,6 +41,7 @@
 
 #include "vtkImageAlgorithm.h"
 #include "vtkTIPPFiltersModule.h" // For export macro
+#include "vtkTIPPSetGet.h"        // For property macros
 
 #include <array>  // For PointBounds
 #include <memory> // For Stream
@@ -92,8 +93,7 @@ public:
    * The width and height of a pixel, in the units of the points. 0 (the default): chosen so that
    * there is about one point per pixel.
    */
-  vtkSetClampMacro(Resolution, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(Resolution, double);
+  vtkTIPPClampedMacro(Resolution, double, 0.0, VTK_DOUBLE_MAX);
   ///@}
 
   ///@{
@@ -101,9 +101,7 @@ public:
    * Whether the pixels cover the bounds of the points that thinning keeps (the default), and
    * SamplingBounds is ignored. RequestInformation() then updates the input.
    */
-  vtkSetMacro(UseInputBounds, bool);
-  vtkGetMacro(UseInputBounds, bool);
-  vtkBooleanMacro(UseInputBounds, bool);
+  vtkTIPPSwitchMacro(UseInputBounds, bool);
   ///@}
 
   ///@{
@@ -120,9 +118,7 @@ public:
    * Whether pixel borders are at multiples of Resolution (the default), so that images of
    * neighbouring tiles fit together. If off, the first pixels start at the bounds.
    */
-  vtkSetMacro(AlignToResolution, bool);
-  vtkGetMacro(AlignToResolution, bool);
-  vtkBooleanMacro(AlignToResolution, bool);
+  vtkTIPPSwitchMacro(AlignToResolution, bool);
   ///@}
 
   ///@{
@@ -140,8 +136,7 @@ public:
    * Triangles with an edge longer than this, measured in x and y in the units of the points, are
    * removed, so that pixels there have no value. 0 (the default): no limit.
    */
-  vtkSetClampMacro(MaximumEdgeLength, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(MaximumEdgeLength, double);
+  vtkTIPPClampedMacro(MaximumEdgeLength, double, 0.0, VTK_DOUBLE_MAX);
   ///@}
 
   /**
@@ -159,8 +154,7 @@ public:
   /**
    * A DuplicateType; DUPLICATES_FIRST by default.
    */
-  vtkSetClampMacro(Duplicates, int, DUPLICATES_FIRST, DUPLICATES_MEAN);
-  vtkGetMacro(Duplicates, int);
+  vtkTIPPClampedMacro(Duplicates, int, DUPLICATES_FIRST, DUPLICATES_MEAN);
   ///@}
 
   /**
@@ -178,16 +172,14 @@ public:
    * Thinning keeps one point in each square of this side, in the units of the points. 0 (the
    * default): no thinning.
    */
-  vtkSetClampMacro(ThinningSize, double, 0.0, VTK_DOUBLE_MAX);
-  vtkGetMacro(ThinningSize, double);
+  vtkTIPPClampedMacro(ThinningSize, double, 0.0, VTK_DOUBLE_MAX);
   ///@}
 
   ///@{
   /**
    * A ThinningType; THIN_NEAREST by default.
    */
-  vtkSetClampMacro(ThinningRule, int, THIN_LOWEST, THIN_NEAREST);
-  vtkGetMacro(ThinningRule, int);
+  vtkTIPPClampedMacro(ThinningRule, int, THIN_LOWEST, THIN_NEAREST);
   ///@}
 
   ///@{
@@ -195,16 +187,14 @@ public:
    * The memory limit of the triangulation, in bytes, not counting the input and the image; data
    * that does not fit is spilled to temporary files. 0 (the default): no limit.
    */
-  vtkSetClampMacro(MemoryLimit, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
-  vtkGetMacro(MemoryLimit, vtkTypeInt64);
+  vtkTIPPClampedMacro(MemoryLimit, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
   ///@}
 
   ///@{
   /**
    * The number of OpenMP threads. 0 (the default) is OpenMP's choice.
    */
-  vtkSetClampMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
-  vtkGetMacro(NumberOfThreads, int);
+  vtkTIPPClampedMacro(NumberOfThreads, int, 0, VTK_INT_MAX);
   ///@}
 
 protected:

@@ -44,6 +44,7 @@
 #include "vtkDataObjectAlgorithm.h"
 #include "vtkNew.h"          // For the arrays' selections
 #include "vtkTIPPIOModule.h" // For export macro
+#include "vtkTIPPSetGet.h"   // For property macros
 
 #include <memory> // For std::unique_ptr
 
@@ -97,8 +98,7 @@ public:
    * OWNED (the default) or OWNED_AND_BORROWED. A request for ghost levels has the effect of the
    * latter.
    */
-  vtkSetClampMacro(BorrowerMode, int, OWNED, OWNED_AND_BORROWED);
-  vtkGetMacro(BorrowerMode, int);
+  vtkTIPPClampedMacro(BorrowerMode, int, OWNED, OWNED_AND_BORROWED);
   void SetBorrowerModeToOwned() { this->SetBorrowerMode(OWNED); }
   void SetBorrowerModeToOwnedAndBorrowed() { this->SetBorrowerMode(OWNED_AND_BORROWED); }
   ///@}
@@ -108,17 +108,14 @@ public:
    * Whether the output is one vtkUnstructuredGrid (the default), without duplicate points and
    * cells, or a vtkPartitionedDataSet of pieces.
    */
-  vtkSetMacro(MergePieces, bool);
-  vtkGetMacro(MergePieces, bool);
-  vtkBooleanMacro(MergePieces, bool);
+  vtkTIPPSwitchMacro(MergePieces, bool);
   ///@}
 
   ///@{
   /**
    * How many of the most recently read pieces are kept in memory for later requests. Default: 0.
    */
-  vtkSetClampMacro(CacheSize, int, 0, VTK_INT_MAX);
-  vtkGetMacro(CacheSize, int);
+  vtkTIPPClampedMacro(CacheSize, int, 0, VTK_INT_MAX);
   ///@}
 
   ///@{
@@ -126,8 +123,7 @@ public:
    * The memory limit, in bytes, for loading a flat mesh, not counting the pieces themselves.
    * Default: 2^31.
    */
-  vtkSetClampMacro(MemoryLimit, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
-  vtkGetMacro(MemoryLimit, vtkTypeInt64);
+  vtkTIPPClampedMacro(MemoryLimit, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
   ///@}
 
   ///@{
@@ -135,8 +131,7 @@ public:
    * Number of threads that read pieces, or load and partition a flat mesh. Default 0: OpenMP's
    * default.
    */
-  vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
-  vtkGetMacro(NumberOfThreads, int);
+  vtkTIPPClampedMacro(NumberOfThreads, int, 0, 4096);
   ///@}
 
   ///@{
@@ -187,12 +182,9 @@ protected:
   ~vtkPartitionedUnstructuredReader() override;
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
-  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override;
+  int RequestDataObject(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
+  int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
 private:
   vtkPartitionedUnstructuredReader(const vtkPartitionedUnstructuredReader&) = delete;

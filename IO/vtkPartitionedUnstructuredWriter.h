@@ -38,6 +38,7 @@
 #define vtkPartitionedUnstructuredWriter_h
 
 #include "vtkTIPPIOModule.h"  // For export macro
+#include "vtkTIPPSetGet.h"    // For property macros
 #include "vtkVersionMacros.h" // For VTK_VERSION_NUMBER
 #include "vtkWriter.h"
 
@@ -81,17 +82,14 @@ public:
    * Whether borrowed cells are copied to their borrowers' pieces as ghost cells. Off by default:
    * each cell is stored once, and borrowers read it from the owner's piece.
    */
-  vtkSetMacro(DuplicateBorrowers, bool);
-  vtkGetMacro(DuplicateBorrowers, bool);
-  vtkBooleanMacro(DuplicateBorrowers, bool);
+  vtkTIPPSwitchMacro(DuplicateBorrowers, bool);
   ///@}
 
   ///@{
   /**
    * The memory limit of each rank, in bytes, not counting the input. Default: 2^31.
    */
-  vtkSetClampMacro(MemoryLimit, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
-  vtkGetMacro(MemoryLimit, vtkTypeInt64);
+  vtkTIPPClampedMacro(MemoryLimit, vtkTypeInt64, 1, VTK_TYPE_INT64_MAX);
   ///@}
 
   ///@{
@@ -115,8 +113,7 @@ public:
   /**
    * Number of threads. Default 0: OpenMP's default.
    */
-  vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
-  vtkGetMacro(NumberOfThreads, int);
+  vtkTIPPClampedMacro(NumberOfThreads, int, 0, 4096);
   ///@}
 
   ///@{

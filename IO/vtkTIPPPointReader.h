@@ -25,6 +25,7 @@
 
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkTIPPIOModule.h" // For export macro
+#include "vtkTIPPSetGet.h"   // For property macros
 
 #include <string> // For FileNames
 #include <vector> // For FileNames
@@ -87,8 +88,7 @@ public:
   /**
    * Which returns of LAS files are read: a ReturnType, RETURNS_ALL by default.
    */
-  vtkSetClampMacro(Returns, int, RETURNS_ALL, RETURNS_LAST);
-  vtkGetMacro(Returns, int);
+  vtkTIPPClampedMacro(Returns, int, RETURNS_ALL, RETURNS_LAST);
   ///@}
 
   ///@{
@@ -96,15 +96,9 @@ public:
    * Whether LAS points flagged as withheld, synthetic or overlap (class 12 in formats 0 to 5) are
    * read, too. Off by default.
    */
-  vtkSetMacro(KeepWithheld, bool);
-  vtkGetMacro(KeepWithheld, bool);
-  vtkBooleanMacro(KeepWithheld, bool);
-  vtkSetMacro(KeepSynthetic, bool);
-  vtkGetMacro(KeepSynthetic, bool);
-  vtkBooleanMacro(KeepSynthetic, bool);
-  vtkSetMacro(KeepOverlap, bool);
-  vtkGetMacro(KeepOverlap, bool);
-  vtkBooleanMacro(KeepOverlap, bool);
+  vtkTIPPSwitchMacro(KeepWithheld, bool);
+  vtkTIPPSwitchMacro(KeepSynthetic, bool);
+  vtkTIPPSwitchMacro(KeepOverlap, bool);
   ///@}
 
   ///@{
@@ -121,9 +115,7 @@ public:
    * Whether the output has a vertex cell for each point, which is needed for rendering. On by
    * default.
    */
-  vtkSetMacro(GenerateVertices, bool);
-  vtkGetMacro(GenerateVertices, bool);
-  vtkBooleanMacro(GenerateVertices, bool);
+  vtkTIPPSwitchMacro(GenerateVertices, bool);
   ///@}
 
   ///@{
