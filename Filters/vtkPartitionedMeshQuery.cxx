@@ -58,6 +58,7 @@ vtkPartitionedMeshQuery::vtkPartitionedMeshQuery()
   this->SetNumberOfInputPorts(2);
   this->vtkPartitionedMeshQuery::SetValidPointMaskArrayName("vtkValidPointMask");
   this->vtkPartitionedMeshQuery::SetController(vtkMultiProcessController::GetGlobalController());
+  tipp::executeTogether(this, [this] { return this->Controller; });
 }
 
 vtkPartitionedMeshQuery::~vtkPartitionedMeshQuery()
@@ -65,17 +66,6 @@ vtkPartitionedMeshQuery::~vtkPartitionedMeshQuery()
   this->vtkPartitionedMeshQuery::SetController(nullptr);
   this->vtkPartitionedMeshQuery::SetFileName(nullptr);
   this->vtkPartitionedMeshQuery::SetValidPointMaskArrayName(nullptr);
-}
-
-vtkExecutive* vtkPartitionedMeshQuery::CreateDefaultExecutive()
-{
-  if (DefaultExecutivePrototype)
-  {
-    return this->Superclass::CreateDefaultExecutive(); // the application's own, such as ParaView's
-  }
-  auto* executive = tipp::CollectivePipeline::New();
-  executive->Controller = [this]() { return this->Controller; };
-  return executive;
 }
 
 vtkDataObject* vtkPartitionedMeshQuery::GetSource()

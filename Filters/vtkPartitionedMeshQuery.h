@@ -285,7 +285,6 @@ protected:
   ~vtkPartitionedMeshQuery() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  vtkExecutive* CreateDefaultExecutive() override;
   int RequestUpdateExtent(
     vtkInformation*, vtkInformationVector** inputs, vtkInformationVector*) override;
   int RequestData(

@@ -43,6 +43,7 @@ vtkTIPPDelaunay2D::vtkTIPPDelaunay2D()
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
   this->vtkTIPPDelaunay2D::SetController(vtkMultiProcessController::GetGlobalController());
+  tipp::executeTogether(this, [this] { return this->Controller; });
 }
 
 vtkTIPPDelaunay2D::~vtkTIPPDelaunay2D()
@@ -112,19 +113,18 @@ int vtkTIPPDelaunay2D::RequestData(
   vtkPolyData* source = vtkPolyData::GetData(inputVector[1]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
   vtkTable* statistics = vtkTable::GetData(outputVector, 1);
-  const tipp::ThreadLimit limit(this->NumberOfThreads);
   const auto work = [&]
   {
     tipp::requireFinite(
       { { "Alpha", this->Alpha }, { "MaximumEdgeLength", this->MaximumEdgeLength },
         { "Tolerance", this->Tolerance }, { "Offset", this->Offset } });
+    const tipp::ThreadLimit limit(this->NumberOfThreads);
     return tipp::hasSeveralRanks(this->Controller)
       ? this->ExecuteOnRanks(input, source, tipp::wantsGhosts(outputVector), output, statistics)
       : this->Execute(input, source, output, statistics);
   };
-  const std::string what =
-    "Triangulating " + std::to_string(input->GetNumberOfPoints()) + " points";
-  const int isDone = tipp::runReported(this, this->Controller, what, { output, statistics }, work);
+  const int isDone =
+    tipp::runReported(this, this->Controller, "Triangulating", input, { output, statistics }, work);
   if (!isDone && tipp::hasSeveralRanks(this->Controller))
   {
     this->SetErrorCode(vtkErrorCode::UserError); // not every rank reports the error
@@ -340,24 +340,24 @@ void vtkTIPPDelaunay2D::SetCells(tipp::Triangulation& triangulation, vtkPolyData
 void vtkTIPPDelaunay2D::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const char* modes[] = { "XY Plane", "Transform Plane", "Best Fitting Plane" };
   auto onOff = [](vtkTypeBool flag) { return flag ? "On\n" : "Off\n"; };
-  os << indent << "Alpha: " << this->Alpha << "\n";
-  os << indent << "MaximumEdgeLength: " << this->MaximumEdgeLength << "\n";
-  os << indent << "AlphaTris: " << onOff(this->AlphaTris);
-  os << indent << "AlphaLines: " << onOff(this->AlphaLines);
-  os << indent << "AlphaVerts: " << onOff(this->AlphaVerts);
-  os << indent << "Tolerance: " << this->Tolerance << "\n";
-  os << indent << "Offset: " << this->Offset << "\n";
-  os << indent << "BoundingTriangulation: " << onOff(this->BoundingTriangulation);
-  os << indent << "ProjectionPlaneMode: " << modes[this->ProjectionPlaneMode] << "\n";
-  os << indent << "Transform: " << (this->Transform ? "specified\n" : "none\n");
-  os << indent << "GenerateRepresentativeIds: " << onOff(this->GenerateRepresentativeIds);
-  os << indent << "GenerateNeighborIds: " << onOff(this->GenerateNeighborIds);
   const char* marks[] = { "None", "Lines", "Edge flags" };
   os << indent << "MergeSourcePoints: " << onOff(this->MergeSourcePoints);
   os << indent << "SplitCrossings: " << onOff(this->SplitCrossings);
   os << indent << "ConstraintMarks: " << marks[this->ConstraintMarks] << "\n";
+  os << indent << "Alpha: " << this->Alpha << "\n";
+  os << indent << "AlphaTris: " << onOff(this->AlphaTris);
+  os << indent << "AlphaLines: " << onOff(this->AlphaLines);
+  os << indent << "AlphaVerts: " << onOff(this->AlphaVerts);
+  os << indent << "MaximumEdgeLength: " << this->MaximumEdgeLength << "\n";
+  const char* modes[] = { "XY Plane", "Transform Plane", "Best Fitting Plane" };
+  os << indent << "ProjectionPlaneMode: " << modes[this->ProjectionPlaneMode] << "\n";
+  os << indent << "Transform: " << (this->Transform ? "specified\n" : "none\n");
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "Offset: " << this->Offset << "\n";
+  os << indent << "BoundingTriangulation: " << onOff(this->BoundingTriangulation);
+  os << indent << "GenerateRepresentativeIds: " << onOff(this->GenerateRepresentativeIds);
+  os << indent << "GenerateNeighborIds: " << onOff(this->GenerateNeighborIds);
   os << indent << "NumberOfPartitions: " << this->NumberOfPartitions[0] << " x "
      << this->NumberOfPartitions[1] << "\n";
   os << indent << "InitialPointsPerPartition: " << this->InitialPointsPerPartition << "\n";
@@ -368,9 +368,9 @@ void vtkTIPPDelaunay2D::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Masters: " << masters[this->Masters] << "\n";
   os << indent << "NumberOfMajorPartitions: " << this->NumberOfMajorPartitions[0] << " x "
      << this->NumberOfMajorPartitions[1] << "\n";
+  os << indent << "EqualGroups: " << onOff(this->EqualGroups);
   os << indent << "MinorDivision: " << (this->MinorDivision == TREE ? "Tree\n" : "Threshold\n");
   os << indent << "PointsPerPartition: " << this->PointsPerPartition << "\n";
-  os << indent << "EqualGroups: " << onOff(this->EqualGroups);
   os << indent << "GatherOnFirstRank: " << onOff(this->GatherOnFirstRank);
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "NumberOfDuplicatePoints: " << this->NumberOfDuplicatePoints << "\n";

@@ -71,17 +71,6 @@ std::unique_ptr<tipp::RankSource> shareSource(vtkTIPPDelaunay2D* filter, tipp::C
 
 } // namespace
 
-vtkExecutive* vtkTIPPDelaunay2D::CreateDefaultExecutive()
-{
-  if (DefaultExecutivePrototype)
-  {
-    return this->Superclass::CreateDefaultExecutive(); // the application's own, such as ParaView's
-  }
-  auto* executive = tipp::CollectivePipeline::New();
-  executive->Controller = [this]() { return this->Controller; };
-  return executive;
-}
-
 int vtkTIPPDelaunay2D::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {

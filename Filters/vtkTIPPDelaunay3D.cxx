@@ -107,6 +107,7 @@ vtkTIPPDelaunay3D::vtkTIPPDelaunay3D()
 {
   this->SetNumberOfOutputPorts(2);
   this->vtkTIPPDelaunay3D::SetController(vtkMultiProcessController::GetGlobalController());
+  tipp::executeTogether(this, [this] { return this->Controller; });
 }
 
 vtkTIPPDelaunay3D::~vtkTIPPDelaunay3D()
@@ -137,18 +138,17 @@ int vtkTIPPDelaunay3D::RequestData(
   vtkPointSet* input = vtkPointSet::GetData(inputVector[0]);
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector, 0);
   vtkTable* statistics = vtkTable::GetData(outputVector, 1);
-  const tipp::ThreadLimit limit(this->NumberOfThreads);
   const auto work = [&]
   {
     tipp::requireFinite(
       { { "Alpha", this->Alpha }, { "Tolerance", this->Tolerance }, { "Offset", this->Offset } });
+    const tipp::ThreadLimit limit(this->NumberOfThreads);
     return tipp::hasSeveralRanks(this->Controller)
       ? this->ExecuteOnRanks(input, tipp::wantsGhosts(outputVector), output, statistics)
       : this->Execute(input, output, statistics);
   };
-  const std::string what =
-    "Tetrahedralizing " + std::to_string(input->GetNumberOfPoints()) + " points";
-  const int isDone = tipp::runReported(this, this->Controller, what, { output, statistics }, work);
+  const int isDone = tipp::runReported(
+    this, this->Controller, "Tetrahedralizing", input, { output, statistics }, work);
   if (!isDone && tipp::hasSeveralRanks(this->Controller))
   {
     this->SetErrorCode(vtkErrorCode::UserError); // not every rank reports the error

@@ -210,7 +210,6 @@ protected:
 
   int FillInputPortInformation(int, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-  vtkExecutive* CreateDefaultExecutive() override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 

@@ -20,17 +20,6 @@
 #include <string>
 #include <vector>
 
-vtkExecutive* vtkTIPPDelaunay3D::CreateDefaultExecutive()
-{
-  if (DefaultExecutivePrototype)
-  {
-    return this->Superclass::CreateDefaultExecutive(); // the application's own, such as ParaView's
-  }
-  auto* executive = tipp::CollectivePipeline::New();
-  executive->Controller = [this]() { return this->Controller; };
-  return executive;
-}
-
 int vtkTIPPDelaunay3D::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {

@@ -12,6 +12,7 @@
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointSet.h"
 
 #include <cmath>
 #include <exception>
@@ -60,10 +61,12 @@ bool hasSeveralRanks(vtkMultiProcessController* controller)
   return controller && controller->GetNumberOfProcesses() > 1;
 }
 
-int runReported(vtkAlgorithm* filter, vtkMultiProcessController* controller,
-  const std::string& what, std::initializer_list<vtkDataObject*> outputs,
+int runReported(vtkAlgorithm* filter, vtkMultiProcessController* controller, const char* doing,
+  vtkPointSet* input, std::initializer_list<vtkDataObject*> outputs,
   const std::function<bool()>& work)
 {
+  const std::string what =
+    std::string(doing) + " " + std::to_string(input->GetNumberOfPoints()) + " points";
   bool isStopped = false;
   try
   {
@@ -142,6 +145,20 @@ bool wantsGhosts(vtkInformationVector* outputs)
 }
 
 vtkStandardNewMacro(CollectivePipeline);
+
+void executeTogether(vtkAlgorithm* filter, std::function<vtkMultiProcessController*()> controller)
+{
+  struct Algorithm : public vtkAlgorithm
+  {
+    static bool hasOwnExecutive() { return DefaultExecutivePrototype != nullptr; }
+  };
+  if (!Algorithm::hasOwnExecutive())
+  {
+    const vtkNew<CollectivePipeline> executive;
+    executive->Controller = std::move(controller);
+    filter->SetExecutive(executive);
+  }
+}
 
 int CollectivePipeline::ForwardUpstream(vtkInformation* request)
 {

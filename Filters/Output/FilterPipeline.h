@@ -21,6 +21,7 @@ class vtkDataObject;
 class vtkInformation;
 class vtkInformationVector;
 class vtkMultiProcessController;
+class vtkPointSet;
 
 namespace tipp
 {
@@ -72,10 +73,10 @@ bool hasSeveralRanks(vtkMultiProcessController* controller);
 
 /// Calls work(), and returns the result of RequestData(): 1 if work() returned true or the user
 /// stopped the ranks, else 0. If work() throws, empties the outputs and reports an error of the
-/// filter. The error begins with `what`; of a RankFailure, only the first rank of `controller`
-/// reports it. Throws nothing.
-int runReported(vtkAlgorithm* filter, vtkMultiProcessController* controller,
-  const std::string& what, std::initializer_list<vtkDataObject*> outputs,
+/// filter. The error begins with `doing` and the number of the input's points; of a RankFailure,
+/// only the first rank of `controller` reports it. Throws nothing.
+int runReported(vtkAlgorithm* filter, vtkMultiProcessController* controller, const char* doing,
+  vtkPointSet* input, std::initializer_list<vtkDataObject*> outputs,
   const std::function<bool()>& work);
 
 /// Updates this rank's piece of a filter's input before the pipeline requests it, at the time step
@@ -118,6 +119,10 @@ private:
   CollectivePipeline(const CollectivePipeline&) = delete;
   void operator=(const CollectivePipeline&) = delete;
 };
+
+/// Gives a filter a CollectivePipeline, unless the application has a default executive of its own,
+/// as ParaView does. To be called in the filter's constructor.
+void executeTogether(vtkAlgorithm* filter, std::function<vtkMultiProcessController*()> controller);
 
 } // namespace tipp
 
