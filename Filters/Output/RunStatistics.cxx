@@ -11,68 +11,71 @@ namespace tipp
 namespace
 {
 
-/// Returns the values of one member of all items. Integers are widened to 64 bits.
-template <typename Item, typename Value>
-Figures column(
-  const char* key, const char* array, const std::vector<Item>& items, Value Item::*member)
+/// Returns a function that returns a column: the values of one member of all items. Integers are
+/// widened to 64 bits.
+template <typename Item>
+auto columnsOf(const std::vector<Item>& items)
 {
-  using Stored = std::conditional_t<std::is_integral_v<Value>, std::int64_t, Value>;
-  std::vector<Stored> values;
-  values.reserve(items.size());
-  for (const Item& item : items)
+  return [&items](const char* key, const char* array, auto Item::*member) -> Figures
   {
-    values.push_back(Stored(item.*member));
-  }
-  return { key, array, std::move(values) };
+    using Value = std::decay_t<decltype(std::declval<Item>().*member)>;
+    std::vector<std::conditional_t<std::is_integral_v<Value>, std::int64_t, Value>> values;
+    for (const Item& item : items)
+    {
+      values.push_back(item.*member);
+    }
+    return { key, array, std::move(values) };
+  };
 }
 
 template <typename Phase>
 FigureList phasesOf(
   const std::vector<Phase>& phases, bool isTable, const char* name, const char* seconds)
 {
+  const auto column = columnsOf(phases);
   return { "phases", isTable,
-    { column("name", name, phases, &Phase::Name),
-      column("seconds", seconds, phases, &Phase::Seconds) } };
+    { column("name", name, &Phase::Name), column("seconds", seconds, &Phase::Seconds) } };
 }
 
 /// `key` and `array` are the names under which the number of triangles or tetrahedra is stored.
 FigureList ranksOf(const std::vector<RankStatistics>& ranks, const char* key, const char* array)
 {
   using Rank = RankStatistics;
+  const auto column = columnsOf(ranks);
   return { "ranks", false,
-    { column("input_points", "", ranks, &Rank::InputPoints),
-      column("owned_points", "RankOwnedPoints", ranks, &Rank::OwnedPoints),
-      column(key, array, ranks, &Rank::Triangles),
-      column("partitions", "", ranks, &Rank::Partitions),
-      column("worker_vertices", "", ranks, &Rank::WorkerVertices),
-      column("exchange_seconds", "", ranks, &Rank::ExchangeSeconds),
-      column("compute_seconds", "RankComputeSeconds", ranks, &Rank::ComputeSeconds),
-      column("wait_seconds", "RankWaitSeconds", ranks, &Rank::WaitSeconds),
-      column("send_seconds", "RankSendSeconds", ranks, &Rank::SendSeconds),
-      column("master_seconds", "RankMasterSeconds", ranks, &Rank::MasterSeconds),
-      column("sub_master_seconds", "RankSubMasterSeconds", ranks, &Rank::SubMasterSeconds),
-      column("collect_seconds", "", ranks, &Rank::CollectSeconds),
-      column("total_seconds", "", ranks, &Rank::TotalSeconds) } };
+    { column("input_points", "", &Rank::InputPoints),
+      column("owned_points", "RankOwnedPoints", &Rank::OwnedPoints),
+      column(key, array, &Rank::Triangles), column("partitions", "", &Rank::Partitions),
+      column("worker_vertices", "", &Rank::WorkerVertices),
+      column("exchange_seconds", "", &Rank::ExchangeSeconds),
+      column("compute_seconds", "RankComputeSeconds", &Rank::ComputeSeconds),
+      column("wait_seconds", "RankWaitSeconds", &Rank::WaitSeconds),
+      column("send_seconds", "RankSendSeconds", &Rank::SendSeconds),
+      column("master_seconds", "RankMasterSeconds", &Rank::MasterSeconds),
+      column("sub_master_seconds", "RankSubMasterSeconds", &Rank::SubMasterSeconds),
+      column("collect_seconds", "", &Rank::CollectSeconds),
+      column("total_seconds", "", &Rank::TotalSeconds) } };
 }
 
 FigureList mastersOf(const std::vector<MasterStatistics>& masters)
 {
   using Master = MasterStatistics;
+  const auto column = columnsOf(masters);
   return { "masters", false,
-    { column("area", "", masters, &Master::Area), column("rank", "", masters, &Master::Rank),
-      column("group_size", "", masters, &Master::GroupSize),
-      column("largest_mesh", "", masters, &Master::LargestMesh),
-      column("seconds", "", masters, &Master::Seconds),
-      column("path_seconds", "", masters, &Master::PathSeconds) } };
+    { column("area", "", &Master::Area), column("rank", "", &Master::Rank),
+      column("group_size", "", &Master::GroupSize),
+      column("largest_mesh", "", &Master::LargestMesh), column("seconds", "", &Master::Seconds),
+      column("path_seconds", "", &Master::PathSeconds) } };
 }
 
 FigureList trafficOf(const std::vector<TrafficStatistics>& traffic)
 {
   using Traffic = TrafficStatistics;
+  const auto column = columnsOf(traffic);
   return { "traffic", false,
-    { column("kind", "MessageKind", traffic, &Traffic::Kind),
-      column("messages", "MessageCount", traffic, &Traffic::Messages),
-      column("bytes", "MessageBytes", traffic, &Traffic::Bytes) } };
+    { column("kind", "MessageKind", &Traffic::Kind),
+      column("messages", "MessageCount", &Traffic::Messages),
+      column("bytes", "MessageBytes", &Traffic::Bytes) } };
 }
 
 std::string hexadecimal(std::uint64_t value)
@@ -89,27 +92,37 @@ FigureList stagesOf(const std::vector<TriangulationStatistics::Stage>& stages)
   using Stage = TriangulationStatistics::Stage;
   std::vector<std::int64_t> numbers(stages.size());
   std::iota(numbers.begin(), numbers.end(), std::int64_t(0));
+  const auto column = columnsOf(stages);
   return { "stages", true,
     { { "", "Stage", std::move(numbers) },
-      column("active_partitions", "ActivePartitions", stages, &Stage::ActivePartitions),
-      column("mesh_triangles", "MeshTriangles", stages, &Stage::MeshTriangles) } };
+      column("active_partitions", "ActivePartitions", &Stage::ActivePartitions),
+      column("mesh_triangles", "MeshTriangles", &Stage::MeshTriangles) } };
 }
 
 namespace
 {
 
-/// Returns the statistics of a run in memory. `key` and `array` are the names under which the
+/// Returns the figures with which runs begin. `key` and `array` are the names under which the
 /// number of cells is stored.
+RunStatistics beginWith(std::int64_t points, const char* key, const char* array, std::int64_t cells,
+  std::int64_t duplicates, std::int64_t rejected)
+{
+  RunStatistics run;
+  run.add("points", "Points", points);
+  run.add(key, array, cells);
+  run.add("duplicates", "DuplicatePoints", duplicates);
+  run.add("rejected", "RejectedPoints", rejected);
+  return run;
+}
+
+/// Returns the statistics of a run in memory.
 template <typename Mesh>
 RunStatistics inMemory(
   const Mesh& mesh, std::int64_t points, const char* key, const char* array, std::int64_t cells)
 {
   const TriangulationStatistics& statistics = mesh.Statistics;
-  RunStatistics run;
-  run.add("points", "Points", points);
-  run.add(key, array, cells);
-  run.add("duplicates", "DuplicatePoints", std::int64_t(mesh.Duplicates.size()));
-  run.add("rejected", "RejectedPoints", std::int64_t(mesh.Rejected.size()));
+  RunStatistics run = beginWith(points, key, array, cells, std::int64_t(mesh.Duplicates.size()),
+    std::int64_t(mesh.Rejected.size()));
   run.add("threads", "Threads", statistics.Threads);
   run.add("partitions", "Partitions", statistics.Partitions);
   run.add("initial_points", "InitialPoints", statistics.InitialPoints);
@@ -170,11 +183,8 @@ RunStatistics statisticsOf(const OutOfCoreStatistics& statistics, bool isCounted
 
 RunStatistics statisticsOf(const OutOfCoreStatistics3& statistics)
 {
-  RunStatistics run;
-  run.add("points", "Points", statistics.Points);
-  run.add("tetrahedra", "Tetrahedra", statistics.Tetrahedra);
-  run.add("duplicates", "DuplicatePoints", statistics.Duplicates);
-  run.add("rejected", "RejectedPoints", statistics.Rejected);
+  RunStatistics run = beginWith(statistics.Points, "tetrahedra", "Tetrahedra",
+    statistics.Tetrahedra, statistics.Duplicates, statistics.Rejected);
   run.add("pieces", "Pieces", statistics.Pieces);
   addOutOfCore(statistics, run);
   return run;
@@ -186,11 +196,8 @@ RunStatistics statisticsOf(const DistributedTriangulation& mine)
   // The table only has the figures of the first rank's master, which serves the whole domain.
   const bool hasMaster = !statistics.Masters.empty() && statistics.Masters.front().Area == 0;
   const MasterStatistics master = hasMaster ? statistics.Masters.front() : MasterStatistics();
-  RunStatistics run;
-  run.add("points", "Points", mine.AllPoints);
-  run.add("triangles", "Triangles", mine.AllTriangles);
-  run.add("duplicates", "DuplicatePoints", mine.AllDuplicates);
-  run.add("rejected", "RejectedPoints", mine.AllRejected);
+  RunStatistics run = beginWith(mine.AllPoints, "triangles", "Triangles", mine.AllTriangles,
+    mine.AllDuplicates, mine.AllRejected);
   run.Totals.push_back({ "seconds", "", std::vector<double>{ statistics.Seconds } });
   run.add("threads_per_rank", "Threads", statistics.ThreadsPerRank);
   run.add("partitions", "Partitions", statistics.Partitions);
@@ -207,11 +214,9 @@ RunStatistics statisticsOf(const DistributedTriangulation& mine)
 RunStatistics statisticsOf(const DistributedTetrahedralization& mine)
 {
   const DistributedStatistics& statistics = mine.Statistics;
-  RunStatistics run;
-  run.add("points", "Points", mine.AllPoints);
-  run.add("tetrahedra", "Tetrahedra", mine.cellSize() == 4 ? mine.AllCells : 0);
-  run.add("duplicates", "DuplicatePoints", mine.AllDuplicates);
-  run.add("rejected", "RejectedPoints", mine.AllRejected);
+  const std::int64_t tetrahedra = mine.cellSize() == 4 ? mine.AllCells : 0;
+  RunStatistics run = beginWith(
+    mine.AllPoints, "tetrahedra", "Tetrahedra", tetrahedra, mine.AllDuplicates, mine.AllRejected);
   run.Totals.push_back({ "seconds", "", std::vector<double>{ statistics.Seconds } });
   run.add("threads_per_rank", "Threads", statistics.ThreadsPerRank);
   run.add("partitions", "Partitions", statistics.Partitions);
