@@ -2,15 +2,11 @@
 #include "OutOfCore/OutOfCoreTriangulation.h"
 
 #include "Files/IOError.h"
-#include "Files/OutputFile.h"
 #include "OutOfCore/FinishPieces.h"
 #include "OutOfCore/InputPasses.h"
+#include "OutOfCore/OutOfCoreRun.h"
 #include "OutOfCore/PieceRun.h"
-#include "OutOfCore/RunRecord.h"
 #include "OutOfCore/RunSetup.h"
-#include "OutOfCore/ScratchFiles.h"
-#include "Parallel/ParallelFor.h"
-#include "Parallel/Stopwatch.h"
 
 #include <algorithm>
 #include <memory>
@@ -29,26 +25,14 @@ void serialize(Archive& archive, OutOfCoreStatistics& statistics)
 namespace
 {
 
-/// Thrown if the user has stopped the run.
-struct Aborted
-{
-};
-
-class Run
+class Run : OutOfCoreRun<OutOfCoreOptions, OutOfCoreStatistics>
 {
 public:
   Run(PointStream& points, const std::string& path, const OutOfCoreOptions& options,
     Communicator* ranks)
-    : Input(points)
+    : OutOfCoreRun(points, path, options, identityOf(points, options))
     , Ranks(ranks)
-    , Path(path)
-    , Options(options)
-    , Threads(threadCount(options.Threads))
-    , Pending(PendingFolder::lasting(path, &replaceableMesh))
-    , Scratch(this->Pending, options.Scratch)
-    , Record(path, identityOf(points, options), this->Pending, this->Scratch)
   {
-    this->Statistics.Threads = this->Threads;
     this->Setup.Mesh.Path = options.CountOnly ? "" : this->Pending.temporaryPath();
     this->Setup.Results = this->Scratch.results();
     this->Setup.Consumer = options.Consumer;
@@ -58,41 +42,29 @@ public:
 
   OutOfCoreStatistics run()
   {
-    try
-    {
-      if (this->Ranks)
+    return this->perform(
+      [this]
       {
-        requireSharedFolder(*this->Ranks, this->Pending.workPath());
-        requireSharedFolder(*this->Ranks, this->Scratch.folder());
-      }
-      if (!this->resume())
-      {
-        this->survey();
-        this->spill();
-      }
-      if (!this->Record.isWhole())
-      {
-        this->Setup.beginTaking();
-        this->triangulate();
-        this->endTaking();
-        this->Options.CountOnly ? this->count() : this->publish();
-      }
-      this->putInPlace();
-    }
-    catch (const Aborted&)
-    {
-      this->Statistics.Aborted = true;
-    }
-    catch (const RankFailure& failure)
-    {
-      if (!failure.Aborted)
-      {
-        throw;
-      }
-      this->Statistics.Aborted = true;
-    }
-    this->Statistics.Kept = this->Record.isKept();
-    return std::move(this->Statistics);
+        if (this->Ranks)
+        {
+          requireSharedFolder(*this->Ranks, this->Pending.workPath());
+          requireSharedFolder(*this->Ranks, this->Scratch.folder());
+        }
+        if (!this->resume([this](LoadArchive& archive) { this->load(archive); }))
+        {
+          this->survey();
+          this->spill();
+        }
+        if (!this->Record.isWhole())
+        {
+          this->Setup.beginTaking();
+          this->triangulate();
+          this->endTaking();
+          this->Options.CountOnly ? this->count() : this->publish();
+        }
+        this->Setup.Spilled.reset();
+        this->putInPlace();
+      });
   }
 
 private:
@@ -103,44 +75,14 @@ private:
       Message message; // no message comes; poll() throws if a rank has failed
       this->Ranks->poll(message);
     }
-    this->reportLocally(fraction);
+    this->require(this->proceed(fraction));
   }
 
-  void reportLocally(double fraction) const
+  void load(LoadArchive& archive)
   {
-    if (this->Options.Progress && !this->Options.Progress(fraction))
-    {
-      throw Aborted();
-    }
-  }
-
-  void warn(const std::string& sentence) const
-  {
-    if (this->Options.Warn)
-    {
-      this->Options.Warn(sentence);
-    }
-  }
-
-  void endPhase(const char* name)
-  {
-    this->Statistics.Phases.push_back({ name, this->Watch.restart() });
-  }
-
-  /// Returns false if there is nothing to resume.
-  bool resume()
-  {
-    this->Statistics.Resumed = this->Record.resume(
-      this->Options.Resume, this->Threads,
-      [this](LoadArchive& archive)
-      {
-        this->Setup.load(archive, this->Scratch.points());
-        this->planMemory(this->Setup.Rows.Words);
-        this->describePlan();
-      },
-      [this](LoadArchive& archive) { archive(this->Statistics); });
-    this->Statistics.Resumed ? this->endPhase("resume") : void();
-    return this->Statistics.Resumed;
+    this->Setup.load(archive, this->Scratch.points());
+    this->planMemory(this->Setup.Rows.Words);
+    this->describePlan();
   }
 
   void planMemory(std::size_t words)
@@ -163,7 +105,7 @@ private:
     survey = InputPasses(this->Input, this->Ranks,
       this->passOptions(
         [this](std::int64_t) {
-          this->reportLocally(0);
+          this->require(this->proceed(0));
         })).survey();
     this->Statistics.LeftOut = this->Input.leftOut();
     this->Statistics.ThinnedOut = this->Input.thinnedOut();
@@ -228,7 +170,7 @@ private:
   {
     const InputSurvey& survey = this->Setup.Survey;
     const auto progress = [&](std::int64_t done)
-    { this->reportLocally(0.2 * double(done) / double(survey.Points)); };
+    { this->require(this->proceed(0.2 * double(done) / double(survey.Points))); };
     this->Setup.Spilled =
       InputPasses(this->Input, this->Ranks, this->passOptions(progress))
         .spill(survey, *this->Setup.Plan, this->Setup.Rows, this->Scratch.points());
@@ -247,7 +189,7 @@ private:
         this->Setup.work(), this->Setup.Survey.Collinear,
         [&](std::int64_t done) { return this->proceed(0.2 + 0.7 * double(done) / all); },
         this->Statistics);
-      this->requireFinished();
+      this->require(!this->Finished.empty());
       this->endPhase("triangulate");
       return;
     }
@@ -255,10 +197,7 @@ private:
     const std::vector<char> isDone = verifyResults(
       work, this->Threads, [this](double) { return this->proceed(0.2); },
       [this](const std::string& sentence) { this->warn(sentence); });
-    if (isDone.empty())
-    {
-      throw Aborted();
-    }
+    this->require(!isDone.empty());
     if (this->Ranks)
     {
       shareSetup(*this->Ranks, this->Setup, this->Scratch.points(), isDone);
@@ -268,38 +207,22 @@ private:
       work, *this->Memory, this->Threads,
       [&](std::int64_t done) { return this->proceed(0.2 + 0.65 * double(done) / all); },
       this->Ranks);
-    if (!pieces.run(isDone))
-    {
-      throw Aborted();
-    }
+    this->require(pieces.run(isDone));
     this->Finished = finishPieces(
       work, this->Threads, [this](double done) { return this->proceed(0.85 + 0.05 * done); },
       this->Statistics);
-    this->requireFinished();
+    this->require(!this->Finished.empty());
     this->endPhase("triangulate");
-  }
-
-  void requireFinished() const
-  {
-    if (this->Finished.empty())
-    {
-      throw Aborted();
-    }
-  }
-
-  bool proceed(double fraction) const
-  {
-    return !this->Options.Progress || this->Options.Progress(fraction);
   }
 
   void endTaking()
   {
-    if (this->Options.Consumer &&
-      !this->Options.Consumer->end([this](double done) { return this->proceed(0.9 + 0.1 * done); }))
+    if (this->Options.Consumer)
     {
-      throw Aborted();
+      this->require(this->Options.Consumer->end(
+        [this](double done) { return this->proceed(0.9 + 0.1 * done); }));
+      this->endPhase("raster");
     }
-    this->Options.Consumer ? this->endPhase("raster") : void();
   }
 
   void count()
@@ -340,30 +263,9 @@ private:
       [this](double done) { this->report(0.98 + 0.02 * done); });
   }
 
-  void putInPlace()
-  {
-    if (this->Options.Progress)
-    {
-      this->Options.Progress(1); // too late to stop the run
-    }
-    this->Setup.Spilled.reset();
-    this->Record.putInPlace();
-    this->endPhase("publish");
-  }
-
-  PointStream& Input;
   Communicator* const Ranks; ///< null: this process works alone
-  const std::string Path;
-  const OutOfCoreOptions& Options;
-  const int Threads;
-  PendingFolder Pending;
-  ScratchFolder Scratch;
-  RunRecord Record;
-  OutOfCoreStatistics Statistics;
   std::unique_ptr<MemoryPlan> Memory;
   RunSetup Setup;
-  std::vector<FinishedPiece> Finished;
-  Stopwatch Watch;
 };
 
 } // namespace

@@ -3,11 +3,8 @@
 
 #include "Files/IOError.h"
 #include "OutOfCore/FinishPieces.h"
-#include "OutOfCore/RunRecord.h"
-#include "OutOfCore/ScratchFiles.h"
+#include "OutOfCore/OutOfCoreRun.h"
 #include "OutOfCore3D/PieceRun3.h"
-#include "Parallel/ParallelFor.h"
-#include "Parallel/Stopwatch.h"
 #include "Partitioned/NeighborIds.h"
 
 #include <memory>
@@ -30,11 +27,6 @@ namespace
 
 constexpr const char* representativeName = "RepresentativePointId";
 
-/// Thrown if the user has stopped the run.
-struct Aborted
-{
-};
-
 /// Returns a text that is equal for runs that make the same mesh from the same input with the same
 /// options.
 std::string identityOf(const PointStream& input, const OutOfCoreOptions3& options)
@@ -48,79 +40,43 @@ std::string identityOf(const PointStream& input, const OutOfCoreOptions3& option
     (options.Neighbors ? " linked" : "") + "\n" + options.Scratch;
 }
 
-class Run
+class Run : OutOfCoreRun<OutOfCoreOptions3, OutOfCoreStatistics3>
 {
 public:
   Run(PointStream& points, const std::string& path, const OutOfCoreOptions3& options)
-    : Input(points)
-    , Path(path)
-    , Options(options)
-    , Threads(threadCount(options.Threads))
+    : OutOfCoreRun(points, path, options, identityOf(points, options))
     , Memory(options.MemoryLimit, options.PiecePoints, 3 + points.columns().size())
-    , Pending(PendingFolder::lasting(path, &replaceableMesh))
-    , Scratch(this->Pending, options.Scratch)
-    , Record(path, identityOf(points, options), this->Pending, this->Scratch)
   {
-    this->Statistics.Threads = this->Threads;
   }
 
   OutOfCoreStatistics3 run()
   {
-    try
-    {
-      if (!this->resume())
+    return this->perform(
+      [this]
       {
-        this->prepare();
-      }
-      if (!this->Record.isWhole())
-      {
-        this->triangulate();
-        this->publish();
-      }
-      this->putInPlace();
-    }
-    catch (const Aborted&)
-    {
-      this->Statistics.Aborted = true;
-    }
-    this->Statistics.Kept = this->Record.isKept();
-    return std::move(this->Statistics);
+        if (!this->resume([this](LoadArchive& archive) { this->load(archive); }))
+        {
+          this->prepare();
+        }
+        if (!this->Record.isWhole())
+        {
+          this->triangulate();
+          this->publish();
+        }
+        this->putInPlace();
+      });
   }
 
 private:
-  bool proceed(double fraction) const
-  {
-    return !this->Options.Progress || this->Options.Progress(fraction);
-  }
+  /// Throws if the user has stopped the run.
+  void report(double fraction) const { this->require(this->proceed(fraction)); }
 
-  void require(double fraction) const
+  void load(LoadArchive& archive)
   {
-    if (!this->proceed(fraction))
-    {
-      throw Aborted();
-    }
-  }
-
-  void endPhase(const char* name)
-  {
-    this->Statistics.Phases.push_back({ name, this->Watch.restart() });
-  }
-
-  /// Returns false if there is nothing to resume.
-  bool resume()
-  {
-    this->Statistics.Resumed = this->Record.resume(
-      this->Options.Resume, this->Threads,
-      [this](LoadArchive& archive)
-      {
-        this->Plan = std::make_unique<PiecePlan3>(
-          archive, 3 + this->Input.columns().size(), this->Scratch.points());
-        this->describeColumns();
-        this->describePlan();
-      },
-      [this](LoadArchive& archive) { archive(this->Statistics); });
-    this->Statistics.Resumed ? this->endPhase("resume") : void();
-    return this->Statistics.Resumed;
+    this->Plan = std::make_unique<PiecePlan3>(
+      archive, 3 + this->Input.columns().size(), this->Scratch.points());
+    this->describeColumns();
+    this->describePlan();
   }
 
   void prepare()
@@ -128,14 +84,14 @@ private:
     this->Record.keep(false);
     this->Scratch.clear();
     this->Plan = std::make_unique<PiecePlan3>(
-      this->Input, this->Memory, [this](std::int64_t) { this->require(0); });
+      this->Input, this->Memory, [this](std::int64_t) { this->report(0); });
     this->describeColumns();
     this->requireSpace();
     this->Plan->divide(this->Memory, this->Rows.Words);
     this->endPhase("survey");
     const double all = double(this->Plan->survey().Points);
     this->Plan->spill(this->Input, this->Rows, this->Scratch.points(), this->Memory, this->Threads,
-      [&](std::int64_t done) { this->require(0.1 * double(done) / all); });
+      [&](std::int64_t done) { this->report(0.1 * double(done) / all); });
     this->Record.saveBegun([this](SaveArchive& archive) { this->Plan->save(archive); });
     this->describePlan();
     this->endPhase("spill");
@@ -219,24 +175,18 @@ private:
     const double all = double(this->Plan->survey().finite());
     const std::vector<char> isDone = verifyResults(
       work, this->Threads, [this](double) { return this->proceed(0.1); },
-      [this](const std::string& sentence)
-      { this->Options.Warn ? this->Options.Warn(sentence) : void(); });
+      [this](const std::string& sentence) { this->warn(sentence); });
+    this->require(!isDone.empty());
     StoredResults3 results;
-    if (isDone.empty() ||
-      !PieceRun3(work, this->Memory, this->Threads,
-        [&](std::int64_t done) { return this->proceed(0.1 + 0.75 * double(done) / all); })
-         .run(isDone, results))
-    {
-      throw Aborted();
-    }
+    this->require(PieceRun3(work, this->Memory, this->Threads,
+      [&](std::int64_t done) {
+        return this->proceed(0.1 + 0.75 * double(done) / all);
+      }).run(isDone, results));
     this->endPhase("triangulate");
     this->Finished = finishPieces(
       work, results, this->Memory.PieceBytes, this->Threads,
       [this](double done) { return this->proceed(0.85 + 0.08 * done); }, this->Statistics);
-    if (this->Finished.empty())
-    {
-      throw Aborted();
-    }
+    this->require(!this->Finished.empty());
     this->endPhase("borders");
   }
 
@@ -245,7 +195,7 @@ private:
     numberCells(this->Mesh, this->Finished,
       [this](double done)
       {
-        this->require(0.93 + 0.02 * done);
+        this->report(0.93 + 0.02 * done);
         return true;
       });
     this->Statistics.Tetrahedra = this->Mesh.Cells;
@@ -254,36 +204,19 @@ private:
       linkCells(this->Mesh, this->Finished, this->Memory.PieceBytes, this->Threads,
         [this](double done)
         {
-          this->require(0.95 + 0.03 * done);
+          this->report(0.95 + 0.03 * done);
           return true;
         });
       this->endPhase("link");
     }
     this->Record.publish(this->Mesh, this->Finished, this->Statistics,
-      [this](double done) { this->require(0.98 + 0.02 * done); });
+      [this](double done) { this->report(0.98 + 0.02 * done); });
   }
 
-  void putInPlace()
-  {
-    this->proceed(1); // too late to stop the run
-    this->Record.putInPlace();
-    this->endPhase("publish");
-  }
-
-  PointStream& Input;
-  const std::string Path;
-  const OutOfCoreOptions3& Options;
-  const int Threads;
   const MemoryPlan3 Memory;
-  PendingFolder Pending;
-  ScratchFolder Scratch;
-  RunRecord Record;
-  OutOfCoreStatistics3 Statistics;
   std::unique_ptr<PiecePlan3> Plan;
   PointRowLayout Rows;
   PartitionedMesh Mesh;
-  std::vector<FinishedPiece> Finished;
-  Stopwatch Watch;
 };
 
 } // namespace

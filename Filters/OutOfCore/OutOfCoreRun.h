@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippOutOfCoreRun_h
+#define tippOutOfCoreRun_h
+
+#include "Files/OutputFile.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "OutOfCore/RunRecord.h"
+#include "OutOfCore/ScratchFiles.h"
+#include "Parallel/ParallelFor.h"
+#include "Parallel/Stopwatch.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tipp
+{
+
+/// What runs out of core in the plane and in space have in common.
+template <typename RunOptions, typename RunStatistics>
+class OutOfCoreRun
+{
+protected:
+  /// Thrown if the user has stopped the run.
+  struct Aborted
+  {
+  };
+
+  /// `identity`: see RunRecord.
+  OutOfCoreRun(PointStream& points, const std::string& path, const RunOptions& options,
+    const std::string& identity)
+    : Input(points)
+    , Path(path)
+    , Options(options)
+    , Threads(threadCount(options.Threads))
+    , Pending(PendingFolder::lasting(path, &replaceableMesh))
+    , Scratch(this->Pending, options.Scratch)
+    , Record(path, identity, this->Pending, this->Scratch)
+  {
+    this->Statistics.Threads = this->Threads;
+  }
+
+  /// Does the work and returns the statistics, also if the user stops the run.
+  template <typename Work>
+  RunStatistics perform(const Work& work)
+  {
+    try
+    {
+      work();
+    }
+    catch (const Aborted&)
+    {
+      this->Statistics.Aborted = true;
+    }
+    catch (const RankFailure& failure)
+    {
+      if (!failure.Aborted)
+      {
+        throw;
+      }
+      this->Statistics.Aborted = true;
+    }
+    this->Statistics.Kept = this->Record.isKept();
+    return std::move(this->Statistics);
+  }
+
+  bool proceed(double fraction) const
+  {
+    return !this->Options.Progress || this->Options.Progress(fraction);
+  }
+
+  void require(bool isGoingOn) const
+  {
+    if (!isGoingOn)
+    {
+      throw Aborted();
+    }
+  }
+
+  void warn(const std::string& sentence) const
+  {
+    if (this->Options.Warn)
+    {
+      this->Options.Warn(sentence);
+    }
+  }
+
+  void endPhase(const char* name)
+  {
+    this->Statistics.Phases.push_back({ name, this->Watch.restart() });
+  }
+
+  /// Calls `loadPlan` if the points of an earlier run are spilled. Returns false if there is
+  /// nothing to resume.
+  bool resume(const RunRecord::Load& loadPlan)
+  {
+    this->Statistics.Resumed = this->Record.resume(this->Options.Resume, this->Threads, loadPlan,
+      [this](LoadArchive& archive) { archive(this->Statistics); });
+    this->Statistics.Resumed ? this->endPhase("resume") : void();
+    return this->Statistics.Resumed;
+  }
+
+  void putInPlace()
+  {
+    this->proceed(1); // too late to stop the run
+    this->Record.putInPlace();
+    this->endPhase("publish");
+  }
+
+  PointStream& Input;
+  const std::string Path;
+  const RunOptions& Options;
+  const int Threads;
+  PendingFolder Pending;
+  ScratchFolder Scratch;
+  RunRecord Record;
+  RunStatistics Statistics;
+  std::vector<FinishedPiece> Finished;
+
+private:
+  Stopwatch Watch;
+};
+
+} // namespace tipp
+
+#endif
