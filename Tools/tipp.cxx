@@ -42,18 +42,14 @@ int run(int argc, char** argv)
   app.require_subcommand(1);
   app.failure_message(describeMisuse);
   app.footer("'tipp COMMAND --help' shows the options of a command, their units and examples.\n");
-  tipp::addDelaunayCommand(app, exitCode);
-  tipp::addDelaunay3DCommand(app, exitCode);
-  tipp::addDemCommand(app, exitCode);
-  tipp::addDevicesCommand(app, exitCode);
-  tipp::addFlattenCommand(app, exitCode);
-  tipp::addInfoCommand(app, exitCode);
-  tipp::addPointsCommand(app, exitCode);
-  tipp::addResampleCommand(app, exitCode);
-  tipp::addPartitionCommand(app, exitCode);
-  tipp::addQueryCommand(app, exitCode);
-  tipp::addContourCommand(app, exitCode);
-  tipp::addCheckCommand(app, exitCode);
+  for (const auto addCommand :
+    { &tipp::addDelaunayCommand, &tipp::addDelaunay3DCommand, &tipp::addDemCommand,
+      &tipp::addDevicesCommand, &tipp::addFlattenCommand, &tipp::addInfoCommand,
+      &tipp::addPointsCommand, &tipp::addResampleCommand, &tipp::addPartitionCommand,
+      &tipp::addQueryCommand, &tipp::addContourCommand, &tipp::addCheckCommand })
+  {
+    addCommand(app, exitCode);
+  }
   try
   {
     app.parse(argc, argv);
