@@ -247,7 +247,7 @@ class ResidentMesh:
         Parameters
         ----------
         points
-            (n, 2) or (n, 3) coordinates.
+            As for locate().
 
         Returns
         -------

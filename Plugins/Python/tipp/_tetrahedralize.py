@@ -31,6 +31,8 @@ def delaunay_3d(
 ) -> Any:
     """Computes the exact Delaunay tetrahedralization as a mesh, with the keywords of PyVista's delaunay_3d.
 
+    If all points are in one plane, the mesh has triangles.
+
     Parameters
     ----------
     points

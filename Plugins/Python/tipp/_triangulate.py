@@ -89,9 +89,9 @@ def delaunay_2d(
     offset: float = 1.0,
     bound: bool = False,
     point_data: Mapping[str, ArrayLike] | None = None,
-    edge_source: Any = None,
     edges: ArrayLike | None = None,
     polygons: Iterable[Any] | None = None,
+    edge_source: Any = None,
     crossings: str = "split",
     marks: str = "none",
     map_duplicates: bool = True,
@@ -119,15 +119,15 @@ def delaunay_2d(
         Whether to add eight points on a circle around the others.
     point_data
         For an array of points: a dictionary of arrays with values at the points.
-    edge_source
-        A vtkPolyData or pyvista.PolyData whose lines and polygons are constraints: their edges become edges of the
-        triangulation. Their point ids refer to `points`.
     edges
-        Constraints as an (m, 2) array of point ids.
+        Constraints, which become edges of the triangulation, as an (m, 2) array of point ids.
     polygons
         Closed polygons: sequences of point ids; arrays of coordinates of shape (k, 2) or (k, 3), which add new points
         where `points` has none; or Shapely polygons with their holes. Only triangles inside of counter-clockwise polygons
         are kept; clockwise ones are holes. Shapely polygons may have any orientation.
+    edge_source
+        Instead of both: a vtkPolyData or pyvista.PolyData whose lines and polygons are constraints. Their point ids
+        refer to `points`.
     crossings
         "split": where constraints cross, a new point is added after the others. "refuse": crossing constraints raise
         RuntimeError.
@@ -169,7 +169,7 @@ def delaunay_2d(
     options["offset"] = check.number(offset, "offset", at_least=0)
     options["bound"] = check.flag(bound, "bound")
     check.require_point_set(points, point_data)
-    options["edge_source"], options["edges"], options["polygons"] = edge_source, edges, polygons
+    options["edges"], options["polygons"], options["edge_source"] = edges, polygons, edge_source
     options["crossings"] = check.choice(crossings, "crossings", _CROSSINGS)
     options["marks"] = check.choice(marks, "marks", _MARKS)
     options["map_duplicates"] = check.flag(map_duplicates, "map_duplicates")
