@@ -8,37 +8,55 @@
 namespace tipp
 {
 
-/// The in-sphere determinant in doubles, and the sum of its four lifts, which bounds its error.
-struct InSphereValue
+/// A point relative to another one, and the sum of the squares of its coordinates. Number: a
+/// double, or a vector of doubles.
+template <typename Number>
+struct LiftedPoint
 {
-  double determinant;
-  double lifts;
+  Number x;
+  Number y;
+  Number z;
+  Number lift;
 };
+
+/// The in-sphere determinant, and the sum of its four lifts, which bounds its error.
+template <typename Number>
+struct InSphereValueOf
+{
+  Number determinant;
+  Number lifts;
+};
+using InSphereValue = InSphereValueOf<double>;
+
+/// Evaluates the in-sphere determinant of the origin and a tetrahedron without error control.
+template <typename Number>
+[[gnu::always_inline]] inline InSphereValueOf<Number> inSphereValue(const LiftedPoint<Number>& a,
+  const LiftedPoint<Number>& b, const LiftedPoint<Number>& c, const LiftedPoint<Number>& d)
+{
+  const Number ab = a.x * b.y - b.x * a.y;
+  const Number bc = b.x * c.y - c.x * b.y;
+  const Number cd = c.x * d.y - d.x * c.y;
+  const Number da = d.x * a.y - a.x * d.y;
+  const Number ac = a.x * c.y - c.x * a.y;
+  const Number bd = b.x * d.y - d.x * b.y;
+  const Number abc = a.z * bc - b.z * ac + c.z * ab;
+  const Number bcd = b.z * cd - c.z * bd + d.z * bc;
+  const Number cda = c.z * da + d.z * ac + a.z * cd;
+  const Number dab = d.z * ab + a.z * bd + b.z * da;
+  return { (a.lift * bcd - b.lift * cda) + (c.lift * dab - d.lift * abc),
+    (a.lift + b.lift) + (c.lift + d.lift) };
+}
 
 /// Evaluates the in-sphere determinant of p and the tetrahedron a, b, c, d without error control.
 inline InSphereValue inSphereValue(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& p)
 {
-  const auto [ax, ay, az] = a - p;
-  const auto [bx, by, bz] = b - p;
-  const auto [cx, cy, cz] = c - p;
-  const auto [dx, dy, dz] = d - p;
-  const double ab = ax * by - bx * ay;
-  const double bc = bx * cy - cx * by;
-  const double cd = cx * dy - dx * cy;
-  const double da = dx * ay - ax * dy;
-  const double ac = ax * cy - cx * ay;
-  const double bd = bx * dy - dx * by;
-  const double abc = az * bc - bz * ac + cz * ab;
-  const double bcd = bz * cd - cz * bd + dz * bc;
-  const double cda = cz * da + dz * ac + az * cd;
-  const double dab = dz * ab + az * bd + bz * da;
-  const double aLift = ax * ax + ay * ay + az * az;
-  const double bLift = bx * bx + by * by + bz * bz;
-  const double cLift = cx * cx + cy * cy + cz * cz;
-  const double dLift = dx * dx + dy * dy + dz * dz;
-  return { (aLift * bcd - bLift * cda) + (cLift * dab - dLift * abc),
-    (aLift + bLift) + (cLift + dLift) };
+  const auto lifted = [&p](const Point3& at) -> LiftedPoint<double>
+  {
+    const auto [x, y, z] = at - p;
+    return { x, y, z, x * x + y * y + z * z };
+  };
+  return inSphereValue(lifted(a), lifted(b), lifted(c), lifted(d));
 }
 
 /// Whether the sign of the determinant is certain, for any coordinates.

@@ -19,6 +19,18 @@ using Index = TetrahedronMesh::Index;
 using Quad = double __attribute__((vector_size(32)));
 using QuadMask = long long __attribute__((vector_size(32)));
 
+/// Four points, with their lift or another value.
+using QuadPoint = LiftedPoint<Quad>;
+
+/// Returns the points in another order.
+template <int A, int B, int C, int D>
+[[gnu::always_inline]] inline QuadPoint permuted(const QuadPoint& p)
+{
+  return { __builtin_shufflevector(p.x, p.x, A, B, C, D),
+    __builtin_shufflevector(p.y, p.y, A, B, C, D), __builtin_shufflevector(p.z, p.z, A, B, C, D),
+    __builtin_shufflevector(p.lift, p.lift, A, B, C, D) };
+}
+
 /// Returns a bit for each lane of the mask: lane i sets bit i.
 inline unsigned bitsOfLanes(const QuadMask& mask)
 {
@@ -55,18 +67,10 @@ inline unsigned Cavity3::facetsBefore(const Index* v, const Point3& p, unsigned&
   const Quad y = Quad{ at[v[0]].y, at[v[1]].y, at[v[2]].y, at[v[3]].y } - p.y;
   const Quad z = Quad{ at[v[0]].z, at[v[1]].z, at[v[2]].z, at[v[3]].z } - p.z;
   const Quad size = (x < 0 ? -x : x) + (y < 0 ? -y : y) + (z < 0 ? -z : z);
-  const Quad ax = __builtin_shufflevector(x, x, 1, 0, 0, 0);
-  const Quad ay = __builtin_shufflevector(y, y, 1, 0, 0, 0);
-  const Quad bx = __builtin_shufflevector(x, x, 2, 3, 1, 2);
-  const Quad by = __builtin_shufflevector(y, y, 2, 3, 1, 2);
-  const Quad cx = __builtin_shufflevector(x, x, 3, 2, 3, 1);
-  const Quad cy = __builtin_shufflevector(y, y, 3, 2, 3, 1);
-  const Quad az = __builtin_shufflevector(z, z, 1, 0, 0, 0);
-  const Quad bz = __builtin_shufflevector(z, z, 2, 3, 1, 2);
-  const Quad cz = __builtin_shufflevector(z, z, 3, 2, 3, 1);
-  const Quad aSize = __builtin_shufflevector(size, size, 1, 0, 0, 0);
-  const Quad bSize = __builtin_shufflevector(size, size, 2, 3, 1, 2);
-  const Quad cSize = __builtin_shufflevector(size, size, 3, 2, 3, 1);
+  const QuadPoint corners = { x, y, z, size };
+  const auto [ax, ay, az, aSize] = permuted<1, 0, 0, 0>(corners);
+  const auto [bx, by, bz, bSize] = permuted<2, 3, 1, 2>(corners);
+  const auto [cx, cy, cz, cSize] = permuted<3, 2, 3, 1>(corners);
   const Quad determinant =
     (az * (bx * cy - cx * by) - bz * (ax * cy - cx * ay)) + cz * (ax * by - bx * ay);
   // After an overflow the last term is NaN, and both comparisons are false.
@@ -161,32 +165,11 @@ inline unsigned Cavity3::conflictsAcross(
   const Quad ey = Quad{ e0.y, e1.y, e2.y, e3.y } - p.y;
   const Quad ez = Quad{ e0.z, e1.z, e2.z, e3.z } - p.z;
   const Quad lift = x * x + y * y + z * z;
-  const Quad eLift = ex * ex + ey * ey + ez * ez;
-  const Quad ax = __builtin_shufflevector(x, x, 1, 0, 0, 0);
-  const Quad ay = __builtin_shufflevector(y, y, 1, 0, 0, 0);
-  const Quad az = __builtin_shufflevector(z, z, 1, 0, 0, 0);
-  const Quad aLift = __builtin_shufflevector(lift, lift, 1, 0, 0, 0);
-  const Quad bx = __builtin_shufflevector(x, x, 2, 3, 1, 2);
-  const Quad by = __builtin_shufflevector(y, y, 2, 3, 1, 2);
-  const Quad bz = __builtin_shufflevector(z, z, 2, 3, 1, 2);
-  const Quad bLift = __builtin_shufflevector(lift, lift, 2, 3, 1, 2);
-  const Quad cx = __builtin_shufflevector(x, x, 3, 2, 3, 1);
-  const Quad cy = __builtin_shufflevector(y, y, 3, 2, 3, 1);
-  const Quad cz = __builtin_shufflevector(z, z, 3, 2, 3, 1);
-  const Quad cLift = __builtin_shufflevector(lift, lift, 3, 2, 3, 1);
-  const Quad ab = ax * by - bx * ay;
-  const Quad bc = bx * cy - cx * by;
-  const Quad ac = ax * cy - cx * ay;
-  const Quad ea = ex * ay - ax * ey;
-  const Quad eb = ex * by - bx * ey;
-  const Quad ec = ex * cy - cx * ey;
-  const Quad abc = az * bc - bz * ac + cz * ab;
-  const Quad ebc = ez * bc - bz * ec + cz * eb;
-  const Quad eac = ez * ac - az * ec + cz * ea;
-  const Quad eab = ez * ab - az * eb + bz * ea;
-  const Quad determinant = (eLift * abc - aLift * ebc) + (bLift * eac - cLift * eab);
+  const QuadPoint corners = { x, y, z, lift };
+  const QuadPoint e = { ex, ey, ez, ex * ex + ey * ey + ez * ez };
+  const auto [determinant, lifts] = inSphereValue(
+    e, permuted<1, 0, 0, 0>(corners), permuted<2, 3, 1, 2>(corners), permuted<3, 2, 3, 1>(corners));
   // The same error bound as in isCertain().
-  const Quad lifts = (eLift + aLift) + (bLift + cLift);
   const Quad square = lifts * lifts;
   const Quad bound = (9 * 0x1p-106) * (square * square) * lifts + 1e-280;
   certain = bitsOfLanes(determinant * determinant > bound);
