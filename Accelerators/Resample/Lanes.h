@@ -72,14 +72,26 @@ inline bool hasAvx2()
   return lanes;
 }
 
+/// The lower and the upper lanes of a vector, as vectors of another type.
+template <typename Half>
+struct Halves
+{
+  template <typename Whole>
+  [[gnu::always_inline]] explicit Halves(Whole lanes)
+  {
+    std::memcpy(this, &lanes, sizeof lanes);
+  }
+
+  Half Low;
+  Half High;
+};
+
 /// A bit mask with one bit per lane.
 [[gnu::always_inline]] inline unsigned laneBits(LaneMask mask)
 {
 #ifdef __SSE2__
-  using Half = double __attribute__((vector_size(16)));
-  Half halves[2];
-  std::memcpy(halves, &mask, sizeof mask);
-  return unsigned(__builtin_ia32_movmskpd(halves[0]) | __builtin_ia32_movmskpd(halves[1]) << 2);
+  const Halves<double __attribute__((vector_size(16)))> halves(mask);
+  return unsigned(__builtin_ia32_movmskpd(halves.Low) | __builtin_ia32_movmskpd(halves.High) << 2);
 #else
   return unsigned((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
 #endif
@@ -249,10 +261,8 @@ constexpr int floatLaneCount = 8;
 [[gnu::always_inline]] inline unsigned floatLaneBits(FloatLaneInts mask)
 {
 #ifdef __SSE__
-  using Half = float __attribute__((vector_size(16)));
-  Half halves[2];
-  std::memcpy(halves, &mask, sizeof mask);
-  return unsigned(__builtin_ia32_movmskps(halves[0]) | __builtin_ia32_movmskps(halves[1]) << 4);
+  const Halves<float __attribute__((vector_size(16)))> halves(mask);
+  return unsigned(__builtin_ia32_movmskps(halves.Low) | __builtin_ia32_movmskps(halves.High) << 4);
 #else
   unsigned bits = 0;
   for (int lane = 0; lane < floatLaneCount; ++lane)
@@ -270,6 +280,32 @@ constexpr int floatLaneCount = 8;
   const Half floats = __builtin_convertvector(from, Half);
   std::memcpy(to, &floats, sizeof floats);
 }
+
+/// The corners of a cell for each lane.
+template <typename Point, int Count>
+class LaneCorners
+{
+public:
+  /// Reads cells from `first` on.
+  template <typename Access>
+  [[gnu::always_inline]] LaneCorners(const Access& cells, std::int64_t first)
+  {
+    for (int lane = 0; lane < laneCount; ++lane)
+    {
+      cells.corners(first + lane, this->Corners[lane]);
+    }
+  }
+
+  /// A coordinate of corner i.
+  [[gnu::always_inline]] Lanes get(int i, double Point::*axis) const
+  {
+    return Lanes{ this->Corners[0][i].*axis, this->Corners[1][i].*axis, this->Corners[2][i].*axis,
+      this->Corners[3][i].*axis };
+  }
+
+private:
+  Point Corners[laneCount][Count];
+};
 
 /// The corners of four cells in the lexicographic order of their coordinates, and by how much the
 /// barycentric weights of all but the first rise along each axis.

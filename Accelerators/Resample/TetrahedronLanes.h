@@ -24,17 +24,13 @@ public:
   template <typename Access>
   [[gnu::always_inline]] void set(const Access& cells, std::int64_t first)
   {
-    Point3 p[laneCount][4];
-    for (int lane = 0; lane < laneCount; ++lane)
-    {
-      cells.corners(first + lane, p[lane]);
-    }
+    const LaneCorners<Point3, 4> p(cells, first);
     Corner corners[4] = {};
     for (int i = 0; i < 4; ++i)
     {
-      corners[i].x = Lanes{ p[0][i].x, p[1][i].x, p[2][i].x, p[3][i].x };
-      corners[i].y = Lanes{ p[0][i].y, p[1][i].y, p[2][i].y, p[3][i].y };
-      corners[i].z = Lanes{ p[0][i].z, p[1][i].z, p[2][i].z, p[3][i].z };
+      corners[i].x = p.get(i, &Point3::x);
+      corners[i].y = p.get(i, &Point3::y);
+      corners[i].z = p.get(i, &Point3::z);
     }
     const Lanes left = leastOf(corners, &Corner::x);
     const Lanes right = mostOf(corners, &Corner::x);

@@ -201,17 +201,13 @@ public:
   template <typename Access>
   [[gnu::always_inline]] void set(const Access& cells, std::int64_t first)
   {
-    Point2 p[laneCount][3];
-    for (int lane = 0; lane < laneCount; ++lane)
-    {
-      cells.corners(first + lane, p[lane]);
-    }
+    const LaneCorners<Point2, 3> p(cells, first);
     Lanes x[3] = {};
     Lanes y[3] = {};
     for (int i = 0; i < 3; ++i)
     {
-      x[i] = Lanes{ p[0][i].x, p[1][i].x, p[2][i].x, p[3][i].x };
-      y[i] = Lanes{ p[0][i].y, p[1][i].y, p[2][i].y, p[3][i].y };
+      x[i] = p.get(i, &Point2::x);
+      y[i] = p.get(i, &Point2::y);
     }
     const RangeLanes columns(this->U, least(least(x[0], x[1]), x[2]), most(most(x[0], x[1]), x[2]));
     order(x, y, 0, 1);
