@@ -293,12 +293,7 @@ private:
 
 std::vector<std::string> CheckReport::faults() const
 {
-  struct Kind
-  {
-    std::int64_t Count;
-    const char* Text;
-  };
-  const Kind kinds[] = {
+  return describe({
     { this->BadIds, "triangles have a point that does not exist or is not finite" },
     { this->BadTurns, "triangles are clockwise or flat" },
     { this->BadEdges, "edges are in three or more triangles or twice in one direction" },
@@ -311,16 +306,7 @@ std::vector<std::string> CheckReport::faults() const
     { this->OpenBoundary, "boundary edges are neither constraints nor edges of the convex hull" },
     { this->BadNeighbors, "edges have triangles that store wrong neighbours" },
     { this->EulerMismatch, "more triangles (negative: fewer) than Euler's formula gives" },
-  };
-  std::vector<std::string> lines;
-  for (const Kind& kind : kinds)
-  {
-    if (kind.Count != 0)
-    {
-      lines.push_back(std::to_string(kind.Count) + " " + kind.Text);
-    }
-  }
-  return lines;
+  });
 }
 
 CheckReport checkDelaunay(const std::vector<double>& xy, const std::vector<std::int64_t>& triangles,

@@ -2,6 +2,8 @@
 #ifndef tippDelaunayChecker_h
 #define tippDelaunayChecker_h
 
+#include "Check/MeshReport.h"
+
 #include <array>
 #include <cstdint>
 #include <string>
@@ -29,36 +31,19 @@ struct CheckOptions
   bool IsCut = false;
 };
 
-/// The result of checkDelaunay(). The members after the first block count faults.
-struct CheckReport
+/// The result of checkDelaunay(). The members from BadEdges on count faults.
+struct CheckReport : MeshReport
 {
-  std::int64_t Points = 0;
-  std::int64_t DistinctPoints = 0; ///< distinct points with finite coordinates
   std::int64_t Triangles = 0;
   std::int64_t BoundaryEdges = 0; ///< edges of one triangle
-  std::int64_t Ties = 0;          ///< interior edges whose two triangles are on one circle
 
-  /// Triangles with an id that does not exist, or whose point is not finite.
-  std::int64_t BadIds = 0;
-  std::int64_t BadTurns = 0;        ///< triangles that are clockwise or flat
   std::int64_t BadEdges = 0;        ///< edges in three or more triangles, or twice in one direction
   std::int64_t BadCircles = 0;      ///< interior edges with a point inside the neighbour's circle
-  std::int64_t BadTies = 0;         ///< ties broken against the rule; counted with TieRule only
-  std::int64_t UnusedPoints = 0;    ///< distinct points in no triangle
-  std::int64_t TwinVertices = 0;    ///< vertices that have the coordinates of another vertex
-  std::int64_t BadHullEdges = 0;    ///< boundary edges that are not in one convex closed chain
   std::int64_t LostConstraints = 0; ///< constraints that are no chain of edges
-  std::int64_t OpenBoundary =
-    0; ///< boundary edges, if IsCut, that are neither constraints nor on the hull
-  /// Edges whose triangles do not store each other as neighbours; counted if `neighbors` are given.
-  std::int64_t BadNeighbors = 0;
-  /// Number of triangles less 2 n - 2 - h, for n distinct points and h boundary edges.
-  std::int64_t EulerMismatch = 0;
+  /// Boundary edges, if IsCut, that are neither constraints nor on the hull.
+  std::int64_t OpenBoundary = 0;
 
-  bool isCorrect() const { return this->faults().empty(); }
-
-  /// Returns a line for each kind of fault, with its count.
-  std::vector<std::string> faults() const;
+  std::vector<std::string> faults() const override;
 };
 
 /// Checks in exact arithmetic whether triangles are the Delaunay triangulation of the distinct

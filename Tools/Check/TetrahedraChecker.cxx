@@ -342,26 +342,19 @@ private:
 
 std::vector<std::string> TetrahedraReport::faults() const
 {
-  std::vector<std::string> lines;
-  const auto add = [&lines](Id count, const char* text)
-  {
-    if (count != 0)
-    {
-      lines.push_back(std::to_string(count) + " " + text);
-    }
-  };
-  add(this->BadIds, "tetrahedra have a point that does not exist or is not finite");
-  add(this->BadTurns, "tetrahedra are inverted or flat");
-  add(this->BadFacets, "facets are in three or more tetrahedra, or in two on the same side");
-  add(this->BadSpheres, "interior facets are not locally Delaunay");
-  add(this->BadTies, "facets break a tie differently than the rule");
-  add(this->UnusedPoints, "distinct points are in no tetrahedron");
-  add(this->TwinVertices, "vertices have the coordinates of another vertex");
-  add(this->BadHullEdges, "hull edges are where the hull is not closed or not convex");
-  add(this->EulerMismatch,
-    "is the difference from Euler's formula for vertices, edges, facets and tetrahedra");
-  add(this->BadNeighbors, "corners have a wrong tetrahedron in NeighborIds");
-  return lines;
+  return describe({
+    { this->BadIds, "tetrahedra have a point that does not exist or is not finite" },
+    { this->BadTurns, "tetrahedra are inverted or flat" },
+    { this->BadFacets, "facets are in three or more tetrahedra, or in two on the same side" },
+    { this->BadSpheres, "interior facets are not locally Delaunay" },
+    { this->BadTies, "facets break a tie differently than the rule" },
+    { this->UnusedPoints, "distinct points are in no tetrahedron" },
+    { this->TwinVertices, "vertices have the coordinates of another vertex" },
+    { this->BadHullEdges, "hull edges are where the hull is not closed or not convex" },
+    { this->EulerMismatch,
+      "is the difference from Euler's formula for vertices, edges, facets and tetrahedra" },
+    { this->BadNeighbors, "corners have a wrong tetrahedron in NeighborIds" },
+  });
 }
 
 TetrahedraReport checkTetrahedra(const std::vector<double>& xyz,
