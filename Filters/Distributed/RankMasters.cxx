@@ -71,7 +71,7 @@ template <typename Id>
 void RankRun<Id>::start(PartitionIndex p)
 {
   std::vector<VertexMessage> messages = this->Inboxes[std::size_t(p)].take();
-  VertexMessage all{ -1, UniqueVertices().collect(messages), 0 };
+  VertexMessage all{ { -1, UniqueVertices().collect(messages) }, 0 };
   for (const VertexMessage& message : messages)
   {
     all.Triangles += message.Triangles;

@@ -2,6 +2,8 @@
 #ifndef tippInbox_h
 #define tippInbox_h
 
+#include "Triangulation/Tiling.h"
+
 #include <algorithm>
 #include <atomic>
 #include <memory>
@@ -10,6 +12,21 @@
 
 namespace tipp
 {
+
+/// What a partition sends to a later one: the vertices of the boundary cells that it passes on
+/// (Lemma 6), each once.
+template <typename Vertex>
+struct VertexMessageOf
+{
+  PartitionIndex Sender = -1; ///< -1: the initial mesh
+  std::vector<Vertex> Vertices;
+};
+
+template <typename Archive, typename Vertex>
+void serialize(Archive& archive, VertexMessageOf<Vertex>& message)
+{
+  archive(message.Sender, message.Vertices);
+}
 
 /// The messages sent to one partition; a message has the member `Sender`. Any thread may add one,
 /// without a lock. The thread that triangulates the partition takes them all once all senders are

@@ -158,7 +158,7 @@ std::int64_t OutgoingTriangles::send(PartitionIndex sender, std::size_t recipien
   std::size_t at = 0;
   for (std::size_t recipient = 0; at < sent; ++recipient)
   {
-    VertexMessage message{ sender, {}, std::int64_t(this->Ends[recipient] - at) };
+    VertexMessage message{ { sender, {} }, std::int64_t(this->Ends[recipient] - at) };
     for (; at < this->Ends[recipient]; ++at)
     {
       for (const DelaunayKernel::Index v : this->Sorted[at])

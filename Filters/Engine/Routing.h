@@ -22,12 +22,8 @@
 namespace tipp
 {
 
-/// What a partition sends to a later one: the vertices of the boundary triangles that it passes on
-/// (Lemma 6), each once.
-struct VertexMessage
+struct VertexMessage : VertexMessageOf<BoundaryVertex>
 {
-  PartitionIndex Sender = -1; ///< -1: the initial mesh
-  std::vector<BoundaryVertex> Vertices;
   std::int64_t Triangles = 0; ///< the number of triangles that these are the vertices of
 };
 

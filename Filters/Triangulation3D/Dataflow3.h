@@ -20,20 +20,7 @@
 namespace tipp
 {
 
-/// The vertices of the tetrahedra that a partition passes on to a later one, each once (Lemma 6,
-/// see Routing.h).
-struct VertexMessage3
-{
-  PartitionIndex Sender = -1; ///< -1: the initial mesh
-  std::vector<Vertex3> Vertices;
-};
-
-template <typename Archive>
-void serialize(Archive& archive, VertexMessage3& message)
-{
-  archive(message.Sender, message.Vertices);
-}
-
+using VertexMessage3 = VertexMessageOf<Vertex3>;
 using Inbox3 = MessageInbox<VertexMessage3>;
 
 /// The messages of a finished partition, each with the partition that receives it.
