@@ -107,17 +107,10 @@ DemFigures makeWithin(std::unique_ptr<PointStream> points, const DemRequest& req
 
 } // namespace
 
-DemFigures figuresOf(const OutOfCoreStatistics& statistics)
+DemFigures figuresOf(const OutOfCoreStatistics& made)
 {
-  DemFigures figures;
-  figures.Points = statistics.Points;
-  figures.Triangles = statistics.Triangles;
-  figures.Duplicates = statistics.Duplicates;
-  figures.DisagreeingPositions = statistics.DisagreeingPositions;
-  figures.Rejected = statistics.Rejected;
-  figures.WithoutElevation = statistics.WithoutElevation;
-  figures.Aborted = statistics.Aborted;
-  return figures;
+  return { made.Points, made.Triangles, made.Duplicates, made.DisagreeingPositions, made.Rejected,
+    made.WithoutElevation, made.Aborted };
 }
 
 DemFigures makeDem(std::unique_ptr<PointStream> points, const DemRequest& request,

@@ -35,7 +35,7 @@ public:
   std::string identity() const override { return this->Identity; }
   std::uint64_t fileBytes(const Box2&, const std::vector<std::string>&) const override;
   void begin(
-    const Box2& bounds, const std::vector<std::string>& columns, const std::string& files) override;
+    const Box2&, const std::vector<std::string>& columns, const std::string& files) override;
   void take(const std::string& name, const double* rows, const PointRowLayout& layout,
     std::size_t points, const std::vector<TriangleRange>& triangles) override;
   bool end(const std::function<bool(double)>& progress) override;

@@ -222,13 +222,6 @@ SpilledPoints::SpilledPoints(
 }
 
 template <typename Archive>
-void serialize(Archive& archive, PartialSurvey& part)
-{
-  archive(part.Points, part.Rejected, part.WithoutElevation, part.Bounds, part.Collinear, part.Line,
-    part.Sample);
-}
-
-template <typename Archive>
 void serialize(Archive& archive, SpilledPart& part)
 {
   archive(part.Points, part.Rows, part.Counts, part.InPieces);

@@ -43,6 +43,13 @@ struct PartialSurvey
   std::vector<SampledPoint> Sample;
 };
 
+template <typename Archive>
+void serialize(Archive& archive, PartialSurvey& part)
+{
+  archive(part.Points, part.Rejected, part.WithoutElevation, part.Bounds, part.Collinear, part.Line,
+    part.Sample);
+}
+
 /// Surveys the points of the stream, `blockPoints` at a time. The sample of all parts together has
 /// between `sample` and twice as many points: one from each range of ids of equal length, chosen at
 /// random but always the same. Throws IOError.

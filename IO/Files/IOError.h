@@ -17,9 +17,9 @@ namespace tipp
 class VTKTIPPIO_EXPORT IOError : public std::runtime_error
 {
 public:
-  explicit IOError(const std::string& sentence);
   IOError(const std::string& path, const std::string& problem);
   IOError(const std::string& path, std::int64_t line, const std::string& problem);
+  explicit IOError(const std::string& sentence);
   ~IOError() override;
 
   /// The file or folder; empty if there is none.

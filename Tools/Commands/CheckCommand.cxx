@@ -253,6 +253,10 @@ CheckReport checkPartitioned(const CheckArguments& arguments)
   return report;
 }
 
+constexpr const char* meshFormats =
+  "The triangles: .npy (m x 3 integers), .14, .grd, a VTK file or a partitioned mesh; or "
+  "tetrahedra: .npy (m x 4 integers), .vtu or a partitioned mesh";
+
 constexpr const char* footer =
   R"(The check is exact and computes no triangulation of its own. It requires: every edge is in
 at most two triangles, all triangles are counter-clockwise, every interior edge is locally
@@ -387,11 +391,7 @@ void addCheckCommand(CLI::App& app, int& exitCode)
     "check", "Checks that triangles are the Delaunay triangulation of points, exactly");
   command->add_option("points", arguments->Points, "The points, in any format of 'tipp delaunay'")
     ->required();
-  command
-    ->add_option("mesh", arguments->Mesh,
-      "The triangles: .npy (m x 3 integers), .14, .grd, a VTK file or a partitioned mesh; or "
-      "tetrahedra: .npy (m x 4 integers), .vtu or a partitioned mesh")
-    ->required();
+  command->add_option("mesh", arguments->Mesh, meshFormats)->required();
   addPointOptions(*command, arguments->Columns);
   command->add_flag("--tie-rule", arguments->Options.TieRule,
     "Also check that ties between co-circular points are broken by the points' lexicographic "

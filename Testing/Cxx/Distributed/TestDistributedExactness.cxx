@@ -20,14 +20,7 @@ struct Design
 DistributedOptions make(Masters masters, GridSize major, Division division, GridSize minor,
   std::int64_t threshold, GroupSizes groups = GroupSizes::Proportional)
 {
-  DistributedOptions options;
-  options.Design = masters;
-  options.Major = major;
-  options.MinorDivision = division;
-  options.Minor = minor;
-  options.Threshold = threshold;
-  options.Groups = groups;
-  return options;
+  return { masters, major, division, minor, threshold, groups, RankSchedule::Dynamic, 0, 0, {} };
 }
 
 const Design designs[] = {

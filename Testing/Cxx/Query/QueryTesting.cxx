@@ -28,13 +28,7 @@ struct Kept
 
 StoredArray described(const char* name, bool ofPoints, Scalar type, int components, int step = -1)
 {
-  StoredArray array;
-  array.Name = name;
-  array.OfPoints = ofPoints;
-  array.Type = type;
-  array.Components = components;
-  array.Step = step;
-  return array;
+  return { name, ofPoints, type, components, step };
 }
 
 } // namespace
