@@ -1,7 +1,8 @@
 # tipp_add_module(<name> [CLASSES <class>...] [HEADERS <header>...] [NEEDS <module>...] CORE <source>... VTK <source>...
 #   [WITHOUT_VTK <source>...])
-# Adds a VTK module of the CORE and VTK sources; HEADERS are installed beside those of the CLASSES. In the build for the Python wheel, which has no VTK, a static library of
-# the CORE and WITHOUT_VTK sources, linked with the modules that it NEEDS (for VTK, these are in vtk.module).
+# Adds a VTK module of the CORE and VTK sources, which installs HEADERS and those of the CLASSES. In the build for the
+# Python wheel, which has no VTK, a static library of the CORE and WITHOUT_VTK sources, linked with the modules that it
+# NEEDS (for VTK, these are in vtk.module).
 function (tipp_add_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "CLASSES;HEADERS;NEEDS;CORE;VTK;WITHOUT_VTK")
   foreach (source IN LISTS arg_CORE arg_WITHOUT_VTK) # a test reads this list

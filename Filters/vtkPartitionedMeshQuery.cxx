@@ -58,7 +58,7 @@ vtkPartitionedMeshQuery::vtkPartitionedMeshQuery()
   this->SetNumberOfInputPorts(2);
   this->vtkPartitionedMeshQuery::SetValidPointMaskArrayName("vtkValidPointMask");
   this->vtkPartitionedMeshQuery::SetController(vtkMultiProcessController::GetGlobalController());
-  tipp::executeTogether(this, [this] { return this->Controller; });
+  tipp::useCollectivePipeline(this, [this] { return this->Controller; });
 }
 
 vtkPartitionedMeshQuery::~vtkPartitionedMeshQuery()

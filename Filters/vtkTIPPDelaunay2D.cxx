@@ -43,7 +43,7 @@ vtkTIPPDelaunay2D::vtkTIPPDelaunay2D()
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
   this->vtkTIPPDelaunay2D::SetController(vtkMultiProcessController::GetGlobalController());
-  tipp::executeTogether(this, [this] { return this->Controller; });
+  tipp::useCollectivePipeline(this, [this] { return this->Controller; });
 }
 
 vtkTIPPDelaunay2D::~vtkTIPPDelaunay2D()

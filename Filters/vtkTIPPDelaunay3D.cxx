@@ -107,7 +107,7 @@ vtkTIPPDelaunay3D::vtkTIPPDelaunay3D()
 {
   this->SetNumberOfOutputPorts(2);
   this->vtkTIPPDelaunay3D::SetController(vtkMultiProcessController::GetGlobalController());
-  tipp::executeTogether(this, [this] { return this->Controller; });
+  tipp::useCollectivePipeline(this, [this] { return this->Controller; });
 }
 
 vtkTIPPDelaunay3D::~vtkTIPPDelaunay3D()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @file vtkTIPPSetGet.h
- * @brief declares a property by one macro, in the place of two or three macros of vtkSetGet.h
+ * @brief macros that combine those of vtkSetGet.h
  */
 
 #ifndef vtkTIPPSetGet_h

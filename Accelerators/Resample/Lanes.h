@@ -21,6 +21,8 @@ namespace tipp
 using Lanes = double __attribute__((vector_size(32)));
 using LaneMask = std::int64_t __attribute__((vector_size(32)));
 using LaneInts = std::int32_t __attribute__((vector_size(16)));
+using TwoDoubles = double __attribute__((vector_size(16)));
+using FourFloats = float __attribute__((vector_size(16)));
 
 constexpr int laneCount = 4;
 
@@ -72,26 +74,21 @@ inline bool hasAvx2()
   return lanes;
 }
 
-/// The lower and the upper lanes of a vector, as vectors of another type.
-template <typename Half>
-struct Halves
+/// The lower (0) or upper (1) lanes of a vector, as a vector of another type.
+template <typename Half, typename Whole>
+[[gnu::always_inline]] inline Half halfOf(const Whole& lanes, int which)
 {
-  template <typename Whole>
-  [[gnu::always_inline]] explicit Halves(Whole lanes)
-  {
-    std::memcpy(this, &lanes, sizeof lanes);
-  }
-
-  Half Low;
-  Half High;
-};
+  Half half;
+  std::memcpy(&half, reinterpret_cast<const Half*>(&lanes) + which, sizeof half);
+  return half;
+}
 
 /// A bit mask with one bit per lane.
 [[gnu::always_inline]] inline unsigned laneBits(LaneMask mask)
 {
 #ifdef __SSE2__
-  const Halves<double __attribute__((vector_size(16)))> halves(mask);
-  return unsigned(__builtin_ia32_movmskpd(halves.Low) | __builtin_ia32_movmskpd(halves.High) << 2);
+  return unsigned(__builtin_ia32_movmskpd(halfOf<TwoDoubles>(mask, 0)) |
+    __builtin_ia32_movmskpd(halfOf<TwoDoubles>(mask, 1)) << 2);
 #else
   return unsigned((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
 #endif
@@ -261,8 +258,8 @@ constexpr int floatLaneCount = 8;
 [[gnu::always_inline]] inline unsigned floatLaneBits(FloatLaneInts mask)
 {
 #ifdef __SSE__
-  const Halves<float __attribute__((vector_size(16)))> halves(mask);
-  return unsigned(__builtin_ia32_movmskps(halves.Low) | __builtin_ia32_movmskps(halves.High) << 4);
+  return unsigned(__builtin_ia32_movmskps(halfOf<FourFloats>(mask, 0)) |
+    __builtin_ia32_movmskps(halfOf<FourFloats>(mask, 1)) << 4);
 #else
   unsigned bits = 0;
   for (int lane = 0; lane < floatLaneCount; ++lane)
@@ -276,8 +273,7 @@ constexpr int floatLaneCount = 8;
 /// Rounds four numbers to single precision.
 [[gnu::always_inline]] inline void storeFloats(Lanes from, float (&to)[laneCount])
 {
-  using Half = float __attribute__((vector_size(16)));
-  const Half floats = __builtin_convertvector(from, Half);
+  const FourFloats floats = __builtin_convertvector(from, FourFloats);
   std::memcpy(to, &floats, sizeof floats);
 }
 

@@ -35,12 +35,6 @@ std::size_t segmentBegin(const CrossedPart& part, std::size_t triangle)
   return triangle == 0 ? 0 : std::size_t(part.SegmentEnds[triangle - 1]);
 }
 
-/// The segments that cross triangles of the part, ascending.
-std::vector<std::int64_t> segmentsOf(const CrossedPart& part)
-{
-  return sortedUnique(part.Segments);
-}
-
 /// Sorts the part's known segments and removes repeated ones.
 void sortKnown(CrossedPart& part)
 {
@@ -302,7 +296,7 @@ CrossedPart splitIncomplete(CrossedPart& part, const std::function<bool(std::int
 {
   keepUniqueTouches(part.Touches);
   sortKnown(part);
-  const std::vector<std::int64_t> used = segmentsOf(part);
+  const std::vector<std::int64_t> used = sortedUnique(part.Segments);
   const std::vector<char> isComplete = findComplete(part, used, isInner);
   const CrossedTriangles crossed = crossingsOf(part, used);
   const std::vector<std::int64_t> jobs = jobsOfTriangles(crossed, used.size());
@@ -332,11 +326,11 @@ CrossedPart splitIncomplete(CrossedPart& part, const std::function<bool(std::int
   std::copy_if(part.FixedEdges.begin(), part.FixedEdges.end(), std::back_inserter(rest.FixedEdges),
     [&](const auto& edge) { return isOfRest(edge[0]) && isOfRest(edge[1]); });
   // A segment that crosses no triangle of the remaining part may cross triangles of other parts.
-  const std::vector<std::int64_t> done = segmentsOf(whole);
+  const std::vector<std::int64_t> done = sortedUnique(whole.Segments);
   std::copy_if(part.Touches.begin(), part.Touches.end(), std::back_inserter(rest.Touches),
     [&](const CrossedPart::Touch& touch)
     { return !std::binary_search(done.begin(), done.end(), touch.Segment); });
-  for (const std::int64_t segment : segmentsOf(rest))
+  for (const std::int64_t segment : sortedUnique(rest.Segments))
   {
     rest.Known.push_back(knownOf(part, segment));
   }
@@ -353,7 +347,7 @@ void retriangulate(CrossedPart& part, int threads)
   {
     return;
   }
-  const std::vector<std::int64_t> used = segmentsOf(part);
+  const std::vector<std::int64_t> used = sortedUnique(part.Segments);
   CrossedTriangles crossed = crossingsOf(part, used);
   keepUniqueTouches(part.Touches);
   sortKnown(part);

@@ -24,11 +24,11 @@ namespace tipp
 /// the segment's part for the two halves of the chain. All vertices of a half are beyond its side,
 /// since their lines of sight cross it.
 ///
-/// The recursion takes quadratic time at worst, and cannot tell the two places of a vertex in a
-/// chain that goes along an edge and back. So ears are cut off other chains until only the segment
-/// remains: three consecutive vertices that turn away from the segment enclose no other, because of
-/// the lines of sight. Then edges are flipped until all are locally Delaunay, as in CGAL's
-/// triangulation.
+/// The recursion takes quadratic time at worst, and fails if a vertex is in the chain twice, which
+/// happens if the chain follows an edge out and back. Long chains and such chains are triangulated
+/// by ear clipping: three consecutive vertices that turn away from the segment enclose no other,
+/// because of the lines of sight. Then edges are flipped until all are locally Delaunay, as in
+/// CGAL's triangulation.
 ///
 /// `Mesh` has counter-clockwise triangles, whose half-edge half(triangle, i) goes from corner i to
 /// the next. For half-edges it has next(), previous(), from(), to(), twin() and triangleOf().

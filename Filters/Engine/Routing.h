@@ -22,6 +22,7 @@
 namespace tipp
 {
 
+/// A message with the vertices of boundary triangles.
 struct VertexMessage : VertexMessageOf<BoundaryVertex>
 {
   std::int64_t Triangles = 0; ///< the number of triangles that these are the vertices of

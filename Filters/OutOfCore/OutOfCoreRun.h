@@ -16,7 +16,7 @@
 namespace tipp
 {
 
-/// What runs out of core in the plane and in space have in common.
+/// The base of runs out of core in the plane and in space.
 template <typename RunOptions, typename RunStatistics>
 class OutOfCoreRun
 {
@@ -64,14 +64,16 @@ protected:
     return std::move(this->Statistics);
   }
 
+  /// Reports the finished fraction. Returns false if the user has stopped the run.
   bool proceed(double fraction) const
   {
     return !this->Options.Progress || this->Options.Progress(fraction);
   }
 
-  void require(bool isGoingOn) const
+  /// Throws Aborted if the user has stopped the run.
+  void require(bool isContinued) const
   {
-    if (!isGoingOn)
+    if (!isContinued)
     {
       throw Aborted();
     }

@@ -146,9 +146,10 @@ bool wantsGhosts(vtkInformationVector* outputs)
 
 vtkStandardNewMacro(CollectivePipeline);
 
-void executeTogether(vtkAlgorithm* filter, std::function<vtkMultiProcessController*()> controller)
+void useCollectivePipeline(
+  vtkAlgorithm* filter, std::function<vtkMultiProcessController*()> controller)
 {
-  struct Algorithm : public vtkAlgorithm
+  struct Algorithm : public vtkAlgorithm // the prototype is protected
   {
     static bool hasOwnExecutive() { return DefaultExecutivePrototype != nullptr; }
   };

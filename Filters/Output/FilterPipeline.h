@@ -122,7 +122,8 @@ private:
 
 /// Gives a filter a CollectivePipeline, unless the application has a default executive of its own,
 /// as ParaView does. To be called in the filter's constructor.
-void executeTogether(vtkAlgorithm* filter, std::function<vtkMultiProcessController*()> controller);
+void useCollectivePipeline(
+  vtkAlgorithm* filter, std::function<vtkMultiProcessController*()> controller);
 
 } // namespace tipp
 

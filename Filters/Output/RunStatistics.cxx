@@ -102,9 +102,9 @@ FigureList stagesOf(const std::vector<TriangulationStatistics::Stage>& stages)
 namespace
 {
 
-/// Returns the figures with which runs begin. `key` and `array` are the names under which the
-/// number of cells is stored.
-RunStatistics beginWith(std::int64_t points, const char* key, const char* array, std::int64_t cells,
+/// Returns statistics with the counts of points and cells. `key` and `array` are the names under
+/// which the number of cells is stored.
+RunStatistics countsOf(std::int64_t points, const char* key, const char* array, std::int64_t cells,
   std::int64_t duplicates, std::int64_t rejected)
 {
   RunStatistics run;
@@ -121,7 +121,7 @@ RunStatistics inMemory(
   const Mesh& mesh, std::int64_t points, const char* key, const char* array, std::int64_t cells)
 {
   const TriangulationStatistics& statistics = mesh.Statistics;
-  RunStatistics run = beginWith(points, key, array, cells, std::int64_t(mesh.Duplicates.size()),
+  RunStatistics run = countsOf(points, key, array, cells, std::int64_t(mesh.Duplicates.size()),
     std::int64_t(mesh.Rejected.size()));
   run.add("threads", "Threads", statistics.Threads);
   run.add("partitions", "Partitions", statistics.Partitions);
@@ -183,8 +183,8 @@ RunStatistics statisticsOf(const OutOfCoreStatistics& statistics, bool isCounted
 
 RunStatistics statisticsOf(const OutOfCoreStatistics3& statistics)
 {
-  RunStatistics run = beginWith(statistics.Points, "tetrahedra", "Tetrahedra",
-    statistics.Tetrahedra, statistics.Duplicates, statistics.Rejected);
+  RunStatistics run = countsOf(statistics.Points, "tetrahedra", "Tetrahedra", statistics.Tetrahedra,
+    statistics.Duplicates, statistics.Rejected);
   run.add("pieces", "Pieces", statistics.Pieces);
   addOutOfCore(statistics, run);
   return run;
@@ -196,7 +196,7 @@ RunStatistics statisticsOf(const DistributedTriangulation& mine)
   // The table only has the figures of the first rank's master, which serves the whole domain.
   const bool hasMaster = !statistics.Masters.empty() && statistics.Masters.front().Area == 0;
   const MasterStatistics master = hasMaster ? statistics.Masters.front() : MasterStatistics();
-  RunStatistics run = beginWith(mine.AllPoints, "triangles", "Triangles", mine.AllTriangles,
+  RunStatistics run = countsOf(mine.AllPoints, "triangles", "Triangles", mine.AllTriangles,
     mine.AllDuplicates, mine.AllRejected);
   run.Totals.push_back({ "seconds", "", std::vector<double>{ statistics.Seconds } });
   run.add("threads_per_rank", "Threads", statistics.ThreadsPerRank);
@@ -215,7 +215,7 @@ RunStatistics statisticsOf(const DistributedTetrahedralization& mine)
 {
   const DistributedStatistics& statistics = mine.Statistics;
   const std::int64_t tetrahedra = mine.cellSize() == 4 ? mine.AllCells : 0;
-  RunStatistics run = beginWith(
+  RunStatistics run = countsOf(
     mine.AllPoints, "tetrahedra", "Tetrahedra", tetrahedra, mine.AllDuplicates, mine.AllRejected);
   run.Totals.push_back({ "seconds", "", std::vector<double>{ statistics.Seconds } });
   run.add("threads_per_rank", "Threads", statistics.ThreadsPerRank);

@@ -31,7 +31,8 @@ struct CheckOptions
   bool IsCut = false;
 };
 
-/// The result of checkDelaunay(). The members from BadEdges on count faults.
+/// The result of checkDelaunay(). The members from BadEdges on count faults, as do
+/// those of MeshReport from BadIds on.
 struct CheckReport : MeshReport
 {
   std::int64_t Triangles = 0;

@@ -11,8 +11,7 @@
 namespace tipp
 {
 
-/// What the reports on triangles and on tetrahedra have in common. The members after the first
-/// block count faults.
+/// The base of the reports on triangles and on tetrahedra. The members from BadIds on count faults.
 struct MeshReport
 {
   virtual ~MeshReport() = default;

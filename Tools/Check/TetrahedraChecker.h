@@ -11,7 +11,8 @@
 namespace tipp
 {
 
-/// The result of checkTetrahedra(). The members from BadFacets on count faults.
+/// The result of checkTetrahedra(). The members from BadFacets on count faults, as
+/// do those of MeshReport from BadIds on.
 struct TetrahedraReport : MeshReport
 {
   std::int64_t Tetrahedra = 0;
