@@ -2,6 +2,8 @@
 #ifndef tippExactArithmetic_h
 #define tippExactArithmetic_h
 
+#include "Predicates/Points.h"
+
 #include <algorithm>
 #include <array>
 #include <climits>
@@ -328,12 +330,6 @@ private:
 // The suffix is the number of binary digits of every difference: |difference| < 2^digits.
 namespace tipp
 {
-
-template <typename Integer>
-int signOf(Integer value)
-{
-  return (value > 0) - (value < 0);
-}
 
 /// Sign of u x v. Each product is below 2^2k, their difference below 2^(2k+1): 31 digits fit 64
 /// bits.

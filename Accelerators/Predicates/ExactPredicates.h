@@ -28,16 +28,9 @@ inline int orientation(Point2 a, Point2 b, Point2 c)
   const double right = (a.y - c.y) * (b.x - c.x);
   const double determinant = left - right;
   const double bound = relative * (std::fabs(left) + std::fabs(right)) + absolute;
-  // After an overflow the bound is infinite or NaN, and both comparisons are false.
-  if (determinant > bound)
-  {
-    return 1;
-  }
-  if (-determinant > bound)
-  {
-    return -1;
-  }
-  return orientationExact(a, b, c);
+  // After an overflow the bound is infinite or NaN, and the comparison is false. The sign is found
+  // without a branch, which would be mispredicted half of the time.
+  return std::fabs(determinant) > bound ? signOf(determinant) : orientationExact(a, b, c);
 }
 
 /// Like orientation3(), but goes straight to exact arithmetic.
@@ -140,15 +133,8 @@ inline int inCircle(Point2 a, Point2 b, Point2 c, Point2 p)
 {
   const InCircleValue value = inCircleValue(a, b, c, p);
   const double bound = inCircleErrorBound(value.lifts);
-  if (value.determinant > bound)
-  {
-    return 1;
-  }
-  if (-value.determinant > bound)
-  {
-    return -1;
-  }
-  return inCircleExact(a, b, c, p);
+  return std::fabs(value.determinant) > bound ? signOf(value.determinant)
+                                              : inCircleExact(a, b, c, p);
 }
 
 /// The tie rule alone: whether p counts as inside if it lies on the circle of a, b, c.
@@ -174,7 +160,7 @@ inline bool tieIsInside(Point2 a, Point2 b, Point2 c, Point2 p)
 inline bool inCirclePerturbed(Point2 a, Point2 b, Point2 c, Point2 p)
 {
   const int side = inCircle(a, b, c, p);
-  return side > 0 || (side == 0 && tieIsInside(a, b, c, p));
+  return side != 0 ? side > 0 : tieIsInside(a, b, c, p);
 }
 
 // Two convex sets are disjoint if and only if a line, or in 3D a plane, that is parallel to a side

@@ -8,6 +8,13 @@
 namespace tipp
 {
 
+/// +1, 0 or -1, without a branch.
+template <typename Number>
+int signOf(Number value)
+{
+  return (value > 0) - (value < 0);
+}
+
 /// A point, or a vector, in the plane.
 struct Point2
 {

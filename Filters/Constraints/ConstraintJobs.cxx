@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/ConstraintJobs.h"
 
+#include "Arrays/IndexMap.h"
 #include "Constraints/ConstraintRegion.h"
 #include "Parallel/ParallelFor.h"
 
@@ -94,36 +95,45 @@ private:
 struct Jobs
 {
   std::size_t Count = 0;
-  std::vector<std::int64_t> OfPiece; ///< -1 if the piece crosses no triangle
   std::vector<std::int64_t> OfTriangle;
+  std::vector<std::int64_t> Pieces;  ///< that cross triangles, each once
+  std::vector<std::int64_t> OfPiece; ///< by index in Pieces
 };
 
 /// Jobs are in the order of their first triangles, so that a job's memory is near the last one's.
-Jobs makeJobs(const CrossedTriangles& crossed, std::size_t pieces)
+Jobs makeJobs(const CrossedTriangles& crossed)
 {
-  PieceSets sets(pieces);
+  Jobs jobs;
+  IndexMap numbers;                 // only a few of all pieces are left
+  std::vector<std::int64_t> pieces; // as crossed.Pieces, but indices in jobs.Pieces
+  pieces.reserve(crossed.Pieces.size());
+  for (const std::int64_t piece : crossed.Pieces)
+  {
+    const auto [number, isNew] = numbers.insert(piece);
+    isNew ? jobs.Pieces.push_back(piece) : void();
+    pieces.push_back(number);
+  }
+  PieceSets sets(jobs.Pieces.size());
   for (std::size_t t = 0; t < crossed.Triangles.size(); ++t)
   {
-    const std::int64_t first = crossed.Pieces[std::size_t(crossed.Starts[t])];
+    const std::int64_t first = pieces[std::size_t(crossed.Starts[t])];
     for (std::int64_t i = crossed.Starts[t] + 1; i < crossed.Starts[t + 1]; ++i)
     {
-      sets.join(first, crossed.Pieces[std::size_t(i)]);
+      sets.join(first, pieces[std::size_t(i)]);
     }
   }
-  Jobs jobs;
   constexpr std::int64_t none = -1;
-  jobs.OfPiece.assign(pieces, none);
+  jobs.OfPiece.assign(jobs.Pieces.size(), none);
   jobs.OfTriangle.resize(crossed.Triangles.size());
   for (std::size_t t = 0; t < crossed.Triangles.size(); ++t)
   {
     const std::int64_t begin = crossed.Starts[t];
-    const auto set = std::size_t(sets.find(crossed.Pieces[std::size_t(begin)]));
-    std::int64_t& job = jobs.OfPiece[set];
+    std::int64_t& job = jobs.OfPiece[std::size_t(sets.find(pieces[std::size_t(begin)]))];
     job = job == none ? std::int64_t(jobs.Count++) : job;
     jobs.OfTriangle[t] = job;
     for (std::int64_t i = begin; i < crossed.Starts[t + 1]; ++i)
     {
-      jobs.OfPiece[std::size_t(crossed.Pieces[std::size_t(i)])] = job;
+      jobs.OfPiece[std::size_t(pieces[std::size_t(i)])] = job;
     }
   }
   return jobs;
@@ -139,7 +149,7 @@ struct JobLists
   }
 
   Lists Triangles; ///< indices in CrossedTriangles::Triangles
-  Lists Pieces;
+  Lists Pieces;    ///< indices in Jobs::Pieces
 };
 
 /// A thread's workspace for retriangulation.
@@ -150,31 +160,59 @@ public:
   using Corners = std::array<PointId, 3>;
 
   /// `known` are constraints that may already be edges between triangles of a job.
-  JobWorker(PointsView points, Id* triangles, const CrossedTriangles& crossed, const JobLists& jobs,
-    const SplitPieces& split, const ConstraintEdges& known)
+  JobWorker(PointsView points, Id* triangles, const CrossedTriangles& crossed, const Jobs& jobs,
+    const JobLists& lists, const SplitPieces& split, const ConstraintEdges& known)
     : Points(points)
     , Triangles(triangles)
     , Crossed(crossed)
-    , All(jobs)
+    , Pieces(jobs.Pieces)
+    , All(lists)
     , Split(split)
     , Known(known)
   {
   }
 
-  void run(std::size_t job)
+  /// Runs the jobs [begin, end).
+  void run(std::size_t begin, std::size_t end)
   {
-    if (this->All.Triangles.size(job) == 2)
+    this->load(begin, end);
+    for (std::size_t job = begin; job < end; ++job)
     {
-      this->exchangeDiagonal(job);
-      return;
+      this->All.Triangles.size(job) == 2 ? this->exchangeDiagonal(job) : this->retriangulate(job);
     }
+  }
+
+private:
+  /// Copies the triangles of all jobs, because their memory is anywhere: loads that do not depend
+  /// on each other are done at the same time.
+  void load(std::size_t begin, std::size_t end)
+  {
+    const std::int64_t* const first = this->All.Triangles.begin(begin);
+    const auto count = std::size_t(this->All.Triangles.end(end - 1) - first);
+    this->Loaded.resize(count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const Id* const ids = this->corners(first[i]);
+      this->Loaded[i].Ids = { ids[0], ids[1], ids[2] };
+    }
+    for (LoadedTriangle& triangle : this->Loaded)
+    {
+      std::transform(triangle.Ids.begin(), triangle.Ids.end(), triangle.Positions.begin(),
+        [this](PointId id) { return this->Points[std::size_t(id)]; });
+    }
+    this->LoadedBegin = first;
+  }
+
+  void retriangulate(std::size_t job)
+  {
     this->Region.clear();
-    std::for_each(this->All.Triangles.begin(job), this->All.Triangles.end(job),
-      [this](std::int64_t t) { this->addTriangle(this->corners(t)); });
+    std::for_each(this->loaded(job), this->loaded(job) + this->All.Triangles.size(job),
+      [this](const LoadedTriangle& triangle)
+      { this->Region.add(triangle.Ids, triangle.Positions); });
     this->Region.finish();
     this->Region.fixEdges([this](PointId a, PointId b) { return this->Known.contains(a, b); });
     std::for_each(this->All.Pieces.begin(job), this->All.Pieces.end(job),
-      [this](std::int64_t piece) { this->insertPiece(std::size_t(piece)); });
+      [this](std::int64_t i) { this->insertPiece(std::size_t(this->Pieces[std::size_t(i)])); });
     this->New.clear();
     for (std::size_t t = 0; t < this->Region.triangleCount(); ++t)
     {
@@ -187,7 +225,16 @@ public:
     }
   }
 
-private:
+  struct LoadedTriangle
+  {
+    Corners Ids;
+    std::array<Point2, 3> Positions;
+  };
+  const LoadedTriangle* loaded(std::size_t job) const
+  {
+    return &this->Loaded[std::size_t(this->All.Triangles.begin(job) - this->LoadedBegin)];
+  }
+
   Id* corners(std::int64_t crossed) const
   {
     return this->Triangles + 3 * this->Crossed.Triangles[std::size_t(crossed)];
@@ -205,13 +252,6 @@ private:
     return ids;
   }
 
-  void addTriangle(const Id* ids)
-  {
-    this->Region.add({ PointId(ids[0]), PointId(ids[1]), PointId(ids[2]) },
-      { this->Points[std::size_t(ids[0])], this->Points[std::size_t(ids[1])],
-        this->Points[std::size_t(ids[2])] });
-  }
-
   void insertPiece(std::size_t piece)
   {
     const bool isWhole = this->Split.Starts.empty();
@@ -226,33 +266,36 @@ private:
   /// The most frequent job: one segment replaces the common edge of two triangles.
   void exchangeDiagonal(std::size_t job) const
   {
-    const std::int64_t* const both = this->All.Triangles.begin(job);
-    const Id* one = this->corners(both[0]);
-    const Id* other = this->corners(both[1]);
-    const auto far = std::find_if(
-      one, one + 3, [&](Id id) { return std::find(other, other + 3, id) == other + 3; });
-    const auto beyond =
-      std::find_if(other, other + 3, [&](Id id) { return std::find(one, one + 3, id) == one + 3; });
+    const Corners& one = this->loaded(job)[0].Ids;
+    const Corners& other = this->loaded(job)[1].Ids;
+    const auto isIn = [](const Corners& corners, PointId id)
+    { return std::find(corners.begin(), corners.end(), id) != corners.end(); };
+    const auto far =
+      std::find_if(one.begin(), one.end(), [&](PointId id) { return !isIn(other, id); });
     const PointId a = *far;
-    const PointId b = *beyond;
-    const PointId right = one[(far - one + 1) % 3];
-    const PointId left = one[(far - one + 2) % 3];
+    const PointId b =
+      *std::find_if(other.begin(), other.end(), [&](PointId id) { return !isIn(one, id); });
+    const PointId right = one[std::size_t(far - one.begin() + 1) % 3];
+    const PointId left = one[std::size_t(far - one.begin() + 2) % 3];
     if (this->Known.contains(left, right))
     {
       throw CrossingFound();
     }
     const auto [low, high] =
       std::minmax({ fromLowest({ a, right, b }), fromLowest({ a, b, left }) });
-    this->store(both[0], low);
-    this->store(both[1], high);
+    this->store(this->All.Triangles.begin(job)[0], low);
+    this->store(this->All.Triangles.begin(job)[1], high);
   }
 
   PointsView Points;
   Id* Triangles;
   const CrossedTriangles& Crossed;
+  const std::vector<std::int64_t>& Pieces;
   const JobLists& All;
   const SplitPieces& Split;
   const ConstraintEdges& Known;
+  std::vector<LoadedTriangle> Loaded;        ///< of several jobs
+  const std::int64_t* LoadedBegin = nullptr; ///< the entry of All.Triangles for the first one
   ConstraintRegion Region;
   std::vector<Corners> New;
 };
@@ -302,33 +345,28 @@ SplitPieces splitPieces(PointsView points, std::vector<ConstraintPiece>& pieces,
   return split;
 }
 
-std::vector<std::int64_t> jobsOfTriangles(const CrossedTriangles& crossed, std::size_t pieces)
+std::vector<std::int64_t> jobsOfTriangles(const CrossedTriangles& crossed)
 {
-  return makeJobs(crossed, pieces).OfTriangle;
+  return makeJobs(crossed).OfTriangle;
 }
 
 template <typename Id>
 void retriangulateJobs(PointsView points, Id* triangles, const CrossedTriangles& crossed,
-  std::size_t pieces, const SplitPieces& split, const ConstraintEdges& known, int threads)
+  const SplitPieces& split, const ConstraintEdges& known, int threads)
 {
-  const Jobs jobs = makeJobs(crossed, pieces);
+  const Jobs jobs = makeJobs(crossed);
   const JobLists lists(jobs);
   std::vector<JobWorker<Id>> workers(
-    std::size_t(threads), JobWorker<Id>(points, triangles, crossed, lists, split, known));
+    std::size_t(threads), JobWorker<Id>(points, triangles, crossed, jobs, lists, split, known));
   constexpr std::int64_t chunk = 256;
   forChunks(std::int64_t(jobs.Count), chunk, threads, {},
     [&](std::int64_t begin, std::int64_t end, int thread)
-    {
-      for (std::int64_t job = begin; job < end; ++job)
-      {
-        workers[std::size_t(thread)].run(std::size_t(job));
-      }
-    });
+    { workers[std::size_t(thread)].run(std::size_t(begin), std::size_t(end)); });
 }
 
-template void retriangulateJobs(PointsView, std::int32_t*, const CrossedTriangles&, std::size_t,
+template void retriangulateJobs(PointsView, std::int32_t*, const CrossedTriangles&,
   const SplitPieces&, const ConstraintEdges&, int);
-template void retriangulateJobs(PointsView, std::int64_t*, const CrossedTriangles&, std::size_t,
+template void retriangulateJobs(PointsView, std::int64_t*, const CrossedTriangles&,
   const SplitPieces&, const ConstraintEdges&, int);
 
 } // namespace tipp

@@ -26,10 +26,8 @@ VTKTIPPFILTERS_EXPORT SplitPieces splitPieces(PointsView points,
   std::vector<ConstraintPiece>& pieces, const std::vector<CrossedTriangles::Touch>& touches);
 
 /// The job of each triangle in `crossed`. Pieces that cross a common triangle belong to the same
-/// job, with all triangles that they cross. Jobs are numbered by their first piece; `pieces` is the
-/// number of pieces.
-VTKTIPPFILTERS_EXPORT std::vector<std::int64_t> jobsOfTriangles(
-  const CrossedTriangles& crossed, std::size_t pieces);
+/// job, with all triangles that they cross. Jobs are numbered by their first triangle.
+VTKTIPPFILTERS_EXPORT std::vector<std::int64_t> jobsOfTriangles(const CrossedTriangles& crossed);
 
 /// Retriangulates all jobs, which are independent of each other. A job's new triangles replace its
 /// old ones in `triangles`, in order, so the result does not depend on the number of threads.
@@ -37,7 +35,7 @@ VTKTIPPFILTERS_EXPORT std::vector<std::int64_t> jobsOfTriangles(
 /// CrossingFound.
 template <typename Id>
 void retriangulateJobs(PointsView points, Id* triangles, const CrossedTriangles& crossed,
-  std::size_t pieces, const SplitPieces& split, const ConstraintEdges& known, int threads);
+  const SplitPieces& split, const ConstraintEdges& known, int threads);
 
 } // namespace tipp
 

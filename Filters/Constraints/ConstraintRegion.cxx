@@ -2,7 +2,6 @@
 #include "Constraints/ConstraintRegion.h"
 
 #include "Constraints/Constraint.h"
-#include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -10,17 +9,13 @@
 
 namespace tipp
 {
-namespace
-{
-
-constexpr std::int32_t None = -1;
-
-} // namespace
 
 void ConstraintRegion::clear()
 {
+  this->Numbers.clear();
   this->Vertices.clear();
-  this->AddedIds.clear();
+  this->Corners.clear();
+  this->Out.clear();
 }
 
 void ConstraintRegion::add(
@@ -28,90 +23,50 @@ void ConstraintRegion::add(
 {
   for (std::size_t i = 0; i < 3; ++i)
   {
-    this->Vertices.push_back({ ids[i], positions[i] });
-    this->AddedIds.push_back(ids[i]);
+    const auto [v, isNew] = this->Numbers.insert(ids[i]);
+    if (isNew)
+    {
+      this->Vertices.push_back({ ids[i], positions[i] });
+      this->Out.push_back(None);
+    }
+    this->Out[std::size_t(v)] = Index(this->Corners.size());
+    this->Corners.push_back(v);
   }
+  this->Corners.push_back(None);
 }
 
 void ConstraintRegion::finish()
 {
-  std::sort(this->Vertices.begin(), this->Vertices.end(),
-    [](const Vertex& a, const Vertex& b) { return a.Id < b.Id; });
-  this->Vertices.erase(std::unique(this->Vertices.begin(), this->Vertices.end(),
-                         [](const Vertex& a, const Vertex& b) { return a.Id == b.Id; }),
-    this->Vertices.end());
-  const std::size_t halfEdges = this->AddedIds.size();
-  this->Corners.resize(halfEdges);
-  this->Twins.resize(halfEdges);
-  this->Fixed.assign(halfEdges, 0);
-  this->Out.resize(this->Vertices.size());
-  for (std::size_t h = 0; h < halfEdges; ++h)
-  {
-    const Index v = this->find(this->AddedIds[h]);
-    this->Corners[h] = v;
-    this->Out[std::size_t(v)] = Index(h);
-  }
+  this->Twins.assign(this->Corners.size(), None);
+  this->Fixed.assign(this->Corners.size(), 0);
   this->matchEdges();
 }
 
 void ConstraintRegion::matchEdges()
 {
-  using Edge = std::pair<std::pair<Index, Index>, Index>;
-  std::vector<Edge> edges;
-  edges.reserve(this->Corners.size());
-  for (Index h = 0; h < Index(this->Corners.size()); ++h)
-  {
-    edges.push_back({ std::minmax(this->from(h), this->to(h)), h });
-  }
-  std::sort(edges.begin(), edges.end());
+  this->Edges.clear();
+  this->HalfOfEdge.clear();
+  this->forEachHalf(
+    [this](Index h)
+    {
+      const Index a = this->from(h);
+      const Index b = this->to(h);
+      const auto [edge, isNew] =
+        this->Edges.insert(std::int64_t(std::min(a, b)) << 32 | std::max(a, b));
+      isNew ? this->HalfOfEdge.push_back(h) : this->join(this->HalfOfEdge[std::size_t(edge)], h);
+    });
   this->Borders.clear();
-  for (std::size_t i = 0; i < edges.size(); ++i)
+  this->FirstBorder.assign(this->Vertices.size(), None);
+  for (const Index h : this->HalfOfEdge)
   {
-    const Index h = edges[i].second;
-    if (i + 1 < edges.size() && edges[i].first == edges[i + 1].first)
+    if (this->twin(h) == None)
     {
-      const Index twin = edges[++i].second;
-      this->Twins[std::size_t(h)] = twin;
-      this->Twins[std::size_t(twin)] = h;
+      Index& first = this->FirstBorder[std::size_t(this->from(h))];
+      const auto border = Index(this->Borders.size());
+      this->Borders.push_back({ h, first });
+      first = border;
+      this->Twins[std::size_t(h)] = ~border;
     }
-    else
-    {
-      this->Borders.push_back({ this->from(h), h });
-    }
-  }
-  std::sort(this->Borders.begin(), this->Borders.end(),
-    [](const BorderEdge& a, const BorderEdge& b)
-    { return a.From < b.From || (a.From == b.From && a.Half < b.Half); });
-  for (std::size_t i = 0; i < this->Borders.size(); ++i)
-  {
-    this->Twins[std::size_t(this->Borders[i].Half)] = ~Index(i);
-  }
-}
-
-ConstraintRegion::Index ConstraintRegion::find(PointId id) const
-{
-  const auto found = std::lower_bound(this->Vertices.begin(), this->Vertices.end(), id,
-    [](const Vertex& vertex, PointId wanted) { return vertex.Id < wanted; });
-  return found != this->Vertices.end() && found->Id == id ? Index(found - this->Vertices.begin())
-                                                          : None;
-}
-
-int ConstraintRegion::turn(Index a, Index b, Index c) const
-{
-  return orientation(this->at(a), this->at(b), this->at(c));
-}
-
-void ConstraintRegion::join(Index half, Index outer)
-{
-  this->Twins[std::size_t(half)] = outer;
-  if (outer < 0)
-  {
-    const Index border = ~outer;
-    this->Borders[std::size_t(border)].Half = half;
-  }
-  else
-  {
-    this->Twins[std::size_t(outer)] = half;
   }
 }
 
@@ -126,8 +81,8 @@ void ConstraintRegion::fix(Index half)
 
 void ConstraintRegion::insert(PointId a, PointId b)
 {
-  const Index from = this->find(a);
-  const Index to = this->find(b);
+  const Index from = this->Numbers.find(a);
+  const Index to = this->Numbers.find(b);
   if (from == None || to == None)
   {
     return;
@@ -144,16 +99,16 @@ void ConstraintRegion::insert(PointId a, PointId b)
 /// triangle the segment ab starts, or None.
 ConstraintRegion::Index ConstraintRegion::findToward(Index a, Index b, bool& isEdge) const
 {
-  auto border = std::lower_bound(this->Borders.begin(), this->Borders.end(), a,
-    [](const BorderEdge& edge, Index vertex) { return edge.From < vertex; });
-  if (border == this->Borders.end() || border->From != a)
+  Index border = this->FirstBorder[std::size_t(a)];
+  if (border == None)
   {
     return this->sweep(this->Out[std::size_t(a)], b, isEdge);
   }
   Index found = None;
-  for (; found == None && border != this->Borders.end() && border->From == a; ++border)
+  while (found == None && border != None)
   {
-    found = this->sweep(border->Half, b, isEdge);
+    found = this->sweep(this->Borders[std::size_t(border)].Half, b, isEdge);
+    border = this->Borders[std::size_t(border)].Next;
   }
   return found;
 }
@@ -213,30 +168,6 @@ void ConstraintRegion::insertAcross(Index a, Index b, Index first)
     this->Crossed.push_back(side > 0 ? next(half) : previous(half));
   }
   this->Inserter.insert(*this, a, b, this->Crossed);
-}
-
-void ConstraintRegion::setCorners(Index triangle, const std::array<Index, 3>& corners)
-{
-  for (Index i = 0; i < 3; ++i)
-  {
-    const Index v = corners[std::size_t(i)];
-    this->Corners[3 * std::size_t(triangle) + std::size_t(i)] = v;
-    this->Fixed[3 * std::size_t(triangle) + std::size_t(i)] = 0;
-    this->Out[std::size_t(v)] = 3 * triangle + i;
-  }
-}
-
-bool ConstraintRegion::isInCircle(Index a, Index b, Index c, Index d) const
-{
-  return inCirclePerturbed(this->at(a), this->at(b), this->at(c), this->at(d));
-}
-
-bool ConstraintRegion::mustFlip(Index half) const
-{
-  const Index twin = this->twin(half);
-  return twin >= 0 && !this->isFixed(half) &&
-    this->isInCircle(
-      this->from(half), this->to(half), this->from(previous(half)), this->from(previous(twin)));
 }
 
 } // namespace tipp

@@ -299,7 +299,7 @@ CrossedPart splitIncomplete(CrossedPart& part, const std::function<bool(std::int
   const std::vector<std::int64_t> used = sortedUnique(part.Segments);
   const std::vector<char> isComplete = findComplete(part, used, isInner);
   const CrossedTriangles crossed = crossingsOf(part, used);
-  const std::vector<std::int64_t> jobs = jobsOfTriangles(crossed, used.size());
+  const std::vector<std::int64_t> jobs = jobsOfTriangles(crossed);
   std::vector<char> isLeft(used.size(), 0); // per job
   for (std::size_t t = 0; t < jobs.size(); ++t)
   {
@@ -383,8 +383,7 @@ void retriangulate(CrossedPart& part, int threads)
   }
   const PointsView view(vertices.Positions);
   const SplitPieces split = splitPieces(view, pieces, crossed.Touches);
-  retriangulateJobs(
-    view, corners.data(), crossed, used.size(), split, ConstraintEdges(known), threads);
+  retriangulateJobs(view, corners.data(), crossed, split, ConstraintEdges(known), threads);
   for (std::size_t t = 0; t < part.Triangles.size(); ++t)
   {
     for (std::size_t i = 0; i < 3; ++i)

@@ -2,13 +2,14 @@
 #include "Constraints/PartitionConstraints.h"
 
 #include "Arrays/SortUnique.h"
+#include "Constraints/LineWalker.h"
 #include "Constraints/SegmentInserter.h"
 #include "Kernel/DelaunayKernel.h"
+#include "Kernel/Lanes.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace tipp
@@ -18,147 +19,16 @@ namespace
 
 using Index = DelaunayKernel::Index;
 
-constexpr Index NoVertex = -1;
+constexpr Index NoVertex = LineWalk::None;
 
-/// A step along a piece in a kernel's mesh: from a vertex to the next vertex on the piece.
-struct Walk
+/// Whether two segments have a common point, or are on a common line and close to each other.
+bool meet(const PartitionEditor::Edge& one, const PartitionEditor::Edge& other)
 {
-  enum class End
-  {
-    Reached, ///< it ends at the piece's end
-    Touched, ///< it ends at another vertex, which is on the piece
-    Left     ///< it leaves the part of the mesh that is final
-  };
-  End How = End::Left;
-  Index Vertex = NoVertex; ///< where it ends, unless Left
-  Index Edge = NoVertex;   ///< from the first vertex to Vertex, if these have an edge
-};
-
-/// The line of a piece.
-struct Line
-{
-  Point2 A; ///< where the piece starts
-  Point2 B;
-  Index Goal; ///< the vertex at B, or NoVertex if it is not known
-
-  int side(Point2 p) const { return orientation(this->A, this->B, p); }
-
-  /// Whether p, a point on the line, is between `from` and B.
-  bool isBetween(Point2 from, Point2 p) const
-  {
-    return lexicographicLess(this->A, this->B)
-      ? lexicographicLess(from, p) && lexicographicLess(p, this->B)
-      : lexicographicLess(p, from) && lexicographicLess(this->B, p);
-  }
-};
-
-/// Follows a line through a mesh, and finds the edges that it crosses.
-class Walker
-{
-public:
-  explicit Walker(const MeshEditor& mesh)
-    : Mesh(mesh)
-  {
-  }
-
-  /// Follows the line from vertex a, which is on it, to the next vertex on it.
-  Walk walk(const Line& line, Index a)
-  {
-    this->Crossed.clear();
-    Walk walk;
-    const Index first = this->findFirst(line, a, walk);
-    if (first != NoVertex)
-    {
-      this->cross(line, this->Mesh.next(first), walk);
-    }
-    return walk;
-  }
-
-  /// The half-edges that the last walk crossed, each in the triangle that the walk left there.
-  const std::vector<Index>& crossed() const { return this->Crossed; }
-
-private:
-  /// The half-edge from a in whose triangle the line continues. NoVertex if the line continues
-  /// along an edge, which is written to `walk`, or leaves the mesh.
-  Index findFirst(const Line& line, Index a, Walk& walk) const
-  {
-    const Index begin = this->Mesh.out(a);
-    Index h = begin;
-    int right = this->sideOf(line, this->Mesh.to(h));
-    do
-    {
-      const Index p = this->Mesh.to(h);
-      const Index q = this->Mesh.from(this->Mesh.previous(h));
-      if (right == 0 && this->isNext(line, a, p))
-      {
-        walk = { p == line.Goal ? Walk::End::Reached : Walk::End::Touched, p, h };
-        return NoVertex;
-      }
-      const int left = this->sideOf(line, q);
-      if (right < 0 && left > 0 && right != Unknown && left != Unknown)
-      {
-        return h;
-      }
-      right = left;
-      h = this->Mesh.twin(this->Mesh.previous(h));
-    } while (h != begin);
-    return NoVertex;
-  }
-
-  static constexpr int Unknown = -2; ///< of the infinite vertex
-
-  int sideOf(const Line& line, Index v) const
-  {
-    return v == DelaunayKernel::Infinite ? Unknown : line.side(this->Mesh.at(v));
-  }
-
-  bool isNext(const Line& line, Index a, Index v) const
-  {
-    return v == line.Goal || line.isBetween(this->Mesh.at(a), this->Mesh.at(v));
-  }
-
-  void cross(const Line& line, Index crossed, Walk& walk)
-  {
-    for (;;)
-    {
-      if (line.Goal == NoVertex &&
-        orientation(this->Mesh.at(this->Mesh.from(crossed)), this->Mesh.at(this->Mesh.to(crossed)),
-          line.B) >= 0)
-      {
-        return; // B is in this triangle; another partition will add its vertex
-      }
-      if (this->Mesh.isFixed(crossed))
-      {
-        throw CrossingFound();
-      }
-      this->Crossed.push_back(crossed);
-      const Index half = this->Mesh.twin(crossed);
-      const Index apex = this->Mesh.apex(half);
-      if (apex == DelaunayKernel::Infinite)
-      {
-        return;
-      }
-      if (apex == line.Goal)
-      {
-        walk = { Walk::End::Reached, apex, NoVertex };
-        return;
-      }
-      const int side = line.side(this->Mesh.at(apex));
-      if (side == 0)
-      {
-        if (!(this->Mesh.at(apex) == line.B))
-        {
-          walk = { Walk::End::Touched, apex, NoVertex };
-        }
-        return;
-      }
-      crossed = side > 0 ? this->Mesh.next(half) : this->Mesh.previous(half);
-    }
-  }
-
-  const MeshEditor& Mesh;
-  std::vector<Index> Crossed;
-};
+  const auto isBeside = [](const PartitionEditor::Edge& line, const PartitionEditor::Edge& ends)
+  { return orientation(line[0], line[1], ends[0]) * orientation(line[0], line[1], ends[1]) > 0; };
+  return overlap(boxOf(one[0], one[1]), boxOf(other[0], other[1])) && !isBeside(one, other) &&
+    !isBeside(other, one);
+}
 
 } // namespace
 
@@ -169,7 +39,7 @@ public:
   Editor(PartitionConstraints& of, double factor)
     : Of(of)
     , Factor(factor)
-    , Finder(this->Mesh)
+    , Walker(this->Mesh)
   {
   }
 
@@ -206,17 +76,21 @@ private:
     this->findBegun(partition.Number);
     const auto idOf = [&](Index v) { return PointId(partition.Ids[v]); };
     // First inserts what can be inserted, because this changes the edges that other pieces cross.
-    for (const BegunPiece& piece : this->Whole)
-    {
-      if (this->follow(piece, true, idOf))
+    runWith(Instructions::Best,
+      [&]
       {
-        this->Of.Done[std::size_t(piece.Entry / 2)] = 1;
-      }
-      else
-      {
-        this->Begun.push_back(piece);
-      }
-    }
+        for (const BegunPiece& piece : this->Whole)
+        {
+          if (this->follow(piece, true, idOf))
+          {
+            this->Of.Done[std::size_t(piece.Entry / 2)] = 1;
+          }
+          else
+          {
+            this->Begun.push_back(piece);
+          }
+        }
+      });
     for (const BegunPiece& piece : this->Begun)
     {
       this->follow(piece, false, idOf);
@@ -341,16 +215,16 @@ private:
   {
     const auto piece = std::size_t(begun.Entry / 2);
     Index at = begun.From;
-    const Line line{ this->Mesh.at(at),
+    const DirectedLine line{ this->Mesh.at(at),
       begun.To != NoVertex ? this->Mesh.at(begun.To) : this->otherPosition(begun.Entry), begun.To };
     bool isAllThere = true;
     for (;;)
     {
-      const Walk walk = this->Finder.walk(line, at);
+      const LineWalk walk = this->Walker.walk(line, at);
       isAllThere = (inserts ? this->insert(at, walk) : this->note(piece)) && isAllThere;
-      if (walk.How != Walk::End::Touched)
+      if (walk.How != LineWalk::End::Touched)
       {
-        return isAllThere && walk.How == Walk::End::Reached;
+        return isAllThere && walk.How == LineWalk::End::Reached;
       }
       at = walk.Vertex;
       if (idOf(at) >= 0)
@@ -365,9 +239,9 @@ private:
     return !this->IsBoundary[DelaunayKernel::number(triangle)];
   }
 
-  bool insert(Index from, const Walk& walk)
+  bool insert(Index from, const LineWalk& walk)
   {
-    if (walk.How == Walk::End::Left)
+    if (walk.How == LineWalk::End::Left)
     {
       return false;
     }
@@ -379,7 +253,7 @@ private:
       return this->isInterior(this->Mesh.triangleOf(walk.Edge)) ||
         this->isInterior(this->Mesh.triangleOf(twin));
     }
-    const std::vector<Index>& crossed = this->Finder.crossed();
+    const std::vector<Index>& crossed = this->Walker.crossed();
     const bool isInside = this->isInterior(this->Mesh.triangleOf(crossed.front())) &&
       std::all_of(crossed.begin(), crossed.end(),
         [this](Index h) { return this->isInterior(this->Mesh.triangleOf(this->Mesh.twin(h))); });
@@ -399,7 +273,7 @@ private:
         this->Noted.push_back({ DelaunayKernel::number(triangle), std::int64_t(piece) });
       }
     };
-    const std::vector<Index>& crossed = this->Finder.crossed();
+    const std::vector<Index>& crossed = this->Walker.crossed();
     if (!crossed.empty())
     {
       noteTriangle(this->Mesh.triangleOf(crossed.front()));
@@ -411,13 +285,15 @@ private:
     return false;
   }
 
-  void publish(PartitionIndex partition, const std::vector<Box2>& border)
+  void publish(PartitionIndex partition, const std::vector<Edge>& border)
   {
     Interior interior;
     interior.Border.reserve(border.size());
-    for (const Box2& edge : border)
+    const double scale = 1 / this->Factor; // exact: a power of two
+    for (const auto& [from, to] : border)
     {
-      interior.Border.push_back(scaled(edge, 1 / this->Factor)); // exact: a power of two
+      interior.Border.push_back(
+        { { { from.x * scale, from.y * scale }, { to.x * scale, to.y * scale } } });
     }
     sortUnique(this->Noted);
     std::size_t at = 0;
@@ -439,7 +315,7 @@ private:
   PartitionConstraints& Of;
   const double Factor;
   MeshEditor Mesh;
-  Walker Finder;
+  LineWalker Walker;
   SegmentInserter<MeshEditor> Inserter;
   const char* IsBoundary = nullptr;
   struct FoundEnd
@@ -470,9 +346,15 @@ bool PartitionConstraints::mayEnter(const SegmentTree& tree, PartitionIndex part
   const std::function<std::int64_t(std::int64_t)>& pieceOf) const
 {
   const auto& border = this->interiorOf(partition).Border;
-  const Box2 all{ -HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL };
-  const Box2 box =
-    border.empty() ? all : std::accumulate(border.begin(), border.end(), border.front(), unionOf);
+  Box2 box{ -HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL };
+  if (!border.empty())
+  {
+    box = boxOf(border.front()[0], border.front()[1]);
+    for (const auto& [from, to] : border)
+    {
+      box = unionOf(box, boxOf(from, to));
+    }
+  }
   bool isNear = false;
   tree.visitNear(box,
     [&](const SegmentTree::Item& item)
@@ -482,8 +364,9 @@ bool PartitionConstraints::mayEnter(const SegmentTree& tree, PartitionIndex part
       isNear = !(piece >= 0 && this->isKnown(piece, partition)) &&
         (border.empty() || (piece >= 0 && this->mayEndAtDuplicate(piece)) ||
           std::any_of(border.begin(), border.end(),
-            [&item](const Box2& edge)
-            { return overlap(boxOf(item.A, item.B), edge) && lineMayMeet(item.A, item.B, edge); }));
+            [&item](const PartitionEditor::Edge& edge) {
+              return meet({ { item.A, item.B } }, edge);
+            }));
       return !isNear;
     });
   return isNear;

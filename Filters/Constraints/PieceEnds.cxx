@@ -42,7 +42,7 @@ PieceEnds::PieceEnds(std::size_t points, const std::vector<ConstraintPiece>& pie
           this->Entries[entry] = std::uint64_t(idOf(entry)) << 32 | entry;
         }
       });
-    sortByUpperHalf(this->Entries, threads);
+    sortByUpperHalf(this->Entries, threads, std::uint32_t(points));
     this->EntryMask = UINT32_MAX;
     this->makeIndex([this](std::size_t i) { return this->Entries[i] >> 32; }, threads);
   }
@@ -79,25 +79,14 @@ void PieceEnds::makeIndex(const IdOf& idOf, int threads)
     }
     return low;
   };
-  // Calls visit(i) for each entry that is the first of its id.
-  const auto forEnds = [&](std::size_t block, const auto& visit)
-  {
-    const std::size_t begin = firstEntry(block);
-    const std::size_t end = firstEntry(block + 1);
-    for (std::size_t i = begin; i < end; ++i)
-    {
-      if (i == begin || idOf(i) != idOf(i - 1))
-      {
-        visit(i);
-      }
-    }
-  };
   parallelFor(std::int64_t(blocks), threads,
     [&](std::int64_t block)
     {
-      forEnds(std::size_t(block),
-        [&](std::size_t i)
-        { this->Words[idOf(i) / 64].Bits |= std::uint64_t(1) << (idOf(i) % 64); });
+      const std::size_t end = firstEntry(std::size_t(block) + 1);
+      for (std::size_t i = firstEntry(std::size_t(block)); i < end; ++i)
+      {
+        this->Words[idOf(i) / 64].Bits |= std::uint64_t(1) << (idOf(i) % 64);
+      }
     });
   std::uint64_t ends = 0;
   for (std::size_t w = 0; w < this->Words.size(); ++w)
@@ -107,12 +96,24 @@ void PieceEnds::makeIndex(const IdOf& idOf, int threads)
     word.Before = ends;
     ends += bitsIn(word.Bits);
   }
-  this->Starts.resize(ends + 1, std::int64_t(this->Entries.size()));
+  this->Starts.resize(ends + 1);
+  this->Starts.back() = std::int64_t(this->Entries.size());
   parallelFor(std::int64_t(blocks), threads,
     [&](std::int64_t block)
     {
-      std::size_t next = this->Words[std::size_t(block) * blockWords].Before;
-      forEnds(std::size_t(block), [&](std::size_t i) { this->Starts[next++] = std::int64_t(i); });
+      const std::size_t begin = firstEntry(std::size_t(block));
+      const std::size_t end = firstEntry(std::size_t(block) + 1);
+      std::int64_t* start =
+        this->Starts.data() + this->Words[std::size_t(block) * blockWords].Before;
+      std::size_t first = begin; // of the entries with the same id
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        // Without branches, which would often be mispredicted.
+        const bool isNew = idOf(i) != idOf(first);
+        start += isNew ? 1 : 0;
+        first = isNew ? i : first;
+        *start = std::int64_t(first);
+      }
     });
 }
 

@@ -2,6 +2,7 @@
 #ifndef tippPieceEnds_h
 #define tippPieceEnds_h
 
+#include "Arrays/Buffer.h"
 #include "Constraints/Constraint.h"
 
 #include <array>
@@ -71,8 +72,8 @@ private:
 
   std::array<std::uint64_t, MarkWords> Marks{}; ///< the union of all words, folded to this size
   std::vector<Word> Words;                      ///< by id / 64
-  std::vector<std::int64_t> Starts;             ///< first entry of each end, by rank
-  std::vector<std::uint64_t> Entries;           ///< sorted by id
+  Uninitialised<std::int64_t> Starts;           ///< first entry of each end, by rank
+  Uninitialised<std::uint64_t> Entries;         ///< sorted by id
   std::uint64_t EntryMask = ~std::uint64_t(0);  ///< of the bits of an entry; the others are its id
 };
 

@@ -4,6 +4,7 @@
 
 #include "Constraints/CrossedTriangles.h"
 #include "Constraints/SegmentTree.h"
+#include "Kernel/Lanes.h"
 #include "Predicates/ExactPredicates.h"
 #include "Triangulation/PointsView.h"
 
@@ -247,28 +248,22 @@ public:
 private:
   Box2 load(const Id* corners, std::size_t begin, std::size_t end)
   {
+    // Points are anywhere in memory: loads that do not depend on each other are done at the same
+    // time.
     this->Positions.resize(3 * (end - begin));
-    Box2 box{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
-    const Id* corner = corners + 3 * begin;
-    const Id* const last = corners + 3 * end - 1;
-    constexpr std::ptrdiff_t ahead = 24; // prefetch distance, since points are accessed at random
-    const Point2* const all = this->Points.contiguous();
-    for (Point2& position : this->Positions)
-    {
-      all ? __builtin_prefetch(&all[*std::min(corner + ahead, last)]) : void();
-      position = this->Points[std::size_t(*corner++)];
-      box.xmin = std::min(box.xmin, position.x);
-      box.ymin = std::min(box.ymin, position.y);
-      box.xmax = std::max(box.xmax, position.x);
-      box.ymax = std::max(box.ymax, position.y);
-    }
-    return box;
+    std::transform(corners + 3 * begin, corners + 3 * end, this->Positions.begin(),
+      [this](Id id) { return this->Points[std::size_t(id)]; });
+    return extentOf(this->Positions.data(), this->Positions.size()).box();
   }
 
   void scanTriangle(std::size_t t, const Id* ids, const Point2* p, ScannedTriangles& found)
   {
-    const Box2 box{ std::min({ p[0].x, p[1].x, p[2].x }), std::min({ p[0].y, p[1].y, p[2].y }),
-      std::max({ p[0].x, p[1].x, p[2].x }), std::max({ p[0].y, p[1].y, p[2].y }) };
+    const Pair a = pairAt(&p[0].x);
+    const Pair b = pairAt(&p[1].x);
+    const Pair c = pairAt(&p[2].x);
+    const Pair low = lower(lower(a, b), c);
+    const Pair high = higher(higher(a, b), c);
+    const Box2 box{ low[0], low[1], high[0], high[1] };
     const std::size_t edgesBefore = found.Edges.size();
     bool isCrossed = false;
     this->Raster.visitNear(box,

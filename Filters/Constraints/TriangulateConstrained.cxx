@@ -54,10 +54,9 @@ void constrainTriangles(PointsView points, Buffer<Id>& ids,
 {
   const CrossedTriangles crossed =
     findCrossedTriangles(points, ids.data(), ids.size() / 3, blocks, pieces, inserted, threads);
-  const std::size_t count = pieces.size();
   SplitPieces split = splitPieces(points, pieces, crossed.Touches);
   const ConstraintEdges known = edgesNear(crossed, ids.data(), split.Parts, threads);
-  retriangulateJobs(points, ids.data(), crossed, count, split, known, threads);
+  retriangulateJobs(points, ids.data(), crossed, split, known, threads);
   pieces = std::move(split.Parts);
 }
 

@@ -182,8 +182,8 @@ public:
     return corner == 0 ? triangle + 2 : triangle + corner - 1;
   }
   static Index triangleOf(Index h) { return HalfEdgeMesh::triangleOf(h); }
-  static Index next(Index h) { return (h & 7) == 2 ? h - 2 : h + 1; }
-  static Index previous(Index h) { return (h & 7) == 0 ? h + 2 : h - 1; }
+  static Index next(Index h) { return HalfEdgeMesh::next(h); }
+  static Index previous(Index h) { return HalfEdgeMesh::previous(h); }
   Index from(Index h) const { return this->Mesh->vertex(next(h)); }
   Index to(Index h) const { return this->Mesh->vertex(previous(h)); }
   Index apex(Index h) const { return this->Mesh->vertex(h); }
@@ -216,6 +216,21 @@ public:
     {
       slots[i] = corners[std::size_t(i)];
       this->Out[std::size_t(slots[i])] = half(triangle, i);
+    }
+  }
+
+  /// As setCorners(), then joins and fixes the half-edges from corners 1 and 2.
+  void setTriangle(Index triangle, const std::array<Index, 3>& corners,
+    const std::array<Index, 2>& twins, const std::array<bool, 2>& areFixed)
+  {
+    this->setCorners(triangle, corners);
+    this->Fixed[std::size_t(triangle / 8)] =
+      static_cast<unsigned char>(unsigned(areFixed[0]) | unsigned(areFixed[1]) << 1);
+    Index* const slots = this->Mesh->slots();
+    for (Index i = 0; i < 2; ++i)
+    {
+      HalfEdgeMesh::setTwin(slots, triangle + i, twins[std::size_t(i)]);
+      HalfEdgeMesh::setTwin(slots, twins[std::size_t(i)], triangle + i);
     }
   }
 

@@ -2,74 +2,15 @@
 #ifndef tippLocalRing_h
 #define tippLocalRing_h
 
+#include "Arrays/IndexMap.h"
 #include "Query/PartTopology.h"
 #include "Query/ResidentMesh.h"
 
-#include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace tipp
 {
-
-/// A set of indices, for many small sets in turn: a hash table with linear probing, which stays in
-/// the cache and need not be erased.
-class IndexSet
-{
-public:
-  void clear()
-  {
-    ++this->Current;
-    this->Count = 0;
-  }
-
-  /// Returns whether the index is new.
-  bool insert(std::int64_t index)
-  {
-    2 * this->Count >= this->Entries.size() ? this->enlarge() : void();
-    return this->insertInto(index);
-  }
-
-private:
-  struct Entry
-  {
-    std::int64_t Index;
-    std::int64_t Set; ///< the entry is free if this is not Current
-  };
-
-  bool insertInto(std::int64_t index)
-  {
-    const std::size_t mask = this->Entries.size() - 1;
-    constexpr std::uint64_t multiplier = 0x9E3779B97F4A7C15; // 2^64 over the golden ratio
-    std::size_t at = std::size_t((std::uint64_t(index) * multiplier) >> 32) & mask;
-    for (; this->Entries[at].Set == this->Current; at = (at + 1) & mask)
-    {
-      if (this->Entries[at].Index == index)
-      {
-        return false;
-      }
-    }
-    this->Entries[at] = { index, this->Current };
-    ++this->Count;
-    return true;
-  }
-
-  void enlarge()
-  {
-    const std::vector<Entry> old =
-      std::exchange(this->Entries, std::vector<Entry>(2 * this->Entries.size(), { 0, 0 }));
-    this->Count = 0;
-    for (const Entry& entry : old)
-    {
-      entry.Set == this->Current ? void(this->insertInto(entry.Index)) : void();
-    }
-  }
-
-  std::int64_t Current = 1;
-  std::size_t Count = 0;
-  std::vector<Entry> Entries = std::vector<Entry>(64, { 0, 0 }); ///< a power of two
-};
 
 /// Computes the ring of one seed within one piece.
 class LocalRing
@@ -123,7 +64,7 @@ private:
     {
       if (wantsCells)
       {
-        if (!this->KnownCells.insert(cell))
+        if (!this->KnownCells.insert(cell).IsNew)
         {
           continue;
         }
@@ -138,13 +79,13 @@ private:
 
   void addPoint(std::int64_t point)
   {
-    this->KnownPoints.insert(point) ? this->Points.push_back(point) : void();
+    this->KnownPoints.insert(point).IsNew ? this->Points.push_back(point) : void();
   }
 
   const std::uint8_t* const Shared;
   const PartTopology& Topology;
-  IndexSet KnownPoints;
-  IndexSet KnownCells;
+  IndexMap KnownPoints;
+  IndexMap KnownCells;
 };
 
 } // namespace tipp

@@ -26,7 +26,7 @@ TEST(ConstraintJobs, JoinPiecesThatCrossTheSameTriangle)
   crossed.Pieces = { 1, 4, /**/ 2, /**/ 4, 5, /**/ 2, /**/ 5 };
   crossed.Starts = { 0, 2, 3, 5, 6, 7 };
   // Jobs are numbered by their first piece: 1, 4 and 5 are job 0, 2 is job 1.
-  EXPECT_EQ((std::vector<std::int64_t>{ 0, 1, 0, 1, 0 }), jobsOfTriangles(crossed, 7));
+  EXPECT_EQ((std::vector<std::int64_t>{ 0, 1, 0, 1, 0 }), jobsOfTriangles(crossed));
 }
 
 TEST(ConstraintJobs, SplitPiecesAtTouchesAlongTheirDirection)

@@ -25,6 +25,18 @@ TEST(HalfEdgeMesh, AHalfEdgeKnowsItsTriangle)
   }
 }
 
+TEST(HalfEdgeMesh, NextAndPreviousStayInTheTriangle)
+{
+  for (const Index t : Named)
+  {
+    for (Index i = 0; i < 3; ++i)
+    {
+      EXPECT_EQ(nextOf(t + i), HalfEdgeMesh::next(t + i));
+      EXPECT_EQ(previousOf(t + i), HalfEdgeMesh::previous(t + i));
+    }
+  }
+}
+
 TEST(HalfEdgeMesh, LinkingMakesTwinsOfBoth)
 {
   HalfEdgeMesh mesh;

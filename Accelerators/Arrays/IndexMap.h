@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippIndexMap_h
+#define tippIndexMap_h
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace tipp
+{
+
+/// Numbers keys 0, 1, 2, ... in the order in which they are inserted. For many small maps in turn:
+/// a hash table with linear probing, which stays in the cache and need not be erased.
+class IndexMap
+{
+public:
+  static constexpr std::int32_t None = -1;
+
+  struct Inserted
+  {
+    std::int32_t Index;
+    bool IsNew;
+  };
+
+  void clear()
+  {
+    this->Count = 0;
+    if (++this->Current == 0)
+    {
+      this->Entries.assign(this->Entries.size(), Entry{});
+      this->Current = 1;
+    }
+  }
+
+  std::size_t size() const { return std::size_t(this->Count); }
+
+  /// The index of a key, which is inserted if it is not there. At most 2^31 keys.
+  Inserted insert(std::int64_t key)
+  {
+    2 * this->size() >= this->Entries.size() ? this->enlarge() : void();
+    Entry& entry = this->Entries[this->locate(key)];
+    const bool isNew = entry.Map != this->Current;
+    if (isNew)
+    {
+      entry = { key, this->Current, this->Count++ };
+    }
+    return { entry.Index, isNew };
+  }
+
+  /// The index of a key, or None.
+  std::int32_t find(std::int64_t key) const
+  {
+    const Entry& entry = this->Entries[this->locate(key)];
+    return entry.Map == this->Current ? entry.Index : None;
+  }
+
+private:
+  struct Entry
+  {
+    std::int64_t Key = 0;
+    std::uint32_t Map = 0; ///< the entry is free if this is not Current
+    std::int32_t Index = 0;
+  };
+
+  /// The key's entry, or the free one where it belongs.
+  std::size_t locate(std::int64_t key) const
+  {
+    const std::size_t mask = this->Entries.size() - 1;
+    constexpr std::uint64_t multiplier = 0x9E3779B97F4A7C15; // 2^64 over the golden ratio
+    std::size_t at = std::size_t((std::uint64_t(key) * multiplier) >> 32) & mask;
+    while (this->Entries[at].Map == this->Current && this->Entries[at].Key != key)
+    {
+      at = (at + 1) & mask;
+    }
+    return at;
+  }
+
+  void enlarge()
+  {
+    const std::vector<Entry> old =
+      std::exchange(this->Entries, std::vector<Entry>(2 * this->Entries.size()));
+    for (const Entry& entry : old)
+    {
+      if (entry.Map == this->Current)
+      {
+        this->Entries[this->locate(entry.Key)] = entry;
+      }
+    }
+  }
+
+  std::uint32_t Current = 1;
+  std::int32_t Count = 0;
+  std::vector<Entry> Entries = std::vector<Entry>(64); ///< a power of two
+};
+
+} // namespace tipp
+
+#endif
