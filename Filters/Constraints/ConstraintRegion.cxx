@@ -2,6 +2,7 @@
 #include "Constraints/ConstraintRegion.h"
 
 #include "Constraints/Constraint.h"
+#include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -32,7 +33,6 @@ void ConstraintRegion::add(
     this->Out[std::size_t(v)] = Index(this->Corners.size());
     this->Corners.push_back(v);
   }
-  this->Corners.push_back(None);
 }
 
 void ConstraintRegion::finish()
@@ -46,15 +46,12 @@ void ConstraintRegion::matchEdges()
 {
   this->Edges.clear();
   this->HalfOfEdge.clear();
-  this->forEachHalf(
-    [this](Index h)
-    {
-      const Index a = this->from(h);
-      const Index b = this->to(h);
-      const auto [edge, isNew] =
-        this->Edges.insert(std::int64_t(std::min(a, b)) << 32 | std::max(a, b));
-      isNew ? this->HalfOfEdge.push_back(h) : this->join(this->HalfOfEdge[std::size_t(edge)], h);
-    });
+  for (Index h = 0; h < Index(this->Corners.size()); ++h)
+  {
+    const auto [low, high] = std::minmax({ this->from(h), this->to(h) });
+    const auto [edge, isNew] = this->Edges.insert(std::int64_t(low) << 32 | high);
+    isNew ? this->HalfOfEdge.push_back(h) : this->join(this->HalfOfEdge[std::size_t(edge)], h);
+  }
   this->Borders.clear();
   this->FirstBorder.assign(this->Vertices.size(), None);
   for (const Index h : this->HalfOfEdge)
@@ -67,6 +64,25 @@ void ConstraintRegion::matchEdges()
       first = border;
       this->Twins[std::size_t(h)] = ~border;
     }
+  }
+}
+
+int ConstraintRegion::turn(Index a, Index b, Index c) const
+{
+  return orientation(this->at(a), this->at(b), this->at(c));
+}
+
+void ConstraintRegion::join(Index half, Index outer)
+{
+  this->Twins[std::size_t(half)] = outer;
+  if (outer < 0)
+  {
+    const Index border = ~outer;
+    this->Borders[std::size_t(border)].Half = half;
+  }
+  else
+  {
+    this->Twins[std::size_t(outer)] = half;
   }
 }
 
@@ -168,6 +184,30 @@ void ConstraintRegion::insertAcross(Index a, Index b, Index first)
     this->Crossed.push_back(side > 0 ? next(half) : previous(half));
   }
   this->Inserter.insert(*this, a, b, this->Crossed);
+}
+
+void ConstraintRegion::setCorners(Index triangle, const std::array<Index, 3>& corners)
+{
+  for (Index i = 0; i < 3; ++i)
+  {
+    const Index v = corners[std::size_t(i)];
+    this->Corners[3 * std::size_t(triangle) + std::size_t(i)] = v;
+    this->Fixed[3 * std::size_t(triangle) + std::size_t(i)] = 0;
+    this->Out[std::size_t(v)] = 3 * triangle + i;
+  }
+}
+
+bool ConstraintRegion::isInCircle(Index a, Index b, Index c, Index d) const
+{
+  return inCirclePerturbed(this->at(a), this->at(b), this->at(c), this->at(d));
+}
+
+bool ConstraintRegion::mustFlip(Index half) const
+{
+  const Index twin = this->twin(half);
+  return twin >= 0 && !this->isFixed(half) &&
+    this->isInCircle(
+      this->from(half), this->to(half), this->from(previous(half)), this->from(previous(twin)));
 }
 
 } // namespace tipp

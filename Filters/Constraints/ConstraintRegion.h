@@ -4,8 +4,6 @@
 
 #include "Arrays/IndexMap.h"
 #include "Constraints/SegmentInserter.h"
-#include "Kernel/HalfEdgeMesh.h"
-#include "Predicates/ExactPredicates.h"
 #include "Predicates/Points.h"
 #include "Triangulation/Triangulate.h"
 
@@ -19,8 +17,7 @@ namespace tipp
 /// A region of triangles that are retriangulated together. Segments are inserted one by one. The
 /// result is the constrained Delaunay triangulation under the tie rule.
 //
-// Triangle t has the half-edges h = 4 t to 4 t + 2; h goes from corner h % 4 to the next one. The
-// fourth entry of each array is not used.
+// Half-edge h goes from corner h % 3 of triangle h / 3 to the next one.
 class ConstraintRegion
 {
 public:
@@ -40,21 +37,20 @@ public:
   template <typename IsConstraint>
   void fixEdges(const IsConstraint& isConstraint)
   {
-    this->forEachHalf(
-      [&](Index h)
+    for (Index h = 0; h < Index(this->Corners.size()); ++h)
+    {
+      if (this->twin(h) > h && isConstraint(this->id(this->from(h)), this->id(this->to(h))))
       {
-        if (this->twin(h) > h && isConstraint(this->id(this->from(h)), this->id(this->to(h))))
-        {
-          this->fix(h);
-        }
-      });
+        this->fix(h);
+      }
+    }
   }
 
-  std::size_t triangleCount() const { return this->Corners.size() / 4; }
+  std::size_t triangleCount() const { return this->Corners.size() / 3; }
   std::array<PointId, 3> triangle(std::size_t t) const
   {
-    return { this->id(this->Corners[4 * t]), this->id(this->Corners[4 * t + 1]),
-      this->id(this->Corners[4 * t + 2]) };
+    return { this->id(this->Corners[3 * t]), this->id(this->Corners[3 * t + 1]),
+      this->id(this->Corners[3 * t + 2]) };
   }
 
 private:
@@ -69,83 +65,34 @@ private:
     Index Next; ///< the next border edge from the same vertex, or None
   };
   static constexpr Index None = -1;
-  static Index next(Index h) { return HalfEdgeMesh::next(h); }
-  static Index previous(Index h) { return HalfEdgeMesh::previous(h); }
+  static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
+  static Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
   Index from(Index h) const { return this->Corners[std::size_t(h)]; }
   Index to(Index h) const { return this->from(next(h)); }
   Index twin(Index h) const { return this->Twins[std::size_t(h)]; }
   PointId id(Index v) const { return this->Vertices[std::size_t(v)].Id; }
   Point2 at(Index v) const { return this->Vertices[std::size_t(v)].Position; }
-  int turn(Index a, Index b, Index c) const
-  {
-    return orientation(this->at(a), this->at(b), this->at(c));
-  }
+  int turn(Index a, Index b, Index c) const;
 
   /// @name The mesh of the inserter
   ///@{
   friend class SegmentInserter<ConstraintRegion>;
-  static Index half(Index triangle, Index corner) { return triangle + corner; }
-  static Index triangleOf(Index h) { return h & ~3; }
+  static Index half(Index triangle, Index corner) { return 3 * triangle + corner; }
+  static Index triangleOf(Index h) { return h / 3; }
   bool isFixed(Index h) const { return (this->Fixed[std::size_t(h)] & FixedBit) != 0; }
   void setFixed(Index h, bool isFixed) { this->Fixed[std::size_t(h)] = isFixed ? FixedBit : 0; }
-  void markRemoved(Index triangle) { this->Fixed[std::size_t(triangle)] |= RemovedBit; }
+  void markRemoved(Index triangle) { this->Fixed[3 * std::size_t(triangle)] |= RemovedBit; }
   bool isRemoved(Index triangle) const
   {
-    return (this->Fixed[std::size_t(triangle)] & RemovedBit) != 0;
+    return (this->Fixed[3 * std::size_t(triangle)] & RemovedBit) != 0;
   }
-  void setCorners(Index triangle, const std::array<Index, 3>& corners)
-  {
-    for (Index i = 0; i < 3; ++i)
-    {
-      const Index v = corners[std::size_t(i)];
-      const Index h = triangle + i;
-      this->Corners[std::size_t(h)] = v;
-      this->Fixed[std::size_t(h)] = 0;
-      this->Out[std::size_t(v)] = h;
-    }
-  }
-  void setTriangle(Index triangle, const std::array<Index, 3>& corners,
-    const std::array<Index, 2>& twins, const std::array<bool, 2>& areFixed)
-  {
-    this->setCorners(triangle, corners);
-    for (std::size_t i = 0; i < 2; ++i)
-    {
-      const Index h = triangle + Index(i) + 1;
-      this->setFixed(h, areFixed[i]);
-      this->join(h, twins[i]);
-    }
-  }
-  void join(Index half, Index outer)
-  {
-    this->Twins[std::size_t(half)] = outer;
-    const Index border = ~outer;
-    (outer < 0 ? this->Borders[std::size_t(border)].Half : this->Twins[std::size_t(outer)]) = half;
-  }
-  bool isInCircle(Index a, Index b, Index c, Index d) const
-  {
-    return inCirclePerturbed(this->at(a), this->at(b), this->at(c), this->at(d));
-  }
-  bool mustFlip(Index half) const
-  {
-    const Index twin = this->twin(half);
-    return twin >= 0 && !this->isFixed(half) &&
-      this->isInCircle(
-        this->from(half), this->to(half), this->from(previous(half)), this->from(previous(twin)));
-  }
+  void setCorners(Index triangle, const std::array<Index, 3>& corners);
+  bool isInCircle(Index a, Index b, Index c, Index d) const;
+  bool mustFlip(Index half) const;
   ///@}
 
-  template <typename Visit>
-  void forEachHalf(const Visit& visit) const
-  {
-    for (Index t = 0; t < Index(this->Corners.size()); t += 4)
-    {
-      visit(t);
-      visit(t + 1);
-      visit(t + 2);
-    }
-  }
-
   void matchEdges();
+  void join(Index half, Index outer);
   void fix(Index half);
   Index findToward(Index a, Index b, bool& isEdge) const;
   Index sweep(Index first, Index b, bool& isEdge) const;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace tipp
@@ -20,15 +21,6 @@ namespace
 using Index = DelaunayKernel::Index;
 
 constexpr Index NoVertex = LineWalk::None;
-
-/// Whether two segments have a common point, or are on a common line and close to each other.
-bool meet(const PartitionEditor::Edge& one, const PartitionEditor::Edge& other)
-{
-  const auto isBeside = [](const PartitionEditor::Edge& line, const PartitionEditor::Edge& ends)
-  { return orientation(line[0], line[1], ends[0]) * orientation(line[0], line[1], ends[1]) > 0; };
-  return overlap(boxOf(one[0], one[1]), boxOf(other[0], other[1])) && !isBeside(one, other) &&
-    !isBeside(other, one);
-}
 
 } // namespace
 
@@ -285,15 +277,13 @@ private:
     return false;
   }
 
-  void publish(PartitionIndex partition, const std::vector<Edge>& border)
+  void publish(PartitionIndex partition, const std::vector<Box2>& border)
   {
     Interior interior;
     interior.Border.reserve(border.size());
-    const double scale = 1 / this->Factor; // exact: a power of two
-    for (const auto& [from, to] : border)
+    for (const Box2& edge : border)
     {
-      interior.Border.push_back(
-        { { { from.x * scale, from.y * scale }, { to.x * scale, to.y * scale } } });
+      interior.Border.push_back(scaled(edge, 1 / this->Factor)); // exact: a power of two
     }
     sortUnique(this->Noted);
     std::size_t at = 0;
@@ -346,15 +336,9 @@ bool PartitionConstraints::mayEnter(const SegmentTree& tree, PartitionIndex part
   const std::function<std::int64_t(std::int64_t)>& pieceOf) const
 {
   const auto& border = this->interiorOf(partition).Border;
-  Box2 box{ -HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL };
-  if (!border.empty())
-  {
-    box = boxOf(border.front()[0], border.front()[1]);
-    for (const auto& [from, to] : border)
-    {
-      box = unionOf(box, boxOf(from, to));
-    }
-  }
+  const Box2 all{ -HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL };
+  const Box2 box =
+    border.empty() ? all : std::accumulate(border.begin(), border.end(), border.front(), unionOf);
   bool isNear = false;
   tree.visitNear(box,
     [&](const SegmentTree::Item& item)
@@ -364,9 +348,8 @@ bool PartitionConstraints::mayEnter(const SegmentTree& tree, PartitionIndex part
       isNear = !(piece >= 0 && this->isKnown(piece, partition)) &&
         (border.empty() || (piece >= 0 && this->mayEndAtDuplicate(piece)) ||
           std::any_of(border.begin(), border.end(),
-            [&item](const PartitionEditor::Edge& edge) {
-              return meet({ { item.A, item.B } }, edge);
-            }));
+            [&item](const Box2& edge)
+            { return overlap(boxOf(item.A, item.B), edge) && lineMayMeet(item.A, item.B, edge); }));
       return !isNear;
     });
   return isNear;

@@ -62,8 +62,8 @@ public:
   /// The interior triangles of a partition.
   struct Interior
   {
-    /// Edges between these and other triangles. Empty if all triangles are interior.
-    std::vector<PartitionEditor::Edge> Border;
+    /// Boxes of the edges between these and other triangles. Empty if all triangles are interior.
+    std::vector<Box2> Border;
     std::vector<Crossing> Crossings; ///< ascending, without repetition
   };
   const Interior& interiorOf(PartitionIndex partition) const

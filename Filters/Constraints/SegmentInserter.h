@@ -33,7 +33,6 @@ namespace tipp
 /// `Mesh` has counter-clockwise triangles, whose half-edge half(triangle, i) goes from corner i to
 /// the next. For half-edges it has next(), previous(), from(), to(), twin() and triangleOf().
 /// setCorners(triangle, corners) replaces a triangle and removes its twins and its mark;
-/// setTriangle(triangle, corners, twins, fixed) also joins and fixes half-edges 1 and 2;
 /// markRemoved(triangle) sets this mark, and isRemoved(triangle) returns it. join(half, other)
 /// makes twins. isFixed(half) and setFixed(half, fixed) concern one side of an edge. turn(a, b, c)
 /// is the orientation of three vertices. isInCircle(a, b, c, d) says whether d is inside the circle
@@ -66,13 +65,13 @@ private:
   static constexpr Index None = -1;
 
   /// An edge of a chain, from the previous vertex to this one. The cavity is on its right.
-  struct Link // 16 bytes, since many are copied
+  struct Link
   {
     Index To;
-    Index Outer;              ///< the half-edge on the left
-    Index OldInner;           ///< the half-edge of the removed triangle on the right
-    std::uint16_t IsFixed;    ///< whether it is an inserted segment
-    std::uint16_t IsDangling; ///< whether the cavity is on both sides
+    Index Outer;     ///< the half-edge on the left
+    Index OldInner;  ///< the half-edge of the removed triangle on the right
+    bool IsFixed;    ///< whether it is an inserted segment
+    bool IsDangling; ///< whether the cavity is on both sides
   };
   /// Consecutive links in the memory of Room.
   struct Chain
@@ -81,12 +80,9 @@ private:
     Link* End;
   };
 
-  /// Makes the link to a vertex that replaces the half-edge `inner` of the last triangle removed.
-  Link makeLink(const Mesh& mesh, Index to, Index inner)
+  static Link makeLink(const Mesh& mesh, Index to, Index inner)
   {
-    const Link link{ to, mesh.twin(inner), inner, std::uint16_t(mesh.isFixed(inner)), 0 };
-    this->HasDangling |= isInside(mesh, link);
-    return link;
+    return { to, mesh.twin(inner), inner, mesh.isFixed(inner), false };
   }
 
   /// Makes the chains on both sides of the segment.
@@ -101,56 +97,43 @@ private:
     this->Left = { this->Room.data(), this->Room.data() };
     this->Right = { this->Room.data() + 2 * most, this->Room.data() + 2 * most };
     const Index first = crossed.front();
-    this->remove(mesh, 0, mesh.triangleOf(first));
-    this->HasDangling = false;
-    *this->Left.End++ = this->makeLink(mesh, mesh.to(first), mesh.next(first));
+    this->Removed[0] = mesh.triangleOf(first);
+    *this->Left.End++ = makeLink(mesh, mesh.to(first), mesh.next(first));
     // The right chain goes from b to a, so it is filled from its last link.
-    *--this->Right.Begin = this->makeLink(mesh, a, mesh.previous(first));
+    *--this->Right.Begin = makeLink(mesh, a, mesh.previous(first));
     Index onRight = mesh.from(first);
     for (std::size_t i = 0; i < crossed.size(); ++i)
     {
       const Index half = mesh.twin(crossed[i]);
-      this->remove(mesh, i + 1, mesh.triangleOf(half));
+      this->Removed[i + 1] = mesh.triangleOf(half);
       const Index right = mesh.next(half); // from the right end to the new vertex
       const Index left = mesh.previous(half);
       const Index apex = mesh.to(right);
-      if (i + 1 == crossed.size())
-      {
-        *this->Left.End++ = this->makeLink(mesh, apex, left);
-        *--this->Right.Begin = this->makeLink(mesh, onRight, right);
-        break;
-      }
-      // Without branches, which would be mispredicted half of the time.
-      const bool isOnLeft = crossed[i + 1] != left;
-      const Link link = this->makeLink(mesh, isOnLeft ? apex : onRight, isOnLeft ? left : right);
-      this->Right.Begin -= isOnLeft ? 0 : 1;
-      *(isOnLeft ? this->Left.End : this->Right.Begin) = link;
-      this->Left.End += isOnLeft ? 1 : 0;
-      onRight = isOnLeft ? onRight : apex;
+      const Index leftBy = i + 1 < crossed.size() ? crossed[i + 1] : None;
+      // Writes both and keeps one, because a branch would be mispredicted half of the time.
+      *this->Left.End = makeLink(mesh, apex, left);
+      this->Left.End += leftBy != left ? 1 : 0;
+      this->Right.Begin[-1] = makeLink(mesh, onRight, right);
+      this->Right.Begin -= leftBy != right ? 1 : 0;
+      onRight = leftBy != right ? apex : onRight;
     }
-    this->HasDangling ? this->markDangling(mesh) : void();
-  }
-
-  void remove(Mesh& mesh, std::size_t i, Index triangle)
-  {
-    this->Removed[i] = triangle;
-    mesh.markRemoved(triangle);
-  }
-
-  /// Whether the cavity, as far as it is known, is on both sides of a link.
-  static bool isInside(const Mesh& mesh, const Link& link)
-  {
-    return link.Outer >= 0 && mesh.isRemoved(mesh.triangleOf(link.Outer));
+    this->markDangling(mesh);
   }
 
   /// An edge with the cavity on both sides has a link for each of its half-edges.
-  void markDangling(const Mesh& mesh)
+  void markDangling(Mesh& mesh)
   {
+    for (const Index triangle : this->Removed)
+    {
+      mesh.markRemoved(triangle);
+    }
+    this->HasDangling = false;
     for (const Chain& chain : { this->Left, this->Right })
     {
       for (Link* link = chain.Begin; link != chain.End; ++link)
       {
-        link->IsDangling = std::uint16_t(isInside(mesh, *link));
+        link->IsDangling = link->Outer >= 0 && mesh.isRemoved(mesh.triangleOf(link->Outer));
+        this->HasDangling |= link->IsDangling;
       }
     }
   }
@@ -169,42 +152,19 @@ private:
   /// ends. Returns the link that replaces the chain.
   Link replace(Mesh& mesh, Index from, const Chain& chain)
   {
-    Link* const links = chain.Begin;
+    if (chain.End - chain.Begin == 1)
+    {
+      return *chain.Begin;
+    }
     const Index to = chain.End[-1].To;
-    switch (chain.End - links)
+    Link* apex = chain.Begin;
+    for (Link* link = apex + 1; link + 1 != chain.End; ++link)
     {
-      case 1:
-        return links[0];
-      case 2:
-        return this->makeLinkOver(mesh, links[0], from, links[1]);
-      case 3:
-      {
-        // Frequent, and without branches, which would be mispredicted half of the time.
-        const std::size_t first = mesh.isInCircle(from, to, links[0].To, links[1].To) ? 0 : 1;
-        const std::array<Index, 2> starts{ from, links[0].To };
-        std::array<Link, 2> both{ links[0], links[2] };
-        both[first] = this->makeLinkOver(mesh, links[first], starts[first], links[first + 1]);
-        return this->makeLinkOver(mesh, both[0], from, both[1]);
-      }
-      default:
-        break;
+      apex = mesh.isInCircle(from, to, apex->To, link->To) ? link : apex;
     }
-    std::array<Link*, 2> best{ links, nullptr };
-    for (Link* link = links + 1; link + 1 != chain.End; ++link)
-    {
-      best[1] = link;
-      best[0] = best[mesh.isInCircle(from, to, best[0]->To, link->To) ? 1 : 0];
-    }
-    Link* const apex = best[0];
-    const Link first = this->replace(mesh, from, { links, apex + 1 });
+    const Link first = this->replace(mesh, from, { chain.Begin, apex + 1 });
     const Link second = this->replace(mesh, apex->To, { apex + 1, chain.End });
-    return this->makeLinkOver(mesh, first, from, second);
-  }
-
-  /// Makes the triangle on the right of two links. Returns the link that replaces them.
-  Link makeLinkOver(Mesh& mesh, const Link& first, Index from, const Link& second)
-  {
-    return { second.To, this->makeTriangle(mesh, first, from, second), None, 0, 0 };
+    return { to, this->makeTriangle(mesh, first, from, second), None, false, false };
   }
 
   /// As fill(), for any chain. The edges inside are not locally Delaunay until legalize().
@@ -228,7 +188,7 @@ private:
         }
         const Index half = this->makeTriangle(mesh, first, x, second);
         this->Suspects.push_back(half);
-        rest[count - 2] = { second.To, half, None, 0, 0 };
+        rest[count - 2] = { second.To, half, None, false, false };
         --count;
       }
     }
@@ -245,25 +205,16 @@ private:
   {
     const Index triangle = this->Removed.back();
     this->Removed.pop_back();
-    const std::array<Index, 3> corners{ from, second.To, first.To };
-    if (this->HasDangling)
-    {
-      mesh.setCorners(triangle, corners);
-      this->attach(mesh, mesh.half(triangle, 1), second);
-      this->attach(mesh, mesh.half(triangle, 2), first);
-    }
-    else
-    {
-      mesh.setTriangle(triangle, corners, { second.Outer, first.Outer },
-        { second.IsFixed != 0, first.IsFixed != 0 });
-    }
+    mesh.setCorners(triangle, { from, second.To, first.To });
+    this->attach(mesh, mesh.half(triangle, 1), second);
+    this->attach(mesh, mesh.half(triangle, 2), first);
     return mesh.half(triangle, 0);
   }
 
   /// Makes a new half-edge the twin of the half-edge outside the removed one.
   void attach(Mesh& mesh, Index half, const Link& link)
   {
-    mesh.setFixed(half, link.IsFixed != 0);
+    mesh.setFixed(half, link.IsFixed);
     if (!link.IsDangling)
     {
       mesh.join(half, link.Outer);

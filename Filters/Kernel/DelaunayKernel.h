@@ -219,21 +219,6 @@ public:
     }
   }
 
-  /// As setCorners(), then joins and fixes the half-edges from corners 1 and 2.
-  void setTriangle(Index triangle, const std::array<Index, 3>& corners,
-    const std::array<Index, 2>& twins, const std::array<bool, 2>& areFixed)
-  {
-    this->setCorners(triangle, corners);
-    this->Fixed[std::size_t(triangle / 8)] =
-      static_cast<unsigned char>(unsigned(areFixed[0]) | unsigned(areFixed[1]) << 1);
-    Index* const slots = this->Mesh->slots();
-    for (Index i = 0; i < 2; ++i)
-    {
-      HalfEdgeMesh::setTwin(slots, triangle + i, twins[std::size_t(i)]);
-      HalfEdgeMesh::setTwin(slots, twins[std::size_t(i)], triangle + i);
-    }
-  }
-
   int turn(Index a, Index b, Index c) const
   {
     return orientation(this->at(a), this->at(b), this->at(c));

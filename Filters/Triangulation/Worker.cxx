@@ -214,8 +214,10 @@ void Worker<Id>::findBoundary(const Box2& box, const Box2& region, BoundaryConsu
           if (this->Editor)
           {
             const std::array<Index, 3> other = this->Kernel.corners(t);
-            this->Border.push_back({ this->Kernel.point(other[std::size_t(i + 1) % 3]),
-              this->Kernel.point(other[std::size_t(i + 2) % 3]) });
+            const Point2 from = this->Kernel.point(other[std::size_t(i + 1) % 3]);
+            const Point2 to = this->Kernel.point(other[std::size_t(i + 2) % 3]);
+            this->Border.push_back(
+              unionOf({ from.x, from.y, from.x, from.y }, { to.x, to.y, to.x, to.y }));
           }
           continue;
         }

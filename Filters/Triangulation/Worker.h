@@ -23,8 +23,6 @@ namespace tipp
 class PartitionEditor
 {
 public:
-  using Edge = std::array<Point2, 2>; ///< the positions of its ends
-
   template <typename Id>
   struct Partition
   {
@@ -33,9 +31,9 @@ public:
     const Id* Ids; ///< by kernel vertex, from 1 on: the point's id; -1 for other partitions' points
     const char*
       IsBoundary; ///< by the kernel's triangle number: not 0 if the triangle is not interior
-    /// The edges between interior and other triangles, in the kernel's coordinates. Empty if all
-    /// triangles are interior.
-    const std::vector<Edge>& Border;
+    /// The boxes of the edges between interior and other triangles, in the kernel's coordinates.
+    /// Empty if all triangles are interior.
+    const std::vector<Box2>& Border;
   };
 
   virtual ~PartitionEditor() = default;
@@ -117,7 +115,7 @@ private:
   std::vector<Point2> GhostPoints;
   std::vector<std::int64_t> KnownIds; ///< ids of own points that other partitions know; sorted
   std::vector<char> IsBoundary;       ///< by the kernel's triangle number
-  std::vector<PartitionEditor::Edge> Border; ///< of the interior triangles, if there is an editor
+  std::vector<Box2> Border;           ///< of the interior triangles, if there is an editor
   std::vector<DelaunayKernel::Index> Stack;
   std::vector<Duplicate> Duplicates;
   std::size_t InteriorCount = 0;
