@@ -274,9 +274,7 @@ std::size_t takeCrossed(PointsView points, const ConstraintSegments& segments, s
   for (std::size_t begin = 0; begin < triangles; begin += scan.MostTriangles)
   {
     const auto before = std::ptrdiff_t(found.Crossings.size());
-    scan.scan(
-      corners, begin, std::min(begin + scan.MostTriangles, triangles),
-      [](std::int64_t) { return false; }, found);
+    scan.scan(corners, begin, std::min(begin + scan.MostTriangles, triangles), found);
     std::sort(found.Crossings.begin() + before, found.Crossings.end());
   }
   for (const ScannedTriangles::Edge& edge : found.Edges) // before triangles are moved
@@ -404,9 +402,7 @@ std::vector<ScannedTriangles::Edge> edgesOnSegments(
   ScannedTriangles found;
   for (std::size_t begin = 0; begin < triangles; begin += Scan::MostTriangles)
   {
-    scan.scan(
-      corners, begin, std::min(begin + Scan::MostTriangles, triangles),
-      [](std::int64_t) { return false; }, found);
+    scan.scan(corners, begin, std::min(begin + Scan::MostTriangles, triangles), found);
   }
   return std::move(found.Edges);
 }

@@ -18,50 +18,41 @@ struct TriangleRange
 {
   std::size_t Begin;
   std::size_t End;
-  PartitionIndex Partition; ///< partition whose interior triangles these are; -1 for others
 };
 
-/// Divides the triangles into small ranges. Leaves out blocks that no piece is near, except pieces
-/// whose crossings are known there.
-std::vector<TriangleRange> makeRanges(std::size_t triangles,
-  const std::vector<TriangleBlock>& blocks, const SegmentTree& tree,
-  const PartitionConstraints& inserted)
+/// Divides the triangles outside of the blocks into small ranges.
+std::vector<TriangleRange> rangesBetween(
+  const std::vector<TriangleBlock>& blocks, std::size_t triangles)
 {
   constexpr std::size_t most = TriangleScan<std::int32_t>::MostTriangles;
-  constexpr PartitionIndex none = -1;
   std::vector<TriangleRange> ranges;
-  const auto append = [&ranges](std::size_t begin, std::size_t end, PartitionIndex partition)
+  const auto append = [&ranges](std::size_t begin, std::size_t end)
   {
     for (std::size_t i = begin; i < end; i += most)
     {
-      ranges.push_back({ i, std::min(i + most, end), partition });
+      ranges.push_back({ i, std::min(i + most, end) });
     }
   };
   std::size_t done = 0;
   for (const TriangleBlock& block : blocks)
   {
-    append(done, block.Begin, none);
-    if (inserted.mayEnter(tree, block.Partition, [](std::int64_t piece) { return piece; }))
-    {
-      append(block.Begin, block.End, block.Partition);
-    }
+    append(done, block.Begin);
     done = block.End;
   }
-  append(done, triangles, none);
+  append(done, triangles);
   return ranges;
 }
 
 using TriangleCrossing = ScannedTriangles::Crossing;
 
-/// The crossings recorded for triangles in blocks, ascending. The other triangles have been
-/// scanned.
+/// The crossings recorded for triangles in blocks, ascending.
 std::vector<TriangleCrossing> notedIn(
   const std::vector<TriangleBlock>& blocks, const PartitionConstraints& inserted)
 {
   std::vector<TriangleCrossing> noted;
   for (const TriangleBlock& block : blocks)
   {
-    for (const auto& [triangle, piece] : inserted.interiorOf(block.Partition).Crossings)
+    for (const auto& [triangle, piece] : inserted.crossingsIn(block.Partition))
     {
       if (block.Begin + triangle < block.End)
       {
@@ -142,18 +133,16 @@ CrossedTriangles findCrossedTriangles(PointsView points, const Id* corners, std:
   const PartitionConstraints& inserted, int threads)
 {
   const SegmentTree tree = treeOfOthers(points, pieces, inserted);
-  const std::vector<TriangleRange> ranges = makeRanges(triangles, blocks, tree, inserted);
+  const std::vector<TriangleRange> ranges = rangesBetween(blocks, triangles);
   std::vector<TriangleScan<Id>> scans(std::size_t(threads), TriangleScan<Id>(points, tree));
   std::vector<ScannedTriangles> parts(static_cast<std::size_t>(threads));
   forChunks(std::int64_t(ranges.size()), 1, threads, {},
     [&](std::int64_t i, std::int64_t, int thread)
     {
       const TriangleRange& range = ranges[std::size_t(i)];
-      const auto isKnown = [&](std::int64_t piece)
-      { return inserted.isKnown(piece, range.Partition); };
       ScannedTriangles& part = parts[std::size_t(thread)];
       const auto before = std::ptrdiff_t(part.Crossings.size());
-      scans[std::size_t(thread)].scan(corners, range.Begin, range.End, isKnown, part);
+      scans[std::size_t(thread)].scan(corners, range.Begin, range.End, part);
       std::sort(part.Crossings.begin() + before, part.Crossings.end());
     });
   std::vector<std::vector<TriangleCrossing>> lists;

@@ -31,8 +31,7 @@ struct CrossedTriangles
 
 /// Finds the triangles that pieces cross, except for pieces that have been inserted already. Pieces
 /// and corners use the same vertex ids. `blocks` are ranges of interior triangles of partitions,
-/// ascending; blocks with no piece nearby are skipped. `inserted` has what was found during the
-/// triangulation of the points.
+/// ascending; `inserted` has their crossings. The other triangles are searched.
 template <typename Id>
 CrossedTriangles findCrossedTriangles(PointsView points, const Id* corners, std::size_t triangles,
   const std::vector<TriangleBlock>& blocks, const std::vector<ConstraintPiece>& pieces,

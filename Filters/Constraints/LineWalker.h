@@ -73,6 +73,15 @@ public:
     return walk;
   }
 
+  /// As walk(), from a half-edge that the line crosses out of its triangle.
+  LineWalk walkAcross(const DirectedLine& line, Index half)
+  {
+    this->Crossed.clear();
+    LineWalk walk;
+    this->cross(line, half, walk);
+    return walk;
+  }
+
   /// The half-edges that the last walk crossed, each in the triangle that the walk left there.
   const std::vector<Index>& crossed() const { return this->Crossed; }
 

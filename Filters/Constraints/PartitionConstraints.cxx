@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/PartitionConstraints.h"
 
+#include "Arrays/IndexMap.h"
 #include "Arrays/SortUnique.h"
 #include "Constraints/LineWalker.h"
 #include "Constraints/SegmentInserter.h"
+#include "Constraints/SegmentTree.h"
 #include "Kernel/DelaunayKernel.h"
 #include "Kernel/Lanes.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numeric>
+#include <functional>
 #include <utility>
 
 namespace tipp
@@ -22,15 +23,74 @@ using Index = DelaunayKernel::Index;
 
 constexpr Index NoVertex = LineWalk::None;
 
+/// The vertices of a partition at the ends of pieces.
+class EndVertices
+{
+public:
+  /// An end of a piece: twice the piece's number in the partition, plus 1 for B.
+  using End = std::uint32_t;
+
+  void begin(std::size_t pieces)
+  {
+    this->Ids.clear();
+    this->Last.clear();
+    this->Marks.fill(0);
+    this->Earlier.resize(2 * pieces);
+    this->VertexOf.assign(2 * pieces, NoVertex);
+  }
+
+  void add(End end, PointId id)
+  {
+    const auto [number, isNew] = this->Ids.insert(id);
+    if (isNew)
+    {
+      this->Last.push_back(NoEnd);
+      this->Marks[word(id)] |= bit(id);
+    }
+    this->Earlier[end] = std::exchange(this->Last[std::size_t(number)], end);
+  }
+
+  /// A quick filter: false for most ids that are no ends.
+  bool mayHave(PointId id) const { return (this->Marks[word(id)] & bit(id)) != 0; }
+
+  /// Sets the vertex of all ends with this id. Calls visit(piece's number) for each piece whose
+  /// ends are now both known.
+  template <typename Visit>
+  void setVertex(PointId id, Index vertex, const Visit& visit)
+  {
+    const std::int32_t number = this->Ids.find(id);
+    for (End end = number == IndexMap::None ? NoEnd : this->Last[std::size_t(number)]; end != NoEnd;
+         end = this->Earlier[end])
+    {
+      this->VertexOf[end] = vertex;
+      this->VertexOf[end ^ 1] != NoVertex ? visit(end / 2) : void();
+    }
+  }
+
+  /// The vertex at an end, or NoVertex if it is not in this partition.
+  Index vertex(End end) const { return this->VertexOf[end]; }
+
+private:
+  static constexpr End NoEnd = ~End(0);
+  static constexpr std::size_t Words = 1024; ///< so few that they stay in the first-level cache
+  static std::size_t word(PointId id) { return std::size_t(id) / 64 % Words; }
+  static std::uint64_t bit(PointId id) { return std::uint64_t(1) << (std::size_t(id) % 64); }
+
+  IndexMap Ids;
+  std::array<std::uint64_t, Words> Marks{}; ///< a bit for each id, modulo their number
+  std::vector<End> Last;                    ///< by number of the id: the last end added
+  std::vector<End> Earlier;                 ///< the end with the same id added before, or NoEnd
+  std::vector<Index> VertexOf;
+};
+
 } // namespace
 
 /// The editor of one thread.
 class PartitionConstraints::Editor : public PartitionEditor
 {
 public:
-  Editor(PartitionConstraints& of, double factor)
+  explicit Editor(PartitionConstraints& of)
     : Of(of)
-    , Factor(factor)
     , Walker(this->Mesh)
   {
   }
@@ -42,40 +102,114 @@ private:
   /// A piece that starts at a vertex of the partition.
   struct BegunPiece
   {
-    std::int64_t Entry; ///< entry of PieceEnds for the start
+    std::int64_t Piece;
     Index From;
-    Index To; ///< vertex at the other end, or NoVertex if another partition has it
+    DirectedLine Line;
   };
 
   template <typename Id>
   void editAny(const Partition<Id>& partition)
   {
-    this->findEnds(partition);
-    this->IsBoundary = partition.IsBoundary;
-    if (!this->Found.empty())
+    this->Near = this->Of.Near.begin(partition.Bucket);
+    this->NearCount = std::size_t(this->Of.Near.end(partition.Bucket) - this->Near);
+    if (this->NearCount > 0)
     {
-      this->insertAll(partition);
+      this->IsBoundary = partition.IsBoundary;
+      this->IdOf = [ids = partition.Ids](Index v) { return PointId(ids[v]); };
+      this->Mesh.begin(partition.Kernel);
+      this->findEnds(partition);
+      this->insertWhole();
+      this->noteOthers(partition.Border);
     }
-    this->publish(partition.Number, partition.Border);
+    this->publish(partition.Bucket);
   }
 
-  template <typename Id>
-  void insertAll(const Partition<Id>& partition)
+  const ConstraintPiece& piece(std::size_t number) const
   {
-    this->Mesh.begin(partition.Kernel);
-    this->collectPieces();
-    this->placeEnds(partition.Number);
-    this->findBegun(partition.Number);
-    const auto idOf = [&](Index v) { return PointId(partition.Ids[v]); };
-    // First inserts what can be inserted, because this changes the edges that other pieces cross.
+    return this->Of.Pieces[std::size_t(this->Near[number])];
+  }
+
+  /// Finds the vertices at the ends of pieces. Pieces that have both are in Whole.
+  template <typename Id>
+  void findEnds(const Partition<Id>& partition)
+  {
+    this->Ends.begin(this->NearCount);
+    for (std::size_t i = 0; i < this->NearCount; ++i)
+    {
+      this->Ends.add(EndVertices::End(2 * i), this->piece(i).A);
+      this->Ends.add(EndVertices::End(2 * i + 1), this->piece(i).B);
+    }
+    this->Whole.clear();
+    this->Coinciding.clear();
+    constexpr Index group = 64;
+    std::array<Index, group> likely;
+    const Index last = partition.Kernel.vertexEnd();
+    for (Index begin = 1; begin < last; begin += group)
+    {
+      std::size_t count = 0;
+      for (Index v = begin; v < std::min(begin + group, last); ++v)
+      {
+        likely[count] = v;
+        count += std::size_t(this->Ends.mayHave(partition.Ids[v]));
+      }
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        const Index vertex = this->usedVertex(likely[i], partition.Kernel);
+        if (vertex != NoVertex)
+        {
+          this->Ends.setVertex(partition.Ids[likely[i]], vertex,
+            [this](std::uint32_t number) { this->Whole.push_back(number); });
+        }
+      }
+    }
+  }
+
+  /// The vertex itself, the one that it coincides with, or NoVertex if it has no triangles.
+  Index usedVertex(Index v, const DelaunayKernel& kernel)
+  {
+    if (this->Mesh.isUsed(v))
+    {
+      return v;
+    }
+    if (this->Coinciding.empty()) // the first time for each partition
+    {
+      for (const DelaunayKernel::Duplicate& duplicate : kernel.duplicates())
+      {
+        this->Coinciding.emplace_back(duplicate.Point, duplicate.Vertex);
+      }
+      std::sort(this->Coinciding.begin(), this->Coinciding.end());
+    }
+    const std::pair<std::size_t, Index> wanted(kernel.pointIndex(v), 0);
+    const auto found = std::lower_bound(this->Coinciding.begin(), this->Coinciding.end(), wanted);
+    return found != this->Coinciding.end() && found->first == wanted.first ? found->second
+                                                                           : NoVertex;
+  }
+
+  BegunPiece begun(std::size_t number, bool fromB) const
+  {
+    const auto from = EndVertices::End(2 * number + (fromB ? 1 : 0));
+    const Index a = this->Ends.vertex(from);
+    const Index b = this->Ends.vertex(from ^ 1);
+    const ConstraintPiece& ids = this->piece(number);
+    return { this->Near[number], a,
+      { this->Mesh.at(a), b != NoVertex ? this->Mesh.at(b) : this->Of.at(fromB ? ids.A : ids.B),
+        b } };
+  }
+
+  /// Inserts what can be inserted, before crossings are recorded, because this changes the edges
+  /// that other pieces cross.
+  void insertWhole()
+  {
+    this->Begun.clear();
     runWith(Instructions::Best,
       [&]
       {
-        for (const BegunPiece& piece : this->Whole)
+        for (const std::uint32_t number : this->Whole)
         {
-          if (this->follow(piece, true, idOf))
+          const BegunPiece piece = this->begun(number, false);
+          if (this->follow(piece, true))
           {
-            this->Of.Done[std::size_t(piece.Entry / 2)] = 1;
+            this->Of.Done[std::size_t(piece.Piece)] = 1;
           }
           else
           {
@@ -83,147 +217,105 @@ private:
           }
         }
       });
+  }
+
+  void noteOthers(const std::vector<BorderEdge>& border)
+  {
+    this->Through.clear();
+    for (std::size_t i = 0; i < this->NearCount; ++i)
+    {
+      const bool hasA = this->Ends.vertex(EndVertices::End(2 * i)) != NoVertex;
+      const bool hasB = this->Ends.vertex(EndVertices::End(2 * i + 1)) != NoVertex;
+      if (hasA != hasB)
+      {
+        this->Begun.push_back(this->begun(i, hasB));
+      }
+      else if (!hasA)
+      {
+        this->Through.push_back(i);
+      }
+    }
     for (const BegunPiece& piece : this->Begun)
     {
-      this->follow(piece, false, idOf);
+      this->follow(piece, false);
+    }
+    this->Border.clear();
+    for (const std::size_t number : this->Through)
+    {
+      this->noteEntries(border, number);
     }
   }
 
-  /// Finds the pieces with an end in the partition. Those with both ends are in Whole, once each;
-  /// the others are in Begun.
-  void findBegun(PartitionIndex partition)
+  /// Records the interior triangles that a piece without ends in the partition crosses. Follows it
+  /// from each edge and vertex where it enters them.
+  void noteEntries(const std::vector<BorderEdge>& border, std::size_t number)
   {
-    this->Whole.clear();
-    this->Begun.clear();
-    for (const auto& [entry, v] : this->EndVertices)
+    this->locateBorder(border);
+    const std::int64_t piece = this->Near[number];
+    const ConstraintPiece& ids = this->piece(number);
+    const DirectedLine line{ this->Of.at(ids.A), this->Of.at(ids.B), NoVertex };
+    const auto noteFromVertex = [&](Index vertex)
     {
-      if (v != NoVertex)
+      this->touch(piece, vertex);
+      this->follow({ piece, vertex, line }, false);
+    };
+    const Box2 box = boxOf(line.A, line.B);
+    for (const EntryEdge& edge : this->Border)
+    {
+      if (!overlap(box, boxOf(edge.From, edge.To)))
       {
-        const Index other = this->otherEnd(entry, partition);
-        const BegunPiece piece{ entry, v, other };
-        other == NoVertex  ? this->Begun.push_back(piece)
-          : entry % 2 == 0 ? this->Whole.push_back(piece)
-                           : void();
+        continue;
+      }
+      const int from = line.side(edge.From);
+      if (from == 0 && line.isBetween(line.A, edge.From))
+      {
+        noteFromVertex(this->Mesh.from(edge.Half));
+      }
+      else if (from < 0 && line.side(edge.To) > 0 && orientation(edge.From, edge.To, line.A) > 0 &&
+        orientation(edge.From, edge.To, line.B) < 0)
+      {
+        const LineWalk walk = this->Walker.walkAcross(line, edge.Half);
+        this->note(piece);
+        walk.How == LineWalk::End::Touched ? noteFromVertex(walk.Vertex) : void();
       }
     }
   }
 
-  /// Finds ends of pieces among the vertices. Data of points and pieces are accessed at random, and
-  /// so are prefetched.
-  template <typename Id>
-  void findEnds(const Partition<Id>& partition)
+  /// Finds the positions of the border's edges, the first time for each partition.
+  void locateBorder(const std::vector<BorderEdge>& border)
   {
-    const PieceEnds& ends = this->Of.EndPoints;
-    constexpr Index group = 64;
-    std::array<Index, group> likely;
-    this->Found.clear();
-    const Index last = partition.Kernel.vertexEnd();
-    for (Index begin = 1; begin < last; begin += group)
+    for (std::size_t i = this->Border.size(); i < border.size(); ++i)
     {
-      std::size_t count = 0;
-      const Index end = std::min(begin + group, last);
-      for (Index v = begin; v < end; ++v)
-      {
-        likely[count] = v;
-        count += std::size_t(ends.mayHave(partition.Ids[v]));
-      }
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        ends.expect(partition.Ids[likely[i]]);
-      }
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        const PointId id = partition.Ids[likely[i]];
-        if (ends.has(id))
-        {
-          this->Found.push_back({ ends.rank(id), likely[i] });
-        }
-      }
+      const Index half = MeshEditor::half(border[i].Outside, (border[i].Corner + 1) % 3);
+      this->Border.push_back(
+        { half, this->Mesh.at(this->Mesh.from(half)), this->Mesh.at(this->Mesh.to(half)) });
     }
   }
 
-  void collectPieces()
-  {
-    const PieceEnds& ends = this->Of.EndPoints;
-    for (const FoundEnd& end : this->Found)
-    {
-      ends.expectEntries(end.Rank);
-    }
-    for (const FoundEnd& end : this->Found)
-    {
-      ends.expectVisit(end.Rank);
-    }
-    this->EndVertices.clear();
-    for (const auto& [rank, v] : this->Found)
-    {
-      ends.visit(rank,
-        [this, v = v](std::int64_t entry)
-        {
-          this->EndVertices.emplace_back(entry, v);
-          __builtin_prefetch(&this->Of.EndsOf[std::size_t(entry / 2)], 1);
-        });
-    }
-  }
-
-  void placeEnds(PartitionIndex partition)
-  {
-    for (auto& [entry, v] : this->EndVertices)
-    {
-      if (this->Mesh.isUsed(v))
-      {
-        Ends& ends = this->Of.EndsOf[std::size_t(entry / 2)];
-        ends.Vertex[std::size_t(entry % 2)] = v;
-        ends.Partition[std::size_t(entry % 2)].store(partition, std::memory_order_relaxed);
-      }
-      else
-      {
-        v = NoVertex;
-      }
-    }
-  }
-
-  /// The vertex at the other end, or NoVertex if it is not in this partition.
-  Index otherEnd(std::int64_t entry, PartitionIndex partition) const
-  {
-    const Ends& ends = this->Of.EndsOf[std::size_t(entry / 2)];
-    const auto other = std::size_t(1 - entry % 2);
-    return ends.Partition[other].load(std::memory_order_relaxed) == partition ? ends.Vertex[other]
-                                                                              : NoVertex;
-  }
-
-  /// The position of the piece's other end, in the kernel's scale.
-  Point2 otherPosition(std::int64_t entry) const
-  {
-    const ConstraintPiece& ids = this->Of.Pieces[std::size_t(entry / 2)];
-    const Point2 p = this->Of.at(entry % 2 == 0 ? ids.B : ids.A);
-    return { p.x * this->Factor, p.y * this->Factor };
-  }
-
-  /// Follows a piece from one end. If `inserts`, inserts its parts that only cross interior
+  /// Follows a piece from a vertex on it. If `inserts`, inserts its parts that only cross interior
   /// triangles; otherwise records the interior triangles that it crosses. Returns whether all parts
   /// are edges.
-  template <typename IdOf>
-  bool follow(const BegunPiece& begun, bool inserts, const IdOf& idOf)
+  bool follow(const BegunPiece& begun, bool inserts)
   {
-    const auto piece = std::size_t(begun.Entry / 2);
     Index at = begun.From;
-    const DirectedLine line{ this->Mesh.at(at),
-      begun.To != NoVertex ? this->Mesh.at(begun.To) : this->otherPosition(begun.Entry), begun.To };
     bool isAllThere = true;
     for (;;)
     {
-      const LineWalk walk = this->Walker.walk(line, at);
-      isAllThere = (inserts ? this->insert(at, walk) : this->note(piece)) && isAllThere;
+      const LineWalk walk = this->Walker.walk(begun.Line, at);
+      isAllThere = (inserts ? this->insert(at, walk) : this->note(begun.Piece)) && isAllThere;
       if (walk.How != LineWalk::End::Touched)
       {
         return isAllThere && walk.How == LineWalk::End::Reached;
       }
       at = walk.Vertex;
-      if (idOf(at) >= 0)
-      {
-        this->Touches.push_back({ std::int64_t(piece), idOf(at) });
-      }
+      this->touch(begun.Piece, at);
     }
+  }
+
+  void touch(std::int64_t piece, Index vertex)
+  {
+    const PointId id = this->IdOf(vertex);
+    id >= 0 ? this->Touches.push_back({ piece, id }) : void();
   }
 
   bool isInterior(Index triangle) const
@@ -256,108 +348,109 @@ private:
     return isInside;
   }
 
-  bool note(std::size_t piece)
+  bool note(std::int64_t piece)
   {
-    const auto noteTriangle = [this, piece](Index triangle)
-    {
-      if (this->isInterior(triangle))
-      {
-        this->Noted.push_back({ DelaunayKernel::number(triangle), std::int64_t(piece) });
-      }
-    };
     const std::vector<Index>& crossed = this->Walker.crossed();
     if (!crossed.empty())
     {
-      noteTriangle(this->Mesh.triangleOf(crossed.front()));
+      this->noteTriangle(piece, this->Mesh.triangleOf(crossed.front()));
       for (const Index h : crossed)
       {
-        noteTriangle(this->Mesh.triangleOf(this->Mesh.twin(h)));
+        this->noteTriangle(piece, this->Mesh.triangleOf(this->Mesh.twin(h)));
       }
     }
     return false;
   }
 
-  void publish(PartitionIndex partition, const std::vector<Box2>& border)
+  void noteTriangle(std::int64_t piece, Index triangle)
   {
-    Interior interior;
-    interior.Border.reserve(border.size());
-    for (const Box2& edge : border)
+    if (!this->isInterior(triangle))
     {
-      interior.Border.push_back(scaled(edge, 1 / this->Factor)); // exact: a power of two
+      return;
     }
+    this->Noted.push_back({ DelaunayKernel::number(triangle), piece });
+    for (Index i = 0; i < 3; ++i)
+    {
+      const Index half = MeshEditor::half(triangle, i);
+      if (this->Mesh.isFixed(half))
+      {
+        this->FixedEdges.push_back(
+          { this->IdOf(this->Mesh.from(half)), this->IdOf(this->Mesh.to(half)) });
+      }
+    }
+  }
+
+  void publish(PartitionIndex partition)
+  {
     sortUnique(this->Noted);
+    std::vector<Crossing> crossings;
+    crossings.reserve(this->Noted.size());
     std::size_t at = 0;
     std::size_t before = 0; // number of interior triangles before `at`
-    interior.Crossings.reserve(this->Noted.size());
     for (const auto& [triangle, piece] : this->Noted)
     {
       before += std::size_t(std::count(this->IsBoundary + at, this->IsBoundary + triangle, 0));
       at = triangle;
-      interior.Crossings.emplace_back(before, piece);
+      crossings.emplace_back(before, piece);
     }
+    this->Of.Crossings[std::size_t(partition)] = std::move(crossings);
     const std::lock_guard<std::mutex> lock(this->Of.Mutex);
     this->Of.Touches.insert(this->Of.Touches.end(), this->Touches.begin(), this->Touches.end());
-    this->Of.Interiors[partition] = std::move(interior);
+    this->Of.FixedEdges.insert(
+      this->Of.FixedEdges.end(), this->FixedEdges.begin(), this->FixedEdges.end());
     this->Touches.clear();
+    this->FixedEdges.clear();
     this->Noted.clear();
   }
 
   PartitionConstraints& Of;
-  const double Factor;
   MeshEditor Mesh;
   LineWalker Walker;
   SegmentInserter<MeshEditor> Inserter;
   const char* IsBoundary = nullptr;
-  struct FoundEnd
+  std::function<PointId(Index)> IdOf;
+  const std::int64_t* Near = nullptr; ///< the pieces near the partition
+  std::size_t NearCount = 0;
+  EndVertices Ends;
+  std::vector<std::uint32_t> Whole; ///< by number in Near: pieces with both ends in the partition
+  std::vector<BegunPiece> Begun;    ///< pieces with one or both ends here that are not inserted
+  std::vector<std::size_t> Through; ///< by number in Near: pieces without ends in the partition
+  std::vector<std::pair<std::size_t, Index>> Coinciding; ///< points and the vertices at them
+  struct EntryEdge
   {
-    std::size_t Rank;
-    Index Vertex;
+    Index Half; ///< its right side is interior
+    Point2 From;
+    Point2 To;
   };
-  std::vector<FoundEnd> Found;                             ///< vertices that are ends of pieces
-  std::vector<std::pair<std::int64_t, Index>> EndVertices; ///< entries of PieceEnds, vertices
-  std::vector<BegunPiece> Whole;
-  std::vector<BegunPiece> Begun; ///< pieces that are not inserted here
-  std::vector<Crossing> Noted;   ///< triangles are indices in the kernel
+  std::vector<EntryEdge> Border; ///< the partition's border, if it was needed
+  std::vector<Crossing> Noted;   ///< triangles are numbers in the kernel
   std::vector<CrossedTriangles::Touch> Touches;
+  std::vector<Edge> FixedEdges;
 };
 
-PartitionConstraints::PartitionConstraints(PointsView points,
+PartitionConstraints::PartitionConstraints(
   const std::vector<ConstraintPiece>& pieces, int threads, std::vector<Point2> others)
-  : Points(points)
+  : Pieces(pieces)
+  , Threads(threads)
   , Others(std::move(others))
-  , Pieces(pieces)
-  , EndPoints(points.size() + this->Others.size(), pieces, threads)
-  , EndsOf(pieces.size())
   , Done(pieces.size(), 0)
 {
 }
 
-bool PartitionConstraints::mayEnter(const SegmentTree& tree, PartitionIndex partition,
-  const std::function<std::int64_t(std::int64_t)>& pieceOf) const
+void PartitionConstraints::begin(PointsView points, const Tiling& tiling)
 {
-  const auto& border = this->interiorOf(partition).Border;
-  const Box2 all{ -HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL };
-  const Box2 box =
-    border.empty() ? all : std::accumulate(border.begin(), border.end(), border.front(), unionOf);
-  bool isNear = false;
-  tree.visitNear(box,
-    [&](const SegmentTree::Item& item)
-    {
-      const std::int64_t piece = pieceOf(item.Id);
-      // Unless an end is a duplicate, no end is a vertex of an interior triangle.
-      isNear = !(piece >= 0 && this->isKnown(piece, partition)) &&
-        (border.empty() || (piece >= 0 && this->mayEndAtDuplicate(piece)) ||
-          std::any_of(border.begin(), border.end(),
-            [&item](const Box2& edge)
-            { return overlap(boxOf(item.A, item.B), edge) && lineMayMeet(item.A, item.B, edge); }));
-      return !isNear;
-    });
-  return isNear;
+  this->Points = points;
+  for (Point2& p : this->Others)
+  {
+    p = { p.x * points.factor(), p.y * points.factor() };
+  }
+  this->Crossings.resize(std::size_t(tiling.size()));
+  this->Near = PartitionPieces(tiling, this->Pieces, points, this->Others, this->Threads);
 }
 
-std::unique_ptr<PartitionEditor> PartitionConstraints::makeEditor(double factor)
+std::unique_ptr<PartitionEditor> PartitionConstraints::makeEditor()
 {
-  return std::make_unique<Editor>(*this, factor);
+  return std::make_unique<Editor>(*this);
 }
 
 } // namespace tipp

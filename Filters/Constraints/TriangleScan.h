@@ -216,18 +216,15 @@ public:
   {
   }
 
-  /// Scans the triangles [begin, end), at most MostTriangles. Segments for which isSkipped(id) is
-  /// true are ignored.
-  template <typename IsSkipped>
-  void scan(const Id* corners, std::size_t begin, std::size_t end, const IsSkipped& isSkipped,
-    ScannedTriangles& found)
+  /// Scans the triangles [begin, end), at most MostTriangles.
+  void scan(const Id* corners, std::size_t begin, std::size_t end, ScannedTriangles& found)
   {
     const Box2 box = this->load(corners, begin, end);
     this->Segments.clear();
     this->Tree.visitNear(box,
       [&](const SegmentTree::Item& item)
       {
-        if (!isSkipped(item.Id) && lineMayMeet(item.A, item.B, box))
+        if (lineMayMeet(item.A, item.B, box))
         {
           this->Segments.push_back(&item);
         }

@@ -19,32 +19,29 @@ namespace tipp
 namespace
 {
 
-/// The parts whose ends both may be vertices of crossed triangles.
-template <typename Id>
-ConstraintEdges edgesNear(const CrossedTriangles& crossed, const Id* triangles,
-  const std::vector<ConstraintPiece>& parts, int threads)
+/// The constraints that may be edges between crossed triangles: the pieces that are not inserted,
+/// and edges of crossed interior triangles.
+ConstraintEdges edgesNear(const SplitPieces& split, const PartitionConstraints& inserted)
 {
-  constexpr std::size_t marks = std::size_t(1) << 20; // by the low bits of ids
-  std::vector<char> isVertex(marks, 0);
-  for (const std::int64_t t : crossed.Triangles)
+  std::vector<ConstraintPiece> near;
+  const bool isWhole = split.Starts.empty();
+  const std::size_t pieces = isWhole ? split.Parts.size() : split.Starts.size() - 1;
+  for (std::size_t p = 0; p < pieces; ++p)
   {
-    std::for_each_n(triangles + 3 * t, 3, [&](Id id) { isVertex[std::size_t(id) % marks] = 1; });
-  }
-  std::vector<std::vector<ConstraintPiece>> near(static_cast<std::size_t>(threads));
-  constexpr std::int64_t chunk = 65536;
-  forChunks(std::int64_t(parts.size()), chunk, threads, {},
-    [&](std::int64_t begin, std::int64_t end, int thread)
+    if (!inserted.isDone(p))
     {
-      std::copy_if(parts.begin() + begin, parts.begin() + end,
-        std::back_inserter(near[std::size_t(thread)]),
-        [&](const ConstraintPiece& part)
-        { return isVertex[std::size_t(part.A) % marks] && isVertex[std::size_t(part.B) % marks]; });
-    });
-  for (std::size_t thread = 1; thread < near.size(); ++thread)
-  {
-    near[0].insert(near[0].end(), near[thread].begin(), near[thread].end());
+      const std::size_t begin = isWhole ? p : std::size_t(split.Starts[p]);
+      const std::size_t end = isWhole ? p + 1 : std::size_t(split.Starts[p + 1]);
+      near.insert(near.end(), split.Parts.begin() + std::ptrdiff_t(begin),
+        split.Parts.begin() + std::ptrdiff_t(end));
+    }
   }
-  return ConstraintEdges(near[0]);
+  constexpr std::int64_t unknown = -1; // the constraint does not matter
+  for (const auto& [a, b] : inserted.fixedEdges())
+  {
+    near.push_back({ a, b, unknown });
+  }
+  return ConstraintEdges(near);
 }
 
 template <typename Id>
@@ -55,14 +52,14 @@ void constrainTriangles(PointsView points, Buffer<Id>& ids,
   const CrossedTriangles crossed =
     findCrossedTriangles(points, ids.data(), ids.size() / 3, blocks, pieces, inserted, threads);
   SplitPieces split = splitPieces(points, pieces, crossed.Touches);
-  const ConstraintEdges known = edgesNear(crossed, ids.data(), split.Parts, threads);
+  const ConstraintEdges known = edgesNear(split, inserted);
   retriangulateJobs(points, ids.data(), crossed, split, known, threads);
   pieces = std::move(split.Parts);
 }
 
-/// Replaces the ends of pieces and touches by their representatives.
+/// Replaces the points of pieces and of what editors found by their representatives.
 void nameRepresentatives(const std::vector<Duplicate>& duplicates,
-  std::vector<ConstraintPiece>& pieces, std::vector<CrossedTriangles::Touch>& touches, int threads)
+  std::vector<ConstraintPiece>& pieces, PartitionConstraints& inserted, int threads)
 {
   const auto representative = [&](PointId id)
   {
@@ -83,9 +80,13 @@ void nameRepresentatives(const std::vector<Duplicate>& duplicates,
             piece.B = representative(piece.B);
           });
       });
-    for (CrossedTriangles::Touch& touch : touches)
+    for (CrossedTriangles::Touch& touch : inserted.touches())
     {
       touch.Vertex = representative(touch.Vertex);
+    }
+    for (PartitionConstraints::Edge& edge : inserted.fixedEdges())
+    {
+      std::transform(edge.begin(), edge.end(), edge.begin(), representative);
     }
   }
 }
@@ -100,7 +101,7 @@ void nameRepresentatives(const std::vector<Duplicate>& duplicates,
 void constrain(PointsView points, Triangulation& triangulation,
   std::vector<ConstraintPiece>& pieces, PartitionConstraints& inserted, int threads)
 {
-  nameRepresentatives(triangulation.Duplicates, pieces, inserted.touches(), threads);
+  nameRepresentatives(triangulation.Duplicates, pieces, inserted, threads);
   if (pieces.empty() || triangulation.triangleCount() == 0)
   {
     return;
@@ -172,7 +173,7 @@ private:
   {
     ConstrainedTriangulation result;
     result.Constraints = std::move(resolved);
-    std::vector<TriangulationStatistics::Phase> phases{ { "crossings", this->Watch.restart() } };
+    const TriangulationStatistics::Phase crossings{ "crossings", this->Watch.restart() };
     std::vector<Point2> withCrossings;
     PointsView points = this->Input;
     if (!result.Constraints.Crossings.empty())
@@ -180,12 +181,11 @@ private:
       withCrossings = allPoints(this->Input, result.Constraints.Crossings);
       points = PointsView(withCrossings);
     }
-    PartitionConstraints inserted(points, result.Constraints.Pieces, this->Threads);
-    this->Plain.MakeEditor = [&inserted](double factor) { return inserted.makeEditor(factor); };
-    phases.push_back({ "pieces", this->Watch.restart() });
+    PartitionConstraints inserted(result.Constraints.Pieces, this->Threads);
+    this->Plain.Editors = &inserted;
     result.Mesh = triangulate(points, this->Plain);
     auto& all = result.Mesh.Statistics.Phases;
-    all.insert(all.begin(), phases.begin(), phases.end());
+    all.insert(all.begin(), crossings);
     if (!result.Mesh.Aborted)
     {
       this->Watch.restart();

@@ -143,8 +143,8 @@ LoadedPiece::LoadedPiece(const PieceWork& work, PartitionIndex piece)
   this->InteriorCounts.assign(std::size_t(inner.size()), 0);
   if (work.Constraints && work.Constraints->count(piece) > 0)
   {
-    this->Constraints =
-      std::make_unique<PieceConstraints>(work.Constraints->read(piece), this->points());
+    this->Constraints = std::make_unique<PieceConstraints>(
+      work.Constraints->read(piece), this->points(), work.Factor, inner);
   }
 }
 
@@ -178,7 +178,7 @@ void LoadedPiece::prepare(Workspace& space)
   space.Triangulator->setTiling(plan.Partitions, -plan.FirstPartition[std::size_t(this->Piece)]);
   if (this->Constraints)
   {
-    space.Triangulator->setEditor(this->Constraints->makeEditor(this->Work.Factor));
+    space.Triangulator->setEditor(this->Constraints->makeEditor());
   }
   space.Piece = this->Piece;
   if (!space.Router)
@@ -280,17 +280,16 @@ void LoadedPiece::markInterface(const BoundaryVertex& v)
   }
 }
 
-/// Calls filter(corners, count, partition) for the triangles of each partition, and with partition
-/// -1 for the interior triangles between partitions. filter() removes triangles and returns how
-/// many are left.
+/// Calls filter(corners, count, bucket) for the triangles of each partition, and with bucket -1 for
+/// the interior triangles between partitions. filter() removes triangles and returns how many are
+/// left.
 template <typename Filter>
 void LoadedPiece::filterTriangles(const Filter& filter)
 {
-  const PartitionIndex before = this->Work.Plan.FirstPartition[std::size_t(this->Piece)];
   for (PartitionIndex p = 0; p < this->Buckets.partitions(); ++p)
   {
     std::size_t& count = this->InteriorCounts[std::size_t(p)];
-    count = filter(this->Buckets.triangles(p), count, before + p);
+    count = filter(this->Buckets.triangles(p), count, p);
   }
   if (!this->BoundaryTriangles.empty())
   {
@@ -305,8 +304,8 @@ void LoadedPiece::constrain()
 {
   CrossedPart crossed;
   this->Constraints->finishInserting();
-  this->filterTriangles([&](std::int32_t* corners, std::size_t count, PartitionIndex partition)
-    { return this->Constraints->takeCrossed(partition, this->First, corners, count, crossed); });
+  this->filterTriangles([&](std::int32_t* corners, std::size_t count, PartitionIndex bucket)
+    { return this->Constraints->takeCrossed(bucket, this->First, corners, count, crossed); });
   this->Constraints->addEdgesAndTouches(this->First, crossed);
   this->Result.Crossed = splitIncomplete(crossed,
     [this](std::int64_t point) { return !this->IsOnInterface[std::size_t(point - this->First)]; });
@@ -431,7 +430,7 @@ bool LoadedPiece::triangulateAlone(
   Worker<std::int32_t> worker(this->Work.Plan.Partitions, this->Buckets);
   if (this->Constraints)
   {
-    worker.setEditor(this->Constraints->makeEditor(this->Work.Factor));
+    worker.setEditor(this->Constraints->makeEditor());
   }
   if (!worker.triangulateAlone(progress))
   {

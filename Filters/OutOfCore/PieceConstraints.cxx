@@ -10,7 +10,8 @@
 namespace tipp
 {
 
-PieceConstraints::PieceConstraints(ConstraintSegments segments, PointsView points)
+PieceConstraints::PieceConstraints(
+  ConstraintSegments segments, PointsView points, double factor, const Tiling& partitions)
   : Segments(std::move(segments))
   , Points(points)
   , Left({})
@@ -22,72 +23,57 @@ PieceConstraints::PieceConstraints(ConstraintSegments segments, PointsView point
     ends.insert(ends.end(), { segment.A, segment.B });
   }
   const MatchedPositions matched = matchPositions(points, PointsView(ends));
-  const auto count = PointId(points.size());
   for (std::size_t i = 0; 2 * i < ends.size(); ++i)
   {
-    const ConstraintPiece piece{ matched.Ids[2 * i], matched.Ids[2 * i + 1], std::int64_t(i) };
-    std::min(piece.A, piece.B) < count ? this->Pieces.push_back(piece) : void();
+    this->Pieces.push_back({ matched.Ids[2 * i], matched.Ids[2 * i + 1], std::int64_t(i) });
   }
   std::vector<Point2> others;
   for (const std::size_t end : matched.New)
   {
     others.push_back(ends[end]);
   }
-  this->Inserted =
-    std::make_unique<PartitionConstraints>(points, this->Pieces, 1, std::move(others));
+  this->Inserted = std::make_unique<PartitionConstraints>(this->Pieces, 1, std::move(others));
+  this->Inserted->begin(points.scaled(factor), partitions);
 }
 
 void PieceConstraints::finishInserting()
 {
   constexpr std::int64_t none = -1;
-  std::vector<std::int64_t> pieceOf(this->Segments.tree().items().size(), none);
-  std::vector<char> isLeft(pieceOf.size(), 1);
-  for (std::size_t p = 0; p < this->Pieces.size(); ++p)
-  {
-    const auto segment = std::size_t(this->Pieces[p].Constraint);
-    pieceOf[segment] = std::int64_t(p);
-    isLeft[segment] = char(!this->Inserted->isDone(p));
-  }
   std::vector<ConstraintSegment> left;
   std::vector<std::int64_t> names;
-  std::vector<std::int64_t> pieces;
-  for (std::size_t i = 0; i < isLeft.size(); ++i)
+  std::vector<std::int64_t> segments; // index of each in Segments
+  for (std::size_t i = 0; i < this->Pieces.size(); ++i)
   {
-    if (isLeft[i])
+    if (!this->Inserted->isDone(i))
     {
       const SegmentTree::Item& segment = this->Segments.at(std::int64_t(i));
       left.push_back({ segment.A, segment.B, SegmentRole::Line });
       names.push_back(this->Segments.nameOf(std::int64_t(i)));
-      pieces.push_back(pieceOf[i]);
+      segments.push_back(std::int64_t(i));
     }
   }
-  std::vector<std::int64_t> indices;
-  this->Left = ConstraintSegments(left, names, &indices);
+  std::vector<std::int64_t> order;
+  this->Left = ConstraintSegments(left, names, &order);
   this->LeftOf.assign(this->Pieces.size(), none);
-  for (const std::int64_t index : indices)
+  for (std::size_t i = 0; i < order.size(); ++i)
   {
-    const std::int64_t piece = pieces[std::size_t(index)];
-    piece >= 0 ? void(this->LeftOf[std::size_t(piece)] = std::int64_t(this->LeftPiece.size()))
-               : void();
-    this->LeftPiece.push_back(piece);
+    this->LeftOf[std::size_t(segments[std::size_t(order[i])])] = std::int64_t(i);
   }
 }
 
-std::size_t PieceConstraints::takeCrossed(PartitionIndex partition, std::int64_t first,
+std::size_t PieceConstraints::takeCrossed(PartitionIndex bucket, std::int64_t first,
   std::int32_t* corners, std::size_t triangles, CrossedPart& part) const
 {
-  const auto pieceOf = [this](std::int64_t left) { return this->LeftPiece[std::size_t(left)]; };
-  if (triangles == 0 || partition < 0 ||
-    this->Inserted->mayEnter(this->Left.tree(), partition, pieceOf))
+  if (bucket < 0)
   {
     return tipp::takeCrossed(this->Points, this->Left, first, corners, triangles, part);
   }
   std::vector<ScannedTriangles::Crossing> crossings;
-  for (const auto& [triangle, piece] : this->Inserted->interiorOf(partition).Crossings)
+  for (const auto& [triangle, segment] : this->Inserted->crossingsIn(bucket))
   {
-    const std::int64_t segment = this->LeftOf[std::size_t(piece)];
-    segment >= 0 ? crossings.push_back({ std::int64_t(triangle), segment }) : void();
+    crossings.push_back({ std::int64_t(triangle), this->LeftOf[std::size_t(segment)] });
   }
+  std::sort(crossings.begin(), crossings.end());
   return moveCrossed(this->Points, this->Left, first, crossings, corners, triangles, part);
 }
 

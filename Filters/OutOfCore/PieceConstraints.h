@@ -22,24 +22,22 @@ namespace tipp
 class PieceConstraints
 {
 public:
-  /// `points`: the piece's points; they must outlive this object.
-  PieceConstraints(ConstraintSegments segments, PointsView points);
+  /// `points`: the piece's points; they must outlive this object. `partitions` are those of the
+  /// piece; coordinates there, and in the kernels, are those of the points times `factor`.
+  PieceConstraints(
+    ConstraintSegments segments, PointsView points, double factor, const Tiling& partitions);
 
-  /// Returns an editor for a thread's worker, whose coordinates are those of the points times
-  /// `factor`. This object must outlive it.
-  std::unique_ptr<PartitionEditor> makeEditor(double factor)
-  {
-    return this->Inserted->makeEditor(factor);
-  }
+  /// Returns an editor for a thread's worker. This object must outlive it.
+  std::unique_ptr<PartitionEditor> makeEditor() { return this->Inserted->makeEditor(); }
 
   /// Call this when all partitions are triangulated, before the methods below.
   void finishInserting();
 
   /// Removes the triangles that are crossed by segments not yet inserted, and adds them to `part`,
-  /// where vertex ids are indices plus `first`. The other triangles keep their order. `partition`:
-  /// the partition whose interior triangles these are, or -1. Returns the number of remaining
-  /// triangles.
-  std::size_t takeCrossed(PartitionIndex partition, std::int64_t first, std::int32_t* corners,
+  /// where vertex ids are indices plus `first`. The other triangles keep their order. `bucket`: the
+  /// index in the piece of the partition whose interior triangles these are, or -1. Returns the
+  /// number of remaining triangles.
+  std::size_t takeCrossed(PartitionIndex bucket, std::int64_t first, std::int32_t* corners,
     std::size_t triangles, CrossedPart& part) const;
 
   /// Call this after takeCrossed() of all triangles. Adds to `part` the triangles' edges that lie
@@ -49,11 +47,10 @@ public:
 private:
   const ConstraintSegments Segments;
   const PointsView Points;
-  std::vector<ConstraintPiece> Pieces; ///< segments with an end among the points
+  std::vector<ConstraintPiece> Pieces; ///< the same segments; ends that are no points have new ids
   std::unique_ptr<PartitionConstraints> Inserted;
-  ConstraintSegments Left;             ///< segments that were not inserted
-  std::vector<std::int64_t> LeftPiece; ///< by segment in Left: its index in Pieces, or -1
-  std::vector<std::int64_t> LeftOf;    ///< by segment in Pieces: its index in Left, or -1
+  ConstraintSegments Left;          ///< segments that were not inserted
+  std::vector<std::int64_t> LeftOf; ///< by segment: its index in Left, or -1
 };
 
 } // namespace tipp

@@ -121,6 +121,7 @@ private:
     this->Result.Statistics.Partitions = 1;
     TriangleSink<Id> sink(this->Buckets);
     Worker<Id> worker(tiling, this->Buckets);
+    this->beginEditing(Tiling::grid(tiling.domain(), 1, 1));
     this->setEditor(worker);
     const double all = double(this->Buckets.size());
     this->Result.Aborted = !worker.triangulateAlone(
@@ -177,6 +178,7 @@ private:
     FinalBoundary<Id> boundary;
     shared.Unfinished = sendInitialMesh(initialMesh, order, shared.deliver(), boundary);
     this->endPhase("initial mesh");
+    this->beginEditing(tiling);
     TriangleSink<Id> sink(this->Buckets);
     std::vector<Contribution> parts(std::size_t(this->Threads));
 #pragma omp parallel num_threads(this->Threads)
@@ -217,11 +219,19 @@ private:
     }
   }
 
+  void beginEditing(const Tiling& tiling) const
+  {
+    if (this->Options.Editors)
+    {
+      this->Options.Editors->begin(this->Points, tiling);
+    }
+  }
+
   void setEditor(Worker<Id>& worker) const
   {
-    if (this->Options.MakeEditor)
+    if (this->Options.Editors)
     {
-      worker.setEditor(this->Options.MakeEditor(this->Points.factor()));
+      worker.setEditor(this->Options.Editors->makeEditor());
     }
   }
 

@@ -21,7 +21,7 @@ namespace tipp
 /// use.
 using PointId = std::int64_t;
 
-class PartitionEditor;
+class PartitionEditors;
 
 /// When partitions are started.
 enum class Schedule
@@ -30,7 +30,7 @@ enum class Schedule
   Dynamic ///< a partition starts as soon as all conflicting earlier ones are done
 };
 
-/// Options of triangulate(). Only MaximumEdge and MakeEditor change the set of triangles.
+/// Options of triangulate(). Only MaximumEdge and Editors change the set of triangles.
 struct TriangulationOptions
 {
   int Columns = 0; ///< with Rows: a grid of partitions; 0: partitions are chosen automatically
@@ -41,9 +41,7 @@ struct TriangulationOptions
   /// Triangles with a longer edge are removed from the result, in the points' unit of length; 0:
   /// none.
   double MaximumEdge = 0;
-  /// Makes an editor of interior triangles, called once for each thread. Coordinates have been
-  /// multiplied by `factor`.
-  std::function<std::unique_ptr<PartitionEditor>(double factor)> MakeEditor;
+  PartitionEditors* Editors = nullptr; ///< of interior triangles; null: none
   /// Called now and then with the finished fraction (0 to 1), by one thread at a time; returning
   /// false aborts the run.
   std::function<bool(double)> Progress;
@@ -103,7 +101,7 @@ struct Triangulation
 
 /// Returns the Delaunay triangulation of the distinct finite points, ties broken by their
 /// lexicographic order: the same set of triangles as CGAL's, for all options except MaximumEdge and
-/// MakeEditor. Ids are indices into `points`. There are no triangles if there are fewer than three
+/// Editors. Ids are indices into `points`. There are no triangles if there are fewer than three
 /// distinct points or all are collinear.
 VTKTIPPFILTERS_EXPORT Triangulation triangulate(
   PointsView points, const TriangulationOptions& options = {});

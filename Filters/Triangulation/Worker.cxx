@@ -213,11 +213,7 @@ void Worker<Id>::findBoundary(const Box2& box, const Box2& region, BoundaryConsu
         {
           if (this->Editor)
           {
-            const std::array<Index, 3> other = this->Kernel.corners(t);
-            const Point2 from = this->Kernel.point(other[std::size_t(i + 1) % 3]);
-            const Point2 to = this->Kernel.point(other[std::size_t(i + 2) % 3]);
-            this->Border.push_back(
-              unionOf({ from.x, from.y, from.x, from.y }, { to.x, to.y, to.x, to.y }));
+            this->Border.push_back({ t, i });
           }
           continue;
         }
@@ -251,8 +247,8 @@ void Worker<Id>::edit(PartitionIndex partition)
 {
   if (this->Editor)
   {
-    this->Editor->edit(PartitionEditor::Partition<Id>{
-      partition, this->Kernel, this->VertexIds.data(), this->IsBoundary.data(), this->Border });
+    this->Editor->edit(PartitionEditor::Partition<Id>{ this->bucket(partition), this->Kernel,
+      this->VertexIds.data(), this->IsBoundary.data(), this->Border });
   }
 }
 

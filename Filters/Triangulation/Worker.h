@@ -23,22 +23,38 @@ namespace tipp
 class PartitionEditor
 {
 public:
+  /// An edge between an interior triangle and another one.
+  struct BorderEdge
+  {
+    DelaunayKernel::Index Outside; ///< the triangle that is not interior
+    DelaunayKernel::Index Corner;  ///< its corner opposite to the edge, 0 to 2
+  };
+
   template <typename Id>
   struct Partition
   {
-    PartitionIndex Number;
+    PartitionIndex Bucket; ///< index of the worker's bucket that has the partition's points
     DelaunayKernel& Kernel;
     const Id* Ids; ///< by kernel vertex, from 1 on: the point's id; -1 for other partitions' points
     const char*
       IsBoundary; ///< by the kernel's triangle number: not 0 if the triangle is not interior
-    /// The boxes of the edges between interior and other triangles, in the kernel's coordinates.
-    /// Empty if all triangles are interior.
-    const std::vector<Box2>& Border;
+    const std::vector<BorderEdge>& Border; ///< empty if all finite triangles are interior
   };
 
   virtual ~PartitionEditor() = default;
   virtual void edit(const Partition<std::int32_t>& partition) = 0;
   virtual void edit(const Partition<std::int64_t>& partition) = 0;
+};
+
+/// Makes the editors of a run's threads.
+class PartitionEditors
+{
+public:
+  virtual ~PartitionEditors() = default;
+  /// Called once, before the first editor is made. The points are multiplied by the same factor as
+  /// those of the kernel.
+  virtual void begin(PointsView points, const Tiling& tiling) = 0;
+  virtual std::unique_ptr<PartitionEditor> makeEditor() = 0;
 };
 
 /// Receives a partition's boundary triangles: those whose circumdisk meets its region and that are
@@ -115,7 +131,7 @@ private:
   std::vector<Point2> GhostPoints;
   std::vector<std::int64_t> KnownIds; ///< ids of own points that other partitions know; sorted
   std::vector<char> IsBoundary;       ///< by the kernel's triangle number
-  std::vector<Box2> Border;           ///< of the interior triangles, if there is an editor
+  std::vector<PartitionEditor::BorderEdge> Border; ///< filled only for an editor
   std::vector<DelaunayKernel::Index> Stack;
   std::vector<Duplicate> Duplicates;
   std::size_t InteriorCount = 0;

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Constraints/PartitionPieces.h"
+
+#include "Arrays/Buffer.h"
+#include "Constraints/SegmentTree.h"
+#include "Parallel/ParallelFor.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+/// Finds the partitions near pieces.
+class PieceFinder
+{
+public:
+  PieceFinder(const Tiling& tiling, const std::vector<ConstraintPiece>& pieces, PointsView points,
+    const std::vector<Point2>& others)
+    : Tiles(tiling)
+    , Finder(tiling)
+    , Pieces(pieces)
+    , Points(points)
+    , Others(others)
+    , OfEnd(2 * pieces.size())
+  {
+  }
+
+  /// Finds the partitions of the ends of pieces [begin, end). Call this before forPartitions().
+  void locateEnds(std::size_t begin, std::size_t end)
+  {
+    constexpr std::size_t group = 128;
+    std::array<Point2, 2 * group> ends;
+    for (; begin < end; begin += group)
+    {
+      const std::size_t count = std::min(group, end - begin);
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        ends[2 * i] = this->at(this->Pieces[begin + i].A);
+        ends[2 * i + 1] = this->at(this->Pieces[begin + i].B);
+      }
+      this->Finder.locate(ends.data(), 2 * count, this->OfEnd.data() + 2 * begin);
+    }
+  }
+
+  /// Calls visit(partition) for each partition near a piece.
+  template <typename Visit>
+  void forPartitions(std::size_t piece, const Visit& visit) const
+  {
+    const std::uint32_t first = this->OfEnd[2 * piece];
+    const PointId last = std::max(this->Pieces[piece].A, this->Pieces[piece].B);
+    if (first == this->OfEnd[2 * piece + 1] && std::size_t(last) < this->Points.size())
+    {
+      visit(PartitionIndex(first)); // most pieces; boxes are convex
+      return;
+    }
+    const Point2 a = this->at(this->Pieces[piece].A);
+    const Point2 b = this->at(this->Pieces[piece].B);
+    const Box2 box = boxOf(a, b);
+    this->Tiles.visitNear(box,
+      [&](PartitionIndex p)
+      {
+        const Box2& tile = this->Tiles.box(p);
+        overlap(box, tile) && lineMayMeet(a, b, tile) ? visit(p) : void();
+      });
+  }
+
+private:
+  Point2 at(PointId id) const
+  {
+    const std::size_t count = this->Points.size();
+    return std::size_t(id) < count ? this->Points[std::size_t(id)]
+                                   : this->Others[std::size_t(id) - count];
+  }
+
+  const Tiling& Tiles;
+  const PartitionFinder Finder;
+  const std::vector<ConstraintPiece>& Pieces;
+  const PointsView Points;
+  const std::vector<Point2>& Others;
+  Buffer<std::uint32_t> OfEnd; ///< the partitions of each piece's A and B
+};
+
+} // namespace
+
+PartitionPieces::PartitionPieces(const Tiling& tiling, const std::vector<ConstraintPiece>& pieces,
+  PointsView points, const std::vector<Point2>& others, int threads)
+{
+  const auto partitions = std::size_t(tiling.size());
+  PieceFinder finder(tiling, pieces, points, others);
+  // A stable counting sort. By share of the pieces and partition: at first the number of entries,
+  // later the next entry to write.
+  std::vector<std::vector<std::size_t>> nextOf(
+    std::size_t(threads), std::vector<std::size_t>(partitions, 0));
+  parallelFor(threads, threads,
+    [&](std::int64_t share)
+    {
+      const auto [begin, end] = evenShare(pieces.size(), int(share), threads);
+      std::vector<std::size_t>& counts = nextOf[std::size_t(share)];
+      finder.locateEnds(begin, end);
+      for (std::size_t piece = begin; piece < end; ++piece)
+      {
+        finder.forPartitions(piece, [&](PartitionIndex p) { ++counts[std::size_t(p)]; });
+      }
+    });
+  std::size_t sum = 0;
+  this->Starts.reserve(partitions + 1);
+  for (std::size_t p = 0; p < partitions; ++p)
+  {
+    this->Starts.push_back(sum);
+    for (std::vector<std::size_t>& next : nextOf)
+    {
+      sum += std::exchange(next[p], sum);
+    }
+  }
+  this->Starts.push_back(sum);
+  this->Items.resize(sum);
+  parallelFor(threads, threads,
+    [&](std::int64_t share)
+    {
+      const auto [begin, end] = evenShare(pieces.size(), int(share), threads);
+      std::vector<std::size_t>& next = nextOf[std::size_t(share)];
+      for (std::size_t piece = begin; piece < end; ++piece)
+      {
+        finder.forPartitions(piece,
+          [&](PartitionIndex p) { this->Items[next[std::size_t(p)]++] = std::int64_t(piece); });
+      }
+    });
+}
+
+} // namespace tipp
