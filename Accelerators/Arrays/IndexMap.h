@@ -10,8 +10,8 @@
 namespace tipp
 {
 
-/// Numbers keys 0, 1, 2, ... in the order in which they are inserted. For many small maps in turn:
-/// a hash table with linear probing, which stays in the cache and need not be erased.
+/// Numbers keys 0, 1, 2, ... in the order in which they are inserted. It is a hash table with
+/// linear probing, meant to be filled and cleared many times: clear() takes constant time.
 class IndexMap
 {
 public:

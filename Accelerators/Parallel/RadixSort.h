@@ -2,10 +2,8 @@
 #ifndef tippRadixSort_h
 #define tippRadixSort_h
 
-#include "Arrays/Buffer.h"
 #include "Parallel/ParallelFor.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -15,17 +13,16 @@
 namespace tipp
 {
 
-/// Sorts words by their upper 32 bits, which are at most `largest`, on at most `threads` threads
-/// (at least 1). The sort is stable.
-inline void sortByUpperHalf(
-  Uninitialised<std::uint64_t>& words, int threads, std::uint32_t largest = UINT32_MAX)
+/// Sorts words by their upper 32 bits, on at most `threads` threads (at least 1). The sort is
+/// stable.
+inline void sortByUpperHalf(std::vector<std::uint64_t>& words, int threads)
 {
-  constexpr unsigned digitBits = 12;
+  constexpr unsigned digitBits = 11;
   constexpr std::size_t digits = std::size_t(1) << digitBits;
   constexpr std::size_t shortest = 16384; // the smallest share worth a thread
   const auto shares =
     std::int64_t(std::max<std::size_t>(1, std::min(std::size_t(threads), words.size() / shortest)));
-  Uninitialised<std::uint64_t> sorted(words.size());
+  std::vector<std::uint64_t> sorted(words.size());
   std::vector<std::array<std::size_t, digits>> next(static_cast<std::size_t>(shares));
   const auto forShare = [&](std::int64_t share, const auto& visit)
   {
@@ -35,7 +32,7 @@ inline void sortByUpperHalf(
       visit(words[i]);
     }
   };
-  for (unsigned shift = 32; shift < 64 && largest >> (shift - 32) != 0; shift += digitBits)
+  for (unsigned shift = 32; shift < 64; shift += digitBits)
   {
     const auto digitOf = [shift](std::uint64_t word)
     { return std::size_t(word >> shift) & (digits - 1); };

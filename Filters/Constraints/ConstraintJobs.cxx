@@ -183,8 +183,8 @@ public:
   }
 
 private:
-  /// Copies the triangles of all jobs, because their memory is anywhere: loads that do not depend
-  /// on each other are done at the same time.
+  /// Copies the triangles of all jobs first. They and their points are scattered in memory, and
+  /// independent loads overlap.
   void load(std::size_t begin, std::size_t end)
   {
     const std::int64_t* const first = this->All.Triangles.begin(begin);
@@ -254,13 +254,8 @@ private:
 
   void insertPiece(std::size_t piece)
   {
-    const bool isWhole = this->Split.Starts.empty();
-    const std::size_t begin = isWhole ? piece : std::size_t(this->Split.Starts[piece]);
-    const std::size_t end = isWhole ? piece + 1 : std::size_t(this->Split.Starts[piece + 1]);
-    for (std::size_t part = begin; part < end; ++part)
-    {
-      this->Region.insert(this->Split.Parts[part].A, this->Split.Parts[part].B);
-    }
+    this->Split.forParts(
+      piece, [this](const ConstraintPiece& part) { this->Region.insert(part.A, part.B); });
   }
 
   /// The most frequent job: one segment replaces the common edge of two triangles.

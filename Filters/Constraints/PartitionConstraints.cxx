@@ -50,7 +50,7 @@ public:
     this->Earlier[end] = std::exchange(this->Last[std::size_t(number)], end);
   }
 
-  /// A quick filter: false for most ids that are no ends.
+  /// A quick filter: false for most ids that are not ends.
   bool mayHave(PointId id) const { return (this->Marks[word(id)] & bit(id)) != 0; }
 
   /// Sets the vertex of all ends with this id. Calls visit(piece's number) for each piece whose
@@ -77,7 +77,7 @@ private:
   static std::uint64_t bit(PointId id) { return std::uint64_t(1) << (std::size_t(id) % 64); }
 
   IndexMap Ids;
-  std::array<std::uint64_t, Words> Marks{}; ///< a bit for each id, modulo their number
+  std::array<std::uint64_t, Words> Marks{}; ///< bits at the ids of ends, modulo the number of bits
   std::vector<End> Last;                    ///< by number of the id: the last end added
   std::vector<End> Earlier;                 ///< the end with the same id added before, or NoEnd
   std::vector<Index> VertexOf;
@@ -192,7 +192,7 @@ private:
     const Index b = this->Ends.vertex(from ^ 1);
     const ConstraintPiece& ids = this->piece(number);
     return { this->Near[number], a,
-      { this->Mesh.at(a), b != NoVertex ? this->Mesh.at(b) : this->Of.at(fromB ? ids.A : ids.B),
+      { this->Mesh.at(a), b != NoVertex ? this->Mesh.at(b) : this->Of.EndsAt[fromB ? ids.A : ids.B],
         b } };
   }
 
@@ -219,6 +219,7 @@ private:
       });
   }
 
+  /// Records the interior triangles that the remaining pieces cross.
   void noteOthers(const std::vector<BorderEdge>& border)
   {
     this->Through.clear();
@@ -253,7 +254,7 @@ private:
     this->locateBorder(border);
     const std::int64_t piece = this->Near[number];
     const ConstraintPiece& ids = this->piece(number);
-    const DirectedLine line{ this->Of.at(ids.A), this->Of.at(ids.B), NoVertex };
+    const DirectedLine line{ this->Of.EndsAt[ids.A], this->Of.EndsAt[ids.B], NoVertex };
     const auto noteFromVertex = [&](Index vertex)
     {
       this->touch(piece, vertex);
@@ -432,20 +433,20 @@ PartitionConstraints::PartitionConstraints(
   const std::vector<ConstraintPiece>& pieces, int threads, std::vector<Point2> others)
   : Pieces(pieces)
   , Threads(threads)
-  , Others(std::move(others))
+  , EndsAt{ {}, std::move(others) }
   , Done(pieces.size(), 0)
 {
 }
 
 void PartitionConstraints::begin(PointsView points, const Tiling& tiling)
 {
-  this->Points = points;
-  for (Point2& p : this->Others)
+  this->EndsAt.Points = points;
+  for (Point2& p : this->EndsAt.Others)
   {
     p = { p.x * points.factor(), p.y * points.factor() };
   }
   this->Crossings.resize(std::size_t(tiling.size()));
-  this->Near = PartitionPieces(tiling, this->Pieces, points, this->Others, this->Threads);
+  this->Near = PartitionPieces(tiling, this->Pieces, this->EndsAt, this->Threads);
 }
 
 std::unique_ptr<PartitionEditor> PartitionConstraints::makeEditor()

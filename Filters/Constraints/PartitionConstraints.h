@@ -29,8 +29,8 @@ namespace tipp
 class PartitionConstraints : public PartitionEditors
 {
 public:
-  /// `pieces` must outlive this object. `others` are the positions of ends that are not points;
-  /// their ids follow those of the points.
+  /// `pieces` must outlive this object. `others` are the positions of ends that are not among the
+  /// points (EndPositions).
   PartitionConstraints(
     const std::vector<ConstraintPiece>& pieces, int threads, std::vector<Point2> others = {});
 
@@ -49,29 +49,32 @@ public:
     return this->Crossings[std::size_t(partition)];
   }
   /// Vertices in the interior of pieces, including pieces that are left for later.
-  std::vector<CrossedTriangles::Touch>& touches() { return this->Touches; }
   const std::vector<CrossedTriangles::Touch>& touches() const { return this->Touches; }
 
   /// Edges of the crossed interior triangles that are parts of inserted pieces, perhaps repeated.
   using Edge = std::array<PointId, 2>;
-  std::vector<Edge>& fixedEdges() { return this->FixedEdges; }
   const std::vector<Edge>& fixedEdges() const { return this->FixedEdges; }
+
+  /// Replaces the ids of points in touches() and fixedEdges() by newId(id).
+  template <typename NewId>
+  void rename(const NewId& newId)
+  {
+    for (CrossedTriangles::Touch& touch : this->Touches)
+    {
+      touch.Vertex = newId(touch.Vertex);
+    }
+    for (Edge& edge : this->FixedEdges)
+    {
+      edge = { newId(edge[0]), newId(edge[1]) };
+    }
+  }
 
 private:
   class Editor;
 
-  /// The position of an end of a piece, in the kernel's coordinates.
-  Point2 at(PointId id) const
-  {
-    const std::size_t count = this->Points.size();
-    return std::size_t(id) < count ? this->Points[std::size_t(id)]
-                                   : this->Others[std::size_t(id) - count];
-  }
-
   const std::vector<ConstraintPiece>& Pieces;
   const int Threads;
-  PointsView Points;
-  std::vector<Point2> Others;
+  EndPositions EndsAt; ///< from begin() on in the kernels' coordinates
   PartitionPieces Near;
   std::vector<char> Done;
   std::mutex Mutex;

@@ -18,13 +18,12 @@ namespace
 class PieceFinder
 {
 public:
-  PieceFinder(const Tiling& tiling, const std::vector<ConstraintPiece>& pieces, PointsView points,
-    const std::vector<Point2>& others)
+  PieceFinder(
+    const Tiling& tiling, const std::vector<ConstraintPiece>& pieces, const EndPositions& ends)
     : Tiles(tiling)
     , Finder(tiling)
     , Pieces(pieces)
-    , Points(points)
-    , Others(others)
+    , Ends(ends)
     , OfEnd(2 * pieces.size())
   {
   }
@@ -39,8 +38,8 @@ public:
       const std::size_t count = std::min(group, end - begin);
       for (std::size_t i = 0; i < count; ++i)
       {
-        ends[2 * i] = this->at(this->Pieces[begin + i].A);
-        ends[2 * i + 1] = this->at(this->Pieces[begin + i].B);
+        ends[2 * i] = this->Ends[this->Pieces[begin + i].A];
+        ends[2 * i + 1] = this->Ends[this->Pieces[begin + i].B];
       }
       this->Finder.locate(ends.data(), 2 * count, this->OfEnd.data() + 2 * begin);
     }
@@ -52,13 +51,13 @@ public:
   {
     const std::uint32_t first = this->OfEnd[2 * piece];
     const PointId last = std::max(this->Pieces[piece].A, this->Pieces[piece].B);
-    if (first == this->OfEnd[2 * piece + 1] && std::size_t(last) < this->Points.size())
+    if (first == this->OfEnd[2 * piece + 1] && std::size_t(last) < this->Ends.Points.size())
     {
       visit(PartitionIndex(first)); // most pieces; boxes are convex
       return;
     }
-    const Point2 a = this->at(this->Pieces[piece].A);
-    const Point2 b = this->at(this->Pieces[piece].B);
+    const Point2 a = this->Ends[this->Pieces[piece].A];
+    const Point2 b = this->Ends[this->Pieces[piece].B];
     const Box2 box = boxOf(a, b);
     this->Tiles.visitNear(box,
       [&](PartitionIndex p)
@@ -69,28 +68,20 @@ public:
   }
 
 private:
-  Point2 at(PointId id) const
-  {
-    const std::size_t count = this->Points.size();
-    return std::size_t(id) < count ? this->Points[std::size_t(id)]
-                                   : this->Others[std::size_t(id) - count];
-  }
-
   const Tiling& Tiles;
   const PartitionFinder Finder;
   const std::vector<ConstraintPiece>& Pieces;
-  const PointsView Points;
-  const std::vector<Point2>& Others;
+  const EndPositions& Ends;
   Buffer<std::uint32_t> OfEnd; ///< the partitions of each piece's A and B
 };
 
 } // namespace
 
 PartitionPieces::PartitionPieces(const Tiling& tiling, const std::vector<ConstraintPiece>& pieces,
-  PointsView points, const std::vector<Point2>& others, int threads)
+  const EndPositions& ends, int threads)
 {
   const auto partitions = std::size_t(tiling.size());
-  PieceFinder finder(tiling, pieces, points, others);
+  PieceFinder finder(tiling, pieces, ends);
   // A stable counting sort. By share of the pieces and partition: at first the number of entries,
   // later the next entry to write.
   std::vector<std::vector<std::size_t>> nextOf(

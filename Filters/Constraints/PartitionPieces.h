@@ -13,6 +13,21 @@
 namespace tipp
 {
 
+/// The positions of the ends of pieces, by id. Ends that are not among the points have the ids from
+/// Points.size() on.
+struct EndPositions
+{
+  Point2 operator[](PointId id) const
+  {
+    const std::size_t count = this->Points.size();
+    return std::size_t(id) < count ? this->Points[std::size_t(id)]
+                                   : this->Others[std::size_t(id) - count];
+  }
+
+  PointsView Points;
+  std::vector<Point2> Others;
+};
+
 /// For each partition, the pieces of constraints that meet its box, and perhaps some that pass near
 /// it.
 class PartitionPieces
@@ -20,10 +35,8 @@ class PartitionPieces
 public:
   PartitionPieces() = default;
 
-  /// Ends of pieces are ids: indices in `points`, followed by indices in `others`, which are
-  /// positions in no partition.
   PartitionPieces(const Tiling& tiling, const std::vector<ConstraintPiece>& pieces,
-    PointsView points, const std::vector<Point2>& others, int threads);
+    const EndPositions& ends, int threads);
 
   ///@{
   /// The partition's pieces, by their indices, ascending.

@@ -68,27 +68,21 @@ private:
   struct Link
   {
     Index To;
-    Index Outer;    ///< the half-edge on the left
-    Index OldInner; ///< the half-edge of the removed triangle on the right
-    ///@{
-    /// Set by markDangling(): whether the cavity is on both sides; if so, whether it is an inserted
-    /// segment.
-    bool IsDangling;
-    bool IsFixed;
-    ///@}
+    Index Outer;     ///< the half-edge on the left
+    Index OldInner;  ///< the half-edge of the removed triangle on the right
+    bool IsFixed;    ///< whether it is an inserted segment
+    bool IsDangling; ///< whether the cavity is on both sides
   };
   /// Consecutive links in the memory of Room.
   struct Chain
   {
     Link* Begin;
     Link* End;
-
-    std::ptrdiff_t size() const { return this->End - this->Begin; }
   };
 
   static Link makeLink(const Mesh& mesh, Index to, Index inner)
   {
-    return { to, mesh.twin(inner), inner, false, false };
+    return { to, mesh.twin(inner), inner, mesh.isFixed(inner), false };
   }
 
   /// Makes the chains on both sides of the segment.
@@ -126,26 +120,19 @@ private:
     this->markDangling(mesh);
   }
 
-  /// An edge with the cavity on both sides has a link for each of its half-edges, so its chain has
-  /// at least four links.
+  /// An edge with the cavity on both sides has a link for each of its half-edges.
   void markDangling(Mesh& mesh)
   {
-    this->HasDangling = false;
-    constexpr std::ptrdiff_t fewest = 4;
-    if (this->Left.size() < fewest && this->Right.size() < fewest)
-    {
-      return;
-    }
     for (const Index triangle : this->Removed)
     {
       mesh.markRemoved(triangle);
     }
+    this->HasDangling = false;
     for (const Chain& chain : { this->Left, this->Right })
     {
       for (Link* link = chain.Begin; link != chain.End; ++link)
       {
         link->IsDangling = link->Outer >= 0 && mesh.isRemoved(mesh.triangleOf(link->Outer));
-        link->IsFixed = link->IsDangling && mesh.isFixed(link->OldInner);
         this->HasDangling |= link->IsDangling;
       }
     }
@@ -156,71 +143,28 @@ private:
   Index fill(Mesh& mesh, Index from, const Chain& chain)
   {
     constexpr std::ptrdiff_t shortChain = 32;
-    return chain.size() > shortChain || this->HasDangling ? this->cutEars(mesh, from, chain)
-                                                          : this->replace(mesh, from, chain);
+    return chain.End - chain.Begin > shortChain || this->HasDangling
+      ? this->cutEars(mesh, from, chain)
+      : this->replace(mesh, from, chain).Outer;
   }
 
-  /// As fill(), for a chain without dangling links.
-  Index replace(Mesh& mesh, Index from, const Chain& chain)
+  /// Triangulates the area between a chain, which starts at `from`, and the segment that joins its
+  /// ends. Returns the link that replaces the chain.
+  Link replace(Mesh& mesh, Index from, const Chain& chain)
   {
-    const Link* const links = chain.Begin;
-    switch (chain.size()) // most chains are short
+    if (chain.End - chain.Begin == 1)
     {
-      case 1:
-        return links[0].Outer;
-      case 2:
-        return this->addTriangle(
-          mesh, { from, links[1].To, links[0].To }, links[1].Outer, links[0].Outer);
-      case 3:
-      {
-        const Index to = links[2].To;
-        if (mesh.isInCircle(from, to, links[0].To, links[1].To))
-        {
-          const Index inner = this->addTriangle(
-            mesh, { from, links[1].To, links[0].To }, links[1].Outer, links[0].Outer);
-          return this->addTriangle(mesh, { from, to, links[1].To }, links[2].Outer, inner);
-        }
-        const Index inner =
-          this->addTriangle(mesh, { links[0].To, to, links[1].To }, links[2].Outer, links[1].Outer);
-        return this->addTriangle(mesh, { from, to, links[0].To }, inner, links[0].Outer);
-      }
-      default:
-        return this->replaceLong(mesh, from, chain);
+      return *chain.Begin;
     }
-  }
-
-  Index replaceLong(Mesh& mesh, Index from, const Chain& chain)
-  {
     const Index to = chain.End[-1].To;
     Link* apex = chain.Begin;
     for (Link* link = apex + 1; link + 1 != chain.End; ++link)
     {
       apex = mesh.isInCircle(from, to, apex->To, link->To) ? link : apex;
     }
-    const Index first = this->replace(mesh, from, { chain.Begin, apex + 1 });
-    const Index second = this->replace(mesh, apex->To, { apex + 1, chain.End });
-    return this->addTriangle(mesh, { from, to, apex->To }, second, first);
-  }
-
-  /// Makes a triangle whose second and third half-edge have these twins. Returns its first one.
-  Index addTriangle(Mesh& mesh, const std::array<Index, 3>& corners, Index second, Index third)
-  {
-    const Index triangle = this->Removed.back();
-    this->Removed.pop_back();
-    mesh.setCorners(triangle, corners);
-    this->attach(mesh, mesh.half(triangle, 1), second);
-    this->attach(mesh, mesh.half(triangle, 2), third);
-    return mesh.half(triangle, 0);
-  }
-
-  /// Makes a new half-edge the twin of one outside, and fixes it if that is fixed.
-  static void attach(Mesh& mesh, Index half, Index outer)
-  {
-    mesh.join(half, outer);
-    if (outer >= 0 && mesh.isFixed(outer))
-    {
-      mesh.setFixed(half, true);
-    }
+    const Link first = this->replace(mesh, from, { chain.Begin, apex + 1 });
+    const Link second = this->replace(mesh, apex->To, { apex + 1, chain.End });
+    return { to, this->makeTriangle(mesh, first, from, second), None, false, false };
   }
 
   /// As fill(), for any chain. The edges inside are not locally Delaunay until legalize().
@@ -262,20 +206,20 @@ private:
     const Index triangle = this->Removed.back();
     this->Removed.pop_back();
     mesh.setCorners(triangle, { from, second.To, first.To });
-    this->attachLink(mesh, mesh.half(triangle, 1), second);
-    this->attachLink(mesh, mesh.half(triangle, 2), first);
+    this->attach(mesh, mesh.half(triangle, 1), second);
+    this->attach(mesh, mesh.half(triangle, 2), first);
     return mesh.half(triangle, 0);
   }
 
   /// Makes a new half-edge the twin of the half-edge outside the removed one.
-  void attachLink(Mesh& mesh, Index half, const Link& link)
+  void attach(Mesh& mesh, Index half, const Link& link)
   {
+    mesh.setFixed(half, link.IsFixed);
     if (!link.IsDangling)
     {
-      attach(mesh, half, link.Outer);
+      mesh.join(half, link.Outer);
       return;
     }
-    mesh.setFixed(half, link.IsFixed);
     const auto other = this->NewInner.find(link.Outer);
     if (other == this->NewInner.end())
     {

@@ -62,7 +62,7 @@ SegmentTree::SegmentTree(std::vector<Item> segments, int threads)
   }
   const Box2 all = boxOfAll(segments, threads);
   const auto count = std::int64_t(segments.size());
-  Uninitialised<std::uint64_t> order(segments.size()); // first sort keys, then indices
+  std::vector<std::uint64_t> order(segments.size()); // first sort keys, then indices
   const auto forAll = [threads](std::int64_t items, const auto& body)
   {
     forChunks(items, Chunk, threads, {},

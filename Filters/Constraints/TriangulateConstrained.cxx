@@ -21,19 +21,15 @@ namespace
 
 /// The constraints that may be edges between crossed triangles: the pieces that are not inserted,
 /// and edges of crossed interior triangles.
-ConstraintEdges edgesNear(const SplitPieces& split, const PartitionConstraints& inserted)
+ConstraintEdges edgesNear(
+  std::size_t pieces, const SplitPieces& split, const PartitionConstraints& inserted)
 {
   std::vector<ConstraintPiece> near;
-  const bool isWhole = split.Starts.empty();
-  const std::size_t pieces = isWhole ? split.Parts.size() : split.Starts.size() - 1;
   for (std::size_t p = 0; p < pieces; ++p)
   {
     if (!inserted.isDone(p))
     {
-      const std::size_t begin = isWhole ? p : std::size_t(split.Starts[p]);
-      const std::size_t end = isWhole ? p + 1 : std::size_t(split.Starts[p + 1]);
-      near.insert(near.end(), split.Parts.begin() + std::ptrdiff_t(begin),
-        split.Parts.begin() + std::ptrdiff_t(end));
+      split.forParts(p, [&near](const ConstraintPiece& part) { near.push_back(part); });
     }
   }
   constexpr std::int64_t unknown = -1; // the constraint does not matter
@@ -51,13 +47,14 @@ void constrainTriangles(PointsView points, Buffer<Id>& ids,
 {
   const CrossedTriangles crossed =
     findCrossedTriangles(points, ids.data(), ids.size() / 3, blocks, pieces, inserted, threads);
+  const std::size_t count = pieces.size();
   SplitPieces split = splitPieces(points, pieces, crossed.Touches);
-  const ConstraintEdges known = edgesNear(split, inserted);
+  const ConstraintEdges known = edgesNear(count, split, inserted);
   retriangulateJobs(points, ids.data(), crossed, split, known, threads);
   pieces = std::move(split.Parts);
 }
 
-/// Replaces the points of pieces and of what editors found by their representatives.
+/// Replaces the points in `pieces` and `inserted` by their representatives.
 void nameRepresentatives(const std::vector<Duplicate>& duplicates,
   std::vector<ConstraintPiece>& pieces, PartitionConstraints& inserted, int threads)
 {
@@ -80,14 +77,7 @@ void nameRepresentatives(const std::vector<Duplicate>& duplicates,
             piece.B = representative(piece.B);
           });
       });
-    for (CrossedTriangles::Touch& touch : inserted.touches())
-    {
-      touch.Vertex = representative(touch.Vertex);
-    }
-    for (PartitionConstraints::Edge& edge : inserted.fixedEdges())
-    {
-      std::transform(edge.begin(), edge.end(), edge.begin(), representative);
-    }
+    inserted.rename(representative);
   }
 }
 

@@ -22,8 +22,8 @@ namespace tipp
 class PieceConstraints
 {
 public:
-  /// `points`: the piece's points; they must outlive this object. `partitions` are those of the
-  /// piece; coordinates there, and in the kernels, are those of the points times `factor`.
+  /// `points` are the piece's points, and must outlive this object. `partitions` divides the piece;
+  /// like the kernels, it has the points' coordinates multiplied by `factor`.
   PieceConstraints(
     ConstraintSegments segments, PointsView points, double factor, const Tiling& partitions);
 
@@ -47,7 +47,7 @@ public:
 private:
   const ConstraintSegments Segments;
   const PointsView Points;
-  std::vector<ConstraintPiece> Pieces; ///< the same segments; ends that are no points have new ids
+  std::vector<ConstraintPiece> Pieces; ///< the same segments, for PartitionConstraints
   std::unique_ptr<PartitionConstraints> Inserted;
   ConstraintSegments Left;          ///< segments that were not inserted
   std::vector<std::int64_t> LeftOf; ///< by segment: its index in Left, or -1

@@ -51,8 +51,8 @@ class PartitionEditors
 {
 public:
   virtual ~PartitionEditors() = default;
-  /// Called once, before the first editor is made. The points are multiplied by the same factor as
-  /// those of the kernel.
+  /// Called once, before the first editor is made. Points and tiling have the coordinates that the
+  /// kernels use.
   virtual void begin(PointsView points, const Tiling& tiling) = 0;
   virtual std::unique_ptr<PartitionEditor> makeEditor() = 0;
 };

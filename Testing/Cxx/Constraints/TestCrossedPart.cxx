@@ -25,7 +25,7 @@ TEST(ConstraintJobs, JoinPiecesThatCrossTheSameTriangle)
   crossed.Triangles = { 3, 8, 9, 20, 21 };
   crossed.Pieces = { 1, 4, /**/ 2, /**/ 4, 5, /**/ 2, /**/ 5 };
   crossed.Starts = { 0, 2, 3, 5, 6, 7 };
-  // Jobs are numbered by their first piece: 1, 4 and 5 are job 0, 2 is job 1.
+  // Jobs are numbered by their first triangle: 1, 4 and 5 are job 0, 2 is job 1.
   EXPECT_EQ((std::vector<std::int64_t>{ 0, 1, 0, 1, 0 }), jobsOfTriangles(crossed));
 }
 

@@ -28,7 +28,7 @@ std::vector<Point2> randomPoints(std::size_t count, unsigned seed)
   return points;
 }
 
-/// Short and long pieces between points, the last of which are in no partition.
+/// Short and long pieces between points.
 std::vector<ConstraintPiece> randomPieces(std::size_t points)
 {
   std::mt19937 random(7);
@@ -50,10 +50,9 @@ TEST(PartitionPieces, OfAPartitionAreAllThatMeetIt)
 {
   std::vector<Point2> all = randomPoints(PointCount, 1);
   const std::vector<Point2> others = randomPoints(20, 2);
-  const PointsView points(all);
   const std::vector<ConstraintPiece> pieces = randomPieces(PointCount + others.size());
   const Tiling tiling = Tiling::balanced({ 0, 0, 1, 1 }, all, 23);
-  const PartitionPieces near(tiling, pieces, points, others, 1);
+  const PartitionPieces near(tiling, pieces, { PointsView(all), others }, 1);
   all.insert(all.end(), others.begin(), others.end());
   for (std::size_t p = 0; p < pieces.size(); ++p)
   {
@@ -74,7 +73,7 @@ TEST(PartitionPieces, OfAPartitionAreNoneWithBothEndsInAnotherOne)
   const std::vector<Point2> all = randomPoints(PointCount, 3);
   const std::vector<ConstraintPiece> pieces = randomPieces(PointCount);
   const Tiling tiling = Tiling::balanced({ 0, 0, 1, 1 }, all, 4);
-  const PartitionPieces near(tiling, pieces, PointsView(all), {}, 1);
+  const PartitionPieces near(tiling, pieces, { PointsView(all), {} }, 1);
   int checked = 0;
   for (std::size_t p = 0; p < pieces.size(); ++p)
   {
@@ -94,8 +93,8 @@ TEST(PartitionPieces, DoNotDependOnTheNumberOfThreads)
   const std::vector<Point2> all = randomPoints(PointCount, 4);
   const std::vector<ConstraintPiece> pieces = randomPieces(PointCount);
   const Tiling tiling = Tiling::balanced({ 0, 0, 1, 1 }, all, 9);
-  const PartitionPieces one(tiling, pieces, PointsView(all), {}, 1);
-  const PartitionPieces three(tiling, pieces, PointsView(all), {}, 3);
+  const PartitionPieces one(tiling, pieces, { PointsView(all), {} }, 1);
+  const PartitionPieces three(tiling, pieces, { PointsView(all), {} }, 3);
   for (PartitionIndex p = 0; p < tiling.size(); ++p)
   {
     EXPECT_TRUE(std::equal(one.begin(p), one.end(p), three.begin(p), three.end(p)));

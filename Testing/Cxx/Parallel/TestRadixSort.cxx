@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <vector>
 
 namespace
 {
@@ -15,10 +16,10 @@ using namespace tipp;
 
 /// Words whose upper halves are at most `largest`, with many repetitions, and whose lower halves
 /// count them.
-Uninitialised<std::uint64_t> makeWords(std::size_t count, std::uint32_t largest)
+std::vector<std::uint64_t> makeWords(std::size_t count, std::uint32_t largest)
 {
   Random random(7);
-  Uninitialised<std::uint64_t> words;
+  std::vector<std::uint64_t> words;
   for (std::size_t i = 0; i < count; ++i)
   {
     const auto key = std::uint64_t(random.index(std::int64_t(largest) + 1));
@@ -36,11 +37,11 @@ TEST(RadixSort, AgreesWithStableSort)
     {
       for (const int threads : { 1, 3 })
       {
-        Uninitialised<std::uint64_t> words = makeWords(count, largest);
+        std::vector<std::uint64_t> words = makeWords(count, largest);
         auto expected = words;
         std::stable_sort(expected.begin(), expected.end(),
           [](std::uint64_t a, std::uint64_t b) { return a >> 32 < b >> 32; });
-        sortByUpperHalf(words, threads, largest);
+        sortByUpperHalf(words, threads);
         EXPECT_EQ(expected, words) << largest << " " << count << " " << threads;
       }
     }
