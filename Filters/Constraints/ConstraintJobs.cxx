@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <numeric>
 #include <utility>
 
@@ -351,8 +352,11 @@ void retriangulateJobs(PointsView points, Id* triangles, const CrossedTriangles&
 {
   const Jobs jobs = makeJobs(crossed);
   const JobLists lists(jobs);
-  std::vector<JobWorker<Id>> workers(
-    std::size_t(threads), JobWorker<Id>(points, triangles, crossed, jobs, lists, split, known));
+  std::deque<JobWorker<Id>> workers;
+  for (int thread = 0; thread < threads; ++thread)
+  {
+    workers.emplace_back(points, triangles, crossed, jobs, lists, split, known);
+  }
   constexpr std::int64_t chunk = 256;
   forChunks(std::int64_t(jobs.Count), chunk, threads, {},
     [&](std::int64_t begin, std::int64_t end, int thread)

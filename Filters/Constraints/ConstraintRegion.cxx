@@ -2,212 +2,149 @@
 #include "Constraints/ConstraintRegion.h"
 
 #include "Constraints/Constraint.h"
-#include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
-#include <utility>
 
 namespace tipp
 {
 
+ConstraintRegion::ConstraintRegion()
+  : Walker(this->Mesh)
+  , Inserter(this->Mesh)
+{
+}
+
 void ConstraintRegion::clear()
 {
+  constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+  constexpr PointId none = -1;
   this->Numbers.clear();
-  this->Vertices.clear();
-  this->Corners.clear();
-  this->Out.clear();
+  this->Ids.assign(1, none); // the infinite vertex
+  this->Positions.assign(1, { nowhere, nowhere });
+  this->Slots.clear();
+  this->Count = 0;
 }
 
 void ConstraintRegion::add(
   const std::array<PointId, 3>& ids, const std::array<Point2, 3>& positions)
 {
+  std::array<Index, 3> corners;
   for (std::size_t i = 0; i < 3; ++i)
   {
-    const auto [v, isNew] = this->Numbers.insert(ids[i]);
+    const auto [number, isNew] = this->Numbers.insert(ids[i]);
     if (isNew)
     {
-      this->Vertices.push_back({ ids[i], positions[i] });
-      this->Out.push_back(None);
+      this->Ids.push_back(ids[i]);
+      this->Positions.push_back(positions[i]);
     }
-    this->Out[std::size_t(v)] = Index(this->Corners.size());
-    this->Corners.push_back(v);
+    corners[i] = number + 1;
   }
+  this->append(corners);
+  ++this->Count;
+}
+
+ConstraintRegion::Index ConstraintRegion::append(const std::array<Index, 3>& corners)
+{
+  constexpr Index none = ConstrainedMesh::None;
+  const auto triangle = Index(this->Slots.size());
+  this->Slots.insert(
+    this->Slots.end(), { corners[0], corners[1], corners[2], 0, none, none, none, 0 });
+  return triangle;
+}
+
+void ConstraintRegion::join(Index h, Index g)
+{
+  this->Slots[std::size_t(h) + 4] = g;
+  this->Slots[std::size_t(g) + 4] = h;
 }
 
 void ConstraintRegion::finish()
 {
-  this->Twins.assign(this->Corners.size(), None);
-  this->Fixed.assign(this->Corners.size(), 0);
-  this->matchEdges();
+  this->joinInside();
+  this->surround();
+  this->Mesh.begin(
+    this->Slots.data(), Index(this->Slots.size()), this->Positions.data(), this->Positions.size());
 }
 
-void ConstraintRegion::matchEdges()
+void ConstraintRegion::joinInside()
 {
   this->Edges.clear();
   this->HalfOfEdge.clear();
-  for (Index h = 0; h < Index(this->Corners.size()); ++h)
+  for (std::size_t corner = 0; corner < 3 * this->Count; ++corner)
   {
+    const Index h = halfEdge(corner);
     const auto [low, high] = std::minmax({ this->from(h), this->to(h) });
     const auto [edge, isNew] = this->Edges.insert(std::int64_t(low) << 32 | high);
-    isNew ? this->HalfOfEdge.push_back(h) : this->join(this->HalfOfEdge[std::size_t(edge)], h);
+    isNew ? this->HalfOfEdge.push_back(h) : this->join(h, this->HalfOfEdge[std::size_t(edge)]);
   }
-  this->Borders.clear();
-  this->FirstBorder.assign(this->Vertices.size(), None);
+}
+
+/// Adds the triangles at the infinite vertex. All triangles around a vertex become neighbours in
+/// turn, also those between which the region has several gaps.
+void ConstraintRegion::surround()
+{
+  this->Outside.clear();
+  this->FirstOutside.assign(this->Positions.size(), ConstrainedMesh::None);
   for (const Index h : this->HalfOfEdge)
   {
-    if (this->twin(h) == None)
+    if (this->Slots[std::size_t(h) + 4] == ConstrainedMesh::None)
     {
-      Index& first = this->FirstBorder[std::size_t(this->from(h))];
-      const auto border = Index(this->Borders.size());
-      this->Borders.push_back({ h, first });
-      first = border;
-      this->Twins[std::size_t(h)] = ~border;
+      const Index outside = this->append({ ConstrainedMesh::Infinite, this->to(h), this->from(h) });
+      this->join(h, outside);
+      Index& first = this->FirstOutside[std::size_t(this->from(h))];
+      this->Outside.push_back({ outside, first });
+      first = Index(this->Outside.size() - 1);
     }
   }
-}
-
-int ConstraintRegion::turn(Index a, Index b, Index c) const
-{
-  return orientation(this->at(a), this->at(b), this->at(c));
-}
-
-void ConstraintRegion::join(Index half, Index outer)
-{
-  this->Twins[std::size_t(half)] = outer;
-  if (outer < 0)
+  for (const OutsideTriangle& one : this->Outside)
   {
-    const Index border = ~outer;
-    this->Borders[std::size_t(border)].Half = half;
-  }
-  else
-  {
-    this->Twins[std::size_t(outer)] = half;
+    const Index from = this->Slots[std::size_t(one.Triangle) + 2];
+    const Index next =
+      one.Next != ConstrainedMesh::None ? one.Next : this->FirstOutside[std::size_t(from)];
+    this->join(this->Outside[std::size_t(next)].Triangle + 1, this->lastAfter(one.Triangle) + 2);
   }
 }
 
-void ConstraintRegion::fix(Index half)
+/// The infinite triangle after the triangles inside that follow `outside` counter-clockwise around
+/// the start of its edge.
+ConstraintRegion::Index ConstraintRegion::lastAfter(Index outside) const
 {
-  this->Fixed[std::size_t(half)] = 1;
-  if (this->twin(half) >= 0)
+  Index h = this->twin(outside);
+  while (!this->isOutside(h))
   {
-    this->Fixed[std::size_t(this->twin(half))] = 1;
+    h = this->twin(HalfEdgeMesh::previous(h));
   }
+  return HalfEdgeMesh::triangleOf(h);
 }
 
 void ConstraintRegion::insert(PointId a, PointId b)
 {
-  const Index from = this->Numbers.find(a);
-  const Index to = this->Numbers.find(b);
-  if (from == None || to == None)
+  const Index from = this->Numbers.find(a) + 1;
+  const Index to = this->Numbers.find(b) + 1;
+  if (from == ConstrainedMesh::Infinite || to == ConstrainedMesh::Infinite)
   {
     return;
   }
-  bool isEdge = false;
-  const Index first = this->findToward(from, to, isEdge);
-  if (first != None)
+  const DirectedLine line{ this->Mesh.at(from), this->Mesh.at(to), to };
+  const LineWalk walk = this->Walker.walk(line, from);
+  if (walk.How == LineWalk::End::Touched)
   {
-    isEdge ? this->fix(first) : this->insertAcross(from, to, first);
+    throw std::logic_error("A vertex lies on a constraint that was not split there.");
   }
-}
-
-/// Returns the half-edge ab or its twin if ab is an edge; otherwise the half-edge from a in whose
-/// triangle the segment ab starts, or None.
-ConstraintRegion::Index ConstraintRegion::findToward(Index a, Index b, bool& isEdge) const
-{
-  Index border = this->FirstBorder[std::size_t(a)];
-  if (border == None)
+  if (walk.Edge != LineWalk::None)
   {
-    return this->sweep(this->Out[std::size_t(a)], b, isEdge);
+    this->Mesh.fix(walk.Edge);
   }
-  Index found = None;
-  while (found == None && border != None)
+  else if (walk.How == LineWalk::End::Reached)
   {
-    found = this->sweep(this->Borders[std::size_t(border)].Half, b, isEdge);
-    border = this->Borders[std::size_t(border)].Next;
+    this->Inserter.insert(this->Walker.crossed());
   }
-  return found;
-}
-
-/// As findToward(), for the triangles around a vertex, counter-clockwise from `first`, one of its
-/// half-edges.
-ConstraintRegion::Index ConstraintRegion::sweep(Index first, Index b, bool& isEdge) const
-{
-  const Index a = this->from(first);
-  Index h = first;
-  int side = this->to(h) == b ? 0 : this->turn(a, this->to(h), b);
-  do
+  else if (this->Walker.crossed().Count > 0)
   {
-    const Index back = previous(h);
-    if (this->to(h) == b || this->from(back) == b)
-    {
-      isEdge = true;
-      return this->to(h) == b ? h : back;
-    }
-    const int nextSide = this->turn(a, this->from(back), b);
-    if (side > 0 && nextSide < 0)
-    {
-      return h;
-    }
-    side = nextSide;
-    h = this->twin(back);
-  } while (h >= 0 && h != first);
-  return None;
-}
-
-/// Inserts ab, which starts in the triangle of `first`, a half-edge from a.
-void ConstraintRegion::insertAcross(Index a, Index b, Index first)
-{
-  this->Crossed.assign(1, next(first));
-  for (;;)
-  {
-    const Index crossed = this->Crossed.back();
-    const Index half = this->twin(crossed);
-    if (this->isFixed(crossed))
-    {
-      throw CrossingFound();
-    }
-    if (half < 0)
-    {
-      throw std::logic_error("A constraint leaves its region.");
-    }
-    const Index apex = this->from(previous(half));
-    if (apex == b)
-    {
-      break;
-    }
-    const int side = this->turn(a, b, apex);
-    if (side == 0)
-    {
-      throw std::logic_error("A vertex lies on a constraint that was not split there.");
-    }
-    this->Crossed.push_back(side > 0 ? next(half) : previous(half));
+    throw std::logic_error("A constraint leaves its region.");
   }
-  this->Inserter.insert(*this, a, b, this->Crossed);
-}
-
-void ConstraintRegion::setCorners(Index triangle, const std::array<Index, 3>& corners)
-{
-  for (Index i = 0; i < 3; ++i)
-  {
-    const Index v = corners[std::size_t(i)];
-    this->Corners[3 * std::size_t(triangle) + std::size_t(i)] = v;
-    this->Fixed[3 * std::size_t(triangle) + std::size_t(i)] = 0;
-    this->Out[std::size_t(v)] = 3 * triangle + i;
-  }
-}
-
-bool ConstraintRegion::isInCircle(Index a, Index b, Index c, Index d) const
-{
-  return inCirclePerturbed(this->at(a), this->at(b), this->at(c), this->at(d));
-}
-
-bool ConstraintRegion::mustFlip(Index half) const
-{
-  const Index twin = this->twin(half);
-  return twin >= 0 && !this->isFixed(half) &&
-    this->isInCircle(
-      this->from(half), this->to(half), this->from(previous(half)), this->from(previous(twin)));
 }
 
 } // namespace tipp

@@ -3,11 +3,14 @@
 #define tippConstraintRegion_h
 
 #include "Arrays/IndexMap.h"
+#include "Constraints/ConstrainedMesh.h"
+#include "Constraints/LineWalker.h"
 #include "Constraints/SegmentInserter.h"
 #include "Predicates/Points.h"
 #include "Triangulation/Triangulate.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -16,12 +19,12 @@ namespace tipp
 
 /// A region of triangles that are retriangulated together. Segments are inserted one by one. The
 /// result is the constrained Delaunay triangulation under the tie rule.
-//
-// Half-edge h goes from corner h % 3 of triangle h / 3 to the next one.
 class ConstraintRegion
 {
 public:
-  using Index = std::int32_t;
+  ConstraintRegion();
+  ConstraintRegion(const ConstraintRegion&) = delete;
+  ConstraintRegion& operator=(const ConstraintRegion&) = delete;
 
   void clear();
 
@@ -37,82 +40,59 @@ public:
   template <typename IsConstraint>
   void fixEdges(const IsConstraint& isConstraint)
   {
-    for (Index h = 0; h < Index(this->Corners.size()); ++h)
+    for (std::size_t corner = 0; corner < 3 * this->Count; ++corner)
     {
-      if (this->twin(h) > h && isConstraint(this->id(this->from(h)), this->id(this->to(h))))
+      const Index h = halfEdge(corner);
+      const Index twin = this->Mesh.twin(h);
+      if (twin > h && !this->isOutside(twin) &&
+        isConstraint(this->id(this->from(h)), this->id(this->to(h))))
       {
-        this->fix(h);
+        this->Mesh.fix(h);
       }
     }
   }
 
-  std::size_t triangleCount() const { return this->Corners.size() / 3; }
+  std::size_t triangleCount() const { return this->Count; }
   std::array<PointId, 3> triangle(std::size_t t) const
   {
-    return { this->id(this->Corners[3 * t]), this->id(this->Corners[3 * t + 1]),
-      this->id(this->Corners[3 * t + 2]) };
+    const Index* const corners = this->Slots.data() + 8 * t;
+    return { this->id(corners[0]), this->id(corners[1]), this->id(corners[2]) };
   }
 
 private:
-  struct Vertex
+  using Index = ConstrainedMesh::Index;
+
+  /// A triangle at the infinite vertex, which is its corner 0. The border edge starts at corner 2.
+  struct OutsideTriangle
   {
-    PointId Id;
-    Point2 Position;
+    Index Triangle;
+    Index Next; ///< index of another one whose border edge starts at the same vertex, or None
   };
-  struct BorderEdge
-  {
-    Index Half;
-    Index Next; ///< the next border edge from the same vertex, or None
-  };
-  static constexpr Index None = -1;
-  static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
-  static Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
-  Index from(Index h) const { return this->Corners[std::size_t(h)]; }
-  Index to(Index h) const { return this->from(next(h)); }
-  Index twin(Index h) const { return this->Twins[std::size_t(h)]; }
-  PointId id(Index v) const { return this->Vertices[std::size_t(v)].Id; }
-  Point2 at(Index v) const { return this->Vertices[std::size_t(v)].Position; }
-  int turn(Index a, Index b, Index c) const;
 
-  /// @name The mesh of the inserter
-  ///@{
-  friend class SegmentInserter<ConstraintRegion>;
-  static Index half(Index triangle, Index corner) { return 3 * triangle + corner; }
-  static Index triangleOf(Index h) { return h / 3; }
-  bool isFixed(Index h) const { return (this->Fixed[std::size_t(h)] & FixedBit) != 0; }
-  void setFixed(Index h, bool isFixed) { this->Fixed[std::size_t(h)] = isFixed ? FixedBit : 0; }
-  void markRemoved(Index triangle) { this->Fixed[3 * std::size_t(triangle)] |= RemovedBit; }
-  bool isRemoved(Index triangle) const
-  {
-    return (this->Fixed[3 * std::size_t(triangle)] & RemovedBit) != 0;
-  }
-  void setCorners(Index triangle, const std::array<Index, 3>& corners);
-  bool isInCircle(Index a, Index b, Index c, Index d) const;
-  bool mustFlip(Index half) const;
-  ///@}
+  static Index halfEdge(std::size_t corner) { return Index(8 * (corner / 3) + corner % 3); }
+  Index from(Index h) const { return this->Slots[std::size_t(HalfEdgeMesh::next(h))]; }
+  Index to(Index h) const { return this->Slots[std::size_t(HalfEdgeMesh::previous(h))]; }
+  Index twin(Index h) const { return this->Slots[std::size_t(h) + 4]; }
+  bool isOutside(Index h) const { return std::size_t(h) >= 8 * this->Count; }
+  PointId id(Index v) const { return this->Ids[std::size_t(v)]; }
+  Index append(const std::array<Index, 3>& corners);
+  void join(Index h, Index g);
+  void joinInside();
+  void surround();
+  Index lastAfter(Index outside) const;
 
-  void matchEdges();
-  void join(Index half, Index outer);
-  void fix(Index half);
-  Index findToward(Index a, Index b, bool& isEdge) const;
-  Index sweep(Index first, Index b, bool& isEdge) const;
-  void insertAcross(Index a, Index b, Index first);
-
-  IndexMap Numbers; ///< of the vertices, by id
-  std::vector<Vertex> Vertices;
-  std::vector<Index> Corners; ///< vertex of each corner
-  std::vector<Index> Twins;   ///< per half-edge: its twin, or ~(index of the border edge)
-  static constexpr char FixedBit = 1;
-  static constexpr char RemovedBit = 2; ///< in Fixed, of a triangle's first half-edge
-
-  std::vector<char> Fixed; ///< per half-edge: whether it is on an inserted segment
-  std::vector<Index> Out;  ///< per vertex: a half-edge that starts there
-  std::vector<BorderEdge> Borders;
-  std::vector<Index> FirstBorder; ///< per vertex: the first border edge from it, or None
-  std::vector<Index> Crossed;     ///< half-edges that the current segment crosses
-  IndexMap Edges;                 ///< for matchEdges()
-  std::vector<Index> HalfOfEdge;  ///< for matchEdges()
-  SegmentInserter<ConstraintRegion> Inserter;
+  IndexMap Numbers;              ///< of the vertices, minus 1, by id
+  std::vector<PointId> Ids;      ///< by vertex
+  std::vector<Point2> Positions; ///< by vertex
+  std::vector<Index> Slots;      ///< of the triangles inside and the infinite ones
+  std::size_t Count = 0;         ///< of triangles inside
+  IndexMap Edges;                ///< for joinInside()
+  std::vector<Index> HalfOfEdge; ///< by edge, one of its half-edges
+  std::vector<OutsideTriangle> Outside;
+  std::vector<Index> FirstOutside; ///< by vertex: index of the first in Outside, or None
+  ConstrainedMesh Mesh;
+  LineWalker Walker;
+  SegmentInserter Inserter;
 };
 
 } // namespace tipp

@@ -2,21 +2,23 @@
 #ifndef tippLineWalker_h
 #define tippLineWalker_h
 
+#include "Constraints/ConstrainedMesh.h"
 #include "Constraints/Constraint.h"
-#include "Kernel/DelaunayKernel.h"
 #include "Predicates/ExactPredicates.h"
 #include "Predicates/Points.h"
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 namespace tipp
 {
 
-/// A walk along a line through a kernel's mesh, from a vertex to the next vertex on the line.
+/// A walk along a line through a mesh, from a vertex to the next vertex on the line.
 struct LineWalk
 {
-  using Index = DelaunayKernel::Index;
-  static constexpr Index None = -1;
+  using Index = ConstrainedMesh::Index;
+  static constexpr Index None = ConstrainedMesh::None;
 
   enum class End
   {
@@ -34,7 +36,7 @@ struct DirectedLine
 {
   Point2 A; ///< where the line starts
   Point2 B;
-  DelaunayKernel::Index Goal; ///< the vertex at B, or LineWalk::None if it is not known
+  ConstrainedMesh::Index Goal; ///< the vertex at B, or LineWalk::None if it is not known
 
   int side(Point2 p) const { return orientation(this->A, this->B, p); }
 
@@ -47,23 +49,47 @@ struct DirectedLine
   }
 };
 
-/// Follows lines through a mesh, and finds the edges that they cross.
+/// The triangles that a walk crosses. The edges around them form two chains, on the left and on the
+/// right of the line, both from the vertex at which the walk starts to the one at which it ends.
+struct CrossedCavity
+{
+  using Index = ConstrainedMesh::Index;
+
+  struct ChainVertex
+  {
+    Index Vertex;
+    ConstrainedMesh::Link Outer; ///< from the crossed triangle at the edge before this vertex
+    Index Inner;                 ///< this triangle's half-edge
+    Point2 Position;
+  };
+
+  /// All have the same size, which is at least Count + 2.
+  std::vector<Index> Triangles;                   ///< in order along the line
+  std::array<std::vector<ChainVertex>, 2> Chains; ///< left and right
+  std::size_t Count = 0;                          ///< of triangles
+  std::array<std::size_t, 2> ChainEnds{};         ///< one past the last vertices of the chains
+  bool HasRepeated = false; ///< whether a chain has a vertex between two occurrences of another
+};
+
+/// Follows lines through a mesh, and finds the triangles that they cross.
 class LineWalker
 {
 public:
-  using Index = DelaunayKernel::Index;
+  using Index = ConstrainedMesh::Index;
+  using Link = ConstrainedMesh::Link;
   static constexpr Index None = LineWalk::None;
 
-  explicit LineWalker(const MeshEditor& mesh)
+  explicit LineWalker(const ConstrainedMesh& mesh)
     : Mesh(mesh)
   {
+    this->resize(64);
   }
 
   /// Follows the line from vertex a, which is on it, to the next vertex on it. Throws CrossingFound
   /// if it crosses a fixed edge.
   LineWalk walk(const DirectedLine& line, Index a)
   {
-    this->Crossed.clear();
+    this->Crossed.Count = 0;
     LineWalk walk;
     const Index first = this->findFirst(line, a, walk);
     if (first != None)
@@ -73,24 +99,25 @@ public:
     return walk;
   }
 
-  /// As walk(), from a half-edge that the line crosses out of its triangle.
+  /// As walk(), from a half-edge that the line crosses out of its triangle. The chains start with
+  /// its ends.
   LineWalk walkAcross(const DirectedLine& line, Index half)
   {
-    this->Crossed.clear();
     LineWalk walk;
     this->cross(line, half, walk);
     return walk;
   }
 
-  /// The half-edges that the last walk crossed, each in the triangle that the walk left there.
-  const std::vector<Index>& crossed() const { return this->Crossed; }
+  /// What the last walk crossed.
+  const CrossedCavity& crossed() const { return this->Crossed; }
+  CrossedCavity& crossed() { return this->Crossed; }
 
 private:
   /// Turns around vertex a to the first half-edge that the line crosses. None if the line continues
   /// along an edge, which is written to `walk`, or leaves the mesh.
   Index findFirst(const DirectedLine& line, Index a, LineWalk& walk) const
   {
-    const MeshEditor& mesh = this->Mesh;
+    const ConstrainedMesh& mesh = this->Mesh;
     const Index begin = mesh.out(a);
     Index h = begin;
     Index to = mesh.to(h);
@@ -120,7 +147,7 @@ private:
 
   int sideOf(const DirectedLine& line, Index v) const
   {
-    return v == DelaunayKernel::Infinite ? Unknown : line.side(this->Mesh.at(v));
+    return v == ConstrainedMesh::Infinite ? Unknown : line.side(this->Mesh.at(v));
   }
 
   bool isNext(const DirectedLine& line, Index a, Index v) const
@@ -128,47 +155,93 @@ private:
     return v == line.Goal || line.isBetween(this->Mesh.at(a), this->Mesh.at(v));
   }
 
-  void cross(const DirectedLine& line, Index crossed, LineWalk& walk)
+  /// A vertex of a chain after the edge of a crossed triangle's half-edge.
+  CrossedCavity::ChainVertex chainVertex(Index v, Index inner) const
   {
+    return { v, this->Mesh.link(inner), inner, this->Mesh.at(v) };
+  }
+
+  /// Follows the line across the half-edge `out`.
+  void cross(const DirectedLine& line, Index out, LineWalk& walk)
+  {
+    const ConstrainedMesh& mesh = this->Mesh;
+    CrossedCavity& crossed = this->Crossed;
+    const Index a = mesh.apex(out);
+    crossed.Chains[0][0] = crossed.Chains[1][0] = { a, None, None, mesh.at(a) };
+    crossed.Chains[0][1] = this->chainVertex(mesh.to(out), mesh.next(out));
+    crossed.Chains[1][1] = this->chainVertex(mesh.from(out), mesh.previous(out));
+    crossed.Triangles[0] = mesh.triangleOf(out);
+    crossed.HasRepeated = false;
+    std::size_t count = 1;
+    std::size_t left = 2;
+    std::size_t right = 2;
     for (;;)
     {
+      crossed.Count = count;
       if (line.Goal == None &&
-        orientation(this->Mesh.at(this->Mesh.from(crossed)), this->Mesh.at(this->Mesh.to(crossed)),
-          line.B) >= 0)
+        orientation(mesh.at(mesh.from(out)), mesh.at(mesh.to(out)), line.B) >= 0)
       {
         return; // B is in this triangle; another partition will add its vertex
       }
-      if (this->Mesh.isFixed(crossed))
+      const Link link = mesh.link(out);
+      if (ConstrainedMesh::isFixed(link))
       {
         throw CrossingFound();
       }
-      this->Crossed.push_back(crossed);
-      const Index half = this->Mesh.twin(crossed);
-      const Index apex = this->Mesh.apex(half);
-      if (apex == DelaunayKernel::Infinite)
+      if (count + 2 == crossed.Triangles.size())
+      {
+        this->resize(2 * count);
+      }
+      const Index in = ConstrainedMesh::twinOf(link);
+      const Index toApex = mesh.next(in);
+      const Index fromApex = mesh.previous(in);
+      const Index apex = mesh.apex(in);
+      crossed.Triangles[count++] = mesh.triangleOf(in);
+      const Point2 position = mesh.at(apex);
+      if (apex == ConstrainedMesh::Infinite)
       {
         return;
       }
-      if (apex == line.Goal)
+      const int side = apex == line.Goal ? 0 : line.side(position);
+      if (side > 0)
       {
-        walk = { LineWalk::End::Reached, apex, None };
-        return;
+        crossed.HasRepeated |= crossed.Chains[0][left - 2].Vertex == apex;
+        crossed.Chains[0][left++] = { apex, mesh.link(fromApex), fromApex, position };
+        out = toApex;
       }
-      const int side = line.side(this->Mesh.at(apex));
-      if (side == 0)
+      else if (side < 0)
       {
-        if (!(this->Mesh.at(apex) == line.B))
+        crossed.HasRepeated |= crossed.Chains[1][right - 2].Vertex == apex;
+        crossed.Chains[1][right++] = { apex, mesh.link(toApex), toApex, position };
+        out = fromApex;
+      }
+      else
+      {
+        crossed.Chains[0][left++] = { apex, mesh.link(fromApex), fromApex, position };
+        crossed.Chains[1][right++] = { apex, mesh.link(toApex), toApex, position };
+        crossed.Count = count;
+        crossed.ChainEnds = { left, right };
+        if (apex == line.Goal || !(position == line.B))
         {
-          walk = { LineWalk::End::Touched, apex, None };
+          walk = { apex == line.Goal ? LineWalk::End::Reached : LineWalk::End::Touched, apex,
+            None };
         }
         return;
       }
-      crossed = side > 0 ? this->Mesh.next(half) : this->Mesh.previous(half);
     }
   }
 
-  const MeshEditor& Mesh;
-  std::vector<Index> Crossed;
+  void resize(std::size_t size)
+  {
+    this->Crossed.Triangles.resize(size);
+    for (std::vector<CrossedCavity::ChainVertex>& chain : this->Crossed.Chains)
+    {
+      chain.resize(size);
+    }
+  }
+
+  const ConstrainedMesh& Mesh;
+  CrossedCavity Crossed;
 };
 
 } // namespace tipp

@@ -3,6 +3,7 @@
 
 #include "Arrays/IndexMap.h"
 #include "Arrays/SortUnique.h"
+#include "Constraints/ConstrainedMesh.h"
 #include "Constraints/LineWalker.h"
 #include "Constraints/SegmentInserter.h"
 #include "Constraints/SegmentTree.h"
@@ -92,6 +93,7 @@ public:
   explicit Editor(PartitionConstraints& of)
     : Of(of)
     , Walker(this->Mesh)
+    , Inserter(this->Mesh)
   {
   }
 
@@ -116,7 +118,9 @@ private:
     {
       this->IsBoundary = partition.IsBoundary;
       this->IdOf = [ids = partition.Ids](Index v) { return PointId(ids[v]); };
-      this->Mesh.begin(partition.Kernel);
+      HalfEdgeMesh& mesh = partition.Kernel.editMesh();
+      this->Mesh.begin(mesh.slots(), mesh.end(), partition.Kernel.points(),
+        std::size_t(partition.Kernel.vertexEnd()));
       this->findEnds(partition);
       this->insertWhole();
       this->noteOthers(partition.Border);
@@ -287,7 +291,7 @@ private:
   {
     for (std::size_t i = this->Border.size(); i < border.size(); ++i)
     {
-      const Index half = MeshEditor::half(border[i].Outside, (border[i].Corner + 1) % 3);
+      const Index half = ConstrainedMesh::halfFrom(border[i].Outside, (border[i].Corner + 1) % 3);
       this->Border.push_back(
         { half, this->Mesh.at(this->Mesh.from(half)), this->Mesh.at(this->Mesh.to(half)) });
     }
@@ -303,7 +307,7 @@ private:
     for (;;)
     {
       const LineWalk walk = this->Walker.walk(begun.Line, at);
-      isAllThere = (inserts ? this->insert(at, walk) : this->note(begun.Piece)) && isAllThere;
+      isAllThere = (inserts ? this->insert(walk) : this->note(begun.Piece)) && isAllThere;
       if (walk.How != LineWalk::End::Touched)
       {
         return isAllThere && walk.How == LineWalk::End::Reached;
@@ -324,7 +328,7 @@ private:
     return !this->IsBoundary[DelaunayKernel::number(triangle)];
   }
 
-  bool insert(Index from, const LineWalk& walk)
+  bool insert(const LineWalk& walk)
   {
     if (walk.How == LineWalk::End::Left)
     {
@@ -332,33 +336,27 @@ private:
     }
     if (walk.Edge != NoVertex)
     {
-      const Index twin = this->Mesh.twin(walk.Edge);
-      this->Mesh.setFixed(walk.Edge, true);
-      this->Mesh.setFixed(twin, true);
-      return this->isInterior(this->Mesh.triangleOf(walk.Edge)) ||
-        this->isInterior(this->Mesh.triangleOf(twin));
+      this->Mesh.fix(walk.Edge);
+      return this->isInterior(ConstrainedMesh::triangleOf(walk.Edge)) ||
+        this->isInterior(ConstrainedMesh::triangleOf(this->Mesh.twin(walk.Edge)));
     }
-    const std::vector<Index>& crossed = this->Walker.crossed();
-    const bool isInside = this->isInterior(this->Mesh.triangleOf(crossed.front())) &&
-      std::all_of(crossed.begin(), crossed.end(),
-        [this](Index h) { return this->isInterior(this->Mesh.triangleOf(this->Mesh.twin(h))); });
+    CrossedCavity& crossed = this->Walker.crossed();
+    const auto begin = crossed.Triangles.begin();
+    const bool isInside = std::all_of(begin, begin + std::ptrdiff_t(crossed.Count),
+      [this](Index triangle) { return this->isInterior(triangle); });
     if (isInside)
     {
-      this->Inserter.insert(this->Mesh, from, walk.Vertex, crossed);
+      this->Inserter.insert(crossed);
     }
     return isInside;
   }
 
   bool note(std::int64_t piece)
   {
-    const std::vector<Index>& crossed = this->Walker.crossed();
-    if (!crossed.empty())
+    const CrossedCavity& crossed = this->Walker.crossed();
+    for (std::size_t i = 0; i < crossed.Count; ++i)
     {
-      this->noteTriangle(piece, this->Mesh.triangleOf(crossed.front()));
-      for (const Index h : crossed)
-      {
-        this->noteTriangle(piece, this->Mesh.triangleOf(this->Mesh.twin(h)));
-      }
+      this->noteTriangle(piece, crossed.Triangles[i]);
     }
     return false;
   }
@@ -372,8 +370,8 @@ private:
     this->Noted.push_back({ DelaunayKernel::number(triangle), piece });
     for (Index i = 0; i < 3; ++i)
     {
-      const Index half = MeshEditor::half(triangle, i);
-      if (this->Mesh.isFixed(half))
+      const Index half = triangle + i;
+      if (ConstrainedMesh::isFixed(this->Mesh.link(half)))
       {
         this->FixedEdges.push_back(
           { this->IdOf(this->Mesh.from(half)), this->IdOf(this->Mesh.to(half)) });
@@ -405,9 +403,9 @@ private:
   }
 
   PartitionConstraints& Of;
-  MeshEditor Mesh;
+  ConstrainedMesh Mesh;
   LineWalker Walker;
-  SegmentInserter<MeshEditor> Inserter;
+  SegmentInserter Inserter;
   const char* IsBoundary = nullptr;
   std::function<PointId(Index)> IdOf;
   const std::int64_t* Near = nullptr; ///< the pieces near the partition

@@ -2,12 +2,12 @@
 #ifndef tippSegmentInserter_h
 #define tippSegmentInserter_h
 
-#include <array>
+#include "Constraints/ConstrainedMesh.h"
+#include "Constraints/LineWalker.h"
+
+#include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <stdexcept>
-#include <unordered_map>
-#include <utility>
 #include <vector>
 
 namespace tipp
@@ -22,271 +22,273 @@ namespace tipp
 /// A short chain is triangulated by recursion (Anglada 1997): the vertex whose circle with the
 /// segment's ends contains no other is the apex of the segment's triangle, whose other sides take
 /// the segment's part for the two halves of the chain. All vertices of a half are beyond its side,
-/// since their lines of sight cross it.
+/// since their lines of sight cross it. A vertex is in the chain twice if other vertices are
+/// between its lines of sight. These are in its triangle with the segment's ends, so the vertex
+/// becomes an apex after them, when the chain has been divided between its two occurrences.
 ///
-/// The recursion takes quadratic time at worst, and fails if a vertex is in the chain twice, which
-/// happens if the chain follows an edge out and back. Long chains and such chains are triangulated
-/// by ear clipping: three consecutive vertices that turn away from the segment enclose no other,
-/// because of the lines of sight. Then edges are flipped until all are locally Delaunay, as in
-/// CGAL's triangulation.
-///
-/// `Mesh` has counter-clockwise triangles, whose half-edge half(triangle, i) goes from corner i to
-/// the next. For half-edges it has next(), previous(), from(), to(), twin() and triangleOf().
-/// setCorners(triangle, corners) replaces a triangle and removes its twins and its mark;
-/// markRemoved(triangle) sets this mark, and isRemoved(triangle) returns it. join(half, other)
-/// makes twins. isFixed(half) and setFixed(half, fixed) concern one side of an edge. turn(a, b, c)
-/// is the orientation of three vertices. isInCircle(a, b, c, d) says whether d is inside the circle
-/// of a counter-clockwise triangle under the tie rule. mustFlip(half) is false for fixed edges and
-/// edges with a single triangle.
-template <typename Mesh>
+/// The recursion takes quadratic time at worst. Long chains are triangulated by ear clipping: three
+/// consecutive vertices that turn away from the segment enclose no other, because of the lines of
+/// sight. Then edges are flipped until all are locally Delaunay, as in CGAL's triangulation.
 class SegmentInserter
 {
 public:
-  using Index = std::int32_t;
+  using Index = ConstrainedMesh::Index;
 
-  /// Makes ab an edge. `crossed` are the half-edges that ab crosses, in order from a, each in the
-  /// triangle that ab leaves there. None of them may be fixed.
-  void insert(Mesh& mesh, Index a, Index b, const std::vector<Index>& crossed)
+  /// Begins to insert segments into a mesh, which must outlive this.
+  explicit SegmentInserter(ConstrainedMesh& mesh)
+    : Mesh(mesh)
   {
-    this->makeChains(mesh, a, crossed);
-    if (this->HasDangling)
-    {
-      this->NewInner.clear();
-    }
-    const Index onLeft = this->fill(mesh, a, this->Left);
-    const Index onRight = this->fill(mesh, b, this->Right);
-    mesh.join(onLeft, onRight);
-    mesh.setFixed(onLeft, true);
-    mesh.setFixed(onRight, true);
-    this->legalize(mesh);
+  }
+
+  /// Inserts the segment between the first and the last vertex of the chains, which crosses no
+  /// fixed edge. `crossed` is overwritten.
+  void insert(CrossedCavity& crossed)
+  {
+    this->Removed = crossed.Triangles.data() + crossed.Count;
+    this->findInnerEdges(crossed);
+    const Link onLeft = this->fill<true>(crossed);
+    const Link onRight = this->fill<false>(crossed);
+    const ChainVertex& a = crossed.Chains[0][0];
+    const ChainVertex& b = crossed.Chains[0][crossed.ChainEnds[0] - 1];
+    this->Mesh.attach(onLeft, onRight | ConstrainedMesh::FixedBit);
+    this->Mesh.setOut(a.Vertex, onLeft);
+    this->Mesh.setOut(b.Vertex, onRight);
+    this->legalize();
   }
 
 private:
-  static constexpr Index None = -1;
+  using Link = ConstrainedMesh::Link;
+  using ChainVertex = CrossedCavity::ChainVertex;
 
-  /// An edge of a chain, from the previous vertex to this one. The cavity is on its right.
-  struct Link
+  /// An edge with crossed triangles on both sides that is not crossed itself is in a chain twice.
+  /// Its links are replaced by the complement of twice its index in Inner, plus 1 if it is fixed.
+  void findInnerEdges(CrossedCavity& crossed)
   {
-    Index To;
-    Index Outer;     ///< the half-edge on the left
-    Index OldInner;  ///< the half-edge of the removed triangle on the right
-    bool IsFixed;    ///< whether it is an inserted segment
-    bool IsDangling; ///< whether the cavity is on both sides
-  };
-  /// Consecutive links in the memory of Room.
-  struct Chain
-  {
-    Link* Begin;
-    Link* End;
-  };
-
-  static Link makeLink(const Mesh& mesh, Index to, Index inner)
-  {
-    return { to, mesh.twin(inner), inner, mesh.isFixed(inner), false };
-  }
-
-  /// Makes the chains on both sides of the segment.
-  void makeChains(Mesh& mesh, Index a, const std::vector<Index>& crossed)
-  {
-    const std::size_t most = crossed.size() + 1; // at most this many links per chain
-    if (this->Room.size() < 2 * most)
+    // In a short chain, such an edge ends at a single vertex between two occurrences of another.
+    constexpr std::size_t longest = 7;
+    if (!crossed.HasRepeated && std::max(crossed.ChainEnds[0], crossed.ChainEnds[1]) <= longest)
     {
-      this->Room.resize(4 * most);
+      return;
     }
-    this->Removed.resize(most);
-    this->Left = { this->Room.data(), this->Room.data() };
-    this->Right = { this->Room.data() + 2 * most, this->Room.data() + 2 * most };
-    const Index first = crossed.front();
-    this->Removed[0] = mesh.triangleOf(first);
-    *this->Left.End++ = makeLink(mesh, mesh.to(first), mesh.next(first));
-    // The right chain goes from b to a, so it is filled from its last link.
-    *--this->Right.Begin = makeLink(mesh, a, mesh.previous(first));
-    Index onRight = mesh.from(first);
-    for (std::size_t i = 0; i < crossed.size(); ++i)
+    const Index mark = this->Mesh.newMark();
+    for (std::size_t i = 0; i < crossed.Count; ++i)
     {
-      const Index half = mesh.twin(crossed[i]);
-      this->Removed[i + 1] = mesh.triangleOf(half);
-      const Index right = mesh.next(half); // from the right end to the new vertex
-      const Index left = mesh.previous(half);
-      const Index apex = mesh.to(right);
-      const Index leftBy = i + 1 < crossed.size() ? crossed[i + 1] : None;
-      // Writes both and keeps one, because a branch would be mispredicted half of the time.
-      *this->Left.End = makeLink(mesh, apex, left);
-      this->Left.End += leftBy != left ? 1 : 0;
-      this->Right.Begin[-1] = makeLink(mesh, onRight, right);
-      this->Right.Begin -= leftBy != right ? 1 : 0;
-      onRight = leftBy != right ? apex : onRight;
+      this->Mesh.setMark(crossed.Triangles[i], mark);
     }
-    this->markDangling(mesh);
-  }
-
-  /// An edge with the cavity on both sides has a link for each of its half-edges.
-  void markDangling(Mesh& mesh)
-  {
-    for (const Index triangle : this->Removed)
+    this->Inner.clear();
+    for (std::size_t chain = 0; chain < 2; ++chain)
     {
-      mesh.markRemoved(triangle);
-    }
-    this->HasDangling = false;
-    for (const Chain& chain : { this->Left, this->Right })
-    {
-      for (Link* link = chain.Begin; link != chain.End; ++link)
+      for (std::size_t i = 1; i < crossed.ChainEnds[chain]; ++i)
       {
-        link->IsDangling = link->Outer >= 0 && mesh.isRemoved(mesh.triangleOf(link->Outer));
-        this->HasDangling |= link->IsDangling;
-      }
-    }
-  }
-
-  /// Triangulates the area between a chain and the segment that joins its ends. Returns the
-  /// segment's half-edge.
-  Index fill(Mesh& mesh, Index from, const Chain& chain)
-  {
-    constexpr std::ptrdiff_t shortChain = 32;
-    return chain.End - chain.Begin > shortChain || this->HasDangling
-      ? this->cutEars(mesh, from, chain)
-      : this->replace(mesh, from, chain).Outer;
-  }
-
-  /// Triangulates the area between a chain, which starts at `from`, and the segment that joins its
-  /// ends. Returns the link that replaces the chain.
-  Link replace(Mesh& mesh, Index from, const Chain& chain)
-  {
-    if (chain.End - chain.Begin == 1)
-    {
-      return *chain.Begin;
-    }
-    const Index to = chain.End[-1].To;
-    Link* apex = chain.Begin;
-    for (Link* link = apex + 1; link + 1 != chain.End; ++link)
-    {
-      apex = mesh.isInCircle(from, to, apex->To, link->To) ? link : apex;
-    }
-    const Link first = this->replace(mesh, from, { chain.Begin, apex + 1 });
-    const Link second = this->replace(mesh, apex->To, { apex + 1, chain.End });
-    return { to, this->makeTriangle(mesh, first, from, second), None, false, false };
-  }
-
-  /// As fill(), for any chain. The edges inside are not locally Delaunay until legalize().
-  Index cutEars(Mesh& mesh, Index from, const Chain& chain)
-  {
-    // The vertex before the first link is `from`. The remaining links overwrite the start of the
-    // chain.
-    Link* const rest = chain.Begin;
-    std::size_t count = 0;
-    for (const Link* link = chain.Begin; link != chain.End; ++link)
-    {
-      rest[count++] = *link;
-      while (count > 1)
-      {
-        const Link& second = rest[count - 1];
-        const Link& first = rest[count - 2];
-        const Index x = count == 2 ? from : rest[count - 3].To;
-        if (mesh.turn(x, first.To, second.To) >= 0)
+        ChainVertex& v = crossed.Chains[chain][i];
+        const Index twin = ConstrainedMesh::twinOf(v.Outer);
+        if (this->Mesh.mark(ConstrainedMesh::triangleOf(twin)) == mark)
         {
-          break;
+          this->setInner(v, twin);
         }
-        const Index half = this->makeTriangle(mesh, first, x, second);
-        this->Suspects.push_back(half);
-        rest[count - 2] = { second.To, half, None, false, false };
-        --count;
       }
     }
-    if (count != 1)
+  }
+
+  void setInner(ChainVertex& v, Index twin)
+  {
+    const Link known = this->Mesh.link(v.Inner);
+    if (known < 0) // set below when the edge's other half-edge was found
+    {
+      v.Outer = known;
+      return;
+    }
+    v.Outer = ~(Link(2 * this->Inner.size()) + (ConstrainedMesh::isFixed(v.Outer) ? 1 : 0));
+    this->Inner.push_back(ConstrainedMesh::None);
+    this->Mesh.setLink(twin, v.Outer);
+  }
+
+  /// Makes a new half-edge the twin of the half-edge that was outside of the removed triangle.
+  void attach(Index half, Link outer)
+  {
+    if (outer >= 0)
+    {
+      this->Mesh.attach(half, outer);
+      return;
+    }
+    Index& first = this->Inner[std::size_t(~outer / 2)];
+    if (first == ConstrainedMesh::None)
+    {
+      first = half;
+    }
+    else
+    {
+      this->Mesh.attach(half, first | (~outer % 2 != 0 ? ConstrainedMesh::FixedBit : 0));
+    }
+  }
+
+  /// Triangulates the area between a chain and the segment. Returns the segment's half-edge.
+  template <bool isLeft>
+  Link fill(CrossedCavity& crossed)
+  {
+    constexpr std::size_t longest = 32;
+    constexpr std::size_t chain = isLeft ? 0 : 1;
+    const std::size_t count = crossed.ChainEnds[chain];
+    ChainVertex* const first = crossed.Chains[chain].data();
+    return count > longest ? this->cutEars<isLeft>(first, first + count - 1)
+                           : this->replace<isLeft>(first, first + count - 1);
+  }
+
+  /// Triangulates the area between a part of a chain and the segment that joins its ends. Returns
+  /// the link that replaces the chain.
+  template <bool isLeft>
+  Link replace(const ChainVertex* first, const ChainVertex* last)
+  {
+    switch (last - first)
+    {
+      case 1:
+        return last->Outer;
+      case 2:
+        return this->makeTriangle<isLeft>(
+          first->Vertex, first[1].Outer, first[1].Vertex, last->Outer, last->Vertex);
+      case 3:
+        return this->replaceTwo<isLeft>(first, last);
+      default:
+        break;
+    }
+    const ChainVertex* apex = first + 1;
+    for (const ChainVertex* v = apex + 1; v != last; ++v)
+    {
+      apex = isNearer<isLeft>(*first, *last, *apex, *v) ? v : apex;
+    }
+    const Link before = this->replace<isLeft>(first, apex);
+    const Link after = this->replace<isLeft>(apex, last);
+    return this->makeTriangle<isLeft>(first->Vertex, before, apex->Vertex, after, last->Vertex);
+  }
+
+  /// replace() for two vertices between the ends. It has no branches, which would be mispredicted
+  /// half of the time.
+  template <bool isLeft>
+  Link replaceTwo(const ChainVertex* first, const ChainVertex* last)
+  {
+    const bool isSecond = isNearer<isLeft>(*first, *last, first[1], first[2]);
+    // The apex is the second or the first vertex; the other triangle is before or after it.
+    const ChainVertex* const p = first + (isSecond ? 0 : 1);
+    const Link other =
+      this->makeTriangle<isLeft>(p->Vertex, p[1].Outer, p[1].Vertex, p[2].Outer, p[2].Vertex);
+    const Link before = isSecond ? other : first[1].Outer;
+    const Link after = isSecond ? last->Outer : other;
+    return this->makeTriangle<isLeft>(
+      first->Vertex, before, first[isSecond ? 2 : 1].Vertex, after, last->Vertex);
+  }
+
+  /// Whether v is inside the circle of the ends and the apex.
+  template <bool isLeft>
+  static bool isNearer(const ChainVertex& first, const ChainVertex& last, const ChainVertex& apex,
+    const ChainVertex& v)
+  {
+    const ChainVertex& from = isLeft ? first : last; // counter-clockwise with the apex
+    const ChainVertex& to = isLeft ? last : first;
+    return inCirclePerturbed(from.Position, to.Position, apex.Position, v.Position);
+  }
+
+  /// As replace(), for any length. The edges inside are not locally Delaunay until legalize().
+  template <bool isLeft>
+  Link cutEars(ChainVertex* first, ChainVertex* last)
+  {
+    // The remaining vertices overwrite the start of the chain.
+    constexpr int ear = isLeft ? -1 : 1;
+    ChainVertex* end = first + 1;
+    for (const ChainVertex* v = first + 1; v <= last; ++v)
+    {
+      *end++ = *v;
+      while (
+        end - first > 2 && orientation(end[-3].Position, end[-2].Position, end[-1].Position) == ear)
+      {
+        end[-1].Outer = this->makeTriangle<isLeft>(
+          end[-3].Vertex, end[-2].Outer, end[-2].Vertex, end[-1].Outer, end[-1].Vertex);
+        this->Suspects.push_back(end[-1].Outer);
+        end[-2] = end[-1];
+        --end;
+      }
+    }
+    if (end - first != 2)
     {
       throw std::logic_error("A constraint's cavity cannot be triangulated.");
     }
     this->Suspects.pop_back(); // the segment itself
-    return rest->Outer;
+    return end[-1].Outer;
   }
 
-  /// Makes the triangle on the right of two links. Returns the half-edge that replaces them.
-  Index makeTriangle(Mesh& mesh, const Link& first, Index from, const Link& second)
+  /// Makes a triangle of three vertices in the order of the chain. Returns the half-edge between
+  /// the first and the last one.
+  template <bool isLeft>
+  Link makeTriangle(Index first, Link before, Index apex, Link after, Index last)
   {
-    const Index triangle = this->Removed.back();
-    this->Removed.pop_back();
-    mesh.setCorners(triangle, { from, second.To, first.To });
-    this->attach(mesh, mesh.half(triangle, 1), second);
-    this->attach(mesh, mesh.half(triangle, 2), first);
-    return mesh.half(triangle, 0);
+    const Index t = *--this->Removed;
+    this->Mesh.setCorners(t, apex, isLeft ? first : last, isLeft ? last : first);
+    this->attach(t + (isLeft ? 2 : 1), before);
+    this->attach(t + (isLeft ? 1 : 2), after);
+    this->Mesh.setOut(apex, ConstrainedMesh::halfFrom(t, 0));
+    return t;
   }
 
-  /// Makes a new half-edge the twin of the half-edge outside the removed one.
-  void attach(Mesh& mesh, Index half, const Link& link)
-  {
-    mesh.setFixed(half, link.IsFixed);
-    if (!link.IsDangling)
-    {
-      mesh.join(half, link.Outer);
-      return;
-    }
-    const auto other = this->NewInner.find(link.Outer);
-    if (other == this->NewInner.end())
-    {
-      this->NewInner.emplace(link.OldInner, half);
-    }
-    else
-    {
-      mesh.join(half, other->second);
-    }
-  }
-
-  void legalize(Mesh& mesh)
+  void legalize()
   {
     while (!this->Suspects.empty())
     {
       const Index h = this->Suspects.back();
       this->Suspects.pop_back();
-      if (mesh.mustFlip(h))
+      if (this->mustFlip(h))
       {
-        this->flip(mesh, h);
+        this->flip(h);
       }
     }
   }
 
-  /// Replaces an edge by the other diagonal of its two triangles.
-  void flip(Mesh& mesh, Index h)
+  bool mustFlip(Index h) const
   {
+    const ConstrainedMesh& mesh = this->Mesh;
+    const Link link = mesh.link(h);
+    const Index beyond = mesh.apex(ConstrainedMesh::twinOf(link));
+    return !ConstrainedMesh::isFixed(link) && beyond != ConstrainedMesh::Infinite &&
+      inCirclePerturbed(
+        mesh.at(mesh.from(h)), mesh.at(mesh.to(h)), mesh.at(mesh.apex(h)), mesh.at(beyond));
+  }
+
+  /// Replaces an edge by the other diagonal of its two triangles.
+  void flip(Index h)
+  {
+    ConstrainedMesh& mesh = this->Mesh;
     const Index g = mesh.twin(h);
     // The edge goes from p to q; r is the apex on its left, s on its right.
     const Index p = mesh.from(h);
     const Index q = mesh.to(h);
-    const Index r = mesh.from(mesh.previous(h));
-    const Index s = mesh.from(mesh.previous(g));
-    struct Side
-    {
-      Index Twin;
-      bool IsFixed;
-    };
-    const auto side = [&mesh](Index half) { return Side{ mesh.twin(half), mesh.isFixed(half) }; };
-    const Side qr = side(mesh.next(h));
-    const Side rp = side(mesh.previous(h));
-    const Side ps = side(mesh.next(g));
-    const Side sq = side(mesh.previous(g));
+    const Index r = mesh.apex(h);
+    const Index s = mesh.apex(g);
+    const Link qr = mesh.link(mesh.next(h));
+    const Link rp = mesh.link(mesh.previous(h));
+    const Link ps = mesh.link(mesh.next(g));
+    const Link sq = mesh.link(mesh.previous(g));
     const Index one = mesh.triangleOf(h);
     const Index other = mesh.triangleOf(g);
-    mesh.setCorners(one, { p, s, r });
-    mesh.setCorners(other, { s, q, r });
-    const auto setSide = [this, &mesh](Index half, const Side& old)
+    mesh.setCorners(one, p, s, r);
+    mesh.setCorners(other, q, r, s);
+    const auto setSide = [&](Index half, Link outer)
     {
-      mesh.join(half, old.Twin);
-      mesh.setFixed(half, old.IsFixed);
+      mesh.attach(half, outer);
       this->Suspects.push_back(half);
     };
-    setSide(mesh.half(one, 0), ps);
-    setSide(mesh.half(one, 2), rp);
-    setSide(mesh.half(other, 0), sq);
-    setSide(mesh.half(other, 1), qr);
-    mesh.join(mesh.half(one, 1), mesh.half(other, 2));
+    setSide(one + 2, ps);
+    setSide(one + 1, rp);
+    setSide(other + 2, qr);
+    setSide(other + 1, sq);
+    mesh.attach(one, other);
+    mesh.setOut(p, one + 2);
+    mesh.setOut(s, one);
+    mesh.setOut(q, other + 2);
+    mesh.setOut(r, other);
   }
 
-  std::vector<Index> Removed; ///< crossed triangles that have not been reused yet
-  std::vector<Link> Room;     ///< memory of the links of Left and Right
-  Chain Left{};
-  Chain Right{};
-  bool HasDangling = false;                  ///< whether a link of Left or Right is dangling
-  std::vector<Index> Suspects;               ///< half-edges that may have to be flipped
-  std::unordered_map<Index, Index> NewInner; ///< new half-edges by old ones, at dangling edges
+  ConstrainedMesh& Mesh;
+  const Index* Removed = nullptr; ///< one past the crossed triangles that have not been reused yet
+  std::vector<Index> Inner;       ///< by inner edge: a new half-edge, or None
+  std::vector<Index> Suspects;    ///< half-edges that may have to be flipped
 };
 
 } // namespace tipp
