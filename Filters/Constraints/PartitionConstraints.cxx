@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/PartitionConstraints.h"
 
-#include "Arrays/IndexMap.h"
 #include "Arrays/SortUnique.h"
 #include "Constraints/ConstrainedMesh.h"
 #include "Constraints/LineWalker.h"
@@ -33,22 +32,23 @@ public:
 
   void begin(std::size_t pieces)
   {
-    this->Ids.clear();
-    this->Last.clear();
+    std::size_t lists = 1;
+    while (lists < 4 * pieces)
+    {
+      lists *= 2;
+    }
+    this->Last.assign(lists, NoEnd);
     this->Marks.fill(0);
+    this->Ids.resize(2 * pieces);
     this->Earlier.resize(2 * pieces);
     this->VertexOf.assign(2 * pieces, NoVertex);
   }
 
   void add(End end, PointId id)
   {
-    const auto [number, isNew] = this->Ids.insert(id);
-    if (isNew)
-    {
-      this->Last.push_back(NoEnd);
-      this->Marks[word(id)] |= bit(id);
-    }
-    this->Earlier[end] = std::exchange(this->Last[std::size_t(number)], end);
+    this->Ids[end] = id;
+    this->Earlier[end] = std::exchange(this->Last[this->list(id)], end);
+    this->Marks[word(id)] |= bit(id);
   }
 
   /// A quick filter: false for most ids that are not ends.
@@ -59,12 +59,13 @@ public:
   template <typename Visit>
   void setVertex(PointId id, Index vertex, const Visit& visit)
   {
-    const std::int32_t number = this->Ids.find(id);
-    for (End end = number == IndexMap::None ? NoEnd : this->Last[std::size_t(number)]; end != NoEnd;
-         end = this->Earlier[end])
+    for (End end = this->Last[this->list(id)]; end != NoEnd; end = this->Earlier[end])
     {
-      this->VertexOf[end] = vertex;
-      this->VertexOf[end ^ 1] != NoVertex ? visit(end / 2) : void();
+      if (this->Ids[end] == id)
+      {
+        this->VertexOf[end] = vertex;
+        this->VertexOf[end ^ 1] != NoVertex ? visit(end / 2) : void();
+      }
     }
   }
 
@@ -73,15 +74,22 @@ public:
 
 private:
   static constexpr End NoEnd = ~End(0);
-  static constexpr std::size_t Words = 1024; ///< so few that they stay in the first-level cache
+  static constexpr std::size_t Words = 2048; ///< so few that they stay in the first-level cache
   static std::size_t word(PointId id) { return std::size_t(id) / 64 % Words; }
   static std::uint64_t bit(PointId id) { return std::uint64_t(1) << (std::size_t(id) % 64); }
+  /// The list of ends that has this id, among others.
+  std::size_t list(PointId id) const
+  {
+    constexpr std::uint64_t golden = 0x9E3779B97F4A7C15; // Fibonacci hashing
+    constexpr int unusedBits = 32;
+    return std::size_t(std::uint64_t(id) * golden >> unusedBits) & (this->Last.size() - 1);
+  }
 
-  IndexMap Ids;
   std::array<std::uint64_t, Words> Marks{}; ///< bits at the ids of ends, modulo the number of bits
-  std::vector<End> Last;                    ///< by number of the id: the last end added
-  std::vector<End> Earlier;                 ///< the end with the same id added before, or NoEnd
-  std::vector<Index> VertexOf;
+  std::vector<End> Last;                    ///< by list: the last end added
+  std::vector<End> Earlier;                 ///< by end: the end added to its list before, or NoEnd
+  std::vector<PointId> Ids;                 ///< by end
+  std::vector<Index> VertexOf;              ///< by end
 };
 
 } // namespace
