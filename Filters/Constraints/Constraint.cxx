@@ -7,17 +7,16 @@
 namespace tipp
 {
 
-std::vector<ConstraintPiece> piecesOf(
-  const std::vector<ConstraintPiece>& pieces, std::size_t begin, std::size_t end)
+ConstraintPieces piecesOf(const ConstraintPieces& pieces, std::size_t begin, std::size_t end)
 {
-  std::vector<ConstraintPiece> some;
+  ConstraintPieces some;
   std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(some),
     [begin, end](const ConstraintPiece& piece)
     { return std::size_t(piece.Constraint) >= begin && std::size_t(piece.Constraint) < end; });
   return some;
 }
 
-ConstraintEdges::ConstraintEdges(const std::vector<ConstraintPiece>& pieces)
+ConstraintEdges::ConstraintEdges(const ConstraintPieces& pieces)
 {
   constexpr std::size_t most = std::size_t(1) << 22; // fits into caches
   std::size_t marks = 1;

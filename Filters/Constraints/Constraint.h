@@ -2,6 +2,7 @@
 #ifndef tippConstraint_h
 #define tippConstraint_h
 
+#include "Arrays/Buffer.h"
 #include "Triangulation/Triangulate.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -30,6 +31,9 @@ struct ConstraintPiece
   std::int64_t Constraint; ///< index of the constraint
 };
 
+/// Its elements are written by several threads.
+using ConstraintPieces = Uninitialised<ConstraintPiece>;
+
 /// Thrown if pieces cross that should have been split at all crossings.
 struct CrossingFound : std::logic_error
 {
@@ -40,14 +44,14 @@ struct CrossingFound : std::logic_error
 };
 
 /// The pieces of constraints [begin, end).
-VTKTIPPFILTERS_EXPORT std::vector<ConstraintPiece> piecesOf(
-  const std::vector<ConstraintPiece>& pieces, std::size_t begin, std::size_t end);
+VTKTIPPFILTERS_EXPORT ConstraintPieces piecesOf(
+  const ConstraintPieces& pieces, std::size_t begin, std::size_t end);
 
 /// A set of constraint edges to be found by their ends.
 class VTKTIPPFILTERS_EXPORT ConstraintEdges
 {
 public:
-  explicit ConstraintEdges(const std::vector<ConstraintPiece>& pieces);
+  explicit ConstraintEdges(const ConstraintPieces& pieces);
 
   bool contains(PointId a, PointId b) const;
 

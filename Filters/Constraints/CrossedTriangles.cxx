@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/CrossedTriangles.h"
 
+#include "Arrays/SortUnique.h"
 #include "Constraints/PartitionConstraints.h"
 #include "Constraints/SegmentTree.h"
 #include "Constraints/TriangleScan.h"
@@ -45,122 +46,116 @@ std::vector<TriangleRange> rangesBetween(
 
 using TriangleCrossing = ScannedTriangles::Crossing;
 
-/// The crossings recorded for triangles in blocks, ascending.
-std::vector<TriangleCrossing> notedIn(
-  const std::vector<TriangleBlock>& blocks, const PartitionConstraints& inserted)
+/// Collects crossings, in the order of triangles, by triangle.
+class CrossingLists
 {
-  std::vector<TriangleCrossing> noted;
-  for (const TriangleBlock& block : blocks)
+public:
+  explicit CrossingLists(std::size_t crossings) { this->All.Pieces.reserve(crossings); }
+
+  void add(const TriangleCrossing& crossing)
+  {
+    if (this->All.Triangles.empty() || this->All.Triangles.back() != crossing.Triangle)
+    {
+      this->All.Triangles.push_back(crossing.Triangle);
+      this->All.Starts.push_back(std::int64_t(this->All.Pieces.size()));
+    }
+    this->All.Pieces.push_back(crossing.Piece);
+  }
+
+  /// Adds the crossings recorded for a partition's interior triangles.
+  void add(const TriangleBlock& block, const PartitionConstraints& inserted)
   {
     for (const auto& [triangle, piece] : inserted.crossingsIn(block.Partition))
     {
       if (block.Begin + triangle < block.End)
       {
-        noted.push_back({ std::int64_t(block.Begin + triangle), piece });
+        this->add({ std::int64_t(block.Begin + triangle), piece });
       }
     }
   }
-  return noted;
-}
 
-/// Merges sorted lists into one.
-std::vector<TriangleCrossing> merged(std::vector<std::vector<TriangleCrossing>> lists)
-{
-  for (std::size_t step = 1; step < lists.size(); step *= 2)
+  CrossedTriangles finish(std::vector<CrossedTriangles::Touch>&& touches)
   {
-    for (std::size_t i = 0; i + step < lists.size(); i += 2 * step)
-    {
-      std::vector<TriangleCrossing> both(lists[i].size() + lists[i + step].size());
-      std::merge(lists[i].begin(), lists[i].end(), lists[i + step].begin(), lists[i + step].end(),
-        both.begin());
-      lists[i] = std::move(both);
-      std::vector<TriangleCrossing>().swap(lists[i + step]);
-    }
+    this->All.Starts.push_back(std::int64_t(this->All.Pieces.size()));
+    this->All.Touches = std::move(touches);
+    sortUnique(this->All.Touches);
+    return std::move(this->All);
   }
-  return std::move(lists.front());
-}
 
-/// Groups sorted crossings by triangle.
-CrossedTriangles listed(
-  std::vector<TriangleCrossing>&& crossings, std::vector<CrossedTriangles::Touch>&& touches)
-{
-  crossings.erase(std::unique(crossings.begin(), crossings.end()), crossings.end());
-  CrossedTriangles all;
-  all.Pieces.reserve(crossings.size());
-  for (const TriangleCrossing& crossing : crossings)
-  {
-    if (all.Triangles.empty() || all.Triangles.back() != crossing.Triangle)
-    {
-      all.Triangles.push_back(crossing.Triangle);
-      all.Starts.push_back(std::int64_t(all.Pieces.size()));
-    }
-    all.Pieces.push_back(crossing.Piece);
-  }
-  all.Starts.push_back(std::int64_t(all.Pieces.size()));
-  all.Touches = std::move(touches);
-  using Touch = CrossedTriangles::Touch;
-  std::sort(all.Touches.begin(), all.Touches.end(),
-    [](const Touch& a, const Touch& b)
-    { return a.Piece < b.Piece || (a.Piece == b.Piece && a.Vertex < b.Vertex); });
-  all.Touches.erase(
-    std::unique(all.Touches.begin(), all.Touches.end(),
-      [](const Touch& a, const Touch& b) { return a.Piece == b.Piece && a.Vertex == b.Vertex; }),
-    all.Touches.end());
-  return all;
-}
+private:
+  CrossedTriangles All;
+};
 
-/// A tree of the pieces that have not been inserted. An item's Id is the index of the piece.
-SegmentTree treeOfOthers(PointsView points, const std::vector<ConstraintPiece>& pieces,
-  const PartitionConstraints& inserted)
+/// A tree of these pieces. An item's Id is the index of the piece.
+SegmentTree treeOf(const std::vector<std::int64_t>& some, PointsView points,
+  const ConstraintPieces& pieces, int threads)
 {
-  std::vector<SegmentTree::Item> items;
-  for (std::size_t p = 0; p < pieces.size(); ++p)
-  {
-    if (!inserted.isDone(p))
+  std::vector<SegmentTree::Item> items(some.size());
+  forChunks(std::int64_t(some.size()), SegmentTree::Chunk, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int)
     {
-      items.push_back(
-        { points[std::size_t(pieces[p].A)], points[std::size_t(pieces[p].B)], std::int64_t(p) });
-    }
-  }
-  return SegmentTree(std::move(items));
+      for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
+      {
+        const ConstraintPiece& piece = pieces[std::size_t(some[i])];
+        items[i] = { points[std::size_t(piece.A)], points[std::size_t(piece.B)], some[i] };
+      }
+    });
+  return SegmentTree(std::move(items), threads);
 }
 
 } // namespace
 
 template <typename Id>
 CrossedTriangles findCrossedTriangles(PointsView points, const Id* corners, std::size_t triangles,
-  const std::vector<TriangleBlock>& blocks, const std::vector<ConstraintPiece>& pieces,
+  const std::vector<TriangleBlock>& blocks, const ConstraintPieces& pieces,
   const PartitionConstraints& inserted, int threads)
 {
-  const SegmentTree tree = treeOfOthers(points, pieces, inserted);
+  const SegmentTree tree = treeOf(inserted.remaining(), points, pieces, threads);
   const std::vector<TriangleRange> ranges = rangesBetween(blocks, triangles);
   std::vector<TriangleScan<Id>> scans(std::size_t(threads), TriangleScan<Id>(points, tree));
-  std::vector<ScannedTriangles> parts(static_cast<std::size_t>(threads));
+  std::vector<ScannedTriangles> found(ranges.size());
   forChunks(std::int64_t(ranges.size()), 1, threads, {},
     [&](std::int64_t i, std::int64_t, int thread)
     {
       const TriangleRange& range = ranges[std::size_t(i)];
-      ScannedTriangles& part = parts[std::size_t(thread)];
-      const auto before = std::ptrdiff_t(part.Crossings.size());
-      scans[std::size_t(thread)].scan(corners, range.Begin, range.End, part);
-      std::sort(part.Crossings.begin() + before, part.Crossings.end());
+      ScannedTriangles& here = found[std::size_t(i)];
+      scans[std::size_t(thread)].scan(corners, range.Begin, range.End, here);
+      std::sort(here.Crossings.begin(), here.Crossings.end());
     });
-  std::vector<std::vector<TriangleCrossing>> lists;
   std::vector<CrossedTriangles::Touch> touches = inserted.touches();
-  for (ScannedTriangles& part : parts)
+  std::size_t crossings = 0;
+  for (const TriangleBlock& block : blocks)
   {
-    lists.push_back(std::move(part.Crossings));
-    touches.insert(touches.end(), part.Touches.begin(), part.Touches.end());
+    crossings += inserted.crossingsIn(block.Partition).size();
   }
-  lists.push_back(notedIn(blocks, inserted));
-  return listed(merged(std::move(lists)), std::move(touches));
+  for (const ScannedTriangles& here : found)
+  {
+    touches.insert(touches.end(), here.Touches.begin(), here.Touches.end());
+    crossings += here.Crossings.size();
+  }
+  CrossingLists lists(crossings);
+  auto block = blocks.begin();
+  for (std::size_t i = 0; i < ranges.size(); ++i)
+  {
+    for (; block != blocks.end() && block->Begin < ranges[i].Begin; ++block)
+    {
+      lists.add(*block, inserted);
+    }
+    for (const TriangleCrossing& crossing : found[i].Crossings)
+    {
+      lists.add(crossing);
+    }
+  }
+  for (; block != blocks.end(); ++block)
+  {
+    lists.add(*block, inserted);
+  }
+  return lists.finish(std::move(touches));
 }
 
 template CrossedTriangles findCrossedTriangles(PointsView, const std::int32_t*, std::size_t,
-  const std::vector<TriangleBlock>&, const std::vector<ConstraintPiece>&,
-  const PartitionConstraints&, int);
+  const std::vector<TriangleBlock>&, const ConstraintPieces&, const PartitionConstraints&, int);
 template CrossedTriangles findCrossedTriangles(PointsView, const std::int64_t*, std::size_t,
-  const std::vector<TriangleBlock>&, const std::vector<ConstraintPiece>&,
-  const PartitionConstraints&, int);
+  const std::vector<TriangleBlock>&, const ConstraintPieces&, const PartitionConstraints&, int);
 
 } // namespace tipp

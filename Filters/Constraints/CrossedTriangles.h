@@ -21,6 +21,15 @@ struct CrossedTriangles
   {
     std::int64_t Piece;
     PointId Vertex;
+
+    bool operator<(const Touch& other) const
+    {
+      return this->Piece != other.Piece ? this->Piece < other.Piece : this->Vertex < other.Vertex;
+    }
+    bool operator==(const Touch& other) const
+    {
+      return this->Piece == other.Piece && this->Vertex == other.Vertex;
+    }
   };
 
   std::vector<std::int64_t> Triangles; ///< triangles whose interior a piece meets, ascending
@@ -34,7 +43,7 @@ struct CrossedTriangles
 /// ascending; `inserted` has their crossings. The other triangles are searched.
 template <typename Id>
 CrossedTriangles findCrossedTriangles(PointsView points, const Id* corners, std::size_t triangles,
-  const std::vector<TriangleBlock>& blocks, const std::vector<ConstraintPiece>& pieces,
+  const std::vector<TriangleBlock>& blocks, const ConstraintPieces& pieces,
   const PartitionConstraints& inserted, int threads);
 
 } // namespace tipp

@@ -436,7 +436,7 @@ private:
 };
 
 PartitionConstraints::PartitionConstraints(
-  const std::vector<ConstraintPiece>& pieces, int threads, std::vector<Point2> others)
+  const ConstraintPieces& pieces, int threads, std::vector<Point2> others)
   : Pieces(pieces)
   , Threads(threads)
   , EndsAt{ {}, std::move(others) }
@@ -453,6 +453,16 @@ void PartitionConstraints::begin(PointsView points, const Tiling& tiling)
   }
   this->Crossings.resize(std::size_t(tiling.size()));
   this->Near = PartitionPieces(tiling, this->Pieces, this->EndsAt, this->Threads);
+}
+
+std::vector<std::int64_t> PartitionConstraints::remaining() const
+{
+  std::vector<std::int64_t> pieces;
+  for (std::size_t piece = 0; piece < this->Done.size(); ++piece)
+  {
+    this->Done[piece] ? void() : pieces.push_back(std::int64_t(piece));
+  }
+  return pieces;
 }
 
 std::unique_ptr<PartitionEditor> PartitionConstraints::makeEditor()

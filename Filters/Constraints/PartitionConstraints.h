@@ -32,12 +32,13 @@ public:
   /// `pieces` must outlive this object. `others` are the positions of ends that are not among the
   /// points (EndPositions).
   PartitionConstraints(
-    const std::vector<ConstraintPiece>& pieces, int threads, std::vector<Point2> others = {});
+    const ConstraintPieces& pieces, int threads, std::vector<Point2> others = {});
 
   void begin(PointsView points, const Tiling& tiling) override;
   std::unique_ptr<PartitionEditor> makeEditor() override;
 
-  bool isDone(std::size_t piece) const { return this->Done[piece] != 0; }
+  /// The indices of the pieces that are left for later, ascending.
+  std::vector<std::int64_t> remaining() const;
 
   /// The index of a crossed triangle among the partition's interior ones, and the index of a piece.
   using Crossing = std::pair<std::size_t, std::int64_t>;
@@ -72,7 +73,7 @@ public:
 private:
   class Editor;
 
-  const std::vector<ConstraintPiece>& Pieces;
+  const ConstraintPieces& Pieces;
   const int Threads;
   EndPositions EndsAt; ///< from begin() on in the kernels' coordinates
   PartitionPieces Near;

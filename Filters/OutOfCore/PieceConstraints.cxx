@@ -41,16 +41,12 @@ void PieceConstraints::finishInserting()
   constexpr std::int64_t none = -1;
   std::vector<ConstraintSegment> left;
   std::vector<std::int64_t> names;
-  std::vector<std::int64_t> segments; // index of each in Segments
-  for (std::size_t i = 0; i < this->Pieces.size(); ++i)
+  const std::vector<std::int64_t> segments = this->Inserted->remaining();
+  for (const std::int64_t i : segments)
   {
-    if (!this->Inserted->isDone(i))
-    {
-      const SegmentTree::Item& segment = this->Segments.at(std::int64_t(i));
-      left.push_back({ segment.A, segment.B, SegmentRole::Line });
-      names.push_back(this->Segments.nameOf(std::int64_t(i)));
-      segments.push_back(std::int64_t(i));
-    }
+    const SegmentTree::Item& segment = this->Segments.at(i);
+    left.push_back({ segment.A, segment.B, SegmentRole::Line });
+    names.push_back(this->Segments.nameOf(i));
   }
   std::vector<std::int64_t> order;
   this->Left = ConstraintSegments(left, names, &order);
