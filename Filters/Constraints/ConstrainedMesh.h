@@ -4,7 +4,6 @@
 
 #include "Kernel/HalfEdgeMesh.h"
 #include "Kernel/KernelPredicates.h"
-#include "Predicates/ExactPredicates.h"
 #include "Predicates/Points.h"
 
 #include <cstddef>
@@ -16,7 +15,7 @@ namespace tipp
 /// A view of triangles, in the memory layout of HalfEdgeMesh, whose edges can be fixed. Edges at
 /// the border of the mesh have triangles at the infinite vertex, so that each half-edge has a twin.
 //
-// Slots 3 and 7 do not repeat other slots here.
+// Unlike there, slot 3 is a mark of the triangle, and slot 7 is not used.
 class ConstrainedMesh
 {
 public:
@@ -93,7 +92,7 @@ public:
   }
 
   ///@{
-  /// Each triangle has a mark, at first one that newMark() does not return.
+  /// Marks of triangles. newMark() returns one that no triangle has.
   Index newMark() { return --this->LastMark; }
   Index mark(Index triangle) const { return this->Slots[HalfEdgeMesh::offset(triangle) + 3]; }
   void setMark(Index triangle, Index mark)

@@ -31,7 +31,7 @@ struct ConstraintPiece
   std::int64_t Constraint; ///< index of the constraint
 };
 
-/// Its elements are written by several threads.
+/// resize() leaves new pieces uninitialised, for several threads to write them.
 using ConstraintPieces = Uninitialised<ConstraintPiece>;
 
 /// Thrown if pieces cross that should have been split at all crossings.

@@ -99,8 +99,8 @@ public:
     return walk;
   }
 
-  /// As walk(), from a half-edge that the line crosses out of its triangle. The chains start with
-  /// its ends.
+  /// As walk(), from a half-edge that the line crosses out of its triangle. crossed() then has no
+  /// valid chains.
   LineWalk walkAcross(const DirectedLine& line, Index half)
   {
     LineWalk walk;

@@ -61,7 +61,7 @@ private:
   using ChainVertex = CrossedCavity::ChainVertex;
 
   /// An edge with crossed triangles on both sides that is not crossed itself is in a chain twice.
-  /// Its links are replaced by the complement of twice its index in Inner, plus 1 if it is fixed.
+  /// Its links become ~(2 i), or ~(2 i + 1) if it is fixed, where i is its index in Inner.
   void findInnerEdges(CrossedCavity& crossed)
   {
     // In a short chain, such an edge ends at a single vertex between two occurrences of another.
