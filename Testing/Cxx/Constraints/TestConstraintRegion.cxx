@@ -17,7 +17,7 @@ using namespace tipp;
 using Corners = std::array<PointId, 3>;
 
 /// A region of triangles of these points.
-void fill(ConstraintRegion& region, const std::vector<Point2>& points,
+void fillRegion(ConstraintRegion& region, const std::vector<Point2>& points,
   const std::vector<Corners>& triangles)
 {
   region.clear();
@@ -30,7 +30,7 @@ void fill(ConstraintRegion& region, const std::vector<Point2>& points,
 }
 
 /// The region's triangles, each from its lowest corner.
-std::set<Corners> trianglesOf(const ConstraintRegion& region)
+std::set<Corners> trianglesIn(const ConstraintRegion& region)
 {
   std::set<Corners> all;
   for (std::size_t i = 0; i < region.triangleCount(); ++i)
@@ -48,11 +48,11 @@ TEST(ConstraintRegion, ASegmentFromAVertexBetweenTwoGapsIsInserted)
   const std::vector<Point2> points = { { 0, 0 }, { 2, -1 }, { 3, 0 }, { 2, 1 }, { -2, 1 },
     { -3, 0 }, { -2, -1 } };
   ConstraintRegion region;
-  fill(region, points, { { 0, 1, 3 }, { 1, 2, 3 }, { 0, 4, 6 }, { 4, 5, 6 } });
+  fillRegion(region, points, { { 0, 1, 3 }, { 1, 2, 3 }, { 0, 4, 6 }, { 4, 5, 6 } });
   region.insert(0, 2);
   region.insert(5, 0);
   EXPECT_EQ(
-    (std::set<Corners>{ { 0, 1, 2 }, { 0, 2, 3 }, { 0, 4, 5 }, { 0, 5, 6 } }), trianglesOf(region));
+    (std::set<Corners>{ { 0, 1, 2 }, { 0, 2, 3 }, { 0, 4, 5 }, { 0, 5, 6 } }), trianglesIn(region));
 }
 
 TEST(ConstraintRegion, AnEdgeWhoseTrianglesAreBothCrossedIsKept)
@@ -61,16 +61,16 @@ TEST(ConstraintRegion, AnEdgeWhoseTrianglesAreBothCrossedIsKept)
   const std::vector<Point2> points = { { 0, 0 }, { 10, 0 }, { 5, 5 }, { 5, 1 }, { 4, -1 },
     { 6.5, -1 } };
   ConstraintRegion region;
-  fill(region, points, { { 0, 4, 2 }, { 2, 4, 3 }, { 3, 4, 5 }, { 2, 3, 5 }, { 2, 5, 1 } });
+  fillRegion(region, points, { { 0, 4, 2 }, { 2, 4, 3 }, { 3, 4, 5 }, { 2, 3, 5 }, { 2, 5, 1 } });
   region.insert(0, 1);
-  const std::set<Corners> triangles = trianglesOf(region);
+  const std::set<Corners> triangles = trianglesIn(region);
   EXPECT_EQ(5U, triangles.size());
   for (const Corners& wanted : { Corners{ 0, 1, 3 }, Corners{ 0, 3, 2 }, Corners{ 1, 2, 3 } })
   {
     EXPECT_EQ(1U, triangles.count(wanted));
   }
   region.insert(2, 3); // it has become an edge again, and can be fixed
-  EXPECT_EQ(triangles, trianglesOf(region));
+  EXPECT_EQ(triangles, trianglesIn(region));
 }
 
 TEST(ConstraintRegion, ASegmentOutsideChangesNothing)
@@ -79,9 +79,9 @@ TEST(ConstraintRegion, ASegmentOutsideChangesNothing)
     { -3, 0 }, { -2, -1 } };
   const std::vector<Corners> before = { { 0, 1, 3 }, { 1, 2, 3 }, { 0, 4, 6 }, { 4, 5, 6 } };
   ConstraintRegion region;
-  fill(region, points, before);
+  fillRegion(region, points, before);
   region.insert(3, 4);
-  EXPECT_EQ(std::set<Corners>(before.begin(), before.end()), trianglesOf(region));
+  EXPECT_EQ(std::set<Corners>(before.begin(), before.end()), trianglesIn(region));
 }
 
 } // namespace
