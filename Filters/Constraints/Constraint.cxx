@@ -7,16 +7,17 @@
 namespace tipp
 {
 
-ConstraintPieces piecesOf(const ConstraintPieces& pieces, std::size_t begin, std::size_t end)
+std::vector<ConstraintPiece> piecesOf(
+  const std::vector<ConstraintPiece>& pieces, std::size_t begin, std::size_t end)
 {
-  ConstraintPieces some;
+  std::vector<ConstraintPiece> some;
   std::copy_if(pieces.begin(), pieces.end(), std::back_inserter(some),
     [begin, end](const ConstraintPiece& piece)
     { return std::size_t(piece.Constraint) >= begin && std::size_t(piece.Constraint) < end; });
   return some;
 }
 
-ConstraintEdges::ConstraintEdges(const ConstraintPieces& pieces)
+ConstraintEdges::ConstraintEdges(const std::vector<ConstraintPiece>& pieces)
 {
   constexpr std::size_t most = std::size_t(1) << 22; // fits into caches
   std::size_t marks = 1;

@@ -2,7 +2,6 @@
 #ifndef tippConstraint_h
 #define tippConstraint_h
 
-#include "Arrays/Buffer.h"
 #include "Triangulation/Triangulate.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -31,9 +30,6 @@ struct ConstraintPiece
   std::int64_t Constraint; ///< index of the constraint
 };
 
-/// resize() leaves new pieces uninitialised, for several threads to write them.
-using ConstraintPieces = Uninitialised<ConstraintPiece>;
-
 /// Thrown if pieces cross that should have been split at all crossings.
 struct CrossingFound : std::logic_error
 {
@@ -44,14 +40,14 @@ struct CrossingFound : std::logic_error
 };
 
 /// The pieces of constraints [begin, end).
-VTKTIPPFILTERS_EXPORT ConstraintPieces piecesOf(
-  const ConstraintPieces& pieces, std::size_t begin, std::size_t end);
+VTKTIPPFILTERS_EXPORT std::vector<ConstraintPiece> piecesOf(
+  const std::vector<ConstraintPiece>& pieces, std::size_t begin, std::size_t end);
 
 /// A set of constraint edges to be found by their ends.
 class VTKTIPPFILTERS_EXPORT ConstraintEdges
 {
 public:
-  explicit ConstraintEdges(const ConstraintPieces& pieces);
+  explicit ConstraintEdges(const std::vector<ConstraintPiece>& pieces);
 
   bool contains(PointId a, PointId b) const;
 

@@ -298,8 +298,8 @@ private:
 
 } // namespace
 
-SplitPieces splitPieces(
-  PointsView points, ConstraintPieces& pieces, const std::vector<CrossedTriangles::Touch>& touches)
+SplitPieces splitPieces(PointsView points, std::vector<ConstraintPiece>& pieces,
+  const std::vector<CrossedTriangles::Touch>& touches)
 {
   SplitPieces split;
   if (touches.empty())

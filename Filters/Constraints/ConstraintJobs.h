@@ -17,7 +17,7 @@ namespace tipp
 /// Pieces that are split at the vertices on them.
 struct SplitPieces
 {
-  ConstraintPieces Parts;
+  std::vector<ConstraintPiece> Parts;
   std::vector<std::int64_t> Starts; ///< first part of each piece; empty if all have one part
 
   /// Calls visit(part) for the parts of a piece.
@@ -34,8 +34,8 @@ struct SplitPieces
 };
 
 /// `touches` must be sorted by piece. The pieces are moved into the result.
-VTKTIPPFILTERS_EXPORT SplitPieces splitPieces(
-  PointsView points, ConstraintPieces& pieces, const std::vector<CrossedTriangles::Touch>& touches);
+VTKTIPPFILTERS_EXPORT SplitPieces splitPieces(PointsView points,
+  std::vector<ConstraintPiece>& pieces, const std::vector<CrossedTriangles::Touch>& touches);
 
 /// The job of each triangle in `crossed`. Pieces that cross a common triangle belong to the same
 /// job, with all triangles that they cross. Jobs are numbered by their first triangle.

@@ -358,7 +358,7 @@ void retriangulate(CrossedPart& part, int threads)
       crossed.Touches.push_back({ std::int64_t(piece), vertices.indexOf(touch.Vertex) });
     }
   }
-  ConstraintPieces known;
+  std::vector<ConstraintPiece> known;
   for (const auto& edge : part.FixedEdges)
   {
     if (vertices.has(edge[0]) && vertices.has(edge[1])) // others were moved to the rest
@@ -372,7 +372,7 @@ void retriangulate(CrossedPart& part, int threads)
     std::transform(triangle.begin(), triangle.end(), std::back_inserter(corners),
       [&](std::int64_t number) { return vertices.indexOf(number); });
   }
-  ConstraintPieces pieces;
+  std::vector<ConstraintPiece> pieces;
   for (std::size_t i = 0; i < used.size(); ++i)
   {
     const SegmentTree::Item& segment = knownOf(part, used[i]);

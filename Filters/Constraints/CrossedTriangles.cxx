@@ -50,8 +50,6 @@ using TriangleCrossing = ScannedTriangles::Crossing;
 class CrossingLists
 {
 public:
-  explicit CrossingLists(std::size_t crossings) { this->All.Pieces.reserve(crossings); }
-
   void add(const TriangleCrossing& crossing)
   {
     if (this->All.Triangles.empty() || this->All.Triangles.back() != crossing.Triangle)
@@ -88,7 +86,7 @@ private:
 
 /// A tree of these pieces. An item's Id is the index of the piece.
 SegmentTree treeOf(const std::vector<std::int64_t>& some, PointsView points,
-  const ConstraintPieces& pieces, int threads)
+  const std::vector<ConstraintPiece>& pieces, int threads)
 {
   std::vector<SegmentTree::Item> items(some.size());
   forChunks(std::int64_t(some.size()), SegmentTree::Chunk, threads, {},
@@ -107,10 +105,10 @@ SegmentTree treeOf(const std::vector<std::int64_t>& some, PointsView points,
 
 template <typename Id>
 CrossedTriangles findCrossedTriangles(PointsView points, const Id* corners, std::size_t triangles,
-  const std::vector<TriangleBlock>& blocks, const ConstraintPieces& pieces,
-  const PartitionConstraints& inserted, int threads)
+  const std::vector<TriangleBlock>& blocks, const std::vector<ConstraintPiece>& pieces,
+  const PartitionConstraints& inserted, const std::vector<std::int64_t>& remaining, int threads)
 {
-  const SegmentTree tree = treeOf(inserted.remaining(), points, pieces, threads);
+  const SegmentTree tree = treeOf(remaining, points, pieces, threads);
   const std::vector<TriangleRange> ranges = rangesBetween(blocks, triangles);
   std::vector<TriangleScan<Id>> scans(std::size_t(threads), TriangleScan<Id>(points, tree));
   std::vector<ScannedTriangles> found(ranges.size());
@@ -123,39 +121,33 @@ CrossedTriangles findCrossedTriangles(PointsView points, const Id* corners, std:
       std::sort(here.Crossings.begin(), here.Crossings.end());
     });
   std::vector<CrossedTriangles::Touch> touches = inserted.touches();
-  std::size_t crossings = 0;
-  for (const TriangleBlock& block : blocks)
-  {
-    crossings += inserted.crossingsIn(block.Partition).size();
-  }
-  for (const ScannedTriangles& here : found)
-  {
-    touches.insert(touches.end(), here.Touches.begin(), here.Touches.end());
-    crossings += here.Crossings.size();
-  }
-  CrossingLists lists(crossings);
+  CrossingLists lists;
   auto block = blocks.begin();
-  for (std::size_t i = 0; i < ranges.size(); ++i)
+  const auto addBlocksBefore = [&](std::size_t triangle)
   {
-    for (; block != blocks.end() && block->Begin < ranges[i].Begin; ++block)
+    for (; block != blocks.end() && block->Begin < triangle; ++block)
     {
       lists.add(*block, inserted);
     }
+  };
+  for (std::size_t i = 0; i < ranges.size(); ++i)
+  {
+    addBlocksBefore(ranges[i].Begin);
     for (const TriangleCrossing& crossing : found[i].Crossings)
     {
       lists.add(crossing);
     }
+    touches.insert(touches.end(), found[i].Touches.begin(), found[i].Touches.end());
   }
-  for (; block != blocks.end(); ++block)
-  {
-    lists.add(*block, inserted);
-  }
+  addBlocksBefore(triangles);
   return lists.finish(std::move(touches));
 }
 
 template CrossedTriangles findCrossedTriangles(PointsView, const std::int32_t*, std::size_t,
-  const std::vector<TriangleBlock>&, const ConstraintPieces&, const PartitionConstraints&, int);
+  const std::vector<TriangleBlock>&, const std::vector<ConstraintPiece>&,
+  const PartitionConstraints&, const std::vector<std::int64_t>&, int);
 template CrossedTriangles findCrossedTriangles(PointsView, const std::int64_t*, std::size_t,
-  const std::vector<TriangleBlock>&, const ConstraintPieces&, const PartitionConstraints&, int);
+  const std::vector<TriangleBlock>&, const std::vector<ConstraintPiece>&,
+  const PartitionConstraints&, const std::vector<std::int64_t>&, int);
 
 } // namespace tipp

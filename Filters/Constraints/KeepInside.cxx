@@ -107,7 +107,7 @@ void visitHolders(PointsView points, const Buffer<Id>& ids, Point2 p, const Visi
 /// For each triangle, whether it can be reached from a seed without crossing a constraint.
 template <typename Id>
 std::vector<char> reachedFrom(PointsView points, const Buffer<Id>& ids,
-  const std::vector<std::int64_t>& neighbors, const ConstraintPieces& pieces,
+  const std::vector<std::int64_t>& neighbors, const std::vector<ConstraintPiece>& pieces,
   const std::vector<Point2>& seeds)
 {
   const ConstraintEdges edges(pieces);
@@ -151,7 +151,8 @@ std::vector<char> reachedFrom(PointsView points, const Buffer<Id>& ids,
 }
 
 template <typename Id>
-void keepInside(PointsView points, Buffer<Id>& ids, const ConstraintPieces& edges, const Cuts& cuts)
+void keepInside(
+  PointsView points, Buffer<Id>& ids, const std::vector<ConstraintPiece>& edges, const Cuts& cuts)
 {
   // Computes everything before triangles are removed, because then paths from outside would be
   // interrupted.
@@ -190,7 +191,7 @@ void keepInside(PointsView points, Buffer<Id>& ids, const ConstraintPieces& edge
 
 template <typename Id>
 std::vector<PositionPair> edgesAround(PointsView points, const Buffer<Id>& ids,
-  const ConstraintPieces& pieces, const std::vector<Point2>& seeds)
+  const std::vector<ConstraintPiece>& pieces, const std::vector<Point2>& seeds)
 {
   const std::vector<std::int64_t> neighbors = neighborsOf(ids);
   const std::vector<char> isRemoved = reachedFrom(points, ids, neighbors, pieces, seeds);
@@ -208,8 +209,8 @@ std::vector<PositionPair> edgesAround(PointsView points, const Buffer<Id>& ids,
 
 } // namespace
 
-void keepInside(
-  PointsView points, Triangulation& triangulation, const ConstraintPieces& edges, const Cuts& cuts)
+void keepInside(PointsView points, Triangulation& triangulation,
+  const std::vector<ConstraintPiece>& edges, const Cuts& cuts)
 {
   if (cuts.Polygons.empty() && cuts.Boundary.empty() && cuts.Holes.empty())
   {

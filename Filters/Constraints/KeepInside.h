@@ -20,10 +20,10 @@ struct Cuts
   /// Edges of closed polygons. A triangle is inside if the winding number of the polygons around it
   /// is positive. If there is no such triangle, all polygons are holes: then a triangle is inside
   /// unless its winding number is negative.
-  ConstraintPieces Polygons;
+  std::vector<ConstraintPiece> Polygons;
   /// Edges of closed lines. A triangle is inside if a path to it from outside crosses them an odd
   /// number of times.
-  ConstraintPieces Boundary;
+  std::vector<ConstraintPiece> Boundary;
   /// Points in holes. A hole consists of all triangles that can be reached from its point without
   /// crossing a constraint. If the point is on a constraint, these are the triangles on both sides.
   std::vector<Point2> Holes;
@@ -32,8 +32,8 @@ struct Cuts
 /// Removes the triangles that are not inside polygons and boundary, and those in holes. `edges` are
 /// the pieces of all constraints. Throws std::invalid_argument if the point of a hole is in no
 /// triangle.
-VTKTIPPFILTERS_EXPORT void keepInside(
-  PointsView points, Triangulation& triangulation, const ConstraintPieces& edges, const Cuts& cuts);
+VTKTIPPFILTERS_EXPORT void keepInside(PointsView points, Triangulation& triangulation,
+  const std::vector<ConstraintPiece>& edges, const Cuts& cuts);
 
 using PositionPair = std::array<Point2, 2>;
 

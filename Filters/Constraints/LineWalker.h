@@ -109,7 +109,6 @@ public:
   }
 
   /// What the last walk crossed.
-  const CrossedCavity& crossed() const { return this->Crossed; }
   CrossedCavity& crossed() { return this->Crossed; }
 
 private:

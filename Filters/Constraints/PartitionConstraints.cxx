@@ -436,7 +436,7 @@ private:
 };
 
 PartitionConstraints::PartitionConstraints(
-  const ConstraintPieces& pieces, int threads, std::vector<Point2> others)
+  const std::vector<ConstraintPiece>& pieces, int threads, std::vector<Point2> others)
   : Pieces(pieces)
   , Threads(threads)
   , EndsAt{ {}, std::move(others) }

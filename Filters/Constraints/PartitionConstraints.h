@@ -32,7 +32,7 @@ public:
   /// `pieces` must outlive this object. `others` are the positions of ends that are not among the
   /// points (EndPositions).
   PartitionConstraints(
-    const ConstraintPieces& pieces, int threads, std::vector<Point2> others = {});
+    const std::vector<ConstraintPiece>& pieces, int threads, std::vector<Point2> others = {});
 
   void begin(PointsView points, const Tiling& tiling) override;
   std::unique_ptr<PartitionEditor> makeEditor() override;
@@ -73,7 +73,7 @@ public:
 private:
   class Editor;
 
-  const ConstraintPieces& Pieces;
+  const std::vector<ConstraintPiece>& Pieces;
   const int Threads;
   EndPositions EndsAt; ///< from begin() on in the kernels' coordinates
   PartitionPieces Near;

@@ -18,7 +18,8 @@ namespace
 class PieceFinder
 {
 public:
-  PieceFinder(const Tiling& tiling, const ConstraintPieces& pieces, const EndPositions& ends)
+  PieceFinder(
+    const Tiling& tiling, const std::vector<ConstraintPiece>& pieces, const EndPositions& ends)
     : Tiles(tiling)
     , Finder(tiling)
     , Pieces(pieces)
@@ -69,15 +70,15 @@ public:
 private:
   const Tiling& Tiles;
   const PartitionFinder Finder;
-  const ConstraintPieces& Pieces;
+  const std::vector<ConstraintPiece>& Pieces;
   const EndPositions& Ends;
   Buffer<std::uint32_t> OfEnd; ///< the partitions of each piece's A and B
 };
 
 } // namespace
 
-PartitionPieces::PartitionPieces(
-  const Tiling& tiling, const ConstraintPieces& pieces, const EndPositions& ends, int threads)
+PartitionPieces::PartitionPieces(const Tiling& tiling, const std::vector<ConstraintPiece>& pieces,
+  const EndPositions& ends, int threads)
 {
   const auto partitions = std::size_t(tiling.size());
   PieceFinder finder(tiling, pieces, ends);

@@ -35,8 +35,8 @@ class PartitionPieces
 public:
   PartitionPieces() = default;
 
-  PartitionPieces(
-    const Tiling& tiling, const ConstraintPieces& pieces, const EndPositions& ends, int threads);
+  PartitionPieces(const Tiling& tiling, const std::vector<ConstraintPiece>& pieces,
+    const EndPositions& ends, int threads);
 
   ///@{
   /// The partition's pieces, by their indices, ascending.

@@ -114,8 +114,6 @@ public:
       ZeroLength
     };
     std::vector<char> kinds(constraints.size());
-    ConstraintPieces& pieces = this->Result.Pieces;
-    pieces.resize(constraints.size());
     const Point2* const all = this->Points.contiguous();
     const auto expect = [&](PointId id) // points are accessed at random
     {
@@ -136,17 +134,17 @@ public:
           const Point2 a = this->checkedPoint(constraints[i].A, i);
           const Point2 b = this->checkedPoint(constraints[i].B, i);
           kinds[i] = !isFinite(a) || !isFinite(b) ? NotFinite : a == b ? ZeroLength : Whole;
-          pieces[i] = { constraints[i].A, constraints[i].B, std::int64_t(i) };
         }
       });
     this->Result.NotFinite = std::count(kinds.begin(), kinds.end(), char(NotFinite));
     this->Result.ZeroLength = std::count(kinds.begin(), kinds.end(), char(ZeroLength));
-    if (this->Result.NotFinite + this->Result.ZeroLength > 0)
+    this->Result.Pieces.reserve(constraints.size());
+    for (std::size_t i = 0; i < constraints.size(); ++i)
     {
-      pieces.erase(std::remove_if(pieces.begin(), pieces.end(),
-                     [&kinds](const ConstraintPiece& piece)
-                     { return kinds[std::size_t(piece.Constraint)] != Whole; }),
-        pieces.end());
+      if (kinds[i] == Whole)
+      {
+        this->Result.Pieces.push_back({ constraints[i].A, constraints[i].B, std::int64_t(i) });
+      }
     }
   }
 
@@ -185,7 +183,7 @@ private:
 
   std::vector<CrossingPair> findCrossings() const
   {
-    const ConstraintPieces& pieces = this->Result.Pieces;
+    const std::vector<ConstraintPiece>& pieces = this->Result.Pieces;
     std::vector<SegmentTree::Item> all(pieces.size());
     forChunks(std::int64_t(all.size()), SegmentTree::Chunk, this->Threads, {},
       [&](std::int64_t begin, std::int64_t end, int)
@@ -306,7 +304,7 @@ private:
       items.push_back({ this->at(vertex), this->at(vertex), std::int64_t(items.size()) });
     }
     const SegmentTree tree(std::move(items));
-    const ConstraintPieces wholes = std::move(this->Result.Pieces);
+    const std::vector<ConstraintPiece> wholes = std::move(this->Result.Pieces);
     this->Result.Pieces.clear();
     for (std::size_t i = 0; i < wholes.size(); ++i)
     {

@@ -33,7 +33,7 @@ struct CrossingPoint
 /// Constraints that cross each other only at common points.
 struct ResolvedConstraints
 {
-  ConstraintPieces Pieces;              ///< sorted by constraint, each from its A to its B
+  std::vector<ConstraintPiece> Pieces;  ///< sorted by constraint, each from its A to its B
   std::vector<CrossingPoint> Crossings; ///< their ids follow those of the input's points
   int Rounds = 0;                       ///< rounds of splitting
   std::int64_t NotFinite = 0;           ///< constraints left out: an end is not finite

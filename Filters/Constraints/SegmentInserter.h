@@ -34,7 +34,7 @@ class SegmentInserter
 public:
   using Index = ConstrainedMesh::Index;
 
-  /// Begins to insert segments into a mesh, which must outlive this.
+  /// Inserts segments into this mesh, which must outlive this object.
   explicit SegmentInserter(ConstrainedMesh& mesh)
     : Mesh(mesh)
   {

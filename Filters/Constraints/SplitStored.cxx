@@ -159,7 +159,7 @@ private:
       return i < ends.Positions.size() ? ends.Positions[i]
                                        : resolved.Crossings[i - ends.Positions.size()].Position;
     };
-    const ConstraintPieces& pieces = resolved.Pieces;
+    const std::vector<ConstraintPiece>& pieces = resolved.Pieces;
     for (std::size_t i = 0; i < pieces.size(); ++i)
     {
       const auto isSame = [&](std::size_t other)

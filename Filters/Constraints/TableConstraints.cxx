@@ -112,7 +112,7 @@ void appendCrossings(const std::vector<CrossingPoint>& crossings, PointTable& po
 void cutOutside(
   const TableConstraints& constraints, const PointTable& points, ConstrainedTriangulation& result)
 {
-  const ConstraintPieces& pieces = result.Constraints.Pieces;
+  const std::vector<ConstraintPiece>& pieces = result.Constraints.Pieces;
   const std::size_t lines = constraints.Lines.Edges.size();
   const Cuts cuts{ piecesOf(pieces, constraints.Lines.PolygonBegin, lines),
     piecesOf(pieces, lines, lines + constraints.Boundary.Edges.size()), constraints.Lines.holes() };

@@ -21,10 +21,11 @@ namespace
 
 /// The constraints that may be edges between crossed triangles: the pieces that are not inserted,
 /// and edges of crossed interior triangles.
-ConstraintEdges edgesNear(const SplitPieces& split, const PartitionConstraints& inserted)
+ConstraintEdges edgesNear(const SplitPieces& split, const PartitionConstraints& inserted,
+  const std::vector<std::int64_t>& remaining)
 {
-  ConstraintPieces near;
-  for (const std::int64_t piece : inserted.remaining())
+  std::vector<ConstraintPiece> near;
+  for (const std::int64_t piece : remaining)
   {
     split.forParts(
       std::size_t(piece), [&near](const ConstraintPiece& part) { near.push_back(part); });
@@ -39,20 +40,21 @@ ConstraintEdges edgesNear(const SplitPieces& split, const PartitionConstraints& 
 
 template <typename Id>
 void constrainTriangles(PointsView points, Buffer<Id>& ids,
-  const std::vector<TriangleBlock>& blocks, ConstraintPieces& pieces,
+  const std::vector<TriangleBlock>& blocks, std::vector<ConstraintPiece>& pieces,
   const PartitionConstraints& inserted, int threads)
 {
-  const CrossedTriangles crossed =
-    findCrossedTriangles(points, ids.data(), ids.size() / 3, blocks, pieces, inserted, threads);
+  const std::vector<std::int64_t> remaining = inserted.remaining();
+  const CrossedTriangles crossed = findCrossedTriangles(
+    points, ids.data(), ids.size() / 3, blocks, pieces, inserted, remaining, threads);
   SplitPieces split = splitPieces(points, pieces, crossed.Touches);
-  const ConstraintEdges known = edgesNear(split, inserted);
+  const ConstraintEdges known = edgesNear(split, inserted, remaining);
   retriangulateJobs(points, ids.data(), crossed, split, known, threads);
   pieces = std::move(split.Parts);
 }
 
 /// Replaces the points in `pieces` and `inserted` by their representatives.
-void nameRepresentatives(const std::vector<Duplicate>& duplicates, ConstraintPieces& pieces,
-  PartitionConstraints& inserted, int threads)
+void nameRepresentatives(const std::vector<Duplicate>& duplicates,
+  std::vector<ConstraintPiece>& pieces, PartitionConstraints& inserted, int threads)
 {
   const auto representative = [&](PointId id)
   {
@@ -84,8 +86,8 @@ void nameRepresentatives(const std::vector<Duplicate>& duplicates, ConstraintPie
 /// Only triangles that a piece crosses change. Pieces that cross a common triangle form one job,
 /// with all triangles that they cross; jobs are independent of each other. A job's new triangles
 /// replace its old ones, in order, so the result does not depend on the number of threads.
-void constrain(PointsView points, Triangulation& triangulation, ConstraintPieces& pieces,
-  PartitionConstraints& inserted, int threads)
+void constrain(PointsView points, Triangulation& triangulation,
+  std::vector<ConstraintPiece>& pieces, PartitionConstraints& inserted, int threads)
 {
   nameRepresentatives(triangulation.Duplicates, pieces, inserted, threads);
   if (pieces.empty() || triangulation.triangleCount() == 0)

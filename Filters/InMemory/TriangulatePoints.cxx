@@ -72,7 +72,7 @@ ConstrainedTriangulation triangulatePoints(
   const auto cut = [&](ConstrainedTriangulation& whole)
   {
     warn(whole.Mesh, points.size() + whole.Constraints.Crossings.size());
-    const ConstraintPieces& pieces = whole.Constraints.Pieces;
+    const std::vector<ConstraintPiece>& pieces = whole.Constraints.Pieces;
     keepInside({}, whole.Mesh, pieces,
       { piecesOf(pieces, source.PolygonBegin, source.Constraints.size()), {}, {} });
   };
@@ -138,7 +138,7 @@ Buffer<unsigned char> marksOf(const Buffer<Id>& ids, const ConstraintEdges& edge
 } // namespace
 
 Buffer<unsigned char> constraintMarks(
-  const Triangulation& triangulation, const ConstraintPieces& pieces)
+  const Triangulation& triangulation, const std::vector<ConstraintPiece>& pieces)
 {
   const ConstraintEdges edges(pieces);
   return triangulation.Ids64.empty() ? marksOf(triangulation.Ids32, edges)

@@ -55,7 +55,7 @@ VTKTIPPFILTERS_EXPORT Buffer<std::int64_t> representativeIds(
 /// Returns three values for each triangle: for each corner 1 if the opposite edge is part of a
 /// constraint, else 0.
 Buffer<unsigned char> constraintMarks(
-  const Triangulation& triangulation, const ConstraintPieces& pieces);
+  const Triangulation& triangulation, const std::vector<ConstraintPiece>& pieces);
 
 } // namespace tipp
 

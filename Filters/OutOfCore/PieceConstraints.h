@@ -47,7 +47,7 @@ public:
 private:
   const ConstraintSegments Segments;
   const PointsView Points;
-  ConstraintPieces Pieces; ///< the same segments, for PartitionConstraints
+  std::vector<ConstraintPiece> Pieces; ///< the same segments, for PartitionConstraints
   std::unique_ptr<PartitionConstraints> Inserted;
   ConstraintSegments Left;          ///< segments that were not inserted
   std::vector<std::int64_t> LeftOf; ///< by segment: its index in Left, or -1

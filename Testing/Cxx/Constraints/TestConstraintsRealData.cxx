@@ -165,7 +165,7 @@ TEST(RealConstraints, BorderOfLacLemanCutsTheLake)
   const FreeFemMesh lake = readFreeFem(path);
   ConstrainedTriangulation result =
     triangulateConstrained(view(lake.Mesh.Nodes), lake.Border, CrossingRule::Refuse);
-  const ConstraintPieces& pieces = result.Constraints.Pieces;
+  const std::vector<ConstraintPiece>& pieces = result.Constraints.Pieces;
   keepInside(view(lake.Mesh.Nodes), result.Mesh, pieces, { {}, pieces, {} });
   // By Euler's formula, all triangulations of the lake have this number of triangles.
   EXPECT_EQ(lake.Mesh.Elements.size(), result.Mesh.triangleCount());

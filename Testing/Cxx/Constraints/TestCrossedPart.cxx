@@ -32,7 +32,7 @@ TEST(ConstraintJobs, JoinPiecesThatCrossTheSameTriangle)
 TEST(ConstraintJobs, SplitPiecesAtTouchesAlongTheirDirection)
 {
   const Coordinates xy{ 0, 0, 1, 0, 2, 0, 3, 0, 0, 5 };
-  ConstraintPieces pieces{ { 0, 3, 7 }, { 3, 0, 8 }, { 0, 4, 9 } };
+  std::vector<ConstraintPiece> pieces{ { 0, 3, 7 }, { 3, 0, 8 }, { 0, 4, 9 } };
   const SplitPieces split =
     splitPieces(view(xy), pieces, { { 0, 1 }, { 0, 2 }, { 1, 1 }, { 1, 2 } });
   EXPECT_EQ((std::vector<std::int64_t>{ 0, 3, 6, 7 }), split.Starts);
@@ -48,7 +48,7 @@ TEST(ConstraintJobs, SplitPiecesAtTouchesAlongTheirDirection)
 
 TEST(ConstraintJobs, LeavePiecesWithoutTouchesWhole)
 {
-  ConstraintPieces pieces{ { 0, 1, 0 } };
+  std::vector<ConstraintPiece> pieces{ { 0, 1, 0 } };
   const SplitPieces split = splitPieces(view({ 0, 0, 1, 0 }), pieces, {});
   EXPECT_TRUE(split.Starts.empty());
   EXPECT_EQ(1u, split.Parts.size());
@@ -248,7 +248,7 @@ TEST(ConstraintSegments, KeepTheSameTrianglesAsInMemory)
   addRing(0.8, 0.55, 0.1, 4); // lines around a hole
   ConstrainedTriangulation made = triangulateConstrained(view(xy), constraints);
   xy = withCrossings(xy, made);
-  const ConstraintPieces& pieces = made.Constraints.Pieces;
+  const std::vector<ConstraintPiece>& pieces = made.Constraints.Pieces;
   const std::vector<Point2> seeds{ { 0.8, 0.55 } };
   Triangles all = trianglesOf(made.Mesh);
   keepInside(view(xy), made.Mesh, pieces,

@@ -29,10 +29,10 @@ std::vector<Point2> randomPoints(std::size_t count, unsigned seed)
 }
 
 /// Short and long pieces between points.
-ConstraintPieces randomPieces(std::size_t points)
+std::vector<ConstraintPiece> randomPieces(std::size_t points)
 {
   std::mt19937 random(7);
-  ConstraintPieces pieces;
+  std::vector<ConstraintPiece> pieces;
   for (std::int64_t i = 0; i < 2000; ++i)
   {
     const auto a = PointId(random() % points);
@@ -50,7 +50,7 @@ TEST(PartitionPieces, OfAPartitionAreAllThatMeetIt)
 {
   std::vector<Point2> all = randomPoints(PointCount, 1);
   const std::vector<Point2> others = randomPoints(20, 2);
-  const ConstraintPieces pieces = randomPieces(PointCount + others.size());
+  const std::vector<ConstraintPiece> pieces = randomPieces(PointCount + others.size());
   const Tiling tiling = Tiling::balanced({ 0, 0, 1, 1 }, all, 23);
   const PartitionPieces near(tiling, pieces, { PointsView(all), others }, 1);
   all.insert(all.end(), others.begin(), others.end());
@@ -71,7 +71,7 @@ TEST(PartitionPieces, OfAPartitionAreAllThatMeetIt)
 TEST(PartitionPieces, OfAPartitionAreNoneWithBothEndsInAnotherOne)
 {
   const std::vector<Point2> all = randomPoints(PointCount, 3);
-  const ConstraintPieces pieces = randomPieces(PointCount);
+  const std::vector<ConstraintPiece> pieces = randomPieces(PointCount);
   const Tiling tiling = Tiling::balanced({ 0, 0, 1, 1 }, all, 4);
   const PartitionPieces near(tiling, pieces, { PointsView(all), {} }, 1);
   int checked = 0;
@@ -91,7 +91,7 @@ TEST(PartitionPieces, OfAPartitionAreNoneWithBothEndsInAnotherOne)
 TEST(PartitionPieces, DoNotDependOnTheNumberOfThreads)
 {
   const std::vector<Point2> all = randomPoints(PointCount, 4);
-  const ConstraintPieces pieces = randomPieces(PointCount);
+  const std::vector<ConstraintPiece> pieces = randomPieces(PointCount);
   const Tiling tiling = Tiling::balanced({ 0, 0, 1, 1 }, all, 9);
   const PartitionPieces one(tiling, pieces, { PointsView(all), {} }, 1);
   const PartitionPieces three(tiling, pieces, { PointsView(all), {} }, 3);

@@ -30,7 +30,7 @@ Case makeCase(Coordinates xy, const std::vector<Constraint>& constraints, std::s
     triangulateConstrained(view(xy), constraints, CrossingRule::Split, {},
       [&](ConstrainedTriangulation& all)
       {
-        const ConstraintPieces& pieces = all.Constraints.Pieces;
+        const std::vector<ConstraintPiece>& pieces = all.Constraints.Pieces;
         const auto polygons = piecesOf(pieces, polygonBegin, constraints.size());
         keepInside({}, all.Mesh, pieces, { polygons, {}, {} });
       });

@@ -99,7 +99,7 @@ public:
   PointTable All; ///< all points; makeExpected() adds those of the constraints
   OutOfCoreOptions Options;
   Triangles Expected;
-  ConstraintPieces Pieces; ///< the expected mesh's edges on constraints
+  std::vector<ConstraintPiece> Pieces; ///< the expected mesh's edges on constraints
   TemporaryFolder Folder;
 };
 
