@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/PartitionPieces.h"
 
-#include "Arrays/Buffer.h"
 #include "Constraints/SegmentTree.h"
 #include "Parallel/ParallelFor.h"
+#include "Triangulation/PointBuckets.h"
 
 #include <algorithm>
 #include <array>
@@ -32,12 +32,18 @@ public:
   void locateEnds(std::size_t begin, std::size_t end)
   {
     constexpr std::size_t group = 128;
+    constexpr std::size_t ahead = 32;
+    const std::size_t last = end - 1;
     std::array<Point2, 2 * group> ends;
+    populatePages(this->OfEnd.data() + 2 * begin, 2 * (end - begin) * sizeof(this->OfEnd[0]));
     for (; begin < end; begin += group)
     {
       const std::size_t count = std::min(group, end - begin);
       for (std::size_t i = 0; i < count; ++i)
       {
+        const ConstraintPiece& later = this->Pieces[std::min(begin + i + ahead, last)];
+        this->Ends.Points.prefetch(std::size_t(later.A)); // points are anywhere in memory
+        this->Ends.Points.prefetch(std::size_t(later.B));
         ends[2 * i] = this->Ends[this->Pieces[begin + i].A];
         ends[2 * i + 1] = this->Ends[this->Pieces[begin + i].B];
       }
@@ -108,12 +114,14 @@ PartitionPieces::PartitionPieces(const Tiling& tiling, const std::vector<Constra
     }
   }
   this->Starts.push_back(sum);
-  this->Items.resize(sum);
+  this->Items = Buffer<std::int64_t>(sum);
   parallelFor(threads, threads,
     [&](std::int64_t share)
     {
       const auto [begin, end] = evenShare(pieces.size(), int(share), threads);
       std::vector<std::size_t>& next = nextOf[std::size_t(share)];
+      const auto [first, last] = evenShare(this->Items.size(), int(share), threads);
+      populatePages(this->Items.data() + first, (last - first) * sizeof(this->Items[0]));
       for (std::size_t piece = begin; piece < end; ++piece)
       {
         finder.forPartitions(piece,

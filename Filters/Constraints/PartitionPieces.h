@@ -2,6 +2,7 @@
 #ifndef tippPartitionPieces_h
 #define tippPartitionPieces_h
 
+#include "Arrays/Buffer.h"
 #include "Constraints/Constraint.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Tiling.h"
@@ -49,7 +50,7 @@ public:
 
 private:
   std::vector<std::size_t> Starts; ///< by partition, and the end of the last one
-  std::vector<std::int64_t> Items;
+  Buffer<std::int64_t> Items;
 };
 
 } // namespace tipp

@@ -7,6 +7,7 @@
 #include "Parallel/ParallelFor.h"
 #include "Predicates/ExactArithmetic.h"
 #include "Predicates/ExactPredicates.h"
+#include "Triangulation/PointBuckets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -114,23 +115,18 @@ public:
       ZeroLength
     };
     std::vector<char> kinds(constraints.size());
-    const Point2* const all = this->Points.contiguous();
-    const auto expect = [&](PointId id) // points are accessed at random
-    {
-      if (all && std::size_t(id) < this->Points.size())
-      {
-        __builtin_prefetch(&all[id]);
-      }
-    };
     constexpr std::size_t ahead = 32;
+    this->Result.Pieces.reserve(constraints.size());
+    ConstraintPiece* const pieces = this->Result.Pieces.data();
     forChunks(std::int64_t(constraints.size()), SegmentTree::Chunk, this->Threads, {},
       [&](std::int64_t begin, std::int64_t end, int)
       {
+        populatePages(pieces + begin, std::size_t(end - begin) * sizeof(ConstraintPiece));
         for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
         {
           const Constraint& later = constraints[std::min(i + ahead, constraints.size() - 1)];
-          expect(later.A);
-          expect(later.B);
+          this->Points.prefetch(std::size_t(later.A)); // points are anywhere in memory
+          this->Points.prefetch(std::size_t(later.B));
           const Point2 a = this->checkedPoint(constraints[i].A, i);
           const Point2 b = this->checkedPoint(constraints[i].B, i);
           kinds[i] = !isFinite(a) || !isFinite(b) ? NotFinite : a == b ? ZeroLength : Whole;
@@ -138,7 +134,6 @@ public:
       });
     this->Result.NotFinite = std::count(kinds.begin(), kinds.end(), char(NotFinite));
     this->Result.ZeroLength = std::count(kinds.begin(), kinds.end(), char(ZeroLength));
-    this->Result.Pieces.reserve(constraints.size());
     for (std::size_t i = 0; i < constraints.size(); ++i)
     {
       if (kinds[i] == Whole)

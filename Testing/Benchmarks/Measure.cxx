@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -134,6 +135,7 @@ Measurement measure(const std::function<Run()>& work)
 {
   int ends[2];
   std::fflush(nullptr);
+  malloc_trim(0); // the child would have to copy freed pages before it reuses them
   if (pipe(ends) != 0)
   {
     throw std::runtime_error("no pipe to a measured process could be made");
