@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares constrained triangulation with its peers:
 // benchmarkConstraints POINTS SEGMENTS [REPEAT [vtk | alone]]
-// alone: without peers, but with the times of our phases. POINTS: a number of uniform points, or a
+// alone: without peers, but with the times of our phases. TIPP without and with segments run by
+// turns. POINTS: a number of uniform points, or a
 // .npy file. SEGMENTS: a number of edges of the triangulation of every eighth point, which do not
 // cross; 1 is a segment across the whole domain; a .npy file has two point indices per segment, and
 // segments that cross others are left out. Times are from points in memory to triangles in memory.
@@ -17,6 +18,7 @@
 #include <exception>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace
@@ -91,16 +93,17 @@ std::vector<Constraint> readSegments(const std::vector<double>& xy, const std::s
   return segments;
 }
 
-void report(const char* name, int repeat, bool tellsPhases, const std::function<Run()>& work)
+struct Candidate
 {
-  Measurement best;
-  for (int i = 0; i < repeat; ++i)
-  {
-    const Measurement m = measure(work);
-    best = i == 0 || m.Result.Seconds < best.Result.Seconds ? m : best;
-  }
-  std::printf("%-28s %9.3f s %12lld triangles  %016llx  %8.0f MB\n", name, best.Result.Seconds,
-    (long long)best.Result.Triangles, (unsigned long long)best.Result.Checksum, best.PeakMegabytes);
+  std::string Name;
+  std::function<Run()> Work;
+};
+
+void print(const std::string& name, const Measurement& best, bool tellsPhases)
+{
+  std::printf("%-28s %9.3f s %12lld triangles  %016llx  %8.0f MB\n", name.c_str(),
+    best.Result.Seconds, (long long)best.Result.Triangles, (unsigned long long)best.Result.Checksum,
+    best.PeakMegabytes);
   if (best.Result.Recovered >= 0)
   {
     std::printf("%28s %lld segments are edges\n", "", (long long)best.Result.Recovered);
@@ -111,6 +114,27 @@ void report(const char* name, int repeat, bool tellsPhases, const std::function<
                 : void();
   }
   std::fflush(stdout);
+}
+
+/// Measures the candidates by turns, and prints the fastest run of each.
+void report(const std::vector<Candidate>& candidates, int repeat, bool tellsPhases)
+{
+  std::vector<Measurement> best(candidates.size());
+  for (int i = 0; i < repeat; ++i)
+  {
+    for (std::size_t c = 0; c < candidates.size(); ++c)
+    {
+      Measurement m = measure(candidates[c].Work);
+      if (i == 0 || m.Result.Seconds < best[c].Result.Seconds)
+      {
+        best[c] = std::move(m);
+      }
+    }
+  }
+  for (std::size_t c = 0; c < candidates.size(); ++c)
+  {
+    print(candidates[c].Name, best[c], tellsPhases);
+  }
 }
 
 } // namespace
@@ -136,21 +160,21 @@ int main(int argc, char** argv)
     const bool isAlone = peers == "alone";
     if (!isAlone)
     {
-      report("CGAL, 1 thread", repeat, false, [&] { return runCgalConstrained(xy, segments); });
+      report(
+        { { "CGAL, 1 thread", [&] { return runCgalConstrained(xy, segments); } } }, repeat, false);
     }
     for (const int threads : { 1, 2 })
     {
       TriangulationOptions options;
       options.Threads = threads;
       const std::string suffix = std::to_string(threads) + (threads == 1 ? " thread" : " threads");
-      report(
-        ("TIPP without, " + suffix).c_str(), repeat, isAlone, [&] { return runCore(xy, options); });
-      report(("TIPP, " + suffix).c_str(), repeat, isAlone,
-        [&] { return runConstrained(xy, segments, options); });
+      report({ { "TIPP without, " + suffix, [&] { return runCore(xy, options); } },
+               { "TIPP, " + suffix, [&] { return runConstrained(xy, segments, options); } } },
+        repeat, isAlone);
     }
     if (peers == "vtk")
     {
-      report("vtkDelaunay2D", 1, false, [&] { return runVtkConstrained(xy, segments); });
+      report({ { "vtkDelaunay2D", [&] { return runVtkConstrained(xy, segments); } } }, 1, false);
     }
     return 0;
   }
