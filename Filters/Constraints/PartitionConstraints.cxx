@@ -216,9 +216,10 @@ private:
     runWith(Instructions::Best,
       [&]
       {
-        for (const std::uint32_t number : this->Whole)
+        for (std::size_t i = 0; i < this->Whole.size(); ++i)
         {
-          const BegunPiece piece = this->begun(number, false);
+          this->prefetchAfter(i);
+          const BegunPiece piece = this->begun(this->Whole[i], false);
           if (this->follow(piece, true))
           {
             this->Of.Done[std::size_t(piece.Piece)] = 1;
@@ -229,6 +230,16 @@ private:
           }
         }
       });
+  }
+
+  /// The partition's mesh is larger than the second-level cache.
+  [[gnu::always_inline]] void prefetchAfter(std::size_t i) const
+  {
+    const auto startOf = [this](std::size_t later)
+    { return this->Ends.vertex(2 * this->Whole[std::min(later, this->Whole.size() - 1)]); };
+    this->Mesh.prefetchVertex(startOf(i + 6));
+    this->Mesh.prefetchTriangle(startOf(i + 4));
+    this->Mesh.prefetchAround(startOf(i + 2));
   }
 
   /// Records the interior triangles that the remaining pieces cross.
