@@ -146,8 +146,10 @@ private:
   void findEnds(const Partition<Id>& partition)
   {
     this->Ends.begin(this->NearCount);
+    constexpr std::size_t ahead = 16; // pieces are scattered in memory
     for (std::size_t i = 0; i < this->NearCount; ++i)
     {
+      __builtin_prefetch(&this->piece(std::min(i + ahead, this->NearCount - 1)));
       this->Ends.add(EndVertices::End(2 * i), this->piece(i).A);
       this->Ends.add(EndVertices::End(2 * i + 1), this->piece(i).B);
     }
