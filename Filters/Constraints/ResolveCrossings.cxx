@@ -121,6 +121,7 @@ public:
     forChunks(std::int64_t(constraints.size()), SegmentTree::Chunk, this->Threads, {},
       [&](std::int64_t begin, std::int64_t end, int)
       {
+        // Faster than page faults when the pieces are written below.
         populatePages(pieces + begin, std::size_t(end - begin) * sizeof(ConstraintPiece));
         for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
         {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares constrained triangulation with its peers:
 // benchmarkConstraints POINTS SEGMENTS [REPEAT [vtk | alone]]
-// alone: without peers, but with the times of our phases. TIPP without and with segments run by
-// turns. POINTS: a number of uniform points, or a
-// .npy file. SEGMENTS: a number of edges of the triangulation of every eighth point, which do not
-// cross; 1 is a segment across the whole domain; a .npy file has two point indices per segment, and
-// segments that cross others are left out. Times are from points in memory to triangles in memory.
+// alone: without peers, but with the times of our phases. TIPP without and with segments runs by
+// turns. POINTS: a number of uniform points, or a .npy file. SEGMENTS: a number of edges of the
+// triangulation of every eighth point, which do not cross; 1 is a segment across the whole domain;
+// a .npy file has two point indices per segment, and segments that cross others are left out. Times
+// are from points in memory to triangles in memory.
 #include "Engines.h"
 #include "Measure.h"
 #include "PointSets.h"
@@ -93,6 +93,7 @@ std::vector<Constraint> readSegments(const std::vector<double>& xy, const std::s
   return segments;
 }
 
+/// Something to be measured.
 struct Candidate
 {
   std::string Name;
