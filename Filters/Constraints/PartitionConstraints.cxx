@@ -234,7 +234,8 @@ private:
       });
   }
 
-  /// The partition's mesh is larger than the second-level cache.
+  /// Starts to load what the next pieces in Whole need, because the mesh is larger than the
+  /// second-level cache.
   [[gnu::always_inline]] void prefetchAfter(std::size_t i) const
   {
     const auto startOf = [this](std::size_t later)
