@@ -3,6 +3,7 @@
 
 #include "Arrays/IndexMap.h"
 #include "Constraints/ConstraintRegion.h"
+#include "Constraints/TriangleStrip.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -179,7 +180,7 @@ public:
     this->load(begin, end);
     for (std::size_t job = begin; job < end; ++job)
     {
-      this->All.Triangles.size(job) == 2 ? this->exchangeDiagonal(job) : this->retriangulate(job);
+      this->retriangulate(job);
     }
   }
 
@@ -196,7 +197,7 @@ private:
       const Id* const ids = this->corners(first[i]);
       this->Loaded[i].Ids = { ids[0], ids[1], ids[2] };
     }
-    for (LoadedTriangle& triangle : this->Loaded)
+    for (LocatedTriangle& triangle : this->Loaded)
     {
       std::transform(triangle.Ids.begin(), triangle.Ids.end(), triangle.Positions.begin(),
         [this](PointId id) { return this->Points[std::size_t(id)]; });
@@ -206,19 +207,9 @@ private:
 
   void retriangulate(std::size_t job)
   {
-    this->Region.clear();
-    std::for_each(this->loaded(job), this->loaded(job) + this->All.Triangles.size(job),
-      [this](const LoadedTriangle& triangle)
-      { this->Region.add(triangle.Ids, triangle.Positions); });
-    this->Region.finish();
-    this->Region.fixEdges([this](PointId a, PointId b) { return this->Known.contains(a, b); });
-    std::for_each(this->All.Pieces.begin(job), this->All.Pieces.end(job),
-      [this](std::int64_t i) { this->insertPiece(std::size_t(this->Pieces[std::size_t(i)])); });
     this->New.clear();
-    for (std::size_t t = 0; t < this->Region.triangleCount(); ++t)
-    {
-      this->New.push_back(fromLowest(this->Region.triangle(t)));
-    }
+    const ConstraintPiece* const only = this->onlySegment(job);
+    only ? this->retriangulateStrip(job, *only) : this->retriangulateRegion(job);
     std::sort(this->New.begin(), this->New.end());
     for (std::size_t i = 0; i < this->New.size(); ++i)
     {
@@ -226,12 +217,55 @@ private:
     }
   }
 
-  struct LoadedTriangle
+  /// The segment of the most frequent kind of job: one segment and a few triangles; null for
+  /// others.
+  const ConstraintPiece* onlySegment(std::size_t job) const
   {
-    Corners Ids;
-    std::array<Point2, 3> Positions;
-  };
-  const LoadedTriangle* loaded(std::size_t job) const
+    if (this->All.Pieces.size(job) != 1 ||
+      this->All.Triangles.size(job) > TriangleStrip::MostTriangles)
+    {
+      return nullptr;
+    }
+    const std::size_t piece = this->piece(*this->All.Pieces.begin(job));
+    return this->Split.end(piece) - this->Split.begin(piece) == 1 ? this->Split.begin(piece)
+                                                                  : nullptr;
+  }
+
+  void retriangulateStrip(std::size_t job, const ConstraintPiece& segment)
+  {
+    this->Strip.follow(
+      this->loaded(job), this->All.Triangles.size(job), segment.A, segment.B, this->isKnown());
+    this->Strip.triangulate(
+      [this](const Corners& corners) { this->New.push_back(fromLowest(corners)); });
+  }
+
+  void retriangulateRegion(std::size_t job)
+  {
+    this->Region.clear();
+    std::for_each(this->loaded(job), this->loaded(job) + this->All.Triangles.size(job),
+      [this](const LocatedTriangle& triangle)
+      { this->Region.add(triangle.Ids, triangle.Positions); });
+    this->Region.finish();
+    this->Region.fixEdges(this->isKnown());
+    std::for_each(this->All.Pieces.begin(job), this->All.Pieces.end(job),
+      [this](std::int64_t i) { this->insertPiece(this->piece(i)); });
+    for (std::size_t t = 0; t < this->Region.triangleCount(); ++t)
+    {
+      this->New.push_back(fromLowest(this->Region.triangle(t)));
+    }
+  }
+
+  std::size_t piece(std::int64_t number) const
+  {
+    return std::size_t(this->Pieces[std::size_t(number)]);
+  }
+
+  auto isKnown() const
+  {
+    return [this](PointId a, PointId b) { return this->Known.contains(a, b); };
+  }
+
+  const LocatedTriangle* loaded(std::size_t job) const
   {
     return &this->Loaded[std::size_t(this->All.Triangles.begin(job) - this->LoadedBegin)];
   }
@@ -255,32 +289,8 @@ private:
 
   void insertPiece(std::size_t piece)
   {
-    this->Split.forParts(
-      piece, [this](const ConstraintPiece& part) { this->Region.insert(part.A, part.B); });
-  }
-
-  /// The most frequent job: one segment replaces the common edge of two triangles.
-  void exchangeDiagonal(std::size_t job) const
-  {
-    const Corners& one = this->loaded(job)[0].Ids;
-    const Corners& other = this->loaded(job)[1].Ids;
-    const auto isIn = [](const Corners& corners, PointId id)
-    { return std::find(corners.begin(), corners.end(), id) != corners.end(); };
-    const auto far =
-      std::find_if(one.begin(), one.end(), [&](PointId id) { return !isIn(other, id); });
-    const PointId a = *far;
-    const PointId b =
-      *std::find_if(other.begin(), other.end(), [&](PointId id) { return !isIn(one, id); });
-    const PointId right = one[std::size_t(far - one.begin() + 1) % 3];
-    const PointId left = one[std::size_t(far - one.begin() + 2) % 3];
-    if (this->Known.contains(left, right))
-    {
-      throw CrossingFound();
-    }
-    const auto [low, high] =
-      std::minmax({ fromLowest({ a, right, b }), fromLowest({ a, b, left }) });
-    this->store(this->All.Triangles.begin(job)[0], low);
-    this->store(this->All.Triangles.begin(job)[1], high);
+    std::for_each(this->Split.begin(piece), this->Split.end(piece),
+      [this](const ConstraintPiece& part) { this->Region.insert(part.A, part.B); });
   }
 
   PointsView Points;
@@ -290,8 +300,9 @@ private:
   const JobLists& All;
   const SplitPieces& Split;
   const ConstraintEdges& Known;
-  std::vector<LoadedTriangle> Loaded;        ///< of several jobs
+  std::vector<LocatedTriangle> Loaded;       ///< of several jobs
   const std::int64_t* LoadedBegin = nullptr; ///< the entry of All.Triangles for the first one
+  TriangleStrip Strip;
   ConstraintRegion Region;
   std::vector<Corners> New;
 };

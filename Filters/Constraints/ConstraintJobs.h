@@ -20,17 +20,14 @@ struct SplitPieces
   std::vector<ConstraintPiece> Parts;
   std::vector<std::int64_t> Starts; ///< first part of each piece; empty if all have one part
 
-  /// Calls visit(part) for the parts of a piece.
-  template <typename Visit>
-  void forParts(std::size_t piece, const Visit& visit) const
+  ///@{
+  /// The first part of a piece, and one past the last.
+  const ConstraintPiece* begin(std::size_t piece) const
   {
-    const bool isWhole = this->Starts.empty();
-    const std::size_t end = isWhole ? piece + 1 : std::size_t(this->Starts[piece + 1]);
-    for (std::size_t i = isWhole ? piece : std::size_t(this->Starts[piece]); i < end; ++i)
-    {
-      visit(this->Parts[i]);
-    }
+    return this->Parts.data() + (this->Starts.empty() ? std::int64_t(piece) : this->Starts[piece]);
   }
+  const ConstraintPiece* end(std::size_t piece) const { return this->begin(piece + 1); }
+  ///@}
 };
 
 /// `touches` must be sorted by piece. The pieces are moved into the result.

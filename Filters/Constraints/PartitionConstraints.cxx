@@ -54,8 +54,8 @@ public:
   /// A quick filter: false for most ids that are not ends.
   bool mayHave(PointId id) const { return (this->Marks[word(id)] & bit(id)) != 0; }
 
-  /// Sets the vertex of all ends with this id. Calls visit(piece's number) for each piece whose
-  /// ends are now both known.
+  /// Sets the vertex of all ends with this id. Calls visit(end) for each of them whose piece's ends
+  /// are now both known.
   template <typename Visit>
   void setVertex(PointId id, Index vertex, const Visit& visit)
   {
@@ -64,7 +64,7 @@ public:
       if (this->Ids[end] == id)
       {
         this->VertexOf[end] = vertex;
-        this->VertexOf[end ^ 1] != NoVertex ? visit(end / 2) : void();
+        this->VertexOf[end ^ 1] != NoVertex ? visit(end) : void();
       }
     }
   }
@@ -172,7 +172,7 @@ private:
         if (vertex != NoVertex)
         {
           this->Ends.setVertex(partition.Ids[likely[i]], vertex,
-            [this](std::uint32_t number) { this->Whole.push_back(number); });
+            [this](EndVertices::End end) { this->Whole.push_back(end); });
         }
       }
     }
@@ -221,7 +221,7 @@ private:
         for (std::size_t i = 0; i < this->Whole.size(); ++i)
         {
           this->prefetchAfter(i);
-          const BegunPiece piece = this->begun(this->Whole[i], false);
+          const BegunPiece piece = this->begun(this->Whole[i] / 2, this->Whole[i] % 2 != 0);
           if (this->follow(piece, true))
           {
             this->Of.Done[std::size_t(piece.Piece)] = 1;
@@ -239,7 +239,7 @@ private:
   [[gnu::always_inline]] void prefetchAfter(std::size_t i) const
   {
     const auto startOf = [this](std::size_t later)
-    { return this->Ends.vertex(2 * this->Whole[std::min(later, this->Whole.size() - 1)]); };
+    { return this->Ends.vertex(this->Whole[std::min(later, this->Whole.size() - 1)]); };
     this->Mesh.prefetchVertex(startOf(i + 6));
     this->Mesh.prefetchTriangle(startOf(i + 4));
     this->Mesh.prefetchAround(startOf(i + 2));
@@ -433,8 +433,9 @@ private:
   const std::int64_t* Near = nullptr; ///< the pieces near the partition
   std::size_t NearCount = 0;
   EndVertices Ends;
-  std::vector<std::uint32_t> Whole; ///< by number in Near: pieces with both ends in the partition
-  std::vector<BegunPiece> Begun;    ///< pieces with one or both ends here that are not inserted
+  std::vector<EndVertices::End>
+    Whole;                       ///< of pieces with both ends in the partition: the one found last
+  std::vector<BegunPiece> Begun; ///< pieces with one or both ends here that are not inserted
   std::vector<std::size_t> Through; ///< by number in Near: pieces without ends in the partition
   std::vector<std::pair<std::size_t, Index>> Coinciding; ///< points and the vertices at them
   struct EntryEdge

@@ -4,6 +4,7 @@
 
 #include "Constraints/ConstrainedMesh.h"
 #include "Constraints/LineWalker.h"
+#include "Constraints/TriangulateChain.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -19,16 +20,10 @@ namespace tipp
 /// these triangles form a chain from one end to the other. Every vertex sees the segment along a
 /// crossed edge, and these lines of sight do not meet.
 ///
-/// A short chain is triangulated by recursion (Anglada 1997): the vertex whose circle with the
-/// segment's ends contains no other is the apex of the segment's triangle, whose other sides take
-/// the segment's part for the two halves of the chain. All vertices of a half are beyond its side,
-/// since their lines of sight cross it. A vertex is in the chain twice if other vertices are
-/// between its lines of sight. These are in its triangle with the segment's ends, so the vertex
-/// becomes an apex after them, when the chain has been divided between its two occurrences.
-///
-/// The recursion takes quadratic time at worst. Long chains are triangulated by ear clipping: three
-/// consecutive vertices that turn away from the segment enclose no other, because of the lines of
-/// sight. Then edges are flipped until all are locally Delaunay, as in CGAL's triangulation.
+/// A short chain is triangulated by triangulateChain(), which takes quadratic time at worst. Long
+/// chains are triangulated by ear clipping: three consecutive vertices that turn away from the
+/// segment enclose no other, because of the lines of sight. Then edges are flipped until all are
+/// locally Delaunay, as in CGAL's triangulation.
 class SegmentInserter
 {
 public:
@@ -130,64 +125,16 @@ private:
     constexpr std::size_t chain = isLeft ? 0 : 1;
     const std::size_t count = crossed.ChainEnds[chain];
     ChainVertex* const first = crossed.Chains[chain].data();
-    return count > longest ? this->cutEars<isLeft>(first, first + count - 1)
-                           : this->replace<isLeft>(first, first + count - 1);
+    ChainVertex* const last = first + count - 1;
+    return count > longest
+      ? this->cutEars<isLeft>(first, last)
+      : triangulateChain<isLeft>(first, last,
+          [this](Index from, Link before, Index apex, Link after, Index to)
+          { return this->makeTriangle<isLeft>(from, before, apex, after, to); });
   }
 
-  /// Triangulates the area between a part of a chain and the segment that joins its ends. Returns
-  /// the link that replaces the chain.
-  template <bool isLeft>
-  Link replace(const ChainVertex* first, const ChainVertex* last)
-  {
-    switch (last - first)
-    {
-      case 1:
-        return last->Outer;
-      case 2:
-        return this->makeTriangle<isLeft>(
-          first->Vertex, first[1].Outer, first[1].Vertex, last->Outer, last->Vertex);
-      case 3:
-        return this->replaceTwo<isLeft>(first, last);
-      default:
-        break;
-    }
-    const ChainVertex* apex = first + 1;
-    for (const ChainVertex* v = apex + 1; v != last; ++v)
-    {
-      apex = isNearer<isLeft>(*first, *last, *apex, *v) ? v : apex;
-    }
-    const Link before = this->replace<isLeft>(first, apex);
-    const Link after = this->replace<isLeft>(apex, last);
-    return this->makeTriangle<isLeft>(first->Vertex, before, apex->Vertex, after, last->Vertex);
-  }
-
-  /// replace() for two vertices between the ends. It has no branches, which would be mispredicted
-  /// half of the time.
-  template <bool isLeft>
-  Link replaceTwo(const ChainVertex* first, const ChainVertex* last)
-  {
-    const bool isSecond = isNearer<isLeft>(*first, *last, first[1], first[2]);
-    // The apex is the second or the first vertex; the other triangle is before or after it.
-    const ChainVertex* const p = first + (isSecond ? 0 : 1);
-    const Link other =
-      this->makeTriangle<isLeft>(p->Vertex, p[1].Outer, p[1].Vertex, p[2].Outer, p[2].Vertex);
-    const Link before = isSecond ? other : first[1].Outer;
-    const Link after = isSecond ? last->Outer : other;
-    return this->makeTriangle<isLeft>(
-      first->Vertex, before, first[isSecond ? 2 : 1].Vertex, after, last->Vertex);
-  }
-
-  /// Whether v is inside the circle of the ends and the apex.
-  template <bool isLeft>
-  static bool isNearer(const ChainVertex& first, const ChainVertex& last, const ChainVertex& apex,
-    const ChainVertex& v)
-  {
-    const ChainVertex& from = isLeft ? first : last; // counter-clockwise with the apex
-    const ChainVertex& to = isLeft ? last : first;
-    return inCirclePerturbed(from.Position, to.Position, apex.Position, v.Position);
-  }
-
-  /// As replace(), for any length. The edges inside are not locally Delaunay until legalize().
+  /// As triangulateChain(), for any length. The edges inside are not locally Delaunay until
+  /// legalize().
   template <bool isLeft>
   Link cutEars(ChainVertex* first, ChainVertex* last)
   {

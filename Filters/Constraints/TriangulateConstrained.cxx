@@ -27,8 +27,7 @@ ConstraintEdges edgesNear(const SplitPieces& split, const PartitionConstraints& 
   std::vector<ConstraintPiece> near;
   for (const std::int64_t piece : remaining)
   {
-    split.forParts(
-      std::size_t(piece), [&near](const ConstraintPiece& part) { near.push_back(part); });
+    near.insert(near.end(), split.begin(std::size_t(piece)), split.end(std::size_t(piece)));
   }
   constexpr std::int64_t unknown = -1; // the constraint does not matter
   for (const auto& [a, b] : inserted.fixedEdges())
