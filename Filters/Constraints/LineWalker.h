@@ -38,7 +38,8 @@ struct DirectedLine
   Point2 B;
   ConstrainedMesh::Index Goal; ///< the vertex at B, or LineWalk::None if it is not known
 
-  int side(Point2 p) const { return orientation(this->A, this->B, p); }
+  /// 1 if p is on the left of the line, -1 on the right, 0 on it.
+  int side(Point2 p) const { return orientation(this->B, p, this->A); } // B - A is computed once
 
   /// Whether p, a point on the line, is between `from` and B.
   bool isBetween(Point2 from, Point2 p) const
@@ -59,7 +60,6 @@ struct CrossedCavity
   {
     Index Vertex;
     ConstrainedMesh::Link Outer; ///< from the crossed triangle at the edge before this vertex
-    Index Inner;                 ///< this triangle's half-edge
     Point2 Position;
   };
 
@@ -114,7 +114,7 @@ public:
 private:
   /// Turns around vertex a to the first half-edge that the line crosses. None if the line continues
   /// along an edge, which is written to `walk`, or leaves the mesh.
-  Index findFirst(const DirectedLine& line, Index a, LineWalk& walk) const
+  Index findFirst(DirectedLine line, Index a, LineWalk& walk) const
   {
     const ConstrainedMesh& mesh = this->Mesh;
     const Index begin = mesh.out(a);
@@ -157,16 +157,16 @@ private:
   /// A vertex of a chain after the edge of a crossed triangle's half-edge.
   CrossedCavity::ChainVertex chainVertex(Index v, Index inner) const
   {
-    return { v, this->Mesh.link(inner), inner, this->Mesh.at(v) };
+    return { v, this->Mesh.link(inner), this->Mesh.at(v) };
   }
 
   /// Follows the line across the half-edge `out`.
-  void cross(const DirectedLine& line, Index out, LineWalk& walk)
+  void cross(DirectedLine line, Index out, LineWalk& walk)
   {
     const ConstrainedMesh& mesh = this->Mesh;
     CrossedCavity& crossed = this->Crossed;
     const Index a = mesh.apex(out);
-    crossed.Chains[0][0] = crossed.Chains[1][0] = { a, None, None, mesh.at(a) };
+    crossed.Chains[0][0] = crossed.Chains[1][0] = { a, None, mesh.at(a) };
     crossed.Chains[0][1] = this->chainVertex(mesh.to(out), mesh.next(out));
     crossed.Chains[1][1] = this->chainVertex(mesh.from(out), mesh.previous(out));
     crossed.Triangles[0] = mesh.triangleOf(out);
@@ -205,19 +205,19 @@ private:
       if (side > 0)
       {
         crossed.HasRepeated |= crossed.Chains[0][left - 2].Vertex == apex;
-        crossed.Chains[0][left++] = { apex, mesh.link(fromApex), fromApex, position };
+        crossed.Chains[0][left++] = { apex, mesh.link(fromApex), position };
         out = toApex;
       }
       else if (side < 0)
       {
         crossed.HasRepeated |= crossed.Chains[1][right - 2].Vertex == apex;
-        crossed.Chains[1][right++] = { apex, mesh.link(toApex), toApex, position };
+        crossed.Chains[1][right++] = { apex, mesh.link(toApex), position };
         out = fromApex;
       }
       else
       {
-        crossed.Chains[0][left++] = { apex, mesh.link(fromApex), fromApex, position };
-        crossed.Chains[1][right++] = { apex, mesh.link(toApex), toApex, position };
+        crossed.Chains[0][left++] = { apex, mesh.link(fromApex), position };
+        crossed.Chains[1][right++] = { apex, mesh.link(toApex), position };
         crossed.Count = count;
         crossed.ChainEnds = { left, right };
         if (apex == line.Goal || !(position == line.B))

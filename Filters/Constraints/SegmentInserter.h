@@ -87,7 +87,7 @@ private:
 
   void setInner(ChainVertex& v, Index twin)
   {
-    const Link known = this->Mesh.link(v.Inner);
+    const Link known = this->Mesh.link(this->Mesh.twin(twin));
     if (known < 0) // set below when the edge's other half-edge was found
     {
       v.Outer = known;
