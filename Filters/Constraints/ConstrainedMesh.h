@@ -7,6 +7,7 @@
 #include "Predicates/Points.h"
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace tipp
@@ -116,7 +117,13 @@ public:
   }
 
   ///@{
-  /// Marks of triangles. newMark() returns one that no triangle has.
+  /// Triangles that must be kept. Walks go through them, but no segment may be inserted there.
+  void keep(Index triangle) { this->setMark(triangle, Kept); }
+  bool isKept(Index triangle) const { return this->mark(triangle) == Kept; }
+  ///@}
+
+  ///@{
+  /// Marks of other triangles. newMark() returns one that no triangle has.
   Index newMark() { return --this->LastMark; }
   Index mark(Index triangle) const { return this->Slots[HalfEdgeMesh::offset(triangle) + 3]; }
   void setMark(Index triangle, Index mark)
@@ -126,6 +133,8 @@ public:
   ///@}
 
 private:
+  static constexpr Index Kept = std::numeric_limits<Index>::min(); ///< a mark
+
   Index* Slots = nullptr;
   const Point2* Positions = nullptr;
   Index LastMark = 0;

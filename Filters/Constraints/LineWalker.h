@@ -68,6 +68,7 @@ struct CrossedCavity
   std::array<std::vector<ChainVertex>, 2> Chains; ///< left and right
   std::size_t Count = 0;                          ///< of triangles
   std::array<std::size_t, 2> ChainEnds{};         ///< one past the last vertices of the chains
+  bool HasKept = false;                           ///< whether one of the triangles must be kept
   bool HasRepeated = false; ///< whether a chain has a vertex between two occurrences of another
 };
 
@@ -170,6 +171,7 @@ private:
     crossed.Chains[0][1] = this->chainVertex(mesh.to(out), mesh.next(out));
     crossed.Chains[1][1] = this->chainVertex(mesh.from(out), mesh.previous(out));
     crossed.Triangles[0] = mesh.triangleOf(out);
+    crossed.HasKept = mesh.isKept(crossed.Triangles[0]);
     crossed.HasRepeated = false;
     std::size_t count = 1;
     std::size_t left = 2;
@@ -196,6 +198,7 @@ private:
       const Index fromApex = mesh.previous(in);
       const Index apex = mesh.apex(in);
       crossed.Triangles[count++] = mesh.triangleOf(in);
+      crossed.HasKept |= mesh.isKept(mesh.triangleOf(in));
       const Point2 position = mesh.at(apex);
       if (apex == ConstrainedMesh::Infinite)
       {

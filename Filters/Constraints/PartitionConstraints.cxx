@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <functional>
 #include <utility>
 
@@ -129,11 +130,24 @@ private:
       HalfEdgeMesh& mesh = partition.Kernel.editMesh();
       this->Mesh.begin(mesh.slots(), mesh.end(), partition.Kernel.points(),
         std::size_t(partition.Kernel.vertexEnd()));
+      this->keepBoundary(partition.Kernel.triangleCount());
       this->findEnds(partition);
       this->insertWhole();
       this->noteOthers(partition.Border);
     }
     this->publish(partition.Bucket);
+  }
+
+  /// Tells the mesh which triangles are not interior. They are few.
+  void keepBoundary(std::size_t triangles)
+  {
+    const char* const end = this->IsBoundary + triangles;
+    const auto next = [end](const char* from)
+    { return static_cast<const char*>(std::memchr(from, 1, std::size_t(end - from))); };
+    for (const char* t = next(this->IsBoundary); t != nullptr; t = next(t + 1))
+    {
+      this->Mesh.keep(DelaunayKernel::triangle(std::size_t(t - this->IsBoundary)));
+    }
   }
 
   const ConstraintPiece& piece(std::size_t number) const
@@ -345,11 +359,6 @@ private:
     id >= 0 ? this->Touches.push_back({ piece, id }) : void();
   }
 
-  bool isInterior(Index triangle) const
-  {
-    return !this->IsBoundary[DelaunayKernel::number(triangle)];
-  }
-
   bool insert(const LineWalk& walk)
   {
     if (walk.How == LineWalk::End::Left)
@@ -359,18 +368,16 @@ private:
     if (walk.Edge != NoVertex)
     {
       this->Mesh.fix(walk.Edge);
-      return this->isInterior(ConstrainedMesh::triangleOf(walk.Edge)) ||
-        this->isInterior(ConstrainedMesh::triangleOf(this->Mesh.twin(walk.Edge)));
+      return !this->Mesh.isKept(ConstrainedMesh::triangleOf(walk.Edge)) ||
+        !this->Mesh.isKept(ConstrainedMesh::triangleOf(this->Mesh.twin(walk.Edge)));
     }
     CrossedCavity& crossed = this->Walker.crossed();
-    const auto begin = crossed.Triangles.begin();
-    const bool isInside = std::all_of(begin, begin + std::ptrdiff_t(crossed.Count),
-      [this](Index triangle) { return this->isInterior(triangle); });
-    if (isInside)
+    if (crossed.HasKept)
     {
-      this->Inserter.insert(crossed);
+      return false;
     }
-    return isInside;
+    this->Inserter.insert(crossed);
+    return true;
   }
 
   bool note(std::int64_t piece)
@@ -385,7 +392,7 @@ private:
 
   void noteTriangle(std::int64_t piece, Index triangle)
   {
-    if (!this->isInterior(triangle))
+    if (this->Mesh.isKept(triangle))
     {
       return;
     }

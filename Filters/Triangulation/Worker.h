@@ -36,8 +36,7 @@ public:
     PartitionIndex Bucket; ///< index of the worker's bucket that has the partition's points
     DelaunayKernel& Kernel;
     const Id* Ids; ///< by kernel vertex, from 1 on: the point's id; -1 for other partitions' points
-    const char*
-      IsBoundary; ///< by the kernel's triangle number: not 0 if the triangle is not interior
+    const char* IsBoundary; ///< by the kernel's triangle number: 1 if not interior, otherwise 0
     const std::vector<BorderEdge>& Border; ///< empty if all finite triangles are interior
   };
 
