@@ -117,7 +117,8 @@ public:
   }
 
   ///@{
-  /// Triangles that must be kept. Walks go through them, but no segment may be inserted there.
+  /// Triangles that must not be replaced. A walk may cross them, but no segment may be inserted
+  /// there.
   void keep(Index triangle) { this->setMark(triangle, Kept); }
   bool isKept(Index triangle) const { return this->mark(triangle) == Kept; }
   ///@}

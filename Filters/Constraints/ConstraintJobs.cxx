@@ -5,6 +5,7 @@
 #include "Constraints/ConstraintRegion.h"
 #include "Constraints/TriangleStrip.h"
 #include "Parallel/ParallelFor.h"
+#include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
 #include <array>
@@ -217,8 +218,8 @@ private:
     }
   }
 
-  /// The segment of the most frequent kind of job: one segment and a few triangles; null for
-  /// others.
+  /// If the job has only one segment and a few triangles, as most jobs do: this segment. Otherwise
+  /// null.
   const ConstraintPiece* onlySegment(std::size_t job) const
   {
     if (this->All.Pieces.size(job) != 1 ||
@@ -235,8 +236,7 @@ private:
   {
     this->Strip.follow(
       this->loaded(job), this->All.Triangles.size(job), segment.A, segment.B, this->isKnown());
-    this->Strip.triangulate(
-      [this](const Corners& corners) { this->New.push_back(fromLowest(corners)); });
+    this->Strip.triangulate([this](const Corners& corners) { this->addNew(corners); });
   }
 
   void retriangulateRegion(std::size_t job)
@@ -247,12 +247,20 @@ private:
       { this->Region.add(triangle.Ids, triangle.Positions); });
     this->Region.finish();
     this->Region.fixEdges(this->isKnown());
-    std::for_each(this->All.Pieces.begin(job), this->All.Pieces.end(job),
-      [this](std::int64_t i) { this->insertPiece(this->piece(i)); });
+    for (auto i = this->All.Pieces.begin(job); i != this->All.Pieces.end(job); ++i)
+    {
+      std::for_each(this->Split.begin(this->piece(*i)), this->Split.end(this->piece(*i)),
+        [this](const ConstraintPiece& part) { this->Region.insert(part.A, part.B); });
+    }
     for (std::size_t t = 0; t < this->Region.triangleCount(); ++t)
     {
-      this->New.push_back(fromLowest(this->Region.triangle(t)));
+      this->addNew(this->Region.triangle(t));
     }
+  }
+
+  void addNew(const Corners& corners)
+  {
+    this->New.push_back(TriangleSink<PointId>::fromLowest(corners));
   }
 
   std::size_t piece(std::int64_t number) const
@@ -279,18 +287,6 @@ private:
   {
     std::transform(
       ids.begin(), ids.end(), this->corners(crossed), [](PointId id) { return Id(id); });
-  }
-
-  static Corners fromLowest(Corners ids)
-  {
-    std::rotate(ids.begin(), std::min_element(ids.begin(), ids.end()), ids.end());
-    return ids;
-  }
-
-  void insertPiece(std::size_t piece)
-  {
-    std::for_each(this->Split.begin(piece), this->Split.end(piece),
-      [this](const ConstraintPiece& part) { this->Region.insert(part.A, part.B); });
   }
 
   PointsView Points;

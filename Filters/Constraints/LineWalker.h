@@ -68,7 +68,7 @@ struct CrossedCavity
   std::array<std::vector<ChainVertex>, 2> Chains; ///< left and right
   std::size_t Count = 0;                          ///< of triangles
   std::array<std::size_t, 2> ChainEnds{};         ///< one past the last vertices of the chains
-  bool HasKept = false;                           ///< whether one of the triangles must be kept
+  bool HasKept = false;                           ///< whether a crossed triangle must be kept
   bool HasRepeated = false; ///< whether a chain has a vertex between two occurrences of another
 };
 

@@ -138,7 +138,8 @@ private:
     this->publish(partition.Bucket);
   }
 
-  /// Tells the mesh which triangles are not interior. They are few.
+  /// Marks the boundary triangles in the mesh, so that no segment is inserted there. Most triangles
+  /// are interior, and memchr() skips them quickly.
   void keepBoundary(std::size_t triangles)
   {
     const char* const end = this->IsBoundary + triangles;

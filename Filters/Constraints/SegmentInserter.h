@@ -16,14 +16,12 @@ namespace tipp
 
 /// Inserts segments one by one into a constrained Delaunay triangulation.
 ///
-/// A segment replaces the triangles that it crosses. On each side of the segment, the vertices of
-/// these triangles form a chain from one end to the other. Every vertex sees the segment along a
-/// crossed edge, and these lines of sight do not meet.
-///
-/// A short chain is triangulated by triangulateChain(), which takes quadratic time at worst. Long
-/// chains are triangulated by ear clipping: three consecutive vertices that turn away from the
-/// segment enclose no other, because of the lines of sight. Then edges are flipped until all are
-/// locally Delaunay, as in CGAL's triangulation.
+/// A segment replaces the triangles that it crosses. The vertices of these triangles form a chain
+/// on each side of the segment, from one end to the other. A short chain is triangulated by
+/// triangulateChain(), which takes quadratic time at worst. Long chains are triangulated by ear
+/// clipping: every vertex sees the segment along a crossed edge, and these lines of sight do not
+/// meet, so three consecutive vertices that turn away from the segment enclose no other. Then edges
+/// are flipped until all are locally Delaunay, as in CGAL's triangulation.
 class SegmentInserter
 {
 public:

@@ -23,25 +23,27 @@ struct LocatedTriangle
   std::array<Point2, 3> Positions;
 };
 
-/// The triangles that one segment crosses. Without a mesh: neighbours are found by trying all
-/// triangles, so there must be few.
+/// Retriangulates the triangles that one segment crosses, if they are few. It needs no mesh,
+/// because it searches all triangles for each neighbour.
 class TriangleStrip
 {
 public:
+  /// Each step searches all triangles. ConstraintRegion takes any number.
   static constexpr std::size_t MostTriangles = 32;
 
-  /// Follows the segment from point a to point b. It crosses all the triangles, whose order does
-  /// not matter. Throws CrossingFound if it crosses an edge for which isConstraint(ids of its ends)
-  /// is true.
+  /// Follows the segment from point a to point b. `triangles` are those that it crosses, in any
+  /// order. Throws CrossingFound if it crosses an edge for which isConstraint(ids of its ends) is
+  /// true.
   template <typename IsConstraint>
   void follow(const LocatedTriangle* triangles, std::size_t count, PointId a, PointId b,
     const IsConstraint& isConstraint)
   {
-    const auto with = [](PointId id)
-    { return [id](const LocatedTriangle& t, std::size_t i) { return t.Ids[i] == id; }; };
-    const Corner start = find(triangles, count, with(a));
+    const Corner start =
+      find(triangles, count, [a](const Ids& ids, std::size_t i) { return ids[i] == a; });
+    const Corner end =
+      find(triangles, count, [b](const Ids& ids, std::size_t i) { return ids[i] == b; });
     const Point2 from = start.vertex(0).Position;
-    const Point2 to = find(triangles, count, with(b)).vertex(0).Position;
+    const Point2 to = end.vertex(0).Position;
     this->Left.assign({ start.vertex(0), start.vertex(2) });
     this->Right.assign({ start.vertex(0), start.vertex(1) });
     for (std::size_t crossed = 1; crossed < count; ++crossed)
@@ -52,10 +54,10 @@ public:
       {
         throw CrossingFound();
       }
-      const ChainVertex apex = find(triangles, count,
-        [=](const LocatedTriangle& t, std::size_t i) {
-          return t.Ids[i] == left && t.Ids[(i + 1) % 3] == right;
-        }).vertex(2);
+      const Corner next = find(triangles, count,
+        [left, right](const Ids& ids, std::size_t i)
+        { return ids[i] == left && ids[(i + 1) % 3] == right; });
+      const ChainVertex apex = next.vertex(2);
       const int side = apex.Vertex == b ? 0 : orientation(from, to, apex.Position);
       side >= 0 ? this->Left.push_back(apex) : void();
       side <= 0 ? this->Right.push_back(apex) : void();
@@ -71,7 +73,6 @@ public:
   template <typename Visit>
   void triangulate(const Visit& visit) const
   {
-    using Ids = std::array<PointId, 3>;
     triangulateChain<true>(&this->Left.front(), &this->Left.back(),
       [&](PointId first, Edge, PointId apex, Edge, PointId last)
       {
@@ -87,6 +88,7 @@ public:
   }
 
 private:
+  using Ids = std::array<PointId, 3>;
   struct Edge
   {
   };
@@ -116,7 +118,7 @@ private:
     {
       for (std::size_t i = 0; i < 3; ++i)
       {
-        if (isWanted(*t, i))
+        if (isWanted(t->Ids, i))
         {
           return { *t, i };
         }

@@ -49,9 +49,10 @@ public:
     const double difference = products[1] - products[0];
     // After an overflow the bound is infinite or NaN, and the comparison is false.
     const double bound = relative * (magnitudes[0] + magnitudes[1]) + absolute;
-    return __builtin_expect(std::fabs(difference) > bound, 1) ? difference > 0 : decide();
+    return std::fabs(difference) > bound ? difference > 0 : decide();
   }
 
+  /// Becomes `other` if the condition is true. Without a branch, which would often be mispredicted.
   void replaceIf(bool condition, const ViewAngle& other)
   {
     this->DotAndCross = condition ? other.DotAndCross : this->DotAndCross;
