@@ -33,19 +33,22 @@ vtkSmartPointer<vtkPoints> pointsOf(const std::vector<Point3>& positions)
   return points;
 }
 
-/// Creates a line for each list of successive points.
+/// Creates a line for each list of successive points. VTK needs two points in a line, and crashes
+/// on fewer (vtkPolyData::GetCellType in 9.1), so the line of a single point has it twice.
 vtkSmartPointer<vtkPolyData> linesOf(
   const std::vector<Point3>& positions, const std::vector<std::int64_t>& starts, bool isClosed)
 {
   vtkNew<vtkCellArray> lines;
   for (std::size_t i = 0; i + 1 < starts.size(); ++i)
   {
-    lines->InsertNextCell(int(starts[i + 1] - starts[i]) + (isClosed ? 1 : 0));
+    const std::int64_t count = starts[i + 1] - starts[i];
+    const bool repeatsFirst = isClosed || count == 1;
+    lines->InsertNextCell(int(count) + (repeatsFirst ? 1 : 0));
     for (std::int64_t at = starts[i]; at < starts[i + 1]; ++at)
     {
       lines->InsertCellPoint(at);
     }
-    isClosed ? lines->InsertCellPoint(starts[i]) : void();
+    repeatsFirst ? lines->InsertCellPoint(starts[i]) : void();
   }
   auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(pointsOf(positions));

@@ -44,6 +44,7 @@ void addPolygons(OGRGeometryH geometry, Zone& zone)
 std::vector<NamedZone> readZones(const std::string& path, const std::string& field)
 {
   std::vector<NamedZone> zones;
+  bool hasPolygons = false;
   forFeatures(path,
     [&](OGRFeatureH feature, OGRGeometryH geometry)
     {
@@ -59,8 +60,13 @@ std::vector<NamedZone> readZones(const std::string& path, const std::string& fie
         zone.Name = gdal().OGR_F_GetFieldAsString(feature, column);
       }
       geometry ? addPolygons(geometry, zone.Polygons) : void();
+      hasPolygons = hasPolygons || !zone.Polygons.empty();
       zones.push_back(zone);
     });
+  if (!hasPolygons)
+  {
+    throw IOError(path, "has no polygons; in a .csv file they are in a column WKT.");
+  }
   return zones;
 }
 

@@ -179,6 +179,14 @@ class Query(unittest.TestCase):
             with self.assertRaises(TypeError):
                 mesh.zones([LineString([(0, 0), (1, 1)])], "height")
 
+    def test_a_descent_that_starts_at_a_pit_has_one_point(self):
+        with tipp.open(self.path) as mesh:
+            pit = mesh.descend(self.asked[:200], "height")
+            pit = next(line for line in pit if line.pit >= 0).points[-1:]
+            down = mesh.descend(np.concatenate([pit[:, :2], pit[:, :2]]), "height")
+            for line in down:
+                np.testing.assert_array_equal(line.points, pit)
+
     def test_descents_of_a_plane_end_at_its_lowest_point(self):
         with tipp.open(self.path) as mesh, tipp.open(self.mesh) as whole:
             ours, theirs = mesh.descend(self.asked[:200], "height"), whole.descend(self.asked[:200], "height")

@@ -143,13 +143,13 @@ void addContourCommand(CLI::App& app, int& exitCode)
   command
     ->add_option("--component", arguments->Component,
       "The component of an array that has several, counted from 0")
-    ->check(CLI::NonNegativeNumber)
+    ->check(CLI::Range(0, 1000000))
     ->capture_default_str();
   CLI::Option_group* const levels = command->add_option_group("levels");
   levels->add_option("--levels", arguments->Levels, "The values of the lines, separated by commas")
     ->delimiter(',');
   levels->add_option("--interval", arguments->Interval, "Lines at all multiples of this value")
-    ->check(CLI::PositiveNumber);
+    ->check(checkPositive);
   levels->require_option(1);
   command->add_option(
     "--crs", arguments->Crs, "The reference system of a .gpkg, such as EPSG:25832");

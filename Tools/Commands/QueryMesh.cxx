@@ -16,6 +16,8 @@
 
 #include <malloc.h>
 
+#include <limits>
+
 namespace tipp
 {
 
@@ -24,7 +26,7 @@ void addQueryMeshOptions(CLI::App& command, QueryMeshArguments& arguments)
   command
     .add_option(
       "--step", arguments.Step, "The time step of arrays that vary in time, counted from 0")
-    ->check(CLI::NonNegativeNumber)
+    ->check(CLI::Range(0, std::numeric_limits<int>::max()))
     ->capture_default_str();
   command
     .add_option("--memory", arguments.Memory, "The memory limit for pieces of a partitioned mesh")

@@ -39,10 +39,6 @@ Region regionOf(const RegionArguments& arguments, const ResidentMesh& mesh)
   {
     region.Polygons.insert(region.Polygons.end(), zone.Polygons.begin(), zone.Polygons.end());
   }
-  if (region.Polygons.empty())
-  {
-    throw IOError(arguments.Polygons, "has no polygons.");
-  }
   return region;
 }
 

@@ -100,9 +100,10 @@ void summarize(const ResampleArguments& arguments, vtkRangeResampleFilter* filte
   {
     seconds += phases->GetTuple1(i);
   }
-  fmt::print("{} of {} samples from {} cells, {:.3f} s on {}, in {}\n", number("SamplesHit"),
-    number("Samples"), number("Cells"), seconds,
-    figures->GetAbstractArray("Device")->GetVariantValue(0).ToString(), arguments.Output);
+  const std::string device = figures->GetAbstractArray("Device")->GetVariantValue(0).ToString();
+  fmt::print("{} of {} samples from {} cells, {:.3f} s{}, in {}\n", number("SamplesHit"),
+    number("Samples"), number("Cells"), seconds, device.empty() ? "" : " on " + device,
+    arguments.Output);
 }
 
 /// Replaces the filter's property names in a message by the options of the command.

@@ -97,9 +97,7 @@ class MeshQuery:
         self._run(lambda: self._query.Boundary(loops))
         if loops.GetNumberOfPoints() == 0:
             return np.zeros(1, np.int64), np.zeros(0, np.int64)
-        # A line ends where it begins; the points are in the loops' order, each once.
-        starts = _starts(loops)
-        return starts - np.arange(len(starts)), vtk_to_numpy(loops.GetPointData().GetGlobalIds())
+        return _starts(loops), vtk_to_numpy(loops.GetPointData().GetGlobalIds())
 
     def contours(self, array: str, component: int, levels: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         lines = vtkPolyData()
@@ -184,4 +182,8 @@ def _polygons(rings: Rings) -> vtkPolyData:
 
 
 def _starts(lines: vtkPolyData) -> np.ndarray:
-    return vtk_to_numpy(lines.GetLines().GetOffsetsArray()).astype(np.int64)
+    """The index of the first point of each line, and the number of points. Lines repeat a point to close, or if it
+    is their only one."""
+    cells = lines.GetLines()
+    firsts = vtk_to_numpy(cells.GetConnectivityArray())[vtk_to_numpy(cells.GetOffsetsArray())[:-1]]
+    return np.append(firsts, lines.GetNumberOfPoints()).astype(np.int64)

@@ -77,6 +77,7 @@ TEST_F(TippContour, RefusesMeshesWithoutLines)
     EXPECT_FALSE(std::filesystem::exists(this->Folder.path("out.vtp")));
   };
   expect({ "--array", "depth", "--levels", "1" }, 1, "has no array 'depth'");
+  expect({ "--array", "height", "--interval", "nan" }, 2, "is not a number above 0");
   expect({ "--array", "height", "--interval", "1e-9" }, 1, "more than 1000000 levels");
   expect({ "--array", "height" }, 2, "");
 }

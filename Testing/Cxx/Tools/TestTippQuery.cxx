@@ -153,6 +153,17 @@ TEST_F(TippQuery, WritesDescentsAsLines)
   EXPECT_NE(std::string::npos, this->content("out.vtp").find("PitId"));
 }
 
+TEST_F(TippQuery, WritesADescentThatStartsAtAPit)
+{
+  this->Folder.file("pit.csv", "x,y\n0,0\n");
+  const Outcome outcome =
+    this->run({ "query", "pit.csv", "mesh.tipp", "-o", "out.vtp", "--descend", "height" });
+  ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+  const std::string vtp = this->content("out.vtp");
+  EXPECT_NE(std::string::npos, vtp.find("NumberOfPoints=\"1\""));
+  EXPECT_NE(std::string::npos, vtp.find("NumberOfLines=\"1\""));
+}
+
 TEST_F(TippQuery, RefusesConflictingOptions)
 {
   const auto expect = [this](const Words& words, const std::string& message)
@@ -190,6 +201,9 @@ TEST_F(TippQuery, RefusesInvalidQueries)
   expect({ "query", "asked.csv", "nowhere.tipp", "-o", "out.csv" }, 1, "nowhere.tipp");
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.csv", "--memory", "100" }, 1,
     "but the limit is 100 bytes; raise it, or partition the mesh into smaller pieces.");
+  this->Folder.file("none.csv", "x,y\n1,1\n");
+  expect({ "query", "mesh.tipp", "--zones", "none.csv", "-o", "out.csv" }, 1, "has no polygons");
+  expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.csv", "--step", "-1" }, 2, "--step");
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.vtu" }, 2, "does not end in .csv or .npy");
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "asked.csv" }, 1, "asked.csv");
   std::filesystem::remove(this->Folder.path("mesh.tipp/pieces/000000.vtu"));
