@@ -11,6 +11,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -19,74 +20,21 @@
 namespace tipp
 {
 
-AdcircRows::AdcircRows(const std::string& path, std::string_view text, std::string kind)
-  : Path(path)
-  , Kind(std::move(kind))
-  , Lines(text)
-  , Total(this->Lines.remainingLines())
-{
-}
-
-void AdcircRows::skipTitle()
-{
-  std::string_view title;
-  this->Lines.next(title);
-}
-
-void AdcircRows::next(std::size_t fields, const char* what)
-{
-  std::string_view line;
-  if (!this->Lines.next(line))
-  {
-    this->fail(std::string("the file ends before ") + what + "; copy it again.");
-  }
-  splitFields(line, ' ', this->Row);
-  if (this->Row.size() < fields)
-  {
-    this->fail(
-      std::string("has too few numbers for ") + what + "; check that it is " + this->Kind + ".");
-  }
-}
-
-std::int64_t AdcircRows::integer(std::size_t field) const
-{
-  std::int64_t value = 0;
-  if (!parseInteger(this->Row[field], value))
-  {
-    this->fail("'" + std::string(this->Row[field]) + "' is not an integer; correct the line.");
-  }
-  return value;
-}
-
-double AdcircRows::number(std::size_t field) const
-{
-  double value = 0;
-  if (!parseNumber(this->Row[field], value))
-  {
-    this->fail("'" + std::string(this->Row[field]) + "' is not a number; correct the line.");
-  }
-  return value;
-}
-
-void AdcircRows::fail(const std::string& problem) const
-{
-  throw IOError(this->Path, this->Lines.lineNumber(), problem);
-}
-
 namespace
 {
 
 class AdcircReader
 {
 public:
-  AdcircReader(const std::string& path, const std::string& text)
-    : Rows(path, text, "an ADCIRC grid")
+  explicit AdcircReader(const std::string& path)
+    : Rows(path, "an ADCIRC grid")
   {
   }
 
+  /// Reads all but the edges of the boundaries.
   AdcircGrid read()
   {
-    this->Rows.skipTitle();
+    this->Grid.Title = this->Rows.title();
     this->Rows.next(2, "the numbers of elements and nodes");
     const std::int64_t elements = this->Rows.integer(0);
     const std::int64_t nodes = this->Rows.integer(1);
@@ -99,6 +47,11 @@ public:
     }
     this->readNodes(nodes);
     this->readElements(elements);
+    LineReader boundaries(this->Rows.rest());
+    for (std::string_view line; boundaries.next(line);)
+    {
+      this->Grid.Boundaries.append(line) += '\n';
+    }
     return std::move(this->Grid);
   }
 
@@ -116,15 +69,6 @@ public:
       }
     }
     this->closeWeirs(grid);
-  }
-
-  /// Moves another reader of the same text, which has read the title, to the position of this one.
-  void skipLinesOf(LineReader& lines) const
-  {
-    std::string_view line;
-    while (lines.lineNumber() < this->Rows.lineNumber() && lines.next(line))
-    {
-    }
   }
 
 private:
@@ -232,7 +176,7 @@ private:
     }
   }
 
-  AdcircRows Rows;
+  NumberRows Rows;
   AdcircGrid Grid;
   std::vector<std::array<std::int64_t, 2>> WeirEnds; ///< pairs of opposite nodes
 };
@@ -241,37 +185,12 @@ private:
 
 AdcircGrid readAdcircGrid(const std::string& path)
 {
-  const std::string text = readTextFile(path);
-  return AdcircReader(path, text).read();
-}
-
-AdcircFrame readAdcircFrame(const std::string& path)
-{
-  const std::string text = readTextFile(path);
-  AdcircReader reader(path, text);
-  const AdcircGrid grid = reader.read();
-  AdcircFrame frame;
-  LineReader lines(text);
-  std::string_view line;
-  lines.next(line);
-  frame.Title = line;
-  frame.NodeNumbers.resize(grid.IndexOf.size());
-  for (const auto& [number, index] : grid.IndexOf)
-  {
-    frame.NodeNumbers[std::size_t(index)] = number;
-  }
-  reader.skipLinesOf(lines);
-  while (lines.next(line))
-  {
-    frame.Boundaries += std::string(line) + "\n";
-  }
-  return frame;
+  return AdcircReader(path).read();
 }
 
 AdcircGrid readAdcircGridAndBoundaries(const std::string& path)
 {
-  const std::string text = readTextFile(path);
-  AdcircReader reader(path, text);
+  AdcircReader reader(path);
   AdcircGrid grid = reader.read();
   reader.readBoundaries(grid);
   return grid;
@@ -310,30 +229,21 @@ std::vector<double> depthsOf(const PointTable& points)
   return depths;
 }
 
-/// The frame of the grid file `like`, or a new one if `like` is empty.
-AdcircFrame frameFor(const std::string& like, std::size_t points)
+/// The numbers of a grid's nodes, in the order of the file, and of further nodes up to `points`.
+std::vector<std::int64_t> nodeNumbers(const AdcircGrid& grid, std::size_t points)
 {
-  AdcircFrame frame;
-  if (like.empty())
+  std::vector<std::int64_t> numbers(grid.IndexOf.size());
+  std::int64_t last = numbers.empty() ? 0 : std::numeric_limits<std::int64_t>::min();
+  for (const auto& [number, index] : grid.IndexOf)
   {
-    frame.Title = "Triangles made by tipp";
+    numbers[std::size_t(index)] = number;
+    last = std::max(last, number);
   }
-  else
+  while (numbers.size() < points)
   {
-    frame = readAdcircFrame(like);
+    numbers.push_back(++last);
   }
-  if (frame.Boundaries.empty())
-  {
-    frame.Boundaries = noBoundaries;
-  }
-  std::int64_t last = frame.NodeNumbers.empty()
-    ? 0
-    : *std::max_element(frame.NodeNumbers.begin(), frame.NodeNumbers.end());
-  while (frame.NodeNumbers.size() < points)
-  {
-    frame.NodeNumbers.push_back(++last);
-  }
-  return frame;
+  return numbers;
 }
 
 } // namespace
@@ -348,7 +258,13 @@ bool writeAdcircGrid(const std::string& path, const PointTable& points, Triangle
   const std::string& like, const std::optional<PathState>& before,
   const std::function<bool()>& aborted)
 {
-  const AdcircFrame frame = frameFor(like, points.size());
+  AdcircGrid frame; // its title, node numbers and boundaries are written
+  frame.Title = "Triangles made by tipp";
+  if (!like.empty())
+  {
+    frame = readAdcircGrid(like);
+  }
+  const std::vector<std::int64_t> numbers = nodeNumbers(frame, points.size());
   const std::vector<double> depths = depthsOf(points);
   PendingFile pending(path, before);
   OutputStream out(pending.file());
@@ -362,7 +278,7 @@ bool writeAdcircGrid(const std::string& path, const PointTable& points, Triangle
         "cannot hold point " + std::to_string(i) +
           ", whose coordinates are not finite; remove it, or write .vtu.");
     }
-    line = std::to_string(frame.NodeNumbers[i]);
+    line = std::to_string(numbers[i]);
     append(line, points.XY[2 * i]);
     append(line, points.XY[2 * i + 1]);
     append(line, depths[i]);
@@ -373,11 +289,11 @@ bool writeAdcircGrid(const std::string& path, const PointTable& points, Triangle
     line = std::to_string(t + 1) + " 3";
     for (int corner = 0; corner < 3; ++corner)
     {
-      line += ' ' + std::to_string(frame.NodeNumbers[std::size_t(triangles.id(t, corner))]);
+      line += ' ' + std::to_string(numbers[std::size_t(triangles.id(t, corner))]);
     }
     out << line << "\n";
   }
-  out << frame.Boundaries;
+  out << (frame.Boundaries.empty() ? noBoundaries : frame.Boundaries);
   out.finish();
   if (aborted && aborted())
   {

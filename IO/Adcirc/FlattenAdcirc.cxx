@@ -14,15 +14,15 @@ namespace
 class ValuesReader
 {
 public:
-  ValuesReader(const std::string& path, const std::string& text, const AdcircGrid& grid)
+  ValuesReader(const std::string& path, const AdcircGrid& grid)
     : Grid(grid)
-    , Rows(path, text, "ADCIRC's output in ASCII")
+    , Rows(path, "ADCIRC's output in ASCII")
   {
   }
 
   AdcircValues read()
   {
-    this->Rows.skipTitle();
+    this->Rows.title();
     this->Rows.next(5, "the numbers of steps, nodes and values");
     const std::int64_t steps = this->Rows.integer(0);
     this->Nodes = this->Rows.integer(1);
@@ -99,7 +99,7 @@ private:
   }
 
   const AdcircGrid& Grid;
-  AdcircRows Rows;
+  NumberRows Rows;
   std::int64_t Nodes = 0;
   std::vector<std::int64_t> LastStep; ///< the last step that gave the node, or -1
   AdcircValues Result;
@@ -109,8 +109,7 @@ private:
 
 AdcircValues readAdcircValues(const std::string& path, const AdcircGrid& grid)
 {
-  const std::string text = readTextFile(path);
-  return ValuesReader(path, text, grid).read();
+  return ValuesReader(path, grid).read();
 }
 
 namespace
