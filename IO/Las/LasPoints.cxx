@@ -15,14 +15,6 @@ namespace tipp
 namespace
 {
 
-template <typename T>
-T valueAt(const char* record, std::size_t offset)
-{
-  T value;
-  std::memcpy(&value, record + offset, sizeof(T));
-  return value;
-}
-
 /// Decides which records are selected.
 class RecordFilter
 {
@@ -55,19 +47,19 @@ public:
 
   unsigned classOf(const char* record) const
   {
-    return valueAt<std::uint8_t>(record, this->Extended ? 16 : 15) & this->ClassMask;
+    return valueAt<std::uint8_t>(record + (this->Extended ? 16 : 15)) & this->ClassMask;
   }
 
   bool keeps(const char* record) const
   {
     return this->IsClassKept[this->classOf(record)] &&
-      (valueAt<std::uint8_t>(record, 15) & this->LeftOut) == 0 && this->keepsReturn(record);
+      (valueAt<std::uint8_t>(record + 15) & this->LeftOut) == 0 && this->keepsReturn(record);
   }
 
 private:
   bool keepsReturn(const char* record) const
   {
-    const unsigned byte = valueAt<std::uint8_t>(record, 14);
+    const unsigned byte = valueAt<std::uint8_t>(record + 14);
     const unsigned number = this->Extended ? byte & 15U : byte & 7U;
     const unsigned count = this->Extended ? byte >> 4 : (byte >> 3) & 7U;
     return this->Kind == LasSelection::Returns::All ||
@@ -174,20 +166,10 @@ public:
     const auto after = std::upper_bound(this->KeptBefore.begin(), this->KeptBefore.end(), points);
     const std::int64_t chunk = after - this->KeptBefore.begin() - 1;
     this->NextRecord = std::min(chunk * chunkRecords, this->Header.Points);
-    std::int64_t left = points - this->KeptBefore[std::size_t(chunk)];
-    if (left == 0)
+    auto left = std::size_t(points - this->KeptBefore[std::size_t(chunk)]);
+    for (PointBlock block; left > 0 && this->next(block, left);)
     {
-      return;
-    }
-    const std::int64_t count = std::min(chunkRecords, this->Header.Points - this->NextRecord);
-    std::vector<char> raw(std::size_t(count) * this->Header.RecordLength);
-    openLasRecords(this->Path, this->Header)
-      ->read(this->NextRecord, std::size_t(count), raw.data());
-    for (const char* record = raw.data(); left > 0 && record < raw.data() + raw.size();
-         record += this->Header.RecordLength)
-    {
-      left -= this->Filter.keeps(record) ? 1 : 0;
-      ++this->NextRecord;
+      left -= block.size();
     }
   }
 
@@ -310,7 +292,7 @@ private:
 
   double coordinate(const char* record, std::size_t axis) const
   {
-    return valueAt<std::int32_t>(record, 4 * axis) * this->Header.Scale[axis] +
+    return valueAt<std::int32_t>(record + 4 * axis) * this->Header.Scale[axis] +
       this->Header.Offset[axis];
   }
 
@@ -337,11 +319,11 @@ private:
           fill([this](const char* record) { return double(this->Filter.classOf(record)); });
           break;
         case LasColumn::Kind::Time:
-          fill([&](const char* record) { return valueAt<double>(record, column.Offset); });
+          fill([&](const char* record) { return valueAt<double>(record + column.Offset); });
           break;
         case LasColumn::Kind::Short:
           fill([&](const char* record)
-            { return double(valueAt<std::uint16_t>(record, column.Offset)); });
+            { return double(valueAt<std::uint16_t>(record + column.Offset)); });
           break;
       }
     }
