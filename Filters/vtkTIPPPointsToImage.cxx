@@ -2,7 +2,7 @@
 #include "vtkTIPPPointsToImage.h"
 
 #include "Constraints/SourceConstraints.h"
-#include "Dem/StreamedDem.h"
+#include "Dem/MakeDem.h"
 #include "Output/FilterPipeline.h"
 #include "Points/PointStream.h"
 #include "Vtk/ReadDataSet.h"

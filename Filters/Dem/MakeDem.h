@@ -6,19 +6,24 @@
 #include "Dem/TerrainSampler.h"
 #include "Dem/TileStore.h"
 #include "Duplicates/ResolveDuplicates.h"
+#include "Points/PointStream.h"
 #include "Points/PointTable.h"
 #include "Predicates/Points.h"
 #include "Raster/RasterFile.h"
 #include "Triangulation/Triangulate.h"
 #include "vtkTIPPFiltersModule.h"
 
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace tipp
 {
+
+struct OutOfCoreStatistics;
 
 /// The parameters of a raster of points.
 struct DemRequest
@@ -58,6 +63,17 @@ struct DemFigures
 /// is no finite point, and std::invalid_argument for invalid constraints.
 VTKTIPPFILTERS_EXPORT DemFigures makeDem(PointTable points, const DemRequest& request,
   const std::function<bool(double)>& progress, TerrainSettings& settings, SampledBands& samples);
+
+/// Makes a raster in memory from the points of a stream, with the same values as the other
+/// makeDem(). `memory` limits the bytes for points and triangles; what does not fit is spilled to a
+/// temporary folder; 0: no limit. Throws IOError, std::runtime_error if there is no finite point or
+/// a band's column is missing, and std::invalid_argument for invalid constraints.
+VTKTIPPFILTERS_EXPORT DemFigures makeDem(std::unique_ptr<PointStream> points,
+  const DemRequest& request, std::uint64_t memory, const std::function<bool(double)>& progress,
+  TerrainSettings& settings, SampledBands& samples);
+
+/// Returns the figures of an out-of-core run that made a raster.
+VTKTIPPFILTERS_EXPORT DemFigures figuresOf(const OutOfCoreStatistics& statistics);
 
 /// A source of the tiles of a raster. Several threads may call its functions at once.
 struct TileSource

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -82,13 +81,12 @@ struct RasterSink::Tile
 struct RasterSink::Part
 {
   /// Returns a tile, created if necessary. Most triangles are in the same tile as the previous one.
-  Tile& tileAt(std::int64_t row, std::int64_t column)
+  Tile& tileAt(std::int64_t number)
   {
-    const TileIndex index(row, column);
-    if (index != this->LastIndex)
+    if (number != this->LastNumber)
     {
-      this->LastTile = &this->Tiles[index];
-      this->LastIndex = index;
+      this->LastTile = &this->Tiles[number];
+      this->LastNumber = number;
     }
     return *this->LastTile;
   }
@@ -96,9 +94,8 @@ struct RasterSink::Part
   std::vector<double> XYZ;
   std::vector<std::vector<double>> Columns; ///< only the columns that bands need
   TerrainPoints Points;
-  using TileIndex = std::pair<std::int64_t, std::int64_t>; ///< row from the north, column
-  std::map<TileIndex, Tile> Tiles;
-  TileIndex LastIndex{ -1, -1 };
+  std::map<std::int64_t, Tile> Tiles; ///< by number
+  std::int64_t LastNumber = -1;
   Tile* LastTile = nullptr;
   std::int64_t Assigned = 0; ///< triangles in all tiles
   std::string Border;        ///< BorderPixels, each followed by its values
@@ -193,7 +190,7 @@ void RasterSink::take(const std::string& name, const double* rows, const PointRo
     count += std::int64_t(run.Triangles);
   }
   Tile all;
-  all.Window = this->windowOf(part.XYZ);
+  all.Window = this->windowOf(boundsOf(rows, layout.Words, points));
   const auto bandCount = std::int64_t(bands.Bands.size());
   if (all.Window.Columns * all.Window.Rows * bandCount > fewPixels + 2 * count)
   {
@@ -217,12 +214,12 @@ void RasterSink::sampleByTile(Part& part, const std::vector<TriangleRange>& tria
 {
   const auto sampleAll = [&]
   {
-    for (const auto& [index, tile] : part.Tiles)
+    for (const auto& [number, tile] : part.Tiles)
     {
       this->sampleTile(part, tile);
     }
     part.Tiles.clear();
-    part.LastIndex = { -1, -1 };
+    part.LastNumber = -1;
     part.Assigned = 0;
   };
   const std::int64_t mostAssigned = fewPixels + 4 * part.Points.Count;
@@ -238,65 +235,38 @@ void RasterSink::sampleByTile(Part& part, const std::vector<TriangleRange>& tria
 }
 
 /// The window of samples that may lie in a box; empty if there are none.
-RasterWindow RasterSink::windowOf(const double* low, const double* high) const
+RasterWindow RasterSink::windowOf(const Box2& box) const
 {
   const RasterGrid& grid = this->Settings.Grid;
   const auto [column, lastColumn] =
-    samplesBetween(low[0], high[0], grid.West, grid.Pixel[0], this->Margins[0], grid.Columns);
+    samplesBetween(box.xmin, box.xmax, grid.West, grid.Pixel[0], this->Margins[0], grid.Columns);
   const auto [row, lastRow] =
-    samplesBetween(low[1], high[1], grid.South, grid.Pixel[1], this->Margins[1], grid.Rows);
+    samplesBetween(box.ymin, box.ymax, grid.South, grid.Pixel[1], this->Margins[1], grid.Rows);
   return column > lastColumn || row > lastRow
     ? RasterWindow()
     : RasterWindow{ column, row, lastColumn - column + 1, lastRow - row + 1 };
 }
 
-RasterWindow RasterSink::windowOf(const std::vector<double>& xyz) const
-{
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  double low[2] = { infinity, infinity };
-  double high[2] = { -infinity, -infinity };
-  for (std::size_t i = 0; i < xyz.size(); i += 3)
-  {
-    for (std::size_t axis = 0; axis < 2; ++axis)
-    {
-      low[axis] = std::min(low[axis], xyz[i + axis]);
-      high[axis] = std::max(high[axis], xyz[i + axis]);
-    }
-  }
-  return xyz.empty() ? RasterWindow() : this->windowOf(low, high);
-}
-
 void RasterSink::addTriangle(Part& part, const std::int32_t* corners) const
 {
-  const RasterGrid& grid = this->Settings.Grid;
   const double* const a = &part.XYZ[3 * std::size_t(corners[0])];
   const double* const b = &part.XYZ[3 * std::size_t(corners[1])];
   const double* const c = &part.XYZ[3 * std::size_t(corners[2])];
-  const double low[2] = { std::min({ a[0], b[0], c[0] }), std::min({ a[1], b[1], c[1] }) };
-  const double high[2] = { std::max({ a[0], b[0], c[0] }), std::max({ a[1], b[1], c[1] }) };
-  const RasterWindow window = this->windowOf(low, high);
+  const RasterWindow window =
+    this->windowOf({ std::min({ a[0], b[0], c[0] }), std::min({ a[1], b[1], c[1] }),
+      std::max({ a[0], b[0], c[0] }), std::max({ a[1], b[1], c[1] }) });
   if (window.Columns == 0)
   {
     return;
   }
-  const std::int64_t right = window.Column + window.Columns;
-  const std::int64_t end = window.Row + window.Rows;
-  const std::int64_t first = (grid.Rows - end) / RasterTileSize;
-  const std::int64_t last = (grid.Rows - 1 - window.Row) / RasterTileSize;
-  for (std::int64_t tileRow = first; tileRow <= last; ++tileRow)
-  {
-    const std::int64_t top = grid.Rows - tileRow * RasterTileSize;
-    const std::int64_t row = std::max({ top - RasterTileSize, window.Row });
-    for (std::int64_t i = window.Column / RasterTileSize; i <= (right - 1) / RasterTileSize; ++i)
+  forTiles(this->Settings.Grid, window,
+    [&](std::int64_t number, const RasterWindow& inTile)
     {
-      Tile& tile = part.tileAt(tileRow, i);
+      Tile& tile = part.tileAt(number);
       tile.Ids.insert(tile.Ids.end(), corners, corners + 3);
       ++part.Assigned;
-      const std::int64_t column = std::max(window.Column, i * RasterTileSize);
-      tile.extend({ column, row, std::min(right, (i + 1) * RasterTileSize) - column,
-        std::min(top, end) - row });
-    }
-  }
+      tile.extend(inTile);
+    });
 }
 
 void RasterSink::sampleTile(Part& part, const Tile& tile) const

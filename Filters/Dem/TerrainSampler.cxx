@@ -5,6 +5,7 @@
 #include "Resample/Interpolate.h"
 #include "Resample/Resample.h"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -94,6 +95,22 @@ void allocate(const TerrainSettings& settings, std::int64_t count, SampledBands&
 }
 
 } // namespace
+
+Box2 boundsOf(const double* rows, std::size_t words, std::size_t points)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Box2 box{ infinity, infinity, -infinity, -infinity };
+  for (std::size_t i = 0; i < points; ++i)
+  {
+    const Point2 p{ rows[i * words], rows[i * words + 1] };
+    if (isFinite(p))
+    {
+      box = { std::min(box.xmin, p.x), std::min(box.ymin, p.y), std::max(box.xmax, p.x),
+        std::max(box.ymax, p.y) };
+    }
+  }
+  return box;
+}
 
 Lattice latticeOf(const RasterGrid& grid)
 {

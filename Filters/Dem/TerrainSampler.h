@@ -3,8 +3,10 @@
 #define tippTerrainSampler_h
 
 #include "Dem/DemBands.h"
+#include "Predicates/Points.h"
 #include "Raster/RasterFile.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -23,6 +25,10 @@ struct TerrainPoints
   std::int64_t Count = 0;             ///< number of points
   std::vector<const double*> Columns; ///< indexed by DemBand::Column
 };
+
+/// The bounding box of the points with finite x and y; xmin > xmax if there are none. `rows` holds
+/// `words` numbers per point, x and y first.
+Box2 boundsOf(const double* rows, std::size_t words, std::size_t points);
 
 /// The settings of a raster: grid, bands and precision.
 struct TerrainSettings

@@ -63,32 +63,23 @@ private:
     std::uint32_t Set = 0;     ///< number of pixels set
     std::uint32_t Encoded = 0; ///< size in bytes of the encoded tile; 0: not finished
   };
-  /// A window within one tile, as a part of a larger window's values.
-  struct Source
-  {
-    RasterWindow Window;
-    std::size_t First; ///< index of its first value
-    std::size_t Width; ///< width of the larger window
-  };
   class Lock;
 
+  void setPixels(const RasterWindow& window, const std::vector<unsigned char>& isSet,
+    const std::vector<std::vector<double>>& values, bool replaces);
   template <typename Word>
-  void setAs(const Source& source, const std::vector<unsigned char>& isSet,
-    const std::vector<std::vector<double>>& values);
-  template <typename Word>
-  void setIfMissingAs(std::int64_t pixel, const double* values);
+  void setInTile(std::int64_t tile, const RasterWindow& part, const RasterWindow& window,
+    const std::vector<unsigned char>& isSet, const std::vector<std::vector<double>>& values,
+    bool replaces);
   template <typename Word>
   void readAs(const RasterWindow& tile, std::vector<std::vector<double>>& values) const;
-  template <typename Word>
   void finish(std::int64_t tile);
-  void writeFinished(std::int64_t tile, const FinishedTile& finished);
 
-  std::int64_t tileAt(std::int64_t column, std::int64_t row) const;
   std::uint64_t pixelBytes() const;
   std::uint64_t encodedRoom() const;
   std::uint64_t begin(std::int64_t tile) const;
   std::uint64_t offset(
-    std::int64_t column, std::int64_t row, std::size_t band, std::size_t wordSize) const;
+    std::int64_t tile, const RasterWindow& part, std::size_t band, std::size_t wordSize) const;
   State stateOf(std::int64_t tile) const;
   void writeState(std::int64_t tile, State state) const;
   void readAt(std::uint64_t offset, void* words, std::size_t bytes) const;

@@ -2,7 +2,7 @@
 #include "Binding.h"
 
 #include "Constraints/ReadConstraintFile.h"
-#include "Dem/StreamedDem.h"
+#include "Dem/MakeDem.h"
 #include "Parallel/ParallelFor.h"
 #include "Points/PointStream.h"
 

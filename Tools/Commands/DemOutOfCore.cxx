@@ -6,7 +6,7 @@
 #include "Commands/Report.h"
 #include "Constraints/ConstrainedPoints.h"
 #include "Dem/RasterSink.h"
-#include "Dem/StreamedDem.h"
+#include "Dem/MakeDem.h"
 #include "Dem/SurfaceSink.h"
 #include "Files/IOError.h"
 #include "OutOfCore/ScratchFiles.h"
