@@ -2,13 +2,12 @@
 #include "vtkRangeResampleFilter.h"
 
 #include "OpenCL/Devices.h"
+#include "Output/FilterPipeline.h"
 #include "Ranks/Communicator.h"
-#include "Sampling/RangeResampleRun.h"
 #include "Sampling/SamplingRange.h"
 
 #include "vtkCommand.h"
 #include "vtkDataArraySelection.h"
-#include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -166,39 +165,6 @@ int vtkRangeResampleFilter::RequestUpdateExtent(
   tipp::askForPiece(inputs[0]->GetInformationObject(0),
     several ? this->Controller->GetLocalProcessId() * count : 0,
     several ? this->Controller->GetNumberOfProcesses() * count : count);
-  return 1;
-}
-
-int vtkRangeResampleFilter::RequestData(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  vtkInformation* const outInfo = outputs->GetInformationObject(0);
-  vtkImageData* const output = vtkImageData::GetData(outInfo);
-  output->Initialize();
-  try
-  {
-    tipp::Communicator ranks(this->Controller);
-    Run run(this, ranks);
-    run.start(inputs[0], outInfo);
-    run.addPieces(inputs[0]);
-    run.finish(output);
-  }
-  catch (const std::exception& error)
-  {
-    output->Initialize();
-    const auto* const failure = dynamic_cast<const tipp::RankFailure*>(&error);
-    if (failure && failure->Aborted)
-    {
-      return 1;
-    }
-    vtkErrorMacro("Resampling: " << error.what());
-    return 0;
-  }
-  vtkDataObject* const input = vtkDataObject::GetData(inputs[0]);
-  if (this->PassFieldArrays && input)
-  {
-    output->GetFieldData()->PassData(input->GetFieldData());
-  }
   return 1;
 }
 
