@@ -55,9 +55,7 @@ void vtkRangeResampleFilter::SetDeviceChoice(const char* text)
   try
   {
     const tipp::DeviceChoice choice = tipp::parseDeviceChoice(text ? text : "auto");
-    this->SetDevice(choice.Kind == tipp::Device::OpenMP ? DEVICE_OPENMP
-        : choice.Kind == tipp::Device::OpenCL           ? DEVICE_OPENCL
-                                                        : DEVICE_AUTO);
+    this->SetDevice(int(choice.Kind));
     this->SetDeviceIndex(choice.Index);
     this->SetDeviceName(choice.Name.empty() ? nullptr : choice.Name.c_str());
   }

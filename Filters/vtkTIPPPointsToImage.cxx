@@ -35,7 +35,6 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 namespace
 {
 
-/// xmin, xmax, ymin, ymax of the finite points.
 /// West, east, south and north of the finite points that are included.
 class Bounds
 {

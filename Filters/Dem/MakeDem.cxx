@@ -118,15 +118,13 @@ DemFigures makeDem(PointTable points, const DemRequest& request,
   figures.DisagreeingPositions =
     resolveDuplicates(points, triangulation.Duplicates, request.Duplicates);
   const std::vector<double> xyz = takeXYZ(points, settings.Bands);
-  TerrainPoints terrain;
-  terrain.XYZ = xyz.data();
-  terrain.Count = std::int64_t(xyz.size() / 3); // including the points of the constraints
+  TerrainColumns values;
   for (const PointTable::Column& column : points.Columns)
   {
-    terrain.Columns.push_back(column.Values.data());
+    values.push_back(column.Values.data());
   }
   const auto report = [&progress](double done) { return !progress || progress(0.5 + 0.3 * done); };
-  figures.Aborted = !sampleTerrain(settings, terrain, meshOf(xyz, triangulation), report, samples);
+  figures.Aborted = !sampleTerrain(settings, values, meshOf(xyz, triangulation), report, samples);
   return figures;
 }
 

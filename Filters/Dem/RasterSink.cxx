@@ -2,13 +2,11 @@
 #include "Dem/RasterSink.h"
 
 #include "Dem/SurfaceSink.h"
-#include "Files/InputFile.h"
-#include "Files/OutputFile.h"
+#include "OutOfCore/ScratchFiles.h"
 #include "Resample/Claims.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <utility>
 
@@ -22,7 +20,7 @@ constexpr std::int64_t fewPixels = 4 * RasterTileSize * RasterTileSize;
 /// The suffix of files with samples at borders, appended to the run's own path.
 constexpr const char* borderSuffix = ".border.";
 
-/// A pixel on the border of a part. In files it is followed by the values of its bands.
+/// A pixel on the border of a part.
 struct BorderPixel
 {
   std::int64_t Pixel;
@@ -92,13 +90,14 @@ struct RasterSink::Part
   }
 
   std::vector<double> XYZ;
-  std::vector<std::vector<double>> Columns; ///< only the columns that bands need
-  TerrainPoints Points;
+  std::vector<std::vector<double>> Values; ///< of the columns that bands need
+  TerrainColumns Columns;
   std::map<std::int64_t, Tile> Tiles; ///< by number
   std::int64_t LastNumber = -1;
   Tile* LastTile = nullptr;
   std::int64_t Assigned = 0; ///< triangles in all tiles
-  std::string Border;        ///< BorderPixels, each followed by its values
+  std::vector<BorderPixel> Border;
+  std::vector<double> BorderValues; ///< for each BorderPixel the values of its bands
 };
 
 RasterSink::RasterSink(
@@ -161,17 +160,15 @@ void RasterSink::take(const std::string& name, const double* rows, const PointRo
     part.XYZ[3 * i + 1] = row[1];
     part.XYZ[3 * i + 2] = bands.HasElevation ? row[2 + bands.Elevation] : 0;
   }
-  part.Columns.resize(layout.Words - 3);
-  part.Points.XYZ = part.XYZ.data();
-  part.Points.Count = std::int64_t(points);
-  part.Points.Columns.resize(part.Columns.size());
+  part.Values.resize(layout.Words - 3);
+  part.Columns.resize(part.Values.size());
   for (const DemBand& band : bands.Bands)
   {
     if (band.Is != DemBand::Kind::Column)
     {
       continue;
     }
-    std::vector<double>& column = part.Columns[band.Column];
+    std::vector<double>& column = part.Values[band.Column];
     if (column.empty())
     {
       column.resize(points);
@@ -179,7 +176,7 @@ void RasterSink::take(const std::string& name, const double* rows, const PointRo
       {
         column[i] = rows[i * layout.Words + 2 + band.Column];
       }
-      part.Points.Columns[band.Column] = column.data();
+      part.Columns[band.Column] = column.data();
     }
   }
   // Most triangles of a part are adjacent, so they fill most of its window. Triangles at the border
@@ -222,7 +219,7 @@ void RasterSink::sampleByTile(Part& part, const std::vector<TriangleRange>& tria
     part.LastNumber = -1;
     part.Assigned = 0;
   };
-  const std::int64_t mostAssigned = fewPixels + 4 * part.Points.Count;
+  const std::int64_t mostAssigned = fewPixels + 4 * std::int64_t(part.XYZ.size() / 3);
   for (const TriangleRange& run : triangles)
   {
     for (std::size_t t = 0; t < run.Triangles; ++t)
@@ -275,23 +272,21 @@ void RasterSink::sampleTile(Part& part, const Tile& tile) const
   const RasterWindow& window = tile.Window;
   SimplexMesh mesh;
   mesh.Points = part.XYZ.data();
-  mesh.PointCount = part.Points.Count;
+  mesh.PointCount = std::int64_t(part.XYZ.size() / 3);
   mesh.Ids = tile.Ids.data();
   mesh.Cells = std::int64_t(tile.Ids.size() / 3);
   Lattice lattice = latticeOf(grid);
   lattice.Extent = { int(window.Column), int(window.Column + window.Columns - 1), int(window.Row),
     int(window.Row + window.Rows - 1), 0, 0 };
-  const SampledPart sampled = samplePart(this->Settings, part.Points, mesh, lattice);
+  const SampledPart sampled = samplePart(this->Settings, part.Columns, mesh, lattice);
   for (const BorderSample& at : sampled.Border)
   {
     const std::int64_t column = window.Column + at.Sample % window.Columns;
     const std::int64_t row = window.Row + at.Sample / window.Columns;
-    const BorderPixel pixel{ row * grid.Columns + column, at.Key };
-    part.Border.append(reinterpret_cast<const char*>(&pixel), sizeof pixel);
+    part.Border.push_back({ row * grid.Columns + column, at.Key });
     for (const std::vector<double>& values : sampled.Bands.Values)
     {
-      part.Border.append(
-        reinterpret_cast<const char*>(&values[std::size_t(at.Sample)]), sizeof(double));
+      part.BorderValues.push_back(values[std::size_t(at.Sample)]);
     }
   }
   this->Store->set(window, sampled.IsInside, sampled.Bands.Values);
@@ -301,9 +296,8 @@ void RasterSink::saveBorder(const Part& part, const std::string& name) const
 {
   if (!part.Border.empty())
   {
-    OutputFile file(this->Files + borderSuffix + name);
-    file.write(0, part.Border.data(), part.Border.size());
-    file.close();
+    writeCheckedFile(this->Files + borderSuffix + name,
+      [&part](SaveArchive& archive) { archive(part.Border, part.BorderValues); });
   }
 }
 
@@ -311,7 +305,6 @@ void RasterSink::saveBorder(const Part& part, const std::string& name) const
 void RasterSink::answerBorders()
 {
   const std::size_t bands = this->Settings.Bands.Bands.size();
-  const std::size_t bytes = sizeof(BorderPixel) + bands * sizeof(double);
   struct Entry
   {
     BorderPixel Sample;
@@ -321,17 +314,16 @@ void RasterSink::answerBorders()
   std::vector<double> values;
   for (const std::string& path : filesBeginning(this->Files + borderSuffix))
   {
-    const InputFile file(path);
-    std::string content(std::size_t(file.size()), '\0');
-    file.read(0, content.data(), content.size());
-    for (std::size_t at = 0; at + bytes <= content.size(); at += bytes)
+    const Bytes bytes = readCheckedFile(path);
+    LoadArchive archive(bytes);
+    std::vector<BorderPixel> pixels;
+    std::vector<double> ofPixels;
+    archive(pixels, ofPixels);
+    for (const BorderPixel& pixel : pixels)
     {
-      entries.push_back({ {}, values.size() });
-      std::memcpy(&entries.back().Sample, content.data() + at, sizeof(BorderPixel));
-      values.resize(values.size() + bands);
-      std::memcpy(values.data() + entries.back().At, content.data() + at + sizeof(BorderPixel),
-        bands * sizeof(double));
+      entries.push_back({ pixel, entries.size() * bands });
     }
+    values.insert(values.end(), ofPixels.begin(), ofPixels.end());
   }
   std::sort(entries.begin(), entries.end(),
     [](const Entry& a, const Entry& b)

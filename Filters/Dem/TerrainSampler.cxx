@@ -36,8 +36,8 @@ Corners cornersOf(const SimplexMesh& mesh, std::int64_t triangle)
 class BandArrays
 {
 public:
-  BandArrays(const TerrainSettings& settings, const TerrainPoints& points, const SimplexMesh& mesh,
-    int threads, SampledBands& samples)
+  BandArrays(const TerrainSettings& settings, const TerrainColumns& columns,
+    const SimplexMesh& mesh, int threads, SampledBands& samples)
   {
     const std::vector<DemBand>& bands = settings.Bands.Bands;
     this->Derived.resize(bands.size());
@@ -51,8 +51,7 @@ public:
       {
         this->derive(bands[i].Is, mesh, threads, this->Derived[i]);
       }
-      attribute.Values =
-        attribute.OfCells ? this->Derived[i].data() : points.Columns[bands[i].Column];
+      attribute.Values = attribute.OfCells ? this->Derived[i].data() : columns[bands[i].Column];
       this->Attributes.push_back(attribute);
     }
   }
@@ -121,7 +120,7 @@ Lattice latticeOf(const RasterGrid& grid)
   return lattice;
 }
 
-bool sampleTerrain(const TerrainSettings& settings, const TerrainPoints& points,
+bool sampleTerrain(const TerrainSettings& settings, const TerrainColumns& columns,
   const SimplexMesh& mesh, const Report& progress, SampledBands& samples)
 {
   if (mesh.Cells > std::numeric_limits<std::int32_t>::max())
@@ -130,20 +129,20 @@ bool sampleTerrain(const TerrainSettings& settings, const TerrainPoints& points,
       " triangles, and 2147483647 can be sampled in memory: give --memory.");
   }
   allocate(settings, settings.Grid.pixels(), samples);
-  const BandArrays arrays(settings, points, mesh, settings.Threads, samples);
+  const BandArrays arrays(settings, columns, mesh, settings.Threads, samples);
   std::vector<unsigned char> valid(std::size_t(settings.Grid.pixels()), 0);
   ResampleOptions options = optionsFor(settings.Threads, valid);
   options.Progress = progress;
   return !resample(mesh, latticeOf(settings.Grid), arrays.Attributes, options).Aborted;
 }
 
-SampledPart samplePart(const TerrainSettings& settings, const TerrainPoints& points,
+SampledPart samplePart(const TerrainSettings& settings, const TerrainColumns& columns,
   const SimplexMesh& mesh, const Lattice& part)
 {
   SampledPart sampled;
   allocate(settings, part.samples(), sampled.Bands);
   sampled.IsInside.resize(std::size_t(part.samples()));
-  const BandArrays arrays(settings, points, mesh, 1, sampled.Bands);
+  const BandArrays arrays(settings, columns, mesh, 1, sampled.Bands);
   InterpolationOptions options;
   options.Valid = sampled.IsInside.data();
   if (samplePartDirectly(mesh, part, arrays.Attributes, options, sampled.Border).Overlapping)

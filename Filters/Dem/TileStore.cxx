@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
+#include "Ranks/Archive.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -54,26 +55,26 @@ double decode(Word stored)
   return stored == 0 ? std::numeric_limits<double>::quiet_NaN() : double(number);
 }
 
+int openStore(const std::string& path)
+{
+  const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor < 0)
+  {
+    failToWrite(path);
+  }
+  return descriptor;
+}
+
 } // namespace
 
 TileStore::TileStore(const std::string& path, const RasterGrid& grid, std::size_t bands,
   bool isSingle, FinishTile finish)
-  : Path(path)
+  : File(openStore(path), path)
   , Grid(grid)
   , Bands(bands)
   , IsSingle(isSingle)
   , Finish(std::move(finish))
-  , Descriptor(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666))
 {
-  if (this->Descriptor < 0)
-  {
-    failToWrite(path);
-  }
-}
-
-TileStore::~TileStore()
-{
-  close(this->Descriptor);
 }
 
 std::uint64_t TileStore::pixelBytes() const
@@ -125,7 +126,7 @@ public:
   {
     if (!this->setFileLock(F_WRLCK))
     {
-      failToWrite(store.Path);
+      failToWrite(store.File.path());
     }
   }
   ~Lock() { this->setFileLock(F_UNLCK); }
@@ -143,7 +144,7 @@ private:
     int result = 0;
     do
     {
-      result = fcntl(this->Store.Descriptor, setFileLockCommand, &lock);
+      result = fcntl(this->Store.File.descriptor(), setFileLockCommand, &lock);
     } while (result < 0 && errno == EINTR);
     return result == 0;
   }
@@ -162,19 +163,15 @@ TileStore::State TileStore::stateOf(std::int64_t tile) const
 
 void TileStore::writeState(std::int64_t tile, State state) const
 {
-  this->writeAt(std::uint64_t(tile) * sizeof state, &state, sizeof state);
+  this->File.write(std::uint64_t(tile) * sizeof state, &state, sizeof state);
 }
 
 /// Reads from the file; bytes beyond its end are 0.
 void TileStore::readAt(std::uint64_t offset, void* words, std::size_t bytes) const
 {
-  const std::size_t done = readUpTo(this->Descriptor, this->Path, offset, words, bytes);
+  const std::size_t done =
+    readUpTo(this->File.descriptor(), this->File.path(), offset, words, bytes);
   std::memset(static_cast<char*>(words) + done, 0, bytes - done);
-}
-
-void TileStore::writeAt(std::uint64_t offset, const void* words, std::size_t bytes) const
-{
-  writeFully(this->Descriptor, this->Path, offset, words, bytes);
 }
 
 /// Sets pixels of a tile; `part` is the part of `window` in it. After a process was killed the
@@ -213,7 +210,7 @@ void TileStore::setInTile(std::int64_t tile, const RasterWindow& part, const Ras
         to[i] = isChosen ? encode<Word>(values[band][from + i]) : to[i];
       }
     }
-    this->writeAt(at, rows.data(), rows.size() * sizeof(Word));
+    this->File.write(at, rows.data(), rows.size() * sizeof(Word));
     state.Set += band == 0 ? added : 0;
   }
   this->writeState(tile, state);
@@ -231,13 +228,11 @@ void TileStore::finish(std::int64_t tile)
   std::vector<std::vector<double>> values;
   this->read(window, values);
   const FinishedTile finished = this->Finish(window, values);
-  std::string bytes(reinterpret_cast<const char*>(&finished.Filled), sizeof finished.Filled);
+  SaveArchive bytes;
+  bytes(finished.Filled);
   for (const EncodedTile::Band& band : finished.Encoded.Bands)
   {
-    const std::uint64_t size = band.Bytes.size();
-    bytes.append(reinterpret_cast<const char*>(&band.Sums), sizeof band.Sums);
-    bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
-    bytes += band.Bytes;
+    bytes(band.Sums, band.Bytes);
   }
   if (bytes.size() > this->encodedRoom() ||
     bytes.size() > std::numeric_limits<std::uint32_t>::max())
@@ -245,14 +240,14 @@ void TileStore::finish(std::int64_t tile)
     return; // it is encoded when the raster is written
   }
   const std::uint64_t begin = this->begin(tile);
-  this->writeAt(begin + this->pixelBytes(), bytes.data(), bytes.size());
+  this->File.write(begin + this->pixelBytes(), bytes.data(), bytes.size());
   State state = this->stateOf(tile);
   state.Encoded = std::uint32_t(bytes.size());
   this->writeState(tile, state);
 #ifdef FALLOC_FL_PUNCH_HOLE
   // If the file system cannot punch holes, the pixels just keep their space. Most have not been
   // written to the disk yet.
-  const int ignored = fallocate(this->Descriptor, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE,
+  const int ignored = fallocate(this->File.descriptor(), FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE,
     off_t(begin), off_t(this->pixelBytes()));
   static_cast<void>(ignored);
 #endif
@@ -265,28 +260,15 @@ std::optional<FinishedTile> TileStore::readFinished(std::int64_t tile) const
   {
     return std::nullopt;
   }
-  std::string bytes(std::min<std::uint64_t>(state.Encoded, this->encodedRoom()), '\0');
+  Bytes bytes(std::min<std::uint64_t>(state.Encoded, this->encodedRoom()));
   this->readAt(this->begin(tile) + this->pixelBytes(), bytes.data(), bytes.size());
-  std::size_t at = 0;
-  const auto take = [&](void* to, std::size_t size)
-  {
-    if (size > bytes.size() - at)
-    {
-      throw IOError(this->Path, "is damaged; remove it and start again.");
-    }
-    std::memcpy(to, bytes.data() + at, size);
-    at += size;
-  };
+  LoadArchive archive(bytes);
   FinishedTile finished;
-  take(&finished.Filled, sizeof finished.Filled);
-  for (std::size_t band = 0; band < this->Bands; ++band)
+  finished.Encoded.Bands.resize(this->Bands);
+  archive(finished.Filled);
+  for (EncodedTile::Band& band : finished.Encoded.Bands)
   {
-    EncodedTile::Band& to = finished.Encoded.Bands.emplace_back();
-    std::uint64_t size = 0;
-    take(&to.Sums, sizeof to.Sums);
-    take(&size, sizeof size);
-    to.Bytes.resize(std::min<std::uint64_t>(size, bytes.size()));
-    take(to.Bytes.data(), size);
+    archive(band.Sums, band.Bytes);
   }
   return finished;
 }

@@ -2,6 +2,7 @@
 #ifndef tippTileStore_h
 #define tippTileStore_h
 
+#include "Files/OutputFile.h"
 #include "Raster/RasterFile.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -38,9 +39,6 @@ public:
   /// tiles are not encoded. Throws IOError.
   TileStore(const std::string& path, const RasterGrid& grid, std::size_t bands, bool isSingle,
     FinishTile finish);
-  ~TileStore();
-  TileStore(const TileStore&) = delete;
-  TileStore& operator=(const TileStore&) = delete;
 
   /// Sets the pixels of a window that `isSet` marks; `values` has the window's pixels for each
   /// band.
@@ -83,14 +81,12 @@ private:
   State stateOf(std::int64_t tile) const;
   void writeState(std::int64_t tile, State state) const;
   void readAt(std::uint64_t offset, void* words, std::size_t bytes) const;
-  void writeAt(std::uint64_t offset, const void* words, std::size_t bytes) const;
 
-  const std::string Path;
+  const OutputFile File; ///< open for reading, too
   const RasterGrid Grid;
   const std::size_t Bands;
   const bool IsSingle;
   const FinishTile Finish;
-  int Descriptor;
   mutable std::array<std::mutex, 64> Mutexes; ///< each guards some of the tiles
 };
 

@@ -162,9 +162,7 @@ private:
     {
       settings.NoData = filter->NoDataValue;
     }
-    settings.Device.Kind = filter->Device == DEVICE_OPENMP ? tipp::Device::OpenMP
-      : filter->Device == DEVICE_OPENCL                    ? tipp::Device::OpenCL
-                                                           : tipp::Device::Auto;
+    settings.Device.Kind = static_cast<tipp::Device>(filter->Device);
     settings.Device.Index = filter->DeviceIndex;
     settings.Device.Name = filter->DeviceName ? filter->DeviceName : "";
     settings.Threads = tipp::threadCount(filter->NumberOfThreads);

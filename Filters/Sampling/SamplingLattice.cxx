@@ -49,6 +49,10 @@ std::array<int, 3> chosenDimensions(
   return dimensions;
 }
 
+namespace
+{
+
+/// Returns the number of samples along each axis of a range.
 std::array<int, 3> rangeDimensions(const std::array<double, 6>& bounds,
   const std::array<int, 3>& dimensions, const std::array<double, 3>& delta)
 {
@@ -86,6 +90,8 @@ std::array<int, 3> rangeDimensions(const std::array<double, 6>& bounds,
   }
   return result;
 }
+
+} // namespace
 
 Lattice rangeLattice(const std::array<double, 6>& bounds, const std::array<int, 3>& dimensions,
   const std::array<double, 3>& delta)

@@ -31,8 +31,7 @@ public:
   {
   }
 
-  /// Reads all but the edges of the boundaries.
-  AdcircGrid read()
+  AdcircGrid read(bool readsBoundaries)
   {
     this->Grid.Title = this->Rows.title();
     this->Rows.next(2, "the numbers of elements and nodes");
@@ -52,11 +51,13 @@ public:
     {
       this->Grid.Boundaries.append(line) += '\n';
     }
+    readsBoundaries ? this->readBoundaries() : void();
     return std::move(this->Grid);
   }
 
-  /// Call after read(): the open boundaries, then the land boundaries.
-  void readBoundaries(AdcircGrid& grid)
+private:
+  /// Reads the open boundaries, then the land boundaries.
+  void readBoundaries()
   {
     for (const bool isLand : { false, true })
     {
@@ -65,14 +66,13 @@ public:
       this->Rows.next(1, "the number of boundary nodes");
       for (std::int64_t i = 0; i < boundaries; ++i)
       {
-        this->readBoundary(isLand, grid);
+        this->readBoundary(isLand);
       }
     }
-    this->closeWeirs(grid);
+    this->closeWeirs();
   }
 
-private:
-  void readBoundary(bool isLand, AdcircGrid& grid)
+  void readBoundary(bool isLand)
   {
     this->Rows.next(isLand ? 2 : 1, "the number of a boundary's nodes and its kind");
     const std::int64_t count = this->Rows.integer(0);
@@ -85,10 +85,10 @@ private:
     for (std::int64_t i = 0; i < count; ++i)
     {
       this->Rows.next(isWeir ? 2 : 1, "a node of a boundary");
-      front.push_back(this->node(grid, 0));
+      front.push_back(this->node(0));
       if (isWeir)
       {
-        back.push_back(this->node(grid, 1));
+        back.push_back(this->node(1));
       }
     }
     if (kind == island && !front.empty() && front.front() != front.back())
@@ -104,17 +104,17 @@ private:
     {
       for (std::size_t i = 1; i < nodes.size(); ++i)
       {
-        grid.BoundaryEdges.push_back({ nodes[i - 1], nodes[i] });
+        this->Grid.BoundaryEdges.push_back({ nodes[i - 1], nodes[i] });
       }
     }
   }
 
   /// The two sides of a weir are continued by other boundaries; where they are not, an edge is
   /// added between their ends.
-  void closeWeirs(AdcircGrid& grid) const
+  void closeWeirs()
   {
     std::unordered_map<std::int64_t, int> degrees;
-    for (const auto& edge : grid.BoundaryEdges)
+    for (const auto& edge : this->Grid.BoundaryEdges)
     {
       ++degrees[edge[0]];
       ++degrees[edge[1]];
@@ -123,18 +123,18 @@ private:
     {
       if (ends[0] != ends[1] && degrees[ends[0]] % 2 != 0 && degrees[ends[1]] % 2 != 0)
       {
-        grid.BoundaryEdges.push_back(ends);
+        this->Grid.BoundaryEdges.push_back(ends);
         ++degrees[ends[0]];
         ++degrees[ends[1]];
       }
     }
   }
 
-  std::int64_t node(const AdcircGrid& grid, std::size_t field) const
+  std::int64_t node(std::size_t field) const
   {
     const std::int64_t number = this->Rows.integer(field);
-    const auto node = grid.IndexOf.find(number);
-    if (node == grid.IndexOf.end())
+    const auto node = this->Grid.IndexOf.find(number);
+    if (node == this->Grid.IndexOf.end())
     {
       this->Rows.fail("names node " + std::to_string(number) + ", which is not given.");
     }
@@ -171,7 +171,7 @@ private:
       }
       for (std::size_t corner = 2; corner < 5; ++corner)
       {
-        this->Grid.Triangles.push_back(this->node(this->Grid, corner));
+        this->Grid.Triangles.push_back(this->node(corner));
       }
     }
   }
@@ -185,15 +185,12 @@ private:
 
 AdcircGrid readAdcircGrid(const std::string& path)
 {
-  return AdcircReader(path).read();
+  return AdcircReader(path).read(false);
 }
 
 AdcircGrid readAdcircGridAndBoundaries(const std::string& path)
 {
-  AdcircReader reader(path);
-  AdcircGrid grid = reader.read();
-  reader.readBoundaries(grid);
-  return grid;
+  return AdcircReader(path).read(true);
 }
 
 namespace

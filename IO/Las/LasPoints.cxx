@@ -216,7 +216,7 @@ private:
     const std::int64_t shares = this->Header.Compressed
       ? 1
       : std::clamp<std::int64_t>(count / chunkRecords, 1, this->Threads);
-    resize(block, points + std::size_t(count));
+    block.resize(points + std::size_t(count));
     this->Shares.resize(std::size_t(shares));
     if (!this->Records)
     {
@@ -238,18 +238,9 @@ private:
       points += share.Points;
       this->Dropped += share.Count - std::int64_t(share.Points);
     }
-    resize(block, points);
+    block.resize(points);
     this->NextRecord += count;
     return points;
-  }
-
-  static void resize(PointBlock& block, std::size_t points)
-  {
-    block.XY.resize(2 * points);
-    for (std::vector<double>& column : block.Columns)
-    {
-      column.resize(points);
-    }
   }
 
   /// Moves points within a block, towards its beginning.

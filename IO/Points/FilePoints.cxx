@@ -33,12 +33,8 @@ public:
   bool next(PointBlock& block, std::size_t most) override
   {
     const auto count = std::size_t(std::min(std::int64_t(most), this->Count - this->At));
-    block.XY.resize(2 * count);
     block.Columns.resize(this->InSpace ? 1 : 0);
-    for (std::vector<double>& z : block.Columns)
-    {
-      z.resize(count);
-    }
+    block.resize(count);
     for (std::size_t i = 0; i < count; ++i)
     {
       block.XY[2 * i] = this->Numbers.uniform();
@@ -119,12 +115,8 @@ public:
   bool next(PointBlock& block, std::size_t most) override
   {
     const std::size_t count = std::min(most, std::size_t(this->Reader.rows() - this->Row));
-    block.XY.resize(2 * count);
     block.Columns.resize(this->Width - 2);
-    for (std::vector<double>& column : block.Columns)
-    {
-      column.resize(count);
-    }
+    block.resize(count);
     if (this->Reader.type() == NpyReader::Type::Float32)
     {
       this->read<float>(block);

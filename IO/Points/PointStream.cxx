@@ -67,11 +67,7 @@ public:
   {
     while (this->At < this->Files.size() && this->Points < this->End)
     {
-      block.XY.clear();
-      for (std::vector<double>& column : block.Columns)
-      {
-        column.clear();
-      }
+      block.resize(0);
       const auto left = std::uint64_t(this->End - this->Points);
       if (this->Files[this->At]->next(block, std::size_t(std::min<std::uint64_t>(most, left))))
       {

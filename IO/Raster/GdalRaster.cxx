@@ -121,38 +121,6 @@ private:
   char** List = nullptr;
 };
 
-class SpatialReference
-{
-public:
-  explicit SpatialReference(const std::string& text)
-    : Reference(gdal().OSRNewSpatialReference(nullptr))
-  {
-    gdal().CPLErrorReset();
-    if (gdal().OSRSetFromUserInput(this->Reference, text.c_str()) != OGRERR_NONE)
-    {
-      gdal().OSRDestroySpatialReference(this->Reference);
-      const std::string start = text.substr(0, 60);
-      throw IOError("'" + start +
-        "' is no coordinate reference system that GDAL knows; give --crs "
-        "EPSG:CODE.");
-    }
-  }
-  ~SpatialReference() { gdal().OSRDestroySpatialReference(this->Reference); }
-  SpatialReference(const SpatialReference&) = delete;
-  SpatialReference& operator=(const SpatialReference&) = delete;
-
-  OGRSpatialReferenceH handle() const { return this->Reference; }
-
-private:
-  OGRSpatialReferenceH Reference;
-};
-
-struct CloseDataSet
-{
-  void operator()(void* data) const { gdal().GDALClose(data); }
-};
-using DataSet = std::unique_ptr<void, CloseDataSet>;
-
 template <typename T>
 T valueAt(const std::string& bytes, std::size_t offset)
 {
@@ -168,13 +136,20 @@ T valueAt(const std::string& bytes, std::size_t offset)
 /// The bytes of a GeoTIFF of one pixel that GDAL writes with this reference system.
 std::string smallGeoTiff(const std::string& crs)
 {
-  const SpatialReference reference(crs);
+  const GdalOwner<OGRSpatialReferenceH, &GdalLibrary::OSRDestroySpatialReference> reference(
+    gdal().OSRNewSpatialReference(nullptr));
+  gdal().CPLErrorReset();
+  if (gdal().OSRSetFromUserInput(reference.get(), crs.c_str()) != OGRERR_NONE)
+  {
+    throw IOError("'" + crs.substr(0, 60) +
+      "' is no coordinate reference system that GDAL knows; give --crs EPSG:CODE.");
+  }
   const char* const path = "/vsimem/tipp-geokeys.tif";
-  DataSet data(
+  GdalDataSet data(
     gdal().GDALCreate(gdal().GDALGetDriverByName("GTiff"), path, 1, 1, 1, GDT_Byte, nullptr));
   double transform[6] = { 0, 1, 0, 0, 0, -1 };
   if (!data || gdal().GDALSetGeoTransform(data.get(), transform) != CE_None ||
-    gdal().GDALSetSpatialRef(data.get(), reference.handle()) != CE_None)
+    gdal().GDALSetSpatialRef(data.get(), reference.get()) != CE_None)
   {
     fail(crs.substr(0, 60), "cannot be described as a GeoTIFF");
   }
@@ -243,7 +218,7 @@ void requireConversion(const RasterDescription& description, const std::string& 
     {
       OptionList options;
       options.set("COMPRESS", upperCase(description.Compression));
-      const DataSet data(gdal().GDALCreate(gdal().GDALGetDriverByName("GTiff"),
+      const GdalDataSet data(gdal().GDALCreate(gdal().GDALGetDriverByName("GTiff"),
         "/vsimem/tipp-conversion.tif", 1, 1, 1, GDT_Float32, options.list()));
       if (!data || (description.CloudOptimized && !gdal().GDALGetDriverByName("COG")))
       {
@@ -280,11 +255,11 @@ void convertGeoTiff(const std::string& from, const std::string& to,
       options.set("ZLEVEL", "1"); // higher levels take twice the time and gain a few per cent
     }
   }
-  const DataSet plain(gdal().GDALOpen(from.c_str(), GA_ReadOnly));
-  DataSet copy(plain ? gdal().GDALCreateCopy(
-                         gdal().GDALGetDriverByName(description.CloudOptimized ? "COG" : "GTiff"),
-                         to.c_str(), plain.get(), 0, options.list(), nullptr, nullptr)
-                     : nullptr);
+  const GdalDataSet plain(gdal().GDALOpen(from.c_str(), GA_ReadOnly));
+  GdalDataSet copy(plain ? gdal().GDALCreateCopy(gdal().GDALGetDriverByName(
+                                                   description.CloudOptimized ? "COG" : "GTiff"),
+                             to.c_str(), plain.get(), 0, options.list(), nullptr, nullptr)
+                         : nullptr);
   if (!copy)
   {
     fail(path, "cannot be written as a GeoTIFF of this kind");
@@ -299,7 +274,7 @@ void convertGeoTiff(const std::string& from, const std::string& to,
 RasterInfo readRasterInfo(const std::string& path)
 {
   gdal().CPLErrorReset();
-  const DataSet data(gdal().GDALOpen(path.c_str(), GA_ReadOnly));
+  const GdalDataSet data(gdal().GDALOpen(path.c_str(), GA_ReadOnly));
   if (!data)
   {
     fail(path, "cannot be read as a raster");

@@ -65,7 +65,8 @@ struct RasterDescription
   std::string Compression = "deflate"; ///< for a GeoTIFF: deflate, lzw, zstd or none
   bool CloudOptimized = false; ///< whether a GeoTIFF has overviews and the layout called COG
   int Threads = 1;             ///< threads that compress
-  /// A GeoTIFF that may exceed this size, in bytes, is written as a BigTIFF.
+  /// A GeoTIFF that may exceed this size, in bytes, is written as a BigTIFF. Must not exceed the
+  /// default, the range of 32-bit offsets.
   std::uint64_t ClassicBytes = std::numeric_limits<std::uint32_t>::max();
 };
 
