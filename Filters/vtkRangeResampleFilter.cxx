@@ -109,14 +109,10 @@ int vtkRangeResampleFilter::RequestInformation(
     const std::array<double, 3> delta = tipp::toArray(this->Delta);
     const bool byDelta = delta[0] > 0 || delta[1] > 0 || delta[2] > 0;
     // Bounds are not needed if all SamplingDimensions are given; any valid ones will do.
-    std::array<double, 6> bounds = { 0, 1, 0, 1, 0, 1 };
-    if (!this->UseInputBounds)
-    {
-      bounds = tipp::toArray(this->SamplingBounds);
-    }
-    const int* const given = this->SamplingDimensions;
-    const bool chosen = std::count(given, given + 3, 0) > 0;
+    std::array<double, 6> bounds = this->UseInputBounds ? std::array<double, 6>{ 0, 1, 0, 1, 0, 1 }
+                                                        : tipp::toArray(this->SamplingBounds);
     std::array<int, 3> dimensions = tipp::toArray(this->SamplingDimensions);
+    const bool chosen = std::count(dimensions.begin(), dimensions.end(), 0) > 0;
     if (chosen || (byDelta && this->UseInputBounds))
     {
       if (this->NumberOfInputPieces > 1)

@@ -5,7 +5,6 @@
 #include "Dem/RasterSink.h"
 #include "Dem/SurfaceSink.h"
 #include "Files/TemporaryFiles.h"
-#include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Parallel/ParallelFor.h"
 #include "Resample/SimplexMesh.h"
 
@@ -84,7 +83,7 @@ TerrainSettings makeTerrainSettings(
   return settings;
 }
 
-DemFigures makeDem(PointTable points, const DemRequest& request,
+OutOfCoreStatistics makeDem(PointTable points, const DemRequest& request,
   const std::function<bool(double)>& progress, TerrainSettings& settings, SampledBands& samples)
 {
   const std::vector<std::string> columns = points.names();
@@ -96,7 +95,7 @@ DemFigures makeDem(PointTable points, const DemRequest& request,
   requireElevation(request.Duplicates, columns);
   settings = makeTerrainSettings(request, bounds, columns);
   requireMemory(settings);
-  DemFigures figures;
+  OutOfCoreStatistics figures;
   TriangulationOptions options;
   options.Threads = request.Threads;
   options.MaximumEdge = request.MaximumEdge;
@@ -232,7 +231,7 @@ OutOfCoreStatistics triangulateInto(TriangleConsumer& taker, PointStream& points
   return triangulateOutOfCore(points, folder.path() + "/dem", options);
 }
 
-DemFigures makeWithin(std::unique_ptr<PointStream> points, const DemRequest& request,
+OutOfCoreStatistics makeWithin(std::unique_ptr<PointStream> points, const DemRequest& request,
   std::uint64_t memory, const std::function<bool(double)>& progress, TerrainSettings& settings,
   SampledBands& samples)
 {
@@ -243,21 +242,18 @@ DemFigures makeWithin(std::unique_ptr<PointStream> points, const DemRequest& req
   double before = 0; // last reported progress
   const auto report = [&](double done)
   { return !progress || progress(before + (1 - before) * done); };
-  DemFigures figures;
   if (request.Constraints)
   {
     SurfaceSink surface(*request.Constraints);
     if (needsSurface(*request.Constraints, request.Bands))
     {
-      figures.Aborted = triangulateInto(surface, *points, options,
-        [&](double done) {
-          return report(0.4 * done);
-        }).Aborted;
+      const OutOfCoreStatistics made =
+        triangulateInto(surface, *points, options, [&](double done) { return report(0.4 * done); });
+      if (made.Aborted)
+      {
+        return made;
+      }
       before = 0.4;
-    }
-    if (figures.Aborted)
-    {
-      return figures;
     }
     auto constrained = std::make_unique<ConstrainedPoints>(
       std::move(points), *request.Constraints, "the constraints", request.Threads);
@@ -279,18 +275,12 @@ DemFigures makeWithin(std::unique_ptr<PointStream> points, const DemRequest& req
     },
     nullptr);
   options.MaximumEdge = request.MaximumEdge;
-  return figuresOf(triangulateInto(sink, *points, options, report));
+  return triangulateInto(sink, *points, options, report);
 }
 
 } // namespace
 
-DemFigures figuresOf(const OutOfCoreStatistics& made)
-{
-  return { made.Points, made.Triangles, made.Duplicates, made.DisagreeingPositions, made.Rejected,
-    made.WithoutElevation, made.Aborted };
-}
-
-DemFigures makeDem(std::unique_ptr<PointStream> points, const DemRequest& request,
+OutOfCoreStatistics makeDem(std::unique_ptr<PointStream> points, const DemRequest& request,
   std::uint64_t memory, const std::function<bool(double)>& progress, TerrainSettings& settings,
   SampledBands& samples)
 {

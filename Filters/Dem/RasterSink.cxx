@@ -119,18 +119,13 @@ std::uint64_t RasterSink::fileBytes(
   return std::uint64_t(std::min(bytes, most));
 }
 
-void RasterSink::findMargins()
-{
-  const RasterGrid& grid = this->Settings.Grid;
-  this->Margins = { marginOf(grid.West, grid.Pixel[0], grid.Columns),
-    marginOf(grid.South, grid.Pixel[1], grid.Rows) };
-}
-
 void RasterSink::begin(
   const Box2& bounds, const std::vector<std::string>& columns, const std::string& files)
 {
   this->Settings = this->Make(bounds, columns);
-  this->findMargins();
+  const RasterGrid& grid = this->Settings.Grid;
+  this->Margins = { marginOf(grid.West, grid.Pixel[0], grid.Columns),
+    marginOf(grid.South, grid.Pixel[1], grid.Rows) };
   this->Files = files;
   FinishTile finish;
   if (this->Encoding)
@@ -143,7 +138,7 @@ void RasterSink::begin(
       return tile;
     };
   }
-  this->Store = std::make_unique<TileStore>(files + ".pixels", this->Settings.Grid,
+  this->Store = std::make_unique<TileStore>(files + ".pixels", grid,
     this->Settings.Bands.Bands.size(), this->Settings.IsSingle, std::move(finish));
 }
 
@@ -202,7 +197,11 @@ void RasterSink::take(const std::string& name, const double* rows, const PointRo
     }
     this->sampleTile(part, all);
   }
-  this->saveBorder(part, name);
+  if (!part.Border.empty())
+  {
+    writeCheckedFile(this->Files + borderSuffix + name,
+      [&part](SaveArchive& archive) { archive(part.Border, part.BorderValues); });
+  }
 }
 
 /// Assigns each triangle to every tile that it may meet. Long triangles meet many tiles, so
@@ -290,15 +289,6 @@ void RasterSink::sampleTile(Part& part, const Tile& tile) const
     }
   }
   this->Store->set(window, sampled.IsInside, sampled.Bands.Values);
-}
-
-void RasterSink::saveBorder(const Part& part, const std::string& name) const
-{
-  if (!part.Border.empty())
-  {
-    writeCheckedFile(this->Files + borderSuffix + name,
-      [&part](SaveArchive& archive) { archive(part.Border, part.BorderValues); });
-  }
 }
 
 /// Sets the samples on the border of the whole mesh, which no triangle contains.

@@ -76,14 +76,6 @@ private:
   std::vector<std::vector<double>> Derived;
 };
 
-ResampleOptions optionsFor(int threads, std::vector<unsigned char>& valid)
-{
-  ResampleOptions options;
-  options.Threads = threads;
-  options.Valid = valid.data();
-  return options;
-}
-
 void allocate(const TerrainSettings& settings, std::int64_t count, SampledBands& samples)
 {
   samples.Values.resize(settings.Bands.Bands.size());
@@ -131,7 +123,9 @@ bool sampleTerrain(const TerrainSettings& settings, const TerrainColumns& column
   allocate(settings, settings.Grid.pixels(), samples);
   const BandArrays arrays(settings, columns, mesh, settings.Threads, samples);
   std::vector<unsigned char> valid(std::size_t(settings.Grid.pixels()), 0);
-  ResampleOptions options = optionsFor(settings.Threads, valid);
+  ResampleOptions options;
+  options.Threads = settings.Threads;
+  options.Valid = valid.data();
   options.Progress = progress;
   return !resample(mesh, latticeOf(settings.Grid), arrays.Attributes, options).Aborted;
 }

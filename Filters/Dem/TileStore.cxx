@@ -107,15 +107,8 @@ std::uint64_t TileStore::offset(
   return this->begin(tile) + wordSize * (band * std::uint64_t(tilePixels) + std::uint64_t(pixel));
 }
 
-#ifdef F_OFD_SETLKW
-// Open-file-description locks: with locks owned by processes, threads of two processes could look
-// like a deadlock to the system.
-constexpr int setFileLockCommand = F_OFD_SETLKW;
-#else
-constexpr int setFileLockCommand = F_SETLKW;
-#endif
-
-/// Locks a tile against other threads and processes.
+/// Locks a tile against other threads and processes. The lock belongs to the open file: with locks
+/// owned by processes, threads of two processes could look like a deadlock to the system.
 class TileStore::Lock
 {
 public:
@@ -144,7 +137,7 @@ private:
     int result = 0;
     do
     {
-      result = fcntl(this->Store.File.descriptor(), setFileLockCommand, &lock);
+      result = fcntl(this->Store.File.descriptor(), F_OFD_SETLKW, &lock);
     } while (result < 0 && errno == EINTR);
     return result == 0;
   }
@@ -244,13 +237,11 @@ void TileStore::finish(std::int64_t tile)
   State state = this->stateOf(tile);
   state.Encoded = std::uint32_t(bytes.size());
   this->writeState(tile, state);
-#ifdef FALLOC_FL_PUNCH_HOLE
   // If the file system cannot punch holes, the pixels just keep their space. Most have not been
   // written to the disk yet.
   const int ignored = fallocate(this->File.descriptor(), FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE,
     off_t(begin), off_t(this->pixelBytes()));
   static_cast<void>(ignored);
-#endif
 }
 
 std::optional<FinishedTile> TileStore::readFinished(std::int64_t tile) const

@@ -378,12 +378,6 @@ FileLines::FileLines(const std::string& path, std::size_t blockBytes)
     }
   }
   this->readMore();
-  this->startText();
-}
-
-/// Skips the byte order mark and estimates the number of lines.
-void FileLines::startText()
-{
   requireText(this->Path, { this->Buffer.data(), this->End });
   struct stat status = {};
   if (this->End > 0 && this->File && fstat(fileno(this->File.get()), &status) == 0 &&

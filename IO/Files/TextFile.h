@@ -125,7 +125,6 @@ public:
 private:
   bool readMore();
   void endDecompression();
-  void startText();
 
   std::string Path;
   std::string Program; ///< the decompressor; empty: none

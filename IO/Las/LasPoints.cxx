@@ -260,24 +260,29 @@ private:
   /// Writes the selected points of a share to their positions in the block.
   void decode(Share& share, PointBlock& block) const
   {
-    const std::size_t length = this->Header.RecordLength;
     share.Points = 0;
     for (std::int64_t done = 0; done < share.Count; done += chunkRecords)
     {
       const auto count = std::size_t(std::min(chunkRecords, share.Count - done));
-      share.Raw.resize(count * length);
-      this->Records->read(share.First + done, count, share.Raw.data());
-      share.Kept.clear();
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        const char* const record = share.Raw.data() + i * length;
-        if (this->Filter.keeps(record))
-        {
-          share.Kept.push_back(record);
-        }
-      }
+      this->select(*this->Records, share.First + done, count, share);
       this->write(share.Kept, block, share.To + share.Points);
       share.Points += share.Kept.size();
+    }
+  }
+
+  /// Reads records, and finds the selected ones.
+  void select(LasRecords& records, std::int64_t first, std::size_t count, Share& share) const
+  {
+    const std::size_t length = this->Header.RecordLength;
+    share.Raw.resize(count * length);
+    records.read(first, count, share.Raw.data());
+    share.Kept.clear();
+    for (const char* record = share.Raw.data(); count > 0; record += length, --count)
+    {
+      if (this->Filter.keeps(record))
+      {
+        share.Kept.push_back(record);
+      }
     }
   }
 
@@ -329,18 +334,12 @@ private:
     }
     const auto records = openLasRecords(this->Path, this->Header);
     std::vector<std::int64_t> before{ 0 };
-    std::vector<char> raw;
+    Share share;
     for (std::int64_t first = 0; first < this->Header.Points; first += chunkRecords)
     {
       const auto count = std::size_t(std::min(chunkRecords, this->Header.Points - first));
-      raw.resize(count * this->Header.RecordLength);
-      records->read(first, count, raw.data());
-      std::int64_t kept = before.back();
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        kept += this->Filter.keeps(raw.data() + i * this->Header.RecordLength) ? 1 : 0;
-      }
-      before.push_back(kept);
+      this->select(*records, first, count, share);
+      before.push_back(before.back() + std::int64_t(share.Kept.size()));
     }
     this->KeptBefore = std::move(before);
   }

@@ -102,7 +102,6 @@ private:
   void chooseColumns(const PointOptions& options);
   bool parse(std::string_view field, double& value) const;
   double coordinate(std::size_t index) const;
-  void checkCount() const;
 
   std::string Path;
   FileLines Lines;

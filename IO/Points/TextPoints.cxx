@@ -224,7 +224,12 @@ bool TextRows::next()
   {
     if (!this->nextLine())
     {
-      this->checkCount();
+      if (this->Count && *this->Count != this->Rows)
+      {
+        throw IOError(this->Path,
+          "announces " + std::to_string(*this->Count) + " points in its first line and holds " +
+            std::to_string(this->Rows) + "; copy it again or correct the line.");
+      }
       return false;
     }
     this->split();
@@ -277,16 +282,6 @@ TextRows::Value TextRows::value(const Column& column, double& value) const
   }
   value = std::numeric_limits<double>::quiet_NaN();
   return isMissing(field) ? Value::Missing : Value::Text;
-}
-
-void TextRows::checkCount() const
-{
-  if (this->Count && *this->Count != this->Rows)
-  {
-    throw IOError(this->Path,
-      "announces " + std::to_string(*this->Count) + " points in its first line and holds " +
-        std::to_string(this->Rows) + "; copy it again or correct the line.");
-  }
 }
 
 bool isTextPath(const std::string& path)

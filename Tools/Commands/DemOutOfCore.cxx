@@ -192,7 +192,7 @@ int runDemOutOfCore(
   reportLeftOut(statistics.LeftOut, statistics.ThinnedOut);
   report.PeakMemory = largestMemory(usage);
   report.Ranks = ranks.size();
-  report.Figures = figuresOf(statistics);
+  report.Figures = statistics;
   report.MakeSeconds += totalSeconds(statistics.Phases);
   finishDem(arguments, report);
   return Success;
