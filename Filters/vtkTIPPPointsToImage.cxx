@@ -5,6 +5,7 @@
 #include "Dem/MakeDem.h"
 #include "Output/FilterPipeline.h"
 #include "Points/PointStream.h"
+#include "Sampling/SamplingRange.h"
 #include "Vtk/ReadDataSet.h"
 
 #include "vtkDoubleArray.h"
@@ -126,9 +127,8 @@ tipp::RasterGrid vtkTIPPPointsToImage::Grid(vtkPointSet* points) const
   tipp::RasterRequest request;
   request.Resolution = this->Resolution;
   request.Aligned = this->AlignToResolution;
-  std::array<double, 4> bounds{};
-  this->UseInputBounds ? void(bounds = this->PointBounds(points))
-                       : void(std::copy_n(this->SamplingBounds, 4, bounds.begin()));
+  const std::array<double, 4> bounds =
+    this->UseInputBounds ? this->PointBounds(points) : tipp::toArray(this->SamplingBounds);
   if (request.Resolution == 0)
   {
     const double area = (bounds[1] - bounds[0]) * (bounds[3] - bounds[2]);

@@ -287,7 +287,7 @@ void TileStore::readAs(const RasterWindow& tile, std::vector<std::vector<double>
   }
 }
 
-void TileStore::setPixels(const RasterWindow& window, const std::vector<unsigned char>& isSet,
+void TileStore::set(const RasterWindow& window, const std::vector<unsigned char>& isSet,
   const std::vector<std::vector<double>>& values, bool replaces)
 {
   forTiles(this->Grid, window,
@@ -298,12 +298,6 @@ void TileStore::setPixels(const RasterWindow& window, const std::vector<unsigned
     });
 }
 
-void TileStore::set(const RasterWindow& window, const std::vector<unsigned char>& isSet,
-  const std::vector<std::vector<double>>& values)
-{
-  this->setPixels(window, isSet, values, true);
-}
-
 void TileStore::setIfMissing(std::int64_t pixel, const double* values)
 {
   std::vector<std::vector<double>> bands;
@@ -311,8 +305,7 @@ void TileStore::setIfMissing(std::int64_t pixel, const double* values)
   {
     bands.push_back({ values[band] });
   }
-  this->setPixels(
-    { pixel % this->Grid.Columns, pixel / this->Grid.Columns, 1, 1 }, { 1 }, bands, false);
+  this->set({ pixel % this->Grid.Columns, pixel / this->Grid.Columns, 1, 1 }, { 1 }, bands, false);
 }
 
 void TileStore::read(const RasterWindow& tile, std::vector<std::vector<double>>& values) const

@@ -41,9 +41,9 @@ public:
     FinishTile finish);
 
   /// Sets the pixels of a window that `isSet` marks; `values` has the window's pixels for each
-  /// band.
+  /// band. Unless it `replaces`, pixels that are already set stay.
   void set(const RasterWindow& window, const std::vector<unsigned char>& isSet,
-    const std::vector<std::vector<double>>& values);
+    const std::vector<std::vector<double>>& values, bool replaces = true);
 
   /// Sets a pixel, given by its index in the grid, if it has not been set. `values` has one value
   /// per band.
@@ -63,8 +63,6 @@ private:
   };
   class Lock;
 
-  void setPixels(const RasterWindow& window, const std::vector<unsigned char>& isSet,
-    const std::vector<std::vector<double>>& values, bool replaces);
   template <typename Word>
   void setInTile(std::int64_t tile, const RasterWindow& part, const RasterWindow& window,
     const std::vector<unsigned char>& isSet, const std::vector<std::vector<double>>& values,

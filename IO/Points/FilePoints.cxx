@@ -157,6 +157,7 @@ private:
   {
     constexpr std::size_t rowsAtOnce = 1 << 15;
     const std::size_t count = block.size();
+    const std::size_t third = this->third();
     double* const xy = block.XY.data();
     double* const further = this->Width == 3 ? block.Columns[0].data() : nullptr;
     std::vector<Scalar> rows(this->Width * std::min(rowsAtOnce, count));
@@ -171,7 +172,7 @@ private:
         xy[2 * (first + i) + 1] = row[this->Choice.Y];
         if (further)
         {
-          further[first + i] = row[this->third()];
+          further[first + i] = row[third];
         }
       }
     }
