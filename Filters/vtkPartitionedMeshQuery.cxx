@@ -9,7 +9,6 @@
 #include "Query/RankAnswer.h"
 #include "Query/ResidentMesh.h"
 #include "Ranks/Communicator.h"
-#include "Sampling/RangeResampleRun.h"
 
 #include "vtkCellData.h"
 #include "vtkCharArray.h"

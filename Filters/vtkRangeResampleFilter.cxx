@@ -2,13 +2,12 @@
 #include "vtkRangeResampleFilter.h"
 
 #include "OpenCL/Devices.h"
+#include "Output/FilterPipeline.h"
 #include "Ranks/Communicator.h"
-#include "Sampling/RangeResampleRun.h"
 #include "Sampling/SamplingRange.h"
 
 #include "vtkCommand.h"
 #include "vtkDataArraySelection.h"
-#include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -56,9 +55,7 @@ void vtkRangeResampleFilter::SetDeviceChoice(const char* text)
   try
   {
     const tipp::DeviceChoice choice = tipp::parseDeviceChoice(text ? text : "auto");
-    this->SetDevice(choice.Kind == tipp::Device::OpenMP ? DEVICE_OPENMP
-        : choice.Kind == tipp::Device::OpenCL           ? DEVICE_OPENCL
-                                                        : DEVICE_AUTO);
+    this->SetDevice(int(choice.Kind));
     this->SetDeviceIndex(choice.Index);
     this->SetDeviceName(choice.Name.empty() ? nullptr : choice.Name.c_str());
   }
@@ -112,14 +109,10 @@ int vtkRangeResampleFilter::RequestInformation(
     const std::array<double, 3> delta = tipp::toArray(this->Delta);
     const bool byDelta = delta[0] > 0 || delta[1] > 0 || delta[2] > 0;
     // Bounds are not needed if all SamplingDimensions are given; any valid ones will do.
-    std::array<double, 6> bounds = { 0, 1, 0, 1, 0, 1 };
-    if (!this->UseInputBounds)
-    {
-      bounds = tipp::toArray(this->SamplingBounds);
-    }
-    const int* const given = this->SamplingDimensions;
-    const bool chosen = std::count(given, given + 3, 0) > 0;
+    std::array<double, 6> bounds = this->UseInputBounds ? std::array<double, 6>{ 0, 1, 0, 1, 0, 1 }
+                                                        : tipp::toArray(this->SamplingBounds);
     std::array<int, 3> dimensions = tipp::toArray(this->SamplingDimensions);
+    const bool chosen = std::count(dimensions.begin(), dimensions.end(), 0) > 0;
     if (chosen || (byDelta && this->UseInputBounds))
     {
       if (this->NumberOfInputPieces > 1)
@@ -166,39 +159,6 @@ int vtkRangeResampleFilter::RequestUpdateExtent(
   tipp::askForPiece(inputs[0]->GetInformationObject(0),
     several ? this->Controller->GetLocalProcessId() * count : 0,
     several ? this->Controller->GetNumberOfProcesses() * count : count);
-  return 1;
-}
-
-int vtkRangeResampleFilter::RequestData(
-  vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
-{
-  vtkInformation* const outInfo = outputs->GetInformationObject(0);
-  vtkImageData* const output = vtkImageData::GetData(outInfo);
-  output->Initialize();
-  try
-  {
-    tipp::Communicator ranks(this->Controller);
-    Run run(this, ranks);
-    run.start(inputs[0], outInfo);
-    run.addPieces(inputs[0]);
-    run.finish(output);
-  }
-  catch (const std::exception& error)
-  {
-    output->Initialize();
-    const auto* const failure = dynamic_cast<const tipp::RankFailure*>(&error);
-    if (failure && failure->Aborted)
-    {
-      return 1;
-    }
-    vtkErrorMacro("Resampling: " << error.what());
-    return 0;
-  }
-  vtkDataObject* const input = vtkDataObject::GetData(inputs[0]);
-  if (this->PassFieldArrays && input)
-  {
-    output->GetFieldData()->PassData(input->GetFieldData());
-  }
   return 1;
 }
 

@@ -87,7 +87,7 @@ public:
   /**
    * The device that samples the mesh.
    */
-  enum DeviceType
+  enum DeviceType // the values of tipp::Device
   {
     DEVICE_AUTO = 0,   ///< OpenCL on a GPU if the work is worth the transfer, else OpenMP
     DEVICE_OPENMP = 1, ///< the threads of this process

@@ -2,9 +2,10 @@
 #include "vtkTIPPPointsToImage.h"
 
 #include "Constraints/SourceConstraints.h"
-#include "Dem/StreamedDem.h"
+#include "Dem/MakeDem.h"
 #include "Output/FilterPipeline.h"
 #include "Points/PointStream.h"
+#include "Sampling/SamplingRange.h"
 #include "Vtk/ReadDataSet.h"
 
 #include "vtkDoubleArray.h"
@@ -34,34 +35,6 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 namespace
 {
-
-/// xmin, xmax, ymin, ymax of the finite points.
-/// West, east, south and north of the finite points that are included.
-class Bounds
-{
-public:
-  void include(double x, double y)
-  {
-    if (std::isfinite(x) && std::isfinite(y))
-    {
-      this->Sides = { std::min(this->Sides[0], x), std::max(this->Sides[1], x),
-        std::min(this->Sides[2], y), std::max(this->Sides[3], y) };
-    }
-  }
-
-  std::array<double, 4> get() const
-  {
-    if (!(this->Sides[0] <= this->Sides[1]))
-    {
-      throw std::runtime_error("There is no point with finite coordinates.");
-    }
-    return this->Sides;
-  }
-
-private:
-  static constexpr double Infinity = std::numeric_limits<double>::infinity();
-  std::array<double, 4> Sides{ Infinity, -Infinity, Infinity, -Infinity };
-};
 
 tipp::ConstraintTable constraintsOf(vtkPolyData* lines)
 {
@@ -154,9 +127,8 @@ tipp::RasterGrid vtkTIPPPointsToImage::Grid(vtkPointSet* points) const
   tipp::RasterRequest request;
   request.Resolution = this->Resolution;
   request.Aligned = this->AlignToResolution;
-  std::array<double, 4> bounds{};
-  this->UseInputBounds ? void(bounds = this->PointBounds(points))
-                       : void(std::copy_n(this->SamplingBounds, 4, bounds.begin()));
+  const std::array<double, 4> bounds =
+    this->UseInputBounds ? this->PointBounds(points) : tipp::toArray(this->SamplingBounds);
   if (request.Resolution == 0)
   {
     const double area = (bounds[1] - bounds[0]) * (bounds[3] - bounds[2]);
@@ -259,27 +231,39 @@ std::unique_ptr<tipp::PointStream> vtkTIPPPointsToImage::Stream(vtkPointSet* poi
 
 std::array<double, 4> vtkTIPPPointsToImage::PointBounds(vtkPointSet* points) const
 {
-  Bounds bounds;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::array<double, 4> bounds{ infinity, -infinity, infinity, -infinity };
+  const auto include = [&bounds](double x, double y)
+  {
+    if (std::isfinite(x) && std::isfinite(y))
+    {
+      bounds = { std::min(bounds[0], x), std::max(bounds[1], x), std::min(bounds[2], y),
+        std::max(bounds[3], y) };
+    }
+  };
   if (this->ThinningSize > 0)
   {
     constexpr std::size_t blockPoints = 1 << 16;
-    const auto include = [&](const tipp::PointBlock& block)
-    {
-      for (std::size_t i = 0; i < block.size(); ++i)
+    tipp::forEachBlock(*this->Stream(points), blockPoints,
+      [&](const tipp::PointBlock& block)
       {
-        bounds.include(block.XY[2 * i], block.XY[2 * i + 1]);
-      }
-    };
-    tipp::forEachBlock(*this->Stream(points), blockPoints, include);
-    return bounds.get();
+        for (std::size_t i = 0; i < block.size(); ++i)
+        {
+          include(block.XY[2 * i], block.XY[2 * i + 1]);
+        }
+      });
   }
-  for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+  for (vtkIdType i = 0; this->ThinningSize == 0 && i < points->GetNumberOfPoints(); ++i)
   {
     double p[3];
     points->GetPoint(i, p);
-    bounds.include(p[0], p[1]);
+    include(p[0], p[1]);
   }
-  return bounds.get();
+  if (!(bounds[0] <= bounds[1]))
+  {
+    throw std::runtime_error("There is no point with finite coordinates.");
+  }
+  return bounds;
 }
 
 void vtkTIPPPointsToImage::Constrain(
@@ -337,7 +321,7 @@ void vtkTIPPPointsToImage::Make(vtkInformationVector** inputs, vtkImageData* out
   tipp::Monitor monitor(this);
   tipp::TerrainSettings settings;
   tipp::SampledBands samples;
-  const tipp::DemFigures figures = tipp::makeDem(
+  const tipp::OutOfCoreStatistics figures = tipp::makeDem(
     this->Stream(points), request, std::uint64_t(this->MemoryLimit),
     [&](double done) { return monitor(done); }, settings, samples);
   if (figures.Aborted)

@@ -3,7 +3,6 @@
 
 #include "Files/IOError.h"
 #include "Meshes/MeshFiles.h"
-#include "Points/PointStream.h"
 #include "Points/ReadPoints.h"
 
 #include "vtkCellArray.h"
@@ -154,9 +153,8 @@ void vtkTIPPPointReader::Read(vtkInformation* info, vtkPolyData* output)
   const int piece = std::max(0, info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()));
   const int pieces =
     std::max(1, info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()));
-  const tipp::PointOptions options = this->Options();
-  const std::string crs = tipp::openPointStream(this->FileNames, options)->crs();
-  const tipp::PointTable table = tipp::readPointsShare(this->FileNames, options, piece, pieces);
+  const tipp::PointTable table =
+    tipp::readPointsShare(this->FileNames, this->Options(), piece, pieces);
   this->NumberOfPointsLeftOut = table.LeftOut;
   // A deep copy, because the arrays share the table's memory.
   output->DeepCopy(tipp::makePolyData(table, {}, {}));
@@ -164,11 +162,11 @@ void vtkTIPPPointReader::Read(vtkInformation* info, vtkPolyData* output)
   {
     addVertices(output);
   }
-  if (!crs.empty())
+  if (!table.Crs.empty())
   {
     vtkNew<vtkStringArray> array;
     array->SetName("CoordinateReferenceSystem");
-    array->InsertNextValue(crs);
+    array->InsertNextValue(table.Crs);
     output->GetFieldData()->AddArray(array);
   }
 }

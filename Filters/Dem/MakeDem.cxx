@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Dem/MakeDem.h"
 
+#include "Constraints/ConstrainedPoints.h"
+#include "Dem/RasterSink.h"
+#include "Dem/SurfaceSink.h"
+#include "Files/TemporaryFiles.h"
 #include "Parallel/ParallelFor.h"
 #include "Resample/SimplexMesh.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -17,22 +20,6 @@ namespace tipp
 {
 namespace
 {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Box2 boundsOf(const std::vector<double>& xy)
-{
-  Box2 box{ infinity, infinity, -infinity, -infinity };
-  for (std::size_t i = 0; i < xy.size(); i += 2)
-  {
-    if (std::isfinite(xy[i]) && std::isfinite(xy[i + 1]))
-    {
-      box = { std::min(box.xmin, xy[i]), std::min(box.ymin, xy[i + 1]), std::max(box.xmax, xy[i]),
-        std::max(box.ymax, xy[i + 1]) };
-    }
-  }
-  return box;
-}
 
 /// Returns x, y and elevation interleaved, and frees the table's x and y.
 std::vector<double> takeXYZ(PointTable& points, const DemBands& bands)
@@ -96,11 +83,11 @@ TerrainSettings makeTerrainSettings(
   return settings;
 }
 
-DemFigures makeDem(PointTable points, const DemRequest& request,
+OutOfCoreStatistics makeDem(PointTable points, const DemRequest& request,
   const std::function<bool(double)>& progress, TerrainSettings& settings, SampledBands& samples)
 {
   const std::vector<std::string> columns = points.names();
-  const Box2 bounds = boundsOf(points.XY);
+  const Box2 bounds = boundsOf(points.XY.data(), 2, points.size());
   if (!(bounds.xmin <= bounds.xmax))
   {
     throw std::runtime_error("there is no point with finite coordinates.");
@@ -108,7 +95,7 @@ DemFigures makeDem(PointTable points, const DemRequest& request,
   requireElevation(request.Duplicates, columns);
   settings = makeTerrainSettings(request, bounds, columns);
   requireMemory(settings);
-  DemFigures figures;
+  OutOfCoreStatistics figures;
   TriangulationOptions options;
   options.Threads = request.Threads;
   options.MaximumEdge = request.MaximumEdge;
@@ -130,15 +117,13 @@ DemFigures makeDem(PointTable points, const DemRequest& request,
   figures.DisagreeingPositions =
     resolveDuplicates(points, triangulation.Duplicates, request.Duplicates);
   const std::vector<double> xyz = takeXYZ(points, settings.Bands);
-  TerrainPoints terrain;
-  terrain.XYZ = xyz.data();
-  terrain.Count = std::int64_t(xyz.size() / 3); // including the points of the constraints
+  TerrainColumns values;
   for (const PointTable::Column& column : points.Columns)
   {
-    terrain.Columns.push_back(column.Values.data());
+    values.push_back(column.Values.data());
   }
   const auto report = [&progress](double done) { return !progress || progress(0.5 + 0.3 * done); };
-  figures.Aborted = !sampleTerrain(settings, terrain, meshOf(xyz, triangulation), report, samples);
+  figures.Aborted = !sampleTerrain(settings, values, meshOf(xyz, triangulation), report, samples);
   return figures;
 }
 
@@ -203,6 +188,104 @@ std::int64_t writeTiles(RasterWriter& writer, const RasterGrid& grid, const Tile
       writer.write(window, pointersTo(values));
     });
   return isDone ? filled.load() : -1;
+}
+
+namespace
+{
+
+/// Copies all tiles into the grid. Returns false if `progress` stopped it.
+bool readTiles(const TerrainSettings& settings, const TileSource& tiles,
+  const std::function<bool(double)>& progress, SampledBands& samples)
+{
+  const RasterGrid& grid = settings.Grid;
+  samples.Values.resize(settings.Bands.Bands.size());
+  for (std::vector<double>& band : samples.Values)
+  {
+    band.resize(std::size_t(grid.pixels()));
+  }
+  return forChunks(tileCount(grid), 1, settings.Threads, progress,
+    [&](std::int64_t number, std::int64_t, int)
+    {
+      const RasterWindow window = tileOf(grid, number);
+      std::vector<std::vector<double>> values;
+      tiles.Read(window, values);
+      for (std::size_t band = 0; band < values.size(); ++band)
+      {
+        for (std::int64_t row = 0; row < window.Rows; ++row)
+        {
+          std::copy_n(values[band].data() + row * window.Columns, window.Columns,
+            samples.Values[band].data() + (window.Row + row) * grid.Columns + window.Column);
+        }
+      }
+    });
+}
+
+/// Triangulates out of core in a temporary folder; `taker` receives the triangles.
+OutOfCoreStatistics triangulateInto(TriangleConsumer& taker, PointStream& points,
+  OutOfCoreOptions options, const std::function<bool(double)>& progress)
+{
+  const ScratchDirectory folder;
+  options.CountOnly = true;
+  options.Consumer = &taker;
+  options.Progress = progress;
+  return triangulateOutOfCore(points, folder.path() + "/dem", options);
+}
+
+OutOfCoreStatistics makeWithin(std::unique_ptr<PointStream> points, const DemRequest& request,
+  std::uint64_t memory, const std::function<bool(double)>& progress, TerrainSettings& settings,
+  SampledBands& samples)
+{
+  OutOfCoreOptions options;
+  options.MemoryLimit = memory;
+  options.Threads = request.Threads;
+  options.Duplicates = request.Duplicates;
+  double before = 0; // last reported progress
+  const auto report = [&](double done)
+  { return !progress || progress(before + (1 - before) * done); };
+  if (request.Constraints)
+  {
+    SurfaceSink surface(*request.Constraints);
+    if (needsSurface(*request.Constraints, request.Bands))
+    {
+      const OutOfCoreStatistics made =
+        triangulateInto(surface, *points, options, [&](double done) { return report(0.4 * done); });
+      if (made.Aborted)
+      {
+        return made;
+      }
+      before = 0.4;
+    }
+    auto constrained = std::make_unique<ConstrainedPoints>(
+      std::move(points), *request.Constraints, "the constraints", request.Threads);
+    constrained->setSurface(surface.takeValues());
+    options.Constraints = [&from = *constrained]() -> SegmentSource& { return from; };
+    points = std::move(constrained);
+  }
+  RasterSink sink(
+    [&](const Box2& bounds, const std::vector<std::string>& columns)
+    {
+      TerrainSettings made = makeTerrainSettings(request, bounds, columns);
+      requireMemory(made);
+      return made;
+    },
+    [&](const TerrainSettings& made, const TileSource& tiles, const Report& written)
+    {
+      settings = made;
+      return readTiles(settings, tiles, written, samples);
+    },
+    nullptr);
+  options.MaximumEdge = request.MaximumEdge;
+  return triangulateInto(sink, *points, options, report);
+}
+
+} // namespace
+
+OutOfCoreStatistics makeDem(std::unique_ptr<PointStream> points, const DemRequest& request,
+  std::uint64_t memory, const std::function<bool(double)>& progress, TerrainSettings& settings,
+  SampledBands& samples)
+{
+  return memory == 0 ? makeDem(readAllPoints(*points), request, progress, settings, samples)
+                     : makeWithin(std::move(points), request, memory, progress, settings, samples);
 }
 
 } // namespace tipp

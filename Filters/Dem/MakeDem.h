@@ -6,13 +6,17 @@
 #include "Dem/TerrainSampler.h"
 #include "Dem/TileStore.h"
 #include "Duplicates/ResolveDuplicates.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "Points/PointStream.h"
 #include "Points/PointTable.h"
 #include "Predicates/Points.h"
 #include "Raster/RasterFile.h"
 #include "Triangulation/Triangulate.h"
 #include "vtkTIPPFiltersModule.h"
 
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,23 +45,21 @@ VTKTIPPFILTERS_EXPORT TerrainSettings makeTerrainSettings(
 /// Throws std::runtime_error if the pixels do not fit into this machine's memory.
 void requireMemory(const TerrainSettings& settings);
 
-/// Statistics of a raster of points.
-struct DemFigures
-{
-  std::int64_t Points = 0; ///< including the points of the constraints
-  std::int64_t Triangles = 0;
-  std::int64_t Duplicates = 0;           ///< points that coincide with an earlier one
-  std::int64_t DisagreeingPositions = 0; ///< positions of several points with different elevations
-  std::int64_t Rejected = 0;             ///< points that are not finite
-  std::int64_t WithoutElevation = 0;     ///< points without elevation; triangles at them have none
-  bool Aborted = false;                  ///< whether the user stopped the run
-};
-
 /// Makes a raster from points in memory: triangulates them and samples the triangles, with the same
-/// result as in two steps. Consumes the points to save memory. Throws std::runtime_error if there
-/// is no finite point, and std::invalid_argument for invalid constraints.
-VTKTIPPFILTERS_EXPORT DemFigures makeDem(PointTable points, const DemRequest& request,
+/// result as in two steps. Consumes the points to save memory. Returns the numbers of points,
+/// including those of the constraints, and of triangles, and whether `progress` stopped it. Throws
+/// std::runtime_error if there is no finite point, and std::invalid_argument for invalid
+/// constraints.
+VTKTIPPFILTERS_EXPORT OutOfCoreStatistics makeDem(PointTable points, const DemRequest& request,
   const std::function<bool(double)>& progress, TerrainSettings& settings, SampledBands& samples);
+
+/// Makes a raster in memory from the points of a stream, with the same values as the other
+/// makeDem(). `memory` limits the bytes for points and triangles; what does not fit is spilled to a
+/// temporary folder; 0: no limit. Throws IOError, std::runtime_error if there is no finite point or
+/// a band's column is missing, and std::invalid_argument for invalid constraints.
+VTKTIPPFILTERS_EXPORT OutOfCoreStatistics makeDem(std::unique_ptr<PointStream> points,
+  const DemRequest& request, std::uint64_t memory, const std::function<bool(double)>& progress,
+  TerrainSettings& settings, SampledBands& samples);
 
 /// A source of the tiles of a raster. Several threads may call its functions at once.
 struct TileSource

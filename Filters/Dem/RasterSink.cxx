@@ -2,14 +2,11 @@
 #include "Dem/RasterSink.h"
 
 #include "Dem/SurfaceSink.h"
-#include "Files/InputFile.h"
-#include "Files/OutputFile.h"
+#include "OutOfCore/ScratchFiles.h"
 #include "Resample/Claims.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -23,7 +20,7 @@ constexpr std::int64_t fewPixels = 4 * RasterTileSize * RasterTileSize;
 /// The suffix of files with samples at borders, appended to the run's own path.
 constexpr const char* borderSuffix = ".border.";
 
-/// A pixel on the border of a part. In files it is followed by the values of its bands.
+/// A pixel on the border of a part.
 struct BorderPixel
 {
   std::int64_t Pixel;
@@ -82,26 +79,25 @@ struct RasterSink::Tile
 struct RasterSink::Part
 {
   /// Returns a tile, created if necessary. Most triangles are in the same tile as the previous one.
-  Tile& tileAt(std::int64_t row, std::int64_t column)
+  Tile& tileAt(std::int64_t number)
   {
-    const TileIndex index(row, column);
-    if (index != this->LastIndex)
+    if (number != this->LastNumber)
     {
-      this->LastTile = &this->Tiles[index];
-      this->LastIndex = index;
+      this->LastTile = &this->Tiles[number];
+      this->LastNumber = number;
     }
     return *this->LastTile;
   }
 
   std::vector<double> XYZ;
-  std::vector<std::vector<double>> Columns; ///< only the columns that bands need
-  TerrainPoints Points;
-  using TileIndex = std::pair<std::int64_t, std::int64_t>; ///< row from the north, column
-  std::map<TileIndex, Tile> Tiles;
-  TileIndex LastIndex{ -1, -1 };
+  std::vector<std::vector<double>> Values; ///< of the columns that bands need
+  TerrainColumns Columns;
+  std::map<std::int64_t, Tile> Tiles; ///< by number
+  std::int64_t LastNumber = -1;
   Tile* LastTile = nullptr;
   std::int64_t Assigned = 0; ///< triangles in all tiles
-  std::string Border;        ///< BorderPixels, each followed by its values
+  std::vector<BorderPixel> Border;
+  std::vector<double> BorderValues; ///< for each BorderPixel the values of its bands
 };
 
 RasterSink::RasterSink(
@@ -123,18 +119,13 @@ std::uint64_t RasterSink::fileBytes(
   return std::uint64_t(std::min(bytes, most));
 }
 
-void RasterSink::findMargins()
-{
-  const RasterGrid& grid = this->Settings.Grid;
-  this->Margins = { marginOf(grid.West, grid.Pixel[0], grid.Columns),
-    marginOf(grid.South, grid.Pixel[1], grid.Rows) };
-}
-
 void RasterSink::begin(
   const Box2& bounds, const std::vector<std::string>& columns, const std::string& files)
 {
   this->Settings = this->Make(bounds, columns);
-  this->findMargins();
+  const RasterGrid& grid = this->Settings.Grid;
+  this->Margins = { marginOf(grid.West, grid.Pixel[0], grid.Columns),
+    marginOf(grid.South, grid.Pixel[1], grid.Rows) };
   this->Files = files;
   FinishTile finish;
   if (this->Encoding)
@@ -147,7 +138,7 @@ void RasterSink::begin(
       return tile;
     };
   }
-  this->Store = std::make_unique<TileStore>(files + ".pixels", this->Settings.Grid,
+  this->Store = std::make_unique<TileStore>(files + ".pixels", grid,
     this->Settings.Bands.Bands.size(), this->Settings.IsSingle, std::move(finish));
 }
 
@@ -164,17 +155,15 @@ void RasterSink::take(const std::string& name, const double* rows, const PointRo
     part.XYZ[3 * i + 1] = row[1];
     part.XYZ[3 * i + 2] = bands.HasElevation ? row[2 + bands.Elevation] : 0;
   }
-  part.Columns.resize(layout.Words - 3);
-  part.Points.XYZ = part.XYZ.data();
-  part.Points.Count = std::int64_t(points);
-  part.Points.Columns.resize(part.Columns.size());
+  part.Values.resize(layout.Words - 3);
+  part.Columns.resize(part.Values.size());
   for (const DemBand& band : bands.Bands)
   {
     if (band.Is != DemBand::Kind::Column)
     {
       continue;
     }
-    std::vector<double>& column = part.Columns[band.Column];
+    std::vector<double>& column = part.Values[band.Column];
     if (column.empty())
     {
       column.resize(points);
@@ -182,7 +171,7 @@ void RasterSink::take(const std::string& name, const double* rows, const PointRo
       {
         column[i] = rows[i * layout.Words + 2 + band.Column];
       }
-      part.Points.Columns[band.Column] = column.data();
+      part.Columns[band.Column] = column.data();
     }
   }
   // Most triangles of a part are adjacent, so they fill most of its window. Triangles at the border
@@ -193,7 +182,7 @@ void RasterSink::take(const std::string& name, const double* rows, const PointRo
     count += std::int64_t(run.Triangles);
   }
   Tile all;
-  all.Window = this->windowOf(part.XYZ);
+  all.Window = this->windowOf(boundsOf(rows, layout.Words, points));
   const auto bandCount = std::int64_t(bands.Bands.size());
   if (all.Window.Columns * all.Window.Rows * bandCount > fewPixels + 2 * count)
   {
@@ -208,7 +197,11 @@ void RasterSink::take(const std::string& name, const double* rows, const PointRo
     }
     this->sampleTile(part, all);
   }
-  this->saveBorder(part, name);
+  if (!part.Border.empty())
+  {
+    writeCheckedFile(this->Files + borderSuffix + name,
+      [&part](SaveArchive& archive) { archive(part.Border, part.BorderValues); });
+  }
 }
 
 /// Assigns each triangle to every tile that it may meet. Long triangles meet many tiles, so
@@ -217,15 +210,15 @@ void RasterSink::sampleByTile(Part& part, const std::vector<TriangleRange>& tria
 {
   const auto sampleAll = [&]
   {
-    for (const auto& [index, tile] : part.Tiles)
+    for (const auto& [number, tile] : part.Tiles)
     {
       this->sampleTile(part, tile);
     }
     part.Tiles.clear();
-    part.LastIndex = { -1, -1 };
+    part.LastNumber = -1;
     part.Assigned = 0;
   };
-  const std::int64_t mostAssigned = fewPixels + 4 * part.Points.Count;
+  const std::int64_t mostAssigned = fewPixels + 4 * std::int64_t(part.XYZ.size() / 3);
   for (const TriangleRange& run : triangles)
   {
     for (std::size_t t = 0; t < run.Triangles; ++t)
@@ -238,65 +231,38 @@ void RasterSink::sampleByTile(Part& part, const std::vector<TriangleRange>& tria
 }
 
 /// The window of samples that may lie in a box; empty if there are none.
-RasterWindow RasterSink::windowOf(const double* low, const double* high) const
+RasterWindow RasterSink::windowOf(const Box2& box) const
 {
   const RasterGrid& grid = this->Settings.Grid;
   const auto [column, lastColumn] =
-    samplesBetween(low[0], high[0], grid.West, grid.Pixel[0], this->Margins[0], grid.Columns);
+    samplesBetween(box.xmin, box.xmax, grid.West, grid.Pixel[0], this->Margins[0], grid.Columns);
   const auto [row, lastRow] =
-    samplesBetween(low[1], high[1], grid.South, grid.Pixel[1], this->Margins[1], grid.Rows);
+    samplesBetween(box.ymin, box.ymax, grid.South, grid.Pixel[1], this->Margins[1], grid.Rows);
   return column > lastColumn || row > lastRow
     ? RasterWindow()
     : RasterWindow{ column, row, lastColumn - column + 1, lastRow - row + 1 };
 }
 
-RasterWindow RasterSink::windowOf(const std::vector<double>& xyz) const
-{
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  double low[2] = { infinity, infinity };
-  double high[2] = { -infinity, -infinity };
-  for (std::size_t i = 0; i < xyz.size(); i += 3)
-  {
-    for (std::size_t axis = 0; axis < 2; ++axis)
-    {
-      low[axis] = std::min(low[axis], xyz[i + axis]);
-      high[axis] = std::max(high[axis], xyz[i + axis]);
-    }
-  }
-  return xyz.empty() ? RasterWindow() : this->windowOf(low, high);
-}
-
 void RasterSink::addTriangle(Part& part, const std::int32_t* corners) const
 {
-  const RasterGrid& grid = this->Settings.Grid;
   const double* const a = &part.XYZ[3 * std::size_t(corners[0])];
   const double* const b = &part.XYZ[3 * std::size_t(corners[1])];
   const double* const c = &part.XYZ[3 * std::size_t(corners[2])];
-  const double low[2] = { std::min({ a[0], b[0], c[0] }), std::min({ a[1], b[1], c[1] }) };
-  const double high[2] = { std::max({ a[0], b[0], c[0] }), std::max({ a[1], b[1], c[1] }) };
-  const RasterWindow window = this->windowOf(low, high);
+  const RasterWindow window =
+    this->windowOf({ std::min({ a[0], b[0], c[0] }), std::min({ a[1], b[1], c[1] }),
+      std::max({ a[0], b[0], c[0] }), std::max({ a[1], b[1], c[1] }) });
   if (window.Columns == 0)
   {
     return;
   }
-  const std::int64_t right = window.Column + window.Columns;
-  const std::int64_t end = window.Row + window.Rows;
-  const std::int64_t first = (grid.Rows - end) / RasterTileSize;
-  const std::int64_t last = (grid.Rows - 1 - window.Row) / RasterTileSize;
-  for (std::int64_t tileRow = first; tileRow <= last; ++tileRow)
-  {
-    const std::int64_t top = grid.Rows - tileRow * RasterTileSize;
-    const std::int64_t row = std::max({ top - RasterTileSize, window.Row });
-    for (std::int64_t i = window.Column / RasterTileSize; i <= (right - 1) / RasterTileSize; ++i)
+  forTiles(this->Settings.Grid, window,
+    [&](std::int64_t number, const RasterWindow& inTile)
     {
-      Tile& tile = part.tileAt(tileRow, i);
+      Tile& tile = part.tileAt(number);
       tile.Ids.insert(tile.Ids.end(), corners, corners + 3);
       ++part.Assigned;
-      const std::int64_t column = std::max(window.Column, i * RasterTileSize);
-      tile.extend({ column, row, std::min(right, (i + 1) * RasterTileSize) - column,
-        std::min(top, end) - row });
-    }
-  }
+      tile.extend(inTile);
+    });
 }
 
 void RasterSink::sampleTile(Part& part, const Tile& tile) const
@@ -305,43 +271,30 @@ void RasterSink::sampleTile(Part& part, const Tile& tile) const
   const RasterWindow& window = tile.Window;
   SimplexMesh mesh;
   mesh.Points = part.XYZ.data();
-  mesh.PointCount = part.Points.Count;
+  mesh.PointCount = std::int64_t(part.XYZ.size() / 3);
   mesh.Ids = tile.Ids.data();
   mesh.Cells = std::int64_t(tile.Ids.size() / 3);
   Lattice lattice = latticeOf(grid);
   lattice.Extent = { int(window.Column), int(window.Column + window.Columns - 1), int(window.Row),
     int(window.Row + window.Rows - 1), 0, 0 };
-  const SampledPart sampled = samplePart(this->Settings, part.Points, mesh, lattice);
+  const SampledPart sampled = samplePart(this->Settings, part.Columns, mesh, lattice);
   for (const BorderSample& at : sampled.Border)
   {
     const std::int64_t column = window.Column + at.Sample % window.Columns;
     const std::int64_t row = window.Row + at.Sample / window.Columns;
-    const BorderPixel pixel{ row * grid.Columns + column, at.Key };
-    part.Border.append(reinterpret_cast<const char*>(&pixel), sizeof pixel);
+    part.Border.push_back({ row * grid.Columns + column, at.Key });
     for (const std::vector<double>& values : sampled.Bands.Values)
     {
-      part.Border.append(
-        reinterpret_cast<const char*>(&values[std::size_t(at.Sample)]), sizeof(double));
+      part.BorderValues.push_back(values[std::size_t(at.Sample)]);
     }
   }
   this->Store->set(window, sampled.IsInside, sampled.Bands.Values);
-}
-
-void RasterSink::saveBorder(const Part& part, const std::string& name) const
-{
-  if (!part.Border.empty())
-  {
-    OutputFile file(this->Files + borderSuffix + name);
-    file.write(0, part.Border.data(), part.Border.size());
-    file.close();
-  }
 }
 
 /// Sets the samples on the border of the whole mesh, which no triangle contains.
 void RasterSink::answerBorders()
 {
   const std::size_t bands = this->Settings.Bands.Bands.size();
-  const std::size_t bytes = sizeof(BorderPixel) + bands * sizeof(double);
   struct Entry
   {
     BorderPixel Sample;
@@ -351,17 +304,16 @@ void RasterSink::answerBorders()
   std::vector<double> values;
   for (const std::string& path : filesBeginning(this->Files + borderSuffix))
   {
-    const InputFile file(path);
-    std::string content(std::size_t(file.size()), '\0');
-    file.read(0, content.data(), content.size());
-    for (std::size_t at = 0; at + bytes <= content.size(); at += bytes)
+    const Bytes bytes = readCheckedFile(path);
+    LoadArchive archive(bytes);
+    std::vector<BorderPixel> pixels;
+    std::vector<double> ofPixels;
+    archive(pixels, ofPixels);
+    for (const BorderPixel& pixel : pixels)
     {
-      entries.push_back({ {}, values.size() });
-      std::memcpy(&entries.back().Sample, content.data() + at, sizeof(BorderPixel));
-      values.resize(values.size() + bands);
-      std::memcpy(values.data() + entries.back().At, content.data() + at + sizeof(BorderPixel),
-        bands * sizeof(double));
+      entries.push_back({ pixel, entries.size() * bands });
     }
+    values.insert(values.end(), ofPixels.begin(), ofPixels.end());
   }
   std::sort(entries.begin(), entries.end(),
     [](const Entry& a, const Entry& b)

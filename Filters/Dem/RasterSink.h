@@ -50,13 +50,10 @@ private:
   struct Part;
   struct Tile;
 
-  void findMargins();
-  RasterWindow windowOf(const double* low, const double* high) const;
-  RasterWindow windowOf(const std::vector<double>& xyz) const;
+  RasterWindow windowOf(const Box2& box) const;
   void sampleByTile(Part& part, const std::vector<TriangleRange>& triangles) const;
   void addTriangle(Part& part, const std::int32_t* corners) const;
   void sampleTile(Part& part, const Tile& tile) const;
-  void saveBorder(const Part& part, const std::string& name) const;
   void answerBorders();
 
   std::string Identity;

@@ -3,6 +3,7 @@
 
 #include "Constraints/ConstrainedPoints.h"
 #include "Dem/DemBands.h"
+#include "Dem/TerrainSampler.h"
 #include "Files/IOError.h"
 #include "OutOfCore/ScratchFiles.h"
 
@@ -10,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <map>
 
 namespace tipp
@@ -83,19 +83,6 @@ std::vector<Point2> positionsOf(const TableConstraints& constraints)
   return positions;
 }
 
-Box2 boundsOf(const double* rows, const PointRowLayout& layout, std::size_t points)
-{
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Box2 box{ infinity, infinity, -infinity, -infinity };
-  for (std::size_t i = 0; i < points; ++i)
-  {
-    const double* const row = rows + i * layout.Words;
-    box = { std::min(box.xmin, row[0]), std::min(box.ymin, row[1]), std::max(box.xmax, row[0]),
-      std::max(box.ymax, row[1]) };
-  }
-  return box;
-}
-
 } // namespace
 
 bool needsSurface(const TableConstraints& constraints, const std::vector<std::string>& bands)
@@ -133,7 +120,7 @@ void SurfaceSink::begin(
 void SurfaceSink::take(const std::string& name, const double* rows, const PointRowLayout& layout,
   std::size_t points, const std::vector<TriangleRange>& triangles)
 {
-  if (!this->Wanted.meets(boundsOf(rows, layout, points)))
+  if (!this->Wanted.meets(boundsOf(rows, layout.Words, points)))
   {
     return;
   }

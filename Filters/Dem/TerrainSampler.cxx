@@ -5,6 +5,7 @@
 #include "Resample/Interpolate.h"
 #include "Resample/Resample.h"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -35,8 +36,8 @@ Corners cornersOf(const SimplexMesh& mesh, std::int64_t triangle)
 class BandArrays
 {
 public:
-  BandArrays(const TerrainSettings& settings, const TerrainPoints& points, const SimplexMesh& mesh,
-    int threads, SampledBands& samples)
+  BandArrays(const TerrainSettings& settings, const TerrainColumns& columns,
+    const SimplexMesh& mesh, int threads, SampledBands& samples)
   {
     const std::vector<DemBand>& bands = settings.Bands.Bands;
     this->Derived.resize(bands.size());
@@ -50,8 +51,7 @@ public:
       {
         this->derive(bands[i].Is, mesh, threads, this->Derived[i]);
       }
-      attribute.Values =
-        attribute.OfCells ? this->Derived[i].data() : points.Columns[bands[i].Column];
+      attribute.Values = attribute.OfCells ? this->Derived[i].data() : columns[bands[i].Column];
       this->Attributes.push_back(attribute);
     }
   }
@@ -76,14 +76,6 @@ private:
   std::vector<std::vector<double>> Derived;
 };
 
-ResampleOptions optionsFor(int threads, std::vector<unsigned char>& valid)
-{
-  ResampleOptions options;
-  options.Threads = threads;
-  options.Valid = valid.data();
-  return options;
-}
-
 void allocate(const TerrainSettings& settings, std::int64_t count, SampledBands& samples)
 {
   samples.Values.resize(settings.Bands.Bands.size());
@@ -95,6 +87,22 @@ void allocate(const TerrainSettings& settings, std::int64_t count, SampledBands&
 
 } // namespace
 
+Box2 boundsOf(const double* rows, std::size_t words, std::size_t points)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Box2 box{ infinity, infinity, -infinity, -infinity };
+  for (std::size_t i = 0; i < points; ++i)
+  {
+    const Point2 p{ rows[i * words], rows[i * words + 1] };
+    if (isFinite(p))
+    {
+      box = { std::min(box.xmin, p.x), std::min(box.ymin, p.y), std::max(box.xmax, p.x),
+        std::max(box.ymax, p.y) };
+    }
+  }
+  return box;
+}
+
 Lattice latticeOf(const RasterGrid& grid)
 {
   Lattice lattice;
@@ -104,7 +112,7 @@ Lattice latticeOf(const RasterGrid& grid)
   return lattice;
 }
 
-bool sampleTerrain(const TerrainSettings& settings, const TerrainPoints& points,
+bool sampleTerrain(const TerrainSettings& settings, const TerrainColumns& columns,
   const SimplexMesh& mesh, const Report& progress, SampledBands& samples)
 {
   if (mesh.Cells > std::numeric_limits<std::int32_t>::max())
@@ -113,20 +121,22 @@ bool sampleTerrain(const TerrainSettings& settings, const TerrainPoints& points,
       " triangles, and 2147483647 can be sampled in memory: give --memory.");
   }
   allocate(settings, settings.Grid.pixels(), samples);
-  const BandArrays arrays(settings, points, mesh, settings.Threads, samples);
+  const BandArrays arrays(settings, columns, mesh, settings.Threads, samples);
   std::vector<unsigned char> valid(std::size_t(settings.Grid.pixels()), 0);
-  ResampleOptions options = optionsFor(settings.Threads, valid);
+  ResampleOptions options;
+  options.Threads = settings.Threads;
+  options.Valid = valid.data();
   options.Progress = progress;
   return !resample(mesh, latticeOf(settings.Grid), arrays.Attributes, options).Aborted;
 }
 
-SampledPart samplePart(const TerrainSettings& settings, const TerrainPoints& points,
+SampledPart samplePart(const TerrainSettings& settings, const TerrainColumns& columns,
   const SimplexMesh& mesh, const Lattice& part)
 {
   SampledPart sampled;
   allocate(settings, part.samples(), sampled.Bands);
   sampled.IsInside.resize(std::size_t(part.samples()));
-  const BandArrays arrays(settings, points, mesh, 1, sampled.Bands);
+  const BandArrays arrays(settings, columns, mesh, 1, sampled.Bands);
   InterpolationOptions options;
   options.Valid = sampled.IsInside.data();
   if (samplePartDirectly(mesh, part, arrays.Attributes, options, sampled.Border).Overlapping)

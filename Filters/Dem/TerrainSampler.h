@@ -3,8 +3,10 @@
 #define tippTerrainSampler_h
 
 #include "Dem/DemBands.h"
+#include "Predicates/Points.h"
 #include "Raster/RasterFile.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -16,13 +18,12 @@ struct BorderSample;
 struct Lattice;
 struct SimplexMesh;
 
-/// The points of the triangles to sample. Not owned.
-struct TerrainPoints
-{
-  const double* XYZ = nullptr;        ///< x, y and elevation, interleaved
-  std::int64_t Count = 0;             ///< number of points
-  std::vector<const double*> Columns; ///< indexed by DemBand::Column
-};
+/// The columns of points, indexed by DemBand::Column. Not owned.
+using TerrainColumns = std::vector<const double*>;
+
+/// The bounding box of the points with finite x and y; xmin > xmax if there are none. `rows` holds
+/// `words` numbers per point, x and y first.
+Box2 boundsOf(const double* rows, std::size_t words, std::size_t points);
 
 /// The settings of a raster: grid, bands and precision.
 struct TerrainSettings
@@ -42,9 +43,10 @@ struct SampledBands
   std::vector<std::vector<double>> Values; ///< values by band, then by sample
 };
 
-/// Samples all triangles of a mesh, which must not overlap, at all pixels. Returns false if
+/// Samples all triangles of a mesh, whose points are x, y and elevation, in doubles, and which must
+/// not overlap, at all pixels. Returns false if
 /// `progress` stopped it.
-bool sampleTerrain(const TerrainSettings& settings, const TerrainPoints& points,
+bool sampleTerrain(const TerrainSettings& settings, const TerrainColumns& columns,
   const SimplexMesh& mesh, const std::function<bool(double)>& progress, SampledBands& samples);
 
 /// The samples of a part of a mesh on a part of the lattice.
@@ -58,7 +60,7 @@ struct SampledPart
 };
 
 /// Samples some triangles of a mesh, which must not overlap, in the calling thread.
-SampledPart samplePart(const TerrainSettings& settings, const TerrainPoints& points,
+SampledPart samplePart(const TerrainSettings& settings, const TerrainColumns& columns,
   const SimplexMesh& mesh, const Lattice& part);
 
 } // namespace tipp

@@ -2,7 +2,9 @@
 #include "Dem/TileStore.h"
 
 #include "Files/IOError.h"
+#include "Files/InputFile.h"
 #include "Files/OutputFile.h"
+#include "Ranks/Archive.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -53,33 +55,26 @@ double decode(Word stored)
   return stored == 0 ? std::numeric_limits<double>::quiet_NaN() : double(number);
 }
 
+int openStore(const std::string& path)
+{
+  const int descriptor = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor < 0)
+  {
+    failToWrite(path);
+  }
+  return descriptor;
+}
+
 } // namespace
 
 TileStore::TileStore(const std::string& path, const RasterGrid& grid, std::size_t bands,
   bool isSingle, FinishTile finish)
-  : Path(path)
+  : File(openStore(path), path)
   , Grid(grid)
   , Bands(bands)
   , IsSingle(isSingle)
   , Finish(std::move(finish))
-  , Descriptor(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666))
 {
-  if (this->Descriptor < 0)
-  {
-    failToWrite(path);
-  }
-}
-
-TileStore::~TileStore()
-{
-  close(this->Descriptor);
-}
-
-/// The number of the tile of a pixel; tiles are those of the raster's file.
-std::int64_t TileStore::tileAt(std::int64_t column, std::int64_t row) const
-{
-  const std::int64_t across = (this->Grid.Columns + RasterTileSize - 1) / RasterTileSize;
-  return (this->Grid.Rows - 1 - row) / RasterTileSize * across + column / RasterTileSize;
 }
 
 std::uint64_t TileStore::pixelBytes() const
@@ -102,25 +97,18 @@ std::uint64_t TileStore::begin(std::int64_t tile) const
     std::uint64_t(tile) * (this->pixelBytes() + this->encodedRoom());
 }
 
-/// The offset of a pixel's value; rows of a tile start in the north.
+/// The offset of the first pixel of a part of a tile; rows of a tile start in the north.
 std::uint64_t TileStore::offset(
-  std::int64_t column, std::int64_t row, std::size_t band, std::size_t wordSize) const
+  std::int64_t tile, const RasterWindow& part, std::size_t band, std::size_t wordSize) const
 {
-  const std::int64_t fromNorth = this->Grid.Rows - 1 - row;
-  const std::int64_t pixel = fromNorth % RasterTileSize * RasterTileSize + column % RasterTileSize;
-  return this->begin(this->tileAt(column, row)) +
-    wordSize * (band * std::uint64_t(tilePixels) + std::uint64_t(pixel));
+  const std::int64_t fromNorth = this->Grid.Rows - part.Row - part.Rows;
+  const std::int64_t pixel =
+    fromNorth % RasterTileSize * RasterTileSize + part.Column % RasterTileSize;
+  return this->begin(tile) + wordSize * (band * std::uint64_t(tilePixels) + std::uint64_t(pixel));
 }
 
-#ifdef F_OFD_SETLKW
-// Open-file-description locks: with locks owned by processes, threads of two processes could look
-// like a deadlock to the system.
-constexpr int setFileLockCommand = F_OFD_SETLKW;
-#else
-constexpr int setFileLockCommand = F_SETLKW;
-#endif
-
-/// Locks a tile against other threads and processes.
+/// Locks a tile against other threads and processes. The lock belongs to the open file: with locks
+/// owned by processes, threads of two processes could look like a deadlock to the system.
 class TileStore::Lock
 {
 public:
@@ -131,7 +119,7 @@ public:
   {
     if (!this->setFileLock(F_WRLCK))
     {
-      failToWrite(store.Path);
+      failToWrite(store.File.path());
     }
   }
   ~Lock() { this->setFileLock(F_UNLCK); }
@@ -149,7 +137,7 @@ private:
     int result = 0;
     do
     {
-      result = fcntl(this->Store.Descriptor, setFileLockCommand, &lock);
+      result = fcntl(this->Store.File.descriptor(), F_OFD_SETLKW, &lock);
     } while (result < 0 && errno == EINTR);
     return result == 0;
   }
@@ -168,104 +156,76 @@ TileStore::State TileStore::stateOf(std::int64_t tile) const
 
 void TileStore::writeState(std::int64_t tile, State state) const
 {
-  this->writeAt(std::uint64_t(tile) * sizeof state, &state, sizeof state);
+  this->File.write(std::uint64_t(tile) * sizeof state, &state, sizeof state);
 }
 
 /// Reads from the file; bytes beyond its end are 0.
 void TileStore::readAt(std::uint64_t offset, void* words, std::size_t bytes) const
 {
-  auto* at = static_cast<char*>(words);
-  while (bytes > 0)
-  {
-    const ssize_t got = pread(this->Descriptor, at, bytes, off_t(offset));
-    if (got < 0 && errno == EINTR)
-    {
-      continue;
-    }
-    if (got < 0)
-    {
-      throw IOError(this->Path, std::string("cannot be read (") + std::strerror(errno) + ").");
-    }
-    if (got == 0)
-    {
-      std::memset(at, 0, bytes);
-      return;
-    }
-    at += got;
-    offset += std::uint64_t(got);
-    bytes -= std::size_t(got);
-  }
+  const std::size_t done =
+    readUpTo(this->File.descriptor(), this->File.path(), offset, words, bytes);
+  std::memset(static_cast<char*>(words) + done, 0, bytes - done);
 }
 
-void TileStore::writeAt(std::uint64_t offset, const void* words, std::size_t bytes) const
-{
-  writeFully(this->Descriptor, this->Path, offset, words, bytes);
-}
-
-/// After a process was killed the count of set pixels may be too low; then the tile is merely not
-/// finished early.
+/// Sets pixels of a tile; `part` is the part of `window` in it. After a process was killed the
+/// count of set pixels may be too low; then the tile is merely not finished early.
 template <typename Word>
-void TileStore::setAs(const Source& source, const std::vector<unsigned char>& isSet,
-  const std::vector<std::vector<double>>& values)
+void TileStore::setInTile(std::int64_t tile, const RasterWindow& part, const RasterWindow& window,
+  const std::vector<unsigned char>& isSet, const std::vector<std::vector<double>>& values,
+  bool replaces)
 {
-  const RasterWindow& window = source.Window;
-  const std::int64_t tile = this->tileAt(window.Column, window.Row);
   const Lock lock(*this, tile);
   State state = this->stateOf(tile);
   if (state.Encoded > 0)
   {
     return; // a resumed run sets pixels again
   }
-  const auto width = std::size_t(window.Columns);
+  const auto width = std::size_t(part.Columns);
+  const auto first =
+    std::size_t((part.Row - window.Row) * window.Columns + part.Column - window.Column);
   // The rows of a band are contiguous, the northernmost first.
-  std::vector<Word> rows(std::size_t(window.Rows - 1) * std::size_t(RasterTileSize) + width);
+  std::vector<Word> rows(std::size_t(part.Rows - 1) * std::size_t(RasterTileSize) + width);
   for (std::size_t band = 0; band < this->Bands; ++band)
   {
-    const std::uint64_t at =
-      this->offset(window.Column, window.Row + window.Rows - 1, band, sizeof(Word));
+    const std::uint64_t at = this->offset(tile, part, band, sizeof(Word));
     this->readAt(at, rows.data(), rows.size() * sizeof(Word));
     std::uint32_t added = 0;
-    for (std::size_t row = 0; row < std::size_t(window.Rows); ++row)
+    for (std::size_t row = 0; row < std::size_t(part.Rows); ++row)
     {
       Word* const to =
-        rows.data() + (std::size_t(window.Rows) - 1 - row) * std::size_t(RasterTileSize);
-      const std::size_t from = source.First + row * source.Width;
+        rows.data() + (std::size_t(part.Rows) - 1 - row) * std::size_t(RasterTileSize);
+      const std::size_t from = first + row * std::size_t(window.Columns);
       for (std::size_t i = 0; i < width; ++i)
       {
-        added += std::uint32_t(isSet[from + i] != 0 && to[i] == 0);
-        to[i] = isSet[from + i] != 0 ? encode<Word>(values[band][from + i]) : to[i];
+        const bool isNew = to[i] == 0;
+        const bool isChosen = isSet[from + i] != 0 && (replaces || isNew);
+        added += std::uint32_t(isChosen && isNew);
+        to[i] = isChosen ? encode<Word>(values[band][from + i]) : to[i];
       }
     }
-    this->writeAt(at, rows.data(), rows.size() * sizeof(Word));
+    this->File.write(at, rows.data(), rows.size() * sizeof(Word));
     state.Set += band == 0 ? added : 0;
   }
   this->writeState(tile, state);
   const RasterWindow whole = tileOf(this->Grid, tile);
   if (this->Finish && state.Set == std::uint32_t(whole.Columns * whole.Rows))
   {
-    this->finish<Word>(tile);
+    this->finish(tile);
   }
 }
 
 /// Encodes a tile whose pixels are all set. The caller holds its lock.
-template <typename Word>
 void TileStore::finish(std::int64_t tile)
 {
   const RasterWindow window = tileOf(this->Grid, tile);
   std::vector<std::vector<double>> values;
-  this->readAs<Word>(window, values);
-  this->writeFinished(tile, this->Finish(window, values));
-}
-
-void TileStore::writeFinished(std::int64_t tile, const FinishedTile& finished)
-{
-  std::string bytes(reinterpret_cast<const char*>(&finished.Filled), sizeof finished.Filled);
+  this->read(window, values);
+  const FinishedTile finished = this->Finish(window, values);
+  SaveArchive bytes;
+  bytes(finished.Filled);
   for (const EncodedTile::Band& band : finished.Encoded.Bands)
   {
-    const std::uint64_t size = band.Bytes.size();
-    bytes.append(reinterpret_cast<const char*>(&band.Sums), sizeof band.Sums);
-    bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
-    bytes += band.Bytes;
+    bytes(band.Sums, band.Bytes);
   }
   if (bytes.size() > this->encodedRoom() ||
     bytes.size() > std::numeric_limits<std::uint32_t>::max())
@@ -273,17 +233,15 @@ void TileStore::writeFinished(std::int64_t tile, const FinishedTile& finished)
     return; // it is encoded when the raster is written
   }
   const std::uint64_t begin = this->begin(tile);
-  this->writeAt(begin + this->pixelBytes(), bytes.data(), bytes.size());
+  this->File.write(begin + this->pixelBytes(), bytes.data(), bytes.size());
   State state = this->stateOf(tile);
   state.Encoded = std::uint32_t(bytes.size());
   this->writeState(tile, state);
-#ifdef FALLOC_FL_PUNCH_HOLE
   // If the file system cannot punch holes, the pixels just keep their space. Most have not been
   // written to the disk yet.
-  const int ignored = fallocate(this->Descriptor, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE,
+  const int ignored = fallocate(this->File.descriptor(), FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE,
     off_t(begin), off_t(this->pixelBytes()));
   static_cast<void>(ignored);
-#endif
 }
 
 std::optional<FinishedTile> TileStore::readFinished(std::int64_t tile) const
@@ -293,50 +251,17 @@ std::optional<FinishedTile> TileStore::readFinished(std::int64_t tile) const
   {
     return std::nullopt;
   }
-  std::string bytes(std::min<std::uint64_t>(state.Encoded, this->encodedRoom()), '\0');
+  Bytes bytes(std::min<std::uint64_t>(state.Encoded, this->encodedRoom()));
   this->readAt(this->begin(tile) + this->pixelBytes(), bytes.data(), bytes.size());
-  std::size_t at = 0;
-  const auto take = [&](void* to, std::size_t size)
-  {
-    if (size > bytes.size() - at)
-    {
-      throw IOError(this->Path, "is damaged; remove it and start again.");
-    }
-    std::memcpy(to, bytes.data() + at, size);
-    at += size;
-  };
+  LoadArchive archive(bytes);
   FinishedTile finished;
-  take(&finished.Filled, sizeof finished.Filled);
-  for (std::size_t band = 0; band < this->Bands; ++band)
+  finished.Encoded.Bands.resize(this->Bands);
+  archive(finished.Filled);
+  for (EncodedTile::Band& band : finished.Encoded.Bands)
   {
-    EncodedTile::Band& to = finished.Encoded.Bands.emplace_back();
-    std::uint64_t size = 0;
-    take(&to.Sums, sizeof to.Sums);
-    take(&size, sizeof size);
-    to.Bytes.resize(std::min<std::uint64_t>(size, bytes.size()));
-    take(to.Bytes.data(), size);
+    archive(band.Sums, band.Bytes);
   }
   return finished;
-}
-
-template <typename Word>
-void TileStore::setIfMissingAs(std::int64_t pixel, const double* values)
-{
-  const std::int64_t column = pixel % this->Grid.Columns;
-  const std::int64_t row = pixel / this->Grid.Columns;
-  const std::int64_t tile = this->tileAt(column, row);
-  const Lock lock(*this, tile);
-  if (this->stateOf(tile).Encoded > 0)
-  {
-    return;
-  }
-  Word first = 0;
-  this->readAt(this->offset(column, row, 0, sizeof first), &first, sizeof first);
-  for (std::size_t band = 0; first == 0 && band < this->Bands; ++band)
-  {
-    const auto word = encode<Word>(values[band]);
-    this->writeAt(this->offset(column, row, band, sizeof word), &word, sizeof word);
-  }
 }
 
 template <typename Word>
@@ -346,11 +271,12 @@ void TileStore::readAs(const RasterWindow& tile, std::vector<std::vector<double>
   const auto height = std::size_t(tile.Rows);
   constexpr auto side = std::size_t(RasterTileSize);
   std::vector<Word> words((height - 1) * side + width);
+  const std::int64_t number = tileNumber(this->Grid, tile);
   values.resize(this->Bands);
   for (std::size_t band = 0; band < this->Bands; ++band)
   {
-    this->readAt(this->offset(tile.Column, tile.Row + tile.Rows - 1, band, sizeof(Word)),
-      words.data(), words.size() * sizeof(Word));
+    this->readAt(
+      this->offset(number, tile, band, sizeof(Word)), words.data(), words.size() * sizeof(Word));
     values[band].resize(width * height);
     for (std::size_t row = 0; row < height; ++row)
     {
@@ -362,33 +288,24 @@ void TileStore::readAs(const RasterWindow& tile, std::vector<std::vector<double>
 }
 
 void TileStore::set(const RasterWindow& window, const std::vector<unsigned char>& isSet,
-  const std::vector<std::vector<double>>& values)
+  const std::vector<std::vector<double>>& values, bool replaces)
 {
-  const std::int64_t right = window.Column + window.Columns;
-  const std::int64_t top = window.Row + window.Rows;
-  for (std::int64_t row = window.Row; row < top;)
-  {
-    const RasterWindow line = tileOf(this->Grid, this->tileAt(window.Column, row));
-    const std::int64_t rows = std::min(line.Row + line.Rows, top) - row;
-    for (std::int64_t column = window.Column; column < right;)
+  forTiles(this->Grid, window,
+    [&](std::int64_t tile, const RasterWindow& part)
     {
-      const std::int64_t next = (column / RasterTileSize + 1) * RasterTileSize;
-      const std::int64_t columns = std::min(next, right) - column;
-      const Source source{ { column, row, columns, rows },
-        std::size_t((row - window.Row) * window.Columns + column - window.Column),
-        std::size_t(window.Columns) };
-      this->IsSingle ? this->setAs<std::uint32_t>(source, isSet, values)
-                     : this->setAs<std::uint64_t>(source, isSet, values);
-      column += columns;
-    }
-    row += rows;
-  }
+      this->IsSingle ? this->setInTile<std::uint32_t>(tile, part, window, isSet, values, replaces)
+                     : this->setInTile<std::uint64_t>(tile, part, window, isSet, values, replaces);
+    });
 }
 
 void TileStore::setIfMissing(std::int64_t pixel, const double* values)
 {
-  this->IsSingle ? this->setIfMissingAs<std::uint32_t>(pixel, values)
-                 : this->setIfMissingAs<std::uint64_t>(pixel, values);
+  std::vector<std::vector<double>> bands;
+  for (std::size_t band = 0; band < this->Bands; ++band)
+  {
+    bands.push_back({ values[band] });
+  }
+  this->set({ pixel % this->Grid.Columns, pixel / this->Grid.Columns, 1, 1 }, { 1 }, bands, false);
 }
 
 void TileStore::read(const RasterWindow& tile, std::vector<std::vector<double>>& values) const

@@ -2,6 +2,7 @@
 #ifndef tippTileStore_h
 #define tippTileStore_h
 
+#include "Files/OutputFile.h"
 #include "Raster/RasterFile.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -38,14 +39,11 @@ public:
   /// tiles are not encoded. Throws IOError.
   TileStore(const std::string& path, const RasterGrid& grid, std::size_t bands, bool isSingle,
     FinishTile finish);
-  ~TileStore();
-  TileStore(const TileStore&) = delete;
-  TileStore& operator=(const TileStore&) = delete;
 
   /// Sets the pixels of a window that `isSet` marks; `values` has the window's pixels for each
-  /// band.
+  /// band. Unless it `replaces`, pixels that are already set stay.
   void set(const RasterWindow& window, const std::vector<unsigned char>& isSet,
-    const std::vector<std::vector<double>>& values);
+    const std::vector<std::vector<double>>& values, bool replaces = true);
 
   /// Sets a pixel, given by its index in the grid, if it has not been set. `values` has one value
   /// per band.
@@ -63,43 +61,30 @@ private:
     std::uint32_t Set = 0;     ///< number of pixels set
     std::uint32_t Encoded = 0; ///< size in bytes of the encoded tile; 0: not finished
   };
-  /// A window within one tile, as a part of a larger window's values.
-  struct Source
-  {
-    RasterWindow Window;
-    std::size_t First; ///< index of its first value
-    std::size_t Width; ///< width of the larger window
-  };
   class Lock;
 
   template <typename Word>
-  void setAs(const Source& source, const std::vector<unsigned char>& isSet,
-    const std::vector<std::vector<double>>& values);
-  template <typename Word>
-  void setIfMissingAs(std::int64_t pixel, const double* values);
+  void setInTile(std::int64_t tile, const RasterWindow& part, const RasterWindow& window,
+    const std::vector<unsigned char>& isSet, const std::vector<std::vector<double>>& values,
+    bool replaces);
   template <typename Word>
   void readAs(const RasterWindow& tile, std::vector<std::vector<double>>& values) const;
-  template <typename Word>
   void finish(std::int64_t tile);
-  void writeFinished(std::int64_t tile, const FinishedTile& finished);
 
-  std::int64_t tileAt(std::int64_t column, std::int64_t row) const;
   std::uint64_t pixelBytes() const;
   std::uint64_t encodedRoom() const;
   std::uint64_t begin(std::int64_t tile) const;
   std::uint64_t offset(
-    std::int64_t column, std::int64_t row, std::size_t band, std::size_t wordSize) const;
+    std::int64_t tile, const RasterWindow& part, std::size_t band, std::size_t wordSize) const;
   State stateOf(std::int64_t tile) const;
   void writeState(std::int64_t tile, State state) const;
   void readAt(std::uint64_t offset, void* words, std::size_t bytes) const;
-  void writeAt(std::uint64_t offset, const void* words, std::size_t bytes) const;
 
-  const std::string Path;
+  const OutputFile File; ///< open for reading, too
   const RasterGrid Grid;
   const std::size_t Bands;
   const bool IsSingle;
   const FinishTile Finish;
-  int Descriptor;
   mutable std::array<std::mutex, 64> Mutexes; ///< each guards some of the tiles
 };
 

@@ -101,6 +101,10 @@ unsigned char* SampledImage::valid() const
 
 void SampledImage::clear()
 {
+  for (Array& array : this->Arrays)
+  {
+    fillNull(array.Samples, this->Settings.NullValue, 0, this->samples());
+  }
   std::fill(this->valid(), this->valid() + this->samples(), 0);
   if (this->Keys)
   {
@@ -174,29 +178,23 @@ bool SampledImage::add(vtkPointSet* mesh, const Report& progress)
   this->Statistics.PreparationSeconds += watch.seconds();
   this->Statistics.Ignored += parts.Thin;
   this->Statistics.NotFinite += parts.NotFinite;
+  const std::int64_t triangles = parts.Triangles.Mesh.Cells;
   if (parts.Tetrahedra.Mesh.Cells > 0 && this->Dimension != 3)
   {
     this->startAgain();
     this->Dimension = 3;
   }
-  if (parts.Triangles.Mesh.Cells > 0 && this->Dimension != 3)
+  else if (triangles > 0 && this->Dimension == 0)
   {
     this->Dimension = 2;
   }
   this->addArrays(mesh->GetPointData(), false);
   this->addArrays(mesh->GetCellData(), true);
-  bool completed = true;
-  if (this->Dimension == 3 && parts.Tetrahedra.Mesh.Cells > 0)
+  SimplexSet& simplices = this->Dimension == 3 ? parts.Tetrahedra : parts.Triangles;
+  const bool completed = simplices.Mesh.Cells == 0 || this->sample(mesh, simplices, progress);
+  if (this->Dimension == 3 && triangles > 0)
   {
-    completed = this->sample(mesh, parts.Tetrahedra, progress);
-  }
-  if (this->Dimension == 2 && parts.Triangles.Mesh.Cells > 0)
-  {
-    completed = this->sample(mesh, parts.Triangles, progress);
-  }
-  if (this->Dimension == 3 && parts.Triangles.Mesh.Cells > 0)
-  {
-    this->Statistics.Ignored += parts.Triangles.Mesh.Cells;
+    this->Statistics.Ignored += triangles;
     this->warnOnce("Surface cells beside cells with a volume are not sampled.");
   }
   return completed;
@@ -209,10 +207,6 @@ void SampledImage::startAgain()
     this->warnOnce("Surface cells beside cells with a volume are not sampled.");
     this->Statistics.Ignored += this->Statistics.Cells;
     this->Statistics.Cells = 0;
-  }
-  for (Array& array : this->Arrays)
-  {
-    fillNull(array.Samples, this->Settings.NullValue, 0, this->samples());
   }
   this->clear();
 }
@@ -370,10 +364,6 @@ void SampledImage::finish()
   if (!this->HasSamples)
   {
     this->clear();
-    for (Array& array : this->Arrays)
-    {
-      fillNull(array.Samples, this->Settings.NullValue, 0, this->samples());
-    }
   }
   this->repeatLayers();
 }

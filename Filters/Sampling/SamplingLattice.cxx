@@ -49,15 +49,16 @@ std::array<int, 3> chosenDimensions(
   return dimensions;
 }
 
-std::array<int, 3> rangeDimensions(const std::array<double, 6>& bounds,
-  const std::array<int, 3>& dimensions, const std::array<double, 3>& delta)
+Lattice rangeLattice(const std::array<double, 6>& bounds, const std::array<int, 3>& dimensions,
+  const std::array<double, 3>& delta)
 {
-  std::array<int, 3> result = dimensions;
+  Lattice lattice;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const std::string name(1, "xyz"[axis]);
     const double low = bounds[2 * axis];
     const double high = bounds[2 * axis + 1];
+    int count = dimensions[axis];
     if (!std::isfinite(high - low) || low > high)
     {
       throw std::runtime_error("the range along " + name + " is from " + std::to_string(low) +
@@ -76,35 +77,22 @@ std::array<int, 3> rangeDimensions(const std::array<double, 6>& bounds,
         throw std::runtime_error(
           "more than 2147483647 samples along " + name + ": give a larger Delta.");
       }
-      result[axis] = int(steps) + 1;
+      count = int(steps) + 1;
     }
-    if (result[axis] < 1)
+    if (count < 1)
     {
-      throw std::runtime_error("SamplingDimensions along " + name + " is " +
-        std::to_string(result[axis]) + ": give 1 or more.");
+      throw std::runtime_error(
+        "SamplingDimensions along " + name + " is " + std::to_string(count) + ": give 1 or more.");
     }
-  }
-  return result;
-}
-
-Lattice rangeLattice(const std::array<double, 6>& bounds, const std::array<int, 3>& dimensions,
-  const std::array<double, 3>& delta)
-{
-  const std::array<int, 3> counts = rangeDimensions(bounds, dimensions, delta);
-  Lattice lattice;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    const double low = bounds[2 * axis];
-    const double high = bounds[2 * axis + 1];
-    const double steps = counts[axis] - 1;
     lattice.Min[axis] = low;
-    lattice.Extent[2 * axis + 1] = counts[axis] - 1;
+    lattice.Extent[2 * axis + 1] = count - 1;
     if (delta[axis] > 0)
     {
       lattice.Delta[axis] = delta[axis];
     }
-    else if (counts[axis] > 1)
+    else if (count > 1)
     {
+      const double steps = count - 1;
       lattice.Delta[axis] = (high - low) / steps;
       // Rounding must not move the last sample out of the range.
       while (lattice.Delta[axis] > 0 && low + steps * lattice.Delta[axis] > high)

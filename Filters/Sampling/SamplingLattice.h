@@ -16,13 +16,9 @@ namespace tipp
 VTKTIPPFILTERS_EXPORT std::array<int, 3> chosenDimensions(
   const std::array<double, 6>& bounds, std::array<int, 3> dimensions, bool surfaces);
 
-/// Returns the number of samples along each axis of a range: from the spacing `delta` if it is
-/// above 0, else `dimensions`. Throws std::runtime_error for an invalid range or number.
-std::array<int, 3> rangeDimensions(const std::array<double, 6>& bounds,
-  const std::array<int, 3>& dimensions, const std::array<double, 3>& delta);
-
-/// Returns the lattice of a range. Along axes that use `dimensions`, the last sample is not beyond
-/// the range.
+/// Returns the lattice of a range: along each axis with the spacing `delta` if it is above 0, else
+/// with `dimensions` samples, the last of them not beyond the range. Throws std::runtime_error for
+/// an invalid range or number.
 Lattice rangeLattice(const std::array<double, 6>& bounds, const std::array<int, 3>& dimensions,
   const std::array<double, 3>& delta);
 

@@ -24,21 +24,43 @@
 namespace tipp
 {
 
+namespace
+{
+
+/// The bounding box of the points that are finite along the axes.
+vtkBoundingBox boxOf(const std::vector<vtkPointSet*>& meshes, const std::vector<int>& axes)
+{
+  vtkBoundingBox box;
+  for (vtkPointSet* mesh : meshes)
+  {
+    if (allPointsFinite(mesh))
+    {
+      // Without points VTK's bounds are from 1 to -1.
+      mesh->GetNumberOfPoints() > 0 ? box.AddBounds(mesh->GetBounds()) : void();
+      continue;
+    }
+    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+    {
+      double p[3];
+      mesh->GetPoint(i, p);
+      if (std::all_of(axes.begin(), axes.end(), [&](int axis) { return std::isfinite(p[axis]); }))
+      {
+        box.AddPoint(p);
+      }
+    }
+  }
+  return box;
+}
+
+} // namespace
+
 void HeightRange::add(vtkPointSet* mesh)
 {
-  const vtkIdType points = mesh->GetNumberOfPoints();
-  if (points > 0 && allPointsFinite(mesh))
+  const vtkBoundingBox box = boxOf({ mesh }, { 2 });
+  if (box.GetBound(4) <= box.GetBound(5))
   {
-    const double* const bounds = mesh->GetBounds(); // cached by VTK
-    this->add(bounds[4]);
-    this->add(bounds[5]);
-    return;
-  }
-  for (vtkIdType i = 0; i < points; ++i)
-  {
-    double p[3];
-    mesh->GetPoint(i, p);
-    this->add(p[2]);
+    this->Low = std::min(this->Low, box.GetBound(4));
+    this->High = std::max(this->High, box.GetBound(5));
   }
 }
 
@@ -79,36 +101,6 @@ vtkSmartPointer<vtkPointSet> withElevation(vtkPointSet* mesh)
   copy->GetPointData()->AddArray(heights);
   return copy;
 }
-
-namespace
-{
-
-/// The bounding box of the points that are finite along the axes.
-vtkBoundingBox boxOf(const std::vector<vtkPointSet*>& meshes, const std::vector<int>& axes)
-{
-  vtkBoundingBox box;
-  for (vtkPointSet* mesh : meshes)
-  {
-    if (allPointsFinite(mesh))
-    {
-      // Without points VTK's bounds are from 1 to -1.
-      mesh->GetNumberOfPoints() > 0 ? box.AddBounds(mesh->GetBounds()) : void();
-      continue;
-    }
-    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
-    {
-      double p[3];
-      mesh->GetPoint(i, p);
-      if (std::all_of(axes.begin(), axes.end(), [&](int axis) { return std::isfinite(p[axis]); }))
-      {
-        box.AddPoint(p);
-      }
-    }
-  }
-  return box;
-}
-
-} // namespace
 
 std::vector<vtkPointSet*> meshesOf(vtkDataObject* data, int threads)
 {

@@ -30,11 +30,6 @@ struct HeightRange
   double Low = HUGE_VAL;
   double High = -HUGE_VAL;
 
-  void add(double z)
-  {
-    this->Low = std::isfinite(z) ? std::min(this->Low, z) : this->Low;
-    this->High = std::isfinite(z) ? std::max(this->High, z) : this->High;
-  }
   VTKTIPPFILTERS_EXPORT void add(vtkPointSet* mesh);
   /// Combines the ranges of all ranks, on all ranks. Collective.
   VTKTIPPFILTERS_EXPORT void gather(Communicator& ranks);
@@ -49,8 +44,6 @@ VTKTIPPFILTERS_EXPORT bool haveElevation(
 /// Returns a shallow copy of the mesh with z as the point array "elevation", in the type of the
 /// coordinates; the mesh itself if it has an array of that name.
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPointSet> withElevation(vtkPointSet* mesh);
-
-class Communicator;
 
 /// Copies a C array, such as a VTK property, into a std::array.
 template <std::size_t N, typename T>

@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <utility>
 
 namespace tipp
@@ -97,10 +98,7 @@ const std::vector<Face>& facesOf(int cellType)
 void cutPolygon(const std::vector<Corner>& corners, std::vector<std::int64_t>& ids)
 {
   Face face(corners.size());
-  for (std::size_t i = 0; i < face.size(); ++i)
-  {
-    face[i] = int(i);
-  }
+  std::iota(face.begin(), face.end(), 0);
   std::rotate(face.begin(), face.begin() + std::ptrdiff_t(leastOf(corners, face)), face.end());
   const auto position = [&](std::size_t i) { return corners[std::size_t(face[i])].Position; };
   if (face.size() == 4 && !cutsInside(position(0), position(1), position(2), position(3)))
@@ -121,10 +119,7 @@ void cutPolyhedron(const std::vector<Corner>& corners, const std::vector<Face>& 
   std::vector<std::int64_t>& ids)
 {
   Face all(corners.size());
-  for (std::size_t i = 0; i < all.size(); ++i)
-  {
-    all[i] = int(i);
-  }
+  std::iota(all.begin(), all.end(), 0);
   const int apex = int(leastOf(corners, all));
   for (Face face : faces)
   {

@@ -11,6 +11,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -19,74 +22,20 @@
 namespace tipp
 {
 
-AdcircRows::AdcircRows(const std::string& path, std::string_view text, std::string kind)
-  : Path(path)
-  , Kind(std::move(kind))
-  , Lines(text)
-  , Total(this->Lines.remainingLines())
-{
-}
-
-void AdcircRows::skipTitle()
-{
-  std::string_view title;
-  this->Lines.next(title);
-}
-
-void AdcircRows::next(std::size_t fields, const char* what)
-{
-  std::string_view line;
-  if (!this->Lines.next(line))
-  {
-    this->fail(std::string("the file ends before ") + what + "; copy it again.");
-  }
-  splitFields(line, ' ', this->Row);
-  if (this->Row.size() < fields)
-  {
-    this->fail(
-      std::string("has too few numbers for ") + what + "; check that it is " + this->Kind + ".");
-  }
-}
-
-std::int64_t AdcircRows::integer(std::size_t field) const
-{
-  std::int64_t value = 0;
-  if (!parseInteger(this->Row[field], value))
-  {
-    this->fail("'" + std::string(this->Row[field]) + "' is not an integer; correct the line.");
-  }
-  return value;
-}
-
-double AdcircRows::number(std::size_t field) const
-{
-  double value = 0;
-  if (!parseNumber(this->Row[field], value))
-  {
-    this->fail("'" + std::string(this->Row[field]) + "' is not a number; correct the line.");
-  }
-  return value;
-}
-
-void AdcircRows::fail(const std::string& problem) const
-{
-  throw IOError(this->Path, this->Lines.lineNumber(), problem);
-}
-
 namespace
 {
 
 class AdcircReader
 {
 public:
-  AdcircReader(const std::string& path, const std::string& text)
-    : Rows(path, text, "an ADCIRC grid")
+  explicit AdcircReader(const std::string& path)
+    : Rows(path, "an ADCIRC grid")
   {
   }
 
-  AdcircGrid read()
+  AdcircGrid read(bool readsBoundaries)
   {
-    this->Rows.skipTitle();
+    this->Grid.Title = this->Rows.title();
     this->Rows.next(2, "the numbers of elements and nodes");
     const std::int64_t elements = this->Rows.integer(0);
     const std::int64_t nodes = this->Rows.integer(1);
@@ -99,11 +48,18 @@ public:
     }
     this->readNodes(nodes);
     this->readElements(elements);
+    LineReader boundaries(this->Rows.rest());
+    for (std::string_view line; boundaries.next(line);)
+    {
+      this->Grid.Boundaries.append(line) += '\n';
+    }
+    readsBoundaries ? this->readBoundaries() : void();
     return std::move(this->Grid);
   }
 
-  /// Call after read(): the open boundaries, then the land boundaries.
-  void readBoundaries(AdcircGrid& grid)
+private:
+  /// Reads the open boundaries, then the land boundaries.
+  void readBoundaries()
   {
     for (const bool isLand : { false, true })
     {
@@ -112,23 +68,13 @@ public:
       this->Rows.next(1, "the number of boundary nodes");
       for (std::int64_t i = 0; i < boundaries; ++i)
       {
-        this->readBoundary(isLand, grid);
+        this->readBoundary(isLand);
       }
     }
-    this->closeWeirs(grid);
+    this->closeWeirs();
   }
 
-  /// Moves another reader of the same text, which has read the title, to the position of this one.
-  void skipLinesOf(LineReader& lines) const
-  {
-    std::string_view line;
-    while (lines.lineNumber() < this->Rows.lineNumber() && lines.next(line))
-    {
-    }
-  }
-
-private:
-  void readBoundary(bool isLand, AdcircGrid& grid)
+  void readBoundary(bool isLand)
   {
     this->Rows.next(isLand ? 2 : 1, "the number of a boundary's nodes and its kind");
     const std::int64_t count = this->Rows.integer(0);
@@ -141,10 +87,10 @@ private:
     for (std::int64_t i = 0; i < count; ++i)
     {
       this->Rows.next(isWeir ? 2 : 1, "a node of a boundary");
-      front.push_back(this->node(grid, 0));
+      front.push_back(this->node(0));
       if (isWeir)
       {
-        back.push_back(this->node(grid, 1));
+        back.push_back(this->node(1));
       }
     }
     if (kind == island && !front.empty() && front.front() != front.back())
@@ -160,17 +106,17 @@ private:
     {
       for (std::size_t i = 1; i < nodes.size(); ++i)
       {
-        grid.BoundaryEdges.push_back({ nodes[i - 1], nodes[i] });
+        this->Grid.BoundaryEdges.push_back({ nodes[i - 1], nodes[i] });
       }
     }
   }
 
   /// The two sides of a weir are continued by other boundaries; where they are not, an edge is
   /// added between their ends.
-  void closeWeirs(AdcircGrid& grid) const
+  void closeWeirs()
   {
     std::unordered_map<std::int64_t, int> degrees;
-    for (const auto& edge : grid.BoundaryEdges)
+    for (const auto& edge : this->Grid.BoundaryEdges)
     {
       ++degrees[edge[0]];
       ++degrees[edge[1]];
@@ -179,18 +125,18 @@ private:
     {
       if (ends[0] != ends[1] && degrees[ends[0]] % 2 != 0 && degrees[ends[1]] % 2 != 0)
       {
-        grid.BoundaryEdges.push_back(ends);
+        this->Grid.BoundaryEdges.push_back(ends);
         ++degrees[ends[0]];
         ++degrees[ends[1]];
       }
     }
   }
 
-  std::int64_t node(const AdcircGrid& grid, std::size_t field) const
+  std::int64_t node(std::size_t field) const
   {
     const std::int64_t number = this->Rows.integer(field);
-    const auto node = grid.IndexOf.find(number);
-    if (node == grid.IndexOf.end())
+    const auto node = this->Grid.IndexOf.find(number);
+    if (node == this->Grid.IndexOf.end())
     {
       this->Rows.fail("names node " + std::to_string(number) + ", which is not given.");
     }
@@ -227,12 +173,12 @@ private:
       }
       for (std::size_t corner = 2; corner < 5; ++corner)
       {
-        this->Grid.Triangles.push_back(this->node(this->Grid, corner));
+        this->Grid.Triangles.push_back(this->node(corner));
       }
     }
   }
 
-  AdcircRows Rows;
+  NumberRows Rows;
   AdcircGrid Grid;
   std::vector<std::array<std::int64_t, 2>> WeirEnds; ///< pairs of opposite nodes
 };
@@ -241,40 +187,12 @@ private:
 
 AdcircGrid readAdcircGrid(const std::string& path)
 {
-  const std::string text = readTextFile(path);
-  return AdcircReader(path, text).read();
-}
-
-AdcircFrame readAdcircFrame(const std::string& path)
-{
-  const std::string text = readTextFile(path);
-  AdcircReader reader(path, text);
-  const AdcircGrid grid = reader.read();
-  AdcircFrame frame;
-  LineReader lines(text);
-  std::string_view line;
-  lines.next(line);
-  frame.Title = line;
-  frame.NodeNumbers.resize(grid.IndexOf.size());
-  for (const auto& [number, index] : grid.IndexOf)
-  {
-    frame.NodeNumbers[std::size_t(index)] = number;
-  }
-  reader.skipLinesOf(lines);
-  while (lines.next(line))
-  {
-    frame.Boundaries += std::string(line) + "\n";
-  }
-  return frame;
+  return AdcircReader(path).read(false);
 }
 
 AdcircGrid readAdcircGridAndBoundaries(const std::string& path)
 {
-  const std::string text = readTextFile(path);
-  AdcircReader reader(path, text);
-  AdcircGrid grid = reader.read();
-  reader.readBoundaries(grid);
-  return grid;
+  return AdcircReader(path).read(true);
 }
 
 namespace
@@ -310,30 +228,21 @@ std::vector<double> depthsOf(const PointTable& points)
   return depths;
 }
 
-/// The frame of the grid file `like`, or a new one if `like` is empty.
-AdcircFrame frameFor(const std::string& like, std::size_t points)
+/// The numbers of a grid's nodes, in the order of the file, and of further nodes up to `points`.
+std::vector<std::int64_t> nodeNumbers(const AdcircGrid& grid, std::size_t points)
 {
-  AdcircFrame frame;
-  if (like.empty())
+  std::vector<std::int64_t> numbers(grid.IndexOf.size());
+  std::int64_t last = numbers.empty() ? 0 : std::numeric_limits<std::int64_t>::min();
+  for (const auto& [number, index] : grid.IndexOf)
   {
-    frame.Title = "Triangles made by tipp";
+    numbers[std::size_t(index)] = number;
+    last = std::max(last, number);
   }
-  else
+  while (numbers.size() < points)
   {
-    frame = readAdcircFrame(like);
+    numbers.push_back(++last);
   }
-  if (frame.Boundaries.empty())
-  {
-    frame.Boundaries = noBoundaries;
-  }
-  std::int64_t last = frame.NodeNumbers.empty()
-    ? 0
-    : *std::max_element(frame.NodeNumbers.begin(), frame.NodeNumbers.end());
-  while (frame.NodeNumbers.size() < points)
-  {
-    frame.NodeNumbers.push_back(++last);
-  }
-  return frame;
+  return numbers;
 }
 
 } // namespace
@@ -348,7 +257,13 @@ bool writeAdcircGrid(const std::string& path, const PointTable& points, Triangle
   const std::string& like, const std::optional<PathState>& before,
   const std::function<bool()>& aborted)
 {
-  const AdcircFrame frame = frameFor(like, points.size());
+  AdcircGrid frame; // its title, node numbers and boundaries are written
+  frame.Title = "Triangles made by tipp";
+  if (!like.empty())
+  {
+    frame = readAdcircGrid(like);
+  }
+  const std::vector<std::int64_t> numbers = nodeNumbers(frame, points.size());
   const std::vector<double> depths = depthsOf(points);
   PendingFile pending(path, before);
   OutputStream out(pending.file());
@@ -362,7 +277,7 @@ bool writeAdcircGrid(const std::string& path, const PointTable& points, Triangle
         "cannot hold point " + std::to_string(i) +
           ", whose coordinates are not finite; remove it, or write .vtu.");
     }
-    line = std::to_string(frame.NodeNumbers[i]);
+    line = std::to_string(numbers[i]);
     append(line, points.XY[2 * i]);
     append(line, points.XY[2 * i + 1]);
     append(line, depths[i]);
@@ -373,11 +288,11 @@ bool writeAdcircGrid(const std::string& path, const PointTable& points, Triangle
     line = std::to_string(t + 1) + " 3";
     for (int corner = 0; corner < 3; ++corner)
     {
-      line += ' ' + std::to_string(frame.NodeNumbers[std::size_t(triangles.id(t, corner))]);
+      line += ' ' + std::to_string(numbers[std::size_t(triangles.id(t, corner))]);
     }
     out << line << "\n";
   }
-  out << frame.Boundaries;
+  out << (frame.Boundaries.empty() ? noBoundaries : frame.Boundaries);
   out.finish();
   if (aborted && aborted())
   {
@@ -385,6 +300,161 @@ bool writeAdcircGrid(const std::string& path, const PointTable& points, Triangle
   }
   pending.commit();
   return true;
+}
+
+namespace
+{
+
+class ValuesReader
+{
+public:
+  ValuesReader(const std::string& path, const AdcircGrid& grid)
+    : Grid(grid)
+    , Rows(path, "ADCIRC's output in ASCII")
+  {
+  }
+
+  AdcircValues read()
+  {
+    this->Rows.title();
+    this->Rows.next(5, "the numbers of steps, nodes and values");
+    const std::int64_t steps = this->Rows.integer(0);
+    this->Nodes = this->Rows.integer(1);
+    const std::int64_t components = this->Rows.integer(4);
+    const std::int64_t lines = this->Rows.remainingLines();
+    // A step has at least one line; the number of its nodes is checked when it is read.
+    if (steps < 1 || steps > lines || this->Nodes < 1 || this->Nodes > lines || components < 1 ||
+      components > 3)
+    {
+      this->Rows.fail("announces " + std::to_string(steps) + " steps of " +
+        std::to_string(this->Nodes) + " nodes with " + std::to_string(components) +
+        " values, but " + std::to_string(lines) + " lines follow; copy the file again.");
+    }
+    if (std::size_t(this->Nodes) != this->Grid.Depth.size())
+    {
+      this->Rows.fail("gives values at " + std::to_string(this->Nodes) +
+        " nodes, but the grid has " + std::to_string(this->Grid.Depth.size()) +
+        "; name the grid that it belongs to.");
+    }
+    this->Result.Components = int(components);
+    this->LastStep.assign(std::size_t(this->Nodes), -1);
+    for (std::int64_t step = 0; step < steps; ++step)
+    {
+      this->readStep(step);
+    }
+    return std::move(this->Result);
+  }
+
+private:
+  void readStep(std::int64_t step)
+  {
+    this->Rows.next(2, "a step");
+    this->Result.Times.push_back(this->Rows.number(0));
+    const bool sparse = this->Rows.fields() >= 4;
+    const std::int64_t given = sparse ? this->Rows.integer(2) : this->Nodes;
+    const std::int64_t lines = this->Rows.remainingLines();
+    if (given < 0 || given > this->Nodes || given > lines)
+    {
+      this->Rows.fail("announces " + std::to_string(given) + " nodes, but " +
+        std::to_string(lines) + " lines follow; copy the file again.");
+    }
+    const auto components = std::size_t(this->Result.Components);
+    const std::size_t first = this->Result.Values.size();
+    const double rest = sparse ? this->Rows.number(3) : 0;
+    this->Result.Values.resize(first + std::size_t(this->Nodes) * components, rest);
+    for (std::int64_t i = 0; i < given; ++i)
+    {
+      this->Rows.next(1 + components, "a node's values");
+      const std::size_t node = this->nodeOf(this->Rows.integer(0), step);
+      for (std::size_t c = 0; c < components; ++c)
+      {
+        this->Result.Values[first + node * components + c] = this->Rows.number(1 + c);
+      }
+    }
+  }
+
+  /// The index in the grid of a node number. A step may list a node only once.
+  std::size_t nodeOf(std::int64_t number, std::int64_t step)
+  {
+    const auto node = this->Grid.IndexOf.find(number);
+    if (node == this->Grid.IndexOf.end())
+    {
+      this->Rows.fail("names node " + std::to_string(number) +
+        ", which the grid does not have; name the grid that it belongs to.");
+    }
+    std::int64_t& last = this->LastStep[std::size_t(node->second)];
+    if (last == step)
+    {
+      this->Rows.fail(
+        "gives node " + std::to_string(number) + " twice in a step; copy the file again.");
+    }
+    last = step;
+    return std::size_t(node->second);
+  }
+
+  const AdcircGrid& Grid;
+  NumberRows Rows;
+  std::int64_t Nodes = 0;
+  std::vector<std::int64_t> LastStep; ///< the last step that gave the node, or -1
+  AdcircValues Result;
+};
+
+} // namespace
+
+AdcircValues readAdcircValues(const std::string& path, const AdcircGrid& grid)
+{
+  return ValuesReader(path, grid).read();
+}
+
+namespace
+{
+
+FlatArray floats(std::string name, std::vector<double> values, int components, std::int64_t tuples)
+{
+  const auto kept = std::make_shared<std::vector<double>>(std::move(values));
+  return { std::move(name), Scalar::Float64, components, tuples, 0, kept->data(), kept };
+}
+
+/// The array's name. ADCIRC's own file names, such as fort.63, keep their extension, which
+/// identifies the content.
+std::string nameOf(const std::string& path)
+{
+  const std::filesystem::path file(path);
+  return file.stem() == "fort" ? file.filename().string() : file.stem().string();
+}
+
+void addValues(const std::string& path, const AdcircGrid& grid, FlatContent& content)
+{
+  AdcircValues values = readAdcircValues(path, grid);
+  const std::int64_t nodes = content.Points.Tuples;
+  FlatArray array = floats(nameOf(path), std::move(values.Values), values.Components, nodes);
+  if (values.Times.size() > 1)
+  {
+    if (!content.Times.empty() && content.Times != values.Times)
+    {
+      throw IOError(path, "has other times than the file before it; flatten them one by one.");
+    }
+    content.Times = std::move(values.Times);
+    array.Steps = std::int64_t(content.Times.size());
+  }
+  content.PointData.push_back(std::move(array));
+}
+
+} // namespace
+
+FlatContent flattenAdcirc(const std::string& grid, const std::vector<std::string>& values)
+{
+  AdcircGrid read = readAdcircGrid(grid);
+  FlatContent content;
+  content.Cells = std::move(read.Triangles);
+  const auto nodes = std::int64_t(read.Depth.size());
+  content.Points = floats("points", std::move(read.XY), 2, nodes);
+  content.PointData.push_back(floats("depth", read.Depth, 1, nodes));
+  for (const std::string& path : values)
+  {
+    addValues(path, read, content);
+  }
+  return content;
 }
 
 } // namespace tipp

@@ -15,72 +15,29 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <unordered_map>
 #include <vector>
 
 namespace tipp
 {
 
-/// Reads the lines of an ADCIRC text file as rows of numbers; errors are IOErrors that name the
-/// line.
-class AdcircRows
-{
-public:
-  /// `kind` completes the message "check that it is ...". `path` and `text` must outlive this
-  /// object.
-  AdcircRows(const std::string& path, std::string_view text, std::string kind);
-
-  void skipTitle();
-  /// Reads the next line, which must have at least `fields` fields; `what` is for errors.
-  void next(std::size_t fields, const char* what);
-  std::size_t fields() const { return this->Row.size(); }
-  std::int64_t integer(std::size_t field) const;
-  double number(std::size_t field) const;
-  /// An upper bound of the number of lines after the row.
-  std::int64_t remainingLines() const
-  {
-    return this->Total - std::int64_t(this->Lines.lineNumber());
-  }
-
-  std::int64_t lineNumber() const { return this->Lines.lineNumber(); }
-
-  [[noreturn]] void fail(const std::string& problem) const;
-
-private:
-  const std::string& Path;
-  std::string Kind;
-  LineReader Lines;
-  std::int64_t Total; ///< computed once, because files are long
-  std::vector<std::string_view> Row;
-};
-
 /// Nodes and triangles of an ADCIRC grid (fort.14, https://adcirc.org): a title; the numbers of
 /// elements and nodes; a line `id x y depth` per node; a line `id 3 a b c` per element; and lists
 /// of the nodes of boundaries.
 struct AdcircGrid
 {
+  std::string Title;
   std::vector<double> XY;    ///< x and y of the nodes, interleaved, in the order of the file
   std::vector<double> Depth; ///< below the datum, positive downwards
   std::vector<std::int64_t> Triangles; ///< three node indices, from 0, per triangle
   /// The index of each node number; numbers may have gaps and be in any order.
   std::unordered_map<std::int64_t, std::int64_t> IndexOf;
+  std::string Boundaries; ///< the lines after the elements, unchanged
   /// Pairs of consecutive boundary nodes, as indices; boundaries of islands are closed.
   std::vector<std::array<std::int64_t, 2>> BoundaryEdges;
 };
 
-/// The parts of a grid file besides nodes and elements.
-struct AdcircFrame
-{
-  std::string Title;
-  std::vector<std::int64_t> NodeNumbers; ///< in the order of the file
-  std::string Boundaries;                ///< the lines after the elements, unchanged
-};
-
-/// Throws IOError.
-AdcircFrame readAdcircFrame(const std::string& path);
-
-/// Reads nodes and triangles only. Throws IOError.
+/// Reads the grid without BoundaryEdges. Throws IOError.
 VTKTIPPIO_EXPORT AdcircGrid readAdcircGrid(const std::string& path);
 
 /// Reads the whole grid. Throws IOError.

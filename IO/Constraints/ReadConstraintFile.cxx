@@ -4,12 +4,14 @@
 #include "Adcirc/AdcircGrid.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/TextFile.h"
 #include "Points/ReadPoints.h"
 #include "Vtk/VtkFiles.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace tipp
@@ -19,24 +21,91 @@ namespace
 
 using Edge = std::array<std::int64_t, 2>;
 
-/// Reads all blocks of a text file into one table.
-ConstraintTable readText(const std::string& path)
+constexpr const char* triangleFile = "a file of Triangle";
+
+void nextRow(NumberRows& rows, std::size_t fields, const char* what)
 {
-  SegmentRows rows(path);
-  ConstraintTable all;
-  ConstraintTable part;
-  while (rows.next(part))
+  rows.next(fields, what);
+  for (std::size_t field = 0; field < rows.fields(); ++field)
   {
-    const auto first = std::int64_t(all.XY.size() / 2);
-    all.XY.insert(all.XY.end(), part.XY.begin(), part.XY.end());
-    all.Height.insert(all.Height.end(), part.Height.begin(), part.Height.end());
-    for (const Edge& edge : part.Edges)
-    {
-      all.Edges.push_back({ first + edge[0], first + edge[1] });
-    }
+    rows.number(field); // also checks the fields that are not used
   }
-  all.PolygonBegin = all.Edges.size();
-  return all;
+}
+
+/// Reads a row whose first field is the number of rows that follow, of the things `what`.
+std::int64_t nextCount(NumberRows& rows, const char* what)
+{
+  nextRow(rows, 1, what);
+  const std::int64_t count = rows.integer(0);
+  if (count < 0 || count > rows.remainingLines())
+  {
+    rows.fail("announces " + std::to_string(count) + " lines, but the file has fewer.");
+  }
+  return count;
+}
+
+/// The vertices of a file, numbered from 0 or 1 there.
+struct Vertices
+{
+  std::vector<double> XY;
+  std::int64_t First = 0;
+};
+
+Vertices readVertices(NumberRows& rows)
+{
+  Vertices vertices;
+  const std::int64_t count = nextCount(rows, "the number of vertices");
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    nextRow(rows, 3, "a vertex");
+    vertices.First = i == 0 ? rows.integer(0) : vertices.First;
+    if (rows.integer(0) != vertices.First + i || vertices.First < 0 || vertices.First > 1)
+    {
+      rows.fail("numbers a vertex otherwise than from 0 or 1 on, one after the other.");
+    }
+    vertices.XY.push_back(rows.number(1));
+    vertices.XY.push_back(rows.number(2));
+  }
+  return vertices;
+}
+
+/// A .poly file of Shewchuk's Triangle (https://www.cs.cmu.edu/~quake/triangle.poly.html):
+/// vertices, segments and holes; later lines are ignored. If it has no vertices, those of the .node
+/// file of the same name are read. Throws IOError.
+ConstraintTable readPolyFile(const std::string& path);
+ConstraintTable readPolyFile(const std::string& path)
+{
+  NumberRows rows(path, triangleFile, '#');
+  Vertices vertices = readVertices(rows);
+  if (vertices.XY.empty())
+  {
+    NumberRows nodes(path.substr(0, path.rfind('.')) + ".node", triangleFile, '#');
+    vertices = readVertices(nodes);
+  }
+  const std::int64_t count = std::int64_t(vertices.XY.size() / 2);
+  ConstraintTable table;
+  table.XY = std::move(vertices.XY);
+  const std::int64_t segments = nextCount(rows, "the number of segments");
+  for (std::int64_t i = 0; i < segments; ++i)
+  {
+    nextRow(rows, 3, "a segment");
+    const std::int64_t a = rows.integer(1) - vertices.First;
+    const std::int64_t b = rows.integer(2) - vertices.First;
+    if (std::min(a, b) < 0 || std::max(a, b) >= count)
+    {
+      rows.fail("names a vertex that is not given.");
+    }
+    table.Edges.push_back({ a, b });
+  }
+  table.PolygonBegin = table.Edges.size();
+  const std::int64_t holes = nextCount(rows, "the number of holes");
+  for (std::int64_t i = 0; i < holes; ++i)
+  {
+    nextRow(rows, 3, "a hole");
+    table.Holes.push_back(rows.number(1));
+    table.Holes.push_back(rows.number(2));
+  }
+  return table;
 }
 
 ConstraintTable readBoundaries(const std::string& path)
@@ -104,9 +173,8 @@ void SegmentRows::takeIds(const PointBlock& block, ConstraintTable& table) const
   }
 }
 
-bool SegmentRows::next(ConstraintTable& table)
+bool SegmentRows::next(ConstraintTable& table, std::size_t most)
 {
-  constexpr std::size_t most = 16384;
   table = ConstraintTable();
   PointBlock block;
   if (!this->Rows->next(block, most))
@@ -155,7 +223,9 @@ ConstraintTable readConstraintFile(const std::string& path)
   }
   if (SegmentRows::isFor(path))
   {
-    return readText(path);
+    ConstraintTable table;
+    SegmentRows(path).next(table, std::numeric_limits<std::size_t>::max());
+    return table;
   }
   if (isAdcircFile(path))
   {

@@ -54,9 +54,9 @@ public:
   /// Opens the file. The constructor and next() throw IOError.
   explicit SegmentRows(const std::string& path);
 
-  /// Replaces the content of `table` by the next segments. Their ids are indices in the table's own
-  /// points, if it has any. Returns false at the end.
-  bool next(ConstraintTable& table);
+  /// Replaces the content of `table` by the next segments, at most `most`. Their ids are indices in
+  /// the table's own points, if it has any. Returns false at the end.
+  bool next(ConstraintTable& table, std::size_t most = 16384);
 
   /// A text that identifies the file across runs: name, size and time.
   std::string identity() const { return this->Rows->identity(); }
@@ -67,11 +67,6 @@ private:
   std::string Path;
   std::unique_ptr<PointStream> Rows;
 };
-
-/// A .poly file of Shewchuk's Triangle (https://www.cs.cmu.edu/~quake/triangle.poly.html):
-/// vertices, segments and holes; later lines are ignored. If it has no vertices, those of the .node
-/// file of the same name are read. Throws IOError.
-ConstraintTable readPolyFile(const std::string& path);
 
 /// Lines and polygons of a VTK file. Throws IOError.
 ConstraintTable readVtkConstraints(const std::string& path);

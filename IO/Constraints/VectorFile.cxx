@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/ReadConstraintFile.h"
-#include "Constraints/VectorFeatures.h"
 
 #include "Files/IOError.h"
+#include "Raster/GdalLibrary.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <memory>
 #include <utility>
 
 namespace tipp
@@ -104,29 +103,13 @@ private:
   Edges PolygonEdges;
 };
 
-struct CloseFile
-{
-  void operator()(void* file) const { gdal().GDALClose(file); }
-};
-struct DestroyFeature
-{
-  void operator()(void* feature) const { gdal().OGR_F_Destroy(static_cast<OGRFeatureH>(feature)); }
-};
-struct DestroyGeometry
-{
-  void operator()(void* geometry) const
-  {
-    gdal().OGR_G_DestroyGeometry(static_cast<OGRGeometryH>(geometry));
-  }
-};
-
 } // namespace
 
 void forFeatures(
   const std::string& path, const std::function<void(OGRFeatureH, OGRGeometryH)>& visit)
 {
   gdal().CPLErrorReset();
-  const std::unique_ptr<void, CloseFile> file(
+  const GdalDataSet file(
     gdal().GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
   if (!file)
   {
@@ -142,12 +125,12 @@ void forFeatures(
     gdal().OGR_L_ResetReading(layer);
     while (const OGRFeatureH feature = gdal().OGR_L_GetNextFeature(layer))
     {
-      const std::unique_ptr<void, DestroyFeature> held(feature);
+      const GdalOwner<OGRFeatureH, &GdalLibrary::OGR_F_Destroy> held(feature);
       const OGRGeometryH geometry = gdal().OGR_F_GetGeometryRef(feature);
       const bool isCurved = geometry && gdal().OGR_G_HasCurveGeometry(geometry, 1);
-      const std::unique_ptr<void, DestroyGeometry> straight(
+      const GdalOwner<OGRGeometryH, &GdalLibrary::OGR_G_DestroyGeometry> straight(
         isCurved ? gdal().OGR_G_GetLinearGeometry(geometry, 0, nullptr) : nullptr);
-      visit(feature, isCurved ? static_cast<OGRGeometryH>(straight.get()) : geometry);
+      visit(feature, isCurved ? straight.get() : geometry);
     }
   }
   if (gdal().CPLGetLastErrorType() >= CE_Failure)

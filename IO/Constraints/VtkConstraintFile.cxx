@@ -10,23 +10,6 @@
 
 namespace tipp
 {
-namespace
-{
-
-using Edges = std::vector<std::array<std::int64_t, 2>>;
-
-bool isLine(int cellType)
-{
-  return cellType == VTK_LINE || cellType == VTK_POLY_LINE;
-}
-
-bool isPolygon(int cellType)
-{
-  return cellType == VTK_POLYGON || cellType == VTK_TRIANGLE || cellType == VTK_QUAD;
-}
-
-} // namespace
-
 ConstraintTable readVtkConstraints(const std::string& path)
 {
   const auto data = readDataSet(path);
@@ -38,19 +21,20 @@ ConstraintTable readVtkConstraints(const std::string& path)
     table.XY.insert(table.XY.end(), { p[0], p[1] });
     table.Height.push_back(p[2]);
   }
-  Edges polygonEdges;
+  std::vector<std::array<std::int64_t, 2>> polygonEdges;
   vtkNew<vtkIdList> ids;
   for (vtkIdType c = 0; c < data->GetNumberOfCells(); ++c)
   {
     const int type = data->GetCellType(c);
-    if (!isLine(type) && !isPolygon(type))
+    const bool isLine = type == VTK_LINE || type == VTK_POLY_LINE;
+    if (!isLine && type != VTK_POLYGON && type != VTK_TRIANGLE && type != VTK_QUAD)
     {
       continue;
     }
     data->GetCellPoints(c, ids);
     const vtkIdType count = ids->GetNumberOfIds();
-    Edges& edges = isLine(type) ? table.Edges : polygonEdges;
-    for (vtkIdType i = 0; i + (isLine(type) ? 1 : 0) < count; ++i)
+    auto& edges = isLine ? table.Edges : polygonEdges;
+    for (vtkIdType i = 0; i + (isLine ? 1 : 0) < count; ++i)
     {
       edges.push_back({ ids->GetId(i), ids->GetId((i + 1) % count) });
     }

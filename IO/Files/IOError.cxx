@@ -9,14 +9,24 @@
 namespace tipp
 {
 
+namespace
+{
+
+/// Text from a damaged file may hold any bytes; a message must stay on one line.
+std::string onOneLine(std::string message)
+{
+  std::replace_if(
+    message.begin(), message.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; },
+    '?');
+  return message;
+}
+
+} // namespace
+
 std::string shownText(const std::string& text)
 {
   constexpr std::size_t most = 80;
-  std::string shown = text.size() > most ? text.substr(0, most) + "..." : text;
-  std::replace_if(
-    shown.begin(), shown.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; },
-    '?');
-  return shown;
+  return onOneLine(text.size() > most ? text.substr(0, most) + "..." : text);
 }
 
 std::string listOfNames(const std::set<std::string>& names, const std::string& intro)
@@ -34,20 +44,6 @@ std::string listOfNames(const std::set<std::string>& names, const std::string& i
   }
   return names.empty() ? text + "none" : text;
 }
-
-namespace
-{
-
-/// Text from a damaged file may hold any bytes; a message must stay on one line.
-std::string onOneLine(std::string message)
-{
-  std::replace_if(
-    message.begin(), message.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; },
-    '?');
-  return message;
-}
-
-} // namespace
 
 IOError::IOError(const std::string& sentence)
   : std::runtime_error(onOneLine(sentence))

@@ -42,31 +42,41 @@ InputFile::~InputFile()
   close(this->Descriptor);
 }
 
-void InputFile::read(std::uint64_t offset, void* to, std::size_t bytes) const
+std::size_t readUpTo(
+  int descriptor, const std::string& path, std::uint64_t offset, void* to, std::size_t bytes)
 {
   // A system call transfers less than 2 GiB.
   constexpr std::size_t most = std::size_t(1) << 30;
-  auto* at = static_cast<char*>(to);
-  while (bytes > 0)
+  std::size_t done = 0;
+  while (done < bytes)
   {
-    const ssize_t got = pread(this->Descriptor, at, std::min(bytes, most), off_t(offset));
+    const ssize_t got = pread(descriptor, static_cast<char*>(to) + done,
+      std::min(bytes - done, most), off_t(offset + done));
     if (got < 0 && errno == EINTR)
     {
       continue;
     }
     if (got < 0)
     {
-      throw IOError(this->Path, std::string("cannot be read (") + std::strerror(errno) + ").");
+      throw IOError(path, std::string("cannot be read (") + std::strerror(errno) + ").");
     }
     if (got == 0)
     {
-      throw IOError(this->Path,
-        "ends at byte " + std::to_string(offset) + ", " + std::to_string(bytes) +
-          " bytes before its data do; copy or make it again.");
+      break;
     }
-    at += got;
-    offset += std::uint64_t(got);
-    bytes -= std::size_t(got);
+    done += std::size_t(got);
+  }
+  return done;
+}
+
+void InputFile::read(std::uint64_t offset, void* to, std::size_t bytes) const
+{
+  const std::size_t done = readUpTo(this->Descriptor, this->Path, offset, to, bytes);
+  if (done < bytes)
+  {
+    throw IOError(this->Path,
+      "ends at byte " + std::to_string(offset + done) + ", " + std::to_string(bytes - done) +
+        " bytes before its data do; copy or make it again.");
   }
 }
 

@@ -53,6 +53,11 @@ private:
   std::uint64_t Size = 0;
 };
 
+/// Reads `bytes` bytes at an offset of an open file; errors call it `path`. Returns the number of
+/// bytes read, which is lower only at the end of the file. Throws IOError.
+VTKTIPPIO_EXPORT std::size_t readUpTo(
+  int descriptor, const std::string& path, std::uint64_t offset, void* to, std::size_t bytes);
+
 /// Returns a path's extension in lower case with its dot, such as ".vtp"; empty if there is none.
 VTKTIPPIO_EXPORT std::string extensionOf(const std::string& path);
 

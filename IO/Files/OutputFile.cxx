@@ -107,26 +107,18 @@ void OutputFile::sync() const
 void syncToDisk(const std::string& path)
 {
   const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0 || fsync(descriptor) != 0)
+  if (descriptor < 0)
   {
-    const int reason = errno;
-    if (descriptor >= 0)
-    {
-      close(descriptor);
-    }
-    errno = reason;
     failToWrite(path);
   }
-  close(descriptor);
+  OutputFile(descriptor, path).sync();
 }
 
 void writeWholeFile(const std::string& path, const std::string& content)
 {
-  {
-    const OutputFile file(path);
-    file.write(0, content.data(), content.size());
-  }
-  syncToDisk(path);
+  const OutputFile file(path);
+  file.write(0, content.data(), content.size());
+  file.sync();
 }
 
 OutputStream::OutputStream(const OutputFile& file)

@@ -32,6 +32,7 @@ public:
   OutputFile& operator=(const OutputFile&) = delete;
 
   const std::string& path() const { return this->Path; }
+  int descriptor() const { return this->Descriptor; }
   /// Writes `bytes` bytes at `offset`, in bytes. Throws IOError, for example if the disk is full.
   void write(std::uint64_t offset, const void* from, std::size_t bytes) const;
   /// Closes the file. Throws IOError also for delayed write errors. Other machines that open the

@@ -207,8 +207,6 @@ void publish(const std::string& temporary, const std::string& path, const PathSt
 namespace
 {
 
-namespace fs = std::filesystem;
-
 fs::path resolved(const std::string& path)
 {
   std::error_code failure;
@@ -254,13 +252,15 @@ std::vector<std::string> piecesNamedBy(const std::string& path)
 std::vector<std::string> filesOfInput(const std::string& path)
 {
   std::error_code failure;
+  std::vector<std::string> files;
   if (!fs::is_directory(path, failure))
   {
     const std::string name = fs::path(path).filename().string();
     const bool isIndex = name == "index.json" || name == "mesh.pvtu";
-    std::vector<std::string> files = isIndex
-      ? filesOfInput(fs::absolute(path).parent_path().string())
-      : std::vector<std::string>();
+    if (isIndex)
+    {
+      files = filesOfInput(fs::absolute(path).parent_path().string());
+    }
     files.push_back(path);
     if (!isIndex && extensionOf(path).rfind(".pvt", 0) == 0 && fs::is_regular_file(path, failure))
     {
@@ -269,7 +269,6 @@ std::vector<std::string> filesOfInput(const std::string& path)
     }
     return files;
   }
-  std::vector<std::string> files;
   for (const char* const part : { "", "pieces", "point_data", "cell_data" })
   {
     for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(path) / part, failure))

@@ -8,10 +8,9 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdint>
-#include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
-#include <random>
 #include <system_error>
 #include <utility>
 
@@ -31,14 +30,21 @@ namespace
 /// by chance, so that only leftovers are removed.
 std::string ending(const std::string& start, const std::string& number)
 {
-  std::uint32_t hash = 2166136261U; // FNV-1a
-  for (const char letter : start + number)
+  return number + "-" + hashText(start + number).substr(0, 8) + ".tmp";
+}
+
+/// Locks a file or folder until the descriptor is closed; returns -1 if it cannot be opened or,
+/// with errno EWOULDBLOCK, if another process has locked it.
+int lockPath(const std::string& path, int flags)
+{
+  const int lock = open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
+  if (lock >= 0 && flock(lock, LOCK_EX | LOCK_NB) != 0)
   {
-    hash = (hash ^ std::uint8_t(letter)) * 16777619U;
+    close(lock);
+    errno = EWOULDBLOCK;
+    return -1;
   }
-  char digits[9];
-  std::snprintf(digits, sizeof(digits), "%08x", hash);
-  return number + "-" + digits + ".tmp";
+  return lock;
 }
 
 /// Removes the files with this prefix that killed processes have left: those that no process has
@@ -52,13 +58,10 @@ void clearLeftovers(const fs::path& folder, const std::string& start)
     const std::size_t digits = name.find_first_not_of("0123456789", start.size());
     const bool isOurs = name.compare(0, start.size(), start) == 0 && digits != std::string::npos &&
       name == start + ending(start, name.substr(start.size(), digits - start.size()));
-    const int file = isOurs ? open(entry.path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW) : -1;
-    if (file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0)
-    {
-      fs::remove(entry.path(), failure);
-    }
+    const int file = isOurs ? lockPath(entry.path().string(), O_NOFOLLOW) : -1;
     if (file >= 0)
     {
+      fs::remove(entry.path(), failure);
       close(file);
     }
   }
@@ -135,32 +138,7 @@ void PendingFile::commit()
 namespace
 {
 
-constexpr std::size_t suffixLetters = 6;
-
-std::string randomSuffix()
-{
-  constexpr const char* letters = "0123456789abcdefghijklmnopqrstuvwxyz";
-  std::random_device random;
-  std::string suffix;
-  for (std::size_t i = 0; i < suffixLetters; ++i)
-  {
-    suffix += letters[random() % 36];
-  }
-  return suffix;
-}
-
-/// Locks the folder until the descriptor is closed; returns -1 if another process has locked it.
-int lockFolder(const std::string& folder)
-{
-  const int lock = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (lock >= 0 && flock(lock, LOCK_EX | LOCK_NB) != 0)
-  {
-    close(lock);
-    errno = EWOULDBLOCK;
-    return -1;
-  }
-  return lock;
-}
+constexpr const char* suffix = "XXXXXX"; // as mkdtemp() replaces it
 
 } // namespace
 
@@ -210,21 +188,14 @@ std::string PendingFolder::lastingPath(const std::string& path)
 void PendingFolder::makeTemporary(const std::string& prefix)
 {
   this->clearLeftovers(prefix);
-  std::string folder;
-  do
+  std::string folder = this->Parent + "/" + prefix + suffix;
+  if (!mkdtemp(folder.data()))
   {
-    folder = this->Parent + "/" + prefix + randomSuffix();
-    if (mkdir(folder.c_str(), 0777) == 0)
-    {
-      this->Work = folder;
-    }
-    else if (errno != EEXIST)
-    {
-      failToWrite(this->Path);
-    }
-  } while (this->Work.empty());
-  this->Lock.Descriptor = lockFolder(this->Work);
-  if (this->Lock.Descriptor < 0)
+    failToWrite(this->Path);
+  }
+  this->Work = folder;
+  this->Lock.emplace(lockPath(this->Work, O_DIRECTORY), this->Work);
+  if (this->Lock->descriptor() < 0)
   {
     failToWrite(this->Path);
   }
@@ -238,7 +209,7 @@ void PendingFolder::openLasting(const std::string& folder)
   {
     struct stat opened = {};
     struct stat named = {};
-    return fstat(this->Lock.Descriptor, &opened) == 0 && stat(folder.c_str(), &named) == 0 &&
+    return fstat(this->Lock->descriptor(), &opened) == 0 && stat(folder.c_str(), &named) == 0 &&
       opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
   };
   bool wasThere = false;
@@ -249,14 +220,13 @@ void PendingFolder::openLasting(const std::string& folder)
     {
       failToWrite(this->Path);
     }
-    this->Lock.Descriptor = lockFolder(folder);
-    if (this->Lock.Descriptor >= 0 && isStillThere())
+    this->Lock.emplace(lockPath(folder, O_DIRECTORY), folder);
+    if (this->Lock->descriptor() >= 0)
     {
-      break;
-    }
-    if (this->Lock.Descriptor >= 0)
-    {
-      this->Lock.release();
+      if (isStillThere())
+      {
+        break;
+      }
     }
     else if (errno == EWOULDBLOCK)
     {
@@ -277,14 +247,6 @@ void PendingFolder::openLasting(const std::string& folder)
   this->keep(wasThere);
 }
 
-void PendingFolder::FolderLock::release()
-{
-  if (this->Descriptor >= 0)
-  {
-    close(std::exchange(this->Descriptor, -1));
-  }
-}
-
 PendingFolder::~PendingFolder()
 {
   if (!this->Work.empty() && !this->Kept)
@@ -299,11 +261,11 @@ void PendingFolder::clearLeftovers(const std::string& prefix) const
   for (const fs::directory_entry& entry : fs::directory_iterator(this->Parent, failure))
   {
     const std::string name = entry.path().filename().string();
-    const bool isNamedSo = name.size() == prefix.size() + suffixLetters &&
+    const bool isNamedSo = name.size() == prefix.size() + std::strlen(suffix) &&
       name.compare(0, prefix.size(), prefix) == 0 &&
       entry.symlink_status(failure).type() == fs::file_type::directory;
     // Locked: its owner is still running.
-    const int lock = isNamedSo ? lockFolder(entry.path().string()) : -1;
+    const int lock = isNamedSo ? lockPath(entry.path().string(), O_DIRECTORY) : -1;
     if (lock >= 0)
     {
       if (isWorkFolder(entry.path().string()))

@@ -115,18 +115,7 @@ private:
   bool IsLasting;
   bool Kept = false;
 
-  /// The work folder's lock; a member, so that it is released even if the constructor throws.
-  struct FolderLock
-  {
-    FolderLock() = default;
-    FolderLock(const FolderLock&) = delete;
-    FolderLock& operator=(const FolderLock&) = delete;
-    ~FolderLock() { this->release(); }
-    void release();
-
-    int Descriptor = -1;
-  };
-  FolderLock Lock;
+  std::optional<OutputFile> Lock; ///< the work folder, locked while it is open
 };
 
 } // namespace tipp

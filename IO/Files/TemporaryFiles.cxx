@@ -33,8 +33,12 @@ namespace fs = std::filesystem;
 struct Listed
 {
   std::mutex Mutex;
-  std::map<std::string, int> Count; ///< a path may be listed twice
-  std::map<std::string, bool> Kept;
+  struct Use
+  {
+    int Count = 0; ///< a path may be listed twice
+    bool IsKept = false;
+  };
+  std::map<std::string, Use> Paths;
   /// A separate mutex, because a failing commit builds a message, which looks up these paths.
   std::mutex FinalsMutex;
   std::map<std::string, std::string> Finals; ///< final path of each temporary folder
@@ -73,7 +77,7 @@ void TemporaryPath::list(const std::string& path)
   this->unlist();
   const std::lock_guard<std::mutex> lock(listed().Mutex);
   this->Path = path;
-  ++listed().Count[path];
+  ++listed().Paths[path].Count;
 }
 
 ScratchDirectory::ScratchDirectory()
@@ -103,10 +107,9 @@ void TemporaryPath::unlist()
     listed().Finals.erase(this->Shown);
   }
   const std::lock_guard<std::mutex> lock(listed().Mutex);
-  if (--listed().Count[this->Path] == 0)
+  if (--listed().Paths[this->Path].Count == 0)
   {
-    listed().Count.erase(this->Path);
-    listed().Kept.erase(this->Path);
+    listed().Paths.erase(this->Path);
   }
   this->Path.clear();
 }
@@ -121,7 +124,7 @@ void TemporaryPath::showAs(const std::string& temporary, const std::string& fina
 void TemporaryPath::keep(bool kept)
 {
   const std::lock_guard<std::mutex> lock(listed().Mutex);
-  listed().Kept[this->Path] = kept;
+  listed().Paths[this->Path].IsKept = kept;
 }
 
 std::string shownPath(const std::string& path)
@@ -148,7 +151,7 @@ void commitOutput(const std::string& path, const std::function<void()>& move)
   move();
   const auto isWithin = [&path](const auto& entry)
   { return path.compare(0, entry.first.size() + 1, entry.first + "/") == 0; };
-  const std::map<std::string, int>& all = listed().Count;
+  const auto& all = listed().Paths;
   listed().HasOutput |= std::none_of(all.begin(), all.end(), isWithin);
 }
 
@@ -157,15 +160,10 @@ EndedPaths endTemporaryPaths()
   listed().Mutex.lock(); // never released
   EndedPaths ended;
   ended.HasOutput = listed().HasOutput;
-  for (const auto& [path, count] : listed().Count)
+  for (const auto& [path, use] : listed().Paths)
   {
-    const auto kept = listed().Kept.find(path);
-    if (kept != listed().Kept.end() && kept->second)
-    {
-      ended.HasKept = true;
-      continue;
-    }
-    removePath(path);
+    ended.HasKept = ended.HasKept || use.IsKept;
+    use.IsKept ? void() : removePath(path);
   }
   return ended;
 }
@@ -241,6 +239,18 @@ bool isMarked(const std::string& folder)
 
 } // namespace
 
+std::string hashText(const std::string& text)
+{
+  std::uint64_t hash = 14695981039346656037U; // FNV-1a
+  for (const char letter : text)
+  {
+    hash = (hash ^ std::uint8_t(letter)) * 1099511628211U;
+  }
+  std::array<char, 17> digits{};
+  std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(hash));
+  return digits.data();
+}
+
 std::string hiddenName(const std::string& name, const std::string& ending)
 {
   constexpr std::size_t longest = 255;
@@ -249,14 +259,7 @@ std::string hiddenName(const std::string& name, const std::string& ending)
   {
     return "." + name + ending;
   }
-  std::uint64_t hash = 14695981039346656037U; // FNV-1a
-  for (const char letter : name)
-  {
-    hash = (hash ^ std::uint8_t(letter)) * 1099511628211U;
-  }
-  std::array<char, 17> digits{};
-  std::snprintf(digits.data(), digits.size(), "%016llx", static_cast<unsigned long long>(hash));
-  return "." + name.substr(0, longest - reserved - 18 - ending.size()) + "." + digits.data() +
+  return "." + name.substr(0, longest - reserved - 18 - ending.size()) + "." + hashText(name) +
     ending;
 }
 

@@ -72,6 +72,9 @@ VTKTIPPIO_EXPORT EndedPaths endTemporaryPaths();
 /// different names give different results.
 VTKTIPPIO_EXPORT std::string hiddenName(const std::string& name, const std::string& ending);
 
+/// Returns 16 hexadecimal digits that depend on the text.
+std::string hashText(const std::string& text);
+
 /// Creates a folder for temporary files, or reuses an existing one if it is empty or was created
 /// here for the same purpose: a file in it that holds `purpose` marks it. Throws IOError.
 VTKTIPPIO_EXPORT void claimWorkFolder(const std::string& folder, const std::string& purpose);

@@ -3,11 +3,13 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/OutputFile.h"
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -23,24 +25,10 @@ namespace tipp
 namespace
 {
 
-[[noreturn]] void failToCopy(const std::string& what)
+[[noreturn]] void failToCopy()
 {
-  throw IOError(
-    "The standard input cannot be copied to a temporary file (" + what + "); name a file instead.");
-}
-
-void writeAll(int file, const char* data, std::size_t bytes)
-{
-  while (bytes > 0)
-  {
-    const ssize_t put = write(file, data, bytes);
-    if (put < 0 && errno != EINTR)
-    {
-      failToCopy(std::strerror(errno));
-    }
-    data += put > 0 ? put : 0;
-    bytes -= put > 0 ? std::size_t(put) : 0;
-  }
+  throw IOError("The standard input cannot be copied to a temporary file (" +
+    std::string(std::strerror(errno)) + "); name a file instead.");
 }
 
 /// Returns the descriptor of a file without a name, which goes away with the process.
@@ -51,11 +39,11 @@ int copyStandardInput()
   const int file = mkstemp(path.data());
   if (file < 0)
   {
-    failToCopy(std::strerror(errno));
+    failToCopy();
   }
   unlink(path.c_str());
   std::vector<char> block(std::size_t(1) << 20);
-  for (;;)
+  for (std::uint64_t size = 0;;)
   {
     const ssize_t got = read(STDIN_FILENO, block.data(), block.size());
     if (got == 0)
@@ -64,9 +52,11 @@ int copyStandardInput()
     }
     if (got < 0 && errno != EINTR)
     {
-      failToCopy(std::strerror(errno));
+      failToCopy();
     }
-    writeAll(file, block.data(), got > 0 ? std::size_t(got) : 0);
+    const std::size_t bytes = got > 0 ? std::size_t(got) : 0;
+    writeFully(file, path, size, block.data(), bytes);
+    size += bytes;
   }
 }
 
@@ -202,11 +192,6 @@ bool LineReader::next(std::string_view& line)
   return true;
 }
 
-std::int64_t LineReader::remainingLines() const
-{
-  return 1 + std::count(this->Rest.begin(), this->Rest.end(), '\n');
-}
-
 std::string lowerCase(std::string_view text)
 {
   std::string lower(text);
@@ -244,10 +229,9 @@ bool parseNumber(std::string_view field, double& value)
 
 bool parseInteger(std::string_view field, std::int64_t& value)
 {
-  field = trimField(field);
-  const char* const end = field.data() + field.size();
-  const auto [stop, error] = std::from_chars(field.data(), end, value);
-  return error == std::errc() && stop == end;
+  const auto number = wholeNumber<std::int64_t>(trimField(field));
+  value = number.value_or(value);
+  return number.has_value();
 }
 
 void splitFields(std::string_view line, char delimiter, std::vector<std::string_view>& fields)
@@ -278,6 +262,72 @@ void splitFields(std::string_view line, char delimiter, std::vector<std::string_
     }
     start = end + 1;
   }
+}
+
+NumberRows::NumberRows(const std::string& path, std::string kind, char comment)
+  : Path(path)
+  , Kind(std::move(kind))
+  , Comment(comment)
+  , Text(readTextFile(path))
+  , Lines(this->Text)
+  , Total(1 + std::count(this->Text.begin(), this->Text.end(), '\n'))
+{
+}
+
+std::string_view NumberRows::title()
+{
+  std::string_view line;
+  this->Lines.next(line);
+  return line;
+}
+
+void NumberRows::next(std::size_t fields, const char* what)
+{
+  std::string_view line;
+  do
+  {
+    if (!this->Lines.next(line))
+    {
+      this->fail(std::string("the file ends before ") + what + "; copy it again.");
+    }
+    splitFields(this->Comment ? line.substr(0, line.find(this->Comment)) : line, ' ', this->Row);
+  } while (this->Comment && this->Row.empty());
+  if (this->Row.size() < fields)
+  {
+    this->fail(
+      std::string("has too few numbers for ") + what + "; check that it is " + this->Kind + ".");
+  }
+}
+
+double NumberRows::number(std::size_t field) const
+{
+  double value = 0;
+  if (!parseNumber(this->Row[field], value))
+  {
+    this->fail("'" + std::string(this->Row[field]) + "' is not a number; correct the line.");
+  }
+  return value;
+}
+
+std::int64_t NumberRows::integer(std::size_t field) const
+{
+  std::int64_t value = 0;
+  if (parseInteger(this->Row[field], value))
+  {
+    return value;
+  }
+  double number = 0; // such as 3.0
+  if (!parseNumber(this->Row[field], number) || std::floor(number) != number ||
+    std::fabs(number) > 0x1p53)
+  {
+    this->fail("'" + std::string(this->Row[field]) + "' is not an integer; correct the line.");
+  }
+  return std::int64_t(number);
+}
+
+void NumberRows::fail(const std::string& problem) const
+{
+  throw IOError(this->Path, this->Lines.lineNumber(), problem);
 }
 
 namespace
@@ -328,12 +378,6 @@ FileLines::FileLines(const std::string& path, std::size_t blockBytes)
     }
   }
   this->readMore();
-  this->startText();
-}
-
-/// Skips the byte order mark and estimates the number of lines.
-void FileLines::startText()
-{
   requireText(this->Path, { this->Buffer.data(), this->End });
   struct stat status = {};
   if (this->End > 0 && this->File && fstat(fileno(this->File.get()), &status) == 0 &&

@@ -36,8 +36,8 @@ public:
   bool next(std::string_view& line);
   std::int64_t lineNumber() const { return this->Number; }
 
-  /// An upper bound of the number of lines left.
-  std::int64_t remainingLines() const;
+  /// The text after the lines read so far.
+  std::string_view rest() const { return this->Rest; }
 
 private:
   std::string_view Rest;
@@ -72,6 +72,39 @@ void splitFields(std::string_view line, char delimiter, std::vector<std::string_
 /// Removes blanks and one pair of quotes around the field.
 std::string_view trimField(std::string_view field);
 
+/// Reads a text file as rows of numbers, separated by blanks. Errors are IOErrors that name the
+/// line.
+class NumberRows
+{
+public:
+  /// Reads the whole file. `kind` completes the message "check that it is ...". If there is a
+  /// `comment`, this character begins a comment, and lines without a field are skipped.
+  NumberRows(const std::string& path, std::string kind, char comment = '\0');
+
+  /// Reads a line as text.
+  std::string_view title();
+  /// Reads the next row, which must have at least `fields` fields; `what` is for errors.
+  void next(std::size_t fields, const char* what);
+  std::size_t fields() const { return this->Row.size(); }
+  double number(std::size_t field) const;
+  std::int64_t integer(std::size_t field) const;
+  /// The text after the row.
+  std::string_view rest() const { return this->Lines.rest(); }
+  /// An upper bound of the number of lines after the row.
+  std::int64_t remainingLines() const { return this->Total - this->Lines.lineNumber(); }
+
+  [[noreturn]] void fail(const std::string& problem) const;
+
+private:
+  const std::string Path;
+  const std::string Kind;
+  const char Comment;
+  const std::string Text;
+  LineReader Lines;
+  const std::int64_t Total; ///< computed once, because files are long
+  std::vector<std::string_view> Row;
+};
+
 /// Reads the lines of a text file of any size or of a pipe, without their ends (\n or \r\n) and
 /// without a byte order mark. A .gz, .xz or .zst file is decompressed by the program gzip, xz or
 /// zstd.
@@ -92,7 +125,6 @@ public:
 private:
   bool readMore();
   void endDecompression();
-  void startText();
 
   std::string Path;
   std::string Program; ///< the decompressor; empty: none

@@ -60,74 +60,6 @@ std::string arrayNameOf(const std::string& fileName)
 namespace
 {
 
-/// An .npy file whose array is used in place.
-struct NpyArray
-{
-  std::string Path;
-  std::uint64_t Offset = 0;
-  Scalar Type = Scalar::Float64;
-  std::vector<std::int64_t> Shape;
-
-  /// For messages, such as "3 x 4".
-  std::string shapeText() const;
-};
-
-Scalar scalarOf(const std::string& descr, const std::string& path)
-{
-  if (descr == "|b1")
-  {
-    return Scalar::UInt8;
-  }
-  if (const std::optional<Scalar> type = scalarFromDescr(descr))
-  {
-    return *type;
-  }
-  throw IOError(path,
-    "holds elements of type '" + descr +
-      "'; save it as little-endian integers, float32 or float64.");
-}
-
-std::string NpyArray::shapeText() const
-{
-  std::string text;
-  for (const std::int64_t extent : this->Shape)
-  {
-    text += (text.empty() ? "" : " x ") + std::to_string(extent);
-  }
-  return text.empty() ? "a single number" : text;
-}
-
-/// Reads the header and checks it against the file's size; throws IOError. Booleans are read as
-/// UInt8.
-NpyArray openNpyArray(const std::string& path)
-{
-  const InputFile file(path);
-  NpyArray array;
-  array.Path = path;
-  const NpyHeader header = readNpyHeader(file, array.Offset);
-  array.Shape = header.Shape;
-  array.Type = scalarOf(header.Descr, path);
-  if (header.FortranOrder && header.Shape.size() > 1)
-  {
-    throw IOError(path, "is in Fortran order; save numpy.ascontiguousarray of it.");
-  }
-  std::int64_t expected = std::int64_t(scalarSize(array.Type));
-  bool overflow = false;
-  for (const std::int64_t extent : array.Shape)
-  {
-    overflow = __builtin_mul_overflow(expected, extent, &expected) || overflow;
-  }
-  const std::uint64_t present = file.size() - array.Offset;
-  if (overflow || std::uint64_t(expected) != present)
-  {
-    throw IOError(path,
-      "holds " + std::to_string(present) + " bytes of data where its header's " +
-        array.shapeText() + " elements need " +
-        (overflow ? "more than 2^63" : std::to_string(expected)) + "; copy or save it again.");
-  }
-  return array;
-}
-
 namespace fs = std::filesystem;
 
 RawArray rawArray(const NpyArray& file, const std::string& name, std::int64_t tuples,
@@ -147,7 +79,7 @@ RawArray rawArray(const NpyArray& file, const std::string& name, std::int64_t tu
 RawArray openTable(const std::string& folder, const std::string& name, std::int64_t least,
   std::array<Scalar, 2> types, const std::string& wanted)
 {
-  const NpyArray file = openNpyArray(folder + "/" + name + ".npy");
+  const NpyArray file = openNpyArray(InputFile(folder + "/" + name + ".npy"));
   const bool isOfType = file.Type == types[0] || file.Type == types[1];
   if (file.Shape.size() != 2 || (file.Shape[1] != least && file.Shape[1] != least + 1) || !isOfType)
   {
@@ -164,7 +96,7 @@ std::vector<double> readTimes(const std::string& folder)
   {
     return {};
   }
-  const NpyArray file = openNpyArray(path);
+  const NpyArray file = openNpyArray(InputFile(path));
   if (file.Shape.size() != 1 || file.Type != Scalar::Float64)
   {
     throw IOError(path,
@@ -196,7 +128,7 @@ std::int64_t componentsFrom(const NpyArray& file, std::size_t axis, std::int64_t
 void openData(const std::string& path, std::int64_t tuples, std::int64_t steps, const char* what,
   std::vector<RawArray>& plain, std::vector<std::vector<RawArray>>& series)
 {
-  const NpyArray file = openNpyArray(path);
+  const NpyArray file = openNpyArray(InputFile(path));
   const std::string name = arrayNameOf(fs::path(path).stem().string());
   // If both layouts fit, the first axis is time.
   const std::int64_t varying = steps > 0 && !file.Shape.empty() && file.Shape[0] == steps

@@ -20,30 +20,6 @@ namespace tipp
 namespace
 {
 
-/// The byte ranges of a LAS file's variable length records.
-struct LasRecordRanges
-{
-  std::uint64_t Begin = 0;
-  std::uint64_t End = 0;
-  std::uint32_t Count = 0;
-  std::uint64_t ExtendedBegin = 0;
-  std::uint32_t ExtendedCount = 0;
-};
-
-struct LasCrs
-{
-  std::string Text;       ///< WKT, "EPSG:code" or "EPSG:code+code"; may be empty
-  bool IsUnknown = false; ///< there is one, but neither as WKT nor as EPSG codes
-};
-
-template <typename T>
-T valueAt(const std::vector<char>& bytes, std::size_t offset)
-{
-  T value;
-  std::memcpy(&value, bytes.data() + offset, sizeof(T));
-  return value;
-}
-
 std::vector<char> readBytes(const InputFile& file, std::uint64_t offset, std::size_t size)
 {
   std::vector<char> bytes(size);
@@ -51,6 +27,8 @@ std::vector<char> readBytes(const InputFile& file, std::uint64_t offset, std::si
   return bytes;
 }
 
+/// Finds the coordinate reference system in variable length records. Damaged records count as
+/// absent, since the points can be read without them.
 class CrsFinder
 {
 public:
@@ -59,16 +37,16 @@ public:
   {
   }
 
-  /// `header`: bytes before a record's content; `wide`: its length has 64 bits.
+  /// Searches `count` records in the bytes [at, end); `wide`: their lengths have 64 bits.
   void search(std::uint64_t at, std::uint64_t end, std::uint32_t count, bool wide)
   {
-    const std::size_t header = wide ? 60 : 54;
+    const std::size_t header = wide ? 60 : 54; // bytes before a record's content
     constexpr std::uint64_t longest = std::uint64_t(1) << 24;
     for (std::uint32_t i = 0; i < count && at <= end && end - at >= header; ++i)
     {
       const std::vector<char> bytes = readBytes(this->File, at, header);
       const std::uint64_t length =
-        wide ? valueAt<std::uint64_t>(bytes, 20) : valueAt<std::uint16_t>(bytes, 20);
+        wide ? valueAt<std::uint64_t>(&bytes[20]) : valueAt<std::uint16_t>(&bytes[20]);
       at += header;
       if (length > end - at)
       {
@@ -78,27 +56,23 @@ public:
       if (isProjection && length <= longest)
       {
         this->take(
-          valueAt<std::uint16_t>(bytes, 18), readBytes(this->File, at, std::size_t(length)));
+          valueAt<std::uint16_t>(&bytes[18]), readBytes(this->File, at, std::size_t(length)));
       }
       at += length;
     }
   }
 
-  /// Later versions write WKT, possibly with keys as well.
-  LasCrs result() const
+  /// Sets the system of the header. Later versions write WKT, possibly with keys as well.
+  void describe(LasHeader& header) const
   {
-    if (!this->Wkt.empty())
-    {
-      return { this->Wkt, false };
-    }
     const int horizontal = this->Projected > 0 ? this->Projected : this->Geographic;
-    if (horizontal <= 0)
+    header.Crs = this->Wkt;
+    header.HasUnknownCrs = this->Wkt.empty() && horizontal <= 0 && this->HasKeys;
+    if (this->Wkt.empty() && horizontal > 0)
     {
-      return { "", this->HasKeys };
+      header.Crs = "EPSG:" + std::to_string(horizontal) +
+        (this->Vertical > 0 ? "+" + std::to_string(this->Vertical) : std::string());
     }
-    const std::string vertical =
-      this->Vertical > 0 ? "+" + std::to_string(this->Vertical) : std::string();
-    return { "EPSG:" + std::to_string(horizontal) + vertical, false };
   }
 
 private:
@@ -125,7 +99,7 @@ private:
     for (std::size_t i = 1; i < entries; ++i)
     {
       const auto number = [&](std::size_t j)
-      { return int(valueAt<std::uint16_t>(content, 8 * i + 2 * j)); };
+      { return int(valueAt<std::uint16_t>(&content[8 * i + 2 * j])); };
       if (number(1) != 0 || number(3) == 0)
       {
         continue;
@@ -153,48 +127,12 @@ private:
   bool HasKeys = false;
 };
 
-/// Finds the coordinate reference system in the records. Damaged records count as absent, since the
-/// points can be read without them.
-LasCrs readLasCrs(const InputFile& file, const LasRecordRanges& records)
-{
-  CrsFinder finder(file);
-  finder.search(records.Begin, std::min(records.End, file.size()), records.Count, false);
-  if (records.ExtendedBegin > 0)
-  {
-    finder.search(records.ExtendedBegin, file.size(), records.ExtendedCount, true);
-  }
-  return finder.result();
-}
-
 constexpr std::size_t shortHeader = 227; ///< header size of versions 1.0 to 1.2
 constexpr std::size_t longHeader = 375;  ///< header size of version 1.4
 
 /// The least number of bytes of a record, by format.
 constexpr std::array<std::size_t, 11> recordLengths = { 20, 28, 26, 34, 57, 63, 30, 36, 38, 59,
   67 };
-
-/// Fields of a header in memory, all of them little-endian.
-class Fields
-{
-public:
-  Fields(const InputFile& file, std::size_t size)
-    : Bytes(size)
-  {
-    file.read(0, this->Bytes.data(), size);
-  }
-
-  template <typename T>
-  T at(std::size_t offset) const
-  {
-    T value;
-    std::memcpy(&value, this->Bytes.data() + offset, sizeof(T));
-    return value;
-  }
-  const char* data() const { return this->Bytes.data(); }
-
-private:
-  std::vector<char> Bytes;
-};
 
 void requireGood(bool condition, const std::string& path, const std::string& problem)
 {
@@ -204,12 +142,12 @@ void requireGood(bool condition, const std::string& path, const std::string& pro
   }
 }
 
-void readFormat(const Fields& fields, const std::string& path, LasHeader& header)
+void readFormat(const std::vector<char>& fields, const std::string& path, LasHeader& header)
 {
-  const int format = fields.at<std::uint8_t>(104);
+  const int format = valueAt<std::uint8_t>(&fields[104]);
   header.Compressed = (format & 0xC0) != 0;
   header.Format = format & 0x3F;
-  header.RecordLength = fields.at<std::uint16_t>(105);
+  header.RecordLength = valueAt<std::uint16_t>(&fields[105]);
   requireGood(std::size_t(header.Format) < recordLengths.size(), path,
     "is a LAS file with points of format " + std::to_string(header.Format) +
       ", and there are 0 to 10");
@@ -219,29 +157,29 @@ void readFormat(const Fields& fields, const std::string& path, LasHeader& header
       std::to_string(header.Format) + ", which has " + std::to_string(least));
 }
 
-void readTransform(const Fields& fields, const std::string& path, LasHeader& header)
+void readTransform(const std::vector<char>& fields, const std::string& path, LasHeader& header)
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    header.Scale[axis] = fields.at<double>(131 + 8 * axis);
-    header.Offset[axis] = fields.at<double>(155 + 8 * axis);
+    header.Scale[axis] = valueAt<double>(&fields[131 + 8 * axis]);
+    header.Offset[axis] = valueAt<double>(&fields[155 + 8 * axis]);
     requireGood(std::isfinite(header.Scale[axis]) && header.Scale[axis] != 0 &&
         std::isfinite(header.Offset[axis]),
       path, std::string("has no usable scale or offset of ") + "xyz"[axis] + " in its header");
-    header.Bounds[2 * axis] = fields.at<double>(187 + 16 * axis);
-    header.Bounds[2 * axis + 1] = fields.at<double>(179 + 16 * axis);
+    header.Bounds[2 * axis] = valueAt<double>(&fields[187 + 16 * axis]);
+    header.Bounds[2 * axis + 1] = valueAt<double>(&fields[179 + 16 * axis]);
   }
 }
 
-void readCount(const Fields& fields, const std::string& path, std::uint64_t fileSize,
+void readCount(const std::vector<char>& fields, const std::string& path, std::uint64_t fileSize,
   std::size_t headerSize, LasHeader& header)
 {
-  std::uint64_t count = fields.at<std::uint32_t>(107);
+  std::uint64_t count = valueAt<std::uint32_t>(&fields[107]);
   if (header.Minor >= 4)
   {
-    count = fields.at<std::uint64_t>(247);
+    count = valueAt<std::uint64_t>(&fields[247]);
   }
-  header.PointOffset = fields.at<std::uint32_t>(96);
+  header.PointOffset = valueAt<std::uint32_t>(&fields[96]);
   requireGood(header.PointOffset >= headerSize && header.PointOffset <= fileSize, path,
     "has its points at byte " + std::to_string(header.PointOffset) +
       " by its header, where there is no room for them");
@@ -262,34 +200,31 @@ LasHeader readLasHeader(const std::string& path)
 {
   const InputFile file(path);
   requireGood(file.size() >= shortHeader, path, "is too short for a LAS file");
-  const Fields start(file, shortHeader);
+  const std::vector<char> start = readBytes(file, 0, shortHeader);
   requireGood(std::memcmp(start.data(), "LASF", 4) == 0, path, "is not a LAS file");
   LasHeader header;
-  const int major = start.at<std::uint8_t>(24);
-  header.Minor = start.at<std::uint8_t>(25);
+  const int major = valueAt<std::uint8_t>(&start[24]);
+  header.Minor = valueAt<std::uint8_t>(&start[25]);
   requireGood(major == 1 && header.Minor <= 4, path,
     "is a LAS file of version " + std::to_string(major) + "." + std::to_string(header.Minor) +
       ", and 1.0 to 1.4 can be read");
-  const std::size_t size = start.at<std::uint16_t>(94);
+  const std::size_t size = valueAt<std::uint16_t>(&start[94]);
   const std::size_t least = header.Minor >= 4 ? longHeader : shortHeader;
   requireGood(size >= least && size <= file.size(), path,
     "has a header of " + std::to_string(size) + " bytes, too few or too many");
-  const Fields fields(file, least);
+  const std::vector<char> fields = readBytes(file, 0, least);
   readFormat(fields, path, header);
   readTransform(fields, path, header);
   readCount(fields, path, file.size(), size, header);
-  LasRecordRanges records;
-  records.Begin = size;
-  records.End = header.PointOffset;
-  records.Count = fields.at<std::uint32_t>(100);
-  if (header.Minor >= 4)
+  CrsFinder finder(file);
+  finder.search(
+    size, std::min(header.PointOffset, file.size()), valueAt<std::uint32_t>(&fields[100]), false);
+  const std::uint64_t extended = header.Minor >= 4 ? valueAt<std::uint64_t>(&fields[235]) : 0;
+  if (extended > 0)
   {
-    records.ExtendedBegin = fields.at<std::uint64_t>(235);
-    records.ExtendedCount = fields.at<std::uint32_t>(243);
+    finder.search(extended, file.size(), valueAt<std::uint32_t>(&fields[243]), true);
   }
-  const LasCrs crs = readLasCrs(file, records);
-  header.Crs = crs.Text;
-  header.HasUnknownCrs = crs.IsUnknown;
+  finder.describe(header);
   return header;
 }
 
@@ -318,18 +253,7 @@ private:
   const std::size_t Length;
 };
 
-} // namespace
-
-std::unique_ptr<LasRecords> openLasRecords(const std::string& path, const LasHeader& header)
-{
-  return header.Compressed ? openLazRecords(path, header)
-                           : std::make_unique<PlainRecords>(path, header);
-}
-
 #ifdef TIPP_HAVE_LASZIP
-
-namespace
-{
 
 template <typename T>
 void put(char* record, std::size_t offset, T value)
@@ -430,22 +354,23 @@ private:
   std::int64_t At = 0;
 };
 
+#endif
+
 } // namespace
 
-std::unique_ptr<LasRecords> openLazRecords(const std::string& path, const LasHeader& header)
+std::unique_ptr<LasRecords> openLasRecords(const std::string& path, const LasHeader& header)
 {
+  if (!header.Compressed)
+  {
+    return std::make_unique<PlainRecords>(path, header);
+  }
+#ifdef TIPP_HAVE_LASZIP
   return std::make_unique<CompressedRecords>(path, header);
-}
-
 #else
-
-std::unique_ptr<LasRecords> openLazRecords(const std::string& path, const LasHeader&)
-{
   throw IOError(path,
     "is compressed (LAZ), and this program was built without LASzip; install liblaszip-dev and "
     "build it again, or decompress the file, as with 'pdal translate in.laz out.las'.");
-}
-
 #endif
+}
 
 } // namespace tipp

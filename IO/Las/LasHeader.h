@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <string>
 
@@ -59,8 +60,14 @@ public:
 /// in a build without LASzip.
 std::unique_ptr<LasRecords> openLasRecords(const std::string& path, const LasHeader& header);
 
-/// Implements openLasRecords for a LAZ file, with LASzip.
-std::unique_ptr<LasRecords> openLazRecords(const std::string& path, const LasHeader& header);
+/// Reads a value from a header or record.
+template <typename T>
+T valueAt(const char* bytes)
+{
+  T value;
+  std::memcpy(&value, bytes, sizeof value);
+  return value;
+}
 
 } // namespace tipp
 

@@ -15,14 +15,6 @@ namespace tipp
 namespace
 {
 
-template <typename T>
-T valueAt(const char* record, std::size_t offset)
-{
-  T value;
-  std::memcpy(&value, record + offset, sizeof(T));
-  return value;
-}
-
 /// Decides which records are selected.
 class RecordFilter
 {
@@ -55,19 +47,19 @@ public:
 
   unsigned classOf(const char* record) const
   {
-    return valueAt<std::uint8_t>(record, this->Extended ? 16 : 15) & this->ClassMask;
+    return valueAt<std::uint8_t>(record + (this->Extended ? 16 : 15)) & this->ClassMask;
   }
 
   bool keeps(const char* record) const
   {
     return this->IsClassKept[this->classOf(record)] &&
-      (valueAt<std::uint8_t>(record, 15) & this->LeftOut) == 0 && this->keepsReturn(record);
+      (valueAt<std::uint8_t>(record + 15) & this->LeftOut) == 0 && this->keepsReturn(record);
   }
 
 private:
   bool keepsReturn(const char* record) const
   {
-    const unsigned byte = valueAt<std::uint8_t>(record, 14);
+    const unsigned byte = valueAt<std::uint8_t>(record + 14);
     const unsigned number = this->Extended ? byte & 15U : byte & 7U;
     const unsigned count = this->Extended ? byte >> 4 : (byte >> 3) & 7U;
     return this->Kind == LasSelection::Returns::All ||
@@ -174,20 +166,10 @@ public:
     const auto after = std::upper_bound(this->KeptBefore.begin(), this->KeptBefore.end(), points);
     const std::int64_t chunk = after - this->KeptBefore.begin() - 1;
     this->NextRecord = std::min(chunk * chunkRecords, this->Header.Points);
-    std::int64_t left = points - this->KeptBefore[std::size_t(chunk)];
-    if (left == 0)
+    auto left = std::size_t(points - this->KeptBefore[std::size_t(chunk)]);
+    for (PointBlock block; left > 0 && this->next(block, left);)
     {
-      return;
-    }
-    const std::int64_t count = std::min(chunkRecords, this->Header.Points - this->NextRecord);
-    std::vector<char> raw(std::size_t(count) * this->Header.RecordLength);
-    openLasRecords(this->Path, this->Header)
-      ->read(this->NextRecord, std::size_t(count), raw.data());
-    for (const char* record = raw.data(); left > 0 && record < raw.data() + raw.size();
-         record += this->Header.RecordLength)
-    {
-      left -= this->Filter.keeps(record) ? 1 : 0;
-      ++this->NextRecord;
+      left -= block.size();
     }
   }
 
@@ -234,7 +216,7 @@ private:
     const std::int64_t shares = this->Header.Compressed
       ? 1
       : std::clamp<std::int64_t>(count / chunkRecords, 1, this->Threads);
-    resize(block, points + std::size_t(count));
+    block.resize(points + std::size_t(count));
     this->Shares.resize(std::size_t(shares));
     if (!this->Records)
     {
@@ -256,18 +238,9 @@ private:
       points += share.Points;
       this->Dropped += share.Count - std::int64_t(share.Points);
     }
-    resize(block, points);
+    block.resize(points);
     this->NextRecord += count;
     return points;
-  }
-
-  static void resize(PointBlock& block, std::size_t points)
-  {
-    block.XY.resize(2 * points);
-    for (std::vector<double>& column : block.Columns)
-    {
-      column.resize(points);
-    }
   }
 
   /// Moves points within a block, towards its beginning.
@@ -287,30 +260,35 @@ private:
   /// Writes the selected points of a share to their positions in the block.
   void decode(Share& share, PointBlock& block) const
   {
-    const std::size_t length = this->Header.RecordLength;
     share.Points = 0;
     for (std::int64_t done = 0; done < share.Count; done += chunkRecords)
     {
       const auto count = std::size_t(std::min(chunkRecords, share.Count - done));
-      share.Raw.resize(count * length);
-      this->Records->read(share.First + done, count, share.Raw.data());
-      share.Kept.clear();
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        const char* const record = share.Raw.data() + i * length;
-        if (this->Filter.keeps(record))
-        {
-          share.Kept.push_back(record);
-        }
-      }
+      this->select(*this->Records, share.First + done, count, share);
       this->write(share.Kept, block, share.To + share.Points);
       share.Points += share.Kept.size();
     }
   }
 
+  /// Reads records, and finds the selected ones.
+  void select(LasRecords& records, std::int64_t first, std::size_t count, Share& share) const
+  {
+    const std::size_t length = this->Header.RecordLength;
+    share.Raw.resize(count * length);
+    records.read(first, count, share.Raw.data());
+    share.Kept.clear();
+    for (const char* record = share.Raw.data(); count > 0; record += length, --count)
+    {
+      if (this->Filter.keeps(record))
+      {
+        share.Kept.push_back(record);
+      }
+    }
+  }
+
   double coordinate(const char* record, std::size_t axis) const
   {
-    return valueAt<std::int32_t>(record, 4 * axis) * this->Header.Scale[axis] +
+    return valueAt<std::int32_t>(record + 4 * axis) * this->Header.Scale[axis] +
       this->Header.Offset[axis];
   }
 
@@ -337,11 +315,11 @@ private:
           fill([this](const char* record) { return double(this->Filter.classOf(record)); });
           break;
         case LasColumn::Kind::Time:
-          fill([&](const char* record) { return valueAt<double>(record, column.Offset); });
+          fill([&](const char* record) { return valueAt<double>(record + column.Offset); });
           break;
         case LasColumn::Kind::Short:
           fill([&](const char* record)
-            { return double(valueAt<std::uint16_t>(record, column.Offset)); });
+            { return double(valueAt<std::uint16_t>(record + column.Offset)); });
           break;
       }
     }
@@ -356,18 +334,12 @@ private:
     }
     const auto records = openLasRecords(this->Path, this->Header);
     std::vector<std::int64_t> before{ 0 };
-    std::vector<char> raw;
+    Share share;
     for (std::int64_t first = 0; first < this->Header.Points; first += chunkRecords)
     {
       const auto count = std::size_t(std::min(chunkRecords, this->Header.Points - first));
-      raw.resize(count * this->Header.RecordLength);
-      records->read(first, count, raw.data());
-      std::int64_t kept = before.back();
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        kept += this->Filter.keeps(raw.data() + i * this->Header.RecordLength) ? 1 : 0;
-      }
-      before.push_back(kept);
+      this->select(*records, first, count, share);
+      before.push_back(before.back() + std::int64_t(share.Kept.size()));
     }
     this->KeptBefore = std::move(before);
   }

@@ -3,12 +3,13 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Flat/FlatMesh.h"
 #include "Parallel/Poll.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstring>
+#include <string_view>
 
 namespace tipp
 {
@@ -19,6 +20,14 @@ constexpr char magic[] = "\x93NUMPY";
 constexpr std::size_t magicSize = 6;
 // NumPy itself rejects headers above 10,000 bytes.
 constexpr std::uint64_t headerLimit = 10000;
+
+/// The dictionary at the start of a file.
+struct NpyHeader
+{
+  std::string Descr;               ///< NumPy's name of the scalar type, such as "<f8"
+  bool FortranOrder = false;       ///< whether the array is stored column by column
+  std::vector<std::int64_t> Shape; ///< extent along each axis
+};
 
 class Scanner
 {
@@ -108,8 +117,8 @@ private:
   std::string_view Text;
 };
 
-} // namespace
-
+/// Parses the dictionary; nullopt unless it has exactly the three keys with plain values, and no
+/// negative extent.
 std::optional<NpyHeader> parseNpyHeader(std::string_view text)
 {
   Scanner scanner(text);
@@ -144,6 +153,7 @@ std::optional<NpyHeader> parseNpyHeader(std::string_view text)
   return std::nullopt;
 }
 
+/// Reads the dictionary of a file of version 1 to 3 and the offset of its data in bytes.
 NpyHeader readNpyHeader(const InputFile& file, std::uint64_t& dataOffset)
 {
   unsigned char start[12] = {};
@@ -179,6 +189,55 @@ NpyHeader readNpyHeader(const InputFile& file, std::uint64_t& dataOffset)
   return *header;
 }
 
+Scalar scalarOf(const std::string& descr, const std::string& path)
+{
+  const std::optional<Scalar> type = scalarFromDescr(descr == "|b1" ? "|u1" : descr);
+  return type ? *type
+              : throw IOError(path,
+                  "holds elements of type '" + descr +
+                    "'; save it as little-endian integers, float32 or float64.");
+}
+
+} // namespace
+
+std::string NpyArray::shapeText() const
+{
+  std::string text;
+  for (const std::int64_t extent : this->Shape)
+  {
+    text += (text.empty() ? "" : " x ") + std::to_string(extent);
+  }
+  return text.empty() ? "a single number" : text;
+}
+
+NpyArray openNpyArray(const InputFile& file)
+{
+  NpyArray array;
+  array.Path = file.path();
+  const NpyHeader header = readNpyHeader(file, array.Offset);
+  array.Shape = header.Shape;
+  array.Type = scalarOf(header.Descr, array.Path);
+  if (header.FortranOrder && header.Shape.size() > 1)
+  {
+    throw IOError(array.Path, "is in Fortran order; save numpy.ascontiguousarray of it.");
+  }
+  std::int64_t expected = std::int64_t(scalarSize(array.Type));
+  bool overflow = false;
+  for (const std::int64_t extent : array.Shape)
+  {
+    overflow = __builtin_mul_overflow(expected, extent, &expected) || overflow;
+  }
+  const std::uint64_t present = file.size() - array.Offset;
+  if (overflow || std::uint64_t(expected) != present)
+  {
+    throw IOError(array.Path,
+      "holds " + std::to_string(present) + " bytes of data where its header's " +
+        array.shapeText() + " elements need " +
+        (overflow ? "more than 2^63" : std::to_string(expected)) + "; copy or save it again.");
+  }
+  return array;
+}
+
 std::string npyFileStart(const std::string& descr, const std::vector<std::int64_t>& shape)
 {
   std::string text = "{'descr': '" + descr + "', 'fortran_order': False, 'shape': (";
@@ -195,84 +254,30 @@ std::string npyFileStart(const std::string& descr, const std::vector<std::int64_
   return std::string(magic, magicSize) + std::string(counts, sizeof(counts)) + text;
 }
 
-namespace
-{
-
-struct ScalarType
-{
-  const char* Descr;
-  NpyReader::Type Type;
-  std::int64_t Size;
-};
-
-constexpr std::array<ScalarType, 6> scalarTypes = { {
-  { "<f4", NpyReader::Type::Float32, 4 },
-  { "<f8", NpyReader::Type::Float64, 8 },
-  { "<i4", NpyReader::Type::Int32, 4 },
-  { "<i8", NpyReader::Type::Int64, 8 },
-  { "<u4", NpyReader::Type::UInt32, 4 },
-  { "<u8", NpyReader::Type::UInt64, 8 },
-} };
-
-const ScalarType& findScalarType(const std::string& descr, const std::string& path)
-{
-  for (const ScalarType& candidate : scalarTypes)
-  {
-    if (descr == candidate.Descr)
-    {
-      return candidate;
-    }
-  }
-  throw IOError(path,
-    "holds numbers of type '" + descr +
-      "'; save it as little-endian float64, float32 or integers of 32 or 64 bits.");
-}
-
-void checkFileSize(
-  const InputFile& file, std::uint64_t offset, const NpyHeader& header, std::int64_t scalarSize)
-{
-  std::int64_t expected = 0;
-  const bool overflow = __builtin_mul_overflow(header.Shape[0], header.Shape[1], &expected) ||
-    __builtin_mul_overflow(expected, scalarSize, &expected);
-  const std::int64_t present = std::int64_t(file.size() - offset);
-  if (overflow || expected != present)
-  {
-    throw IOError(file.path(),
-      "holds " + std::to_string(present) + " bytes of data where its header's " +
-        std::to_string(header.Shape[0]) + " x " + std::to_string(header.Shape[1]) +
-        " numbers need " + (overflow ? "more than 2^63" : std::to_string(expected)) +
-        "; copy or save it again.");
-  }
-}
-
-} // namespace
-
 NpyReader::NpyReader(const std::string& path)
   : File(path)
+  , Array(openNpyArray(this->File))
+  , Offset(this->Array.Offset)
 {
-  const NpyHeader header = readNpyHeader(this->File, this->Offset);
-  if (header.Shape.size() != 2)
+  const std::size_t dimensions = this->Array.Shape.size();
+  if (dimensions != 2)
   {
     throw IOError(path,
-      "holds an array of " + std::to_string(header.Shape.size()) +
+      "holds an array of " + std::to_string(dimensions) +
         " dimensions; save a table of rows and columns.");
   }
-  if (header.FortranOrder)
+  if (scalarSize(this->type()) < 4)
   {
-    throw IOError(path, "is in Fortran order; save numpy.ascontiguousarray of it.");
+    throw IOError(path,
+      std::string("holds elements of type ") + scalarName(this->type()) +
+        "; save it as float64, float32 or integers of 32 or 64 bits.");
   }
-  const ScalarType& scalar = findScalarType(header.Descr, path);
-  checkFileSize(this->File, this->Offset, header, scalar.Size);
-  this->Scalar = scalar.Type;
-  this->Rows = header.Shape[0];
-  this->Columns = header.Shape[1];
 }
 
-void NpyReader::skipRows(std::int64_t rows)
+void NpyReader::seekRow(std::int64_t row)
 {
-  const bool isWide =
-    this->Scalar == Type::Float64 || this->Scalar == Type::Int64 || this->Scalar == Type::UInt64;
-  this->Offset += std::uint64_t(rows) * std::uint64_t(this->Columns) * (isWide ? 8 : 4);
+  this->Offset = this->Array.Offset +
+    std::uint64_t(row) * std::uint64_t(this->columns()) * scalarSize(this->type());
 }
 
 void NpyReader::read(void* to, std::size_t bytes)

@@ -2,6 +2,7 @@
 #ifndef tippNpyFile_h
 #define tippNpyFile_h
 
+#include "Arrays/Scalar.h"
 #include "Files/InputFile.h"
 #include "Files/PendingOutput.h"
 #include "vtkTIPPIOModule.h"
@@ -9,71 +10,58 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace tipp
 {
 
-class InputFile;
-
-/// The dictionary at the start of an .npy file.
-struct NpyHeader
+/// An .npy file whose array is used in place.
+struct NpyArray
 {
-  std::string Descr;               ///< NumPy's name of the scalar type, such as "<f8"
-  bool FortranOrder = false;       ///< whether the array is stored column by column
+  std::string Path;
+  std::uint64_t Offset = 0; ///< of the data, in bytes
+  Scalar Type = Scalar::Float64;
   std::vector<std::int64_t> Shape; ///< extent along each axis
+
+  /// For messages, such as "3 x 4".
+  std::string shapeText() const;
 };
 
-/// Parses the dictionary; nullopt unless it has exactly the three keys with plain values, and no
-/// negative extent.
-std::optional<NpyHeader> parseNpyHeader(std::string_view text);
-
-/// Reads the dictionary of a file of version 1 to 3 and the offset of its data in bytes; throws
-/// IOError.
-NpyHeader readNpyHeader(const InputFile& file, std::uint64_t& dataOffset);
+/// Reads the header of NumPy's .npy format, versions 1 to 3
+/// (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html), and checks it
+/// completely, also against the file's size. The array must be little-endian and in C order.
+/// Booleans are read as UInt8. Throws IOError.
+NpyArray openNpyArray(const InputFile& file);
 
 /// Returns the bytes before the data of a file of version 1; the data start at a multiple of 64
 /// bytes.
 std::string npyFileStart(const std::string& descr, const std::vector<std::int64_t>& shape);
 
-/// Reads a table of numbers from NumPy's .npy format, versions 1 to 3
-/// (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html): rows x columns,
-/// little-endian, C order. The header is checked completely, also against the file's size, before
-/// memory is allocated.
+/// Reads a table of float64, float32 or integers of 32 or 64 bits from an .npy file: rows x
+/// columns.
 class VTKTIPPIO_EXPORT NpyReader
 {
 public:
-  enum class Type
-  {
-    Float32,
-    Float64,
-    Int32,
-    Int64,
-    UInt32,
-    UInt64
-  };
+  using Type = Scalar;
 
-  /// Throws IOError unless the file is such a table.
+  /// Throws IOError unless the file is such a table; see openNpyArray().
   explicit NpyReader(const std::string& path);
 
-  Type type() const { return this->Scalar; }
-  bool isFloat() const { return this->Scalar == Type::Float32 || this->Scalar == Type::Float64; }
-  std::int64_t rows() const { return this->Rows; }
-  std::int64_t columns() const { return this->Columns; }
+  Type type() const { return this->Array.Type; }
+  bool isFloat() const { return this->type() == Type::Float32 || this->type() == Type::Float64; }
+  std::int64_t rows() const { return this->Array.Shape[0]; }
+  std::int64_t columns() const { return this->Array.Shape[1]; }
 
-  /// Skips the next rows; throws IOError.
-  void skipRows(std::int64_t rows);
+  /// Continues reading at a row, counted from 0.
+  void seekRow(std::int64_t row);
 
   /// Reads the next `bytes` bytes of the data; throws IOError.
   void read(void* to, std::size_t bytes);
 
 private:
   InputFile File;
-  std::uint64_t Offset = 0;
-  Type Scalar = Type::Float64;
-  std::int64_t Rows = 0;
-  std::int64_t Columns = 0;
+  NpyArray Array;
+  std::uint64_t Offset; ///< of the next bytes to read
 };
 
 /// Writes such an array of any shape; close() publishes the file.

@@ -3,7 +3,6 @@
 #define tippFilePoints_h
 
 #include "Files/TextFile.h"
-#include "Npy/NpyFile.h"
 #include "Points/PointStream.h"
 #include "Points/ReadPoints.h"
 
@@ -43,8 +42,8 @@ public:
 /// Opens a file by its extension. Throws IOError.
 std::unique_ptr<FilePoints> openFilePoints(const std::string& path, const PointOptions& options);
 
-/// Copies the points [first, first + count) of a table to a block.
-void copyPoints(const PointTable& table, std::int64_t first, std::int64_t count, PointBlock& block);
+/// The points of a table instead of a file.
+std::unique_ptr<FilePoints> openTable(PointTable table);
 
 /// A text file, read in blocks.
 std::unique_ptr<FilePoints> streamTextPoints(const std::string& path, const PointOptions& options);
@@ -52,39 +51,6 @@ std::unique_ptr<FilePoints> streamTextPoints(const std::string& path, const Poin
 /// Parses "uniform:COUNT", which stands for that many uniform points instead of a file; returns 0
 /// for other names.
 std::int64_t generatedCount(const std::string& name);
-/// Uniform points in the unit square or, if `inSpace`, in the unit cube, with a column z.
-std::unique_ptr<FilePoints> streamUniformPoints(std::int64_t count, bool inSpace);
-
-/// Reads the rows of an n x 2 or n x 3 array of float64 or float32 in order. Throws IOError.
-class NpyPointRows
-{
-public:
-  NpyPointRows(const std::string& path, const PointOptions& options);
-
-  std::int64_t rows() const { return this->Reader.rows(); }
-  void skip(std::int64_t rows) { this->Reader.skipRows(rows); }
-
-  /// The name of the column that is neither x nor y, if there are three.
-  const std::vector<std::string>& further() const { return this->Further; }
-
-  /// Reads the next rows: x and y interleaved, and the third column to `further`, which is null if
-  /// there is none.
-  void read(std::size_t count, double* xy, double* further);
-
-private:
-  template <typename Scalar>
-  void readRows(std::size_t count, double* xy, double* further);
-
-  NpyReader Reader;
-  std::size_t Width;
-  ColumnChoice Choice;
-  std::vector<std::string> Further;
-};
-
-/// Points from an .npy table of two or three columns, named x, y and z. Reads share `part` of
-/// `parts` of its rows.
-PointTable readNpyPoints(
-  const std::string& path, const PointOptions& options, int part = 0, int parts = 1);
 
 /// The points of a LAS or LAZ file, read in blocks: x, y, and the columns z, intensity,
 /// classification, gps_time, red, green, blue and nir, if the file's format has them. Throws
@@ -136,7 +102,6 @@ private:
   void chooseColumns(const PointOptions& options);
   bool parse(std::string_view field, double& value) const;
   double coordinate(std::size_t index) const;
-  void checkCount() const;
 
   std::string Path;
   FileLines Lines;

@@ -56,15 +56,18 @@ public:
     this->requireSameCrs();
   }
 
+  explicit FileSequence(std::unique_ptr<FilePoints> table)
+    : Identity("table")
+    , Kept(table->columns().size(), true)
+  {
+    this->Files.push_back(std::move(table));
+  }
+
   bool next(PointBlock& block, std::size_t most) override
   {
     while (this->At < this->Files.size() && this->Points < this->End)
     {
-      block.XY.clear();
-      for (std::vector<double>& column : block.Columns)
-      {
-        column.clear();
-      }
+      block.resize(0);
       const auto left = std::uint64_t(this->End - this->Points);
       if (this->Files[this->At]->next(block, std::size_t(std::min<std::uint64_t>(most, left))))
       {
@@ -272,54 +275,9 @@ void forEachBlock(
   }
 }
 
-namespace
-{
-
-class TablePoints : public PointStream
-{
-public:
-  explicit TablePoints(PointTable table)
-    : Table(std::move(table))
-    , End(std::int64_t(this->Table.size()))
-  {
-  }
-
-  bool next(PointBlock& block, std::size_t most) override
-  {
-    const std::int64_t count = std::min(std::int64_t(most), this->End - this->At);
-    copyPoints(this->Table, this->At, count, block);
-    block.First = this->At;
-    this->At += count;
-    return count > 0;
-  }
-
-  void rewind() override { this->At = this->Begin; }
-
-  std::int64_t divisible() const override { return std::int64_t(this->Table.size()); }
-
-  void limitTo(std::int64_t first, std::int64_t end) override
-  {
-    this->Begin = std::clamp<std::int64_t>(first, 0, this->divisible());
-    this->End = std::clamp(end, this->Begin, this->divisible());
-  }
-
-  std::vector<std::string> columns() const override { return this->Table.names(); }
-
-  std::int64_t most() const override { return this->divisible(); }
-  std::string identity() const override { return "table"; }
-
-private:
-  const PointTable Table;
-  std::int64_t Begin = 0;
-  std::int64_t End;
-  std::int64_t At = 0;
-};
-
-} // namespace
-
 std::unique_ptr<PointStream> streamTable(PointTable table, const Thinning& thinning)
 {
-  std::unique_ptr<PointStream> stream = std::make_unique<TablePoints>(std::move(table));
+  std::unique_ptr<PointStream> stream = std::make_unique<FileSequence>(openTable(std::move(table)));
   return thinning.isGiven() ? thinPoints(std::move(stream), thinning) : std::move(stream);
 }
 

@@ -25,6 +25,15 @@ struct PointBlock
     Columns; ///< one vector per column, in the order of PointStream::columns()
 
   std::size_t size() const { return this->XY.size() / 2; }
+  /// Changes the number of points, not that of the columns.
+  void resize(std::size_t points)
+  {
+    this->XY.resize(2 * points);
+    for (std::vector<double>& column : this->Columns)
+    {
+      column.resize(points);
+    }
+  }
 };
 
 /// Reads points from files of any size, block by block, in any number of passes. Not thread-safe.

@@ -27,6 +27,7 @@ struct PointTable
   std::vector<Column> Columns;
   std::int64_t LeftOut = 0;    ///< points that the options rejected
   std::int64_t ThinnedOut = 0; ///< points that thinning removed
+  std::string Crs;             ///< the coordinate reference system: see PointStream::crs()
 
   std::size_t size() const { return this->XY.size() / 2; }
   /// The names of Columns.

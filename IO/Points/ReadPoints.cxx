@@ -101,17 +101,77 @@ ColumnChoice chooseColumns(const std::string& path, const std::vector<std::strin
 namespace
 {
 
-PointTable readFixedColumns(const std::string& path)
+void dropUnwanted(const PointOptions& options, PointTable& table)
 {
-  if (isVtkFile(path))
+  std::vector<PointTable::Column>& columns = table.Columns;
+  columns.erase(
+    std::remove_if(columns.begin(), columns.end(),
+      [&options](const PointTable::Column& column) { return !options.wants(column.Name); }),
+    columns.end());
+}
+
+/// The index of the first point of share `part` of `parts`.
+std::int64_t shareBegin(std::int64_t points, int part, int parts)
+{
+  return points / parts * part + points % parts * part / parts;
+}
+
+/// Reads a share of an .npy file, without a copy.
+PointTable readNpyPoints(const std::string& path, const PointOptions& options, int part, int parts)
+{
+  const std::unique_ptr<FilePoints> file = openFilePoints(path, options);
+  const std::int64_t begin = shareBegin(file->divisible(), part, parts);
+  PointBlock block;
+  file->skip(begin);
+  file->next(block, std::size_t(shareBegin(file->divisible(), part + 1, parts) - begin));
+  PointTable table;
+  table.XY = std::move(block.XY);
+  for (std::size_t i = 0; i < block.Columns.size(); ++i)
   {
-    return readVtkPoints(path);
+    table.Columns.push_back({ file->columns()[i], std::move(block.Columns[i]) });
   }
+  dropUnwanted(options, table);
+  return table;
+}
+
+PointTable readAdcircPoints(const std::string& path)
+{
   AdcircGrid grid = readAdcircGrid(path);
   PointTable table;
   table.XY = std::move(grid.XY);
   table.Columns.push_back({ "depth", std::move(grid.Depth) });
   return table;
+}
+
+/// Reads a text file, or one with fixed columns.
+PointTable readWhole(const std::string& path, const PointOptions& options)
+{
+  if (options.Las.isGiven())
+  {
+    throw IOError(path, "has no classes and returns; these can be chosen in .las and .laz files.");
+  }
+  if (isTextPath(path) && conversionAdvice(path).empty())
+  {
+    return readTextPoints(path, options);
+  }
+  if (path.compare(0, 8, "uniform:") == 0)
+  {
+    throw IOError(path,
+      generatedCount(path) > 0
+        ? "stands for points that are never all in memory; name an output that ends in .tipp."
+        : "has no number of points after the colon, such as uniform:1000000.");
+  }
+  if (!isAdcircFile(path) && !isVtkFile(path))
+  {
+    refuseKind(path,
+      "has no extension that tells a kind of point file; use .npy, .csv, .txt, .xyz (or these as "
+      ".gz, .xz or .zst), .las, .laz, .14, .grd or one of VTK's.");
+  }
+  if (!options.X.empty() || !options.Y.empty())
+  {
+    throw IOError(path, "has fixed coordinates; columns can be chosen in .npy and text files.");
+  }
+  return isVtkFile(path) ? readVtkPoints(path) : readAdcircPoints(path);
 }
 
 } // namespace
@@ -145,6 +205,7 @@ PointTable readAllPoints(PointStream& stream)
     });
   table.LeftOut = stream.leftOut();
   table.ThinnedOut = stream.thinnedOut();
+  table.Crs = stream.crs();
   return table;
 }
 
@@ -161,36 +222,13 @@ PointTable readPoints(const std::string& path, const PointOptions& options)
   {
     return readAllPoints(*openPointStream({ path }, options));
   }
-  if (options.Las.isGiven())
-  {
-    throw IOError(path, "has no classes and returns; these can be chosen in .las and .laz files.");
-  }
   if (extension == ".npy")
   {
-    return readNpyPoints(path, options);
+    return readNpyPoints(path, options, 0, 1);
   }
-  if (isTextPath(path) && conversionAdvice(path).empty())
-  {
-    return readTextPoints(path, options);
-  }
-  if (path.compare(0, 8, "uniform:") == 0)
-  {
-    throw IOError(path,
-      generatedCount(path) > 0
-        ? "stands for points that are never all in memory; name an output that ends in .tipp."
-        : "has no number of points after the colon, such as uniform:1000000.");
-  }
-  if (!isAdcircFile(path) && !isVtkFile(path))
-  {
-    refuseKind(path,
-      "has no extension that tells a kind of point file; use .npy, .csv, .txt, .xyz (or these as "
-      ".gz, .xz or .zst), .las, .laz, .14, .grd or one of VTK's.");
-  }
-  if (!options.X.empty() || !options.Y.empty())
-  {
-    throw IOError(path, "has fixed coordinates; columns can be chosen in .npy and text files.");
-  }
-  return readFixedColumns(path);
+  PointTable table = readWhole(path, options);
+  dropUnwanted(options, table);
+  return table;
 }
 
 PointTable readPointsShare(
@@ -213,8 +251,7 @@ PointTable readPointsShare(
   }
   const auto stream = openPointStream(paths, options);
   const std::int64_t points = stream->divisible();
-  const auto pointBefore = [&](int p) { return points / parts * p + points % parts * p / parts; };
-  stream->limitTo(pointBefore(part), pointBefore(part + 1));
+  stream->limitTo(shareBegin(points, part, parts), shareBegin(points, part + 1, parts));
   return readAllPoints(*stream);
 }
 

@@ -224,7 +224,12 @@ bool TextRows::next()
   {
     if (!this->nextLine())
     {
-      this->checkCount();
+      if (this->Count && *this->Count != this->Rows)
+      {
+        throw IOError(this->Path,
+          "announces " + std::to_string(*this->Count) + " points in its first line and holds " +
+            std::to_string(this->Rows) + "; copy it again or correct the line.");
+      }
       return false;
     }
     this->split();
@@ -279,38 +284,6 @@ TextRows::Value TextRows::value(const Column& column, double& value) const
   return isMissing(field) ? Value::Missing : Value::Text;
 }
 
-void TextRows::checkCount() const
-{
-  if (this->Count && *this->Count != this->Rows)
-  {
-    throw IOError(this->Path,
-      "announces " + std::to_string(*this->Count) + " points in its first line and holds " +
-        std::to_string(this->Rows) + "; copy it again or correct the line.");
-  }
-}
-
-namespace
-{
-
-struct NumericColumn
-{
-  TextRows::Column Column;
-  std::vector<double> Values;
-  bool HasNumber = false;
-};
-
-/// False if the row's value is neither a number nor missing.
-bool addValue(const TextRows& rows, NumericColumn& column)
-{
-  double value = 0;
-  const TextRows::Value kind = rows.value(column.Column, value);
-  column.HasNumber = column.HasNumber || kind == TextRows::Value::Number;
-  column.Values.push_back(value);
-  return kind != TextRows::Value::Text;
-}
-
-} // namespace
-
 bool isTextPath(const std::string& path)
 {
   const std::string extension = extensionOf(path);
@@ -319,79 +292,53 @@ bool isTextPath(const std::string& path)
     extension == ".zst";
 }
 
-PointTable readTextPoints(const std::string& path, const PointOptions& options)
+namespace
 {
-  TextRows rows(path, options);
-  PointTable table;
-  const auto expected = std::size_t(rows.expectedRows());
-  table.XY.reserve(2 * expected);
+
+/// A column that may hold only numbers or nothing.
+struct NumericColumn
+{
+  TextRows::Column Column;
+  std::vector<double> Values;
+  bool HasNumber = false;
+};
+
+/// Reads all rows, and thereby finds all errors in the file. Returns the other columns that hold
+/// only numbers or nothing, and at least one number. Their values and `xy` stay empty unless
+/// `keepsValues`.
+std::vector<NumericColumn> readRows(TextRows rows, bool keepsValues, std::vector<double>& xy)
+{
+  const std::size_t expected = keepsValues ? std::size_t(rows.expectedRows()) : 0;
+  xy.reserve(2 * expected);
   std::vector<NumericColumn> columns;
   for (const TextRows::Column& column : rows.further())
   {
     columns.push_back({ column, {} });
     columns.back().Values.reserve(expected);
   }
+  const auto keep = [keepsValues](double value, std::vector<double>& values)
+  { keepsValues ? values.push_back(value) : void(); };
   while (rows.next())
   {
-    table.XY.push_back(rows.x());
-    table.XY.push_back(rows.y());
-    for (std::size_t i = 0; i < columns.size();)
-    {
-      if (addValue(rows, columns[i]))
-      {
-        ++i;
-      }
-      else
-      {
-        columns.erase(columns.begin() + std::ptrdiff_t(i));
-      }
-    }
-  }
-  for (NumericColumn& column : columns)
-  {
-    if (column.HasNumber)
-    {
-      table.Columns.push_back({ std::move(column.Column.Name), std::move(column.Values) });
-    }
-  }
-  return table;
-}
-
-namespace
-{
-
-/// Finds the other columns that hold only numbers or nothing, and at least one number. Reads the
-/// whole file, so it also finds all errors in it.
-std::vector<TextRows::Column> findNumericColumns(TextRows rows)
-{
-  std::vector<TextRows::Column> columns = rows.further();
-  std::vector<char> hasNumber(columns.size(), 0);
-  while (rows.next())
-  {
-    rows.x();
-    rows.y();
+    keep(rows.x(), xy);
+    keep(rows.y(), xy);
     for (std::size_t i = 0; i < columns.size();)
     {
       double value = 0;
-      const TextRows::Value kind = rows.value(columns[i], value);
+      const TextRows::Value kind = rows.value(columns[i].Column, value);
       if (kind == TextRows::Value::Text)
       {
         columns.erase(columns.begin() + std::ptrdiff_t(i));
-        hasNumber.erase(hasNumber.begin() + std::ptrdiff_t(i));
         continue;
       }
-      hasNumber[i++] |= kind == TextRows::Value::Number ? 1 : 0;
+      columns[i].HasNumber = columns[i].HasNumber || kind == TextRows::Value::Number;
+      keep(value, columns[i++].Values);
     }
   }
-  std::vector<TextRows::Column> numeric;
-  for (std::size_t i = 0; i < columns.size(); ++i)
-  {
-    if (hasNumber[i] != 0)
-    {
-      numeric.push_back(columns[i]);
-    }
-  }
-  return numeric;
+  columns.erase(std::remove_if(columns.begin(), columns.end(),
+                  [](const NumericColumn& column) { return !column.HasNumber; }),
+    columns.end());
+  return columns;
 }
 
 class TextFilePoints : public FilePoints
@@ -400,8 +347,12 @@ public:
   TextFilePoints(const std::string& path, const PointOptions& options)
     : Path(path)
     , Options(options)
-    , Numeric(findNumericColumns(TextRows(path, options)))
   {
+    std::vector<double> none;
+    for (const NumericColumn& column : readRows(TextRows(path, options), false, none))
+    {
+      this->Numeric.push_back(column.Column);
+    }
   }
 
   bool next(PointBlock& block, std::size_t most) override
@@ -409,17 +360,11 @@ public:
     if (!this->Rows)
     {
       this->Rows.emplace(this->Path, this->Options);
-      this->AtEnd = false;
     }
     block.Columns.resize(this->Numeric.size());
     std::size_t count = 0;
-    for (; count < most && !this->AtEnd; ++count)
+    for (; count < most && this->Rows->next(); ++count)
     {
-      this->AtEnd = !this->Rows->next();
-      if (this->AtEnd)
-      {
-        break;
-      }
       block.XY.push_back(this->Rows->x());
       block.XY.push_back(this->Rows->y());
       for (std::size_t i = 0; i < this->Numeric.size(); ++i)
@@ -459,12 +404,21 @@ private:
 
   const std::string Path;
   const PointOptions Options;
-  const std::vector<TextRows::Column> Numeric;
+  std::vector<TextRows::Column> Numeric;
   std::optional<TextRows> Rows;
-  bool AtEnd = false;
 };
 
 } // namespace
+
+PointTable readTextPoints(const std::string& path, const PointOptions& options)
+{
+  PointTable table;
+  for (NumericColumn& column : readRows(TextRows(path, options), true, table.XY))
+  {
+    table.Columns.push_back({ std::move(column.Column.Name), std::move(column.Values) });
+  }
+  return table;
+}
 
 std::unique_ptr<FilePoints> streamTextPoints(const std::string& path, const PointOptions& options)
 {

@@ -291,11 +291,7 @@ private:
       }
       ++to;
     }
-    block.XY.resize(2 * to);
-    for (std::vector<double>& column : block.Columns)
-    {
-      column.resize(to);
-    }
+    block.resize(to);
   }
 
   const std::unique_ptr<PointStream> All;

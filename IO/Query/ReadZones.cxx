@@ -3,7 +3,6 @@
 
 #include "Files/IOError.h"
 #ifdef TIPP_HAVE_GDAL
-#include "Constraints/VectorFeatures.h"
 #include "Raster/GdalLibrary.h"
 #endif
 

@@ -10,6 +10,11 @@
 #include <ogr_api.h>
 #include <ogr_srs_api.h>
 
+#include <functional>
+#include <memory>
+#include <string>
+#include <type_traits>
+
 namespace tipp
 {
 
@@ -88,6 +93,26 @@ struct GdalLibrary
 
 /// Loads GDAL once per process. Throws IOError if it is not installed.
 const GdalLibrary& gdal();
+
+/// Releases a handle of GDAL by its function `Release`.
+template <auto Release>
+struct GdalRelease
+{
+  template <typename T>
+  void operator()(T* handle) const
+  {
+    (gdal().*Release)(handle);
+  }
+};
+template <typename Handle, auto Release>
+using GdalOwner = std::unique_ptr<std::remove_pointer_t<Handle>, GdalRelease<Release>>;
+using GdalDataSet = GdalOwner<GDALDatasetH, &GdalLibrary::GDALClose>;
+
+/// Calls visit(feature, geometry) for each feature of all layers of a vector file, in their order.
+/// Curves are converted to straight lines; the geometry may be null. Throws IOError, and whatever
+/// visit() throws.
+void forFeatures(
+  const std::string& path, const std::function<void(OGRFeatureH, OGRGeometryH)>& visit);
 
 } // namespace tipp
 

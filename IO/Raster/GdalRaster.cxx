@@ -2,74 +2,37 @@
 #include "Raster/GdalRaster.h"
 
 #include "Files/IOError.h"
+#include "Files/InputFile.h"
+#include "Files/OutputFile.h"
 #include "Raster/GdalLibrary.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <exception>
-#include <fcntl.h>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 namespace tipp
 {
-namespace
-{
-
-constexpr char success = '+';
-constexpr char failure = '-';
-
-bool writeAll(int descriptor, const std::string& bytes)
-{
-  std::size_t done = 0;
-  while (done < bytes.size())
-  {
-    const ssize_t put = write(descriptor, bytes.data() + done, bytes.size() - done);
-    if (put < 0 && errno != EINTR)
-    {
-      return false;
-    }
-    done += put > 0 ? std::size_t(put) : 0;
-  }
-  return true;
-}
-
-std::string readAll(int descriptor)
-{
-  std::string bytes;
-  std::array<char, 4096> block{};
-  for (;;)
-  {
-    const ssize_t got = read(descriptor, block.data(), block.size());
-    if (got > 0)
-    {
-      bytes.append(block.data(), std::size_t(got));
-    }
-    else if (got == 0 || errno != EINTR)
-    {
-      return bytes;
-    }
-  }
-}
-
-} // namespace
-
 std::string runInChild(const std::function<std::string()>& work)
 {
-  std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0)
+  constexpr char success = '+';
+  constexpr char failure = '-';
+  const int memory = memfd_create("tipp-result", MFD_CLOEXEC);
+  if (memory < 0)
   {
     return work();
   }
+  const OutputFile output(memory, "The result of a child process");
   const pid_t parent = getpid();
   const pid_t child = fork();
   if (child == 0)
@@ -78,50 +41,50 @@ std::string runInChild(const std::function<std::string()>& work)
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    close(ends[0]);
     if (getppid() != parent)
     {
       _exit(1);
     }
-    std::string result;
     try
     {
-      result = success + work();
-    }
-    catch (const std::exception& error)
-    {
-      result = failure + std::string(error.what());
+      char kind = success;
+      std::string text;
+      try
+      {
+        text = work();
+      }
+      catch (const std::exception& error)
+      {
+        kind = failure;
+        text = error.what();
+      }
+      output.write(1, text.data(), text.size());
+      output.write(0, &kind, 1); // last, because it shows that the result is complete
+      _exit(0);                  // skips this process' own clean-up
     }
     catch (...)
     {
       _exit(1);
     }
-    // The last byte shows that the result is complete. _exit() skips this process' own clean-up.
-    _exit(writeAll(ends[1], result + success) ? 0 : 1);
   }
-  close(ends[1]);
   if (child < 0)
   {
-    close(ends[0]);
     return work(); // fork() failed: run in this process
   }
-  std::string result = readAll(ends[0]);
-  close(ends[0]);
   int status = 0; // stays 0 if SIGCHLD is ignored
   while (waitpid(child, &status, 0) < 0 && errno == EINTR)
   {
   }
-  if (status != 0 || result.size() < 2 || result.back() != success)
+  const InputFile input("/proc/self/fd/" + std::to_string(memory));
+  std::string result(std::size_t(input.size()), '\0');
+  input.read(0, result.data(), result.size());
+  const char kind = result.empty() ? '\0' : result.front();
+  if (status != 0 || (kind != success && kind != failure))
   {
     throw IOError("A process that was to do a part of the work has ended early; try again.");
   }
-  const bool isGood = result.front() == success;
-  result = result.substr(1, result.size() - 2);
-  if (!isGood)
-  {
-    throw IOError(result);
-  }
-  return result;
+  result.erase(0, 1);
+  return kind == success ? result : throw IOError(result);
 }
 
 namespace
@@ -158,38 +121,6 @@ private:
   char** List = nullptr;
 };
 
-class SpatialReference
-{
-public:
-  explicit SpatialReference(const std::string& text)
-    : Reference(gdal().OSRNewSpatialReference(nullptr))
-  {
-    gdal().CPLErrorReset();
-    if (gdal().OSRSetFromUserInput(this->Reference, text.c_str()) != OGRERR_NONE)
-    {
-      gdal().OSRDestroySpatialReference(this->Reference);
-      const std::string start = text.substr(0, 60);
-      throw IOError("'" + start +
-        "' is no coordinate reference system that GDAL knows; give --crs "
-        "EPSG:CODE.");
-    }
-  }
-  ~SpatialReference() { gdal().OSRDestroySpatialReference(this->Reference); }
-  SpatialReference(const SpatialReference&) = delete;
-  SpatialReference& operator=(const SpatialReference&) = delete;
-
-  OGRSpatialReferenceH handle() const { return this->Reference; }
-
-private:
-  OGRSpatialReferenceH Reference;
-};
-
-struct CloseDataSet
-{
-  void operator()(void* data) const { gdal().GDALClose(data); }
-};
-using DataSet = std::unique_ptr<void, CloseDataSet>;
-
 template <typename T>
 T valueAt(const std::string& bytes, std::size_t offset)
 {
@@ -205,13 +136,20 @@ T valueAt(const std::string& bytes, std::size_t offset)
 /// The bytes of a GeoTIFF of one pixel that GDAL writes with this reference system.
 std::string smallGeoTiff(const std::string& crs)
 {
-  const SpatialReference reference(crs);
+  const GdalOwner<OGRSpatialReferenceH, &GdalLibrary::OSRDestroySpatialReference> reference(
+    gdal().OSRNewSpatialReference(nullptr));
+  gdal().CPLErrorReset();
+  if (gdal().OSRSetFromUserInput(reference.get(), crs.c_str()) != OGRERR_NONE)
+  {
+    throw IOError("'" + crs.substr(0, 60) +
+      "' is no coordinate reference system that GDAL knows; give --crs EPSG:CODE.");
+  }
   const char* const path = "/vsimem/tipp-geokeys.tif";
-  DataSet data(
+  GdalDataSet data(
     gdal().GDALCreate(gdal().GDALGetDriverByName("GTiff"), path, 1, 1, 1, GDT_Byte, nullptr));
   double transform[6] = { 0, 1, 0, 0, 0, -1 };
   if (!data || gdal().GDALSetGeoTransform(data.get(), transform) != CE_None ||
-    gdal().GDALSetSpatialRef(data.get(), reference.handle()) != CE_None)
+    gdal().GDALSetSpatialRef(data.get(), reference.get()) != CE_None)
   {
     fail(crs.substr(0, 60), "cannot be described as a GeoTIFF");
   }
@@ -280,7 +218,7 @@ void requireConversion(const RasterDescription& description, const std::string& 
     {
       OptionList options;
       options.set("COMPRESS", upperCase(description.Compression));
-      const DataSet data(gdal().GDALCreate(gdal().GDALGetDriverByName("GTiff"),
+      const GdalDataSet data(gdal().GDALCreate(gdal().GDALGetDriverByName("GTiff"),
         "/vsimem/tipp-conversion.tif", 1, 1, 1, GDT_Float32, options.list()));
       if (!data || (description.CloudOptimized && !gdal().GDALGetDriverByName("COG")))
       {
@@ -317,11 +255,11 @@ void convertGeoTiff(const std::string& from, const std::string& to,
       options.set("ZLEVEL", "1"); // higher levels take twice the time and gain a few per cent
     }
   }
-  const DataSet plain(gdal().GDALOpen(from.c_str(), GA_ReadOnly));
-  DataSet copy(plain ? gdal().GDALCreateCopy(
-                         gdal().GDALGetDriverByName(description.CloudOptimized ? "COG" : "GTiff"),
-                         to.c_str(), plain.get(), 0, options.list(), nullptr, nullptr)
-                     : nullptr);
+  const GdalDataSet plain(gdal().GDALOpen(from.c_str(), GA_ReadOnly));
+  GdalDataSet copy(plain ? gdal().GDALCreateCopy(gdal().GDALGetDriverByName(
+                                                   description.CloudOptimized ? "COG" : "GTiff"),
+                             to.c_str(), plain.get(), 0, options.list(), nullptr, nullptr)
+                         : nullptr);
   if (!copy)
   {
     fail(path, "cannot be written as a GeoTIFF of this kind");
@@ -336,7 +274,7 @@ void convertGeoTiff(const std::string& from, const std::string& to,
 RasterInfo readRasterInfo(const std::string& path)
 {
   gdal().CPLErrorReset();
-  const DataSet data(gdal().GDALOpen(path.c_str(), GA_ReadOnly));
+  const GdalDataSet data(gdal().GDALOpen(path.c_str(), GA_ReadOnly));
   if (!data)
   {
     fail(path, "cannot be read as a raster");

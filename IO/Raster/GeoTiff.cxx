@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/IOError.h"
+#include "Files/OutputFile.h"
 #include "Files/TextFile.h"
 #include "Files/VtkXml.h"
 #include "Raster/GdalRaster.h"
 #include "Raster/RasterFile.h"
-#include "Raster/TiledTiff.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,6 +59,8 @@ std::string predicted(const std::string& pixels, std::size_t valueSize)
 }
 
 #ifdef TIPP_HAVE_LIBDEFLATE
+constexpr bool canDeflate = true;
+
 struct FreeCompressor
 {
   void operator()(libdeflate_compressor* compressor) const
@@ -83,6 +85,8 @@ std::string deflated(const std::string& bytes)
   return result;
 }
 #else
+constexpr bool canDeflate = false;
+
 std::string deflated(const std::string&)
 {
   throw std::logic_error("tiles are deflated without libdeflate");
@@ -147,160 +151,147 @@ std::string directory(const std::vector<TiffField>& fields, std::uint64_t at, bo
   return bytes + values;
 }
 
-} // namespace
-
-bool canDeflateTiles()
+template <typename T>
+TiffField tiffField(std::uint16_t tag, TiffField::Type type, const std::vector<T>& values)
 {
-#ifdef TIPP_HAVE_LIBDEFLATE
-  return true;
-#else
-  return false;
-#endif
+  return { tag, type,
+    std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)) };
 }
 
+/// Compresses a tile of values of `valueSize` bytes for a deflated file. Thread-safe.
 std::string deflateTile(const std::string& pixels, std::size_t valueSize)
 {
   return deflated(predicted(pixels, valueSize));
-}
-
-TiledTiff::TiledTiff(const OutputFile& file, const RasterGrid& grid, std::size_t bands,
-  bool isDouble, bool isDeflated, std::uint64_t classicBytes)
-  : File(file)
-  , Grid(grid)
-  , IsDouble(isDouble)
-  , IsDeflated(isDeflated)
-  , ClassicBytes(classicBytes)
-  , End(headerSize)
-  , Bands(bands)
-{
-}
-
-void TiledTiff::append(std::size_t band, const std::string& tile)
-{
-  this->File.write(this->End, tile.data(), tile.size());
-  this->Bands[band].Offsets.push_back(this->End);
-  this->Bands[band].Sizes.push_back(tile.size());
-  this->End += tile.size();
-}
-
-std::vector<TiffField> TiledTiff::pixelFields() const
-{
-  using Type = TiffField::Type;
-  using Short = std::uint16_t;
-  using Long = std::uint32_t;
-  const std::size_t bands = this->Bands.size();
-  const auto repeated = [bands](int value) { return std::vector<Short>(bands, Short(value)); };
-  const auto one = [](int value) { return std::vector<Short>{ Short(value) }; };
-  std::vector<TiffField> fields = {
-    tiffField(256, Type::Long, std::vector<Long>{ Long(this->Grid.Columns) }),
-    tiffField(257, Type::Long, std::vector<Long>{ Long(this->Grid.Rows) }),
-    tiffField(258, Type::Short, repeated(this->IsDouble ? 64 : 32)), // bits
-    tiffField(259, Type::Short, one(this->IsDeflated ? 8 : 1)),      // compression
-    tiffField(262, Type::Short, one(1)),                             // 0 is black
-    tiffField(277, Type::Short, one(int(bands))),                    // samples per pixel
-    tiffField(284, Type::Short, one(bands > 1 ? 2 : 1)),             // bands stored separately
-    tiffField(322, Type::Short, one(int(RasterTileSize))),
-    tiffField(323, Type::Short, one(int(RasterTileSize))),
-    tiffField(339, Type::Short, repeated(3)), // floating-point numbers
-  };
-  if (this->IsDeflated)
-  {
-    fields.push_back(tiffField(317, Type::Short, one(3))); // predictor
-  }
-  if (bands > 1)
-  {
-    fields.push_back(tiffField(338, Type::Short, std::vector<Short>(bands - 1, 0))); // no alpha
-  }
-  return fields;
-}
-
-void TiledTiff::finish(std::vector<TiffField> fields)
-{
-  const std::vector<TiffField> ofPixels = this->pixelFields();
-  fields.insert(fields.end(), ofPixels.begin(), ofPixels.end());
-  std::vector<std::uint64_t> offsets;
-  std::vector<std::uint64_t> sizes;
-  std::uint64_t other = 0;
-  for (const Band& band : this->Bands)
-  {
-    offsets.insert(offsets.end(), band.Offsets.begin(), band.Offsets.end());
-    sizes.insert(sizes.end(), band.Sizes.begin(), band.Sizes.end());
-  }
-  for (const TiffField& field : fields)
-  {
-    other += field.Bytes.size() + 32;
-  }
-  this->End += this->End % 2;
-  const bool isBig = this->End + 16 * offsets.size() + other + 1024 > this->ClassicBytes;
-  const auto addWords = [&](std::uint16_t tag, const std::vector<std::uint64_t>& words)
-  {
-    fields.push_back(isBig ? tiffField(tag, TiffField::Type::Long8, words)
-                           : tiffField(tag, TiffField::Type::Long,
-                               std::vector<std::uint32_t>(words.begin(), words.end())));
-  };
-  addWords(324, offsets);
-  addWords(325, sizes);
-  std::sort(fields.begin(), fields.end(),
-    [](const TiffField& a, const TiffField& b) { return a.Tag < b.Tag; });
-  const std::string bytes = directory(fields, this->End, isBig);
-  this->File.write(this->End, bytes.data(), bytes.size());
-  std::string header = "II";
-  tipp::append(header, std::uint16_t(isBig ? 43 : 42));
-  if (isBig)
-  {
-    tipp::append(header, std::uint16_t(8));
-    tipp::append(header, std::uint16_t(0));
-  }
-  appendWord(header, this->End, isBig);
-  header.resize(headerSize, '\0');
-  this->File.write(0, header.data(), header.size());
-}
-
-void BandSums::add(double value)
-{
-  this->Least = std::min(this->Least, value);
-  this->Most = std::max(this->Most, value);
-  this->Count += 1;
-  const double difference = value - this->Mean;
-  this->Mean += difference / this->Count;
-  this->Squares += difference * (value - this->Mean);
-}
-
-void BandSums::add(const BandSums& other)
-{
-  if (other.Count == 0)
-  {
-    return;
-  }
-  this->Least = std::min(this->Least, other.Least);
-  this->Most = std::max(this->Most, other.Most);
-  const double count = this->Count + other.Count;
-  const double difference = other.Mean - this->Mean;
-  this->Mean += difference * (other.Count / count);
-  this->Squares += other.Squares + difference * difference * (this->Count * other.Count / count);
-  this->Count = count;
-  this->Hidden += other.Hidden;
-}
-
-namespace
-{
-
-TiffField textField(std::uint16_t tag, const std::string& text)
-{
-  return { tag, TiffField::Type::Text, text + '\0' };
 }
 
 /// Whether GDAL converts the file from an uncompressed one.
 bool isConverted(const RasterDescription& description)
 {
   return description.CloudOptimized ||
-    !(description.Compression == "none" ||
-      (description.Compression == "deflate" && canDeflateTiles()));
+    !(description.Compression == "none" || (description.Compression == "deflate" && canDeflate));
 }
 
 bool isDeflated(const RasterDescription& description)
 {
   return !isConverted(description) && description.Compression == "deflate";
+}
+
+/// Writes a TIFF file of floating-point bands, each in its own tiles, from the north-west on. It
+/// becomes a BigTIFF if it may exceed ClassicBytes of the description.
+class TiledTiff
+{
+public:
+  /// The arguments must outlive this object.
+  TiledTiff(const OutputFile& file, const RasterDescription& description)
+    : File(file)
+    , Description(description)
+    , Bands(description.Bands.size())
+  {
+  }
+
+  /// Appends the next tile of a band: RasterTileSize rows of RasterTileSize values of the file's
+  /// type, northernmost row first; for a deflated file, the result of deflateTile(). Throws
+  /// IOError.
+  void append(std::size_t band, const std::string& tile)
+  {
+    this->File.write(this->End, tile.data(), tile.size());
+    this->Bands[band].Offsets.push_back(this->End);
+    this->Bands[band].Sizes.push_back(tile.size());
+    this->End += tile.size();
+  }
+
+  /// Completes the file with a directory of these fields and those that describe the pixels. Throws
+  /// IOError.
+  void finish(std::vector<TiffField> fields)
+  {
+    const std::vector<TiffField> ofPixels = this->pixelFields();
+    fields.insert(fields.end(), ofPixels.begin(), ofPixels.end());
+    std::vector<std::uint64_t> offsets;
+    std::vector<std::uint64_t> sizes;
+    std::uint64_t other = 0;
+    for (const Band& band : this->Bands)
+    {
+      offsets.insert(offsets.end(), band.Offsets.begin(), band.Offsets.end());
+      sizes.insert(sizes.end(), band.Sizes.begin(), band.Sizes.end());
+    }
+    for (const TiffField& field : fields)
+    {
+      other += field.Bytes.size() + 32;
+    }
+    this->End += this->End % 2;
+    const bool isBig =
+      this->End + 16 * offsets.size() + other + 1024 > this->Description.ClassicBytes;
+    const auto addWords = [&](std::uint16_t tag, const std::vector<std::uint64_t>& words)
+    {
+      fields.push_back(isBig ? tiffField(tag, TiffField::Type::Long8, words)
+                             : tiffField(tag, TiffField::Type::Long,
+                                 std::vector<std::uint32_t>(words.begin(), words.end())));
+    };
+    addWords(324, offsets);
+    addWords(325, sizes);
+    std::sort(fields.begin(), fields.end(),
+      [](const TiffField& a, const TiffField& b) { return a.Tag < b.Tag; });
+    const std::string bytes = directory(fields, this->End, isBig);
+    this->File.write(this->End, bytes.data(), bytes.size());
+    std::string header = "II";
+    tipp::append(header, std::uint16_t(isBig ? 43 : 42));
+    if (isBig)
+    {
+      tipp::append(header, std::uint16_t(8));
+      tipp::append(header, std::uint16_t(0));
+    }
+    appendWord(header, this->End, isBig);
+    header.resize(headerSize, '\0');
+    this->File.write(0, header.data(), header.size());
+  }
+
+private:
+  std::vector<TiffField> pixelFields() const
+  {
+    using Type = TiffField::Type;
+    using Short = std::uint16_t;
+    using Long = std::uint32_t;
+    const std::size_t bands = this->Bands.size();
+    const bool hasPredictor = isDeflated(this->Description);
+    const auto repeated = [bands](int value) { return std::vector<Short>(bands, Short(value)); };
+    const auto one = [](int value) { return std::vector<Short>{ Short(value) }; };
+    std::vector<TiffField> fields = {
+      tiffField(256, Type::Long, std::vector<Long>{ Long(this->Description.Grid.Columns) }),
+      tiffField(257, Type::Long, std::vector<Long>{ Long(this->Description.Grid.Rows) }),
+      tiffField(258, Type::Short, repeated(this->Description.Double ? 64 : 32)), // bits
+      tiffField(259, Type::Short, one(hasPredictor ? 8 : 1)),                    // compression
+      tiffField(262, Type::Short, one(1)),                                       // 0 is black
+      tiffField(277, Type::Short, one(int(bands))),        // samples per pixel
+      tiffField(284, Type::Short, one(bands > 1 ? 2 : 1)), // bands stored separately
+      tiffField(322, Type::Short, one(int(RasterTileSize))),
+      tiffField(323, Type::Short, one(int(RasterTileSize))),
+      tiffField(339, Type::Short, repeated(3)), // floating-point numbers
+    };
+    if (hasPredictor)
+    {
+      fields.push_back(tiffField(317, Type::Short, one(3)));
+    }
+    if (bands > 1)
+    {
+      fields.push_back(tiffField(338, Type::Short, std::vector<Short>(bands - 1, 0))); // no alpha
+    }
+    return fields;
+  }
+
+  const OutputFile& File;
+  const RasterDescription& Description;
+  std::uint64_t End = headerSize; ///< end of the written data
+  struct Band
+  {
+    std::vector<std::uint64_t> Offsets; ///< offsets of its tiles
+    std::vector<std::uint64_t> Sizes;
+  };
+  std::vector<Band> Bands;
+};
+
+TiffField textField(std::uint16_t tag, const std::string& text)
+{
+  return { tag, TiffField::Type::Text, text + '\0' };
 }
 
 /// Encodes a band of a tile. Pixels beyond the raster's border have no data.
@@ -352,9 +343,8 @@ public:
     {
       this->Fields = geoKeysOf(description.Crs);
     }
-    this->Tiff = std::make_unique<TiledTiff>((this->Plain ? *this->Plain : this->Pending).file(),
-      description.Grid, description.Bands.size(), description.Double, isDeflated(description),
-      description.ClassicBytes);
+    this->Tiff = std::make_unique<TiledTiff>(
+      (this->Plain ? *this->Plain : this->Pending).file(), this->Description);
   }
 
   void write(const RasterWindow& window, const std::vector<const double*>& bands) override

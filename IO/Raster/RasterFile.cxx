@@ -63,6 +63,32 @@ RasterGrid makeRasterGrid(const RasterRequest& request, const std::array<double,
   return { x.Origin, y.Origin, { size, size }, x.Count, y.Count, std::nullopt };
 }
 
+void BandSums::add(double value)
+{
+  this->Least = std::min(this->Least, value);
+  this->Most = std::max(this->Most, value);
+  this->Count += 1;
+  const double difference = value - this->Mean;
+  this->Mean += difference / this->Count;
+  this->Squares += difference * (value - this->Mean);
+}
+
+void BandSums::add(const BandSums& other)
+{
+  if (other.Count == 0)
+  {
+    return;
+  }
+  this->Least = std::min(this->Least, other.Least);
+  this->Most = std::max(this->Most, other.Most);
+  const double count = this->Count + other.Count;
+  const double difference = other.Mean - this->Mean;
+  this->Mean += difference * (other.Count / count);
+  this->Squares += other.Squares + difference * difference * (this->Count * other.Count / count);
+  this->Count = count;
+  this->Hidden += other.Hidden;
+}
+
 RasterWriter::~RasterWriter() = default;
 
 // NOLINTNEXTLINE(performance-unnecessary-value-param): overrides keep the tile
@@ -78,27 +104,29 @@ namespace
 class PlainWriter : public RasterWriter
 {
 public:
-  PlainWriter(const std::string& path, const RasterGrid& grid, const PathState& before)
+  PlainWriter(
+    const std::string& path, const RasterDescription& description, const PathState& before)
     : Pending(path, before)
-    , Grid(grid)
+    , Grid(description.Grid)
+    , Bands(description.Bands.size())
   {
   }
 
   /// `lengths` tells whether each band is preceded by its size in bytes.
-  void start(const std::string& text, bool lengths, std::size_t bands)
+  void start(const std::string& text, bool lengths)
   {
     this->put(0, text.data(), text.size());
     this->Begin = text.size();
     this->Gap = lengths ? sizeof(std::uint64_t) : 0;
-    for (std::size_t band = 0; lengths && band < bands; ++band)
+    for (std::size_t band = 0; lengths && band < this->Bands; ++band)
     {
       const std::uint64_t size = this->bandBytes();
       this->put(this->offset(band) - sizeof(size), &size, sizeof(size));
     }
   }
-  void end(const std::string& text, std::size_t bands)
+  void end(const std::string& text)
   {
-    this->put(this->offset(bands) - this->Gap, text.data(), text.size());
+    this->put(this->offset(this->Bands) - this->Gap, text.data(), text.size());
   }
 
   void write(const RasterWindow& window, const std::vector<const double*>& bands) override
@@ -131,6 +159,7 @@ private:
 
   PendingFile Pending;
   const RasterGrid Grid;
+  const std::size_t Bands;
   std::uint64_t Begin = 0;
   std::uint64_t Gap = 0;
 };
@@ -138,7 +167,7 @@ private:
 std::unique_ptr<RasterWriter> createNpy(
   const std::string& path, const RasterDescription& description, const PathState& before)
 {
-  auto writer = std::make_unique<PlainWriter>(path, description.Grid, before);
+  auto writer = std::make_unique<PlainWriter>(path, description, before);
   std::vector<std::int64_t> shape;
   if (description.Bands.size() > 1)
   {
@@ -146,7 +175,7 @@ std::unique_ptr<RasterWriter> createNpy(
   }
   shape.push_back(description.Grid.Rows);
   shape.push_back(description.Grid.Columns);
-  writer->start(npyFileStart("<f8", shape), false, description.Bands.size());
+  writer->start(npyFileStart("<f8", shape), false);
   return writer;
 }
 
@@ -164,7 +193,7 @@ std::unique_ptr<RasterWriter> createVti(
   const std::string& path, const RasterDescription& description, const PathState& before)
 {
   const RasterGrid& grid = description.Grid;
-  auto writer = std::make_unique<PlainWriter>(path, grid, before);
+  auto writer = std::make_unique<PlainWriter>(path, description, before);
   const std::string extent =
     "0 " + std::to_string(grid.Columns - 1) + " 0 " + std::to_string(grid.Rows - 1) + " 0 0";
   std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" "
@@ -182,8 +211,8 @@ std::unique_ptr<RasterWriter> createVti(
   }
   text += "      </PointData>\n      <CellData/>\n    </Piece>\n  </ImageData>\n  <AppendedData "
           "encoding=\"raw\">\n_";
-  writer->start(text, true, description.Bands.size());
-  writer->end("\n  </AppendedData>\n</VTKFile>\n", description.Bands.size());
+  writer->start(text, true);
+  writer->end("\n  </AppendedData>\n</VTKFile>\n");
   return writer;
 }
 

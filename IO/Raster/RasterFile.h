@@ -65,7 +65,8 @@ struct RasterDescription
   std::string Compression = "deflate"; ///< for a GeoTIFF: deflate, lzw, zstd or none
   bool CloudOptimized = false; ///< whether a GeoTIFF has overviews and the layout called COG
   int Threads = 1;             ///< threads that compress
-  /// A GeoTIFF that may exceed this size, in bytes, is written as a BigTIFF.
+  /// A GeoTIFF that may exceed this size, in bytes, is written as a BigTIFF. Must not exceed the
+  /// default, the range of 32-bit offsets.
   std::uint64_t ClassicBytes = std::numeric_limits<std::uint32_t>::max();
 };
 
@@ -159,6 +160,29 @@ inline std::int64_t tileNumber(const RasterGrid& grid, const RasterWindow& windo
   const std::int64_t across = (grid.Columns + RasterTileSize - 1) / RasterTileSize;
   const std::int64_t fromNorth = grid.Rows - window.Row - window.Rows;
   return fromNorth / RasterTileSize * across + window.Column / RasterTileSize;
+}
+
+/// Calls visit(tile, part) for each tile that a window meets: the tile's number, and the part of
+/// the window in it.
+template <typename Visit>
+void forTiles(const RasterGrid& grid, const RasterWindow& window, const Visit& visit)
+{
+  const std::int64_t across = (grid.Columns + RasterTileSize - 1) / RasterTileSize;
+  const std::int64_t right = window.Column + window.Columns;
+  const std::int64_t end = window.Row + window.Rows;
+  const std::int64_t last = (grid.Rows - 1 - window.Row) / RasterTileSize;
+  for (std::int64_t fromNorth = (grid.Rows - end) / RasterTileSize; fromNorth <= last; ++fromNorth)
+  {
+    const std::int64_t top = grid.Rows - fromNorth * RasterTileSize;
+    const std::int64_t row = std::max(top - RasterTileSize, window.Row);
+    for (std::int64_t i = window.Column / RasterTileSize; i <= (right - 1) / RasterTileSize; ++i)
+    {
+      const std::int64_t column = std::max(window.Column, i * RasterTileSize);
+      visit(fromNorth * across + i,
+        RasterWindow{ column, row, std::min(right, (i + 1) * RasterTileSize) - column,
+          std::min(top, end) - row });
+    }
+  }
 }
 
 /// Creates a raster file by its extension: .tif (GDAL), .npy (float64, rows x columns from the

@@ -2,7 +2,7 @@
 #include "Binding.h"
 
 #include "Constraints/ReadConstraintFile.h"
-#include "Dem/StreamedDem.h"
+#include "Dem/MakeDem.h"
 #include "Parallel/ParallelFor.h"
 #include "Points/PointStream.h"
 
@@ -164,7 +164,7 @@ nb::tuple makeRaster(const nb::object& points, const nb::dict& options, nb::obje
   const std::string crs = stream->crs();
   TerrainSettings settings;
   SampledBands samples;
-  DemFigures figures;
+  OutOfCoreStatistics figures;
   try
   {
     figures = withoutLock(

@@ -160,7 +160,7 @@ TrianglesView viewOf(const Triangulation& result)
 /// nodes.
 void warnOfLostBoundaries(const DelaunayArguments& arguments)
 {
-  const std::string boundaries = readAdcircFrame(arguments.Input).Boundaries;
+  const std::string boundaries = readAdcircGrid(arguments.Input).Boundaries;
   constexpr std::ptrdiff_t linesOfNone = 4; // a grid without boundaries has only the counts
   if (std::count(boundaries.begin(), boundaries.end(), '\n') > linesOfNone)
   {

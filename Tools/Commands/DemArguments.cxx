@@ -47,7 +47,7 @@ namespace
 std::string summarize(const DemArguments& arguments, const DemReport& report)
 {
   const RasterGrid& grid = report.Settings.Grid;
-  const DemFigures& figures = report.Figures;
+  const OutOfCoreStatistics& figures = report.Figures;
   const std::string rejected =
     figures.Rejected == 0 ? "" : fmt::format(", {} rejected", figures.Rejected);
   return fmt::format(

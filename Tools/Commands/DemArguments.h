@@ -48,7 +48,7 @@ struct DemArguments
 /// The figures of a run of `tipp dem`.
 struct DemReport
 {
-  DemFigures Figures;
+  OutOfCoreStatistics Figures;
   TerrainSettings Settings;
   std::int64_t Filled = 0; ///< pixels with a value
   double Hidden = 0;       ///< number of values that equal --nodata

@@ -5,8 +5,8 @@
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Constraints/ConstrainedPoints.h"
+#include "Dem/MakeDem.h"
 #include "Dem/RasterSink.h"
-#include "Dem/StreamedDem.h"
 #include "Dem/SurfaceSink.h"
 #include "Files/IOError.h"
 #include "OutOfCore/ScratchFiles.h"
@@ -192,7 +192,7 @@ int runDemOutOfCore(
   reportLeftOut(statistics.LeftOut, statistics.ThinnedOut);
   report.PeakMemory = largestMemory(usage);
   report.Ranks = ranks.size();
-  report.Figures = figuresOf(statistics);
+  report.Figures = statistics;
   report.MakeSeconds += totalSeconds(statistics.Phases);
   finishDem(arguments, report);
   return Success;

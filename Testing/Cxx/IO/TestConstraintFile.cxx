@@ -95,10 +95,10 @@ TEST_F(ConstraintFile, DamagedPolyIsAnError)
   this->expectError("a.poly", "2 2 0 0\n1 0 0\n", "ends before a vertex");
   this->expectError("a.poly", "2 2 0 0\n1 0 0\n3 4 0\n", "numbers a vertex otherwise");
   this->expectError("a.poly", vertices + "1 0\n1 1 3\n0\n", "names a vertex that is not given");
-  this->expectError("a.poly", vertices + "1 0\n1 1 x\n0\n", "has a field that is no number");
-  this->expectError("a.poly", vertices + "1 0\n1 1.5 2\n0\n", "no whole number");
+  this->expectError("a.poly", vertices + "1 0\n1 1 x\n0\n", "'x' is not a number");
+  this->expectError("a.poly", vertices + "1 0\n1 1.5 2\n0\n", "'1.5' is not an integer");
   this->expectError("a.poly", vertices + "99999999 0\n", "announces 99999999 lines");
-  this->expectError("a.poly", vertices + "0 0\n1\n1 5\n", "has too few fields for a hole");
+  this->expectError("a.poly", vertices + "0 0\n1\n1 5\n", "has too few numbers for a hole");
 }
 
 TEST_F(ConstraintFile, BoundariesOfAnAdcircGrid)

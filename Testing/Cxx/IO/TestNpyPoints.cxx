@@ -102,6 +102,14 @@ TEST_F(NpyPoints, ColumnsCanBeChosen)
   EXPECT_EQ("y", points.Columns.at(0).Name);
 }
 
+TEST_F(NpyPoints, OnlyTheRequestedColumnsAreRead)
+{
+  tipp::PointOptions options;
+  options.Columns.emplace();
+  const std::string path = this->file(npyHeader("<f8", "(1, 3)"), bytesOf<double>({ 1, 2, 3 }));
+  EXPECT_TRUE(readPoints(path, options).Columns.empty());
+}
+
 TEST_F(NpyPoints, TwoColumnsCanBeSwapped)
 {
   const std::string path = this->file(npyHeader("<f8", "(2, 2)"), this->TwoPoints);
@@ -153,11 +161,13 @@ TEST_F(NpyPoints, EveryTruncationOfTheHeaderIsReported)
 
 TEST_F(NpyPoints, WrongTypesAreReported)
 {
-  for (const char* descr : { "<i2", ">f8", "|O", "<c16", "<f16", "" })
+  for (const char* descr : { ">f8", "|O", "<c16", "<f16", "" })
   {
     this->expectError(
-      this->file(npyHeader(descr, "(2, 2)"), this->TwoPoints), "holds numbers of type");
+      this->file(npyHeader(descr, "(2, 2)"), this->TwoPoints), "holds elements of type");
   }
+  this->expectError(this->file(npyHeader("<i2", "(2, 2)"), this->TwoPoints.substr(0, 8)),
+    "holds elements of type Int16");
 }
 
 TEST_F(NpyPoints, MessagesAreOneLineWhateverTheFileHolds)

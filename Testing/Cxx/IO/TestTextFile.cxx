@@ -71,10 +71,25 @@ TEST(LineReader, CountsLines)
   LineReader reader("a\nb\nc\n");
   std::string_view line;
   EXPECT_EQ(0, reader.lineNumber());
-  EXPECT_LE(3, reader.remainingLines());
   ASSERT_TRUE(reader.next(line) && reader.next(line));
   EXPECT_EQ(2, reader.lineNumber());
-  EXPECT_LE(1, reader.remainingLines());
+  EXPECT_EQ("c\n", reader.rest());
+}
+
+TEST(NumberRows, SkipCommentsAndAcceptWholeNumbersOfEitherKind)
+{
+  const TemporaryFolder folder;
+  NumberRows rows(folder.file("a.txt", "title\n# none\n\n3 4.0 0.5 # row\n"), "a test", '#');
+  EXPECT_EQ("title", rows.title());
+  EXPECT_LE(3, rows.remainingLines());
+  rows.next(3, "a row");
+  EXPECT_EQ(3U, rows.fields());
+  EXPECT_EQ(3, rows.integer(0));
+  EXPECT_EQ(4, rows.integer(1));
+  EXPECT_EQ(0.5, rows.number(2));
+  EXPECT_LE(0, rows.remainingLines());
+  expectIOError(folder.path("a.txt"), "line 4: '0.5' is not an integer", [&] { rows.integer(2); });
+  expectIOError(folder.path("a.txt"), "ends before a row", [&] { rows.next(1, "a row"); });
 }
 
 TEST(SplitFields, ADelimiterSeparatesEvenEmptyFields)

@@ -208,6 +208,15 @@ TEST_F(TextPoints, FilesWithoutPointsAreReported)
   }
 }
 
+TEST_F(TextPoints, OnlyTheRequestedColumnsAreRead)
+{
+  tipp::PointOptions options;
+  options.Columns = { "depth", "missing" };
+  const PointTable points = this->read("x,y,speed,depth\n1,2,3,4\n", options);
+  EXPECT_EQ(std::vector<std::string>{ "depth" }, points.names());
+  EXPECT_EQ(Values{ 4 }, points.Columns[0].Values);
+}
+
 TEST_F(TextPoints, SingleColumnIsReported)
 {
   this->expectError("one\n1\n2\n", "single column");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MessageCounter.h"
+#include "Output/FilterPipeline.h"
 #include "PieceSource.h"
 #include "RangeResampleTesting.h"
-#include "Sampling/RangeResampleRun.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
