@@ -313,7 +313,7 @@ void vtkTIPPDelaunay2D::SetCells(tipp::Triangulation& triangulation, vtkPolyData
     const auto pointAt = [points = output->GetPoints()](tipp::PointId id, double* p)
     { points->GetPoint(vtkIdType(id), p); };
     auto shape = tipp::alphaShape(
-      ids, pointAt, this->Alpha, tipp::coveredPoints(triangulation, output->GetNumberOfPoints()));
+      ids, pointAt, this->Alpha, tipp::findLeftOut(triangulation, output->GetNumberOfPoints()));
     if (this->AlphaTris)
     {
       output->SetPolys(tipp::takeCells(std::move(shape.Triangles), 3));

@@ -3,6 +3,7 @@
 #define tippTriangulateMerged_h
 
 #include "Triangulation/Triangulate.h"
+#include "Triangulation3D/Tetrahedralize.h"
 
 namespace tipp
 {
@@ -11,7 +12,7 @@ namespace tipp
 /// point kept before it is merged into that one.
 struct MergedPoints
 {
-  Buffer<double> Coordinates;        ///< x, y of the kept points
+  Buffer<double> Coordinates;        ///< x, y (in space also z) of the kept points
   Buffer<PointId> Ids;               ///< input point indices of the kept points, ascending
   std::vector<Duplicate> Duplicates; ///< merged points, with input indices
   std::vector<PointId> Rejected;     ///< input indices of points with NaN or infinite coordinates
@@ -24,10 +25,14 @@ struct MergedPoints
 VTKTIPPFILTERS_EXPORT MergedPoints mergeClosePoints(
   PointsView points, double distance, const std::function<bool(double)>& progress = {});
 
-/// Calls triangulate() for the points that mergeClosePoints() keeps; the result's ids are indices
-/// into `points`.
+///@{
+/// Merges points closer than `distance` > 0, and calls triangulate() or tetrahedralize() for those
+/// that are left. The result's ids are indices into `points`. Merging uses one thread.
 VTKTIPPFILTERS_EXPORT Triangulation triangulateMerged(
   PointsView points, double distance, const TriangulationOptions& options = {});
+VTKTIPPFILTERS_EXPORT Tetrahedralization tetrahedralizeMerged(const Point3* points,
+  std::size_t count, double distance, const TetrahedralizationOptions& options = {});
+///@}
 
 } // namespace tipp
 

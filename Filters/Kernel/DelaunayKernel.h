@@ -77,7 +77,7 @@ public:
   std::size_t triangleCount() const { return number(this->Mesh.end()); }
   /// Calls visit(triangle) for all triangles, by ascending number.
   template <typename Visit>
-  void forEachTriangle(const Visit& visit) const
+  void forEach(const Visit& visit) const
   {
     for (Index t = 0; t < this->Mesh.end(); t += 8)
     {

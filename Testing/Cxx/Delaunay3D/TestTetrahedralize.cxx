@@ -2,9 +2,8 @@
 #include "PointsInSpace.h"
 
 #include "Check/TetrahedraChecker.h"
+#include "InMemory/TriangulateMerged.h"
 #include "Kernel3D/DelaunayKernel3.h"
-#include "Triangulation3D/CoplanarPoints.h"
-#include "Triangulation3D/MergeClosePoints3.h"
 
 #include <gtest/gtest.h>
 
