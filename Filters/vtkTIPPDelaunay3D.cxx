@@ -34,7 +34,7 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -115,7 +115,7 @@ int vtkTIPPDelaunay3D::RequestData(
     tipp::requireFinite(
       { { "Alpha", this->Alpha }, { "Tolerance", this->Tolerance }, { "Offset", this->Offset } });
     const tipp::ThreadLimit limit(this->NumberOfThreads);
-    return tipp::hasSeveralRanks(this->Controller)
+    tipp::hasSeveralRanks(this->Controller)
       ? this->ExecuteOnRanks(input, tipp::wantsGhosts(outputVector), output, statistics)
       : this->Execute(input, output, statistics);
   };
@@ -128,7 +128,7 @@ int vtkTIPPDelaunay3D::RequestData(
   return isDone;
 }
 
-bool vtkTIPPDelaunay3D::Execute(
+void vtkTIPPDelaunay3D::Execute(
   vtkPointSet* input, vtkUnstructuredGrid* output, vtkTable* statistics)
 {
   tipp::checkPoints(input, "the input");
@@ -149,7 +149,7 @@ bool vtkTIPPDelaunay3D::Execute(
     this->Triangulate(coordinates, count, tipp::finiteBounds(points).diagonal(), triangles);
   if (mesh.Aborted)
   {
-    return true;
+    return;
   }
   this->NumberOfDuplicatePoints = vtkIdType(mesh.Duplicates.size());
   this->NumberOfRejectedPoints = vtkIdType(mesh.Rejected.size());
@@ -179,7 +179,6 @@ bool vtkTIPPDelaunay3D::Execute(
                       : this->SetCells(mesh.Ids, 4, mesh, output);
   mesh.Statistics.Phases.push_back({ "VTK output", watch.seconds() });
   tipp::fillStatisticsTable(tipp::statisticsOf(mesh, count, tetrahedra), statistics);
-  return true;
 }
 
 tipp::Tetrahedralization vtkTIPPDelaunay3D::Triangulate(
@@ -244,7 +243,7 @@ void vtkTIPPDelaunay3D::SetCells(tipp::Buffer<int>& ids, int corners,
   add(this->AlphaVerts, shape.Vertices, VTK_VERTEX, 1);
 }
 
-bool vtkTIPPDelaunay3D::ExecuteOnRanks(
+void vtkTIPPDelaunay3D::ExecuteOnRanks(
   vtkPointSet* input, bool wantsGhosts, vtkUnstructuredGrid* output, vtkTable* statistics)
 {
   tipp::Communicator ranks(this->Controller);
@@ -274,12 +273,12 @@ bool vtkTIPPDelaunay3D::ExecuteOnRanks(
     {
       mine = tipp::gatherOnFirst(ranks, std::move(mine), options.Threads);
     }
-    std::unique_ptr<tipp::GhostTetrahedra> ghosts;
+    std::optional<tipp::GhostTetrahedra> ghosts;
     if (wishes[1] > 0)
     {
-      ghosts = std::make_unique<tipp::GhostTetrahedra>(tipp::fetchGhosts(ranks, mine));
+      ghosts = tipp::fetchGhosts(ranks, mine);
     }
-    tipp::fillPiece(mine, ranks.rank(), rows, wantsGhosts ? ghosts.get() : nullptr, output);
+    tipp::fillPiece(mine, ranks.rank(), rows, wantsGhosts ? &*ghosts : nullptr, output);
     if (this->GenerateRepresentativeIds)
     {
       tipp::addDuplicatesAndRejected(mine.Duplicates, mine.Rejected, output);
@@ -293,7 +292,6 @@ bool vtkTIPPDelaunay3D::ExecuteOnRanks(
   {
     tipp::warn(this, tipp::warningsOf(mine));
   }
-  return true;
 }
 
 void vtkTIPPDelaunay3D::PrintSelf(ostream& os, vtkIndent indent)

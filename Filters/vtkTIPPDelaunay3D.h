@@ -237,9 +237,9 @@ private:
   vtkTIPPDelaunay3D(const vtkTIPPDelaunay3D&) = delete;
   void operator=(const vtkTIPPDelaunay3D&) = delete;
 
-  bool ExecuteOnRanks(
+  void ExecuteOnRanks(
     vtkPointSet* input, bool wantsGhosts, vtkUnstructuredGrid* output, vtkTable* statistics);
-  bool Execute(vtkPointSet* input, vtkUnstructuredGrid* output, vtkTable* statistics);
+  void Execute(vtkPointSet* input, vtkUnstructuredGrid* output, vtkTable* statistics);
   tipp::Tetrahedralization Triangulate(
     const tipp::Point3* points, vtkIdType count, double diagonal, tipp::Triangulation& triangles);
   void SetCells(tipp::Buffer<int>& ids, int corners, const tipp::TriangulatedPoints& mesh,

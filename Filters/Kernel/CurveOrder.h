@@ -63,7 +63,7 @@ public:
   /// The input index of the k-th point to insert.
   std::uint32_t operator[](std::size_t k) const
   {
-    return static_cast<std::uint32_t>(this->Entries[k]) & ((1U << IndexBits) - 1);
+    return static_cast<std::uint32_t>(this->Entries[k] & IndexMask);
   }
 
   /// Reserves memory for `points` points.
@@ -86,6 +86,8 @@ public:
   }
 
 protected:
+  static constexpr std::uint64_t IndexMask = (std::uint64_t(1) << IndexBits) - 1;
+
   /// A range of entries.
   struct Run
   {
@@ -155,16 +157,23 @@ protected:
   void sortRuns(const typename Curve::Point* points, std::vector<Run> runs)
   {
     constexpr std::size_t few = 4096;
+    Uninitialised<typename Curve::Point> local;
     while (!runs.empty())
     {
       const Run run = runs.back();
       runs.pop_back();
-      auto low = points[(*this)[run.Begin]];
-      auto high = low;
-      for (std::size_t i = run.Begin; i < run.End; ++i)
+      // A copy of the points, so that compilers vectorise the computation of keys.
+      local.resize(run.End - run.Begin);
+      for (std::size_t i = 0; i < local.size(); ++i)
       {
-        low = Curve::lower(low, points[(*this)[i]]);
-        high = Curve::upper(high, points[(*this)[i]]);
+        local[i] = points[(*this)[run.Begin + i]];
+      }
+      auto low = local.front();
+      auto high = low;
+      for (const auto& p : local)
+      {
+        low = Curve::lower(low, p);
+        high = Curve::upper(high, p);
       }
       const double scale = (1U << Curve::Levels) / Curve::longestSide(high - low);
       // If all points coincide, or if the box is too large or too small for doubles, the order does
@@ -173,10 +182,11 @@ protected:
       {
         continue;
       }
-      for (std::size_t i = run.Begin; i < run.End; ++i)
+      std::uint64_t* const entries = &this->Entries[run.Begin];
+      for (std::size_t i = 0; i < local.size(); ++i)
       {
-        const std::uint32_t index = (*this)[i];
-        this->Entries[i] = Curve::key(points[index] - low, scale) << IndexBits | index;
+        entries[i] =
+          std::uint64_t(Curve::key(local[i] - low, scale)) << IndexBits | (entries[i] & IndexMask);
       }
       run.End - run.Begin < few
         ? std::sort(&this->Entries[run.Begin], this->Entries.data() + run.End)

@@ -74,7 +74,7 @@ struct Curve2
   static Point2 lower(Point2 a, Point2 b) { return { std::min(a.x, b.x), std::min(a.y, b.y) }; }
   static Point2 upper(Point2 a, Point2 b) { return { std::max(a.x, b.x), std::max(a.y, b.y) }; }
   static double longestSide(Point2 sides) { return std::max(sides.x, sides.y); }
-  static std::uint64_t key(Point2 p, double scale)
+  static std::uint32_t key(Point2 p, double scale)
   {
     return hilbertKey(gridCell<Levels>(p.x, scale), gridCell<Levels>(p.y, scale));
   }
