@@ -3,7 +3,6 @@
 
 #include "Distributed3D/DistributedTetrahedralization.h"
 #include "InMemory/AlphaShape.h"
-#include "InMemory/FiniteBounds.h"
 #include "InMemory/TriangulateMerged.h"
 #include "InMemory/TriangulatePoints.h"
 #include "Output/FilterPipeline.h"

@@ -128,13 +128,24 @@ private:
   std::size_t Size = 0;
 };
 
+/// The points that are left after merging.
+struct MergedPoints
+{
+  Buffer<double> Coordinates; ///< of the kept points, D each
+  Buffer<PointId> Ids;        ///< input point indices of the kept points, ascending
+  std::vector<Duplicate> Duplicates;
+  std::vector<PointId> Rejected;
+  bool Aborted = false;
+};
+
 template <std::size_t D>
 bool areFinite(const std::array<double, D>& position)
 {
   return std::all_of(position.begin(), position.end(), [](double x) { return std::isfinite(x); });
 }
 
-/// Merges `count` points; positionOf(i) returns the coordinates of a point.
+/// Merges `count` points; positionOf(i) returns the coordinates of a point. The result depends only
+/// on the points and their order.
 template <std::size_t D, typename PositionOf>
 MergedPoints mergeClose(std::size_t count, const PositionOf& positionOf, double distance,
   const std::function<bool(double)>& progress)
@@ -246,22 +257,18 @@ auto triangulateKept(const Options& options, const Merge& merge, const Triangula
 
 } // namespace
 
-MergedPoints mergeClosePoints(
-  PointsView points, double distance, const std::function<bool(double)>& progress)
+Triangulation triangulateMerged(
+  PointsView points, double distance, const TriangulationOptions& options)
 {
-  const auto positionOf = [&](std::size_t i)
+  const auto positionOf = [points](std::size_t i)
   {
     const Point2 p = points[i];
     return std::array<double, 2>{ p.x, p.y };
   };
-  return mergeClose<2>(points.size(), positionOf, distance, progress);
-}
-
-Triangulation triangulateMerged(
-  PointsView points, double distance, const TriangulationOptions& options)
-{
   return triangulateKept(
-    options, [&](const Report& progress) { return mergeClosePoints(points, distance, progress); },
+    options,
+    [&](const Report& progress)
+    { return mergeClose<2>(points.size(), positionOf, distance, progress); },
     [](const MergedPoints& kept, const TriangulationOptions& scaled)
     { return triangulate(PointsView(kept.Coordinates.data(), kept.Ids.size(), 2), scaled); });
 }

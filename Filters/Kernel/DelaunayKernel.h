@@ -118,7 +118,11 @@ public:
 
 private:
   bool makeFirstTriangle(Index firstVertex);
+  /// Inserts vertices [first, end) in order. The mesh has triangles, and capacity for two more for
+  /// each vertex.
   void insertVertices(Index first, Index end);
+  void insertInOrder(Index first, Index end);
+  void addDuplicate(Index vertex, Index equal);
 
   HalfEdgeMesh Mesh;
   Uninitialised<Point2> Points;
@@ -130,7 +134,6 @@ private:
   InsertionOrder Order;
   KernelPredicates Predicates;
   Cavity Opened;
-  std::vector<InsertionData::Coincidence> Coincidences; ///< among the vertices inserted last
   const Instructions Allowed;
 };
 

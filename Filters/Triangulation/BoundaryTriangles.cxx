@@ -131,15 +131,6 @@ BoundaryTriangles findMetRegions(
   return found;
 }
 
-BoundaryTriangles joined(std::vector<BoundaryTriangles>&& parts)
-{
-  for (std::size_t i = 1; i < parts.size(); ++i)
-  {
-    parts[0].appendTriangles(parts[i]);
-  }
-  return std::move(parts[0]);
-}
-
 } // namespace
 
 double outward(double bound, double direction, double margin)
@@ -257,7 +248,9 @@ BoundaryTriangles triangulateVertices(
       const auto [begin, end] = evenShare(kernel.triangleCount(), int(i), threads);
       own[std::size_t(i)] = findMetRegions(regions, kernel, begin, end);
     });
-  BoundaryTriangles all = joined(std::move(own));
+  BoundaryTriangles all = std::move(own.front());
+  std::for_each(own.begin() + 1, own.end(),
+    [&all](const BoundaryTriangles& part) { all.appendTriangles(part); });
   all.Vertices = vertices;
   all.AdjacentSets = adjacentSets<3>(kernel, all.SetOf);
   return all;

@@ -10,16 +10,6 @@
 
 namespace tipp
 {
-namespace
-{
-
-bool isUsed(const PointBuckets3& buckets, std::size_t p)
-{
-  return buckets.count(PartitionIndex(p)) > 0;
-}
-
-} // namespace
-
 std::vector<std::size_t> chooseInitialPoints(
   const Point3* points, std::size_t count, std::size_t wanted)
 {
@@ -41,12 +31,13 @@ std::vector<std::size_t> chooseInitialPoints(
 
 std::vector<Vertex3> makeArtificialPoints(const PointBuckets3& buckets, bool areSlabs)
 {
+  const std::vector<char> areUsed = buckets.areUsed();
   PointBounds domain;
   double margin = 0;
   std::size_t used = 0;
   for (std::size_t p = 0; p < buckets.Regions.size(); ++p)
   {
-    if (isUsed(buckets, p))
+    if (areUsed[p])
     {
       const Box3& box = buckets.Regions[p];
       domain.include({ box.Min[0], box.Min[1], box.Min[2] });
@@ -97,17 +88,15 @@ std::vector<Vertex3> makeArtificialPoints(const PointBuckets3& buckets, bool are
 InitialMesh3::InitialMesh3(
   const PointBuckets3& buckets, const std::vector<Vertex3>& artificial, std::size_t wanted)
 {
-  const std::size_t partitions = buckets.Regions.size();
+  const std::vector<char> areUsed = buckets.areUsed();
+  const std::size_t partitions = areUsed.size();
   for (std::size_t p = 0; p < partitions; ++p)
   {
-    const std::size_t begin = buckets.Begins[p];
-    const std::size_t count = buckets.count(PartitionIndex(p));
-    for (const std::size_t i : count == 0
-        ? std::vector<std::size_t>()
-        : chooseInitialPoints(&buckets.Points[begin], count, wanted))
+    const PartitionPoints3 own = buckets.of(PartitionIndex(p));
+    for (const std::size_t i :
+      areUsed[p] ? chooseInitialPoints(own.Points, own.Count, wanted) : std::vector<std::size_t>())
     {
-      this->Vertices.push_back(
-        { buckets.Points[begin + i], buckets.Ids[begin + i], PartitionIndex(p) });
+      this->Vertices.push_back({ own.Points[i], own.id(i), own.Partition });
     }
   }
   this->Vertices.insert(this->Vertices.end(), artificial.begin(), artificial.end());
@@ -129,7 +118,7 @@ InitialMesh3::InitialMesh3(
       met.clear();
       for (std::size_t p = 0; p < partitions; ++p)
       {
-        if (isUsed(buckets, p) && ball.meets(buckets.Regions[p]))
+        if (areUsed[p] && ball.meets(buckets.Regions[p]))
         {
           met.push_back(PartitionIndex(p));
         }

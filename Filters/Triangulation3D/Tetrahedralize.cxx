@@ -15,7 +15,6 @@
 #include <exception>
 #include <limits>
 #include <mutex>
-#include <numeric>
 #include <stdexcept>
 
 namespace tipp
@@ -149,7 +148,7 @@ private:
     for (std::size_t i = step / 2; i < this->Count; i += step)
     {
       const Point3& p = this->Points[i];
-      if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))
+      if (isFinite(p))
       {
         sample.push_back({ p.x * this->Factor, p.y * this->Factor, p.z * this->Factor });
       }
@@ -178,12 +177,7 @@ private:
     this->Result.Statistics.Partitions = tiling.size();
     this->Result.Statistics.InitialPoints =
       std::int64_t(initial.Vertices.size() - artificial.size());
-    std::vector<char> isUsed(std::size_t(tiling.size()));
-    for (PartitionIndex p = 0; p < tiling.size(); ++p)
-    {
-      isUsed[std::size_t(p)] = buckets.count(p) > 0 ? 1 : 0;
-    }
-    const PartitionOrder order(isUsed, initial);
+    const PartitionOrder order(buckets.areUsed(), initial);
     std::vector<Inbox3> inboxes(order.partitionCount());
     FinalCells boundary;
     std::vector<VertexMessage3> messages = sendInitialMesh(initial, order);
@@ -273,20 +267,15 @@ private:
     {
       return;
     }
-    std::vector<std::int32_t> representatives(this->Count);
-    std::iota(representatives.begin(), representatives.end(), 0);
-    for (const Duplicate& duplicate : this->Result.Duplicates)
-    {
-      representatives[std::size_t(duplicate.Point)] =
-        static_cast<std::int32_t>(duplicate.Representative);
-    }
+    const Buffer<std::int64_t> representatives =
+      representativeIds(this->Result, std::int64_t(this->Count));
     for (std::vector<CellIds>& cells : this->Cells)
     {
       for (CellIds& cell : cells)
       {
         for (std::int32_t& id : cell)
         {
-          id = representatives[std::size_t(id)];
+          id = std::int32_t(representatives[std::size_t(id)]);
         }
       }
     }
