@@ -19,7 +19,8 @@ namespace tipp
 /// One point in eight goes to a round before the last, one in eight of these to a round before the
 /// last but one, and so on.
 ///@{
-/// The number of rounds before the last: at most `most`, and the first has about `few` points.
+/// The number of rounds before the last: at most `most`, but enough that the first has at most about
+/// `few` points.
 inline unsigned earlierRounds(std::size_t count, std::size_t few, unsigned most)
 {
   unsigned rounds = 0;

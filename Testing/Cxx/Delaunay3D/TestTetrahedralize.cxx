@@ -333,6 +333,22 @@ TEST(Tetrahedralize, ClosePointsAreMerged)
   EXPECT_EQ(cellsOfCgal(points), sortedCells(mesh));
 }
 
+TEST(Tetrahedralize, MergingClosePointsReportsProgressAndCanBeStopped)
+{
+  const auto points = pointsInSpace("uniform", 500);
+  std::vector<double> reported;
+  TetrahedralizationOptions options;
+  options.Progress = [&reported](double fraction)
+  {
+    reported.push_back(fraction);
+    return false;
+  };
+  EXPECT_TRUE(tetrahedralizeMerged(points.data(), points.size(), 1e-6, options).Aborted);
+  EXPECT_EQ((std::vector<double>{ 0 }), reported);
+  const Tetrahedralization mesh = tetrahedralizeMerged(points.data(), points.size(), 1e-6);
+  EXPECT_EQ("merging", mesh.Statistics.Phases.front().Name);
+}
+
 TEST(Tetrahedralize, PointsInTheMiddleOfAGridCellAreMerged)
 {
   // Cells of the grid are 2 wide. The second point is in the middle of the first one's cell along
