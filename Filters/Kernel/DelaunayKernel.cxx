@@ -95,7 +95,7 @@ bool DelaunayKernel::makeFirstTriangle(Index first)
     {
       ++next;
     }
-    if (next == this->vertexEnd())
+    if (next >= this->vertexEnd())
     {
       return false;
     }

@@ -10,6 +10,7 @@
 
 namespace tipp
 {
+
 std::vector<std::size_t> chooseInitialPoints(
   const Point3* points, std::size_t count, std::size_t wanted)
 {
