@@ -19,8 +19,8 @@ namespace tipp
 /// One point in eight goes to a round before the last, one in eight of these to a round before the
 /// last but one, and so on.
 ///@{
-/// The number of rounds before the last: at most `most`, but enough that the first has at most about
-/// `few` points.
+/// The number of rounds before the last: at most `most`, but enough that the first has at most
+/// about `few` points.
 inline unsigned earlierRounds(std::size_t count, std::size_t few, unsigned most)
 {
   unsigned rounds = 0;
@@ -97,8 +97,8 @@ protected:
   };
 
   /// Radix sort of a range by `passes` digits from bit `lowest` up, least significant digit first.
-  template <unsigned passes, unsigned digitBits>
-  void sortByDigits(Run range, unsigned lowest)
+  template <unsigned passes, unsigned digitBits, unsigned lowest>
+  void sortByDigits(Run range)
   {
     constexpr std::uint64_t mask = (1U << digitBits) - 1;
     std::array<std::array<std::uint32_t, mask + 1>, passes> starts = {};
@@ -125,7 +125,11 @@ protected:
       }
       std::swap(from, to);
     }
-    if constexpr (passes % 2 == 1)
+    if (passes % 2 == 1 && count == this->size())
+    {
+      this->Entries.swap(this->Scratch);
+    }
+    else if (passes % 2 == 1)
     {
       std::copy_n(from, count, to);
     }
@@ -191,7 +195,7 @@ protected:
       }
       run.End - run.Begin < few
         ? std::sort(&this->Entries[run.Begin], this->Entries.data() + run.End)
-        : this->sortByDigits<3, 12>(run, IndexBits);
+        : this->sortByDigits<3, 12, IndexBits>(run);
       this->addRuns(run, runs);
     }
   }

@@ -107,12 +107,11 @@ void InsertionOrder::compute(const Point2* points, std::size_t count)
   // Two passes distinguish evenly spread points; clusters need the finer levels as well. Histograms
   // of large digits would cost more than they save for a few points.
   constexpr std::size_t many = 16384;
-  const unsigned lowest = count < many ? 64 - 2 * 11 : 64 - 2 * 12;
-  count < many ? this->sortByDigits<2, 11>({ 0, count }, lowest)
-               : this->sortByDigits<2, 12>({ 0, count }, lowest);
-  if (this->hasManyTies(lowest))
+  count < many ? this->sortByDigits<2, 11, 64 - 2 * 11>({ 0, count })
+               : this->sortByDigits<2, 12, 64 - 2 * 12>({ 0, count });
+  if (this->hasManyTies(count < many ? 64 - 2 * 11 : 64 - 2 * 12))
   {
-    this->sortByDigits<3, 12>({ 0, count }, IndexBits);
+    this->sortByDigits<3, 12, IndexBits>({ 0, count });
     if (this->hasManyTies(IndexBits))
     {
       std::vector<Run> runs;
