@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTIPPDelaunay2D.h"
 
+#include "Constraints/RankSource.h"
 #include "Constraints/SourceConstraints.h"
+#include "Distributed/DistributedTriangulation.h"
+#include "Distributed/TriangleExchange.h"
 #include "InMemory/AlphaShape.h"
 #include "InMemory/TriangulatePoints.h"
 #include "Output/FilterPipeline.h"
@@ -13,7 +16,6 @@
 #include "Vtk/ReadDataSet.h"
 
 #include "vtkAbstractTransform.h"
-#include "vtkAlgorithmOutput.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkErrorCode.h"
@@ -28,15 +30,58 @@
 #include "vtkPolyData.h"
 #include "vtkTable.h"
 #include "vtkTransform.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkTIPPDelaunay2D);
 vtkCxxSetObjectMacro(vtkTIPPDelaunay2D, Transform, vtkAbstractTransform);
 vtkCxxSetObjectMacro(vtkTIPPDelaunay2D, Controller, vtkMultiProcessController);
+
+namespace
+{
+
+void requireTransform(vtkTIPPDelaunay2D* filter)
+{
+  if (filter->GetProjectionPlaneMode() == VTK_SET_TRANSFORM_PLANE && !filter->GetTransform())
+  {
+    throw std::invalid_argument("ProjectionPlaneMode is VTK_SET_TRANSFORM_PLANE, but there is no "
+                                "Transform: call SetTransform, or choose another mode.");
+  }
+}
+
+tipp::CrossingRule crossingRule(vtkTIPPDelaunay2D* filter)
+{
+  return filter->GetSplitCrossings() ? tipp::CrossingRule::Split : tipp::CrossingRule::Refuse;
+}
+
+tipp::DistributedOptions optionsFor(vtkTIPPDelaunay2D* filter)
+{
+  const tipp::RankSchedule schedules[] = { tipp::RankSchedule::Stages, tipp::RankSchedule::Dynamic,
+    tipp::RankSchedule::ProducerConsumer };
+  const tipp::Masters masters[] = { tipp::Masters::Auto, tipp::Masters::Single,
+    tipp::Masters::Multi };
+  tipp::DistributedOptions options;
+  options.Order = schedules[filter->GetSchedule()];
+  options.Design = masters[filter->GetMasters()];
+  options.Major = { filter->GetNumberOfMajorPartitions()[0],
+    filter->GetNumberOfMajorPartitions()[1] };
+  options.Minor = { filter->GetNumberOfPartitions()[0], filter->GetNumberOfPartitions()[1] };
+  options.MinorDivision = options.Minor.isGiven()                ? tipp::Division::Grid
+    : filter->GetMinorDivision() == vtkTIPPDelaunay2D::THRESHOLD ? tipp::Division::Threshold
+                                                                 : tipp::Division::Tree;
+  options.Threshold = filter->GetPointsPerPartition();
+  options.Groups =
+    filter->GetEqualGroups() ? tipp::GroupSizes::Equal : tipp::GroupSizes::Proportional;
+  options.InitialPointsPerPartition = filter->GetInitialPointsPerPartition();
+  options.Threads = filter->GetNumberOfThreads();
+  return options;
+}
+
+} // namespace
 
 vtkTIPPDelaunay2D::vtkTIPPDelaunay2D()
 {
@@ -55,11 +100,6 @@ vtkTIPPDelaunay2D::~vtkTIPPDelaunay2D()
 void vtkTIPPDelaunay2D::SetSourceData(vtkPolyData* source)
 {
   this->SetInputData(1, source);
-}
-
-void vtkTIPPDelaunay2D::SetSourceConnection(vtkAlgorithmOutput* output)
-{
-  this->SetInputConnection(1, output);
 }
 
 vtkPolyData* vtkTIPPDelaunay2D::GetSource()
@@ -106,6 +146,24 @@ vtkAbstractTransform* vtkTIPPDelaunay2D::ComputeBestFittingPlane(vtkPointSet* in
   return transform;
 }
 
+int vtkTIPPDelaunay2D::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (!tipp::hasSeveralRanks(this->Controller))
+  {
+    return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
+  }
+  // Whichever piece is requested, every rank contributes its share of the points and of the source.
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    if (vtkInformation* input = inputVector[port]->GetInformationObject(0))
+    {
+      tipp::askForRankPiece(input, this->Controller);
+    }
+  }
+  return 1;
+}
+
 int vtkTIPPDelaunay2D::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
@@ -113,13 +171,15 @@ int vtkTIPPDelaunay2D::RequestData(
   vtkPolyData* source = vtkPolyData::GetData(inputVector[1]);
   vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
   vtkTable* statistics = vtkTable::GetData(outputVector, 1);
+  this->NumberOfDuplicatePoints = 0;
+  this->NumberOfRejectedPoints = 0;
   const auto work = [&]
   {
     tipp::requireFinite(
       { { "Alpha", this->Alpha }, { "MaximumEdgeLength", this->MaximumEdgeLength },
         { "Tolerance", this->Tolerance }, { "Offset", this->Offset } });
     const tipp::ThreadLimit limit(this->NumberOfThreads);
-    return tipp::hasSeveralRanks(this->Controller)
+    tipp::hasSeveralRanks(this->Controller)
       ? this->ExecuteOnRanks(input, source, tipp::wantsGhosts(outputVector), output, statistics)
       : this->Execute(input, source, output, statistics);
   };
@@ -132,22 +192,15 @@ int vtkTIPPDelaunay2D::RequestData(
   return isDone;
 }
 
-bool vtkTIPPDelaunay2D::Execute(
+void vtkTIPPDelaunay2D::Execute(
   vtkPointSet* given, vtkPolyData* source, vtkPolyData* output, vtkTable* statistics)
 {
-  this->NumberOfDuplicatePoints = 0;
-  this->NumberOfRejectedPoints = 0;
   tipp::checkPoints(given, "the input");
+  requireTransform(this);
   vtkSmartPointer<vtkAbstractTransform> toPlane = this->Transform;
   if (this->ProjectionPlaneMode == VTK_BEST_FITTING_PLANE)
   {
     toPlane = tipp::bestFittingPlane(given->GetPoints());
-  }
-  else if (this->ProjectionPlaneMode == VTK_SET_TRANSFORM_PLANE && !toPlane)
-  {
-    vtkErrorMacro("ProjectionPlaneMode is VTK_SET_TRANSFORM_PLANE, but there is no Transform: call "
-                  "SetTransform, or choose another mode.");
-    return false;
   }
   if (this->BoundingTriangulation && toPlane)
   {
@@ -168,7 +221,7 @@ bool vtkTIPPDelaunay2D::Execute(
   tipp::Triangulation& triangulation = result.Mesh;
   if (triangulation.Aborted)
   {
-    return true;
+    return;
   }
   this->NumberOfDuplicatePoints = vtkIdType(triangulation.Duplicates.size());
   this->NumberOfRejectedPoints = vtkIdType(triangulation.Rejected.size());
@@ -201,7 +254,6 @@ bool vtkTIPPDelaunay2D::Execute(
     tipp::addConstraintTotals({ result.Constraints, constraints.Constraints.size() }, run);
   }
   tipp::fillStatisticsTable(run, statistics);
-  return true;
 }
 
 /// Returns the input or, with MergeSourcePoints, the input followed by the source's new points.
@@ -241,7 +293,7 @@ tipp::ConstrainedTriangulation vtkTIPPDelaunay2D::Triangulate(
   request.Distance =
     this->Tolerance > 0 ? this->Tolerance * tipp::finiteBounds(points).diagonal() : 0;
   request.Source = &constraints;
-  request.Crossings = this->SplitCrossings ? tipp::CrossingRule::Split : tipp::CrossingRule::Refuse;
+  request.Crossings = crossingRule(this);
   tipp::TriangulationOptions& options = request.Options;
   options.Columns = this->NumberOfPartitions[0];
   options.Rows = this->NumberOfPartitions[1];
@@ -253,18 +305,15 @@ tipp::ConstrainedTriangulation vtkTIPPDelaunay2D::Triangulate(
   const double projectionSeconds = watch.seconds();
 
   tipp::ConstrainedTriangulation result;
-  result.Mesh.Aborted = !monitor(0);
   std::vector<std::string> warnings;
+  result.Mesh.Aborted = !monitor(0);
   if (!result.Mesh.Aborted)
   {
     result = tipp::triangulatePoints(projected.view(), request, warnings);
     // A single partition is triangulated without progress reports.
     result.Mesh.Aborted = result.Mesh.Aborted || !monitor(1);
   }
-  if (!result.Mesh.Aborted)
-  {
-    tipp::warn(this, warnings);
-  }
+  result.Mesh.Aborted ? void() : tipp::warn(this, warnings);
   auto& phases = result.Mesh.Statistics.Phases;
   phases.insert(phases.begin(), { "projection", projectionSeconds });
   return result;
@@ -313,7 +362,7 @@ void vtkTIPPDelaunay2D::SetCells(tipp::Triangulation& triangulation, vtkPolyData
     const auto pointAt = [points = output->GetPoints()](tipp::PointId id, double* p)
     { points->GetPoint(vtkIdType(id), p); };
     auto shape = tipp::alphaShape(
-      ids, pointAt, this->Alpha, tipp::coveredPoints(triangulation, output->GetNumberOfPoints()));
+      ids, pointAt, this->Alpha, tipp::findLeftOut(triangulation, output->GetNumberOfPoints()));
     if (this->AlphaTris)
     {
       output->SetPolys(tipp::takeCells(std::move(shape.Triangles), 3));
@@ -327,14 +376,86 @@ void vtkTIPPDelaunay2D::SetCells(tipp::Triangulation& triangulation, vtkPolyData
       output->SetVerts(tipp::takeCells(std::move(shape.Vertices), 1));
     }
   };
-  if (triangulation.Ids64.empty())
+  triangulation.Ids64.empty() ? setCells(triangulation.Ids32) : setCells(triangulation.Ids64);
+}
+
+void vtkTIPPDelaunay2D::ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, bool wantsGhosts,
+  vtkPolyData* output, vtkTable* statistics)
+{
+  tipp::Communicator ranks(this->Controller);
+  tipp::DistributedTriangulation mine;
+  std::optional<tipp::RankSource> shared; // if a rank has a source
+  const auto run = [&]()
   {
-    setCells(triangulation.Ids32);
-  }
-  else
+    tipp::requireUnused({ { "Alpha", this->Alpha != 0 },
+      { "MaximumEdgeLength", this->MaximumEdgeLength > 0 }, { "Tolerance", this->Tolerance > 0 },
+      { "BoundingTriangulation", this->BoundingTriangulation != 0 },
+      { "GenerateNeighborIds", this->GenerateNeighborIds != 0 },
+      { "the best fitting plane", this->ProjectionPlaneMode == VTK_BEST_FITTING_PLANE } });
+    requireTransform(this);
+    tipp::Monitor monitor(this);
+    tipp::DistributedOptions options = optionsFor(this);
+    options.Progress = [&monitor](double fraction) { return monitor(fraction); };
+    tipp::checkPoints(given, "the input");
+    // Collective steps must be done by all ranks or by none, even if their properties differ.
+    std::vector<std::int64_t> wishes{ ranks.rank() == 0 && this->GatherOnFirstRank, wantsGhosts,
+      this->ConstraintMarks == LINES, source != nullptr };
+    ranks.sum(wishes);
+    if (wishes[3] > 0)
+    {
+      const tipp::RankSourceOptions how{ this->MergeSourcePoints != 0, crossingRule(this),
+        wishes[2] > 0, this->Transform, this->NumberOfThreads };
+      shared = tipp::shareSource(ranks, given, source, how);
+    }
+    vtkPointSet* const input = shared ? shared->Input.Get() : given;
+    const tipp::PointRows rows(ranks, input);
+    const tipp::ProjectedPoints projected(input->GetPoints(), this->Transform);
+    tipp::RankPoints points;
+    points.Points =
+      shared && !shared->Positions.empty() ? tipp::PointsView(shared->Positions) : projected.view();
+    rows.describe(points);
+    mine = tipp::triangulateDistributed(ranks, points, options);
+    if (shared)
+    {
+      tipp::constrainRanks(ranks, *shared->Segments, options.Threads, mine);
+    }
+    if (wishes[0] > 0)
+    {
+      mine = tipp::gatherOnFirst(ranks, std::move(mine));
+    }
+    std::optional<tipp::GhostTriangles> ghosts;
+    if (wishes[1] > 0)
+    {
+      ghosts = tipp::fetchGhosts(ranks, mine);
+    }
+    tipp::ConstraintLines lines;
+    if (shared && wishes[2] > 0)
+    {
+      lines =
+        tipp::findConstraintLines(ranks, { *shared->Segments, shared->Order, shared->Cells }, mine);
+    }
+    tipp::PieceMarks marks;
+    marks.Flags = shared && this->ConstraintMarks == EDGE_FLAGS ? shared->Segments.get() : nullptr;
+    marks.Lines = shared && this->ConstraintMarks == LINES ? &lines : nullptr;
+    tipp::fillPiece(mine, ranks.rank(), rows, wantsGhosts ? &*ghosts : nullptr, marks, output);
+    if (this->GenerateRepresentativeIds)
+    {
+      tipp::addDuplicatesAndRejected(mine.Duplicates, mine.Rejected, output);
+    }
+    tipp::RunStatistics all = tipp::statisticsOf(mine);
+    shared ? tipp::addConstraintTotals(shared->Figures, all) : void();
+    tipp::fillStatisticsTable(all, statistics);
+  };
+  ranks.together(run);
+  this->NumberOfDuplicatePoints = mine.AllDuplicates;
+  this->NumberOfRejectedPoints = mine.AllRejected;
+  std::vector<std::string> warnings = tipp::warningsOf(mine);
+  if (shared && shared->Figures.NotFinite > 0)
   {
-    setCells(triangulation.Ids64);
+    warnings.push_back(std::to_string(shared->Figures.NotFinite) +
+      " edges of the source have an end that is NaN or infinite and are left out.");
   }
+  ranks.isFirst() ? tipp::warn(this, warnings) : void();
 }
 
 void vtkTIPPDelaunay2D::PrintSelf(ostream& os, vtkIndent indent)

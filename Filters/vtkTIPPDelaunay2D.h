@@ -169,7 +169,7 @@ public:
    * None by default.
    */
   void SetSourceData(vtkPolyData*);
-  void SetSourceConnection(vtkAlgorithmOutput*);
+  void SetSourceConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
   vtkPolyData* GetSource();
   ///@}
 
@@ -452,8 +452,8 @@ private:
   vtkTIPPDelaunay2D(const vtkTIPPDelaunay2D&) = delete;
   void operator=(const vtkTIPPDelaunay2D&) = delete;
 
-  bool Execute(vtkPointSet* input, vtkPolyData* source, vtkPolyData* output, vtkTable* statistics);
-  bool ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, bool wantsGhosts,
+  void Execute(vtkPointSet* input, vtkPolyData* source, vtkPolyData* output, vtkTable* statistics);
+  void ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, bool wantsGhosts,
     vtkPolyData* output, vtkTable* statistics);
   vtkSmartPointer<vtkPointSet> ReadSource(vtkPointSet* input, vtkPolyData* source,
     vtkAbstractTransform* toPlane, tipp::SourceConstraints& constraints);

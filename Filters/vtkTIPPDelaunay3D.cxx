@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTIPPDelaunay3D.h"
 
+#include "Distributed3D/DistributedTetrahedralization.h"
 #include "InMemory/AlphaShape.h"
-#include "InMemory/FiniteBounds.h"
+#include "InMemory/TriangulateMerged.h"
 #include "InMemory/TriangulatePoints.h"
 #include "Output/FilterPipeline.h"
 #include "Output/RunStatistics.h"
@@ -11,9 +12,6 @@
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Projection/ProjectedPoints.h"
-#include "Triangulation3D/AlphaShape3.h"
-#include "Triangulation3D/CoplanarPoints.h"
-#include "Triangulation3D/MergeClosePoints3.h"
 #include "Triangulation3D/Tetrahedralize.h"
 #include "Vtk/ReadDataSet.h"
 
@@ -25,18 +23,17 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkSmartPointer.h"
 #include "vtkTable.h"
-#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,46 +57,6 @@ vtkSmartPointer<vtkPoints> withOctahedron(vtkPoints* points, double offset)
   }
   return tipp::appendPoints(points, corners);
 }
-
-/// Cells of several types.
-class MixedCells
-{
-public:
-  template <typename Ids>
-  void add(const Ids& ids, int type, int corners)
-  {
-    for (std::size_t i = 0; i < ids.size(); i += std::size_t(corners))
-    {
-      this->Cells->InsertNextCell(corners);
-      for (int k = 0; k < corners; ++k)
-      {
-        this->Cells->InsertCellPoint(ids[i + std::size_t(k)]);
-      }
-      this->Types.push_back(static_cast<unsigned char>(type));
-    }
-  }
-
-  /// Adds what the filter wants of an alpha shape's triangles, lines and vertices.
-  template <typename Shape>
-  void addFaces(const Shape& shape, vtkTIPPDelaunay3D* filter)
-  {
-    filter->GetAlphaTris() ? this->add(shape.Triangles, VTK_TRIANGLE, 3) : void();
-    filter->GetAlphaLines() ? this->add(shape.Lines, VTK_LINE, 2) : void();
-    filter->GetAlphaVerts() ? this->add(shape.Vertices, VTK_VERTEX, 1) : void();
-  }
-
-  void setIn(vtkUnstructuredGrid* output) const
-  {
-    vtkNew<vtkUnsignedCharArray> types;
-    types->SetNumberOfValues(vtkIdType(this->Types.size()));
-    std::copy(this->Types.begin(), this->Types.end(), types->GetPointer(0));
-    output->SetCells(types, this->Cells);
-  }
-
-private:
-  vtkNew<vtkCellArray> Cells;
-  std::vector<unsigned char> Types;
-};
 
 } // namespace
 
@@ -132,18 +89,32 @@ int vtkTIPPDelaunay3D::FillOutputPortInformation(int port, vtkInformation* info)
   return 1;
 }
 
+int vtkTIPPDelaunay3D::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  if (!tipp::hasSeveralRanks(this->Controller))
+  {
+    return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
+  }
+  // Whichever piece is requested, every rank contributes its share of the points.
+  tipp::askForRankPiece(inputVector[0]->GetInformationObject(0), this->Controller);
+  return 1;
+}
+
 int vtkTIPPDelaunay3D::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPointSet* input = vtkPointSet::GetData(inputVector[0]);
   vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector, 0);
   vtkTable* statistics = vtkTable::GetData(outputVector, 1);
+  this->NumberOfDuplicatePoints = 0;
+  this->NumberOfRejectedPoints = 0;
   const auto work = [&]
   {
     tipp::requireFinite(
       { { "Alpha", this->Alpha }, { "Tolerance", this->Tolerance }, { "Offset", this->Offset } });
     const tipp::ThreadLimit limit(this->NumberOfThreads);
-    return tipp::hasSeveralRanks(this->Controller)
+    tipp::hasSeveralRanks(this->Controller)
       ? this->ExecuteOnRanks(input, tipp::wantsGhosts(outputVector), output, statistics)
       : this->Execute(input, output, statistics);
   };
@@ -156,11 +127,9 @@ int vtkTIPPDelaunay3D::RequestData(
   return isDone;
 }
 
-bool vtkTIPPDelaunay3D::Execute(
+void vtkTIPPDelaunay3D::Execute(
   vtkPointSet* input, vtkUnstructuredGrid* output, vtkTable* statistics)
 {
-  this->NumberOfDuplicatePoints = 0;
-  this->NumberOfRejectedPoints = 0;
   tipp::checkPoints(input, "the input");
   vtkSmartPointer<vtkPoints> points = input->GetPoints();
   if (!points)
@@ -179,7 +148,7 @@ bool vtkTIPPDelaunay3D::Execute(
     this->Triangulate(coordinates, count, tipp::finiteBounds(points).diagonal(), triangles);
   if (mesh.Aborted)
   {
-    return true;
+    return;
   }
   this->NumberOfDuplicatePoints = vtkIdType(mesh.Duplicates.size());
   this->NumberOfRejectedPoints = vtkIdType(mesh.Rejected.size());
@@ -191,8 +160,8 @@ bool vtkTIPPDelaunay3D::Execute(
   }
   if (this->GenerateRepresentativeIds && (!mesh.Duplicates.empty() || !mesh.Rejected.empty()))
   {
-    output->GetPointData()->AddArray(tipp::takeArray(
-      "RepresentativePointId", tipp::representativeIds(mesh, std::size_t(count)), 1));
+    output->GetPointData()->AddArray(
+      tipp::takeArray("RepresentativePointId", tipp::representativeIds(mesh, count), 1));
   }
   if (this->GenerateNeighborIds && this->Alpha == 0)
   {
@@ -205,17 +174,10 @@ bool vtkTIPPDelaunay3D::Execute(
     vtkWarningMacro("No NeighborIds: with Alpha not all tetrahedra are output.");
   }
   const auto tetrahedra = std::int64_t(mesh.cellCount());
-  if (mesh.Dimension == 2)
-  {
-    this->SetTriangles(triangles, output);
-  }
-  else
-  {
-    this->SetCells(mesh, coordinates, count, output);
-  }
+  mesh.Dimension == 2 ? this->SetCells(triangles.Ids32, 3, mesh, output)
+                      : this->SetCells(mesh.Ids, 4, mesh, output);
   mesh.Statistics.Phases.push_back({ "VTK output", watch.seconds() });
   tipp::fillStatisticsTable(tipp::statisticsOf(mesh, count, tetrahedra), statistics);
-  return true;
 }
 
 tipp::Tetrahedralization vtkTIPPDelaunay3D::Triangulate(
@@ -248,35 +210,87 @@ tipp::Tetrahedralization vtkTIPPDelaunay3D::Triangulate(
   return mesh;
 }
 
-void vtkTIPPDelaunay3D::SetCells(tipp::Tetrahedralization& mesh, const tipp::Point3* points,
-  vtkIdType count, vtkUnstructuredGrid* output)
+void vtkTIPPDelaunay3D::SetCells(tipp::Buffer<int>& ids, int corners,
+  const tipp::TriangulatedPoints& mesh, vtkUnstructuredGrid* output) const
 {
   if (this->Alpha == 0)
   {
-    output->SetCells(VTK_TETRA, tipp::takeCells(std::move(mesh.Ids), 4));
-    return;
-  }
-  const tipp::AlphaShape3 shape = tipp::alphaShape(mesh, points, std::size_t(count), this->Alpha);
-  MixedCells cells;
-  this->AlphaTets ? cells.add(shape.Tetrahedra, VTK_TETRA, 4) : void();
-  cells.addFaces(shape, this);
-  cells.setIn(output);
-}
-
-void vtkTIPPDelaunay3D::SetTriangles(tipp::Triangulation& triangles, vtkUnstructuredGrid* output)
-{
-  if (this->Alpha == 0)
-  {
-    output->SetCells(VTK_TRIANGLE, tipp::takeCells(std::move(triangles.Ids32), 3));
+    output->SetCells(
+      corners == 4 ? VTK_TETRA : VTK_TRIANGLE, tipp::takeCells(std::move(ids), corners));
     return;
   }
   const auto pointAt = [points = output->GetPoints()](tipp::PointId id, double* p)
   { points->GetPoint(vtkIdType(id), p); };
-  const auto shape = tipp::alphaShape(triangles.Ids32, pointAt, this->Alpha,
-    tipp::coveredPoints(triangles, output->GetNumberOfPoints()));
-  MixedCells cells;
-  cells.addFaces(shape, this);
-  cells.setIn(output);
+  std::vector<char> leftOut = tipp::findLeftOut(mesh, output->GetNumberOfPoints());
+  const auto shape = corners == 4
+    ? tipp::alphaShape<4>(ids, pointAt, this->Alpha, std::move(leftOut))
+    : tipp::alphaShape<3>(ids, pointAt, this->Alpha, std::move(leftOut));
+  output->Allocate(vtkIdType(shape.Tetrahedra.size() / 4 + shape.Triangles.size() / 3 +
+    shape.Lines.size() / 2 + shape.Vertices.size()));
+  const auto add = [output](bool isWanted, const tipp::Buffer<int>& cells, int type, int size)
+  {
+    for (const int* cell = cells.begin(); isWanted && cell != cells.end(); cell += size)
+    {
+      std::array<vtkIdType, 4> points;
+      std::copy_n(cell, size, points.begin());
+      output->InsertNextCell(type, size, points.data());
+    }
+  };
+  add(this->AlphaTets, shape.Tetrahedra, VTK_TETRA, 4);
+  add(this->AlphaTris, shape.Triangles, VTK_TRIANGLE, 3);
+  add(this->AlphaLines, shape.Lines, VTK_LINE, 2);
+  add(this->AlphaVerts, shape.Vertices, VTK_VERTEX, 1);
+}
+
+void vtkTIPPDelaunay3D::ExecuteOnRanks(
+  vtkPointSet* input, bool wantsGhosts, vtkUnstructuredGrid* output, vtkTable* statistics)
+{
+  tipp::Communicator ranks(this->Controller);
+  tipp::DistributedTetrahedralization mine;
+  const auto run = [&]()
+  {
+    tipp::requireUnused({ { "Alpha", this->Alpha != 0 }, { "Tolerance", this->Tolerance > 0 },
+      { "BoundingTriangulation", this->BoundingTriangulation != 0 },
+      { "GenerateNeighborIds", this->GenerateNeighborIds != 0 } });
+    tipp::Monitor monitor(this);
+    tipp::TetrahedralizationOptions options;
+    options.Partitions = this->NumberOfPartitions;
+    options.Threads = this->NumberOfThreads;
+    options.Progress = [&monitor](double fraction) { return monitor(fraction); };
+    tipp::checkPoints(input, "the input");
+    // Collective steps must be done by all ranks or by none, even if their properties differ.
+    std::vector<std::int64_t> wishes{ ranks.isFirst() && this->GatherOnFirstRank, wantsGhosts };
+    ranks.sum(wishes);
+    const tipp::PointRows rows(ranks, input);
+    tipp::RankPoints3 points;
+    std::vector<tipp::Point3> copy;
+    points.Count = std::size_t(input->GetNumberOfPoints());
+    points.Points = points.Count > 0 ? tipp::coordinatesOf(input->GetPoints(), copy) : nullptr;
+    rows.describe(points);
+    mine = tipp::tetrahedralizeDistributed(ranks, points, options);
+    if (wishes[0] > 0)
+    {
+      mine = tipp::gatherOnFirst(ranks, std::move(mine), options.Threads);
+    }
+    std::optional<tipp::GhostTetrahedra> ghosts;
+    if (wishes[1] > 0)
+    {
+      ghosts = tipp::fetchGhosts(ranks, mine);
+    }
+    tipp::fillPiece(mine, ranks.rank(), rows, wantsGhosts ? &*ghosts : nullptr, output);
+    if (this->GenerateRepresentativeIds)
+    {
+      tipp::addDuplicatesAndRejected(mine.Duplicates, mine.Rejected, output);
+    }
+    tipp::fillStatisticsTable(tipp::statisticsOf(mine), statistics);
+  };
+  ranks.together(run);
+  this->NumberOfDuplicatePoints = mine.AllDuplicates;
+  this->NumberOfRejectedPoints = mine.AllRejected;
+  if (ranks.isFirst())
+  {
+    tipp::warn(this, tipp::warningsOf(mine));
+  }
 }
 
 void vtkTIPPDelaunay3D::PrintSelf(ostream& os, vtkIndent indent)

@@ -78,7 +78,10 @@ namespace tipp
 {
 struct Point3;
 struct Tetrahedralization;
+struct TriangulatedPoints;
 struct Triangulation;
+template <typename T>
+class Buffer;
 }
 
 class VTKTIPPFILTERS_EXPORT vtkTIPPDelaunay3D : public vtkUnstructuredGridAlgorithm
@@ -234,14 +237,13 @@ private:
   vtkTIPPDelaunay3D(const vtkTIPPDelaunay3D&) = delete;
   void operator=(const vtkTIPPDelaunay3D&) = delete;
 
-  bool ExecuteOnRanks(
+  void ExecuteOnRanks(
     vtkPointSet* input, bool wantsGhosts, vtkUnstructuredGrid* output, vtkTable* statistics);
-  bool Execute(vtkPointSet* input, vtkUnstructuredGrid* output, vtkTable* statistics);
+  void Execute(vtkPointSet* input, vtkUnstructuredGrid* output, vtkTable* statistics);
   tipp::Tetrahedralization Triangulate(
     const tipp::Point3* points, vtkIdType count, double diagonal, tipp::Triangulation& triangles);
-  void SetCells(tipp::Tetrahedralization& mesh, const tipp::Point3* points, vtkIdType count,
-    vtkUnstructuredGrid* output);
-  void SetTriangles(tipp::Triangulation& triangles, vtkUnstructuredGrid* output);
+  void SetCells(tipp::Buffer<int>& ids, int corners, const tipp::TriangulatedPoints& mesh,
+    vtkUnstructuredGrid* output) const;
 };
 
 #endif

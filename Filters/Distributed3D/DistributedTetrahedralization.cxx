@@ -187,7 +187,7 @@ private:
     }
     InitialMesh3 mesh(initial, artificial, initial.Points.size());
     constexpr double most = 3; // fewer if there are few partitions to meet
-    if (!isChosen && !mesh.partitionsPay(std::min(most, (1 + this->Tiling->size()) / 2.0)))
+    if (!isChosen && !partitionsPay(mesh, std::min(most, (1 + this->Tiling->size()) / 2.0)))
     {
       return false;
     }
@@ -202,7 +202,7 @@ private:
     {
       isUsed[std::size_t(p)] = initial.count(p) > 0 ? 1 : 0;
     }
-    const PartitionOrder order(isUsed, mesh.conflicts());
+    const PartitionOrder order(isUsed, mesh);
     const RankWork3 work{ *this->Tiling, order, this->Options, this->Threads };
     RankRun3 run(this->Ranks, work, buckets, this->firstOwn());
     run.Statistics = this->startedWith(run.Statistics);

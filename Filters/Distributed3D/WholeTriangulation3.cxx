@@ -2,7 +2,7 @@
 #include "Distributed3D/WholeTriangulation3.h"
 
 #include "Kernel3D/DelaunayKernel3.h"
-#include "Triangulation3D/CoplanarPoints.h"
+#include "Triangulation3D/Tetrahedralize.h"
 
 #include <utility>
 

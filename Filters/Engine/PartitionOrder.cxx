@@ -107,8 +107,7 @@ std::size_t mostConflicts(std::size_t partitions)
   return mostOfAPartition * std::max<std::size_t>(16384, partitions);
 }
 
-std::optional<ConflictGraph> findConflicts(
-  const BoundaryTriangles& initialMesh, std::size_t partitions)
+std::optional<ConflictGraph> findConflicts(const MetPartitions& initialMesh, std::size_t partitions)
 {
   constexpr std::size_t most = std::size_t(1) << 22; // pairs collected before they are added
   const std::size_t limit = mostConflicts(partitions);

@@ -64,12 +64,12 @@ private:
   std::size_t Count = 0;
 };
 
-struct BoundaryTriangles;
+struct MetPartitions;
 
 /// Returns the conflicts of `partitions` partitions (Lemma 5, below). Returns nullopt if nearly all
 /// conflict, as with co-circular points: the caller then treats all pairs as conflicting.
 VTKTIPPFILTERS_EXPORT std::optional<ConflictGraph> findConflicts(
-  const BoundaryTriangles& initialMesh, std::size_t partitions);
+  const MetPartitions& initialMesh, std::size_t partitions);
 
 /// The largest total number of neighbours for which findConflicts() returns a graph.
 std::size_t mostConflicts(std::size_t partitions);
@@ -107,7 +107,7 @@ public:
 
   /// Orders the partitions that are to be triangulated. `isUsed` has one entry for each partition:
   /// 0 if it has no points.
-  PartitionOrder(const std::vector<char>& isUsed, const BoundaryTriangles& initialMesh)
+  PartitionOrder(const std::vector<char>& isUsed, const MetPartitions& initialMesh)
     : PartitionOrder(isUsed, findConflicts(initialMesh, isUsed.size()))
   {
   }

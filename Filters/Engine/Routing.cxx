@@ -72,27 +72,6 @@ void FinalBoundary<Id>::append(FinalBoundary&& other)
   other.HullVertices.clear();
 }
 
-bool takeHullVertices(const BoundaryTriangle& triangle, std::vector<BoundaryVertex>& vertices)
-{
-  const auto isArtificial = [](const BoundaryVertex& v) { return v.isArtificial(); };
-  const bool isHull = std::any_of(triangle.begin(), triangle.end(), isArtificial);
-  if (isHull)
-  {
-    std::remove_copy_if(
-      triangle.begin(), triangle.end(), std::back_inserter(vertices), isArtificial);
-  }
-  return isHull;
-}
-
-void keepUnique(std::vector<BoundaryVertex>& vertices)
-{
-  std::sort(vertices.begin(), vertices.end(),
-    [](const BoundaryVertex& a, const BoundaryVertex& b) { return a.Id < b.Id; });
-  vertices.erase(std::unique(vertices.begin(), vertices.end(),
-                   [](const BoundaryVertex& a, const BoundaryVertex& b) { return a.Id == b.Id; }),
-    vertices.end());
-}
-
 void repairHull(std::vector<BoundaryVertex> vertices, const std::vector<BoundaryVertex>& artificial,
   FinalTriangleConsumer& final)
 {
@@ -102,7 +81,7 @@ void repairHull(std::vector<BoundaryVertex> vertices, const std::vector<Boundary
     // There may be many vertices, so their copies are freed as soon as possible.
     DelaunayKernel kernel;
     kernel.insert(positionsOf(vertices).data(), vertices.size());
-    kernel.forEachTriangle(
+    kernel.forEach(
       [&](DelaunayKernel::Index t)
       {
         if (kernel.isInfinite(t))

@@ -72,13 +72,6 @@ struct FinalBoundary : public FinalTriangleConsumer
   void append(FinalBoundary&& other);
 };
 
-/// If the triangle has an artificial corner, adds its true corners to `vertices`, which the hull
-/// repair needs, and returns true.
-bool takeHullVertices(const BoundaryTriangle& triangle, std::vector<BoundaryVertex>& vertices);
-
-/// Sorts the vertices by id and removes repetitions.
-void keepUnique(std::vector<BoundaryVertex>& vertices);
-
 /// Removes the artificial points (Lemma 3): triangulates `vertices`, the true corners of triangles
 /// with artificial corners (repetitions allowed), and adds those triangles to `final` that are in
 /// conflict with an artificial point. They fill the space of the triangles with artificial corners.

@@ -4,176 +4,232 @@
 #include "Arrays/SortUnique.h"
 
 #include <algorithm>
-#include <utility>
+#include <array>
+#include <bitset>
 
 namespace tipp
 {
-
 namespace
 {
 
-template <typename Id>
-using Edge = std::pair<Id, Id>; // point ids, the lower first
-
-template <typename Id>
-Edge<Id> edgeOf(const Id* triangle, int i)
+Point3 cross(const Point3& u, const Point3& v)
 {
-  return std::minmax({ triangle[i], triangle[(i + 1) % 3] });
+  return { u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x };
 }
 
-double squaredDistance(const double a[3], const double b[3])
+double dot(const Point3& u, const Point3& v)
 {
-  return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
-    (a[2] - b[2]) * (a[2] - b[2]);
+  return u.x * v.x + u.y * v.y + u.z * v.z;
 }
 
-double squaredCircumradius(const double a[3], const double b[3], const double c[3])
+double squaredCircumradius(const std::array<Point3, 2>& ends)
 {
-  const double ab[3] = { b[0] - a[0], b[1] - a[1], b[2] - a[2] };
-  const double ac[3] = { c[0] - a[0], c[1] - a[1], c[2] - a[2] };
-  const double normal[3] = { ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2],
-    ab[0] * ac[1] - ab[1] * ac[0] };
-  const double squaredNormal =
-    normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+  const Point3 side = ends[1] - ends[0];
+  return 0.25 * dot(side, side);
+}
+
+double squaredCircumradius(const std::array<Point3, 3>& corners)
+{
+  const auto& [a, b, c] = corners;
+  const Point3 normal = cross(b - a, c - a);
   // r = |ab| |bc| |ca| / (4 area); the normal's length is twice the area.
-  return squaredDistance(a, b) * squaredDistance(b, c) * squaredDistance(c, a) /
-    (4 * squaredNormal);
+  return dot(b - a, b - a) * dot(c - b, c - b) * dot(a - c, a - c) / (4 * dot(normal, normal));
 }
 
-template <typename Id>
-bool isSmall(const Id* triangle, const PointAt& pointAt, double alpha)
+double squaredCircumradius(const std::array<Point3, 4>& corners)
 {
-  double p[3][3];
-  for (int i = 0; i < 3; ++i)
+  const auto& [a, b, c, d] = corners;
+  const Point3 u = b - a;
+  const Point3 v = c - a;
+  const Point3 w = d - a;
+  const Point3 vw = cross(v, w);
+  const Point3 wu = cross(w, u);
+  const Point3 uv = cross(u, v);
+  const double uu = dot(u, u);
+  const double vv = dot(v, v);
+  const double ww = dot(w, w);
+  const Point3 n = { uu * vw.x + vv * wu.x + ww * uv.x, uu * vw.y + vv * wu.y + ww * uv.y,
+    uu * vw.z + vv * wu.z + ww * uv.z };
+  const double volume = 2 * dot(u, vw);
+  return dot(n, n) / (volume * volume);
+}
+
+/// The point ids of a cell, or of a face.
+template <typename Id, std::size_t Corners>
+using Cell = std::array<Id, Corners>;
+
+template <std::size_t Corners, typename Id>
+Cell<Id, Corners> cellAt(const Buffer<Id>& cells, std::size_t number)
+{
+  Cell<Id, Corners> cell;
+  std::copy_n(cells.data() + Corners * number, Corners, cell.begin());
+  return cell;
+}
+
+/// Calls visit(face) for the faces of a cell that have this number of corners; their ids ascend.
+template <std::size_t Corners, typename Id, std::size_t CellCorners, typename Visit>
+void forEachFace(Cell<Id, CellCorners> cell, const Visit& visit)
+{
+  std::sort(cell.begin(), cell.end());
+  for (unsigned chosen = 0; chosen < 1U << CellCorners; ++chosen)
   {
-    pointAt(PointId(triangle[i]), p[i]);
-  }
-  return squaredCircumradius(p[0], p[1], p[2]) <= alpha * alpha;
-}
-
-template <typename Id>
-bool isShort(Edge<Id> edge, const PointAt& pointAt, double alpha)
-{
-  double p[2][3];
-  pointAt(PointId(edge.first), p[0]);
-  pointAt(PointId(edge.second), p[1]);
-  return 0.25 * squaredDistance(p[0], p[1]) <= alpha * alpha;
-}
-
-template <typename Id>
-std::vector<char> smallTriangles(const Buffer<Id>& triangles, const PointAt& pointAt, double alpha)
-{
-  std::vector<char> kept(triangles.size() / 3);
-  const std::int64_t count = std::int64_t(kept.size());
-#pragma omp parallel for
-  for (std::int64_t t = 0; t < count; ++t)
-  {
-    kept[t] = isSmall(triangles.data() + 3 * t, pointAt, alpha);
-  }
-  return kept;
-}
-
-template <typename Id>
-std::vector<Edge<Id>> shortEdgesOfDropped(
-  const Buffer<Id>& triangles, const std::vector<char>& kept, const PointAt& pointAt, double alpha)
-{
-  std::vector<Edge<Id>> edges;
-  for (std::size_t t = 0; t < kept.size(); ++t)
-  {
-    for (int i = 0; i < 3 && !kept[t]; ++i)
+    const std::bitset<CellCorners> isChosen(chosen);
+    if (isChosen.count() == Corners)
     {
-      const Edge<Id> edge = edgeOf(triangles.data() + 3 * t, i);
-      if (isShort(edge, pointAt, alpha))
+      Cell<Id, Corners> face;
+      std::size_t size = 0;
+      for (std::size_t i = 0; i < CellCorners; ++i)
       {
-        edges.push_back(edge);
+        isChosen[i] ? void(face[size++] = cell[i]) : void();
       }
+      visit(face);
     }
   }
-  sortUnique(edges);
-  return edges;
 }
 
-/// Selects the groups of `size` ids, ids(0), ids(1) and so on, whose mark is `wanted`, in order.
-template <typename Ids, typename Id>
-void select(const Ids& ids, std::size_t size, const std::vector<char>& marks, char wanted,
-  Buffer<Id>& selected)
+template <typename Id, std::size_t Corners>
+bool isSmall(const Cell<Id, Corners>& cell, const PointAt& pointAt, double alpha)
 {
-  selected = Buffer<Id>(size * std::size_t(std::count(marks.begin(), marks.end(), wanted)));
-  Id* out = selected.data();
-  for (std::size_t i = 0; i < marks.size(); ++i)
+  std::array<Point3, Corners> points;
+  for (std::size_t i = 0; i < Corners; ++i)
   {
-    for (std::size_t k = 0; k < size && marks[i] == wanted; ++k)
-    {
-      *out++ = ids(size * i + k);
-    }
+    double p[3];
+    pointAt(PointId(cell[i]), p);
+    points[i] = { p[0], p[1], p[2] };
   }
+  return squaredCircumradius(points) <= alpha * alpha;
 }
 
-/// Returns the edges that belong to no kept triangle, in their order.
-template <typename Id>
-Buffer<Id> linesOutside(const std::vector<Edge<Id>>& edges, const Buffer<Id>& keptTriangles)
+template <std::size_t Corners, typename Id>
+std::vector<char> smallCells(const Buffer<Id>& cells, const PointAt& pointAt, double alpha)
 {
-  std::vector<char> inside(edges.size(), 0);
-  const std::int64_t count = edges.empty() ? 0 : std::int64_t(keptTriangles.size() / 3);
+  std::vector<char> areSmall(cells.size() / Corners);
+  const std::int64_t count = std::int64_t(areSmall.size());
 #pragma omp parallel for
-  for (std::int64_t t = 0; t < count; ++t)
+  for (std::int64_t i = 0; i < count; ++i)
   {
-    for (int i = 0; i < 3; ++i)
+    areSmall[i] = isSmall(cellAt<Corners>(cells, std::size_t(i)), pointAt, alpha);
+  }
+  return areSmall;
+}
+
+/// Returns the small faces of the cells that are not small, sorted.
+template <std::size_t Corners, std::size_t CellCorners, typename Id>
+std::vector<Cell<Id, Corners>> smallFacesOfLarge(
+  const Buffer<Id>& cells, const std::vector<char>& areSmall, const PointAt& pointAt, double alpha)
+{
+  std::vector<Cell<Id, Corners>> faces;
+  for (std::size_t i = 0; i < areSmall.size(); ++i)
+  {
+    if (!areSmall[i])
     {
-      const Edge<Id> edge = edgeOf(keptTriangles.data() + 3 * t, i);
-      const auto at = std::lower_bound(edges.begin(), edges.end(), edge);
-      if (at != edges.end() && *at == edge)
-      {
-        char& mark = inside[std::size_t(at - edges.begin())];
+      forEachFace<Corners>(cellAt<CellCorners>(cells, i),
+        [&](const Cell<Id, Corners>& face)
+        { isSmall(face, pointAt, alpha) ? faces.push_back(face) : void(); });
+    }
+  }
+  sortUnique(faces);
+  return faces;
+}
+
+/// Removes from the sorted `faces` those that are faces of `cells`. All ids are below `points`.
+template <std::size_t CellCorners, typename Id, std::size_t Corners>
+void removeFacesOf(
+  const Buffer<Id>& cells, std::size_t points, std::vector<Cell<Id, Corners>>& faces)
+{
+  std::vector<char> isCorner(points, 0); // most cells are far from all faces
+  for (const auto& face : faces)
+  {
+    for (const Id id : face)
+    {
+      isCorner[std::size_t(id)] = 1;
+    }
+  }
+  std::vector<char> isFound(faces.size(), 0);
+  const auto find = [&](const Cell<Id, Corners>& face)
+  {
+    const auto at = std::lower_bound(faces.begin(), faces.end(), face);
+    if (at != faces.end() && *at == face)
+    {
+      char& mark = isFound[std::size_t(at - faces.begin())];
 #pragma omp atomic write
-        mark = 1;
-      }
+      mark = 1;
+    }
+  };
+  const std::int64_t count = faces.empty() ? 0 : std::int64_t(cells.size() / CellCorners);
+#pragma omp parallel for
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    const auto cell = cellAt<CellCorners>(cells, std::size_t(i));
+    const auto shared = std::count_if(
+      cell.begin(), cell.end(), [&](Id id) { return isCorner[std::size_t(id)] != 0; });
+    if (std::size_t(shared) >= Corners)
+    {
+      forEachFace<Corners>(cell, find);
     }
   }
-  Buffer<Id> lines;
-  select([&](std::size_t i) { return i % 2 == 0 ? edges[i / 2].first : edges[i / 2].second; }, 2,
-    inside, 0, lines);
-  return lines;
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+  {
+    isFound[i] ? void() : void(faces[left++] = faces[i]);
+  }
+  faces.resize(left);
+}
+
+template <typename Id, std::size_t Corners>
+Buffer<Id> joined(const std::vector<Cell<Id, Corners>>& cells)
+{
+  Buffer<Id> ids(Corners * cells.size());
+  std::copy(cells.begin(), cells.end(), ids.template as<Cell<Id, Corners>>());
+  return ids;
 }
 
 } // namespace
 
-std::vector<char> coveredPoints(const Triangulation& triangulation, std::int64_t points)
-{
-  std::vector<char> covered(std::size_t(points), 0);
-  for (const Duplicate& duplicate : triangulation.Duplicates)
-  {
-    covered[std::size_t(duplicate.Point)] = 1;
-  }
-  for (const PointId rejected : triangulation.Rejected)
-  {
-    covered[std::size_t(rejected)] = 1;
-  }
-  return covered;
-}
-
-template <typename Id>
+template <std::size_t Corners, typename Id>
 AlphaShape<Id> alphaShape(
-  const Buffer<Id>& triangles, const PointAt& pointAt, double alpha, std::vector<char> covered)
+  const Buffer<Id>& cells, const PointAt& pointAt, double alpha, std::vector<char> covered)
 {
-  const std::vector<char> kept = smallTriangles(triangles, pointAt, alpha);
+  const std::vector<char> areSmall = smallCells<Corners>(cells, pointAt, alpha);
   AlphaShape<Id> shape;
-  select([&](std::size_t i) { return triangles[i]; }, 3, kept, 1, shape.Triangles);
-  shape.Lines = linesOutside(shortEdgesOfDropped(triangles, kept, pointAt, alpha), shape.Triangles);
-  for (const Buffer<Id>* cells : { &shape.Triangles, &shape.Lines })
+  Buffer<Id>& kept = Corners == 4 ? shape.Tetrahedra : shape.Triangles;
+  kept = Buffer<Id>(Corners * std::size_t(std::count(areSmall.begin(), areSmall.end(), 1)));
+  Id* out = kept.data();
+  for (std::size_t i = 0; i < areSmall.size(); ++i)
   {
-    for (Id point : *cells)
+    out = areSmall[i] ? std::copy_n(&cells[Corners * i], Corners, out) : out;
+  }
+  auto lines = smallFacesOfLarge<2, Corners>(cells, areSmall, pointAt, alpha);
+  removeFacesOf<Corners>(kept, covered.size(), lines);
+  if constexpr (Corners == 4)
+  {
+    auto triangles = smallFacesOfLarge<3, 4>(cells, areSmall, pointAt, alpha);
+    removeFacesOf<4>(kept, covered.size(), triangles);
+    shape.Triangles = joined(triangles);
+    removeFacesOf<3>(shape.Triangles, covered.size(), lines);
+  }
+  shape.Lines = joined(lines);
+  for (const Buffer<Id>* of : { &shape.Tetrahedra, &shape.Triangles, &shape.Lines })
+  {
+    for (const Id point : *of)
     {
       covered[std::size_t(point)] = 1;
     }
   }
-  select([](std::size_t i) { return Id(i); }, 1, covered, 0, shape.Vertices);
+  shape.Vertices = Buffer<Id>(std::size_t(std::count(covered.begin(), covered.end(), 0)));
+  out = shape.Vertices.data();
+  for (std::size_t i = 0; i < covered.size(); ++i)
+  {
+    covered[i] ? void() : void(*out++ = Id(i));
+  }
   return shape;
 }
 
-template AlphaShape<std::int32_t> alphaShape(
+template AlphaShape<std::int32_t> alphaShape<3>(
   const Buffer<std::int32_t>&, const PointAt&, double, std::vector<char>);
-template AlphaShape<std::int64_t> alphaShape(
+template AlphaShape<std::int64_t> alphaShape<3>(
   const Buffer<std::int64_t>&, const PointAt&, double, std::vector<char>);
+template AlphaShape<std::int32_t> alphaShape<4>(
+  const Buffer<std::int32_t>&, const PointAt&, double, std::vector<char>);
 
 } // namespace tipp

@@ -4,6 +4,7 @@
 
 #include "Triangulation/Triangulate.h"
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -13,24 +14,26 @@ namespace tipp
 /// Writes the x, y and z of a point, given its id, to the array; must be thread-safe.
 using PointAt = std::function<void(PointId, double*)>;
 
-/// The alpha shape of a triangulation: cells with 3, 2 and 1 point ids each, concatenated.
+/// The alpha shape of triangles or tetrahedra, as lists of cells with 4, 3, 2 and 1 point ids each.
+/// A cell is small if its circumradius in 3D is at most alpha; a line, if it is at most 2 alpha
+/// long.
 template <typename Id>
 struct AlphaShape
 {
-  Buffer<Id> Triangles; ///< triangles whose circumradius in 3D is at most alpha; in input order
-  Buffer<Id> Lines;     ///< edges at most 2 alpha long that belong to no such triangle; ascending
-  Buffer<Id> Vertices;  ///< points in neither; ascending
+  Buffer<Id> Tetrahedra; ///< the small ones, in their order
+  /// The small ones, in their order. Of tetrahedra: the small facets of those that are not small,
+  /// unless they are facets of Tetrahedra; sorted.
+  Buffer<Id> Triangles;
+  Buffer<Id> Lines;    ///< the small edges of cells that are not small and of none above; sorted
+  Buffer<Id> Vertices; ///< points of none of the cells above; ascending
 };
 
-/// Returns for each of `points` points 1 if it is a duplicate or rejected, else 0.
-std::vector<char> coveredPoints(const Triangulation& triangulation, std::int64_t points);
-
-/// Computes the alpha shape. `covered` has one entry for each point: not 0 if it cannot be a
-/// vertex. A triangle without area in 3D counts as infinitely large. `alpha` is in the points' unit
-/// of length.
-template <typename Id>
+/// Computes the alpha shape of cells with this number of corners, 3 or 4. `covered` has one entry
+/// for each point: not 0 if it cannot be a vertex. A cell without area or volume in 3D counts as
+/// infinitely large. `alpha` is in the points' unit of length.
+template <std::size_t Corners = 3, typename Id>
 AlphaShape<Id> alphaShape(
-  const Buffer<Id>& triangles, const PointAt& pointAt, double alpha, std::vector<char> covered);
+  const Buffer<Id>& cells, const PointAt& pointAt, double alpha, std::vector<char> covered);
 
 } // namespace tipp
 

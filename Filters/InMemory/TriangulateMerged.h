@@ -3,31 +3,21 @@
 #define tippTriangulateMerged_h
 
 #include "Triangulation/Triangulate.h"
+#include "Triangulation3D/Tetrahedralize.h"
 
 namespace tipp
 {
 
-/// The points that are left after merging: by ascending id, each point within the distance of a
-/// point kept before it is merged into that one.
-struct MergedPoints
-{
-  Buffer<double> Coordinates;        ///< x, y of the kept points
-  Buffer<PointId> Ids;               ///< input point indices of the kept points, ascending
-  std::vector<Duplicate> Duplicates; ///< merged points, with input indices
-  std::vector<PointId> Rejected;     ///< input indices of points with NaN or infinite coordinates
-  bool Aborted = false;              ///< whether `progress` stopped the pass
-};
-
-/// Merges close points in one pass with a hash grid. `distance` is in the points' unit of length.
-/// If `progress` returns false, the pass ends and the result is Aborted. The result depends only on
-/// the points and their order.
-VTKTIPPFILTERS_EXPORT MergedPoints mergeClosePoints(
-  PointsView points, double distance, const std::function<bool(double)>& progress = {});
-
-/// Calls triangulate() for the points that mergeClosePoints() keeps; the result's ids are indices
-/// into `points`.
+///@{
+/// Merges close points, and calls triangulate() or tetrahedralize() for those that are left: by
+/// ascending id, each point within `distance` of a point kept before it is merged into the first
+/// such point. `distance` is in the points' unit of length. All ids of the result are indices into
+/// `points`. Merging is one pass with a hash grid, in one thread; Progress can stop it.
 VTKTIPPFILTERS_EXPORT Triangulation triangulateMerged(
   PointsView points, double distance, const TriangulationOptions& options = {});
+VTKTIPPFILTERS_EXPORT Tetrahedralization tetrahedralizeMerged(const Point3* points,
+  std::size_t count, double distance, const TetrahedralizationOptions& options = {});
+///@}
 
 } // namespace tipp
 

@@ -4,6 +4,7 @@
 
 #include "Arrays/Buffer.h"
 #include "Constraints/TriangulateConstrained.h"
+#include "Triangulation3D/Tetrahedralize.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstddef>
@@ -47,10 +48,10 @@ VTKTIPPFILTERS_EXPORT ConstrainedTriangulation triangulatePoints(
 /// opposite edge, or -1.
 Buffer<std::int64_t> neighborIds(const Triangulation& triangulation);
 
-/// Returns for each of `points` input points the id of its representative: its own id; for a
-/// duplicate, the representative's; for a rejected point, -1.
-VTKTIPPFILTERS_EXPORT Buffer<std::int64_t> representativeIds(
-  const Triangulation& triangulation, std::int64_t points);
+/// Returns four values for each tetrahedron: for each corner the index of the tetrahedron across
+/// the opposite facet, or -1. `points`: the number of input points.
+VTKTIPPFILTERS_EXPORT Buffer<std::int64_t> neighborIds(
+  const Tetrahedralization& mesh, std::size_t points);
 
 /// Returns three values for each triangle: for each corner 1 if the opposite edge is part of a
 /// constraint, else 0.

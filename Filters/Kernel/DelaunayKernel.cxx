@@ -86,33 +86,35 @@ bool DelaunayKernel::insert(const Point2* points, std::size_t count, const Monit
 /// and its three infinite neighbours. Returns false if all points are collinear.
 bool DelaunayKernel::makeFirstTriangle(Index first)
 {
-  const Index end = this->vertexEnd();
-  const auto moveTo = [this](Index to, Index from)
+  Index next = first + 1;
+  // Finds the first vertex from `next` on that does not depend on those before `to`, and swaps it
+  // to position `to`.
+  const auto extend = [&](Index to, const auto& isDependent)
   {
-    std::swap(this->Points[to], this->Points[from]);
-    std::swap(this->PointIndices[to], this->PointIndices[from]);
-  };
-  Index second = first + 1;
-  while (second < end && this->Points[second] == this->Points[first])
-  {
-    ++second;
-  }
-  Index third = second + 1;
-  int turn = 0;
-  for (; third < end; ++third)
-  {
-    turn = orientation(this->Points[first], this->Points[second], this->Points[third]);
-    if (turn != 0)
+    while (next < this->vertexEnd() && isDependent(this->Points[next]))
     {
-      break;
+      ++next;
     }
-  }
-  if (third >= end)
+    if (next >= this->vertexEnd())
+    {
+      return false;
+    }
+    std::swap(this->Points[to], this->Points[next]);
+    std::swap(this->PointIndices[to], this->PointIndices[next]);
+    ++next;
+    return true;
+  };
+  int turn = 0;
+  if (!extend(first + 1, [&](Point2 p) { return p == this->Points[first]; }) ||
+    !extend(first + 2,
+      [&](Point2 p)
+      {
+        turn = orientation(this->Points[first], this->Points[first + 1], p);
+        return turn == 0;
+      }))
   {
     return false;
   }
-  moveTo(first + 1, second);
-  moveTo(first + 2, third);
   this->Pending = first + 3;
 
   const Index a = first;
@@ -138,19 +140,6 @@ bool DelaunayKernel::makeFirstTriangle(Index first)
   this->Mesh.setEnd(32);
   this->Recent = 0;
   return true;
-}
-
-void DelaunayKernel::insertVertices(Index first, Index end)
-{
-  this->Coincidences.clear();
-  tipp::insertVertices({ this->Mesh, this->Points.data(), this->Predicates, this->Opened,
-                         this->Recent, this->Coincidences },
-    first, end, this->Allowed);
-  for (const InsertionData::Coincidence& found : this->Coincidences)
-  {
-    this->Duplicates.push_back(
-      { this->PointIndices[std::size_t(found.Vertex)], found.Representative });
-  }
 }
 
 namespace

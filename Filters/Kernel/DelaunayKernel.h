@@ -77,7 +77,7 @@ public:
   std::size_t triangleCount() const { return number(this->Mesh.end()); }
   /// Calls visit(triangle) for all triangles, by ascending number.
   template <typename Visit>
-  void forEachTriangle(const Visit& visit) const
+  void forEach(const Visit& visit) const
   {
     for (Index t = 0; t < this->Mesh.end(); t += 8)
     {
@@ -118,7 +118,11 @@ public:
 
 private:
   bool makeFirstTriangle(Index firstVertex);
+  /// Inserts vertices [first, end) in order. The mesh has triangles, and capacity for two more for
+  /// each vertex.
   void insertVertices(Index first, Index end);
+  void insertInOrder(Index first, Index end);
+  void addDuplicate(Index vertex, Index equal);
 
   HalfEdgeMesh Mesh;
   Uninitialised<Point2> Points;
@@ -130,7 +134,6 @@ private:
   InsertionOrder Order;
   KernelPredicates Predicates;
   Cavity Opened;
-  std::vector<InsertionData::Coincidence> Coincidences; ///< among the vertices inserted last
   const Instructions Allowed;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Kernel/Insertion.h"
 
+#include "Kernel/DelaunayKernel.h"
 #include "Kernel/PointLocation.h"
 
 namespace tipp
@@ -19,41 +20,33 @@ Cavity::Cavity()
   this->Stack.resize(size);
 }
 
-namespace
+[[gnu::noinline]] void DelaunayKernel::addDuplicate(Index vertex, Index equal)
 {
-
-using Index = HalfEdgeMesh::Index;
-
-[[gnu::noinline]] void addCoincidence(const InsertionData& scene, Index vertex, Index equal)
-{
-  scene.Coincidences.push_back({ vertex, equal });
+  this->Duplicates.push_back({ this->PointIndices[std::size_t(vertex)], equal });
 }
 
-inline void insertInto(const InsertionData& scene, Index first, Index end)
+inline void DelaunayKernel::insertInOrder(Index first, Index end)
 {
-  HalfEdgeMesh& mesh = scene.Mesh;
-  const Point2* const points = scene.Points;
-  Index recent = scene.Recent;
+  HalfEdgeMesh& mesh = this->Mesh;
+  const Point2* const points = this->Points.data();
+  Index recent = this->Recent;
   for (Index vertex = first; vertex < end; ++vertex)
   {
     const Location found =
-      PointLocation(mesh, points, scene.Predicates, pairAt(&points[vertex].x)).from(recent);
+      PointLocation(mesh, points, this->Predicates, pairAt(&points[vertex].x)).from(recent);
     if (__builtin_expect(found.EqualTo != InfiniteVertex, 0))
     {
-      addCoincidence(scene, vertex, found.EqualTo);
+      this->addDuplicate(vertex, found.EqualTo);
       continue;
     }
-    recent = scene.Opened.retriangulate(mesh, points, scene.Predicates, found, vertex);
+    recent = this->Opened.retriangulate(mesh, points, this->Predicates, found, vertex);
   }
-  scene.Recent = recent;
+  this->Recent = recent;
 }
 
-} // namespace
-
-void insertVertices(const InsertionData& scene, HalfEdgeMesh::Index first, HalfEdgeMesh::Index end,
-  Instructions instructions)
+void DelaunayKernel::insertVertices(Index first, Index end)
 {
-  runWith(instructions, [&] { insertInto(scene, first, end); });
+  runWith(this->Allowed, [&] { this->insertInOrder(first, end); });
 }
 
 } // namespace tipp

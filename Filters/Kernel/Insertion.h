@@ -344,29 +344,6 @@ inline Cavity::Index Cavity::retriangulate(HalfEdgeMesh& mesh, const Point2* poi
   return Growth(*this, mesh, points, predicates, vertex).run(found);
 }
 
-/// The data that insertions read and change. Vertex 0 is the infinite one.
-struct InsertionData
-{
-  /// A vertex that coincides with another one, its representative.
-  struct Coincidence
-  {
-    HalfEdgeMesh::Index Vertex;
-    HalfEdgeMesh::Index Representative;
-  };
-
-  HalfEdgeMesh& Mesh;
-  const Point2* Points; ///< coordinates of the vertices, the infinite one first
-  KernelPredicates& Predicates;
-  Cavity& Opened;
-  HalfEdgeMesh::Index& Recent; ///< a finite triangle near the last insertion
-  std::vector<Coincidence>& Coincidences;
-};
-
-/// Inserts vertices [first, end) in order into a mesh that has triangles, and capacity for two more
-/// for each vertex.
-void insertVertices(const InsertionData& scene, HalfEdgeMesh::Index first, HalfEdgeMesh::Index end,
-  Instructions instructions);
-
 } // namespace tipp
 
 #endif

@@ -20,34 +20,6 @@ constexpr unsigned RoundBits = 4;
 constexpr std::size_t PointsInBlock = 256;
 static_assert(RoundBits + KeyBits + IndexBits == 64, "an entry is one word");
 
-/// The number of rounds before the last, chosen so that the first holds a few dozen points.
-unsigned earlierRounds(std::size_t count)
-{
-  unsigned rounds = 0;
-  for (std::size_t size = count; size > 256 && rounds + 1 < (1U << RoundBits); size /= 8)
-  {
-    ++rounds;
-  }
-  return rounds;
-}
-
-/// Murmur3's finaliser.
-inline std::uint32_t mix(std::uint32_t z)
-{
-  z = (z ^ z >> 16) * 0x85ebca6bU;
-  z = (z ^ z >> 13) * 0xc2b2ae35U;
-  return z ^ z >> 16;
-}
-
-inline std::uint32_t quantise(double distance, double scale)
-{
-  constexpr double last = (1U << Levels) - 1;
-  const double cell = distance * scale;
-  // NaN (the extent is zero or exceeds the range of doubles) gives cell 0: slower, but correct.
-  const double atLeast = cell > 0 ? cell : 0;
-  return static_cast<std::uint32_t>(static_cast<std::int32_t>(atLeast < last ? atLeast : last));
-}
-
 /// Computes the entries of a block in several loops, each of which compilers vectorise.
 inline void fillBlock(const Point2* points, std::size_t first, std::size_t count, Pair low,
   double scale, unsigned lastRound, std::uint64_t* entries)
@@ -57,13 +29,13 @@ inline void fillBlock(const Point2* points, std::size_t first, std::size_t count
   std::uint32_t round[PointsInBlock];
   for (std::size_t i = 0; i < count; ++i)
   {
-    x[i] = quantise(points[first + i].x - low[0], scale);
-    y[i] = quantise(points[first + i].y - low[1], scale);
+    x[i] = gridCell<Levels>(points[first + i].x - low[0], scale);
+    y[i] = gridCell<Levels>(points[first + i].y - low[1], scale);
   }
   for (std::size_t i = 0; i < count; ++i)
   {
     x[i] = hilbertKey(x[i], y[i]);
-    y[i] = mix(static_cast<std::uint32_t>(first + i));
+    y[i] = roundBits(static_cast<std::uint32_t>(first + i));
     round[i] = lastRound;
   }
   for (unsigned earlier = 1; earlier <= lastRound; ++earlier)
@@ -86,7 +58,7 @@ inline void fillEntries(const Point2* points, std::size_t count, std::uint64_t* 
   const Extent extent = extentOf(points, count);
   const Pair sides = extent.High - extent.Low;
   const double scale = (1U << Levels) / std::max(sides[0], sides[1]);
-  const unsigned lastRound = earlierRounds(count);
+  const unsigned lastRound = earlierRounds(count, 256, (1U << RoundBits) - 1);
   for (std::size_t first = 0; first < count; first += PointsInBlock)
   {
     fillBlock(
@@ -94,98 +66,21 @@ inline void fillEntries(const Point2* points, std::size_t count, std::uint64_t* 
   }
 }
 
-/// Entries of consecutive points with the same round and key.
-struct Run
+struct Curve2
 {
-  std::size_t Begin;
-  std::size_t End;
+  using Point = Point2;
+  static constexpr unsigned Levels = tipp::Levels;
+
+  static Point2 lower(Point2 a, Point2 b) { return { std::min(a.x, b.x), std::min(a.y, b.y) }; }
+  static Point2 upper(Point2 a, Point2 b) { return { std::max(a.x, b.x), std::max(a.y, b.y) }; }
+  static double longestSide(Point2 sides) { return std::max(sides.x, sides.y); }
+  static std::uint32_t key(Point2 p, double scale)
+  {
+    return hilbertKey(gridCell<Levels>(p.x, scale), gridCell<Levels>(p.y, scale));
+  }
 };
 
-/// Runs of at most this many points are not worth sorting: a walk among them is short.
-constexpr std::size_t ShortRun = 16;
-
-/// Adds the runs of more than ShortRun entries in `within` that are equal above bit `lowest`.
-void addRuns(
-  const Uninitialised<std::uint64_t>& entries, Run within, unsigned lowest, std::vector<Run>& runs)
-{
-  const std::size_t count = within.End - within.Begin;
-  std::size_t begin = 0;
-  for (std::size_t i = 1; i <= count; ++i)
-  {
-    if (i == count || (entries[i] ^ entries[begin]) >> lowest != 0)
-    {
-      if (i - begin > ShortRun)
-      {
-        runs.push_back({ within.Begin + begin, within.Begin + i });
-      }
-      begin = i;
-    }
-  }
-}
-
-/// Computes each point's key in the points' own bounding box, with its index in the low bits.
-/// Returns false if that distinguishes no points: all coincide, or the box is too large or too
-/// small for doubles.
-bool fillKeys(const std::vector<Point2>& points, Uninitialised<std::uint64_t>& keys)
-{
-  const Extent extent = extentOf(points.data(), points.size());
-  const Pair sides = extent.High - extent.Low;
-  const double scale = (1U << Levels) / std::max(sides[0], sides[1]);
-  if (!std::isnormal(scale))
-  {
-    return false;
-  }
-  keys.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    const std::uint64_t key = hilbertKey(
-      quantise(points[i].x - extent.Low[0], scale), quantise(points[i].y - extent.Low[1], scale));
-    keys[i] = key << IndexBits | i;
-  }
-  return true;
-}
-
 } // namespace
-
-InsertionOrder::InsertionOrder(Instructions instructions)
-  : Allowed(instructions)
-{
-}
-
-/// Radix sort by the bits of the entries from `lowest` up, least significant digit first.
-template <unsigned passes>
-void InsertionOrder::sortByDigits(unsigned lowest, unsigned digitBits)
-{
-  constexpr std::size_t most = 1U << 12;
-  const std::uint64_t mask = (1U << digitBits) - 1;
-  std::array<std::array<std::uint32_t, most>, passes> starts;
-  for (auto& pass : starts)
-  {
-    std::fill_n(pass.begin(), mask + 1, 0U);
-  }
-  for (const std::uint64_t entry : this->Entries)
-  {
-    for (unsigned pass = 0; pass < passes; ++pass)
-    {
-      ++starts[pass][(entry >> (lowest + pass * digitBits)) & mask];
-    }
-  }
-  for (unsigned pass = 0; pass < passes; ++pass)
-  {
-    std::uint32_t sum = 0;
-    for (std::size_t digit = 0; digit <= mask; ++digit)
-    {
-      const std::uint32_t size = starts[pass][digit];
-      starts[pass][digit] = sum;
-      sum += size;
-    }
-    for (const std::uint64_t entry : this->Entries)
-    {
-      this->Scratch[starts[pass][(entry >> (lowest + pass * digitBits)) & mask]++] = entry;
-    }
-    this->Entries.swap(this->Scratch);
-  }
-}
 
 /// Whether more than a few neighbours in the order differ only below bit `lowest`. Samples every
 /// fourth.
@@ -212,48 +107,17 @@ void InsertionOrder::compute(const Point2* points, std::size_t count)
   // Two passes distinguish evenly spread points; clusters need the finer levels as well. Histograms
   // of large digits would cost more than they save for a few points.
   constexpr std::size_t many = 16384;
-  const unsigned digitBits = count < many ? 11 : 12;
-  const unsigned lowest = 64 - 2 * digitBits;
-  this->sortByDigits<2>(lowest, digitBits);
-  if (this->hasManyTies(lowest))
+  count < many ? this->sortByDigits<2, 11, 64 - 2 * 11>({ 0, count })
+               : this->sortByDigits<2, 12, 64 - 2 * 12>({ 0, count });
+  if (this->hasManyTies(count < many ? 64 - 2 * 11 : 64 - 2 * 12))
   {
-    this->sortByDigits<3>(IndexBits, (RoundBits + KeyBits) / 3);
+    this->sortByDigits<3, 12, IndexBits>({ 0, count });
     if (this->hasManyTies(IndexBits))
     {
-      this->refineTies(points);
+      std::vector<Run> runs;
+      this->addRuns({ 0, count }, runs);
+      this->sortRuns<Curve2>(points, std::move(runs));
     }
-  }
-}
-
-/// Sorts points of one round that share a cell of the finest level along a curve in their own
-/// bounding box, and repeats this until few share a cell: coordinates may differ by hundreds of
-/// powers of two.
-void InsertionOrder::refineTies(const Point2* points)
-{
-  std::vector<Run> runs;
-  addRuns(this->Entries, { 0, this->Entries.size() }, IndexBits, runs);
-  Uninitialised<std::uint64_t> keys;
-  std::vector<Point2> local;
-  while (!runs.empty())
-  {
-    const Run run = runs.back();
-    runs.pop_back();
-    local.clear();
-    for (std::size_t i = run.Begin; i < run.End; ++i)
-    {
-      local.push_back(points[(*this)[i]]);
-    }
-    if (!fillKeys(local, keys))
-    {
-      continue;
-    }
-    std::sort(keys.begin(), keys.end());
-    for (std::size_t i = 0; i < local.size(); ++i)
-    {
-      this->Scratch[run.Begin + i] = this->Entries[run.Begin + (keys[i] & IndexMask)];
-    }
-    std::copy_n(&this->Scratch[run.Begin], local.size(), &this->Entries[run.Begin]);
-    addRuns(keys, { run.Begin, run.End }, IndexBits, runs);
   }
 }
 
@@ -262,8 +126,7 @@ void InsertionOrder::releaseIfLarge()
   constexpr std::size_t large = std::size_t(1) << 18;
   if (this->Entries.capacity() > large)
   {
-    Uninitialised<std::uint64_t>().swap(this->Entries);
-    Uninitialised<std::uint64_t>().swap(this->Scratch);
+    this->release();
   }
 }
 

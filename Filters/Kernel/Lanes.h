@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippLanes_h
-#define tippLanes_h
+#ifndef tippKernelLanes_h
+#define tippKernelLanes_h
 
 #include "Predicates/Points.h"
 

@@ -309,14 +309,14 @@ inline bool Cavity3::findConflicts(TetrahedronMesh& mesh, const Point3& p)
   return true;
 }
 
-/// Reserves as many free tetrahedra as the boundary has facets. Throws std::length_error if indices
-/// do not suffice.
-inline void Cavity3::makeRoom(TetrahedronMesh& mesh)
+/// Reserves as many free tetrahedra as the boundary has facets, and returns true. Throws
+/// std::length_error if indices do not suffice.
+inline bool Cavity3::makeRoom(TetrahedronMesh& mesh)
 {
   const std::size_t count = this->Boundary.size();
   if (this->Free.size() >= count)
   {
-    return;
+    return true;
   }
   const std::size_t needed = mesh.end() / 8 + (count - this->Free.size());
   if (needed > TetrahedronMesh::MostSlots / 8)
@@ -333,6 +333,7 @@ inline void Cavity3::makeRoom(TetrahedronMesh& mesh)
     this->Free.push_back(mesh.end());
     mesh.setEnd(mesh.end() + 8);
   }
+  return true;
 }
 
 /// As makeRoom(), while other threads do the same. Returns false if the mesh has no memory left.
@@ -388,32 +389,6 @@ inline void Cavity3::setMarks(TetrahedronMesh& mesh, std::uint8_t mark) const
   }
 }
 
-inline void Cavity3::insertAll(
-  TetrahedronMesh& mesh, Index first, Index end, std::vector<Coincidence>& found)
-{
-  using Access = AloneAccess3;
-  for (Index vertex = first; vertex < end; ++vertex)
-  {
-    const Point3& p = this->Points[vertex];
-    const Location at = this->locate<Access>(mesh, p);
-    if (__builtin_expect(at.EqualTo != 0, 0))
-    {
-      found.push_back({ vertex, at.EqualTo });
-      continue;
-    }
-    this->claimFirst<Access>(mesh, p, at);
-    this->findConflicts<Access>(mesh, p);
-    this->makeRoom(mesh);
-    this->retriangulate<Access>(mesh, vertex);
-  }
-}
-
-void Cavity3::insert(TetrahedronMesh& mesh, Index first, Index end, std::vector<Coincidence>& found)
-{
-  this->Claim = TetrahedronMesh::InConflict;
-  runWith(Instructions::Best, [&] { this->insertAll(mesh, first, end, found); });
-}
-
 /// If another thread has removed the tetrahedron where the next walk would start, chooses the first
 /// finite one in the mesh.
 inline void Cavity3::renewStart(const TetrahedronMesh& mesh)
@@ -432,29 +407,46 @@ inline void Cavity3::renewStart(const TetrahedronMesh& mesh)
 
 /// Returns false, and changes nothing, if another thread is at work at the vertex or if the mesh
 /// has no memory left.
+template <typename Access>
 inline bool Cavity3::insertOne(TetrahedronMesh& mesh, Index vertex, std::vector<Coincidence>& found)
 {
-  using Access = SharedAccess3;
   const Point3& p = this->Points[vertex];
-  this->renewStart(mesh);
+  if (Access::IsShared)
+  {
+    this->renewStart(mesh);
+  }
   const Location at = this->locate<Access>(mesh, p);
-  if (at.Cell == NoCell)
+  if (Access::IsShared && at.Cell == NoCell)
   {
     return false;
   }
-  if (at.EqualTo != 0)
+  if (__builtin_expect(at.EqualTo != 0, 0))
   {
     found.push_back({ vertex, at.EqualTo });
     return true;
   }
-  if (!this->claimFirst<Access>(mesh, p, at) || !this->findConflicts<Access>(mesh, p) ||
-    !this->takeRoom(mesh))
+  const bool isFound =
+    this->claimFirst<Access>(mesh, p, at) && this->findConflicts<Access>(mesh, p);
+  if (!isFound || !(Access::IsShared ? this->takeRoom(mesh) : this->makeRoom(mesh)))
   {
     this->setMarks<Access>(mesh, TetrahedronMesh::Live);
     return false;
   }
   this->retriangulate<Access>(mesh, vertex);
   return true;
+}
+
+void Cavity3::insert(TetrahedronMesh& mesh, Index first, Index end, std::vector<Coincidence>& found)
+{
+  this->Claim = TetrahedronMesh::InConflict;
+  runWith(Instructions::Best,
+    [&]
+    {
+      for (Index vertex = first; vertex < end; ++vertex)
+      {
+        this->insertOne<AloneAccess3>(mesh, vertex, found);
+      }
+    });
 }
 
 void Cavity3::share(std::uint8_t thread, std::atomic<std::uint64_t>& end)
@@ -471,7 +463,7 @@ void Cavity3::insertShared(TetrahedronMesh& mesh, const Index* begin, const Inde
     {
       for (const Index* vertex = begin; vertex != end; ++vertex)
       {
-        if (!this->insertOne(mesh, *vertex, found))
+        if (!this->insertOne<SharedAccess3>(mesh, *vertex, found))
         {
           left.push_back(*vertex);
         }

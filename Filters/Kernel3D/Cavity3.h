@@ -71,8 +71,8 @@ private:
     std::array<Index, 4> Corners; ///< as the walk has seen them
   };
 
-  void insertAll(TetrahedronMesh& mesh, Index first, Index end, std::vector<Coincidence>& found);
   void renewStart(const TetrahedronMesh& mesh);
+  template <typename Access>
   bool insertOne(TetrahedronMesh& mesh, Index vertex, std::vector<Coincidence>& found);
   unsigned facetsBefore(const Index* v, const Point3& p, unsigned& inside) const;
   template <typename Access>
@@ -89,7 +89,7 @@ private:
   void retriangulate(TetrahedronMesh& mesh, Index vertex);
   template <typename Access>
   void setMarks(TetrahedronMesh& mesh, std::uint8_t mark) const;
-  void makeRoom(TetrahedronMesh& mesh);
+  bool makeRoom(TetrahedronMesh& mesh);
   bool takeRoom(TetrahedronMesh& mesh);
   unsigned conflictsAcross(
     const Index* slots, Index cell, const Links& across, const Point3& p, unsigned& certain);

@@ -97,8 +97,9 @@ public:
     return TetrahedronMesh::cellOf(this->Mesh.slots()[tetrahedron + i + 4]);
   }
   bool isInfinite(Index tetrahedron) const { return this->Mesh.slots()[tetrahedron] == Infinite; }
-  /// One past the largest index of a tetrahedron.
-  Index end() const { return this->Mesh.end(); }
+  /// The tetrahedron's number, below numberEnd(): for arrays.
+  static std::size_t number(Index tetrahedron) { return tetrahedron / 8; }
+  std::size_t numberEnd() const { return number(this->Mesh.end()); }
   ///@}
 
   const Point3& point(Index vertex) const { return this->Points[vertex]; }

@@ -92,151 +92,38 @@ std::uint64_t hilbertKey3(std::uint32_t x, std::uint32_t y, std::uint32_t z)
   return key;
 }
 
-std::uint32_t quantise(double distance, double scale)
+struct Curve3
 {
-  constexpr double last = (1U << Levels) - 1;
-  const double cell = distance * scale;
-  const double atLeast = cell > 0 ? cell : 0;
-  return static_cast<std::uint32_t>(atLeast < last ? atLeast : last);
-}
+  using Point = Point3;
+  static constexpr unsigned Levels = tipp::Levels;
 
-/// Murmur3's finaliser.
-std::uint32_t mix(std::uint32_t z)
-{
-  z = (z ^ z >> 16) * 0x85ebca6bU;
-  z = (z ^ z >> 13) * 0xc2b2ae35U;
-  return z ^ z >> 16;
-}
-
-struct Bounds
-{
-  Point3 Low;
-  Point3 High;
-
-  void include(const Point3& p)
+  static Point3 lower(const Point3& a, const Point3& b)
   {
-    this->Low = { std::min(this->Low.x, p.x), std::min(this->Low.y, p.y),
-      std::min(this->Low.z, p.z) };
-    this->High = { std::max(this->High.x, p.x), std::max(this->High.y, p.y),
-      std::max(this->High.z, p.z) };
+    return { std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z) };
   }
-
-  /// Cells of the finest level per unit of length.
-  double scale() const
+  static Point3 upper(const Point3& a, const Point3& b)
   {
-    const Point3 sides = this->High - this->Low;
-    return (1U << Levels) / std::max({ sides.x, sides.y, sides.z });
+    return { std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z) };
+  }
+  static double longestSide(const Point3& sides) { return std::max({ sides.x, sides.y, sides.z }); }
+  static std::uint64_t key(const Point3& p, double scale)
+  {
+    return hilbertKey3(
+      gridCell<Levels>(p.x, scale), gridCell<Levels>(p.y, scale), gridCell<Levels>(p.z, scale));
   }
 };
 
-/// Runs of at most this many points are not sorted: a walk among them is short.
-constexpr std::size_t ShortRun = 16;
-
 } // namespace
-
-/// Radix sort, least significant digit first. Few entries are sorted by comparison.
-void InsertionOrder3::sortByKey(std::size_t begin, std::size_t end)
-{
-  constexpr std::size_t few = 4096;
-  if (end - begin < few)
-  {
-    std::sort(
-      this->Entries.begin() + std::ptrdiff_t(begin), this->Entries.begin() + std::ptrdiff_t(end));
-    return;
-  }
-  constexpr unsigned digitBits = 12;
-  constexpr unsigned passes = 3;
-  constexpr std::uint64_t mask = (1U << digitBits) - 1;
-  std::array<std::array<std::uint32_t, mask + 1>, passes> starts = {};
-  for (std::size_t i = begin; i < end; ++i)
-  {
-    for (unsigned pass = 0; pass < passes; ++pass)
-    {
-      ++starts[pass][this->Entries[i] >> (IndexBits + pass * digitBits) & mask];
-    }
-  }
-  std::uint64_t* from = &this->Entries[begin];
-  std::uint64_t* to = &this->Scratch[begin];
-  for (unsigned pass = 0; pass < passes; ++pass)
-  {
-    std::uint32_t sum = 0;
-    for (std::uint32_t& start : starts[pass])
-    {
-      sum += std::exchange(start, sum);
-    }
-    for (std::size_t i = 0; i < end - begin; ++i)
-    {
-      to[starts[pass][from[i] >> (IndexBits + pass * digitBits) & mask]++] = from[i];
-    }
-    std::swap(from, to);
-  }
-  std::copy_n(&this->Scratch[begin], end - begin, &this->Entries[begin]);
-}
-
-void InsertionOrder3::fillKeys(
-  const Point3* points, std::size_t begin, std::size_t end, const Point3& low, double scale)
-{
-  for (std::size_t i = begin; i < end; ++i)
-  {
-    const std::uint32_t index = (*this)[i];
-    const Point3 p = points[index] - low;
-    this->Entries[i] = hilbertKey3(quantise(p.x, scale), quantise(p.y, scale), quantise(p.z, scale))
-        << IndexBits |
-      index;
-  }
-}
-
-/// Sorts points along a curve in their bounding box. If more than a few share a cell of the finest
-/// level, they are sorted again in their own bounding box, and so on. This is needed because
-/// coordinates may differ by hundreds of powers of two.
-void InsertionOrder3::sortRound(const Point3* points, std::size_t begin, std::size_t end)
-{
-  std::vector<std::pair<std::size_t, std::size_t>> runs = { { begin, end } };
-  while (!runs.empty())
-  {
-    const auto [first, last] = runs.back();
-    runs.pop_back();
-    Bounds bounds{ points[(*this)[first]], points[(*this)[first]] };
-    for (std::size_t i = first; i < last; ++i)
-    {
-      bounds.include(points[(*this)[i]]);
-    }
-    // If all points coincide, or if the box is too large or too small for doubles, the order does
-    // not matter.
-    if (!std::isnormal(bounds.scale()))
-    {
-      continue;
-    }
-    this->fillKeys(points, first, last, bounds.Low, bounds.scale());
-    this->sortByKey(first, last);
-    std::size_t start = first;
-    for (std::size_t i = first + 1; i <= last; ++i)
-    {
-      if (i == last || (this->Entries[i] ^ this->Entries[start]) >> IndexBits != 0)
-      {
-        if (i - start > ShortRun)
-        {
-          runs.emplace_back(start, i);
-        }
-        start = i;
-      }
-    }
-  }
-}
 
 void InsertionOrder3::compute(const Point3* points, std::size_t count)
 {
   this->Entries.resize(count);
   this->Scratch.resize(count);
   constexpr unsigned mostRounds = 10;
-  unsigned lastRound = 0;
-  for (std::size_t size = count; size > 512 && lastRound + 1 < mostRounds; size /= 8)
-  {
-    ++lastRound;
-  }
+  const unsigned lastRound = earlierRounds(count, 512, mostRounds - 1);
   const auto roundOf = [lastRound](std::uint32_t index)
   {
-    const auto zeros = static_cast<unsigned>(__builtin_ctz(mix(index) | 1U << 30));
+    const auto zeros = static_cast<unsigned>(__builtin_ctz(roundBits(index) | 1U << 30));
     return lastRound - std::min(lastRound, zeros / 3);
   };
   std::array<std::size_t, mostRounds + 1> begins = {};
@@ -258,15 +145,9 @@ void InsertionOrder3::compute(const Point3* points, std::size_t count)
   {
     if (begins[round] < begins[round + 1])
     {
-      this->sortRound(points, begins[round], begins[round + 1]);
+      this->sortRuns<Curve3>(points, { { begins[round], begins[round + 1] } });
     }
   }
-}
-
-void InsertionOrder3::release()
-{
-  Uninitialised<std::uint64_t>().swap(this->Entries);
-  Uninitialised<std::uint64_t>().swap(this->Scratch);
 }
 
 } // namespace tipp

@@ -120,21 +120,14 @@ bool ParallelInsertion3::insertLeft(
 {
   this->First.continueAt(this->startOf(0));
   constexpr std::size_t block = 1 << 12;
-  for (std::size_t i = 0; i < this->Waiting.size();)
+  for (std::size_t i = 0; i < this->Waiting.size(); ++i)
   {
     if (i % block == 0 && proceed && !proceed(this->Done))
     {
       return false;
     }
-    const Index vertex = this->Waiting[i];
-    Index end = vertex;
-    do
-    {
-      ++end;
-      ++i;
-    } while (i < this->Waiting.size() && this->Waiting[i] == end && i % block != 0);
-    this->First.insert(this->Mesh, vertex, end, found);
-    this->Done += end - vertex;
+    this->First.insert(this->Mesh, this->Waiting[i], this->Waiting[i] + 1, found);
+    ++this->Done;
   }
   return true;
 }

@@ -221,7 +221,7 @@ bool PiecePlan3::samplePays() const
   }
   const PointBuckets3 buckets = bucketPoints(sample.data(), sample.size(), this->Tiling, 1, 1);
   const std::vector<Vertex3> artificial = makeArtificialPoints(buckets);
-  return !artificial.empty() && InitialMesh3(buckets, artificial).partitionsPay();
+  return !artificial.empty() && partitionsPay(InitialMesh3(buckets, artificial));
 }
 
 /// Keeps a few sampled points of each piece as its initial points.

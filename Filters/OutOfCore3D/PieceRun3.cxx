@@ -133,7 +133,7 @@ bool PieceRun3::run(const std::vector<char>& isDone, StoredResults3& results)
     return !this->IsStopped;
   }
   const InitialMesh3 mesh = plan.initialMesh();
-  const PartitionOrder order(isUsed, mesh.conflicts());
+  const PartitionOrder order(isUsed, mesh);
   this->Initial = sendInitialMesh(mesh, order);
   this->makePieces(isDone, order);
   return !this->IsStopped;

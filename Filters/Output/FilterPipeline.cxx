@@ -63,14 +63,15 @@ bool hasSeveralRanks(vtkMultiProcessController* controller)
 
 int runReported(vtkAlgorithm* filter, vtkMultiProcessController* controller, const char* doing,
   vtkPointSet* input, std::initializer_list<vtkDataObject*> outputs,
-  const std::function<bool()>& work)
+  const std::function<void()>& work)
 {
   const std::string what =
     std::string(doing) + " " + std::to_string(input->GetNumberOfPoints()) + " points";
   bool isStopped = false;
   try
   {
-    return work() ? 1 : 0;
+    work();
+    return 1;
   }
   catch (const RankFailure& failure)
   {

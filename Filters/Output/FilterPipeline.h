@@ -71,13 +71,13 @@ void warn(vtkAlgorithm* filter, const std::vector<std::string>& warnings);
 /// Returns whether a filter with this controller works on several ranks. Null: it does not.
 bool hasSeveralRanks(vtkMultiProcessController* controller);
 
-/// Calls work(), and returns the result of RequestData(): 1 if work() returned true or the user
-/// stopped the ranks, else 0. If work() throws, empties the outputs and reports an error of the
-/// filter. The error begins with `doing` and the number of the input's points; of a RankFailure,
-/// only the first rank of `controller` reports it. Throws nothing.
+/// Calls work(), and returns the result of RequestData(): 0 if it failed, else 1. If work() throws,
+/// empties the outputs. Unless the user has stopped the ranks, that is an error of the filter: it
+/// is reported, beginning with `doing` and the number of the input's points, and of a RankFailure
+/// only by the first rank of `controller`. Throws nothing.
 int runReported(vtkAlgorithm* filter, vtkMultiProcessController* controller, const char* doing,
   vtkPointSet* input, std::initializer_list<vtkDataObject*> outputs,
-  const std::function<bool()>& work);
+  const std::function<void()>& work);
 
 /// Updates this rank's piece of a filter's input before the pipeline requests it, at the time step
 /// that `outInfo` requests, if any. Returns null if the input fails; the filter owns the returned

@@ -129,8 +129,23 @@ vtkSmartPointer<vtkTransform> bestFittingPlane(vtkPoints* points)
 
 FiniteBounds finiteBounds(vtkPoints* points)
 {
-  return finiteBounds(points ? points->GetNumberOfPoints() : 0,
-    [points](std::int64_t i, double* p) { points->GetPoint(i, p); });
+  double low[3] = { HUGE_VAL, HUGE_VAL, HUGE_VAL };
+  double high[3] = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+  const vtkIdType count = points ? points->GetNumberOfPoints() : 0;
+#pragma omp parallel for reduction(min : low[:3]) reduction(max : high[:3])
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    double p[3];
+    points->GetPoint(i, p);
+    for (int axis = 0; axis < 3 && isFinite(p); ++axis)
+    {
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
+    }
+  }
+  return low[0] <= high[0]
+    ? FiniteBounds{ { low[0], low[1], low[2] }, { high[0], high[1], high[2] } }
+    : FiniteBounds{};
 }
 
 vtkSmartPointer<vtkPoints> appendPoints(
@@ -152,8 +167,16 @@ vtkSmartPointer<vtkPoints> appendPoints(
 
 vtkSmartPointer<vtkPoints> appendBoundingPoints(vtkPoints* points, double offset)
 {
-  const auto circle = boundingCircle(finiteBounds(points), offset);
-  return appendPoints(points, { circle.begin(), circle.end() });
+  const FiniteBounds bounds = finiteBounds(points);
+  const double radius = offset * bounds.diagonal();
+  std::vector<std::array<double, 3>> circle(8);
+  for (std::size_t i = 0; i < circle.size(); ++i)
+  {
+    const double angle = 2 * vtkMath::Pi() * double(i) / double(circle.size());
+    circle[i] = { bounds.center(0) + radius * std::cos(angle),
+      bounds.center(1) + radius * std::sin(angle), bounds.center(2) };
+  }
+  return appendPoints(points, circle);
 }
 
 } // namespace tipp

@@ -2,12 +2,13 @@
 #ifndef tippProjectedPoints_h
 #define tippProjectedPoints_h
 
-#include "InMemory/FiniteBounds.h"
 #include "Triangulation/PointsView.h"
 
 #include "vtkSmartPointer.h"
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <vector>
 
 class vtkAbstractTransform;
@@ -39,6 +40,26 @@ private:
 /// there are no others.
 vtkSmartPointer<vtkTransform> bestFittingPlane(vtkPoints* points);
 
+/// The bounding box of the points whose three coordinates are finite, so that a single NaN or
+/// infinity does not determine a tolerance or a bounding circle. All zero if there are no such
+/// points.
+struct FiniteBounds
+{
+  std::array<double, 3> Low{ 0, 0, 0 };
+  std::array<double, 3> High{ 0, 0, 0 };
+
+  double center(int axis) const
+  {
+    return 0.5 * this->Low[std::size_t(axis)] + 0.5 * this->High[std::size_t(axis)];
+  }
+  double diagonal() const
+  {
+    return std::hypot(
+      this->High[0] - this->Low[0], this->High[1] - this->Low[1], this->High[2] - this->Low[2]);
+  }
+};
+
+/// `points` may be null.
 FiniteBounds finiteBounds(vtkPoints* points);
 
 /// Returns the points in double precision, followed by those of `added`.

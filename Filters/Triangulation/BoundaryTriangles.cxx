@@ -72,18 +72,6 @@ double meanLongSide(const Tiling& tiling)
   return sum;
 }
 
-/// Moves a bound outward by the margin or, if that is more, by a few units in the last place: the
-/// margin may be lost in rounding when coordinates are large and close together.
-double outward(double bound, double direction, double margin)
-{
-  double moved = bound + direction * margin;
-  for (int i = 0; i < 4; ++i)
-  {
-    bound = std::nextafter(bound, direction * HUGE_VAL);
-  }
-  return direction > 0 ? std::max(moved, bound) : std::min(moved, bound);
-}
-
 int piecesOf(double side, double spacing)
 {
   constexpr double most = 4096;
@@ -120,33 +108,6 @@ std::array<std::size_t, 4> findOutmost(const Point2* points, std::size_t count)
   return found;
 }
 
-/// Returns the pairs of different sets of adjacent finite triangles. `setOf` is indexed by finite
-/// triangle, in the kernel's order.
-std::vector<std::pair<std::uint32_t, std::uint32_t>> adjacentSets(
-  const DelaunayKernel& kernel, const std::vector<std::uint32_t>& setOf)
-{
-  constexpr std::uint32_t none = ~0U;
-  std::vector<std::uint32_t> sets(kernel.triangleCount(), none);
-  auto set = setOf.begin();
-  kernel.forEachTriangle(
-    [&](Index t) { sets[DelaunayKernel::number(t)] = kernel.isInfinite(t) ? none : *set++; });
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-  kernel.forEachTriangle(
-    [&](Index t)
-    {
-      const std::uint32_t one = sets[DelaunayKernel::number(t)];
-      for (Index i = 0; i < 3; ++i)
-      {
-        const std::uint32_t other = sets[DelaunayKernel::number(kernel.neighbour(t, i))];
-        if (one < other && other != none)
-        {
-          pairs.emplace_back(one, other);
-        }
-      }
-    });
-  return pairs;
-}
-
 /// The finite triangles among the kernel's triangles [begin, end), by number, and the regions that
 /// each meets.
 BoundaryTriangles findMetRegions(
@@ -170,16 +131,17 @@ BoundaryTriangles findMetRegions(
   return found;
 }
 
-BoundaryTriangles joined(std::vector<BoundaryTriangles>&& parts)
-{
-  for (std::size_t i = 1; i < parts.size(); ++i)
-  {
-    parts[0].appendTriangles(parts[i]);
-  }
-  return std::move(parts[0]);
-}
-
 } // namespace
+
+double outward(double bound, double direction, double margin)
+{
+  double moved = bound + direction * margin;
+  for (int i = 0; i < 4; ++i)
+  {
+    bound = std::nextafter(bound, direction * HUGE_VAL);
+  }
+  return direction > 0 ? std::max(moved, bound) : std::min(moved, bound);
+}
 
 std::vector<BoundaryVertex> makeArtificialPoints(const Tiling& tiling)
 {
@@ -286,29 +248,30 @@ BoundaryTriangles triangulateVertices(
       const auto [begin, end] = evenShare(kernel.triangleCount(), int(i), threads);
       own[std::size_t(i)] = findMetRegions(regions, kernel, begin, end);
     });
-  BoundaryTriangles all = joined(std::move(own));
+  BoundaryTriangles all = std::move(own.front());
+  std::for_each(own.begin() + 1, own.end(),
+    [&all](const BoundaryTriangles& part) { all.appendTriangles(part); });
   all.Vertices = vertices;
-  all.AdjacentSets = adjacentSets(kernel, all.SetOf);
+  all.AdjacentSets = adjacentSets<3>(kernel, all.SetOf);
   return all;
 }
 
-bool partitionsPay(std::int64_t triangles, std::int64_t met)
+bool partitionsPay(std::int64_t cells, std::int64_t met, double most)
 {
-  constexpr std::int64_t most = 3;
-  return met <= most * triangles;
+  return double(met) <= most * double(cells);
 }
 
-bool partitionsPay(const BoundaryTriangles& initialMesh)
+bool partitionsPay(const MetPartitions& initialMesh, double most)
 {
-  std::int64_t triangles = 0;
+  std::int64_t cells = 0;
   std::int64_t met = 0;
   for (const std::uint32_t set : initialMesh.SetOf)
   {
     const std::ptrdiff_t size = initialMesh.Sets.end(set) - initialMesh.Sets.begin(set);
-    triangles += size > 0 ? 1 : 0;
+    cells += size > 0 ? 1 : 0;
     met += size;
   }
-  return partitionsPay(triangles, met);
+  return partitionsPay(cells, met, most);
 }
 
 template std::vector<BoundaryVertex> chooseInitialPoints(

@@ -6,9 +6,11 @@
 #include "Triangulation/Tiling.h"
 #include "vtkTIPPFiltersModule.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -40,11 +42,11 @@ private:
   std::uint32_t Last = 0; ///< the number returned last, often repeated
 };
 
-/// A vertex of a boundary triangle, with the data that a worker needs. A boundary triangle is a
-/// triangle that is not interior to one partition.
-struct BoundaryVertex
+/// A vertex of a cell that is not interior to one partition, with the data that a worker needs.
+template <typename Point>
+struct VertexOf
 {
-  Point2 Position;          ///< coordinates of the vertex
+  Point Position;           ///< coordinates of the vertex
   std::int64_t Id;          ///< the input point's id; negative for artificial points
   PartitionIndex Partition; ///< the partition that contains it
   std::int32_t Padding = 0; ///< so that all bytes of a message are defined
@@ -52,13 +54,16 @@ struct BoundaryVertex
   bool isArtificial() const { return this->Id < 0; }
 };
 
+using BoundaryVertex = VertexOf<Point2>;
+
+/// A boundary triangle is a triangle that is not interior to one partition.
 using BoundaryTriangle = std::array<BoundaryVertex, 3>;
 
 /// The positions of vertices, or of other points that have one.
 template <typename Vertex>
-std::vector<Point2> positionsOf(const std::vector<Vertex>& vertices)
+auto positionsOf(const std::vector<Vertex>& vertices)
 {
-  std::vector<Point2> positions;
+  std::vector<decltype(Vertex::Position)> positions;
   positions.reserve(vertices.size());
   for (const Vertex& v : vertices)
   {
@@ -67,20 +72,83 @@ std::vector<Point2> positionsOf(const std::vector<Vertex>& vertices)
   return positions;
 }
 
-/// Triangles, and for each the partitions that its circumdisk meets. The sets are shared to save
-/// memory: for co-circular points there are as many triangles as points, and each meets all
-/// partitions.
-struct BoundaryTriangles
+/// If the cell has an artificial corner, adds its true corners to `vertices` and returns true. The
+/// hull repair needs these vertices.
+template <typename Vertex, std::size_t Corners>
+bool takeHullVertices(const std::array<Vertex, Corners>& cell, std::vector<Vertex>& vertices)
+{
+  const auto isArtificial = [](const Vertex& v) { return v.isArtificial(); };
+  const bool isHull = std::any_of(cell.begin(), cell.end(), isArtificial);
+  if (isHull)
+  {
+    std::remove_copy_if(cell.begin(), cell.end(), std::back_inserter(vertices), isArtificial);
+  }
+  return isHull;
+}
+
+/// Sorts vertices by id and removes repetitions.
+template <typename Vertex>
+void keepUnique(std::vector<Vertex>& vertices)
+{
+  std::sort(
+    vertices.begin(), vertices.end(), [](const Vertex& a, const Vertex& b) { return a.Id < b.Id; });
+  vertices.erase(std::unique(vertices.begin(), vertices.end(),
+                   [](const Vertex& a, const Vertex& b) { return a.Id == b.Id; }),
+    vertices.end());
+}
+
+/// The partitions that each of several cells meets. The sets are shared to save memory: for
+/// co-circular points there are as many triangles as points, and each meets all partitions.
+struct MetPartitions
+{
+  std::vector<std::uint32_t> SetOf; ///< by cell: its set's number in Sets
+  PartitionSets Sets;
+  /// The pairs of different sets of cells with a common edge or facet; only of an initial mesh.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> AdjacentSets;
+
+  const PartitionIndex* metBegin(std::size_t i) const { return this->Sets.begin(this->SetOf[i]); }
+  const PartitionIndex* metEnd(std::size_t i) const { return this->Sets.end(this->SetOf[i]); }
+};
+
+/// Returns the pairs of different sets of adjacent finite cells. `setOf` is indexed by finite cell,
+/// in the kernel's order.
+template <int Corners, typename Kernel>
+auto adjacentSets(const Kernel& kernel, const std::vector<std::uint32_t>& setOf)
+{
+  using Index = typename Kernel::Index;
+  constexpr std::uint32_t none = ~0U;
+  std::vector<std::uint32_t> sets;
+  auto set = setOf.begin();
+  kernel.forEach(
+    [&](Index cell)
+    {
+      sets.resize(Kernel::number(cell) + 1, none);
+      sets.back() = kernel.isInfinite(cell) ? none : *set++;
+    });
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  kernel.forEach(
+    [&](Index cell)
+    {
+      const std::uint32_t one = sets[Kernel::number(cell)];
+      for (Index i = 0; i < Corners; ++i)
+      {
+        const std::uint32_t other = sets[Kernel::number(kernel.neighbour(cell, i))];
+        if (one < other && other != none)
+        {
+          pairs.emplace_back(one, other);
+        }
+      }
+    });
+  return pairs;
+}
+
+/// Triangles, and for each the partitions that its circumdisk meets.
+struct BoundaryTriangles : MetPartitions
 {
   using Corners = std::array<std::uint32_t, 3>; ///< indices into Vertices
 
   std::vector<BoundaryVertex> Vertices; ///< each once; some may belong to no triangle
   std::vector<Corners> Triangles;       ///< counter-clockwise
-  std::vector<std::uint32_t> SetOf;     ///< by triangle: its set's number in Sets
-  PartitionSets Sets;
-  /// The pairs of different sets of triangles with a common edge. Only triangulateVertices() fills
-  /// it.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> AdjacentSets;
 
   std::size_t size() const { return this->Triangles.size(); }
   BoundaryTriangle operator[](std::size_t i) const
@@ -98,10 +166,11 @@ struct BoundaryTriangles
   }
   /// Appends the triangles of `others`, which must have the same vertices.
   void appendTriangles(const BoundaryTriangles& others);
-
-  const PartitionIndex* metBegin(std::size_t i) const { return this->Sets.begin(this->SetOf[i]); }
-  const PartitionIndex* metEnd(std::size_t i) const { return this->Sets.end(this->SetOf[i]); }
 };
+
+/// Moves a bound outward by the margin or, if that is more, by a few units in the last place: the
+/// margin may be lost in rounding when coordinates are large and close together.
+double outward(double bound, double direction, double margin);
 
 /// Returns artificial points at the corners and along the edges of a rectangle around the domain
 /// (chapter 2.4.1). Their distance from the domain and from each other is the width of a partition.
@@ -125,14 +194,15 @@ std::vector<BoundaryVertex> chooseInitialPoints(
 BoundaryTriangles triangulateVertices(
   const Regions& regions, const std::vector<BoundaryVertex>& vertices, int threads);
 
-/// Whether partitioning pays off. If each circumdisk meets many partitions, every worker would get
-/// nearly all vertices. By measurement circumdisks meet 3.5 or more partitions on average for
-/// points on a circle or a parabola, or on a line with one point beside it, but 1.5 to 2.8 for
-/// ordinary points. Triangles that meet no partition do not count.
-bool partitionsPay(const BoundaryTriangles& initialMesh);
-/// The same from counts: the number of triangles that meet partitions, and the sum of the numbers
-/// of partitions that they meet.
-bool partitionsPay(std::int64_t triangles, std::int64_t met);
+/// Whether partitioning pays off: whether cells meet at most `most` partitions on average.
+/// Otherwise every worker would get nearly all vertices. By measurement circumdisks meet 3.5 or
+/// more partitions on average for points on a circle or a parabola, or on a line with one point
+/// beside it, but 1.5 to 2.8 for ordinary points; circumballs 2.1 to 2.5 in a volume, 4 on a
+/// surface, and 14 on a sphere. Cells that meet no partition do not count.
+bool partitionsPay(const MetPartitions& initialMesh, double most = 3);
+/// The same from counts: the number of cells that meet partitions, and the sum of the numbers of
+/// partitions that they meet.
+bool partitionsPay(std::int64_t cells, std::int64_t met, double most = 3);
 
 } // namespace tipp
 

@@ -75,23 +75,25 @@ std::vector<Point2> samplePoints(PointsView points, std::size_t count)
   return sample;
 }
 
+double moderateFactor(double largest, int moderate)
+{
+  constexpr int largestShift = 1000;
+  return largest == 0 || std::abs(std::ilogb(largest)) <= moderate
+    ? 1
+    : std::ldexp(1.0, std::clamp(-std::ilogb(largest), -largestShift, largestShift));
+}
+
 PointsView withModerateMagnitude(PointsView points, const Box2& bounds)
 {
   // Determinants have degree four in the coordinates, and rounding errors are 53 bits smaller.
   constexpr int moderate = 200;
-  constexpr int largestShift = 1000;
   const double largest = std::max({ std::fabs(bounds.xmin), std::fabs(bounds.xmax),
     std::fabs(bounds.ymin), std::fabs(bounds.ymax) });
-  if (largest == 0 || std::abs(std::ilogb(largest)) <= moderate)
-  {
-    return points;
-  }
-  const double factor =
-    std::ldexp(1.0, std::clamp(-std::ilogb(largest), -largestShift, largestShift));
-  for (std::size_t i = 0; i < points.size(); ++i)
+  const double factor = moderateFactor(largest, moderate);
+  for (std::size_t i = 0; factor != 1 && i < points.size(); ++i)
   {
     const Point2 p = points[i];
-    if (isFinite(p) && (p.x * factor / factor != p.x || p.y * factor / factor != p.y))
+    if (isFinite(p) && !(isExactTimes(p.x, factor) && isExactTimes(p.y, factor)))
     {
       return points;
     }

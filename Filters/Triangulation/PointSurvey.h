@@ -27,6 +27,15 @@ PointSurvey surveyPoints(PointsView points, int threads);
 /// Returns about `count` finite points, evenly spaced in the input's order.
 std::vector<Point2> samplePoints(PointsView points, std::size_t count);
 
+/// Returns a power of two that scales coordinates to about 1, given the largest magnitude among
+/// them; 1 if it is within 2^-`moderate` and 2^`moderate`.
+double moderateFactor(double largest, int moderate);
+/// Returns whether multiplying this coordinate by the factor, a power of two, is exact.
+inline bool isExactTimes(double x, double factor)
+{
+  return !std::isfinite(x) || x * factor / factor == x;
+}
+
 /// Scales very small or very large coordinates, whose products would underflow or overflow, by a
 /// power of two that brings them near 1. This is exact, and the floating-point filters work again.
 /// Returns the points unchanged if scaling would lose digits (a wide range of magnitudes) or is not

@@ -5,24 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace tipp
 {
-namespace
-{
 
-std::size_t cellOf(double offset, double perUnit, std::size_t side)
-{
-  const double at = std::min(offset * perUnit, double(side - 1));
-  return at > 0 ? std::size_t(at) : 0;
-}
-
-} // namespace
-
-template <typename Id>
-TriangleLocator<Id>::TriangleLocator(
-  PointsView points, const Id* corners, const Id* neighbors, std::size_t triangles)
+TriangleLocator::TriangleLocator(PointsView points, const std::int32_t* corners,
+  const std::int32_t* neighbors, std::size_t triangles)
   : Points(points)
   , Corners(corners)
   , Neighbors(neighbors)
@@ -31,9 +19,8 @@ TriangleLocator<Id>::TriangleLocator(
   {
     return;
   }
-  const double infinity = std::numeric_limits<double>::infinity();
-  Point2 high{ -infinity, -infinity };
-  this->Low = { infinity, infinity };
+  Point2 high{ -HUGE_VAL, -HUGE_VAL };
+  this->Low = { HUGE_VAL, HUGE_VAL };
   for (std::size_t i = 0; i < 3 * triangles; ++i)
   {
     const Point2 p = points[std::size_t(corners[i])];
@@ -46,54 +33,53 @@ TriangleLocator<Id>::TriangleLocator(
   const auto perUnit = [this](double low, double high)
   { return 0.5 * double(this->Side) / (0.5 * high - 0.5 * low); };
   this->PerUnit = { perUnit(this->Low.x, high.x), perUnit(this->Low.y, high.y) };
-  constexpr Id none = -1;
+  constexpr std::int32_t none = -1;
   this->Nearby.assign(this->Side * this->Side, none);
   for (std::size_t t = 0; t < triangles; ++t)
   {
-    const Point2 p = points[std::size_t(corners[3 * t])];
-    this->Nearby[this->row(p.y) * this->Side + this->column(p.x)] = Id(t);
+    this->Nearby[this->cellOf(points[std::size_t(corners[3 * t])])] = std::int32_t(t);
   }
-  Id last = 0;
-  for (Id& nearby : this->Nearby)
+  std::int32_t last = 0;
+  for (std::int32_t& nearby : this->Nearby)
   {
     last = nearby == none ? last : nearby;
     nearby = last;
   }
 }
 
-template <typename Id>
-std::size_t TriangleLocator<Id>::column(double x) const
+std::size_t TriangleLocator::cellOf(Point2 point) const
 {
-  return cellOf(x - this->Low.x, this->PerUnit.x, this->Side);
+  const auto along = [this](double offset, double perUnit)
+  {
+    const double at = std::min(offset * perUnit, double(this->Side - 1));
+    return at > 0 ? std::size_t(at) : 0;
+  };
+  return along(point.y - this->Low.y, this->PerUnit.y) * this->Side +
+    along(point.x - this->Low.x, this->PerUnit.x);
 }
 
-template <typename Id>
-std::size_t TriangleLocator<Id>::row(double y) const
+std::array<Point2, 3> TriangleLocator::cornersOf(std::int64_t triangle) const
 {
-  return cellOf(y - this->Low.y, this->PerUnit.y, this->Side);
+  const std::int32_t* const v = this->corners(triangle);
+  return { this->Points[std::size_t(v[0])], this->Points[std::size_t(v[1])],
+    this->Points[std::size_t(v[2])] };
 }
 
-template <typename Id>
-std::int64_t TriangleLocator<Id>::find(Point2 point) const
+std::int64_t TriangleLocator::find(Point2 point) const
 {
-  if (this->Nearby.empty() || !std::isfinite(point.x) || !std::isfinite(point.y))
+  if (this->Nearby.empty() || !isFinite(point))
   {
     return -1;
   }
-  std::int64_t triangle =
-    std::int64_t(this->Nearby[this->row(point.y) * this->Side + this->column(point.x)]);
+  std::int64_t triangle = this->Nearby[this->cellOf(point)];
   std::int64_t before = -1;
   for (;;)
   {
-    Point2 p[3];
-    for (int i = 0; i < 3; ++i)
-    {
-      p[i] = this->Points[std::size_t(this->corners(triangle)[i])];
-    }
+    const std::array<Point2, 3> p = this->cornersOf(triangle);
     std::int64_t next = triangle;
-    for (int i = 0; i < 3 && next == triangle; ++i)
+    for (std::size_t i = 0; i < 3 && next == triangle; ++i)
     {
-      const auto neighbor = std::int64_t(this->Neighbors[3 * triangle + i]);
+      const std::int64_t neighbor = this->Neighbors[3 * triangle + std::int64_t(i)];
       // The walk has just crossed that edge.
       const bool isKnown = neighbor == before && neighbor >= 0;
       if (!isKnown && orientation(p[(i + 1) % 3], p[(i + 2) % 3], point) < 0)
@@ -110,14 +96,9 @@ std::int64_t TriangleLocator<Id>::find(Point2 point) const
   }
 }
 
-template <typename Id>
-void TriangleLocator<Id>::weights(std::int64_t triangle, Point2 point, double (&weights)[3]) const
+void TriangleLocator::weights(std::int64_t triangle, Point2 point, double (&weights)[3]) const
 {
-  Point2 p[3];
-  for (int i = 0; i < 3; ++i)
-  {
-    p[i] = this->Points[std::size_t(this->corners(triangle)[i])];
-  }
+  const std::array<Point2, 3> p = this->cornersOf(triangle);
   const auto area = [](Point2 a, Point2 b, Point2 c)
   { return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y); };
   const double whole = area(p[0], p[1], p[2]);
@@ -125,8 +106,5 @@ void TriangleLocator<Id>::weights(std::int64_t triangle, Point2 point, double (&
   weights[2] = area(p[0], p[1], point) / whole;
   weights[0] = 1 - weights[1] - weights[2];
 }
-
-template class TriangleLocator<std::int32_t>;
-template class TriangleLocator<std::int64_t>;
 
 } // namespace tipp

@@ -77,6 +77,23 @@ struct TriangulationStatistics
   int Threads = 0;
 };
 
+/// What triangulations in the plane and in space have in common, besides their cells.
+struct TriangulatedPoints
+{
+  std::vector<Duplicate> Duplicates; ///< sorted by Point
+  std::vector<PointId> Rejected;     ///< ids of points with NaN or infinite coordinates; ascending
+  TriangulationStatistics Statistics;
+  bool Aborted = false; ///< whether Progress stopped the run; there are no cells then
+};
+
+/// Returns for each of `points` input points 1 if it is a duplicate or rejected, else 0.
+std::vector<char> findLeftOut(const TriangulatedPoints& mesh, std::int64_t points);
+
+/// Returns for each of `points` input points the id of its representative: its own id; for a
+/// duplicate, the representative's; for a rejected point, -1.
+VTKTIPPFILTERS_EXPORT Buffer<std::int64_t> representativeIds(
+  const TriangulatedPoints& mesh, std::int64_t points);
+
 /// A range [Begin, End) of triangles: the first interior ones of a partition, in their order.
 struct TriangleBlock
 {
@@ -86,15 +103,11 @@ struct TriangleBlock
 };
 
 /// The triangles: three input point ids each, counter-clockwise.
-struct Triangulation
+struct Triangulation : TriangulatedPoints
 {
   Buffer<std::int32_t> Ids32;        ///< used when every id fits
   Buffer<std::int64_t> Ids64;        ///< used otherwise; one of the two is empty
-  std::vector<Duplicate> Duplicates; ///< sorted by Point
-  std::vector<PointId> Rejected;     ///< ids of points with NaN or infinite coordinates; ascending
   std::vector<TriangleBlock> Blocks; ///< cover most triangles, ascending; empty if unknown
-  TriangulationStatistics Statistics;
-  bool Aborted = false; ///< whether Progress stopped the run; there are no triangles then
 
   std::size_t triangleCount() const { return (this->Ids32.size() + this->Ids64.size()) / 3; }
 };

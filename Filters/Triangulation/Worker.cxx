@@ -105,7 +105,7 @@ bool Worker<Id>::triangulateAlone(const DelaunayKernel::Monitor& proceed)
   {
     this->Border.clear();
     this->IsBoundary.clear();
-    this->Kernel.forEachTriangle(
+    this->Kernel.forEach(
       [this](Index t) { this->IsBoundary.push_back(this->Kernel.isInfinite(t)); });
     this->edit(0);
   }
@@ -259,7 +259,7 @@ void Worker<Id>::writeTriangles(PartitionIndex bucket, const IsInterior& isInter
   const Id* const ids = this->VertexIds.data();
   Id* const interior = this->Buckets.triangles(bucket);
   Id* out = interior;
-  this->Kernel.forEachTriangle(
+  this->Kernel.forEach(
     [&](Index t)
     {
       if (isInterior(t))

@@ -20,41 +20,28 @@ Circumball ballOf(const DelaunayKernel3& kernel, const std::array<Index, 4>& v)
   return { kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2]), kernel.point(v[3]) };
 }
 
-} // namespace
-
-void keepUnique(std::vector<Vertex3>& vertices)
+/// Returns the messages to several recipients, each with the vertices of `corners` once.
+template <typename Corner, typename VertexAt>
+std::vector<VertexMessage3> messagesWith(PartitionIndex sender,
+  const std::vector<std::vector<Corner>>& corners, std::size_t vertexEnd, const VertexAt& vertexAt)
 {
-  std::sort(vertices.begin(), vertices.end(),
-    [](const Vertex3& a, const Vertex3& b) { return a.Id < b.Id; });
-  vertices.erase(std::unique(vertices.begin(), vertices.end(),
-                   [](const Vertex3& a, const Vertex3& b) { return a.Id == b.Id; }),
-    vertices.end());
-}
-
-namespace
-{
-
-void appendPositions(const std::vector<Vertex3>& vertices, std::vector<Point3>& points)
-{
-  for (const Vertex3& v : vertices)
+  std::vector<VertexMessage3> messages;
+  std::vector<std::size_t> sentTo(vertexEnd, 0); // by vertex: its last recipient, counted from 1
+  for (const std::vector<Corner>& those : corners)
   {
-    points.push_back(v.Position);
+    messages.push_back({ sender, {} });
+    for (const Corner corner : those)
+    {
+      if (std::exchange(sentTo[corner], messages.size()) != messages.size())
+      {
+        messages.back().Vertices.push_back(vertexAt(corner));
+      }
+    }
   }
+  return messages;
 }
 
 } // namespace
-
-bool takeHullVertices(const std::array<Vertex3, 4>& corners, std::vector<Vertex3>& vertices)
-{
-  if (std::none_of(
-        corners.begin(), corners.end(), [](const Vertex3& v) { return v.isArtificial(); }))
-  {
-    return false;
-  }
-  std::copy_if(corners.begin(), corners.end(), std::back_inserter(vertices),
-    [](const Vertex3& v) { return !v.isArtificial(); });
-  return true;
-}
 
 void FinalCells::addInside(const std::array<std::int64_t, 4>& ids)
 {
@@ -148,8 +135,9 @@ SentMessages3 Worker3::triangulate(const PartitionPoints3& points,
   this->Own = points;
   this->collect(inbox);
   // The partition's own points first, so that they represent points with the same coordinates.
+  const std::vector<Point3> others = positionsOf(this->Others);
   this->Points.assign(points.Points, points.Points + points.Count);
-  appendPositions(this->Others, this->Points);
+  this->Points.insert(this->Points.end(), others.begin(), others.end());
   this->Kernel.triangulate(this->Points.data(), this->Points.size());
   return this->routeAll(final);
 }
@@ -167,9 +155,8 @@ SentMessages3 Worker3::finish(const std::vector<VertexMessage3>& inbox, FinalCel
     return this->triangulate(this->Own, inbox, final);
   }
   this->collect(inbox);
-  this->Points.clear();
-  appendPositions(this->Others, this->Points);
-  this->Kernel.add(this->Points.data(), this->Points.size());
+  const std::vector<Point3> others = positionsOf(this->Others);
+  this->Kernel.add(others.data(), others.size());
   return this->routeAll(final);
 }
 
@@ -183,13 +170,12 @@ SentMessages3 Worker3::finish(const std::vector<VertexMessage3>& inbox, FinalCel
 SentMessages3 Worker3::routeAll(FinalCellConsumer3& final)
 {
   this->VertexCount += this->Own.Count + this->Others.size();
-  const PartitionOrder::Range later = this->Order.later(this->Own.Partition);
-  this->Outgoing.assign(later.size(), {});
+  this->Outgoing.assign(this->Order.later(this->Own.Partition).size(), {});
   this->Beside = this->boxBesideLater();
   const bool isAny = this->Inside == InsideCells::Any;
   this->Interior = isAny ? this->Beside : this->Regions[std::size_t(this->Own.Partition)];
   this->measureVertices();
-  this->IsTested.assign(this->Kernel.end() / 8, 0);
+  this->IsTested.assign(this->Kernel.numberEnd(), 0);
   this->ToTest.clear();
   this->Kernel.forEach([&](Index cell) { this->findBorder(cell); });
   for (std::size_t i = 0; i < this->ToTest.size(); ++i)
@@ -199,7 +185,7 @@ SentMessages3 Worker3::routeAll(FinalCellConsumer3& final)
   this->Kernel.forEach(
     [&](Index cell)
     {
-      if (!this->Kernel.isInfinite(cell) && this->IsTested[cell / 8] == 0)
+      if (!this->Kernel.isInfinite(cell) && this->IsTested[DelaunayKernel3::number(cell)] == 0)
       {
         this->addInside(cell, final);
       }
@@ -210,9 +196,9 @@ SentMessages3 Worker3::routeAll(FinalCellConsumer3& final)
 
 void Worker3::test(Index cell)
 {
-  if (!this->Kernel.isInfinite(cell) && this->IsTested[cell / 8] == 0)
+  if (!this->Kernel.isInfinite(cell) && this->IsTested[DelaunayKernel3::number(cell)] == 0)
   {
-    this->IsTested[cell / 8] = 1;
+    this->IsTested[DelaunayKernel3::number(cell)] = 1;
     this->ToTest.push_back(cell);
   }
 }
@@ -301,23 +287,15 @@ void Worker3::route(Index cell, FinalCellConsumer3& final)
 
 SentMessages3 Worker3::send()
 {
-  SentMessages3 sent;
+  std::vector<VertexMessage3> messages = messagesWith(this->Own.Partition, this->Outgoing,
+    this->Kernel.vertexEnd(), [this](Index v) { return this->vertex(v); });
   const PartitionOrder::Range later = this->Order.later(this->Own.Partition);
-  this->SentTo.assign(this->Kernel.vertexEnd(), 0);
-  for (std::size_t i = 0; i < this->Outgoing.size(); ++i)
+  SentMessages3 sent;
+  for (std::size_t i = 0; i < messages.size(); ++i)
   {
-    VertexMessage3 message{ this->Own.Partition, {} };
-    for (const Index v : this->Outgoing[i])
+    if (!messages[i].Vertices.empty())
     {
-      if (this->SentTo[v] != i + 1)
-      {
-        this->SentTo[v] = static_cast<std::uint32_t>(i + 1);
-        message.Vertices.push_back(this->vertex(v));
-      }
-    }
-    if (!message.Vertices.empty())
-    {
-      sent.emplace_back(later.begin()[i], std::move(message));
+      sent.emplace_back(later.begin()[i], std::move(messages[i]));
     }
   }
   return sent;
@@ -330,26 +308,13 @@ std::vector<VertexMessage3> sendInitialMesh(const InitialMesh3& mesh, const Part
   {
     if (mesh.metBegin(cell) < mesh.metEnd(cell))
     {
-      const PartitionIndex* const met = mesh.Met.data();
-      const PartitionIndex to = order.first(met + mesh.metBegin(cell), met + mesh.metEnd(cell));
-      corners[std::size_t(to)].insert(
-        corners[std::size_t(to)].end(), mesh.Cells[cell].begin(), mesh.Cells[cell].end());
+      std::vector<std::uint32_t>& to =
+        corners[std::size_t(order.first(mesh.metBegin(cell), mesh.metEnd(cell)))];
+      to.insert(to.end(), mesh.Cells[cell].begin(), mesh.Cells[cell].end());
     }
   }
-  std::vector<VertexMessage3> messages(order.partitionCount());
-  // By vertex: its last recipient, counted from 1.
-  std::vector<std::size_t> sentTo(mesh.Vertices.size(), 0);
-  for (std::size_t to = 0; to < corners.size(); ++to)
-  {
-    for (const std::uint32_t corner : corners[to])
-    {
-      if (std::exchange(sentTo[corner], to + 1) != to + 1)
-      {
-        messages[to].Vertices.push_back(mesh.Vertices[corner]);
-      }
-    }
-  }
-  return messages;
+  return messagesWith(-1, corners, mesh.Vertices.size(),
+    [&mesh](std::uint32_t corner) { return mesh.Vertices[corner]; });
 }
 
 namespace
@@ -432,8 +397,7 @@ void repairHull(
   std::vector<Vertex3> vertices, const std::vector<Vertex3>& artificial, FinalCellConsumer3& final)
 {
   keepUnique(vertices);
-  std::vector<Point3> points;
-  appendPositions(vertices, points);
+  const std::vector<Point3> points = positionsOf(vertices);
   const ArtificialGroups groups(artificial);
   DelaunayKernel3 kernel;
   kernel.triangulate(points.data(), points.size());

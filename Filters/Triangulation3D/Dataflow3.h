@@ -38,10 +38,6 @@ public:
   virtual void add(const std::array<Vertex3, 4>& corners) = 0;
 };
 
-/// If the tetrahedron has an artificial corner, adds its true corners to `vertices` and returns
-/// true. The hull repair needs these vertices.
-bool takeHullVertices(const std::array<Vertex3, 4>& corners, std::vector<Vertex3>& vertices);
-
 /// Stores final tetrahedra in memory, by the points' ids.
 struct FinalCells : public FinalCellConsumer3
 {
@@ -124,7 +120,6 @@ private:
   std::vector<Measured> Vertices;             ///< by vertex
   std::vector<char> IsTested;                 ///< by tetrahedron
   std::vector<DelaunayKernel3::Index> ToTest; ///< whose circumballs are tested, in this order
-  std::vector<std::uint32_t> SentTo;          ///< by vertex: the last recipient, counted from 1
   std::vector<Duplicate> Duplicates;
   std::size_t VertexCount = 0;
 };
@@ -133,9 +128,6 @@ private:
 /// message for each partition. Tetrahedra that meet no partition have only artificial corners and
 /// are dropped.
 std::vector<VertexMessage3> sendInitialMesh(const InitialMesh3& mesh, const PartitionOrder& order);
-
-/// Sorts vertices by id and removes repetitions.
-void keepUnique(std::vector<Vertex3>& vertices);
 
 /// Removes the artificial points (Lemma 3). Tetrahedralizes `vertices`, the true corners of
 /// tetrahedra with artificial corners, and adds to `final` the resulting tetrahedra that are in

@@ -10,27 +10,6 @@
 
 namespace tipp
 {
-namespace
-{
-
-/// Moves a bound outward by the margin, but at least by a few units in the last place: the margin
-/// may be lost in rounding if coordinates are large and close together.
-double outward(double bound, double direction, double margin)
-{
-  const double moved = bound + direction * margin;
-  for (int i = 0; i < 4; ++i)
-  {
-    bound = std::nextafter(bound, direction * HUGE_VAL);
-  }
-  return direction > 0 ? std::max(moved, bound) : std::min(moved, bound);
-}
-
-bool isUsed(const PointBuckets3& buckets, std::size_t p)
-{
-  return buckets.count(PartitionIndex(p)) > 0;
-}
-
-} // namespace
 
 std::vector<std::size_t> chooseInitialPoints(
   const Point3* points, std::size_t count, std::size_t wanted)
@@ -53,12 +32,13 @@ std::vector<std::size_t> chooseInitialPoints(
 
 std::vector<Vertex3> makeArtificialPoints(const PointBuckets3& buckets, bool areSlabs)
 {
+  const std::vector<char> areUsed = buckets.areUsed();
   PointBounds domain;
   double margin = 0;
   std::size_t used = 0;
   for (std::size_t p = 0; p < buckets.Regions.size(); ++p)
   {
-    if (isUsed(buckets, p))
+    if (areUsed[p])
     {
       const Box3& box = buckets.Regions[p];
       domain.include({ box.Min[0], box.Min[1], box.Min[2] });
@@ -108,30 +88,23 @@ std::vector<Vertex3> makeArtificialPoints(const PointBuckets3& buckets, bool are
 
 InitialMesh3::InitialMesh3(
   const PointBuckets3& buckets, const std::vector<Vertex3>& artificial, std::size_t wanted)
-  : Partitions(buckets.Regions.size())
 {
-  for (std::size_t p = 0; p < this->Partitions; ++p)
+  const std::vector<char> areUsed = buckets.areUsed();
+  const std::size_t partitions = areUsed.size();
+  for (std::size_t p = 0; p < partitions; ++p)
   {
-    const std::size_t begin = buckets.Begins[p];
-    const std::size_t count = buckets.count(PartitionIndex(p));
-    for (const std::size_t i : count == 0
-        ? std::vector<std::size_t>()
-        : chooseInitialPoints(&buckets.Points[begin], count, wanted))
+    const PartitionPoints3 own = buckets.of(PartitionIndex(p));
+    for (const std::size_t i :
+      areUsed[p] ? chooseInitialPoints(own.Points, own.Count, wanted) : std::vector<std::size_t>())
     {
-      this->Vertices.push_back(
-        { buckets.Points[begin + i], buckets.Ids[begin + i], PartitionIndex(p) });
+      this->Vertices.push_back({ own.Points[i], own.id(i), own.Partition });
     }
   }
   this->Vertices.insert(this->Vertices.end(), artificial.begin(), artificial.end());
-  std::vector<Point3> points;
-  for (const Vertex3& v : this->Vertices)
-  {
-    points.push_back(v.Position);
-  }
+  const std::vector<Point3> points = positionsOf(this->Vertices);
   DelaunayKernel3 kernel;
   kernel.triangulate(points.data(), points.size());
-  constexpr std::uint32_t none = ~0U;
-  std::vector<std::uint32_t> numbers(kernel.end() / 8, none);
+  std::vector<PartitionIndex> met;
   kernel.forEach(
     [&](DelaunayKernel3::Index t)
     {
@@ -140,79 +113,20 @@ InitialMesh3::InitialMesh3(
         return;
       }
       const auto [a, b, c, d] = kernel.corners(t);
-      numbers[t / 8] = std::uint32_t(this->Cells.size());
       this->Cells.push_back(
         { kernel.pointIndex(a), kernel.pointIndex(b), kernel.pointIndex(c), kernel.pointIndex(d) });
       const Circumball ball(kernel.point(a), kernel.point(b), kernel.point(c), kernel.point(d));
-      for (std::size_t p = 0; p < this->Partitions; ++p)
+      met.clear();
+      for (std::size_t p = 0; p < partitions; ++p)
       {
-        if (isUsed(buckets, p) && ball.meets(buckets.Regions[p]))
+        if (areUsed[p] && ball.meets(buckets.Regions[p]))
         {
-          this->Met.push_back(PartitionIndex(p));
+          met.push_back(PartitionIndex(p));
         }
       }
-      this->MetEnds.push_back(this->Met.size());
+      this->SetOf.push_back(this->Sets.number(met.data(), met.data() + met.size()));
     });
-  kernel.forEach(
-    [&](DelaunayKernel3::Index t)
-    {
-      for (DelaunayKernel3::Index i = 0; i < 4 && numbers[t / 8] != none; ++i)
-      {
-        const std::uint32_t other = numbers[kernel.neighbour(t, i) / 8];
-        if (other != none && numbers[t / 8] < other)
-        {
-          this->Neighbours.push_back({ numbers[t / 8], other });
-        }
-      }
-    });
-}
-
-ConflictGraph InitialMesh3::conflicts() const
-{
-  std::vector<char> isPair(this->Partitions * this->Partitions, 0);
-  const auto add = [&](std::size_t one, std::size_t other)
-  {
-    for (std::size_t i = this->metBegin(one); i < this->metEnd(one); ++i)
-    {
-      for (std::size_t j = this->metBegin(other); j < this->metEnd(other); ++j)
-      {
-        isPair[std::size_t(std::min(this->Met[i], this->Met[j])) * this->Partitions +
-          std::size_t(std::max(this->Met[i], this->Met[j]))] = 1;
-      }
-    }
-  };
-  for (std::size_t cell = 0; cell < this->Cells.size(); ++cell)
-  {
-    add(cell, cell);
-  }
-  for (const auto& [one, other] : this->Neighbours)
-  {
-    add(one, other);
-  }
-  std::vector<ConflictGraph::Pair> pairs;
-  for (std::size_t p = 0; p < this->Partitions; ++p)
-  {
-    for (std::size_t q = p + 1; q < this->Partitions; ++q)
-    {
-      if (isPair[p * this->Partitions + q] != 0)
-      {
-        pairs.emplace_back(PartitionIndex(p), PartitionIndex(q));
-      }
-    }
-  }
-  ConflictGraph graph(this->Partitions);
-  graph.add(pairs);
-  return graph;
-}
-
-bool InitialMesh3::partitionsPay(double most) const
-{
-  std::size_t meeting = 0;
-  for (std::size_t cell = 0; cell < this->Cells.size(); ++cell)
-  {
-    meeting += this->metBegin(cell) < this->metEnd(cell) ? 1 : 0;
-  }
-  return double(this->Met.size()) <= most * double(meeting);
+  this->AdjacentSets = adjacentSets<4>(kernel, this->SetOf);
 }
 
 } // namespace tipp

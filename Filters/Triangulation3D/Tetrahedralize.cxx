@@ -4,16 +4,17 @@
 #include "Engine/ReadyPartitions.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
+#include "Predicates/NormalAxis.h"
 #include "Triangulation3D/Dataflow3.h"
 
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <limits>
 #include <mutex>
-#include <numeric>
 #include <stdexcept>
 
 namespace tipp
@@ -147,7 +148,7 @@ private:
     for (std::size_t i = step / 2; i < this->Count; i += step)
     {
       const Point3& p = this->Points[i];
-      if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))
+      if (isFinite(p))
       {
         sample.push_back({ p.x * this->Factor, p.y * this->Factor, p.z * this->Factor });
       }
@@ -169,19 +170,14 @@ private:
       return false;
     }
     const InitialMesh3 initial(buckets, artificial);
-    if (this->Options.Partitions == 0 && !initial.partitionsPay())
+    if (this->Options.Partitions == 0 && !partitionsPay(initial))
     {
       return false;
     }
     this->Result.Statistics.Partitions = tiling.size();
     this->Result.Statistics.InitialPoints =
       std::int64_t(initial.Vertices.size() - artificial.size());
-    std::vector<char> isUsed(std::size_t(tiling.size()));
-    for (PartitionIndex p = 0; p < tiling.size(); ++p)
-    {
-      isUsed[std::size_t(p)] = buckets.count(p) > 0 ? 1 : 0;
-    }
-    const PartitionOrder order(isUsed, initial.conflicts());
+    const PartitionOrder order(buckets.areUsed(), initial);
     std::vector<Inbox3> inboxes(order.partitionCount());
     FinalCells boundary;
     std::vector<VertexMessage3> messages = sendInitialMesh(initial, order);
@@ -271,20 +267,15 @@ private:
     {
       return;
     }
-    std::vector<std::int32_t> representatives(this->Count);
-    std::iota(representatives.begin(), representatives.end(), 0);
-    for (const Duplicate& duplicate : this->Result.Duplicates)
-    {
-      representatives[std::size_t(duplicate.Point)] =
-        static_cast<std::int32_t>(duplicate.Representative);
-    }
+    const Buffer<std::int64_t> representatives =
+      representativeIds(this->Result, std::int64_t(this->Count));
     for (std::vector<CellIds>& cells : this->Cells)
     {
       for (CellIds& cell : cells)
       {
         for (std::int32_t& id : cell)
         {
-          id = representatives[std::size_t(id)];
+          id = std::int32_t(representatives[std::size_t(id)]);
         }
       }
     }
@@ -323,6 +314,65 @@ Tetrahedralization tetrahedralize(
   Tetrahedralization result;
   Run3(points, count, options, result).run();
   return result;
+}
+
+namespace
+{
+
+/// Returns three of the points that are not collinear. Throws std::logic_error if there are none.
+std::array<Point3, 3> findTriangle(const Point3* points, const std::vector<char>& isLeftOut)
+{
+  std::array<Point3, 3> found = {};
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < isLeftOut.size() && size < found.size(); ++i)
+  {
+    const Point3& p = points[i];
+    const bool isIndependent = isLeftOut[i] == 0 &&
+      (size == 0 || (size == 1 && !(p == found[0])) ||
+        (size == 2 && !areCollinear(found[0], found[1], p)));
+    if (isIndependent)
+    {
+      found[size++] = p;
+    }
+  }
+  if (size < found.size())
+  {
+    throw std::logic_error("the points are collinear");
+  }
+  return found;
+}
+
+} // namespace
+
+Triangulation triangulateCoplanar(const Point3* points, std::size_t count,
+  const TetrahedralizationOptions& options, Tetrahedralization& mesh)
+{
+  const std::vector<char> isLeftOut = findLeftOut(mesh, std::int64_t(count));
+  const auto [a, b, c] = findTriangle(points, isLeftOut);
+  const auto axis = std::size_t(normalAxis(a, b, c));
+  constexpr std::array<double Point3::*, 3> axes = { &Point3::x, &Point3::y, &Point3::z };
+  const auto u = axes[(axis + 1) % 3];
+  const auto v = axes[(axis + 2) % 3];
+  Buffer<double> projected(2 * count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    projected[2 * i] = isLeftOut[i] != 0 ? none : points[i].*u;
+    projected[2 * i + 1] = isLeftOut[i] != 0 ? none : points[i].*v;
+  }
+  TriangulationOptions flat;
+  flat.Threads = options.Threads;
+  // Progress already stands at 1: only check whether to stop.
+  flat.Progress = [&options](double) { return !options.Progress || options.Progress(1); };
+  Triangulation triangles = triangulate(PointsView(projected.data(), count, 2), flat);
+  orderTriangles(triangles.Ids32);
+  triangles.Rejected = mesh.Rejected;
+  if (!triangles.Duplicates.empty())
+  {
+    mesh.Duplicates = triangles.Duplicates;
+  }
+  triangles.Duplicates = mesh.Duplicates;
+  return triangles;
 }
 
 std::string describeDimension(int dimension)

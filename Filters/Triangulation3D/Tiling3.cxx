@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -81,10 +80,7 @@ double moderateFactor(double largest)
 {
   // Determinants have degree five in the coordinates, and their filters square them.
   constexpr int moderate = 24;
-  constexpr int largestShift = 1000;
-  return largest == 0 || std::abs(std::ilogb(largest)) <= moderate
-    ? 1
-    : std::ldexp(1.0, std::clamp(-std::ilogb(largest), -largestShift, largestShift));
+  return moderateFactor(largest, moderate);
 }
 
 Tiling3::Tiling3(std::vector<Point3> sample, int count)
@@ -216,7 +212,7 @@ PointBuckets3 bucketPoints(
       for (std::size_t i = begin(share); i < begin(share + 1); ++i)
       {
         const Point3 p = scaled(points[i]);
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+        if (!isFinite(p))
         {
           owners[i] = none;
           continue;

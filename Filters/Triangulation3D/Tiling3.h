@@ -3,6 +3,7 @@
 #define tippTiling3_h
 
 #include "Predicates/Points.h"
+#include "Triangulation/PointSurvey.h"
 #include "Triangulation/Tiling.h"
 
 #include <cmath>
@@ -39,11 +40,6 @@ PointSurvey3 surveyPoints(const Point3* points, std::size_t count);
 /// Returns a power of two that scales coordinates of very small or very large magnitude to about 1,
 /// so that the predicates' filters work; 1 for other magnitudes.
 double moderateFactor(double largest);
-/// Returns whether multiplying this coordinate by the factor, a power of two, is exact.
-inline bool isExactTimes(double x, double factor)
-{
-  return !std::isfinite(x) || x * factor / factor == x;
-}
 bool areExactTimes(const Point3* points, std::size_t count, double factor);
 
 /// Groups of partitions, such as those of the ranks of a run.
@@ -163,6 +159,16 @@ struct PointBuckets3
   std::size_t count(PartitionIndex p) const
   {
     return this->Begins[std::size_t(p) + 1] - this->Begins[std::size_t(p)];
+  }
+  /// Returns for each partition 1 if it has points, else 0.
+  std::vector<char> areUsed() const
+  {
+    std::vector<char> areUsed;
+    for (std::size_t p = 0; p < this->Regions.size(); ++p)
+    {
+      areUsed.push_back(this->count(PartitionIndex(p)) > 0 ? 1 : 0);
+    }
+    return areUsed;
   }
   /// Returns the points of a partition. `first` is added to their ids.
   PartitionPoints3 of(PartitionIndex p, std::int64_t first = 0) const

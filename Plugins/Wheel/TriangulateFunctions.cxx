@@ -280,7 +280,7 @@ private:
   InputArray Points;
   InputArray Corners;
   InputArray Neighbors;
-  TriangleLocator<std::int32_t> Finder;
+  TriangleLocator Finder;
 };
 
 } // namespace

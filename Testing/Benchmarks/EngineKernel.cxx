@@ -46,7 +46,7 @@ Run runKernel(const std::vector<double>& xy)
     {
       DelaunayKernel kernel;
       kernel.insert(points, count);
-      kernel.forEachTriangle(
+      kernel.forEach(
         [&](DelaunayKernel::Index t)
         {
           if (!kernel.isInfinite(t))

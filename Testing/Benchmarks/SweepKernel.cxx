@@ -161,7 +161,7 @@ void SweepKernel::findFront(const Box2& ahead)
 void SweepKernel::collectFinal(const Box2& before)
 {
   this->Finished.clear();
-  this->Kernel.forEachTriangle(
+  this->Kernel.forEach(
     [&](Index t)
     {
       if (this->States[DelaunayKernel::number(t)] == State::Front || this->Kernel.isInfinite(t))

@@ -7,7 +7,6 @@
 #include "DegeneratePoints.h"
 #include "FuzzDriver.h"
 #include "Predicates/NormalAxis.h"
-#include "Triangulation3D/CoplanarPoints.h"
 #include "Triangulation3D/Tetrahedralize.h"
 
 #include <algorithm>

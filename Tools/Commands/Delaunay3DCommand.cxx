@@ -12,8 +12,6 @@
 #include "Parallel/Stopwatch.h"
 #include "Points/PointStream.h"
 #include "Points/ReadPoints.h"
-#include "Triangulation3D/AlphaShape3.h"
-#include "Triangulation3D/CoplanarPoints.h"
 #include "Triangulation3D/Tetrahedralize.h"
 
 #include <CLI/CLI.hpp>
@@ -46,7 +44,7 @@ bool writeResult(const Delaunay3DArguments& arguments, PointTable&& table,
   options.Aborted = isInterrupted;
   if (arguments.MapDuplicates)
   {
-    const auto ids = representativeIds(mesh, table.size());
+    const auto ids = representativeIds(mesh, std::int64_t(table.size()));
     options.Representatives.assign(ids.begin(), ids.end());
   }
   if (mesh.Dimension == 2)

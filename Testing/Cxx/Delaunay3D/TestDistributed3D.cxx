@@ -3,7 +3,6 @@
 #include "PointsInSpace.h"
 
 #include "Distributed3D/DistributedTetrahedralization.h"
-#include "Triangulation3D/CoplanarPoints.h"
 
 #include "vtkMultiProcessController.h"
 

@@ -3,7 +3,7 @@
 #include "PointsInSpace.h"
 
 #include "Check/TetrahedraChecker.h"
-#include "Triangulation3D/AlphaShape3.h"
+#include "InMemory/TriangulatePoints.h"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,8 @@
 #include "PointsInSpace.h"
 
 #include "Check/TetrahedraChecker.h"
+#include "InMemory/TriangulateMerged.h"
 #include "Kernel3D/DelaunayKernel3.h"
-#include "Triangulation3D/CoplanarPoints.h"
-#include "Triangulation3D/MergeClosePoints3.h"
 
 #include <gtest/gtest.h>
 
@@ -332,6 +331,22 @@ TEST(Tetrahedralize, ClosePointsAreMerged)
   }
   points.resize(given);
   EXPECT_EQ(cellsOfCgal(points), sortedCells(mesh));
+}
+
+TEST(Tetrahedralize, MergingClosePointsReportsProgressAndCanBeStopped)
+{
+  const auto points = pointsInSpace("uniform", 500);
+  std::vector<double> reported;
+  TetrahedralizationOptions options;
+  options.Progress = [&reported](double fraction)
+  {
+    reported.push_back(fraction);
+    return false;
+  };
+  EXPECT_TRUE(tetrahedralizeMerged(points.data(), points.size(), 1e-6, options).Aborted);
+  EXPECT_EQ((std::vector<double>{ 0 }), reported);
+  const Tetrahedralization mesh = tetrahedralizeMerged(points.data(), points.size(), 1e-6);
+  EXPECT_EQ("merging", mesh.Statistics.Phases.front().Name);
 }
 
 TEST(Tetrahedralize, PointsInTheMiddleOfAGridCellAreMerged)

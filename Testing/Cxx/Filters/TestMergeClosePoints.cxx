@@ -15,7 +15,7 @@ Pairs mergedPairs(const std::vector<double>& xy, double distance)
 {
   Pairs pairs;
   const auto merged =
-    tipp::mergeClosePoints(tipp::PointsView(xy.data(), xy.size() / 2, 2), distance);
+    tipp::triangulateMerged(tipp::PointsView(xy.data(), xy.size() / 2, 2), distance);
   for (const tipp::Duplicate& d : merged.Duplicates)
   {
     pairs.emplace_back(d.Point, d.Representative);
@@ -95,7 +95,8 @@ TEST(MergeClosePoints, DistanceZeroMergesEqualPointsOnly)
 TEST(MergeClosePoints, ProgressCanStopIt)
 {
   const auto xy = randomCoordinates(10, 1, 0);
-  const auto merged =
-    tipp::mergeClosePoints(tipp::PointsView(xy.data(), 10, 2), 0.1, [](double) { return false; });
+  tipp::TriangulationOptions options;
+  options.Progress = [](double) { return false; };
+  const auto merged = tipp::triangulateMerged(tipp::PointsView(xy.data(), 10, 2), 0.1, options);
   EXPECT_TRUE(merged.Aborted);
 }

@@ -33,7 +33,7 @@ public:
 
   PointsView points() const { return { this->XY.data(), this->XY.size() / 2, 2 }; }
 
-  TriangleLocator<std::int32_t> locator() const
+  TriangleLocator locator() const
   {
     return { this->points(), this->Mesh.Ids32.data(), this->Neighbors.data(),
       this->Mesh.triangleCount() };
@@ -96,6 +96,6 @@ INSTANTIATE_TEST_SUITE_P(RandomAndLattice, TriangleLocatorTest, testing::Bool())
 
 TEST(TriangleLocator, WithoutTrianglesThereIsNothingToFind)
 {
-  const TriangleLocator<std::int64_t> locator({}, nullptr, nullptr, 0);
+  const TriangleLocator locator({}, nullptr, nullptr, 0);
   EXPECT_EQ(-1, locator.find({ 0, 0 }));
 }
