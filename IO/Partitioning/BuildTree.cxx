@@ -5,6 +5,7 @@
 #include "OpenCL/Devices.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
+#include "Partition/ClassifyCells.h"
 #include "Ranks/Communicator.h"
 
 #include <algorithm>
@@ -19,21 +20,22 @@ namespace
 
 struct MeasuredCell
 {
+  std::uint32_t Index; ///< in the chunk
   const double* Corners;
   Box3 Bounds;
   double Length;
+  bool IsFinite;
 };
 
-bool measure(const CellShape& shape, int dimension, std::size_t index, MeasuredCell& cell)
+MeasuredCell measure(const CellShape& shape, int dimension, std::size_t index)
 {
-  cell.Corners = shape.cell(index);
-  const bool finite = shape.bounds(cell.Corners, cell.Bounds);
-  cell.Length = 0.0;
+  MeasuredCell cell{ static_cast<std::uint32_t>(index), shape.cell(index), {}, 0.0, false };
+  cell.IsFinite = shape.bounds(cell.Corners, cell.Bounds);
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(dimension); ++axis)
   {
     cell.Length = std::max(cell.Length, cell.Bounds.Max[axis] - cell.Bounds.Min[axis]);
   }
-  return finite;
+  return cell;
 }
 
 bool boundsMeet(const Box3& a, const Box3& b)
@@ -48,233 +50,246 @@ bool isWithin(const Box3& a, const Box3& b)
     a.Max[1] <= b.Max[1] && b.Min[2] <= a.Min[2] && a.Max[2] <= b.Max[2];
 }
 
-} // namespace
-
-// A thread's counts, and the visits that it records.
-struct CellCounter::ThreadRange
+bool meetsBox(const CellShape& shape, const MeasuredCell& cell, const Box3& box)
 {
-  std::size_t Begin;
-  std::size_t End;
-  NodeCounts Counts;
-  std::vector<Visit> Visits;
+  return boundsMeet(cell.Bounds, box) &&
+    (isWithin(cell.Bounds, box) || shape.meets(cell.Corners, box));
+}
+
+/// Numbers of cells of each node of a tree.
+struct NodeCounts
+{
+  std::vector<std::int64_t> Meeting; ///< cells that share a point with its closed box
+  std::vector<std::int64_t> Fitting; ///< of these, the cells no longer than the box
+
+  void resize(std::size_t nodes)
+  {
+    this->Meeting.resize(nodes, 0);
+    this->Fitting.resize(nodes, 0);
+  }
 };
 
-CellCounter::CellCounter(RefinementTree& tree, int maxDepth, int threads)
-  : Tree(tree)
-  , MaxDepth(maxDepth)
-  , Threads(threadCount(threads))
+/// Counts cells in the nodes of a tree, which grows at the same time: a leaf with more than `limit`
+/// fitting cells is split repeatedly, and the chunk's cells are counted in its children. Cells of
+/// earlier chunks are not counted in these children.
+class CellCounter
 {
-}
-
-void CellCounter::add(const CellsView& chunk, std::int64_t firstCell, std::int64_t limit)
-{
-  const CellShape shape(chunk, this->Tree.dimension());
-  this->countAll(shape, chunk.Cells, firstCell);
-  if (!this->markSplits(limit))
+public:
+  CellCounter(RefinementTree& tree, int maxDepth, int threads)
+    : Tree(tree)
+    , MaxDepth(maxDepth)
+    , Threads(threadCount(threads))
   {
-    return;
   }
-  this->collectVisits(shape, chunk.Cells);
-  const std::size_t most =
-    std::max(std::size_t(1) << 17, 8 * (static_cast<std::size_t>(firstCell) + chunk.Cells));
-  do
+
+  /// firstCell is the index in the mesh of the chunk's first cell. Throws IOError if a coordinate
+  /// is not finite or a cell lies outside the domain.
+  void add(const CellsView& chunk, std::int64_t firstCell, std::int64_t limit)
   {
-    if (this->Tree.size() > most)
+    const CellShape shape(chunk, this->Tree.dimension());
+    this->countAll(shape, chunk.Cells, firstCell);
+    if (!this->markSplits(limit))
     {
-      throw IOError("More than " + std::to_string(limit) +
-        " cells overlap nearly everywhere, so that no " +
-        "boxes hold fewer; allow more cells a box.");
+      return;
     }
-    this->refineOnce(shape);
-  } while (this->markSplits(limit));
-  this->Visits.clear();
-}
-
-std::vector<CellCounter::ThreadRange> CellCounter::makeRanges(std::size_t items) const
-{
-  const auto count = static_cast<std::size_t>(this->Threads);
-  std::vector<ThreadRange> ranges(count);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    ranges[i].Begin = items * i / count;
-    ranges[i].End = items * (i + 1) / count;
-    ranges[i].Counts.resize(this->Tree.size());
-  }
-  return ranges;
-}
-
-void CellCounter::sum(const std::vector<ThreadRange>& ranges)
-{
-  this->Counts.resize(this->Tree.size());
-  for (const ThreadRange& range : ranges)
-  {
-    for (std::size_t node = 0; node < this->Tree.size(); ++node)
+    this->takeVisits(this->onThreads(chunk.Cells,
+      [&](std::size_t i, ThreadResult& result)
+      { this->visitTree(shape, measure(shape, this->Tree.dimension(), i), result); }));
+    const std::size_t most =
+      std::max(std::size_t(1) << 17, 8 * (static_cast<std::size_t>(firstCell) + chunk.Cells));
+    do
     {
-      this->Counts.Meeting[node] += range.Counts.Meeting[node];
-      this->Counts.Fitting[node] += range.Counts.Fitting[node];
-    }
-  }
-}
-
-void CellCounter::countAll(const CellShape& shape, std::size_t cells, std::int64_t firstCell)
-{
-  this->Marked.clear();
-  std::vector<ThreadRange> ranges = this->makeRanges(cells);
-  parallelFor(this->Threads, this->Threads,
-    [&](std::int64_t s)
-    {
-      ThreadRange& range = ranges[static_cast<std::size_t>(s)];
-      MeasuredCell measured;
-      for (std::size_t i = range.Begin; i < range.End; ++i)
+      if (this->Tree.size() > most)
       {
-        pollAt(std::int64_t(i));
-        const bool finite = measure(shape, this->Tree.dimension(), i, measured);
-        if (!finite ||
-          (!isWithin(measured.Bounds, this->Tree.domain()) &&
-            !shape.meets(measured.Corners, this->Tree.domain())))
+        throw IOError("More than " + std::to_string(limit) +
+          " cells overlap nearly everywhere, so that no " +
+          "boxes hold fewer; allow more cells a box.");
+      }
+      this->refineOnce(shape);
+    } while (this->markSplits(limit));
+    this->Visits.clear();
+  }
+
+  const NodeCounts& counts() const { return this->Counts; }
+
+private:
+  struct Visit
+  {
+    std::int32_t Node;
+    std::uint32_t Cell;
+  };
+  /// A thread's counts, and the visits that it records.
+  struct ThreadResult
+  {
+    NodeCounts Counts;
+    std::vector<Visit> Visits;
+  };
+
+  /// Calls visit(item, result) for all items, each thread a range of these with a result of its
+  /// own. Returns the results in the order of the ranges.
+  template <typename VisitItem>
+  std::vector<ThreadResult> onThreads(std::size_t items, const VisitItem& visit) const
+  {
+    const auto count = static_cast<std::size_t>(this->Threads);
+    std::vector<ThreadResult> results(count);
+    parallelFor(this->Threads, this->Threads,
+      [&](std::int64_t thread)
+      {
+        const auto t = static_cast<std::size_t>(thread);
+        results[t].Counts.resize(this->Tree.size());
+        for (std::size_t i = items * t / count; i < items * (t + 1) / count; ++i)
+        {
+          pollAt(std::int64_t(i));
+          visit(i, results[t]);
+        }
+      });
+    return results;
+  }
+
+  void countAll(const CellShape& shape, std::size_t cells, std::int64_t firstCell)
+  {
+    this->Marked.clear();
+    this->sum(this->onThreads(cells,
+      [&](std::size_t i, ThreadResult& result)
+      {
+        const MeasuredCell cell = measure(shape, this->Tree.dimension(), i);
+        if (!cell.IsFinite ||
+          (!isWithin(cell.Bounds, this->Tree.domain()) &&
+            !shape.meets(cell.Corners, this->Tree.domain())))
         {
           throw IOError("Cell " + std::to_string(firstCell + static_cast<std::int64_t>(i)) +
-            (finite ? " lies outside the domain that is partitioned."
-                    : " has a corner whose coordinates are not finite."));
+            (cell.IsFinite ? " lies outside the domain that is partitioned."
+                           : " has a corner whose coordinates are not finite."));
         }
-        this->visitTree(shape, static_cast<std::uint32_t>(i), range);
-      }
-    });
-  this->sum(ranges);
-}
+        this->visitTree(shape, cell, result);
+      }));
+  }
 
-// Counts the cell in all nodes that it meets. If leaves are marked, records visits to these only.
-void CellCounter::visitTree(
-  const CellShape& shape, std::uint32_t cellIndex, ThreadRange& range) const
-{
-  MeasuredCell cell;
-  measure(shape, this->Tree.dimension(), cellIndex, cell);
-  std::array<std::int32_t, 7 * BoxTiling::MaxDepth + 1> stack;
-  std::size_t size = 0;
-  stack[size++] = 0;
-  while (size > 0)
+  void count(std::int32_t node, const MeasuredCell& cell, ThreadResult& result) const
   {
-    const std::int32_t node = stack[--size];
     const auto index = static_cast<std::size_t>(node);
-    if (this->Marked.empty())
+    ++result.Counts.Meeting[index];
+    result.Counts.Fitting[index] += cell.Length <= this->Tree.length(node) ? 1 : 0;
+  }
+
+  /// Counts the cell in all nodes that it meets. If leaves are marked, records visits to these
+  /// only.
+  void visitTree(const CellShape& shape, const MeasuredCell& cell, ThreadResult& result) const
+  {
+    std::array<std::int32_t, 7 * BoxTiling::MaxDepth + 1> stack;
+    std::size_t size = 0;
+    stack[size++] = 0;
+    while (size > 0)
     {
-      ++range.Counts.Meeting[index];
-      range.Counts.Fitting[index] += cell.Length <= this->Tree.length(node) ? 1 : 0;
+      const std::int32_t node = stack[--size];
+      if (this->Marked.empty())
+      {
+        this->count(node, cell, result);
+      }
+      else if (this->Marked[static_cast<std::size_t>(node)] != 0)
+      {
+        result.Visits.push_back({ node, cell.Index });
+      }
+      this->forEachChildMet(shape, cell, node, [&](std::int32_t child) { stack[size++] = child; });
     }
-    else if (this->Marked[index] != 0)
-    {
-      range.Visits.push_back({ node, cellIndex });
-    }
+  }
+
+  /// Calls visit(child) for the node's children that the cell meets.
+  template <typename VisitChild>
+  void forEachChildMet(const CellShape& shape, const MeasuredCell& cell, std::int32_t node,
+    const VisitChild& visit) const
+  {
     if (this->Tree.isLeaf(node))
     {
-      continue;
+      return;
     }
-    for (std::int32_t child = this->Tree.firstChild(node), end = child + this->Tree.childCount();
-         child < end; ++child)
+    const std::int32_t first = this->Tree.firstChild(node);
+    for (std::int32_t child = first; child < first + this->Tree.childCount(); ++child)
     {
-      const Box3& box = this->Tree.box(child);
-      if (boundsMeet(cell.Bounds, box) &&
-        (isWithin(cell.Bounds, box) || shape.meets(cell.Corners, box)))
+      if (meetsBox(shape, cell, this->Tree.box(child)))
       {
-        stack[size++] = child;
+        visit(child);
       }
     }
   }
-}
 
-void CellCounter::visitChildren(const CellShape& shape, Visit parent, ThreadRange& range) const
-{
-  MeasuredCell cell;
-  measure(shape, this->Tree.dimension(), parent.Cell, cell);
-  const std::int32_t first = this->Tree.firstChild(parent.Node);
-  for (std::int32_t child = first; child < first + this->Tree.childCount(); ++child)
+  bool markSplits(std::int64_t limit)
   {
-    const Box3& box = this->Tree.box(child);
-    if (boundsMeet(cell.Bounds, box) &&
-      (isWithin(cell.Bounds, box) || shape.meets(cell.Corners, box)))
+    this->Marked.assign(this->Tree.size(), 0);
+    bool any = false;
+    for (std::size_t index = 0; index < this->Tree.size(); ++index)
     {
-      const auto index = static_cast<std::size_t>(child);
-      ++range.Counts.Meeting[index];
-      range.Counts.Fitting[index] += cell.Length <= this->Tree.length(child) ? 1 : 0;
-      range.Visits.push_back({ child, parent.Cell });
-    }
-  }
-}
-
-bool CellCounter::markSplits(std::int64_t limit)
-{
-  this->Marked.assign(this->Tree.size(), 0);
-  bool any = false;
-  for (std::size_t index = 0; index < this->Tree.size(); ++index)
-  {
-    const auto node = static_cast<std::int32_t>(index);
-    if (this->Counts.Fitting[index] > limit && this->Tree.isLeaf(node) &&
-      this->Tree.canSplit(node, this->MaxDepth))
-    {
-      this->Marked[index] = 1;
-      any = true;
-    }
-  }
-  return any;
-}
-
-void CellCounter::collectVisits(const CellShape& shape, std::size_t cells)
-{
-  std::vector<ThreadRange> ranges = this->makeRanges(cells);
-  parallelFor(this->Threads, this->Threads,
-    [&](std::int64_t s)
-    {
-      ThreadRange& range = ranges[static_cast<std::size_t>(s)];
-      for (std::size_t i = range.Begin; i < range.End; ++i)
+      const auto node = static_cast<std::int32_t>(index);
+      if (this->Counts.Fitting[index] > limit && this->Tree.isLeaf(node) &&
+        this->Tree.canSplit(node, this->MaxDepth))
       {
-        pollAt(std::int64_t(i));
-        this->visitTree(shape, static_cast<std::uint32_t>(i), range);
+        this->Marked[index] = 1;
+        any = true;
       }
-    });
-  this->takeVisits(ranges);
-}
-
-// Splits the marked leaves and counts the cells that visited them in their children.
-void CellCounter::refineOnce(const CellShape& shape)
-{
-  for (std::size_t index = 0, end = this->Tree.size(); index < end; ++index)
-  {
-    if (this->Marked[index] != 0)
-    {
-      this->Tree.split(static_cast<std::int32_t>(index));
     }
+    return any;
   }
-  const std::vector<Visit> parents = std::move(this->Visits);
-  std::vector<ThreadRange> ranges = this->makeRanges(parents.size());
-  parallelFor(this->Threads, this->Threads,
-    [&](std::int64_t s)
+
+  /// Splits the marked leaves and counts the cells that visited them in their children.
+  void refineOnce(const CellShape& shape)
+  {
+    for (std::size_t index = 0, end = this->Tree.size(); index < end; ++index)
     {
-      ThreadRange& range = ranges[static_cast<std::size_t>(s)];
-      for (std::size_t i = range.Begin; i < range.End; ++i)
+      if (this->Marked[index] != 0)
       {
-        pollAt(std::int64_t(i));
-        if (this->Marked[static_cast<std::size_t>(parents[i].Node)] != 0)
+        this->Tree.split(static_cast<std::int32_t>(index));
+      }
+    }
+    const std::vector<Visit> parents = std::move(this->Visits);
+    const std::vector<ThreadResult> results = this->onThreads(parents.size(),
+      [&](std::size_t i, ThreadResult& result)
+      {
+        const Visit& parent = parents[i];
+        if (this->Marked[static_cast<std::size_t>(parent.Node)] == 0)
         {
-          this->visitChildren(shape, parents[i], range);
+          return;
         }
-      }
-    });
-  this->sum(ranges);
-  this->takeVisits(ranges);
-}
-
-void CellCounter::takeVisits(std::vector<ThreadRange>& ranges)
-{
-  this->Visits.clear();
-  for (ThreadRange& range : ranges)
-  {
-    this->Visits.insert(this->Visits.end(), range.Visits.begin(), range.Visits.end());
-    range.Visits = {};
+        const MeasuredCell cell = measure(shape, this->Tree.dimension(), parent.Cell);
+        this->forEachChildMet(shape, cell, parent.Node,
+          [&](std::int32_t child)
+          {
+            this->count(child, cell, result);
+            result.Visits.push_back({ child, parent.Cell });
+          });
+      });
+    this->sum(results);
+    this->takeVisits(results);
   }
-}
 
-namespace
-{
+  void sum(const std::vector<ThreadResult>& results)
+  {
+    this->Counts.resize(this->Tree.size());
+    for (const ThreadResult& result : results)
+    {
+      for (std::size_t node = 0; node < this->Tree.size(); ++node)
+      {
+        this->Counts.Meeting[node] += result.Counts.Meeting[node];
+        this->Counts.Fitting[node] += result.Counts.Fitting[node];
+      }
+    }
+  }
+
+  void takeVisits(const std::vector<ThreadResult>& results)
+  {
+    this->Visits.clear();
+    for (const ThreadResult& result : results)
+    {
+      this->Visits.insert(this->Visits.end(), result.Visits.begin(), result.Visits.end());
+    }
+  }
+
+  RefinementTree& Tree;
+  int MaxDepth;
+  int Threads;
+  NodeCounts Counts;
+  std::vector<std::uint8_t> Marked; ///< by node: whether it is a leaf to be split
+  std::vector<Visit> Visits;        ///< visits of cells to the marked leaves
+};
 
 class TreeBuilder
 {
@@ -312,7 +327,7 @@ public:
       const std::string merged = this->mergeStructures(structure);
       if (merged != tree.structure())
       {
-        tree = RefinementTree(this->Options.Dimension, this->Domain, merged);
+        tree.refine(merged);
         continue;
       }
       this->Team.sum(counts.Meeting);
@@ -383,12 +398,17 @@ private:
     this->InMemory = { first, count };
   }
 
+  /// The structure with the splits of all ranks' trees.
   std::string mergeStructures(const std::string& mine)
   {
-    const int childCount = BoxTiling::childCount(this->Options.Dimension, this->Domain);
     return this->Team.broadcast(this->Team.reduce(mine,
-      [childCount](const std::string& a, const std::string& b)
-      { return RefinementTree::merged(a, b, childCount); }));
+      [this](const std::string& a, const std::string& b)
+      {
+        RefinementTree both(this->Options.Dimension, this->Domain);
+        both.refine(a);
+        both.refine(b);
+        return both.structure();
+      }));
   }
 
   // Splits leaves whose total over all ranks exceeds the threshold. The result is the same on all

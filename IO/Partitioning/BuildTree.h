@@ -3,7 +3,6 @@
 #define tippBuildTree_h
 
 #include "Partition/BoxTiling.h"
-#include "Partition/ClassifyCells.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstddef>
@@ -23,9 +22,6 @@ class VTKTIPPIO_EXPORT RefinementTree
 {
 public:
   RefinementTree(int dimension, const Box3& domain);
-
-  /// Builds the tree of a structure, its nodes numbered depth first.
-  RefinementTree(int dimension, const Box3& domain, const std::string& structure);
 
   int dimension() const { return this->Dimension; }
   const Box3& domain() const { return this->Boxes[0]; }
@@ -47,8 +43,8 @@ public:
 
   /// The tree in depth-first order: '1' for a split node, followed by its children, '0' for a leaf.
   std::string structure() const;
-  /// Returns the union of two structures. Throws IOError if one is invalid.
-  static std::string merged(const std::string& a, const std::string& b, int childCount);
+  /// Adds the splits of another tree, given by its structure. Throws IOError if that is invalid.
+  void refine(const std::string& structure);
 
   /// Returns the tiling of the tree in which nodes for which keep() returns false are leaves.
   /// `leaves` receives the node of each partition.
@@ -63,59 +59,6 @@ private:
   std::vector<std::int32_t> FirstChild;
   std::vector<Box3> Boxes;
   std::vector<std::uint8_t> Depths;
-};
-
-/// Numbers of cells of each node of a tree.
-struct NodeCounts
-{
-  std::vector<std::int64_t> Meeting; ///< cells that share a point with its closed box
-  std::vector<std::int64_t> Fitting; ///< of these, the cells no longer than the box
-
-  void resize(std::size_t nodes)
-  {
-    this->Meeting.resize(nodes, 0);
-    this->Fitting.resize(nodes, 0);
-  }
-};
-
-/// Counts cells in the nodes of a tree, which grows at the same time: a leaf with more than `limit`
-/// fitting cells is split repeatedly, and the chunk's cells are counted in its children. Cells of
-/// earlier chunks are not counted in these children.
-class VTKTIPPIO_EXPORT CellCounter
-{
-public:
-  CellCounter(RefinementTree& tree, int maxDepth, int threads);
-
-  /// firstCell is the index in the mesh of the chunk's first cell. Throws IOError if a coordinate
-  /// is not finite or a cell lies outside the domain.
-  void add(const CellsView& chunk, std::int64_t firstCell, std::int64_t limit);
-
-  const NodeCounts& counts() const { return this->Counts; }
-
-private:
-  struct Visit
-  {
-    std::int32_t Node;
-    std::uint32_t Cell;
-  };
-  struct ThreadRange;
-
-  void countAll(const CellShape& shape, std::size_t cells, std::int64_t firstCell);
-  void visitTree(const CellShape& shape, std::uint32_t cell, ThreadRange& range) const;
-  void visitChildren(const CellShape& shape, Visit parent, ThreadRange& range) const;
-  void collectVisits(const CellShape& shape, std::size_t cells);
-  void refineOnce(const CellShape& shape);
-  bool markSplits(std::int64_t limit);
-  std::vector<ThreadRange> makeRanges(std::size_t items) const;
-  void sum(const std::vector<ThreadRange>& ranges);
-  void takeVisits(std::vector<ThreadRange>& ranges);
-
-  RefinementTree& Tree;
-  int MaxDepth;
-  int Threads;
-  NodeCounts Counts;
-  std::vector<std::uint8_t> Marked; // leaves to be split
-  std::vector<Visit> Visits;        // visits of cells to the marked leaves
 };
 
 /// A mesh's cells, which are read chunk by chunk and more than once.

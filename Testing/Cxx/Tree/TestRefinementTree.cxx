@@ -33,34 +33,43 @@ TEST(RefinementTree, IsRestoredFromItsStructure)
   tree.split(0);
   tree.split(3);
   tree.split(7);
-  const RefinementTree copy(2, Square, tree.structure());
+  RefinementTree copy(2, Square);
+  copy.refine(tree.structure());
   EXPECT_EQ(copy.structure(), tree.structure());
   EXPECT_EQ(copy.size(), tree.size());
 }
 
-TEST(RefinementTree, AMergedStructureHasTheSplitsOfBoth)
+TEST(RefinementTree, RefiningAddsTheSplitsOfAnotherTree)
 {
   const std::string root = "10000";
   const std::string first = "110000000";
   const std::string third = "100100000";
-  EXPECT_EQ(RefinementTree::merged("0", "0", 4), "0");
-  EXPECT_EQ(RefinementTree::merged("0", first, 4), first);
-  EXPECT_EQ(RefinementTree::merged(first, root, 4), first);
-  EXPECT_EQ(RefinementTree::merged(first, third, 4), "1100000100000");
-  EXPECT_EQ(RefinementTree::merged(third, first, 4), "1100000100000");
+  const auto united = [](const std::string& a, const std::string& b)
+  {
+    RefinementTree tree(2, Square);
+    tree.refine(a);
+    tree.refine(b);
+    return tree.structure();
+  };
+  EXPECT_EQ(united("0", "0"), "0");
+  EXPECT_EQ(united("0", first), first);
+  EXPECT_EQ(united(first, root), first);
+  EXPECT_EQ(united(first, third), "1100000100000");
+  EXPECT_EQ(united(third, first), "1100000100000");
 }
 
 TEST(RefinementTree, RefusesAnInvalidStructure)
 {
-  for (const char* broken : { "", "1", "1000", "100000", "x", "1000x", "1111111" })
+  const std::string tooDeep = std::string(100, '1') + std::string(301, '0');
+  const std::string broken[] = { "", "1", "1000", "100000", "x", "1000x", "1111111", tooDeep };
+  for (const std::string& structure : broken)
   {
-    expectFailure([&] { RefinementTree::merged("0", broken, 4); }, "do not make a tree");
-    expectFailure([&] { RefinementTree::merged(broken, "10000", 4); }, "do not make a tree");
+    RefinementTree tree(2, Square);
+    expectFailure([&] { tree.refine(structure); }, "do not make a tree");
+    RefinementTree split(2, Square);
+    split.split(0);
+    expectFailure([&] { split.refine(structure); }, "do not make a tree");
   }
-  // A structure that is deeper than any tree may be.
-  expectFailure([]
-    { RefinementTree::merged("0", std::string(100, '1') + std::string(301, '0'), 4); },
-    "do not make a tree");
 }
 
 TEST(RefinementTree, IsCutBackToATiling)
