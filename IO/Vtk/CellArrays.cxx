@@ -86,28 +86,14 @@ namespace
 
 constexpr int unknown = -1;
 
-bool varies(int type)
+/// The least number of vertices of a type whose number varies, else -1.
+std::int64_t leastSize(int type)
 {
   switch (type)
   {
     case VTK_POLY_VERTEX:
     case VTK_POLY_LINE:
-    case VTK_TRIANGLE_STRIP:
-    case VTK_POLYGON:
-    case VTK_QUADRATIC_POLYGON:
-    case VTK_CONVEX_POINT_SET:
-    case VTK_POLYHEDRON:
-      return true;
-    default:
-      return type >= VTK_LAGRANGE_CURVE;
-  }
-}
-
-/// The least number of vertices of a type whose number varies.
-std::int64_t leastSize(int type)
-{
-  switch (type)
-  {
+      return 0;
     case VTK_TRIANGLE_STRIP:
     case VTK_POLYGON:
       return 3;
@@ -117,7 +103,7 @@ std::int64_t leastSize(int type)
     case VTK_POLYHEDRON:
       return 4;
     default:
-      return 0;
+      return type >= VTK_LAGRANGE_CURVE ? 0 : -1;
   }
 }
 
@@ -130,7 +116,7 @@ std::array<int, 256> makeSizes()
     const auto cell = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(type));
     if (cell)
     {
-      sizes[std::size_t(type)] = varies(type) ? 0 : int(cell->GetNumberOfPoints());
+      sizes[std::size_t(type)] = leastSize(type) < 0 ? int(cell->GetNumberOfPoints()) : 0;
     }
   }
   sizes[VTK_EMPTY_CELL] = 0;
