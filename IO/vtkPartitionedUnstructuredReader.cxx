@@ -5,7 +5,7 @@
 #include "Flat/FlatMesh.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
-#include "Partitioned/PieceGrid.h"
+#include "Partitioned/ReadPiece.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Reading/PieceSource.h"
 #include "Vtk/Compatibility.h"
@@ -323,7 +323,7 @@ Fetched fetch(tipp::PieceSource& source, tipp::PieceCache& cache,
   {
     unshared = std::find_if(
       unshared, fetched.Pieces.end(), [](const HeldPiece& piece) { return !piece.Shared; });
-    fetched.Bytes += read[i].Counters.Bytes;
+    fetched.Bytes += read[i].BytesRead;
     unshared->Own = std::move(read[i]);
     if (keep)
     {

@@ -26,11 +26,9 @@ class BorrowedCells
 public:
   /// Reads the borrowed cells' and points' global ids; `ownIds` are the global ids of the piece's
   /// own points. Throws IOError.
-  BorrowedCells(const PartitionedMesh& mesh, const PieceFile& piece, const std::int64_t* ownIds,
-    ReadCounters& counters)
+  BorrowedCells(const PartitionedMesh& mesh, const PieceFile& piece, const std::int64_t* ownIds)
     : Mesh(mesh)
     , Own(piece)
-    , Counters(counters)
   {
     this->addRuns(true);
     this->addRuns(false);
@@ -47,6 +45,13 @@ public:
   /// cells.
   std::int64_t pointCount() const { return std::int64_t(this->NewPoints.size()); }
   std::int64_t cellCount() const { return std::int64_t(this->CellIds.size()); }
+
+  /// Bytes read so far.
+  std::int64_t bytesRead() const
+  {
+    return std::accumulate(this->Files.begin(), this->Files.end(), std::int64_t(0),
+      [](std::int64_t bytes, const PieceFile& file) { return bytes + file.bytesRead(); });
+  }
 
   /// Appends the borrowed points' coordinates to those of the piece, whose buffer has room for
   /// them.
@@ -121,7 +126,7 @@ private:
     {
       return *found;
     }
-    this->Files.emplace_back(this->Mesh, std::size_t(owner), this->Counters);
+    this->Files.emplace_back(this->Mesh, std::size_t(owner));
     this->Sources.push_back({ &this->Files.back(), {}, {} });
     return this->Sources.back();
   }
@@ -267,7 +272,6 @@ private:
 
   const PartitionedMesh& Mesh;
   const PieceFile& Own;
-  ReadCounters& Counters;
   std::deque<PieceFile> Files;
   std::vector<Source> Sources;
   std::int64_t PointsAsRead = 0;          ///< borrowed points, with repetitions

@@ -108,9 +108,8 @@ public:
   /// An empty list denotes empty bounds.
   Bounds bounds(const char* name) const
   {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     const Json& value = this->list(name);
-    Bounds result{ infinity, -infinity, infinity, -infinity, infinity, -infinity };
+    Bounds result = emptyBounds;
     this->require(value.empty() || value.size() == 6, "has a wrong ", name);
     for (std::size_t i = 0; i < value.size(); ++i)
     {

@@ -86,8 +86,6 @@ public:
     std::vector<int> IndexOf;
   };
   Grouping groups(const std::vector<int>& setOf) const;
-  /// For each set, by number, its index in the lexicographic order of all.
-  std::vector<int> sortedIndices() const;
 
 private:
   std::map<std::vector<std::int32_t>, int> Numbers;
@@ -199,7 +197,7 @@ class OrderedBorder
 public:
   struct Point
   {
-    int Group; ///< rank of its set of borrowers
+    int Group; ///< index in PointGroups
     std::int64_t Id;
     const double* Row;
     bool IsGhost;
@@ -207,7 +205,7 @@ public:
   };
   struct Cell
   {
-    int Group;
+    int Group;          ///< index in CellGroups
     CellCorners Points; ///< positions in the piece, the lowest first
   };
 
@@ -221,19 +219,15 @@ public:
 private:
   std::size_t index(std::int64_t point) const;
   void uniteSets();
-  template <typename Item>
-  std::vector<SharedGroup> groupsOf(const std::vector<Item>& items) const;
   void orderPoints();
-  void addCell(int set, CellCorners corners);
+  void addCell(int group, CellCorners corners);
   void addCells();
 
   const PieceBorder& Of;
   const PieceInterior& Interior;
   SharingSets Sets;
   std::vector<int> SetOf;             ///< by point: the number of its set
-  std::vector<int> CellSets;          ///< by added cell: the number of its set
-  std::vector<int> Ranks;             ///< by set: its position in lexicographic order
-  std::vector<int> SetOfRank;         ///< the inverse
+  std::vector<int> CellSets;          ///< by cell, the interface's first: the number of its set
   std::vector<std::int32_t> Position; ///< by point: its position in the piece
 };
 

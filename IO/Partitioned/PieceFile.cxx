@@ -150,15 +150,14 @@ std::vector<std::int64_t> startsOf(const std::vector<std::int64_t>& counts)
 
 } // namespace
 
-PieceFile::PieceFile(const PartitionedMesh& mesh, std::size_t number, ReadCounters& counters)
-  : PieceFile(mesh, number, mesh.Pieces[number], readPieceTable(mesh, number), counters)
+PieceFile::PieceFile(const PartitionedMesh& mesh, std::size_t number)
+  : PieceFile(mesh, number, mesh.Pieces[number], readPieceTable(mesh, number))
 {
-  ++this->Counters.Reads;
-  this->Counters.Bytes += std::int64_t(this->Summary.TableBytes);
+  this->BytesRead += std::int64_t(this->Summary.TableBytes);
 }
 
-PieceFile::PieceFile(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& summary,
-  PieceTable table, ReadCounters& counters)
+PieceFile::PieceFile(
+  const PartitionedMesh& mesh, std::size_t number, const PieceSummary& summary, PieceTable table)
   : Summary(summary)
   , Number(number)
   , File(mesh.piecePath(number))
@@ -166,7 +165,6 @@ PieceFile::PieceFile(const PartitionedMesh& mesh, std::size_t number, const Piec
   , Arrays(pieceArrays(mesh, this->Summary))
   , PointParts(startsOf(this->Table.parts(mesh, this->Summary, true)))
   , CellParts(startsOf(this->Table.parts(mesh, this->Summary, false)))
-  , Counters(counters)
 {
   this->checkHeader();
 }
@@ -188,32 +186,11 @@ void PieceFile::checkHeader() const
 {
   std::string header(std::size_t(this->Table.HeaderBytes), '\0');
   this->File.read(0, header.data(), header.size());
-  ++this->Counters.Reads;
-  this->Counters.Bytes += std::int64_t(header.size());
+  this->BytesRead += std::int64_t(header.size());
   if (checksumOf(header.data(), header.size()) != this->Table.HeaderChecksum)
   {
     this->fail("its header does not have the checksum of piece " + std::to_string(this->Number));
   }
-}
-
-std::size_t PieceFile::find(PieceRole role) const
-{
-  std::size_t array = 0;
-  while (array < this->Arrays.size() && this->Arrays[array].Role != role)
-  {
-    ++array;
-  }
-  return array;
-}
-
-std::size_t PieceFile::findAttribute(std::size_t attribute) const
-{
-  std::size_t array = 0;
-  while (array < this->Arrays.size() && this->Arrays[array].Attribute != std::int64_t(attribute))
-  {
-    ++array;
-  }
-  return array;
 }
 
 /// Reads whole tuples to blockAt(byte), calls take(byte, bytes) and verifies them, until that
@@ -262,8 +239,7 @@ void PieceFile::readBlocks(std::size_t array, std::size_t first, std::size_t end
   {
     this->requirePart(array, part, checksumOf(nullptr, 0));
   }
-  ++this->Counters.Reads;
-  this->Counters.Bytes += std::int64_t(bytes);
+  this->BytesRead += std::int64_t(bytes);
 }
 
 void PieceFile::read(std::size_t array, std::size_t first, std::size_t end, void* to) const

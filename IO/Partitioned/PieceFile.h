@@ -70,27 +70,22 @@ private:
   std::vector<Entry<std::uint64_t>> Wide;
 };
 
-/// The cost of reading a piece.
-struct ReadCounters
-{
-  std::int64_t Reads = 0; ///< read calls
-  std::int64_t Bytes = 0; ///< bytes read
-};
-
-/// A piece's open file, which is read part by part.
+/// A piece's open file, which one thread reads part by part.
 class PieceFile
 {
 public:
   /// Reads the piece's table and checks the file's header; throws IOError.
-  PieceFile(const PartitionedMesh& mesh, std::size_t number, ReadCounters& counters);
+  PieceFile(const PartitionedMesh& mesh, std::size_t number);
   /// For a mesh that is not published: with the summary, which must outlive this, and the table
   /// that the piece will have.
-  PieceFile(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& summary,
-    PieceTable table, ReadCounters& counters);
+  PieceFile(
+    const PartitionedMesh& mesh, std::size_t number, const PieceSummary& summary, PieceTable table);
 
   const PieceSummary& summary() const { return this->Summary; }
   const PieceTable& table() const { return this->Table; }
   const std::vector<PieceArray>& arrays() const { return this->Arrays; }
+  /// Bytes read so far, including the table.
+  std::int64_t bytesRead() const { return this->BytesRead; }
   /// The first tuple of each part of the arrays of points, or of cells, and the end of the last.
   const std::vector<std::int64_t>& partStarts(bool ofPoints) const
   {
@@ -98,9 +93,12 @@ public:
   }
 
   /// The index of the array with a role other than data.
-  std::size_t find(PieceRole role) const;
+  std::size_t find(PieceRole role) const { return findArray(this->Arrays, role); }
   /// The index of the array of an attribute of the mesh.
-  std::size_t findAttribute(std::size_t attribute) const;
+  std::size_t findAttribute(std::size_t attribute) const
+  {
+    return findArrayOf(this->Arrays, std::int64_t(attribute));
+  }
 
   /// Reads parts [first, end) of an array and verifies their checksums; `to` may be null, to verify
   /// them only. Throws IOError.
@@ -137,7 +135,7 @@ private:
   std::vector<PieceArray> Arrays;
   std::vector<std::int64_t> PointParts;
   std::vector<std::int64_t> CellParts;
-  ReadCounters& Counters;
+  mutable std::int64_t BytesRead = 0;
 };
 
 } // namespace tipp

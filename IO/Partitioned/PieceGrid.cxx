@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioned/PieceGrid.h"
+#include "Partitioned/ReadPiece.h"
 
 #include "Arrays/Scalar.h"
 

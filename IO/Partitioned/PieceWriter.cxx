@@ -224,11 +224,7 @@ void verifyMesh(const std::string& path, std::uint64_t fingerprint, int threads)
   const PartitionedMesh mesh = openMesh(path, fingerprint);
   verifyPvtu(mesh);
   parallelFor(std::int64_t(mesh.Pieces.size()), threads,
-    [&](std::int64_t number)
-    {
-      ReadCounters counters;
-      PieceFile(mesh, std::size_t(number), counters).verifyAll();
-    });
+    [&](std::int64_t number) { PieceFile(mesh, std::size_t(number)).verifyAll(); });
 }
 
 } // namespace tipp

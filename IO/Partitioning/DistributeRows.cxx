@@ -9,11 +9,89 @@
 #include "Partitioning/PartitionJob.h"
 
 #include <algorithm>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <tuple>
 
 namespace tipp
 {
 namespace
 {
+
+/// A range of tuples of several arrays in memory, copied out row by row. A row is one tuple of each
+/// array.
+class ArrayRows
+{
+public:
+  /// Throws IOError if a file cannot be opened.
+  explicit ArrayRows(const std::vector<RawArray>& arrays)
+  {
+    std::map<std::string, std::shared_ptr<const InputFile>> files;
+    for (const RawArray& array : arrays)
+    {
+      std::shared_ptr<const InputFile>& file = files[array.Path];
+      file = file ? file : std::make_shared<const InputFile>(array.Path);
+      this->Columns.push_back({ file, array.Offset, array.tupleBytes(), {} });
+    }
+  }
+
+  /// Reads tuples [first, first + count) of each array. Throws IOError.
+  void read(std::int64_t first, std::int64_t count, int threads)
+  {
+    parallelFor(std::int64_t(this->Columns.size()), threads,
+      [&](std::int64_t number)
+      {
+        Column& column = this->Columns[std::size_t(number)];
+        column.Values.resize(std::size_t(count) * column.TupleBytes);
+        column.File->read(column.Offset + std::uint64_t(first) * column.TupleBytes,
+          column.Values.data(), column.Values.size());
+      });
+  }
+
+  /// Copies the row at index `index` of the range to `to`; returns the end of the copy.
+  char* copyRow(std::size_t index, char* to) const
+  {
+    for (const Column& column : this->Columns)
+    {
+      std::memcpy(to, column.Values.data() + index * column.TupleBytes, column.TupleBytes);
+      to += column.TupleBytes;
+    }
+    return to;
+  }
+
+private:
+  struct Column
+  {
+    std::shared_ptr<const InputFile> File;
+    std::uint64_t Offset;
+    std::size_t TupleBytes;
+    std::vector<char> Values;
+  };
+  std::vector<Column> Columns;
+};
+
+/// A ghost point: a vertex that a piece needs but does not own.
+struct GhostPoint
+{
+  std::int64_t Point;     ///< global point id
+  std::int32_t Piece;     ///< index of the piece that needs it
+  std::int32_t GhostOnly; ///< 1 if only borrowed cells use it, else 0
+};
+
+/// Sorts by point, then piece, and removes duplicates: several cells may need a point. A point that
+/// an owned cell uses is not GhostOnly.
+void makeDistinct(std::vector<GhostPoint>& points)
+{
+  const auto keyOf = [](const GhostPoint& p)
+  { return std::make_tuple(p.Point, p.Piece, p.GhostOnly); };
+  std::sort(points.begin(), points.end(),
+    [&](const GhostPoint& a, const GhostPoint& b) { return keyOf(a) < keyOf(b); });
+  points.erase(std::unique(points.begin(), points.end(),
+                 [](const GhostPoint& a, const GhostPoint& b)
+                 { return a.Point == b.Point && a.Piece == b.Piece; }),
+    points.end());
+}
 
 /// One chunk of cells in memory.
 struct Chunk
@@ -153,19 +231,12 @@ Membership CellDistribution::classify(const Chunk& chunk, std::size_t first, std
     const auto* cell = chunk.Ids.data() + chunk.Border[i] * this->Corners;
     ids.insert(ids.end(), cell, cell + this->Corners);
   }
-  const RawArray& points = this->Job.Mesh.Points;
-  std::vector<char> raw(ids.size() * points.tupleBytes());
-  void* const out[] = { raw.data() };
-  poll();
-  this->PointLoader->load(ids.data(), ids.size(), out);
-  const int dimension = this->Job.Rows.Dimension;
-  std::vector<double> coordinates(ids.size() * std::size_t(dimension));
-  takeCoordinates(points, raw.data(), ids.size(), dimension, coordinates.data());
+  const std::vector<double> coordinates = loadCoordinates(this->Job.Mesh, *this->PointLoader, ids);
   ClassifyOptions options;
   options.Device = this->Job.Options.Device;
   options.Threads = this->Job.Threads;
-  return classifyCells(
-    { dimension, int(this->Corners), coordinates.data(), count }, *this->Job.Tiling, options);
+  return classifyCells({ this->Job.Rows.Dimension, int(this->Corners), coordinates.data(), count },
+    *this->Job.Tiling, options);
 }
 
 void CellDistribution::spillBorder(const Chunk& chunk, std::size_t first, std::size_t count)
@@ -257,16 +328,14 @@ void distributeCells(PartitionJob& job)
       job.GhostPoints.emplace(job.scratch("ghosts"), ranks.rank(), chunks, sizeof(GhostPoint));
       CellDistribution(job).run();
     });
-  job.Statistics.SpilledBytes += job.Cells->bytes() + job.SharedCells->bytes() +
-    job.Borrowers->bytes() + job.GhostPoints->bytes() +
-    (job.BorrowedCells ? job.BorrowedCells->bytes() : 0);
-  job.Cells->exchange(ranks);
-  job.SharedCells->exchange(ranks);
-  job.Borrowers->exchange(ranks);
-  job.GhostPoints->exchange(ranks);
-  if (job.BorrowedCells)
+  for (std::optional<Spill>* const spill :
+    { &job.Cells, &job.SharedCells, &job.Borrowers, &job.GhostPoints, &job.BorrowedCells })
   {
-    job.BorrowedCells->exchange(ranks);
+    if (*spill)
+    {
+      job.Statistics.SpilledBytes += (*spill)->bytes();
+      (*spill)->exchange(ranks);
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioning/MeshTiling.h"
 
+#include "Arrays/Buffer.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
@@ -134,22 +135,19 @@ void forEachBlock(const FlatMesh& mesh, Communicator& ranks, int threads, const 
     });
 }
 
-struct Range
-{
-  double Least[3] = { infinity, infinity, infinity };
-  double Greatest[3] = { -infinity, -infinity, -infinity };
-};
+/// The least coordinates, and the least of the negated ones.
+using Least = std::vector<double>;
 
-Range rangeOf(const FlatMesh& mesh, std::int64_t first, std::int64_t count, const double* values)
+Least leastOf(const FlatMesh& mesh, std::int64_t first, std::int64_t count, const double* values)
 {
   const std::size_t dimension = std::size_t(mesh.CellSize) - 1;
-  Range range;
+  Least least(6, infinity);
   double sum = 0; // not finite if one of the values is not
   for (std::size_t i = 0; i < std::size_t(count) * dimension; ++i)
   {
     const std::size_t axis = dimension == 2 ? i & 1 : i % 3;
-    range.Least[axis] = std::min(range.Least[axis], values[i]);
-    range.Greatest[axis] = std::max(range.Greatest[axis], values[i]);
+    least[axis] = std::min(least[axis], values[i]);
+    least[3 + axis] = std::min(least[3 + axis], -values[i]);
     sum += values[i] * 0;
   }
   for (std::size_t i = 0; sum != 0 && i < std::size_t(count) * dimension; ++i)
@@ -161,37 +159,34 @@ Range rangeOf(const FlatMesh& mesh, std::int64_t first, std::int64_t count, cons
           " has a coordinate that is not finite; leave such points out.");
     }
   }
-  return range;
+  return least;
 }
 
 } // namespace
 
 Box3 boundsOfPoints(const FlatMesh& mesh, Communicator& ranks, int threads)
 {
-  std::vector<double> both(6, infinity);
+  Least all(6, infinity);
   ranks.attempt(
     [&]
     {
       const auto [from, to] = ranks.shareOf(mesh.Points.Tuples);
-      std::vector<Range> ranges(std::size_t((to - from + blockPoints - 1) / blockPoints));
+      std::vector<Least> blocks(std::size_t((to - from + blockPoints - 1) / blockPoints));
       forEachBlock(mesh, ranks, threads,
         [&](std::int64_t block, std::int64_t first, std::int64_t count, const double* values)
-        { ranges[std::size_t(block)] = rangeOf(mesh, first, count, values); });
-      for (const Range& range : ranges)
+        { blocks[std::size_t(block)] = leastOf(mesh, first, count, values); });
+      for (const Least& least : blocks)
       {
-        for (std::size_t axis = 0; axis < 3; ++axis)
-        {
-          both[axis] = std::min(both[axis], range.Least[axis]);
-          both[3 + axis] = std::min(both[3 + axis], -range.Greatest[axis]);
-        }
+        std::transform(least.begin(), least.end(), all.begin(), all.begin(),
+          [](double a, double b) { return std::min(a, b); });
       }
     });
-  ranks.minimum(both);
+  ranks.minimum(all);
   Box3 box;
   for (std::size_t axis = 0; axis < std::size_t(mesh.CellSize) - 1; ++axis)
   {
-    box.Min[axis] = both[axis];
-    box.Max[axis] = -both[3 + axis];
+    box.Min[axis] = all[axis];
+    box.Max[axis] = -all[3 + axis];
   }
   return box;
 }
@@ -231,6 +226,19 @@ void writeOwners(const FlatMesh& mesh, const BoxTiling& tiling, const std::strin
     });
 }
 
+std::vector<double> loadCoordinates(
+  const FlatMesh& mesh, VertexLoader& loader, const std::vector<std::int64_t>& ids)
+{
+  poll();
+  Buffer<char> raw(ids.size() * mesh.Points.tupleBytes());
+  void* const out[] = { raw.data() };
+  loader.load(ids.data(), ids.size(), out);
+  const int dimension = mesh.CellSize - 1;
+  std::vector<double> coordinates(ids.size() * std::size_t(dimension));
+  takeCoordinates(mesh.Points, raw.data(), ids.size(), dimension, coordinates.data());
+  return coordinates;
+}
+
 namespace
 {
 
@@ -248,16 +256,9 @@ public:
 
   void read(std::int64_t first, std::int64_t count, std::vector<double>& coordinates)
   {
-    const RawArray& points = this->Mesh.Points;
     this->Ids.resize(std::size_t(count) * std::size_t(this->Mesh.CellSize));
     this->Reader.read(first, count, this->Ids.data());
-    this->Raw.resize(this->Ids.size() * points.tupleBytes());
-    void* const out[] = { this->Raw.data() };
-    poll();
-    this->Loader->load(this->Ids.data(), this->Ids.size(), out);
-    const int dimension = this->Mesh.CellSize - 1;
-    coordinates.resize(this->Ids.size() * std::size_t(dimension));
-    takeCoordinates(points, this->Raw.data(), this->Ids.size(), dimension, coordinates.data());
+    coordinates = loadCoordinates(this->Mesh, *this->Loader, this->Ids);
   }
 
 private:
@@ -265,7 +266,6 @@ private:
   CellReader Reader;
   std::unique_ptr<VertexLoader> Loader;
   std::vector<std::int64_t> Ids;
-  std::vector<char> Raw;
 };
 
 void requirePieces(std::int64_t boxes, const FlatMesh& mesh)

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioning/PartitionDataSet.h"
 
 #include "Files/IOError.h"
 #include "Files/OutputPath.h"

@@ -12,7 +12,6 @@
 #include "Partitioned/PieceWriter.h"
 #include "Partitioning/MeshTiling.h"
 #include "Partitioning/PartitionJob.h"
-#include "Partitioning/PartitionNeighbors.h"
 #include "Ranks/Communicator.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioning/PartitionNeighbors.h"
+#include "Partitioning/PartitionMesh.h"
 
 #include "Files/OutputFile.h"
 #include "Npy/NpyFile.h"

@@ -5,7 +5,7 @@
 
 #include "Files/IOError.h"
 #include "Flat/FlatMesh.h"
-#include "Partitioned/PieceGrid.h"
+#include "Partitioned/ReadPiece.h"
 #include "Partitioning/PartitionMesh.h"
 
 #include "vtkCellData.h"
@@ -161,7 +161,7 @@ TEST_F(RoundTrip, ReadsOnlySelectedArrays)
   const Piece piece = readPiece(mesh, 0, options);
   ASSERT_EQ(1U, piece.Attributes.size());
   EXPECT_EQ("label", piece.Attributes[0].Description.Name);
-  EXPECT_LT(piece.Counters.Bytes, readPiece(mesh, 0).Counters.Bytes);
+  EXPECT_LT(piece.BytesRead, readPiece(mesh, 0).BytesRead);
 }
 
 TEST_F(RoundTrip, ReadsBorrowedCellsByReferenceWithFewBytesMore)
@@ -172,8 +172,7 @@ TEST_F(RoundTrip, ReadsBorrowedCellsByReferenceWithFewBytesMore)
     openPartitionedMesh(this->make("grid:2x2", duplicating(), "copied"));
   for (std::size_t i = 0; i < lent.Pieces.size(); ++i)
   {
-    EXPECT_LT(double(readPiece(lent, i).Counters.Bytes),
-      1.15 * double(readPiece(copied, i).Counters.Bytes));
+    EXPECT_LT(double(readPiece(lent, i).BytesRead), 1.15 * double(readPiece(copied, i).BytesRead));
   }
 }
 
