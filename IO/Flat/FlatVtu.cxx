@@ -37,8 +37,6 @@ struct VtuHeader
 
 using Tag = XmlScanner::Tag;
 
-constexpr const char* flatten = "; 'tipp flatten' makes a flat mesh of it.";
-
 template <typename Value>
 std::optional<Value> parse(const std::string* text)
 {
@@ -62,12 +60,12 @@ public:
     this->DataStart = head.DataStart;
     if (head.DataStart == 0)
     {
-      this->fail(std::string("has no appended data") + flatten);
+      this->refuse("has no appended data");
     }
     // Checked first: in an encoded file the byte counts are meaningless.
     if (head.Encoding != "raw")
     {
-      this->fail(std::string("has appended data that are encoded, not raw") + flatten);
+      this->refuse("has appended data that are encoded, not raw");
     }
     XmlScanner scanner(head.Text);
     for (Tag tag; scanner.next(tag);)
@@ -87,6 +85,11 @@ private:
   [[noreturn]] void fail(const std::string& problem) const
   {
     throw IOError(this->File.path(), problem);
+  }
+
+  [[noreturn]] void refuse(const std::string& problem) const
+  {
+    this->fail(problem + "; 'tipp flatten' makes a flat mesh of it.");
   }
 
   void take(const Tag& tag)
@@ -130,15 +133,15 @@ private:
     const std::string* const compressor = tag.find("compressor");
     if (!type || *type != "UnstructuredGrid")
     {
-      this->fail(std::string("is not a VTK XML file of an unstructured grid") + flatten);
+      this->refuse("is not a VTK XML file of an unstructured grid");
     }
     if (!order || *order != "LittleEndian")
     {
-      this->fail(std::string("does not say that it is little-endian") + flatten);
+      this->refuse("does not say that it is little-endian");
     }
     if (compressor && !compressor->empty())
     {
-      this->fail(std::string("is compressed, so that it cannot be read in place") + flatten);
+      this->refuse("is compressed, so that it cannot be read in place");
     }
     if (count && *count != "UInt32" && *count != "UInt64")
     {
@@ -162,7 +165,7 @@ private:
     }
     if (this->Pieces++ > 0)
     {
-      this->fail(std::string("holds several pieces") + flatten);
+      this->refuse("holds several pieces");
     }
     this->Header.Points = *points;
     this->Header.Cells = *cells;
@@ -189,7 +192,7 @@ private:
     const std::string* const format = tag.find("format");
     if (!format || *format != "appended")
     {
-      this->fail("holds array '" + name + "' outside its appended data" + flatten);
+      this->refuse("holds array '" + name + "' outside its appended data");
     }
     const auto offset = parse<std::uint64_t>(tag.find("offset"));
     const std::string* const given = tag.find("NumberOfComponents");
@@ -247,53 +250,37 @@ private:
   void keep(const RawArray& array)
   {
     VtuHeader& h = this->Header;
-    if (this->Section == "PointData" || this->Section == "CellData")
+    const bool isData = this->Section == "PointData" || this->Section == "CellData";
+    const bool ofPoints = this->Section == "PointData" || this->Section == "Points";
+    std::vector<RawArray>& data = ofPoints ? h.PointData : h.CellData;
+    RawArray* const part = this->Section == "Points" ? &h.Coordinates
+      : array.Name == "connectivity"                 ? &h.Connectivity
+      : array.Name == "offsets"                      ? &h.Offsets
+      : array.Name == "types"                        ? &h.Types
+                                                     : nullptr;
+    if (isData &&
+      std::any_of(data.begin(), data.end(),
+        [&array](const RawArray& other) { return other.Name == array.Name; }))
     {
-      const bool ofPoints = this->Section == "PointData";
-      this->keepData(ofPoints ? h.PointData : h.CellData, array, ofPoints ? h.Points : h.Cells);
+      this->fail("holds two arrays of the name '" + array.Name + "'; rename one of them.");
     }
-    else if (this->Section == "Points")
+    if (!isData && !part)
     {
-      this->keepOne(h.Coordinates, array, h.Points);
+      return;
     }
-    else if (array.Name == "connectivity")
+    if (!isData && !part->Path.empty())
     {
-      this->keepOne(h.Connectivity, array, array.Tuples);
+      this->fail("holds two arrays where one of '" + array.Name + "' is due; write it again.");
     }
-    else if (array.Name == "offsets" || array.Name == "types")
-    {
-      this->keepOne(array.Name == "types" ? h.Types : h.Offsets, array, h.Cells);
-    }
-  }
-
-  void requireTuples(const RawArray& array, std::int64_t tuples) const
-  {
+    const std::int64_t tuples = !isData && part == &h.Connectivity ? array.Tuples
+      : ofPoints                                                   ? h.Points
+                                                                   : h.Cells;
     if (array.Tuples != tuples)
     {
       this->fail("holds array '" + array.Name + "' with " + std::to_string(array.Tuples) +
         " tuples where " + std::to_string(tuples) + " are due; copy or write it again.");
     }
-  }
-
-  void keepOne(RawArray& kept, const RawArray& array, std::int64_t tuples) const
-  {
-    if (!kept.Path.empty())
-    {
-      this->fail("holds two arrays where one of '" + array.Name + "' is due; write it again.");
-    }
-    this->requireTuples(array, tuples);
-    kept = array;
-  }
-
-  void keepData(std::vector<RawArray>& arrays, const RawArray& array, std::int64_t tuples) const
-  {
-    if (std::any_of(arrays.begin(), arrays.end(),
-          [&](const RawArray& other) { return other.Name == array.Name; }))
-    {
-      this->fail("holds two arrays of the name '" + array.Name + "'; rename one of them.");
-    }
-    this->requireTuples(array, tuples);
-    arrays.push_back(array);
+    isData ? data.push_back(array) : void(*part = array);
   }
 
   void requireWhole() const
