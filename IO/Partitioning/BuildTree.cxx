@@ -56,18 +56,25 @@ bool meetsBox(const CellShape& shape, const MeasuredCell& cell, const Box3& box)
     (isWithin(cell.Bounds, box) || shape.meets(cell.Corners, box));
 }
 
-/// Numbers of cells of each node of a tree.
-struct NodeCounts
-{
-  std::vector<std::int64_t> Meeting; ///< cells that share a point with its closed box
-  std::vector<std::int64_t> Fitting; ///< of these, the cells no longer than the box
+/// For each node of a tree, the number of cells that share a point with its closed box and are no
+/// longer than it.
+using NodeCounts = std::vector<std::int64_t>;
 
-  void resize(std::size_t nodes)
+/// The leaves that have more fitting cells than the limit and may be split.
+std::vector<std::int32_t> leavesAbove(
+  const RefinementTree& tree, const NodeCounts& counts, std::int64_t limit)
+{
+  std::vector<std::int32_t> leaves;
+  for (std::size_t index = 0; index < tree.size(); ++index)
   {
-    this->Meeting.resize(nodes, 0);
-    this->Fitting.resize(nodes, 0);
+    const auto node = static_cast<std::int32_t>(index);
+    if (counts[index] > limit && tree.isLeaf(node) && tree.canSplit(node))
+    {
+      leaves.push_back(node);
+    }
   }
-};
+  return leaves;
+}
 
 /// Counts cells in the nodes of a tree, which grows at the same time: a leaf with more than `limit`
 /// fitting cells is split repeatedly, and the chunk's cells are counted in its children. Cells of
@@ -75,9 +82,8 @@ struct NodeCounts
 class CellCounter
 {
 public:
-  CellCounter(RefinementTree& tree, int maxDepth, int threads)
+  CellCounter(RefinementTree& tree, int threads)
     : Tree(tree)
-    , MaxDepth(maxDepth)
     , Threads(threadCount(threads))
   {
   }
@@ -136,7 +142,7 @@ private:
       [&](std::int64_t thread)
       {
         const auto t = static_cast<std::size_t>(thread);
-        results[t].Counts.resize(this->Tree.size());
+        results[t].Counts.resize(this->Tree.size(), 0);
         for (std::size_t i = items * t / count; i < items * (t + 1) / count; ++i)
         {
           pollAt(std::int64_t(i));
@@ -165,26 +171,23 @@ private:
       }));
   }
 
-  void count(std::int32_t node, const MeasuredCell& cell, ThreadResult& result) const
-  {
-    const auto index = static_cast<std::size_t>(node);
-    ++result.Counts.Meeting[index];
-    result.Counts.Fitting[index] += cell.Length <= this->Tree.length(node) ? 1 : 0;
-  }
-
-  /// Counts the cell in all nodes that it meets. If leaves are marked, records visits to these
-  /// only.
+  /// Counts the cell in all nodes that it meets and fits. If leaves are marked, records visits to
+  /// these only. Children are no longer than their parent, so a cell that is too long for a node
+  /// fits none below it.
   void visitTree(const CellShape& shape, const MeasuredCell& cell, ThreadResult& result) const
   {
     std::array<std::int32_t, 7 * BoxTiling::MaxDepth + 1> stack;
     std::size_t size = 0;
-    stack[size++] = 0;
+    if (cell.Length <= this->Tree.length(0))
+    {
+      stack[size++] = 0;
+    }
     while (size > 0)
     {
       const std::int32_t node = stack[--size];
       if (this->Marked.empty())
       {
-        this->count(node, cell, result);
+        ++result.Counts[static_cast<std::size_t>(node)];
       }
       else if (this->Marked[static_cast<std::size_t>(node)] != 0)
       {
@@ -194,7 +197,7 @@ private:
     }
   }
 
-  /// Calls visit(child) for the node's children that the cell meets.
+  /// Calls visit(child) for the node's children that the cell meets and fits.
   template <typename VisitChild>
   void forEachChildMet(const CellShape& shape, const MeasuredCell& cell, std::int32_t node,
     const VisitChild& visit) const
@@ -206,7 +209,7 @@ private:
     const std::int32_t first = this->Tree.firstChild(node);
     for (std::int32_t child = first; child < first + this->Tree.childCount(); ++child)
     {
-      if (meetsBox(shape, cell, this->Tree.box(child)))
+      if (cell.Length <= this->Tree.length(child) && meetsBox(shape, cell, this->Tree.box(child)))
       {
         visit(child);
       }
@@ -216,18 +219,12 @@ private:
   bool markSplits(std::int64_t limit)
   {
     this->Marked.assign(this->Tree.size(), 0);
-    bool any = false;
-    for (std::size_t index = 0; index < this->Tree.size(); ++index)
+    const std::vector<std::int32_t> leaves = leavesAbove(this->Tree, this->Counts, limit);
+    for (const std::int32_t leaf : leaves)
     {
-      const auto node = static_cast<std::int32_t>(index);
-      if (this->Counts.Fitting[index] > limit && this->Tree.isLeaf(node) &&
-        this->Tree.canSplit(node, this->MaxDepth))
-      {
-        this->Marked[index] = 1;
-        any = true;
-      }
+      this->Marked[static_cast<std::size_t>(leaf)] = 1;
     }
-    return any;
+    return !leaves.empty();
   }
 
   /// Splits the marked leaves and counts the cells that visited them in their children.
@@ -253,7 +250,7 @@ private:
         this->forEachChildMet(shape, cell, parent.Node,
           [&](std::int32_t child)
           {
-            this->count(child, cell, result);
+            ++result.Counts[static_cast<std::size_t>(child)];
             result.Visits.push_back({ child, parent.Cell });
           });
       });
@@ -263,13 +260,12 @@ private:
 
   void sum(const std::vector<ThreadResult>& results)
   {
-    this->Counts.resize(this->Tree.size());
+    this->Counts.resize(this->Tree.size(), 0);
     for (const ThreadResult& result : results)
     {
       for (std::size_t node = 0; node < this->Tree.size(); ++node)
       {
-        this->Counts.Meeting[node] += result.Counts.Meeting[node];
-        this->Counts.Fitting[node] += result.Counts.Fitting[node];
+        this->Counts[node] += result.Counts[node];
       }
     }
   }
@@ -284,7 +280,6 @@ private:
   }
 
   RefinementTree& Tree;
-  int MaxDepth;
   int Threads;
   NodeCounts Counts;
   std::vector<std::uint8_t> Marked; ///< by node: whether it is a leaf to be split
@@ -297,18 +292,16 @@ public:
   TreeBuilder(const CellSource& cells, const Box3& domain, const TreeOptions& options,
     vtkMultiProcessController* controller)
     : Cells(cells)
-    , Domain(BoxTiling::tree(options.Dimension, domain, { -1 }).domain())
+    , Domain(BoxTiling::tree(cells.Dimension, domain, { -1 }).domain())
     , Options(options)
     , Team(controller)
     , Share(this->Team.shareOf(cells.Cells))
-    , MaxDepth(std::min(options.MaxDepth, BoxTiling::MaxDepth))
-    , ChunkCells(std::min<std::int64_t>(std::max<std::int64_t>(options.ChunkCells, 1), 1 << 30))
   {
   }
 
-  PartitionTree run()
+  BoxTiling run()
   {
-    RefinementTree tree(this->Options.Dimension, this->Domain);
+    RefinementTree tree(this->Cells.Dimension, this->Domain);
     for (int pass = 1;; ++pass)
     {
       NodeCounts counts;
@@ -322,7 +315,7 @@ public:
         });
       if (this->isRead())
       {
-        return this->finish(mine, counts, pass);
+        return this->finish(mine, counts);
       }
       const std::string merged = this->mergeStructures(structure);
       if (merged != tree.structure())
@@ -330,11 +323,15 @@ public:
         tree.refine(merged);
         continue;
       }
-      this->Team.sum(counts.Meeting);
-      this->Team.sum(counts.Fitting);
-      if (!this->splitLargeLeaves(tree, counts))
+      this->Team.sum(counts);
+      const std::vector<std::int32_t> large = leavesAbove(tree, counts, this->Options.Threshold);
+      if (large.empty())
       {
-        return this->finish(tree, counts, pass);
+        return this->finish(tree, counts);
+      }
+      for (const std::int32_t leaf : large) // the same on all ranks
+      {
+        tree.split(leaf);
       }
     }
   }
@@ -343,7 +340,7 @@ private:
   std::int64_t chunks() const
   {
     const std::int64_t mine = this->Share.second - this->Share.first;
-    return (mine + this->ChunkCells - 1) / this->ChunkCells;
+    return (mine + this->Options.ChunkCells - 1) / this->Options.ChunkCells;
   }
 
   // Whether all cells are in one chunk on one rank: then one pass counts new nodes completely, too.
@@ -359,18 +356,18 @@ private:
       return all;
     }
     const std::int64_t part = all / this->Team.size();
-    const std::int64_t early = part / BoxTiling::childCount(this->Options.Dimension, this->Domain);
+    const std::int64_t early = part / BoxTiling::childCount(this->Cells.Dimension, this->Domain);
     return std::max<std::int64_t>(pass == 1 ? early : part, 1);
   }
 
   NodeCounts countShare(RefinementTree& tree, std::int64_t limit)
   {
-    CellCounter counting(tree, this->MaxDepth, this->Options.Threads);
+    CellCounter counting(tree, this->Options.Threads);
     counting.add({ this->Cells.Dimension, this->Cells.Corners, nullptr, 0 }, 0, limit);
     for (std::int64_t first = this->Share.first; first < this->Share.second;
-         first += this->ChunkCells)
+         first += this->Options.ChunkCells)
     {
-      const std::int64_t count = std::min(this->ChunkCells, this->Share.second - first);
+      const std::int64_t count = std::min(this->Options.ChunkCells, this->Share.second - first);
       this->readChunk(first, count);
       counting.add({ this->Cells.Dimension, this->Cells.Corners, this->Coordinates.data(),
                      static_cast<std::size_t>(count) },
@@ -387,14 +384,6 @@ private:
       return;
     }
     this->Cells.Read(first, count, this->Coordinates);
-    const auto expected = static_cast<std::size_t>(count) *
-      static_cast<std::size_t>(this->Cells.Dimension * this->Cells.Corners);
-    if (this->Coordinates.size() != expected)
-    {
-      throw IOError("Reading " + std::to_string(count) + " cells from cell " +
-        std::to_string(first) + " on gave " + std::to_string(this->Coordinates.size()) +
-        " coordinates in place of " + std::to_string(expected) + ".");
-    }
     this->InMemory = { first, count };
   }
 
@@ -404,45 +393,18 @@ private:
     return this->Team.broadcast(this->Team.reduce(mine,
       [this](const std::string& a, const std::string& b)
       {
-        RefinementTree both(this->Options.Dimension, this->Domain);
+        RefinementTree both(this->Cells.Dimension, this->Domain);
         both.refine(a);
         both.refine(b);
         return both.structure();
       }));
   }
 
-  // Splits leaves whose total over all ranks exceeds the threshold. The result is the same on all
-  // ranks.
-  bool splitLargeLeaves(RefinementTree& tree, const NodeCounts& counts) const
+  /// The tiling of the tree without the splits that the counts do not require.
+  BoxTiling finish(const RefinementTree& tree, const NodeCounts& counts) const
   {
-    bool any = false;
-    for (std::size_t index = 0, end = tree.size(); index < end; ++index)
-    {
-      const auto node = static_cast<std::int32_t>(index);
-      if (tree.isLeaf(node) && counts.Fitting[index] > this->Options.Threshold &&
-        tree.canSplit(node, this->MaxDepth))
-      {
-        tree.split(node);
-        any = true;
-      }
-    }
-    return any;
-  }
-
-  PartitionTree finish(const RefinementTree& tree, const NodeCounts& counts, int passes) const
-  {
-    std::vector<std::int32_t> leaves;
-    PartitionTree result = {
-      tree.tiling([&](std::int32_t node)
-        { return counts.Fitting[static_cast<std::size_t>(node)] > this->Options.Threshold; },
-        leaves),
-      {}, passes
-    };
-    for (const std::int32_t leaf : leaves)
-    {
-      result.Cells.push_back(counts.Meeting[static_cast<std::size_t>(leaf)]);
-    }
-    return result;
+    return tree.tiling([&](std::int32_t node)
+      { return counts[static_cast<std::size_t>(node)] > this->Options.Threshold; });
   }
 
   const CellSource& Cells;
@@ -450,22 +412,15 @@ private:
   const TreeOptions& Options;
   Communicator Team;
   std::pair<std::int64_t, std::int64_t> Share;
-  int MaxDepth;
-  std::int64_t ChunkCells;
   std::vector<double> Coordinates;
   std::pair<std::int64_t, std::int64_t> InMemory = { -1, -1 };
 };
 
 } // namespace
 
-PartitionTree buildTree(const CellSource& cells, const Box3& domain, const TreeOptions& options,
+BoxTiling buildTree(const CellSource& cells, const Box3& domain, const TreeOptions& options,
   vtkMultiProcessController* controller)
 {
-  if (options.Threshold < 1)
-  {
-    throw IOError("A tree of partitions needs a threshold of at least one cell, not " +
-      std::to_string(options.Threshold) + ".");
-  }
   try
   {
     return TreeBuilder(cells, domain, options, controller).run();

@@ -35,9 +35,9 @@ public:
   /// The longest side of the node's box.
   double length(std::int32_t node) const;
 
-  /// Whether the node may be split: its depth is less than maxDepth, and its halves differ in
-  /// doubles.
-  bool canSplit(std::int32_t node, int maxDepth) const;
+  /// Whether the node may be split: its depth is less than BoxTiling::MaxDepth, and its halves
+  /// differ in doubles.
+  bool canSplit(std::int32_t node) const;
   /// Adds a leaf's children. Throws IOError if the tree would be too large.
   void split(std::int32_t leaf);
 
@@ -47,9 +47,7 @@ public:
   void refine(const std::string& structure);
 
   /// Returns the tiling of the tree in which nodes for which keep() returns false are leaves.
-  /// `leaves` receives the node of each partition.
-  BoxTiling tiling(
-    const std::function<bool(std::int32_t)>& keep, std::vector<std::int32_t>& leaves) const;
+  BoxTiling tiling(const std::function<bool(std::int32_t)>& keep) const;
 
 private:
   static std::size_t at(std::int32_t node) { return static_cast<std::size_t>(node); }
@@ -76,23 +74,11 @@ struct CellSource
 /// Options of buildTree().
 struct TreeOptions
 {
-  /// The tree's dimension, 2 or 3. A quadtree uses only x and y of triangles in space.
-  int Dimension = 2;
-  /// Leaves with more cells than this are split; see buildTree().
+  /// Leaves with more cells than this are split; see buildTree(). At least 1.
   std::int64_t Threshold = 100000;
-  /// Levels below the root, at most BoxTiling::MaxDepth.
-  int MaxDepth = BoxTiling::MaxDepth;
-  /// Number of cells read at once.
+  /// Number of cells read at once, from 1 to 2^30.
   std::int64_t ChunkCells = std::int64_t(1) << 20;
   int Threads = 0; ///< 0: OpenMP's default
-};
-
-/// The result of buildTree().
-struct PartitionTree
-{
-  BoxTiling Tiling;
-  std::vector<std::int64_t> Cells; ///< per partition: number of cells that meet it
-  int Passes;                      ///< number of times the cells were read
 };
 
 /// Builds the quadtree or octree over the domain in which every node with more than Threshold cells
@@ -104,8 +90,8 @@ struct PartitionTree
 /// The dissertation counts all cells that meet a node. Then splitting would not terminate at cells
 /// that share a point or at adjacent slivers, since splitting does not reduce their number. So
 /// cells longer than the node are not counted. In a domain of equal sides each level then has at
-/// most 2^d Cells / Threshold splits. MaxDepth bounds the remaining case: many tiny cells in one
-/// location.
+/// most 2^d Cells / Threshold splits. BoxTiling::MaxDepth bounds the remaining case: many tiny
+/// cells in one location.
 ///
 /// Each rank reads an equal share of the cells and builds a tree of its own. The trees' structures
 /// are merged in pairs and broadcast; then the cells are counted in the common tree, and that is
@@ -114,9 +100,9 @@ struct PartitionTree
 /// are undone at the end. A mesh of one chunk on one rank is read once.
 ///
 /// Throws IOError, on all ranks if on one: for cells with coordinates that are not finite or
-/// outside the domain, a threshold below 1, or a tree that would be too large. A null or dummy
+/// outside the domain, or a tree that would be too large. A null or dummy
 /// controller means serial.
-VTKTIPPIO_EXPORT PartitionTree buildTree(const CellSource& cells, const Box3& domain,
+VTKTIPPIO_EXPORT BoxTiling buildTree(const CellSource& cells, const Box3& domain,
   const TreeOptions& options, vtkMultiProcessController* controller = nullptr);
 
 } // namespace tipp

@@ -12,7 +12,6 @@
 #include "Partitioning/BuildTree.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -23,65 +22,28 @@
 
 namespace tipp
 {
-namespace
-{
-
-std::optional<std::string_view> after(std::string_view text, std::string_view start)
-{
-  return text.substr(0, start.size()) == start ? std::make_optional(text.substr(start.size()))
-                                               : std::nullopt;
-}
-
-std::optional<TilingChoice> parseTree(std::string_view number)
-{
-  TilingChoice choice;
-  choice.Threshold = wholeNumber<std::int64_t>(number).value_or(0);
-  return choice.Threshold >= 1 ? std::make_optional(choice) : std::nullopt;
-}
-
-std::optional<TilingChoice> parseGrid(std::string_view counts)
-{
-  constexpr int most = 10000;
-  TilingChoice choice;
-  const char* at = counts.data();
-  const char* const end = at + counts.size();
-  std::size_t axis = 0;
-  for (; axis < 3; ++axis)
-  {
-    const auto [stop, error] = std::from_chars(at, end, choice.Boxes[axis]);
-    if (error != std::errc() || choice.Boxes[axis] < 1 || choice.Boxes[axis] > most)
-    {
-      return std::nullopt;
-    }
-    at = stop;
-    if (at == end)
-    {
-      break;
-    }
-    if (*at++ != 'x')
-    {
-      return std::nullopt;
-    }
-  }
-  return at == end && axis >= 1 && axis < 3 ? std::make_optional(choice) : std::nullopt;
-}
-
-} // namespace
 
 std::optional<TilingChoice> TilingChoice::parse(const std::string& text)
 {
-  if (const auto counts = after(text, "grid:"))
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const std::string kind = text.substr(0, colon);
+  const std::string_view rest = std::string_view(text).substr(std::min(colon + 1, text.size()));
+  TilingChoice choice;
+  if (kind == "quadtree" || kind == "octree")
   {
-    return parseGrid(*counts);
+    choice.Threshold = wholeNumber<std::int64_t>(rest).value_or(0);
+    return choice.Threshold >= 1 ? std::make_optional(choice) : std::nullopt;
   }
-  for (const char* const name : { "quadtree:", "octree:" })
+  std::vector<std::string_view> counts;
+  splitFields(rest, 'x', counts);
+  constexpr int most = 10000;
+  bool isValid = kind == "grid" && (counts.size() == 2 || counts.size() == 3);
+  for (std::size_t axis = 0; isValid && axis < counts.size(); ++axis)
   {
-    if (const auto number = after(text, name))
-    {
-      return parseTree(*number);
-    }
+    choice.Boxes[axis] = wholeNumber<int>(counts[axis]).value_or(0);
+    isValid = choice.Boxes[axis] >= 1 && choice.Boxes[axis] <= most;
   }
-  return std::nullopt;
+  return isValid ? std::make_optional(choice) : std::nullopt;
 }
 
 TilingChoice TilingChoice::require(const std::string& text)
@@ -242,32 +204,6 @@ std::vector<double> loadCoordinates(
 namespace
 {
 
-/// Loads chunks of cells with their coordinates, for building the tree: the points' owners are not
-/// known yet.
-class LoadedCells
-{
-public:
-  LoadedCells(const FlatMesh& mesh, const LoaderOptions& loading, int threads)
-    : Mesh(mesh)
-    , Reader(mesh, 0, -1, threads)
-    , Loader(makeVertexLoader({ mesh.Points }, loading))
-  {
-  }
-
-  void read(std::int64_t first, std::int64_t count, std::vector<double>& coordinates)
-  {
-    this->Ids.resize(std::size_t(count) * std::size_t(this->Mesh.CellSize));
-    this->Reader.read(first, count, this->Ids.data());
-    coordinates = loadCoordinates(this->Mesh, *this->Loader, this->Ids);
-  }
-
-private:
-  const FlatMesh& Mesh;
-  CellReader Reader;
-  std::unique_ptr<VertexLoader> Loader;
-  std::vector<std::int64_t> Ids;
-};
-
 void requirePieces(std::int64_t boxes, const FlatMesh& mesh)
 {
   if (boxes > mostPieces)
@@ -297,17 +233,28 @@ BoxTiling makeTiling(const FlatMesh& mesh, const TilingChoice& choice, const Loa
     requirePieces(std::int64_t(boxes[0]) * boxes[1] * boxes[2], mesh);
     return BoxTiling::grid(dimension, domain, boxes);
   }
-  std::optional<LoadedCells> loaded;
-  ranks.attempt([&] { loaded.emplace(mesh, loading, threads); });
+  // Chunks are loaded with their coordinates, because the points' owners are not known yet.
+  std::optional<CellReader> reader;
+  std::unique_ptr<VertexLoader> loader;
+  ranks.attempt(
+    [&]
+    {
+      reader.emplace(mesh, 0, -1, threads);
+      loader = makeVertexLoader({ mesh.Points }, loading);
+    });
+  std::vector<std::int64_t> ids;
   const CellSource source{ dimension, mesh.CellSize, mesh.Cells.Tuples,
     [&](std::int64_t first, std::int64_t count, std::vector<double>& coordinates)
-    { loaded->read(first, count, coordinates); } };
+    {
+      ids.resize(std::size_t(count * mesh.CellSize));
+      reader->read(first, count, ids.data());
+      coordinates = loadCoordinates(mesh, *loader, ids);
+    } };
   TreeOptions options;
-  options.Dimension = dimension;
   options.Threshold = choice.Threshold;
   options.ChunkCells = chunkCells;
   options.Threads = threads;
-  BoxTiling tiling = buildTree(source, domain, options, ranks.controller()).Tiling;
+  BoxTiling tiling = buildTree(source, domain, options, ranks.controller());
   requirePieces(tiling.count(), mesh);
   return tiling;
 }

@@ -34,9 +34,9 @@ double RefinementTree::length(std::int32_t node) const
   return longest;
 }
 
-bool RefinementTree::canSplit(std::int32_t node, int maxDepth) const
+bool RefinementTree::canSplit(std::int32_t node) const
 {
-  if (this->ChildCount == 1 || this->Depths[at(node)] >= maxDepth)
+  if (this->ChildCount == 1 || this->Depths[at(node)] >= BoxTiling::MaxDepth)
   {
     return false;
   }
@@ -76,17 +76,15 @@ std::string RefinementTree::structure() const
 {
   std::string letters;
   letters.reserve(this->size());
-  std::vector<std::int32_t> stack = { 0 };
-  while (!stack.empty())
+  const auto add = [&](const auto& self, std::int32_t node) -> void
   {
-    const std::int32_t node = stack.back();
-    stack.pop_back();
     letters.push_back(this->isLeaf(node) ? '0' : '1');
-    for (int which = this->ChildCount - 1; which >= 0 && !this->isLeaf(node); --which)
+    for (int which = 0; which < this->ChildCount && !this->isLeaf(node); ++which)
     {
-      stack.push_back(this->firstChild(node) + which);
+      self(self, this->firstChild(node) + which);
     }
-  }
+  };
+  add(add, 0);
   return letters;
 }
 
@@ -123,34 +121,24 @@ void RefinementTree::refine(const std::string& structure)
   require(waiting.empty());
 }
 
-BoxTiling RefinementTree::tiling(
-  const std::function<bool(std::int32_t)>& keep, std::vector<std::int32_t>& leaves) const
+BoxTiling RefinementTree::tiling(const std::function<bool(std::int32_t)>& keep) const
 {
-  struct Pending
-  {
-    std::int32_t From;
-    std::size_t To;
-  };
-  leaves.clear();
   std::vector<std::int32_t> nodes = { -1 };
-  std::vector<Pending> stack = { { 0, 0 } };
-  while (!stack.empty())
+  const auto add = [&](const auto& self, std::int32_t from, std::size_t to) -> void
   {
-    const Pending pending = stack.back();
-    stack.pop_back();
-    if (this->isLeaf(pending.From) || !keep(pending.From))
+    if (this->isLeaf(from) || !keep(from))
     {
-      leaves.push_back(pending.From);
-      continue;
+      return;
     }
-    nodes[pending.To] = static_cast<std::int32_t>(nodes.size());
-    for (int which = this->ChildCount - 1; which >= 0; --which)
-    {
-      stack.push_back(
-        { this->firstChild(pending.From) + which, nodes.size() + static_cast<std::size_t>(which) });
-    }
+    const std::size_t first = nodes.size();
+    nodes[to] = static_cast<std::int32_t>(first);
     nodes.insert(nodes.end(), static_cast<std::size_t>(this->ChildCount), -1);
-  }
+    for (int which = 0; which < this->ChildCount; ++which)
+    {
+      self(self, this->firstChild(from) + which, first + static_cast<std::size_t>(which));
+    }
+  };
+  add(add, 0, 0);
   return BoxTiling::tree(this->Dimension, this->domain(), nodes);
 }
 
