@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <limits>
 
 namespace tipp
 {
@@ -104,7 +103,7 @@ std::vector<std::int32_t> orderPoints(
   for (std::size_t i = 0; i < positions.size(); ++i)
   {
     const double* const row = content.Rows + i * layout.Words;
-    extendBounds(interior.Extent, row, layout);
+    extendBounds(interior.Extent, layout.point(row));
     if (content.IsOnInterface[i] == 0)
     {
       positions[i] = next++;
@@ -232,12 +231,9 @@ PieceSummary summarize(const PartitionedMesh& mesh, std::size_t number,
   summary.Extent = interior.Extent;
   for (const OrderedBorder::Point& point : border.Points)
   {
-    extendBounds(summary.Extent, point.Row, layout);
+    extendBounds(summary.Extent, layout.point(point.Row));
   }
-  if (summary.Extent[4] > summary.Extent[5])
-  {
-    summary.Extent[4] = summary.Extent[5] = 0; // without a third coordinate z is 0
-  }
+  completeBounds(summary.Extent);
   requireNarrowIds(mesh, number, summary, "cells");
   return summary;
 }

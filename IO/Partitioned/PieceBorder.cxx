@@ -41,8 +41,8 @@ void copyPoint(const PieceArray& array, const double* row, const PointRowLayout&
   {
     case PieceRole::Points:
     {
-      const double xyz[3] = { row[0], row[1], layout.Z < 0 ? 0 : row[layout.Z] };
-      std::memcpy(to, xyz, sizeof(xyz));
+      const std::array<double, 3> point = layout.point(row);
+      std::memcpy(to, point.data(), sizeof(point));
       break;
     }
     case PieceRole::PointIds:
@@ -60,16 +60,23 @@ void copyPoint(const PieceArray& array, const double* row, const PointRowLayout&
   }
 }
 
-void extendBounds(Bounds& bounds, const double* row, const PointRowLayout& layout)
+void extendBounds(Bounds& bounds, const std::array<double, 3>& point)
 {
-  const double xyz[3] = { row[0], row[1], layout.Z < 0 ? 0 : row[layout.Z] };
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    if (std::isfinite(xyz[axis])) // a z coordinate may be NaN or infinite
+    if (std::isfinite(point[axis]))
     {
-      bounds[2 * axis] = std::min(bounds[2 * axis], xyz[axis]);
-      bounds[2 * axis + 1] = std::max(bounds[2 * axis + 1], xyz[axis]);
+      bounds[2 * axis] = std::min(bounds[2 * axis], point[axis]);
+      bounds[2 * axis + 1] = std::max(bounds[2 * axis + 1], point[axis]);
     }
+  }
+}
+
+void completeBounds(Bounds& bounds)
+{
+  if (bounds[4] > bounds[5])
+  {
+    bounds[4] = bounds[5] = 0;
   }
 }
 

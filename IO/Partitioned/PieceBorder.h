@@ -32,6 +32,10 @@ struct PointRowLayout
     std::memcpy(&id, row + this->Words - 1, sizeof(id));
     return id;
   }
+  std::array<double, 3> point(const double* row) const
+  {
+    return { row[0], row[1], this->Z < 0 ? 0 : row[this->Z] };
+  }
 };
 
 template <typename Archive>
@@ -62,8 +66,11 @@ std::uint64_t sumTriangles(
 void copyPoint(const PieceArray& array, const double* row, const PointRowLayout& layout,
   bool isGhost, std::int64_t representative, char* to);
 
-/// Extends the bounds by a row's point; coordinates that are not finite are ignored.
-void extendBounds(Bounds& bounds, const double* row, const PointRowLayout& layout);
+/// Extends the bounds by a point; coordinates that are not finite, as z may be, are ignored.
+void extendBounds(Bounds& bounds, const std::array<double, 3>& point);
+
+/// If no point has extended the bounds of z, these become 0.
+void completeBounds(Bounds& bounds);
 
 /// Numbers the distinct sets of pieces that borrow from one piece.
 class VTKTIPPIO_EXPORT SharingSets
@@ -77,7 +84,6 @@ public:
   {
     return *this->Sets[static_cast<std::size_t>(number)];
   }
-  std::size_t size() const { return this->Sets.size(); }
   /// Items grouped by the number of their set (-1: none), in lexicographic order of the sets, and
   /// for each set its index among the groups, or -1.
   struct Grouping

@@ -8,7 +8,7 @@
 #include "Partitioning/MeshTiling.h"
 
 #include <algorithm>
-#include <limits>
+#include <array>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -94,6 +94,7 @@ public:
     this->countCells();
     this->Writer.emplace(this->Job.Result, this->Piece, this->Summary, this->BufferBytes);
     this->writePoints();
+    completeBounds(this->Summary.Extent);
     this->writeCells();
     this->Summary.FileBytes = this->Writer->finish(this->Table);
     return { this->Summary, this->Table };
@@ -217,7 +218,7 @@ private:
       poll();
       block.assign(rows.begin() + std::ptrdiff_t(at),
         rows.begin() + std::ptrdiff_t(std::min(rows.size(), at + blockRows)));
-      ofPoints ? this->appendPoints(block) : this->appendCells(block, ghosts);
+      this->append(block, ofPoints, ghosts);
     }
   }
 
@@ -247,7 +248,7 @@ private:
           waiting.insert(waiting.end(), rows, rows + rowBytes);
         }
         this->extendBounds(block);
-        this->appendPoints(block);
+        this->append(block, true);
       });
     this->Writer->endPart(true);
     std::sort(order.begin(), order.end());
@@ -289,7 +290,7 @@ private:
         {
           rows.push_back(block + i * cells.rowBytes());
         }
-        this->appendCells(rows, false);
+        this->append(rows, false);
       });
     this->Writer->endPart(false);
 
@@ -347,75 +348,37 @@ private:
     const RawArray& points = this->Job.Mesh.Points;
     for (const char* row : rows)
     {
-      double xyz[3] = {};
-      takeCoordinates(points, row + 8, 1, points.Components, xyz);
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        double& least = this->Summary.Extent[2 * axis];
-        double& greatest = this->Summary.Extent[2 * axis + 1];
-        least = std::min(least, xyz[axis]);
-        greatest = std::max(greatest, xyz[axis]);
-      }
+      std::array<double, 3> point{};
+      takeCoordinates(points, row + 8, 1, points.Components, point.data());
+      tipp::extendBounds(this->Summary.Extent, point);
     }
   }
 
-  void appendPoints(const RowPointers& rows)
+  /// Appends rows of points, or of cells, to the arrays of the file.
+  void append(const RowPointers& rows, bool ofPoints, bool areGhosts = false)
   {
-    if (rows.empty())
-    {
-      return;
-    }
     const std::vector<PieceArray>& arrays = this->Writer->arrays();
-    for (std::size_t a = 0; a < arrays.size(); ++a)
+    for (std::size_t a = 0; a < arrays.size() && !rows.empty(); ++a)
     {
-      if (arrays[a].ofPoints())
+      if (arrays[a].ofPoints() == ofPoints)
       {
         char* const to = this->Writer->extend(a, rows.size() * arrays[a].tupleBytes());
-        this->appendPointArray(rows, arrays[a], to);
+        this->appendArray(rows, arrays[a], areGhosts, to);
       }
     }
+    this->CellsWritten += ofPoints ? 0 : std::int64_t(rows.size());
   }
 
-  void appendPointArray(const RowPointers& rows, const PieceArray& array, char* to) const
+  /// Appends value(row) of each row to an array.
+  template <typename Value>
+  static void appendValues(const RowPointers& rows, const Value& value, char* to)
   {
-    if (array.Role == PieceRole::Points)
+    for (const char* row : rows)
     {
-      copyCoordinates(rows, this->Job.Mesh.Points, to);
+      const auto next = value(row);
+      std::memcpy(to, &next, sizeof(next));
+      to += sizeof(next);
     }
-    else if (array.Role == PieceRole::PointData)
-    {
-      copyBytes(rows, this->dataOffset(array), array.tupleBytes(), to);
-    }
-    else
-    {
-      const bool ids = array.Role == PieceRole::PointIds;
-      for (const char* row : rows)
-      {
-        std::uint64_t word = 0;
-        std::memcpy(&word, row, 8);
-        const std::uint64_t value = ids ? word >> 2 : word & RowLayout::Ghost;
-        std::memcpy(to, &value, array.tupleBytes());
-        to += array.tupleBytes();
-      }
-    }
-  }
-
-  void appendCells(const RowPointers& rows, bool ghosts)
-  {
-    if (rows.empty())
-    {
-      return;
-    }
-    const std::vector<PieceArray>& arrays = this->Writer->arrays();
-    for (std::size_t a = 0; a < arrays.size(); ++a)
-    {
-      if (!arrays[a].ofPoints())
-      {
-        char* const to = this->Writer->extend(a, rows.size() * arrays[a].tupleBytes());
-        this->appendCellArray(rows, arrays[a], ghosts, to);
-      }
-    }
-    this->CellsWritten += std::int64_t(rows.size());
   }
 
   template <typename Id>
@@ -438,10 +401,21 @@ private:
     std::memcpy(to, values.data(), values.size() * sizeof(Id));
   }
 
-  void appendCellArray(const RowPointers& rows, const PieceArray& array, bool ghosts, char* to)
+  void appendArray(const RowPointers& rows, const PieceArray& array, bool areGhosts, char* to)
   {
     switch (array.Role)
     {
+      case PieceRole::Points:
+        copyCoordinates(rows, this->Job.Mesh.Points, to);
+        break;
+      case PieceRole::PointIds:
+        appendValues(
+          rows, [](const char* row) { return wordAt(row) >> 2; }, to);
+        break;
+      case PieceRole::PointGhosts:
+        appendValues(
+          rows, [](const char* row) { return std::uint8_t(wordAt(row) & RowLayout::Ghost); }, to);
+        break;
       case PieceRole::Connectivity:
         array.Type == Scalar::Int64 ? this->appendLocalIds<std::int64_t>(rows, to)
                                     : this->appendLocalIds<std::int32_t>(rows, to);
@@ -451,15 +425,11 @@ private:
         fillShapes(array, int(this->Corners), this->CellsWritten, std::int64_t(rows.size()), to);
         break;
       case PieceRole::CellGhosts:
-        std::memset(to, ghosts ? 1 : 0, rows.size());
+        std::memset(to, areGhosts ? 1 : 0, rows.size());
         break;
       case PieceRole::CellIds:
-        for (const char* row : rows)
-        {
-          const std::int64_t id = this->Job.Rows.id(row, 0);
-          std::memcpy(to, &id, 8);
-          to += 8;
-        }
+        appendValues(
+          rows, [this](const char* row) { return this->Job.Rows.id(row, 0); }, to);
         break;
       default:
         copyBytes(rows, this->dataOffset(array), array.tupleBytes(), to);

@@ -357,4 +357,28 @@ TEST_F(RoundTrip, NamesAPointThatIsNotFinite)
   EXPECT_EQ(1U, this->Folder.fileCount());
 }
 
+TEST_F(RoundTrip, ExtentsOfTrianglesIgnoreElevationsThatAreNotFinite)
+{
+  const SourceMesh flat = makeSource(latticeTriangles(4, 0.2));
+  SourceMesh mesh = flat;
+  mesh.Components = 3;
+  for (const double known : { std::numeric_limits<double>::quiet_NaN(), 7.0 })
+  {
+    mesh.Coordinates.clear();
+    for (std::size_t i = 0; i < flat.points(); ++i)
+    {
+      const double z = i % 2 == 0 ? known : std::numeric_limits<double>::infinity();
+      mesh.Coordinates.insert(
+        mesh.Coordinates.end(), { flat.Coordinates[2 * i], flat.Coordinates[2 * i + 1], z });
+    }
+    this->use(mesh);
+    const PartitionedMesh made = openPartitionedMesh(this->make("grid:2x2"));
+    for (const PieceSummary& piece : made.Pieces)
+    {
+      EXPECT_EQ(piece.Extent[4], known == 7 ? 7 : 0);
+      EXPECT_EQ(piece.Extent[5], known == 7 ? 7 : 0);
+    }
+  }
+}
+
 } // namespace
