@@ -69,7 +69,15 @@ struct NpyArray
   std::vector<std::int64_t> Shape;
 
   /// For messages, such as "3 x 4".
-  std::string shapeText() const;
+  std::string shapeText() const
+  {
+    std::string text;
+    for (const std::int64_t extent : this->Shape)
+    {
+      text += (text.empty() ? "" : " x ") + std::to_string(extent);
+    }
+    return text.empty() ? "a single number" : text;
+  }
 };
 
 Scalar scalarOf(const std::string& descr, const std::string& path)
@@ -85,16 +93,6 @@ Scalar scalarOf(const std::string& descr, const std::string& path)
   throw IOError(path,
     "holds elements of type '" + descr +
       "'; save it as little-endian integers, float32 or float64.");
-}
-
-std::string NpyArray::shapeText() const
-{
-  std::string text;
-  for (const std::int64_t extent : this->Shape)
-  {
-    text += (text.empty() ? "" : " x ") + std::to_string(extent);
-  }
-  return text.empty() ? "a single number" : text;
 }
 
 /// Reads the header and checks it against the file's size; throws IOError. Booleans are read as
@@ -133,13 +131,8 @@ namespace fs = std::filesystem;
 RawArray rawArray(const NpyArray& file, const std::string& name, std::int64_t tuples,
   std::int64_t components, std::int64_t step = 0)
 {
-  RawArray array;
-  array.Name = name;
-  array.Path = file.Path;
-  array.Type = file.Type;
-  array.Components = int(components);
-  array.Tuples = tuples;
-  array.Offset = file.Offset + std::uint64_t(step) * array.bytes();
+  RawArray array{ name, file.Path, file.Offset, file.Type, int(components), tuples };
+  array.Offset += std::uint64_t(step) * array.bytes();
   return array;
 }
 

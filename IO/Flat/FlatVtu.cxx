@@ -25,12 +25,9 @@ namespace
 /// data.
 struct VtuHeader
 {
+  FlatMesh Mesh; ///< its cells are ids, whose number follows from the byte count
   std::int64_t Points = 0;
   std::int64_t Cells = 0;
-  std::vector<RawArray> PointData;
-  std::vector<RawArray> CellData;
-  RawArray Coordinates;
-  RawArray Connectivity; ///< its Tuples follow from the byte count
   RawArray Offsets;
   RawArray Types;
 };
@@ -205,12 +202,8 @@ private:
       this->fail("holds array '" + name + "' with an offset or a number of components that its " +
         "size cannot hold; copy or write it again.");
     }
-    RawArray array;
-    array.Name = name;
-    array.Path = this->File.path();
-    array.Type = type;
-    array.Components = *components;
-    array.Offset = this->DataStart + *offset + this->CountSize;
+    RawArray array{ name, this->File.path(), this->DataStart + *offset + this->CountSize, type,
+      *components, 0 };
     std::uint64_t bytes = 0;
     this->File.read(array.Offset - this->CountSize, &bytes, this->CountSize);
     if (bytes > this->File.size() - array.Offset || bytes % array.tupleBytes() != 0)
@@ -252,9 +245,9 @@ private:
     VtuHeader& h = this->Header;
     const bool isData = this->Section == "PointData" || this->Section == "CellData";
     const bool ofPoints = this->Section == "PointData" || this->Section == "Points";
-    std::vector<RawArray>& data = ofPoints ? h.PointData : h.CellData;
-    RawArray* const part = this->Section == "Points" ? &h.Coordinates
-      : array.Name == "connectivity"                 ? &h.Connectivity
+    std::vector<RawArray>& data = ofPoints ? h.Mesh.PointData : h.Mesh.CellData;
+    RawArray* const part = this->Section == "Points" ? &h.Mesh.Points
+      : array.Name == "connectivity"                 ? &h.Mesh.Cells
       : array.Name == "offsets"                      ? &h.Offsets
       : array.Name == "types"                        ? &h.Types
                                                      : nullptr;
@@ -272,9 +265,9 @@ private:
     {
       this->fail("holds two arrays where one of '" + array.Name + "' is due; write it again.");
     }
-    const std::int64_t tuples = !isData && part == &h.Connectivity ? array.Tuples
-      : ofPoints                                                   ? h.Points
-                                                                   : h.Cells;
+    const std::int64_t tuples = !isData && part == &h.Mesh.Cells ? array.Tuples
+      : ofPoints                                                 ? h.Points
+                                                                 : h.Cells;
     if (array.Tuples != tuples)
     {
       this->fail("holds array '" + array.Name + "' with " + std::to_string(array.Tuples) +
@@ -286,8 +279,8 @@ private:
   void requireWhole() const
   {
     const VtuHeader& h = this->Header;
-    if (!this->HasFile || this->Pieces != 1 || h.Coordinates.Path.empty() ||
-      h.Connectivity.Path.empty() || h.Offsets.Path.empty() || h.Types.Path.empty())
+    if (!this->HasFile || this->Pieces != 1 || h.Mesh.Points.Path.empty() ||
+      h.Mesh.Cells.Path.empty() || h.Offsets.Path.empty() || h.Types.Path.empty())
     {
       this->fail("lacks a part of an unstructured grid: its points or its cells; copy "
                  "or write it again.");
@@ -375,10 +368,10 @@ FlatMesh openFlatVtu(const std::string& path)
 {
   const InputFile file(path);
   VtuHeader header = HeaderReader(file).read();
-  FlatMesh mesh;
+  FlatMesh& mesh = header.Mesh;
   mesh.Path = path;
   mesh.CellSize = checkTypes(file, header.Types);
-  if (!isId(header.Offsets) || !isId(header.Connectivity))
+  if (!isId(header.Offsets) || !isId(mesh.Cells))
   {
     throw IOError(path,
       "holds its cells as other than 32-bit or 64-bit signed integers; 'tipp flatten' makes a flat "
@@ -392,27 +385,23 @@ FlatMesh openFlatVtu(const std::string& path)
   {
     checkOffsets<std::int64_t>(file, header.Offsets, mesh.CellSize);
   }
-  if (header.Connectivity.Tuples != header.Cells * mesh.CellSize)
+  if (mesh.Cells.Tuples != header.Cells * mesh.CellSize)
   {
     throw IOError(path,
-      "holds " + std::to_string(header.Connectivity.Tuples) + " vertex ids for " +
+      "holds " + std::to_string(mesh.Cells.Tuples) + " vertex ids for " +
         std::to_string(header.Cells) + " cells of " + std::to_string(mesh.CellSize) +
         "; copy or write it again.");
   }
-  const RawArray& points = header.Coordinates;
+  const RawArray& points = mesh.Points;
   if (points.Components != 3 || (points.Type != Scalar::Float32 && points.Type != Scalar::Float64))
   {
     throw IOError(path,
       "holds points that are not three coordinates of Float32 or Float64; 'tipp flatten' makes a "
       "flat mesh of it.");
   }
-  mesh.Points = points;
-  mesh.Cells = header.Connectivity;
   mesh.Cells.Components = mesh.CellSize;
   mesh.Cells.Tuples = header.Cells;
-  mesh.PointData = std::move(header.PointData);
-  mesh.CellData = std::move(header.CellData);
-  return mesh;
+  return std::move(mesh);
 }
 
 bool isFlatVtu(const std::string& path)

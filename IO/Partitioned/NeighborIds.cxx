@@ -6,7 +6,6 @@
 #include "Partitioned/PieceWriter.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <iterator>
 

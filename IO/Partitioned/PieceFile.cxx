@@ -37,14 +37,9 @@ GlobalIdMap::GlobalIdMap(const std::int64_t* ids, const std::int64_t* values, st
   {
     greatest = std::max(greatest, std::uint64_t(values[i]));
   }
-  if (this->Range <= limit && greatest <= limit)
-  {
-    this->fill(this->Narrow, ids, values, count);
-  }
-  else
-  {
-    this->fill(this->Wide, ids, values, count);
-  }
+  const bool isNarrow = this->Range <= limit && greatest <= limit;
+  isNarrow ? this->fill(this->Narrow, ids, values, count)
+           : this->fill(this->Wide, ids, values, count);
 }
 
 template <typename Number>
@@ -98,7 +93,7 @@ std::int64_t GlobalIdMap::find(std::int64_t id) const
 }
 
 template <typename Value>
-bool GlobalIdMap::translateAll(const std::int64_t* ids, std::size_t count, Value* values) const
+bool GlobalIdMap::translate(const std::int64_t* ids, std::size_t count, Value* values) const
 {
   std::int64_t all = 0;
   const auto run = [&](const auto& entries)
@@ -111,26 +106,14 @@ bool GlobalIdMap::translateAll(const std::int64_t* ids, std::size_t count, Value
       values[i] = Value(value);
     }
   };
-  if (this->Wide.empty())
-  {
-    run(this->Narrow);
-  }
-  else
-  {
-    run(this->Wide);
-  }
+  this->Wide.empty() ? run(this->Narrow) : run(this->Wide);
   return all >= 0;
 }
 
-bool GlobalIdMap::translate(const std::int64_t* ids, std::size_t count, std::int32_t* values) const
-{
-  return this->translateAll(ids, count, values);
-}
-
-bool GlobalIdMap::translate(const std::int64_t* ids, std::size_t count, std::int64_t* values) const
-{
-  return this->translateAll(ids, count, values);
-}
+template VTKTIPPIO_EXPORT bool GlobalIdMap::translate(
+  const std::int64_t*, std::size_t, std::int32_t*) const;
+template VTKTIPPIO_EXPORT bool GlobalIdMap::translate(
+  const std::int64_t*, std::size_t, std::int64_t*) const;
 
 namespace
 {
@@ -166,7 +149,13 @@ PieceFile::PieceFile(
   , PointParts(startsOf(this->Table.parts(mesh, this->Summary, true)))
   , CellParts(startsOf(this->Table.parts(mesh, this->Summary, false)))
 {
-  this->checkHeader();
+  std::string header(std::size_t(this->Table.HeaderBytes), '\0');
+  this->File.read(0, header.data(), header.size());
+  this->BytesRead += std::int64_t(header.size());
+  if (checksumOf(header.data(), header.size()) != this->Table.HeaderChecksum)
+  {
+    this->fail("its header does not have the checksum of piece " + std::to_string(this->Number));
+  }
 }
 
 void PieceFile::fail(const std::string& problem) const
@@ -179,17 +168,6 @@ void PieceFile::requireIds(const std::int64_t* ids, std::size_t count, std::int6
   if (!areBelow(ids, count, limit))
   {
     this->fail("holds a global id that the mesh does not have");
-  }
-}
-
-void PieceFile::checkHeader() const
-{
-  std::string header(std::size_t(this->Table.HeaderBytes), '\0');
-  this->File.read(0, header.data(), header.size());
-  this->BytesRead += std::int64_t(header.size());
-  if (checksumOf(header.data(), header.size()) != this->Table.HeaderChecksum)
-  {
-    this->fail("its header does not have the checksum of piece " + std::to_string(this->Number));
   }
 }
 
@@ -283,16 +261,6 @@ void PieceFile::requireZeros(std::uint64_t from, std::uint64_t to) const
     });
 }
 
-void PieceFile::requireFooter(std::uint64_t at) const
-{
-  std::string footer(std::strlen(pieceFooter), '\0');
-  this->File.read(at, footer.data(), footer.size());
-  if (footer != pieceFooter)
-  {
-    this->fail("does not end as it was written");
-  }
-}
-
 void PieceFile::verifyAll() const
 {
   if (this->File.size() != this->Summary.FileBytes)
@@ -330,7 +298,12 @@ void PieceFile::verifyAll() const
     this->fail("ends before its arrays do");
   }
   this->requireZeros(at, end);
-  this->requireFooter(end);
+  std::string footer(std::strlen(pieceFooter), '\0');
+  this->File.read(end, footer.data(), footer.size());
+  if (footer != pieceFooter)
+  {
+    this->fail("does not end as it was written");
+  }
 }
 
 } // namespace tipp

@@ -7,28 +7,13 @@
 #include "Partitioned/PieceFormat.h"
 #include "vtkTIPPIOModule.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <type_traits>
 #include <vector>
 
 namespace tipp
 {
-
-/// Whether all ids are in [0, limit).
-template <typename Id>
-bool areBelow(const Id* ids, std::size_t count, std::int64_t limit)
-{
-  using Unsigned = std::make_unsigned_t<Id>;
-  Unsigned greatest = 0;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    greatest = std::max(greatest, Unsigned(ids[i]));
-  }
-  return count == 0 || std::uint64_t(greatest) < std::uint64_t(limit);
-}
 
 /// A map from ids to values, neither negative. A look-up uses a table with about one id per entry,
 /// and a search among the few ids that share an entry: two cache lines.
@@ -42,9 +27,10 @@ public:
   /// The id's value; -1 if the id is not in the map.
   std::int64_t find(std::int64_t id) const;
 
-  /// Writes the values of `count` ids; returns false if an id is not in the map.
-  bool translate(const std::int64_t* ids, std::size_t count, std::int32_t* values) const;
-  bool translate(const std::int64_t* ids, std::size_t count, std::int64_t* values) const;
+  /// Writes the values of `count` ids; returns false if an id is not in the map. For values of 32
+  /// or 64 bits.
+  template <typename Value>
+  bool translate(const std::int64_t* ids, std::size_t count, Value* values) const;
 
 private:
   template <typename Number>
@@ -58,8 +44,6 @@ private:
   template <typename Number>
   void fill(std::vector<Entry<Number>>& entries, const std::int64_t* ids,
     const std::int64_t* values, std::size_t count);
-  template <typename Value>
-  bool translateAll(const std::int64_t* ids, std::size_t count, Value* values) const;
 
   std::int64_t Least = 0;
   std::uint64_t Range = 0; ///< greatest id minus least id
@@ -123,10 +107,8 @@ private:
   template <typename BlockAt, typename Take>
   void readBlocks(std::size_t array, std::size_t first, std::size_t end, const BlockAt& blockAt,
     const Take& take) const;
-  void checkHeader() const;
   void requirePart(std::size_t array, std::size_t part, std::uint64_t checksum) const;
   void requireZeros(std::uint64_t from, std::uint64_t to) const;
-  void requireFooter(std::uint64_t at) const;
 
   const PieceSummary& Summary;
   std::size_t Number;

@@ -36,14 +36,6 @@ void saveGroups(SaveArchive& archive, const std::vector<BorrowedGroup>& groups)
   }
 }
 
-[[noreturn]] void failInTable(
-  const PartitionedMesh& mesh, std::size_t piece, const std::string& problem)
-{
-  throw IOError(mesh.tablesPath(),
-    "its table of piece " + std::to_string(piece) + " " + problem +
-      "; copy or make the mesh again.");
-}
-
 /// Reads a table number by number; the caller checks each of them.
 class TableReader
 {
@@ -57,7 +49,9 @@ public:
 
   [[noreturn]] void fail(const std::string& problem) const
   {
-    failInTable(this->Mesh, this->Number, problem);
+    throw IOError(this->Mesh.tablesPath(),
+      "its table of piece " + std::to_string(this->Number) + " " + problem +
+        "; copy or make the mesh again.");
   }
 
   std::uint64_t word()
@@ -218,13 +212,13 @@ PieceTable readPieceTable(const PartitionedMesh& mesh, std::size_t number)
   const PieceSummary& piece = mesh.Pieces[number];
   Bytes bytes(std::size_t(piece.TableBytes));
   InputFile(mesh.tablesPath()).read(piece.TableOffset, bytes.data(), bytes.size());
+  TableReader in(mesh, number, bytes);
   if (checksumOf(bytes.data(), bytes.size()) != piece.TableChecksum)
   {
-    failInTable(mesh, number, "does not have the checksum that the index gives");
+    in.fail("does not have the checksum that the index gives");
   }
   const auto pieces = std::int64_t(mesh.Pieces.size());
   const auto self = std::int64_t(number);
-  TableReader in(mesh, number, bytes);
   PieceTable table;
   table.HeaderBytes = std::uint64_t(in.number(std::int64_t(piece.FileBytes), "header size"));
   table.HeaderChecksum = in.word();

@@ -8,32 +8,15 @@
 #include "Partitioning/PartitionMesh.h"
 
 #include <algorithm>
-#include <atomic>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 namespace tipp
 {
 
-PartitionJob::PartitionJob(const FlatMesh& mesh, const PartitionOptions& options,
-  Communicator& ranks, const std::string& folder)
-  : Mesh(mesh)
-  , Options(options)
-  , Team(ranks)
-  , Threads(threadCount(options.Threads))
-  , Folder(folder)
-{
-}
-
 RawArray PartitionJob::owners() const
 {
-  RawArray array;
-  array.Name = "owners";
-  array.Path = this->scratch("owners");
-  array.Type = Scalar::Int32;
-  array.Tuples = this->Mesh.Points.Tuples;
-  return array;
+  return { "owners", this->scratch("owners"), 0, Scalar::Int32, 1, this->Mesh.Points.Tuples };
 }
 
 LoaderOptions PartitionJob::loaderOptions() const
@@ -140,21 +123,18 @@ std::vector<FinishedPiece> writeShare(PartitionJob& job)
   std::stable_sort(order.begin(), order.end(),
     [&](std::size_t a, std::size_t b) { return job.Cells->rows(a) > job.Cells->rows(b); });
   std::vector<FinishedPiece> finished(order.size());
-  std::atomic<std::size_t> done{ 0 };
-  // Only the calling thread may report progress; it does so after each batch.
-  const std::size_t batch = std::max<std::size_t>(std::size_t(job.Threads), order.size() / 16);
-  for (std::size_t at = 0; at < order.size(); at += batch)
-  {
-    const std::size_t count = std::min(batch, order.size() - at);
-    parallelFor(std::int64_t(count), job.Threads,
-      [&, at, first = first](std::int64_t i)
-      {
-        const std::size_t piece = order[at + std::size_t(i)];
-        finished[piece - first] = writeSpilledPiece(job, piece, bufferBytes(job));
-        ++done;
-      });
-    job.report(0.7 + 0.25 * double(done) / double(order.size()));
-  }
+  forChunks(
+    std::int64_t(order.size()), 1, job.Threads,
+    [&job](double done)
+    {
+      job.report(0.7 + 0.25 * done);
+      return true;
+    },
+    [&, first = first](std::int64_t i, std::int64_t, int)
+    {
+      const std::size_t piece = order[std::size_t(i)];
+      finished[piece - first] = writeSpilledPiece(job, piece, bufferBytes(job));
+    });
   return finished;
 }
 

@@ -3,6 +3,7 @@
 #define tippPartitionJob_h
 
 #include "Flat/FlatMesh.h"
+#include "Parallel/ParallelFor.h"
 #include "Partition/BoxTiling.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/PieceWriter.h"
@@ -24,7 +25,6 @@ namespace tipp
 struct RowLayout
 {
   int Corners = 3;            ///< vertices per cell
-  int Dimension = 2;          ///< the tiling's
   std::size_t IdBytes = 4;    ///< size of an id in a cell's row: 8 if 31 bits do not suffice
   std::size_t CellBytes = 0;  ///< the cell's id, its vertices' ids, its attributes
   std::size_t CellData = 0;   ///< offset of its attributes
@@ -52,7 +52,14 @@ struct PartitionJob
 {
   /// `folder` is the temporary output folder.
   PartitionJob(const FlatMesh& mesh, const PartitionOptions& options, Communicator& ranks,
-    const std::string& folder);
+    const std::string& folder)
+    : Mesh(mesh)
+    , Options(options)
+    , Team(ranks)
+    , Threads(threadCount(options.Threads))
+    , Folder(folder)
+  {
+  }
 
   const FlatMesh& Mesh;
   const PartitionOptions& Options;

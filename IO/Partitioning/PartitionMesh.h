@@ -2,7 +2,6 @@
 #ifndef tippPartitionMesh_h
 #define tippPartitionMesh_h
 
-#include "Files/PendingOutput.h"
 #include "Flat/FlatMesh.h"
 #include "Loading/VertexLoader.h"
 #include "OpenCL/Devices.h"
@@ -72,9 +71,6 @@ struct PartitionStatistics
   std::vector<Phase> Phases;
   bool Aborted = false; ///< whether Progress aborted the run; then nothing was written
 };
-
-/// A new mesh may replace a partitioned mesh.
-extern const Replaceable replaceableMesh;
 
 /// Partitions a flat mesh and writes it to `path`, within the memory limit. The files depend only
 /// on the mesh, the tiling and DuplicateBorrowers, byte for byte. They are written to a hidden

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioning/StoredRows.h"
 
+#include <cstring>
+
 namespace tipp
 {
 namespace

@@ -19,16 +19,9 @@ namespace
 
 bool isPlain(vtkDataArray* array)
 {
-  switch (array->GetDataType())
-  {
-    case VTK_INT:
-    case VTK_LONG:
-    case VTK_LONG_LONG:
-    case VTK_ID_TYPE:
-      return array->HasStandardMemoryLayout();
-    default:
-      return false;
-  }
+  const int type = array->GetDataType();
+  return array->HasStandardMemoryLayout() &&
+    (type == VTK_INT || type == VTK_LONG || type == VTK_LONG_LONG || type == VTK_ID_TYPE);
 }
 
 vtkSmartPointer<vtkDataArray> wideCopy(vtkDataArray* array)
