@@ -5,7 +5,7 @@
 #include "Flat/FlatMesh.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
-#include "Partitioned/PieceGrid.h"
+#include "Partitioned/ReadPiece.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Reading/PieceSource.h"
 #include "Vtk/Compatibility.h"
@@ -305,30 +305,33 @@ Fetched fetch(tipp::PieceSource& source, tipp::PieceCache& cache,
   const std::vector<std::size_t>& numbers, const tipp::PieceOptions& options, bool keep)
 {
   Fetched fetched;
+  fetched.Pieces.resize(numbers.size());
   std::vector<std::size_t> missing;
+  std::vector<HeldPiece*> unread;
   const auto keyOf = [&options](std::size_t number) {
     return tipp::PieceCache::Key{ number, options.Borrowed, options.Wanted, options.Step };
   };
-  for (const std::size_t number : numbers)
+  for (std::size_t i = 0; i < numbers.size(); ++i)
   {
-    fetched.Pieces.push_back({ cache.find(keyOf(number)), {} });
-    if (!fetched.Pieces.back().Shared)
+    fetched.Pieces[i].Shared = cache.find(keyOf(numbers[i]));
+    if (!fetched.Pieces[i].Shared)
     {
-      missing.push_back(number);
+      missing.push_back(numbers[i]);
+      unread.push_back(&fetched.Pieces[i]);
     }
   }
   std::vector<tipp::Piece> read = source.read(missing, options);
-  auto unshared = fetched.Pieces.begin();
-  for (std::size_t i = 0; i < missing.size(); ++i, ++unshared)
+  for (std::size_t i = 0; i < missing.size(); ++i)
   {
-    unshared = std::find_if(
-      unshared, fetched.Pieces.end(), [](const HeldPiece& piece) { return !piece.Shared; });
-    fetched.Bytes += read[i].Counters.Bytes;
-    unshared->Own = std::move(read[i]);
+    fetched.Bytes += read[i].BytesRead;
     if (keep)
     {
-      unshared->Shared = std::make_shared<const tipp::Piece>(std::move(unshared->Own));
-      cache.keep(keyOf(missing[i]), unshared->Shared);
+      unread[i]->Shared = std::make_shared<const tipp::Piece>(std::move(read[i]));
+      cache.keep(keyOf(missing[i]), unread[i]->Shared);
+    }
+    else
+    {
+      unread[i]->Own = std::move(read[i]);
     }
   }
   fetched.Read = std::int64_t(missing.size());
@@ -433,6 +436,7 @@ int vtkPartitionedUnstructuredReader::RequestData(
       this->UpdateProgress(this->GetProgress());
       return !tipp::abortRequested(this);
     });
+  int isGood = 0;
   try
   {
     ranks.attempt(
@@ -448,10 +452,7 @@ int vtkPartitionedUnstructuredReader::RequestData(
   }
   catch (const tipp::WorkAborted&)
   {
-    output->Initialize();
-    this->Inner->Source.reset(); // a failed prepare() may have left it incomplete
-    this->Inner->Cache.clear();
-    return 1;
+    isGood = 1; // an abort is no error
   }
   catch (const std::bad_alloc&)
   {
@@ -463,9 +464,9 @@ int vtkPartitionedUnstructuredReader::RequestData(
     vtkErrorMacro(<< error.what());
   }
   output->Initialize();
-  this->Inner->Source.reset();
+  this->Inner->Source.reset(); // a failed prepare() may have left it incomplete
   this->Inner->Cache.clear();
-  return 0;
+  return isGood;
 }
 
 void vtkPartitionedUnstructuredReader::PrintSelf(ostream& os, vtkIndent indent)

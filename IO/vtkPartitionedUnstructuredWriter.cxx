@@ -2,7 +2,7 @@
 #include "vtkPartitionedUnstructuredWriter.h"
 
 #include "Files/IOError.h"
-#include "Partitioning/PartitionDataSet.h"
+#include "Partitioning/PartitionMesh.h"
 #include "Ranks/Communicator.h"
 #include "Vtk/Compatibility.h"
 

@@ -325,8 +325,7 @@ void markCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, std::i
     {
       const auto number = std::size_t(at);
       FinishedPiece& piece = pieces[number];
-      ReadCounters counters;
-      const PieceFile file(mesh, number, piece.Summary, piece.Table, counters);
+      const PieceFile file(mesh, number, piece.Summary, piece.Table);
       const auto read = [&file](PieceRole role, void* to)
       {
         const std::size_t a = file.find(role);

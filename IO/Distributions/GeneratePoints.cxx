@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -145,31 +144,9 @@ private:
   bool HasSpare = false;
 };
 
-/// Generates Distribution::Coast; x and y interleaved.
-std::vector<double> generateCoast(std::int64_t count, Random& random)
-{
-  if (count == 0)
-  {
-    return {};
-  }
-  return CoastGenerator(count, random).generate();
-}
-
-struct Named
-{
-  Distribution Value;
-  const char* Name;
-};
-
-constexpr std::array<Named, 7> table = { {
-  { Distribution::Uniform, "uniform" },
-  { Distribution::Clustered, "clustered" },
-  { Distribution::Kuzmin, "kuzmin" },
-  { Distribution::Lattice, "lattice" },
-  { Distribution::Coast, "coast" },
-  { Distribution::Circle, "circle" },
-  { Distribution::Collinear, "collinear" },
-} };
+/// In the order of the enumerators.
+constexpr std::array<const char*, 7> names = { "uniform", "clustered", "kuzmin", "lattice", "coast",
+  "circle", "collinear" };
 
 template <typename MakePoint>
 std::vector<double> fill(std::int64_t count, MakePoint makePoint)
@@ -271,7 +248,7 @@ std::vector<double> generatePoints(
     case Distribution::Lattice:
       return generateLattice(count);
     case Distribution::Coast:
-      return generateCoast(count, random);
+      return count > 0 ? CoastGenerator(count, random).generate() : std::vector<double>();
     case Distribution::Circle:
       return fill(count, [&](std::int64_t) { return random.onCircle(); });
     case Distribution::Collinear:
@@ -289,25 +266,14 @@ std::vector<double> generatePoints(
 
 std::optional<Distribution> distributionFromName(std::string_view name)
 {
-  for (const Named& entry : table)
-  {
-    if (name == entry.Name)
-    {
-      return entry.Value;
-    }
-  }
-  return std::nullopt;
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? std::nullopt
+                              : std::make_optional(Distribution(found - names.begin()));
 }
 
 std::vector<std::string> distributionNames()
 {
-  std::vector<std::string> names;
-  names.reserve(std::size(table));
-  for (const Named& entry : table)
-  {
-    names.emplace_back(entry.Name);
-  }
-  return names;
+  return { names.begin(), names.end() };
 }
 
 } // namespace tipp

@@ -65,13 +65,8 @@ namespace fs = std::filesystem;
 RawArray rawArray(const NpyArray& file, const std::string& name, std::int64_t tuples,
   std::int64_t components, std::int64_t step = 0)
 {
-  RawArray array;
-  array.Name = name;
-  array.Path = file.Path;
-  array.Type = file.Type;
-  array.Components = int(components);
-  array.Tuples = tuples;
-  array.Offset = file.Offset + std::uint64_t(step) * array.bytes();
+  RawArray array{ name, file.Path, file.Offset, file.Type, int(components), tuples };
+  array.Offset += std::uint64_t(step) * array.bytes();
   return array;
 }
 

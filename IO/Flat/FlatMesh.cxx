@@ -172,13 +172,7 @@ void CellReader::readBlock(std::int64_t firstId, std::int64_t count, std::int64_
   {
     this->File.read(offset, ids, std::size_t(count) * size);
   }
-  // As unsigned numbers, negative ids are large.
-  std::uint64_t largest = 0;
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    largest = std::max(largest, std::uint64_t(ids[i]));
-  }
-  if (count > 0 && largest >= std::uint64_t(this->Points))
+  if (!areBelow(ids, std::size_t(count), this->Points))
   {
     this->reportBadId(firstId, count, ids);
   }

@@ -6,12 +6,14 @@
 #include "Files/InputFile.h"
 #include "vtkTIPPIOModule.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace tipp
@@ -82,6 +84,19 @@ bool isFlatFolder(const std::string& path);
 FlatMesh openFlatVtu(const std::string& path);
 bool isFlatVtu(const std::string& path);
 ///@}
+
+/// Whether all ids are in [0, limit).
+template <typename Id>
+bool areBelow(const Id* ids, std::size_t count, std::int64_t limit)
+{
+  using Unsigned = std::make_unsigned_t<Id>; // in which negative ids are large
+  Unsigned greatest = 0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    greatest = std::max(greatest, Unsigned(ids[i]));
+  }
+  return count == 0 || std::uint64_t(greatest) < std::uint64_t(limit);
+}
 
 /// Reads the cells of a flat mesh in chunks, as 64-bit point indices, and checks these.
 class VTKTIPPIO_EXPORT CellReader

@@ -25,19 +25,14 @@ namespace
 /// data.
 struct VtuHeader
 {
+  FlatMesh Mesh; ///< its cells are ids, whose number follows from the byte count
   std::int64_t Points = 0;
   std::int64_t Cells = 0;
-  std::vector<RawArray> PointData;
-  std::vector<RawArray> CellData;
-  RawArray Coordinates;
-  RawArray Connectivity; ///< its Tuples follow from the byte count
   RawArray Offsets;
   RawArray Types;
 };
 
 using Tag = XmlScanner::Tag;
-
-constexpr const char* flatten = "; 'tipp flatten' makes a flat mesh of it.";
 
 template <typename Value>
 std::optional<Value> parse(const std::string* text)
@@ -62,12 +57,12 @@ public:
     this->DataStart = head.DataStart;
     if (head.DataStart == 0)
     {
-      this->fail(std::string("has no appended data") + flatten);
+      this->refuse("has no appended data");
     }
     // Checked first: in an encoded file the byte counts are meaningless.
     if (head.Encoding != "raw")
     {
-      this->fail(std::string("has appended data that are encoded, not raw") + flatten);
+      this->refuse("has appended data that are encoded, not raw");
     }
     XmlScanner scanner(head.Text);
     for (Tag tag; scanner.next(tag);)
@@ -87,6 +82,11 @@ private:
   [[noreturn]] void fail(const std::string& problem) const
   {
     throw IOError(this->File.path(), problem);
+  }
+
+  [[noreturn]] void refuse(const std::string& problem) const
+  {
+    this->fail(problem + "; 'tipp flatten' makes a flat mesh of it.");
   }
 
   void take(const Tag& tag)
@@ -130,15 +130,15 @@ private:
     const std::string* const compressor = tag.find("compressor");
     if (!type || *type != "UnstructuredGrid")
     {
-      this->fail(std::string("is not a VTK XML file of an unstructured grid") + flatten);
+      this->refuse("is not a VTK XML file of an unstructured grid");
     }
     if (!order || *order != "LittleEndian")
     {
-      this->fail(std::string("does not say that it is little-endian") + flatten);
+      this->refuse("does not say that it is little-endian");
     }
     if (compressor && !compressor->empty())
     {
-      this->fail(std::string("is compressed, so that it cannot be read in place") + flatten);
+      this->refuse("is compressed, so that it cannot be read in place");
     }
     if (count && *count != "UInt32" && *count != "UInt64")
     {
@@ -162,7 +162,7 @@ private:
     }
     if (this->Pieces++ > 0)
     {
-      this->fail(std::string("holds several pieces") + flatten);
+      this->refuse("holds several pieces");
     }
     this->Header.Points = *points;
     this->Header.Cells = *cells;
@@ -189,7 +189,7 @@ private:
     const std::string* const format = tag.find("format");
     if (!format || *format != "appended")
     {
-      this->fail("holds array '" + name + "' outside its appended data" + flatten);
+      this->refuse("holds array '" + name + "' outside its appended data");
     }
     const auto offset = parse<std::uint64_t>(tag.find("offset"));
     const std::string* const given = tag.find("NumberOfComponents");
@@ -202,12 +202,8 @@ private:
       this->fail("holds array '" + name + "' with an offset or a number of components that its " +
         "size cannot hold; copy or write it again.");
     }
-    RawArray array;
-    array.Name = name;
-    array.Path = this->File.path();
-    array.Type = type;
-    array.Components = *components;
-    array.Offset = this->DataStart + *offset + this->CountSize;
+    RawArray array{ name, this->File.path(), this->DataStart + *offset + this->CountSize, type,
+      *components, 0 };
     std::uint64_t bytes = 0;
     this->File.read(array.Offset - this->CountSize, &bytes, this->CountSize);
     if (bytes > this->File.size() - array.Offset || bytes % array.tupleBytes() != 0)
@@ -247,60 +243,44 @@ private:
   void keep(const RawArray& array)
   {
     VtuHeader& h = this->Header;
-    if (this->Section == "PointData" || this->Section == "CellData")
+    const bool isData = this->Section == "PointData" || this->Section == "CellData";
+    const bool ofPoints = this->Section == "PointData" || this->Section == "Points";
+    std::vector<RawArray>& data = ofPoints ? h.Mesh.PointData : h.Mesh.CellData;
+    RawArray* const part = this->Section == "Points" ? &h.Mesh.Points
+      : array.Name == "connectivity"                 ? &h.Mesh.Cells
+      : array.Name == "offsets"                      ? &h.Offsets
+      : array.Name == "types"                        ? &h.Types
+                                                     : nullptr;
+    if (isData &&
+      std::any_of(data.begin(), data.end(),
+        [&array](const RawArray& other) { return other.Name == array.Name; }))
     {
-      const bool ofPoints = this->Section == "PointData";
-      this->keepData(ofPoints ? h.PointData : h.CellData, array, ofPoints ? h.Points : h.Cells);
+      this->fail("holds two arrays of the name '" + array.Name + "'; rename one of them.");
     }
-    else if (this->Section == "Points")
+    if (!isData && !part)
     {
-      this->keepOne(h.Coordinates, array, h.Points);
+      return;
     }
-    else if (array.Name == "connectivity")
+    if (!isData && !part->Path.empty())
     {
-      this->keepOne(h.Connectivity, array, array.Tuples);
+      this->fail("holds two arrays where one of '" + array.Name + "' is due; write it again.");
     }
-    else if (array.Name == "offsets" || array.Name == "types")
-    {
-      this->keepOne(array.Name == "types" ? h.Types : h.Offsets, array, h.Cells);
-    }
-  }
-
-  void requireTuples(const RawArray& array, std::int64_t tuples) const
-  {
+    const std::int64_t tuples = !isData && part == &h.Mesh.Cells ? array.Tuples
+      : ofPoints                                                 ? h.Points
+                                                                 : h.Cells;
     if (array.Tuples != tuples)
     {
       this->fail("holds array '" + array.Name + "' with " + std::to_string(array.Tuples) +
         " tuples where " + std::to_string(tuples) + " are due; copy or write it again.");
     }
-  }
-
-  void keepOne(RawArray& kept, const RawArray& array, std::int64_t tuples) const
-  {
-    if (!kept.Path.empty())
-    {
-      this->fail("holds two arrays where one of '" + array.Name + "' is due; write it again.");
-    }
-    this->requireTuples(array, tuples);
-    kept = array;
-  }
-
-  void keepData(std::vector<RawArray>& arrays, const RawArray& array, std::int64_t tuples) const
-  {
-    if (std::any_of(arrays.begin(), arrays.end(),
-          [&](const RawArray& other) { return other.Name == array.Name; }))
-    {
-      this->fail("holds two arrays of the name '" + array.Name + "'; rename one of them.");
-    }
-    this->requireTuples(array, tuples);
-    arrays.push_back(array);
+    isData ? data.push_back(array) : void(*part = array);
   }
 
   void requireWhole() const
   {
     const VtuHeader& h = this->Header;
-    if (!this->HasFile || this->Pieces != 1 || h.Coordinates.Path.empty() ||
-      h.Connectivity.Path.empty() || h.Offsets.Path.empty() || h.Types.Path.empty())
+    if (!this->HasFile || this->Pieces != 1 || h.Mesh.Points.Path.empty() ||
+      h.Mesh.Cells.Path.empty() || h.Offsets.Path.empty() || h.Types.Path.empty())
     {
       this->fail("lacks a part of an unstructured grid: its points or its cells; copy "
                  "or write it again.");
@@ -388,10 +368,10 @@ FlatMesh openFlatVtu(const std::string& path)
 {
   const InputFile file(path);
   VtuHeader header = HeaderReader(file).read();
-  FlatMesh mesh;
+  FlatMesh& mesh = header.Mesh;
   mesh.Path = path;
   mesh.CellSize = checkTypes(file, header.Types);
-  if (!isId(header.Offsets) || !isId(header.Connectivity))
+  if (!isId(header.Offsets) || !isId(mesh.Cells))
   {
     throw IOError(path,
       "holds its cells as other than 32-bit or 64-bit signed integers; 'tipp flatten' makes a flat "
@@ -405,27 +385,23 @@ FlatMesh openFlatVtu(const std::string& path)
   {
     checkOffsets<std::int64_t>(file, header.Offsets, mesh.CellSize);
   }
-  if (header.Connectivity.Tuples != header.Cells * mesh.CellSize)
+  if (mesh.Cells.Tuples != header.Cells * mesh.CellSize)
   {
     throw IOError(path,
-      "holds " + std::to_string(header.Connectivity.Tuples) + " vertex ids for " +
+      "holds " + std::to_string(mesh.Cells.Tuples) + " vertex ids for " +
         std::to_string(header.Cells) + " cells of " + std::to_string(mesh.CellSize) +
         "; copy or write it again.");
   }
-  const RawArray& points = header.Coordinates;
+  const RawArray& points = mesh.Points;
   if (points.Components != 3 || (points.Type != Scalar::Float32 && points.Type != Scalar::Float64))
   {
     throw IOError(path,
       "holds points that are not three coordinates of Float32 or Float64; 'tipp flatten' makes a "
       "flat mesh of it.");
   }
-  mesh.Points = points;
-  mesh.Cells = header.Connectivity;
   mesh.Cells.Components = mesh.CellSize;
   mesh.Cells.Tuples = header.Cells;
-  mesh.PointData = std::move(header.PointData);
-  mesh.CellData = std::move(header.CellData);
-  return mesh;
+  return std::move(mesh);
 }
 
 bool isFlatVtu(const std::string& path)

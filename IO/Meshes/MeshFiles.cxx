@@ -6,6 +6,7 @@
 #include "Files/InputFile.h"
 #include "Files/PendingOutput.h"
 #include "Npy/NpyFile.h"
+#include "Vtk/CellArrays.h"
 #include "Vtk/ReadDataSet.h"
 #include "Vtk/VtkFiles.h"
 #include "Vtk/WriteXmlFile.h"
@@ -30,12 +31,15 @@
 #include "vtkXMLUnstructuredGridWriter.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace tipp
 {
 namespace
 {
+
+constexpr const char* neighborsName = "NeighborIds";
 
 // VTK's writers take non-const arrays but only read them, so the const_cast is safe. std::int64_t
 // and VTK's 64-bit integer differ only in name (long and long long).
@@ -100,47 +104,69 @@ void setPoints(const PointTable& table, vtkPointSet* data)
   }
 }
 
-void setData(const MeshData& more, vtkPointSet* data)
+void setData(const MeshData& more, int corners, vtkPointSet* data)
 {
   setIds(data->GetPointData(), "RepresentativePointId", more.Representatives, 1);
-  setIds(data->GetCellData(), "NeighborIds", more.Neighbors, 3);
+  setIds(data->GetCellData(), neighborsName, more.Neighbors, corners);
 }
 
-template <typename Array, typename Id>
-vtkSmartPointer<vtkCellArray> makeCells(const Id* ids, std::size_t triangles)
+template <typename Array>
+vtkSmartPointer<vtkCellArray> makeCells(vtkSmartPointer<Array> ids, std::size_t corners)
 {
+  const std::size_t count = std::size_t(ids->GetNumberOfValues()) / corners;
   vtkNew<Array> offsets;
-  offsets->SetNumberOfValues(vtkIdType(triangles) + 1);
-  for (std::size_t i = 0; i <= triangles; ++i)
+  offsets->SetNumberOfValues(vtkIdType(count) + 1);
+  for (std::size_t i = 0; i <= count; ++i)
   {
-    offsets->SetValue(vtkIdType(i), Id(3 * i));
+    offsets->SetValue(vtkIdType(i), typename Array::ValueType(corners * i));
   }
   auto cells = vtkSmartPointer<vtkCellArray>::New();
-  const auto connectivity = borrow<Array>(ids, 3 * triangles);
-  cells->SetData(offsets.Get(), connectivity.Get());
+  cells->SetData(offsets.Get(), ids.Get());
   return cells;
+}
+
+/// Cells in the memory of the ids, except for 32-bit ids that are too many for 32-bit offsets.
+template <typename Id>
+vtkSmartPointer<vtkCellArray> makeCells(const Id* ids, std::size_t count, std::size_t corners)
+{
+  const std::size_t size = count * corners;
+  if constexpr (sizeof(Id) == sizeof(std::int32_t))
+  {
+    if (size <= std::size_t(std::numeric_limits<Id>::max()))
+    {
+      return makeCells(borrow<vtkTypeInt32Array>(ids, size), corners);
+    }
+    const auto wide = vtkSmartPointer<vtkTypeInt64Array>::New();
+    wide->SetNumberOfValues(vtkIdType(size));
+    std::copy(ids, ids + size, wide->GetPointer(0));
+    return makeCells(wide, corners);
+  }
+  else
+  {
+    return makeCells(borrow<vtkTypeInt64Array>(ids, size), corners);
+  }
+}
+
+/// Returns work(ids) for the view's pointer to ids, of whichever size.
+template <typename Work>
+auto withIds(TrianglesView triangles, const Work& work)
+{
+  return triangles.ids32() ? work(triangles.ids32()) : work(triangles.ids64());
 }
 
 vtkSmartPointer<vtkCellArray> makeCells(TrianglesView triangles)
 {
-  // 32-bit offsets end at a third of the triangles that 32-bit ids allow.
-  constexpr std::size_t limit = (std::size_t(1) << 31) / 3;
-  if (triangles.ids32() && triangles.size() < limit)
-  {
-    return makeCells<vtkTypeInt32Array>(triangles.ids32(), triangles.size());
-  }
-  if (triangles.ids64())
-  {
-    return makeCells<vtkTypeInt64Array>(triangles.ids64(), triangles.size());
-  }
-  auto cells = vtkSmartPointer<vtkCellArray>::New();
-  cells->Use64BitStorage();
-  cells->AllocateExact(vtkIdType(triangles.size()), 3 * vtkIdType(triangles.size()));
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-  {
-    cells->InsertNextCell({ triangles.id(i, 0), triangles.id(i, 1), triangles.id(i, 2) });
-  }
-  return cells;
+  return withIds(triangles, [&](const auto* ids) { return makeCells(ids, triangles.size(), 3); });
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> makeGrid(
+  const PointTable& points, int type, vtkCellArray* cells, const MeshData& more)
+{
+  auto data = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  setPoints(points, data);
+  data->SetCells(type, cells);
+  setData(more, type == VTK_TRIANGLE ? 3 : 4, data);
+  return data;
 }
 
 } // namespace
@@ -151,18 +177,14 @@ vtkSmartPointer<vtkPolyData> makePolyData(
   auto data = vtkSmartPointer<vtkPolyData>::New();
   setPoints(points, data);
   data->SetPolys(makeCells(triangles));
-  setData(more, data);
+  setData(more, 3, data);
   return data;
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> makeUnstructuredGrid(
   const PointTable& points, TrianglesView triangles, const MeshData& more)
 {
-  auto data = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  setPoints(points, data);
-  data->SetCells(VTK_TRIANGLE, makeCells(triangles));
-  setData(more, data);
-  return data;
+  return makeGrid(points, VTK_TRIANGLE, makeCells(triangles), more);
 }
 
 namespace
@@ -182,68 +204,64 @@ void readIds(NpyReader& reader, std::vector<std::int64_t>& ids)
   }
 }
 
-TriangleMesh readNpyMesh(const std::string& path)
+/// Reads the ids of an .npy file of cells with so many corners, which are called `what`.
+std::vector<std::int64_t> readNpyIds(const std::string& path, int corners, const char* what)
 {
   NpyReader reader(path);
-  if (reader.columns() != 3 || reader.isFloat())
+  if (reader.columns() != corners || reader.isFloat())
   {
-    throw IOError(path, "does not hold triangles; save m x 3 integers of 32 or 64 bits.");
+    throw IOError(path,
+      std::string("does not hold ") + what + "; save m x " + std::to_string(corners) +
+        " integers of 32 or 64 bits.");
   }
-  TriangleMesh mesh;
-  mesh.Triangles.resize(3 * std::size_t(reader.rows()));
+  std::vector<std::int64_t> all(std::size_t(corners * reader.rows()));
   switch (reader.type())
   {
     case NpyReader::Type::Int32:
-      readIds<std::int32_t>(reader, mesh.Triangles);
+      readIds<std::int32_t>(reader, all);
       break;
     case NpyReader::Type::UInt32:
-      readIds<std::uint32_t>(reader, mesh.Triangles);
+      readIds<std::uint32_t>(reader, all);
       break;
     default: // as stored; unsigned ids from 2^63 on become negative, and so remain out of range
-      reader.read(mesh.Triangles.data(), mesh.Triangles.size() * sizeof(std::int64_t));
+      reader.read(all.data(), all.size() * sizeof(std::int64_t));
   }
-  return mesh;
+  return all;
 }
 
-/// VTK's readers use another class of 64-bit integers than its writers. Empty unless the array has
-/// three integers per triangle.
-std::vector<std::int64_t> neighborsOf(vtkDataArray* array)
+/// The point ids of a data set's cells, which must all be triangles or all tetrahedra.
+std::vector<std::int64_t> cellIdsOf(vtkDataSet* data, int type, const std::string& path)
 {
-  const int type = array->GetDataType();
-  const bool isWide = type == VTK_LONG || type == VTK_LONG_LONG || type == VTK_ID_TYPE;
-  if (!isWide || array->GetNumberOfComponents() != 3 ||
-    array->GetDataTypeSize() != int(sizeof(std::int64_t)) || !array->HasStandardMemoryLayout())
+  const bool areTriangles = type == VTK_TRIANGLE;
+  std::vector<std::int64_t> all;
+  all.reserve((areTriangles ? 3 : 4) * std::size_t(data->GetNumberOfCells()));
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
+  {
+    if (data->GetCellType(cell) != type)
+    {
+      throw IOError(path,
+        std::string("holds a cell that is not a ") + (areTriangles ? "triangle" : "tetrahedron") +
+          " (cell " + std::to_string(cell) +
+          (areTriangles ? "); triangulate its cells first." : ")."));
+    }
+    data->GetCellPoints(cell, ids);
+    all.insert(all.end(), ids->begin(), ids->end());
+  }
+  return all;
+}
+
+/// The data set's array NeighborIds; empty unless it has one component per corner of a cell.
+std::vector<std::int64_t> neighborsOf(vtkDataSet* data, int corners)
+{
+  vtkDataArray* const array = data->GetCellData()->GetArray(neighborsName);
+  if (!array || array->GetNumberOfComponents() != corners)
   {
     return {};
   }
-  const auto* const ids = static_cast<const std::int64_t*>(array->GetVoidPointer(0));
-  return { ids, ids + array->GetNumberOfValues() };
-}
-
-TriangleMesh readVtkMesh(const std::string& path)
-{
-  const vtkSmartPointer<vtkDataSet> data = readDataSet(path);
-  TriangleMesh mesh;
-  const vtkIdType cells = data->GetNumberOfCells();
-  mesh.Triangles.reserve(3 * std::size_t(cells));
-  vtkNew<vtkIdList> ids;
-  for (vtkIdType cell = 0; cell < cells; ++cell)
-  {
-    if (data->GetCellType(cell) != VTK_TRIANGLE)
-    {
-      throw IOError(path,
-        "holds a cell that is not a triangle (cell " + std::to_string(cell) +
-          "); triangulate its cells first.");
-    }
-    data->GetCellPoints(cell, ids);
-    mesh.Triangles.insert(mesh.Triangles.end(), ids->begin(), ids->end());
-  }
-  mesh.XY = std::move(pointsOf(data).XY);
-  if (vtkDataArray* const neighbors = data->GetCellData()->GetArray("NeighborIds"))
-  {
-    mesh.Neighbors = neighborsOf(neighbors);
-  }
-  return mesh;
+  const PlainIds plain = PlainIds(array).widened();
+  const auto* const ids = static_cast<const std::int64_t*>(plain.data());
+  return { ids, ids + plain.count() };
 }
 
 } // namespace
@@ -253,7 +271,7 @@ TriangleMesh readMesh(const std::string& path)
   const std::string extension = extensionOf(path);
   if (extension == ".npy")
   {
-    return readNpyMesh(path);
+    return { readNpyIds(path, 3, "triangles"), {}, {} };
   }
   if (isAdcircFile(path))
   {
@@ -262,7 +280,9 @@ TriangleMesh readMesh(const std::string& path)
   }
   if (isVtkFile(path))
   {
-    return readVtkMesh(path);
+    const vtkSmartPointer<vtkDataSet> data = readDataSet(path);
+    std::vector<std::int64_t> ids = cellIdsOf(data, VTK_TRIANGLE, path);
+    return { std::move(ids), std::move(pointsOf(data).XY), neighborsOf(data, 3) };
   }
   refuseKind(
     path, "has no extension that tells a kind of mesh file; use .npy, .14, .grd or one of VTK's.");
@@ -276,19 +296,17 @@ bool isAborted(const MeshOptions& options)
   return options.Aborted && options.Aborted();
 }
 
-bool writeNpy(const std::string& path, TrianglesView triangles, const MeshOptions& options)
+template <typename Id>
+bool writeNpy(const std::string& path, const Id* ids, std::size_t cells, std::size_t corners,
+  const MeshOptions& options)
 {
-  NpyWriter writer(path, "<i8", { std::int64_t(triangles.size()), 3 }, options.Before);
-  constexpr std::size_t chunkSize = 1 << 15;
-  std::vector<std::int64_t> chunk(3 * std::min(chunkSize, triangles.size()));
-  for (std::size_t first = 0; first < triangles.size(); first += chunkSize)
+  NpyWriter writer(path, "<i8", { std::int64_t(cells), std::int64_t(corners) }, options.Before);
+  constexpr std::size_t chunkSize = 1 << 16;
+  std::vector<std::int64_t> chunk;
+  for (std::size_t first = 0; first < corners * cells; first += chunkSize)
   {
-    const std::size_t size = std::min(chunkSize, triangles.size() - first);
-    for (std::size_t i = 0; i < 3 * size; ++i)
-    {
-      chunk[i] = triangles.id(first + i / 3, int(i % 3));
-    }
-    writer.write(chunk.data(), 3 * size * sizeof(std::int64_t));
+    chunk.assign(ids + first, ids + std::min(corners * cells, first + chunkSize));
+    writer.write(chunk.data(), chunk.size() * sizeof(std::int64_t));
   }
   if (isAborted(options))
   {
@@ -314,8 +332,8 @@ bool writeXml(const std::string& path, vtkDataSet* data, const MeshOptions& opti
 std::vector<std::int64_t> neighborsOf(TrianglesView triangles)
 {
   std::vector<std::int64_t> neighbors(3 * triangles.size());
-  triangles.ids32() ? findNeighbors(triangles.ids32(), triangles.size(), neighbors.data())
-                    : findNeighbors(triangles.ids64(), triangles.size(), neighbors.data());
+  withIds(
+    triangles, [&](const auto* ids) { findNeighbors(ids, triangles.size(), neighbors.data()); });
   return neighbors;
 }
 
@@ -333,7 +351,8 @@ bool writeMesh(const std::string& path, const PointTable& points, TrianglesView 
   const std::string extension = extensionOf(path);
   if (extension == ".npy")
   {
-    return writeNpy(path, triangles, options);
+    return withIds(triangles,
+      [&](const auto* ids) { return writeNpy(path, ids, triangles.size(), 3, options); });
   }
   if (isAdcircFile(path))
   {
@@ -355,6 +374,69 @@ bool writeMesh(const std::string& path, const PointTable& points, TrianglesView 
   }
   throw IOError(
     path, "has no extension that tells a kind of mesh file; use .npy, .vtp, .vtu or .14.");
+}
+
+std::size_t requireElevation(const PointTable& points, const std::string& path)
+{
+  const std::vector<std::string> names = points.names();
+  const std::size_t found = findElevation(names);
+  if (found == names.size())
+  {
+    throw IOError(path, "has no third coordinate; name a column z.");
+  }
+  return found;
+}
+
+bool writeTetrahedra(const std::string& path, PointTable points, const std::int32_t* ids,
+  std::size_t tetrahedra, const std::vector<std::int64_t>& neighbors, const MeshOptions& options)
+{
+  const std::string extension = extensionOf(path);
+  if (extension == ".npy")
+  {
+    return writeNpy(path, ids, tetrahedra, 4, options);
+  }
+  if (extension != ".vtu")
+  {
+    throw IOError(
+      path, "has no extension that tells a kind of file of tetrahedra; use .npy or .vtu.");
+  }
+  points.Columns[requireElevation(points, path)].Name = "z"; // makes it the third coordinate
+  const auto data = makeGrid(
+    points, VTK_TETRA, makeCells(ids, tetrahedra, 4), { &options.Representatives, &neighbors });
+  return writeXml<vtkXMLUnstructuredGridWriter>(path, data, options);
+}
+
+bool holdsTetrahedra(const std::string& path)
+{
+  if (extensionOf(path) == ".npy")
+  {
+    const NpyReader reader(path);
+    return reader.columns() == 4 && !reader.isFloat();
+  }
+  if (extensionOf(path) != ".vtu" && extensionOf(path) != ".vtk")
+  {
+    return false;
+  }
+  const vtkSmartPointer<vtkDataSet> data = readDataSet(path);
+  return data->GetNumberOfCells() > 0 && data->GetCellType(0) == VTK_TETRA;
+}
+
+StoredTetrahedra readTetrahedra(const std::string& path)
+{
+  if (extensionOf(path) == ".npy")
+  {
+    return { readNpyIds(path, 4, "tetrahedra"), {}, {} };
+  }
+  const vtkSmartPointer<vtkDataSet> data = readDataSet(path);
+  StoredTetrahedra mesh;
+  mesh.Ids = cellIdsOf(data, VTK_TETRA, path);
+  mesh.XYZ.resize(3 * std::size_t(data->GetNumberOfPoints()));
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    data->GetPoint(i, &mesh.XYZ[3 * std::size_t(i)]);
+  }
+  mesh.Neighbors = neighborsOf(data, 4);
+  return mesh;
 }
 
 } // namespace tipp

@@ -7,11 +7,13 @@
 #include "vtkTIPPIOModule.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 // Declared alone: the wheel is built without VTK.
@@ -59,36 +61,67 @@ private:
   std::size_t Count = 0;
 };
 
-/// For triangles that meet edge to edge and have the same orientation: finds for each corner the
-/// index of the triangle across the opposite edge, or -1. Three times the number of triangles must
-/// fit in Index.
+/// For triangles that meet edge to edge and have the same orientation, or tetrahedra that meet
+/// facet to facet (Corners = 4): finds for each corner the index of the cell across the opposite
+/// edge or facet, or -1. The number of corners of all cells must fit in Index.
 ///
-/// Edges whose second triangle has not been found are kept in lists, which are found by a hash of
-/// the ends and linked in `neighbors` itself.
-template <typename Id, typename Index>
-void findNeighbors(const Id* corners, std::size_t triangles, Index* neighbors)
+/// Facets whose second cell has not been found are kept in lists, which are found by a hash of the
+/// points and linked in `neighbors` itself.
+template <std::size_t Corners = 3, typename Id, typename Index>
+void findNeighbors(const Id* corners, std::size_t cells, Index* neighbors)
 {
   constexpr Index none = -1;
-  // A link to half-edge h is -2 - h, so it is neither a triangle nor -1, the end of a list.
-  const auto link = [](Index halfEdge) { return Index(-2 - halfEdge); };
+  // A link to slot h is -2 - h, so it is neither a cell nor -1, the end of a list.
+  const auto link = [](Index slot) { return Index(-2 - slot); };
+  // Of a triangle: the start and the end of the edge opposite to corner h % 3.
   const auto from = [&](std::size_t h) { return corners[h % 3 == 2 ? h - 2 : h + 1]; };
   const auto to = [&](std::size_t h) { return corners[h % 3 == 0 ? h + 2 : h - 1]; };
+  // The points of the opposite edge or facet, ascending.
+  const auto facetOf = [&](std::size_t h)
+  {
+    if constexpr (Corners == 3)
+    {
+      const auto [low, high] = std::minmax({ from(h), to(h) });
+      return std::array<Id, 2>{ low, high };
+    }
+    else
+    {
+      const Id* const v = corners + h / 4 * 4;
+      const std::size_t i = h % 4;
+      std::array<Id, 3> facet = { v[i == 0 ? 1 : 0], v[i <= 1 ? 2 : 1], v[i == 3 ? 2 : 3] };
+      std::sort(facet.begin(), facet.end());
+      return facet;
+    }
+  };
   std::size_t lists = 1;
-  while (lists < triangles)
+  while (lists < (Corners - 2) * cells)
   {
     lists *= 2;
   }
   std::vector<Index> newest(lists, none);
-  for (std::size_t h = 0; h < 3 * triangles; ++h)
+  for (std::size_t h = 0; h < Corners * cells; ++h)
   {
-    const Id a = from(h);
-    const Id b = to(h);
-    // Nearby points have nearby hashes, and the many edges of one point are spread.
-    constexpr std::size_t stride = 5;
-    Index& first =
-      newest[(std::size_t(std::min(a, b)) + stride * std::size_t(std::max(a, b))) & (lists - 1)];
+    const auto facet = facetOf(h);
+    const auto isSame = [&](std::size_t other)
+    {
+      if constexpr (Corners == 3)
+      {
+        return from(other) == to(h) && to(other) == from(h);
+      }
+      else
+      {
+        return facetOf(other) == facet;
+      }
+    };
+    // Nearby points have nearby hashes, and the many facets of one point are spread.
+    std::size_t hash = 0;
+    for (std::size_t i = facet.size(); i-- > 0;)
+    {
+      hash = 5 * hash + std::size_t(facet[i]);
+    }
+    Index& first = newest[hash & (lists - 1)];
     Index* at = &first;
-    while (*at != none && (from(std::size_t(link(*at))) != b || to(std::size_t(link(*at))) != a))
+    while (*at != none && !isSame(std::size_t(link(*at))))
     {
       at = &neighbors[std::size_t(link(*at))];
     }
@@ -100,18 +133,18 @@ void findNeighbors(const Id* corners, std::size_t triangles, Index* neighbors)
     }
     const Index other = link(*at);
     *at = neighbors[std::size_t(other)];
-    neighbors[h] = other / 3;
-    neighbors[std::size_t(other)] = Index(h / 3);
+    neighbors[h] = other / Index(Corners);
+    neighbors[std::size_t(other)] = Index(h / Corners);
   }
   std::transform(
-    neighbors, neighbors + 3 * triangles, neighbors, [=](Index n) { return std::max(n, none); });
+    neighbors, neighbors + Corners * cells, neighbors, [=](Index n) { return std::max(n, none); });
 }
 
 /// The content of a data set besides columns of points; each may be null or empty.
 struct MeshData
 {
   const std::vector<std::int64_t>* Representatives = nullptr; ///< one point id per point
-  const std::vector<std::int64_t>* Neighbors = nullptr;       ///< three triangle ids per triangle
+  const std::vector<std::int64_t>* Neighbors = nullptr;       ///< a cell id per corner of each cell
 };
 
 /// Creates data sets over the caller's memory (only coordinates and cell offsets are copies): they
@@ -161,6 +194,35 @@ VTKTIPPIO_EXPORT bool isMeshFile(const std::string& path);
 /// appears only when it is complete. Returns false if Aborted returned true; throws IOError.
 VTKTIPPIO_EXPORT bool writeMesh(const std::string& path, const PointTable& points,
   TrianglesView triangles, const MeshOptions& options = {});
+
+/// The index of a table's column that is the third coordinate: named z, Z or elevation. Throws
+/// IOError, with the file's name `path`, if there is none.
+VTKTIPPIO_EXPORT std::size_t requireElevation(const PointTable& points, const std::string& path);
+
+/// Writes tetrahedra of four point ids each: .npy (m x 4 int64; points are not written) or .vtu
+/// (appended raw binary: all points, and all columns but the third coordinate as point data).
+/// `neighbors`, if not empty, has four tetrahedron indices per tetrahedron and is written as
+/// "NeighborIds". The file appears only when it is complete. Returns false if options.Aborted
+/// returned true; throws IOError.
+VTKTIPPIO_EXPORT bool writeTetrahedra(const std::string& path, PointTable points,
+  const std::int32_t* ids, std::size_t tetrahedra, const std::vector<std::int64_t>& neighbors,
+  const MeshOptions& options);
+
+/// Tetrahedra read from a file.
+struct StoredTetrahedra
+{
+  std::vector<std::int64_t> Ids;       ///< four point ids each, as stored in the file
+  std::vector<double> XYZ;             ///< the file's own points; empty for an .npy file
+  std::vector<std::int64_t> Neighbors; ///< four each, if the file has NeighborIds
+};
+
+/// Whether a file is of tetrahedra: .npy of four columns of integers, or a VTK file whose first
+/// cell is one. Throws IOError.
+VTKTIPPIO_EXPORT bool holdsTetrahedra(const std::string& path);
+
+/// Reads tetrahedra from such a file. The ids are not checked. Throws IOError if the file cannot be
+/// read or has other cells.
+VTKTIPPIO_EXPORT StoredTetrahedra readTetrahedra(const std::string& path);
 
 } // namespace tipp
 

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <deque>
+#include <map>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -26,11 +26,9 @@ class BorrowedCells
 public:
   /// Reads the borrowed cells' and points' global ids; `ownIds` are the global ids of the piece's
   /// own points. Throws IOError.
-  BorrowedCells(const PartitionedMesh& mesh, const PieceFile& piece, const std::int64_t* ownIds,
-    ReadCounters& counters)
+  BorrowedCells(const PartitionedMesh& mesh, const PieceFile& piece, const std::int64_t* ownIds)
     : Mesh(mesh)
     , Own(piece)
-    , Counters(counters)
   {
     this->addRuns(true);
     this->addRuns(false);
@@ -47,6 +45,14 @@ public:
   /// cells.
   std::int64_t pointCount() const { return std::int64_t(this->NewPoints.size()); }
   std::int64_t cellCount() const { return std::int64_t(this->CellIds.size()); }
+
+  /// Bytes read so far.
+  std::int64_t bytesRead() const
+  {
+    return std::accumulate(this->Sources.begin(), this->Sources.end(), std::int64_t(0),
+      [](std::int64_t bytes, const auto& source)
+      { return bytes + source.second.File.bytesRead(); });
+  }
 
   /// Appends the borrowed points' coordinates to those of the piece, whose buffer has room for
   /// them.
@@ -69,9 +75,9 @@ public:
     {
       piece.CellIds.as<std::int64_t>()[piece.OwnedCells + this->CellIndices[i]] = this->CellIds[i];
     }
-    for (const Source& source : this->Sources)
+    for (const auto& [owner, source] : this->Sources)
     {
-      const bool wide = hasWideIds(this->Mesh, source.File->summary());
+      const bool wide = hasWideIds(this->Mesh, source.File.summary());
       for (const Run& run : source.CellRuns)
       {
         wide ? this->addCells<std::int64_t>(source, run, piece)
@@ -102,7 +108,12 @@ private:
   };
   struct Source
   {
-    const PieceFile* File;
+    Source(const PartitionedMesh& mesh, std::int32_t owner)
+      : File(mesh, std::size_t(owner))
+    {
+    }
+
+    const PieceFile File;
     std::vector<Run> PointRuns; ///< ascending
     std::vector<Run> CellRuns;
 
@@ -112,27 +123,14 @@ private:
     }
   };
 
-  Source& sourceOf(std::int32_t owner)
-  {
-    const PieceSummary* const summary = &this->Mesh.Pieces[std::size_t(owner)];
-    const auto found = std::find_if(this->Sources.begin(), this->Sources.end(),
-      [summary](const Source& source) { return &source.File->summary() == summary; });
-    if (found != this->Sources.end())
-    {
-      return *found;
-    }
-    this->Files.emplace_back(this->Mesh, std::size_t(owner), this->Counters);
-    this->Sources.push_back({ &this->Files.back(), {}, {} });
-    return this->Sources.back();
-  }
-
   void addRuns(bool ofPoints)
   {
     const PieceTable& own = this->Own.table();
     for (const BorrowedGroup& group : ofPoints ? own.BorrowedPoints : own.BorrowedCells)
     {
-      Source& source = this->sourceOf(group.Owner);
-      const PieceTable& table = source.File->table();
+      Source& source =
+        this->Sources.try_emplace(group.Owner, this->Mesh, group.Owner).first->second;
+      const PieceTable& table = source.File.table();
       const std::size_t groups = (ofPoints ? table.PointGroups : table.CellGroups).size();
       if (std::size_t(group.Group) >= groups)
       {
@@ -140,7 +138,7 @@ private:
           ", does not lend");
       }
       const std::size_t part = std::size_t(group.Group) + 1;
-      const std::vector<std::int64_t>& starts = source.File->partStarts(ofPoints);
+      const std::vector<std::int64_t>& starts = source.File.partStarts(ofPoints);
       std::int64_t& count = ofPoints ? this->PointsAsRead : this->CellsAsRead;
       const Run run{ starts[part], count, starts[part + 1] - starts[part], part };
       (ofPoints ? source.PointRuns : source.CellRuns).push_back(run);
@@ -151,13 +149,13 @@ private:
   std::vector<std::int64_t> readIds(PieceRole role, bool ofPoints) const
   {
     std::vector<std::int64_t> ids(std::size_t(ofPoints ? this->PointsAsRead : this->CellsAsRead));
-    for (const Source& source : this->Sources)
+    for (const auto& [owner, source] : this->Sources)
     {
       for (const Run& run : source.runs(ofPoints))
       {
         std::int64_t* const to = ids.data() + std::size_t(run.First);
-        source.File->read(source.File->find(role), run.Part, run.Part + 1, to);
-        source.File->requireIds(
+        source.File.read(source.File.find(role), run.Part, run.Part + 1, to);
+        source.File.requireIds(
           to, std::size_t(run.Count), ofPoints ? this->Mesh.Points : this->Mesh.Cells);
       }
     }
@@ -218,12 +216,12 @@ private:
     const std::vector<std::int64_t>& indices = ofPoints ? this->PointIndices : this->CellIndices;
     const std::size_t bytes = description.tupleBytes();
     std::vector<char> tuples;
-    for (const Source& source : this->Sources)
+    for (const auto& [owner, source] : this->Sources)
     {
       for (const Run& run : source.runs(ofPoints))
       {
         tuples.resize(std::size_t(run.Count) * bytes);
-        source.File->read(array, run.Part, run.Part + 1, tuples.data());
+        source.File.read(array, run.Part, run.Part + 1, tuples.data());
         for (std::size_t i = 0; i < std::size_t(run.Count); ++i)
         {
           const std::size_t index = std::size_t(first + indices[std::size_t(run.First) + i]);
@@ -238,8 +236,7 @@ private:
   {
     const std::size_t corners = std::size_t(piece.CellSize);
     std::vector<Id> ids(std::size_t(run.Count) * corners);
-    source.File->read(
-      source.File->find(PieceRole::Connectivity), run.Part, run.Part + 1, ids.data());
+    source.File.read(source.File.find(PieceRole::Connectivity), run.Part, run.Part + 1, ids.data());
     for (std::size_t i = 0; i < ids.size(); ++i)
     {
       const std::int64_t inOwner = ids[i];
@@ -247,7 +244,7 @@ private:
         [](std::int64_t point, const Run& points) { return point < points.InOwner; });
       if (after == source.PointRuns.begin() || inOwner - (after - 1)->InOwner >= (after - 1)->Count)
       {
-        source.File->fail("lends cells without their points");
+        source.File.fail("lends cells without their points");
       }
       const Run& points = *(after - 1);
       const std::int64_t point =
@@ -267,9 +264,7 @@ private:
 
   const PartitionedMesh& Mesh;
   const PieceFile& Own;
-  ReadCounters& Counters;
-  std::deque<PieceFile> Files;
-  std::vector<Source> Sources;
+  std::map<std::int32_t, Source> Sources; ///< by the owner's index
   std::int64_t PointsAsRead = 0;          ///< borrowed points, with repetitions
   std::int64_t CellsAsRead = 0;           ///< borrowed cells
   std::vector<std::int64_t> PointIndices; ///< piece-local index of each point, as read

@@ -19,34 +19,28 @@ void updateChecksumAvx2(XXH3_state_t* state, const void* data, size_t bytes);
 namespace
 {
 
-using Hash = XXH64_hash_t (*)(const void* data, size_t bytes);
-using Update = void (*)(XXH3_state_t* state, const void* data, size_t bytes);
-
-Hash chooseHash()
+/// The functions that compute checksums on this processor.
+struct Functions
 {
-#ifdef TIPP_CHECKSUM_AVX2
-  if (__builtin_cpu_supports("avx2"))
-  {
-    return &checksumAvx2;
-  }
-#endif
-  return [](const void* data, size_t bytes) { return XXH3_64bits(data, bytes); };
-}
-
-Update chooseUpdate()
-{
-#ifdef TIPP_CHECKSUM_AVX2
-  if (__builtin_cpu_supports("avx2"))
-  {
-    return &updateChecksumAvx2;
-  }
-#endif
-  return [](XXH3_state_t* state, const void* data, size_t bytes)
+  XXH64_hash_t (*Hash)(const void* data, size_t bytes) = [](const void* data, size_t bytes)
+  { return XXH3_64bits(data, bytes); };
+  void (*Update)(XXH3_state_t* state, const void* data, size_t bytes) =
+    [](XXH3_state_t* state, const void* data, size_t bytes)
   { XXH3_64bits_update(state, data, bytes); };
+};
+
+Functions chooseFunctions()
+{
+#ifdef TIPP_CHECKSUM_AVX2
+  if (__builtin_cpu_supports("avx2"))
+  {
+    return { &checksumAvx2, &updateChecksumAvx2 };
+  }
+#endif
+  return {};
 }
 
-const Hash hash = chooseHash();
-const Update update = chooseUpdate();
+const Functions functions = chooseFunctions();
 
 } // namespace
 
@@ -57,7 +51,7 @@ struct Checksum::State
 
 std::uint64_t checksumOf(const void* data, std::size_t bytes)
 {
-  return hash(data, bytes);
+  return functions.Hash(data, bytes);
 }
 
 Checksum::Checksum()
@@ -70,7 +64,7 @@ Checksum::~Checksum() = default;
 
 void Checksum::add(const void* data, std::size_t bytes)
 {
-  update(&this->Progress->Of, data, bytes);
+  functions.Update(&this->Progress->Of, data, bytes);
 }
 
 std::uint64_t Checksum::finish()

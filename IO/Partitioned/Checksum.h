@@ -33,8 +33,7 @@ private:
   std::unique_ptr<State> Progress;
 };
 
-/// Converts to 16 hexadecimal digits in lower case, and back; the latter returns false for any
-/// other text.
+/// Converts to 16 hexadecimal digits in lower case.
 VTKTIPPIO_EXPORT std::string checksumText(std::uint64_t checksum);
 /// The inverse of checksumText(). Returns false if the text is no checksum.
 VTKTIPPIO_EXPORT bool parseChecksum(const std::string& text, std::uint64_t& checksum);

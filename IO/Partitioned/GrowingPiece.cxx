@@ -9,15 +9,11 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <limits>
 
 namespace tipp
 {
 namespace
 {
-
-constexpr std::size_t bufferBytes = std::size_t(1) << 20;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Whether the array holds global ids of cells, which are known last: the cells' own ids, or the
 /// neighbours' ids, which are the only cell data.
@@ -35,12 +31,8 @@ std::int64_t interiorTuples(const PieceInterior& interior, const PieceArray& arr
 void takeNextFile(const std::string& path)
 {
   std::error_code failure;
-  if (!std::filesystem::exists(path + nextPieceSuffix, failure))
-  {
-    return;
-  }
   std::filesystem::rename(path + nextPieceSuffix, path, failure);
-  if (failure)
+  if (failure && failure != std::errc::no_such_file_or_directory)
   {
     throw IOError(path, "cannot be replaced (" + failure.message() + ").");
   }
@@ -91,24 +83,12 @@ void forEachCell(int cellSize, const InteriorContent& content,
 void addShapes(const PieceArray& array, int cellSize, std::int64_t first, std::int64_t count,
   ColumnWriter& column)
 {
-  constexpr int vtkTriangle = 5;
-  constexpr int vtkTetra = 10;
   constexpr std::int64_t block = 4096;
-  for (const std::int64_t end = first + count; first < end;)
+  for (const std::int64_t end = first + count; first < end; first += block)
   {
     const std::int64_t size = std::min(block, end - first);
-    char* to = column.extend(std::size_t(size) * array.tupleBytes());
-    first += size;
-    if (array.Role == PieceRole::Types)
-    {
-      std::memset(to, cellSize == 3 ? vtkTriangle : vtkTetra, std::size_t(size));
-      continue;
-    }
-    for (std::int64_t i = first - size; i < first; ++i, to += 4)
-    {
-      const auto corners = std::int32_t(cellSize * (i + 1));
-      std::memcpy(to, &corners, 4);
-    }
+    char* const to = column.extend(std::size_t(size) * array.tupleBytes());
+    fillShapes(array, cellSize, first, size, to);
   }
 }
 
@@ -117,13 +97,13 @@ void addShapes(const PieceArray& array, int cellSize, std::int64_t first, std::i
 std::vector<std::int32_t> orderPoints(
   const InteriorContent& content, const PointRowLayout& layout, PieceInterior& interior)
 {
-  interior.Extent = { infinity, -infinity, infinity, -infinity, infinity, -infinity };
+  interior.Extent = emptyBounds;
   std::vector<std::int32_t> positions(std::size_t(content.Points));
   std::int32_t next = 0;
   for (std::size_t i = 0; i < positions.size(); ++i)
   {
     const double* const row = content.Rows + i * layout.Words;
-    extendBounds(interior.Extent, row, layout);
+    extendBounds(interior.Extent, layout.point(row));
     if (content.IsOnInterface[i] == 0)
     {
       positions[i] = next++;
@@ -251,12 +231,9 @@ PieceSummary summarize(const PartitionedMesh& mesh, std::size_t number,
   summary.Extent = interior.Extent;
   for (const OrderedBorder::Point& point : border.Points)
   {
-    extendBounds(summary.Extent, point.Row, layout);
+    extendBounds(summary.Extent, layout.point(point.Row));
   }
-  if (summary.Extent[4] > summary.Extent[5])
-  {
-    summary.Extent[4] = summary.Extent[5] = 0; // without a third coordinate z is 0
-  }
+  completeBounds(summary.Extent);
   requireNarrowIds(mesh, number, summary, "cells");
   return summary;
 }
@@ -313,7 +290,7 @@ PieceInterior writeInterior(const PartitionedMesh& mesh, std::size_t number,
       interior.Checksums.push_back(0); // filled in once they are known
       continue;
     }
-    ColumnWriter column(output, file.Offsets[a], bufferBytes);
+    ColumnWriter column(output, file.Offsets[a], columnBufferBytes);
     addInterior(array, mesh.CellSize, layout, content, positions, interior.Cells, column);
     interior.Checksums.push_back(column.checksums()[0]);
   }
@@ -360,7 +337,8 @@ FinishedPiece writeBorder(const PartitionedMesh& mesh, std::size_t number,
     }
     checksums.push_back(interior.Checksums[a]);
     ColumnWriter column(output,
-      file.Offsets[a] + std::uint64_t(interiorTuples(interior, array)) * tuple, bufferBytes / 16);
+      file.Offsets[a] + std::uint64_t(interiorTuples(interior, array)) * tuple,
+      columnBufferBytes / 16);
     addBorder(array, mesh.CellSize, layout, ordered, interior.Cells, column, checksums);
   }
   summary.FileBytes = writeFrame(output, file, finished.Table);
@@ -369,42 +347,15 @@ FinishedPiece writeBorder(const PartitionedMesh& mesh, std::size_t number,
   return finished;
 }
 
-namespace
-{
-
-/// Writes array `a` of a piece's cells; writeNext(to) writes the value of the next cell.
-template <typename WriteNext>
-void writeCellArray(const PartitionedMesh& mesh, std::size_t number, std::size_t a,
-  std::size_t bytes, FinishedPiece& piece, const WriteNext& writeNext)
-{
-  const OutputFile file = OutputFile::shared(mesh.piecePath(number));
-  ColumnWriter column(file, piece.Table.Offsets[a], bufferBytes);
-  for (const std::int64_t count : piece.Table.parts(mesh, piece.Summary, false))
-  {
-    for (std::int64_t i = 0; i < count; ++i)
-    {
-      writeNext(column.extend(bytes));
-    }
-    column.endPart();
-  }
-  column.flush();
-  file.startWriteback();
-  piece.Table.Checksums[a] = column.checksums();
-}
-
-} // namespace
-
 void writeCellIds(
   const PartitionedMesh& mesh, std::size_t number, std::int64_t first, FinishedPiece& piece)
 {
-  const std::vector<PieceArray> arrays = pieceArrays(mesh, piece.Summary);
-  const auto found = std::find_if(arrays.begin(), arrays.end(),
-    [](const PieceArray& array) { return array.Role == PieceRole::CellIds; });
   takeNextFile(mesh.piecePath(number));
-  writeCellArray(mesh, number, std::size_t(found - arrays.begin()), sizeof(first), piece,
-    [&first](char* to)
+  const std::size_t array = findArray(pieceArrays(mesh, piece.Summary), PieceRole::CellIds);
+  writeCellParts(mesh, number, array, { 0, piece.cellParts() }, piece,
+    [&first](char* to, std::size_t bytes)
     {
-      std::memcpy(to, &first, sizeof(first));
+      std::memcpy(to, &first, bytes);
       ++first;
     });
 }
@@ -412,12 +363,9 @@ void writeCellIds(
 void writeLateArray(const PartitionedMesh& mesh, std::size_t number, std::int64_t attribute,
   const char* values, FinishedPiece& piece)
 {
-  const std::vector<PieceArray> arrays = pieceArrays(mesh, piece.Summary);
-  const auto found = std::find_if(arrays.begin(), arrays.end(),
-    [attribute](const PieceArray& array) { return array.Attribute == attribute; });
-  const std::size_t bytes = found->tupleBytes();
-  writeCellArray(mesh, number, std::size_t(found - arrays.begin()), bytes, piece,
-    [&values, bytes](char* to)
+  const std::size_t array = findArrayOf(pieceArrays(mesh, piece.Summary), attribute);
+  writeCellParts(mesh, number, array, { 0, piece.cellParts() }, piece,
+    [&values](char* to, std::size_t bytes)
     {
       std::memcpy(to, values, bytes);
       values += bytes;
@@ -460,8 +408,7 @@ void verifyFinished(const PartitionedMesh& mesh, std::size_t number, const Finis
     return;
   }
   takeNextFile(mesh.piecePath(number));
-  ReadCounters counters;
-  PieceFile(mesh, number, piece.Summary, piece.Table, counters).verifyAll();
+  PieceFile(mesh, number, piece.Summary, piece.Table).verifyAll();
 }
 
 } // namespace tipp

@@ -6,10 +6,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <set>
+#include <string_view>
 #include <utility>
 
 namespace tipp
@@ -24,8 +28,8 @@ using OrderedJson = nlohmann::ordered_json;
 constexpr const char* formatName = "TIPP partitioned mesh";
 constexpr int formatVersion = 1;
 // Start of the text's last line but one; the checksum covers all bytes before the comma.
-constexpr const char* checksumStart = ",\n\"xxh3\": \"";
-constexpr const char* checksumEnd = "\"\n}\n";
+constexpr std::string_view checksumStart = ",\n\"xxh3\": \"";
+constexpr std::string_view checksumEnd = "\"\n}\n";
 
 OrderedJson packBounds(const Bounds& bounds)
 {
@@ -46,6 +50,12 @@ OrderedJson packArray(const StoredArray& array)
   return { { "name", array.Name }, { "of", array.OfPoints ? "points" : "cells" },
     { "type", scalarName(array.Type) }, { "components", array.Components },
     { "step", array.Step } };
+}
+
+std::uint64_t bytesOfTables(const PartitionedMesh& mesh)
+{
+  return std::accumulate(mesh.Pieces.begin(), mesh.Pieces.end(), std::uint64_t(0),
+    [](std::uint64_t bytes, const PieceSummary& piece) { return bytes + piece.TableBytes; });
 }
 
 /// Reads the fields of an index; each error names the field.
@@ -108,9 +118,8 @@ public:
   /// An empty list denotes empty bounds.
   Bounds bounds(const char* name) const
   {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     const Json& value = this->list(name);
-    Bounds result{ infinity, -infinity, infinity, -infinity, infinity, -infinity };
+    Bounds result = emptyBounds;
     this->require(value.empty() || value.size() == 6, "has a wrong ", name);
     for (std::size_t i = 0; i < value.size(); ++i)
     {
@@ -138,13 +147,6 @@ private:
   std::string Where;
 };
 
-Scalar parseScalar(const Fields& fields)
-{
-  const std::optional<Scalar> type = scalarFromName(fields.text("type"));
-  fields.require(type.has_value(), "has a wrong type");
-  return *type;
-}
-
 StoredArray parseArray(const Fields& fields, std::size_t steps)
 {
   StoredArray array;
@@ -152,7 +154,9 @@ StoredArray parseArray(const Fields& fields, std::size_t steps)
   const std::string of = fields.text("of");
   fields.require(of == "points" || of == "cells", "is neither of points nor of cells");
   array.OfPoints = of == "points";
-  array.Type = parseScalar(fields);
+  const std::optional<Scalar> type = scalarFromName(fields.text("type"));
+  fields.require(type.has_value(), "has a wrong type");
+  array.Type = *type;
   array.Components = int(fields.integer("components", 1, 1 << 20));
   array.Step = int(fields.integer("step", -1, std::int64_t(steps) - 1));
   return array;
@@ -225,19 +229,19 @@ void parsePieces(const Fields& fields, const std::string& path, PartitionedMesh&
 
 Json parseJson(const std::string& text, const std::string& path)
 {
-  const std::string end = checksumEnd;
-  const std::size_t tail = std::string(checksumStart).size() + 16 + end.size();
-  const bool ends =
-    text.size() > tail && text.compare(text.size() - end.size(), end.size(), end) == 0;
+  constexpr std::size_t digits = 16;
+  constexpr std::size_t tail = checksumStart.size() + digits + checksumEnd.size();
+  const std::size_t hashed = text.size() - std::min(tail, text.size());
+  const std::string_view last = std::string_view(text).substr(hashed);
   std::uint64_t checksum = 0;
-  if (!ends ||
-    text.compare(text.size() - tail, std::string(checksumStart).size(), checksumStart) != 0 ||
-    !parseChecksum(text.substr(text.size() - end.size() - 16, 16), checksum))
+  if (last.size() < tail || last.substr(0, checksumStart.size()) != checksumStart ||
+    last.substr(tail - checksumEnd.size()) != checksumEnd ||
+    !parseChecksum(std::string(last.substr(checksumStart.size(), digits)), checksum))
   {
     throw IOError(
       path, "is not the whole index of a partitioned mesh; copy or make the mesh again.");
   }
-  if (checksumOf(text.data(), text.size() - tail) != checksum)
+  if (checksumOf(text.data(), hashed) != checksum)
   {
     throw IOError(path, "does not have the checksum it names; copy or make the mesh again.");
   }
@@ -253,7 +257,11 @@ Json parseJson(const std::string& text, const std::string& path)
 
 std::string indexText(const PartitionedMesh& mesh, const std::string& pvtu)
 {
-  OrderedJson json = {
+  OrderedJson arrays = OrderedJson::array();
+  std::transform(mesh.Arrays.begin(), mesh.Arrays.end(), std::back_inserter(arrays), packArray);
+  OrderedJson pieces = OrderedJson::array();
+  std::transform(mesh.Pieces.begin(), mesh.Pieces.end(), std::back_inserter(pieces), packPiece);
+  const OrderedJson json = {
     { "format", formatName },
     { "version", formatVersion },
     { "cell_type", mesh.CellSize == 3 ? "triangle" : "tetrahedron" },
@@ -264,23 +272,12 @@ std::string indexText(const PartitionedMesh& mesh, const std::string& pvtu)
     { "domain", packBounds(mesh.Domain) },
     { "tiling", mesh.Tiling },
     { "times", mesh.Times },
-    { "tables_bytes", 0 },
-    { "arrays", OrderedJson::array() },
-    { "pieces", OrderedJson::array() },
+    { "tables_bytes", bytesOfTables(mesh) },
+    { "arrays", std::move(arrays) },
+    { "pieces", std::move(pieces) },
+    { "pvtu_bytes", pvtu.size() },
+    { "pvtu_xxh3", checksumText(checksumOf(pvtu.data(), pvtu.size())) },
   };
-  std::uint64_t tables = 0;
-  for (const PieceSummary& piece : mesh.Pieces)
-  {
-    json["pieces"].push_back(packPiece(piece));
-    tables += piece.TableBytes;
-  }
-  json["tables_bytes"] = tables;
-  json["pvtu_bytes"] = pvtu.size();
-  json["pvtu_xxh3"] = checksumText(checksumOf(pvtu.data(), pvtu.size()));
-  for (const StoredArray& array : mesh.Arrays)
-  {
-    json["arrays"].push_back(packArray(array));
-  }
   // One line per field, and one per piece.
   std::string text = "{";
   for (const auto& [name, value] : json.items())
@@ -301,7 +298,8 @@ std::string indexText(const PartitionedMesh& mesh, const std::string& pvtu)
     }
   }
   const std::string checksum = checksumText(checksumOf(text.data(), text.size()));
-  return text + checksumStart + checksum + checksumEnd;
+  text.append(checksumStart).append(checksum).append(checksumEnd);
+  return text;
 }
 
 PartitionedMesh parseIndex(const std::string& text, const std::string& path)
@@ -334,13 +332,8 @@ PartitionedMesh parseIndex(const std::string& text, const std::string& path)
   parseTimes(fields, mesh);
   parseArrays(fields, path, mesh);
   parsePieces(fields, path, mesh);
-  std::uint64_t tables = 0;
-  for (const PieceSummary& piece : mesh.Pieces)
-  {
-    tables += piece.TableBytes;
-  }
-  fields.require(
-    std::uint64_t(fields.integer("tables_bytes", 0, most)) == tables, "has a wrong tables_bytes");
+  fields.require(std::uint64_t(fields.integer("tables_bytes", 0, most)) == bytesOfTables(mesh),
+    "has a wrong tables_bytes");
   mesh.PvtuBytes = std::uint64_t(fields.integer("pvtu_bytes", 0, most));
   fields.require(
     parseChecksum(fields.text("pvtu_xxh3"), mesh.PvtuChecksum), "has a wrong pvtu_xxh3");

@@ -6,7 +6,6 @@
 #include "Partitioned/PieceWriter.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <iterator>
 
@@ -30,18 +29,6 @@ std::int64_t findNeighborIds(const PartitionedMesh& mesh)
 namespace
 {
 
-constexpr std::size_t writeBufferBytes = std::size_t(1) << 20;
-
-/// The array's index among the arrays of the piece's file.
-std::size_t placeInFile(const PartitionedMesh& mesh, const PieceSummary& piece)
-{
-  const std::int64_t attribute = findNeighborIds(mesh);
-  const std::vector<PieceArray> arrays = pieceArrays(mesh, piece);
-  const auto found = std::find_if(arrays.begin(), arrays.end(),
-    [&](const PieceArray& array) { return array.Attribute == attribute; });
-  return std::size_t(found - arrays.begin());
-}
-
 /// Reads parts [part, end) of an array.
 template <typename Value>
 std::vector<Value> readParts(
@@ -54,55 +41,6 @@ std::vector<Value> readParts(
     std::size_t(starts[end] - starts[part]) * std::size_t(array.Components));
   file.read(a, part, end, values.data());
   return values;
-}
-
-/// The points of the facet opposite to corner h % 4 of tetrahedron h / 4, ascending.
-std::array<std::int32_t, 3> facetOf(const std::int32_t* corners, std::size_t h)
-{
-  const std::int32_t* const v = corners + h / 4 * 4;
-  const std::size_t i = h % 4;
-  std::array<std::int32_t, 3> facet = { v[i == 0 ? 1 : 0], v[i <= 1 ? 2 : 1], v[i == 3 ? 2 : 3] };
-  std::sort(facet.begin(), facet.end());
-  return facet;
-}
-
-/// As findNeighbors(), for tetrahedra that meet facet to facet.
-void findTetrahedronNeighbors(
-  const std::int32_t* corners, std::size_t tetrahedra, std::int32_t* neighbors)
-{
-  // A link to slot h is -2 - h, so it is neither a tetrahedron nor -1, the end of a list.
-  const auto link = [](std::int32_t slot) { return -2 - slot; };
-  std::size_t lists = 1;
-  while (lists < 2 * tetrahedra)
-  {
-    lists *= 2;
-  }
-  std::vector<std::int32_t> newest(lists, -1);
-  for (std::size_t h = 0; h < 4 * tetrahedra; ++h)
-  {
-    const std::array<std::int32_t, 3> facet = facetOf(corners, h);
-    constexpr std::size_t stride = 5;
-    const std::size_t list =
-      std::size_t(facet[0]) + stride * (std::size_t(facet[1]) + stride * std::size_t(facet[2]));
-    std::int32_t& first = newest[list & (lists - 1)];
-    std::int32_t* at = &first;
-    while (*at != -1 && facetOf(corners, std::size_t(link(*at))) != facet)
-    {
-      at = &neighbors[std::size_t(link(*at))];
-    }
-    if (*at == -1)
-    {
-      neighbors[h] = first;
-      first = link(std::int32_t(h));
-      continue;
-    }
-    const std::int32_t other = link(*at);
-    *at = neighbors[std::size_t(other)];
-    neighbors[h] = other / 4;
-    neighbors[std::size_t(other)] = std::int32_t(h / 4);
-  }
-  std::transform(neighbors, neighbors + 4 * tetrahedra, neighbors,
-    [](std::int32_t n) { return std::max(n, -1); });
 }
 
 } // namespace
@@ -124,20 +62,18 @@ std::uint64_t NeighborWriter::bytesFor(const PartitionedMesh& mesh, const Finish
 {
   // Corners, neighbours and the lists to find them, and a buffer.
   const std::uint64_t perCell = mesh.CellSize == 4 ? 16 + 16 + 16 : 12 + 12 + 8;
-  return perCell * std::uint64_t(piece.Summary.Cells) + writeBufferBytes;
+  return perCell * std::uint64_t(piece.Summary.Cells) + columnBufferBytes;
 }
 
 void NeighborWriter::add(std::size_t number)
 {
   const FinishedPiece& piece = this->Pieces[number];
-  ReadCounters counters;
-  const PieceFile file(this->Mesh, number, piece.Summary, piece.Table, counters);
+  const PieceFile file(this->Mesh, number, piece.Summary, piece.Table);
   const std::vector<std::int64_t>& parts = file.partStarts(false);
   const auto corners = readParts<std::int32_t>(file, PieceRole::Connectivity, 0, parts.size() - 1);
   std::vector<std::int32_t> neighbors(corners.size());
-  this->Corners == 4
-    ? findTetrahedronNeighbors(corners.data(), corners.size() / 4, neighbors.data())
-    : findNeighbors(corners.data(), corners.size() / 3, neighbors.data());
+  this->Corners == 4 ? findNeighbors<4>(corners.data(), corners.size() / 4, neighbors.data())
+                     : findNeighbors(corners.data(), corners.size() / 3, neighbors.data());
   const std::vector<OpenFacet> open = this->findOpenFacets(file, corners, neighbors);
 
   const std::int64_t first = this->FirstCells[number];
@@ -147,7 +83,7 @@ void NeighborWriter::add(std::size_t number)
   border.Open = open.size();
   std::transform(neighbors.begin() + std::ptrdiff_t(this->Corners) * parts[1], neighbors.end(),
     std::back_inserter(border.Values), idOf);
-  this->write(number, 0, 1, [&, at = neighbors.begin()]() mutable { return idOf(*at++); });
+  this->write(number, { 0, 1 }, [&, at = neighbors.begin()]() mutable { return idOf(*at++); });
   for (auto& [completed, values] : this->match(number, std::move(border), open))
   {
     this->writeBorder(completed, values);
@@ -233,35 +169,26 @@ void NeighborWriter::finish()
 
 void NeighborWriter::writeBorder(std::size_t number, const Border& border)
 {
-  const std::size_t parts = 1 + this->Pieces[number].Table.CellGroups.size();
-  this->write(number, 1, parts, [at = border.Values.begin()]() mutable { return *at++; });
+  this->write(number, { 1, this->Pieces[number].cellParts() },
+    [at = border.Values.begin()]() mutable { return *at++; });
 }
 
-/// Writes these parts of the array, value by value, and their checksums.
+/// Writes these parts of the array; next() returns the values one by one.
 template <typename Next>
-void NeighborWriter::write(std::size_t number, std::size_t begin, std::size_t end, Next next)
+void NeighborWriter::write(std::size_t number, std::pair<std::size_t, std::size_t> parts, Next next)
 {
   FinishedPiece& piece = this->Pieces[number];
-  const std::size_t a = placeInFile(this->Mesh, piece.Summary);
-  const std::vector<std::int64_t> parts = piece.Table.parts(this->Mesh, piece.Summary, false);
-  const std::uint64_t skipped = begin == 0 ? 0 : std::uint64_t(parts[0]);
-  const OutputFile file = OutputFile::shared(this->Mesh.piecePath(number));
-  const std::uint64_t tupleBytes = this->Corners * sizeof(std::int64_t);
-  ColumnWriter column(file, piece.Table.Offsets[a] + skipped * tupleBytes, writeBufferBytes);
-  for (std::size_t part = begin; part < end; ++part)
-  {
-    for (std::int64_t i = 0; i < std::int64_t(this->Corners) * parts[part]; ++i)
+  const std::size_t array =
+    findArrayOf(pieceArrays(this->Mesh, piece.Summary), findNeighborIds(this->Mesh));
+  writeCellParts(this->Mesh, number, array, parts, piece,
+    [&next](char* to, std::size_t bytes)
     {
-      const std::int64_t id = next();
-      std::memcpy(column.extend(sizeof(id)), &id, sizeof(id));
-    }
-    column.endPart();
-  }
-  column.flush();
-  file.startWriteback();
-  std::vector<std::uint64_t>& checksums = piece.Table.Checksums[a];
-  checksums.resize(begin);
-  checksums.insert(checksums.end(), column.checksums().begin(), column.checksums().end());
+      for (const char* const end = to + bytes; to < end; to += sizeof(std::int64_t))
+      {
+        const std::int64_t id = next();
+        std::memcpy(to, &id, sizeof(id));
+      }
+    });
 }
 
 } // namespace tipp

@@ -83,7 +83,7 @@ private:
     std::size_t number, Border border, const std::vector<OpenFacet>& open);
   void writeBorder(std::size_t number, const Border& border);
   template <typename Next>
-  void write(std::size_t number, std::size_t begin, std::size_t end, Next next);
+  void write(std::size_t number, std::pair<std::size_t, std::size_t> parts, Next next);
 
   const PartitionedMesh& Mesh;
   const std::size_t Corners; ///< of a cell

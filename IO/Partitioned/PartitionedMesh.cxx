@@ -5,13 +5,8 @@
 #include "Files/InputFile.h"
 #include "Partitioned/Checksum.h"
 
-#include <cerrno>
 #include <filesystem>
 #include <system_error>
-
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 namespace tipp
 {
@@ -44,46 +39,23 @@ std::string readText(const std::string& path)
   return text;
 }
 
-/// The sizes of a folder's files. A mesh may have very many, so the folder's path is resolved once.
-class SizesInFolder
+void requireSize(const std::string& path, std::uint64_t bytes)
 {
-public:
-  explicit SizesInFolder(const std::string& folder)
-    : Folder(folder)
-    , Descriptor(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC))
+  std::error_code failure;
+  const std::uint64_t size = fs::file_size(path, failure);
+  if (failure)
   {
-    if (this->Descriptor < 0)
-    {
-      const std::error_code failure(errno, std::generic_category());
-      throw IOError(folder, "cannot be opened (" + failure.message() + ").");
-    }
+    throw IOError(path,
+      "is missing from the partitioned mesh (" + failure.message() +
+        "); copy or make the mesh again.");
   }
-  SizesInFolder(const SizesInFolder&) = delete;
-  SizesInFolder& operator=(const SizesInFolder&) = delete;
-  ~SizesInFolder() { ::close(this->Descriptor); }
-
-  void require(const std::string& name, std::uint64_t bytes) const
+  if (size != bytes)
   {
-    struct stat state = {};
-    if (::fstatat(this->Descriptor, name.c_str(), &state, 0) != 0)
-    {
-      const std::error_code failure(errno, std::generic_category());
-      throw IOError(this->Folder + "/" + name,
-        "is missing from the partitioned mesh (" + failure.message() +
-          "); copy or make the mesh again.");
-    }
-    if (std::uint64_t(state.st_size) != bytes)
-    {
-      throw IOError(this->Folder + "/" + name,
-        "has " + std::to_string(state.st_size) + " bytes where the index says " +
-          std::to_string(bytes) + "; copy or make the mesh again.");
-    }
+    throw IOError(path,
+      "has " + std::to_string(size) + " bytes where the index says " + std::to_string(bytes) +
+        "; copy or make the mesh again.");
   }
-
-private:
-  const std::string Folder;
-  const int Descriptor;
-};
+}
 
 } // namespace
 
@@ -119,20 +91,19 @@ PartitionedMesh openPartitionedMesh(const std::string& path)
   PartitionedMesh mesh = parseIndex(readText(index), index);
   const fs::path folder = fs::path(index).parent_path();
   mesh.Path = folder.empty() ? "." : folder.string();
-  const SizesInFolder sizes(mesh.Path);
   std::uint64_t tables = 0;
   for (std::size_t i = 0; i < mesh.Pieces.size(); ++i)
   {
     const PieceSummary& piece = mesh.Pieces[i];
-    sizes.require(pieceName(i), piece.FileBytes);
+    requireSize(mesh.piecePath(i), piece.FileBytes);
     if (piece.TableOffset != tables || piece.TableBytes > (std::uint64_t(1) << 62) - tables)
     {
       throw IOError(index, "has tables out of order; copy or make the mesh again.");
     }
     tables += piece.TableBytes;
   }
-  sizes.require(tablesName, tables);
-  sizes.require(pvtuName, mesh.PvtuBytes);
+  requireSize(mesh.tablesPath(), tables);
+  requireSize(mesh.pvtuPath(), mesh.PvtuBytes);
   return mesh;
 }
 

@@ -6,6 +6,7 @@
 #include "vtkTIPPIOModule.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -15,6 +16,9 @@ namespace tipp
 
 /// x min, x max, y min, y max, z min, z max.
 using Bounds = std::array<double, 6>;
+
+/// Those of no point.
+constexpr Bounds emptyBounds = { HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL };
 
 /// The maximum number of pieces of a mesh.
 constexpr std::int64_t mostPieces = 1 << 24;

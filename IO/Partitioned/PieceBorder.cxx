@@ -41,8 +41,8 @@ void copyPoint(const PieceArray& array, const double* row, const PointRowLayout&
   {
     case PieceRole::Points:
     {
-      const double xyz[3] = { row[0], row[1], layout.Z < 0 ? 0 : row[layout.Z] };
-      std::memcpy(to, xyz, sizeof(xyz));
+      const std::array<double, 3> point = layout.point(row);
+      std::memcpy(to, point.data(), sizeof(point));
       break;
     }
     case PieceRole::PointIds:
@@ -60,16 +60,23 @@ void copyPoint(const PieceArray& array, const double* row, const PointRowLayout&
   }
 }
 
-void extendBounds(Bounds& bounds, const double* row, const PointRowLayout& layout)
+void extendBounds(Bounds& bounds, const std::array<double, 3>& point)
 {
-  const double xyz[3] = { row[0], row[1], layout.Z < 0 ? 0 : row[layout.Z] };
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    if (std::isfinite(xyz[axis])) // a z coordinate may be NaN or infinite
+    if (std::isfinite(point[axis]))
     {
-      bounds[2 * axis] = std::min(bounds[2 * axis], xyz[axis]);
-      bounds[2 * axis + 1] = std::max(bounds[2 * axis + 1], xyz[axis]);
+      bounds[2 * axis] = std::min(bounds[2 * axis], point[axis]);
+      bounds[2 * axis + 1] = std::max(bounds[2 * axis + 1], point[axis]);
     }
+  }
+}
+
+void completeBounds(Bounds& bounds)
+{
+  if (bounds[4] > bounds[5])
+  {
+    bounds[4] = bounds[5] = 0;
   }
 }
 
@@ -98,17 +105,6 @@ int SharingSets::unite(int a, int b)
     found->second = this->number(both);
   }
   return found->second;
-}
-
-std::vector<int> SharingSets::sortedIndices() const
-{
-  std::vector<int> indices(this->Sets.size());
-  int index = 0;
-  for (const auto& [set, number] : this->Numbers)
-  {
-    indices[std::size_t(number)] = index++;
-  }
-  return indices;
 }
 
 SharingSets::Grouping SharingSets::groups(const std::vector<int>& setOf) const
@@ -216,8 +212,9 @@ std::size_t OrderedBorder::index(std::int64_t point) const
 /// A point's set of borrowers is the union of its cells' sets.
 void OrderedBorder::uniteSets()
 {
-  this->SetOf.assign(this->Interior.InterfacePoints.size() + this->Of.Ghosts.size(), 0);
-  this->Sets.number({}); // the empty set gets number 0, and sorts first
+  const int none = this->Sets.number({}); // sorts first
+  this->SetOf.assign(this->Interior.InterfacePoints.size() + this->Of.Ghosts.size(), none);
+  this->CellSets.assign(this->Interior.InterfaceCells.size(), none);
   auto begin = this->Of.Borrowers.begin();
   for (const PieceBorder::Cell& cell : this->Of.Cells)
   {
@@ -231,31 +228,11 @@ void OrderedBorder::uniteSets()
       of = this->Sets.unite(of, set);
     }
   }
-  this->Ranks = this->Sets.sortedIndices();
-  this->SetOfRank.resize(this->Ranks.size());
-  for (std::size_t set = 0; set < this->Ranks.size(); ++set)
-  {
-    this->SetOfRank[std::size_t(this->Ranks[set])] = int(set);
-  }
-}
-
-template <typename Item>
-std::vector<SharedGroup> OrderedBorder::groupsOf(const std::vector<Item>& items) const
-{
-  std::vector<SharedGroup> groups;
-  for (std::size_t i = 0; i < items.size(); ++i)
-  {
-    if (i == 0 || items[i].Group != items[i - 1].Group)
-    {
-      groups.push_back({ this->Sets.set(this->SetOfRank[std::size_t(items[i].Group)]), 0 });
-    }
-    ++groups.back().Count;
-  }
-  return groups;
 }
 
 void OrderedBorder::orderPoints()
 {
+  SharingSets::Grouping grouping = this->Sets.groups(this->SetOf);
   const PointRowLayout& layout = this->Of.Layout;
   const std::size_t own = this->Interior.InterfacePoints.size();
   for (std::size_t i = 0; i < this->SetOf.size(); ++i)
@@ -263,12 +240,12 @@ void OrderedBorder::orderPoints()
     const double* const row = i < own ? this->Interior.InterfaceRows.data() + i * layout.Words
                                       : this->Of.GhostRows.data() + (i - own) * layout.Words;
     this->Points.push_back(
-      { this->Ranks[std::size_t(this->SetOf[i])], layout.id(row), row, i >= own, i });
+      { grouping.IndexOf[std::size_t(this->SetOf[i])], layout.id(row), row, i >= own, i });
   }
   std::sort(this->Points.begin(), this->Points.end(),
     [](const Point& a, const Point& b)
     { return a.Group != b.Group ? a.Group < b.Group : a.Id < b.Id; });
-  this->PointGroups = this->groupsOf(this->Points);
+  this->PointGroups = std::move(grouping.Groups);
   this->Position.resize(this->Points.size());
   for (std::size_t i = 0; i < this->Points.size(); ++i)
   {
@@ -277,7 +254,7 @@ void OrderedBorder::orderPoints()
 }
 
 /// Adds a cell, its corners permuted to a canonical order of the same orientation.
-void OrderedBorder::addCell(int set, CellCorners corners)
+void OrderedBorder::addCell(int group, CellCorners corners)
 {
   if (this->Of.CellSize == 3)
   {
@@ -297,11 +274,14 @@ void OrderedBorder::addCell(int set, CellCorners corners)
     std::sort(corners.begin(), corners.end());
     isOdd ? std::swap(corners[2], corners[3]) : void();
   }
-  this->Cells.push_back({ this->Ranks[std::size_t(set)], corners });
+  this->Cells.push_back({ group, corners });
 }
 
 void OrderedBorder::addCells()
 {
+  SharingSets::Grouping grouping = this->Sets.groups(this->CellSets);
+  const auto groupOfNext = [&]
+  { return grouping.IndexOf[std::size_t(this->CellSets[this->Cells.size()])]; };
   for (CellCorners corners : this->Interior.InterfaceCells)
   {
     for (std::size_t c = 0; c < this->Of.CellSize; ++c)
@@ -309,21 +289,21 @@ void OrderedBorder::addCells()
       std::int32_t& corner = corners[c];
       corner = corner < 0 ? this->Position[std::size_t(-1 - corner)] : corner;
     }
-    this->addCell(0, corners);
+    this->addCell(groupOfNext(), corners);
   }
-  for (std::size_t i = 0; i < this->CellSets.size(); ++i)
+  for (const PieceBorder::Cell& cell : this->Of.Cells)
   {
     CellCorners corners{};
     for (std::size_t c = 0; c < this->Of.CellSize; ++c)
     {
-      corners[c] = this->Position[this->index(this->Of.Cells[i].Points[c])];
+      corners[c] = this->Position[this->index(cell.Points[c])];
     }
-    this->addCell(this->CellSets[i], corners);
+    this->addCell(groupOfNext(), corners);
   }
   std::sort(this->Cells.begin(), this->Cells.end(),
     [](const Cell& a, const Cell& b)
     { return a.Group != b.Group ? a.Group < b.Group : a.Points < b.Points; });
-  this->CellGroups = this->groupsOf(this->Cells);
+  this->CellGroups = std::move(grouping.Groups);
 }
 
 } // namespace tipp

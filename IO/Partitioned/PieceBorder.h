@@ -32,6 +32,10 @@ struct PointRowLayout
     std::memcpy(&id, row + this->Words - 1, sizeof(id));
     return id;
   }
+  std::array<double, 3> point(const double* row) const
+  {
+    return { row[0], row[1], this->Z < 0 ? 0 : row[this->Z] };
+  }
 };
 
 template <typename Archive>
@@ -62,8 +66,11 @@ std::uint64_t sumTriangles(
 void copyPoint(const PieceArray& array, const double* row, const PointRowLayout& layout,
   bool isGhost, std::int64_t representative, char* to);
 
-/// Extends the bounds by a row's point; coordinates that are not finite are ignored.
-void extendBounds(Bounds& bounds, const double* row, const PointRowLayout& layout);
+/// Extends the bounds by a point; coordinates that are not finite, as z may be, are ignored.
+void extendBounds(Bounds& bounds, const std::array<double, 3>& point);
+
+/// If no point has extended the bounds of z, these become 0.
+void completeBounds(Bounds& bounds);
 
 /// Numbers the distinct sets of pieces that borrow from one piece.
 class VTKTIPPIO_EXPORT SharingSets
@@ -77,7 +84,6 @@ public:
   {
     return *this->Sets[static_cast<std::size_t>(number)];
   }
-  std::size_t size() const { return this->Sets.size(); }
   /// Items grouped by the number of their set (-1: none), in lexicographic order of the sets, and
   /// for each set its index among the groups, or -1.
   struct Grouping
@@ -86,8 +92,6 @@ public:
     std::vector<int> IndexOf;
   };
   Grouping groups(const std::vector<int>& setOf) const;
-  /// For each set, by number, its index in the lexicographic order of all.
-  std::vector<int> sortedIndices() const;
 
 private:
   std::map<std::vector<std::int32_t>, int> Numbers;
@@ -199,7 +203,7 @@ class OrderedBorder
 public:
   struct Point
   {
-    int Group; ///< rank of its set of borrowers
+    int Group; ///< index in PointGroups
     std::int64_t Id;
     const double* Row;
     bool IsGhost;
@@ -207,7 +211,7 @@ public:
   };
   struct Cell
   {
-    int Group;
+    int Group;          ///< index in CellGroups
     CellCorners Points; ///< positions in the piece, the lowest first
   };
 
@@ -221,19 +225,15 @@ public:
 private:
   std::size_t index(std::int64_t point) const;
   void uniteSets();
-  template <typename Item>
-  std::vector<SharedGroup> groupsOf(const std::vector<Item>& items) const;
   void orderPoints();
-  void addCell(int set, CellCorners corners);
+  void addCell(int group, CellCorners corners);
   void addCells();
 
   const PieceBorder& Of;
   const PieceInterior& Interior;
   SharingSets Sets;
   std::vector<int> SetOf;             ///< by point: the number of its set
-  std::vector<int> CellSets;          ///< by added cell: the number of its set
-  std::vector<int> Ranks;             ///< by set: its position in lexicographic order
-  std::vector<int> SetOfRank;         ///< the inverse
+  std::vector<int> CellSets;          ///< by cell, the interface's first: the number of its set
   std::vector<std::int32_t> Position; ///< by point: its position in the piece
 };
 

@@ -37,14 +37,9 @@ GlobalIdMap::GlobalIdMap(const std::int64_t* ids, const std::int64_t* values, st
   {
     greatest = std::max(greatest, std::uint64_t(values[i]));
   }
-  if (this->Range <= limit && greatest <= limit)
-  {
-    this->fill(this->Narrow, ids, values, count);
-  }
-  else
-  {
-    this->fill(this->Wide, ids, values, count);
-  }
+  const bool isNarrow = this->Range <= limit && greatest <= limit;
+  isNarrow ? this->fill(this->Narrow, ids, values, count)
+           : this->fill(this->Wide, ids, values, count);
 }
 
 template <typename Number>
@@ -98,7 +93,7 @@ std::int64_t GlobalIdMap::find(std::int64_t id) const
 }
 
 template <typename Value>
-bool GlobalIdMap::translateAll(const std::int64_t* ids, std::size_t count, Value* values) const
+bool GlobalIdMap::translate(const std::int64_t* ids, std::size_t count, Value* values) const
 {
   std::int64_t all = 0;
   const auto run = [&](const auto& entries)
@@ -111,26 +106,14 @@ bool GlobalIdMap::translateAll(const std::int64_t* ids, std::size_t count, Value
       values[i] = Value(value);
     }
   };
-  if (this->Wide.empty())
-  {
-    run(this->Narrow);
-  }
-  else
-  {
-    run(this->Wide);
-  }
+  this->Wide.empty() ? run(this->Narrow) : run(this->Wide);
   return all >= 0;
 }
 
-bool GlobalIdMap::translate(const std::int64_t* ids, std::size_t count, std::int32_t* values) const
-{
-  return this->translateAll(ids, count, values);
-}
-
-bool GlobalIdMap::translate(const std::int64_t* ids, std::size_t count, std::int64_t* values) const
-{
-  return this->translateAll(ids, count, values);
-}
+template VTKTIPPIO_EXPORT bool GlobalIdMap::translate(
+  const std::int64_t*, std::size_t, std::int32_t*) const;
+template VTKTIPPIO_EXPORT bool GlobalIdMap::translate(
+  const std::int64_t*, std::size_t, std::int64_t*) const;
 
 namespace
 {
@@ -150,15 +133,14 @@ std::vector<std::int64_t> startsOf(const std::vector<std::int64_t>& counts)
 
 } // namespace
 
-PieceFile::PieceFile(const PartitionedMesh& mesh, std::size_t number, ReadCounters& counters)
-  : PieceFile(mesh, number, mesh.Pieces[number], readPieceTable(mesh, number), counters)
+PieceFile::PieceFile(const PartitionedMesh& mesh, std::size_t number)
+  : PieceFile(mesh, number, mesh.Pieces[number], readPieceTable(mesh, number))
 {
-  ++this->Counters.Reads;
-  this->Counters.Bytes += std::int64_t(this->Summary.TableBytes);
+  this->BytesRead += std::int64_t(this->Summary.TableBytes);
 }
 
-PieceFile::PieceFile(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& summary,
-  PieceTable table, ReadCounters& counters)
+PieceFile::PieceFile(
+  const PartitionedMesh& mesh, std::size_t number, const PieceSummary& summary, PieceTable table)
   : Summary(summary)
   , Number(number)
   , File(mesh.piecePath(number))
@@ -166,9 +148,14 @@ PieceFile::PieceFile(const PartitionedMesh& mesh, std::size_t number, const Piec
   , Arrays(pieceArrays(mesh, this->Summary))
   , PointParts(startsOf(this->Table.parts(mesh, this->Summary, true)))
   , CellParts(startsOf(this->Table.parts(mesh, this->Summary, false)))
-  , Counters(counters)
 {
-  this->checkHeader();
+  std::string header(std::size_t(this->Table.HeaderBytes), '\0');
+  this->File.read(0, header.data(), header.size());
+  this->BytesRead += std::int64_t(header.size());
+  if (checksumOf(header.data(), header.size()) != this->Table.HeaderChecksum)
+  {
+    this->fail("its header does not have the checksum of piece " + std::to_string(this->Number));
+  }
 }
 
 void PieceFile::fail(const std::string& problem) const
@@ -182,38 +169,6 @@ void PieceFile::requireIds(const std::int64_t* ids, std::size_t count, std::int6
   {
     this->fail("holds a global id that the mesh does not have");
   }
-}
-
-void PieceFile::checkHeader() const
-{
-  std::string header(std::size_t(this->Table.HeaderBytes), '\0');
-  this->File.read(0, header.data(), header.size());
-  ++this->Counters.Reads;
-  this->Counters.Bytes += std::int64_t(header.size());
-  if (checksumOf(header.data(), header.size()) != this->Table.HeaderChecksum)
-  {
-    this->fail("its header does not have the checksum of piece " + std::to_string(this->Number));
-  }
-}
-
-std::size_t PieceFile::find(PieceRole role) const
-{
-  std::size_t array = 0;
-  while (array < this->Arrays.size() && this->Arrays[array].Role != role)
-  {
-    ++array;
-  }
-  return array;
-}
-
-std::size_t PieceFile::findAttribute(std::size_t attribute) const
-{
-  std::size_t array = 0;
-  while (array < this->Arrays.size() && this->Arrays[array].Attribute != std::int64_t(attribute))
-  {
-    ++array;
-  }
-  return array;
 }
 
 /// Reads whole tuples to blockAt(byte), calls take(byte, bytes) and verifies them, until that
@@ -262,8 +217,7 @@ void PieceFile::readBlocks(std::size_t array, std::size_t first, std::size_t end
   {
     this->requirePart(array, part, checksumOf(nullptr, 0));
   }
-  ++this->Counters.Reads;
-  this->Counters.Bytes += std::int64_t(bytes);
+  this->BytesRead += std::int64_t(bytes);
 }
 
 void PieceFile::read(std::size_t array, std::size_t first, std::size_t end, void* to) const
@@ -307,16 +261,6 @@ void PieceFile::requireZeros(std::uint64_t from, std::uint64_t to) const
     });
 }
 
-void PieceFile::requireFooter(std::uint64_t at) const
-{
-  std::string footer(std::strlen(pieceFooter), '\0');
-  this->File.read(at, footer.data(), footer.size());
-  if (footer != pieceFooter)
-  {
-    this->fail("does not end as it was written");
-  }
-}
-
 void PieceFile::verifyAll() const
 {
   if (this->File.size() != this->Summary.FileBytes)
@@ -354,7 +298,12 @@ void PieceFile::verifyAll() const
     this->fail("ends before its arrays do");
   }
   this->requireZeros(at, end);
-  this->requireFooter(end);
+  std::string footer(std::strlen(pieceFooter), '\0');
+  this->File.read(end, footer.data(), footer.size());
+  if (footer != pieceFooter)
+  {
+    this->fail("does not end as it was written");
+  }
 }
 
 } // namespace tipp

@@ -7,28 +7,13 @@
 #include "Partitioned/PieceFormat.h"
 #include "vtkTIPPIOModule.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <type_traits>
 #include <vector>
 
 namespace tipp
 {
-
-/// Whether all ids are in [0, limit).
-template <typename Id>
-bool areBelow(const Id* ids, std::size_t count, std::int64_t limit)
-{
-  using Unsigned = std::make_unsigned_t<Id>;
-  Unsigned greatest = 0;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    greatest = std::max(greatest, Unsigned(ids[i]));
-  }
-  return count == 0 || std::uint64_t(greatest) < std::uint64_t(limit);
-}
 
 /// A map from ids to values, neither negative. A look-up uses a table with about one id per entry,
 /// and a search among the few ids that share an entry: two cache lines.
@@ -42,9 +27,10 @@ public:
   /// The id's value; -1 if the id is not in the map.
   std::int64_t find(std::int64_t id) const;
 
-  /// Writes the values of `count` ids; returns false if an id is not in the map.
-  bool translate(const std::int64_t* ids, std::size_t count, std::int32_t* values) const;
-  bool translate(const std::int64_t* ids, std::size_t count, std::int64_t* values) const;
+  /// Writes the values of `count` ids; returns false if an id is not in the map. For values of 32
+  /// or 64 bits.
+  template <typename Value>
+  bool translate(const std::int64_t* ids, std::size_t count, Value* values) const;
 
 private:
   template <typename Number>
@@ -58,8 +44,6 @@ private:
   template <typename Number>
   void fill(std::vector<Entry<Number>>& entries, const std::int64_t* ids,
     const std::int64_t* values, std::size_t count);
-  template <typename Value>
-  bool translateAll(const std::int64_t* ids, std::size_t count, Value* values) const;
 
   std::int64_t Least = 0;
   std::uint64_t Range = 0; ///< greatest id minus least id
@@ -70,27 +54,22 @@ private:
   std::vector<Entry<std::uint64_t>> Wide;
 };
 
-/// The cost of reading a piece.
-struct ReadCounters
-{
-  std::int64_t Reads = 0; ///< read calls
-  std::int64_t Bytes = 0; ///< bytes read
-};
-
-/// A piece's open file, which is read part by part.
+/// A piece's open file, which one thread reads part by part.
 class PieceFile
 {
 public:
   /// Reads the piece's table and checks the file's header; throws IOError.
-  PieceFile(const PartitionedMesh& mesh, std::size_t number, ReadCounters& counters);
+  PieceFile(const PartitionedMesh& mesh, std::size_t number);
   /// For a mesh that is not published: with the summary, which must outlive this, and the table
   /// that the piece will have.
-  PieceFile(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& summary,
-    PieceTable table, ReadCounters& counters);
+  PieceFile(
+    const PartitionedMesh& mesh, std::size_t number, const PieceSummary& summary, PieceTable table);
 
   const PieceSummary& summary() const { return this->Summary; }
   const PieceTable& table() const { return this->Table; }
   const std::vector<PieceArray>& arrays() const { return this->Arrays; }
+  /// Bytes read so far, including the table.
+  std::int64_t bytesRead() const { return this->BytesRead; }
   /// The first tuple of each part of the arrays of points, or of cells, and the end of the last.
   const std::vector<std::int64_t>& partStarts(bool ofPoints) const
   {
@@ -98,9 +77,12 @@ public:
   }
 
   /// The index of the array with a role other than data.
-  std::size_t find(PieceRole role) const;
+  std::size_t find(PieceRole role) const { return findArray(this->Arrays, role); }
   /// The index of the array of an attribute of the mesh.
-  std::size_t findAttribute(std::size_t attribute) const;
+  std::size_t findAttribute(std::size_t attribute) const
+  {
+    return findArrayOf(this->Arrays, std::int64_t(attribute));
+  }
 
   /// Reads parts [first, end) of an array and verifies their checksums; `to` may be null, to verify
   /// them only. Throws IOError.
@@ -125,10 +107,8 @@ private:
   template <typename BlockAt, typename Take>
   void readBlocks(std::size_t array, std::size_t first, std::size_t end, const BlockAt& blockAt,
     const Take& take) const;
-  void checkHeader() const;
   void requirePart(std::size_t array, std::size_t part, std::uint64_t checksum) const;
   void requireZeros(std::uint64_t from, std::uint64_t to) const;
-  void requireFooter(std::uint64_t at) const;
 
   const PieceSummary& Summary;
   std::size_t Number;
@@ -137,7 +117,7 @@ private:
   std::vector<PieceArray> Arrays;
   std::vector<std::int64_t> PointParts;
   std::vector<std::int64_t> CellParts;
-  ReadCounters& Counters;
+  mutable std::int64_t BytesRead = 0;
 };
 
 } // namespace tipp

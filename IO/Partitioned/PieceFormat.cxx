@@ -6,6 +6,8 @@
 #include "Files/VtkXml.h"
 #include "Partitioned/Checksum.h"
 
+#include <algorithm>
+#include <cstring>
 #include <limits>
 #include <string>
 #include <utility>
@@ -34,14 +36,6 @@ void saveGroups(SaveArchive& archive, const std::vector<BorrowedGroup>& groups)
   }
 }
 
-[[noreturn]] void failInTable(
-  const PartitionedMesh& mesh, std::size_t piece, const std::string& problem)
-{
-  throw IOError(mesh.tablesPath(),
-    "its table of piece " + std::to_string(piece) + " " + problem +
-      "; copy or make the mesh again.");
-}
-
 /// Reads a table number by number; the caller checks each of them.
 class TableReader
 {
@@ -55,7 +49,9 @@ public:
 
   [[noreturn]] void fail(const std::string& problem) const
   {
-    failInTable(this->Mesh, this->Number, problem);
+    throw IOError(this->Mesh.tablesPath(),
+      "its table of piece " + std::to_string(this->Number) + " " + problem +
+        "; copy or make the mesh again.");
   }
 
   std::uint64_t word()
@@ -216,13 +212,13 @@ PieceTable readPieceTable(const PartitionedMesh& mesh, std::size_t number)
   const PieceSummary& piece = mesh.Pieces[number];
   Bytes bytes(std::size_t(piece.TableBytes));
   InputFile(mesh.tablesPath()).read(piece.TableOffset, bytes.data(), bytes.size());
+  TableReader in(mesh, number, bytes);
   if (checksumOf(bytes.data(), bytes.size()) != piece.TableChecksum)
   {
-    failInTable(mesh, number, "does not have the checksum that the index gives");
+    in.fail("does not have the checksum that the index gives");
   }
   const auto pieces = std::int64_t(mesh.Pieces.size());
   const auto self = std::int64_t(number);
-  TableReader in(mesh, number, bytes);
   PieceTable table;
   table.HeaderBytes = std::uint64_t(in.number(std::int64_t(piece.FileBytes), "header size"));
   table.HeaderChecksum = in.word();
@@ -235,6 +231,41 @@ PieceTable readPieceTable(const PartitionedMesh& mesh, std::size_t number)
   return table;
 }
 
+std::size_t findArray(const std::vector<PieceArray>& arrays, PieceRole role)
+{
+  const auto found = std::find_if(
+    arrays.begin(), arrays.end(), [role](const PieceArray& array) { return array.Role == role; });
+  return std::size_t(found - arrays.begin());
+}
+
+std::size_t findArrayOf(const std::vector<PieceArray>& arrays, std::int64_t attribute)
+{
+  const auto found = std::find_if(arrays.begin(), arrays.end(),
+    [attribute](const PieceArray& array) { return array.Attribute == attribute; });
+  return std::size_t(found - arrays.begin());
+}
+
+void fillShapes(
+  const PieceArray& array, int cellSize, std::int64_t first, std::int64_t count, char* to)
+{
+  constexpr int vtkTriangle = 5;
+  constexpr int vtkTetra = 10;
+  if (array.Role == PieceRole::Types)
+  {
+    std::memset(to, cellSize == 3 ? vtkTriangle : vtkTetra, std::size_t(count));
+    return;
+  }
+  const auto fillAs = [&](auto end)
+  {
+    for (std::int64_t cell = first; cell < first + count; ++cell, to += sizeof(end))
+    {
+      end = decltype(end)((cell + 1) * cellSize);
+      std::memcpy(to, &end, sizeof(end));
+    }
+  };
+  array.Type == Scalar::Int64 ? fillAs(std::int64_t(0)) : fillAs(std::int32_t(0));
+}
+
 const char* const pointIdsName = "GlobalPointIds";
 const char* const cellIdsName = "GlobalCellIds";
 const char* const ghostsName = "vtkGhostType";
@@ -243,14 +274,10 @@ const char* const pieceFooter = "\n  </AppendedData>\n</VTKFile>\n";
 namespace
 {
 
-constexpr const char* fileStart =
-  "<?xml version=\"1.0\"?>\n<VTKFile type=\"%TYPE\" version=\"1.0\" "
-  "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
-
 std::string startOf(const std::string& type)
 {
-  std::string text = fileStart;
-  return text.replace(text.find("%TYPE"), 5, type);
+  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + type +
+    "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
 }
 
 /// The attributes that describe an array both in a piece and in the .pvtu.
@@ -265,63 +292,44 @@ std::string describe(const PieceArray& array)
   return ids ? text + " IdType=\"1\"" : text;
 }
 
-std::string section(const std::string& name, const std::vector<std::string>& arrays)
+const char* sectionOf(PieceRole role)
+{
+  return role == PieceRole::Points ? "Points"
+    : role <= PieceRole::PointData ? "PointData"
+    : role <= PieceRole::Types     ? "Cells"
+                                   : "CellData";
+}
+
+/// The sections that list the arrays: of a piece, with the offsets of their data, or without these
+/// of the .pvtu, whose tags begin with P and which has no section Cells.
+std::string sections(
+  const std::vector<PieceArray>& arrays, const std::vector<std::uint64_t>* offsets)
 {
   const std::string indent = "      ";
-  std::string attributes;
-  if (name == "PointData" || name == "PPointData")
-  {
-    attributes = std::string(" GlobalIds=\"") + pointIdsName + "\"";
-  }
-  if (name == "CellData" || name == "PCellData")
-  {
-    attributes = std::string(" GlobalIds=\"") + cellIdsName + "\"";
-  }
-  std::string text = indent + "<" + name + attributes + ">\n";
-  for (const std::string& array : arrays)
-  {
-    text += indent;
-    text += "  ";
-    text += array;
-  }
-  return text + indent + "</" + name + ">\n";
-}
-
-bool isIn(const std::string& name, PieceRole role)
-{
-  switch (role)
-  {
-    case PieceRole::Points:
-      return name == "Points";
-    case PieceRole::PointIds:
-    case PieceRole::PointGhosts:
-    case PieceRole::PointData:
-      return name == "PointData";
-    case PieceRole::Connectivity:
-    case PieceRole::Offsets:
-    case PieceRole::Types:
-      return name == "Cells";
-    default:
-      return name == "CellData";
-  }
-}
-
-std::string pieceSections(const PieceLayout& layout)
-{
+  const std::string prefix = offsets ? "" : "P";
   std::string text;
   for (const std::string name : { "Points", "PointData", "Cells", "CellData" })
   {
-    std::vector<std::string> lines;
-    for (std::size_t a = 0; a < layout.Arrays.size(); ++a)
+    if (!offsets && name == "Cells")
     {
-      const PieceArray& array = layout.Arrays[a];
-      if (isIn(name, array.Role))
+      continue;
+    }
+    const char* const ids = name == "PointData" ? pointIdsName
+      : name == "CellData"                      ? cellIdsName
+                                                : nullptr;
+    text += indent + "<" + prefix + name +
+      (ids ? " GlobalIds=\"" + std::string(ids) + "\"" : std::string()) + ">\n";
+    for (std::size_t a = 0; a < arrays.size(); ++a)
+    {
+      if (name == sectionOf(arrays[a].Role))
       {
-        lines.push_back("<DataArray" + describe(array) + " format=\"appended\" offset=\"" +
-          std::to_string(layout.Offsets[a] - 8) + "\"/>\n");
+        text += indent + "  <" + prefix + "DataArray" + describe(arrays[a]);
+        text += offsets
+          ? " format=\"appended\" offset=\"" + std::to_string((*offsets)[a] - 8) + "\"/>\n"
+          : "/>\n";
       }
     }
-    text += section(name, lines);
+    text += indent + "</" + prefix + name + ">\n";
   }
   return text;
 }
@@ -337,7 +345,7 @@ std::string headerText(const PartitionedMesh& mesh, std::size_t number, const Pi
   header += "  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"" +
     std::to_string(piece.Points + piece.GhostPoints) + "\" NumberOfCells=\"" +
     std::to_string(cells) + "\">\n";
-  header += pieceSections(layout);
+  header += sections(layout.Arrays, &layout.Offsets);
   header += "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n";
   return header;
 }
@@ -432,19 +440,7 @@ std::string pvtuText(const PartitionedMesh& mesh)
 {
   std::string text = startOf("PUnstructuredGrid");
   text += "  <PUnstructuredGrid GhostLevel=\"" + std::string(mesh.Duplicated ? "1" : "0") + "\">\n";
-  const std::vector<PieceArray> arrays = pieceArrays(mesh, PieceSummary());
-  for (const std::string name : { "Points", "PointData", "CellData" })
-  {
-    std::vector<std::string> lines;
-    for (const PieceArray& array : arrays)
-    {
-      if (isIn(name, array.Role))
-      {
-        lines.push_back("<PDataArray" + describe(array) + "/>\n");
-      }
-    }
-    text += section("P" + name, lines);
-  }
+  text += sections(pieceArrays(mesh, PieceSummary()), nullptr);
   for (std::size_t i = 0; i < mesh.Pieces.size(); ++i)
   {
     text += "    <Piece Source=\"" + pieceName(i) + "\"/>\n";

@@ -87,6 +87,16 @@ struct PieceArray
   std::size_t tupleBytes() const { return std::size_t(this->Components) * scalarSize(this->Type); }
 };
 
+/// The index of the array with a role other than data.
+std::size_t findArray(const std::vector<PieceArray>& arrays, PieceRole role);
+
+/// The index of the array of an attribute, given by its index in PartitionedMesh::Arrays.
+std::size_t findArrayOf(const std::vector<PieceArray>& arrays, std::int64_t attribute);
+
+/// Writes the tuples of the array `offsets` or `types` of `count` cells from index `first` on.
+void fillShapes(
+  const PieceArray& array, int cellSize, std::int64_t first, std::int64_t count, char* to);
+
 /// Names of the arrays that every piece has.
 extern const char* const pointIdsName;
 extern const char* const cellIdsName;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioned/PieceGrid.h"
+#include "Partitioned/ReadPiece.h"
 
 #include "Arrays/Scalar.h"
 
@@ -24,38 +24,35 @@ namespace tipp
 namespace
 {
 
-/// Creates an array that takes ownership of the buffer.
-vtkSmartPointer<vtkDataArray> takeOver(
-  Buffer<char>&& buffer, vtkSmartPointer<vtkDataArray> array, int components, std::int64_t tuples)
+/// Makes the array take ownership of the buffer.
+template <typename Array>
+vtkSmartPointer<Array> takeOver(Buffer<char>&& buffer, const vtkSmartPointer<Array>& array,
+  int components, std::int64_t tuples, const std::string& name = {})
 {
   array->SetNumberOfComponents(components);
   array->SetVoidArray(
     buffer.release(), vtkIdType(tuples) * components, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
+  name.empty() ? void() : array->SetName(name.c_str());
   return array;
 }
 
-vtkSmartPointer<vtkDataArray> takeOver(
-  Buffer<char>&& buffer, Scalar type, int components, std::int64_t tuples)
+vtkSmartPointer<vtkDataArray> newArray(Scalar type)
 {
-  auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(vtkTypeOf(type)));
-  return takeOver(std::move(buffer), array, components, tuples);
+  return vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(vtkTypeOf(type)));
 }
 
 void setIds(
   Buffer<char>&& buffer, std::int64_t tuples, const char* name, vtkDataSetAttributes* data)
 {
   static_assert(sizeof(vtkIdType) == 8);
-  const auto ids = takeOver(std::move(buffer), vtkSmartPointer<vtkIdTypeArray>::New(), 1, tuples);
-  ids->SetName(name);
-  data->SetGlobalIds(ids);
+  data->SetGlobalIds(
+    takeOver(std::move(buffer), vtkSmartPointer<vtkIdTypeArray>::New(), 1, tuples, name));
 }
 
 void addGhosts(Buffer<char>&& buffer, std::int64_t tuples, vtkDataSetAttributes* data)
 {
-  const auto ghosts =
-    takeOver(std::move(buffer), vtkSmartPointer<vtkUnsignedCharArray>::New(), 1, tuples);
-  ghosts->SetName(vtkDataSetAttributes::GhostArrayName());
-  data->AddArray(ghosts);
+  data->AddArray(takeOver(std::move(buffer), vtkSmartPointer<vtkUnsignedCharArray>::New(), 1,
+    tuples, vtkDataSetAttributes::GhostArrayName()));
 }
 
 template <typename Array>
@@ -71,7 +68,7 @@ vtkSmartPointer<vtkCellArray> makeCells(Piece& piece)
   const auto connectivity = takeOver(
     std::move(piece.Connectivity), vtkSmartPointer<Array>::New(), 1, piece.Cells * corners);
   auto cells = vtkSmartPointer<vtkCellArray>::New();
-  cells->SetData(offsets.Get(), Array::SafeDownCast(connectivity));
+  cells->SetData(offsets.Get(), connectivity.Get());
   return cells;
 }
 
@@ -94,7 +91,8 @@ vtkSmartPointer<vtkUnstructuredGrid> makeGrid(Piece&& piece)
 {
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
   vtkNew<vtkPoints> points;
-  points->SetData(takeOver(std::move(piece.Coordinates), piece.PointType, 3, piece.Points));
+  points->SetData(
+    takeOver(std::move(piece.Coordinates), newArray(piece.PointType), 3, piece.Points));
   grid->SetPoints(points);
   setIds(std::move(piece.PointIds), piece.Points, pointIdsName, grid->GetPointData());
   addGhosts(std::move(piece.PointGhosts), piece.Points, grid->GetPointData());
@@ -105,13 +103,11 @@ vtkSmartPointer<vtkUnstructuredGrid> makeGrid(Piece&& piece)
   for (Piece::Attribute& attribute : piece.Attributes)
   {
     const StoredArray& description = attribute.Description;
-    const auto array = takeOver(std::move(attribute.Values), description.Type,
-      description.Components, description.OfPoints ? piece.Points : piece.Cells);
-    array->SetName(description.Name.c_str());
     vtkFieldData* const data = description.OfPoints
       ? static_cast<vtkFieldData*>(grid->GetPointData())
       : static_cast<vtkFieldData*>(grid->GetCellData());
-    data->AddArray(array);
+    data->AddArray(takeOver(std::move(attribute.Values), newArray(description.Type),
+      description.Components, description.OfPoints ? piece.Points : piece.Cells, description.Name));
   }
   return grid;
 }

@@ -134,29 +134,23 @@ namespace
 /// Fills in each piece's borrowed groups.
 void addBorrowed(std::vector<FinishedPiece>& pieces, bool duplicated)
 {
-  const auto eachGroup =
-    [&](std::size_t owner, const std::vector<SharedGroup>& groups, const auto& take)
-  {
-    for (std::size_t g = 0; g < groups.size(); ++g)
-    {
-      for (const std::int32_t to : groups[g].Borrowers)
-      {
-        take(pieces[std::size_t(to)], BorrowedGroup{ std::int32_t(owner), std::int32_t(g) },
-          groups[g].Count);
-      }
-    }
-  };
   for (std::size_t owner = 0; owner < pieces.size(); ++owner)
   {
-    eachGroup(owner, pieces[owner].Table.PointGroups,
-      [](FinishedPiece& piece, BorrowedGroup group, std::int64_t)
-      { piece.Table.BorrowedPoints.push_back(group); });
-    eachGroup(owner, pieces[owner].Table.CellGroups,
-      [duplicated](FinishedPiece& piece, BorrowedGroup group, std::int64_t count)
+    for (const bool ofPoints : { true, false })
+    {
+      const PieceTable& table = pieces[owner].Table;
+      const std::vector<SharedGroup>& groups = ofPoints ? table.PointGroups : table.CellGroups;
+      for (std::size_t g = 0; g < groups.size(); ++g)
       {
-        piece.Table.BorrowedCells.push_back(group);
-        piece.Summary.BorrowedCells += duplicated ? 0 : count;
-      });
+        for (const std::int32_t to : groups[g].Borrowers)
+        {
+          FinishedPiece& piece = pieces[std::size_t(to)];
+          (ofPoints ? piece.Table.BorrowedPoints : piece.Table.BorrowedCells)
+            .push_back({ std::int32_t(owner), std::int32_t(g) });
+          piece.Summary.BorrowedCells += ofPoints || duplicated ? 0 : groups[g].Count;
+        }
+      }
+    }
   }
 }
 
@@ -224,11 +218,7 @@ void verifyMesh(const std::string& path, std::uint64_t fingerprint, int threads)
   const PartitionedMesh mesh = openMesh(path, fingerprint);
   verifyPvtu(mesh);
   parallelFor(std::int64_t(mesh.Pieces.size()), threads,
-    [&](std::int64_t number)
-    {
-      ReadCounters counters;
-      PieceFile(mesh, std::size_t(number), counters).verifyAll();
-    });
+    [&](std::int64_t number) { PieceFile(mesh, std::size_t(number)).verifyAll(); });
 }
 
 } // namespace tipp

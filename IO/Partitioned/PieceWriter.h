@@ -12,11 +12,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tipp
 {
+
+/// The usual size of a ColumnWriter's buffer.
+constexpr std::size_t columnBufferBytes = std::size_t(1) << 20;
 
 /// Writes one array of a file sequentially through a buffer, and computes a checksum for each of
 /// its parts.
@@ -81,6 +86,9 @@ struct FinishedPiece
   PieceSummary Summary;          ///< the piece's entry in the index
   PieceTable Table;              ///< without checksums of arrays that are not written yet
   std::uint64_t TriangleSum = 0; ///< without a file: sum of hashTriangle()
+
+  /// The number of parts of its arrays of cells.
+  std::size_t cellParts() const { return 1 + this->Table.CellGroups.size(); }
 };
 
 template <typename Archive>
@@ -89,6 +97,36 @@ void serialize(Archive& archive, FinishedPiece& piece)
   PieceTable& table = piece.Table;
   archive(piece.Summary, table.Offsets, table.PointGroups, table.CellGroups, table.Checksums,
     table.HeaderBytes, table.HeaderChecksum, piece.TriangleSum);
+}
+
+/// Writes parts [parts.first, parts.second) of the array with index `a` of a piece's cells into its
+/// file, and their checksums into its table: writeNext(to, bytes) writes the tuple of the next
+/// cell. Throws IOError.
+template <typename WriteNext>
+void writeCellParts(const PartitionedMesh& mesh, std::size_t number, std::size_t a,
+  std::pair<std::size_t, std::size_t> parts, FinishedPiece& piece, WriteNext writeNext)
+{
+  const std::size_t bytes = pieceArrays(mesh, piece.Summary)[a].tupleBytes();
+  const std::vector<std::int64_t> counts = piece.Table.parts(mesh, piece.Summary, false);
+  const auto begin = counts.begin() + std::ptrdiff_t(parts.first);
+  const auto end = counts.begin() + std::ptrdiff_t(parts.second);
+  const std::int64_t skipped = std::accumulate(counts.begin(), begin, std::int64_t(0));
+  const OutputFile file = OutputFile::shared(mesh.piecePath(number));
+  ColumnWriter column(
+    file, piece.Table.Offsets[a] + std::uint64_t(skipped) * bytes, columnBufferBytes);
+  for (auto count = begin; count != end; ++count)
+  {
+    for (std::int64_t i = 0; i < *count; ++i)
+    {
+      writeNext(column.extend(bytes), bytes);
+    }
+    column.endPart();
+  }
+  column.flush();
+  file.startWriteback();
+  std::vector<std::uint64_t>& checksums = piece.Table.Checksums[a];
+  checksums.resize(parts.first);
+  checksums.insert(checksums.end(), column.checksums().begin(), column.checksums().end());
 }
 
 /// The result of publishPieces().

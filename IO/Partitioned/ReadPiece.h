@@ -12,6 +12,11 @@
 #include <functional>
 #include <vector>
 
+// Declared alone: the wheel is built without VTK.
+class vtkUnstructuredGrid;
+template <class T>
+class vtkSmartPointer;
+
 namespace tipp
 {
 
@@ -62,7 +67,7 @@ struct Piece
   Buffer<char> Connectivity;    ///< CellSize piece-local point indices per cell
   Buffer<char> CellIds;         ///< global ids, std::int64_t; cells from OwnedCells on are ghosts
   std::vector<Attribute> Attributes;
-  ReadCounters Counters;
+  std::int64_t BytesRead = 0; ///< from the files
 
   /// Returns the piece-local point index of corner `number` of a cell.
   std::int64_t corner(std::int64_t cell, int number) const
@@ -80,6 +85,10 @@ struct Piece
 /// not verified. Throws IOError. Several threads may read pieces of a mesh at once.
 VTKTIPPIO_EXPORT Piece readPiece(
   const PartitionedMesh& mesh, std::size_t number, const PieceOptions& options = {});
+
+/// Converts a piece to a VTK data set that takes ownership of its memory: global ids as such,
+/// vtkGhostType of points, and of cells if the piece has borrowed ones.
+VTKTIPPIO_EXPORT vtkSmartPointer<vtkUnstructuredGrid> makeGrid(Piece&& piece);
 
 } // namespace tipp
 

@@ -5,6 +5,7 @@
 #include "OpenCL/Devices.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
+#include "Partition/ClassifyCells.h"
 #include "Ranks/Communicator.h"
 
 #include <algorithm>
@@ -19,21 +20,22 @@ namespace
 
 struct MeasuredCell
 {
+  std::uint32_t Index; ///< in the chunk
   const double* Corners;
   Box3 Bounds;
   double Length;
+  bool IsFinite;
 };
 
-bool measure(const CellShape& shape, int dimension, std::size_t index, MeasuredCell& cell)
+MeasuredCell measure(const CellShape& shape, int dimension, std::size_t index)
 {
-  cell.Corners = shape.cell(index);
-  const bool finite = shape.bounds(cell.Corners, cell.Bounds);
-  cell.Length = 0.0;
+  MeasuredCell cell{ static_cast<std::uint32_t>(index), shape.cell(index), {}, 0.0, false };
+  cell.IsFinite = shape.bounds(cell.Corners, cell.Bounds);
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(dimension); ++axis)
   {
     cell.Length = std::max(cell.Length, cell.Bounds.Max[axis] - cell.Bounds.Min[axis]);
   }
-  return finite;
+  return cell;
 }
 
 bool boundsMeet(const Box3& a, const Box3& b)
@@ -48,233 +50,241 @@ bool isWithin(const Box3& a, const Box3& b)
     a.Max[1] <= b.Max[1] && b.Min[2] <= a.Min[2] && a.Max[2] <= b.Max[2];
 }
 
-} // namespace
-
-// A thread's counts, and the visits that it records.
-struct CellCounter::ThreadRange
+bool meetsBox(const CellShape& shape, const MeasuredCell& cell, const Box3& box)
 {
-  std::size_t Begin;
-  std::size_t End;
-  NodeCounts Counts;
-  std::vector<Visit> Visits;
-};
-
-CellCounter::CellCounter(RefinementTree& tree, int maxDepth, int threads)
-  : Tree(tree)
-  , MaxDepth(maxDepth)
-  , Threads(threadCount(threads))
-{
+  return boundsMeet(cell.Bounds, box) &&
+    (isWithin(cell.Bounds, box) || shape.meets(cell.Corners, box));
 }
 
-void CellCounter::add(const CellsView& chunk, std::int64_t firstCell, std::int64_t limit)
-{
-  const CellShape shape(chunk, this->Tree.dimension());
-  this->countAll(shape, chunk.Cells, firstCell);
-  if (!this->markSplits(limit))
-  {
-    return;
-  }
-  this->collectVisits(shape, chunk.Cells);
-  const std::size_t most =
-    std::max(std::size_t(1) << 17, 8 * (static_cast<std::size_t>(firstCell) + chunk.Cells));
-  do
-  {
-    if (this->Tree.size() > most)
-    {
-      throw IOError("More than " + std::to_string(limit) +
-        " cells overlap nearly everywhere, so that no " +
-        "boxes hold fewer; allow more cells a box.");
-    }
-    this->refineOnce(shape);
-  } while (this->markSplits(limit));
-  this->Visits.clear();
-}
+/// For each node of a tree, the number of cells that share a point with its closed box and are no
+/// longer than it.
+using NodeCounts = std::vector<std::int64_t>;
 
-std::vector<CellCounter::ThreadRange> CellCounter::makeRanges(std::size_t items) const
+/// The leaves that have more fitting cells than the limit and may be split.
+std::vector<std::int32_t> leavesAbove(
+  const RefinementTree& tree, const NodeCounts& counts, std::int64_t limit)
 {
-  const auto count = static_cast<std::size_t>(this->Threads);
-  std::vector<ThreadRange> ranges(count);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    ranges[i].Begin = items * i / count;
-    ranges[i].End = items * (i + 1) / count;
-    ranges[i].Counts.resize(this->Tree.size());
-  }
-  return ranges;
-}
-
-void CellCounter::sum(const std::vector<ThreadRange>& ranges)
-{
-  this->Counts.resize(this->Tree.size());
-  for (const ThreadRange& range : ranges)
-  {
-    for (std::size_t node = 0; node < this->Tree.size(); ++node)
-    {
-      this->Counts.Meeting[node] += range.Counts.Meeting[node];
-      this->Counts.Fitting[node] += range.Counts.Fitting[node];
-    }
-  }
-}
-
-void CellCounter::countAll(const CellShape& shape, std::size_t cells, std::int64_t firstCell)
-{
-  this->Marked.clear();
-  std::vector<ThreadRange> ranges = this->makeRanges(cells);
-  parallelFor(this->Threads, this->Threads,
-    [&](std::int64_t s)
-    {
-      ThreadRange& range = ranges[static_cast<std::size_t>(s)];
-      MeasuredCell measured;
-      for (std::size_t i = range.Begin; i < range.End; ++i)
-      {
-        pollAt(std::int64_t(i));
-        const bool finite = measure(shape, this->Tree.dimension(), i, measured);
-        if (!finite ||
-          (!isWithin(measured.Bounds, this->Tree.domain()) &&
-            !shape.meets(measured.Corners, this->Tree.domain())))
-        {
-          throw IOError("Cell " + std::to_string(firstCell + static_cast<std::int64_t>(i)) +
-            (finite ? " lies outside the domain that is partitioned."
-                    : " has a corner whose coordinates are not finite."));
-        }
-        this->visitTree(shape, static_cast<std::uint32_t>(i), range);
-      }
-    });
-  this->sum(ranges);
-}
-
-// Counts the cell in all nodes that it meets. If leaves are marked, records visits to these only.
-void CellCounter::visitTree(
-  const CellShape& shape, std::uint32_t cellIndex, ThreadRange& range) const
-{
-  MeasuredCell cell;
-  measure(shape, this->Tree.dimension(), cellIndex, cell);
-  std::array<std::int32_t, 7 * BoxTiling::MaxDepth + 1> stack;
-  std::size_t size = 0;
-  stack[size++] = 0;
-  while (size > 0)
-  {
-    const std::int32_t node = stack[--size];
-    const auto index = static_cast<std::size_t>(node);
-    if (this->Marked.empty())
-    {
-      ++range.Counts.Meeting[index];
-      range.Counts.Fitting[index] += cell.Length <= this->Tree.length(node) ? 1 : 0;
-    }
-    else if (this->Marked[index] != 0)
-    {
-      range.Visits.push_back({ node, cellIndex });
-    }
-    if (this->Tree.isLeaf(node))
-    {
-      continue;
-    }
-    for (std::int32_t child = this->Tree.firstChild(node), end = child + this->Tree.childCount();
-         child < end; ++child)
-    {
-      const Box3& box = this->Tree.box(child);
-      if (boundsMeet(cell.Bounds, box) &&
-        (isWithin(cell.Bounds, box) || shape.meets(cell.Corners, box)))
-      {
-        stack[size++] = child;
-      }
-    }
-  }
-}
-
-void CellCounter::visitChildren(const CellShape& shape, Visit parent, ThreadRange& range) const
-{
-  MeasuredCell cell;
-  measure(shape, this->Tree.dimension(), parent.Cell, cell);
-  const std::int32_t first = this->Tree.firstChild(parent.Node);
-  for (std::int32_t child = first; child < first + this->Tree.childCount(); ++child)
-  {
-    const Box3& box = this->Tree.box(child);
-    if (boundsMeet(cell.Bounds, box) &&
-      (isWithin(cell.Bounds, box) || shape.meets(cell.Corners, box)))
-    {
-      const auto index = static_cast<std::size_t>(child);
-      ++range.Counts.Meeting[index];
-      range.Counts.Fitting[index] += cell.Length <= this->Tree.length(child) ? 1 : 0;
-      range.Visits.push_back({ child, parent.Cell });
-    }
-  }
-}
-
-bool CellCounter::markSplits(std::int64_t limit)
-{
-  this->Marked.assign(this->Tree.size(), 0);
-  bool any = false;
-  for (std::size_t index = 0; index < this->Tree.size(); ++index)
+  std::vector<std::int32_t> leaves;
+  for (std::size_t index = 0; index < tree.size(); ++index)
   {
     const auto node = static_cast<std::int32_t>(index);
-    if (this->Counts.Fitting[index] > limit && this->Tree.isLeaf(node) &&
-      this->Tree.canSplit(node, this->MaxDepth))
+    if (counts[index] > limit && tree.isLeaf(node) && tree.canSplit(node))
     {
-      this->Marked[index] = 1;
-      any = true;
+      leaves.push_back(node);
     }
   }
-  return any;
+  return leaves;
 }
 
-void CellCounter::collectVisits(const CellShape& shape, std::size_t cells)
+/// Counts cells in the nodes of a tree, which grows at the same time: a leaf with more than `limit`
+/// fitting cells is split repeatedly, and the chunk's cells are counted in its children. Cells of
+/// earlier chunks are not counted in these children.
+class CellCounter
 {
-  std::vector<ThreadRange> ranges = this->makeRanges(cells);
-  parallelFor(this->Threads, this->Threads,
-    [&](std::int64_t s)
-    {
-      ThreadRange& range = ranges[static_cast<std::size_t>(s)];
-      for (std::size_t i = range.Begin; i < range.End; ++i)
-      {
-        pollAt(std::int64_t(i));
-        this->visitTree(shape, static_cast<std::uint32_t>(i), range);
-      }
-    });
-  this->takeVisits(ranges);
-}
-
-// Splits the marked leaves and counts the cells that visited them in their children.
-void CellCounter::refineOnce(const CellShape& shape)
-{
-  for (std::size_t index = 0, end = this->Tree.size(); index < end; ++index)
+public:
+  CellCounter(RefinementTree& tree, int threads)
+    : Tree(tree)
+    , Threads(threadCount(threads))
   {
-    if (this->Marked[index] != 0)
-    {
-      this->Tree.split(static_cast<std::int32_t>(index));
-    }
   }
-  const std::vector<Visit> parents = std::move(this->Visits);
-  std::vector<ThreadRange> ranges = this->makeRanges(parents.size());
-  parallelFor(this->Threads, this->Threads,
-    [&](std::int64_t s)
+
+  /// firstCell is the index in the mesh of the chunk's first cell. Throws IOError if a coordinate
+  /// is not finite or a cell lies outside the domain.
+  void add(const CellsView& chunk, std::int64_t firstCell, std::int64_t limit)
+  {
+    const CellShape shape(chunk, this->Tree.dimension());
+    this->countAll(shape, chunk.Cells, firstCell);
+    if (!this->markSplits(limit))
     {
-      ThreadRange& range = ranges[static_cast<std::size_t>(s)];
-      for (std::size_t i = range.Begin; i < range.End; ++i)
+      return;
+    }
+    this->takeVisits(this->onThreads(chunk.Cells,
+      [&](std::size_t i, ThreadResult& result)
+      { this->visitTree(shape, measure(shape, this->Tree.dimension(), i), result); }));
+    const std::size_t most =
+      std::max(std::size_t(1) << 17, 8 * (static_cast<std::size_t>(firstCell) + chunk.Cells));
+    do
+    {
+      if (this->Tree.size() > most)
       {
-        pollAt(std::int64_t(i));
-        if (this->Marked[static_cast<std::size_t>(parents[i].Node)] != 0)
+        throw IOError("More than " + std::to_string(limit) +
+          " cells overlap nearly everywhere, so that no " +
+          "boxes hold fewer; allow more cells a box.");
+      }
+      this->refineOnce(shape);
+    } while (this->markSplits(limit));
+    this->Visits.clear();
+  }
+
+  const NodeCounts& counts() const { return this->Counts; }
+
+private:
+  struct Visit
+  {
+    std::int32_t Node;
+    std::uint32_t Cell;
+  };
+  /// A thread's counts, and the visits that it records.
+  struct ThreadResult
+  {
+    NodeCounts Counts;
+    std::vector<Visit> Visits;
+  };
+
+  /// Calls visit(item, result) for all items, each thread a range of these with a result of its
+  /// own. Returns the results in the order of the ranges.
+  template <typename VisitItem>
+  std::vector<ThreadResult> onThreads(std::size_t items, const VisitItem& visit) const
+  {
+    const auto count = static_cast<std::size_t>(this->Threads);
+    std::vector<ThreadResult> results(count);
+    parallelFor(this->Threads, this->Threads,
+      [&](std::int64_t thread)
+      {
+        const auto t = static_cast<std::size_t>(thread);
+        results[t].Counts.resize(this->Tree.size(), 0);
+        for (std::size_t i = items * t / count; i < items * (t + 1) / count; ++i)
         {
-          this->visitChildren(shape, parents[i], range);
+          pollAt(std::int64_t(i));
+          visit(i, results[t]);
         }
-      }
-    });
-  this->sum(ranges);
-  this->takeVisits(ranges);
-}
-
-void CellCounter::takeVisits(std::vector<ThreadRange>& ranges)
-{
-  this->Visits.clear();
-  for (ThreadRange& range : ranges)
-  {
-    this->Visits.insert(this->Visits.end(), range.Visits.begin(), range.Visits.end());
-    range.Visits = {};
+      });
+    return results;
   }
-}
 
-namespace
-{
+  void countAll(const CellShape& shape, std::size_t cells, std::int64_t firstCell)
+  {
+    this->Marked.clear();
+    this->sum(this->onThreads(cells,
+      [&](std::size_t i, ThreadResult& result)
+      {
+        const MeasuredCell cell = measure(shape, this->Tree.dimension(), i);
+        if (!cell.IsFinite ||
+          (!isWithin(cell.Bounds, this->Tree.domain()) &&
+            !shape.meets(cell.Corners, this->Tree.domain())))
+        {
+          throw IOError("Cell " + std::to_string(firstCell + static_cast<std::int64_t>(i)) +
+            (cell.IsFinite ? " lies outside the domain that is partitioned."
+                           : " has a corner whose coordinates are not finite."));
+        }
+        this->visitTree(shape, cell, result);
+      }));
+  }
+
+  /// Counts the cell in all nodes that it meets and fits. If leaves are marked, records visits to
+  /// these only. Children are no longer than their parent, so a cell that is too long for a node
+  /// fits none below it.
+  void visitTree(const CellShape& shape, const MeasuredCell& cell, ThreadResult& result) const
+  {
+    std::array<std::int32_t, 7 * BoxTiling::MaxDepth + 1> stack;
+    std::size_t size = 0;
+    if (cell.Length <= this->Tree.length(0))
+    {
+      stack[size++] = 0;
+    }
+    while (size > 0)
+    {
+      const std::int32_t node = stack[--size];
+      if (this->Marked.empty())
+      {
+        ++result.Counts[static_cast<std::size_t>(node)];
+      }
+      else if (this->Marked[static_cast<std::size_t>(node)] != 0)
+      {
+        result.Visits.push_back({ node, cell.Index });
+      }
+      this->forEachChildMet(shape, cell, node, [&](std::int32_t child) { stack[size++] = child; });
+    }
+  }
+
+  /// Calls visit(child) for the node's children that the cell meets and fits.
+  template <typename VisitChild>
+  void forEachChildMet(const CellShape& shape, const MeasuredCell& cell, std::int32_t node,
+    const VisitChild& visit) const
+  {
+    if (this->Tree.isLeaf(node))
+    {
+      return;
+    }
+    const std::int32_t first = this->Tree.firstChild(node);
+    for (std::int32_t child = first; child < first + this->Tree.childCount(); ++child)
+    {
+      if (cell.Length <= this->Tree.length(child) && meetsBox(shape, cell, this->Tree.box(child)))
+      {
+        visit(child);
+      }
+    }
+  }
+
+  bool markSplits(std::int64_t limit)
+  {
+    this->Marked.assign(this->Tree.size(), 0);
+    const std::vector<std::int32_t> leaves = leavesAbove(this->Tree, this->Counts, limit);
+    for (const std::int32_t leaf : leaves)
+    {
+      this->Marked[static_cast<std::size_t>(leaf)] = 1;
+    }
+    return !leaves.empty();
+  }
+
+  /// Splits the marked leaves and counts the cells that visited them in their children.
+  void refineOnce(const CellShape& shape)
+  {
+    for (std::size_t index = 0, end = this->Tree.size(); index < end; ++index)
+    {
+      if (this->Marked[index] != 0)
+      {
+        this->Tree.split(static_cast<std::int32_t>(index));
+      }
+    }
+    const std::vector<Visit> parents = std::move(this->Visits);
+    const std::vector<ThreadResult> results = this->onThreads(parents.size(),
+      [&](std::size_t i, ThreadResult& result)
+      {
+        const Visit& parent = parents[i];
+        if (this->Marked[static_cast<std::size_t>(parent.Node)] == 0)
+        {
+          return;
+        }
+        const MeasuredCell cell = measure(shape, this->Tree.dimension(), parent.Cell);
+        this->forEachChildMet(shape, cell, parent.Node,
+          [&](std::int32_t child)
+          {
+            ++result.Counts[static_cast<std::size_t>(child)];
+            result.Visits.push_back({ child, parent.Cell });
+          });
+      });
+    this->sum(results);
+    this->takeVisits(results);
+  }
+
+  void sum(const std::vector<ThreadResult>& results)
+  {
+    this->Counts.resize(this->Tree.size(), 0);
+    for (const ThreadResult& result : results)
+    {
+      for (std::size_t node = 0; node < this->Tree.size(); ++node)
+      {
+        this->Counts[node] += result.Counts[node];
+      }
+    }
+  }
+
+  void takeVisits(const std::vector<ThreadResult>& results)
+  {
+    this->Visits.clear();
+    for (const ThreadResult& result : results)
+    {
+      this->Visits.insert(this->Visits.end(), result.Visits.begin(), result.Visits.end());
+    }
+  }
+
+  RefinementTree& Tree;
+  int Threads;
+  NodeCounts Counts;
+  std::vector<std::uint8_t> Marked; ///< by node: whether it is a leaf to be split
+  std::vector<Visit> Visits;        ///< visits of cells to the marked leaves
+};
 
 class TreeBuilder
 {
@@ -282,18 +292,16 @@ public:
   TreeBuilder(const CellSource& cells, const Box3& domain, const TreeOptions& options,
     vtkMultiProcessController* controller)
     : Cells(cells)
-    , Domain(BoxTiling::tree(options.Dimension, domain, { -1 }).domain())
+    , Domain(BoxTiling::tree(cells.Dimension, domain, { -1 }).domain())
     , Options(options)
     , Team(controller)
     , Share(this->Team.shareOf(cells.Cells))
-    , MaxDepth(std::min(options.MaxDepth, BoxTiling::MaxDepth))
-    , ChunkCells(std::min<std::int64_t>(std::max<std::int64_t>(options.ChunkCells, 1), 1 << 30))
   {
   }
 
-  PartitionTree run()
+  BoxTiling run()
   {
-    RefinementTree tree(this->Options.Dimension, this->Domain);
+    RefinementTree tree(this->Cells.Dimension, this->Domain);
     for (int pass = 1;; ++pass)
     {
       NodeCounts counts;
@@ -307,19 +315,23 @@ public:
         });
       if (this->isRead())
       {
-        return this->finish(mine, counts, pass);
+        return this->finish(mine, counts);
       }
       const std::string merged = this->mergeStructures(structure);
       if (merged != tree.structure())
       {
-        tree = RefinementTree(this->Options.Dimension, this->Domain, merged);
+        tree.refine(merged);
         continue;
       }
-      this->Team.sum(counts.Meeting);
-      this->Team.sum(counts.Fitting);
-      if (!this->splitLargeLeaves(tree, counts))
+      this->Team.sum(counts);
+      const std::vector<std::int32_t> large = leavesAbove(tree, counts, this->Options.Threshold);
+      if (large.empty())
       {
-        return this->finish(tree, counts, pass);
+        return this->finish(tree, counts);
+      }
+      for (const std::int32_t leaf : large) // the same on all ranks
+      {
+        tree.split(leaf);
       }
     }
   }
@@ -328,7 +340,7 @@ private:
   std::int64_t chunks() const
   {
     const std::int64_t mine = this->Share.second - this->Share.first;
-    return (mine + this->ChunkCells - 1) / this->ChunkCells;
+    return (mine + this->Options.ChunkCells - 1) / this->Options.ChunkCells;
   }
 
   // Whether all cells are in one chunk on one rank: then one pass counts new nodes completely, too.
@@ -344,18 +356,18 @@ private:
       return all;
     }
     const std::int64_t part = all / this->Team.size();
-    const std::int64_t early = part / BoxTiling::childCount(this->Options.Dimension, this->Domain);
+    const std::int64_t early = part / BoxTiling::childCount(this->Cells.Dimension, this->Domain);
     return std::max<std::int64_t>(pass == 1 ? early : part, 1);
   }
 
   NodeCounts countShare(RefinementTree& tree, std::int64_t limit)
   {
-    CellCounter counting(tree, this->MaxDepth, this->Options.Threads);
+    CellCounter counting(tree, this->Options.Threads);
     counting.add({ this->Cells.Dimension, this->Cells.Corners, nullptr, 0 }, 0, limit);
     for (std::int64_t first = this->Share.first; first < this->Share.second;
-         first += this->ChunkCells)
+         first += this->Options.ChunkCells)
     {
-      const std::int64_t count = std::min(this->ChunkCells, this->Share.second - first);
+      const std::int64_t count = std::min(this->Options.ChunkCells, this->Share.second - first);
       this->readChunk(first, count);
       counting.add({ this->Cells.Dimension, this->Cells.Corners, this->Coordinates.data(),
                      static_cast<std::size_t>(count) },
@@ -372,57 +384,27 @@ private:
       return;
     }
     this->Cells.Read(first, count, this->Coordinates);
-    const auto expected = static_cast<std::size_t>(count) *
-      static_cast<std::size_t>(this->Cells.Dimension * this->Cells.Corners);
-    if (this->Coordinates.size() != expected)
-    {
-      throw IOError("Reading " + std::to_string(count) + " cells from cell " +
-        std::to_string(first) + " on gave " + std::to_string(this->Coordinates.size()) +
-        " coordinates in place of " + std::to_string(expected) + ".");
-    }
     this->InMemory = { first, count };
   }
 
+  /// The structure with the splits of all ranks' trees.
   std::string mergeStructures(const std::string& mine)
   {
-    const int childCount = BoxTiling::childCount(this->Options.Dimension, this->Domain);
     return this->Team.broadcast(this->Team.reduce(mine,
-      [childCount](const std::string& a, const std::string& b)
-      { return RefinementTree::merged(a, b, childCount); }));
-  }
-
-  // Splits leaves whose total over all ranks exceeds the threshold. The result is the same on all
-  // ranks.
-  bool splitLargeLeaves(RefinementTree& tree, const NodeCounts& counts) const
-  {
-    bool any = false;
-    for (std::size_t index = 0, end = tree.size(); index < end; ++index)
-    {
-      const auto node = static_cast<std::int32_t>(index);
-      if (tree.isLeaf(node) && counts.Fitting[index] > this->Options.Threshold &&
-        tree.canSplit(node, this->MaxDepth))
+      [this](const std::string& a, const std::string& b)
       {
-        tree.split(node);
-        any = true;
-      }
-    }
-    return any;
+        RefinementTree both(this->Cells.Dimension, this->Domain);
+        both.refine(a);
+        both.refine(b);
+        return both.structure();
+      }));
   }
 
-  PartitionTree finish(const RefinementTree& tree, const NodeCounts& counts, int passes) const
+  /// The tiling of the tree without the splits that the counts do not require.
+  BoxTiling finish(const RefinementTree& tree, const NodeCounts& counts) const
   {
-    std::vector<std::int32_t> leaves;
-    PartitionTree result = {
-      tree.tiling([&](std::int32_t node)
-        { return counts.Fitting[static_cast<std::size_t>(node)] > this->Options.Threshold; },
-        leaves),
-      {}, passes
-    };
-    for (const std::int32_t leaf : leaves)
-    {
-      result.Cells.push_back(counts.Meeting[static_cast<std::size_t>(leaf)]);
-    }
-    return result;
+    return tree.tiling([&](std::int32_t node)
+      { return counts[static_cast<std::size_t>(node)] > this->Options.Threshold; });
   }
 
   const CellSource& Cells;
@@ -430,22 +412,15 @@ private:
   const TreeOptions& Options;
   Communicator Team;
   std::pair<std::int64_t, std::int64_t> Share;
-  int MaxDepth;
-  std::int64_t ChunkCells;
   std::vector<double> Coordinates;
   std::pair<std::int64_t, std::int64_t> InMemory = { -1, -1 };
 };
 
 } // namespace
 
-PartitionTree buildTree(const CellSource& cells, const Box3& domain, const TreeOptions& options,
+BoxTiling buildTree(const CellSource& cells, const Box3& domain, const TreeOptions& options,
   vtkMultiProcessController* controller)
 {
-  if (options.Threshold < 1)
-  {
-    throw IOError("A tree of partitions needs a threshold of at least one cell, not " +
-      std::to_string(options.Threshold) + ".");
-  }
   try
   {
     return TreeBuilder(cells, domain, options, controller).run();

@@ -3,7 +3,6 @@
 #define tippBuildTree_h
 
 #include "Partition/BoxTiling.h"
-#include "Partition/ClassifyCells.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstddef>
@@ -24,9 +23,6 @@ class VTKTIPPIO_EXPORT RefinementTree
 public:
   RefinementTree(int dimension, const Box3& domain);
 
-  /// Builds the tree of a structure, its nodes numbered depth first.
-  RefinementTree(int dimension, const Box3& domain, const std::string& structure);
-
   int dimension() const { return this->Dimension; }
   const Box3& domain() const { return this->Boxes[0]; }
   std::size_t size() const { return this->FirstChild.size(); }
@@ -39,21 +35,19 @@ public:
   /// The longest side of the node's box.
   double length(std::int32_t node) const;
 
-  /// Whether the node may be split: its depth is less than maxDepth, and its halves differ in
-  /// doubles.
-  bool canSplit(std::int32_t node, int maxDepth) const;
+  /// Whether the node may be split: its depth is less than BoxTiling::MaxDepth, and its halves
+  /// differ in doubles.
+  bool canSplit(std::int32_t node) const;
   /// Adds a leaf's children. Throws IOError if the tree would be too large.
   void split(std::int32_t leaf);
 
   /// The tree in depth-first order: '1' for a split node, followed by its children, '0' for a leaf.
   std::string structure() const;
-  /// Returns the union of two structures. Throws IOError if one is invalid.
-  static std::string merged(const std::string& a, const std::string& b, int childCount);
+  /// Adds the splits of another tree, given by its structure. Throws IOError if that is invalid.
+  void refine(const std::string& structure);
 
   /// Returns the tiling of the tree in which nodes for which keep() returns false are leaves.
-  /// `leaves` receives the node of each partition.
-  BoxTiling tiling(
-    const std::function<bool(std::int32_t)>& keep, std::vector<std::int32_t>& leaves) const;
+  BoxTiling tiling(const std::function<bool(std::int32_t)>& keep) const;
 
 private:
   static std::size_t at(std::int32_t node) { return static_cast<std::size_t>(node); }
@@ -63,59 +57,6 @@ private:
   std::vector<std::int32_t> FirstChild;
   std::vector<Box3> Boxes;
   std::vector<std::uint8_t> Depths;
-};
-
-/// Numbers of cells of each node of a tree.
-struct NodeCounts
-{
-  std::vector<std::int64_t> Meeting; ///< cells that share a point with its closed box
-  std::vector<std::int64_t> Fitting; ///< of these, the cells no longer than the box
-
-  void resize(std::size_t nodes)
-  {
-    this->Meeting.resize(nodes, 0);
-    this->Fitting.resize(nodes, 0);
-  }
-};
-
-/// Counts cells in the nodes of a tree, which grows at the same time: a leaf with more than `limit`
-/// fitting cells is split repeatedly, and the chunk's cells are counted in its children. Cells of
-/// earlier chunks are not counted in these children.
-class VTKTIPPIO_EXPORT CellCounter
-{
-public:
-  CellCounter(RefinementTree& tree, int maxDepth, int threads);
-
-  /// firstCell is the index in the mesh of the chunk's first cell. Throws IOError if a coordinate
-  /// is not finite or a cell lies outside the domain.
-  void add(const CellsView& chunk, std::int64_t firstCell, std::int64_t limit);
-
-  const NodeCounts& counts() const { return this->Counts; }
-
-private:
-  struct Visit
-  {
-    std::int32_t Node;
-    std::uint32_t Cell;
-  };
-  struct ThreadRange;
-
-  void countAll(const CellShape& shape, std::size_t cells, std::int64_t firstCell);
-  void visitTree(const CellShape& shape, std::uint32_t cell, ThreadRange& range) const;
-  void visitChildren(const CellShape& shape, Visit parent, ThreadRange& range) const;
-  void collectVisits(const CellShape& shape, std::size_t cells);
-  void refineOnce(const CellShape& shape);
-  bool markSplits(std::int64_t limit);
-  std::vector<ThreadRange> makeRanges(std::size_t items) const;
-  void sum(const std::vector<ThreadRange>& ranges);
-  void takeVisits(std::vector<ThreadRange>& ranges);
-
-  RefinementTree& Tree;
-  int MaxDepth;
-  int Threads;
-  NodeCounts Counts;
-  std::vector<std::uint8_t> Marked; // leaves to be split
-  std::vector<Visit> Visits;        // visits of cells to the marked leaves
 };
 
 /// A mesh's cells, which are read chunk by chunk and more than once.
@@ -133,23 +74,11 @@ struct CellSource
 /// Options of buildTree().
 struct TreeOptions
 {
-  /// The tree's dimension, 2 or 3. A quadtree uses only x and y of triangles in space.
-  int Dimension = 2;
-  /// Leaves with more cells than this are split; see buildTree().
+  /// Leaves with more cells than this are split; see buildTree(). At least 1.
   std::int64_t Threshold = 100000;
-  /// Levels below the root, at most BoxTiling::MaxDepth.
-  int MaxDepth = BoxTiling::MaxDepth;
-  /// Number of cells read at once.
+  /// Number of cells read at once, from 1 to 2^30.
   std::int64_t ChunkCells = std::int64_t(1) << 20;
   int Threads = 0; ///< 0: OpenMP's default
-};
-
-/// The result of buildTree().
-struct PartitionTree
-{
-  BoxTiling Tiling;
-  std::vector<std::int64_t> Cells; ///< per partition: number of cells that meet it
-  int Passes;                      ///< number of times the cells were read
 };
 
 /// Builds the quadtree or octree over the domain in which every node with more than Threshold cells
@@ -161,8 +90,8 @@ struct PartitionTree
 /// The dissertation counts all cells that meet a node. Then splitting would not terminate at cells
 /// that share a point or at adjacent slivers, since splitting does not reduce their number. So
 /// cells longer than the node are not counted. In a domain of equal sides each level then has at
-/// most 2^d Cells / Threshold splits. MaxDepth bounds the remaining case: many tiny cells in one
-/// location.
+/// most 2^d Cells / Threshold splits. BoxTiling::MaxDepth bounds the remaining case: many tiny
+/// cells in one location.
 ///
 /// Each rank reads an equal share of the cells and builds a tree of its own. The trees' structures
 /// are merged in pairs and broadcast; then the cells are counted in the common tree, and that is
@@ -171,9 +100,9 @@ struct PartitionTree
 /// are undone at the end. A mesh of one chunk on one rank is read once.
 ///
 /// Throws IOError, on all ranks if on one: for cells with coordinates that are not finite or
-/// outside the domain, a threshold below 1, or a tree that would be too large. A null or dummy
+/// outside the domain, or a tree that would be too large. A null or dummy
 /// controller means serial.
-VTKTIPPIO_EXPORT PartitionTree buildTree(const CellSource& cells, const Box3& domain,
+VTKTIPPIO_EXPORT BoxTiling buildTree(const CellSource& cells, const Box3& domain,
   const TreeOptions& options, vtkMultiProcessController* controller = nullptr);
 
 } // namespace tipp

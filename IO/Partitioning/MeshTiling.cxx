@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioning/MeshTiling.h"
 
+#include "Arrays/Buffer.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
@@ -11,7 +12,6 @@
 #include "Partitioning/BuildTree.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -22,65 +22,28 @@
 
 namespace tipp
 {
-namespace
-{
-
-std::optional<std::string_view> after(std::string_view text, std::string_view start)
-{
-  return text.substr(0, start.size()) == start ? std::make_optional(text.substr(start.size()))
-                                               : std::nullopt;
-}
-
-std::optional<TilingChoice> parseTree(std::string_view number)
-{
-  TilingChoice choice;
-  choice.Threshold = wholeNumber<std::int64_t>(number).value_or(0);
-  return choice.Threshold >= 1 ? std::make_optional(choice) : std::nullopt;
-}
-
-std::optional<TilingChoice> parseGrid(std::string_view counts)
-{
-  constexpr int most = 10000;
-  TilingChoice choice;
-  const char* at = counts.data();
-  const char* const end = at + counts.size();
-  std::size_t axis = 0;
-  for (; axis < 3; ++axis)
-  {
-    const auto [stop, error] = std::from_chars(at, end, choice.Boxes[axis]);
-    if (error != std::errc() || choice.Boxes[axis] < 1 || choice.Boxes[axis] > most)
-    {
-      return std::nullopt;
-    }
-    at = stop;
-    if (at == end)
-    {
-      break;
-    }
-    if (*at++ != 'x')
-    {
-      return std::nullopt;
-    }
-  }
-  return at == end && axis >= 1 && axis < 3 ? std::make_optional(choice) : std::nullopt;
-}
-
-} // namespace
 
 std::optional<TilingChoice> TilingChoice::parse(const std::string& text)
 {
-  if (const auto counts = after(text, "grid:"))
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const std::string kind = text.substr(0, colon);
+  const std::string_view rest = std::string_view(text).substr(std::min(colon + 1, text.size()));
+  TilingChoice choice;
+  if (kind == "quadtree" || kind == "octree")
   {
-    return parseGrid(*counts);
+    choice.Threshold = wholeNumber<std::int64_t>(rest).value_or(0);
+    return choice.Threshold >= 1 ? std::make_optional(choice) : std::nullopt;
   }
-  for (const char* const name : { "quadtree:", "octree:" })
+  std::vector<std::string_view> counts;
+  splitFields(rest, 'x', counts);
+  constexpr int most = 10000;
+  bool isValid = kind == "grid" && (counts.size() == 2 || counts.size() == 3);
+  for (std::size_t axis = 0; isValid && axis < counts.size(); ++axis)
   {
-    if (const auto number = after(text, name))
-    {
-      return parseTree(*number);
-    }
+    choice.Boxes[axis] = wholeNumber<int>(counts[axis]).value_or(0);
+    isValid = choice.Boxes[axis] >= 1 && choice.Boxes[axis] <= most;
   }
-  return std::nullopt;
+  return isValid ? std::make_optional(choice) : std::nullopt;
 }
 
 TilingChoice TilingChoice::require(const std::string& text)
@@ -134,22 +97,19 @@ void forEachBlock(const FlatMesh& mesh, Communicator& ranks, int threads, const 
     });
 }
 
-struct Range
-{
-  double Least[3] = { infinity, infinity, infinity };
-  double Greatest[3] = { -infinity, -infinity, -infinity };
-};
+/// The least coordinates, and the least of the negated ones.
+using Least = std::vector<double>;
 
-Range rangeOf(const FlatMesh& mesh, std::int64_t first, std::int64_t count, const double* values)
+Least leastOf(const FlatMesh& mesh, std::int64_t first, std::int64_t count, const double* values)
 {
   const std::size_t dimension = std::size_t(mesh.CellSize) - 1;
-  Range range;
+  Least least(6, infinity);
   double sum = 0; // not finite if one of the values is not
   for (std::size_t i = 0; i < std::size_t(count) * dimension; ++i)
   {
     const std::size_t axis = dimension == 2 ? i & 1 : i % 3;
-    range.Least[axis] = std::min(range.Least[axis], values[i]);
-    range.Greatest[axis] = std::max(range.Greatest[axis], values[i]);
+    least[axis] = std::min(least[axis], values[i]);
+    least[3 + axis] = std::min(least[3 + axis], -values[i]);
     sum += values[i] * 0;
   }
   for (std::size_t i = 0; sum != 0 && i < std::size_t(count) * dimension; ++i)
@@ -161,37 +121,34 @@ Range rangeOf(const FlatMesh& mesh, std::int64_t first, std::int64_t count, cons
           " has a coordinate that is not finite; leave such points out.");
     }
   }
-  return range;
+  return least;
 }
 
 } // namespace
 
 Box3 boundsOfPoints(const FlatMesh& mesh, Communicator& ranks, int threads)
 {
-  std::vector<double> both(6, infinity);
+  Least all(6, infinity);
   ranks.attempt(
     [&]
     {
       const auto [from, to] = ranks.shareOf(mesh.Points.Tuples);
-      std::vector<Range> ranges(std::size_t((to - from + blockPoints - 1) / blockPoints));
+      std::vector<Least> blocks(std::size_t((to - from + blockPoints - 1) / blockPoints));
       forEachBlock(mesh, ranks, threads,
         [&](std::int64_t block, std::int64_t first, std::int64_t count, const double* values)
-        { ranges[std::size_t(block)] = rangeOf(mesh, first, count, values); });
-      for (const Range& range : ranges)
+        { blocks[std::size_t(block)] = leastOf(mesh, first, count, values); });
+      for (const Least& least : blocks)
       {
-        for (std::size_t axis = 0; axis < 3; ++axis)
-        {
-          both[axis] = std::min(both[axis], range.Least[axis]);
-          both[3 + axis] = std::min(both[3 + axis], -range.Greatest[axis]);
-        }
+        std::transform(least.begin(), least.end(), all.begin(), all.begin(),
+          [](double a, double b) { return std::min(a, b); });
       }
     });
-  ranks.minimum(both);
+  ranks.minimum(all);
   Box3 box;
   for (std::size_t axis = 0; axis < std::size_t(mesh.CellSize) - 1; ++axis)
   {
-    box.Min[axis] = both[axis];
-    box.Max[axis] = -both[3 + axis];
+    box.Min[axis] = all[axis];
+    box.Max[axis] = -all[3 + axis];
   }
   return box;
 }
@@ -231,42 +188,21 @@ void writeOwners(const FlatMesh& mesh, const BoxTiling& tiling, const std::strin
     });
 }
 
+std::vector<double> loadCoordinates(
+  const FlatMesh& mesh, VertexLoader& loader, const std::vector<std::int64_t>& ids)
+{
+  poll();
+  Buffer<char> raw(ids.size() * mesh.Points.tupleBytes());
+  void* const out[] = { raw.data() };
+  loader.load(ids.data(), ids.size(), out);
+  const int dimension = mesh.CellSize - 1;
+  std::vector<double> coordinates(ids.size() * std::size_t(dimension));
+  takeCoordinates(mesh.Points, raw.data(), ids.size(), dimension, coordinates.data());
+  return coordinates;
+}
+
 namespace
 {
-
-/// Loads chunks of cells with their coordinates, for building the tree: the points' owners are not
-/// known yet.
-class LoadedCells
-{
-public:
-  LoadedCells(const FlatMesh& mesh, const LoaderOptions& loading, int threads)
-    : Mesh(mesh)
-    , Reader(mesh, 0, -1, threads)
-    , Loader(makeVertexLoader({ mesh.Points }, loading))
-  {
-  }
-
-  void read(std::int64_t first, std::int64_t count, std::vector<double>& coordinates)
-  {
-    const RawArray& points = this->Mesh.Points;
-    this->Ids.resize(std::size_t(count) * std::size_t(this->Mesh.CellSize));
-    this->Reader.read(first, count, this->Ids.data());
-    this->Raw.resize(this->Ids.size() * points.tupleBytes());
-    void* const out[] = { this->Raw.data() };
-    poll();
-    this->Loader->load(this->Ids.data(), this->Ids.size(), out);
-    const int dimension = this->Mesh.CellSize - 1;
-    coordinates.resize(this->Ids.size() * std::size_t(dimension));
-    takeCoordinates(points, this->Raw.data(), this->Ids.size(), dimension, coordinates.data());
-  }
-
-private:
-  const FlatMesh& Mesh;
-  CellReader Reader;
-  std::unique_ptr<VertexLoader> Loader;
-  std::vector<std::int64_t> Ids;
-  std::vector<char> Raw;
-};
 
 void requirePieces(std::int64_t boxes, const FlatMesh& mesh)
 {
@@ -297,17 +233,28 @@ BoxTiling makeTiling(const FlatMesh& mesh, const TilingChoice& choice, const Loa
     requirePieces(std::int64_t(boxes[0]) * boxes[1] * boxes[2], mesh);
     return BoxTiling::grid(dimension, domain, boxes);
   }
-  std::optional<LoadedCells> loaded;
-  ranks.attempt([&] { loaded.emplace(mesh, loading, threads); });
+  // Chunks are loaded with their coordinates, because the points' owners are not known yet.
+  std::optional<CellReader> reader;
+  std::unique_ptr<VertexLoader> loader;
+  ranks.attempt(
+    [&]
+    {
+      reader.emplace(mesh, 0, -1, threads);
+      loader = makeVertexLoader({ mesh.Points }, loading);
+    });
+  std::vector<std::int64_t> ids;
   const CellSource source{ dimension, mesh.CellSize, mesh.Cells.Tuples,
     [&](std::int64_t first, std::int64_t count, std::vector<double>& coordinates)
-    { loaded->read(first, count, coordinates); } };
+    {
+      ids.resize(std::size_t(count * mesh.CellSize));
+      reader->read(first, count, ids.data());
+      coordinates = loadCoordinates(mesh, *loader, ids);
+    } };
   TreeOptions options;
-  options.Dimension = dimension;
   options.Threshold = choice.Threshold;
   options.ChunkCells = chunkCells;
   options.Threads = threads;
-  BoxTiling tiling = buildTree(source, domain, options, ranks.controller()).Tiling;
+  BoxTiling tiling = buildTree(source, domain, options, ranks.controller());
   requirePieces(tiling.count(), mesh);
   return tiling;
 }

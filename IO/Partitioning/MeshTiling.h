@@ -17,6 +17,7 @@
 #include <cstring>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tipp
 {
@@ -70,6 +71,11 @@ inline void takeCoordinates(
     takeCoordinatesAs<double>(raw, count, components, dimension, to);
   }
 }
+
+/// Loads points with these ids: as many coordinates of each as the cells have dimensions. Throws
+/// IOError.
+std::vector<double> loadCoordinates(
+  const FlatMesh& mesh, VertexLoader& loader, const std::vector<std::int64_t>& ids);
 
 /// Returns the bounding box of all points in the cells' dimension; for triangles z is 0. Throws
 /// IOError naming the first point with a coordinate that is not finite. Collective.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioning/PartitionDataSet.h"
 
 #include "Files/IOError.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
 #include "Flat/FlattenDataSet.h"
+#include "Partitioned/PieceWriter.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Ranks/Communicator.h"
 #include "Vtk/ReadDataSet.h"
@@ -89,15 +89,8 @@ vtkSmartPointer<vtkDataSet> gatherDataSets(
   {
     return unite(sets);
   }
-  vtkSmartPointer<vtkDataSet> mine;
-  if (sets.empty())
-  {
-    mine = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  }
-  else
-  {
-    mine = unite(sets);
-  }
+  sets.empty() ? sets.push_back(vtkSmartPointer<vtkUnstructuredGrid>::New()) : void();
+  const vtkSmartPointer<vtkDataSet> mine = unite(sets);
   std::vector<vtkSmartPointer<vtkDataObject>> all;
   controller->Gather(mine, all, 0);
   DataSets received;

@@ -8,74 +8,15 @@
 #include "Partitioning/PartitionMesh.h"
 
 #include <algorithm>
-#include <atomic>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 namespace tipp
 {
 
-ArrayRows::ArrayRows(std::vector<RawArray> arrays)
-  : Arrays(std::move(arrays))
-  , Values(this->Arrays.size())
-{
-  for (const RawArray& array : this->Arrays)
-  {
-    this->Bytes.push_back(array.tupleBytes());
-    this->RowBytes += array.tupleBytes();
-    std::unique_ptr<InputFile>& file = this->Files[array.Path];
-    if (!file)
-    {
-      file = std::make_unique<InputFile>(array.Path);
-    }
-  }
-}
-
-void ArrayRows::read(std::int64_t first, std::int64_t count, int threads)
-{
-  parallelFor(std::int64_t(this->Arrays.size()), threads,
-    [&](std::int64_t number)
-    {
-      const auto a = std::size_t(number);
-      const RawArray& array = this->Arrays[a];
-      this->Values[a].resize(std::size_t(count) * this->Bytes[a]);
-      this->Files.at(array.Path)
-        ->read(array.Offset + std::uint64_t(first) * this->Bytes[a], this->Values[a].data(),
-          this->Values[a].size());
-    });
-}
-
-void makeDistinct(std::vector<GhostPoint>& points)
-{
-  const auto keyOf = [](const GhostPoint& p)
-  { return std::make_tuple(p.Point, p.Piece, p.GhostOnly); };
-  std::sort(points.begin(), points.end(),
-    [&](const GhostPoint& a, const GhostPoint& b) { return keyOf(a) < keyOf(b); });
-  points.erase(std::unique(points.begin(), points.end(),
-                 [](const GhostPoint& a, const GhostPoint& b)
-                 { return a.Point == b.Point && a.Piece == b.Piece; }),
-    points.end());
-}
-
-PartitionJob::PartitionJob(const FlatMesh& mesh, const PartitionOptions& options,
-  Communicator& ranks, const std::string& folder)
-  : Mesh(mesh)
-  , Options(options)
-  , Team(ranks)
-  , Threads(threadCount(options.Threads))
-  , Folder(folder)
-{
-}
-
 RawArray PartitionJob::owners() const
 {
-  RawArray array;
-  array.Name = "owners";
-  array.Path = this->scratch("owners");
-  array.Type = Scalar::Int32;
-  array.Tuples = this->Mesh.Points.Tuples;
-  return array;
+  return { "owners", this->scratch("owners"), 0, Scalar::Int32, 1, this->Mesh.Points.Tuples };
 }
 
 LoaderOptions PartitionJob::loaderOptions() const
@@ -95,28 +36,21 @@ void PartitionJob::report(double fraction)
 namespace
 {
 
-std::int64_t weightOf(const std::vector<std::int64_t>& weights, std::size_t piece)
-{
-  return std::max<std::int64_t>(weights[piece], 0);
-}
-
-// Greedy runs of weight at most `most`, leaving at least one piece for each later rank. The last
-// rank gets the rest.
+/// Greedy runs of weight at most `most`, which no single piece exceeds, leaving at least one piece
+/// for each later rank. The last rank gets the rest.
 std::vector<std::size_t> runsOf(
   const std::vector<std::int64_t>& weights, std::size_t ranks, std::int64_t most)
 {
   std::vector<std::size_t> starts = { 0 };
   std::size_t piece = 0;
-  for (std::size_t rank = 0; rank + 1 < ranks; ++rank)
+  for (std::size_t later = ranks - 1; later > 0; --later)
   {
-    const std::size_t later = ranks - 1 - rank;
     const std::size_t end = weights.size() > later ? weights.size() - later : 0;
     std::int64_t sum = 0;
     const std::size_t first = piece;
-    while (piece < end && (piece == first || weightOf(weights, piece) <= most - sum))
+    for (; piece < end && weights[piece] <= most - sum; ++piece)
     {
-      sum += weightOf(weights, piece);
-      ++piece;
+      sum += weights[piece];
     }
     // With fewer pieces than ranks, the first ranks get one each.
     piece = std::min(std::max(piece, first + 1), weights.size());
@@ -126,39 +60,25 @@ std::vector<std::size_t> runsOf(
   return starts;
 }
 
-std::int64_t heaviest(
-  const std::vector<std::int64_t>& weights, const std::vector<std::size_t>& starts)
-{
-  std::int64_t most = 0;
-  for (std::size_t rank = 0; rank + 1 < starts.size(); ++rank)
-  {
-    std::int64_t sum = 0;
-    for (std::size_t piece = starts[rank]; piece < starts[rank + 1]; ++piece)
-    {
-      sum += weightOf(weights, piece);
-    }
-    most = std::max(most, sum);
-  }
-  return most;
-}
-
 } // namespace
 
-std::vector<std::size_t> assignPieces(const std::vector<std::int64_t>& weights, int ranks)
+std::vector<std::size_t> assignPieces(std::vector<std::int64_t> weights, int ranks)
 {
-  const auto count = static_cast<std::size_t>(std::max(ranks, 1));
   std::int64_t low = 0;
   std::int64_t high = 0;
-  for (std::size_t piece = 0; piece < weights.size(); ++piece)
+  for (std::int64_t& weight : weights)
   {
-    low = std::max(low, weightOf(weights, piece));
-    high += weightOf(weights, piece);
+    weight = std::max<std::int64_t>(weight, 0);
+    low = std::max(low, weight);
+    high += weight;
   }
+  const auto count = static_cast<std::size_t>(std::max(ranks, 1));
   // Bisection for the least possible weight of the heaviest run.
   while (low < high)
   {
     const std::int64_t most = low + (high - low) / 2;
-    if (heaviest(weights, runsOf(weights, count, most)) <= most)
+    const auto last = std::ptrdiff_t(runsOf(weights, count, most)[count - 1]);
+    if (std::accumulate(weights.begin() + last, weights.end(), std::int64_t(0)) <= most)
     {
       high = most;
     }
@@ -203,23 +123,18 @@ std::vector<FinishedPiece> writeShare(PartitionJob& job)
   std::stable_sort(order.begin(), order.end(),
     [&](std::size_t a, std::size_t b) { return job.Cells->rows(a) > job.Cells->rows(b); });
   std::vector<FinishedPiece> finished(order.size());
-  std::atomic<std::size_t> done{ 0 };
-  // Only the calling thread may report progress; it does so after each batch.
-  const std::size_t batch = std::max<std::size_t>(std::size_t(job.Threads), order.size() / 16);
-  for (std::size_t at = 0; at < order.size(); at += batch)
-  {
-    const std::size_t count = std::min(batch, order.size() - at);
-    parallelFor(std::int64_t(count), job.Threads,
-      [&, at, first = first](std::int64_t i)
-      {
-        const std::size_t piece = order[at + std::size_t(i)];
-        SpilledPieceWriter writer(job, piece, bufferBytes(job));
-        writer.write();
-        finished[piece - first] = { writer.summary(), writer.table() };
-        ++done;
-      });
-    job.report(0.7 + 0.25 * double(done) / double(order.size()));
-  }
+  forChunks(
+    std::int64_t(order.size()), 1, job.Threads,
+    [&job](double done)
+    {
+      job.report(0.7 + 0.25 * done);
+      return true;
+    },
+    [&, first = first](std::int64_t i, std::int64_t, int)
+    {
+      const std::size_t piece = order[std::size_t(i)];
+      finished[piece - first] = writeSpilledPiece(job, piece, bufferBytes(job));
+    });
   return finished;
 }
 

@@ -2,13 +2,10 @@
 #ifndef tippPartitionJob_h
 #define tippPartitionJob_h
 
-#include "Files/InputFile.h"
 #include "Flat/FlatMesh.h"
+#include "Parallel/ParallelFor.h"
 #include "Partition/BoxTiling.h"
 #include "Partitioned/PartitionedMesh.h"
-#include "Partitioned/PieceBorder.h"
-#include "Partitioned/PieceFile.h"
-#include "Partitioned/PieceFormat.h"
 #include "Partitioned/PieceWriter.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Partitioning/Spill.h"
@@ -17,8 +14,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,57 +21,10 @@
 namespace tipp
 {
 
-/// A range of tuples of several arrays in memory, copied out row by row. A row is one tuple of each
-/// array.
-class ArrayRows
-{
-public:
-  /// Throws IOError if a file cannot be opened.
-  explicit ArrayRows(std::vector<RawArray> arrays);
-
-  /// The size of a row in bytes.
-  std::size_t rowBytes() const { return this->RowBytes; }
-
-  /// Reads tuples [first, first + count) of each array. Throws IOError.
-  void read(std::int64_t first, std::int64_t count, int threads);
-
-  /// Copies the row at index `index` of the range to `to`; returns the end of the copy.
-  char* copyRow(std::size_t index, char* to) const
-  {
-    for (std::size_t a = 0; a < this->Arrays.size(); ++a)
-    {
-      const std::size_t bytes = this->Bytes[a];
-      std::memcpy(to, this->Values[a].data() + index * bytes, bytes);
-      to += bytes;
-    }
-    return to;
-  }
-
-private:
-  std::vector<RawArray> Arrays;
-  std::vector<std::size_t> Bytes;
-  std::size_t RowBytes = 0;
-  std::map<std::string, std::unique_ptr<InputFile>> Files;
-  std::vector<std::vector<char>> Values;
-};
-
-/// A ghost point: a vertex that a piece needs but does not own.
-struct GhostPoint
-{
-  std::int64_t Point;     ///< global point id
-  std::int32_t Piece;     ///< index of the piece that needs it
-  std::int32_t GhostOnly; ///< 1 if only borrowed cells use it, else 0
-};
-
-/// Sorts by point, then piece, and removes duplicates: several cells may need a point. A point that
-/// an owned cell uses is not GhostOnly.
-void makeDistinct(std::vector<GhostPoint>& points);
-
 /// The layout of cells and points in the rows that are spilled. Rows are not aligned.
 struct RowLayout
 {
   int Corners = 3;            ///< vertices per cell
-  int Dimension = 2;          ///< the tiling's
   std::size_t IdBytes = 4;    ///< size of an id in a cell's row: 8 if 31 bits do not suffice
   std::size_t CellBytes = 0;  ///< the cell's id, its vertices' ids, its attributes
   std::size_t CellData = 0;   ///< offset of its attributes
@@ -104,7 +52,14 @@ struct PartitionJob
 {
   /// `folder` is the temporary output folder.
   PartitionJob(const FlatMesh& mesh, const PartitionOptions& options, Communicator& ranks,
-    const std::string& folder);
+    const std::string& folder)
+    : Mesh(mesh)
+    , Options(options)
+    , Team(ranks)
+    , Threads(threadCount(options.Threads))
+    , Folder(folder)
+  {
+  }
 
   const FlatMesh& Mesh;
   const PartitionOptions& Options;
@@ -156,64 +111,10 @@ void distributePoints(PartitionJob& job);
 void writePieces(PartitionJob& job);
 
 /// Writes one piece's file from its spilled rows. Only its points' ids, its shared and borrowed
-/// cells and their points are held in memory; the rest is streamed.
-class SpilledPieceWriter
-{
-public:
-  SpilledPieceWriter(const PartitionJob& job, std::size_t piece, std::size_t bufferBytes)
-    : Job(job)
-    , Piece(piece)
-    , BufferBytes(bufferBytes)
-    , Corners(static_cast<std::size_t>(job.Rows.Corners))
-  {
-  }
-
-  /// Writes the file. Throws IOError. Afterwards summary() and table() are complete except for the
-  /// borrowed groups.
-  void write();
-
-  const PieceSummary& summary() const { return this->Summary; }
-  const PieceTable& table() const { return this->Table; }
-
-private:
-  using RowPointers = std::vector<const char*>;
-
-  void takePointIds();
-  void takeSharedCells();
-  void sharePoints();
-  void orderPoints();
-  void countCells();
-  void writePoints();
-  void writeCells();
-  void appendPoints(const RowPointers& rows);
-  void appendPointArray(const RowPointers& rows, const PieceArray& array, char* to) const;
-  void extendBounds(const RowPointers& rows);
-  void appendCells(const RowPointers& rows, bool ghosts);
-  void appendCellArray(const RowPointers& rows, const PieceArray& array, bool ghosts, char* to);
-  template <typename Id>
-  void appendLocalIds(const RowPointers& rows, const PieceArray& array, char* to);
-  void appendInBlocks(const RowPointers& rows, bool ofPoints, bool ghosts);
-  std::size_t partOf(std::size_t point) const;
-  std::size_t dataOffset(const PieceArray& array) const;
-
-  const PartitionJob& Job;
-  std::size_t Piece;
-  std::size_t BufferBytes;
-  std::size_t Corners;
-  PieceSummary Summary;
-  PieceTable Table;
-  std::vector<std::int64_t> PointIds; ///< global ids, ascending
-  std::vector<std::uint8_t> PointFlags;
-  std::vector<char> SharedRows;
-  std::vector<int> CellSets; ///< set of each shared cell
-  SharingSets Sets;
-  std::vector<int> PointSets;        ///< set of each point, or -1
-  std::vector<int> PointGroupOf;     ///< per set: its index among the points' groups, or -1
-  std::vector<std::int64_t> Indices; ///< index of each point in the piece
-  GlobalIdMap Local;
-  std::optional<PieceWriter> Writer;
-  std::int64_t CellsWritten = 0;
-};
+/// cells and their points are held in memory; the rest is streamed. `bufferBytes` is per array. The
+/// result lacks the borrowed groups. Throws IOError.
+FinishedPiece writeSpilledPiece(
+  const PartitionJob& job, std::size_t piece, std::size_t bufferBytes);
 
 } // namespace tipp
 

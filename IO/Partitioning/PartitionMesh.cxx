@@ -12,7 +12,6 @@
 #include "Partitioned/PieceWriter.h"
 #include "Partitioning/MeshTiling.h"
 #include "Partitioning/PartitionJob.h"
-#include "Partitioning/PartitionNeighbors.h"
 #include "Ranks/Communicator.h"
 
 #include <algorithm>
@@ -80,7 +79,6 @@ void layOutRows(PartitionJob& job)
 {
   RowLayout& rows = job.Rows;
   rows.Corners = job.Mesh.CellSize;
-  rows.Dimension = job.Mesh.CellSize - 1;
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
   rows.IdBytes = std::max(job.Mesh.Points.Tuples, job.Mesh.Cells.Tuples) <= most ? 4 : 8;
   rows.CellData = rows.IdBytes * std::size_t(1 + rows.Corners);

@@ -2,7 +2,6 @@
 #ifndef tippPartitionMesh_h
 #define tippPartitionMesh_h
 
-#include "Files/PendingOutput.h"
 #include "Flat/FlatMesh.h"
 #include "Loading/VertexLoader.h"
 #include "OpenCL/Devices.h"
@@ -16,7 +15,12 @@
 #include <string>
 #include <vector>
 
+// Declared alone: the wheel is built without VTK.
+class vtkDataObject;
+class vtkDataSet;
 class vtkMultiProcessController;
+template <class T>
+class vtkSmartPointer;
 
 namespace tipp
 {
@@ -68,9 +72,6 @@ struct PartitionStatistics
   bool Aborted = false; ///< whether Progress aborted the run; then nothing was written
 };
 
-/// A new mesh may replace a partitioned mesh.
-extern const Replaceable replaceableMesh;
-
 /// Partitions a flat mesh and writes it to `path`, within the memory limit. The files depend only
 /// on the mesh, the tiling and DuplicateBorrowers, byte for byte. They are written to a hidden
 /// folder beside `path`, which is moved to `path` once it is complete and synced; a partitioned
@@ -103,7 +104,35 @@ std::vector<RawArray> describeArrays(const FlatMesh& mesh, PartitionedMesh& resu
 /// [result[r], result[r + 1]). If there are more ranks than pieces, the last ranks get empty runs;
 /// no other run is empty. Negative weights count as 0; `ranks` below 1 as 1.
 VTKTIPPIO_EXPORT std::vector<std::size_t> assignPieces(
-  const std::vector<std::int64_t>& weights, int ranks);
+  std::vector<std::int64_t> weights, int ranks);
+
+/// partitionMesh() with the additional array NeighborIds. Neighbours can be found once the mesh is
+/// partitioned. So first only its cells and points are partitioned, into a scratch folder beside
+/// the output. The first rank then finds the neighbours piece by piece and writes their ids to a
+/// scratch file, 8 bytes per corner. Finally the mesh is partitioned with that file as one more
+/// array.
+PartitionStatistics partitionWithNeighbors(const FlatMesh& mesh, const std::string& path,
+  const PartitionOptions& options, vtkMultiProcessController* controller);
+
+/// Merges all ranks' data sets, or those in vtkPartitionedDataSets, into one on the first rank;
+/// returns null on the others. Points of different data sets with equal coordinates are merged.
+/// Throws IOError, on all ranks, if there is no data set at all.
+vtkSmartPointer<vtkDataSet> gatherDataSets(
+  vtkDataObject* data, vtkMultiProcessController* controller);
+
+/// Like partitionMesh(), for a flat mesh or any file that readDataSet() supports, which the first
+/// rank reads. If it throws IOError on one rank, it throws on all.
+VTKTIPPIO_EXPORT PartitionStatistics partitionInput(const std::string& input,
+  const std::string& output, const PartitionOptions& options,
+  vtkMultiProcessController* controller = nullptr);
+
+/// Like partitionMesh(), for the first rank's data set (null on the others), which is first written
+/// to a temporary flat mesh beside the output. `name` is the input's name in messages. Cells other
+/// than triangles and tetrahedra are divided into these; ghosts and the ids of a partitioned mesh
+/// are dropped.
+VTKTIPPIO_EXPORT PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
+  const std::string& output, const PartitionOptions& options,
+  vtkMultiProcessController* controller = nullptr);
 
 } // namespace tipp
 

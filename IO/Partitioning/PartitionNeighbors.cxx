@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioning/PartitionNeighbors.h"
+#include "Partitioning/PartitionMesh.h"
 
 #include "Files/OutputFile.h"
 #include "Npy/NpyFile.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
 #include "Partitioned/NeighborIds.h"
+#include "Partitioned/PieceWriter.h"
 #include "Query/Around.h"
 #include "Query/ResidentMesh.h"
 #include "Ranks/Communicator.h"
@@ -78,12 +79,7 @@ PartitionStatistics partitionWithNeighbors(const FlatMesh& mesh, const std::stri
       }
     });
   const std::string folder = ranks.broadcast(scratch ? scratch->workPath() : std::string());
-  FlatMesh bare = mesh;
-  bare.PointData.clear();
-  bare.CellData.clear();
-  bare.Times.clear();
-  bare.PointSeries.clear();
-  bare.CellSeries.clear();
+  const FlatMesh bare{ mesh.Path, mesh.CellSize, mesh.Cells, mesh.Points, {}, {}, {}, {}, {} };
   PartitionOptions first = stepOf(options, 0, 0.3);
   first.DuplicateBorrowers = false;
   PartitionStatistics statistics = partitionMesh(bare, folder + "/bare", first, controller);
@@ -104,17 +100,12 @@ PartitionStatistics partitionWithNeighbors(const FlatMesh& mesh, const std::stri
           writeNeighbors(folder + "/bare", file, options);
         }
       });
-    RawArray array;
-    array.Name = neighborIdsArray.Name;
-    array.Path = file;
-    array.Type = Scalar::Int64;
-    array.Components = mesh.CellSize;
-    array.Tuples = mesh.Cells.Tuples;
-    array.Offset = npyFileStart("<i8", { array.Tuples, array.Components }).size();
+    const std::size_t start = npyFileStart("<i8", { mesh.Cells.Tuples, mesh.CellSize }).size();
     whole.CellData.erase(std::remove_if(whole.CellData.begin(), whole.CellData.end(),
                            [](const RawArray& a) { return a.Name == neighborIdsArray.Name; }),
       whole.CellData.end());
-    whole.CellData.push_back(array);
+    whole.CellData.push_back(
+      { neighborIdsArray.Name, file, start, Scalar::Int64, mesh.CellSize, mesh.Cells.Tuples });
   }
   catch (const WorkAborted&)
   {

@@ -12,89 +12,6 @@ namespace
 
 constexpr std::size_t MostNodes = std::size_t(1) << 24;
 
-// Traverses two structures in parallel.
-class StructureMerger
-{
-public:
-  StructureMerger(const std::string& a, const std::string& b, int childCount)
-    : A(a)
-    , B(b)
-    , ChildCount(childCount)
-  {
-  }
-
-  std::string run()
-  {
-    this->mergeNode(0);
-    if (this->PositionInA != this->A.size() || this->PositionInB != this->B.size())
-    {
-      fail();
-    }
-    return std::move(this->Result);
-  }
-
-private:
-  [[noreturn]] static void fail()
-  {
-    throw IOError("A rank sent nodes that do not make a tree of partitions.");
-  }
-
-  char next(const std::string& text, std::size_t& position) const
-  {
-    if (position >= text.size() || (text[position] != '0' && text[position] != '1'))
-    {
-      fail();
-    }
-    return text[position++];
-  }
-
-  void mergeNode(int depth)
-  {
-    const bool splitInA = this->next(this->A, this->PositionInA) == '1';
-    const bool splitInB = this->next(this->B, this->PositionInB) == '1';
-    this->Result.push_back(splitInA || splitInB ? '1' : '0');
-    this->checkDepth(depth);
-    for (int i = 0; i < this->ChildCount && splitInA && splitInB; ++i)
-    {
-      this->mergeNode(depth + 1);
-    }
-    if (splitInA != splitInB)
-    {
-      this->copyChildren(
-        splitInA ? this->A : this->B, splitInA ? this->PositionInA : this->PositionInB, depth);
-    }
-  }
-
-  void copyChildren(const std::string& text, std::size_t& position, int depth)
-  {
-    this->checkDepth(depth);
-    for (int i = 0; i < this->ChildCount; ++i)
-    {
-      const char node = this->next(text, position);
-      this->Result.push_back(node);
-      if (node == '1')
-      {
-        this->copyChildren(text, position, depth + 1);
-      }
-    }
-  }
-
-  static void checkDepth(int depth)
-  {
-    if (depth > BoxTiling::MaxDepth)
-    {
-      fail();
-    }
-  }
-
-  const std::string& A;
-  const std::string& B;
-  int ChildCount;
-  std::size_t PositionInA = 0;
-  std::size_t PositionInB = 0;
-  std::string Result;
-};
-
 } // namespace
 
 RefinementTree::RefinementTree(int dimension, const Box3& domain)
@@ -104,30 +21,6 @@ RefinementTree::RefinementTree(int dimension, const Box3& domain)
   , Boxes{ domain }
   , Depths{ 0 }
 {
-}
-
-RefinementTree::RefinementTree(int dimension, const Box3& domain, const std::string& structure)
-  : RefinementTree(dimension, domain)
-{
-  // Stack of nodes whose letter has not been read, the next one last.
-  std::vector<std::int32_t> waiting = { 0 };
-  for (const char letter : structure)
-  {
-    if (waiting.empty())
-    {
-      break;
-    }
-    const std::int32_t node = waiting.back();
-    waiting.pop_back();
-    if (letter == '1')
-    {
-      this->split(node);
-      for (int which = this->ChildCount - 1; which >= 0; --which)
-      {
-        waiting.push_back(this->firstChild(node) + which);
-      }
-    }
-  }
 }
 
 double RefinementTree::length(std::int32_t node) const
@@ -141,9 +34,9 @@ double RefinementTree::length(std::int32_t node) const
   return longest;
 }
 
-bool RefinementTree::canSplit(std::int32_t node, int maxDepth) const
+bool RefinementTree::canSplit(std::int32_t node) const
 {
-  if (this->ChildCount == 1 || this->Depths[at(node)] >= maxDepth)
+  if (this->ChildCount == 1 || this->Depths[at(node)] >= BoxTiling::MaxDepth)
   {
     return false;
   }
@@ -183,53 +76,69 @@ std::string RefinementTree::structure() const
 {
   std::string letters;
   letters.reserve(this->size());
-  std::vector<std::int32_t> stack = { 0 };
-  while (!stack.empty())
+  const auto add = [&](const auto& self, std::int32_t node) -> void
   {
-    const std::int32_t node = stack.back();
-    stack.pop_back();
     letters.push_back(this->isLeaf(node) ? '0' : '1');
-    for (int which = this->ChildCount - 1; which >= 0 && !this->isLeaf(node); --which)
+    for (int which = 0; which < this->ChildCount && !this->isLeaf(node); ++which)
     {
-      stack.push_back(this->firstChild(node) + which);
+      self(self, this->firstChild(node) + which);
     }
-  }
+  };
+  add(add, 0);
   return letters;
 }
 
-std::string RefinementTree::merged(const std::string& a, const std::string& b, int childCount)
+void RefinementTree::refine(const std::string& structure)
 {
-  return StructureMerger(a, b, childCount).run();
-}
-
-BoxTiling RefinementTree::tiling(
-  const std::function<bool(std::int32_t)>& keep, std::vector<std::int32_t>& leaves) const
-{
-  struct Pending
+  // Stack of nodes whose letter has not been read, the next one last.
+  std::vector<std::int32_t> waiting = { 0 };
+  const auto require = [](bool isValid)
   {
-    std::int32_t From;
-    std::size_t To;
-  };
-  leaves.clear();
-  std::vector<std::int32_t> nodes = { -1 };
-  std::vector<Pending> stack = { { 0, 0 } };
-  while (!stack.empty())
-  {
-    const Pending pending = stack.back();
-    stack.pop_back();
-    if (this->isLeaf(pending.From) || !keep(pending.From))
+    if (!isValid)
     {
-      leaves.push_back(pending.From);
+      throw IOError("A rank sent nodes that do not make a tree of partitions.");
+    }
+  };
+  for (const char letter : structure)
+  {
+    require(!waiting.empty() && (letter == '0' || letter == '1'));
+    const std::int32_t node = waiting.back();
+    waiting.pop_back();
+    if (letter == '0')
+    {
       continue;
     }
-    nodes[pending.To] = static_cast<std::int32_t>(nodes.size());
+    require(this->Depths[at(node)] < BoxTiling::MaxDepth);
+    if (this->isLeaf(node))
+    {
+      this->split(node);
+    }
     for (int which = this->ChildCount - 1; which >= 0; --which)
     {
-      stack.push_back(
-        { this->firstChild(pending.From) + which, nodes.size() + static_cast<std::size_t>(which) });
+      waiting.push_back(this->firstChild(node) + which);
     }
-    nodes.insert(nodes.end(), static_cast<std::size_t>(this->ChildCount), -1);
   }
+  require(waiting.empty());
+}
+
+BoxTiling RefinementTree::tiling(const std::function<bool(std::int32_t)>& keep) const
+{
+  std::vector<std::int32_t> nodes = { -1 };
+  const auto add = [&](const auto& self, std::int32_t from, std::size_t to) -> void
+  {
+    if (this->isLeaf(from) || !keep(from))
+    {
+      return;
+    }
+    const std::size_t first = nodes.size();
+    nodes[to] = static_cast<std::int32_t>(first);
+    nodes.insert(nodes.end(), static_cast<std::size_t>(this->ChildCount), -1);
+    for (int which = 0; which < this->ChildCount; ++which)
+    {
+      self(self, this->firstChild(from) + which, first + static_cast<std::size_t>(which));
+    }
+  };
+  add(add, 0, 0);
   return BoxTiling::tree(this->Dimension, this->domain(), nodes);
 }
 

@@ -175,6 +175,12 @@ void Spill::exchange(Communicator& ranks)
   ranks.attempt([&] { this->join(all); });
 }
 
+void Spill::finish()
+{
+  const std::vector<SpilledRows> mine{ this->close() };
+  this->join(mine);
+}
+
 void Spill::readRows(std::size_t key, const std::function<Room(std::size_t)>& roomFor) const
 {
   std::uint64_t sum = 0;

@@ -83,6 +83,8 @@ public:
   /// Call after all chunks: makes all ranks' rows known to every rank. Collective. Throws IOError
   /// on all.
   void exchange(Communicator& ranks);
+  /// The same for one process.
+  void finish();
   /// The same without communication: returns what the constructor above needs from each rank.
   SpilledRows close();
 

@@ -2,11 +2,15 @@
 #include "Partitioning/PartitionJob.h"
 
 #include "Parallel/Poll.h"
+#include "Partitioned/PieceBorder.h"
+#include "Partitioned/PieceFile.h"
+#include "Partitioned/PieceWriter.h"
 #include "Partitioning/MeshTiling.h"
 
 #include <algorithm>
-#include <limits>
+#include <array>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 
 namespace tipp
@@ -23,248 +27,6 @@ std::uint64_t wordAt(const char* row)
   std::memcpy(&word, row, 8);
   return word;
 }
-
-} // namespace
-
-void SpilledPieceWriter::write()
-{
-  this->Summary = this->Job.Result.Pieces[this->Piece];
-  this->takePointIds();
-  this->takeSharedCells();
-  this->sharePoints();
-  this->orderPoints();
-  this->countCells();
-  this->Writer.emplace(this->Job.Result, this->Piece, this->Summary, this->BufferBytes);
-  this->writePoints();
-  this->writeCells();
-  this->Summary.FileBytes = this->Writer->finish(this->Table);
-}
-
-void SpilledPieceWriter::takePointIds()
-{
-  const Spill& points = *this->Job.Points;
-  this->PointIds.reserve(std::size_t(points.rows(this->Piece)));
-  this->PointFlags.reserve(std::size_t(points.rows(this->Piece)));
-  points.read(this->Piece, blockRows,
-    [&](const char* rows, std::size_t count)
-    {
-      poll();
-      for (std::size_t i = 0; i < count; ++i, rows += points.rowBytes())
-      {
-        const std::uint64_t word = wordAt(rows);
-        this->PointIds.push_back(std::int64_t(word >> 2));
-        this->PointFlags.push_back(std::uint8_t(word & 3));
-      }
-    });
-  this->Local = GlobalIdMap(this->PointIds.data(), nullptr, this->PointIds.size());
-}
-
-void SpilledPieceWriter::takeSharedCells()
-{
-  const std::size_t rowBytes = this->Job.SharedCells->rowBytes();
-  this->SharedRows = this->Job.SharedCells->readAll(this->Piece);
-  const std::vector<char> borrowers = this->Job.Borrowers->readAll(this->Piece);
-  std::size_t at = 0;
-  std::vector<std::int32_t> set;
-  for (std::size_t i = 0; i < this->SharedRows.size(); i += rowBytes)
-  {
-    std::uint32_t count = 0;
-    std::memcpy(&count, this->SharedRows.data() + i + rowBytes - 4, 4);
-    set.resize(count);
-    std::memcpy(set.data(), borrowers.data() + at, count * std::size_t(4));
-    at += count * std::size_t(4);
-    if (count == 0)
-    {
-      throw std::logic_error("a cell between partitions meets one only");
-    }
-    this->CellSets.push_back(this->Sets.number(set));
-  }
-}
-
-void SpilledPieceWriter::sharePoints()
-{
-  const std::size_t rowBytes = this->Job.SharedCells->rowBytes();
-  this->PointSets.assign(this->PointIds.size(), -1);
-  for (std::size_t cell = 0; cell < this->CellSets.size(); ++cell)
-  {
-    pollAt(std::int64_t(cell));
-    const char* const row = this->SharedRows.data() + cell * rowBytes;
-    for (std::size_t corner = 1; corner <= this->Corners; ++corner)
-    {
-      const std::int64_t point = this->Local.find(this->Job.Rows.id(row, corner));
-      if (point < 0)
-      {
-        throw std::logic_error("a piece lacks a point of one of its cells");
-      }
-      int& set = this->PointSets[std::size_t(point)];
-      set = this->Sets.unite(set, this->CellSets[cell]);
-    }
-  }
-}
-
-std::size_t SpilledPieceWriter::partOf(std::size_t point) const
-{
-  if ((this->PointFlags[point] & RowLayout::GhostOnly) != 0)
-  {
-    return this->Table.PointGroups.size() + 1;
-  }
-  const int set = this->PointSets[point];
-  return set < 0 ? 0 : std::size_t(this->PointGroupOf[std::size_t(set)]) + 1;
-}
-
-void SpilledPieceWriter::orderPoints()
-{
-  SharingSets::Grouping grouping = this->Sets.groups(this->PointSets);
-  this->Table.PointGroups = std::move(grouping.Groups);
-  this->PointGroupOf = std::move(grouping.IndexOf);
-
-  std::vector<std::int64_t> starts(this->Table.PointGroups.size() + 3, 0);
-  for (std::size_t i = 0; i < this->PointIds.size(); ++i)
-  {
-    ++starts[this->partOf(i) + 1];
-  }
-  std::partial_sum(starts.begin(), starts.end(), starts.begin());
-  this->Summary.Points = starts[starts.size() - 2];
-  this->Summary.GhostPoints = starts.back() - this->Summary.Points;
-  this->Indices.resize(this->PointIds.size());
-  for (std::size_t i = 0; i < this->PointIds.size(); ++i)
-  {
-    this->Indices[i] = starts[this->partOf(i)]++;
-  }
-  this->Local = GlobalIdMap(this->PointIds.data(), this->Indices.data(), this->PointIds.size());
-}
-
-void SpilledPieceWriter::countCells()
-{
-  this->Summary.Cells =
-    this->Job.Cells->rows(this->Piece) + this->Job.SharedCells->rows(this->Piece);
-  if (this->Job.BorrowedCells)
-  {
-    this->Summary.BorrowedCells = this->Job.BorrowedCells->rows(this->Piece);
-  }
-  this->Table.CellGroups = this->Sets.groups(this->CellSets).Groups;
-}
-
-void SpilledPieceWriter::appendInBlocks(const RowPointers& rows, bool ofPoints, bool ghosts)
-{
-  RowPointers block;
-  for (std::size_t at = 0; at < rows.size(); at += blockRows)
-  {
-    poll();
-    block.assign(rows.begin() + std::ptrdiff_t(at),
-      rows.begin() + std::ptrdiff_t(std::min(rows.size(), at + blockRows)));
-    ofPoints ? this->appendPoints(block) : this->appendCells(block, ghosts);
-  }
-}
-
-void SpilledPieceWriter::writePoints()
-{
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  this->Summary.Extent = { infinity, -infinity, infinity, -infinity, infinity, -infinity };
-  const Spill& points = *this->Job.Points;
-  const std::size_t rowBytes = points.rowBytes();
-  // Rows of later parts are kept until the first part is complete.
-  std::vector<char> waiting;
-  std::vector<std::pair<std::int64_t, std::size_t>> order; // index, row in `waiting`
-  std::size_t point = 0;
-  RowPointers block;
-  points.read(this->Piece, blockRows,
-    [&](const char* rows, std::size_t count)
-    {
-      poll();
-      block.clear();
-      for (std::size_t i = 0; i < count; ++i, ++point, rows += rowBytes)
-      {
-        if (this->partOf(point) == 0)
-        {
-          block.push_back(rows);
-          continue;
-        }
-        order.emplace_back(this->Indices[point], order.size());
-        waiting.insert(waiting.end(), rows, rows + rowBytes);
-      }
-      this->extendBounds(block);
-      this->appendPoints(block);
-    });
-  this->Writer->endPart(true);
-  std::sort(order.begin(), order.end());
-  auto next = order.begin();
-  const auto appendPart = [&](std::int64_t count, bool isOwned)
-  {
-    block.clear();
-    for (std::int64_t i = 0; i < count; ++i, ++next)
-    {
-      block.push_back(waiting.data() + next->second * rowBytes);
-    }
-    if (isOwned)
-    {
-      this->extendBounds(block);
-    }
-    this->appendInBlocks(block, true, false);
-    this->Writer->endPart(true);
-  };
-  for (const SharedGroup& group : this->Table.PointGroups)
-  {
-    appendPart(group.Count, true);
-  }
-  if (this->Job.Result.Duplicated)
-  {
-    appendPart(this->Summary.GhostPoints, false);
-  }
-}
-
-void SpilledPieceWriter::writeCells()
-{
-  const Spill& cells = *this->Job.Cells;
-  RowPointers rows;
-  cells.read(this->Piece, blockRows,
-    [&](const char* block, std::size_t count)
-    {
-      poll();
-      rows.clear();
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        rows.push_back(block + i * cells.rowBytes());
-      }
-      this->appendCells(rows, false);
-    });
-  this->Writer->endPart(false);
-
-  const std::vector<int> order = this->Sets.sortedIndices();
-  std::vector<std::pair<int, const char*>> shared; // ascending within each set
-  for (std::size_t i = 0; i < this->CellSets.size(); ++i)
-  {
-    shared.emplace_back(order[std::size_t(this->CellSets[i])],
-      this->SharedRows.data() + i * this->Job.SharedCells->rowBytes());
-  }
-  std::stable_sort(
-    shared.begin(), shared.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  auto next = shared.begin();
-  for (const SharedGroup& group : this->Table.CellGroups)
-  {
-    rows.clear();
-    for (std::int64_t i = 0; i < group.Count; ++i, ++next)
-    {
-      rows.push_back(next->second);
-    }
-    this->appendInBlocks(rows, false, false);
-    this->Writer->endPart(false);
-  }
-  if (this->Job.BorrowedCells)
-  {
-    const std::vector<char> borrowed = this->Job.BorrowedCells->readAll(this->Piece);
-    rows.clear();
-    for (std::size_t at = 0; at < borrowed.size(); at += this->Job.BorrowedCells->rowBytes())
-    {
-      rows.push_back(borrowed.data() + at);
-    }
-    this->appendInBlocks(rows, false, true);
-    this->Writer->endPart(false);
-  }
-}
-
-namespace
-{
 
 /// Copies `bytes` bytes at `offset` of each row to consecutive memory.
 template <std::size_t Bytes>
@@ -310,114 +72,317 @@ void copyCoordinates(const std::vector<const char*>& rows, const RawArray& point
   }
 }
 
-} // namespace
-
-/// The offset of an attribute in a row.
-std::size_t SpilledPieceWriter::dataOffset(const PieceArray& array) const
+/// Writes one piece's file.
+class SpilledPieceWriter
 {
-  const bool ofPoints = array.ofPoints();
-  std::size_t offset = ofPoints ? 8 + this->Job.Mesh.Points.tupleBytes() : this->Job.Rows.CellData;
-  for (std::int64_t i = 0; i < array.Attribute; ++i)
+public:
+  SpilledPieceWriter(const PartitionJob& job, std::size_t piece, std::size_t bufferBytes)
+    : Job(job)
+    , Piece(piece)
+    , BufferBytes(bufferBytes)
+    , Corners(static_cast<std::size_t>(job.Rows.Corners))
   {
-    const StoredArray& before = this->Job.Result.Arrays[std::size_t(i)];
-    if (before.OfPoints == ofPoints)
+  }
+
+  FinishedPiece write()
+  {
+    this->Summary = this->Job.Result.Pieces[this->Piece];
+    this->takePointIds();
+    this->takeSharedCells();
+    this->sharePoints();
+    this->orderPoints();
+    this->countCells();
+    this->Writer.emplace(this->Job.Result, this->Piece, this->Summary, this->BufferBytes);
+    this->writePoints();
+    completeBounds(this->Summary.Extent);
+    this->writeCells();
+    this->Summary.FileBytes = this->Writer->finish(this->Table);
+    return { this->Summary, this->Table };
+  }
+
+private:
+  using RowPointers = std::vector<const char*>;
+
+  void takePointIds()
+  {
+    const Spill& points = *this->Job.Points;
+    this->PointIds.reserve(std::size_t(points.rows(this->Piece)));
+    this->PointFlags.reserve(std::size_t(points.rows(this->Piece)));
+    points.read(this->Piece, blockRows,
+      [&](const char* rows, std::size_t count)
+      {
+        poll();
+        for (std::size_t i = 0; i < count; ++i, rows += points.rowBytes())
+        {
+          const std::uint64_t word = wordAt(rows);
+          this->PointIds.push_back(std::int64_t(word >> 2));
+          this->PointFlags.push_back(std::uint8_t(word & 3));
+        }
+      });
+    this->Local = GlobalIdMap(this->PointIds.data(), nullptr, this->PointIds.size());
+  }
+
+  void takeSharedCells()
+  {
+    const std::size_t rowBytes = this->Job.SharedCells->rowBytes();
+    this->SharedRows = this->Job.SharedCells->readAll(this->Piece);
+    const std::vector<char> borrowers = this->Job.Borrowers->readAll(this->Piece);
+    std::size_t at = 0;
+    std::vector<std::int32_t> set;
+    for (std::size_t i = 0; i < this->SharedRows.size(); i += rowBytes)
     {
-      offset += std::size_t(before.Components) * scalarSize(before.Type);
+      std::uint32_t count = 0;
+      std::memcpy(&count, this->SharedRows.data() + i + rowBytes - 4, 4);
+      set.resize(count);
+      std::memcpy(set.data(), borrowers.data() + at, count * std::size_t(4));
+      at += count * std::size_t(4);
+      if (count == 0)
+      {
+        throw std::logic_error("a cell between partitions meets one only");
+      }
+      this->CellSets.push_back(this->Sets.number(set));
     }
   }
-  return offset;
-}
 
-void SpilledPieceWriter::extendBounds(const RowPointers& rows)
-{
-  const RawArray& points = this->Job.Mesh.Points;
-  for (const char* row : rows)
+  void sharePoints()
   {
-    double xyz[3] = {};
-    takeCoordinates(points, row + 8, 1, points.Components, xyz);
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    const std::size_t rowBytes = this->Job.SharedCells->rowBytes();
+    this->PointSets.assign(this->PointIds.size(), -1);
+    for (std::size_t cell = 0; cell < this->CellSets.size(); ++cell)
     {
-      double& least = this->Summary.Extent[2 * axis];
-      double& greatest = this->Summary.Extent[2 * axis + 1];
-      least = std::min(least, xyz[axis]);
-      greatest = std::max(greatest, xyz[axis]);
+      pollAt(std::int64_t(cell));
+      const char* const row = this->SharedRows.data() + cell * rowBytes;
+      for (std::size_t corner = 1; corner <= this->Corners; ++corner)
+      {
+        const std::int64_t point = this->Local.find(this->Job.Rows.id(row, corner));
+        if (point < 0)
+        {
+          throw std::logic_error("a piece lacks a point of one of its cells");
+        }
+        int& set = this->PointSets[std::size_t(point)];
+        set = this->Sets.unite(set, this->CellSets[cell]);
+      }
     }
   }
-}
 
-void SpilledPieceWriter::appendPoints(const RowPointers& rows)
-{
-  if (rows.empty())
+  std::size_t partOf(std::size_t point) const
   {
-    return;
-  }
-  const std::vector<PieceArray>& arrays = this->Writer->arrays();
-  for (std::size_t a = 0; a < arrays.size(); ++a)
-  {
-    if (arrays[a].ofPoints())
+    if ((this->PointFlags[point] & RowLayout::GhostOnly) != 0)
     {
-      char* const to = this->Writer->extend(a, rows.size() * arrays[a].tupleBytes());
-      this->appendPointArray(rows, arrays[a], to);
+      return this->Table.PointGroups.size() + 1;
+    }
+    const int set = this->PointSets[point];
+    return set < 0 ? 0 : std::size_t(this->PointGroupOf[std::size_t(set)]) + 1;
+  }
+
+  void orderPoints()
+  {
+    SharingSets::Grouping grouping = this->Sets.groups(this->PointSets);
+    this->Table.PointGroups = std::move(grouping.Groups);
+    this->PointGroupOf = std::move(grouping.IndexOf);
+
+    std::vector<std::int64_t> starts(this->Table.PointGroups.size() + 3, 0);
+    for (std::size_t i = 0; i < this->PointIds.size(); ++i)
+    {
+      ++starts[this->partOf(i) + 1];
+    }
+    std::partial_sum(starts.begin(), starts.end(), starts.begin());
+    this->Summary.Points = starts[starts.size() - 2];
+    this->Summary.GhostPoints = starts.back() - this->Summary.Points;
+    this->Indices.resize(this->PointIds.size());
+    for (std::size_t i = 0; i < this->PointIds.size(); ++i)
+    {
+      this->Indices[i] = starts[this->partOf(i)]++;
+    }
+    this->Local = GlobalIdMap(this->PointIds.data(), this->Indices.data(), this->PointIds.size());
+  }
+
+  void countCells()
+  {
+    this->Summary.Cells =
+      this->Job.Cells->rows(this->Piece) + this->Job.SharedCells->rows(this->Piece);
+    if (this->Job.BorrowedCells)
+    {
+      this->Summary.BorrowedCells = this->Job.BorrowedCells->rows(this->Piece);
+    }
+    SharingSets::Grouping grouping = this->Sets.groups(this->CellSets);
+    this->Table.CellGroups = std::move(grouping.Groups);
+    this->CellGroupOf = std::move(grouping.IndexOf);
+  }
+
+  void appendInBlocks(const RowPointers& rows, bool ofPoints, bool ghosts)
+  {
+    RowPointers block;
+    for (std::size_t at = 0; at < rows.size(); at += blockRows)
+    {
+      poll();
+      block.assign(rows.begin() + std::ptrdiff_t(at),
+        rows.begin() + std::ptrdiff_t(std::min(rows.size(), at + blockRows)));
+      this->append(block, ofPoints, ghosts);
     }
   }
-}
 
-void SpilledPieceWriter::appendPointArray(
-  const RowPointers& rows, const PieceArray& array, char* to) const
-{
-  if (array.Role == PieceRole::Points)
+  void writePoints()
   {
-    copyCoordinates(rows, this->Job.Mesh.Points, to);
+    this->Summary.Extent = emptyBounds;
+    const Spill& points = *this->Job.Points;
+    const std::size_t rowBytes = points.rowBytes();
+    // Rows of later parts are kept until the first part is complete.
+    std::vector<char> waiting;
+    std::vector<std::pair<std::int64_t, std::size_t>> order; // index, row in `waiting`
+    std::size_t point = 0;
+    RowPointers block;
+    points.read(this->Piece, blockRows,
+      [&](const char* rows, std::size_t count)
+      {
+        poll();
+        block.clear();
+        for (std::size_t i = 0; i < count; ++i, ++point, rows += rowBytes)
+        {
+          if (this->partOf(point) == 0)
+          {
+            block.push_back(rows);
+            continue;
+          }
+          order.emplace_back(this->Indices[point], order.size());
+          waiting.insert(waiting.end(), rows, rows + rowBytes);
+        }
+        this->extendBounds(block);
+        this->append(block, true);
+      });
+    this->Writer->endPart(true);
+    std::sort(order.begin(), order.end());
+    auto next = order.begin();
+    const auto appendPart = [&](std::int64_t count, bool isOwned)
+    {
+      block.clear();
+      for (std::int64_t i = 0; i < count; ++i, ++next)
+      {
+        block.push_back(waiting.data() + next->second * rowBytes);
+      }
+      if (isOwned)
+      {
+        this->extendBounds(block);
+      }
+      this->appendInBlocks(block, true, false);
+      this->Writer->endPart(true);
+    };
+    for (const SharedGroup& group : this->Table.PointGroups)
+    {
+      appendPart(group.Count, true);
+    }
+    if (this->Job.Result.Duplicated)
+    {
+      appendPart(this->Summary.GhostPoints, false);
+    }
   }
-  else if (array.Role == PieceRole::PointData)
+
+  void writeCells()
   {
-    copyBytes(rows, this->dataOffset(array), array.tupleBytes(), to);
+    const Spill& cells = *this->Job.Cells;
+    RowPointers rows;
+    cells.read(this->Piece, blockRows,
+      [&](const char* block, std::size_t count)
+      {
+        poll();
+        rows.clear();
+        for (std::size_t i = 0; i < count; ++i)
+        {
+          rows.push_back(block + i * cells.rowBytes());
+        }
+        this->append(rows, false);
+      });
+    this->Writer->endPart(false);
+
+    std::vector<std::pair<int, const char*>> shared; // ascending within each set
+    for (std::size_t i = 0; i < this->CellSets.size(); ++i)
+    {
+      shared.emplace_back(this->CellGroupOf[std::size_t(this->CellSets[i])],
+        this->SharedRows.data() + i * this->Job.SharedCells->rowBytes());
+    }
+    std::stable_sort(
+      shared.begin(), shared.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    auto next = shared.begin();
+    for (const SharedGroup& group : this->Table.CellGroups)
+    {
+      rows.clear();
+      for (std::int64_t i = 0; i < group.Count; ++i, ++next)
+      {
+        rows.push_back(next->second);
+      }
+      this->appendInBlocks(rows, false, false);
+      this->Writer->endPart(false);
+    }
+    if (this->Job.BorrowedCells)
+    {
+      const std::vector<char> borrowed = this->Job.BorrowedCells->readAll(this->Piece);
+      rows.clear();
+      for (std::size_t at = 0; at < borrowed.size(); at += this->Job.BorrowedCells->rowBytes())
+      {
+        rows.push_back(borrowed.data() + at);
+      }
+      this->appendInBlocks(rows, false, true);
+      this->Writer->endPart(false);
+    }
   }
-  else
+
+  /// The offset of an attribute in a row.
+  std::size_t dataOffset(const PieceArray& array) const
   {
-    const bool ids = array.Role == PieceRole::PointIds;
+    const bool ofPoints = array.ofPoints();
+    std::size_t offset =
+      ofPoints ? 8 + this->Job.Mesh.Points.tupleBytes() : this->Job.Rows.CellData;
+    for (std::int64_t i = 0; i < array.Attribute; ++i)
+    {
+      const StoredArray& before = this->Job.Result.Arrays[std::size_t(i)];
+      if (before.OfPoints == ofPoints)
+      {
+        offset += std::size_t(before.Components) * scalarSize(before.Type);
+      }
+    }
+    return offset;
+  }
+
+  void extendBounds(const RowPointers& rows)
+  {
+    const RawArray& points = this->Job.Mesh.Points;
     for (const char* row : rows)
     {
-      std::uint64_t word = 0;
-      std::memcpy(&word, row, 8);
-      const std::uint64_t value = ids ? word >> 2 : word & RowLayout::Ghost;
-      std::memcpy(to, &value, array.tupleBytes());
-      to += array.tupleBytes();
+      std::array<double, 3> point{};
+      takeCoordinates(points, row + 8, 1, points.Components, point.data());
+      tipp::extendBounds(this->Summary.Extent, point);
     }
   }
-}
 
-void SpilledPieceWriter::appendCells(const RowPointers& rows, bool ghosts)
-{
-  if (rows.empty())
+  /// Appends rows of points, or of cells, to the arrays of the file.
+  void append(const RowPointers& rows, bool ofPoints, bool areGhosts = false)
   {
-    return;
-  }
-  const std::vector<PieceArray>& arrays = this->Writer->arrays();
-  for (std::size_t a = 0; a < arrays.size(); ++a)
-  {
-    if (!arrays[a].ofPoints())
+    const std::vector<PieceArray>& arrays = this->Writer->arrays();
+    for (std::size_t a = 0; a < arrays.size() && !rows.empty(); ++a)
     {
-      char* const to = this->Writer->extend(a, rows.size() * arrays[a].tupleBytes());
-      this->appendCellArray(rows, arrays[a], ghosts, to);
+      if (arrays[a].ofPoints() == ofPoints)
+      {
+        char* const to = this->Writer->extend(a, rows.size() * arrays[a].tupleBytes());
+        this->appendArray(rows, arrays[a], areGhosts, to);
+      }
     }
+    this->CellsWritten += ofPoints ? 0 : std::int64_t(rows.size());
   }
-  this->CellsWritten += std::int64_t(rows.size());
-}
 
-template <typename Id>
-void SpilledPieceWriter::appendLocalIds(const RowPointers& rows, const PieceArray& array, char* to)
-{
-  std::vector<Id> values;
-  values.reserve(rows.size() * this->Corners);
-  if (array.Role == PieceRole::Offsets)
+  /// Appends value(row) of each row to an array.
+  template <typename Value>
+  static void appendValues(const RowPointers& rows, const Value& value, char* to)
   {
-    for (std::size_t i = 1; i <= rows.size(); ++i)
+    for (const char* row : rows)
     {
-      values.push_back(Id((this->CellsWritten + std::int64_t(i)) * std::int64_t(this->Corners)));
+      const auto next = value(row);
+      std::memcpy(to, &next, sizeof(next));
+      to += sizeof(next);
     }
   }
-  else
+
+  template <typename Id>
+  void appendLocalIds(const RowPointers& rows, char* to)
   {
     std::vector<std::int64_t> ids;
     ids.reserve(rows.size() * this->Corners);
@@ -428,44 +393,74 @@ void SpilledPieceWriter::appendLocalIds(const RowPointers& rows, const PieceArra
         ids.push_back(this->Job.Rows.id(row, corner));
       }
     }
-    values.resize(ids.size());
+    std::vector<Id> values(ids.size());
     if (!this->Local.translate(ids.data(), ids.size(), values.data()))
     {
       throw std::logic_error("a piece lacks a point of one of its cells");
     }
+    std::memcpy(to, values.data(), values.size() * sizeof(Id));
   }
-  std::memcpy(to, values.data(), values.size() * sizeof(Id));
-}
 
-void SpilledPieceWriter::appendCellArray(
-  const RowPointers& rows, const PieceArray& array, bool ghosts, char* to)
-{
-  constexpr int vtkTriangle = 5;
-  constexpr int vtkTetra = 10;
-  switch (array.Role)
+  void appendArray(const RowPointers& rows, const PieceArray& array, bool areGhosts, char* to)
   {
-    case PieceRole::Connectivity:
-    case PieceRole::Offsets:
-      array.Type == Scalar::Int64 ? this->appendLocalIds<std::int64_t>(rows, array, to)
-                                  : this->appendLocalIds<std::int32_t>(rows, array, to);
-      break;
-    case PieceRole::Types:
-      std::memset(to, this->Corners == 3 ? vtkTriangle : vtkTetra, rows.size());
-      break;
-    case PieceRole::CellGhosts:
-      std::memset(to, ghosts ? 1 : 0, rows.size());
-      break;
-    case PieceRole::CellIds:
-      for (const char* row : rows)
-      {
-        const std::int64_t id = this->Job.Rows.id(row, 0);
-        std::memcpy(to, &id, 8);
-        to += 8;
-      }
-      break;
-    default:
-      copyBytes(rows, this->dataOffset(array), array.tupleBytes(), to);
+    switch (array.Role)
+    {
+      case PieceRole::Points:
+        copyCoordinates(rows, this->Job.Mesh.Points, to);
+        break;
+      case PieceRole::PointIds:
+        appendValues(
+          rows, [](const char* row) { return wordAt(row) >> 2; }, to);
+        break;
+      case PieceRole::PointGhosts:
+        appendValues(
+          rows, [](const char* row) { return std::uint8_t(wordAt(row) & RowLayout::Ghost); }, to);
+        break;
+      case PieceRole::Connectivity:
+        array.Type == Scalar::Int64 ? this->appendLocalIds<std::int64_t>(rows, to)
+                                    : this->appendLocalIds<std::int32_t>(rows, to);
+        break;
+      case PieceRole::Offsets:
+      case PieceRole::Types:
+        fillShapes(array, int(this->Corners), this->CellsWritten, std::int64_t(rows.size()), to);
+        break;
+      case PieceRole::CellGhosts:
+        std::memset(to, areGhosts ? 1 : 0, rows.size());
+        break;
+      case PieceRole::CellIds:
+        appendValues(
+          rows, [this](const char* row) { return this->Job.Rows.id(row, 0); }, to);
+        break;
+      default:
+        copyBytes(rows, this->dataOffset(array), array.tupleBytes(), to);
+    }
   }
+
+  const PartitionJob& Job;
+  std::size_t Piece;
+  std::size_t BufferBytes;
+  std::size_t Corners;
+  PieceSummary Summary;
+  PieceTable Table;
+  std::vector<std::int64_t> PointIds; ///< global ids, ascending
+  std::vector<std::uint8_t> PointFlags;
+  std::vector<char> SharedRows;
+  std::vector<int> CellSets; ///< set of each shared cell
+  SharingSets Sets;
+  std::vector<int> PointSets;        ///< set of each point, or -1
+  std::vector<int> PointGroupOf;     ///< per set: its index among the points' groups, or -1
+  std::vector<int> CellGroupOf;      ///< per set: its index among the cells' groups, or -1
+  std::vector<std::int64_t> Indices; ///< index of each point in the piece
+  GlobalIdMap Local;
+  std::optional<PieceWriter> Writer;
+  std::int64_t CellsWritten = 0;
+};
+
+} // namespace
+
+FinishedPiece writeSpilledPiece(const PartitionJob& job, std::size_t piece, std::size_t bufferBytes)
+{
+  return SpilledPieceWriter(job, piece, bufferBytes).write();
 }
 
 } // namespace tipp

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioning/StoredRows.h"
 
-#include "Files/FileSystem.h"
-
-#include <utility>
+#include <cstring>
 
 namespace tipp
 {
@@ -21,15 +19,10 @@ void appendBytes(const void* row, std::size_t bytes, std::vector<char>& buffer)
 } // namespace
 
 RowFile::RowFile(const std::string& path, std::size_t rowBytes)
-  : Path(path)
+  : File(path)
   , RowBytes(rowBytes)
   , Out(std::make_unique<OutputFile>(path))
 {
-}
-
-RowFile::~RowFile()
-{
-  removeFile(this->Path);
 }
 
 void RowFile::append(const void* row)
@@ -52,7 +45,7 @@ void RowFile::finish()
   std::vector<char>().swap(this->Buffer);
   this->Out->close();
   this->Out.reset();
-  this->In = std::make_unique<InputFile>(this->Path);
+  this->In = std::make_unique<InputFile>(this->File.Path);
 }
 
 void RowFile::read(std::int64_t first, std::size_t count, void* to) const
@@ -60,32 +53,25 @@ void RowFile::read(std::int64_t first, std::size_t count, void* to) const
   this->In->read(std::uint64_t(first) * this->RowBytes, to, count * this->RowBytes);
 }
 
-KeyedRows::KeyedRows(std::string path, std::size_t keys, std::size_t rowBytes)
-  : Path(std::move(path))
-  , Keys(keys)
-  , RowBytes(rowBytes)
-  , Rows(std::in_place, this->Path, 0, keys, rowBytes)
+KeyedRows::KeyedRows(const std::string& path, std::size_t keys, std::size_t rowBytes)
+  : File(path + ".0") // the name that Spill gives it
+  , Rows(path, 0, keys, rowBytes)
 {
-}
-
-KeyedRows::~KeyedRows()
-{
-  removeFile(this->Path + ".0"); // the name that Spill gives it
 }
 
 void KeyedRows::add(std::size_t key, const void* row)
 {
   this->BufferedKeys.push_back(std::uint32_t(key));
-  appendBytes(row, this->RowBytes, this->Buffer);
+  appendBytes(row, this->Rows.rowBytes(), this->Buffer);
   this->Buffer.size() >= bufferBytes ? this->flush() : void();
 }
 
 void KeyedRows::flush()
 {
-  this->Rows->add(
+  this->Rows.add(
     this->BufferedKeys.size(), 1, [this](std::size_t i) { return this->BufferedKeys[i]; },
-    [this](std::size_t i, char* to)
-    { std::memcpy(to, this->Buffer.data() + i * this->RowBytes, this->RowBytes); });
+    [this, bytes = this->Rows.rowBytes()](std::size_t i, char* to)
+    { std::memcpy(to, this->Buffer.data() + i * bytes, bytes); });
   this->BufferedKeys.clear();
   this->Buffer.clear();
 }
@@ -95,8 +81,7 @@ void KeyedRows::finish()
   this->flush();
   std::vector<char>().swap(this->Buffer);
   std::vector<std::uint32_t>().swap(this->BufferedKeys);
-  const std::vector<SpilledRows> written{ this->Rows->close() };
-  this->Rows.emplace(this->Path, this->Keys, this->RowBytes, written);
+  this->Rows.finish();
 }
 
 } // namespace tipp

@@ -2,6 +2,7 @@
 #ifndef tippStoredRows_h
 #define tippStoredRows_h
 
+#include "Files/FileSystem.h"
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
 #include "Parallel/Poll.h"
@@ -11,10 +12,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
-#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,9 +26,6 @@ class VTKTIPPIO_EXPORT RowFile
 public:
   /// Creates the file. Throws IOError, as all methods do.
   RowFile(const std::string& path, std::size_t rowBytes);
-  ~RowFile();
-  RowFile(const RowFile&) = delete;
-  RowFile& operator=(const RowFile&) = delete;
 
   void append(const void* row);
   /// Call it once, after the last row.
@@ -61,7 +56,7 @@ public:
 private:
   void flush();
 
-  const std::string Path;
+  const RemovedFile File;
   const std::size_t RowBytes;
   std::unique_ptr<OutputFile> Out; ///< until finish()
   std::unique_ptr<InputFile> In;   ///< after it
@@ -76,29 +71,26 @@ class VTKTIPPIO_EXPORT KeyedRows
 {
 public:
   /// Creates the file. Throws IOError, as all methods do.
-  KeyedRows(std::string path, std::size_t keys, std::size_t rowBytes);
-  ~KeyedRows();
-  KeyedRows(const KeyedRows&) = delete;
-  KeyedRows& operator=(const KeyedRows&) = delete;
+  KeyedRows(const std::string& path, std::size_t keys, std::size_t rowBytes);
 
   void add(std::size_t key, const void* row);
   /// Call it once, after the last row.
   void finish();
 
-  std::size_t keys() const { return this->Keys; }
-  std::int64_t count(std::size_t key) const { return this->Rows->rows(key); }
+  std::size_t keys() const { return this->Rows.content().Counts.size(); }
+  std::int64_t count(std::size_t key) const { return this->Rows.rows(key); }
 
   /// Calls visit(row) with the bytes of each of the key's rows, and polls.
   template <typename Visit>
   void forEach(std::size_t key, const Visit& visit) const
   {
     constexpr std::size_t most = 4096;
-    this->Rows->read(key, most,
+    this->Rows.read(key, most,
       [&](const char* rows, std::size_t count)
       {
         for (std::size_t i = 0; i < count; ++i)
         {
-          visit(rows + i * this->RowBytes);
+          visit(rows + i * this->Rows.rowBytes());
         }
         poll();
       });
@@ -109,17 +101,15 @@ public:
   std::vector<Row> readAll(std::size_t key) const
   {
     std::vector<Row> rows(std::size_t(this->count(key)));
-    this->Rows->readAll(key, rows.data());
+    this->Rows.readAll(key, rows.data());
     return rows;
   }
 
 private:
   void flush();
 
-  const std::string Path;
-  const std::size_t Keys;
-  const std::size_t RowBytes;
-  std::optional<Spill> Rows;
+  const RemovedFile File;
+  Spill Rows;
   std::vector<std::uint32_t> BufferedKeys;
   std::vector<char> Buffer;
 };

@@ -16,8 +16,7 @@ namespace tipp
 /// Reads the global ids of the cells or points that a piece owns.
 std::vector<std::int64_t> PieceIds::read(std::size_t piece, bool ofPoints) const
 {
-  ReadCounters counters;
-  const PieceFile file(this->Mesh, piece, counters);
+  const PieceFile file(this->Mesh, piece);
   // Borrowed cells are in the last part of the piece, if they are duplicated.
   const std::size_t parts = file.partStarts(ofPoints).size() - 1 - (this->Mesh.Duplicated ? 1 : 0);
   const auto count = std::size_t(file.partStarts(ofPoints)[parts]);

@@ -19,16 +19,9 @@ namespace
 
 bool isPlain(vtkDataArray* array)
 {
-  switch (array->GetDataType())
-  {
-    case VTK_INT:
-    case VTK_LONG:
-    case VTK_LONG_LONG:
-    case VTK_ID_TYPE:
-      return array->HasStandardMemoryLayout();
-    default:
-      return false;
-  }
+  const int type = array->GetDataType();
+  return array->HasStandardMemoryLayout() &&
+    (type == VTK_INT || type == VTK_LONG || type == VTK_LONG_LONG || type == VTK_ID_TYPE);
 }
 
 vtkSmartPointer<vtkDataArray> wideCopy(vtkDataArray* array)
@@ -86,28 +79,14 @@ namespace
 
 constexpr int unknown = -1;
 
-bool varies(int type)
+/// The least number of vertices of a type whose number varies, else -1.
+std::int64_t leastSize(int type)
 {
   switch (type)
   {
     case VTK_POLY_VERTEX:
     case VTK_POLY_LINE:
-    case VTK_TRIANGLE_STRIP:
-    case VTK_POLYGON:
-    case VTK_QUADRATIC_POLYGON:
-    case VTK_CONVEX_POINT_SET:
-    case VTK_POLYHEDRON:
-      return true;
-    default:
-      return type >= VTK_LAGRANGE_CURVE;
-  }
-}
-
-/// The least number of vertices of a type whose number varies.
-std::int64_t leastSize(int type)
-{
-  switch (type)
-  {
+      return 0;
     case VTK_TRIANGLE_STRIP:
     case VTK_POLYGON:
       return 3;
@@ -117,7 +96,7 @@ std::int64_t leastSize(int type)
     case VTK_POLYHEDRON:
       return 4;
     default:
-      return 0;
+      return type >= VTK_LAGRANGE_CURVE ? 0 : -1;
   }
 }
 
@@ -130,7 +109,7 @@ std::array<int, 256> makeSizes()
     const auto cell = vtkSmartPointer<vtkCell>::Take(vtkGenericCell::InstantiateCell(type));
     if (cell)
     {
-      sizes[std::size_t(type)] = varies(type) ? 0 : int(cell->GetNumberOfPoints());
+      sizes[std::size_t(type)] = leastSize(type) < 0 ? int(cell->GetNumberOfPoints()) : 0;
     }
   }
   sizes[VTK_EMPTY_CELL] = 0;

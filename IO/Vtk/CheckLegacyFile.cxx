@@ -9,10 +9,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 namespace tipp
@@ -96,9 +97,17 @@ private:
 
   void take(const std::string& key, const Words& words)
   {
-    if (key == "points")
+    // For each key the word with the count, and the number of values of each item.
+    const std::tuple<const char*, std::size_t, double> counts[] = { { "points", 1, 3 },
+      { "cell_types", 1, 1 }, { "x_coordinates", 1, 1 }, { "y_coordinates", 1, 1 },
+      { "z_coordinates", 1, 1 }, { "scalars", 3, this->Tuples },
+      { "color_scalars", 2, this->Tuples }, { "texture_coordinates", 2, this->Tuples },
+      { "field", 2, 1 }, { "lookup_table", 2, 1 } };
+    const auto known = std::find_if(std::begin(counts), std::end(counts),
+      [&key](const auto& entry) { return key == std::get<0>(entry); });
+    if (known != std::end(counts))
     {
-      this->count(words, 1, 3);
+      this->count(words, std::get<1>(*known), std::get<2>(*known));
     }
     else if (isCells(key))
     {
@@ -109,23 +118,6 @@ private:
     else if (key == "point_data" || key == "cell_data")
     {
       this->Tuples = std::max(this->count(words, 1), 1.0);
-    }
-    else if (key == "cell_types" || key == "x_coordinates" || key == "y_coordinates" ||
-      key == "z_coordinates")
-    {
-      this->count(words, 1);
-    }
-    else if (key == "scalars" && words.size() > 3)
-    {
-      this->count(words, 3, this->Tuples);
-    }
-    else if (key == "color_scalars" || key == "texture_coordinates")
-    {
-      this->count(words, 2, this->Tuples);
-    }
-    else if (key == "field" || key == "lookup_table")
-    {
-      this->count(words, 2);
     }
     else if (key == "dimensions")
     {

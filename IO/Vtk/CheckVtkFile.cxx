@@ -27,13 +27,6 @@ constexpr const char* advised = "; copy or write it again.";
 /// The maximum compression ratio of VTK's compressors except lzma.
 constexpr double compression = 1100;
 
-bool isXml(const std::string& extension)
-{
-  const std::array<const char*, 10> known = { ".vti", ".vtp", ".vtr", ".vts", ".vtu", ".pvti",
-    ".pvtp", ".pvtr", ".pvts", ".pvtu" };
-  return std::find(known.begin(), known.end(), extension) != known.end();
-}
-
 std::optional<std::int64_t> parseCount(std::string text)
 {
   text.erase(0, text.find_first_not_of(" \t\r\n"));
@@ -182,29 +175,27 @@ private:
   double pointsOf(const Tag& tag, const char* key) const
   {
     const std::string& text = *tag.find(key);
+    std::string line = text;
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    std::vector<std::string_view> words;
+    splitFields(line, ' ', words);
     std::array<double, 6> extent{};
-    std::size_t count = 0;
-    std::size_t at = 0;
-    for (; count < 6 && (at = text.find_first_not_of(" \t\r\n", at)) != std::string::npos; ++count)
+    bool isValid = words.size() >= extent.size();
+    for (std::size_t i = 0; isValid && i < extent.size(); ++i)
     {
-      const std::size_t end = std::min(text.find_first_of(" \t\r\n", at), text.size());
-      const std::optional<std::int64_t> value = parseCount(text.substr(at, end - at));
-      if (!value || std::fabs(double(*value)) > std::numeric_limits<int>::max())
-      {
-        break;
-      }
-      extent[count] = double(*value);
-      at = end;
+      const std::optional<std::int64_t> value = parseCount(std::string(words[i]));
+      isValid = value && std::fabs(double(*value)) <= std::numeric_limits<int>::max();
+      extent[i] = isValid ? double(*value) : 0;
     }
     double points = 1;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       const double length = extent[2 * axis + 1] - extent[2 * axis] + 1;
       points *= std::max(length, 0.0);
-      count = length > std::numeric_limits<int>::max() ? 0 : count;
+      isValid = isValid && length <= std::numeric_limits<int>::max();
     }
     // Larger products of dimensions would overflow.
-    if (count != 6 || points > 1e18)
+    if (!isValid || points > 1e18)
     {
       this->fail(
         std::string("gives ") + key + "=\"" + shownText(text) + "\", which is no range of points");
@@ -277,13 +268,13 @@ private:
 void checkVtkFile(const std::string& path)
 {
   const std::string extension = extensionOf(path);
-  if (isXml(extension))
-  {
-    XmlCheck(path).run();
-  }
-  else if (extension == ".vtk")
+  if (extension == ".vtk")
   {
     checkLegacyFile(path);
+  }
+  else if (isVtkFile(path) && extension.find("vt") != std::string::npos) // .vtu, .pvtu ...
+  {
+    XmlCheck(path).run();
   }
 }
 

@@ -17,9 +17,6 @@
 // VTK 9.4 stores the faces of polyhedra in cell arrays.
 #define TIPP_VTK_FACES_ARE_CELLS (VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 4, 0))
 
-// VTK 9.7 has writers override WriteDataAndReturn(), and arrays reserve memory by ReserveTuples().
-#define TIPP_VTK_9_7 (VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 7, 0))
-
 namespace tipp
 {
 
@@ -70,7 +67,7 @@ inline vtkSmartPointer<vtkUnsignedCharArray> cellTypes(vtkUnstructuredGrid* grid
 /// Allocates without throwing; false if there is not enough memory.
 inline bool reserveTuples(vtkAbstractArray* array, vtkIdType tuples)
 {
-#if TIPP_VTK_9_7
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 7, 0)
   return array->ReserveTuples(tuples) != 0;
 #else
   return array->Resize(tuples) != 0;

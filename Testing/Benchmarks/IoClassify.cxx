@@ -87,7 +87,7 @@ double measure(const LoadedCells& cells, const BoxTiling& tiling, const Classify
   return 1e9 * best / double(cells.view().Cells);
 }
 
-PartitionTree treeOf(const LoadedCells& cells, std::int64_t threshold, int threads)
+BoxTiling treeOf(const LoadedCells& cells, std::int64_t threshold, int threads)
 {
   const std::int64_t stride = cells.Dimension * cells.Corners;
   CellSource source;
@@ -100,13 +100,12 @@ PartitionTree treeOf(const LoadedCells& cells, std::int64_t threshold, int threa
     coordinates.assign(begin, begin + count * stride);
   };
   TreeOptions options;
-  options.Dimension = cells.Dimension;
   options.Threshold = threshold;
   options.Threads = threads;
   const auto start = std::chrono::steady_clock::now();
-  PartitionTree tree = buildTree(source, cells.bounds(), options);
-  std::printf("Tree of threshold %lld: %lld leaves, %d passes, %.2f s\n", (long long)threshold,
-    (long long)tree.Tiling.count(), tree.Passes, secondsSince(start));
+  BoxTiling tree = buildTree(source, cells.bounds(), options);
+  std::printf("Tree of threshold %lld: %lld leaves, %.2f s\n", (long long)threshold,
+    (long long)tree.count(), secondsSince(start));
   return tree;
 }
 
@@ -149,15 +148,15 @@ void benchmarkClassify(const IoArguments& arguments)
   std::printf("%zu cells; OpenCL: %s. Nanoseconds a cell.\n", cells.view().Cells,
     openCl ? chooseDevice(any, listDevices())->Name.c_str() : "no device");
   const Box3 domain = cells.bounds();
-  const PartitionTree tree = treeOf(cells, 100000, arguments.Threads);
-  const PartitionTree fine = treeOf(cells, 1000, arguments.Threads);
+  const BoxTiling tree = treeOf(cells, 100000, arguments.Threads);
+  const BoxTiling fine = treeOf(cells, 1000, arguments.Threads);
   std::printf("%-12s %10s %10s %9s %9s %7s %s\n", "tiling", "partitions", "borrowers", "OpenMP",
     "OpenCL", "ratio", "same");
   const int dimension = cells.Dimension;
   printRow("grid:4", BoxTiling::grid(dimension, domain, { 4, 4, 4 }), cells, arguments, openCl);
   printRow("grid:64", BoxTiling::grid(dimension, domain, { 64, 64, 64 }), cells, arguments, openCl);
-  printRow("tree:100000", tree.Tiling, cells, arguments, openCl);
-  printRow("tree:1000", fine.Tiling, cells, arguments, openCl);
+  printRow("tree:100000", tree, cells, arguments, openCl);
+  printRow("tree:1000", fine, cells, arguments, openCl);
 }
 
 } // namespace benchmark

@@ -4,7 +4,7 @@
 #include "IoSubjects.h"
 
 #include "Parallel/ParallelFor.h"
-#include "Partitioned/PieceGrid.h"
+#include "Partitioned/ReadPiece.h"
 
 #include "vtkNew.h"
 #include "vtkUnstructuredGrid.h"

@@ -237,8 +237,7 @@ CheckReport checkPartitioned(const CheckArguments& arguments)
     ProgressBar bar("Checking");
     for (std::size_t number = 0; number < mesh.Pieces.size(); ++number)
     {
-      ReadCounters counters;
-      PieceFile(mesh, number, counters).verifyAll();
+      PieceFile(mesh, number).verifyAll();
       checker.add(readChecked(mesh, number));
       bar.update(double(number + 1) / double(mesh.Pieces.size()));
     }

@@ -3,7 +3,7 @@
 
 #include "Check/TetrahedraChecker.h"
 #include "Files/IOError.h"
-#include "Meshes/TetrahedronFiles.h"
+#include "Meshes/MeshFiles.h"
 #include "Partitioned/NeighborIds.h"
 #include "Partitioned/PieceFile.h"
 #include "Points/PointStream.h"
@@ -58,8 +58,7 @@ StoredTetrahedra readPieces(
   bool areSame = true;
   for (std::size_t number = 0; number < mesh.Pieces.size(); ++number)
   {
-    ReadCounters counters;
-    PieceFile(mesh, number, counters).verifyAll();
+    PieceFile(mesh, number).verifyAll();
     const Piece piece = readPiece(mesh, number, options);
     const auto* ids = piece.PointIds.as<std::int64_t>();
     const auto* ghosts = piece.PointGhosts.as<std::uint8_t>();

@@ -7,7 +7,7 @@
 #include "Console/Process.h"
 #include "Files/InputFile.h"
 #include "InMemory/TriangulatePoints.h"
-#include "Meshes/TetrahedronFiles.h"
+#include "Meshes/MeshFiles.h"
 #include "OutOfCore3D/OutOfCoreTetrahedralization.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/PointStream.h"

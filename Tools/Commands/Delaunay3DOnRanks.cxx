@@ -7,7 +7,7 @@
 #include "Console/Process.h"
 #include "Distributed3D/DistributedTetrahedralization.h"
 #include "Files/InputFile.h"
-#include "Meshes/TetrahedronFiles.h"
+#include "Meshes/MeshFiles.h"
 #include "Parallel/Stopwatch.h"
 #include "Ranks/Communicator.h"
 

@@ -5,7 +5,6 @@
 #include "Console/Process.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
-#include "Partitioning/PartitionDataSet.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Ranks/Communicator.h"
 

@@ -177,8 +177,7 @@ protected:
     verifyPvtu(mesh);
     for (std::size_t i = 0; i < mesh.Pieces.size(); ++i)
     {
-      ReadCounters counters;
-      PieceFile(mesh, i, counters).verifyAll();
+      PieceFile(mesh, i).verifyAll();
     }
   }
 };
@@ -189,8 +188,7 @@ TEST_F(DamagedArrays, AreRefusedByTheReaderIfAnyHasChanged)
     [this]
     {
       const PartitionedMesh mesh = openPartitionedMesh(this->path());
-      ReadCounters counters;
-      const PieceFile piece(mesh, 0, counters);
+      const PieceFile piece(mesh, 0);
       const std::string content = contentOf(mesh.piecePath(0));
       for (std::size_t a = 0; a < piece.arrays().size(); ++a)
       {

@@ -5,7 +5,7 @@
 
 #include "Files/IOError.h"
 #include "Flat/FlatMesh.h"
-#include "Partitioned/PieceGrid.h"
+#include "Partitioned/ReadPiece.h"
 #include "Partitioning/PartitionMesh.h"
 
 #include "vtkCellData.h"
@@ -161,7 +161,7 @@ TEST_F(RoundTrip, ReadsOnlySelectedArrays)
   const Piece piece = readPiece(mesh, 0, options);
   ASSERT_EQ(1U, piece.Attributes.size());
   EXPECT_EQ("label", piece.Attributes[0].Description.Name);
-  EXPECT_LT(piece.Counters.Bytes, readPiece(mesh, 0).Counters.Bytes);
+  EXPECT_LT(piece.BytesRead, readPiece(mesh, 0).BytesRead);
 }
 
 TEST_F(RoundTrip, ReadsBorrowedCellsByReferenceWithFewBytesMore)
@@ -172,8 +172,7 @@ TEST_F(RoundTrip, ReadsBorrowedCellsByReferenceWithFewBytesMore)
     openPartitionedMesh(this->make("grid:2x2", duplicating(), "copied"));
   for (std::size_t i = 0; i < lent.Pieces.size(); ++i)
   {
-    EXPECT_LT(double(readPiece(lent, i).Counters.Bytes),
-      1.15 * double(readPiece(copied, i).Counters.Bytes));
+    EXPECT_LT(double(readPiece(lent, i).BytesRead), 1.15 * double(readPiece(copied, i).BytesRead));
   }
 }
 
@@ -356,6 +355,30 @@ TEST_F(RoundTrip, NamesAPointThatIsNotFinite)
     EXPECT_NE(nullptr, std::strstr(error.what(), "point 3 ")) << error.what();
   }
   EXPECT_EQ(1U, this->Folder.fileCount());
+}
+
+TEST_F(RoundTrip, ExtentsOfTrianglesIgnoreElevationsThatAreNotFinite)
+{
+  const SourceMesh flat = makeSource(latticeTriangles(4, 0.2));
+  SourceMesh mesh = flat;
+  mesh.Components = 3;
+  for (const double known : { std::numeric_limits<double>::quiet_NaN(), 7.0 })
+  {
+    mesh.Coordinates.clear();
+    for (std::size_t i = 0; i < flat.points(); ++i)
+    {
+      const double z = i % 2 == 0 ? known : std::numeric_limits<double>::infinity();
+      mesh.Coordinates.insert(
+        mesh.Coordinates.end(), { flat.Coordinates[2 * i], flat.Coordinates[2 * i + 1], z });
+    }
+    this->use(mesh);
+    const PartitionedMesh made = openPartitionedMesh(this->make("grid:2x2"));
+    for (const PieceSummary& piece : made.Pieces)
+    {
+      EXPECT_EQ(piece.Extent[4], known == 7 ? 7 : 0);
+      EXPECT_EQ(piece.Extent[5], known == 7 ? 7 : 0);
+    }
+  }
 }
 
 } // namespace

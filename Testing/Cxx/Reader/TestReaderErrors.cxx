@@ -125,8 +125,7 @@ TEST_F(ReaderErrors, CanReadFileRecognizesMeshes)
 TEST_F(ReaderErrors, APieceWhoseTypesHaveChanged)
 {
   const tipp::PartitionedMesh mesh = tipp::openPartitionedMesh(this->path("stored"));
-  tipp::ReadCounters counters;
-  const tipp::PieceFile piece(mesh, 0, counters);
+  const tipp::PieceFile piece(mesh, 0);
   std::string content = tipp::test::contentOf(mesh.piecePath(0));
   content[piece.table().Offsets[piece.find(tipp::PieceRole::Types)]] ^= 1;
   std::ofstream(mesh.piecePath(0), std::ios::binary) << content;

@@ -11,23 +11,16 @@
 #include <string>
 #include <vector>
 
-/// A leaf of the tree that buildTree() should make, and the cells that meet it.
-struct ReferenceLeaf
-{
-  tipp::Box3 Box;
-  std::int64_t Cells;
-};
-
-/// Builds the tree by recursion over lists of cells; each cell is tested by clipping in rational
-/// arithmetic.
-std::vector<ReferenceLeaf> referenceTree(
+/// Returns the leaves of the tree that buildTree() should make, by recursion over lists of cells;
+/// each cell is tested by clipping in rational arithmetic.
+std::vector<tipp::Box3> referenceTree(
   const CellSet& cells, std::int64_t threshold, int maxDepth = tipp::BoxTiling::MaxDepth);
 
 /// Cells in memory as a source.
 tipp::CellSource sourceOf(const CellSet& cells);
 
-/// Expects the same boxes of leaves, with the same numbers of cells.
-void expectTree(const std::vector<ReferenceLeaf>& expected, const tipp::PartitionTree& actual);
+/// Expects the same boxes of leaves.
+void expectTree(const std::vector<tipp::Box3>& expected, const tipp::BoxTiling& actual);
 
 /// Expects that the action throws an IOError whose message contains `words`.
 template <typename Action>

@@ -33,34 +33,43 @@ TEST(RefinementTree, IsRestoredFromItsStructure)
   tree.split(0);
   tree.split(3);
   tree.split(7);
-  const RefinementTree copy(2, Square, tree.structure());
+  RefinementTree copy(2, Square);
+  copy.refine(tree.structure());
   EXPECT_EQ(copy.structure(), tree.structure());
   EXPECT_EQ(copy.size(), tree.size());
 }
 
-TEST(RefinementTree, AMergedStructureHasTheSplitsOfBoth)
+TEST(RefinementTree, RefiningAddsTheSplitsOfAnotherTree)
 {
   const std::string root = "10000";
   const std::string first = "110000000";
   const std::string third = "100100000";
-  EXPECT_EQ(RefinementTree::merged("0", "0", 4), "0");
-  EXPECT_EQ(RefinementTree::merged("0", first, 4), first);
-  EXPECT_EQ(RefinementTree::merged(first, root, 4), first);
-  EXPECT_EQ(RefinementTree::merged(first, third, 4), "1100000100000");
-  EXPECT_EQ(RefinementTree::merged(third, first, 4), "1100000100000");
+  const auto united = [](const std::string& a, const std::string& b)
+  {
+    RefinementTree tree(2, Square);
+    tree.refine(a);
+    tree.refine(b);
+    return tree.structure();
+  };
+  EXPECT_EQ(united("0", "0"), "0");
+  EXPECT_EQ(united("0", first), first);
+  EXPECT_EQ(united(first, root), first);
+  EXPECT_EQ(united(first, third), "1100000100000");
+  EXPECT_EQ(united(third, first), "1100000100000");
 }
 
 TEST(RefinementTree, RefusesAnInvalidStructure)
 {
-  for (const char* broken : { "", "1", "1000", "100000", "x", "1000x", "1111111" })
+  const std::string tooDeep = std::string(100, '1') + std::string(301, '0');
+  const std::string broken[] = { "", "1", "1000", "100000", "x", "1000x", "1111111", tooDeep };
+  for (const std::string& structure : broken)
   {
-    expectFailure([&] { RefinementTree::merged("0", broken, 4); }, "do not make a tree");
-    expectFailure([&] { RefinementTree::merged(broken, "10000", 4); }, "do not make a tree");
+    RefinementTree tree(2, Square);
+    expectFailure([&] { tree.refine(structure); }, "do not make a tree");
+    RefinementTree split(2, Square);
+    split.split(0);
+    expectFailure([&] { split.refine(structure); }, "do not make a tree");
   }
-  // A structure that is deeper than any tree may be.
-  expectFailure([]
-    { RefinementTree::merged("0", std::string(100, '1') + std::string(301, '0'), 4); },
-    "do not make a tree");
 }
 
 TEST(RefinementTree, IsCutBackToATiling)
@@ -69,19 +78,20 @@ TEST(RefinementTree, IsCutBackToATiling)
   tree.split(0);
   tree.split(2);
   tree.split(1);
-  std::vector<std::int32_t> leaves;
-  const tipp::BoxTiling tiling = tree.tiling([](std::int32_t node) { return node != 2; }, leaves);
-  EXPECT_EQ(tiling.count(), 7);
-  EXPECT_EQ(leaves, (std::vector<std::int32_t>{ 9, 10, 11, 12, 2, 3, 4 }));
-  EXPECT_EQ(tiling.box(4).Min, tree.box(2).Min);
-  EXPECT_EQ(tiling.box(4).Max, tree.box(2).Max);
+  const tipp::BoxTiling tiling = tree.tiling([](std::int32_t node) { return node != 2; });
+  const std::vector<std::int32_t> leaves{ 9, 10, 11, 12, 2, 3, 4 };
+  ASSERT_EQ(tiling.count(), 7);
+  for (std::size_t i = 0; i < leaves.size(); ++i)
+  {
+    EXPECT_EQ(tiling.box(std::int64_t(i)).Min, tree.box(leaves[i]).Min);
+    EXPECT_EQ(tiling.box(std::int64_t(i)).Max, tree.box(leaves[i]).Max);
+  }
 }
 
 TEST(RefinementTree, ABoxTooSmallForDoublesIsNotSplit)
 {
   const Box3 thin = { { 1, 0, 0 }, { std::nextafter(1.0, 2.0), 1, 0 } };
-  EXPECT_FALSE(RefinementTree(2, thin).canSplit(0, 24));
-  EXPECT_TRUE(RefinementTree(2, Square).canSplit(0, 24));
-  EXPECT_FALSE(RefinementTree(2, Square).canSplit(0, 0));
-  EXPECT_FALSE(RefinementTree(2, { { 1, 1, 0 }, { 1, 1, 0 } }).canSplit(0, 24));
+  EXPECT_FALSE(RefinementTree(2, thin).canSplit(0));
+  EXPECT_TRUE(RefinementTree(2, Square).canSplit(0));
+  EXPECT_FALSE(RefinementTree(2, { { 1, 1, 0 }, { 1, 1, 0 } }).canSplit(0));
 }

@@ -14,9 +14,9 @@
 
 #include <cmath>
 
+using tipp::BoxTiling;
 using tipp::buildTree;
 using tipp::Communicator;
-using tipp::PartitionTree;
 using tipp::TreeOptions;
 
 namespace
@@ -27,10 +27,9 @@ vtkMultiProcessController* world()
   return vtkMultiProcessController::GetGlobalController();
 }
 
-TreeOptions options(const CellSet& cells, std::int64_t threshold, std::int64_t chunk)
+TreeOptions options(std::int64_t threshold, std::int64_t chunk)
 {
   TreeOptions result;
-  result.Dimension = cells.Dimension;
   result.Threshold = threshold;
   result.ChunkCells = chunk;
   result.Threads = 1;
@@ -40,14 +39,12 @@ TreeOptions options(const CellSet& cells, std::int64_t threshold, std::int64_t c
 void expectTreeOfOneRank(const CellSet& cells, std::int64_t threshold)
 {
   const tipp::CellSource source = sourceOf(cells);
-  const PartitionTree alone =
-    buildTree(source, cells.bounds(), options(cells, threshold, 1 << 20), nullptr);
+  const BoxTiling alone = buildTree(source, cells.bounds(), options(threshold, 1 << 20), nullptr);
   for (const std::int64_t chunk : { 1 << 20, 37 })
   {
-    const PartitionTree together =
-      buildTree(source, cells.bounds(), options(cells, threshold, chunk), world());
-    EXPECT_EQ(alone.Tiling.children(), together.Tiling.children());
-    EXPECT_EQ(alone.Cells, together.Cells);
+    const BoxTiling together =
+      buildTree(source, cells.bounds(), options(threshold, chunk), world());
+    EXPECT_EQ(alone.children(), together.children());
   }
 }
 
@@ -76,8 +73,8 @@ TEST(TreeRanks, AnyNumberOfRanksMakesTheTreeOfOneForTetrahedra)
 TEST(TreeRanks, EqualsTheReferenceTree)
 {
   const CellSet cells = cellSoup(2, 3, 300, 3);
-  expectTree(referenceTree(cells, 15),
-    buildTree(sourceOf(cells), cells.bounds(), options(cells, 15, 20), world()));
+  expectTree(
+    referenceTree(cells, 15), buildTree(sourceOf(cells), cells.bounds(), options(15, 20), world()));
 }
 
 TEST(TreeRanks, AcceptsFewerCellsThanRanks)
@@ -89,11 +86,9 @@ TEST(TreeRanks, ADummyControllerIsOneRank)
 {
   const CellSet cells = cellSoup(2, 3, 300, 4);
   vtkNew<vtkDummyController> dummy;
-  const PartitionTree alone =
-    buildTree(sourceOf(cells), cells.bounds(), options(cells, 15, 1000), nullptr);
-  const PartitionTree withDummy =
-    buildTree(sourceOf(cells), cells.bounds(), options(cells, 15, 1000), dummy);
-  EXPECT_EQ(alone.Tiling.children(), withDummy.Tiling.children());
+  const BoxTiling alone = buildTree(sourceOf(cells), cells.bounds(), options(15, 1000), nullptr);
+  const BoxTiling withDummy = buildTree(sourceOf(cells), cells.bounds(), options(15, 1000), dummy);
+  EXPECT_EQ(alone.children(), withDummy.children());
 }
 
 TEST(TreeRanks, AnErrorOnOneRankIsReportedOnAll)
@@ -101,7 +96,7 @@ TEST(TreeRanks, AnErrorOnOneRankIsReportedOnAll)
   CellSet cells = latticeTriangles(20, 0.0);
   const tipp::Box3 domain = cells.bounds();
   cells.Coordinates[6 * 799] = std::nan("");
-  expectFailure([&] { buildTree(sourceOf(cells), domain, options(cells, 15, 100), world()); },
+  expectFailure([&] { buildTree(sourceOf(cells), domain, options(15, 100), world()); },
     "Cell 799 has a corner");
 }
 
@@ -120,8 +115,8 @@ TEST(TreeRanks, AReaderThatFailsOnOneFailsOnAll)
   };
   if (Communicator(world()).size() > 1)
   {
-    expectFailure([&] { buildTree(source, cells.bounds(), options(cells, 15, 100), world()); },
-      "The disk is gone.");
+    expectFailure(
+      [&] { buildTree(source, cells.bounds(), options(15, 100), world()); }, "The disk is gone.");
   }
 }
 
