@@ -64,6 +64,16 @@ struct DistributedPoints
   std::int64_t AllPoints = 0;         ///< sum over all ranks, as the following ones
   std::int64_t AllDuplicates = 0;
   std::int64_t AllRejected = 0;
+  std::int64_t AllCells = 0;
+  std::int64_t FirstCell = 0; ///< index of this rank's first cell among all ranks'
+
+  /// The coordinates of Owned and, after these, of Ghosts.
+  std::vector<Position> positions() const
+  {
+    std::vector<Position> all(this->Owned.Positions.begin(), this->Owned.Positions.end());
+    all.insert(all.end(), this->Ghosts.Positions.begin(), this->Ghosts.Positions.end());
+    return all;
+  }
 };
 
 /// A cell: N internal ids, indices among all ranks' owned points.
@@ -79,6 +89,18 @@ struct GhostCells
   std::vector<std::int64_t> PointIds; ///< internal ids of the points this rank lacks; ascending
   PointTuplesOf<Position> Points;     ///< the points of PointIds
 };
+
+/// All items of several lists, in their order.
+template <typename T>
+std::vector<T> concatenated(const std::vector<std::vector<T>>& parts)
+{
+  std::vector<T> all;
+  for (const std::vector<T>& part : parts)
+  {
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
 
 /// The index of each rank's first item, and the end, where this rank has `count` items. Collective.
 inline std::vector<std::int64_t> firstIndices(Communicator& ranks, std::int64_t count)
@@ -100,6 +122,15 @@ inline std::size_t ownerOf(std::int64_t id, const std::vector<std::int64_t>& fir
     throw std::runtime_error("A cell from another rank is damaged: it has no such vertex.");
   }
   return std::size_t(next - firstIds.begin()) - 1;
+}
+
+/// Sets the numbers of cells of a mesh, of which this rank has `count`. Collective.
+template <typename Mesh>
+void numberCells(Communicator& ranks, std::size_t count, Mesh& mine)
+{
+  const std::vector<std::int64_t> firsts = firstIndices(ranks, std::int64_t(count));
+  mine.FirstCell = firsts[std::size_t(ranks.rank())];
+  mine.AllCells = firsts.back();
 }
 
 /// Sends each cell to the rank that owns its vertex of lowest id, and returns those received.
@@ -124,12 +155,7 @@ std::vector<IdCell<N>> sendToOwners(Communicator& ranks, const std::vector<IdCel
   {
     sorted[owner(cell)].push_back(cell);
   }
-  std::vector<IdCell<N>> own;
-  for (const std::vector<IdCell<N>>& received : ranks.allToAll(sorted))
-  {
-    own.insert(own.end(), received.begin(), received.end());
-  }
-  return own;
+  return concatenated(ranks.allToAll(sorted));
 }
 
 /// The ids of cells' vertices outside of [firstOwn, endOwn), ascending.
@@ -145,6 +171,19 @@ std::vector<std::int64_t> ghostIds(
   }
   sortUnique(ids);
   return ids;
+}
+
+/// Returns a function from internal ids to local indices: of own points, the first of which has the
+/// id `firstOwn`, and of `ghosts`, the ascending ids of others.
+inline auto localIndices(
+  std::int64_t firstOwn, std::size_t own, const std::vector<std::int64_t>& ghosts)
+{
+  return [firstOwn, endOwn = firstOwn + std::int64_t(own), &ghosts](std::int64_t id)
+  {
+    return firstOwn <= id && id < endOwn
+      ? id - firstOwn
+      : endOwn - firstOwn + (std::lower_bound(ghosts.begin(), ghosts.end(), id) - ghosts.begin());
+  };
 }
 
 /// Fetches points from their owners. `ids` are internal ids, ascending; `firstIds` has each rank's
@@ -249,6 +288,18 @@ struct SharedVertex
   std::int64_t User;
 };
 
+/// Returns, by rank, the internal ids of this rank's points that the rank uses. Collective.
+template <typename Mesh>
+std::vector<std::vector<std::int64_t>> findUsedByOthers(Communicator& ranks, const Mesh& mine)
+{
+  std::vector<std::vector<std::int64_t>> asked(std::size_t(ranks.size()));
+  for (const std::int64_t id : mine.GhostIds)
+  {
+    asked[ownerOf(id, mine.FirstIds)].push_back(id);
+  }
+  return ranks.allToAll(asked);
+}
+
 /// Each rank sends the ids of the points that it uses to their owners. Each owner returns, to all
 /// ranks that use a point, the list of these ranks.
 /// Collective.
@@ -256,11 +307,6 @@ template <typename Mesh, std::size_t N>
 VertexUsers findUsers(Communicator& ranks, const Mesh& mine, const std::vector<IdCell<N>>& cells)
 {
   const std::int64_t firstOwn = mine.FirstIds[std::size_t(ranks.rank())];
-  std::vector<std::vector<std::int64_t>> asked(std::size_t(ranks.size()));
-  for (const std::int64_t id : mine.GhostIds)
-  {
-    asked[ownerOf(id, mine.FirstIds)].push_back(id);
-  }
   std::vector<char> used(mine.Owned.size(), 0);
   for (const IdCell<N>& cell : cells)
   {
@@ -274,7 +320,7 @@ VertexUsers findUsers(Communicator& ranks, const Mesh& mine, const std::vector<I
     }
   }
   VertexUsers ofOwn;
-  const auto requests = ranks.allToAll(asked);
+  const auto requests = findUsedByOthers(ranks, mine);
   for (std::size_t user = 0; user < requests.size(); ++user)
   {
     for (const std::int64_t id : requests[user])
@@ -388,12 +434,7 @@ Buffer<T> gatherValues(Communicator& ranks, Buffer<T> mine)
 template <typename T>
 std::vector<T> gatherList(Communicator& ranks, const std::vector<T>& mine)
 {
-  std::vector<T> all;
-  for (const std::vector<T>& part : ranks.gather(mine))
-  {
-    all.insert(all.end(), part.begin(), part.end());
-  }
-  return all;
+  return concatenated(ranks.gather(mine));
 }
 
 /// Returns a function from the local indices of a mesh on `rank` (see DistributedPoints) to

@@ -35,7 +35,7 @@ public:
 
   void run()
   {
-    this->loadPositions();
+    this->Positions = this->Mine.positions();
     CrossedPart crossed = this->takeCrossed();
     const std::vector<char> isShared = this->findShared();
     CrossedPart rest = splitIncomplete(crossed,
@@ -52,34 +52,21 @@ public:
     }
     retriangulate(all, this->Threads); // on the first rank
     append(std::move(crossed), all);
-    this->setTriangles(this->toOwners(all.Triangles));
+    std::vector<IdTriangle> own = sendToOwners(this->Ranks, all.Triangles, this->Mine.FirstIds);
+    std::sort(own.begin(), own.end());
+    this->setTriangles(own);
     if (this->Segments.cuts())
     {
-      this->loadPositions();
+      this->Positions = this->Mine.positions();
       this->Corners.truncate(
         3 * cutTriangles(this->view(), this->Segments, this->Corners.data(), this->triangles()));
     }
-    this->countTriangles();
+    numberCells(this->Ranks, this->triangles(), this->Mine);
   }
 
 private:
   std::size_t triangles() const { return this->Corners.size() / 3; }
   PointsView view() const { return PointsView(this->Positions); }
-
-  /// The internal id of a corner.
-  std::int64_t idOf(std::int64_t corner) const
-  {
-    return corner < std::int64_t(this->Own) ? this->First + corner
-                                            : this->Mine.GhostIds[std::size_t(corner) - this->Own];
-  }
-
-  void loadPositions()
-  {
-    const auto& owned = this->Mine.Owned.Positions;
-    const auto& ghosts = this->Mine.Ghosts.Positions;
-    this->Positions.assign(owned.begin(), owned.end());
-    this->Positions.insert(this->Positions.end(), ghosts.begin(), ghosts.end());
-  }
 
   CrossedPart takeCrossed()
   {
@@ -106,20 +93,15 @@ private:
       append(std::move(parts[range]), crossed);
     }
     this->Corners.truncate(3 * end);
-    crossed.rename([this](std::int64_t corner) { return this->idOf(corner); });
+    crossed.rename(internalIds(this->Mine, this->Ranks.rank()));
     return crossed;
   }
 
   /// For each own point, whether other ranks have triangles at it.
   std::vector<char> findShared()
   {
-    std::vector<std::vector<std::int64_t>> used(std::size_t(this->Ranks.size()));
-    for (const std::int64_t id : this->Mine.GhostIds)
-    {
-      used[ownerOf(id, this->Mine.FirstIds)].push_back(id);
-    }
     std::vector<char> isShared(this->Own, 0);
-    for (const std::vector<std::int64_t>& ids : this->Ranks.allToAll(used))
+    for (const std::vector<std::int64_t>& ids : findUsedByOthers(this->Ranks, this->Mine))
     {
       for (const std::int64_t id : ids)
       {
@@ -129,67 +111,33 @@ private:
     return isShared;
   }
 
-  /// Sends new triangles to the rank that owns their vertex of lowest id, to which every triangle
-  /// belongs. Returns this rank's triangles, sorted.
-  std::vector<IdTriangle> toOwners(const std::vector<CrossedPart::Corners>& triangles)
-  {
-    std::vector<std::vector<IdTriangle>> sent(std::size_t(this->Ranks.size()));
-    for (const CrossedPart::Corners& triangle : triangles)
-    {
-      const std::int64_t low = *std::min_element(triangle.begin(), triangle.end());
-      sent[ownerOf(low, this->Mine.FirstIds)].push_back(triangle);
-    }
-    std::vector<IdTriangle> own;
-    for (const std::vector<IdTriangle>& part : this->Ranks.allToAll(sent))
-    {
-      own.insert(own.end(), part.begin(), part.end());
-    }
-    std::sort(own.begin(), own.end());
-    return own;
-  }
-
-  bool isGhost(std::int64_t id) const
-  {
-    return id < this->First || id >= this->First + std::int64_t(this->Own);
-  }
-
   /// Adds triangles, and fetches the points that they need.
   void setTriangles(const std::vector<IdTriangle>& added)
   {
-    std::vector<std::int64_t> ghosts;
-    const auto note = [&](std::int64_t id) { this->isGhost(id) ? ghosts.push_back(id) : void(); };
-    std::for_each(this->Corners.begin(), this->Corners.end(),
-      [&](Id corner) { note(this->idOf(std::int64_t(corner))); });
-    for (const IdTriangle& triangle : added)
+    std::vector<std::int64_t> ghosts =
+      ghostIds(added, this->First, this->First + std::int64_t(this->Own));
+    for (const Id corner : this->Corners)
     {
-      std::for_each(triangle.begin(), triangle.end(), note);
+      if (std::size_t(corner) >= this->Own)
+      {
+        ghosts.push_back(this->Mine.GhostIds[std::size_t(corner) - this->Own]);
+      }
     }
     sortUnique(ghosts);
-    const auto indexOf = [&](std::int64_t id)
-    {
-      return Id(this->isGhost(id) ? std::int64_t(this->Own) +
-            (std::lower_bound(ghosts.begin(), ghosts.end(), id) - ghosts.begin())
-                                  : id - this->First);
-    };
+    const auto idOf = internalIds(this->Mine, this->Ranks.rank());
+    const auto indexOf = localIndices(this->First, this->Own, ghosts);
     Buffer<Id> corners(this->Corners.size() + 3 * added.size());
     Id* to = std::transform(this->Corners.begin(), this->Corners.end(), corners.begin(),
-      [&](Id corner) { return indexOf(this->idOf(std::int64_t(corner))); });
+      [&](Id corner) { return Id(indexOf(idOf(corner))); });
     for (const IdTriangle& triangle : added)
     {
-      to = std::transform(triangle.begin(), triangle.end(), to, indexOf);
+      to = std::transform(
+        triangle.begin(), triangle.end(), to, [&](std::int64_t id) { return Id(indexOf(id)); });
     }
     this->Corners = std::move(corners);
     this->Mine.Ghosts =
       fetchPoints(this->Ranks, ghosts, this->Mine.FirstIds, this->Mine.Owned, this->Mine.RowSize);
     this->Mine.GhostIds = std::move(ghosts);
-  }
-
-  void countTriangles()
-  {
-    const std::vector<std::int64_t> firsts =
-      firstIndices(this->Ranks, std::int64_t(this->triangles()));
-    this->Mine.FirstTriangle = firsts[std::size_t(this->Ranks.rank())];
-    this->Mine.AllTriangles = firsts.back();
   }
 
   Communicator& Ranks;

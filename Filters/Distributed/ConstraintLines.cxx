@@ -5,7 +5,6 @@
 #include "Distributed/TriangleExchange.h"
 
 #include <algorithm>
-#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -14,29 +13,24 @@ namespace tipp
 namespace
 {
 
-/// An edge of one of a rank's triangles, in the direction of the segment that it lies on.
-struct Side
+/// An edge of a triangle on a segment. It is also a question to the rank that owns the edge's lower
+/// end: does the sender keep the edge?
+struct Question
 {
-  std::int64_t Order; ///< index of the segment in the given order
-  std::int64_t Low;   ///< internal ids
-  std::int64_t High;
-  bool IsLeft;      ///< the triangle is on the left
-  bool IsAscending; ///< the segment, in lexicographic order
-  Point2 Begin;
-  std::array<std::int64_t, 2> Ends; ///< local indices
+  std::int64_t Order;  ///< index of the segment in the given order
+  std::int64_t Low;    ///< internal ids
+  std::int64_t High;   ///< internal ids
+  std::int64_t IsLeft; ///< 1: the triangle is on the left of the segment
 
   auto key() const { return std::tie(this->Order, this->Low, this->High); }
 };
 
-/// A question to the rank that owns an edge's lower end: does the sender keep the edge?
-struct Question
+/// An edge of one of a rank's triangles, in the direction of the segment that it lies on.
+struct Side : Question
 {
-  std::int64_t Order;
-  std::int64_t Low;
-  std::int64_t High;
-  std::int64_t IsLeft;
-
-  auto key() const { return std::tie(this->Order, this->Low, this->High); }
+  bool IsAscending; ///< the segment, in lexicographic order
+  Point2 Begin;
+  std::array<std::int64_t, 2> Ends; ///< local indices
 };
 
 class LineFinder
@@ -46,11 +40,8 @@ public:
     : Ranks(ranks)
     , Named(named)
     , Mine(mine)
-    , First(mine.FirstIds[std::size_t(ranks.rank())])
-    , Positions(mine.Owned.Positions.begin(), mine.Owned.Positions.end())
+    , Positions(mine.positions())
   {
-    this->Positions.insert(
-      this->Positions.end(), mine.Ghosts.Positions.begin(), mine.Ghosts.Positions.end());
   }
 
   ConstraintLines find()
@@ -63,12 +54,6 @@ public:
   }
 
 private:
-  std::int64_t idOf(std::int64_t local) const
-  {
-    const auto own = std::int64_t(this->Mine.Owned.size());
-    return local < own ? this->First + local : this->Mine.GhostIds[std::size_t(local - own)];
-  }
-
   template <typename Id>
   void addSides(const Buffer<Id>& corners)
   {
@@ -77,6 +62,7 @@ private:
       return;
     }
     const PointsView view(this->Positions);
+    const auto idOf = internalIds(this->Mine, this->Ranks.rank());
     for (const ScannedTriangles::Edge& edge :
       edgesOnSegments(view, this->Named.Segments, corners.data(), corners.size() / 3))
     {
@@ -88,9 +74,10 @@ private:
         lexicographicLess(
           this->Positions[std::size_t(ends[0])], this->Positions[std::size_t(ends[1])]);
       isLeft ? void() : std::swap(ends[0], ends[1]);
-      const auto [low, high] = std::minmax({ this->idOf(ends[0]), this->idOf(ends[1]) });
-      this->Sides.push_back({ this->Named.Order[std::size_t(edge.Segment)], low, high, isLeft,
-        isAscending, this->Positions[std::size_t(ends[0])], ends });
+      const auto [low, high] = std::minmax({ idOf(ends[0]), idOf(ends[1]) });
+      this->Sides.push_back(
+        { { this->Named.Order[std::size_t(edge.Segment)], low, high, isLeft ? 1 : 0 }, isAscending,
+          this->Positions[std::size_t(ends[0])], ends });
     }
   }
 
@@ -98,7 +85,7 @@ private:
   {
     std::sort(this->Sides.begin(), this->Sides.end(),
       [](const Side& a, const Side& b)
-      { return std::make_pair(a.key(), !a.IsLeft) < std::make_pair(b.key(), !b.IsLeft); });
+      { return std::make_pair(a.key(), -a.IsLeft) < std::make_pair(b.key(), -b.IsLeft); });
     this->Sides.erase(std::unique(this->Sides.begin(), this->Sides.end(),
                         [](const Side& a, const Side& b) { return a.key() == b.key(); }),
       this->Sides.end());
@@ -110,16 +97,13 @@ private:
     std::vector<std::vector<Question>> asked(std::size_t(this->Ranks.size()));
     for (const Side& side : this->Sides)
     {
-      asked[ownerOf(side.Low, this->Mine.FirstIds)].push_back(
-        { side.Order, side.Low, side.High, side.IsLeft ? 1 : 0 });
+      asked[ownerOf(side.Low, this->Mine.FirstIds)].push_back(side);
     }
     const std::vector<std::vector<Question>> questions = this->Ranks.allToAll(asked);
-    std::vector<Question> left;
-    for (const std::vector<Question>& part : questions)
-    {
-      std::copy_if(part.begin(), part.end(), std::back_inserter(left),
-        [](const Question& question) { return question.IsLeft != 0; });
-    }
+    std::vector<Question> left = concatenated(questions);
+    left.erase(std::remove_if(left.begin(), left.end(),
+                 [](const Question& question) { return question.IsLeft == 0; }),
+      left.end());
     const auto isLess = [](const Question& a, const Question& b) { return a.key() < b.key(); };
     std::sort(left.begin(), left.end(), isLess);
     std::vector<std::vector<char>> answers; // by rank, in the order of its questions
@@ -169,8 +153,7 @@ private:
   Communicator& Ranks;
   const NamedSegments& Named;
   const DistributedTriangulation& Mine;
-  const std::int64_t First; ///< internal id of the first own point
-  std::vector<Point2> Positions;
+  const std::vector<Point2> Positions;
   std::vector<Side> Sides;
 };
 

@@ -4,6 +4,7 @@
 #include "Distributed/Plan.h"
 #include "Distributed/RankRun.h"
 #include "Distributed/TriangleExchange.h"
+#include "OutOfCore/InputSurvey.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/PointBuckets.h"
@@ -14,18 +15,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <omp.h>
 
 namespace tipp
 {
-
-template <typename Archive>
-void serialize(Archive& archive, MasterStatistics& master)
-{
-  archive(master.Area, master.Rank, master.GroupSize, master.LargestMesh, master.Seconds,
-    master.PathSeconds, master.Stages);
-}
 
 namespace
 {
@@ -62,15 +54,16 @@ void serialize(Archive& archive, StatisticsOfRank& one)
 
 } // namespace
 
-DistributedStatistics gatherStatistics(
-  Communicator& ranks, const RankStatistics& own, const std::vector<MasterStatistics>& masters)
+void gatherStatistics(Communicator& ranks, RankStatistics own,
+  const std::vector<MasterStatistics>& masters, int threads, DistributedStatistics& statistics)
 {
+  own.SendSeconds = ranks.sendingSeconds();
   StatisticsOfRank mine{ own, masters, {} };
   for (const auto& [kind, sent] : ranks.traffic())
   {
     mine.Traffic.push_back({ kind, sent });
   }
-  DistributedStatistics statistics;
+  statistics.ThreadsPerRank = threads;
   std::map<MessageKind, Communicator::Traffic> traffic;
   for (const StatisticsOfRank& one : ranks.allGather(mine))
   {
@@ -89,106 +82,42 @@ DistributedStatistics gatherStatistics(
   }
   std::sort(statistics.Masters.begin(), statistics.Masters.end(),
     [](const MasterStatistics& a, const MasterStatistics& b) { return a.Area < b.Area; });
-  return statistics;
 }
 
 namespace
 {
 
-/// The result of the first pass over all ranks' points.
-struct Survey
-{
-  PointsView Points;                  ///< this rank's, scaled to a moderate magnitude
-  Box2 Bounds{};                      ///< bounds of all ranks' finite points
-  std::vector<std::int64_t> Rejected; ///< indices of this rank's points that are not finite
-  bool IsCollinear = false;           ///< all finite points on one line, or fewer than three
-};
-
-/// What a rank sends to the first rank about its points. Two points represent a rank's points if
-/// these are collinear.
-struct RankSurvey
-{
-  Box2 Bounds;
-  Point2 Ends[2];
-  std::int64_t Finite;
-  std::int64_t IsCollinear;
-};
-
-struct Verdict
-{
-  Box2 Bounds;
-  std::int64_t IsCollinear;
-};
-
-void findEnds(PointsView points, Point2 (&ends)[2])
-{
-  bool found = false;
-  points.forEach(0, points.size(),
-    [&](std::size_t, Point2 p)
-    {
-      if (!isFinite(p))
-      {
-        return;
-      }
-      ends[0] = !found || lexicographicLess(p, ends[0]) ? p : ends[0];
-      ends[1] = !found || lexicographicLess(ends[1], p) ? p : ends[1];
-      found = true;
-    });
-}
-
-Verdict judge(const std::vector<RankSurvey>& surveys)
-{
-  Verdict verdict{ { HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL }, 1 };
-  std::vector<Point2> ends;
-  for (const RankSurvey& survey : surveys)
-  {
-    if (survey.Finite == 0)
-    {
-      continue;
-    }
-    verdict.Bounds = unionOf(verdict.Bounds, survey.Bounds);
-    verdict.IsCollinear = verdict.IsCollinear && survey.IsCollinear;
-    ends.insert(ends.end(), { survey.Ends[0], survey.Ends[1] });
-  }
-  if (ends.empty())
-  {
-    verdict.Bounds = {};
-  }
-  else if (verdict.IsCollinear)
-  {
-    verdict.IsCollinear = areCollinear(PointsView(ends));
-  }
-  return verdict;
-}
-
-/// Surveys all ranks' points. Collective.
-Survey surveyRanks(Communicator& ranks, PointsView points, int threads)
+/// Surveys all ranks' points, and scales `points`, this rank's, to a moderate magnitude. Sets
+/// `rejected` to the indices of this rank's points that are not finite. Collective.
+InputSurvey surveyRanks(
+  Communicator& ranks, PointsView& points, std::vector<std::int64_t>& rejected, int threads)
 {
   PointSurvey local = surveyPoints(points, threads);
-  Survey survey;
-  survey.Points = points;
-  survey.Rejected = std::move(local.Rejected);
-  RankSurvey own{};
+  rejected = std::move(local.Rejected);
+  InputSurvey own;
+  own.Points = std::int64_t(points.size());
+  own.Rejected = std::int64_t(rejected.size());
   own.Bounds = local.Bounds;
-  own.Finite = std::int64_t(points.size() - survey.Rejected.size());
-  own.IsCollinear = areCollinear(points);
-  if (own.IsCollinear)
+  CollinearityTest line;
+  for (std::size_t i = 0; own.Collinear && i < points.size(); ++i)
   {
-    findEnds(points, own.Ends);
+    own.Collinear = line.add(points[i]);
   }
-  const std::vector<RankSurvey> all = ranks.gather(own);
-  const Verdict verdict = ranks.broadcast(judge(all));
-  survey.Bounds = verdict.Bounds;
-  survey.IsCollinear = verdict.IsCollinear != 0;
-
+  own.Line = line.line();
+  std::vector<InputSurvey> parts = ranks.allGather(own);
+  InputSurvey survey = joinSurveys(parts);
+  if (survey.Points == survey.Rejected)
+  {
+    survey.Bounds = {};
+  }
   // All ranks must scale, or none.
   const PointsView moderate = withModerateMagnitude(points, survey.Bounds);
   std::vector<std::int64_t> kept = { moderate.factor() == 1 };
   ranks.sum(kept);
   if (kept[0] == 0)
   {
-    survey.Points = moderate;
-    survey.Bounds = scaled(survey.Bounds, moderate.factor());
+    points = moderate;
+    applyFactor(survey, moderate.factor());
   }
   return survey;
 }
@@ -199,13 +128,8 @@ std::vector<Point2> gatherSample(
   Communicator& ranks, PointsView points, std::int64_t allPoints, std::size_t wanted)
 {
   const double share = double(points.size()) / double(std::max<std::int64_t>(1, allPoints));
-  std::vector<Point2> sample;
-  for (const std::vector<Point2>& part :
-    ranks.gather(samplePoints(points, static_cast<std::size_t>(std::ceil(share * double(wanted))))))
-  {
-    sample.insert(sample.end(), part.begin(), part.end());
-  }
-  return sample;
+  return gatherList(
+    ranks, samplePoints(points, static_cast<std::size_t>(std::ceil(share * double(wanted)))));
 }
 
 /// One rank's run of the algorithm; its member functions are the steps.
@@ -227,14 +151,15 @@ public:
   {
     const Stopwatch watch;
     this->numberPoints();
-    const Survey survey = surveyRanks(this->Ranks, this->Input.Points, this->Threads);
-    this->Input.Points = survey.Points;
+    std::vector<std::int64_t> rejected;
+    const InputSurvey survey =
+      surveyRanks(this->Ranks, this->Input.Points, rejected, this->Threads);
     this->Figures.InputPoints = std::int64_t(this->Input.Points.size());
-    for (const std::int64_t i : survey.Rejected)
+    for (const std::int64_t i : rejected)
     {
       this->Result.Rejected.push_back(this->Input.globalId(std::size_t(i)));
     }
-    if (survey.IsCollinear)
+    if (survey.Collinear)
     {
       this->sortOutOnly(survey.Bounds);
     }
@@ -242,9 +167,11 @@ public:
     {
       this->triangulate(survey);
     }
-    this->restoreMagnitude(survey.Points.factor());
+    this->restoreMagnitude(this->Input.Points.factor());
     this->Figures.TotalSeconds = watch.seconds();
-    this->finish();
+    this->Figures.Triangles = std::int64_t(this->Result.triangleCount());
+    setTotals(this->Ranks, this->Result.triangleCount(), this->Figures, this->Masters,
+      this->Threads, this->Result);
   }
 
 private:
@@ -256,7 +183,7 @@ private:
     this->Result.AllPoints = firsts.back();
   }
 
-  PlanInput planInput(const Survey& survey)
+  PlanInput planInput(const InputSurvey& survey)
   {
     PlanInput input;
     input.Domain = survey.Bounds;
@@ -268,7 +195,7 @@ private:
     return input;
   }
 
-  void triangulate(const Survey& survey)
+  void triangulate(const InputSurvey& survey)
   {
     const Stopwatch watch;
     const PlanInput input = this->planInput(survey);
@@ -285,13 +212,13 @@ private:
       }
       plan = this->Ranks.broadcast(plan);
     }
-    this->LocalCount = 0;
+    std::int64_t own = 0;
     for (std::size_t leaf = 0; leaf < counts.size(); ++leaf)
     {
-      this->LocalCount += plan.Owners[leaf] == this->Ranks.rank() ? counts[leaf] : 0;
+      own += plan.Owners[leaf] == this->Ranks.rank() ? counts[leaf] : 0;
     }
     // Half of the id range is left for other ranks' points.
-    const bool fits = this->LocalCount < std::numeric_limits<std::int32_t>::max() / 2;
+    const bool fits = own < std::numeric_limits<std::int32_t>::max() / 2;
     const bool done = fits ? this->triangulate<std::int32_t>(plan, exchange, watch)
                            : this->triangulate<std::int64_t>(plan, exchange, watch);
     if (!done)
@@ -314,24 +241,16 @@ private:
       return true;
     }
     RankRun<Id> run(this->Ranks, plan, points, this->Options, this->Threads);
-    const bool done = this->runAndCollect(run, plan, points);
-    this->Masters = std::move(run.Masters);
-    return done;
-  }
-
-  template <typename Id>
-  bool runAndCollect(RankRun<Id>& run, const Plan& plan, OwnedPoints<Id>& points)
-  {
     run.Statistics = this->Figures;
     run.run();
+    this->Masters = std::move(run.Masters);
     if (!run.PartitionsPay)
     {
       return false;
     }
     this->Figures = run.Statistics;
     this->Result.Statistics.Partitions = plan.Leaves.size();
-    this->Result.Statistics.MajorPartitions =
-      plan.Areas.front().hasLeaves() ? 0 : plan.Areas.front().Inner;
+    this->Result.Statistics.MajorPartitions = plan.majors();
     const Stopwatch collecting;
     collect(this->Ranks, points, run.Kept, run.InteriorCounts, std::move(run.Duplicates),
       plan.Leaves, this->Threads, this->Result);
@@ -339,11 +258,18 @@ private:
     return true;
   }
 
+  /// Sends all points to the first rank.
+  template <typename Id>
+  OwnedPoints<Id> exchangeAlone(const Plan& plan)
+  {
+    return PointExchange(this->Input, plan.Leaves, this->Threads)
+      .exchange<Id>(this->Ranks, plan.Owners);
+  }
+
   void triangulateAlone(const Box2& domain, const Stopwatch& watch)
   {
     const Plan plan = planAlone(domain);
-    const PointExchange exchange(this->Input, plan.Leaves, this->Threads);
-    OwnedPoints<std::int32_t> points = exchange.exchange<std::int32_t>(this->Ranks, plan.Owners);
+    OwnedPoints<std::int32_t> points = this->exchangeAlone<std::int32_t>(plan);
     this->Figures.ExchangeSeconds = watch.seconds();
     this->Figures.OwnedPoints = std::int64_t(points.size());
     this->triangulateOnFirst(points, plan.Leaves);
@@ -382,8 +308,7 @@ private:
   void sortOutOnly(const Box2& bounds)
   {
     const Plan plan = planAlone(bounds);
-    const PointExchange exchange(this->Input, plan.Leaves, this->Threads);
-    OwnedPoints<std::int64_t> points = exchange.exchange<std::int64_t>(this->Ranks, plan.Owners);
+    OwnedPoints<std::int64_t> points = this->exchangeAlone<std::int64_t>(plan);
     const Point2* positions = points.Positions.data();
     std::vector<Duplicate> duplicates =
       sortOutDuplicates(PointsView(points.size() > 0 ? &positions->x : nullptr, points.size(), 2));
@@ -406,36 +331,11 @@ private:
     }
   }
 
-  void finish()
-  {
-    std::vector<std::int64_t> triangles(static_cast<std::size_t>(this->Ranks.size()) + 2, 0);
-    triangles[std::size_t(this->Ranks.rank())] = std::int64_t(this->Result.triangleCount());
-    triangles[triangles.size() - 2] = std::int64_t(this->Result.Duplicates.size());
-    triangles.back() = std::int64_t(this->Result.Rejected.size());
-    this->Ranks.sum(triangles);
-    const auto end = triangles.end() - 2;
-    this->Result.FirstTriangle =
-      std::accumulate(triangles.begin(), triangles.begin() + this->Ranks.rank(), std::int64_t(0));
-    this->Result.AllTriangles = std::accumulate(triangles.begin(), end, std::int64_t(0));
-    this->Result.AllDuplicates = *end;
-    this->Result.AllRejected = triangles.back();
-    this->Figures.Triangles = std::int64_t(this->Result.triangleCount());
-    this->Figures.SendSeconds = this->Ranks.sendingSeconds();
-    DistributedStatistics& statistics = this->Result.Statistics;
-    const std::int64_t partitions = statistics.Partitions;
-    const std::int64_t majors = statistics.MajorPartitions;
-    statistics = gatherStatistics(this->Ranks, this->Figures, this->Masters);
-    statistics.Partitions = partitions;
-    statistics.MajorPartitions = majors;
-    statistics.ThreadsPerRank = this->Threads;
-  }
-
   Communicator& Ranks;
   RankPoints Input;
   const DistributedOptions& Options;
   DistributedTriangulation& Result;
   const int Threads;
-  std::int64_t LocalCount = 0;
   RankStatistics Figures;
   std::vector<MasterStatistics> Masters;
 };

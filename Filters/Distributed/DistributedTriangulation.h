@@ -54,6 +54,13 @@ struct MasterStatistics
     Stages; ///< stages, one per colour or per start of a partition
 };
 
+template <typename Archive>
+void serialize(Archive& archive, MasterStatistics& master)
+{
+  archive(master.Area, master.Rank, master.GroupSize, master.LargestMesh, master.Seconds,
+    master.PathSeconds, master.Stages);
+}
+
 /// Messages of one kind, summed over all ranks.
 struct TrafficStatistics
 {
@@ -74,19 +81,32 @@ struct DistributedStatistics
   double Seconds = 0; ///< wall-clock time of the slowest rank
 };
 
-/// Gathers all ranks' statistics on all ranks. Collective.
-DistributedStatistics gatherStatistics(
-  Communicator& ranks, const RankStatistics& own, const std::vector<MasterStatistics>& masters);
+/// Sets all ranks' statistics on all ranks, but not the numbers of partitions. Collective.
+void gatherStatistics(Communicator& ranks, RankStatistics own,
+  const std::vector<MasterStatistics>& masters, int threads, DistributedStatistics& statistics);
+
+/// Sets the totals over all ranks and their statistics in a rank's part of a triangulation, which
+/// has `cells` cells. Collective.
+template <typename Mesh>
+void setTotals(Communicator& ranks, std::size_t cells, const RankStatistics& own,
+  const std::vector<MasterStatistics>& masters, int threads, Mesh& mine)
+{
+  numberCells(ranks, cells, mine);
+  std::vector<std::int64_t> sums{ std::int64_t(mine.Duplicates.size()),
+    std::int64_t(mine.Rejected.size()) };
+  ranks.sum(sums);
+  mine.AllDuplicates = sums[0];
+  mine.AllRejected = sums[1];
+  gatherStatistics(ranks, own, masters, threads, mine.Statistics);
+}
 
 using PointTuples = PointTuplesOf<Point2>;
 
 /// A rank's part of a triangulation. Corners are local indices (see DistributedPoints).
 struct DistributedTriangulation : DistributedPoints<Point2>
 {
-  Buffer<std::int32_t> Ids32;     ///< used if every index fits
-  Buffer<std::int64_t> Ids64;     ///< used otherwise; one of the two is empty
-  std::int64_t FirstTriangle = 0; ///< index of this rank's first triangle among all ranks'
-  std::int64_t AllTriangles = 0;  ///< sum over all ranks
+  Buffer<std::int32_t> Ids32; ///< used if every index fits
+  Buffer<std::int64_t> Ids64; ///< used otherwise; one of the two is empty
   DistributedStatistics Statistics;
 
   std::size_t triangleCount() const { return (this->Ids32.size() + this->Ids64.size()) / 3; }

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -61,8 +60,9 @@ std::vector<std::size_t> groupSizes(const std::vector<double>& weights, std::siz
   return sizes;
 }
 
-} // namespace
-
+/// Predicts which major partitions will be active together, from the conflicts in a mesh of the
+/// sample, so that points can be sent to their workers before the triangulation begins. Returns the
+/// stages, each a set of major partitions with points.
 std::vector<std::vector<PartitionIndex>> predictStages(const Tiling& majors,
   const std::vector<Point2>& sample, const std::vector<std::int64_t>& majorCounts)
 {
@@ -88,6 +88,9 @@ std::vector<std::vector<PartitionIndex>> predictStages(const Tiling& majors,
   return stages;
 }
 
+/// Chooses the group of ranks for each major partition of a stage. If a stage has fewer major
+/// partitions than ranks, each group has several ranks, in proportion to the points (equation 3.2).
+/// Otherwise a group is the one rank with the fewest points so far.
 void formGroups(const std::vector<PartitionIndex>& active,
   const std::vector<std::int64_t>& majorCounts, const Ranks& ranks,
   const DistributedOptions& options, std::vector<double> load, std::vector<Ranks>& groups)
@@ -128,9 +131,6 @@ void formGroups(const std::vector<PartitionIndex>& active,
     next = end;
   }
 }
-
-namespace
-{
 
 bool wantsManyMasters(const DistributedOptions& options)
 {
@@ -233,8 +233,8 @@ void assignLeaves(Plan& plan, Area& area, const std::vector<std::int32_t>& group
   std::vector<double>& load)
 {
   const std::int64_t* counts = leafCounts.data() + area.FirstLeaf;
-  const std::vector<double> weights = weightsOf(counts, counts + area.Inner, options);
-  area.GroupOf = shareOut(weights, group.size());
+  const std::vector<double> weights = weightsOf(counts, counts + area.Boxes.size(), options);
+  const std::vector<std::int32_t> shareOf = shareOut(weights, group.size());
   std::vector<std::pair<double, std::size_t>> shares;
   for (std::size_t share = 0; share < group.size(); ++share)
   {
@@ -242,7 +242,7 @@ void assignLeaves(Plan& plan, Area& area, const std::vector<std::int32_t>& group
   }
   for (std::size_t p = 0; p < weights.size(); ++p)
   {
-    shares[std::size_t(area.GroupOf[p])].first -= weights[p];
+    shares[std::size_t(shareOf[p])].first -= weights[p];
   }
   std::vector<std::int32_t> idlest = group;
   if (options.Groups != GroupSizes::Equal)
@@ -252,31 +252,26 @@ void assignLeaves(Plan& plan, Area& area, const std::vector<std::int32_t>& group
       [&load](std::int32_t a, std::int32_t b)
       { return load[std::size_t(a)] < load[std::size_t(b)]; });
   }
-  area.RankGroups.assign(group.size(), {});
+  std::vector<std::int32_t> rankOf(group.size());
   for (std::size_t i = 0; i < group.size(); ++i)
   {
-    area.RankGroups[shares[i].second] = { idlest[i] };
+    rankOf[shares[i].second] = idlest[i];
     load[std::size_t(idlest[i])] -= shares[i].first;
   }
   area.Lead = group.front();
-  for (PartitionIndex p = 0; p < area.Inner; ++p)
-  {
-    plan.Owners[std::size_t(area.FirstLeaf) + std::size_t(p)] =
-      area.RankGroups[std::size_t(area.GroupOf[std::size_t(p)])].front();
-  }
+  std::transform(shareOf.begin(), shareOf.end(), plan.Owners.begin() + area.FirstLeaf,
+    [&rankOf](std::int32_t share) { return rankOf[std::size_t(share)]; });
 }
 
 } // namespace
 
 std::vector<std::int32_t> Plan::masters() const
 {
-  std::vector<std::int32_t> masters(std::size_t(this->Leaves.size()), 0);
-  for (const Area& area : this->Areas)
+  std::vector<std::int32_t> masters(std::size_t(this->Leaves.size()), this->Areas.front().Lead);
+  for (std::size_t a = 1; a < this->Areas.size(); ++a)
   {
-    if (area.hasLeaves())
-    {
-      std::fill_n(masters.begin() + area.FirstLeaf, area.Inner, area.Lead);
-    }
+    const Area& area = this->Areas[a];
+    std::fill_n(masters.begin() + area.FirstLeaf, area.Boxes.size(), area.Lead);
   }
   return masters;
 }
@@ -296,12 +291,7 @@ Plan planAlone(const Box2& domain)
   plan.IsAlone = true;
   plan.Leaves = Tiling::grid(domain, 1, 1);
   plan.Owners = { 0 };
-  Area top;
-  top.Boxes = plan.Leaves;
-  top.Inner = 1;
-  top.RankGroups = { { 0 } };
-  top.GroupOf = { 0 };
-  plan.Areas.push_back(top);
+  plan.Areas.push_back({ plan.Leaves });
   return plan;
 }
 
@@ -315,46 +305,35 @@ Plan divide(const PlanInput& input, const DistributedOptions& options)
   }
   const std::int64_t perPart = threshold(input.Points, options, input.Threads);
   Plan plan;
-  plan.Areas.resize(1);
-  Area& top = plan.Areas.front();
   if (!wantsManyMasters(options))
   {
-    top.Boxes = divideBox(input.Domain, input.Sample, double(input.Points), perPart, options);
-    top.Inner = top.Boxes.size();
-    plan.Leaves = top.Boxes;
-    return top.Inner > 1 ? plan : planAlone(input.Domain);
+    plan.Leaves = divideBox(input.Domain, input.Sample, double(input.Points), perPart, options);
+    plan.Areas.push_back({ plan.Leaves });
+    return plan.Leaves.size() > 1 ? plan : planAlone(input.Domain);
   }
-  top.Boxes = options.Major.isGiven()
+  const Tiling majors = options.Major.isGiven()
     ? Tiling::grid(input.Domain, options.Major.Columns, options.Major.Rows)
     : Tiling::balanced(input.Domain, input.Sample, chooseMajors(input.Ranks));
-  top.Inner = top.Boxes.size();
+  plan.Areas.push_back({ majors });
   if (options.MinorDivision == Division::Grid)
   {
-    requireFewLeaves(top.Inner * std::max<std::int64_t>(1, options.Minor.size()));
+    requireFewLeaves(majors.size() * std::max<std::int64_t>(1, options.Minor.size()));
   }
-  auto samples = samplesByBox(top.Boxes, input.Sample);
+  auto samples = samplesByBox(majors, input.Sample);
   const double pointsPerSample =
     double(input.Points) / double(std::max(input.Sample.size(), std::size_t(1)));
   std::vector<Tiling> inner;
-  std::vector<Area> areas;
   PartitionIndex leaf = 0;
-  for (PartitionIndex p = 0; p < top.Inner; ++p)
+  for (PartitionIndex p = 0; p < majors.size(); ++p)
   {
     std::vector<Point2>& sample = samples[std::size_t(p)];
     const double points = double(sample.size()) * pointsPerSample;
-    inner.push_back(divideBox(top.Boxes.box(p), std::move(sample), points, perPart, options));
-    Area area;
-    area.Boxes = inner.back();
-    area.Inner = inner.back().size();
-    area.FirstLeaf = leaf;
-    requireFewLeaves(std::int64_t(leaf) + area.Inner);
-    leaf += area.Inner;
-    top.Children.push_back(p + 1);
-    areas.push_back(std::move(area));
+    inner.push_back(divideBox(majors.box(p), std::move(sample), points, perPart, options));
+    requireFewLeaves(std::int64_t(leaf) + inner.back().size());
+    plan.Areas.push_back({ inner.back(), leaf });
+    leaf += inner.back().size();
   }
-  plan.Leaves = top.Boxes.refined(inner);
-  plan.Areas.insert(
-    plan.Areas.end(), std::make_move_iterator(areas.begin()), std::make_move_iterator(areas.end()));
+  plan.Leaves = majors.refined(inner);
   return plan.Leaves.size() > 1 ? plan : planAlone(input.Domain);
 }
 
@@ -366,7 +345,7 @@ void assign(Plan& plan, const PlanInput& input, const std::vector<std::int64_t>&
   std::iota(all.begin(), all.end(), 0);
   Area& top = plan.Areas.front();
   std::vector<double> load(all.size(), 0);
-  if (top.hasLeaves())
+  if (plan.majors() == 0)
   {
     // With many ranks, the first one is only the master.
     constexpr int masterAlone = 32;
@@ -379,41 +358,29 @@ void assign(Plan& plan, const PlanInput& input, const std::vector<std::int64_t>&
     return;
   }
   std::vector<std::int64_t> majorCounts;
-  for (const std::int32_t child : top.Children)
+  for (auto area = plan.Areas.begin() + 1; area != plan.Areas.end(); ++area)
   {
-    const Area& area = plan.Areas[std::size_t(child)];
-    const auto begin = leafCounts.begin() + area.FirstLeaf;
-    majorCounts.push_back(std::accumulate(begin, begin + area.Inner, std::int64_t(0)));
+    const auto begin = leafCounts.begin() + area->FirstLeaf;
+    majorCounts.push_back(std::accumulate(begin, begin + area->Boxes.size(), std::int64_t(0)));
   }
   std::vector<std::vector<std::int32_t>> groups(majorCounts.size(), { all.front() });
+  const auto assignMajor = [&](PartitionIndex p)
+  {
+    assignLeaves(
+      plan, plan.Areas[std::size_t(p) + 1], groups[std::size_t(p)], leafCounts, options, load);
+  };
   for (const auto& stage : predictStages(top.Boxes, input.Sample, majorCounts))
   {
     formGroups(stage, majorCounts, all, options, load, groups);
-    for (const PartitionIndex p : stage)
-    {
-      assignLeaves(plan, plan.Areas[std::size_t(top.Children[std::size_t(p)])],
-        groups[std::size_t(p)], leafCounts, options, load);
-    }
+    std::for_each(stage.begin(), stage.end(), assignMajor);
   }
-  std::map<std::vector<std::int32_t>, std::int32_t> numbers;
-  top.GroupOf.assign(std::size_t(top.Inner), 0);
-  top.RankGroups.clear();
-  for (PartitionIndex p = 0; p < top.Inner; ++p)
+  for (PartitionIndex p = 0; p < plan.majors(); ++p)
   {
-    const std::vector<std::int32_t>& group = groups[std::size_t(p)];
-    const auto [number, isNew] = numbers.emplace(group, std::int32_t(numbers.size()));
-    if (isNew)
-    {
-      top.RankGroups.push_back(group);
-    }
-    top.GroupOf[std::size_t(p)] = number->second;
     if (majorCounts[std::size_t(p)] == 0) // it is in no stage
     {
-      assignLeaves(plan, plan.Areas[std::size_t(top.Children[std::size_t(p)])], group, leafCounts,
-        options, load);
+      assignMajor(p);
     }
   }
-  top.Lead = 0;
 }
 
 } // namespace tipp

@@ -77,42 +77,26 @@ struct DistributedOptions
   std::function<bool(double)> Progress;
 };
 
-/// Predicts which major partitions will be active together, from the conflicts in a mesh of the
-/// sample, so that points can be sent to their workers before the triangulation begins. Returns the
-/// stages, each a set of major partitions with points.
-std::vector<std::vector<PartitionIndex>> predictStages(const Tiling& majors,
-  const std::vector<Point2>& sample, const std::vector<std::int64_t>& majorCounts);
-
-/// Chooses the group of ranks for each major partition of a stage. If a stage has fewer major
-/// partitions than ranks, each group has several ranks, in proportion to the points (equation 3.2).
-/// Otherwise a group is the one rank with the fewest points so far.
-void formGroups(const std::vector<PartitionIndex>& active,
-  const std::vector<std::int64_t>& majorCounts, const std::vector<std::int32_t>& ranks,
-  const DistributedOptions& options, std::vector<double> load,
-  std::vector<std::vector<std::int32_t>>& groups);
-
-/// The partitions of one master: it assigns them to workers, or to sub-masters.
+/// The partitions of one master: of the whole domain, or of a major partition.
 struct Area
 {
-  Tiling Boxes;                       ///< its partitions
-  PartitionIndex Inner = 0;           ///< the number of partitions
-  PartitionIndex FirstLeaf = 0;       ///< index of its first partition among the leaves
-  std::vector<std::int32_t> Children; ///< by partition: its area; empty: partitions are leaves
-  std::vector<std::vector<std::int32_t>> RankGroups; ///< groups of ranks
-  std::vector<std::int32_t> GroupOf; ///< by partition: the index of its group in RankGroups
-  std::int32_t Lead = 0;             ///< the master's rank
-
-  bool hasLeaves() const { return this->Children.empty(); }
+  Tiling Boxes;                 ///< its partitions
+  PartitionIndex FirstLeaf = 0; ///< index of its first partition among the leaves
+  std::int32_t Lead = 0;        ///< the master's rank
 };
 
-/// Which rank triangulates which partition. The first area is the whole domain's.
+/// Which rank triangulates which partition.
 struct VTKTIPPFILTERS_EXPORT Plan
 {
-  std::vector<Area> Areas;          ///< the domain's area first, then those of major partitions
+  /// The domain's area and, if that has major partitions, one for each of these; only these have
+  /// leaves then.
+  std::vector<Area> Areas;
   Tiling Leaves;                    ///< all partitions that are triangulated, in one tiling
   std::vector<std::int32_t> Owners; ///< by leaf: the rank that owns its points
   bool IsAlone = false;             ///< one leaf: no initial mesh, no artificial points
 
+  /// Returns the number of major partitions; 0: one master.
+  PartitionIndex majors() const { return static_cast<PartitionIndex>(this->Areas.size()) - 1; }
   /// With masters: returns the rank of each leaf's master.
   std::vector<std::int32_t> masters() const;
 };
@@ -120,8 +104,7 @@ struct VTKTIPPFILTERS_EXPORT Plan
 template <typename Archive>
 void serialize(Archive& archive, Area& area)
 {
-  archive(area.Boxes, area.Inner, area.FirstLeaf, area.Children, area.RankGroups, area.GroupOf,
-    area.Lead);
+  archive(area.Boxes, area.FirstLeaf, area.Lead);
 }
 
 template <typename Archive>

@@ -3,38 +3,56 @@
 #define tippPointExchange_h
 
 #include "Distributed/CellExchange.h"
-#include "Distributed/Plan.h"
+#include "Parallel/ParallelFor.h"
 #include "Predicates/Points.h"
-#include "Ranks/Archive.h"
 #include "Ranks/Communicator.h"
 #include "Triangulation/PointBuckets.h"
-#include "Triangulation/Triangulate.h"
+#include "Triangulation/PointsView.h"
+#include "Triangulation/Tiling.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
-#include <functional>
+#include <utility>
 #include <vector>
 
 namespace tipp
 {
 
 /// The arrays of points and their data, as sent in messages. Does not own the memory.
+template <typename Position>
 struct PointArrays
 {
-  Point2* Positions;
+  Position* Positions;
   PointId* Ids;
   char* Rows;
 
-  PointArrays(Point2* positions, PointId* ids, char* rows)
-    : Positions(positions)
-    , Ids(ids)
-    , Rows(rows)
+  explicit PointArrays(PointTuplesOf<Position>& points)
+    : Positions(points.Positions.data())
+    , Ids(points.GlobalIds.data())
+    , Rows(points.Rows.data())
   {
   }
   /// The arrays of `points` points that are stored one after the other in `memory`.
-  PointArrays(char* memory, std::size_t points);
+  PointArrays(char* memory, std::size_t points)
+    : Positions(reinterpret_cast<Position*>(memory))
+    , Ids(reinterpret_cast<PointId*>(this->Positions + points))
+    , Rows(reinterpret_cast<char*>(this->Ids + points))
+  {
+  }
+
+  void advance(std::size_t points, std::size_t rowSize)
+  {
+    this->Positions += points;
+    this->Ids += points;
+    this->Rows += points * rowSize;
+  }
 
   /// The size of a message with `points` points, in bytes.
-  static std::size_t bytes(std::size_t points, std::size_t rowSize);
+  static std::size_t bytes(std::size_t points, std::size_t rowSize)
+  {
+    return points * (sizeof(Position) + sizeof(PointId) + rowSize);
+  }
 };
 
 /// The order of a rank's points: by leaf, and within each leaf by source rank.
@@ -55,8 +73,15 @@ struct PointLayout
 class PointReceiver
 {
 public:
-  PointReceiver(const PointLayout& layout, std::size_t source, const PointArrays& destination,
-    std::size_t rowSize);
+  template <typename Position>
+  PointReceiver(const PointLayout& layout, std::size_t source, PointTuplesOf<Position>& destination,
+    std::size_t rowSize)
+  {
+    this->add(layout, source, destination.Positions.data(), sizeof(Position));
+    this->add(layout, source, destination.GlobalIds.data(), sizeof(PointId));
+    this->add(layout, source, destination.Rows.data(), rowSize);
+    std::reverse(this->Left.begin(), this->Left.end());
+  }
 
   /// Copies the next part. Throws std::runtime_error if the rank sent more than it announced.
   void take(const char* part, std::size_t size);
@@ -65,6 +90,8 @@ public:
   void requireComplete() const;
 
 private:
+  void add(const PointLayout& layout, std::size_t source, void* array, std::size_t itemSize);
+
   /// A byte range of the destination that is not filled yet.
   struct Range
   {
@@ -75,41 +102,66 @@ private:
   std::vector<Range> Left; ///< ranges still to fill, in reverse order
 };
 
-/// A rank's input points. Does not own the memory.
-struct RankPoints : RankPointData
+/// Commits the pages of memory that will be used completely.
+template <typename Item>
+void populate(Buffer<Item>& memory, int threads)
 {
-  PointsView Points; ///< coordinates of this rank's points
-};
+  parallelFor(threads, threads,
+    [&](std::int64_t part)
+    {
+      const auto [begin, end] = evenShare(memory.size(), int(part), threads);
+      populatePages(memory.data() + begin, (end - begin) * sizeof(Item));
+    });
+}
 
-/// The points of the leaves that a rank owns, ordered by leaf.
-template <typename Id>
-struct OwnedPoints
-{
-  PointBuckets<Id> Buckets; ///< one bucket per leaf; empty for leaves of other owners
-  Buffer<Point2> Positions;
-  Buffer<PointId> GlobalIds;
-  Buffer<char> Rows;                  ///< data of the points, RowSize bytes each
-  std::vector<std::int64_t> FirstIds; ///< first internal id of each rank, and the end
-
-  std::size_t size() const { return this->Positions.size(); }
-};
-
-/// Sends points to their owners in one all-to-all exchange.
-class PointExchange
+/// Sends points to the ranks that own their leaves in one all-to-all exchange. `View` has the
+/// points' coordinates: size(), and forEach() as in PointsView.
+template <typename Position, typename View>
+class PointSender
 {
 public:
-  /// Finds each point's leaf. `points` must outlive this object.
-  PointExchange(const RankPoints& points, const Tiling& leaves, int threads);
+  /// Calls label(begin, end, labels, counts) in each thread: sets the leaves of the points [begin,
+  /// end), PartitionFinder::None for those that are not sent, and adds to the number of points in
+  /// each leaf. `data` must outlive this object.
+  template <typename Label>
+  PointSender(const RankPointData& data, const View& points, std::size_t leaves, int threads,
+    const Label& label)
+    : Data(data)
+    , Points(points)
+    , Leaves(leaves)
+    , Threads(threads)
+    , Labels(points.size())
+    , CountsOf(static_cast<std::size_t>(threads), std::vector<std::size_t>(leaves, 0))
+  {
+    populate(this->Labels, threads);
+    this->forParts([&](std::size_t part, std::size_t begin, std::size_t end)
+      { label(begin, end, this->Labels.data(), this->CountsOf[part]); });
+  }
 
   /// The number of this rank's points in each leaf.
-  std::vector<std::int64_t> counts() const;
+  std::vector<std::int64_t> counts() const
+  {
+    std::vector<std::int64_t> counts(this->Leaves, 0);
+    for (const std::vector<std::size_t>& part : this->CountsOf)
+    {
+      std::transform(part.begin(), part.end(), counts.begin(), counts.begin(),
+        [](std::size_t more, std::int64_t count) { return count + std::int64_t(more); });
+    }
+    return counts;
+  }
 
-  /// Sends each point to its leaf's owner and returns the points received. `owners` has the rank of
-  /// each leaf. Collective.
-  template <typename Id>
-  OwnedPoints<Id> exchange(Communicator& ranks, const std::vector<std::int32_t>& owners) const;
+  /// Returns memory for all points of a layout.
+  PointTuplesOf<Position> makeRoom(const PointLayout& layout) const
+  {
+    PointTuplesOf<Position> room;
+    room.Positions = Buffer<Position>(layout.Starts.back());
+    room.GlobalIds = Buffer<PointId>(layout.Starts.back());
+    room.Rows = Buffer<char>(layout.Starts.back() * this->Data.RowSize);
+    populate(room.Positions, this->Threads);
+    populate(room.GlobalIds, this->Threads);
+    return room;
+  }
 
-private:
   /// The layout of the outgoing messages.
   struct Packing
   {
@@ -119,16 +171,149 @@ private:
     std::size_t Size = 0; ///< bytes of all messages
   };
 
-  Packing planPacking(const std::vector<std::int32_t>& owners, const PointLayout& layout) const;
-  void pack(const std::vector<std::int32_t>& owners, const Packing& packing,
-    const PointArrays& destination, char* messages) const;
-  void scatter(const std::vector<PointArrays>& to, const std::vector<std::size_t>& begins) const;
+  /// `owners` has the rank of each leaf.
+  Packing plan(const std::vector<std::int32_t>& owners, const PointLayout& layout) const
+  {
+    const std::vector<std::int64_t> counts = this->counts();
+    Packing packing;
+    packing.Sizes.assign(layout.Counts.size(), 0);
+    packing.Begins.resize(this->Leaves);
+    const auto me = std::size_t(layout.Rank);
+    for (std::size_t leaf = 0, own = 0; leaf < this->Leaves; ++leaf)
+    {
+      const auto owner = std::size_t(owners[leaf]);
+      packing.Begins[leaf] = owner == me ? layout.Firsts[me][own++] : packing.Sizes[owner];
+      packing.Sizes[owner] += std::size_t(counts[leaf]);
+    }
+    for (std::size_t to = 0; to < packing.Sizes.size(); ++to)
+    {
+      constexpr std::size_t alignment = alignof(std::max_align_t);
+      const std::size_t size =
+        to == me ? 0 : PointArrays<Position>::bytes(packing.Sizes[to], this->Data.RowSize);
+      packing.Messages.push_back({ packing.Size, size });
+      packing.Size += (size + alignment - 1) / alignment * alignment;
+    }
+    return packing;
+  }
 
-  const RankPoints& Input;
+  /// Sends each point to its leaf's owner, and sets this rank's points. `messages`: memory for the
+  /// outgoing messages, which is returned. Collective. Throws RankFailure.
+  Bytes send(Communicator& ranks, const std::vector<std::int32_t>& owners,
+    const PointLayout& layout, const Packing& packing, Bytes messages,
+    PointTuplesOf<Position>& destination) const
+  {
+    std::vector<PointArrays<Position>> leaves;
+    leaves.reserve(owners.size());
+    for (std::size_t leaf = 0; leaf < owners.size(); ++leaf)
+    {
+      const auto owner = std::size_t(owners[leaf]);
+      leaves.push_back(packing.Messages[owner].Size == 0
+          ? PointArrays<Position>(destination)
+          : PointArrays<Position>(
+              messages.data() + packing.Messages[owner].Begin, packing.Sizes[owner]));
+      leaves.back().advance(packing.Begins[leaf], this->Data.RowSize);
+    }
+    this->scatter(leaves);
+    std::vector<PointReceiver> receivers;
+    for (std::size_t source = 0; source < layout.Counts.size(); ++source)
+    {
+      receivers.emplace_back(layout, source, destination, this->Data.RowSize);
+    }
+    messages = ranks.allToAllInParts(std::move(messages), packing.Messages,
+      [&receivers](int from, const char* part, std::size_t size)
+      { receivers[std::size_t(from)].take(part, size); });
+    for (std::size_t source = 0; source < receivers.size(); ++source)
+    {
+      if (source != std::size_t(ranks.rank()))
+      {
+        receivers[source].requireComplete();
+      }
+    }
+    return messages;
+  }
+
+private:
+  template <typename Work>
+  void forParts(const Work& work) const
+  {
+    parallelFor(this->Threads, this->Threads,
+      [&](std::int64_t part)
+      {
+        const auto [begin, end] = evenShare(this->Points.size(), int(part), this->Threads);
+        work(std::size_t(part), begin, end);
+      });
+  }
+
+  /// Copies the points to the arrays of their leaves.
+  void scatter(const std::vector<PointArrays<Position>>& leaves) const
+  {
+    const std::size_t rowSize = this->Data.RowSize;
+    this->forParts(
+      [&](std::size_t part, std::size_t begin, std::size_t end)
+      {
+        std::vector<PointArrays<Position>> cursors = leaves;
+        for (std::size_t leaf = 0; leaf < this->Leaves; ++leaf)
+        {
+          for (std::size_t before = 0; before < part; ++before)
+          {
+            cursors[leaf].advance(this->CountsOf[before][leaf], rowSize);
+          }
+        }
+        this->Points.forEach(begin, end,
+          [&](std::size_t i, const Position& p)
+          {
+            if (this->Labels[i] == PartitionFinder::None)
+            {
+              return;
+            }
+            PointArrays<Position>& cursor = cursors[this->Labels[i]];
+            *cursor.Positions++ = p;
+            *cursor.Ids++ = this->Data.globalId(i);
+            if (rowSize > 0)
+            {
+              this->Data.PackRow(i, cursor.Rows);
+              cursor.Rows += rowSize;
+            }
+          });
+      });
+  }
+
+  const RankPointData& Data;
+  const View Points;
   const std::size_t Leaves;
   const int Threads;
   Buffer<std::uint32_t> Labels;
-  std::vector<std::vector<std::size_t>> Counts; ///< number of points, by thread and leaf
+  std::vector<std::vector<std::size_t>> CountsOf; ///< number of points, by thread and leaf
+};
+
+/// A rank's input points. Does not own the memory.
+struct RankPoints : RankPointData
+{
+  PointsView Points; ///< coordinates of this rank's points
+};
+
+/// The points of the leaves that a rank owns, ordered by leaf.
+template <typename Id>
+struct OwnedPoints : PointTuplesOf<Point2>
+{
+  PointBuckets<Id> Buckets;           ///< one bucket per leaf; empty for leaves of other owners
+  std::vector<std::int64_t> FirstIds; ///< first internal id of each rank, and the end
+};
+
+/// Sends points in the plane to their owners.
+class PointExchange : public PointSender<Point2, PointsView>
+{
+public:
+  /// Finds each point's leaf. `points` must outlive this object.
+  PointExchange(const RankPoints& points, const Tiling& leaves, int threads);
+
+  /// Sends each point to its leaf's owner and returns the points received. `owners` has the rank of
+  /// each leaf. Collective.
+  template <typename Id>
+  OwnedPoints<Id> exchange(Communicator& ranks, const std::vector<std::int32_t>& owners) const;
+
+private:
+  const int Threads;
 };
 
 extern template OwnedPoints<std::int32_t> PointExchange::exchange(

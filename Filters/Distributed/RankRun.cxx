@@ -2,15 +2,14 @@
 #include "Distributed/RankRun.h"
 
 #include "Arrays/SortUnique.h"
-#include "Engine/DoneMessage.h"
-#include "Engine/WorkerThreads.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/Tiling.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
-#include <thread>
+#include <stdexcept>
 #include <utility>
 
 namespace tipp
@@ -24,26 +23,37 @@ struct RegionEntry
   PartitionIndex Partition;
 };
 
+/// Sums the statistics of several masters stage by stage.
+void addStages(const std::vector<TriangulationStatistics::Stage>& more,
+  std::vector<TriangulationStatistics::Stage>& stages)
+{
+  stages.resize(std::max(stages.size(), more.size()));
+  for (std::size_t i = 0; i < more.size(); ++i)
+  {
+    stages[i].ActivePartitions += more[i].ActivePartitions;
+    stages[i].MeshTriangles += more[i].MeshTriangles;
+  }
+}
+
 } // namespace
 
 template <typename Id>
 RankRun<Id>::RankRun(Communicator& ranks, const Plan& plan, OwnedPoints<Id>& points,
   const DistributedOptions& options, int threads)
-  : InteriorCounts(static_cast<std::size_t>(plan.Leaves.size()), 0)
-  , Ranks(ranks)
+  : RankEngine(ranks, std::size_t(plan.Leaves.size()), points.size(), options.Progress)
+  , InteriorCounts(static_cast<std::size_t>(plan.Leaves.size()), 0)
   , Work(plan)
   , Points(points)
   , Options(options)
   , Threads(threads)
   , FirstId(points.FirstIds[std::size_t(ranks.rank())])
-  , Inboxes(static_cast<std::size_t>(plan.Leaves.size()))
 {
 }
 
 /// Gathers the regions and initial points of all partitions on all ranks. Those of a partition come
 /// from its owner.
 template <typename Id>
-void RankRun<Id>::shareInitialMesh(std::vector<BoundaryVertex>& vertices)
+std::vector<BoundaryVertex> RankRun<Id>::shareInitialPoints()
 {
   const Tiling& tiles = this->Work.Leaves;
   const Regions own(tiles, this->Points.Buckets, this->Threads);
@@ -65,20 +75,15 @@ void RankRun<Id>::shareInitialMesh(std::vector<BoundaryVertex>& vertices)
     v.Id += this->FirstId;
   }
   keepOneOfEachPosition(initial);
-  const Bytes together = joinedOnAllRanks(this->Ranks, packed(regions, initial));
   std::vector<Box2> boxes(std::size_t(tiles.size()), Box2{});
   std::vector<char> used(std::size_t(tiles.size()), 0);
-  for (LoadArchive reader(together); reader.left() > 0;)
+  for (const RegionEntry& entry : concatenated(this->Ranks.allGather(regions)))
   {
-    for (const RegionEntry& entry : reader.get<std::vector<RegionEntry>>())
-    {
-      boxes.at(std::size_t(entry.Partition)) = entry.Box;
-      used.at(std::size_t(entry.Partition)) = 1;
-    }
-    const auto added = reader.get<std::vector<BoundaryVertex>>();
-    vertices.insert(vertices.end(), added.begin(), added.end());
+    boxes.at(std::size_t(entry.Partition)) = entry.Box;
+    used.at(std::size_t(entry.Partition)) = 1;
   }
   this->Boxes = std::make_unique<Regions>(tiles, std::move(boxes), std::move(used));
+  return concatenated(this->Ranks.allGather(initial));
 }
 
 /// For each partition, whether `ranks` assigns it to this rank and it has points.
@@ -96,8 +101,7 @@ std::vector<char> RankRun<Id>::thoseOf(const std::vector<std::int32_t>& ranks) c
 template <typename Id>
 void RankRun<Id>::makeInitialMesh()
 {
-  std::vector<BoundaryVertex> vertices;
-  this->shareInitialMesh(vertices);
+  const std::vector<BoundaryVertex> vertices = this->shareInitialPoints();
   this->Artificial = makeArtificialPoints(this->Work.Leaves);
   keepOneOfEachPosition(this->Artificial);
   if (this->Artificial.empty())
@@ -115,10 +119,8 @@ void RankRun<Id>::makeInitialMesh()
   this->PartitionsPay = chosen || partitionsPay(counts[0], counts[1]);
   if (this->PartitionsPay)
   {
-    SaveArchive writer;
-    part.writeConflicts(writer);
-    this->Order = std::make_unique<PartitionOrder>(this->Boxes->areUsed(),
-      readConflicts(joinedOnAllRanks(this->Ranks, writer.take()), this->Keepers.size()));
+    this->OwnOrder = std::make_unique<PartitionOrder>(this->Boxes->areUsed(),
+      joinConflicts(this->Ranks.allGather(part.conflicts()), this->Keepers.size()));
     this->decideWhoWaits();
     this->sendInitial(part.Mesh);
   }
@@ -133,37 +135,23 @@ void RankRun<Id>::decideWhoWaits()
   this->AllKeepers = this->Keepers;
   sortUnique(this->AllKeepers);
   this->InFlight.assign(std::size_t(this->Ranks.size()), 0);
-  this->Ready = std::make_unique<ReadyPartitions>(
-    *this->Order, hasBarriers ? Waits::ForColour : Waits::ForEarlier, this->thoseOf(this->Keepers));
+  this->Ready = std::make_unique<ReadyPartitions>(*this->OwnOrder,
+    hasBarriers ? Waits::ForColour : Waits::ForEarlier, this->thoseOf(this->Keepers));
   if (!isMasterless)
   {
     this->Started = std::make_unique<ReadyPartitions>(
-      *this->Order, Waits::ForLoad, this->thoseOf(this->Work.Owners));
+      *this->OwnOrder, Waits::ForLoad, this->thoseOf(this->Work.Owners));
   }
-  const int rank = this->Ranks.rank();
-  for (const PartitionIndex p : this->Order->sequence())
-  {
-    const bool isOwn = this->ownerOf(p) == rank;
-    const std::vector<std::int32_t> recipients = this->recipientsOf(p);
-    const bool isTold = std::find(recipients.begin(), recipients.end(), rank) != recipients.end();
-    this->LeftPartitions += isOwn ? 1 : 0;
-    this->AwaitedTasks += isOwn && this->keeperOf(p) != rank ? 1 : 0;
-    this->AwaitedMessages += !isOwn && isTold ? 1 : 0;
-  }
+  this->begin(*this->OwnOrder);
 }
 
-/// The ranks that get a message when p is done.
 template <typename Id>
 std::vector<std::int32_t> RankRun<Id>::recipientsOf(PartitionIndex p) const
 {
-  std::vector<std::int32_t> ranks;
+  std::vector<std::int32_t> ranks = RankEngine::recipientsOf(p);
   if (this->hasMasters())
   {
     ranks.push_back(this->keeperOf(p));
-  }
-  for (const PartitionIndex q : this->Order->later(p))
-  {
-    ranks.push_back(this->keeperOf(q));
   }
   if (this->Options.Order != RankSchedule::Dynamic)
   {
@@ -195,7 +183,7 @@ template <typename Id>
 void RankRun<Id>::put(PartitionIndex to, VertexMessage&& message)
 {
   this->KeptTriangles += message.Triangles;
-  this->Inboxes[std::size_t(to)].put(std::move(message));
+  RankEngine::put(to, std::move(message));
 }
 
 /// A worker thread's loop.
@@ -206,8 +194,7 @@ void RankRun<Id>::work(Contribution& part)
   Routing<Id> routing(*this->Order, *this->Boxes);
   UniqueVertices unique;
   part.Seconds.assign(this->Order->colourCount(), 0);
-  ReadyPartitions& source = this->source();
-  for (PartitionIndex p = source.take(); p >= 0; p = source.take())
+  for (PartitionIndex p = this->take(); p >= 0; p = this->take())
   {
     const ProcessorWatch watch;
     routing.setPartition(p);
@@ -221,51 +208,34 @@ void RankRun<Id>::work(Contribution& part)
       part.Boundary);
     this->InteriorCounts[std::size_t(p)] = worker.interiorCount();
     part.WorkerVertices += std::int64_t(worker.vertexCount());
-    ++part.Partitions;
     part.Duplicates.insert(
       part.Duplicates.end(), worker.duplicates().begin(), worker.duplicates().end());
     part.Seconds[this->Order->colourOf(p)] += watch.seconds();
-    this->finishPartition(p, std::move(sent));
+    this->finish(p, std::move(sent), this->Points.Buckets.count(p));
   }
 }
 
-/// Adds messages to the inboxes on this rank, and queues those to other ranks for the main thread.
 template <typename Id>
-void RankRun<Id>::finishPartition(PartitionIndex p, SentMessages sent)
+void RankRun<Id>::setDone(PartitionIndex p)
 {
-  const int rank = this->Ranks.rank();
-  std::vector<Outgoing> outgoing;
-  bool isWantedHere = false;
-  for (const std::int32_t other : this->recipientsOf(p))
+  this->Ready->finish(p);
+  if (this->hasMasters() && this->keeperOf(p) == this->Ranks.rank())
   {
-    isWantedHere = isWantedHere || other == rank;
-    if (other != rank)
-    {
-      outgoing.push_back({ other,
-        writeDone(p, sent, [&](PartitionIndex to) { return this->keeperOf(to) == other; }) });
-    }
+    --this->InFlight[std::size_t(this->ownerOf(p))];
+    --this->AllInFlight;
   }
-  for (auto& [to, message] : sent)
-  {
-    if (this->keeperOf(to) == rank)
-    {
-      this->put(to, std::move(message));
-    }
-  }
-  this->PointsDone += this->Points.Buckets.count(p);
-  {
-    const std::lock_guard<std::mutex> lock(this->OutgoingMutex);
-    std::move(outgoing.begin(), outgoing.end(), std::back_inserter(this->ToSend));
-    if (isWantedHere && this->hasMasters())
-    {
-      this->DoneHere.push_back(p);
-    }
-  }
+}
+
+template <typename Id>
+void RankRun<Id>::setDoneHere(PartitionIndex p)
+{
   if (!this->hasMasters())
   {
     this->Ready->finish(p);
+    return;
   }
-  --this->LeftPartitions;
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  this->DoneHere.push_back(p);
 }
 
 template <typename Id>
@@ -277,125 +247,15 @@ void RankRun<Id>::receive(const Message& message)
     return;
   }
   const ProcessorWatch watch;
-  this->receiveDone(message);
+  RankEngine::receive(message);
   this->Figures.Seconds += watch.seconds();
-}
-
-/// Receives the message that another rank's partition is done, and what it sends to inboxes on this
-/// rank.
-template <typename Id>
-void RankRun<Id>::receiveDone(const Message& message)
-{
-  PartitionIndex sender = -1;
-  SentMessages sent = readDone<VertexMessage>(message.Content, this->Inboxes.size(), sender);
-  const bool isGood = message.Kind == PartitionDoneMessage && this->AwaitedMessages > 0 &&
-    this->ownerOf(sender) == message.Source &&
-    std::all_of(sent.begin(), sent.end(),
-      [this](const auto& to) { return this->keeperOf(to.first) == this->Ranks.rank(); });
-  if (!isGood)
-  {
-    throw std::runtime_error("A message from another rank is damaged: it is for another one.");
-  }
-  for (auto& [to, vertices] : sent)
-  {
-    this->put(to, std::move(vertices));
-  }
-  --this->AwaitedMessages;
-  this->finish(sender);
-}
-
-/// Marks a partition of this or another rank as done.
-template <typename Id>
-void RankRun<Id>::finish(PartitionIndex p)
-{
-  this->Ready->finish(p);
-  if (this->hasMasters() && this->keeperOf(p) == this->Ranks.rank())
-  {
-    --this->InFlight[std::size_t(this->ownerOf(p))];
-    --this->AllInFlight;
-  }
-}
-
-/// Sends queued messages and receives arrived ones. Returns false if there were none.
-template <typename Id>
-bool RankRun<Id>::sendAndReceive()
-{
-  std::vector<Outgoing> outgoing;
-  std::vector<PartitionIndex> done;
-  {
-    const std::lock_guard<std::mutex> lock(this->OutgoingMutex);
-    outgoing.swap(this->ToSend);
-    done.swap(this->DoneHere);
-  }
-  bool moved = !outgoing.empty() || !done.empty();
-  for (Outgoing& message : outgoing)
-  {
-    this->Ranks.post(message.Rank, PartitionDoneMessage, std::move(message.Content));
-  }
-  for (const PartitionIndex p : done)
-  {
-    this->finish(p);
-  }
-  for (Message message; this->Ranks.poll(message); moved = true)
-  {
-    this->receive(message);
-  }
-  return (this->hasMasters() && this->startReady()) || moved;
-}
-
-template <typename Id>
-void RankRun<Id>::report()
-{
-  this->SinceReport.restart();
-  const double all = double(std::max<std::size_t>(1, this->Points.size()));
-  if (this->Options.Progress && !this->Options.Progress(double(this->PointsDone) / all))
-  {
-    throw RankFailure(this->Ranks.rank(), true, "The run was stopped.");
-  }
-}
-
-/// The main thread's loop; only this thread communicates with other ranks.
-template <typename Id>
-void RankRun<Id>::coordinate()
-{
-  // Sleeps, because polling takes processor time from computing threads.
-  constexpr std::chrono::microseconds shortest(300);
-  constexpr std::chrono::microseconds longest(2000);
-  std::chrono::microseconds pause = shortest;
-  constexpr double untilReport = 0.05;
-  this->report();
-  const auto isGoingOn = [this]()
-  { return this->LeftPartitions > 0 || this->AwaitedMessages > 0 || this->AwaitedTasks > 0; };
-  while (isGoingOn() && !this->source().isStopped())
-  {
-    if (this->sendAndReceive())
-    {
-      pause = shortest;
-    }
-    else
-    {
-      std::this_thread::sleep_for(pause);
-      pause = std::min(2 * pause, longest);
-    }
-    if (this->SinceReport.seconds() > untilReport)
-    {
-      this->report();
-    }
-  }
-  this->sendAndReceive();
-  this->report();
 }
 
 /// Repairs the hull (Lemma 3). The first rank has the triangles at the hull.
 template <typename Id>
 void RankRun<Id>::repairHullOnFirst()
 {
-  std::vector<BoundaryVertex> vertices;
-  for (const std::vector<BoundaryVertex>& part :
-    this->Ranks.gather(std::exchange(this->Boundary.HullVertices, {})))
-  {
-    vertices.insert(vertices.end(), part.begin(), part.end());
-  }
+  std::vector<BoundaryVertex> vertices = gatherList(this->Ranks, this->Boundary.HullVertices);
   if (this->Ranks.rank() == 0)
   {
     repairHull(std::move(vertices), this->Artificial, this->Boundary);
@@ -411,26 +271,12 @@ void RankRun<Id>::run()
     return;
   }
   std::vector<Contribution> parts(std::size_t(this->Threads));
-  const Stopwatch watch;
-  {
-    WorkerThreads threads(this->source());
-    for (Contribution& part : parts)
-    {
-      threads.start([this, &part]() { this->work(part); });
-    }
-    this->coordinate();
-  }
-  if (this->source().failure())
-  {
-    std::rethrow_exception(this->source().failure());
-  }
-  const double seconds = watch.seconds();
+  const double seconds = this->runThreads(parts, [this](Contribution& part) { this->work(part); });
   for (Contribution& part : parts)
   {
     this->Boundary.append(std::move(part.Boundary));
     this->Duplicates.insert(this->Duplicates.end(), part.Duplicates.begin(), part.Duplicates.end());
     this->Statistics.WorkerVertices += part.WorkerVertices;
-    this->Statistics.Partitions += part.Partitions;
     this->Statistics.ComputeSeconds +=
       std::accumulate(part.Seconds.begin(), part.Seconds.end(), 0.0);
   }
@@ -444,6 +290,171 @@ void RankRun<Id>::run()
   for (const auto& triangle : this->Boundary.Triangles)
   {
     this->Kept.push_back(triangle.Ids);
+  }
+}
+
+/// Whether a partition may start now. With barriers, a rank gets at most one partition per thread;
+/// in waves (Algorithm 1), all started partitions must be done first.
+template <typename Id>
+bool RankRun<Id>::canStart(PartitionIndex p) const
+{
+  return this->Options.Order == RankSchedule::Dynamic ||
+    this->InFlight[std::size_t(this->ownerOf(p))] < this->Threads;
+}
+
+/// Marks this rank's partitions as done, and starts all partitions that may start. Returns false if
+/// there are none.
+template <typename Id>
+bool RankRun<Id>::startPartitions()
+{
+  if (!this->hasMasters())
+  {
+    return false;
+  }
+  std::vector<PartitionIndex> done;
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    done.swap(this->DoneHere);
+  }
+  std::for_each(done.begin(), done.end(), [this](PartitionIndex p) { this->setDone(p); });
+  const ProcessorWatch watch;
+  for (PartitionIndex p = this->Ready->tryTake(); p >= 0; p = this->Ready->tryTake())
+  {
+    this->Waiting.push_back(p);
+  }
+  if (this->Waiting.empty() ||
+    (this->Options.Order == RankSchedule::Stages && this->AllInFlight > 0))
+  {
+    return false;
+  }
+  std::vector<PartitionIndex> waiting;
+  std::swap(waiting, this->Waiting);
+  for (const PartitionIndex p : waiting)
+  {
+    if (this->canStart(p))
+    {
+      this->start(p);
+    }
+    else
+    {
+      this->Waiting.push_back(p);
+    }
+  }
+  this->Figures.Seconds += watch.seconds();
+  return this->Waiting.size() < waiting.size();
+}
+
+template <typename Id>
+void RankRun<Id>::start(PartitionIndex p)
+{
+  std::vector<VertexMessage> messages = this->Inboxes[std::size_t(p)].take();
+  VertexMessage all{ { -1, UniqueVertices().collect(messages) }, 0 };
+  for (const VertexMessage& message : messages)
+  {
+    all.Triangles += message.Triangles;
+  }
+  const std::int32_t owner = this->ownerOf(p);
+  ++this->InFlight[std::size_t(owner)];
+  ++this->AllInFlight;
+  const std::int64_t kept = this->KeptTriangles;
+  this->Figures.LargestMesh = std::max(this->Figures.LargestMesh, kept);
+  const bool hasBarriers = this->Options.Order != RankSchedule::Dynamic;
+  const std::size_t colour = this->Order->colourOf(p);
+  if (!hasBarriers)
+  {
+    this->Figures.Stages.push_back({ this->AllInFlight, kept });
+  }
+  else
+  {
+    if (colour >= this->Figures.Stages.size()) // the colour's first partition
+    {
+      this->Figures.Stages.resize(colour);
+      this->Figures.Stages.push_back({ 0, kept });
+    }
+    ++this->Figures.Stages[colour].ActivePartitions;
+  }
+  this->KeptTriangles -= all.Triangles;
+  if (owner == this->Ranks.rank())
+  {
+    this->Inboxes[std::size_t(p)].put(std::move(all));
+    this->Started->setLoaded(p);
+    return;
+  }
+  this->Ranks.post(owner, TaskMessage, packed(p, all));
+}
+
+/// Receives a partition to triangulate from its keeper.
+template <typename Id>
+void RankRun<Id>::receiveTask(const Message& message)
+{
+  LoadArchive reader(message.Content);
+  const auto p = reader.get<PartitionIndex>();
+  auto all = reader.get<VertexMessage>();
+  if (p < 0 || std::size_t(p) >= this->Inboxes.size() || this->AwaitedTasks == 0 ||
+    this->ownerOf(p) != this->Ranks.rank() || this->keeperOf(p) != message.Source)
+  {
+    throw std::runtime_error("A message from another rank is damaged: no such partition.");
+  }
+  --this->AwaitedTasks;
+  this->Inboxes[std::size_t(p)].put(std::move(all));
+  this->Started->setLoaded(p);
+}
+
+/// Collects the statistics. Collective.
+template <typename Id>
+void RankRun<Id>::keepFigures(const std::vector<Contribution>& parts)
+{
+  std::vector<double> seconds(this->Order->colourCount(), 0);
+  for (const Contribution& part : parts)
+  {
+    std::transform(part.Seconds.begin(), part.Seconds.end(), seconds.begin(), seconds.begin(),
+      std::plus<double>());
+  }
+  if (this->Options.Order == RankSchedule::Dynamic)
+  {
+    seconds = { std::accumulate(seconds.begin(), seconds.end(), 0.0) };
+  }
+  MasterStatistics whole;
+  std::vector<double> longest(seconds.size(), 0);
+  for (const std::vector<double>& other : this->Ranks.gather(seconds))
+  {
+    std::transform(other.begin(), other.end(), longest.begin(), longest.begin(),
+      [](double a, double b) { return std::max(a, b); });
+  }
+  for (const MasterStatistics& other : this->Ranks.gather(this->Figures))
+  {
+    addStages(other.Stages, whole.Stages);
+    whole.LargestMesh = std::max(whole.LargestMesh, other.LargestMesh);
+  }
+  whole.PathSeconds = std::accumulate(longest.begin(), longest.end(), 0.0);
+  const bool isSingle = this->Work.majors() == 0;
+  const int rank = this->Ranks.rank();
+  std::vector<std::int32_t> group;
+  for (const PartitionIndex p : this->Order->sequence())
+  {
+    if (this->keeperOf(p) == rank)
+    {
+      group.push_back(this->ownerOf(p));
+    }
+  }
+  std::sort(group.begin(), group.end());
+  this->Figures.Rank = rank;
+  this->Figures.GroupSize = std::int32_t(std::unique(group.begin(), group.end()) - group.begin());
+  (isSingle ? this->Statistics.MasterSeconds : this->Statistics.SubMasterSeconds) =
+    this->Figures.Seconds;
+  if (!isSingle && !group.empty())
+  {
+    const auto& areas = this->Work.Areas;
+    const auto first = std::find_if(
+      areas.begin() + 1, areas.end(), [rank](const Area& area) { return area.Lead == rank; });
+    this->Figures.Area = std::int32_t(first - areas.begin());
+    this->Masters.push_back(this->Figures);
+  }
+  if (rank == 0)
+  {
+    whole.GroupSize = isSingle ? this->Figures.GroupSize : std::int32_t(this->Ranks.size());
+    whole.Seconds = isSingle ? this->Figures.Seconds : 0;
+    this->Masters.push_back(std::move(whole));
   }
 }
 

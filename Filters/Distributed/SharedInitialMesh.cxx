@@ -237,34 +237,6 @@ private:
   std::vector<std::uint32_t> Sets; ///< by the kernel's triangle: its set in Mesh
 };
 
-/// The neighbours of some partitions.
-struct ConflictRows
-{
-  std::vector<PartitionIndex> Partitions;
-  std::vector<PartitionIndex> Counts;     ///< number of neighbours of each
-  std::vector<PartitionIndex> Neighbours; ///< of all partitions, concatenated
-};
-
-ConflictRows readRows(LoadArchive& reader, std::size_t partitions)
-{
-  ConflictRows rows;
-  reader(rows.Partitions);
-  reader(rows.Counts);
-  reader(rows.Neighbours);
-  const auto isPartition = [partitions](PartitionIndex p)
-  { return p >= 0 && std::size_t(p) < partitions; };
-  const auto isCount = [](PartitionIndex count) { return count >= 0; };
-  const auto all = std::accumulate(rows.Counts.begin(), rows.Counts.end(), std::size_t(0));
-  if (rows.Counts.size() != rows.Partitions.size() || all != rows.Neighbours.size() ||
-    !std::all_of(rows.Partitions.begin(), rows.Partitions.end(), isPartition) ||
-    !std::all_of(rows.Neighbours.begin(), rows.Neighbours.end(), isPartition) ||
-    !std::all_of(rows.Counts.begin(), rows.Counts.end(), isCount))
-  {
-    throw std::runtime_error("A message from another rank is damaged: no such partition.");
-  }
-  return rows;
-}
-
 } // namespace
 
 void keepOneOfEachPosition(std::vector<BoundaryVertex>& vertices)
@@ -302,39 +274,39 @@ void InitialMeshPart::countMet(std::int64_t& triangles, std::int64_t& met) const
   }
 }
 
-void InitialMeshPart::writeConflicts(SaveArchive& writer) const
+PartConflicts InitialMeshPart::conflicts() const
 {
   const std::optional<ConflictGraph> graph = findConflicts(this->Mesh, this->IsChosen.size());
-  ConflictRows rows;
+  PartConflicts conflicts;
+  conflicts.IsTotal = !graph;
   for (PartitionIndex p = 0; graph && std::size_t(p) < this->IsChosen.size(); ++p)
   {
     if (this->IsChosen[std::size_t(p)])
     {
-      rows.Partitions.push_back(p);
-      const std::vector<PartitionIndex>& those = graph->neighbours(p);
-      rows.Counts.push_back(PartitionIndex(those.size()));
-      rows.Neighbours.insert(rows.Neighbours.end(), those.begin(), those.end());
+      conflicts.Rows.push_back({ p, graph->neighbours(p) });
     }
   }
-  writer(char(graph.has_value()));
-  writer(rows.Partitions);
-  writer(rows.Counts);
-  writer(rows.Neighbours);
+  return conflicts;
 }
 
-std::optional<ConflictGraph> readConflicts(const Bytes& all, std::size_t partitions)
+std::optional<ConflictGraph> joinConflicts(
+  const std::vector<PartConflicts>& parts, std::size_t partitions)
 {
+  const auto isPartition = [partitions](PartitionIndex p)
+  { return p >= 0 && std::size_t(p) < partitions; };
   bool isTotal = false;
   std::vector<std::vector<PartitionIndex>> neighbours(partitions);
-  for (LoadArchive reader(all); reader.left() > 0;)
+  for (const PartConflicts& part : parts)
   {
-    isTotal = reader.get<char>() == 0 || isTotal;
-    const ConflictRows rows = readRows(reader, partitions);
-    auto from = rows.Neighbours.begin();
-    for (std::size_t i = 0; i < rows.Partitions.size(); ++i)
+    isTotal = part.IsTotal || isTotal;
+    for (const PartConflicts::Row& row : part.Rows)
     {
-      neighbours[std::size_t(rows.Partitions[i])].assign(from, from + rows.Counts[i]);
-      from += rows.Counts[i];
+      if (!isPartition(row.Partition) ||
+        !std::all_of(row.Neighbours.begin(), row.Neighbours.end(), isPartition))
+      {
+        throw std::runtime_error("A message from another rank is damaged: no such partition.");
+      }
+      neighbours[std::size_t(row.Partition)] = row.Neighbours;
     }
   }
   ConflictGraph graph(std::move(neighbours));
@@ -343,16 +315,6 @@ std::optional<ConflictGraph> readConflicts(const Bytes& all, std::size_t partiti
     return std::nullopt;
   }
   return graph;
-}
-
-Bytes joinedOnAllRanks(Communicator& ranks, Bytes&& own)
-{
-  SaveArchive all;
-  for (const Bytes& part : ranks.gather(std::move(own)))
-  {
-    all.raw(part.data(), part.size());
-  }
-  return ranks.broadcast(all.take());
 }
 
 } // namespace tipp

@@ -4,11 +4,6 @@
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
-#include <cstring>
-#include <map>
-#include <numeric>
-#include <set>
-#include <stdexcept>
 
 namespace tipp
 {
@@ -23,23 +18,12 @@ std::vector<typename TriangleSink<Id>::FinalTriangle> localised(
 {
   std::vector<typename TriangleSink<Id>::FinalTriangle> local;
   local.reserve(triangles.size());
-  const std::int64_t own = std::int64_t(positions.size());
+  const auto indexOf = localIndices(firstOwn, positions.size(), ghosts);
   for (const IdTriangle& triangle : triangles)
   {
     typename TriangleSink<Id>::Corners ids;
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      const std::int64_t at = triangle[i] - firstOwn;
-      if (at >= 0 && at < own)
-      {
-        ids[i] = static_cast<Id>(at);
-      }
-      else
-      {
-        const auto found = std::lower_bound(ghosts.begin(), ghosts.end(), triangle[i]);
-        ids[i] = static_cast<Id>(own + (found - ghosts.begin()));
-      }
-    }
+    std::transform(triangle.begin(), triangle.end(), ids.begin(),
+      [&indexOf](std::int64_t id) { return static_cast<Id>(indexOf(id)); });
     ids = TriangleSink<Id>::fromLowest(ids);
     local.push_back({ ids, leaves.locate(positions[std::size_t(ids[0])]) });
   }
@@ -75,9 +59,7 @@ void collect(Communicator& ranks, OwnedPoints<Id>& points, const std::vector<IdT
     result.Ids64 = std::move(ids);
   }
 
-  result.Owned.Positions = std::move(points.Positions);
-  result.Owned.GlobalIds = std::move(points.GlobalIds);
-  result.Owned.Rows = std::move(points.Rows);
+  result.Owned = std::move(static_cast<PointTuples&>(points));
   preferLowestGlobalIds(result.Owned, firstOwn, duplicates);
   result.Duplicates = std::move(duplicates);
   result.Ghosts = fetchPoints(ranks, result.GhostIds, points.FirstIds, result.Owned, rowSize);
@@ -93,23 +75,20 @@ template void collect(Communicator&, OwnedPoints<std::int64_t>&, const std::vect
 std::vector<IdTriangle> trianglesByIds(const DistributedTriangulation& mine, int rank)
 {
   const auto idOf = internalIds(mine, rank);
-  std::vector<IdTriangle> triangles;
-  triangles.reserve(mine.triangleCount());
-  const auto add = [&](const auto& ids)
-  {
-    for (std::size_t i = 0; i < ids.size(); i += 3)
+  std::vector<IdTriangle> triangles(mine.triangleCount());
+  std::size_t corner = 0;
+  mine.forEachCorner(
+    [&](std::int64_t index)
     {
-      triangles.push_back({ idOf(ids[i]), idOf(ids[i + 1]), idOf(ids[i + 2]) });
-    }
-  };
-  add(mine.Ids32);
-  add(mine.Ids64);
+      triangles[corner / 3][corner % 3] = idOf(index);
+      ++corner;
+    });
   return triangles;
 }
 
 GhostTriangles fetchGhosts(Communicator& ranks, const DistributedTriangulation& mine)
 {
-  return fetchGhosts<Point2>(ranks, mine, trianglesByIds(mine, ranks.rank()), mine.FirstTriangle);
+  return fetchGhosts<Point2>(ranks, mine, trianglesByIds(mine, ranks.rank()), mine.FirstCell);
 }
 
 namespace
@@ -133,7 +112,7 @@ DistributedTriangulation gatherOnFirst(Communicator& ranks, DistributedTriangula
   mine.Ids64 = gatherCorners(ranks, mine, internalIds(mine, ranks.rank()));
   mine.Ids32 = {};
   gatherPoints(ranks, mine);
-  mine.FirstTriangle = ranks.isFirst() ? 0 : mine.AllTriangles;
+  mine.FirstCell = ranks.isFirst() ? 0 : mine.AllCells;
   return mine;
 }
 

@@ -2,9 +2,8 @@
 #include "Distributed3D/DistributedTetrahedralization.h"
 
 #include "Distributed3D/RankRun3.h"
-#include "Distributed3D/ShareInitialPoints3.h"
-#include "Distributed3D/WholeTriangulation3.h"
 #include "Parallel/ParallelFor.h"
+#include "Triangulation3D/CoplanarPoints.h"
 #include "Triangulation3D/InitialMesh3.h"
 #include "Triangulation3D/OrderCells.h"
 
@@ -44,6 +43,54 @@ PartitionGroups chooseGroups(std::int64_t points, int ranks, int threads, int wa
   groups.Each = std::clamp(groups.Each, 1, std::max(1, most / ranks));
   groups.Each = std::max(groups.Each, int(points / ranks / largest));
   return groups;
+}
+
+/// Chooses initial points of this rank's partitions, and returns those of all ranks, with the
+/// regions of all partitions. `buckets`: this rank's points, whose internal ids are those in
+/// `buckets` plus `firstId`. Ids in the result are indices into `ids`, which is set to the internal
+/// ids. A partition without points has no initial points. Collective.
+PointBuckets3 shareInitialPoints(Communicator& ranks, const Tiling3& tiling, std::int64_t firstId,
+  const PointBuckets3& buckets, std::vector<std::int64_t>& ids)
+{
+  // With more points, fewer partitions conflict. There are enough if tetrahedra are much smaller
+  // than partitions, even if these are slabs.
+  constexpr std::size_t most = 8192;
+  constexpr std::size_t share = 16; // at most one in this many of a partition's points
+  const auto partitions = std::size_t(tiling.size());
+  const std::size_t each = std::min(most, 128 * partitions * partitions * partitions) / partitions;
+  std::vector<Box3> regions;
+  std::vector<Vertex3> initial;
+  for (PartitionIndex p = 0; p < tiling.size(); ++p)
+  {
+    if (tiling.groupOf(p) != ranks.rank())
+    {
+      continue;
+    }
+    regions.push_back(buckets.Regions[std::size_t(p)]);
+    const PartitionPoints3 points = buckets.of(p, firstId);
+    if (points.Count > 0)
+    {
+      for (const std::size_t i : chooseInitialPoints(points.Points, points.Count,
+             std::max(InitialMesh3::PointsOfPartition, std::min(each, points.Count / share))))
+      {
+        initial.push_back({ points.Points[i], points.id(i), p });
+      }
+    }
+  }
+  PointBuckets3 all;
+  all.Regions = concatenated(ranks.allGather(regions));
+  all.Begins.assign(partitions + 1, 0);
+  for (const Vertex3& v : concatenated(ranks.allGather(initial)))
+  {
+    all.Points.push_back(v.Position);
+    all.Ids.push_back(std::int32_t(ids.size()));
+    ids.push_back(v.Id);
+    all.Begins.at(std::size_t(v.Partition) + 1) = ids.size();
+  }
+  // Partitions without points begin where the one before them ends.
+  std::partial_sum(all.Begins.begin(), all.Begins.end(), all.Begins.begin(),
+    [](std::size_t a, std::size_t b) { return std::max(a, b); });
+  return all;
 }
 
 /// Collects the tetrahedra of the hull repair.
@@ -93,7 +140,9 @@ public:
     this->collect();
     this->Figures.CollectSeconds = collecting.seconds();
     this->Figures.TotalSeconds = watch.seconds();
-    this->finish();
+    const std::size_t cells = this->Result.cellCount();
+    this->Figures.Triangles = this->Result.cellSize() == 3 ? 0 : std::int64_t(cells);
+    setTotals(this->Ranks, cells, this->Figures, {}, this->Threads, this->Result);
   }
 
 private:
@@ -136,12 +185,7 @@ private:
         own.push_back({ p.x * this->Factor, p.y * this->Factor, p.z * this->Factor });
       }
     }
-    std::vector<Point3> all;
-    for (const std::vector<Point3>& part : this->Ranks.allGather(own))
-    {
-      all.insert(all.end(), part.begin(), part.end());
-    }
-    return all;
+    return concatenated(this->Ranks.allGather(own));
   }
 
   /// Divides space among the ranks, and sends each rank the points of its partitions.
@@ -205,27 +249,15 @@ private:
     const PartitionOrder order(isUsed, mesh);
     const RankWork3 work{ *this->Tiling, order, this->Options, this->Threads };
     RankRun3 run(this->Ranks, work, buckets, this->firstOwn());
-    run.Statistics = this->startedWith(run.Statistics);
+    run.Statistics = this->Figures;
     run.run(sendInitialMesh(mesh, order));
-    this->take(run);
-    this->repairHullOnFirst(run.HullVertices, artificial);
-    this->Result.Statistics.Partitions = this->Tiling->size();
-    return this->hasCells();
-  }
-
-  RankStatistics startedWith(const RankStatistics& of) const
-  {
-    RankStatistics figures = this->Figures;
-    figures.Partitions = of.Partitions;
-    return figures;
-  }
-
-  void take(RankRun3& run)
-  {
     this->Figures = run.Statistics;
     this->Inside = std::move(run.Inside);
     this->Kept = std::move(run.Kept);
     this->Duplicates = std::move(run.Duplicates);
+    this->repairHullOnFirst(run.HullVertices, artificial);
+    this->Result.Statistics.Partitions = this->Tiling->size();
+    return this->hasCells();
   }
 
   /// Gathers the vertices at the hull on the first rank, which repairs it and keeps the resulting
@@ -278,28 +310,47 @@ private:
     if (this->Ranks.isFirst())
     {
       const ProcessorWatch watch;
-      WholeTriangulation3 whole(points, this->Options, this->Threads);
-      if (whole.Aborted)
-      {
-        throw RankFailure(this->Ranks.rank(), true, "The run was stopped.");
-      }
-      this->Kept = std::move(whole.Cells);
-      for (const Duplicate& duplicate : whole.Duplicates)
+      for (const Duplicate& duplicate : this->triangulateAll(points))
       {
         duplicates[ownerOf(duplicate.Point, this->Result.FirstIds)].push_back(duplicate);
       }
-      this->Result.Dimension = whole.Dimension;
       this->Figures.Partitions = 1;
       this->Figures.WorkerVertices = std::int64_t(points.size());
       this->Figures.ComputeSeconds += watch.seconds();
     }
-    this->Duplicates.clear();
-    for (const std::vector<Duplicate>& part : this->Ranks.allToAll(duplicates))
-    {
-      this->Duplicates.insert(this->Duplicates.end(), part.begin(), part.end());
-    }
+    this->Duplicates = concatenated(this->Ranks.allToAll(duplicates));
     this->Result.Dimension = this->Ranks.broadcast(this->Result.Dimension);
     this->Result.Statistics.Partitions = 1;
+  }
+
+  /// Sets Kept to the cells of all points, and returns the duplicates.
+  std::vector<Duplicate> triangulateAll(const Buffer<Point3>& points)
+  {
+    TetrahedralizationOptions options = this->Options;
+    options.Partitions = 1;
+    Tetrahedralization whole = tetrahedralize(points.data(), points.size(), options);
+    Triangulation flat;
+    if (whole.Dimension == 2)
+    {
+      flat = triangulateCoplanar(points.data(), points.size(), options, whole);
+    }
+    if (whole.Aborted || flat.Aborted)
+    {
+      throw RankFailure(this->Ranks.rank(), true, "The run was stopped.");
+    }
+    this->Result.Dimension = whole.Dimension;
+    const Buffer<std::int32_t>& ids = whole.Dimension == 2 ? flat.Ids32 : whole.Ids;
+    const std::size_t size = this->Result.cellSize();
+    this->Kept.resize(ids.size() / size);
+    for (std::size_t i = 0; i < this->Kept.size(); ++i)
+    {
+      // In triangles, the last corner is repeated.
+      for (std::size_t k = 0; k < 4; ++k)
+      {
+        this->Kept[i][k] = ids[size * i + std::min(k, size - 1)];
+      }
+    }
+    return std::move(whole.Duplicates);
   }
 
   /// Replaces duplicates by their representatives in this rank's tetrahedra. A tetrahedron with
@@ -316,12 +367,9 @@ private:
       }
     }
     std::unordered_map<std::int64_t, std::int64_t> representatives;
-    for (const std::vector<Duplicate>& part : this->Ranks.allGather(initial))
+    for (const Duplicate& duplicate : concatenated(this->Ranks.allGather(initial)))
     {
-      for (const Duplicate& duplicate : part)
-      {
-        representatives.emplace(duplicate.Point, duplicate.Representative);
-      }
+      representatives.emplace(duplicate.Point, duplicate.Representative);
     }
     if (representatives.empty())
     {
@@ -353,24 +401,15 @@ private:
     this->useRepresentatives();
     DistributedTetrahedralization& mine = this->Result;
     const std::int64_t first = this->firstOwn();
-    const auto own = std::int64_t(mine.Owned.size());
     const std::vector<IdCell<4>> cells =
       sendToOwners(this->Ranks, std::exchange(this->Kept, {}), mine.FirstIds);
-    mine.GhostIds = ghostIds(cells, first, first + own);
-    std::vector<CellIds> local;
-    local.reserve(cells.size());
-    for (const IdCell<4>& cell : cells)
+    mine.GhostIds = ghostIds(cells, first, first + std::int64_t(mine.Owned.size()));
+    const auto indexOf = localIndices(first, mine.Owned.size(), mine.GhostIds);
+    std::vector<CellIds> local(cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i)
     {
-      CellIds& to = local.emplace_back();
-      std::transform(cell.begin(), cell.end(), to.begin(),
-        [&](std::int64_t id)
-        {
-          const auto& ghosts = mine.GhostIds;
-          const bool isOwn = first <= id && id < first + own;
-          return std::int32_t(isOwn
-              ? id - first
-              : own + (std::lower_bound(ghosts.begin(), ghosts.end(), id) - ghosts.begin()));
-        });
+      std::transform(cells[i].begin(), cells[i].end(), local[i].begin(),
+        [&indexOf](std::int64_t id) { return std::int32_t(indexOf(id)); });
     }
     this->Inside.push_back(std::move(local));
     preferLowestGlobalIds(mine.Owned, first, this->Duplicates);
@@ -393,26 +432,6 @@ private:
       [this](const Point3& p) {
         return Point3{ p.x / this->Factor, p.y / this->Factor, p.z / this->Factor };
       });
-  }
-
-  void finish()
-  {
-    DistributedTetrahedralization& mine = this->Result;
-    const std::vector<std::int64_t> firsts =
-      firstIndices(this->Ranks, std::int64_t(mine.cellCount()));
-    mine.FirstCell = firsts[std::size_t(this->Ranks.rank())];
-    mine.AllCells = firsts.back();
-    std::vector<std::int64_t> sums{ std::int64_t(mine.Duplicates.size()),
-      std::int64_t(mine.Rejected.size()) };
-    this->Ranks.sum(sums);
-    mine.AllDuplicates = sums[0];
-    mine.AllRejected = sums[1];
-    this->Figures.Triangles = mine.cellSize() == 3 ? 0 : std::int64_t(mine.cellCount());
-    this->Figures.SendSeconds = this->Ranks.sendingSeconds();
-    const std::int64_t partitions = mine.Statistics.Partitions;
-    mine.Statistics = gatherStatistics(this->Ranks, this->Figures, {});
-    mine.Statistics.Partitions = partitions;
-    mine.Statistics.ThreadsPerRank = this->Threads;
   }
 
   Communicator& Ranks;

@@ -4,9 +4,10 @@
 
 #include "Arrays/Buffer.h"
 #include "Distributed/DistributedTriangulation.h"
-#include "Distributed3D/PointExchange3.h"
+#include "Predicates/Points.h"
 #include "Ranks/Communicator.h"
 #include "Triangulation3D/Tetrahedralize.h"
+#include "Triangulation3D/Tiling3.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <algorithm>
@@ -17,6 +18,21 @@
 
 namespace tipp
 {
+
+/// A rank's input points in space. Does not own the memory.
+struct RankPoints3 : RankPointData
+{
+  const Point3* Points = nullptr;
+  std::size_t Count = 0;
+};
+
+using PointTuples3 = PointTuplesOf<Point3>;
+
+/// Sends each finite point to the rank that owns the partition containing it, and multiplies its
+/// coordinates by `factor`. Returns this rank's points: sorted by the rank that had them, and then
+/// in that rank's order. Collective. Throws RankFailure.
+PointTuples3 exchangePoints(Communicator& ranks, const RankPoints3& points, const Tiling3& tiling,
+  double factor, int threads);
 
 /// Ghost cells. In triangles, the last corner is repeated.
 using GhostTetrahedra = GhostCells<4, Point3>;
@@ -32,9 +48,7 @@ struct DistributedTetrahedralization : DistributedPoints<Point3>
   /// Local indices, cellSize() of them per cell. orientation3() of a tetrahedron's corners is
   /// positive.
   Buffer<std::int32_t> Ids;
-  std::int64_t FirstCell = 0; ///< index of this rank's first cell among all ranks'
-  std::int64_t AllCells = 0;  ///< sum over all ranks
-  int Dimension = -1;         ///< of all ranks' points; see Tetrahedralization
+  int Dimension = -1; ///< of all ranks' points; see Tetrahedralization
   DistributedStatistics Statistics;
 
   /// Returns the number of corners of a cell.

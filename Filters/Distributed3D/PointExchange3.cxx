@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Distributed3D/PointExchange3.h"
+#include "Distributed/PointExchange.h"
+#include "Distributed3D/DistributedTetrahedralization.h"
 
-#include "Parallel/ParallelFor.h"
-
-#include <algorithm>
-#include <cstring>
-#include <stdexcept>
-#include <utility>
+#include <numeric>
 #include <vector>
 
 namespace tipp
@@ -14,112 +10,53 @@ namespace tipp
 namespace
 {
 
-/// The arrays of a message's points: positions, ids and rows.
-struct MessageArrays
+/// Points times a factor.
+struct PointsView3
 {
-  MessageArrays(char* memory, std::size_t points)
-    : Positions(memory)
-    , Ids(memory + points * sizeof(Point3))
-    , Rows(this->Ids + points * sizeof(PointId))
-  {
-  }
+  const Point3* Points;
+  std::size_t Count;
+  double Factor;
 
-  char* Positions;
-  char* Ids;
-  char* Rows;
+  std::size_t size() const { return this->Count; }
+
+  template <typename Visit>
+  void forEach(std::size_t begin, std::size_t end, const Visit& visit) const
+  {
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      const Point3& p = this->Points[i];
+      visit(i, Point3{ p.x * this->Factor, p.y * this->Factor, p.z * this->Factor });
+    }
+  }
 };
-
-/// Returns the rank that owns each point; -1 if it is not finite.
-Buffer<std::int32_t> findOwners(
-  const RankPoints3& points, const Tiling3& tiling, double factor, int threads)
-{
-  constexpr std::int64_t chunk = 1 << 16;
-  Buffer<std::int32_t> owners(points.Count);
-  forChunks(std::int64_t(points.Count), chunk, threadCount(threads), {},
-    [&](std::int64_t begin, std::int64_t end, int)
-    {
-      for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
-      {
-        const Point3& p = points.Points[i];
-        owners[i] = !isFinite(p)
-          ? -1
-          : tiling.groupOf(tiling.locate({ p.x * factor, p.y * factor, p.z * factor }));
-      }
-    });
-  return owners;
-}
-
-std::vector<Bytes> packPoints(
-  const RankPoints3& points, const Buffer<std::int32_t>& owners, std::size_t ranks, double factor)
-{
-  std::vector<std::size_t> counts(ranks, 0);
-  for (const std::int32_t owner : owners)
-  {
-    owner < 0 ? void() : void(++counts[std::size_t(owner)]);
-  }
-  std::vector<Bytes> messages;
-  std::vector<MessageArrays> arrays;
-  for (const std::size_t count : counts)
-  {
-    messages.emplace_back(count * (sizeof(Point3) + sizeof(PointId) + points.RowSize));
-    arrays.emplace_back(messages.back().data(), count);
-  }
-  for (std::size_t i = 0; i < points.Count; ++i)
-  {
-    if (owners[i] < 0)
-    {
-      continue;
-    }
-    MessageArrays& to = arrays[std::size_t(owners[i])];
-    const Point3& p = points.Points[i];
-    const Point3 scaled{ p.x * factor, p.y * factor, p.z * factor };
-    const PointId id = points.globalId(i);
-    std::memcpy(
-      std::exchange(to.Positions, to.Positions + sizeof(scaled)), &scaled, sizeof(scaled));
-    std::memcpy(std::exchange(to.Ids, to.Ids + sizeof(id)), &id, sizeof(id));
-    if (points.RowSize > 0)
-    {
-      points.PackRow(i, std::exchange(to.Rows, to.Rows + points.RowSize));
-    }
-  }
-  return messages;
-}
 
 } // namespace
 
 PointTuples3 exchangePoints(
   Communicator& ranks, const RankPoints3& points, const Tiling3& tiling, double factor, int threads)
 {
-  const Buffer<std::int32_t> owners = findOwners(points, tiling, factor, threads);
-  std::vector<Bytes> received =
-    ranks.allToAll(packPoints(points, owners, std::size_t(ranks.size()), factor));
-  const std::size_t record = sizeof(Point3) + sizeof(PointId) + points.RowSize;
-  std::size_t count = 0;
-  for (const Bytes& message : received)
-  {
-    if (message.size() % record != 0)
+  const PointsView3 view{ points.Points, points.Count, factor };
+  // A leaf is a group of partitions, and belongs to the rank with its index.
+  std::vector<std::int32_t> owners(std::size_t(ranks.size()));
+  std::iota(owners.begin(), owners.end(), 0);
+  const PointSender<Point3, PointsView3> sender(points, view, owners.size(), threads,
+    [&](std::size_t begin, std::size_t end, std::uint32_t* labels, std::vector<std::size_t>& counts)
     {
-      throw std::runtime_error("Points from another rank are damaged: a point ends early.");
-    }
-    count += message.size() / record;
-  }
-  PointTuples3 owned;
-  owned.Positions = Buffer<Point3>(count);
-  owned.GlobalIds = Buffer<PointId>(count);
-  owned.Rows = Buffer<char>(count * points.RowSize);
-  std::size_t at = 0;
-  for (Bytes& message : received)
-  {
-    const std::size_t part = message.size() / record;
-    const MessageArrays from(message.data(), part);
-    const auto copy = [](const char* values, std::size_t size, void* to)
-    { size > 0 ? void(std::memcpy(to, values, size)) : void(); };
-    copy(from.Positions, part * sizeof(Point3), owned.Positions.data() + at);
-    copy(from.Ids, part * sizeof(PointId), owned.GlobalIds.data() + at);
-    copy(from.Rows, part * points.RowSize, owned.Rows.data() + at * points.RowSize);
-    at += part;
-    message = Bytes();
-  }
+      view.forEach(begin, end,
+        [&](std::size_t i, const Point3& p)
+        {
+          labels[i] = PartitionFinder::None;
+          if (isFinite(p))
+          {
+            labels[i] = std::uint32_t(tiling.groupOf(tiling.locate(p)));
+            ++counts[labels[i]];
+          }
+        });
+    });
+  const PointLayout layout(ranks, owners, sender.counts());
+  const auto packing = sender.plan(owners, layout);
+  PointTuples3 owned = sender.makeRoom(layout);
+  sender.send(ranks, owners, layout, packing, Bytes(packing.Size), owned);
   return owned;
 }
 

@@ -2,19 +2,16 @@
 #ifndef tippRankRun3_h
 #define tippRankRun3_h
 
-#include "Distributed/DistributedTriangulation.h"
+#include "Distributed/RankEngine.h"
 #include "Engine/PartitionOrder.h"
 #include "Engine/ReadyPartitions.h"
-#include "Parallel/Stopwatch.h"
 #include "Ranks/Communicator.h"
 #include "Triangulation3D/Dataflow3.h"
 #include "Triangulation3D/Tetrahedralize.h"
 
 #include <atomic>
-#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
-#include <mutex>
 #include <vector>
 
 namespace tipp
@@ -31,14 +28,8 @@ struct RankWork3
   int ownerOf(PartitionIndex p) const { return this->Tiling.groupOf(p); }
 };
 
-/// A rank's part of a triangulation in space: the rank triangulates the partitions whose points it
-/// owns.
-///
-/// When a partition is done, one message goes to each rank that owns a later conflicting one. It
-/// has the vertices for these partitions, and says that the partition is done. A rank has finished
-/// when its partitions are done and all such messages have arrived. Results do not depend on the
-/// order of these events.
-class RankRun3
+/// A rank's part of a triangulation in space.
+class RankRun3 : public RankEngine<VertexMessage3>
 {
 public:
   /// `points`: the points of this rank's partitions, and the regions of all partitions. Internal
@@ -54,31 +45,15 @@ public:
   std::vector<std::vector<CellIds>> Inside;
   std::vector<IdCell<4>> Kept; ///< other tetrahedra that became final on this rank, by internal ids
   std::vector<Vertex3> HullVertices; ///< true corners of tetrahedra with artificial corners
-  std::vector<Duplicate> Duplicates; ///< by internal ids
-  RankStatistics Statistics;
 
 private:
   struct Cells;
 
-  PartitionIndex take();
-  void notify();
+  std::int32_t ownerOf(PartitionIndex p) const override { return this->Work.ownerOf(p); }
+  ReadyPartitions& source() override { return this->Ready; }
   bool waitFor(PartitionIndex p);
   void work(Cells& cells);
-  std::vector<std::int32_t> recipientsOf(PartitionIndex p) const;
-  void finish(PartitionIndex p, SentMessages3&& sent);
-  void receive(const Message& message);
-  bool sendAndReceive();
-  void coordinate();
-  void report();
 
-  /// A message to another rank about a finished partition.
-  struct Outgoing
-  {
-    int Rank;
-    Bytes Content;
-  };
-
-  Communicator& Ranks;
   const RankWork3& Work;
   const PointBuckets3& Points;
   const std::int64_t FirstId;
@@ -86,16 +61,6 @@ private:
   std::vector<std::atomic<char>> IsReady;    ///< by partition, if a thread has begun it
   std::vector<PartitionIndex> OwnPartitions; ///< in the order of work
   std::atomic<std::size_t> NextOwn{ 0 };
-  std::vector<Inbox3> Inboxes;
-  std::size_t AwaitedMessages = 0; ///< number of messages that will come from other ranks
-  std::atomic<std::size_t> LeftPartitions{ 0 }; ///< this rank's partitions that are not done
-  std::atomic<std::size_t> LeftToTake{ 0 };     ///< those that no thread has taken
-  std::atomic<std::size_t> PointsDone{ 0 };
-  std::atomic<int> Idle{ 0 };      ///< threads that wait for a partition
-  std::condition_variable Changed; ///< signalled when a partition is done, here or on another rank
-  std::mutex Mutex;                ///< protects ToSend, and results when a thread ends
-  std::vector<Outgoing> ToSend;
-  Stopwatch SinceReport;
 };
 
 } // namespace tipp

@@ -2,20 +2,190 @@
 #include "OutOfCore/FinishPieces.h"
 
 #include "Arrays/SortUnique.h"
-#include "Files/IOError.h"
-#include "OutOfCore/ScratchFiles.h"
-#include "OutOfCore/StoredPieces.h"
+#include "Files/FileSystem.h"
+#include "Files/OutputFile.h"
 #include "Partitioned/GrowingPiece.h"
 #include "Partitioned/NeighborIds.h"
 #include "Partitioned/PieceFile.h"
+#include "Predicates/ExactPredicates.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 
 namespace tipp
 {
+namespace
+{
+
+Box3 boxOf(const Box2& box)
+{
+  Box3 result;
+  result.Min = { box.xmin, box.ymin, 0 };
+  result.Max = { box.xmax, box.ymax, 0 };
+  return result;
+}
+
+} // namespace
+
+/// Finds the pieces that the triangle meets, as indices in the mesh, ascending.
+void BorderSorter::findMet(const BoundaryTriangle& triangle)
+{
+  const Point2 a = triangle[0].Position;
+  const Point2 b = triangle[1].Position;
+  const Point2 c = triangle[2].Position;
+  const PiecePlan& plan = this->Work.Plan;
+  this->Met.clear();
+  plan.Pieces.visitMet(Circumdisk(a, b, c),
+    [&](PartitionIndex piece)
+    {
+      if (triangleMeetsBox(a, b, c, boxOf(plan.Pieces.box(piece))))
+      {
+        this->Met.push_back(std::int32_t(plan.number(piece)));
+      }
+    });
+  std::sort(this->Met.begin(), this->Met.end());
+  if (this->Met.empty())
+  {
+    throw std::runtime_error(
+      "Points are outside of the bounds that the first pass found: the input has changed; "
+      "start again.");
+  }
+}
+
+void BorderSorter::add(const BoundaryTriangle& triangle)
+{
+  const double longest = this->Work.MaximumEdge * this->Work.Factor;
+  if (longest > 0 && !this->Work.Constraints &&
+    hasLongEdge(triangle[0].Position, triangle[1].Position, triangle[2].Position, longest))
+  {
+    return;
+  }
+  this->findMet(triangle);
+  const auto owner = static_cast<PartitionIndex>(this->Work.Plan.number(this->Met.front()));
+  this->Borders[owner].add({ triangle[0].Id, triangle[1].Id, triangle[2].Id }, this->Met);
+}
+
+void append(BordersByOwner&& from, BordersByOwner& to)
+{
+  for (auto& [owner, added] : from)
+  {
+    BorderTriangles& border = to[owner];
+    const std::uint64_t before = border.Borrowers.size();
+    border.Corners.insert(border.Corners.end(), added.Corners.begin(), added.Corners.end());
+    border.Borrowers.insert(border.Borrowers.end(), added.Borrowers.begin(), added.Borrowers.end());
+    for (const std::uint64_t end : added.BorrowerEnds)
+    {
+      border.BorrowerEnds.push_back(before + end);
+    }
+  }
+}
+
+namespace
+{
+
+/// Returns the path of an empty file that exists once the consumer has the piece's border.
+std::string takenPath(const PieceWork& work, PartitionIndex piece)
+{
+  return work.resultPath(piece) + ".taken";
+}
+
+void takeMesh(
+  const PieceWork& work, const std::string& name, PieceBorder& border, const ResultOf& results)
+{
+  setGhosts(work, results, border);
+  const PieceBorder::Mesh mesh = border.mesh();
+  work.Consumer->take(
+    name, mesh.Rows.data(), work.Rows, mesh.Rows.size() / work.Rows.Words, { mesh.triangles() });
+}
+
+std::string borderName(const PieceWork& work, PartitionIndex piece)
+{
+  return std::to_string(work.Plan.number(piece)) + ".border";
+}
+
+} // namespace
+
+void takeTriangles(const PieceWork& work, const std::string& name, const BordersByOwner& triangles,
+  const ResultOf& results)
+{
+  const PieceInterior none;
+  PieceBorder border(none, work.Rows);
+  for (const auto& [owner, those] : triangles)
+  {
+    for (const std::array<std::int64_t, 3>& corners : those.Corners)
+    {
+      border.addTriangle(corners, {});
+    }
+  }
+  takeMesh(work, name, border, results);
+}
+
+void takeBorder(const PieceWork& work, PartitionIndex piece, const ResultOf& results)
+{
+  BordersByOwner borders;
+  for (PartitionIndex owner = 0; owner < work.Plan.pieces(); ++owner)
+  {
+    if (results(piece).hasBorder(owner))
+    {
+      borders.emplace(owner, results(piece).readBorder(owner));
+    }
+  }
+  takeTriangles(work, borderName(work, piece), borders, results);
+  OutputFile(takenPath(work, piece)).close();
+}
+
+void takeBorder(
+  const PieceWork& work, PartitionIndex piece, PieceBorder& border, const ResultOf& results)
+{
+  takeMesh(work, borderName(work, piece), border, results);
+}
+
+bool isBorderTaken(const PieceWork& work, PartitionIndex piece)
+{
+  return pathExists(takenPath(work, piece));
+}
+
+BorderQueue::BorderQueue(const PiecePlan& plan, const PartitionOrder& order)
+  : Neighbours(std::size_t(plan.pieces()))
+  , Open(std::size_t(plan.pieces()))
+{
+  for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
+  {
+    std::vector<PartitionIndex>& those = this->Neighbours[std::size_t(piece)];
+    those.push_back(piece);
+    const PartitionIndex end = plan.FirstPartition[std::size_t(piece) + 1];
+    for (PartitionIndex p = plan.FirstPartition[std::size_t(piece)]; p < end; ++p)
+    {
+      if (order.isTotal())
+      {
+        continue; // finishPieces() passes their borders on
+      }
+      for (const PartitionIndex q : order.conflicts().neighbours(p))
+      {
+        those.push_back(plan.PieceOf[std::size_t(q)]);
+      }
+    }
+    sortUnique(those);
+    this->Open[std::size_t(piece)] = those.size() + (order.isTotal() ? 1 : 0);
+  }
+}
+
+std::vector<PartitionIndex> BorderQueue::setDone(PartitionIndex piece)
+{
+  std::vector<PartitionIndex> ready;
+  for (const PartitionIndex other : this->Neighbours[std::size_t(piece)])
+  {
+    if (--this->Open[std::size_t(other)] == 0)
+    {
+      ready.push_back(other);
+    }
+  }
+  return ready;
+}
+
 namespace
 {
 
@@ -35,21 +205,17 @@ ConstraintSegments readNear(const PieceSegments& segments, PointsView points,
   return segments.readNear(boxes);
 }
 
-class PieceFinisher
+class PieceFinisher : public PieceFinisherOf<PieceWork, 3>
 {
 public:
   PieceFinisher(const PieceWork& work, int threads)
-    : Work(work)
+    : PieceFinisherOf(work)
   {
-    for (PartitionIndex piece = 0; piece < work.Plan.pieces(); ++piece)
-    {
-      this->Results.push_back(std::make_unique<StoredResult>(work.resultPath(piece)));
-      this->Figures.add(this->Results.back()->readFigures());
-    }
-    this->repairHull();
+    BorderSorter sorter(work, this->Late);
+    repairHull(this->readHullVertices(), work.Plan.Artificial, sorter);
     if (work.Constraints)
     {
-      this->constrain(threads);
+      this->constrain(threads, sorter);
     }
     if (work.takesBordersEarly())
     {
@@ -57,37 +223,30 @@ public:
     }
   }
 
-  const PieceFigures& figures() const { return this->Figures; }
-
-  FinishedPiece finish(PartitionIndex piece) const
+protected:
+  FinishedPiece make(PartitionIndex piece) const override
   {
-    return finishOnce(this->Work.finishedPath(piece), [&] { return this->make(piece); });
-  }
-
-private:
-  FinishedPiece make(PartitionIndex piece) const
-  {
-    const std::size_t number = this->Work.Plan.number(piece);
-    const PieceInterior interior = this->interiorOf(piece);
+    const PieceInterior interior = this->readInterior(piece);
     PieceBorder border(interior, this->Work.Rows);
-    this->forEachBorder(
-      piece, [&](const BorderTriangles& triangles) { this->addTriangles(triangles, border); });
+    this->forEachBorder(piece,
+      [&](const BorderTriangles& triangles)
+      {
+        this->addCells(triangles,
+          this->Work.Constraints ? this->findKept(triangles) : std::vector<char>(), border);
+      });
+    if (!this->Work.Consumer)
+    {
+      return this->write(piece, interior, border);
+    }
     FinishedPiece finished;
-    if (this->Work.Consumer)
-    {
-      finished.Summary = this->Work.Mesh.Pieces[number];
-      finished.Summary.Cells =
-        interior.Cells + std::int64_t(interior.InterfaceCells.size() + border.cells());
-      this->take(piece, border);
-    }
-    else
-    {
-      setGhosts(this->Work, this->results(), border);
-      finished = writeBorder(this->Work.Mesh, number, this->Work.Rows, interior, border);
-    }
+    finished.Summary = this->Work.Mesh.Pieces[this->Work.Plan.number(piece)];
+    finished.Summary.Cells =
+      interior.Cells + std::int64_t(interior.InterfaceCells.size() + border.cells());
+    this->take(piece, border);
     return finished;
   }
 
+private:
   /// Passes the border of a piece to the consumer, unless that was done earlier. `border`: the
   /// triangles that the piece owns.
   void take(PartitionIndex piece, PieceBorder& border) const
@@ -102,27 +261,9 @@ private:
     }
   }
 
-  PieceInterior interiorOf(PartitionIndex piece) const
-  {
-    return readInterior(this->Work, piece, *this->Results[std::size_t(piece)]);
-  }
-
-  /// Makes the triangles that replace those at artificial points. They also belong to borders.
-  void repairHull()
-  {
-    std::vector<BoundaryVertex> vertices;
-    for (const auto& result : this->Results)
-    {
-      const std::vector<BoundaryVertex> more = result->readHullVertices();
-      vertices.insert(vertices.end(), more.begin(), more.end());
-    }
-    BorderSorter sorter(this->Work, this->Late);
-    tipp::repairHull(std::move(vertices), this->Work.Plan.Artificial, sorter);
-  }
-
   /// Inserts the constraints that no piece's interior contains completely: retriangulates all
   /// triangles that they cross, in interiors and borders, together.
-  void constrain(int threads)
+  void constrain(int threads, BorderSorter& sorter)
   {
     const PartitionIndex pieces = this->Work.Plan.pieces();
     std::vector<CrossedPart> ofBorders(static_cast<std::size_t>(pieces));
@@ -139,7 +280,6 @@ private:
     }
     std::sort(this->Replaced.begin(), this->Replaced.end());
     retriangulate(all, threads);
-    BorderSorter sorter(this->Work, this->Late);
     for (std::size_t t = 0; t < all.Triangles.size(); ++t)
     {
       BoundaryTriangle triangle;
@@ -221,47 +361,6 @@ private:
     return points;
   }
 
-  /// Visits the triangles that a piece owns at its border, from all results, and those made after
-  /// all pieces were done.
-  template <typename Visit>
-  void forEachBorder(PartitionIndex piece, const Visit& visit) const
-  {
-    for (const auto& result : this->Results)
-    {
-      if (result->hasBorder(piece))
-      {
-        visit(result->readBorder(piece));
-      }
-    }
-    const auto late = this->Late.find(piece);
-    if (late != this->Late.end())
-    {
-      visit(late->second);
-    }
-  }
-
-  void addTriangles(const BorderTriangles& triangles, PieceBorder& border) const
-  {
-    const std::vector<char> isKept =
-      this->Work.Constraints ? this->findKept(triangles) : std::vector<char>();
-    auto begin = triangles.Borrowers.begin();
-    for (std::size_t i = 0; i < triangles.Corners.size(); ++i)
-    {
-      const auto end = triangles.Borrowers.begin() + std::ptrdiff_t(triangles.BorrowerEnds.at(i));
-      if (isKept.empty() || isKept[i])
-      {
-        border.addTriangle(triangles.Corners[i], { begin, end });
-      }
-      begin = end;
-    }
-  }
-
-  ResultOf results() const
-  {
-    return [this](PartitionIndex piece) -> const StoredResult&
-    { return *this->Results[std::size_t(piece)]; };
-  }
-
   std::vector<Point2> positionsOf(const std::vector<std::int64_t>& points) const
   {
     std::vector<Point2> positions;
@@ -273,38 +372,17 @@ private:
     return positions;
   }
 
-  const PieceWork& Work;
-  std::vector<std::unique_ptr<StoredResult>> Results; ///< of each piece
-  PieceFigures Figures;
-  BordersByOwner Late;                        ///< triangles made after all pieces were done
   std::vector<CrossedPart::Corners> Replaced; ///< triangles that constraints cross; sorted
 };
 
 } // namespace
-
-std::vector<char> verifyResults(const PieceWork& work, int threads, const Report& report,
-  const std::function<void(const std::string&)>& warn)
-{
-  return verifyPieces(
-    work.Mesh, storedPieces(work),
-    [&](PartitionIndex piece)
-    { return readInterior(work, piece, StoredResult(work.resultPath(piece))); },
-    threads, report, warn);
-}
 
 std::vector<FinishedPiece> finishPieces(
   const PieceWork& work, int threads, const Report& report, PieceFigures& figures)
 {
   const PieceFinisher finisher(work, threads);
   figures = finisher.figures();
-  std::vector<FinishedPiece> finished(std::size_t(work.Plan.pieces()));
-  const bool isDone = forChunks(work.Plan.pieces(), 1, threads, report,
-    [&](std::int64_t at, std::int64_t, int)
-    {
-      const auto piece = static_cast<PartitionIndex>(at);
-      finished[work.Plan.number(piece)] = finisher.finish(piece);
-    });
-  return isDone ? std::move(finished) : std::vector<FinishedPiece>();
+  return finisher.finish(threads, report);
 }
 
 void numberCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, const Report& report)

@@ -4,11 +4,17 @@
 
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/PieceResult.h"
+#include "OutOfCore/StoredPieces.h"
 #include "Parallel/ParallelFor.h"
+#include "Partitioned/GrowingPiece.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -16,20 +22,179 @@ namespace tipp
 
 // Point ids in this header are indices among all spilled points (see SpilledPoints).
 
+/// Adds each border triangle to those of the piece that owns it: the first in the mesh of the
+/// pieces that it meets. The others borrow it. Triangles that are too long are left out, but with
+/// constraints, which change triangles, that happens later.
+class BorderSorter : public FinalTriangleConsumer
+{
+public:
+  /// Both arguments must outlive this object.
+  BorderSorter(const PieceWork& work, BordersByOwner& borders)
+    : Work(work)
+    , Borders(borders)
+  {
+  }
+
+  void add(const BoundaryTriangle& triangle) override;
+
+private:
+  void findMet(const BoundaryTriangle& triangle);
+
+  const PieceWork& Work;
+  BordersByOwner& Borders;
+  std::vector<std::int32_t> Met;
+};
+
+/// Appends the triangles of `from` to those of `to`.
+void append(BordersByOwner&& from, BordersByOwner& to);
+
 /// Returns the result of a piece that is done.
 using ResultOf = std::function<const StoredResult&(PartitionIndex)>;
 
-/// Reads the interior of a piece that is done. Throws IOError.
-PieceInterior readInterior(const PieceWork& work, PartitionIndex piece, const StoredResult& result);
-
 /// Calls visit(point, row) for points at borders, which are interface points of their pieces.
-/// `points` must be ascending. Throws IOError.
-void visitBorderRows(const PieceWork& work, const std::vector<std::int64_t>& points,
-  const ResultOf& results, const std::function<void(std::int64_t, const double*)>& visit);
+/// `points` must be ascending. results(piece) returns the result of a piece. Throws IOError.
+template <typename Work, typename Results, typename Visit>
+void visitBorderRows(const Work& work, const std::vector<std::int64_t>& points,
+  const Results& results, const Visit& visit)
+{
+  PartitionIndex piece = -1;
+  PieceInterior owner;
+  for (const std::int64_t point : points)
+  {
+    const PartitionIndex of = work.Points.pieceOf(point);
+    if (of != piece)
+    {
+      piece = of;
+      owner = results(piece).readInterior(work.Points, piece, false);
+    }
+    visit(point, owner.interfaceRow(point, work.Rows));
+  }
+}
 
-/// Sets the rows of the points that a border's triangles use and that other pieces own. Throws
-/// IOError.
-void setGhosts(const PieceWork& work, const ResultOf& results, PieceBorder& border);
+/// Sets the rows of the points that a border's cells use and that other pieces own. Throws IOError.
+template <typename Work, typename Results>
+void setGhosts(const Work& work, const Results& results, PieceBorder& border)
+{
+  std::vector<std::int64_t> ghosts = border.ghosts();
+  std::sort(ghosts.begin(), ghosts.end());
+  visitBorderRows(work, ghosts, results,
+    [&](std::int64_t point, const double* row) { border.setGhost(point, row); });
+}
+
+/// Completes the files of all pieces once all results exist: adds the borders to the interiors.
+/// `CornerCount`: of a cell.
+template <typename WorkType, std::size_t CornerCount>
+class PieceFinisherOf
+{
+public:
+  using Result = typename WorkType::Result;
+
+  /// `work` must outlive this object. Throws IOError.
+  explicit PieceFinisherOf(const WorkType& work)
+    : Work(work)
+  {
+    for (PartitionIndex piece = 0; piece < work.Plan.pieces(); ++piece)
+    {
+      this->Results.push_back(std::make_unique<Result>(work.resultPath(piece)));
+      this->Figures.add(this->Results.back()->readFigures());
+    }
+  }
+  virtual ~PieceFinisherOf() = default;
+
+  /// The sum of all pieces' figures.
+  const PieceFigures& figures() const { return this->Figures; }
+
+  /// Completes the pieces' files, unless an earlier process did so. Then only the global ids of
+  /// cells and of their neighbours are missing. Returns the pieces in the order of the mesh; an
+  /// empty list if `report` stopped the run. Throws IOError.
+  std::vector<FinishedPiece> finish(int threads, const Report& report) const
+  {
+    std::vector<FinishedPiece> finished(this->Results.size());
+    const bool isDone = forChunks(std::int64_t(finished.size()), 1, threads, report,
+      [&](std::int64_t at, std::int64_t, int)
+      {
+        const auto piece = static_cast<PartitionIndex>(at);
+        finished[this->Work.Plan.number(piece)] =
+          finishOnce(this->Work.finishedPath(piece), [&] { return this->make(piece); });
+      });
+    return isDone ? std::move(finished) : std::vector<FinishedPiece>();
+  }
+
+protected:
+  virtual FinishedPiece make(PartitionIndex piece) const = 0;
+
+  /// Visits the cells that a piece owns at its border, from all results, and those made after all
+  /// pieces were done.
+  template <typename Visit>
+  void forEachBorder(PartitionIndex piece, const Visit& visit) const
+  {
+    for (const auto& result : this->Results)
+    {
+      if (result->hasBorder(piece))
+      {
+        visit(result->readBorder(piece));
+      }
+    }
+    const auto late = this->Late.find(piece);
+    if (late != this->Late.end())
+    {
+      visit(late->second);
+    }
+  }
+
+  /// Adds cells to a border. `isKept`: by cell; empty: all are added.
+  static void addCells(
+    const BorderCells<CornerCount>& cells, const std::vector<char>& isKept, PieceBorder& border)
+  {
+    auto begin = cells.Borrowers.begin();
+    for (std::size_t i = 0; i < cells.Corners.size(); ++i)
+    {
+      const auto end = cells.Borrowers.begin() + std::ptrdiff_t(cells.BorrowerEnds.at(i));
+      if (isKept.empty() || isKept[i])
+      {
+        border.addCell(cells.Corners[i].data(), { begin, end });
+      }
+      begin = end;
+    }
+  }
+
+  /// Writes the border of a piece.
+  FinishedPiece write(
+    PartitionIndex piece, const PieceInterior& interior, PieceBorder& border) const
+  {
+    setGhosts(this->Work, this->results(), border);
+    return writeBorder(
+      this->Work.Mesh, this->Work.Plan.number(piece), this->Work.Rows, interior, border);
+  }
+
+  PieceInterior readInterior(PartitionIndex piece) const
+  {
+    return this->Results[std::size_t(piece)]->readInterior(this->Work.Points, piece, true);
+  }
+
+  /// Returns the true corners of all cells with artificial corners.
+  auto readHullVertices() const
+  {
+    std::vector<typename Result::Content::Vertex> vertices;
+    for (const auto& result : this->Results)
+    {
+      const auto more = result->readHullVertices();
+      vertices.insert(vertices.end(), more.begin(), more.end());
+    }
+    return vertices;
+  }
+
+  auto results() const
+  {
+    return
+      [this](PartitionIndex piece) -> const Result& { return *this->Results[std::size_t(piece)]; };
+  }
+
+  const WorkType& Work;
+  std::vector<std::unique_ptr<Result>> Results; ///< of each piece
+  PieceFigures Figures;
+  BordersOf<CornerCount> Late; ///< cells made after all pieces were done
+};
 
 /// Passes to the consumer the triangles between pieces that became final with the last partitions
 /// of `piece`. All pieces that conflict with it must be done, because their points may be corners.
@@ -65,12 +230,6 @@ private:
   std::vector<std::vector<PartitionIndex>> Neighbours; ///< by piece: neighbours, and itself
   std::vector<std::size_t> Open; ///< by piece: the number of its Neighbours that are not done
 };
-
-/// Returns for each piece whether an earlier process left its result and its part of the mesh
-/// undamaged. Reads all of these files. Removes damaged ones, so that their pieces are made again,
-/// and passes a sentence about them to `warn`. Returns an empty list if `report` stopped the run.
-std::vector<char> verifyResults(const PieceWork& work, int threads, const Report& report,
-  const std::function<void(const std::string&)>& warn);
 
 /// Completes the files of all pieces once all results exist: repairs the hull (Lemma 3), and adds
 /// the borders to the interiors. Then only the global ids of cells and of their neighbours are

@@ -52,10 +52,6 @@ public:
   {
     return this->Labels[i];
   }
-  const std::vector<std::int64_t>& counts() const
-  {
-    return this->Counts;
-  }
   const std::vector<std::int64_t>& inPieces() const
   {
     return this->InPieces;
@@ -118,14 +114,6 @@ private:
   std::size_t NextInitial = 0;
 };
 
-std::vector<SpilledRows> rowsOf(const std::vector<SpilledPart>& parts)
-{
-  std::vector<SpilledRows> rows(parts.size());
-  std::transform(
-    parts.begin(), parts.end(), rows.begin(), [](const SpilledPart& part) { return part.Rows; });
-  return rows;
-}
-
 } // namespace
 
 void writeRow(const PointBlock& block, std::size_t i, char* to)
@@ -142,33 +130,29 @@ void writeRow(const PointBlock& block, std::size_t i, char* to)
 }
 
 SpilledPart spillPart(PointStream& points, double factor, const PiecePlan& plan,
-  const PointRowLayout& rows, const std::string& file, int part, std::size_t blockPoints,
-  int threads, const std::function<void(std::int64_t)>& progress)
+  const std::string& file, int part, const PassOptions& options)
 {
-  Spill spill(file, part, std::size_t(plan.pieces()), 8 * rows.Words);
+  Spill spill(file, part, std::size_t(plan.pieces()), 8 * (3 + points.columns().size()));
   spill.protect();
-  Labelling labelling(plan, factor, threads);
+  Labelling labelling(plan, factor, options.Threads);
   SpilledPart spilled;
-  forEachBlock(points, blockPoints,
+  forEachBlock(points, options.BlockPoints,
     [&](PointBlock& block)
     {
       labelling.label(block);
       spill.add(
-        block.size(), threads, [&](std::size_t i) { return labelling.labelOf(i); },
+        block.size(), options.Threads, [&](std::size_t i) { return labelling.labelOf(i); },
         [&](std::size_t i, char* to) { writeRow(block, i, to); });
       spilled.Points += std::int64_t(block.size());
-      progress(spilled.Points);
+      options.Progress(spilled.Points);
     });
   spilled.Rows = spill.close();
-  spilled.Counts = labelling.counts();
   spilled.InPieces = labelling.inPieces();
   return spilled;
 }
 
-SpilledPoints::SpilledPoints(const std::vector<SpilledPart>& parts, const InputSurvey& survey,
-  PiecePlan& plan, const PointRowLayout& rows, const std::string& file)
-  : Starts(std::size_t(plan.pieces()) + 1, 0)
-  , Rows(file, std::size_t(plan.pieces()), 8 * rows.Words, rowsOf(parts))
+void placeInitialPoints(
+  const std::vector<SpilledPart>& parts, const InputSurvey& survey, PiecePlan& plan)
 {
   std::int64_t seen = 0;
   // By piece: the points in earlier parts.
@@ -185,46 +169,58 @@ SpilledPoints::SpilledPoints(const std::vector<SpilledPart>& parts, const InputS
     }
     for (std::size_t piece = 0; piece < before.size(); ++piece)
     {
-      before[piece] += part.Counts.at(piece);
+      before[piece] += part.Rows.Counts.at(piece);
     }
   }
-  std::partial_sum(before.begin(), before.end(), this->Starts.begin() + 1);
-  if (seen != survey.Points || this->Starts.back() != survey.Points - survey.Rejected ||
+  std::vector<std::int64_t> starts(before.size() + 1, 0);
+  std::partial_sum(before.begin(), before.end(), starts.begin() + 1);
+  if (seen != survey.Points || starts.back() != survey.Points - survey.Rejected ||
     next != plan.Initial.end())
   {
     throwChanged();
   }
   for (InitialPoint& p : plan.Initial)
   {
-    p.InPieces += this->Starts[std::size_t(plan.PieceOf[std::size_t(p.Partition)])];
+    p.InPieces += starts[std::size_t(plan.PieceOf[std::size_t(p.Partition)])];
   }
+}
+
+SpilledPoints::SpilledPoints(
+  const std::string& file, std::size_t words, const std::vector<SpilledRows>& parts)
+  : Rows(file, parts.front().Counts.size(), 8 * words, parts)
+{
+  this->setStarts();
+}
+
+SpilledPoints::SpilledPoints(
+  const std::string& file, std::size_t words, PartitionIndex pieces, LoadArchive& archive)
+  : Rows(file, std::size_t(pieces), 8 * words, archive.get<SpilledRows>())
+{
+  this->setStarts();
+}
+
+void SpilledPoints::setStarts()
+{
+  const std::vector<std::int64_t>& counts = this->Rows.content().Counts;
+  this->Starts.assign(counts.size() + 1, 0);
+  std::partial_sum(counts.begin(), counts.end(), this->Starts.begin() + 1);
 }
 
 void SpilledPoints::save(SaveArchive& archive) const
 {
-  archive(this->Starts, this->Rows.content());
+  archive(this->Rows.content());
 }
 
-SpilledPoints::SpilledPoints(
-  const std::string& file, const PiecePlan& plan, const PointRowLayout& rows, LoadArchive& archive)
-  : Starts(archive.get<std::vector<std::int64_t>>())
-  , Rows(file, std::size_t(plan.pieces()), 8 * rows.Words, archive.get<SpilledRows>())
+PartitionIndex SpilledPoints::pieceOf(std::int64_t index) const
 {
-  bool isOurs = this->Starts.size() == std::size_t(plan.pieces()) + 1 && this->Starts[0] == 0;
-  for (PartitionIndex piece = 0; isOurs && piece < plan.pieces(); ++piece)
-  {
-    isOurs = this->count(piece) == this->Rows.rows(std::size_t(piece));
-  }
-  if (!isOurs)
-  {
-    throw IOError(file, "has the points of other pieces; start again.");
-  }
+  return PartitionIndex(
+    std::upper_bound(this->Starts.begin(), this->Starts.end(), index) - this->Starts.begin() - 1);
 }
 
 template <typename Archive>
 void serialize(Archive& archive, SpilledPart& part)
 {
-  archive(part.Points, part.Rows, part.Counts, part.InPieces);
+  archive(part.Points, part.Rows, part.InPieces);
 }
 
 namespace
@@ -241,10 +237,15 @@ void limitToPart(PointStream& points, std::int64_t total, int part, int parts)
 
 } // namespace
 
-InputPasses::InputPasses(PointStream& points, Communicator* ranks, PassOptions options)
+InputPasses::InputPasses(PointStream& points, Communicator* ranks, const PassOptions& options)
   : Points(points)
   , Ranks(ranks)
-  , Options(std::move(options))
+  , Options{ options.BlockPoints, options.SamplePoints, options.Threads,
+    [this, progress = options.Progress](std::int64_t done)
+    {
+      this->poll();
+      progress(done);
+    } }
   , Total(ranks ? points.divisible() : -1)
   , Parts(ranks && this->Total >= 0 ? ranks->size() : 1)
 {
@@ -258,15 +259,6 @@ void InputPasses::poll()
   {
     this->Arrived.push_back(std::move(message));
   }
-}
-
-std::function<void(std::int64_t)> InputPasses::progress()
-{
-  return [this](std::int64_t done)
-  {
-    this->poll();
-    this->Options.Progress(done);
-  };
 }
 
 Bytes InputPasses::answerOf(int rank)
@@ -325,12 +317,8 @@ InputSurvey InputPasses::survey()
   SaveArchive order;
   order(this->Points.identity(), this->Total, std::uint64_t(this->Options.BlockPoints),
     std::uint64_t(this->Options.SamplePoints));
-  std::vector<PartialSurvey> parts = this->share<PartialSurvey>(SurveyMessage, std::move(order),
-    [this](int)
-    {
-      return surveyPart(this->Points, this->Options.BlockPoints, this->Options.SamplePoints,
-        this->Options.Threads, this->progress());
-    });
+  std::vector<InputSurvey> parts = this->share<InputSurvey>(SurveyMessage, std::move(order),
+    [this](int) { return surveyPart(this->Points, this->Options); });
   InputSurvey survey = joinSurveys(parts);
   if (mayNeedFactor(survey))
   {
@@ -349,18 +337,19 @@ double InputPasses::commonFactor(const InputSurvey& survey)
 }
 
 std::unique_ptr<SpilledPoints> InputPasses::spill(
-  const InputSurvey& survey, PiecePlan& plan, const PointRowLayout& rows, const std::string& file)
+  const InputSurvey& survey, PiecePlan& plan, const std::string& file)
 {
   SaveArchive order;
-  order(file, survey.Factor, rows.Words);
+  order(file, survey.Factor);
   plan.save(order);
   const std::vector<SpilledPart> parts = this->share<SpilledPart>(SpillMessage, std::move(order),
     [&](int part)
-    {
-      return spillPart(this->Points, survey.Factor, plan, rows, file, part,
-        this->Options.BlockPoints, this->Options.Threads, this->progress());
-    });
-  return std::make_unique<SpilledPoints>(parts, survey, plan, rows, file);
+    { return spillPart(this->Points, survey.Factor, plan, file, part, this->Options); });
+  placeInitialPoints(parts, survey, plan);
+  std::vector<SpilledRows> rows(parts.size());
+  std::transform(
+    parts.begin(), parts.end(), rows.begin(), [](const SpilledPart& part) { return part.Rows; });
+  return std::make_unique<SpilledPoints>(file, 3 + this->Points.columns().size(), rows);
 }
 
 InputHelper::InputHelper(
@@ -386,9 +375,11 @@ bool InputHelper::take(const Message& message)
   Bytes answer; // empty: the first rank must read the part
   if (this->Points)
   {
-    answer = message.Kind == SurveyMessage ? this->survey()
-      : message.Kind == FactorMessage      ? this->factor(order)
-                                           : this->spill(order);
+    PointStream& points = *this->Points;
+    answer = message.Kind == SurveyMessage ? packed(surveyPart(points, this->Options))
+      : message.Kind == FactorMessage
+      ? packed(factorOfPart(points, this->Options.BlockPoints, order.get<Box2>()))
+      : this->spill(order);
   }
   this->Ranks.post(0, PartMessage, std::move(answer));
   return true;
@@ -419,26 +410,13 @@ void InputHelper::open(LoadArchive& order)
   }
 }
 
-Bytes InputHelper::survey()
-{
-  return packed(surveyPart(*this->Points, this->Options.BlockPoints, this->Options.SamplePoints,
-    this->Options.Threads, this->Options.Progress));
-}
-
-Bytes InputHelper::factor(LoadArchive& order)
-{
-  return packed(factorOfPart(*this->Points, this->Options.BlockPoints, order.get<Box2>()));
-}
-
 Bytes InputHelper::spill(LoadArchive& order)
 {
   std::string file;
   double factor = 1;
-  PointRowLayout rows;
-  order(file, factor, rows.Words);
+  order(file, factor);
   const PiecePlan plan(order);
-  return packed(spillPart(*this->Points, factor, plan, rows, file, this->Ranks.rank(),
-    this->Options.BlockPoints, this->Options.Threads, this->Options.Progress));
+  return packed(spillPart(*this->Points, factor, plan, file, this->Ranks.rank(), this->Options));
 }
 
 } // namespace tipp

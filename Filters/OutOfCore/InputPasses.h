@@ -19,9 +19,6 @@
 namespace tipp
 {
 
-class SaveArchive;
-class LoadArchive;
-
 /// Writes the row of point number i of the block to `to`, in the order of PointRowLayout.
 void writeRow(const PointBlock& block, std::size_t i, char* to);
 
@@ -29,8 +26,7 @@ void writeRow(const PointBlock& block, std::size_t i, char* to);
 struct SpilledPart
 {
   std::int64_t Points = 0;
-  SpilledRows Rows;                 ///< as Spill::close() returned them
-  std::vector<std::int64_t> Counts; ///< by piece: finite points
+  SpilledRows Rows; ///< as Spill::close() returned them
   /// By initial point of this part: its index among the part's points of the same piece.
   std::vector<std::int64_t> InPieces;
 };
@@ -39,31 +35,35 @@ struct SpilledPart
 /// point's piece is found with its coordinates times `factor`; rows have the original coordinates.
 /// Throws IOError.
 VTKTIPPFILTERS_EXPORT SpilledPart spillPart(PointStream& points, double factor,
-  const PiecePlan& plan, const PointRowLayout& rows, const std::string& file, int part,
-  std::size_t blockPoints, int threads, const std::function<void(std::int64_t)>& progress);
+  const PiecePlan& plan, const std::string& file, int part, const PassOptions& options);
+
+/// Sets InitialPoint::InPieces of the plan's initial points, once all parts of the stream are
+/// spilled. Throws IOError if the points are not those of the survey.
+VTKTIPPFILTERS_EXPORT void placeInitialPoints(
+  const std::vector<SpilledPart>& parts, const InputSurvey& survey, PiecePlan& plan);
 
 /// The spilled points: a row for each finite point, sorted by piece, and in the order of the stream
 /// within a piece. The index of a row is the id that the triangulation out of core uses internally.
 class VTKTIPPFILTERS_EXPORT SpilledPoints
 {
 public:
-  /// Joins all parts of the stream, in their order. Sets InitialPoint::InPieces of the plan's
-  /// initial points. Throws IOError.
-  SpilledPoints(const std::vector<SpilledPart>& parts, const InputSurvey& survey, PiecePlan& plan,
-    const PointRowLayout& rows, const std::string& file);
+  /// Joins the rows of all parts of the stream, in their order. `words`: 64-bit words per row.
+  /// Throws IOError.
+  SpilledPoints(const std::string& file, std::size_t words, const std::vector<SpilledRows>& parts);
 
-  /// Opens the file of points that another process has spilled. Throws IOError.
-  SpilledPoints(const std::string& file, const PiecePlan& plan, const PointRowLayout& rows,
-    LoadArchive& archive);
+  /// Opens the file of points that another process has spilled. Throws IOError if it does not have
+  /// this number of pieces.
+  SpilledPoints(
+    const std::string& file, std::size_t words, PartitionIndex pieces, LoadArchive& archive);
   /// Saves what the second constructor needs besides the file.
   void save(SaveArchive& archive) const;
 
   /// Returns the index of each piece's first row, and at the end the number of rows.
   const std::vector<std::int64_t>& starts() const { return this->Starts; }
-  std::int64_t count(PartitionIndex piece) const
-  {
-    return this->Starts[std::size_t(piece) + 1] - this->Starts[std::size_t(piece)];
-  }
+  std::int64_t first(PartitionIndex piece) const { return this->Starts[std::size_t(piece)]; }
+  std::int64_t count(PartitionIndex piece) const { return this->Rows.rows(std::size_t(piece)); }
+  /// Returns the piece of a row, given by its index.
+  PartitionIndex pieceOf(std::int64_t index) const;
   /// Reads all rows of a piece; `rows` must have space for count(piece) of them. Throws IOError.
   void read(PartitionIndex piece, double* rows) const
   {
@@ -72,18 +72,10 @@ public:
   std::uint64_t bytes() const { return this->Rows.bytes(); }
 
 private:
-  std::vector<std::int64_t> Starts;
-  Spill Rows;
-};
+  void setStarts();
 
-/// How a rank reads its part of the input.
-struct PassOptions
-{
-  std::size_t BlockPoints; ///< points per read
-  std::size_t SamplePoints;
-  int Threads;
-  /// Called with the number of finished points of a part.
-  std::function<void(std::int64_t)> Progress;
+  Spill Rows;
+  std::vector<std::int64_t> Starts;
 };
 
 /// The passes over the input before its points are triangulated; used on the first rank. If the
@@ -94,14 +86,14 @@ class VTKTIPPFILTERS_EXPORT InputPasses
 {
 public:
   /// `ranks`: null for this process alone. Both must outlive this object.
-  InputPasses(PointStream& points, Communicator* ranks, PassOptions options);
+  InputPasses(PointStream& points, Communicator* ranks, const PassOptions& options);
 
   /// Reads all points, and returns what is known of them.
   InputSurvey survey();
   /// Spills all points, and sets the indices of the plan's initial points. `file`: the path of the
   /// spilled points; each part appends its number.
-  std::unique_ptr<SpilledPoints> spill(const InputSurvey& survey, PiecePlan& plan,
-    const PointRowLayout& rows, const std::string& file);
+  std::unique_ptr<SpilledPoints> spill(
+    const InputSurvey& survey, PiecePlan& plan, const std::string& file);
 
 private:
   double commonFactor(const InputSurvey& survey);
@@ -109,7 +101,6 @@ private:
   std::vector<Result> share(MessageKind kind, SaveArchive order, const Work& work);
   Bytes answerOf(int rank);
   void poll();
-  std::function<void(std::int64_t)> progress();
 
   PointStream& Points;
   Communicator* const Ranks;
@@ -133,8 +124,6 @@ public:
 
 private:
   void open(LoadArchive& order);
-  Bytes survey();
-  Bytes factor(LoadArchive& order);
   Bytes spill(LoadArchive& order);
 
   Communicator& Ranks;

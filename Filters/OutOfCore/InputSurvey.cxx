@@ -12,12 +12,6 @@
 
 namespace tipp
 {
-namespace
-{
-
-constexpr Box2 nothing{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
-
-} // namespace
 
 /// Returns the factor of withModerateMagnitude(), or 1 unless it is exact for each block.
 double factorOfPart(PointStream& points, std::size_t blockPoints, const Box2& bounds)
@@ -48,19 +42,17 @@ void applyFactor(InputSurvey& survey, double factor)
   }
 }
 
-PartialSurvey surveyPart(PointStream& points, std::size_t blockPoints, std::size_t sample,
-  int threads, const std::function<void(std::int64_t)>& progress)
+InputSurvey surveyPart(PointStream& points, const PassOptions& options)
 {
-  PartialSurvey survey;
-  survey.Bounds = nothing;
-  StreamSampler<Point2> sampler(sample, points.divisible());
+  InputSurvey survey;
+  StreamSampler<Point2> sampler(options.SamplePoints, points.divisible());
   CollinearityTest line;
   const std::size_t elevation = findElevation(points.columns());
-  forEachBlock(points, blockPoints,
+  forEachBlock(points, options.BlockPoints,
     [&](PointBlock& block)
     {
       const PointsView view(block.XY.data(), block.size(), 2);
-      const PointSurvey part = surveyPoints(view, threads);
+      const PointSurvey part = surveyPoints(view, options.Threads);
       survey.Bounds = unionOf(survey.Bounds, part.Bounds);
       survey.Rejected += std::int64_t(part.Rejected.size());
       survey.WithoutElevation +=
@@ -71,19 +63,18 @@ PartialSurvey surveyPart(PointStream& points, std::size_t blockPoints, std::size
         survey.Collinear = line.add(view[i]);
       }
       survey.Points += std::int64_t(block.size());
-      progress(survey.Points);
+      options.Progress(survey.Points);
     });
   survey.Line = line.line();
   survey.Sample = sampler.take();
   return survey;
 }
 
-InputSurvey joinSurveys(std::vector<PartialSurvey>& parts)
+InputSurvey joinSurveys(std::vector<InputSurvey>& parts)
 {
   InputSurvey survey;
-  survey.Bounds = nothing;
   CollinearityTest line;
-  for (PartialSurvey& part : parts)
+  for (InputSurvey& part : parts)
   {
     survey.Points += part.Points;
     survey.Rejected += part.Rejected;

@@ -133,7 +133,7 @@ private:
 LoadedPiece::LoadedPiece(const PieceWork& work, PartitionIndex piece)
   : Work(work)
   , Piece(piece)
-  , First(work.Points.starts()[std::size_t(piece)])
+  , First(work.Points.first(piece))
   , Rows(std::size_t(work.Points.count(piece)) * work.Rows.Words)
   , IsOnInterface(std::size_t(work.Points.count(piece)), 0)
 {

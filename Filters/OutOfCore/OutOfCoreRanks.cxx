@@ -55,11 +55,6 @@ Message waitForOrder(Communicator& ranks, const OutOfCoreOptions& options)
   return message;
 }
 
-int threadsOf(const OutOfCoreOptions& options)
-{
-  return threadCount(options.Threads);
-}
-
 /// Helps with the input until the setup arrives. Returns false if the run ends without pieces to
 /// triangulate.
 bool receiveSetup(Communicator& ranks, const OpenPoints& open, const OutOfCoreOptions& options,
@@ -71,7 +66,7 @@ bool receiveSetup(Communicator& ranks, const OpenPoints& open, const OutOfCoreOp
     ranks.poll(none);
     report(ranks, options);
   };
-  InputHelper input(ranks, open, { 0, 0, threadsOf(options), progress });
+  InputHelper input(ranks, open, { 0, 0, threadCount(options.Threads), progress });
   Message message = waitForOrder(ranks, options);
   while (input.take(message))
   {
@@ -105,7 +100,7 @@ void help(Communicator& ranks, const OpenPoints& open, const OutOfCoreOptions& o
   const auto progress = [&](std::int64_t done)
   { return !options.Progress || options.Progress(double(done) / double(prepared.Survey.Points)); };
   const MemoryPlan memory(options, prepared.Rows.Words);
-  PieceRun(prepared.work(), memory, threadsOf(options), progress, &ranks).run(isDone);
+  PieceRun(prepared.work(), memory, threadCount(options.Threads), progress, &ranks).run(isDone);
 }
 
 } // namespace

@@ -3,12 +3,14 @@
 #define tippOutOfCoreRun_h
 
 #include "Files/OutputFile.h"
+#include "OutOfCore/FinishPieces.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "OutOfCore/RunRecord.h"
 #include "OutOfCore/ScratchFiles.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,12 +28,13 @@ protected:
   {
   };
 
-  /// `identity`: see RunRecord.
+  /// `identity`: see RunRecord. `ranks`: null: this process works alone.
   OutOfCoreRun(PointStream& points, const std::string& path, const RunOptions& options,
-    const std::string& identity)
+    const std::string& identity, Communicator* ranks = nullptr)
     : Input(points)
     , Path(path)
     , Options(options)
+    , Ranks(ranks)
     , Threads(threadCount(options.Threads))
     , Pending(PendingFolder::lasting(path, &replaceableMesh))
     , Scratch(this->Pending, options.Scratch)
@@ -79,6 +82,28 @@ protected:
     }
   }
 
+  /// Reports the finished fraction. Throws Aborted if the user has stopped the run, and RankFailure
+  /// if a rank has failed.
+  void report(double fraction) const
+  {
+    if (this->Ranks)
+    {
+      Message message; // no message comes
+      this->Ranks->poll(message);
+    }
+    this->require(this->proceed(fraction));
+  }
+
+  /// Returns a function that reports the part [from, from + length] of the run.
+  Report reportPart(double from, double length) const
+  {
+    return [this, from, length](double done)
+    {
+      this->report(from + length * done);
+      return true;
+    };
+  }
+
   void warn(const std::string& sentence) const
   {
     if (this->Options.Warn)
@@ -102,6 +127,22 @@ protected:
     return this->Statistics.Resumed;
   }
 
+  /// Writes the ids of all cells and, if requested, those of their neighbours. `memory`: in bytes.
+  void numberAndLink(PartitionedMesh& mesh, std::uint64_t memory)
+  {
+    numberCells(mesh, this->Finished, this->reportPart(0.9, 0.02));
+    if (this->Options.Neighbors)
+    {
+      linkCells(mesh, this->Finished, memory, this->Threads, this->reportPart(0.92, 0.05));
+      this->endPhase("link");
+    }
+  }
+
+  void publish(PartitionedMesh& mesh)
+  {
+    this->Record.publish(mesh, this->Finished, this->Statistics, this->reportPart(0.98, 0.02));
+  }
+
   void putInPlace()
   {
     this->proceed(1); // too late to stop the run
@@ -112,6 +153,7 @@ protected:
   PointStream& Input;
   const std::string Path;
   const RunOptions& Options;
+  Communicator* const Ranks;
   const int Threads;
   PendingFolder Pending;
   ScratchFolder Scratch;

@@ -30,8 +30,7 @@ class Run : OutOfCoreRun<OutOfCoreOptions, OutOfCoreStatistics>
 public:
   Run(PointStream& points, const std::string& path, const OutOfCoreOptions& options,
     Communicator* ranks)
-    : OutOfCoreRun(points, path, options, identityOf(points, options))
-    , Ranks(ranks)
+    : OutOfCoreRun(points, path, options, identityOf(points, options), ranks)
   {
     this->Setup.Mesh.Path = options.CountOnly ? "" : this->Pending.temporaryPath();
     this->Setup.Results = this->Scratch.results();
@@ -68,33 +67,18 @@ public:
   }
 
 private:
-  void report(double fraction) const
-  {
-    if (this->Ranks)
-    {
-      Message message; // no message comes; poll() throws if a rank has failed
-      this->Ranks->poll(message);
-    }
-    this->require(this->proceed(fraction));
-  }
-
   void load(LoadArchive& archive)
   {
     this->Setup.load(archive, this->Scratch.points());
-    this->planMemory(this->Setup.Rows.Words);
+    this->Memory = std::make_unique<MemoryPlan>(this->Options, this->Setup.Rows.Words);
     this->describePlan();
-  }
-
-  void planMemory(std::size_t words)
-  {
-    this->Memory = std::make_unique<MemoryPlan>(this->Options, words);
   }
 
   void survey()
   {
     this->Record.keep(false);
     this->Scratch.clear();
-    this->planMemory(3 + this->Input.columns().size());
+    this->Memory = std::make_unique<MemoryPlan>(this->Options, 3 + this->Input.columns().size());
     SegmentSource* const segments =
       this->Options.Constraints ? &this->Options.Constraints() : nullptr;
     if (segments)
@@ -171,9 +155,8 @@ private:
     const InputSurvey& survey = this->Setup.Survey;
     const auto progress = [&](std::int64_t done)
     { this->require(this->proceed(0.2 * double(done) / double(survey.Points))); };
-    this->Setup.Spilled =
-      InputPasses(this->Input, this->Ranks, this->passOptions(progress))
-        .spill(survey, *this->Setup.Plan, this->Setup.Rows, this->Scratch.points());
+    this->Setup.Spilled = InputPasses(this->Input, this->Ranks, this->passOptions(progress))
+                            .spill(survey, *this->Setup.Plan, this->Scratch.points());
     this->Statistics.SpilledBytes = this->Setup.Spilled->bytes();
     this->Setup.requireMemory(this->Path, this->Options.MemoryLimit);
     this->Record.saveBegun([this](SaveArchive& archive) { this->Setup.save(archive); });
@@ -238,32 +221,16 @@ private:
   void publish()
   {
     PartitionedMesh& mesh = this->Setup.Mesh;
-    const auto reportTo = [this](double from, double length)
-    {
-      return [this, from, length](double done)
-      {
-        this->report(from + length * done);
-        return true;
-      };
-    };
-    numberCells(mesh, this->Finished, reportTo(0.9, 0.02));
+    this->numberAndLink(mesh, this->Memory->LoadedBytes);
     this->Statistics.Triangles = mesh.Cells;
-    if (this->Options.Neighbors)
-    {
-      linkCells(
-        mesh, this->Finished, this->Memory->LoadedBytes, this->Threads, reportTo(0.92, 0.06));
-      this->endPhase("link");
-    }
     if (this->Options.MarkConstraints)
     {
       markCells(mesh, this->Finished, this->Setup.Marks, this->Setup.Constraints.get(),
-        this->Threads, reportTo(0.97, 0.01));
+        this->Threads, this->reportPart(0.97, 0.01));
     }
-    this->Record.publish(mesh, this->Finished, this->Statistics,
-      [this](double done) { this->report(0.98 + 0.02 * done); });
+    OutOfCoreRun::publish(mesh);
   }
 
-  Communicator* const Ranks; ///< null: this process works alone
   std::unique_ptr<MemoryPlan> Memory;
   RunSetup Setup;
 };

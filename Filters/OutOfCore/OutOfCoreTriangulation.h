@@ -4,6 +4,7 @@
 
 #include "Constraints/ConstraintSegments.h"
 #include "Duplicates/ResolveDuplicates.h"
+#include "Engine/Inbox.h"
 #include "Partitioned/PieceBorder.h"
 #include "Points/PointStream.h"
 #include "Predicates/Points.h"
@@ -163,27 +164,22 @@ struct OutOfCoreStatistics : OutOfCoreRunStatistics
 VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCore(PointStream& points,
   const std::string& path, const OutOfCoreOptions& options = {}, Communicator* ranks = nullptr);
 
-constexpr MessageKind pieceMessage(std::uint32_t n)
-{
-  return static_cast<MessageKind>(static_cast<std::uint32_t>(MessageKind::FirstFree) + n);
-}
-
 /// @name From the first rank
 ///@{
 /// Handled by InputHelper, like the next two.
-constexpr MessageKind SurveyMessage = pieceMessage(0);
-constexpr MessageKind FactorMessage = pieceMessage(1);
-constexpr MessageKind SpillMessage = pieceMessage(2);
-constexpr MessageKind SetUpMessage = pieceMessage(3); ///< RunSetup, and which pieces are done
-constexpr MessageKind EndMessage = pieceMessage(4);   ///< there is no more work
+constexpr MessageKind SurveyMessage = kindAfter(0);
+constexpr MessageKind FactorMessage = kindAfter(1);
+constexpr MessageKind SpillMessage = kindAfter(2);
+constexpr MessageKind SetUpMessage = kindAfter(3); ///< RunSetup, and which pieces are done
+constexpr MessageKind EndMessage = kindAfter(4);   ///< there is no more work
 ///@}
 /// An InputHelper's answer to the first rank.
-constexpr MessageKind PartMessage = pieceMessage(5);
+constexpr MessageKind PartMessage = kindAfter(5);
 /// @name Between any ranks
 ///@{
 /// The partition is done; contains the vertices that it sends.
-constexpr MessageKind PartitionMessage = pieceMessage(6);
-constexpr MessageKind PieceMessage = pieceMessage(7); ///< the piece is done: its result is on disk
+constexpr MessageKind PartitionMessage = kindAfter(6);
+constexpr MessageKind PieceMessage = kindAfter(7); ///< the piece is done: its result is on disk
 ///@}
 
 class RunSetup;

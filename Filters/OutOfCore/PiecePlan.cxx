@@ -65,21 +65,36 @@ std::uint64_t MemoryPlan::pieceBytes(std::int64_t points, std::size_t rowWords)
   return std::uint64_t(points) * (8 * rowWords + 24 + 4 + 1);
 }
 
-MemoryPlan::MemoryPlan(const OutOfCoreOptions& options, std::size_t words)
+InputMemory::InputMemory(std::uint64_t limit, std::size_t rowWords)
 {
-  // A consumer copies coordinates, columns and triangles of each piece. Constraints need memory for
-  // the triangles that they cross.
-  const std::size_t rowWords =
-    words + (options.Consumer ? 4 + words : 0) + (options.Constraints ? 1 : 0);
-  // The two phases, spilling and triangulating, get the same share. The rest is for kernels and
-  // boundary vertices.
-  const std::uint64_t share = options.MemoryLimit / 5 * 2;
   // Two blocks of points, their labels, and their rows sorted by piece.
   const std::size_t perPoint = 2 * 8 * (rowWords - 1) + 4 + 8 * rowWords;
   constexpr std::size_t mostPoints = std::size_t(1) << 22;
-  this->BlockPoints = std::clamp<std::size_t>(std::size_t(share) / perPoint, 1 << 14, mostPoints);
-  this->SamplePoints = std::clamp<std::size_t>(
-    std::size_t(options.MemoryLimit / 512), std::size_t(1) << 14, std::size_t(1) << 20);
+  this->BlockPoints =
+    std::clamp<std::size_t>(std::size_t(limit / 5 * 2) / perPoint, 1 << 14, mostPoints);
+  this->SamplePoints =
+    std::clamp<std::size_t>(std::size_t(limit / 512), std::size_t(1) << 14, std::size_t(1) << 20);
+}
+
+namespace
+{
+
+/// A consumer copies coordinates, columns and triangles of each piece. Constraints need memory for
+/// the triangles that they cross.
+std::size_t wordsInMemory(const OutOfCoreOptions& options, std::size_t words)
+{
+  return words + (options.Consumer ? 4 + words : 0) + (options.Constraints ? 1 : 0);
+}
+
+} // namespace
+
+MemoryPlan::MemoryPlan(const OutOfCoreOptions& options, std::size_t words)
+  : InputMemory(options.MemoryLimit, wordsInMemory(options, words))
+{
+  const std::size_t rowWords = wordsInMemory(options, words);
+  // The two phases, spilling and triangulating, get the same share. The rest is for kernels and
+  // boundary vertices.
+  const std::uint64_t share = options.MemoryLimit / 5 * 2;
   this->LoadedBytes = share / pieceBytes(1, rowWords) * pieceBytes(1, words);
   // One piece being written, two being triangulated and one being loaded. The number does not
   // depend on the threads, so that the pieces do not, either.

@@ -16,18 +16,24 @@
 namespace tipp
 {
 
-class SaveArchive;
-class LoadArchive;
 class SpilledPoints;
 
+/// How points are read if memory is limited.
+struct VTKTIPPFILTERS_EXPORT InputMemory
+{
+  /// `limit`: in bytes; `rowWords`: 64-bit words of a spilled row.
+  InputMemory(std::uint64_t limit, std::size_t rowWords);
+
+  std::size_t BlockPoints;  ///< points per read
+  std::size_t SamplePoints; ///< smallest size of the survey's sample
+};
+
 /// How the memory limit is divided among the phases of a run.
-struct VTKTIPPFILTERS_EXPORT MemoryPlan
+struct VTKTIPPFILTERS_EXPORT MemoryPlan : InputMemory
 {
   /// `rowWords`: 64-bit words of a spilled row (PointRowLayout::Words).
   MemoryPlan(const OutOfCoreOptions& options, std::size_t rowWords);
 
-  std::size_t BlockPoints;  ///< points per read
-  std::size_t SamplePoints; ///< smallest size of the survey's sample
   std::int64_t PiecePoints; ///< approximate points per piece
   /// Approximate points per partition.
   std::int64_t PartitionPoints;

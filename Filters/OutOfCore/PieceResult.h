@@ -22,26 +22,18 @@
 namespace tipp
 {
 
-/// The input and the destination of the work on a run's pieces. It is the same on all ranks.
-/// References and pointers are not owned.
-struct PieceWork
+/// The input and the destination of the work on a run's pieces, of triangles or tetrahedra. It is
+/// the same on all ranks. References are not owned.
+template <typename PlanType, typename ResultType>
+struct PieceWorkOf
 {
-  const PiecePlan& Plan;
+  using Result = ResultType; ///< reads parts of a piece's result
+
+  const PlanType& Plan;
   const SpilledPoints& Points;
-  double Factor; ///< multiplies the points' coordinates to give the plan's
   const PointRowLayout& Rows;
   const PartitionedMesh& Mesh;
-  std::string Results;                  ///< prefix of the paths of results
-  TriangleConsumer* Consumer = nullptr; ///< null: triangles are written to the mesh
-  double MaximumEdge = 0; ///< triangles with a longer edge are left out; 0: all are kept
-  DuplicateRule Duplicates = DuplicateRule::First;
-  const PieceSegments* Constraints = nullptr; ///< null: no constraints
-  /// Its index among the columns; the number of columns if there is none.
-  std::size_t Elevation = 0;
-
-  /// Returns whether Consumer gets the triangles between pieces as soon as these pieces are done.
-  /// With constraints it does not, because they may change or remove these triangles.
-  bool takesBordersEarly() const { return this->Consumer && !this->Constraints; }
+  std::string Results; ///< prefix of the paths of results
 
   std::string resultPath(PartitionIndex piece) const
   {
@@ -74,93 +66,170 @@ struct BorderCells
   }
 };
 
-using BorderTriangles = BorderCells<3>;
-
 template <typename Archive, std::size_t CornerCount>
 void serialize(Archive& archive, BorderCells<CornerCount>& border)
 {
   archive(border.Corners, border.Borrowers, border.BorrowerEnds);
 }
 
-using BordersByOwner = std::map<PartitionIndex, BorderTriangles>;
-
-/// Adds each border triangle to those of the piece that owns it: the first in the mesh of the
-/// pieces that it meets. The others borrow it. Triangles that are too long are left out, but with
-/// constraints, which change triangles, that happens later.
-class BorderSorter : public FinalTriangleConsumer
-{
-public:
-  /// Both arguments must outlive this object.
-  BorderSorter(const PieceWork& work, BordersByOwner& borders)
-    : Work(work)
-    , Borders(borders)
-  {
-  }
-
-  void add(const BoundaryTriangle& triangle) override;
-
-private:
-  void findMet(const BoundaryTriangle& triangle);
-
-  const PieceWork& Work;
-  BordersByOwner& Borders;
-  std::vector<std::int32_t> Met;
-};
-
-/// Appends the triangles of `from` to those of `to`.
-void append(BordersByOwner&& from, BordersByOwner& to);
+template <std::size_t CornerCount>
+using BordersOf = std::map<PartitionIndex, BorderCells<CornerCount>>;
 
 /// The result of a piece whose partitions are all triangulated: the data that others need, besides
 /// the interior's part of the mesh file. It is written once and never changed; the set of these
-/// files is the state from which a run is resumed.
+/// files is the state from which a run is resumed. `Message` has the vertices that one partition
+/// sends to another.
 ///
-/// A triangle belongs to the piece's interior if its circumdisk meets no other piece, and otherwise
-/// to a border. A piece's points are interface points if they are corners of border triangles, of
-/// triangles that are not final, or of triangles with an artificial corner. All of them are known
-/// when the piece is done: by Lemma 6, the last partition of the piece that a triangle meets has
-/// sent the triangle if it is not final, and triangles that are made later replace triangles like
-/// these.
-struct PieceResult
+/// In the plane, a triangle belongs to the piece's interior if its circumdisk meets no other piece,
+/// and otherwise to a border. A piece's points are interface points if they are corners of border
+/// triangles, of triangles that are not final, or of triangles with an artificial corner. All of
+/// them are known when the piece is done: by Lemma 6, the last partition of the piece that a
+/// triangle meets has sent the triangle if it is not final, and triangles that are made later
+/// replace triangles like these.
+template <std::size_t CornerCount, typename Message>
+struct PieceResultOf
 {
+  using Vertex = typename decltype(Message::Vertices)::value_type;
+  using Messages = std::vector<std::pair<PartitionIndex, Message>>;
+
   PieceInterior Interior;
   PieceFigures Figures;
-  std::vector<BoundaryVertex> HullVertices; ///< true corners of triangles with artificial corners
-  BordersByOwner Borders;
-  /// The interior triangles that are crossed by constraints not complete in the interior. They are
-  /// left out of the interior, and their corners are interface points.
+  std::vector<Vertex> HullVertices; ///< true corners of cells with artificial corners
+  BordersOf<CornerCount> Borders;
+  /// In the plane: the interior triangles that are crossed by constraints not complete in the
+  /// interior. They are left out of the interior, and their corners are interface points.
   CrossedPart Crossed;
-  std::map<PartitionIndex, SentMessages> Sent; ///< by the recipient's piece
+  std::map<PartitionIndex, Messages> Sent; ///< by the recipient's piece
 };
 
-/// Writes a result to a file. Returns the size of the file in bytes. Throws IOError.
-std::uint64_t writeResult(const std::string& path, const PieceResult& result);
-
-/// Reads parts of a result from its file. All methods except has...() throw IOError if the file is
-/// damaged or missing.
-class VTKTIPPFILTERS_EXPORT StoredResult
+/// Writes a result to a file, and reads parts of it. All methods except has() and sentBytes() throw
+/// IOError if the file is damaged or missing.
+template <std::size_t CornerCount, typename Message>
+class StoredResultOf
 {
 public:
-  explicit StoredResult(const std::string& path)
+  using Content = PieceResultOf<CornerCount, Message>;
+
+  explicit StoredResultOf(const std::string& path)
     : File(path)
   {
   }
 
-  void verify() const { this->File.verify(); }
+  static void write(const std::string& path, const Content& result)
+  {
+    SectionFileWriter file(path);
+    const PieceInterior& interior = result.Interior;
+    file.add({ InterfaceSection, 0 }, packed(interior.InterfacePoints, interior.InterfaceRows));
+    file.add({ InteriorSection, 0 }, packed(interior));
+    file.add({ FiguresSection, 0 }, packed(result.Figures));
+    file.add({ HullSection, 0 }, packed(result.HullVertices));
+    for (const auto& [owner, cells] : result.Borders)
+    {
+      file.add({ BorderSection, owner }, packed(cells));
+    }
+    if (!result.Crossed.Triangles.empty() || !result.Crossed.Touches.empty())
+    {
+      file.add({ CrossedSection, 0 }, packed(result.Crossed));
+    }
+    for (const auto& [to, messages] : result.Sent)
+    {
+      SaveArchive writer;
+      for (const auto& [partition, message] : messages)
+      {
+        writer(partition, message);
+      }
+      file.add({ MessageSection, to }, writer.take());
+    }
+    file.finish();
+  }
 
+  /// Returns the size of the messages to the piece `to`; 0 if there are none.
+  std::uint64_t sentBytes(PartitionIndex to) const
+  {
+    return this->File.bytes({ MessageSection, to });
+  }
   /// `to`: the piece that receives the messages.
-  bool hasMessages(PartitionIndex to) const;
-  SentMessages readMessages(PartitionIndex to) const;
-  /// `owner`: the piece that owns the triangles.
-  bool hasBorder(PartitionIndex owner) const;
-  BorderTriangles readBorder(PartitionIndex owner) const;
-  std::vector<BoundaryVertex> readHullVertices() const;
-  CrossedPart readCrossed() const;
-  PieceFigures readFigures() const;
-  /// Returns the interior without First and OwnPoints; see readInterior() in FinishPieces.h.
-  PieceInterior readInterior() const;
+  typename Content::Messages readMessages(PartitionIndex to) const
+  {
+    const Bytes bytes = this->File.read({ MessageSection, to });
+    typename Content::Messages messages;
+    for (LoadArchive reader(bytes); reader.left() > 0;)
+    {
+      messages.emplace_back(reader.get<PartitionIndex>(), Message{});
+      reader(messages.back().second);
+    }
+    return messages;
+  }
+
+  /// `owner`: the piece that owns the cells.
+  bool hasBorder(PartitionIndex owner) const { return this->File.has({ BorderSection, owner }); }
+  BorderCells<CornerCount> readBorder(PartitionIndex owner) const
+  {
+    return unpacked<BorderCells<CornerCount>>(this->File.read({ BorderSection, owner }));
+  }
+  std::vector<typename Content::Vertex> readHullVertices() const
+  {
+    return unpacked<std::vector<typename Content::Vertex>>(this->File.read({ HullSection, 0 }));
+  }
+  CrossedPart readCrossed() const
+  {
+    return this->File.has({ CrossedSection, 0 })
+      ? unpacked<CrossedPart>(this->File.read({ CrossedSection, 0 }))
+      : CrossedPart();
+  }
+  PieceFigures readFigures() const
+  {
+    return unpacked<PieceFigures>(this->File.read({ FiguresSection, 0 }));
+  }
+
+  /// Returns the interior of the piece with this result. `all`: otherwise only its interface points
+  /// and their rows.
+  PieceInterior readInterior(const SpilledPoints& points, PartitionIndex piece, bool all) const
+  {
+    PieceInterior interior =
+      all ? unpacked<PieceInterior>(this->File.read({ InteriorSection, 0 })) : PieceInterior();
+    interior.First = points.first(piece);
+    interior.OwnPoints = points.count(piece);
+    const Bytes bytes = this->File.read({ InterfaceSection, 0 });
+    LoadArchive reader(bytes);
+    reader(interior.InterfacePoints, interior.InterfaceRows);
+    return interior;
+  }
 
 private:
+  enum SectionKind : std::uint32_t
+  {
+    InterfaceSection,
+    InteriorSection,
+    FiguresSection,
+    HullSection,
+    BorderSection,
+    CrossedSection,
+    MessageSection
+  };
+
   SectionFile File;
+};
+
+using BorderTriangles = BorderCells<3>;
+using BordersByOwner = BordersOf<3>;
+using PieceResult = PieceResultOf<3, VertexMessage>;
+using StoredResult = StoredResultOf<3, VertexMessage>;
+
+/// The work on pieces of triangles. Pointers are not owned.
+struct PieceWork : PieceWorkOf<PiecePlan, StoredResult>
+{
+  double Factor = 1;                    ///< multiplies the points' coordinates to give the plan's
+  TriangleConsumer* Consumer = nullptr; ///< null: triangles are written to the mesh
+  double MaximumEdge = 0; ///< triangles with a longer edge are left out; 0: all are kept
+  DuplicateRule Duplicates = DuplicateRule::First;
+  const PieceSegments* Constraints = nullptr; ///< null: no constraints
+  /// Its index among the columns; the number of columns if there is none.
+  std::size_t Elevation = 0;
+
+  /// Returns whether Consumer gets the triangles between pieces as soon as these pieces are done.
+  /// With constraints it does not, because they may change or remove these triangles.
+  bool takesBordersEarly() const { return this->Consumer && !this->Constraints; }
 };
 
 } // namespace tipp

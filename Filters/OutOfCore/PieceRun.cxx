@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/PieceRun.h"
 
-#include "Engine/DoneMessage.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Partitioned/GrowingPiece.h"
 
@@ -91,10 +90,10 @@ void PieceRun::writeEmptyPieces(const std::vector<char>& isDone)
     {
       PieceResult result;
       InteriorContent none;
-      none.First = this->Work.Points.starts()[std::size_t(piece)];
+      none.First = this->Work.Points.first(piece);
       result.Interior =
         writeInterior(this->Work.Mesh, this->Work.Plan.number(piece), this->Work.Rows, none);
-      writeResult(this->Work.resultPath(piece), result);
+      StoredResult::write(this->Work.resultPath(piece), result);
     }
   }
 }
@@ -106,7 +105,7 @@ std::vector<PartitionIndex> PieceRun::setDone(PartitionIndex piece)
   this->at(piece).Result = std::make_unique<StoredResult>(this->Work.resultPath(piece));
   for (const PartitionIndex other : this->Order->sequence())
   {
-    if (!this->at(piece).Result->hasMessages(other))
+    if (this->at(piece).Result->sentBytes(other) == 0)
     {
       continue;
     }
@@ -180,7 +179,7 @@ void PieceRun::load(PartitionIndex piece)
     }
     for (const Piece& other : this->Pieces)
     {
-      if (other.Result && other.Result->hasMessages(piece))
+      if (other.Result && other.Result->sentBytes(piece) > 0)
       {
         results.push_back(other.Result.get());
       }
@@ -277,7 +276,7 @@ void PieceRun::deliver(PartitionIndex to, VertexMessage message)
 void PieceRun::finishPiece(PartitionIndex piece)
 {
   PieceResult result = this->at(piece).Loaded->write();
-  writeResult(this->Work.resultPath(piece), result);
+  StoredResult::write(this->Work.resultPath(piece), result);
   std::vector<PartitionIndex> borders;
   {
     const Lock lock(this->Mutex);

@@ -112,7 +112,6 @@ private:
   std::unordered_map<std::int32_t, std::int32_t> Representatives; ///< by duplicate
   std::vector<std::uint8_t> IsOnInterface; ///< by point: 1 if other pieces need it
   /// Interior triangles between partitions.
-  /// Between partitions, but of the interior.
   std::vector<std::array<std::int32_t, 3>> BoundaryTriangles;
   PieceResult Result;
 };

@@ -22,40 +22,13 @@ std::string pathOf(const std::string& file)
 
 PieceSegments::PieceSegments(const std::string& file, const PiecePlan& plan, double factor,
   const std::function<void(const VisitSegment&)>& forEach, int threads)
-  : PieceSegments(file, plan, factor, write(file, plan, factor, forEach, threads))
-{
-}
-
-PieceSegments::PieceSegments(
-  const std::string& file, const PiecePlan& plan, double factor, const Written& written)
   : Plan(plan)
   , Factor(factor)
-  , Rows(pathOf(file), std::size_t(plan.pieces()), sizeof(Row),
-      std::vector<SpilledRows>{ written.Rows })
-  , Cutting(written.Cutting)
+  , Cutting(std::vector<ConstraintSegment>())
 {
-}
-
-PieceSegments::PieceSegments(
-  const std::string& file, const PiecePlan& plan, double factor, LoadArchive& archive)
-  : Plan(plan)
-  , Factor(factor)
-  , Rows(pathOf(file), std::size_t(plan.pieces()), sizeof(Row), archive.get<SpilledRows>())
-  , Cutting(archive.get<std::vector<ConstraintSegment>>())
-{
-}
-
-void PieceSegments::save(SaveArchive& archive) const
-{
-  archive(this->Rows.content(), this->Cutting.list());
-}
-
-PieceSegments::Written PieceSegments::write(const std::string& file, const PiecePlan& plan,
-  double factor, const std::function<void(const VisitSegment&)>& forEach, int threads)
-{
-  Spill spill(pathOf(file), 0, std::size_t(plan.pieces()), sizeof(Row));
+  const auto pieces = std::size_t(plan.pieces());
+  Spill spill(pathOf(file), 0, pieces, sizeof(Row));
   spill.protect();
-  Written written;
   struct RowOfPiece
   {
     Row Content;
@@ -70,12 +43,13 @@ PieceSegments::Written PieceSegments::write(const std::string& file, const Piece
       [&](std::size_t i, char* to) { std::memcpy(to, &rows[i].Content, sizeof(Row)); });
     rows.clear();
   };
+  std::vector<ConstraintSegment> cutting;
   std::int64_t name = 0;
   forEach(
     [&](const ConstraintSegment& segment)
     {
       const Row row{ segment, name++ };
-      segment.Role != SegmentRole::Line ? written.Cutting.push_back(segment) : void();
+      segment.Role != SegmentRole::Line ? cutting.push_back(segment) : void();
       if (segment.Role == SegmentRole::Hole)
       {
         return; // a hole's outline is no edge of the triangulation
@@ -89,8 +63,24 @@ PieceSegments::Written PieceSegments::write(const std::string& file, const Piece
       rows.size() >= most ? writeRows() : void();
     });
   rows.empty() ? void() : writeRows();
-  written.Rows = spill.close();
-  return written;
+  this->Rows = std::make_unique<Spill>(
+    pathOf(file), pieces, sizeof(Row), std::vector<SpilledRows>{ spill.close() });
+  this->Cutting = ConstraintSegments(cutting);
+}
+
+PieceSegments::PieceSegments(
+  const std::string& file, const PiecePlan& plan, double factor, LoadArchive& archive)
+  : Plan(plan)
+  , Factor(factor)
+  , Rows(std::make_unique<Spill>(
+      pathOf(file), std::size_t(plan.pieces()), sizeof(Row), archive.get<SpilledRows>()))
+  , Cutting(archive.get<std::vector<ConstraintSegment>>())
+{
+}
+
+void PieceSegments::save(SaveArchive& archive) const
+{
+  archive(this->Rows->content(), this->Cutting.list());
 }
 
 std::uint64_t PieceSegments::bytesOf(PartitionIndex piece) const
@@ -103,7 +93,7 @@ std::uint64_t PieceSegments::bytesOf(PartitionIndex piece) const
 void PieceSegments::visit(PartitionIndex piece, const std::function<void(const Row&)>& visit) const
 {
   constexpr std::size_t most = 4096;
-  this->Rows.read(std::size_t(piece), most,
+  this->Rows->read(std::size_t(piece), most,
     [&](const char* rows, std::size_t count)
     {
       for (std::size_t i = 0; i < count; ++i)

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,7 @@ public:
   void save(SaveArchive& archive) const;
 
   /// Returns the number of segments stored for a piece.
-  std::int64_t count(PartitionIndex piece) const { return this->Rows.rows(std::size_t(piece)); }
+  std::int64_t count(PartitionIndex piece) const { return this->Rows->rows(std::size_t(piece)); }
   /// Returns the bytes of memory that a piece's constraints need while the piece is triangulated.
   std::uint64_t bytesOf(PartitionIndex piece) const;
   /// Returns the bytes on disk of this many segments if each is in one piece.
@@ -62,21 +63,11 @@ private:
     std::int64_t Name;
   };
 
-  struct Written
-  {
-    SpilledRows Rows;
-    std::vector<ConstraintSegment> Cutting;
-  };
-
-  PieceSegments(
-    const std::string& file, const PiecePlan& plan, double factor, const Written& written);
-  static Written write(const std::string& file, const PiecePlan& plan, double factor,
-    const std::function<void(const VisitSegment&)>& forEach, int threads);
   void visit(PartitionIndex piece, const std::function<void(const Row&)>& visit) const;
 
   const PiecePlan& Plan;
   const double Factor;
-  Spill Rows;
+  std::unique_ptr<Spill> Rows;
   ConstraintSegments Cutting;
 };
 

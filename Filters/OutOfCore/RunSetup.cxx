@@ -3,29 +3,17 @@
 
 #include "Files/IOError.h"
 #include "Files/TextFile.h"
-#include "OutOfCore/ScratchFiles.h"
+#include "OutOfCore/PieceRun.h"
 #include "Partitioned/NeighborIds.h"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace tipp
 {
-namespace
-{
-
-const StoredArray constraintEdgesArray{ "ConstraintEdges", false, Scalar::UInt8, 3, -1 };
-
-constexpr const char* representativeName = "RepresentativePointId";
-
-} // namespace
-
 template <typename Archive>
 void RunSetup::exchangeInput(Archive& archive)
 {
-  archive(this->Survey.Points, this->Survey.Rejected, this->Survey.WithoutElevation,
-    this->Survey.Bounds, this->Survey.Factor, this->Survey.Collinear, this->Columns, this->Rows,
-    this->Mesh.Arrays, this->Marks);
+  archive(this->Survey, this->Columns, this->Rows, this->Mesh.Arrays, this->Marks);
 }
 
 void RunSetup::save(SaveArchive& archive)
@@ -46,53 +34,57 @@ void RunSetup::load(LoadArchive& archive, const std::string& points)
     this->Constraints =
       std::make_unique<PieceSegments>(points, *this->Plan, this->Survey.Factor, archive);
   }
-  this->Spilled = std::make_unique<SpilledPoints>(points, *this->Plan, this->Rows, archive);
+  this->Spilled =
+    std::make_unique<SpilledPoints>(points, this->Rows.Words, this->Plan->pieces(), archive);
   this->describeMesh();
+}
+
+void describeColumns(const std::vector<std::string>& columns, std::size_t elevation,
+  const OutOfCoreRunOptions& options, PointRowLayout& rows, PartitionedMesh& mesh)
+{
+  rows.Words = 3 + columns.size();
+  rows.Z = elevation < columns.size() ? int(2 + elevation) : -1;
+  for (std::size_t i = 0; i < columns.size(); ++i)
+  {
+    if (i != elevation)
+    {
+      mesh.Arrays.push_back({ columns[i], true, Scalar::Float64, 1, -1 });
+      rows.Attributes.push_back(int(2 + i));
+    }
+  }
+  if (options.MapDuplicates)
+  {
+    mesh.Arrays.push_back({ "RepresentativePointId", true, Scalar::Int64, 1, -1 });
+    rows.Attributes.push_back(-1);
+  }
+  if (options.Neighbors)
+  {
+    mesh.Arrays.push_back(neighborIdsArray);
+    mesh.Arrays.back().Components = mesh.CellSize;
+  }
 }
 
 void RunSetup::describeColumns(
   const std::vector<std::string>& columns, const OutOfCoreOptions& options)
 {
   this->Columns = columns;
-  this->Rows.Words = 3 + columns.size();
-  for (std::size_t i = 0; i < columns.size(); ++i)
-  {
-    const bool isZ = this->Rows.Z < 0 && (columns[i] == "z" || columns[i] == "Z");
-    if (isZ)
-    {
-      this->Rows.Z = int(2 + i);
-      continue;
-    }
-    this->Mesh.Arrays.push_back({ columns[i], true, Scalar::Float64, 1, -1 });
-    this->Rows.Attributes.push_back(int(2 + i));
-  }
-  if (options.MapDuplicates)
-  {
-    this->Mesh.Arrays.push_back({ representativeName, true, Scalar::Int64, 1, -1 });
-    this->Rows.Attributes.push_back(-1);
-  }
-  if (options.Neighbors)
-  {
-    this->Mesh.Arrays.push_back(neighborIdsArray);
-  }
+  const auto z = std::find_if(columns.begin(), columns.end(),
+    [](const std::string& name) { return name == "z" || name == "Z"; });
+  tipp::describeColumns(columns, std::size_t(z - columns.begin()), options, this->Rows, this->Mesh);
   if (options.MarkConstraints)
   {
     this->Marks = std::int64_t(this->Mesh.Arrays.size());
-    this->Mesh.Arrays.push_back(constraintEdgesArray);
+    this->Mesh.Arrays.push_back({ "ConstraintEdges", false, Scalar::UInt8, 3, -1 });
   }
 }
 
 void RunSetup::describeMesh()
 {
-  PartitionedMesh& mesh = this->Mesh;
-  mesh.Points = this->Survey.Points;
-  mesh.Tiling = "delaunay:" + std::to_string(this->Plan->pieces());
-  mesh.Domain = this->boundsOf(this->Survey.Bounds);
-  mesh.Pieces.resize(std::size_t(this->Plan->pieces()));
-  for (PartitionIndex piece = 0; piece < this->Plan->pieces(); ++piece)
-  {
-    mesh.Pieces[this->Plan->number(piece)].Box = this->boundsOf(this->Plan->Pieces.box(piece));
-  }
+  this->Mesh.Domain = this->boundsOf(this->Survey.Bounds);
+  describePieces(
+    *this->Plan, this->Survey.Points,
+    [this](PartitionIndex piece) { return this->boundsOf(this->Plan->Pieces.box(piece)); },
+    this->Mesh);
 }
 
 Box2 RunSetup::inputBounds() const
@@ -135,9 +127,7 @@ void RunSetup::requireMemory(const std::string& path, std::uint64_t limit) const
   for (PartitionIndex piece = 0; piece < this->Plan->pieces(); ++piece)
   {
     const std::int64_t segments = this->Constraints ? this->Constraints->count(piece) : 0;
-    const std::uint64_t bytes =
-      MemoryPlan::pieceBytes(this->Spilled->count(piece), this->Rows.Words) +
-      (this->Constraints ? this->Constraints->bytesOf(piece) : 0);
+    const std::uint64_t bytes = LoadedPiece::bytesOf(this->work(), piece);
     if (bytes > std::max(limit, always))
     {
       throw IOError(path,
@@ -150,7 +140,7 @@ void RunSetup::requireMemory(const std::string& path, std::uint64_t limit) const
 
 std::string identityOf(const PointStream& input, const OutOfCoreOptions& options)
 {
-  return "TIPP out of core 13\n" + input.identity() + std::to_string(options.Columns) + "x" +
+  return "TIPP out of core 14\n" + input.identity() + std::to_string(options.Columns) + "x" +
     std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
     std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
     (options.Neighbors ? " linked" : "") + (options.MarkConstraints ? " marked" : "") +

@@ -11,6 +11,7 @@
 #include "Partitioned/PartitionedMesh.h"
 #include "Points/PointTable.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -18,6 +19,26 @@
 
 namespace tipp
 {
+
+/// Sets the layout of the points' rows, and the arrays of a mesh of triangles or tetrahedra.
+/// `elevation`: index of the column with the third coordinate; the number of columns if there is
+/// none.
+void describeColumns(const std::vector<std::string>& columns, std::size_t elevation,
+  const OutOfCoreRunOptions& options, PointRowLayout& rows, PartitionedMesh& mesh);
+
+/// Sets the number of points and the pieces' boxes of a mesh. boxOf(piece) returns a piece's box.
+template <typename Plan, typename BoxOf>
+void describePieces(
+  const Plan& plan, std::int64_t points, const BoxOf& boxOf, PartitionedMesh& mesh)
+{
+  mesh.Points = points;
+  mesh.Tiling = "delaunay:" + std::to_string(plan.pieces());
+  mesh.Pieces.resize(std::size_t(plan.pieces()));
+  for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
+  {
+    mesh.Pieces[plan.number(piece)].Box = boxOf(piece);
+  }
+}
 
 /// All data that a process needs to work on pieces once the points are spilled, except the folders.
 class VTKTIPPFILTERS_EXPORT RunSetup
@@ -39,9 +60,9 @@ public:
 
   PieceWork work() const
   {
-    return { *this->Plan, *this->Spilled, this->Survey.Factor, this->Rows, this->Mesh,
-      this->Results, this->Consumer, this->MaximumEdge, this->Duplicates, this->Constraints.get(),
-      findRankColumn(this->Columns) };
+    return { { *this->Plan, *this->Spilled, this->Rows, this->Mesh, this->Results },
+      this->Survey.Factor, this->Consumer, this->MaximumEdge, this->Duplicates,
+      this->Constraints.get(), findRankColumn(this->Columns) };
   }
 
   /// Throws IOError if a piece does not fit into the memory limit, which is in bytes. Pieces are of

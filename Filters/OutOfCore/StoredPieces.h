@@ -34,17 +34,22 @@ std::vector<char> verifyPieces(const PartitionedMesh& mesh, const std::vector<St
   const std::function<PieceInterior(PartitionIndex)>& interior, int threads, const Report& report,
   const std::function<void(const std::string&)>& warn);
 
-/// Returns the files of all pieces of a PieceWork or PieceWork3, in the order of the plan.
+/// The same for a PieceWork or PieceWork3.
 template <typename Work>
-std::vector<StoredPiece> storedPieces(const Work& work)
+std::vector<char> verifyResults(const Work& work, int threads, const Report& report,
+  const std::function<void(const std::string&)>& warn)
 {
   std::vector<StoredPiece> pieces;
-  pieces.reserve(std::size_t(work.Plan.pieces()));
   for (PartitionIndex piece = 0; piece < work.Plan.pieces(); ++piece)
   {
     pieces.push_back({ work.Plan.number(piece), work.resultPath(piece), work.finishedPath(piece) });
   }
-  return pieces;
+  return verifyPieces(
+    work.Mesh, pieces,
+    [&](PartitionIndex piece) {
+      return typename Work::Result(work.resultPath(piece)).readInterior(work.Points, piece, true);
+    },
+    threads, report, warn);
 }
 
 /// Reads a finished piece from its record at `path`. If there is no record, calls finish() and

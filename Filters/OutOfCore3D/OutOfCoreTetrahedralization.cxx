@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore3D/OutOfCoreTetrahedralization.h"
 
-#include "Files/IOError.h"
-#include "OutOfCore/FinishPieces.h"
 #include "OutOfCore/OutOfCoreRun.h"
+#include "OutOfCore/RunSetup.h"
 #include "OutOfCore3D/PieceRun3.h"
-#include "Partitioned/NeighborIds.h"
 
 #include <memory>
 #include <utility>
@@ -25,13 +23,11 @@ void serialize(Archive& archive, OutOfCoreStatistics3& statistics)
 namespace
 {
 
-constexpr const char* representativeName = "RepresentativePointId";
-
 /// Returns a text that is equal for runs that make the same mesh from the same input with the same
 /// options.
 std::string identityOf(const PointStream& input, const OutOfCoreOptions3& options)
 {
-  std::string text = "TIPP out of core in space 1\n" + input.identity();
+  std::string text = "TIPP out of core in space 2\n" + input.identity();
   for (const std::string& column : input.columns())
   {
     text += column + "\n";
@@ -68,9 +64,6 @@ public:
   }
 
 private:
-  /// Throws if the user has stopped the run.
-  void report(double fraction) const { this->require(this->proceed(fraction)); }
-
   void load(LoadArchive& archive)
   {
     this->Plan = std::make_unique<PiecePlan3>(
@@ -90,7 +83,7 @@ private:
     this->Plan->divide(this->Memory, this->Rows.Words);
     this->endPhase("survey");
     const double all = double(this->Plan->survey().Points);
-    this->Plan->spill(this->Input, this->Rows, this->Scratch.points(), this->Memory, this->Threads,
+    this->Plan->spill(this->Input, this->Scratch.points(), this->Memory, this->Threads,
       [&](std::int64_t done) { this->report(0.1 * double(done) / all); });
     this->Record.saveBegun([this](SaveArchive& archive) { this->Plan->save(archive); });
     this->describePlan();
@@ -106,35 +99,16 @@ private:
     this->Statistics.LeftOut = survey.LeftOut;
     this->Statistics.ThinnedOut = survey.ThinnedOut;
     this->Statistics.Pieces = this->Plan->pieces();
-    this->Statistics.SpilledBytes = this->Plan->spilledBytes();
+    this->Statistics.SpilledBytes = this->Plan->points().bytes();
     this->describeMesh();
   }
 
   void describeColumns()
   {
-    const std::vector<std::string> columns = this->Input.columns();
     this->Mesh.Path = this->Pending.temporaryPath();
     this->Mesh.CellSize = 4;
-    this->Rows.Words = 3 + columns.size();
-    this->Rows.Z = int(2 + this->Plan->survey().Elevation);
-    for (std::size_t i = 0; i < columns.size(); ++i)
-    {
-      if (i != this->Plan->survey().Elevation)
-      {
-        this->Mesh.Arrays.push_back({ columns[i], true, Scalar::Float64, 1, -1 });
-        this->Rows.Attributes.push_back(int(2 + i));
-      }
-    }
-    if (this->Options.MapDuplicates)
-    {
-      this->Mesh.Arrays.push_back({ representativeName, true, Scalar::Int64, 1, -1 });
-      this->Rows.Attributes.push_back(-1);
-    }
-    if (this->Options.Neighbors)
-    {
-      this->Mesh.Arrays.push_back(neighborIdsArray);
-      this->Mesh.Arrays.back().Components = 4;
-    }
+    tipp::describeColumns(
+      this->Input.columns(), this->Plan->survey().Elevation, this->Options, this->Rows, this->Mesh);
   }
 
   Bounds boundsOf(const Box3& box) const
@@ -147,14 +121,11 @@ private:
   void describeMesh()
   {
     const PiecePlan3& plan = *this->Plan;
-    this->Mesh.Points = plan.survey().Points;
-    this->Mesh.Tiling = "delaunay:" + std::to_string(plan.pieces());
     this->Mesh.Domain = this->boundsOf(plan.survey().Bounds);
-    this->Mesh.Pieces.resize(std::size_t(plan.pieces()));
-    for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
-    {
-      this->Mesh.Pieces[plan.number(piece)].Box = this->boundsOf(plan.boxes()[std::size_t(piece)]);
-    }
+    describePieces(
+      plan, plan.survey().Points,
+      [&](PartitionIndex piece) { return this->boundsOf(plan.boxes()[std::size_t(piece)]); },
+      this->Mesh);
   }
 
   void requireSpace() const
@@ -171,46 +142,30 @@ private:
 
   void triangulate()
   {
-    const PieceWork3 work{ *this->Plan, this->Rows, this->Mesh, this->Scratch.results() };
+    const PieceWork3 work{ *this->Plan, this->Plan->points(), this->Rows, this->Mesh,
+      this->Scratch.results() };
     const double all = double(this->Plan->survey().finite());
     const std::vector<char> isDone = verifyResults(
       work, this->Threads, [this](double) { return this->proceed(0.1); },
       [this](const std::string& sentence) { this->warn(sentence); });
     this->require(!isDone.empty());
-    StoredResults3 results;
     this->require(PieceRun3(work, this->Memory, this->Threads,
       [&](std::int64_t done) {
         return this->proceed(0.1 + 0.75 * double(done) / all);
-      }).run(isDone, results));
+      }).run(isDone));
     this->endPhase("triangulate");
     this->Finished = finishPieces(
-      work, results, this->Memory.PieceBytes, this->Threads,
-      [this](double done) { return this->proceed(0.85 + 0.08 * done); }, this->Statistics);
+      work, this->Memory.PieceBytes, this->Threads,
+      [this](double done) { return this->proceed(0.85 + 0.05 * done); }, this->Statistics);
     this->require(!this->Finished.empty());
     this->endPhase("borders");
   }
 
   void publish()
   {
-    numberCells(this->Mesh, this->Finished,
-      [this](double done)
-      {
-        this->report(0.93 + 0.02 * done);
-        return true;
-      });
+    this->numberAndLink(this->Mesh, this->Memory.PieceBytes);
     this->Statistics.Tetrahedra = this->Mesh.Cells;
-    if (this->Options.Neighbors)
-    {
-      linkCells(this->Mesh, this->Finished, this->Memory.PieceBytes, this->Threads,
-        [this](double done)
-        {
-          this->report(0.95 + 0.03 * done);
-          return true;
-        });
-      this->endPhase("link");
-    }
-    this->Record.publish(this->Mesh, this->Finished, this->Statistics,
-      [this](double done) { this->report(0.98 + 0.02 * done); });
+    OutOfCoreRun::publish(this->Mesh);
   }
 
   const MemoryPlan3 Memory;

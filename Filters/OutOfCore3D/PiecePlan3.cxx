@@ -18,6 +18,16 @@ namespace
 /// The number of initial points per piece, besides those on the sides of its region.
 constexpr std::size_t initialPointsOfPiece = 48;
 
+/// Data about a piece that is collected while its points are spilled.
+struct SpilledPiece3
+{
+  std::int64_t Count = 0;
+  PointBounds Region; ///< the bounding box of its points
+  /// Indices in the piece of points on the region's six sides.
+  std::array<std::int64_t, 6> Extreme = {};
+  std::array<Point3, 6> ExtremePositions = {};
+};
+
 /// The points of a block; coordinates are multiplied by a factor.
 class BlockView3
 {
@@ -67,6 +77,16 @@ private:
   int Dimension = -1;
 };
 
+std::vector<Point3> positionsOf(const std::vector<SampledPointOf<Point3>>& sample)
+{
+  std::vector<Point3> positions;
+  for (const SampledPointOf<Point3>& p : sample)
+  {
+    positions.push_back(p.Position);
+  }
+  return positions;
+}
+
 [[noreturn]] void throwChanged()
 {
   throw IOError("The input has changed while it was read; start again.");
@@ -95,14 +115,8 @@ std::uint64_t MemoryPlan3::bytesOf(std::int64_t points, std::int64_t others, std
 }
 
 MemoryPlan3::MemoryPlan3(std::uint64_t limit, std::int64_t piecePoints, std::size_t words)
+  : InputMemory(limit, words)
 {
-  // Two blocks of points, their labels, and their rows sorted by piece.
-  const std::size_t perPoint = 2 * 8 * (words - 1) + 4 + 8 * words;
-  constexpr std::size_t mostPoints = std::size_t(1) << 22;
-  this->BlockPoints =
-    std::clamp<std::size_t>(std::size_t(limit / 5 * 2) / perPoint, 1 << 14, mostPoints);
-  this->SamplePoints =
-    std::clamp<std::size_t>(std::size_t(limit / 512), std::size_t(1) << 14, std::size_t(1) << 20);
   this->PieceBytes = limit / 5 * 4;
   // Four pieces fit into memory together. The number does not depend on the threads, so that the
   // pieces do not, either. Larger pieces than the maximum would gain little.
@@ -196,13 +210,8 @@ void PiecePlan3::divide(const MemoryPlan3& memory, std::size_t words)
   const double wanted = double(count) / double(memory.PiecePoints);
   const double possible = double(this->Sample.size()) / 8;
   constexpr double most = 1 << 14;
-  std::vector<Point3> sample;
-  for (const Sampled& p : this->Sample)
-  {
-    sample.push_back(p.Position);
-  }
-  this->Tiling =
-    Tiling3(std::move(sample), int(std::ceil(std::max(1.0, std::min({ wanted, possible, most })))));
+  this->Tiling = Tiling3(
+    positionsOf(this->Sample), int(std::ceil(std::max(1.0, std::min({ wanted, possible, most })))));
   if (this->pieces() > 1 && !this->samplePays() && fits)
   {
     this->Tiling = Tiling3({}, 1);
@@ -214,11 +223,7 @@ void PiecePlan3::divide(const MemoryPlan3& memory, std::size_t words)
 /// Returns whether partitioning pays, judged by the sample.
 bool PiecePlan3::samplePays() const
 {
-  std::vector<Point3> sample;
-  for (const Sampled& p : this->Sample)
-  {
-    sample.push_back(p.Position);
-  }
+  const std::vector<Point3> sample = positionsOf(this->Sample);
   const PointBuckets3 buckets = bucketPoints(sample.data(), sample.size(), this->Tiling, 1, 1);
   const std::vector<Vertex3> artificial = makeArtificialPoints(buckets);
   return !artificial.empty() && partitionsPay(InitialMesh3(buckets, artificial));
@@ -313,10 +318,11 @@ struct PiecePlan3::Labels
   std::int64_t Points = 0;
 };
 
-void PiecePlan3::spill(PointStream& points, const PointRowLayout& rows, const std::string& file,
-  const MemoryPlan3& memory, int threads, const Progress& progress)
+void PiecePlan3::spill(PointStream& points, const std::string& file, const MemoryPlan3& memory,
+  int threads, const Progress& progress)
 {
-  Spill spill(file, 0, std::size_t(this->pieces()), 8 * rows.Words);
+  const std::size_t words = 3 + points.columns().size();
+  Spill spill(file, 0, std::size_t(this->pieces()), 8 * words);
   spill.protect();
   Labels labels(*this);
   forEachBlock(points, memory.BlockPoints,
@@ -328,29 +334,25 @@ void PiecePlan3::spill(PointStream& points, const PointRowLayout& rows, const st
         [&](std::size_t i, char* to) { writeRow(block, i, to); });
       progress(labels.Points);
     });
-  this->Rows = std::make_unique<Spill>(
-    file, std::size_t(this->pieces()), 8 * rows.Words, std::vector<SpilledRows>{ spill.close() });
-  this->Starts = { 0 };
-  for (std::size_t piece = 0; piece < labels.Pieces.size(); ++piece)
+  this->Spilled = std::make_unique<SpilledPoints>(file, words, std::vector{ spill.close() });
+  if (labels.Points != this->Survey.Points ||
+    this->Spilled->starts().back() != this->Survey.finite() || labels.Next != this->Sample.size())
   {
-    const SpilledPiece3& of = labels.Pieces[piece];
-    const std::int64_t start = this->Starts.back();
-    std::vector<InitialPoint3>& initial = this->Initial[piece];
+    throwChanged();
+  }
+  for (PartitionIndex piece = 0; piece < this->pieces(); ++piece)
+  {
+    const SpilledPiece3& of = labels.Pieces[std::size_t(piece)];
+    std::vector<InitialPoint3>& initial = this->Initial[std::size_t(piece)];
     for (std::size_t i = 0; of.Count > 0 && i < of.Extreme.size(); ++i)
     {
       initial.push_back({ of.Extreme[i], of.ExtremePositions[i] });
     }
     for (InitialPoint3& p : initial)
     {
-      p.Index += start;
+      p.Index += this->Spilled->first(piece);
     }
-    this->Starts.push_back(start + of.Count);
     this->Regions.push_back(of.Region.Box);
-  }
-  if (labels.Points != this->Survey.Points || this->Starts.back() != this->Survey.finite() ||
-    labels.Next != this->Sample.size())
-  {
-    throwChanged();
   }
   std::vector<Sampled>().swap(this->Sample);
   this->enclose();
@@ -379,33 +381,22 @@ void exchangeSurvey(Archive& archive, Survey& survey)
 void PiecePlan3::save(SaveArchive& archive) const
 {
   exchangeSurvey(archive, this->Survey);
-  archive(
-    this->Tiling, this->Boxes, this->Regions, this->Initial, this->Starts, this->Rows->content());
+  archive(this->Tiling, this->Boxes, this->Regions, this->Initial);
+  this->Spilled->save(archive);
 }
 
 PiecePlan3::PiecePlan3(LoadArchive& archive, std::size_t words, const std::string& file)
 {
   exchangeSurvey(archive, this->Survey);
-  archive(this->Tiling, this->Boxes, this->Regions, this->Initial, this->Starts);
+  archive(this->Tiling, this->Boxes, this->Regions, this->Initial);
   const auto pieces = std::size_t(this->pieces());
-  this->Rows = std::make_unique<Spill>(file, pieces, 8 * words, archive.get<SpilledRows>());
-  bool isOurs = pieces > 0 && this->Boxes.size() == pieces && this->Regions.size() == pieces &&
-    this->Initial.size() == pieces && this->Starts.size() == pieces + 1 && this->Starts[0] == 0;
-  for (PartitionIndex piece = 0; isOurs && piece < this->pieces(); ++piece)
-  {
-    isOurs = this->count(piece) == this->Rows->rows(std::size_t(piece));
-  }
-  if (!isOurs)
+  if (pieces == 0 || this->Boxes.size() != pieces || this->Regions.size() != pieces ||
+    this->Initial.size() != pieces)
   {
     throw IOError(file, "has points of other pieces; start again.");
   }
+  this->Spilled = std::make_unique<SpilledPoints>(file, words, this->pieces(), archive);
   this->enclose();
-}
-
-PartitionIndex PiecePlan3::pieceOf(std::int64_t index) const
-{
-  return PartitionIndex(
-    std::upper_bound(this->Starts.begin(), this->Starts.end(), index) - this->Starts.begin() - 1);
 }
 
 /// Returns the initial points only, with consecutive ids.

@@ -3,9 +3,9 @@
 #define tippPiecePlan3_h
 
 #include "Engine/PartitionOrder.h"
+#include "OutOfCore/InputPasses.h"
+#include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/StreamSampler.h"
-#include "Partitioned/PieceBorder.h"
-#include "Partitioning/Spill.h"
 #include "Points/PointStream.h"
 #include "Triangulation3D/InitialMesh3.h"
 #include "Triangulation3D/Tiling3.h"
@@ -23,14 +23,12 @@ namespace tipp
 {
 
 /// How the memory limit is divided among the phases of a run.
-struct VTKTIPPFILTERS_EXPORT MemoryPlan3
+struct VTKTIPPFILTERS_EXPORT MemoryPlan3 : InputMemory
 {
   /// `limit`: in bytes. `piecePoints`: the approximate number of points per piece, or 0: as memory
   /// allows. `words`: 64-bit words of a point's row.
   MemoryPlan3(std::uint64_t limit, std::int64_t piecePoints, std::size_t words);
 
-  std::size_t BlockPoints;  ///< points per read
-  std::size_t SamplePoints; ///< smallest size of the survey's sample
   std::int64_t PiecePoints; ///< approximate points per piece
   std::uint64_t PieceBytes; ///< of all pieces that are triangulated at the same time
 
@@ -54,16 +52,6 @@ struct InputSurvey3
 
   /// Returns the number of finite points.
   std::int64_t finite() const { return this->Points - this->Rejected; }
-};
-
-/// Data about a piece that is collected while its points are spilled.
-struct SpilledPiece3
-{
-  std::int64_t Count = 0;
-  PointBounds Region; ///< the bounding box of its points
-  /// Indices in the piece of points on the region's six sides.
-  std::array<std::int64_t, 6> Extreme = {};
-  std::array<Point3, 6> ExtremePositions = {};
 };
 
 /// A point of the initial mesh.
@@ -98,8 +86,8 @@ public:
   void divide(const MemoryPlan3& memory, std::size_t words);
 
   /// Spills rows of the points to `file`, sorted by piece. Throws IOError.
-  void spill(PointStream& points, const PointRowLayout& rows, const std::string& file,
-    const MemoryPlan3& memory, int threads, const Progress& progress);
+  void spill(PointStream& points, const std::string& file, const MemoryPlan3& memory, int threads,
+    const Progress& progress);
 
   const InputSurvey3& survey() const { return this->Survey; }
   PartitionIndex pieces() const { return this->Tiling.size(); }
@@ -113,20 +101,8 @@ public:
   /// belongs to the upper box, in the mesh to the piece with the lowest index.
   std::size_t number(PartitionIndex piece) const { return std::size_t(this->pieces() - 1 - piece); }
 
-  /// Returns the index of the piece's first point among all spilled points.
-  std::int64_t first(PartitionIndex piece) const { return this->Starts[std::size_t(piece)]; }
-  std::int64_t count(PartitionIndex piece) const
-  {
-    return this->Starts[std::size_t(piece) + 1] - this->first(piece);
-  }
-  /// Returns the piece of a point, given by its index among all spilled points.
-  PartitionIndex pieceOf(std::int64_t index) const;
-  /// Reads all rows of a piece; `rows` must have space for count(piece) of them. Throws IOError.
-  void read(PartitionIndex piece, double* rows) const
-  {
-    this->Rows->readAll(std::size_t(piece), rows);
-  }
-  std::uint64_t spilledBytes() const { return this->Rows->bytes(); }
+  /// The spilled points; valid after spill(). Their coordinates are not multiplied by Factor.
+  const SpilledPoints& points() const { return *this->Spilled; }
 
   /// Returns the initial mesh; call it after spill().
   InitialMesh3 initialMesh() const;
@@ -148,9 +124,7 @@ private:
   std::vector<Box3> Regions;
   std::vector<Vertex3> Artificial;
   std::vector<std::vector<InitialPoint3>> Initial; ///< by piece
-  /// By piece: index of its first point; one more entry at the end.
-  std::vector<std::int64_t> Starts;
-  std::unique_ptr<Spill> Rows;
+  std::unique_ptr<SpilledPoints> Spilled;
 };
 
 } // namespace tipp

@@ -52,12 +52,12 @@ void BorderSorter3::add(const std::array<Vertex3, 4>& corners, const std::vector
 /// Sorts the final tetrahedra of a piece into those of the interior and those at borders.
 struct PieceRun3::Cells : public FinalCellConsumer3
 {
-  Cells(const PiecePlan3& plan, PartitionIndex piece)
+  Cells(const PieceWork3& work, PartitionIndex piece)
     : Piece(piece)
-    , Number(std::int32_t(plan.number(piece)))
-    , First(plan.first(piece))
-    , Sorter(plan)
-    , IsOnInterface(std::size_t(plan.count(piece)), 0)
+    , Number(std::int32_t(work.Plan.number(piece)))
+    , First(work.Points.first(piece))
+    , Sorter(work.Plan)
+    , IsOnInterface(std::size_t(work.Points.count(piece)), 0)
   {
   }
 
@@ -119,13 +119,12 @@ PieceRun3::PieceRun3(const PieceWork3& work, const MemoryPlan3& memory, int thre
 {
 }
 
-bool PieceRun3::run(const std::vector<char>& isDone, StoredResults3& results)
+bool PieceRun3::run(const std::vector<char>& isDone)
 {
   const PiecePlan3& plan = this->Work.Plan;
-  results.resize(std::size_t(plan.pieces()));
-  this->Results = &results;
+  this->Results.resize(isDone.size());
   // Every piece has points, because its box holds points of the sample.
-  const std::vector<char> isUsed(results.size(), 1);
+  const std::vector<char> isUsed(isDone.size(), 1);
   if (plan.pieces() == 1)
   {
     this->Initial.resize(1);
@@ -147,9 +146,9 @@ void PieceRun3::skipDone(const std::vector<char>& isDone, ReadyPartitions& ready
     if (isDone[piece])
     {
       const auto index = PartitionIndex(piece);
-      (*this->Results)[piece] = std::make_unique<StoredResult3>(this->Work.resultPath(index));
+      this->Results[piece] = std::make_unique<StoredResult3>(this->Work.resultPath(index));
       this->Initial[piece] = {};
-      this->PointsDone += this->Work.Plan.count(index);
+      this->PointsDone += this->Work.Points.count(index);
       ready.finish(index);
     }
   }
@@ -207,11 +206,11 @@ std::uint64_t PieceRun3::takeMemory(PartitionIndex piece)
 {
   std::unique_lock<std::mutex> lock(this->Mutex);
   std::int64_t others = std::int64_t(this->Initial[std::size_t(piece)].Vertices.size());
-  for (const auto& result : *this->Results)
+  for (const auto& result : this->Results)
   {
-    others += result ? result->countSent(piece) : 0;
+    others += result ? std::int64_t(result->sentBytes(piece) / sizeof(Vertex3)) : 0;
   }
-  const std::int64_t points = this->Work.Plan.count(piece);
+  const std::int64_t points = this->Work.Points.count(piece);
   const std::uint64_t bytes = MemoryPlan3::bytesOf(points, others, this->Work.Rows.Words);
   constexpr std::uint64_t always = std::uint64_t(64) << 20;
   if (bytes > std::max(this->Memory.PieceBytes, always))
@@ -235,16 +234,16 @@ std::vector<VertexMessage3> PieceRun3::readInbox(PartitionIndex piece)
 {
   std::vector<VertexMessage3> inbox;
   inbox.push_back(std::move(this->Initial[std::size_t(piece)]));
-  for (std::size_t sender = 0; sender < this->Results->size(); ++sender)
+  for (std::size_t sender = 0; sender < this->Results.size(); ++sender)
   {
     const StoredResult3* result = nullptr;
     {
       const std::lock_guard<std::mutex> lock(this->Mutex);
-      result = (*this->Results)[sender].get();
+      result = this->Results[sender].get();
     }
-    if (result && result->countSent(piece) > 0)
+    if (result && result->sentBytes(piece) > 0)
     {
-      inbox.push_back(result->readMessage(piece));
+      inbox.push_back(std::move(result->readMessages(piece).front().second));
     }
   }
   return inbox;
@@ -253,13 +252,13 @@ std::vector<VertexMessage3> PieceRun3::readInbox(PartitionIndex piece)
 void PieceRun3::make(PartitionIndex piece)
 {
   const PiecePlan3& plan = this->Work.Plan;
-  const auto count = std::size_t(plan.count(piece));
+  const auto count = std::size_t(this->Work.Points.count(piece));
   const std::size_t words = this->Work.Rows.Words;
   const double factor = plan.survey().Factor;
   const auto z = std::size_t(this->Work.Rows.Z);
   Buffer<double> rows(count * words);
-  plan.read(piece, rows.data());
-  Cells cells(plan, piece);
+  this->Work.Points.read(piece, rows.data());
+  Cells cells(this->Work, piece);
   cells.Interior.reserve(4 * 7 * count);
   std::vector<Duplicate> duplicates;
   PieceFigures figures;
@@ -271,22 +270,23 @@ void PieceRun3::make(PartitionIndex piece)
       points[i] = { row[0] * factor, row[1] * factor, row[z] * factor };
     }
     Worker3 worker(plan.regions(), *this->Order, InsideCells::OfRegion);
-    const PartitionPoints3 own{ piece, points.data(), count, nullptr, plan.first(piece) };
+    const PartitionPoints3 own{ piece, points.data(), count, nullptr, cells.First };
     cells.Sent = worker.triangulate(own, this->readInbox(piece), cells);
     duplicates = worker.duplicates();
     figures.WorkerVertices = std::int64_t(worker.vertexCount());
   }
   figures.Duplicates = std::int64_t(duplicates.size());
   PieceResult3 result = this->write(piece, rows, cells, duplicates);
-  for (const auto& [to, message] : result.Sent)
+  for (auto& [to, message] : cells.Sent)
   {
     figures.BoundaryBytes += message.Vertices.size() * sizeof(Vertex3);
+    result.Sent[to].emplace_back(to, std::move(message));
   }
   result.Figures = figures;
-  writeResult(this->Work.resultPath(piece), result);
+  StoredResult3::write(this->Work.resultPath(piece), result);
   auto stored = std::make_unique<StoredResult3>(this->Work.resultPath(piece));
   const std::lock_guard<std::mutex> lock(this->Mutex);
-  (*this->Results)[std::size_t(piece)] = std::move(stored);
+  this->Results[std::size_t(piece)] = std::move(stored);
 }
 
 /// Writes the interior's part of the piece's file in the mesh. Returns the remaining results.
@@ -319,14 +319,13 @@ PieceResult3 PieceRun3::write(PartitionIndex piece, const Buffer<double>& rows, 
   keepUnique(cells.HullVertices);
   result.HullVertices = std::move(cells.HullVertices);
   result.Borders = std::move(cells.Borders);
-  result.Sent = std::move(cells.Sent);
   return result;
 }
 
 /// Call with the mutex locked. Returns false if the run must stop.
 bool PieceRun3::finish(PartitionIndex piece)
 {
-  this->PointsDone += this->Work.Plan.count(piece);
+  this->PointsDone += this->Work.Points.count(piece);
   this->IsStopped = this->IsStopped || !this->Progress(this->PointsDone);
   this->Changed.notify_all();
   return !this->IsStopped;

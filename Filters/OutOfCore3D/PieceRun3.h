@@ -4,7 +4,6 @@
 
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "OutOfCore/PieceResult.h"
-#include "OutOfCore/ScratchFiles.h"
 #include "OutOfCore3D/PiecePlan3.h"
 #include "Parallel/ParallelFor.h"
 #include "Partitioned/GrowingPiece.h"
@@ -26,26 +25,11 @@ namespace tipp
 
 class ReadyPartitions;
 
-/// The input and the destination of the work on a run's pieces. References are not owned.
-struct PieceWork3
-{
-  const PiecePlan3& Plan;
-  const PointRowLayout& Rows;
-  const PartitionedMesh& Mesh;
-  std::string Results; ///< prefix of the paths of results
-
-  std::string resultPath(PartitionIndex piece) const
-  {
-    return this->Results + "." + std::to_string(this->Plan.number(piece));
-  }
-  std::string finishedPath(PartitionIndex piece) const
-  {
-    return this->resultPath(piece) + ".finished";
-  }
-};
-
 using BorderCells3 = BorderCells<4>;
-using BordersByOwner3 = std::map<PartitionIndex, BorderCells3>;
+using BordersByOwner3 = BordersOf<4>;
+using PieceResult3 = PieceResultOf<4, VertexMessage3>;
+using StoredResult3 = StoredResultOf<4, VertexMessage3>;
+using PieceWork3 = PieceWorkOf<PiecePlan3, StoredResult3>;
 
 /// Adds border tetrahedra to those of the piece that owns them: the first in the mesh of the pieces
 /// that a tetrahedron meets. The others borrow it.
@@ -69,52 +53,6 @@ private:
   std::vector<std::int32_t> Met;
 };
 
-/// The result of a piece that is done: the data that others need, besides the interior's part of
-/// the mesh file. See PieceResult, which does the same in the plane. It is written once and never
-/// changed; the set of these files is the state from which a run is resumed.
-struct PieceResult3
-{
-  PieceInterior Interior;
-  PieceFigures Figures;
-  std::vector<Vertex3> HullVertices; ///< true corners of tetrahedra with artificial corners
-  BordersByOwner3 Borders;
-  SentMessages3 Sent;
-};
-
-/// Writes a result to a file. Throws IOError.
-VTKTIPPFILTERS_EXPORT void writeResult(const std::string& path, const PieceResult3& result);
-
-/// Reads parts of a result from its file. Methods throw IOError if it is damaged or missing.
-class VTKTIPPFILTERS_EXPORT StoredResult3
-{
-public:
-  explicit StoredResult3(const std::string& path)
-    : File(path)
-  {
-  }
-
-  /// Returns the approximate number of vertices sent to the piece `to`; 0: none.
-  std::int64_t countSent(PartitionIndex to) const;
-  /// `to`: the piece that receives the message.
-  VertexMessage3 readMessage(PartitionIndex to) const;
-  /// `owner`: the piece that owns the tetrahedra.
-  bool hasBorder(PartitionIndex owner) const;
-  BorderCells3 readBorder(PartitionIndex owner) const;
-  std::vector<Vertex3> readHullVertices() const;
-  PieceFigures readFigures() const;
-  /// Reads the interface points and their rows. `all`: also the rest of the interior.
-  PieceInterior readInterior(const PieceWork3& work, PartitionIndex piece, bool all) const;
-
-private:
-  SectionFile File;
-};
-
-using StoredResults3 = std::vector<std::unique_ptr<StoredResult3>>;
-
-/// Returns for each piece whether an earlier process left its files undamaged; see verifyPieces().
-VTKTIPPFILTERS_EXPORT std::vector<char> verifyResults(const PieceWork3& work, int threads,
-  const Report& report, const std::function<void(const std::string&)>& warn);
-
 /// Loads pieces, as many at a time as fit in memory, triangulates them in threads, and writes their
 /// results.
 class VTKTIPPFILTERS_EXPORT PieceRun3
@@ -126,9 +64,9 @@ public:
   PieceRun3(const PieceWork3& work, const MemoryPlan3& memory, int threads,
     std::function<bool(std::int64_t)> progress);
 
-  /// Triangulates all pieces that are not done (`isDone` has an entry for each piece), and sets the
-  /// results of all. Returns false if `progress` stopped the run. Throws IOError.
-  bool run(const std::vector<char>& isDone, StoredResults3& results);
+  /// Triangulates all pieces that are not done, and writes their results. `isDone` has an entry for
+  /// each piece. Returns false if `progress` stopped the run. Throws IOError.
+  bool run(const std::vector<char>& isDone);
 
 private:
   struct Cells;
@@ -147,11 +85,11 @@ private:
   const int Threads;
   const std::function<bool(std::int64_t)> Progress;
   const PartitionOrder* Order = nullptr;
-  StoredResults3* Results = nullptr;
   std::vector<VertexMessage3> Initial; ///< by piece: its message from the initial mesh
 
-  std::mutex Mutex; ///< protects the members below and Results
+  std::mutex Mutex; ///< protects the members below
   std::condition_variable Changed;
+  std::vector<std::unique_ptr<StoredResult3>> Results; ///< by piece; null: it is not done
   std::uint64_t LoadedBytes = 0;
   std::int64_t PointsDone = 0;
   bool IsStopped = false;
@@ -162,8 +100,7 @@ private:
 /// cells and of their neighbours are missing. `limit`: bytes of memory for the hull repair. Returns
 /// the pieces in the order of the mesh; an empty list if `report` stopped the run. Throws IOError.
 VTKTIPPFILTERS_EXPORT std::vector<FinishedPiece> finishPieces(const PieceWork3& work,
-  const StoredResults3& results, std::uint64_t limit, int threads, const Report& report,
-  PieceFigures& figures);
+  std::uint64_t limit, int threads, const Report& report, PieceFigures& figures);
 
 } // namespace tipp
 

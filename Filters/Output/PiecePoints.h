@@ -20,6 +20,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <numeric>
 #include <vector>
 
 namespace tipp
@@ -171,6 +172,43 @@ void fillPoints(const Points& piece, const PointRows& rows, std::size_t rowSize,
   {
     output->GetPointData()->AddArray(ghost);
   }
+}
+
+/// Returns the corners of a piece's cells, as indices of its points: of the cells of `mine`, which
+/// have `size` corners each and `own` in all, and of the ghosts, which may be null.
+template <typename Id, typename Mesh, typename Ghosts>
+Buffer<Id> cornersOf(const PiecePoints<Mesh, Ghosts>& piece, const Mesh& mine, std::size_t size,
+  std::size_t own, const Ghosts* ghosts)
+{
+  Buffer<Id> corners(size * (own + (ghosts ? ghosts->Cells.size() : 0)));
+  Id* to = corners.data();
+  mine.forEachCorner(
+    [&](std::int64_t index) { *to++ = Id(piece.ofLocalIndex(std::size_t(index))); });
+  for (std::size_t i = 0; ghosts && i < ghosts->Cells.size(); ++i)
+  {
+    const auto* const cell = ghosts->Cells[i].data();
+    to = std::transform(cell, cell + size, to, [&](std::int64_t id) { return Id(piece.ofId(id)); });
+  }
+  return corners;
+}
+
+/// Sets the global ids of cells: of `lines`, the first of which has the id `firstLine`, then of the
+/// `own` cells of `mine`, and of the ghosts, which may be null.
+template <typename Mesh, typename Ghosts>
+void setCellIds(std::int64_t firstLine, std::size_t lines, const Mesh& mine, std::size_t own,
+  const Ghosts* ghosts, vtkDataSet* output)
+{
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName("GlobalCellIds");
+  ids->SetNumberOfValues(vtkIdType(lines + own + (ghosts ? ghosts->Numbers.size() : 0)));
+  vtkIdType* const begin = ids->GetPointer(0);
+  std::iota(begin, begin + lines, vtkIdType(firstLine));
+  std::iota(begin + lines, begin + lines + own, vtkIdType(mine.FirstCell));
+  if (ghosts)
+  {
+    std::copy(ghosts->Numbers.begin(), ghosts->Numbers.end(), begin + lines + own);
+  }
+  output->GetCellData()->SetGlobalIds(ids);
 }
 
 /// Adds the cell array vtkGhostType: the first `own` cells are the piece's own, the others copies.

@@ -196,8 +196,8 @@ RunStatistics statisticsOf(const DistributedTriangulation& mine)
   // The table only has the figures of the first rank's master, which serves the whole domain.
   const bool hasMaster = !statistics.Masters.empty() && statistics.Masters.front().Area == 0;
   const MasterStatistics master = hasMaster ? statistics.Masters.front() : MasterStatistics();
-  RunStatistics run = countsOf(mine.AllPoints, "triangles", "Triangles", mine.AllTriangles,
-    mine.AllDuplicates, mine.AllRejected);
+  RunStatistics run = countsOf(
+    mine.AllPoints, "triangles", "Triangles", mine.AllCells, mine.AllDuplicates, mine.AllRejected);
   run.Totals.push_back({ "seconds", "", std::vector<double>{ statistics.Seconds } });
   run.add("threads_per_rank", "Threads", statistics.ThreadsPerRank);
   run.add("partitions", "Partitions", statistics.Partitions);
@@ -282,7 +282,7 @@ std::vector<std::string> warningsOf(const DistributedTriangulation& mine)
 {
   std::vector<std::string> warnings =
     warnOfRejected(mine.AllRejected, mine.AllPoints, "in no triangle");
-  if (mine.AllTriangles == 0)
+  if (mine.AllCells == 0)
   {
     warnings.emplace_back("No triangles: all ranks together have fewer than three distinct finite "
                           "points, or all are on one line.");

@@ -4,14 +4,12 @@
 #include "Output/PiecePoints.h"
 
 #include "vtkCellArray.h"
-#include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDoubleArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <limits>
 #include <stdexcept>
-#include <utility>
 
 namespace tipp
 {
@@ -42,31 +40,12 @@ void fillPiece(const DistributedTetrahedralization& mine, int rank, const PointR
   fillPoints(piece, rows, mine.RowSize, ghosts != nullptr, output);
   const std::size_t size = mine.cellSize();
   const std::size_t own = mine.cellCount();
-  const std::size_t more = ghosts ? ghosts->Cells.size() : 0;
-  Buffer<std::int32_t> corners(size * (own + more));
-  std::int32_t* to = corners.data();
-  mine.forEachCorner(
-    [&](std::int32_t index) { *to++ = std::int32_t(piece.ofLocalIndex(std::size_t(index))); });
-  vtkNew<vtkIdTypeArray> numbers;
-  numbers->SetName("GlobalCellIds");
-  numbers->SetNumberOfValues(vtkIdType(own) + vtkIdType(more));
-  for (std::size_t i = 0; i < own; ++i)
-  {
-    numbers->SetValue(vtkIdType(i), vtkIdType(mine.FirstCell) + vtkIdType(i));
-  }
-  for (std::size_t i = 0; i < more; ++i)
-  {
-    numbers->SetValue(vtkIdType(own) + vtkIdType(i), vtkIdType(ghosts->Numbers[i]));
-    for (std::size_t k = 0; k < size; ++k)
-    {
-      *to++ = std::int32_t(piece.ofId(ghosts->Cells[i][k]));
-    }
-  }
-  output->SetCells(size == 3 ? VTK_TRIANGLE : VTK_TETRA, takeCells(std::move(corners), int(size)));
-  output->GetCellData()->SetGlobalIds(numbers);
+  output->SetCells(size == 3 ? VTK_TRIANGLE : VTK_TETRA,
+    takeCells(cornersOf<std::int32_t>(piece, mine, size, own, ghosts), int(size)));
+  setCellIds(0, 0, mine, own, ghosts, output);
   if (ghosts)
   {
-    addCellGhosts(own, more, output);
+    addCellGhosts(own, ghosts->Cells.size(), output);
   }
 }
 

@@ -288,30 +288,10 @@ void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& 
   const std::size_t own = mine.triangleCount();
   const std::size_t more = ghosts ? ghosts->Cells.size() : 0;
   const std::size_t lines = marks.Lines ? marks.Lines->Ends.size() : 0;
-  Buffer<std::int64_t> corners(3 * (own + more));
-  std::int64_t* to = corners.data();
-  mine.forEachCorner([&](std::int64_t index) { *to++ = piece.ofLocalIndex(std::size_t(index)); });
+  Buffer<std::int64_t> corners = cornersOf<std::int64_t>(piece, mine, 3, own, ghosts);
   // Lines are VTK's first cells, but their ids follow those of all triangles.
-  vtkNew<vtkIdTypeArray> numbers;
-  numbers->SetName("GlobalCellIds");
-  numbers->SetNumberOfValues(vtkIdType(lines) + vtkIdType(own) + vtkIdType(more));
-  vtkIdType* number = numbers->GetPointer(0);
-  for (std::size_t i = 0; i < lines; ++i)
-  {
-    *number++ = vtkIdType(mine.AllTriangles) + vtkIdType(marks.Lines->First) + vtkIdType(i);
-  }
-  for (std::size_t i = 0; i < own; ++i)
-  {
-    *number++ = vtkIdType(mine.FirstTriangle) + vtkIdType(i);
-  }
-  for (std::size_t i = 0; i < more; ++i)
-  {
-    *number++ = vtkIdType(ghosts->Numbers[i]);
-    for (const std::int64_t id : ghosts->Cells[i])
-    {
-      *to++ = piece.ofId(id);
-    }
-  }
+  setCellIds(
+    marks.Lines ? mine.AllCells + marks.Lines->First : 0, lines, mine, own, ghosts, output);
   if (marks.Flags)
   {
     output->GetCellData()->AddArray(marksOf(piece, *marks.Flags, corners));
@@ -321,7 +301,6 @@ void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& 
     setLines(piece, *marks.Lines, vtkIdType(own) + vtkIdType(more), output);
   }
   output->SetPolys(takeCells(std::move(corners), 3));
-  output->GetCellData()->SetGlobalIds(numbers);
   if (ghosts)
   {
     addCellGhosts(lines + own, more, output);

@@ -131,12 +131,12 @@ struct VTKTIPPIO_EXPORT PieceInterior
   }
 };
 
-/// All but the own points' indices.
+/// All but the own points' indices, and the interface points and their rows.
 template <typename Archive>
 void serialize(Archive& archive, PieceInterior& interior)
 {
   archive(interior.Room, interior.Points, interior.Cells, interior.TriangleSum, interior.Extent,
-    interior.Checksums, interior.InterfacePoints, interior.InterfaceRows, interior.InterfaceCells);
+    interior.Checksums, interior.InterfaceCells);
 }
 
 /// The cells that a piece owns at its border, and the other pieces' points that they use (ghosts).

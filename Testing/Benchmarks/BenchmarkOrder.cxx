@@ -75,7 +75,7 @@ struct SharedOrder
   SharedOrder(const SharedOut& shared, const Regions& regions,
     const std::vector<BoundaryVertex>& initial, const std::vector<BoundaryVertex>& artificial)
   {
-    SaveArchive writer;
+    std::vector<PartConflicts> conflicts;
     for (int rank = 0; rank < shared.Ranks; ++rank)
     {
       std::vector<char> isChosen;
@@ -85,14 +85,13 @@ struct SharedOrder
       }
       const ProcessorWatch watch;
       this->Parts.emplace_back(regions, initial, artificial, isChosen, 1);
-      this->Parts.back().writeConflicts(writer);
+      conflicts.push_back(this->Parts.back().conflicts());
       this->PartSeconds.push_back(watch.seconds());
     }
-    const Bytes all = writer.take();
-    this->Exchanged = all.size();
+    this->Exchanged = packed(conflicts).size();
     const ProcessorWatch watch;
     this->Order = std::make_unique<PartitionOrder>(
-      regions.areUsed(), readConflicts(all, regions.areUsed().size()));
+      regions.areUsed(), joinConflicts(conflicts, regions.areUsed().size()));
     this->OrderSeconds = watch.seconds();
   }
 

@@ -118,7 +118,7 @@ void writeOnFirst(Communicator& ranks, const DelaunayArguments& arguments, Delau
   {
     fmt::print("{}\n", describeSegments(constraints.Figures));
   }
-  warnOfNoTriangles(mine.AllTriangles);
+  warnOfNoTriangles(mine.AllCells);
 }
 
 void triangulateShares(Communicator& ranks, const DelaunayArguments& arguments)

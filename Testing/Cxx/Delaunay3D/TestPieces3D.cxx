@@ -5,6 +5,7 @@
 #include "PointsInSpace.h"
 #include "TemporaryFolder.h"
 
+#include "OutOfCore/StoredPieces.h"
 #include "OutOfCore3D/PiecePlan3.h"
 #include "OutOfCore3D/PieceRun3.h"
 #include "Predicates/ExactPredicates.h"
@@ -50,15 +51,15 @@ struct Planned
     this->Rows.Z = 2;
     this->Rows.Attributes = { 3 };
     this->Plan.divide(this->Memory, words);
-    this->Plan.spill(*this->Stream, this->Rows, file, this->Memory, threads, ignore);
+    this->Plan.spill(*this->Stream, file, this->Memory, threads, ignore);
   }
 
   static void ignore(std::int64_t) {}
 
   std::vector<double> rowsOf(PartitionIndex piece) const
   {
-    std::vector<double> rows(words * std::size_t(this->Plan.count(piece)));
-    this->Plan.read(piece, rows.data());
+    std::vector<double> rows(words * std::size_t(this->Plan.points().count(piece)));
+    this->Plan.points().read(piece, rows.data());
     return rows;
   }
 
@@ -84,25 +85,25 @@ public:
     fs::create_directories(this->Mesh.Path + "/pieces");
   }
 
-  PieceWork3 work() const { return { this->Plan, this->Rows, this->Mesh, this->Results }; }
+  PieceWork3 work() const
+  {
+    return { this->Plan, this->Plan.points(), this->Rows, this->Mesh, this->Results };
+  }
 
   void triangulate()
   {
     const std::vector<char> isDone(std::size_t(this->Plan.pieces()), 0);
-    EXPECT_TRUE(PieceRun3(this->work(), this->Memory, 2,
-      [](std::int64_t) {
-        return true;
-      }).run(isDone, this->Stored));
+    EXPECT_TRUE(
+      PieceRun3(this->work(), this->Memory, 2, [](std::int64_t) { return true; }).run(isDone));
   }
 
   std::vector<FinishedPiece> finish(const Report& report = {})
   {
-    return finishPieces(this->work(), this->Stored, 1 << 20, 2, report, this->Figures);
+    return finishPieces(this->work(), 1 << 20, 2, report, this->Figures);
   }
 
   PartitionedMesh Mesh;
   const std::string Results;
-  StoredResults3 Stored;
   PieceFigures Figures;
 };
 
@@ -132,7 +133,7 @@ PieceResult3 makeResult()
   result.HullVertices = { { { 0.5, 1.5, 2.5 }, 8, 1 } };
   result.Borders[1].add({ 1, 2, 3, 4 }, { 1, 3, 4 });
   result.Borders[1].add({ 5, 6, 7, 8 }, { 1 });
-  result.Sent = { { 2, { 0, { { { 3, 4, 5 }, 6, 0 }, { { 7, 8, 9 }, 10, 0 } } } } };
+  result.Sent[2].push_back({ 2, { 0, { { { 3, 4, 5 }, 6, 0 }, { { 7, 8, 9 }, 10, 0 } } } });
   return result;
 }
 
@@ -152,7 +153,7 @@ TEST(PiecePlan3, EverySpilledPointIsInTheBoxOfItsPiece)
     for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
     {
       const auto index = std::size_t(piece);
-      EXPECT_GT(plan.count(piece), 0);
+      EXPECT_GT(plan.points().count(piece), 0);
       const std::vector<double> rows = planned.rowsOf(piece);
       for (std::size_t at = 0; at < rows.size(); at += words)
       {
@@ -161,8 +162,9 @@ TEST(PiecePlan3, EverySpilledPointIsInTheBoxOfItsPiece)
         EXPECT_TRUE(p == points.at(std::size_t(rows[at + 3])));
         numbers.insert(rows[at + 3]);
       }
-      EXPECT_EQ(piece, plan.pieceOf(plan.first(piece)));
-      EXPECT_EQ(piece, plan.pieceOf(plan.first(piece) + plan.count(piece) - 1));
+      const SpilledPoints& spilled = plan.points();
+      EXPECT_EQ(piece, spilled.pieceOf(spilled.first(piece)));
+      EXPECT_EQ(piece, spilled.pieceOf(spilled.first(piece) + spilled.count(piece) - 1));
       volume += volumeOf(plan.boxes()[index]);
     }
     EXPECT_EQ(points.size(), numbers.size()) << kind;
@@ -223,8 +225,8 @@ TEST(PiecePlan3, ComesBackAsItWasSaved)
     EXPECT_EQ(plan.regions()[std::size_t(piece)].Max, restored.regions()[std::size_t(piece)].Max);
     const std::vector<double> rows = planned.rowsOf(piece);
     std::vector<double> again(rows.size());
-    ASSERT_EQ(plan.count(piece), restored.count(piece));
-    restored.read(piece, again.data());
+    ASSERT_EQ(plan.points().count(piece), restored.points().count(piece));
+    restored.points().read(piece, again.data());
     EXPECT_TRUE(rows == again);
     const Point3 first{ rows[0], rows[1], rows[2] };
     EXPECT_EQ(piece, restored.tiling().locate(first));
@@ -313,11 +315,11 @@ TEST(StoredResult3, IsReadAsWritten)
   const TemporaryFolder folder;
   const PlannedRun run(folder, pointsInSpace("uniform", 1000));
   const PieceResult3 result = makeResult();
-  writeResult(folder.path("result"), result);
+  StoredResult3::write(folder.path("result"), result);
   const StoredResult3 stored(folder.path("result"));
-  const PieceInterior interior = stored.readInterior(run.work(), 1, true);
-  EXPECT_EQ(run.Plan.first(1), interior.First);
-  EXPECT_EQ(run.Plan.count(1), interior.OwnPoints);
+  const PieceInterior interior = stored.readInterior(run.Plan.points(), 1, true);
+  EXPECT_EQ(run.Plan.points().first(1), interior.First);
+  EXPECT_EQ(run.Plan.points().count(1), interior.OwnPoints);
   EXPECT_EQ(11, interior.Points);
   EXPECT_EQ(12, interior.Cells);
   EXPECT_EQ(result.Interior.Checksums, interior.Checksums);
@@ -333,9 +335,11 @@ TEST(StoredResult3, IsReadAsWritten)
   EXPECT_EQ(result.Borders.at(1).Corners, border.Corners);
   EXPECT_EQ((std::vector<std::int32_t>{ 3, 4 }), border.Borrowers);
   EXPECT_EQ((std::vector<std::uint64_t>{ 2, 2 }), border.BorrowerEnds);
-  EXPECT_EQ(0, stored.countSent(1));
-  EXPECT_GE(stored.countSent(2), 2);
-  const VertexMessage3 message = stored.readMessage(2);
+  EXPECT_EQ(0U, stored.sentBytes(1));
+  EXPECT_GE(stored.sentBytes(2), 2 * sizeof(Vertex3));
+  ASSERT_EQ(1U, stored.readMessages(2).size());
+  const auto [to, message] = stored.readMessages(2)[0];
+  EXPECT_EQ(2, to);
   EXPECT_EQ(0, message.Sender);
   ASSERT_EQ(2U, message.Vertices.size());
   EXPECT_EQ(10, message.Vertices[1].Id);
@@ -346,15 +350,15 @@ TEST(StoredResult3, IsRefusedIfAnyByteIsDamaged)
   const TemporaryFolder folder;
   const PlannedRun run(folder, pointsInSpace("uniform", 1000));
   const std::string path = folder.path("result");
-  writeResult(path, makeResult());
+  StoredResult3::write(path, makeResult());
   const auto readAll = [&]
   {
     const StoredResult3 stored(path);
-    stored.readInterior(run.work(), 1, true);
+    stored.readInterior(run.Plan.points(), 1, true);
     stored.readFigures();
     stored.readHullVertices();
     stored.readBorder(1);
-    stored.readMessage(2);
+    stored.readMessages(2);
   };
   readAll();
   for (std::uint64_t at = 0; at < fs::file_size(path); ++at)
@@ -410,19 +414,17 @@ TEST(PieceRun3, MakesThePiecesAgainThatAreNotDone)
   }
   const auto ignore = [](const std::string& sentence) { FAIL() << sentence; };
   EXPECT_EQ(isDone, verifyResults(run.work(), 2, {}, ignore));
-  StoredResults3 stored;
   std::int64_t told = 0;
   EXPECT_TRUE(PieceRun3(run.work(), run.Memory, 2,
     [&](std::int64_t done)
     {
       told = done;
       return true;
-    }).run(isDone, stored));
+    }).run(isDone));
   EXPECT_EQ(3000, told);
   for (PartitionIndex piece = 0; piece < pieces; ++piece)
   {
     EXPECT_TRUE(results[std::size_t(piece)] == contentOf(run.work().resultPath(piece))) << piece;
-    EXPECT_TRUE(stored[std::size_t(piece)]) << piece;
   }
 }
 
@@ -437,12 +439,10 @@ TEST(FinishPieces3, ADamagedResultIsRefused)
   EXPECT_THROW(
     {
       run.finish();
-      for (const auto& result : run.Stored)
+      const StoredResult3 result(path);
+      for (PartitionIndex to = 0; to < run.Plan.pieces(); ++to)
       {
-        for (PartitionIndex to = 0; to < run.Plan.pieces(); ++to)
-        {
-          result->countSent(to) > 0 ? void(result->readMessage(to)) : void();
-        }
+        result.sentBytes(to) > 0 ? void(result.readMessages(to)) : void();
       }
     },
     IOError);

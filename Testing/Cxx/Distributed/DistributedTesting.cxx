@@ -129,7 +129,7 @@ Gathered triangulateShares(const Coordinates& xy, Share share, const Distributed
   writer(result.Duplicates);
   writer(result.Rejected);
   writer(corners.Fault);
-  writer(result.FirstTriangle);
+  writer(result.FirstCell);
   Gathered gathered;
   std::int64_t next = 0;
   for (const Bytes& bytes : box.gather(writer.take()))

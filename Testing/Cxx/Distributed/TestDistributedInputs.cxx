@@ -184,8 +184,8 @@ TEST(GhostTriangles, AreOtherRanksTrianglesAtOwnVerticesEachOnce)
   std::set<std::int64_t> expected;
   for (std::size_t i = 0; i < every.size(); ++i)
   {
-    const bool isOwn = std::int64_t(i) >= result.FirstTriangle &&
-      std::int64_t(i) < result.FirstTriangle + std::int64_t(own.size());
+    const bool isOwn = std::int64_t(i) >= result.FirstCell &&
+      std::int64_t(i) < result.FirstCell + std::int64_t(own.size());
     const bool touches = std::any_of(
       every[i].begin(), every[i].end(), [&](std::int64_t id) { return vertices.count(id) > 0; });
     if (!isOwn && touches)
@@ -240,7 +240,7 @@ TEST_P(DistributedDesign, AFailureOnOneRankFailsAll)
       }
       return true;
     };
-    return triangulateDistributed(box, points, options).AllTriangles;
+    return triangulateDistributed(box, points, options).AllCells;
   };
   try
   {

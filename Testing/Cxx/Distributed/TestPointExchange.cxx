@@ -126,11 +126,12 @@ TEST(PointReceiver, RefusesAnotherNumberOfPointsThanAnnounced)
   const PointLayout layout(box, owners, { 2 });
   if (box.rank() == 0)
   {
-    std::vector<Point2> places(std::size_t(2 * box.size()));
-    std::vector<PointId> ids(places.size());
-    const Bytes message(PointArrays::bytes(3, 0));
-    PointReceiver landing(layout, 0, PointArrays(places.data(), ids.data(), nullptr), 0);
-    landing.take(message.data(), PointArrays::bytes(2, 0) - 1);
+    PointTuplesOf<Point2> points;
+    points.Positions = Buffer<Point2>(std::size_t(2 * box.size()));
+    points.GlobalIds = Buffer<PointId>(points.size());
+    const Bytes message(PointArrays<Point2>::bytes(3, 0));
+    PointReceiver landing(layout, 0, points, 0);
+    landing.take(message.data(), PointArrays<Point2>::bytes(2, 0) - 1);
     EXPECT_THROW(landing.requireComplete(), std::runtime_error);
     landing.take(message.data(), 1);
     EXPECT_NO_THROW(landing.requireComplete());

@@ -81,7 +81,7 @@ TEST_P(SharedInitialMesh, PartsAreThoseOfTheWholeMesh)
     const auto expected = partitionsPay ? findConflicts(scene.Whole, count) : std::nullopt;
     for (const std::size_t ranks : { std::size_t(1), std::size_t(5), std::size_t(40) })
     {
-      SaveArchive writer;
+      std::vector<PartConflicts> parts;
       std::int64_t triangles = 0;
       std::int64_t met = 0;
       for (std::size_t rank = 0; rank < ranks; ++rank)
@@ -95,10 +95,10 @@ TEST_P(SharedInitialMesh, PartsAreThoseOfTheWholeMesh)
         ASSERT_EQ(trianglesThatMeet(scene.Whole, isChosen), trianglesThatMeet(part.Mesh, isChosen))
           << partitions << " partitions, rank " << rank << " of " << ranks;
         part.countMet(triangles, met);
-        partitionsPay ? part.writeConflicts(writer) : void();
+        partitionsPay ? parts.push_back(part.conflicts()) : void();
       }
       EXPECT_EQ(partitionsPay, tipp::partitionsPay(triangles, met));
-      const auto conflicts = readConflicts(writer.take(), count);
+      const auto conflicts = joinConflicts(parts, count);
       for (PartitionIndex p = 0; partitionsPay && std::size_t(p) < count; ++p)
       {
         ASSERT_TRUE(expected && conflicts);
@@ -126,13 +126,12 @@ TEST(InitialMeshPart, APartHasFewVertices)
 TEST(InitialMeshPart, DamagedConflictsAreRejected)
 {
   const SharedScene scene("uniform", 2000, 40);
-  SaveArchive writer;
-  scene.part(scene.Boxes.areUsed()).writeConflicts(writer);
-  const Bytes good = writer.take();
-  EXPECT_THROW(readConflicts(good, 3), std::runtime_error); // ids of too many partitions
+  const PartConflicts good = scene.part(scene.Boxes.areUsed()).conflicts();
+  EXPECT_THROW(joinConflicts({ good }, 3), std::runtime_error); // ids of too many partitions
+  const Bytes bytes = packed(good);
   SaveArchive shortened;
-  shortened.raw(good.data(), good.size() - 4);
-  EXPECT_THROW(readConflicts(shortened.take(), 40), std::runtime_error);
+  shortened.raw(bytes.data(), bytes.size() - 4);
+  EXPECT_THROW(unpacked<PartConflicts>(shortened.take()), std::runtime_error);
 }
 
 } // namespace

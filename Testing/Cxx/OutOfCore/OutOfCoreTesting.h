@@ -59,9 +59,10 @@ public:
   }
   SpilledPoints spill(PiecePlan& plan)
   {
-    const SpilledPart all = spillPart(*this->Stream, this->Survey.Factor, plan, this->Rows,
-      this->Folder.path("spill"), 0, 1000, 2, [](std::int64_t) {});
-    return SpilledPoints({ all }, this->Survey, plan, this->Rows, this->Folder.path("spill"));
+    const SpilledPart all = spillPart(*this->Stream, this->Survey.Factor, plan,
+      this->Folder.path("spill"), 0, { 1000, 1 << 10, 2, [](std::int64_t) {} });
+    placeInitialPoints({ all }, this->Survey, plan);
+    return SpilledPoints(this->Folder.path("spill"), this->Rows.Words, { all.Rows });
   }
 
   TemporaryFolder Folder;

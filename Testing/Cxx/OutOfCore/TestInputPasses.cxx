@@ -47,11 +47,11 @@ TEST(InputSurvey, IsTheSameForAnyDivisionOfTheInput)
   const InputSurvey expected = surveyOf(*unknown);
   for (const std::int64_t cuts : { 1, 2, 7 })
   {
-    std::vector<PartialSurvey> parts;
+    std::vector<InputSurvey> parts;
     for (std::int64_t part = 0; part < cuts; ++part)
     {
       whole->limitTo(10001 * part / cuts, 10001 * (part + 1) / cuts);
-      parts.push_back(surveyPart(*whole, 500, 1 << 10, 2, [](std::int64_t) {}));
+      parts.push_back(surveyPart(*whole, { 500, 1 << 10, 2, [](std::int64_t) {} }));
     }
     const InputSurvey survey = joinSurveys(parts);
     EXPECT_EQ(10001, survey.Points);
@@ -67,15 +67,15 @@ TEST(InputSurvey, IsTheSameForAnyDivisionOfTheInput)
 
 TEST(InputSurvey, PartsOnDifferentLinesAreNotCollinear)
 {
-  PartialSurvey a;
+  InputSurvey a;
   a.Line = { { 0, 0 }, { 1, 1 } };
-  PartialSurvey b;
+  InputSurvey b;
   b.Line = { { 2, 2 }, { 3, 3 } };
-  PartialSurvey c;
+  InputSurvey c;
   c.Line = { { 2, 2 }, { 3, 4 } };
-  std::vector<PartialSurvey> on{ a, b };
+  std::vector<InputSurvey> on{ a, b };
   EXPECT_TRUE(joinSurveys(on).Collinear);
-  std::vector<PartialSurvey> off{ a, b, c };
+  std::vector<InputSurvey> off{ a, b, c };
   EXPECT_FALSE(joinSurveys(off).Collinear);
 }
 

@@ -307,14 +307,11 @@ TEST(SpilledPoints, OfOtherPiecesAreRefused)
   const SpilledPoints spilled = steps.spill(plan);
   SaveArchive out;
   spilled.save(out);
-  for (const std::size_t at : { 8, 16 }) // the first two entries of starts(), after its length
+  for (const PartitionIndex pieces : { plan.pieces() - 1, plan.pieces() + 1 })
   {
-    Bytes bytes(out.size());
-    std::copy_n(out.data(), bytes.size(), bytes.begin());
-    bytes.data()[at] ^= 1;
-    LoadArchive in(bytes);
+    LoadArchive in(out.data(), out.size());
     expectIOError(steps.Folder.path("spill"), "other pieces",
-      [&] { SpilledPoints(steps.Folder.path("spill"), plan, steps.Rows, in); });
+      [&] { SpilledPoints(steps.Folder.path("spill"), steps.Rows.Words, pieces, in); });
   }
 }
 
@@ -331,7 +328,7 @@ TEST(SpilledPoints, AreRefusedPerPieceIfDamaged)
   spilled.save(out);
   const Bytes bytes = out.take();
   LoadArchive in(bytes);
-  const SpilledPoints back(file.substr(0, file.size() - 2), plan, steps.Rows, in);
+  const SpilledPoints back(file.substr(0, file.size() - 2), steps.Rows.Words, plan.pieces(), in);
   for (const SpilledPoints* const points : { &spilled, &back })
   {
     int damaged = 0;

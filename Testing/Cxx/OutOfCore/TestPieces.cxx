@@ -201,7 +201,7 @@ protected:
   const SpilledPoints Spilled = Of.spill(Plan);
   const MemoryPlan Memory = Of.memory();
   const PartitionedMesh Mesh = meshWithoutPath();
-  const PieceWork Work{ Plan, Spilled, 1, Of.Rows, Mesh, Of.Folder.path("result") };
+  const PieceWork Work{ { Plan, Spilled, Of.Rows, Mesh, Of.Folder.path("result") } };
   const std::vector<char> None = std::vector<char>(std::size_t(Plan.pieces()), 0);
 };
 
