@@ -309,7 +309,7 @@ private:
         continue;
       }
       const int from = line.side(edge.From);
-      if (from == 0 && line.isBetween(line.A, edge.From))
+      if (from == 0 && isBetween(line.A, edge.From, line.B))
       {
         noteFromVertex(this->Mesh.from(edge.Half));
       }
