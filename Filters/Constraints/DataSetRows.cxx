@@ -45,7 +45,7 @@ vtkSmartPointer<vtkPolyData> unpackDataSet(const Bytes& bytes)
 }
 
 vtkSmartPointer<vtkPolyData> copyRows(
-  const std::vector<vtkSmartPointer<vtkPolyData>>& from, const std::vector<DataSetRow>& rows)
+  const std::vector<vtkSmartPointer<vtkPointSet>>& from, const std::vector<DataSetRow>& rows)
 {
   auto result = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkPoints> points;
@@ -53,7 +53,7 @@ vtkSmartPointer<vtkPolyData> copyRows(
   points->SetNumberOfPoints(vtkIdType(rows.size()));
   vtkPointData* const data = result->GetPointData();
   vtkDataSetAttributes::FieldList fields;
-  for (vtkPolyData* const one : from)
+  for (vtkPointSet* const one : from)
   {
     fields.IntersectFieldList(one->GetPointData());
   }
@@ -64,7 +64,7 @@ vtkSmartPointer<vtkPolyData> copyRows(
   }
   for (std::size_t i = 0; i < rows.size(); ++i)
   {
-    vtkPolyData* const set = from[rows[i].Set];
+    vtkPointSet* const set = from[rows[i].Set];
     points->SetPoint(vtkIdType(i), set->GetPoint(rows[i].Row));
     fields.CopyData(int(rows[i].Set), set->GetPointData(), rows[i].Row, data, vtkIdType(i));
   }

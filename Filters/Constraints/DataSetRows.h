@@ -3,7 +3,6 @@
 #define tippDataSetRows_h
 
 #include "Ranks/Communicator.h"
-#include "Triangulation/Triangulate.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
@@ -11,6 +10,7 @@
 #include <cstddef>
 #include <vector>
 
+class vtkPointSet;
 class vtkPolyData;
 
 namespace tipp
@@ -25,7 +25,6 @@ vtkSmartPointer<vtkPolyData> unpackDataSet(const Bytes& bytes);
 /// A point of one of several data sets.
 struct DataSetRow
 {
-  PointId To; ///< its position among the rows of all sets
   std::size_t Set;
   vtkIdType Row;
 };
@@ -33,7 +32,7 @@ struct DataSetRow
 /// Copies rows of data sets in the order of `rows`. The result has the point arrays that all data
 /// sets have, without global ids, and coordinates in double precision.
 vtkSmartPointer<vtkPolyData> copyRows(
-  const std::vector<vtkSmartPointer<vtkPolyData>>& from, const std::vector<DataSetRow>& rows);
+  const std::vector<vtkSmartPointer<vtkPointSet>>& from, const std::vector<DataSetRow>& rows);
 
 } // namespace tipp
 
