@@ -10,17 +10,12 @@
 #include <cstddef>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace tipp
 {
 namespace
 {
-
-template <typename Id, typename IsKept>
-void keepTriangles(Buffer<Id>& ids, const IsKept& isKept)
-{
-  ids.truncate(3 * tipp::keepTriangles(ids.data(), ids.size() / 3, isKept));
-}
 
 /// For each corner of a triangle, the triangle across the opposite edge, or -1.
 template <typename Id>
@@ -39,6 +34,26 @@ std::array<PointId, 2> edgeOpposite(const Buffer<Id>& ids, std::size_t corner)
   return { PointId(ids[first + (corner + 1) % 3]), PointId(ids[first + (corner + 2) % 3]) };
 }
 
+/// Goes from the triangles in `front` to their neighbours, and on from those for which
+/// enter(corner, neighbour) is true. The neighbour is across the edge opposite to the corner.
+template <typename Enter>
+void spread(
+  std::vector<std::size_t> front, const std::vector<std::int64_t>& neighbors, const Enter& enter)
+{
+  while (!front.empty())
+  {
+    const std::size_t triangle = front.back();
+    front.pop_back();
+    for (std::size_t c = 3 * triangle; c < 3 * triangle + 3; ++c)
+    {
+      if (neighbors[c] >= 0 && enter(c, std::size_t(neighbors[c])))
+      {
+        front.push_back(std::size_t(neighbors[c]));
+      }
+    }
+  }
+}
+
 /// For each triangle, the sum of crossed(a, b) over the edges that a path from outside to the
 /// triangle crosses. Edges are directed with the triangle that the path enters on the left. The
 /// triangles must fill a convex hull.
@@ -48,16 +63,6 @@ std::vector<int> sumsFromOutside(
 {
   std::vector<int> result(ids.size() / 3, 0);
   std::vector<char> isKnown(result.size(), 0);
-  std::vector<std::size_t> front;
-  const auto enter = [&](std::size_t triangle, int sum)
-  {
-    if (!isKnown[triangle])
-    {
-      isKnown[triangle] = 1;
-      result[triangle] = sum;
-      front.push_back(triangle);
-    }
-  };
   const auto across = [&](std::size_t corner)
   {
     const auto [a, b] = edgeOpposite(ids, corner);
@@ -68,19 +73,16 @@ std::vector<int> sumsFromOutside(
   if (hull != neighbors.end()) // all other triangles are reached from here
   {
     const auto corner = std::size_t(hull - neighbors.begin());
-    enter(corner / 3, across(corner));
-  }
-  while (!front.empty())
-  {
-    const std::size_t triangle = front.back();
-    front.pop_back();
-    for (std::size_t c = 3 * triangle; c < 3 * triangle + 3; ++c)
-    {
-      if (neighbors[c] >= 0)
+    isKnown[corner / 3] = 1;
+    result[corner / 3] = across(corner);
+    spread({ corner / 3 }, neighbors,
+      [&](std::size_t from, std::size_t to)
       {
-        enter(std::size_t(neighbors[c]), result[triangle] - across(c));
-      }
-    }
+        const bool isNew = !isKnown[to];
+        isKnown[to] = 1;
+        result[to] = isNew ? result[from / 3] - across(from) : result[to];
+        return isNew;
+      });
   }
   return result;
 }
@@ -113,11 +115,6 @@ std::vector<char> reachedFrom(PointsView points, const Buffer<Id>& ids,
   const ConstraintEdges edges(pieces);
   std::vector<char> isReached(ids.size() / 3, 0);
   std::vector<std::size_t> front;
-  const auto enter = [&](std::size_t triangle)
-  {
-    isReached[triangle] ? void() : front.push_back(triangle);
-    isReached[triangle] = 1;
-  };
   for (const Point2& seed : seeds)
   {
     bool isInside = false;
@@ -125,7 +122,8 @@ std::vector<char> reachedFrom(PointsView points, const Buffer<Id>& ids,
       [&](std::size_t t)
       {
         isInside = true;
-        enter(t);
+        isReached[t] = 1;
+        front.push_back(t);
       });
     if (!isInside)
     {
@@ -134,19 +132,14 @@ std::vector<char> reachedFrom(PointsView points, const Buffer<Id>& ids,
       throw std::invalid_argument(text.str());
     }
   }
-  while (!front.empty())
-  {
-    const std::size_t triangle = front.back();
-    front.pop_back();
-    for (std::size_t c = 3 * triangle; c < 3 * triangle + 3; ++c)
+  spread(std::move(front), neighbors,
+    [&](std::size_t from, std::size_t to)
     {
-      const auto [a, b] = edgeOpposite(ids, c);
-      if (neighbors[c] >= 0 && !edges.contains(a, b))
-      {
-        enter(std::size_t(neighbors[c]));
-      }
-    }
-  }
+      const auto [a, b] = edgeOpposite(ids, from);
+      const bool isNew = !isReached[to] && !edges.contains(a, b);
+      isReached[to] = char(isReached[to] || isNew);
+      return isNew;
+    });
   return isReached;
 }
 
@@ -186,7 +179,8 @@ void keepInside(
       std::none_of(windings.begin(), windings.end(), [](int winding) { return winding > 0; });
     removeLess(windings, onlyHoles ? 0 : 1);
   }
-  keepTriangles(ids, [&](std::size_t t) { return !isRemoved[t]; });
+  ids.truncate(
+    3 * keepTriangles(ids.data(), ids.size() / 3, [&](std::size_t t) { return !isRemoved[t]; }));
 }
 
 template <typename Id>
