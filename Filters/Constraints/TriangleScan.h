@@ -85,8 +85,12 @@ public:
       }
       for (const Entry& entry : this->Rows[y].Entries)
       {
-        const bool isNear = (entry.Columns & columns) != 0 && y == std::max(begin, entry.First);
-        isNear&& overlap(box, entry.Box) ? visit(*entry.Segment) : void();
+        // A segment in several rows is visited in the first one.
+        if ((entry.Columns & columns) != 0 && y == std::max(begin, entry.First) &&
+          overlap(box, entry.Box))
+        {
+          visit(*entry.Segment);
+        }
       }
     }
   }
@@ -125,7 +129,7 @@ private:
     std::size_t cellOf(double value) const
     {
       const double cell = (value - this->Low) * this->Scale;
-      return cell > 0 ? std::size_t(std::min(cell, double(Cells - 1))) : 0;
+      return cell > 0 ? std::size_t(int(std::min(cell, double(Cells - 1)))) : 0;
     }
 
     double Low = 0;
