@@ -3,7 +3,6 @@
 
 #include "Arrays/IndexMap.h"
 #include "Constraints/ConstraintPoints.h"
-#include "Constraints/DataSetRows.h"
 #include "Constraints/SourceConstraints.h"
 #include "Projection/ProjectedPoints.h"
 #include "Vtk/ReadDataSet.h"
