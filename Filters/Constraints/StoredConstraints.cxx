@@ -152,6 +152,12 @@ void StoredConstraints::match()
         }
       });
   }
+  std::int64_t count = 0;
+  for (std::size_t vertex = 0; vertex < this->IsNew.size(); ++vertex)
+  {
+    vertex % VerticesPerCount == 0 ? this->NewBefore.push_back(count) : void();
+    count += this->IsNew[vertex] ? 1 : 0;
+  }
   if (this->Named)
   {
     this->Named->finish();
@@ -210,6 +216,15 @@ void StoredConstraints::placeNamed()
     }
   }
   this->Places->finish();
+}
+
+/// The number of new vertices before a vertex.
+std::int64_t StoredConstraints::newBefore(std::int64_t vertex) const
+{
+  const std::size_t counted = std::size_t(vertex) / VerticesPerCount;
+  const auto begin = this->IsNew.begin();
+  return this->NewBefore[counted] +
+    std::count(begin + std::ptrdiff_t(counted * VerticesPerCount), begin + vertex, true);
 }
 
 std::vector<double> StoredConstraints::valuesOf(std::int64_t number, const Vertex& vertex) const
@@ -306,9 +321,8 @@ void StoredConstraints::lookUp(
         }
         else if (end >= 0)
         {
-          const auto before = std::count(
-            this->IsNew.begin(), this->IsNew.begin() + std::ptrdiff_t(match.First), true);
-          visit(std::size_t(end), this->Points + before, this->valuesOf(match.First).data());
+          visit(std::size_t(end), this->Points + this->newBefore(match.First),
+            this->valuesOf(match.First).data());
         }
       });
   }
