@@ -13,7 +13,6 @@
 namespace tipp
 {
 
-/// A hash of all constraints and rules.
 std::string identityOf(const TableConstraints& constraints)
 {
   std::uint64_t hash = 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 
 namespace tipp
 {
@@ -37,45 +38,38 @@ ConstraintEdges::ConstraintEdges(const std::vector<ConstraintPiece>& pieces)
     [](const Edge& a, const Edge& b) { return a.Ids < b.Ids; });
 }
 
-std::vector<ConstraintEdges::Edge>::const_iterator ConstraintEdges::find(const Ends& ends) const
+std::pair<ConstraintEdges::Iterator, ConstraintEdges::Iterator> ConstraintEdges::between(
+  PointId a, PointId b) const
 {
-  const auto found = std::lower_bound(this->Edges.begin(), this->Edges.end(), ends,
+  const Ends ends = std::minmax(a, b);
+  const Iterator end = this->Edges.end();
+  if (this->IsLower[std::size_t(ends.first) % this->IsLower.size()] == 0)
+  {
+    return { end, end };
+  }
+  const Iterator first = std::lower_bound(this->Edges.begin(), end, ends,
     [](const Edge& edge, const Ends& wanted) { return edge.Ids < wanted; });
-  return found != this->Edges.end() && found->Ids == ends ? found : this->Edges.end();
+  return { first,
+    std::find_if(first, end, [&ends](const Edge& edge) { return edge.Ids != ends; }) };
 }
 
 bool ConstraintEdges::contains(PointId a, PointId b) const
 {
-  const Ends ends = std::minmax(a, b);
-  return this->mayContain(ends.first) && this->find(ends) != this->Edges.end();
+  return this->count(a, b) > 0;
 }
 
 int ConstraintEdges::balance(PointId a, PointId b) const
 {
-  const Ends ends = std::minmax(a, b);
-  int sum = 0;
-  if (this->mayContain(ends.first))
-  {
-    for (auto edge = this->find(ends); edge != this->Edges.end() && edge->Ids == ends; ++edge)
-    {
-      sum += edge->Direction;
-    }
-  }
-  return a < b ? sum : -sum;
+  const auto [begin, end] = this->between(a, b);
+  const int ascending =
+    std::accumulate(begin, end, 0, [](int sum, const Edge& edge) { return sum + edge.Direction; });
+  return a < b ? ascending : -ascending;
 }
 
 int ConstraintEdges::count(PointId a, PointId b) const
 {
-  const Ends ends = std::minmax(a, b);
-  int sum = 0;
-  if (this->mayContain(ends.first))
-  {
-    for (auto edge = this->find(ends); edge != this->Edges.end() && edge->Ids == ends; ++edge)
-    {
-      ++sum;
-    }
-  }
-  return sum;
+  const auto [begin, end] = this->between(a, b);
+  return int(end - begin);
 }
 
 } // namespace tipp

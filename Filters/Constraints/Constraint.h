@@ -65,11 +65,8 @@ private:
     int Direction; ///< 1 from the lower id to the higher, -1 for the opposite
   };
 
-  bool mayContain(PointId lower) const
-  {
-    return this->IsLower[std::size_t(lower) % this->IsLower.size()] != 0;
-  }
-  std::vector<Edge>::const_iterator find(const Ends& ends) const;
+  using Iterator = std::vector<Edge>::const_iterator;
+  std::pair<Iterator, Iterator> between(PointId a, PointId b) const;
 
   std::vector<Edge> Edges;   ///< sorted by ends
   std::vector<char> IsLower; ///< by low bits of ids: whether one is a lower end

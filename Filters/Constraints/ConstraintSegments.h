@@ -88,7 +88,10 @@ public:
   }
 
   /// Whether there are polygons, a boundary or holes, so that triangles may be removed.
-  bool cuts() const { return this->HasPolygons || this->HasBoundary || this->Holes.groups() > 0; }
+  bool cuts() const
+  {
+    return this->HasPolygons || this->HasBoundary || !this->Holes.items().empty();
+  }
 
   /// Whether no edge of a polygon, boundary or hole can meet the box. Then either all triangles in
   /// the box are kept or none.

@@ -3,12 +3,14 @@
 
 #include "Arrays/SortUnique.h"
 #include "Constraints/ConstraintJobs.h"
+#include "Constraints/ConstraintPoints.h"
 #include "Constraints/TriangleScan.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -177,11 +179,7 @@ struct PartVertices
         this->Positions.push_back(position);
       }
     }
-    this->ByPosition.resize(this->Positions.size());
-    std::iota(this->ByPosition.begin(), this->ByPosition.end(), std::size_t(0));
-    std::sort(this->ByPosition.begin(), this->ByPosition.end(),
-      [this](std::size_t a, std::size_t b)
-      { return lexicographicLess(this->Positions[a], this->Positions[b]); });
+    this->Index.emplace(this->Positions);
   }
 
   bool has(std::int64_t number) const
@@ -194,18 +192,17 @@ struct PartVertices
   /// The index of the vertex at this position. A new index is added if there is none.
   PointId indexAt(Point2 position)
   {
-    const auto found = std::lower_bound(this->ByPosition.begin(), this->ByPosition.end(), position,
-      [this](std::size_t i, Point2 p) { return lexicographicLess(this->Positions[i], p); });
-    if (found != this->ByPosition.end() && this->Positions[*found] == position)
+    const std::int64_t known = this->Index->find(position);
+    if (known >= 0)
     {
-      return PointId(*found);
+      return PointId(known);
     }
     this->Positions.push_back(position);
     return PointId(this->Positions.size() - 1);
   }
 
 private:
-  std::vector<std::size_t> ByPosition; ///< vertices with numbers, sorted by position
+  std::optional<PositionIndex> Index; ///< of the vertices with numbers
 };
 
 } // namespace

@@ -15,74 +15,30 @@ namespace tipp
 namespace
 {
 
-struct TriangleRange
-{
-  std::size_t Begin;
-  std::size_t End;
-};
+constexpr PartitionIndex NoPartition = -1;
 
-/// Divides the triangles outside of the blocks into small ranges.
-std::vector<TriangleRange> rangesBetween(
-  const std::vector<TriangleBlock>& blocks, std::size_t triangles)
+/// The blocks, and small ranges of the triangles between them, which have NoPartition.
+std::vector<TriangleBlock> withGaps(const std::vector<TriangleBlock>& blocks, std::size_t triangles)
 {
   constexpr std::size_t most = TriangleScan<std::int32_t>::MostTriangles;
-  std::vector<TriangleRange> ranges;
-  const auto append = [&ranges](std::size_t begin, std::size_t end)
+  std::vector<TriangleBlock> all;
+  std::size_t done = 0;
+  const auto fillUntil = [&](std::size_t end)
   {
-    for (std::size_t i = begin; i < end; i += most)
+    for (; done < end; done = all.back().End)
     {
-      ranges.push_back({ i, std::min(i + most, end) });
+      all.push_back({ NoPartition, done, std::min(done + most, end) });
     }
   };
-  std::size_t done = 0;
   for (const TriangleBlock& block : blocks)
   {
-    append(done, block.Begin);
+    fillUntil(block.Begin);
+    all.push_back(block);
     done = block.End;
   }
-  append(done, triangles);
-  return ranges;
+  fillUntil(triangles);
+  return all;
 }
-
-using TriangleCrossing = ScannedTriangles::Crossing;
-
-/// Collects crossings, in the order of triangles, by triangle.
-class CrossingLists
-{
-public:
-  void add(const TriangleCrossing& crossing)
-  {
-    if (this->All.Triangles.empty() || this->All.Triangles.back() != crossing.Triangle)
-    {
-      this->All.Triangles.push_back(crossing.Triangle);
-      this->All.Starts.push_back(std::int64_t(this->All.Pieces.size()));
-    }
-    this->All.Pieces.push_back(crossing.Piece);
-  }
-
-  /// Adds the crossings recorded for a partition's interior triangles.
-  void add(const TriangleBlock& block, const PartitionConstraints& inserted)
-  {
-    for (const auto& [triangle, piece] : inserted.crossingsIn(block.Partition))
-    {
-      if (block.Begin + triangle < block.End)
-      {
-        this->add({ std::int64_t(block.Begin + triangle), piece });
-      }
-    }
-  }
-
-  CrossedTriangles finish(std::vector<CrossedTriangles::Touch>&& touches)
-  {
-    this->All.Starts.push_back(std::int64_t(this->All.Pieces.size()));
-    this->All.Touches = std::move(touches);
-    sortUnique(this->All.Touches);
-    return std::move(this->All);
-  }
-
-private:
-  CrossedTriangles All;
-};
 
 /// A tree of these pieces. An item's Id is the index of the piece.
 SegmentTree treeOf(const std::vector<std::int64_t>& some, PointsView points,
@@ -109,38 +65,45 @@ CrossedTriangles findCrossedTriangles(PointsView points, const Id* corners, std:
   const PartitionConstraints& inserted, const std::vector<std::int64_t>& remaining, int threads)
 {
   const SegmentTree tree = treeOf(remaining, points, pieces, threads);
-  const std::vector<TriangleRange> ranges = rangesBetween(blocks, triangles);
+  const std::vector<TriangleBlock> ranges = withGaps(blocks, triangles);
   std::vector<TriangleScan<Id>> scans(std::size_t(threads), TriangleScan<Id>(points, tree));
   std::vector<ScannedTriangles> found(ranges.size());
   forChunks(std::int64_t(ranges.size()), 1, threads, {},
     [&](std::int64_t i, std::int64_t, int thread)
     {
-      const TriangleRange& range = ranges[std::size_t(i)];
+      const TriangleBlock& range = ranges[std::size_t(i)];
       ScannedTriangles& here = found[std::size_t(i)];
-      scans[std::size_t(thread)].scan(corners, range.Begin, range.End, here);
-      std::sort(here.Crossings.begin(), here.Crossings.end());
+      if (range.Partition == NoPartition)
+      {
+        scans[std::size_t(thread)].scan(corners, range.Begin, range.End, here);
+        std::sort(here.Crossings.begin(), here.Crossings.end());
+        return;
+      }
+      for (const auto& [triangle, piece] : inserted.crossingsIn(range.Partition))
+      {
+        range.Begin + triangle < range.End
+          ? here.Crossings.push_back({ std::int64_t(range.Begin + triangle), piece })
+          : void();
+      }
     });
-  std::vector<CrossedTriangles::Touch> touches = inserted.touches();
-  CrossingLists lists;
-  auto block = blocks.begin();
-  const auto addBlocksBefore = [&](std::size_t triangle)
+  CrossedTriangles all;
+  all.Touches = inserted.touches();
+  for (const ScannedTriangles& here : found)
   {
-    for (; block != blocks.end() && block->Begin < triangle; ++block)
+    for (const ScannedTriangles::Crossing& crossing : here.Crossings)
     {
-      lists.add(*block, inserted);
+      if (all.Triangles.empty() || all.Triangles.back() != crossing.Triangle)
+      {
+        all.Triangles.push_back(crossing.Triangle);
+        all.Starts.push_back(std::int64_t(all.Pieces.size()));
+      }
+      all.Pieces.push_back(crossing.Piece);
     }
-  };
-  for (std::size_t i = 0; i < ranges.size(); ++i)
-  {
-    addBlocksBefore(ranges[i].Begin);
-    for (const TriangleCrossing& crossing : found[i].Crossings)
-    {
-      lists.add(crossing);
-    }
-    touches.insert(touches.end(), found[i].Touches.begin(), found[i].Touches.end());
+    all.Touches.insert(all.Touches.end(), here.Touches.begin(), here.Touches.end());
   }
-  addBlocksBefore(triangles);
-  return lists.finish(std::move(touches));
+  all.Starts.push_back(std::int64_t(all.Pieces.size()));
+  sortUnique(all.Touches);
+  return all;
 }
 
 template CrossedTriangles findCrossedTriangles(PointsView, const std::int32_t*, std::size_t,

@@ -40,8 +40,8 @@ struct CrossedTriangles
 
 /// Finds the triangles that pieces cross, except for pieces that have been inserted already. Pieces
 /// and corners use the same vertex ids. `blocks` are ranges of interior triangles of partitions,
-/// ascending; `inserted` has their crossings,
-/// and `remaining` are its remaining pieces. The other triangles are searched.
+/// ascending; `inserted` has their crossings, and `remaining` are its remaining pieces. The other
+/// triangles are searched.
 template <typename Id>
 CrossedTriangles findCrossedTriangles(PointsView points, const Id* corners, std::size_t triangles,
   const std::vector<TriangleBlock>& blocks, const std::vector<ConstraintPiece>& pieces,

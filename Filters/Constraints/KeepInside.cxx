@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/KeepInside.h"
 
+#include "Constraints/ConstraintPoints.h"
 #include "Constraints/TriangulateConstrained.h"
 #include "Meshes/MeshFiles.h"
 #include "Predicates/ExactPredicates.h"
@@ -10,17 +11,12 @@
 #include <cstddef>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace tipp
 {
 namespace
 {
-
-template <typename Id, typename IsKept>
-void keepTriangles(Buffer<Id>& ids, const IsKept& isKept)
-{
-  ids.truncate(3 * tipp::keepTriangles(ids.data(), ids.size() / 3, isKept));
-}
 
 /// For each corner of a triangle, the triangle across the opposite edge, or -1.
 template <typename Id>
@@ -39,6 +35,26 @@ std::array<PointId, 2> edgeOpposite(const Buffer<Id>& ids, std::size_t corner)
   return { PointId(ids[first + (corner + 1) % 3]), PointId(ids[first + (corner + 2) % 3]) };
 }
 
+/// Goes from the triangles in `front` to their neighbours, and on from those for which
+/// enter(corner, neighbour) is true. The neighbour is across the edge opposite to the corner.
+template <typename Enter>
+void spread(
+  std::vector<std::size_t> front, const std::vector<std::int64_t>& neighbors, const Enter& enter)
+{
+  while (!front.empty())
+  {
+    const std::size_t triangle = front.back();
+    front.pop_back();
+    for (std::size_t c = 3 * triangle; c < 3 * triangle + 3; ++c)
+    {
+      if (neighbors[c] >= 0 && enter(c, std::size_t(neighbors[c])))
+      {
+        front.push_back(std::size_t(neighbors[c]));
+      }
+    }
+  }
+}
+
 /// For each triangle, the sum of crossed(a, b) over the edges that a path from outside to the
 /// triangle crosses. Edges are directed with the triangle that the path enters on the left. The
 /// triangles must fill a convex hull.
@@ -48,16 +64,6 @@ std::vector<int> sumsFromOutside(
 {
   std::vector<int> result(ids.size() / 3, 0);
   std::vector<char> isKnown(result.size(), 0);
-  std::vector<std::size_t> front;
-  const auto enter = [&](std::size_t triangle, int sum)
-  {
-    if (!isKnown[triangle])
-    {
-      isKnown[triangle] = 1;
-      result[triangle] = sum;
-      front.push_back(triangle);
-    }
-  };
   const auto across = [&](std::size_t corner)
   {
     const auto [a, b] = edgeOpposite(ids, corner);
@@ -68,40 +74,18 @@ std::vector<int> sumsFromOutside(
   if (hull != neighbors.end()) // all other triangles are reached from here
   {
     const auto corner = std::size_t(hull - neighbors.begin());
-    enter(corner / 3, across(corner));
-  }
-  while (!front.empty())
-  {
-    const std::size_t triangle = front.back();
-    front.pop_back();
-    for (std::size_t c = 3 * triangle; c < 3 * triangle + 3; ++c)
-    {
-      if (neighbors[c] >= 0)
+    isKnown[corner / 3] = 1;
+    result[corner / 3] = across(corner);
+    spread({ corner / 3 }, neighbors,
+      [&](std::size_t from, std::size_t to)
       {
-        enter(std::size_t(neighbors[c]), result[triangle] - across(c));
-      }
-    }
+        const bool isNew = !isKnown[to];
+        isKnown[to] = 1;
+        result[to] = isNew ? result[from / 3] - across(from) : result[to];
+        return isNew;
+      });
   }
   return result;
-}
-
-/// Calls visit(t) for each triangle with the point inside it or on its border.
-template <typename Id, typename Visit>
-void visitHolders(PointsView points, const Buffer<Id>& ids, Point2 p, const Visit& visit)
-{
-  for (std::size_t t = 0; t < ids.size() / 3; ++t)
-  {
-    const Point2 a = points[std::size_t(ids[3 * t])];
-    const Point2 b = points[std::size_t(ids[3 * t + 1])];
-    const Point2 c = points[std::size_t(ids[3 * t + 2])];
-    const bool isInBox = std::min({ a.x, b.x, c.x }) <= p.x && p.x <= std::max({ a.x, b.x, c.x }) &&
-      std::min({ a.y, b.y, c.y }) <= p.y && p.y <= std::max({ a.y, b.y, c.y });
-    if (isInBox && orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 &&
-      orientation(c, a, p) >= 0)
-    {
-      visit(t);
-    }
-  }
 }
 
 /// For each triangle, whether it can be reached from a seed without crossing a constraint.
@@ -113,40 +97,35 @@ std::vector<char> reachedFrom(PointsView points, const Buffer<Id>& ids,
   const ConstraintEdges edges(pieces);
   std::vector<char> isReached(ids.size() / 3, 0);
   std::vector<std::size_t> front;
-  const auto enter = [&](std::size_t triangle)
+  std::vector<char> isFound(seeds.size(), 0);
+  const SurfacePositions positions(seeds);
+  for (std::size_t t = 0; t < isReached.size(); ++t)
   {
-    isReached[triangle] ? void() : front.push_back(triangle);
-    isReached[triangle] = 1;
-  };
-  for (const Point2& seed : seeds)
-  {
-    bool isInside = false;
-    visitHolders(points, ids, seed,
-      [&](std::size_t t)
+    positions.visitInside({ points[std::size_t(ids[3 * t])], points[std::size_t(ids[3 * t + 1])],
+                            points[std::size_t(ids[3 * t + 2])] },
+      [&](std::size_t seed, Point2)
       {
-        isInside = true;
-        enter(t);
+        isFound[seed] = 1;
+        isReached[t] = 1;
+        front.push_back(t);
       });
-    if (!isInside)
-    {
-      std::ostringstream text;
-      text << "the hole at (" << seed.x << ", " << seed.y << ") is in no triangle.";
-      throw std::invalid_argument(text.str());
-    }
   }
-  while (!front.empty())
+  const auto missing = std::find(isFound.begin(), isFound.end(), char(0));
+  if (missing != isFound.end())
   {
-    const std::size_t triangle = front.back();
-    front.pop_back();
-    for (std::size_t c = 3 * triangle; c < 3 * triangle + 3; ++c)
-    {
-      const auto [a, b] = edgeOpposite(ids, c);
-      if (neighbors[c] >= 0 && !edges.contains(a, b))
-      {
-        enter(std::size_t(neighbors[c]));
-      }
-    }
+    const Point2 seed = seeds[std::size_t(missing - isFound.begin())];
+    std::ostringstream text;
+    text << "the hole at (" << seed.x << ", " << seed.y << ") is in no triangle.";
+    throw std::invalid_argument(text.str());
   }
+  spread(std::move(front), neighbors,
+    [&](std::size_t from, std::size_t to)
+    {
+      const auto [a, b] = edgeOpposite(ids, from);
+      const bool isNew = !isReached[to] && !edges.contains(a, b);
+      isReached[to] = char(isReached[to] || isNew);
+      return isNew;
+    });
   return isReached;
 }
 
@@ -186,7 +165,8 @@ void keepInside(
       std::none_of(windings.begin(), windings.end(), [](int winding) { return winding > 0; });
     removeLess(windings, onlyHoles ? 0 : 1);
   }
-  keepTriangles(ids, [&](std::size_t t) { return !isRemoved[t]; });
+  ids.truncate(
+    3 * keepTriangles(ids.data(), ids.size() / 3, [&](std::size_t t) { return !isRemoved[t]; }));
 }
 
 template <typename Id>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/RankSource.h"
 
-#include "Arrays/SortUnique.h"
+#include "Arrays/IndexMap.h"
 #include "Constraints/ConstraintPoints.h"
-#include "Constraints/DataSetRows.h"
 #include "Constraints/SourceConstraints.h"
 #include "Projection/ProjectedPoints.h"
 #include "Vtk/ReadDataSet.h"
@@ -176,26 +175,16 @@ private:
   {
     for (vtkPolyData* const source : this->Sources)
     {
-      this->takeConstraints(source, [](PointId id) { return id; });
-    }
-    for (const Constraint& constraint : this->Constraints)
-    {
-      this->Named.insert(this->Named.end(), { constraint.A, constraint.B });
-    }
-    sortUnique(this->Named);
-    for (Constraint& constraint : this->Constraints)
-    {
-      constraint = { this->vertexNamed(constraint.A), this->vertexNamed(constraint.B) };
+      this->takeConstraints(source,
+        [this](PointId id)
+        {
+          const auto [vertex, isNew] = this->VertexOf.insert(id);
+          isNew ? this->Named.push_back(id) : void();
+          return PointId(vertex);
+        });
     }
     this->Same.resize(this->Named.size());
     std::iota(this->Same.begin(), this->Same.end(), std::int64_t(0));
-  }
-
-  /// The vertex of a point id, or -1 if no source refers to it.
-  std::int64_t vertexNamed(std::int64_t id) const
-  {
-    const auto at = std::lower_bound(this->Named.begin(), this->Named.end(), id);
-    return at != this->Named.end() && *at == id ? at - this->Named.begin() : -1;
   }
 
   /// Sets the ids of vertices. Returns, for each vertex, the index of the point at it on this rank;
@@ -210,7 +199,7 @@ private:
       [&](std::size_t i, Point2 p)
       {
         const std::int64_t v =
-          this->Index ? this->Index->find(p) : this->vertexNamed(this->idOf(i));
+          this->Index ? this->Index->find(p) : this->VertexOf.find(this->idOf(i));
         std::int64_t* const its = v < 0 ? nullptr : &point[std::size_t(v)];
         if (its && (*its < 0 || this->idOf(i) < this->idOf(std::size_t(*its))))
         {
@@ -269,29 +258,23 @@ private:
   /// Sends the points at vertices to the last rank, which gets a data set from each rank.
   std::vector<Bytes> sendRows(const std::vector<std::int64_t>& own)
   {
-    vtkNew<vtkPolyData> rows;
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
+    std::vector<DataSetRow> rows;
     vtkNew<vtkIdTypeArray> numbers;
     numbers->SetName("tippVertex");
-    vtkPointData* const from = this->Input->GetPointData();
-    rows->GetPointData()->CopyGlobalIdsOff();
-    rows->GetPointData()->CopyAllocate(from);
     for (std::size_t v = 0; v < own.size(); ++v)
     {
       if (own[v] >= 0)
       {
-        const vtkIdType to = points->InsertNextPoint(this->Input->GetPoint(own[v]));
-        rows->GetPointData()->CopyData(from, own[v], to);
+        rows.push_back({ 0, vtkIdType(own[v]) });
         numbers->InsertNextValue(vtkIdType(v));
       }
     }
-    rows->SetPoints(points);
-    rows->GetPointData()->AddArray(numbers);
     std::vector<Bytes> sent(std::size_t(this->Ranks.size()));
-    if (points->GetNumberOfPoints() > 0)
+    if (!rows.empty())
     {
-      sent.back() = packDataSet(rows);
+      const vtkSmartPointer<vtkPolyData> points = copyRows({ this->Input }, rows);
+      points->GetPointData()->AddArray(numbers);
+      sent.back() = packDataSet(points);
     }
     return this->Ranks.allToAll(std::move(sent));
   }
@@ -375,20 +358,21 @@ private:
   /// The sorted vertices, with the point arrays that all of them have.
   vtkSmartPointer<vtkPolyData> makeVertices(const std::vector<Bytes>& rows) const
   {
-    std::vector<vtkSmartPointer<vtkPolyData>> from;
-    std::vector<DataSetRow> rowOf;
+    std::vector<vtkSmartPointer<vtkPointSet>> from;
+    std::vector<DataSetRow> rowOf(this->Sorted.size());
     for (const Bytes& bytes : rows)
     {
       if (bytes.size() > 0)
       {
-        from.push_back(unpackDataSet(bytes));
+        const vtkSmartPointer<vtkPolyData> points = unpackDataSet(bytes);
         auto* const numbers =
-          vtkIdTypeArray::SafeDownCast(from.back()->GetPointData()->GetArray("tippVertex"));
+          vtkIdTypeArray::SafeDownCast(points->GetPointData()->GetArray("tippVertex"));
         for (vtkIdType i = 0; numbers && i < numbers->GetNumberOfTuples(); ++i)
         {
-          rowOf.push_back({ this->rankOf(numbers->GetValue(i)), from.size() - 1, i });
+          rowOf[std::size_t(this->rankOf(numbers->GetValue(i)))] = { from.size(), i };
         }
-        from.back()->GetPointData()->RemoveArray("tippVertex");
+        points->GetPointData()->RemoveArray("tippVertex");
+        from.emplace_back(points);
       }
     }
     std::size_t first = 0;
@@ -401,15 +385,13 @@ private:
         const std::size_t v = first + std::size_t(i);
         if (this->Same[v] == std::int64_t(v) && this->VertexIds[v] >= this->EndOfIds)
         {
-          rowOf.push_back({ this->RankOfVertex[v], from.size(), i });
+          rowOf[std::size_t(this->RankOfVertex[v])] = { from.size(), i };
           isUsed = true;
         }
       }
-      isUsed ? from.push_back(this->Sources[s]) : void();
+      isUsed ? void(from.emplace_back(this->Sources[s])) : void();
       first += std::size_t(count);
     }
-    std::sort(rowOf.begin(), rowOf.end(),
-      [](const DataSetRow& a, const DataSetRow& b) { return a.To < b.To; });
     return copyRows(from, rowOf);
   }
 
@@ -436,25 +418,20 @@ private:
     const ProjectedPoints projected(this->Input->GetPoints(), this->Options.ToPlane);
     const PointsView view = projected.view();
     view.forEach(0, view.size(), [&](std::size_t, Point2 p) { result.Positions.push_back(p); });
+    std::vector<vtkSmartPointer<vtkPointSet>> from;
     std::vector<DataSetRow> rows;
-    std::vector<vtkSmartPointer<vtkPolyData>> from;
-    vtkNew<vtkPolyData> given;
-    given->SetPoints(this->Input->GetPoints());
-    given->GetPointData()->ShallowCopy(this->Input->GetPointData());
     vtkNew<vtkIdTypeArray> ids;
     ids->SetName("GlobalPointIds");
-    for (vtkIdType i = 0; i < this->Input->GetNumberOfPoints(); ++i)
+    const vtkIdType given = this->Input->GetNumberOfPoints();
+    given > 0 ? void(from.emplace_back(this->Input)) : void();
+    for (vtkIdType i = 0; i < given; ++i)
     {
-      rows.push_back({ PointId(i), 0, i });
+      rows.push_back({ 0, i });
       ids->InsertNextValue(this->idOf(std::size_t(i)));
-    }
-    if (!rows.empty())
-    {
-      from.emplace_back(given);
     }
     for (vtkIdType i = vtkIdType(begin); i < extended->GetNumberOfPoints(); ++i)
     {
-      rows.push_back({ PointId(rows.size()), from.size(), i });
+      rows.push_back({ from.size(), i });
       ids->InsertNextValue(this->EndOfIds + (i - vtkIdType(begin)));
     }
     from.emplace_back(extended);
@@ -476,7 +453,8 @@ private:
   std::int64_t EndOfIds = 0;                         ///< larger than all ids of the inputs' points
   std::vector<Point2> Positions;                     ///< per vertex, if points are merged
   std::unique_ptr<PositionIndex> Index;              ///< of Positions
-  std::vector<std::int64_t> Named;     ///< point id per vertex, if points are not merged
+  IndexMap VertexOf;                                 ///< by point id, if points are not merged
+  std::vector<std::int64_t> Named;                   ///< point id per vertex, likewise
   std::vector<std::int64_t> Same;      ///< per vertex: the first vertex at its position
   std::vector<std::int64_t> VertexIds; ///< of the first vertex at each position
   std::vector<std::size_t> Sorted;     ///< first vertices, sorted by id

@@ -41,8 +41,6 @@ public:
     const std::function<void(std::int64_t)>& near) const;
 
 private:
-  std::vector<SegmentTree::Item> itemsOf(std::size_t tile) const;
-
   const int Threads;
   double Margin = 0; ///< the distance that counts as near
   std::unique_ptr<KeyedRows> Rows;

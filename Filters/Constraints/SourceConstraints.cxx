@@ -8,7 +8,10 @@
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
 #include "vtkCellData.h"
+#include "vtkCharArray.h"
+#include "vtkCommunicator.h"
 #include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdList.h"
 #include "vtkNew.h"
@@ -16,6 +19,8 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace tipp
@@ -185,6 +190,63 @@ void addConstraintLines(const ResolvedConstraints& constraints,
   }
   output->SetLines(takeCells(std::move(ids), 2));
   output->GetCellData()->AddArray(numbers);
+}
+
+Bytes packDataSet(vtkPolyData* data)
+{
+  vtkNew<vtkCharArray> buffer;
+  if (!vtkCommunicator::MarshalDataObject(data, buffer))
+  {
+    throw std::runtime_error("The source cannot be sent to other ranks.");
+  }
+  const char* const begin = buffer->GetPointer(0);
+  Bytes bytes(std::size_t(buffer->GetNumberOfValues()));
+  std::copy_n(begin, bytes.size(), bytes.data());
+  return bytes;
+}
+
+vtkSmartPointer<vtkPolyData> unpackDataSet(const Bytes& bytes)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  if (bytes.size() > 0)
+  {
+    vtkNew<vtkCharArray> buffer;
+    buffer->SetNumberOfValues(vtkIdType(bytes.size()));
+    std::copy_n(bytes.data(), bytes.size(), buffer->GetPointer(0));
+    if (!vtkCommunicator::UnMarshalDataObject(buffer, data))
+    {
+      throw std::runtime_error("A part of the source that another rank has sent cannot be read.");
+    }
+  }
+  return data;
+}
+
+vtkSmartPointer<vtkPolyData> copyRows(
+  const std::vector<vtkSmartPointer<vtkPointSet>>& from, const std::vector<DataSetRow>& rows)
+{
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(vtkIdType(rows.size()));
+  vtkPointData* const data = result->GetPointData();
+  vtkDataSetAttributes::FieldList fields;
+  for (vtkPointSet* const one : from)
+  {
+    fields.IntersectFieldList(one->GetPointData());
+  }
+  data->CopyGlobalIdsOff();
+  if (!from.empty())
+  {
+    fields.CopyAllocate(data, vtkDataSetAttributes::COPYTUPLE, vtkIdType(rows.size()), 0);
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    vtkPointSet* const set = from[rows[i].Set];
+    points->SetPoint(vtkIdType(i), set->GetPoint(rows[i].Row));
+    fields.CopyData(int(rows[i].Set), set->GetPointData(), rows[i].Row, data, vtkIdType(i));
+  }
+  result->SetPoints(points);
+  return result;
 }
 
 } // namespace tipp

@@ -3,6 +3,7 @@
 #define tippSourceConstraints_h
 
 #include "InMemory/TriangulatePoints.h"
+#include "Ranks/Communicator.h"
 
 #include "vtkSmartPointer.h"
 #include "vtkType.h"
@@ -51,6 +52,24 @@ void interpolateCrossings(vtkPointData* from, vtkIdType points,
 /// the cell of the source, or -1 for triangles.
 void addConstraintLines(const ResolvedConstraints& constraints,
   const std::vector<std::int64_t>& sourceCells, vtkPolyData* output);
+
+///@{
+/// Packs a data set into a message, and unpacks it. Throws std::runtime_error on failure.
+Bytes packDataSet(vtkPolyData* data);
+vtkSmartPointer<vtkPolyData> unpackDataSet(const Bytes& bytes);
+///@}
+
+/// A point of one of several data sets.
+struct DataSetRow
+{
+  std::size_t Set;
+  vtkIdType Row;
+};
+
+/// Copies rows of data sets in the order of `rows`. The result has the point arrays that all data
+/// sets have, without global ids, and coordinates in double precision.
+vtkSmartPointer<vtkPolyData> copyRows(
+  const std::vector<vtkSmartPointer<vtkPointSet>>& from, const std::vector<DataSetRow>& rows);
 
 } // namespace tipp
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/SplitStored.h"
 
-#include "Constraints/CrossingPairs.h"
 #include "Constraints/SegmentTiles.h"
 #include "Predicates/Points.h"
 
@@ -195,11 +194,8 @@ private:
     }
     for (std::vector<double>& column : values)
     {
-      for (const CrossingPoint& crossing : resolved.Crossings)
-      {
-        column.push_back((1 - crossing.Fraction) * column[std::size_t(crossing.A)] +
-          crossing.Fraction * column[std::size_t(crossing.B)]);
-      }
+      column.resize(count + resolved.Crossings.size());
+      interpolateTuples(resolved.Crossings, count, Scalar::Float64, 1, column.data());
       column.erase(column.begin(), column.begin() + std::ptrdiff_t(count));
     }
     result.Values = std::move(values);

@@ -152,6 +152,12 @@ void StoredConstraints::match()
         }
       });
   }
+  std::int64_t count = 0;
+  for (std::size_t vertex = 0; vertex < this->IsNew.size(); ++vertex)
+  {
+    vertex % VerticesPerCount == 0 ? this->NewBefore.push_back(count) : void();
+    count += this->IsNew[vertex] ? 1 : 0;
+  }
   if (this->Named)
   {
     this->Named->finish();
@@ -212,6 +218,15 @@ void StoredConstraints::placeNamed()
   this->Places->finish();
 }
 
+/// The number of new vertices before a vertex.
+std::int64_t StoredConstraints::newBefore(std::int64_t vertex) const
+{
+  const std::size_t counted = std::size_t(vertex) / VerticesPerCount;
+  const auto begin = this->IsNew.begin();
+  return this->NewBefore[counted] +
+    std::count(begin + std::ptrdiff_t(counted * VerticesPerCount), begin + vertex, true);
+}
+
 std::vector<double> StoredConstraints::valuesOf(std::int64_t number, const Vertex& vertex) const
 {
   std::vector<double> values;
@@ -247,58 +262,45 @@ void StoredConstraints::forEachNew(const std::function<void(Point2, const double
 StoredConstraints::Ends StoredConstraints::endsOf(
   const std::function<bool(std::int64_t)>& isTaken) const
 {
-  std::vector<std::int64_t> numbers;
-  Ends ends;
-  std::vector<Point2> positions; // two per constraint
+  struct Taken
+  {
+    bool IsNamed;
+    Segment Keys;
+    Segment Places;
+  };
+  std::vector<Taken> taken;
+  std::vector<Point2> own;
+  std::vector<Point2> named;
   this->forEach(
     [&](std::int64_t number, Point2 a, Point2 b)
     {
       if (isTaken(number))
       {
-        numbers.push_back(number);
-        positions.insert(positions.end(), { a, b });
+        Taken one{ this->isNamed(number), { a, b }, { a, b } };
+        one.IsNamed ? this->Keys->read(number, 1, &one.Keys) : void();
+        std::vector<Point2>& keys = one.IsNamed ? named : own;
+        keys.insert(keys.end(), { one.Keys.A, one.Keys.B });
+        taken.push_back(one);
       }
     });
-  std::vector<Point2> own;
-  std::vector<Point2> named;
-  const auto keysOf = [&](std::int64_t number)
-  {
-    Segment keys;
-    this->Keys->read(number, 1, &keys);
-    return keys;
-  };
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-  {
-    if (this->isNamed(numbers[i]))
-    {
-      const Segment keys = keysOf(numbers[i]);
-      named.insert(named.end(), { keys.A, keys.B });
-    }
-    else
-    {
-      own.insert(own.end(), { positions[2 * i], positions[2 * i + 1] });
-    }
-  }
   std::sort(named.begin(), named.end(), [](Point2 a, Point2 b) { return a.x < b.x; }); // by id
+  Ends ends;
   ends.OwnCount = own.size();
   ends.Positions = own;
   ends.Positions.resize(own.size() + named.size());
   ends.Own = std::make_unique<PositionIndex>(std::move(own));
   ends.Named = std::make_unique<PositionIndex>(std::move(named));
-  for (std::size_t i = 0; i < numbers.size(); ++i)
+  for (const Taken& one : taken)
   {
-    if (this->isNamed(numbers[i]))
+    const auto indexOf = [&](Point2 key) {
+      return one.IsNamed ? std::int64_t(ends.OwnCount) + ends.Named->find(key)
+                         : ends.Own->find(key);
+    };
+    ends.Edges.push_back({ indexOf(one.Keys.A), indexOf(one.Keys.B) });
+    if (one.IsNamed)
     {
-      const Segment keys = keysOf(numbers[i]);
-      const auto first = std::int64_t(ends.OwnCount);
-      ends.Edges.push_back({ first + ends.Named->find(keys.A), first + ends.Named->find(keys.B) });
-      ends.Positions[std::size_t(ends.Edges.back().A)] = positions[2 * i];
-      ends.Positions[std::size_t(ends.Edges.back().B)] = positions[2 * i + 1];
-    }
-    else
-    {
-      ends.Edges.push_back(
-        { ends.Own->find(positions[2 * i]), ends.Own->find(positions[2 * i + 1]) });
+      ends.Positions[std::size_t(ends.Edges.back().A)] = one.Places.A;
+      ends.Positions[std::size_t(ends.Edges.back().B)] = one.Places.B;
     }
   }
   return ends;
@@ -319,9 +321,8 @@ void StoredConstraints::lookUp(
         }
         else if (end >= 0)
         {
-          const auto before = std::count(
-            this->IsNew.begin(), this->IsNew.begin() + std::ptrdiff_t(match.First), true);
-          visit(std::size_t(end), this->Points + before, this->valuesOf(match.First).data());
+          visit(std::size_t(end), this->Points + this->newBefore(match.First),
+            this->valuesOf(match.First).data());
         }
       });
   }

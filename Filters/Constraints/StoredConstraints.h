@@ -118,8 +118,11 @@ private:
   void wantVertices();
   void wantNamed();
   void placeNamed();
+  std::int64_t newBefore(std::int64_t vertex) const;
   std::vector<double> valuesOf(std::int64_t vertex) const;
   std::vector<double> valuesOf(std::int64_t number, const Vertex& vertex) const;
+
+  static constexpr std::size_t VerticesPerCount = 4096;
 
   const DiskWork Work;
   const Columns Wanted;
@@ -132,6 +135,7 @@ private:
   std::unique_ptr<RowFile> Keys;       ///< of Segment, as given
   std::unique_ptr<RowFile> Places;     ///< of Segment, with positions; null: Keys has these
   std::vector<bool> IsNew;             ///< by vertex: no point, and the first at its position
+  std::vector<std::int64_t> NewBefore; ///< new vertices before each VerticesPerCount vertices
   std::unique_ptr<PositionJoin> Own;   ///< vertices; values: the point's id, then the columns
   std::unique_ptr<PositionJoin> Named; ///< ids; values: the point's position, then the columns
 };

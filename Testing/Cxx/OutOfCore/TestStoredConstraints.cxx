@@ -312,6 +312,19 @@ TEST(StoredConstraint, IsRefusedIfItCrossesOthersOrNamesAnUnknownPoint)
   own.Edges = { { 0, 1 }, { 2, 3 }, { 1, 4 } };
   expectIOError("lines.csv",
     "constraint 0 (points 4 and 0) crosses constraint 1 (points 5 and 6) at (", [&] { run(own); });
+  ConstraintTable many; // the same constraints after 5000 other new points
+  for (int i = 0; i < 5000; ++i)
+  {
+    many.XY.insert(many.XY.end(), { 10.0 + i, 7 });
+  }
+  many.XY.insert(many.XY.end(), own.XY.begin(), own.XY.end());
+  for (const auto& [a, b] : own.Edges)
+  {
+    many.Edges.push_back({ 5000 + a, 5000 + b });
+  }
+  expectIOError("lines.csv",
+    "constraint 0 (points 4 and 0) crosses constraint 1 (points 5005 and 5006) at (",
+    [&] { run(many); });
   named.Edges = { { 0, 4 }, { 7, 1 }, { 6, 1 } };
   expectIOError(
     "lines.csv", "a constraint names point 6, but there are 5 points", [&] { run(named); });
