@@ -115,12 +115,9 @@ nb::dict triangulateArrays(const InputArray& points, const std::optional<InputAr
     request.Source = &source;
   }
   std::vector<std::string> warnings;
-  ConstrainedTriangulation result = withoutLock(
-    [&]
-    {
-      const ThreadLimit limit(threads);
-      return triangulatePoints(viewOf(points), request, warnings);
-    });
+  const ThreadLimit limit(threads);
+  ConstrainedTriangulation result =
+    withoutLock([&] { return triangulatePoints(viewOf(points), request, warnings); });
   reporter(1);
   reporter.raiseIfStopped();
   Triangulation& mesh = result.Mesh;
