@@ -3,9 +3,9 @@
 
 #include "Distributed3D/RankRun3.h"
 #include "Parallel/ParallelFor.h"
-#include "Triangulation3D/CoplanarPoints.h"
 #include "Triangulation3D/InitialMesh3.h"
 #include "Triangulation3D/OrderCells.h"
+#include "Triangulation3D/Tetrahedralize.h"
 
 #include <algorithm>
 #include <cmath>

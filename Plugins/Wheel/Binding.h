@@ -4,20 +4,18 @@
 
 #include "Arrays/Buffer.h"
 #include "Arrays/Scalar.h"
-#include "Partitioned/ReadPiece.h"
-#include "Triangulation/Triangulate.h"
+#include "Points/ReadPoints.h"
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
+#include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <functional>
-#include <initializer_list>
-#include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace tipp::python
@@ -53,57 +51,58 @@ inline std::size_t bytesOf(Scalar scalar)
   return bytes;
 }
 
-/// Returns a NumPy array that takes over memory from malloc(), and frees it.
-inline nb::object owningArray(void* memory, Scalar scalar, const std::vector<std::size_t>& shape)
+/// Returns a NumPy array of this shape that takes over the memory of the buffer.
+template <typename Value>
+nb::object arrayOf(Buffer<Value>&& buffer, const std::vector<std::size_t>& shape)
 {
+  Value* const memory = buffer.release();
   const nb::capsule owner(memory, [](void* p) noexcept { std::free(p); });
-  nb::object result;
-  withScalar(scalar,
-    [&](auto value)
-    {
-      using Value = decltype(value);
-      result = nb::cast(nb::ndarray<nb::numpy, Value>(
-        static_cast<Value*>(memory), shape.size(), shape.data(), owner));
-    });
-  return result;
+  return nb::cast(nb::ndarray<nb::numpy, Value>(memory, shape.size(), shape.data(), owner));
 }
 
+/// The same for rows of `columns` values; for one column, an array of one dimension.
 template <typename Value>
-constexpr Scalar scalarType();
-template <>
-constexpr Scalar scalarType<std::int32_t>()
-{
-  return Scalar::Int32;
-}
-template <>
-constexpr Scalar scalarType<std::int64_t>()
-{
-  return Scalar::Int64;
-}
-
-/// Returns a NumPy array that takes over the memory of the buffer, as rows of `columns` values.
-template <typename Value>
-nb::object arrayOf(Buffer<Value>&& buffer, std::size_t columns)
+nb::object arrayOf(Buffer<Value>&& buffer, std::size_t columns = 1)
 {
   const std::size_t rows = buffer.size() / columns;
-  return owningArray(buffer.release(), scalarType<Value>(), { rows, columns });
-}
-
-inline nb::object arrayOf(Buffer<char>&& buffer, Scalar scalar, std::size_t columns)
-{
-  const std::size_t rows = buffer.size() / bytesOf(scalar) / columns;
-  return owningArray(buffer.release(), scalar,
+  return arrayOf(std::move(buffer),
     columns == 1 ? std::vector<std::size_t>{ rows } : std::vector<std::size_t>{ rows, columns });
 }
 
-inline nb::object copyOf(const std::vector<double>& values, std::size_t columns)
+/// The same for the bytes of values of a type.
+inline nb::object arrayOf(Buffer<char>&& bytes, Scalar type, std::size_t columns = 1)
 {
-  Buffer<char> buffer(values.size() * sizeof(double));
-  if (!values.empty())
-  {
-    std::memcpy(buffer.data(), values.data(), buffer.size());
-  }
-  return arrayOf(std::move(buffer), Scalar::Float64, columns);
+  nb::object result;
+  withScalar(type,
+    [&](auto value) { result = arrayOf(Buffer<decltype(value)>(std::move(bytes)), columns); });
+  return result;
+}
+
+/// Returns a copy of the values as a NumPy array of rows.
+template <typename Value>
+nb::object copyOf(const std::vector<Value>& values, std::size_t columns = 1)
+{
+  Buffer<Value> buffer(values.size());
+  std::copy(values.begin(), values.end(), buffer.begin());
+  return arrayOf(std::move(buffer), columns);
+}
+
+/// Returns a copy of structures of 64-bit ids as a NumPy array with a row for each.
+template <typename Row>
+nb::object idRowsOf(const std::vector<Row>& rows)
+{
+  constexpr std::size_t columns = sizeof(Row) / sizeof(std::int64_t);
+  Buffer<Row> buffer(rows.size());
+  std::copy(rows.begin(), rows.end(), buffer.begin());
+  return arrayOf(Buffer<std::int64_t>(std::move(buffer)), columns);
+}
+
+/// Returns a copy of an array's memory, which has the type of Value or of its members.
+template <typename Value>
+std::vector<Value> vectorOf(const InputArray& array)
+{
+  const auto* const first = static_cast<const Value*>(array.data());
+  return { first, first + array.nbytes() / sizeof(Value) };
 }
 
 /// Passes progress to a Python callable, which may be None, and finds out whether to continue: the
@@ -145,25 +144,23 @@ auto withoutLock(const Work& work)
   return work();
 }
 
-/// Returns a view of points of shape (n, 2) or (n, 3), float32 or float64, without a copy.
-PointsView viewOf(const InputArray& points);
-
-/// Returns the options that triangulations with and without constraints share. `reporter` must
-/// outlive the result.
-TriangulationOptions triangulationOptions(
-  double maximumEdge, int columns, int rows, bool stages, int threads, Reporter& reporter);
-
-/// Returns a triangulation of `points` points for Python: triangles, duplicates, rejected,
-/// warnings, statistics and, if requested, neighbors. Takes over the memory of the triangles.
-nb::dict triangulationDict(
-  Triangulation&& triangulation, std::size_t points, bool longEdgesLeftOut, bool wantsNeighbors);
+/// Selects points of LAS files: with this Returns, and those with these flags, too.
+inline LasSelection lasSelection(
+  const std::vector<int>& classes, int returns, const std::vector<std::string>& keep)
+{
+  LasSelection selection;
+  selection.Classes = classes;
+  selection.Kind = LasSelection::Returns(returns);
+  for (const std::string& flag : keep)
+  {
+    selection.keep(flag);
+  }
+  return selection;
+}
 
 void addTriangulateFunctions(nb::module_& module);
-void addConstraintFunctions(nb::module_& module);
 void addFileFunctions(nb::module_& module);
-void addLocatorClass(nb::module_& module);
 void addDemFunction(nb::module_& module);
-void addPointFunctions(nb::module_& module);
 void addQueryClass(nb::module_& module);
 void addResampleFunction(nb::module_& module);
 

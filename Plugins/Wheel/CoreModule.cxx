@@ -73,11 +73,8 @@ NB_MODULE(_core, module)
       }
     });
   tipp::python::addTriangulateFunctions(module);
-  tipp::python::addConstraintFunctions(module);
   tipp::python::addDemFunction(module);
   tipp::python::addFileFunctions(module);
-  tipp::python::addLocatorClass(module);
-  tipp::python::addPointFunctions(module);
   tipp::python::addQueryClass(module);
   tipp::python::addResampleFunction(module);
 }

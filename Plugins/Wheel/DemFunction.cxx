@@ -23,36 +23,20 @@ namespace tipp::python
 namespace
 {
 
-std::vector<double> doublesOf(const InputArray& array)
-{
-  const auto* const values = static_cast<const double*>(array.data());
-  return { values, values + array.size() };
-}
-
 /// Returns (k, 2) coordinates, heights or an empty array, and the (m, 2) ids of the ends of edges.
 nb::tuple readConstraints(const std::string& path)
 {
   const ConstraintTable table = withoutLock([&] { return readConstraintFile(path); });
-  Buffer<std::int64_t> edges(2 * table.Edges.size());
-  for (std::size_t i = 0; i < table.Edges.size(); ++i)
-  {
-    std::copy(table.Edges[i].begin(), table.Edges[i].end(), edges.data() + 2 * i);
-  }
-  return nb::make_tuple(copyOf(table.XY, 2), copyOf(table.Height, 1), arrayOf(std::move(edges), 2));
+  return nb::make_tuple(copyOf(table.XY, 2), copyOf(table.Height), idRowsOf(table.Edges));
 }
 
 /// Converts lines in the form that readConstraints() returns.
 ConstraintTable linesOf(const nb::tuple& lines)
 {
   ConstraintTable table;
-  table.XY = doublesOf(nb::cast<InputArray>(lines[0]));
-  table.Height = doublesOf(nb::cast<InputArray>(lines[1]));
-  const auto ends = nb::cast<InputArray>(lines[2]);
-  const auto* const ids = static_cast<const std::int64_t*>(ends.data());
-  for (std::size_t i = 0; i < ends.shape(0); ++i)
-  {
-    table.Edges.push_back({ ids[2 * i], ids[2 * i + 1] });
-  }
+  table.XY = vectorOf<double>(nb::cast<InputArray>(lines[0]));
+  table.Height = vectorOf<double>(nb::cast<InputArray>(lines[1]));
+  table.Edges = vectorOf<std::array<std::int64_t, 2>>(nb::cast<InputArray>(lines[2]));
   table.PolygonBegin = table.Edges.size(); // edges of polygons are lines, too
   return table;
 }
@@ -104,18 +88,12 @@ Thinning thinningOf(const nb::dict& options)
 
 PointOptions pointOptionsOf(const nb::dict& options, const DemRequest& request)
 {
-  const auto keep = of<std::vector<std::string>>(options, "keep");
-  const auto isKept = [&keep](const char* flag)
-  { return std::find(keep.begin(), keep.end(), flag) != keep.end(); };
   PointOptions result;
   result.Columns = columnsForBands(request.Bands);
   result.Threads = request.Threads;
-  result.Las.Classes =
-    of<std::optional<std::vector<int>>>(options, "classes").value_or(std::vector<int>());
-  result.Las.Kind = LasSelection::Returns(of<int>(options, "returns"));
-  result.Las.KeepWithheld = isKept("withheld");
-  result.Las.KeepSynthetic = isKept("synthetic");
-  result.Las.KeepOverlap = isKept("overlap");
+  result.Las = lasSelection(
+    of<std::optional<std::vector<int>>>(options, "classes").value_or(std::vector<int>()),
+    of<int>(options, "returns"), of<std::vector<std::string>>(options, "keep"));
   return result;
 }
 
@@ -124,11 +102,11 @@ PointOptions pointOptionsOf(const nb::dict& options, const DemRequest& request)
 PointTable tableOf(const InputArray& xy, const nb::dict& columns)
 {
   PointTable table;
-  table.XY = doublesOf(xy);
+  table.XY = vectorOf<double>(xy);
   for (const auto& [name, values] : columns)
   {
     table.Columns.push_back(
-      { nb::cast<std::string>(name), doublesOf(nb::cast<InputArray>(values)) });
+      { nb::cast<std::string>(name), vectorOf<double>(nb::cast<InputArray>(values)) });
   }
   return table;
 }

@@ -38,15 +38,9 @@ using Strings = std::vector<std::string>;
 nb::tuple readPointFiles(const Strings& paths, const std::optional<Strings>& columns,
   const std::vector<int>& classes, int returns, const Strings& keep)
 {
-  const auto isKept = [&keep](const char* flag)
-  { return std::find(keep.begin(), keep.end(), flag) != keep.end(); };
   PointOptions options;
   options.Columns = columns;
-  options.Las.Classes = classes;
-  options.Las.Kind = LasSelection::Returns(returns);
-  options.Las.KeepWithheld = isKept("withheld");
-  options.Las.KeepSynthetic = isKept("synthetic");
-  options.Las.KeepOverlap = isKept("overlap");
+  options.Las = lasSelection(classes, returns, keep);
   std::string crs;
   const PointTable table = withoutLock(
     [&]
@@ -57,23 +51,10 @@ nb::tuple readPointFiles(const Strings& paths, const std::optional<Strings>& col
   nb::dict named;
   for (const PointTable::Column& column : table.Columns)
   {
-    named[column.Name.c_str()] = copyOf(column.Values, 1);
+    named[column.Name.c_str()] = copyOf(column.Values);
   }
   return nb::make_tuple(copyOf(table.XY, 2), named, crs);
 }
-
-} // namespace
-
-void addPointFunctions(nb::module_& module)
-{
-  module.def("read_points", &readPointFiles, nb::arg("paths"), nb::arg("columns").none(),
-    nb::arg("classes"), nb::arg("returns"), nb::arg("keep"));
-}
-
-namespace
-{
-
-using Strings = std::vector<std::string>;
 
 nb::dict figuresOf(
   const OutOfCoreStatistics& statistics, const ConstraintFigures& constraints, bool countOnly)
@@ -148,13 +129,7 @@ std::unique_ptr<PieceSource> openSource(
   const std::string& path, const std::string& tiling, std::uint64_t memory)
 {
   SourceOptions options;
-  const std::optional<TilingChoice> choice = TilingChoice::parse(tiling);
-  if (!choice)
-  {
-    throw IOError(
-      "Tiling is '" + tiling + "'; it is grid:COLUMNSxROWS[xLAYERS] or quadtree:CELLS.");
-  }
-  options.Tiling = *choice;
+  options.Tiling = TilingChoice::require(tiling);
   options.MemoryLimit = memory;
   return openPieceSource(path, options);
 }
@@ -181,16 +156,16 @@ nb::dict dictOf(Piece&& piece)
   nb::dict result;
   nb::dict ofPoints;
   nb::dict ofCells;
-  ofPoints["GlobalPointIds"] = arrayOf(std::move(piece.PointIds), Scalar::Int64, 1);
-  ofPoints["vtkGhostType"] = arrayOf(std::move(piece.PointGhosts), Scalar::UInt8, 1);
-  ofCells["GlobalCellIds"] = arrayOf(std::move(piece.CellIds), Scalar::Int64, 1);
+  ofPoints["GlobalPointIds"] = arrayOf(std::move(piece.PointIds), Scalar::Int64);
+  ofPoints["vtkGhostType"] = arrayOf(std::move(piece.PointGhosts), Scalar::UInt8);
+  ofCells["GlobalCellIds"] = arrayOf(std::move(piece.CellIds), Scalar::Int64);
   if (piece.OwnedCells < piece.Cells)
   {
     Buffer<char> ghosts(std::size_t(piece.Cells));
     std::fill_n(ghosts.as<std::uint8_t>(), piece.OwnedCells, std::uint8_t(0));
     std::fill_n(ghosts.as<std::uint8_t>() + piece.OwnedCells, piece.Cells - piece.OwnedCells,
       std::uint8_t(1));
-    ofCells["vtkGhostType"] = arrayOf(std::move(ghosts), Scalar::UInt8, 1);
+    ofCells["vtkGhostType"] = arrayOf(std::move(ghosts), Scalar::UInt8);
   }
   for (Piece::Attribute& attribute : piece.Attributes)
   {
@@ -233,26 +208,22 @@ std::vector<Piece> readRange(
   return pieces;
 }
 
-std::vector<Piece> merged(std::vector<Piece> pieces)
+/// Replaces the pieces by a single one.
+void merge(std::vector<Piece>& pieces)
 {
-  if (pieces.size() < 2)
-  {
-    return pieces;
-  }
   std::vector<const Piece*> pointers;
-  pointers.reserve(pieces.size());
   for (const Piece& piece : pieces)
   {
     pointers.push_back(&piece);
   }
-  std::vector<Piece> one;
-  one.push_back(mergePieces(pointers));
-  return one;
+  Piece one = mergePieces(pointers);
+  pieces.clear();
+  pieces.push_back(std::move(one));
 }
 
 nb::list readMesh(const std::string& path, const std::optional<Bounds>& bounds,
   std::optional<double> time, const std::optional<Strings>& pointArrays,
-  const std::optional<Strings>& cellArrays, bool borrowed, bool merge, const std::string& tiling,
+  const std::optional<Strings>& cellArrays, bool borrowed, bool isMerged, const std::string& tiling,
   std::uint64_t memory, nb::object progress)
 {
   Reporter reporter(std::move(progress));
@@ -276,7 +247,7 @@ nb::list readMesh(const std::string& path, const std::optional<Bounds>& bounds,
           options.Wanted.push_back(isIn(array.OfPoints ? pointArrays : cellArrays, array.Name));
         }
         pieces = readRange(*source, bounds, options, borrowed);
-        pieces = merge ? merged(std::move(pieces)) : std::move(pieces);
+        isMerged&& pieces.size() > 1 ? merge(pieces) : void();
       });
   }
   catch (const WorkAborted&)
@@ -296,14 +267,8 @@ nb::list readMesh(const std::string& path, const std::optional<Bounds>& bounds,
 PartitionOptions partitionOptions(const std::string& tiling, bool duplicateBorrowers,
   std::uint64_t memory, int threads, Reporter& reporter)
 {
-  const std::optional<TilingChoice> choice = TilingChoice::parse(tiling);
-  if (!choice)
-  {
-    throw IOError(
-      "Tiling is '" + tiling + "'; it is grid:COLUMNSxROWS[xLAYERS] or quadtree:CELLS.");
-  }
   PartitionOptions options;
-  options.Tiling = *choice;
+  options.Tiling = TilingChoice::require(tiling);
   options.DuplicateBorrowers = duplicateBorrowers;
   options.MemoryLimit = memory;
   options.Device.Kind = Device::OpenMP;
@@ -389,6 +354,8 @@ void partitionArrays(const InputArray& points, const InputArray& cells, const nb
 void addFileFunctions(nb::module_& module)
 {
   const auto progress = nb::arg("progress").none();
+  module.def("read_points", &readPointFiles, nb::arg("paths"), nb::arg("columns").none(),
+    nb::arg("classes"), nb::arg("returns"), nb::arg("keep"));
   module.def("triangulate_files", &triangulateFiles, nb::arg("inputs"), nb::arg("output"),
     nb::arg("memory"), nb::arg("columns"), nb::arg("rows"), nb::arg("x"), nb::arg("y"),
     nb::arg("maximum_edge"), nb::arg("map_duplicates"), nb::arg("neighbors"), nb::arg("lines"),

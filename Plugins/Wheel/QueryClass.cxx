@@ -24,37 +24,9 @@ namespace tipp::python
 namespace
 {
 
-template <typename Value>
-constexpr Scalar kindOf();
-template <>
-constexpr Scalar kindOf<double>()
-{
-  return Scalar::Float64;
-}
-template <>
-constexpr Scalar kindOf<std::int64_t>()
-{
-  return Scalar::Int64;
-}
-
-/// Returns a copy of the values as a NumPy array.
-template <typename Value>
-nb::object copied(const std::vector<Value>& values, std::size_t columns = 1)
-{
-  Buffer<char> buffer(values.size() * sizeof(Value));
-  std::copy(values.begin(), values.end(), buffer.as<Value>());
-  return arrayOf(std::move(buffer), kindOf<Value>(), columns);
-}
-
-std::vector<std::int64_t> idsOf(const InputArray& ids)
-{
-  const auto* const first = static_cast<const std::int64_t*>(ids.data());
-  return { first, first + ids.shape(0) };
-}
-
 nb::tuple listsOf(const IdLists& lists)
 {
-  return nb::make_tuple(copied(lists.Starts), copied(lists.Ids));
+  return nb::make_tuple(copyOf(lists.Starts), copyOf(lists.Ids));
 }
 
 /// Rings of polygons: (n, 2) corners, the first corner of each ring and the end, each ring's zone,
@@ -64,9 +36,9 @@ using RingArrays = std::tuple<InputArray, InputArray, InputArray, InputArray>;
 std::vector<Zone> zonesOf(const RingArrays& rings, std::size_t count)
 {
   const auto* const corners = static_cast<const Point2*>(std::get<0>(rings).data());
-  const std::vector<std::int64_t> starts = idsOf(std::get<1>(rings));
-  const std::vector<std::int64_t> zoneOf = idsOf(std::get<2>(rings));
-  const std::vector<std::int64_t> holes = idsOf(std::get<3>(rings));
+  const std::vector<std::int64_t> starts = vectorOf<std::int64_t>(std::get<1>(rings));
+  const std::vector<std::int64_t> zoneOf = vectorOf<std::int64_t>(std::get<2>(rings));
+  const std::vector<std::int64_t> holes = vectorOf<std::int64_t>(std::get<3>(rings));
   std::vector<Zone> zones(count);
   for (std::size_t i = 0; i < zoneOf.size(); ++i)
   {
@@ -136,7 +108,7 @@ public:
     options.Weights = true;
     const MeshAnswer answer = this->ask(points, options);
     return nb::make_tuple(
-      copied(answer.Cells), copied(answer.Weights, std::size_t(this->Mesh->mesh().CellSize)));
+      copyOf(answer.Cells), copyOf(answer.Weights, std::size_t(this->Mesh->mesh().CellSize)));
   }
 
   nb::tuple sample(const InputArray& points, const std::vector<std::string>& names) const
@@ -144,26 +116,29 @@ public:
     AnswerOptions options;
     options.Arrays = names;
     MeshAnswer answer = this->ask(points, options);
-    return nb::make_tuple(copied(answer.Cells), valuesOf(answer));
+    return nb::make_tuple(copyOf(answer.Cells), valuesOf(answer));
   }
 
   nb::object neighbors(const InputArray& cells) const
   {
     const std::vector<std::int64_t> found =
-      withoutLock([&] { return neighborsOf(*this->Mesh, idsOf(cells)); });
-    return copied(found, std::size_t(this->Mesh->mesh().CellSize));
+      withoutLock([&] { return neighborsOf(*this->Mesh, vectorOf<std::int64_t>(cells)); });
+    return copyOf(found, std::size_t(this->Mesh->mesh().CellSize));
   }
   nb::tuple star(const InputArray& points) const
   {
-    return listsOf(withoutLock([&] { return starsOf(*this->Mesh, idsOf(points)); }));
+    return listsOf(
+      withoutLock([&] { return starsOf(*this->Mesh, vectorOf<std::int64_t>(points)); }));
   }
   nb::tuple ringOfPoints(const InputArray& points, int k) const
   {
-    return listsOf(withoutLock([&] { return ringsOfPoints(*this->Mesh, idsOf(points), k); }));
+    return listsOf(
+      withoutLock([&] { return ringsOfPoints(*this->Mesh, vectorOf<std::int64_t>(points), k); }));
   }
   nb::tuple ringOfCells(const InputArray& cells, int k) const
   {
-    return listsOf(withoutLock([&] { return ringsOfCells(*this->Mesh, idsOf(cells), k); }));
+    return listsOf(
+      withoutLock([&] { return ringsOfCells(*this->Mesh, vectorOf<std::int64_t>(cells), k); }));
   }
   nb::tuple boundary() const
   {
@@ -171,21 +146,19 @@ public:
   }
   nb::tuple contours(const std::string& array, int component, const InputArray& levels) const
   {
-    const auto* const first = static_cast<const double*>(levels.data());
-    const std::vector<double> values(first, first + levels.shape(0));
+    const auto values = vectorOf<double>(levels);
     const Contours found =
       withoutLock([&] { return contoursOf(*this->Mesh, array, component, values); });
-    return nb::make_tuple(copied(found.Starts), copied(found.Levels), positionsOf(found.Points, 3));
+    return nb::make_tuple(copyOf(found.Starts), copyOf(found.Levels), positionsOf(found.Points, 3));
   }
 
   nb::tuple profile(
     const InputArray& polyline, double spacing, const std::vector<std::string>& names) const
   {
-    const auto* const first = static_cast<const Point3*>(polyline.data());
-    const std::vector<Point3> points(first, first + polyline.shape(0));
+    const auto points = vectorOf<Point3>(polyline);
     Profile found = withoutLock([&] { return profileOf(*this->Mesh, points, spacing, names); });
-    return nb::make_tuple(copied(found.Distances),
-      positionsOf(found.Points, this->Mesh->mesh().CellSize - 1), copied(found.Answer.Cells),
+    return nb::make_tuple(copyOf(found.Distances),
+      positionsOf(found.Points, this->Mesh->mesh().CellSize - 1), copyOf(found.Answer.Cells),
       valuesOf(found.Answer));
   }
 
@@ -198,19 +171,19 @@ public:
           *this->Mesh, static_cast<const Point3*>(points.data()), std::int64_t(points.shape(0)));
       });
     return nb::make_tuple(
-      copied(found.Cells), positionsOf(found.Points, 3), copied(found.Distances));
+      copyOf(found.Cells), positionsOf(found.Points, 3), copyOf(found.Distances));
   }
 
   nb::object cells(
     const std::vector<double>& box, const std::optional<RingArrays>& rings, bool whole) const
   {
     const Region region = regionOf(box, rings);
-    return copied(withoutLock([&] { return cellsIn(*this->Mesh, region, whole); }));
+    return copyOf(withoutLock([&] { return cellsIn(*this->Mesh, region, whole); }));
   }
   nb::object points(const std::vector<double>& box, const std::optional<RingArrays>& rings) const
   {
     const Region region = regionOf(box, rings);
-    return copied(withoutLock([&] { return pointsIn(*this->Mesh, region); }));
+    return copyOf(withoutLock([&] { return pointsIn(*this->Mesh, region); }));
   }
 
   nb::tuple zones(const RingArrays& rings, std::size_t count, const std::string& array,
@@ -219,24 +192,23 @@ public:
     const std::vector<Zone> given = zonesOf(rings, count);
     const ZoneStatistics found =
       withoutLock([&] { return statisticsOf(*this->Mesh, given, array, component, level); });
-    return nb::make_tuple(copied(found.Cells), copied(found.Area), copied(found.Low),
-      copied(found.High), copied(found.Mean), copied(found.Sum), copied(found.Above));
+    return nb::make_tuple(copyOf(found.Cells), copyOf(found.Area), copyOf(found.Low),
+      copyOf(found.High), copyOf(found.Mean), copyOf(found.Sum), copyOf(found.Above));
   }
 
   nb::tuple descend(const InputArray& points, const std::string& array, int component) const
   {
-    const auto* const first = static_cast<const Point3*>(points.data());
-    const std::vector<Point3> from(first, first + points.shape(0));
+    const auto from = vectorOf<Point3>(points);
     const Descents found =
       withoutLock([&] { return descentsOf(*this->Mesh, from, array, component); });
     return nb::make_tuple(
-      copied(found.Starts), positionsOf(found.Points, 3), copied(found.Values), copied(found.Pits));
+      copyOf(found.Starts), positionsOf(found.Points, 3), copyOf(found.Values), copyOf(found.Pits));
   }
 
   nb::tuple components() const
   {
     const Components found = withoutLock([&] { return componentsOf(*this->Mesh); });
-    return nb::make_tuple(copied(found.OfCells), copied(found.Sizes));
+    return nb::make_tuple(copyOf(found.OfCells), copyOf(found.Sizes));
   }
 
 private:
@@ -260,7 +232,7 @@ private:
       coordinates.insert(coordinates.end(), { p.x, p.y });
       columns == 3 ? coordinates.push_back(p.z) : void();
     }
-    return copied(coordinates, std::size_t(columns));
+    return copyOf(coordinates, std::size_t(columns));
   }
 
   static ResidentOptions optionsOf(std::uint64_t memory, int step, int threads)

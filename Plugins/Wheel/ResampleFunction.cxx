@@ -62,7 +62,20 @@ void repeatLayers(const Lattice& lattice, std::vector<Buffer<char>>& samples)
   }
 }
 
-/// Returns the origin, spacing, dimensions, the arrays' samples, the mask and warnings.
+/// Returns the origin, spacing and numbers of samples.
+nb::tuple describe(const Lattice& lattice)
+{
+  return nb::make_tuple(
+    lattice.Min, lattice.Delta, nb::make_tuple(lattice.size(0), lattice.size(1), lattice.size(2)));
+}
+
+nb::tuple latticeOf(const std::array<double, 6>& bounds, const std::array<int, 3>& dimensions,
+  const std::array<double, 3>& delta)
+{
+  return describe(rangeLattice(bounds, dimensions, delta));
+}
+
+/// Returns the lattice as describe() does, the arrays' samples, the mask and warnings.
 nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
   const std::optional<InputArray>& hidden, const std::vector<InputArray>& pointArrays,
   const std::vector<InputArray>& cellArrays, const std::array<double, 6>& bounds,
@@ -127,18 +140,8 @@ nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
   {
     warnings.push_back(result.Warning);
   }
-  return nb::make_tuple(lattice.Min, lattice.Delta,
-    nb::make_tuple(lattice.size(0), lattice.size(1), lattice.size(2)), arrays,
-    arrayOf(std::move(samples.back()), Scalar::Int8, 1), warnings);
-}
-
-/// Returns the origin, spacing and numbers of samples.
-nb::tuple latticeOf(const std::array<double, 6>& bounds, const std::array<int, 3>& dimensions,
-  const std::array<double, 3>& delta)
-{
-  const Lattice lattice = rangeLattice(bounds, dimensions, delta);
   return nb::make_tuple(
-    lattice.Min, lattice.Delta, nb::make_tuple(lattice.size(0), lattice.size(1), lattice.size(2)));
+    describe(lattice), arrays, arrayOf(std::move(samples.back()), Scalar::Int8), warnings);
 }
 
 } // namespace

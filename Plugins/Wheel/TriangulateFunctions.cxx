@@ -1,58 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Binding.h"
 
+#include "Constraints/ConstraintPoints.h"
 #include "InMemory/AlphaShape.h"
-#include "InMemory/TriangulateMerged.h"
-#include "Meshes/MeshFiles.h"
+#include "InMemory/TriangulatePoints.h"
 #include "Output/RunStatistics.h"
 #include "Parallel/ParallelFor.h"
 #include "Triangulation/TriangleLocator.h"
-#include "Triangulation/Triangulate.h"
 
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
-#include <cstring>
+#include <optional>
+#include <utility>
 
 namespace tipp::python
 {
 namespace
 {
 
-nb::object duplicatesArray(const std::vector<Duplicate>& duplicates)
+/// Returns a view of points of shape (n, 2) or (n, 3), float32 or float64, without a copy.
+PointsView viewOf(const InputArray& points)
 {
-  static_assert(sizeof(Duplicate) == 2 * sizeof(std::int64_t), "two ids in a row");
-  Buffer<std::int64_t> pairs(2 * duplicates.size());
-  if (!duplicates.empty())
-  {
-    std::memcpy(pairs.data(), duplicates.data(), duplicates.size() * sizeof(Duplicate));
-  }
-  return arrayOf(std::move(pairs), 2);
-}
-
-nb::object rejectedArray(const std::vector<PointId>& rejected)
-{
-  Buffer<char> ids(rejected.size() * sizeof(PointId));
-  if (!rejected.empty())
-  {
-    std::memcpy(ids.data(), rejected.data(), ids.size());
-  }
-  return arrayOf(std::move(ids), Scalar::Int64, 1);
-}
-
-nb::object neighborsArray(const Triangulation& triangulation)
-{
-  const std::size_t triangles = triangulation.triangleCount();
-  Buffer<std::int64_t> neighbors(3 * triangles);
-  withoutLock(
-    [&]
-    {
-      triangulation.Ids64.empty()
-        ? findNeighbors(triangulation.Ids32.data(), triangles, neighbors.data())
-        : findNeighbors(triangulation.Ids64.data(), triangles, neighbors.data());
-    });
-  return arrayOf(std::move(neighbors), 3);
+  const std::size_t count = points.shape(0);
+  const std::size_t stride = points.shape(1);
+  return scalarOf(points.dtype()) == Scalar::Float32
+    ? PointsView(static_cast<const float*>(points.data()), count, stride)
+    : PointsView(static_cast<const double*>(points.data()), count, stride);
 }
 
 nb::dict statisticsDict(const RunStatistics& statistics)
@@ -79,69 +55,97 @@ nb::dict statisticsDict(const RunStatistics& statistics)
   return result;
 }
 
-} // namespace
-
-PointsView viewOf(const InputArray& points)
+/// Converts (m, 2) ids of the ends of constraints, and for each the number of its line or polygon.
+SourceConstraints constraintsOf(
+  const InputArray& pairs, const InputArray& cells, std::size_t polygonBegin)
 {
-  const std::size_t count = points.shape(0);
-  const std::size_t stride = points.shape(1);
-  return scalarOf(points.dtype()) == Scalar::Float32
-    ? PointsView(static_cast<const float*>(points.data()), count, stride)
-    : PointsView(static_cast<const double*>(points.data()), count, stride);
+  static_assert(sizeof(Constraint) == 2 * sizeof(std::int64_t), "two ids in a row");
+  return { vectorOf<Constraint>(pairs), vectorOf<std::int64_t>(cells), polygonBegin };
 }
 
-TriangulationOptions triangulationOptions(
-  double maximumEdge, int columns, int rows, bool stages, int threads, Reporter& reporter)
+/// Returns rows of five values: x, y, the ids of the two points that the crossing lies between, and
+/// its relative position between them.
+nb::object crossingsArray(const std::vector<CrossingPoint>& crossings)
 {
-  TriangulationOptions options;
-  options.MaximumEdge = maximumEdge;
-  options.Columns = columns;
-  options.Rows = rows;
-  options.Order = stages ? Schedule::Stages : Schedule::Dynamic;
-  options.Threads = threads;
-  options.Progress = reporter.function();
-  return options;
-}
-
-nb::dict triangulationDict(
-  Triangulation&& triangulation, std::size_t points, bool longEdgesLeftOut, bool wantsNeighbors)
-{
-  nb::dict result;
-  result["duplicates"] = duplicatesArray(triangulation.Duplicates);
-  result["rejected"] = rejectedArray(triangulation.Rejected);
-  result["warnings"] = warningsOf(triangulation, std::int64_t(points), longEdgesLeftOut);
-  result["statistics"] = statisticsDict(
-    statisticsOf(triangulation, std::int64_t(points), std::int64_t(triangulation.triangleCount())));
-  if (wantsNeighbors)
+  constexpr std::size_t columns = 5;
+  Buffer<double> values(columns * crossings.size());
+  double* row = values.data();
+  for (const CrossingPoint& crossing : crossings)
   {
-    result["neighbors"] = neighborsArray(triangulation);
+    row[0] = crossing.Position.x;
+    row[1] = crossing.Position.y;
+    row[2] = double(crossing.A);
+    row[3] = double(crossing.B);
+    row[4] = crossing.Fraction;
+    row += columns;
   }
-  result["triangles"] = triangulation.Ids64.empty() ? arrayOf(std::move(triangulation.Ids32), 3)
-                                                    : arrayOf(std::move(triangulation.Ids64), 3);
-  return result;
+  return arrayOf(std::move(values), columns);
 }
 
-namespace
+/// Returns the id that each of the other points has among the points, and which of them are new.
+nb::tuple matchedPositions(const InputArray& points, const InputArray& others)
 {
+  const MatchedPositions matched =
+    withoutLock([&] { return matchPositions(viewOf(points), viewOf(others)); });
+  return nb::make_tuple(copyOf(matched.Ids), copyOf(matched.New));
+}
 
-nb::dict triangulatePoints(const InputArray& points, double distance, double maximumEdge,
-  int columns, int rows, bool stages, int threads, bool neighbors, nb::object progress)
+/// Triangulates points, with the constraints of `pairs` and `cells`, if given; see constraintsOf().
+/// Returns triangles, duplicates, rejected, warnings and statistics; with `neighbors` and `marks`
+/// these arrays; with constraints also pieces and crossings.
+nb::dict triangulateArrays(const InputArray& points, const std::optional<InputArray>& pairs,
+  const std::optional<InputArray>& cells, std::size_t polygonBegin, bool split, bool marks,
+  double distance, double maximumEdge, int columns, int rows, bool stages, int threads,
+  bool neighbors, nb::object progress)
 {
   Reporter reporter(std::move(progress));
-  const TriangulationOptions options =
-    triangulationOptions(maximumEdge, columns, rows, stages, threads, reporter);
-  Triangulation triangulation;
-  withoutLock(
-    [&]
-    {
-      const ThreadLimit limit(threads);
-      const PointsView view = viewOf(points);
-      triangulation =
-        distance > 0 ? triangulateMerged(view, distance, options) : triangulate(view, options);
-    });
+  SourceConstraints source;
+  PointsRequest request;
+  request.Distance = distance;
+  request.Crossings = split ? CrossingRule::Split : CrossingRule::Refuse;
+  request.Options.MaximumEdge = maximumEdge;
+  request.Options.Columns = columns;
+  request.Options.Rows = rows;
+  request.Options.Order = stages ? Schedule::Stages : Schedule::Dynamic;
+  request.Options.Threads = threads;
+  request.Options.Progress = reporter.function();
+  if (pairs)
+  {
+    source = constraintsOf(*pairs, *cells, polygonBegin);
+    request.Source = &source;
+  }
+  std::vector<std::string> warnings;
+  const ThreadLimit limit(threads);
+  ConstrainedTriangulation result =
+    withoutLock([&] { return triangulatePoints(viewOf(points), request, warnings); });
   reporter(1);
   reporter.raiseIfStopped();
-  return triangulationDict(std::move(triangulation), points.shape(0), maximumEdge > 0, neighbors);
+  Triangulation& mesh = result.Mesh;
+  const ResolvedConstraints& resolved = result.Constraints;
+  RunStatistics statistics = statisticsOf(mesh,
+    std::int64_t(points.shape(0) + resolved.Crossings.size()), std::int64_t(mesh.triangleCount()));
+  nb::dict dict;
+  if (pairs)
+  {
+    addConstraintTotals({ resolved, source.Constraints.size() }, statistics);
+    dict["pieces"] = idRowsOf(resolved.Pieces);
+    dict["crossings"] = crossingsArray(resolved.Crossings);
+  }
+  dict["duplicates"] = idRowsOf(mesh.Duplicates);
+  dict["rejected"] = copyOf(mesh.Rejected);
+  dict["warnings"] = warnings;
+  dict["statistics"] = statisticsDict(statistics);
+  if (neighbors)
+  {
+    dict["neighbors"] = arrayOf(withoutLock([&] { return neighborIds(mesh); }), 3);
+  }
+  if (marks)
+  {
+    dict["marks"] = arrayOf(constraintMarks(mesh, resolved.Pieces), 3);
+  }
+  dict["triangles"] =
+    mesh.Ids64.empty() ? arrayOf(std::move(mesh.Ids32), 3) : arrayOf(std::move(mesh.Ids64), 3);
+  return dict;
 }
 
 template <typename Id, typename Scalar>
@@ -159,8 +163,7 @@ AlphaShape<Id> shapeOf(
   };
   Buffer<Id> ids(triangles.size());
   std::copy_n(static_cast<const Id*>(triangles.data()), ids.size(), ids.data());
-  const auto* const marks = static_cast<const char*>(covered.data());
-  return alphaShape(ids, PointAt(pointAt), alpha, std::vector<char>(marks, marks + covered.size()));
+  return alphaShape(ids, PointAt(pointAt), alpha, vectorOf<char>(covered));
 }
 
 template <typename Id>
@@ -174,8 +177,9 @@ nb::tuple alphaTuple(
         ? shapeOf<Id, float>(points, triangles, alpha, covered)
         : shapeOf<Id, double>(points, triangles, alpha, covered);
     });
+  const std::size_t vertices = shape.Vertices.size();
   return nb::make_tuple(arrayOf(std::move(shape.Triangles), 3), arrayOf(std::move(shape.Lines), 2),
-    arrayOf(std::move(shape.Vertices), 1));
+    arrayOf(std::move(shape.Vertices), { vertices, 1 }));
 }
 
 nb::tuple alphaShapeOf(
@@ -185,20 +189,6 @@ nb::tuple alphaShapeOf(
     ? alphaTuple<std::int32_t>(points, triangles, alpha, covered)
     : alphaTuple<std::int64_t>(points, triangles, alpha, covered);
 }
-
-} // namespace
-
-void addTriangulateFunctions(nb::module_& module)
-{
-  module.def("triangulate", &triangulatePoints, nb::arg("points"), nb::arg("distance"),
-    nb::arg("maximum_edge"), nb::arg("columns"), nb::arg("rows"), nb::arg("stages"),
-    nb::arg("threads"), nb::arg("neighbors"), nb::arg("progress").none());
-  module.def("alpha_shape", &alphaShapeOf, nb::arg("points"), nb::arg("triangles"),
-    nb::arg("alpha"), nb::arg("covered"));
-}
-
-namespace
-{
 
 constexpr std::int64_t pointsAtOnce = 4096;
 
@@ -220,11 +210,11 @@ public:
   /// Returns the triangle that contains each point, or -1.
   nb::object find(const InputArray& points, int threads) const
   {
-    Buffer<char> found(points.shape(0) * sizeof(std::int32_t));
+    Buffer<std::int32_t> found(points.shape(0));
     this->forPoints(points, threads,
       [&](std::int64_t i, Point2 p)
-      { found.as<std::int32_t>()[i] = std::int32_t(this->Finder.find(p)); });
-    return arrayOf(std::move(found), Scalar::Int32, 1);
+      { found[std::size_t(i)] = std::int32_t(this->Finder.find(p)); });
+    return arrayOf(std::move(found));
   }
 
   /// Interpolates linearly in each triangle; `fill` is the value outside. `values` has float64 rows
@@ -234,11 +224,11 @@ public:
   {
     const std::size_t columns = values.shape(1);
     const auto* const rows = static_cast<const double*>(values.data());
-    Buffer<char> samples(points.shape(0) * columns * sizeof(double));
+    Buffer<double> samples(points.shape(0) * columns);
     this->forPoints(points, threads,
       [&](std::int64_t i, Point2 p)
       {
-        double* const sample = samples.as<double>() + std::size_t(i) * columns;
+        double* const sample = samples.data() + std::size_t(i) * columns;
         const std::int64_t triangle = this->Finder.find(p);
         if (triangle < 0)
         {
@@ -257,8 +247,7 @@ public:
           }
         }
       });
-    void* const memory = samples.release();
-    return owningArray(memory, Scalar::Float64, { points.shape(0), columns });
+    return arrayOf(std::move(samples), { points.shape(0), columns });
   }
 
 private:
@@ -285,8 +274,15 @@ private:
 
 } // namespace
 
-void addLocatorClass(nb::module_& module)
+void addTriangulateFunctions(nb::module_& module)
 {
+  module.def("triangulate", &triangulateArrays, nb::arg("points"), nb::arg("pairs").none(),
+    nb::arg("cells").none(), nb::arg("polygon_begin"), nb::arg("split"), nb::arg("marks"),
+    nb::arg("distance"), nb::arg("maximum_edge"), nb::arg("columns"), nb::arg("rows"),
+    nb::arg("stages"), nb::arg("threads"), nb::arg("neighbors"), nb::arg("progress").none());
+  module.def("match_positions", &matchedPositions, nb::arg("points"), nb::arg("others"));
+  module.def("alpha_shape", &alphaShapeOf, nb::arg("points"), nb::arg("triangles"),
+    nb::arg("alpha"), nb::arg("covered"));
   nb::class_<Locator>(module, "Locator")
     .def(nb::init<InputArray, InputArray, InputArray>())
     .def("find", &Locator::find)

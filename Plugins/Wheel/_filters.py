@@ -15,6 +15,7 @@ from . import _core, _native_engine
 from ._arrays import Image
 from ._dem import lines_of
 from ._filter import add_total, Filter
+from ._properties import array_of, DELAUNAY_2D, DELAUNAY_FILE, DEM, options_of, QUERY, READ, WRITE
 from ._vtk import image_of, point_cloud, vtk_array, xyz_of
 from ._vtkmodules import (
     vtkDataObject,
@@ -77,14 +78,9 @@ class vtkTIPPDelaunay2D(Filter):
             check.number(self.value(name), name)
         has_source = inputs[1].GetNumberOfInformationObjects() > 0
         options = {
-            "tolerance": self.value("Tolerance"), "max_edge": self.value("MaximumEdgeLength"),
-            "partitions": self.value("NumberOfPartitions"), "schedule": self.value("Schedule"),
-            "threads": self.value("NumberOfThreads"), "alpha": self.value("Alpha"), "offset": self.value("Offset"),
-            "bound": self.value("BoundingTriangulation"), "edges": None, "polygons": None,
+            **options_of(self, DELAUNAY_2D), "edges": None, "polygons": None,
             "edge_source": vtkPolyData.GetData(inputs[1]) if has_source else None,
-            "merge_source_points": self.value("MergeSourcePoints"), "crossings": int(self.value("SplitCrossings")),
-            "marks": self.value("ConstraintMarks"), "map_duplicates": self.value("GenerateRepresentativeIds"),
-            "neighbors": self.value("GenerateNeighborIds"),
+            "merge_source_points": self.value("MergeSourcePoints"),
         }
         points = vtkPointSet.GetData(inputs[0])
         mesh, statistics = _native_engine.delaunay_2d(points, None, options, self.progress)
@@ -95,10 +91,9 @@ class vtkTIPPDelaunay2D(Filter):
             if options["alpha"] > 0 and not self.value(name):
                 clear(None)
         totals = vtkTable.GetData(outputs, 1).GetFieldData()
-        names = {"duplicates": "DuplicatePoints", "rejected": "RejectedPoints"}
         for key, value in statistics.items():
             if key != "seconds":
-                add_total(names.get(key, key.title().replace("_", "")), value, totals)
+                add_total(array_of(key), value, totals)
 
 
 class vtkTIPPOutOfCoreDelaunay2D(Filter):
@@ -131,21 +126,12 @@ class vtkTIPPOutOfCoreDelaunay2D(Filter):
         return self.GetOutputDataObject(0)
 
     def execute(self, inputs: Any, outputs: Any) -> None:
-        options = {
-            "memory": self.value("MemoryLimit"), "partitions": self.value("NumberOfPartitions"),
-            "columns": (self.value("XColumn"), self.value("YColumn")), "max_edge": self.value("MaximumEdgeLength"),
-            "map_duplicates": self.value("GenerateRepresentativeIds"), "neighbors": self.value("GenerateNeighborIds"),
-            "constraints": self.value("ConstraintsFileName"), "boundary": self.value("BoundaryFileName"),
-            "holes": self.holes, "crossings": self.value("SplitCrossings"),
-            "mark_constraints": self.value("GenerateConstraintEdges"),
-            "count_only": self.value("CountOnly"), "resume": self.value("Resume"),
-            "scratch": self.value("ScratchFolder"), "threads": self.value("NumberOfThreads"),
-        }
+        options = {**options_of(self, DELAUNAY_FILE), "holes": self.holes,
+                   "columns": (self.value("XColumn"), self.value("YColumn"))}
         figures = _native_engine.delaunay_file(self.texts, self.value("FileName"), options, self.progress)
         totals = vtkTable.GetData(outputs, 0).GetFieldData()
-        names = {"duplicates": "DuplicatePoints", "rejected": "RejectedPoints"}
         for key, value in figures.items():
-            add_total(names.get(key, key.title().replace("_", "")), value, totals)
+            add_total(array_of(key), value, totals)
 
 
 class vtkTIPPPointsToImage(Filter):
@@ -221,12 +207,9 @@ class vtkTIPPPointsToImage(Filter):
         bounds, size = self._pixels()
         lines = [vtkPolyData.GetData(port) if port.GetNumberOfInformationObjects() else None for port in inputs[1:]]
         options = {
-            "resolution": size, "bounds": bounds, "align": self.value("AlignToResolution"), "attributes": self.texts,
-            "max_edge": self.value("MaximumEdgeLength"), "duplicates": self.value("Duplicates"),
-            "thin_size": self.value("ThinningSize"), "thin_rule": self.value("ThinningRule"),
+            **options_of(self, DEM), "resolution": size, "bounds": bounds, "attributes": self.texts,
             "breaklines": self._lines("Breaklines", lines[0]), "boundary": self._lines("Boundary", lines[1]),
-            "memory": self.value("MemoryLimit"), "classes": None, "returns": 0, "keep": [],
-            "threads": self.value("NumberOfThreads"),
+            "classes": None, "returns": 0, "keep": [],
         }
         points = vtkPointSet.GetData(inputs[0])
         bands, (west, south, columns, rows), _ = _native_engine.raster(points, None, options, self.progress)
@@ -320,9 +303,8 @@ class vtkPartitionedUnstructuredReader(Filter):
         chosen = [[s.GetArrayName(i) for i in range(s.GetNumberOfArrays()) if s.GetArraySetting(i)]
                   for s in (self.GetPointDataArraySelection(), self.GetCellDataArraySelection())]
         options = {
-            "bounds": list(self.value("Bounds")), "borrowed": self.value("BorrowerMode") == 1,
-            "merge": self.value("MergePieces"), "tiling": self.value("Tiling"),
-            "memory_limit": self.value("MemoryLimit"), "time": None, "point_arrays": chosen[0],
+            **options_of(self, READ), "bounds": list(self.value("Bounds")),
+            "borrowed": self.value("BorrowerMode") == 1, "time": None, "point_arrays": chosen[0],
             "cell_arrays": chosen[1],
         }
         mesh = _native_engine.read(self.value("FileName"), options, self.progress)
@@ -350,9 +332,7 @@ class vtkPartitionedUnstructuredWriter(Filter):
         mesh = vtkDataObject.GetData(inputs[0]) if has_input else self.value("InputFileName")
         if not has_input and not mesh:
             raise RuntimeError("there is neither an input nor an InputFileName; set one.")
-        options = {"tiling": self.value("Tiling"), "duplicate_borrowers": self.value("DuplicateBorrowers"),
-                   "memory_limit": self.value("MemoryLimit"), "threads": self.value("NumberOfThreads")}
-        _native_engine.write(mesh, self.value("FileName"), options, self.progress)
+        _native_engine.write(mesh, self.value("FileName"), options_of(self, WRITE), self.progress)
         self._is_written = True
 
 
@@ -393,8 +373,7 @@ class vtkPartitionedMeshQuery(Filter):
 
     def _mesh(self, source: Any) -> Any:
         """Returns the opened mesh. Opens it again only if it has changed."""
-        options = {"memory": self.value("MemoryLimit"), "step": self.value("Step"),
-                   "threads": self.value("NumberOfThreads")}
+        options = options_of(self, QUERY)
         key = (self.value("FileName") or (source, source and source.GetMTime()), options)
         if not self.value("FileName") and source is None:
             raise RuntimeError("there is neither a source nor a FileName; set one.")

@@ -58,7 +58,8 @@ class Delaunay:
         if not np.isfinite(self.points).all():
             raise ValueError("points have a NaN or infinite coordinate; leave these points out.")
         self._threads = check.threads(threads)
-        result = _core.triangulate(self.points, 0.0, 0.0, 0, 0, False, self._threads, True, None)
+        result = _core.triangulate(
+            self.points, None, None, 0, False, False, 0.0, 0.0, 0, 0, False, self._threads, True, None)
         if len(result["triangles"]) == 0:
             raise RuntimeError(result["warnings"][0])
         self.simplices = result["triangles"].astype(np.int32, copy=False)

@@ -8,7 +8,6 @@ import numpy as np
 
 from . import _core
 from ._constraints import constraints_of
-from ._arguments import Progress, finish
 
 
 class Segments(NamedTuple):
@@ -49,7 +48,6 @@ def segments_of(points: np.ndarray, data: dict[str, np.ndarray], options: dict[s
     if len(corners):
         count = len(points)
         ids, new = _core.match_positions(points, corners)
-        ids, new = ids.ravel(), new.ravel()
         pairs = np.concatenate([np.arange(count), ids])[pairs]
         if len(new):
             kind = np.promote_types(points.dtype, corners.dtype)
@@ -60,9 +58,7 @@ def segments_of(points: np.ndarray, data: dict[str, np.ndarray], options: dict[s
             if lost:
                 warnings.append(f"{lost} point arrays of the input are left out: the source has {len(new)} new points "
                                 "and no values of these arrays.")
-    pairs = np.ascontiguousarray(pairs, np.int64)
-    _require_closed(points, pairs, first + cells, begin)
-    return Segments(points, joined, pairs, first + cells, begin, warnings)
+    return Segments(points, joined, np.ascontiguousarray(pairs, np.int64), first + cells, begin, warnings)
 
 
 def _read_source(source: Any, count: int, has_own_points: bool) -> tuple[Any, ...]:
@@ -85,33 +81,8 @@ def _edges_of(lines: Any, polygons: Any) -> tuple[np.ndarray, np.ndarray, int]:
     return np.concatenate([np.zeros((0, 2), np.int64), *parts]).astype(np.int64), cells, begin
 
 
-def _require_closed(points: np.ndarray, pairs: np.ndarray, cells: np.ndarray, begin: int) -> None:
-    """Raises RuntimeError if a polygon has a corner that is not finite: its inside would be unknown."""
-    wrong = begin + np.flatnonzero(~np.isfinite(points[pairs[begin:, 0], :2]).all(axis=1))
-    if len(wrong):
-        raise RuntimeError(f"cell {cells[wrong[0]]} of the source, a polygon, has the corner {pairs[wrong[0], 0]}, "
-                           "which is NaN or infinite: remove the polygon or correct the point.")
-
-
-def triangulated(segments: Segments, points: np.ndarray, options: dict[str, Any],
-                 progress: Progress | None) -> dict[str, Any]:
-    """Returns the core's result. `points` are those of the segments, perhaps followed by others."""
-    result = _core.triangulate_constrained(
-        points, segments.pairs, segments.polygon_begin, options["crossings"] == 1,
-        options["marks"] == 2 and options["alpha"] == 0, options["max_edge"], *options["partitions"],
-        options["schedule"] == 0, options["threads"], options["neighbors"], progress)
-    finish(progress)
-    result["warnings"] = [*segments.warnings, *result["warnings"]]
-    if result["not_finite"]:
-        result["warnings"].append(f"{result['not_finite']} edges of the source have an end that is NaN or infinite and "
-                                  "are left out.")
-    return result
-
-
 def with_crossings(points: np.ndarray, crossings: np.ndarray) -> np.ndarray:
     """Appends the crossings to the points, in double precision: x and y are exact, z is interpolated."""
-    if len(crossings) == 0:
-        return points
     result = interpolated(points.astype(np.float64), crossings)
     result[len(points):, :2] = crossings[:, :2]
     return result

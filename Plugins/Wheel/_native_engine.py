@@ -66,10 +66,15 @@ def diagonal(points: np.ndarray) -> float:
     return float(np.sqrt(((high - low) ** 2).sum()))
 
 
-def triangulated(points: np.ndarray, options: dict[str, Any], progress: Progress | None) -> dict[str, Any]:
+def triangulated(points: np.ndarray, options: dict[str, Any], progress: Progress | None,
+                 segments: constraints.Segments | None = None) -> dict[str, Any]:
+    """Returns the core's result. `points` are those of the segments, perhaps followed by others."""
     tolerance = options["tolerance"]
+    pairs, cells, begin = (None, None, 0) if segments is None else segments[2:5]
     result = _core.triangulate(
-        points, tolerance * diagonal(points) if tolerance > 0 else 0.0, options["max_edge"], *options["partitions"],
+        points, pairs, cells, begin, options.get("crossings") == 1,
+        segments is not None and options["marks"] == 2 and options["alpha"] == 0,
+        tolerance * diagonal(points) if tolerance > 0 else 0.0, options["max_edge"], *options["partitions"],
         options["schedule"] == 0, options["threads"], options.get("neighbors", False), progress)
     finish(progress)
     return result
@@ -193,15 +198,12 @@ def _triangulated(points: np.ndarray, data: dict[str, np.ndarray], options: dict
     has_all = options["alpha"] == 0
     wants_neighbors = options["neighbors"] and has_all and not has_lines
     chosen = {**options, "neighbors": wants_neighbors}
-    if segments is None:
-        result = triangulated(points, chosen, progress)
-    else:
-        result = constraints.triangulated(segments, points, chosen, progress)
-        crossings = result["crossings"]
+    result = triangulated(points, chosen, progress, segments)
+    sentences = [*([] if segments is None else segments.warnings), *result["warnings"]]
+    crossings = result.get("crossings", ())
+    if len(crossings):
         points = constraints.with_crossings(points, crossings)
-        if len(crossings):
-            data = {name: constraints.interpolated(values, crossings) for name, values in data.items()}
-    sentences = list(result["warnings"])
+        data = {name: constraints.interpolated(values, crossings) for name, values in data.items()}
     mesh = Mesh(points, result["triangles"], dict(data))
     if options["map_duplicates"] and (len(result["duplicates"]) or len(result["rejected"])):
         mesh.point_data["RepresentativePointId"] = _representatives(len(points), result)
@@ -356,7 +358,7 @@ def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> A
                            "give bounds.")
     chosen = _selected_arrays(mesh, options["arrays"])
     hidden, sentences = _hidden_cells(mesh, points, options, chosen[0])
-    origin, spacing, dimensions, samples, mask, more = _core.resample(
+    (origin, spacing, dimensions), samples, mask, more = _core.resample(
         points, mesh.cells, hidden, list(chosen[0].values()), list(chosen[1].values()), bounds,
         options["dimensions"], options["spacing"] or [0.0, 0.0, 0.0], options["null_value"], options["device"],
         options["threads"], progress)

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Check/DelaunayChecker.h"
 
-#include "Check/ExactTests.h"
-
-#include <gmpxx.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdlib>
-#include <limits>
+#include <cstring>
+#include <numeric>
+#include <unordered_map>
 #include <utility>
 
 namespace tipp
@@ -17,279 +13,371 @@ namespace tipp
 namespace
 {
 
-using check::DirectedEdge;
 using check::Position;
 
-// Index is std::uint32_t if all ids and half-edges fit, which halves the memory.
-template <typename Index>
-class Checker
+Position at(const CheckedPiece& piece, std::int64_t point)
 {
-public:
-  Checker(const std::vector<double>& xy, const std::vector<std::int64_t>& triangles,
-    const CheckOptions& options, const std::vector<std::int64_t>& neighbors)
-    : XY(xy)
-    , Ids(triangles)
-    , Neighbors(neighbors)
-    , Options(options)
+  return { piece.XY[2 * std::size_t(point)], piece.XY[2 * std::size_t(point) + 1] };
+}
+
+bool isSame(Position a, Position b)
+{
+  return a.x == b.x && a.y == b.y;
+}
+
+FixedEdge sorted(std::int64_t a, std::int64_t b)
+{
+  return { std::min(a, b), std::max(a, b) };
+}
+
+/// Half-edge h goes from corner h % 3 of triangle h / 3 to the next one. Returns the half-edge
+/// there.
+std::size_t after(std::size_t h)
+{
+  return h % 3 == 2 ? h - 2 : h + 1;
+}
+
+constexpr std::int64_t none = -1;
+
+std::uint64_t mix(std::uint64_t x) // the finaliser of splitmix64
+{
+  x += 0x9e3779b97f4a7c15U;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
+  return x ^ (x >> 31);
+}
+
+} // namespace
+
+std::uint64_t PieceChecker::hashPoint(std::int64_t id, double x, double y)
+{
+  std::uint64_t bits[2];
+  const double xy[2] = { x, y };
+  std::memcpy(bits, xy, sizeof(bits));
+  return mix(std::uint64_t(id) + mix(bits[0] + mix(bits[1])));
+}
+
+void PieceChecker::add(const CheckedPiece& piece)
+{
+  this->Report.Triangles += piece.OwnTriangles;
+  this->checkTriangles(piece);
+  this->checkPoints(piece);
+  // Indices of 32 bits halve the memory.
+  std::max(piece.XY.size(), piece.Triangles.size()) < std::numeric_limits<std::uint32_t>::max()
+    ? this->checkEdges<std::uint32_t>(piece)
+    : this->checkEdges<std::uint64_t>(piece);
+}
+
+void PieceChecker::checkTriangles(const CheckedPiece& piece)
+{
+  const std::size_t count = piece.Triangles.size() / 3;
+  const auto points = std::int64_t(piece.Ids.size());
+  this->IsGood.assign(count, 1);
+  this->IsSound.assign(count, 1);
+  for (std::size_t t = 0; t < count; ++t)
   {
+    const std::int64_t* const corners = &piece.Triangles[3 * t];
+    const bool isOwn = std::int64_t(t) < piece.OwnTriangles;
+    this->IsGood[t] = std::all_of(corners, corners + 3,
+      [&](std::int64_t point)
+      {
+        return point >= 0 && point < points && std::isfinite(at(piece, point).x) &&
+          std::isfinite(at(piece, point).y);
+      });
+    this->Report.BadIds += isOwn && !this->IsGood[t] ? 1 : 0;
+    this->IsSound[t] = this->IsGood[t] &&
+      check::turn(at(piece, corners[0]), at(piece, corners[1]), at(piece, corners[2])) > 0;
+    this->Report.BadTurns += isOwn && this->IsGood[t] && !this->IsSound[t] ? 1 : 0;
   }
+}
 
-  CheckReport run()
+/// Counts the piece's own points, the distinct ones, and those that no triangle uses. No other
+/// piece is needed: a piece has all triangles at its own points, and owns all points with the same
+/// coordinates.
+void PieceChecker::checkPoints(const CheckedPiece& piece)
+{
+  std::vector<bool> used(piece.Ids.size(), false);
+  for (std::size_t t = 0; t < this->IsGood.size(); ++t)
   {
-    this->Report.Points = std::int64_t(this->XY.size() / 2);
-    this->Report.Triangles = std::int64_t(this->Ids.size() / 3);
-    this->checkTriangles();
-    this->checkPoints();
-    this->gatherEdges();
-    this->checkEdges();
-    if (this->Options.IsCut)
+    for (std::size_t i = 0; this->IsGood[t] && i < 3; ++i)
     {
-      this->Report.UnusedPoints = 0;
-      const auto constraints = std::remove_if(this->Boundary.begin(), this->Boundary.end(),
-        [this](const DirectedEdge& edge) { return this->isConstraint(edge.From, edge.To); });
-      this->Boundary.erase(constraints, this->Boundary.end());
-      this->Report.OpenBoundary = check::countOffHull(this->XY, this->Boundary);
+      used[std::size_t(piece.Triangles[3 * t + i])] = true;
     }
-    else if (!this->Options.BoundaryFree)
-    {
-      this->checkHull();
-    }
-    return this->Report;
   }
-
-private:
-  enum class State : char
+  std::vector<Vertex> own;
+  for (std::size_t i = 0; i < piece.Ids.size(); ++i)
   {
-    Sound,
-    BadTurn, // edges are checked for it, circumcircles are not
-    BadIds   // it is not checked further
-  };
+    const Position p = at(piece, std::int64_t(i));
+    if (piece.IsOwn[i])
+    {
+      ++this->Report.Points;
+      const bool isGiven = piece.Ids[i] < this->Given;
+      this->GivenPoints += isGiven ? 1 : 0;
+      this->PointSum += isGiven ? hashPoint(piece.Ids[i], p.x, p.y) : 0;
+      if (std::isfinite(p.x) && std::isfinite(p.y))
+      {
+        own.push_back({ p, used[i] });
+      }
+    }
+  }
+  std::sort(own.begin(), own.end(),
+    [](const Vertex& a, const Vertex& b) { return check::isBefore(a.At, b.At); });
+  if (this->Options.IsCut)
+  {
+    this->keepHull(own);
+  }
+  for (std::size_t first = 0, last = 0; first < own.size(); first = last)
+  {
+    const Position position = own[first].At;
+    std::int64_t vertices = 0;
+    for (last = first; last < own.size() && isSame(position, own[last].At); ++last)
+    {
+      vertices += own[last].IsUsed ? 1 : 0;
+    }
+    ++this->Report.DistinctPoints;
+    this->Report.UnusedPoints += vertices == 0 ? 1 : 0;
+    this->Report.TwinVertices += std::max<std::int64_t>(vertices - 1, 0);
+    if (this->Line.size() < 2)
+    {
+      this->Line.push_back(position);
+    }
+    else if (this->IsCollinear)
+    {
+      this->IsCollinear = check::turn(this->Line[0], this->Line[1], position) == 0;
+    }
+  }
+}
 
-  // Half-edge h goes from corner h % 3 of triangle h / 3 to the next corner. It is stored at the
-  // lower of its two ids.
+/// Keeps the points of the piece's convex hull, including those inside its edges. `points` are in
+/// lexicographic order.
+void PieceChecker::keepHull(const std::vector<Vertex>& points)
+{
+  for (const int side : { 1, -1 })
+  {
+    std::vector<Position> chain;
+    for (const Vertex& vertex : points)
+    {
+      while (chain.size() > 1 &&
+        side * check::turn(chain[chain.size() - 2], chain.back(), vertex.At) < 0)
+      {
+        chain.pop_back();
+      }
+      chain.push_back(vertex.At);
+    }
+    for (const Position p : chain)
+    {
+      this->HullXY.insert(this->HullXY.end(), { p.x, p.y });
+    }
+  }
+}
+
+PieceChecker::Edge PieceChecker::edgeOf(const CheckedPiece& piece, std::size_t h) const
+{
+  const std::int64_t from = piece.Triangles[h];
+  const std::int64_t to = piece.Triangles[after(h)];
+  const std::size_t opposite = after(after(h));
+  const bool isReversed = piece.Ids[std::size_t(from)] > piece.Ids[std::size_t(to)];
+  const std::int64_t low = isReversed ? to : from;
+  const std::int64_t high = isReversed ? from : to;
+  return { { piece.Ids[std::size_t(low)], piece.Ids[std::size_t(high)] }, isReversed,
+    { at(piece, low), at(piece, high) }, at(piece, piece.Triangles[opposite]),
+    this->IsSound[h / 3] != 0, piece.Neighbors.empty() ? none : piece.CellIds[h / 3],
+    piece.Neighbors.empty() ? none : piece.Neighbors[opposite] };
+}
+
+/// Sorts the half-edges by their lower point, by counting, and then the few of each point. An Index
+/// holds an index of a point or a half-edge.
+template <typename Index>
+void PieceChecker::checkEdges(const CheckedPiece& piece)
+{
   struct HalfEdge
   {
     Index Higher;
     Index Id;
   };
-
-  Position at(std::int64_t id) const
+  const auto eachHalfEdge = [&](const auto& take)
   {
-    return { this->XY[2 * std::size_t(id)], this->XY[2 * std::size_t(id) + 1] };
-  }
-
-  bool isPoint(std::int64_t id) const
-  {
-    if (id < 0 || id >= this->Report.Points)
+    for (std::size_t t = 0; t < std::size_t(piece.OwnTriangles); ++t)
     {
-      return false;
+      const std::int64_t* const corners = &piece.Triangles[3 * t];
+      for (std::size_t i = 0; this->IsGood[t] && i < 3; ++i)
+      {
+        const auto [low, high] = std::minmax(corners[i], corners[(i + 1) % 3]);
+        take(3 * t + i, std::size_t(low), std::size_t(high));
+      }
     }
-    const Position p = this->at(id);
-    return std::isfinite(p.x) && std::isfinite(p.y);
-  }
-
-  std::int64_t from(std::size_t h) const { return this->Ids[h]; }
-  std::int64_t to(std::size_t h) const { return this->Ids[h % 3 == 2 ? h - 2 : h + 1]; }
-  std::int64_t opposite(std::size_t h) const { return this->Ids[h % 3 == 0 ? h + 2 : h - 1]; }
-
-  void checkTriangles()
+  };
+  std::vector<Index> starts(piece.Ids.size() + 1, 0);
+  eachHalfEdge([&](std::size_t, std::size_t low, std::size_t) { ++starts[low + 1]; });
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  std::vector<HalfEdge> byPoint(starts.back());
+  std::vector<Index> next(starts.begin(), starts.end() - 1);
+  eachHalfEdge(
+    [&](std::size_t h, std::size_t low, std::size_t high) {
+      byPoint[next[low]++] = { Index(high), Index(h) };
+    });
+  for (std::size_t point = 0; point + 1 < starts.size(); ++point)
   {
-    const std::size_t count = this->Ids.size() / 3;
-    this->States.assign(count, State::Sound);
-    this->Used.assign(this->XY.size() / 2, false);
-    for (std::size_t t = 0; t < count; ++t)
+    const auto begin = byPoint.begin() + std::ptrdiff_t(starts[point]);
+    const auto end = byPoint.begin() + std::ptrdiff_t(starts[point + 1]);
+    std::sort(begin, end, [](const HalfEdge& a, const HalfEdge& b) { return a.Higher < b.Higher; });
+    for (auto first = begin, last = begin; first != end; first = last)
     {
-      const std::int64_t a = this->Ids[3 * t];
-      const std::int64_t b = this->Ids[3 * t + 1];
-      const std::int64_t c = this->Ids[3 * t + 2];
-      if (!this->isPoint(a) || !this->isPoint(b) || !this->isPoint(c))
+      last = std::find_if(
+        first, end, [&](const HalfEdge& edge) { return edge.Higher != first->Higher; });
+      if (last - first == 1)
       {
-        this->States[t] = State::BadIds;
-        ++this->Report.BadIds;
-        continue;
+        this->Open.push_back(this->edgeOf(piece, first->Id));
       }
-      for (const std::int64_t id : { a, b, c })
+      else if (last - first == 2)
       {
-        this->Used[std::size_t(id)] = true;
+        this->checkInside(piece, first[0].Id, first[1].Id);
       }
-      if (check::turn(this->at(a), this->at(b), this->at(c)) <= 0)
+      else
       {
-        this->States[t] = State::BadTurn;
-        ++this->Report.BadTurns;
+        ++this->Report.BadEdges;
       }
     }
   }
+}
 
-  // Each distinct point must be a vertex under exactly one id, unless all points are collinear.
-  void checkPoints()
+bool PieceChecker::isConstraint(const FixedEdge& ids) const
+{
+  return std::binary_search(
+    this->Options.Constraints.begin(), this->Options.Constraints.end(), ids);
+}
+
+/// Checks an edge of two triangles of the piece.
+void PieceChecker::checkInside(const CheckedPiece& piece, std::size_t h, std::size_t twin)
+{
+  const std::int64_t from = piece.Triangles[h];
+  const std::int64_t to = piece.Triangles[after(h)];
+  if (from == piece.Triangles[twin])
   {
-    struct Vertex
-    {
-      Position At;
-      bool Used;
-    };
-    std::vector<Vertex> points;
-    points.reserve(this->XY.size() / 2);
-    for (std::int64_t id = 0; id < this->Report.Points; ++id)
-    {
-      if (this->isPoint(id))
-      {
-        points.push_back({ this->at(id), this->Used[std::size_t(id)] });
-      }
-    }
-    std::sort(points.begin(), points.end(),
-      [](const Vertex& a, const Vertex& b) { return check::isBefore(a.At, b.At); });
-    bool collinear = true;
-    for (std::size_t first = 0, last = 0; first < points.size(); first = last)
-    {
-      const Position position = points[first].At;
-      std::int64_t used = 0;
-      for (last = first; last < points.size() && !check::isBefore(position, points[last].At);
-           ++last)
-      {
-        used += points[last].Used ? 1 : 0;
-      }
-      ++this->Report.DistinctPoints;
-      this->Report.UnusedPoints += used == 0 ? 1 : 0;
-      this->Report.TwinVertices += std::max<std::int64_t>(used - 1, 0);
-      collinear = collinear && check::turn(points.front().At, position, points.back().At) == 0;
-    }
-    if (collinear && this->Ids.empty())
-    {
-      this->Report.UnusedPoints = 0;
-    }
+    ++this->Report.BadEdges;
+    return;
   }
-
-  // Sorts the half-edges by their lower id, by counting.
-  void gatherEdges()
+  const auto stores = [&piece](std::size_t own, std::size_t other)
+  { return piece.Neighbors[after(after(own))] == piece.CellIds[other / 3]; };
+  const bool isGood = piece.Neighbors.empty() || (stores(h, twin) && stores(twin, h));
+  this->Report.BadNeighbors += isGood ? 0 : 1;
+  const bool isFixed = !this->Options.Constraints.empty() &&
+    this->isConstraint(sorted(piece.Ids[std::size_t(from)], piece.Ids[std::size_t(to)]));
+  if (this->IsSound[h / 3] && this->IsSound[twin / 3] && !isFixed)
   {
-    this->Starts.assign(this->XY.size() / 2 + 1, 0);
-    this->forEachHalfEdge([this](std::size_t, std::int64_t lower, std::int64_t)
-      { ++this->Starts[std::size_t(lower) + 1]; });
-    for (std::size_t i = 1; i < this->Starts.size(); ++i)
-    {
-      this->Starts[i] += this->Starts[i - 1];
-    }
-    this->HalfEdges.resize(this->Starts.back());
-    std::vector<Index> next(this->Starts.begin(), this->Starts.end() - 1);
-    this->forEachHalfEdge(
-      [&](std::size_t h, std::int64_t lower, std::int64_t higher) {
-        this->HalfEdges[next[std::size_t(lower)]++] = { Index(higher), Index(h) };
-      });
+    this->checkCircle(at(piece, from), at(piece, to), at(piece, piece.Triangles[after(after(h))]),
+      at(piece, piece.Triangles[after(after(twin))]));
   }
+}
 
-  template <typename Function>
-  void forEachHalfEdge(Function function)
+/// Checks an edge of two triangles of different pieces.
+void PieceChecker::checkPair(const Edge& a, const Edge& b)
+{
+  if (a.IsReversed == b.IsReversed || !isSame(a.Ends[0], b.Ends[0]) ||
+    !isSame(a.Ends[1], b.Ends[1]))
   {
-    for (std::size_t h = 0; h < this->Ids.size(); ++h)
-    {
-      if (this->States[h / 3] != State::BadIds)
-      {
-        const std::int64_t a = this->from(h);
-        const std::int64_t b = this->to(h);
-        function(h, std::min(a, b), std::max(a, b));
-      }
-    }
+    ++this->Report.BadEdges;
+    return;
   }
-
-  void checkEdges()
+  this->Report.BadNeighbors += a.Neighbor != b.Cell || b.Neighbor != a.Cell ? 1 : 0;
+  if (a.IsSound && b.IsSound && !this->isConstraint(a.Ids))
   {
-    for (std::size_t lower = 0; lower + 1 < this->Starts.size(); ++lower)
-    {
-      const auto begin = this->HalfEdges.begin() + std::ptrdiff_t(this->Starts[lower]);
-      const auto end = this->HalfEdges.begin() + std::ptrdiff_t(this->Starts[lower + 1]);
-      std::sort(
-        begin, end, [](const HalfEdge& a, const HalfEdge& b) { return a.Higher < b.Higher; });
-      for (auto first = begin, last = begin; first != end; first = last)
-      {
-        last = std::find_if(
-          first, end, [&](const HalfEdge& edge) { return edge.Higher != first->Higher; });
-        this->checkEdge(first, last - first);
-      }
-    }
+    this->checkCircle(
+      a.Ends[a.IsReversed ? 1 : 0], a.Ends[a.IsReversed ? 0 : 1], a.Opposite, b.Opposite);
   }
+}
 
-  void checkEdge(typename std::vector<HalfEdge>::const_iterator edge, std::ptrdiff_t count)
+/// Checks the edge from a to b, with c opposite to it on the left and d on the right.
+void PieceChecker::checkCircle(Position a, Position b, Position c, Position d)
+{
+  const int side = check::inCircle(a, b, c, d);
+  this->Report.BadCircles += side > 0 ? 1 : 0;
+  if (side == 0)
   {
-    const std::size_t h = edge->Id;
-    if (count == 1)
+    ++this->Report.Ties;
+    const Position end = check::isBefore(a, b) ? b : a;
+    const Position off = check::isBefore(c, d) ? d : c;
+    this->Report.BadTies += this->Options.TieRule && check::isBefore(off, end) ? 1 : 0;
+  }
+}
+
+/// Matches the edges between pieces. The remaining ones must be on the hull.
+void PieceChecker::matchEdges()
+{
+  std::sort(this->Open.begin(), this->Open.end(),
+    [](const Edge& a, const Edge& b) { return a.Ids < b.Ids; });
+  std::size_t hull = 0;
+  for (std::size_t first = 0, last = 0; first < this->Open.size(); first = last)
+  {
+    while (last < this->Open.size() && this->Open[last].Ids == this->Open[first].Ids)
     {
-      ++this->Report.BoundaryEdges;
-      this->Report.BadNeighbors += this->isNeighbor(h, -1) ? 0 : 1;
-      this->Boundary.push_back({ this->from(h), this->to(h) });
-      return;
+      ++last;
     }
-    const std::size_t twin = edge[1].Id;
-    if (count > 2 || this->from(h) == this->from(twin))
+    if (last - first == 2)
+    {
+      this->checkPair(this->Open[first], this->Open[first + 1]);
+    }
+    else if (last - first == 1)
+    {
+      this->Report.BadNeighbors += this->Open[first].Neighbor != none ? 1 : 0;
+      this->Open[hull++] = this->Open[first];
+    }
+    else
     {
       ++this->Report.BadEdges;
-      return;
     }
-    const bool isMutual =
-      this->isNeighbor(h, std::int64_t(twin / 3)) && this->isNeighbor(twin, std::int64_t(h / 3));
-    this->Report.BadNeighbors += isMutual ? 0 : 1;
-    if (this->States[h / 3] == State::Sound && this->States[twin / 3] == State::Sound &&
-      !this->isConstraint(this->from(h), this->to(h)))
+  }
+  this->Open.resize(hull);
+}
+
+CheckReport PieceChecker::finish()
+{
+  this->matchEdges();
+  this->Report.BoundaryEdges = std::int64_t(this->Open.size());
+  if (this->Options.IsCut)
+  {
+    this->Report.UnusedPoints = 0;
+    const auto constraints = std::remove_if(this->Open.begin(), this->Open.end(),
+      [this](const Edge& edge) { return this->isConstraint(edge.Ids); });
+    this->Open.erase(constraints, this->Open.end());
+  }
+  if (this->Report.Triangles == 0)
+  {
+    this->Report.UnusedPoints = this->IsCollinear ? 0 : this->Report.UnusedPoints;
+    return this->Report;
+  }
+  if (this->Options.BoundaryFree)
+  {
+    return this->Report;
+  }
+  std::unordered_map<std::int64_t, std::int64_t> indices;
+  std::vector<double> xy;
+  std::vector<check::DirectedEdge> hull;
+  for (const Edge& edge : this->Open)
+  {
+    std::int64_t ends[2];
+    for (std::size_t i = 0; i < 2; ++i)
     {
-      this->checkCircle(h, this->opposite(twin));
+      const auto [found, isNew] = indices.emplace(edge.Ids[i], std::int64_t(xy.size() / 2));
+      if (isNew)
+      {
+        xy.insert(xy.end(), { edge.Ends[i].x, edge.Ends[i].y });
+      }
+      ends[i] = found->second;
     }
+    hull.push_back({ ends[edge.IsReversed ? 1 : 0], ends[edge.IsReversed ? 0 : 1] });
   }
-
-  bool isConstraint(std::int64_t a, std::int64_t b) const
+  if (this->Options.IsCut)
   {
-    return std::binary_search(this->Options.Constraints.begin(), this->Options.Constraints.end(),
-      FixedEdge{ std::min(a, b), std::max(a, b) });
+    xy.insert(xy.end(), this->HullXY.begin(), this->HullXY.end());
+    this->Report.OpenBoundary = check::countOffHull(xy, hull);
+    return this->Report;
   }
-
-  /// Returns whether the half-edge's triangle stores `triangle` as its neighbour, or no neighbours
-  /// are stored.
-  bool isNeighbor(std::size_t h, std::int64_t triangle) const
-  {
-    return this->Neighbors.empty() || this->Neighbors[h % 3 == 0 ? h + 2 : h - 1] == triangle;
-  }
-
-  void checkCircle(std::size_t h, std::int64_t beyond)
-  {
-    const Position a = this->at(this->from(h));
-    const Position b = this->at(this->to(h));
-    const Position c = this->at(this->opposite(h));
-    const Position d = this->at(beyond);
-    const int side = check::inCircle(a, b, c, d);
-    this->Report.BadCircles += side > 0 ? 1 : 0;
-    if (side == 0)
-    {
-      ++this->Report.Ties;
-      const Position end = check::isBefore(a, b) ? b : a;
-      const Position off = check::isBefore(c, d) ? d : c;
-      const bool broken = check::isBefore(off, end);
-      this->Report.BadTies += this->Options.TieRule && broken ? 1 : 0;
-    }
-  }
-
-  void checkHull()
-  {
-    if (this->Ids.empty())
-    {
-      return; // no point is a vertex, or the points are collinear
-    }
-    this->Report.BadHullEdges = check::countHullFaults(this->XY, this->Boundary);
-    this->Report.EulerMismatch =
-      this->Report.Triangles - (2 * this->Report.DistinctPoints - 2 - this->Report.BoundaryEdges);
-  }
-
-  const std::vector<double>& XY;
-  const std::vector<std::int64_t>& Ids;
-  const std::vector<std::int64_t>& Neighbors;
-  const CheckOptions& Options;
-  CheckReport Report;
-  std::vector<State> States;
-  std::vector<bool> Used;
-  std::vector<Index> Starts;
-  std::vector<HalfEdge> HalfEdges;
-  std::vector<DirectedEdge> Boundary;
-};
-
-} // namespace
+  this->Report.BadHullEdges = check::countHullFaults(xy, hull);
+  this->Report.EulerMismatch =
+    this->Report.Triangles - (2 * this->Report.DistinctPoints - 2 - this->Report.BoundaryEdges);
+  return this->Report;
+}
 
 std::vector<std::string> CheckReport::faults() const
 {
@@ -309,15 +397,22 @@ std::vector<std::string> CheckReport::faults() const
   });
 }
 
-CheckReport checkDelaunay(const std::vector<double>& xy, const std::vector<std::int64_t>& triangles,
-  const CheckOptions& options, const std::vector<std::int64_t>& neighbors)
+CheckReport checkDelaunay(std::vector<double> xy, std::vector<std::int64_t> triangles,
+  const CheckOptions& options, std::vector<std::int64_t> neighbors)
 {
-  constexpr std::size_t limit = std::numeric_limits<std::uint32_t>::max();
-  if (xy.size() / 2 < limit && triangles.size() < limit)
-  {
-    return Checker<std::uint32_t>(xy, triangles, options, neighbors).run();
-  }
-  return Checker<std::uint64_t>(xy, triangles, options, neighbors).run();
+  CheckedPiece piece;
+  piece.XY = std::move(xy);
+  piece.Ids.resize(piece.XY.size() / 2);
+  std::iota(piece.Ids.begin(), piece.Ids.end(), std::int64_t(0));
+  piece.IsOwn.assign(piece.Ids.size(), true);
+  piece.Triangles = std::move(triangles);
+  piece.OwnTriangles = std::int64_t(piece.Triangles.size() / 3);
+  piece.Neighbors = std::move(neighbors);
+  piece.CellIds.resize(piece.Neighbors.empty() ? 0 : std::size_t(piece.OwnTriangles));
+  std::iota(piece.CellIds.begin(), piece.CellIds.end(), std::int64_t(0));
+  PieceChecker checker(options);
+  checker.add(piece);
+  return checker.finish();
 }
 
 } // namespace tipp

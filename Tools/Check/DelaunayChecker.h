@@ -2,10 +2,13 @@
 #ifndef tippDelaunayChecker_h
 #define tippDelaunayChecker_h
 
+#include "Check/ExactTests.h"
 #include "Check/MeshReport.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -47,16 +50,101 @@ struct CheckReport : MeshReport
   std::vector<std::string> faults() const override;
 };
 
+/// One piece of a mesh, with all triangles at its points. Some of these are owned by other pieces.
+struct CheckedPiece
+{
+  std::vector<double> XY;              ///< x and y of its points, including ghost points
+  std::vector<std::int64_t> Ids;       ///< global ids of the points
+  std::vector<bool> IsOwn;             ///< by point: whether the piece owns it
+  std::vector<std::int64_t> Triangles; ///< three indices of the piece's points each
+  std::int64_t OwnTriangles = 0;       ///< they come first in Triangles
+  std::vector<std::int64_t> CellIds;   ///< global ids of the own triangles
+  /// For each corner of an own triangle, the global id of the neighbour opposite to it, or -1.
+  /// Empty if the mesh does not store them.
+  std::vector<std::int64_t> Neighbors;
+};
+
 /// Checks in exact arithmetic whether triangles are the Delaunay triangulation of the distinct
-/// finite points. It does not compute a triangulation: by Delaunay's lemma it is enough that the
-/// triangles are counter-clockwise, locally Delaunay, and meet edge to edge within a convex
-/// boundary. Ties may be broken either way unless TieRule is set. Fewer than three points, or
-/// collinear ones, have no triangles.
-///
-/// `xy` holds x and y of each point, `triangles` three indices of points each. `neighbors` holds
-/// for each corner the index of the triangle opposite to it, or -1; empty: not checked.
-CheckReport checkDelaunay(const std::vector<double>& xy, const std::vector<std::int64_t>& triangles,
-  const CheckOptions& options = {}, const std::vector<std::int64_t>& neighbors = {});
+/// finite points, piece by piece: only one piece and the edges between pieces are in memory. It
+/// does not compute a triangulation: by Delaunay's lemma it is enough that the triangles are
+/// counter-clockwise, locally Delaunay, and meet edge to edge within a convex boundary. Ties may be
+/// broken either way unless TieRule is set. Fewer than three points, or collinear ones, have no
+/// triangles.
+class PieceChecker
+{
+public:
+  /// `given`: points with this id and higher ids are not input points, and are left out of
+  /// pointSum() and givenPoints().
+  explicit PieceChecker(
+    const CheckOptions& options, std::int64_t given = std::numeric_limits<std::int64_t>::max())
+    : Options(options)
+    , Given(given)
+  {
+  }
+
+  /// Checks a piece.
+  void add(const CheckedPiece& piece);
+  /// Returns the result; call it after all pieces.
+  CheckReport finish();
+
+  /// A hash of the ids and coordinates of the owned input points. Equal sums mean equal points,
+  /// except with a probability of 2^-64.
+  std::uint64_t pointSum() const { return this->PointSum; }
+  /// The number of owned input points.
+  std::int64_t givenPoints() const { return this->GivenPoints; }
+  static std::uint64_t hashPoint(std::int64_t id, double x, double y);
+
+private:
+  struct Vertex
+  {
+    check::Position At;
+    bool IsUsed; ///< by a triangle
+  };
+
+  /// An edge of a triangle, and the vertex opposite to it.
+  struct Edge
+  {
+    std::array<std::int64_t, 2> Ids; ///< global point ids, the lower first
+    bool IsReversed;                 ///< in the triangle it goes from the higher id to the lower
+    std::array<check::Position, 2> Ends;
+    check::Position Opposite;
+    bool IsSound; ///< the triangle is counter-clockwise
+    /// Global id of the triangle; -1 if no neighbours are stored.
+    std::int64_t Cell;
+    std::int64_t Neighbor; ///< as stored with the triangle
+  };
+
+  void checkTriangles(const CheckedPiece& piece);
+  void checkPoints(const CheckedPiece& piece);
+  template <typename Index>
+  void checkEdges(const CheckedPiece& piece);
+  void checkPair(const Edge& a, const Edge& b);
+  void checkInside(const CheckedPiece& piece, std::size_t halfEdge, std::size_t twin);
+  void checkCircle(check::Position a, check::Position b, check::Position c, check::Position d);
+  bool isConstraint(const FixedEdge& ids) const;
+  void keepHull(const std::vector<Vertex>& points);
+  void matchEdges();
+  Edge edgeOf(const CheckedPiece& piece, std::size_t halfEdge) const;
+
+  CheckOptions Options;
+  CheckReport Report;
+  std::vector<char> IsSound; ///< by triangle of the current piece: counter-clockwise
+  std::vector<char> IsGood;  ///< by triangle: its points exist and are finite
+  std::vector<Edge> Open;    ///< edges of which only one triangle has been found so far
+  const std::int64_t Given;
+  std::int64_t GivenPoints = 0;
+  std::uint64_t PointSum = 0;
+  std::vector<double> HullXY; ///< with IsCut: the points of the pieces' convex hulls
+  bool IsCollinear = true;
+  /// Up to two points; if IsCollinear, all points so far are on their line.
+  std::vector<check::Position> Line;
+};
+
+/// Checks a mesh in memory, as one piece. `xy` holds x and y of each point, `triangles` three
+/// indices of points each. `neighbors` holds for each corner the index of the triangle opposite to
+/// it, or -1; empty: not checked.
+CheckReport checkDelaunay(std::vector<double> xy, std::vector<std::int64_t> triangles,
+  const CheckOptions& options = {}, std::vector<std::int64_t> neighbors = {});
 
 } // namespace tipp
 

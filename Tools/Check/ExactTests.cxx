@@ -36,9 +36,6 @@ int inCircle(Position a, Position b, Position c, Position d)
     Kernel::Side_of_oriented_circle_2()(point(a), point(b), point(c), point(d)));
 }
 
-} // namespace check
-namespace check
-{
 namespace
 {
 

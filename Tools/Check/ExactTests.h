@@ -28,10 +28,6 @@ int turn(Position a, Position b, Position c);
 /// Returns +1 if d is inside the circle of the counter-clockwise a, b, c, -1 outside, 0 on it.
 int inCircle(Position a, Position b, Position c, Position d);
 
-} // namespace check
-namespace check
-{
-
 /// A directed edge between two points, given by their indices in `xy`.
 struct DirectedEdge
 {

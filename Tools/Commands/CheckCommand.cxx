@@ -1,256 +1,61 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Arrays/SortUnique.h"
+#include "Commands/CheckRuns.h"
+
 #include "Check/ConstraintChains.h"
-#include "Check/DelaunayChecker.h"
-#include "Check/PieceChecker.h"
-#include "Commands/CheckTetrahedra.h"
-#include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Console/Process.h"
-#include "Console/ProgressBar.h"
-#include "Constraints/ReadConstraintFile.h"
 #include "Files/IOError.h"
 #include "Meshes/MeshFiles.h"
-#include "Partitioned/NeighborIds.h"
-#include "Partitioned/PartitionedMesh.h"
-#include "Partitioned/ReadPiece.h"
-#include "Points/PointStream.h"
-#include "Points/ReadPoints.h"
 #include "Predicates/Points.h"
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
+#include <filesystem>
 #include <map>
 #include <memory>
-#include <unordered_map>
+#include <utility>
 
 namespace tipp
 {
+
+bool isStoredInPieces(const std::string& mesh)
+{
+  std::error_code ignored;
+  return isPartitionedMesh(mesh) || std::filesystem::is_directory(mesh, ignored);
+}
+
+void refuseOtherPoints(const CheckArguments& arguments, std::size_t found, std::size_t points)
+{
+  throw IOError(arguments.Mesh,
+    fmt::format("its {} points are not the {} points of {}; check it against the points that it "
+                "was made from.",
+      found, points, arguments.Points));
+}
+
 namespace
 {
 
-CheckedPiece readChecked(const PartitionedMesh& mesh, std::size_t number)
+bool isSameNumber(double a, double b)
 {
-  Piece piece = readPiece(mesh, number, withNeighborsOnly(mesh));
-  CheckedPiece checked;
-  const auto points = std::size_t(piece.Points);
-  checked.XY.resize(2 * points);
-  for (std::size_t i = 0; i < points; ++i)
-  {
-    for (std::size_t axis = 0; axis < 2; ++axis)
-    {
-      checked.XY[2 * i + axis] = piece.PointType == Scalar::Float64
-        ? piece.Coordinates.as<double>()[3 * i + axis]
-        : double(piece.Coordinates.as<float>()[3 * i + axis]);
-    }
-  }
-  piece.Coordinates = {};
-  const auto* ids = piece.PointIds.as<std::int64_t>();
-  checked.Ids.assign(ids, ids + points);
-  const auto* ghosts = piece.PointGhosts.as<std::uint8_t>();
-  for (std::size_t i = 0; i < points; ++i)
-  {
-    checked.IsOwn.push_back(ghosts[i] == 0);
-  }
-  if (piece.WideIds)
-  {
-    throw IOError(
-      mesh.piecePath(number), "has more than 2^31 points or corners; partition it more finely.");
-  }
-  const auto* corners = piece.Connectivity.as<std::int32_t>();
-  checked.Triangles.assign(corners, corners + 3 * piece.Cells);
-  checked.OwnTriangles = piece.OwnedCells;
-  if (!piece.Attributes.empty())
-  {
-    const auto* cells = piece.CellIds.as<std::int64_t>();
-    checked.CellIds.assign(cells, cells + piece.OwnedCells);
-    const auto* neighbors = piece.Attributes[0].Values.as<std::int64_t>();
-    checked.Neighbors.assign(neighbors, neighbors + 3 * piece.OwnedCells);
-  }
-  return checked;
+  return a == b || (a != a && b != b);
 }
 
-struct InputSum
-{
-  std::int64_t All = 0;
-  std::int64_t Points = 0; ///< points with finite coordinates
-  std::uint64_t Sum = 0;
-};
+} // namespace
 
-InputSum sumInput(const std::string& path, const PointOptions& columns)
+void requireSamePoints(const CheckArguments& arguments, const std::vector<double>& points,
+  const std::vector<double>& stored, std::size_t dimension)
 {
-  InputSum input;
-  constexpr std::size_t blockPoints = 1 << 18;
-  const auto stream = openPointStream({ path }, columns);
-  forEachBlock(*stream, blockPoints,
-    [&](PointBlock& block)
-    {
-      input.All += std::int64_t(block.size());
-      for (std::size_t i = 0; i < block.size(); ++i)
-      {
-        const double x = block.XY[2 * i];
-        const double y = block.XY[2 * i + 1];
-        if (isFinite({ x, y }))
-        {
-          ++input.Points;
-          input.Sum += PieceChecker::hashPoint(block.First + std::int64_t(i), x, y);
-        }
-      }
-    });
-  return input;
-}
-
-struct CheckArguments
-{
-  std::string Points;
-  std::string Mesh;
-  PointOptions Columns;
-  std::string Constraints; ///< path of a file; empty: none
-  CheckOptions Options;
-};
-
-/// If the table's edges are ids of input points, reads these points' coordinates into the table.
-void takePositions(const CheckArguments& arguments, ConstraintTable& table)
-{
-  if (!table.XY.empty())
+  if (!stored.empty() &&
+    !std::equal(points.begin(), points.end(), stored.begin(), stored.end(), isSameNumber))
   {
-    return;
-  }
-  std::vector<std::int64_t> named;
-  for (const auto& edge : table.Edges)
-  {
-    named.insert(named.end(), edge.begin(), edge.end());
-  }
-  sortUnique(named);
-  table.XY.assign(2 * named.size(), std::nan(""));
-  constexpr std::size_t blockPoints = 1 << 18;
-  const auto stream = openPointStream({ arguments.Points }, arguments.Columns);
-  forEachBlock(*stream, blockPoints,
-    [&](PointBlock& block)
-    {
-      auto id = std::lower_bound(named.begin(), named.end(), block.First);
-      for (; id != named.end() && *id < block.First + std::int64_t(block.size()); ++id)
-      {
-        const auto from = block.XY.begin() + 2 * std::ptrdiff_t(*id - block.First);
-        std::copy_n(from, 2, table.XY.begin() + 2 * (id - named.begin()));
-      }
-    });
-  for (auto& edge : table.Edges)
-  {
-    for (std::int64_t& id : edge)
-    {
-      id = std::lower_bound(named.begin(), named.end(), id) - named.begin();
-    }
+    refuseOtherPoints(arguments, stored.size() / dimension, points.size() / dimension);
   }
 }
 
-/// Finds the constraints' edges in the mesh; returns them by global ids. Keeps in memory only
-/// triangles near constraints: those with an edge on one, or in a cut mesh all those at vertices on
-/// constraints, which show its border there.
-ConstraintChains findChains(const PartitionedMesh& mesh, const ConstraintTable& table, bool isCut)
+namespace
 {
-  const NearConstraints near(table.XY, table.Edges);
-  std::vector<double> xy;
-  std::vector<std::int64_t> ids;
-  std::vector<std::int64_t> triangles;
-  for (std::size_t number = 0; number < mesh.Pieces.size(); ++number)
-  {
-    const CheckedPiece piece = readChecked(mesh, number);
-    const auto at = [&piece](std::int32_t point)
-    {
-      const auto i = 2 * std::size_t(point);
-      return check::Position{ piece.XY.at(i), piece.XY.at(i + 1) };
-    };
-    std::unordered_map<std::int32_t, std::int64_t> known;
-    for (std::size_t t = 0; t < 3 * std::size_t(piece.OwnTriangles); t += 3)
-    {
-      const std::int32_t* const corners = &piece.Triangles[t];
-      bool isNear = false;
-      for (std::size_t i = 0; i < 3; ++i)
-      {
-        const check::Position from = at(corners[i]);
-        isNear = isNear || near.mayHave(from, isCut ? from : at(corners[(i + 1) % 3]));
-      }
-      for (std::size_t i = 0; isNear && i < 3; ++i)
-      {
-        const auto [found, isNew] = known.emplace(corners[i], std::int64_t(ids.size()));
-        if (isNew)
-        {
-          xy.insert(xy.end(), { at(corners[i]).x, at(corners[i]).y });
-          ids.push_back(piece.Ids[std::size_t(corners[i])]);
-        }
-        triangles.push_back(found->second);
-      }
-    }
-  }
-  // A point may be in several pieces. The first one with its coordinates represents all.
-  std::map<std::pair<double, double>, std::int64_t> positions;
-  for (std::int64_t& corner : triangles)
-  {
-    const auto i = 2 * std::size_t(corner);
-    corner = positions.emplace(std::make_pair(xy[i], xy[i + 1]), corner).first->second;
-  }
-  const auto own = std::int64_t(xy.size() / 2);
-  xy.insert(xy.end(), table.XY.begin(), table.XY.end());
-  std::vector<std::array<std::int64_t, 2>> constraints = table.Edges;
-  for (auto& edge : constraints)
-  {
-    edge = { edge[0] + own, edge[1] + own };
-  }
-  ConstraintChains chains = findConstraintChains(xy, triangles, constraints, isCut);
-  for (FixedEdge& edge : chains.Edges)
-  {
-    const auto [low, high] = std::minmax({ ids[std::size_t(edge[0])], ids[std::size_t(edge[1])] });
-    edge = { low, high };
-  }
-  std::sort(chains.Edges.begin(), chains.Edges.end());
-  return chains;
-}
-
-/// Does the same as checkDelaunay() for a partitioned mesh and points that are read block by block.
-/// One piece at a time and the triangles near constraints are in memory. Throws IOError if a file
-/// cannot be read, or if the mesh was made from other points.
-CheckReport checkPartitioned(const CheckArguments& arguments)
-{
-  const PartitionedMesh mesh = openPartitionedMesh(arguments.Mesh);
-  verifyPvtu(mesh);
-  CheckOptions options = arguments.Options;
-  ConstraintChains chains;
-  if (!arguments.Constraints.empty())
-  {
-    ConstraintTable table = readConstraintFile(arguments.Constraints);
-    takePositions(arguments, table);
-    options.IsCut =
-      options.IsCut || table.PolygonBegin < table.Edges.size() || !table.Holes.empty();
-    chains = findChains(mesh, table, options.IsCut);
-    options.Constraints = std::move(chains.Edges);
-  }
-  const InputSum input = sumInput(arguments.Points, arguments.Columns);
-  PieceChecker checker(
-    options, arguments.Constraints.empty() ? std::numeric_limits<std::int64_t>::max() : input.All);
-  {
-    ProgressBar bar("Checking");
-    for (std::size_t number = 0; number < mesh.Pieces.size(); ++number)
-    {
-      PieceFile(mesh, number).verifyAll();
-      checker.add(readChecked(mesh, number));
-      bar.update(double(number + 1) / double(mesh.Pieces.size()));
-    }
-  }
-  CheckReport report = checker.finish();
-  report.LostConstraints = chains.Lost;
-  if (input.Points != checker.givenPoints() || input.Sum != checker.pointSum())
-  {
-    refuseOtherPoints(arguments.Mesh, std::size_t(checker.givenPoints()), std::size_t(input.Points),
-      arguments.Points);
-  }
-  return report;
-}
 
 constexpr const char* meshFormats =
   "The triangles: .npy (m x 3 integers), .14, .grd, a VTK file or a partitioned mesh; or "
@@ -282,18 +87,8 @@ Examples:
   tipp check particles.npy tetrahedra.vtu --tie-rule
 )";
 
-// Throws IOError if the mesh stores points other than these.
-void requireSamePoints(
-  const CheckArguments& arguments, const std::vector<double>& xy, const std::vector<double>& own)
-{
-  if (!own.empty() && !std::equal(xy.begin(), xy.end(), own.begin(), own.end(), isSameNumber))
-  {
-    refuseOtherPoints(arguments.Mesh, own.size() / 2, xy.size() / 2, arguments.Points);
-  }
-}
-
 /// Returns the constraints as indices of the mesh's points: the first one with equal coordinates,
-/// or -1.
+/// or -1. Constraints whose ends are not finite are left out.
 std::vector<std::array<std::int64_t, 2>> constraintsAmong(
   const std::vector<double>& xy, const ConstraintTable& table)
 {
@@ -301,38 +96,45 @@ std::vector<std::array<std::int64_t, 2>> constraintsAmong(
   {
     return table.Edges;
   }
-  std::map<std::pair<double, double>, std::int64_t> positions;
-  for (std::size_t i = 0; i < xy.size() / 2; ++i)
+  const auto pointAt = [](const std::vector<double>& from, std::int64_t i) {
+    return std::array<double, 2>{ from[2 * std::size_t(i)], from[2 * std::size_t(i) + 1] };
+  };
+  const auto isGood = [](const std::array<double, 2>& p) { return isFinite({ p[0], p[1] }); };
+  std::map<std::array<double, 2>, std::int64_t> indices; // NaN has no order
+  for (std::int64_t i = 0; i < std::int64_t(xy.size() / 2); ++i)
   {
-    positions.emplace(std::make_pair(xy[2 * i], xy[2 * i + 1]), std::int64_t(i));
+    isGood(pointAt(xy, i)) ? void(indices.emplace(pointAt(xy, i), i)) : void();
   }
+  const auto indexOf = [&indices](const std::array<double, 2>& p)
+  {
+    const auto found = indices.find(p);
+    return found == indices.end() ? -1 : found->second;
+  };
   std::vector<std::array<std::int64_t, 2>> constraints;
   for (const auto& edge : table.Edges)
   {
-    std::array<std::int64_t, 2> ids;
-    for (std::size_t end = 0; end < 2; ++end)
+    const auto first = pointAt(table.XY, edge[0]);
+    const auto last = pointAt(table.XY, edge[1]);
+    if (isGood(first) && isGood(last))
     {
-      const auto own = 2 * std::size_t(edge[end]);
-      const auto at = positions.find({ table.XY[own], table.XY[own + 1] });
-      ids[end] = at == positions.end() ? -1 : at->second;
+      constraints.push_back({ indexOf(first), indexOf(last) });
     }
-    constraints.push_back(ids);
   }
   return constraints;
 }
 
 /// Checks a mesh with constraints, whose first points are the input points.
 CheckReport checkConstrained(
-  const CheckArguments& arguments, const PointTable& points, const TriangleMesh& mesh)
+  const CheckArguments& arguments, const std::vector<double>& points, TriangleMesh& mesh)
 {
-  const std::vector<double>& xy = mesh.XY.empty() ? points.XY : mesh.XY;
-  if (xy.size() < points.XY.size() ||
-    !std::equal(points.XY.begin(), points.XY.end(), xy.begin(), isSameNumber))
+  const std::vector<double>& xy = mesh.XY.empty() ? points : mesh.XY;
+  if (xy.size() < points.size() ||
+    !std::equal(points.begin(), points.end(), xy.begin(), isSameNumber))
   {
     throw IOError(arguments.Mesh,
       fmt::format("its first {} points are not those of {}; check it against the points that it "
                   "was made from.",
-        points.size(), arguments.Points));
+        points.size() / 2, arguments.Points));
   }
   const ConstraintTable table = readConstraintFile(arguments.Constraints);
   std::vector<std::array<std::int64_t, 2>> constraints = constraintsAmong(xy, table);
@@ -343,39 +145,39 @@ CheckReport checkConstrained(
   const std::int64_t missing = constraints.end() - lost;
   constraints.erase(lost, constraints.end());
   CheckOptions options = arguments.Options;
-  options.IsCut = options.IsCut || table.PolygonBegin < table.Edges.size() || !table.Holes.empty();
+  options.IsCut = arguments.isCutBy(table);
   ConstraintChains chains = findConstraintChains(xy, mesh.Triangles, constraints, options.IsCut);
   options.Constraints = std::move(chains.Edges);
-  CheckReport report = checkDelaunay(xy, mesh.Triangles, options, mesh.Neighbors);
+  CheckReport report =
+    checkDelaunay(xy, std::move(mesh.Triangles), options, std::move(mesh.Neighbors));
   report.LostConstraints = chains.Lost + missing;
   return report;
 }
 
-CheckReport check(const CheckArguments& arguments)
+CheckReport checkTriangles(const CheckArguments& arguments)
 {
-  if (isStoredInPieces(arguments.Mesh))
-  {
-    return checkPartitioned(arguments);
-  }
-  const PointTable points = readPoints(arguments.Points, arguments.Columns);
+  std::vector<double> xy = readPoints(arguments.Points, arguments.Columns).XY;
   TriangleMesh mesh = readMesh(arguments.Mesh);
   if (!arguments.Constraints.empty())
   {
-    return checkConstrained(arguments, points, mesh);
+    return checkConstrained(arguments, xy, mesh);
   }
-  requireSamePoints(arguments, points.XY, mesh.XY);
+  requireSamePoints(arguments, xy, mesh.XY, 2);
   mesh.XY = {};
-  return checkDelaunay(points.XY, mesh.Triangles, arguments.Options, mesh.Neighbors);
+  return checkDelaunay(
+    std::move(xy), std::move(mesh.Triangles), arguments.Options, std::move(mesh.Neighbors));
 }
 
 int runCheck(const CheckArguments& arguments)
 {
-  if (isOfTetrahedra(arguments.Mesh))
+  const bool isPartitioned = isStoredInPieces(arguments.Mesh);
+  if (isPartitioned ? openPartitionedMesh(arguments.Mesh).CellSize == 4
+                    : holdsTetrahedra(arguments.Mesh))
   {
-    return runCheckTetrahedra(
-      arguments.Points, arguments.Mesh, arguments.Columns, arguments.Options.TieRule);
+    return checkTetrahedra(arguments);
   }
-  const CheckReport report = check(arguments);
+  const CheckReport report =
+    isPartitioned ? checkPartitioned(arguments) : checkTriangles(arguments);
   fmt::print("{} points ({} distinct), {} triangles, {} boundary edges, {} co-circular ties: ",
     report.Points, report.DistinctPoints, report.Triangles, report.BoundaryEdges, report.Ties);
   return printFaults(report);

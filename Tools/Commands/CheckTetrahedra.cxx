@@ -1,56 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Commands/CheckTetrahedra.h"
+#include "Commands/CheckRuns.h"
 
 #include "Check/TetrahedraChecker.h"
-#include "Files/IOError.h"
 #include "Meshes/MeshFiles.h"
-#include "Partitioned/NeighborIds.h"
 #include "Partitioned/PieceFile.h"
 #include "Points/PointStream.h"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 namespace tipp
 {
-
-bool isStoredInPieces(const std::string& mesh)
-{
-  std::error_code ignored;
-  return isPartitionedMesh(mesh) || std::filesystem::is_directory(mesh, ignored);
-}
-
-PieceOptions withNeighborsOnly(const PartitionedMesh& mesh)
-{
-  PieceOptions options;
-  options.Wanted.assign(mesh.Arrays.size(), false);
-  const std::int64_t neighborIds = findNeighborIds(mesh);
-  if (neighborIds >= 0)
-  {
-    options.Wanted[std::size_t(neighborIds)] = true;
-  }
-  return options;
-}
-
-void refuseOtherPoints(
-  const std::string& mesh, std::size_t count, std::size_t points, const std::string& input)
-{
-  throw IOError(mesh,
-    fmt::format("its {} points are not the {} points of {}; check it against the points that it "
-                "was made from.",
-      count, points, input));
-}
 
 namespace
 {
 
 /// Reads the tetrahedra of a partitioned mesh. Throws IOError unless its points are the finite ones
 /// among `xyz`.
-StoredTetrahedra readPieces(
-  const std::string& path, const std::vector<double>& xyz, const std::string& input)
+StoredTetrahedra readPieces(const CheckArguments& arguments, const std::vector<double>& xyz)
 {
-  const PartitionedMesh mesh = openPartitionedMesh(path);
+  const PartitionedMesh mesh = openPartitionedMesh(arguments.Mesh);
   verifyPvtu(mesh);
   StoredTetrahedra stored;
   const PieceOptions options = withNeighborsOnly(mesh);
@@ -91,24 +60,19 @@ StoredTetrahedra readPieces(
   }
   if (!areSame || found != finite)
   {
-    refuseOtherPoints(path, found, finite, input);
+    refuseOtherPoints(arguments, found, finite);
   }
   return stored;
 }
 
 } // namespace
 
-bool isOfTetrahedra(const std::string& mesh)
+int checkTetrahedra(const CheckArguments& arguments)
 {
-  return isStoredInPieces(mesh) ? openPartitionedMesh(mesh).CellSize == 4 : holdsTetrahedra(mesh);
-}
-
-int runCheckTetrahedra(
-  const std::string& points, const std::string& mesh, PointOptions columns, bool tieRule)
-{
+  PointOptions columns = arguments.Columns;
   columns.InSpace = true;
-  const PointTable table = readAllPoints(*openPointStream({ points }, columns));
-  const std::vector<double>& z = table.Columns[requireElevation(table, points)].Values;
+  const PointTable table = readAllPoints(*openPointStream({ arguments.Points }, columns));
+  const std::vector<double>& z = table.Columns[requireElevation(table, arguments.Points)].Values;
   std::vector<double> xyz;
   xyz.reserve(3 * table.size());
   for (std::size_t i = 0; i < table.size(); ++i)
@@ -116,13 +80,10 @@ int runCheckTetrahedra(
     xyz.insert(xyz.end(), { table.XY[2 * i], table.XY[2 * i + 1], z[i] });
   }
   const StoredTetrahedra stored =
-    isStoredInPieces(mesh) ? readPieces(mesh, xyz, points) : readTetrahedra(mesh);
-  if (!stored.XYZ.empty() &&
-    !std::equal(xyz.begin(), xyz.end(), stored.XYZ.begin(), stored.XYZ.end(), isSameNumber))
-  {
-    refuseOtherPoints(mesh, stored.XYZ.size() / 3, table.size(), points);
-  }
-  const TetrahedraReport report = checkTetrahedra(xyz, stored.Ids, tieRule, stored.Neighbors);
+    isStoredInPieces(arguments.Mesh) ? readPieces(arguments, xyz) : readTetrahedra(arguments.Mesh);
+  requireSamePoints(arguments, xyz, stored.XYZ, 3);
+  const TetrahedraReport report =
+    checkTetrahedra(xyz, stored.Ids, arguments.Options.TieRule, stored.Neighbors);
   fmt::print("{} points ({} distinct), {} tetrahedra, {} hull facets, {} co-spherical ties: ",
     report.Points, report.DistinctPoints, report.Tetrahedra, report.HullFacets, report.Ties);
   return printFaults(report);

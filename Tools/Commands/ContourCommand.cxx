@@ -2,9 +2,9 @@
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/QueryMesh.h"
+#include "Commands/Report.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
-#include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
 #include "Query/LineData.h"
 #include "Query/Lines.h"
@@ -100,8 +100,7 @@ void makeContours(const ContourArguments& arguments, Communicator& ranks)
   PathState before;
   if (ranks.isFirst())
   {
-    requireApart({ arguments.Output }, { arguments.Mesh.Path });
-    before = PendingFile(arguments.Output).before(); // fails early if it cannot be written
+    before = requireWritable(arguments.Output, "", { arguments.Mesh.Path });
   }
   // Only the first rank reads a mesh that is not partitioned.
   std::unique_ptr<ResidentMesh> mesh = ranks.isFirst() || isPartitionedMesh(arguments.Mesh.Path)
@@ -128,16 +127,14 @@ void addContourCommand(CLI::App& app, int& exitCode)
   CLI::App* const command =
     app.add_subcommand("contour", "Makes lines of equal values on a mesh of triangles");
   command->add_option("mesh", arguments->Mesh.Path, "The mesh, see below")->required();
-  command->add_option("-o,--output", arguments->Output, "The file to write, see below")
-    ->required()
-    ->check(
-      [](const std::string& path)
-      {
-        const std::string extension = extensionOf(path);
-        return extension == ".gpkg" || extension == ".vtp"
-          ? ""
-          : "'" + path + "' does not end in .gpkg or .vtp";
-      });
+  addOutput(
+    *command, arguments->Output, "The file to write, see below",
+    [](const std::string& path)
+    {
+      const std::string extension = extensionOf(path);
+      return extension == ".gpkg" || extension == ".vtp";
+    },
+    ".gpkg or .vtp");
   command->add_option("--array", arguments->Array, "The name of a point array, or elevation for z")
     ->capture_default_str();
   command

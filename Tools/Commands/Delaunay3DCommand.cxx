@@ -1,30 +1,50 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
-
-#include "Commands/Delaunay3DRuns.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Console/Process.h"
+#include "Distributed3D/DistributedTetrahedralization.h"
 #include "Files/InputFile.h"
+#include "Files/OutputPath.h"
 #include "InMemory/TriangulatePoints.h"
 #include "Meshes/MeshFiles.h"
 #include "OutOfCore3D/OutOfCoreTetrahedralization.h"
+#include "Output/RunStatistics.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/PointStream.h"
+#include "Points/PointTable.h"
 #include "Points/ReadPoints.h"
+#include "Ranks/Communicator.h"
 #include "Triangulation3D/Tetrahedralize.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-
 #include <malloc.h>
+
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
+
+class vtkMultiProcessController;
 
 namespace tipp
 {
+namespace
+{
 
+/// The options of `tipp delaunay3d`.
+struct Delaunay3DArguments : RunArguments
+{
+  int Threads = 0;
+  int Partitions = 0;
+  bool MapDuplicates = false;
+  bool Neighbors = false;
+};
+
+/// Returns the points in space. `elevation`: the index of the column with the third coordinate.
 std::vector<Point3> coordinatesOf(const PointTable& table, std::size_t elevation)
 {
   std::vector<Point3> points(table.size());
@@ -36,6 +56,8 @@ std::vector<Point3> coordinatesOf(const PointTable& table, std::size_t elevation
   return points;
 }
 
+/// Writes the tetrahedra, or the triangles of coplanar points. `before`: from requireWritable().
+/// Returns false, without a file, if the user interrupted it. Throws IOError.
 bool writeResult(const Delaunay3DArguments& arguments, PointTable&& table,
   const Tetrahedralization& mesh, const Triangulation& triangles, const PathState& before)
 {
@@ -64,29 +86,20 @@ bool writeResult(const Delaunay3DArguments& arguments, PointTable&& table,
     arguments.Output, std::move(table), mesh.Ids.data(), mesh.cellCount(), neighbors, options);
 }
 
+/// Reports the run, see reportRun(); the summary ends with `ranks`.
 void report(const Delaunay3DArguments& arguments, const Tetrahedralization& mesh,
-  const Triangulation& triangles, std::int64_t points, double seconds,
-  const RunStatistics& statistics, const std::string& ranks)
+  const Triangulation& triangles, double seconds, const RunStatistics& statistics,
+  const std::string& ranks)
 {
-  if (!arguments.Statistics.empty())
+  nlohmann::ordered_json json = { { "input", arguments.Inputs }, { "output", arguments.Output },
+    { "tetrahedralize_seconds", seconds }, { "peak_memory_bytes", peakMemoryBytes() } };
+  json.update(jsonOf(statistics));
+  if (mesh.Dimension == 2)
   {
-    nlohmann::ordered_json json = { { "input", arguments.Inputs }, { "output", arguments.Output },
-      { "tetrahedralize_seconds", seconds }, { "peak_memory_bytes", peakMemoryBytes() } };
-    json.update(jsonOf(statistics));
-    if (mesh.Dimension == 2)
-    {
-      json["triangles"] = triangles.triangleCount();
-    }
-    writeJson(arguments.Statistics, json);
+    json["triangles"] = triangles.triangleCount();
   }
-  fmt::print("{} points, {} tetrahedra, {} duplicates, {} rejected, {:.3f} s, {:.0f} points/s, "
-             "peak memory {:.0f} MB{}\n",
-    points, mesh.cellCount(), mesh.Duplicates.size(), mesh.Rejected.size(), seconds,
-    seconds > 0 ? double(points) / seconds : 0.0, double(peakMemoryBytes()) / 1e6, ranks);
+  reportRun(arguments.Statistics, json, seconds, ranks);
 }
-
-namespace
-{
 
 constexpr const char* footer =
   R"(INPUT   files as for 'tipp delaunay'. The third coordinate is the column z, Z or elevation,
@@ -150,7 +163,7 @@ int runDelaunay3D(const Delaunay3DArguments& arguments)
   {
     return reportInterrupt();
   }
-  report(arguments, mesh, triangles, count, seconds,
+  report(arguments, mesh, triangles, seconds,
     statisticsOf(mesh, count, std::int64_t(mesh.cellCount())), "");
   for (const std::string& warning : warningsOf(mesh, count))
   {
@@ -159,13 +172,81 @@ int runDelaunay3D(const Delaunay3DArguments& arguments)
   return Success;
 }
 
+/// Returns this rank's share of the points.
+std::vector<Point3> readShare(const Communicator& ranks, const Delaunay3DArguments& arguments)
+{
+  const PointTable table =
+    readPointsShare(arguments.Inputs, arguments.Columns, ranks.rank(), ranks.size());
+  if (ranks.isFirst()) // it counts the points of all files
+  {
+    reportLeftOut(table.LeftOut, table.ThinnedOut);
+  }
+  return table.size() == 0 && !ranks.isFirst()
+    ? std::vector<Point3>()
+    : coordinatesOf(table, requireElevation(table, arguments.Inputs.front()));
+}
+
+/// Writes the file on the first rank, completely or not at all; the others wait for the outcome.
+void writeOnFirst(Communicator& ranks, const Delaunay3DArguments& arguments,
+  const DistributedTetrahedralization& mine, double seconds, const PathState& before)
+{
+  Triangulation triangles; // of coplanar points
+  const Tetrahedralization all = gatherTetrahedra(ranks, mine, arguments.Threads, triangles);
+  if (!ranks.isFirst())
+  {
+    return;
+  }
+  // An .npy output of tetrahedra needs no points.
+  PointTable table = extensionOf(arguments.Output) == ".npy" && all.Dimension != 2
+    ? PointTable()
+    : readPoints(arguments.Inputs, arguments.Columns);
+  if (!writeResult(arguments, std::move(table), all, triangles, before))
+  {
+    throw RankFailure(0, true, "interrupted");
+  }
+  report(arguments, all, triangles, seconds, statisticsOf(mine),
+    fmt::format(", {} ranks of {} threads", ranks.size(), mine.Statistics.ThreadsPerRank));
+  for (const std::string& warning : warningsOf(mine))
+  {
+    fmt::print(stderr, "tipp: warning: {}\n", warning);
+  }
+}
+
+void triangulateShares(Communicator& ranks, const Delaunay3DArguments& arguments)
+{
+  const PathState before = ranks.isFirst()
+    ? requireWritable(arguments.Output, arguments.Statistics, arguments.Inputs)
+    : PathState();
+  const std::vector<Point3> own = readShare(ranks, arguments);
+  ranks.barrier();
+  const Stopwatch watch;
+  RankPoints3 points;
+  points.Points = own.data();
+  points.Count = own.size();
+  auto bar = ranks.isFirst() ? std::make_unique<ProgressBar>("Tetrahedralizing") : nullptr;
+  TetrahedralizationOptions options;
+  options.Partitions = arguments.Partitions;
+  options.Threads = arguments.Threads;
+  options.Progress = progressOn(bar);
+  const DistributedTetrahedralization mine = tetrahedralizeDistributed(ranks, points, options);
+  bar.reset();
+  writeOnFirst(ranks, arguments, mine, watch.seconds(), before);
+}
+
+/// Runs `tipp delaunay3d`, in memory, on the ranks of a controller. Every rank reads its share of
+/// the points; the first one writes the output and prints messages. Returns the exit code, which is
+/// the same on all ranks.
+int runDelaunay3DOnRanks(
+  const Delaunay3DArguments& arguments, vtkMultiProcessController* controller)
+{
+  return runTogether(controller, [&](Communicator& ranks) { triangulateShares(ranks, arguments); });
+}
+
 OutOfCoreStatistics3 makeOutOfCore(const Delaunay3DArguments& arguments)
 {
   // With this threshold, large blocks are always returned to the system when they are freed.
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
-  PointOptions columns = arguments.Columns;
-  setThinningFile(columns, arguments.Scratch, arguments.Output);
-  const auto points = openPointStream(arguments.Inputs, columns);
+  const auto points = openPointStream(arguments.Inputs, withThinningFile(arguments));
   OutOfCoreOptions3 options;
   options.MemoryLimit =
     arguments.Memory.empty() ? options.MemoryLimit : *parseMemorySize(arguments.Memory);
@@ -190,44 +271,30 @@ int runDelaunay3DOutOfCore(const Delaunay3DArguments& arguments)
     return reportInterruptedRun(made.Kept);
   }
   const double seconds = totalSeconds(made.Phases);
-  if (!arguments.Statistics.empty())
-  {
-    nlohmann::ordered_json json = { { "input", arguments.Inputs }, { "output", arguments.Output },
-      { "seconds", seconds }, { "peak_memory_bytes", peakMemoryBytes() } };
-    json.update(jsonOf(statisticsOf(made)));
-    writeJson(arguments.Statistics, json);
-  }
+  nlohmann::ordered_json json = { { "input", arguments.Inputs }, { "output", arguments.Output },
+    { "seconds", seconds }, { "peak_memory_bytes", peakMemoryBytes() } };
+  json.update(jsonOf(statisticsOf(made)));
   reportLeftOut(made.LeftOut, made.ThinnedOut);
-  fmt::print(
-    "{} points, {} tetrahedra, {} duplicates, {} rejected, {} pieces, {:.0f} MB, {:.3f} s, "
-    "{:.0f} points/s, peak memory {:.0f} MB\n",
-    made.Points, made.Tetrahedra, made.Duplicates, made.Rejected, made.Pieces,
-    double(made.MeshBytes) / 1e6, seconds, double(made.Points) / seconds,
-    double(peakMemoryBytes()) / 1e6);
+  reportRun(arguments.Statistics, json, seconds);
   return Success;
 }
 
-std::string checkTetrahedronFile(const std::string& path)
+bool isTetrahedronFile(const std::string& path)
 {
   const std::string extension = extensionOf(path);
-  return extension == ".vtu" || extension == ".npy" || extension == ".tipp"
-    ? ""
-    : "'" + path + "' does not end in .vtu, .npy or .tipp";
+  return extension == ".vtu" || extension == ".npy" || extension == ".tipp";
 }
 
 /// Throws CLI::ValidationError for options that the kind of output does not support.
 void requireFitting(const Delaunay3DArguments& arguments)
 {
-  const std::string extension = extensionOf(arguments.Output);
-  const bool isOutOfCore = extension == ".tipp";
+  const bool hasNoArrays = extensionOf(arguments.Output) == ".npy";
   constexpr const char* needsArrays = "needs an output named .vtu or .tipp";
-  refuseIf(arguments.Neighbors && extension == ".npy", "--neighbors", needsArrays);
-  refuseIf(arguments.MapDuplicates && extension == ".npy", "--map-duplicates", needsArrays);
-  refuseIf(arguments.Partitions > 0 && isOutOfCore, "--partitions",
+  refuseIf(arguments.Neighbors && hasNoArrays, "--neighbors", needsArrays);
+  refuseIf(arguments.MapDuplicates && hasNoArrays, "--map-duplicates", needsArrays);
+  refuseIf(arguments.Partitions > 0 && arguments.makesPieces(), "--partitions",
     "needs an output named .vtu or .npy; for .tipp, --memory determines the partitions");
-  refuseIf(!arguments.Memory.empty() && !isOutOfCore, "--memory", "needs an output named .tipp");
-  refuseIf(arguments.Resume && !isOutOfCore, "--resume", "needs an output named .tipp");
-  refuseIf(!arguments.Scratch.empty() && !isOutOfCore, "--scratch", "needs an output named .tipp");
+  arguments.refuseMisplaced();
 }
 
 } // namespace
@@ -237,10 +304,9 @@ void addDelaunay3DCommand(CLI::App& app, int& exitCode)
   auto arguments = std::make_shared<Delaunay3DArguments>();
   CLI::App* const command =
     app.add_subcommand("delaunay3d", "Tetrahedralizes points: exact 3D Delaunay, in parallel");
-  command->add_option("input", arguments->Inputs, "The points, of one or more files")->required();
-  command->add_option("-o,--output", arguments->Output, "The tetrahedra")
-    ->required()
-    ->check(checkTetrahedronFile);
+  addRunOptions(*command, *arguments, "The tetrahedra", isTetrahedronFile, ".vtu, .npy or .tipp",
+    "With a .tipp output: the memory limit of the process, such as 512M (default: 2G)",
+    "With a .tipp output");
   addPointOptions(*command, arguments->Columns);
   addThreadsOption(*command, arguments->Threads);
   command
@@ -254,19 +320,13 @@ void addDelaunay3DCommand(CLI::App& app, int& exitCode)
   command->add_flag("--neighbors", arguments->Neighbors,
     "Add the cell array NeighborIds: for each corner the id of the tetrahedron opposite to it, -1 "
     "at the hull");
-  command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
-  command
-    ->add_option("--memory", arguments->Memory,
-      "With a .tipp output: the memory limit of the process, such as 512M (default: 2G)")
-    ->check(checkMemorySize);
-  addResumeOptions(*command, "With a .tipp output", arguments->Resume, arguments->Scratch);
   command->footer(footer);
   command->callback(
     [arguments, &exitCode]()
     {
       requireFitting(*arguments);
       arguments->Columns.InSpace = true;
-      if (extensionOf(arguments->Output) == ".tipp")
+      if (arguments->makesPieces())
       {
         exitCode = isIdleRank() ? Success : runDelaunay3DOutOfCore(*arguments);
         return;

@@ -92,7 +92,7 @@ Triangulation triangulatePoints(
 int runDelaunay(const DelaunayArguments& arguments)
 {
   const MpiSession session;
-  if (isOutOfCore(arguments))
+  if (arguments.makesPieces())
   {
     return runDelaunayOutOfCore(arguments, session.controller());
   }
@@ -120,24 +120,19 @@ int runDelaunay(const DelaunayArguments& arguments)
     return reportInterrupt();
   }
   run.WriteSeconds = watch.restart();
-  if (!arguments.Statistics.empty())
-  {
-    writeStatistics(arguments, run, result);
-  }
-  fmt::print("{}\n", summarize(run, result));
+  const auto triangles = std::int64_t(result.triangleCount());
+  reportRun(arguments, run, jsonOf(statisticsOf(result, run.Points, triangles)));
   if (!constraintReport.empty())
   {
     fmt::print("{}\n", constraintReport);
   }
-  warnOfNoTriangles(std::int64_t(result.triangleCount()));
+  warnOfNoTriangles(triangles);
   return Success;
 }
 
-std::string checkOutput(const std::string& path)
+bool isOutput(const std::string& path)
 {
-  return isMeshFile(path) || extensionOf(path) == ".tipp"
-    ? ""
-    : "'" + path + "' does not end in .vtp, .vtu, .npy, .14 or .tipp";
+  return isMeshFile(path) || extensionOf(path) == ".tipp";
 }
 
 std::string checkPartitions(const std::string& text)
@@ -221,7 +216,7 @@ void addConstraints(CLI::App& command, DelaunayArguments& arguments)
 void requireValidConstraints(const DelaunayArguments& arguments)
 {
   refuseIf(
-    arguments.MarkConstraints && !(arguments.Constraints.areGiven() && isOutOfCore(arguments)),
+    arguments.MarkConstraints && !(arguments.Constraints.areGiven() && arguments.makesPieces()),
     "--mark-constraints", "needs --constraints or --boundary, and an output named .tipp");
   const bool refuses = arguments.Constraints.Crossings == CrossingRule::Refuse;
   refuseIf(!arguments.Constraints.areGiven() && (refuses || !arguments.Constraints.Holes.empty()),
@@ -235,10 +230,9 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
   auto arguments = std::make_shared<DelaunayArguments>();
   CLI::App* const command =
     app.add_subcommand("delaunay", "Triangulates points: exact 2D Delaunay, in parallel");
-  command->add_option("input", arguments->Inputs, "The points, of one or more files")->required();
-  command->add_option("-o,--output", arguments->Output, "The triangles")
-    ->required()
-    ->check(checkOutput);
+  addRunOptions(*command, *arguments, "The triangles", isOutput, ".vtp, .vtu, .npy, .14 or .tipp",
+    "With a .tipp output: the memory limit of each process, such as 512M (default: 2G)",
+    "With a .tipp output");
   addPointOptions(*command, arguments->Columns);
   addDuplicatesOption(*command, arguments->Duplicates);
   addTuning(*command, *arguments);
@@ -253,18 +247,12 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
     "Add the cell array NeighborIds to .vtp, .vtu or .tipp: for each corner the id of the triangle "
     "opposite to it, -1 at the hull");
   addConstraints(*command, *arguments);
-  command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
-  command
-    ->add_option("--memory", arguments->Memory,
-      "With a .tipp output: the memory limit of each process, such as 512M (default: 2G)")
-    ->check(checkMemorySize);
   command
     ->add_option("--sink", arguments->Sink,
       "With a .tipp output: mesh: write it; count: only print the number of triangles and their "
       "checksum")
     ->check(CLI::IsMember({ "mesh", "count" }))
     ->capture_default_str();
-  addResumeOptions(*command, "With a .tipp output", arguments->Resume, arguments->Scratch);
   command->footer(footer);
   command->callback(
     [arguments, &exitCode]()
@@ -278,14 +266,13 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
         "needs an output named .vtp, .vtu or .tipp, which has cell data");
       refuseIf(arguments->Partitions != "auto" && arguments->isForRanks(), "--partitions",
         "cannot be combined with --masters, --major and --minor; give --minor");
-      arguments->Input = arguments->Inputs.front();
       arguments->Columns.Threads = arguments->Threads;
-      const std::string misplaced = misplacedOutOfCoreOption(*arguments);
       requireValidConstraints(*arguments);
-      refuseIf(isOutOfCore(*arguments) && arguments->isForRanks(), "--masters, --major and --minor",
-        "cannot be combined with an output named .tipp");
-      refuseIf(
-        !isOutOfCore(*arguments) && !misplaced.empty(), misplaced, "needs an output named .tipp");
+      refuseIf(arguments->makesPieces() && arguments->isForRanks(),
+        "--masters, --major and --minor", "cannot be combined with an output named .tipp");
+      refuseIf(arguments->Sink != "mesh" && !arguments->makesPieces(), "--sink",
+        "needs an output named .tipp");
+      arguments->refuseMisplaced();
       exitCode = runDelaunay(*arguments);
     });
 }

@@ -109,11 +109,14 @@ void writeOnFirst(Communicator& ranks, const DelaunayArguments& arguments, Delau
     throw RankFailure(0, true, "interrupted");
   }
   run.WriteSeconds = watch.restart();
-  if (!arguments.Statistics.empty())
+  const DistributedStatistics& statistics = mine.Statistics;
+  nlohmann::ordered_json json = jsonOf(statisticsOf(mine));
+  for (std::size_t i = 0; i < statistics.Masters.size(); ++i)
   {
-    writeStatistics(arguments, run, mine);
+    json["masters"][i]["stages"] = jsonOf(stagesOf(statistics.Masters[i].Stages));
   }
-  fmt::print("{}\n", summarize(run, all, mine.Statistics));
+  reportRun(arguments, run, json,
+    fmt::format(", {} ranks of {} threads", statistics.Ranks.size(), statistics.ThreadsPerRank));
   if (constraints.Segments)
   {
     fmt::print("{}\n", describeSegments(constraints.Figures));

@@ -58,52 +58,32 @@ std::int64_t sumOf(const std::vector<ProcessUsage>& ranks, std::int64_t ProcessU
   return std::accumulate(list.begin(), list.end(), std::int64_t(0));
 }
 
-void writeReport(const DelaunayArguments& arguments, const RunStatistics& statistics,
-  double seconds, const std::vector<ProcessUsage>& ranks)
-{
-  const nlohmann::ordered_json usage = {
-    { "read_bytes", sumOf(ranks, &ProcessUsage::Read) },
-    { "written_bytes", sumOf(ranks, &ProcessUsage::Written) },
-    { "seconds", seconds },
-    { "peak_memory_bytes", largestMemory(ranks) },
-    { "rank_memory_bytes", listOf(ranks, &ProcessUsage::PeakMemory) },
-    { "ranks", ranks.size() },
-  };
-  nlohmann::ordered_json json = { { "input", arguments.Inputs }, { "output", arguments.Output } };
-  json.update(jsonOf(statistics));
-  json.update(usage);
-  writeJson(arguments.Statistics, json);
-}
-
-std::string summarize(const OutOfCoreStatistics& statistics, const std::vector<ProcessUsage>& ranks)
-{
-  const double seconds = totalSeconds(statistics.Phases);
-  const std::string rejected =
-    statistics.Rejected == 0 ? "" : fmt::format(", {} rejected", statistics.Rejected);
-  const std::string each = ranks.size() == 1 ? "" : " of the largest rank";
-  return fmt::format("{} points, {} triangles, {}{}, {} pieces, {:.0f} MB, {:.3f} s, "
-                     "{:.0f} points/s, peak memory {:.0f} MB{}",
-    statistics.Points, statistics.Triangles,
-    describeDuplicates(statistics.Duplicates, statistics.DisagreeingPositions), rejected,
-    statistics.Pieces, double(statistics.MeshBytes) / 1e6, seconds,
-    double(statistics.Points) / seconds, double(largestMemory(ranks)) / 1e6, each);
-}
-
 void reportMade(const DelaunayArguments& arguments, const OutOfCoreStatistics& statistics,
   const ConstraintFigures& constraints, const std::vector<ProcessUsage>& ranks)
 {
   const bool isCounted = arguments.Sink == "count";
   // The constraints are not read when a run is resumed.
   const bool hasConstraints = constraints.Constraints > 0;
-  if (!arguments.Statistics.empty())
+  RunStatistics all = statisticsOf(statistics, isCounted);
+  if (hasConstraints)
   {
-    RunStatistics all = statisticsOf(statistics, isCounted);
-    hasConstraints ? addConstraintTotals(constraints, all) : void();
-    writeReport(arguments, all, totalSeconds(statistics.Phases), ranks);
+    addConstraintTotals(constraints, all);
   }
+  const double seconds = totalSeconds(statistics.Phases);
+  nlohmann::ordered_json json = { { "input", arguments.Inputs }, { "output", arguments.Output } };
+  json.update(jsonOf(all));
+  json.update({
+    { "read_bytes", sumOf(ranks, &ProcessUsage::Read) },
+    { "written_bytes", sumOf(ranks, &ProcessUsage::Written) },
+    { "seconds", seconds },
+    { "peak_memory_bytes", largestMemory(ranks) },
+    { "rank_memory_bytes", listOf(ranks, &ProcessUsage::PeakMemory) },
+    { "ranks", ranks.size() },
+  });
   reportLeftOut(statistics.LeftOut, statistics.ThinnedOut);
-  fmt::print("{}{}\n", summarize(statistics, ranks),
-    isCounted ? fmt::format(", checksum {:016x}", statistics.TriangleSum) : "");
+  reportRun(arguments.Statistics, json, seconds,
+    std::string(ranks.size() == 1 ? "" : " of the largest rank") +
+      (isCounted ? fmt::format(", checksum {:016x}", statistics.TriangleSum) : ""));
   if (hasConstraints)
   {
     fmt::print("{}\n", describeSegments(constraints));
@@ -112,20 +92,6 @@ void reportMade(const DelaunayArguments& arguments, const OutOfCoreStatistics& s
 }
 
 } // namespace
-
-bool isOutOfCore(const DelaunayArguments& arguments)
-{
-  return extensionOf(arguments.Output) == ".tipp";
-}
-
-std::string misplacedOutOfCoreOption(const DelaunayArguments& arguments)
-{
-  return !arguments.Memory.empty() ? "--memory"
-    : arguments.Sink != "mesh"     ? "--sink"
-    : arguments.Resume             ? "--resume"
-    : !arguments.Scratch.empty()   ? "--scratch"
-                                   : "";
-}
 
 int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessController* controller)
 {
@@ -139,9 +105,7 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessCont
     {
       checkOutputs(arguments.Output, arguments.Statistics, arguments.Scratch, arguments.Inputs);
     }
-    PointOptions points = arguments.Columns;
-    setThinningFile(points, arguments.Scratch, arguments.Output);
-    return constraints.join(openPointStream(arguments.Inputs, points));
+    return constraints.join(openPointStream(arguments.Inputs, withThinningFile(arguments)));
   };
   OutOfCoreStatistics statistics;
   const int code =

@@ -10,11 +10,11 @@
 #include "Files/TextFile.h"
 #include "InMemory/TriangulatePoints.h"
 #include "Meshes/MeshFiles.h"
+#include "Partitioning/MeshTiling.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstddef>
 #include <stdexcept>
 
@@ -26,18 +26,10 @@ std::optional<GridSize> parseGrid(const std::string& text)
   {
     return GridSize{};
   }
-  constexpr int limit = 10000;
-  GridSize grid;
-  const char* const end = text.data() + text.size();
-  const auto columns = std::from_chars(text.data(), end, grid.Columns);
-  if (columns.ec != std::errc() || columns.ptr == end || *columns.ptr != 'x')
-  {
-    return std::nullopt;
-  }
-  const auto rows = std::from_chars(columns.ptr + 1, end, grid.Rows);
-  const bool good = rows.ec == std::errc() && rows.ptr == end && grid.Columns >= 1 &&
-    grid.Columns <= limit && grid.Rows >= 1 && grid.Rows <= limit;
-  return good ? std::make_optional(grid) : std::nullopt;
+  const std::optional<TilingChoice> choice = TilingChoice::parse("grid:" + text);
+  const bool isFlat = std::count(text.begin(), text.end(), 'x') == 1; // has no layers
+  return choice && isFlat ? std::make_optional(GridSize{ choice->Boxes[0], choice->Boxes[1] })
+                          : std::nullopt;
 }
 
 std::optional<MinorChoice> parseMinor(const std::string& text)
@@ -118,7 +110,7 @@ std::string describeAdded(std::int64_t points, const DelaunayArguments& argument
 {
   return fmt::format("it adds {} points to those of {}, which an .npy output does not store; name "
                      "the output .vtp or .vtu.",
-    points, arguments.Input);
+    points, arguments.Inputs.front());
 }
 
 Triangulation triangulateWithConstraints(const DelaunayArguments& arguments, PointTable& points,
@@ -160,14 +152,14 @@ TrianglesView viewOf(const Triangulation& result)
 /// nodes.
 void warnOfLostBoundaries(const DelaunayArguments& arguments)
 {
-  const std::string boundaries = readAdcircGrid(arguments.Input).Boundaries;
+  const std::string boundaries = readAdcircGrid(arguments.Inputs.front()).Boundaries;
   constexpr std::ptrdiff_t linesOfNone = 4; // a grid without boundaries has only the counts
   if (std::count(boundaries.begin(), boundaries.end(), '\n') > linesOfNone)
   {
     fmt::print(stderr,
       "tipp: warning: {} has none of the boundaries of {}, because --thin has left out some of its "
       "nodes.\n",
-      arguments.Output, arguments.Input);
+      arguments.Output, arguments.Inputs.front());
   }
 }
 
@@ -196,10 +188,13 @@ bool writeResult(const DelaunayArguments& arguments, const PointTable& points,
   options.Before = before;
   options.Aborted = isInterrupted;
   options.Neighbors = arguments.Neighbors;
-  if (arguments.Inputs.size() == 1 && isAdcircFile(arguments.Input))
+  if (arguments.Inputs.size() == 1 && isAdcircFile(arguments.Inputs.front()))
   {
-    points.ThinnedOut == 0 ? void(options.AdcircLike = arguments.Input) : void();
-    if (points.ThinnedOut > 0 && isAdcircFile(arguments.Output))
+    if (points.ThinnedOut == 0)
+    {
+      options.AdcircLike = arguments.Inputs.front();
+    }
+    else if (isAdcircFile(arguments.Output))
     {
       warnOfLostBoundaries(arguments);
     }
@@ -220,67 +215,23 @@ PathState requireWritable(const DelaunayArguments& arguments)
   return requireWritable(arguments.Output, arguments.Statistics, inputs);
 }
 
-namespace
+void reportRun(const DelaunayArguments& arguments, const DelaunayRun& run,
+  const nlohmann::ordered_json& statistics, const std::string& more)
 {
-
-double pointsPerSecond(const DelaunayRun& run)
-{
-  return run.TriangulateSeconds > 0 ? double(run.Points) / run.TriangulateSeconds : 0;
-}
-
-nlohmann::ordered_json describeRun(const DelaunayArguments& arguments, const DelaunayRun& run)
-{
-  return {
-    { "input", arguments.Input },
+  nlohmann::ordered_json json = {
+    { "input", arguments.Inputs.front() },
     { "output", arguments.Output },
     { "points", run.Points },
     { "disagreeing_places", run.DisagreeingPositions },
     { "read_seconds", run.ReadSeconds },
     { "triangulate_seconds", run.TriangulateSeconds },
     { "write_seconds", run.WriteSeconds },
-    { "points_per_second", pointsPerSecond(run) },
+    { "points_per_second",
+      run.TriangulateSeconds > 0 ? double(run.Points) / run.TriangulateSeconds : 0 },
     { "peak_memory_bytes", peakMemoryBytes() },
   };
-}
-
-} // namespace
-
-std::string summarize(const DelaunayRun& run, const Triangulation& result)
-{
-  const std::string rejected =
-    result.Rejected.empty() ? "" : fmt::format(", {} rejected", result.Rejected.size());
-  return fmt::format("{} points, {} triangles, {}{}, {:.3f} s, {:.0f} points/s, peak "
-                     "memory {:.0f} MB",
-    run.Points, result.triangleCount(),
-    describeDuplicates(std::int64_t(result.Duplicates.size()), run.DisagreeingPositions), rejected,
-    run.TriangulateSeconds, pointsPerSecond(run), double(peakMemoryBytes()) / 1e6);
-}
-
-void writeStatistics(
-  const DelaunayArguments& arguments, const DelaunayRun& run, const Triangulation& result)
-{
-  nlohmann::ordered_json json = describeRun(arguments, run);
-  json.update(jsonOf(statisticsOf(result, run.Points, std::int64_t(result.triangleCount()))));
-  writeJson(arguments.Statistics, json);
-}
-
-std::string summarize(
-  const DelaunayRun& run, const Triangulation& all, const DistributedStatistics& statistics)
-{
-  return fmt::format("{}, {} ranks of {} threads", summarize(run, all), statistics.Ranks.size(),
-    statistics.ThreadsPerRank);
-}
-
-void writeStatistics(const DelaunayArguments& arguments, const DelaunayRun& run,
-  const DistributedTriangulation& result)
-{
-  nlohmann::ordered_json json = describeRun(arguments, run);
-  json.update(jsonOf(statisticsOf(result)));
-  for (std::size_t i = 0; i < result.Statistics.Masters.size(); ++i)
-  {
-    json["masters"][i]["stages"] = jsonOf(stagesOf(result.Statistics.Masters[i].Stages));
-  }
-  writeJson(arguments.Statistics, json);
+  json.update(statistics);
+  reportRun(arguments.Statistics, json, run.TriangulateSeconds, more);
 }
 
 } // namespace tipp

@@ -2,6 +2,7 @@
 #ifndef tippDelaunayRuns_h
 #define tippDelaunayRuns_h
 
+#include "Commands/PointArguments.h"
 #include "Constraints/ConstrainedPoints.h"
 #include "Constraints/TableConstraints.h"
 #include "Distributed/DistributedTriangulation.h"
@@ -10,6 +11,8 @@
 #include "Points/PointTable.h"
 #include "Points/ReadPoints.h"
 #include "Triangulation/Triangulate.h"
+
+#include <nlohmann/json.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -22,12 +25,8 @@ namespace tipp
 {
 
 /// The options of `tipp delaunay`.
-struct DelaunayArguments
+struct DelaunayArguments : RunArguments
 {
-  std::vector<std::string> Inputs;
-  std::string Input; ///< the first of Inputs
-  std::string Output;
-  PointOptions Columns;
   int Threads = 0;
   std::string Partitions = "auto";
   std::string Order = "dynamic";
@@ -42,12 +41,7 @@ struct DelaunayArguments
   bool Neighbors = false;
   ConstraintFiles Constraints;
   bool MarkConstraints = false;
-  std::string Statistics;
-  // For a run out of core:
-  std::string Memory; ///< empty: not given
-  std::string Sink = "mesh";
-  bool Resume = false;
-  std::string Scratch;
+  std::string Sink = "mesh"; ///< of a run out of core
 
   /// Returns whether an option is given that needs the code for several ranks, even if there is
   /// one.
@@ -92,16 +86,9 @@ Triangulation triangulateWithConstraints(const DelaunayArguments& arguments, Poi
 /// exit code, which is the same on all ranks.
 int runDelaunayOnRanks(const DelaunayArguments& arguments, vtkMultiProcessController* controller);
 
-/// Returns whether the output is a partitioned mesh, which is computed out of core.
-bool isOutOfCore(const DelaunayArguments& arguments);
-
 /// Runs `tipp delaunay` out of core on the ranks of a controller, or in this process alone (null).
 /// Returns the exit code, which is the same on all ranks.
 int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessController* controller);
-
-/// Returns the name of a given option that only runs out of core support; an empty text if there is
-/// none.
-std::string misplacedOutOfCoreOption(const DelaunayArguments& arguments);
 
 /// Returns whether a file of this kind stores arrays of points and cells; .npy and .14 do not.
 bool holdsArrays(const std::string& path);
@@ -127,21 +114,10 @@ struct DelaunayRun
   double WriteSeconds = 0;
 };
 
-/// Returns the summary, one line: points, triangles, duplicates, rejected points if any, seconds
-/// and points per second of the triangulation alone, and peak memory of the process.
-std::string summarize(const DelaunayRun& run, const Triangulation& result);
-
-/// Writes these figures and all of TriangulationStatistics to the file of --stats. Throws IOError.
-void writeStatistics(
-  const DelaunayArguments& arguments, const DelaunayRun& run, const Triangulation& result);
-
-///@{
-/// The same functions for a run on ranks.
-std::string summarize(
-  const DelaunayRun& run, const Triangulation& all, const DistributedStatistics& statistics);
-void writeStatistics(const DelaunayArguments& arguments, const DelaunayRun& run,
-  const DistributedTriangulation& result);
-///@}
+/// Writes these figures and the run's statistics to the file of --stats, if there is one, and
+/// prints a summary, which ends with `more`. Throws IOError.
+void reportRun(const DelaunayArguments& arguments, const DelaunayRun& run,
+  const nlohmann::ordered_json& statistics, const std::string& more = "");
 
 } // namespace tipp
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
-#include "Commands/DelaunayRuns.h"
-#include "Commands/DemArguments.h"
+#include "Commands/DemRuns.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Console/Process.h"
@@ -27,6 +26,121 @@
 
 namespace tipp
 {
+
+RasterDescription describeEncoding(const DemArguments& arguments)
+{
+  RasterDescription description;
+  description.NoData = arguments.NoData;
+  description.Double = arguments.Type == "float64";
+  description.Compression = arguments.Compression;
+  description.CloudOptimized = arguments.CloudOptimized;
+  return description;
+}
+
+RasterDescription describeRaster(const DemArguments& arguments, const std::string& pointCrs)
+{
+  RasterDescription description = describeEncoding(arguments);
+  description.Crs = arguments.Crs.empty() ? pointCrs : arguments.Crs;
+  if (!arguments.Like.empty() && description.Crs.empty())
+  {
+    description.Crs = readRasterInfo(arguments.Like).Crs;
+  }
+  if (isGeoTiff(arguments.Output) && !description.Crs.empty())
+  {
+    requireCrs(description.Crs); // fail before the computation rather than after it
+  }
+  return description;
+}
+
+void describeGrid(const TerrainSettings& settings, RasterDescription& description)
+{
+  description.Grid = settings.Grid;
+  description.Threads = settings.Threads;
+  description.Bands = settings.Bands.names();
+}
+
+namespace
+{
+
+nlohmann::ordered_json jsonOf(const DemArguments& arguments, const DemReport& report)
+{
+  const RasterGrid& grid = report.Settings.Grid;
+  return {
+    { "input", arguments.Inputs },
+    { "output", arguments.Output },
+    { "points", report.Figures.Points },
+    { "triangles", report.Figures.Triangles },
+    { "duplicates", report.Figures.Duplicates },
+    { "disagreeing_places", report.Figures.DisagreeingPositions },
+    { "rejected", report.Figures.Rejected },
+    { "without_elevation", report.Figures.WithoutElevation },
+    { "columns", grid.Columns },
+    { "rows", grid.Rows },
+    { "west", grid.West },
+    { "south", grid.South },
+    { "pixel", grid.Pixel },
+    { "bands", report.Settings.Bands.names() },
+    { "pixels_with_value", report.Filled },
+    { "values_equal_to_nodata", report.Hidden },
+    { "read_seconds", report.ReadSeconds },
+    { "make_seconds", report.MakeSeconds },
+    { "write_seconds", report.WriteSeconds },
+    { "threads", report.Settings.Threads },
+    { "ranks", report.Ranks },
+    { "peak_memory_bytes", report.PeakMemory },
+  };
+}
+
+} // namespace
+
+void requireDemWritable(const DemArguments& arguments)
+{
+  std::vector<std::string> inputs = arguments.Inputs;
+  inputs.insert(inputs.end(), { arguments.Breaklines, arguments.Boundary });
+  checkOutputs(arguments.Output, arguments.Statistics, arguments.Scratch, inputs);
+}
+
+IOError demError(const DemArguments& arguments, const std::runtime_error& error)
+{
+  const bool isColumn = dynamic_cast<const UnknownBand*>(&error) != nullptr;
+  return IOError(arguments.Inputs.front(),
+    std::string("cannot be made a raster: ") + error.what() +
+      (isColumn ? " 'tipp info' lists all columns; name those to use with --attributes." : ""));
+}
+
+void finishDem(const DemArguments& arguments, const DemReport& report)
+{
+  const nlohmann::ordered_json json = jsonOf(arguments, report);
+  if (!arguments.Statistics.empty())
+  {
+    writeJson(arguments.Statistics, json);
+  }
+  const RasterGrid& grid = report.Settings.Grid;
+  fmt::print("{}, {} x {} pixels, {} with a value, {:.3f} s, peak memory {:.0f} MB{}, in {}\n",
+    describeCounts(json), grid.Columns, grid.Rows, report.Filled,
+    report.ReadSeconds + report.MakeSeconds + report.WriteSeconds, double(report.PeakMemory) / 1e6,
+    report.Ranks == 1 ? "" : " of the largest rank", arguments.Output);
+  if (report.Figures.WithoutElevation > 0)
+  {
+    fmt::print(stderr,
+      "tipp: {} points have no elevation; pixels in triangles at them have no elevation.\n",
+      report.Figures.WithoutElevation);
+  }
+  warnOfHidden(report.Hidden, arguments.NoData);
+  if (report.Figures.Triangles == 0)
+  {
+    fmt::print(stderr,
+      "tipp: warning: no pixel has a value, because there are fewer than three distinct points or "
+      "all lie on one line.\n");
+  }
+  else if (report.Filled == 0)
+  {
+    fmt::print(stderr,
+      "tipp: warning: no pixel has a value; compare --bounds, --like and --max-edge with the "
+      "bounds that 'tipp info' prints.\n");
+  }
+}
+
 namespace
 {
 
@@ -63,7 +177,7 @@ int runInMemory(const DemArguments& arguments)
   const PathState before = PendingFile(arguments.Output).before();
   Stopwatch watch;
   DemReport report;
-  const auto stream = openPointStream(arguments.Inputs, arguments.Points);
+  const auto stream = openPointStream(arguments.Inputs, arguments.Columns);
   const RasterDescription start = describeRaster(arguments, stream->crs());
   PointTable points = readAllPoints(*stream);
   reportLeftOut(points.LeftOut, points.ThinnedOut);
@@ -164,11 +278,6 @@ void takeConstraints(DemArguments& arguments)
   }
 }
 
-std::string checkOutput(const std::string& path)
-{
-  return isRasterFile(path) ? "" : "'" + path + "' does not end in .tif, .npy or .vti";
-}
-
 void addGridOptions(CLI::App& command, DemArguments& arguments)
 {
   RasterRequest& raster = arguments.Request.Raster;
@@ -263,29 +372,22 @@ void addDemCommand(CLI::App& app, int& exitCode)
   auto arguments = std::make_shared<DemArguments>();
   CLI::App* const command = app.add_subcommand("dem",
     "Makes a raster from points: the values of the triangulated surface at the pixels' centres");
-  command->add_option("input", arguments->Inputs, "The points, of one or more files")->required();
-  command->add_option("-o,--output", arguments->Output, "The raster")
-    ->required()
-    ->check(checkOutput);
+  addRunOptions(*command, *arguments, "The raster", isRasterFile, ".tif, .npy or .vti",
+    "The memory limit of each process, such as 512M", "With --memory");
   addGridOptions(*command, *arguments);
   addValueOptions(*command, *arguments);
   addConstraintOptions(*command, *arguments);
-  addPointOptions(*command, arguments->Points);
+  addPointOptions(*command, arguments->Columns);
   addDuplicatesOption(*command, arguments->Request.Duplicates);
   addThreadsOption(*command, arguments->Request.Threads);
-  command
-    ->add_option("--memory", arguments->Memory, "The memory limit of each process, such as 512M")
-    ->check(checkMemorySize);
-  addResumeOptions(*command, "With --memory", arguments->Resume, arguments->Scratch);
-  command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
   command->footer(footer);
   command->callback(
     [arguments, command, &exitCode]()
     {
       requireGood(*arguments);
       requireUseful(*command, *arguments);
-      arguments->Points.Threads = arguments->Request.Threads;
-      arguments->Points.Columns = columnsForBands(arguments->Request.Bands);
+      arguments->Columns.Threads = arguments->Request.Threads;
+      arguments->Columns.Columns = columnsForBands(arguments->Request.Bands);
       if (!arguments->Bounds.empty())
       {
         const std::vector<double>& bounds = arguments->Bounds;

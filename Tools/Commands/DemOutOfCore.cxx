@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Commands/DemArguments.h"
+#include "Commands/DemRuns.h"
 
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
@@ -140,9 +140,7 @@ int runDemOutOfCore(
       requireDemWritable(arguments);
       before = PendingFile(arguments.Output).before();
     }
-    PointOptions points = arguments.Points;
-    setThinningFile(points, arguments.Scratch, arguments.Output);
-    auto stream = openPointStream(arguments.Inputs, points);
+    auto stream = openPointStream(arguments.Inputs, withThinningFile(arguments));
     if (isFirst)
     {
       description = describeRaster(arguments, stream->crs());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/PointArguments.h"
 
+#include "Files/InputFile.h"
 #include "Files/TextFile.h"
 
 #include <CLI/CLI.hpp>
@@ -159,21 +160,52 @@ void addThreadsOption(CLI::App& command, int& threads)
     ->capture_default_str();
 }
 
-void addResumeOptions(
-  CLI::App& command, const std::string& condition, bool& resume, std::string& scratch)
+void addOutput(CLI::App& command, std::string& output, const std::string& help,
+  bool (*suits)(const std::string& path), const std::string& endings)
 {
-  command.add_flag(
-    "--resume", resume, condition + ": resume a run that was killed, interrupted or failed");
-  command.add_option("--scratch", scratch,
+  command.add_option("-o,--output", output, help)
+    ->required()
+    ->check([suits, endings](const std::string& path)
+      { return suits(path) ? "" : "'" + path + "' does not end in " + endings; });
+}
+
+void addRunOptions(CLI::App& command, RunArguments& arguments, const std::string& outputHelp,
+  bool (*suits)(const std::string& path), const std::string& endings, const std::string& memoryHelp,
+  const std::string& condition)
+{
+  command.add_option("input", arguments.Inputs, "The points, of one or more files")->required();
+  addOutput(command, arguments.Output, outputHelp, suits, endings);
+  command.add_option("--stats", arguments.Statistics, "A JSON file for figures of the run");
+  command.add_option("--memory", arguments.Memory, memoryHelp)->check(checkMemorySize);
+  command.add_flag("--resume", arguments.Resume,
+    condition + ": resume a run that was killed, interrupted or failed");
+  command.add_option("--scratch", arguments.Scratch,
     condition + ": a folder for temporary files (default: that of the output)");
 }
 
-void setThinningFile(PointOptions& options, const std::string& scratch, const std::string& output)
+bool RunArguments::makesPieces() const
+{
+  return extensionOf(this->Output) == ".tipp";
+}
+
+void RunArguments::refuseMisplaced() const
+{
+  const std::string option = !this->Memory.empty() ? "--memory"
+    : this->Resume                                 ? "--resume"
+    : !this->Scratch.empty()                       ? "--scratch"
+                                                   : "";
+  refuseIf(!option.empty() && !this->makesPieces(), option, "needs an output named .tipp");
+}
+
+PointOptions withThinningFile(const RunArguments& arguments)
 {
   namespace fs = std::filesystem;
-  const fs::path path(output);
-  const fs::path folder = scratch.empty() ? path.parent_path() : fs::path(scratch);
+  const fs::path path(arguments.Output);
+  const fs::path folder =
+    arguments.Scratch.empty() ? path.parent_path() : fs::path(arguments.Scratch);
+  PointOptions options = arguments.Columns;
   options.Thin.File = (folder / ("." + path.filename().string() + ".squares")).string();
+  return options;
 }
 
 void reportLeftOut(std::int64_t points, std::int64_t thinnedOut)
@@ -189,15 +221,6 @@ void reportLeftOut(std::int64_t points, std::int64_t thinnedOut)
   {
     fmt::print(stderr, "tipp: {} points are left out by thinning.\n", thinnedOut);
   }
-}
-
-std::string describeDuplicates(std::int64_t duplicates, std::int64_t disagreeing)
-{
-  const std::string positions = disagreeing == 0
-    ? ""
-    : fmt::format(
-        ", {} location{} with different elevations", disagreeing, disagreeing == 1 ? "" : "s");
-  return fmt::format("{} duplicates{}", duplicates, positions);
 }
 
 void refuseIf(bool isMisplaced, const std::string& option, const std::string& problem)

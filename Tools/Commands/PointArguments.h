@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace CLI
 {
@@ -16,6 +17,35 @@ class App;
 
 namespace tipp
 {
+
+/// The options of commands that triangulate points.
+struct RunArguments
+{
+  std::vector<std::string> Inputs;
+  std::string Output;
+  PointOptions Columns;
+  std::string Statistics; ///< path of a file; empty: none
+  // For a run out of core:
+  std::string Memory; ///< empty: not given
+  bool Resume = false;
+  std::string Scratch;
+
+  /// Returns whether the output is a partitioned mesh, which is computed out of core.
+  bool makesPieces() const;
+  /// Throws CLI::ValidationError if an option is given that needs makesPieces().
+  void refuseMisplaced() const;
+};
+
+/// Adds the arguments for the files of points and the output, and the options of RunArguments
+/// except Columns. `suits` tells whether an output has one of the `endings`. `condition` begins the
+/// help of options for runs out of core.
+void addRunOptions(CLI::App& command, RunArguments& arguments, const std::string& outputHelp,
+  bool (*suits)(const std::string& path), const std::string& endings, const std::string& memoryHelp,
+  const std::string& condition);
+
+/// Adds the option --output, which must end in one of the `endings`: `suits` tells whether it does.
+void addOutput(CLI::App& command, std::string& output, const std::string& help,
+  bool (*suits)(const std::string& path), const std::string& endings);
 
 /// Adds the options that select the points and columns to read.
 void addPointOptions(CLI::App& command, PointOptions& options);
@@ -26,22 +56,13 @@ void addDuplicatesOption(CLI::App& command, DuplicateRule& rule);
 /// Adds the option --threads.
 void addThreadsOption(CLI::App& command, int& threads);
 
-/// Adds the options --resume and --scratch. `condition` begins their help text: it says to which
-/// runs they apply.
-void addResumeOptions(
-  CLI::App& command, const std::string& condition, bool& resume, std::string& scratch);
-
-/// Sets a temporary file for thinning, for runs with a memory limit: in the folder `scratch`, or
-/// beside the output if that is empty.
-void setThinningFile(PointOptions& options, const std::string& scratch, const std::string& output);
+/// Returns Columns with a temporary file for thinning, for runs with a memory limit: in the folder
+/// Scratch, or beside the output if that is empty.
+PointOptions withThinningFile(const RunArguments& arguments);
 
 /// Prints to stderr how many points of LAS files were not selected, and how many were removed by
 /// thinning.
 void reportLeftOut(std::int64_t points, std::int64_t thinnedOut);
-
-/// Returns text about duplicates for a summary, such as "3 duplicates, 1 location with different
-/// elevations".
-std::string describeDuplicates(std::int64_t duplicates, std::int64_t disagreeing);
 
 /// Parses a number of bytes, which may have the suffix K, M or G for 2^10, 2^20 or 2^30 bytes, such
 /// as "512M". Returns nullopt for other text and for 0.

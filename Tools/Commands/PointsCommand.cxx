@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Arrays/Random.h"
 #include "Commands/Commands.h"
+#include "Commands/PointArguments.h"
+#include "Commands/Report.h"
 #include "Console/Process.h"
 #include "Distributions/GeneratePoints.h"
 #include "Files/InputFile.h"
-#include "Files/OutputPath.h"
-#include "Files/PendingOutput.h"
 #include "Npy/NpyFile.h"
 #include "Points/PointTable.h"
 #include "Points/ReadPoints.h"
@@ -99,9 +99,7 @@ struct PointsArguments
 void runPoints(const PointsArguments& arguments)
 {
   const bool isLike = !arguments.Like.empty();
-  requireApart({ arguments.Output }, { arguments.Like });
-  // Throws here, before the computation, if the file cannot be written.
-  const PathState before = PendingFile(arguments.Output).before();
+  const PathState before = requireWritable(arguments.Output, "", { arguments.Like });
   writePoints(arguments.Output,
     isLike ? pointsLike(arguments.Like, arguments.Count, arguments.Seed)
            : generatePoints(
@@ -130,10 +128,9 @@ void addPointsCommand(CLI::App& app, int& exitCode)
     ->check(CLI::Range(std::int64_t(0), std::int64_t(1) << 40));
   command->add_option("--seed", arguments->Seed, "The seed of the random numbers")
     ->capture_default_str();
-  command->add_option("-o,--output", arguments->Output, "The .npy file to write")
-    ->required()
-    ->check([](const std::string& path)
-      { return extensionOf(path) == ".npy" ? "" : "'" + path + "' does not end in .npy"; });
+  addOutput(
+    *command, arguments->Output, "The .npy file to write",
+    [](const std::string& path) { return extensionOf(path) == ".npy"; }, ".npy");
   command->footer(footer);
   command->callback(
     [arguments, &exitCode]()

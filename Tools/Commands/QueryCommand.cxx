@@ -2,9 +2,9 @@
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/QueryMesh.h"
+#include "Commands/Report.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
-#include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
 #include "Npy/NpyFile.h"
 #include "Parallel/Poll.h"
@@ -255,9 +255,8 @@ void answerTogether(const QueryArguments& arguments, Communicator& ranks)
   PathState before;
   if (ranks.isFirst())
   {
-    requireApart({ arguments.Output },
+    before = requireWritable(arguments.Output, "",
       { arguments.Points, arguments.Mesh.Path, arguments.Zones.Path, arguments.Region.Polygons });
-    before = PendingFile(arguments.Output).before();
   }
   const std::unique_ptr<ResidentMesh> mesh = openQueryMesh(arguments.Mesh);
   if (!arguments.Region.Ids.empty())
@@ -283,8 +282,7 @@ void answerAll(const QueryArguments& arguments, Communicator& ranks)
   PathState before;
   if (ranks.isFirst())
   {
-    requireApart({ arguments.Output }, { arguments.Points, arguments.Mesh.Path });
-    before = PendingFile(arguments.Output).before(); // fails early if it cannot be written
+    before = requireWritable(arguments.Output, "", { arguments.Points, arguments.Mesh.Path });
   }
   const std::unique_ptr<ResidentMesh> mesh = openQueryMesh(arguments.Mesh);
   AnswerOptions options;

@@ -102,6 +102,37 @@ void writeJson(const std::string& path, const nlohmann::ordered_json& json)
   pending.commit();
 }
 
+std::string describeCounts(const nlohmann::ordered_json& figures)
+{
+  const auto number = [&figures](const char* key) { return figures.value(key, std::int64_t(0)); };
+  const char* const cells = figures.contains("tetrahedra") ? "tetrahedra" : "triangles";
+  std::string text = fmt::format("{} points, {} {}, {} duplicates", number("points"), number(cells),
+    cells, number("duplicates"));
+  if (const std::int64_t positions = number("disagreeing_places"))
+  {
+    text += fmt::format(
+      ", {} location{} with different elevations", positions, positions == 1 ? "" : "s");
+  }
+  const std::int64_t rejected = number("rejected");
+  return text + (rejected > 0 ? fmt::format(", {} rejected", rejected) : "");
+}
+
+void reportRun(const std::string& path, const nlohmann::ordered_json& figures, double seconds,
+  const std::string& more)
+{
+  if (!path.empty())
+  {
+    writeJson(path, figures);
+  }
+  const std::string pieces = figures.contains("pieces")
+    ? fmt::format(", {} pieces, {:.0f} MB", figures["pieces"].get<std::int64_t>(),
+        figures["mesh_bytes"].get<double>() / 1e6)
+    : "";
+  fmt::print("{}{}, {:.3f} s, {:.0f} points/s, peak memory {:.0f} MB{}\n", describeCounts(figures),
+    pieces, seconds, seconds > 0 ? figures["points"].get<double>() / seconds : 0.0,
+    figures["peak_memory_bytes"].get<double>() / 1e6, more);
+}
+
 namespace
 {
 

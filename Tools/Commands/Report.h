@@ -48,6 +48,16 @@ PathState requireWritable(
 /// Writes a JSON file. Throws IOError.
 void writeJson(const std::string& path, const nlohmann::ordered_json& json);
 
+/// Returns the beginning of a summary, from figures of a run: points, cells, duplicates, and,
+/// unless they are 0, positions with different elevations and rejected points.
+std::string describeCounts(const nlohmann::ordered_json& figures);
+
+/// Reports a triangulation: writes its figures to the JSON file `path`, if that is not empty, and
+/// prints a summary, one line: the counts, the pieces if any, `seconds`, points per second, and the
+/// peak memory. `more` ends the line. Throws IOError.
+void reportRun(const std::string& path, const nlohmann::ordered_json& figures, double seconds,
+  const std::string& more = "");
+
 /// Calls triangulateOutOfCoreOnRanks() with a progress bar of this title, warnings, and Ctrl-C.
 /// `open` is called on all ranks. Returns Success on all ranks, or the exit code of a failed or
 /// interrupted run, after printing a message.

@@ -1,28 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Arrays/Scalar.h"
 #include "Commands/Commands.h"
-
 #include "Commands/PointArguments.h"
+#include "Commands/Report.h"
 #include "Commands/ResampleInput.h"
-#include "Commands/ResampleOutput.h"
 #include "Console/Process.h"
 #include "Console/ProgressBar.h"
+#include "Dem/MakeDem.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
-#include "Files/OutputPath.h"
-#include "Files/PendingOutput.h"
+#include "Flat/FlatMesh.h"
+#include "Npy/NpyFile.h"
 #include "OpenCL/Devices.h"
 #include "Ranks/Communicator.h"
 #include "Raster/RasterFile.h"
 #include "Vtk/VtkMessages.h"
-#include "vtkRangeResampleFilter.h"
+#include "Vtk/WriteXmlFile.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkExecutive.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkRangeResampleFilter.h"
 #include "vtkTable.h"
+#include "vtkXMLImageDataWriter.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -136,9 +141,7 @@ PathState sample(
     {
       if (ranks.isFirst())
       {
-        // Check the paths before the computation.
-        requireApart({ arguments.Output }, { arguments.Input });
-        before = PendingFile(arguments.Output).before();
+        before = requireWritable(arguments.Output, "", { arguments.Input });
       }
     });
   filter->SetController(ranks.controller());
@@ -187,6 +190,111 @@ PathState sample(
   return before;
 }
 
+RasterGrid gridOf(const std::string& path, vtkImageData* image)
+{
+  int dimensions[3];
+  double origin[3];
+  double spacing[3];
+  image->GetDimensions(dimensions);
+  image->GetOrigin(origin);
+  image->GetSpacing(spacing);
+  if (dimensions[2] != 1)
+  {
+    throw IOError(path, "cannot hold several layers; give one sample along z, or use .vti.");
+  }
+  RasterGrid grid;
+  grid.Columns = dimensions[0];
+  grid.Rows = dimensions[1];
+  grid.Pixel = { spacing[0], spacing[1] };
+  grid.West = origin[0] - 0.5 * spacing[0];
+  grid.South = origin[1] - 0.5 * spacing[1];
+  return grid;
+}
+
+/// Returns the arrays with one component, NaN at samples that no cell contains.
+SampledBands bandsOf(vtkImageData* image, std::vector<std::string>& names)
+{
+  vtkPointData* const data = image->GetPointData();
+  vtkDataArray* const valid = data->GetArray("vtkValidPointMask");
+  SampledBands bands;
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* const array = data->GetArray(i);
+    if (!array || array == valid || array->GetNumberOfComponents() != 1 || !array->GetName() ||
+      array->GetName() == std::string(vtkDataSetAttributes::GhostArrayName()))
+    {
+      continue;
+    }
+    names.emplace_back(array->GetName());
+    std::vector<double> values(std::size_t(array->GetNumberOfTuples()));
+    for (std::size_t j = 0; j < values.size(); ++j)
+    {
+      values[j] = valid->GetTuple1(vtkIdType(j)) == 1 ? array->GetTuple1(vtkIdType(j))
+                                                      : std::numeric_limits<double>::quiet_NaN();
+    }
+    bands.Values.push_back(std::move(values));
+  }
+  return bands;
+}
+
+/// Writes an image with all its arrays to a .vti file. Throws IOError. In all functions here,
+/// `before` is the state of the path before the computation: only that file is replaced.
+void writeImage(const std::string& path, vtkImageData* image, const PathState& before)
+{
+  PendingFile pending(path, before);
+  writeXmlFile<vtkXMLImageDataWriter>(path, pending, image);
+  pending.commit();
+}
+
+/// Writes the array `name` of an image to a .npy file. Throws IOError.
+void writeNpy(
+  const std::string& path, const std::string& name, vtkImageData* image, const PathState& before)
+{
+  vtkDataArray* const array = image->GetPointData()->GetArray(name.c_str());
+  if (!array)
+  {
+    throw IOError(path, "was not written: the mesh has no array '" + name + "' in this range.");
+  }
+  int dimensions[3];
+  image->GetDimensions(dimensions);
+  std::vector<std::int64_t> shape;
+  if (dimensions[2] > 1)
+  {
+    shape.push_back(dimensions[2]);
+  }
+  shape.push_back(dimensions[1]);
+  shape.push_back(dimensions[0]);
+  if (array->GetNumberOfComponents() > 1)
+  {
+    shape.push_back(array->GetNumberOfComponents());
+  }
+  NpyWriter writer(path, scalarDescr(*scalarOf(array->GetDataType())), shape, before);
+  writer.write(array->GetVoidPointer(0),
+    std::size_t(array->GetNumberOfValues()) * std::size_t(array->GetDataTypeSize()));
+  writer.close();
+}
+
+/// Writes an image of one layer as a GeoTIFF. Samples are the pixels' centres, and each array
+/// becomes a band. Throws IOError.
+void writeGeoTiff(const std::string& path, vtkImageData* image, const std::string& crs,
+  double noData, int threads, const PathState& before)
+{
+  RasterDescription description;
+  description.Grid = gridOf(path, image);
+  const SampledBands bands = bandsOf(image, description.Bands);
+  if (bands.Values.empty())
+  {
+    throw IOError(path, "would have no band, because the mesh has no array with one component.");
+  }
+  description.Crs = crs;
+  description.NoData = noData;
+  description.Threads = threads;
+  const auto writer = createRaster(path, description, before);
+  writeTiles(*writer, description.Grid, readFrom(description.Grid, bands), {}, threads);
+  writer->close();
+  warnOfHidden(writer->hidden(), noData);
+}
+
 int runResample(const ResampleArguments& arguments)
 {
   const MpiSession session;
@@ -227,11 +335,6 @@ int runResample(const ResampleArguments& arguments)
   return Success;
 }
 
-std::string checkOutput(const std::string& path)
-{
-  return isRasterFile(path) ? "" : "'" + path + "' does not end in .vti, .npy or .tif";
-}
-
 } // namespace
 
 void addResampleCommand(CLI::App& app, int& exitCode)
@@ -240,9 +343,8 @@ void addResampleCommand(CLI::App& app, int& exitCode)
   CLI::App* const command = app.add_subcommand(
     "resample", "Samples a mesh of triangles or tetrahedra on a regular grid, in parallel");
   command->add_option("mesh", arguments->Input, "The mesh, see below")->required();
-  command->add_option("-o,--output", arguments->Output, "The image, see below")
-    ->required()
-    ->check(checkOutput);
+  addOutput(
+    *command, arguments->Output, "The image, see below", isRasterFile, ".vti, .npy or .tif");
   command
     ->add_option("--bounds", arguments->Bounds,
       "The range: xmin xmax ymin ymax zmin zmax (default: that of the mesh)")

@@ -11,6 +11,7 @@
 #include "vtkPartitionedUnstructuredReader.h"
 #include "vtkRangeResampleFilter.h"
 
+#include "vtkBoundingBox.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataArraySelection.h"
@@ -23,7 +24,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <set>
 
 namespace tipp
@@ -183,7 +183,7 @@ vtkSmartPointer<vtkPartitionedUnstructuredReader> openReader(
 /// Data from the index of a partitioned mesh.
 struct StoredMesh
 {
-  Bounds Extent = { 1, -1, 1, -1, 1, -1 }; ///< bounds of its points
+  Bounds Extent{}; ///< bounds of its points; the lowest exceeds the highest if there are none
   bool IsSurface = true;
   std::int64_t CellsInRange = 0; ///< cells of the pieces that meet the range
 };
@@ -193,25 +193,17 @@ StoredMesh describe(const ResampleArguments& arguments)
   const PartitionedMesh mesh = openPartitionedMesh(arguments.Input);
   StoredMesh stored;
   stored.IsSurface = mesh.CellSize == 3;
-  Bounds range = { -HUGE_VAL, HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL, HUGE_VAL };
-  std::copy(arguments.Bounds.begin(), arguments.Bounds.end(), range.begin());
+  const bool isWhole = arguments.Bounds.empty();
+  const vtkBoundingBox range = isWhole ? vtkBoundingBox() : vtkBoundingBox(arguments.Bounds.data());
+  vtkBoundingBox extent;
   for (const PieceSummary& piece : mesh.Pieces)
   {
-    const Bounds& box = piece.Box;
-    bool meets = true;
-    for (std::size_t k = 0; k < box.size(); k += 2)
-    {
-      meets = meets && box[k] <= range[k + 1] && range[k] <= box[k + 1];
-    }
+    const bool meets = isWhole || range.Intersects(vtkBoundingBox(piece.Box.data()));
     stored.CellsInRange += meets ? piece.Cells : 0;
-    for (std::size_t k = 0; k < box.size() && piece.Extent[0] <= piece.Extent[1]; k += 2)
-    {
-      const bool isFirst = stored.Extent[k] > stored.Extent[k + 1];
-      stored.Extent[k] = isFirst ? piece.Extent[k] : std::min(stored.Extent[k], piece.Extent[k]);
-      stored.Extent[k + 1] =
-        isFirst ? piece.Extent[k + 1] : std::max(stored.Extent[k + 1], piece.Extent[k + 1]);
-    }
+    const vtkBoundingBox own(piece.Extent.data());
+    own.IsValid() ? extent.AddBox(own) : void();
   }
+  extent.GetBounds(stored.Extent.data());
   return stored;
 }
 

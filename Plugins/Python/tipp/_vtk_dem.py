@@ -10,6 +10,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from . import _arguments as check
 from ._arrays import as_array
 from ._arguments import Progress
+from ._properties import DEM, set_properties
 from ._rasters import needs_elevation, require_bands, uncompressed
 from ._run import run
 from ._vtk import point_cloud
@@ -37,19 +38,13 @@ def dem(points: Any, point_data: Any, options: dict[str, Any],
     maker.SetInputData(cloud)
     _set_constraints(maker, options)
     maker.SetResolution(options["resolution"])
-    maker.SetAlignToResolution(options["align"])
     if options["bounds"] is not None:
         maker.UseInputBoundsOff()
         maker.SetSamplingBounds(*options["bounds"])
     maker.ClearBands()
     for name in names:
         maker.AddBand(name)
-    maker.SetMaximumEdgeLength(options["max_edge"])
-    maker.SetDuplicates(options["duplicates"])
-    maker.SetThinningSize(options["thin_size"])
-    maker.SetThinningRule(options["thin_rule"])
-    maker.SetMemoryLimit(options["memory"])
-    maker.SetNumberOfThreads(options["threads"])
+    set_properties(maker, DEM, options)
     run(maker, progress)
     image = maker.GetOutput()
     columns, rows, _ = image.GetDimensions()

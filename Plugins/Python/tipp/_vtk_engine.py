@@ -2,7 +2,7 @@
 """The engine of a package built with VTK: runs its wrapped filters. Arguments are already checked."""
 from __future__ import annotations
 
-from typing import Any, Callable, TYPE_CHECKING
+from typing import Any, TYPE_CHECKING
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
@@ -11,6 +11,8 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from . import _arguments as check
 from ._constraints import constraints_of
 from ._arguments import Progress
+from ._properties import (
+    array_of, DELAUNAY_2D, DELAUNAY_3D, DELAUNAY_FILE, READ, set_properties, TRIANGULATION, WRITE)
 from ._run import run
 from ._vtk import point_cloud, triangles_of, vtk_points, wrapped_like
 from ._vtk_dem import dem
@@ -24,35 +26,11 @@ if TYPE_CHECKING:
 __all__ = ["delaunay", "delaunay_2d", "delaunay_3d", "delaunay_file", "dem", "open_mesh", "read", "require_ranks",
            "resample", "write"]
 
-_FIGURES = {
-    "points": "Points",
-    "triangles": "Triangles",
-    "duplicates": "DuplicatePoints",
-    "rejected": "RejectedPoints",
-    "pieces": "Pieces",
-    "spilled_bytes": "SpilledBytes",
-    "mesh_bytes": "MeshBytes",
-    "resumed": "Resumed",
-    "triangle_sum": "TriangleSum",
-}
-_CONSTRAINT_FIGURES = {
-    "constraints": "Constraints",
-    "constraint_edges": "ConstraintEdges",
-    "crossing_points": "CrossingPoints",
-    "crossing_rounds": "CrossingRounds",
-}
-_STATISTICS = {
-    "points": "Points",
-    "triangles": "Triangles",
-    "tetrahedra": "Tetrahedra",
-    "duplicates": "DuplicatePoints",
-    "rejected": "RejectedPoints",
-    "partitions": "Partitions",
-    "initial_points": "InitialPoints",
-    "worker_vertices": "WorkerVertices",
-    "threads": "Threads",
-    **_CONSTRAINT_FIGURES,
-}
+_FIGURES = ("points", "triangles", "duplicates", "rejected", "pieces", "spilled_bytes", "mesh_bytes", "resumed",
+            "triangle_sum")
+_CONSTRAINT_FIGURES = ("constraints", "constraint_edges", "crossing_points", "crossing_rounds")
+_STATISTICS = ("points", "triangles", "tetrahedra", "duplicates", "rejected", "partitions", "initial_points",
+               "worker_vertices", "threads", *_CONSTRAINT_FIGURES)
 
 
 def source_of(data: vtkPointSet, options: dict[str, Any]) -> tuple[vtkPolyData | None, bool]:
@@ -87,68 +65,47 @@ def require_ranks() -> None:
 
 
 def delaunay(points: Any, options: dict[str, Any], progress: Progress | None) -> np.ndarray:
-    return triangles_of(_triangulated(points, None, options, progress).GetOutput())
+    algorithm = vtkTIPPDelaunay2D()
+    algorithm.SetInputData(_cloud_of(points, None))
+    set_properties(algorithm, TRIANGULATION, options)
+    run(algorithm, progress)
+    return triangles_of(algorithm.GetOutput())
 
 
 def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
                 progress: Progress | None) -> tuple[Any, dict[str, Any]]:
-    def add(algorithm: vtkTIPPDelaunay2D) -> None:
-        source, has_points = source_of(algorithm.GetInput(), options)
-        if source is not None:
-            algorithm.SetSourceData(source)
-            algorithm.SetMergeSourcePoints(has_points)
-        algorithm.SetSplitCrossings(options["crossings"])
-        algorithm.SetConstraintMarks(options["marks"])
-        _set_mesh_options(algorithm, options)
-
-    algorithm = _triangulated(points, point_data, options, progress, add)
-    return wrapped_like(algorithm.GetOutput(), points), _statistics(algorithm.GetStatistics().GetFieldData())
-
-
-def delaunay_3d(points: Any, point_data: Any, options: dict[str, Any],
-                progress: Progress | None) -> tuple[Any, dict[str, Any]]:
-    data = points if check.is_vtk_object(points) else point_cloud(points, point_data)
-    algorithm = vtkTIPPDelaunay3D()
-    algorithm.SetInputData(data)
-    algorithm.SetTolerance(options["tolerance"])
-    _set_mesh_options(algorithm, options)
-    algorithm.SetNumberOfPartitions(options["partitions"])
-    algorithm.SetNumberOfThreads(options["threads"])
+    algorithm = vtkTIPPDelaunay2D()
+    algorithm.SetInputData(_cloud_of(points, point_data))
+    source, has_points = source_of(algorithm.GetInput(), options)
+    if source is not None:
+        algorithm.SetSourceData(source)
+        algorithm.SetMergeSourcePoints(has_points)
+    set_properties(algorithm, DELAUNAY_2D, options)
     run(algorithm, progress)
     return wrapped_like(algorithm.GetOutput(), points), _statistics(algorithm.GetStatistics().GetFieldData())
 
 
-def _set_mesh_options(algorithm: vtkTIPPDelaunay2D | vtkTIPPDelaunay3D, options: dict[str, Any]) -> None:
-    algorithm.SetAlpha(options["alpha"])
-    algorithm.SetOffset(options["offset"])
-    algorithm.SetBoundingTriangulation(options["bound"])
-    algorithm.SetGenerateRepresentativeIds(options["map_duplicates"])
-    algorithm.SetGenerateNeighborIds(options["neighbors"])
+def _cloud_of(points: Any, point_data: Any) -> Any:
+    return points if check.is_vtk_object(points) else point_cloud(points, point_data)
+
+
+def delaunay_3d(points: Any, point_data: Any, options: dict[str, Any],
+                progress: Progress | None) -> tuple[Any, dict[str, Any]]:
+    algorithm = vtkTIPPDelaunay3D()
+    algorithm.SetInputData(_cloud_of(points, point_data))
+    set_properties(algorithm, DELAUNAY_3D, options)
+    run(algorithm, progress)
+    return wrapped_like(algorithm.GetOutput(), points), _statistics(algorithm.GetStatistics().GetFieldData())
 
 
 def _statistics(totals: Any) -> dict[str, Any]:
     arrays = {totals.GetAbstractArray(i).GetName(): totals.GetAbstractArray(i)
               for i in range(totals.GetNumberOfArrays())}
-    result: dict[str, Any] = {key: arrays[name].GetValue(0) for key, name in _STATISTICS.items() if name in arrays}
+    result: dict[str, Any] = {key: arrays[array_of(key)].GetValue(0) for key in _STATISTICS if array_of(key) in arrays}
     names, seconds = arrays.get("PhaseName"), arrays.get("PhaseSeconds")
     if names is not None and seconds is not None:
         result["seconds"] = {names.GetValue(i): seconds.GetValue(i) for i in range(names.GetNumberOfValues())}
     return result
-
-
-def _triangulated(points: Any, point_data: Any, options: dict[str, Any], progress: Progress | None,
-                  add: Callable[[vtkTIPPDelaunay2D], None] = lambda algorithm: None) -> vtkTIPPDelaunay2D:
-    """Runs the filter and returns it; add() sets further properties first."""
-    algorithm = vtkTIPPDelaunay2D()
-    algorithm.SetInputData(points if check.is_vtk_object(points) else point_cloud(points, point_data))
-    algorithm.SetTolerance(options["tolerance"])
-    algorithm.SetMaximumEdgeLength(options["max_edge"])
-    algorithm.SetNumberOfPartitions(*options["partitions"])
-    algorithm.SetSchedule(options["schedule"])
-    algorithm.SetNumberOfThreads(options["threads"])
-    add(algorithm)
-    run(algorithm, progress)
-    return algorithm
 
 
 def delaunay_file(
@@ -158,26 +115,14 @@ def delaunay_file(
     for path in paths:
         algorithm.AddInputFileName(path)
     algorithm.SetFileName(output)
-    algorithm.SetMemoryLimit(options["memory"])
-    algorithm.SetNumberOfPartitions(*options["partitions"])
     algorithm.SetXColumn(options["columns"][0])
     algorithm.SetYColumn(options["columns"][1])
-    algorithm.SetMaximumEdgeLength(options["max_edge"])
-    algorithm.SetGenerateRepresentativeIds(options["map_duplicates"])
-    algorithm.SetGenerateNeighborIds(options["neighbors"])
-    algorithm.SetConstraintsFileName(options["constraints"] or None)
-    algorithm.SetBoundaryFileName(options["boundary"] or None)
     for x, y in options["holes"]:
         algorithm.AddHole(x, y)
-    algorithm.SetSplitCrossings(options["crossings"])
-    algorithm.SetGenerateConstraintEdges(options["mark_constraints"])
-    algorithm.SetCountOnly(options["count_only"])
-    algorithm.SetResume(options["resume"])
-    algorithm.SetScratchFolder(options["scratch"] or None)
-    algorithm.SetNumberOfThreads(options["threads"])
+    set_properties(algorithm, DELAUNAY_FILE, options)
     run(algorithm, progress)
     totals = algorithm.GetOutput().GetFieldData()
-    arrays = {key: totals.GetArray(name) for key, name in {**_FIGURES, **_CONSTRAINT_FIGURES}.items()}
+    arrays = {key: totals.GetArray(array_of(key)) for key in (*_FIGURES, *_CONSTRAINT_FIGURES)}
     return {key: array.GetValue(0) for key, array in arrays.items() if array is not None}
 
 
@@ -221,9 +166,7 @@ def read(path: str, options: dict[str, Any], progress: Progress | None) -> Any:
     if options["bounds"] is not None:
         reader.SetBounds(*options["bounds"])
     reader.SetBorrowerMode(reader.OWNED_AND_BORROWED if options["borrowed"] else reader.OWNED)
-    reader.SetMergePieces(options["merge"])
-    reader.SetTiling(options["tiling"])
-    reader.SetMemoryLimit(options["memory_limit"])
+    set_properties(reader, READ, options)
     run(reader, call=reader.UpdateInformation)
     _keep_only(reader.GetPointDataArraySelection(), options["point_arrays"], "point")
     _keep_only(reader.GetCellDataArraySelection(), options["cell_arrays"], "cell")
@@ -257,8 +200,5 @@ def write(mesh: Any, path: str, options: dict[str, Any], progress: Progress | No
     else:
         writer.SetInputData(check.data_object(mesh, "mesh", ("vtkDataObject",), "a VTK data set or a path"))
     writer.SetFileName(path)
-    writer.SetTiling(options["tiling"])
-    writer.SetDuplicateBorrowers(options["duplicate_borrowers"])
-    writer.SetMemoryLimit(options["memory_limit"])
-    writer.SetNumberOfThreads(options["threads"])
+    set_properties(writer, WRITE, options)
     run(writer, progress, writer.Write)

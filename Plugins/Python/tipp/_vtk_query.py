@@ -12,6 +12,7 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPointData, vtkPolyDat
 
 from . import _arguments as check
 from ._arrays import Mesh
+from ._properties import QUERY, set_properties
 from ._run import run
 from ._vtk import arrays_of, grid_of, vtk_points, xyz_of
 from .vtkTIPPFilters import vtkPartitionedMeshQuery
@@ -23,9 +24,7 @@ hole."""
 
 def open_mesh(mesh: Any, options: dict[str, Any]) -> MeshQuery:
     query = vtkPartitionedMeshQuery()
-    query.SetMemoryLimit(options["memory"])
-    query.SetStep(options["step"])
-    query.SetNumberOfThreads(options["threads"])
+    set_properties(query, QUERY, options)
     if isinstance(mesh, str):
         query.SetFileName(mesh)
     else:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The check of a mesh in pieces finds the same errors as the check of a whole mesh.
-#include "Check/PieceChecker.h"
+#include "Check/DelaunayChecker.h"
 
 #include "Triangulation/Triangulate.h"
 
@@ -48,10 +48,10 @@ std::size_t columnOf(const Mesh& mesh, std::int64_t point)
 CheckedPiece pieceOf(const Mesh& mesh, std::size_t column)
 {
   CheckedPiece piece;
-  std::map<std::int64_t, std::int32_t> numbers;
+  std::map<std::int64_t, std::int64_t> numbers;
   const auto numberOf = [&](std::int64_t id)
   {
-    const auto [found, isNew] = numbers.emplace(id, std::int32_t(piece.Ids.size()));
+    const auto [found, isNew] = numbers.emplace(id, std::int64_t(piece.Ids.size()));
     if (isNew)
     {
       piece.Ids.push_back(id);
@@ -263,7 +263,7 @@ TEST(PieceChecker, FindsAnyWrongNeighbor)
 TEST(PieceChecker, FindsIdsBeyondThePoints)
 {
   CheckedPiece piece = pieceOf(makeMesh(300, false), 0);
-  piece.Triangles[0] = std::int32_t(piece.Ids.size());
+  piece.Triangles[0] = std::int64_t(piece.Ids.size());
   piece.Triangles[4] = -1;
   PieceChecker checker({});
   checker.add(piece);

@@ -5,6 +5,7 @@
 #include "Meshes/MeshFiles.h"
 #include "Points/ReadPoints.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -181,6 +182,27 @@ TEST_F(TippConstraints, CheckVerifiesThem)
   const Outcome lost = check({ "--constraints", "other.csv" });
   EXPECT_EQ(1, lost.ExitCode);
   EXPECT_NE(std::string::npos, lost.Out.find("1 constraints are not chains of edges")) << lost.Out;
+}
+
+TEST_F(TippConstraints, CheckIgnoresPointsAndConstraintsThatAreNotFinite)
+{
+  // NaN has no order, so a search among such points by their coordinates would miss others.
+  std::string points = "x,y\n";
+  std::string lines = "nan,0,1,1\n";
+  const auto position = [](int i) { return fmt::format("{},{}", i * 37 % 101, i * 61 % 97); };
+  for (int i = 0; i < 60; ++i)
+  {
+    points += (i % 5 == 1 ? fmt::format("nan,{}\n", i * 61 % 97) : "") + position(i) + "\n";
+    lines += i % 2 == 0 ? position(i) + "," + position(i + 1) + "\n" : "";
+  }
+  this->Folder.file("gaps.csv", points);
+  this->Folder.file("lines.csv", lines);
+  const Outcome made = runTipp(
+    this->Folder, { "delaunay", "gaps.csv", "-o", "mesh.vtp", "--constraints", "lines.csv" });
+  ASSERT_EQ(0, made.ExitCode) << made.Err;
+  const Outcome outcome =
+    runTipp(this->Folder, { "check", "gaps.csv", "mesh.vtp", "--constraints", "lines.csv" });
+  EXPECT_EQ(0, outcome.ExitCode) << outcome.Out << outcome.Err;
 }
 
 TEST_F(TippConstraints, CheckAcceptsAMeshThatIsCut)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippDemArguments_h
-#define tippDemArguments_h
+#ifndef tippDemRuns_h
+#define tippDemRuns_h
 
+#include "Commands/PointArguments.h"
 #include "Dem/MakeDem.h"
 #include "Files/IOError.h"
 #include "Points/ReadPoints.h"
@@ -18,11 +19,8 @@ namespace tipp
 {
 
 /// The options of `tipp dem`.
-struct DemArguments
+struct DemArguments : RunArguments
 {
-  std::vector<std::string> Inputs;
-  std::string Output;
-  PointOptions Points;
   DemRequest Request;
   std::vector<double> Bounds;
   std::string Like;
@@ -33,10 +31,6 @@ struct DemArguments
   bool CloudOptimized = false;
   std::string Breaklines; ///< path of a file; empty: none
   std::string Boundary;   ///< path of a file; empty: none
-  std::string Statistics;
-  std::string Memory; ///< empty: not given
-  bool Resume = false;
-  std::string Scratch;
 
   /// Returns the file of constraints that messages name.
   std::string constraintFile() const
