@@ -120,14 +120,20 @@ int vtkPartitionedMeshQuery::RequestUpdateExtent(
   {
     return 0;
   }
-  const bool several = this->Controller && this->Controller->GetNumberOfProcesses() > 1;
   if (inputs[1]->GetNumberOfInformationObjects() > 0)
   {
-    tipp::askForPiece(inputs[1]->GetInformationObject(0),
-      several ? this->Controller->GetLocalProcessId() : 0,
-      several ? this->Controller->GetNumberOfProcesses() : 1);
+    const auto [rank, ranks] = this->GetRank();
+    tipp::askForPiece(inputs[1]->GetInformationObject(0), rank, ranks);
   }
   return 1;
+}
+
+/// Returns this process's rank and the number of ranks.
+std::pair<int, int> vtkPartitionedMeshQuery::GetRank() const
+{
+  return this->Controller ? std::make_pair(this->Controller->GetLocalProcessId(),
+                              this->Controller->GetNumberOfProcesses())
+                          : std::make_pair(0, 1);
 }
 
 /// Returns the mesh, opened again if it or the properties have changed.
@@ -175,27 +181,30 @@ std::vector<std::string> vtkPartitionedMeshQuery::ArraysOf(
   return arrays;
 }
 
+/// Calls ask(ranks, mesh) with this process's mesh. `ranks` are those that share it; null for one.
+void vtkPartitionedMeshQuery::AskMesh(const Question& ask)
+{
+  if (this->GetRank().second == 1)
+  {
+    ask(nullptr, *this->Open());
+    return;
+  }
+  tipp::Communicator ranks(this->Controller);
+  ranks.together([&] { ask(&ranks, *this->Open()); });
+}
+
 /// Evaluates the mesh at points. Collective if there are several ranks.
 tipp::MeshAnswer vtkPartitionedMeshQuery::Ask(
   const std::vector<tipp::Point3>& points, bool weights, bool arrays)
 {
-  const auto count = std::int64_t(points.size());
-  tipp::AnswerOptions options;
-  options.Weights = weights;
-  if (!this->Controller || this->Controller->GetNumberOfProcesses() == 1)
-  {
-    const auto mesh = this->Open();
-    options.Arrays = arrays ? this->ArraysOf(nullptr, *mesh) : std::vector<std::string>();
-    return mesh->answer(points.data(), count, options);
-  }
   tipp::MeshAnswer answer;
-  tipp::Communicator ranks(this->Controller);
-  ranks.together(
-    [&]
+  this->AskMesh(
+    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
     {
-      const auto mesh = this->Open();
-      options.Arrays = arrays ? this->ArraysOf(&ranks, *mesh) : std::vector<std::string>();
-      answer = tipp::answerOnRanks(ranks, *mesh, points.data(), count, options);
+      tipp::AnswerOptions options;
+      options.Weights = weights;
+      options.Arrays = arrays ? this->ArraysOf(ranks, mesh) : std::vector<std::string>();
+      answer = tipp::answerOf(mesh, points.data(), std::int64_t(points.size()), options, ranks);
     });
   return answer;
 }
@@ -232,10 +241,8 @@ int vtkPartitionedMeshQuery::Direct(const std::function<void()>& work)
       if (this->GetNumberOfInputConnections(1) > 0)
       {
         const std::lock_guard<std::mutex> lock(this->Opening);
-        const bool several = this->Controller && this->Controller->GetNumberOfProcesses() > 1;
-        this->GetInputAlgorithm(1, 0)->UpdatePiece(
-          several ? this->Controller->GetLocalProcessId() : 0,
-          several ? this->Controller->GetNumberOfProcesses() : 1, 0);
+        const auto [rank, ranks] = this->GetRank();
+        this->GetInputAlgorithm(1, 0)->UpdatePiece(rank, ranks, 0);
       }
       work();
     });
@@ -275,10 +282,7 @@ int vtkPartitionedMeshQuery::RequestData(
         replaceNull(answer.Cells, this->NullValue, taken);
         values->AddArray(taken);
       }
-      vtkNew<vtkIdTypeArray> cells;
-      cells->SetName("CellId");
-      tipp::copyTo(cells, answer.Cells);
-      values->AddArray(cells);
+      values->AddArray(tipp::arrayOf<vtkIdTypeArray>("CellId", answer.Cells));
       vtkNew<vtkCharArray> mask;
       mask->SetName(this->ValidPointMaskArrayName ? this->ValidPointMaskArrayName : "");
       mask->SetNumberOfValues(vtkIdType(answer.Cells.size()));
@@ -301,14 +305,9 @@ int vtkPartitionedMeshQuery::Locate(
     {
       const tipp::MeshAnswer answer = this->Ask(tipp::pointsOf(points), weights != nullptr, false);
       tipp::copyTo(cells, answer.Cells);
-      if (weights)
-      {
-        const std::size_t count = answer.Cells.size();
-        weights->SetNumberOfComponents(count > 0 ? int(answer.Weights.size() / count) : 3);
-        weights->SetNumberOfTuples(vtkIdType(count));
-        std::copy(answer.Weights.begin(), answer.Weights.end(), weights->GetPointer(0));
-        weights->Modified();
-      }
+      const std::size_t count = answer.Cells.size();
+      tipp::copyTo(
+        weights, answer.Weights, answer.Weights.empty() ? 3 : int(answer.Weights.size() / count));
     });
 }
 

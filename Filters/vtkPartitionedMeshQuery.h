@@ -42,6 +42,7 @@
 #include <memory>     // For Mesh
 #include <mutex>      // For Opening
 #include <string>     // For ArrayNames
+#include <utility>    // For GetRank
 #include <vector>     // For ArrayNames
 
 class vtkDataArray;
@@ -300,8 +301,11 @@ private:
   tipp::MeshAnswer Ask(const std::vector<tipp::Point3>& points, bool weights, bool arrays);
   int Try(const std::function<void()>& work);
   int Direct(const std::function<void()>& work);
-  int Around(const std::function<void(tipp::Communicator*, const tipp::ResidentMesh&)>& ask);
+  using Question = std::function<void(tipp::Communicator*, const tipp::ResidentMesh&)>;
+  void AskMesh(const Question& ask);
+  int Around(const Question& ask);
   std::shared_ptr<const tipp::ResidentMesh> OpenWhole();
+  std::pair<int, int> GetRank() const;
 
   char* FileName = nullptr;
   vtkTypeInt64 MemoryLimit = vtkTypeInt64(1) << 30;

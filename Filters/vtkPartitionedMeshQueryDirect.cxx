@@ -7,7 +7,6 @@
 #include "Query/Lines.h"
 #include "Query/QueryArrays.h"
 #include "Query/RankAnswer.h"
-#include "Query/RankAround.h"
 #include "Query/ResidentMesh.h"
 #include "Query/Zones.h"
 
@@ -26,6 +25,7 @@
 #include <string>
 #include <vector>
 
+using tipp::arrayOf;
 using tipp::copyTo;
 using tipp::idsOf;
 using tipp::pointsOf;
@@ -90,23 +90,13 @@ tipp::Region regionOf(const double* box)
   return region;
 }
 
-template <typename Array, typename Value>
-void addColumn(vtkDataSetAttributes* table, const char* name, const std::vector<Value>& values)
-{
-  vtkNew<Array> column;
-  column->SetName(name);
-  column->SetNumberOfValues(vtkIdType(values.size()));
-  std::copy(values.begin(), values.end(), column->GetPointer(0));
-  table->AddArray(column);
-}
-
 } // namespace
 
 /// Returns the mesh; throws unless all of it is accessible to this process.
 std::shared_ptr<const tipp::ResidentMesh> vtkPartitionedMeshQuery::OpenWhole()
 {
   auto mesh = this->Open();
-  if (this->Controller && this->Controller->GetNumberOfProcesses() > 1 && !mesh->isStored())
+  if (this->GetRank().second > 1 && !mesh->isStored())
   {
     throw std::runtime_error(
       "each rank has a part of the source alone; store the mesh and give its "
@@ -134,20 +124,9 @@ int vtkPartitionedMeshQuery::GetMeshDimension()
 }
 
 /// Queries this process's mesh or, with several ranks, those of all ranks.
-int vtkPartitionedMeshQuery::Around(
-  const std::function<void(tipp::Communicator*, const tipp::ResidentMesh&)>& ask)
+int vtkPartitionedMeshQuery::Around(const Question& ask)
 {
-  return this->Direct(
-    [&]
-    {
-      if (!this->Controller || this->Controller->GetNumberOfProcesses() == 1)
-      {
-        ask(nullptr, *this->Open());
-        return;
-      }
-      tipp::Communicator ranks(this->Controller);
-      ranks.together([&] { ask(&ranks, *this->Open()); });
-    });
+  return this->Direct([&] { this->AskMesh(ask); });
 }
 
 int vtkPartitionedMeshQuery::Neighbors(vtkIdTypeArray* cells, vtkIdTypeArray* neighbors)
@@ -156,8 +135,7 @@ int vtkPartitionedMeshQuery::Neighbors(vtkIdTypeArray* cells, vtkIdTypeArray* ne
     [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
     {
       const std::vector<std::int64_t> asked = idsOf(cells);
-      const std::vector<std::int64_t> found =
-        ranks ? tipp::neighborsOnRanks(*ranks, mesh, asked) : tipp::neighborsOf(mesh, asked);
+      const std::vector<std::int64_t> found = tipp::neighborsOf(mesh, asked, ranks);
       // A rank without cells does not know how many corners cells have.
       copyTo(
         neighbors, found, asked.empty() ? mesh.mesh().CellSize : int(found.size() / asked.size()));
@@ -167,47 +145,28 @@ int vtkPartitionedMeshQuery::Neighbors(vtkIdTypeArray* cells, vtkIdTypeArray* ne
 int vtkPartitionedMeshQuery::Star(
   vtkIdTypeArray* points, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
 {
-  return this->Around(
-    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
-    {
-      copyTo(starts, ids,
-        ranks ? tipp::starsOnRanks(*ranks, mesh, idsOf(points))
-              : tipp::starsOf(mesh, idsOf(points)));
-    });
+  return this->Around([&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
+    { copyTo(starts, ids, tipp::starsOf(mesh, idsOf(points), ranks)); });
 }
 
 int vtkPartitionedMeshQuery::RingOfPoints(
   vtkIdTypeArray* points, int k, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
 {
-  return this->Around(
-    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
-    {
-      copyTo(starts, ids,
-        ranks ? tipp::ringsOfPointsOnRanks(*ranks, mesh, idsOf(points), k)
-              : tipp::ringsOfPoints(mesh, idsOf(points), k));
-    });
+  return this->Around([&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
+    { copyTo(starts, ids, tipp::ringsOfPoints(mesh, idsOf(points), k, ranks)); });
 }
 
 int vtkPartitionedMeshQuery::RingOfCells(
   vtkIdTypeArray* cells, int k, vtkIdTypeArray* starts, vtkIdTypeArray* ids)
 {
-  return this->Around(
-    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
-    {
-      copyTo(starts, ids,
-        ranks ? tipp::ringsOfCellsOnRanks(*ranks, mesh, idsOf(cells), k)
-              : tipp::ringsOfCells(mesh, idsOf(cells), k));
-    });
+  return this->Around([&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
+    { copyTo(starts, ids, tipp::ringsOfCells(mesh, idsOf(cells), k, ranks)); });
 }
 
 int vtkPartitionedMeshQuery::Boundary(vtkPolyData* loops)
 {
-  return this->Around(
-    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
-    {
-      loops->ShallowCopy(
-        tipp::polyDataOf(ranks ? tipp::boundaryOnRanks(*ranks, mesh) : tipp::boundaryOf(mesh)));
-    });
+  return this->Around([&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
+    { loops->ShallowCopy(tipp::polyDataOf(tipp::boundaryOf(mesh, ranks))); });
 }
 
 int vtkPartitionedMeshQuery::Components(
@@ -216,20 +175,15 @@ int vtkPartitionedMeshQuery::Components(
   return this->Around(
     [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
     {
-      if (ranks)
-      {
-        const tipp::RankComponents components = tipp::componentsOnRanks(*ranks, mesh);
-        copyTo(ofCells, components.OfCells);
-        copyTo(sizes, components.Sizes);
-        copyTo(cells, components.Cells);
-        return;
-      }
-      const tipp::Components components = tipp::componentsOf(mesh);
+      tipp::Components components = tipp::componentsOf(mesh, ranks);
       copyTo(ofCells, components.OfCells);
       copyTo(sizes, components.Sizes);
-      std::vector<std::int64_t> ids(components.OfCells.size());
-      std::iota(ids.begin(), ids.end(), std::int64_t(0));
-      copyTo(cells, ids);
+      if (!ranks)
+      {
+        components.Cells.resize(components.OfCells.size());
+        std::iota(components.Cells.begin(), components.Cells.end(), std::int64_t(0));
+      }
+      copyTo(cells, components.Cells);
     });
 }
 
@@ -239,13 +193,15 @@ int vtkPartitionedMeshQuery::Contours(
   return this->Around(
     [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
     {
+      if (!levels)
+      {
+        throw std::runtime_error("there is no array of levels.");
+      }
       const std::vector<double> values(
         levels->GetPointer(0), levels->GetPointer(0) + levels->GetNumberOfValues());
       const std::string name = array ? array : "";
       lines->ShallowCopy(
-        tipp::polyDataOf(ranks ? tipp::contoursOnRanks(*ranks, mesh, name, component, values)
-                               : tipp::contoursOf(mesh, name, component, values),
-          name));
+        tipp::polyDataOf(tipp::contoursOf(mesh, name, component, values, ranks), name));
     });
 }
 
@@ -255,10 +211,8 @@ int vtkPartitionedMeshQuery::Profile(vtkDataArray* polyline, double spacing, vtk
     [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
     {
       const std::vector<std::string> arrays = this->ArraysOf(ranks, mesh);
-      const std::vector<tipp::Point3> corners = pointsOf(polyline);
       line->ShallowCopy(
-        tipp::polyDataOf(ranks ? tipp::profileOnRanks(*ranks, mesh, corners, spacing, arrays)
-                               : tipp::profileOf(mesh, corners, spacing, arrays)));
+        tipp::polyDataOf(tipp::profileOf(mesh, pointsOf(polyline), spacing, arrays, ranks)));
     });
 }
 
@@ -269,10 +223,8 @@ int vtkPartitionedMeshQuery::Closest(
     [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
     {
       const std::vector<tipp::Point3> asked = pointsOf(points);
-      const auto count = std::int64_t(asked.size());
-      const tipp::ClosestLocations found = ranks
-        ? tipp::closestOnRanks(*ranks, mesh, asked.data(), count)
-        : tipp::closestTo(mesh, asked.data(), count);
+      const tipp::ClosestLocations found =
+        tipp::closestTo(mesh, asked.data(), std::int64_t(asked.size()), ranks);
       copyTo(cells, found.Cells);
       if (locations)
       {
@@ -284,11 +236,7 @@ int vtkPartitionedMeshQuery::Closest(
           locations->SetTuple3(vtkIdType(i), p.x, p.y, p.z);
         }
       }
-      if (distances)
-      {
-        distances->SetNumberOfValues(vtkIdType(asked.size()));
-        std::copy(found.Distances.begin(), found.Distances.end(), distances->GetPointer(0));
-      }
+      copyTo(distances, found.Distances);
     });
 }
 
@@ -322,19 +270,17 @@ int vtkPartitionedMeshQuery::ZoneStatistics(vtkPolyData* zones, const char* arra
   return this->Around(
     [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
     {
-      const std::string name = array ? array : "";
       const std::vector<tipp::Zone> own =
         !ranks || ranks->isFirst() ? zonesOf(zones) : std::vector<tipp::Zone>();
-      const tipp::ZoneStatistics found = ranks
-        ? tipp::statisticsOnRanks(*ranks, mesh, own, name, component, level)
-        : tipp::statisticsOf(mesh, own, name, component, level);
-      addColumn<vtkIdTypeArray>(statistics, "Cells", found.Cells);
-      addColumn<vtkDoubleArray>(statistics, "Area", found.Area);
-      addColumn<vtkDoubleArray>(statistics, "Minimum", found.Low);
-      addColumn<vtkDoubleArray>(statistics, "Maximum", found.High);
-      addColumn<vtkDoubleArray>(statistics, "Mean", found.Mean);
-      addColumn<vtkDoubleArray>(statistics, "Integral", found.Sum);
-      addColumn<vtkDoubleArray>(statistics, "VolumeAbove", found.Above);
+      const tipp::ZoneStatistics found =
+        tipp::statisticsOf(mesh, own, array ? array : "", component, level, ranks);
+      statistics->AddArray(arrayOf<vtkIdTypeArray>("Cells", found.Cells));
+      statistics->AddArray(arrayOf<vtkDoubleArray>("Area", found.Area));
+      statistics->AddArray(arrayOf<vtkDoubleArray>("Minimum", found.Low));
+      statistics->AddArray(arrayOf<vtkDoubleArray>("Maximum", found.High));
+      statistics->AddArray(arrayOf<vtkDoubleArray>("Mean", found.Mean));
+      statistics->AddArray(arrayOf<vtkDoubleArray>("Integral", found.Sum));
+      statistics->AddArray(arrayOf<vtkDoubleArray>("VolumeAbove", found.Above));
     });
 }
 
@@ -345,11 +291,8 @@ int vtkPartitionedMeshQuery::Descend(
     [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
     {
       const std::string name = array ? array : "";
-      const std::vector<tipp::Point3> asked = pointsOf(points);
       lines->ShallowCopy(
-        tipp::polyDataOf(ranks ? tipp::descentsOnRanks(*ranks, mesh, asked, name, component)
-                               : tipp::descentsOf(mesh, asked, name, component),
-          name));
+        tipp::polyDataOf(tipp::descentsOf(mesh, pointsOf(points), name, component, ranks), name));
     });
 }
 

@@ -2,6 +2,7 @@
 #include "Query/LineData.h"
 
 #include "Arrays/Scalar.h"
+#include "Query/QueryArrays.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -12,7 +13,6 @@
 #include "vtkPointData.h"
 #include "vtkPoints.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -54,16 +54,6 @@ vtkSmartPointer<vtkPolyData> linesOf(
   data->SetPoints(pointsOf(positions));
   data->SetLines(lines);
   return data;
-}
-
-template <typename Array, typename Value>
-vtkSmartPointer<Array> arrayOf(const char* name, const std::vector<Value>& values)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfValues(vtkIdType(values.size()));
-  std::copy(values.begin(), values.end(), array->GetPointer(0));
-  return array;
 }
 
 } // namespace

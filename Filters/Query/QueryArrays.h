@@ -7,6 +7,7 @@
 
 #include "vtkDataArray.h"
 #include "vtkIdTypeArray.h"
+#include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -46,17 +47,28 @@ inline std::vector<Point3> pointsOf(vtkDataArray* array)
     array->GetNumberOfTuples(), [array](vtkIdType i, double* p) { array->GetTuple(i, p); });
 }
 
-/// Replaces the array's content by the ids, `components` per tuple. Does nothing if the array is
+/// Replaces the array's content by the values, `components` per tuple. Does nothing if the array is
 /// null.
-inline void copyTo(vtkIdTypeArray* array, const std::vector<std::int64_t>& ids, int components = 1)
+template <typename Array, typename Value>
+void copyTo(Array* array, const std::vector<Value>& values, int components = 1)
 {
   if (array)
   {
     array->SetNumberOfComponents(components);
-    array->SetNumberOfTuples(vtkIdType(ids.size()) / components);
-    std::copy(ids.begin(), ids.end(), array->GetPointer(0));
+    array->SetNumberOfTuples(vtkIdType(values.size()) / components);
+    std::copy(values.begin(), values.end(), array->GetPointer(0));
     array->Modified();
   }
+}
+
+/// An array with a name and these values.
+template <typename Array, typename Value>
+vtkSmartPointer<Array> arrayOf(const char* name, const std::vector<Value>& values)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  copyTo(array.Get(), values);
+  return array;
 }
 
 /// Copies both parts of the lists. A null array is left out.

@@ -202,8 +202,7 @@ void TupleBuffers::resize(const ArrayFiles& files, std::int64_t tuples)
   this->Buffers.clear();
   for (std::size_t a = 0; a < files.count(); ++a)
   {
-    // Not cleared: a read fills it before it is used.
-    this->Buffers.emplace_back(new char[std::size_t(tuples) * files.tupleBytes(a)]);
+    this->Buffers.emplace_back(std::size_t(tuples) * files.tupleBytes(a));
   }
   this->Tuples = tuples;
 }

@@ -2,6 +2,7 @@
 #ifndef tippArrayFiles_h
 #define tippArrayFiles_h
 
+#include "Arrays/Buffer.h"
 #include "Files/InputFile.h"
 #include "Flat/FlatMesh.h"
 #include "Loading/VertexLoader.h"
@@ -82,10 +83,10 @@ class TupleBuffers
 {
 public:
   void resize(const ArrayFiles& files, std::int64_t tuples);
-  char* data(std::size_t a) { return this->Buffers[a].get(); }
+  char* data(std::size_t a) { return this->Buffers[a].data(); }
 
 private:
-  std::vector<std::unique_ptr<char[]>> Buffers;
+  std::vector<Buffer<char>> Buffers;
   std::int64_t Tuples = 0;
 };
 

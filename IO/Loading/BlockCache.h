@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -195,36 +194,6 @@ private:
   std::vector<std::uint32_t> Table;
   int TableShift;
   std::uint32_t End; ///< the sentinel's slot
-};
-
-/// An LRU cache of single tuples, with a fixed number of slots.
-class TupleCache
-{
-public:
-  TupleCache(const ArrayFiles& files, std::uint32_t slots)
-    : Slots(slots)
-  {
-    this->Tuples.resize(files, slots);
-  }
-
-  /// Returns the tuple's slot. After a miss the caller must fill it; if that fails, the cache must
-  /// not be used any more.
-  BlockCache::Found use(std::int64_t id) { return this->Slots.use(std::uint64_t(id)); }
-
-  void fill(std::uint32_t slot, const ArrayFiles& files, TupleBuffers& from, std::size_t index)
-  {
-    for (std::size_t a = 0; a < files.count(); ++a)
-    {
-      const std::size_t bytes = files.tupleBytes(a);
-      std::memcpy(this->Tuples.data(a) + slot * bytes, from.data(a) + index * bytes, bytes);
-    }
-  }
-
-  TupleBuffers& tuples() { return this->Tuples; }
-
-private:
-  BlockCache Slots;
-  TupleBuffers Tuples;
 };
 
 } // namespace tipp

@@ -10,6 +10,7 @@
 #include "Loading/GroupedMoves.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -87,6 +88,14 @@ private:
     std::vector<char> Active; ///< per block: whether it has ids
   };
 
+  /// An LRU cache of single tuples. After a miss its slot must be filled; if that fails, the cache
+  /// must not be used any more.
+  struct TupleCache
+  {
+    BlockCache Slots;
+    TupleBuffers Tuples;
+  };
+
   static int shiftFor(std::int64_t m)
   {
     int shift = 0;
@@ -106,7 +115,7 @@ private:
     {
       return false;
     }
-    this->Sources.reserve(count);
+    makeRoom(this->Sources, count);
     if (!this->Held.find(ids, count, this->Sources.data()))
     {
       return false;
@@ -313,13 +322,15 @@ private:
     {
       this->Buffers = TupleBuffers(); // both together would exceed M
       this->Held.setRoom(0);
-      this->Cache = std::make_unique<TupleCache>(this->Files, std::uint32_t(this->cached()));
+      this->Cache =
+        std::make_unique<TupleCache>(TupleCache{ BlockCache(std::uint32_t(this->cached())), {} });
+      this->Cache->Tuples.resize(this->Files, this->cached());
     }
     std::vector<std::uint32_t> slots(unique.Sorted.size());      // slot of each distinct id
     std::vector<std::pair<std::int64_t, std::uint32_t>> missing; // ids and their slots
     for (const auto& [id, number] : unique.Sorted)
     {
-      const BlockCache::Found found = this->Cache->use(id);
+      const BlockCache::Found found = this->Cache->Slots.use(std::uint64_t(id));
       slots[number] = found.Slot;
       if (found.Miss)
       {
@@ -335,7 +346,7 @@ private:
       this->Cache.reset();
       throw;
     }
-    gatherAll(chunk.Count, this->Files, this->Cache->tuples(), out, this->Threads,
+    gatherAll(chunk.Count, this->Files, this->Cache->Tuples, out, this->Threads,
       [&](std::size_t i) { return std::uint64_t(slots[unique.Numbers[i]]); });
   }
 
@@ -357,8 +368,13 @@ private:
         const Run& read = plan.Runs[run];
         for (; next != missing.end() && next->first < read.First + read.Size; ++next)
         {
-          this->Cache->fill(next->second, this->Files, this->Buffers,
-            plan.Packed[run] + std::size_t(next->first - read.First));
+          const std::size_t index = plan.Packed[run] + std::size_t(next->first - read.First);
+          for (std::size_t a = 0; a < this->Files.count(); ++a)
+          {
+            const std::size_t bytes = this->Files.tupleBytes(a);
+            std::memcpy(this->Cache->Tuples.data(a) + next->second * bytes,
+              this->Buffers.data(a) + index * bytes, bytes);
+          }
         }
       }
     }
@@ -411,7 +427,7 @@ private:
   LoadCounters Counts;
   TupleBuffers Buffers;
   std::int64_t Spent = 0;            ///< approximate number of bytes read
-  RawVector<std::uint32_t> Sources;  ///< position of each of the chunk's tuples in the buffers
+  Buffer<std::uint32_t> Sources;     ///< position of each of the chunk's tuples in the buffers
   std::unique_ptr<TupleCache> Cache; ///< created for the first sparse chunk
   GroupedMoves Moves;
 };

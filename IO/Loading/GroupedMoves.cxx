@@ -34,9 +34,8 @@ void GroupedMoves::reset(std::size_t count, std::size_t groups)
   this->Blocks = (count + this->BlockSize - 1) / this->BlockSize;
   this->Starts.resize(this->Blocks * (groups + 1));
   this->InOrder.resize(this->Blocks);
-  this->Sources.reserve(count);
-  this->Positions.reserve(this->isWide() ? 0 : count);
-  this->WidePositions.reserve(this->isWide() ? count : 0);
+  makeRoom(this->Sources, count);
+  this->isWide() ? makeRoom(this->WidePositions, count) : makeRoom(this->Positions, count);
 }
 
 void GroupedMoves::sortByGroup(std::size_t block, BlockSort& own)

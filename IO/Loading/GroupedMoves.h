@@ -2,39 +2,28 @@
 #ifndef tippGroupedMoves_h
 #define tippGroupedMoves_h
 
+#include "Arrays/Buffer.h"
 #include "Loading/ArrayFiles.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace tipp
 {
 
-/// An uninitialised array of numbers, all of which are written before they are read.
+/// Replaces an array that has fewer than `count` numbers.
 template <typename Number>
-class RawVector
+void makeRoom(Buffer<Number>& numbers, std::size_t count)
 {
-public:
-  Number* data() const { return this->Numbers.get(); }
-  void reserve(std::size_t count)
+  if (count > numbers.size())
   {
-    if (count > this->Room)
-    {
-      this->Room = 0;
-      this->Numbers.reset(); // so that the old and the new array do not exist together
-      this->Numbers.reset(new Number[count]);
-      this->Room = count;
-    }
+    numbers = Buffer<Number>(); // so that the old and the new array do not exist together
+    numbers = Buffer<Number>(count);
   }
-
-private:
-  std::unique_ptr<Number[]> Numbers;
-  std::size_t Room = 0;
-};
+}
 
 /// The source positions of a chunk's tuples, group by group; a group is what the buffers hold at
 /// the same time. The chunk is cut into blocks that fit in the processor's cache. In each block of
@@ -113,10 +102,10 @@ private:
   std::size_t BlockSize = 0;
   std::size_t Blocks = 0;
   /// Positions in the buffers, for each block sorted by group.
-  RawVector<std::uint32_t> Sources;
+  Buffer<std::uint32_t> Sources;
   /// The position of each id within its block; isWide says which of the two arrays is in use.
-  RawVector<std::uint16_t> Positions;
-  RawVector<std::uint32_t> WidePositions;
+  Buffer<std::uint16_t> Positions;
+  Buffer<std::uint32_t> WidePositions;
   std::vector<std::uint32_t> Starts; ///< start of each group in each block, and the block's size
   std::vector<char> InOrder;         ///< per block: it has one group only, and so no positions
 };

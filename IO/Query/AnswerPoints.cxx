@@ -145,10 +145,7 @@ MeshAnswer emptyAnswer(std::int64_t count, const std::vector<StoredArray>& array
   answer.Keys.assign(withKeys ? points : 0, noCellKey);
   for (const StoredArray& array : arrays)
   {
-    MeshAnswer::Array values;
-    values.Name = array.Name;
-    values.Type = array.Type;
-    values.Components = array.Components;
+    MeshAnswer::Array values{ array, {} };
     values.Values = Buffer<char>(points * values.tupleBytes());
     fillNull(values);
     answer.Arrays.push_back(std::move(values));
@@ -182,147 +179,176 @@ PieceGroups groupByPiece(const std::vector<std::int32_t>& pieces, std::size_t co
   return result;
 }
 
-/// Evaluates arrays at points in a part of the mesh. locate(take) locates the points and passes the
-/// locations to take(); its result is returned.
-bool ResidentMesh::answerPart(const MeshPart& part, const AskedPoints& asked,
-  const AnswerOptions& options, const Locate& locate, MeshAnswer& answer) const
+namespace
 {
-  std::vector<PartValues> values;
-  for (const std::string& name : options.Arrays)
+
+/// A query of points, which answers those of one piece at a time. Several threads may use it for
+/// different pieces.
+class PointQuery
+{
+public:
+  PointQuery(const ResidentMesh& mesh, const AnswerOptions& options, MeshAnswer& answer)
+    : Mesh(mesh)
+    , Options(options)
+    , Needs(mesh.needsOf(options.Arrays))
+    , Answer(answer)
   {
-    values.emplace_back(part, this->find(name));
   }
-  const auto corners = std::size_t(this->Mesh.CellSize);
-  return locate(
-    [&](const std::int64_t* points, const CellLocation* at, std::int64_t count)
+
+  /// `mayStay` says whether all pieces of the query fit into memory together.
+  void answerPiece(std::size_t number, const AskedPoints& asked, int threads, bool mayStay) const
+  {
+    if (this->wantsNear(number, asked, mayStay) && this->answerNear(number, asked, threads))
     {
+      return;
+    }
+    ResidentPieces& pieces = this->Mesh.pieces();
+    const PieceSummary& summary = this->Mesh.mesh().Pieces[number];
+    const std::int64_t cells = summary.Cells + summary.BorrowedCells;
+    if (asked.Count > cells / cellsPerPointOfPass)
+    {
+      const ResidentPieces::Lease piece = pieces.get(number, this->Needs);
+      if (this->answerInOnePass(*piece->Part, asked, threads))
+      {
+        return;
+      }
+    }
+    PieceNeeds needs = this->Needs;
+    needs.Locator = true;
+    needs.Locator = pieces.fits(number, needs) &&
+      (asked.Count > cells / cellsPerPoint || pieces.uses(number) >= searchesWithoutLocator);
+    const ResidentPieces::Lease piece = pieces.get(number, needs);
+    this->answerBy(piece->Locator.get(), *piece->Part, asked, threads);
+  }
+
+private:
+  /// A function that stores locations in a part, and the arrays' values there.
+  TakeLocations taking(const MeshPart& part, const AskedPoints& asked) const
+  {
+    std::vector<PartValues> values;
+    for (const std::string& name : this->Options.Arrays)
+    {
+      values.emplace_back(part, this->Mesh.find(name));
+    }
+    return [this, &part, points = asked.Points, values = std::move(values)](
+             const std::int64_t* indices, const CellLocation* at, std::int64_t count)
+    {
+      const auto corners = std::size_t(this->Mesh.mesh().CellSize);
       for (std::int64_t i = 0; i < count; ++i)
       {
-        const auto index = std::size_t(points[i]);
-        answer.Cells[index] = part.cellId(at[i].Cell);
-        if (options.Weights)
+        const auto index = std::size_t(indices[i]);
+        this->Answer.Cells[index] = part.cellId(at[i].Cell);
+        if (this->Options.Weights)
         {
-          std::copy_n(at[i].Weights, corners, answer.Weights.data() + index * corners);
+          std::copy_n(at[i].Weights, corners, this->Answer.Weights.data() + index * corners);
         }
-        if (options.Keys)
+        if (this->Options.Keys)
         {
-          answer.Keys[index] = keyAt(part.Mesh, at[i].Cell, asked.Points[index]);
+          this->Answer.Keys[index] = keyAt(part.Mesh, at[i].Cell, points[index]);
         }
       }
       for (std::size_t a = 0; a < values.size(); ++a)
       {
-        values[a].sample(at, points, count, answer.Arrays[a].Values.data());
+        values[a].sample(at, indices, count, this->Answer.Arrays[a].Values.data());
       }
-    });
-}
-
-/// Answers with a pass over all cells. Returns false if this is not the fastest method; then
-/// `answer` may already have some points.
-bool ResidentMesh::answerInOnePass(const MeshPart& part, const AskedPoints& asked,
-  const AnswerOptions& options, int threads, MeshAnswer& answer) const
-{
-  if (asked.Count <= part.Mesh.Cells / cellsPerPointOfPass)
-  {
-    return false;
+    };
   }
-  const ResidentPieces::Share memory =
-    this->Resident.note(std::uint64_t(asked.Count) * bytesOfPass);
-  return this->answerPart(
-    part, asked, options,
-    [&](const TakeLocations& take)
-    { return locateInOnePass(part.Mesh, part.CellIds, asked, threads, take); },
-    answer);
-}
 
-/// Answers with a locator or, if it is null, by searching the cells.
-void ResidentMesh::answerBy(const CellLocator* locator, const MeshPart& part,
-  const AskedPoints& asked, const AnswerOptions& options, int threads, MeshAnswer& answer) const
-{
-  this->answerPart(
-    part, asked, options,
-    [&](const TakeLocations& take)
+  /// Answers with a pass over all cells. Returns false if this is not the fastest method; then the
+  /// answer may already have some points.
+  bool answerInOnePass(const MeshPart& part, const AskedPoints& asked, int threads) const
+  {
+    if (asked.Count <= part.Mesh.Cells / cellsPerPointOfPass)
     {
-      locatePoints(part.Mesh, part.CellIds, locator, asked, threads, take);
-      return true;
-    },
-    answer);
-}
-
-/// Whether to read only the cells near the points instead of the whole piece. `mayStay` says
-/// whether all pieces of this query fit into memory together.
-bool ResidentMesh::wantsNear(
-  std::size_t number, const PieceNeeds& needs, const AskedPoints& asked, bool mayStay) const
-{
-  if (this->InMemory || this->Resident.isResident(number, needs) ||
-    (this->Resident.countQuestion(number) >= searchesWithoutLocator && mayStay))
-  {
-    return false;
-  }
-  const PieceSummary& piece = this->Mesh.Pieces[number];
-  return asked.Count <= (piece.Cells + piece.BorrowedCells) / cellsPerPoint ||
-    (this->Mesh.CellSize == 3 ? areNarrow<2>(asked, piece.Box) : areNarrow<3>(asked, piece.Box));
-}
-
-/// Reads only the cells near the points and answers with them. Returns false, without any answer,
-/// if there are too many such cells or too little memory.
-bool ResidentMesh::answerNear(std::size_t number, const PieceNeeds& needs, const AskedPoints& asked,
-  const AnswerOptions& options, int threads, MeshAnswer& answer) const
-{
-  const PieceSummary& piece = this->Mesh.Pieces[number];
-  const std::int64_t most = piece.Cells / cellsPerNearOne + 256;
-  const std::optional<ResidentPieces::Share> memory =
-    this->Resident.take(this->estimateNear(number, needs, most, asked.Count));
-  if (!memory)
-  {
-    return false;
-  }
-  PieceOptions reading;
-  reading.Step = this->Options.Step;
-  reading.Wanted = needs.Arrays;
-  reading.Cells = nearCells(this->Mesh, asked, most);
-  Piece near = readPiece(this->Mesh, number, reading);
-  reading.Cells = nullptr;
-  if (near.IsStopped)
-  {
-    return false;
-  }
-  const MeshPart part = partOf(std::move(near));
-  if (!this->answerInOnePass(part, asked, options, threads, answer))
-  {
-    std::optional<CellLocator> locator;
-    asked.Count > part.Mesh.Cells / cellsPerPoint
-      ? void(locator.emplace(part.Mesh, part.CellIds, threads))
-      : void();
-    this->answerBy(locator ? &*locator : nullptr, part, asked, options, threads, answer);
-  }
-  return true;
-}
-
-void ResidentMesh::answerPiece(std::size_t number, const AskedPoints& asked,
-  const AnswerOptions& options, int threads, bool mayStay, MeshAnswer& answer) const
-{
-  PieceNeeds needs = this->needsOf(options.Arrays);
-  if (this->wantsNear(number, needs, asked, mayStay) &&
-    this->answerNear(number, needs, asked, options, threads, answer))
-  {
-    return;
-  }
-  const PieceSummary& summary = this->Mesh.Pieces[number];
-  const std::int64_t cells = summary.Cells + summary.BorrowedCells;
-  if (asked.Count > cells / cellsPerPointOfPass)
-  {
-    const ResidentPieces::Lease piece = this->Resident.get(number, needs);
-    if (this->answerInOnePass(*piece->Part, asked, options, threads, answer))
-    {
-      return;
+      return false;
     }
+    const ResidentPieces::Share memory =
+      this->Mesh.pieces().note(std::uint64_t(asked.Count) * bytesOfPass);
+    return locateInOnePass(part.Mesh, part.CellIds, asked, threads, this->taking(part, asked));
   }
-  needs.Locator = true;
-  needs.Locator = this->Resident.fits(number, needs) &&
-    (asked.Count > cells / cellsPerPoint || this->Resident.uses(number) >= searchesWithoutLocator);
-  const ResidentPieces::Lease piece = this->Resident.get(number, needs);
-  this->answerBy(piece->Locator.get(), *piece->Part, asked, options, threads, answer);
-}
+
+  /// Answers with a locator or, if it is null, by searching the cells.
+  void answerBy(
+    const CellLocator* locator, const MeshPart& part, const AskedPoints& asked, int threads) const
+  {
+    locatePoints(part.Mesh, part.CellIds, locator, asked, threads, this->taking(part, asked));
+  }
+
+  /// Whether to read only the cells near the points instead of the whole piece.
+  bool wantsNear(std::size_t number, const AskedPoints& asked, bool mayStay) const
+  {
+    ResidentPieces& pieces = this->Mesh.pieces();
+    if (!this->Mesh.isStored() || pieces.isResident(number, this->Needs) ||
+      (pieces.countQuestion(number) >= searchesWithoutLocator && mayStay))
+    {
+      return false;
+    }
+    const PieceSummary& piece = this->Mesh.mesh().Pieces[number];
+    return asked.Count <= (piece.Cells + piece.BorrowedCells) / cellsPerPoint ||
+      (this->Mesh.mesh().CellSize == 3 ? areNarrow<2>(asked, piece.Box)
+                                       : areNarrow<3>(asked, piece.Box));
+  }
+
+  /// An upper bound of the bytes that answerNear() needs for all points of the piece, and at most
+  /// `most` of its cells.
+  std::uint64_t estimateNear(std::size_t number, std::int64_t most, std::int64_t asked) const
+  {
+    const PartitionedMesh& mesh = this->Mesh.mesh();
+    const PieceSummary& piece = mesh.Pieces[number];
+    const auto points = std::uint64_t(piece.Points + piece.BorrowedCells);
+    const auto cells = std::uint64_t(most + piece.BorrowedCells);
+    // A point has its position and, to find borrowed points, its id. A cell has its index.
+    const std::uint64_t ofPoint =
+      3 * scalarSize(mesh.PointType) + 8 + 6 + this->Mesh.bytesOf(this->Needs, true);
+    const std::uint64_t ofCell =
+      2 * std::uint64_t(mesh.CellSize) * 4 + 16 + this->Mesh.bytesOf(this->Needs, false);
+    constexpr std::uint64_t ofAsked = 128; // bytes of a tree, and of the cells near the point
+    constexpr std::uint64_t blocks = 1 << 20;
+    return points * ofPoint + cells * ofCell +
+      std::uint64_t(CellLocator::bytesFor(std::int64_t(cells), mesh.CellSize - 1)) +
+      std::uint64_t(std::min(asked, most)) * ofAsked + blocks;
+  }
+
+  /// Reads only the cells near the points and answers with them. Returns false, without any answer,
+  /// if there are too many such cells or too little memory.
+  bool answerNear(std::size_t number, const AskedPoints& asked, int threads) const
+  {
+    const std::int64_t most = this->Mesh.mesh().Pieces[number].Cells / cellsPerNearOne + 256;
+    const ResidentPieces::Share memory =
+      this->Mesh.pieces().take(this->estimateNear(number, most, asked.Count));
+    if (!memory)
+    {
+      return false;
+    }
+    PieceOptions reading;
+    reading.Step = this->Mesh.options().Step;
+    reading.Wanted = this->Needs.Arrays;
+    reading.Cells = nearCells(this->Mesh.mesh(), asked, most);
+    Piece near = readPiece(this->Mesh.mesh(), number, reading);
+    reading.Cells = nullptr;
+    if (near.IsStopped)
+    {
+      return false;
+    }
+    const MeshPart part = partOf(std::move(near));
+    if (!this->answerInOnePass(part, asked, threads))
+    {
+      std::optional<CellLocator> locator;
+      asked.Count > part.Mesh.Cells / cellsPerPoint
+        ? void(locator.emplace(part.Mesh, part.CellIds, threads))
+        : void();
+      this->answerBy(locator ? &*locator : nullptr, part, asked, threads);
+    }
+    return true;
+  }
+
+  const ResidentMesh& Mesh;
+  const AnswerOptions& Options;
+  const PieceNeeds Needs;
+  MeshAnswer& Answer;
+};
+
+} // namespace
 
 MeshAnswer ResidentMesh::answer(const Point3* points, std::int64_t count,
   const AnswerOptions& options, std::vector<std::int32_t> pieceOf) const
@@ -331,25 +357,22 @@ MeshAnswer ResidentMesh::answer(const Point3* points, std::int64_t count,
   {
     throw IOError("More than 2147483647 points are asked for at once; ask in parts.");
   }
-  std::vector<StoredArray> arrays;
+  const std::vector<StoredArray> arrays = this->describe(options.Arrays);
   std::uint64_t bytes = 3 * sizeof(std::int64_t); // a point, its index and its piece
   bytes += options.Weights ? std::uint64_t(this->Mesh.CellSize) * sizeof(double) : 0;
   bytes += options.Keys ? sizeof(CellKey) : 0;
-  for (const std::string& name : options.Arrays)
+  for (const StoredArray& array : arrays)
   {
-    const StoredArray* const array = this->find(name);
-    arrays.push_back(array ? *array : StoredArray());
-    arrays.back().Type = array ? array->Type : this->Mesh.PointType;
-    arrays.back().Name = name;
-    bytes += std::uint64_t(arrays.back().Components) * scalarSize(arrays.back().Type);
+    bytes += std::uint64_t(array.Components) * scalarSize(array.Type);
   }
   const ResidentPieces::Share memory = this->Resident.note(std::uint64_t(count) * bytes);
   MeshAnswer answer =
     emptyAnswer(count, arrays, this->Mesh.CellSize, options.Weights, options.Keys);
+  const PointQuery query(*this, options, answer);
   const int threads = threadCount(this->Options.Threads);
   if (this->InMemory)
   {
-    this->answerPiece(0, { points, nullptr, count }, options, threads, true, answer);
+    query.answerPiece(0, { points, nullptr, count }, threads, true);
     return answer;
   }
   pieceOf = pieceOf.empty() ? this->piecesOf(points, count) : std::move(pieceOf);
@@ -375,9 +398,9 @@ MeshAnswer ResidentMesh::answer(const Point3* points, std::int64_t count,
     {
       poll();
       const PieceGroups::Group& group = groups.Groups[std::size_t(g)];
-      this->answerPiece(group.Piece,
-        { points, groups.Items.data() + group.Begin, group.End - group.Begin }, options,
-        manyPieces ? 1 : threads, mayStay, answer);
+      query.answerPiece(group.Piece,
+        { points, groups.Items.data() + group.Begin, group.End - group.Begin },
+        manyPieces ? 1 : threads, mayStay);
     });
   return answer;
 }

@@ -6,7 +6,6 @@
 #include "Predicates/ExactPredicates.h"
 #include "Query/ForPieces.h"
 #include "Query/RankAnswer.h"
-#include "Query/RankAround.h"
 
 #include <algorithm>
 #include <memory>
@@ -54,7 +53,7 @@ public:
       for (int i = 0; i < 3; ++i)
       {
         const std::int64_t to = this->Topology.corner(cell, turned[(i + 1) % 3]);
-        if (to == point && this->across(cell, turned[(i + 2) % 3]) < 0)
+        if (to == point && lowestAcross(this->Part, this->Topology, cell, turned[(i + 2) % 3]) < 0)
         {
           this->Edges.push_back(
             { this->Part.pointId(this->Topology.corner(cell, turned[i])), this->Part.pointId(point),
@@ -80,20 +79,6 @@ private:
     orientation(p[0], p[1], p[2]) < 0 ? std::swap(turned[1], turned[2]) : void();
   }
 
-  /// The cell across the face opposite to a corner, or -1 if there is none. Of several, the one
-  /// with the lowest global id. Cells are local indices.
-  std::int64_t across(std::int64_t cell, int face) const
-  {
-    std::int64_t found = -1;
-    this->Topology.visitAcross(cell, face,
-      [&](std::int64_t other)
-      {
-        const bool isLower = found < 0 || this->Part.cellId(other) < this->Part.cellId(found);
-        found = isLower ? other : found;
-      });
-    return found;
-  }
-
   /// Goes around `point`, from the cell's border edge that ends there to the border edge that
   /// starts there. Returns the end of the latter. `opposite` is the cell's corner that is not on
   /// its edge.
@@ -109,7 +94,7 @@ private:
       {
         ++before;
       }
-      const std::int64_t other = this->across(cell, before);
+      const std::int64_t other = lowestAcross(this->Part, this->Topology, cell, before);
       if (other < 0)
       {
         break;
@@ -161,19 +146,11 @@ BoundaryLoops linked(std::vector<BorderEdge> edges)
   return loops;
 }
 
-void requireTriangles(int cellSize)
-{
-  if (cellSize != 3)
-  {
-    throw IOError("The border of tetrahedra is a surface and no line; ask a mesh of triangles.");
-  }
-}
-
-/// The border edges that end at points owned by the pieces [first, end).
-std::vector<BorderEdge> borderIn(const ResidentMesh& mesh, std::size_t first, std::size_t end)
+/// The border edges that end at points owned by this rank's pieces.
+std::vector<BorderEdge> borderIn(const ResidentMesh& mesh, const Communicator* ranks)
 {
   std::vector<BorderEdge> edges;
-  forPieceRange(mesh, first, end,
+  forPieceRange(mesh, piecesOfRank(ranks, mesh),
     [&](const MeshPart& part, const PartTopology& topology)
     {
       PieceBorderEdges border(part, topology, edges);
@@ -207,7 +184,7 @@ OpenCells openCells(const MeshPart& part, const PartTopology& topology)
   for (std::int64_t cell = 0; cell < part.Mesh.Cells; ++cell)
   {
     pollAt(cell);
-    for (int face = 0; face < 3 && !(part.Mesh.Hidden && part.Mesh.Hidden[cell]); ++face)
+    for (int face = 0; face < 3 && !part.isHidden(cell); ++face)
     {
       bool isOpen = true;
       topology.visitAcross(cell, face, [&isOpen](std::int64_t) { isOpen = false; });
@@ -281,35 +258,25 @@ std::vector<BorderEdge> borderOfParts(const std::vector<OpenCells>& parts)
 
 } // namespace
 
-BoundaryLoops boundaryOf(const ResidentMesh& mesh)
+BoundaryLoops boundaryOf(const ResidentMesh& mesh, Communicator* ranks)
 {
-  requireTriangles(mesh.mesh().CellSize);
-  return linked(borderIn(mesh, 0, mesh.mesh().Pieces.size()));
-}
-
-BoundaryLoops boundaryOnRanks(Communicator& ranks, const ResidentMesh& mesh)
-{
-  requireIdsOnRanks(ranks, mesh);
-  const bool hasCells = mesh.mesh().Cells > 0;
-  hasCells ? requireTriangles(mesh.mesh().CellSize) : void();
-  std::vector<BorderEdge> edges;
-  if (mesh.isStored())
+  requireIds(ranks, mesh);
+  if (mesh.mesh().CellSize != 3)
   {
-    const auto [first, end] = piecesOfRank(ranks, mesh);
-    for (const std::vector<BorderEdge>& part : ranks.gather(borderIn(mesh, first, end)))
-    {
-      edges.insert(edges.end(), part.begin(), part.end());
-    }
-    return linked(std::move(edges));
+    throw IOError("The border of tetrahedra is a surface and no line; ask a mesh of triangles.");
+  }
+  if (mesh.isStored() || !areSeveral(ranks))
+  {
+    return linked(gathered(ranks, borderIn(mesh, ranks)));
   }
   OpenCells open;
-  if (hasCells)
+  if (mesh.mesh().Cells > 0)
   {
     const ResidentPieces::Lease piece = mesh.pieces().get(0, topologyNeeded());
     open = openCells(*piece->Part, *piece->Topology);
   }
-  const std::vector<OpenCells> parts = ranks.gather(open);
-  return ranks.isFirst() ? linked(borderOfParts(parts)) : BoundaryLoops();
+  const std::vector<OpenCells> parts = ranks->gather(open);
+  return ranks->isFirst() ? linked(borderOfParts(parts)) : BoundaryLoops();
 }
 
 } // namespace tipp

@@ -15,15 +15,14 @@ namespace tipp
 namespace
 {
 
-/// Finds pieces near points by their boxes. Every location of the mesh is in the box of a piece
-/// that has all cells there.
+/// Finds pieces of a stored mesh near points by their boxes. Every location of the mesh is in the
+/// box of a piece that has all cells there.
 template <int D>
 class NearPieces
 {
 public:
   explicit NearPieces(const ResidentMesh& mesh)
     : Pieces(mesh.mesh().Pieces)
-    , IsStored(mesh.isStored())
     , Tree(std::int64_t(Pieces.size()), 1, [this](std::int64_t i) { return this->box(i); })
   {
   }
@@ -31,10 +30,6 @@ public:
   /// The piece with cells whose box is nearest to the point, or -1.
   std::int32_t nearest(const Point3& point) const
   {
-    if (!this->IsStored)
-    {
-      return this->Pieces[0].Cells > 0 ? 0 : -1;
-    }
     std::int32_t found = -1;
     double least = std::numeric_limits<double>::infinity();
     this->Tree.searchNear(coordinatesOf<D>(point),
@@ -56,15 +51,12 @@ public:
   template <typename Visit>
   void visitOthers(const Point3& point, std::int32_t but, double most, const Visit& visit) const
   {
-    if (this->IsStored)
-    {
-      this->Tree.searchNear(coordinatesOf<D>(point),
-        [&](std::int32_t piece)
-        {
-          piece != but&& this->distance(piece, point) <= most ? visit(piece) : void();
-          return most;
-        });
-    }
+    this->Tree.searchNear(coordinatesOf<D>(point),
+      [&](std::int32_t piece)
+      {
+        piece != but&& this->distance(piece, point) <= most ? visit(piece) : void();
+        return most;
+      });
   }
 
 private:
@@ -94,7 +86,6 @@ private:
   }
 
   const std::vector<PieceSummary>& Pieces;
-  const bool IsStored;
   BoxTree<D> Tree;
 };
 
@@ -128,52 +119,30 @@ void searchPieces(const ResidentMesh& mesh, const std::vector<std::int32_t>& pie
     });
 }
 
-/// Finds the nearest cells to points outside the mesh. Calls search(pieces, asked, points, best),
-/// which does the same as searchPieces().
-template <int D, typename Search>
-void findOutside(const ResidentMesh& mesh, const std::vector<Point3>& points, const Search& search,
-  std::vector<NearCell>& best)
-{
-  const NearPieces<D> near(mesh);
-  std::vector<std::int32_t> first;
-  std::vector<std::int64_t> asked;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    first.push_back(near.nearest(points[i]));
-    asked.push_back(std::int64_t(i));
-  }
-  search(first, asked, points.data(), best);
-  std::vector<std::int32_t> others;
-  asked.clear();
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    near.visitOthers(points[i], first[i], best[i].High,
-      [&](std::int32_t piece)
-      {
-        others.push_back(piece);
-        asked.push_back(std::int64_t(i));
-      });
-  }
-  search(others, asked, points.data(), best);
-}
-
-/// Searches the pieces of all ranks. For a mesh in memory, rank i has piece i.
-class RankSearch
+/// Searches the pieces of a mesh, or of those of all ranks. Of meshes in memory, piece i is that of
+/// rank i.
+class PieceSearch
 {
 public:
-  RankSearch(Communicator& ranks, const ResidentMesh& mesh, std::int64_t firstCell)
-    : Ranks(ranks)
+  PieceSearch(Communicator* ranks, const ResidentMesh& mesh, std::int64_t firstCell)
+    : Ranks(areSeveral(ranks) ? ranks : nullptr)
     , Mesh(mesh)
     , FirstCell(firstCell)
   {
   }
 
-  /// As searchPieces(). Each rank sends its points to the ranks that have the pieces. Collective.
+  /// As searchPieces(). Several ranks send their points to the ranks that have the pieces.
+  /// Collective.
   void operator()(const std::vector<std::int32_t>& pieces, const std::vector<std::int64_t>& asked,
     const Point3* points, std::vector<NearCell>& best) const
   {
+    if (!this->Ranks)
+    {
+      searchPieces(this->Mesh, pieces, asked, points, best);
+      return;
+    }
     const bool isStored = this->Mesh.isStored();
-    std::vector<std::vector<Question>> questions(std::size_t(this->Ranks.size()));
+    std::vector<std::vector<Question>> questions(std::size_t(this->Ranks->size()));
     std::vector<std::vector<std::size_t>> items(questions.size());
     for (std::size_t i = 0; i < pieces.size(); ++i)
     {
@@ -181,17 +150,17 @@ public:
       {
         const auto item = std::size_t(asked[i]);
         const std::size_t rank =
-          isStored ? rankOfPiece(this->Ranks, this->Mesh, pieces[i]) : std::size_t(pieces[i]);
+          isStored ? rankOfPiece(*this->Ranks, this->Mesh, pieces[i]) : std::size_t(pieces[i]);
         questions[rank].push_back({ points[item], isStored ? pieces[i] : 0, best[item] });
         items[rank].push_back(item);
       }
     }
     std::vector<std::vector<NearCell>> answers;
-    for (const std::vector<Question>& received : this->Ranks.allToAll(questions))
+    for (const std::vector<Question>& received : this->Ranks->allToAll(questions))
     {
       answers.push_back(this->answer(received));
     }
-    answers = this->Ranks.allToAll(answers);
+    answers = this->Ranks->allToAll(answers);
     for (std::size_t rank = 0; rank < answers.size(); ++rank)
     {
       for (std::size_t i = 0; i < items[rank].size(); ++i)
@@ -233,10 +202,38 @@ private:
     return best;
   }
 
-  Communicator& Ranks;
+  Communicator* const Ranks; ///< null: this process alone
   const ResidentMesh& Mesh;
   const std::int64_t FirstCell; ///< added to this rank's cell ids; 0 if these are global
 };
+
+/// Finds the nearest cells to points outside a stored mesh.
+template <int D>
+void findOutside(const ResidentMesh& mesh, const std::vector<Point3>& points,
+  const PieceSearch& search, std::vector<NearCell>& best)
+{
+  const NearPieces<D> near(mesh);
+  std::vector<std::int32_t> first;
+  std::vector<std::int64_t> asked;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    first.push_back(near.nearest(points[i]));
+    asked.push_back(std::int64_t(i));
+  }
+  search(first, asked, points.data(), best);
+  std::vector<std::int32_t> others;
+  asked.clear();
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    near.visitOthers(points[i], first[i], best[i].High,
+      [&](std::int32_t piece)
+      {
+        others.push_back(piece);
+        asked.push_back(std::int64_t(i));
+      });
+  }
+  search(others, asked, points.data(), best);
+}
 
 /// The points that are finite and that no cell contains.
 struct PointsOutside
@@ -272,58 +269,18 @@ ClosestLocations insideOf(
   return result;
 }
 
-void setOutside(const PointsOutside& outside, std::vector<NearCell>& best, ClosestLocations& result)
-{
-  for (std::size_t k = 0; k < best.size(); ++k)
-  {
-    if (best[k].Id >= 0)
-    {
-      result.Cells[outside.Indices[k]] = best[k].Id;
-      result.Distances[outside.Indices[k]] = best[k].distance(outside.Points[k]);
-      result.Points[outside.Indices[k]] = best[k].At;
-    }
-  }
-}
-
-/// Describes a rank's part of a mesh in memory.
-struct RankCells
-{
-  std::int64_t Cells;
-  std::int32_t CellSize;
-};
-
 } // namespace
 
-ClosestLocations closestTo(const ResidentMesh& mesh, const Point3* points, std::int64_t count)
+ClosestLocations closestTo(
+  const ResidentMesh& mesh, const Point3* points, std::int64_t count, Communicator* ranks)
 {
-  const bool inSpace = mesh.mesh().CellSize == 4;
-  PointsOutside outside;
-  ClosestLocations result = insideOf(mesh.answer(points, count).Cells, inSpace, points, outside);
-  std::vector<NearCell> best(outside.Points.size());
-  const auto search = [&mesh](auto&&... arguments) { searchPieces(mesh, arguments...); };
-  inSpace ? findOutside<3>(mesh, outside.Points, search, best)
-          : findOutside<2>(mesh, outside.Points, search, best);
-  setOutside(outside, best, result);
-  return result;
-}
-
-ClosestLocations closestOnRanks(
-  Communicator& ranks, const ResidentMesh& mesh, const Point3* points, std::int64_t count)
-{
-  std::vector<std::int64_t> cells = answerOnRanks(ranks, mesh, points, count).Cells;
-  const std::vector<RankCells> parts =
-    ranks.allGather(RankCells{ mesh.mesh().Cells, mesh.mesh().CellSize });
-  bool inSpace = false;
-  std::int64_t firstCell = 0;
-  for (std::size_t rank = 0; rank < parts.size(); ++rank)
-  {
-    inSpace = inSpace || (parts[rank].Cells > 0 && parts[rank].CellSize == 4);
-    firstCell += rank < std::size_t(ranks.rank()) ? parts[rank].Cells : 0;
-  }
+  std::vector<std::int64_t> cells = answerOf(mesh, points, count, {}, ranks).Cells;
+  const RankParts parts(ranks, mesh, {});
+  const bool inSpace = parts.Common.CellSize == 4;
   PointsOutside outside;
   ClosestLocations result = insideOf(std::move(cells), inSpace, points, outside);
   std::vector<NearCell> best(outside.Points.size());
-  const RankSearch search(ranks, mesh, mesh.isStored() || mesh.hasCellIds() ? 0 : firstCell);
+  const PieceSearch search(ranks, mesh, ranks ? parts.firstCell(*ranks, mesh) : 0);
   if (mesh.isStored())
   {
     inSpace ? findOutside<3>(mesh, outside.Points, search, best)
@@ -334,9 +291,9 @@ ClosestLocations closestOnRanks(
     // Each rank may have the nearest cell.
     std::vector<std::int32_t> pieces;
     std::vector<std::int64_t> asked;
-    for (std::size_t rank = 0; rank < parts.size(); ++rank)
+    for (std::size_t rank = 0; rank < parts.All.size(); ++rank)
     {
-      for (std::size_t i = 0; i < outside.Points.size() && parts[rank].Cells > 0; ++i)
+      for (std::size_t i = 0; i < outside.Points.size() && parts.All[rank].Cells > 0; ++i)
       {
         pieces.push_back(std::int32_t(rank));
         asked.push_back(std::int64_t(i));
@@ -344,7 +301,15 @@ ClosestLocations closestOnRanks(
     }
     search(pieces, asked, outside.Points.data(), best);
   }
-  setOutside(outside, best, result);
+  for (std::size_t k = 0; k < best.size(); ++k)
+  {
+    if (best[k].Id >= 0)
+    {
+      result.Cells[outside.Indices[k]] = best[k].Id;
+      result.Distances[outside.Indices[k]] = best[k].distance(outside.Points[k]);
+      result.Points[outside.Indices[k]] = best[k].At;
+    }
+  }
   return result;
 }
 

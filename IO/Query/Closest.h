@@ -26,14 +26,19 @@ struct ClosestLocations
 /// other points, the nearest cell is determined exactly; of equally near cells, the one with the
 /// lowest id. Cells without area or volume are ignored. Results do not depend on pieces and
 /// threads. Throws IOError and WorkAborted.
-VTKTIPPIO_EXPORT ClosestLocations closestTo(
-  const ResidentMesh& mesh, const Point3* points, std::int64_t count);
+///
+/// `ranks` are the ranks that share the mesh, as for answerOnRanks(); null: this process alone.
+/// Each rank has its own points, or none. With ranks, the function is collective; call it within
+/// Communicator::together().
+VTKTIPPIO_EXPORT ClosestLocations closestTo(const ResidentMesh& mesh, const Point3* points,
+  std::int64_t count, Communicator* ranks = nullptr);
 
-/// As closestTo() for this rank's points, in the meshes of all ranks together (see
-/// answerOnRanks()). Each rank has its own points, or none. Collective; call it within
-/// Communicator::together(). Throws IOError.
-VTKTIPPIO_EXPORT ClosestLocations closestOnRanks(
-  Communicator& ranks, const ResidentMesh& mesh, const Point3* points, std::int64_t count);
+/// The same for callers that always have ranks.
+inline ClosestLocations closestOnRanks(
+  Communicator& ranks, const ResidentMesh& mesh, const Point3* points, std::int64_t count)
+{
+  return closestTo(mesh, points, count, &ranks);
+}
 
 } // namespace tipp
 

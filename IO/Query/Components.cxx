@@ -3,13 +3,12 @@
 #include "Query/Around.h"
 #include "Query/ForPieces.h"
 #include "Query/RankAnswer.h"
-#include "Query/RankAround.h"
 
 #include "Arrays/Random.h"
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <iterator>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -17,42 +16,49 @@
 namespace tipp
 {
 
-Components componentsOf(const ResidentMesh& mesh)
+namespace
+{
+
+using Ids = std::vector<std::int64_t>;
+
+/// The root of an item in a forest in which each root is its own parent. Halves the path to it.
+std::int64_t rootIn(std::vector<std::int64_t>& parents, std::int64_t item)
+{
+  for (auto at = std::size_t(item); parents[at] != item; at = std::size_t(item))
+  {
+    item = parents[at] = parents[std::size_t(parents[at])];
+  }
+  return item;
+}
+
+/// The components of the mesh in this process.
+Components componentsHere(const ResidentMesh& mesh)
 {
   std::int64_t count = mesh.mesh().Cells;
+  if (!mesh.isStored())
+  {
+    const ResidentPieces::Lease piece = mesh.pieces().get(0, {});
+    for (std::int64_t cell = 0; piece->Part->Rows && cell < piece->Part->Mesh.Cells; ++cell)
+    {
+      count = std::max(count, piece->Part->Rows[cell] + 1);
+    }
+  }
   const auto idOf = [&mesh](const MeshPart& part, std::int64_t cell) {
     return mesh.isStored() ? part.cellId(cell) : part.Rows ? part.Rows[cell] : cell;
   };
-  forPieceRange(mesh, 0, mesh.mesh().Pieces.size(),
-    [&](const MeshPart& part, const PartTopology&)
-    {
-      for (std::int64_t cell = 0; part.Rows && cell < part.Mesh.Cells; ++cell)
-      {
-        count = std::max(count, part.Rows[cell] + 1);
-      }
-    });
   std::vector<std::int64_t> parent(std::size_t(count), -1); // -1 for hidden cells
-  const auto rootOf = [&parent](std::int64_t cell)
-  {
-    while (parent[std::size_t(cell)] != cell)
-    {
-      const std::int64_t above = parent[std::size_t(parent[std::size_t(cell)])];
-      cell = parent[std::size_t(cell)] = above;
-    }
-    return cell;
-  };
   const auto add = [&parent](std::int64_t cell)
   {
     std::int64_t& p = parent[std::size_t(cell)];
     p = p < 0 ? cell : p;
   };
-  forPieceRange(mesh, 0, mesh.mesh().Pieces.size(),
+  forPieceRange(mesh, { 0, mesh.mesh().Pieces.size() },
     [&](const MeshPart& part, const PartTopology& topology)
     {
       for (std::int64_t cell = 0; cell < part.Mesh.Cells; ++cell)
       {
         pollAt(cell);
-        if (part.Mesh.Hidden && part.Mesh.Hidden[cell])
+        if (part.isHidden(cell))
         {
           continue;
         }
@@ -63,8 +69,8 @@ Components componentsOf(const ResidentMesh& mesh)
             [&](std::int64_t other)
             {
               add(idOf(part, other));
-              const std::int64_t a = rootOf(idOf(part, cell));
-              const std::int64_t b = rootOf(idOf(part, other));
+              const std::int64_t a = rootIn(parent, idOf(part, cell));
+              const std::int64_t b = rootIn(parent, idOf(part, other));
               parent[std::size_t(std::max(a, b))] = std::min(a, b);
             });
         }
@@ -90,23 +96,8 @@ Components componentsOf(const ResidentMesh& mesh)
   return result;
 }
 
-namespace
-{
-
-using Ids = std::vector<std::int64_t>;
-
-/// A connection between two cells or two components.
-struct Link
-{
-  std::int64_t A;
-  std::int64_t B;
-
-  bool operator<(const Link& other) const
-  {
-    return std::tie(this->A, this->B) < std::tie(other.A, other.B);
-  }
-  bool operator==(const Link& other) const { return this->A == other.A && this->B == other.B; }
-};
+/// Two components that are connected.
+using Link = std::array<std::int64_t, 2>;
 
 /// A face with only one cell on a rank. Unused points are -1.
 struct OpenFace
@@ -120,17 +111,15 @@ struct OpenFace
   }
 };
 
-/// The components of a rank's own cells. A component is identified by its lowest cell id.
-class OwnComponents
+/// The components of some cells. A component is identified by its lowest cell id.
+class CellComponents
 {
 public:
-  explicit OwnComponents(Ids cells)
-    : Cells(std::move(cells))
-    , Parent(Cells.size())
+  explicit CellComponents(Ids cells)
+    : Cells(sortedUnique(std::move(cells)))
+    , Parents(Cells.size())
   {
-    sortUnique(this->Cells);
-    this->Parent.resize(this->Cells.size());
-    std::iota(this->Parent.begin(), this->Parent.end(), std::size_t(0));
+    std::iota(this->Parents.begin(), this->Parents.end(), std::int64_t(0));
   }
 
   bool has(std::int64_t cell) const
@@ -139,37 +128,25 @@ public:
   }
   void join(std::int64_t a, std::int64_t b)
   {
-    const std::size_t first = this->rootAt(this->placeOf(a));
-    const std::size_t second = this->rootAt(this->placeOf(b));
-    this->Parent[std::max(first, second)] = std::min(first, second);
+    const std::int64_t first = rootIn(this->Parents, this->indexOf(a));
+    const std::int64_t second = rootIn(this->Parents, this->indexOf(b));
+    this->Parents[std::size_t(std::max(first, second))] = std::min(first, second);
   }
-  std::int64_t rootOf(std::int64_t cell) { return this->Cells[this->rootAt(this->placeOf(cell))]; }
+  std::int64_t rootOf(std::int64_t cell)
+  {
+    return this->Cells[std::size_t(rootIn(this->Parents, this->indexOf(cell)))];
+  }
   const Ids& cells() const { return this->Cells; }
 
 private:
-  std::size_t placeOf(std::int64_t cell) const
+  std::int64_t indexOf(std::int64_t cell) const
   {
-    return std::size_t(
-      std::lower_bound(this->Cells.begin(), this->Cells.end(), cell) - this->Cells.begin());
-  }
-  std::size_t rootAt(std::size_t place)
-  {
-    while (this->Parent[place] != place)
-    {
-      this->Parent[place] = this->Parent[this->Parent[place]];
-      place = this->Parent[place];
-    }
-    return place;
+    return std::lower_bound(this->Cells.begin(), this->Cells.end(), cell) - this->Cells.begin();
   }
 
-  Ids Cells; ///< global ids, ascending
-  std::vector<std::size_t> Parent;
+  const Ids Cells; ///< global ids, ascending
+  Ids Parents;     ///< indices in Cells
 };
-
-bool isHidden(const MeshPart& part, std::int64_t cell)
-{
-  return part.Mesh.Hidden && part.Mesh.Hidden[cell];
-}
 
 OpenFace faceOf(const MeshPart& part, const PartTopology& topology, std::int64_t cell, int opposite)
 {
@@ -186,7 +163,7 @@ OpenFace faceOf(const MeshPart& part, const PartTopology& topology, std::int64_t
 /// Finds connections between components of different ranks: common faces that have only one cell on
 /// each of these ranks.
 std::vector<Link> linksAcross(
-  Communicator& ranks, const std::vector<OpenFace>& open, OwnComponents& own)
+  Communicator& ranks, const std::vector<OpenFace>& open, CellComponents& own)
 {
   std::vector<std::vector<OpenFace>> byRank(std::size_t(ranks.size()));
   for (OpenFace face : open)
@@ -199,11 +176,7 @@ std::vector<Link> linksAcross(
     face.Cell = own.rootOf(face.Cell);
     byRank[std::size_t(hash % std::uint64_t(ranks.size()))].push_back(face);
   }
-  std::vector<OpenFace> faces;
-  for (const std::vector<OpenFace>& part : ranks.allToAll(byRank))
-  {
-    faces.insert(faces.end(), part.begin(), part.end());
-  }
+  std::vector<OpenFace> faces = concatenated(ranks.allToAll(byRank));
   std::sort(faces.begin(), faces.end());
   std::vector<Link> links;
   for (std::size_t i = 1; i < faces.size(); ++i)
@@ -219,27 +192,31 @@ std::vector<Link> linksAcross(
 
 } // namespace
 
-RankComponents componentsOnRanks(Communicator& ranks, const ResidentMesh& mesh)
+Components componentsOf(const ResidentMesh& mesh, Communicator* ranks)
 {
-  requireIdsOnRanks(ranks, mesh);
-  const auto [first, end] =
+  if (!ranks)
+  {
+    return componentsHere(mesh);
+  }
+  requireIds(ranks, mesh);
+  const std::pair<std::size_t, std::size_t> pieces =
     mesh.mesh().Cells > 0 ? piecesOfRank(ranks, mesh) : std::pair<std::size_t, std::size_t>();
   Ids cells;
-  const auto forOwnCells = [&, firstPiece = first, endPiece = end](const auto& work)
+  const auto forOwnCells = [&](const auto& work)
   {
-    forPieceRange(mesh, firstPiece, endPiece,
+    forPieceRange(mesh, pieces,
       [&](const MeshPart& part, const PartTopology& topology)
       {
         for (std::int64_t cell = 0; cell < part.OwnedCells; ++cell)
         {
           pollAt(cell);
-          isHidden(part, cell) ? void() : work(part, topology, cell);
+          part.isHidden(cell) ? void() : work(part, topology, cell);
         }
       });
   };
   forOwnCells([&](const MeshPart& part, const PartTopology&, std::int64_t cell)
     { cells.push_back(part.cellId(cell)); });
-  OwnComponents own(std::move(cells));
+  CellComponents own(std::move(cells));
   std::vector<OpenFace> open;
   forOwnCells(
     [&](const MeshPart& part, const PartTopology& topology, std::int64_t cell)
@@ -259,47 +236,29 @@ RankComponents componentsOnRanks(Communicator& ranks, const ResidentMesh& mesh)
         !hasOwn || hasForeign ? open.push_back(faceOf(part, topology, cell, face)) : void();
       }
     });
-  // The lowest component among those connected with each other.
-  std::map<std::int64_t, std::int64_t> above;
-  const auto rootOf = [&above](std::int64_t component)
-  {
-    for (auto at = above.find(component); at != above.end(); at = above.find(component))
-    {
-      component = at->second;
-    }
-    return component;
-  };
-  for (const std::vector<Link>& links : ranks.allGather(linksAcross(ranks, open, own)))
-  {
-    for (const Link& link : links)
-    {
-      const std::int64_t a = rootOf(link.A);
-      const std::int64_t b = rootOf(link.B);
-      a != b ? void(above[std::max(a, b)] = std::min(a, b)) : void();
-    }
-  }
-  RankComponents result;
-  result.Cells = own.cells();
   Ids roots;
-  for (const std::int64_t cell : result.Cells)
+  for (const std::int64_t cell : own.cells())
   {
-    result.OfCells.push_back(rootOf(own.rootOf(cell)));
+    roots.push_back(own.rootOf(cell));
   }
-  roots = result.OfCells;
-  sortUnique(roots);
-  Ids all;
-  for (const Ids& part : ranks.allGather(roots))
+  CellComponents all(concatenated(ranks->allGather(sortedUnique(roots))));
+  for (const Link& link : concatenated(ranks->allGather(linksAcross(*ranks, open, own))))
   {
-    all.insert(all.end(), part.begin(), part.end());
+    all.join(link[0], link[1]);
   }
-  sortUnique(all);
-  result.Sizes.assign(all.size(), 0);
-  for (std::int64_t& component : result.OfCells)
+  Ids lowest; // cells of all components
+  std::copy_if(all.cells().begin(), all.cells().end(), std::back_inserter(lowest),
+    [&all](std::int64_t cell) { return all.rootOf(cell) == cell; });
+  Components result;
+  result.Cells = own.cells();
+  result.Sizes.assign(lowest.size(), 0);
+  for (const std::int64_t root : roots)
   {
-    component = std::lower_bound(all.begin(), all.end(), component) - all.begin();
-    ++result.Sizes[std::size_t(component)];
+    const auto found = std::lower_bound(lowest.begin(), lowest.end(), all.rootOf(root));
+    result.OfCells.push_back(found - lowest.begin());
+    ++result.Sizes[std::size_t(result.OfCells.back())];
   }
-  ranks.sum(result.Sizes);
+  ranks->sum(result.Sizes);
   return result;
 }
 

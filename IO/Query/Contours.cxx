@@ -5,10 +5,11 @@
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
 #include "Predicates/ExactPredicates.h"
+#include "Query/ForPieces.h"
 #include "Query/RankAnswer.h"
-#include "Query/RankAround.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <mutex>
 #include <tuple>
@@ -22,21 +23,8 @@ namespace
 /// The bytes of a segment, and of the structures that join it to a line.
 constexpr std::uint64_t bytesOfSegment = 160;
 
-/// An edge as global ids of its points.
-struct Edge
-{
-  std::int64_t Low;
-  std::int64_t High;
-
-  bool operator<(const Edge& other) const
-  {
-    return std::tie(this->Low, this->High) < std::tie(other.Low, other.High);
-  }
-  bool operator==(const Edge& other) const
-  {
-    return this->Low == other.Low && this->High == other.High;
-  }
-};
+/// An edge as global ids of its points, ascending.
+using Edge = std::array<std::int64_t, 2>;
 
 /// The part of a contour line in one triangle.
 struct Segment
@@ -66,9 +54,7 @@ struct Corner
 Point3 crossing(Corner a, Corner b, double level)
 {
   b.Id < a.Id ? std::swap(a, b) : void();
-  const double t = (level - a.Value) / (b.Value - a.Value);
-  return { a.At.x + t * (b.At.x - a.At.x), a.At.y + t * (b.At.y - a.At.y),
-    a.At.z + t * (b.At.z - a.At.z) };
+  return between(a.At, b.At, (level - a.Value) / (b.Value - a.Value));
 }
 
 Edge edgeOf(const Corner& a, const Corner& b)
@@ -140,7 +126,7 @@ void addCells(const Access& access, const MeshPart& part, const PointValues& val
     Corner corners[3];
     double low = HUGE_VAL;
     double high = -HUGE_VAL;
-    bool isUsable = !part.Mesh.Hidden || !part.Mesh.Hidden[cell];
+    bool isUsable = !part.isHidden(cell);
     for (int i = 0; i < 3; ++i)
     {
       const auto point = std::int64_t(access.ids(cell)[i]);
@@ -274,40 +260,42 @@ const StoredArray* fieldOf(
   return description;
 }
 
+std::pair<double, double> rangeOf(
+  const ResidentMesh& mesh, const std::string& array, int component, Communicator* ranks)
+{
+  std::vector<double> range = { HUGE_VAL, HUGE_VAL }; // the lowest value, and minus the highest
+  if (canQuery(ranks, mesh))
+  {
+    const StoredArray* const description = fieldOf(mesh, array, component);
+    std::mutex mutex;
+    const auto [first, end] = piecesOfRank(ranks, mesh);
+    const PieceNeeds needs = mesh.needsOf({ array });
+    const bool stay = mesh.pieces().fit(first, end, needs);
+    forChunks(std::int64_t(end - first), 1, threadCount(mesh.options().Threads), {},
+      [&, firstPiece = first](std::int64_t number, std::int64_t, int)
+      {
+        poll();
+        const ResidentPieces::Lease piece =
+          mesh.pieces().get(firstPiece + std::size_t(number), needs, stay);
+        const PartValues values(*piece->Part, description);
+        double low = HUGE_VAL;
+        double high = -HUGE_VAL;
+        for (std::int64_t point = 0; point < piece->Part->Mesh.PointCount; ++point)
+        {
+          const double value = values.atPoint(point, component);
+          low = std::isfinite(value) ? std::min(low, value) : low;
+          high = std::isfinite(value) ? std::max(high, value) : high;
+        }
+        const std::lock_guard<std::mutex> lock(mutex);
+        range = { std::min(range[0], low), std::min(range[1], -high) };
+      });
+  }
+  areSeveral(ranks) ? ranks->minimum(range) : void();
+  return { range[0], -range[1] };
+}
+
 namespace
 {
-
-/// The range of the values in the pieces [first, end).
-std::pair<double, double> rangeIn(const ResidentMesh& mesh, const std::string& array, int component,
-  std::size_t first, std::size_t end)
-{
-  const StoredArray* const description = fieldOf(mesh, array, component);
-  double low = HUGE_VAL;
-  double high = -HUGE_VAL;
-  std::mutex mutex;
-  const PieceNeeds needs = mesh.needsOf({ array });
-  const bool stay = mesh.pieces().fit(first, end, needs);
-  forChunks(std::int64_t(end - first), 1, threadCount(mesh.options().Threads), {},
-    [&](std::int64_t number, std::int64_t, int)
-    {
-      poll();
-      const ResidentPieces::Lease piece =
-        mesh.pieces().get(first + std::size_t(number), needs, stay);
-      const PartValues values(*piece->Part, description);
-      double ownLow = HUGE_VAL;
-      double ownHigh = -HUGE_VAL;
-      for (std::int64_t point = 0; point < piece->Part->Mesh.PointCount; ++point)
-      {
-        const double value = values.atPoint(point, component);
-        ownLow = std::isfinite(value) ? std::min(ownLow, value) : ownLow;
-        ownHigh = std::isfinite(value) ? std::max(ownHigh, value) : ownHigh;
-      }
-      const std::lock_guard<std::mutex> lock(mutex);
-      low = std::min(low, ownLow);
-      high = std::max(high, ownHigh);
-    });
-  return { low, high };
-}
 
 /// Segments, with a note of their memory: pieces leave space for it.
 struct Segments
@@ -316,10 +304,15 @@ struct Segments
   std::vector<ResidentPieces::Share> Notes;
 };
 
-/// The segments in the cells that the pieces [first, end) own, in any order.
+/// The segments in the cells that this rank's pieces own, in any order.
 Segments segmentsIn(const ResidentMesh& mesh, const std::string& array, int component,
-  const std::vector<double>& levels, std::size_t firstPiece, std::size_t endPiece)
+  const std::vector<double>& levels, const Communicator* ranks)
 {
+  Segments segments;
+  if (!canQuery(ranks, mesh))
+  {
+    return segments;
+  }
   const StoredArray* const description = fieldOf(mesh, array, component);
   std::vector<std::pair<double, std::int32_t>> sorted;
   for (std::size_t i = 0; i < levels.size(); ++i)
@@ -331,16 +324,16 @@ Segments segmentsIn(const ResidentMesh& mesh, const std::string& array, int comp
     sorted.emplace_back(levels[i], std::int32_t(i));
   }
   std::sort(sorted.begin(), sorted.end());
-  Segments segments;
   // One vector for all would be copied as it grows, while pieces are in memory, too.
   std::vector<std::vector<Segment>> parts;
   std::mutex mutex;
   const PieceNeeds needs = mesh.needsOf({ array });
-  const bool stay = mesh.pieces().fit(firstPiece, endPiece, needs);
+  const auto [first, end] = piecesOfRank(ranks, mesh);
+  const bool stay = mesh.pieces().fit(first, end, needs);
   const int threads = threadCount(mesh.options().Threads);
-  const auto pieces = std::int64_t(endPiece - firstPiece);
+  const auto pieces = std::int64_t(end - first);
   forChunks(pieces, 1, pieces > 1 ? threads : 1, {},
-    [&](std::int64_t number, std::int64_t, int)
+    [&, firstPiece = first](std::int64_t number, std::int64_t, int)
     {
       poll();
       const ResidentPieces::Lease piece =
@@ -376,55 +369,27 @@ Segments segmentsIn(const ResidentMesh& mesh, const std::string& array, int comp
 
 } // namespace
 
-std::pair<double, double> rangeOf(const ResidentMesh& mesh, const std::string& array, int component)
-{
-  return rangeIn(mesh, array, component, 0, mesh.mesh().Pieces.size());
-}
-
-std::pair<double, double> rangeOnRanks(
-  Communicator& ranks, const ResidentMesh& mesh, const std::string& array, int component)
-{
-  std::vector<double> range = { HUGE_VAL, HUGE_VAL };
-  if (mesh.mesh().Cells > 0)
-  {
-    const auto [first, end] = piecesOfRank(ranks, mesh);
-    const auto [low, high] = rangeIn(mesh, array, component, first, end);
-    range = { low, -high };
-  }
-  ranks.minimum(range);
-  return { range[0], -range[1] };
-}
-
 Contours contoursOf(const ResidentMesh& mesh, const std::string& array, int component,
-  const std::vector<double>& levels)
+  const std::vector<double>& levels, Communicator* ranks)
 {
-  Segments segments = segmentsIn(mesh, array, component, levels, 0, mesh.mesh().Pieces.size());
-  return LineJoiner(std::move(segments.All)).join(levels);
-}
-
-Contours contoursOnRanks(Communicator& ranks, const ResidentMesh& mesh, const std::string& array,
-  int component, const std::vector<double>& levels)
-{
-  requireIdsOnRanks(ranks, mesh);
-  Segments segments;
-  if (mesh.mesh().Cells > 0)
-  {
-    const auto [first, end] = piecesOfRank(ranks, mesh);
-    segments = segmentsIn(mesh, array, component, levels, first, end);
-  }
+  requireIds(ranks, mesh);
+  Segments segments = segmentsIn(mesh, array, component, levels, ranks);
   std::vector<Segment>& all = segments.All;
-  Bytes own;
-  if (!ranks.isFirst())
+  if (areSeveral(ranks))
   {
-    own = packed(all);
-    all = {};
-  }
-  for (Bytes& message : ranks.gather(std::move(own)))
-  {
-    const Bytes content = std::move(message);
-    const auto part =
-      content.empty() ? std::vector<Segment>() : unpacked<std::vector<Segment>>(content);
-    all.insert(all.end(), part.begin(), part.end());
+    Bytes own;
+    if (!ranks->isFirst())
+    {
+      own = packed(all);
+      all = {};
+    }
+    for (Bytes& message : ranks->gather(std::move(own)))
+    {
+      const Bytes content = std::move(message);
+      const auto part =
+        content.empty() ? std::vector<Segment>() : unpacked<std::vector<Segment>>(content);
+      all.insert(all.end(), part.begin(), part.end());
+    }
   }
   return LineJoiner(std::move(all)).join(levels);
 }

@@ -128,7 +128,7 @@ bool followOnRanks(Communicator& ranks, const ResidentMesh& mesh, const std::str
   messages = ranks.allToAll(messages);
   for (std::vector<Walk>& message : messages)
   {
-    follow(mesh, array, component, piecesOfRank(ranks, mesh), message);
+    follow(mesh, array, component, piecesOfRank(&ranks, mesh), message);
   }
   messages = ranks.allToAll(messages);
   for (std::size_t rank = 0; rank < sent.size(); ++rank)
@@ -150,26 +150,21 @@ bool followOnRanks(Communicator& ranks, const ResidentMesh& mesh, const std::str
 } // namespace
 
 Descents descentsOf(const ResidentMesh& mesh, const std::vector<Point3>& points,
-  const std::string& array, int component)
+  const std::string& array, int component, Communicator* ranks)
 {
-  fieldOf(mesh, array, component);
-  std::vector<Walk> walks =
-    begin(points, mesh.answer(points.data(), std::int64_t(points.size())).Cells);
-  follow(mesh, array, component, { 0, mesh.mesh().Pieces.size() }, walks);
-  return linesOf(walks);
-}
-
-Descents descentsOnRanks(Communicator& ranks, const ResidentMesh& mesh,
-  const std::vector<Point3>& points, const std::string& array, int component)
-{
-  if (!mesh.isStored())
+  if (ranks && !mesh.isStored())
   {
     throw IOError("Each rank has a part of the mesh alone; store the mesh for ways down.");
   }
   fieldOf(mesh, array, component);
   std::vector<Walk> walks =
-    begin(points, answerOnRanks(ranks, mesh, points.data(), std::int64_t(points.size())).Cells);
-  while (followOnRanks(ranks, mesh, array, component, walks))
+    begin(points, answerOf(mesh, points.data(), std::int64_t(points.size()), {}, ranks).Cells);
+  if (!ranks)
+  {
+    follow(mesh, array, component, piecesOfRank(nullptr, mesh), walks);
+    return linesOf(walks);
+  }
+  while (followOnRanks(*ranks, mesh, array, component, walks))
   {
   }
   return linesOf(walks);

@@ -25,9 +25,30 @@ inline Point3 positionOf(const MeshPart& part, std::int64_t point)
   return position;
 }
 
+/// The point at the fraction `share` of the way from a to b.
+inline Point3 between(const Point3& a, const Point3& b, double share)
+{
+  return { a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z) };
+}
+
 inline bool owns(const MeshPart& part, std::int64_t point)
 {
   return !part.Ghosts || part.Ghosts[point] == 0;
+}
+
+/// The cell across the face opposite to a corner of a cell, or -1 if there is none. Of several, the
+/// one with the lowest global id. Cells are local indices.
+inline std::int64_t lowestAcross(
+  const MeshPart& part, const PartTopology& topology, std::int64_t cell, int face)
+{
+  std::int64_t found = -1;
+  topology.visitAcross(cell, face,
+    [&](std::int64_t other)
+    {
+      const bool isLower = found < 0 || part.cellId(other) < part.cellId(found);
+      found = isLower ? other : found;
+    });
+  return found;
 }
 
 /// Calls work(piece, begin, end) for the items groups.Items[begin] ... [end - 1] of each group.
@@ -51,12 +72,20 @@ void forPieces(
     });
 }
 
-/// Calls work(part, topology) for the pieces [first, end), one after the other.
-template <typename Work>
-void forPieceRange(const ResidentMesh& mesh, std::size_t first, std::size_t end, const Work& work)
+inline PieceNeeds topologyNeeded()
 {
   PieceNeeds needs;
   needs.Topology = true;
+  return needs;
+}
+
+/// Calls work(part, topology) for the pieces [first, end), one after the other.
+template <typename Work>
+void forPieceRange(
+  const ResidentMesh& mesh, std::pair<std::size_t, std::size_t> pieces, const Work& work)
+{
+  const auto [first, end] = pieces;
+  const PieceNeeds needs = topologyNeeded();
   const bool stay = mesh.pieces().fit(first, end, needs);
   for (std::size_t i = first; i < end; ++i)
   {
@@ -76,14 +105,15 @@ inline bool meets(const Bounds& a, const Bounds& b, int dimension)
   return met;
 }
 
+inline bool holds(const Bounds& box, const Point3& p, int dimension)
+{
+  return box[0] <= p.x && p.x <= box[1] && box[2] <= p.y && p.y <= box[3] &&
+    (dimension == 2 || (box[4] <= p.z && p.z <= box[5]));
+}
+
 inline Bounds boundsOf(const Box<2>& box)
 {
   return { box.Low[0], box.High[0], box.Low[1], box.High[1], 0, 0 };
-}
-
-inline std::pair<std::size_t, std::size_t> allPieces(const ResidentMesh& mesh)
-{
-  return { 0, mesh.mesh().Pieces.size() };
 }
 
 /// Calls work(part, box, begin, end) for the cells [begin, end) of each piece of [first, last)
@@ -112,22 +142,6 @@ void forCells(const ResidentMesh& mesh, std::pair<std::size_t, std::size_t> piec
       forChunks(piece->Part->Mesh.Cells, 1 << 13, manyPieces ? 1 : threads, {},
         [&](std::int64_t begin, std::int64_t end, int) { work(*piece->Part, box, begin, end); });
     });
-}
-
-inline PieceNeeds topologyNeeded()
-{
-  PieceNeeds needs;
-  needs.Topology = true;
-  return needs;
-}
-
-/// Groups ids by the pieces that own them. `pieces` may be the result of mesh.piecesOfIds() for
-/// these ids; if it is empty, the pieces are looked up.
-inline PieceGroups groupsOf(const ResidentMesh& mesh, const std::vector<std::int64_t>& ids,
-  bool ofPoints, const std::vector<std::int32_t>& pieces)
-{
-  return groupByPiece(pieces.size() == ids.size() ? pieces : mesh.piecesOfIds(ids, ofPoints),
-    mesh.mesh().Pieces.size());
 }
 
 /// The local index of a global id in the piece that owns it. Throws IOError if the piece does not

@@ -24,27 +24,22 @@ struct Contours
   std::vector<Point3> Points;
 };
 
+// `ranks` are the ranks that share the mesh, as for answerOnRanks(); null: this process alone. With
+// ranks, the functions are collective; call them within Communicator::together(). All ranks pass
+// the same array, component, levels and spacing. They throw IOError and WorkAborted.
+
 /// Computes the contour lines of a point array on a mesh of triangles, linear in each triangle. A
 /// point is above a level if its value is not lower than the level. Triangles with a NaN value have
 /// no lines. The higher side is on the left. Lines are joined across pieces, and are the same bits
-/// for any pieces and threads. They are sorted by level, in the order of `levels`. Throws IOError.
+/// for any pieces and threads. They are sorted by level, in the order of `levels`. With ranks, the
+/// first one gets all lines, and others get none; parts in memory need global point ids.
 VTKTIPPIO_EXPORT Contours contoursOf(const ResidentMesh& mesh, const std::string& array,
-  int component, const std::vector<double>& levels);
+  int component, const std::vector<double>& levels, Communicator* ranks = nullptr);
 
-/// Computes the contour lines of the meshes of all ranks (see answerOnRanks()) on the first rank;
-/// other ranks get none. Parts in memory need global point ids. Collective; call it within
-/// Communicator::together(). Throws IOError.
-VTKTIPPIO_EXPORT Contours contoursOnRanks(Communicator& ranks, const ResidentMesh& mesh,
-  const std::string& array, int component, const std::vector<double>& levels);
-
-/// The lowest and the highest finite value of a point array; low > high if there is none. Throws
-/// IOError.
+/// The lowest and the highest finite value of a point array, on every rank; low > high if there is
+/// none.
 VTKTIPPIO_EXPORT std::pair<double, double> rangeOf(
-  const ResidentMesh& mesh, const std::string& array, int component);
-
-/// As rangeOf(), for the meshes of all ranks, on every rank. Collective, as contoursOnRanks().
-VTKTIPPIO_EXPORT std::pair<double, double> rangeOnRanks(
-  Communicator& ranks, const ResidentMesh& mesh, const std::string& array, int component);
+  const ResidentMesh& mesh, const std::string& array, int component, Communicator* ranks = nullptr);
 
 /// Describes an array at the points, with `orOfCells` also at the cells, of a mesh of triangles;
 /// null for the elevation. Throws IOError if the mesh has no such array or component.
@@ -62,15 +57,10 @@ struct Profile
 };
 
 /// Samples a mesh at the corners of a polyline, and every `spacing` along it. If `spacing` is 0,
-/// samples it exactly where it crosses edges of triangles or faces of tetrahedra instead. Throws
-/// IOError.
+/// samples it exactly where it crosses edges of triangles or faces of tetrahedra instead. Each rank
+/// has its own polyline, which may be empty.
 VTKTIPPIO_EXPORT Profile profileOf(const ResidentMesh& mesh, const std::vector<Point3>& polyline,
-  double spacing, const std::vector<std::string>& arrays);
-
-/// Samples the meshes of all ranks (see contoursOnRanks()) along this rank's polyline, which may be
-/// empty. All ranks pass the same spacing and arrays.
-VTKTIPPIO_EXPORT Profile profileOnRanks(Communicator& ranks, const ResidentMesh& mesh,
-  const std::vector<Point3>& polyline, double spacing, const std::vector<std::string>& arrays);
+  double spacing, const std::vector<std::string>& arrays, Communicator* ranks = nullptr);
 
 /// Paths of steepest descent: line i has the points Starts[i] ... Starts[i + 1] - 1. It has no
 /// points if it starts outside the mesh.
@@ -92,16 +82,28 @@ void serialize(Archive& archive, Descents& descents)
 /// goes down a triangle, or along an edge if both sides descend towards it or it is on the border.
 /// It ends where nothing descends: at a mesh point, or in a level triangle or edge. Slopes and
 /// crossings are rounded. Of equal slopes, edges are preferred to triangles, then the lowest id.
-/// Results do not depend on pieces and threads. Throws IOError and WorkAborted.
+/// Results do not depend on pieces and threads. Each rank has its own points, or none; the rank
+/// with the cells follows each path. Several ranks need a stored mesh.
 VTKTIPPIO_EXPORT Descents descentsOf(const ResidentMesh& mesh, const std::vector<Point3>& points,
-  const std::string& array, int component);
+  const std::string& array, int component, Communicator* ranks = nullptr);
 
-/// Follows the steepest descent from this rank's points in a stored mesh, whose pieces are
-/// distributed over the ranks as in answerOnRanks(). The rank with the cells follows each path. A
-/// rank may have no points. Collective; call it within Communicator::together(). Throws IOError,
-/// also for a mesh in memory.
-VTKTIPPIO_EXPORT Descents descentsOnRanks(Communicator& ranks, const ResidentMesh& mesh,
-  const std::vector<Point3>& points, const std::string& array, int component);
+// The same for callers that always have ranks.
+
+inline Contours contoursOnRanks(Communicator& ranks, const ResidentMesh& mesh,
+  const std::string& array, int component, const std::vector<double>& levels)
+{
+  return contoursOf(mesh, array, component, levels, &ranks);
+}
+inline std::pair<double, double> rangeOnRanks(
+  Communicator& ranks, const ResidentMesh& mesh, const std::string& array, int component)
+{
+  return rangeOf(mesh, array, component, &ranks);
+}
+inline Descents descentsOnRanks(Communicator& ranks, const ResidentMesh& mesh,
+  const std::vector<Point3>& points, const std::string& array, int component)
+{
+  return descentsOf(mesh, points, array, component, &ranks);
+}
 
 } // namespace tipp
 

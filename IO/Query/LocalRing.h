@@ -16,7 +16,8 @@ namespace tipp
 class LocalRing
 {
 public:
-  /// `shared` is that of ringsWithin(). If null, the points are used that the piece does not own.
+  /// `shared` is not 0 at points where other parts of the mesh have cells, too. If it is null,
+  /// these are the points that the piece does not own.
   LocalRing(const ResidentPiece& piece, const std::uint8_t* shared)
     : Shared(shared ? shared : piece.Part->Ghosts)
     , Topology(*piece.Topology)

@@ -41,6 +41,7 @@ struct MeshPart
   {
     return this->CellIds ? this->CellIds[cell] : cell;
   }
+  bool isHidden(std::int64_t cell) const { return this->Mesh.Hidden && this->Mesh.Hidden[cell]; }
   std::int64_t pointId(std::int64_t point) const
   {
     return this->PointIds ? this->PointIds[point] : point;

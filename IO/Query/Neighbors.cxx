@@ -2,7 +2,7 @@
 #include "Query/Around.h"
 
 #include "Partitioned/NeighborIds.h"
-#include "Query/ForPieces.h"
+#include "Query/RankQuestions.h"
 
 #include <algorithm>
 #include <array>
@@ -20,20 +20,6 @@ struct ForeignFace
   std::int64_t Cell;
   std::array<std::int64_t, 3> Points;
 };
-
-/// The lowest global id of the cells across a face, or -1.
-std::int64_t lowestAcross(
-  const MeshPart& part, const PartTopology& topology, std::int64_t cell, int face)
-{
-  std::int64_t lowest = -1;
-  topology.visitAcross(cell, face,
-    [&](std::int64_t other)
-    {
-      const std::int64_t id = part.cellId(other);
-      lowest = lowest < 0 ? id : std::min(lowest, id);
-    });
-  return lowest;
-}
 
 std::vector<std::int64_t> storedNeighbors(const ResidentMesh& mesh,
   const std::vector<std::int64_t>& cells, const PieceGroups& groups, std::size_t array)
@@ -124,7 +110,8 @@ std::vector<std::int64_t> computedNeighbors(
           }
           if (isComplete)
           {
-            result[std::size_t(other.At)] = lowestAcross(part, topology, cell, face);
+            const std::int64_t across = lowestAcross(part, topology, cell, face);
+            result[std::size_t(other.At)] = across < 0 ? -1 : part.cellId(across);
             continue;
           }
           const std::lock_guard<std::mutex> lock(mutex);
@@ -137,9 +124,8 @@ std::vector<std::int64_t> computedNeighbors(
   return result;
 }
 
-} // namespace
-
-std::vector<std::int64_t> neighborsOf(const ResidentMesh& mesh,
+/// The neighbours of cells that the pieces own.
+std::vector<std::int64_t> neighborsIn(const ResidentMesh& mesh,
   const std::vector<std::int64_t>& cells, const std::vector<std::int32_t>& pieces)
 {
   const std::vector<StoredArray>& arrays = mesh.mesh().Arrays;
@@ -150,12 +136,71 @@ std::vector<std::int64_t> neighborsOf(const ResidentMesh& mesh,
       return !array.OfPoints && array.Name == neighborIdsArray.Name &&
         array.Type == Scalar::Int64 && array.Components == corners && array.Step < 0;
     });
-  const PieceGroups groups = groupsOf(mesh, cells, false, pieces);
-  if (mesh.isStored() && stored != arrays.end())
+  const PieceGroups groups = groupByPiece(pieces, mesh.mesh().Pieces.size());
+  return mesh.isStored() && stored != arrays.end()
+    ? storedNeighbors(mesh, cells, groups, std::size_t(stored - arrays.begin()))
+    : computedNeighbors(mesh, groups, cells);
+}
+
+/// The neighbours of cells in the parts of several ranks in memory.
+std::vector<std::int64_t> neighborsInMemory(const RankQuestions& questions, const Ids& cells)
+{
+  const IdLists corners = questions.corners(cells);
+  const Ids points = sortedUnique(corners.Ids);
+  const ListsById stars(points, questions.stars(points));
+  std::vector<std::int64_t> result;
+  for (std::size_t i = 0; i < cells.size(); ++i)
   {
-    return storedNeighbors(mesh, cells, groups, std::size_t(stored - arrays.begin()));
+    const Ids own = corners.list(i);
+    for (std::size_t face = 0; face < own.size(); ++face)
+    {
+      Ids across;
+      bool isFirst = true;
+      for (std::size_t k = 0; k < own.size(); ++k)
+      {
+        if (k != face)
+        {
+          const Ids star = stars.of(own[k]);
+          Ids common;
+          std::set_intersection(
+            across.begin(), across.end(), star.begin(), star.end(), std::back_inserter(common));
+          across = std::exchange(isFirst, false) ? star : common;
+        }
+      }
+      across = without(across, { cells[i] });
+      result.push_back(across.empty() ? -1 : across.front());
+    }
   }
-  return computedNeighbors(mesh, groups, cells);
+  return result;
+}
+
+} // namespace
+
+std::vector<std::int64_t> neighborsOf(
+  const ResidentMesh& mesh, const std::vector<std::int64_t>& cells, Communicator* ranks)
+{
+  if (!areSeveral(ranks))
+  {
+    return neighborsIn(mesh, cells, mesh.piecesOfIds(cells, false));
+  }
+  const RankQuestions questions(*ranks, mesh);
+  if (!mesh.isStored())
+  {
+    return neighborsInMemory(questions, cells);
+  }
+  return questions
+    .askOwners(cells, false,
+      [&mesh](const Ids& own, const std::vector<std::int32_t>& pieces)
+      {
+        IdLists lists;
+        lists.Ids = neighborsIn(mesh, own, pieces);
+        for (std::size_t i = 0; i < own.size(); ++i)
+        {
+          lists.Starts.push_back(lists.Starts.back() + mesh.mesh().CellSize);
+        }
+        return lists;
+      })
+    .Ids;
 }
 
 OwnedNeighbors neighborsInPiece(const ResidentMesh& mesh, std::size_t piece)
@@ -169,13 +214,9 @@ OwnedNeighbors neighborsInPiece(const ResidentMesh& mesh, std::size_t piece)
       owned.Cells.push_back(part.cellId(cell));
     }
   }
-  PieceGroups groups;
-  for (std::size_t i = 0; i < owned.Cells.size(); ++i)
-  {
-    groups.Items.push_back(std::int64_t(i));
-  }
-  groups.Groups.push_back({ piece, 0, std::int64_t(owned.Cells.size()) });
-  owned.Neighbors = computedNeighbors(mesh, groups, owned.Cells);
+  const std::vector<std::int32_t> pieces(owned.Cells.size(), std::int32_t(piece));
+  owned.Neighbors =
+    computedNeighbors(mesh, groupByPiece(pieces, mesh.mesh().Pieces.size()), owned.Cells);
   return owned;
 }
 

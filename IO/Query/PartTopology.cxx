@@ -51,7 +51,7 @@ PartTopology::PartTopology(const MeshPart& part)
   {
     for (std::int64_t cell = 0; cell < this->AllCells; ++cell)
     {
-      for (int i = 0; i < this->Corners && !(part.Mesh.Hidden && part.Mesh.Hidden[cell]); ++i)
+      for (int i = 0; i < this->Corners && !part.isHidden(cell); ++i)
       {
         const std::int64_t point = this->corner(cell, i);
         bool isRepeated = false;

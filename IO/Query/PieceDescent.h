@@ -188,8 +188,7 @@ private:
     walk.Low = a.Id;
     walk.High = b.Id;
     walk.OfLow = a.At;
-    walk.At = { a.At.x + share * (b.At.x - a.At.x), a.At.y + share * (b.At.y - a.At.y),
-      a.At.z + share * (b.At.z - a.At.z) };
+    walk.At = between(a.At, b.At, share);
     walk.Value = value;
     append(walk);
   }

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Arrays/SortUnique.h"
 #include "Files/IOError.h"
+#include "Query/ForPieces.h"
 #include "Query/Lines.h"
 #include "Query/RankAnswer.h"
-#include "Query/RankAround.h"
 #include "Query/SegmentCrossings.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <functional>
 
 namespace tipp
 {
@@ -20,12 +19,6 @@ double distance(const Point3& a, const Point3& b)
 {
   return a.z == b.z ? std::hypot(b.x - a.x, b.y - a.y)
                     : std::hypot(b.x - a.x, b.y - a.y, b.z - a.z);
-}
-
-/// The point at the fraction `share` of the way from a to b.
-Point3 between(const Point3& a, const Point3& b, double share)
-{
-  return { a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z) };
 }
 
 /// Writes a value to an array of the answer, in the array's type.
@@ -76,33 +69,53 @@ void requirePolyline(const std::vector<Point3>& polyline, double spacing)
 
 using Crossings = std::vector<std::vector<Crossing>>;
 
-/// The functions through which a profile queries one mesh, or the meshes of all ranks.
-struct ProfileSource
+/// The crossings of a polyline with the meshes of all ranks.
+Crossings crossingsOf(const ResidentMesh& mesh, const std::vector<Point3>& own,
+  const std::vector<std::string>& arrays, Communicator* ranks)
 {
-  bool InSpace = false;
-  std::vector<char> OfPoints; ///< per array: whether it has values at points
-  std::function<MeshAnswer(const std::vector<Point3>&, const AnswerOptions&)> Answer;
-  std::function<Crossings(const std::vector<Point3>&)> CrossingsOf;
-};
-
-template <typename Archive>
-void serialize(Archive& archive, ProfileSource& source)
-{
-  archive(source.InSpace, source.OfPoints);
+  const auto [first, end] = piecesOfRank(ranks, mesh);
+  if (!ranks)
+  {
+    return crossingsIn(mesh, own, arrays, first, end);
+  }
+  std::vector<Crossings> replies;
+  for (const std::vector<Point3>& corners : ranks->allGather(own))
+  {
+    replies.push_back(
+      canQuery(ranks, mesh) ? crossingsIn(mesh, corners, arrays, first, end) : Crossings());
+  }
+  Crossings result(own.size());
+  for (const Crossings& part : ranks->allToAll(replies))
+  {
+    for (std::size_t i = 0; i < part.size(); ++i)
+    {
+      result[i].insert(result[i].end(), part[i].begin(), part[i].end());
+    }
+  }
+  std::for_each(result.begin(), result.end(), sortUnique<Crossing>);
+  return result;
 }
 
-Profile profileOf(const ProfileSource& source, const std::vector<Point3>& given, double spacing,
-  const std::vector<std::string>& arrays)
+} // namespace
+
+Profile profileOf(const ResidentMesh& mesh, const std::vector<Point3>& given, double spacing,
+  const std::vector<std::string>& arrays, Communicator* ranks)
 {
+  requireIds(ranks, mesh);
+  const bool inSpace = RankParts(ranks, mesh, arrays).Common.CellSize == 4;
+  AnswerOptions options;
+  options.Arrays = arrays;
+  const auto answer = [&](const std::vector<Point3>& points)
+  { return answerOf(mesh, points.data(), std::int64_t(points.size()), options, ranks); };
   std::vector<Point3> polyline;
   for (const Point3& p : given)
   {
-    const Point3 corner{ p.x, p.y, source.InSpace ? p.z : 0 };
+    const Point3 corner{ p.x, p.y, inSpace ? p.z : 0 };
     polyline.empty() || !(polyline.back() == corner) ? polyline.push_back(corner) : void();
   }
   requirePolyline(polyline, spacing);
   Profile profile;
-  Crossings crossings = spacing == 0 ? source.CrossingsOf(polyline) : Crossings();
+  Crossings crossings = spacing == 0 ? crossingsOf(mesh, polyline, arrays, ranks) : Crossings();
   crossings.resize(polyline.size());
   std::vector<const Crossing*> found; // per point of the profile; null for others
   double before = 0;
@@ -126,11 +139,9 @@ Profile profileOf(const ProfileSource& source, const std::vector<Point3>& given,
                               : void();
     before += length;
   }
-  AnswerOptions options;
-  options.Arrays = arrays;
   if (spacing > 0)
   {
-    profile.Answer = source.Answer(profile.Points, options);
+    profile.Answer = answer(profile.Points);
     return profile;
   }
   // Cells and cell values are those at the middles between points; point values are those of the
@@ -142,15 +153,15 @@ Profile profileOf(const ProfileSource& source, const std::vector<Point3>& given,
     const Point3& b = profile.Points[i + 1];
     middles[i] = { (a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2 };
   }
-  profile.Answer = source.Answer(middles, options);
-  const MeshAnswer corners = source.Answer(profile.Points, options);
+  profile.Answer = answer(middles);
+  const MeshAnswer corners = answer(profile.Points);
   for (std::size_t i = 0; i < profile.Points.size(); ++i)
   {
     std::size_t k = 0;
-    for (std::size_t a = 0; a < arrays.size(); ++a)
+    for (std::size_t a = 0; a < profile.Answer.Arrays.size(); ++a) // none if no rank has cells
     {
       MeshAnswer::Array& values = profile.Answer.Arrays[a];
-      if (!source.OfPoints[a])
+      if (!values.OfPoints)
       {
         continue;
       }
@@ -169,68 +180,6 @@ Profile profileOf(const ProfileSource& source, const std::vector<Point3>& given,
     }
   }
   return profile;
-}
-
-/// Describes the mesh, without the functions.
-ProfileSource describe(const ResidentMesh& mesh, const std::vector<std::string>& arrays)
-{
-  ProfileSource source;
-  source.InSpace = mesh.mesh().CellSize == 4;
-  for (const std::string& name : arrays)
-  {
-    const StoredArray* const array = mesh.find(name);
-    source.OfPoints.push_back(char(!array || array->OfPoints));
-  }
-  return source;
-}
-
-} // namespace
-
-Profile profileOf(const ResidentMesh& mesh, const std::vector<Point3>& polyline, double spacing,
-  const std::vector<std::string>& arrays)
-{
-  ProfileSource source = describe(mesh, arrays);
-  source.Answer = [&](const std::vector<Point3>& points, const AnswerOptions& options)
-  { return mesh.answer(points.data(), std::int64_t(points.size()), options); };
-  source.CrossingsOf = [&](const std::vector<Point3>& corners)
-  { return crossingsIn(mesh, corners, arrays, 0, mesh.mesh().Pieces.size()); };
-  return profileOf(source, polyline, spacing, arrays);
-}
-
-Profile profileOnRanks(Communicator& ranks, const ResidentMesh& mesh,
-  const std::vector<Point3>& polyline, double spacing, const std::vector<std::string>& arrays)
-{
-  requireIdsOnRanks(ranks, mesh);
-  const bool hasCells = mesh.mesh().Cells > 0;
-  ProfileSource source;
-  for (const ProfileSource& of :
-    ranks.allGather(hasCells ? describe(mesh, arrays) : ProfileSource()))
-  {
-    source = of.OfPoints.size() == arrays.size() && source.OfPoints.empty() ? of : source;
-  }
-  source.OfPoints.resize(arrays.size(), 1); // if no rank has cells
-  source.Answer = [&](const std::vector<Point3>& points, const AnswerOptions& options)
-  { return answerOnRanks(ranks, mesh, points.data(), std::int64_t(points.size()), options); };
-  source.CrossingsOf = [&](const std::vector<Point3>& own)
-  {
-    std::vector<Crossings> replies;
-    for (const std::vector<Point3>& corners : ranks.allGather(own))
-    {
-      const auto [first, end] = piecesOfRank(ranks, mesh);
-      replies.push_back(hasCells ? crossingsIn(mesh, corners, arrays, first, end) : Crossings());
-    }
-    Crossings result(own.size());
-    for (const Crossings& part : ranks.allToAll(replies))
-    {
-      for (std::size_t i = 0; i < part.size(); ++i)
-      {
-        result[i].insert(result[i].end(), part[i].begin(), part[i].end());
-      }
-    }
-    std::for_each(result.begin(), result.end(), sortUnique<Crossing>);
-    return result;
-  };
-  return profileOf(source, polyline, spacing, arrays);
 }
 
 } // namespace tipp

@@ -2,11 +2,11 @@
 #include "Query/RankAnswer.h"
 
 #include "Files/IOError.h"
+#include "Query/ForPieces.h"
 
 #include <algorithm>
 #include <cstring>
 #include <numeric>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -14,65 +14,6 @@ namespace tipp
 {
 namespace
 {
-
-/// What each rank knows about another rank's part of the mesh.
-struct RankPart
-{
-  int CellSize = 0; ///< 0 if it has no cells
-  bool HasIds = false;
-  std::int64_t Cells = 0;
-  Bounds Domain{};
-  std::vector<Scalar> Types; ///< types of the requested arrays
-  std::vector<int> Components;
-};
-
-template <typename Archive>
-void serialize(Archive& archive, RankPart& part)
-{
-  archive(part.CellSize, part.HasIds, part.Cells, part.Domain, part.Types, part.Components);
-}
-
-RankPart describe(const ResidentMesh& mesh, const AnswerOptions& options)
-{
-  RankPart part;
-  part.Cells = mesh.mesh().Cells;
-  part.HasIds = mesh.hasCellIds();
-  part.Domain = mesh.mesh().Domain;
-  if (part.Cells > 0)
-  {
-    part.CellSize = mesh.mesh().CellSize;
-    for (const std::string& name : options.Arrays)
-    {
-      const StoredArray* const array = mesh.find(name);
-      part.Types.push_back(array ? array->Type : mesh.mesh().PointType);
-      part.Components.push_back(array ? array->Components : 1);
-    }
-  }
-  return part;
-}
-
-/// The description that all parts with cells have in common. Throws IOError if they differ.
-RankPart commonPart(const std::vector<RankPart>& parts)
-{
-  RankPart common;
-  for (const RankPart& part : parts)
-  {
-    const auto kind = [](const RankPart& p) { return std::tie(p.CellSize, p.Types, p.Components); };
-    if (part.CellSize != 0 && common.CellSize != 0 && kind(common) != kind(part))
-    {
-      throw IOError("The ranks' parts of the mesh differ in their type of cells or arrays.");
-    }
-    common = common.CellSize != 0 ? common : part;
-  }
-  return common;
-}
-
-bool holds(const RankPart& part, const Point3& p)
-{
-  const Bounds& b = part.Domain;
-  return part.CellSize != 0 && b[0] <= p.x && p.x <= b[1] && b[2] <= p.y && p.y <= b[3] &&
-    (part.CellSize == 3 || (b[4] <= p.z && p.z <= b[5]));
-}
 
 /// For each rank, the indices of this rank's points to send to it.
 std::vector<std::vector<std::int64_t>> shareOut(const Communicator& communicator,
@@ -88,7 +29,9 @@ std::vector<std::vector<std::int64_t>> shareOut(const Communicator& communicator
       piece >= 0 ? work(rankOfPiece(communicator, mesh, piece), i) : void();
       for (std::size_t rank = 0; rank < parts.size() && !mesh.isStored(); ++rank)
       {
-        holds(parts[rank], points[i]) ? work(rank, i) : void();
+        const RankPart& part = parts[rank];
+        part.CellSize != 0 && holds(part.Domain, points[i], part.CellSize - 1) ? work(rank, i)
+                                                                               : void();
       }
     }
   };
@@ -206,19 +149,15 @@ public:
     std::int64_t count, const AnswerOptions& options)
     : Options(options)
   {
-    const std::vector<RankPart> parts = ranks.allGather(describe(mesh, options));
-    this->Common = commonPart(parts);
-    for (int rank = 0; rank < ranks.rank() && !mesh.isStored(); ++rank)
-    {
-      this->FirstCell += parts[std::size_t(rank)].Cells;
-    }
-    this->FirstCell = mesh.hasCellIds() ? 0 : this->FirstCell;
+    const RankParts parts(&ranks, mesh, options.Arrays);
+    this->Common = parts.Common;
+    const std::int64_t firstCell = parts.firstCell(ranks, mesh);
     // With a stored mesh, each point is sent to only one rank, so no keys are needed.
     this->HasKeys = options.Keys || !mesh.isStored();
     this->Own = std::size_t(ranks.rank());
     const std::vector<std::int32_t> pieces =
       mesh.isStored() ? mesh.piecesOf(points, count) : std::vector<std::int32_t>();
-    this->Asked = shareOut(ranks, mesh, parts, pieces, points, count);
+    this->Asked = shareOut(ranks, mesh, parts.All, pieces, points, count);
     this->receive(ranks, mesh.isStored(), pieces, points);
     AnswerOptions wanted = options;
     wanted.Keys = this->HasKeys;
@@ -228,7 +167,7 @@ public:
           std::move(this->Pieces));
     for (std::int64_t& cell : this->Found.Cells)
     {
-      cell += cell >= 0 ? this->FirstCell : 0;
+      cell += cell >= 0 ? firstCell : 0;
     }
   }
 
@@ -292,15 +231,8 @@ public:
 
   MeshAnswer emptyAnswer(std::int64_t count) const
   {
-    std::vector<StoredArray> arrays(this->Common.Types.size());
-    for (std::size_t a = 0; a < arrays.size(); ++a)
-    {
-      arrays[a].Name = this->Options.Arrays[a];
-      arrays[a].Type = this->Common.Types[a];
-      arrays[a].Components = this->Common.Components[a];
-    }
     return tipp::emptyAnswer(
-      count, arrays, this->Common.CellSize, this->Options.Weights, this->HasKeys);
+      count, this->Common.Arrays, this->Common.CellSize, this->Options.Weights, this->HasKeys);
   }
 
 private:
@@ -375,7 +307,6 @@ private:
   RankPart Common;
   bool HasKeys = false;
   std::size_t Own = 0; ///< this rank
-  std::int64_t FirstCell = 0;
   std::vector<std::vector<std::int64_t>> Asked;
   Buffer<Point3> Received;
   std::vector<std::int32_t> Pieces; ///< the pieces of the received points, for a stored mesh
@@ -388,59 +319,108 @@ private:
 std::vector<std::vector<char>> chooseRanks(const std::vector<std::vector<std::int64_t>>& asked,
   const std::vector<std::vector<Column>>& replies, std::int64_t count)
 {
-  struct Best
+  const bool hasKeys = replies[0].size() > 1;
+  MeshAnswer best;
+  best.Cells.assign(std::size_t(count), -1);
+  best.Keys.assign(hasKeys ? std::size_t(count) : 0, noCellKey);
+  const std::vector<Column> columns = { { reinterpret_cast<const char*>(best.Cells.data()),
+                                          sizeof(std::int64_t) },
+    { reinterpret_cast<const char*>(best.Keys.data()), sizeof(CellKey) } };
+  for (std::size_t rank = 0; rank < asked.size(); ++rank)
   {
-    CellKey Key;
-    std::int64_t Cell = -1;
-    std::size_t Rank = 0;
-  };
-  std::vector<Best> best(static_cast<std::size_t>(count));
-  const auto forReplies = [&](const auto& work)
-  {
-    for (std::size_t rank = 0; rank < asked.size(); ++rank)
-    {
-      for (std::size_t i = 0; i < asked[rank].size(); ++i)
-      {
-        work(rank, i, best[std::size_t(asked[rank][i])]);
-      }
-    }
-  };
-  forReplies(
-    [&](std::size_t rank, std::size_t i, Best& so)
-    {
-      const std::vector<Column>& reply = replies[rank];
-      const CellKey key = reply.size() > 1 ? CellKey(numberAt(reply[1], i)) : noCellKey;
-      const auto cell = std::int64_t(numberAt(reply[0], i));
-      if (cell >= 0 && (so.Cell < 0 || std::tie(key, cell) < std::tie(so.Key, so.Cell)))
-      {
-        so = { key, cell, rank };
-      }
-    });
+    merge(replies[rank], asked[rank], columns, best);
+  }
   std::vector<std::vector<char>> chosen(asked.size());
-  forReplies([&](std::size_t rank, std::size_t, const Best& so)
-    { chosen[rank].push_back(char(so.Cell >= 0 && so.Rank == rank)); });
+  for (std::size_t rank = 0; rank < asked.size(); ++rank)
+  {
+    for (std::size_t i = 0; i < asked[rank].size(); ++i)
+    {
+      const auto at = std::size_t(asked[rank][i]);
+      const bool isBest = best.Cells[at] >= 0 &&
+        best.Cells[at] == std::int64_t(numberAt(replies[rank][0], i)) &&
+        (!hasKeys || best.Keys[at] == CellKey(numberAt(replies[rank][1], i)));
+      best.Cells[at] = isBest ? -1 : best.Cells[at]; // no other rank is chosen
+      chosen[rank].push_back(char(isBest));
+    }
+  }
   return chosen;
 }
 
 } // namespace
 
 std::pair<std::size_t, std::size_t> piecesOfRank(
-  const Communicator& ranks, const ResidentMesh& mesh)
+  const Communicator* ranks, const ResidentMesh& mesh)
 {
-  if (!mesh.isStored())
+  const std::size_t pieces = mesh.mesh().Pieces.size();
+  if (!areSeveral(ranks) || !mesh.isStored())
   {
-    return { 0, 1 };
+    return { 0, pieces };
   }
   // The inverse of rankOfPiece().
-  const std::size_t pieces = mesh.mesh().Pieces.size();
-  const auto size = std::size_t(ranks.size());
+  const auto size = std::size_t(ranks->size());
   const auto firstOf = [&](std::size_t rank) { return (rank * pieces + size - 1) / size; };
-  return { firstOf(std::size_t(ranks.rank())), firstOf(std::size_t(ranks.rank()) + 1) };
+  return { firstOf(std::size_t(ranks->rank())), firstOf(std::size_t(ranks->rank()) + 1) };
 }
 
 std::size_t rankOfPiece(const Communicator& ranks, const ResidentMesh& mesh, std::int64_t piece)
 {
   return std::size_t(piece * ranks.size() / std::int64_t(mesh.mesh().Pieces.size()));
+}
+
+void requireIds(Communicator* ranks, const ResidentMesh& mesh)
+{
+  if (!areSeveral(ranks))
+  {
+    return;
+  }
+  const bool hasCells = mesh.mesh().Cells > 0;
+  bool hasIds = true;
+  if (hasCells && !mesh.isStored())
+  {
+    const ResidentPieces::Lease piece = mesh.pieces().get(0, {});
+    hasIds = piece->Part->CellIds && piece->Part->PointIds;
+  }
+  std::vector<std::int64_t> sums = { hasCells ? 1 : 0, hasIds ? 0 : 1 };
+  ranks->sum(sums);
+  if (sums[0] > 1 && sums[1] > 0)
+  {
+    throw IOError("A rank's part of the mesh has no global ids of points and cells, which this "
+                  "query needs; make them, as by vtkGenerateGlobalIds.");
+  }
+}
+
+RankParts::RankParts(
+  Communicator* ranks, const ResidentMesh& mesh, const std::vector<std::string>& arrays)
+{
+  RankPart own;
+  own.Cells = mesh.mesh().Cells;
+  own.Domain = mesh.mesh().Domain;
+  if (canQuery(ranks, mesh))
+  {
+    own.CellSize = mesh.mesh().CellSize;
+    own.Arrays = mesh.describe(arrays);
+  }
+  this->All = areSeveral(ranks) ? ranks->allGather(own) : std::vector<RankPart>{ own };
+  const auto areAlike = [](const StoredArray& a, const StoredArray& b)
+  { return a.Type == b.Type && a.Components == b.Components; };
+  for (const RankPart& part : this->All)
+  {
+    if (part.CellSize != 0 && this->Common.CellSize != 0 &&
+      (part.CellSize != this->Common.CellSize ||
+        !std::equal(part.Arrays.begin(), part.Arrays.end(), this->Common.Arrays.begin(),
+          this->Common.Arrays.end(), areAlike)))
+    {
+      throw IOError("The ranks' parts of the mesh differ in their type of cells or arrays.");
+    }
+    this->Common = this->Common.CellSize != 0 ? this->Common : part;
+  }
+}
+
+std::int64_t RankParts::firstCell(const Communicator& ranks, const ResidentMesh& mesh) const
+{
+  const auto end = this->All.begin() + (mesh.hasCellIds() ? 0 : ranks.rank());
+  return std::accumulate(this->All.begin(), end, std::int64_t(0),
+    [](std::int64_t sum, const RankPart& part) { return sum + part.Cells; });
 }
 
 MeshAnswer answerOnRanks(Communicator& ranks, const ResidentMesh& mesh, const Point3* points,

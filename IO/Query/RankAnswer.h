@@ -8,17 +8,80 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <vector>
 
 namespace tipp
 {
 
-/// The pieces [first, end) of a stored mesh that a rank has. A part in memory is one piece.
+/// Whether several ranks share a mesh.
+inline bool areSeveral(const Communicator* ranks)
+{
+  return ranks && ranks->size() > 1;
+}
+
+/// Whether to query the mesh of this process: a rank that has no cells does not even know the
+/// arrays.
+inline bool canQuery(const Communicator* ranks, const ResidentMesh& mesh)
+{
+  return mesh.mesh().Cells > 0 || !ranks;
+}
+
+/// The pieces [first, end) of a mesh that this rank queries. A mesh in memory is one piece.
 std::pair<std::size_t, std::size_t> piecesOfRank(
-  const Communicator& ranks, const ResidentMesh& mesh);
+  const Communicator* ranks, const ResidentMesh& mesh);
 /// The rank that has a piece of a stored mesh.
 std::size_t rankOfPiece(const Communicator& ranks, const ResidentMesh& mesh, std::int64_t piece);
+
+/// Throws IOError if several ranks have cells and this rank's part lacks global ids. Collective.
+void requireIds(Communicator* ranks, const ResidentMesh& mesh);
+
+template <typename T>
+std::vector<T> concatenated(const std::vector<std::vector<T>>& parts)
+{
+  std::vector<T> all;
+  for (const std::vector<T>& part : parts)
+  {
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
+/// The items of all ranks on the first rank, none on the others.
+template <typename T>
+std::vector<T> gathered(Communicator* ranks, std::vector<T> own)
+{
+  return areSeveral(ranks) ? concatenated(ranks->gather(own)) : own;
+}
+
+/// What a rank knows about a rank's part of a mesh.
+struct RankPart
+{
+  int CellSize = 0; ///< 0 if it has no cells
+  std::int64_t Cells = 0;
+  Bounds Domain{};
+  std::vector<StoredArray> Arrays; ///< the requested ones; the elevation, too
+};
+
+template <typename Archive>
+void serialize(Archive& archive, RankPart& part)
+{
+  archive(part.CellSize, part.Cells, part.Domain, part.Arrays);
+}
+
+/// The parts of all ranks, and what those with cells have in common. Collective if there are
+/// several ranks. Throws IOError if parts differ in their kind of cells or arrays.
+struct RankParts
+{
+  RankParts(Communicator* ranks, const ResidentMesh& mesh, const std::vector<std::string>& arrays);
+
+  /// Added to this rank's cell ids: cells without global ids are numbered over the ranks.
+  std::int64_t firstCell(const Communicator& ranks, const ResidentMesh& mesh) const;
+
+  std::vector<RankPart> All; ///< by rank
+  RankPart Common;
+};
 
 /// Answers this rank's points with the meshes of all ranks. Either all ranks have opened the same
 /// stored mesh: then its pieces are distributed over the ranks, and each is in the memory of one
@@ -29,6 +92,14 @@ std::size_t rankOfPiece(const Communicator& ranks, const ResidentMesh& mesh, std
 /// Collective; call it within Communicator::together(). Throws IOError.
 VTKTIPPIO_EXPORT MeshAnswer answerOnRanks(Communicator& ranks, const ResidentMesh& mesh,
   const Point3* points, std::int64_t count, const AnswerOptions& options = {});
+
+/// Answers points with the meshes of all ranks or, if `ranks` is null, with the mesh alone.
+inline MeshAnswer answerOf(const ResidentMesh& mesh, const Point3* points, std::int64_t count,
+  const AnswerOptions& options, Communicator* ranks)
+{
+  return ranks ? answerOnRanks(*ranks, mesh, points, count, options)
+               : mesh.answer(points, count, options);
+}
 
 /// Answers that stay on the ranks with the cells.
 struct StayingAnswer

@@ -45,8 +45,7 @@ public:
 
   bool holds(const Point3& p) const
   {
-    const Bounds at = { p.x, p.x, p.y, p.y, p.z, p.z };
-    return meets(at, this->Box, this->Dimension) &&
+    return tipp::holds(this->Box, p, this->Dimension) &&
       (this->IsBox || this->Shape.holds({ p.x, p.y }));
   }
 
@@ -127,17 +126,16 @@ private:
   const ZoneShape Shape;
 };
 
-using Pieces = std::pair<std::size_t, std::size_t>;
+} // namespace
 
-/// The global ids of cells in the pieces [first, last). A cell may occur several times.
 std::vector<std::int64_t> cellsIn(
-  const ResidentMesh& mesh, Pieces pieces, const Region& region, bool whole)
+  const ResidentMesh& mesh, const Region& region, bool whole, Communicator* ranks)
 {
   const RegionTest test(mesh, region);
   std::vector<std::int64_t> ids;
   std::mutex mutex;
   forCells(
-    mesh, pieces, {}, [&](const Bounds& box) { return test.wants(box); },
+    mesh, piecesOfRank(ranks, mesh), {}, [&](const Bounds& box) { return test.wants(box); },
     [&](const MeshPart& part, const Bounds*, std::int64_t begin, std::int64_t end)
     {
       std::vector<std::int64_t> own;
@@ -149,21 +147,23 @@ std::vector<std::int64_t> cellsIn(
           for (std::int64_t cell = begin; cell < end; ++cell)
           {
             access.corners(cell, corners);
-            const bool isHidden = part.Mesh.Hidden && part.Mesh.Hidden[cell];
-            !isHidden&& test.has(corners, whole) ? own.push_back(part.cellId(cell)) : void();
+            !part.isHidden(cell) && test.has(corners, whole) ? own.push_back(part.cellId(cell))
+                                                             : void();
           }
         });
       const std::lock_guard<std::mutex> lock(mutex);
       ids.insert(ids.end(), own.begin(), own.end());
     });
-  return ids;
+  return sortedUnique(gathered(ranks, sortedUnique(std::move(ids))));
 }
 
-std::vector<std::int64_t> pointsIn(const ResidentMesh& mesh, Pieces pieces, const Region& region)
+std::vector<std::int64_t> pointsIn(
+  const ResidentMesh& mesh, const Region& region, Communicator* ranks)
 {
   const RegionTest test(mesh, region);
   std::vector<std::int64_t> ids;
-  for (std::size_t i = pieces.first; i < pieces.second; ++i)
+  const auto [first, end] = piecesOfRank(ranks, mesh);
+  for (std::size_t i = first; i < end; ++i)
   {
     if (mesh.isStored() && !test.wants(mesh.mesh().Pieces[i].Box))
     {
@@ -177,48 +177,7 @@ std::vector<std::int64_t> pointsIn(const ResidentMesh& mesh, Pieces pieces, cons
       test.holds(positionOf(part, point)) ? ids.push_back(part.pointId(point)) : void();
     }
   }
-  return ids;
-}
-
-std::vector<std::int64_t> sorted(std::vector<std::int64_t> ids)
-{
-  sortUnique(ids);
-  return ids;
-}
-
-/// The ids of all ranks, on the first rank.
-std::vector<std::int64_t> gathered(Communicator& ranks, std::vector<std::int64_t> own)
-{
-  std::vector<std::int64_t> all;
-  for (const std::vector<std::int64_t>& ids : ranks.gather(sorted(std::move(own))))
-  {
-    all.insert(all.end(), ids.begin(), ids.end());
-  }
-  return sorted(std::move(all));
-}
-
-} // namespace
-
-std::vector<std::int64_t> cellsIn(const ResidentMesh& mesh, const Region& region, bool whole)
-{
-  return sorted(cellsIn(mesh, allPieces(mesh), region, whole));
-}
-
-std::vector<std::int64_t> pointsIn(const ResidentMesh& mesh, const Region& region)
-{
-  return sorted(pointsIn(mesh, allPieces(mesh), region));
-}
-
-std::vector<std::int64_t> cellsOnRanks(
-  Communicator& ranks, const ResidentMesh& mesh, const Region& region, bool whole)
-{
-  return gathered(ranks, cellsIn(mesh, piecesOfRank(ranks, mesh), region, whole));
-}
-
-std::vector<std::int64_t> pointsOnRanks(
-  Communicator& ranks, const ResidentMesh& mesh, const Region& region)
-{
-  return gathered(ranks, pointsIn(mesh, piecesOfRank(ranks, mesh), region));
+  return sortedUnique(gathered(ranks, sortedUnique(std::move(ids))));
 }
 
 } // namespace tipp

@@ -92,40 +92,18 @@ PartitionedMesh describe(const MeshPart& part, int threads)
   {
     mesh.Arrays.push_back(array.Description);
   }
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  mesh.Domain = { infinity, -infinity, infinity, -infinity, infinity, -infinity };
-  const auto extend = [](Bounds& bounds, std::size_t axis, double low, double high)
-  {
-    // The comparisons are false for NaN.
-    bounds[2 * axis] = low < bounds[2 * axis] ? low : bounds[2 * axis];
-    bounds[2 * axis + 1] = high > bounds[2 * axis + 1] ? high : bounds[2 * axis + 1];
-  };
-  std::vector<Bounds> domains(std::size_t(threads), mesh.Domain);
   withAccess(part.Mesh,
     [&](const auto& access)
     {
-      forChunks(part.Mesh.PointCount, 1 << 14, threads, {},
-        [&](std::int64_t begin, std::int64_t end, int thread)
+      const Box<3> box = boundsOf<3>(part.Mesh.PointCount, threads,
+        [&](std::int64_t i)
         {
-          Bounds domain = domains[std::size_t(thread)];
-          for (std::int64_t i = begin; i < end; ++i)
-          {
-            const std::array<double, 3> at = coordinatesOf<3>(access.point(i));
-            for (std::size_t axis = 0; axis < 3; ++axis)
-            {
-              extend(domain, axis, at[axis], at[axis]);
-            }
-          }
-          domains[std::size_t(thread)] = domain;
+          std::array<double, 3> at = coordinatesOf<3>(access.point(i));
+          at[2] = part.Mesh.Dimension == 3 ? at[2] : 0; // the z of triangles may be NaN
+          return Box<3>::of(at);
         });
+      mesh.Domain = { box.Low[0], box.High[0], box.Low[1], box.High[1], box.Low[2], box.High[2] };
     });
-  for (const Bounds& domain : domains)
-  {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-    {
-      extend(mesh.Domain, axis, domain[2 * axis], domain[2 * axis + 1]);
-    }
-  }
   mesh.Pieces.emplace_back();
   mesh.Pieces[0].Points = mesh.Points;
   mesh.Pieces[0].Cells = mesh.Cells;
@@ -135,30 +113,29 @@ PartitionedMesh describe(const MeshPart& part, int threads)
 } // namespace
 
 ResidentMesh::ResidentMesh(const std::string& path, const ResidentOptions& options)
-  : Mesh(openPartitionedMesh(path))
-  , Options(options)
-  , Boxes(std::make_shared<const PieceBoxes>(this->Mesh))
-  , Ids(this->Mesh)
-  , Resident(
-      options.MemoryLimit,
-      [this](std::size_t number, const PieceNeeds& needs) { return this->estimate(number, needs); },
-      [this](std::size_t number, const PieceNeeds& needs, const ResidentPiece& before)
-      { return this->load(number, needs, before); },
-      [this](std::size_t number, std::uint64_t bytes) { this->refusePiece(number, bytes); })
+  : ResidentMesh(openPartitionedMesh(path), nullptr, options)
 {
 }
 
 ResidentMesh::ResidentMesh(MeshPart part, const ResidentOptions& options)
-  : Mesh(describe(part, threadCount(options.Threads)))
+  : ResidentMesh(tipp::describe(part, threadCount(options.Threads)),
+      std::make_shared<const MeshPart>(part), options)
+{
+}
+
+ResidentMesh::ResidentMesh(
+  PartitionedMesh mesh, std::shared_ptr<const MeshPart> inMemory, const ResidentOptions& options)
+  : Mesh(std::move(mesh))
   , Options(options)
-  , InMemory(std::make_shared<const MeshPart>(std::move(part)))
+  , InMemory(std::move(inMemory))
+  , Boxes(InMemory ? nullptr : std::make_shared<const PieceBoxes>(this->Mesh))
   , Ids(this->Mesh)
   , Resident(
-      std::numeric_limits<std::uint64_t>::max() / 2,
-      [](std::size_t, const PieceNeeds&) { return std::uint64_t(0); },
+      InMemory ? std::numeric_limits<std::uint64_t>::max() / 2 : options.MemoryLimit,
+      [this](std::size_t number, const PieceNeeds& needs) { return this->estimate(number, needs); },
       [this](std::size_t number, const PieceNeeds& needs, const ResidentPiece& before)
       { return this->load(number, needs, before); },
-      [](std::size_t, std::uint64_t) {})
+      [this](std::size_t number, std::uint64_t bytes) { this->refusePiece(number, bytes); })
 {
 }
 
@@ -210,16 +187,23 @@ PieceNeeds ResidentMesh::needsOf(const std::vector<std::string>& names) const
   return needs;
 }
 
-namespace
+std::vector<StoredArray> ResidentMesh::describe(const std::vector<std::string>& names) const
 {
+  std::vector<StoredArray> arrays;
+  for (const std::string& name : names)
+  {
+    const StoredArray* const array = this->find(name);
+    arrays.push_back(array ? *array : StoredArray{ name, true, this->Mesh.PointType });
+  }
+  return arrays;
+}
 
-/// Bytes per point, or per cell, in the needed arrays.
-std::uint64_t bytesOfArrays(const PartitionedMesh& mesh, const PieceNeeds& needs, bool ofPoints)
+std::uint64_t ResidentMesh::bytesOf(const PieceNeeds& needs, bool ofPoints) const
 {
   std::uint64_t bytes = 0;
   for (std::size_t i = 0; i < needs.Arrays.size(); ++i)
   {
-    const StoredArray& array = mesh.Arrays[i];
+    const StoredArray& array = this->Mesh.Arrays[i];
     bytes += needs.Arrays[i] && array.OfPoints == ofPoints
       ? std::uint64_t(array.Components) * scalarSize(array.Type)
       : 0;
@@ -227,44 +211,26 @@ std::uint64_t bytesOfArrays(const PartitionedMesh& mesh, const PieceNeeds& needs
   return bytes;
 }
 
-} // namespace
-
 std::uint64_t ResidentMesh::estimate(std::size_t number, const PieceNeeds& needs) const
 {
+  if (this->InMemory)
+  {
+    return 0;
+  }
   const PieceSummary& piece = this->Mesh.Pieces[number];
   const auto cells = std::uint64_t(piece.Cells + piece.BorrowedCells);
   const auto points = std::uint64_t(piece.Points + piece.BorrowedCells);
   // Includes a pass over the cells, which needs a position per point.
   const std::uint64_t ofPoint =
-    3 * scalarSize(this->Mesh.PointType) + 8 + 1 + 6 + bytesOfArrays(this->Mesh, needs, true);
+    3 * scalarSize(this->Mesh.PointType) + 8 + 1 + 6 + this->bytesOf(needs, true);
   const std::uint64_t ofCell =
-    std::uint64_t(this->Mesh.CellSize) * 4 + 8 + bytesOfArrays(this->Mesh, needs, false);
+    std::uint64_t(this->Mesh.CellSize) * 4 + 8 + this->bytesOf(needs, false);
   std::uint64_t bytes = points * ofPoint + cells * ofCell;
   bytes += needs.Locator
     ? std::uint64_t(CellLocator::bytesFor(std::int64_t(cells), this->Mesh.CellSize - 1))
     : 0;
   bytes += needs.Topology ? PartTopology::bytesFor(points, cells, this->Mesh.CellSize) : 0;
   return bytes;
-}
-
-/// An upper bound of the bytes that answerNear() needs for all points of the piece, at most `most`
-/// of its cells, and a query of `asked` points.
-std::uint64_t ResidentMesh::estimateNear(
-  std::size_t number, const PieceNeeds& needs, std::int64_t most, std::int64_t asked) const
-{
-  const PieceSummary& piece = this->Mesh.Pieces[number];
-  const auto points = std::uint64_t(piece.Points + piece.BorrowedCells);
-  const auto cells = std::uint64_t(most + piece.BorrowedCells);
-  // A point has its position and, to find borrowed points, its id. A cell has its index.
-  const std::uint64_t ofPoint =
-    3 * scalarSize(this->Mesh.PointType) + 8 + 6 + bytesOfArrays(this->Mesh, needs, true);
-  const std::uint64_t ofCell =
-    2 * std::uint64_t(this->Mesh.CellSize) * 4 + 16 + bytesOfArrays(this->Mesh, needs, false);
-  constexpr std::uint64_t ofAsked = 128; // bytes of a tree, and of the cells near the point
-  constexpr std::uint64_t blocks = 1 << 20;
-  return points * ofPoint + cells * ofCell +
-    std::uint64_t(CellLocator::bytesFor(std::int64_t(cells), this->Mesh.CellSize - 1)) +
-    std::uint64_t(std::min(asked, most)) * ofAsked + blocks;
 }
 
 void ResidentMesh::refusePiece(std::size_t number, std::uint64_t bytes) const
@@ -349,11 +315,6 @@ std::vector<std::int32_t> ResidentMesh::piecesOfIds(
   {
     return std::vector<std::int32_t>(ids.size(), 0); // the topology refuses ids that do not exist
   }
-  const std::int64_t count = ofPoints ? this->Mesh.Points : this->Mesh.Cells;
-  for (const std::int64_t id : ids)
-  {
-    id < 0 || id >= count ? this->refuseId(id, ofPoints) : void();
-  }
   std::vector<std::int32_t> pieces = this->findIds(ids, ofPoints, 0, this->Mesh.Pieces.size());
   const auto missing = std::find(pieces.begin(), pieces.end(), -1);
   missing != pieces.end() ? this->refuseId(ids[std::size_t(missing - pieces.begin())], ofPoints)
@@ -364,6 +325,11 @@ std::vector<std::int32_t> ResidentMesh::piecesOfIds(
 std::vector<std::int32_t> ResidentMesh::findIds(
   const std::vector<std::int64_t>& ids, bool ofPoints, std::size_t first, std::size_t end) const
 {
+  const std::int64_t count = ofPoints ? this->Mesh.Points : this->Mesh.Cells;
+  for (const std::int64_t id : ids)
+  {
+    id < 0 || id >= count ? this->refuseId(id, ofPoints) : void();
+  }
   return this->Ids.find(ids, ofPoints, threadCount(this->Options.Threads), first, end);
 }
 

@@ -12,7 +12,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,11 +22,7 @@ class vtkMultiProcessController;
 namespace tipp
 {
 class IdDirectory;
-
-struct AskedPoints;
 class PieceBoxes;
-using TakeLocations =
-  std::function<void(const std::int64_t* points, const CellLocation* at, std::int64_t count)>;
 
 struct ResidentOptions
 {
@@ -42,11 +37,8 @@ struct ResidentOptions
 /// Cells and values of a mesh at some points.
 struct MeshAnswer
 {
-  struct Array
+  struct Array : StoredArray
   {
-    std::string Name;
-    Scalar Type = Scalar::Float64;
-    int Components = 1;
     /// `Components` values per point. Outside the mesh they are NaN, or 0 in integer arrays.
     Buffer<char> Values;
 
@@ -121,6 +113,8 @@ public:
   /// The array of this name, at the time step of the options; null for the elevation. Throws
   /// IOError if there is no such array.
   const StoredArray* find(const std::string& name) const;
+  /// Describes the arrays of these names, and the elevation like an array. Throws as find().
+  std::vector<StoredArray> describe(const std::vector<std::string>& names) const;
 
   /// Locates points and evaluates arrays there. Reads the pieces that contain points, each once.
   /// Throws IOError, also for a name that is not in names(), and WorkAborted.
@@ -134,8 +128,8 @@ public:
   /// For each global id of a cell or point, the piece that owns it. Throws IOError for an id that
   /// the mesh does not have.
   std::vector<std::int32_t> piecesOfIds(const std::vector<std::int64_t>& ids, bool ofPoints) const;
-  /// As piecesOfIds(), for the pieces [first, end) of a stored mesh; -1 if none of them owns the
-  /// id.
+  /// As piecesOfIds(), for the pieces [first, end) of a stored mesh; -1 if none of them owns an id
+  /// of the mesh.
   std::vector<std::int32_t> findIds(
     const std::vector<std::int64_t>& ids, bool ofPoints, std::size_t first, std::size_t end) const;
   [[noreturn]] void refuseId(std::int64_t id, bool ofPoints) const;
@@ -144,6 +138,8 @@ public:
 
   /// What a query of these arrays needs from a piece. Throws IOError for an unknown name.
   PieceNeeds needsOf(const std::vector<std::string>& names) const;
+  /// Bytes per point, or per cell, in the needed arrays.
+  std::uint64_t bytesOf(const PieceNeeds& needs, bool ofPoints) const;
   /// The pieces in memory.
   ResidentPieces& pieces() const { return this->Resident; }
 
@@ -159,24 +155,11 @@ public:
   OtherParts& otherParts() const { return this->Others; }
 
 private:
-  void answerPiece(std::size_t number, const AskedPoints& asked, const AnswerOptions& options,
-    int threads, bool mayStay, MeshAnswer& answer) const;
-  using Locate = std::function<bool(const TakeLocations&)>;
-  bool answerPart(const MeshPart& part, const AskedPoints& asked, const AnswerOptions& options,
-    const Locate& locate, MeshAnswer& answer) const;
-  bool answerInOnePass(const MeshPart& part, const AskedPoints& asked, const AnswerOptions& options,
-    int threads, MeshAnswer& answer) const;
-  void answerBy(const CellLocator* locator, const MeshPart& part, const AskedPoints& asked,
-    const AnswerOptions& options, int threads, MeshAnswer& answer) const;
-  bool wantsNear(
-    std::size_t number, const PieceNeeds& needs, const AskedPoints& asked, bool mayStay) const;
-  bool answerNear(std::size_t number, const PieceNeeds& needs, const AskedPoints& asked,
-    const AnswerOptions& options, int threads, MeshAnswer& answer) const;
+  ResidentMesh(
+    PartitionedMesh mesh, std::shared_ptr<const MeshPart> inMemory, const ResidentOptions& options);
   ResidentPiece load(
     std::size_t number, const PieceNeeds& needs, const ResidentPiece& before) const;
   std::uint64_t estimate(std::size_t number, const PieceNeeds& needs) const;
-  std::uint64_t estimateNear(
-    std::size_t number, const PieceNeeds& needs, std::int64_t most, std::int64_t asked) const;
   [[noreturn]] void refusePiece(std::size_t number, std::uint64_t bytes) const;
 
   PartitionedMesh Mesh;

@@ -105,11 +105,10 @@ PieceNeeds ResidentPieces::needsWithin(
   return needs;
 }
 
-void ResidentPieces::release(Lease& lease)
+void ResidentPieces::release(std::size_t number)
 {
-  lease.Held = {};
   const std::lock_guard<std::mutex> lock(this->Mutex);
-  Slot& slot = this->Slots[lease.Number];
+  Slot& slot = this->Slots[number];
   --slot.Users;
   --this->Active;
   if (slot.Users == 0 && !slot.Stays && !slot.Loading)
@@ -168,11 +167,11 @@ void ResidentPieces::makeRoom(std::unique_lock<std::mutex>& lock, Slot& slot, st
   }
 }
 
-std::optional<ResidentPieces::Share> ResidentPieces::take(std::uint64_t bytes)
+ResidentPieces::Share ResidentPieces::take(std::uint64_t bytes)
 {
   if (bytes > this->Limit)
   {
-    return std::nullopt;
+    return nullptr;
   }
   std::unique_lock<std::mutex> lock(this->Mutex);
   Slot none;
@@ -180,17 +179,17 @@ std::optional<ResidentPieces::Share> ResidentPieces::take(std::uint64_t bytes)
   this->Used += bytes;
   ++this->Active;
   ++this->Loads;
-  return Share(*this, bytes, true);
+  return Share(this, { bytes, true });
 }
 
 ResidentPieces::Share ResidentPieces::note(std::uint64_t bytes)
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
   this->Noted += bytes;
-  return { *this, bytes, false };
+  return Share(this, { bytes, false });
 }
 
-void ResidentPieces::giveBack(Share& share)
+void ResidentPieces::giveBack(const GiveBack& share)
 {
   const std::lock_guard<std::mutex> lock(this->Mutex);
   (share.IsActive ? this->Used : this->Noted) -= share.Bytes;

@@ -11,7 +11,6 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -77,27 +76,21 @@ public:
   {
   public:
     Lease(ResidentPieces& pieces, std::size_t number, ResidentPiece piece)
-      : Of(&pieces)
-      , Number(number)
+      : Of(&pieces, Release{ number })
       , Held(std::move(piece))
     {
     }
-    Lease(Lease&& other) noexcept
-      : Of(std::exchange(other.Of, nullptr))
-      , Number(other.Number)
-      , Held(std::move(other.Held))
-    {
-    }
-    Lease& operator=(Lease&&) = delete;
-    ~Lease() { this->Of ? this->Of->release(*this) : void(); }
 
     const ResidentPiece& operator*() const { return this->Held; }
     const ResidentPiece* operator->() const { return &this->Held; }
 
   private:
-    friend class ResidentPieces;
-    ResidentPieces* Of;
-    std::size_t Number;
+    struct Release
+    {
+      std::size_t Number;
+      void operator()(ResidentPieces* pieces) const { pieces->release(this->Number); }
+    };
+    std::unique_ptr<ResidentPieces, Release> Of; ///< releases the piece after Held is destroyed
     ResidentPiece Held;
   };
 
@@ -108,36 +101,19 @@ public:
   /// displace others.
   Lease get(std::size_t number, const PieceNeeds& needs, bool stays = true);
 
-  /// Memory that is used for something other than pieces, until the destructor.
-  class Share
+  struct GiveBack
   {
-  public:
-    Share(ResidentPieces& pieces, std::uint64_t bytes, bool isActive)
-      : Of(&pieces)
-      , Bytes(bytes)
-      , IsActive(isActive)
-    {
-    }
-    Share(Share&& other) noexcept
-      : Of(std::exchange(other.Of, nullptr))
-      , Bytes(other.Bytes)
-      , IsActive(other.IsActive)
-    {
-    }
-    Share& operator=(Share&&) = delete;
-    ~Share() { this->Of ? this->Of->giveBack(*this) : void(); }
-
-  private:
-    friend class ResidentPieces;
-    ResidentPieces* Of;
     std::uint64_t Bytes;
-    bool IsActive;
+    bool IsActive; ///< from take()
+    void operator()(ResidentPieces* pieces) const { pieces->giveBack(*this); }
   };
+  /// Memory that is used for something other than pieces, until the destructor.
+  using Share = std::unique_ptr<ResidentPieces, GiveBack>;
 
   /// Reserves memory for data of a piece that are not kept in memory. Waits like get(), and counts
-  /// as a load. The thread must not hold a lease meanwhile. Returns nothing if `bytes` exceeds the
+  /// as a load. The thread must not hold a lease meanwhile. Returns null if `bytes` exceeds the
   /// limit.
-  std::optional<Share> take(std::uint64_t bytes);
+  Share take(std::uint64_t bytes);
   /// Counts memory that is used in any case. Pieces leave space for it if possible.
   Share note(std::uint64_t bytes);
 
@@ -164,8 +140,8 @@ private:
     bool Stays = false;
   };
 
-  void release(Lease& lease);
-  void giveBack(Share& share);
+  void release(std::size_t number);
+  void giveBack(const GiveBack& share);
   PieceNeeds needsWithin(
     std::unique_lock<std::mutex>& lock, std::size_t number, const PieceNeeds& needs, Slot& slot);
   void makeRoom(std::unique_lock<std::mutex>& lock, Slot& slot, std::uint64_t bytes);

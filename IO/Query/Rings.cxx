@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Query/Around.h"
-#include "Query/ForPieces.h"
 #include "Query/LocalRing.h"
+#include "Query/RankQuestions.h"
 
 #include <algorithm>
 #include <mutex>
@@ -14,40 +14,50 @@ namespace tipp
 namespace
 {
 
-/// Concatenates lists that were made by several threads.
-IdLists joined(const std::vector<std::vector<std::int64_t>>& lists)
+/// The lists of ids as local(ids, pieces) returns them for a mesh in this process, or the part of a
+/// stored mesh that this rank has. inMemory(questions) returns them for parts in the memory of
+/// several ranks.
+template <typename Local, typename InMemory>
+IdLists listsOf(const ResidentMesh& mesh, const Ids& ids, bool ofPoints, Communicator* ranks,
+  const Local& local, const InMemory& inMemory)
 {
-  IdLists result;
-  for (const std::vector<std::int64_t>& list : lists)
+  if (!areSeveral(ranks))
   {
-    result.Ids.insert(result.Ids.end(), list.begin(), list.end());
-    result.Starts.push_back(std::int64_t(result.Ids.size()));
+    return local(ids, mesh.piecesOfIds(ids, ofPoints));
   }
-  return result;
+  const RankQuestions questions(*ranks, mesh);
+  return mesh.isStored() ? questions.askOwners(ids, ofPoints, local) : inMemory(questions);
 }
 
 } // namespace
 
-IdLists starsOf(const ResidentMesh& mesh, const std::vector<std::int64_t>& points,
-  const std::vector<std::int32_t>& pieces)
+IdLists starsOf(
+  const ResidentMesh& mesh, const std::vector<std::int64_t>& points, Communicator* ranks)
 {
-  std::vector<std::vector<std::int64_t>> lists(points.size());
-  const PieceGroups groups = groupsOf(mesh, points, true, pieces);
-  forPieces(mesh, groups, topologyNeeded(),
-    [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
-    {
-      for (std::int64_t i = begin; i < end; ++i)
+  const auto local = [&mesh](const Ids& own, const std::vector<std::int32_t>& pieces)
+  {
+    std::vector<Ids> lists(own.size());
+    const PieceGroups groups = groupByPiece(pieces, mesh.mesh().Pieces.size());
+    forPieces(mesh, groups, topologyNeeded(),
+      [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
       {
-        const auto item = std::size_t(groups.Items[std::size_t(i)]);
-        for (const std::int32_t cell :
-          piece.Topology->cellsAt(indexOf(mesh, *piece.Topology, points[item], true)))
+        for (std::int64_t i = begin; i < end; ++i)
         {
-          lists[item].push_back(piece.Part->cellId(cell));
+          const auto item = std::size_t(groups.Items[std::size_t(i)]);
+          for (const std::int32_t cell :
+            piece.Topology->cellsAt(indexOf(mesh, *piece.Topology, own[item], true)))
+          {
+            lists[item].push_back(piece.Part->cellId(cell));
+          }
+          sortUnique(lists[item]);
         }
-        sortUnique(lists[item]);
-      }
-    });
-  return joined(lists);
+      });
+    IdLists result;
+    std::for_each(lists.begin(), lists.end(), [&result](const Ids& list) { result.add(list); });
+    return result;
+  };
+  return listsOf(mesh, points, true, ranks, local,
+    [&points](const RankQuestions& questions) { return questions.stars(points); });
 }
 
 namespace
@@ -106,7 +116,7 @@ public:
   /// The ids that are reached in k steps, without the seeds.
   IdLists grown(int k, const std::vector<std::int32_t>& pieces)
   {
-    this->start(k, groupsOf(this->Mesh, this->Seeds, this->OfPoints, pieces), nullptr);
+    this->start(k, groupByPiece(pieces, this->Mesh.mesh().Pieces.size()), nullptr);
     for (int step = 0; step < k && !this->Front.empty(); ++step)
     {
       this->grow();
@@ -118,11 +128,15 @@ public:
       std::vector<std::int64_t>& list = lists[std::size_t(item)];
       sortUnique(list);
       list.erase(std::remove(list.begin(), list.end(), this->Seeds[std::size_t(item)]), list.end());
-      this->Done.push_back({ list, { item }, { std::int64_t(list.size()) } });
+      this->Done.push_back({ { { 0, std::int64_t(list.size()) }, list }, { item } });
     }
     return this->joined();
   }
 
+  /// The same for a part of a mesh in memory, as far as the rings can be computed without the other
+  /// parts. `indices` are the local indices of the seeds, at least one. shared[i] is not 0 if other
+  /// parts, too, have cells at point i (a local index). If a ring needs the cells of other parts,
+  /// its list is only { -1 }.
   IdLists grownWithin(int k, const std::vector<std::int64_t>& indices, const std::uint8_t* shared)
   {
     this->Indices = indices.data();
@@ -134,7 +148,7 @@ public:
       shared);
     for (const std::int64_t item : this->Left)
     {
-      this->Done.push_back({ { -1 }, { item }, { 1 } });
+      this->Done.push_back({ { { 0, 1 }, { -1 } }, { item } });
     }
     return this->joined();
   }
@@ -188,12 +202,11 @@ private:
     this->take(std::move(next));
   }
 
-  /// The lists of some items that are complete, concatenated.
+  /// The lists of some items that are complete.
   struct Finished
   {
-    std::vector<std::int64_t> Ids;
+    IdLists Lists;
     std::vector<std::int64_t> Items;
-    std::vector<std::int64_t> Ends; ///< end of each item's list in Ids
   };
 
   IdLists joined() const
@@ -205,12 +218,11 @@ private:
       forChunks(std::int64_t(this->Done.size()), 1, threadCount(this->Mesh.options().Threads), {},
         [&](std::int64_t part, std::int64_t, int)
         {
-          const Finished& done = this->Done[std::size_t(part)];
-          std::int64_t begin = 0;
-          for (std::size_t i = 0; i < done.Items.size(); ++i)
+          const auto& [lists, items] = this->Done[std::size_t(part)];
+          for (std::size_t i = 0; i < items.size(); ++i)
           {
-            work(std::size_t(done.Items[i]), done.Ids.data() + begin, done.Ends[i] - begin);
-            begin = done.Ends[i];
+            const std::int64_t begin = lists.Starts[i];
+            work(std::size_t(items[i]), lists.Ids.data() + begin, lists.Starts[i + 1] - begin);
           }
         });
     };
@@ -255,8 +267,11 @@ private:
             this->take(*piece.Part, ring, item, done);
             continue;
           }
-          leave(piece, item, corners, reached);
-          left.push_back(item);
+          left.push_back(item); // for grow()
+          for (const std::int64_t point : corners)
+          {
+            reached.push_back({ item, piece.Part->pointId(point), positionOf(*piece.Part, point) });
+          }
         }
         const std::lock_guard<std::mutex> lock(this->Mutex);
         first.insert(first.end(), reached.begin(), reached.end());
@@ -283,27 +298,18 @@ private:
   void take(const MeshPart& part, const LocalRing& ring, std::int64_t item, Finished& done) const
   {
     const std::int64_t seed = this->Seeds[std::size_t(item)];
-    const auto begin = std::ptrdiff_t(done.Ids.size());
+    Ids& ids = done.Lists.Ids;
+    const auto begin = std::ptrdiff_t(ids.size());
     for (const std::int64_t index : this->OfPoints ? ring.Points : ring.Cells)
     {
       const std::int64_t id = this->OfPoints ? part.pointId(index) : part.cellId(index);
-      id != seed ? done.Ids.push_back(id) : void();
+      id != seed ? ids.push_back(id) : void();
     }
-    std::sort(done.Ids.begin() + begin, done.Ids.end());
+    std::sort(ids.begin() + begin, ids.end());
     // Parts that a cell was divided into have the same id.
-    done.Ids.erase(std::unique(done.Ids.begin() + begin, done.Ids.end()), done.Ids.end());
+    ids.erase(std::unique(ids.begin() + begin, ids.end()), ids.end());
+    done.Lists.endList();
     done.Items.push_back(item);
-    done.Ends.push_back(std::int64_t(done.Ids.size()));
-  }
-
-  /// Leaves the ring of a seed to grow().
-  static void leave(const ResidentPiece& piece, std::int64_t item,
-    const std::vector<std::int64_t>& points, std::vector<Reached>& reached)
-  {
-    for (const std::int64_t point : points)
-    {
-      reached.push_back({ item, piece.Part->pointId(point), positionOf(*piece.Part, point) });
-    }
   }
 
   static void visit(const ResidentPiece& piece, const Reached& from, std::vector<Reached>& reached,
@@ -373,24 +379,118 @@ private:
   std::vector<std::vector<std::int64_t>> CellLists;  ///< lists per seed, with repetitions
 };
 
+/// As ringsInMemory(), for rings that need the cells of several ranks. All grow together, step by
+/// step.
+IdLists ringsAcrossRanks(const RankQuestions& questions, const Ids& seeds, int k, bool ofPoints)
+{
+  struct Ring
+  {
+    Ids Points; ///< found so far, ascending
+    Ids Cells;  ///< found so far, ascending
+    Ids Front;  ///< points, or in the middle of a step cells, that the last half step has found
+  };
+  std::vector<Ring> rings(seeds.size());
+  const IdLists corners = ofPoints ? IdLists() : questions.corners(seeds);
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+  {
+    rings[i].Points = ofPoints ? Ids{ seeds[i] } : sortedUnique(corners.list(i));
+    rings[i].Front = rings[i].Points;
+  }
+  // Replaces each front by the ids that listsOfFront() has for it and that the ring does not know.
+  const auto advance = [&rings](const auto& listsOfFront, Ids Ring::*known)
+  {
+    Ids front;
+    for (const Ring& ring : rings)
+    {
+      front.insert(front.end(), ring.Front.begin(), ring.Front.end());
+    }
+    sortUnique(front);
+    const ListsById lists(front, listsOfFront(front));
+    for (Ring& ring : rings)
+    {
+      Ids next;
+      for (const std::int64_t id : ring.Front)
+      {
+        const Ids list = lists.of(id);
+        next.insert(next.end(), list.begin(), list.end());
+      }
+      ring.Front = without(sortedUnique(std::move(next)), ring.*known);
+      (ring.*known).insert((ring.*known).end(), ring.Front.begin(), ring.Front.end());
+      std::sort((ring.*known).begin(), (ring.*known).end());
+    }
+  };
+  const auto hasFront = [](const Ring& ring) { return !ring.Front.empty(); };
+  for (int step = 0; step < k && questions.any(std::any_of(rings.begin(), rings.end(), hasFront));
+       ++step)
+  {
+    advance([&](const Ids& points) { return questions.stars(points); }, &Ring::Cells);
+    advance([&](const Ids& cells) { return questions.corners(cells); }, &Ring::Points);
+  }
+  IdLists result;
+  for (std::size_t i = 0; i < rings.size(); ++i)
+  {
+    result.add(without(ofPoints ? rings[i].Points : rings[i].Cells, { seeds[i] }));
+  }
+  return result;
+}
+
+/// For parts in memory: the ids that are reached in k steps from each seed, without the seed.
+IdLists ringsInMemory(
+  const RankQuestions& questions, const ResidentMesh& part, const Ids& seeds, int k, bool ofPoints)
+{
+  const std::vector<std::uint8_t>& shared = questions.sharedPoints();
+  const IdLists within = questions.askFirst(seeds, ofPoints,
+    [&](const Ids& own, const Ids& indices)
+    { return RingGrowth(part, own, ofPoints).grownWithin(k, indices, shared.data()); });
+  const auto leaves = [&within](std::size_t i)
+  {
+    return within.Starts[i] < within.Starts[i + 1] &&
+      within.Ids[std::size_t(within.Starts[i])] == -1;
+  };
+  Ids others;
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+  {
+    leaves(i) ? others.push_back(seeds[i]) : void();
+  }
+  const IdLists across = ringsAcrossRanks(questions, others, k, ofPoints);
+  if (others.empty())
+  {
+    return within;
+  }
+  IdLists result;
+  result.Ids.reserve(within.Ids.size() + across.Ids.size());
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < seeds.size(); ++i)
+  {
+    leaves(i) ? result.append(across, next++) : result.append(within, i);
+    result.endList();
+  }
+  return result;
+}
+
+IdLists ringsOf(
+  const ResidentMesh& mesh, const Ids& seeds, int k, bool ofPoints, Communicator* ranks)
+{
+  return listsOf(
+    mesh, seeds, ofPoints, ranks,
+    [&](const Ids& own, const std::vector<std::int32_t>& pieces)
+    { return RingGrowth(mesh, own, ofPoints).grown(k, pieces); },
+    [&](const RankQuestions& questions)
+    { return ringsInMemory(questions, mesh, seeds, k, ofPoints); });
+}
+
 } // namespace
 
-IdLists ringsOfPoints(const ResidentMesh& mesh, const std::vector<std::int64_t>& points, int k,
-  const std::vector<std::int32_t>& pieces)
+IdLists ringsOfPoints(
+  const ResidentMesh& mesh, const std::vector<std::int64_t>& points, int k, Communicator* ranks)
 {
-  return RingGrowth(mesh, points, true).grown(k, pieces);
+  return ringsOf(mesh, points, k, true, ranks);
 }
 
-IdLists ringsOfCells(const ResidentMesh& mesh, const std::vector<std::int64_t>& cells, int k,
-  const std::vector<std::int32_t>& pieces)
+IdLists ringsOfCells(
+  const ResidentMesh& mesh, const std::vector<std::int64_t>& cells, int k, Communicator* ranks)
 {
-  return RingGrowth(mesh, cells, false).grown(k, pieces);
-}
-
-IdLists ringsWithin(const ResidentMesh& part, const std::vector<std::int64_t>& seeds,
-  const std::vector<std::int64_t>& indices, bool ofPoints, int k, const std::uint8_t* shared)
-{
-  return RingGrowth(part, seeds, ofPoints).grownWithin(k, indices, shared);
+  return ringsOf(mesh, cells, k, false, ranks);
 }
 
 } // namespace tipp

@@ -5,6 +5,7 @@
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
 #include "Predicates/ExactPredicates.h"
+#include "Query/ForPieces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -143,9 +144,7 @@ private:
     const double share = sum > 0 ? distanceA / sum : 0.5;
     const CellCorner ends[2] = { a, b };
     const double weights[2] = { 1 - share, share };
-    const Point3 at{ a.At.x + share * (b.At.x - a.At.x), a.At.y + share * (b.At.y - a.At.y),
-      a.At.z + share * (b.At.z - a.At.z) };
-    this->add({ a.Id, b.Id, b.Id }, at, ends, weights, 2);
+    this->add({ a.Id, b.Id, b.Id }, between(a.At, b.At, share), ends, weights, 2);
   }
 
   /// The ends of the segment are on different sides of the face's plane.
@@ -227,7 +226,7 @@ void addCells(const Access& access, const MeshPart& part, SegmentCrossings& cros
   // Includes borrowed cells, since only in this piece's box may they meet the segment.
   for (std::int64_t cell = 0; cell < part.Mesh.Cells; ++cell)
   {
-    if (part.Mesh.Hidden && part.Mesh.Hidden[cell])
+    if (part.isHidden(cell))
     {
       continue;
     }

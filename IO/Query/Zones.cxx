@@ -170,7 +170,7 @@ public:
       {
         for (std::int64_t cell = begin; cell < end; ++cell)
         {
-          if (!part.Mesh.Hidden || !part.Mesh.Hidden[cell])
+          if (!part.isHidden(cell))
           {
             this->addCell(access, part, values, cell, box, inner, shared);
           }
@@ -288,24 +288,22 @@ ZoneParts partsIn(const ResidentMesh& mesh, std::pair<std::size_t, std::size_t> 
 } // namespace
 
 ZoneStatistics statisticsOf(const ResidentMesh& mesh, const std::vector<Zone>& zones,
-  const std::string& array, int component, double level)
+  const std::string& array, int component, double level, Communicator* ranks)
 {
-  return resultOf(partsIn(mesh, allPieces(mesh), zones, array, component, level));
-}
-
-ZoneStatistics statisticsOnRanks(Communicator& ranks, const ResidentMesh& mesh,
-  const std::vector<Zone>& zones, const std::string& array, int component, double level)
-{
-  const std::vector<Zone> common = ranks.broadcast(zones);
-  const double commonLevel = ranks.broadcast(level);
+  if (!ranks)
+  {
+    return resultOf(partsIn(mesh, piecesOfRank(ranks, mesh), zones, array, component, level));
+  }
+  const std::vector<Zone> common = ranks->broadcast(zones);
+  const double commonLevel = ranks->broadcast(level);
   ZoneParts all;
   all.Sums.resize(common.size());
   ZoneParts own = all;
-  if (mesh.mesh().Cells > 0)
+  if (canQuery(ranks, mesh))
   {
     own = partsIn(mesh, piecesOfRank(ranks, mesh), common, array, component, commonLevel);
   }
-  for (const ZoneParts& part : ranks.gather(own))
+  for (const ZoneParts& part : ranks->gather(own))
   {
     for (std::size_t i = 0; i < common.size(); ++i)
     {
@@ -313,7 +311,7 @@ ZoneStatistics statisticsOnRanks(Communicator& ranks, const ResidentMesh& mesh,
     }
     all.Shared.insert(all.Shared.end(), part.Shared.begin(), part.Shared.end());
   }
-  return ranks.broadcast(ranks.isFirst() ? resultOf(std::move(all)) : ZoneStatistics());
+  return ranks->broadcast(ranks->isFirst() ? resultOf(std::move(all)) : ZoneStatistics());
 }
 
 } // namespace tipp

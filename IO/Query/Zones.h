@@ -34,20 +34,19 @@ void serialize(Archive& archive, ZoneStatistics& of)
   archive(of.Cells, of.Area, of.Low, of.High, of.Mean, of.Sum, of.Above);
 }
 
+// `ranks` are the ranks that share the mesh, as for answerOnRanks(); null: this process alone. With
+// ranks, the functions are collective; call them within Communicator::together(). They throw
+// IOError and WorkAborted.
+
 /// Integrates a component of an array over the parts of triangles in each zone. Point arrays are
 /// linear in each triangle. Cells with a value that is not finite are left out. The volume above a
 /// level is the integral of (value - level) where this is positive. Reads the pieces that meet
-/// zones. Sums are rounded only once, so they are the same bits for any pieces and threads. Throws
-/// IOError and WorkAborted.
+/// zones. Sums are rounded only once, so they are the same bits for any pieces, threads and ranks.
+/// With ranks, each gets the statistics for the zones and the level of the first rank; all pass the
+/// same array. In parts in memory, only hidden cells may occur several times.
 VTKTIPPIO_EXPORT ZoneStatistics statisticsOf(const ResidentMesh& mesh,
-  const std::vector<Zone>& zones, const std::string& array, int component, double level = 0);
-
-/// The statistics of the meshes of all ranks (see answerOnRanks()) on every rank, bit for bit those
-/// of the whole mesh in one process. Zones and level are those of the first rank; all ranks pass
-/// the same array. In parts in memory, only hidden cells may occur several times. Collective; call
-/// it within Communicator::together(). Throws IOError.
-VTKTIPPIO_EXPORT ZoneStatistics statisticsOnRanks(Communicator& ranks, const ResidentMesh& mesh,
-  const std::vector<Zone>& zones, const std::string& array, int component, double level = 0);
+  const std::vector<Zone>& zones, const std::string& array, int component, double level = 0,
+  Communicator* ranks = nullptr);
 
 /// A closed box or zone.
 struct Region
@@ -58,22 +57,32 @@ struct Region
 };
 
 /// The global ids of the cells that meet the region or, if `whole`, lie inside it, ascending.
-/// Throws IOError.
+/// Several ranks need a stored mesh, and pass the same region. The first one gets the ids; others
+/// get none.
 VTKTIPPIO_EXPORT std::vector<std::int64_t> cellsIn(
-  const ResidentMesh& mesh, const Region& region, bool whole);
+  const ResidentMesh& mesh, const Region& region, bool whole, Communicator* ranks = nullptr);
 
-/// The global ids of the mesh points in the region, ascending. Throws IOError.
-VTKTIPPIO_EXPORT std::vector<std::int64_t> pointsIn(const ResidentMesh& mesh, const Region& region);
+/// The same for the mesh points in the region.
+VTKTIPPIO_EXPORT std::vector<std::int64_t> pointsIn(
+  const ResidentMesh& mesh, const Region& region, Communicator* ranks = nullptr);
 
-///@{
-/// As cellsIn() and pointsIn(), for a stored mesh whose pieces are distributed over the ranks as in
-/// answerOnRanks(). The first rank gets the ids; other ranks get none. All ranks pass the same
-/// region. Collective; call it within Communicator::together().
-VTKTIPPIO_EXPORT std::vector<std::int64_t> cellsOnRanks(
-  Communicator& ranks, const ResidentMesh& mesh, const Region& region, bool whole);
-VTKTIPPIO_EXPORT std::vector<std::int64_t> pointsOnRanks(
-  Communicator& ranks, const ResidentMesh& mesh, const Region& region);
-///@}
+// The same for callers that always have ranks.
+
+inline ZoneStatistics statisticsOnRanks(Communicator& ranks, const ResidentMesh& mesh,
+  const std::vector<Zone>& zones, const std::string& array, int component, double level = 0)
+{
+  return statisticsOf(mesh, zones, array, component, level, &ranks);
+}
+inline std::vector<std::int64_t> cellsOnRanks(
+  Communicator& ranks, const ResidentMesh& mesh, const Region& region, bool whole)
+{
+  return cellsIn(mesh, region, whole, &ranks);
+}
+inline std::vector<std::int64_t> pointsOnRanks(
+  Communicator& ranks, const ResidentMesh& mesh, const Region& region)
+{
+  return pointsIn(mesh, region, &ranks);
+}
 
 } // namespace tipp
 

@@ -22,6 +22,8 @@ constexpr std::size_t LargestReason = 4096; // so that a failure's message is ne
 // memory: they must be received in any case, or their senders would wait forever.
 char Taken[LargestPart];
 
+void discard(int, const char*, std::size_t) {}
+
 struct MessageHeader
 {
   std::uint64_t Size;
@@ -157,12 +159,22 @@ bool Communicator::probe(Arriving& arriving)
   return true;
 }
 
+/// Takes the next kept message of this run, if any.
+bool Communicator::takeEarly(Message& message)
+{
+  if (this->Early.empty() || this->Early.front().Run > this->Run)
+  {
+    return false;
+  }
+  message = std::move(this->Early.front().Content);
+  this->Early.pop_front();
+  return true;
+}
+
 bool Communicator::receive(Message& message, const PartReceiver* receiver)
 {
-  if (!this->Early.empty() && this->Early.front().Run <= this->Run)
+  if (this->takeEarly(message))
   {
-    message = std::move(this->Early.front().Content);
-    this->Early.pop_front();
     if (receiver && receiver->concerns(message))
     {
       receiver->Take(message.Source, message.Content.data(), message.Content.size());
@@ -202,7 +214,7 @@ Bytes Communicator::receiveContent(const Arriving& arriving)
   }
   catch (...)
   {
-    this->discardParts(arriving);
+    this->receiveParts(arriving, discard);
     throw;
   }
   if (arriving.Header.isComplete())
@@ -237,24 +249,17 @@ void Communicator::receiveParts(const Arriving& arriving, const TakePart& takePa
     return;
   }
   std::exception_ptr failure;
-  const auto take = [&](std::size_t size)
-  {
-    try
-    {
-      takePart(arriving.Source, Taken, size);
-    }
-    catch (...)
-    {
-      failure = std::current_exception();
-    }
-  };
   for (std::size_t at = 0; at < arriving.Header.Size; at += LargestPart)
   {
     const std::size_t part = std::min(LargestPart, std::size_t(arriving.Header.Size) - at);
     this->Transport->receive(Taken, part, arriving.Source, PartTag);
-    if (!failure)
+    try
     {
-      take(part);
+      failure ? void() : takePart(arriving.Source, Taken, part);
+    }
+    catch (...)
+    {
+      failure = std::current_exception();
     }
   }
   if (failure)
@@ -269,10 +274,8 @@ bool Communicator::receiveOfFailure(Message& message)
 {
   const auto isOfFailure = [](MessageKind kind)
   { return kind == MessageKind::Failure || kind == MessageKind::Shutdown; };
-  while (!this->Early.empty() && this->Early.front().Run <= this->Run)
+  while (this->takeEarly(message))
   {
-    message = std::move(this->Early.front().Content);
-    this->Early.pop_front();
     if (isOfFailure(message.Kind))
     {
       return true;
@@ -292,23 +295,10 @@ bool Communicator::receiveOfFailure(Message& message)
     }
     else
     {
-      this->discardParts(arriving);
+      this->receiveParts(arriving, discard);
     }
   }
   return false;
-}
-
-void Communicator::discardParts(const Arriving& arriving)
-{
-  if (arriving.Header.isComplete())
-  {
-    return;
-  }
-  for (std::size_t at = 0; at < arriving.Header.Size; at += LargestPart)
-  {
-    const std::size_t part = std::min(LargestPart, std::size_t(arriving.Header.Size) - at);
-    this->Transport->receive(Taken, part, arriving.Source, PartTag);
-  }
 }
 
 bool Communicator::poll(Message& message)

@@ -167,13 +167,19 @@ public:
   template <typename T>
   std::vector<T> allToAll(const std::vector<T>& values)
   {
+    const auto own = std::size_t(this->Rank); // its value is only copied
     std::vector<Bytes> contents;
-    contents.reserve(values.size());
-    for (const T& value : values)
+    for (std::size_t to = 0; to < values.size(); ++to)
     {
-      contents.push_back(packed(value));
+      contents.push_back(to == own ? Bytes() : packed(values[to]));
     }
-    return allUnpacked<T>(this->allToAll(std::move(contents)));
+    contents = this->allToAll(std::move(contents));
+    std::vector<T> received;
+    for (std::size_t from = 0; from < contents.size(); ++from)
+    {
+      received.push_back(from == own ? values[from] : unpacked<T>(contents[from]));
+    }
+    return received;
   }
   ///@}
 
@@ -291,8 +297,8 @@ private:
   Bytes receiveContent(const Arriving& arriving);
   void keepForItsRun(const Arriving& arriving);
   void receiveParts(const Arriving& arriving, const TakePart& takePart);
+  bool takeEarly(Message& message);
   bool receiveOfFailure(Message& message);
-  void discardParts(const Arriving& arriving);
   bool receiveGood(Message& message, const PartReceiver* receiver = nullptr);
   void testOutgoing();
   void postRange(

@@ -344,52 +344,45 @@ Piece FlatPieces::finish(const Draft& draft, const PieceOptions& options) const
         : piece.OwnedPoints + (std::lower_bound(ghosts.begin(), ghosts.end(), id) - ghosts.begin());
     }
   }
-  this->loadPoints(ids, options, piece);
-  this->loadCellData(options, piece);
+  this->loadData(ids, true, options, piece);
+  this->loadData(cells, false, options, piece);
   return piece;
 }
 
-void FlatPieces::loadPoints(
-  const std::vector<std::int64_t>& ids, const PieceOptions& options, Piece& piece) const
-{
-  std::vector<RawArray> arrays{ this->Flat.Points };
-  std::vector<void*> out;
-  Buffer<char> coordinates(ids.size() * this->Flat.Points.tupleBytes());
-  out.push_back(coordinates.data());
-  for (std::size_t i = 0; i < this->Arrays.size(); ++i)
-  {
-    if (this->Mesh.Arrays[i].OfPoints && options.wants(this->Mesh, i))
-    {
-      piece.Attributes.push_back(
-        { this->Mesh.Arrays[i], Buffer<char>(ids.size() * this->Arrays[i].tupleBytes()) });
-      out.push_back(piece.Attributes.back().Values.data());
-      arrays.push_back(this->Arrays[i]);
-    }
-  }
-  makeVertexLoader(std::move(arrays), this->loading())->load(ids.data(), ids.size(), out.data());
-  piece.Coordinates = this->Flat.Points.Components == 3
-    ? std::move(coordinates)
-    : withThird(coordinates, piece.Points, scalarSize(piece.PointType));
-}
-
-void FlatPieces::loadCellData(const PieceOptions& options, Piece& piece) const
+/// Loads the attributes of points, with their coordinates, or of cells.
+void FlatPieces::loadData(const std::vector<std::int64_t>& ids, bool ofPoints,
+  const PieceOptions& options, Piece& piece) const
 {
   std::vector<RawArray> arrays;
   std::vector<void*> out;
+  const auto add = [&](const RawArray& array)
+  {
+    Buffer<char> values(ids.size() * array.tupleBytes());
+    arrays.push_back(array);
+    out.push_back(values.data());
+    return values;
+  };
+  Buffer<char> coordinates;
+  if (ofPoints)
+  {
+    coordinates = add(this->Flat.Points);
+  }
   for (std::size_t i = 0; i < this->Arrays.size(); ++i)
   {
-    if (!this->Mesh.Arrays[i].OfPoints && options.wants(this->Mesh, i))
+    if (this->Mesh.Arrays[i].OfPoints == ofPoints && options.wants(this->Mesh, i))
     {
-      piece.Attributes.push_back({ this->Mesh.Arrays[i],
-        Buffer<char>(std::size_t(piece.Cells) * this->Arrays[i].tupleBytes()) });
-      out.push_back(piece.Attributes.back().Values.data());
-      arrays.push_back(this->Arrays[i]);
+      piece.Attributes.push_back({ this->Mesh.Arrays[i], add(this->Arrays[i]) });
     }
   }
   if (!arrays.empty())
   {
-    makeVertexLoader(std::move(arrays), this->loading())
-      ->load(piece.CellIds.as<std::int64_t>(), std::size_t(piece.Cells), out.data());
+    makeVertexLoader(std::move(arrays), this->loading())->load(ids.data(), ids.size(), out.data());
+  }
+  if (ofPoints)
+  {
+    piece.Coordinates = this->Flat.Points.Components == 3
+      ? std::move(coordinates)
+      : withThird(coordinates, piece.Points, scalarSize(piece.PointType));
   }
 }
 

@@ -90,9 +90,8 @@ private:
   template <typename Visit>
   void forEachOwner(std::int64_t first, std::int64_t last, const Visit& visit) const;
   Piece finish(const Draft& draft, const PieceOptions& options) const;
-  void loadPoints(
-    const std::vector<std::int64_t>& ids, const PieceOptions& options, Piece& piece) const;
-  void loadCellData(const PieceOptions& options, Piece& piece) const;
+  void loadData(const std::vector<std::int64_t>& ids, bool ofPoints, const PieceOptions& options,
+    Piece& piece) const;
   int dimension() const { return this->Flat.CellSize - 1; }
   LoaderOptions loading() const;
   std::int64_t chunkCells() const;

@@ -79,44 +79,16 @@ RangeFilter::RangeFilter(const PartitionedMesh& mesh, const Bounds& range)
 
 bool RangeFilter::meets(const Piece& piece, std::int64_t cell, const Box3& box) const
 {
-  std::array<std::array<double, 3>, 4> p{};
-  for (int corner = 0; corner < piece.CellSize; ++corner)
+  const auto corner = [&](int i)
   {
-    p[std::size_t(corner)] = pointOf(piece, piece.corner(cell, corner));
-  }
-  const std::size_t axes = piece.CellSize == 3 ? 2 : 3;
-  bool inside = false;
-  for (std::size_t axis = 0; axis < axes; ++axis)
-  {
-    double low = p[0][axis];
-    double high = low;
-    for (std::size_t corner = 1; corner < std::size_t(piece.CellSize); ++corner)
-    {
-      low = std::min(low, p[corner][axis]);
-      high = std::max(high, p[corner][axis]);
-    }
-    if (low > box.Max[axis] || high < box.Min[axis])
-    {
-      return false;
-    }
-  }
-  for (std::size_t corner = 0; corner < std::size_t(piece.CellSize); ++corner)
-  {
-    bool within = true;
-    for (std::size_t axis = 0; axis < axes; ++axis)
-    {
-      within = within && p[corner][axis] >= box.Min[axis] && p[corner][axis] <= box.Max[axis];
-    }
-    inside = inside || within;
-  }
-  if (inside)
-  {
-    return true;
-  }
-  const auto flat = [&p](std::size_t i) { return Point2{ p[i][0], p[i][1] }; };
-  const auto space = [&p](std::size_t i) { return Point3{ p[i][0], p[i][1], p[i][2] }; };
-  return piece.CellSize == 3 ? triangleMeetsBox(flat(0), flat(1), flat(2), box)
-                             : tetrahedronMeetsBox(space(0), space(1), space(2), space(3), box);
+    const std::array<double, 3> p = pointOf(piece, piece.corner(cell, i));
+    return Point3{ p[0], p[1], p[2] };
+  };
+  const Point3 a = corner(0);
+  const Point3 b = corner(1);
+  const Point3 c = corner(2);
+  return piece.CellSize == 3 ? triangleMeetsBox({ a.x, a.y }, { b.x, b.y }, { c.x, c.y }, box)
+                             : tetrahedronMeetsBox(a, b, c, corner(3), box);
 }
 
 bool RangeFilter::isLowerPieceMet(const Piece& piece, std::int64_t cell, std::size_t number) const

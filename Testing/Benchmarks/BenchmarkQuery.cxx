@@ -8,8 +8,8 @@
 #include "Query/Around.h"
 #include "Query/DataSetPart.h"
 #include "Query/Lines.h"
-#include "Query/RankAround.h"
 #include "Query/ResidentMesh.h"
+#include "Ranks/Communicator.h"
 #include "vtkPartitionedMeshQuery.h"
 #include "vtkRangeResampleFilter.h"
 #include "vtkTIPPDelaunay2D.h"
@@ -376,7 +376,7 @@ void benchmarkRankRings(
       const double begin = seconds();
       const double beginOfProcessor = processorSeconds();
       std::vector<std::int64_t> sums(2);
-      sums[0] = std::int64_t(rings(ranks, resident, ids, k).Ids.size());
+      sums[0] = std::int64_t(rings(resident, ids, k, &ranks).Ids.size());
       sums[1] = std::int64_t(1e6 * (processorSeconds() - beginOfProcessor));
       ranks.sum(sums);
       found = sums[0];
@@ -393,9 +393,9 @@ void benchmarkRankRings(
         static_cast<long long>(found));
     }
   };
-  measure("one-rings of points", 1, points, ringsOfPointsOnRanks);
-  measure("two-rings of points", 2, points, ringsOfPointsOnRanks);
-  measure("one-rings of cells", 1, cells[0], ringsOfCellsOnRanks);
+  measure("one-rings of points", 1, points, ringsOfPoints);
+  measure("two-rings of points", 2, points, ringsOfPoints);
+  measure("one-rings of cells", 1, cells[0], ringsOfCells);
 }
 #endif
 

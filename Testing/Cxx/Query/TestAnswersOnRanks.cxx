@@ -150,8 +150,7 @@ TEST_F(AnswersOnRanks, FindTheNearestCellOfAllRanks)
     const auto expectAsAlone = [&](const ResidentMesh& mesh)
     {
       ClosestLocations found;
-      this->Ranks.together(
-        [&] { found = closestOnRanks(this->Ranks, mesh, points.data(), count); });
+      this->Ranks.together([&] { found = closestTo(mesh, points.data(), count, &this->Ranks); });
       EXPECT_EQ(expected.Cells, found.Cells);
       EXPECT_EQ(expected.Distances, found.Distances);
       EXPECT_EQ(expected.Points, found.Points);

@@ -3,9 +3,9 @@
 
 #include "Query/Around.h"
 #include "Query/Lines.h"
-#include "Query/RankAround.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,17 +32,17 @@ protected:
     this->Ranks.together(
       [&]
       {
-        EXPECT_EQ(neighborsOf(whole, cells), neighborsOnRanks(this->Ranks, mesh, cells));
-        expectEqualLists(starsOf(whole, points), starsOnRanks(this->Ranks, mesh, points));
+        EXPECT_EQ(neighborsOf(whole, cells), neighborsOf(mesh, cells, &this->Ranks));
+        expectEqualLists(starsOf(whole, points), starsOf(mesh, points, &this->Ranks));
         for (const int k : { 0, 1, 3 })
         {
           expectEqualLists(
-            ringsOfPoints(whole, points, k), ringsOfPointsOnRanks(this->Ranks, mesh, points, k));
+            ringsOfPoints(whole, points, k), ringsOfPoints(mesh, points, k, &this->Ranks));
           expectEqualLists(
-            ringsOfCells(whole, cells, k), ringsOfCellsOnRanks(this->Ranks, mesh, cells, k));
+            ringsOfCells(whole, cells, k), ringsOfCells(mesh, cells, k, &this->Ranks));
         }
         const Components expected = componentsOf(whole);
-        const RankComponents components = componentsOnRanks(this->Ranks, mesh);
+        const Components components = componentsOf(mesh, &this->Ranks);
         EXPECT_EQ(expected.Sizes, components.Sizes);
         for (std::size_t i = 0; i < components.Cells.size(); ++i)
         {
@@ -67,7 +67,7 @@ protected:
     for (const double spacing : { 0.0, 0.07 })
     {
       const Profile expected = profileOf(whole, polyline, spacing, arrays);
-      const Profile profile = profileOnRanks(this->Ranks, mesh, polyline, spacing, arrays);
+      const Profile profile = profileOf(mesh, polyline, spacing, arrays, &this->Ranks);
       EXPECT_EQ(expected.Distances, profile.Distances);
       EXPECT_EQ(expected.Points, profile.Points);
       expectEqual(expected.Answer, profile.Answer);
@@ -77,9 +77,9 @@ protected:
   /// Borders and contours, which only the first rank receives.
   void expectLinesAsAlone(const ResidentMesh& mesh, const ResidentMesh& whole)
   {
-    const BoundaryLoops border = boundaryOnRanks(this->Ranks, mesh);
+    const BoundaryLoops border = boundaryOf(mesh, &this->Ranks);
     const std::vector<double> levels = { 0.3, -0.2, 0.7 };
-    const Contours contours = contoursOnRanks(this->Ranks, mesh, "value", 1, levels);
+    const Contours contours = contoursOf(mesh, "value", 1, levels, &this->Ranks);
     const bool isFirst = this->Ranks.isFirst();
     const BoundaryLoops expected = isFirst ? boundaryOf(whole) : BoundaryLoops();
     EXPECT_EQ(expected.Points.Starts, border.Points.Starts);
@@ -149,6 +149,39 @@ TEST_F(AroundOnRanks, FindNeighborsInContiguousParts)
   }
 }
 
+TEST_F(AroundOnRanks, AProfileHasNoArraysIfNoRankHasCells)
+{
+  const ResidentMesh mesh{ MeshPart() };
+  Profile profile;
+  this->Ranks.together(
+    [&] {
+      profile = profileOf(mesh, { { 0, 0, 0 }, { 1, 0, 0 } }, 0, { "value" }, &this->Ranks);
+    });
+  EXPECT_EQ(std::vector<double>({ 0, 1 }), profile.Distances);
+  EXPECT_EQ(std::vector<std::int64_t>({ -1, -1 }), profile.Answer.Cells);
+  EXPECT_TRUE(profile.Answer.Arrays.empty());
+}
+
+TEST_F(AroundOnRanks, RingsReachOtherRanksAtPointsWithoutElevation)
+{
+  const SourceMesh source = makeSource(latticeTriangles(8, 0.3));
+  MeshPart part = inMemory(source, 0, this->Ranks.rank(), this->Ranks.size());
+  const auto* const first = static_cast<const double*>(part.Mesh.Points);
+  std::vector<double> points(first, first + 3 * part.Mesh.PointCount);
+  for (std::size_t z = 2; z < points.size(); z += 3)
+  {
+    points[z] = std::numeric_limits<double>::quiet_NaN();
+  }
+  part.Mesh.Points = points.data();
+  const ResidentMesh mesh(part);
+  const std::vector<std::int64_t> seeds = this->ownIds(source.points());
+  const IdLists expected = ringsOfPoints(ResidentMesh(inMemory(source)), seeds, 2);
+  IdLists found;
+  this->Ranks.together([&] { found = ringsOfPoints(mesh, seeds, 2, &this->Ranks); });
+  EXPECT_EQ(expected.Starts, found.Starts);
+  EXPECT_EQ(expected.Ids, found.Ids);
+}
+
 TEST_F(AroundOnRanks, PartsWithoutIdsAndUnknownIdsAreRefused)
 {
   const SourceMesh source = makeSource(latticeTriangles(6, 0.3));
@@ -158,7 +191,7 @@ TEST_F(AroundOnRanks, PartsWithoutIdsAndUnknownIdsAreRefused)
     Communicator ranks(vtkMultiProcessController::GetGlobalController());
     try
     {
-      ranks.together([&] { starsOnRanks(ranks, mesh, { id }); });
+      ranks.together([&] { starsOf(mesh, { id }, &ranks); });
       ADD_FAILURE() << "not refused: " << message;
     }
     catch (const RankFailure& failure)
@@ -191,8 +224,8 @@ TEST_F(AroundOnRanks, UnknownSeedsOfRingsEndAllRanks)
         this->Ranks.together(
           [&]
           {
-            ofPoints ? ringsOfPointsOnRanks(this->Ranks, mesh, seeds, 1)
-                     : ringsOfCellsOnRanks(this->Ranks, mesh, seeds, 1);
+            ofPoints ? ringsOfPoints(mesh, seeds, 1, &this->Ranks)
+                     : ringsOfCells(mesh, seeds, 1, &this->Ranks);
           });
         ADD_FAILURE() << "not refused: " << unknown;
       }
@@ -217,7 +250,7 @@ TEST_F(AroundOnRanks, RingsOfRepeatedSeedsInAnyOrderAreInTheOrderOfTheSeeds)
   }
   const IdLists expected = ringsOfPoints(whole, seeds, 2);
   IdLists found;
-  this->Ranks.together([&] { found = ringsOfPointsOnRanks(this->Ranks, mesh, seeds, 2); });
+  this->Ranks.together([&] { found = ringsOfPoints(mesh, seeds, 2, &this->Ranks); });
   EXPECT_EQ(expected.Starts, found.Starts);
   EXPECT_EQ(expected.Ids, found.Ids);
 }
@@ -236,7 +269,7 @@ TEST_F(AroundOnRanks, FollowDescentsFromRankToRank)
       const Descents expected = descentsOf(whole, points, "value", component);
       Descents found;
       this->Ranks.together(
-        [&] { found = descentsOnRanks(this->Ranks, mesh, points, "value", component); });
+        [&] { found = descentsOf(mesh, points, "value", component, &this->Ranks); });
       EXPECT_EQ(expected.Starts, found.Starts);
       EXPECT_EQ(expected.Points, found.Points);
       EXPECT_EQ(expected.Pits, found.Pits);

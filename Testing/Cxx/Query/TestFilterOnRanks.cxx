@@ -73,6 +73,17 @@ TEST_F(FilterOnRanks, TheFilterLeavesValuesOnOwnersAndSharesZonesAndDescents)
   EXPECT_EQ(double(source.cells()), statistics->GetArray("Cells")->GetComponent(0, 0));
 }
 
+TEST_F(FilterOnRanks, ContoursNeedAnArrayOfLevels)
+{
+  this->store(makeSource(latticeTriangles(4, 0.3)), "grid:2x2");
+  vtkNew<vtkPartitionedMeshQuery> query;
+  query->SetFileName(this->Path.c_str());
+  vtkNew<vtkPolyData> lines;
+  vtkObject::GlobalWarningDisplayOff();
+  EXPECT_EQ(0, query->Contours("value", 0, nullptr, lines));
+  vtkObject::GlobalWarningDisplayOn();
+}
+
 TEST_F(FilterOnRanks, TheFilterQueriesAllRanksTogether)
 {
   const SourceMesh source = makeSource(latticeTriangles(10, 0.3));

@@ -33,8 +33,8 @@ TEST_F(ZonesOnRanks, ShareTheCellsOfZones)
         {
           const ZoneStatistics expected = statisticsOf(whole, zones, array, 0, 0.25);
           // Zones of other ranks than the first are ignored.
-          const ZoneStatistics found = statisticsOnRanks(
-            this->Ranks, mesh, this->Ranks.isFirst() ? zones : std::vector<Zone>(), array, 0, 0.25);
+          const ZoneStatistics found = statisticsOf(mesh,
+            this->Ranks.isFirst() ? zones : std::vector<Zone>(), array, 0, 0.25, &this->Ranks);
           EXPECT_EQ(expected.Cells, found.Cells);
           EXPECT_EQ(expected.Area, found.Area);
           EXPECT_EQ(expected.Sum, found.Sum);
@@ -72,11 +72,11 @@ TEST_F(ZonesOnRanks, ShareTheCellsAndPointsOfRegions)
       const bool isFirst = this->Ranks.isFirst();
       for (const bool inside : { false, true })
       {
-        const std::vector<std::int64_t> cells = cellsOnRanks(this->Ranks, mesh, region, inside);
+        const std::vector<std::int64_t> cells = cellsIn(mesh, region, inside, &this->Ranks);
         EXPECT_EQ(isFirst ? cellsIn(whole, region, inside) : std::vector<std::int64_t>(), cells);
       }
       EXPECT_EQ(isFirst ? pointsIn(whole, region) : std::vector<std::int64_t>(),
-        pointsOnRanks(this->Ranks, mesh, region));
+        pointsIn(mesh, region, &this->Ranks));
     });
 }
 
