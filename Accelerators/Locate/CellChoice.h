@@ -22,47 +22,47 @@
 namespace tipp
 {
 
-/// Whether a closed, non-degenerate cell contains a point. Exact.
-inline bool contains(const Point2 (&corners)[3], Point2 p)
+enum class Side
 {
-  const int first = orientation(corners[0], corners[1], p);
-  const int second = orientation(corners[1], corners[2], p);
+  Outside,
+  Border,
+  Inside
+};
+
+/// On which side of a closed cell's border a point lies. Exact. Degenerate cells contain no point.
+inline Side sideOf(const Point2 (&corners)[3], Point2 p)
+{
+  const auto& [a, b, c] = corners;
+  const int first = orientation(a, b, p);
+  const int second = orientation(b, c, p);
   if (first * second < 0)
   {
-    return false;
+    return Side::Outside;
   }
-  const int third = orientation(corners[2], corners[0], p);
+  const int third = orientation(c, a, p);
   const int sum = first + second + third;
   if (sum == 3 || sum == -3)
   {
-    return true;
+    return Side::Inside;
   }
-  return first * third >= 0 && second * third >= 0 &&
-    orientation(corners[0], corners[1], corners[2]) != 0;
+  return first * third >= 0 && second * third >= 0 && orientation(a, b, c) != 0 ? Side::Border
+                                                                                : Side::Outside;
 }
 
-inline bool contains(const Point3 (&corners)[4], const Point3& p)
+inline Side sideOf(const Point3 (&corners)[4], const Point3& p)
 {
   const auto& [a, b, c, d] = corners;
-  const int side = orientation3(a, b, c, d);
-  return side != 0 && side * orientation3(a, b, c, p) >= 0 &&
-    side * orientation3(a, c, d, p) >= 0 && side * orientation3(a, d, b, p) >= 0 &&
-    side * orientation3(b, d, c, p) >= 0;
-}
-
-/// The coordinates of a point in the mesh's dimension.
-template <int D>
-auto flattened(const SimplexMesh& mesh, const Point3& p)
-{
-  if constexpr (D == 2)
+  const Point3* const faces[4][3] = { { &a, &b, &c }, { &a, &c, &d }, { &a, &d, &b },
+    { &b, &d, &c } };
+  const int turn = orientation3(a, b, c, d);
+  Side side = turn != 0 ? Side::Inside : Side::Outside;
+  for (int i = 0; i < 4 && side != Side::Outside; ++i)
   {
-    const double coordinates[3] = { p.x, p.y, p.z };
-    return Point2{ coordinates[mesh.Axes[0]], coordinates[mesh.Axes[1]] };
+    const auto& [u, v, w] = faces[i];
+    const int inner = turn * orientation3(*u, *v, *w, p);
+    side = inner > 0 ? side : inner == 0 ? Side::Border : Side::Outside;
   }
-  else
-  {
-    return p;
-  }
+  return side;
 }
 
 inline std::array<double, 2> arrayOf(Point2 p)
@@ -74,20 +74,22 @@ inline std::array<double, 3> arrayOf(const Point3& p)
   return { p.x, p.y, p.z };
 }
 
-template <typename Access, typename Point>
-CellKey keyOfCell(const Access& access, std::int64_t cell, const Point& point)
+template <typename Access>
+CellKey keyOfCell(const Access& access, std::int64_t cell, const typename Access::Point& point)
 {
-  Point corners[Access::Corners];
+  typename Access::Point corners[Access::Corners];
   access.corners(cell, corners);
   return withRank(keyOf(access, cell), moveRank(corners, point));
 }
 
 /// Chooses one of the cells that contain a point. Their keys are computed only if there are
 /// several.
-template <typename Access, typename Point>
+template <typename Access>
 class Choice
 {
 public:
+  using Point = typename Access::Point;
+
   Choice(const Access& access, const std::int64_t* cellIds, const Point& point)
     : Cells(access)
     , CellIds(cellIds)
@@ -99,7 +101,7 @@ public:
   {
     Point corners[Access::Corners];
     this->Cells.corners(cell, corners);
-    if (!contains(corners, this->Of))
+    if (sideOf(corners, this->Of) == Side::Outside)
     {
       return;
     }
@@ -164,13 +166,13 @@ inline void weighTriangle(
 
 /// The weights of a cell's corners at a point. They are evaluated with the corners in lexicographic
 /// order, so that they do not depend on their order in the cell.
-template <typename Access, typename Point>
-CellLocation weighed(const Access& access, std::int64_t cell, const Point& point)
+template <typename Access>
+CellLocation weighed(const Access& access, std::int64_t cell, const typename Access::Point& point)
 {
   constexpr int D = Access::Dimension;
   CellLocation location;
   location.Cell = cell;
-  Point corners[D + 1];
+  typename Access::Point corners[D + 1];
   access.corners(cell, corners);
   int order[D + 1];
   std::iota(order, order + D + 1, 0);
@@ -214,21 +216,16 @@ CellLocation weighed(const Access& access, std::int64_t cell, const Point& point
 template <typename Access>
 auto boxOfCell(const Access& access, const SimplexMesh& mesh, std::int64_t cell)
 {
-  constexpr int D = Access::Dimension;
-  Box<D> box = Box<D>::empty();
+  using CellBox = Box<Access::Dimension>;
+  CellBox box = CellBox::empty();
   bool isUsable = !mesh.Hidden || !mesh.Hidden[cell];
   for (int i = 0; i < Access::Corners; ++i)
   {
-    double corner[D];
-    access.coordinates(access.ids(cell)[i], corner);
-    for (int axis = 0; axis < D; ++axis)
-    {
-      isUsable = isUsable && std::isfinite(corner[axis]);
-      box.Low[axis] = std::min(box.Low[axis], corner[axis]);
-      box.High[axis] = std::max(box.High[axis], corner[axis]);
-    }
+    const auto corner = CellBox::of(access.coordinates(access.ids(cell)[i]));
+    isUsable = isUsable && !corner.isEmpty();
+    box.extend(corner);
   }
-  return isUsable ? box : Box<D>::empty();
+  return isUsable ? box : CellBox::empty();
 }
 
 } // namespace tipp

@@ -21,8 +21,7 @@ void locateByCells(const Access& access, const SimplexMesh& mesh, const std::int
   const AskedPoints& points, int threads, const TakeLocations& take)
 {
   constexpr int D = Access::Dimension;
-  using Point = decltype(flattened<D>(mesh, points.at(0)));
-  const auto at = [&](std::int64_t i) { return flattened<D>(mesh, points.at(i)); };
+  const auto at = [&](std::int64_t i) { return access.flattened(points.at(i)); };
   const BoxTree<D> tree(
     points.Count, threads, [&](std::int64_t i) { return Box<D>::of(arrayOf(at(i))); });
   // Most cells contain no point; a grid detects this from the positions of their corners. That does
@@ -37,11 +36,7 @@ void locateByCells(const Access& access, const SimplexMesh& mesh, const std::int
     {
       for (std::int64_t i = begin; i < end; ++i)
       {
-        double coordinates[D];
-        access.coordinates(i, coordinates);
-        std::array<double, D> corner;
-        std::copy_n(coordinates, D, corner.begin());
-        positions[std::size_t(i)] = grid.position(corner);
+        positions[std::size_t(i)] = grid.position(access.coordinates(i));
       }
     });
   struct Found
@@ -70,7 +65,7 @@ void locateByCells(const Access& access, const SimplexMesh& mesh, const std::int
         box.isEmpty() ? void() : tree.search(box, offer);
       }
     });
-  std::vector<Choice<Access, Point>> choices;
+  std::vector<Choice<Access>> choices;
   choices.reserve(std::size_t(points.Count));
   for (std::int64_t i = 0; i < points.Count; ++i)
   {
@@ -124,8 +119,8 @@ const BoxTree<D>& CellLocator::tree() const
 template const BoxTree<2>& CellLocator::tree() const;
 template const BoxTree<3>& CellLocator::tree() const;
 
-template <typename Access, typename Point>
-std::int64_t CellLocator::find(const Access& access, const Point& point) const
+template <typename Access>
+std::int64_t CellLocator::find(const Access& access, const typename Access::Point& point) const
 {
   constexpr int D = Access::Dimension;
   const Box<D> box = Box<D>::of(arrayOf(point));
@@ -143,7 +138,7 @@ std::int64_t CellLocator::find(const Access& access, const Point& point) const
       return outcome == CellWalk::Outcome::Found ? at.Cell : -1;
     }
   }
-  Choice<Access, Point> choice(access, this->CellIds, point);
+  Choice<Access> choice(access, this->CellIds, point);
   this->tree<D>().search(box, [&](std::int32_t cell) { choice.offer(cell); });
   return choice.cell();
 }
@@ -159,12 +154,11 @@ void CellLocator::findInOrder(const Access& access, const AskedPoints& points,
   const BoxTree<D>& tree = this->tree<D>();
   typename BoxTree<D>::Gathered gathered;
   Locations locations(take);
-  const auto pointAt = [&](std::int64_t i)
-  { return flattened<D>(this->Mesh, points.at(order[i])); };
+  const auto at = [&](std::int64_t i) { return access.flattened(points.at(order[i])); };
   const auto choose = [&](std::int64_t i, const auto& search)
   {
-    const auto point = pointAt(i);
-    Choice<Access, std::decay_t<decltype(point)>> choice(access, this->CellIds, point);
+    const auto point = at(i);
+    Choice<Access> choice(access, this->CellIds, point);
     search(Box<D>::of(arrayOf(point)), [&](std::int32_t cell) { choice.offer(cell); });
     const std::int64_t cell = choice.cell();
     cell >= 0 ? locations.add(points.index(order[i]), weighed(access, cell, point)) : void();
@@ -179,7 +173,7 @@ void CellLocator::findInOrder(const Access& access, const AskedPoints& points,
     Box<D> region = Box<D>::empty();
     for (std::int64_t i = begin; i < end; ++i)
     {
-      region.extend(Box<D>::of(arrayOf(pointAt(i))));
+      region.extend(Box<D>::of(arrayOf(at(i))));
     }
     const bool isGathered = shared > 1 && tree.gather(region, gathered);
     if (shared > 1 && !isGathered)
@@ -221,7 +215,7 @@ bool CellLocator::areNear(const Access& access, const AskedPoints& points) const
     const std::int64_t first = (points.Count - length) * sample / samples;
     for (std::int64_t i = first; i < first + length; ++i)
     {
-      const Point2 point = flattened<2>(this->Mesh, points.at(i));
+      const Point2 point = access.flattened(points.at(i));
       if (isFinite(point))
       {
         const bool isFirst = at.Cell < 0;
@@ -240,11 +234,11 @@ template <typename Access>
 std::vector<std::int64_t> CellLocator::walkAll(
   const Access& access, const AskedPoints& points, int threads, const TakeLocations& take) const
 {
-  const auto pointAt = [&](std::int64_t i) { return flattened<2>(this->Mesh, points.at(i)); };
+  const auto pointOf = [&](std::int64_t i) { return access.flattened(points.at(i)); };
   const bool inOrder = this->areNear(access, points);
   const std::vector<std::int32_t> order = inOrder
     ? std::vector<std::int32_t>()
-    : nearOrder<2>(points.Count, threads, [&](std::int64_t i) { return arrayOf(pointAt(i)); });
+    : nearOrder<2>(points.Count, threads, [&](std::int64_t i) { return arrayOf(pointOf(i)); });
   std::vector<std::vector<std::int64_t>> left(static_cast<std::size_t>(threads));
   forChunks(inOrder ? points.Count : std::int64_t(order.size()), 1 << 14, threads, {},
     [&](std::int64_t begin, std::int64_t end, int thread)
@@ -254,7 +248,7 @@ std::vector<std::int64_t> CellLocator::walkAll(
       for (std::int64_t i = begin; i < end; ++i)
       {
         const std::int64_t item = inOrder ? i : order[std::size_t(i)];
-        const Point2 point = pointAt(item);
+        const Point2 point = pointOf(item);
         const auto outcome =
           isFinite(point) ? this->Walk.walk(access, point, at) : CellWalk::Outcome::Outside;
         if (outcome == CellWalk::Outcome::Found)
@@ -301,8 +295,8 @@ void CellLocator::locateAll(
       }
     }
   }
-  const std::vector<std::int32_t> order = nearOrder<D>(rest.Count, threads,
-    [&](std::int64_t i) { return arrayOf(flattened<D>(this->Mesh, rest.at(i))); });
+  const std::vector<std::int32_t> order = nearOrder<D>(
+    rest.Count, threads, [&](std::int64_t i) { return arrayOf(access.flattened(rest.at(i))); });
   forChunks(std::int64_t(order.size()), 1 << 12, threads, {},
     [&](std::int64_t begin, std::int64_t end, int)
     { this->findInOrder(access, rest, order.data() + begin, end - begin, take); });
@@ -314,7 +308,7 @@ CellLocation CellLocator::locate(const Point3& point) const
   withAccess(this->Mesh,
     [&](const auto& access)
     {
-      const auto p = flattened<std::decay_t<decltype(access)>::Dimension>(this->Mesh, point);
+      const auto p = access.flattened(point);
       const std::int64_t cell = this->find(access, p);
       location = cell >= 0 ? weighed(access, cell, p) : location;
     });
@@ -335,12 +329,8 @@ void locatePoints(const SimplexMesh& mesh, const std::int64_t* cellIds, const Ce
 CellKey keyAt(const SimplexMesh& mesh, std::int64_t cell, const Point3& point)
 {
   CellKey key = noCellKey;
-  withAccess(mesh,
-    [&](const auto& access)
-    {
-      constexpr int D = std::decay_t<decltype(access)>::Dimension;
-      key = keyOfCell(access, cell, flattened<D>(mesh, point));
-    });
+  withAccess(
+    mesh, [&](const auto& access) { key = keyOfCell(access, cell, access.flattened(point)); });
   return key;
 }
 

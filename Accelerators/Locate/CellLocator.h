@@ -74,8 +74,8 @@ public:
 private:
   template <int D>
   const BoxTree<D>& tree() const;
-  template <typename Access, typename Point>
-  std::int64_t find(const Access& access, const Point& point) const;
+  template <typename Access>
+  std::int64_t find(const Access& access, const typename Access::Point& point) const;
   template <typename Access>
   void findInOrder(const Access& access, const AskedPoints& points, const std::int32_t* order,
     std::int64_t count, const TakeLocations& take) const;

@@ -22,44 +22,6 @@ namespace tipp
 namespace
 {
 
-enum class Side
-{
-  Outside,
-  Border,
-  Inside
-};
-
-/// On which side of a closed cell's border a point lies. Exact. Degenerate cells contain no point.
-Side sideOf(const Point2 (&corners)[3], Point2 p)
-{
-  const int first = orientation(corners[0], corners[1], p);
-  const int second = orientation(corners[1], corners[2], p);
-  if (first * second < 0)
-  {
-    return Side::Outside;
-  }
-  const int sum = first + second + orientation(corners[2], corners[0], p);
-  return sum == 3 || sum == -3 ? Side::Inside : contains(corners, p) ? Side::Border : Side::Outside;
-}
-
-Side sideOf(const Point3 (&corners)[4], const Point3& p)
-{
-  const auto& [a, b, c, d] = corners;
-  const int sides[4] = { orientation3(a, b, c, p), orientation3(a, c, d, p),
-    orientation3(a, d, b, p), orientation3(b, d, c, p) };
-  const int sum = sides[0] + sides[1] + sides[2] + sides[3];
-  return sum == 4 || sum == -4 ? Side::Inside : contains(corners, p) ? Side::Border : Side::Outside;
-}
-
-Point2 pointAt(const std::array<double, 2>& at)
-{
-  return { at[0], at[1] };
-}
-Point3 pointAt(const std::array<double, 3>& at)
-{
-  return { at[0], at[1], at[2] };
-}
-
 /// Decides quickly for most points whether they lie in a cell.
 class TriangleFilter
 {
@@ -137,7 +99,7 @@ class Pass
 {
 public:
   static constexpr int D = Access::Dimension;
-  using Point = decltype(pointAt(std::array<double, D>()));
+  using Point = typename Access::Point;
 
   Pass(const Access& access, const SimplexMesh& mesh, const std::int64_t* cellIds,
     const AskedPoints& points, const Search& search, int threads, const TakeLocations& take)
@@ -254,11 +216,10 @@ private:
   /// Whether no point has been claimed by two threads at once.
   bool isEachClaimKept() const
   {
-    std::atomic<std::int64_t> kept{ 0 };
-    forChunks(std::int64_t(this->Near.size()), 1 << 16, this->Threads, {},
-      [&](std::int64_t begin, std::int64_t end, int)
+    const std::int64_t kept = sumOfChunks(std::int64_t(this->Near.size()), 1 << 16, this->Threads,
+      [&](std::int64_t begin, std::int64_t end)
       {
-        kept += std::count_if(this->Claims.get() + begin, this->Claims.get() + end,
+        return std::count_if(this->Claims.get() + begin, this->Claims.get() + end,
           [](const auto& claim) { return claim.load(std::memory_order_relaxed) >= 0; });
       });
     return kept == this->ClaimCount;
@@ -281,7 +242,7 @@ private:
             continue; // in the same group as the first one
           }
           const Point point = pointAt(this->Near.at(entry));
-          Choice<Access, Point> choice(this->Cells, this->CellIds, point);
+          Choice<Access> choice(this->Cells, this->CellIds, point);
           const std::int32_t claim = this->Claims[entry];
           claim >= 0 ? choice.offer(claim) : void();
           for (std::size_t k = i; k < this->Doubts.size() && this->Doubts[k].Entry == entry; ++k)
@@ -326,7 +287,7 @@ bool locateInOnePass(const SimplexMesh& mesh, const std::int64_t* cellIds,
       {
         using Access = std::decay_t<decltype(access)>;
         constexpr int D = Access::Dimension;
-        const auto at = [&](std::int64_t i) { return arrayOf(flattened<D>(mesh, points.at(i))); };
+        const auto at = [&](std::int64_t i) { return arrayOf(access.flattened(points.at(i))); };
         const auto passes = [&](const auto& search)
         {
           return Pass<Access, std::decay_t<decltype(search)>>(

@@ -65,9 +65,8 @@ private:
 
   Point2 at(std::int64_t point) const
   {
-    double xy[2];
-    this->Cells.coordinates(point, xy);
-    return { xy[0], xy[1] };
+    const auto [x, y] = this->Cells.coordinates(point);
+    return { x, y };
   }
 
   bool isUsed(std::int64_t cell) const { return this->Turns[std::size_t(cell)] != 0; }
@@ -266,11 +265,7 @@ private:
     return doMeet;
   }
 
-  Box<2> boxOf(std::int64_t point) const
-  {
-    const Point2 p = this->at(point);
-    return Box<2>::of({ p.x, p.y });
-  }
+  Box<2> boxOf(std::int64_t point) const { return Box<2>::of(this->Cells.coordinates(point)); }
 
   bool meets(std::int64_t cell, std::int64_t edge) const
   {

@@ -101,9 +101,8 @@ CellWalk::Outcome CellWalk::walk(const Access& access, Point2 point, Position& a
   };
   const auto corner = [&](std::int64_t cell, int i)
   {
-    double xy[2];
-    access.coordinates(access.ids(cell)[i], xy);
-    return Corner{ { xy[0], xy[1] }, { xy[0] - point.x, xy[1] - point.y } };
+    const auto [x, y] = access.coordinates(access.ids(cell)[i]);
+    return Corner{ { x, y }, { x - point.x, y - point.y } };
   };
   const auto isBeyond = [&](const Corner& from, const Corner& to)
   {

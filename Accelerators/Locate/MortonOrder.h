@@ -3,6 +3,7 @@
 #define tippMortonOrder_h
 
 #include "Parallel/ParallelFor.h"
+#include "Parallel/RadixSort.h"
 
 #include <algorithm>
 #include <array>
@@ -10,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -131,41 +133,24 @@ template <int D, typename BoxOf>
 std::vector<std::int32_t> mortonOrder(
   std::int64_t count, int threads, const Box<D>& all, const BoxOf& boxOf)
 {
-  struct Entry
-  {
-    std::uint64_t Code;
-    std::int32_t Number; // -1: empty
-
-    bool operator<(const Entry& other) const
-    {
-      return this->Code != other.Code ? this->Code < other.Code : this->Number < other.Number;
-    }
-  };
+  using Entry = std::pair<std::uint64_t, std::int32_t>; // a code and a box; -1: empty
   std::vector<Entry> entries(static_cast<std::size_t>(count));
-  // Each thread sorts a part; then neighbouring parts are merged.
-  const auto border = [&](std::int64_t part)
-  { return entries.begin() + std::ptrdiff_t(count * part / threads); };
-  forChunks(threads, 1, threads, {},
-    [&](std::int64_t part, std::int64_t, int)
+  forChunks(count, 1 << 14, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int)
     {
-      for (auto entry = border(part); entry != border(part + 1); ++entry)
+      for (std::int64_t i = begin; i < end; ++i)
       {
-        const auto i = std::int64_t(entry - entries.begin());
         const Box<D> box = boxOf(i);
-        *entry = box.isEmpty() ? Entry{ ~std::uint64_t(0), -1 }
-                               : Entry{ mortonCode(box, all), std::int32_t(i) };
+        entries[std::size_t(i)] = box.isEmpty() ? Entry{ ~std::uint64_t(0), -1 }
+                                                : Entry{ mortonCode(box, all), std::int32_t(i) };
       }
-      std::sort(border(part), border(part + 1));
     });
-  for (std::int64_t part = 1; part < threads; ++part)
-  {
-    std::inplace_merge(entries.begin(), border(part), border(part + 1));
-  }
+  sortInParts(entries.begin(), entries.end(), threads);
   std::vector<std::int32_t> order;
   order.reserve(entries.size());
-  for (const Entry& entry : entries)
+  for (const auto& [code, number] : entries)
   {
-    entry.Number >= 0 ? order.push_back(entry.Number) : void();
+    number >= 0 ? order.push_back(number) : void();
   }
   return order;
 }
@@ -177,71 +162,28 @@ std::vector<std::int32_t> mortonOrder(
 template <int D, typename At>
 std::vector<std::int32_t> nearOrder(std::int64_t count, int threads, const At& at)
 {
-  struct Entry
-  {
-    std::uint32_t Key;
-    std::int32_t Number; // -1: not finite
-  };
   const auto boxOf = [&at](std::int64_t i) { return Box<D>::of(at(i)); };
   const Box<D> all = boundsOf<D>(count, threads, boxOf);
-  constexpr int digitBits = 11;
-  constexpr std::size_t digits = std::size_t(1) << digitBits;
-  int passes = 1; // as many as give about one point per key
-  passes += count > 1 << digitBits ? 1 : 0;
-  passes += count > 1 << (2 * digitBits) ? 1 : 0;
-  const int dropped = (D == 2 ? 64 : 63) - std::min(passes * digitBits, 32);
-  std::vector<Entry> entries(static_cast<std::size_t>(count));
-  std::vector<Entry> sorted(static_cast<std::size_t>(count));
-  const auto border = [&](std::int64_t part) { return std::size_t(count * part / threads); };
+  constexpr std::uint64_t notFinite = ~std::uint64_t(0);
+  std::vector<std::uint64_t> words(static_cast<std::size_t>(count));
   forChunks(count, 1 << 14, threads, {},
     [&](std::int64_t begin, std::int64_t end, int)
     {
       for (std::int64_t i = begin; i < end; ++i)
       {
         const Box<D> box = boxOf(i);
-        entries[std::size_t(i)] = box.isEmpty()
-          ? Entry{ ~std::uint32_t(0), -1 }
-          : Entry{ std::uint32_t(mortonCode(box, all) >> dropped), std::int32_t(i) };
+        const std::uint64_t code = box.isEmpty() ? 0 : mortonCode(box, all) << (D == 2 ? 0 : 1);
+        words[std::size_t(i)] = box.isEmpty() ? notFinite : (code >> 32 << 32) | std::uint64_t(i);
       }
     });
-  // Sorts digit by digit, lowest first; each thread moves a part of the entries.
-  std::vector<std::size_t> starts(digits * std::size_t(threads));
-  for (int pass = 0; pass < passes; ++pass)
-  {
-    const auto startOf = [&](const Entry& entry, std::int64_t part) -> std::size_t&
-    {
-      return starts[(entry.Key >> (pass * digitBits)) % digits * std::size_t(threads) +
-        std::size_t(part)];
-    };
-    const auto forEntries = [&](const auto& work)
-    {
-      forChunks(threads, 1, threads, {},
-        [&](std::int64_t part, std::int64_t, int)
-        {
-          for (std::size_t i = border(part); i < border(part + 1); ++i)
-          {
-            work(entries[i], part);
-          }
-        });
-    };
-    std::fill(starts.begin(), starts.end(), 0);
-    forEntries([&](const Entry& entry, std::int64_t part) { ++startOf(entry, part); });
-    std::size_t sum = 0;
-    for (std::size_t& start : starts)
-    {
-      const std::size_t begin = sum;
-      sum += start;
-      start = begin;
-    }
-    forEntries(
-      [&](const Entry& entry, std::int64_t part) { sorted[startOf(entry, part)++] = entry; });
-    entries.swap(sorted);
-  }
+  // Sorts by as many bits as give about one point per key.
+  const unsigned lowest = count > 1 << 22 ? 32 : count > 1 << 11 ? 42 : 53;
+  sortByUpperHalf(words, threads, lowest);
   std::vector<std::int32_t> order;
-  order.reserve(entries.size());
-  for (const Entry& entry : entries)
+  order.reserve(words.size());
+  for (const std::uint64_t word : words)
   {
-    entry.Number >= 0 ? order.push_back(entry.Number) : void();
+    word != notFinite ? order.push_back(std::int32_t(std::uint32_t(word))) : void();
   }
   return order;
 }

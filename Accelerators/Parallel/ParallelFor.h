@@ -80,6 +80,25 @@ bool forChunks(
   return wanted && (!report || report(1));
 }
 
+/// The sum of body(begin, end) over the chunks of [0, count).
+template <typename Body>
+std::int64_t sumOfChunks(std::int64_t count, std::int64_t chunk, int threads, const Body& body)
+{
+  std::atomic<std::int64_t> sum{ 0 };
+  forChunks(count, chunk, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int) { sum += std::int64_t(body(begin, end)); });
+  return sum;
+}
+
+/// Sets `count` values on several threads.
+template <typename T>
+void fillInChunks(T* values, std::int64_t count, T value, int threads)
+{
+  forChunks(count, 1 << 16, threads, {},
+    [&](std::int64_t begin, std::int64_t end, int)
+    { std::fill(values + begin, values + end, value); });
+}
+
 /// The number of threads to use: as requested (0: OpenMP's default), but at most the larger of 64
 /// and 4 per processor. Without that limit a large number would end the process, since OpenMP
 /// aborts if it cannot start a thread.
@@ -97,6 +116,19 @@ void parallelFor(std::int64_t count, int threads, const Work& work)
   const int most =
     int(std::min<std::int64_t>(std::max<std::int64_t>(count, 1), threadCount(threads)));
   forChunks(count, 1, most, {}, [&](std::int64_t i, std::int64_t, int) { work(i); });
+}
+
+/// Sorts [begin, end): each thread sorts a part, then neighbouring parts are merged.
+template <typename Iterator>
+void sortInParts(Iterator begin, Iterator end, int threads)
+{
+  const auto border = [&](std::int64_t part) { return begin + (end - begin) * part / threads; };
+  forChunks(threads, 1, threads, {},
+    [&](std::int64_t part, std::int64_t, int) { std::sort(border(part), border(part + 1)); });
+  for (std::int64_t part = 1; part < threads; ++part)
+  {
+    std::inplace_merge(begin, border(part), border(part + 1));
+  }
 }
 
 /// While the object lives, the calling thread's OpenMP regions use this many threads; 0: OpenMP's

@@ -13,9 +13,9 @@
 namespace tipp
 {
 
-/// Sorts words by their upper 32 bits, on at most `threads` threads (at least 1). The sort is
-/// stable.
-inline void sortByUpperHalf(std::vector<std::uint64_t>& words, int threads)
+/// Sorts words by their upper 32 bits, or by the bits from `lowest` on, on at most `threads`
+/// threads (at least 1). The sort is stable.
+inline void sortByUpperHalf(std::vector<std::uint64_t>& words, int threads, unsigned lowest = 32)
 {
   constexpr unsigned digitBits = 11;
   constexpr std::size_t digits = std::size_t(1) << digitBits;
@@ -32,7 +32,7 @@ inline void sortByUpperHalf(std::vector<std::uint64_t>& words, int threads)
       visit(words[i]);
     }
   };
-  for (unsigned shift = 32; shift < 64; shift += digitBits)
+  for (unsigned shift = lowest; shift < 64; shift += digitBits)
   {
     const auto digitOf = [shift](std::uint64_t word)
     { return std::size_t(word >> shift) & (digits - 1); };

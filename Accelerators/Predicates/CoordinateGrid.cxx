@@ -40,16 +40,6 @@ struct Extent
   double size() const { return this->high - this->low; }
 };
 
-void includeDifference(BitSpan& span, double value, double reference)
-{
-  const ExactDifference difference = exactDifference(value, reference);
-  span.include(difference.head);
-  if (difference.tail != 0.0)
-  {
-    span.include(difference.tail);
-  }
-}
-
 Exactness modeOf(double size, double scale)
 {
   const double units = size * scale;
@@ -108,8 +98,8 @@ void CoordinateGrid::analyse(const Point2* points, std::size_t count)
     {
       x.include(points[i].x);
       y.include(points[i].y);
-      includeDifference(span, points[i].x, reference.x);
-      includeDifference(span, points[i].y, reference.y);
+      span.include(exactDifference(points[i].x, reference.x));
+      span.include(exactDifference(points[i].y, reference.y));
     }
     if (!span.fits(Int256Digits))
     {

@@ -52,6 +52,12 @@ public:
     this->High = exponent > this->High ? exponent : this->High;
   }
 
+  void include(const ExactDifference& difference)
+  {
+    this->include(difference.head);
+    difference.tail != 0.0 ? this->include(difference.tail) : void();
+  }
+
   /// Whether the digits span at most `count` bits and the values can be scaled to integers without
   /// rounding.
   bool fits(int count) const { return this->bits() <= count && this->scalable(); }

@@ -28,16 +28,6 @@ int orientationAnyLength(Point2 a, Point2 b, Point2 c)
   return determinant.sign();
 }
 
-BitSpan spanOf(ExactDifference first, ExactDifference second)
-{
-  BitSpan span;
-  span.include(first.head);
-  span.include(first.tail);
-  span.include(second.head);
-  span.include(second.tail);
-  return span;
-}
-
 } // namespace
 
 int orientationExact(Point2 a, Point2 b, Point2 c)
@@ -46,8 +36,12 @@ int orientationExact(Point2 a, Point2 b, Point2 c)
   const ExactDifference uy = exactDifference(a.y, c.y);
   const ExactDifference vx = exactDifference(b.x, c.x);
   const ExactDifference vy = exactDifference(b.y, c.y);
-  const BitSpan x = spanOf(ux, vx);
-  const BitSpan y = spanOf(uy, vy);
+  BitSpan x;
+  BitSpan y;
+  x.include(ux);
+  x.include(vx);
+  y.include(uy);
+  y.include(vy);
   if (!x.fits(63) || !y.fits(63))
   {
     return orientationAnyLength(a, b, c);
@@ -80,8 +74,7 @@ struct AxisDifferences
   {
     for (const ExactDifference& value : this->Values)
     {
-      this->Span.include(value.head);
-      this->Span.include(value.tail);
+      this->Span.include(value);
     }
   }
 
@@ -226,8 +219,7 @@ int inCircleExact(Point2 a, Point2 b, Point2 c, Point2 p)
   BitSpan span;
   for (const ExactDifference& difference : differences)
   {
-    span.include(difference.head);
-    span.include(difference.tail);
+    span.include(difference);
   }
   if (!span.fits(63))
   {

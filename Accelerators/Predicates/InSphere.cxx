@@ -160,8 +160,7 @@ int inSphereExact(
   BitSpan span;
   const auto include = [&](ExactDifference difference)
   {
-    span.include(difference.head);
-    span.include(difference.tail);
+    span.include(difference);
     return difference;
   };
   for (std::size_t i = 0; i < 4; ++i)

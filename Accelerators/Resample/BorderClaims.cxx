@@ -4,6 +4,7 @@
 #include "Predicates/ExactPredicates.h"
 #include "Resample/Claims.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace tipp
@@ -11,55 +12,24 @@ namespace tipp
 namespace
 {
 
-/// The signs of the components of the inner normal of an edge or face that the sample lies on.
-struct Normal
+/// A bit for each move to the inner side of an edge or face, given the signs of the components of
+/// its inner normal. The first one that is not zero decides.
+unsigned movesInside(int x, int y, int z)
 {
-  int X;
-  int Y;
-  int Z;
-
-  bool admits(int move) const
-  {
-    if (this->X != 0)
-    {
-      return (this->X > 0) == ((move & 1) == 0);
-    }
-    if (this->Y != 0)
-    {
-      return (this->Y > 0) == ((move & 2) == 0);
-    }
-    return (this->Z > 0) == ((move & 4) == 0);
-  }
-};
-
-int firstMove(const Normal* normals, int count, int moves)
-{
-  for (int move = 0; move < moves; ++move)
-  {
-    bool admitted = true;
-    for (int i = 0; i < count; ++i)
-    {
-      admitted = admitted && normals[i].admits(move);
-    }
-    if (admitted)
-    {
-      return move;
-    }
-  }
-  return closedOnly;
+  const unsigned upward = x != 0 ? 0x55u : y != 0 ? 0x33u : 0x0fu; // not mirrored along that axis
+  return (x != 0 ? x : y != 0 ? y : z) > 0 ? upward : ~upward;
 }
 
-int sign(double low, double high)
+int firstOf(unsigned moves)
 {
-  return (high > low) - (high < low);
+  return moves != 0 ? __builtin_ctz(moves) : closedOnly;
 }
 
 } // namespace
 
 int moveRank(const Point2 (&corners)[3], Point2 sample)
 {
-  Normal normals[3];
-  int touched = 0;
+  unsigned moves = 0x0f;
   const int turn = orientation(corners[0], corners[1], corners[2]);
   for (int i = 0; i < 3; ++i)
   {
@@ -67,17 +37,16 @@ int moveRank(const Point2 (&corners)[3], Point2 sample)
     const Point2 b = corners[(i + 1) % 3];
     if (orientation(a, b, sample) == 0)
     {
-      normals[touched++] = { turn * sign(b.y, a.y), turn * sign(a.x, b.x), 0 };
+      moves &= movesInside(turn * signOf(a.y - b.y), turn * signOf(b.x - a.x), 0);
     }
   }
-  return firstMove(normals, touched, 4);
+  return firstOf(moves);
 }
 
 int moveRank(const Point3 (&corners)[4], Point3 sample)
 {
   constexpr int faces[4][3] = { { 1, 3, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 0, 1, 2 } };
-  Normal normals[4];
-  int touched = 0;
+  unsigned moves = 0xff;
   const int side = orientation3(corners[0], corners[1], corners[2], corners[3]);
   for (const int(&face)[3] : faces)
   {
@@ -86,29 +55,16 @@ int moveRank(const Point3 (&corners)[4], Point3 sample)
     const Point3 c = corners[face[2]];
     if (orientation3(a, b, c, sample) == 0)
     {
-      normals[touched++] = { side * orientation({ a.y, a.z }, { b.y, b.z }, { c.y, c.z }),
+      moves &= movesInside(side * orientation({ a.y, a.z }, { b.y, b.z }, { c.y, c.z }),
         side * orientation({ a.z, a.x }, { b.z, b.x }, { c.z, c.x }),
-        side * orientation({ a.x, a.y }, { b.x, b.y }, { c.x, c.y }) };
+        side * orientation({ a.x, a.y }, { b.x, b.y }, { c.x, c.y }));
     }
   }
-  return firstMove(normals, touched, 8);
+  return firstOf(moves);
 }
 
 namespace
 {
-
-/// Sorts touches by sample: each thread sorts a part, then the parts are merged.
-void sort(std::vector<Touch>& touches, int threads)
-{
-  const auto border = [&](std::int64_t share)
-  { return touches.begin() + std::ptrdiff_t(touches.size()) * share / threads; };
-  forChunks(threads, 1, threads, {},
-    [&](std::int64_t begin, std::int64_t end, int) { std::sort(border(begin), border(end)); });
-  for (std::int64_t share = 1; share < threads; ++share)
-  {
-    std::inplace_merge(touches.begin(), border(share), border(share + 1));
-  }
-}
 
 /// The cell of lowest key among those that touch a sample.
 template <typename Access>
@@ -130,7 +86,7 @@ std::int32_t lowestCell(
 std::vector<BorderClaim> borderClaims(
   const SimplexMesh& mesh, const LatticeAxes& axes, std::vector<Touch> touches, int threads)
 {
-  sort(touches, threads);
+  sortInParts(touches.begin(), touches.end(), threads);
   std::vector<BorderClaim> claims;
   std::vector<std::size_t> begins;
   for (std::size_t i = 0; i < touches.size(); ++i)

@@ -37,52 +37,9 @@ struct Touch
   }
 };
 
-/// The touches whose samples no cell has claimed yet.
-class TouchList
-{
-public:
-  template <typename IsClaimed>
-  void add(
-    const SampleRow& row, int begin, int count, std::int32_t cell, const IsClaimed& isClaimed)
-  {
-    for (std::int64_t i = row.First + begin; i < row.First + begin + count; ++i)
-    {
-      if (!isClaimed(i))
-      {
-        this->Touches.push_back({ i, cell });
-      }
-    }
-  }
-
-  /// Removes the touches of samples that have been claimed meanwhile; call it now and then to save
-  /// memory.
-  template <typename IsClaimed>
-  void tidy(const IsClaimed& isClaimed)
-  {
-    if (this->Touches.size() > this->Most)
-    {
-      this->dropClaimed(isClaimed);
-      this->Most = std::max(this->Most, 2 * this->Touches.size());
-    }
-  }
-
-  template <typename IsClaimed>
-  void dropClaimed(const IsClaimed& isClaimed)
-  {
-    this->Touches.erase(std::remove_if(this->Touches.begin(), this->Touches.end(),
-                          [&](const Touch& touch) { return isClaimed(touch.Sample); }),
-      this->Touches.end());
-  }
-
-  const std::vector<Touch>& touches() const { return this->Touches; }
-
-private:
-  std::vector<Touch> Touches;
-  std::size_t Most = 1 << 16;
-};
-
-/// The common base of the sinks that find the cells of samples: statistics, and the touches.
-/// `Walk::isClaimed(sample)` returns whether a cell has claimed a sample.
+/// The common base of the sinks that find the cells of samples: statistics, and the touches whose
+/// samples no cell has claimed yet. `Walk::isClaimed(sample)` returns whether a cell has claimed a
+/// sample.
 template <typename Walk>
 class TouchingWalk
 {
@@ -94,32 +51,73 @@ public:
   }
   void addExactTests(std::int64_t count) { this->Statistics.ExactTests += count; }
 
+  void touch(const SampleRow& row, int begin, int count, std::int32_t cell)
+  {
+    for (std::int64_t i = row.First + begin; i < row.First + begin + count; ++i)
+    {
+      if (!this->isClaimed(i))
+      {
+        this->Touches.push_back({ i, cell });
+      }
+    }
+  }
+
+  /// Saves memory: now and then removes the touches of samples that have been claimed meanwhile.
+  void endChunk()
+  {
+    if (this->Touches.size() > this->MostTouches)
+    {
+      this->MostTouches = std::max(this->MostTouches, 2 * this->openTouches().size());
+    }
+  }
+
   /// The touches of samples that no cell has claimed.
   const std::vector<Touch>& openTouches()
   {
-    this->Touches.dropClaimed(this->claimed());
-    return this->Touches.touches();
+    this->Touches.erase(std::remove_if(this->Touches.begin(), this->Touches.end(),
+                          [this](const Touch& touch) { return this->isClaimed(touch.Sample); }),
+      this->Touches.end());
+    return this->Touches;
   }
 
   ClaimStatistics Statistics;
-  std::int64_t Claimed = 0;
+  std::int64_t Claimed = 0; ///< number of samples, each counted for every cell that claims it
 
-protected:
-  auto claimed() const
+private:
+  bool isClaimed(std::int64_t sample) const
   {
-    return [walk = static_cast<const Walk*>(this)](std::int64_t sample)
-    { return walk->isClaimed(sample); };
+    return static_cast<const Walk*>(this)->isClaimed(sample);
   }
 
-  TouchList Touches;
+  std::vector<Touch> Touches;
+  std::size_t MostTouches = 1 << 16;
 };
+
+/// Adds up what the threads' walks have found. Returns the touches of samples that no cell has
+/// claimed.
+template <typename Walk>
+std::vector<Touch> joinWalks(
+  std::vector<Walk>& walks, ClaimStatistics& statistics, std::int64_t& claimed)
+{
+  std::vector<Touch> touches;
+  for (Walk& walk : walks)
+  {
+    statistics.VisitedCells += walk.Statistics.VisitedCells;
+    statistics.Tests += walk.Statistics.Tests;
+    statistics.ExactTests += walk.Statistics.ExactTests;
+    claimed += walk.Claimed;
+    const std::vector<Touch>& open = walk.openTouches();
+    touches.insert(touches.end(), open.begin(), open.end());
+  }
+  return touches;
+}
 
 /// The moveRank() of a cell at a sample that it touches.
 template <typename Access>
 int borderRank(
   const Access& access, const LatticeAxes& axes, std::int64_t sample, std::int32_t cell)
 {
-  typename CellGeometry<Access::Dimension>::Corners corners;
+  typename Access::Point corners[Access::Corners];
   access.corners(cell, corners);
   const std::int64_t row = sample / axes.U.size();
   const double u = axes.U[int(sample % axes.U.size())];

@@ -22,7 +22,6 @@ struct CellGeometry;
 template <>
 struct CellGeometry<2>
 {
-  using Corners = Point2[3];
   using Rows = TriangleRows;
   using Lanes = TriangleLanes;
 };
@@ -30,7 +29,6 @@ struct CellGeometry<2>
 template <>
 struct CellGeometry<3>
 {
-  using Corners = Point3[4];
   using Rows = TetrahedronRows;
   using Lanes = TetrahedronLanes;
 };
@@ -102,7 +100,7 @@ public:
 private:
   static constexpr int Dimension = Access::Dimension;
   using Rows = typename CellGeometry<Dimension>::Rows;
-  using Corners = typename CellGeometry<Dimension>::Corners;
+  using Corners = typename Access::Point[Access::Corners];
 
   /// Cells with more samples are split among the threads, in parts of about this many samples.
   static constexpr std::int64_t LargeCell = 1 << 16;

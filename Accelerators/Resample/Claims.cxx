@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/Claims.h"
 
+#include "Locate/MortonOrder.h"
 #include "Parallel/ParallelFor.h"
 #include "Resample/BorderClaims.h"
 #include "Resample/CellVisitor.h"
@@ -26,75 +27,27 @@ std::array<int, 3> axesOf(const SimplexMesh& mesh)
                              : std::array<int, 3>{ 0, 1, 2 };
 }
 
+/// The bounding box of the cells, or of all points if that is faster.
 template <typename Access>
-class CellBounds
+auto boundsOfCells(const SimplexMesh& mesh, const Access& access, int threads)
 {
-public:
-  static constexpr int D = Access::Dimension;
-
-  explicit CellBounds(const SimplexMesh& mesh)
-    : Cells(mesh)
-  {
-  }
-
-  void add(std::int64_t point)
-  {
-    double p[D];
-    this->Cells.coordinates(point, p);
-    for (int axis = 0; axis < D; ++axis)
-    {
-      // With this order of arguments NaN is ignored; cells with a NaN have no samples.
-      this->Low[axis] = std::min(this->Low[axis], p[axis]);
-      this->High[axis] = std::max(this->High[axis], p[axis]);
-    }
-  }
-
-  void addCell(std::int64_t cell)
-  {
-    for (int i = 0; i < Access::Corners; ++i)
-    {
-      this->add(this->Cells.ids(cell)[i]);
-    }
-  }
-
-  void add(const CellBounds& other)
-  {
-    for (int axis = 0; axis < D; ++axis)
-    {
-      this->Low[axis] = std::min(this->Low[axis], other.Low[axis]);
-      this->High[axis] = std::max(this->High[axis], other.High[axis]);
-    }
-  }
-
-  double Low[3] = { HUGE_VAL, HUGE_VAL, HUGE_VAL };
-  double High[3] = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
-
-private:
-  Access Cells;
-};
-
-template <typename Access>
-CellBounds<Access> boundsOf(const SimplexMesh& mesh, int threads)
-{
-  std::vector<CellBounds<Access>> bounds(
-    static_cast<std::size_t>(threads), CellBounds<Access>(mesh));
+  constexpr int D = Access::Dimension;
   // Each part of a mesh may have all points of the whole mesh.
-  const bool byPoints = mesh.PointCount <= mesh.Cells * Access::Corners;
-  forChunks(byPoints ? mesh.PointCount : mesh.Cells, 1 << 14, threads, {},
-    [&](std::int64_t begin, std::int64_t end, int thread)
-    {
-      CellBounds<Access> mine(mesh);
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        byPoints ? mine.add(i) : mine.addCell(i);
-      }
-      bounds[std::size_t(thread)].add(mine);
-    });
-  for (const CellBounds<Access>& of : bounds)
+  if (mesh.PointCount <= mesh.Cells * Access::Corners)
   {
-    bounds.front().add(of);
+    return boundsOf<D>(mesh.PointCount, threads,
+      [&](std::int64_t point) { return Box<D>::of(access.coordinates(point)); });
   }
-  return bounds.front();
+  return boundsOf<D>(mesh.Cells, threads,
+    [&](std::int64_t cell)
+    {
+      Box<D> box = Box<D>::empty();
+      for (int i = 0; i < Access::Corners; ++i)
+      {
+        box.extend(Box<D>::of(access.coordinates(access.ids(cell)[i])));
+      }
+      return box;
+    });
 }
 
 } // namespace
@@ -123,11 +76,10 @@ SampleWindow SampleWindow::around(const SimplexMesh& mesh, const Lattice& lattic
   withAccess(mesh,
     [&](const auto& access)
     {
-      using Access = std::decay_t<decltype(access)>;
-      const CellBounds<Access> bounds = boundsOf<Access>(mesh, threads);
-      for (int i = 0; i < Access::Dimension; ++i)
+      const auto bounds = boundsOfCells(mesh, access, threads);
+      for (std::size_t i = 0; i < bounds.Low.size(); ++i)
       {
-        const auto axis = std::size_t(axes[std::size_t(i)]);
+        const auto axis = std::size_t(axes[i]);
         // With an infinite error each sample is compared exactly, just as the cells do.
         const IndexRange found =
           LatticeAxis(lattice, int(axis)).range(bounds.Low[i], bounds.High[i], HUGE_VAL);
@@ -154,7 +106,7 @@ class FirstWalk : public TouchingWalk<FirstWalk>
 {
 public:
   /// `names` maps a cell's index to the number to store; null: store the index itself.
-  explicit FirstWalk(std::int32_t* claims, const std::int32_t* names = nullptr)
+  explicit FirstWalk(std::int32_t* claims, const std::int32_t* names)
     : Claims(claims)
     , Names(names)
   {
@@ -175,10 +127,8 @@ public:
 
   void touch(const SampleRow& row, int begin, int count, std::int32_t cell)
   {
-    this->Touches.add(row, begin, count, this->Names ? this->Names[cell] : cell, this->claimed());
+    TouchingWalk::touch(row, begin, count, this->Names ? this->Names[cell] : cell);
   }
-
-  void endChunk() { this->Touches.tidy(this->claimed()); }
 
   bool isClaimed(std::int64_t sample) const
   {
@@ -263,28 +213,14 @@ public:
   {
     this->Result.Cells.reset(new std::int32_t[std::size_t(this->Axes.samples())]);
     this->fill(this->Result.Cells.get(), unclaimed);
-    std::vector<FirstWalk> walks(std::size_t(this->Threads), FirstWalk(this->Result.Cells.get()));
-    this->Result.Aborted = !visitCells(this->Mesh, this->Axes, walks, this->Progress);
-    if (!this->Result.Aborted)
-    {
-      this->settle(walks);
-    }
+    this->walk(this->Mesh, nullptr, 0);
     return std::move(this->Result);
   }
 
-  Claims finish(std::unique_ptr<std::int32_t[]> claims, std::int64_t claimed,
-    const std::vector<std::int32_t>& open)
+  Claims finish(std::unique_ptr<std::int32_t[]> cells, const SampledCells& sampled)
   {
-    this->Result.Cells = std::move(claims);
-    const PartMesh part(this->Mesh, open);
-    std::vector<FirstWalk> walks(
-      std::size_t(this->Threads), FirstWalk(this->Result.Cells.get(), open.data()));
-    this->Result.Aborted = !visitCells(part.mesh(), this->Axes, walks, this->Progress);
-    walks.front().Claimed += claimed;
-    if (!this->Result.Aborted)
-    {
-      this->settle(walks);
-    }
+    this->Result.Cells = std::move(cells);
+    this->walk(PartMesh(this->Mesh, sampled.Open).mesh(), sampled.Open.data(), sampled.Claimed);
     return std::move(this->Result);
   }
 
@@ -292,48 +228,30 @@ private:
   template <typename T>
   void fill(T* values, T value)
   {
-    forChunks(this->Axes.samples(), 1 << 16, this->Threads, {},
-      [&](std::int64_t begin, std::int64_t end, int)
-      { std::fill(values + begin, values + end, value); });
+    fillInChunks(values, this->Axes.samples(), value, this->Threads);
   }
 
-  std::int64_t countClaimed()
+  /// Claims samples for all cells of `mesh`, which `names` maps to those of the whole mesh; see
+  /// FirstWalk. `claimed` samples have been claimed before.
+  void walk(const SimplexMesh& mesh, const std::int32_t* names, std::int64_t claimed)
   {
-    std::vector<std::int64_t> counts(std::size_t(this->Threads), 0);
-    forChunks(this->Axes.samples(), 1 << 16, this->Threads, {},
-      [&](std::int64_t begin, std::int64_t end, int thread)
-      {
-        const std::int32_t* cells = this->Result.Cells.get();
-        std::int64_t count = 0;
-        for (std::int64_t i = begin; i < end; ++i)
-        {
-          count += cells[i] != unclaimed;
-        }
-        counts[std::size_t(thread)] += count;
-      });
-    std::int64_t total = 0;
-    for (const std::int64_t count : counts)
-    {
-      total += count;
-    }
-    return total;
+    std::vector<FirstWalk> walks(
+      std::size_t(this->Threads), FirstWalk(this->Result.Cells.get(), names));
+    this->Result.Aborted = !visitCells(mesh, this->Axes, walks, this->Progress);
+    walks.front().Claimed += claimed;
+    this->Result.Aborted ? void() : this->settle(walks);
   }
 
   void settle(std::vector<FirstWalk>& walks)
   {
     ClaimStatistics& statistics = this->Result.Statistics;
     std::int64_t claimed = 0;
-    std::vector<Touch> touches;
-    for (FirstWalk& walk : walks)
-    {
-      statistics.VisitedCells += walk.Statistics.VisitedCells;
-      statistics.Tests += walk.Statistics.Tests;
-      statistics.ExactTests += walk.Statistics.ExactTests;
-      claimed += walk.Claimed;
-      const std::vector<Touch>& open = walk.openTouches();
-      touches.insert(touches.end(), open.begin(), open.end());
-    }
-    statistics.OverlappingClaims = claimed - this->countClaimed();
+    std::vector<Touch> touches = joinWalks(walks, statistics, claimed);
+    const std::int32_t* const cells = this->Result.Cells.get();
+    statistics.OverlappingClaims = claimed -
+      sumOfChunks(this->Axes.samples(), 1 << 16, this->Threads,
+        [&](std::int64_t begin, std::int64_t end)
+        { return end - begin - std::count(cells + begin, cells + end, unclaimed); });
     if (statistics.OverlappingClaims > 0)
     {
       this->settleOverlaps();
@@ -390,10 +308,9 @@ Claims claimSamples(
 }
 
 Claims finishClaims(const SimplexMesh& mesh, const Lattice& lattice, int threads,
-  std::unique_ptr<std::int32_t[]> claims, std::int64_t claimed,
-  const std::vector<std::int32_t>& open, const Report& report)
+  std::unique_ptr<std::int32_t[]> cells, const SampledCells& sampled, const Report& report)
 {
-  return Claimer(mesh, lattice, threads, report).finish(std::move(claims), claimed, open);
+  return Claimer(mesh, lattice, threads, report).finish(std::move(cells), sampled);
 }
 
 namespace

@@ -172,12 +172,19 @@ struct Claims
 VTKTIPPACCELERATORS_EXPORT Claims claimSamples(
   const SimplexMesh& mesh, const Lattice& lattice, int threads, const Report& report = {});
 
-/// Completes the work of a device. `claims` has the claims of all cells except `open`, whose claims
-/// may be incomplete; `claimed` is the number of claims of the other cells, overlaps counted more
-/// than once.
+/// What a device has done of the work of claimSamples() or sampleDirectly().
+struct SampledCells
+{
+  /// Number of samples that cells claim, without those of open cells. A sample counts for each of
+  /// the cells that claim it.
+  std::int64_t Claimed = 0;
+  std::vector<std::int32_t> Open; ///< cells that are not processed, or only in part
+  bool Aborted = false;
+};
+
+/// Completes the work of a device, whose claims are `cells`.
 Claims finishClaims(const SimplexMesh& mesh, const Lattice& lattice, int threads,
-  std::unique_ptr<std::int32_t[]> claims, std::int64_t claimed,
-  const std::vector<std::int32_t>& open, const Report& report);
+  std::unique_ptr<std::int32_t[]> cells, const SampledCells& sampled, const Report& report);
 
 /// Sets a sample's key to that of its claim where the claim's key is lower, and removes the other
 /// claims. So several parts of a mesh can be merged in any order. `claims` is indexed by

@@ -251,30 +251,20 @@ private:
   const Block& Weighed;
 };
 
-/// Whether the attribute still has to be sampled.
-inline bool isSampled(const Attribute& attribute, const InterpolationOptions& options)
-{
-  return attribute.Values && !(options.SkipInterpolated && isInterpolated(attribute));
-}
-
-/// Whether any attribute needs barycentric weights.
-inline bool needsWeights(
-  const std::vector<Attribute>& attributes, const InterpolationOptions& options)
-{
-  return std::any_of(attributes.begin(), attributes.end(),
-    [&](const Attribute& attribute)
-    { return isSampled(attribute, options) && !attribute.OfCells; });
-}
-
-/// Fills the samples of a block.
+/// Fills the samples of a block. For `parents` see InterpolationOptions.
 template <typename Access>
-void fillBlock(SampleBlock<Access>& block, bool weighs, const std::vector<Attribute>& attributes,
-  const InterpolationOptions& options)
+void fillBlock(
+  SampleBlock<Access>& block, const std::vector<Attribute>& attributes, const std::int64_t* parents)
 {
-  weighs ? block.weigh() : void();
+  const auto needsWeights = [](const Attribute& attribute)
+  { return attribute.Values && !attribute.OfCells; };
+  if (std::any_of(attributes.begin(), attributes.end(), needsWeights))
+  {
+    block.weigh();
+  }
   for (const Attribute& attribute : attributes)
   {
-    if (!isSampled(attribute, options))
+    if (!attribute.Values)
     {
       continue;
     }
@@ -282,7 +272,7 @@ void fillBlock(SampleBlock<Access>& block, bool weighs, const std::vector<Attrib
       [&](auto type)
       {
         BlockFiller<Access, decltype(type)> filler(attribute, block);
-        attribute.OfCells ? filler.fromCells(options.Parents) : filler.fromPoints();
+        attribute.OfCells ? filler.fromCells(parents) : filler.fromPoints();
       });
   }
 }

@@ -87,22 +87,16 @@ bool interpolate(const SimplexMesh& mesh, const SampleWindow& window, const std:
     [&](const auto& access)
     {
       using Block = SampleBlock<std::decay_t<decltype(access)>>;
-      const bool samples = std::any_of(attributes.begin(), attributes.end(),
-        [&](const Attribute& attribute) { return isSampled(attribute, options); });
-      const bool weighs = needsWeights(attributes, options);
       std::vector<Block> blocks(std::size_t(options.Threads), Block(mesh, axes));
       completed = forChunks(axes.samples(), Block::Capacity, options.Threads, options.Progress,
         [&](std::int64_t begin, std::int64_t end, int thread)
         {
           Block& block = blocks[std::size_t(thread)];
-          if (samples)
-          {
-            block.clear();
-            forCellRuns(access, axes, window, claims, begin, end,
-              [&](std::int32_t cell, const SampleRow& row, int first, int count)
-              { block.add(cell, row, first, count); });
-            fillBlock(block, weighs, attributes, options);
-          }
+          block.clear();
+          forCellRuns(access, axes, window, claims, begin, end,
+            [&](std::int32_t cell, const SampleRow& row, int first, int count)
+            { block.add(cell, row, first, count); });
+          fillBlock(block, attributes, options.Parents);
           window.forRuns(begin, end,
             [&](std::int64_t first, std::int64_t last, std::int64_t shift)
             { fillRest(attributes, claims, first, last, shift, options); });
@@ -140,7 +134,6 @@ public:
     const std::vector<Attribute>& attributes, const InterpolationOptions& options)
     : Attributes(attributes)
     , Options(options)
-    , Weighs(needsWeights(attributes, options))
     , Block(mesh, axes)
   {
   }
@@ -158,15 +151,10 @@ public:
     this->Block.add(cell, row, begin, count);
   }
 
-  void touch(const SampleRow& row, int begin, int count, std::int32_t cell)
-  {
-    this->Touches.add(row, begin, count, cell, this->claimed());
-  }
-
   void endChunk()
   {
     this->flush();
-    this->Touches.tidy(this->claimed());
+    TouchingWalk<FillingWalk>::endChunk();
   }
 
   [[gnu::noinline]] void flush()
@@ -180,7 +168,7 @@ public:
       // An ordinary store; but cells that overlap may be in two threads at once.
       __atomic_store_n(valid + indices[j], 1, __ATOMIC_RELAXED);
     }
-    fillBlock(this->Block, this->Weighs, this->Attributes, this->Options);
+    fillBlock(this->Block, this->Attributes, this->Options.Parents);
     this->Block.clear();
   }
 
@@ -192,7 +180,6 @@ public:
 private:
   const std::vector<Attribute>& Attributes;
   const InterpolationOptions& Options;
-  bool Weighs;
   SampleBlock<Access> Block;
 };
 
@@ -213,19 +200,12 @@ public:
   {
   }
 
-  /// `claimed` is the number of samples that a device has filled already. For `border`, which may
-  /// be null, see samplePartDirectly().
+  /// For the arguments see sampleRest().
   DirectResult run(std::int64_t claimed, std::vector<BorderSample>* border)
   {
     this->Result.Aborted =
       !CellVisitor<Access, Walk>(this->Mesh, this->Axes, this->Walks).run(this->Options.Progress);
-    for (const Walk& walk : this->Walks)
-    {
-      this->Result.Statistics.VisitedCells += walk.Statistics.VisitedCells;
-      this->Result.Statistics.Tests += walk.Statistics.Tests;
-      this->Result.Statistics.ExactTests += walk.Statistics.ExactTests;
-      claimed += walk.Claimed;
-    }
+    std::vector<Touch> touches = joinWalks(this->Walks, this->Result.Statistics, claimed);
     const Stopwatch watch;
     if (!this->Result.Aborted)
     {
@@ -233,34 +213,26 @@ public:
     }
     if (!this->Result.Aborted && !this->Result.Overlapping)
     {
-      this->fillBorder(border);
+      this->fillBorder(std::move(touches), border);
     }
     this->Result.FinishSeconds = watch.seconds();
     return this->Result;
   }
 
 private:
-  template <typename Work>
-  void forSamples(const Work& work)
-  {
-    forChunks(this->Axes.samples(), 1 << 16, this->Options.Threads, {}, work);
-  }
-
   /// Sets the samples outside of all cells to their null values. Returns the number of samples
   /// inside.
   std::int64_t finishSamples()
   {
-    const unsigned char* const valid = this->Options.Valid;
-    std::vector<std::int64_t> counts(std::size_t(this->Options.Threads), 0);
-    this->forSamples(
-      [&](std::int64_t begin, std::int64_t end, int thread)
+    return sumOfChunks(this->Axes.samples(), 1 << 16, this->Options.Threads,
+      [&](std::int64_t begin, std::int64_t end)
       {
         const auto always = [](std::int64_t) { return true; };
-        counts[std::size_t(thread)] += end - begin;
-        forZeros(valid, begin, end,
+        std::int64_t inside = end - begin;
+        forZeros(this->Options.Valid, begin, end,
           [&](std::int64_t first, std::int64_t last)
           {
-            counts[std::size_t(thread)] -= last - first;
+            inside -= last - first;
             for (const Attribute& attribute : this->Attributes)
             {
               attribute.Values ? fillNull(attribute, first, last, always) : void();
@@ -270,23 +242,12 @@ private:
         {
           attribute.Values ? void() : fillNull(attribute, begin, end, always);
         }
+        return inside;
       });
-    std::int64_t sum = 0;
-    for (const std::int64_t count : counts)
-    {
-      sum += count;
-    }
-    return sum;
   }
 
-  void fillBorder(std::vector<BorderSample>* border)
+  void fillBorder(std::vector<Touch> touches, std::vector<BorderSample>* border)
   {
-    std::vector<Touch> touches;
-    for (Walk& walk : this->Walks)
-    {
-      const std::vector<Touch>& open = walk.openTouches();
-      touches.insert(touches.end(), open.begin(), open.end());
-    }
     const std::int64_t width = this->Axes.U.size();
     const std::int64_t height = this->Axes.V.size();
     const std::vector<BorderClaim> claims =
@@ -321,11 +282,12 @@ private:
   DirectResult Result;
 };
 
-DirectResult sampleRest(const SimplexMesh& mesh, const Lattice& lattice,
+/// `claimed`: the number of samples that a device has filled already, which `options.Valid` marks.
+/// For `border`, which may be null, see samplePartDirectly().
+DirectResult sampleRest(const SimplexMesh& mesh, const LatticeAxes& axes,
   const std::vector<Attribute>& attributes, const InterpolationOptions& options,
-  std::int64_t claimed, std::vector<BorderSample>* border = nullptr)
+  std::int64_t claimed, std::vector<BorderSample>* border)
 {
-  const LatticeAxes axes(mesh, lattice);
   DirectResult result;
   withAccess(mesh,
     [&](const auto& access)
@@ -336,28 +298,28 @@ DirectResult sampleRest(const SimplexMesh& mesh, const Lattice& lattice,
   return result;
 }
 
-} // namespace
-
-void clearMask(std::int64_t samples, int threads, unsigned char* valid)
+DirectResult sampleAll(const SimplexMesh& mesh, const Lattice& lattice,
+  const std::vector<Attribute>& attributes, const InterpolationOptions& options,
+  std::vector<BorderSample>* border)
 {
-  forChunks(samples, 1 << 16, threads, {},
-    [&](std::int64_t begin, std::int64_t end, int)
-    { std::memset(valid + begin, 0, std::size_t(end - begin)); });
+  const LatticeAxes axes(mesh, lattice);
+  fillInChunks(options.Valid, axes.samples(), (unsigned char)(0), options.Threads);
+  return sampleRest(mesh, axes, attributes, options, 0, border);
 }
+
+} // namespace
 
 DirectResult sampleDirectly(const SimplexMesh& mesh, const Lattice& lattice,
   const std::vector<Attribute>& attributes, const InterpolationOptions& options)
 {
-  clearMask(LatticeAxes(mesh, lattice).samples(), options.Threads, options.Valid);
-  return sampleRest(mesh, lattice, attributes, options, 0);
+  return sampleAll(mesh, lattice, attributes, options, nullptr);
 }
 
 DirectResult samplePartDirectly(const SimplexMesh& mesh, const Lattice& lattice,
   const std::vector<Attribute>& attributes, const InterpolationOptions& options,
   std::vector<BorderSample>& border)
 {
-  clearMask(LatticeAxes(mesh, lattice).samples(), options.Threads, options.Valid);
-  return sampleRest(mesh, lattice, attributes, options, 0, &border);
+  return sampleAll(mesh, lattice, attributes, options, &border);
 }
 
 DirectResult finishDirectly(const SimplexMesh& mesh, const Lattice& lattice,
@@ -365,7 +327,8 @@ DirectResult finishDirectly(const SimplexMesh& mesh, const Lattice& lattice,
   const SampledCells& sampled)
 {
   const PartMesh part(mesh, sampled.Open);
-  return sampleRest(part.mesh(), lattice, attributes, options, sampled.Claimed);
+  return sampleRest(
+    part.mesh(), LatticeAxes(mesh, lattice), attributes, options, sampled.Claimed, nullptr);
 }
 
 } // namespace tipp

@@ -27,21 +27,12 @@ struct Attribute
   double NullValue = 0;          ///< value of samples outside of all cells
 };
 
-/// Whether the array is interpolated linearly: a point array of floating-point numbers.
-inline bool isInterpolated(const Attribute& attribute)
-{
-  return !attribute.OfCells &&
-    (attribute.Type == Scalar::Float32 || attribute.Type == Scalar::Float64);
-}
-
 /// Options of interpolate() and sampleDirectly().
 struct InterpolationOptions
 {
   int Threads = 1; ///< OpenMP threads, at least 1
   /// Whether samples that no cell claims get NullValue; if false, they are left unchanged.
   bool FillUnclaimed = true;
-  /// Whether floating-point point arrays have been sampled already.
-  bool SkipInterpolated = false;
   /// For each simplex the index of its cell in the attributes' arrays; null: its own index.
   const std::int64_t* Parents = nullptr;
   /// Mask, one value per sample: set to 1 if a cell claims it, and with FillUnclaimed to 0
@@ -81,21 +72,10 @@ VTKTIPPACCELERATORS_EXPORT DirectResult samplePartDirectly(const SimplexMesh& me
   const Lattice& lattice, const std::vector<Attribute>& attributes,
   const InterpolationOptions& options, std::vector<BorderSample>& border);
 
-/// The part of sampleDirectly()'s work that a device has done.
-struct SampledCells
-{
-  std::int64_t Claimed = 0; ///< number of samples that cells claim, without those of open cells
-  std::vector<std::int32_t> Open; ///< cells that are not processed, or only in part
-  bool Aborted = false;
-};
-
 /// Completes the work of a device; all attributes must be point arrays.
 DirectResult finishDirectly(const SimplexMesh& mesh, const Lattice& lattice,
   const std::vector<Attribute>& attributes, const InterpolationOptions& options,
   const SampledCells& sampled);
-
-/// Marks all samples as not valid.
-void clearMask(std::int64_t samples, int threads, unsigned char* valid);
 
 } // namespace tipp
 

@@ -4,6 +4,8 @@
 
 #include "Resample/Lattice.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -158,6 +160,7 @@ private:
 /// LatticeAxis::range() of four cells.
 struct RangeLanes
 {
+  RangeLanes() = default;
   [[gnu::always_inline]] RangeLanes(const AxisLanes& axis, Lanes low, Lanes high)
     : Error(axis.error(low, high))
   {
@@ -317,14 +320,14 @@ struct alignas(32) GroupLanes
   {
     for (int corner = 0; corner <= D; ++corner)
     {
-      double p[laneCount][D];
+      std::array<double, D> p[laneCount];
       for (int lane = 0; lane < laneCount; ++lane)
       {
         const std::int64_t id = access.ids(cells[lane])[corner];
         this->Ids[corner][lane] = id;
-        access.coordinates(id, p[lane]);
+        p[lane] = access.coordinates(id);
       }
-      for (int axis = 0; axis < D; ++axis)
+      for (std::size_t axis = 0; axis < D; ++axis)
       {
         this->Corners[corner][axis] = Lanes{ p[0][axis], p[1][axis], p[2][axis], p[3][axis] };
       }

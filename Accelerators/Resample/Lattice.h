@@ -135,6 +135,10 @@ public:
   template <typename Side>
   RowCrossing crossing(double position, double error, IndexRange columns, const Side& side) const
   {
+    if (certain(position, error))
+    {
+      return { int(position), int(position) };
+    }
     if (!(error < 0.5))
     {
       return { columns.firstWhereNot([&](int i) { return side(i) > 0; }),

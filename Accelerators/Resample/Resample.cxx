@@ -3,10 +3,11 @@
 
 #include "OpenCL/Devices.h"
 #include "Parallel/Stopwatch.h"
-#include "Resample/CellVisitor.h"
 #include "Resample/Interpolate.h"
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -43,7 +44,11 @@ public:
     {
       return this->Result;
     }
-    Claims claims = this->claim();
+    const Report report = partOf(this->Options.Progress, 0, 0.7);
+    Claims claims = this->compute<Claims>([&]
+      { return this->Device->claim(this->Window.lattice(), report); },
+      [&]
+      { return claimSamples(this->Mesh, this->Window.lattice(), this->Options.Threads, report); });
     this->Result.Statistics = claims.Statistics;
     this->Result.Aborted = claims.Aborted;
     if (!claims.Aborted && this->Options.Keys)
@@ -53,7 +58,8 @@ public:
     this->Result.ClaimSeconds += this->lap();
     if (!claims.Aborted)
     {
-      this->fill(claims.Cells.get());
+      this->Result.Aborted = !interpolate(this->Mesh, this->Window, claims.Cells.get(),
+        this->Attributes, this->interpolation(partOf(this->Options.Progress, 0.7, 1)));
       this->Result.InterpolationSeconds += this->lap();
     }
     this->Result.Device = this->deviceName();
@@ -75,8 +81,8 @@ private:
     }
   }
 
-  /// Samples in one pass. Returns false if that is not possible: cells overlap, or the device needs
-  /// several steps.
+  /// Samples in one pass. Returns false if that is not possible: cells overlap, or the device does
+  /// not support the arrays.
   bool sampleAtOnce()
   {
     if (this->Device && !this->Device->canSample(this->Attributes))
@@ -84,28 +90,15 @@ private:
       return false;
     }
     std::vector<unsigned char> valid;
-    InterpolationOptions options = this->interpolation();
-    options.SkipInterpolated = false;
+    InterpolationOptions options = this->interpolation(this->Options.Progress);
     if (!options.Valid)
     {
       valid.resize(std::size_t(this->Window.samples()));
       options.Valid = valid.data();
     }
-    SampledCells sampled;
-    if (this->Device)
-    {
-      this->tryDevice(
-        [&]
-        {
-          sampled = this->Device->sample(
-            this->Grid, this->Attributes, options.Valid, partOf(this->Options.Progress, 0, 0.9));
-        });
-    }
-    options.Progress =
-      this->Device ? partOf(this->Options.Progress, 0.9, 1) : this->Options.Progress;
-    const DirectResult direct = sampled.Aborted ? DirectResult{ {}, 0, false, true }
-      : this->Device ? finishDirectly(this->Mesh, this->Grid, this->Attributes, options, sampled)
-                     : sampleDirectly(this->Mesh, this->Grid, this->Attributes, options);
+    const DirectResult direct = this->compute<DirectResult>([&]
+      { return this->Device->sample(this->Grid, this->Attributes, options); },
+      [&] { return sampleDirectly(this->Mesh, this->Grid, this->Attributes, options); });
     this->Result.Statistics = direct.Statistics;
     this->Result.Aborted = direct.Aborted;
     this->Result.InterpolationSeconds = direct.FinishSeconds;
@@ -144,46 +137,26 @@ private:
     }
   }
 
-  Claims claim()
+  /// Returns what the device computes or, if there is none or it fails, the threads.
+  template <typename T, typename OnDevice, typename OnThreads>
+  T compute(const OnDevice& onDevice, const OnThreads& onThreads)
   {
-    const Report report = partOf(this->Options.Progress, 0, 0.7);
-    Claims claims;
+    std::optional<T> result;
     if (this->Device)
     {
-      this->tryDevice([&] { claims = this->Device->claim(this->Window.lattice(), report); });
+      this->tryDevice([&] { result = onDevice(); });
     }
-    return this->Device
-      ? std::move(claims)
-      : claimSamples(this->Mesh, this->Window.lattice(), this->Options.Threads, report);
+    return result ? std::move(*result) : onThreads();
   }
 
-  void fill(const std::int32_t* claims)
-  {
-    const Report report = partOf(this->Options.Progress, 0.7, 1);
-    bool completed = true;
-    if (this->Device)
-    {
-      this->tryDevice(
-        [&]
-        {
-          completed = this->Device->interpolate(this->Window, claims, this->Attributes,
-            this->Options.Keys != nullptr, partOf(report, 0, 0.7));
-        });
-    }
-    InterpolationOptions interpolation = this->interpolation();
-    interpolation.Progress = this->Device ? partOf(report, 0.7, 1) : report;
-    this->Result.Aborted =
-      !completed || !interpolate(this->Mesh, this->Window, claims, this->Attributes, interpolation);
-  }
-
-  InterpolationOptions interpolation() const
+  InterpolationOptions interpolation(const Report& progress) const
   {
     InterpolationOptions options;
     options.Threads = this->Options.Threads;
     options.FillUnclaimed = !this->Options.Keys;
-    options.SkipInterpolated = this->Device != nullptr;
     options.Parents = this->Options.Parents;
     options.Valid = this->Options.Valid;
+    options.Progress = progress;
     return options;
   }
 

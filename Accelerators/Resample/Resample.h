@@ -51,7 +51,9 @@ struct ResampleResult
 VTKTIPPACCELERATORS_EXPORT ResampleResult resample(const SimplexMesh& mesh, const Lattice& lattice,
   const std::vector<Attribute>& attributes, const ResampleOptions& options);
 
-/// The steps of resampling one mesh on an OpenCL device. All throw AcceleratorError.
+/// Resampling of one mesh on an OpenCL device. Threads of this process complete the device's work:
+/// they do the cells for which rounding could change the result, thin cells, and those at the
+/// border. All methods throw AcceleratorError.
 class DeviceResampler
 {
 public:
@@ -65,19 +67,13 @@ public:
   /// Total time of all transfers to and from the device.
   virtual double transferSeconds() const = 0;
 
-  ///@{
-  /// See ResampleOnDevice.h.
+  /// Whether sample() supports all of the arrays: a few floating-point point arrays.
   virtual bool canSample(const std::vector<Attribute>& attributes) const = 0;
-  virtual SampledCells sample(const Lattice& lattice, const std::vector<Attribute>& attributes,
-    unsigned char* valid, const Report& report) = 0;
-  ///@}
-
-  ///@{
-  /// See ResampleOnDevice.h.
+  /// sampleDirectly() on the device; the statistics count only the cells that threads do.
+  virtual DirectResult sample(const Lattice& lattice, const std::vector<Attribute>& attributes,
+    const InterpolationOptions& options) = 0;
+  /// claimSamples() on the device, likewise. The claims are the same.
   virtual Claims claim(const Lattice& lattice, const Report& report) = 0;
-  virtual bool interpolate(const SampleWindow& window, const std::int32_t* claims,
-    const std::vector<Attribute>& attributes, bool keeps, const Report& report) = 0;
-  ///@}
 };
 
 } // namespace tipp

@@ -1,10 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The device version of sampleDirectly(): finds the samples that cells claim and interpolates them,
-// in one pass. A work item does SHARE cells, each step for all of them, so that their random memory
-// reads overlap. Cells for which rounding could change the result, and thin cells, go to a list,
-// which the host processes. Host side: ResampleOnDevice.cxx.
+// in one pass; and that of claimSamples() if NAMES_CELLS is 1: then it stores the cells' numbers and
+// interpolates nothing. A work item does SHARE cells, each step for all of them, so that their random
+// memory reads overlap. Cells for which rounding could change the result, and thin cells, go to a
+// list, which the host processes. Host side: ResampleOnDevice.cxx.
 #include "LatticeAndMesh.cl"
 #include "CellRows.cl"
+
+// The mark of a sample that a cell claims.
+#if NAMES_CELLS
+typedef int Mark;
+#define MARK(cell) ((Mark)(cell))
+#else
+typedef uchar Mark;
+#define MARK(cell) 1
+#endif
 
 // The largest number of components of all arrays together; ResampleOnDevice.cxx ensures it.
 #define CHANNELS 8
@@ -134,10 +144,13 @@ INLINE void loadValues(double (*values)[CORNERS], const int* ids, const Array* a
 INLINE int setGradients(Gradients* gradients, const double3* points, double (*values)[CORNERS],
   const Array* arrays, int count)
 {
+  gradients->count = 0;
+#if NAMES_CELLS
+  return ROWS;
+#endif
   int order[4];
   double3 normals[3];
   int state = setNormals(points, order, &gradients->origin, normals);
-  gradients->count = 0;
   for (int i = 0; i < count; ++i)
   {
     for (int component = 0; component < arrays[i].components; ++component)
@@ -186,9 +199,9 @@ INLINE void fillRow(const Gradients* gradients, long first, int begin, int end, 
   }
 }
 
-// Fills some rows; returns the number of samples.
+// Marks and fills some rows; returns the number of samples.
 INLINE int fillRows(const Gradients* gradients, const Spans* spans, int count, Axis x, Axis y, Axis z,
-  global uchar* valid)
+  Mark mark, global Mark* marks)
 {
   int total = 0;
   for (int i = 0; i < min(ROWS_AT_ONCE, count); ++i)
@@ -203,7 +216,7 @@ INLINE int fillRows(const Gradients* gradients, const Spans* spans, int count, A
     const long index = indexOfRow(spans->row[i], spans->layer[i], x, y);
     for (int column = begin; column < end; ++column)
     {
-      valid[index + column] = 1;
+      marks[index + column] = mark;
     }
     fillRow(gradients, index, begin, end, coordinateOf(y, spans->row[i]),
       CORNERS == 4 ? coordinateOf(z, spans->layer[i]) : 0, x);
@@ -214,12 +227,12 @@ INLINE int fillRows(const Gradients* gradients, const Spans* spans, int count, A
 // Fills a cell's rows up to `last` - 1. `spans` has the first ones; rows count from the first of
 // its box.
 INLINE int fillCell(const Cell* cell, Spans* spans, int first, int last, const Gradients* gradients, Axis x,
-  Axis y, Axis z, global uchar* valid, int* total)
+  Axis y, Axis z, Mark mark, global Mark* marks, int* total)
 {
   *total = 0;
   while (true)
   {
-    *total += fillRows(gradients, spans, last - first, x, y, z, valid);
+    *total += fillRows(gradients, spans, last - first, x, y, z, mark, marks);
     first += ROWS_AT_ONCE;
     if (first >= last)
     {
@@ -255,11 +268,13 @@ int isOutside(const int* ids, global const uchar* sides)
 }
 
 // OpenCL has no arrays of buffers.
-#define ARRAY_PARAMETERS                                                                             \
-  global const uchar *values0, global uchar *samples0, int isFloat0, int components0,                \
-    global const uchar *values1, global uchar *samples1, int isFloat1, int components1,              \
-    global const uchar *values2, global uchar *samples2, int isFloat2, int components2,              \
-    global const uchar *values3, global uchar *samples3, int isFloat3, int components3
+#define PARAMETERS                                                                                 \
+  global const Real *points, global const Id *ids, int u, int v, Axis x, Axis y, Axis z,           \
+    long firstCell, global Mark *marks, int arrayCount, global const uchar *values0,               \
+    global uchar *samples0, int isFloat0, int components0, global const uchar *values1,            \
+    global uchar *samples1, int isFloat1, int components1, global const uchar *values2,            \
+    global uchar *samples2, int isFloat2, int components2, global const uchar *values3,            \
+    global uchar *samples3, int isFloat3, int components3
 #define ARRAYS                                                                                       \
   {                                                                                                  \
     { values0, samples0, isFloat0, components0 }, { values1, samples1, isFloat1, components1 },      \
@@ -299,10 +314,9 @@ typedef struct
 // the cache.
 __attribute__((reqd_work_group_size(1, 1, 1)))
 #endif
-kernel void sampleCells(global const Real* points, global const Id* ids, int u, int v, Axis x, Axis y,
-  Axis z, long cells, long most, global const uchar* hidden, int hasHidden, global const uchar* sides,
-  int hasSides, global uchar* valid, global uint* counts, global int* large, global int* doubtful,
-  global int* lengths, int arrayCount, ARRAY_PARAMETERS)
+kernel void sampleCells(PARAMETERS, long cells, long most, global const uchar* hidden, int hasHidden,
+  global const uchar* sides, int hasSides, global uint* counts, global int* large,
+  global int* doubtful, global int* lengths)
 {
   const Mesh mesh = { points, ids, u, v };
   const Array arrays[4] = ARRAYS;
@@ -383,8 +397,8 @@ kernel void sampleCells(global const Real* points, global const Id* ids, int u, 
     int state = setGradients(&gradients, of->corners->points, values[k], arrays, arrayCount);
     if (state == ROWS)
     {
-      state = fillCell(
-        &of->cell, &of->spans, 0, rowsOf(&of->cell.box), &gradients, x, y, z, valid, &total);
+      state = fillCell(&of->cell, &of->spans, 0, rowsOf(&of->cell.box), &gradients, x, y, z,
+        MARK(firstCell + begin + of->corners->number), marks, &total);
     }
     if (state == DOUBT)
     {
@@ -397,9 +411,7 @@ kernel void sampleCells(global const Real* points, global const Id* ids, int u, 
 
 // One large cell, a work item per row; counts[row] is the number of samples claimed, or -1 if that
 // is undecided.
-kernel void sampleLarge(global const Real* points, global const Id* ids, int u, int v, Axis x, Axis y,
-  Axis z, long number, int rows, global uchar* valid, global int* counts, int arrayCount,
-  ARRAY_PARAMETERS)
+kernel void sampleLarge(PARAMETERS, long number, int rows, global int* counts)
 {
   const Mesh mesh = { points, ids, u, v };
   const Array arrays[4] = ARRAYS;
@@ -423,7 +435,9 @@ kernel void sampleLarge(global const Real* points, global const Id* ids, int u, 
   if (state == ROWS && isOpen(&spans, 1))
   {
     state = setGradients(&gradients, corners.points, values, arrays, arrayCount);
-    total = state == ROWS ? fillRows(&gradients, &spans, 1, x, y, z, valid) : 0;
+    total = state == ROWS
+      ? fillRows(&gradients, &spans, 1, x, y, z, MARK(firstCell + number), marks)
+      : 0;
   }
   counts[item] = state == DOUBT ? -1 : total;
 }

@@ -7,6 +7,8 @@
 #include "Resample/Lattice.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <type_traits>
@@ -31,6 +33,15 @@ struct SimplexMesh
   int Axes[2] = { 0, 1 };
 };
 
+inline Point2 pointAt(const std::array<double, 2>& at)
+{
+  return { at[0], at[1] };
+}
+inline Point3 pointAt(const std::array<double, 3>& at)
+{
+  return { at[0], at[1], at[2] };
+}
+
 /// Typed access to the cells of a SimplexMesh.
 template <int D, typename Scalar, typename Id>
 class SimplexAccess
@@ -38,6 +49,7 @@ class SimplexAccess
 public:
   static constexpr int Dimension = D;
   static constexpr int Corners = D + 1;
+  using Point = std::conditional_t<D == 2, Point2, Point3>;
 
   explicit SimplexAccess(const SimplexMesh& mesh)
     : Points(static_cast<const Scalar*>(mesh.Points))
@@ -49,29 +61,39 @@ public:
 
   const Id* ids(std::int64_t cell) const { return this->Ids + cell * Corners; }
 
-  [[gnu::always_inline]] void corners(std::int64_t cell, Point2 (&corners)[3]) const
+  [[gnu::always_inline]] void corners(std::int64_t cell, Point (&corners)[Corners]) const
   {
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < Corners; ++i)
     {
-      const Scalar* p = this->Points + 3 * std::int64_t(this->ids(cell)[i]);
-      corners[i] = { double(p[this->U]), double(p[this->V]) };
-    }
-  }
-  [[gnu::always_inline]] void corners(std::int64_t cell, Point3 (&corners)[4]) const
-  {
-    for (int i = 0; i < 4; ++i)
-    {
-      corners[i] = this->point(this->ids(cell)[i]);
+      corners[i] = pointAt(this->coordinates(this->ids(cell)[i]));
     }
   }
 
   /// The coordinates of a point that are used.
-  [[gnu::always_inline]] void coordinates(std::int64_t id, double (&coordinates)[D]) const
+  [[gnu::always_inline]] std::array<double, D> coordinates(std::int64_t id) const
   {
     const Scalar* p = this->Points + 3 * id;
-    for (int axis = 0; axis < D; ++axis)
+    if constexpr (D == 2)
     {
-      coordinates[axis] = double(p[D == 3 ? axis : axis == 0 ? this->U : this->V]);
+      return { double(p[this->U]), double(p[this->V]) };
+    }
+    else
+    {
+      return { double(p[0]), double(p[1]), double(p[2]) };
+    }
+  }
+
+  /// The coordinates that are used of a point in space.
+  Point flattened(const Point3& p) const
+  {
+    const double all[3] = { p.x, p.y, p.z };
+    if constexpr (D == 2)
+    {
+      return { all[this->U], all[this->V] };
+    }
+    else
+    {
+      return p;
     }
   }
 
@@ -209,10 +231,9 @@ public:
 private:
   [[gnu::always_inline]] unsigned char sidesOf(std::int64_t id) const
   {
-    double p[D];
-    this->Cells.coordinates(id, p);
+    const std::array<double, D> p = this->Cells.coordinates(id);
     int sides = 0;
-    for (int axis = 0; axis < D; ++axis)
+    for (std::size_t axis = 0; axis < D; ++axis)
     {
       sides |= int(p[axis] < this->Low[axis]) << (2 * axis);
       sides |= int(p[axis] > this->High[axis]) << (2 * axis + 1);

@@ -53,32 +53,14 @@ public:
   IndexRange rows() const { return this->Rows; }
   IndexRange layers() const { return this->Layers; }
 
-  [[gnu::always_inline]] RowSpan span(int row, int layer) const
+  RowSpan span(int row, int layer) const
   {
     const double y = this->Y[row];
     const double z = this->Z[layer];
     RowSpan span{ this->Columns.Begin, this->Columns.End, this->Columns.End };
     for (const Face& face : this->Faces)
     {
-      const double position =
-        this->X.clamp(face.Position - (face.PerY * (y - face.A.y) + face.PerZ * (z - face.A.z)));
-      if (LatticeAxis::certain(position, face.Error))
-      {
-        const int count = int(position);
-        if (face.Direction > 0)
-        {
-          span.Begin = std::max(span.Begin, count);
-        }
-        else
-        {
-          span.End = std::min(span.End, count);
-          span.ClosedEnd = std::min(span.ClosedEnd, count);
-        }
-      }
-      else
-      {
-        this->exactSpan(face, y, z, position, span);
-      }
+      face.Direction == 0 ? this->cutLevel(face, y, z, span) : this->cut(face, y, z, span);
       if (span.Begin >= span.ClosedEnd)
       {
         break;
@@ -176,14 +158,11 @@ private:
     }
   }
 
-  [[gnu::noinline]] void exactSpan(
-    const Face& face, double y, double z, double position, RowSpan& span) const
+  /// Removes the samples outside a face from the row.
+  void cut(const Face& face, double y, double z, RowSpan& span) const
   {
-    if (face.Direction == 0)
-    {
-      this->levelSpan(face, y, z, span);
-      return;
-    }
+    const double position =
+      this->X.clamp(face.Position - (face.PerY * (y - face.A.y) + face.PerZ * (z - face.A.z)));
     // Inner samples have a positive sign: before a face that looks forward they have a negative
     // one.
     const RowCrossing crossing = this->X.crossing(position, face.Error, this->Columns,
@@ -203,8 +182,8 @@ private:
     }
   }
 
-  /// For a face parallel to x: all samples of the row are on the same side.
-  void levelSpan(const Face& face, double y, double z, RowSpan& span) const
+  /// The same for a face parallel to x: all samples of the row are on the same side.
+  void cutLevel(const Face& face, double y, double z, RowSpan& span) const
   {
     ++this->ExactTests;
     const int side = orientation3(face.A, face.B, face.C, { face.A.x, y, z });

@@ -6,6 +6,8 @@
 #include "Resample/Lanes.h"
 #include "Resample/Lattice.h"
 
+#include <utility>
+
 namespace tipp
 {
 
@@ -15,8 +17,7 @@ namespace tipp
 /// the crossing; if rounding could change the count, the one sample in doubt is decided by an exact
 /// predicate. Both triangles at an edge count the same samples, so exactly one of them claims each.
 ///
-/// The common path has no branches that depend on the triangle's shape: half of them would be
-/// mispredicted.
+/// TriangleLanes decides most rows; this decides those that need exact tests, and large triangles.
 class TriangleRows
 {
 public:
@@ -37,14 +38,14 @@ public:
     {
       return false;
     }
-    const int lowest = lowestOf(p);
-    const int highest = highestOf(p);
-    const double low = p[lowest].y;
-    const double high = p[highest].y;
-    this->Rows = this->V.range(low, high, this->V.error(std::max(-low, high)));
-    // They are equal only with NaN.
-    return !this->Rows.empty() && lowest != highest &&
-      this->setEdges(p[lowest], p[3 - lowest - highest], p[highest]);
+    Point2 a = p[0];
+    Point2 b = p[1];
+    Point2 c = p[2];
+    lowFirst(a, b);
+    lowFirst(b, c);
+    lowFirst(a, b);
+    this->Rows = this->V.range(a.y, c.y, this->V.error(std::max(-a.y, c.y)));
+    return !this->Rows.empty() && this->setEdges(a, b, c);
   }
 
   IndexRange columns() const { return this->Columns; }
@@ -52,21 +53,18 @@ public:
   /// The plane counts as the only layer of a 3D lattice.
   static IndexRange layers() { return { 0, 1 }; }
 
-  [[gnu::always_inline]] RowSpan span(int row, int) const
+  RowSpan span(int row, int) const
   {
     const double y = this->V[row];
-    const Edge& edge = this->Short[y >= this->Middle];
-    const double atLong = this->position(this->Long, y);
-    const double atShort = this->position(edge, y);
-    if ((int(LatticeAxis::certain(atLong, this->Error)) &
-          int(LatticeAxis::certain(atShort, this->Error)) & int(y < this->Long.High.y)) != 0)
+    if (y >= this->Long.High.y)
     {
-      const int toLong = int(atLong);
-      const int toShort = int(atShort);
-      const int end = this->LongIsLeft ? toShort : toLong;
-      return { this->LongIsLeft ? toLong : toShort, end, end };
+      return this->top();
     }
-    return this->exactSpan(edge, y, atLong, atShort);
+    const RowCrossing atLong = this->crossing(this->Long, y);
+    const RowCrossing atShort = this->crossing(this->Short[y >= this->Middle], y);
+    const RowCrossing& left = this->LongIsLeft ? atLong : atShort;
+    const RowCrossing& right = this->LongIsLeft ? atShort : atLong;
+    return { left.Before, right.Before, right.WithOn };
   }
 
   /// Number of exact tests so far.
@@ -86,17 +84,7 @@ private:
     return { low, high, (high.x - low.x) / (high.y - low.y) };
   }
 
-  static int lowestOf(const Point2 (&p)[3])
-  {
-    const int lower = p[1].y < p[0].y;
-    return p[2].y < p[lower].y ? 2 : lower;
-  }
-  /// Never the same corner as lowestOf().
-  static int highestOf(const Point2 (&p)[3])
-  {
-    const int upper = p[1].y >= p[0].y;
-    return p[2].y >= p[upper].y ? 2 : upper;
-  }
+  static void lowFirst(Point2& a, Point2& b) { b.y < a.y ? std::swap(a, b) : void(); }
 
   [[gnu::always_inline]] bool setEdges(Point2 a, Point2 b, Point2 c)
   {
@@ -128,25 +116,6 @@ private:
       std::isfinite(c.x) && std::isfinite(c.y);
   }
 
-  double position(const Edge& edge, double y) const
-  {
-    return this->U.position(edge.Low.x + (y - edge.Low.y) * edge.Slope);
-  }
-
-  [[gnu::noinline]] RowSpan exactSpan(
-    const Edge& edge, double y, double atLong, double atShort) const
-  {
-    if (y >= this->Long.High.y)
-    {
-      return this->top();
-    }
-    const RowCrossing atLongEdge = this->crossing(this->Long, y, atLong);
-    const RowCrossing atShortEdge = this->crossing(edge, y, atShort);
-    const RowCrossing& left = this->LongIsLeft ? atLongEdge : atShortEdge;
-    const RowCrossing& right = this->LongIsLeft ? atShortEdge : atLongEdge;
-    return { left.Before, right.Before, right.WithOn };
-  }
-
   /// The span of the highest row if it is at the height of the highest corner: its samples are
   /// outside after the move, so they are only touched.
   RowSpan top() const
@@ -160,12 +129,9 @@ private:
   }
 
   /// The samples of row y to the left of the edge.
-  RowCrossing crossing(const Edge& edge, double y, double position) const
+  RowCrossing crossing(const Edge& edge, double y) const
   {
-    if (LatticeAxis::certain(position, this->Error))
-    {
-      return { int(position), int(position) };
-    }
+    const double position = this->U.position(edge.Low.x + (y - edge.Low.y) * edge.Slope);
     return this->U.crossing(position, this->Error, this->Columns,
       [&](int i)
       {
@@ -209,16 +175,13 @@ public:
       x[i] = p.get(i, &Point2::x);
       y[i] = p.get(i, &Point2::y);
     }
-    const RangeLanes columns(this->U, least(least(x[0], x[1]), x[2]), most(most(x[0], x[1]), x[2]));
+    this->Columns = { this->U, least(least(x[0], x[1]), x[2]), most(most(x[0], x[1]), x[2]) };
     order(x, y, 0, 1);
     order(x, y, 1, 2);
     order(x, y, 0, 1);
-    const RangeLanes rows(this->V, y[0], y[2]);
-    this->Nothing = columns.Empty | rows.Empty;
+    this->Rows = { this->V, y[0], y[2] };
+    this->Nothing = this->Columns.Empty | this->Rows.Empty;
     this->setEdges(x, y);
-    this->Error = columns.Error;
-    this->Columns = { columns.Begin, columns.End };
-    this->Rows = { rows.Begin, rows.End };
   }
 
   /// Whether nothing(lane) is true for all.
@@ -248,7 +211,7 @@ public:
     const Lanes atLong =
       this->U.position(this->X[0][lane] + (y - this->Y[0][lane]) * this->Slopes[0][lane]);
     const Lanes atShort = this->U.position(lowX + (y - lowY) * slope);
-    const Lanes error = allLanes(this->Error[lane]);
+    const Lanes error = allLanes(this->Columns.Error[lane]);
     const Lanes wholeLong = whole(atLong);
     const Lanes wholeShort = whole(atShort);
     const LaneMask certain = AxisLanes::certain(atLong, wholeLong, error) &
@@ -266,13 +229,6 @@ public:
   }
 
 private:
-  struct Ranges
-  {
-    IndexRange range(int lane) const { return { int(this->Begin[lane]), int(this->End[lane]) }; }
-    Lanes Begin;
-    Lanes End;
-  };
-
   /// Exchanges corners so that i is not above j.
   [[gnu::always_inline]] static void order(Lanes (&x)[3], Lanes (&y)[3], int i, int j)
   {
@@ -319,9 +275,8 @@ private:
   Lanes X[3]; ///< the corners' coordinates, from the lowest corner to the highest
   Lanes Y[3];
   Lanes Slopes[3]; ///< of the longest edge in v, and of those below and above the middle corner
-  Lanes Error;
-  Ranges Columns;
-  Ranges Rows;
+  RangeLanes Columns;
+  RangeLanes Rows;
 };
 
 } // namespace tipp

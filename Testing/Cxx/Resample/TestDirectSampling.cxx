@@ -105,7 +105,7 @@ int expectLanesLikeRows(const Scene& scene, Lanes lanes, Rows rows)
     lanes.nothing() ? void() : lanes.prepareRows();
     for (int lane = 0; lane < tipp::laneCount; ++lane)
     {
-      typename tipp::CellGeometry<Access::Dimension>::Corners corners;
+      typename Access::Point corners[Access::Corners];
       cells.corners(first + lane, corners);
       const bool visited = rows.set(corners);
       EXPECT_FALSE(visited && lanes.nothing(lane)) << scene.Name;
