@@ -2,7 +2,6 @@
 #include "Locate/CellWalk.h"
 
 #include "Locate/BoxTree.h"
-#include "Parallel/Counters.h"
 #include "Parallel/ParallelFor.h"
 
 #include <atomic>

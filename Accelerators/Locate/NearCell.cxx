@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Locate/NearCell.h"
-
 #include "Locate/CellLocator.h"
+
 #include "Predicates/ExactPredicates.h"
 
 #include <algorithm>

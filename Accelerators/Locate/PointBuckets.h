@@ -3,7 +3,6 @@
 #define tippPointBuckets_h
 
 #include "Locate/MortonOrder.h"
-#include "Parallel/Counters.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>

@@ -41,8 +41,6 @@ public:
     }
   }
 
-  const Box<D>& bounds() const { return this->Bounds; }
-
   /// The grid position of a point, monotonic along each axis: 0 before all points, 1 and more among
   /// them, at most Side - 1.
   Position position(const std::array<double, D>& point) const

@@ -288,7 +288,6 @@ int testEdges(const double2* p, double2 low, double2 high)
 int testInSpace(global const double* cell, int corners, double3 low, double3 high)
 {
   double3 p[4];
-  double2 shadow[4];
   for (int i = 0; i < 4; ++i)
   {
     // A triangle in space is treated as a flat tetrahedron.
@@ -302,21 +301,18 @@ int testInSpace(global const double* cell, int corners, double3 low, double3 hig
   verdict = both(verdict, compareAcrossFace(p[0], p[1], p[3], p[2], low, high));
   verdict = both(verdict, compareAcrossFace(p[0], p[2], p[3], p[1], low, high));
   verdict = both(verdict, compareAcrossFace(p[1], p[2], p[3], p[0], low, high));
-  for (int i = 0; i < 4; ++i)
+  for (int turn = 0; turn < 3 && verdict != APART; ++turn) // projected along z, x and y
   {
-    shadow[i] = p[i].xy;
+    const double2 shadow[4] = { p[0].xy, p[1].xy, p[2].xy, p[3].xy };
+    verdict = both(verdict, testEdges(shadow, low.xy, high.xy));
+    for (int i = 0; i < 4; ++i)
+    {
+      p[i] = p[i].yzx;
+    }
+    low = low.yzx;
+    high = high.yzx;
   }
-  verdict = verdict == APART ? APART : both(verdict, testEdges(shadow, low.xy, high.xy));
-  for (int i = 0; i < 4; ++i)
-  {
-    shadow[i] = p[i].yz;
-  }
-  verdict = verdict == APART ? APART : both(verdict, testEdges(shadow, low.yz, high.yz));
-  for (int i = 0; i < 4; ++i)
-  {
-    shadow[i] = p[i].zx;
-  }
-  return verdict == APART ? APART : both(verdict, testEdges(shadow, low.zx, high.zx));
+  return verdict;
 }
 
 // ---- Kernels

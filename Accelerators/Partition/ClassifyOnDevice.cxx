@@ -135,12 +135,9 @@ private:
         continue;
       }
       const auto candidates = static_cast<std::uint64_t>(std::abs(n));
-      const auto bytes = [&](std::uint64_t more, std::size_t moreCells)
-      {
-        return (listed.candidates() + more) * BytesPerCandidate +
-          (listed.Cells.size() + moreCells) * BytesPerListedCell;
-      };
-      if (bytes(candidates, 1) > this->Room && !listed.Cells.empty())
+      const std::uint64_t bytes = (listed.candidates() + candidates) * BytesPerCandidate +
+        (listed.Cells.size() + 1) * BytesPerListedCell;
+      if (bytes > this->Room && !listed.Cells.empty())
       {
         this->testListed(first, listed);
         finished = this->finish(first, finished, i, listed);
@@ -151,16 +148,23 @@ private:
     this->finish(first, finished, count, listed);
   }
 
-  void countCandidates(std::size_t first, std::size_t count)
+  /// Launches a kernel for `count` cells of the piece.
+  template <typename... Arguments>
+  void launch(const char* name, std::size_t count, const Arguments&... arguments) const
   {
     const DeviceTiling& t = this->Arrays;
+    cl::Kernel kernel = this->Device.kernel(ClassifyKernels, name);
+    this->Device.launch(kernel, count, t.Dimension, t.Axes, t.Children, t.Counts[0], t.Counts[1],
+      t.Counts[2], t.Cuts, t.Nodes, t.Middles, t.Domain, this->Coordinates, this->Cells.Corners,
+      this->Cells.Dimension, static_cast<cl_uint>(count), arguments...);
+  }
+
+  void countCandidates(std::size_t first, std::size_t count)
+  {
     const std::size_t bytes = count * sizeof(cl_int);
     const cl::Buffer counts = this->Device.room(bytes);
     const cl::Buffer owners = this->Device.room(bytes);
-    cl::Kernel kernel = this->Device.kernel(ClassifyKernels, "countCandidates");
-    this->Device.launch(kernel, count, t.Dimension, t.Axes, t.Children, t.Counts[0], t.Counts[1],
-      t.Counts[2], t.Cuts, t.Nodes, t.Middles, t.Domain, this->Coordinates, this->Cells.Corners,
-      this->Cells.Dimension, static_cast<cl_uint>(count), counts, owners);
+    this->launch("countCandidates", count, counts, owners);
     this->Counts.resize(count);
     this->Device.read(counts, this->Counts.data(), bytes);
     this->Device.read(owners, this->Result.Owner.data() + first, bytes);
@@ -182,21 +186,16 @@ private:
       this->listHere(first + listed.Cells[0]);
       return;
     }
-    const DeviceTiling& t = this->Arrays;
     const cl::Buffer cells = inputOf(this->Device, listed.Cells);
     const cl::Buffer starts = inputOf(this->Device, listed.Starts);
     const cl::Buffer ids = this->Device.room(candidates * sizeof(cl_int));
     const cl::Buffer idCells = this->Device.room(candidates * sizeof(cl_uint));
     const cl::Buffer verdicts = this->Device.room(candidates);
-    cl::Kernel list = this->Device.kernel(ClassifyKernels, "listCandidates");
+    this->launch("listCandidates", listed.Cells.size(), cells, starts, ids, idCells);
     cl::Kernel test = this->Device.kernel(ClassifyKernels, "testCandidates");
-    this->Device.launch(list, listed.Cells.size(), t.Dimension, t.Axes, t.Children, t.Counts[0],
-      t.Counts[1], t.Counts[2], t.Cuts, t.Nodes, t.Middles, t.Domain, this->Coordinates,
-      this->Cells.Corners, this->Cells.Dimension, static_cast<cl_uint>(listed.Cells.size()), cells,
-      starts, ids, idCells);
-    this->Device.launch(test, candidates, t.Dimension, t.Boxes, this->Coordinates,
-      this->Cells.Corners, this->Cells.Dimension, static_cast<cl_ulong>(candidates), ids, idCells,
-      verdicts);
+    this->Device.launch(test, candidates, this->Arrays.Dimension, this->Arrays.Boxes,
+      this->Coordinates, this->Cells.Corners, this->Cells.Dimension,
+      static_cast<cl_ulong>(candidates), ids, idCells, verdicts);
     this->Device.read(ids, this->Ids.data(), candidates * sizeof(cl_int));
     this->Device.read(verdicts, this->Verdicts.data(), candidates);
   }

@@ -237,8 +237,8 @@ INLINE int setFaces(Cell* t, const double3 a, const double3 b, const double3 c, 
 }
 
 // Whether the box's only sample is inside: see TetrahedronLanes.h.
-INLINE int setSample(const Box* box, double3 a, double3 b, double3 c, double3 d, double3 size, Axis x,
-  Axis y, Axis z)
+INLINE int setSample(const Box* box, double3 a, double3 b, double3 c, double3 d, double3 size,
+  Axis x, Axis y, Axis z)
 {
   const double4 px = (double4)(a.x, b.x, c.x, d.x) - coordinateOf(x, box->begin.x);
   const double4 py = (double4)(a.y, b.y, c.y, d.y) - coordinateOf(y, box->begin.y);
@@ -305,7 +305,8 @@ INLINE int setRows(Cell* t, const double3* p, Axis x, Axis y, Axis z)
   return setFaces(t, a, b, c, d, size, t->error, x, y, z);
 }
 
-// The rows first..last - 1 of the box, at most ROWS_AT_ONCE, counted from the first of its first layer.
+// The rows first..last - 1 of the box, at most ROWS_AT_ONCE, counted from the first of its first
+// layer.
 INLINE int cellSpans(const Cell* cell, int first, int last, Axis x, Axis y, Spans* spans)
 {
   const Box* box = &cell->box;
@@ -323,7 +324,8 @@ INLINE int cellSpans(const Cell* cell, int first, int last, Axis x, Axis y, Span
   const float8 up = convert_float8(layer);
   const float8 along = number - up * depth;
   const float width = (float)(box->end.x - box->begin.x) + 0.5f;
-  const float position[4] = { cell->position.x, cell->position.y, cell->position.z, cell->position.w };
+  const float position[4] = { cell->position.x, cell->position.y, cell->position.z,
+    cell->position.w };
   const float perRow[4] = { cell->perRow.x, cell->perRow.y, cell->perRow.z, cell->perRow.w };
   const float perLayer[4] = { cell->perLayer.x, cell->perLayer.y, cell->perLayer.z,
     cell->perLayer.w };

@@ -94,7 +94,6 @@ public:
   /// The lattice of the window. Its coordinates are bitwise equal to the whole lattice's.
   const Lattice& lattice() const { return this->Part; }
   std::int64_t samples() const { return this->Width * this->Height * this->Layers; }
-  bool isWhole() const { return this->Whole; }
 
   /// The index, among all samples, of the first sample of row `row` of the window.
   std::int64_t indexOf(std::int64_t row) const

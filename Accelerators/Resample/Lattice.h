@@ -122,14 +122,6 @@ public:
     return std::fabs(position - int(position) - 0.5) < 0.5 - error;
   }
 
-  /// The only sample whose side a position with an error below one half leaves undecided; -1 or
-  /// size() if there is none.
-  static int doubtful(double position)
-  {
-    const int whole = int(position);
-    return position - whole < 0.5 ? whole - 1 : whole;
-  }
-
   /// Finds a crossing whose computed position has the given error, among `columns`. side(i) is
   /// exact: 1 if sample i lies before the crossing, 0 on it, -1 beyond.
   template <typename Side>
@@ -144,7 +136,8 @@ public:
       return { columns.firstWhereNot([&](int i) { return side(i) > 0; }),
         columns.firstWhereNot([&](int i) { return side(i) >= 0; }) };
     }
-    const int i = doubtful(position);
+    // The only sample whose side is uncertain, or none: -1 or size().
+    const int i = position - int(position) < 0.5 ? int(position) - 1 : int(position);
     if (i < 0 || i >= this->size())
     {
       return { int(position), int(position) };

@@ -18,10 +18,6 @@
 // A LatticeAxis; s0 to s7 are min, inverse, first, limit, error scale, error offset, delta, size.
 typedef double8 Axis;
 
-double errorOf(Axis axis, double reach)
-{
-  return reach * axis.s4 + axis.s5;
-}
 double coordinateOf(Axis axis, int i)
 {
   return axis.s0 + (i + axis.s2) * axis.s6;

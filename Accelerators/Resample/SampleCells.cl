@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The device version of sampleDirectly(): finds the samples that cells claim and interpolates them,
-// in one pass; and that of claimSamples() if NAMES_CELLS is 1: then it stores the cells' numbers and
-// interpolates nothing. A work item does SHARE cells, each step for all of them, so that their random
-// memory reads overlap. Cells for which rounding could change the result, and thin cells, go to a
-// list, which the host processes. Host side: ResampleOnDevice.cxx.
+// Finds the samples that cells claim and marks them. With NAMES_CELLS 1, marks are the cells'
+// numbers, as in claimSamples(). Otherwise they are ones, and the samples are interpolated in the
+// same pass, as in sampleDirectly(). A work item does SHARE cells, each step for all of them, so
+// that their random memory reads overlap. Cells for which rounding could change the result, and
+// thin cells to interpolate, go to a list, which the host processes. Host side:
+// ResampleOnDevice.cxx.
 #include "LatticeAndMesh.cl"
 #include "CellRows.cl"
 
@@ -175,7 +176,8 @@ INLINE int setGradients(Gradients* gradients, const double3* points, double (*va
   return state;
 }
 
-INLINE void fillRow(const Gradients* gradients, long first, int begin, int end, double y, double z, Axis x)
+INLINE void fillRow(const Gradients* gradients, long first, int begin, int end, double y, double z,
+  Axis x)
 {
   for (int i = 0; i < gradients->count; ++i)
   {
@@ -200,8 +202,8 @@ INLINE void fillRow(const Gradients* gradients, long first, int begin, int end, 
 }
 
 // Marks and fills some rows; returns the number of samples.
-INLINE int fillRows(const Gradients* gradients, const Spans* spans, int count, Axis x, Axis y, Axis z,
-  Mark mark, global Mark* marks)
+INLINE int fillRows(const Gradients* gradients, const Spans* spans, int count, Axis x, Axis y,
+  Axis z, Mark mark, global Mark* marks)
 {
   int total = 0;
   for (int i = 0; i < min(ROWS_AT_ONCE, count); ++i)
@@ -226,8 +228,8 @@ INLINE int fillRows(const Gradients* gradients, const Spans* spans, int count, A
 
 // Fills a cell's rows up to `last` - 1. `spans` has the first ones; rows count from the first of
 // its box.
-INLINE int fillCell(const Cell* cell, Spans* spans, int first, int last, const Gradients* gradients, Axis x,
-  Axis y, Axis z, Mark mark, global Mark* marks, int* total)
+INLINE int fillCell(const Cell* cell, Spans* spans, int first, int last,
+  const Gradients* gradients, Axis x, Axis y, Axis z, Mark mark, global Mark* marks, int* total)
 {
   *total = 0;
   while (true)
@@ -256,7 +258,7 @@ INLINE int isOpen(const Spans* spans, int rows)
   return open;
 }
 
-// Whether all corners lie beyond one side of the lattice: see OutsidePoints.h.
+// Whether all corners lie beyond one side of the lattice: see OutsidePoints in SimplexMesh.h.
 int isOutside(const int* ids, global const uchar* sides)
 {
   int common = 0xff;
@@ -275,10 +277,10 @@ int isOutside(const int* ids, global const uchar* sides)
     global uchar *samples1, int isFloat1, int components1, global const uchar *values2,            \
     global uchar *samples2, int isFloat2, int components2, global const uchar *values3,            \
     global uchar *samples3, int isFloat3, int components3
-#define ARRAYS                                                                                       \
-  {                                                                                                  \
-    { values0, samples0, isFloat0, components0 }, { values1, samples1, isFloat1, components1 },      \
-      { values2, samples2, isFloat2, components2 }, { values3, samples3, isFloat3, components3 }     \
+#define ARRAYS                                                                                     \
+  {                                                                                                \
+    { values0, samples0, isFloat0, components0 }, { values1, samples1, isFloat1, components1 },    \
+      { values2, samples2, isFloat2, components2 }, { values3, samples3, isFloat3, components3 }   \
   }
 
 // Prefetches what the next work item reads first, if the compiler can: PoCL's prefetch() does
@@ -314,8 +316,8 @@ typedef struct
 // the cache.
 __attribute__((reqd_work_group_size(1, 1, 1)))
 #endif
-kernel void sampleCells(PARAMETERS, long cells, long most, global const uchar* hidden, int hasHidden,
-  global const uchar* sides, int hasSides, global uint* counts, global int* large,
+kernel void sampleCells(PARAMETERS, long cells, long most, global const uchar* hidden,
+  int hasHidden, global const uchar* sides, int hasSides, global uint* counts, global int* large,
   global int* doubtful, global int* lengths)
 {
   const Mesh mesh = { points, ids, u, v };

@@ -209,8 +209,7 @@ public:
       });
   }
 
-  bool found() const { return this->Sides != nullptr; }
-  /// One mask per point; null if there are none.
+  /// One mask per point; null if find() has not computed them.
   const unsigned char* sides() const { return this->Sides.get(); }
 
   /// Whether a cell certainly has no samples; false before find().

@@ -90,7 +90,7 @@ protected:
   {
     this->Inboxes[std::size_t(to)].put(std::move(message));
   }
-  /// Marks a partition of another rank as done; called by the main thread.
+  /// Marks a partition as done; called by the main thread when another rank has triangulated it.
   virtual void setDone(PartitionIndex p) { this->source().finish(p); }
   /// Marks a partition of this rank as done; called by the thread that triangulated it.
   virtual void setDoneHere(PartitionIndex p) { this->source().finish(p); }

@@ -3,7 +3,6 @@
 
 #include "Locate/CellLocator.h"
 #include "Locate/CellPass.h"
-#include "Locate/NearCell.h"
 #include "Locate/PointGrid.h"
 #include "Locate/PointRows.h"
 

@@ -295,7 +295,13 @@ TEST_P(ResampleOnDevice, CombinesPartsLikeOpenMP)
     }
     return samples;
   };
-  expectNear(together(openMP), together(openCL));
+  // Threads interpolate the device's claims, so even the last bits are equal.
+  const Kinds ours = together(openMP);
+  const Kinds theirs = together(openCL);
+  EXPECT_EQ(ours.Double, theirs.Double);
+  EXPECT_EQ(ours.Float, theirs.Float);
+  EXPECT_EQ(ours.Whole, theirs.Whole);
+  EXPECT_EQ(ours.OfCells, theirs.OfCells);
 }
 
 TEST_P(ResampleOnDevice, CombinesTilesToTheWholeImage)
