@@ -90,18 +90,6 @@ struct GhostCells
   PointTuplesOf<Position> Points;     ///< the points of PointIds
 };
 
-/// All items of several lists, in their order.
-template <typename T>
-std::vector<T> concatenated(const std::vector<std::vector<T>>& parts)
-{
-  std::vector<T> all;
-  for (const std::vector<T>& part : parts)
-  {
-    all.insert(all.end(), part.begin(), part.end());
-  }
-  return all;
-}
-
 /// The index of each rank's first item, and the end, where this rank has `count` items. Collective.
 inline std::vector<std::int64_t> firstIndices(Communicator& ranks, std::int64_t count)
 {

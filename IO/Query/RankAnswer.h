@@ -37,17 +37,6 @@ std::size_t rankOfPiece(const Communicator& ranks, const ResidentMesh& mesh, std
 /// Throws IOError if several ranks have cells and this rank's part lacks global ids. Collective.
 void requireIds(Communicator* ranks, const ResidentMesh& mesh);
 
-template <typename T>
-std::vector<T> concatenated(const std::vector<std::vector<T>>& parts)
-{
-  std::vector<T> all;
-  for (const std::vector<T>& part : parts)
-  {
-    all.insert(all.end(), part.begin(), part.end());
-  }
-  return all;
-}
-
 /// The items of all ranks on the first rank, none on the others.
 template <typename T>
 std::vector<T> gathered(Communicator* ranks, std::vector<T> own)

@@ -333,6 +333,18 @@ private:
   std::vector<char> HasShutDown;
 };
 
+/// All items of several lists, such as those that ranks have gathered, in their order.
+template <typename T>
+std::vector<T> concatenated(const std::vector<std::vector<T>>& parts)
+{
+  std::vector<T> all;
+  for (const std::vector<T>& part : parts)
+  {
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
 } // namespace tipp
 
 #endif
