@@ -72,7 +72,7 @@ Taken readRange(const std::string& path, const Bounds& range, int threads)
     [&](std::int64_t i)
     {
       Piece piece = readPiece(mesh, pieces[std::size_t(i)], options);
-      bytes[std::size_t(i)] = piece.Counters.Bytes;
+      bytes[std::size_t(i)] = piece.BytesRead;
       grids[std::size_t(i)] = makeGrid(std::move(piece));
     });
   Taken taken;
@@ -138,13 +138,12 @@ void benchmarkBorrowing(const IoArguments& arguments)
   const auto measure = [&](const PartitionedMesh& mesh)
   { return fastest(arguments.Repeat, [&] { piece = readPiece(mesh, number); }); };
   const double duplicated = measure(copied);
-  const ReadCounters least = piece.Counters;
+  const auto least = double(piece.BytesRead);
   const double referred = measure(lent);
-  std::printf("piece %zu with borrowed cells, duplicated: %.4f s, %lld reads, %.2f MB\n", number,
-    duplicated, (long long)least.Reads, double(least.Bytes) / 1e6);
-  std::printf("by reference: %.4f s, %lld reads, %.2f MB, %.3f x the bytes, %.2f x the time\n",
-    referred, (long long)piece.Counters.Reads, double(piece.Counters.Bytes) / 1e6,
-    double(piece.Counters.Bytes) / double(least.Bytes), referred / duplicated);
+  std::printf("piece %zu with borrowed cells, duplicated: %.4f s, %.2f MB\n", number, duplicated,
+    least / 1e6);
+  std::printf("by reference: %.4f s, %.2f MB, %.3f x the bytes, %.2f x the time\n", referred,
+    double(piece.BytesRead) / 1e6, double(piece.BytesRead) / least, referred / duplicated);
 }
 
 } // namespace benchmark
