@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -59,13 +60,37 @@ int signOfReach(Point2 a, Point2 b, Point2 p, int side)
 /// p. Exact.
 bool roundsTo(Point2 a, Point2 b, Point2 p)
 {
-  constexpr double infinity = HUGE_VAL;
-  const Box2 around{ std::nextafter(p.x, -infinity), std::nextafter(p.y, -infinity),
-    std::nextafter(p.x, infinity), std::nextafter(p.y, infinity) };
-  const bool isLargest =
-    !isFinite(Point2{ around.xmin, around.ymin }) || !isFinite(Point2{ around.xmax, around.ymax });
-  return !isLargest && lineMayMeet(a, b, around) && signOfReach(a, b, p, 1) > 0 &&
-    signOfReach(a, b, p, -1) > 0;
+  using Long = long double; // its exponent range holds all products
+  struct Range
+  {
+    explicit Range(double value)
+      : Below((Long(value) + std::nextafter(value, -HUGE_VAL)) / 2)
+      , Above((Long(value) + std::nextafter(value, HUGE_VAL)) / 2)
+    {
+    }
+    Long center() const { return (this->Below + this->Above) / 2; }
+    Long half() const { return (this->Above - this->Below) / 2; }
+    Long Below;
+    Long Above;
+  };
+  const Range x(p.x);
+  const Range y(p.y);
+  if (!std::isfinite(x.half()) || !std::isfinite(y.half()))
+  {
+    return false; // next to the largest doubles
+  }
+  const Long dx = Long(b.x) - a.x;
+  const Long dy = Long(b.y) - a.y;
+  const Long off = std::fabs(dx * (y.center() - a.y) - dy * (x.center() - a.x));
+  const Long reach = std::fabs(dx) * y.half() + std::fabs(dy) * x.half();
+  const Long error = 16 * std::numeric_limits<Long>::epsilon() *
+    (std::fabs(dx) * (std::fabs(y.center()) + std::fabs(Long(a.y))) +
+      std::fabs(dy) * (std::fabs(x.center()) + std::fabs(Long(a.x))) + reach);
+  if (std::fabs(off - reach) > error)
+  {
+    return off < reach;
+  }
+  return signOfReach(a, b, p, 1) > 0 && signOfReach(a, b, p, -1) > 0;
 }
 
 class Resolver
