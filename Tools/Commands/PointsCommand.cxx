@@ -127,6 +127,7 @@ void addPointsCommand(CLI::App& app, int& exitCode)
     ->required()
     ->check(CLI::Range(std::int64_t(0), std::int64_t(1) << 40));
   command->add_option("--seed", arguments->Seed, "The seed of the random numbers")
+    ->check(CLI::NonNegativeNumber)
     ->capture_default_str();
   addOutput(
     *command, arguments->Output, "The .npy file to write",
