@@ -100,7 +100,8 @@ struct Kind
 constexpr const char* meshio = "meshio convert";
 constexpr const char* ogr = "ogr2ogr -f CSV -lco GEOMETRY=AS_XYZ out.csv";
 
-constexpr std::array<Kind, 10> kinds = { {
+constexpr std::array<Kind, 11> kinds = { {
+  { ".14 .grd", "an ADCIRC grid", "tipp flatten", "-o mesh" },
   { ".ex2 .exo .e", "an Exodus file", meshio, "out.vtu" },
   { ".node .ele", "a file of TetGen or Triangle", meshio, "out.vtu" },
   { ".msh", "a file of Gmsh", meshio, "out.vtu" },

@@ -33,13 +33,6 @@ struct ClosestLocations
 VTKTIPPIO_EXPORT ClosestLocations closestTo(const ResidentMesh& mesh, const Point3* points,
   std::int64_t count, Communicator* ranks = nullptr);
 
-/// The same for callers that always have ranks.
-inline ClosestLocations closestOnRanks(
-  Communicator& ranks, const ResidentMesh& mesh, const Point3* points, std::int64_t count)
-{
-  return closestTo(mesh, points, count, &ranks);
-}
-
 } // namespace tipp
 
 #endif

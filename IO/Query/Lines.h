@@ -87,24 +87,6 @@ void serialize(Archive& archive, Descents& descents)
 VTKTIPPIO_EXPORT Descents descentsOf(const ResidentMesh& mesh, const std::vector<Point3>& points,
   const std::string& array, int component, Communicator* ranks = nullptr);
 
-// The same for callers that always have ranks.
-
-inline Contours contoursOnRanks(Communicator& ranks, const ResidentMesh& mesh,
-  const std::string& array, int component, const std::vector<double>& levels)
-{
-  return contoursOf(mesh, array, component, levels, &ranks);
-}
-inline std::pair<double, double> rangeOnRanks(
-  Communicator& ranks, const ResidentMesh& mesh, const std::string& array, int component)
-{
-  return rangeOf(mesh, array, component, &ranks);
-}
-inline Descents descentsOnRanks(Communicator& ranks, const ResidentMesh& mesh,
-  const std::vector<Point3>& points, const std::string& array, int component)
-{
-  return descentsOf(mesh, points, array, component, &ranks);
-}
-
 } // namespace tipp
 
 #endif

@@ -171,9 +171,10 @@ void ZoneShape::refuseCrossings(std::size_t number) const
       {
         if (crossProperly(edge.From, edge.To, other.From, other.To))
         {
-          throw IOError("Zone " + std::to_string(number) + " has edges that cross near (" +
-            std::to_string(edge.From.x) + ", " + std::to_string(edge.From.y) +
-            "); repair the polygon.");
+          throw IOError("Zone " + std::to_string(number) +
+            " has edges that cross, one of them at (" + std::to_string(edge.From.x) + ", " +
+            std::to_string(edge.From.y) +
+            "): a polygon crosses itself or overlaps another one; repair them.");
         }
       });
   }

@@ -66,24 +66,6 @@ VTKTIPPIO_EXPORT std::vector<std::int64_t> cellsIn(
 VTKTIPPIO_EXPORT std::vector<std::int64_t> pointsIn(
   const ResidentMesh& mesh, const Region& region, Communicator* ranks = nullptr);
 
-// The same for callers that always have ranks.
-
-inline ZoneStatistics statisticsOnRanks(Communicator& ranks, const ResidentMesh& mesh,
-  const std::vector<Zone>& zones, const std::string& array, int component, double level = 0)
-{
-  return statisticsOf(mesh, zones, array, component, level, &ranks);
-}
-inline std::vector<std::int64_t> cellsOnRanks(
-  Communicator& ranks, const ResidentMesh& mesh, const Region& region, bool whole)
-{
-  return cellsIn(mesh, region, whole, &ranks);
-}
-inline std::vector<std::int64_t> pointsOnRanks(
-  Communicator& ranks, const ResidentMesh& mesh, const Region& region)
-{
-  return pointsIn(mesh, region, &ranks);
-}
-
 } // namespace tipp
 
 #endif

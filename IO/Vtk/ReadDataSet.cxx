@@ -160,7 +160,7 @@ vtkSmartPointer<vtkDataSet> readDataSet(const std::string& path)
   const auto read = readFunctions().find(extensionOf(path));
   if (read == readFunctions().end())
   {
-    throw IOError(path, "is of a kind that VTK's readers here do not know.");
+    refuseKind(path, "is of a kind that VTK's readers here do not know.");
   }
   checkVtkFile(path);
   const CurrentFile current(path);

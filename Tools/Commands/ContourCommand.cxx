@@ -58,7 +58,7 @@ struct ContourArguments
 std::vector<double> levelsOf(
   Communicator& ranks, const ResidentMesh& mesh, const ContourArguments& arguments)
 {
-  const auto [low, high] = rangeOnRanks(ranks, mesh, arguments.Array, arguments.Component);
+  const auto [low, high] = rangeOf(mesh, arguments.Array, arguments.Component, &ranks);
   constexpr double most = 1e6;
   if ((high - low) / arguments.Interval > most)
   {
@@ -108,8 +108,7 @@ void makeContours(const ContourArguments& arguments, Communicator& ranks)
     : std::make_unique<ResidentMesh>(MeshPart());
   const std::vector<double> levels =
     arguments.Interval > 0 ? levelsOf(ranks, *mesh, arguments) : arguments.Levels;
-  const Contours contours =
-    contoursOnRanks(ranks, *mesh, arguments.Array, arguments.Component, levels);
+  const Contours contours = contoursOf(*mesh, arguments.Array, arguments.Component, levels, &ranks);
   mesh.reset(); // its memory is free for the file's
   if (ranks.isFirst())
   {

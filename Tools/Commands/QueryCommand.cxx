@@ -300,13 +300,12 @@ void answerAll(const QueryArguments& arguments, Communicator& ranks)
   const auto count = std::int64_t(points.size());
   // If the mesh is not partitioned, every rank has read all of it.
   const bool isShared = mesh->isStored() && ranks.size() > 1;
-  const MeshAnswer answer = isShared ? answerOnRanks(ranks, *mesh, points.data(), count, options)
-                                     : mesh->answer(points.data(), count, options);
+  Communicator* const shared = isShared ? &ranks : nullptr;
+  const MeshAnswer answer = answerOf(*mesh, points.data(), count, options, shared);
   ClosestLocations closest;
   if (arguments.Closest)
   {
-    closest = isShared ? closestOnRanks(ranks, *mesh, points.data(), count)
-                       : closestTo(*mesh, points.data(), count);
+    closest = closestTo(*mesh, points.data(), count, shared);
   }
   std::vector<std::int64_t> sums = { count,
     std::count(answer.Cells.begin(), answer.Cells.end(), -1) };

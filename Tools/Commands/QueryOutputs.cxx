@@ -80,16 +80,8 @@ void writeRegion(Communicator* shared, const ResidentMesh& mesh, const RegionArg
 {
   const Region region = regionOf(arguments, mesh);
   const bool ofCells = arguments.Ids == "cells";
-  std::vector<std::int64_t> ids;
-  if (shared)
-  {
-    ids = ofCells ? cellsOnRanks(*shared, mesh, region, arguments.Whole)
-                  : pointsOnRanks(*shared, mesh, region);
-  }
-  else
-  {
-    ids = ofCells ? cellsIn(mesh, region, arguments.Whole) : pointsIn(mesh, region);
-  }
+  const std::vector<std::int64_t> ids =
+    ofCells ? cellsIn(mesh, region, arguments.Whole, shared) : pointsIn(mesh, region, shared);
   if (shared && !shared->isFirst())
   {
     return;
@@ -168,9 +160,7 @@ void writeZones(Communicator* shared, const ResidentMesh& mesh, const ZoneArgume
     for (int k = 0; k < components; ++k)
     {
       names.push_back(array + (components > 1 ? "_" + std::to_string(k) : ""));
-      statistics.push_back(shared
-          ? statisticsOnRanks(*shared, mesh, zones, array, k, arguments.Level)
-          : statisticsOf(mesh, zones, array, k, arguments.Level));
+      statistics.push_back(statisticsOf(mesh, zones, array, k, arguments.Level, shared));
     }
   }
   if (!isFirst)
@@ -209,9 +199,8 @@ void writeDescents(Communicator* shared, const ResidentMesh& mesh,
   const std::vector<Point3>& points, const std::string& array, const std::string& output,
   const PathState& before)
 {
-  const Descents descents = shared
-    ? gathered(*shared, descentsOnRanks(*shared, mesh, points, array, 0))
-    : descentsOf(mesh, points, array, 0);
+  const Descents own = descentsOf(mesh, points, array, 0, shared);
+  const Descents descents = shared ? gathered(*shared, own) : own;
   if (shared && !shared->isFirst())
   {
     return;

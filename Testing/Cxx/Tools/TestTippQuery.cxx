@@ -204,6 +204,14 @@ TEST_F(TippQuery, RefusesInvalidQueries)
   this->Folder.file("none.csv", "x,y\n1,1\n");
   expect({ "query", "mesh.tipp", "--zones", "none.csv", "-o", "out.csv" }, 1, "has no polygons");
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.csv", "--step", "-1" }, 2, "--step");
+  expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.csv", "--step", "1" }, 1,
+    "mesh.tipp: has no time step 1; there are 0, counted from 0.");
+  this->Folder.file(
+    "overlap.csv", "WKT\n\"POLYGON ((0 0,2 0,2 2,0 0))\"\n\"POLYGON ((1 -1,3 -1,1 1.5,1 -1))\"\n");
+  expect({ "query", "mesh.tipp", "--ids", "cells", "--polygons", "overlap.csv", "-o", "out.csv" },
+    1, "overlaps another one");
+  this->Folder.file("fort.14", "");
+  expect({ "query", "asked.csv", "fort.14", "-o", "out.csv" }, 1, "'tipp flatten fort.14 -o mesh'");
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "out.vtu" }, 2, "does not end in .csv or .npy");
   expect({ "query", "asked.csv", "mesh.tipp", "-o", "asked.csv" }, 1, "asked.csv");
   std::filesystem::remove(this->Folder.path("mesh.tipp/pieces/000000.vtu"));
