@@ -88,10 +88,7 @@ public:
   }
 
   /// Whether there are polygons, a boundary or holes, so that triangles may be removed.
-  bool cuts() const
-  {
-    return this->HasPolygons || this->HasBoundary || !this->Holes.items().empty();
-  }
+  bool cuts() const { return this->HasPolygons || this->HasBoundary || this->Holes.groups() > 0; }
 
   /// Whether no edge of a polygon, boundary or hole can meet the box. Then either all triangles in
   /// the box are kept or none.

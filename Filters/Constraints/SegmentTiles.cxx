@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/SegmentTiles.h"
 
+#include "Constraints/CrossingPairs.h"
 #include "OutOfCore/StreamSampler.h"
 
 #include <algorithm>
@@ -63,12 +64,16 @@ SegmentTiles::SegmentTiles(const std::string& file,
   this->Rows->finish();
 }
 
+std::vector<SegmentTree::Item> SegmentTiles::itemsOf(std::size_t tile) const
+{
+  return this->Rows->readAll<SegmentTree::Item>(tile);
+}
+
 void SegmentTiles::findCrossings(const std::function<void(std::int64_t, std::int64_t)>& found) const
 {
   for (std::size_t tile = 0; tile < this->Rows->keys(); ++tile)
   {
-    for (const CrossingPair& pair :
-      findCrossingPairs(this->Rows->readAll<SegmentTree::Item>(tile), this->Threads))
+    for (const CrossingPair& pair : findCrossingPairs(this->itemsOf(tile), this->Threads))
     {
       found(pair[0], pair[1]);
     }
@@ -80,7 +85,7 @@ void SegmentTiles::findNear(const std::function<bool(std::int64_t)>& isWanted,
 {
   for (std::size_t tile = 0; tile < this->Rows->keys(); ++tile)
   {
-    std::vector<SegmentTree::Item> items = this->Rows->readAll<SegmentTree::Item>(tile);
+    std::vector<SegmentTree::Item> items = this->itemsOf(tile);
     std::vector<SegmentTree::Item> wanted;
     std::copy_if(items.begin(), items.end(), std::back_inserter(wanted),
       [&](const SegmentTree::Item& item) { return isWanted(item.Id); });

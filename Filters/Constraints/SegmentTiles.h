@@ -41,6 +41,8 @@ public:
     const std::function<void(std::int64_t)>& near) const;
 
 private:
+  std::vector<SegmentTree::Item> itemsOf(std::size_t tile) const;
+
   const int Threads;
   double Margin = 0; ///< the distance that counts as near
   std::unique_ptr<KeyedRows> Rows;

@@ -2,9 +2,7 @@
 #include "Constraints/SegmentTree.h"
 
 #include "Kernel/InsertionOrder.h"
-#include "Parallel/ParallelFor.h"
 #include "Parallel/RadixSort.h"
-#include "Predicates/ExactPredicates.h"
 #include "Triangulation/PointsView.h"
 
 #include <numeric>
@@ -30,10 +28,12 @@ std::uint32_t mortonKey(const SegmentTree::Item& item, const Box2& all)
     spreadBits(cellOf(item.A.y / 2 + item.B.y / 2, all.ymin, all.ymax)) << 1;
 }
 
-/// The bounding box of all segments, of which there must be some.
-Box2 boxOfAll(const std::vector<SegmentTree::Item>& segments, int threads)
+} // namespace
+
+Box2 SegmentTree::boxOfAll(const std::vector<Item>& segments, int threads)
 {
-  const Box2 first = boxOf(segments.front().A, segments.front().B);
+  const Box2 first = segments.empty() ? Box2{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL }
+                                      : boxOf(segments.front().A, segments.front().B);
   std::vector<Box2> boxes(std::size_t(threads), first);
   forChunks(std::int64_t(segments.size()), SegmentTree::Chunk, threads, {},
     [&](std::int64_t begin, std::int64_t end, int thread)
@@ -41,7 +41,7 @@ Box2 boxOfAll(const std::vector<SegmentTree::Item>& segments, int threads)
       Box2 box = first;
       for (std::int64_t i = begin; i < end; ++i)
       {
-        const SegmentTree::Item& item = segments[std::size_t(i)];
+        const Item& item = segments[std::size_t(i)];
         box = unionOf(box, boxOf(item.A, item.B));
       }
       Box2& all = boxes[std::size_t(thread)];
@@ -49,19 +49,6 @@ Box2 boxOfAll(const std::vector<SegmentTree::Item>& segments, int threads)
     });
   return std::accumulate(boxes.begin(), boxes.end(), first, unionOf);
 }
-
-void compare(
-  const SegmentTree::Item& one, const SegmentTree::Item& other, std::vector<CrossingPair>& found)
-{
-  const bool isConnected =
-    one.A == other.A || one.A == other.B || one.B == other.A || one.B == other.B;
-  if (!isConnected && crossProperly(one.A, one.B, other.A, other.B))
-  {
-    found.push_back({ std::min(one.Id, other.Id), std::max(one.Id, other.Id) });
-  }
-}
-
-} // namespace
 
 SegmentTree::SegmentTree(std::vector<Item> segments, int threads)
 {
@@ -130,34 +117,6 @@ std::vector<std::int64_t> SegmentTree::nameByPosition()
     names.push_back(std::exchange(item.Id, std::int64_t(names.size())));
   }
   return names;
-}
-
-std::vector<CrossingPair> findCrossingPairs(std::vector<SegmentTree::Item> all, int threads)
-{
-  const SegmentTree tree(std::move(all), threads);
-  std::vector<std::vector<CrossingPair>> found(static_cast<std::size_t>(threads));
-  constexpr std::int64_t chunk = 1024;
-  forChunks(std::int64_t(tree.items().size()), chunk, threads, {},
-    [&](std::int64_t begin, std::int64_t end, int thread)
-    {
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        const SegmentTree::Item& one = tree.items()[std::size_t(i)];
-        tree.visitNear(one,
-          [&](const SegmentTree::Item& other)
-          {
-            other.Id > one.Id ? compare(one, other, found[std::size_t(thread)]) : void();
-            return true;
-          });
-      }
-    });
-  std::vector<CrossingPair> pairs;
-  for (const std::vector<CrossingPair>& part : found)
-  {
-    pairs.insert(pairs.end(), part.begin(), part.end());
-  }
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
 }
 
 } // namespace tipp

@@ -24,13 +24,6 @@ inline bool overlap(const Box2& a, const Box2& b)
   return a.xmin <= b.xmax && b.xmin <= a.xmax && a.ymin <= b.ymax && b.ymin <= a.ymax;
 }
 
-/// Whether p, a point on the line through a and b, is strictly between these.
-inline bool isBetween(Point2 a, Point2 p, Point2 b)
-{
-  return lexicographicLess(a, b) ? lexicographicLess(a, p) && lexicographicLess(p, b)
-                                 : lexicographicLess(b, p) && lexicographicLess(p, a);
-}
-
 inline Box2 expanded(const Box2& box, double margin)
 {
   return { box.xmin - margin, box.ymin - margin, box.xmax + margin, box.ymax + margin };
@@ -73,6 +66,9 @@ public:
 
   static constexpr std::int64_t Chunk = 8192; ///< number of items that a thread processes at a time
 
+  /// The bounding box of all segments; without segments, an empty box.
+  static Box2 boxOfAll(const std::vector<Item>& segments, int threads);
+
   const std::vector<Item>& items() const { return this->Items; }
 
   /// Sets the Id of each item to its index among the items. Returns the previous Ids.
@@ -96,6 +92,33 @@ public:
     { return overlap(box, node) && lineMayMeet(segment.A, segment.B, expanded(node, margin)); };
     this->visitNodes(isNear,
       [&](const Item& item) { return !overlap(box, boxOf(item.A, item.B)) || visit(item); });
+  }
+
+  /// The number of groups of neighbouring items, for visitPairs().
+  std::size_t groups() const { return this->Levels.empty() ? 0 : this->Levels.front().size(); }
+
+  /// Calls visit(item, item) for all pairs with overlapping bounding boxes, of an item in this
+  /// group and an item in this or a later group. For short segments, since the whole group is
+  /// searched at once.
+  template <typename Visit>
+  void visitPairs(std::size_t group, const Visit& visit) const
+  {
+    const Box2& box = this->Levels.front()[group];
+    const Item* const begin = this->Items.data() + group * Fanout;
+    const Item* const end = this->Items.data() + std::min(this->Items.size(), (group + 1) * Fanout);
+    this->visitNodes([&box](const Box2& node) { return overlap(box, node); },
+      [&](const Item& other)
+      {
+        const Box2 its = boxOf(other.A, other.B);
+        if (&other >= begin && overlap(box, its))
+        {
+          for (const Item* one = begin; one != end && one != &other; ++one)
+          {
+            overlap(its, boxOf(one->A, one->B)) ? visit(*one, other) : void();
+          }
+        }
+        return true;
+      });
   }
 
 private:
@@ -133,12 +156,6 @@ private:
   std::vector<Item> Items;
   std::vector<std::vector<Box2>> Levels; ///< boxes of groups of items, of these, ..., the root
 };
-
-/// The Ids of two segments that cross, the lower first.
-using CrossingPair = std::array<std::int64_t, 2>;
-
-/// All pairs of segments that cross at a point in the interior of both, sorted. Exact.
-std::vector<CrossingPair> findCrossingPairs(std::vector<SegmentTree::Item> segments, int threads);
 
 } // namespace tipp
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/SplitStored.h"
 
+#include "Constraints/CrossingPairs.h"
 #include "Constraints/SegmentTiles.h"
 #include "Predicates/Points.h"
 
