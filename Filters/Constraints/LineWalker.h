@@ -4,6 +4,7 @@
 
 #include "Constraints/ConstrainedMesh.h"
 #include "Constraints/Constraint.h"
+#include "Constraints/SegmentTree.h"
 #include "Predicates/ExactPredicates.h"
 #include "Predicates/Points.h"
 
@@ -40,14 +41,6 @@ struct DirectedLine
 
   /// 1 if p is on the left of the line, -1 on the right, 0 on it.
   int side(Point2 p) const { return orientation(this->B, p, this->A); } // B - A is computed once
-
-  /// Whether p, a point on the line, is between `from` and B.
-  bool isBetween(Point2 from, Point2 p) const
-  {
-    return lexicographicLess(this->A, this->B)
-      ? lexicographicLess(from, p) && lexicographicLess(p, this->B)
-      : lexicographicLess(p, from) && lexicographicLess(this->B, p);
-  }
 };
 
 /// The triangles that a walk crosses. The edges around them form two chains, on the left and on the
@@ -152,7 +145,7 @@ private:
 
   bool isNext(const DirectedLine& line, Index a, Index v) const
   {
-    return v == line.Goal || line.isBetween(this->Mesh.at(a), this->Mesh.at(v));
+    return v == line.Goal || isBetween(this->Mesh.at(a), this->Mesh.at(v), line.B);
   }
 
   /// A vertex of a chain after the edge of a crossed triangle's half-edge.

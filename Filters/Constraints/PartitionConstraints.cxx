@@ -306,7 +306,7 @@ private:
         continue;
       }
       const int side = line.side(from);
-      if (side == 0 && line.isBetween(line.A, from))
+      if (side == 0 && isBetween(line.A, from, line.B))
       {
         noteFromVertex(this->Mesh.from(half));
       }

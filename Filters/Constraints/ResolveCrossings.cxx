@@ -2,7 +2,6 @@
 #include "Constraints/ResolveCrossings.h"
 
 #include "Arrays/SortUnique.h"
-#include "Constraints/CrossingPairs.h"
 #include "Constraints/SegmentTree.h"
 #include "Parallel/ParallelFor.h"
 #include "Predicates/ExactArithmetic.h"

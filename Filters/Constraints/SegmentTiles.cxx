@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/SegmentTiles.h"
 
-#include "Constraints/CrossingPairs.h"
 #include "OutOfCore/StreamSampler.h"
 
 #include <algorithm>

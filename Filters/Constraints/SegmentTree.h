@@ -24,6 +24,13 @@ inline bool overlap(const Box2& a, const Box2& b)
   return a.xmin <= b.xmax && b.xmin <= a.xmax && a.ymin <= b.ymax && b.ymin <= a.ymax;
 }
 
+/// Whether p, a point on the line through a and b, is strictly between these.
+inline bool isBetween(Point2 a, Point2 p, Point2 b)
+{
+  return lexicographicLess(a, b) ? lexicographicLess(a, p) && lexicographicLess(p, b)
+                                 : lexicographicLess(b, p) && lexicographicLess(p, a);
+}
+
 inline Box2 expanded(const Box2& box, double margin)
 {
   return { box.xmin - margin, box.ymin - margin, box.xmax + margin, box.ymax + margin };
@@ -156,6 +163,12 @@ private:
   std::vector<Item> Items;
   std::vector<std::vector<Box2>> Levels; ///< boxes of groups of items, of these, ..., the root
 };
+
+/// The Ids of two segments that cross, the lower first.
+using CrossingPair = std::array<std::int64_t, 2>;
+
+/// All pairs of segments that cross at a point in the interior of both, sorted. Exact.
+std::vector<CrossingPair> findCrossingPairs(std::vector<SegmentTree::Item> segments, int threads);
 
 } // namespace tipp
 

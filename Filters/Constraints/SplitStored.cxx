@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/SplitStored.h"
 
-#include "Constraints/CrossingPairs.h"
 #include "Constraints/SegmentTiles.h"
 #include "Predicates/Points.h"
 

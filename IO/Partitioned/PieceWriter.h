@@ -2,6 +2,7 @@
 #ifndef tippPieceWriter_h
 #define tippPieceWriter_h
 
+#include "Arrays/Buffer.h"
 #include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
 #include "Partitioned/Checksum.h"
@@ -42,7 +43,7 @@ public:
 private:
   const OutputFile& File;
   std::uint64_t Offset;
-  std::vector<char> Buffer;
+  Buffer<char> Unwritten; ///< the first `Used` bytes; not cleared, as most pieces fill little of it
   std::size_t Used = 0;
   std::size_t Hashed = 0;
   Checksum Part;

@@ -209,7 +209,7 @@ private:
     const std::int32_t first = this->Tree.firstChild(node);
     for (std::int32_t child = first; child < first + this->Tree.childCount(); ++child)
     {
-      if (cell.Length <= this->Tree.length(child) && meetsBox(shape, cell, this->Tree.box(child)))
+      if (meetsBox(shape, cell, this->Tree.box(child)) && cell.Length <= this->Tree.length(child))
       {
         visit(child);
       }
