@@ -85,12 +85,8 @@ public:
       }
       for (const Entry& entry : this->Rows[y].Entries)
       {
-        // A segment in several rows is visited in the first one.
-        if ((entry.Columns & columns) != 0 && y == std::max(begin, entry.First) &&
-          overlap(box, entry.Box))
-        {
-          visit(*entry.Segment);
-        }
+        const bool isNear = (entry.Columns & columns) != 0 && y == std::max(begin, entry.First);
+        isNear&& overlap(box, entry.Box) ? visit(*entry.Segment) : void();
       }
     }
   }
@@ -129,7 +125,7 @@ private:
     std::size_t cellOf(double value) const
     {
       const double cell = (value - this->Low) * this->Scale;
-      return cell > 0 ? std::size_t(int(std::min(cell, double(Cells - 1)))) : 0;
+      return cell > 0 ? std::size_t(std::min(cell, double(Cells - 1))) : 0;
     }
 
     double Low = 0;
