@@ -44,68 +44,79 @@ struct ScannedTriangles
   std::vector<Edge> Edges; ///< of crossed triangles, or of all triangles
 };
 
-/// A raster over some triangles. Its rows list the segments near them.
+/// A raster over some triangles, whose cells list the segments near them.
 class SegmentRaster
 {
 public:
-  void fill(const Box2& box, const std::vector<SegmentTree::Item>& segments)
+  void fill(const Box2& box, const std::vector<const SegmentTree::Item*>& segments)
   {
     this->X = Axis(box.xmin, box.xmax);
     this->Y = Axis(box.ymin, box.ymax);
-    for (Row& row : this->Rows)
+    this->Near.clear();
+    for (std::size_t s = 0; s < segments.size(); ++s)
     {
-      row.Columns = 0;
-      row.Entries.clear();
+      const SegmentTree::Item& segment = *segments[s];
+      this->forCells(boxOf(segment.A, segment.B),
+        [&](int x, int y)
+        {
+          if (lineMayMeet(segment.A, segment.B, this->cell(x, y)))
+          {
+            this->Near.push_back({ y * Cells + x, std::int32_t(s) });
+          }
+        });
     }
-    for (const SegmentTree::Item& segment : segments)
+    // Counting sort by cell.
+    this->Starts.fill(0);
+    for (const auto& entry : this->Near)
     {
-      const Box2 its = boxOf(segment.A, segment.B);
-      const Columns columns = this->columnsOf(its);
-      const std::size_t first = this->Y.cellOf(its.ymin);
-      for (std::size_t y = first; y <= this->Y.cellOf(its.ymax); ++y)
-      {
-        this->Rows[y].Columns |= columns;
-        this->Rows[y].Entries.push_back({ columns, first, its, &segment });
-      }
+      ++this->Starts[std::size_t(entry.Cell) + 1];
+    }
+    for (std::size_t c = 1; c < this->Starts.size(); ++c)
+    {
+      this->Starts[c] += this->Starts[c - 1];
+    }
+    this->Used.fill(0);
+    for (const auto& entry : this->Near)
+    {
+      this->Used[std::size_t(entry.Cell / Cells)] |= 1U << (entry.Cell % Cells);
+    }
+    this->Sorted.resize(this->Near.size());
+    auto next = this->Starts;
+    for (const auto& entry : this->Near)
+    {
+      this->Sorted[std::size_t(next[std::size_t(entry.Cell)]++)] = entry.Segment;
     }
   }
 
-  /// Calls visit(segment) for each segment whose bounding box overlaps the box.
+  /// Calls visit(segment) for all segments near a box. A segment may be visited several times.
   template <typename Visit>
   void visitNear(const Box2& box, const Visit& visit) const
   {
-    const Columns columns = this->columnsOf(box);
-    const std::size_t begin = this->Y.cellOf(box.ymin);
-    const std::size_t end = this->Y.cellOf(box.ymax);
-    for (std::size_t y = begin; y <= end; ++y)
+    const int xBegin = this->X.cellOf(box.xmin);
+    const int xEnd = this->X.cellOf(box.xmax);
+    const std::uint32_t columns = (~0U << xBegin) & (~0U >> (Cells - 1 - xEnd));
+    const int yEnd = this->Y.cellOf(box.ymax);
+    for (int y = this->Y.cellOf(box.ymin); y <= yEnd; ++y)
     {
-      if ((this->Rows[y].Columns & columns) == 0)
+      if ((this->Used[std::size_t(y)] & columns) == 0)
       {
         continue; // most triangles have no segment nearby
       }
-      for (const Entry& entry : this->Rows[y].Entries)
+      const auto* const starts = &this->Starts[std::size_t(y) * Cells];
+      for (auto i = starts[xBegin]; i < starts[xEnd + 1]; ++i)
       {
-        const bool isNear = (entry.Columns & columns) != 0 && y == std::max(begin, entry.First);
-        isNear&& overlap(box, entry.Box) ? visit(*entry.Segment) : void();
+        visit(std::size_t(this->Sorted[std::size_t(i)]));
       }
     }
   }
 
 private:
-  using Columns = std::uint64_t;           ///< a bit for each column
-  static constexpr std::size_t Cells = 64; ///< cells per axis
+  static constexpr int Cells = 32; ///< cells per axis; also the bits of a row of Used
 
   struct Entry
   {
-    SegmentRaster::Columns Columns; ///< that the segment's bounding box meets
-    std::size_t First;              ///< the first row that it meets
-    Box2 Box;
-    const SegmentTree::Item* Segment;
-  };
-  struct Row
-  {
-    SegmentRaster::Columns Columns = 0; ///< of all entries
-    std::vector<Entry> Entries;
+    std::int32_t Cell;
+    std::int32_t Segment;
   };
 
   /// The cells along an axis. If cells would be too small or too large for doubles, only the first
@@ -115,32 +126,68 @@ private:
     Axis() = default;
     Axis(double low, double high)
       : Low(low)
+      , High(high)
     {
-      constexpr double shortest = 1e-280;
       const double length = high - low;
-      this->Scale = length > shortest && std::isfinite(length) ? double(Cells) / length : 0;
+      constexpr double shortest = 1e-280;
+      if (length > shortest && std::isfinite(length))
+      {
+        this->Step = length / Cells;
+        this->Scale = Cells / length;
+        constexpr double part = 0.01;
+        constexpr double relative = 1e-15;
+        this->Margin = part * this->Step + relative * std::max(std::fabs(low), std::fabs(high));
+      }
     }
 
     /// The cell of a coordinate; never decreases with it.
-    std::size_t cellOf(double value) const
+    int cellOf(double value) const
     {
       const double cell = (value - this->Low) * this->Scale;
-      return cell > 0 ? std::size_t(std::min(cell, double(Cells - 1))) : 0;
+      return cell > 0 ? int(std::min(cell, double(Cells - 1))) : 0;
+    }
+    double begin(int cell) const
+    {
+      return this->Scale > 0 ? this->Low + cell * this->Step - this->Margin : this->Low;
+    }
+    double end(int cell) const
+    {
+      return this->Scale > 0 ? this->Low + (cell + 1) * this->Step + this->Margin : this->High;
     }
 
     double Low = 0;
+    double High = 0;
+    double Step = 0;
     double Scale = 0;
+    double Margin = 0;
   };
 
-  Columns columnsOf(const Box2& box) const
+  /// A box that contains all points of a cell, with a margin for rounding.
+  Box2 cell(int x, int y) const
   {
-    constexpr Columns all = ~Columns(0);
-    return all << this->X.cellOf(box.xmin) & all >> (Cells - 1 - this->X.cellOf(box.xmax));
+    return { this->X.begin(x), this->Y.begin(y), this->X.end(x), this->Y.end(y) };
+  }
+
+  template <typename Visit>
+  void forCells(const Box2& box, const Visit& visit) const
+  {
+    const int xEnd = this->X.cellOf(box.xmax);
+    const int yEnd = this->Y.cellOf(box.ymax);
+    for (int y = this->Y.cellOf(box.ymin); y <= yEnd; ++y)
+    {
+      for (int x = this->X.cellOf(box.xmin); x <= xEnd; ++x)
+      {
+        visit(x, y);
+      }
+    }
   }
 
   Axis X;
   Axis Y;
-  std::array<Row, Cells> Rows;
+  std::vector<Entry> Near;
+  std::array<std::int32_t, std::size_t(Cells) * Cells + 1> Starts{};
+  std::array<std::uint32_t, Cells> Used{}; ///< per row: a bit for each cell with segments nearby
+  std::vector<std::int32_t> Sorted;
 };
 
 /// Finds the triangles that segments cross, a few triangles at a time. The ends of segments are
@@ -173,7 +220,10 @@ public:
     this->Tree.visitNear(box,
       [&](const SegmentTree::Item& item)
       {
-        lineMayMeet(item.A, item.B, box) ? this->Segments.push_back(item) : void();
+        if (lineMayMeet(item.A, item.B, box))
+        {
+          this->Segments.push_back(&item);
+        }
         return true;
       });
     if (this->Segments.empty())
@@ -181,6 +231,7 @@ public:
       return;
     }
     this->Raster.fill(box, this->Segments);
+    this->LastTriangle.assign(this->Segments.size(), end);
     for (std::size_t t = begin; t < end; ++t)
     {
       this->scanTriangle(t, corners + 3 * t, &this->Positions[3 * (t - begin)], found);
@@ -209,12 +260,17 @@ private:
     const std::size_t edgesBefore = found.Edges.size();
     bool isCrossed = false;
     this->Raster.visitNear(box,
-      [&](const SegmentTree::Item& segment)
+      [&](std::size_t s)
       {
-        if (crosses(segment, t, ids, p, found))
+        const SegmentTree::Item& segment = *this->Segments[s];
+        if (this->LastTriangle[s] != t && overlap(box, boxOf(segment.A, segment.B)))
         {
-          isCrossed = true;
-          found.Crossings.push_back({ std::int64_t(t), segment.Id });
+          this->LastTriangle[s] = t;
+          if (crosses(segment, t, ids, p, found))
+          {
+            isCrossed = true;
+            found.Crossings.push_back({ std::int64_t(t), segment.Id });
+          }
         }
       });
     if (!isCrossed && this->Noted == NotedEdges::OfCrossed)
@@ -234,7 +290,7 @@ private:
     {
       const bool isEnd = p[i] == segment.A || p[i] == segment.B;
       side[i] = isEnd ? 0 : orientation(segment.A, segment.B, p[i]);
-      const bool isTouch = side[i] == 0 && !isEnd && isBetween(segment.A, p[i], segment.B);
+      const bool isTouch = side[i] == 0 && !isEnd && isBetween(segment, p[i]);
       isOn[i] = isEnd || isTouch;
       if (isTouch)
       {
@@ -259,11 +315,20 @@ private:
     return false;
   }
 
+  /// Whether p, a point on the segment's line, is strictly between its ends.
+  static bool isBetween(const SegmentTree::Item& segment, Point2 p)
+  {
+    return lexicographicLess(segment.A, segment.B)
+      ? lexicographicLess(segment.A, p) && lexicographicLess(p, segment.B)
+      : lexicographicLess(segment.B, p) && lexicographicLess(p, segment.A);
+  }
+
   PointsView Points;
   const SegmentTree& Tree;
   const NotedEdges Noted;
   std::vector<Point2> Positions;
-  std::vector<SegmentTree::Item> Segments;
+  std::vector<const SegmentTree::Item*> Segments;
+  std::vector<std::size_t> LastTriangle; ///< the triangle that each segment was last tested with
   SegmentRaster Raster;
 };
 
