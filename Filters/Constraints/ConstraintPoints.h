@@ -26,6 +26,8 @@ class PositionIndex
 public:
   explicit PositionIndex(std::vector<Point2> points);
 
+  const std::vector<Point2>& points() const { return this->Points; }
+
   /// A hash of the coordinates, all bits of which depend on both.
   static std::uint64_t hashOf(Point2 position)
   {
@@ -131,7 +133,7 @@ private:
   std::array<double, 3> weightsAt(Point2 position) const;
 };
 
-/// Positions to be found in the triangles of a surface.
+/// Positions on a triangulated surface whose values are requested.
 class VTKTIPPFILTERS_EXPORT SurfacePositions
 {
 public:

@@ -267,6 +267,7 @@ private:
     {
       this->follow(piece, false);
     }
+    this->Border.clear();
     for (std::size_t i = 0; i < this->NearCount; ++i)
     {
       const bool hasA = this->Ends.vertex(EndVertices::End(2 * i)) != NoVertex;
@@ -286,6 +287,7 @@ private:
   /// from each edge and vertex where it enters them.
   void noteEntries(const std::vector<BorderEdge>& border, std::size_t number)
   {
+    this->locateBorder(border);
     const std::int64_t piece = this->Near[number];
     const ConstraintPiece& ids = this->piece(number);
     const DirectedLine line{ this->Of.EndsAt[ids.A], this->Of.EndsAt[ids.B], NoVertex };
@@ -295,28 +297,35 @@ private:
       this->follow({ piece, vertex, line }, false);
     };
     const Box2 box = boxOf(line.A, line.B);
-    for (const BorderEdge& edge : border)
+    for (const EntryEdge& edge : this->Border)
     {
-      // On the right of this half-edge is an interior triangle.
-      const Index half = ConstrainedMesh::halfFrom(edge.Outside, (edge.Corner + 1) % 3);
-      const Point2 from = this->Mesh.at(this->Mesh.from(half));
-      const Point2 to = this->Mesh.at(this->Mesh.to(half));
-      if (!overlap(box, boxOf(from, to)))
+      if (!overlap(box, boxOf(edge.From, edge.To)))
       {
         continue;
       }
-      const int side = line.side(from);
-      if (side == 0 && isBetween(line.A, from, line.B))
+      const int from = line.side(edge.From);
+      if (from == 0 && isBetween(line.A, edge.From, line.B))
       {
-        noteFromVertex(this->Mesh.from(half));
+        noteFromVertex(this->Mesh.from(edge.Half));
       }
-      else if (side < 0 && line.side(to) > 0 && orientation(from, to, line.A) > 0 &&
-        orientation(from, to, line.B) < 0)
+      else if (from < 0 && line.side(edge.To) > 0 && orientation(edge.From, edge.To, line.A) > 0 &&
+        orientation(edge.From, edge.To, line.B) < 0)
       {
-        const LineWalk walk = this->Walker.walkAcross(line, half);
+        const LineWalk walk = this->Walker.walkAcross(line, edge.Half);
         this->note(piece);
         walk.How == LineWalk::End::Touched ? noteFromVertex(walk.Vertex) : void();
       }
+    }
+  }
+
+  /// Finds the positions of the border's edges, the first time for each partition.
+  void locateBorder(const std::vector<BorderEdge>& border)
+  {
+    for (std::size_t i = this->Border.size(); i < border.size(); ++i)
+    {
+      const Index half = ConstrainedMesh::halfFrom(border[i].Outside, (border[i].Corner + 1) % 3);
+      this->Border.push_back(
+        { half, this->Mesh.at(this->Mesh.from(half)), this->Mesh.at(this->Mesh.to(half)) });
     }
   }
 
@@ -431,7 +440,14 @@ private:
     Whole;                       ///< of pieces with both ends in the partition: the one found last
   std::vector<BegunPiece> Begun; ///< pieces with both ends here that are not inserted
   std::vector<std::pair<std::size_t, Index>> Coinciding; ///< points and the vertices at them
-  std::vector<Crossing> Noted;                           ///< triangles are numbers in the kernel
+  struct EntryEdge
+  {
+    Index Half; ///< its right side is interior
+    Point2 From;
+    Point2 To;
+  };
+  std::vector<EntryEdge> Border; ///< the partition's border, if it was needed
+  std::vector<Crossing> Noted;   ///< triangles are numbers in the kernel
   std::vector<CrossedTriangles::Touch> Touches;
   std::vector<Edge> FixedEdges;
 };
