@@ -263,23 +263,28 @@ private:
   /// Records the interior triangles that the remaining pieces cross.
   void noteOthers(const std::vector<BorderEdge>& border)
   {
-    for (const BegunPiece& piece : this->Begun)
-    {
-      this->follow(piece, false);
-    }
-    this->Border.clear();
+    this->Through.clear();
     for (std::size_t i = 0; i < this->NearCount; ++i)
     {
       const bool hasA = this->Ends.vertex(EndVertices::End(2 * i)) != NoVertex;
       const bool hasB = this->Ends.vertex(EndVertices::End(2 * i + 1)) != NoVertex;
       if (hasA != hasB)
       {
-        this->follow(this->begun(i, hasB), false);
+        this->Begun.push_back(this->begun(i, hasB));
       }
       else if (!hasA)
       {
-        this->noteEntries(border, i);
+        this->Through.push_back(i);
       }
+    }
+    for (const BegunPiece& piece : this->Begun)
+    {
+      this->follow(piece, false);
+    }
+    this->Border.clear();
+    for (const std::size_t number : this->Through)
+    {
+      this->noteEntries(border, number);
     }
   }
 
@@ -438,7 +443,8 @@ private:
   EndVertices Ends;
   std::vector<EndVertices::End>
     Whole;                       ///< of pieces with both ends in the partition: the one found last
-  std::vector<BegunPiece> Begun; ///< pieces with both ends here that are not inserted
+  std::vector<BegunPiece> Begun; ///< pieces with one or both ends here that are not inserted
+  std::vector<std::size_t> Through; ///< by number in Near: pieces without ends in the partition
   std::vector<std::pair<std::size_t, Index>> Coinciding; ///< points and the vertices at them
   struct EntryEdge
   {

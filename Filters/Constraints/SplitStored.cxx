@@ -194,8 +194,11 @@ private:
     }
     for (std::vector<double>& column : values)
     {
-      column.resize(count + resolved.Crossings.size());
-      interpolateTuples(resolved.Crossings, count, Scalar::Float64, 1, column.data());
+      for (const CrossingPoint& crossing : resolved.Crossings)
+      {
+        column.push_back((1 - crossing.Fraction) * column[std::size_t(crossing.A)] +
+          crossing.Fraction * column[std::size_t(crossing.B)]);
+      }
       column.erase(column.begin(), column.begin() + std::ptrdiff_t(count));
     }
     result.Values = std::move(values);

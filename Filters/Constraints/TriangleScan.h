@@ -31,6 +31,10 @@ struct ScannedTriangles
       return this->Triangle != other.Triangle ? this->Triangle < other.Triangle
                                               : this->Piece < other.Piece;
     }
+    bool operator==(const Crossing& other) const
+    {
+      return this->Triangle == other.Triangle && this->Piece == other.Piece;
+    }
   };
   /// An edge of a triangle that is on a segment.
   struct Edge
