@@ -2,7 +2,6 @@
 #include "Constraints/ConstraintJobs.h"
 
 #include "Arrays/IndexMap.h"
-#include "Arrays/SortUnique.h"
 #include "Constraints/ConstraintRegion.h"
 #include "Constraints/TriangleStrip.h"
 #include "Parallel/ParallelFor.h"
@@ -19,39 +18,48 @@ namespace tipp
 namespace
 {
 
-/// The crossed triangles of each job, as ascending indices.
-class JobTriangles
+/// Concatenated lists of numbers.
+struct Lists
 {
-public:
-  /// `jobs`: the job of each crossed triangle.
-  explicit JobTriangles(const std::vector<std::int64_t>& jobs)
-    : Starts(jobs.empty() ? 1 : std::size_t(*std::max_element(jobs.begin(), jobs.end())) + 2, 0)
-    , Items(jobs.size())
-  {
-    for (const std::int64_t job : jobs)
-    {
-      ++this->Starts[std::size_t(job) + 1];
-    }
-    std::partial_sum(this->Starts.begin(), this->Starts.end(), this->Starts.begin());
-    std::vector<std::int64_t> next = this->Starts;
-    for (std::size_t i = 0; i < jobs.size(); ++i)
-    {
-      this->Items[std::size_t(next[std::size_t(jobs[i])]++)] = std::int64_t(i);
-    }
-  }
-
-  std::int64_t jobs() const { return std::int64_t(this->Starts.size()) - 1; }
-  const std::int64_t* begin(std::size_t job) const
-  {
-    return this->Items.data() + this->Starts[job];
-  }
-  const std::int64_t* end(std::size_t job) const { return this->begin(job + 1); }
-  std::size_t size(std::size_t job) const { return std::size_t(this->end(job) - this->begin(job)); }
-
-private:
-  std::vector<std::int64_t> Starts; ///< start of each job's list, and the end of the last
+  std::vector<std::int64_t> Starts; ///< start of each list, and the end of the last
   std::vector<std::int64_t> Items;
+
+  const std::int64_t* begin(std::size_t list) const
+  {
+    return this->Items.data() + this->Starts[list];
+  }
+  const std::int64_t* end(std::size_t list) const
+  {
+    return this->Items.data() + this->Starts[list + 1];
+  }
+  std::size_t size(std::size_t list) const
+  {
+    return std::size_t(this->Starts[list + 1] - this->Starts[list]);
+  }
 };
+
+/// For each list, the ascending indices i for which names[i] is the list's index. Negative names
+/// are in no list.
+Lists listsOf(const std::vector<std::int64_t>& names, std::size_t lists)
+{
+  Lists result;
+  result.Starts.assign(lists + 1, 0);
+  for (const std::int64_t list : names)
+  {
+    result.Starts[std::size_t(list + 1)] += list >= 0 ? 1 : 0;
+  }
+  std::partial_sum(result.Starts.begin(), result.Starts.end(), result.Starts.begin());
+  result.Items.resize(std::size_t(result.Starts.back()));
+  std::vector<std::int64_t> next = result.Starts;
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    if (names[i] >= 0)
+    {
+      result.Items[std::size_t(next[std::size_t(names[i])]++)] = std::int64_t(i);
+    }
+  }
+  return result;
+}
 
 /// Disjoint sets of pieces (union-find).
 class PieceSets
@@ -86,6 +94,67 @@ private:
   std::vector<std::int64_t> Parents;
 };
 
+/// Jobs: groups of triangles and pieces that are retriangulated together.
+struct Jobs
+{
+  std::size_t Count = 0;
+  std::vector<std::int64_t> OfTriangle;
+  std::vector<std::int64_t> Pieces;  ///< that cross triangles, each once
+  std::vector<std::int64_t> OfPiece; ///< by index in Pieces
+};
+
+/// Jobs are in the order of their first triangles, so that a job's memory is near the last one's.
+Jobs makeJobs(const CrossedTriangles& crossed)
+{
+  Jobs jobs;
+  IndexMap numbers;                 // only a few of all pieces are left
+  std::vector<std::int64_t> pieces; // as crossed.Pieces, but indices in jobs.Pieces
+  pieces.reserve(crossed.Pieces.size());
+  for (const std::int64_t piece : crossed.Pieces)
+  {
+    const auto [number, isNew] = numbers.insert(piece);
+    isNew ? jobs.Pieces.push_back(piece) : void();
+    pieces.push_back(number);
+  }
+  PieceSets sets(jobs.Pieces.size());
+  for (std::size_t t = 0; t < crossed.Triangles.size(); ++t)
+  {
+    const std::int64_t first = pieces[std::size_t(crossed.Starts[t])];
+    for (std::int64_t i = crossed.Starts[t] + 1; i < crossed.Starts[t + 1]; ++i)
+    {
+      sets.join(first, pieces[std::size_t(i)]);
+    }
+  }
+  constexpr std::int64_t none = -1;
+  jobs.OfPiece.assign(jobs.Pieces.size(), none);
+  jobs.OfTriangle.resize(crossed.Triangles.size());
+  for (std::size_t t = 0; t < crossed.Triangles.size(); ++t)
+  {
+    const std::int64_t begin = crossed.Starts[t];
+    std::int64_t& job = jobs.OfPiece[std::size_t(sets.find(pieces[std::size_t(begin)]))];
+    job = job == none ? std::int64_t(jobs.Count++) : job;
+    jobs.OfTriangle[t] = job;
+    for (std::int64_t i = begin; i < crossed.Starts[t + 1]; ++i)
+    {
+      jobs.OfPiece[std::size_t(pieces[std::size_t(i)])] = job;
+    }
+  }
+  return jobs;
+}
+
+/// The triangles and pieces of each job.
+struct JobLists
+{
+  explicit JobLists(const Jobs& jobs)
+    : Triangles(listsOf(jobs.OfTriangle, jobs.Count))
+    , Pieces(listsOf(jobs.OfPiece, jobs.Count))
+  {
+  }
+
+  Lists Triangles; ///< indices in CrossedTriangles::Triangles
+  Lists Pieces;    ///< indices in Jobs::Pieces
+};
+
 /// A thread's workspace for retriangulation.
 template <typename Id>
 class JobWorker
@@ -94,12 +163,13 @@ public:
   using Corners = std::array<PointId, 3>;
 
   /// `known` are constraints that may already be edges between triangles of a job.
-  JobWorker(PointsView points, Id* triangles, const CrossedTriangles& crossed,
-    const JobTriangles& all, const SplitPieces& split, const ConstraintEdges& known)
+  JobWorker(PointsView points, Id* triangles, const CrossedTriangles& crossed, const Jobs& jobs,
+    const JobLists& lists, const SplitPieces& split, const ConstraintEdges& known)
     : Points(points)
     , Triangles(triangles)
     , Crossed(crossed)
-    , All(all)
+    , Pieces(jobs.Pieces)
+    , All(lists)
     , Split(split)
     , Known(known)
   {
@@ -120,8 +190,8 @@ private:
   /// independent loads overlap.
   void load(std::size_t begin, std::size_t end)
   {
-    const std::int64_t* const first = this->All.begin(begin);
-    const auto count = std::size_t(this->All.end(end - 1) - first);
+    const std::int64_t* const first = this->All.Triangles.begin(begin);
+    const auto count = std::size_t(this->All.Triangles.end(end - 1) - first);
     this->Loaded.resize(count);
     for (std::size_t i = 0; i < count; ++i)
     {
@@ -139,21 +209,12 @@ private:
   void retriangulate(std::size_t job)
   {
     this->New.clear();
-    this->Pieces.clear();
-    std::for_each(this->All.begin(job), this->All.end(job),
-      [this](std::int64_t crossed)
-      {
-        const auto first = this->Crossed.Pieces.begin();
-        this->Pieces.insert(this->Pieces.end(), first + this->Crossed.Starts[std::size_t(crossed)],
-          first + this->Crossed.Starts[std::size_t(crossed) + 1]);
-      });
-    sortUnique(this->Pieces);
     const ConstraintPiece* const only = this->onlySegment(job);
     only ? this->retriangulateStrip(job, *only) : this->retriangulateRegion(job);
     std::sort(this->New.begin(), this->New.end());
     for (std::size_t i = 0; i < this->New.size(); ++i)
     {
-      this->store(this->All.begin(job)[i], this->New[i]);
+      this->store(this->All.Triangles.begin(job)[i], this->New[i]);
     }
   }
 
@@ -161,11 +222,12 @@ private:
   /// null.
   const ConstraintPiece* onlySegment(std::size_t job) const
   {
-    if (this->Pieces.size() != 1 || this->All.size(job) > TriangleStrip::MostTriangles)
+    if (this->All.Pieces.size(job) != 1 ||
+      this->All.Triangles.size(job) > TriangleStrip::MostTriangles)
     {
       return nullptr;
     }
-    const auto piece = std::size_t(this->Pieces.front());
+    const std::size_t piece = this->piece(*this->All.Pieces.begin(job));
     return this->Split.end(piece) - this->Split.begin(piece) == 1 ? this->Split.begin(piece)
                                                                   : nullptr;
   }
@@ -173,21 +235,21 @@ private:
   void retriangulateStrip(std::size_t job, const ConstraintPiece& segment)
   {
     this->Strip.follow(
-      this->loaded(job), this->All.size(job), segment.A, segment.B, this->isKnown());
+      this->loaded(job), this->All.Triangles.size(job), segment.A, segment.B, this->isKnown());
     this->Strip.triangulate([this](const Corners& corners) { this->addNew(corners); });
   }
 
   void retriangulateRegion(std::size_t job)
   {
     this->Region.clear();
-    std::for_each(this->loaded(job), this->loaded(job) + this->All.size(job),
+    std::for_each(this->loaded(job), this->loaded(job) + this->All.Triangles.size(job),
       [this](const LocatedTriangle& triangle)
       { this->Region.add(triangle.Ids, triangle.Positions); });
     this->Region.finish();
     this->Region.fixEdges(this->isKnown());
-    for (const std::int64_t piece : this->Pieces)
+    for (auto i = this->All.Pieces.begin(job); i != this->All.Pieces.end(job); ++i)
     {
-      std::for_each(this->Split.begin(std::size_t(piece)), this->Split.end(std::size_t(piece)),
+      std::for_each(this->Split.begin(this->piece(*i)), this->Split.end(this->piece(*i)),
         [this](const ConstraintPiece& part) { this->Region.insert(part.A, part.B); });
     }
     for (std::size_t t = 0; t < this->Region.triangleCount(); ++t)
@@ -201,6 +263,11 @@ private:
     this->New.push_back(TriangleSink<PointId>::fromLowest(corners));
   }
 
+  std::size_t piece(std::int64_t number) const
+  {
+    return std::size_t(this->Pieces[std::size_t(number)]);
+  }
+
   auto isKnown() const
   {
     return [this](PointId a, PointId b) { return this->Known.contains(a, b); };
@@ -208,7 +275,7 @@ private:
 
   const LocatedTriangle* loaded(std::size_t job) const
   {
-    return &this->Loaded[std::size_t(this->All.begin(job) - this->LoadedBegin)];
+    return &this->Loaded[std::size_t(this->All.Triangles.begin(job) - this->LoadedBegin)];
   }
 
   Id* corners(std::int64_t crossed) const
@@ -225,12 +292,12 @@ private:
   PointsView Points;
   Id* Triangles;
   const CrossedTriangles& Crossed;
-  const JobTriangles& All;
+  const std::vector<std::int64_t>& Pieces;
+  const JobLists& All;
   const SplitPieces& Split;
   const ConstraintEdges& Known;
   std::vector<LocatedTriangle> Loaded;       ///< of several jobs
-  const std::int64_t* LoadedBegin = nullptr; ///< the entry of All for the first one
-  std::vector<std::int64_t> Pieces;          ///< that cross the job's triangles
+  const std::int64_t* LoadedBegin = nullptr; ///< the entry of All.Triangles for the first one
   TriangleStrip Strip;
   ConstraintRegion Region;
   std::vector<Corners> New;
@@ -283,49 +350,22 @@ SplitPieces splitPieces(PointsView points, std::vector<ConstraintPiece>& pieces,
 
 std::vector<std::int64_t> jobsOfTriangles(const CrossedTriangles& crossed)
 {
-  IndexMap numbers;                 // only a few of all pieces are left
-  std::vector<std::int64_t> pieces; // as crossed.Pieces, but numbered from 0
-  pieces.reserve(crossed.Pieces.size());
-  for (const std::int64_t piece : crossed.Pieces)
-  {
-    pieces.push_back(numbers.insert(piece).Index);
-  }
-  PieceSets sets(numbers.size());
-  for (std::size_t t = 0; t < crossed.Triangles.size(); ++t)
-  {
-    const std::int64_t first = pieces[std::size_t(crossed.Starts[t])];
-    for (std::int64_t i = crossed.Starts[t] + 1; i < crossed.Starts[t + 1]; ++i)
-    {
-      sets.join(first, pieces[std::size_t(i)]);
-    }
-  }
-  constexpr std::int64_t none = -1;
-  std::int64_t count = 0;
-  std::vector<std::int64_t> jobOfSet(numbers.size(), none); // by the piece that represents it
-  std::vector<std::int64_t> jobs;
-  jobs.reserve(crossed.Triangles.size());
-  for (std::size_t t = 0; t < crossed.Triangles.size(); ++t)
-  {
-    const std::int64_t set = sets.find(pieces[std::size_t(crossed.Starts[t])]);
-    std::int64_t& job = jobOfSet[std::size_t(set)];
-    job = job == none ? count++ : job;
-    jobs.push_back(job);
-  }
-  return jobs;
+  return makeJobs(crossed).OfTriangle;
 }
 
 template <typename Id>
 void retriangulateJobs(PointsView points, Id* triangles, const CrossedTriangles& crossed,
   const SplitPieces& split, const ConstraintEdges& known, int threads)
 {
-  const JobTriangles jobs(jobsOfTriangles(crossed));
+  const Jobs jobs = makeJobs(crossed);
+  const JobLists lists(jobs);
   std::deque<JobWorker<Id>> workers;
   for (int thread = 0; thread < threads; ++thread)
   {
-    workers.emplace_back(points, triangles, crossed, jobs, split, known);
+    workers.emplace_back(points, triangles, crossed, jobs, lists, split, known);
   }
   constexpr std::int64_t chunk = 256;
-  forChunks(jobs.jobs(), chunk, threads, {},
+  forChunks(std::int64_t(jobs.Count), chunk, threads, {},
     [&](std::int64_t begin, std::int64_t end, int thread)
     { workers[std::size_t(thread)].run(std::size_t(begin), std::size_t(end)); });
 }
