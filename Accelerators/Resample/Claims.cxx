@@ -231,8 +231,8 @@ private:
     fillInChunks(values, this->Axes.samples(), value, this->Threads);
   }
 
-  /// Claims samples for all cells of `mesh`, which `names` maps to those of the whole mesh; see
-  /// FirstWalk. `claimed` samples have been claimed before.
+  /// Claims samples for all cells of `mesh`. `names`, if not null, has the index in the whole mesh
+  /// of each cell; see FirstWalk. `claimed` samples have been claimed before.
   void walk(const SimplexMesh& mesh, const std::int32_t* names, std::int64_t claimed)
   {
     std::vector<FirstWalk> walks(

@@ -46,9 +46,9 @@ VTKTIPPFILTERS_EXPORT TerrainSettings makeTerrainSettings(
 void requireMemory(const TerrainSettings& settings);
 
 /// Makes a raster from points in memory: triangulates them and samples the triangles, with the same
-/// result as in two steps. Consumes the points to save memory. Returns the numbers of points,
-/// including those of the constraints, and of triangles, and whether `progress` stopped it. Throws
-/// std::runtime_error if there is no finite point, and std::invalid_argument for invalid
+/// result as in two steps. Consumes the points to save memory. Returns the number of triangles, the
+/// number of points (the constraints' points included), and whether `progress` stopped the run.
+/// Throws std::runtime_error if there is no finite point, and std::invalid_argument for invalid
 /// constraints.
 VTKTIPPFILTERS_EXPORT OutOfCoreStatistics makeDem(PointTable points, const DemRequest& request,
   const std::function<bool(double)>& progress, TerrainSettings& settings, SampledBands& samples);

@@ -88,8 +88,8 @@ struct Area
 /// Which rank triangulates which partition.
 struct VTKTIPPFILTERS_EXPORT Plan
 {
-  /// The domain's area and, if that has major partitions, one for each of these; only these have
-  /// leaves then.
+  /// The domain's area first, then one for each major partition, if there are any. In that case the
+  /// leaves belong to the areas of the major partitions.
   std::vector<Area> Areas;
   Tiling Leaves;                    ///< all partitions that are triangulated, in one tiling
   std::vector<std::int32_t> Owners; ///< by leaf: the rank that owns its points

@@ -28,7 +28,7 @@ std::vector<std::vector<std::uint64_t>> exchangeCounts(Communicator& ranks,
   {
     if (of.size() != leaves)
     {
-      throw std::runtime_error("Points from another rank are damaged: it has counted " +
+      throw std::runtime_error("Points from another rank are damaged: there are counts for " +
         std::to_string(of.size()) + " partitions instead of " + std::to_string(leaves) + ".");
     }
   }
@@ -111,7 +111,6 @@ PointExchange::PointExchange(const RankPoints& points, const Tiling& leaves, int
       [&points, finder = PartitionFinder(leaves)](
         std::size_t begin, std::size_t end, std::uint32_t* labels, std::vector<std::size_t>& counts)
       { finder.label(points.Points, begin, end, labels, counts); })
-  , Threads(threads)
 {
 }
 

@@ -126,10 +126,10 @@ public:
   template <typename Label>
   PointSender(const RankPointData& data, const View& points, std::size_t leaves, int threads,
     const Label& label)
-    : Data(data)
+    : Threads(threads)
+    , Data(data)
     , Points(points)
     , Leaves(leaves)
-    , Threads(threads)
     , Labels(points.size())
     , CountsOf(static_cast<std::size_t>(threads), std::vector<std::size_t>(leaves, 0))
   {
@@ -232,6 +232,9 @@ public:
     return messages;
   }
 
+protected:
+  const int Threads;
+
 private:
   template <typename Work>
   void forParts(const Work& work) const
@@ -281,7 +284,6 @@ private:
   const RankPointData& Data;
   const View Points;
   const std::size_t Leaves;
-  const int Threads;
   Buffer<std::uint32_t> Labels;
   std::vector<std::vector<std::size_t>> CountsOf; ///< number of points, by thread and leaf
 };
@@ -311,9 +313,6 @@ public:
   /// each leaf. Collective.
   template <typename Id>
   OwnedPoints<Id> exchange(Communicator& ranks, const std::vector<std::int32_t>& owners) const;
-
-private:
-  const int Threads;
 };
 
 extern template OwnedPoints<std::int32_t> PointExchange::exchange(

@@ -54,11 +54,11 @@ public:
 protected:
   using Sent = std::vector<std::pair<PartitionIndex, SentMessage>>;
 
-  /// The pause between looks for messages from other ranks while threads wait for them.
+  /// The interval between polls for messages while threads wait for other ranks.
   static constexpr std::chrono::microseconds ShortPause{ 300 };
 
-  /// `points`: the number of this rank's points. `progress`: called with the finished fraction of
-  /// these; may be empty. Both references must outlive this object.
+  /// `points`: the number of this rank's points. `progress`: called with the fraction of these
+  /// points that is finished; may be empty. `ranks` and `progress` must outlive this object.
   RankEngine(Communicator& ranks, std::size_t partitions, std::size_t points,
     const std::function<bool(double)>& progress)
     : Ranks(ranks)
@@ -210,7 +210,7 @@ protected:
   std::atomic<std::size_t> PointsDone{ 0 };
   std::atomic<int> Idle{ 0 };      ///< threads that wait for a partition
   std::condition_variable Changed; ///< signalled when a partition is done, here or on another rank
-  std::mutex Mutex;                ///< protects ToSend, and results when a thread ends
+  std::mutex Mutex;                ///< protects ToSend, Statistics, and results when a thread ends
 
 private:
   /// A finished partition's messages to another rank.

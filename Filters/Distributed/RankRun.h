@@ -84,8 +84,8 @@ struct InitialMeshPart
   std::vector<char> IsChosen;
 };
 
-/// Returns all conflicts as findConflicts() does. Each partition must have been chosen in one part.
-/// Throws std::runtime_error if there is no such partition.
+/// Returns all conflicts as findConflicts() does. Each partition must have been chosen in exactly
+/// one part. Throws std::runtime_error if a partition is not below `partitions`.
 VTKTIPPFILTERS_EXPORT std::optional<ConflictGraph> joinConflicts(
   const std::vector<PartConflicts>& parts, std::size_t partitions);
 

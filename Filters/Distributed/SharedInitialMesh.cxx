@@ -5,7 +5,6 @@
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
-#include <numeric>
 #include <stdexcept>
 #include <tuple>
 #include <utility>

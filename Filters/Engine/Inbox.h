@@ -85,12 +85,6 @@ private:
   std::atomic<Node*> Last{ nullptr };
 };
 
-/// Returns a kind of message of our own, counted from 0.
-constexpr MessageKind kindAfter(std::uint32_t n)
-{
-  return static_cast<MessageKind>(static_cast<std::uint32_t>(MessageKind::FirstFree) + n);
-}
-
 /// @name A finished partition's messages, as ranks send them to each other
 ///@{
 /// Writes the messages whose recipient satisfies `isIncluded`.

@@ -11,7 +11,6 @@
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
-#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -117,7 +116,7 @@ void takeTriangles(const PieceWork& work, const std::string& name, const Borders
   {
     for (const std::array<std::int64_t, 3>& corners : those.Corners)
     {
-      border.addTriangle(corners, {});
+      border.addCell(corners.data(), {});
     }
   }
   takeMesh(work, name, border, results);

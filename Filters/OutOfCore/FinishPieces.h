@@ -22,9 +22,9 @@ namespace tipp
 
 // Point ids in this header are indices among all spilled points (see SpilledPoints).
 
-/// Adds each border triangle to those of the piece that owns it: the first in the mesh of the
-/// pieces that it meets. The others borrow it. Triangles that are too long are left out, but with
-/// constraints, which change triangles, that happens later.
+/// Adds each border triangle to its owner, which is the first piece, in the order of the mesh, that
+/// the triangle meets. The other pieces that it meets borrow it. Triangles with too long an edge
+/// are left out. With constraints, which change triangles, they are left out later instead.
 class BorderSorter : public FinalTriangleConsumer
 {
 public:

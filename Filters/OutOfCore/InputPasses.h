@@ -38,7 +38,7 @@ VTKTIPPFILTERS_EXPORT SpilledPart spillPart(PointStream& points, double factor,
   const PiecePlan& plan, const std::string& file, int part, const PassOptions& options);
 
 /// Sets InitialPoint::InPieces of the plan's initial points, once all parts of the stream are
-/// spilled. Throws IOError if the points are not those of the survey.
+/// spilled. Throws IOError if the input has changed since the survey.
 VTKTIPPFILTERS_EXPORT void placeInitialPoints(
   const std::vector<SpilledPart>& parts, const InputSurvey& survey, PiecePlan& plan);
 

@@ -7,7 +7,6 @@
 #include "Triangulation/PointsView.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace tipp

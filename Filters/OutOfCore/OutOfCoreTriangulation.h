@@ -4,7 +4,6 @@
 
 #include "Constraints/ConstraintSegments.h"
 #include "Duplicates/ResolveDuplicates.h"
-#include "Engine/Inbox.h"
 #include "Partitioned/PieceBorder.h"
 #include "Points/PointStream.h"
 #include "Predicates/Points.h"

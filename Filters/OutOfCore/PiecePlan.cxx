@@ -79,8 +79,9 @@ InputMemory::InputMemory(std::uint64_t limit, std::size_t rowWords)
 namespace
 {
 
-/// A consumer copies coordinates, columns and triangles of each piece. Constraints need memory for
-/// the triangles that they cross.
+/// Returns the 64-bit words of memory per spilled row of `words` words. A consumer copies
+/// coordinates, columns and triangles of each piece. Constraints need memory for the triangles that
+/// they cross.
 std::size_t wordsInMemory(const OutOfCoreOptions& options, std::size_t words)
 {
   return words + (options.Consumer ? 4 + words : 0) + (options.Constraints ? 1 : 0);

@@ -102,8 +102,8 @@ struct PieceResultOf
   std::map<PartitionIndex, Messages> Sent; ///< by the recipient's piece
 };
 
-/// Writes a result to a file, and reads parts of it. All methods except has() and sentBytes() throw
-/// IOError if the file is damaged or missing.
+/// Writes a result to a file, and reads parts of it. All methods except hasBorder() and sentBytes()
+/// throw IOError if the file is damaged or missing.
 template <std::size_t CornerCount, typename Message>
 class StoredResultOf
 {
@@ -182,8 +182,8 @@ public:
     return unpacked<PieceFigures>(this->File.read({ FiguresSection, 0 }));
   }
 
-  /// Returns the interior of the piece with this result. `all`: otherwise only its interface points
-  /// and their rows.
+  /// Returns the interior of the piece with this result. If not `all`, reads only the interface
+  /// points and their rows.
   PieceInterior readInterior(const SpilledPoints& points, PartitionIndex piece, bool all) const
   {
     PieceInterior interior =

@@ -124,10 +124,11 @@ void RunSetup::setConstraints(const std::string& points, SegmentSource& segments
 void RunSetup::requireMemory(const std::string& path, std::uint64_t limit) const
 {
   constexpr std::uint64_t always = std::uint64_t(64) << 20;
+  const PieceWork work = this->work();
   for (PartitionIndex piece = 0; piece < this->Plan->pieces(); ++piece)
   {
     const std::int64_t segments = this->Constraints ? this->Constraints->count(piece) : 0;
-    const std::uint64_t bytes = LoadedPiece::bytesOf(this->work(), piece);
+    const std::uint64_t bytes = LoadedPiece::bytesOf(work, piece);
     if (bytes > std::max(limit, always))
     {
       throw IOError(path,

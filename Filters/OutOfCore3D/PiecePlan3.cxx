@@ -7,6 +7,7 @@
 #include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -76,16 +77,6 @@ private:
   std::array<Point3, 4> Simplex = {};
   int Dimension = -1;
 };
-
-std::vector<Point3> positionsOf(const std::vector<SampledPointOf<Point3>>& sample)
-{
-  std::vector<Point3> positions;
-  for (const SampledPointOf<Point3>& p : sample)
-  {
-    positions.push_back(p.Position);
-  }
-  return positions;
-}
 
 [[noreturn]] void throwChanged()
 {

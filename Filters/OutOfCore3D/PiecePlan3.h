@@ -11,7 +11,6 @@
 #include "Triangulation3D/Tiling3.h"
 #include "vtkTIPPFiltersModule.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>

@@ -71,10 +71,10 @@ void warn(vtkAlgorithm* filter, const std::vector<std::string>& warnings);
 /// Returns whether a filter with this controller works on several ranks. Null: it does not.
 bool hasSeveralRanks(vtkMultiProcessController* controller);
 
-/// Calls work(), and returns the result of RequestData(): 0 if it failed, else 1. If work() throws,
-/// empties the outputs. Unless the user has stopped the ranks, that is an error of the filter: it
-/// is reported, beginning with `doing` and the number of the input's points, and of a RankFailure
-/// only by the first rank of `controller`. Throws nothing.
+/// Calls work(), and returns the result of RequestData(): 0 after an error, else 1. If work()
+/// throws, empties the outputs and, unless the user has stopped the ranks, reports an error of the
+/// filter. The message begins with `doing` and the number of the input's points. Only the first
+/// rank of `controller` reports a RankFailure. Throws nothing.
 int runReported(vtkAlgorithm* filter, vtkMultiProcessController* controller, const char* doing,
   vtkPointSet* input, std::initializer_list<vtkDataObject*> outputs,
   const std::function<void()>& work);

@@ -289,9 +289,6 @@ void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& 
   const std::size_t more = ghosts ? ghosts->Cells.size() : 0;
   const std::size_t lines = marks.Lines ? marks.Lines->Ends.size() : 0;
   Buffer<std::int64_t> corners = cornersOf<std::int64_t>(piece, mine, 3, own, ghosts);
-  // Lines are VTK's first cells, but their ids follow those of all triangles.
-  setCellIds(
-    marks.Lines ? mine.AllCells + marks.Lines->First : 0, lines, mine, own, ghosts, output);
   if (marks.Flags)
   {
     output->GetCellData()->AddArray(marksOf(piece, *marks.Flags, corners));
@@ -301,6 +298,9 @@ void fillPiece(const DistributedTriangulation& mine, int rank, const PointRows& 
     setLines(piece, *marks.Lines, vtkIdType(own) + vtkIdType(more), output);
   }
   output->SetPolys(takeCells(std::move(corners), 3));
+  // Lines are VTK's first cells, but their ids follow those of all triangles.
+  setCellIds(
+    marks.Lines ? mine.AllCells + marks.Lines->First : 0, lines, mine, own, ghosts, output);
   if (ghosts)
   {
     addCellGhosts(lines + own, more, output);

@@ -168,8 +168,8 @@ struct BoundaryTriangles : MetPartitions
   void appendTriangles(const BoundaryTriangles& others);
 };
 
-/// Moves a bound outward by the margin or, if that is more, by a few units in the last place: the
-/// margin may be lost in rounding when coordinates are large and close together.
+/// Moves a bound outward by the margin, but by at least a few units in the last place: when
+/// coordinates are large and close together, rounding may remove the margin.
 double outward(double bound, double direction, double margin);
 
 /// Returns artificial points at the corners and along the edges of a rectangle around the domain

@@ -70,9 +70,8 @@ Vertices readVertices(NumberRows& rows)
 }
 
 /// A .poly file of Shewchuk's Triangle (https://www.cs.cmu.edu/~quake/triangle.poly.html):
-/// vertices, segments and holes; later lines are ignored. If it has no vertices, those of the .node
-/// file of the same name are read. Throws IOError.
-ConstraintTable readPolyFile(const std::string& path);
+/// vertices, segments and holes; later lines are ignored. If the file has no vertices, they are
+/// read from the .node file of the same name. Throws IOError.
 ConstraintTable readPolyFile(const std::string& path)
 {
   NumberRows rows(path, triangleFile, '#');

@@ -38,7 +38,7 @@ struct ConstraintTable
 };
 
 /// Reads constraints by the file's extension:
-/// .poly (Triangle: vertices, or those of the .node file beside it, segments and holes);
+/// .poly (Triangle: vertices, in this file or in the .node file beside it, segments and holes);
 /// .csv, .txt (one segment per line: x and y, or x, y and z of both ends, or two ids of points
 /// counted from 0); .14, .grd (ADCIRC: the boundaries of the grid); .gpkg, .shp, .geojson, .json,
 /// .fgb (lines and polygons of a GIS); any VTK file (its lines, and its polygons as polygons).

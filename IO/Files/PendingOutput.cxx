@@ -138,7 +138,7 @@ void PendingFile::commit()
 namespace
 {
 
-constexpr const char* suffix = "XXXXXX"; // as mkdtemp() replaces it
+constexpr const char* suffix = "XXXXXX"; // mkdtemp() replaces the letters by random ones
 
 } // namespace
 

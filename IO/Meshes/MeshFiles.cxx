@@ -204,7 +204,7 @@ void readIds(NpyReader& reader, std::vector<std::int64_t>& ids)
   }
 }
 
-/// Reads the ids of an .npy file of cells with so many corners, which are called `what`.
+/// Reads an .npy file of cells: `corners` ids in each row. `what` names the cells in messages.
 std::vector<std::int64_t> readNpyIds(const std::string& path, int corners, const char* what)
 {
   NpyReader reader(path);

@@ -15,7 +15,7 @@
 namespace tipp
 {
 
-/// An .npy file whose array is used in place.
+/// Where an .npy file has its array, and the type and shape, so that it can be read in place.
 struct NpyArray
 {
   std::string Path;

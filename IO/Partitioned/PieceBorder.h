@@ -154,11 +154,6 @@ public:
   /// Adds a cell of points that the other pieces `borrowers`, ascending, borrow; the list may be
   /// empty. There are `cellSize` points.
   void addCell(const std::int64_t* points, const std::vector<std::int32_t>& borrowers);
-  void addTriangle(
-    const std::array<std::int64_t, 3>& points, const std::vector<std::int32_t>& borrowers)
-  {
-    this->addCell(points.data(), borrowers);
-  }
   std::size_t cells() const { return this->Cells.size(); }
 
   /// The ghosts of the cells so far. The caller must set their rows.

@@ -66,6 +66,12 @@ enum class MessageKind : std::uint32_t
   FirstFree
 };
 
+/// Returns the n-th of the callers' kinds, counted from 0.
+constexpr MessageKind kindAfter(std::uint32_t n)
+{
+  return static_cast<MessageKind>(static_cast<std::uint32_t>(MessageKind::FirstFree) + n);
+}
+
 /// A received message.
 struct Message
 {

@@ -69,7 +69,7 @@ nb::object arrayOf(Buffer<Value>&& buffer, std::size_t columns = 1)
     columns == 1 ? std::vector<std::size_t>{ rows } : std::vector<std::size_t>{ rows, columns });
 }
 
-/// The same for the bytes of values of a type.
+/// The same for a buffer of bytes that holds values of this type.
 inline nb::object arrayOf(Buffer<char>&& bytes, Scalar type, std::size_t columns = 1)
 {
   nb::object result;
@@ -92,6 +92,7 @@ template <typename Row>
 nb::object idRowsOf(const std::vector<Row>& rows)
 {
   constexpr std::size_t columns = sizeof(Row) / sizeof(std::int64_t);
+  static_assert(sizeof(Row) % sizeof(std::int64_t) == 0, "ids in a row");
   Buffer<Row> buffer(rows.size());
   std::copy(rows.begin(), rows.end(), buffer.begin());
   return arrayOf(Buffer<std::int64_t>(std::move(buffer)), columns);
@@ -144,7 +145,8 @@ auto withoutLock(const Work& work)
   return work();
 }
 
-/// Selects points of LAS files: with this Returns, and those with these flags, too.
+/// Returns a selection of points of LAS files. `returns`: a LasSelection::Returns. `keep`: the
+/// flags of LasSelection::keep().
 inline LasSelection lasSelection(
   const std::vector<int>& classes, int returns, const std::vector<std::string>& keep)
 {

@@ -2,7 +2,6 @@
 #include "Binding.h"
 
 #include "Constraints/ConstrainedPoints.h"
-#include "Files/IOError.h"
 #include "Files/OutputPath.h"
 #include "Flat/FlatMesh.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
@@ -22,10 +21,8 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
-#include <cstring>
 #include <numeric>
 #include <optional>
-#include <stdexcept>
 
 namespace tipp::python
 {
@@ -247,7 +244,10 @@ nb::list readMesh(const std::string& path, const std::optional<Bounds>& bounds,
           options.Wanted.push_back(isIn(array.OfPoints ? pointArrays : cellArrays, array.Name));
         }
         pieces = readRange(*source, bounds, options, borrowed);
-        isMerged&& pieces.size() > 1 ? merge(pieces) : void();
+        if (isMerged && pieces.size() > 1)
+        {
+          merge(pieces);
+        }
       });
   }
   catch (const WorkAborted&)

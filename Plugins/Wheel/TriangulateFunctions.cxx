@@ -141,7 +141,7 @@ nb::dict triangulateArrays(const InputArray& points, const std::optional<InputAr
   }
   if (marks)
   {
-    dict["marks"] = arrayOf(constraintMarks(mesh, resolved.Pieces), 3);
+    dict["marks"] = arrayOf(withoutLock([&] { return constraintMarks(mesh, resolved.Pieces); }), 3);
   }
   dict["triangles"] =
     mesh.Ids64.empty() ? arrayOf(std::move(mesh.Ids32), 3) : arrayOf(std::move(mesh.Ids64), 3);

@@ -58,7 +58,8 @@ def segments_of(points: np.ndarray, data: dict[str, np.ndarray], options: dict[s
             if lost:
                 warnings.append(f"{lost} point arrays of the input are left out: the source has {len(new)} new points "
                                 "and no values of these arrays.")
-    return Segments(points, joined, np.ascontiguousarray(pairs, np.int64), first + cells, begin, warnings)
+    return Segments(points, joined, np.ascontiguousarray(pairs, np.int64), (first + cells).astype(np.int64), begin,
+                    warnings)
 
 
 def _read_source(source: Any, count: int, has_own_points: bool) -> tuple[Any, ...]:

@@ -70,7 +70,8 @@ def triangulated(points: np.ndarray, options: dict[str, Any], progress: Progress
                  segments: constraints.Segments | None = None) -> dict[str, Any]:
     """Returns the core's result. `points` are those of the segments, perhaps followed by others."""
     tolerance = options["tolerance"]
-    pairs, cells, begin = (None, None, 0) if segments is None else segments[2:5]
+    pairs, cells, begin = ((None, None, 0) if segments is None
+                           else (segments.pairs, segments.cells, segments.polygon_begin))
     result = _core.triangulate(
         points, pairs, cells, begin, options.get("crossings") == 1,
         segments is not None and options["marks"] == 2 and options["alpha"] == 0,
@@ -222,7 +223,7 @@ def _triangulated(points: np.ndarray, data: dict[str, np.ndarray], options: dict
     elif has_lines:
         pieces = result["pieces"]
         mesh.lines = np.ascontiguousarray(pieces[:, :2]).astype(mesh.cells.dtype, copy=False)
-        mesh.line_data["ConstraintId"] = segments.cells[pieces[:, 2]].astype(np.int64)
+        mesh.line_data["ConstraintId"] = segments.cells[pieces[:, 2]]
     elif is_marked:
         mesh.cell_data["ConstraintEdges"] = result["marks"]
     if sentences:

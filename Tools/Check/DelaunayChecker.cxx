@@ -30,8 +30,8 @@ FixedEdge sorted(std::int64_t a, std::int64_t b)
   return { std::min(a, b), std::max(a, b) };
 }
 
-/// Half-edge h goes from corner h % 3 of triangle h / 3 to the next one. Returns the half-edge
-/// there.
+/// Half-edge h goes from corner h % 3 of triangle h / 3 to the next corner. Returns the next
+/// half-edge of the same triangle.
 std::size_t after(std::size_t h)
 {
   return h % 3 == 2 ? h - 2 : h + 1;
@@ -346,7 +346,7 @@ CheckReport PieceChecker::finish()
     this->Report.UnusedPoints = this->IsCollinear ? 0 : this->Report.UnusedPoints;
     return this->Report;
   }
-  if (this->Options.BoundaryFree)
+  if (this->Options.BoundaryFree && !this->Options.IsCut)
   {
     return this->Report;
   }

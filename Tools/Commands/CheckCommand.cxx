@@ -103,7 +103,11 @@ std::vector<std::array<std::int64_t, 2>> constraintsAmong(
   std::map<std::array<double, 2>, std::int64_t> indices; // NaN has no order
   for (std::int64_t i = 0; i < std::int64_t(xy.size() / 2); ++i)
   {
-    isGood(pointAt(xy, i)) ? void(indices.emplace(pointAt(xy, i), i)) : void();
+    const auto point = pointAt(xy, i);
+    if (isGood(point))
+    {
+      indices.emplace(point, i);
+    }
   }
   const auto indexOf = [&indices](const std::array<double, 2>& p)
   {
@@ -125,9 +129,9 @@ std::vector<std::array<std::int64_t, 2>> constraintsAmong(
 
 /// Checks a mesh with constraints, whose first points are the input points.
 CheckReport checkConstrained(
-  const CheckArguments& arguments, const std::vector<double>& points, TriangleMesh& mesh)
+  const CheckArguments& arguments, std::vector<double>& points, TriangleMesh& mesh)
 {
-  const std::vector<double>& xy = mesh.XY.empty() ? points : mesh.XY;
+  std::vector<double>& xy = mesh.XY.empty() ? points : mesh.XY;
   if (xy.size() < points.size() ||
     !std::equal(points.begin(), points.end(), xy.begin(), isSameNumber))
   {
@@ -149,7 +153,7 @@ CheckReport checkConstrained(
   ConstraintChains chains = findConstraintChains(xy, mesh.Triangles, constraints, options.IsCut);
   options.Constraints = std::move(chains.Edges);
   CheckReport report =
-    checkDelaunay(xy, std::move(mesh.Triangles), options, std::move(mesh.Neighbors));
+    checkDelaunay(std::move(xy), std::move(mesh.Triangles), options, std::move(mesh.Neighbors));
   report.LostConstraints = chains.Lost + missing;
   return report;
 }

@@ -4,7 +4,6 @@
 #include "Arrays/SortUnique.h"
 #include "Check/ConstraintChains.h"
 #include "Console/ProgressBar.h"
-#include "Files/IOError.h"
 #include "Partitioned/NeighborIds.h"
 #include "Partitioned/PieceFile.h"
 #include "Points/PointStream.h"

@@ -26,7 +26,7 @@ struct CheckArguments
   std::string Constraints; ///< path of a file; empty: none
   CheckOptions Options;
 
-  /// Returns whether the mesh ends at polygons of these constraints.
+  /// Returns whether the mesh lacks triangles: with --cut, or if there are polygons or holes.
   bool isCutBy(const ConstraintTable& table) const
   {
     return this->Options.IsCut || table.PolygonBegin < table.Edges.size() || !table.Holes.empty();
@@ -44,8 +44,8 @@ PieceOptions withNeighborsOnly(const PartitionedMesh& mesh);
 [[noreturn]] void refuseOtherPoints(
   const CheckArguments& arguments, std::size_t found, std::size_t points);
 
-/// Throws IOError unless the mesh stores no points, or these. NaN equals NaN here. Both hold
-/// `dimension` coordinates of each point.
+/// Throws IOError if the mesh stores points (`stored` is not empty) and they are not the input's
+/// `points`. NaN equals NaN here. Both arrays hold `dimension` coordinates of each point.
 void requireSamePoints(const CheckArguments& arguments, const std::vector<double>& points,
   const std::vector<double>& stored, std::size_t dimension);
 

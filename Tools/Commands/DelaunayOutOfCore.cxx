@@ -5,11 +5,9 @@
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Constraints/ConstrainedPoints.h"
-#include "Files/InputFile.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <numeric>
 #include <vector>
 

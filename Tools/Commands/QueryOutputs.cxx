@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/QueryMesh.h"
-#include "Console/Process.h"
 #include "Files/IOError.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
 #include "Npy/NpyFile.h"
-#include "Parallel/Poll.h"
 #include "Query/LineData.h"
 #include "Query/ReadZones.h"
 #include "Query/Zones.h"
@@ -103,6 +101,7 @@ void writeRegion(Communicator* shared, const ResidentMesh& mesh, const RegionArg
   }
   fmt::print("{} {}, in {}\n", ids.size(), arguments.Ids, output);
 }
+
 namespace
 {
 

@@ -9,6 +9,7 @@
 #include "Dem/MakeDem.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/PendingOutput.h"
 #include "Flat/FlatMesh.h"
 #include "Npy/NpyFile.h"
 #include "OpenCL/Devices.h"
@@ -35,6 +36,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -237,8 +239,9 @@ SampledBands bandsOf(vtkImageData* image, std::vector<std::string>& names)
   return bands;
 }
 
-/// Writes an image with all its arrays to a .vti file. Throws IOError. In all functions here,
-/// `before` is the state of the path before the computation: only that file is replaced.
+/// Writes an image with all its arrays to a .vti file. `before`: the state of the path before the
+/// computation, here and in writeNpy() and writeGeoTiff(); only that file is replaced. Throws
+/// IOError.
 void writeImage(const std::string& path, vtkImageData* image, const PathState& before)
 {
   PendingFile pending(path, before);

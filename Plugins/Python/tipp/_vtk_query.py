@@ -181,8 +181,8 @@ def _polygons(rings: Rings) -> vtkPolyData:
 
 
 def _starts(lines: vtkPolyData) -> np.ndarray:
-    """The index of the first point of each line, and the number of points. Lines repeat a point to close, or if it
-    is their only one."""
+    """The index of the first point of each line, and the number of points. A closed line repeats its first point, and
+    so does a line of one point."""
     cells = lines.GetLines()
     firsts = vtk_to_numpy(cells.GetConnectivityArray())[vtk_to_numpy(cells.GetOffsetsArray())[:-1]]
     return np.append(firsts, lines.GetNumberOfPoints()).astype(np.int64)

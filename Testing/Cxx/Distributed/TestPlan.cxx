@@ -187,6 +187,7 @@ TEST(Plan, IsRestoredFromItsBytes)
   ASSERT_EQ(back.Areas.size(), plan.Areas.size());
   for (std::size_t a = 0; a < plan.Areas.size(); ++a)
   {
+    EXPECT_EQ(back.Areas[a].Boxes.size(), plan.Areas[a].Boxes.size());
     EXPECT_EQ(back.Areas[a].FirstLeaf, plan.Areas[a].FirstLeaf);
     EXPECT_EQ(back.Areas[a].Lead, plan.Areas[a].Lead);
   }

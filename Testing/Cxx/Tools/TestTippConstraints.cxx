@@ -186,7 +186,7 @@ TEST_F(TippConstraints, CheckVerifiesThem)
 
 TEST_F(TippConstraints, CheckIgnoresPointsAndConstraintsThatAreNotFinite)
 {
-  // NaN has no order, so a search among such points by their coordinates would miss others.
+  // A std::map with NaN in its keys has no order, so it may not find other points.
   std::string points = "x,y\n";
   std::string lines = "nan,0,1,1\n";
   const auto position = [](int i) { return fmt::format("{},{}", i * 37 % 101, i * 61 % 97); };
