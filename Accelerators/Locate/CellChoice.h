@@ -10,7 +10,6 @@
 #include "Resample/SampleBlock.h"
 #include "Resample/SimplexMesh.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>

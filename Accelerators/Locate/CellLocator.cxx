@@ -6,7 +6,6 @@
 #include "Locate/PointGrid.h"
 
 #include <algorithm>
-#include <array>
 #include <type_traits>
 #include <vector>
 

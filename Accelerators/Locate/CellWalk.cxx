@@ -62,11 +62,7 @@ private:
     return std::int64_t(this->Cells.ids(cell)[(i + after) % 3]);
   }
 
-  Point2 at(std::int64_t point) const
-  {
-    const auto [x, y] = this->Cells.coordinates(point);
-    return { x, y };
-  }
+  Point2 at(std::int64_t point) const { return pointAt(this->Cells.coordinates(point)); }
 
   bool isUsed(std::int64_t cell) const { return this->Turns[std::size_t(cell)] != 0; }
   bool isClockwise(std::int64_t cell) const { return this->Turns[std::size_t(cell)] < 0; }

@@ -13,7 +13,7 @@
 namespace tipp
 {
 
-/// Sorts words by their upper 32 bits, or by the bits from `lowest` on, on at most `threads`
+/// Sorts words by their bits `lowest` to 63, by default the upper half, on at most `threads`
 /// threads (at least 1). The sort is stable.
 inline void sortByUpperHalf(std::vector<std::uint64_t>& words, int threads, unsigned lowest = 32)
 {

@@ -12,11 +12,12 @@ namespace tipp
 namespace
 {
 
-/// A bit for each move to the inner side of an edge or face, given the signs of the components of
-/// its inner normal. The first one that is not zero decides.
+/// The set of moves, a bit each, to the inner side of an edge or face. x, y and z are the signs of
+/// its inner normal's components; the first nonzero one decides.
 unsigned movesInside(int x, int y, int z)
 {
-  const unsigned upward = x != 0 ? 0x55u : y != 0 ? 0x33u : 0x0fu; // not mirrored along that axis
+  // The moves that are not mirrored along the deciding axis.
+  const unsigned upward = x != 0 ? 0x55u : y != 0 ? 0x33u : 0x0fu;
   return (x != 0 ? x : y != 0 ? y : z) > 0 ? upward : ~upward;
 }
 

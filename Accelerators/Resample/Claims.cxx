@@ -106,7 +106,7 @@ class FirstWalk : public TouchingWalk<FirstWalk>
 {
 public:
   /// `names` maps a cell's index to the number to store; null: store the index itself.
-  explicit FirstWalk(std::int32_t* claims, const std::int32_t* names)
+  FirstWalk(std::int32_t* claims, const std::int32_t* names)
     : Claims(claims)
     , Names(names)
   {
@@ -238,14 +238,12 @@ private:
     std::vector<FirstWalk> walks(
       std::size_t(this->Threads), FirstWalk(this->Result.Cells.get(), names));
     this->Result.Aborted = !visitCells(mesh, this->Axes, walks, this->Progress);
-    walks.front().Claimed += claimed;
-    this->Result.Aborted ? void() : this->settle(walks);
+    this->Result.Aborted ? void() : this->settle(walks, claimed);
   }
 
-  void settle(std::vector<FirstWalk>& walks)
+  void settle(std::vector<FirstWalk>& walks, std::int64_t claimed)
   {
     ClaimStatistics& statistics = this->Result.Statistics;
-    std::int64_t claimed = 0;
     std::vector<Touch> touches = joinWalks(walks, statistics, claimed);
     const std::int32_t* const cells = this->Result.Cells.get();
     statistics.OverlappingClaims = claimed -

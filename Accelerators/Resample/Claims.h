@@ -181,7 +181,8 @@ struct SampledCells
   bool Aborted = false;
 };
 
-/// Completes the work of a device, whose claims are `cells`.
+/// Completes the work of a device by processing the open cells. `cells` is as Claims::Cells; it may
+/// have some claims of open cells, too.
 Claims finishClaims(const SimplexMesh& mesh, const Lattice& lattice, int threads,
   std::unique_ptr<std::int32_t[]> cells, const SampledCells& sampled, const Report& report);
 

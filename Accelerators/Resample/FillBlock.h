@@ -251,7 +251,7 @@ private:
   const Block& Weighed;
 };
 
-/// Fills the samples of a block. For `parents` see InterpolationOptions.
+/// Fills the samples of a block. `parents` is InterpolationOptions::Parents.
 template <typename Access>
 void fillBlock(
   SampleBlock<Access>& block, const std::vector<Attribute>& attributes, const std::int64_t* parents)

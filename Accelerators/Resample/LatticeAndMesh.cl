@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shared by all resampling kernels: the lattice of samples and the mesh.
+// The lattice of samples and the mesh, for the kernels of SampleCells.cl.
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #pragma OPENCL FP_CONTRACT OFF
 

@@ -64,6 +64,9 @@ public:
     this->send();
   }
 
+  MeshOnDevice(const MeshOnDevice&) = delete;
+  MeshOnDevice& operator=(const MeshOnDevice&) = delete;
+
   /// Sends a point array for these points.
   cl::Buffer values(const void* values, std::size_t tupleBytes) const
   {
@@ -139,7 +142,8 @@ private:
   SimplexMesh Cells; ///< as the kernels see them
   const std::int64_t First = 0;
   const int Threads = 1;
-  std::vector<double> Corners; ///< of a piece; must outlive Points
+  // Of a piece; kernels may read them in place.
+  std::vector<double> Corners;
   std::vector<std::int32_t> Numbers;
   mutable std::vector<std::vector<char>> Values;
 };

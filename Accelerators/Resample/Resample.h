@@ -52,8 +52,8 @@ VTKTIPPACCELERATORS_EXPORT ResampleResult resample(const SimplexMesh& mesh, cons
   const std::vector<Attribute>& attributes, const ResampleOptions& options);
 
 /// Resampling of one mesh on an OpenCL device. Threads of this process complete the device's work:
-/// they do the cells for which rounding could change the result, thin cells, and those at the
-/// border. All methods throw AcceleratorError.
+/// they process thin cells and the cells for which rounding could change the result, and decide
+/// the samples on cells' borders that no cell claims. All methods throw AcceleratorError.
 class DeviceResampler
 {
 public:

@@ -9,6 +9,7 @@
 #include <memory>
 #include <numeric>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -88,7 +89,8 @@ cl_double8 axisArgument(const LatticeAxis& axis)
 class DeviceSampler
 {
 public:
-  /// Marks are the cells' numbers (32 bits), else -1, for `namesCells`; otherwise bytes, 1 or 0.
+  /// With `namesCells` a mark is the index of the claiming cell or -1, in 32 bits; otherwise it is
+  /// a byte, 1 if a cell claims the sample, else 0.
   DeviceSampler(MeshPieces& mesh, const LatticeAxes& axes, std::vector<Attribute> attributes,
     void* marks, bool namesCells)
     : Pieces(mesh)
@@ -302,8 +304,9 @@ public:
     const InterpolationOptions& options) override
   {
     const LatticeAxes axes(this->Pieces.Mesh, lattice);
-    DeviceSampler sampler(this->Pieces, axes, attributes, options.Valid, false);
-    const SampledCells sampled = sampler.run(partOf(options.Progress, 0, deviceShare));
+    // A temporary: its buffers must be gone before the threads write to the arrays.
+    const SampledCells sampled = DeviceSampler(this->Pieces, axes, attributes, options.Valid, false)
+                                   .run(partOf(options.Progress, 0, deviceShare));
     InterpolationOptions rest = options;
     rest.Progress = partOf(options.Progress, deviceShare, 1);
     return sampled.Aborted ? DirectResult{ {}, 0, false, true }
@@ -315,8 +318,8 @@ public:
     const LatticeAxes axes(this->Pieces.Mesh, lattice);
     Claims claims;
     claims.Cells.reset(new std::int32_t[std::size_t(axes.samples())]);
-    DeviceSampler sampler(this->Pieces, axes, {}, claims.Cells.get(), true);
-    const SampledCells sampled = sampler.run(partOf(report, 0, deviceShare));
+    const SampledCells sampled = DeviceSampler(this->Pieces, axes, {}, claims.Cells.get(), true)
+                                   .run(partOf(report, 0, deviceShare));
     claims.Aborted = sampled.Aborted;
     return sampled.Aborted ? std::move(claims)
                            : finishClaims(this->Pieces.Mesh, lattice, this->Pieces.Threads,

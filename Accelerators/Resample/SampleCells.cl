@@ -269,7 +269,8 @@ int isOutside(const int* ids, global const uchar* sides)
   return common != 0;
 }
 
-// OpenCL has no arrays of buffers.
+// The parameters that both kernels have. Each array has its own, since OpenCL has no arrays of
+// buffers.
 #define PARAMETERS                                                                                 \
   global const Real *points, global const Id *ids, int u, int v, Axis x, Axis y, Axis z,           \
     long firstCell, global Mark *marks, int arrayCount, global const uchar *values0,               \
