@@ -181,7 +181,7 @@ std::vector<std::string> vtkPartitionedMeshQuery::ArraysOf(
   return arrays;
 }
 
-/// Calls ask(ranks, mesh) with this process's mesh. `ranks` are those that share it; null for one.
+/// Calls ask(ranks, mesh) with this process's mesh. `ranks` is null if there is only one rank.
 void vtkPartitionedMeshQuery::AskMesh(const Question& ask)
 {
   if (this->GetRank().second == 1)

@@ -253,11 +253,14 @@ std::array<double, 4> vtkTIPPPointsToImage::PointBounds(vtkPointSet* points) con
         }
       });
   }
-  for (vtkIdType i = 0; this->ThinningSize == 0 && i < points->GetNumberOfPoints(); ++i)
+  else
   {
-    double p[3];
-    points->GetPoint(i, p);
-    include(p[0], p[1]);
+    for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
+    {
+      double p[3];
+      points->GetPoint(i, p);
+      include(p[0], p[1]);
+    }
   }
   if (!(bounds[0] <= bounds[1]))
   {

@@ -46,10 +46,10 @@ VTKTIPPFILTERS_EXPORT TerrainSettings makeTerrainSettings(
 void requireMemory(const TerrainSettings& settings);
 
 /// Makes a raster from points in memory: triangulates them and samples the triangles, with the same
-/// result as in two steps. Consumes the points to save memory. Returns the number of triangles, the
-/// number of points (the constraints' points included), and whether `progress` stopped the run.
-/// Throws std::runtime_error if there is no finite point, and std::invalid_argument for invalid
-/// constraints.
+/// result as in two steps. Consumes the points to save memory. Sets these members of the result:
+/// Points (including those of the constraints), Triangles, Duplicates, DisagreeingPositions,
+/// Rejected, WithoutElevation and Aborted. Throws std::runtime_error if there is no finite point,
+/// and std::invalid_argument for invalid constraints.
 VTKTIPPFILTERS_EXPORT OutOfCoreStatistics makeDem(PointTable points, const DemRequest& request,
   const std::function<bool(double)>& progress, TerrainSettings& settings, SampledBands& samples);
 

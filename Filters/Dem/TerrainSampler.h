@@ -43,9 +43,8 @@ struct SampledBands
   std::vector<std::vector<double>> Values; ///< values by band, then by sample
 };
 
-/// Samples all triangles of a mesh, whose points are x, y and elevation, in doubles, and which must
-/// not overlap, at all pixels. Returns false if
-/// `progress` stopped it.
+/// Samples all triangles of a mesh at all pixels. The mesh's points are x, y and elevation, as
+/// doubles; its triangles must not overlap. Returns false if `progress` stopped it.
 bool sampleTerrain(const TerrainSettings& settings, const TerrainColumns& columns,
   const SimplexMesh& mesh, const std::function<bool(double)>& progress, SampledBands& samples);
 

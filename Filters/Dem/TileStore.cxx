@@ -10,11 +10,11 @@
 #include <cerrno>
 #include <cstring>
 #include <limits>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
 #include <fcntl.h>
-#include <unistd.h>
 
 namespace tipp
 {
@@ -208,7 +208,8 @@ void TileStore::setInTile(std::int64_t tile, const RasterWindow& part, const Ras
   }
   this->writeState(tile, state);
   const RasterWindow whole = tileOf(this->Grid, tile);
-  if (this->Finish && state.Set == std::uint32_t(whole.Columns * whole.Rows))
+  // Tiles completed by setIfMissing(), in one thread, are encoded when the raster is written.
+  if (replaces && this->Finish && state.Set == std::uint32_t(whole.Columns * whole.Rows))
   {
     this->finish(tile);
   }
@@ -256,10 +257,17 @@ std::optional<FinishedTile> TileStore::readFinished(std::int64_t tile) const
   LoadArchive archive(bytes);
   FinishedTile finished;
   finished.Encoded.Bands.resize(this->Bands);
-  archive(finished.Filled);
-  for (EncodedTile::Band& band : finished.Encoded.Bands)
+  try
   {
-    archive(band.Sums, band.Bytes);
+    archive(finished.Filled);
+    for (EncodedTile::Band& band : finished.Encoded.Bands)
+    {
+      archive(band.Sums, band.Bytes);
+    }
+  }
+  catch (const std::runtime_error&)
+  {
+    throw IOError(this->File.path(), "is damaged; remove it and start again.");
   }
   return finished;
 }

@@ -29,9 +29,9 @@ using FinishTile =
   std::function<FinishedTile(const RasterWindow&, std::vector<std::vector<double>>&)>;
 
 /// The pixels of a raster in a file, tile by tile, so that few of them are in memory. As soon as
-/// all pixels of a tile are set, it is encoded and its pixels are removed: no later triangle can
-/// change them. Pixels that are not set take no disk space. Several threads and processes may set
-/// values at once. A run resumed after a crash may set the same values again.
+/// set() has set all pixels of a tile, it is encoded and its pixels are removed: no later triangle
+/// can change them. Pixels that are not set take no disk space. Several threads and processes may
+/// set values at once. A run resumed after a crash may set the same values again.
 class VTKTIPPFILTERS_EXPORT TileStore
 {
 public:

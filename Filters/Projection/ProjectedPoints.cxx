@@ -137,7 +137,8 @@ FiniteBounds finiteBounds(vtkPoints* points)
   {
     double p[3];
     points->GetPoint(i, p);
-    for (int axis = 0; axis < 3 && isFinite(p); ++axis)
+    const int axes = isFinite(p) ? 3 : 0;
+    for (int axis = 0; axis < axes; ++axis)
     {
       low[axis] = std::min(low[axis], p[axis]);
       high[axis] = std::max(high[axis], p[axis]);

@@ -33,8 +33,8 @@ vtkSmartPointer<vtkPoints> pointsOf(const std::vector<Point3>& positions)
   return points;
 }
 
-/// Creates a line for each list of successive points. VTK needs two points in a line, and crashes
-/// on fewer (vtkPolyData::GetCellType in 9.1), so the line of a single point has it twice.
+/// Creates a line for each list of successive points, none of which is empty. VTK crashes on a line
+/// of one point (vtkPolyData::GetCellType in 9.1), so such a line has its point twice.
 vtkSmartPointer<vtkPolyData> linesOf(
   const std::vector<Point3>& positions, const std::vector<std::int64_t>& starts, bool isClosed)
 {

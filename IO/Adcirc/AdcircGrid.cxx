@@ -5,6 +5,7 @@
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
+#include "Files/TextFile.h"
 #include "Points/PointTable.h"
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 #define tippAdcircGrid_h
 
 #include "Files/OutputPath.h"
-#include "Files/TextFile.h"
 #include "Flat/FlatMesh.h"
 #include "Meshes/MeshFiles.h"
 #include "Points/PointTable.h"

@@ -32,7 +32,8 @@ void nextRow(NumberRows& rows, std::size_t fields, const char* what)
   }
 }
 
-/// Reads a row whose first field is the number of rows that follow, of the things `what`.
+/// Reads a row whose first field is the number of rows that follow. `what` names this number in
+/// messages.
 std::int64_t nextCount(NumberRows& rows, const char* what)
 {
   nextRow(rows, 1, what);
@@ -88,13 +89,13 @@ ConstraintTable readPolyFile(const std::string& path)
   for (std::int64_t i = 0; i < segments; ++i)
   {
     nextRow(rows, 3, "a segment");
-    const std::int64_t a = rows.integer(1) - vertices.First;
-    const std::int64_t b = rows.integer(2) - vertices.First;
-    if (std::min(a, b) < 0 || std::max(a, b) >= count)
+    const std::int64_t a = rows.integer(1);
+    const std::int64_t b = rows.integer(2);
+    if (std::min(a, b) < vertices.First || std::max(a, b) - vertices.First >= count)
     {
       rows.fail("names a vertex that is not given.");
     }
-    table.Edges.push_back({ a, b });
+    table.Edges.push_back({ a - vertices.First, b - vertices.First });
   }
   table.PolygonBegin = table.Edges.size();
   const std::int64_t holes = nextCount(rows, "the number of holes");

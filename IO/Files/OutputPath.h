@@ -29,7 +29,8 @@ struct PathState
   bool Exists = false;
   std::uint64_t Device = 0;
   std::uint64_t Inode = 0;
-  std::int64_t Size = 0; ///< in bytes; from here on set for files only
+  // The following members are set for files only.
+  std::int64_t Size = 0; ///< in bytes
   std::int64_t Seconds = 0;
   std::int64_t Nanoseconds = 0;
 };

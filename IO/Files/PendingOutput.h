@@ -60,7 +60,8 @@ struct Replaceable
 };
 
 /// An output folder in a hidden work folder beside its path until commit(). Without commit() it is
-/// removed; folders left behind by a killed process are removed by the next run for the same path.
+/// removed; folders left behind by a killed process are removed by the same user's next run for
+/// the same path.
 /// A work folder is marked as created here, and only files that runs write are removed from it.
 class VTKTIPPIO_EXPORT PendingFolder
 {

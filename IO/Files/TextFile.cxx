@@ -55,7 +55,7 @@ int copyStandardInput()
       failToCopy();
     }
     const std::size_t bytes = got > 0 ? std::size_t(got) : 0;
-    writeFully(file, path, size, block.data(), bytes);
+    writeFully(file, "The copy of the standard input in " + path, size, block.data(), bytes);
     size += bytes;
   }
 }

@@ -25,7 +25,7 @@ namespace
 /// data.
 struct VtuHeader
 {
-  FlatMesh Mesh; ///< its cells are ids, whose number follows from the byte count
+  FlatMesh Mesh; ///< Cells is a plain list of ids until the header is checked
   std::int64_t Points = 0;
   std::int64_t Cells = 0;
   RawArray Offsets;
@@ -243,37 +243,44 @@ private:
   void keep(const RawArray& array)
   {
     VtuHeader& h = this->Header;
-    const bool isData = this->Section == "PointData" || this->Section == "CellData";
     const bool ofPoints = this->Section == "PointData" || this->Section == "Points";
-    std::vector<RawArray>& data = ofPoints ? h.Mesh.PointData : h.Mesh.CellData;
-    RawArray* const part = this->Section == "Points" ? &h.Mesh.Points
-      : array.Name == "connectivity"                 ? &h.Mesh.Cells
-      : array.Name == "offsets"                      ? &h.Offsets
-      : array.Name == "types"                        ? &h.Types
-                                                     : nullptr;
-    if (isData &&
-      std::any_of(data.begin(), data.end(),
-        [&array](const RawArray& other) { return other.Name == array.Name; }))
+    const std::int64_t tuples = ofPoints ? h.Points : h.Cells;
+    if (this->Section == "PointData" || this->Section == "CellData")
     {
-      this->fail("holds two arrays of the name '" + array.Name + "'; rename one of them.");
+      std::vector<RawArray>& data = ofPoints ? h.Mesh.PointData : h.Mesh.CellData;
+      if (std::any_of(data.begin(), data.end(),
+            [&array](const RawArray& other) { return other.Name == array.Name; }))
+      {
+        this->fail("holds two arrays of the name '" + array.Name + "'; rename one of them.");
+      }
+      this->requireTuples(array, tuples);
+      data.push_back(array);
+      return;
     }
-    if (!isData && !part)
+    RawArray* const part = ofPoints  ? &h.Mesh.Points
+      : array.Name == "connectivity" ? &h.Mesh.Cells
+      : array.Name == "offsets"      ? &h.Offsets
+      : array.Name == "types"        ? &h.Types
+                                     : nullptr;
+    if (!part)
     {
       return;
     }
-    if (!isData && !part->Path.empty())
+    if (!part->Path.empty())
     {
       this->fail("holds two arrays where one of '" + array.Name + "' is due; write it again.");
     }
-    const std::int64_t tuples = !isData && part == &h.Mesh.Cells ? array.Tuples
-      : ofPoints                                                 ? h.Points
-                                                                 : h.Cells;
+    this->requireTuples(array, part == &h.Mesh.Cells ? array.Tuples : tuples);
+    *part = array;
+  }
+
+  void requireTuples(const RawArray& array, std::int64_t tuples) const
+  {
     if (array.Tuples != tuples)
     {
       this->fail("holds array '" + array.Name + "' with " + std::to_string(array.Tuples) +
         " tuples where " + std::to_string(tuples) + " are due; copy or write it again.");
     }
-    isData ? data.push_back(array) : void(*part = array);
   }
 
   void requireWhole() const

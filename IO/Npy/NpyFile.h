@@ -64,7 +64,7 @@ private:
   std::uint64_t Offset; ///< of the next bytes to read
 };
 
-/// Writes such an array of any shape; close() publishes the file.
+/// Writes an .npy array of any shape; close() publishes the file.
 class VTKTIPPIO_EXPORT NpyWriter
 {
 public:

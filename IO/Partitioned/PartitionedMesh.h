@@ -17,7 +17,7 @@ namespace tipp
 /// x min, x max, y min, y max, z min, z max.
 using Bounds = std::array<double, 6>;
 
-/// Those of no point.
+/// The bounds of an empty set of points.
 constexpr Bounds emptyBounds = { HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL };
 
 /// The maximum number of pieces of a mesh.

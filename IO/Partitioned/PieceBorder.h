@@ -69,7 +69,7 @@ void copyPoint(const PieceArray& array, const double* row, const PointRowLayout&
 /// Extends the bounds by a point; coordinates that are not finite, as z may be, are ignored.
 void extendBounds(Bounds& bounds, const std::array<double, 3>& point);
 
-/// If no point has extended the bounds of z, these become 0.
+/// Sets the bounds of z to 0 if no point has extended them.
 void completeBounds(Bounds& bounds);
 
 /// Numbers the distinct sets of pieces that borrow from one piece.
@@ -131,7 +131,8 @@ struct VTKTIPPIO_EXPORT PieceInterior
   }
 };
 
-/// All but the own points' indices, and the interface points and their rows.
+/// Leaves out First and OwnPoints, which the plan gives, and InterfacePoints and InterfaceRows,
+/// which are stored in a section of their own.
 template <typename Archive>
 void serialize(Archive& archive, PieceInterior& interior)
 {

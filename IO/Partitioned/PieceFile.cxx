@@ -3,6 +3,7 @@
 
 #include "Arrays/Buffer.h"
 #include "Files/IOError.h"
+#include "Flat/FlatMesh.h"
 #include "Partitioned/Checksum.h"
 
 #include <algorithm>

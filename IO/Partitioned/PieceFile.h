@@ -27,8 +27,8 @@ public:
   /// The id's value; -1 if the id is not in the map.
   std::int64_t find(std::int64_t id) const;
 
-  /// Writes the values of `count` ids; returns false if an id is not in the map. For values of 32
-  /// or 64 bits.
+  /// Writes the values of `count` ids; returns false if an id is not in the map. Value is
+  /// std::int32_t or std::int64_t.
   template <typename Value>
   bool translate(const std::int64_t* ids, std::size_t count, Value* values) const;
 
@@ -54,7 +54,7 @@ private:
   std::vector<Entry<std::uint64_t>> Wide;
 };
 
-/// A piece's open file, which one thread reads part by part.
+/// A piece's open file, read part by part. Not thread-safe: reading counts the bytes.
 class PieceFile
 {
 public:

@@ -292,6 +292,7 @@ std::string describe(const PieceArray& array)
   return ids ? text + " IdType=\"1\"" : text;
 }
 
+/// The section that lists arrays of this role. Relies on the order of the roles.
 const char* sectionOf(PieceRole role)
 {
   return role == PieceRole::Points ? "Points"
@@ -300,8 +301,8 @@ const char* sectionOf(PieceRole role)
                                    : "CellData";
 }
 
-/// The sections that list the arrays: of a piece, with the offsets of their data, or without these
-/// of the .pvtu, whose tags begin with P and which has no section Cells.
+/// The sections that list the arrays of a piece. Null offsets: those of the .pvtu, whose tags begin
+/// with P and which has no section Cells.
 std::string sections(
   const std::vector<PieceArray>& arrays, const std::vector<std::uint64_t>* offsets)
 {

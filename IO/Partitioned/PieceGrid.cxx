@@ -2,6 +2,7 @@
 #include "Partitioned/ReadPiece.h"
 
 #include "Arrays/Scalar.h"
+#include "Partitioned/PieceFormat.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

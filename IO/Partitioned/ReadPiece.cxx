@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioned/ReadPiece.h"
 
+#include "Flat/FlatMesh.h"
 #include "Partitioned/BorrowedCells.h"
 #include "Partitioned/PieceFile.h"
 
@@ -49,6 +50,9 @@ public:
       this->Borrowed.emplace(this->Mesh, this->File, ids.as<std::int64_t>());
       this->Result.Points += this->Borrowed->pointCount();
       this->Result.Cells += this->Borrowed->cellCount();
+      Buffer<char> all(this->Options.Cells ? 0 : std::size_t(this->Result.Points) * 8);
+      std::copy_n(ids.data(), std::min(ids.size(), all.size()), all.data());
+      ids = std::move(all);
     }
     this->Result.Coordinates = this->readOwn(PieceRole::Points);
     this->Borrowed ? this->Borrowed->fillCoordinates(this->Result) : void();
@@ -58,15 +62,7 @@ public:
     }
     else
     {
-      if (byReference)
-      {
-        this->Result.PointIds = Buffer<char>(std::size_t(this->Result.Points) * 8);
-        std::copy_n(ids.data(), ids.size(), this->Result.PointIds.data());
-      }
-      else
-      {
-        this->Result.PointIds = std::move(ids);
-      }
+      this->Result.PointIds = std::move(ids);
       this->Result.PointGhosts = this->readOwn(PieceRole::PointGhosts);
       this->readCells();
     }

@@ -4,7 +4,6 @@
 
 #include "Arrays/Buffer.h"
 #include "Partitioned/PartitionedMesh.h"
-#include "Partitioned/PieceFile.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstddef>

@@ -131,8 +131,8 @@ private:
     std::vector<Visit> Visits;
   };
 
-  /// Calls visit(item, result) for all items, each thread a range of these with a result of its
-  /// own. Returns the results in the order of the ranges.
+  /// Calls visit(item, result) for all items. Each thread visits one range of items and has its own
+  /// result; the results are returned in the order of the ranges.
   template <typename VisitItem>
   std::vector<ThreadResult> onThreads(std::size_t items, const VisitItem& visit) const
   {
@@ -238,7 +238,7 @@ private:
       }
     }
     const std::vector<Visit> parents = std::move(this->Visits);
-    const std::vector<ThreadResult> results = this->onThreads(parents.size(),
+    std::vector<ThreadResult> results = this->onThreads(parents.size(),
       [&](std::size_t i, ThreadResult& result)
       {
         const Visit& parent = parents[i];
@@ -255,7 +255,7 @@ private:
           });
       });
     this->sum(results);
-    this->takeVisits(results);
+    this->takeVisits(std::move(results));
   }
 
   void sum(const std::vector<ThreadResult>& results)
@@ -270,12 +270,13 @@ private:
     }
   }
 
-  void takeVisits(const std::vector<ThreadResult>& results)
+  void takeVisits(std::vector<ThreadResult> results)
   {
     this->Visits.clear();
-    for (const ThreadResult& result : results)
+    for (ThreadResult& result : results)
     {
       this->Visits.insert(this->Visits.end(), result.Visits.begin(), result.Visits.end());
+      std::vector<Visit>().swap(result.Visits);
     }
   }
 

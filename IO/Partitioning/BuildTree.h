@@ -100,8 +100,8 @@ struct TreeOptions
 /// are undone at the end. A mesh of one chunk on one rank is read once.
 ///
 /// Throws IOError, on all ranks if on one: for cells with coordinates that are not finite or
-/// outside the domain, or a tree that would be too large. A null or dummy
-/// controller means serial.
+/// outside the domain, or a tree that would be too large. A null or dummy controller means
+/// serial.
 VTKTIPPIO_EXPORT BoxTiling buildTree(const CellSource& cells, const Box3& domain,
   const TreeOptions& options, vtkMultiProcessController* controller = nullptr);
 

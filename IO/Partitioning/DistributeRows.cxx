@@ -299,6 +299,7 @@ private:
   std::unique_ptr<VertexLoader> OwnerLoader;
   std::unique_ptr<VertexLoader> PointLoader;
 };
+
 } // namespace
 
 void distributeCells(PartitionJob& job)
@@ -418,6 +419,7 @@ private:
   InputFile Owners;
   ArrayRows Data;
 };
+
 } // namespace
 
 void distributePoints(PartitionJob& job)
@@ -439,4 +441,5 @@ void distributePoints(PartitionJob& job)
   job.Statistics.SpilledBytes += job.Points->bytes();
   job.Points->exchange(ranks);
 }
+
 } // namespace tipp

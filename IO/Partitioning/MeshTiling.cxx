@@ -248,6 +248,7 @@ BoxTiling makeTiling(const FlatMesh& mesh, const TilingChoice& choice, const Loa
     {
       ids.resize(std::size_t(count * mesh.CellSize));
       reader->read(first, count, ids.data());
+      std::vector<double>().swap(coordinates); // frees the previous chunk before the next is loaded
       coordinates = loadCoordinates(mesh, *loader, ids);
     } };
   TreeOptions options;

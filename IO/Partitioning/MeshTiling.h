@@ -72,8 +72,8 @@ inline void takeCoordinates(
   }
 }
 
-/// Loads points with these ids: as many coordinates of each as the cells have dimensions. Throws
-/// IOError.
+/// Loads the coordinates of the points with these ids: two each for triangles, three for
+/// tetrahedra. Throws IOError.
 std::vector<double> loadCoordinates(
   const FlatMesh& mesh, VertexLoader& loader, const std::vector<std::int64_t>& ids);
 

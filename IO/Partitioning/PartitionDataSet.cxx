@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Partitioning/PartitionMesh.h"
 
 #include "Files/IOError.h"
 #include "Files/OutputPath.h"
 #include "Files/PendingOutput.h"
 #include "Flat/FlattenDataSet.h"
 #include "Partitioned/PieceWriter.h"
-#include "Partitioning/PartitionMesh.h"
 #include "Ranks/Communicator.h"
 #include "Vtk/ReadDataSet.h"
 

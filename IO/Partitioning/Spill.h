@@ -83,9 +83,10 @@ public:
   /// Call after all chunks: makes all ranks' rows known to every rank. Collective. Throws IOError
   /// on all.
   void exchange(Communicator& ranks);
-  /// The same for one process.
+  /// Like exchange(), for a single rank; no communication.
   void finish();
-  /// The same without communication: returns what the constructor above needs from each rank.
+  /// Ends writing; returns what the constructor for several ranks' rows needs from this rank. No
+  /// communication.
   SpilledRows close();
 
   /// The layout of this rank's file, or after exchange() of all ranks' files.

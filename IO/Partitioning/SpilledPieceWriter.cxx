@@ -369,7 +369,7 @@ private:
     this->CellsWritten += ofPoints ? 0 : std::int64_t(rows.size());
   }
 
-  /// Appends value(row) of each row to an array.
+  /// Writes value(row) of each row to consecutive memory.
   template <typename Value>
   static void appendValues(const RowPointers& rows, const Value& value, char* to)
   {

@@ -185,8 +185,8 @@ private:
   std::int64_t Row = 0;
 };
 
-/// The points of a table. With `load` it is the content of a file that can only be read as a whole,
-/// which each pass does.
+/// The points of a table. If `load` is given, it reads the table from a file that can only be read
+/// as a whole; each pass calls it again, so that the table is not kept between passes.
 class TablePoints : public FilePoints
 {
 public:

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <utility>
 
@@ -182,8 +181,8 @@ PieceGroups groupByPiece(const std::vector<std::int32_t>& pieces, std::size_t co
 namespace
 {
 
-/// A query of points, which answers those of one piece at a time. Several threads may use it for
-/// different pieces.
+/// Answers the points of a query, one piece per call. Several threads may call it for different
+/// pieces.
 class PointQuery
 {
 public:

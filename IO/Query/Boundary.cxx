@@ -8,7 +8,6 @@
 #include "Query/RankAnswer.h"
 
 #include <algorithm>
-#include <memory>
 #include <set>
 #include <tuple>
 #include <utility>

@@ -79,7 +79,7 @@ inline PieceNeeds topologyNeeded()
   return needs;
 }
 
-/// Calls work(part, topology) for the pieces [first, end), one after the other.
+/// Calls work(part, topology) for the pieces [pieces.first, pieces.second), one after the other.
 template <typename Work>
 void forPieceRange(
   const ResidentMesh& mesh, std::pair<std::size_t, std::size_t> pieces, const Work& work)

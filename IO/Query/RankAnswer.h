@@ -34,23 +34,24 @@ std::pair<std::size_t, std::size_t> piecesOfRank(
 /// The rank that has a piece of a stored mesh.
 std::size_t rankOfPiece(const Communicator& ranks, const ResidentMesh& mesh, std::int64_t piece);
 
-/// Throws IOError if several ranks have cells and this rank's part lacks global ids. Collective.
+/// Throws IOError on all ranks if several have cells and the part of any lacks global ids.
+/// Collective if there are several ranks.
 void requireIds(Communicator* ranks, const ResidentMesh& mesh);
 
 /// The items of all ranks on the first rank, none on the others.
 template <typename T>
 std::vector<T> gathered(Communicator* ranks, std::vector<T> own)
 {
-  return areSeveral(ranks) ? concatenated(ranks->gather(own)) : own;
+  return areSeveral(ranks) ? concatenated(ranks->gather(own)) : std::move(own);
 }
 
-/// What a rank knows about a rank's part of a mesh.
+/// A description of one rank's part of a mesh, for the other ranks.
 struct RankPart
 {
   int CellSize = 0; ///< 0 if it has no cells
   std::int64_t Cells = 0;
   Bounds Domain{};
-  std::vector<StoredArray> Arrays; ///< the requested ones; the elevation, too
+  std::vector<StoredArray> Arrays; ///< the requested arrays; these may include the elevation
 };
 
 template <typename Archive>

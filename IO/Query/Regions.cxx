@@ -154,7 +154,7 @@ std::vector<std::int64_t> cellsIn(
       const std::lock_guard<std::mutex> lock(mutex);
       ids.insert(ids.end(), own.begin(), own.end());
     });
-  return sortedUnique(gathered(ranks, sortedUnique(std::move(ids))));
+  return sortedUnique(gathered(ranks, std::move(ids)));
 }
 
 std::vector<std::int64_t> pointsIn(
@@ -177,7 +177,7 @@ std::vector<std::int64_t> pointsIn(
       test.holds(positionOf(part, point)) ? ids.push_back(part.pointId(point)) : void();
     }
   }
-  return sortedUnique(gathered(ranks, sortedUnique(std::move(ids))));
+  return sortedUnique(gathered(ranks, std::move(ids)));
 }
 
 } // namespace tipp

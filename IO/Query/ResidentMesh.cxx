@@ -137,12 +137,8 @@ ResidentMesh::ResidentMesh(
       { return this->load(number, needs, before); },
       [this](std::size_t number, std::uint64_t bytes) { this->refusePiece(number, bytes); })
 {
-  int steps = 0;
-  for (const StoredArray& array : this->Mesh.Arrays)
-  {
-    steps = std::max(steps, array.Step + 1);
-  }
-  if (options.Step != 0 && (options.Step < 0 || options.Step >= steps))
+  const auto steps = std::int64_t(this->Mesh.Times.size());
+  if (this->isStored() && options.Step != 0 && (options.Step < 0 || options.Step >= steps))
   {
     this->refuse("has no time step " + std::to_string(options.Step) + "; there are " +
       std::to_string(steps) + ", counted from 0.");

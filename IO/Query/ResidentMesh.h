@@ -73,8 +73,7 @@ struct PieceGroups
 /// number of pieces.
 PieceGroups groupByPiece(const std::vector<std::int32_t>& pieces, std::size_t count);
 
-/// An answer for points that are all outside the mesh. Name, type and components of the arrays are
-/// used.
+/// An answer, with these arrays, for points that are all outside the mesh.
 MeshAnswer emptyAnswer(std::int64_t count, const std::vector<StoredArray>& arrays, int corners,
   bool withWeights, bool withKeys);
 
@@ -128,8 +127,8 @@ public:
   /// For each global id of a cell or point, the piece that owns it. Throws IOError for an id that
   /// the mesh does not have.
   std::vector<std::int32_t> piecesOfIds(const std::vector<std::int64_t>& ids, bool ofPoints) const;
-  /// As piecesOfIds(), for the pieces [first, end) of a stored mesh; -1 if none of them owns an id
-  /// of the mesh.
+  /// As piecesOfIds(), but searches only the pieces [first, end) of a stored mesh: -1 for an id
+  /// that another piece owns.
   std::vector<std::int32_t> findIds(
     const std::vector<std::int64_t>& ids, bool ofPoints, std::size_t first, std::size_t end) const;
   [[noreturn]] void refuseId(std::int64_t id, bool ofPoints) const;

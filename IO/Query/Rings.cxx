@@ -387,7 +387,7 @@ IdLists ringsAcrossRanks(const RankQuestions& questions, const Ids& seeds, int k
   {
     Ids Points; ///< found so far, ascending
     Ids Cells;  ///< found so far, ascending
-    Ids Front;  ///< points, or in the middle of a step cells, that the last half step has found
+    Ids Front;  ///< newly found points; within a step, newly found cells
   };
   std::vector<Ring> rings(seeds.size());
   const IdLists corners = ofPoints ? IdLists() : questions.corners(seeds);
@@ -439,7 +439,7 @@ IdLists ringsInMemory(
   const RankQuestions& questions, const ResidentMesh& part, const Ids& seeds, int k, bool ofPoints)
 {
   const std::vector<std::uint8_t>& shared = questions.sharedPoints();
-  const IdLists within = questions.askFirst(seeds, ofPoints,
+  IdLists within = questions.askFirst(seeds, ofPoints,
     [&](const Ids& own, const Ids& indices)
     { return RingGrowth(part, own, ofPoints).grownWithin(k, indices, shared.data()); });
   const auto leaves = [&within](std::size_t i)

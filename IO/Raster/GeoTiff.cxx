@@ -252,14 +252,14 @@ private:
     using Short = std::uint16_t;
     using Long = std::uint32_t;
     const std::size_t bands = this->Bands.size();
-    const bool hasPredictor = isDeflated(this->Description);
+    const bool deflates = isDeflated(this->Description);
     const auto repeated = [bands](int value) { return std::vector<Short>(bands, Short(value)); };
     const auto one = [](int value) { return std::vector<Short>{ Short(value) }; };
     std::vector<TiffField> fields = {
       tiffField(256, Type::Long, std::vector<Long>{ Long(this->Description.Grid.Columns) }),
       tiffField(257, Type::Long, std::vector<Long>{ Long(this->Description.Grid.Rows) }),
       tiffField(258, Type::Short, repeated(this->Description.Double ? 64 : 32)), // bits
-      tiffField(259, Type::Short, one(hasPredictor ? 8 : 1)),                    // compression
+      tiffField(259, Type::Short, one(deflates ? 8 : 1)),                        // compression
       tiffField(262, Type::Short, one(1)),                                       // 0 is black
       tiffField(277, Type::Short, one(int(bands))),        // samples per pixel
       tiffField(284, Type::Short, one(bands > 1 ? 2 : 1)), // bands stored separately
@@ -267,9 +267,9 @@ private:
       tiffField(323, Type::Short, one(int(RasterTileSize))),
       tiffField(339, Type::Short, repeated(3)), // floating-point numbers
     };
-    if (hasPredictor)
+    if (deflates)
     {
-      fields.push_back(tiffField(317, Type::Short, one(3)));
+      fields.push_back(tiffField(317, Type::Short, one(3))); // predictor
     }
     if (bands > 1)
     {

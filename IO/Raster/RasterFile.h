@@ -167,6 +167,10 @@ inline std::int64_t tileNumber(const RasterGrid& grid, const RasterWindow& windo
 template <typename Visit>
 void forTiles(const RasterGrid& grid, const RasterWindow& window, const Visit& visit)
 {
+  if (window.Columns <= 0 || window.Rows <= 0)
+  {
+    return;
+  }
   const std::int64_t across = (grid.Columns + RasterTileSize - 1) / RasterTileSize;
   const std::int64_t right = window.Column + window.Columns;
   const std::int64_t end = window.Row + window.Rows;

@@ -272,7 +272,8 @@ void checkVtkFile(const std::string& path)
   {
     checkLegacyFile(path);
   }
-  else if (isVtkFile(path) && extension.find("vt") != std::string::npos) // .vtu, .pvtu ...
+  // The names of VTK's XML kinds, and no others here, contain "vt": .vtu, .pvtu ...
+  else if (isVtkFile(path) && extension.find("vt") != std::string::npos)
   {
     XmlCheck(path).run();
   }

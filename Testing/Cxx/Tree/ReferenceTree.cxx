@@ -21,10 +21,9 @@ double longest(const Box3& box)
 class Recursion
 {
 public:
-  Recursion(const CellSet& cells, std::int64_t threshold, int maxDepth)
+  Recursion(const CellSet& cells, std::int64_t threshold)
     : Cells(cells)
     , Threshold(threshold)
-    , MaxDepth(maxDepth)
   {
   }
 
@@ -40,7 +39,7 @@ public:
         fitting += this->length(cell) <= longest(box) ? 1 : 0;
       }
     }
-    if (fitting <= this->Threshold || depth == this->MaxDepth)
+    if (fitting <= this->Threshold || depth == tipp::BoxTiling::MaxDepth)
     {
       this->Leaves.push_back(box);
       return;
@@ -90,19 +89,18 @@ private:
 
   const CellSet& Cells;
   std::int64_t Threshold;
-  int MaxDepth;
 };
 
 } // namespace
 
-std::vector<Box3> referenceTree(const CellSet& cells, std::int64_t threshold, int maxDepth)
+std::vector<Box3> referenceTree(const CellSet& cells, std::int64_t threshold)
 {
   std::vector<std::size_t> all(cells.size());
   for (std::size_t i = 0; i < all.size(); ++i)
   {
     all[i] = i;
   }
-  Recursion recursion(cells, threshold, maxDepth);
+  Recursion recursion(cells, threshold);
   recursion.run(cells.bounds(), all, 0);
   return recursion.Leaves;
 }

@@ -13,8 +13,7 @@
 
 /// Returns the leaves of the tree that buildTree() should make, by recursion over lists of cells;
 /// each cell is tested by clipping in rational arithmetic.
-std::vector<tipp::Box3> referenceTree(
-  const CellSet& cells, std::int64_t threshold, int maxDepth = tipp::BoxTiling::MaxDepth);
+std::vector<tipp::Box3> referenceTree(const CellSet& cells, std::int64_t threshold);
 
 /// Cells in memory as a source.
 tipp::CellSource sourceOf(const CellSet& cells);
