@@ -19,8 +19,8 @@ namespace tipp
 /// One point in eight goes to a round before the last, one in eight of these to a round before the
 /// last but one, and so on.
 ///@{
-/// The number of rounds before the last: at most `most`, but enough that the first has at most
-/// about `few` points.
+/// The number of rounds before the last: as many as are needed for the first round to have at most
+/// about `few` points, but no more than `most`.
 inline unsigned earlierRounds(std::size_t count, std::size_t few, unsigned most)
 {
   unsigned rounds = 0;
@@ -135,7 +135,7 @@ protected:
     }
   }
 
-  /// Adds the runs in `within` that have equal keys and more than a few points. Others are not
+  /// Adds the runs of equal keys in `within` that have more than a few points. Shorter runs are not
   /// worth sorting: a walk among their points is short.
   void addRuns(Run within, std::vector<Run>& runs) const
   {
@@ -154,10 +154,10 @@ protected:
     }
   }
 
-  /// Sorts the points of each run along a curve in their bounding box. If more than a few share a
-  /// cell of the finest level, they are sorted again in their own bounding box, and so on. This is
-  /// needed because coordinates may differ by hundreds of powers of two. The points of a run must
-  /// be in the order of their indices.
+  /// Sorts the points of each run along a curve in the run's bounding box. Points that share a cell
+  /// of the finest level, if more than a few, are sorted again in their own bounding box, and so
+  /// on: coordinates may differ by hundreds of powers of two. The points of a run must be in the
+  /// order of their indices.
   template <typename Curve>
   void sortRuns(const typename Curve::Point* points, std::vector<Run> runs)
   {

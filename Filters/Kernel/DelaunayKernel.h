@@ -68,8 +68,8 @@ public:
   /// False while all inserted points are collinear: there are no triangles yet.
   bool hasTriangles() const { return this->Mesh.end() > 0; }
 
-  /// @name Triangles, including those at the infinite vertex A triangle is identified by an index
-  /// that only these functions interpret.
+  /// @name Triangles, including those at the infinite vertex
+  /// A triangle is an index that only these functions interpret.
   ///@{
   /// The triangle's number, in the mesh's order: for arrays of triangleCount() entries.
   static std::size_t number(Index triangle) { return std::size_t(triangle / 8); }

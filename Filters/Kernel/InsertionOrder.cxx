@@ -4,8 +4,7 @@
 #include "Kernel/Lanes.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <utility>
 #include <vector>
 
 namespace tipp

@@ -309,14 +309,14 @@ inline bool Cavity3::findConflicts(TetrahedronMesh& mesh, const Point3& p)
   return true;
 }
 
-/// Reserves as many free tetrahedra as the boundary has facets, and returns true. Throws
+/// Reserves as many free tetrahedra as the boundary has facets. Throws
 /// std::length_error if indices do not suffice.
-inline bool Cavity3::makeRoom(TetrahedronMesh& mesh)
+inline void Cavity3::makeRoom(TetrahedronMesh& mesh)
 {
   const std::size_t count = this->Boundary.size();
   if (this->Free.size() >= count)
   {
-    return true;
+    return;
   }
   const std::size_t needed = mesh.end() / 8 + (count - this->Free.size());
   if (needed > TetrahedronMesh::MostSlots / 8)
@@ -333,7 +333,6 @@ inline bool Cavity3::makeRoom(TetrahedronMesh& mesh)
     this->Free.push_back(mesh.end());
     mesh.setEnd(mesh.end() + 8);
   }
-  return true;
 }
 
 /// As makeRoom(), while other threads do the same. Returns false if the mesh has no memory left.
@@ -405,8 +404,9 @@ inline void Cavity3::renewStart(const TetrahedronMesh& mesh)
   }
 }
 
-/// Returns false, and changes nothing, if another thread is at work at the vertex or if the mesh
-/// has no memory left.
+/// Inserts a vertex, or adds it to `found` if it coincides with an earlier one. Returns false, and
+/// changes nothing, if another thread is at work at the vertex or if the shared mesh has no memory
+/// left.
 template <typename Access>
 inline bool Cavity3::insertOne(TetrahedronMesh& mesh, Index vertex, std::vector<Coincidence>& found)
 {
@@ -427,10 +427,14 @@ inline bool Cavity3::insertOne(TetrahedronMesh& mesh, Index vertex, std::vector<
   }
   const bool isFound =
     this->claimFirst<Access>(mesh, p, at) && this->findConflicts<Access>(mesh, p);
-  if (!isFound || !(Access::IsShared ? this->takeRoom(mesh) : this->makeRoom(mesh)))
+  if (!isFound || (Access::IsShared && !this->takeRoom(mesh)))
   {
     this->setMarks<Access>(mesh, TetrahedronMesh::Live);
     return false;
+  }
+  if (!Access::IsShared)
+  {
+    this->makeRoom(mesh);
   }
   this->retriangulate<Access>(mesh, vertex);
   return true;

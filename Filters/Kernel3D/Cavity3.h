@@ -89,7 +89,7 @@ private:
   void retriangulate(TetrahedronMesh& mesh, Index vertex);
   template <typename Access>
   void setMarks(TetrahedronMesh& mesh, std::uint8_t mark) const;
-  bool makeRoom(TetrahedronMesh& mesh);
+  void makeRoom(TetrahedronMesh& mesh);
   bool takeRoom(TetrahedronMesh& mesh);
   unsigned conflictsAcross(
     const Index* slots, Index cell, const Links& across, const Point3& p, unsigned& certain);

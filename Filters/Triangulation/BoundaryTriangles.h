@@ -42,7 +42,8 @@ private:
   std::uint32_t Last = 0; ///< the number returned last, often repeated
 };
 
-/// A vertex of a cell that is not interior to one partition, with the data that a worker needs.
+/// A vertex of a boundary cell, with the data that a worker needs. A boundary cell is a triangle or
+/// tetrahedron that is not interior to one partition.
 template <typename Point>
 struct VertexOf
 {
@@ -56,7 +57,6 @@ struct VertexOf
 
 using BoundaryVertex = VertexOf<Point2>;
 
-/// A boundary triangle is a triangle that is not interior to one partition.
 using BoundaryTriangle = std::array<BoundaryVertex, 3>;
 
 /// The positions of vertices, or of other points that have one.

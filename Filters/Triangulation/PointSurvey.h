@@ -27,8 +27,8 @@ PointSurvey surveyPoints(PointsView points, int threads);
 /// Returns about `count` finite points, evenly spaced in the input's order.
 std::vector<Point2> samplePoints(PointsView points, std::size_t count);
 
-/// Returns a power of two that scales coordinates to about 1, given the largest magnitude among
-/// them; 1 if it is within 2^-`moderate` and 2^`moderate`.
+/// Returns a power of two that scales coordinates whose largest magnitude is `largest` to about 1;
+/// 1 if `largest` is 0 or between 2^-`moderate` and 2^`moderate`.
 double moderateFactor(double largest, int moderate);
 /// Returns whether multiplying this coordinate by the factor, a power of two, is exact.
 inline bool isExactTimes(double x, double factor)

@@ -20,17 +20,18 @@ Circumball ballOf(const DelaunayKernel3& kernel, const std::array<Index, 4>& v)
   return { kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2]), kernel.point(v[3]) };
 }
 
-/// Returns the messages to several recipients, each with the vertices of `corners` once.
+/// Returns a message for each recipient. `corners` has a list for each; a vertex may be in it
+/// several times, but is sent once.
 template <typename Corner, typename VertexAt>
 std::vector<VertexMessage3> messagesWith(PartitionIndex sender,
   const std::vector<std::vector<Corner>>& corners, std::size_t vertexEnd, const VertexAt& vertexAt)
 {
   std::vector<VertexMessage3> messages;
   std::vector<std::size_t> sentTo(vertexEnd, 0); // by vertex: its last recipient, counted from 1
-  for (const std::vector<Corner>& those : corners)
+  for (const std::vector<Corner>& list : corners)
   {
     messages.push_back({ sender, {} });
-    for (const Corner corner : those)
+    for (const Corner corner : list)
     {
       if (std::exchange(sentTo[corner], messages.size()) != messages.size())
       {
@@ -136,9 +137,9 @@ SentMessages3 Worker3::triangulate(const PartitionPoints3& points,
   this->collect(inbox);
   // The partition's own points first, so that they represent points with the same coordinates.
   const std::vector<Point3> others = positionsOf(this->Others);
-  this->Points.assign(points.Points, points.Points + points.Count);
-  this->Points.insert(this->Points.end(), others.begin(), others.end());
-  this->Kernel.triangulate(this->Points.data(), this->Points.size());
+  std::vector<Point3> all(points.Points, points.Points + points.Count);
+  all.insert(all.end(), others.begin(), others.end());
+  this->Kernel.triangulate(all.data(), all.size());
   return this->routeAll(final);
 }
 

@@ -11,9 +11,9 @@
 #include "Triangulation3D/OrderCells.h"
 #include "Triangulation3D/Tiling3.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -113,7 +113,6 @@ private:
   Box3 Beside;   ///< contains the own region; no later region reaches into its interior
   Box3 Interior; ///< Beside or the own region, see InsideCells
   DelaunayKernel3 Kernel;
-  std::vector<Point3> Points;  ///< positions to triangulate
   std::vector<Vertex3> Others; ///< from the inbox
   /// By later partition: corners of the tetrahedra for it.
   std::vector<std::vector<DelaunayKernel3::Index>> Outgoing;

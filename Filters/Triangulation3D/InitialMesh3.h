@@ -13,7 +13,7 @@
 namespace tipp
 {
 
-/// The partition of artificial points is -1.
+/// A vertex of a tetrahedron. Artificial points have the partition -1.
 using Vertex3 = VertexOf<Point3>;
 
 /// Returns the indices of about `wanted` points, ascending: the first points with the smallest and

@@ -6,6 +6,7 @@
 #include "Parallel/Stopwatch.h"
 #include "Predicates/NormalAxis.h"
 #include "Triangulation3D/Dataflow3.h"
+#include "Triangulation3D/OrderCells.h"
 
 #include <omp.h>
 
