@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OpenCL/ComputeDevice.h"
+#include "Parallel/ParallelFor.h"
+#include "Parallel/Stopwatch.h"
 
 #include <omp.h>
 
 #include <algorithm>
+#include <cstring>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -20,6 +23,15 @@ std::string trimmed(const std::string& text)
   const std::size_t first = text.find_first_not_of(spaces);
   const std::size_t last = text.find_last_not_of(spaces);
   return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+constexpr std::size_t stageBytes = std::size_t(8) << 20; ///< of a ComputeDevice::Stage
+
+void copyOnThreads(char* to, const char* from, std::size_t bytes)
+{
+  forChunks(std::int64_t(bytes), 1 << 18, threadCount(0), {},
+    [&](std::int64_t begin, std::int64_t end, int)
+    { std::memcpy(to + begin, from + begin, std::size_t(end - begin)); });
 }
 
 DeviceType typeOf(const cl::Device& device)
@@ -274,32 +286,91 @@ cl::Buffer ComputeDevice::room(std::size_t bytes) const
 
 void ComputeDevice::read(const cl::Buffer& buffer, void* data, std::size_t bytes) const
 {
-  this->transfer(bytes,
-    [&](cl::Event& event)
-    { this->Queue.enqueueReadBuffer(buffer, CL_TRUE, 0, bytes, data, nullptr, &event); });
+  this->transfer(static_cast<char*>(data), bytes, true,
+    [&](std::size_t offset, std::size_t count, char* memory, cl::Event& done)
+    { this->Queue.enqueueReadBuffer(buffer, CL_FALSE, offset, count, memory, nullptr, &done); });
 }
 
 void ComputeDevice::write(const cl::Buffer& buffer, const void* data, std::size_t bytes) const
 {
-  this->transfer(bytes,
-    [&](cl::Event& event)
-    { this->Queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, data, nullptr, &event); });
+  // The const_cast is safe: nothing writes to the memory.
+  this->transfer(static_cast<char*>(const_cast<void*>(data)), bytes, false,
+    [&](std::size_t offset, std::size_t count, char* memory, cl::Event& done)
+    { this->Queue.enqueueWriteBuffer(buffer, CL_FALSE, offset, count, memory, nullptr, &done); });
 }
 
 void ComputeDevice::transfer(
-  std::size_t bytes, const std::function<void(cl::Event&)>& enqueue) const
+  char* data, std::size_t bytes, bool toHost, const Enqueue& enqueue) const
 {
-  if (bytes != 0)
+  if (bytes == 0)
   {
-    this->run(
-      [&]
-      {
-        cl::Event event;
-        enqueue(event);
-        this->TransferNanoseconds += event.getProfilingInfo<CL_PROFILING_COMMAND_END>() -
-          event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
-      });
+    return;
   }
+  this->run(
+    [&]
+    {
+      this->Queue.finish(); // the time of kernels does not count
+      const Stopwatch watch;
+      if (bytes <= stageBytes || this->SharesHostMemory)
+      {
+        cl::Event done;
+        enqueue(0, bytes, data, done);
+        done.wait();
+      }
+      else
+      {
+        this->transferInStages(data, bytes, toHost, enqueue);
+      }
+      this->TransferNanoseconds += std::uint64_t(1e9 * watch.seconds());
+    });
+}
+
+void ComputeDevice::transferInStages(
+  char* data, std::size_t bytes, bool toHost, const Enqueue& enqueue) const
+{
+  const std::lock_guard<std::mutex> lock(this->StageMutex);
+  const std::size_t parts = (bytes + stageBytes - 1) / stageBytes;
+  const std::size_t stages = this->Stages.size();
+  const auto sizeOf = [&](std::size_t part)
+  { return std::min(stageBytes, bytes - part * stageBytes); };
+  std::vector<cl::Event> done(stages);
+  // While the threads copy to or from one stage, the device copies from or to the other.
+  for (std::size_t part = 0; part < parts + stages; ++part)
+  {
+    const std::size_t index = part % stages;
+    char* const memory = this->stage(index).Memory;
+    if (part >= stages)
+    {
+      done[index].wait();
+    }
+    if (part >= stages && toHost)
+    {
+      const std::size_t before = part - stages;
+      copyOnThreads(data + before * stageBytes, memory, sizeOf(before));
+    }
+    if (part < parts)
+    {
+      if (!toHost)
+      {
+        copyOnThreads(memory, data + part * stageBytes, sizeOf(part));
+      }
+      enqueue(part * stageBytes, sizeOf(part), memory, done[index]);
+      this->Queue.flush();
+    }
+  }
+}
+
+ComputeDevice::Stage& ComputeDevice::stage(std::size_t index) const
+{
+  Stage& stage = this->Stages[index];
+  if (!stage.Memory)
+  {
+    // Drivers page-lock memory that they allocate for the host.
+    stage.Buffer = cl::Buffer(this->Context, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, stageBytes);
+    stage.Memory = static_cast<char*>(this->Queue.enqueueMapBuffer(
+      stage.Buffer, CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, stageBytes));
+  }
+  return stage;
 }
 
 void ComputeDevice::enqueue(const cl::Kernel& kernel, std::size_t items) const

@@ -198,7 +198,7 @@ public:
 
 private:
   static constexpr std::uint64_t PointBytes = 3 * sizeof(double);
-  static constexpr std::uint64_t ListBytes = 12; ///< for each cell, two lists and a count
+  static constexpr std::uint64_t ListBytes = 8; ///< for each cell, two lists
 
   std::uint64_t corners() const { return std::uint64_t(this->Mesh.Dimension) + 1; }
   /// The device memory that may be used.

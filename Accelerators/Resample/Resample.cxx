@@ -176,6 +176,7 @@ private:
 ResampleResult resample(const SimplexMesh& mesh, const Lattice& lattice,
   const std::vector<Attribute>& attributes, const ResampleOptions& options)
 {
+  const ThreadLimit limit(options.Threads); // for copies to and from a device
   return Resampler(mesh, lattice, attributes, options).run();
 }
 

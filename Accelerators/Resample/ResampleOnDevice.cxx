@@ -22,6 +22,9 @@ namespace
 constexpr std::size_t mostArrays = 4;
 constexpr int mostComponents = 8;
 
+/// The number of counters of samples in SampleCells.cl.
+constexpr std::size_t counterCount = 1024;
+
 std::size_t tupleBytes(const Attribute& attribute)
 {
   return std::size_t(attribute.Components) * (attribute.Type == Scalar::Float32 ? 4 : 8);
@@ -189,6 +192,15 @@ private:
       a[3].Samples, a[3].Float, a[3].Components, arguments...);
   }
 
+  /// A buffer of 32-bit integers.
+  cl::Buffer zeros(std::size_t count) const
+  {
+    const std::vector<cl_int> values(count);
+    cl::Buffer buffer = this->Device.room(count * sizeof(cl_int));
+    this->Device.write(buffer, values.data(), count * sizeof(cl_int));
+    return buffer;
+  }
+
   /// Waits for the kernels and reads `count` values.
   template <typename T>
   std::vector<T> read(const cl::Buffer& buffer, std::int64_t count) const
@@ -205,18 +217,19 @@ private:
     const std::vector<Array> arrays = this->arraysOf(piece);
     const cl::Buffer sides =
       this->Device.input(outside, outside ? std::size_t(this->Mesh.PointCount) : 0);
-    // The number of claimed samples per item, and lists of the cells that are skipped.
-    const cl::Buffer counts = this->Device.room(std::size_t(items) * sizeof(cl_uint));
+    // The numbers of claimed samples, their carries, and lists of the cells that are skipped.
+    const cl::Buffer counters = this->zeros(2 * counterCount);
+    const cl::Buffer lengths = this->zeros(2);
     const cl::Buffer large = this->Device.room(count * sizeof(cl_int));
     const cl::Buffer doubtful = this->Device.room(count * sizeof(cl_int));
-    const cl_int none[2] = {};
-    const cl::Buffer lengths = this->Device.room(sizeof none);
-    this->Device.write(lengths, none, sizeof none);
     this->launch("sampleCells", items, piece, arrays, cl_long(count), largestCellOf(this->Device),
-      piece.Hidden, cl_int(piece.hasHidden()), sides, cl_int(outside != nullptr), counts, large,
+      piece.Hidden, cl_int(piece.hasHidden()), sides, cl_int(outside != nullptr), counters, large,
       doubtful, lengths);
-    const std::vector<cl_uint> counted = this->read<cl_uint>(counts, items);
-    this->Result.Claimed += std::accumulate(counted.begin(), counted.end(), std::int64_t(0));
+    const std::vector<cl_uint> counted = this->read<cl_uint>(counters, 2 * counterCount);
+    for (std::size_t i = 0; i < counterCount; ++i)
+    {
+      this->Result.Claimed += std::int64_t(counted[counterCount + i]) << 32 | counted[i];
+    }
     const std::vector<cl_int> length = this->read<cl_int>(lengths, 2);
     for (const cl_int cell : this->read<cl_int>(doubtful, length[1]))
     {

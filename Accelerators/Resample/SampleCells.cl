@@ -17,6 +17,9 @@ typedef uchar Mark;
 #define MARK(cell) 1
 #endif
 
+// Counters of samples: many, since all work items add to them.
+#define COUNTERS 1024
+
 // The largest number of components of all arrays together; ResampleOnDevice.cxx ensures it.
 #define CHANNELS 8
 
@@ -309,6 +312,17 @@ typedef struct
   int state;
 } Live;
 
+// Adds to one of the counters. The carry follows them, since sums of overlapping cells may exceed 32
+// bits.
+void count(global uint* counters, long item, uint samples)
+{
+  const long counter = item % COUNTERS;
+  if (samples != 0 && atomic_add(&counters[counter], samples) > UINT_MAX - samples)
+  {
+    atomic_inc(&counters[COUNTERS + counter]);
+  }
+}
+
 // Each work item does SHARE consecutive cells. Cells with more than `most` samples in their boxes
 // and undecided cells are appended to the lists, whose lengths are in `lengths`. The samples of
 // listed cells are not counted.
@@ -318,7 +332,7 @@ typedef struct
 __attribute__((reqd_work_group_size(1, 1, 1)))
 #endif
 kernel void sampleCells(PARAMETERS, long cells, long most, global const uchar* hidden,
-  int hasHidden, global const uchar* sides, int hasSides, global uint* counts, global int* large,
+  int hasHidden, global const uchar* sides, int hasSides, global uint* counters, global int* large,
   global int* doubtful, global int* lengths)
 {
   const Mesh mesh = { points, ids, u, v };
@@ -365,14 +379,14 @@ kernel void sampleCells(PARAMETERS, long cells, long most, global const uchar* h
   {
     Live* of = &live[k];
     const int rows = rowsOf(&of->cell.box);
+    if (of->state == ROWS)
+    {
+      of->state = setRows(&of->cell, of->corners->points, x, y, z);
+    }
     if (of->state == ROWS && samplesOf(&of->cell.box) > most)
     {
       large[atomic_inc(&lengths[0])] = (int)begin + of->corners->number;
       continue;
-    }
-    if (of->state == ROWS)
-    {
-      of->state = setRows(&of->cell, of->corners->points, x, y, z);
     }
     if (of->state != DOUBT)
     {
@@ -409,11 +423,11 @@ kernel void sampleCells(PARAMETERS, long cells, long most, global const uchar* h
     }
     sum += state == ROWS ? total : 0;
   }
-  counts[item] = sum;
+  count(counters, item, sum);
 }
 
-// One large cell, a work item per row; counts[row] is the number of samples claimed, or -1 if that
-// is undecided.
+// One large cell, of which sampleCells() has found that setBox() and setRows() return ROWS; a work
+// item per row. counts[row] is the number of samples claimed, or -1 if that is undecided.
 kernel void sampleLarge(PARAMETERS, long number, int rows, global int* counts)
 {
   const Mesh mesh = { points, ids, u, v };

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <thread>
 #include <vector>
 
@@ -118,6 +119,24 @@ TEST(ComputeDevice, ServesSeveralThreadsAtOnce)
   {
     EXPECT_EQ(results[t], std::vector<double>(1000, 2.0 * static_cast<double>(t)));
   }
+}
+
+TEST(ComputeDevice, CopiesMoreThanItsStagesHold)
+{
+  TIPP_REQUIRE_OPENCL();
+  DeviceChoice choice = anyDevice();
+  choice.AsCard = true;
+  ComputeDevice& card = *ComputeDevice::open(choice);
+  const double before = card.transferSeconds();
+  std::vector<double> values(5000001);
+  std::iota(values.begin(), values.end(), 0.5);
+  const std::vector<double> doubled = twice(card, values);
+  for (double& value : values)
+  {
+    value *= 2;
+  }
+  EXPECT_TRUE(doubled == values);
+  EXPECT_GT(card.transferSeconds(), before);
 }
 
 TEST(ComputeDevice, ReportsKernelsThatDoNotCompile)
