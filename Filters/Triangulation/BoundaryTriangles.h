@@ -195,10 +195,11 @@ BoundaryTriangles triangulateVertices(
   const Regions& regions, const std::vector<BoundaryVertex>& vertices, int threads);
 
 /// Whether partitioning pays off: whether cells meet at most `most` partitions on average.
-/// Otherwise every worker would get nearly all vertices. By measurement circumdisks meet 3.5 or
-/// more partitions on average for points on a circle or a parabola, or on a line with one point
-/// beside it, but 1.5 to 2.8 for ordinary points; circumballs 2.1 to 2.5 in a volume, 4 on a
-/// surface, and 14 on a sphere. Cells that meet no partition do not count.
+/// Otherwise every worker would get nearly all vertices. By measurement circumdisks meet 2.7 or
+/// more partitions on average for points on a circle, a parabola or a cubic. For ordinary points
+/// they meet 1.8 to 3.0 with 8 initial points per partition, and 1.4 to 2.0 with 32. Circumballs
+/// meet 2.1 to 2.5 in a volume, 4 on a surface, and 14 on a sphere. Cells that meet no partition do
+/// not count.
 bool partitionsPay(const MetPartitions& initialMesh, double most = 3);
 /// The same from counts: the number of cells that meet partitions, and the sum of the numbers of
 /// partitions that they meet.

@@ -44,6 +44,8 @@ int threadsForPass(std::size_t points, int threads)
   return static_cast<int>(std::min(static_cast<std::size_t>(threads), 1 + points / shortest));
 }
 
+constexpr double MostMetPartitions = 2.6; ///< per triangle, see partitionsPay()
+
 /// One run of the algorithm; its member functions are the steps.
 template <typename Id>
 class Run
@@ -70,13 +72,17 @@ public:
     this->Buckets = bucketPoints<Id>(this->Points, tiling, this->PassThreads);
     this->checkSizes();
     this->endPhase("bucketing");
-    std::vector<BoundaryVertex> initial =
-      chooseInitialPoints(tiling, this->Buckets, initialPointsPerPartition(), this->PassThreads);
-    this->Result.Statistics.InitialPoints = std::int64_t(initial.size());
-    initial.insert(initial.end(), artificial.begin(), artificial.end());
     const Regions regions(tiling, this->Buckets, this->PassThreads);
-    const BoundaryTriangles initialMesh = triangulateVertices(regions, initial, this->PassThreads);
-    if (!this->hasGrid() && !partitionsPay(initialMesh))
+    BoundaryTriangles initialMesh =
+      this->makeInitialMesh(tiling, regions, artificial, initialPointsPerPartition());
+    // With more points the circumdisks shrink, but not those of points on a curve.
+    if (!this->hasGrid() && !partitionsPay(initialMesh, MostMetPartitions))
+    {
+      initialMesh =
+        this->makeInitialMesh(tiling, regions, artificial, 4 * initialPointsPerPartition());
+    }
+    if (!this->hasGrid() &&
+      (this->onePartitionHasMost() || !partitionsPay(initialMesh, MostMetPartitions)))
     {
       this->triangulateAlone(tiling);
       return;
@@ -99,6 +105,27 @@ private:
   {
     return this->Options.InitialPointsPerPartition > 0 ? this->Options.InitialPointsPerPartition
                                                        : InitialPointsOfPartition;
+  }
+
+  /// Whether one thread does most of the work in any case.
+  bool onePartitionHasMost() const
+  {
+    std::int64_t most = 0;
+    for (PartitionIndex p = 0; p < this->Buckets.partitions(); ++p)
+    {
+      most = std::max(most, std::int64_t(this->Buckets.count(p)));
+    }
+    return most > std::int64_t(this->Buckets.size()) / 8 * 7;
+  }
+
+  BoundaryTriangles makeInitialMesh(const Tiling& tiling, const Regions& regions,
+    const std::vector<BoundaryVertex>& artificial, int pointsPerPartition)
+  {
+    std::vector<BoundaryVertex> initial =
+      chooseInitialPoints(tiling, this->Buckets, pointsPerPartition, this->PassThreads);
+    this->Result.Statistics.InitialPoints = std::int64_t(initial.size());
+    initial.insert(initial.end(), artificial.begin(), artificial.end());
+    return triangulateVertices(regions, initial, this->PassThreads);
   }
 
   void endPhase(const char* name)

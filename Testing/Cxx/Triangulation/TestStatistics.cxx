@@ -68,6 +68,22 @@ TEST(Statistics, ThereAreAsManyInitialPointsAsRequested)
   EXPECT_LE(initial, 16 * 10);
 }
 
+TEST(Statistics, OrdinaryPointsArePartitioned)
+{
+  for (const char* const set : { "uniform", "clustered", "kuzmin", "coast", "lattice" })
+  {
+    EXPECT_GT(statisticsOf(set, 200000, {}).Partitions, 1) << set;
+  }
+}
+
+TEST(Statistics, PointsOnACurveAndMostPointsOnALineAreNotPartitioned)
+{
+  for (const char* const set : { "circle", "parabola", "collinear-and-one" })
+  {
+    EXPECT_EQ(statisticsOf(set, 200000, {}).Partitions, 1) << set;
+  }
+}
+
 TEST(Statistics, PhasesHaveDistinctNamesAndTakeTime)
 {
   const TriangulationStatistics statistics = statisticsOf("uniform", 100000, {});
