@@ -152,22 +152,19 @@ void PieceChecker::checkPoints(const CheckedPiece& piece)
 /// lexicographic order.
 void PieceChecker::keepHull(const std::vector<Vertex>& points)
 {
-  for (const int side : { 1, -1 })
+  std::vector<Position> positions;
+  positions.reserve(points.size());
+  for (const Vertex& vertex : points)
   {
-    std::vector<Position> chain;
-    for (const Vertex& vertex : points)
-    {
-      while (chain.size() > 1 &&
-        side * check::turn(chain[chain.size() - 2], chain.back(), vertex.At) < 0)
-      {
-        chain.pop_back();
-      }
-      chain.push_back(vertex.At);
-    }
-    for (const Position p : chain)
+    positions.push_back(vertex.At);
+  }
+  for (int side = 0; side < 2; ++side)
+  {
+    for (const Position p : check::halfHull(positions))
     {
       this->HullXY.insert(this->HullXY.end(), { p.x, p.y });
     }
+    std::reverse(positions.begin(), positions.end());
   }
 }
 

@@ -40,6 +40,10 @@ struct DirectedEdge
 /// each point.
 std::int64_t countHullFaults(const std::vector<double>& xy, std::vector<DirectedEdge>& edges);
 
+/// Returns the lower half of the convex hull of points in lexicographic order, including those
+/// inside its edges. For the reverse order, returns the upper half.
+std::vector<Position> halfHull(const std::vector<Position>& points);
+
 /// Counts the edges that are not edges of the convex hull of the finite points. All points on the
 /// hull count as its vertices, so a hull edge joins two consecutive ones.
 std::int64_t countOffHull(const std::vector<double>& xy, const std::vector<DirectedEdge>& edges);
