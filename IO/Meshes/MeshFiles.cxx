@@ -217,10 +217,10 @@ std::vector<std::int64_t> readNpyIds(const std::string& path, int corners, const
   std::vector<std::int64_t> all(std::size_t(corners * reader.rows()));
   switch (reader.type())
   {
-    case NpyReader::Type::Int32:
+    case Scalar::Int32:
       readIds<std::int32_t>(reader, all);
       break;
-    case NpyReader::Type::UInt32:
+    case Scalar::UInt32:
       readIds<std::uint32_t>(reader, all);
       break;
     default: // as stored; unsigned ids from 2^63 on become negative, and so remain out of range
