@@ -85,9 +85,6 @@ def raster(points: Any, point_data: Any, options: dict[str, Any],
            progress: Progress | None) -> tuple[list[np.ndarray], tuple[float, float, int, int], str]:
     """Returns the bands, each (rows, columns) from south to north; the grid's west, south, columns and rows; and the
     CRS of points in files."""
-    lines = {name: _core.read_constraints(options[name]) for name in ("breaklines", "boundary")
-             if isinstance(options[name], str)}
-    options = {**options, **lines}
     if isinstance(points, list) and points and isinstance(points[0], str):
         with uncompressed(points) as files:
             made = _core.dem(files, options, progress)
