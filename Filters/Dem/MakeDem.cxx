@@ -288,7 +288,6 @@ OutOfCoreStatistics makeWithin(std::unique_ptr<PointStream> points, const DemReq
     auto constrained = std::make_unique<ConstrainedPoints>(
       std::move(points), *request.Constraints, "the constraints", request.Threads);
     constrained->setSurface(surface.takeValues());
-    options.Constraints = [&from = *constrained]() -> SegmentSource& { return from; };
     points = std::move(constrained);
   }
   RasterSink sink(

@@ -49,14 +49,14 @@ SharedConstraints shareConstraints(Communicator& ranks, const DelaunayArguments&
   {
     const ScratchDirectory folder;
     const std::unique_ptr<ConstrainedPoints> joined =
-      ConstrainedInput(arguments.Constraints, arguments.Threads)
-        .joined(openPointStream(arguments.Inputs, arguments.Columns));
+      joinConstraints(openPointStream(arguments.Inputs, arguments.Columns), arguments.Constraints,
+        arguments.Threads);
     ConstrainedPoints& points = *joined;
-    points.setReport(shared.Figures);
     constexpr std::uint64_t memory = std::uint64_t(1) << 30;
     points.begin(folder.path() + "/constraints", memory);
     constexpr std::size_t blockPoints = 1 << 18;
     forEachBlock(points, blockPoints, [](PointBlock&) {});
+    shared.Figures = points.figures();
     shared.Added = points.added();
     if (shared.Added.size() > 0 && extensionOf(arguments.Output) == ".npy")
     {
