@@ -162,43 +162,24 @@ int vtkTIPPPointsToImage::RequestUpdateExtent(
   return 1;
 }
 
-/// The points with their elevation and those single-component arrays that are bands.
+/// The points with their elevation and those single-component arrays that are bands. An array named
+/// elevation replaces the points' z.
 tipp::PointTable vtkTIPPPointsToImage::Table(vtkPointSet* points) const
 {
-  const auto count = std::size_t(points->GetNumberOfPoints());
-  tipp::PointTable table;
-  table.XY.resize(2 * count);
-  std::vector<double> z(count);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    double p[3];
-    points->GetPoint(vtkIdType(i), p);
-    table.XY[2 * i] = p[0];
-    table.XY[2 * i + 1] = p[1];
-    z[i] = p[2];
-  }
-  bool hasElevation = false;
+  vtkNew<vtkPolyData> chosen;
+  chosen->SetPoints(points->GetPoints());
   for (const std::string& name : tipp::columnsForBands(this->Bands))
   {
     vtkDataArray* const array = points->GetPointData()->GetArray(name.c_str());
-    const bool isThere = std::any_of(table.Columns.begin(), table.Columns.end(),
-      [&](const tipp::PointTable::Column& column) { return column.Name == name; });
-    if (!array || array->GetNumberOfComponents() != 1 || isThere || name == "z" || name == "Z")
+    if (array && array->GetNumberOfComponents() == 1 && name != "z" && name != "Z")
     {
-      continue;
-    }
-    hasElevation = hasElevation || name == "elevation";
-    tipp::PointTable::Column& column = table.Columns.emplace_back();
-    column.Name = name;
-    column.Values.resize(count);
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      column.Values[i] = array->GetComponent(vtkIdType(i), 0);
+      chosen->GetPointData()->AddArray(array);
     }
   }
-  if (!hasElevation)
+  tipp::PointTable table = tipp::pointsOf(chosen);
+  if (chosen->GetPointData()->HasArray("elevation"))
   {
-    table.Columns.push_back({ "z", std::move(z) });
+    table.Columns.erase(table.Columns.begin()); // the points' z
   }
   return table;
 }
