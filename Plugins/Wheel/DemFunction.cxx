@@ -52,14 +52,19 @@ DemRequest requestOf(const nb::dict& options)
   std::optional<ConstraintTable> boundary;
   const nb::object givenLines = options["breaklines"];
   const nb::object givenBoundary = options["boundary"];
-  if (!givenLines.is_none())
+  if (nb::isinstance<nb::str>(givenLines))
   {
-    lines = nb::isinstance<nb::str>(givenLines) ? readBreaklines(nb::cast<std::string>(givenLines))
-                                                : linesOf(givenLines);
+    const auto path = nb::cast<std::string>(givenLines);
+    lines = withoutLock([&] { return readBreaklines(path); });
+  }
+  else if (!givenLines.is_none())
+  {
+    lines = linesOf(givenLines);
   }
   if (nb::isinstance<nb::str>(givenBoundary))
   {
-    boundary = readBoundary(nb::cast<std::string>(givenBoundary));
+    const auto path = nb::cast<std::string>(givenBoundary);
+    boundary = withoutLock([&] { return readBoundary(path); });
   }
   else if (!givenBoundary.is_none())
   {
