@@ -8,7 +8,6 @@
 #include "Dem/MakeDem.h"
 #include "Dem/RasterSink.h"
 #include "Dem/SurfaceSink.h"
-#include "Files/IOError.h"
 #include "OutOfCore/ScratchFiles.h"
 #include "Points/PointStream.h"
 
