@@ -2,7 +2,6 @@
 #include "Check/DelaunayChecker.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <numeric>
 #include <unordered_map>
@@ -80,10 +79,7 @@ void PieceChecker::checkTriangles(const CheckedPiece& piece)
     const bool isOwn = std::int64_t(t) < piece.OwnTriangles;
     this->IsGood[t] = std::all_of(corners, corners + 3,
       [&](std::int64_t point)
-      {
-        return point >= 0 && point < points && std::isfinite(at(piece, point).x) &&
-          std::isfinite(at(piece, point).y);
-      });
+      { return point >= 0 && point < points && check::isFinite(at(piece, point)); });
     this->Report.BadIds += isOwn && !this->IsGood[t] ? 1 : 0;
     this->IsSound[t] = this->IsGood[t] &&
       check::turn(at(piece, corners[0]), at(piece, corners[1]), at(piece, corners[2])) > 0;
@@ -114,7 +110,7 @@ void PieceChecker::checkPoints(const CheckedPiece& piece)
       const bool isGiven = piece.Ids[i] < this->Given;
       this->GivenPoints += isGiven ? 1 : 0;
       this->PointSum += isGiven ? hashPoint(piece.Ids[i], p.x, p.y) : 0;
-      if (std::isfinite(p.x) && std::isfinite(p.y))
+      if (check::isFinite(p))
       {
         own.push_back({ p, used[i] });
       }

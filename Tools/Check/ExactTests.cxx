@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <set>
 
@@ -136,10 +135,8 @@ std::int64_t countOffHull(const std::vector<double>& xy, const std::vector<Direc
   std::vector<Position> points;
   for (std::size_t i = 0; i + 1 < xy.size(); i += 2)
   {
-    if (std::isfinite(xy[i]) && std::isfinite(xy[i + 1]))
-    {
-      points.push_back({ xy[i], xy[i + 1] });
-    }
+    const Position p{ xy[i], xy[i + 1] };
+    isFinite(p) ? points.push_back(p) : void();
   }
   std::sort(points.begin(), points.end(), isBefore);
   const auto isSame = [](Position a, Position b) { return a.x == b.x && a.y == b.y; };

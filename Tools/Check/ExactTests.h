@@ -2,6 +2,7 @@
 #ifndef tippExactTests_h
 #define tippExactTests_h
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -16,6 +17,11 @@ struct Position
   double x;
   double y;
 };
+
+inline bool isFinite(Position p)
+{
+  return std::isfinite(p.x) && std::isfinite(p.y);
+}
 
 inline bool isBefore(Position a, Position b)
 {
