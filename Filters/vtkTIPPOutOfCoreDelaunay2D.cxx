@@ -156,10 +156,8 @@ void vtkTIPPOutOfCoreDelaunay2D::Execute(vtkTable* output)
   options.Warn = [this](const std::string& sentence) { vtkWarningMacro(<< sentence); };
   const auto crossings =
     this->SplitCrossings ? tipp::CrossingRule::Split : tipp::CrossingRule::Refuse;
-  tipp::ConstrainedInput constraints(
-    { textOf(this->ConstraintsFileName), textOf(this->BoundaryFileName), this->Holes, crossings },
-    this->NumberOfThreads);
-  constraints.describe(options);
+  const tipp::ConstraintFiles constraints{ textOf(this->ConstraintsFileName),
+    textOf(this->BoundaryFileName), this->Holes, crossings };
   const auto open = [&]
   {
     if (path.empty())
@@ -167,20 +165,16 @@ void vtkTIPPOutOfCoreDelaunay2D::Execute(vtkTable* output)
       throw tipp::IOError("FileName is not set; name the folder to write.");
     }
     tipp::requireApart({ path, tipp::scratchIn(options.Scratch) }, this->InputFileNames);
-    return constraints.join(tipp::openPointStream(
-      this->InputFileNames, { textOf(this->XColumn), textOf(this->YColumn) }));
+    return tipp::joinConstraints(
+      tipp::openPointStream(this->InputFileNames, { textOf(this->XColumn), textOf(this->YColumn) }),
+      constraints, options);
   };
   const tipp::OutOfCoreStatistics statistics =
     tipp::triangulateOutOfCoreOnRanks(ranks, open, path, options);
   if (!statistics.Aborted && ranks.rank() == 0)
   {
     tipp::warn(this, tipp::warningsOf(statistics));
-    tipp::RunStatistics all = tipp::statisticsOf(statistics, options.CountOnly);
-    if (constraints.figures().Constraints > 0)
-    {
-      tipp::addConstraintTotals(constraints.figures(), all);
-    }
-    tipp::fillStatisticsTable(all, output);
+    tipp::fillStatisticsTable(tipp::statisticsOf(statistics, options.CountOnly), output);
   }
 }
 

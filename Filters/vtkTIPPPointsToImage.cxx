@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTIPPPointsToImage.h"
 
-#include "Constraints/SourceConstraints.h"
 #include "Dem/MakeDem.h"
 #include "Output/FilterPipeline.h"
 #include "Points/PointStream.h"
@@ -26,6 +25,7 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -35,24 +35,6 @@ using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 namespace
 {
-
-tipp::ConstraintTable constraintsOf(vtkPolyData* lines)
-{
-  tipp::ConstraintTable table;
-  for (vtkIdType i = 0; i < lines->GetNumberOfPoints(); ++i)
-  {
-    double p[3];
-    lines->GetPoint(i, p);
-    table.XY.insert(table.XY.end(), { p[0], p[1] });
-    table.Height.push_back(p[2]);
-  }
-  for (const tipp::Constraint& edge : tipp::readConstraints(lines, {}).Constraints)
-  {
-    table.Edges.push_back({ edge.A, edge.B });
-  }
-  table.PolygonBegin = table.Edges.size();
-  return table;
-}
 
 vtkSmartPointer<vtkDoubleArray> arrayOf(const std::string& name, const std::vector<double>& values)
 {
@@ -180,43 +162,24 @@ int vtkTIPPPointsToImage::RequestUpdateExtent(
   return 1;
 }
 
-/// The points with their elevation and those single-component arrays that are bands.
+/// The points with their elevation and those single-component arrays that are bands. An array named
+/// elevation replaces the points' z.
 tipp::PointTable vtkTIPPPointsToImage::Table(vtkPointSet* points) const
 {
-  const auto count = std::size_t(points->GetNumberOfPoints());
-  tipp::PointTable table;
-  table.XY.resize(2 * count);
-  std::vector<double> z(count);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    double p[3];
-    points->GetPoint(vtkIdType(i), p);
-    table.XY[2 * i] = p[0];
-    table.XY[2 * i + 1] = p[1];
-    z[i] = p[2];
-  }
-  bool hasElevation = false;
+  vtkNew<vtkPolyData> chosen;
+  chosen->SetPoints(points->GetPoints());
   for (const std::string& name : tipp::columnsForBands(this->Bands))
   {
     vtkDataArray* const array = points->GetPointData()->GetArray(name.c_str());
-    const bool isThere = std::any_of(table.Columns.begin(), table.Columns.end(),
-      [&](const tipp::PointTable::Column& column) { return column.Name == name; });
-    if (!array || array->GetNumberOfComponents() != 1 || isThere || name == "z" || name == "Z")
+    if (array && array->GetNumberOfComponents() == 1 && name != "z" && name != "Z")
     {
-      continue;
-    }
-    hasElevation = hasElevation || name == "elevation";
-    tipp::PointTable::Column& column = table.Columns.emplace_back();
-    column.Name = name;
-    column.Values.resize(count);
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      column.Values[i] = array->GetComponent(vtkIdType(i), 0);
+      chosen->GetPointData()->AddArray(array);
     }
   }
-  if (!hasElevation)
+  tipp::PointTable table = tipp::pointsOf(chosen);
+  if (chosen->GetPointData()->HasArray("elevation"))
   {
-    table.Columns.push_back({ "z", std::move(z) });
+    table.Columns.erase(table.Columns.begin()); // the points' z
   }
   return table;
 }
@@ -273,31 +236,27 @@ void vtkTIPPPointsToImage::Constrain(
   vtkPolyData* lines, vtkPolyData* boundary, tipp::DemRequest& request) const
 {
   const auto given = [](const char* name) { return name && *name; };
-  const bool hasLines = lines || given(this->BreaklinesFileName);
-  const bool hasBoundary = boundary || given(this->BoundaryFileName);
-  if (!hasLines && !hasBoundary)
+  std::optional<tipp::ConstraintTable> lineTable;
+  std::optional<tipp::ConstraintTable> boundaryTable;
+  if (given(this->BreaklinesFileName))
   {
-    return;
+    lineTable = tipp::readBreaklines(this->BreaklinesFileName);
   }
-  const auto take = [&](const char* file, vtkPolyData* data)
-  { return given(file) ? tipp::readConstraintFile(file) : constraintsOf(data); };
-  tipp::TableConstraints& constraints = request.Constraints.emplace();
-  constraints.Surface = request.Duplicates;
-  if (hasLines)
+  else if (lines)
   {
-    constraints.Lines = take(this->BreaklinesFileName, lines);
-    constraints.Lines.PolygonBegin = constraints.Lines.Edges.size(); // polygons count as lines, too
-    constraints.Lines.Holes.clear();
-    const bool isVtk =
-      !given(this->BreaklinesFileName) || tipp::isVtkFile(this->BreaklinesFileName);
-    isVtk ? tipp::dropPlainHeights(constraints.Lines) : void();
+    lineTable = tipp::constraintsOf(lines);
+    tipp::dropPlainHeights(*lineTable);
   }
-  if (hasBoundary)
+  if (given(this->BoundaryFileName))
   {
-    constraints.Boundary = take(this->BoundaryFileName, boundary);
-    constraints.Boundary.Height.clear();
-    tipp::requireClosedBoundary(constraints.Boundary);
+    boundaryTable = tipp::readBoundary(this->BoundaryFileName);
   }
+  else if (boundary)
+  {
+    boundaryTable = tipp::constraintsOf(boundary);
+    tipp::requireClosedBoundary(*boundaryTable);
+  }
+  tipp::constrain(request, std::move(lineTable), std::move(boundaryTable));
 }
 
 void vtkTIPPPointsToImage::Make(vtkInformationVector** inputs, vtkImageData* output)

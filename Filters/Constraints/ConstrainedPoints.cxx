@@ -107,7 +107,6 @@ bool ConstrainedPoints::next(PointBlock& block, std::size_t most)
       throw IOError(this->Name, error.what());
     }
     this->IsResolved = true;
-    this->Report ? void(*this->Report = this->Counts) : void();
   }
   return this->nextAdded(block, most);
 }
@@ -255,43 +254,33 @@ void ConstrainedPoints::end()
   std::vector<PositionPair>().swap(this->HoleEdges);
 }
 
-void ConstrainedInput::describe(OutOfCoreOptions& options)
+std::unique_ptr<ConstrainedPoints> joinConstraints(
+  std::unique_ptr<PointStream> points, const ConstraintFiles& files, int threads)
 {
-  if (this->Files.areGiven())
-  {
-    options.Constraints = [this]() -> SegmentSource& { return *this->Joined; };
-  }
-  else if (!this->Files.Holes.empty() || options.MarkConstraints)
-  {
-    throw IOError("Holes and marks of constraints need a file of constraints or of a boundary; "
-                  "name one.");
-  }
-}
-
-std::unique_ptr<ConstrainedPoints> ConstrainedInput::joined(
-  std::unique_ptr<PointStream> points) const
-{
-  ConstraintFiles tables = this->Files;
+  ConstraintFiles tables = files;
   std::unique_ptr<SegmentRows> lines;
   if (SegmentRows::isFor(tables.Lines))
   {
     lines = std::make_unique<SegmentRows>(tables.Lines);
     tables.Lines.clear();
   }
-  return std::make_unique<ConstrainedPoints>(std::move(points), readConstraints(tables),
-    this->Files.name(), this->Threads, std::move(lines));
+  return std::make_unique<ConstrainedPoints>(
+    std::move(points), readConstraints(tables), files.name(), threads, std::move(lines));
 }
 
-std::unique_ptr<PointStream> ConstrainedInput::join(std::unique_ptr<PointStream> points)
+std::unique_ptr<PointStream> joinConstraints(std::unique_ptr<PointStream> points,
+  const ConstraintFiles& files, const OutOfCoreOptions& options)
 {
-  if (!this->Files.areGiven())
+  if (files.areGiven())
   {
-    return points;
+    return joinConstraints(std::move(points), files, options.Threads);
   }
-  auto joined = this->joined(std::move(points));
-  joined->setReport(this->Counts);
-  this->Joined = joined.get();
-  return joined;
+  if (!files.Holes.empty() || options.MarkConstraints)
+  {
+    throw IOError("Holes and marks of constraints need a file of constraints or of a boundary; "
+                  "name one.");
+  }
+  return points;
 }
 
 } // namespace tipp

@@ -58,14 +58,12 @@ public:
   void begin(const std::string& files, std::uint64_t memory) override;
   /// The number of segments: parts of constraints split at crossings, and edges around holes.
   std::int64_t count() const override;
+  const ConstraintFigures& figures() const override { return this->Counts; }
   void forEach(const VisitSegment& visit) override;
   void end() override;
 
   /// After the first pass: the additional points.
   PointBlock added() const;
-
-  /// Copies the statistics to `figures` after the first pass. `figures` must outlive this.
-  void setReport(ConstraintFigures& figures) { this->Report = &figures; }
 
 private:
   void resolve();
@@ -84,7 +82,6 @@ private:
   std::unique_ptr<SegmentRows> Lines;
   const std::string Own; ///< hash of the constraints
   ConstraintFigures Counts;
-  ConstraintFigures* Report = nullptr;
   std::vector<std::vector<double>> Surface; ///< see setSurface(); empty if not set
   DiskWork Work{};
   std::unique_ptr<StoredConstraints> Stored; ///< exists from begin() to end()
@@ -98,35 +95,16 @@ private:
   std::int64_t NextAdded = 0;
 };
 
-/// The constraints of files for an out-of-core triangulation.
-class VTKTIPPFILTERS_EXPORT ConstrainedInput
-{
-public:
-  ConstrainedInput(ConstraintFiles files, int threads)
-    : Files(std::move(files))
-    , Threads(threads)
-  {
-  }
+/// Returns the points joined with the constraints of files, of which there must be at least one.
+/// Throws IOError.
+VTKTIPPFILTERS_EXPORT std::unique_ptr<ConstrainedPoints> joinConstraints(
+  std::unique_ptr<PointStream> points, const ConstraintFiles& files, int threads);
 
-  /// Returns the points joined with the constraints' points, if there are files. Throws IOError.
-  std::unique_ptr<PointStream> join(std::unique_ptr<PointStream> points);
-
-  /// As join(), for a stream of its own. There must be files.
-  std::unique_ptr<ConstrainedPoints> joined(std::unique_ptr<PointStream> points) const;
-
-  /// Sets OutOfCoreOptions::Constraints for a run whose points are opened with join(). Throws
-  /// IOError if holes or marks of constraints are requested without constraints.
-  void describe(OutOfCoreOptions& options);
-
-  /// The statistics, after the first pass over the points. All are 0 in a resumed run.
-  const ConstraintFigures& figures() const { return this->Counts; }
-
-private:
-  const ConstraintFiles Files;
-  const int Threads;
-  ConstrainedPoints* Joined = nullptr; ///< made by the last join()
-  ConstraintFigures Counts;
-};
+/// The same for an out-of-core triangulation. Returns the points alone if there are no files.
+/// Throws IOError if holes or marks of constraints are requested without files.
+VTKTIPPFILTERS_EXPORT std::unique_ptr<PointStream> joinConstraints(
+  std::unique_ptr<PointStream> points, const ConstraintFiles& files,
+  const OutOfCoreOptions& options);
 
 } // namespace tipp
 

@@ -36,10 +36,12 @@ struct ConstraintSegment
 
 using VisitSegment = std::function<void(const ConstraintSegment&)>;
 
+struct ConstraintFigures;
+
 /// Provides the segments that constrain an out-of-core triangulation, after the first pass over its
 /// points. No segment crosses another. The segments need not fit into memory. All methods throw
 /// IOError.
-class SegmentSource
+class VTKTIPPFILTERS_EXPORT SegmentSource
 {
 public:
   virtual ~SegmentSource() = default;
@@ -51,6 +53,7 @@ public:
   /// @name After the first pass
   ///@{
   virtual std::int64_t count() const = 0;
+  virtual const ConstraintFigures& figures() const = 0;
   /// Visits all segments, in the same order each time.
   virtual void forEach(const VisitSegment& visit) = 0;
   /// Frees the memory that is only needed for the segments.

@@ -7,6 +7,7 @@
 #include "Files/TemporaryFiles.h"
 #include "Parallel/ParallelFor.h"
 #include "Resample/SimplexMesh.h"
+#include "Vtk/VtkFiles.h"
 
 #include <algorithm>
 #include <atomic>
@@ -61,6 +62,35 @@ void requireMemory(const TerrainSettings& settings)
       " pixels, more than the memory of this machine: give a " +
       "larger resolution or smaller bounds, or --memory.");
   }
+}
+
+void constrain(DemRequest& request, std::optional<ConstraintTable> lines,
+  std::optional<ConstraintTable> boundary)
+{
+  if (!lines && !boundary)
+  {
+    return;
+  }
+  TableConstraints& constraints = request.Constraints.emplace();
+  constraints.Surface = request.Duplicates;
+  if (lines)
+  {
+    lines->PolygonBegin = lines->Edges.size();
+    lines->Holes.clear();
+    constraints.Lines = std::move(*lines);
+  }
+  if (boundary)
+  {
+    boundary->Height.clear();
+    constraints.Boundary = std::move(*boundary);
+  }
+}
+
+ConstraintTable readBreaklines(const std::string& path)
+{
+  ConstraintTable lines = readConstraintFile(path);
+  isVtkFile(path) ? dropPlainHeights(lines) : void();
+  return lines;
 }
 
 void dropPlainHeights(ConstraintTable& lines)
@@ -258,7 +288,6 @@ OutOfCoreStatistics makeWithin(std::unique_ptr<PointStream> points, const DemReq
     auto constrained = std::make_unique<ConstrainedPoints>(
       std::move(points), *request.Constraints, "the constraints", request.Threads);
     constrained->setSurface(surface.takeValues());
-    options.Constraints = [&from = *constrained]() -> SegmentSource& { return from; };
     points = std::move(constrained);
   }
   RasterSink sink(

@@ -32,10 +32,18 @@ struct DemRequest
   double MaximumEdge = 0; ///< longest edge of triangles, in the points' unit of length; 0: no limit
   int Threads = 0;        ///< 0: OpenMP's default
   DuplicateRule Duplicates = DuplicateRule::First; ///< which values coincident points get
-  std::optional<TableConstraints> Constraints;     ///< breaklines and boundary
+  std::optional<TableConstraints> Constraints;     ///< see constrain()
 };
 
-/// Removes the heights of lines from a VTK file, which always has heights, if all of them are 0.
+/// Constrains a raster by breaklines and by a boundary; null: none. Polygons among the breaklines
+/// are lines, too. Heights of the boundary are not used. Duplicates of the request must be set.
+VTKTIPPFILTERS_EXPORT void constrain(DemRequest& request, std::optional<ConstraintTable> lines,
+  std::optional<ConstraintTable> boundary);
+
+/// Reads breaklines. Throws IOError.
+VTKTIPPFILTERS_EXPORT ConstraintTable readBreaklines(const std::string& path);
+
+/// Removes the heights of lines of VTK, which always have heights, if all of them are 0.
 VTKTIPPFILTERS_EXPORT void dropPlainHeights(ConstraintTable& lines);
 
 /// Returns the settings for points with these bounds and columns. Throws std::runtime_error.

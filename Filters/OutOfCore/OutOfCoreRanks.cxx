@@ -99,7 +99,7 @@ void help(Communicator& ranks, const OpenPoints& open, const OutOfCoreOptions& o
   prepared.beginTaking();
   const auto progress = [&](std::int64_t done)
   { return !options.Progress || options.Progress(double(done) / double(prepared.Survey.Points)); };
-  const MemoryPlan memory(options, prepared.Rows.Words);
+  const MemoryPlan memory(options, prepared.Rows.Words, prepared.Constraints != nullptr);
   PieceRun(prepared.work(), memory, threadCount(options.Threads), progress, &ranks).run(isDone);
 }
 

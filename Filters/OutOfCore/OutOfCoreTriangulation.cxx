@@ -70,7 +70,8 @@ private:
   void load(LoadArchive& archive)
   {
     this->Setup.load(archive, this->Scratch.points());
-    this->Memory = std::make_unique<MemoryPlan>(this->Options, this->Setup.Rows.Words);
+    this->Memory = std::make_unique<MemoryPlan>(
+      this->Options, this->Setup.Rows.Words, this->Setup.Constraints != nullptr);
     this->describePlan();
   }
 
@@ -78,9 +79,9 @@ private:
   {
     this->Record.keep(false);
     this->Scratch.clear();
-    this->Memory = std::make_unique<MemoryPlan>(this->Options, 3 + this->Input.columns().size());
-    SegmentSource* const segments =
-      this->Options.Constraints ? &this->Options.Constraints() : nullptr;
+    auto* const segments = dynamic_cast<SegmentSource*>(&this->Input);
+    this->Memory = std::make_unique<MemoryPlan>(
+      this->Options, 3 + this->Input.columns().size(), segments != nullptr);
     if (segments)
     {
       segments->begin(this->Scratch.points() + ".constraints", this->Options.MemoryLimit);
@@ -106,6 +107,7 @@ private:
       std::make_unique<PiecePlan>(survey, this->Options, *this->Memory, words, this->Threads);
     if (segments)
     {
+      this->Statistics.Constraints = segments->figures();
       this->Setup.setConstraints(this->Scratch.points(), *segments, this->Threads);
     }
     std::vector<SampledPoint>().swap(survey.Sample); // assigning {} would keep the memory

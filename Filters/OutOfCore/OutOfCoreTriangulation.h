@@ -2,7 +2,7 @@
 #ifndef tippOutOfCoreTriangulation_h
 #define tippOutOfCoreTriangulation_h
 
-#include "Constraints/ConstraintSegments.h"
+#include "Constraints/ResolveCrossings.h"
 #include "Duplicates/ResolveDuplicates.h"
 #include "Partitioned/PieceBorder.h"
 #include "Points/PointStream.h"
@@ -93,11 +93,6 @@ struct OutOfCoreOptions : OutOfCoreRunOptions
   /// Receives the triangles instead of a mesh on disk; requires CountOnly. Not owned. Null: no
   /// consumer.
   TriangleConsumer* Consumer = nullptr;
-  /// Called before the first pass over the points, unless the run is resumed. Returns the source of
-  /// the segments that must be edges; their ends are points of the stream. They are written to a
-  /// file and read piece by piece, except for those that decide which triangles are kept: these
-  /// stay in memory. Null: no constraints.
-  std::function<SegmentSource&()> Constraints;
 };
 
 /// Statistics of a piece, or of all pieces.
@@ -145,12 +140,17 @@ struct OutOfCoreStatistics : OutOfCoreRunStatistics
   std::uint64_t TriangleSum = 0;     ///< if they are only counted: the sum of hashTriangle()
   std::int64_t WithoutElevation = 0; ///< points whose elevation is NaN or infinite
   std::int64_t Partitions = 0;
+  ConstraintFigures Constraints; ///< all 0 without constraints, and if the run is resumed
 };
 
 /// Computes the Delaunay triangulation of points that need not fit in memory, and writes it to the
 /// partitioned mesh `path`. The triangles are those of triangulate(). Global point ids are indices
 /// in the stream; the cells of a piece have consecutive global ids. The files are the same for any
 /// number of threads. A column named z is the third coordinate; other columns become point arrays.
+///
+/// If `points` is also a SegmentSource, its segments become edges; their ends are points of the
+/// stream. They are written to a file and read piece by piece, except for those that decide which
+/// triangles are kept: these stay in memory.
 ///
 /// Points are read twice (three times if coordinates are so far from 1 that they are scaled) and
 /// spilled once, sorted by piece. Triangles are written as soon as they are final. All files are in

@@ -82,17 +82,17 @@ namespace
 /// Returns the 64-bit words of memory per spilled row of `words` words. A consumer copies
 /// coordinates, columns and triangles of each piece. Constraints need memory for the triangles that
 /// they cross.
-std::size_t wordsInMemory(const OutOfCoreOptions& options, std::size_t words)
+std::size_t wordsInMemory(const OutOfCoreOptions& options, std::size_t words, bool hasConstraints)
 {
-  return words + (options.Consumer ? 4 + words : 0) + (options.Constraints ? 1 : 0);
+  return words + (options.Consumer ? 4 + words : 0) + (hasConstraints ? 1 : 0);
 }
 
 } // namespace
 
-MemoryPlan::MemoryPlan(const OutOfCoreOptions& options, std::size_t words)
-  : InputMemory(options.MemoryLimit, wordsInMemory(options, words))
+MemoryPlan::MemoryPlan(const OutOfCoreOptions& options, std::size_t words, bool hasConstraints)
+  : InputMemory(options.MemoryLimit, wordsInMemory(options, words, hasConstraints))
 {
-  const std::size_t rowWords = wordsInMemory(options, words);
+  const std::size_t rowWords = wordsInMemory(options, words, hasConstraints);
   // The two phases, spilling and triangulating, get the same share. The rest is for kernels and
   // boundary vertices.
   const std::uint64_t share = options.MemoryLimit / 5 * 2;

@@ -32,7 +32,7 @@ struct VTKTIPPFILTERS_EXPORT InputMemory
 struct VTKTIPPFILTERS_EXPORT MemoryPlan : InputMemory
 {
   /// `rowWords`: 64-bit words of a spilled row (PointRowLayout::Words).
-  MemoryPlan(const OutOfCoreOptions& options, std::size_t rowWords);
+  MemoryPlan(const OutOfCoreOptions& options, std::size_t rowWords, bool hasConstraints);
 
   std::int64_t PiecePoints; ///< approximate points per piece
   /// Approximate points per partition.

@@ -178,6 +178,10 @@ RunStatistics statisticsOf(const OutOfCoreStatistics& statistics, bool isCounted
   run.add("pieces", "Pieces", statistics.Pieces);
   run.add("partitions", "Partitions", statistics.Partitions);
   addOutOfCore(statistics, run);
+  if (statistics.Constraints.Constraints > 0)
+  {
+    addConstraintTotals(statistics.Constraints, run);
+  }
   return run;
 }
 

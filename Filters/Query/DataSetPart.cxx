@@ -5,6 +5,7 @@
 #include "Parallel/ParallelFor.h"
 #include "Sampling/SamplingRange.h"
 #include "Sampling/SimplexParts.h"
+#include "Vtk/CellArrays.h"
 #include "Vtk/ReadDataSet.h"
 
 #include "vtkCellData.h"
@@ -38,14 +39,8 @@ struct Kept
 /// Returns the array, or a copy if its tuples are not contiguous; `kept` holds a reference.
 vtkDataArray* keep(vtkDataArray* array, Kept& kept)
 {
-  vtkSmartPointer<vtkDataArray> plain = array;
-  if (!array->HasStandardMemoryLayout())
-  {
-    plain.TakeReference(vtkDataArray::CreateDataArray(array->GetDataType()));
-    plain->DeepCopy(array);
-  }
-  kept.Arrays.push_back(plain);
-  return plain;
+  kept.Arrays.push_back(contiguous(array));
+  return kept.Arrays.back();
 }
 
 void addArrays(vtkDataSetAttributes* data, bool ofPoints, Kept& kept, MeshPart& part)

@@ -19,7 +19,6 @@
 #include <algorithm>
 #include <numeric>
 #include <set>
-#include <stdexcept>
 #include <string>
 
 namespace tipp

@@ -3,6 +3,7 @@
 
 #include "Arrays/Scalar.h"
 #include "Parallel/Stopwatch.h"
+#include "Vtk/CellArrays.h"
 #include "Vtk/Compatibility.h"
 
 #include "vtkCellData.h"
@@ -60,19 +61,6 @@ void addTo(ClaimStatistics& sum, const ClaimStatistics& more)
   sum.Tests += more.Tests;
   sum.ExactTests += more.ExactTests;
   sum.OverlappingClaims += more.OverlappingClaims;
-}
-
-/// Returns the array itself if its tuples are contiguous in memory, else a contiguous copy.
-vtkSmartPointer<vtkDataArray> plain(vtkDataArray* array)
-{
-  if (array->HasStandardMemoryLayout())
-  {
-    return array;
-  }
-  auto copy =
-    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(array->GetDataType()));
-  copy->DeepCopy(array);
-  return copy;
 }
 
 } // namespace
@@ -294,7 +282,7 @@ vtkDataArray* SampledImage::valuesOf(vtkPointSet* mesh, const Array& array)
       (array.OfCells ? " cells" : " points") + "; where it does, it is null.");
     return nullptr;
   }
-  this->Values.push_back(plain(values));
+  this->Values.push_back(contiguous(values));
   return this->Values.back();
 }
 
@@ -345,7 +333,7 @@ void SampledImage::hideNoData(vtkPointSet* mesh, SimplexSet& simplices)
       array->GetNumberOfTuples() >= mesh->GetNumberOfPoints() &&
       this->Settings.Selected(false, array->GetName()))
     {
-      markEqual(plain(array), *this->Settings.NoData, marked);
+      markEqual(contiguous(array), *this->Settings.NoData, marked);
     }
   }
   hideMarked(simplices, marked);

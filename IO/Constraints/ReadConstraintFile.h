@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+class vtkDataSet;
+
 namespace tipp
 {
 
@@ -68,8 +70,12 @@ private:
   std::unique_ptr<PointStream> Rows;
 };
 
-/// Lines and polygons of a VTK file. Throws IOError.
+///@{
+/// Lines and polygons of a VTK file or data set, which always have heights. The first throws
+/// IOError.
 ConstraintTable readVtkConstraints(const std::string& path);
+VTKTIPPIO_EXPORT ConstraintTable constraintsOf(vtkDataSet* data);
+///@}
 
 /// Reads the lines and polygons of all layers with GDAL. Outer rings of polygons become
 /// counter-clockwise, the others clockwise, whatever their orientation in the file; missing heights

@@ -12,7 +12,11 @@ namespace tipp
 {
 ConstraintTable readVtkConstraints(const std::string& path)
 {
-  const auto data = readDataSet(path);
+  return constraintsOf(readDataSet(path));
+}
+
+ConstraintTable constraintsOf(vtkDataSet* data)
+{
   ConstraintTable table;
   for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
   {

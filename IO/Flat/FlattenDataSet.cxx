@@ -4,6 +4,7 @@
 #include "Arrays/Scalar.h"
 #include "Files/IOError.h"
 #include "Parallel/Poll.h"
+#include "Vtk/CellArrays.h"
 #include "Vtk/ReadDataSet.h"
 #include "Vtk/VtkFiles.h"
 
@@ -232,16 +233,14 @@ constexpr const char* parentName = "vtkOriginalCellIds";
 /// The array itself if its values are contiguous, else a contiguous copy; single bits become bytes.
 vtkSmartPointer<vtkDataArray> plain(vtkDataArray* array)
 {
-  const bool bits = array->GetDataType() == VTK_BIT;
-  if (!bits && array->HasStandardMemoryLayout())
+  if (array->GetDataType() != VTK_BIT)
   {
-    return array;
+    return contiguous(array);
   }
-  auto copy = vtkSmartPointer<vtkDataArray>::Take(
-    vtkDataArray::CreateDataArray(bits ? VTK_UNSIGNED_CHAR : array->GetDataType()));
-  copy->DeepCopy(array);
-  copy->SetName(array->GetName());
-  return copy;
+  const auto bytes = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  bytes->DeepCopy(array);
+  bytes->SetName(array->GetName());
+  return bytes;
 }
 
 FlatArray flatArray(vtkDataArray* from)

@@ -45,7 +45,7 @@ struct LasHeader
 VTKTIPPIO_EXPORT LasHeader readLasHeader(const std::string& path);
 
 /// Whether the extension is .las or .laz.
-bool isLasExtension(const std::string& extension);
+VTKTIPPIO_EXPORT bool isLasExtension(const std::string& extension);
 
 /// Reads point records, in the layout of the LAS specification.
 class LasRecords

@@ -4,7 +4,6 @@
 #include "Adcirc/AdcircGrid.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
-#include "Files/PendingOutput.h"
 #include "Npy/NpyFile.h"
 #include "Vtk/CellArrays.h"
 #include "Vtk/ReadDataSet.h"
@@ -217,10 +216,10 @@ std::vector<std::int64_t> readNpyIds(const std::string& path, int corners, const
   std::vector<std::int64_t> all(std::size_t(corners * reader.rows()));
   switch (reader.type())
   {
-    case NpyReader::Type::Int32:
+    case Scalar::Int32:
       readIds<std::int32_t>(reader, all);
       break;
-    case NpyReader::Type::UInt32:
+    case Scalar::UInt32:
       readIds<std::uint32_t>(reader, all);
       break;
     default: // as stored; unsigned ids from 2^63 on become negative, and so remain out of range
@@ -291,11 +290,6 @@ TriangleMesh readMesh(const std::string& path)
 namespace
 {
 
-bool isAborted(const MeshOptions& options)
-{
-  return options.Aborted && options.Aborted();
-}
-
 template <typename Id>
 bool writeNpy(const std::string& path, const Id* ids, std::size_t cells, std::size_t corners,
   const MeshOptions& options)
@@ -308,24 +302,11 @@ bool writeNpy(const std::string& path, const Id* ids, std::size_t cells, std::si
     chunk.assign(ids + first, ids + std::min(corners * cells, first + chunkSize));
     writer.write(chunk.data(), chunk.size() * sizeof(std::int64_t));
   }
-  if (isAborted(options))
+  if (options.Aborted && options.Aborted())
   {
     return false;
   }
   writer.close();
-  return true;
-}
-
-template <typename Writer>
-bool writeXml(const std::string& path, vtkDataSet* data, const MeshOptions& options)
-{
-  PendingFile pending(path, options.Before);
-  writeXmlFile<Writer>(path, pending, data);
-  if (isAborted(options))
-  {
-    return false;
-  }
-  pending.commit();
   return true;
 }
 
@@ -365,12 +346,12 @@ bool writeMesh(const std::string& path, const PointTable& points, TrianglesView 
   if (extension == ".vtp")
   {
     const auto data = makePolyData(points, triangles, more);
-    return writeXml<vtkXMLPolyDataWriter>(path, data, options);
+    return writeXmlFile<vtkXMLPolyDataWriter>(path, options.Before, data, options.Aborted);
   }
   if (extension == ".vtu")
   {
     const auto data = makeUnstructuredGrid(points, triangles, more);
-    return writeXml<vtkXMLUnstructuredGridWriter>(path, data, options);
+    return writeXmlFile<vtkXMLUnstructuredGridWriter>(path, options.Before, data, options.Aborted);
   }
   throw IOError(
     path, "has no extension that tells a kind of mesh file; use .npy, .vtp, .vtu or .14.");
@@ -403,7 +384,7 @@ bool writeTetrahedra(const std::string& path, PointTable points, const std::int3
   points.Columns[requireElevation(points, path)].Name = "z"; // makes it the third coordinate
   const auto data = makeGrid(
     points, VTK_TETRA, makeCells(ids, tetrahedra, 4), { &options.Representatives, &neighbors });
-  return writeXml<vtkXMLUnstructuredGridWriter>(path, data, options);
+  return writeXmlFile<vtkXMLUnstructuredGridWriter>(path, options.Before, data, options.Aborted);
 }
 
 bool holdsTetrahedra(const std::string& path)

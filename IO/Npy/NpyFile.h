@@ -42,13 +42,14 @@ std::string npyFileStart(const std::string& descr, const std::vector<std::int64_
 class VTKTIPPIO_EXPORT NpyReader
 {
 public:
-  using Type = Scalar;
-
   /// Throws IOError unless the file is such a table; see openNpyArray().
   explicit NpyReader(const std::string& path);
 
-  Type type() const { return this->Array.Type; }
-  bool isFloat() const { return this->type() == Type::Float32 || this->type() == Type::Float64; }
+  Scalar type() const { return this->Array.Type; }
+  bool isFloat() const
+  {
+    return this->type() == Scalar::Float32 || this->type() == Scalar::Float64;
+  }
   std::int64_t rows() const { return this->Array.Shape[0]; }
   std::int64_t columns() const { return this->Array.Shape[1]; }
 

@@ -117,7 +117,7 @@ public:
     const std::size_t count = std::min(most, std::size_t(this->Reader.rows() - this->Row));
     block.Columns.resize(this->Width - 2);
     block.resize(count);
-    if (this->Reader.type() == NpyReader::Type::Float32)
+    if (this->Reader.type() == Scalar::Float32)
     {
       this->read<float>(block);
     }

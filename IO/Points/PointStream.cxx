@@ -16,6 +16,16 @@
 namespace tipp
 {
 
+void append(const PointBlock& block, PointTable& table)
+{
+  table.XY.insert(table.XY.end(), block.XY.begin(), block.XY.end());
+  for (std::size_t i = 0; i < table.Columns.size(); ++i)
+  {
+    const std::vector<double>& values = block.Columns.at(i);
+    table.Columns[i].Values.insert(table.Columns[i].Values.end(), values.begin(), values.end());
+  }
+}
+
 PointStream::~PointStream() = default;
 
 namespace

@@ -36,6 +36,9 @@ struct PointBlock
   }
 };
 
+/// Appends the points of a block to a table with the same columns.
+VTKTIPPIO_EXPORT void append(const PointBlock& block, PointTable& table);
+
 /// Reads points from files of any size, block by block, in any number of passes. Not thread-safe.
 class VTKTIPPIO_EXPORT PointStream
 {

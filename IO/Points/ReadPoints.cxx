@@ -193,16 +193,7 @@ PointTable readAllPoints(PointStream& stream)
   {
     column.Values.reserve(most);
   }
-  forEachBlock(stream, block,
-    [&](const PointBlock& more)
-    {
-      table.XY.insert(table.XY.end(), more.XY.begin(), more.XY.end());
-      for (std::size_t i = 0; i < table.Columns.size(); ++i)
-      {
-        std::vector<double>& values = table.Columns[i].Values;
-        values.insert(values.end(), more.Columns[i].begin(), more.Columns[i].end());
-      }
-    });
+  forEachBlock(stream, block, [&table](const PointBlock& more) { append(more, table); });
   table.LeftOut = stream.leftOut();
   table.ThinnedOut = stream.thinnedOut();
   table.Crs = stream.crs();

@@ -33,6 +33,19 @@ vtkSmartPointer<vtkDataArray> wideCopy(vtkDataArray* array)
 
 } // namespace
 
+vtkSmartPointer<vtkDataArray> contiguous(vtkDataArray* array)
+{
+  if (array->HasStandardMemoryLayout())
+  {
+    return array;
+  }
+  auto copy =
+    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(array->GetDataType()));
+  copy->DeepCopy(array);
+  copy->SetName(array->GetName());
+  return copy;
+}
+
 PlainIds::PlainIds(vtkDataArray* array)
   : Array(!array || isPlain(array) ? vtkSmartPointer<vtkDataArray>(array) : wideCopy(array))
 {

@@ -21,6 +21,9 @@ class vtkDataArray;
 namespace tipp
 {
 
+/// Returns the array itself if its tuples are contiguous in memory, else a contiguous copy.
+VTKTIPPIO_EXPORT vtkSmartPointer<vtkDataArray> contiguous(vtkDataArray* array);
+
 /// The integers of a VTK array as signed 32-bit or 64-bit integers in contiguous memory: the
 /// array's own memory if it has that form, else a copy. The array itself is inspected, since a
 /// vtkCellArray of VTK 9.6 has more kinds of storage than its IsStorage64Bit() distinguishes.

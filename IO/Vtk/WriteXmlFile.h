@@ -10,6 +10,8 @@
 #include "vtkDataObject.h"
 #include "vtkSmartPointer.h"
 
+#include <functional>
+#include <optional>
 #include <string>
 
 namespace tipp
@@ -46,10 +48,13 @@ private:
   std::ostream& To;
 };
 
-/// Writes a data set into the pending file, raw and appended. Throws IOError.
+/// Writes a file of a data set, raw and appended. `before` as for PendingFile. Returns false, and
+/// publishes no file, if `isStopped` returns true at the end. Throws IOError.
 template <typename Writer>
-void writeXmlFile(const std::string& path, const PendingFile& pending, vtkDataObject* data)
+bool writeXmlFile(const std::string& path, const std::optional<PathState>& before,
+  vtkDataObject* data, const std::function<bool()>& isStopped = {})
 {
+  PendingFile pending(path, before);
   OutputStream stream(pending.file());
   const auto writer = StreamWriter<Writer>::make(stream);
   vtkNew<ErrorKeeper> errors;
@@ -65,6 +70,12 @@ void writeXmlFile(const std::string& path, const PendingFile& pending, vtkDataOb
   {
     throw IOError(path, "cannot be written by VTK's writer.");
   }
+  if (isStopped && isStopped())
+  {
+    return false;
+  }
+  pending.commit();
+  return true;
 }
 
 } // namespace tipp

@@ -5,6 +5,7 @@
 #include "Arrays/Buffer.h"
 #include "Arrays/Scalar.h"
 #include "Points/ReadPoints.h"
+#include "Resample/SimplexMesh.h"
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
@@ -44,11 +45,18 @@ inline Scalar scalarOf(nb::dlpack::dtype type)
   }
 }
 
-inline std::size_t bytesOf(Scalar scalar)
+/// Describes a mesh of triangles or tetrahedra, without a copy.
+inline SimplexMesh meshOf(const InputArray& points, const InputArray& cells)
 {
-  std::size_t bytes = 0;
-  withScalar(scalar, [&](auto value) { bytes = sizeof(value); });
-  return bytes;
+  SimplexMesh mesh;
+  mesh.Points = points.data();
+  mesh.Float = scalarOf(points.dtype()) == Scalar::Float32;
+  mesh.PointCount = std::int64_t(points.shape(0));
+  mesh.Ids = cells.data();
+  mesh.Wide = scalarOf(cells.dtype()) == Scalar::Int64;
+  mesh.Cells = std::int64_t(cells.shape(0));
+  mesh.Dimension = int(cells.shape(1)) - 1;
+  return mesh;
 }
 
 /// Returns a NumPy array of this shape that takes over the memory of the buffer.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Binding.h"
 
-#include "Constraints/ReadConstraintFile.h"
 #include "Dem/MakeDem.h"
 #include "Parallel/ParallelFor.h"
 #include "Points/PointStream.h"
@@ -21,21 +20,14 @@ namespace tipp::python
 namespace
 {
 
-/// Returns (k, 2) coordinates, heights or an empty array, and the (m, 2) ids of the ends of edges.
-nb::tuple readConstraints(const std::string& path)
+/// Converts (k, 2) coordinates, heights or an empty array, and the (m, 2) ids of the ends of edges.
+ConstraintTable linesOf(const nb::object& arrays)
 {
-  const ConstraintTable table = withoutLock([&] { return readConstraintFile(path); });
-  return nb::make_tuple(copyOf(table.XY, 2), copyOf(table.Height), idRowsOf(table.Edges));
-}
-
-/// Converts lines in the form that readConstraints() returns.
-ConstraintTable linesOf(const nb::tuple& lines)
-{
+  const auto lines = nb::cast<nb::tuple>(arrays);
   ConstraintTable table;
   table.XY = vectorOf<double>(nb::cast<InputArray>(lines[0]));
   table.Height = vectorOf<double>(nb::cast<InputArray>(lines[1]));
   table.Edges = vectorOf<std::array<std::int64_t, 2>>(nb::cast<InputArray>(lines[2]));
-  table.PolygonBegin = table.Edges.size(); // edges of polygons are lines, too
   return table;
 }
 
@@ -56,23 +48,30 @@ DemRequest requestOf(const nb::dict& options)
   request.MaximumEdge = of<double>(options, "max_edge");
   request.Threads = of<int>(options, "threads");
   request.Duplicates = static_cast<DuplicateRule>(of<int>(options, "duplicates"));
-  const nb::object lines = options["breaklines"];
-  const nb::object boundary = options["boundary"];
-  if (!lines.is_none() || !boundary.is_none())
+  std::optional<ConstraintTable> lines;
+  std::optional<ConstraintTable> boundary;
+  const nb::object givenLines = options["breaklines"];
+  const nb::object givenBoundary = options["boundary"];
+  if (nb::isinstance<nb::str>(givenLines))
   {
-    request.Constraints.emplace();
-    request.Constraints->Surface = request.Duplicates;
+    const auto path = nb::cast<std::string>(givenLines);
+    lines = withoutLock([&] { return readBreaklines(path); });
   }
-  if (!lines.is_none())
+  else if (!givenLines.is_none())
   {
-    request.Constraints->Lines = linesOf(nb::cast<nb::tuple>(lines));
+    lines = linesOf(givenLines);
   }
-  if (!boundary.is_none())
+  if (nb::isinstance<nb::str>(givenBoundary))
   {
-    request.Constraints->Boundary = linesOf(nb::cast<nb::tuple>(boundary));
-    request.Constraints->Boundary.Height.clear();
-    requireClosedBoundary(request.Constraints->Boundary);
+    const auto path = nb::cast<std::string>(givenBoundary);
+    boundary = withoutLock([&] { return readBoundary(path); });
   }
+  else if (!givenBoundary.is_none())
+  {
+    boundary = linesOf(givenBoundary);
+    requireClosedBoundary(*boundary);
+  }
+  constrain(request, std::move(lines), std::move(boundary));
   return request;
 }
 
@@ -182,7 +181,6 @@ void addDemFunction(nb::module_& module)
   module.def("dem", &makeRaster, nb::arg("points"), nb::arg("options"), nb::arg("progress").none());
   module.def(
     "raster_grid", &rasterGrid, nb::arg("bounds"), nb::arg("resolution"), nb::arg("align"));
-  module.def("read_constraints", &readConstraints, nb::arg("path"));
 }
 
 } // namespace tipp::python

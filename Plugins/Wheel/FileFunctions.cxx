@@ -53,8 +53,7 @@ nb::tuple readPointFiles(const Strings& paths, const std::optional<Strings>& col
   return nb::make_tuple(copyOf(table.XY, 2), named, crs);
 }
 
-nb::dict figuresOf(
-  const OutOfCoreStatistics& statistics, const ConstraintFigures& constraints, bool countOnly)
+nb::dict figuresOf(const OutOfCoreStatistics& statistics, bool countOnly)
 {
   nb::dict result;
   result["points"] = statistics.Points;
@@ -69,9 +68,9 @@ nb::dict figuresOf(
   {
     result["triangle_sum"] = statistics.TriangleSum;
   }
-  if (constraints.Constraints > 0)
+  if (statistics.Constraints.Constraints > 0)
   {
-    constraints.visit(
+    statistics.Constraints.visit(
       [&result](const char* key, const char*, std::int64_t value) { result[key] = value; });
   }
   return result;
@@ -99,9 +98,8 @@ nb::tuple triangulateFiles(const Strings& inputs, const std::string& output, std
   options.Scratch = scratch;
   options.Progress = reporter.function();
   options.Warn = [&](const std::string& sentence) { warnings.push_back(sentence); };
-  ConstrainedInput constraints(
-    { lines, boundary, holes, split ? CrossingRule::Split : CrossingRule::Refuse }, threads);
-  constraints.describe(options);
+  const ConstraintFiles constraints{ lines, boundary, holes,
+    split ? CrossingRule::Split : CrossingRule::Refuse };
   OutOfCoreStatistics statistics;
   withoutLock(
     [&]
@@ -112,14 +110,14 @@ nb::tuple triangulateFiles(const Strings& inputs, const std::string& output, std
         [&]
         {
           requireApart({ output, scratchIn(scratch) }, inputs);
-          return constraints.join(openPointStream(inputs, { x, y }));
+          return joinConstraints(openPointStream(inputs, { x, y }), constraints, options);
         },
         output, options);
     });
   reporter.raiseIfStopped();
   const Strings more = warningsOf(statistics);
   warnings.insert(warnings.end(), more.begin(), more.end());
-  return nb::make_tuple(figuresOf(statistics, constraints.figures(), countOnly), warnings);
+  return nb::make_tuple(figuresOf(statistics, countOnly), warnings);
 }
 
 std::unique_ptr<PieceSource> openSource(

@@ -80,13 +80,8 @@ public:
     kept->push_back(points);
     kept->push_back(cells);
     MeshPart part;
-    part.Mesh.Points = points.data();
-    part.Mesh.Float = scalarOf(points.dtype()) == Scalar::Float32;
-    part.Mesh.PointCount = std::int64_t(points.shape(0));
-    part.Mesh.Ids = cells.data();
-    part.Mesh.Wide = scalarOf(cells.dtype()) == Scalar::Int64;
-    part.Mesh.Cells = part.OwnedCells = std::int64_t(cells.shape(0));
-    part.Mesh.Dimension = int(cells.shape(1)) - 1;
+    part.Mesh = meshOf(points, cells);
+    part.OwnedCells = part.Mesh.Cells;
     for (std::size_t i = 0; i < arrays.size(); ++i)
     {
       StoredArray description;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Binding.h"
 
+#include "Flat/FlatMesh.h"
 #include "Parallel/ParallelFor.h"
 #include "Resample/Resample.h"
 #include "Sampling/SamplingLattice.h"
@@ -18,23 +19,6 @@ namespace tipp::python
 namespace
 {
 
-SimplexMesh meshOf(const InputArray& points, const InputArray& cells,
-  const std::optional<InputArray>& hidden, const std::vector<int>& axes)
-{
-  SimplexMesh mesh;
-  mesh.Points = points.data();
-  mesh.Float = scalarOf(points.dtype()) == Scalar::Float32;
-  mesh.PointCount = std::int64_t(points.shape(0));
-  mesh.Ids = cells.data();
-  mesh.Wide = scalarOf(cells.dtype()) == Scalar::Int64;
-  mesh.Cells = std::int64_t(cells.shape(0));
-  mesh.Hidden = hidden ? static_cast<const unsigned char*>(hidden->data()) : nullptr;
-  mesh.Dimension = int(cells.shape(1)) - 1;
-  mesh.Axes[0] = axes[0];
-  mesh.Axes[1] = axes[1];
-  return mesh;
-}
-
 /// Bytes per sample: a 32-bit cell number and the mask.
 constexpr double claimBytes = 5;
 
@@ -43,8 +27,8 @@ double bytesOfTuples(const std::vector<InputArray>& arrays)
   double bytes = 0;
   for (const InputArray& array : arrays)
   {
-    bytes +=
-      double(bytesOf(scalarOf(array.dtype()))) * (array.ndim() > 1 ? double(array.shape(1)) : 1.0);
+    bytes += double(scalarSize(scalarOf(array.dtype()))) *
+      (array.ndim() > 1 ? double(array.shape(1)) : 1.0);
   }
   return bytes;
 }
@@ -106,7 +90,7 @@ nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
     types.push_back(scalarOf(values.dtype()));
     components.push_back(values.ndim() > 1 ? values.shape(1) : 1);
     samples.emplace_back(
-      std::size_t(lattice.samples()) * components.back() * bytesOf(types.back()));
+      std::size_t(lattice.samples()) * components.back() * scalarSize(types.back()));
     attributes.push_back({ values.data(), samples.back().data(), types.back(),
       int(components.back()), ofCells, nullValue });
   };
@@ -121,11 +105,15 @@ nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
   samples.emplace_back(std::size_t(lattice.samples()));
   std::memset(samples.back().data(), 0, samples.back().size());
   options.Valid = samples.back().as<unsigned char>();
+  SimplexMesh mesh = meshOf(points, cells);
+  mesh.Hidden = hidden ? static_cast<const unsigned char*>(hidden->data()) : nullptr;
+  mesh.Axes[0] = axes[0];
+  mesh.Axes[1] = axes[1];
   ResampleResult result;
   withoutLock(
     [&]
     {
-      result = resample(meshOf(points, cells, hidden, axes), lattice, attributes, options);
+      result = resample(mesh, lattice, attributes, options);
       surface ? repeatLayers(lattice, samples) : void();
     });
   reporter(1);

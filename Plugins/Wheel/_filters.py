@@ -33,7 +33,20 @@ from ._vtkmodules import (
 _GIGABYTE = 1 << 30
 
 
-class vtkTIPPDelaunay2D(Filter):
+class _FilterWithSource(Filter):
+    """A filter whose second input is called its source."""
+
+    def SetSourceData(self, source: Any) -> None:
+        self.SetInputDataObject(1, source)
+
+    def SetSourceConnection(self, port: Any) -> None:
+        self.SetInputConnection(1, port)
+
+    def GetSource(self) -> Any:
+        return self.GetInputDataObject(1, 0) if self.GetNumberOfInputConnections(1) else None
+
+
+class vtkTIPPDelaunay2D(_FilterWithSource):
     """Exact Delaunay triangulation of the points of a vtkPointSet in the x-y plane. Lines and polygons of the second
     input, the source, are constraints. The second output is a vtkTable with statistics as field data."""
 
@@ -51,15 +64,6 @@ class vtkTIPPDelaunay2D(Filter):
     OPTIONAL_INPUTS = (1,)
     OUTPUTS = ("vtkPolyData", "vtkTable")
 
-    def SetSourceData(self, source: vtkPolyData) -> None:
-        self.SetInputDataObject(1, source)
-
-    def SetSourceConnection(self, port: Any) -> None:
-        self.SetInputConnection(1, port)
-
-    def GetSource(self) -> Any:
-        return self.GetInputDataObject(1, 0) if self.GetNumberOfInputConnections(1) else None
-
     def GetStatistics(self) -> vtkTable:
         return self.GetOutputDataObject(1)
 
@@ -76,10 +80,9 @@ class vtkTIPPDelaunay2D(Filter):
     def execute(self, inputs: Any, outputs: Any) -> None:
         for name in ("Alpha", "MaximumEdgeLength", "Tolerance", "Offset"):
             check.number(self.value(name), name)
-        has_source = inputs[1].GetNumberOfInformationObjects() > 0
         options = {
             **options_of(self, DELAUNAY_2D), "edges": None, "polygons": None,
-            "edge_source": vtkPolyData.GetData(inputs[1]) if has_source else None,
+            "edge_source": vtkPolyData.GetData(inputs[1]),
             "merge_source_points": self.value("MergeSourcePoints"),
         }
         points = vtkPointSet.GetData(inputs[0])
@@ -205,7 +208,7 @@ class vtkTIPPPointsToImage(Filter):
         for name in ("Resolution", "MaximumEdgeLength", "ThinningSize"):
             check.number(self.value(name), name)
         bounds, size = self._pixels()
-        lines = [vtkPolyData.GetData(port) if port.GetNumberOfInformationObjects() else None for port in inputs[1:]]
+        lines = [vtkPolyData.GetData(port) for port in inputs[1:]]
         options = {
             **options_of(self, DEM), "resolution": size, "bounds": bounds, "attributes": self.texts,
             "breaklines": self._lines("Breaklines", lines[0]), "boundary": self._lines("Boundary", lines[1]),
@@ -336,7 +339,7 @@ class vtkPartitionedUnstructuredWriter(Filter):
         self._is_written = True
 
 
-class vtkPartitionedMeshQuery(Filter):
+class vtkPartitionedMeshQuery(_FilterWithSource):
     """Evaluates a mesh at the points of a data set; the output has the structure of this data set. The mesh is the
     second input (the source, as in vtkProbeFilter), or FileName, a partitioned mesh on disk of any size."""
 
@@ -354,15 +357,6 @@ class vtkPartitionedMeshQuery(Filter):
     def __init__(self) -> None:
         super().__init__()
         self._opened: tuple[Any, Any] = (None, None)
-
-    def SetSourceData(self, source: Any) -> None:
-        self.SetInputDataObject(1, source)
-
-    def SetSourceConnection(self, port: Any) -> None:
-        self.SetInputConnection(1, port)
-
-    def GetSource(self) -> Any:
-        return self.GetInputDataObject(1, 0) if self.GetNumberOfInputConnections(1) else None
 
     def RequestDataObject(self, _request: Any, inputs: Any, outputs: Any) -> int:
         points, information = vtkDataSet.GetData(inputs[0]), outputs.GetInformationObject(0)
@@ -383,8 +377,7 @@ class vtkPartitionedMeshQuery(Filter):
 
     def execute(self, inputs: Any, outputs: Any) -> None:
         asked = vtkDataSet.GetData(inputs[0])
-        is_there = inputs[1].GetNumberOfInformationObjects() > 0
-        mesh = self._mesh(vtkPointSet.GetData(inputs[1]) if is_there else None)
+        mesh = self._mesh(vtkPointSet.GetData(inputs[1]))
         points = np.zeros((asked.GetNumberOfPoints(), 3))
         if asked.IsA("vtkPointSet"):
             points[:] = xyz_of(asked)

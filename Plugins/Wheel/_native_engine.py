@@ -5,7 +5,6 @@ If VTK is installed, in any version, functions also accept and return data sets 
 """
 from __future__ import annotations
 
-import math
 import os
 import sys
 import warnings
@@ -16,7 +15,7 @@ import numpy as np
 from . import _arguments as check
 from . import _core
 from . import _native_constraints as constraints
-from ._arrays import attributes, coordinates, Image, Mesh
+from ._arrays import attributes, coordinates, Image, in_space, Mesh
 from ._arguments import finish, Progress
 from ._rasters import DERIVED, needs_elevation, require_bands, uncompressed
 from ._vtkmodules import root
@@ -85,9 +84,6 @@ def raster(points: Any, point_data: Any, options: dict[str, Any],
            progress: Progress | None) -> tuple[list[np.ndarray], tuple[float, float, int, int], str]:
     """Returns the bands, each (rows, columns) from south to north; the grid's west, south, columns and rows; and the
     CRS of points in files."""
-    lines = {name: _core.read_constraints(options[name]) for name in ("breaklines", "boundary")
-             if isinstance(options[name], str)}
-    options = {**options, **lines}
     if isinstance(points, list) and points and isinstance(points[0], str):
         with uncompressed(points) as files:
             made = _core.dem(files, options, progress)
@@ -170,18 +166,14 @@ def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
         point_data = {**points.point_data, **(point_data or {})}
         points = points.points
     array = plain(coordinates(points))
-    if array.shape[1] == 2 and options["polygons"] is not None:  # corners of polygons may have a z
-        array = np.column_stack([array, np.zeros(len(array), array.dtype)])
+    if options["polygons"] is not None:  # corners of polygons may have a z
+        array = in_space(array)
     mesh, statistics, _ = _triangulated(array, attributes(point_data, len(array)), options, progress)
     if has_vtk():
         from ._vtk import surface_of
 
         return surface_of(mesh, None), statistics
-    if mesh.points.shape[1] == 2:
-        spatial = np.zeros((len(mesh.points), 3), mesh.points.dtype)
-        for axis in range(2):  # faster than copying both at once
-            spatial[:, axis] = mesh.points[:, axis]
-        mesh.points = spatial
+    mesh.points = in_space(mesh.points)
     return mesh, statistics
 
 
@@ -341,11 +333,8 @@ def open_mesh(mesh: Any, options: dict[str, Any]) -> Any:
         return _core.Query(mesh, options["memory"], options["step"], options["threads"])
     mesh = _simplices(mesh, "mesh", ("vtkPolyData", "vtkUnstructuredGrid"), "a mesh")
     of_points, of_cells = _numeric_arrays(mesh.point_data), _numeric_arrays(mesh.cell_data)
-    points = plain(mesh.points)
-    if points.shape[1] == 2:
-        points = np.column_stack([points, np.zeros(len(points), points.dtype)])
-    return _core.Query(points, mesh.cells, [*of_points, *of_cells], [*of_points.values(), *of_cells.values()],
-                       len(of_points), options["threads"])
+    return _core.Query(in_space(plain(mesh.points)), mesh.cells, [*of_points, *of_cells],
+                       [*of_points.values(), *of_cells.values()], len(of_points), options["threads"])
 
 
 def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> Any:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The command `tipp query` under mpirun: TestQueryOnRanks.py MPIEXEC TIPP"""
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
@@ -37,6 +38,19 @@ class QueryOnRanks(unittest.TestCase):
                 files.append((self.folder / output).read_bytes())
             self.assertEqual(files[0], files[1])
             self.assertEqual(files[0], files[2])
+
+    def test_points_that_are_left_out_are_reported_once(self):
+        header = bytearray(227)
+        header[:4] = b"LASF"
+        header[24:26] = 1, 2
+        struct.pack_into("<HII", header, 94, 227, 227, 0)
+        struct.pack_into("<BHI", header, 104, 0, 20, 10)
+        struct.pack_into("<3d", header, 131, 0.1, 0.1, 0.1)
+        records = [struct.pack("<3iHBBbBH", i, i, 0, 0, 9, 2 + i % 2, 0, 0, 0) for i in range(10)]
+        (self.folder / "asked.las").write_bytes(header + b"".join(records))
+        run = self.run_tipp(2, "query", "asked.las", "mesh.tipp", "-o", "out.csv", "--class", "2")
+        self.assertIn("5 points, ", run.stdout)
+        self.assertEqual(run.stderr.count("5 points of LAS files are not used"), 1, run.stderr)
 
     def make_hills(self):
         points = np.load(self.folder / "points.npy")

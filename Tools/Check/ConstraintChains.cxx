@@ -233,9 +233,7 @@ NearConstraints::NearConstraints(
   for (const auto& edge : edges)
   {
     const Segment segment{ at(edge[0]), at(edge[1]) };
-    const double sum = segment.A.x + segment.A.y + segment.B.x + segment.B.y;
-    if (std::isnan(sum) || std::isinf(segment.A.x) || std::isinf(segment.A.y) ||
-      std::isinf(segment.B.x) || std::isinf(segment.B.y))
+    if (!check::isFinite(segment.A) || !check::isFinite(segment.B))
     {
       continue; // constraints that are not finite are ignored
     }

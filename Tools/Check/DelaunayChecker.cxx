@@ -2,7 +2,6 @@
 #include "Check/DelaunayChecker.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <numeric>
 #include <unordered_map>
@@ -80,10 +79,7 @@ void PieceChecker::checkTriangles(const CheckedPiece& piece)
     const bool isOwn = std::int64_t(t) < piece.OwnTriangles;
     this->IsGood[t] = std::all_of(corners, corners + 3,
       [&](std::int64_t point)
-      {
-        return point >= 0 && point < points && std::isfinite(at(piece, point).x) &&
-          std::isfinite(at(piece, point).y);
-      });
+      { return point >= 0 && point < points && check::isFinite(at(piece, point)); });
     this->Report.BadIds += isOwn && !this->IsGood[t] ? 1 : 0;
     this->IsSound[t] = this->IsGood[t] &&
       check::turn(at(piece, corners[0]), at(piece, corners[1]), at(piece, corners[2])) > 0;
@@ -114,7 +110,7 @@ void PieceChecker::checkPoints(const CheckedPiece& piece)
       const bool isGiven = piece.Ids[i] < this->Given;
       this->GivenPoints += isGiven ? 1 : 0;
       this->PointSum += isGiven ? hashPoint(piece.Ids[i], p.x, p.y) : 0;
-      if (std::isfinite(p.x) && std::isfinite(p.y))
+      if (check::isFinite(p))
       {
         own.push_back({ p, used[i] });
       }
@@ -152,22 +148,19 @@ void PieceChecker::checkPoints(const CheckedPiece& piece)
 /// lexicographic order.
 void PieceChecker::keepHull(const std::vector<Vertex>& points)
 {
-  for (const int side : { 1, -1 })
+  std::vector<Position> positions;
+  positions.reserve(points.size());
+  for (const Vertex& vertex : points)
   {
-    std::vector<Position> chain;
-    for (const Vertex& vertex : points)
-    {
-      while (chain.size() > 1 &&
-        side * check::turn(chain[chain.size() - 2], chain.back(), vertex.At) < 0)
-      {
-        chain.pop_back();
-      }
-      chain.push_back(vertex.At);
-    }
-    for (const Position p : chain)
+    positions.push_back(vertex.At);
+  }
+  for (int side = 0; side < 2; ++side)
+  {
+    for (const Position p : check::halfHull(positions))
     {
       this->HullXY.insert(this->HullXY.end(), { p.x, p.y });
     }
+    std::reverse(positions.begin(), positions.end());
   }
 }
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <set>
 
@@ -113,6 +112,20 @@ std::int64_t countHullFaults(const std::vector<double>& xy, std::vector<Directed
   return edges.empty() ? 0 : Chain(xy, edges).countFaults();
 }
 
+std::vector<Position> halfHull(const std::vector<Position>& points)
+{
+  std::vector<Position> chain;
+  for (const Position& p : points)
+  {
+    while (chain.size() > 1 && turn(chain[chain.size() - 2], chain.back(), p) < 0)
+    {
+      chain.pop_back();
+    }
+    chain.push_back(p);
+  }
+  return chain;
+}
+
 std::int64_t countOffHull(const std::vector<double>& xy, const std::vector<DirectedEdge>& edges)
 {
   if (edges.empty())
@@ -122,27 +135,16 @@ std::int64_t countOffHull(const std::vector<double>& xy, const std::vector<Direc
   std::vector<Position> points;
   for (std::size_t i = 0; i + 1 < xy.size(); i += 2)
   {
-    if (std::isfinite(xy[i]) && std::isfinite(xy[i + 1]))
-    {
-      points.push_back({ xy[i], xy[i + 1] });
-    }
+    const Position p{ xy[i], xy[i + 1] };
+    isFinite(p) ? points.push_back(p) : void();
   }
   std::sort(points.begin(), points.end(), isBefore);
   const auto isSame = [](Position a, Position b) { return a.x == b.x && a.y == b.y; };
   points.erase(std::unique(points.begin(), points.end(), isSame), points.end());
-  // The lower hull from left to right, then the upper hull back.
   std::set<std::array<double, 4>> hull;
   for (int side = 0; side < 2; ++side)
   {
-    std::vector<Position> chain;
-    for (const Position& p : points)
-    {
-      while (chain.size() > 1 && turn(chain[chain.size() - 2], chain.back(), p) < 0)
-      {
-        chain.pop_back();
-      }
-      chain.push_back(p);
-    }
+    const std::vector<Position> chain = halfHull(points);
     for (std::size_t i = 1; i < chain.size(); ++i)
     {
       hull.insert({ chain[i - 1].x, chain[i - 1].y, chain[i].x, chain[i].y });

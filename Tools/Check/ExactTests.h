@@ -2,6 +2,7 @@
 #ifndef tippExactTests_h
 #define tippExactTests_h
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -16,6 +17,11 @@ struct Position
   double x;
   double y;
 };
+
+inline bool isFinite(Position p)
+{
+  return std::isfinite(p.x) && std::isfinite(p.y);
+}
 
 inline bool isBefore(Position a, Position b)
 {
@@ -39,6 +45,10 @@ struct DirectedEdge
 /// edges; otherwise the number of edges that violate this. Sorts `edges` by From. `xy`: x and y of
 /// each point.
 std::int64_t countHullFaults(const std::vector<double>& xy, std::vector<DirectedEdge>& edges);
+
+/// Returns the lower half of the convex hull of points in lexicographic order, including those
+/// inside its edges. For the reverse order, returns the upper half.
+std::vector<Position> halfHull(const std::vector<Position>& points);
 
 /// Counts the edges that are not edges of the convex hull of the finite points. All points on the
 /// hull count as its vertices, so a hull edge joins two consecutive ones.

@@ -5,7 +5,6 @@
 #include "Commands/Report.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
-#include "Files/PendingOutput.h"
 #include "Query/LineData.h"
 #include "Query/Lines.h"
 #include "Query/WriteLines.h"
@@ -87,10 +86,8 @@ void write(const ContourArguments& arguments, const Contours& contours, const Pa
     writeGeoPackage(arguments.Output, contours, arguments.Array, arguments.Crs, before);
     return;
   }
-  PendingFile pending(arguments.Output, before);
   writeXmlFile<vtkXMLPolyDataWriter>(
-    arguments.Output, pending, polyDataOf(contours, arguments.Array));
-  pending.commit();
+    arguments.Output, before, polyDataOf(contours, arguments.Array));
 }
 
 /// Makes the contour lines of all pieces, which the ranks share. The first rank writes the file.

@@ -39,7 +39,7 @@ CONSTRAINTS  .poly (Triangle); .csv, .txt (a segment per line: x and y of both e
         two ids of points counted from 0); .14, .grd (ADCIRC: the boundaries); any VTK
         file: lines and polygons. Only triangles inside of counter-clockwise polygons
         are kept; clockwise ones are holes. Points that are not in INPUT are added.
-        Constraints stay in memory, on each rank.
+        Constraints stay in memory, on each rank, unless the output is named .tipp.
 
 Under mpirun the points are distributed among the ranks, each with its threads; the
 first rank writes the output. --masters, --major, --minor and --groups choose how

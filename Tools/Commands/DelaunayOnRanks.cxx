@@ -48,23 +48,21 @@ SharedConstraints shareConstraints(Communicator& ranks, const DelaunayArguments&
   if (ranks.rank() == 0)
   {
     const ScratchDirectory folder;
-    const std::unique_ptr<ConstrainedPoints> joined =
-      ConstrainedInput(arguments.Constraints, arguments.Threads)
-        .joined(openPointStream(arguments.Inputs, arguments.Columns));
-    ConstrainedPoints& points = *joined;
-    points.setReport(shared.Figures);
+    const auto points = joinConstraints(openPointStream(arguments.Inputs, arguments.Columns),
+      arguments.Constraints, arguments.Threads);
     constexpr std::uint64_t memory = std::uint64_t(1) << 30;
-    points.begin(folder.path() + "/constraints", memory);
+    points->begin(folder.path() + "/constraints", memory);
     constexpr std::size_t blockPoints = 1 << 18;
-    forEachBlock(points, blockPoints, [](PointBlock&) {});
-    shared.Added = points.added();
+    forEachBlock(*points, blockPoints, [](PointBlock&) {});
+    shared.Figures = points->figures();
+    shared.Added = points->added();
     if (shared.Added.size() > 0 && extensionOf(arguments.Output) == ".npy")
     {
       throw IOError(
         arguments.Constraints.name(), describeAdded(std::int64_t(shared.Added.size()), arguments));
     }
     std::vector<ConstraintSegment> segments;
-    points.forEach([&segments](const ConstraintSegment& segment) { segments.push_back(segment); });
+    points->forEach([&segments](const ConstraintSegment& segment) { segments.push_back(segment); });
     writer(segments, shared.Added.XY);
   }
   const Bytes bytes = ranks.broadcast(writer.take());
@@ -73,16 +71,6 @@ SharedConstraints shareConstraints(Communicator& ranks, const DelaunayArguments&
     std::make_unique<ConstraintSegments>(reader.get<std::vector<ConstraintSegment>>());
   reader(shared.AddedXY);
   return shared;
-}
-
-void appendPoints(const PointBlock& added, PointTable& points)
-{
-  points.XY.insert(points.XY.end(), added.XY.begin(), added.XY.end());
-  for (std::size_t c = 0; c < points.Columns.size(); ++c)
-  {
-    const std::vector<double>& values = added.Columns.at(c);
-    points.Columns[c].Values.insert(points.Columns[c].Values.end(), values.begin(), values.end());
-  }
 }
 
 /// Writes the file on the first rank, completely or not at all; the others wait for the outcome.
@@ -101,7 +89,7 @@ void writeOnFirst(Communicator& ranks, const DelaunayArguments& arguments, Delau
     extensionOf(arguments.Output) == ".npy" ? PointTable() : readPointsFor(arguments);
   if (constraints.Added.size() > 0)
   {
-    appendPoints(constraints.Added, points);
+    append(constraints.Added, points);
   }
   run.DisagreeingPositions = resolveDuplicates(points, all.Duplicates, arguments.Duplicates);
   if (!writeResult(arguments, points, all, before))

@@ -57,19 +57,12 @@ std::int64_t sumOf(const std::vector<ProcessUsage>& ranks, std::int64_t ProcessU
 }
 
 void reportMade(const DelaunayArguments& arguments, const OutOfCoreStatistics& statistics,
-  const ConstraintFigures& constraints, const std::vector<ProcessUsage>& ranks)
+  const std::vector<ProcessUsage>& ranks)
 {
   const bool isCounted = arguments.Sink == "count";
-  // The constraints are not read when a run is resumed.
-  const bool hasConstraints = constraints.Constraints > 0;
-  RunStatistics all = statisticsOf(statistics, isCounted);
-  if (hasConstraints)
-  {
-    addConstraintTotals(constraints, all);
-  }
   const double seconds = totalSeconds(statistics.Phases);
   nlohmann::ordered_json json = { { "input", arguments.Inputs }, { "output", arguments.Output } };
-  json.update(jsonOf(all));
+  json.update(jsonOf(statisticsOf(statistics, isCounted)));
   json.update({
     { "read_bytes", sumOf(ranks, &ProcessUsage::Read) },
     { "written_bytes", sumOf(ranks, &ProcessUsage::Written) },
@@ -82,9 +75,9 @@ void reportMade(const DelaunayArguments& arguments, const OutOfCoreStatistics& s
   reportRun(arguments.Statistics, json, seconds,
     std::string(ranks.size() == 1 ? "" : " of the largest rank") +
       (isCounted ? fmt::format(", checksum {:016x}", statistics.TriangleSum) : ""));
-  if (hasConstraints)
+  if (statistics.Constraints.Constraints > 0)
   {
-    fmt::print("{}\n", describeSegments(constraints));
+    fmt::print("{}\n", describeSegments(statistics.Constraints));
   }
   warnOfNoTriangles(statistics.Triangles);
 }
@@ -94,16 +87,15 @@ void reportMade(const DelaunayArguments& arguments, const OutOfCoreStatistics& s
 int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessController* controller)
 {
   Communicator ranks(controller);
-  OutOfCoreOptions options = makeOptions(arguments);
-  ConstrainedInput constraints(arguments.Constraints, arguments.Threads);
-  constraints.describe(options);
-  const auto open = [&]() -> std::unique_ptr<PointStream>
+  const OutOfCoreOptions options = makeOptions(arguments);
+  const auto open = [&]
   {
     if (ranks.rank() == 0)
     {
       checkOutputs(arguments.Output, arguments.Statistics, arguments.Scratch, arguments.Inputs);
     }
-    return constraints.join(openPointStream(arguments.Inputs, withThinningFile(arguments)));
+    return joinConstraints(openPointStream(arguments.Inputs, withThinningFile(arguments)),
+      arguments.Constraints, options);
   };
   OutOfCoreStatistics statistics;
   const int code =
@@ -115,7 +107,7 @@ int runDelaunayOutOfCore(const DelaunayArguments& arguments, vtkMultiProcessCont
   const std::vector<ProcessUsage> usage = gatherUsage(ranks);
   if (ranks.rank() == 0)
   {
-    reportMade(arguments, statistics, constraints.figures(), usage);
+    reportMade(arguments, statistics, usage);
   }
   return Success;
 }

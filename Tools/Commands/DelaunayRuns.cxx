@@ -8,7 +8,6 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/TextFile.h"
-#include "InMemory/TriangulatePoints.h"
 #include "Meshes/MeshFiles.h"
 #include "Partitioning/MeshTiling.h"
 

@@ -3,7 +3,6 @@
 #define tippDelaunayRuns_h
 
 #include "Commands/PointArguments.h"
-#include "Constraints/ConstrainedPoints.h"
 #include "Constraints/TableConstraints.h"
 #include "Distributed/DistributedTriangulation.h"
 #include "Duplicates/ResolveDuplicates.h"
@@ -17,7 +16,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 class vtkMultiProcessController;
 

@@ -5,12 +5,10 @@
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Console/Process.h"
-#include "Constraints/ReadConstraintFile.h"
 #include "Files/IOError.h"
 #include "Files/OutputPath.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/PointStream.h"
-#include "Vtk/VtkFiles.h"
 
 #include "vtkMultiProcessController.h"
 
@@ -21,6 +19,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -255,27 +254,19 @@ void addConstraintOptions(CLI::App& command, DemArguments& arguments)
 }
 
 /// Reads the files of breaklines and boundary.
-void takeConstraints(DemArguments& arguments)
+void readConstraints(DemArguments& arguments)
 {
-  TableConstraints constraints;
-  constraints.Surface = arguments.Request.Duplicates;
+  std::optional<ConstraintTable> lines;
+  std::optional<ConstraintTable> boundary;
   if (!arguments.Breaklines.empty())
   {
-    constraints.Lines = readConstraintFile(arguments.Breaklines);
-    // Edges of polygons are breaklines, too.
-    constraints.Lines.PolygonBegin = constraints.Lines.Edges.size();
-    constraints.Lines.Holes.clear();
-    isVtkFile(arguments.Breaklines) ? dropPlainHeights(constraints.Lines) : void();
+    lines = readBreaklines(arguments.Breaklines);
   }
   if (!arguments.Boundary.empty())
   {
-    constraints.Boundary = readBoundary(arguments.Boundary);
-    constraints.Boundary.Height.clear();
+    boundary = readBoundary(arguments.Boundary);
   }
-  if (!arguments.Breaklines.empty() || !arguments.Boundary.empty())
-  {
-    arguments.Request.Constraints = std::move(constraints);
-  }
+  constrain(arguments.Request, std::move(lines), std::move(boundary));
 }
 
 void addGridOptions(CLI::App& command, DemArguments& arguments)
@@ -397,7 +388,7 @@ void addDemCommand(CLI::App& app, int& exitCode)
       {
         arguments->Request.Raster.Like = readRasterInfo(arguments->Like).Grid;
       }
-      takeConstraints(*arguments);
+      readConstraints(*arguments);
       exitCode = runDem(*arguments);
     });
 }

@@ -8,7 +8,6 @@
 #include "Dem/MakeDem.h"
 #include "Dem/RasterSink.h"
 #include "Dem/SurfaceSink.h"
-#include "Files/IOError.h"
 #include "OutOfCore/ScratchFiles.h"
 #include "Points/PointStream.h"
 
@@ -154,7 +153,6 @@ int runDemOutOfCore(
   {
     return surfaceCode;
   }
-  ConstrainedPoints* constrained = nullptr; // on the first rank
   const auto openConstrained = [&]() -> std::unique_ptr<PointStream>
   {
     auto stream = open();
@@ -165,16 +163,11 @@ int runDemOutOfCore(
     auto joined = std::make_unique<ConstrainedPoints>(std::move(stream),
       *arguments.Request.Constraints, arguments.constraintFile(), arguments.Request.Threads);
     joined->setSurface(std::move(surface));
-    constrained = joined.get();
     return joined;
   };
   OutOfCoreOptions options = optionsOf(arguments);
   options.MaximumEdge = arguments.Request.MaximumEdge;
   options.Consumer = &sink;
-  if (arguments.Request.Constraints)
-  {
-    options.Constraints = [&constrained]() -> SegmentSource& { return *constrained; };
-  }
   OutOfCoreStatistics statistics;
   const int code = runOutOfCore(ranks, "Making the raster", openConstrained,
     arguments.Output + workSuffix, options, statistics);

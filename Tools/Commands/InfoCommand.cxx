@@ -89,7 +89,7 @@ Summary read(PointStream& stream)
       for (std::size_t i = 0; i < points.size(); ++i)
       {
         const Point2 p{ points.XY[2 * i], points.XY[2 * i + 1] };
-        const bool isGood = std::isfinite(p.x) && std::isfinite(p.y);
+        const bool isGood = isFinite(p);
         summary.NotFinite += isGood ? 0 : 1;
         summary.X.add(p.x);
         summary.Y.add(p.y);
@@ -147,8 +147,7 @@ int runInfo(const InfoArguments& arguments)
 {
   for (const std::string& path : arguments.Inputs)
   {
-    const std::string extension = extensionOf(path);
-    if (extension == ".las" || extension == ".laz")
+    if (isLasExtension(extensionOf(path)))
     {
       describeLas(path);
     }

@@ -51,6 +51,17 @@ std::string checkMemorySize(const std::string& text)
 namespace
 {
 
+/// Validates the memory limit of a run out of core: returns an error message, or an empty text.
+std::string checkRunMemory(const std::string& text)
+{
+  // The smallest buffers for reading points, and the smallest pieces, take about as much.
+  constexpr std::uint64_t least = std::uint64_t(1) << 20;
+  const std::string problem = checkMemorySize(text);
+  return !problem.empty() || *parseMemorySize(text) >= least
+    ? problem
+    : "'" + text + "' is too little: give 1M or more";
+}
+
 std::string checkClass(const std::string& text)
 {
   return LasSelection::parseClass(text)
@@ -176,7 +187,7 @@ void addRunOptions(CLI::App& command, RunArguments& arguments, const std::string
   command.add_option("input", arguments.Inputs, "The points, of one or more files")->required();
   addOutput(command, arguments.Output, outputHelp, suits, endings);
   command.add_option("--stats", arguments.Statistics, "A JSON file for figures of the run");
-  command.add_option("--memory", arguments.Memory, memoryHelp)->check(checkMemorySize);
+  command.add_option("--memory", arguments.Memory, memoryHelp)->check(checkRunMemory);
   command.add_flag("--resume", arguments.Resume,
     condition + ": resume a run that was killed, interrupted or failed");
   command.add_option("--scratch", arguments.Scratch,

@@ -6,6 +6,7 @@
 #include "Console/Process.h"
 #include "Distributions/GeneratePoints.h"
 #include "Files/InputFile.h"
+#include "Files/TextFile.h"
 #include "Npy/NpyFile.h"
 #include "Points/PointTable.h"
 #include "Points/ReadPoints.h"
@@ -87,6 +88,15 @@ Example:
   tipp points --like fort.14 --count 1000000 -o dense.npy
 )";
 
+/// Validates the seed: returns an error message, or an empty text. CLI11's message would name the
+/// largest double.
+std::string checkSeed(const std::string& text)
+{
+  return wholeNumber<std::uint64_t>(text)
+    ? ""
+    : "'" + text + "' is not a whole number from 0 to 18446744073709551615";
+}
+
 struct PointsArguments
 {
   std::string Distribution;
@@ -127,7 +137,7 @@ void addPointsCommand(CLI::App& app, int& exitCode)
     ->required()
     ->check(CLI::Range(std::int64_t(0), std::int64_t(1) << 40));
   command->add_option("--seed", arguments->Seed, "The seed of the random numbers")
-    ->check(CLI::NonNegativeNumber)
+    ->check(checkSeed)
     ->capture_default_str();
   addOutput(
     *command, arguments->Output, "The .npy file to write",

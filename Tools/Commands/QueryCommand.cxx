@@ -88,7 +88,10 @@ std::vector<Point3> readShare(const QueryArguments& arguments, bool inSpace, int
   PointOptions reading = arguments.Reading;
   reading.Threads = arguments.Mesh.Threads;
   const PointTable table = readPointsShare({ arguments.Points }, reading, rank, ranks);
-  reportLeftOut(table.LeftOut, table.ThinnedOut);
+  if (rank == 0) // it counts the points of all files
+  {
+    reportLeftOut(table.LeftOut, table.ThinnedOut);
+  }
   const std::vector<std::string> names = table.names();
   const std::size_t z = findElevation(names);
   if (inSpace && z == names.size() && table.size() > 0)

@@ -204,9 +204,7 @@ void writeDescents(Communicator* shared, const ResidentMesh& mesh,
   {
     return;
   }
-  PendingFile pending(output, before);
-  writeXmlFile<vtkXMLPolyDataWriter>(output, pending, polyDataOf(descents, array));
-  pending.commit();
+  writeXmlFile<vtkXMLPolyDataWriter>(output, before, polyDataOf(descents, array));
   fmt::print(
     "{} lines of {} points, in {}\n", descents.Pits.size(), descents.Points.size(), output);
 }

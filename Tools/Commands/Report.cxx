@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <utility>
 
 namespace tipp
 {
@@ -181,6 +180,10 @@ int reportInterruptedRun(bool kept)
     kept ? "to continue, run the same command with --resume" : "nothing was written");
 }
 
+namespace
+{
+
+/// Prints on the first rank which rank has failed, and why. Returns Failure.
 int reportRankFailure(const RankFailure& failure, const Communicator& ranks)
 {
   if (ranks.isFirst())
@@ -192,6 +195,8 @@ int reportRankFailure(const RankFailure& failure, const Communicator& ranks)
   }
   return Failure;
 }
+
+} // namespace
 
 int runTogether(
   vtkMultiProcessController* controller, const std::function<void(Communicator&)>& work)

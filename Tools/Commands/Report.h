@@ -76,9 +76,6 @@ std::function<void(const std::string&)> warnAbove(
 /// Calls reportInterrupt() for a run out of core; `kept`: it can be resumed.
 int reportInterruptedRun(bool kept);
 
-/// Prints on the first rank which rank has failed, and why. Returns Failure.
-int reportRankFailure(const RankFailure& failure, const Communicator& ranks);
-
 /// Calls work() on all ranks of a controller, or in this process alone (null). Returns the exit
 /// code, the same on all ranks, after printing a message if a rank failed or the user stopped it.
 int runTogether(

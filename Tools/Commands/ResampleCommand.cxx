@@ -9,7 +9,6 @@
 #include "Dem/MakeDem.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
-#include "Files/PendingOutput.h"
 #include "Flat/FlatMesh.h"
 #include "Npy/NpyFile.h"
 #include "OpenCL/Devices.h"
@@ -33,7 +32,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <limits>
 #include <memory>
 #include <string>
@@ -239,17 +237,8 @@ SampledBands bandsOf(vtkImageData* image, std::vector<std::string>& names)
   return bands;
 }
 
-/// Writes an image with all its arrays to a .vti file. `before`: the state of the path before the
-/// computation, here and in writeNpy() and writeGeoTiff(); only that file is replaced. Throws
-/// IOError.
-void writeImage(const std::string& path, vtkImageData* image, const PathState& before)
-{
-  PendingFile pending(path, before);
-  writeXmlFile<vtkXMLImageDataWriter>(path, pending, image);
-  pending.commit();
-}
-
-/// Writes the array `name` of an image to a .npy file. Throws IOError.
+/// Writes the array `name` of an image to a .npy file. `before`: the state of the path before the
+/// computation, here and in writeGeoTiff(); only that file is replaced. Throws IOError.
 void writeNpy(
   const std::string& path, const std::string& name, vtkImageData* image, const PathState& before)
 {
@@ -332,7 +321,7 @@ int runResample(const ResampleArguments& arguments)
   }
   else
   {
-    writeImage(arguments.Output, filter->GetOutput(), before);
+    writeXmlFile<vtkXMLImageDataWriter>(arguments.Output, before, filter->GetOutput());
   }
   summarize(arguments, filter);
   return Success;

@@ -34,15 +34,17 @@ namespace
 /// Approximate bytes of memory per cell, including its share of the points and of the samples.
 constexpr std::uint64_t bytesOfCell = 128;
 
-[[noreturn]] void refuseName(
-  const ResampleArguments& arguments, const std::string& name, const std::set<std::string>& names)
+/// The names of a mesh's arrays.
+struct ArrayNames
 {
-  throw IOError(
-    arguments.Input, "has no array '" + name + "'" + listOfNames(names, "; it has ") + ".");
-}
+  std::set<std::string> OfPoints;
+  std::set<std::string> OfCells;
+};
 
-void chooseArrays(const ResampleArguments& arguments, vtkRangeResampleFilter* filter,
-  vtkDataSet* mesh, const std::string& associations)
+/// Selects the arrays that `arguments` name, or all if they name none. Throws IOError for a name
+/// that the mesh does not have.
+void selectArrays(
+  const ResampleArguments& arguments, const ArrayNames& known, vtkRangeResampleFilter* filter)
 {
   if (arguments.Arrays.empty())
   {
@@ -50,21 +52,29 @@ void chooseArrays(const ResampleArguments& arguments, vtkRangeResampleFilter* fi
   }
   filter->GetPointDataArraySelection()->SetUnknownArraySetting(0);
   filter->GetCellDataArraySelection()->SetUnknownArraySetting(0);
-  for (std::size_t i = 0; i < arguments.Arrays.size(); ++i)
+  for (const std::string& name : arguments.Arrays)
   {
-    const std::string& name = arguments.Arrays[i];
-    const char association = associations[i];
-    const bool ofPoints = association == 'p';
-    (ofPoints ? filter->GetPointDataArraySelection() : filter->GetCellDataArraySelection())
-      ->EnableArray(name.c_str());
-    if (association == ' ')
+    const bool isOfPoints = known.OfPoints.count(name) > 0;
+    if (!isOfPoints && known.OfCells.count(name) == 0)
     {
-      std::set<std::string> names = arrayNames(mesh->GetPointData());
-      names.merge(arrayNames(mesh->GetCellData()));
-      refuseName(arguments, name, names);
+      std::set<std::string> all = known.OfPoints;
+      all.insert(known.OfCells.begin(), known.OfCells.end());
+      throw IOError(
+        arguments.Input, "has no array '" + name + "'" + listOfNames(all, "; it has ") + ".");
     }
-    vtkDataSetAttributes* const data =
-      ofPoints ? static_cast<vtkDataSetAttributes*>(mesh->GetPointData()) : mesh->GetCellData();
+    (isOfPoints ? filter->GetPointDataArraySelection() : filter->GetCellDataArraySelection())
+      ->EnableArray(name.c_str());
+  }
+}
+
+/// Throws IOError if an array that `arguments` name holds no numbers.
+void requireNumbers(const ResampleArguments& arguments, vtkDataSet* mesh)
+{
+  for (const std::string& name : arguments.Arrays)
+  {
+    vtkDataSetAttributes* const data = mesh->GetPointData()->HasArray(name.c_str())
+      ? static_cast<vtkDataSetAttributes*>(mesh->GetPointData())
+      : mesh->GetCellData();
     if (data->HasArray(name.c_str()) && !data->GetArray(name.c_str()))
     {
       throw IOError(
@@ -101,30 +111,6 @@ void hideOtherShares(vtkDataSet* mesh, Communicator& ranks)
   mesh->GetCellData()->AddArray(ghosts);
 }
 
-/// Returns a letter for each array name: 'p' if it is a point array in the mesh of all ranks, 'c'
-/// for a cell array, ' ' if it is neither. Ranks without cells may lack arrays that others have.
-/// Collective.
-std::string associationsOf(
-  const std::vector<std::string>& arrays, vtkDataSet* mesh, Communicator& ranks)
-{
-  std::string mine;
-  for (const std::string& name : arrays)
-  {
-    mine += mesh->GetPointData()->HasArray(name.c_str()) ? 'p'
-      : mesh->GetCellData()->HasArray(name.c_str())      ? 'c'
-                                                         : ' ';
-  }
-  std::string known(arrays.size(), ' ');
-  for (const std::string& associations : ranks.allGather(mine))
-  {
-    for (std::size_t i = 0; i < known.size(); ++i)
-    {
-      known[i] = known[i] == ' ' ? associations[i] : known[i];
-    }
-  }
-  return known;
-}
-
 std::set<std::string> namesIn(vtkDataArraySelection* selection)
 {
   std::set<std::string> names;
@@ -133,6 +119,12 @@ std::set<std::string> namesIn(vtkDataArraySelection* selection)
     names.insert(selection->GetArrayName(i));
   }
   return names;
+}
+
+ArrayNames namesIn(vtkPartitionedUnstructuredReader* reader)
+{
+  return { namesIn(reader->GetPointDataArraySelection()),
+    namesIn(reader->GetCellDataArraySelection()) };
 }
 
 void throwFirst(const ErrorKeeper* errors)
@@ -208,34 +200,17 @@ StoredMesh describe(const ResampleArguments& arguments)
 }
 
 /// Selects the arrays that `arguments` name, or all except those that the reader adds.
-void chooseStoredArrays(const ResampleArguments& arguments, const StoredMesh& stored,
+void selectStoredArrays(const ResampleArguments& arguments, const StoredMesh& stored,
   vtkPartitionedUnstructuredReader* reader, vtkRangeResampleFilter* filter)
 {
-  vtkDataArraySelection* const ofPoints = filter->GetPointDataArraySelection();
-  vtkDataArraySelection* const ofCells = filter->GetCellDataArraySelection();
-  if (arguments.Arrays.empty())
-  {
-    ofPoints->DisableArray("GlobalPointIds");
-    ofCells->DisableArray("GlobalCellIds");
-    return;
-  }
-  ofPoints->SetUnknownArraySetting(0);
-  ofCells->SetUnknownArraySetting(0);
-  std::set<std::string> names[] = { namesIn(reader->GetPointDataArraySelection()),
-    namesIn(reader->GetCellDataArraySelection()) };
+  ArrayNames names = namesIn(reader);
   if (stored.IsSurface && stored.Extent[4] < stored.Extent[5])
   {
-    names[0].insert(elevationName);
+    names.OfPoints.insert(elevationName);
   }
-  for (const std::string& name : arguments.Arrays)
-  {
-    if (names[0].count(name) + names[1].count(name) == 0)
-    {
-      names[0].merge(names[1]);
-      refuseName(arguments, name, names[0]);
-    }
-    (names[0].count(name) > 0 ? ofPoints : ofCells)->EnableArray(name.c_str());
-  }
+  selectArrays(arguments, names, filter);
+  filter->GetPointDataArraySelection()->DisableArray("GlobalPointIds");
+  filter->GetCellDataArraySelection()->DisableArray("GlobalCellIds");
 }
 
 /// Sets the filter's range and number of samples. The filter cannot find them itself, because it
@@ -273,7 +248,7 @@ void connectStored(const ResampleArguments& arguments, Communicator& ranks,
     [&]
     {
       const StoredMesh stored = describe(arguments);
-      chooseStoredArrays(arguments, stored, reader, filter);
+      selectStoredArrays(arguments, stored, reader, filter);
       if (stored.Extent[0] <= stored.Extent[1])
       {
         setRange(arguments, stored, filter);
@@ -283,21 +258,12 @@ void connectStored(const ResampleArguments& arguments, Communicator& ranks,
   filter->SetInputConnection(reader->GetOutputPort());
 }
 
-vtkSmartPointer<vtkDataSet> readFlat(const ResampleArguments& arguments, Communicator& ranks)
+vtkSmartPointer<vtkDataSet> readFlat(
+  const ResampleArguments& arguments, Communicator& ranks, ArrayNames& names)
 {
   const vtkNew<ErrorKeeper> errors;
   const auto reader = openReader(arguments, ranks, errors);
-  std::set<std::string> names = namesIn(reader->GetPointDataArraySelection());
-  names.merge(namesIn(reader->GetCellDataArraySelection()));
-  ranks.attempt(
-    [&]
-    {
-      for (const std::string& name : arguments.Arrays)
-      {
-        names.count(name) == 0 && name != elevationName ? refuseName(arguments, name, names)
-                                                        : void();
-      }
-    });
+  names = namesIn(reader);
   reader->UpdatePiece(ranks.rank(), ranks.size(), 0);
   ranks.attempt([&] { throwFirst(errors); });
   vtkSmartPointer<vtkDataSet> mesh = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
@@ -315,8 +281,10 @@ vtkSmartPointer<vtkDataSet> readFlat(const ResampleArguments& arguments, Communi
   return mesh;
 }
 
-/// Returns this rank's part of a mesh that is not partitioned. Collective.
-vtkSmartPointer<vtkDataSet> readMesh(const ResampleArguments& arguments, Communicator& ranks)
+/// Returns this rank's part of a mesh that is not partitioned. `names`: of the arrays of the whole
+/// mesh. Collective.
+vtkSmartPointer<vtkDataSet> readMesh(
+  const ResampleArguments& arguments, Communicator& ranks, ArrayNames& names)
 {
   vtkSmartPointer<vtkDataSet> mesh;
   ranks.attempt(
@@ -332,11 +300,13 @@ vtkSmartPointer<vtkDataSet> readMesh(const ResampleArguments& arguments, Communi
             std::string("holds a ") + mesh->GetClassName() +
               ", which stores no points; convert it with 'tipp flatten'.");
         }
+        requireNumbers(arguments, mesh);
+        names = { arrayNames(mesh->GetPointData()), arrayNames(mesh->GetCellData()) };
         hideOtherShares(mesh, ranks);
       }
     });
   // If a rank cannot read the mesh, attempt() throws on all ranks.
-  return mesh ? mesh : readFlat(arguments, ranks);
+  return mesh ? mesh : readFlat(arguments, ranks, names);
 }
 
 } // namespace
@@ -349,16 +319,17 @@ void connectMesh(const ResampleArguments& arguments, Communicator& ranks,
     connectStored(arguments, ranks, filter, reading);
     return;
   }
-  vtkSmartPointer<vtkDataSet> mesh = readMesh(arguments, ranks);
+  ArrayNames names;
+  vtkSmartPointer<vtkDataSet> mesh = readMesh(arguments, ranks, names);
   // Add the elevation of a surface as an array, so that users can select it by name.
   auto* const points = vtkPointSet::SafeDownCast(mesh);
   if (haveElevation({ points }, ranks))
   {
     mesh = withElevation(points);
+    names.OfPoints.insert(elevationName);
   }
   filter->SetInputData(mesh);
-  const std::string associations = associationsOf(arguments.Arrays, mesh, ranks);
-  ranks.attempt([&] { chooseArrays(arguments, filter, mesh, associations); });
+  ranks.attempt([&] { selectArrays(arguments, names, filter); });
 }
 
 } // namespace tipp

@@ -118,6 +118,16 @@ def _as_doubles(integers: np.ndarray, mask: Any = False) -> np.ndarray:
     return doubles
 
 
+def in_space(points: np.ndarray) -> np.ndarray:
+    """Returns (n, 2) or (n, 3) points as (n, 3) points in C order; a missing z is 0."""
+    if points.shape[1] == 3:
+        return np.ascontiguousarray(points)
+    spatial = np.zeros((len(points), 3), points.dtype)
+    for axis in range(2):  # faster than copying both at once
+        spatial[:, axis] = points[:, axis]
+    return spatial
+
+
 def attribute(name: str, values: ArrayLike, argument: str = "point_data") -> np.ndarray:
     """Returns an array with one value or row per point (or cell), as by converted(), in C order."""
     argument = f"{argument}['{name}']"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Iterable, Iterator, NamedTuple
 import numpy as np
 
 from . import _arguments as check
-from ._arrays import converted
+from ._arrays import converted, in_space
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -48,7 +48,7 @@ def constraints_of(
                 _require_ids(array, count, name)
                 by_id.append(array)
             elif array.ndim == 2 and array.shape[1] in (2, 3) and array.dtype.kind in "fiu":
-                by_position.append(_spatial(array))
+                by_position.append(in_space(array.astype(np.float64)))
             else:
                 raise ValueError(f"{name} has the shape {array.shape} and type {array.dtype}; give point ids, or "
                                  "coordinates of shape (k, 2) or (k, 3).")
@@ -87,24 +87,23 @@ def _edges(edges: ArrayLike, count: int) -> list[np.ndarray]:
 
 def _rings(polygon: Any) -> Iterator[np.ndarray]:
     """Yields the rings of a Shapely polygon: outer rings counter-clockwise, inner ones clockwise."""
+    for ring, is_hole in shapely_rings(polygon, "a polygon"):
+        yield _turned(ring, not is_hole)
+
+
+def shapely_rings(polygon: Any, name: str) -> Iterator[tuple[Any, bool]]:
+    """Yields the rings of a Shapely polygon, and whether each is a hole."""
     if polygon.geom_type == "MultiPolygon":
         for part in polygon.geoms:
-            yield from _rings(part)
-        return
-    if polygon.geom_type != "Polygon":
-        raise TypeError(f"polygons have a Shapely {polygon.geom_type}; give a Polygon or a MultiPolygon.")
-    if not polygon.is_empty:
-        yield _turned(polygon.exterior, True)
+            yield from shapely_rings(part, name)
+    elif polygon.geom_type != "Polygon":
+        raise TypeError(f"{name} is a Shapely {polygon.geom_type}; give a Polygon or a MultiPolygon.")
+    elif not polygon.is_empty:
+        yield polygon.exterior, False
         for ring in polygon.interiors:
-            yield _turned(ring, False)
+            yield ring, True
 
 
 def _turned(ring: Any, counter_clockwise: bool) -> np.ndarray:
     corners = np.asarray(ring.coords)[:-1]  # the last one is the first
     return corners if ring.is_ccw == counter_clockwise else corners[::-1]
-
-
-def _spatial(corners: np.ndarray) -> np.ndarray:
-    spatial = np.zeros((len(corners), 3))
-    spatial[:, :corners.shape[1]] = corners
-    return spatial

@@ -10,7 +10,7 @@ import numpy as np
 from . import _arguments as check
 from . import _engine
 from ._arguments import ProgressBar, progress_of
-from ._arrays import converted
+from ._arrays import converted, in_space
 from ._constraints import rings_of
 
 if TYPE_CHECKING:
@@ -196,7 +196,7 @@ def _corners(part: Any, name: str) -> np.ndarray:
     array = converted(part, name)
     if array.ndim != 2 or array.shape[1] not in (2, 3) or array.dtype.kind not in "fiu":
         raise ValueError(f"{name} has the shape {array.shape} and type {array.dtype}; give corners of shape (k, 2) or (k, 3).")
-    return np.column_stack([array, np.zeros((len(array), 3 - array.shape[1]))]).astype(np.float64)
+    return in_space(array.astype(np.float64))
 
 
 def _thinning(thin: Any) -> dict[str, Any]:

@@ -8,11 +8,10 @@ import numpy as np
 
 from . import _arguments as check
 from . import _engine
-from ._arrays import coordinates
+from ._arrays import coordinates, in_space
+from ._constraints import shapely_rings
 
 if TYPE_CHECKING:
-    import os
-
     from numpy.typing import ArrayLike
 
 
@@ -360,14 +359,8 @@ def _rings(zones: list[Any]) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.nda
 
 
 def _rings_of(zone: Any, name: str) -> list[tuple[Any, bool]]:
-    kind = getattr(zone, "geom_type", None)
-    if kind == "MultiPolygon":
-        return [ring for part in zone.geoms for ring in _rings_of(part, name)]
-    if kind == "Polygon":
-        rings = [] if zone.is_empty else [zone.exterior, *zone.interiors]
-        return [(np.asarray(ring.coords), i > 0) for i, ring in enumerate(rings)]
-    if kind is not None:
-        raise TypeError(f"{name} is a Shapely {kind}; give a Polygon or a MultiPolygon.")
+    if hasattr(zone, "geom_type"):
+        return [(np.asarray(ring.coords), is_hole) for ring, is_hole in shapely_rings(zone, name)]
     if isinstance(zone, np.ndarray):
         return [(zone, False)]
     rings = check.a_list(zone, name)
@@ -377,12 +370,7 @@ def _rings_of(zone: Any, name: str) -> list[tuple[Any, bool]]:
 
 
 def _points(points: ArrayLike) -> np.ndarray:
-    array = np.asarray(coordinates(points), np.float64)
-    if array.shape[1] == 2:
-        spatial = np.zeros((len(array), 3))
-        spatial[:, :2] = array
-        return spatial
-    return np.ascontiguousarray(array)
+    return in_space(np.asarray(coordinates(points), np.float64))
 
 
 def _ids(ids: Any, name: str) -> np.ndarray:

@@ -35,7 +35,7 @@ def uncompressed(paths: list[str]) -> Iterator[list[str]]:
 
 
 DERIVED = ("slope", "aspect", "hillshade", "void", "density")
-RANKED = (1, 2)  # min and max of _dem.DUPLICATES
+RANKED = (1, 2)  # "min" and "max" of tipp.dem
 
 
 def require_bands(names: Iterable[str], known: Iterable[str]) -> None:

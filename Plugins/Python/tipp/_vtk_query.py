@@ -165,10 +165,8 @@ class MeshQuery:
 
 def _polygons(rings: Rings) -> vtkPolyData:
     corners, starts, zones, holes = rings
-    spatial = np.zeros((len(corners), 3))
-    spatial[:, :2] = corners
     data = vtkPolyData()
-    data.SetPoints(vtk_points(spatial))
+    data.SetPoints(vtk_points(corners))
     cells = vtkCellArray()
     ids = np.arange(len(corners), dtype=np.int64)
     cells.SetData(numpy_to_vtkIdTypeArray(starts, deep=True), numpy_to_vtkIdTypeArray(ids, deep=True))

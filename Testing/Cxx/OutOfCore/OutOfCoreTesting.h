@@ -52,7 +52,7 @@ public:
     this->Rows.Words = 3;
   }
 
-  MemoryPlan memory() const { return MemoryPlan(this->Options, this->Rows.Words); }
+  MemoryPlan memory() const { return MemoryPlan(this->Options, this->Rows.Words, false); }
   PiecePlan plan() const
   {
     return PiecePlan(this->Survey, this->Options, this->memory(), this->Rows.Words, 1);

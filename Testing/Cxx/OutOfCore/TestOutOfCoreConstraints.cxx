@@ -84,7 +84,6 @@ public:
   {
     ConstrainedPoints points(openPointStream({ this->Folder.path("points.npy") }),
       this->Constraints, "constraints.csv", 2);
-    this->Options.Constraints = [&points]() -> SegmentSource& { return points; };
     return triangulateOutOfCore(points, this->mesh(), this->Options);
   }
 
@@ -312,7 +311,7 @@ TEST(PieceSegments, AreReadByPieceAndNearBoxes)
   }
   OutOfCoreOptions options;
   options.PiecePoints = 150;
-  const PiecePlan plan(survey, options, MemoryPlan(options, 3), 3, 1);
+  const PiecePlan plan(survey, options, MemoryPlan(options, 3, true), 3, 1);
   ASSERT_GT(plan.pieces(), 10);
   TemporaryFolder folder;
   SaveArchive saved;

@@ -61,14 +61,12 @@ protected:
   {
     auto points =
       std::make_unique<BrokenStream>(openPointStream({ this->Points }), this->GoodPasses);
-    if (!this->Options.Constraints)
+    if (this->Constraints.Lines.Edges.empty())
     {
       return points;
     }
-    auto joined =
-      std::make_unique<ConstrainedPoints>(std::move(points), this->Constraints, "constraints", 1);
-    this->Constrained = joined.get();
-    return joined;
+    return std::make_unique<ConstrainedPoints>(
+      std::move(points), this->Constraints, "constraints", 1);
   }
 
   OutOfCoreStatistics runTogether()
@@ -143,7 +141,6 @@ protected:
   std::string Points;         ///< path of the points, the same on all ranks
   int GoodPasses = 100;       ///< passes over the input before it fails on this rank
   TableConstraints Constraints;
-  mutable ConstrainedPoints* Constrained = nullptr; ///< set on the first rank only
 };
 
 TEST_P(OutOfCoreRanks, MakeTheFilesOfOneProcess)
@@ -208,7 +205,6 @@ TEST_P(OutOfCoreRanks, InsertTheConstraintsOfOneProcess)
     lines.Edges.push_back({ 80 * i, (1237 * i + 31) % 2500 });
   }
   lines.PolygonBegin = lines.Edges.size();
-  this->Options.Constraints = [this]() -> SegmentSource& { return *this->Constrained; };
   const OutOfCoreStatistics alone = this->runAlone();
   const Files expected = this->takeFiles();
   for (const int threads : { 1, 3 })
