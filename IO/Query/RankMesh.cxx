@@ -222,7 +222,8 @@ std::vector<std::uint8_t> sharingOf(Communicator& ranks, const ResidentPiece& pi
   return result;
 }
 
-/// This rank's part, which does not own shared points.
+/// This rank's part, which does not own shared points. Throws IOError if the parts do not go
+/// together.
 ResidentPiece ownPiece(Communicator& ranks, const ResidentMesh& mesh)
 {
   requireIds(&ranks, mesh);
@@ -231,6 +232,7 @@ ResidentPiece ownPiece(Communicator& ranks, const ResidentMesh& mesh)
   if (isAny(ranks, others.Of != ranks.controller()))
   {
     others = {};
+    const RankParts all(&ranks, mesh, {}); // throws if the parts differ in their type of cells
     others.Sharing = sharingOf(ranks, piece);
     others.Of = ranks.controller();
   }

@@ -22,7 +22,8 @@ namespace tipp
 class RankMesh : public ResidentMesh
 {
 public:
-  /// `part` must outlive this. Throws IOError if a part has no global ids.
+  /// `part` must outlive this. Throws IOError if a part has no global ids, or if parts have
+  /// different types of cells.
   RankMesh(Communicator& ranks, const ResidentMesh& part);
 
   std::vector<std::int32_t> piecesAround(const std::vector<std::int64_t>& points,
