@@ -149,13 +149,13 @@ std::vector<BorderEdge> borderIn(
   const ResidentMesh& mesh, std::pair<std::size_t, std::size_t> pieces)
 {
   std::vector<BorderEdge> edges;
-  forPieceRange(mesh, pieces,
-    [&](const MeshPart& part, const PartTopology& topology)
+  forPieceRange(mesh, pieces, topologyNeeded(), 1,
+    [&](const ResidentPiece& piece)
     {
-      PieceBorderEdges border(part, topology, edges);
-      for (std::int64_t point = 0; point < part.Mesh.PointCount; ++point)
+      PieceBorderEdges border(*piece.Part, *piece.Topology, edges);
+      for (std::int64_t point = 0; point < piece.Part->Mesh.PointCount; ++point)
       {
-        owns(part, point) ? border.add(point) : void();
+        owns(*piece.Part, point) ? border.add(point) : void();
       }
     });
   return edges;
