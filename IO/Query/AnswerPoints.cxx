@@ -152,8 +152,10 @@ MeshAnswer emptyAnswer(std::int64_t count, const std::vector<StoredArray>& array
   return answer;
 }
 
-PieceGroups groupByPiece(const std::vector<std::int32_t>& pieces, std::size_t count)
+PieceGroups groupByPiece(const std::vector<std::int32_t>& pieces)
 {
+  const std::int32_t last = pieces.empty() ? -1 : *std::max_element(pieces.begin(), pieces.end());
+  const auto count = std::size_t(std::int64_t(last) + 1);
   std::vector<std::int64_t> ends(count + 1, 0);
   for (const std::int32_t piece : pieces)
   {
@@ -369,13 +371,13 @@ MeshAnswer ResidentMesh::answer(const Point3* points, std::int64_t count,
     emptyAnswer(count, arrays, this->Mesh.CellSize, options.Weights, options.Keys);
   const PointQuery query(*this, options, answer);
   const int threads = threadCount(this->Options.Threads);
-  if (this->InMemory)
+  if (!this->isStored())
   {
     query.answerPiece(0, { points, nullptr, count }, threads, true);
     return answer;
   }
   pieceOf = pieceOf.empty() ? this->piecesOf(points, count) : std::move(pieceOf);
-  PieceGroups groups = groupByPiece(pieceOf, this->Mesh.Pieces.size());
+  PieceGroups groups = groupByPiece(pieceOf);
   pieceOf = {};
   // Pieces that are in memory come first, before others displace them.
   std::stable_partition(groups.Groups.begin(), groups.Groups.end(),

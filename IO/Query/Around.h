@@ -20,10 +20,6 @@ struct IdLists
   std::vector<std::int64_t> Starts = { 0 };
   std::vector<std::int64_t> Ids;
 
-  std::vector<std::int64_t> list(std::size_t i) const
-  {
-    return { this->Ids.begin() + this->Starts[i], this->Ids.begin() + this->Starts[i + 1] };
-  }
   /// Appends list i of `from` to the last list, which endList() ends.
   void append(const IdLists& from, std::size_t i)
   {

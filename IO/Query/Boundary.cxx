@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Query/Around.h"
 
-#include "Arrays/SortUnique.h"
 #include "Files/IOError.h"
 #include "Predicates/ExactPredicates.h"
 #include "Query/ForPieces.h"
 #include "Query/RankAnswer.h"
+#include "Query/RankMesh.h"
 
 #include <algorithm>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -145,113 +144,20 @@ BoundaryLoops linked(std::vector<BorderEdge> edges)
   return loops;
 }
 
-/// The border edges that end at points owned by this rank's pieces.
-std::vector<BorderEdge> borderIn(const ResidentMesh& mesh, const Communicator* ranks)
+/// The border edges that end at points owned by the pieces [pieces.first, pieces.second).
+std::vector<BorderEdge> borderIn(
+  const ResidentMesh& mesh, std::pair<std::size_t, std::size_t> pieces)
 {
   std::vector<BorderEdge> edges;
-  forPieceRange(mesh, piecesOfRank(ranks, mesh),
-    [&](const MeshPart& part, const PartTopology& topology)
+  forPieceRange(mesh, pieces, topologyNeeded(), 1,
+    [&](const ResidentPiece& piece)
     {
-      PieceBorderEdges border(part, topology, edges);
-      for (std::int64_t point = 0; point < part.Mesh.PointCount; ++point)
+      PieceBorderEdges border(*piece.Part, *piece.Topology, edges);
+      for (std::int64_t point = 0; point < piece.Part->Mesh.PointCount; ++point)
       {
-        owns(part, point) ? border.add(point) : void();
+        owns(*piece.Part, point) ? border.add(point) : void();
       }
     });
-  return edges;
-}
-
-/// Border triangles of a part in memory: those at the ends of edges that only one triangle of the
-/// part has.
-struct OpenCells
-{
-  std::vector<std::int64_t> Cells;  ///< global ids
-  std::vector<std::int64_t> Points; ///< global ids, three per cell
-  std::vector<Point3> Positions;    ///< position of each of Points
-  std::vector<std::int64_t> Ends;   ///< global ids of the ends of these edges
-};
-
-template <typename Archive>
-void serialize(Archive& archive, OpenCells& open)
-{
-  archive(open.Cells, open.Points, open.Positions, open.Ends);
-}
-
-OpenCells openCells(const MeshPart& part, const PartTopology& topology)
-{
-  std::set<std::int64_t> ends;
-  for (std::int64_t cell = 0; cell < part.Mesh.Cells; ++cell)
-  {
-    pollAt(cell);
-    for (int face = 0; face < 3 && !part.isHidden(cell); ++face)
-    {
-      bool isOpen = true;
-      topology.visitAcross(cell, face, [&isOpen](std::int64_t) { isOpen = false; });
-      if (isOpen)
-      {
-        ends.insert(topology.corner(cell, (face + 1) % 3));
-        ends.insert(topology.corner(cell, (face + 2) % 3));
-      }
-    }
-  }
-  std::set<std::int64_t> cells;
-  OpenCells open;
-  for (const std::int64_t point : ends)
-  {
-    open.Ends.push_back(part.pointId(point));
-    cells.insert(topology.cellsAt(point).begin(), topology.cellsAt(point).end());
-  }
-  for (const std::int64_t cell : cells)
-  {
-    open.Cells.push_back(part.cellId(cell));
-    for (int i = 0; i < 3; ++i)
-    {
-      open.Points.push_back(part.pointId(topology.corner(cell, i)));
-      open.Positions.push_back(positionOf(part, topology.corner(cell, i)));
-    }
-  }
-  return open;
-}
-
-/// The border of the parts in the memory of all ranks, from the triangles near it.
-std::vector<BorderEdge> borderOfParts(const std::vector<OpenCells>& parts)
-{
-  std::set<std::int64_t> ends;
-  std::vector<std::int64_t> pointIds;
-  for (const OpenCells& open : parts)
-  {
-    ends.insert(open.Ends.begin(), open.Ends.end());
-    pointIds.insert(pointIds.end(), open.Points.begin(), open.Points.end());
-  }
-  sortUnique(pointIds);
-  std::vector<Point3> positions(pointIds.size());
-  std::vector<std::int64_t> corners;
-  std::vector<std::int64_t> cellIds;
-  for (const OpenCells& open : parts)
-  {
-    cellIds.insert(cellIds.end(), open.Cells.begin(), open.Cells.end());
-    for (std::size_t i = 0; i < open.Points.size(); ++i)
-    {
-      const auto at = std::lower_bound(pointIds.begin(), pointIds.end(), open.Points[i]);
-      corners.push_back(at - pointIds.begin());
-      positions[std::size_t(corners.back())] = open.Positions[i];
-    }
-  }
-  MeshPart part;
-  part.Mesh.Points = positions.data();
-  part.Mesh.PointCount = std::int64_t(positions.size());
-  part.Mesh.Ids = corners.data();
-  part.Mesh.Wide = true;
-  part.Mesh.Cells = part.OwnedCells = std::int64_t(cellIds.size());
-  part.CellIds = cellIds.data();
-  part.PointIds = pointIds.data();
-  const PartTopology topology(part);
-  std::vector<BorderEdge> edges;
-  PieceBorderEdges border(part, topology, edges);
-  for (const std::int64_t id : ends)
-  {
-    border.add(topology.findPoint(id));
-  }
   return edges;
 }
 
@@ -259,23 +165,16 @@ std::vector<BorderEdge> borderOfParts(const std::vector<OpenCells>& parts)
 
 BoundaryLoops boundaryOf(const ResidentMesh& mesh, Communicator* ranks)
 {
-  requireIds(ranks, mesh);
   if (mesh.mesh().CellSize != 3)
   {
     throw IOError("The border of tetrahedra is a surface and no line; ask a mesh of triangles.");
   }
   if (mesh.isStored() || !areSeveral(ranks))
   {
-    return linked(gathered(ranks, borderIn(mesh, ranks)));
+    return linked(gathered(ranks, borderIn(mesh, piecesOfRank(ranks, mesh))));
   }
-  OpenCells open;
-  if (mesh.mesh().Cells > 0)
-  {
-    const ResidentPieces::Lease piece = mesh.pieces().get(0, topologyNeeded());
-    open = openCells(*piece->Part, *piece->Topology);
-  }
-  const std::vector<OpenCells> parts = ranks->gather(open);
-  return ranks->isFirst() ? linked(borderOfParts(parts)) : BoundaryLoops();
+  const RankMesh own(*ranks, mesh);
+  return linked(gathered(ranks, borderIn(own, { 0, own.addFirstShared() })));
 }
 
 } // namespace tipp

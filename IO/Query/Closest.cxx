@@ -97,7 +97,7 @@ void searchPieces(const ResidentMesh& mesh, const std::vector<std::int32_t>& pie
   PieceNeeds needs;
   needs.Locator = true;
   std::array<std::mutex, 64> locks; // several threads may search for the same point
-  const PieceGroups groups = groupByPiece(pieces, mesh.mesh().Pieces.size());
+  const PieceGroups groups = groupByPiece(pieces);
   forPieces(mesh, groups, needs,
     [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
     {

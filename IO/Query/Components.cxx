@@ -52,9 +52,11 @@ Components componentsHere(const ResidentMesh& mesh)
     std::int64_t& p = parent[std::size_t(cell)];
     p = p < 0 ? cell : p;
   };
-  forPieceRange(mesh, { 0, mesh.mesh().Pieces.size() },
-    [&](const MeshPart& part, const PartTopology& topology)
+  forPieceRange(mesh, { 0, mesh.mesh().Pieces.size() }, topologyNeeded(), 1,
+    [&](const ResidentPiece& piece)
     {
+      const MeshPart& part = *piece.Part;
+      const PartTopology& topology = *piece.Topology;
       for (std::int64_t cell = 0; cell < part.Mesh.Cells; ++cell)
       {
         pollAt(cell);
@@ -204,13 +206,13 @@ Components componentsOf(const ResidentMesh& mesh, Communicator* ranks)
   Ids cells;
   const auto forOwnCells = [&](const auto& work)
   {
-    forPieceRange(mesh, pieces,
-      [&](const MeshPart& part, const PartTopology& topology)
+    forPieceRange(mesh, pieces, topologyNeeded(), 1,
+      [&](const ResidentPiece& piece)
       {
-        for (std::int64_t cell = 0; cell < part.OwnedCells; ++cell)
+        for (std::int64_t cell = 0; cell < piece.Part->OwnedCells; ++cell)
         {
           pollAt(cell);
-          part.isHidden(cell) ? void() : work(part, topology, cell);
+          piece.Part->isHidden(cell) ? void() : work(*piece.Part, *piece.Topology, cell);
         }
       });
   };

@@ -268,19 +268,14 @@ std::pair<double, double> rangeOf(
   {
     const StoredArray* const description = fieldOf(mesh, array, component);
     std::mutex mutex;
-    const auto [first, end] = piecesOfRank(ranks, mesh);
-    const PieceNeeds needs = mesh.needsOf({ array });
-    const bool stay = mesh.pieces().fit(first, end, needs);
-    forChunks(std::int64_t(end - first), 1, threadCount(mesh.options().Threads), {},
-      [&, firstPiece = first](std::int64_t number, std::int64_t, int)
+    forPieceRange(mesh, piecesOfRank(ranks, mesh), mesh.needsOf({ array }),
+      threadCount(mesh.options().Threads),
+      [&](const ResidentPiece& piece)
       {
-        poll();
-        const ResidentPieces::Lease piece =
-          mesh.pieces().get(firstPiece + std::size_t(number), needs, stay);
-        const PartValues values(*piece->Part, description);
+        const PartValues values(*piece.Part, description);
         double low = HUGE_VAL;
         double high = -HUGE_VAL;
-        for (std::int64_t point = 0; point < piece->Part->Mesh.PointCount; ++point)
+        for (std::int64_t point = 0; point < piece.Part->Mesh.PointCount; ++point)
         {
           const double value = values.atPoint(point, component);
           low = std::isfinite(value) ? std::min(low, value) : low;
@@ -327,21 +322,16 @@ Segments segmentsIn(const ResidentMesh& mesh, const std::string& array, int comp
   // One vector for all would be copied as it grows, while pieces are in memory, too.
   std::vector<std::vector<Segment>> parts;
   std::mutex mutex;
-  const PieceNeeds needs = mesh.needsOf({ array });
-  const auto [first, end] = piecesOfRank(ranks, mesh);
-  const bool stay = mesh.pieces().fit(first, end, needs);
+  const std::pair<std::size_t, std::size_t> pieces = piecesOfRank(ranks, mesh);
+  const bool isOne = pieces.second - pieces.first == 1;
   const int threads = threadCount(mesh.options().Threads);
-  const auto pieces = std::int64_t(end - first);
-  forChunks(pieces, 1, pieces > 1 ? threads : 1, {},
-    [&, firstPiece = first](std::int64_t number, std::int64_t, int)
+  forPieceRange(mesh, pieces, mesh.needsOf({ array }), isOne ? 1 : threads,
+    [&](const ResidentPiece& piece)
     {
-      poll();
-      const ResidentPieces::Lease piece =
-        mesh.pieces().get(firstPiece + std::size_t(number), needs, stay);
-      const MeshPart& part = *piece->Part;
+      const MeshPart& part = *piece.Part;
       const PartValues described(part, description);
       const PointValues values(part, described, component);
-      forChunks(part.OwnedCells, 1 << 14, pieces > 1 ? 1 : threads, {},
+      forChunks(part.OwnedCells, 1 << 14, isOne ? threads : 1, {},
         [&](std::int64_t begin, std::int64_t end, int)
         {
           std::vector<Segment> own;

@@ -55,7 +55,7 @@ void follow(const ResidentMesh& mesh, const std::string& array, int component,
       const bool isHere = piece >= std::int64_t(range.first) && piece < std::int64_t(range.second);
       piece = isHere ? piece : -1;
     }
-    return groupByPiece(pieces, mesh.mesh().Pieces.size());
+    return groupByPiece(pieces);
   };
   for (PieceGroups groups = groupsOfOpen(); !groups.Items.empty(); groups = groupsOfOpen())
   {

@@ -79,20 +79,21 @@ inline PieceNeeds topologyNeeded()
   return needs;
 }
 
-/// Calls work(part, topology) for the pieces [pieces.first, pieces.second), one after the other.
+/// Calls work(piece) for the pieces [pieces.first, pieces.second), each on one of several threads.
+/// The pieces stay in memory if all of them fit.
 template <typename Work>
-void forPieceRange(
-  const ResidentMesh& mesh, std::pair<std::size_t, std::size_t> pieces, const Work& work)
+void forPieceRange(const ResidentMesh& mesh, std::pair<std::size_t, std::size_t> pieces,
+  const PieceNeeds& needs, int threads, const Work& work)
 {
-  const auto [first, end] = pieces;
-  const PieceNeeds needs = topologyNeeded();
-  const bool stay = mesh.pieces().fit(first, end, needs);
-  for (std::size_t i = first; i < end; ++i)
-  {
-    poll();
-    const ResidentPieces::Lease piece = mesh.pieces().get(i, needs, stay);
-    work(*piece->Part, *piece->Topology);
-  }
+  const bool stay = mesh.pieces().fit(pieces.first, pieces.second, needs);
+  forChunks(std::int64_t(pieces.second - pieces.first), 1, threads, {},
+    [&](std::int64_t i, std::int64_t, int)
+    {
+      poll();
+      const ResidentPieces::Lease piece =
+        mesh.pieces().get(pieces.first + std::size_t(i), needs, stay);
+      work(*piece);
+    });
 }
 
 inline bool meets(const Bounds& a, const Bounds& b, int dimension)

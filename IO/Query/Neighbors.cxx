@@ -2,7 +2,8 @@
 #include "Query/Around.h"
 
 #include "Partitioned/NeighborIds.h"
-#include "Query/RankQuestions.h"
+#include "Query/ForPieces.h"
+#include "Query/RankLists.h"
 
 #include <algorithm>
 #include <array>
@@ -45,13 +46,13 @@ std::vector<std::int64_t> storedNeighbors(const ResidentMesh& mesh,
 }
 
 /// Finds neighbours across faces of which the owner of the cell may not have all cells. The piece
-/// that owns one of the face's points has all cells there.
-void findForeign(const ResidentMesh& mesh, const std::vector<ForeignFace>& faces,
+/// that owns one of the face's points has all cells there. `points` and `positions` are such a
+/// point of each face.
+void findForeign(const ResidentMesh& mesh, const std::vector<ForeignFace>& faces, const Ids& points,
   const std::vector<Point3>& positions, std::vector<std::int64_t>& result)
 {
   const int count = mesh.mesh().CellSize - 1;
-  const PieceGroups groups = groupByPiece(
-    mesh.piecesOf(positions.data(), std::int64_t(positions.size())), mesh.mesh().Pieces.size());
+  const PieceGroups groups = groupByPiece(mesh.piecesAround(points, positions));
   forPieces(mesh, groups, topologyNeeded(),
     [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
     {
@@ -59,18 +60,18 @@ void findForeign(const ResidentMesh& mesh, const std::vector<ForeignFace>& faces
       for (std::int64_t i = begin; i < end; ++i)
       {
         const ForeignFace& face = faces[std::size_t(groups.Items[std::size_t(i)])];
-        std::int64_t points[3] = { -1, -1, -1 };
-        std::transform(face.Points.begin(), face.Points.begin() + count, points,
+        std::int64_t corners[3] = { -1, -1, -1 };
+        std::transform(face.Points.begin(), face.Points.begin() + count, corners,
           [&topology](std::int64_t id) { return topology.findPoint(id); });
         std::int64_t& lowest = result[std::size_t(face.At)];
-        if (*std::min_element(points, points + count) < 0)
+        if (*std::min_element(corners, corners + count) < 0)
         {
           continue; // no cell of this piece has this face
         }
-        for (const std::int32_t cell : topology.cellsAt(points[0]))
+        for (const std::int32_t cell : topology.cellsAt(corners[0]))
         {
           const std::int64_t id = piece.Part->cellId(cell);
-          if (id != face.Cell && topology.hasCorners(cell, points, count))
+          if (id != face.Cell && topology.hasCorners(cell, corners, count))
           {
             lowest = lowest < 0 ? id : std::min(lowest, id);
           }
@@ -86,6 +87,7 @@ std::vector<std::int64_t> computedNeighbors(
   const int corners = mesh.mesh().CellSize;
   std::vector<std::int64_t> result(cells.size() * std::size_t(corners), -1);
   std::vector<ForeignFace> foreign;
+  Ids points; // one of each foreign face
   std::vector<Point3> positions;
   std::mutex mutex;
   forPieces(mesh, groups, topologyNeeded(),
@@ -116,11 +118,14 @@ std::vector<std::int64_t> computedNeighbors(
           }
           const std::lock_guard<std::mutex> lock(mutex);
           foreign.push_back(other);
-          positions.push_back(positionOf(part, topology.corner(cell, face == 0 ? 1 : 0)));
+          const std::int64_t point = topology.corner(cell, face == 0 ? 1 : 0);
+          points.push_back(part.pointId(point));
+          positions.push_back(positionOf(part, point));
         }
       }
     });
-  foreign.empty() ? void() : findForeign(mesh, foreign, positions, result);
+  mesh.isAnywhere(!foreign.empty()) ? findForeign(mesh, foreign, points, positions, result)
+                                    : void();
   return result;
 }
 
@@ -136,42 +141,10 @@ std::vector<std::int64_t> neighborsIn(const ResidentMesh& mesh,
       return !array.OfPoints && array.Name == neighborIdsArray.Name &&
         array.Type == Scalar::Int64 && array.Components == corners && array.Step < 0;
     });
-  const PieceGroups groups = groupByPiece(pieces, mesh.mesh().Pieces.size());
+  const PieceGroups groups = groupByPiece(pieces);
   return mesh.isStored() && stored != arrays.end()
     ? storedNeighbors(mesh, cells, groups, std::size_t(stored - arrays.begin()))
     : computedNeighbors(mesh, groups, cells);
-}
-
-/// The neighbours of cells in the parts of several ranks in memory.
-std::vector<std::int64_t> neighborsInMemory(const RankQuestions& questions, const Ids& cells)
-{
-  const IdLists corners = questions.corners(cells);
-  const Ids points = sortedUnique(corners.Ids);
-  const ListsById stars(points, questions.stars(points));
-  std::vector<std::int64_t> result;
-  for (std::size_t i = 0; i < cells.size(); ++i)
-  {
-    const Ids own = corners.list(i);
-    for (std::size_t face = 0; face < own.size(); ++face)
-    {
-      Ids across;
-      bool isFirst = true;
-      for (std::size_t k = 0; k < own.size(); ++k)
-      {
-        if (k != face)
-        {
-          const Ids star = stars.of(own[k]);
-          Ids common;
-          std::set_intersection(
-            across.begin(), across.end(), star.begin(), star.end(), std::back_inserter(common));
-          across = std::exchange(isFirst, false) ? star : common;
-        }
-      }
-      across = without(across, { cells[i] });
-      result.push_back(across.empty() ? -1 : across.front());
-    }
-  }
-  return result;
 }
 
 } // namespace
@@ -179,27 +152,17 @@ std::vector<std::int64_t> neighborsInMemory(const RankQuestions& questions, cons
 std::vector<std::int64_t> neighborsOf(
   const ResidentMesh& mesh, const std::vector<std::int64_t>& cells, Communicator* ranks)
 {
-  if (!areSeveral(ranks))
-  {
-    return neighborsIn(mesh, cells, mesh.piecesOfIds(cells, false));
-  }
-  const RankQuestions questions(*ranks, mesh);
-  if (!mesh.isStored())
-  {
-    return neighborsInMemory(questions, cells);
-  }
-  return questions
-    .askOwners(cells, false,
-      [&mesh](const Ids& own, const std::vector<std::int32_t>& pieces)
+  return listsOf(mesh, cells, false, ranks,
+    [](const ResidentMesh& own, const Ids& ids, const std::vector<std::int32_t>& pieces)
+    {
+      IdLists lists;
+      lists.Ids = neighborsIn(own, ids, pieces);
+      for (std::size_t i = 0; i < ids.size(); ++i)
       {
-        IdLists lists;
-        lists.Ids = neighborsIn(mesh, own, pieces);
-        for (std::size_t i = 0; i < own.size(); ++i)
-        {
-          lists.Starts.push_back(lists.Starts.back() + mesh.mesh().CellSize);
-        }
-        return lists;
-      })
+        lists.Starts.push_back(lists.Starts.back() + own.mesh().CellSize);
+      }
+      return lists;
+    })
     .Ids;
 }
 
@@ -215,8 +178,7 @@ OwnedNeighbors neighborsInPiece(const ResidentMesh& mesh, std::size_t piece)
     }
   }
   const std::vector<std::int32_t> pieces(owned.Cells.size(), std::int32_t(piece));
-  owned.Neighbors =
-    computedNeighbors(mesh, groupByPiece(pieces, mesh.mesh().Pieces.size()), owned.Cells);
+  owned.Neighbors = computedNeighbors(mesh, groupByPiece(pieces), owned.Cells);
   return owned;
 }
 

@@ -113,25 +113,30 @@ PartitionedMesh describe(const MeshPart& part, int threads)
 } // namespace
 
 ResidentMesh::ResidentMesh(const std::string& path, const ResidentOptions& options)
-  : ResidentMesh(openPartitionedMesh(path), nullptr, options)
+  : ResidentMesh(openPartitionedMesh(path), {}, options)
 {
 }
 
 ResidentMesh::ResidentMesh(MeshPart part, const ResidentOptions& options)
   : ResidentMesh(tipp::describe(part, threadCount(options.Threads)),
-      std::make_shared<const MeshPart>(part), options)
+      { { std::make_shared<const MeshPart>(part), nullptr, nullptr, {} } }, options)
+{
+}
+
+ResidentMesh::ResidentMesh(const ResidentMesh& mesh, ResidentPiece piece)
+  : ResidentMesh(mesh.Mesh, { std::move(piece) }, mesh.Options)
 {
 }
 
 ResidentMesh::ResidentMesh(
-  PartitionedMesh mesh, std::shared_ptr<const MeshPart> inMemory, const ResidentOptions& options)
-  : Mesh(std::move(mesh))
+  PartitionedMesh mesh, std::vector<ResidentPiece> inMemory, const ResidentOptions& options)
+  : InMemory(std::move(inMemory))
+  , Mesh(std::move(mesh))
   , Options(options)
-  , InMemory(std::move(inMemory))
-  , Boxes(InMemory ? nullptr : std::make_shared<const PieceBoxes>(this->Mesh))
+  , Boxes(isStored() ? std::make_shared<const PieceBoxes>(this->Mesh) : nullptr)
   , Ids(this->Mesh)
   , Resident(
-      InMemory ? std::numeric_limits<std::uint64_t>::max() / 2 : options.MemoryLimit,
+      isStored() ? options.MemoryLimit : std::numeric_limits<std::uint64_t>::max() / 2,
       [this](std::size_t number, const PieceNeeds& needs) { return this->estimate(number, needs); },
       [this](std::size_t number, const PieceNeeds& needs, const ResidentPiece& before)
       { return this->load(number, needs, before); },
@@ -143,6 +148,13 @@ ResidentMesh::ResidentMesh(
     this->refuse("has no time step " + std::to_string(options.Step) + "; there are " +
       std::to_string(steps) + ", counted from 0.");
   }
+}
+
+std::int32_t ResidentMesh::addPiece(MeshPart part) const
+{
+  this->InMemory.push_back(
+    { std::make_shared<const MeshPart>(std::move(part)), nullptr, nullptr, {} });
+  return std::int32_t(this->InMemory.size() - 1);
 }
 
 std::vector<std::string> ResidentMesh::names() const
@@ -219,7 +231,7 @@ std::uint64_t ResidentMesh::bytesOf(const PieceNeeds& needs, bool ofPoints) cons
 
 std::uint64_t ResidentMesh::estimate(std::size_t number, const PieceNeeds& needs) const
 {
-  if (this->InMemory)
+  if (!this->isStored())
   {
     return 0;
   }
@@ -258,9 +270,9 @@ ResidentPiece ResidentMesh::load(
   ResidentPiece piece = before;
   PieceNeeds arrays;
   arrays.Arrays = needs.Arrays;
-  if (this->InMemory)
+  if (!this->isStored())
   {
-    piece.Part = this->InMemory;
+    piece = before.Part ? before : this->InMemory[number];
   }
   else if (!piece.Part || !before.Has.cover(arrays))
   {
@@ -275,7 +287,7 @@ ResidentPiece ResidentMesh::load(
   if (needs.Locator && !piece.Locator)
   {
     // For a stored mesh, several threads may be making locators for different pieces.
-    const int threads = this->InMemory ? threadCount(this->Options.Threads) : 1;
+    const int threads = this->isStored() ? 1 : threadCount(this->Options.Threads);
     piece.Locator = std::make_shared<const CellLocator>(part.Mesh, part.CellIds, threads);
   }
   if (needs.Topology && !piece.Topology)
@@ -288,7 +300,7 @@ ResidentPiece ResidentMesh::load(
 std::vector<std::int32_t> ResidentMesh::piecesOf(const Point3* points, std::int64_t count) const
 {
   std::vector<std::int32_t> pieces(std::size_t(count), 0);
-  if (!this->InMemory)
+  if (this->isStored())
   {
     forChunks(count, 1 << 12, threadCount(this->Options.Threads), {},
       [&](std::int64_t begin, std::int64_t end, int)
@@ -300,6 +312,12 @@ std::vector<std::int32_t> ResidentMesh::piecesOf(const Point3* points, std::int6
       });
   }
   return pieces;
+}
+
+std::vector<std::int32_t> ResidentMesh::piecesAround(
+  const std::vector<std::int64_t>&, const std::vector<Point3>& positions) const
+{
+  return this->piecesOf(positions.data(), std::int64_t(positions.size()));
 }
 
 void ResidentMesh::refuseId(std::int64_t id, bool ofPoints) const
@@ -315,22 +333,12 @@ void ResidentMesh::refuse(const std::string& problem) const
 }
 
 std::vector<std::int32_t> ResidentMesh::piecesOfIds(
-  const std::vector<std::int64_t>& ids, bool ofPoints) const
+  const std::vector<std::int64_t>& ids, bool ofPoints, std::size_t first, std::size_t end) const
 {
-  if (this->InMemory)
+  if (!this->isStored())
   {
     return std::vector<std::int32_t>(ids.size(), 0); // the topology refuses ids that do not exist
   }
-  std::vector<std::int32_t> pieces = this->findIds(ids, ofPoints, 0, this->Mesh.Pieces.size());
-  const auto missing = std::find(pieces.begin(), pieces.end(), -1);
-  missing != pieces.end() ? this->refuseId(ids[std::size_t(missing - pieces.begin())], ofPoints)
-                          : void();
-  return pieces;
-}
-
-std::vector<std::int32_t> ResidentMesh::findIds(
-  const std::vector<std::int64_t>& ids, bool ofPoints, std::size_t first, std::size_t end) const
-{
   const std::int64_t count = ofPoints ? this->Mesh.Points : this->Mesh.Cells;
   for (const std::int64_t id : ids)
   {

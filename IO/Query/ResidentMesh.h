@@ -13,7 +13,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -69,9 +68,8 @@ struct PieceGroups
   std::vector<std::int64_t> Items;
 };
 
-/// Groups items by pieces: pieces[i] is the piece of item i, or -1 to leave it out. `count` is the
-/// number of pieces.
-PieceGroups groupByPiece(const std::vector<std::int32_t>& pieces, std::size_t count);
+/// Groups items by pieces: pieces[i] is the piece of item i, or -1 to leave it out.
+PieceGroups groupByPiece(const std::vector<std::int32_t>& pieces);
 
 /// An answer, with these arrays, for points that are all outside the mesh.
 MeshAnswer emptyAnswer(std::int64_t count, const std::vector<StoredArray>& arrays, int corners,
@@ -97,15 +95,16 @@ public:
   explicit ResidentMesh(const std::string& path, const ResidentOptions& options = {});
   /// Uses a mesh in memory, and keeps `part`.
   explicit ResidentMesh(MeshPart part, const ResidentOptions& options = {});
+  virtual ~ResidentMesh() = default;
   ResidentMesh(const ResidentMesh&) = delete;
   ResidentMesh& operator=(const ResidentMesh&) = delete;
 
   /// Counts, arrays and pieces. A mesh in memory has one piece.
   const PartitionedMesh& mesh() const { return this->Mesh; }
   const ResidentOptions& options() const { return this->Options; }
-  bool isStored() const { return !this->InMemory; }
+  bool isStored() const { return this->InMemory.empty(); }
   /// Whether cells have global ids; otherwise, their ids are indices.
-  bool hasCellIds() const { return !this->InMemory || this->InMemory->CellIds; }
+  bool hasCellIds() const { return this->isStored() || this->InMemory[0].Part->CellIds; }
   /// The names of all arrays, each once. For triangles also "elevation", the z of points, unless an
   /// array has this name.
   std::vector<std::string> names() const;
@@ -124,13 +123,15 @@ public:
   /// For each point, the first piece whose closed box contains it, or -1.
   std::vector<std::int32_t> piecesOf(const Point3* points, std::int64_t count) const;
 
-  /// For each global id of a cell or point, the piece that owns it. Throws IOError for an id that
-  /// the mesh does not have.
-  std::vector<std::int32_t> piecesOfIds(const std::vector<std::int64_t>& ids, bool ofPoints) const;
-  /// As piecesOfIds(), but searches only the pieces [first, end) of a stored mesh: -1 for an id
-  /// that another piece owns.
-  std::vector<std::int32_t> findIds(
+  /// For each global id of a cell or point, the piece of [first, end) that owns it, or -1. Throws
+  /// IOError for an id that is out of the range of ids. For a mesh in memory, all are 0.
+  std::vector<std::int32_t> piecesOfIds(
     const std::vector<std::int64_t>& ids, bool ofPoints, std::size_t first, std::size_t end) const;
+  /// For each mesh point, of which id and position are given, a piece that has all cells there.
+  virtual std::vector<std::int32_t> piecesAround(
+    const std::vector<std::int64_t>& points, const std::vector<Point3>& positions) const;
+  /// Whether `isSo` is true on any rank that takes part in the query.
+  virtual bool isAnywhere(bool isSo) const { return isSo; }
   [[noreturn]] void refuseId(std::int64_t id, bool ofPoints) const;
   /// Throws IOError: "PATH: PROBLEM", or "The mesh PROBLEM" for a mesh in memory.
   [[noreturn]] void refuse(const std::string& problem) const;
@@ -146,16 +147,24 @@ public:
   /// for the next one.
   struct OtherParts
   {
-    const vtkMultiProcessController* Of = nullptr;      ///< null: nothing is known
-    std::optional<std::vector<std::uint8_t>> HavePoint; ///< per point; none: not known
-    std::shared_ptr<const IdDirectory> Points;          ///< null: not made yet
+    const vtkMultiProcessController* Of = nullptr; ///< null: nothing is known
+    std::vector<std::uint8_t> Sharing;             ///< per point of this part, see RankMesh
+    std::shared_ptr<const IdDirectory> Points;     ///< null: not made yet
     std::shared_ptr<const IdDirectory> Cells;
   };
   OtherParts& otherParts() const { return this->Others; }
 
+protected:
+  /// The same mesh, but with this piece in memory.
+  ResidentMesh(const ResidentMesh& mesh, ResidentPiece piece);
+  /// Adds a piece in memory, and returns its number.
+  std::int32_t addPiece(MeshPart part) const;
+
+  mutable std::vector<ResidentPiece> InMemory; ///< empty: stored mesh
+
 private:
   ResidentMesh(
-    PartitionedMesh mesh, std::shared_ptr<const MeshPart> inMemory, const ResidentOptions& options);
+    PartitionedMesh mesh, std::vector<ResidentPiece> inMemory, const ResidentOptions& options);
   ResidentPiece load(
     std::size_t number, const PieceNeeds& needs, const ResidentPiece& before) const;
   std::uint64_t estimate(std::size_t number, const PieceNeeds& needs) const;
@@ -163,8 +172,7 @@ private:
 
   PartitionedMesh Mesh;
   ResidentOptions Options;
-  std::shared_ptr<const MeshPart> InMemory; ///< null: stored mesh
-  std::shared_ptr<const PieceBoxes> Boxes;  ///< null: mesh in memory
+  std::shared_ptr<const PieceBoxes> Boxes; ///< null: mesh in memory
   PieceIds Ids;
   mutable ResidentPieces Resident;
   mutable OtherParts Others;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Query/Around.h"
-#include "Query/LocalRing.h"
-#include "Query/RankQuestions.h"
+
+#include "Arrays/IndexMap.h"
+#include "Query/ForPieces.h"
+#include "Query/RankLists.h"
 
 #include <algorithm>
 #include <mutex>
@@ -11,53 +13,33 @@
 
 namespace tipp
 {
-namespace
-{
-
-/// The lists of ids as local(ids, pieces) returns them for a mesh in this process, or the part of a
-/// stored mesh that this rank has. inMemory(questions) returns them for parts in the memory of
-/// several ranks.
-template <typename Local, typename InMemory>
-IdLists listsOf(const ResidentMesh& mesh, const Ids& ids, bool ofPoints, Communicator* ranks,
-  const Local& local, const InMemory& inMemory)
-{
-  if (!areSeveral(ranks))
-  {
-    return local(ids, mesh.piecesOfIds(ids, ofPoints));
-  }
-  const RankQuestions questions(*ranks, mesh);
-  return mesh.isStored() ? questions.askOwners(ids, ofPoints, local) : inMemory(questions);
-}
-
-} // namespace
 
 IdLists starsOf(
   const ResidentMesh& mesh, const std::vector<std::int64_t>& points, Communicator* ranks)
 {
-  const auto local = [&mesh](const Ids& own, const std::vector<std::int32_t>& pieces)
-  {
-    std::vector<Ids> lists(own.size());
-    const PieceGroups groups = groupByPiece(pieces, mesh.mesh().Pieces.size());
-    forPieces(mesh, groups, topologyNeeded(),
-      [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
-      {
-        for (std::int64_t i = begin; i < end; ++i)
+  return listsOf(mesh, points, true, ranks,
+    [](const ResidentMesh& own, const Ids& ids, const std::vector<std::int32_t>& pieces)
+    {
+      std::vector<Ids> lists(ids.size());
+      const PieceGroups groups = groupByPiece(pieces);
+      forPieces(own, groups, topologyNeeded(),
+        [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
         {
-          const auto item = std::size_t(groups.Items[std::size_t(i)]);
-          for (const std::int32_t cell :
-            piece.Topology->cellsAt(indexOf(mesh, *piece.Topology, own[item], true)))
+          for (std::int64_t i = begin; i < end; ++i)
           {
-            lists[item].push_back(piece.Part->cellId(cell));
+            const auto item = std::size_t(groups.Items[std::size_t(i)]);
+            for (const std::int32_t cell :
+              piece.Topology->cellsAt(indexOf(own, *piece.Topology, ids[item], true)))
+            {
+              lists[item].push_back(piece.Part->cellId(cell));
+            }
+            sortUnique(lists[item]);
           }
-          sortUnique(lists[item]);
-        }
-      });
-    IdLists result;
-    std::for_each(lists.begin(), lists.end(), [&result](const Ids& list) { result.add(list); });
-    return result;
-  };
-  return listsOf(mesh, points, true, ranks, local,
-    [&points](const RankQuestions& questions) { return questions.stars(points); });
+        });
+      IdLists result;
+      std::for_each(lists.begin(), lists.end(), [&result](const Ids& list) { result.add(list); });
+      return result;
+    });
 }
 
 namespace
@@ -77,27 +59,97 @@ struct Reached
   }
 };
 
-/// The numbers of `indices`, roughly in the order of the indices. What lies near in memory is then
-/// visited together. There must be at least one index.
-std::vector<std::int64_t> orderedBy(const std::vector<std::int64_t>& indices)
+/// Sorts items roughly by their places, which are not negative. There must be at least one item.
+void sortByPlace(std::int64_t* items, const std::int64_t* places, std::int64_t count)
 {
   constexpr std::int64_t buckets = 4096;
-  const std::int64_t count = *std::max_element(indices.begin(), indices.end()) + 1;
-  const auto bucketOf = [count](std::int64_t index)
-  { return std::size_t(index * buckets / count); };
+  const std::int64_t range = *std::max_element(places, places + count) + 1;
+  const auto bucketOf = [range](std::int64_t place)
+  { return std::size_t(place * buckets / range); };
   std::vector<std::int64_t> next(std::size_t(buckets) + 1, 0);
-  for (const std::int64_t index : indices)
-  {
-    ++next[bucketOf(index) + 1];
-  }
+  std::for_each(places, places + count, [&](std::int64_t place) { ++next[bucketOf(place) + 1]; });
   std::partial_sum(next.begin(), next.end(), next.begin());
-  std::vector<std::int64_t> order(indices.size());
-  for (std::size_t i = 0; i < indices.size(); ++i)
+  const std::vector<std::int64_t> before(items, items + count);
+  for (std::int64_t i = 0; i < count; ++i)
   {
-    order[std::size_t(next[bucketOf(indices[i])]++)] = std::int64_t(i);
+    items[next[bucketOf(places[i])]++] = before[std::size_t(i)];
   }
-  return order;
 }
+
+/// Computes the ring of one seed within one piece.
+class LocalRing
+{
+public:
+  explicit LocalRing(const ResidentPiece& piece)
+    : Ghosts(piece.Part->Ghosts)
+    , Topology(*piece.Topology)
+  {
+  }
+
+  /// Visits the cells at the points `first`, at the points of these cells, and so on, k times.
+  /// Returns false if this reaches a point of another piece. `first` and the results are local
+  /// indices.
+  bool grow(const std::vector<std::int64_t>& first, int k, bool wantsCells)
+  {
+    this->Points.clear();
+    this->Cells.clear();
+    this->KnownPoints.clear();
+    this->KnownCells.clear();
+    for (const std::int64_t point : first)
+    {
+      this->addPoint(point);
+    }
+    std::size_t begin = 0;
+    for (int step = 0; step < k && begin < this->Points.size(); ++step)
+    {
+      const std::size_t end = this->Points.size();
+      const bool wantsPoints = !wantsCells || step + 1 < k; // the last points are not visited
+      for (; begin < end; ++begin)
+      {
+        const std::int64_t point = this->Points[begin];
+        if (this->Ghosts && this->Ghosts[point] != 0)
+        {
+          return false;
+        }
+        this->visit(point, wantsCells, wantsPoints);
+      }
+    }
+    return true;
+  }
+
+  std::vector<std::int64_t> Points; ///< in the order in which they were reached
+  std::vector<std::int64_t> Cells;  ///< likewise; empty if not wanted
+
+private:
+  void visit(std::int64_t point, bool wantsCells, bool wantsPoints)
+  {
+    for (const std::int32_t cell : this->Topology.cellsAt(point))
+    {
+      if (wantsCells)
+      {
+        if (!this->KnownCells.insert(cell).IsNew)
+        {
+          continue;
+        }
+        this->Cells.push_back(cell);
+      }
+      for (int i = 0; wantsPoints && i < this->Topology.corners(); ++i)
+      {
+        this->addPoint(this->Topology.corner(cell, i));
+      }
+    }
+  }
+
+  void addPoint(std::int64_t point)
+  {
+    this->KnownPoints.insert(point).IsNew ? this->Points.push_back(point) : void();
+  }
+
+  const std::uint8_t* const Ghosts;
+  const PartTopology& Topology;
+  IndexMap KnownPoints;
+  IndexMap KnownCells;
+};
 
 /// Computes the rings of many seeds. A ring that stays in the piece of its seed is computed there.
 /// All others grow together, step by step, and each step visits one piece after the other.
@@ -116,8 +168,8 @@ public:
   /// The ids that are reached in k steps, without the seeds.
   IdLists grown(int k, const std::vector<std::int32_t>& pieces)
   {
-    this->start(k, groupByPiece(pieces, this->Mesh.mesh().Pieces.size()), nullptr);
-    for (int step = 0; step < k && !this->Front.empty(); ++step)
+    this->start(k, pieces);
+    for (int step = 0; step < k && this->Mesh.isAnywhere(!this->Front.empty()); ++step)
     {
       this->grow();
     }
@@ -133,55 +185,19 @@ public:
     return this->joined();
   }
 
-  /// The same for a part of a mesh in memory, as far as the rings can be computed without the other
-  /// parts. `indices` are the local indices of the seeds, at least one. shared[i] is not 0 if other
-  /// parts, too, have cells at point i (a local index). If a ring needs the cells of other parts,
-  /// its list is only { -1 }.
-  IdLists grownWithin(int k, const std::vector<std::int64_t>& indices, const std::uint8_t* shared)
-  {
-    this->Indices = indices.data();
-    // For a single step, finding the cells takes longer than their order saves.
-    const bool byCell = this->OfPoints && k > 1;
-    this->start(k,
-      { { { 0, 0, std::int64_t(indices.size()) } },
-        orderedBy(byCell ? this->firstCells(indices) : indices) },
-      shared);
-    for (const std::int64_t item : this->Left)
-    {
-      this->Done.push_back({ { { 0, 1 }, { -1 } }, { item } });
-    }
-    return this->joined();
-  }
-
 private:
-  /// The first cell at each point (a local index; 0 if there is none). Cells that are near in space
-  /// are mostly near in memory, too; points are often in any order.
-  std::vector<std::int64_t> firstCells(const std::vector<std::int64_t>& indices) const
-  {
-    const ResidentPieces::Lease piece = this->Mesh.pieces().get(0, topologyNeeded());
-    std::vector<std::int64_t> cells(indices.size());
-    std::transform(indices.begin(), indices.end(), cells.begin(),
-      [&piece](std::int64_t point)
-      {
-        const PartTopology::Cells at = piece->Topology->cellsAt(point);
-        return at.empty() ? 0 : *at.begin();
-      });
-    return cells;
-  }
-
   /// Visits the cells at the points that the last step has reached.
   void grow()
   {
+    Ids points;
     std::vector<Point3> positions;
-    positions.reserve(this->Front.size());
     for (const Reached& r : this->Front)
     {
+      points.push_back(r.Point);
       positions.push_back(r.At);
     }
     std::vector<Reached> next;
-    const PieceGroups groups =
-      groupByPiece(this->Mesh.piecesOf(positions.data(), std::int64_t(positions.size())),
-        this->Mesh.mesh().Pieces.size());
+    const PieceGroups groups = groupByPiece(this->Mesh.piecesAround(points, positions));
     forPieces(this->Mesh, groups, topologyNeeded(),
       [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
       {
@@ -235,13 +251,47 @@ private:
     return result;
   }
 
-  void start(int k, const PieceGroups& groups, const std::uint8_t* shared)
+  /// Finds the local indices of the seeds of a mesh in memory, and sorts the seeds roughly as they
+  /// lie in memory. What lies near is then visited together.
+  void sortSeeds(int k, PieceGroups& groups)
   {
+    this->Indices.resize(this->Seeds.size());
+    std::vector<std::int64_t> places(groups.Items.size());
+    // Cells that are near in space are mostly near in memory, too; points are often in any order.
+    // For a single step, finding the cells takes longer than their order saves.
+    const bool byCell = this->OfPoints && k > 1;
+    forPieces(this->Mesh, groups, topologyNeeded(),
+      [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
+      {
+        for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
+        {
+          const auto item = std::size_t(groups.Items[i]);
+          const std::int64_t index =
+            indexOf(this->Mesh, *piece.Topology, this->Seeds[item], this->OfPoints);
+          this->Indices[item] = places[i] = index;
+          if (byCell)
+          {
+            const PartTopology::Cells cells = piece.Topology->cellsAt(index);
+            places[i] = cells.empty() ? 0 : *cells.begin();
+          }
+        }
+      });
+    for (const PieceGroups::Group& group : groups.Groups)
+    {
+      sortByPlace(
+        groups.Items.data() + group.Begin, places.data() + group.Begin, group.End - group.Begin);
+    }
+  }
+
+  void start(int k, const std::vector<std::int32_t>& pieces)
+  {
+    PieceGroups groups = groupByPiece(pieces);
+    this->Mesh.isStored() ? void() : this->sortSeeds(k, groups);
     std::vector<Reached> first;
     forPieces(this->Mesh, groups, topologyNeeded(),
       [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
       {
-        LocalRing ring(piece, shared);
+        LocalRing ring(piece);
         std::vector<Reached> reached;
         std::vector<std::int64_t> left;
         Finished done;
@@ -288,9 +338,9 @@ private:
     for (std::int64_t i = begin; i < end; ++i)
     {
       const auto item = std::size_t(groups.Items[std::size_t(i)]);
-      indices[i - begin] = this->Indices
-        ? this->Indices[item]
-        : indexOf(this->Mesh, *piece.Topology, this->Seeds[item], this->OfPoints);
+      indices[i - begin] = this->Indices.empty()
+        ? indexOf(this->Mesh, *piece.Topology, this->Seeds[item], this->OfPoints)
+        : this->Indices[item];
     }
     this->OfPoints ? piece.Topology->prefetch(indices, end - begin) : void();
   }
@@ -369,7 +419,7 @@ private:
   const ResidentMesh& Mesh;
   const std::vector<std::int64_t>& Seeds;
   const bool OfPoints;
-  const std::int64_t* Indices = nullptr; ///< local indices of the seeds, if they are known
+  std::vector<std::int64_t> Indices; ///< of the seeds of a mesh in memory: their local indices
   std::mutex Mutex;
   std::vector<Reached> Front;
   std::vector<Finished> Done;
@@ -379,104 +429,12 @@ private:
   std::vector<std::vector<std::int64_t>> CellLists;  ///< lists per seed, with repetitions
 };
 
-/// As ringsInMemory(), for rings that need the cells of several ranks. All grow together, step by
-/// step.
-IdLists ringsAcrossRanks(const RankQuestions& questions, const Ids& seeds, int k, bool ofPoints)
-{
-  struct Ring
-  {
-    Ids Points; ///< found so far, ascending
-    Ids Cells;  ///< found so far, ascending
-    Ids Front;  ///< newly found points; within a step, newly found cells
-  };
-  std::vector<Ring> rings(seeds.size());
-  const IdLists corners = ofPoints ? IdLists() : questions.corners(seeds);
-  for (std::size_t i = 0; i < seeds.size(); ++i)
-  {
-    rings[i].Points = ofPoints ? Ids{ seeds[i] } : sortedUnique(corners.list(i));
-    rings[i].Front = rings[i].Points;
-  }
-  // Replaces each front by the ids that listsOfFront() has for it and that the ring does not know.
-  const auto advance = [&rings](const auto& listsOfFront, Ids Ring::*known)
-  {
-    Ids front;
-    for (const Ring& ring : rings)
-    {
-      front.insert(front.end(), ring.Front.begin(), ring.Front.end());
-    }
-    sortUnique(front);
-    const ListsById lists(front, listsOfFront(front));
-    for (Ring& ring : rings)
-    {
-      Ids next;
-      for (const std::int64_t id : ring.Front)
-      {
-        const Ids list = lists.of(id);
-        next.insert(next.end(), list.begin(), list.end());
-      }
-      ring.Front = without(sortedUnique(std::move(next)), ring.*known);
-      (ring.*known).insert((ring.*known).end(), ring.Front.begin(), ring.Front.end());
-      std::sort((ring.*known).begin(), (ring.*known).end());
-    }
-  };
-  const auto hasFront = [](const Ring& ring) { return !ring.Front.empty(); };
-  for (int step = 0; step < k && questions.any(std::any_of(rings.begin(), rings.end(), hasFront));
-       ++step)
-  {
-    advance([&](const Ids& points) { return questions.stars(points); }, &Ring::Cells);
-    advance([&](const Ids& cells) { return questions.corners(cells); }, &Ring::Points);
-  }
-  IdLists result;
-  for (std::size_t i = 0; i < rings.size(); ++i)
-  {
-    result.add(without(ofPoints ? rings[i].Points : rings[i].Cells, { seeds[i] }));
-  }
-  return result;
-}
-
-/// For parts in memory: the ids that are reached in k steps from each seed, without the seed.
-IdLists ringsInMemory(
-  const RankQuestions& questions, const ResidentMesh& part, const Ids& seeds, int k, bool ofPoints)
-{
-  const std::vector<std::uint8_t>& shared = questions.sharedPoints();
-  IdLists within = questions.askFirst(seeds, ofPoints,
-    [&](const Ids& own, const Ids& indices)
-    { return RingGrowth(part, own, ofPoints).grownWithin(k, indices, shared.data()); });
-  const auto leaves = [&within](std::size_t i)
-  {
-    return within.Starts[i] < within.Starts[i + 1] &&
-      within.Ids[std::size_t(within.Starts[i])] == -1;
-  };
-  Ids others;
-  for (std::size_t i = 0; i < seeds.size(); ++i)
-  {
-    leaves(i) ? others.push_back(seeds[i]) : void();
-  }
-  const IdLists across = ringsAcrossRanks(questions, others, k, ofPoints);
-  if (others.empty())
-  {
-    return within;
-  }
-  IdLists result;
-  result.Ids.reserve(within.Ids.size() + across.Ids.size());
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < seeds.size(); ++i)
-  {
-    leaves(i) ? result.append(across, next++) : result.append(within, i);
-    result.endList();
-  }
-  return result;
-}
-
 IdLists ringsOf(
   const ResidentMesh& mesh, const Ids& seeds, int k, bool ofPoints, Communicator* ranks)
 {
-  return listsOf(
-    mesh, seeds, ofPoints, ranks,
-    [&](const Ids& own, const std::vector<std::int32_t>& pieces)
-    { return RingGrowth(mesh, own, ofPoints).grown(k, pieces); },
-    [&](const RankQuestions& questions)
-    { return ringsInMemory(questions, mesh, seeds, k, ofPoints); });
+  return listsOf(mesh, seeds, ofPoints, ranks,
+    [k, ofPoints](const ResidentMesh& own, const Ids& ids, const std::vector<std::int32_t>& pieces)
+    { return RingGrowth(own, ids, ofPoints).grown(k, pieces); });
 }
 
 } // namespace

@@ -208,6 +208,22 @@ TEST_F(AroundOnRanks, PartsWithoutIdsAndUnknownIdsAreRefused)
   }
 }
 
+TEST_F(AroundOnRanks, PartsWithDifferentTypesOfCellsAreRefused)
+{
+  const SourceMesh source =
+    makeSource(this->isLast() ? latticeTetrahedra(2, 0) : latticeTriangles(6, 0.3));
+  const ResidentMesh mesh(inMemory(source, 0, this->Ranks.rank(), this->Ranks.size()));
+  const auto ask = [&] { this->Ranks.together([&] { starsOf(mesh, { 0 }, &this->Ranks); }); };
+  if (this->Ranks.size() > 1)
+  {
+    EXPECT_THROW(ask(), RankFailure);
+  }
+  else
+  {
+    EXPECT_NO_THROW(ask());
+  }
+}
+
 TEST_F(AroundOnRanks, UnknownSeedsOfRingsEndAllRanks)
 {
   const SourceMesh source = makeSource(latticeTriangles(6, 0.3));

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Query/RankMesh.h"
+
+#include "Arrays/SortUnique.h"
+#include "Partitioned/PieceFile.h"
+#include "Partitioned/ReadPiece.h"
+#include "Query/ForPieces.h"
+#include "Query/RankAnswer.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <memory>
+#include <utility>
+
+namespace tipp
+{
+
+using Ids = std::vector<std::int64_t>;
+
+/// The ranks that have an id.
+struct Holders
+{
+  std::int32_t First = -1; ///< the lowest; -1: none
+  std::int32_t Count = 0;
+};
+
+/// Finds the ranks that have an id. The ids are distributed over the ranks in blocks, and each rank
+/// knows who has the ids of its blocks. So the work for an id does not grow with the number of
+/// ranks.
+class IdDirectory
+{
+public:
+  /// `own` are the ids that this rank has. Collective.
+  IdDirectory(Communicator& ranks, const Ids& own)
+  {
+    std::vector<std::pair<std::int64_t, std::int32_t>> entries; // id, rank
+    const std::vector<Ids> received = ranks.allToAll(inBlocks(ranks, own));
+    for (std::size_t rank = 0; rank < received.size(); ++rank)
+    {
+      for (const std::int64_t id : received[rank])
+      {
+        entries.emplace_back(id, std::int32_t(rank));
+      }
+    }
+    sortUnique(entries);
+    Ids ids;
+    for (const auto& [id, rank] : entries)
+    {
+      if (ids.empty() || ids.back() != id)
+      {
+        ids.push_back(id);
+        this->HoldersOf.push_back({ rank, 0 });
+      }
+      ++this->HoldersOf.back().Count;
+    }
+    this->Indices = GlobalIdMap(ids.data(), nullptr, ids.size());
+  }
+
+  /// Collective; each rank passes its own ids.
+  std::vector<Holders> find(Communicator& ranks, const Ids& ids) const
+  {
+    std::vector<std::vector<Holders>> replies;
+    for (const Ids& received : ranks.allToAll(inBlocks(ranks, ids)))
+    {
+      replies.emplace_back();
+      for (const std::int64_t id : received)
+      {
+        const std::int64_t index = this->Indices.find(id);
+        replies.back().push_back(index < 0 ? Holders() : this->HoldersOf[std::size_t(index)]);
+      }
+    }
+    replies = ranks.allToAll(replies);
+    std::vector<Holders> result;
+    result.reserve(ids.size());
+    std::vector<std::size_t> next(replies.size(), 0);
+    for (const std::int64_t id : ids)
+    {
+      const std::size_t rank = rankFor(ranks, id);
+      result.push_back(replies[rank].at(next[rank]++));
+    }
+    return result;
+  }
+
+private:
+  /// The rank that knows who has an id.
+  static std::size_t rankFor(const Communicator& ranks, std::int64_t id)
+  {
+    constexpr int bitsOfBlock = 10;
+    return std::size_t((std::uint64_t(id) >> bitsOfBlock) % std::uint64_t(ranks.size()));
+  }
+
+  static std::vector<Ids> inBlocks(const Communicator& ranks, const Ids& ids)
+  {
+    std::vector<Ids> result(std::size_t(ranks.size()));
+    for (const std::int64_t id : ids)
+    {
+      result[rankFor(ranks, id)].push_back(id);
+    }
+    return result;
+  }
+
+  GlobalIdMap Indices;
+  std::vector<Holders> HoldersOf;
+};
+
+namespace
+{
+
+/// The ghost flag of a point of this rank's part, which owns only points that are not shared.
+enum Sharing : std::uint8_t
+{
+  NotShared,   ///< no other rank has cells there
+  FirstShared, ///< this rank is the lowest of those that have cells there
+  LaterShared
+};
+
+/// A cell with global ids.
+struct CellCopy
+{
+  std::int64_t Id;
+  std::int64_t Corners;
+  std::array<std::int64_t, 4> Points;
+  std::array<Point3, 4> At;
+};
+
+/// A piece of these cells. `owned` are the ids of its own points, ascending.
+MeshPart partOf(const std::vector<CellCopy>& cells, const Ids& owned)
+{
+  Ids points;
+  for (const CellCopy& cell : cells)
+  {
+    points.insert(points.end(), cell.Points.begin(), cell.Points.begin() + cell.Corners);
+  }
+  sortUnique(points);
+  Piece piece;
+  piece.CellSize = cells.empty() ? 3 : int(cells[0].Corners);
+  piece.WideIds = true;
+  piece.Points = std::int64_t(points.size());
+  piece.Cells = piece.OwnedCells = std::int64_t(cells.size());
+  piece.Coordinates = Buffer<char>(points.size() * sizeof(Point3));
+  piece.PointIds = Buffer<char>(points.size() * sizeof(std::int64_t));
+  piece.PointGhosts = Buffer<char>(points.size());
+  piece.CellIds = Buffer<char>(cells.size() * sizeof(std::int64_t));
+  piece.Connectivity =
+    Buffer<char>(cells.size() * std::size_t(piece.CellSize) * sizeof(std::int64_t));
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    piece.PointIds.as<std::int64_t>()[i] = points[i];
+    piece.PointGhosts[i] = std::binary_search(owned.begin(), owned.end(), points[i]) ? 0 : 1;
+  }
+  auto* corner = piece.Connectivity.as<std::int64_t>();
+  for (std::size_t cell = 0; cell < cells.size(); ++cell)
+  {
+    piece.CellIds.as<std::int64_t>()[cell] = cells[cell].Id;
+    for (std::size_t i = 0; i < std::size_t(piece.CellSize); ++i)
+    {
+      const auto at = std::lower_bound(points.begin(), points.end(), cells[cell].Points[i]);
+      *corner = at - points.begin();
+      piece.Coordinates.as<Point3>()[*corner++] = cells[cell].At[i];
+    }
+  }
+  return partOf(std::move(piece));
+}
+
+/// A rank's cells at the points that its part has.
+std::vector<CellCopy> copiesAt(const ResidentPiece& piece, const Ids& points)
+{
+  const PartTopology& topology = *piece.Topology;
+  std::vector<std::int32_t> cells;
+  for (const std::int64_t id : points)
+  {
+    const std::int64_t point = topology.findPoint(id);
+    if (point >= 0)
+    {
+      cells.insert(cells.end(), topology.cellsAt(point).begin(), topology.cellsAt(point).end());
+    }
+  }
+  sortUnique(cells);
+  std::vector<CellCopy> copies;
+  for (const std::int32_t cell : cells)
+  {
+    CellCopy copy{ piece.Part->cellId(cell), topology.corners(), {}, {} };
+    for (int i = 0; i < topology.corners(); ++i)
+    {
+      copy.Points[std::size_t(i)] = piece.Part->pointId(topology.corner(cell, i));
+      copy.At[std::size_t(i)] = positionOf(*piece.Part, topology.corner(cell, i));
+    }
+    copies.push_back(copy);
+  }
+  return copies;
+}
+
+/// Whether `isSo` is true on any rank.
+bool isAny(Communicator& ranks, bool isSo)
+{
+  std::vector<std::int64_t> count = { isSo ? 1 : 0 };
+  ranks.sum(count);
+  return count[0] > 0;
+}
+
+/// The Sharing of each point of this rank's part.
+std::vector<std::uint8_t> sharingOf(Communicator& ranks, const ResidentPiece& piece)
+{
+  const auto hasCells = [&piece](std::size_t point)
+  { return !piece.Topology->cellsAt(std::int64_t(point)).empty(); };
+  Ids ids(std::size_t(piece.Part->Mesh.PointCount));
+  Ids withCells;
+  for (std::size_t point = 0; point < ids.size(); ++point)
+  {
+    ids[point] = piece.Part->pointId(std::int64_t(point));
+    hasCells(point) ? withCells.push_back(ids[point]) : void();
+  }
+  const std::vector<Holders> holders = IdDirectory(ranks, withCells).find(ranks, ids);
+  std::vector<std::uint8_t> result;
+  for (std::size_t point = 0; point < ids.size(); ++point)
+  {
+    const bool isShared = holders[point].Count > (hasCells(point) ? 1 : 0);
+    const bool isFirst = holders[point].First == ranks.rank();
+    result.push_back(!isShared ? NotShared : isFirst ? FirstShared : LaterShared);
+  }
+  return result;
+}
+
+/// This rank's part, which does not own shared points. Throws IOError if the parts do not go
+/// together.
+ResidentPiece ownPiece(Communicator& ranks, const ResidentMesh& mesh)
+{
+  requireIds(&ranks, mesh);
+  ResidentPiece piece = *mesh.pieces().get(0, topologyNeeded());
+  ResidentMesh::OtherParts& others = mesh.otherParts();
+  if (isAny(ranks, others.Of != ranks.controller()))
+  {
+    others = {};
+    const RankParts all(&ranks, mesh, {}); // throws if the parts differ in their type of cells
+    others.Sharing = sharingOf(ranks, piece);
+    others.Of = ranks.controller();
+  }
+  MeshPart part = *piece.Part;
+  part.Ghosts = others.Sharing.data();
+  piece.Part = std::make_shared<const MeshPart>(part);
+  return piece;
+}
+
+} // namespace
+
+RankMesh::RankMesh(Communicator& ranks, const ResidentMesh& part)
+  : ResidentMesh(part, ownPiece(ranks, part))
+  , Ranks(ranks)
+  , Part(part)
+{
+}
+
+std::vector<std::int32_t> RankMesh::piecesAround(
+  const std::vector<std::int64_t>& points, const std::vector<Point3>&) const
+{
+  const ResidentPiece& own = this->InMemory[0];
+  std::vector<std::int32_t> pieces(points.size(), 0);
+  std::vector<std::int64_t> missing;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const std::int64_t index = own.Topology->findPoint(points[i]);
+    if (index < 0 || !owns(*own.Part, index))
+    {
+      const auto owner = this->Owners.find(points[i]);
+      pieces[i] = owner != this->Owners.end() ? owner->second : -1;
+      pieces[i] < 0 ? missing.push_back(points[i]) : void();
+    }
+  }
+  const std::int32_t added = this->addCellsAt(sortedUnique(std::move(missing)));
+  std::replace(pieces.begin(), pieces.end(), -1, added);
+  return pieces;
+}
+
+bool RankMesh::isAnywhere(bool isSo) const
+{
+  return isAny(this->Ranks, isSo);
+}
+
+/// Adds a piece that owns these points, which are ascending, with the cells of all ranks there.
+/// Returns its number.
+std::int32_t RankMesh::addCellsAt(const std::vector<std::int64_t>& points) const
+{
+  std::vector<std::vector<CellCopy>> replies;
+  for (const std::vector<std::int64_t>& asked : this->Ranks.allToAll(
+         std::vector<std::vector<std::int64_t>>(std::size_t(this->Ranks.size()), points)))
+  {
+    replies.push_back(copiesAt(this->InMemory[0], asked));
+  }
+  const std::vector<CellCopy> cells = concatenated(this->Ranks.allToAll(replies));
+  const std::int32_t piece = this->addPiece(partOf(cells, points));
+  for (const std::int64_t point : points)
+  {
+    this->Owners.emplace(point, piece);
+  }
+  return piece;
+}
+
+std::size_t RankMesh::addFirstShared() const
+{
+  const MeshPart& part = *this->InMemory[0].Part;
+  std::vector<std::int64_t> points;
+  for (std::int64_t point = 0; point < part.Mesh.PointCount; ++point)
+  {
+    part.Ghosts[point] == FirstShared ? points.push_back(part.pointId(point)) : void();
+  }
+  return std::size_t(this->addCellsAt(sortedUnique(std::move(points)))) + 1;
+}
+
+std::vector<std::int32_t> RankMesh::firstRanksOf(
+  const std::vector<std::int64_t>& ids, bool ofPoints) const
+{
+  ResidentMesh::OtherParts& others = this->Part.otherParts();
+  std::shared_ptr<const IdDirectory>& directory = ofPoints ? others.Points : others.Cells;
+  if (isAny(this->Ranks, !directory))
+  {
+    const MeshPart& part = *this->InMemory[0].Part;
+    std::vector<std::int64_t> own(std::size_t(ofPoints ? part.Mesh.PointCount : part.Mesh.Cells));
+    for (std::size_t i = 0; i < own.size(); ++i)
+    {
+      own[i] = ofPoints ? part.pointId(std::int64_t(i)) : part.cellId(std::int64_t(i));
+    }
+    directory = std::make_shared<const IdDirectory>(this->Ranks, own);
+  }
+  std::vector<std::int32_t> result;
+  for (const Holders& holders : directory->find(this->Ranks, ids))
+  {
+    result.push_back(holders.First);
+  }
+  return result;
+}
+
+} // namespace tipp

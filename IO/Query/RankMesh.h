@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippRankMesh_h
+#define tippRankMesh_h
+
+#include "Query/ResidentMesh.h"
+#include "Ranks/Communicator.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace tipp
+{
+
+/// A mesh whose parts are in the memory of several ranks, as one rank sees it during a query. Piece
+/// 0 is this rank's part; it owns the points at which no other rank has cells. If a query needs the
+/// cells at other points, all ranks send theirs, and these become a new piece that owns these
+/// points. So a query works as on a stored mesh.
+///
+/// The constructor and all methods are collective.
+class RankMesh : public ResidentMesh
+{
+public:
+  /// `part` must outlive this. Throws IOError if a part has no global ids, or if parts have
+  /// different types of cells.
+  RankMesh(Communicator& ranks, const ResidentMesh& part);
+
+  std::vector<std::int32_t> piecesAround(const std::vector<std::int64_t>& points,
+    const std::vector<Point3>& positions = {}) const override;
+  bool isAnywhere(bool isSo) const override;
+
+  /// Makes a piece of the points of this rank's part at which other ranks have cells, too, but no
+  /// lower rank. Returns the number of pieces.
+  std::size_t addFirstShared() const;
+
+  /// The lowest rank whose part has each id, or -1.
+  std::vector<std::int32_t> firstRanksOf(const std::vector<std::int64_t>& ids, bool ofPoints) const;
+
+private:
+  std::int32_t addCellsAt(const std::vector<std::int64_t>& points) const;
+
+  Communicator& Ranks;
+  const ResidentMesh& Part;
+  /// The number of the piece that owns a point, by global id, except for piece 0.
+  mutable std::unordered_map<std::int64_t, std::int32_t> Owners;
+};
+
+} // namespace tipp
+
+#endif
