@@ -224,7 +224,7 @@ void append(CrossedPart&& from, CrossedPart& to)
 
 template <typename Id>
 std::size_t moveCrossed(PointsView points, const ConstraintSegments& segments, std::int64_t first,
-  const std::vector<ScannedTriangles::Crossing>& crossings, Id* corners, std::size_t triangles,
+  const std::vector<CrossedTriangles::Crossing>& crossings, Id* corners, std::size_t triangles,
   CrossedPart& part)
 {
   std::vector<std::int64_t> used;
@@ -448,7 +448,7 @@ std::size_t cutTriangles(
 }
 
 template std::size_t moveCrossed(PointsView, const ConstraintSegments&, std::int64_t,
-  const std::vector<ScannedTriangles::Crossing>&, std::int32_t*, std::size_t, CrossedPart&);
+  const std::vector<CrossedTriangles::Crossing>&, std::int32_t*, std::size_t, CrossedPart&);
 template std::size_t takeCrossed(
   PointsView, const ConstraintSegments&, std::int64_t, std::int32_t*, std::size_t, CrossedPart&);
 template std::size_t takeCrossed(

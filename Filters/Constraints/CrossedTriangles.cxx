@@ -77,29 +77,35 @@ CrossedTriangles findCrossedTriangles(PointsView points, const Id* corners, std:
       {
         scans[std::size_t(thread)].scan(corners, range.Begin, range.End, here);
         std::sort(here.Crossings.begin(), here.Crossings.end());
-        return;
-      }
-      for (const auto& [triangle, piece] : inserted.crossingsIn(range.Partition))
-      {
-        range.Begin + triangle < range.End
-          ? here.Crossings.push_back({ std::int64_t(range.Begin + triangle), piece })
-          : void();
       }
     });
   CrossedTriangles all;
   all.Touches = inserted.touches();
-  for (const ScannedTriangles& here : found)
+  const auto add = [&all](std::int64_t triangle, std::int64_t piece)
   {
-    for (const ScannedTriangles::Crossing& crossing : here.Crossings)
+    if (all.Triangles.empty() || all.Triangles.back() != triangle)
     {
-      if (all.Triangles.empty() || all.Triangles.back() != crossing.Triangle)
-      {
-        all.Triangles.push_back(crossing.Triangle);
-        all.Starts.push_back(std::int64_t(all.Pieces.size()));
-      }
-      all.Pieces.push_back(crossing.Piece);
+      all.Triangles.push_back(triangle);
+      all.Starts.push_back(std::int64_t(all.Pieces.size()));
     }
-    all.Touches.insert(all.Touches.end(), here.Touches.begin(), here.Touches.end());
+    all.Pieces.push_back(piece);
+  };
+  for (std::size_t i = 0; i < ranges.size(); ++i)
+  {
+    const auto& [partition, begin, end] = ranges[i];
+    if (partition != NoPartition)
+    {
+      for (const auto& [triangle, piece] : inserted.crossingsIn(partition))
+      {
+        const std::int64_t number = std::int64_t(begin) + triangle;
+        number < std::int64_t(end) ? add(number, piece) : void();
+      }
+    }
+    for (const CrossedTriangles::Crossing& crossing : found[i].Crossings)
+    {
+      add(crossing.Triangle, crossing.Piece);
+    }
+    all.Touches.insert(all.Touches.end(), found[i].Touches.begin(), found[i].Touches.end());
   }
   all.Starts.push_back(std::int64_t(all.Pieces.size()));
   sortUnique(all.Touches);

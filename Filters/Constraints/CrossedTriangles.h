@@ -6,6 +6,7 @@
 #include "Triangulation/PointsView.h"
 
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace tipp
@@ -16,6 +17,21 @@ class PartitionConstraints;
 /// The triangles that pieces of constraints cross, and the vertices on pieces.
 struct CrossedTriangles
 {
+  /// A triangle whose interior a piece meets.
+  struct Crossing
+  {
+    std::int64_t Triangle;
+    std::int64_t Piece;
+
+    bool operator<(const Crossing& other) const
+    {
+      return std::tie(this->Triangle, this->Piece) < std::tie(other.Triangle, other.Piece);
+    }
+    bool operator==(const Crossing& other) const
+    {
+      return this->Triangle == other.Triangle && this->Piece == other.Piece;
+    }
+  };
   /// A vertex in the interior of a piece.
   struct Touch
   {
@@ -24,7 +40,7 @@ struct CrossedTriangles
 
     bool operator<(const Touch& other) const
     {
-      return this->Piece != other.Piece ? this->Piece < other.Piece : this->Vertex < other.Vertex;
+      return std::tie(this->Piece, this->Vertex) < std::tie(other.Piece, other.Vertex);
     }
     bool operator==(const Touch& other) const
     {
@@ -32,7 +48,7 @@ struct CrossedTriangles
     }
   };
 
-  std::vector<std::int64_t> Triangles; ///< triangles whose interior a piece meets, ascending
+  std::vector<std::int64_t> Triangles; ///< crossed triangles, ascending
   std::vector<std::int64_t> Starts;    ///< start of each triangle's range in Pieces, and the end
   std::vector<std::int64_t> Pieces;
   std::vector<Touch> Touches; ///< sorted by piece and vertex, without repetition

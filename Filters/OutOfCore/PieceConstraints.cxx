@@ -64,10 +64,10 @@ std::size_t PieceConstraints::takeCrossed(PartitionIndex bucket, std::int64_t fi
   {
     return tipp::takeCrossed(this->Points, this->Left, first, corners, triangles, part);
   }
-  std::vector<ScannedTriangles::Crossing> crossings;
+  std::vector<CrossedTriangles::Crossing> crossings;
   for (const auto& [triangle, segment] : this->Inserted->crossingsIn(bucket))
   {
-    crossings.push_back({ std::int64_t(triangle), this->LeftOf[std::size_t(segment)] });
+    crossings.push_back({ triangle, this->LeftOf[std::size_t(segment)] });
   }
   std::sort(crossings.begin(), crossings.end());
   return moveCrossed(this->Points, this->Left, first, crossings, corners, triangles, part);
