@@ -103,7 +103,8 @@ struct Jobs
   std::vector<std::int64_t> OfPiece; ///< by index in Pieces
 };
 
-/// Jobs are in the order of their first triangles, so that a job's memory is near the last one's.
+/// Jobs are in the order of their first triangles, so that a job's memory is near that of the one
+/// before.
 Jobs makeJobs(const CrossedTriangles& crossed)
 {
   Jobs jobs;
