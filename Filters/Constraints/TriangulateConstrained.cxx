@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/TriangulateConstrained.h"
 
-#include "Constraints/ConstraintJobs.h"
-#include "Constraints/CrossedTriangles.h"
-#include "Constraints/PartitionConstraints.h"
+#include "Constraints/Insertion/ConstraintJobs.h"
+#include "Constraints/Insertion/CrossedTriangles.h"
+#include "Constraints/Insertion/PartitionConstraints.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/TriangleSink.h"

@@ -3,8 +3,8 @@
 #define tippPieceConstraints_h
 
 #include "Constraints/ConstraintSegments.h"
-#include "Constraints/CrossedPart.h"
-#include "Constraints/PartitionConstraints.h"
+#include "Constraints/Insertion/CrossedPart.h"
+#include "Constraints/Insertion/PartitionConstraints.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Worker.h"
 

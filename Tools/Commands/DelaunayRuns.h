@@ -3,7 +3,7 @@
 #define tippDelaunayRuns_h
 
 #include "Commands/PointArguments.h"
-#include "Constraints/ConstrainedPoints.h"
+#include "Constraints/OnDisk/ConstrainedPoints.h"
 #include "Constraints/TableConstraints.h"
 #include "Distributed/DistributedTriangulation.h"
 #include "Duplicates/ResolveDuplicates.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Constraints/CrossedPart.h"
+#include "Constraints/Insertion/CrossedPart.h"
 
 #include "Arrays/SortUnique.h"
-#include "Constraints/ConstraintJobs.h"
 #include "Constraints/ConstraintPoints.h"
-#include "Constraints/TriangleScan.h"
+#include "Constraints/Insertion/ConstraintJobs.h"
+#include "Constraints/Insertion/TriangleScan.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 #define tippPartitionConstraints_h
 
 #include "Constraints/Constraint.h"
-#include "Constraints/CrossedTriangles.h"
-#include "Constraints/PartitionPieces.h"
+#include "Constraints/Insertion/CrossedTriangles.h"
+#include "Constraints/Insertion/PartitionPieces.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Worker.h"
 

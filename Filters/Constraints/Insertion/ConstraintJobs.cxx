@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Constraints/ConstraintJobs.h"
+#include "Constraints/Insertion/ConstraintJobs.h"
 
 #include "Arrays/IndexMap.h"
-#include "Constraints/ConstraintRegion.h"
-#include "Constraints/TriangleStrip.h"
+#include "Constraints/Insertion/ConstraintRegion.h"
+#include "Constraints/Insertion/TriangleStrip.h"
 #include "Parallel/ParallelFor.h"
 #include "Triangulation/TriangleSink.h"
 

@@ -2,7 +2,7 @@
 #ifndef tippTriangleScan_h
 #define tippTriangleScan_h
 
-#include "Constraints/CrossedTriangles.h"
+#include "Constraints/Insertion/CrossedTriangles.h"
 #include "Constraints/SegmentTree.h"
 #include "Kernel/Lanes.h"
 #include "Predicates/ExactPredicates.h"

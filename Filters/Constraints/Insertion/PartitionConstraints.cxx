@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Constraints/PartitionConstraints.h"
+#include "Constraints/Insertion/PartitionConstraints.h"
 
 #include "Arrays/SortUnique.h"
-#include "Constraints/ConstrainedMesh.h"
-#include "Constraints/LineWalker.h"
-#include "Constraints/SegmentInserter.h"
+#include "Constraints/Insertion/ConstrainedMesh.h"
+#include "Constraints/Insertion/LineWalker.h"
+#include "Constraints/Insertion/SegmentInserter.h"
 #include "Constraints/SegmentTree.h"
 #include "Kernel/DelaunayKernel.h"
 #include "Kernel/Lanes.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Constraints/CrossedTriangles.h"
+#include "Constraints/Insertion/CrossedTriangles.h"
 
 #include "Arrays/SortUnique.h"
-#include "Constraints/PartitionConstraints.h"
+#include "Constraints/Insertion/PartitionConstraints.h"
+#include "Constraints/Insertion/TriangleScan.h"
 #include "Constraints/SegmentTree.h"
-#include "Constraints/TriangleScan.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
