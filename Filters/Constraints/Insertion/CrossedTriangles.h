@@ -12,8 +12,6 @@
 namespace tipp
 {
 
-class PartitionConstraints;
-
 /// The triangles that pieces of constraints cross, and the vertices on pieces.
 struct CrossedTriangles
 {
@@ -53,15 +51,6 @@ struct CrossedTriangles
   std::vector<std::int64_t> Pieces;
   std::vector<Touch> Touches; ///< sorted by piece and vertex, without repetition
 };
-
-/// Finds the triangles that pieces cross, except for pieces that have been inserted already. Pieces
-/// and corners use the same vertex ids. `blocks` are ranges of interior triangles of partitions,
-/// ascending; `inserted` has their crossings, and `remaining` are its remaining pieces. The other
-/// triangles are searched.
-template <typename Id>
-CrossedTriangles findCrossedTriangles(PointsView points, const Id* corners, std::size_t triangles,
-  const std::vector<TriangleBlock>& blocks, const std::vector<ConstraintPiece>& pieces,
-  const PartitionConstraints& inserted, const std::vector<std::int64_t>& remaining, int threads);
 
 } // namespace tipp
 
