@@ -44,8 +44,11 @@ vtkCxxSetObjectMacro(vtkTIPPDelaunay2D, Controller, vtkMultiProcessController);
 namespace
 {
 
-void requireTransform(vtkTIPPDelaunay2D* filter)
+void checkProperties(vtkTIPPDelaunay2D* filter)
 {
+  tipp::requireFinite(
+    { { "Alpha", filter->GetAlpha() }, { "MaximumEdgeLength", filter->GetMaximumEdgeLength() },
+      { "Tolerance", filter->GetTolerance() }, { "Offset", filter->GetOffset() } });
   if (filter->GetProjectionPlaneMode() == VTK_SET_TRANSFORM_PLANE && !filter->GetTransform())
   {
     throw std::invalid_argument("ProjectionPlaneMode is VTK_SET_TRANSFORM_PLANE, but there is no "
@@ -175,9 +178,6 @@ int vtkTIPPDelaunay2D::RequestData(
   this->NumberOfRejectedPoints = 0;
   const auto work = [&]
   {
-    tipp::requireFinite(
-      { { "Alpha", this->Alpha }, { "MaximumEdgeLength", this->MaximumEdgeLength },
-        { "Tolerance", this->Tolerance }, { "Offset", this->Offset } });
     const tipp::ThreadLimit limit(this->NumberOfThreads);
     tipp::hasSeveralRanks(this->Controller)
       ? this->ExecuteOnRanks(input, source, tipp::wantsGhosts(outputVector), output, statistics)
@@ -195,8 +195,8 @@ int vtkTIPPDelaunay2D::RequestData(
 void vtkTIPPDelaunay2D::Execute(
   vtkPointSet* given, vtkPolyData* source, vtkPolyData* output, vtkTable* statistics)
 {
+  checkProperties(this);
   tipp::checkPoints(given, "the input");
-  requireTransform(this);
   vtkSmartPointer<vtkAbstractTransform> toPlane = this->Transform;
   if (this->ProjectionPlaneMode == VTK_BEST_FITTING_PLANE)
   {
@@ -387,12 +387,12 @@ void vtkTIPPDelaunay2D::ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, 
   std::optional<tipp::RankSource> shared; // if a rank has a source
   const auto run = [&]()
   {
+    checkProperties(this);
     tipp::requireUnused({ { "Alpha", this->Alpha != 0 },
       { "MaximumEdgeLength", this->MaximumEdgeLength > 0 }, { "Tolerance", this->Tolerance > 0 },
       { "BoundingTriangulation", this->BoundingTriangulation != 0 },
       { "GenerateNeighborIds", this->GenerateNeighborIds != 0 },
       { "the best fitting plane", this->ProjectionPlaneMode == VTK_BEST_FITTING_PLANE } });
-    requireTransform(this);
     tipp::Monitor monitor(this);
     tipp::DistributedOptions options = optionsFor(this);
     options.Progress = [&monitor](double fraction) { return monitor(fraction); };

@@ -58,6 +58,12 @@ vtkSmartPointer<vtkPoints> withOctahedron(vtkPoints* points, double offset)
   return tipp::appendPoints(points, corners);
 }
 
+void checkProperties(vtkTIPPDelaunay3D* filter)
+{
+  tipp::requireFinite({ { "Alpha", filter->GetAlpha() }, { "Tolerance", filter->GetTolerance() },
+    { "Offset", filter->GetOffset() } });
+}
+
 } // namespace
 
 vtkTIPPDelaunay3D::vtkTIPPDelaunay3D()
@@ -111,8 +117,6 @@ int vtkTIPPDelaunay3D::RequestData(
   this->NumberOfRejectedPoints = 0;
   const auto work = [&]
   {
-    tipp::requireFinite(
-      { { "Alpha", this->Alpha }, { "Tolerance", this->Tolerance }, { "Offset", this->Offset } });
     const tipp::ThreadLimit limit(this->NumberOfThreads);
     tipp::hasSeveralRanks(this->Controller)
       ? this->ExecuteOnRanks(input, tipp::wantsGhosts(outputVector), output, statistics)
@@ -130,6 +134,7 @@ int vtkTIPPDelaunay3D::RequestData(
 void vtkTIPPDelaunay3D::Execute(
   vtkPointSet* input, vtkUnstructuredGrid* output, vtkTable* statistics)
 {
+  checkProperties(this);
   tipp::checkPoints(input, "the input");
   vtkSmartPointer<vtkPoints> points = input->GetPoints();
   if (!points)
@@ -249,6 +254,7 @@ void vtkTIPPDelaunay3D::ExecuteOnRanks(
   tipp::DistributedTetrahedralization mine;
   const auto run = [&]()
   {
+    checkProperties(this);
     tipp::requireUnused({ { "Alpha", this->Alpha != 0 }, { "Tolerance", this->Tolerance > 0 },
       { "BoundingTriangulation", this->BoundingTriangulation != 0 },
       { "GenerateNeighborIds", this->GenerateNeighborIds != 0 } });

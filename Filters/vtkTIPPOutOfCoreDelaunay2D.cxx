@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTIPPOutOfCoreDelaunay2D.h"
 
-#include "Constraints/ConstrainedPoints.h"
+#include "Constraints/OnDisk/ConstrainedPoints.h"
 #include "Files/IOError.h"
 #include "Files/OutputPath.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"

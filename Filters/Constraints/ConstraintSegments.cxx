@@ -135,13 +135,12 @@ ConstraintSegments::ConstraintSegments(
   this->OnlyHoles = !this->haveInside();
 }
 
-ConstraintSegments::ConstraintSegments(const std::vector<ConstraintSegment>& segments,
-  const std::vector<std::int64_t>& names, std::vector<std::int64_t>* indices)
+ConstraintSegments::ConstraintSegments(
+  const std::vector<ConstraintSegment>& segments, const std::vector<std::int64_t>& names)
   : All(treeOf(segments, false))
   , Holes({})
   , Names(this->All.nameByPosition())
 {
-  indices ? void(*indices = this->Names) : void();
   for (std::int64_t& name : this->Names)
   {
     name = names[std::size_t(name)];

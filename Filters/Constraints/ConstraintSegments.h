@@ -72,8 +72,8 @@ public:
 
   /// A subset of the segments, without roles, so that it does not remove triangles. `names` has the
   /// index of each among all segments.
-  ConstraintSegments(const std::vector<ConstraintSegment>& segments,
-    const std::vector<std::int64_t>& names, std::vector<std::int64_t>* indices = nullptr);
+  ConstraintSegments(
+    const std::vector<ConstraintSegment>& segments, const std::vector<std::int64_t>& names);
 
   /// All segments, in the order of the trees.
   std::vector<ConstraintSegment> list() const;

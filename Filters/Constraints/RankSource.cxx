@@ -151,23 +151,36 @@ private:
     this->FirstCell += source->GetNumberOfCells();
   }
 
-  /// Uses the points of all sources, one source after the other, as vertices.
+  /// Uses the different positions of the sources' points as vertices, in their order.
   void takePoints()
   {
+    std::vector<Point2> given;
+    std::vector<DataSetRow> rows;
+    for (std::size_t s = 0; s < this->Sources.size(); ++s)
+    {
+      const ProjectedPoints projected(this->Sources[s]->GetPoints(), this->Options.ToPlane);
+      const PointsView view = projected.view();
+      view.forEach(0, view.size(),
+        [&](std::size_t i, Point2 p)
+        {
+          given.push_back(p);
+          rows.push_back({ s, vtkIdType(i) });
+        });
+    }
+    const MatchedPositions matched = matchPositions(PointsView(), PointsView(given));
+    PointId first = 0;
     for (vtkPolyData* const source : this->Sources)
     {
-      const auto first = PointId(this->Positions.size());
-      const ProjectedPoints projected(source->GetPoints(), this->Options.ToPlane);
-      const PointsView view = projected.view();
-      view.forEach(0, view.size(), [&](std::size_t, Point2 p) { this->Positions.push_back(p); });
-      this->takeConstraints(source, [first](PointId id) { return first + id; });
+      this->takeConstraints(
+        source, [&](PointId id) { return matched.Ids[std::size_t(first + id)]; });
+      first += source->GetNumberOfPoints();
+    }
+    for (const std::size_t i : matched.New)
+    {
+      this->Positions.push_back(given[i]);
+      this->SourceRows.push_back(rows[i]);
     }
     this->Index = std::make_unique<PositionIndex>(this->Positions);
-    for (std::size_t v = 0; v < this->Positions.size(); ++v)
-    {
-      const std::int64_t same = this->Index->find(this->Positions[v]);
-      this->Same.push_back(same < 0 ? std::int64_t(v) : same);
-    }
   }
 
   /// Uses the points that the sources refer to by id as vertices.
@@ -183,8 +196,11 @@ private:
           return PointId(vertex);
         });
     }
-    this->Same.resize(this->Named.size());
-    std::iota(this->Same.begin(), this->Same.end(), std::int64_t(0));
+  }
+
+  std::size_t vertexCount() const
+  {
+    return this->Index ? this->Positions.size() : this->Named.size();
   }
 
   /// Sets the ids of vertices. Returns, for each vertex, the index of the point at it on this rank;
@@ -192,7 +208,7 @@ private:
   std::vector<std::int64_t> findVertices()
   {
     constexpr std::int64_t none = -1;
-    std::vector<std::int64_t> point(this->Same.size(), none);
+    std::vector<std::int64_t> point(this->vertexCount(), none);
     const ProjectedPoints projected(this->Input->GetPoints(), this->Options.ToPlane);
     const PointsView view = projected.view();
     view.forEach(0, view.size(),
@@ -248,10 +264,7 @@ private:
           ", which no rank's input has: the source's ids are the input's, unless "
           "MergeSourcePoints is on.");
       }
-      if (this->VertexIds[v] < 0 && this->Same[v] == std::int64_t(v))
-      {
-        this->VertexIds[v] = next++;
-      }
+      this->VertexIds[v] = this->VertexIds[v] < 0 ? next++ : this->VertexIds[v];
     }
   }
 
@@ -289,7 +302,7 @@ private:
     std::vector<Constraint> constraints;
     for (const Constraint& constraint : this->Constraints)
     {
-      constraints.push_back({ this->rankOf(constraint.A), this->rankOf(constraint.B) });
+      constraints.push_back({ this->sorted(constraint.A), this->sorted(constraint.B) });
     }
     std::vector<PointId> names;
     for (const std::size_t v : this->Sorted)
@@ -334,26 +347,21 @@ private:
     }
   }
 
-  /// Sorts the vertices with different ids by their ids, as in memory. New points are last.
+  /// Sorts the vertices by their ids, as in memory. New points are last.
   void sortVertices()
   {
-    for (std::size_t v = 0; v < this->Same.size(); ++v)
-    {
-      this->Same[v] == std::int64_t(v) ? this->Sorted.push_back(v) : void();
-    }
+    this->Sorted.resize(this->vertexCount());
+    std::iota(this->Sorted.begin(), this->Sorted.end(), std::size_t(0));
     std::sort(this->Sorted.begin(), this->Sorted.end(),
       [this](std::size_t a, std::size_t b) { return this->VertexIds[a] < this->VertexIds[b]; });
-    this->RankOfVertex.resize(this->Same.size());
+    this->IndexInSorted.resize(this->Sorted.size());
     for (std::size_t i = 0; i < this->Sorted.size(); ++i)
     {
-      this->RankOfVertex[this->Sorted[i]] = PointId(i);
+      this->IndexInSorted[this->Sorted[i]] = PointId(i);
     }
   }
 
-  PointId rankOf(PointId vertex) const
-  {
-    return this->RankOfVertex[std::size_t(this->Same[std::size_t(vertex)])];
-  }
+  PointId sorted(PointId vertex) const { return this->IndexInSorted[std::size_t(vertex)]; }
 
   /// The sorted vertices, with the point arrays that all of them have.
   vtkSmartPointer<vtkPolyData> makeVertices(const std::vector<Bytes>& rows) const
@@ -369,28 +377,22 @@ private:
           vtkIdTypeArray::SafeDownCast(points->GetPointData()->GetArray("tippVertex"));
         for (vtkIdType i = 0; numbers && i < numbers->GetNumberOfTuples(); ++i)
         {
-          rowOf[std::size_t(this->rankOf(numbers->GetValue(i)))] = { from.size(), i };
+          rowOf[std::size_t(this->sorted(numbers->GetValue(i)))] = { from.size(), i };
         }
         points->GetPointData()->RemoveArray("tippVertex");
         from.emplace_back(points);
       }
     }
-    std::size_t first = 0;
-    for (std::size_t s = 0; this->Options.MergesPoints && s < this->Sources.size(); ++s)
+    std::size_t used = this->Sources.size(); // the source of the last new vertex so far
+    for (std::size_t v = 0; v < this->SourceRows.size(); ++v)
     {
-      const vtkIdType count = this->Sources[s]->GetNumberOfPoints();
-      bool isUsed = false;
-      for (vtkIdType i = 0; i < count; ++i)
+      const auto [source, row] = this->SourceRows[v];
+      if (this->VertexIds[v] >= this->EndOfIds)
       {
-        const std::size_t v = first + std::size_t(i);
-        if (this->Same[v] == std::int64_t(v) && this->VertexIds[v] >= this->EndOfIds)
-        {
-          rowOf[std::size_t(this->RankOfVertex[v])] = { from.size(), i };
-          isUsed = true;
-        }
+        used == source ? void() : void(from.emplace_back(this->Sources[source]));
+        used = source;
+        rowOf[std::size_t(this->IndexInSorted[v])] = { from.size() - 1, row };
       }
-      isUsed ? void(from.emplace_back(this->Sources[s])) : void();
-      first += std::size_t(count);
     }
     return copyRows(from, rowOf);
   }
@@ -452,17 +454,17 @@ private:
   std::int64_t First = 0;                            ///< first id of this rank if they have none
   std::int64_t EndOfIds = 0;                         ///< larger than all ids of the inputs' points
   std::vector<Point2> Positions;                     ///< per vertex, if points are merged
+  std::vector<DataSetRow> SourceRows;                ///< likewise: the first point in Sources
   std::unique_ptr<PositionIndex> Index;              ///< of Positions
   IndexMap VertexOf;                                 ///< by point id, if points are not merged
   std::vector<std::int64_t> Named;                   ///< point id per vertex, likewise
-  std::vector<std::int64_t> Same;      ///< per vertex: the first vertex at its position
-  std::vector<std::int64_t> VertexIds; ///< of the first vertex at each position
-  std::vector<std::size_t> Sorted;     ///< first vertices, sorted by id
-  std::vector<PointId> RankOfVertex;   ///< per first vertex: its index in Sorted
-  std::vector<Constraint> Constraints; ///< between vertices
-  std::vector<SegmentRole> Roles;      ///< per constraint
-  std::vector<std::int64_t> Cells;     ///< source cell per constraint
-  std::int64_t FirstCell = 0;          ///< cell number at which the next source starts
+  std::vector<std::int64_t> VertexIds;               ///< per vertex: the id of the point at it
+  std::vector<std::size_t> Sorted;                   ///< vertices, sorted by id
+  std::vector<PointId> IndexInSorted;                ///< per vertex
+  std::vector<Constraint> Constraints;               ///< between vertices
+  std::vector<SegmentRole> Roles;                    ///< per constraint
+  std::vector<std::int64_t> Cells;                   ///< source cell per constraint
+  std::int64_t FirstCell = 0; ///< cell number at which the next source starts
   std::vector<ConstraintSegment> Segments;
 };
 

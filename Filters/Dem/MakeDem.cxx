@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Dem/MakeDem.h"
 
-#include "Constraints/ConstrainedPoints.h"
+#include "Constraints/OnDisk/ConstrainedPoints.h"
 #include "Dem/RasterSink.h"
 #include "Dem/SurfaceSink.h"
 #include "Files/TemporaryFiles.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Dem/SurfaceSink.h"
 
-#include "Constraints/ConstrainedPoints.h"
+#include "Constraints/OnDisk/ConstrainedPoints.h"
 #include "Dem/DemBands.h"
 #include "Dem/TerrainSampler.h"
 #include "Files/IOError.h"

@@ -2,7 +2,7 @@
 #include "Distributed/DistributedTriangulation.h"
 
 #include "Arrays/SortUnique.h"
-#include "Constraints/CrossedPart.h"
+#include "Constraints/Insertion/CrossedPart.h"
 #include "Distributed/TriangleExchange.h"
 #include "Parallel/ParallelFor.h"
 #include "Ranks/Archive.h"

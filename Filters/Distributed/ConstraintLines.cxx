@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/ConstraintLines.h"
 
-#include "Constraints/CrossedPart.h"
+#include "Constraints/Insertion/CrossedPart.h"
 #include "Distributed/TriangleExchange.h"
 
 #include <algorithm>

@@ -80,7 +80,10 @@ void forEachFace(Cell<Id, CellCorners> cell, const Visit& visit)
       std::size_t size = 0;
       for (std::size_t i = 0; i < CellCorners; ++i)
       {
-        isChosen[i] ? void(face[size++] = cell[i]) : void();
+        if (isChosen[i])
+        {
+          face[size++] = cell[i];
+        }
       }
       visit(face);
     }
@@ -171,7 +174,10 @@ void removeFacesOf(
   std::size_t left = 0;
   for (std::size_t i = 0; i < faces.size(); ++i)
   {
-    isFound[i] ? void() : void(faces[left++] = faces[i]);
+    if (!isFound[i])
+    {
+      faces[left++] = faces[i];
+    }
   }
   faces.resize(left);
 }
@@ -220,7 +226,10 @@ AlphaShape<Id> alphaShape(
   out = shape.Vertices.data();
   for (std::size_t i = 0; i < covered.size(); ++i)
   {
-    covered[i] ? void() : void(*out++ = Id(i));
+    if (!covered[i])
+    {
+      *out++ = Id(i);
+    }
   }
   return shape;
 }

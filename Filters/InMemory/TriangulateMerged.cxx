@@ -276,6 +276,7 @@ Triangulation triangulateMerged(
 Tetrahedralization tetrahedralizeMerged(const Point3* points, std::size_t count, double distance,
   const TetrahedralizationOptions& options)
 {
+  requireShortIds(count);
   const auto positionOf = [points](std::size_t i) {
     return std::array<double, 3>{ points[i].x, points[i].y, points[i].z };
   };

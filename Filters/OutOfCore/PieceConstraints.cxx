@@ -38,49 +38,33 @@ PieceConstraints::PieceConstraints(
 
 void PieceConstraints::finishInserting()
 {
-  constexpr std::int64_t none = -1;
-  std::vector<ConstraintSegment> left;
+  std::vector<ConstraintSegment> segments;
   std::vector<std::int64_t> names;
-  const std::vector<std::int64_t> segments = this->Inserted->remaining();
-  for (const std::int64_t i : segments)
+  this->Remaining = this->Inserted->remaining();
+  for (const std::int64_t i : this->Remaining)
   {
     const SegmentTree::Item& segment = this->Segments.at(i);
-    left.push_back({ segment.A, segment.B, SegmentRole::Line });
+    segments.push_back({ segment.A, segment.B, SegmentRole::Line });
     names.push_back(this->Segments.nameOf(i));
   }
-  std::vector<std::int64_t> order;
-  this->Left = ConstraintSegments(left, names, &order);
-  this->LeftOf.assign(this->Pieces.size(), none);
-  for (std::size_t i = 0; i < order.size(); ++i)
-  {
-    this->LeftOf[std::size_t(segments[std::size_t(order[i])])] = std::int64_t(i);
-  }
+  this->Left = ConstraintSegments(segments, names);
 }
 
 std::size_t PieceConstraints::takeCrossed(PartitionIndex bucket, std::int64_t first,
   std::int32_t* corners, std::size_t triangles, CrossedPart& part) const
 {
-  if (bucket < 0)
-  {
-    return tipp::takeCrossed(this->Points, this->Left, first, corners, triangles, part);
-  }
-  std::vector<ScannedTriangles::Crossing> crossings;
-  for (const auto& [triangle, segment] : this->Inserted->crossingsIn(bucket))
-  {
-    crossings.push_back({ std::int64_t(triangle), this->LeftOf[std::size_t(segment)] });
-  }
-  std::sort(crossings.begin(), crossings.end());
-  return moveCrossed(this->Points, this->Left, first, crossings, corners, triangles, part);
+  return bucket < 0 ? tipp::takeCrossed(this->Points, this->Left, first, corners, triangles, part)
+                    : moveCrossed(this->Points, this->Segments, first,
+                        this->Inserted->crossingsIn(bucket), corners, triangles, part);
 }
 
 void PieceConstraints::addEdgesAndTouches(std::int64_t first, CrossedPart& part) const
 {
   for (const CrossedTriangles::Touch& touch : this->Inserted->touches())
   {
-    const std::int64_t segment = this->LeftOf[std::size_t(touch.Piece)];
-    if (segment >= 0)
+    if (std::binary_search(this->Remaining.begin(), this->Remaining.end(), touch.Piece))
     {
-      part.Touches.push_back({ this->Left.nameOf(segment), first + touch.Vertex,
+      part.Touches.push_back({ this->Segments.nameOf(touch.Piece), first + touch.Vertex,
         this->Points[std::size_t(touch.Vertex)] });
     }
   }

@@ -3,8 +3,8 @@
 #define tippPieceConstraints_h
 
 #include "Constraints/ConstraintSegments.h"
-#include "Constraints/CrossedPart.h"
-#include "Constraints/PartitionConstraints.h"
+#include "Constraints/Insertion/CrossedPart.h"
+#include "Constraints/Insertion/PartitionConstraints.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Worker.h"
 
@@ -49,8 +49,8 @@ private:
   const PointsView Points;
   std::vector<ConstraintPiece> Pieces; ///< the same segments, for PartitionConstraints
   std::unique_ptr<PartitionConstraints> Inserted;
-  ConstraintSegments Left;          ///< segments that were not inserted
-  std::vector<std::int64_t> LeftOf; ///< by segment: its index in Left, or -1
+  std::vector<std::int64_t> Remaining; ///< indices of the segments that were not inserted
+  ConstraintSegments Left;             ///< these segments
 };
 
 } // namespace tipp

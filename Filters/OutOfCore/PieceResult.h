@@ -2,7 +2,7 @@
 #ifndef tippPieceResult_h
 #define tippPieceResult_h
 
-#include "Constraints/CrossedPart.h"
+#include "Constraints/Insertion/CrossedPart.h"
 #include "Duplicates/ResolveDuplicates.h"
 #include "Engine/Routing.h"
 #include "OutOfCore/InputPasses.h"

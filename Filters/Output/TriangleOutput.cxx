@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Output/TriangleOutput.h"
 
-#include "Constraints/CrossedPart.h"
+#include "Constraints/Insertion/CrossedPart.h"
 #include "Meshes/MeshFiles.h"
 #include "Output/PiecePoints.h"
 

@@ -305,13 +305,18 @@ private:
 
 } // namespace
 
-Tetrahedralization tetrahedralize(
-  const Point3* points, std::size_t count, const TetrahedralizationOptions& options)
+void requireShortIds(std::size_t count)
 {
   if (count > std::size_t(std::numeric_limits<std::int32_t>::max()))
   {
     throw std::length_error("more than 2,147,483,647 points in space are not supported in memory");
   }
+}
+
+Tetrahedralization tetrahedralize(
+  const Point3* points, std::size_t count, const TetrahedralizationOptions& options)
+{
+  requireShortIds(count);
   Tetrahedralization result;
   Run3(points, count, options, result).run();
   return result;

@@ -40,6 +40,9 @@ struct Tetrahedralization : TriangulatedPoints
   std::size_t cellCount() const { return this->Ids.size() / 4; }
 };
 
+/// Throws std::length_error for 2^31 points or more, since ids have 32 bits.
+void requireShortIds(std::size_t count);
+
 /// Returns the Delaunay triangulation of the distinct finite points. Ties are broken by the points'
 /// lexicographic order, so for all options the set of tetrahedra equals that of CGAL's
 /// Delaunay_triangulation_3. Throws std::length_error for 2^31 points or more, and std::bad_alloc.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Binding.h"
 
-#include "Constraints/ConstrainedPoints.h"
+#include "Constraints/OnDisk/ConstrainedPoints.h"
 #include "Files/OutputPath.h"
 #include "Flat/FlatMesh.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"

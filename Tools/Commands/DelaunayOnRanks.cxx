@@ -6,7 +6,7 @@
 #include "Commands/Report.h"
 #include "Console/Process.h"
 #include "Console/ProgressBar.h"
-#include "Constraints/ConstrainedPoints.h"
+#include "Constraints/OnDisk/ConstrainedPoints.h"
 #include "Distributed/TriangleExchange.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"

@@ -4,7 +4,7 @@
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
-#include "Constraints/ConstrainedPoints.h"
+#include "Constraints/OnDisk/ConstrainedPoints.h"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 #include "Comparison.h"
 #include "PointSets.h"
 
-#include "Constraints/ConstraintRegion.h"
-#include "Constraints/TriangleStrip.h"
+#include "Constraints/Insertion/ConstraintRegion.h"
+#include "Constraints/Insertion/TriangleStrip.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <gtest/gtest.h>

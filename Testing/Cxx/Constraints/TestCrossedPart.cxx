@@ -4,8 +4,8 @@
 #include "ConstrainedOracle.h"
 #include "PointSets.h"
 
-#include "Constraints/ConstraintJobs.h"
-#include "Constraints/CrossedPart.h"
+#include "Constraints/Insertion/ConstraintJobs.h"
+#include "Constraints/Insertion/CrossedPart.h"
 #include "Constraints/KeepInside.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lists of the pieces near each partition.
-#include "Constraints/PartitionPieces.h"
+#include "Constraints/Insertion/PartitionPieces.h"
 
 #include <gtest/gtest.h>
 

@@ -29,6 +29,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <vector>
 
@@ -331,6 +332,18 @@ TEST(Delaunay3DRanks, OptionsForOneRankAreRefusedOnAll)
     EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
     EXPECT_NE(filter->GetErrorCode(), 0U);
   }
+}
+
+TEST(Delaunay3DRanks, APropertyThatIsNotFiniteOnOneRankIsRefusedOnAll)
+{
+  vtkNew<vtkTIPPDelaunay3D> filter;
+  filter->SetTolerance(rank() == ranks() - 1 ? NAN : 0);
+  filter->SetInputData(shareOf(pointsInSpace("uniform", 500), true));
+  vtkObject::GlobalWarningDisplayOff();
+  filter->Update();
+  vtkObject::GlobalWarningDisplayOn();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_NE(filter->GetErrorCode(), 0U);
 }
 
 TEST(Delaunay3DRanks, AnUpstreamFailureOnOneRankFailsOnAll)

@@ -12,6 +12,7 @@
 #include <limits>
 #include <random>
 #include <set>
+#include <stdexcept>
 
 namespace
 {
@@ -331,6 +332,12 @@ TEST(Tetrahedralize, ClosePointsAreMerged)
   }
   points.resize(given);
   EXPECT_EQ(cellsOfCgal(points), sortedCells(mesh));
+}
+
+TEST(Tetrahedralize, RefusesToMergeMorePointsThanIdsOf32Bits)
+{
+  const std::size_t most = std::numeric_limits<std::int32_t>::max();
+  EXPECT_THROW(tetrahedralizeMerged(nullptr, most + 1, 1e-6), std::length_error);
 }
 
 TEST(Tetrahedralize, MergingClosePointsReportsProgressAndCanBeStopped)

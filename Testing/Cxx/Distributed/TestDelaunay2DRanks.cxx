@@ -28,6 +28,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -281,6 +282,18 @@ TEST(Delaunay2DRanks, OptionsForOneRankAreRefusedOnAll)
     EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
     EXPECT_NE(filter->GetErrorCode(), 0u);
   }
+}
+
+TEST(Delaunay2DRanks, APropertyThatIsNotFiniteOnOneRankIsRefusedOnAll)
+{
+  vtkNew<vtkTIPPDelaunay2D> filter;
+  filter->SetTolerance(rank() == ranks() - 1 ? NAN : 0);
+  filter->SetInputData(shareAsData(makePointSet("uniform", 500), true));
+  vtkObject::GlobalWarningDisplayOff();
+  filter->Update();
+  vtkObject::GlobalWarningDisplayOn();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_NE(filter->GetErrorCode(), 0u);
 }
 
 TEST(Delaunay2DRanks, AGhostLayerIsMadeOnTheRankThatRequestsIt)

@@ -2,7 +2,7 @@
 // Constraints out of core give the triangles that are made in memory.
 #include "OutOfCoreTesting.h"
 
-#include "Constraints/ConstrainedPoints.h"
+#include "Constraints/OnDisk/ConstrainedPoints.h"
 #include "ExpectIOError.h"
 #include "OutOfCore/PieceSegments.h"
 #include "Partitioned/PartitionedMesh.h"

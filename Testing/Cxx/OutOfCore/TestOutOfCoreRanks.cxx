@@ -2,7 +2,7 @@
 // Several ranks make the same files as one process, and end together.
 #include "OutOfCoreTesting.h"
 
-#include "Constraints/ConstrainedPoints.h"
+#include "Constraints/OnDisk/ConstrainedPoints.h"
 #include "Files/IOError.h"
 #include "Npy/NpyFile.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"

@@ -2,7 +2,7 @@
 // Compares crossings and near segments from SegmentTiles with tests of all pairs.
 #include "TemporaryFolder.h"
 
-#include "Constraints/SegmentTiles.h"
+#include "Constraints/OnDisk/SegmentTiles.h"
 #include "Predicates/ExactPredicates.h"
 
 #include <gtest/gtest.h>

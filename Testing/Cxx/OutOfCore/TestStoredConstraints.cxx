@@ -2,8 +2,8 @@
 // Compares constraints that are matched and split on disk with those in memory.
 #include "OutOfCoreTesting.h"
 
-#include "Constraints/ConstrainedPoints.h"
 #include "Constraints/ConstraintPoints.h"
+#include "Constraints/OnDisk/ConstrainedPoints.h"
 #include "ExpectIOError.h"
 
 #include <array>

@@ -4,7 +4,7 @@
 
 #include "Constraints/ConstraintPoints.h"
 #include "Constraints/ConstraintSegments.h"
-#include "Constraints/PositionJoin.h"
+#include "Constraints/OnDisk/PositionJoin.h"
 #include "Constraints/TableConstraints.h"
 #include "Partitioning/StoredRows.h"
 #include "Points/PointStream.h"

@@ -3,7 +3,7 @@
 #define tippConstraintJobs_h
 
 #include "Constraints/Constraint.h"
-#include "Constraints/CrossedTriangles.h"
+#include "Constraints/Insertion/CrossedTriangles.h"
 #include "Triangulation/PointsView.h"
 #include "vtkTIPPFiltersModule.h"
 

@@ -15,8 +15,7 @@ namespace tipp
 
 /// A view of triangles, in the memory layout of HalfEdgeMesh, whose edges can be fixed. Edges at
 /// the border of the mesh have triangles at the infinite vertex, so that each half-edge has a twin.
-//
-// Unlike there, slot 3 is a mark of the triangle, and slot 7 is not used.
+/// Unlike in HalfEdgeMesh, slot 3 is a mark of the triangle, and slot 7 is not used.
 class ConstrainedMesh
 {
 public:

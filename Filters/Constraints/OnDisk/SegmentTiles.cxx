@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Constraints/SegmentTiles.h"
+#include "Constraints/OnDisk/SegmentTiles.h"
 
 #include "OutOfCore/StreamSampler.h"
 

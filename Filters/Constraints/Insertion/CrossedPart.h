@@ -3,7 +3,7 @@
 #define tippCrossedPart_h
 
 #include "Constraints/ConstraintSegments.h"
-#include "Constraints/TriangleScan.h"
+#include "Constraints/Insertion/TriangleScan.h"
 #include "Triangulation/PointsView.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -83,7 +83,7 @@ VTKTIPPFILTERS_EXPORT std::size_t takeCrossed(PointsView points, const Constrain
 /// are sorted by triangle. Edges and vertices on segments are not added.
 template <typename Id>
 VTKTIPPFILTERS_EXPORT std::size_t moveCrossed(PointsView points, const ConstraintSegments& segments,
-  std::int64_t first, const std::vector<ScannedTriangles::Crossing>& crossings, Id* corners,
+  std::int64_t first, const std::vector<CrossedTriangles::Crossing>& crossings, Id* corners,
   std::size_t triangles, CrossedPart& part);
 
 /// Removes the triangles of jobs with incomplete segments, and returns them. isInner(vertex) says

@@ -2,8 +2,8 @@
 #ifndef tippLineWalker_h
 #define tippLineWalker_h
 
-#include "Constraints/ConstrainedMesh.h"
 #include "Constraints/Constraint.h"
+#include "Constraints/Insertion/ConstrainedMesh.h"
 #include "Constraints/SegmentTree.h"
 #include "Predicates/ExactPredicates.h"
 #include "Predicates/Points.h"

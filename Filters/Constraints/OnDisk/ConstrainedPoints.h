@@ -4,8 +4,8 @@
 
 #include "Constraints/ConstraintSegments.h"
 #include "Constraints/KeepInside.h"
-#include "Constraints/SplitStored.h"
-#include "Constraints/StoredConstraints.h"
+#include "Constraints/OnDisk/SplitStored.h"
+#include "Constraints/OnDisk/StoredConstraints.h"
 #include "Constraints/TableConstraints.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Points/PointStream.h"

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Constraints/CrossedPart.h"
+#include "Constraints/Insertion/CrossedPart.h"
 
 #include "Arrays/SortUnique.h"
-#include "Constraints/ConstraintJobs.h"
 #include "Constraints/ConstraintPoints.h"
-#include "Constraints/TriangleScan.h"
+#include "Constraints/Insertion/ConstraintJobs.h"
+#include "Constraints/Insertion/TriangleScan.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 namespace tipp
@@ -19,17 +18,23 @@ namespace tipp
 namespace
 {
 
-using TouchOfPiece = CrossedTriangles::Touch;
-
-void keepUniqueTouches(std::vector<CrossedPart::Touch>& touches)
+/// Sorts items by key(item), and removes those whose key is repeated.
+template <typename Item, typename Key>
+void sortUniqueBy(std::vector<Item>& items, const Key& key)
 {
-  const auto key = [](const CrossedPart::Touch& touch)
-  { return std::make_pair(touch.Segment, touch.Vertex); };
   std::sort(
-    touches.begin(), touches.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
-  touches.erase(std::unique(touches.begin(), touches.end(),
-                  [&](const auto& a, const auto& b) { return key(a) == key(b); }),
-    touches.end());
+    items.begin(), items.end(), [&key](const Item& a, const Item& b) { return key(a) < key(b); });
+  items.erase(std::unique(items.begin(), items.end(),
+                [&key](const Item& a, const Item& b) { return key(a) == key(b); }),
+    items.end());
+}
+
+/// Sorts the part's known segments and its touches, and removes repeated ones.
+void removeRepeated(CrossedPart& part)
+{
+  sortUniqueBy(part.Known, [](const SegmentTree::Item& item) { return item.Id; });
+  sortUniqueBy(part.Touches,
+    [](const CrossedPart::Touch& touch) { return std::make_pair(touch.Segment, touch.Vertex); });
 }
 
 std::size_t segmentBegin(const CrossedPart& part, std::size_t triangle)
@@ -37,18 +42,7 @@ std::size_t segmentBegin(const CrossedPart& part, std::size_t triangle)
   return triangle == 0 ? 0 : std::size_t(part.SegmentEnds[triangle - 1]);
 }
 
-/// Sorts the part's known segments and removes repeated ones.
-void sortKnown(CrossedPart& part)
-{
-  using Item = SegmentTree::Item;
-  std::sort(
-    part.Known.begin(), part.Known.end(), [](const Item& a, const Item& b) { return a.Id < b.Id; });
-  part.Known.erase(std::unique(part.Known.begin(), part.Known.end(),
-                     [](const Item& a, const Item& b) { return a.Id == b.Id; }),
-    part.Known.end());
-}
-
-/// The item in part.Known of a segment, given by its Id. Call after sortKnown().
+/// The item in part.Known of a segment, given by its Id. Call after removeRepeated().
 const SegmentTree::Item& knownOf(const CrossedPart& part, std::int64_t segment)
 {
   return *std::lower_bound(part.Known.begin(), part.Known.end(), segment,
@@ -93,20 +87,8 @@ void addTriangle(const CrossedPart& from, std::size_t t, CrossedPart& to)
 std::vector<char> findComplete(const CrossedPart& part, const std::vector<std::int64_t>& segments,
   const std::function<bool(std::int64_t)>& isInner)
 {
-  struct CrossedEdge
-  {
-    std::int64_t Segment;
-    std::int64_t Low;
-    std::int64_t High;
-
-    bool operator<(const CrossedEdge& other) const
-    {
-      return std::tie(this->Segment, this->Low, this->High) <
-        std::tie(other.Segment, other.Low, other.High);
-    }
-    bool operator==(const CrossedEdge& other) const { return !(*this < other) && !(other < *this); }
-  };
-  std::vector<CrossedEdge> edges;
+  // Segments, and the lower and the higher end of an edge that each crosses.
+  std::vector<std::array<std::int64_t, 3>> edges;
   for (std::size_t t = 0; t < part.Triangles.size(); ++t)
   {
     for (std::size_t s = segmentBegin(part, t); s < part.SegmentEnds[t]; ++s)
@@ -133,9 +115,9 @@ std::vector<char> findComplete(const CrossedPart& part, const std::vector<std::i
     if (i + 1 < edges.size() && edges[i] == edges[i + 1])
     {
       ++i;
-      continue;
+      continue; // both triangles at the edge are there
     }
-    isComplete[indexIn(segments, edges[i].Segment)] = 0;
+    isComplete[indexIn(segments, edges[i][0])] = 0;
   }
   for (const CrossedPart::Touch& touch : part.Touches)
   {
@@ -169,15 +151,11 @@ struct PartVertices
     {
       vertices.emplace_back(touch.Vertex, touch.Position);
     }
-    std::sort(vertices.begin(), vertices.end(),
-      [](const auto& a, const auto& b) { return a.first < b.first; });
+    sortUniqueBy(vertices, [](const auto& vertex) { return vertex.first; });
     for (const auto& [number, position] : vertices)
     {
-      if (this->Numbers.empty() || this->Numbers.back() != number)
-      {
-        this->Numbers.push_back(number);
-        this->Positions.push_back(position);
-      }
+      this->Numbers.push_back(number);
+      this->Positions.push_back(position);
     }
     this->Index.emplace(this->Positions);
   }
@@ -224,7 +202,7 @@ void append(CrossedPart&& from, CrossedPart& to)
 
 template <typename Id>
 std::size_t moveCrossed(PointsView points, const ConstraintSegments& segments, std::int64_t first,
-  const std::vector<ScannedTriangles::Crossing>& crossings, Id* corners, std::size_t triangles,
+  const std::vector<CrossedTriangles::Crossing>& crossings, Id* corners, std::size_t triangles,
   CrossedPart& part)
 {
   std::vector<std::int64_t> used;
@@ -279,7 +257,7 @@ std::size_t takeCrossed(PointsView points, const ConstraintSegments& segments, s
     const Id* const its = corners + 3 * edge.Triangle;
     part.FixedEdges.push_back({ first + its[edge.From], first + its[(edge.From + 1) % 3] });
   }
-  for (const TouchOfPiece& touch : found.Touches)
+  for (const CrossedTriangles::Touch& touch : found.Touches)
   {
     part.Touches.push_back(
       { segments.nameOf(touch.Piece), first + touch.Vertex, points[std::size_t(touch.Vertex)] });
@@ -289,8 +267,7 @@ std::size_t takeCrossed(PointsView points, const ConstraintSegments& segments, s
 
 CrossedPart splitIncomplete(CrossedPart& part, const std::function<bool(std::int64_t)>& isInner)
 {
-  keepUniqueTouches(part.Touches);
-  sortKnown(part);
+  removeRepeated(part);
   const std::vector<std::int64_t> used = sortedUnique(part.Segments);
   const std::vector<char> isComplete = findComplete(part, used, isInner);
   const CrossedTriangles crossed = crossingsOf(part, used);
@@ -344,8 +321,7 @@ void retriangulate(CrossedPart& part, int threads)
   }
   const std::vector<std::int64_t> used = sortedUnique(part.Segments);
   CrossedTriangles crossed = crossingsOf(part, used);
-  keepUniqueTouches(part.Touches);
-  sortKnown(part);
+  removeRepeated(part);
   PartVertices vertices(part);
   for (const CrossedPart::Touch& touch : part.Touches)
   {
@@ -448,7 +424,7 @@ std::size_t cutTriangles(
 }
 
 template std::size_t moveCrossed(PointsView, const ConstraintSegments&, std::int64_t,
-  const std::vector<ScannedTriangles::Crossing>&, std::int32_t*, std::size_t, CrossedPart&);
+  const std::vector<CrossedTriangles::Crossing>&, std::int32_t*, std::size_t, CrossedPart&);
 template std::size_t takeCrossed(
   PointsView, const ConstraintSegments&, std::int64_t, std::int32_t*, std::size_t, CrossedPart&);
 template std::size_t takeCrossed(

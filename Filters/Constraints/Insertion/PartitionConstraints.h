@@ -3,8 +3,8 @@
 #define tippPartitionConstraints_h
 
 #include "Constraints/Constraint.h"
-#include "Constraints/CrossedTriangles.h"
-#include "Constraints/PartitionPieces.h"
+#include "Constraints/Insertion/CrossedTriangles.h"
+#include "Constraints/Insertion/PartitionPieces.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Worker.h"
 
@@ -40,12 +40,10 @@ public:
   /// The indices of the pieces that are left for later, ascending.
   std::vector<std::int64_t> remaining() const;
 
-  /// The index of a crossed triangle among the partition's interior ones, and the index of a piece.
-  using Crossing = std::pair<std::size_t, std::int64_t>;
-
   /// All crossings of a partition's interior triangles with pieces that are left for later:
-  /// ascending, without repetition. Partitions are numbered as in begin().
-  const std::vector<Crossing>& crossingsIn(PartitionIndex partition) const
+  /// ascending, without repetition. Triangles are indices among the partition's interior ones;
+  /// partitions are numbered as in begin().
+  const std::vector<CrossedTriangles::Crossing>& crossingsIn(PartitionIndex partition) const
   {
     return this->Crossings[std::size_t(partition)];
   }
@@ -81,7 +79,7 @@ private:
   std::mutex Mutex;
   std::vector<CrossedTriangles::Touch> Touches;
   std::vector<Edge> FixedEdges;
-  std::vector<std::vector<Crossing>> Crossings; ///< by partition
+  std::vector<std::vector<CrossedTriangles::Crossing>> Crossings; ///< by partition
 };
 
 } // namespace tipp

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Constraints/ConstraintJobs.h"
+#include "Constraints/Insertion/ConstraintJobs.h"
 
 #include "Arrays/IndexMap.h"
-#include "Constraints/ConstraintRegion.h"
-#include "Constraints/TriangleStrip.h"
+#include "Constraints/Insertion/ConstraintRegion.h"
+#include "Constraints/Insertion/TriangleStrip.h"
 #include "Parallel/ParallelFor.h"
 #include "Triangulation/TriangleSink.h"
 
@@ -103,7 +103,8 @@ struct Jobs
   std::vector<std::int64_t> OfPiece; ///< by index in Pieces
 };
 
-/// Jobs are in the order of their first triangles, so that a job's memory is near the last one's.
+/// Jobs are in the order of their first triangles, so that a job's memory is near that of the one
+/// before.
 Jobs makeJobs(const CrossedTriangles& crossed)
 {
   Jobs jobs;

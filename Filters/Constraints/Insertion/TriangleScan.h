@@ -2,7 +2,7 @@
 #ifndef tippTriangleScan_h
 #define tippTriangleScan_h
 
-#include "Constraints/CrossedTriangles.h"
+#include "Constraints/Insertion/CrossedTriangles.h"
 #include "Constraints/SegmentTree.h"
 #include "Kernel/Lanes.h"
 #include "Predicates/ExactPredicates.h"
@@ -21,21 +21,6 @@ namespace tipp
 /// The results of a scan.
 struct ScannedTriangles
 {
-  struct Crossing
-  {
-    std::int64_t Triangle;
-    std::int64_t Piece;
-
-    bool operator<(const Crossing& other) const
-    {
-      return this->Triangle != other.Triangle ? this->Triangle < other.Triangle
-                                              : this->Piece < other.Piece;
-    }
-    bool operator==(const Crossing& other) const
-    {
-      return this->Triangle == other.Triangle && this->Piece == other.Piece;
-    }
-  };
   /// An edge of a triangle that is on a segment.
   struct Edge
   {
@@ -43,7 +28,7 @@ struct ScannedTriangles
     std::size_t From;     ///< the corner where the edge starts, 0 to 2
     std::int64_t Segment; ///< Id of the segment
   };
-  std::vector<Crossing> Crossings;
+  std::vector<CrossedTriangles::Crossing> Crossings;
   std::vector<CrossedTriangles::Touch> Touches;
   std::vector<Edge> Edges; ///< of crossed triangles, or of all triangles
 };
@@ -294,7 +279,7 @@ private:
     {
       const bool isEnd = p[i] == segment.A || p[i] == segment.B;
       side[i] = isEnd ? 0 : orientation(segment.A, segment.B, p[i]);
-      const bool isTouch = side[i] == 0 && !isEnd && isBetween(segment, p[i]);
+      const bool isTouch = side[i] == 0 && !isEnd && isBetween(segment.A, p[i], segment.B);
       isOn[i] = isEnd || isTouch;
       if (isTouch)
       {
@@ -317,14 +302,6 @@ private:
       }
     }
     return false;
-  }
-
-  /// Whether p, a point on the segment's line, is strictly between its ends.
-  static bool isBetween(const SegmentTree::Item& segment, Point2 p)
-  {
-    return lexicographicLess(segment.A, segment.B)
-      ? lexicographicLess(segment.A, p) && lexicographicLess(p, segment.B)
-      : lexicographicLess(segment.B, p) && lexicographicLess(p, segment.A);
   }
 
   PointsView Points;

@@ -3,9 +3,9 @@
 #define tippConstraintRegion_h
 
 #include "Arrays/IndexMap.h"
-#include "Constraints/ConstrainedMesh.h"
-#include "Constraints/LineWalker.h"
-#include "Constraints/SegmentInserter.h"
+#include "Constraints/Insertion/ConstrainedMesh.h"
+#include "Constraints/Insertion/LineWalker.h"
+#include "Constraints/Insertion/SegmentInserter.h"
 #include "Predicates/Points.h"
 #include "Triangulation/Triangulate.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Constraints/ConstraintRegion.h"
+#include "Constraints/Insertion/ConstraintRegion.h"
 
 #include "Constraints/Constraint.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Constraints/PartitionConstraints.h"
+#include "Constraints/Insertion/PartitionConstraints.h"
 
 #include "Arrays/SortUnique.h"
-#include "Constraints/ConstrainedMesh.h"
-#include "Constraints/LineWalker.h"
-#include "Constraints/SegmentInserter.h"
+#include "Constraints/Insertion/ConstrainedMesh.h"
+#include "Constraints/Insertion/LineWalker.h"
+#include "Constraints/Insertion/SegmentInserter.h"
 #include "Constraints/SegmentTree.h"
 #include "Kernel/DelaunayKernel.h"
 #include "Kernel/Lanes.h"
@@ -397,7 +397,7 @@ private:
     {
       return;
     }
-    this->Noted.push_back({ DelaunayKernel::number(triangle), piece });
+    this->Noted.push_back({ std::int64_t(DelaunayKernel::number(triangle)), piece });
     for (Index i = 0; i < 3; ++i)
     {
       const Index half = triangle + i;
@@ -412,15 +412,15 @@ private:
   void publish(PartitionIndex partition)
   {
     sortUnique(this->Noted);
-    std::vector<Crossing> crossings;
+    std::vector<CrossedTriangles::Crossing> crossings;
     crossings.reserve(this->Noted.size());
-    std::size_t at = 0;
-    std::size_t before = 0; // number of interior triangles before `at`
+    std::int64_t at = 0;
+    std::int64_t before = 0; // number of interior triangles before `at`
     for (const auto& [triangle, piece] : this->Noted)
     {
-      before += std::size_t(std::count(this->IsBoundary + at, this->IsBoundary + triangle, 0));
+      before += std::count(this->IsBoundary + at, this->IsBoundary + triangle, 0);
       at = triangle;
-      crossings.emplace_back(before, piece);
+      crossings.push_back({ before, piece });
     }
     this->Of.Crossings[std::size_t(partition)] = std::move(crossings);
     const std::lock_guard<std::mutex> lock(this->Of.Mutex);
@@ -452,8 +452,8 @@ private:
     Point2 From;
     Point2 To;
   };
-  std::vector<EntryEdge> Border; ///< the partition's border, if it was needed
-  std::vector<Crossing> Noted;   ///< triangles are numbers in the kernel
+  std::vector<EntryEdge> Border;                 ///< the partition's border, if it was needed
+  std::vector<CrossedTriangles::Crossing> Noted; ///< triangles are numbers in the kernel
   std::vector<CrossedTriangles::Touch> Touches;
   std::vector<Edge> FixedEdges;
 };

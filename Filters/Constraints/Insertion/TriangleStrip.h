@@ -3,7 +3,7 @@
 #define tippTriangleStrip_h
 
 #include "Constraints/Constraint.h"
-#include "Constraints/TriangulateChain.h"
+#include "Constraints/Insertion/TriangulateChain.h"
 #include "Predicates/ExactPredicates.h"
 #include "Predicates/Points.h"
 #include "Triangulation/Triangulate.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Constraints/StoredConstraints.h"
+#include "Constraints/OnDisk/StoredConstraints.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 #ifndef tippSplitStored_h
 #define tippSplitStored_h
 
+#include "Constraints/OnDisk/StoredConstraints.h"
 #include "Constraints/ResolveCrossings.h"
-#include "Constraints/StoredConstraints.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>

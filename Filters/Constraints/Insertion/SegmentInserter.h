@@ -2,9 +2,9 @@
 #ifndef tippSegmentInserter_h
 #define tippSegmentInserter_h
 
-#include "Constraints/ConstrainedMesh.h"
-#include "Constraints/LineWalker.h"
-#include "Constraints/TriangulateChain.h"
+#include "Constraints/Insertion/ConstrainedMesh.h"
+#include "Constraints/Insertion/LineWalker.h"
+#include "Constraints/Insertion/TriangulateChain.h"
 
 #include <algorithm>
 #include <cstddef>

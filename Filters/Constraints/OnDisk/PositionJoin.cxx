@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Constraints/PositionJoin.h"
+#include "Constraints/OnDisk/PositionJoin.h"
 
 #include "Parallel/ParallelFor.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Constraints/SplitStored.h"
+#include "Constraints/OnDisk/SplitStored.h"
 
-#include "Constraints/SegmentTiles.h"
+#include "Constraints/OnDisk/SegmentTiles.h"
 #include "Predicates/Points.h"
 
 #include <algorithm>

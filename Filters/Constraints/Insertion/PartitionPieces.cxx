@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Constraints/PartitionPieces.h"
+#include "Constraints/Insertion/PartitionPieces.h"
 
 #include "Constraints/SegmentTree.h"
 #include "Parallel/ParallelFor.h"
