@@ -142,7 +142,7 @@ void RankRun<Id>::decideWhoWaits()
     this->Started = std::make_unique<ReadyPartitions>(
       *this->OwnOrder, Waits::ForLoad, this->thoseOf(this->Work.Owners));
   }
-  this->begin(*this->OwnOrder);
+  this->begin(*this->OwnOrder, this->OwnOrder->sequence());
 }
 
 template <typename Id>

@@ -73,7 +73,7 @@ RankRun3::RankRun3(
   std::copy_if(work.Order.sequence().begin(), work.Order.sequence().end(),
     std::back_inserter(this->OwnPartitions),
     [&](PartitionIndex p) { return work.ownerOf(p) == ranks.rank(); });
-  this->begin(work.Order);
+  this->begin(work.Order, work.Order.sequence());
 }
 
 /// Waits until a partition that this thread has begun is ready. Returns false if the run was
