@@ -142,13 +142,13 @@ void RankRun3::work(Cells& cells)
     this->Duplicates.end(), worker.duplicates().begin(), worker.duplicates().end());
 }
 
-void RankRun3::run(std::vector<VertexMessage3> initial)
+void RankRun3::run(SentMessages3 initial)
 {
-  for (std::size_t p = 0; p < initial.size(); ++p)
+  for (auto& [to, message] : initial)
   {
-    if (this->Work.ownerOf(PartitionIndex(p)) == this->Ranks.rank())
+    if (this->Work.ownerOf(to) == this->Ranks.rank())
     {
-      this->put(PartitionIndex(p), std::move(initial[p]));
+      this->put(to, std::move(message));
     }
   }
   std::vector<Cells> parts(std::size_t(this->Work.Threads), Cells(*this));

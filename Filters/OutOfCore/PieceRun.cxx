@@ -53,20 +53,15 @@ void PieceRun::prepare(const std::vector<char>& isDone)
     std::iota(left.end() - (end - begin), left.end(), begin);
   }
   this->begin(this->Sorted->partitions(), left);
-  // All processes make the same messages and keep those for their own pieces. A triangle with a
-  // true corner meets the corner's partition. So triangles that meet no partition have only
-  // artificial corners, which the hull repair does not need.
-  FinalBoundary<std::int64_t> none;
-  sendInitialMesh(
-    this->Sorted->takeInitialMesh(), this->Sorted->partitions(),
-    [&](PartitionIndex to, VertexMessage&& message)
+  // All processes make the same messages and keep those for their own pieces.
+  for (auto& [to, message] :
+    sendInitialMesh(this->Sorted->takeInitialMesh(), this->Sorted->partitions()))
+  {
+    if (isToDo[std::size_t(to)])
     {
-      if (isToDo[std::size_t(to)])
-      {
-        this->put(to, std::move(message));
-      }
-    },
-    none);
+      this->put(to, std::move(message));
+    }
+  }
   this->Ready = std::make_unique<ReadyPartitions>(
     this->Sorted->partitions(), ReadyPartitions::Waits::ForEarlierAndLoad, isToDo);
   for (PartitionIndex piece : sequence)
@@ -131,7 +126,7 @@ void PieceRun::takeBorders(const std::vector<PartitionIndex>& pieces)
   };
   for (const PartitionIndex piece : pieces)
   {
-    isBorderTaken(this->Work, piece) ? void() : takeBorder(this->Work, piece, resultOf);
+    takeBorder(this->Work, piece, resultOf);
   }
 }
 
