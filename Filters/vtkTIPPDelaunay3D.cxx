@@ -172,7 +172,7 @@ void vtkTIPPDelaunay3D::Execute(
   {
     output->GetCellData()->AddArray(mesh.Dimension == 2
         ? tipp::takeArray("NeighborIds", tipp::neighborIds(triangles), 3)
-        : tipp::takeArray("NeighborIds", tipp::neighborIds(mesh, std::size_t(count)), 4));
+        : tipp::takeArray("NeighborIds", tipp::neighborIds(mesh), 4));
   }
   else if (this->GenerateNeighborIds)
   {

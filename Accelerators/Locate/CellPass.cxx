@@ -2,8 +2,8 @@
 #include "Locate/CellPass.h"
 
 #include "Locate/CellChoice.h"
+#include "Locate/GridBuckets.h"
 #include "Locate/Locations.h"
-#include "Locate/PointBuckets.h"
 #include "Locate/PointRows.h"
 
 #include <algorithm>
@@ -93,7 +93,7 @@ private:
   const Box<3>& Around;
 };
 
-/// The pass over the cells of a mesh, which look for their points in PointBuckets or PointRows.
+/// The pass over the cells of a mesh, which look for their points in GridBuckets or PointRows.
 template <typename Access, typename Search>
 class Pass
 {
@@ -295,8 +295,7 @@ bool locateInOnePass(const SimplexMesh& mesh, const std::int64_t* cellIds,
             .run();
         };
         const PointRows<D> rows(points.Count, threads, at);
-        isDone =
-          rows.size() > 0 ? passes(rows) : passes(PointBuckets<D>(points.Count, threads, at));
+        isDone = rows.size() > 0 ? passes(rows) : passes(GridBuckets<D>(points.Count, threads, at));
       });
   }
   return isDone;

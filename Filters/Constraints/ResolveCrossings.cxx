@@ -6,7 +6,7 @@
 #include "Parallel/ParallelFor.h"
 #include "Predicates/ExactArithmetic.h"
 #include "Predicates/ExactPredicates.h"
-#include "Triangulation/PointBuckets.h"
+#include "Triangulation/PopulatePages.h"
 
 #include <algorithm>
 #include <cmath>

@@ -263,8 +263,7 @@ void preferLowestGlobalIds(
     duplicate = { points.GlobalIds[std::size_t(duplicate.Point - firstId)],
       points.GlobalIds[std::size_t(duplicate.Representative - firstId)] };
   }
-  std::sort(duplicates.begin(), duplicates.end(),
-    [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
+  std::sort(duplicates.begin(), duplicates.end());
 }
 
 /// For each vertex that this rank shares, by internal id, the other ranks with cells at it.
@@ -471,8 +470,7 @@ void gatherDuplicatesAndRejected(Communicator& ranks, const Mesh& mine, Result& 
   all.Duplicates = gatherList(ranks, mine.Duplicates);
   all.Rejected = gatherList(ranks, mine.Rejected);
   std::sort(all.Rejected.begin(), all.Rejected.end());
-  std::sort(all.Duplicates.begin(), all.Duplicates.end(),
-    [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
+  std::sort(all.Duplicates.begin(), all.Duplicates.end());
 }
 
 } // namespace tipp

@@ -8,6 +8,7 @@
 #include "Ranks/Communicator.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/PointsView.h"
+#include "Triangulation/PopulatePages.h"
 #include "Triangulation/Tiling.h"
 
 #include <algorithm>

@@ -18,7 +18,6 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
-#include <iterator>
 #include <mutex>
 #include <stdexcept>
 #include <utility>
@@ -32,9 +31,10 @@ constexpr MessageKind PartitionDoneMessage = kindAfter(0);
 /// With masters: a partition to triangulate, with its inbox.
 constexpr MessageKind TaskMessage = kindAfter(1);
 
-/// A rank's part of a triangulation in the plane or in space: the rank triangulates the partitions
-/// whose points it owns. This base class has the partitions' inboxes, and exchanges messages about
-/// finished partitions with other ranks. `SentMessage` has the vertices for one inbox.
+/// A rank's part of a triangulation in the plane or in space, in memory or out of core: the rank
+/// triangulates the partitions whose points it owns. This base class has the partitions' inboxes,
+/// and exchanges messages about finished partitions with other ranks, if there are any.
+/// `SentMessage` has the vertices for one inbox.
 ///
 /// One rank, the *keeper*, stores a partition's inbox, receives a message when each partition that
 /// this one waits for is done, and then starts it. By default it is the owner of the partition's
@@ -99,14 +99,19 @@ protected:
   virtual bool startPartitions() { return false; }
   /// Returns whether messages must be handled soon, even if all threads of this rank are busy.
   virtual bool areOthersWaiting() const { return false; }
+  /// Returns whether this rank has triangulated its partitions and needs no more messages.
+  virtual bool isFinished() const
+  {
+    return this->LeftPartitions == 0 && this->AwaitedMessages == 0 && this->AwaitedTasks == 0;
+  }
 
   /// Sets the order of the partitions, and counts what this rank waits for. `order` must outlive
-  /// this object.
-  void begin(const PartitionOrder& order)
+  /// this object. `left`: the partitions that are not done yet.
+  void begin(const PartitionOrder& order, const std::vector<PartitionIndex>& left)
   {
     this->Order = &order;
     const int rank = this->Ranks.rank();
-    for (const PartitionIndex p : order.sequence())
+    for (const PartitionIndex p : left)
     {
       const bool isOwn = this->ownerOf(p) == rank;
       const std::vector<std::int32_t> to = this->recipientsOf(p);
@@ -152,13 +157,12 @@ protected:
   void finish(PartitionIndex p, Sent&& sent, std::size_t points)
   {
     const int rank = this->Ranks.rank();
-    std::vector<Outgoing> outgoing;
     for (const std::int32_t other : this->recipientsOf(p))
     {
       if (other != rank)
       {
-        outgoing.push_back({ other,
-          writeDone(p, sent, [&](PartitionIndex to) { return this->keeperOf(to) == other; }) });
+        this->queue(other, PartitionDoneMessage,
+          writeDone(p, sent, [&](PartitionIndex to) { return this->keeperOf(to) == other; }));
       }
     }
     for (auto& [to, message] : sent)
@@ -171,12 +175,18 @@ protected:
     this->PointsDone += points;
     {
       const std::lock_guard<std::mutex> lock(this->Mutex);
-      std::move(outgoing.begin(), outgoing.end(), std::back_inserter(this->ToSend));
       ++this->Statistics.Partitions;
     }
     this->setDoneHere(p);
     --this->LeftPartitions;
     this->notify();
+  }
+
+  /// Queues a message, which the main thread sends.
+  void queue(int to, MessageKind kind, Bytes content)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->ToSend.push_back({ to, kind, std::move(content) });
   }
 
   /// Handles the message that a partition of another rank is done.
@@ -213,10 +223,11 @@ protected:
   std::mutex Mutex;                ///< protects ToSend, Statistics, and results when a thread ends
 
 private:
-  /// A finished partition's messages to another rank.
+  /// A message to another rank.
   struct Outgoing
   {
     int Rank;
+    MessageKind Kind;
     Bytes Content;
   };
 
@@ -228,19 +239,25 @@ private:
     this->Changed.notify_all();
   }
 
-  /// Returns false if there was nothing to do.
-  bool sendAndReceive()
+  /// Sends the queued messages. Returns false if there are none.
+  bool send()
   {
     std::vector<Outgoing> outgoing;
     {
       const std::lock_guard<std::mutex> lock(this->Mutex);
       outgoing.swap(this->ToSend);
     }
-    bool moved = !outgoing.empty();
     for (Outgoing& message : outgoing)
     {
-      this->Ranks.post(message.Rank, PartitionDoneMessage, std::move(message.Content));
+      this->Ranks.post(message.Rank, message.Kind, std::move(message.Content));
     }
+    return !outgoing.empty();
+  }
+
+  /// Returns false if there was nothing to do.
+  bool sendAndReceive()
+  {
+    bool moved = this->send();
     for (Message message; this->Ranks.poll(message); moved = true)
     {
       this->receive(message);
@@ -256,8 +273,7 @@ private:
     constexpr std::chrono::microseconds longest(5000);
     constexpr double untilReport = 0.05;
     this->report();
-    while ((this->LeftPartitions > 0 || this->AwaitedMessages > 0 || this->AwaitedTasks > 0) &&
-      !this->source().isStopped())
+    while (!this->isFinished() && !this->source().isStopped())
     {
       if (!this->sendAndReceive())
       {
@@ -269,19 +285,21 @@ private:
           this->Changed.wait_for(lock, areWaiting ? ShortPause : longest);
         }
       }
-      if (this->SinceReport.seconds() > untilReport)
+      if (this->PointsDone != this->PointsReported || this->SinceReport.seconds() > untilReport)
       {
         this->report();
       }
     }
-    this->sendAndReceive();
+    this->send();
     this->report();
   }
 
   void report()
   {
     this->SinceReport.restart();
-    if (this->Progress && !this->Progress(double(this->PointsDone) / double(this->PointCount)))
+    this->PointsReported = this->PointsDone;
+    const double done = double(this->PointsReported) / double(this->PointCount);
+    if (this->Progress && !this->Progress(done))
     {
       throw RankFailure(this->Ranks.rank(), true, "The run was stopped.");
     }
@@ -290,6 +308,7 @@ private:
   const std::size_t PointCount;
   const std::function<bool(double)>& Progress;
   std::vector<Outgoing> ToSend;
+  std::size_t PointsReported = 0;
   Stopwatch SinceReport;
 };
 

@@ -142,7 +142,7 @@ void RankRun<Id>::decideWhoWaits()
     this->Started = std::make_unique<ReadyPartitions>(
       *this->OwnOrder, Waits::ForLoad, this->thoseOf(this->Work.Owners));
   }
-  this->begin(*this->OwnOrder);
+  this->begin(*this->OwnOrder, this->OwnOrder->sequence());
 }
 
 template <typename Id>
@@ -162,27 +162,22 @@ std::vector<std::int32_t> RankRun<Id>::recipientsOf(PartitionIndex p) const
 }
 
 /// Sends the triangles of this rank's part of the initial mesh to the inboxes that it keeps.
-/// Triangles that meet no partition have artificial corners only, so none is final.
 template <typename Id>
 void RankRun<Id>::sendInitial(const BoundaryTriangles& part)
 {
-  FinalBoundary<std::int64_t> none;
-  sendInitialMesh(
-    part, *this->Order,
-    [&](PartitionIndex to, VertexMessage&& message)
+  for (auto& [to, message] : sendInitialMesh(part, *this->Order))
+  {
+    if (this->keeperOf(to) == this->Ranks.rank())
     {
-      if (this->keeperOf(to) == this->Ranks.rank())
-      {
-        this->put(to, std::move(message));
-      }
-    },
-    none);
+      this->put(to, std::move(message));
+    }
+  }
 }
 
 template <typename Id>
 void RankRun<Id>::put(PartitionIndex to, VertexMessage&& message)
 {
-  this->KeptTriangles += message.Triangles;
+  this->KeptTriangles += message.Cells;
   RankEngine::put(to, std::move(message));
 }
 
@@ -200,12 +195,7 @@ void RankRun<Id>::work(Contribution& part)
     routing.setPartition(p);
     worker.triangulate(
       p, unique.collect(this->Inboxes[std::size_t(p)].take()), (*this->Boxes)[p], routing);
-    SentMessages sent;
-    routing.send(
-      worker,
-      [&](PartitionIndex to, VertexMessage&& message)
-      { sent.emplace_back(to, std::move(message)); },
-      part.Boundary);
+    SentMessages sent = routing.send(worker, part.Boundary);
     this->InteriorCounts[std::size_t(p)] = worker.interiorCount();
     part.WorkerVertices += std::int64_t(worker.vertexCount());
     part.Duplicates.insert(
@@ -348,10 +338,10 @@ template <typename Id>
 void RankRun<Id>::start(PartitionIndex p)
 {
   std::vector<VertexMessage> messages = this->Inboxes[std::size_t(p)].take();
-  VertexMessage all{ { -1, UniqueVertices().collect(messages) }, 0 };
+  VertexMessage all{ -1, 0, UniqueVertices().collect(messages) };
   for (const VertexMessage& message : messages)
   {
-    all.Triangles += message.Triangles;
+    all.Cells += message.Cells;
   }
   const std::int32_t owner = this->ownerOf(p);
   ++this->InFlight[std::size_t(owner)];
@@ -373,7 +363,7 @@ void RankRun<Id>::start(PartitionIndex p)
     }
     ++this->Figures.Stages[colour].ActivePartitions;
   }
-  this->KeptTriangles -= all.Triangles;
+  this->KeptTriangles -= all.Cells;
   if (owner == this->Ranks.rank())
   {
     this->Inboxes[std::size_t(p)].put(std::move(all));

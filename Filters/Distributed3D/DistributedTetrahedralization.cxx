@@ -93,22 +93,6 @@ PointBuckets3 shareInitialPoints(Communicator& ranks, const Tiling3& tiling, std
   return all;
 }
 
-/// Collects the tetrahedra of the hull repair.
-struct HullCells : public FinalCellConsumer3
-{
-  explicit HullCells(std::vector<IdCell<4>>& cells)
-    : Cells(cells)
-  {
-  }
-  void addInside(const std::array<std::int64_t, 4>& ids) override { this->Cells.push_back(ids); }
-  void add(const std::array<Vertex3, 4>& corners) override
-  {
-    this->addInside({ corners[0].Id, corners[1].Id, corners[2].Id, corners[3].Id });
-  }
-
-  std::vector<IdCell<4>>& Cells;
-};
-
 /// The run of one rank; its member functions are the steps.
 class DistributedRun3
 {
@@ -176,16 +160,8 @@ private:
   {
     constexpr std::int64_t wanted = 1 << 16;
     const auto step = std::size_t(std::max<std::int64_t>(1, this->Result.AllPoints / wanted));
-    std::vector<Point3> own;
-    for (std::size_t i = step / 2; i < this->Input.Count; i += step)
-    {
-      const Point3& p = this->Input.Points[i];
-      if (isFinite(p))
-      {
-        own.push_back({ p.x * this->Factor, p.y * this->Factor, p.z * this->Factor });
-      }
-    }
-    return concatenated(this->Ranks.allGather(own));
+    return concatenated(this->Ranks.allGather(
+      samplePoints(this->Input.Points, this->Input.Count, step, this->Factor)));
   }
 
   /// Divides space among the ranks, and sends each rank the points of its partitions.
@@ -267,8 +243,10 @@ private:
     std::vector<Vertex3> vertices = gatherList(this->Ranks, own);
     if (this->Ranks.isFirst())
     {
-      HullCells cells(this->Kept);
-      repairHull(std::move(vertices), artificial, cells);
+      repairHull(std::move(vertices), artificial,
+        [this](const std::array<Vertex3, 4>& v) {
+          this->Kept.push_back({ v[0].Id, v[1].Id, v[2].Id, v[3].Id });
+        });
     }
   }
 

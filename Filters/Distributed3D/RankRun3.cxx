@@ -73,7 +73,7 @@ RankRun3::RankRun3(
   std::copy_if(work.Order.sequence().begin(), work.Order.sequence().end(),
     std::back_inserter(this->OwnPartitions),
     [&](PartitionIndex p) { return work.ownerOf(p) == ranks.rank(); });
-  this->begin(work.Order);
+  this->begin(work.Order, work.Order.sequence());
 }
 
 /// Waits until a partition that this thread has begun is ready. Returns false if the run was
@@ -142,13 +142,13 @@ void RankRun3::work(Cells& cells)
     this->Duplicates.end(), worker.duplicates().begin(), worker.duplicates().end());
 }
 
-void RankRun3::run(std::vector<VertexMessage3> initial)
+void RankRun3::run(SentMessages3 initial)
 {
-  for (std::size_t p = 0; p < initial.size(); ++p)
+  for (auto& [to, message] : initial)
   {
-    if (this->Work.ownerOf(PartitionIndex(p)) == this->Ranks.rank())
+    if (this->Work.ownerOf(to) == this->Ranks.rank())
     {
-      this->put(PartitionIndex(p), std::move(initial[p]));
+      this->put(to, std::move(message));
     }
   }
   std::vector<Cells> parts(std::size_t(this->Work.Threads), Cells(*this));

@@ -39,7 +39,7 @@ public:
 
   /// Runs the triangulation. `initial`: the messages of the initial mesh to all partitions.
   /// Collective. Throws RankFailure.
-  void run(std::vector<VertexMessage3> initial);
+  void run(SentMessages3 initial);
 
   /// By thread: tetrahedra whose corners are all this rank's points, by indices of these.
   std::vector<std::vector<CellIds>> Inside;

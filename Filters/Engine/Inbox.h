@@ -2,8 +2,8 @@
 #ifndef tippInbox_h
 #define tippInbox_h
 
+#include "Engine/PartitionOrder.h"
 #include "Ranks/Communicator.h"
-#include "Triangulation/Tiling.h"
 
 #include <algorithm>
 #include <atomic>
@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -24,13 +25,69 @@ template <typename Vertex>
 struct VertexMessageOf
 {
   PartitionIndex Sender = -1; ///< -1: the initial mesh
+  std::int64_t Cells = 0;     ///< the number of cells that these are the vertices of
   std::vector<Vertex> Vertices;
 };
 
 template <typename Archive, typename Vertex>
 void serialize(Archive& archive, VertexMessageOf<Vertex>& message)
 {
-  archive(message.Sender, message.Vertices);
+  archive(message.Sender, message.Cells, message.Vertices);
+}
+
+/// Messages with their recipients.
+template <typename Vertex>
+using SentMessagesOf = std::vector<std::pair<PartitionIndex, VertexMessageOf<Vertex>>>;
+
+/// Returns messages with the vertices of cells, which are sent once to each recipient. `cells` has
+/// a list for each recipient; one without cells gets no message. A cell is an array of indices
+/// below `vertexEnd`; vertexAt(index) returns a vertex.
+template <typename Cell, typename VertexAt>
+auto messagesWith(PartitionIndex sender, const std::vector<std::vector<Cell>>& cells,
+  std::size_t vertexEnd, const VertexAt& vertexAt)
+{
+  using Vertex = std::decay_t<decltype(vertexAt(cells[0][0][0]))>;
+  SentMessagesOf<Vertex> messages;
+  std::vector<std::uint32_t> sentTo(vertexEnd, 0); // by vertex: its last recipient, counted from 1
+  std::uint32_t recipient = 0;
+  for (const std::vector<Cell>& list : cells)
+  {
+    VertexMessageOf<Vertex> message{ sender, std::int64_t(list.size()), {} };
+    ++recipient;
+    for (const Cell& cell : list)
+    {
+      for (const auto index : cell)
+      {
+        if (std::exchange(sentTo[std::size_t(index)], recipient) != recipient)
+        {
+          message.Vertices.push_back(vertexAt(index));
+        }
+      }
+    }
+    if (!list.empty())
+    {
+      messages.emplace_back(PartitionIndex(recipient - 1), std::move(message));
+    }
+  }
+  return messages;
+}
+
+/// Sends each cell of an initial mesh to the first partition that it meets. Cells that meet no
+/// partition are dropped: a true corner's partition is met, so they have only artificial corners,
+/// which nobody needs.
+template <typename Mesh>
+auto sendInitialMesh(const Mesh& mesh, const PartitionOrder& order)
+{
+  std::vector<std::decay_t<decltype(mesh.Cells)>> cells(order.partitionCount());
+  for (std::size_t i = 0; i < mesh.Cells.size(); ++i)
+  {
+    if (mesh.metBegin(i) != mesh.metEnd(i))
+    {
+      cells[std::size_t(order.first(mesh.metBegin(i), mesh.metEnd(i)))].push_back(mesh.Cells[i]);
+    }
+  }
+  return messagesWith(
+    -1, cells, mesh.Vertices.size(), [&mesh](std::uint32_t index) { return mesh.Vertices[index]; });
 }
 
 /// The messages sent to one partition; a message has the member `Sender`. Any thread may add one,

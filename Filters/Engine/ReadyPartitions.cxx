@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Engine/ReadyPartitions.h"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <chrono>
 #include <thread>
@@ -175,6 +177,25 @@ void ReadyPartitions::stop(const std::exception_ptr& reason)
     this->Failure = reason;
   }
   this->Stopped = true;
+}
+
+void runWorkers(ReadyPartitions& ready, int threads, const std::function<void(int thread)>& work)
+{
+#pragma omp parallel num_threads(threads)
+  {
+    try
+    {
+      work(omp_get_thread_num());
+    }
+    catch (...)
+    {
+      ready.stop(std::current_exception());
+    }
+  }
+  if (ready.failure())
+  {
+    std::rethrow_exception(ready.failure());
+  }
 }
 
 } // namespace tipp

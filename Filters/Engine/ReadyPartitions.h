@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdint>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -74,6 +75,10 @@ private:
   std::mutex FailureMutex;
   std::exception_ptr Failure;
 };
+
+/// Calls work(thread) in this many threads, one of which is the caller's. If a call throws, no more
+/// partitions are handed out, and the first exception is thrown when all threads have ended.
+void runWorkers(ReadyPartitions& ready, int threads, const std::function<void(int thread)>& work);
 
 /// Threads that are joined when the work ends, also by an exception.
 class WorkerThreads

@@ -6,8 +6,6 @@
 #include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
-#include <numeric>
-#include <stdexcept>
 #include <utility>
 
 namespace tipp
@@ -111,57 +109,6 @@ void repairHull(std::vector<BoundaryVertex> vertices, const std::vector<Boundary
   }
 }
 
-void OutgoingTriangles::clear(std::size_t vertexEnd)
-{
-  this->Triangles.clear();
-  this->SentTo.assign(vertexEnd, ~0U);
-}
-
-template <typename VertexOf, typename Deliver>
-std::int64_t OutgoingTriangles::send(PartitionIndex sender, std::size_t recipients,
-  const VertexOf& vertexOf, const Deliver& deliver, FinalTriangleConsumer& final)
-{
-  // A counting sort: until the triangles are copied, Ends has the start of each recipient's range.
-  this->Ends.assign(recipients + 2, 0);
-  for (const Triangle& triangle : this->Triangles)
-  {
-    ++this->Ends[std::size_t(triangle.Recipient) + 1];
-  }
-  std::partial_sum(this->Ends.begin(), this->Ends.end(), this->Ends.begin());
-  const std::size_t sent = this->Ends[recipients];
-  this->Sorted.resize(this->Triangles.size());
-  for (const Triangle& triangle : this->Triangles)
-  {
-    this->Sorted[this->Ends[triangle.Recipient]++] = triangle.Vertices;
-  }
-  std::size_t at = 0;
-  for (std::size_t recipient = 0; at < sent; ++recipient)
-  {
-    VertexMessage message{ { sender, {} }, std::int64_t(this->Ends[recipient] - at) };
-    for (; at < this->Ends[recipient]; ++at)
-    {
-      for (const DelaunayKernel::Index v : this->Sorted[at])
-      {
-        if (this->SentTo[std::size_t(v)] != recipient)
-        {
-          this->SentTo[std::size_t(v)] = static_cast<std::uint32_t>(recipient);
-          message.Vertices.push_back(vertexOf(v));
-        }
-      }
-    }
-    if (message.Triangles > 0)
-    {
-      deliver(recipient, std::move(message));
-    }
-  }
-  for (; at < this->Sorted.size(); ++at)
-  {
-    const Corners& v = this->Sorted[at];
-    final.add({ vertexOf(v[0]), vertexOf(v[1]), vertexOf(v[2]) });
-  }
-  return std::int64_t(sent);
-}
-
 template <typename Id>
 Routing<Id>::Routing(const PartitionOrder& order, const Regions& regions)
   : Order(order)
@@ -179,48 +126,36 @@ void Routing<Id>::setPartition(PartitionIndex p)
 template <typename Id>
 void Routing<Id>::begin(DelaunayKernel::Index vertexEnd)
 {
-  this->Triangles.clear(std::size_t(vertexEnd));
+  this->VertexEnd = std::size_t(vertexEnd);
+  this->Outgoing.assign(this->Later.size(), {});
+  this->Final.clear();
 }
 
 template <typename Id>
-void Routing<Id>::add(const std::array<DelaunayKernel::Index, 3>& corners, const Circumdisk& disk)
+void Routing<Id>::add(const Corners& corners, const Circumdisk& disk)
 {
   const auto next = std::find_if(this->Later.begin(), this->Later.end(),
     [&](PartitionIndex q) { return disk.meets(this->Boxes[q]); });
-  this->Triangles.add(std::size_t(next - this->Later.begin()), corners);
+  std::vector<Corners>& triangles = next == this->Later.end()
+    ? this->Final
+    : this->Outgoing[std::size_t(next - this->Later.begin())];
+  triangles.push_back(corners);
 }
 
 template <typename Id>
-std::int64_t Routing<Id>::send(
-  const Worker<Id>& worker, const DeliverMessage& deliver, FinalTriangleConsumer& final)
+SentMessages Routing<Id>::send(const Worker<Id>& worker, FinalTriangleConsumer& final) const
 {
-  return this->Triangles.send(
-    this->Sender, this->Later.size(),
-    [&](DelaunayKernel::Index v) { return worker.vertex(this->Sender, v); },
-    [&](std::size_t recipient, VertexMessage&& message)
-    { deliver(this->Later.begin()[recipient], std::move(message)); },
-    final);
-}
-
-std::int64_t sendInitialMesh(const BoundaryTriangles& mesh, const PartitionOrder& order,
-  const DeliverMessage& deliver, FinalTriangleConsumer& final)
-{
-  using Index = DelaunayKernel::Index;
-  OutgoingTriangles triangles;
-  triangles.clear(mesh.Vertices.size());
-  for (std::size_t i = 0; i < mesh.size(); ++i)
+  const auto vertexAt = [&](DelaunayKernel::Index v) { return worker.vertex(this->Sender, v); };
+  SentMessages sent = messagesWith(this->Sender, this->Outgoing, this->VertexEnd, vertexAt);
+  for (auto& [to, message] : sent)
   {
-    const auto [u, v, w] = mesh.Triangles[i];
-    triangles.add(mesh.metBegin(i) == mesh.metEnd(i)
-        ? order.partitionCount()
-        : std::size_t(order.first(mesh.metBegin(i), mesh.metEnd(i))),
-      { Index(u), Index(v), Index(w) });
+    to = this->Later.begin()[to];
   }
-  return triangles.send(
-    -1, order.partitionCount(), [&](Index v) { return mesh.Vertices[std::size_t(v)]; },
-    [&](std::size_t recipient, VertexMessage&& message)
-    { deliver(static_cast<PartitionIndex>(recipient), std::move(message)); },
-    final);
+  for (const Corners& v : this->Final)
+  {
+    final.add({ vertexAt(v[0]), vertexAt(v[1]), vertexAt(v[2]) });
+  }
+  return sent;
 }
 
 template struct FinalBoundary<std::int32_t>;

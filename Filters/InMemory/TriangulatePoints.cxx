@@ -98,62 +98,10 @@ Buffer<std::int64_t> neighborIds(const Triangulation& triangulation)
   return neighbors;
 }
 
-namespace
+Buffer<std::int64_t> neighborIds(const Tetrahedralization& mesh)
 {
-
-/// Returns the facet opposite to corner `slot` % 4 of tetrahedron `slot` / 4, ids ascending.
-std::array<std::int32_t, 3> facetOf(const Tetrahedralization& mesh, std::size_t slot)
-{
-  const std::int32_t* const cell = &mesh.Ids[slot / 4 * 4];
-  std::array<std::int32_t, 3> facet = { cell[(slot + 1) % 4], cell[(slot + 2) % 4],
-    cell[(slot + 3) % 4] };
-  std::sort(facet.begin(), facet.end());
-  return facet;
-}
-
-} // namespace
-
-Buffer<std::int64_t> neighborIds(const Tetrahedralization& mesh, std::size_t points)
-{
-  const std::size_t cells = mesh.cellCount();
-  Buffer<std::int64_t> neighbors(4 * cells);
-  // Sort facets by their lowest id. A facet is 4 * tetrahedron + i, where corner i is opposite to
-  // it.
-  std::vector<std::size_t> ends(points + 1, 0);
-  for (std::size_t slot = 0; slot < 4 * cells; ++slot)
-  {
-    ++ends[std::size_t(facetOf(mesh, slot)[0]) + 1];
-  }
-  for (std::size_t i = 0; i < points; ++i)
-  {
-    ends[i + 1] += ends[i];
-  }
-  Buffer<std::size_t> slots(4 * cells);
-  for (std::size_t slot = 0; slot < 4 * cells; ++slot)
-  {
-    slots[ends[std::size_t(facetOf(mesh, slot)[0])]++] = slot;
-  }
-  const auto count = std::int64_t(points);
-#pragma omp parallel for schedule(dynamic, 4096)
-  for (std::int64_t point = 0; point < count; ++point)
-  {
-    std::vector<std::pair<std::array<std::int32_t, 3>, std::size_t>> own;
-    const auto p = std::size_t(point);
-    for (std::size_t i = p == 0 ? 0 : ends[p - 1]; i < ends[p]; ++i)
-    {
-      own.emplace_back(facetOf(mesh, slots[i]), slots[i]);
-      neighbors[slots[i]] = -1;
-    }
-    std::sort(own.begin(), own.end());
-    for (std::size_t i = 0; i + 1 < own.size(); ++i)
-    {
-      if (own[i].first == own[i + 1].first)
-      {
-        neighbors[own[i].second] = std::int64_t(own[i + 1].second / 4);
-        neighbors[own[i + 1].second] = std::int64_t(own[i].second / 4);
-      }
-    }
-  }
+  Buffer<std::int64_t> neighbors(mesh.Ids.size());
+  findNeighbors<4>(mesh.Ids.data(), mesh.cellCount(), neighbors.data());
   return neighbors;
 }
 

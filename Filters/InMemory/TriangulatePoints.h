@@ -49,9 +49,8 @@ VTKTIPPFILTERS_EXPORT ConstrainedTriangulation triangulatePoints(
 Buffer<std::int64_t> neighborIds(const Triangulation& triangulation);
 
 /// Returns four values for each tetrahedron: for each corner the index of the tetrahedron across
-/// the opposite facet, or -1. `points`: the number of input points.
-VTKTIPPFILTERS_EXPORT Buffer<std::int64_t> neighborIds(
-  const Tetrahedralization& mesh, std::size_t points);
+/// the opposite facet, or -1.
+VTKTIPPFILTERS_EXPORT Buffer<std::int64_t> neighborIds(const Tetrahedralization& mesh);
 
 /// Returns three values for each triangle: for each corner 1 if the opposite edge is part of a
 /// constraint, else 0.

@@ -105,8 +105,8 @@ std::string borderName(const PieceWork& work, PartitionIndex piece)
   return std::to_string(work.Plan.number(piece)) + ".border";
 }
 
-} // namespace
-
+/// Passes triangles at the borders of any pieces to the consumer; `name` identifies this part (see
+/// TriangleConsumer::take()).
 void takeTriangles(const PieceWork& work, const std::string& name, const BordersByOwner& triangles,
   const ResultOf& results)
 {
@@ -122,8 +122,14 @@ void takeTriangles(const PieceWork& work, const std::string& name, const Borders
   takeMesh(work, name, border, results);
 }
 
+} // namespace
+
 void takeBorder(const PieceWork& work, PartitionIndex piece, const ResultOf& results)
 {
+  if (pathExists(takenPath(work, piece)))
+  {
+    return;
+  }
   BordersByOwner borders;
   for (PartitionIndex owner = 0; owner < work.Plan.pieces(); ++owner)
   {
@@ -134,17 +140,6 @@ void takeBorder(const PieceWork& work, PartitionIndex piece, const ResultOf& res
   }
   takeTriangles(work, borderName(work, piece), borders, results);
   OutputFile(takenPath(work, piece)).close();
-}
-
-void takeBorder(
-  const PieceWork& work, PartitionIndex piece, PieceBorder& border, const ResultOf& results)
-{
-  takeMesh(work, borderName(work, piece), border, results);
-}
-
-bool isBorderTaken(const PieceWork& work, PartitionIndex piece)
-{
-  return pathExists(takenPath(work, piece));
 }
 
 BorderQueue::BorderQueue(const PiecePlan& plan, const PartitionOrder& order)
@@ -241,25 +236,18 @@ protected:
     finished.Summary = this->Work.Mesh.Pieces[this->Work.Plan.number(piece)];
     finished.Summary.Cells =
       interior.Cells + std::int64_t(interior.InterfaceCells.size() + border.cells());
-    this->take(piece, border);
+    if (this->Work.takesBordersEarly())
+    {
+      takeBorder(this->Work, piece, this->results());
+    }
+    else
+    {
+      takeMesh(this->Work, borderName(this->Work, piece), border, this->results());
+    }
     return finished;
   }
 
 private:
-  /// Passes the border of a piece to the consumer, unless that was done earlier. `border`: the
-  /// triangles that the piece owns.
-  void take(PartitionIndex piece, PieceBorder& border) const
-  {
-    if (!this->Work.takesBordersEarly())
-    {
-      takeBorder(this->Work, piece, border, this->results());
-    }
-    else if (!isBorderTaken(this->Work, piece))
-    {
-      takeBorder(this->Work, piece, this->results());
-    }
-  }
-
   /// Inserts the constraints that no piece's interior contains completely: retriangulates all
   /// triangles that they cross, in interiors and borders, together.
   void constrain(int threads, BorderSorter& sorter)

@@ -197,22 +197,9 @@ protected:
 };
 
 /// Passes to the consumer the triangles between pieces that became final with the last partitions
-/// of `piece`. All pieces that conflict with it must be done, because their points may be corners.
-/// Throws IOError.
+/// of `piece`, unless this or an earlier process did so. All pieces that conflict with it must be
+/// done, because their points may be corners. Throws IOError.
 void takeBorder(const PieceWork& work, PartitionIndex piece, const ResultOf& results);
-
-/// Passes to the consumer the triangles at the border of the piece that owns them. Throws IOError.
-void takeBorder(
-  const PieceWork& work, PartitionIndex piece, PieceBorder& border, const ResultOf& results);
-
-/// Passes triangles at the borders of any pieces to the consumer; `name` identifies this part (see
-/// TriangleConsumer::take()). Throws IOError.
-void takeTriangles(const PieceWork& work, const std::string& name, const BordersByOwner& triangles,
-  const ResultOf& results);
-
-/// Returns whether the first takeBorder() has been completed for a piece, in this process or an
-/// earlier one.
-bool isBorderTaken(const PieceWork& work, PartitionIndex piece);
 
 /// Finds the pieces whose borders can be passed to the consumer. Pieces may become done in any
 /// order.

@@ -12,13 +12,14 @@
 
 namespace tipp
 {
-namespace
-{
 
-[[noreturn]] void throwChanged()
+void throwChanged()
 {
   throw IOError("The input has changed while it was read; start again.");
 }
+
+namespace
+{
 
 /// Finds the pieces of a block's points, and the indices of initial points within their pieces.
 class Labelling
@@ -352,8 +353,7 @@ std::unique_ptr<SpilledPoints> InputPasses::spill(
   return std::make_unique<SpilledPoints>(file, 3 + this->Points.columns().size(), rows);
 }
 
-InputHelper::InputHelper(
-  Communicator& ranks, std::function<std::unique_ptr<PointStream>()> open, PassOptions options)
+InputHelper::InputHelper(Communicator& ranks, OpenPoints open, PassOptions options)
   : Ranks(ranks)
   , Open(std::move(open))
   , Options(std::move(options))

@@ -19,6 +19,9 @@
 namespace tipp
 {
 
+/// Throws the IOError for an input that is not the same in all passes.
+[[noreturn]] void throwChanged();
+
 /// Writes the row of point number i of the block to `to`, in the order of PointRowLayout.
 void writeRow(const PointBlock& block, std::size_t i, char* to);
 
@@ -116,8 +119,7 @@ class VTKTIPPFILTERS_EXPORT InputHelper
 public:
   /// Of `options`, Threads and Progress are used; the first rank sends the others. Progress throws
   /// to stop the run.
-  InputHelper(
-    Communicator& ranks, std::function<std::unique_ptr<PointStream>()> open, PassOptions options);
+  InputHelper(Communicator& ranks, OpenPoints open, PassOptions options);
 
   /// Handles a request of the first rank. Returns false if the message is not one.
   bool take(const Message& message);
@@ -127,7 +129,7 @@ private:
   Bytes spill(LoadArchive& order);
 
   Communicator& Ranks;
-  const std::function<std::unique_ptr<PointStream>()> Open;
+  const OpenPoints Open;
   PassOptions Options;
   std::unique_ptr<PointStream> Points; ///< limited to this rank's part; null if the input differs
 };

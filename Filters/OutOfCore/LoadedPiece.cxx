@@ -23,43 +23,6 @@ bool isWorthKeeping(std::size_t vertices, std::size_t points)
   return vertices <= 2 * points + some;
 }
 
-/// Of points with the same coordinates, the one with the lowest index represents the others, even
-/// if another of them is a vertex of the initial mesh. All triangles at these points come from the
-/// worker of their partition once it is done, so renaming the vertex in its triangles is enough.
-class LowestPoints
-{
-public:
-  /// Changes `duplicates` so that the lowest points are the representatives.
-  explicit LowestPoints(std::vector<Duplicate>& duplicates)
-  {
-    for (const Duplicate& duplicate : duplicates)
-    {
-      if (duplicate.Point < duplicate.Representative)
-      {
-        std::int64_t& low =
-          this->Lowest.emplace(duplicate.Representative, duplicate.Point).first->second;
-        low = std::min(low, duplicate.Point);
-      }
-    }
-    for (Duplicate& duplicate : duplicates)
-    {
-      const std::int64_t low = this->renamed(duplicate.Representative);
-      duplicate = { duplicate.Point == low ? duplicate.Representative : duplicate.Point, low };
-    }
-  }
-
-  bool isEmpty() const { return this->Lowest.empty(); }
-
-  std::int64_t renamed(std::int64_t id) const
-  {
-    const auto found = this->Lowest.find(id);
-    return found == this->Lowest.end() ? id : found->second;
-  }
-
-private:
-  std::unordered_map<std::int64_t, std::int64_t> Lowest;
-};
-
 } // namespace
 
 /// Sorts the final boundary triangles of one partition into those of the piece's interior and those
@@ -201,18 +164,14 @@ SentMessages LoadedPiece::triangulate(
   std::vector<Duplicate> duplicates = worker.duplicates();
   const LowestPoints lowest(duplicates);
   FinalTriangleSorter sorter(*this, lowest);
-  SentMessages sent;
-  routing.send(
-    worker,
-    [&](PartitionIndex to, VertexMessage&& message)
+  SentMessages sent = routing.send(worker, sorter);
+  for (auto& [to, message] : sent)
+  {
+    for (BoundaryVertex& v : message.Vertices)
     {
-      for (BoundaryVertex& v : message.Vertices)
-      {
-        v.Id = lowest.renamed(v.Id);
-      }
-      sent.emplace_back(to, std::move(message));
-    },
-    sorter);
+      v.Id = lowest.renamed(v.Id);
+    }
+  }
 
   const PartitionIndex inPiece =
     partition - this->Work.Plan.FirstPartition[std::size_t(this->Piece)];

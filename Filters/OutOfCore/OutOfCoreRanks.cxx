@@ -29,16 +29,16 @@ std::string firstLine(const std::string& path)
   return line;
 }
 
-/// Reports progress on a rank other than the first before there are pieces to triangulate.
-void report(const Communicator& ranks, const OutOfCoreOptions& options)
+/// Reports progress on a rank other than the first while there are no pieces to triangulate.
+void report(const Communicator& ranks, const OutOfCoreOptions& options, double fraction)
 {
-  if (options.Progress && !options.Progress(0))
+  if (options.Progress && !options.Progress(fraction))
   {
     throw RankFailure(ranks.rank(), true, "The run was stopped.");
   }
 }
 
-Message waitForOrder(Communicator& ranks, const OutOfCoreOptions& options)
+Message waitForOrder(Communicator& ranks, const OutOfCoreOptions& options, double fraction)
 {
   constexpr double moment = 0.1;
   Stopwatch sinceReport;
@@ -48,7 +48,7 @@ Message waitForOrder(Communicator& ranks, const OutOfCoreOptions& options)
     if (sinceReport.seconds() > moment)
     {
       sinceReport.restart();
-      report(ranks, options);
+      report(ranks, options, fraction);
     }
     ranks.pause();
   }
@@ -64,13 +64,13 @@ bool receiveSetup(Communicator& ranks, const OpenPoints& open, const OutOfCoreOp
   {
     Message none; // no message comes; poll() throws if a rank has failed
     ranks.poll(none);
-    report(ranks, options);
+    report(ranks, options, 0);
   };
   InputHelper input(ranks, open, { 0, 0, threadCount(options.Threads), progress });
-  Message message = waitForOrder(ranks, options);
+  Message message = waitForOrder(ranks, options, 0);
   while (input.take(message))
   {
-    message = waitForOrder(ranks, options);
+    message = waitForOrder(ranks, options, 0);
   }
   if (message.Kind == EndMessage)
   {
@@ -97,10 +97,13 @@ void help(Communicator& ranks, const OpenPoints& open, const OutOfCoreOptions& o
     return;
   }
   prepared.beginTaking();
-  const auto progress = [&](std::int64_t done)
-  { return !options.Progress || options.Progress(double(done) / double(prepared.Survey.Points)); };
   const MemoryPlan memory(options, prepared.Rows.Words, prepared.Constraints != nullptr);
-  PieceRun(prepared.work(), memory, threadCount(options.Threads), progress, &ranks).run(isDone);
+  PieceRun(prepared.work(), memory, threadCount(options.Threads), options.Progress, ranks)
+    .run(isDone);
+  while (waitForOrder(ranks, options, 1).Kind != EndMessage)
+  {
+    // A result of another rank, which this rank does not need.
+  }
 }
 
 } // namespace

@@ -187,12 +187,11 @@ private:
     {
       shareSetup(*this->Ranks, this->Setup, this->Scratch.points(), isDone);
     }
-    const double all = double(this->Setup.Survey.Points);
-    PieceRun pieces(
-      work, *this->Memory, this->Threads,
-      [&](std::int64_t done) { return this->proceed(0.2 + 0.65 * double(done) / all); },
-      this->Ranks);
-    this->require(pieces.run(isDone));
+    Communicator alone(nullptr);
+    const std::function<bool(double)> progress = [this](double done)
+    { return this->proceed(0.2 + 0.65 * done); };
+    PieceRun(work, *this->Memory, this->Threads, progress, this->Ranks ? *this->Ranks : alone)
+      .run(isDone);
     this->Finished = finishPieces(
       work, this->Threads, [this](double done) { return this->proceed(0.85 + 0.05 * done); },
       this->Statistics);

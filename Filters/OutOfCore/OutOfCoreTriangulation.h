@@ -163,23 +163,19 @@ struct OutOfCoreStatistics : OutOfCoreRunStatistics
 VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCore(PointStream& points,
   const std::string& path, const OutOfCoreOptions& options = {}, Communicator* ranks = nullptr);
 
-/// @name From the first rank
+/// @name From the first rank; the kinds before these are those of RankEngine
 ///@{
 /// Handled by InputHelper, like the next two.
-constexpr MessageKind SurveyMessage = kindAfter(0);
-constexpr MessageKind FactorMessage = kindAfter(1);
-constexpr MessageKind SpillMessage = kindAfter(2);
-constexpr MessageKind SetUpMessage = kindAfter(3); ///< RunSetup, and which pieces are done
-constexpr MessageKind EndMessage = kindAfter(4);   ///< there is no more work
+constexpr MessageKind SurveyMessage = kindAfter(2);
+constexpr MessageKind FactorMessage = kindAfter(3);
+constexpr MessageKind SpillMessage = kindAfter(4);
+constexpr MessageKind SetUpMessage = kindAfter(5); ///< RunSetup, and which pieces are done
+constexpr MessageKind EndMessage = kindAfter(6);   ///< there is no more work
 ///@}
 /// An InputHelper's answer to the first rank.
-constexpr MessageKind PartMessage = kindAfter(5);
-/// @name Between any ranks
-///@{
-/// The partition is done; contains the vertices that it sends.
-constexpr MessageKind PartitionMessage = kindAfter(6);
-constexpr MessageKind PieceMessage = kindAfter(7); ///< the piece is done: its result is on disk
-///@}
+constexpr MessageKind PartMessage = kindAfter(7);
+/// Between any ranks: the piece is done, and its result is on disk.
+constexpr MessageKind PieceMessage = kindAfter(8);
 
 class RunSetup;
 

@@ -210,12 +210,7 @@ void PiecePlan::chooseInitialPoints(const InputSurvey& survey)
   }
   for (const std::vector<InitialPoint>& points : sampled)
   {
-    std::vector<Point2> positions;
-    positions.reserve(points.size());
-    for (const InitialPoint& p : points)
-    {
-      positions.push_back(p.Position);
-    }
+    const std::vector<Point2> positions = positionsOf(points);
     for (const std::size_t i :
       tipp::chooseInitialPoints(positions.data(), positions.size(), InitialPointsOfPartition))
     {

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <set>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -14,13 +14,12 @@ namespace tipp
 {
 
 PieceRun::PieceRun(const PieceWork& work, const MemoryPlan& memory, int threads,
-  std::function<bool(std::int64_t)> progress, Communicator* ranks)
-  : Work(work)
+  const std::function<bool(double)>& progress, Communicator& ranks)
+  : RankEngine(ranks, std::size_t(work.Plan.Partitions.size()),
+      std::size_t(work.Points.starts().back()), progress)
+  , Work(work)
   , Memory(memory)
   , Threads(threads)
-  , Progress(std::move(progress))
-  , Post(ranks)
-  , Inboxes(std::size_t(work.Plan.Partitions.size()))
   , Pieces(std::size_t(work.Plan.pieces()))
 {
 }
@@ -28,50 +27,48 @@ PieceRun::PieceRun(const PieceWork& work, const MemoryPlan& memory, int threads,
 void PieceRun::prepare(const std::vector<char>& isDone)
 {
   const PiecePlan& plan = this->Work.Plan;
-  this->Order = std::make_unique<PieceOrder>(plan, this->Work.Points, this->Threads);
+  this->Sorted = std::make_unique<PieceOrder>(plan, this->Work.Points, this->Threads);
   if (this->Work.takesBordersEarly())
   {
-    this->Borders = std::make_unique<BorderQueue>(plan, this->Order->partitions());
+    this->Borders = std::make_unique<BorderQueue>(plan, this->Sorted->partitions());
   }
-  const std::vector<PartitionIndex>& sequence = this->Order->sequence();
-  const std::size_t ranks = this->Post ? std::size_t(this->Post->size()) : 1;
+  const std::vector<PartitionIndex>& sequence = this->Sorted->sequence();
   std::vector<char> isToDo(this->Inboxes.size(), 0);
+  std::vector<PartitionIndex> left;
   for (std::size_t i = 0; i < sequence.size(); ++i)
   {
     const PartitionIndex piece = sequence[i];
     const PartitionIndex begin = plan.FirstPartition[std::size_t(piece)];
     const PartitionIndex end = plan.FirstPartition[std::size_t(piece) + 1];
-    this->at(piece).Rank = int(i % ranks);
+    this->at(piece).Rank = std::int32_t(i % std::size_t(this->Ranks.size()));
     if (isDone[std::size_t(piece)])
     {
-      this->PointsDone += this->Work.Points.count(piece);
+      this->PointsDone += std::size_t(this->Work.Points.count(piece));
       continue;
     }
     this->at(piece).PartitionsLeft = end - begin;
-    this->PiecesLeft += this->isOwn(piece) || this->rank() == 0 ? 1 : 0;
+    this->AwaitedPieces += this->Ranks.isFirst() && !this->isOwn(piece) ? 1 : 0;
     std::fill(isToDo.begin() + begin, isToDo.begin() + end, char(this->isOwn(piece)));
+    left.resize(left.size() + std::size_t(end - begin));
+    std::iota(left.end() - (end - begin), left.end(), begin);
   }
-  // All processes make the same messages and keep those for their own pieces. A triangle with a
-  // true corner meets the corner's partition. So triangles that meet no partition have only
-  // artificial corners, which the hull repair does not need.
-  FinalBoundary<std::int64_t> none;
-  sendInitialMesh(
-    this->Order->takeInitialMesh(), this->Order->partitions(),
-    [&](PartitionIndex to, VertexMessage&& message)
+  this->begin(this->Sorted->partitions(), left);
+  // All processes make the same messages and keep those for their own pieces.
+  for (auto& [to, message] :
+    sendInitialMesh(this->Sorted->takeInitialMesh(), this->Sorted->partitions()))
+  {
+    if (isToDo[std::size_t(to)])
     {
-      if (isToDo[std::size_t(to)])
-      {
-        this->at(this->pieceOf(to)).Pending.emplace_back(to, std::move(message));
-      }
-    },
-    none);
+      this->put(to, std::move(message));
+    }
+  }
   this->Ready = std::make_unique<ReadyPartitions>(
-    this->Order->partitions(), ReadyPartitions::Waits::ForEarlierAndLoad, isToDo);
+    this->Sorted->partitions(), ReadyPartitions::Waits::ForEarlierAndLoad, isToDo);
   for (PartitionIndex piece : sequence)
   {
     if (isDone[std::size_t(piece)])
     {
-      this->setDone(piece);
+      this->setPieceDone(piece);
       const PartitionIndex end = plan.FirstPartition[std::size_t(piece) + 1];
       for (PartitionIndex p = plan.FirstPartition[std::size_t(piece)]; p < end; ++p)
       {
@@ -84,7 +81,7 @@ void PieceRun::prepare(const std::vector<char>& isDone)
 /// Pieces without points may still own triangles, so they have files, too.
 void PieceRun::writeEmptyPieces(const std::vector<char>& isDone)
 {
-  for (PartitionIndex piece = 0; this->rank() == 0 && piece < this->Work.Plan.pieces(); ++piece)
+  for (PartitionIndex piece = 0; this->Ranks.isFirst() && piece < this->Work.Plan.pieces(); ++piece)
   {
     if (this->Work.Points.count(piece) == 0 && !isDone[std::size_t(piece)])
     {
@@ -100,10 +97,10 @@ void PieceRun::writeEmptyPieces(const std::vector<char>& isDone)
 
 /// Records that the piece's result is on disk. Returns the pieces whose borders can now be passed
 /// to the consumer.
-std::vector<PartitionIndex> PieceRun::setDone(PartitionIndex piece)
+std::vector<PartitionIndex> PieceRun::setPieceDone(PartitionIndex piece)
 {
   this->at(piece).Result = std::make_unique<StoredResult>(this->Work.resultPath(piece));
-  for (const PartitionIndex other : this->Order->sequence())
+  for (const PartitionIndex other : this->Sorted->sequence())
   {
     if (this->at(piece).Result->sentBytes(other) == 0)
     {
@@ -129,39 +126,38 @@ void PieceRun::takeBorders(const std::vector<PartitionIndex>& pieces)
   };
   for (const PartitionIndex piece : pieces)
   {
-    isBorderTaken(this->Work, piece) ? void() : takeBorder(this->Work, piece, resultOf);
+    takeBorder(this->Work, piece, resultOf);
   }
 }
 
 void PieceRun::loadPieces()
 {
-  for (const PartitionIndex piece : this->Order->sequence())
+  for (const PartitionIndex piece : this->Sorted->sequence())
   {
-    const bool isToDo = this->isOwn(piece) && this->at(piece).PartitionsLeft > 0;
-    if (isToDo && !this->waitForMemory(piece))
+    if (this->isOwn(piece) && this->at(piece).PartitionsLeft > 0)
     {
-      return;
-    }
-    if (isToDo)
-    {
+      this->waitForMemory(piece);
+      if (this->Ready->isStopped())
+      {
+        return;
+      }
       this->load(piece);
     }
   }
 }
 
-/// Reserves memory for the piece. Returns false if the run was stopped.
-bool PieceRun::waitForMemory(PartitionIndex piece)
+/// Reserves memory for the piece, or returns when the run is stopped.
+void PieceRun::waitForMemory(PartitionIndex piece)
 {
+  constexpr std::chrono::milliseconds pause(10);
   const std::uint64_t bytes = LoadedPiece::bytesOf(this->Work, piece);
   Lock lock(this->Mutex);
-  this->Changed.wait(lock,
-    [&]
-    {
-      return this->Ready->isStopped() || this->LoadedBytes == 0 ||
-        this->LoadedBytes + bytes <= this->Memory.LoadedBytes;
-    });
+  while (!this->Ready->isStopped() && this->LoadedBytes > 0 &&
+    this->LoadedBytes + bytes > this->Memory.LoadedBytes)
+  {
+    this->Changed.wait_for(lock, pause);
+  }
   this->LoadedBytes += bytes;
-  return !this->Ready->isStopped();
 }
 
 void PieceRun::load(PartitionIndex piece)
@@ -201,75 +197,41 @@ void PieceRun::load(PartitionIndex piece)
 
 void PieceRun::work()
 {
-  LoadedPiece::Workspace space(*this->Order);
-  for (PartitionIndex p = this->Ready->take(); p >= 0; p = this->Ready->take())
+  LoadedPiece::Workspace space(*this->Sorted);
+  for (PartitionIndex p = this->take(); p >= 0; p = this->take())
   {
     LoadedPiece& piece = *this->at(this->pieceOf(p)).Loaded;
-    this->finishPartition(p, piece.triangulate(space, p, this->Inboxes[std::size_t(p)].take()));
-    if (!this->reportProgress())
-    {
-      this->stop(nullptr);
-    }
+    const auto points = std::size_t(piece.pointsOf(p));
+    this->finish(p, piece.triangulate(space, p, this->Inboxes[std::size_t(p)].take()), points);
   }
 }
 
-void PieceRun::finishPartition(PartitionIndex p, SentMessages&& sent)
+void PieceRun::put(PartitionIndex to, VertexMessage&& message)
+{
+  const Lock lock(this->Mutex);
+  Piece& piece = this->at(this->pieceOf(to));
+  if (piece.Loaded)
+  {
+    RankEngine::put(to, std::move(message));
+  }
+  else
+  {
+    piece.Pending.emplace_back(to, std::move(message));
+  }
+}
+
+void PieceRun::setDoneHere(PartitionIndex p)
 {
   const PartitionIndex piece = this->pieceOf(p);
   bool isLast = false;
   {
     const Lock lock(this->Mutex);
-    this->PointsDone += this->at(piece).Loaded->pointsOf(p);
-    this->sendToRanks(p, sent);
-    for (auto& [to, message] : sent)
-    {
-      if (this->isOwn(this->pieceOf(to)))
-      {
-        this->deliver(to, std::move(message));
-      }
-    }
     isLast = --this->at(piece).PartitionsLeft == 0;
   }
   this->Ready->finish(p);
   if (isLast && !this->Ready->isStopped())
   {
     this->finishPiece(piece);
-  }
-}
-
-/// Call with the mutex locked. Notifies other ranks that partition p is done: one message, with the
-/// vertices sent there, to each rank that has a later conflicting partition.
-void PieceRun::sendToRanks(PartitionIndex p, const SentMessages& sent)
-{
-  if (!this->hasOtherRanks())
-  {
-    return;
-  }
-  const auto rankOf = [this](PartitionIndex q) { return this->at(this->pieceOf(q)).Rank; };
-  std::set<int> ranks;
-  for (const PartitionIndex q : this->Order->partitions().later(p))
-  {
-    ranks.insert(rankOf(q));
-  }
-  ranks.erase(this->rank());
-  for (const int to : ranks)
-  {
-    this->ToSend.push_back({ to, PartitionMessage,
-      writeDone(p, sent, [&](PartitionIndex q) { return rankOf(q) == to; }) });
-  }
-}
-
-/// Call with the mutex locked.
-void PieceRun::deliver(PartitionIndex to, VertexMessage message)
-{
-  Piece& piece = this->at(this->pieceOf(to));
-  if (piece.Loaded)
-  {
-    this->Inboxes[std::size_t(to)].put(std::move(message));
-  }
-  else
-  {
-    piece.Pending.emplace_back(to, std::move(message));
   }
 }
 
@@ -281,189 +243,59 @@ void PieceRun::finishPiece(PartitionIndex piece)
   {
     const Lock lock(this->Mutex);
     this->at(piece).Loaded.reset();
-    borders = this->setDone(piece);
+    borders = this->setPieceDone(piece);
   }
   this->takeBorders(borders);
-  const Lock lock(this->Mutex);
-  this->LoadedBytes -= LoadedPiece::bytesOf(this->Work, piece);
-  --this->PiecesLeft;
-  for (int to = 0; this->hasOtherRanks() && to < this->Post->size(); ++to)
-  {
-    if (to != this->rank())
-    {
-      SaveArchive writer;
-      writer(piece);
-      this->ToSend.push_back({ to, PieceMessage, writer.take() });
-    }
-  }
-  this->Changed.notify_all();
-}
-
-/// Runs until all pieces that this rank waits for are done; on ranks other than the first, until
-/// the first rank ends the run.
-void PieceRun::coordinate()
-{
-  constexpr auto pause = std::chrono::microseconds(300);
-  for (;;)
-  {
-    const bool moved = this->sendAndReceive();
-    if (!this->reportProgress())
-    {
-      throw RankFailure(this->rank(), true, "The run was stopped.");
-    }
-    {
-      const Lock lock(this->Mutex);
-      const bool isEnded = this->rank() == 0 ? this->PiecesLeft == 0 : this->IsEnded;
-      if (this->Ready->isStopped() || (isEnded && this->ToSend.empty()))
-      {
-        return;
-      }
-    }
-    if (!moved)
-    {
-      std::this_thread::sleep_for(pause);
-    }
-  }
-}
-
-/// Returns false if there was nothing to do.
-bool PieceRun::sendAndReceive()
-{
-  std::vector<Outgoing> outgoing;
   {
     const Lock lock(this->Mutex);
-    outgoing.swap(this->ToSend);
+    this->LoadedBytes -= LoadedPiece::bytesOf(this->Work, piece);
   }
-  bool moved = !outgoing.empty();
-  for (Outgoing& message : outgoing)
+  for (int to = 0; to < this->Ranks.size(); ++to)
   {
-    this->Post->post(message.Rank, message.Kind, std::move(message.Content));
+    if (to != this->Ranks.rank())
+    {
+      this->queue(to, PieceMessage, packed(piece));
+    }
   }
-  for (Message message; this->Post->poll(message); moved = true)
-  {
-    this->receive(message);
-  }
-  return moved;
 }
 
 void PieceRun::receive(const Message& message)
 {
-  if (message.Kind == EndMessage)
+  if (message.Kind != PieceMessage)
   {
-    this->IsEnded = true;
-    return;
-  }
-  if (message.Kind == PartitionMessage)
-  {
-    this->receivePartition(message);
+    RankEngine::receive(message);
     return;
   }
   const auto piece = unpacked<PartitionIndex>(message.Content);
-  const Lock lock(this->Mutex);
-  if (message.Kind != PieceMessage || piece < 0 || std::size_t(piece) >= this->Pieces.size() ||
+  if (piece < 0 || std::size_t(piece) >= this->Pieces.size() ||
     this->at(piece).Rank != message.Source)
   {
     throw std::runtime_error("A message from another rank is damaged: no such piece.");
   }
-  if (this->PiecesLeft == 0)
-  {
-    return; // no piece of this rank needs the result, and the first rank may have removed it
-  }
-  this->setDone(piece);
-  this->PiecesLeft -= this->rank() == 0 ? 1 : 0;
-}
-
-/// A partition of another rank is done: passes on the vertices that it sends to this rank's
-/// partitions.
-void PieceRun::receivePartition(const Message& message)
-{
-  PartitionIndex sender = -1;
-  SentMessages sent = readDone<VertexMessage>(message.Content, this->Inboxes.size(), sender);
-  const auto rankOf = [this](PartitionIndex p) { return this->at(this->pieceOf(p)).Rank; };
-  if (rankOf(sender) != message.Source ||
-    std::any_of(
-      sent.begin(), sent.end(), [&](const auto& to) { return rankOf(to.first) != this->rank(); }))
-  {
-    throw std::runtime_error(
-      "A message from another rank is damaged: it is for a partition of another rank.");
-  }
+  // Once this rank's pieces are done, it does not need the result, and the first rank may have
+  // removed it.
+  if (!this->isFinished())
   {
     const Lock lock(this->Mutex);
-    for (auto& [to, vertices] : sent)
-    {
-      this->deliver(to, std::move(vertices));
-    }
+    this->setPieceDone(piece);
   }
-  this->Ready->finish(sender);
+  this->AwaitedPieces -= this->Ranks.isFirst() ? 1 : 0;
 }
 
-/// Reports progress, in the caller's thread only. Returns false if that stops the run.
-bool PieceRun::reportProgress()
+bool PieceRun::isFinished() const
 {
-  if (std::this_thread::get_id() != this->Caller)
-  {
-    return true;
-  }
-  std::int64_t done = 0;
-  {
-    const Lock lock(this->Mutex);
-    done = this->PointsDone;
-  }
-  return std::exchange(this->PointsTold, done) == done || this->Progress(done);
+  return this->LeftPartitions == 0 && this->AwaitedPieces == 0;
 }
 
-void PieceRun::stop(const std::exception_ptr& reason)
-{
-  this->Ready->stop(reason);
-  const Lock lock(this->Mutex); // otherwise the loading thread could miss the notification
-  this->Changed.notify_all();
-}
-
-void PieceRun::guard(const std::function<void()>& body)
-{
-  try
-  {
-    body();
-  }
-  catch (...)
-  {
-    this->stop(std::current_exception());
-  }
-}
-
-void PieceRun::runThreads()
-{
-  std::vector<std::thread> threads;
-  this->guard(
-    [&]
-    {
-      threads.emplace_back([this] { this->guard([this] { this->loadPieces(); }); });
-      for (int i = this->hasOtherRanks() ? 0 : 1; i < this->Threads; ++i)
-      {
-        threads.emplace_back([this] { this->guard([this] { this->work(); }); });
-      }
-      this->hasOtherRanks() ? this->coordinate() : this->work();
-    });
-  for (std::thread& thread : threads)
-  {
-    thread.join();
-  }
-  if (this->Ready->failure())
-  {
-    std::rethrow_exception(this->Ready->failure());
-  }
-}
-
-bool PieceRun::run(const std::vector<char>& isDone)
+void PieceRun::run(const std::vector<char>& isDone)
 {
   this->writeEmptyPieces(isDone);
   this->prepare(isDone);
-  if (this->hasOtherRanks())
-  {
-    this->Post->barrier(); // a rank that is not set up yet could not handle messages
-  }
-  this->runThreads();
-  return !this->Ready->isStopped() && this->reportProgress();
+  this->Ranks.barrier(); // a rank that is not set up yet could not handle messages
+  std::vector<std::function<void()>> parts(
+    std::size_t(this->Threads) + 1, [this] { this->work(); });
+  parts.front() = [this] { this->loadPieces(); };
+  this->runThreads(parts, [](const std::function<void()>& part) { part(); });
 }
 
 } // namespace tipp

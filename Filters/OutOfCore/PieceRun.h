@@ -2,6 +2,7 @@
 #ifndef tippPieceRun_h
 #define tippPieceRun_h
 
+#include "Distributed/RankEngine.h"
 #include "Engine/ReadyPartitions.h"
 #include "Engine/Routing.h"
 #include "OutOfCore/FinishPieces.h"
@@ -13,12 +14,10 @@
 #include "Triangulation/Worker.h"
 
 #include <array>
-#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <thread>
 #include <unordered_map>
 #include <vector>
 
@@ -130,43 +129,34 @@ std::vector<FinishedPiece> triangulateAlone(const PieceWork& work, bool areColli
 /// the rank that has its piece. If that piece is loaded, the message goes to the partition's inbox;
 /// otherwise it stays in memory until the sender's piece is on disk. So only messages of unfinished
 /// pieces are in memory, and all others are in the results of finished pieces.
-class VTKTIPPFILTERS_EXPORT PieceRun
+class VTKTIPPFILTERS_EXPORT PieceRun : private RankEngine<VertexMessage>
 {
 public:
-  /// `progress` is called with the number of triangulated points, in the thread that constructs
-  /// this object; false stops the run. `ranks`: null for this process alone. `work` is copied;
-  /// `memory`, `ranks` and the objects that `work` refers to must outlive this object.
+  /// `progress` is called with the fraction of the points that are triangulated, in the thread that
+  /// calls run(); false stops the run. May be empty. `work` is copied; the other references and
+  /// the objects that `work` refers to must outlive this object.
   PieceRun(const PieceWork& work, const MemoryPlan& memory, int threads,
-    std::function<bool(std::int64_t)> progress, Communicator* ranks = nullptr);
+    const std::function<bool(double)>& progress, Communicator& ranks);
 
-  /// Triangulates all pieces that are not done, and writes their results. `isDone` has an entry for
-  /// each piece, the same on all ranks. Returns false if `progress` stopped the run. With ranks,
-  /// the first one returns when all pieces are done, and the others when the first ends the run.
-  /// Throws IOError and RankFailure.
-  bool run(const std::vector<char>& isDone);
+  /// Triangulates this rank's pieces that are not done, and writes their results. `isDone` has an
+  /// entry for each piece, the same on all ranks. The first rank returns when all ranks' pieces are
+  /// done, the others when their own are. Throws IOError, and RankFailure, also if `progress`
+  /// stopped the run.
+  void run(const std::vector<char>& isDone);
 
 private:
   using Lock = std::unique_lock<std::mutex>;
-  /// A message to another rank.
-  struct Outgoing
-  {
-    int Rank;
-    MessageKind Kind;
-    Bytes Content;
-  };
   /// The state of a piece.
   struct Piece
   {
-    int Rank = 0; ///< the rank that triangulates it
+    std::int32_t Rank = 0; ///< the rank that triangulates it
     PartitionIndex PartitionsLeft = 0;
     std::unique_ptr<LoadedPiece> Loaded;
     std::unique_ptr<StoredResult> Result; ///< once it is done; only if this rank needs it
     SentMessages Pending;                 ///< messages to its partitions, until it is loaded
   };
 
-  int rank() const { return this->Post ? this->Post->rank() : 0; }
-  bool hasOtherRanks() const { return this->Post && this->Post->size() > 1; }
-  bool isOwn(PartitionIndex piece) const { return this->at(piece).Rank == this->rank(); }
+  bool isOwn(PartitionIndex piece) const { return this->at(piece).Rank == this->Ranks.rank(); }
   Piece& at(PartitionIndex piece) { return this->Pieces[std::size_t(piece)]; }
   const Piece& at(PartitionIndex piece) const { return this->Pieces[std::size_t(piece)]; }
   PartitionIndex pieceOf(PartitionIndex partition) const
@@ -174,52 +164,34 @@ private:
     return this->Work.Plan.PieceOf[std::size_t(partition)];
   }
 
+  std::int32_t ownerOf(PartitionIndex p) const override { return this->at(this->pieceOf(p)).Rank; }
+  ReadyPartitions& source() override { return *this->Ready; }
+  void put(PartitionIndex to, VertexMessage&& message) override;
+  void setDoneHere(PartitionIndex p) override;
+  void receive(const Message& message) override;
+  bool isFinished() const override;
+
   void prepare(const std::vector<char>& isDone);
   void writeEmptyPieces(const std::vector<char>& isDone);
   void loadPieces();
-  bool waitForMemory(PartitionIndex piece);
+  void waitForMemory(PartitionIndex piece);
   void load(PartitionIndex piece);
   void work();
-  void finishPartition(PartitionIndex p, SentMessages&& sent);
-  void sendToRanks(PartitionIndex p, const SentMessages& sent);
-  void deliver(PartitionIndex to, VertexMessage message);
   void finishPiece(PartitionIndex piece);
-  std::vector<PartitionIndex> setDone(PartitionIndex piece);
+  std::vector<PartitionIndex> setPieceDone(PartitionIndex piece);
   void takeBorders(const std::vector<PartitionIndex>& pieces);
-  bool reportProgress();
-
-  void runThreads();
-  void guard(const std::function<void()>& body);
-  void stop(const std::exception_ptr& reason);
-
-  /// The thread that communicates with other ranks
-  ///@{
-  void coordinate();
-  bool sendAndReceive();
-  void receive(const Message& message);
-  void receivePartition(const Message& message);
-  ///@}
 
   const PieceWork Work;
   const MemoryPlan& Memory;
   const int Threads;
-  const std::function<bool(std::int64_t)> Progress;
-  Communicator* const Post;
-  const std::thread::id Caller = std::this_thread::get_id();
-  std::unique_ptr<PieceOrder> Order;
+  std::unique_ptr<PieceOrder> Sorted;
   std::unique_ptr<ReadyPartitions> Ready;
-  std::vector<Inbox> Inboxes; ///< by partition; filled while its piece is loaded
+  std::size_t AwaitedPieces = 0; ///< on the first rank: other ranks' pieces that are not done
 
-  std::mutex Mutex; ///< protects the members below
-  std::condition_variable Changed;
+  // Protected by Mutex.
   std::vector<Piece> Pieces;
   std::unique_ptr<BorderQueue> Borders; ///< null: no consumer
-  std::size_t PiecesLeft = 0;           ///< pieces that this rank waits for
   std::uint64_t LoadedBytes = 0;
-  std::int64_t PointsDone = 0;
-  std::int64_t PointsTold = -1;
-  bool IsEnded = false; ///< the first rank has ended the run
-  std::vector<Outgoing> ToSend;
 };
 
 } // namespace tipp

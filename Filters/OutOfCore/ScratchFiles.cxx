@@ -49,11 +49,10 @@ bool isBefore(const SectionEntry& a, const SectionEntry& b)
 
 } // namespace
 
-std::uint64_t writeCheckedFile(
-  const std::string& path, const std::function<void(SaveArchive&)>& save)
+void writeCheckedFile(const std::string& path, const std::function<void(SaveArchive&)>& save)
 {
-  std::uint64_t end = 8;
   {
+    std::uint64_t end = 8;
     const OutputFile file(path + nextSuffix);
     Checksum sum;
     SaveArchive archive;
@@ -70,7 +69,6 @@ std::uint64_t writeCheckedFile(
     file.write(0, &checksum, 8);
   }
   takeName(path);
-  return end;
 }
 
 Bytes readCheckedFile(const std::string& path)
@@ -109,7 +107,7 @@ void SectionFileWriter::add(SectionKey key, const Bytes& content)
   this->End += content.size();
 }
 
-std::uint64_t SectionFileWriter::finish()
+void SectionFileWriter::finish()
 {
   std::sort(this->Table.begin(), this->Table.end(), isBefore);
   const std::size_t bytes = this->Table.size() * sizeof(SectionEntry);
@@ -118,7 +116,6 @@ std::uint64_t SectionFileWriter::finish()
   this->File.write(0, &header, sizeof(header));
   this->File.close();
   takeName(this->Path);
-  return this->End + bytes;
 }
 
 SectionFile::SectionFile(const std::string& path)

@@ -17,9 +17,8 @@ namespace tipp
 {
 
 /// Writes the data that save() puts into an archive, with a checksum, and replaces the file `path`
-/// in one step. Keeps only a small part of the data in memory. Returns the file's size in bytes.
-/// Throws IOError.
-VTKTIPPFILTERS_EXPORT std::uint64_t writeCheckedFile(
+/// in one step. Keeps only a small part of the data in memory. Throws IOError.
+VTKTIPPFILTERS_EXPORT void writeCheckedFile(
   const std::string& path, const std::function<void(SaveArchive&)>& save);
 
 /// Reads a file that writeCheckedFile() wrote. Throws IOError if it is missing or damaged.
@@ -55,8 +54,8 @@ public:
   explicit SectionFileWriter(const std::string& path);
 
   void add(SectionKey key, const Bytes& content);
-  /// Completes the file, and returns its size in bytes.
-  std::uint64_t finish();
+  /// Completes the file.
+  void finish();
 
 private:
   const std::string Path;
@@ -73,7 +72,6 @@ public:
   /// Reads the table. Throws IOError if SectionFileWriter did not write the file.
   explicit SectionFile(const std::string& path);
 
-  const std::vector<SectionEntry>& table() const { return this->Table; }
   bool has(SectionKey key) const { return this->find(key) != nullptr; }
   /// Returns the size of a section in bytes; 0 if it does not exist.
   std::uint64_t bytes(SectionKey key) const

@@ -11,25 +11,6 @@ namespace tipp
 namespace
 {
 
-/// Collects the tetrahedra of the hull repair by the piece that owns them.
-struct HullRepairCells : public FinalCellConsumer3
-{
-  HullRepairCells(const PiecePlan3& plan, BordersByOwner3& borders)
-    : Sorter(plan)
-    , Borders(borders)
-  {
-  }
-
-  void addInside(const std::array<std::int64_t, 4>&) override {}
-  void add(const std::array<Vertex3, 4>& corners) override
-  {
-    this->Sorter.add(corners, this->Sorter.findMet(corners), this->Borders);
-  }
-
-  BorderSorter3 Sorter;
-  BordersByOwner3& Borders;
-};
-
 class PieceFinisher3 : public PieceFinisherOf<PieceWork3, 4>
 {
 public:
@@ -46,8 +27,10 @@ public:
         " points at the convex hull, which take " + std::to_string(bytes / 1000000 + 1) +
         " MB; allow more memory.");
     }
-    HullRepairCells repaired(work.Plan, this->Late);
-    repairHull(std::move(hull), work.Plan.artificial(), repaired);
+    BorderSorter3 sorter(work.Plan);
+    repairHull(std::move(hull), work.Plan.artificial(),
+      [&](const std::array<Vertex3, 4>& corners)
+      { sorter.add(corners, sorter.findMet(corners), this->Late); });
   }
 
 protected:

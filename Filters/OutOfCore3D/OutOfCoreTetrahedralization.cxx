@@ -27,7 +27,7 @@ namespace
 /// options.
 std::string identityOf(const PointStream& input, const OutOfCoreOptions3& options)
 {
-  std::string text = "TIPP out of core in space 2\n" + input.identity();
+  std::string text = "TIPP out of core in space 3\n" + input.identity();
   for (const std::string& column : input.columns())
   {
     text += column + "\n";

@@ -78,11 +78,6 @@ private:
   int Dimension = -1;
 };
 
-[[noreturn]] void throwChanged()
-{
-  throw IOError("The input has changed while it was read; start again.");
-}
-
 void requireDimension(int dimension)
 {
   constexpr const char* reasons[] = { "There is no point with finite coordinates in the input",

@@ -6,10 +6,8 @@
 #include "Parallel/ParallelFor.h"
 #include "Predicates/ExactPredicates.h"
 
-#include <omp.h>
-
 #include <algorithm>
-#include <exception>
+#include <chrono>
 #include <stdexcept>
 #include <unordered_map>
 #include <utility>
@@ -125,17 +123,18 @@ bool PieceRun3::run(const std::vector<char>& isDone)
   this->Results.resize(isDone.size());
   // Every piece has points, because its box holds points of the sample.
   const std::vector<char> isUsed(isDone.size(), 1);
+  this->Initial.resize(isDone.size());
   if (plan.pieces() == 1)
   {
-    this->Initial.resize(1);
-    this->makePieces(isDone, PartitionOrder(isUsed, ConflictGraph(1)));
-    return !this->IsStopped;
+    return this->makePieces(isDone, PartitionOrder(isUsed, ConflictGraph(1)));
   }
   const InitialMesh3 mesh = plan.initialMesh();
   const PartitionOrder order(isUsed, mesh);
-  this->Initial = sendInitialMesh(mesh, order);
-  this->makePieces(isDone, order);
-  return !this->IsStopped;
+  for (auto& [to, message] : sendInitialMesh(mesh, order))
+  {
+    this->Initial[std::size_t(to)] = std::move(message);
+  }
+  return this->makePieces(isDone, order);
 }
 
 /// Marks pieces that are done: later pieces find their messages in the results.
@@ -154,7 +153,8 @@ void PieceRun3::skipDone(const std::vector<char>& isDone, ReadyPartitions& ready
   }
 }
 
-void PieceRun3::makePieces(const std::vector<char>& isDone, const PartitionOrder& order)
+/// Returns false if the run was stopped.
+bool PieceRun3::makePieces(const std::vector<char>& isDone, const PartitionOrder& order)
 {
   this->Order = &order;
   std::vector<char> isToDo;
@@ -165,45 +165,27 @@ void PieceRun3::makePieces(const std::vector<char>& isDone, const PartitionOrder
   }
   ReadyPartitions ready(order, ReadyPartitions::Waits::ForEarlier, isToDo);
   this->skipDone(isDone, ready);
-#pragma omp parallel num_threads(this->Threads)
-  {
-    try
+  runWorkers(ready, this->Threads,
+    [&](int)
     {
       for (PartitionIndex piece = ready.take(); piece >= 0; piece = ready.take())
       {
-        const std::uint64_t bytes = this->takeMemory(piece);
-        if (bytes == 0)
+        const std::uint64_t bytes = this->takeMemory(piece, ready);
+        if (!ready.isStopped())
         {
-          break;
-        }
-        this->make(piece);
-        ready.finish(piece);
-        const std::lock_guard<std::mutex> lock(this->Mutex);
-        this->LoadedBytes -= bytes;
-        if (!this->finish(piece))
-        {
-          ready.stop();
+          this->make(piece);
+          ready.finish(piece);
+          this->finish(piece, bytes, ready);
         }
       }
-    }
-    catch (...)
-    {
-      const std::lock_guard<std::mutex> lock(this->Mutex);
-      ready.stop(std::current_exception());
-      this->IsStopped = true;
-      this->Changed.notify_all();
-    }
-  }
-  if (ready.failure())
-  {
-    std::rethrow_exception(ready.failure());
-  }
+    });
+  return !ready.isStopped();
 }
 
-/// Waits until there is memory for the piece. Returns the reserved bytes, or 0 if the run was
-/// stopped.
-std::uint64_t PieceRun3::takeMemory(PartitionIndex piece)
+/// Waits until there is memory for the piece, or the run is stopped. Returns the reserved bytes.
+std::uint64_t PieceRun3::takeMemory(PartitionIndex piece, const ReadyPartitions& ready)
 {
+  constexpr std::chrono::milliseconds pause(10);
   std::unique_lock<std::mutex> lock(this->Mutex);
   std::int64_t others = std::int64_t(this->Initial[std::size_t(piece)].Vertices.size());
   for (const auto& result : this->Results)
@@ -220,14 +202,13 @@ std::uint64_t PieceRun3::takeMemory(PartitionIndex piece)
       " points of others, and " + std::to_string(bytes / 800000 + 1) +
       " MB in all; allow more memory.");
   }
-  this->Changed.wait(lock,
-    [&]
-    {
-      return this->IsStopped || this->LoadedBytes == 0 ||
-        this->LoadedBytes + bytes <= this->Memory.PieceBytes;
-    });
+  while (!ready.isStopped() && this->LoadedBytes > 0 &&
+    this->LoadedBytes + bytes > this->Memory.PieceBytes)
+  {
+    this->Changed.wait_for(lock, pause);
+  }
   this->LoadedBytes += bytes;
-  return this->IsStopped ? 0 : bytes;
+  return bytes;
 }
 
 std::vector<VertexMessage3> PieceRun3::readInbox(PartitionIndex piece)
@@ -322,13 +303,17 @@ PieceResult3 PieceRun3::write(PartitionIndex piece, const Buffer<double>& rows, 
   return result;
 }
 
-/// Call with the mutex locked. Returns false if the run must stop.
-bool PieceRun3::finish(PartitionIndex piece)
+/// Frees the memory of a piece that is done, and reports progress.
+void PieceRun3::finish(PartitionIndex piece, std::uint64_t bytes, ReadyPartitions& ready)
 {
+  const std::lock_guard<std::mutex> lock(this->Mutex);
+  this->LoadedBytes -= bytes;
   this->PointsDone += this->Work.Points.count(piece);
-  this->IsStopped = this->IsStopped || !this->Progress(this->PointsDone);
+  if (!ready.isStopped() && !this->Progress(this->PointsDone))
+  {
+    ready.stop();
+  }
   this->Changed.notify_all();
-  return !this->IsStopped;
 }
 
 } // namespace tipp

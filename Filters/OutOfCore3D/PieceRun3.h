@@ -69,14 +69,14 @@ public:
 private:
   struct Cells;
 
-  void makePieces(const std::vector<char>& isDone, const PartitionOrder& order);
+  bool makePieces(const std::vector<char>& isDone, const PartitionOrder& order);
   void skipDone(const std::vector<char>& isDone, ReadyPartitions& ready);
-  std::uint64_t takeMemory(PartitionIndex piece);
+  std::uint64_t takeMemory(PartitionIndex piece, const ReadyPartitions& ready);
   void make(PartitionIndex piece);
   std::vector<VertexMessage3> readInbox(PartitionIndex piece);
   PieceResult3 write(PartitionIndex piece, const Buffer<double>& rows, Cells& cells,
     const std::vector<Duplicate>& duplicates);
-  bool finish(PartitionIndex piece);
+  void finish(PartitionIndex piece, std::uint64_t bytes, ReadyPartitions& ready);
 
   const PieceWork3 Work;
   const MemoryPlan3& Memory;
@@ -90,7 +90,6 @@ private:
   std::vector<std::unique_ptr<StoredResult3>> Results; ///< by piece; null: it is not done
   std::uint64_t LoadedBytes = 0;
   std::int64_t PointsDone = 0;
-  bool IsStopped = false;
 };
 
 /// Completes the files of all pieces once all results exist: repairs the hull (Lemma 3), and adds

@@ -248,15 +248,33 @@ std::vector<std::string> warnOfRejected(
         " points have a NaN or infinite coordinate and are " + consequence + "." };
 }
 
+/// Returns the warnings about rejected points of a mesh in memory.
+std::vector<std::string> warnOfRejected(
+  const TriangulatedPoints& mesh, std::int64_t points, const std::string& consequence)
+{
+  return mesh.Rejected.empty()
+    ? std::vector<std::string>()
+    : warnOfRejected(std::int64_t(mesh.Rejected.size()), points,
+        consequence + "; the first is point " + std::to_string(mesh.Rejected.front()));
+}
+
+/// Adds a warning if points have no tetrahedra because of their dimension.
+std::vector<std::string> withDimension(std::vector<std::string> warnings, int dimension)
+{
+  if (dimension < 3)
+  {
+    warnings.push_back(describeDimension(dimension));
+  }
+  return warnings;
+}
+
 } // namespace
 
 std::vector<std::string> warningsOf(
   const Triangulation& triangulation, std::int64_t points, bool longEdgesLeftOut)
 {
   const auto rejected = std::int64_t(triangulation.Rejected.size());
-  std::vector<std::string> warnings = warnOfRejected(rejected, points,
-    "in no triangle; the first is point " +
-      (rejected > 0 ? std::to_string(triangulation.Rejected.front()) : ""));
+  std::vector<std::string> warnings = warnOfRejected(triangulation, points, "in no triangle");
   if (triangulation.triangleCount() == 0)
   {
     const std::int64_t distinct = points - std::int64_t(triangulation.Duplicates.size()) - rejected;
@@ -294,15 +312,15 @@ std::vector<std::string> warningsOf(const DistributedTriangulation& mine)
   return warnings;
 }
 
+std::vector<std::string> warningsOf(const Tetrahedralization& mesh, std::int64_t points)
+{
+  return withDimension(warnOfRejected(mesh, points, "in no tetrahedron"), mesh.Dimension);
+}
+
 std::vector<std::string> warningsOf(const DistributedTetrahedralization& mine)
 {
-  std::vector<std::string> warnings =
-    warnOfRejected(mine.AllRejected, mine.AllPoints, "in no tetrahedron");
-  if (mine.Dimension < 3)
-  {
-    warnings.push_back(describeDimension(mine.Dimension));
-  }
-  return warnings;
+  return withDimension(
+    warnOfRejected(mine.AllRejected, mine.AllPoints, "in no tetrahedron"), mine.Dimension);
 }
 
 } // namespace tipp

@@ -82,6 +82,8 @@ VTKTIPPFILTERS_EXPORT FigureList stagesOf(
 /// `longEdgesLeftOut`: triangles with long edges were removed.
 VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(
   const Triangulation& triangulation, std::int64_t points, bool longEdgesLeftOut);
+VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(
+  const Tetrahedralization& mesh, std::int64_t points);
 VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(const OutOfCoreStatistics& statistics);
 std::vector<std::string> warningsOf(const DistributedTriangulation& mine);
 VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(

@@ -48,7 +48,7 @@ void BoundaryTriangles::appendTriangles(const BoundaryTriangles& others)
   {
     numbers.push_back(this->Sets.number(others.Sets.begin(set), others.Sets.end(set)));
   }
-  this->Triangles.insert(this->Triangles.end(), others.Triangles.begin(), others.Triangles.end());
+  this->Cells.insert(this->Cells.end(), others.Cells.begin(), others.Cells.end());
   this->SetOf.reserve(this->SetOf.size() + others.SetOf.size());
   for (const std::uint32_t set : others.SetOf)
   {

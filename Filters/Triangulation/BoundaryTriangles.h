@@ -148,12 +148,12 @@ struct BoundaryTriangles : MetPartitions
   using Corners = std::array<std::uint32_t, 3>; ///< indices into Vertices
 
   std::vector<BoundaryVertex> Vertices; ///< each once; some may belong to no triangle
-  std::vector<Corners> Triangles;       ///< counter-clockwise
+  std::vector<Corners> Cells;           ///< triangles, counter-clockwise
 
-  std::size_t size() const { return this->Triangles.size(); }
+  std::size_t size() const { return this->Cells.size(); }
   BoundaryTriangle operator[](std::size_t i) const
   {
-    const Corners& corners = this->Triangles[i];
+    const Corners& corners = this->Cells[i];
     return { this->Vertices[corners[0]], this->Vertices[corners[1]], this->Vertices[corners[2]] };
   }
 
@@ -161,7 +161,7 @@ struct BoundaryTriangles : MetPartitions
   /// [metBegin, metEnd).
   void add(const Corners& corners, const PartitionIndex* metBegin, const PartitionIndex* metEnd)
   {
-    this->Triangles.push_back(corners);
+    this->Cells.push_back(corners);
     this->SetOf.push_back(this->Sets.number(metBegin, metEnd));
   }
   /// Appends the triangles of `others`, which must have the same vertices.

@@ -138,10 +138,6 @@ private:
   std::vector<Line> Lines;
 };
 
-/// Commits the pages of fresh memory at once, which is faster than a page fault at the first touch
-/// of each. The content stays. Does nothing if the system does not support it.
-VTKTIPPFILTERS_EXPORT void populatePages(void* memory, std::size_t bytes);
-
 /// The finite points and their ids, grouped by partition, in the input's order within each
 /// partition. Once a partition's points are no longer needed, the same memory holds its triangles.
 /// There is memory for two triangles per point, more than a planar triangulation has (Euler).

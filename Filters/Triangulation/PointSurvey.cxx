@@ -163,8 +163,7 @@ std::vector<Duplicate> sortOutDuplicates(PointsView points)
       duplicates.push_back({ order[i], first });
     }
   }
-  std::sort(duplicates.begin(), duplicates.end(),
-    [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
+  std::sort(duplicates.begin(), duplicates.end());
   return duplicates;
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <unordered_map>
 
 namespace tipp
 {
@@ -105,49 +104,49 @@ Buffer<Id> TriangleSink<Id>::assemble(
   return ids;
 }
 
-template <typename Id>
-void preferLowestIds(Buffer<Id>& ids, std::vector<Duplicate>& duplicates, int threads)
+LowestPoints::LowestPoints(std::vector<Duplicate>& duplicates)
 {
-  std::unordered_map<PointId, PointId> lowest;
   for (const Duplicate& duplicate : duplicates)
   {
     if (duplicate.Point < duplicate.Representative)
     {
-      PointId& id = lowest.emplace(duplicate.Representative, duplicate.Point).first->second;
-      id = std::min(id, duplicate.Point);
+      PointId& low = this->Lowest.emplace(duplicate.Representative, duplicate.Point).first->second;
+      low = std::min(low, duplicate.Point);
     }
   }
-  if (!lowest.empty())
+  if (this->isEmpty())
   {
-    for (Duplicate& duplicate : duplicates)
-    {
-      const auto it = lowest.find(duplicate.Representative);
-      if (it != lowest.end())
-      {
-        duplicate = { duplicate.Point == it->second ? it->first : duplicate.Point, it->second };
-      }
-    }
-    // Few ids change: a small table in the cache avoids most look-ups.
-    constexpr std::size_t tableSize = 1 << 14;
-    std::vector<char> mayChange(tableSize, 0);
-    for (const auto& change : lowest)
-    {
-      mayChange[std::size_t(change.first) % tableSize] = 1;
-    }
-    const std::ptrdiff_t end = static_cast<std::ptrdiff_t>(ids.size());
+    return;
+  }
+  constexpr std::size_t tableSize = 1 << 14;
+  this->MayChange.assign(tableSize, 0);
+  for (const auto& change : this->Lowest)
+  {
+    this->MayChange[std::size_t(change.first) % tableSize] = 1;
+  }
+  for (Duplicate& duplicate : duplicates)
+  {
+    const PointId low = this->renamed(duplicate.Representative);
+    duplicate = { duplicate.Point == low ? duplicate.Representative : duplicate.Point, low };
+  }
+}
+
+template <typename Id>
+void preferLowestIds(Buffer<Id>& ids, std::vector<Duplicate>& duplicates, int threads)
+{
+  const LowestPoints lowest(duplicates);
+  const auto end = lowest.isEmpty() ? std::ptrdiff_t(0) : std::ptrdiff_t(ids.size());
 #pragma omp parallel for num_threads(threads) schedule(static)
-    for (std::ptrdiff_t i = 0; i < end; ++i)
+  for (std::ptrdiff_t i = 0; i < end; ++i)
+  {
+    const PointId id = ids[std::size_t(i)];
+    const PointId renamed = lowest.renamed(id);
+    if (renamed != id) // unchanged memory is not written
     {
-      Id& id = ids[std::size_t(i)];
-      if (mayChange[std::size_t(id) % tableSize])
-      {
-        const auto it = lowest.find(id);
-        id = it != lowest.end() ? static_cast<Id>(it->second) : id;
-      }
+      ids[std::size_t(i)] = static_cast<Id>(renamed);
     }
   }
-  std::sort(duplicates.begin(), duplicates.end(),
-    [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
+  std::sort(duplicates.begin(), duplicates.end());
 }
 
 template class TriangleSink<std::int32_t>;

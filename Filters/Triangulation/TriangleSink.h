@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 namespace tipp
@@ -99,8 +100,34 @@ private:
   std::vector<std::size_t> InteriorCounts;
 };
 
-/// Makes the lowest id of coincident points the representative, in the finished triangles and in
-/// the duplicates; sorts the duplicates.
+/// Makes the lowest id of coincident points their representative, even if the triangulation has
+/// another of them as a vertex.
+class LowestPoints
+{
+public:
+  /// Changes the representatives in `duplicates`.
+  explicit LowestPoints(std::vector<Duplicate>& duplicates);
+
+  bool isEmpty() const { return this->Lowest.empty(); }
+
+  /// Returns the id to use for a vertex in triangles.
+  PointId renamed(PointId id) const
+  {
+    // Few ids change: a small table in the cache avoids most look-ups.
+    if (this->isEmpty() || !this->MayChange[std::size_t(id) % this->MayChange.size()])
+    {
+      return id;
+    }
+    const auto found = this->Lowest.find(id);
+    return found == this->Lowest.end() ? id : found->second;
+  }
+
+private:
+  std::unordered_map<PointId, PointId> Lowest; ///< by vertex
+  std::vector<char> MayChange;                 ///< by id modulo its size
+};
+
+/// Applies LowestPoints to the finished triangles and the duplicates, and sorts the duplicates.
 template <typename Id>
 void preferLowestIds(Buffer<Id>& ids, std::vector<Duplicate>& duplicates, int threads);
 

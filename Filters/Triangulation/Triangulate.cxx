@@ -14,8 +14,6 @@
 #include "Triangulation/TriangleSink.h"
 #include "Triangulation/Worker.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <atomic>
 #include <limits>
@@ -177,10 +175,13 @@ private:
     std::atomic<std::int64_t> Active{ 0 };
     std::atomic<std::int64_t> Unfinished{ 0 }; ///< triangles in inboxes and workers
 
-    DeliverMessage deliver()
+    void deliver(SentMessages&& sent)
     {
-      return [this](PartitionIndex to, VertexMessage&& message)
-      { this->Inboxes[std::size_t(to)].put(std::move(message)); };
+      for (auto& [to, message] : sent)
+      {
+        this->Unfinished += message.Cells;
+        this->Inboxes[std::size_t(to)].put(std::move(message));
+      }
     }
   };
 
@@ -203,26 +204,13 @@ private:
       {} };
     shared.Stages.resize(order.sequence().size());
     FinalBoundary<Id> boundary;
-    shared.Unfinished = sendInitialMesh(initialMesh, order, shared.deliver(), boundary);
+    shared.deliver(sendInitialMesh(initialMesh, order));
     this->endPhase("initial mesh");
     this->beginEditing(tiling);
     TriangleSink<Id> sink(this->Buckets);
     std::vector<Contribution> parts(std::size_t(this->Threads));
-#pragma omp parallel num_threads(this->Threads)
-    {
-      try
-      {
-        this->workAsOneThread(shared, sink, parts[std::size_t(omp_get_thread_num())]);
-      }
-      catch (...)
-      {
-        shared.Ready.stop(std::current_exception());
-      }
-    }
-    if (shared.Ready.failure())
-    {
-      std::rethrow_exception(shared.Ready.failure());
-    }
+    runWorkers(shared.Ready, this->Threads,
+      [&](int thread) { this->workAsOneThread(shared, sink, parts[std::size_t(thread)]); });
     this->endPhase("workers");
     TriangulationStatistics& statistics = this->Result.Statistics;
     statistics.Stages = stagesOf(shared.Stages, order, barrier);
@@ -268,7 +256,6 @@ private:
     this->setEditor(worker);
     Routing<Id> routing(shared.Order, shared.Boxes);
     UniqueVertices unique;
-    const DeliverMessage deliver = shared.deliver();
     for (PartitionIndex p = shared.Ready.take(); p >= 0; p = shared.Ready.take())
     {
       shared.Stages[shared.Order.position(p)] = { ++shared.Active, shared.Unfinished };
@@ -277,12 +264,13 @@ private:
         const std::vector<VertexMessage> messages = shared.Inboxes[std::size_t(p)].take();
         for (const VertexMessage& message : messages)
         {
-          handed += message.Triangles;
+          handed += message.Cells;
         }
         routing.setPartition(p);
         worker.triangulate(p, unique.collect(messages), shared.Boxes[p], routing);
       }
-      shared.Unfinished += routing.send(worker, deliver, part.Boundary) - handed;
+      shared.deliver(routing.send(worker, part.Boundary));
+      shared.Unfinished -= handed;
       sink.setInteriorCount(p, worker.interiorCount());
       part.WorkerVertices += worker.vertexCount();
       part.Duplicates.insert(
@@ -451,7 +439,7 @@ std::vector<char> findLeftOut(const TriangulatedPoints& mesh, std::int64_t point
 Buffer<std::int64_t> representativeIds(const TriangulatedPoints& mesh, std::int64_t points)
 {
   Buffer<std::int64_t> ids{ std::size_t(points) };
-#pragma omp parallel for
+#pragma omp parallel for num_threads(threadCount(mesh.Statistics.Threads))
   for (std::int64_t i = 0; i < points; ++i)
   {
     ids[std::size_t(i)] = i;

@@ -52,6 +52,8 @@ struct Duplicate
 {
   PointId Point;          ///< id of the duplicate
   PointId Representative; ///< the lowest id with the same coordinates
+
+  bool operator<(const Duplicate& other) const { return this->Point < other.Point; }
 };
 
 /// Counts and times of a run.

@@ -20,28 +20,6 @@ Circumball ballOf(const DelaunayKernel3& kernel, const std::array<Index, 4>& v)
   return { kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2]), kernel.point(v[3]) };
 }
 
-/// Returns a message for each recipient. `corners` has a list for each; a vertex may be in it
-/// several times, but is sent once.
-template <typename Corner, typename VertexAt>
-std::vector<VertexMessage3> messagesWith(PartitionIndex sender,
-  const std::vector<std::vector<Corner>>& corners, std::size_t vertexEnd, const VertexAt& vertexAt)
-{
-  std::vector<VertexMessage3> messages;
-  std::vector<std::size_t> sentTo(vertexEnd, 0); // by vertex: its last recipient, counted from 1
-  for (const std::vector<Corner>& list : corners)
-  {
-    messages.push_back({ sender, {} });
-    for (const Corner corner : list)
-    {
-      if (std::exchange(sentTo[corner], messages.size()) != messages.size())
-      {
-        messages.back().Vertices.push_back(vertexAt(corner));
-      }
-    }
-  }
-  return messages;
-}
-
 } // namespace
 
 void FinalCells::addInside(const std::array<std::int64_t, 4>& ids)
@@ -282,40 +260,19 @@ void Worker3::route(Index cell, FinalCellConsumer3& final)
     add();
     return;
   }
-  std::vector<Index>& outgoing = this->Outgoing[std::size_t(next - later.begin())];
-  outgoing.insert(outgoing.end(), v.begin(), v.end());
+  this->Outgoing[std::size_t(next - later.begin())].push_back(v);
 }
 
 SentMessages3 Worker3::send()
 {
-  std::vector<VertexMessage3> messages = messagesWith(this->Own.Partition, this->Outgoing,
-    this->Kernel.vertexEnd(), [this](Index v) { return this->vertex(v); });
+  SentMessages3 sent = messagesWith(this->Own.Partition, this->Outgoing, this->Kernel.vertexEnd(),
+    [this](Index v) { return this->vertex(v); });
   const PartitionOrder::Range later = this->Order.later(this->Own.Partition);
-  SentMessages3 sent;
-  for (std::size_t i = 0; i < messages.size(); ++i)
+  for (auto& [to, message] : sent)
   {
-    if (!messages[i].Vertices.empty())
-    {
-      sent.emplace_back(later.begin()[i], std::move(messages[i]));
-    }
+    to = later.begin()[to];
   }
   return sent;
-}
-
-std::vector<VertexMessage3> sendInitialMesh(const InitialMesh3& mesh, const PartitionOrder& order)
-{
-  std::vector<std::vector<std::uint32_t>> corners(order.partitionCount());
-  for (std::size_t cell = 0; cell < mesh.Cells.size(); ++cell)
-  {
-    if (mesh.metBegin(cell) < mesh.metEnd(cell))
-    {
-      std::vector<std::uint32_t>& to =
-        corners[std::size_t(order.first(mesh.metBegin(cell), mesh.metEnd(cell)))];
-      to.insert(to.end(), mesh.Cells[cell].begin(), mesh.Cells[cell].end());
-    }
-  }
-  return messagesWith(-1, corners, mesh.Vertices.size(),
-    [&mesh](std::uint32_t corner) { return mesh.Vertices[corner]; });
 }
 
 namespace
@@ -394,8 +351,8 @@ private:
 
 } // namespace
 
-void repairHull(
-  std::vector<Vertex3> vertices, const std::vector<Vertex3>& artificial, FinalCellConsumer3& final)
+void repairHull(std::vector<Vertex3> vertices, const std::vector<Vertex3>& artificial,
+  const std::function<void(const std::array<Vertex3, 4>&)>& add)
 {
   keepUnique(vertices);
   const std::vector<Point3> points = positionsOf(vertices);
@@ -417,7 +374,7 @@ void repairHull(
       if (!Circumball::isSurelyInside(a, b, c, d, groups.box()) && groups.areInConflict(a, b, c, d))
       {
         const auto vertex = [&](Index corner) { return vertices[kernel.pointIndex(corner)]; };
-        final.add({ vertex(v[0]), vertex(v[1]), vertex(v[2]), vertex(v[3]) });
+        add({ vertex(v[0]), vertex(v[1]), vertex(v[2]), vertex(v[3]) });
       }
     });
 }

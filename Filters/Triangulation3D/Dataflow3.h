@@ -14,7 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
+#include <functional>
 #include <vector>
 
 namespace tipp
@@ -22,9 +22,7 @@ namespace tipp
 
 using VertexMessage3 = VertexMessageOf<Vertex3>;
 using Inbox3 = MessageInbox<VertexMessage3>;
-
-/// The messages of a finished partition, each with the partition that receives it.
-using SentMessages3 = std::vector<std::pair<PartitionIndex, VertexMessage3>>;
+using SentMessages3 = SentMessagesOf<Vertex3>;
 
 /// Receives final tetrahedra: those that no later partition can change. Ids are those of Vertex3.
 class FinalCellConsumer3
@@ -114,8 +112,8 @@ private:
   Box3 Interior; ///< Beside or the own region, see InsideCells
   DelaunayKernel3 Kernel;
   std::vector<Vertex3> Others; ///< from the inbox
-  /// By later partition: corners of the tetrahedra for it.
-  std::vector<std::vector<DelaunayKernel3::Index>> Outgoing;
+  /// By later partition: the tetrahedra for it.
+  std::vector<std::vector<std::array<DelaunayKernel3::Index, 4>>> Outgoing;
   std::vector<Measured> Vertices;             ///< by vertex
   std::vector<char> IsTested;                 ///< by tetrahedron
   std::vector<DelaunayKernel3::Index> ToTest; ///< whose circumballs are tested, in this order
@@ -123,17 +121,12 @@ private:
   std::size_t VertexCount = 0;
 };
 
-/// Sends each tetrahedron of the initial mesh to the first partition that it meets: returns a
-/// message for each partition. Tetrahedra that meet no partition have only artificial corners and
-/// are dropped.
-std::vector<VertexMessage3> sendInitialMesh(const InitialMesh3& mesh, const PartitionOrder& order);
-
 /// Removes the artificial points (Lemma 3). Tetrahedralizes `vertices`, the true corners of
-/// tetrahedra with artificial corners, and adds to `final` the resulting tetrahedra that are in
-/// conflict with an artificial point. They fill the space of the removed tetrahedra. `vertices` may
-/// contain a vertex several times.
-void repairHull(
-  std::vector<Vertex3> vertices, const std::vector<Vertex3>& artificial, FinalCellConsumer3& final);
+/// tetrahedra with artificial corners, and calls add(corners) for the resulting tetrahedra that are
+/// in conflict with an artificial point. They fill the space of the removed tetrahedra. `vertices`
+/// may contain a vertex several times.
+void repairHull(std::vector<Vertex3> vertices, const std::vector<Vertex3>& artificial,
+  const std::function<void(const std::array<Vertex3, 4>&)>& add);
 
 } // namespace tipp
 

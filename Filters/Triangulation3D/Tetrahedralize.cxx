@@ -8,12 +8,9 @@
 #include "Triangulation3D/Dataflow3.h"
 #include "Triangulation3D/OrderCells.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
 #include <limits>
 #include <mutex>
 #include <stdexcept>
@@ -142,26 +139,13 @@ private:
     this->endPhase("triangulation");
   }
 
-  std::vector<Point3> sample(std::size_t wanted) const
-  {
-    std::vector<Point3> sample;
-    const std::size_t step = std::max<std::size_t>(1, this->Count / wanted);
-    for (std::size_t i = step / 2; i < this->Count; i += step)
-    {
-      const Point3& p = this->Points[i];
-      if (isFinite(p))
-      {
-        sample.push_back({ p.x * this->Factor, p.y * this->Factor, p.z * this->Factor });
-      }
-    }
-    return sample;
-  }
-
   /// Returns false if partitions do not pay, or cannot be made.
   bool runPartitioned(int partitions)
   {
     constexpr std::size_t samplesPerPartition = 256;
-    const Tiling3 tiling(this->sample(samplesPerPartition * std::size_t(partitions)), partitions);
+    const std::size_t step =
+      std::max<std::size_t>(1, this->Count / (samplesPerPartition * std::size_t(partitions)));
+    const Tiling3 tiling(samplePoints(this->Points, this->Count, step, this->Factor), partitions);
     const PointBuckets3 buckets =
       bucketPoints(this->Points, this->Count, tiling, this->Factor, this->Threads);
     this->endPhase("bucketing");
@@ -181,16 +165,16 @@ private:
     const PartitionOrder order(buckets.areUsed(), initial);
     std::vector<Inbox3> inboxes(order.partitionCount());
     FinalCells boundary;
-    std::vector<VertexMessage3> messages = sendInitialMesh(initial, order);
-    for (std::size_t p = 0; p < messages.size(); ++p)
+    for (auto& [to, message] : sendInitialMesh(initial, order))
     {
-      inboxes[p].put(std::move(messages[p]));
+      inboxes[std::size_t(to)].put(std::move(message));
     }
     this->endPhase("initial mesh");
     this->work(buckets, order, inboxes, boundary);
     if (!this->Result.Aborted)
     {
-      repairHull(std::move(boundary.HullVertices), artificial, boundary);
+      repairHull(std::move(boundary.HullVertices), artificial,
+        [&](const std::array<Vertex3, 4>& corners) { boundary.add(corners); });
       this->Cells.push_back(std::move(boundary.Cells));
       this->endPhase("hull");
       const bool hasCells = std::any_of(this->Cells.begin(), this->Cells.end(),
@@ -214,11 +198,10 @@ private:
     std::vector<FinalCells> made(std::size_t(this->Threads));
     std::mutex mutex;
     std::size_t pointsDone = 0;
-#pragma omp parallel num_threads(this->Threads)
-    {
-      try
+    runWorkers(ready, this->Threads,
+      [&](int thread)
       {
-        FinalCells& mine = made[std::size_t(omp_get_thread_num())];
+        FinalCells& mine = made[std::size_t(thread)];
         Worker3 worker(buckets.Regions, order);
         for (PartitionIndex p = ready.take(); p >= 0; p = ready.take())
         {
@@ -240,16 +223,7 @@ private:
         this->Result.Statistics.WorkerVertices += std::int64_t(worker.vertexCount());
         this->Result.Duplicates.insert(
           this->Result.Duplicates.end(), worker.duplicates().begin(), worker.duplicates().end());
-      }
-      catch (...)
-      {
-        ready.stop(std::current_exception());
-      }
-    }
-    if (ready.failure())
-    {
-      std::rethrow_exception(ready.failure());
-    }
+      });
     this->Result.Aborted = ready.isStopped();
     for (FinalCells& part : made)
     {
@@ -284,9 +258,7 @@ private:
 
   void finish()
   {
-    auto& duplicates = this->Result.Duplicates;
-    std::sort(duplicates.begin(), duplicates.end(),
-      [](const Duplicate& a, const Duplicate& b) { return a.Point < b.Point; });
+    std::sort(this->Result.Duplicates.begin(), this->Result.Duplicates.end());
     this->useRepresentatives();
     this->Result.Ids = orderCells(std::move(this->Cells), this->Count, this->Threads);
     this->endPhase("output");
@@ -387,22 +359,6 @@ std::string describeDimension(int dimension)
     "all finite points are on one line",
     "all finite points are in one plane, so the cells are triangles" };
   return std::string("No tetrahedra: ") + reasons[dimension + 1] + ".";
-}
-
-std::vector<std::string> warningsOf(const Tetrahedralization& mesh, std::int64_t points)
-{
-  std::vector<std::string> warnings;
-  if (!mesh.Rejected.empty())
-  {
-    warnings.push_back(std::to_string(mesh.Rejected.size()) + " of " + std::to_string(points) +
-      " points have a NaN or infinite coordinate and are in no tetrahedron; the first is point " +
-      std::to_string(mesh.Rejected.front()) + ".");
-  }
-  if (mesh.Dimension < 3)
-  {
-    warnings.push_back(describeDimension(mesh.Dimension));
-  }
-  return warnings;
 }
 
 } // namespace tipp

@@ -68,10 +68,6 @@ VTKTIPPFILTERS_EXPORT Triangulation triangulateCoplanar(const Point3* points, st
 /// Returns a sentence that says why points of this dimension, below 3, have no tetrahedra.
 std::string describeDimension(int dimension);
 
-/// Returns the warnings about a tetrahedralization of `points` input points, one sentence each.
-VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(
-  const Tetrahedralization& mesh, std::int64_t points);
-
 } // namespace tipp
 
 #endif

@@ -67,6 +67,21 @@ PointSurvey3 surveyPoints(const Point3* points, std::size_t count)
   return survey;
 }
 
+std::vector<Point3> samplePoints(
+  const Point3* points, std::size_t count, std::size_t step, double factor)
+{
+  std::vector<Point3> sample;
+  for (std::size_t i = step / 2; i < count; i += step)
+  {
+    const Point3& p = points[i];
+    if (isFinite(p))
+    {
+      sample.push_back({ p.x * factor, p.y * factor, p.z * factor });
+    }
+  }
+  return sample;
+}
+
 bool areExactTimes(const Point3* points, std::size_t count, double factor)
 {
   return factor == 1 ||

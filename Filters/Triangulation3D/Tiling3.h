@@ -37,6 +37,10 @@ struct PointSurvey3
 };
 PointSurvey3 surveyPoints(const Point3* points, std::size_t count);
 
+/// Returns every step-th point, if it is finite, with its coordinates multiplied by `factor`.
+std::vector<Point3> samplePoints(
+  const Point3* points, std::size_t count, std::size_t step, double factor);
+
 /// Returns a power of two that scales coordinates of very small or very large magnitude to about 1,
 /// so that the predicates' filters work; 1 for other magnitudes.
 double moderateFactor(double largest);

@@ -115,24 +115,19 @@ void printPartitions(SharedOut& shared)
   const PartitionOrder& order = *agreed.Order;
   std::vector<Inbox> inboxes(order.partitionCount());
   FinalBoundary<std::int64_t> final;
-  const DeliverMessage deliver = [&](PartitionIndex to, VertexMessage&& message)
-  { inboxes[std::size_t(to)].put(std::move(message)); };
   double longest = 0; // the longest time that a rank needs before its first partition
   double sum = 0;
   for (std::size_t rank = 0; rank < agreed.Parts.size(); ++rank)
   {
     const InitialMeshPart& part = agreed.Parts[rank];
     const ProcessorWatch watch;
-    sendInitialMesh(
-      part.Mesh, order,
-      [&](PartitionIndex to, VertexMessage&& message)
+    for (auto& [to, message] : sendInitialMesh(part.Mesh, order))
+    {
+      if (part.IsChosen[std::size_t(to)])
       {
-        if (part.IsChosen[std::size_t(to)])
-        {
-          deliver(to, std::move(message));
-        }
-      },
-      final);
+        inboxes[std::size_t(to)].put(std::move(message));
+      }
+    }
     const double seconds = agreed.PartSeconds[rank] + agreed.OrderSeconds + watch.seconds();
     longest = std::max(longest, seconds);
     sum += seconds;
@@ -151,14 +146,11 @@ void printPartitions(SharedOut& shared)
     const ProcessorWatch watch;
     routing.setPartition(p);
     worker.triangulate(p, unique.collect(inboxes[std::size_t(p)].take()), regions[p], routing);
-    routing.send(
-      worker,
-      [&](PartitionIndex to, VertexMessage&& message)
-      {
-        sent[to] = message.Vertices.size();
-        deliver(to, std::move(message));
-      },
-      final);
+    for (auto& [to, message] : routing.send(worker, final))
+    {
+      sent[to] = message.Vertices.size();
+      inboxes[std::size_t(to)].put(std::move(message));
+    }
     const double seconds = watch.seconds();
     std::printf(
       "%d %d %.9f %zu", p, shared.Of.Owners[std::size_t(p)], seconds, worker.vertexCount());

@@ -79,7 +79,7 @@ bool writeResult(const Delaunay3DArguments& arguments, PointTable&& table,
   std::vector<std::int64_t> neighbors;
   if (arguments.Neighbors)
   {
-    const auto found = neighborIds(mesh, table.size());
+    const auto found = neighborIds(mesh);
     neighbors.assign(found.begin(), found.end());
   }
   return writeTetrahedra(

@@ -3,7 +3,7 @@
 
 #include "Constraints/SegmentTree.h"
 #include "Parallel/ParallelFor.h"
-#include "Triangulation/PointBuckets.h"
+#include "Triangulation/PopulatePages.h"
 
 #include <algorithm>
 #include <array>

@@ -133,7 +133,7 @@ PieceResult3 makeResult()
   result.HullVertices = { { { 0.5, 1.5, 2.5 }, 8, 1 } };
   result.Borders[1].add({ 1, 2, 3, 4 }, { 1, 3, 4 });
   result.Borders[1].add({ 5, 6, 7, 8 }, { 1 });
-  result.Sent[2].push_back({ 2, { 0, { { { 3, 4, 5 }, 6, 0 }, { { 7, 8, 9 }, 10, 0 } } } });
+  result.Sent[2].push_back({ 2, { 0, 1, { { { 3, 4, 5 }, 6, 0 }, { { 7, 8, 9 }, 10, 0 } } } });
   return result;
 }
 

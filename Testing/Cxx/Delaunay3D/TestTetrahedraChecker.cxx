@@ -107,7 +107,7 @@ TEST_F(TetrahedraCheckerTest, FindsTiesThatBreakTheTieRule)
 
 TEST_F(TetrahedraCheckerTest, ChecksNeighbours)
 {
-  const auto found = neighborIds(this->Mesh, this->Points.size());
+  const auto found = neighborIds(this->Mesh);
   std::vector<std::int64_t> neighbors(found.begin(), found.end());
   EXPECT_TRUE(checkTetrahedra(this->XYZ, this->Ids, true, neighbors).isCorrect());
   std::swap(neighbors[0], neighbors[1]);

@@ -4,6 +4,7 @@
 #include "Check/TetrahedraChecker.h"
 #include "InMemory/TriangulateMerged.h"
 #include "Kernel3D/DelaunayKernel3.h"
+#include "Output/RunStatistics.h"
 
 #include <gtest/gtest.h>
 

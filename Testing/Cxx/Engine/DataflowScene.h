@@ -84,7 +84,7 @@ public:
         this->Ready.push_back(p);
       }
     }
-    sendInitialMesh(scene.Mesh, order, this->deliver(), this->Final);
+    this->deliver(sendInitialMesh(scene.Mesh, order));
   }
 
   /// Returns the triangulation of all points.
@@ -115,10 +115,12 @@ public:
   std::size_t Done = 0;
 
 private:
-  DeliverMessage deliver()
+  void deliver(SentMessages&& sent)
   {
-    return [this](PartitionIndex to, VertexMessage&& message)
-    { this->Inboxes[std::size_t(to)].put(std::move(message)); };
+    for (auto& [to, message] : sent)
+    {
+      this->Inboxes[std::size_t(to)].put(std::move(message));
+    }
   }
 
   void triangulate(PartitionIndex p, Worker<std::int32_t>& worker, Routing<std::int32_t>& routing)
@@ -130,7 +132,7 @@ private:
     }
     routing.setPartition(p);
     worker.triangulate(p, UniqueVertices().collect(messages), this->Scene.Boxes[p], routing);
-    routing.send(worker, this->deliver(), this->Final);
+    this->deliver(routing.send(worker, this->Final));
     ++this->Done;
     for (const PartitionIndex q : this->Order.later(p))
     {

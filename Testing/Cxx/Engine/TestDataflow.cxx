@@ -121,7 +121,7 @@ TEST_P(Dataflow, AnInboxHoldsEachVertexOfASenderOnce)
       {
         EXPECT_TRUE(ids.insert(v.Id).second);
       }
-      EXPECT_LE(message.Triangles, 2 * std::int64_t(message.Vertices.size()));
+      EXPECT_LE(message.Cells, 2 * std::int64_t(message.Vertices.size()));
     }
   };
   run.run(random);

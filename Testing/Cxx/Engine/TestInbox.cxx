@@ -14,7 +14,7 @@ using namespace tipp;
 
 VertexMessage messageOf(PartitionIndex sender, const std::vector<std::int64_t>& ids)
 {
-  VertexMessage message{ sender, {}, 1 };
+  VertexMessage message{ sender, 1, {} };
   for (const std::int64_t id : ids)
   {
     message.Vertices.push_back({ { double(id), 0 }, id, 0 });

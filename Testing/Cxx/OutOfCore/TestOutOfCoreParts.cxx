@@ -26,7 +26,7 @@ TEST(CheckedFile, IsReadAsSaved)
 {
   const TemporaryFolder folder;
   const std::vector<double> many(20000, 0.5);
-  const std::uint64_t bytesWritten = writeCheckedFile(folder.path("state"),
+  writeCheckedFile(folder.path("state"),
     [&](SaveArchive& out)
     {
       out(std::int64_t(-7));
@@ -34,7 +34,6 @@ TEST(CheckedFile, IsReadAsSaved)
       out(many);
       out(std::vector<std::vector<std::int32_t>>{ { 1, 2 }, {}, { 3 } });
     });
-  EXPECT_EQ(fs::file_size(folder.path("state")), bytesWritten);
   const Bytes bytes = readCheckedFile(folder.path("state"));
   LoadArchive in(bytes);
   std::int64_t number = 0;
@@ -103,8 +102,8 @@ TEST(SectionFile, AppearsOnlyWhenComplete)
   SectionFileWriter file(folder.path("file"));
   file.add({ 0, 0 }, packed(std::vector<int>{ 1 }));
   EXPECT_FALSE(fs::exists(folder.path("file")));
-  const std::uint64_t bytes = file.finish();
-  EXPECT_EQ(bytes, fs::file_size(folder.path("file")));
+  file.finish();
+  EXPECT_TRUE(fs::exists(folder.path("file")));
   EXPECT_EQ(1U, folder.fileCount());
 }
 

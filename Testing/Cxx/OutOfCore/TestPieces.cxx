@@ -164,11 +164,19 @@ TEST(RunSetup, IsRestoredOnAnotherRank)
 class PieceRuns : public testing::Test
 {
 protected:
-  bool run(
-    const std::vector<char>& isDone,
-    const std::function<bool(std::int64_t)>& progress = [](std::int64_t) { return true; })
+  bool run(const std::vector<char>& isDone, const std::function<bool(double)>& progress = {})
   {
-    return PieceRun(this->Work, this->Memory, 2, progress).run(isDone);
+    Communicator alone(nullptr);
+    try
+    {
+      PieceRun(this->Work, this->Memory, 2, progress, alone).run(isDone);
+      return true;
+    }
+    catch (const RankFailure& failure)
+    {
+      EXPECT_TRUE(failure.Aborted);
+      return false;
+    }
   }
 
   std::vector<char> doneNow() const
@@ -215,7 +223,7 @@ TEST_F(PieceRuns, LeaveAResultOfEveryPiece)
 
 TEST_F(PieceRuns, StopWhenAborted)
 {
-  EXPECT_FALSE(this->run(this->None, [](std::int64_t done) { return done < 1000; }));
+  EXPECT_FALSE(this->run(this->None, [](double done) { return done < 0.25; }));
 }
 
 TEST_F(PieceRuns, ResumeFromAnyResults)

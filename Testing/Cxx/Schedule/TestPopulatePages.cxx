@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Triangulation/PointBuckets.h"
+#include "Triangulation/PopulatePages.h"
 
 #include <gtest/gtest.h>
 

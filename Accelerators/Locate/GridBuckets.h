@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippPointBuckets_h
-#define tippPointBuckets_h
+#ifndef tippGridBuckets_h
+#define tippGridBuckets_h
 
 #include "Locate/MortonOrder.h"
 #include "Parallel/ParallelFor.h"
@@ -17,12 +17,12 @@ namespace tipp
 /// Points sorted into the boxes of a regular grid, about two per box. The points of boxes that are
 /// consecutive along x are contiguous.
 template <int D>
-class PointBuckets
+class GridBuckets
 {
 public:
   /// Sorts the points at(0) ... at(count - 1); non-finite points are left out.
   template <typename At>
-  PointBuckets(std::int64_t count, int threads, const At& at)
+  GridBuckets(std::int64_t count, int threads, const At& at)
     : Bounds(boundsOf<D>(count, threads, [&at](std::int64_t i) { return Box<D>::of(at(i)); }))
   {
     this->chooseSides(count);
