@@ -76,10 +76,16 @@ public:
         return;
       }
     }
-    // NOLINTNEXTLINE(bugprone-branch-clone): in the plane, the last two are the same
-    this->Fastest == 0     ? this->visitRows<0>(begin, end, visit)
-      : this->Fastest == 1 ? this->visitRows<1>(begin, end, visit)
-                           : this->visitRows<D - 1>(begin, end, visit);
+    if constexpr (D == 3)
+    {
+      if (this->Fastest == 2)
+      {
+        this->visitRows<2>(begin, end, visit);
+        return;
+      }
+    }
+    this->Fastest == 0 ? this->visitRows<0>(begin, end, visit)
+                       : this->visitRows<1>(begin, end, visit);
   }
 
 private:

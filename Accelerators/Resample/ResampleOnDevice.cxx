@@ -165,13 +165,17 @@ private:
   std::vector<Array> arraysOf(const MeshOnDevice& piece) const
   {
     const cl::Buffer none = this->Device.room(1);
-    std::vector<Array> arrays(mostArrays, Array{ none, none });
+    std::vector<Array> arrays;
     for (std::size_t i = 0; i < this->Attributes.size(); ++i)
     {
       const Attribute& attribute = this->Attributes[i];
-      arrays[i] = { piece.values(attribute.Values, tupleBytes(attribute)),
-        this->Outputs[i + 1].buffer(), cl_int(attribute.Type == Scalar::Float32),
-        cl_int(attribute.Components) };
+      arrays.push_back(
+        { piece.values(attribute.Values, tupleBytes(attribute)), this->Outputs[i + 1].buffer(),
+          cl_int(attribute.Type == Scalar::Float32), cl_int(attribute.Components) });
+    }
+    while (arrays.size() < mostArrays)
+    {
+      arrays.push_back({ none, none });
     }
     return arrays;
   }

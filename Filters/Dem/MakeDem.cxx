@@ -277,7 +277,7 @@ OutOfCoreStatistics makeWithin(std::unique_ptr<PointStream> points, const DemReq
     SurfaceSink surface(*request.Constraints);
     if (needsSurface(*request.Constraints, request.Bands))
     {
-      const OutOfCoreStatistics made =
+      OutOfCoreStatistics made =
         triangulateInto(surface, *points, options, [&](double done) { return report(0.4 * done); });
       if (made.Aborted)
       {

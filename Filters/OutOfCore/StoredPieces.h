@@ -40,6 +40,7 @@ std::vector<char> verifyResults(const Work& work, int threads, const Report& rep
   const std::function<void(const std::string&)>& warn)
 {
   std::vector<StoredPiece> pieces;
+  pieces.reserve(std::size_t(work.Plan.pieces()));
   for (PartitionIndex piece = 0; piece < work.Plan.pieces(); ++piece)
   {
     pieces.push_back({ work.Plan.number(piece), work.resultPath(piece), work.finishedPath(piece) });

@@ -200,7 +200,8 @@ void setCellIds(std::int64_t firstLine, std::size_t lines, const Mesh& mine, std
 {
   vtkNew<vtkIdTypeArray> ids;
   ids->SetName("GlobalCellIds");
-  ids->SetNumberOfValues(vtkIdType(lines + own + (ghosts ? ghosts->Numbers.size() : 0)));
+  const std::size_t cells = lines + own + (ghosts ? ghosts->Numbers.size() : 0);
+  ids->SetNumberOfValues(vtkIdType(cells));
   vtkIdType* const begin = ids->GetPointer(0);
   std::iota(begin, begin + lines, vtkIdType(firstLine));
   std::iota(begin + lines, begin + lines + own, vtkIdType(mine.FirstCell));

@@ -20,6 +20,7 @@ auto columnsOf(const std::vector<Item>& items)
   {
     using Value = std::decay_t<decltype(std::declval<Item>().*member)>;
     std::vector<std::conditional_t<std::is_integral_v<Value>, std::int64_t, Value>> values;
+    values.reserve(items.size());
     for (const Item& item : items)
     {
       values.push_back(item.*member);

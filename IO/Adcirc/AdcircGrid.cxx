@@ -229,9 +229,12 @@ std::vector<double> depthsOf(const PointTable& points)
   return depths;
 }
 
-/// The numbers of a grid's nodes, in the order of the file, and of further nodes up to `points`.
-std::vector<std::int64_t> nodeNumbers(const AdcircGrid& grid, std::size_t points)
+/// The numbers of a grid's nodes, in the order of the file `path`, and of further nodes up to
+/// `points`. Throws IOError if these would exceed 64 bits.
+std::vector<std::int64_t> nodeNumbers(
+  const std::string& path, const AdcircGrid& grid, std::size_t points)
 {
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
   std::vector<std::int64_t> numbers(grid.IndexOf.size());
   std::int64_t last = numbers.empty() ? 0 : std::numeric_limits<std::int64_t>::min();
   for (const auto& [number, index] : grid.IndexOf)
@@ -241,6 +244,12 @@ std::vector<std::int64_t> nodeNumbers(const AdcircGrid& grid, std::size_t points
   }
   while (numbers.size() < points)
   {
+    if (last == most)
+    {
+      throw IOError(path,
+        "has the largest node number possible, so new nodes cannot be numbered; renumber its "
+        "nodes.");
+    }
     numbers.push_back(++last);
   }
   return numbers;
@@ -264,7 +273,7 @@ bool writeAdcircGrid(const std::string& path, const PointTable& points, Triangle
   {
     frame = readAdcircGrid(like);
   }
-  const std::vector<std::int64_t> numbers = nodeNumbers(frame, points.size());
+  const std::vector<std::int64_t> numbers = nodeNumbers(like, frame, points.size());
   const std::vector<double> depths = depthsOf(points);
   PendingFile pending(path, before);
   OutputStream out(pending.file());

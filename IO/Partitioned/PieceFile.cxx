@@ -28,7 +28,7 @@ GlobalIdMap::GlobalIdMap(const std::int64_t* ids, const std::int64_t* values, st
     throw std::length_error("a piece has more than 2^32 points; cut the mesh into more pieces");
   }
   this->Least = ids[0];
-  this->Range = std::uint64_t(ids[count - 1] - ids[0]);
+  this->Range = std::uint64_t(ids[count - 1]) - std::uint64_t(ids[0]);
   while ((this->Range >> this->Shift) >= 2 * count)
   {
     ++this->Shift;
@@ -51,7 +51,7 @@ void GlobalIdMap::fill(std::vector<Entry<Number>>& entries, const std::int64_t* 
   this->Starts.assign(std::size_t(this->Range >> this->Shift) + 2, 0);
   for (std::size_t i = 0; i < count; ++i)
   {
-    const std::uint64_t key = std::uint64_t(ids[i] - this->Least);
+    const std::uint64_t key = std::uint64_t(ids[i]) - std::uint64_t(this->Least);
     entries[i] = { Number(key), Number(values ? std::uint64_t(values[i]) : i) };
     ++this->Starts[std::size_t(key >> this->Shift) + 1];
   }

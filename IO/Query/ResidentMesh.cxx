@@ -117,7 +117,7 @@ ResidentMesh::ResidentMesh(const std::string& path, const ResidentOptions& optio
 {
 }
 
-ResidentMesh::ResidentMesh(MeshPart part, const ResidentOptions& options)
+ResidentMesh::ResidentMesh(const MeshPart& part, const ResidentOptions& options)
   : ResidentMesh(tipp::describe(part, threadCount(options.Threads)),
       { { std::make_shared<const MeshPart>(part), nullptr, nullptr, {} } }, options)
 {

@@ -93,8 +93,8 @@ class VTKTIPPIO_EXPORT ResidentMesh
 public:
   /// Opens a partitioned mesh. Throws IOError.
   explicit ResidentMesh(const std::string& path, const ResidentOptions& options = {});
-  /// Uses a mesh in memory, and keeps `part`.
-  explicit ResidentMesh(MeshPart part, const ResidentOptions& options = {});
+  /// Uses a mesh in memory, and keeps a copy of `part`.
+  explicit ResidentMesh(const MeshPart& part, const ResidentOptions& options = {});
   virtual ~ResidentMesh() = default;
   ResidentMesh(const ResidentMesh&) = delete;
   ResidentMesh& operator=(const ResidentMesh&) = delete;

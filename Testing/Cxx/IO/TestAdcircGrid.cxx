@@ -95,6 +95,20 @@ TEST_F(AdcircGrid, InvalidElementsAreReported)
   this->expectError("title\n0 2\n1 0 0 0\n1 1 0 0\n", "node 1 is given twice");
 }
 
+TEST_F(AdcircGrid, NewNodesNeedNumbersThatTheFormatCanHold)
+{
+  tipp::PointTable points;
+  points.XY = { 0, 0, 1, 0, 0, 1, 1, 1 };
+  tipp::MeshOptions options;
+  const std::string path = this->Folder.path("out.14");
+  options.AdcircLike = this->file("title\n0 1\n9223372036854775804 0 0 0\n");
+  EXPECT_TRUE(tipp::writeMesh(path, points, {}, options));
+  EXPECT_EQ(1U, tipp::readAdcircGrid(path).IndexOf.count(9223372036854775807));
+  options.AdcircLike = this->file("title\n0 1\n9223372036854775805 0 0 0\n");
+  tipp::test::expectIOError(options.AdcircLike, "new nodes cannot be numbered",
+    [&]() { tipp::writeMesh(path, points, {}, options); });
+}
+
 TEST_F(AdcircGrid, ColumnsCannotBeChosen)
 {
   const std::string path = this->file("title\n0 3\n" + this->Nodes);

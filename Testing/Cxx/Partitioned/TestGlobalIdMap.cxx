@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -62,6 +63,17 @@ TEST(GlobalIdMap, FindsRunsBetweenWideGapsOfMoreThan32Bits)
     }
   }
   expectFinds(ids);
+}
+
+TEST(GlobalIdMap, FindsTheExtremeIds)
+{
+  using Limits = std::numeric_limits<std::int64_t>;
+  const std::vector<std::int64_t> ids{ Limits::min(), 0, Limits::max() };
+  const GlobalIdMap map(ids.data(), nullptr, ids.size());
+  EXPECT_EQ(0, map.find(Limits::min()));
+  EXPECT_EQ(1, map.find(0));
+  EXPECT_EQ(2, map.find(Limits::max()));
+  EXPECT_EQ(-1, map.find(Limits::max() - 1));
 }
 
 TEST(GlobalIdMap, FindsNothingInAnEmptyMap)
