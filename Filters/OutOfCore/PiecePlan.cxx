@@ -132,9 +132,15 @@ PiecePlan::PiecePlan(const InputSurvey& survey, const OutOfCoreOptions& options,
     this->takeAlone(survey);
     return;
   }
-  this->chooseInitialPoints(survey);
+  const auto pays = [&](int pointsPerPartition, double most)
+  {
+    this->chooseInitialPoints(survey, pointsPerPartition);
+    return partitionsPay(
+      triangulateVertices(this->Partitions, this->initialVertices(), threads), most);
+  };
+  // With more points the circumdisks shrink, but not those of points on a curve.
   this->HasLargeInterface =
-    !partitionsPay(triangulateVertices(this->Partitions, this->initialVertices(), threads));
+    !pays(InitialPointsOfPartition, 3) && !pays(4 * InitialPointsOfPartition, 2.6);
   if (!isGrid && fits && this->HasLargeInterface)
   {
     this->takeAlone(survey);
@@ -155,8 +161,7 @@ void PiecePlan::takeWholePieces(const InputSurvey& survey)
   }
   this->numberPartitions();
   this->Artificial = makeArtificialPoints(this->Partitions);
-  this->Initial.clear();
-  this->chooseInitialPoints(survey);
+  this->chooseInitialPoints(survey, InitialPointsOfPartition);
 }
 
 void PiecePlan::takeAlone(const InputSurvey& survey)
@@ -200,8 +205,9 @@ void PiecePlan::numberPartitions()
   this->Partitions = this->Pieces.refined(this->Inner);
 }
 
-void PiecePlan::chooseInitialPoints(const InputSurvey& survey)
+void PiecePlan::chooseInitialPoints(const InputSurvey& survey, int pointsPerPartition)
 {
+  this->Initial.clear();
   std::vector<std::vector<InitialPoint>> sampled(std::size_t(this->Partitions.size()));
   for (const SampledPoint& p : survey.Sample)
   {
@@ -211,8 +217,8 @@ void PiecePlan::chooseInitialPoints(const InputSurvey& survey)
   for (const std::vector<InitialPoint>& points : sampled)
   {
     const std::vector<Point2> positions = positionsOf(points);
-    for (const std::size_t i :
-      tipp::chooseInitialPoints(positions.data(), positions.size(), InitialPointsOfPartition))
+    for (const std::size_t i : tipp::chooseInitialPoints(
+           positions.data(), positions.size(), std::size_t(pointsPerPartition)))
     {
       this->Initial.push_back(points[i]);
     }

@@ -92,7 +92,7 @@ struct VTKTIPPFILTERS_EXPORT PiecePlan
 
 private:
   void choosePartitions(const InputSurvey& survey, const MemoryPlan& memory);
-  void chooseInitialPoints(const InputSurvey& survey);
+  void chooseInitialPoints(const InputSurvey& survey, int pointsPerPartition);
   void numberPartitions();
   void takeAlone(const InputSurvey& survey);
   void takeWholePieces(const InputSurvey& survey);
