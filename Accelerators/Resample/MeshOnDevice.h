@@ -142,7 +142,7 @@ private:
   SimplexMesh Cells; ///< as the kernels see them
   const std::int64_t First = 0;
   const int Threads = 1;
-  // Of a piece; kernels may read them in place.
+  // Of a piece. A device that shares memory with the host reads them directly.
   std::vector<double> Corners;
   std::vector<std::int32_t> Numbers;
   mutable std::vector<std::vector<char>> Values;

@@ -138,7 +138,7 @@ private:
     }
     if (compressor && !compressor->empty())
     {
-      this->refuse("is compressed; only uncompressed data can be read in place");
+      this->refuse("is compressed; only uncompressed data can be read");
     }
     if (count && *count != "UInt32" && *count != "UInt64")
     {

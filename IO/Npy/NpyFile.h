@@ -15,7 +15,7 @@
 namespace tipp
 {
 
-/// Where an .npy file has its array, and the type and shape, so that it can be read in place.
+/// Where an .npy file has its array, and the type and shape. Parts of it can be read alone.
 struct NpyArray
 {
   std::string Path;

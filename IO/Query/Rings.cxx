@@ -59,20 +59,19 @@ struct Reached
   }
 };
 
-/// Sorts items roughly by their places, which are not negative. There must be at least one item.
-void sortByPlace(std::int64_t* items, const std::int64_t* places, std::int64_t count)
+/// Sorts items roughly by their keys, which are not negative. There must be at least one item.
+void sortRoughly(std::int64_t* items, const std::int64_t* keys, std::int64_t count)
 {
   constexpr std::int64_t buckets = 4096;
-  const std::int64_t range = *std::max_element(places, places + count) + 1;
-  const auto bucketOf = [range](std::int64_t place)
-  { return std::size_t(place * buckets / range); };
+  const std::int64_t range = *std::max_element(keys, keys + count) + 1;
+  const auto bucketOf = [range](std::int64_t key) { return std::size_t(key * buckets / range); };
   std::vector<std::int64_t> next(std::size_t(buckets) + 1, 0);
-  std::for_each(places, places + count, [&](std::int64_t place) { ++next[bucketOf(place) + 1]; });
+  std::for_each(keys, keys + count, [&](std::int64_t key) { ++next[bucketOf(key) + 1]; });
   std::partial_sum(next.begin(), next.end(), next.begin());
   const std::vector<std::int64_t> before(items, items + count);
   for (std::int64_t i = 0; i < count; ++i)
   {
-    items[next[bucketOf(places[i])]++] = before[std::size_t(i)];
+    items[next[bucketOf(keys[i])]++] = before[std::size_t(i)];
   }
 }
 
@@ -256,7 +255,7 @@ private:
   void sortSeeds(int k, PieceGroups& groups)
   {
     this->Indices.resize(this->Seeds.size());
-    std::vector<std::int64_t> places(groups.Items.size());
+    std::vector<std::int64_t> keys(groups.Items.size());
     // Cells that are near in space are mostly near in memory, too; points are often in any order.
     // For a single step, finding the cells takes longer than their order saves.
     const bool byCell = this->OfPoints && k > 1;
@@ -268,18 +267,18 @@ private:
           const auto item = std::size_t(groups.Items[i]);
           const std::int64_t index =
             indexOf(this->Mesh, *piece.Topology, this->Seeds[item], this->OfPoints);
-          this->Indices[item] = places[i] = index;
+          this->Indices[item] = keys[i] = index;
           if (byCell)
           {
             const PartTopology::Cells cells = piece.Topology->cellsAt(index);
-            places[i] = cells.empty() ? 0 : *cells.begin();
+            keys[i] = cells.empty() ? 0 : *cells.begin();
           }
         }
       });
     for (const PieceGroups::Group& group : groups.Groups)
     {
-      sortByPlace(
-        groups.Items.data() + group.Begin, places.data() + group.Begin, group.End - group.Begin);
+      sortRoughly(
+        groups.Items.data() + group.Begin, keys.data() + group.Begin, group.End - group.Begin);
     }
   }
 
