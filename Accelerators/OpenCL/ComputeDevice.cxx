@@ -218,7 +218,7 @@ ComputeDevice::ComputeDevice(
   : Description(std::move(description))
   , Device(device)
   , Context(device)
-  , Queue(this->Context, device, CL_QUEUE_PROFILING_ENABLE)
+  , Queue(this->Context, device)
   , SharesHostMemory(sharesHostMemory)
 {
 }
@@ -306,12 +306,16 @@ void ComputeDevice::transfer(
   {
     return;
   }
+  const bool isStaged = bytes > stageBytes && !this->SharesHostMemory;
+  // Held until run() has emptied the queue after an error.
+  std::unique_lock<std::mutex> lock(this->StageMutex, std::defer_lock);
+  isStaged ? lock.lock() : void();
   this->run(
     [&]
     {
       this->Queue.finish(); // the time of kernels does not count
       const Stopwatch watch;
-      if (bytes <= stageBytes || this->SharesHostMemory)
+      if (!isStaged)
       {
         cl::Event done;
         enqueue(0, bytes, data, done);
@@ -328,7 +332,6 @@ void ComputeDevice::transfer(
 void ComputeDevice::transferInStages(
   char* data, std::size_t bytes, bool toHost, const Enqueue& enqueue) const
 {
-  const std::lock_guard<std::mutex> lock(this->StageMutex);
   const std::size_t parts = (bytes + stageBytes - 1) / stageBytes;
   const std::size_t stages = this->Stages.size();
   const auto sizeOf = [&](std::size_t part)

@@ -84,9 +84,8 @@ public:
   cl::Buffer room(std::size_t bytes) const;
 
   ///@{
-  /// Copies to or from the device and waits until it is done. Large copies to a card go through
-  /// page-locked memory, between which and the caller's memory OpenMP's threads copy: several times
-  /// as fast as the driver, which uses one thread.
+  /// Copies to or from the device and waits until it is done. Large copies to and from a card go
+  /// through page-locked memory, and OpenMP's threads copy between it and the caller's memory.
   void write(const cl::Buffer& buffer, const void* data, std::size_t bytes) const;
   void read(const cl::Buffer& buffer, void* data, std::size_t bytes) const;
   ///@}
@@ -135,7 +134,7 @@ private:
   mutable std::atomic<std::uint64_t> TransferNanoseconds{ 0 };
   mutable std::mutex StageMutex; ///< held while a transfer uses Stages
   mutable std::array<Stage, 2> Stages;
-  std::mutex Mutex;                            ///< of Programs
+  std::mutex Mutex;                            ///< held while Programs is used
   std::map<std::string, cl::Program> Programs; ///< built programs, by name and options
 };
 

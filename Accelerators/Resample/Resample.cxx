@@ -2,6 +2,7 @@
 #include "Resample/Resample.h"
 
 #include "OpenCL/Devices.h"
+#include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Resample/Interpolate.h"
 

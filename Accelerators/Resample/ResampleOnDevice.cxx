@@ -196,12 +196,12 @@ private:
       a[3].Samples, a[3].Float, a[3].Components, arguments...);
   }
 
-  /// A buffer of 32-bit integers.
+  /// Returns a buffer of `count` zeros of 32 bits.
   cl::Buffer zeros(std::size_t count) const
   {
-    const std::vector<cl_int> values(count);
-    cl::Buffer buffer = this->Device.room(count * sizeof(cl_int));
-    this->Device.write(buffer, values.data(), count * sizeof(cl_int));
+    const std::size_t bytes = count * sizeof(cl_int);
+    cl::Buffer buffer = this->Device.room(bytes);
+    this->Device.run([&] { this->Device.queue().enqueueFillBuffer(buffer, cl_int(0), 0, bytes); });
     return buffer;
   }
 

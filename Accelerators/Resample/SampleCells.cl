@@ -312,8 +312,8 @@ typedef struct
   int state;
 } Live;
 
-// Adds to one of the counters. The carry follows them, since sums of overlapping cells may exceed 32
-// bits.
+// Adds to one of the counters. The second half of the array counts their overflows, because the sum
+// over overlapping cells may exceed 32 bits.
 void count(global uint* counters, long item, uint samples)
 {
   const long counter = item % COUNTERS;

@@ -53,6 +53,7 @@ public:
   /// @name After the first pass
   ///@{
   virtual std::int64_t count() const = 0;
+  /// The statistics of the constraints.
   virtual const ConstraintFigures& figures() const = 0;
   /// Visits all segments, in the same order each time.
   virtual void forEach(const VisitSegment& visit) = 0;

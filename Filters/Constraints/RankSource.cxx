@@ -302,7 +302,8 @@ private:
     std::vector<Constraint> constraints;
     for (const Constraint& constraint : this->Constraints)
     {
-      constraints.push_back({ this->sorted(constraint.A), this->sorted(constraint.B) });
+      constraints.push_back(
+        { this->indexInSorted(constraint.A), this->indexInSorted(constraint.B) });
     }
     std::vector<PointId> names;
     for (const std::size_t v : this->Sorted)
@@ -361,7 +362,7 @@ private:
     }
   }
 
-  PointId sorted(PointId vertex) const { return this->IndexInSorted[std::size_t(vertex)]; }
+  PointId indexInSorted(PointId vertex) const { return this->IndexInSorted[std::size_t(vertex)]; }
 
   /// The sorted vertices, with the point arrays that all of them have.
   vtkSmartPointer<vtkPolyData> makeVertices(const std::vector<Bytes>& rows) const
@@ -377,7 +378,7 @@ private:
           vtkIdTypeArray::SafeDownCast(points->GetPointData()->GetArray("tippVertex"));
         for (vtkIdType i = 0; numbers && i < numbers->GetNumberOfTuples(); ++i)
         {
-          rowOf[std::size_t(this->sorted(numbers->GetValue(i)))] = { from.size(), i };
+          rowOf[std::size_t(this->indexInSorted(numbers->GetValue(i)))] = { from.size(), i };
         }
         points->GetPointData()->RemoveArray("tippVertex");
         from.emplace_back(points);
@@ -389,9 +390,12 @@ private:
       const auto [source, row] = this->SourceRows[v];
       if (this->VertexIds[v] >= this->EndOfIds)
       {
-        used == source ? void() : void(from.emplace_back(this->Sources[source]));
-        used = source;
-        rowOf[std::size_t(this->IndexInSorted[v])] = { from.size() - 1, row };
+        if (used != source)
+        {
+          from.emplace_back(this->Sources[source]);
+          used = source;
+        }
+        rowOf[std::size_t(this->indexInSorted(PointId(v)))] = { from.size() - 1, row };
       }
     }
     return copyRows(from, rowOf);

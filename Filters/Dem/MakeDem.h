@@ -35,15 +35,16 @@ struct DemRequest
   std::optional<TableConstraints> Constraints;     ///< see constrain()
 };
 
-/// Constrains a raster by breaklines and by a boundary; null: none. Polygons among the breaklines
-/// are lines, too. Heights of the boundary are not used. Duplicates of the request must be set.
+/// Sets request.Constraints from breaklines and a boundary, either of which may be missing. Set
+/// request.Duplicates first. Polygons among the breaklines count as lines, too. Heights of the
+/// boundary are not used.
 VTKTIPPFILTERS_EXPORT void constrain(DemRequest& request, std::optional<ConstraintTable> lines,
   std::optional<ConstraintTable> boundary);
 
-/// Reads breaklines. Throws IOError.
+/// Reads breaklines. Heights from a VTK file are dropped if all are 0. Throws IOError.
 VTKTIPPFILTERS_EXPORT ConstraintTable readBreaklines(const std::string& path);
 
-/// Removes the heights of lines of VTK, which always have heights, if all of them are 0.
+/// Removes the heights of lines if all are 0. For lines from VTK, which always have heights.
 VTKTIPPFILTERS_EXPORT void dropPlainHeights(ConstraintTable& lines);
 
 /// Returns the settings for points with these bounds and columns. Throws std::runtime_error.

@@ -251,10 +251,6 @@ void RasterSink::addTriangle(Part& part, const std::int32_t* corners) const
   const RasterWindow window =
     this->windowOf({ std::min({ a[0], b[0], c[0] }), std::min({ a[1], b[1], c[1] }),
       std::max({ a[0], b[0], c[0] }), std::max({ a[1], b[1], c[1] }) });
-  if (window.Columns == 0)
-  {
-    return;
-  }
   forTiles(this->Settings.Grid, window,
     [&](std::int64_t number, const RasterWindow& inTile)
     {

@@ -208,7 +208,7 @@ void TileStore::setInTile(std::int64_t tile, const RasterWindow& part, const Ras
   }
   this->writeState(tile, state);
   const RasterWindow whole = tileOf(this->Grid, tile);
-  // Tiles completed by setIfMissing(), in one thread, are encoded when the raster is written.
+  // setIfMissing() runs in one thread; what it completes is encoded in parallel by writeTiles().
   if (replaces && this->Finish && state.Set == std::uint32_t(whole.Columns * whole.Rows))
   {
     this->finish(tile);
@@ -267,7 +267,7 @@ std::optional<FinishedTile> TileStore::readFinished(std::int64_t tile) const
   }
   catch (const std::runtime_error&)
   {
-    throw IOError(this->File.path(), "is damaged; remove it and start again.");
+    throw IOError(this->File.path(), "is damaged; remove its folder and start again.");
   }
   return finished;
 }

@@ -41,7 +41,8 @@ public:
     FinishTile finish);
 
   /// Sets the pixels of a window that `isSet` marks; `values` has the window's pixels for each
-  /// band. Unless it `replaces`, pixels that are already set stay.
+  /// band. Unless it `replaces`, pixels that are already set stay, and a tile that becomes complete
+  /// is not encoded.
   void set(const RasterWindow& window, const std::vector<unsigned char>& isSet,
     const std::vector<std::vector<double>>& values, bool replaces = true);
 

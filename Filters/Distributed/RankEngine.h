@@ -57,8 +57,8 @@ protected:
   /// The interval between polls for messages while threads wait for other ranks.
   static constexpr std::chrono::microseconds ShortPause{ 300 };
 
-  /// `points`: the number of this rank's points. `progress`: called with the fraction of these
-  /// points that is finished; may be empty. `ranks` and `progress` must outlive this object.
+  /// `points`: the number of points that PointsDone counts up to. `progress`: called with the
+  /// finished fraction of these; may be empty. `ranks` and `progress` must outlive this object.
   RankEngine(Communicator& ranks, std::size_t partitions, std::size_t points,
     const std::function<bool(double)>& progress)
     : Ranks(ranks)
@@ -272,6 +272,7 @@ private:
     // them waits for other ranks, or all are done.
     constexpr std::chrono::microseconds longest(5000);
     constexpr double untilReport = 0.05;
+    constexpr double untilChange = 0.005; // a change is reported sooner
     this->report();
     while (!this->isFinished() && !this->source().isStopped())
     {
@@ -285,7 +286,8 @@ private:
           this->Changed.wait_for(lock, areWaiting ? ShortPause : longest);
         }
       }
-      if (this->PointsDone != this->PointsReported || this->SinceReport.seconds() > untilReport)
+      const bool isChanged = this->PointsDone != this->PointsReported;
+      if (this->SinceReport.seconds() > (isChanged ? untilChange : untilReport))
       {
         this->report();
       }

@@ -39,9 +39,10 @@ void serialize(Archive& archive, VertexMessageOf<Vertex>& message)
 template <typename Vertex>
 using SentMessagesOf = std::vector<std::pair<PartitionIndex, VertexMessageOf<Vertex>>>;
 
-/// Returns messages with the vertices of cells, which are sent once to each recipient. `cells` has
-/// a list for each recipient; one without cells gets no message. A cell is an array of indices
-/// below `vertexEnd`; vertexAt(index) returns a vertex.
+/// Returns messages with the vertices of cells, each vertex once per message. `cells` has a list
+/// for each recipient, and a message's recipient is the index of its list. A list without cells
+/// gives no message. A cell is an array of indices below `vertexEnd`; vertexAt(index) returns a
+/// vertex.
 template <typename Cell, typename VertexAt>
 auto messagesWith(PartitionIndex sender, const std::vector<std::vector<Cell>>& cells,
   std::size_t vertexEnd, const VertexAt& vertexAt)
@@ -72,9 +73,9 @@ auto messagesWith(PartitionIndex sender, const std::vector<std::vector<Cell>>& c
   return messages;
 }
 
-/// Sends each cell of an initial mesh to the first partition that it meets. Cells that meet no
-/// partition are dropped: a true corner's partition is met, so they have only artificial corners,
-/// which nobody needs.
+/// Returns messages that send each cell of an initial mesh to the first partition that it meets.
+/// Cells that meet no partition are dropped: a cell meets the partition of each true corner, so
+/// these have only artificial corners, and nobody needs them.
 template <typename Mesh>
 auto sendInitialMesh(const Mesh& mesh, const PartitionOrder& order)
 {

@@ -6,7 +6,6 @@
 #include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace tipp
 {

@@ -70,13 +70,15 @@ template <typename Id>
 class Routing : public BoundaryConsumer
 {
 public:
+  using Corners = std::array<DelaunayKernel::Index, 3>;
+
   Routing(const PartitionOrder& order, const Regions& regions);
 
   /// Sets the partition whose worker passes the next triangles.
   void setPartition(PartitionIndex p);
 
   void begin(DelaunayKernel::Index vertexEnd) override;
-  void add(const std::array<DelaunayKernel::Index, 3>& corners, const Circumdisk& disk) override;
+  void add(const Corners& corners, const Circumdisk& disk) override;
 
   /// Returns the messages to later partitions, and passes the triangles that meet none to `final`.
   SentMessages send(const Worker<Id>& worker, FinalTriangleConsumer& final) const;
@@ -84,8 +86,6 @@ public:
 private:
   const PartitionOrder& Order;
   const Regions& Boxes;
-  using Corners = std::array<DelaunayKernel::Index, 3>;
-
   PartitionIndex Sender = 0;
   PartitionOrder::Range Later{ nullptr, nullptr };
   std::size_t VertexEnd = 0;

@@ -6,10 +6,7 @@
 #include "Meshes/MeshFiles.h"
 #include "Output/RunStatistics.h"
 
-#include <algorithm>
-#include <array>
 #include <stdexcept>
-#include <utility>
 
 namespace tipp
 {

@@ -309,8 +309,8 @@ inline bool Cavity3::findConflicts(TetrahedronMesh& mesh, const Point3& p)
   return true;
 }
 
-/// Reserves as many free tetrahedra as the boundary has facets. Throws
-/// std::length_error if indices do not suffice.
+/// Reserves as many free tetrahedra as the boundary has facets. Throws std::length_error if there
+/// are not enough indices.
 inline void Cavity3::makeRoom(TetrahedronMesh& mesh)
 {
   const std::size_t count = this->Boundary.size();

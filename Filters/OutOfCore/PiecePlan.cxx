@@ -132,15 +132,14 @@ PiecePlan::PiecePlan(const InputSurvey& survey, const OutOfCoreOptions& options,
     this->takeAlone(survey);
     return;
   }
-  const auto pays = [&](int pointsPerPartition, double most)
+  const auto pays = [&](int pointsPerPartition)
   {
     this->chooseInitialPoints(survey, pointsPerPartition);
     return partitionsPay(
-      triangulateVertices(this->Partitions, this->initialVertices(), threads), most);
+      triangulateVertices(this->Partitions, this->initialVertices(), threads), MostMetPartitions);
   };
   // With more points the circumdisks shrink, but not those of points on a curve.
-  this->HasLargeInterface =
-    !pays(InitialPointsOfPartition, 3) && !pays(4 * InitialPointsOfPartition, 2.6);
+  this->HasLargeInterface = !pays(InitialPointsOfPartition) && !pays(4 * InitialPointsOfPartition);
   if (!isGrid && fits && this->HasLargeInterface)
   {
     this->takeAlone(survey);

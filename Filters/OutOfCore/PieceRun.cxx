@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -27,12 +26,12 @@ PieceRun::PieceRun(const PieceWork& work, const MemoryPlan& memory, int threads,
 void PieceRun::prepare(const std::vector<char>& isDone)
 {
   const PiecePlan& plan = this->Work.Plan;
-  this->Sorted = std::make_unique<PieceOrder>(plan, this->Work.Points, this->Threads);
+  this->OrderOfPieces = std::make_unique<PieceOrder>(plan, this->Work.Points, this->Threads);
   if (this->Work.takesBordersEarly())
   {
-    this->Borders = std::make_unique<BorderQueue>(plan, this->Sorted->partitions());
+    this->Borders = std::make_unique<BorderQueue>(plan, this->OrderOfPieces->partitions());
   }
-  const std::vector<PartitionIndex>& sequence = this->Sorted->sequence();
+  const std::vector<PartitionIndex>& sequence = this->OrderOfPieces->sequence();
   std::vector<char> isToDo(this->Inboxes.size(), 0);
   std::vector<PartitionIndex> left;
   for (std::size_t i = 0; i < sequence.size(); ++i)
@@ -48,14 +47,16 @@ void PieceRun::prepare(const std::vector<char>& isDone)
     }
     this->at(piece).PartitionsLeft = end - begin;
     this->AwaitedPieces += this->Ranks.isFirst() && !this->isOwn(piece) ? 1 : 0;
-    std::fill(isToDo.begin() + begin, isToDo.begin() + end, char(this->isOwn(piece)));
-    left.resize(left.size() + std::size_t(end - begin));
-    std::iota(left.end() - (end - begin), left.end(), begin);
+    for (PartitionIndex p = begin; p < end; ++p)
+    {
+      isToDo[std::size_t(p)] = char(this->isOwn(piece));
+      left.push_back(p);
+    }
   }
-  this->begin(this->Sorted->partitions(), left);
+  this->begin(this->OrderOfPieces->partitions(), left);
   // All processes make the same messages and keep those for their own pieces.
   for (auto& [to, message] :
-    sendInitialMesh(this->Sorted->takeInitialMesh(), this->Sorted->partitions()))
+    sendInitialMesh(this->OrderOfPieces->takeInitialMesh(), this->OrderOfPieces->partitions()))
   {
     if (isToDo[std::size_t(to)])
     {
@@ -63,7 +64,7 @@ void PieceRun::prepare(const std::vector<char>& isDone)
     }
   }
   this->Ready = std::make_unique<ReadyPartitions>(
-    this->Sorted->partitions(), ReadyPartitions::Waits::ForEarlierAndLoad, isToDo);
+    this->OrderOfPieces->partitions(), ReadyPartitions::Waits::ForEarlierAndLoad, isToDo);
   for (PartitionIndex piece : sequence)
   {
     if (isDone[std::size_t(piece)])
@@ -100,7 +101,7 @@ void PieceRun::writeEmptyPieces(const std::vector<char>& isDone)
 std::vector<PartitionIndex> PieceRun::setPieceDone(PartitionIndex piece)
 {
   this->at(piece).Result = std::make_unique<StoredResult>(this->Work.resultPath(piece));
-  for (const PartitionIndex other : this->Sorted->sequence())
+  for (const PartitionIndex other : this->OrderOfPieces->sequence())
   {
     if (this->at(piece).Result->sentBytes(other) == 0)
     {
@@ -132,7 +133,7 @@ void PieceRun::takeBorders(const std::vector<PartitionIndex>& pieces)
 
 void PieceRun::loadPieces()
 {
-  for (const PartitionIndex piece : this->Sorted->sequence())
+  for (const PartitionIndex piece : this->OrderOfPieces->sequence())
   {
     if (this->isOwn(piece) && this->at(piece).PartitionsLeft > 0)
     {
@@ -197,7 +198,7 @@ void PieceRun::load(PartitionIndex piece)
 
 void PieceRun::work()
 {
-  LoadedPiece::Workspace space(*this->Sorted);
+  LoadedPiece::Workspace space(*this->OrderOfPieces);
   for (PartitionIndex p = this->take(); p >= 0; p = this->take())
   {
     LoadedPiece& piece = *this->at(this->pieceOf(p)).Loaded;
@@ -279,6 +280,7 @@ void PieceRun::receive(const Message& message)
     const Lock lock(this->Mutex);
     this->setPieceDone(piece);
   }
+  this->PointsDone += std::size_t(this->Work.Points.count(piece));
   this->AwaitedPieces -= this->Ranks.isFirst() ? 1 : 0;
 }
 

@@ -184,7 +184,7 @@ private:
   const PieceWork Work;
   const MemoryPlan& Memory;
   const int Threads;
-  std::unique_ptr<PieceOrder> Sorted;
+  std::unique_ptr<PieceOrder> OrderOfPieces;
   std::unique_ptr<ReadyPartitions> Ready;
   std::size_t AwaitedPieces = 0; ///< on the first rank: other ranks' pieces that are not done
 

@@ -194,12 +194,14 @@ std::vector<BoundaryVertex> chooseInitialPoints(
 BoundaryTriangles triangulateVertices(
   const Regions& regions, const std::vector<BoundaryVertex>& vertices, int threads);
 
+/// The limit of partitionsPay() in the plane, if a mesh with four times as many points is tried
+/// before partitions are given up.
+constexpr double MostMetPartitions = 2.6;
+
 /// Whether partitioning pays off: whether cells meet at most `most` partitions on average.
-/// Otherwise every worker would get nearly all vertices. By measurement circumdisks meet 2.7 or
-/// more partitions on average for points on a circle, a parabola or a cubic. For ordinary points
-/// they meet 1.8 to 3.0 with 8 initial points per partition, and 1.4 to 2.0 with 32. Circumballs
-/// meet 2.1 to 2.5 in a volume, 4 on a surface, and 14 on a sphere. Cells that meet no partition do
-/// not count.
+/// Otherwise every worker would get nearly all vertices. For points on a circle or a parabola the
+/// average stays high with more initial points; for ordinary points it falls. Cells that meet no
+/// partition do not count.
 bool partitionsPay(const MetPartitions& initialMesh, double most = 3);
 /// The same from counts: the number of cells that meet partitions, and the sum of the numbers of
 /// partitions that they meet.

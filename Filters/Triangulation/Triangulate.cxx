@@ -42,8 +42,6 @@ int threadsForPass(std::size_t points, int threads)
   return static_cast<int>(std::min(static_cast<std::size_t>(threads), 1 + points / shortest));
 }
 
-constexpr double MostMetPartitions = 2.6; ///< per triangle, see partitionsPay()
-
 /// One run of the algorithm; its member functions are the steps.
 template <typename Id>
 class Run
@@ -70,17 +68,23 @@ public:
     this->Buckets = bucketPoints<Id>(this->Points, tiling, this->PassThreads);
     this->checkSizes();
     this->endPhase("bucketing");
+    if (!this->hasGrid() && this->onePartitionHasMost())
+    {
+      this->triangulateAlone(tiling);
+      return;
+    }
     const Regions regions(tiling, this->Buckets, this->PassThreads);
     BoundaryTriangles initialMesh =
-      this->makeInitialMesh(tiling, regions, artificial, initialPointsPerPartition());
-    // With more points the circumdisks shrink, but not those of points on a curve.
-    if (!this->hasGrid() && !partitionsPay(initialMesh, MostMetPartitions))
+      this->makeInitialMesh(tiling, regions, artificial, this->initialPointsPerPartition());
+    const auto pays = [&]
+    { return this->hasGrid() || partitionsPay(initialMesh, MostMetPartitions); };
+    if (!pays() && this->Options.InitialPointsPerPartition == 0)
     {
+      // With more points the circumdisks shrink, but not those of points on a curve.
       initialMesh =
-        this->makeInitialMesh(tiling, regions, artificial, 4 * initialPointsPerPartition());
+        this->makeInitialMesh(tiling, regions, artificial, 4 * InitialPointsOfPartition);
     }
-    if (!this->hasGrid() &&
-      (this->onePartitionHasMost() || !partitionsPay(initialMesh, MostMetPartitions)))
+    if (!pays())
     {
       this->triangulateAlone(tiling);
       return;
@@ -139,6 +143,7 @@ private:
   /// Triangulates all points at once, without partitions and artificial points.
   void triangulateAlone(const Tiling& tiling)
   {
+    this->Buckets = {}; // frees the partitions' buckets before the new ones are made
     this->Buckets = bucketTogether<Id>(
       this->Points, tiling.domain(), this->Result.Rejected.empty(), this->PassThreads);
     this->checkSizes();
@@ -203,7 +208,6 @@ private:
         order, barrier ? ReadyPartitions::Waits::ForColour : ReadyPartitions::Waits::ForEarlier),
       {} };
     shared.Stages.resize(order.sequence().size());
-    FinalBoundary<Id> boundary;
     shared.deliver(sendInitialMesh(initialMesh, order));
     this->endPhase("initial mesh");
     this->beginEditing(tiling);
@@ -212,6 +216,7 @@ private:
     runWorkers(shared.Ready, this->Threads,
       [&](int thread) { this->workAsOneThread(shared, sink, parts[std::size_t(thread)]); });
     this->endPhase("workers");
+    FinalBoundary<Id> boundary;
     TriangulationStatistics& statistics = this->Result.Statistics;
     statistics.Stages = stagesOf(shared.Stages, order, barrier);
     this->Result.Aborted = shared.Ready.isStopped();

@@ -71,7 +71,7 @@ private:
 };
 
 ///@{
-/// Lines and polygons of a VTK file or data set, which always have heights. The first throws
+/// The lines and polygons of a VTK file or data set; the table always has heights. The first throws
 /// IOError.
 ConstraintTable readVtkConstraints(const std::string& path);
 VTKTIPPIO_EXPORT ConstraintTable constraintsOf(vtkDataSet* data);

@@ -2,7 +2,6 @@
 #ifndef tippForPieces_h
 #define tippForPieces_h
 
-#include "Arrays/SortUnique.h"
 #include "Locate/MortonOrder.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
@@ -79,7 +78,8 @@ inline PieceNeeds topologyNeeded()
   return needs;
 }
 
-/// Calls work(piece) for the pieces [pieces.first, pieces.second), each on one of several threads.
+/// Calls work(piece) for the pieces [pieces.first, pieces.second), on `threads` threads; with one
+/// thread in ascending order.
 /// The pieces stay in memory if all of them fit.
 template <typename Work>
 void forPieceRange(const ResidentMesh& mesh, std::pair<std::size_t, std::size_t> pieces,

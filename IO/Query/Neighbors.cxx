@@ -15,11 +15,12 @@ namespace
 {
 
 /// A face, none of whose points is owned by the piece that owns its cell. Ids are global.
-struct ForeignFace
+struct SharedFace
 {
   std::int64_t At; ///< index in the result
   std::int64_t Cell;
   std::array<std::int64_t, 3> Points;
+  Point3 Position; ///< of Points[0]
 };
 
 std::vector<std::int64_t> storedNeighbors(const ResidentMesh& mesh,
@@ -46,12 +47,18 @@ std::vector<std::int64_t> storedNeighbors(const ResidentMesh& mesh,
 }
 
 /// Finds neighbours across faces of which the owner of the cell may not have all cells. The piece
-/// that owns one of the face's points has all cells there. `points` and `positions` are such a
-/// point of each face.
-void findForeign(const ResidentMesh& mesh, const std::vector<ForeignFace>& faces, const Ids& points,
-  const std::vector<Point3>& positions, std::vector<std::int64_t>& result)
+/// that owns the face's first point has all cells there.
+void findAcrossShared(
+  const ResidentMesh& mesh, const std::vector<SharedFace>& faces, std::vector<std::int64_t>& result)
 {
   const int count = mesh.mesh().CellSize - 1;
+  Ids points;
+  std::vector<Point3> positions;
+  for (const SharedFace& face : faces)
+  {
+    points.push_back(face.Points[0]);
+    positions.push_back(face.Position);
+  }
   const PieceGroups groups = groupByPiece(mesh.piecesAround(points, positions));
   forPieces(mesh, groups, topologyNeeded(),
     [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
@@ -59,7 +66,7 @@ void findForeign(const ResidentMesh& mesh, const std::vector<ForeignFace>& faces
       const PartTopology& topology = *piece.Topology;
       for (std::int64_t i = begin; i < end; ++i)
       {
-        const ForeignFace& face = faces[std::size_t(groups.Items[std::size_t(i)])];
+        const SharedFace& face = faces[std::size_t(groups.Items[std::size_t(i)])];
         std::int64_t corners[3] = { -1, -1, -1 };
         std::transform(face.Points.begin(), face.Points.begin() + count, corners,
           [&topology](std::int64_t id) { return topology.findPoint(id); });
@@ -86,9 +93,7 @@ std::vector<std::int64_t> computedNeighbors(
 {
   const int corners = mesh.mesh().CellSize;
   std::vector<std::int64_t> result(cells.size() * std::size_t(corners), -1);
-  std::vector<ForeignFace> foreign;
-  Ids points; // one of each foreign face
-  std::vector<Point3> positions;
+  std::vector<SharedFace> shared;
   std::mutex mutex;
   forPieces(mesh, groups, topologyNeeded(),
     [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
@@ -101,7 +106,7 @@ std::vector<std::int64_t> computedNeighbors(
         const std::int64_t cell = indexOf(mesh, topology, cells[std::size_t(item)], false);
         for (int face = 0; face < corners; ++face)
         {
-          ForeignFace other{ item * corners + face, cells[std::size_t(item)], {} };
+          SharedFace other{ item * corners + face, cells[std::size_t(item)], {}, {} };
           bool isComplete = false;
           int count = 0;
           for (int k = 0; k < corners; ++k)
@@ -116,16 +121,13 @@ std::vector<std::int64_t> computedNeighbors(
             result[std::size_t(other.At)] = across < 0 ? -1 : part.cellId(across);
             continue;
           }
+          other.Position = positionOf(part, topology.corner(cell, face == 0 ? 1 : 0));
           const std::lock_guard<std::mutex> lock(mutex);
-          foreign.push_back(other);
-          const std::int64_t point = topology.corner(cell, face == 0 ? 1 : 0);
-          points.push_back(part.pointId(point));
-          positions.push_back(positionOf(part, point));
+          shared.push_back(other);
         }
       }
     });
-  mesh.isAnywhere(!foreign.empty()) ? findForeign(mesh, foreign, points, positions, result)
-                                    : void();
+  mesh.isTrueOnAnyRank(!shared.empty()) ? findAcrossShared(mesh, shared, result) : void();
   return result;
 }
 

@@ -23,7 +23,7 @@ struct Shares
   std::vector<std::int32_t> Pieces; ///< the piece of each received id
 };
 
-/// Of a stored mesh, each rank answers the ids that its pieces own.
+/// For a stored mesh, each rank answers the ids that its pieces own.
 Shares sharesOf(Communicator& ranks, const ResidentMesh& mesh, const Ids& ids, bool ofPoints)
 {
   const std::vector<Ids> asked = ranks.allGather(ids);
@@ -54,7 +54,7 @@ Shares sharesOf(Communicator& ranks, const ResidentMesh& mesh, const Ids& ids, b
   return shares;
 }
 
-/// Of a mesh in memory, the lowest rank whose part has an id answers it.
+/// For a mesh in memory, the lowest rank whose part has an id answers it.
 Shares sharesOf(Communicator& ranks, const RankMesh& mesh, const Ids& ids, bool ofPoints)
 {
   Shares shares;

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -163,7 +163,7 @@ MeshPart partOf(const std::vector<CellCopy>& cells, const Ids& owned)
   return partOf(std::move(piece));
 }
 
-/// A rank's cells at the points that its part has.
+/// This rank's cells at those of `points` that its part has, each once.
 std::vector<CellCopy> copiesAt(const ResidentPiece& piece, const Ids& points)
 {
   const PartTopology& topology = *piece.Topology;
@@ -191,39 +191,57 @@ std::vector<CellCopy> copiesAt(const ResidentPiece& piece, const Ids& points)
   return copies;
 }
 
-/// Whether `isSo` is true on any rank.
-bool isAny(Communicator& ranks, bool isSo)
+/// Whether `condition` is true on any rank.
+bool isAny(Communicator& ranks, bool condition)
 {
-  std::vector<std::int64_t> count = { isSo ? 1 : 0 };
+  std::vector<std::int64_t> count = { condition ? 1 : 0 };
   ranks.sum(count);
   return count[0] > 0;
 }
 
-/// The Sharing of each point of this rank's part.
-std::vector<std::uint8_t> sharingOf(Communicator& ranks, const ResidentPiece& piece)
+/// The Sharing of each point of this rank's part. Only points in the box of another rank's part,
+/// and points that are not finite, can be shared.
+std::vector<std::uint8_t> sharingOf(
+  Communicator& ranks, const ResidentMesh& mesh, const ResidentPiece& piece)
 {
-  const auto hasCells = [&piece](std::size_t point)
-  { return !piece.Topology->cellsAt(std::int64_t(point)).empty(); };
-  Ids ids(std::size_t(piece.Part->Mesh.PointCount));
-  Ids withCells;
-  for (std::size_t point = 0; point < ids.size(); ++point)
+  std::vector<Bounds> boxes = ranks.allGather(mesh.mesh().Domain);
+  boxes.erase(boxes.begin() + ranks.rank());
+  const MeshPart& part = *piece.Part;
+  const auto hasCells = [&piece](std::int64_t point)
+  { return !piece.Topology->cellsAt(point).empty(); };
+  const auto mayBeShared = [&](std::int64_t point)
   {
-    ids[point] = piece.Part->pointId(std::int64_t(point));
-    hasCells(point) ? withCells.push_back(ids[point]) : void();
+    Point3 at = positionOf(part, point);
+    at.z = part.Mesh.Dimension == 3 ? at.z : 0; // as in the bounds of triangles
+    return !std::isfinite(at.x + at.y + at.z) ||
+      std::any_of(boxes.begin(), boxes.end(),
+        [&](const Bounds& box) { return holds(box, at, part.Mesh.Dimension); });
+  };
+  Ids points; // local indices
+  Ids ids;
+  Ids withCells;
+  for (std::int64_t point = 0; point < part.Mesh.PointCount; ++point)
+  {
+    if (mayBeShared(point))
+    {
+      points.push_back(point);
+      ids.push_back(part.pointId(point));
+      hasCells(point) ? withCells.push_back(ids.back()) : void();
+    }
   }
   const std::vector<Holders> holders = IdDirectory(ranks, withCells).find(ranks, ids);
-  std::vector<std::uint8_t> result;
-  for (std::size_t point = 0; point < ids.size(); ++point)
+  std::vector<std::uint8_t> result(std::size_t(part.Mesh.PointCount), NotShared);
+  for (std::size_t i = 0; i < points.size(); ++i)
   {
-    const bool isShared = holders[point].Count > (hasCells(point) ? 1 : 0);
-    const bool isFirst = holders[point].First == ranks.rank();
-    result.push_back(!isShared ? NotShared : isFirst ? FirstShared : LaterShared);
+    const bool isShared = holders[i].Count > (hasCells(points[i]) ? 1 : 0);
+    const bool isFirst = holders[i].First == ranks.rank();
+    result[std::size_t(points[i])] = !isShared ? NotShared : isFirst ? FirstShared : LaterShared;
   }
   return result;
 }
 
-/// This rank's part, which does not own shared points. Throws IOError if the parts do not go
-/// together.
+/// This rank's part, which does not own shared points. Throws IOError if ids are missing, or the
+/// parts differ in their type of cells.
 ResidentPiece ownPiece(Communicator& ranks, const ResidentMesh& mesh)
 {
   requireIds(&ranks, mesh);
@@ -233,7 +251,7 @@ ResidentPiece ownPiece(Communicator& ranks, const ResidentMesh& mesh)
   {
     others = {};
     const RankParts all(&ranks, mesh, {}); // throws if the parts differ in their type of cells
-    others.Sharing = sharingOf(ranks, piece);
+    others.Sharing = sharingOf(ranks, mesh, piece);
     others.Of = ranks.controller();
   }
   MeshPart part = *piece.Part;
@@ -272,9 +290,9 @@ std::vector<std::int32_t> RankMesh::piecesAround(
   return pieces;
 }
 
-bool RankMesh::isAnywhere(bool isSo) const
+bool RankMesh::isTrueOnAnyRank(bool condition) const
 {
-  return isAny(this->Ranks, isSo);
+  return isAny(this->Ranks, condition);
 }
 
 /// Adds a piece that owns these points, which are ascending, with the cells of all ranks there.

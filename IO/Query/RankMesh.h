@@ -16,9 +16,9 @@ namespace tipp
 /// A mesh whose parts are in the memory of several ranks, as one rank sees it during a query. Piece
 /// 0 is this rank's part; it owns the points at which no other rank has cells. If a query needs the
 /// cells at other points, all ranks send theirs, and these become a new piece that owns these
-/// points. So a query works as on a stored mesh.
+/// points. Queries then work as on a stored mesh.
 ///
-/// The constructor and all methods are collective.
+/// The constructor and all methods declared here are collective.
 class RankMesh : public ResidentMesh
 {
 public:
@@ -28,10 +28,10 @@ public:
 
   std::vector<std::int32_t> piecesAround(const std::vector<std::int64_t>& points,
     const std::vector<Point3>& positions = {}) const override;
-  bool isAnywhere(bool isSo) const override;
+  bool isTrueOnAnyRank(bool condition) const override;
 
-  /// Makes a piece of the points of this rank's part at which other ranks have cells, too, but no
-  /// lower rank. Returns the number of pieces.
+  /// Adds a piece that owns the shared points for which this rank is the lowest that has cells
+  /// there. Returns the number of pieces.
   std::size_t addFirstShared() const;
 
   /// The lowest rank whose part has each id, or -1.

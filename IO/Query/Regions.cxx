@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Arrays/SortUnique.h"
 #include "Files/IOError.h"
 #include "Predicates/ExactPredicates.h"
 #include "Query/ForPieces.h"

@@ -30,7 +30,7 @@ struct ResidentOptions
   /// exceeds the limit, a query throws IOError.
   std::uint64_t MemoryLimit = std::uint64_t(1) << 30;
   int Threads = 0; ///< 0: OpenMP's default
-  int Step = 0;    ///< time step of arrays that vary in time
+  int Step = 0;    ///< time step of a stored mesh's arrays that vary in time
 };
 
 /// Cells and values of a mesh at some points.
@@ -127,11 +127,12 @@ public:
   /// IOError for an id that is out of the range of ids. For a mesh in memory, all are 0.
   std::vector<std::int32_t> piecesOfIds(
     const std::vector<std::int64_t>& ids, bool ofPoints, std::size_t first, std::size_t end) const;
-  /// For each mesh point, of which id and position are given, a piece that has all cells there.
+  /// For each mesh point, given by id and position, a piece that has all cells there. Collective if
+  /// the mesh is a RankMesh.
   virtual std::vector<std::int32_t> piecesAround(
     const std::vector<std::int64_t>& points, const std::vector<Point3>& positions) const;
-  /// Whether `isSo` is true on any rank that takes part in the query.
-  virtual bool isAnywhere(bool isSo) const { return isSo; }
+  /// Whether `condition` is true on any rank of the query. Collective if the mesh is a RankMesh.
+  virtual bool isTrueOnAnyRank(bool condition) const { return condition; }
   [[noreturn]] void refuseId(std::int64_t id, bool ofPoints) const;
   /// Throws IOError: "PATH: PROBLEM", or "The mesh PROBLEM" for a mesh in memory.
   [[noreturn]] void refuse(const std::string& problem) const;
@@ -148,8 +149,8 @@ public:
   struct OtherParts
   {
     const vtkMultiProcessController* Of = nullptr; ///< null: nothing is known
-    std::vector<std::uint8_t> Sharing;             ///< per point of this part, see RankMesh
-    std::shared_ptr<const IdDirectory> Points;     ///< null: not made yet
+    std::vector<std::uint8_t> Sharing;         ///< ghost flag per point of this part, for RankMesh
+    std::shared_ptr<const IdDirectory> Points; ///< null: not made yet
     std::shared_ptr<const IdDirectory> Cells;
   };
   OtherParts& otherParts() const { return this->Others; }

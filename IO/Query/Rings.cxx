@@ -2,6 +2,7 @@
 #include "Query/Around.h"
 
 #include "Arrays/IndexMap.h"
+#include "Arrays/SortUnique.h"
 #include "Query/ForPieces.h"
 #include "Query/RankLists.h"
 
@@ -168,7 +169,7 @@ public:
   IdLists grown(int k, const std::vector<std::int32_t>& pieces)
   {
     this->start(k, pieces);
-    for (int step = 0; step < k && this->Mesh.isAnywhere(!this->Front.empty()); ++step)
+    for (int step = 0; step < k && this->Mesh.isTrueOnAnyRank(!this->Front.empty()); ++step)
     {
       this->grow();
     }

@@ -162,8 +162,8 @@ inline std::int64_t tileNumber(const RasterGrid& grid, const RasterWindow& windo
   return fromNorth / RasterTileSize * across + window.Column / RasterTileSize;
 }
 
-/// Calls visit(tile, part) for each tile that a window meets: the tile's number, and the part of
-/// the window in it.
+/// Calls visit(tile, part) for each tile that a window meets, none if the window is empty: the
+/// tile's number, and the part of the window in it.
 template <typename Visit>
 void forTiles(const RasterGrid& grid, const RasterWindow& window, const Visit& visit)
 {

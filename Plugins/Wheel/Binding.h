@@ -100,7 +100,7 @@ template <typename Row>
 nb::object idRowsOf(const std::vector<Row>& rows)
 {
   constexpr std::size_t columns = sizeof(Row) / sizeof(std::int64_t);
-  static_assert(sizeof(Row) % sizeof(std::int64_t) == 0, "ids in a row");
+  static_assert(sizeof(Row) % sizeof(std::int64_t) == 0, "a row must consist of 64-bit ids");
   Buffer<Row> buffer(rows.size());
   std::copy(rows.begin(), rows.end(), buffer.begin());
   return arrayOf(Buffer<std::int64_t>(std::move(buffer)), columns);

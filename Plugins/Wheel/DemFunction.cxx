@@ -31,6 +31,22 @@ ConstraintTable linesOf(const nb::object& arrays)
   return table;
 }
 
+/// Reads a file with read(path), or converts arrays as linesOf(). Returns nothing for None.
+template <typename Read>
+std::optional<ConstraintTable> constraintsOf(const nb::object& given, const Read& read)
+{
+  if (given.is_none())
+  {
+    return std::nullopt;
+  }
+  if (!nb::isinstance<nb::str>(given))
+  {
+    return linesOf(given);
+  }
+  const auto path = nb::cast<std::string>(given);
+  return withoutLock([&] { return read(path); });
+}
+
 /// Returns an entry of the options, which the Python side has checked.
 template <typename Value>
 Value of(const nb::dict& options, const char* name)
@@ -48,29 +64,9 @@ DemRequest requestOf(const nb::dict& options)
   request.MaximumEdge = of<double>(options, "max_edge");
   request.Threads = of<int>(options, "threads");
   request.Duplicates = static_cast<DuplicateRule>(of<int>(options, "duplicates"));
-  std::optional<ConstraintTable> lines;
-  std::optional<ConstraintTable> boundary;
-  const nb::object givenLines = options["breaklines"];
-  const nb::object givenBoundary = options["boundary"];
-  if (nb::isinstance<nb::str>(givenLines))
-  {
-    const auto path = nb::cast<std::string>(givenLines);
-    lines = withoutLock([&] { return readBreaklines(path); });
-  }
-  else if (!givenLines.is_none())
-  {
-    lines = linesOf(givenLines);
-  }
-  if (nb::isinstance<nb::str>(givenBoundary))
-  {
-    const auto path = nb::cast<std::string>(givenBoundary);
-    boundary = withoutLock([&] { return readBoundary(path); });
-  }
-  else if (!givenBoundary.is_none())
-  {
-    boundary = linesOf(givenBoundary);
-    requireClosedBoundary(*boundary);
-  }
+  auto lines = constraintsOf(options["breaklines"], readBreaklines);
+  auto boundary = constraintsOf(options["boundary"], readBoundary);
+  boundary ? requireClosedBoundary(*boundary) : void();
   constrain(request, std::move(lines), std::move(boundary));
   return request;
 }

@@ -144,23 +144,18 @@ void PieceChecker::checkPoints(const CheckedPiece& piece)
   }
 }
 
-/// Keeps the points of the piece's convex hull, including those inside its edges. `points` are in
+/// Keeps the points of the piece's convex hull, including those on its edges. `points` are in
 /// lexicographic order.
 void PieceChecker::keepHull(const std::vector<Vertex>& points)
 {
-  std::vector<Position> positions;
-  positions.reserve(points.size());
-  for (const Vertex& vertex : points)
+  const auto at = [](const Vertex& vertex) { return vertex.At; };
+  for (const auto& half : { check::halfHull(points.begin(), points.end(), at),
+         check::halfHull(points.rbegin(), points.rend(), at) })
   {
-    positions.push_back(vertex.At);
-  }
-  for (int side = 0; side < 2; ++side)
-  {
-    for (const Position p : check::halfHull(positions))
+    for (const Position p : half)
     {
       this->HullXY.insert(this->HullXY.end(), { p.x, p.y });
     }
-    std::reverse(positions.begin(), positions.end());
   }
 }
 
@@ -339,7 +334,7 @@ CheckReport PieceChecker::finish()
     this->Report.UnusedPoints = this->IsCollinear ? 0 : this->Report.UnusedPoints;
     return this->Report;
   }
-  if (this->Options.BoundaryFree && !this->Options.IsCut)
+  if (this->Options.BoundaryFree)
   {
     return this->Report;
   }

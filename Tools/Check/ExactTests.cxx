@@ -112,20 +112,6 @@ std::int64_t countHullFaults(const std::vector<double>& xy, std::vector<Directed
   return edges.empty() ? 0 : Chain(xy, edges).countFaults();
 }
 
-std::vector<Position> halfHull(const std::vector<Position>& points)
-{
-  std::vector<Position> chain;
-  for (const Position& p : points)
-  {
-    while (chain.size() > 1 && turn(chain[chain.size() - 2], chain.back(), p) < 0)
-    {
-      chain.pop_back();
-    }
-    chain.push_back(p);
-  }
-  return chain;
-}
-
 std::int64_t countOffHull(const std::vector<double>& xy, const std::vector<DirectedEdge>& edges)
 {
   if (edges.empty())
@@ -142,14 +128,14 @@ std::int64_t countOffHull(const std::vector<double>& xy, const std::vector<Direc
   const auto isSame = [](Position a, Position b) { return a.x == b.x && a.y == b.y; };
   points.erase(std::unique(points.begin(), points.end(), isSame), points.end());
   std::set<std::array<double, 4>> hull;
-  for (int side = 0; side < 2; ++side)
+  const auto at = [](Position p) { return p; };
+  for (const auto& half :
+    { halfHull(points.begin(), points.end(), at), halfHull(points.rbegin(), points.rend(), at) })
   {
-    const std::vector<Position> chain = halfHull(points);
-    for (std::size_t i = 1; i < chain.size(); ++i)
+    for (std::size_t i = 1; i < half.size(); ++i)
     {
-      hull.insert({ chain[i - 1].x, chain[i - 1].y, chain[i].x, chain[i].y });
+      hull.insert({ half[i - 1].x, half[i - 1].y, half[i].x, half[i].y });
     }
-    std::reverse(points.begin(), points.end());
   }
   return std::count_if(edges.begin(), edges.end(),
     [&](const DirectedEdge& edge)

@@ -46,9 +46,23 @@ struct DirectedEdge
 /// each point.
 std::int64_t countHullFaults(const std::vector<double>& xy, std::vector<DirectedEdge>& edges);
 
-/// Returns the lower half of the convex hull of points in lexicographic order, including those
-/// inside its edges. For the reverse order, returns the upper half.
-std::vector<Position> halfHull(const std::vector<Position>& points);
+/// Returns the lower half of the convex hull of points in lexicographic order, including the points
+/// on its edges. For the reverse order, returns the upper half. at(*i) is the position of a point.
+template <typename Iterator, typename At>
+std::vector<Position> halfHull(Iterator begin, Iterator end, const At& at)
+{
+  std::vector<Position> chain;
+  for (Iterator i = begin; i != end; ++i)
+  {
+    const Position p = at(*i);
+    while (chain.size() > 1 && turn(chain[chain.size() - 2], chain.back(), p) < 0)
+    {
+      chain.pop_back();
+    }
+    chain.push_back(p);
+  }
+  return chain;
+}
 
 /// Counts the edges that are not edges of the convex hull of the finite points. All points on the
 /// hull count as its vertices, so a hull edge joins two consecutive ones.

@@ -41,8 +41,24 @@ struct ArrayNames
   std::set<std::string> OfCells;
 };
 
-/// Selects the arrays that `arguments` name, or all if they name none. Throws IOError for a name
-/// that the mesh does not have.
+/// Throws IOError for a name, other than `except`, that the mesh does not have.
+void requireArrays(
+  const ResampleArguments& arguments, const ArrayNames& known, const std::string& except)
+{
+  for (const std::string& name : arguments.Arrays)
+  {
+    if (name != except && known.OfPoints.count(name) + known.OfCells.count(name) == 0)
+    {
+      std::set<std::string> all = known.OfPoints;
+      all.insert(known.OfCells.begin(), known.OfCells.end());
+      throw IOError(
+        arguments.Input, "has no array '" + name + "'" + listOfNames(all, "; it has ") + ".");
+    }
+  }
+}
+
+/// Selects the arrays that `arguments` name; if they name none, leaves the selection unchanged.
+/// Throws IOError for a name that the mesh does not have.
 void selectArrays(
   const ResampleArguments& arguments, const ArrayNames& known, vtkRangeResampleFilter* filter)
 {
@@ -50,18 +66,12 @@ void selectArrays(
   {
     return;
   }
+  requireArrays(arguments, known, "");
   filter->GetPointDataArraySelection()->SetUnknownArraySetting(0);
   filter->GetCellDataArraySelection()->SetUnknownArraySetting(0);
   for (const std::string& name : arguments.Arrays)
   {
     const bool isOfPoints = known.OfPoints.count(name) > 0;
-    if (!isOfPoints && known.OfCells.count(name) == 0)
-    {
-      std::set<std::string> all = known.OfPoints;
-      all.insert(known.OfCells.begin(), known.OfCells.end());
-      throw IOError(
-        arguments.Input, "has no array '" + name + "'" + listOfNames(all, "; it has ") + ".");
-    }
     (isOfPoints ? filter->GetPointDataArraySelection() : filter->GetCellDataArraySelection())
       ->EnableArray(name.c_str());
   }
@@ -264,6 +274,8 @@ vtkSmartPointer<vtkDataSet> readFlat(
   const vtkNew<ErrorKeeper> errors;
   const auto reader = openReader(arguments, ranks, errors);
   names = namesIn(reader);
+  // Before the mesh is read. Whether it has an elevation is known only afterwards.
+  ranks.attempt([&] { requireArrays(arguments, names, elevationName); });
   reader->UpdatePiece(ranks.rank(), ranks.size(), 0);
   ranks.attempt([&] { throwFirst(errors); });
   vtkSmartPointer<vtkDataSet> mesh = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));

@@ -2,8 +2,7 @@
 #ifndef tippCrossedTriangles_h
 #define tippCrossedTriangles_h
 
-#include "Constraints/Constraint.h"
-#include "Triangulation/PointsView.h"
+#include "Triangulation/Triangulate.h"
 
 #include <cstdint>
 #include <tuple>

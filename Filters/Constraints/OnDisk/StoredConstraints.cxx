@@ -266,7 +266,7 @@ StoredConstraints::Ends StoredConstraints::endsOf(
   {
     bool IsNamed;
     Segment Keys;
-    Segment Ends; ///< positions
+    Segment Positions;
   };
   std::vector<Taken> taken;
   std::vector<Point2> own;
@@ -299,8 +299,8 @@ StoredConstraints::Ends StoredConstraints::endsOf(
     ends.Edges.push_back({ indexOf(one.Keys.A), indexOf(one.Keys.B) });
     if (one.IsNamed)
     {
-      ends.Positions[std::size_t(ends.Edges.back().A)] = one.Ends.A;
-      ends.Positions[std::size_t(ends.Edges.back().B)] = one.Ends.B;
+      ends.Positions[std::size_t(ends.Edges.back().A)] = one.Positions.A;
+      ends.Positions[std::size_t(ends.Edges.back().B)] = one.Positions.B;
     }
   }
   return ends;

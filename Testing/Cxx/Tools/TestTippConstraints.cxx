@@ -137,6 +137,12 @@ TEST_F(TippConstraints, BoundaryCanBeCombinedWithALongestEdge)
     this->delaunay({ "-o", "mesh.vtp", "--boundary", "square.csv", "--max-edge", "2.5" });
   ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
   EXPECT_EQ(4, this->area("mesh.vtp"));
+  // Its boundary is neither constraints nor edges of the convex hull.
+  Words check{ "check", "points.csv", "mesh.vtp", "--constraints", "square.csv", "--cut" };
+  EXPECT_EQ(1, runTipp(this->Folder, check).ExitCode);
+  check.emplace_back("--boundary-free");
+  const Outcome checked = runTipp(this->Folder, check);
+  EXPECT_EQ(0, checked.ExitCode) << checked.Out << checked.Err;
 }
 
 TEST_F(TippConstraints, BoundaryCanBeCombinedWithConstraints)
