@@ -36,7 +36,6 @@ set(tipp_python_imports "from ._run import require as _require_vtk\n\n_require_v
 set(tipp_python_more_imports "")
 set(tipp_python_summary
   "and the VTK classes that these use: vtkTIPPDelaunay2D, vtkTIPPDelaunay3D, vtkTIPPOutOfCoreDelaunay2D,\nvtkTIPPPointsToImage, vtkRangeResampleFilter, vtkPartitionedMeshQuery, vtkTIPPPointReader,\nvtkPartitionedUnstructuredReader and vtkPartitionedUnstructuredWriter.")
-set(tipp_engine _vtk_engine)
 foreach (module IN LISTS tipp_wrapped_modules)
   string(REPLACE "TIPP::" "vtk" library "${module}")
   add_dependencies(tipp_python "${library}Python")
@@ -45,13 +44,12 @@ endforeach ()
 set(tipp_python_source "${PROJECT_SOURCE_DIR}/Plugins/Python/tipp")
 set(tipp_python_package "${CMAKE_BINARY_DIR}/${tipp_python_destination}/tipp")
 configure_file("${tipp_python_source}/__init__.py.in" "${tipp_python_package}/__init__.py" @ONLY)
-configure_file("${tipp_python_source}/_engine.py.in" "${tipp_python_package}/_engine.py" @ONLY)
 file(GLOB tipp_python_files CONFIGURE_DEPENDS
   "${tipp_python_source}/*.py" "${tipp_python_source}/py.typed")
 foreach (file IN LISTS tipp_python_files)
   configure_file("${file}" "${tipp_python_package}" COPYONLY)
 endforeach ()
-install(FILES "${tipp_python_package}/__init__.py" "${tipp_python_package}/_engine.py" ${tipp_python_files}
+install(FILES "${tipp_python_package}/__init__.py" ${tipp_python_files}
   DESTINATION "${tipp_python_destination}/tipp"
   COMPONENT python)
 

@@ -1,56 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPartitionedMeshQuery.h"
 
-#include "Output/FilterPipeline.h"
-#include "Parallel/Poll.h"
-#include "Query/DataSetPart.h"
-#include "Query/LineData.h"
-#include "Query/QueryArrays.h"
-#include "Query/RankAnswer.h"
-#include "Query/ResidentMesh.h"
-#include "Ranks/Communicator.h"
+#include "Parallel/ParallelFor.h"
+#include "Pipeline/FilterPipeline.h"
+#include "Query/QueryData.h"
 
 #include "vtkCellData.h"
 #include "vtkCharArray.h"
-#include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
-#include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
-#include "vtkSmartPointer.h"
 
 #include <algorithm>
 #include <exception>
-#include <stdexcept>
 
 vtkStandardNewMacro(vtkPartitionedMeshQuery);
 vtkCxxSetObjectMacro(vtkPartitionedMeshQuery, Controller, vtkMultiProcessController);
-
-namespace
-{
-
-void replaceNull(const std::vector<std::int64_t>& cells, double null, vtkDataArray* array)
-{
-  if (array->GetDataType() != VTK_FLOAT && array->GetDataType() != VTK_DOUBLE)
-  {
-    return;
-  }
-  for (std::size_t i = 0; i < cells.size(); ++i)
-  {
-    for (int k = 0; cells[i] < 0 && k < array->GetNumberOfComponents(); ++k)
-    {
-      array->SetComponent(vtkIdType(i), k, null);
-    }
-  }
-}
-
-} // namespace
 
 vtkPartitionedMeshQuery::vtkPartitionedMeshQuery()
 {
@@ -266,8 +237,7 @@ int vtkPartitionedMeshQuery::RequestData(
         {
           if (!monitor(0.5) && this->Controller)
           {
-            const int rank = this->Controller->GetLocalProcessId();
-            throw tipp::RankFailure(rank, true, "The run was stopped.");
+            throw tipp::RankFailure(this->GetRank().first, true, "The run was stopped.");
           }
           return monitor(0.5);
         });
@@ -276,12 +246,7 @@ int vtkPartitionedMeshQuery::RequestData(
                     [input](vtkIdType i, double* p) { input->GetPoint(i, p); }),
           false, true);
       vtkPointData* const values = output->GetPointData();
-      for (tipp::MeshAnswer::Array& array : answer.Arrays)
-      {
-        const vtkSmartPointer<vtkDataArray> taken = tipp::takeOver(array);
-        replaceNull(answer.Cells, this->NullValue, taken);
-        values->AddArray(taken);
-      }
+      tipp::moveArrays(answer, values, this->NullValue);
       values->AddArray(tipp::arrayOf<vtkIdTypeArray>("CellId", answer.Cells));
       vtkNew<vtkCharArray> mask;
       mask->SetName(this->ValidPointMaskArrayName ? this->ValidPointMaskArrayName : "");
@@ -318,10 +283,7 @@ int vtkPartitionedMeshQuery::Interpolate(
     [&]
     {
       tipp::MeshAnswer answer = this->Ask(tipp::pointsOf(points), false, true);
-      for (tipp::MeshAnswer::Array& array : answer.Arrays)
-      {
-        values->AddArray(tipp::takeOver(array));
-      }
+      tipp::moveArrays(answer, values);
       tipp::copyTo(cells, answer.Cells);
     });
 }

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkPartitionedMeshQuery.h"
 
-#include "Query/Around.h"
-#include "Query/Closest.h"
-#include "Query/LineData.h"
-#include "Query/Lines.h"
-#include "Query/QueryArrays.h"
-#include "Query/RankAnswer.h"
-#include "Query/ResidentMesh.h"
-#include "Query/Zones.h"
+#include "Query/Queries.h"
+#include "Query/QueryData.h"
 
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdList.h"
-#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
@@ -99,8 +92,8 @@ std::shared_ptr<const tipp::ResidentMesh> vtkPartitionedMeshQuery::OpenWhole()
   if (this->GetRank().second > 1 && !mesh->isStored())
   {
     throw std::runtime_error(
-      "each rank has a part of the source alone; store the mesh and give its "
-      "FileName for this question.");
+      "each rank has only a part of the source; store the mesh and give its FileName for this "
+      "question.");
   }
   return mesh;
 }
@@ -226,16 +219,14 @@ int vtkPartitionedMeshQuery::Closest(
       const tipp::ClosestLocations found =
         tipp::closestTo(mesh, asked.data(), std::int64_t(asked.size()), ranks);
       copyTo(cells, found.Cells);
-      if (locations)
+      std::vector<double> coordinates;
+      coordinates.reserve(locations ? 3 * found.Points.size() : 0);
+      for (std::size_t i = 0; locations && i < found.Points.size(); ++i)
       {
-        locations->SetNumberOfComponents(3);
-        locations->SetNumberOfTuples(vtkIdType(asked.size()));
-        for (std::size_t i = 0; i < asked.size(); ++i)
-        {
-          const tipp::Point3& p = found.Points[i];
-          locations->SetTuple3(vtkIdType(i), p.x, p.y, p.z);
-        }
+        const tipp::Point3& p = found.Points[i];
+        coordinates.insert(coordinates.end(), { p.x, p.y, p.z });
       }
+      copyTo(locations, coordinates, 3);
       copyTo(distances, found.Distances);
     });
 }
@@ -298,20 +289,14 @@ int vtkPartitionedMeshQuery::Descend(
 
 int vtkPartitionedMeshQuery::InterpolateOnOwners(vtkDataArray* points, vtkPolyData* values)
 {
-  return this->Direct(
-    [&]
+  return this->Around(
+    [&](tipp::Communicator* ranks, const tipp::ResidentMesh& mesh)
     {
-      tipp::Communicator ranks(this->Controller);
-      ranks.together(
-        [&]
-        {
-          const auto mesh = this->Open();
-          const std::vector<tipp::Point3> asked = pointsOf(points);
-          tipp::AnswerOptions options;
-          options.Arrays = this->ArraysOf(&ranks, *mesh);
-          tipp::StayingAnswer found = tipp::answerWhereCellsAre(
-            ranks, *mesh, asked.data(), std::int64_t(asked.size()), options);
-          values->ShallowCopy(tipp::polyDataOf(std::move(found)));
-        });
+      const std::vector<tipp::Point3> asked = pointsOf(points);
+      tipp::AnswerOptions options;
+      options.Arrays = this->ArraysOf(ranks, mesh);
+      tipp::Communicator alone(nullptr); // used if there are no other ranks
+      values->ShallowCopy(tipp::polyDataOf(tipp::answerWhereCellsAre(
+        ranks ? *ranks : alone, mesh, asked.data(), std::int64_t(asked.size()), options)));
     });
 }

@@ -63,19 +63,10 @@
 #include "vtkTIPPFiltersModule.h" // For export macro
 #include "vtkTIPPSetGet.h"        // For property macros
 
-#include <array>  // For dimensions
-#include <vector> // For the meshes of an input
-
 class vtkDataArraySelection;
 class vtkMultiProcessController;
-class vtkPointSet;
 class vtkStringArray;
 class vtkTable;
-
-namespace tipp
-{
-class Communicator;
-}
 
 class VTKTIPPFILTERS_EXPORT vtkRangeResampleFilter : public vtkImageAlgorithm
 {
@@ -242,7 +233,7 @@ public:
   /**
    * The statistics of the last run, see above. The filter owns the table.
    */
-  vtkTable* GetStatistics();
+  vtkTable* GetStatistics() { return this->Statistics; }
 
 protected:
   vtkRangeResampleFilter();
@@ -280,9 +271,6 @@ private:
   void operator=(const vtkRangeResampleFilter&) = delete;
 
   class Run;
-
-  std::array<int, 3> Dimensions(const std::array<double, 6>& bounds,
-    const std::vector<vtkPointSet*>& meshes, tipp::Communicator& ranks) const;
 
   vtkNew<vtkTable> Statistics;
   vtkNew<vtkStringArray> DeviceChoices;

@@ -3,17 +3,16 @@
 
 #include "Constraints/RankSource.h"
 #include "Constraints/SourceConstraints.h"
+#include "Distributed/ConstrainRanks.h"
 #include "Distributed/DistributedTriangulation.h"
-#include "Distributed/TriangleExchange.h"
 #include "InMemory/AlphaShape.h"
 #include "InMemory/TriangulatePoints.h"
-#include "Output/FilterPipeline.h"
+#include "Output/MeshOutput.h"
 #include "Output/RunStatistics.h"
-#include "Output/TriangleOutput.h"
-#include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
-#include "Projection/ProjectedPoints.h"
-#include "Vtk/ReadDataSet.h"
+#include "Pipeline/FilterPipeline.h"
+#include "Pipeline/InputPoints.h"
+#include "Vtk/DataSets.h"
 
 #include "vtkAbstractTransform.h"
 #include "vtkCellArray.h"
@@ -152,19 +151,9 @@ vtkAbstractTransform* vtkTIPPDelaunay2D::ComputeBestFittingPlane(vtkPointSet* in
 int vtkTIPPDelaunay2D::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  if (!tipp::hasSeveralRanks(this->Controller))
-  {
-    return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
-  }
-  // Whichever piece is requested, every rank contributes its share of the points and of the source.
-  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
-  {
-    if (vtkInformation* input = inputVector[port]->GetInformationObject(0))
-    {
-      tipp::askForRankPiece(input, this->Controller);
-    }
-  }
-  return 1;
+  return tipp::askForRankPieces(this->Controller, inputVector, this->GetNumberOfInputPorts())
+    ? 1
+    : this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
 }
 
 int vtkTIPPDelaunay2D::RequestData(
@@ -176,15 +165,14 @@ int vtkTIPPDelaunay2D::RequestData(
   vtkTable* statistics = vtkTable::GetData(outputVector, 1);
   this->NumberOfDuplicatePoints = 0;
   this->NumberOfRejectedPoints = 0;
-  const auto work = [&]
-  {
-    const tipp::ThreadLimit limit(this->NumberOfThreads);
-    tipp::hasSeveralRanks(this->Controller)
-      ? this->ExecuteOnRanks(input, source, tipp::wantsGhosts(outputVector), output, statistics)
-      : this->Execute(input, source, output, statistics);
-  };
-  const int isDone =
-    tipp::runReported(this, this->Controller, "Triangulating", input, { output, statistics }, work);
+  const int isDone = tipp::triangulateReported(this, this->Controller, this->NumberOfThreads,
+    "Triangulating", input, { output, statistics },
+    [&]
+    {
+      tipp::hasSeveralRanks(this->Controller)
+        ? this->ExecuteOnRanks(input, source, tipp::wantsGhosts(outputVector), output, statistics)
+        : this->Execute(input, source, output, statistics);
+    });
   if (!isDone && tipp::hasSeveralRanks(this->Controller))
   {
     this->SetErrorCode(vtkErrorCode::UserError); // not every rank reports the error
@@ -423,11 +411,8 @@ void vtkTIPPDelaunay2D::ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, 
     {
       mine = tipp::gatherOnFirst(ranks, std::move(mine));
     }
-    std::optional<tipp::GhostTriangles> ghosts;
-    if (wishes[1] > 0)
-    {
-      ghosts = tipp::fetchGhosts(ranks, mine);
-    }
+    const tipp::GhostTriangles ghosts =
+      wishes[1] > 0 ? tipp::fetchGhosts(ranks, mine) : tipp::GhostTriangles();
     tipp::ConstraintLines lines;
     if (shared && wishes[2] > 0)
     {
@@ -437,7 +422,7 @@ void vtkTIPPDelaunay2D::ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, 
     tipp::PieceMarks marks;
     marks.Flags = shared && this->ConstraintMarks == EDGE_FLAGS ? shared->Segments.get() : nullptr;
     marks.Lines = shared && this->ConstraintMarks == LINES ? &lines : nullptr;
-    tipp::fillPiece(mine, ranks.rank(), rows, wantsGhosts ? &*ghosts : nullptr, marks, output);
+    tipp::fillPiece(mine, ranks.rank(), rows, wantsGhosts ? &ghosts : nullptr, marks, output);
     if (this->GenerateRepresentativeIds)
     {
       tipp::addDuplicatesAndRejected(mine.Duplicates, mine.Rejected, output);

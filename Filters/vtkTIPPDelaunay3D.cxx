@@ -3,17 +3,14 @@
 
 #include "Distributed3D/DistributedTetrahedralization.h"
 #include "InMemory/AlphaShape.h"
-#include "InMemory/TriangulateMerged.h"
 #include "InMemory/TriangulatePoints.h"
-#include "Output/FilterPipeline.h"
+#include "Output/MeshOutput.h"
 #include "Output/RunStatistics.h"
-#include "Output/TetrahedronOutput.h"
-#include "Output/TriangleOutput.h"
-#include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
-#include "Projection/ProjectedPoints.h"
+#include "Pipeline/FilterPipeline.h"
+#include "Pipeline/InputPoints.h"
 #include "Triangulation3D/Tetrahedralize.h"
-#include "Vtk/ReadDataSet.h"
+#include "Vtk/DataSets.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -33,8 +30,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -98,13 +93,9 @@ int vtkTIPPDelaunay3D::FillOutputPortInformation(int port, vtkInformation* info)
 int vtkTIPPDelaunay3D::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  if (!tipp::hasSeveralRanks(this->Controller))
-  {
-    return this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
-  }
-  // Whichever piece is requested, every rank contributes its share of the points.
-  tipp::askForRankPiece(inputVector[0]->GetInformationObject(0), this->Controller);
-  return 1;
+  return tipp::askForRankPieces(this->Controller, inputVector, 1)
+    ? 1
+    : this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
 }
 
 int vtkTIPPDelaunay3D::RequestData(
@@ -115,15 +106,14 @@ int vtkTIPPDelaunay3D::RequestData(
   vtkTable* statistics = vtkTable::GetData(outputVector, 1);
   this->NumberOfDuplicatePoints = 0;
   this->NumberOfRejectedPoints = 0;
-  const auto work = [&]
-  {
-    const tipp::ThreadLimit limit(this->NumberOfThreads);
-    tipp::hasSeveralRanks(this->Controller)
-      ? this->ExecuteOnRanks(input, tipp::wantsGhosts(outputVector), output, statistics)
-      : this->Execute(input, output, statistics);
-  };
-  const int isDone = tipp::runReported(
-    this, this->Controller, "Tetrahedralizing", input, { output, statistics }, work);
+  const int isDone = tipp::triangulateReported(this, this->Controller, this->NumberOfThreads,
+    "Tetrahedralizing", input, { output, statistics },
+    [&]
+    {
+      tipp::hasSeveralRanks(this->Controller)
+        ? this->ExecuteOnRanks(input, tipp::wantsGhosts(outputVector), output, statistics)
+        : this->Execute(input, output, statistics);
+    });
   if (!isDone && tipp::hasSeveralRanks(this->Controller))
   {
     this->SetErrorCode(vtkErrorCode::UserError); // not every rank reports the error
@@ -270,20 +260,20 @@ void vtkTIPPDelaunay3D::ExecuteOnRanks(
     const tipp::PointRows rows(ranks, input);
     tipp::RankPoints3 points;
     std::vector<tipp::Point3> copy;
-    points.Count = std::size_t(input->GetNumberOfPoints());
-    points.Points = points.Count > 0 ? tipp::coordinatesOf(input->GetPoints(), copy) : nullptr;
+    if (input->GetNumberOfPoints() > 0)
+    {
+      points.Points = { tipp::coordinatesOf(input->GetPoints(), copy),
+        std::size_t(input->GetNumberOfPoints()) };
+    }
     rows.describe(points);
     mine = tipp::tetrahedralizeDistributed(ranks, points, options);
     if (wishes[0] > 0)
     {
       mine = tipp::gatherOnFirst(ranks, std::move(mine), options.Threads);
     }
-    std::optional<tipp::GhostTetrahedra> ghosts;
-    if (wishes[1] > 0)
-    {
-      ghosts = tipp::fetchGhosts(ranks, mine);
-    }
-    tipp::fillPiece(mine, ranks.rank(), rows, wantsGhosts ? &*ghosts : nullptr, output);
+    const tipp::GhostTetrahedra ghosts =
+      wishes[1] > 0 ? tipp::fetchGhosts(ranks, mine) : tipp::GhostTetrahedra();
+    tipp::fillPiece(mine, ranks.rank(), rows, wantsGhosts ? &ghosts : nullptr, output);
     if (this->GenerateRepresentativeIds)
     {
       tipp::addDuplicatesAndRejected(mine.Duplicates, mine.Rejected, output);

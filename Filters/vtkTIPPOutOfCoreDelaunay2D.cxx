@@ -3,10 +3,10 @@
 
 #include "Constraints/OnDisk/ConstrainedPoints.h"
 #include "Files/IOError.h"
-#include "Files/OutputPath.h"
+#include "Files/OutputFile.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
-#include "Output/FilterPipeline.h"
 #include "Output/RunStatistics.h"
+#include "Pipeline/FilterPipeline.h"
 
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
@@ -14,8 +14,6 @@
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkTable.h"
-
-#include <exception>
 
 vtkStandardNewMacro(vtkTIPPOutOfCoreDelaunay2D);
 vtkCxxSetObjectMacro(vtkTIPPOutOfCoreDelaunay2D, Controller, vtkMultiProcessController);
@@ -49,11 +47,7 @@ vtkTIPPOutOfCoreDelaunay2D::~vtkTIPPOutOfCoreDelaunay2D()
 
 void vtkTIPPOutOfCoreDelaunay2D::AddInputFileName(const char* name)
 {
-  if (name && *name)
-  {
-    this->InputFileNames.emplace_back(name);
-    this->Modified();
-  }
+  tipp::addName(this, name, this->InputFileNames);
 }
 
 void vtkTIPPOutOfCoreDelaunay2D::SetInputFileName(const char* name)
@@ -68,11 +62,7 @@ void vtkTIPPOutOfCoreDelaunay2D::SetInputFileName(const char* name)
 
 void vtkTIPPOutOfCoreDelaunay2D::ClearInputFileNames()
 {
-  if (!this->InputFileNames.empty())
-  {
-    this->InputFileNames.clear();
-    this->Modified();
-  }
+  tipp::clearItems(this, this->InputFileNames);
 }
 
 int vtkTIPPOutOfCoreDelaunay2D::GetNumberOfInputFileNames() const
@@ -82,9 +72,7 @@ int vtkTIPPOutOfCoreDelaunay2D::GetNumberOfInputFileNames() const
 
 const char* vtkTIPPOutOfCoreDelaunay2D::GetInputFileName(int index) const
 {
-  return index >= 0 && index < this->GetNumberOfInputFileNames()
-    ? this->InputFileNames[std::size_t(index)].c_str()
-    : nullptr;
+  return tipp::nameAt(this->InputFileNames, index);
 }
 
 void vtkTIPPOutOfCoreDelaunay2D::AddHole(double x, double y)
@@ -95,11 +83,7 @@ void vtkTIPPOutOfCoreDelaunay2D::AddHole(double x, double y)
 
 void vtkTIPPOutOfCoreDelaunay2D::ClearHoles()
 {
-  if (!this->Holes.empty())
-  {
-    this->Holes.clear();
-    this->Modified();
-  }
+  tipp::clearItems(this, this->Holes);
 }
 
 /// Announces that the filter handles piece requests. Otherwise a pipeline that requests one piece
@@ -120,30 +104,13 @@ int vtkTIPPOutOfCoreDelaunay2D::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   vtkTable* const output = vtkTable::GetData(outputVector, 0);
-  try
+  const int isDone =
+    tipp::runReported(this, this->Controller, "", { output }, [&] { this->Execute(output); });
+  if (!isDone)
   {
-    this->Execute(output);
-    return 1;
+    this->SetErrorCode(vtkErrorCode::UserError); // not every rank reports the error
   }
-  catch (const tipp::RankFailure& failure)
-  {
-    const int ranks = this->Controller ? this->Controller->GetNumberOfProcesses() : 1;
-    if (ranks == 1)
-    {
-      vtkErrorMacro(<< failure.what());
-    }
-    else if (this->Controller->GetLocalProcessId() == 0)
-    {
-      vtkErrorMacro("Rank " << failure.Rank << ": " << failure.what());
-    }
-    this->SetErrorCode(vtkErrorCode::UserError);
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-  }
-  output->Initialize();
-  return 0;
+  return isDone;
 }
 
 void vtkTIPPOutOfCoreDelaunay2D::Execute(vtkTable* output)

@@ -2,10 +2,13 @@
 #include "vtkTIPPPointsToImage.h"
 
 #include "Dem/MakeDem.h"
-#include "Output/FilterPipeline.h"
-#include "Points/PointStream.h"
+#include "Parallel/ParallelFor.h"
+#include "Pipeline/FilterPipeline.h"
+#include "Pipeline/InputPoints.h"
+#include "Points/ReadPoints.h"
 #include "Sampling/SamplingRange.h"
-#include "Vtk/ReadDataSet.h"
+#include "Triangulation/PointsView.h"
+#include "Vtk/DataSets.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -23,8 +26,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <exception>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -77,20 +78,12 @@ int vtkTIPPPointsToImage::FillInputPortInformation(int port, vtkInformation* inf
 
 void vtkTIPPPointsToImage::AddBand(const char* name)
 {
-  if (name && *name)
-  {
-    this->Bands.emplace_back(name);
-    this->Modified();
-  }
+  tipp::addName(this, name, this->Bands);
 }
 
 void vtkTIPPPointsToImage::ClearBands()
 {
-  if (!this->Bands.empty())
-  {
-    this->Bands.clear();
-    this->Modified();
-  }
+  tipp::clearItems(this, this->Bands);
 }
 
 int vtkTIPPPointsToImage::GetNumberOfBands() const
@@ -100,10 +93,10 @@ int vtkTIPPPointsToImage::GetNumberOfBands() const
 
 const char* vtkTIPPPointsToImage::GetBand(int index) const
 {
-  return index >= 0 && index < this->GetNumberOfBands() ? this->Bands[std::size_t(index)].c_str()
-                                                        : nullptr;
+  return tipp::nameAt(this->Bands, index);
 }
 
+/// `points` may be null if Resolution and SamplingBounds are used.
 tipp::RasterGrid vtkTIPPPointsToImage::Grid(vtkPointSet* points) const
 {
   tipp::RasterRequest request;
@@ -111,7 +104,7 @@ tipp::RasterGrid vtkTIPPPointsToImage::Grid(vtkPointSet* points) const
   request.Aligned = this->AlignToResolution;
   const std::array<double, 4> bounds =
     this->UseInputBounds ? this->PointBounds(points) : tipp::toArray(this->SamplingBounds);
-  if (request.Resolution == 0)
+  if (points && request.Resolution == 0)
   {
     const double area = (bounds[1] - bounds[0]) * (bounds[3] - bounds[2]);
     const double count = double(std::max<vtkIdType>(points->GetNumberOfPoints(), 1));
@@ -124,29 +117,24 @@ int vtkTIPPPointsToImage::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
   vtkInformation* const outInfo = outputs->GetInformationObject(0);
-  try
-  {
-    vtkPointSet* points = nullptr;
-    if (this->UseInputBounds || this->Resolution == 0)
+  return tipp::runReported(this, nullptr, "", {},
+    [&]
     {
-      points = vtkPointSet::SafeDownCast(tipp::updatedInput(this, 0, 1, outInfo));
-      if (!points)
+      vtkPointSet* points = nullptr;
+      if (this->UseInputBounds || this->Resolution == 0)
       {
-        throw std::runtime_error("The input has not been made, so its extent is not known.");
+        points = vtkPointSet::SafeDownCast(tipp::updatedInput(this, 0, 1, outInfo));
+        if (!points)
+        {
+          throw std::runtime_error("The input has not been made, so its extent is not known.");
+        }
       }
-    }
-    vtkNew<vtkImageData> image;
-    setGrid(this->Grid(points), image);
-    outInfo->Set(Pipeline::WHOLE_EXTENT(), image->GetExtent(), 6);
-    outInfo->Set(vtkDataObject::ORIGIN(), image->GetOrigin(), 3);
-    outInfo->Set(vtkDataObject::SPACING(), image->GetSpacing(), 3);
-    return 1;
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
+      vtkNew<vtkImageData> image;
+      setGrid(this->Grid(points), image);
+      outInfo->Set(Pipeline::WHOLE_EXTENT(), image->GetExtent(), 6);
+      outInfo->Set(vtkDataObject::ORIGIN(), image->GetOrigin(), 3);
+      outInfo->Set(vtkDataObject::SPACING(), image->GetSpacing(), 3);
+    });
 }
 
 int vtkTIPPPointsToImage::RequestUpdateExtent(
@@ -194,42 +182,27 @@ std::unique_ptr<tipp::PointStream> vtkTIPPPointsToImage::Stream(vtkPointSet* poi
 
 std::array<double, 4> vtkTIPPPointsToImage::PointBounds(vtkPointSet* points) const
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::array<double, 4> bounds{ infinity, -infinity, infinity, -infinity };
-  const auto include = [&bounds](double x, double y)
-  {
-    if (std::isfinite(x) && std::isfinite(y))
-    {
-      bounds = { std::min(bounds[0], x), std::max(bounds[1], x), std::min(bounds[2], y),
-        std::max(bounds[3], y) };
-    }
-  };
+  tipp::Box2 box = tipp::PointSurvey().Bounds;
   if (this->ThinningSize > 0)
   {
     constexpr std::size_t blockPoints = 1 << 16;
     tipp::forEachBlock(*this->Stream(points), blockPoints,
       [&](const tipp::PointBlock& block)
       {
-        for (std::size_t i = 0; i < block.size(); ++i)
-        {
-          include(block.XY[2 * i], block.XY[2 * i + 1]);
-        }
+        const tipp::PointsView view(block.XY.data(), block.size(), 2);
+        box = tipp::unionOf(box, tipp::surveyPoints(view, 1).Bounds);
       });
   }
   else
   {
-    for (vtkIdType i = 0; i < points->GetNumberOfPoints(); ++i)
-    {
-      double p[3];
-      points->GetPoint(i, p);
-      include(p[0], p[1]);
-    }
+    const tipp::ProjectedPoints projected(points->GetPoints(), nullptr);
+    box = tipp::surveyPoints(projected.view(), tipp::threadCount(this->NumberOfThreads)).Bounds;
   }
-  if (!(bounds[0] <= bounds[1]))
+  if (!(box.xmin <= box.xmax))
   {
     throw std::runtime_error("There is no point with finite coordinates.");
   }
-  return bounds;
+  return { box.xmin, box.xmax, box.ymin, box.ymax };
 }
 
 void vtkTIPPPointsToImage::Constrain(
@@ -282,7 +255,7 @@ void vtkTIPPPointsToImage::Make(vtkInformationVector** inputs, vtkImageData* out
   this->Constrain(lines, boundary, request);
   tipp::Monitor monitor(this);
   tipp::TerrainSettings settings;
-  tipp::SampledBands samples;
+  tipp::BandValues samples;
   const tipp::OutOfCoreStatistics figures = tipp::makeDem(
     this->Stream(points), request, std::uint64_t(this->MemoryLimit),
     [&](double done) { return monitor(done); }, settings, samples);
@@ -298,11 +271,11 @@ void vtkTIPPPointsToImage::Make(vtkInformationVector** inputs, vtkImageData* out
   setGrid(grid, output);
   output->GetFieldData()->AddArray(
     arrayOf("GeoTransform", { grid.West, grid.Pixel[0], 0, grid.north(), 0, -grid.Pixel[1] }));
-  tipp::fillVoids(settings.Bands, samples.Values);
+  tipp::fillVoids(settings.Bands, samples);
   for (std::size_t band = 0; band < this->Bands.size(); ++band)
   {
-    output->GetPointData()->AddArray(arrayOf(this->Bands[band], samples.Values[band]));
-    std::vector<double>().swap(samples.Values[band]);
+    output->GetPointData()->AddArray(arrayOf(this->Bands[band], samples[band]));
+    std::vector<double>().swap(samples[band]);
   }
   output->GetPointData()->SetActiveScalars(this->Bands.front().c_str());
 }
@@ -312,17 +285,7 @@ int vtkTIPPPointsToImage::RequestData(
 {
   vtkImageData* const output = vtkImageData::GetData(outputs);
   output->Initialize();
-  try
-  {
-    this->Make(inputs, output);
-    return 1;
-  }
-  catch (const std::exception& error)
-  {
-    output->Initialize();
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
+  return tipp::runReported(this, nullptr, "", { output }, [&] { this->Make(inputs, output); });
 }
 
 void vtkTIPPPointsToImage::PrintSelf(ostream& os, vtkIndent indent)

@@ -3,8 +3,8 @@
 
 #include "Files/IOError.h"
 #include "Flat/FlatMesh.h"
+#include "Meshes/MeshFiles.h"
 #include "Parallel/ParallelFor.h"
-#include "Parallel/Poll.h"
 #include "Partitioned/ReadPiece.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Reading/PieceSource.h"

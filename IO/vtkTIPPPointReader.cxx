@@ -157,7 +157,7 @@ void vtkTIPPPointReader::Read(vtkInformation* info, vtkPolyData* output)
     tipp::readPointsShare(this->FileNames, this->Options(), piece, pieces);
   this->NumberOfPointsLeftOut = table.LeftOut;
   // A deep copy, because the arrays share the table's memory.
-  output->DeepCopy(tipp::makePolyData(table, {}, {}));
+  output->DeepCopy(tipp::makePolyData(table, {}));
   if (this->GenerateVertices)
   {
     addVertices(output);

@@ -2,16 +2,11 @@
 #ifndef tippCellChoice_h
 #define tippCellChoice_h
 
-#include "Locate/CellLocation.h"
-#include "Locate/MortonOrder.h"
-#include "Predicates/ExactPredicates.h"
-#include "Resample/BorderClaims.h"
-#include "Resample/Claims.h"
-#include "Resample/SampleBlock.h"
+#include "Locate/CellLocator.h"
+#include "Predicates/ExactPredicates3.h"
 #include "Resample/SimplexMesh.h"
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -138,31 +133,6 @@ private:
   bool IsRanked = false;
 };
 
-/// ThinWeights<2>, bit for bit, in fewer instructions.
-inline void weighTriangle(
-  const double (&edges)[2][2], const double (&offset)[2], double (&weights)[2])
-{
-  int row = 0;
-  int column = 0;
-  for (int i = 1; i < 4; ++i)
-  {
-    const bool isLarger = std::fabs(edges[i % 2][i / 2]) > std::fabs(edges[column][row]);
-    row = isLarger ? i / 2 : row;
-    column = isLarger ? i % 2 : column;
-  }
-  constexpr double rounding = 4.4408920985006262e-16;
-  const double pivot = edges[column][row];
-  const double beside = edges[1 - column][row];
-  const double first = std::fabs(pivot);
-  const double ofPivot = first > rounding * first ? 1 / pivot : 0;
-  const double factor = edges[column][1 - row] * ofPivot;
-  const double rest = edges[1 - column][1 - row] - factor * beside;
-  const double ofRest = std::fabs(rest) > rounding * first ? 1 / rest : 0;
-  const double other = (offset[1 - row] - factor * offset[row]) * ofRest;
-  weights[1 - column] = other;
-  weights[column] = (offset[row] - beside * other) * ofPivot;
-}
-
 /// The weights of a cell's corners at a point. They are evaluated with the corners in lexicographic
 /// order, so that they do not depend on their order in the cell.
 template <typename Access>
@@ -194,14 +164,7 @@ CellLocation weighed(const Access& access, std::int64_t cell, const typename Acc
     offset[axis] = arrayOf(point)[std::size_t(axis)] - first[std::size_t(axis)];
   }
   double weights[D];
-  if constexpr (D == 2)
-  {
-    weighTriangle(edges, offset, weights);
-  }
-  else
-  {
-    ThinWeights<D>(edges).solve(offset, weights);
-  }
+  thinWeights(edges, offset, weights);
   location.Weights[order[0]] = 1;
   for (int i = 0; i < D; ++i)
   {
@@ -226,6 +189,35 @@ auto boxOfCell(const Access& access, const SimplexMesh& mesh, std::int64_t cell)
   }
   return isUsable ? box : CellBox::empty();
 }
+
+/// Buffers locations and passes them to a TakeLocations in batches.
+class Locations
+{
+public:
+  explicit Locations(const TakeLocations& take)
+    : Take(take)
+  {
+  }
+
+  void add(std::int64_t point, const CellLocation& at)
+  {
+    this->Points[std::size_t(this->Count)] = point;
+    this->At[std::size_t(this->Count)] = at;
+    ++this->Count == Most ? this->flush() : void();
+  }
+  void flush()
+  {
+    this->Count > 0 ? this->Take(this->Points.data(), this->At.data(), this->Count) : void();
+    this->Count = 0;
+  }
+
+private:
+  static constexpr std::int64_t Most = 128;
+  const TakeLocations& Take;
+  std::int64_t Count = 0;
+  std::array<std::int64_t, Most> Points;
+  std::array<CellLocation, Most> At;
+};
 
 } // namespace tipp
 

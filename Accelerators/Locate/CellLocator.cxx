@@ -2,7 +2,6 @@
 #include "Locate/CellLocator.h"
 
 #include "Locate/CellChoice.h"
-#include "Locate/Locations.h"
 #include "Locate/PointGrid.h"
 
 #include <algorithm>
@@ -117,30 +116,6 @@ const BoxTree<D>& CellLocator::tree() const
 }
 template const BoxTree<2>& CellLocator::tree() const;
 template const BoxTree<3>& CellLocator::tree() const;
-
-template <typename Access>
-std::int64_t CellLocator::find(const Access& access, const typename Access::Point& point) const
-{
-  constexpr int D = Access::Dimension;
-  const Box<D> box = Box<D>::of(arrayOf(point));
-  if (box.isEmpty())
-  {
-    return -1;
-  }
-  if constexpr (D == 2)
-  {
-    CellWalk::Position at;
-    const auto outcome =
-      this->Walk.isUsable() ? this->Walk.walk(access, point, at) : CellWalk::Outcome::Unknown;
-    if (outcome != CellWalk::Outcome::Unknown)
-    {
-      return outcome == CellWalk::Outcome::Found ? at.Cell : -1;
-    }
-  }
-  Choice<Access> choice(access, this->CellIds, point);
-  this->tree<D>().search(box, [&](std::int32_t cell) { choice.offer(cell); });
-  return choice.cell();
-}
 
 /// Successive points are near each other: they share one search for the cells around all of them.
 template <typename Access>
@@ -299,19 +274,6 @@ void CellLocator::locateAll(
   forChunks(std::int64_t(order.size()), 1 << 12, threads, {},
     [&](std::int64_t begin, std::int64_t end, int)
     { this->findInOrder(access, rest, order.data() + begin, end - begin, take); });
-}
-
-CellLocation CellLocator::locate(const Point3& point) const
-{
-  CellLocation location;
-  withAccess(this->Mesh,
-    [&](const auto& access)
-    {
-      const auto p = access.flattened(point);
-      const std::int64_t cell = this->find(access, p);
-      location = cell >= 0 ? weighed(access, cell, p) : location;
-    });
-  return location;
 }
 
 void locatePoints(const SimplexMesh& mesh, const std::int64_t* cellIds, const CellLocator* locator,

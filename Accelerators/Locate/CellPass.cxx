@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Locate/CellPass.h"
+#include "Locate/CellLocator.h"
 
 #include "Locate/CellChoice.h"
-#include "Locate/GridBuckets.h"
-#include "Locate/Locations.h"
-#include "Locate/PointRows.h"
+#include "Locate/PointsInBox.h"
 
 #include <algorithm>
 #include <array>

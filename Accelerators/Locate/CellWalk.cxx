@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Locate/CellWalk.h"
+#include "Locate/CellLocator.h"
 
 #include "Locate/BoxTree.h"
 #include "Parallel/ParallelFor.h"
@@ -55,11 +55,14 @@ private:
     std::uint32_t Number; ///< 3 * triangle + the corner opposite to it
   };
 
-  /// The first or second point, counter-clockwise, of the edge opposite to corner `i`.
-  std::int64_t end(std::int64_t cell, int i, bool isSecond) const
+  /// The first and the second point, counter-clockwise, of edge 3 * triangle + opposite corner.
+  std::pair<std::int64_t, std::int64_t> endsOf(std::int64_t edge) const
   {
-    const int after = isSecond == this->isClockwise(cell) ? 1 : 2;
-    return std::int64_t(this->Cells.ids(cell)[(i + after) % 3]);
+    const auto* const ids = this->Cells.ids(edge / 3);
+    const std::int64_t after = ids[(edge + 1) % 3];
+    const std::int64_t before = ids[(edge + 2) % 3];
+    return this->isClockwise(edge / 3) ? std::make_pair(before, after)
+                                       : std::make_pair(after, before);
   }
 
   Point2 at(std::int64_t point) const { return pointAt(this->Cells.coordinates(point)); }
@@ -99,11 +102,10 @@ private:
   {
     for (std::int64_t cell = begin; cell < end; ++cell)
     {
-      for (int i = 0; i < 3 && this->isUsed(cell); ++i)
+      for (std::int64_t edge = 3 * cell; edge < 3 * cell + 3 && this->isUsed(cell); ++edge)
       {
-        const std::int64_t first = this->end(cell, i, false);
-        const std::int64_t second = this->end(cell, i, true);
-        const auto number = std::uint32_t(3 * cell + i);
+        const auto [first, second] = this->endsOf(edge);
+        const auto number = std::uint32_t(edge);
         first < second ? work(std::size_t(first), Edge{ std::uint32_t(second), number })
                        : work(std::size_t(second), Edge{ std::uint32_t(first) | Turned, number });
       }
@@ -203,8 +205,7 @@ private:
       next; // first point of an edge, and its second
     for (const std::int64_t edge : this->Border)
     {
-      next.emplace_back(
-        this->end(edge / 3, int(edge % 3), false), this->end(edge / 3, int(edge % 3), true));
+      next.push_back(this->endsOf(edge));
     }
     std::sort(next.begin(), next.end());
     const auto after = [&next](std::int64_t point)
@@ -235,9 +236,9 @@ private:
     const BoxTree<2> tree(std::int64_t(border.size()), this->Threads,
       [&](std::int64_t i)
       {
-        const std::int64_t edge = border[std::size_t(i)];
-        Box<2> box = this->boxOf(this->end(edge / 3, int(edge % 3), false));
-        box.extend(this->boxOf(this->end(edge / 3, int(edge % 3), true)));
+        const auto [first, second] = this->endsOf(border[std::size_t(i)]);
+        Box<2> box = this->boxOf(first);
+        box.extend(this->boxOf(second));
         return box;
       });
     std::atomic<bool> doMeet{ false };
@@ -268,10 +269,9 @@ private:
     {
       return false;
     }
-    const std::int64_t ends[2] = { this->end(edge / 3, int(edge % 3), false),
-      this->end(edge / 3, int(edge % 3), true) };
-    const Point2 u = this->at(ends[0]);
-    const Point2 v = this->at(ends[1]);
+    const auto [first, second] = this->endsOf(edge);
+    const Point2 u = this->at(first);
+    const Point2 v = this->at(second);
     std::int64_t ids[3]; // counter-clockwise
     Point2 corners[3];
     for (int i = 0; i < 3; ++i)
@@ -281,11 +281,11 @@ private:
     }
     for (int i = 0; i < 3; ++i)
     {
-      if (ids[i] == ends[0] || ids[i] == ends[1])
+      if (ids[i] == first || ids[i] == second)
       {
         // It does if the edge's other end lies in its angle at that corner. Two common corners
         // would be an edge with two triangles.
-        const Point2 other = ids[i] == ends[0] ? v : u;
+        const Point2 other = ids[i] == first ? v : u;
         return orientation(corners[i], corners[(i + 1) % 3], other) >= 0 &&
           orientation(corners[i], corners[(i + 2) % 3], other) <= 0;
       }

@@ -3,7 +3,7 @@
 #define tippMortonOrder_h
 
 #include "Parallel/ParallelFor.h"
-#include "Parallel/RadixSort.h"
+#include "Parallel/Sort.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Locate/CellLocator.h"
 
-#include "Predicates/ExactPredicates.h"
+#include "Predicates/ExactPredicates3.h"
 
 #include <algorithm>
 #include <array>
@@ -115,13 +115,9 @@ Vector<Number, 3> nearestOfFace(const Vector<Number, 3>& p, const Vector<Number,
 template <typename Number, std::size_t D>
 Vector<Number, D> vectorOf(const Point3& p)
 {
+  const auto at = coordinatesOf<int(D)>(p);
   Vector<Number, D> result;
-  result[0] = p.x;
-  result[1] = p.y;
-  if constexpr (D == 3)
-  {
-    result[2] = p.z;
-  }
+  std::copy(at.begin(), at.end(), result.begin());
   return result;
 }
 
@@ -160,12 +156,6 @@ Nearest<Number, D> nearestOf(const NearCell& cell, const Point3& from)
     }
   }
   return best;
-}
-
-template <std::size_t D>
-mpq_class exactSquare(const NearCell& cell, const Point3& from)
-{
-  return nearestOf<mpq_class, D>(cell, from).Squared;
 }
 
 double largestOf(const Point3& p)
@@ -261,7 +251,10 @@ bool NearCell::isBetterThan(const NearCell& other, const Point3& from) const
     return this->Id < other.Id;
   }
   const auto square = [&from](const NearCell& cell)
-  { return cell.Dimension == 2 ? exactSquare<2>(cell, from) : exactSquare<3>(cell, from); };
+  {
+    return cell.Dimension == 2 ? nearestOf<mpq_class, 2>(cell, from).Squared
+                               : nearestOf<mpq_class, 3>(cell, from).Squared;
+  };
   const int order = cmp(square(*this), square(other));
   return order < 0 || (order == 0 && this->Id < other.Id);
 }

@@ -34,56 +34,19 @@ void copyOnThreads(char* to, const char* from, std::size_t bytes)
     { std::memcpy(to + begin, from + begin, std::size_t(end - begin)); });
 }
 
-DeviceType typeOf(const cl::Device& device)
-{
-  const cl_device_type type = device.getInfo<CL_DEVICE_TYPE>();
-  if ((type & CL_DEVICE_TYPE_GPU) != 0)
-  {
-    return DeviceType::Gpu;
-  }
-  return (type & CL_DEVICE_TYPE_CPU) != 0 ? DeviceType::Cpu : DeviceType::Other;
-}
-
 DeviceDescription describe(const cl::Platform& platform, const cl::Device& device)
 {
   DeviceDescription description;
   description.Name = trimmed(device.getInfo<CL_DEVICE_NAME>());
   description.Platform = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
-  description.Type = typeOf(device);
+  const cl_device_type type = device.getInfo<CL_DEVICE_TYPE>();
+  description.Type = (type & CL_DEVICE_TYPE_GPU) != 0 ? DeviceType::Gpu
+    : (type & CL_DEVICE_TYPE_CPU) != 0                ? DeviceType::Cpu
+                                                      : DeviceType::Other;
   description.Memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
   description.LargestBuffer = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
   description.Double = device.getInfo<CL_DEVICE_DOUBLE_FP_CONFIG>() != 0;
   return description;
-}
-
-std::vector<cl::Platform> platforms()
-{
-  std::vector<cl::Platform> result;
-  try
-  {
-    cl::Platform::get(&result);
-  }
-  catch (const cl::Error&)
-  {
-    // The OpenCL loader throws if no driver is installed.
-    result.clear();
-  }
-  return result;
-}
-
-std::vector<cl::Device> devicesOf(const cl::Platform& platform)
-{
-  std::vector<cl::Device> result;
-  try
-  {
-    platform.getDevices(CL_DEVICE_TYPE_ALL, &result);
-  }
-  catch (const cl::Error&)
-  {
-    // The driver has no device, for example because a card was removed.
-    result.clear();
-  }
-  return result;
 }
 
 // The errors that users meet; the specification's other codes indicate programming errors.
@@ -117,58 +80,67 @@ std::string firstLine(const std::string& text)
 class Drivers
 {
 public:
-  Drivers();
+  Drivers()
+  {
+    std::vector<cl::Platform> platforms;
+    ignoreErrors([&] { cl::Platform::get(&platforms); }); // there may be no driver
+    for (const cl::Platform& platform : platforms)
+    {
+      std::vector<cl::Device> devices;
+      // A driver may have no device, for example because a card was removed.
+      ignoreErrors([&] { platform.getDevices(CL_DEVICE_TYPE_ALL, &devices); });
+      for (const cl::Device& device : devices)
+      {
+        ignoreErrors(
+          [&]
+          {
+            DeviceDescription description = describe(platform, device);
+            description.Index = static_cast<int>(this->Devices.size());
+            this->Descriptions.push_back(description);
+            this->Devices.push_back(device);
+          });
+      }
+    }
+    this->Opened.resize(2 * this->Devices.size());
+  }
 
   const std::vector<DeviceDescription>& descriptions() const { return this->Descriptions; }
 
   /// Returns the device, opened on the first call; `asCard`: see DeviceChoice. Thread-safe.
-  ComputeDevice& open(int index, bool asCard);
+  ComputeDevice& open(int index, bool asCard)
+  {
+    const std::lock_guard<std::mutex> lock(this->Mutex);
+    const auto entry = static_cast<std::size_t>(index);
+    std::unique_ptr<ComputeDevice>& opened = this->Opened.at(2 * entry + std::size_t(asCard));
+    if (!opened)
+    {
+      DeviceDescription description = this->Descriptions[entry];
+      description.Type = asCard ? DeviceType::Gpu : description.Type;
+      const cl::Device& device = this->Devices[entry];
+      const bool shares = !asCard && device.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>() == CL_TRUE;
+      opened = std::make_unique<ComputeDevice>(std::move(description), device, shares);
+    }
+    return *opened;
+  }
 
 private:
+  template <typename Work>
+  static void ignoreErrors(const Work& work)
+  {
+    try
+    {
+      work();
+    }
+    catch (const cl::Error&)
+    {
+    }
+  }
+
   std::vector<DeviceDescription> Descriptions;
   std::vector<cl::Device> Devices;
   std::mutex Mutex;
   std::vector<std::unique_ptr<ComputeDevice>> Opened; ///< per device: opened as it is, and AsCard
 };
-
-Drivers::Drivers()
-{
-  for (const cl::Platform& platform : platforms())
-  {
-    for (const cl::Device& device : devicesOf(platform))
-    {
-      try
-      {
-        DeviceDescription description = describe(platform, device);
-        description.Index = static_cast<int>(this->Devices.size());
-        this->Descriptions.push_back(description);
-        this->Devices.push_back(device);
-      }
-      catch (const cl::Error&)
-      {
-        // Skip devices that cannot be queried.
-        continue;
-      }
-    }
-  }
-  this->Opened.resize(2 * this->Devices.size());
-}
-
-ComputeDevice& Drivers::open(int index, bool asCard)
-{
-  const std::lock_guard<std::mutex> lock(this->Mutex);
-  const auto entry = static_cast<std::size_t>(index);
-  std::unique_ptr<ComputeDevice>& opened = this->Opened.at(2 * entry + std::size_t(asCard));
-  if (!opened)
-  {
-    DeviceDescription description = this->Descriptions[entry];
-    description.Type = asCard ? DeviceType::Gpu : description.Type;
-    const cl::Device& device = this->Devices[entry];
-    const bool shares = !asCard && device.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>() == CL_TRUE;
-    opened = std::make_unique<ComputeDevice>(std::move(description), device, shares);
-  }
-  return *opened;
-}
 
 /// The drivers of this process, enumerated on the first call.
 Drivers& drivers()

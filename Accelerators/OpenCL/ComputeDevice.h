@@ -138,6 +138,57 @@ private:
   std::map<std::string, cl::Program> Programs; ///< built programs, by name and options
 };
 
+/// A host array that kernels write to, first filled with a byte. It is not copied if host and
+/// device share memory.
+class OutputArray
+{
+public:
+  OutputArray(const ComputeDevice& device, void* data, std::size_t bytes)
+    : Device(device)
+    , Data(data)
+    , Bytes(bytes)
+    , Room(device.sharesHostMemory() ? device.run(
+                                         [&] {
+                                           return cl::Buffer(device.context(),
+                                             CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, data);
+                                         })
+                                     : device.room(bytes))
+  {
+  }
+
+  const cl::Buffer& buffer() const { return this->Room; }
+
+  void fill(unsigned char byte) const
+  {
+    this->Device.run(
+      [&] { this->Device.queue().enqueueFillBuffer(this->Room, cl_uchar(byte), 0, this->Bytes); });
+  }
+
+  /// Waits for the kernels and makes their results visible.
+  void fetch() const
+  {
+    if (!this->Device.sharesHostMemory())
+    {
+      this->Device.read(this->Room, this->Data, this->Bytes);
+      return;
+    }
+    this->Device.run(
+      [&]
+      {
+        void* const mapped = this->Device.queue().enqueueMapBuffer(
+          this->Room, CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, this->Bytes);
+        this->Device.queue().enqueueUnmapMemObject(this->Room, mapped);
+        this->Device.queue().finish();
+      });
+  }
+
+private:
+  const ComputeDevice& Device;
+  void* Data;
+  std::size_t Bytes;
+  cl::Buffer Room;
+};
+
 } // namespace tipp
 
 #endif

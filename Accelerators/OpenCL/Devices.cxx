@@ -8,35 +8,7 @@
 namespace tipp
 {
 
-AcceleratorError::AcceleratorError(const std::string& problem)
-  : std::runtime_error(problem)
-{
-}
-
 AcceleratorError::~AcceleratorError() = default;
-
-namespace
-{
-
-bool isNumber(const std::string& text)
-{
-  return std::all_of(
-    text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
-}
-
-int indexOf(const std::string& text)
-{
-  try
-  {
-    return std::stoi(text);
-  }
-  catch (const std::out_of_range&)
-  {
-    throw AcceleratorError("There is no OpenCL device " + text + ".");
-  }
-}
-
-} // namespace
 
 DeviceChoice parseDeviceChoice(const std::string& text)
 {
@@ -62,13 +34,18 @@ DeviceChoice parseDeviceChoice(const std::string& text)
       "A device is auto, openmp, opencl, opencl:INDEX or opencl:NAME, not '" + text + "'.");
   }
   const std::string device = text.substr(prefix.size());
-  if (isNumber(device))
-  {
-    choice.Index = indexOf(device);
-  }
-  else
+  if (device.find_first_not_of("0123456789") != std::string::npos)
   {
     choice.Name = device;
+    return choice;
+  }
+  try
+  {
+    choice.Index = std::stoi(device);
+  }
+  catch (const std::out_of_range&)
+  {
+    throw AcceleratorError("There is no OpenCL device " + device + ".");
   }
   return choice;
 }

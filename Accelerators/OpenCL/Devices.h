@@ -18,7 +18,7 @@ namespace tipp
 class VTKTIPPACCELERATORS_EXPORT AcceleratorError : public std::runtime_error
 {
 public:
-  explicit AcceleratorError(const std::string& problem);
+  using std::runtime_error::runtime_error;
   ~AcceleratorError() override;
 };
 

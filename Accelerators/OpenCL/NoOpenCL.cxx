@@ -19,9 +19,9 @@ std::string noDeviceAdvice()
 }
 
 std::optional<Membership> classifyOnDevice(
-  const DeviceChoice& choice, const CellsView&, const BoxTiling&, const CellShape&, std::uint64_t)
+  const CellShape&, const BoxTiling&, const ClassifyOptions& options)
 {
-  chooseDevice(choice, listDevices()); // throws if a device was chosen
+  chooseDevice(options.Device, listDevices()); // throws if a device was chosen
   return std::nullopt;
 }
 

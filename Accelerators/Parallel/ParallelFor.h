@@ -2,6 +2,8 @@
 #ifndef tippParallelFor_h
 #define tippParallelFor_h
 
+#include "Parallel/Poll.h"
+
 #include <omp.h>
 
 #include <algorithm>
@@ -117,19 +119,6 @@ void parallelFor(std::int64_t count, int threads, const Work& work)
   const int most =
     int(std::min<std::int64_t>(std::max<std::int64_t>(count, 1), threadCount(threads)));
   forChunks(count, 1, most, {}, [&](std::int64_t i, std::int64_t, int) { work(i); });
-}
-
-/// Sorts [begin, end): each thread sorts a part, then neighbouring parts are merged.
-template <typename Iterator>
-void sortInParts(Iterator begin, Iterator end, int threads)
-{
-  const auto border = [&](std::int64_t part) { return begin + (end - begin) * part / threads; };
-  forChunks(threads, 1, threads, {},
-    [&](std::int64_t part, std::int64_t, int) { std::sort(border(part), border(part + 1)); });
-  for (std::int64_t part = 1; part < threads; ++part)
-  {
-    std::inplace_merge(begin, border(part), border(part + 1));
-  }
 }
 
 /// While the object lives, the calling thread's OpenMP regions use this many threads; 0: OpenMP's

@@ -106,7 +106,19 @@ BoxTiling BoxTiling::grid(int dimension, const Box3& domain, const std::array<in
     }
     tiling.cutAxis(axis);
   }
-  tiling.makeGridBoxes();
+  const double* x = tiling.Cuts.data() + tiling.CutStart[0];
+  const double* y = tiling.Cuts.data() + tiling.CutStart[1];
+  const double* z = tiling.Cuts.data() + tiling.CutStart[2];
+  for (int k = 0; k < tiling.Counts[2]; ++k)
+  {
+    for (int j = 0; j < tiling.Counts[1]; ++j)
+    {
+      for (int i = 0; i < tiling.Counts[0]; ++i)
+      {
+        tiling.Boxes.push_back({ { x[i], y[j], z[k] }, { x[i + 1], y[j + 1], z[k + 1] } });
+      }
+    }
+  }
   return tiling;
 }
 
@@ -130,45 +142,11 @@ void BoxTiling::cutAxis(std::size_t axis)
   this->Cuts.push_back(high);
 }
 
-void BoxTiling::makeGridBoxes()
-{
-  const double* x = this->Cuts.data() + this->CutStart[0];
-  const double* y = this->Cuts.data() + this->CutStart[1];
-  const double* z = this->Cuts.data() + this->CutStart[2];
-  for (int k = 0; k < this->Counts[2]; ++k)
-  {
-    for (int j = 0; j < this->Counts[1]; ++j)
-    {
-      for (int i = 0; i < this->Counts[0]; ++i)
-      {
-        this->Boxes.push_back({ { x[i], y[j], z[k] }, { x[i + 1], y[j + 1], z[k + 1] } });
-      }
-    }
-  }
-}
-
 BoxTiling BoxTiling::tree(
   int dimension, const Box3& domain, const std::vector<std::int32_t>& firstChild)
 {
   BoxTiling tiling(dimension, domain);
   tiling.ChildCount = childCountOf(tiling.Axes);
-  tiling.makeTree(firstChild);
-  return tiling;
-}
-
-int BoxTiling::childCount(int dimension, const Box3& domain)
-{
-  return childCountOf(axesOf(dimension, domain));
-}
-
-Box3 BoxTiling::childBox(int dimension, const Box3& domain, const Box3& box, int which)
-{
-  return childOf(axesOf(dimension, domain), box, which);
-}
-
-// Depth-first, which numbers the leaves along the Morton curve.
-void BoxTiling::makeTree(const std::vector<std::int32_t>& firstChild)
-{
   struct Pending
   {
     std::int32_t Node;
@@ -179,9 +157,10 @@ void BoxTiling::makeTree(const std::vector<std::int32_t>& firstChild)
   {
     failTree();
   }
-  this->Children.assign(firstChild.size(), 0);
-  this->Middles.assign(3 * firstChild.size(), 0.0);
-  std::vector<Pending> stack = { { 0, 0, this->Domain } };
+  tiling.Children.assign(firstChild.size(), 0);
+  tiling.Middles.assign(3 * firstChild.size(), 0.0);
+  // Depth-first, which numbers the leaves along the Morton curve.
+  std::vector<Pending> stack = { { 0, 0, tiling.Domain } };
   // If a node is reached twice, there are more visits than nodes.
   std::size_t visits = 0;
   while (!stack.empty())
@@ -196,31 +175,42 @@ void BoxTiling::makeTree(const std::vector<std::int32_t>& firstChild)
     }
     if (child < 0)
     {
-      this->Children[node] = static_cast<std::int32_t>(-1 - this->count());
-      this->Boxes.push_back(pending.Box);
+      tiling.Children[node] = static_cast<std::int32_t>(-1 - tiling.count());
+      tiling.Boxes.push_back(pending.Box);
       continue;
     }
     if (child <= pending.Node || pending.Depth == MaxDepth ||
-      static_cast<std::size_t>(child) + static_cast<std::size_t>(this->ChildCount) >
+      static_cast<std::size_t>(child) + static_cast<std::size_t>(tiling.ChildCount) >
         firstChild.size())
     {
       failTree();
     }
-    this->Children[node] = child;
+    tiling.Children[node] = child;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      this->Middles[3 * node + axis] = middleOf(pending.Box.Min[axis], pending.Box.Max[axis]);
+      tiling.Middles[3 * node + axis] = middleOf(pending.Box.Min[axis], pending.Box.Max[axis]);
     }
-    for (int which = this->ChildCount - 1; which >= 0; --which)
+    for (int which = tiling.ChildCount - 1; which >= 0; --which)
     {
       stack.push_back(
-        { child + which, pending.Depth + 1, childOf(this->Axes, pending.Box, which) });
+        { child + which, pending.Depth + 1, childOf(tiling.Axes, pending.Box, which) });
     }
   }
   if (visits != firstChild.size())
   {
     failTree();
   }
+  return tiling;
+}
+
+int BoxTiling::childCount(int dimension, const Box3& domain)
+{
+  return childCountOf(axesOf(dimension, domain));
+}
+
+Box3 BoxTiling::childBox(int dimension, const Box3& domain, const Box3& box, int which)
+{
+  return childOf(axesOf(dimension, domain), box, which);
 }
 
 } // namespace tipp

@@ -86,8 +86,6 @@ private:
 
   BoxTiling(int dimension, const Box3& domain);
   void cutAxis(std::size_t axis);
-  void makeGridBoxes();
-  void makeTree(const std::vector<std::int32_t>& firstChild);
 
   // An estimate of the box that contains the value; any result is corrected later.
   int guess(std::size_t axis, double value) const

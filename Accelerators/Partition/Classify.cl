@@ -224,11 +224,6 @@ int compareAcrossEdge(double2 a, double2 b, double2 c, double2 d, double2 low, d
     boxHigh, error);
 }
 
-double3 pointOf(global const double* p)
-{
-  return (double3)(p[0], p[1], p[2]);
-}
-
 // Compares d with the box along the normal of the plane through a, b and c. A component of the
 // normal is off by 4 EPSILON of its products' magnitudes, a value by 8 EPSILON of the products of
 // these and the reach, a difference of two a little more; 24 are allowed for at each end. A
@@ -291,7 +286,7 @@ int testInSpace(global const double* cell, int corners, double3 low, double3 hig
   for (int i = 0; i < 4; ++i)
   {
     // A triangle in space is treated as a flat tetrahedron.
-    p[i] = pointOf(cell + 3 * min(i, corners - 1));
+    p[i] = vload3(min(i, corners - 1), cell);
     if (holds(low.xy, high.xy, p[i].xy) && low.z <= p[i].z && p[i].z <= high.z)
     {
       return MEET;

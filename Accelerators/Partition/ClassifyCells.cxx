@@ -3,6 +3,7 @@
 
 #include "OpenCL/Devices.h"
 #include "Parallel/ParallelFor.h"
+#include "Predicates/ExactPredicates3.h"
 
 #include <atomic>
 #include <string>
@@ -31,16 +32,14 @@ CellShape::CellShape(const CellsView& cells, int dimension)
   }
 }
 
-bool CellShape::meetsInPlane(const double* corner, const Box3& box) const
+bool CellShape::meets(const double* corner, const Box3& box) const
 {
-  const int step = this->Cells.Dimension;
-  const double* b = corner + step;
-  const double* c = b + step;
-  return triangleMeetsBox({ corner[0], corner[1] }, { b[0], b[1] }, { c[0], c[1] }, box);
-}
-
-bool CellShape::meetsInSpace(const double* corner, const Box3& box) const
-{
+  if (this->Dimension == 2)
+  {
+    const double* b = corner + this->Cells.Dimension;
+    const double* c = b + this->Cells.Dimension;
+    return triangleMeetsBox({ corner[0], corner[1] }, { b[0], b[1] }, { c[0], c[1] }, box);
+  }
   const auto point = [corner](int i) {
     return Point3{ corner[3 * i], corner[3 * i + 1], corner[3 * i + 2] };
   };
@@ -58,16 +57,15 @@ constexpr std::size_t BlockSize = 16384;
 class BlockwiseClassification
 {
 public:
-  BlockwiseClassification(
-    const CellsView& cells, const BoxTiling& tiling, const CellShape& shape, int threads)
-    : Count(cells.Cells)
+  BlockwiseClassification(const CellShape& shape, const BoxTiling& tiling, int threads)
+    : Count(shape.cells().Cells)
     , Tiling(tiling)
     , Shape(shape)
     , Threads(threadCount(threads))
-    , Borrowers((cells.Cells + BlockSize - 1) / BlockSize)
+    , Borrowers((this->Count + BlockSize - 1) / BlockSize)
   {
-    this->Result.Owner.resize(cells.Cells);
-    this->Result.BorrowerStart.resize(cells.Cells + 1);
+    this->Result.Owner.resize(this->Count);
+    this->Result.BorrowerStart.resize(this->Count + 1);
   }
 
   Membership run()
@@ -144,17 +142,9 @@ private:
     this->Tiling.forEachMeeting(bounds,
       [&](std::int32_t id)
       {
-        if (!this->Shape.meets(cell, this->Tiling.box(id)))
+        if (this->Shape.meets(cell, this->Tiling.box(id)))
         {
-          return;
-        }
-        if (owner < 0)
-        {
-          owner = id;
-        }
-        else
-        {
-          borrowers.push_back(id);
+          addPartition(id, owner, borrowers);
         }
       });
     return owner;
@@ -211,19 +201,13 @@ void failForCell(const CellShape& shape, std::size_t cell)
             : " has a corner whose coordinates are not finite."));
 }
 
-Membership classifyOnThreads(
-  const CellsView& cells, const BoxTiling& tiling, const CellShape& shape, int threads)
-{
-  return BlockwiseClassification(cells, tiling, shape, threads).run();
-}
-
 Membership classifyCells(
   const CellsView& cells, const BoxTiling& tiling, const ClassifyOptions& options)
 {
   const CellShape shape(cells, tiling.dimension());
-  std::optional<Membership> onDevice =
-    classifyOnDevice(options.Device, cells, tiling, shape, options.DeviceMemory);
-  return onDevice ? std::move(*onDevice) : classifyOnThreads(cells, tiling, shape, options.Threads);
+  std::optional<Membership> onDevice = classifyOnDevice(shape, tiling, options);
+  return onDevice ? std::move(*onDevice)
+                  : BlockwiseClassification(shape, tiling, options.Threads).run();
 }
 
 } // namespace tipp

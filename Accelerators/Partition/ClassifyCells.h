@@ -4,7 +4,6 @@
 
 #include "OpenCL/Devices.h"
 #include "Partition/BoxTiling.h"
-#include "Predicates/ExactPredicates.h"
 #include "vtkTIPPAcceleratorsModule.h"
 
 #include <cstddef>
@@ -62,6 +61,7 @@ public:
   /// Throws AcceleratorError if the dimensions of tiling and cells do not match.
   CellShape(const CellsView& cells, int dimension);
 
+  const CellsView& cells() const { return this->Cells; }
   const double* cell(std::size_t index) const
   {
     return this->Cells.Coordinates + index * this->Stride;
@@ -80,10 +80,7 @@ public:
   }
 
   /// Whether the cell and the box share a point, decided exactly.
-  bool meets(const double* corner, const Box3& box) const
-  {
-    return this->Dimension == 2 ? this->meetsInPlane(corner, box) : this->meetsInSpace(corner, box);
-  }
+  bool meets(const double* corner, const Box3& box) const;
 
 private:
   template <std::size_t Dimension, std::size_t Components, std::size_t Corners>
@@ -110,9 +107,6 @@ private:
     return check == 0.0;
   }
 
-  bool meetsInPlane(const double* corner, const Box3& box) const;
-  bool meetsInSpace(const double* corner, const Box3& box) const;
-
   CellsView Cells;
   int Dimension;
   std::size_t Stride; // doubles per cell
@@ -122,15 +116,18 @@ private:
 /// outside the domain.
 [[noreturn]] void failForCell(const CellShape& shape, std::size_t cell);
 
-/// classifyCells() on OpenMP threads.
-Membership classifyOnThreads(
-  const CellsView& cells, const BoxTiling& tiling, const CellShape& shape, int threads);
+/// Adds a partition of a cell, in ascending order. The first becomes its owner; `owner` must start
+/// at -1.
+inline void addPartition(std::int32_t id, std::int32_t& owner, std::vector<std::int32_t>& borrowers)
+{
+  owner < 0 ? void(owner = id) : borrowers.push_back(id);
+}
 
-/// classifyCells() on an OpenCL device, in pieces that need at most `memory` bytes of it besides
-/// the tiling (0: half of its memory). What the device leaves undecided is decided on the CPU.
-/// Returns nullopt if the choice is OpenMP. Throws AcceleratorError.
-std::optional<Membership> classifyOnDevice(const DeviceChoice& choice, const CellsView& cells,
-  const BoxTiling& tiling, const CellShape& shape, std::uint64_t memory);
+/// classifyCells() on an OpenCL device, in pieces that need at most options.DeviceMemory besides
+/// the tiling. What the device leaves undecided is decided on the CPU. Returns nullopt if the
+/// choice is OpenMP. Throws AcceleratorError.
+std::optional<Membership> classifyOnDevice(
+  const CellShape& shape, const BoxTiling& tiling, const ClassifyOptions& options);
 
 } // namespace tipp
 

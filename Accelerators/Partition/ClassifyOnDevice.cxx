@@ -31,33 +31,6 @@ cl::Buffer inputOf(const ComputeDevice& device, const std::vector<Value>& values
   return device.input(values.data(), values.size() * sizeof(Value));
 }
 
-// A tiling's flat arrays on the device.
-struct DeviceTiling
-{
-  DeviceTiling(const ComputeDevice& device, const BoxTiling& tiling)
-    : Dimension(tiling.dimension())
-    , Axes(tiling.axes())
-    , Children(tiling.isGrid() ? 0 : BoxTiling::childCount(tiling.dimension(), tiling.domain()))
-    , Counts(tiling.counts())
-    , Cuts(inputOf(device, tiling.cuts()))
-    , Nodes(inputOf(device, tiling.children()))
-    , Middles(inputOf(device, tiling.middles()))
-    , Domain(device.input(&tiling.domain(), sizeof(Box3)))
-    , Boxes(device.input(&tiling.box(0), static_cast<std::size_t>(tiling.count()) * sizeof(Box3)))
-  {
-  }
-
-  int Dimension;
-  int Axes;
-  int Children;
-  std::array<int, 3> Counts;
-  cl::Buffer Cuts;
-  cl::Buffer Nodes;
-  cl::Buffer Middles;
-  cl::Buffer Domain;
-  cl::Buffer Boxes;
-};
-
 static_assert(sizeof(Box3) == 6 * sizeof(double), "Classify.cl reads boxes as six doubles");
 
 // Cells to be tested, and the index of each cell's first candidate.
@@ -82,24 +55,29 @@ struct Listed
 class DeviceClassification
 {
 public:
-  DeviceClassification(ComputeDevice& device, const CellsView& cells, const BoxTiling& tiling,
-    const CellShape& shape, std::uint64_t memory)
+  DeviceClassification(
+    ComputeDevice& device, const CellShape& shape, const BoxTiling& tiling, std::uint64_t memory)
     : Device(device)
-    , Cells(cells)
+    , Cells(shape.cells())
     , Tiling(tiling)
     , Shape(shape)
-    , Arrays(device, tiling)
+    , Cuts(inputOf(device, tiling.cuts()))
+    , Nodes(inputOf(device, tiling.children()))
+    , Middles(inputOf(device, tiling.middles()))
+    , Domain(device.input(&tiling.domain(), sizeof(Box3)))
+    , Boxes(device.input(&tiling.box(0), static_cast<std::size_t>(tiling.count()) * sizeof(Box3)))
   {
     const DeviceDescription& description = device.description();
     const std::uint64_t all = memory != 0 ? memory : description.Memory / 2;
     // Half for the cells, half for their candidates; no buffer exceeds either.
     this->Room = std::min(all / 2, description.LargestBuffer);
-    this->CellBytes = sizeof(double) * static_cast<std::size_t>(cells.Corners * cells.Dimension);
+    this->CellBytes =
+      sizeof(double) * static_cast<std::size_t>(this->Cells.Corners * this->Cells.Dimension);
     const std::uint64_t most = this->Room / (this->CellBytes + 8);
     this->PieceSize =
       static_cast<std::size_t>(std::min<std::uint64_t>(std::max<std::uint64_t>(most, 1), 1u << 30));
-    this->Result.Owner.resize(cells.Cells);
-    this->Result.BorrowerStart.resize(cells.Cells + 1);
+    this->Result.Owner.resize(this->Cells.Cells);
+    this->Result.BorrowerStart.resize(this->Cells.Cells + 1);
   }
 
   Membership run()
@@ -152,11 +130,14 @@ private:
   template <typename... Arguments>
   void launch(const char* name, std::size_t count, const Arguments&... arguments) const
   {
-    const DeviceTiling& t = this->Arrays;
+    const BoxTiling& tiling = this->Tiling;
+    const std::array<int, 3>& counts = tiling.counts();
+    const int children =
+      tiling.isGrid() ? 0 : BoxTiling::childCount(tiling.dimension(), tiling.domain());
     cl::Kernel kernel = this->Device.kernel(ClassifyKernels, name);
-    this->Device.launch(kernel, count, t.Dimension, t.Axes, t.Children, t.Counts[0], t.Counts[1],
-      t.Counts[2], t.Cuts, t.Nodes, t.Middles, t.Domain, this->Coordinates, this->Cells.Corners,
-      this->Cells.Dimension, static_cast<cl_uint>(count), arguments...);
+    this->Device.launch(kernel, count, tiling.dimension(), tiling.axes(), children, counts[0],
+      counts[1], counts[2], this->Cuts, this->Nodes, this->Middles, this->Domain, this->Coordinates,
+      this->Cells.Corners, this->Cells.Dimension, static_cast<cl_uint>(count), arguments...);
   }
 
   void countCandidates(std::size_t first, std::size_t count)
@@ -193,9 +174,9 @@ private:
     const cl::Buffer verdicts = this->Device.room(candidates);
     this->launch("listCandidates", listed.Cells.size(), cells, starts, ids, idCells);
     cl::Kernel test = this->Device.kernel(ClassifyKernels, "testCandidates");
-    this->Device.launch(test, candidates, this->Arrays.Dimension, this->Arrays.Boxes,
-      this->Coordinates, this->Cells.Corners, this->Cells.Dimension,
-      static_cast<cl_ulong>(candidates), ids, idCells, verdicts);
+    this->Device.launch(test, candidates, this->Tiling.dimension(), this->Boxes, this->Coordinates,
+      this->Cells.Corners, this->Cells.Dimension, static_cast<cl_ulong>(candidates), ids, idCells,
+      verdicts);
     this->Device.read(ids, this->Ids.data(), candidates * sizeof(cl_int));
     this->Device.read(verdicts, this->Verdicts.data(), candidates);
   }
@@ -233,19 +214,11 @@ private:
     for (std::size_t i = begin; i < end; ++i)
     {
       const std::int32_t id = this->Ids[i];
-      if (this->Verdicts[i] == Apart ||
+      if (this->Verdicts[i] == Meet ||
         (this->Verdicts[i] == Undecided &&
-          !this->Shape.meets(this->Shape.cell(cell), this->Tiling.box(id))))
+          this->Shape.meets(this->Shape.cell(cell), this->Tiling.box(id))))
       {
-        continue;
-      }
-      if (owner < 0)
-      {
-        owner = id;
-      }
-      else
-      {
-        this->Result.Borrowers.push_back(id);
+        addPartition(id, owner, this->Result.Borrowers);
       }
     }
     if (owner < 0)
@@ -259,7 +232,12 @@ private:
   const CellsView& Cells;
   const BoxTiling& Tiling;
   const CellShape& Shape;
-  DeviceTiling Arrays;
+  // The tiling's flat arrays on the device.
+  cl::Buffer Cuts;
+  cl::Buffer Nodes;
+  cl::Buffer Middles;
+  cl::Buffer Domain;
+  cl::Buffer Boxes;
   std::uint64_t Room;
   std::size_t CellBytes;
   std::size_t PieceSize;
@@ -272,13 +250,13 @@ private:
 
 } // namespace
 
-std::optional<Membership> classifyOnDevice(const DeviceChoice& choice, const CellsView& cells,
-  const BoxTiling& tiling, const CellShape& shape, std::uint64_t memory)
+std::optional<Membership> classifyOnDevice(
+  const CellShape& shape, const BoxTiling& tiling, const ClassifyOptions& options)
 {
-  ComputeDevice* const device = ComputeDevice::open(choice);
-  return device
-    ? std::optional<Membership>(DeviceClassification(*device, cells, tiling, shape, memory).run())
-    : std::nullopt;
+  ComputeDevice* const device = ComputeDevice::open(options.Device);
+  return device ? std::optional<Membership>(
+                    DeviceClassification(*device, shape, tiling, options.DeviceMemory).run())
+                : std::nullopt;
 }
 
 } // namespace tipp

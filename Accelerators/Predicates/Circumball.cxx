@@ -3,105 +3,251 @@
 
 #include "Predicates/ExactArithmetic.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <vector>
 
-// With u = b - a, v = c - a, w = d - a, D = u . (v x w) > 0 and
-// n = |u|^2 (v x w) + |v|^2 (w x u) + |w|^2 (u x v), the centre is a + n / 2D and the radius
-// |n| / 2D.
 namespace tipp
 {
 namespace
 {
 
-constexpr double Infinity = std::numeric_limits<double>::infinity();
 constexpr double Epsilon = 0x1p-53;
 
-using Vector = std::array<double, 3>;
-
-Vector difference(const Point3& p, const Point3& q)
-{
-  return { p.x - q.x, p.y - q.y, p.z - q.z };
-}
-
-double square(const Vector& u)
-{
-  return u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
-}
-
-double longestEntry(const Vector& u)
-{
-  return std::max({ std::fabs(u[0]), std::fabs(u[1]), std::fabs(u[2]) });
-}
-
-/// A cross product, and the sums of its products' magnitudes.
-struct Cross
-{
-  Cross(const Vector& u, const Vector& v)
-  {
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      const double left = u[(k + 1) % 3] * v[(k + 2) % 3];
-      const double right = u[(k + 2) % 3] * v[(k + 1) % 3];
-      this->Value[k] = left - right;
-      this->Permanent[k] = std::fabs(left) + std::fabs(right);
-    }
-  }
-
-  Vector Value;
-  Vector Permanent;
-};
-
-/// The distance of the centre from each side of a box, positive inside, times 2D; and the squared
-/// radius times 4D^2. Coordinates are scaled by one power of two to integers.
+/// The distance of the centre from each finite side of a box, positive inside, times 2d, and the
+/// squared radius times 4d^2, where d is the determinant of the edges from the first corner (d at
+/// Circumdisk::computeIntervals(), D at BallOfCorners). Coordinates are scaled by one power of two
+/// to integers.
+template <std::size_t D>
 struct ExactBall
 {
-  ExactBall(const std::array<Point3, 4>& p, const Box3& box)
+  using Vector = std::array<double, D>;
+
+  ExactBall(const std::array<Vector, D + 1>& corners, const Vector& low, const Vector& high)
   {
-    const auto n = toCommonExponent<18>(
-      { p[0].x, p[0].y, p[0].z, p[1].x, p[1].y, p[1].z, p[2].x, p[2].y, p[2].z, p[3].x, p[3].y,
-        p[3].z, box.Min[0], box.Min[1], box.Min[2], box.Max[0], box.Max[1], box.Max[2] });
-    std::array<std::array<mpz_class, 3>, 3> u;
-    std::array<mpz_class, 3> lift;
-    for (std::size_t i = 0; i < 3; ++i)
+    const auto n = toCommonExponent(coordinatesOf(corners, low, high));
+    std::array<std::array<mpz_class, D>, D> u;
+    std::array<mpz_class, D> lift;
+    for (std::size_t i = 0; i < D; ++i)
     {
-      for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t k = 0; k < D; ++k)
       {
-        u[i][k] = n[3 * i + 3 + k] - n[k];
+        u[i][k] = n[D * (i + 1) + k] - n[k];
         lift[i] += u[i][k] * u[i][k];
       }
     }
-    const auto cross = [&u](std::size_t i, std::size_t j, std::size_t k) -> mpz_class
-    { return u[i][(k + 1) % 3] * u[j][(k + 2) % 3] - u[i][(k + 2) % 3] * u[j][(k + 1) % 3]; };
     mpz_class twice;
-    for (std::size_t k = 0; k < 3; ++k)
+    std::array<mpz_class, D> centre;
+    if constexpr (D == 2)
     {
-      twice += 2 * u[0][k] * cross(1, 2, k);
+      twice = 2 * (u[0][0] * u[1][1] - u[0][1] * u[1][0]);
+      centre[0] = u[1][1] * lift[0] - u[0][1] * lift[1];
+      centre[1] = u[0][0] * lift[1] - u[1][0] * lift[0];
     }
-    for (std::size_t k = 0; k < 3; ++k)
+    else
     {
-      const mpz_class centre =
-        lift[0] * cross(1, 2, k) + lift[1] * cross(2, 0, k) + lift[2] * cross(0, 1, k);
-      this->Square += centre * centre;
-      this->Depths[2 * k] = centre - twice * (n[12 + k] - n[k]);
-      this->Depths[2 * k + 1] = twice * (n[15 + k] - n[k]) - centre;
+      const auto cross = [&u](std::size_t i, std::size_t j, std::size_t k) -> mpz_class
+      { return u[i][(k + 1) % 3] * u[j][(k + 2) % 3] - u[i][(k + 2) % 3] * u[j][(k + 1) % 3]; };
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        twice += 2 * u[0][k] * cross(1, 2, k);
+        centre[k] = lift[0] * cross(1, 2, k) + lift[1] * cross(2, 0, k) + lift[2] * cross(0, 1, k);
+      }
+    }
+    for (std::size_t k = 0; k < D; ++k)
+    {
+      this->Square += centre[k] * centre[k];
+      const std::size_t side = D * (D + 1) + k;
+      std::isfinite(low[k]) ? this->Depths.push_back(centre[k] - twice * (n[side] - n[k])) : void();
+      std::isfinite(high[k]) ? this->Depths.push_back(twice * (n[side + D] - n[k]) - centre[k])
+                             : void();
     }
   }
 
-  std::array<mpz_class, 6> Depths;
+  /// Returns the coordinates of the corners and of the box; infinite bounds become 0.
+  static std::array<double, D*(D + 3)> coordinatesOf(
+    const std::array<Vector, D + 1>& corners, const Vector& low, const Vector& high)
+  {
+    std::array<double, D*(D + 3)> coordinates;
+    auto* to = coordinates.data();
+    for (const Vector& corner : corners)
+    {
+      to = std::copy(corner.begin(), corner.end(), to);
+    }
+    for (const Vector& bounds : { low, high })
+    {
+      to = std::transform(bounds.begin(), bounds.end(), to,
+        [](double bound) { return std::isfinite(bound) ? bound : 0.0; });
+    }
+    return coordinates;
+  }
+
+  std::vector<mpz_class> Depths;
   mpz_class Square;
 };
 
 } // namespace
 
-Circumball::Circumball(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
-  : Corners{ a, b, c, d }
+template <std::size_t D>
+void BallIntervals<D>::setIntervals(const Vector& offset, const Vector& errors, double roundings)
 {
-  if (!this->computeIntervals())
+  double square = 0;
+  double sum = 0;
+  for (std::size_t k = 0; k < D; ++k)
   {
-    this->leaveOpen();
+    square += offset[k] * offset[k];
+    sum += errors[k];
   }
+  const double radius = std::sqrt(square);
+  const double radiusError = sum + roundings * Epsilon * radius;
+  // Within this limit squares of the radius and of similar distances are finite. False for NaN.
+  if (!(radius + radiusError <= 1e150))
+  {
+    return;
+  }
+  for (std::size_t k = 0; k < D; ++k)
+  {
+    const double centre = this->Corners[0][k] + offset[k];
+    const double error = errors[k] + Epsilon * (4.0 * std::fabs(centre) + radius);
+    this->Low[k] = centre - error;
+    this->High[k] = centre + error;
+  }
+  this->Largest = radius + radiusError;
+  this->Smallest = std::max(0.0, radius - radiusError);
+  this->LargestSquare = this->Largest * this->Largest;
+  this->SmallestSquare = this->Smallest * this->Smallest;
 }
+
+template <std::size_t D>
+bool BallIntervals<D>::meetsExactly(const Vector& low, const Vector& high) const
+{
+  const ExactBall<D> ball(this->Corners, low, high);
+  mpz_class distance = 0;
+  for (const mpz_class& depth : ball.Depths)
+  {
+    // The centre lies beyond at most one side of each axis.
+    if (depth < 0)
+    {
+      distance += depth * depth;
+    }
+  }
+  return distance <= ball.Square;
+}
+
+template <std::size_t D>
+bool BallIntervals<D>::liesInsideExactly(const Vector& low, const Vector& high) const
+{
+  const ExactBall<D> ball(this->Corners, low, high);
+  return std::all_of(ball.Depths.begin(), ball.Depths.end(),
+    [&ball](const mpz_class& depth) { return depth >= 0 && depth * depth >= ball.Square; });
+}
+
+template class BallIntervals<2>;
+template class BallIntervals<3>;
+
+Circumdisk::Circumdisk(Point2 a, Point2 b, Point2 c)
+  : BallIntervals<2>({ { { a.x, a.y }, { b.x, b.y }, { c.x, c.y } } })
+{
+  this->computeIntervals(b - a, c - a);
+  this->Outer = { this->Low[0] - this->Largest, this->Low[1] - this->Largest,
+    this->High[0] + this->Largest, this->High[1] + this->Largest };
+  this->Inner = { this->High[0] - this->Smallest, this->High[1] - this->Smallest,
+    this->Low[0] + this->Smallest, this->Low[1] + this->Smallest };
+}
+
+// With u = b - a, v = c - a, d = u x v > 0 and w = (vy |u|^2 - uy |v|^2, ux |v|^2 - vx |u|^2), the
+// centre is a + w / 2d and the radius |w| / 2d.
+//
+// Error bounds, with e = Epsilon, ^ for computed values, D = |ux vy| + |uy vx|.
+//
+// d: |d^ - d| <= 4 e D (Shewchuk 1997: 3 e D and second order). D <= 2^48 d^ makes 1/d <= (4/3)/d^.
+//
+// w: an entry is two products of a rounded difference (1 e) and a sum of squares of such (4 e); the
+// product and the last difference round too: |w^ - w| <= 8 e W, W the sum of the magnitudes.
+//
+// q = w / 2d: |q^ - q| <= (4/3) (8 e W + |w^| 4 e D / d^) / 2d^ + 2 e |q^|, with |w^| <= (1 + e) W:
+// at most e (16 + 6 D / d^) W / 2d^. These are the errors.
+//
+// Underflow: let s be the longest entry of u and v. s <= 1e70, and d^ >= 1e-150 makes s > 1e-76.
+// Products and sums are off by 2e70 * 2^-1074, so w by 1e-250, d by 1e-322, q by 1e-99 or 1e-170 q:
+// below e r, for the longest edge is at least s and at most 2 r.
+//
+// Centre a + q: rounded in a + q, in the interval's ends and in Outer and Inner: 4 e |c|, and that
+// e r.
+//
+// Radius |q^|: off by the sum of the errors; its own rounding is 3 e r; e r each for the interval's
+// ends, their squares, Outer and Inner; in meets() a squared distance is off by 5 e, its root
+// by 2.5 e. With underflow less than 16 e r; 24 e r are allowed for.
+void Circumdisk::computeIntervals(Point2 u, Point2 v)
+{
+  const double left = u.x * v.y;
+  const double right = u.y * v.x;
+  const double d = left - right;
+  const double permanent = std::fabs(left) + std::fabs(right);
+  const double longest =
+    std::max({ std::fabs(u.x), std::fabs(u.y), std::fabs(v.x), std::fabs(v.y) });
+  if (!(longest <= 1e70) || !(d >= 1e-150) || !(permanent <= 0x1p48 * d))
+  {
+    return;
+  }
+  const double u2 = u.x * u.x + u.y * u.y;
+  const double v2 = v.x * v.x + v.y * v.y;
+  const double half = 0.5 / d;
+  const double error = Epsilon * (16.0 + 12.0 * permanent * half) * half;
+  this->setIntervals({ (v.y * u2 - u.y * v2) * half, (u.x * v2 - v.x * u2) * half },
+    { error * (std::fabs(v.y) * u2 + std::fabs(u.y) * v2),
+      error * (std::fabs(u.x) * v2 + std::fabs(v.x) * u2) },
+    24);
+}
+
+namespace
+{
+
+double square(const Point3& p)
+{
+  return p.x * p.x + p.y * p.y + p.z * p.z;
+}
+
+/// Of a tetrahedron: its volume times six, the square of its longest edge at a corner, and the
+/// centre of its ball from there, times twelve volumes. With u = b - a, v = c - a, w = d - a these
+/// are D = u . (v x w) > 0 and n = |u|^2 (v x w) + |v|^2 (w x u) + |w|^2 (u x v): the centre is
+/// a + n / 2D and the radius |n| / 2D.
+struct BallOfCorners
+{
+  BallOfCorners(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
+    : Edges{ b - a, c - a, d - a }
+    , Lifts{ square(this->Edges[0]), square(this->Edges[1]), square(this->Edges[2]) }
+  {
+    const auto cross = [](const Point3& p, const Point3& q) -> Point3 {
+      return { p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x };
+    };
+    const auto& [u, v, w] = this->Edges;
+    const auto& [uu, vv, ww] = this->Lifts;
+    const Point3 vw = cross(v, w);
+    const Point3 wu = cross(w, u);
+    const Point3 uv = cross(u, v);
+    this->Volume = u.x * vw.x + u.y * vw.y + u.z * vw.z;
+    this->Edge = std::max({ uu, vv, ww });
+    this->Centre = { uu * vw.x + vv * wu.x + ww * uv.x, uu * vw.y + vv * wu.y + ww * uv.y,
+      uu * vw.z + vv * wu.z + ww * uv.z };
+  }
+
+  Point3 Edges[3];
+  double Lifts[3]; ///< squared lengths of the edges
+  double Volume;
+  double Edge;
+  Point3 Centre;
+};
+
+/// Of a cross product, the sums of its products' magnitudes.
+std::array<double, 3> crossPermanent(const Point3& p, const Point3& q)
+{
+  return { std::fabs(p.y * q.z) + std::fabs(p.z * q.y), std::fabs(p.z * q.x) + std::fabs(p.x * q.z),
+    std::fabs(p.x * q.y) + std::fabs(p.y * q.x) };
+}
+
+} // namespace
 
 // Error bounds, with e = Epsilon, ^ for computed values, P = |u| . |v x w| in magnitudes of all
 // products, W likewise for an entry of n.
@@ -122,101 +268,43 @@ Circumball::Circumball(const Point3& a, const Point3& b, const Point3& c, const 
 // Radius |q^|: off by the sum of q's errors; its own rounding is 4 e r; e r each for the interval's
 // ends and their squares; in meets() a squared distance is off by 6 e, its root by 3 e. 32 e r are
 // allowed for.
-bool Circumball::computeIntervals()
+Circumball::Circumball(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
+  : BallIntervals<3>(
+      { { { a.x, a.y, a.z }, { b.x, b.y, b.z }, { c.x, c.y, c.z }, { d.x, d.y, d.z } } })
 {
-  const Vector u = difference(this->Corners[1], this->Corners[0]);
-  const Vector v = difference(this->Corners[2], this->Corners[0]);
-  const Vector w = difference(this->Corners[3], this->Corners[0]);
-  const std::array<Cross, 3> crosses = { Cross(v, w), Cross(w, u), Cross(u, v) };
-  const std::array<double, 3> lifts = { square(u), square(v), square(w) };
-  double d = 0;
-  double permanent = 0;
-  for (std::size_t k = 0; k < 3; ++k)
+  const BallOfCorners ball(a, b, c, d);
+  const auto& [u, v, w] = ball.Edges;
+  const Vector permanents[3] = { crossPermanent(v, w), crossPermanent(w, u), crossPermanent(u, v) };
+  const double permanent = std::fabs(u.x) * permanents[0][0] + std::fabs(u.y) * permanents[0][1] +
+    std::fabs(u.z) * permanents[0][2];
+  double longest = 0;
+  for (const Point3& edge : ball.Edges)
   {
-    d += u[k] * crosses[0].Value[k];
-    permanent += std::fabs(u[k]) * crosses[0].Permanent[k];
+    longest = std::max({ longest, std::fabs(edge.x), std::fabs(edge.y), std::fabs(edge.z) });
   }
-  const double longest = std::max({ longestEntry(u), longestEntry(v), longestEntry(w) });
-  if (!(longest <= 1e50) || !(d >= 1e-150) || !(permanent <= 0x1p48 * d))
+  if (!(longest <= 1e50) || !(ball.Volume >= 1e-150) || !(permanent <= 0x1p48 * ball.Volume))
   {
-    return false;
+    return;
   }
-  const double half = 0.5 / d;
+  const double half = 0.5 / ball.Volume;
   const double relative = Epsilon * (20.0 + 24.0 * permanent * half) * half;
-  Vector q = {};
   Vector errors = {};
   for (std::size_t k = 0; k < 3; ++k)
   {
     for (std::size_t i = 0; i < 3; ++i)
     {
-      q[k] += lifts[i] * crosses[i].Value[k];
-      errors[k] += lifts[i] * crosses[i].Permanent[k];
+      errors[k] += ball.Lifts[i] * permanents[i][k];
     }
-    q[k] *= half;
     errors[k] *= relative;
   }
-  const double radius = std::sqrt(square(q));
-  const double radiusError = errors[0] + errors[1] + errors[2] + 32.0 * Epsilon * radius;
-  // Within this limit squares of the radius and of similar distances are finite. False for NaN.
-  if (!(radius + radiusError <= 1e150))
-  {
-    return false;
-  }
-  const Vector first = { this->Corners[0].x, this->Corners[0].y, this->Corners[0].z };
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    const double centre = first[k] + q[k];
-    const double error = errors[k] + Epsilon * (4.0 * std::fabs(centre) + radius);
-    this->Low[k] = centre - error;
-    this->High[k] = centre + error;
-  }
-  const double largest = radius + radiusError;
-  const double smallest = std::max(0.0, radius - radiusError);
-  this->LargestSquare = largest * largest;
-  this->SmallestSquare = smallest * smallest;
-  return true;
+  this->setIntervals(
+    { ball.Centre.x * half, ball.Centre.y * half, ball.Centre.z * half }, errors, 32);
 }
 
 // With s the longest entry of u, v and w, and thus P <= 6 s^3 and W <= 18 s^4: where D^ is at least
 // 2^-10 s^3, the error of q is below e (20 + 12 * 6 * 2^10) 9 * 2^10 s < 1e-7 s by the bounds
 // above, and so is that of the radius, 2e-7 s for all three entries. 1e-6 s are allowed for, plus
 // 16 e of the coordinates for their rounding.
-namespace
-{
-
-/// Of a tetrahedron: its volume times six, the square of its longest edge at a corner, and the
-/// centre of its ball from there, times twelve volumes.
-struct BallOfCorners
-{
-  BallOfCorners(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
-  {
-    const Point3 u = b - a;
-    const Point3 v = c - a;
-    const Point3 w = d - a;
-    const auto cross = [](const Point3& p, const Point3& q) -> Point3 {
-      return { p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x };
-    };
-    const Point3 vw = cross(v, w);
-    const Point3 wu = cross(w, u);
-    const Point3 uv = cross(u, v);
-    const double uu = square(u);
-    const double vv = square(v);
-    const double ww = square(w);
-    this->Volume = u.x * vw.x + u.y * vw.y + u.z * vw.z;
-    this->Edge = std::max({ uu, vv, ww });
-    this->Centre = { uu * vw.x + vv * wu.x + ww * uv.x, uu * vw.y + vv * wu.y + ww * uv.y,
-      uu * vw.z + vv * wu.z + ww * uv.z };
-  }
-
-  static double square(const Point3& p) { return p.x * p.x + p.y * p.y + p.z * p.z; }
-
-  double Volume;
-  double Edge;
-  Point3 Centre;
-};
-
-} // namespace
-
 bool Circumball::isSurelyInside(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Box3& box)
 {
@@ -228,7 +316,7 @@ bool Circumball::isSurelyInside(
   }
   const double half = 0.5 / ball.Volume;
   const Point3 q = { half * ball.Centre.x, half * ball.Centre.y, half * ball.Centre.z };
-  const double radius = std::sqrt(BallOfCorners::square(q)) + 1e-6 * s;
+  const double radius = std::sqrt(square(q)) + 1e-6 * s;
   const auto isBetween = [radius](double low, double centre, double high)
   {
     const double reach = radius + 16 * Epsilon * std::fabs(centre);
@@ -248,31 +336,7 @@ bool Circumball::isSurelySmall(
   const double volume = ball.Volume * ball.Volume;
   return ball.Volume > 0 && ball.Edge >= 1e-40 && ball.Edge <= 1e40 &&
     volume >= 0x1p-20 * (ball.Edge * ball.Edge * ball.Edge) &&
-    BallOfCorners::square(ball.Centre) < margin * volume * (diameter * diameter);
-}
-
-// Makes the intervals infinite, so that every test uses exact arithmetic.
-void Circumball::leaveOpen()
-{
-  this->Low.fill(-Infinity);
-  this->High.fill(Infinity);
-  this->LargestSquare = Infinity;
-  this->SmallestSquare = -1.0;
-}
-
-bool Circumball::meetsExactly(const Box3& box) const
-{
-  const ExactBall ball(this->Corners, box);
-  mpz_class distance = 0;
-  for (const mpz_class& depth : ball.Depths)
-  {
-    // The centre lies beyond at most one side of each axis.
-    if (depth < 0)
-    {
-      distance += depth * depth;
-    }
-  }
-  return distance <= ball.Square;
+    square(ball.Centre) < margin * volume * (diameter * diameter);
 }
 
 } // namespace tipp

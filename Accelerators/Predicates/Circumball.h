@@ -8,39 +8,125 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 
 namespace tipp
 {
 
-/// The closed ball through the corners of a tetrahedron, computed once and tested exactly against
-/// many boxes.
-///
-/// Stores its centre and radius as intervals of doubles; if these leave a test undecided,
-/// arbitrary-precision integers decide. orientation3() of the finite corners must be positive.
-class VTKTIPPACCELERATORS_EXPORT Circumball
+/// The common part of Circumdisk (D = 2) and Circumball (D = 3): stores the centre and the radius
+/// as intervals of doubles. If these leave a test undecided, arbitrary-precision integers decide.
+template <std::size_t D>
+class VTKTIPPACCELERATORS_EXPORT BallIntervals
 {
-public:
-  Circumball(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
+protected:
+  using Vector = std::array<double, D>;
+  static constexpr double Infinity = std::numeric_limits<double>::infinity();
 
-  /// Whether ball and box share a point; touching counts.
-  bool meets(const Box3& box) const
+  /// Leaves the intervals infinite, so that every test uses exact arithmetic.
+  explicit BallIntervals(const std::array<Vector, D + 1>& corners)
+    : Corners(corners)
+  {
+    this->Low.fill(-Infinity);
+    this->High.fill(Infinity);
+  }
+
+  /// Sets the intervals, unless the radius is too large (or NaN); then they stay infinite. `offset`
+  /// leads from the first corner to the centre. Its entries are off by at most `errors`; the radius
+  /// is off by at most their sum plus `roundings` * 2^-53 * radius.
+  void setIntervals(const Vector& offset, const Vector& errors, double roundings);
+
+  /// Whether the ball and the box [low, high] share a point.
+  bool meetsBox(const Vector& low, const Vector& high) const
   {
     // Lower and upper bound of the distance from the centre to the nearest point of the box.
     double near = 0;
     double far = 0;
-    for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < D; ++k)
     {
-      const double atLeast = gap(box.Min[k] - this->High[k], this->Low[k] - box.Max[k]);
-      const double atMost = gap(box.Min[k] - this->Low[k], this->High[k] - box.Max[k]);
+      const double atLeast = gap(low[k] - this->High[k], this->Low[k] - high[k]);
       near += atLeast * atLeast;
-      far += atMost * atMost;
     }
     if (near > this->LargestSquare)
     {
       return false;
     }
-    return far <= this->SmallestSquare || this->meetsExactly(box);
+    for (std::size_t k = 0; k < D; ++k)
+    {
+      const double atMost = gap(low[k] - this->Low[k], this->High[k] - high[k]);
+      far += atMost * atMost;
+    }
+    return far <= this->SmallestSquare || this->meetsExactly(low, high);
   }
+
+  ///@{
+  /// Exact, for boxes whose bounds may be infinite.
+  bool meetsExactly(const Vector& low, const Vector& high) const;
+  bool liesInsideExactly(const Vector& low, const Vector& high) const;
+  ///@}
+
+  std::array<Vector, D + 1> Corners;
+  Vector Low;           // the centre lies between Low
+  Vector High;          // and High
+  double Smallest = -1; // interval of the radius
+  double Largest = Infinity;
+  double SmallestSquare = -1;      // interval of the squared radius,
+  double LargestSquare = Infinity; // widened by the rounding of the squared distances in meetsBox()
+
+private:
+  static double gap(double before, double behind)
+  {
+    return std::max(std::max(before, behind), 0.0);
+  }
+};
+
+extern template class BallIntervals<2>;
+extern template class BallIntervals<3>;
+
+/// The closed disk through the corners of a triangle, computed once and tested exactly against many
+/// boxes. Corners must be finite and in counter-clockwise order.
+class VTKTIPPACCELERATORS_EXPORT Circumdisk : BallIntervals<2>
+{
+public:
+  Circumdisk(Point2 a, Point2 b, Point2 c);
+
+  /// Whether disk and box share a point; touching counts.
+  bool meets(const Box2& box) const
+  {
+    return this->meetsBox({ box.xmin, box.ymin }, { box.xmax, box.ymax });
+  }
+
+  /// Whether the disk lies in the box; touching the box's border from inside counts.
+  bool inside(const Box2& box) const
+  {
+    if (box.xmin <= this->Outer.xmin && this->Outer.xmax <= box.xmax &&
+      box.ymin <= this->Outer.ymin && this->Outer.ymax <= box.ymax)
+    {
+      return true;
+    }
+    const bool reachesOut = this->Inner.xmin < box.xmin || box.xmax < this->Inner.xmax ||
+      this->Inner.ymin < box.ymin || box.ymax < this->Inner.ymax;
+    return !reachesOut && this->liesInsideExactly({ box.xmin, box.ymin }, { box.xmax, box.ymax });
+  }
+
+  /// A box that contains the disk: rounded outward, and infinite if doubles cannot bound it.
+  Box2 bounds() const { return this->Outer; }
+
+private:
+  void computeIntervals(Point2 u, Point2 v);
+
+  Box2 Outer; // contains the disk's bounding box
+  Box2 Inner; // the disk reaches or crosses each side
+};
+
+/// The closed ball through the corners of a tetrahedron, computed once and tested exactly against
+/// many boxes. orientation3() of the finite corners must be positive.
+class VTKTIPPACCELERATORS_EXPORT Circumball : BallIntervals<3>
+{
+public:
+  Circumball(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
+
+  /// Whether ball and box share a point; touching counts.
+  bool meets(const Box3& box) const { return this->meetsBox(box.Min, box.Max); }
 
   /// A quick sufficient test: true only if the ball of the tetrahedron lies in the interior of the
   /// box. May be false for a ball close to the box's border or for a thin tetrahedron.
@@ -51,21 +137,6 @@ public:
   /// the interior of every box whose sides are that far from `a`.
   static bool isSurelySmall(
     const Point3& a, const Point3& b, const Point3& c, const Point3& d, double diameter);
-
-private:
-  static double gap(double before, double behind)
-  {
-    return std::max(std::max(before, behind), 0.0);
-  }
-  bool computeIntervals();
-  void leaveOpen();
-  bool meetsExactly(const Box3& box) const;
-
-  std::array<Point3, 4> Corners;
-  std::array<double, 3> Low;  // the centre lies between Low
-  std::array<double, 3> High; // and High
-  double SmallestSquare;      // interval of the squared radius,
-  double LargestSquare;       // widened by the rounding of the squared distances in meets()
 };
 
 } // namespace tipp

@@ -12,6 +12,8 @@
 #include <cstdint>
 #include <cstring>
 #include <gmpxx.h>
+#include <utility>
+#include <vector>
 
 namespace tipp
 {
@@ -33,6 +35,67 @@ inline ExactDifference exactDifference(double x, double y)
   return { head, (x - xVirtual) + (yVirtual - y) };
 }
 
+/// An exact sum of finite doubles, rounded once at the end: the same for any order of terms, unless
+/// it overflows (Shewchuk 1997, GROW-EXPANSION; the rounding is that of Python's math.fsum).
+class ExactSum
+{
+public:
+  void add(double term)
+  {
+    std::size_t kept = 0;
+    for (const double part : this->Parts)
+    {
+      double large = part;
+      std::fabs(large) < std::fabs(term) ? std::swap(large, term) : void();
+      const double sum = large + term;
+      const double rest = term - (sum - large);
+      rest != 0 ? void(this->Parts[kept++] = rest) : void();
+      term = sum;
+    }
+    this->Parts.resize(kept);
+    this->Parts.push_back(term);
+  }
+
+  void add(const ExactSum& other)
+  {
+    for (const double part : other.Parts)
+    {
+      this->add(part);
+    }
+  }
+
+  /// The double nearest to the sum; ties go to the even one.
+  double value() const
+  {
+    auto at = this->Parts.rbegin();
+    const auto end = this->Parts.rend();
+    double sum = at != end ? *at++ : 0;
+    double rest = 0;
+    while (at != end && rest == 0)
+    {
+      const double large = sum;
+      sum = large + *at;
+      rest = *at++ - (sum - large);
+    }
+    // An exact half was rounded to even above; the next lower part breaks the tie.
+    if (at != end && rest != 0 && (rest < 0) == (*at < 0))
+    {
+      const double further = sum + 2 * rest;
+      sum = further - sum == 2 * rest ? further : sum;
+    }
+    return sum;
+  }
+
+  template <typename Archive>
+  friend void serialize(Archive& archive, ExactSum& sum)
+  {
+    archive(sum.Parts);
+  }
+
+private:
+  std::vector<double> Parts; ///< non-overlapping, the largest last
+};
+
 /// The lowest and the highest binary digit of a set of doubles. With n = bits() and scale(), each
 /// of them times scale() is an integer below 2^n in magnitude.
 class BitSpan
@@ -52,8 +115,10 @@ public:
     this->High = exponent > this->High ? exponent : this->High;
   }
 
-  void include(const ExactDifference& difference)
+  /// Includes both parts of x - y.
+  void includeDifference(double x, double y)
   {
+    const ExactDifference difference = exactDifference(x, y);
     this->include(difference.head);
     difference.tail != 0.0 ? this->include(difference.tail) : void();
   }
@@ -91,10 +156,11 @@ private:
   int High = 0;
 };
 
-/// The difference in units of 1/scale, as an integer. Exact if scale comes from a BitSpan that
-/// includes both parts of the difference and spans at most 63 bits.
-inline std::int64_t scaledToInteger(ExactDifference difference, double scale)
+/// The difference x - y in units of 1/scale. Exact if scale comes from a BitSpan that includes
+/// exactDifference(x, y) and spans at most 63 bits.
+inline std::int64_t longUnits(double x, double y, double scale)
 {
+  const ExactDifference difference = exactDifference(x, y);
   return static_cast<std::int64_t>(difference.head * scale) +
     static_cast<std::int64_t>(difference.tail * scale);
 }
@@ -330,12 +396,8 @@ private:
   std::size_t Count = 0;
 };
 
-} // namespace tipp
-
 // Signs of the two determinants over integer differences, in the narrowest integers that hold them.
 // The suffix is the number of binary digits of every difference: |difference| < 2^digits.
-namespace tipp
-{
 
 /// Sign of u x v. Each product is below 2^2k, their difference below 2^(2k+1): 31 digits fit 64
 /// bits.

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 namespace tipp
 {
@@ -32,94 +34,18 @@ int orientationAnyLength(Point2 a, Point2 b, Point2 c)
 
 int orientationExact(Point2 a, Point2 b, Point2 c)
 {
-  const ExactDifference ux = exactDifference(a.x, c.x);
-  const ExactDifference uy = exactDifference(a.y, c.y);
-  const ExactDifference vx = exactDifference(b.x, c.x);
-  const ExactDifference vy = exactDifference(b.y, c.y);
   BitSpan x;
   BitSpan y;
-  x.include(ux);
-  x.include(vx);
-  y.include(uy);
-  y.include(vy);
+  x.includeDifference(a.x, c.x);
+  x.includeDifference(b.x, c.x);
+  y.includeDifference(a.y, c.y);
+  y.includeDifference(b.y, c.y);
   if (!x.fits(63) || !y.fits(63))
   {
     return orientationAnyLength(a, b, c);
   }
-  return orientationSign63(scaledToInteger(ux, x.scale()), scaledToInteger(uy, y.scale()),
-    scaledToInteger(vx, x.scale()), scaledToInteger(vy, y.scale()));
-}
-
-namespace
-{
-
-// Each product has one factor from each axis, so each axis may be scaled by its own power of two.
-int orientationAnyLength(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
-{
-  const auto x = toCommonExponent<4>({ a.x, b.x, c.x, d.x });
-  const auto y = toCommonExponent<4>({ a.y, b.y, c.y, d.y });
-  const auto z = toCommonExponent<4>({ a.z, b.z, c.z, d.z });
-  const auto minor = [&](int i, int j) -> mpz_class
-  { return (x[i] - x[0]) * (y[j] - y[0]) - (x[j] - x[0]) * (y[i] - y[0]); };
-  const mpz_class determinant =
-    (z[3] - z[0]) * minor(1, 2) + (z[1] - z[0]) * minor(2, 3) + (z[2] - z[0]) * minor(3, 1);
-  return sgn(determinant);
-}
-
-// Differences to the first point along one axis.
-struct AxisDifferences
-{
-  AxisDifferences(double first, double b, double c, double d)
-    : Values{ exactDifference(b, first), exactDifference(c, first), exactDifference(d, first) }
-  {
-    for (const ExactDifference& value : this->Values)
-    {
-      this->Span.include(value);
-    }
-  }
-
-  std::array<std::int64_t, 3> integers() const
-  {
-    const double scale = this->Span.scale();
-    return { scaledToInteger(this->Values[0], scale), scaledToInteger(this->Values[1], scale),
-      scaledToInteger(this->Values[2], scale) };
-  }
-
-  std::array<ExactDifference, 3> Values;
-  BitSpan Span;
-};
-
-// Differences below 2^63: minors below 2^127, the determinant below 2^192.
-int orientationOfIntegers(const std::array<std::int64_t, 3>& x,
-  const std::array<std::int64_t, 3>& y, const std::array<std::int64_t, 3>& z)
-{
-  const auto minor = [&](int i, int j)
-  { return static_cast<Int128>(x[i]) * y[j] - static_cast<Int128>(x[j]) * y[i]; };
-  Int256 sum = Int256::product(minor(0, 1), z[2]);
-  sum += Int256::product(minor(1, 2), z[0]);
-  sum += Int256::product(minor(2, 0), z[1]);
-  return sum.sign();
-}
-
-} // namespace
-
-int orientation3Exact(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
-{
-  // Most coplanar points lie in a plane perpendicular to an axis, such as the face of a box.
-  const auto level = [&](double Point3::*axis)
-  { return a.*axis == d.*axis && b.*axis == d.*axis && c.*axis == d.*axis; };
-  if (level(&Point3::x) || level(&Point3::y) || level(&Point3::z))
-  {
-    return 0;
-  }
-  const AxisDifferences x(a.x, b.x, c.x, d.x);
-  const AxisDifferences y(a.y, b.y, c.y, d.y);
-  const AxisDifferences z(a.z, b.z, c.z, d.z);
-  if (!x.Span.fits(63) || !y.Span.fits(63) || !z.Span.fits(63))
-  {
-    return orientationAnyLength(a, b, c, d);
-  }
-  return orientationOfIntegers(x.integers(), y.integers(), z.integers());
+  return orientationSign63(longUnits(a.x, c.x, x.scale()), longUnits(a.y, c.y, y.scale()),
+    longUnits(b.x, c.x, x.scale()), longUnits(b.y, c.y, y.scale()));
 }
 
 namespace
@@ -183,8 +109,14 @@ Point2 crossingPoint(Point2 a, Point2 b, Point2 c, Point2 d)
 namespace
 {
 
-// Computed with the coordinates themselves, because differences of coordinates with very different
-// exponents have too many digits.
+template <typename ToUnits>
+InCircleIntegers integersOf(Point2 a, Point2 b, Point2 c, Point2 p, double scale, ToUnits toUnits)
+{
+  return { toUnits(a.x, p.x, scale), toUnits(a.y, p.y, scale), toUnits(b.x, p.x, scale),
+    toUnits(b.y, p.y, scale), toUnits(c.x, p.x, scale), toUnits(c.y, p.y, scale) };
+}
+
+// As orientationAnyLength().
 int inCircleAnyLength(Point2 a, Point2 b, Point2 c, Point2 p)
 {
   const BinaryNumber x[4] = { binaryNumber(a.x), binaryNumber(b.x), binaryNumber(c.x),
@@ -213,157 +145,130 @@ int inCircleAnyLength(Point2 a, Point2 b, Point2 c, Point2 p)
 
 int inCircleExact(Point2 a, Point2 b, Point2 c, Point2 p)
 {
-  const ExactDifference differences[6] = { exactDifference(a.x, p.x), exactDifference(a.y, p.y),
-    exactDifference(b.x, p.x), exactDifference(b.y, p.y), exactDifference(c.x, p.x),
-    exactDifference(c.y, p.y) };
   BitSpan span;
-  for (const ExactDifference& difference : differences)
+  for (const Point2 corner : { a, b, c })
   {
-    span.include(difference);
+    span.includeDifference(corner.x, p.x);
+    span.includeDifference(corner.y, p.y);
   }
   if (!span.fits(63))
   {
     return inCircleAnyLength(a, b, c, p);
   }
-  const double scale = span.scale();
-  const InCircleIntegers integers = { scaledToInteger(differences[0], scale),
-    scaledToInteger(differences[1], scale), scaledToInteger(differences[2], scale),
-    scaledToInteger(differences[3], scale), scaledToInteger(differences[4], scale),
-    scaledToInteger(differences[5], scale) };
+  const InCircleIntegers integers = integersOf(a, b, c, p, span.scale(), longUnits);
   return span.fits(31) ? inCircleSign31(integers) : inCircleSign63(integers);
 }
 
 namespace
 {
 
-// A rectangle: the projection of a box along an axis.
-struct Shadow
-{
-  Point2 Min;
-  Point2 Max;
-};
+// Differences below 2^k units. In-circle terms are multiples of unit^4, and the partial sums of the
+// three are below 3 * 2^(2k+1) * 2^(2k+1) < 2^(4k+4): at k = 12, 52 bits, exact in doubles.
+// Orientation needs 2k+1 = 25.
+constexpr int DoublesDigits = 12;
+// See orientationSign31() and its like.
+constexpr int Int128Digits = 31;
+constexpr int Int256Digits = 63;
 
-bool contains(const Shadow& box, Point2 p)
-{
-  return box.Min.x <= p.x && p.x <= box.Max.x && box.Min.y <= p.y && p.y <= box.Max.y;
-}
+// With units of 2^-255 and more, unit^4 is a normal number; with at most 2^12 * 2^230, a
+// determinant below 2^52 * (2^230)^4 = 2^972 does not overflow.
+constexpr double SmallestUnitForDoubles = 0x1p-255;
+constexpr double LargestUnitForDoubles = 0x1p230;
 
-// +1 or -1 if the rectangle lies strictly on that side of the directed line ab, else 0.
-int strictSide(Point2 a, Point2 b, const Shadow& box)
+Exactness modeOf(double size, double scale)
 {
-  // The rectangle's extreme corners to the left and to the right of the line.
-  const bool east = b.x > a.x;
-  const bool north = b.y > a.y;
-  const Point2 left = { north ? box.Min.x : box.Max.x, east ? box.Max.y : box.Min.y };
-  const Point2 right = { north ? box.Max.x : box.Min.x, east ? box.Min.y : box.Max.y };
-  if (orientation(a, b, right) > 0)
+  const double units = size * scale;
+  const double unit = 1.0 / scale;
+  if (units < std::ldexp(1.0, DoublesDigits) && unit >= SmallestUnitForDoubles &&
+    unit <= LargestUnitForDoubles)
   {
-    return 1;
+    return Exactness::Doubles;
   }
-  return orientation(a, b, left) < 0 ? -1 : 0;
-}
-
-// Whether a line parallel to ab lies strictly between the rectangle and the points: the rectangle
-// is strictly on one side of ab, and none of the other points is on that side.
-template <std::size_t N>
-bool edgeSeparates(Point2 a, Point2 b, const std::array<Point2, N>& others, const Shadow& box)
-{
-  const int side = strictSide(a, b, box);
-  return side != 0 &&
-    std::none_of(
-      others.begin(), others.end(), [&](Point2 other) { return orientation(a, b, other) == side; });
-}
-
-// Tests the six edges of the tetrahedron, projected along one axis.
-bool edgesSeparate(const std::array<Point2, 4>& p, const Shadow& box)
-{
-  return edgeSeparates<2>(p[0], p[1], { p[2], p[3] }, box) ||
-    edgeSeparates<2>(p[0], p[2], { p[1], p[3] }, box) ||
-    edgeSeparates<2>(p[0], p[3], { p[1], p[2] }, box) ||
-    edgeSeparates<2>(p[1], p[2], { p[0], p[3] }, box) ||
-    edgeSeparates<2>(p[1], p[3], { p[0], p[2] }, box) ||
-    edgeSeparates<2>(p[2], p[3], { p[0], p[1] }, box);
-}
-
-// Whether the box lies strictly on one side of the plane of a, b, c, and d does not.
-bool faceSeparates(
-  const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Box3& box)
-{
-  // The signs of the normal's components, and so the box's extreme corners along it.
-  const int x = orientation({ a.y, a.z }, { b.y, b.z }, { c.y, c.z });
-  const int y = orientation({ a.z, a.x }, { b.z, b.x }, { c.z, c.x });
-  const int z = orientation({ a.x, a.y }, { b.x, b.y }, { c.x, c.y });
-  const Point3 highest = { x > 0 ? box.Max[0] : box.Min[0], y > 0 ? box.Max[1] : box.Min[1],
-    z > 0 ? box.Max[2] : box.Min[2] };
-  const Point3 lowest = { x > 0 ? box.Min[0] : box.Max[0], y > 0 ? box.Min[1] : box.Max[1],
-    z > 0 ? box.Min[2] : box.Max[2] };
-  int side = orientation3(a, b, c, lowest) > 0 ? 1 : 0;
-  if (side == 0 && orientation3(a, b, c, highest) < 0)
+  if (units < std::ldexp(1.0, Int128Digits))
   {
-    side = -1;
+    return Exactness::Int128;
   }
-  return side != 0 && orientation3(a, b, c, d) != side;
+  return units < std::ldexp(1.0, Int256Digits) ? Exactness::Int256 : Exactness::General;
 }
 
-template <std::size_t N>
-bool apartAlongAxis(const std::array<double, N>& values, double low, double high)
+// The difference x - y in units, for sets whose differences are exact in doubles (up to 53 digits).
+std::int64_t units(double x, double y, double scale)
 {
-  return *std::max_element(values.begin(), values.end()) < low ||
-    *std::min_element(values.begin(), values.end()) > high;
-}
-
-bool boundsMeet(const std::array<Point3, 4>& p, const Box3& box)
-{
-  return !apartAlongAxis<4>({ p[0].x, p[1].x, p[2].x, p[3].x }, box.Min[0], box.Max[0]) &&
-    !apartAlongAxis<4>({ p[0].y, p[1].y, p[2].y, p[3].y }, box.Min[1], box.Max[1]) &&
-    !apartAlongAxis<4>({ p[0].z, p[1].z, p[2].z, p[3].z }, box.Min[2], box.Max[2]);
-}
-
-bool contains(const Box3& box, const Point3& p)
-{
-  return box.Min[0] <= p.x && p.x <= box.Max[0] && box.Min[1] <= p.y && p.y <= box.Max[1] &&
-    box.Min[2] <= p.z && p.z <= box.Max[2];
+  return static_cast<std::int64_t>((x - y) * scale);
 }
 
 } // namespace
 
-bool triangleMeetsBox(Point2 a, Point2 b, Point2 c, const Box3& box)
+void CoordinateGrid::analyse(const Point2* points, std::size_t count)
 {
-  const Shadow shadow = { { box.Min[0], box.Min[1] }, { box.Max[0], box.Max[1] } };
-  if (contains(shadow, a) || contains(shadow, b) || contains(shadow, c))
+  this->Mode = Exactness::Doubles;
+  this->Scale = 1.0;
+  if (count == 0)
   {
-    return true;
+    return;
   }
-  return !apartAlongAxis<3>({ a.x, b.x, c.x }, box.Min[0], box.Max[0]) &&
-    !apartAlongAxis<3>({ a.y, b.y, c.y }, box.Min[1], box.Max[1]) &&
-    !edgeSeparates<1>(a, b, { c }, shadow) && !edgeSeparates<1>(b, c, { a }, shadow) &&
-    !edgeSeparates<1>(c, a, { b }, shadow);
+  // The difference of any two points is the difference of their differences to the first one, and
+  // so a multiple of the same unit.
+  const Point2 reference = points[0];
+  BitSpan span;
+  Box2 box = { reference.x, reference.y, reference.x, reference.y };
+  constexpr std::size_t blockSize = 256;
+  for (std::size_t begin = 0; begin < count; begin += blockSize)
+  {
+    const std::size_t end = std::min(count, begin + blockSize);
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      box.xmin = std::min(box.xmin, points[i].x);
+      box.ymin = std::min(box.ymin, points[i].y);
+      box.xmax = std::max(box.xmax, points[i].x);
+      box.ymax = std::max(box.ymax, points[i].y);
+      span.includeDifference(points[i].x, reference.x);
+      span.includeDifference(points[i].y, reference.y);
+    }
+    if (!span.fits(Int256Digits))
+    {
+      this->Mode = Exactness::General;
+      return;
+    }
+  }
+  this->Scale = span.scale();
+  // Rounding is monotone: if this size is below a power of two, so is the exact one.
+  this->Mode = modeOf(std::max(box.xmax - box.xmin, box.ymax - box.ymin), this->Scale);
 }
 
-bool tetrahedronMeetsBox(
-  const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Box3& box)
+int CoordinateGrid::orientation(Point2 a, Point2 b, Point2 c) const
 {
-  const std::array<Point3, 4> p = { a, b, c, d };
-  if (std::any_of(p.begin(), p.end(), [&](const Point3& corner) { return contains(box, corner); }))
+  const double scale = this->Scale;
+  switch (this->Mode)
   {
-    return true;
+    case Exactness::Doubles:
+      return signOf((a.x - c.x) * (b.y - c.y) - (a.y - c.y) * (b.x - c.x));
+    case Exactness::Int128:
+      return orientationSign31(units(a.x, c.x, scale), units(a.y, c.y, scale),
+        units(b.x, c.x, scale), units(b.y, c.y, scale));
+    case Exactness::Int256:
+      return orientationSign63(longUnits(a.x, c.x, scale), longUnits(a.y, c.y, scale),
+        longUnits(b.x, c.x, scale), longUnits(b.y, c.y, scale));
+    case Exactness::General:
+      break;
   }
-  if (!boundsMeet(p, box) || faceSeparates(a, b, c, d, box) || faceSeparates(a, b, d, c, box) ||
-    faceSeparates(a, c, d, b, box) || faceSeparates(b, c, d, a, box))
+  return orientationExact(a, b, c);
+}
+
+int CoordinateGrid::inCircle(Point2 a, Point2 b, Point2 c, Point2 p) const
+{
+  switch (this->Mode)
   {
-    return false;
+    case Exactness::Doubles:
+      return signOf(inCircleValue(a, b, c, p).determinant);
+    case Exactness::Int128:
+      return inCircleSign31(integersOf(a, b, c, p, this->Scale, units));
+    case Exactness::Int256:
+      return inCircleSign63(integersOf(a, b, c, p, this->Scale, longUnits));
+    case Exactness::General:
+      break;
   }
-  const auto seen = [&](auto first, auto second)
-  {
-    return std::array<Point2, 4>{ { { a.*first, a.*second }, { b.*first, b.*second },
-      { c.*first, c.*second }, { d.*first, d.*second } } };
-  };
-  const auto shadow = [&](std::size_t first, std::size_t second) {
-    return Shadow{ { box.Min[first], box.Min[second] }, { box.Max[first], box.Max[second] } };
-  };
-  return !edgesSeparate(seen(&Point3::x, &Point3::y), shadow(0, 1)) &&
-    !edgesSeparate(seen(&Point3::y, &Point3::z), shadow(1, 2)) &&
-    !edgesSeparate(seen(&Point3::z, &Point3::x), shadow(2, 0));
+  return inCircleExact(a, b, c, p);
 }
 
 } // namespace tipp

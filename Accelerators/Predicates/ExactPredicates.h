@@ -6,6 +6,7 @@
 #include "vtkTIPPAcceleratorsModule.h"
 
 #include <cmath>
+#include <cstddef>
 
 namespace tipp
 {
@@ -31,41 +32,6 @@ inline int orientation(Point2 a, Point2 b, Point2 c)
   // After an overflow the bound is infinite or NaN, and the comparison is false. The sign is found
   // without a branch, which would be mispredicted half of the time.
   return std::fabs(determinant) > bound ? signOf(determinant) : orientationExact(a, b, c);
-}
-
-/// Like orientation3(), but goes straight to exact arithmetic.
-VTKTIPPACCELERATORS_EXPORT int orientation3Exact(
-  const Point3& a, const Point3& b, const Point3& c, const Point3& d);
-
-/// Exact for all finite coordinates: +1 if a, b, c turn counter-clockwise seen from d, -1 if
-/// clockwise, 0 if the four are coplanar. It is the sign of ((b - a) x (c - a)) . (d - a), which is
-/// +1 for a tetrahedron in VTK's order.
-inline int orientation3(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
-{
-  // (7 + 56 e) e, e = 2^-53: Shewchuk, Adaptive Precision Floating-Point Arithmetic, 1997,
-  // section 4.3.
-  constexpr double relative = 7.7715611723761e-16;
-  const auto [ax, ay, az] = a - d;
-  const auto [bx, by, bz] = b - d;
-  const auto [cx, cy, cz] = c - d;
-  const double minus =
-    az * (bx * cy - cx * by) + bz * (cx * ay - ax * cy) + cz * (ax * by - bx * ay);
-  const double heights = std::fabs(az) + std::fabs(bz) + std::fabs(cz);
-  const double permanent = std::fabs(az) * (std::fabs(bx * cy) + std::fabs(cx * by)) +
-    std::fabs(bz) * (std::fabs(cx * ay) + std::fabs(ax * cy)) +
-    std::fabs(cz) * (std::fabs(ax * by) + std::fabs(bx * ay));
-  // A product below the normal range loses at most 2^-1075, which is multiplied by a height.
-  const double bound = relative * permanent + 1e-300 * (1.0 + heights);
-  // After an overflow the bound is infinite or NaN, and both comparisons are false.
-  if (minus > bound)
-  {
-    return -1;
-  }
-  if (-minus > bound)
-  {
-    return 1;
-  }
-  return orientation3Exact(a, b, c, d);
 }
 
 /// Whether the segments ab and cd cross at one point in the interior of both. Exact for all finite
@@ -163,19 +129,39 @@ inline bool inCirclePerturbed(Point2 a, Point2 b, Point2 c, Point2 p)
   return side != 0 ? side > 0 : tieIsInside(a, b, c, p);
 }
 
-// Two convex sets are disjoint if and only if a line, or in 3D a plane, that is parallel to a side
-// of one of them or to an edge of each lies strictly between them (the separating axes of
-// Gottschalk, Lin and Manocha, OBBTree, 1996). Each axis takes a few orientation tests, which are
-// exact.
+/// The cheapest arithmetic in which the predicates are exact for all points of a set.
+enum class Exactness
+{
+  Doubles, ///< differences below 2^12 units: plain double arithmetic has no rounding error
+  Int128,  ///< below 2^31 units
+  Int256,  ///< below 2^63 units
+  General  ///< none of these: the stateless exact predicates
+};
 
-/// Whether the closed triangle and the closed box share a point, in x and y; touching counts. Exact
-/// for finite coordinates, even if the triangle or the box is a segment or a point.
-VTKTIPPACCELERATORS_EXPORT bool triangleMeetsBox(Point2 a, Point2 b, Point2 c, const Box3& box);
+/// The common binary grid of a point set: the lowest digit of any difference of two coordinates
+/// (the unit), and the set's extent in units. After one pass over all points, exact predicates on
+/// these points need not inspect exponents. Compute it lazily, when a floating-point filter first
+/// fails.
+class VTKTIPPACCELERATORS_EXPORT CoordinateGrid
+{
+public:
+  /// Analyses all points, which must be finite. About 4 ns per point; stops early at General.
+  void analyse(const Point2* points, std::size_t count);
 
-/// Whether the closed tetrahedron and the closed box share a point; touching counts. Exact for
-/// finite coordinates, even if either is flat: with c = d this tests a triangle in space.
-VTKTIPPACCELERATORS_EXPORT bool tetrahedronMeetsBox(
-  const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Box3& box);
+  Exactness exactness() const { return this->Mode; }
+
+  /// Exact, without a filter, for points that were analysed: +1 if a, b, c turn counter-clockwise,
+  /// -1 if clockwise, 0 if collinear.
+  int orientation(Point2 a, Point2 b, Point2 c) const;
+
+  /// Exact, without a filter, for points that were analysed; a, b, c must turn counter-clockwise:
+  /// +1 if p is strictly inside their circle, 0 on it, -1 outside.
+  int inCircle(Point2 a, Point2 b, Point2 c, Point2 p) const;
+
+private:
+  Exactness Mode = Exactness::General;
+  double Scale = 1.0; // 1 / unit, a power of two
+};
 
 } // namespace tipp
 

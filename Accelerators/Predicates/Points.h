@@ -70,6 +70,11 @@ inline Point3 operator-(const Point3& a, const Point3& b)
   return { a.x - b.x, a.y - b.y, a.z - b.z };
 }
 
+inline bool isFinite(const Point3& p)
+{
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
 inline bool lexicographicLess(Point3 a, Point3 b)
 {
   return a.x < b.x || (a.x == b.x && (a.y < b.y || (a.y == b.y && a.z < b.z)));

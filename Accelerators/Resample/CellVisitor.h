@@ -3,60 +3,19 @@
 #define tippCellVisitor_h
 
 #include "Parallel/ParallelFor.h"
+#include "Resample/CellLanes.h"
+#include "Resample/CellRows.h"
+#include "Resample/Claims.h"
 #include "Resample/Lattice.h"
 #include "Resample/SimplexMesh.h"
-#include "Resample/TetrahedronLanes.h"
-#include "Resample/TetrahedronRows.h"
-#include "Resample/TriangleRows.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <iterator>
 #include <vector>
 
 namespace tipp
 {
-
-template <int Dimension>
-struct CellGeometry;
-
-template <>
-struct CellGeometry<2>
-{
-  using Rows = TriangleRows;
-  using Lanes = TriangleLanes;
-};
-
-template <>
-struct CellGeometry<3>
-{
-  using Rows = TetrahedronRows;
-  using Lanes = TetrahedronLanes;
-};
-
-/// The lattice's axes along which a mesh is sampled: two for triangles, three for tetrahedra.
-struct LatticeAxes
-{
-  LatticeAxes(const SimplexMesh& mesh, const Lattice& lattice)
-    : U(lattice, mesh.Dimension == 2 ? mesh.Axes[0] : 0)
-    , V(lattice, mesh.Dimension == 2 ? mesh.Axes[1] : 1)
-    , W(lattice, 2)
-    , Layers(mesh.Dimension == 2 ? 1 : W.size())
-  {
-  }
-
-  std::int64_t samples() const { return std::int64_t(U.size()) * V.size() * Layers; }
-
-  TriangleRows rows(std::integral_constant<int, 2>) const { return { U, V }; }
-  TetrahedronRows rows(std::integral_constant<int, 3>) const { return { U, V, W }; }
-
-  TriangleLanes lanes(std::integral_constant<int, 2>) const { return { U, V }; }
-  TetrahedronLanes lanes(std::integral_constant<int, 3>) const { return { U, V, W }; }
-
-  LatticeAxis U;
-  LatticeAxis V;
-  LatticeAxis W;
-  int Layers;
-};
 
 /// A row of a lattice's samples along the first axis.
 struct SampleRow
@@ -79,7 +38,7 @@ public:
     : Mesh(mesh)
     , Cells(mesh)
     , Axes(axes)
-    , Outside(mesh, { &axes.U, &axes.V, &axes.W })
+    , Outside(mesh, axes)
     , Sinks(sinks)
     , Large(sinks.size())
   {
@@ -99,7 +58,8 @@ public:
 
 private:
   static constexpr int Dimension = Access::Dimension;
-  using Rows = typename CellGeometry<Dimension>::Rows;
+  using Rows = CellRows<Dimension>;
+  using FourCells = CellLanes<Dimension>;
   using Corners = typename Access::Point[Access::Corners];
 
   /// Cells with more samples are split among the threads, in parts of about this many samples.
@@ -115,8 +75,6 @@ private:
     std::int64_t RowEnd;
   };
 
-  Rows makeRows() const { return this->Axes.rows(std::integral_constant<int, Dimension>()); }
-
 #ifdef __x86_64__
   [[gnu::flatten, gnu::target("avx2")]]
 #endif
@@ -129,8 +87,8 @@ private:
   [[gnu::always_inline]] void visitChunk(std::int64_t begin, std::int64_t end, int thread)
   {
     Sink& sink = this->Sinks[std::size_t(thread)];
-    Rows rows = this->makeRows();
-    auto lanes = this->Axes.lanes(std::integral_constant<int, Dimension>());
+    Rows rows(this->Axes);
+    FourCells lanes(this->Axes);
     bool outside[2 * Ahead] = {};
     std::int64_t cell = begin;
     for (; cell + laneCount <= end; cell += laneCount)
@@ -199,9 +157,8 @@ private:
   }
 
   /// Visits one of four cells. Returns false, without visiting it, if the cell is large.
-  template <typename CellLanes>
   [[gnu::always_inline]] bool visitLane(
-    const CellLanes& lanes, int lane, std::int64_t cell, Rows& rows, Sink& sink)
+    const FourCells& lanes, int lane, std::int64_t cell, Rows& rows, Sink& sink)
   {
     const IndexRange across = lanes.rows(lane);
     const IndexRange layers = lanes.layers(lane);
@@ -236,9 +193,8 @@ private:
 
   /// A fast path: most tetrahedra that are small compared with the spacing have at most one row of
   /// samples.
-  template <typename CellLanes>
   [[gnu::always_inline]] void visitSingleRows(
-    const CellLanes& lanes, std::int64_t first, Rows& rows, Sink& sink)
+    const FourCells& lanes, std::int64_t first, Rows& rows, Sink& sink)
   {
     const auto spans = lanes.singleRows();
     for (int lane = 0; lane < laneCount; ++lane)
@@ -260,9 +216,8 @@ private:
   }
 
   /// A fast path: if the spacing is about the size of the tetrahedra, most boxes have one sample.
-  template <typename CellLanes>
   [[gnu::always_inline]] void visitSingleSamples(
-    const CellLanes& lanes, std::int64_t first, Rows& rows, int thread)
+    const FourCells& lanes, std::int64_t first, Rows& rows, int thread)
   {
     Sink& sink = this->Sinks[std::size_t(thread)];
     const auto& spans = lanes.samples();
@@ -301,8 +256,9 @@ private:
     {
       return;
     }
-    const std::int64_t samples = samplesOf(rows);
-    const Part part{ std::int32_t(cell), 0, rowsOf(rows) };
+    const Part part{ std::int32_t(cell), 0,
+      std::int64_t(rows.rows().size()) * rows.layers().size() };
+    const std::int64_t samples = part.RowEnd * rows.columns().size();
     sink.visit(samples);
     samples > LargeCell ? this->defer(rows, part, thread) : this->visitRows(rows, part, sink);
   }
@@ -316,16 +272,6 @@ private:
       outside[cell % (2 * Ahead)] = this->Outside.contain(cell);
       outside[cell % (2 * Ahead)] ? void() : this->Cells.prefetch(cell);
     }
-  }
-
-  static std::int64_t samplesOf(const Rows& rows)
-  {
-    return std::int64_t(rows.columns().size()) * rows.rows().size() * rows.layers().size();
-  }
-
-  static std::int64_t rowsOf(const Rows& rows)
-  {
-    return std::int64_t(rows.rows().size()) * rows.layers().size();
   }
 
   SampleRow sampleRow(int row, int layer) const
@@ -382,7 +328,7 @@ private:
     const auto visit = [&](std::int64_t i, std::int64_t, int thread)
     {
       Sink& sink = this->Sinks[std::size_t(thread)];
-      Rows rows = this->makeRows();
+      Rows rows(this->Axes);
       this->visitExactly(parts[std::size_t(i)], rows, sink);
       sink.addExactTests(rows.exactTests());
       sink.endChunk();
@@ -411,6 +357,101 @@ bool visitCells(
       completed = CellVisitor<Access, Sink>(mesh, axes, sinks).run(report);
     });
   return completed;
+}
+
+/// The common base of the sinks that find the cells of samples: statistics, and the touches whose
+/// samples no cell has claimed yet. `Walk::isClaimed(sample)` returns whether a cell has claimed a
+/// sample.
+template <typename Walk>
+class TouchingWalk
+{
+public:
+  void visit(std::int64_t samples)
+  {
+    ++this->Statistics.VisitedCells;
+    this->Statistics.Tests += samples;
+  }
+  void addExactTests(std::int64_t count) { this->Statistics.ExactTests += count; }
+
+  void touch(const SampleRow& row, int begin, int count, std::int32_t cell)
+  {
+    for (std::int64_t i = row.First + begin; i < row.First + begin + count; ++i)
+    {
+      if (!this->isClaimed(i))
+      {
+        this->Touches.push_back({ i, cell });
+      }
+    }
+  }
+
+  /// Saves memory: now and then removes the touches of samples that have been claimed meanwhile.
+  void endChunk()
+  {
+    if (this->Touches.size() > this->MostTouches)
+    {
+      this->MostTouches = std::max(this->MostTouches, 2 * this->openTouches().size());
+    }
+  }
+
+  /// The touches of samples that no cell has claimed.
+  const std::vector<Touch>& openTouches()
+  {
+    this->Touches.erase(std::remove_if(this->Touches.begin(), this->Touches.end(),
+                          [this](const Touch& touch) { return this->isClaimed(touch.Sample); }),
+      this->Touches.end());
+    return this->Touches;
+  }
+
+  ClaimStatistics Statistics;
+  std::int64_t Claimed = 0; ///< number of samples, each counted for every cell that claims it
+
+private:
+  bool isClaimed(std::int64_t sample) const
+  {
+    return static_cast<const Walk*>(this)->isClaimed(sample);
+  }
+
+  std::vector<Touch> Touches;
+  std::size_t MostTouches = 1 << 16;
+};
+
+/// Adds up what the threads' walks have found. Returns the touches of samples that no cell has
+/// claimed.
+template <typename Walk>
+std::vector<Touch> joinWalks(
+  std::vector<Walk>& walks, ClaimStatistics& statistics, std::int64_t& claimed)
+{
+  std::vector<Touch> touches;
+  for (Walk& walk : walks)
+  {
+    statistics.VisitedCells += walk.Statistics.VisitedCells;
+    statistics.Tests += walk.Statistics.Tests;
+    statistics.ExactTests += walk.Statistics.ExactTests;
+    claimed += walk.Claimed;
+    const std::vector<Touch>& open = walk.openTouches();
+    touches.insert(touches.end(), open.begin(), open.end());
+  }
+  return touches;
+}
+
+/// The moveRank() of a cell at a sample that it touches.
+template <typename Access>
+int borderRank(
+  const Access& access, const LatticeAxes& axes, std::int64_t sample, std::int32_t cell)
+{
+  typename Access::Point corners[Access::Corners];
+  access.corners(cell, corners);
+  const std::int64_t row = sample / axes.U.size();
+  const double u = axes.U[int(sample % axes.U.size())];
+  const double v = axes.V[int(row % axes.V.size())];
+  if constexpr (Access::Dimension == 2)
+  {
+    return moveRank(corners, { u, v });
+  }
+  else
+  {
+    return moveRank(corners, { u, v, axes.W[int(row / axes.V.size())] });
+  }
 }
 
 } // namespace tipp

@@ -3,7 +3,8 @@
 
 #include "Locate/MortonOrder.h"
 #include "Parallel/ParallelFor.h"
-#include "Resample/BorderClaims.h"
+#include "Parallel/Sort.h"
+#include "Predicates/ExactPredicates3.h"
 #include "Resample/CellVisitor.h"
 #include "Resample/Lattice.h"
 #include "Resample/SimplexMesh.h"
@@ -17,6 +18,61 @@
 
 namespace tipp
 {
+namespace
+{
+
+/// The set of moves, a bit each, to the inner side of an edge or face. x, y and z are the signs of
+/// its inner normal's components; the first nonzero one decides.
+unsigned movesInside(int x, int y, int z)
+{
+  // The moves that are not mirrored along the deciding axis.
+  const unsigned upward = x != 0 ? 0x55u : y != 0 ? 0x33u : 0x0fu;
+  return (x != 0 ? x : y != 0 ? y : z) > 0 ? upward : ~upward;
+}
+
+int firstOf(unsigned moves)
+{
+  return moves != 0 ? __builtin_ctz(moves) : closedOnly;
+}
+
+} // namespace
+
+int moveRank(const Point2 (&corners)[3], Point2 sample)
+{
+  unsigned moves = 0x0f;
+  const int turn = orientation(corners[0], corners[1], corners[2]);
+  for (int i = 0; i < 3; ++i)
+  {
+    const Point2 a = corners[i];
+    const Point2 b = corners[(i + 1) % 3];
+    if (orientation(a, b, sample) == 0)
+    {
+      moves &= movesInside(turn * signOf(a.y - b.y), turn * signOf(b.x - a.x), 0);
+    }
+  }
+  return firstOf(moves);
+}
+
+int moveRank(const Point3 (&corners)[4], Point3 sample)
+{
+  constexpr int faces[4][3] = { { 1, 3, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 0, 1, 2 } };
+  unsigned moves = 0xff;
+  const int side = orientation3(corners[0], corners[1], corners[2], corners[3]);
+  for (const int(&face)[3] : faces)
+  {
+    const Point3 a = corners[face[0]];
+    const Point3 b = corners[face[1]];
+    const Point3 c = corners[face[2]];
+    if (orientation3(a, b, c, sample) == 0)
+    {
+      moves &= movesInside(side * orientation({ a.y, a.z }, { b.y, b.z }, { c.y, c.z }),
+        side * orientation({ a.z, a.x }, { b.z, b.x }, { c.z, c.x }),
+        side * orientation({ a.x, a.y }, { b.x, b.y }, { c.x, c.y }));
+    }
+  }
+  return firstOf(moves);
+}
+
 namespace
 {
 
@@ -98,6 +154,57 @@ SampleWindow SampleWindow::around(const SimplexMesh& mesh, const Lattice& lattic
 namespace
 {
 
+/// The cell of lowest key among those that touch a sample.
+template <typename Access>
+std::int32_t lowestCell(
+  const Access& cells, const LatticeAxes& axes, const Touch* begin, const Touch* end)
+{
+  std::pair<CellKey, std::int32_t> lowest(noCellKey, begin->Cell);
+  // Most samples are touched by one cell only.
+  for (const Touch* touch = begin; end - begin > 1 && touch < end; ++touch)
+  {
+    const int rank = borderRank(cells, axes, touch->Sample, touch->Cell);
+    lowest = std::min(lowest, { withRank(keyOf(cells, touch->Cell), rank), touch->Cell });
+  }
+  return lowest.second;
+}
+
+} // namespace
+
+std::vector<BorderClaim> borderClaims(
+  const SimplexMesh& mesh, const LatticeAxes& axes, std::vector<Touch> touches, int threads)
+{
+  sortInParts(touches.begin(), touches.end(), threads);
+  std::vector<BorderClaim> claims;
+  std::vector<std::size_t> begins;
+  for (std::size_t i = 0; i < touches.size(); ++i)
+  {
+    if (i == 0 || touches[i].Sample != touches[i - 1].Sample)
+    {
+      claims.push_back({ touches[i].Sample, touches[i].Cell });
+      begins.push_back(i);
+    }
+  }
+  begins.push_back(touches.size());
+  withAccess(mesh,
+    [&](const auto& access)
+    {
+      forChunks(std::int64_t(claims.size()), 1 << 8, threads, {},
+        [&](std::int64_t begin, std::int64_t end, int)
+        {
+          for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
+          {
+            claims[i].Cell =
+              lowestCell(access, axes, touches.data() + begins[i], touches.data() + begins[i + 1]);
+          }
+        });
+    });
+  return claims;
+}
+
+namespace
+{
+
 constexpr std::int32_t unclaimed = -1;
 
 /// A thread's sink in the first walk. Cells that do not overlap write to different samples. If some
@@ -140,11 +247,13 @@ private:
   const std::int32_t* Names;
 };
 
-void lowerTo(CellKey* to, CellKey key)
+/// Lowers *to to `value` atomically.
+template <typename T>
+void lowerTo(T* to, T value)
 {
-  CellKey known = __atomic_load_n(to, __ATOMIC_RELAXED);
-  while (key < known &&
-    !__atomic_compare_exchange_n(to, &known, key, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
+  T known = __atomic_load_n(to, __ATOMIC_RELAXED);
+  while (value < known &&
+    !__atomic_compare_exchange_n(to, &known, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
   {
   }
 }
@@ -186,17 +295,6 @@ private:
   std::int32_t KnownCell = unclaimed;
   CellKey KnownKey = noCellKey;
 };
-
-/// Lowers *to to `cell` atomically. Compares unsigned numbers, so that -1 (unclaimed) is the
-/// largest.
-void lowerTo(std::int32_t* to, std::int32_t cell)
-{
-  std::int32_t known = __atomic_load_n(to, __ATOMIC_RELAXED);
-  while (std::uint32_t(cell) < std::uint32_t(known) &&
-    !__atomic_compare_exchange_n(to, &known, cell, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED))
-  {
-  }
-}
 
 class Claimer
 {
@@ -266,7 +364,7 @@ private:
     const std::size_t samples = std::size_t(this->Axes.samples());
     const std::unique_ptr<CellKey[]> keys(new CellKey[samples]);
     this->fill(keys.get(), noCellKey);
-    std::int32_t* const claims = this->Result.Cells.get();
+    auto* const claims = reinterpret_cast<std::uint32_t*>(this->Result.Cells.get());
     withAccess(this->Mesh,
       [&](const auto& access)
       {
@@ -278,14 +376,18 @@ private:
           std::vector<Walk> walks(std::size_t(this->Threads), Walk(access, settle));
           return Visitor(this->Mesh, this->Axes, walks).run(this->Progress);
         };
-        // First finds the lowest key at each sample, then the first cell that has it.
+        // First finds the lowest key at each sample, then the first cell that has it. As an
+        // unsigned number, -1 (unclaimed) is the largest.
         this->Result.Aborted = !walk([&](std::int64_t sample, std::int32_t, CellKey key)
           { lowerTo(keys.get() + sample, key); });
         if (!this->Result.Aborted)
         {
-          this->fill(claims, unclaimed);
-          this->Result.Aborted = !walk([&](std::int64_t sample, std::int32_t cell, CellKey key)
-            { keys[std::size_t(sample)] == key ? lowerTo(claims + sample, cell) : void(); });
+          this->fill(this->Result.Cells.get(), unclaimed);
+          this->Result.Aborted = !walk(
+            [&](std::int64_t sample, std::int32_t cell, CellKey key) {
+              keys[std::size_t(sample)] == key ? lowerTo(claims + sample, std::uint32_t(cell))
+                                               : void();
+            });
         }
       });
   }

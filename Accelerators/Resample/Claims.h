@@ -71,6 +71,18 @@ inline CellKey withRank(CellKey key, int rank)
   return (key << 4 >> 4) | (CellKey(rank) << 60);
 }
 
+/// moveRank() of a cell that contains a sample is the lowest rank of a symbolic move that takes the
+/// sample into the cell's interior. Rank 0 is the move by (e, e^2, e^3) with infinitesimal e. Rank
+/// m is that move mirrored along x if bit 0 of m is set, along y if bit 1, and along z if bit 2.
+/// `closedOnly` means that no move does. Among the cells at a sample, the one of lowest rank claims
+/// it.
+constexpr int closedOnly = 8;
+
+/// Exact. The corners are in any order; the triangle has an area and contains the sample.
+int moveRank(const Point2 (&corners)[3], Point2 sample);
+/// Exact. The corners are in any order; the tetrahedron has a volume and contains the sample.
+int moveRank(const Point3 (&corners)[4], Point3 sample);
+
 /// A sample that lies on the border of cells without being inside any, with the key of the cell
 /// that claims it.
 struct BorderSample
@@ -141,6 +153,18 @@ struct BorderClaim
   std::int32_t Cell;   ///< index of the cell
 };
 
+/// A sample on the border of a cell that does not claim it.
+struct Touch
+{
+  std::int64_t Sample; ///< index of the sample
+  std::int32_t Cell;   ///< index of the cell
+
+  bool operator<(const Touch& other) const
+  {
+    return this->Sample != other.Sample ? this->Sample < other.Sample : this->Cell < other.Cell;
+  }
+};
+
 /// Statistics of the cells that the CPU's threads have visited; if an OpenCL device claims samples,
 /// these are only the cells that it leaves undecided.
 struct ClaimStatistics
@@ -185,6 +209,11 @@ struct SampledCells
 /// have some claims of open cells, too.
 Claims finishClaims(const SimplexMesh& mesh, const Lattice& lattice, int threads,
   std::unique_ptr<std::int32_t[]> cells, const SampledCells& sampled, const Report& report);
+
+/// Decides which of the touching cells claims each sample; no other cell claims it. Returns the
+/// claims by ascending sample.
+VTKTIPPACCELERATORS_EXPORT std::vector<BorderClaim> borderClaims(
+  const SimplexMesh& mesh, const LatticeAxes& axes, std::vector<Touch> touches, int threads);
 
 /// Sets a sample's key to that of its claim where the claim's key is lower, and removes the other
 /// claims. So several parts of a mesh can be merged in any order. `claims` is indexed by

@@ -69,13 +69,6 @@ inline bool hasAvx2()
 {
   return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
 }
-[[gnu::always_inline]] inline Lanes loadLanes(const double* from)
-{
-  Lanes lanes;
-  std::memcpy(&lanes, from, sizeof lanes);
-  return lanes;
-}
-
 /// The lower (0) or upper (1) lanes of a vector, as a vector of another type.
 template <typename Half, typename Whole>
 [[gnu::always_inline]] inline Half halfOf(const Whole& lanes, int which)
@@ -97,24 +90,18 @@ template <typename Half, typename Whole>
 }
 
 /// LatticeAxis::position(), error() and certain() for four coordinates at a time.
-class AxisLanes
+/// Has copies of the constants, which the compiler can keep in registers.
+struct AxisLanes : AxisConstants
 {
-public:
   explicit AxisLanes(const LatticeAxis& axis)
-    : Axis(axis)
-    , Min(axis.origin())
-    , Inverse(axis.inverse())
-    , Delta(axis.delta())
-    , First(axis.firstIndex())
-    , Limit(axis.limit())
-    , ErrorScale(axis.errorScale())
-    , ErrorOffset(axis.errorOffset())
+    : AxisConstants(axis)
+    , Axis(axis)
   {
   }
 
   [[gnu::always_inline]] Lanes position(Lanes v) const
   {
-    return this->clamp((v - this->Min) * this->Inverse - this->First + 1);
+    return this->clamp((v - this->Origin) * this->Inverse - this->First + 1);
   }
   [[gnu::always_inline]] Lanes clamp(Lanes position) const
   {
@@ -130,31 +117,18 @@ public:
   }
   [[gnu::always_inline]] Lanes coordinates(int first) const
   {
-    return loadLanes(this->Axis.data() + first);
+    Lanes lanes;
+    std::memcpy(&lanes, this->Axis.data() + first, sizeof lanes);
+    return lanes;
   }
 
   /// The coordinates of samples with these indices, as coordinate() returns them.
   [[gnu::always_inline]] Lanes coordinates(Lanes numbers) const
   {
-    return this->Min + (numbers + this->First) * this->Delta;
+    return this->Origin + (numbers + this->First) * this->Delta;
   }
 
-  double coordinate(int i) const { return this->Axis[i]; }
-  double origin() const { return this->Min; }
-  double inverse() const { return this->Inverse; }
-  double firstIndex() const { return this->First; }
-  double delta() const { return this->Delta; }
-  IndexRange exactRange(double low, double high) const { return this->Axis.exactRange(low, high); }
-
-private:
   const LatticeAxis& Axis;
-  double Min;
-  double Inverse;
-  double Delta;
-  double First;
-  double Limit;
-  double ErrorScale;
-  double ErrorOffset;
 };
 
 /// LatticeAxis::range() of four cells.
@@ -176,6 +150,16 @@ struct RangeLanes
 
   IndexRange range(int lane) const { return { int(this->Begin[lane]), int(this->End[lane]) }; }
 
+  [[gnu::always_inline]] void store(IndexRange (&to)[laneCount]) const
+  {
+    const LaneInts begins = toInts(this->Begin);
+    const LaneInts ends = toInts(this->End);
+    for (int lane = 0; lane < laneCount; ++lane)
+    {
+      to[lane] = { begins[lane], ends[lane] };
+    }
+  }
+
   Lanes Error;
   Lanes Begin;
   Lanes End;
@@ -189,7 +173,7 @@ private:
     {
       if (certain[lane] == 0)
       {
-        const IndexRange range = axis.exactRange(low[lane], high[lane]);
+        const IndexRange range = axis.Axis.exactRange(low[lane], high[lane]);
         this->Begin[lane] = range.Begin;
         this->End[lane] = range.End;
       }
@@ -217,12 +201,6 @@ struct RowSpans
   std::int32_t Row[N];
   std::int32_t Layer[N];
 };
-
-/// The mask of the first `count` lanes.
-[[gnu::always_inline]] inline LaneMask firstLanes(int count)
-{
-  return LaneMask{ 0, 1, 2, 3 } < count;
-}
 
 /// Eight single-precision numbers in SIMD lanes, and eight masks or integers.
 using FloatLanes = float __attribute__((vector_size(32)));
@@ -305,6 +283,31 @@ public:
 private:
   Point Corners[laneCount][Count];
 };
+
+/// A point, or a vector, in space for each lane.
+struct PointLanes
+{
+  Lanes x;
+  Lanes y;
+  Lanes z;
+};
+
+[[gnu::always_inline]] inline PointLanes operator-(const PointLanes& a, const PointLanes& b)
+{
+  return { a.x - b.x, a.y - b.y, a.z - b.z };
+}
+[[gnu::always_inline]] inline PointLanes leastOf(const PointLanes (&p)[4])
+{
+  return { least(least(p[0].x, p[1].x), least(p[2].x, p[3].x)),
+    least(least(p[0].y, p[1].y), least(p[2].y, p[3].y)),
+    least(least(p[0].z, p[1].z), least(p[2].z, p[3].z)) };
+}
+[[gnu::always_inline]] inline PointLanes mostOf(const PointLanes (&p)[4])
+{
+  return { most(most(p[0].x, p[1].x), most(p[2].x, p[3].x)),
+    most(most(p[0].y, p[1].y), most(p[2].y, p[3].y)),
+    most(most(p[0].z, p[1].z), most(p[2].z, p[3].z)) };
+}
 
 /// The corners of four cells in the lexicographic order of their coordinates, and by how much the
 /// barycentric weights of all but the first rise along each axis.

@@ -60,30 +60,42 @@ struct RowCrossing
   int WithOn; ///< number of samples before or on it
 };
 
+/// The constants of one axis of a lattice. LatticeAxis computes its coordinates from them, so they
+/// must not change later.
+struct AxisConstants
+{
+  double Origin; ///< of the lattice; the first sample's coordinate differs if its index is not 0
+  double Delta;
+  double Inverse; ///< 1 / Delta
+  double First;   ///< index of the first sample
+  double Limit;   ///< the largest position()
+  ///@{ See LatticeAxis::error().
+  double ErrorScale = HUGE_VAL;
+  double ErrorOffset = HUGE_VAL;
+  ///@}
+};
+
 /// One axis of a lattice: the coordinates of its samples, and the position of other coordinates
 /// among them.
-class LatticeAxis
+class LatticeAxis : public AxisConstants
 {
 public:
   LatticeAxis(const Lattice& lattice, int axis)
-    : Min(lattice.Min[axis])
-    , Delta(lattice.Delta[axis])
-    , Inverse(1.0 / lattice.Delta[axis])
-    , First(lattice.Extent[2 * axis])
-    , Limit(double(lattice.size(axis)) + 0.5)
+    : AxisConstants{ lattice.Min[axis], lattice.Delta[axis], 1.0 / lattice.Delta[axis],
+      double(lattice.Extent[2 * axis]), double(lattice.size(axis)) + 0.5 }
     , Count(int(lattice.size(axis)))
     , Coordinates(std::size_t(this->Count) + Padding)
   {
     for (std::size_t i = 0; i < this->Coordinates.size(); ++i)
     {
-      this->Coordinates[i] = this->Min + (double(i) + this->First) * lattice.Delta[axis];
+      this->Coordinates[i] = this->Origin + (double(i) + this->First) * this->Delta;
     }
-    this->ErrorScale = Roundings * std::fabs(this->Inverse);
-    this->ErrorOffset = this->ErrorScale * std::fabs(this->Min);
     // A step of 0 makes it infinite: no estimate is certain then.
-    if (!(this->Inverse > 0 && this->ErrorScale < 1e270))
+    const double scale = Roundings * std::fabs(this->Inverse);
+    if (this->Inverse > 0 && scale < 1e270)
     {
-      this->ErrorScale = this->ErrorOffset = HUGE_VAL;
+      this->ErrorScale = scale;
+      this->ErrorOffset = scale * std::fabs(this->Origin);
     }
   }
 
@@ -96,24 +108,16 @@ public:
   /// integer part is 0 below all samples and size() above them.
   double position(double v) const
   {
-    return this->clamp((v - this->Min) * this->Inverse - this->First + 1);
+    return this->clamp((v - this->Origin) * this->Inverse - this->First + 1);
   }
   // With this order of arguments NaN becomes 0.5.
   double clamp(double position) const { return std::min(this->Limit, std::max(0.5, position)); }
-  double inverse() const { return this->Inverse; }
-  /// The lattice's origin, not the first sample's coordinate, which differs if its index is not 0.
-  double origin() const { return this->Min; }
-  double firstIndex() const { return this->First; }
 
   /// An upper bound, in steps, on the error of position() for crossings of lines and rows in a cell
   /// whose coordinates lie within +-reach, including the error of the samples' own coordinates. A
-  /// crossing has ten roundings, each of at most 2^-53 of twice `reach` and Min; the bound allows
-  /// for 64.
+  /// crossing has ten roundings, each of at most 2^-53 of twice `reach` and Origin; the bound
+  /// allows for 64.
   double error(double reach) const { return reach * this->ErrorScale + this->ErrorOffset; }
-  double errorScale() const { return this->ErrorScale; }
-  double errorOffset() const { return this->ErrorOffset; }
-  double limit() const { return this->Limit; }
-  double delta() const { return this->Delta; }
 
   /// Whether the integer part of a position with this error is certain. False if the error is half
   /// or more, infinite, or NaN.
@@ -174,13 +178,6 @@ public:
 private:
   static constexpr std::size_t Padding = 4;
 
-  double Min;
-  double Delta;
-  double Inverse;
-  double First;
-  double Limit;
-  double ErrorScale;
-  double ErrorOffset;
   int Count;
   std::vector<double> Coordinates;
 };

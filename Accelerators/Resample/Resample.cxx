@@ -1,19 +1,317 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/Resample.h"
 
-#include "OpenCL/Devices.h"
-#include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
-#include "Resample/Interpolate.h"
+#include "Resample/CellVisitor.h"
+#include "Resample/SampleBlock.h"
 
 #include <algorithm>
-#include <memory>
+#include <cstring>
 #include <optional>
-#include <string>
 #include <utility>
 
 namespace tipp
 {
+namespace
+{
+
+/// Writes the null value to the samples in [first, end) for which wanted(sample) is true.
+template <typename Wanted>
+void fillNull(
+  const Attribute& attribute, std::int64_t first, std::int64_t end, const Wanted& wanted)
+{
+  withScalar(attribute.Type,
+    [&](auto type)
+    {
+      using T = decltype(type);
+      const T null = toScalar<T>(attribute.NullValue);
+      const int components = attribute.Components;
+      T* const samples = static_cast<T*>(attribute.Samples);
+      for (std::int64_t i = first; i < end; ++i)
+      {
+        if (wanted(i))
+        {
+          std::fill(samples + i * components, samples + (i + 1) * components, null);
+        }
+      }
+    });
+}
+
+/// Fills the samples of claims [first, last) that do not need interpolation; claim i is sample i +
+/// shift of the whole lattice.
+void fillRest(const std::vector<Attribute>& attributes, const std::int32_t* claims,
+  std::int64_t first, std::int64_t last, std::int64_t shift, const ResampleOptions& options)
+{
+  const auto claimed = [claims, shift](std::int64_t i) { return claims[i - shift] >= 0; };
+  const std::int64_t begin = first + shift;
+  const std::int64_t end = last + shift;
+  for (const Attribute& attribute : attributes)
+  {
+    if (!options.Keys)
+    {
+      fillNull(attribute, begin, end, [&](std::int64_t i) { return !claimed(i); });
+    }
+    if (!attribute.Values)
+    {
+      fillNull(attribute, begin, end, claimed);
+    }
+  }
+  for (std::int64_t i = options.Valid ? begin : end; i < end; ++i)
+  {
+    const bool is = claimed(i);
+    options.Valid[i] = is || !options.Keys ? is : options.Valid[i];
+  }
+}
+
+/// Calls work(cell, row, begin, count) for runs of samples that one cell claims, within the
+/// window's samples [begin, end). `row` counts samples in the whole lattice.
+template <typename Access, typename Work>
+void forCellRuns(const Access& access, const LatticeAxes& axes, const SampleWindow& window,
+  const std::int32_t* claims, std::int64_t begin, std::int64_t end, const Work& work)
+{
+  constexpr std::int64_t ahead = 16;
+  const int width = axes.U.size();
+  for (std::int64_t i = begin; i < end;)
+  {
+    const std::int64_t line = i / width;
+    const std::int64_t rowBegin = line * width;
+    const SampleRow row{ window.indexOf(line), int(line % axes.V.size()),
+      int(line / axes.V.size()) };
+    const std::int64_t rowEnd = std::min(end, rowBegin + width);
+    while (i < rowEnd)
+    {
+      const std::int32_t cell = claims[i];
+      const std::int64_t first = i;
+      while (i < rowEnd && claims[i] == cell)
+      {
+        ++i;
+      }
+      if (cell >= 0)
+      {
+        const std::int64_t soon = std::min(i + ahead, end - 1);
+        const std::int64_t later = std::min(i + 2 * ahead, end - 1);
+        claims[soon] >= 0 ? access.prefetch(claims[soon]) : void();
+        __builtin_prefetch(access.ids(std::max(claims[later], 0)));
+        work(cell, row, int(first - rowBegin), int(i - first));
+      }
+    }
+  }
+}
+
+} // namespace
+
+bool interpolate(const SimplexMesh& mesh, const SampleWindow& window, const std::int32_t* claims,
+  const std::vector<Attribute>& attributes, const ResampleOptions& options)
+{
+  const LatticeAxes axes(mesh, window.lattice());
+  bool completed = false;
+  withAccess(mesh,
+    [&](const auto& access)
+    {
+      using Block = SampleBlock<std::decay_t<decltype(access)>>;
+      std::vector<Block> blocks(std::size_t(options.Threads), Block(mesh, axes));
+      completed = forChunks(axes.samples(), Block::Capacity, options.Threads, options.Progress,
+        [&](std::int64_t begin, std::int64_t end, int thread)
+        {
+          Block& block = blocks[std::size_t(thread)];
+          block.clear();
+          forCellRuns(access, axes, window, claims, begin, end,
+            [&](std::int32_t cell, const SampleRow& row, int first, int count)
+            { block.add(cell, row, first, count); });
+          fillBlock(block, attributes, options.Parents);
+          window.forRuns(begin, end,
+            [&](std::int64_t first, std::int64_t last, std::int64_t shift)
+            { fillRest(attributes, claims, first, last, shift, options); });
+        });
+    });
+  return completed;
+}
+
+namespace
+{
+
+/// Calls work(first, last) for each run of zeros in bytes [begin, end), which are all 0 or 1.
+template <typename Work>
+void forZeros(const unsigned char* bytes, std::int64_t begin, std::int64_t end, const Work& work)
+{
+  const auto find = [&](int byte, std::int64_t from)
+  {
+    const void* const found = std::memchr(bytes + from, byte, std::size_t(end - from));
+    return found ? static_cast<const unsigned char*>(found) - bytes : end;
+  };
+  for (std::int64_t first = find(0, begin); first < end;)
+  {
+    const std::int64_t last = find(1, first);
+    work(first, last);
+    first = find(0, last);
+  }
+}
+
+/// A thread's sink, which fills samples as cells claim them.
+template <typename Access>
+class FillingWalk : public TouchingWalk<FillingWalk<Access>>
+{
+public:
+  FillingWalk(const SimplexMesh& mesh, const LatticeAxes& axes,
+    const std::vector<Attribute>& attributes, const ResampleOptions& options)
+    : Attributes(attributes)
+    , Options(options)
+    , Block(mesh, axes)
+  {
+  }
+
+  [[gnu::always_inline]] void claim(const SampleRow& row, int begin, int count, std::int32_t cell)
+  {
+    while (count > this->Block.room())
+    {
+      const int part = this->Block.room();
+      this->Block.add(cell, row, begin, part);
+      this->flush();
+      begin += part;
+      count -= part;
+    }
+    this->Block.add(cell, row, begin, count);
+  }
+
+  void endChunk()
+  {
+    this->flush();
+    TouchingWalk<FillingWalk>::endChunk();
+  }
+
+  [[gnu::noinline]] void flush()
+  {
+    this->Claimed += this->Block.size();
+    unsigned char* const valid = this->Options.Valid;
+    const std::int64_t* const indices = this->Block.indices();
+    const int size = this->Block.size();
+    for (int j = 0; j < size; ++j)
+    {
+      // An ordinary store; but cells that overlap may be in two threads at once.
+      __atomic_store_n(valid + indices[j], 1, __ATOMIC_RELAXED);
+    }
+    fillBlock(this->Block, this->Attributes, this->Options.Parents);
+    this->Block.clear();
+  }
+
+  bool isClaimed(std::int64_t sample) const
+  {
+    return __atomic_load_n(this->Options.Valid + sample, __ATOMIC_RELAXED) != 0;
+  }
+
+private:
+  const std::vector<Attribute>& Attributes;
+  const ResampleOptions& Options;
+  SampleBlock<Access> Block;
+};
+
+/// Sets the samples outside of all cells to their null values. Returns the number of samples
+/// inside.
+std::int64_t finishSamples(
+  std::int64_t samples, const std::vector<Attribute>& attributes, const ResampleOptions& options)
+{
+  return sumOfChunks(samples, 1 << 16, options.Threads,
+    [&](std::int64_t begin, std::int64_t end)
+    {
+      const auto always = [](std::int64_t) { return true; };
+      std::int64_t inside = end - begin;
+      forZeros(options.Valid, begin, end,
+        [&](std::int64_t first, std::int64_t last)
+        {
+          inside -= last - first;
+          for (const Attribute& attribute : attributes)
+          {
+            attribute.Values ? fillNull(attribute, first, last, always) : void();
+          }
+        });
+      for (const Attribute& attribute : attributes)
+      {
+        attribute.Values ? void() : fillNull(attribute, begin, end, always);
+      }
+      return inside;
+    });
+}
+
+/// Fills the samples on the mesh's border, and adds them to `border` if it is not null.
+template <typename Access>
+void fillBorder(const Access& access, const LatticeAxes& axes,
+  const std::vector<BorderClaim>& claims, std::vector<FillingWalk<Access>>& walks,
+  std::vector<BorderSample>* border)
+{
+  const std::int64_t width = axes.U.size();
+  const std::int64_t height = axes.V.size();
+  forChunks(std::int64_t(claims.size()), 1 << 10, int(walks.size()), {},
+    [&](std::int64_t begin, std::int64_t end, int thread)
+    {
+      FillingWalk<Access>& walk = walks[std::size_t(thread)];
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        const BorderClaim& claim = claims[std::size_t(i)];
+        const std::int64_t line = claim.Sample / width;
+        const SampleRow row{ line * width, int(line % height), int(line / height) };
+        walk.claim(row, int(claim.Sample % width), 1, claim.Cell);
+      }
+      walk.flush();
+    });
+  for (std::size_t i = 0; border && i < claims.size(); ++i)
+  {
+    const BorderClaim& claim = claims[i];
+    const int rank = borderRank(access, axes, claim.Sample, claim.Cell);
+    border->push_back({ claim.Sample, withRank(keyOf(access, claim.Cell), rank) });
+  }
+}
+
+/// `claimed`: the number of samples that a device has filled already, which `options.Valid` marks.
+/// For `border`, which may be null, see sampleDirectly().
+DirectResult sampleRest(const SimplexMesh& mesh, const LatticeAxes& axes,
+  const std::vector<Attribute>& attributes, const ResampleOptions& options, std::int64_t claimed,
+  std::vector<BorderSample>* border)
+{
+  DirectResult result;
+  withAccess(mesh,
+    [&](const auto& access)
+    {
+      using Access = std::decay_t<decltype(access)>;
+      std::vector<FillingWalk<Access>> walks(
+        std::size_t(options.Threads), FillingWalk<Access>(mesh, axes, attributes, options));
+      result.Aborted =
+        !CellVisitor<Access, FillingWalk<Access>>(mesh, axes, walks).run(options.Progress);
+      std::vector<Touch> touches = joinWalks(walks, result.Statistics, claimed);
+      const Stopwatch watch;
+      if (!result.Aborted)
+      {
+        result.Overlapping = finishSamples(axes.samples(), attributes, options) != claimed;
+      }
+      if (!result.Aborted && !result.Overlapping)
+      {
+        fillBorder(access, axes, borderClaims(mesh, axes, std::move(touches), options.Threads),
+          walks, border);
+      }
+      result.FinishSeconds = watch.seconds();
+    });
+  return result;
+}
+
+} // namespace
+
+DirectResult sampleDirectly(const SimplexMesh& mesh, const Lattice& lattice,
+  const std::vector<Attribute>& attributes, const ResampleOptions& options,
+  std::vector<BorderSample>* border)
+{
+  const LatticeAxes axes(mesh, lattice);
+  fillInChunks(options.Valid, axes.samples(), (unsigned char)(0), options.Threads);
+  return sampleRest(mesh, axes, attributes, options, 0, border);
+}
+
+DirectResult finishDirectly(const SimplexMesh& mesh, const Lattice& lattice,
+  const std::vector<Attribute>& attributes, const ResampleOptions& options,
+  const SampledCells& sampled)
+{
+  const PartMesh part(mesh, sampled.Open);
+  return sampleRest(
+    part.mesh(), LatticeAxes(mesh, lattice), attributes, options, sampled.Claimed, nullptr);
+}
+
 namespace
 {
 
@@ -60,7 +358,7 @@ public:
     if (!claims.Aborted)
     {
       this->Result.Aborted = !interpolate(this->Mesh, this->Window, claims.Cells.get(),
-        this->Attributes, this->interpolation(partOf(this->Options.Progress, 0.7, 1)));
+        this->Attributes, this->withProgress(partOf(this->Options.Progress, 0.7, 1)));
       this->Result.InterpolationSeconds += this->lap();
     }
     this->Result.Device = this->deviceName();
@@ -91,7 +389,7 @@ private:
       return false;
     }
     std::vector<unsigned char> valid;
-    InterpolationOptions options = this->interpolation(this->Options.Progress);
+    ResampleOptions options = this->Options;
     if (!options.Valid)
     {
       valid.resize(std::size_t(this->Window.samples()));
@@ -150,13 +448,9 @@ private:
     return result ? std::move(*result) : onThreads();
   }
 
-  InterpolationOptions interpolation(const Report& progress) const
+  ResampleOptions withProgress(const Report& progress) const
   {
-    InterpolationOptions options;
-    options.Threads = this->Options.Threads;
-    options.FillUnclaimed = !this->Options.Keys;
-    options.Parents = this->Options.Parents;
-    options.Valid = this->Options.Valid;
+    ResampleOptions options = this->Options;
     options.Progress = progress;
     return options;
   }

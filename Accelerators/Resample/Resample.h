@@ -2,8 +2,12 @@
 #ifndef tippResample_h
 #define tippResample_h
 
+#include "Arrays/Scalar.h"
 #include "OpenCL/Devices.h"
-#include "Resample/Interpolate.h"
+#include "Parallel/ParallelFor.h"
+#include "Resample/Claims.h"
+#include "Resample/SimplexMesh.h"
+#include "vtkTIPPAcceleratorsModule.h"
 
 #include <cstdint>
 #include <memory>
@@ -13,7 +17,20 @@
 namespace tipp
 {
 
-/// Options of resample().
+/// An array of a mesh, and the array of samples to compute from it.
+struct Attribute
+{
+  /// Values per point or per cell, Components per tuple; not owned. Null: all samples get
+  /// NullValue.
+  const void* Values = nullptr;
+  void* Samples = nullptr;       ///< Components per sample; not owned
+  Scalar Type = Scalar::Float64; ///< type of Values and of Samples
+  int Components = 1;            ///< components per tuple
+  bool OfCells = false;          ///< whether Values are per cell; otherwise per point
+  double NullValue = 0;          ///< value of samples outside of all cells
+};
+
+/// Options of resample(). interpolate() and sampleDirectly() ignore Device and DeviceMemory.
 struct ResampleOptions
 {
   DeviceChoice Device = { tipp::Device::OpenMP, -1, "" };
@@ -24,10 +41,11 @@ struct ResampleOptions
   /// the part's own bounding box. Null: the mesh is complete, and samples that no cell claims get
   /// the attributes' NullValue.
   CellKey* Keys = nullptr;
-  /// Mask, one byte per sample: 1 if a cell claims it, else 0. With Keys the caller must clear it
-  /// first.
+  /// Mask, one byte per sample: 1 if a cell claims it, else 0. May be null. With Keys the caller
+  /// must clear it first.
   unsigned char* Valid = nullptr;
-  const std::int64_t* Parents = nullptr; ///< see InterpolationOptions
+  /// For each simplex the index of its cell in the attributes' arrays; null: its own index.
+  const std::int64_t* Parents = nullptr;
   Report Progress;
 };
 
@@ -51,6 +69,38 @@ struct ResampleResult
 VTKTIPPACCELERATORS_EXPORT ResampleResult resample(const SimplexMesh& mesh, const Lattice& lattice,
   const std::vector<Attribute>& attributes, const ResampleOptions& options);
 
+/// Fills the attributes' samples, and Valid, in a window from its claims; other samples, and
+/// with Keys those without a claim, are left unchanged. Floating-point point arrays are
+/// interpolated linearly in double precision; integer point arrays are taken from the corner of
+/// largest weight; cell arrays from the cell. The weights are evaluated with the corners in
+/// lexicographic order of their coordinates, so that a cell gives the same bits however it is
+/// stored. Returns false if Progress stopped it.
+VTKTIPPACCELERATORS_EXPORT bool interpolate(const SimplexMesh& mesh, const SampleWindow& window,
+  const std::int32_t* claims, const std::vector<Attribute>& attributes,
+  const ResampleOptions& options);
+
+/// The result of sampleDirectly().
+struct DirectResult
+{
+  ClaimStatistics Statistics;
+  double FinishSeconds = 0; ///< for null values and the mesh's border, after the main pass
+  bool Overlapping = false; ///< cells overlap at samples: the sampled values are undefined
+  bool Aborted = false;     ///< whether Progress stopped the work
+};
+
+/// Does the work of claimSamples() and interpolate() in one pass, which reads each cell once. Works
+/// only for cells that do not overlap; otherwise it sets Overlapping. All samples are filled:
+/// `options.Keys` is ignored. `options.Valid` must not be null. If the mesh is a part of a larger
+/// one, `border` (may be null) gets the samples on the part's border, which other parts may claim.
+VTKTIPPACCELERATORS_EXPORT DirectResult sampleDirectly(const SimplexMesh& mesh,
+  const Lattice& lattice, const std::vector<Attribute>& attributes, const ResampleOptions& options,
+  std::vector<BorderSample>* border = nullptr);
+
+/// Completes the work of a device; all attributes must be point arrays.
+DirectResult finishDirectly(const SimplexMesh& mesh, const Lattice& lattice,
+  const std::vector<Attribute>& attributes, const ResampleOptions& options,
+  const SampledCells& sampled);
+
 /// Resampling of one mesh on an OpenCL device. Threads of this process complete the device's work:
 /// they process thin cells and the cells for which rounding could change the result, and decide
 /// the samples on cells' borders that no cell claims. All methods throw AcceleratorError.
@@ -71,7 +121,7 @@ public:
   virtual bool canSample(const std::vector<Attribute>& attributes) const = 0;
   /// sampleDirectly() on the device; the statistics count only the cells that threads do.
   virtual DirectResult sample(const Lattice& lattice, const std::vector<Attribute>& attributes,
-    const InterpolationOptions& options) = 0;
+    const ResampleOptions& options) = 0;
   /// claimSamples() on the device, likewise. The claims are the same.
   virtual Claims claim(const Lattice& lattice, const Report& report) = 0;
 };

@@ -5,7 +5,6 @@
 // that their random memory reads overlap. Cells for which rounding could change the result, and
 // thin cells to interpolate, go to a list, which the host processes. Host side:
 // ResampleOnDevice.cxx.
-#include "LatticeAndMesh.cl"
 #include "CellRows.cl"
 
 // The mark of a sample that a cell claims.

@@ -8,10 +8,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -31,6 +33,15 @@ struct SimplexMesh
   /// 3 for tetrahedra. 2 for triangles, of which only the two coordinates along Axes are used.
   int Dimension = 2;
   int Axes[2] = { 0, 1 };
+};
+
+/// Where a point lies in a mesh of triangles or tetrahedra.
+struct CellLocation
+{
+  std::int64_t Cell = -1; ///< index of the cell; -1: outside
+  /// Barycentric weights of the cell's corners; zeros outside. Up to rounding they sum to 1 and are
+  /// not negative. Triangles use the first three.
+  double Weights[4] = {};
 };
 
 inline Point2 pointAt(const std::array<double, 2>& at)
@@ -138,6 +149,97 @@ void withAccess(const SimplexMesh& mesh, const Work& work)
                       : withScalar(std::integral_constant<int, 3>());
 }
 
+/// Pivots below this share of the first one are rounding errors: the cell is flat.
+constexpr double flatPivot = 4.4408920985006262e-16;
+
+/// Computes the barycentric weights of a point in a thin triangle or tetrahedron: weights[i] is
+/// that of corner i + 1; the first corner has the remainder. `edges` go from the first corner to
+/// each of the others, and `offset` from there to the point.
+///
+/// Elimination with complete pivoting has a small residual: the weighted sum of the corners is the
+/// point to a few roundings, so linear fields are reproduced, however thin the cell is.
+inline void thinWeights(
+  const double (&edges)[3][3], const double (&offset)[3], double (&weights)[3])
+{
+  constexpr int D = 3;
+  double m[D][D + 1]; // a row per axis; the last column is the right-hand side
+  int columns[D] = { 0, 1, 2 };
+  for (int axis = 0; axis < D; ++axis)
+  {
+    for (int i = 0; i < D; ++i)
+    {
+      m[axis][i] = edges[i][axis];
+    }
+    m[axis][D] = offset[axis];
+  }
+  double reciprocals[D];
+  double first = 0;
+  for (int step = 0; step < D; ++step)
+  {
+    int pivotRow = step;
+    int pivotColumn = step;
+    for (int row = step; row < D; ++row)
+    {
+      for (int column = step; column < D; ++column)
+      {
+        const bool isLarger = std::fabs(m[row][column]) > std::fabs(m[pivotRow][pivotColumn]);
+        pivotRow = isLarger ? row : pivotRow;
+        pivotColumn = isLarger ? column : pivotColumn;
+      }
+    }
+    std::swap(m[step], m[pivotRow]);
+    std::swap(columns[step], columns[pivotColumn]);
+    for (double(&row)[D + 1] : m)
+    {
+      std::swap(row[step], row[pivotColumn]);
+    }
+    first = step == 0 ? std::fabs(m[0][0]) : first;
+    const bool isFlat = !(std::fabs(m[step][step]) > flatPivot * first);
+    reciprocals[step] = isFlat ? 0 : 1 / m[step][step];
+    for (int row = step + 1; row < D; ++row)
+    {
+      const double factor = m[row][step] * reciprocals[step];
+      for (int column = step + 1; column <= D; ++column)
+      {
+        m[row][column] -= factor * m[step][column];
+      }
+    }
+  }
+  for (int i = D - 1; i >= 0; --i)
+  {
+    double value = m[i][D];
+    for (int k = i + 1; k < D; ++k)
+    {
+      value -= m[i][k] * weights[columns[k]];
+    }
+    weights[columns[i]] = value * reciprocals[i];
+  }
+}
+
+/// The same for a triangle, in fewer instructions than loops.
+inline void thinWeights(
+  const double (&edges)[2][2], const double (&offset)[2], double (&weights)[2])
+{
+  int row = 0;
+  int column = 0;
+  for (int i = 1; i < 4; ++i)
+  {
+    const bool isLarger = std::fabs(edges[i % 2][i / 2]) > std::fabs(edges[column][row]);
+    row = isLarger ? i / 2 : row;
+    column = isLarger ? i % 2 : column;
+  }
+  const double pivot = edges[column][row];
+  const double beside = edges[1 - column][row];
+  const double first = std::fabs(pivot);
+  const double ofPivot = first > flatPivot * first ? 1 / pivot : 0;
+  const double factor = edges[column][1 - row] * ofPivot;
+  const double rest = edges[1 - column][1 - row] - factor * beside;
+  const double ofRest = std::fabs(rest) > flatPivot * first ? 1 / rest : 0;
+  const double other = (offset[1 - row] - factor * offset[row]) * ofRest;
+  weights[1 - column] = other;
+  weights[column] = (offset[row] - beside * other) * ofPivot;
+}
+
 /// A subset of a mesh's cells, without hidden ones; shares the mesh's points.
 class PartMesh
 {
@@ -168,6 +270,25 @@ private:
   std::vector<std::int64_t> Ids;
 };
 
+/// The lattice's axes along which a mesh is sampled: two for triangles, three for tetrahedra.
+struct LatticeAxes
+{
+  LatticeAxes(const SimplexMesh& mesh, const Lattice& lattice)
+    : U(lattice, mesh.Dimension == 2 ? mesh.Axes[0] : 0)
+    , V(lattice, mesh.Dimension == 2 ? mesh.Axes[1] : 1)
+    , W(lattice, 2)
+    , Layers(mesh.Dimension == 2 ? 1 : W.size())
+  {
+  }
+
+  std::int64_t samples() const { return std::int64_t(U.size()) * V.size() * Layers; }
+
+  LatticeAxis U;
+  LatticeAxis V;
+  LatticeAxis W;
+  int Layers;
+};
+
 /// For each point a bit mask of the lattice's sides that it lies beyond. A cell whose points all
 /// lie beyond one side has no samples. The test reads one byte per point instead of fetching
 /// coordinates from random addresses.
@@ -177,11 +298,12 @@ class OutsidePoints
 public:
   static constexpr int D = Access::Dimension;
 
-  OutsidePoints(const SimplexMesh& mesh, const LatticeAxis* const (&axes)[3])
+  OutsidePoints(const SimplexMesh& mesh, const LatticeAxes& lattice)
     : Cells(mesh)
     , Count(mesh.PointCount)
     , Worthwhile(mesh.Cells > mesh.PointCount)
   {
+    const LatticeAxis* const axes[3] = { &lattice.U, &lattice.V, &lattice.W };
     for (int axis = 0; axis < D; ++axis)
     {
       const LatticeAxis& samples = *axes[axis];

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -147,14 +146,6 @@ std::vector<SegmentTree::Item> itemsOf(const std::vector<Point2>& positions)
 
 constexpr std::int64_t NoTriangle = -1;
 
-template <typename Id>
-std::array<Point2, 3> cornersOf(PointsView points, const Id* ids, std::int64_t triangle)
-{
-  const Id* const corners = ids + 3 * triangle;
-  return { points[std::size_t(corners[0])], points[std::size_t(corners[1])],
-    points[std::size_t(corners[2])] };
-}
-
 /// The triangle that gives each position its value, or NoTriangle.
 template <typename Id>
 std::vector<std::int64_t> findAnswers(
@@ -165,8 +156,8 @@ std::vector<std::int64_t> findAnswers(
   {
     const bool isFirst = triangle != NoTriangle &&
       (chosen == NoTriangle ||
-        SurfaceTriangle(cornersOf(points, ids.data(), triangle))
-          .isBefore(SurfaceTriangle(cornersOf(points, ids.data(), chosen))));
+        SurfaceTriangle(cornersOf(points, ids.data(), std::size_t(triangle)))
+          .isBefore(SurfaceTriangle(cornersOf(points, ids.data(), std::size_t(chosen)))));
     chosen = isFirst ? triangle : chosen;
   };
   std::vector<std::vector<std::int64_t>> answers(
@@ -177,7 +168,7 @@ std::vector<std::int64_t> findAnswers(
     {
       for (std::int64_t t = begin; t < end; ++t)
       {
-        wanted.visitInside(cornersOf(points, ids.data(), t),
+        wanted.visitInside(cornersOf(points, ids.data(), std::size_t(t)),
           [&](std::size_t i, Point2) { choose(t, answers[std::size_t(thread)][i]); });
       }
     });
@@ -204,7 +195,7 @@ std::vector<std::vector<double>> evaluate(const std::vector<Point2>& positions, 
     {
       continue;
     }
-    const SurfaceTriangle triangle(cornersOf(points, ids.data(), answers[i]));
+    const SurfaceTriangle triangle(cornersOf(points, ids.data(), std::size_t(answers[i])));
     for (std::size_t c = 0; c < columns.size(); ++c)
     {
       values[c][i] = triangle.valueAt(positions[i],

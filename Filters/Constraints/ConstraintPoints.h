@@ -3,7 +3,7 @@
 #define tippConstraintPoints_h
 
 #include "Arrays/Scalar.h"
-#include "Constraints/ResolveCrossings.h"
+#include "Constraints/ConstraintPieces.h"
 #include "Constraints/SegmentTree.h"
 #include "Predicates/ExactPredicates.h"
 #include "Triangulation/PointsView.h"
@@ -101,6 +101,15 @@ VTKTIPPFILTERS_EXPORT MatchedPositions matchPositions(PointsView points, PointsV
 /// crossing's value is linear between the two points that it lies between. Integers are rounded.
 void interpolateTuples(const std::vector<CrossingPoint>& crossings, std::size_t points, Scalar type,
   std::size_t components, void* values);
+
+/// The positions of a triangle's corners. `ids` has three per triangle.
+template <typename Id>
+std::array<Point2, 3> cornersOf(PointsView points, const Id* ids, std::size_t triangle)
+{
+  const Id* const corners = ids + 3 * triangle;
+  return { points[std::size_t(corners[0])], points[std::size_t(corners[1])],
+    points[std::size_t(corners[2])] };
+}
 
 /// A triangle of a surface with its corners sorted by coordinates, so that values do not depend on
 /// the order of corners.

@@ -46,10 +46,11 @@ Wedge lowestWedge(const std::array<Point2, 3>& triangle)
   return { triangle[low], triangle[(low + 1) % 3], triangle[(low + 2) % 3] };
 }
 
-/// Calls visit(item, sign) for each segment of a tree that crosses an upward ray: the sign is 1 if
-/// the segment goes to the left there, otherwise -1. The ray starts inside the triangle, so close
-/// to the corner that among the segments through the corner no others need to be compared; no
-/// segment enters the wedge.
+/// Calls visit(item, sign, isOn) for each segment of a tree that crosses an upward ray, or on which
+/// the ray starts: the sign is 1 if the segment goes to the left there, otherwise -1. The ray
+/// starts inside the triangle, so close to the corner that among the segments through the corner no
+/// others need to be compared; no segment enters the wedge. isOn: the ray starts on the segment;
+/// this is possible only if the wedge is a single edge.
 template <typename Visit>
 void visitAbove(const SegmentTree& tree, const Wedge& wedge, const Visit& visit)
 {
@@ -72,43 +73,12 @@ void visitAbove(const SegmentTree& tree, const Wedge& wedge, const Visit& visit)
       {
         side = side == 0 ? orientation(left, right, other) : side;
       }
-      if (side < 0)
+      if (side <= 0)
       {
-        visit(item, goesLeft ? 1 : -1);
+        visit(item, goesLeft ? 1 : -1, side == 0);
       }
       return true;
     });
-}
-
-/// The winding number of the segments for which isTaken() is true, around a point inside the wedge.
-template <typename IsTaken>
-int windingOf(const SegmentTree& tree, const Wedge& wedge, const IsTaken& isTaken)
-{
-  int winding = 0;
-  visitAbove(tree, wedge,
-    [&](const SegmentTree::Item& item, int sign) { winding += isTaken(item) ? sign : 0; });
-  return winding;
-}
-
-/// The winding number on the left of an edge minus that on its right. The edge goes from its
-/// lexicographically lower end, `low`, to `high`.
-template <typename IsTaken>
-int windingAcross(const SegmentTree& tree, Point2 low, Point2 high, const IsTaken& isTaken)
-{
-  int sum = 0;
-  tree.visitNear(boxOf(low, low),
-    [&](const SegmentTree::Item& item)
-    {
-      const bool isAscending = lexicographicLess(item.A, item.B);
-      const Point2 from = isAscending ? item.A : item.B;
-      const Point2 to = isAscending ? item.B : item.A;
-      const bool isSame = isTaken(item) && !lexicographicLess(low, from) &&
-        lexicographicLess(low, to) && orientation(from, to, low) == 0 &&
-        orientation(from, to, high) == 0;
-      sum += !isSame ? 0 : isAscending ? 1 : -1;
-      return true;
-    });
-  return sum;
 }
 
 const auto isAny = [](const SegmentTree::Item&) { return true; };
@@ -152,8 +122,9 @@ bool ConstraintSegments::has(SegmentRole role) const
   return std::find(this->Roles.begin(), this->Roles.end(), std::uint8_t(role)) != this->Roles.end();
 }
 
-/// Whether the winding number of the polygons is positive anywhere, which then is so on one side of
-/// some edge.
+/// Whether the winding number of the polygons is positive anywhere. If it is, then also at the
+/// lexicographically lowest corner of such an area: directly above or below an edge that starts
+/// there, or to the right of a vertical one.
 bool ConstraintSegments::haveInside() const
 {
   const auto isPolygon = [this](const SegmentTree::Item& item)
@@ -166,10 +137,15 @@ bool ConstraintSegments::haveInside() const
         return false;
       }
       const auto [low, high] = std::minmax(item.A, item.B, isLower);
-      // The winding number above the edge, or on the right of a vertical edge.
-      const int winding = windingOf(this->All, Wedge{ low, high, high }, isPolygon);
-      const int across = windingAcross(this->All, low, high, isPolygon);
-      return winding > 0 || winding + (low.x == high.x ? across : -across) > 0;
+      int above = 0;
+      int below = 0;
+      visitAbove(this->All, Wedge{ low, high, high },
+        [&](const SegmentTree::Item& other, int sign, bool isOn)
+        {
+          above += isPolygon(other) && !isOn ? sign : 0;
+          below += isPolygon(other) ? sign : 0;
+        });
+      return above > 0 || below > 0;
     });
 }
 
@@ -210,13 +186,13 @@ bool ConstraintSegments::keeps(const std::array<Point2, 3>& triangle) const
 {
   const Wedge wedge = lowestWedge(triangle);
   int holes = 0;
-  visitAbove(this->Holes, wedge, [&](const SegmentTree::Item&, int) { ++holes; });
+  visitAbove(this->Holes, wedge, [&](const SegmentTree::Item&, int, bool) { ++holes; });
   int boundary = 0;
   int winding = 0;
   if (this->HasPolygons || this->HasBoundary)
   {
     visitAbove(this->All, wedge,
-      [&](const SegmentTree::Item& item, int sign)
+      [&](const SegmentTree::Item& item, int sign, bool)
       {
         const SegmentRole role = this->roleOf(item);
         boundary += role == SegmentRole::Boundary ? 1 : 0;

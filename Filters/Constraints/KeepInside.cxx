@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/KeepInside.h"
 
+#include "Constraints/ConstraintPoints.h"
 #include "Constraints/TriangulateConstrained.h"
 #include "Meshes/MeshFiles.h"
 #include "Predicates/ExactPredicates.h"
@@ -87,25 +88,6 @@ std::vector<int> sumsFromOutside(
   return result;
 }
 
-/// Calls visit(t) for each triangle with the point inside it or on its border.
-template <typename Id, typename Visit>
-void visitHolders(PointsView points, const Buffer<Id>& ids, Point2 p, const Visit& visit)
-{
-  for (std::size_t t = 0; t < ids.size() / 3; ++t)
-  {
-    const Point2 a = points[std::size_t(ids[3 * t])];
-    const Point2 b = points[std::size_t(ids[3 * t + 1])];
-    const Point2 c = points[std::size_t(ids[3 * t + 2])];
-    const bool isInBox = std::min({ a.x, b.x, c.x }) <= p.x && p.x <= std::max({ a.x, b.x, c.x }) &&
-      std::min({ a.y, b.y, c.y }) <= p.y && p.y <= std::max({ a.y, b.y, c.y });
-    if (isInBox && orientation(a, b, p) >= 0 && orientation(b, c, p) >= 0 &&
-      orientation(c, a, p) >= 0)
-    {
-      visit(t);
-    }
-  }
-}
-
 /// For each triangle, whether it can be reached from a seed without crossing a constraint.
 template <typename Id>
 std::vector<char> reachedFrom(PointsView points, const Buffer<Id>& ids,
@@ -115,22 +97,25 @@ std::vector<char> reachedFrom(PointsView points, const Buffer<Id>& ids,
   const ConstraintEdges edges(pieces);
   std::vector<char> isReached(ids.size() / 3, 0);
   std::vector<std::size_t> front;
-  for (const Point2& seed : seeds)
+  const SurfacePositions wanted(seeds);
+  std::vector<char> isFound(seeds.size(), 0);
+  for (std::size_t t = 0; t < isReached.size(); ++t)
   {
-    bool isInside = false;
-    visitHolders(points, ids, seed,
-      [&](std::size_t t)
+    wanted.visitInside(cornersOf(points, ids.data(), t),
+      [&](std::size_t seed, Point2)
       {
-        isInside = true;
+        isFound[seed] = 1;
         isReached[t] = 1;
         front.push_back(t);
       });
-    if (!isInside)
-    {
-      std::ostringstream text;
-      text << "the hole at (" << seed.x << ", " << seed.y << ") is in no triangle.";
-      throw std::invalid_argument(text.str());
-    }
+  }
+  const auto lost = std::find(isFound.begin(), isFound.end(), 0);
+  if (lost != isFound.end())
+  {
+    const Point2 seed = seeds[std::size_t(lost - isFound.begin())];
+    std::ostringstream text;
+    text << "the hole at (" << seed.x << ", " << seed.y << ") is in no triangle.";
+    throw std::invalid_argument(text.str());
   }
   spread(std::move(front), neighbors,
     [&](std::size_t from, std::size_t to)

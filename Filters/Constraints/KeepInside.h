@@ -2,7 +2,7 @@
 #ifndef tippKeepInside_h
 #define tippKeepInside_h
 
-#include "Constraints/Constraint.h"
+#include "Constraints/ConstraintPieces.h"
 #include "Triangulation/PointsView.h"
 #include "vtkTIPPFiltersModule.h"
 

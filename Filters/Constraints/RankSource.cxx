@@ -4,8 +4,8 @@
 #include "Arrays/IndexMap.h"
 #include "Constraints/ConstraintPoints.h"
 #include "Constraints/SourceConstraints.h"
-#include "Projection/ProjectedPoints.h"
-#include "Vtk/ReadDataSet.h"
+#include "Pipeline/InputPoints.h"
+#include "Vtk/DataSets.h"
 
 #include "vtkDataArray.h"
 #include "vtkIdTypeArray.h"
@@ -55,8 +55,7 @@ public:
     this->gatherSources(source);
     this->numberInput();
     this->Options.MergesPoints ? this->takePoints() : this->takeIds();
-    const std::vector<std::int64_t> own = this->findVertices();
-    const std::vector<Bytes> rows = this->sendRows(own);
+    const std::vector<Bytes> rows = this->sendRows(this->findVertices());
     RankSource result;
     result.Input = this->Input;
     SaveArchive writer;
@@ -198,17 +197,13 @@ private:
     }
   }
 
-  std::size_t vertexCount() const
-  {
-    return this->Index ? this->Positions.size() : this->Named.size();
-  }
-
-  /// Sets the ids of vertices. Returns, for each vertex, the index of the point at it on this rank;
-  /// -1 if there is none or another rank has one of lower id.
+  /// Sets the ids and the owners of vertices. Returns, for each vertex, the index of a point at it
+  /// on this rank, or -1.
   std::vector<std::int64_t> findVertices()
   {
     constexpr std::int64_t none = -1;
-    std::vector<std::int64_t> point(this->vertexCount(), none);
+    std::vector<std::int64_t> point(
+      this->Index ? this->Positions.size() : this->Named.size(), none);
     const ProjectedPoints projected(this->Input->GetPoints(), this->Options.ToPlane);
     const PointsView view = projected.view();
     view.forEach(0, view.size(),
@@ -231,7 +226,7 @@ private:
       }
     }
     this->VertexIds.assign(point.size(), none);
-    std::vector<int> owner(point.size(), -1);
+    this->Owners.assign(point.size(), -1);
     const std::vector<std::vector<Found>> all = this->Ranks.allGather(found);
     for (int rank = 0; rank < this->Ranks.size(); ++rank)
     {
@@ -241,15 +236,11 @@ private:
         if (id < 0 || one.Id < id)
         {
           id = one.Id;
-          owner[std::size_t(one.Vertex)] = rank;
+          this->Owners[std::size_t(one.Vertex)] = rank;
         }
       }
     }
     this->numberNewVertices();
-    for (std::size_t v = 0; v < point.size(); ++v)
-    {
-      point[v] = owner[v] == this->Ranks.rank() ? point[v] : none;
-    }
     return point;
   }
 
@@ -268,27 +259,20 @@ private:
     }
   }
 
-  /// Sends the points at vertices to the last rank, which gets a data set from each rank.
-  std::vector<Bytes> sendRows(const std::vector<std::int64_t>& own)
+  /// Sends the points at this rank's vertices, in the order of the vertices, to the last rank,
+  /// which gets a data set from each rank.
+  std::vector<Bytes> sendRows(const std::vector<std::int64_t>& points)
   {
     std::vector<DataSetRow> rows;
-    vtkNew<vtkIdTypeArray> numbers;
-    numbers->SetName("tippVertex");
-    for (std::size_t v = 0; v < own.size(); ++v)
+    for (std::size_t v = 0; v < points.size(); ++v)
     {
-      if (own[v] >= 0)
+      if (this->Owners[v] == this->Ranks.rank())
       {
-        rows.push_back({ 0, vtkIdType(own[v]) });
-        numbers->InsertNextValue(vtkIdType(v));
+        rows.push_back({ 0, vtkIdType(points[v]) });
       }
     }
     std::vector<Bytes> sent(std::size_t(this->Ranks.size()));
-    if (!rows.empty())
-    {
-      const vtkSmartPointer<vtkPolyData> points = copyRows({ this->Input }, rows);
-      points->GetPointData()->AddArray(numbers);
-      sent.back() = packDataSet(points);
-    }
+    sent.back() = rows.empty() ? Bytes() : packDataSet(copyRows({ this->Input }, rows));
     return this->Ranks.allToAll(std::move(sent));
   }
 
@@ -351,7 +335,7 @@ private:
   /// Sorts the vertices by their ids, as in memory. New points are last.
   void sortVertices()
   {
-    this->Sorted.resize(this->vertexCount());
+    this->Sorted.resize(this->VertexIds.size());
     std::iota(this->Sorted.begin(), this->Sorted.end(), std::size_t(0));
     std::sort(this->Sorted.begin(), this->Sorted.end(),
       [this](std::size_t a, std::size_t b) { return this->VertexIds[a] < this->VertexIds[b]; });
@@ -368,35 +352,30 @@ private:
   vtkSmartPointer<vtkPolyData> makeVertices(const std::vector<Bytes>& rows) const
   {
     std::vector<vtkSmartPointer<vtkPointSet>> from;
-    std::vector<DataSetRow> rowOf(this->Sorted.size());
+    std::vector<DataSetRow> next; // by rank: its first point that has not been taken yet
     for (const Bytes& bytes : rows)
     {
-      if (bytes.size() > 0)
-      {
-        const vtkSmartPointer<vtkPolyData> points = unpackDataSet(bytes);
-        auto* const numbers =
-          vtkIdTypeArray::SafeDownCast(points->GetPointData()->GetArray("tippVertex"));
-        for (vtkIdType i = 0; numbers && i < numbers->GetNumberOfTuples(); ++i)
-        {
-          rowOf[std::size_t(this->indexInSorted(numbers->GetValue(i)))] = { from.size(), i };
-        }
-        points->GetPointData()->RemoveArray("tippVertex");
-        from.emplace_back(points);
-      }
+      next.push_back({ from.size(), 0 });
+      bytes.size() > 0 ? void(from.emplace_back(unpackDataSet(bytes))) : void();
     }
+    std::vector<DataSetRow> rowOf(this->Sorted.size());
     std::size_t used = this->Sources.size(); // the source of the last new vertex so far
-    for (std::size_t v = 0; v < this->SourceRows.size(); ++v)
+    for (std::size_t v = 0; v < this->Owners.size(); ++v)
     {
-      const auto [source, row] = this->SourceRows[v];
-      if (this->VertexIds[v] >= this->EndOfIds)
+      DataSetRow& its = rowOf[std::size_t(this->indexInSorted(PointId(v)))];
+      if (this->Owners[v] >= 0)
       {
-        if (used != source)
-        {
-          from.emplace_back(this->Sources[source]);
-          used = source;
-        }
-        rowOf[std::size_t(this->indexInSorted(PointId(v)))] = { from.size() - 1, row };
+        its = next[std::size_t(this->Owners[v])];
+        ++next[std::size_t(this->Owners[v])].Row;
+        continue;
       }
+      const auto [source, row] = this->SourceRows[v];
+      if (used != source)
+      {
+        from.emplace_back(this->Sources[source]);
+        used = source;
+      }
+      its = { from.size() - 1, row };
     }
     return copyRows(from, rowOf);
   }
@@ -463,12 +442,13 @@ private:
   IndexMap VertexOf;                                 ///< by point id, if points are not merged
   std::vector<std::int64_t> Named;                   ///< point id per vertex, likewise
   std::vector<std::int64_t> VertexIds;               ///< per vertex: the id of the point at it
-  std::vector<std::size_t> Sorted;                   ///< vertices, sorted by id
-  std::vector<PointId> IndexInSorted;                ///< per vertex
-  std::vector<Constraint> Constraints;               ///< between vertices
-  std::vector<SegmentRole> Roles;                    ///< per constraint
-  std::vector<std::int64_t> Cells;                   ///< source cell per constraint
-  std::int64_t FirstCell = 0; ///< cell number at which the next source starts
+  std::vector<int> Owners;         ///< per vertex: the rank that sends its point; -1 if it is new
+  std::vector<std::size_t> Sorted; ///< vertices, sorted by id
+  std::vector<PointId> IndexInSorted;  ///< per vertex
+  std::vector<Constraint> Constraints; ///< between vertices
+  std::vector<SegmentRole> Roles;      ///< per constraint
+  std::vector<std::int64_t> Cells;     ///< source cell per constraint
+  std::int64_t FirstCell = 0;          ///< cell number at which the next source starts
   std::vector<ConstraintSegment> Segments;
 };
 

@@ -2,8 +2,8 @@
 #ifndef tippRankSource_h
 #define tippRankSource_h
 
+#include "Constraints/ConstraintPieces.h"
 #include "Constraints/ConstraintSegments.h"
-#include "Constraints/ResolveCrossings.h"
 #include "Ranks/Communicator.h"
 
 #include "vtkSmartPointer.h"

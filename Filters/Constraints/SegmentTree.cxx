@@ -3,7 +3,7 @@
 
 #include "Kernel/InsertionOrder.h"
 #include "Parallel/ParallelFor.h"
-#include "Parallel/RadixSort.h"
+#include "Parallel/Sort.h"
 #include "Predicates/ExactPredicates.h"
 #include "Triangulation/PointsView.h"
 
@@ -30,6 +30,17 @@ std::uint32_t mortonKey(const SegmentTree::Item& item, const Box2& all)
 {
   return spreadBits(cellOf(item.A.x / 2 + item.B.x / 2, all.xmin, all.xmax)) |
     spreadBits(cellOf(item.A.y / 2 + item.B.y / 2, all.ymin, all.ymax)) << 1;
+}
+
+void compare(
+  const SegmentTree::Item& one, const SegmentTree::Item& other, std::vector<CrossingPair>& found)
+{
+  const bool isConnected =
+    one.A == other.A || one.A == other.B || one.B == other.A || one.B == other.B;
+  if (!isConnected && crossProperly(one.A, one.B, other.A, other.B))
+  {
+    found.push_back({ std::min(one.Id, other.Id), std::max(one.Id, other.Id) });
+  }
 }
 
 } // namespace
@@ -84,31 +95,28 @@ SegmentTree::SegmentTree(std::vector<Item> segments, int threads)
   this->Items.resize(segments.size());
   forAll(
     count, [&](std::size_t i) { this->Items[i] = segments[std::size_t(order[i] & UINT32_MAX)]; });
-  const auto groupsOf = [](std::size_t items) { return (items + Fanout - 1) / Fanout; };
-  std::vector<Box2> level(groupsOf(this->Items.size()));
-  forAll(std::int64_t(level.size()),
-    [&](std::size_t group)
-    {
-      const std::size_t end = std::min(this->Items.size(), (group + 1) * Fanout);
-      Box2 box = boxOf(this->Items[group * Fanout].A, this->Items[group * Fanout].B);
-      for (std::size_t i = group * Fanout + 1; i < end; ++i)
+  const auto boxesOfGroups = [&](std::size_t items, const auto& boxAt)
+  {
+    std::vector<Box2> boxes((items + Fanout - 1) / Fanout);
+    forAll(std::int64_t(boxes.size()),
+      [&](std::size_t group)
       {
-        box = unionOf(box, boxOf(this->Items[i].A, this->Items[i].B));
-      }
-      level[group] = box;
-    });
-  this->Levels.push_back(std::move(level));
+        Box2 box = boxAt(group * Fanout);
+        for (std::size_t i = group * Fanout + 1; i < std::min(items, (group + 1) * Fanout); ++i)
+        {
+          box = unionOf(box, boxAt(i));
+        }
+        boxes[group] = box;
+      });
+    return boxes;
+  };
+  this->Levels.push_back(boxesOfGroups(this->Items.size(),
+    [this](std::size_t i) { return boxOf(this->Items[i].A, this->Items[i].B); }));
   while (this->Levels.back().size() > 1)
   {
     const std::vector<Box2>& below = this->Levels.back();
-    std::vector<Box2> boxes;
-    boxes.reserve(groupsOf(below.size()));
-    for (std::size_t i = 0; i < below.size(); ++i)
-    {
-      i % Fanout == 0 ? boxes.push_back(below[i])
-                      : void(boxes.back() = unionOf(boxes.back(), below[i]));
-    }
-    this->Levels.push_back(std::move(boxes));
+    this->Levels.push_back(
+      boxesOfGroups(below.size(), [&below](std::size_t i) { return below[i]; }));
   }
 }
 
@@ -123,50 +131,21 @@ std::vector<std::int64_t> SegmentTree::nameByPosition()
   return names;
 }
 
-namespace
-{
-
-/// Whether segments are short compared with a box.
-class IsShortIn
-{
-public:
-  explicit IsShortIn(const Box2& box)
-    : Width(part * (box.xmax / 2 - box.xmin / 2)) // halves, because a difference may overflow
-    , Height(part * (box.ymax / 2 - box.ymin / 2))
-  {
-  }
-
-  bool operator()(const SegmentTree::Item& item) const
-  {
-    return std::fabs(item.B.x / 2 - item.A.x / 2) <= this->Width &&
-      std::fabs(item.B.y / 2 - item.A.y / 2) <= this->Height;
-  }
-
-private:
-  static constexpr double part = 1.0 / 64;
-  double Width;
-  double Height;
-};
-
-void compare(
-  const SegmentTree::Item& one, const SegmentTree::Item& other, std::vector<CrossingPair>& found)
-{
-  const bool isConnected =
-    one.A == other.A || one.A == other.B || one.B == other.A || one.B == other.B;
-  if (!isConnected && crossProperly(one.A, one.B, other.A, other.B))
-  {
-    found.push_back({ std::min(one.Id, other.Id), std::max(one.Id, other.Id) });
-  }
-}
-
-} // namespace
-
 /// Short segments are compared in groups. The few long ones are compared individually with all
 /// others, since the box of a group with a long segment would overlap most groups.
 std::vector<CrossingPair> findCrossingPairs(std::vector<SegmentTree::Item> all, int threads)
 {
-  const auto firstLong =
-    std::stable_partition(all.begin(), all.end(), IsShortIn(SegmentTree::boxOfAll(all, threads)));
+  const Box2 box = SegmentTree::boxOfAll(all, threads);
+  // Halves, because a difference may overflow.
+  constexpr double part = 1.0 / 64;
+  const double width = part * (box.xmax / 2 - box.xmin / 2);
+  const double height = part * (box.ymax / 2 - box.ymin / 2);
+  const auto firstLong = std::stable_partition(all.begin(), all.end(),
+    [width, height](const SegmentTree::Item& item)
+    {
+      return std::fabs(item.B.x / 2 - item.A.x / 2) <= width &&
+        std::fabs(item.B.y / 2 - item.A.y / 2) <= height;
+    });
   const SegmentTree longOnes(std::vector<SegmentTree::Item>(firstLong, all.end()), threads);
   all.erase(firstLong, all.end());
   const SegmentTree shortOnes(std::move(all), threads);

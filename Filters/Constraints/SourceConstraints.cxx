@@ -2,8 +2,8 @@
 #include "Constraints/SourceConstraints.h"
 
 #include "Constraints/ConstraintPoints.h"
-#include "Output/TriangleOutput.h"
-#include "Projection/ProjectedPoints.h"
+#include "Output/MeshOutput.h"
+#include "Pipeline/InputPoints.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
@@ -208,15 +208,12 @@ Bytes packDataSet(vtkPolyData* data)
 vtkSmartPointer<vtkPolyData> unpackDataSet(const Bytes& bytes)
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();
-  if (bytes.size() > 0)
+  vtkNew<vtkCharArray> buffer;
+  buffer->SetNumberOfValues(vtkIdType(bytes.size()));
+  std::copy_n(bytes.data(), bytes.size(), buffer->GetPointer(0));
+  if (!vtkCommunicator::UnMarshalDataObject(buffer, data))
   {
-    vtkNew<vtkCharArray> buffer;
-    buffer->SetNumberOfValues(vtkIdType(bytes.size()));
-    std::copy_n(bytes.data(), bytes.size(), buffer->GetPointer(0));
-    if (!vtkCommunicator::UnMarshalDataObject(buffer, data))
-    {
-      throw std::runtime_error("A part of the source that another rank has sent cannot be read.");
-    }
+    throw std::runtime_error("A part of the source that another rank has sent cannot be read.");
   }
   return data;
 }

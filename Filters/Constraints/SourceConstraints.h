@@ -54,7 +54,8 @@ void addConstraintLines(const ResolvedConstraints& constraints,
   const std::vector<std::int64_t>& sourceCells, vtkPolyData* output);
 
 ///@{
-/// Packs a data set into a message, and unpacks it. Throws std::runtime_error on failure.
+/// Packs a data set into a message, and unpacks one that is not empty. Throws std::runtime_error on
+/// failure.
 Bytes packDataSet(vtkPolyData* data);
 vtkSmartPointer<vtkPolyData> unpackDataSet(const Bytes& bytes);
 ///@}

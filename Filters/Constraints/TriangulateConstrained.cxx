@@ -1,22 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/TriangulateConstrained.h"
 
-#include "Arrays/SortUnique.h"
+#include "Constraints/ConstraintPoints.h"
 #include "Constraints/Insertion/ConstraintJobs.h"
+#include "Constraints/Insertion/CrossedTriangles.h"
 #include "Constraints/Insertion/PartitionConstraints.h"
-#include "Constraints/Insertion/TriangleScan.h"
+#include "Constraints/KeepInside.h"
 #include "Constraints/SegmentTree.h"
+#include "Files/IOError.h"
 #include "Parallel/ParallelFor.h"
+#include "Parallel/Sort.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
-#include <iterator>
+#include <map>
+#include <sstream>
+#include <stdexcept>
 #include <utility>
 
 namespace tipp
 {
+
 namespace
 {
 
@@ -84,35 +91,28 @@ CrossedTriangles findCrossedTriangles(PointsView points, const Id* corners, std:
       {
         scans[std::size_t(thread)].scan(corners, range.Begin, range.End, here);
         std::sort(here.Crossings.begin(), here.Crossings.end());
+        return;
+      }
+      for (auto [triangle, piece] : inserted.crossingsIn(range.Partition))
+      {
+        triangle += std::int64_t(range.Begin);
+        triangle < std::int64_t(range.End) ? here.Crossings.push_back({ triangle, piece }) : void();
       }
     });
   CrossedTriangles all;
   all.Touches = inserted.touches();
-  const auto add = [&all](std::int64_t triangle, std::int64_t piece)
+  for (const ScannedTriangles& here : found)
   {
-    if (all.Triangles.empty() || all.Triangles.back() != triangle)
+    for (const auto& [triangle, piece] : here.Crossings)
     {
-      all.Triangles.push_back(triangle);
-      all.Starts.push_back(std::int64_t(all.Pieces.size()));
-    }
-    all.Pieces.push_back(piece);
-  };
-  for (std::size_t i = 0; i < ranges.size(); ++i)
-  {
-    const auto& [partition, begin, end] = ranges[i];
-    if (partition != NoPartition)
-    {
-      for (const auto& [triangle, piece] : inserted.crossingsIn(partition))
+      if (all.Triangles.empty() || all.Triangles.back() != triangle)
       {
-        const std::int64_t number = std::int64_t(begin) + triangle;
-        number < std::int64_t(end) ? add(number, piece) : void();
+        all.Triangles.push_back(triangle);
+        all.Starts.push_back(std::int64_t(all.Pieces.size()));
       }
+      all.Pieces.push_back(piece);
     }
-    for (const CrossedTriangles::Crossing& crossing : found[i].Crossings)
-    {
-      add(crossing.Triangle, crossing.Piece);
-    }
-    all.Touches.insert(all.Touches.end(), found[i].Touches.begin(), found[i].Touches.end());
+    all.Touches.insert(all.Touches.end(), here.Touches.begin(), here.Touches.end());
   }
   all.Starts.push_back(std::int64_t(all.Pieces.size()));
   sortUnique(all.Touches);
@@ -135,20 +135,6 @@ ConstraintEdges edgesNear(const SplitPieces& split, const PartitionConstraints& 
     near.push_back({ a, b, unknown });
   }
   return ConstraintEdges(near);
-}
-
-template <typename Id>
-void constrainTriangles(PointsView points, Buffer<Id>& ids,
-  const std::vector<TriangleBlock>& blocks, std::vector<ConstraintPiece>& pieces,
-  const PartitionConstraints& inserted, int threads)
-{
-  const std::vector<std::int64_t> remaining = inserted.remaining();
-  const CrossedTriangles crossed = findCrossedTriangles(
-    points, ids.data(), ids.size() / 3, blocks, pieces, inserted, remaining, threads);
-  SplitPieces split = splitPieces(points, pieces, crossed.Touches);
-  const ConstraintEdges known = edgesNear(split, inserted, remaining);
-  retriangulateJobs(points, ids.data(), crossed, split, known, threads);
-  pieces = std::move(split.Parts);
 }
 
 /// Replaces the points in `pieces` and `inserted` by their representatives.
@@ -185,24 +171,17 @@ void nameRepresentatives(const std::vector<Duplicate>& duplicates,
 /// Only triangles that a piece crosses change. Pieces that cross a common triangle form one job,
 /// with all triangles that they cross; jobs are independent of each other. A job's new triangles
 /// replace its old ones, in order, so the result does not depend on the number of threads.
-void constrain(PointsView points, Triangulation& triangulation,
-  std::vector<ConstraintPiece>& pieces, PartitionConstraints& inserted, int threads)
+template <typename Id>
+void constrain(PointsView points, Buffer<Id>& ids, const std::vector<TriangleBlock>& blocks,
+  std::vector<ConstraintPiece>& pieces, const PartitionConstraints& inserted, int threads)
 {
-  nameRepresentatives(triangulation.Duplicates, pieces, inserted, threads);
-  if (pieces.empty() || triangulation.triangleCount() == 0)
-  {
-    return;
-  }
-  if (triangulation.Ids64.empty())
-  {
-    constrainTriangles(
-      points, triangulation.Ids32, triangulation.Blocks, pieces, inserted, threads);
-  }
-  else
-  {
-    constrainTriangles(
-      points, triangulation.Ids64, triangulation.Blocks, pieces, inserted, threads);
-  }
+  const std::vector<std::int64_t> remaining = inserted.remaining();
+  const CrossedTriangles crossed = findCrossedTriangles(
+    points, ids.data(), ids.size() / 3, blocks, pieces, inserted, remaining, threads);
+  SplitPieces split = splitPieces(points, pieces, crossed.Touches);
+  const ConstraintEdges known = edgesNear(split, inserted, remaining);
+  retriangulateJobs(points, ids.data(), crossed, split, known, threads);
+  pieces = std::move(split.Parts);
 }
 
 /// The points of the input, followed by the crossings.
@@ -218,91 +197,264 @@ std::vector<Point2> allPoints(PointsView points, const std::vector<CrossingPoint
   return all;
 }
 
-/// Triangulates with constraints that do not cross. Throws CrossingFound if they do.
-class Run
+/// Triangulates with constraints that do not cross. Throws CrossingFound if they do. `watch` has
+/// measured the time for the crossings.
+ConstrainedTriangulation insert(PointsView points, ResolvedConstraints resolved,
+  TriangulationOptions options, const std::function<void(ConstrainedTriangulation&)>& cut,
+  Stopwatch& watch)
 {
-public:
-  Run(PointsView input, const TriangulationOptions& options,
-    const std::function<void(ConstrainedTriangulation&)>& cut)
-    : Input(input)
-    , Options(options)
-    , Cut(cut)
-    , Threads(threadCount(options.Threads))
+  const TriangulationStatistics::Phase crossings{ "crossings", watch.restart() };
+  const int threads = threadCount(options.Threads);
+  // Long triangles are removed at the end.
+  const double maximumEdge = std::exchange(options.MaximumEdge, 0);
+  ConstrainedTriangulation result;
+  result.Constraints = std::move(resolved);
+  std::vector<Point2> withCrossings;
+  if (!result.Constraints.Crossings.empty())
   {
-    this->Plain = options;
-    this->Plain.MaximumEdge = 0; // long triangles are removed at the end
-    if (options.Progress)
+    withCrossings = allPoints(points, result.Constraints.Crossings);
+    points = PointsView(withCrossings);
+  }
+  std::vector<ConstraintPiece>& pieces = result.Constraints.Pieces;
+  PartitionConstraints inserted(pieces, threads);
+  options.Editors = &inserted;
+  result.Mesh = triangulate(points, options);
+  auto& phases = result.Mesh.Statistics.Phases;
+  phases.insert(phases.begin(), crossings);
+  if (!result.Mesh.Aborted)
+  {
+    watch.restart();
+    nameRepresentatives(result.Mesh.Duplicates, pieces, inserted, threads);
+    if (!pieces.empty() && result.Mesh.triangleCount() > 0)
     {
-      // Progress must not decrease if the triangulation is repeated.
-      this->Plain.Progress = [this](double done)
-      { return this->Options.Progress(this->Done = std::max(this->Done, done)); };
+      const std::vector<TriangleBlock>& blocks = result.Mesh.Blocks;
+      result.Mesh.Ids64.empty()
+        ? constrain(points, result.Mesh.Ids32, blocks, pieces, inserted, threads)
+        : constrain(points, result.Mesh.Ids64, blocks, pieces, inserted, threads);
+    }
+    cut ? cut(result) : void();
+    leaveOutLong(points, maximumEdge, result.Mesh);
+    phases.push_back({ "constraints", watch.restart() });
+  }
+  return result;
+}
+
+PointsView viewOf(const std::vector<double>& xy)
+{
+  return PointsView(xy.data(), xy.size() / 2, 2);
+}
+
+/// Appends the table's points, except those that exist already, and its edges.
+void join(const ConstraintTable& table, PointTable& points, std::vector<Constraint>& constraints)
+{
+  if (table.XY.empty()) // its edges refer to the points
+  {
+    for (const auto& edge : table.Edges)
+    {
+      constraints.push_back({ edge[0], edge[1] });
+    }
+    return;
+  }
+  const MatchedPositions matched = matchPositions(viewOf(points.XY), viewOf(table.XY));
+  for (const std::size_t own : matched.New)
+  {
+    points.XY.push_back(table.XY[2 * own]);
+    points.XY.push_back(table.XY[2 * own + 1]);
+    for (PointTable::Column& column : points.Columns)
+    {
+      column.Values.push_back(
+        isHeightColumn(column.Name) && !table.Height.empty() ? table.Height[own] : std::nan(""));
     }
   }
-
-  ConstrainedTriangulation run(const std::vector<Constraint>& constraints, CrossingRule crossings)
+  for (const auto& edge : table.Edges)
   {
-    this->Watch.restart();
-    ResolvedConstraints resolved = takeConstraints(this->Input, constraints, this->Threads);
-    try
-    {
-      // Most constraints do not cross. If they do, the insertion finds it.
-      return this->insert(std::move(resolved));
-    }
-    catch (const CrossingFound&)
-    {
-      resolved = resolveCrossings(this->Input, constraints, crossings, this->Threads);
-    }
-    return this->insert(std::move(resolved));
+    constraints.push_back({ matched.Ids[std::size_t(edge[0])], matched.Ids[std::size_t(edge[1])] });
   }
+}
 
-private:
-  ConstrainedTriangulation insert(ResolvedConstraints resolved)
+/// Sets the NaN values of points from index `given` on, by interpolation on the surface of the
+/// points before.
+void takeSurface(
+  std::size_t given, DuplicateRule rule, const TriangulationOptions& options, PointTable& points)
+{
+  const auto isMissing = [given](const PointTable::Column& column)
   {
-    ConstrainedTriangulation result;
-    result.Constraints = std::move(resolved);
-    const TriangulationStatistics::Phase crossings{ "crossings", this->Watch.restart() };
-    std::vector<Point2> withCrossings;
-    PointsView points = this->Input;
-    if (!result.Constraints.Crossings.empty())
-    {
-      withCrossings = allPoints(this->Input, result.Constraints.Crossings);
-      points = PointsView(withCrossings);
-    }
-    PartitionConstraints inserted(result.Constraints.Pieces, this->Threads);
-    this->Plain.Editors = &inserted;
-    result.Mesh = triangulate(points, this->Plain);
-    auto& all = result.Mesh.Statistics.Phases;
-    all.insert(all.begin(), crossings);
-    if (!result.Mesh.Aborted)
-    {
-      this->Watch.restart();
-      constrain(points, result.Mesh, result.Constraints.Pieces, inserted, this->Threads);
-      if (this->Cut)
-      {
-        this->Cut(result);
-      }
-      leaveOutLong(points, this->Options.MaximumEdge, result.Mesh);
-      all.push_back({ "constraints", this->Watch.restart() });
-    }
-    return result;
+    return std::any_of(column.Values.begin() + std::ptrdiff_t(given), column.Values.end(),
+      [](double value) { return std::isnan(value); });
+  };
+  if (std::none_of(points.Columns.begin(), points.Columns.end(), isMissing))
+  {
+    return;
   }
+  TriangulationOptions plain;
+  plain.Threads = options.Threads;
+  const PointsView before(points.XY.data(), given, 2);
+  const Triangulation surface = triangulate(before, plain);
+  PointTable resolved;
+  if (rule != DuplicateRule::First)
+  {
+    resolved.Columns = points.Columns;
+    resolveDuplicates(resolved, surface.Duplicates, rule);
+  }
+  std::vector<const double*> columns;
+  for (const PointTable::Column& column :
+    rule == DuplicateRule::First ? points.Columns : resolved.Columns)
+  {
+    columns.push_back(column.Values.data());
+  }
+  std::vector<Point2> positions;
+  viewOf(points.XY).forEach(
+    given, points.size(), [&](std::size_t, Point2 position) { positions.push_back(position); });
+  const auto values = valuesOnSurface(positions, before, surface, columns, options.Threads);
+  for (std::size_t c = 0; c < values.size(); ++c)
+  {
+    for (std::size_t i = 0; i < positions.size(); ++i)
+    {
+      double& value = points.Columns[c].Values[given + i];
+      value = std::isnan(value) ? values[c][i] : value;
+    }
+  }
+}
 
-  const PointsView Input;
-  const TriangulationOptions& Options;
-  const std::function<void(ConstrainedTriangulation&)>& Cut;
-  const int Threads;
-  TriangulationOptions Plain;
-  double Done = 0; ///< the last reported fraction
-  Stopwatch Watch;
-};
+void appendCrossings(const std::vector<CrossingPoint>& crossings, PointTable& points)
+{
+  const std::size_t given = points.size();
+  for (const CrossingPoint& crossing : crossings)
+  {
+    points.XY.push_back(crossing.Position.x);
+    points.XY.push_back(crossing.Position.y);
+  }
+  for (PointTable::Column& column : points.Columns)
+  {
+    column.Values.resize(given + crossings.size());
+    interpolateTuples(crossings, given, Scalar::Float64, 1, column.Values.data());
+  }
+}
+
+void cutOutside(
+  const TableConstraints& constraints, const PointTable& points, ConstrainedTriangulation& result)
+{
+  const std::vector<ConstraintPiece>& pieces = result.Constraints.Pieces;
+  const std::size_t lines = constraints.Lines.Edges.size();
+  const Cuts cuts{ piecesOf(pieces, constraints.Lines.PolygonBegin, lines),
+    piecesOf(pieces, lines, lines + constraints.Boundary.Edges.size()), constraints.Lines.holes() };
+  // A polygon with a missing edge has no inside.
+  if (!(cuts.Polygons.empty() && cuts.Boundary.empty()) && result.Constraints.NotFinite > 0)
+  {
+    throw std::invalid_argument(
+      "it has polygons, and a point that is NaN or infinite; correct the point.");
+  }
+  keepInside(viewOf(points.XY), result.Mesh, pieces, cuts);
+}
 
 } // namespace
 
-ConstrainedTriangulation triangulateConstrained(PointsView input,
+ConstrainedTriangulation triangulateConstrained(PointsView points,
   const std::vector<Constraint>& constraints, CrossingRule crossings,
   const TriangulationOptions& options, const std::function<void(ConstrainedTriangulation&)>& cut)
 {
-  return Run(input, options, cut).run(constraints, crossings);
+  Stopwatch watch;
+  TriangulationOptions plain = options;
+  double done = 0; // progress must not decrease if the triangulation is repeated
+  if (options.Progress)
+  {
+    plain.Progress = [&](double part) { return options.Progress(done = std::max(done, part)); };
+  }
+  ResolvedConstraints resolved = takeConstraints(points, constraints, options.Threads);
+  try
+  {
+    // Most constraints do not cross. If they do, the insertion finds it.
+    return insert(points, std::move(resolved), plain, cut, watch);
+  }
+  catch (const CrossingFound&)
+  {
+    resolved = resolveCrossings(points, constraints, crossings, options.Threads);
+  }
+  return insert(points, std::move(resolved), plain, cut, watch);
+}
+
+bool isHeightColumn(const std::string& name)
+{
+  return name == "z" || name == "Z" || name == "elevation";
+}
+
+ConstrainedTriangulation triangulateTable(
+  PointTable& points, const TableConstraints& constraints, const TriangulationOptions& options)
+{
+  const std::size_t given = points.size();
+  std::vector<Constraint> all;
+  join(constraints.Lines, points, all);
+  join(constraints.Boundary, points, all);
+  if (constraints.Surface)
+  {
+    takeSurface(given, *constraints.Surface, options, points);
+  }
+  const auto cut = [&](ConstrainedTriangulation& whole)
+  {
+    appendCrossings(whole.Constraints.Crossings, points);
+    cutOutside(constraints, points, whole);
+  };
+  return triangulateConstrained(viewOf(points.XY), all, constraints.Crossings, options, cut);
+}
+
+TableConstraints readConstraints(const ConstraintFiles& files)
+{
+  TableConstraints constraints;
+  if (!files.Lines.empty())
+  {
+    constraints.Lines = readConstraintFile(files.Lines);
+  }
+  for (const auto& [x, y] : files.Holes)
+  {
+    constraints.Lines.Holes.insert(constraints.Lines.Holes.end(), { x, y });
+  }
+  if (!files.Boundary.empty())
+  {
+    constraints.Boundary = readBoundary(files.Boundary);
+  }
+  constraints.Crossings = files.Crossings;
+  return constraints;
+}
+
+ConstraintTable readBoundary(const std::string& path)
+{
+  ConstraintTable boundary = readConstraintFile(path);
+  try
+  {
+    requireClosedBoundary(boundary);
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw IOError(path, error.what());
+  }
+  return boundary;
+}
+
+void requireClosedBoundary(const ConstraintTable& boundary)
+{
+  if (boundary.Edges.empty() || boundary.XY.empty())
+  {
+    throw std::invalid_argument(
+      "it has no lines with coordinates, so it is no boundary; give closed lines or polygons.");
+  }
+  std::map<std::pair<double, double>, int> ends; // number of edges; odd ends are open
+  for (const auto& edge : boundary.Edges)
+  {
+    for (const std::int64_t end : edge)
+    {
+      const auto at = 2 * std::size_t(end);
+      ++ends[{ boundary.XY[at], boundary.XY[at + 1] }];
+    }
+  }
+  const auto open =
+    std::find_if(ends.begin(), ends.end(), [](const auto& end) { return end.second % 2 != 0; });
+  if (open != ends.end())
+  {
+    std::ostringstream text;
+    text << "the boundary is not closed: a line ends at (" << open->first.first << ", "
+         << open->first.second << "); close it there.";
+    throw std::invalid_argument(text.str());
+  }
 }
 
 } // namespace tipp

@@ -2,12 +2,12 @@
 #include "Dem/MakeDem.h"
 
 #include "Constraints/OnDisk/ConstrainedPoints.h"
-#include "Dem/RasterSink.h"
-#include "Dem/SurfaceSink.h"
+#include "Dem/DemSinks.h"
 #include "Files/TemporaryFiles.h"
 #include "Parallel/ParallelFor.h"
+#include "Points/ReadPoints.h"
 #include "Resample/SimplexMesh.h"
-#include "Vtk/VtkFiles.h"
+#include "Triangulation/PointsView.h"
 
 #include <algorithm>
 #include <atomic>
@@ -30,7 +30,7 @@ std::vector<double> takeXYZ(PointTable& points, const DemBands& bands)
   {
     xyz[3 * i] = points.XY[2 * i];
     xyz[3 * i + 1] = points.XY[2 * i + 1];
-    xyz[3 * i + 2] = bands.HasElevation ? points.Columns[bands.Elevation].Values[i] : 0;
+    xyz[3 * i + 2] = bands.Elevation ? points.Columns[*bands.Elevation].Values[i] : 0;
   }
   std::vector<double>().swap(points.XY);
   return xyz;
@@ -48,8 +48,17 @@ SimplexMesh meshOf(const std::vector<double>& xyz, const Triangulation& triangul
   return mesh;
 }
 
-} // namespace
+/// Calls copy(begin in the tile, begin in the grid, size) for each row of a tile of the grid.
+template <typename Copy>
+void forRows(const RasterGrid& grid, const RasterWindow& tile, const Copy& copy)
+{
+  for (std::int64_t row = 0; row < tile.Rows; ++row)
+  {
+    copy(row * tile.Columns, (tile.Row + row) * grid.Columns + tile.Column, tile.Columns);
+  }
+}
 
+/// Throws std::runtime_error if the pixels do not fit into this machine's memory.
 void requireMemory(const TerrainSettings& settings)
 {
   const double each = 8 * double(settings.Bands.Bands.size()) + 1;
@@ -63,6 +72,87 @@ void requireMemory(const TerrainSettings& settings)
       "larger resolution or smaller bounds, or --memory.");
   }
 }
+
+/// Copies all tiles into the grid. Returns false if `progress` stopped it.
+bool readTiles(const TerrainSettings& settings, const TileSource& tiles,
+  const std::function<bool(double)>& progress, BandValues& samples)
+{
+  const RasterGrid& grid = settings.Grid;
+  samples.resize(settings.Bands.Bands.size());
+  for (std::vector<double>& band : samples)
+  {
+    band.resize(std::size_t(grid.pixels()));
+  }
+  return forChunks(tileCount(grid), 1, settings.Threads, progress,
+    [&](std::int64_t number, std::int64_t, int)
+    {
+      const RasterWindow window = tileOf(grid, number);
+      BandValues values;
+      tiles.Read(window, values);
+      for (std::size_t band = 0; band < values.size(); ++band)
+      {
+        forRows(grid, window,
+          [&](std::int64_t inTile, std::int64_t inGrid, std::int64_t size)
+          { std::copy_n(values[band].data() + inTile, size, samples[band].data() + inGrid); });
+      }
+    });
+}
+
+/// Triangulates out of core in a temporary folder; `taker` receives the triangles.
+OutOfCoreStatistics triangulateInto(TriangleConsumer& taker, PointStream& points,
+  OutOfCoreOptions options, const std::function<bool(double)>& progress)
+{
+  const ScratchDirectory folder;
+  options.CountOnly = true;
+  options.Consumer = &taker;
+  options.Progress = progress;
+  return triangulateOutOfCore(points, folder.path() + "/dem", options);
+}
+
+OutOfCoreStatistics makeWithin(std::unique_ptr<PointStream> points, const DemRequest& request,
+  std::uint64_t memory, const std::function<bool(double)>& progress, TerrainSettings& settings,
+  BandValues& samples)
+{
+  OutOfCoreOptions options;
+  options.MemoryLimit = memory;
+  options.Threads = request.Threads;
+  options.Duplicates = request.Duplicates;
+  double finished = 0; // fraction of the progress
+  if (request.Constraints)
+  {
+    SurfaceSink surface(*request.Constraints);
+    if (needsSurface(*request.Constraints, request.Bands))
+    {
+      OutOfCoreStatistics made =
+        triangulateInto(surface, *points, options, partOf(progress, 0, 0.4));
+      if (made.Aborted)
+      {
+        return made;
+      }
+      finished = 0.4;
+    }
+    auto constrained = std::make_unique<ConstrainedPoints>(
+      std::move(points), *request.Constraints, "the constraints", request.Threads);
+    constrained->setSurface(surface.takeValues());
+    points = std::move(constrained);
+  }
+  RasterSink sink(
+    [&](const Box2& bounds, const std::vector<std::string>& columns)
+    {
+      TerrainSettings made = makeTerrainSettings(request, bounds, columns);
+      requireMemory(made);
+      return made;
+    },
+    [&](const TerrainSettings& made, const TileSource& tiles, const Report& written)
+    {
+      settings = made;
+      return readTiles(settings, tiles, written, samples);
+    });
+  options.MaximumEdge = request.MaximumEdge;
+  return triangulateInto(sink, *points, options, partOf(progress, finished, 1));
+}
+
+} // namespace
 
 void constrain(DemRequest& request, std::optional<ConstraintTable> lines,
   std::optional<ConstraintTable> boundary)
@@ -114,10 +204,11 @@ TerrainSettings makeTerrainSettings(
 }
 
 OutOfCoreStatistics makeDem(PointTable points, const DemRequest& request,
-  const std::function<bool(double)>& progress, TerrainSettings& settings, SampledBands& samples)
+  const std::function<bool(double)>& progress, TerrainSettings& settings, BandValues& samples)
 {
   const std::vector<std::string> columns = points.names();
-  const Box2 bounds = boundsOf(points.XY.data(), 2, points.size());
+  const PointsView view(points.XY.data(), points.size(), 2);
+  const Box2 bounds = surveyPoints(view, threadCount(request.Threads)).Bounds;
   if (!(bounds.xmin <= bounds.xmax))
   {
     throw std::runtime_error("there is no point with finite coordinates.");
@@ -129,13 +220,13 @@ OutOfCoreStatistics makeDem(PointTable points, const DemRequest& request,
   TriangulationOptions options;
   options.Threads = request.Threads;
   options.MaximumEdge = request.MaximumEdge;
-  options.Progress = [&progress](double done) { return !progress || progress(0.5 * done); };
+  options.Progress = partOf(progress, 0, 0.5);
   const Triangulation triangulation = request.Constraints
     ? std::move(triangulateTable(points, *request.Constraints, options).Mesh)
-    : triangulate(PointsView(points.XY.data(), points.size(), 2), options);
+    : triangulate(view, options);
   figures.Points = std::int64_t(points.size());
   figures.WithoutElevation =
-    settings.Bands.HasElevation ? countMissing(points.Columns[settings.Bands.Elevation].Values) : 0;
+    settings.Bands.Elevation ? countMissing(points.Columns[*settings.Bands.Elevation].Values) : 0;
   figures.Triangles = std::int64_t(triangulation.triangleCount());
   figures.Duplicates = std::int64_t(triangulation.Duplicates.size());
   figures.Rejected = std::int64_t(triangulation.Rejected.size());
@@ -152,33 +243,29 @@ OutOfCoreStatistics makeDem(PointTable points, const DemRequest& request,
   {
     values.push_back(column.Values.data());
   }
-  const auto report = [&progress](double done) { return !progress || progress(0.5 + 0.3 * done); };
-  figures.Aborted = !sampleTerrain(settings, values, meshOf(xyz, triangulation), report, samples);
+  figures.Aborted = !sampleTerrain(
+    settings, values, meshOf(xyz, triangulation), partOf(progress, 0.5, 0.8), samples);
   return figures;
 }
 
-TileSource readFrom(const RasterGrid& grid, const SampledBands& samples)
+TileSource readFrom(const RasterGrid& grid, const BandValues& samples)
 {
   TileSource source;
-  source.Read = [&grid, &samples](
-                  const RasterWindow& window, std::vector<std::vector<double>>& values)
+  source.Read = [&grid, &samples](const RasterWindow& window, BandValues& values)
   {
-    values.resize(samples.Values.size());
+    values.resize(samples.size());
     for (std::size_t band = 0; band < values.size(); ++band)
     {
       values[band].resize(std::size_t(window.Columns * window.Rows));
-      for (std::int64_t row = 0; row < window.Rows; ++row)
-      {
-        const double* const from =
-          samples.Values[band].data() + (window.Row + row) * grid.Columns + window.Column;
-        std::copy_n(from, window.Columns, values[band].data() + row * window.Columns);
-      }
+      forRows(grid, window,
+        [&](std::int64_t inTile, std::int64_t inGrid, std::int64_t size)
+        { std::copy_n(samples[band].data() + inGrid, size, values[band].data() + inTile); });
     }
   };
   return source;
 }
 
-std::int64_t fillTile(const DemBands& bands, std::vector<std::vector<double>>& values)
+std::int64_t fillTile(const DemBands& bands, BandValues& values)
 {
   const auto filled = std::count_if(
     values.front().begin(), values.front().end(), [](double value) { return !std::isnan(value); });
@@ -186,7 +273,7 @@ std::int64_t fillTile(const DemBands& bands, std::vector<std::vector<double>>& v
   return filled;
 }
 
-std::vector<const double*> pointersTo(const std::vector<std::vector<double>>& values)
+std::vector<const double*> pointersTo(const BandValues& values)
 {
   std::vector<const double*> pointers;
   pointers.reserve(values.size());
@@ -212,7 +299,7 @@ std::int64_t writeTiles(RasterWriter& writer, const RasterGrid& grid, const Tile
         return;
       }
       const RasterWindow window = tileOf(grid, number);
-      std::vector<std::vector<double>> values;
+      BandValues values;
       tiles.Read(window, values);
       filled += fillTile(bands, values);
       writer.write(window, pointersTo(values));
@@ -220,98 +307,9 @@ std::int64_t writeTiles(RasterWriter& writer, const RasterGrid& grid, const Tile
   return isDone ? filled.load() : -1;
 }
 
-namespace
-{
-
-/// Copies all tiles into the grid. Returns false if `progress` stopped it.
-bool readTiles(const TerrainSettings& settings, const TileSource& tiles,
-  const std::function<bool(double)>& progress, SampledBands& samples)
-{
-  const RasterGrid& grid = settings.Grid;
-  samples.Values.resize(settings.Bands.Bands.size());
-  for (std::vector<double>& band : samples.Values)
-  {
-    band.resize(std::size_t(grid.pixels()));
-  }
-  return forChunks(tileCount(grid), 1, settings.Threads, progress,
-    [&](std::int64_t number, std::int64_t, int)
-    {
-      const RasterWindow window = tileOf(grid, number);
-      std::vector<std::vector<double>> values;
-      tiles.Read(window, values);
-      for (std::size_t band = 0; band < values.size(); ++band)
-      {
-        for (std::int64_t row = 0; row < window.Rows; ++row)
-        {
-          std::copy_n(values[band].data() + row * window.Columns, window.Columns,
-            samples.Values[band].data() + (window.Row + row) * grid.Columns + window.Column);
-        }
-      }
-    });
-}
-
-/// Triangulates out of core in a temporary folder; `taker` receives the triangles.
-OutOfCoreStatistics triangulateInto(TriangleConsumer& taker, PointStream& points,
-  OutOfCoreOptions options, const std::function<bool(double)>& progress)
-{
-  const ScratchDirectory folder;
-  options.CountOnly = true;
-  options.Consumer = &taker;
-  options.Progress = progress;
-  return triangulateOutOfCore(points, folder.path() + "/dem", options);
-}
-
-OutOfCoreStatistics makeWithin(std::unique_ptr<PointStream> points, const DemRequest& request,
-  std::uint64_t memory, const std::function<bool(double)>& progress, TerrainSettings& settings,
-  SampledBands& samples)
-{
-  OutOfCoreOptions options;
-  options.MemoryLimit = memory;
-  options.Threads = request.Threads;
-  options.Duplicates = request.Duplicates;
-  double before = 0; // last reported progress
-  const auto report = [&](double done)
-  { return !progress || progress(before + (1 - before) * done); };
-  if (request.Constraints)
-  {
-    SurfaceSink surface(*request.Constraints);
-    if (needsSurface(*request.Constraints, request.Bands))
-    {
-      OutOfCoreStatistics made =
-        triangulateInto(surface, *points, options, [&](double done) { return report(0.4 * done); });
-      if (made.Aborted)
-      {
-        return made;
-      }
-      before = 0.4;
-    }
-    auto constrained = std::make_unique<ConstrainedPoints>(
-      std::move(points), *request.Constraints, "the constraints", request.Threads);
-    constrained->setSurface(surface.takeValues());
-    points = std::move(constrained);
-  }
-  RasterSink sink(
-    [&](const Box2& bounds, const std::vector<std::string>& columns)
-    {
-      TerrainSettings made = makeTerrainSettings(request, bounds, columns);
-      requireMemory(made);
-      return made;
-    },
-    [&](const TerrainSettings& made, const TileSource& tiles, const Report& written)
-    {
-      settings = made;
-      return readTiles(settings, tiles, written, samples);
-    },
-    nullptr);
-  options.MaximumEdge = request.MaximumEdge;
-  return triangulateInto(sink, *points, options, report);
-}
-
-} // namespace
-
 OutOfCoreStatistics makeDem(std::unique_ptr<PointStream> points, const DemRequest& request,
   std::uint64_t memory, const std::function<bool(double)>& progress, TerrainSettings& settings,
-  SampledBands& samples)
+  BandValues& samples)
 {
   return memory == 0 ? makeDem(readAllPoints(*points), request, progress, settings, samples)
                      : makeWithin(std::move(points), request, memory, progress, settings, samples);

@@ -2,15 +2,13 @@
 #ifndef tippMakeDem_h
 #define tippMakeDem_h
 
-#include "Constraints/TableConstraints.h"
+#include "Constraints/TriangulateConstrained.h"
 #include "Dem/TerrainSampler.h"
 #include "Dem/TileStore.h"
-#include "Duplicates/ResolveDuplicates.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
-#include "Points/PointStream.h"
-#include "Points/PointTable.h"
+#include "Points/ReadPoints.h"
 #include "Predicates/Points.h"
-#include "Raster/RasterFile.h"
+#include "Triangulation/ResolveDuplicates.h"
 #include "Triangulation/Triangulate.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -51,16 +49,13 @@ VTKTIPPFILTERS_EXPORT void dropPlainHeights(ConstraintTable& lines);
 VTKTIPPFILTERS_EXPORT TerrainSettings makeTerrainSettings(
   const DemRequest& request, const Box2& bounds, const std::vector<std::string>& columns);
 
-/// Throws std::runtime_error if the pixels do not fit into this machine's memory.
-void requireMemory(const TerrainSettings& settings);
-
 /// Makes a raster from points in memory: triangulates them and samples the triangles, with the same
 /// result as in two steps. Consumes the points to save memory. Sets these members of the result:
 /// Points (including those of the constraints), Triangles, Duplicates, DisagreeingPositions,
 /// Rejected, WithoutElevation and Aborted. Throws std::runtime_error if there is no finite point,
 /// and std::invalid_argument for invalid constraints.
 VTKTIPPFILTERS_EXPORT OutOfCoreStatistics makeDem(PointTable points, const DemRequest& request,
-  const std::function<bool(double)>& progress, TerrainSettings& settings, SampledBands& samples);
+  const std::function<bool(double)>& progress, TerrainSettings& settings, BandValues& samples);
 
 /// Makes a raster in memory from the points of a stream, with the same values as the other
 /// makeDem(). `memory` limits the bytes for points and triangles; what does not fit is spilled to a
@@ -68,25 +63,25 @@ VTKTIPPFILTERS_EXPORT OutOfCoreStatistics makeDem(PointTable points, const DemRe
 /// a band's column is missing, and std::invalid_argument for invalid constraints.
 VTKTIPPFILTERS_EXPORT OutOfCoreStatistics makeDem(std::unique_ptr<PointStream> points,
   const DemRequest& request, std::uint64_t memory, const std::function<bool(double)>& progress,
-  TerrainSettings& settings, SampledBands& samples);
+  TerrainSettings& settings, BandValues& samples);
 
 /// A source of the tiles of a raster. Several threads may call its functions at once.
 struct TileSource
 {
   /// Returns the values of a tile, one vector per band.
-  std::function<void(const RasterWindow&, std::vector<std::vector<double>>&)> Read;
+  std::function<void(const RasterWindow&, BandValues&)> Read;
   /// Returns the tile with this number if it is already encoded. Null: no tile is.
   std::function<std::optional<FinishedTile>(std::int64_t)> ReadFinished;
 };
 
 /// A source of tiles of a whole grid in memory. Both arguments must outlive the result.
-VTKTIPPFILTERS_EXPORT TileSource readFrom(const RasterGrid& grid, const SampledBands& samples);
+VTKTIPPFILTERS_EXPORT TileSource readFrom(const RasterGrid& grid, const BandValues& samples);
 
 /// Calls fillVoids(), and returns how many pixels of the first band had a value before.
-std::int64_t fillTile(const DemBands& bands, std::vector<std::vector<double>>& values);
+std::int64_t fillTile(const DemBands& bands, BandValues& values);
 
 /// Returns a pointer to each vector's values, as RasterWriter::write() takes them.
-std::vector<const double*> pointersTo(const std::vector<std::vector<double>>& values);
+std::vector<const double*> pointersTo(const BandValues& values);
 
 /// Writes all tiles; voids of `bands` are filled, see fillVoids(). Returns the number of pixels
 /// whose first band has a value from a triangle, or -1 if `progress` stopped it. `threads` = 0 is

@@ -2,11 +2,15 @@
 #include "Dem/TerrainSampler.h"
 
 #include "Parallel/ParallelFor.h"
-#include "Resample/Interpolate.h"
+#include "Points/ReadPoints.h"
 #include "Resample/Resample.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <limits>
+#include <map>
 #include <stdexcept>
 
 namespace tipp
@@ -14,9 +18,170 @@ namespace tipp
 namespace
 {
 
+constexpr const char* elevation = "elevation";
+
+const std::map<std::string, DemBand::Kind>& derivedKinds()
+{
+  static const std::map<std::string, DemBand::Kind> kinds = { { "slope", DemBand::Kind::Slope },
+    { "aspect", DemBand::Kind::Aspect }, { "hillshade", DemBand::Kind::Hillshade },
+    { "density", DemBand::Kind::Density }, { "void", DemBand::Kind::Void } };
+  return kinds;
+}
+
+bool needsElevation(DemBand::Kind kind)
+{
+  return kind == DemBand::Kind::Slope || kind == DemBand::Kind::Aspect ||
+    kind == DemBand::Kind::Hillshade;
+}
+
+std::size_t find(const std::vector<std::string>& columns, const std::string& name)
+{
+  return std::size_t(std::find(columns.begin(), columns.end(), name) - columns.begin());
+}
+
+[[noreturn]] void failToFind(const std::string& name, const std::vector<std::string>& columns)
+{
+  std::string list;
+  for (const std::string& column : columns)
+  {
+    list += (list.empty() ? "" : ", ") + column;
+  }
+  throw UnknownBand("the points have no column '" + name + "'" +
+    (list.empty() ? "." : "; of those asked for they have " + list + "."));
+}
+
+} // namespace
+
+std::vector<std::string> columnsForBands(const std::vector<std::string>& bands)
+{
+  std::vector<std::string> columns = { "z", "Z", elevation };
+  for (const std::string& band : bands)
+  {
+    if (band != elevation && derivedKinds().count(band) == 0)
+    {
+      columns.push_back(band);
+    }
+  }
+  return columns;
+}
+
+DemBands findBands(const std::vector<std::string>& bands, const std::vector<std::string>& columns)
+{
+  DemBands found;
+  const std::size_t heights = findElevation(columns);
+  found.Elevation = heights < columns.size() ? std::make_optional(heights) : std::nullopt;
+  for (const std::string& name : bands)
+  {
+    DemBand band;
+    band.Name = name;
+    const auto derived = derivedKinds().find(name);
+    const bool isColumn = derived == derivedKinds().end();
+    band.Is = isColumn ? DemBand::Kind::Column : derived->second;
+    const bool isOfElevation = needsElevation(band.Is) || name == elevation;
+    band.Column = isOfElevation ? heights : find(columns, name);
+    if ((isColumn || isOfElevation) && band.Column >= columns.size())
+    {
+      failToFind(isOfElevation ? "z" : name, columns);
+    }
+    found.Bands.push_back(band);
+  }
+  return found;
+}
+
+std::vector<std::string> DemBands::names() const
+{
+  std::vector<std::string> names;
+  for (const DemBand& band : this->Bands)
+  {
+    names.push_back(band.Name);
+  }
+  return names;
+}
+
+void fillVoids(const DemBands& bands, BandValues& values)
+{
+  for (std::size_t i = 0; i < bands.Bands.size(); ++i)
+  {
+    if (bands.Bands[i].Is == DemBand::Kind::Void)
+    {
+      std::replace_if(
+        values[i].begin(), values[i].end(), [](double value) { return std::isnan(value); }, 1.0);
+    }
+  }
+}
+
+namespace
+{
+
 constexpr double noValue = std::numeric_limits<double>::quiet_NaN();
 
+/// The x, y and z of a triangle's corners.
 using Corners = std::array<std::array<double, 3>, 3>;
+
+/// The slopes along x and y of the plane through three points.
+struct Gradient
+{
+  explicit Gradient(Corners corners)
+  {
+    // Sorted, so that rounding does not depend on the order of the corners.
+    std::sort(corners.begin(), corners.end());
+    const auto& [a, b, c] = corners;
+    const double bx = b[0] - a[0];
+    const double by = b[1] - a[1];
+    const double bz = b[2] - a[2];
+    const double cx = c[0] - a[0];
+    const double cy = c[1] - a[1];
+    const double cz = c[2] - a[2];
+    const double area = bx * cy - by * cx;
+    this->X = (bz * cy - by * cz) / area;
+    this->Y = (bx * cz - bz * cx) / area;
+    this->TwiceArea = std::fabs(area);
+  }
+
+  double X;
+  double Y;
+  double TwiceArea;
+};
+
+double shade(const Gradient& gradient)
+{
+  // The direction towards the light: north-west, 45 degrees high.
+  constexpr double x = -0.5;
+  constexpr double y = 0.5;
+  constexpr double z = 0.70710678118654752440;
+  const double length = std::sqrt(1 + gradient.X * gradient.X + gradient.Y * gradient.Y);
+  const double light = (z - gradient.X * x - gradient.Y * y) / length;
+  return 1 + 254 * std::max(0.0, light);
+}
+
+double degrees(double radians)
+{
+  constexpr double pi = 3.14159265358979323846;
+  return radians * (180 / pi);
+}
+
+/// The value of a derived band (not a column) in a triangle.
+double derivedValue(DemBand::Kind kind, const Corners& corners)
+{
+  const Gradient gradient(corners);
+  switch (kind)
+  {
+    case DemBand::Kind::Void:
+      return 0;
+    case DemBand::Kind::Density:
+      return 1 / gradient.TwiceArea;
+    case DemBand::Kind::Slope:
+      return degrees(std::atan(std::hypot(gradient.X, gradient.Y)));
+    case DemBand::Kind::Aspect:
+    {
+      const double angle = degrees(std::atan2(-gradient.X, -gradient.Y));
+      const bool isFlat = gradient.X == 0 && gradient.Y == 0;
+      return isFlat ? noValue : angle < 0 ? angle + 360 : angle;
+    }
+    default:
+      return shade(gradient);
+  }
+}
 
 Corners cornersOf(const SimplexMesh& mesh, std::int64_t triangle)
 {
@@ -37,14 +202,14 @@ class BandArrays
 {
 public:
   BandArrays(const TerrainSettings& settings, const TerrainColumns& columns,
-    const SimplexMesh& mesh, int threads, SampledBands& samples)
+    const SimplexMesh& mesh, int threads, BandValues& samples)
   {
     const std::vector<DemBand>& bands = settings.Bands.Bands;
     this->Derived.resize(bands.size());
     for (std::size_t i = 0; i < bands.size(); ++i)
     {
       Attribute attribute;
-      attribute.Samples = samples.Values[i].data();
+      attribute.Samples = samples[i].data();
       attribute.NullValue = noValue;
       attribute.OfCells = bands[i].Is != DemBand::Kind::Column;
       if (attribute.OfCells)
@@ -73,35 +238,19 @@ private:
       });
   }
 
-  std::vector<std::vector<double>> Derived;
+  std::vector<std::vector<double>> Derived; ///< by band, then by triangle; empty for columns
 };
 
-void allocate(const TerrainSettings& settings, std::int64_t count, SampledBands& samples)
+void allocate(const TerrainSettings& settings, std::int64_t count, BandValues& samples)
 {
-  samples.Values.resize(settings.Bands.Bands.size());
-  for (std::vector<double>& values : samples.Values)
+  samples.resize(settings.Bands.Bands.size());
+  for (std::vector<double>& values : samples)
   {
     values.resize(std::size_t(count));
   }
 }
 
 } // namespace
-
-Box2 boundsOf(const double* rows, std::size_t words, std::size_t points)
-{
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Box2 box{ infinity, infinity, -infinity, -infinity };
-  for (std::size_t i = 0; i < points; ++i)
-  {
-    const Point2 p{ rows[i * words], rows[i * words + 1] };
-    if (isFinite(p))
-    {
-      box = { std::min(box.xmin, p.x), std::min(box.ymin, p.y), std::max(box.xmax, p.x),
-        std::max(box.ymax, p.y) };
-    }
-  }
-  return box;
-}
 
 Lattice latticeOf(const RasterGrid& grid)
 {
@@ -113,7 +262,7 @@ Lattice latticeOf(const RasterGrid& grid)
 }
 
 bool sampleTerrain(const TerrainSettings& settings, const TerrainColumns& columns,
-  const SimplexMesh& mesh, const Report& progress, SampledBands& samples)
+  const SimplexMesh& mesh, const Report& progress, BandValues& samples)
 {
   if (mesh.Cells > std::numeric_limits<std::int32_t>::max())
   {
@@ -134,12 +283,12 @@ SampledPart samplePart(const TerrainSettings& settings, const TerrainColumns& co
   const SimplexMesh& mesh, const Lattice& part)
 {
   SampledPart sampled;
-  allocate(settings, part.samples(), sampled.Bands);
+  allocate(settings, part.samples(), sampled.Values);
   sampled.IsInside.resize(std::size_t(part.samples()));
-  const BandArrays arrays(settings, columns, mesh, 1, sampled.Bands);
-  InterpolationOptions options;
+  const BandArrays arrays(settings, columns, mesh, 1, sampled.Values);
+  ResampleOptions options;
   options.Valid = sampled.IsInside.data();
-  if (samplePartDirectly(mesh, part, arrays.Attributes, options, sampled.Border).Overlapping)
+  if (sampleDirectly(mesh, part, arrays.Attributes, options, &sampled.Border).Overlapping)
   {
     throw std::logic_error("triangles of a triangulation overlap");
   }

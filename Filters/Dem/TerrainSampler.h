@@ -2,13 +2,14 @@
 #ifndef tippTerrainSampler_h
 #define tippTerrainSampler_h
 
-#include "Dem/DemBands.h"
-#include "Predicates/Points.h"
 #include "Raster/RasterFile.h"
+#include "vtkTIPPFiltersModule.h"
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace tipp
@@ -18,12 +19,56 @@ struct BorderSample;
 struct Lattice;
 struct SimplexMesh;
 
+/// A band of a raster that is sampled from triangles.
+struct DemBand
+{
+  enum class Kind
+  {
+    Column,    ///< a column of the points, linear in each triangle
+    Slope,     ///< slope of the triangle, in degrees
+    Aspect,    ///< direction of descent, in degrees clockwise from north; NaN for flat triangles
+    Hillshade, ///< 1 to 255, with light from the north-west at 45 degrees
+    Density,   ///< points per square unit of x and y, counting half a point per triangle
+    Void       ///< 0 in triangles, 1 elsewhere; see fillVoids()
+  };
+  std::string Name;
+  Kind Is = Kind::Column;
+  std::size_t Column = 0; ///< for Kind::Column: index of the point column
+};
+
+/// The bands of a raster for points with certain columns, and which column is the elevation.
+struct DemBands
+{
+  std::vector<DemBand> Bands;
+  std::optional<std::size_t> Elevation; ///< index of the elevation among the columns
+
+  std::vector<std::string> names() const;
+};
+
+/// Values by band, then by pixel or sample; NaN where there is no triangle.
+using BandValues = std::vector<std::vector<double>>;
+
+/// The names of the point columns that bands with these names need. "elevation" stands for z, Z or
+/// elevation; slope, aspect and hillshade need the elevation.
+VTKTIPPFILTERS_EXPORT std::vector<std::string> columnsForBands(
+  const std::vector<std::string>& bands);
+
+/// Thrown if a band's name is neither a derived band nor a column.
+class VTKTIPPFILTERS_EXPORT UnknownBand : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Returns the bands with these names. Throws UnknownBand.
+VTKTIPPFILTERS_EXPORT DemBands findBands(
+  const std::vector<std::string>& bands, const std::vector<std::string>& columns);
+
+/// Sets the values of Kind::Void bands to 1 where there is no triangle; they are NaN there before.
+void fillVoids(const DemBands& bands, BandValues& values);
+
 /// The columns of points, indexed by DemBand::Column. Not owned.
 using TerrainColumns = std::vector<const double*>;
-
-/// The bounding box of the points with finite x and y; xmin > xmax if there are none. `rows` holds
-/// `words` numbers per point, x and y first.
-Box2 boundsOf(const double* rows, std::size_t words, std::size_t points);
 
 /// The settings of a raster: grid, bands and precision.
 struct TerrainSettings
@@ -37,21 +82,15 @@ struct TerrainSettings
 /// The lattice of a grid's pixel centres, from the south-west on.
 Lattice latticeOf(const RasterGrid& grid);
 
-/// The values at pixels, NaN where there is no triangle.
-struct SampledBands
-{
-  std::vector<std::vector<double>> Values; ///< values by band, then by sample
-};
-
 /// Samples all triangles of a mesh at all pixels. The mesh's points are x, y and elevation, as
 /// doubles; its triangles must not overlap. Returns false if `progress` stopped it.
 bool sampleTerrain(const TerrainSettings& settings, const TerrainColumns& columns,
-  const SimplexMesh& mesh, const std::function<bool(double)>& progress, SampledBands& samples);
+  const SimplexMesh& mesh, const std::function<bool(double)>& progress, BandValues& samples);
 
 /// The samples of a part of a mesh on a part of the lattice.
 struct SampledPart
 {
-  SampledBands Bands;
+  BandValues Values;
   std::vector<unsigned char> IsInside; ///< 1 for samples that a triangle contains
   /// Samples that lie on the border of a triangle without being inside any. The triangle with the
   /// lowest key claims each, in this or another part.

@@ -3,7 +3,6 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
-#include "Files/OutputFile.h"
 #include "Ranks/Archive.h"
 
 #include <algorithm>
@@ -79,8 +78,7 @@ TileStore::TileStore(const std::string& path, const RasterGrid& grid, std::size_
 
 std::uint64_t TileStore::pixelBytes() const
 {
-  return (this->IsSingle ? sizeof(float) : sizeof(double)) * std::uint64_t(tilePixels) *
-    this->Bands;
+  return this->wordBytes() * std::uint64_t(tilePixels) * this->Bands;
 }
 
 /// The bytes reserved for an encoded tile, enough for incompressible data.
@@ -98,13 +96,13 @@ std::uint64_t TileStore::begin(std::int64_t tile) const
 }
 
 /// The offset of the first pixel of a part of a tile; rows of a tile start in the north.
-std::uint64_t TileStore::offset(
-  std::int64_t tile, const RasterWindow& part, std::size_t band, std::size_t wordSize) const
+std::uint64_t TileStore::offset(std::int64_t tile, const RasterWindow& part, std::size_t band) const
 {
   const std::int64_t fromNorth = this->Grid.Rows - part.Row - part.Rows;
   const std::int64_t pixel =
     fromNorth % RasterTileSize * RasterTileSize + part.Column % RasterTileSize;
-  return this->begin(tile) + wordSize * (band * std::uint64_t(tilePixels) + std::uint64_t(pixel));
+  return this->begin(tile) +
+    this->wordBytes() * (band * std::uint64_t(tilePixels) + std::uint64_t(pixel));
 }
 
 /// Locks a tile against other threads and processes. The lock belongs to the open file: with locks
@@ -171,8 +169,7 @@ void TileStore::readAt(std::uint64_t offset, void* words, std::size_t bytes) con
 /// count of set pixels may be too low; then the tile is merely not finished early.
 template <typename Word>
 void TileStore::setInTile(std::int64_t tile, const RasterWindow& part, const RasterWindow& window,
-  const std::vector<unsigned char>& isSet, const std::vector<std::vector<double>>& values,
-  bool replaces)
+  const std::vector<unsigned char>& isSet, const BandValues& values, bool replaces)
 {
   const Lock lock(*this, tile);
   State state = this->stateOf(tile);
@@ -187,7 +184,7 @@ void TileStore::setInTile(std::int64_t tile, const RasterWindow& part, const Ras
   std::vector<Word> rows(std::size_t(part.Rows - 1) * std::size_t(RasterTileSize) + width);
   for (std::size_t band = 0; band < this->Bands; ++band)
   {
-    const std::uint64_t at = this->offset(tile, part, band, sizeof(Word));
+    const std::uint64_t at = this->offset(tile, part, band);
     this->readAt(at, rows.data(), rows.size() * sizeof(Word));
     std::uint32_t added = 0;
     for (std::size_t row = 0; row < std::size_t(part.Rows); ++row)
@@ -219,7 +216,7 @@ void TileStore::setInTile(std::int64_t tile, const RasterWindow& part, const Ras
 void TileStore::finish(std::int64_t tile)
 {
   const RasterWindow window = tileOf(this->Grid, tile);
-  std::vector<std::vector<double>> values;
+  BandValues values;
   this->read(window, values);
   const FinishedTile finished = this->Finish(window, values);
   SaveArchive bytes;
@@ -273,7 +270,7 @@ std::optional<FinishedTile> TileStore::readFinished(std::int64_t tile) const
 }
 
 template <typename Word>
-void TileStore::readAs(const RasterWindow& tile, std::vector<std::vector<double>>& values) const
+void TileStore::readAs(const RasterWindow& tile, BandValues& values) const
 {
   const auto width = std::size_t(tile.Columns);
   const auto height = std::size_t(tile.Rows);
@@ -283,8 +280,7 @@ void TileStore::readAs(const RasterWindow& tile, std::vector<std::vector<double>
   values.resize(this->Bands);
   for (std::size_t band = 0; band < this->Bands; ++band)
   {
-    this->readAt(
-      this->offset(number, tile, band, sizeof(Word)), words.data(), words.size() * sizeof(Word));
+    this->readAt(this->offset(number, tile, band), words.data(), words.size() * sizeof(Word));
     values[band].resize(width * height);
     for (std::size_t row = 0; row < height; ++row)
     {
@@ -296,7 +292,7 @@ void TileStore::readAs(const RasterWindow& tile, std::vector<std::vector<double>
 }
 
 void TileStore::set(const RasterWindow& window, const std::vector<unsigned char>& isSet,
-  const std::vector<std::vector<double>>& values, bool replaces)
+  const BandValues& values, bool replaces)
 {
   forTiles(this->Grid, window,
     [&](std::int64_t tile, const RasterWindow& part)
@@ -308,7 +304,7 @@ void TileStore::set(const RasterWindow& window, const std::vector<unsigned char>
 
 void TileStore::setIfMissing(std::int64_t pixel, const double* values)
 {
-  std::vector<std::vector<double>> bands;
+  BandValues bands;
   for (std::size_t band = 0; band < this->Bands; ++band)
   {
     bands.push_back({ values[band] });
@@ -316,7 +312,7 @@ void TileStore::setIfMissing(std::int64_t pixel, const double* values)
   this->set({ pixel % this->Grid.Columns, pixel / this->Grid.Columns, 1, 1 }, { 1 }, bands, false);
 }
 
-void TileStore::read(const RasterWindow& tile, std::vector<std::vector<double>>& values) const
+void TileStore::read(const RasterWindow& tile, BandValues& values) const
 {
   this->IsSingle ? this->readAs<std::uint32_t>(tile, values)
                  : this->readAs<std::uint64_t>(tile, values);

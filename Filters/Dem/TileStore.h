@@ -2,6 +2,7 @@
 #ifndef tippTileStore_h
 #define tippTileStore_h
 
+#include "Dem/TerrainSampler.h"
 #include "Files/OutputFile.h"
 #include "Raster/RasterFile.h"
 #include "vtkTIPPFiltersModule.h"
@@ -25,8 +26,7 @@ struct FinishedTile
 };
 
 /// Encodes a tile from the values of its pixels. Must be thread-safe.
-using FinishTile =
-  std::function<FinishedTile(const RasterWindow&, std::vector<std::vector<double>>&)>;
+using FinishTile = std::function<FinishedTile(const RasterWindow&, BandValues&)>;
 
 /// The pixels of a raster in a file, tile by tile, so that few of them are in memory. As soon as
 /// set() has set all pixels of a tile, it is encoded and its pixels are removed: no later triangle
@@ -44,14 +44,14 @@ public:
   /// band. Unless it `replaces`, pixels that are already set stay, and a tile that becomes complete
   /// is not encoded.
   void set(const RasterWindow& window, const std::vector<unsigned char>& isSet,
-    const std::vector<std::vector<double>>& values, bool replaces = true);
+    const BandValues& values, bool replaces = true);
 
   /// Sets a pixel, given by its index in the grid, if it has not been set. `values` has one value
   /// per band.
   void setIfMissing(std::int64_t pixel, const double* values);
 
   /// Reads the values of a tile that is not finished; NaN for pixels that are not set.
-  void read(const RasterWindow& tile, std::vector<std::vector<double>>& values) const;
+  void read(const RasterWindow& tile, BandValues& values) const;
 
   /// Returns the tile with this number if it is finished.
   std::optional<FinishedTile> readFinished(std::int64_t tile) const;
@@ -66,17 +66,16 @@ private:
 
   template <typename Word>
   void setInTile(std::int64_t tile, const RasterWindow& part, const RasterWindow& window,
-    const std::vector<unsigned char>& isSet, const std::vector<std::vector<double>>& values,
-    bool replaces);
+    const std::vector<unsigned char>& isSet, const BandValues& values, bool replaces);
   template <typename Word>
-  void readAs(const RasterWindow& tile, std::vector<std::vector<double>>& values) const;
+  void readAs(const RasterWindow& tile, BandValues& values) const;
   void finish(std::int64_t tile);
 
+  std::uint64_t wordBytes() const { return this->IsSingle ? sizeof(float) : sizeof(double); }
   std::uint64_t pixelBytes() const;
   std::uint64_t encodedRoom() const;
   std::uint64_t begin(std::int64_t tile) const;
-  std::uint64_t offset(
-    std::int64_t tile, const RasterWindow& part, std::size_t band, std::size_t wordSize) const;
+  std::uint64_t offset(std::int64_t tile, const RasterWindow& part, std::size_t band) const;
   State stateOf(std::int64_t tile) const;
   void writeState(std::int64_t tile, State state) const;
   void readAt(std::uint64_t offset, void* words, std::size_t bytes) const;

@@ -3,7 +3,7 @@
 #define tippCellExchange_h
 
 #include "Arrays/Buffer.h"
-#include "Arrays/SortUnique.h"
+#include "Parallel/Sort.h"
 #include "Ranks/Archive.h"
 #include "Ranks/Communicator.h"
 #include "Triangulation/Triangulate.h"
@@ -42,6 +42,15 @@ struct RankPointData
 template <typename Position>
 struct PointTuplesOf
 {
+  PointTuplesOf() = default;
+  /// Uninitialised memory for `count` points with `rowSize` bytes of data each.
+  PointTuplesOf(std::size_t count, std::size_t rowSize)
+    : Positions(count)
+    , GlobalIds(count)
+    , Rows(count * rowSize)
+  {
+  }
+
   Buffer<Position> Positions; ///< coordinates, one per point
   Buffer<PointId> GlobalIds;  ///< the caller's ids, one per point
   Buffer<char> Rows;          ///< as RankPointData::PackRow wrote them
@@ -73,6 +82,21 @@ struct DistributedPoints
     std::vector<Position> all(this->Owned.Positions.begin(), this->Owned.Positions.end());
     all.insert(all.end(), this->Ghosts.Positions.begin(), this->Ghosts.Positions.end());
     return all;
+  }
+
+  /// Divides all coordinates by a power of two.
+  void divideBy(double factor)
+  {
+    if (factor == 1)
+    {
+      return;
+    }
+    for (Buffer<Position>* points : { &this->Owned.Positions, &this->Ghosts.Positions })
+    {
+      auto* const first = points->template as<double>();
+      std::for_each(first, first + points->size() * (sizeof(Position) / sizeof(double)),
+        [factor](double& x) { x /= factor; });
+    }
   }
 };
 
@@ -207,10 +231,7 @@ PointTuplesOf<Position> fetchPoints(Communicator& ranks, const std::vector<std::
     }
     answers.push_back(writer.take());
   }
-  PointTuplesOf<Position> fetched;
-  fetched.Positions = Buffer<Position>(ids.size());
-  fetched.GlobalIds = Buffer<PointId>(ids.size());
-  fetched.Rows = Buffer<char>(ids.size() * rowSize);
+  PointTuplesOf<Position> fetched(ids.size(), rowSize);
   std::size_t at = 0;
   for (const Bytes& answer : ranks.allToAll(std::move(answers)))
   {
@@ -345,11 +366,10 @@ VertexUsers findUsers(Communicator& ranks, const Mesh& mine, const std::vector<I
   return users;
 }
 
-/// Returns the ghosts of this rank's cells, the first of which has the index `firstCell` among all
-/// ranks' cells. Collective.
-template <typename Position, typename Mesh, std::size_t N>
-GhostCells<N, Position> fetchGhosts(Communicator& ranks, const Mesh& mine,
-  const std::vector<IdCell<N>>& cells, std::int64_t firstCell)
+/// Returns the ghosts of this rank's cells. Collective.
+template <typename Position, std::size_t N>
+GhostCells<N, Position> fetchGhosts(
+  Communicator& ranks, const DistributedPoints<Position>& mine, const std::vector<IdCell<N>>& cells)
 {
   struct Sent
   {
@@ -371,7 +391,7 @@ GhostCells<N, Position> fetchGhosts(Communicator& ranks, const Mesh& mine,
     }
     for (const std::int32_t rank : to)
     {
-      toRanks[std::size_t(rank)].push_back({ cells[t], firstCell + std::int64_t(t) });
+      toRanks[std::size_t(rank)].push_back({ cells[t], mine.FirstCell + std::int64_t(t) });
     }
   }
   GhostCells<N, Position> ghosts;

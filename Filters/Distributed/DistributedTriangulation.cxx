@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/DistributedTriangulation.h"
 
-#include "Distributed/Plan.h"
 #include "Distributed/RankRun.h"
-#include "Distributed/TriangleExchange.h"
-#include "OutOfCore/InputSurvey.h"
+#include "OutOfCore/InputPasses.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
+#include "Triangulation/Dataflow.h"
 #include "Triangulation/PointBuckets.h"
-#include "Triangulation/PointSurvey.h"
 #include "Triangulation/PointsView.h"
-#include "Triangulation/Worker.h"
+#include "Triangulation/TriangleSink.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace tipp
 {
-
 namespace
 {
 
@@ -51,41 +47,6 @@ void serialize(Archive& archive, StatisticsOfRank& one)
 {
   archive(one.Own, one.Masters, one.Traffic);
 }
-
-} // namespace
-
-void gatherStatistics(Communicator& ranks, RankStatistics own,
-  const std::vector<MasterStatistics>& masters, int threads, DistributedStatistics& statistics)
-{
-  own.SendSeconds = ranks.sendingSeconds();
-  StatisticsOfRank mine{ own, masters, {} };
-  for (const auto& [kind, sent] : ranks.traffic())
-  {
-    mine.Traffic.push_back({ kind, sent });
-  }
-  statistics.ThreadsPerRank = threads;
-  std::map<MessageKind, Communicator::Traffic> traffic;
-  for (const StatisticsOfRank& one : ranks.allGather(mine))
-  {
-    statistics.Ranks.push_back(one.Own);
-    statistics.Masters.insert(statistics.Masters.end(), one.Masters.begin(), one.Masters.end());
-    for (const SentByKind& of : one.Traffic)
-    {
-      traffic[of.Kind].Messages += of.Sent.Messages;
-      traffic[of.Kind].Bytes += of.Sent.Bytes;
-    }
-    statistics.Seconds = std::max(statistics.Seconds, one.Own.TotalSeconds);
-  }
-  for (const auto& [kind, sum] : traffic)
-  {
-    statistics.Traffic.push_back({ nameOf(kind), sum.Messages, sum.Bytes });
-  }
-  std::sort(statistics.Masters.begin(), statistics.Masters.end(),
-    [](const MasterStatistics& a, const MasterStatistics& b) { return a.Area < b.Area; });
-}
-
-namespace
-{
 
 /// Surveys all ranks' points, and scales `points`, this rank's, to a moderate magnitude. Sets
 /// `rejected` to the indices of this rank's points that are not finite. Collective.
@@ -132,6 +93,62 @@ std::vector<Point2> gatherSample(
     ranks, samplePoints(points, static_cast<std::size_t>(std::ceil(share * double(wanted)))));
 }
 
+/// Converts internal ids to indices into Owned and, after these, Ghosts.
+template <typename Id>
+std::vector<typename TriangleSink<Id>::FinalTriangle> localised(
+  const std::vector<IdTriangle>& triangles, const std::vector<std::int64_t>& ghosts,
+  std::int64_t firstOwn, const Buffer<Point2>& positions, const Tiling& leaves)
+{
+  std::vector<typename TriangleSink<Id>::FinalTriangle> local;
+  local.reserve(triangles.size());
+  const auto indexOf = localIndices(firstOwn, positions.size(), ghosts);
+  for (const IdTriangle& triangle : triangles)
+  {
+    typename TriangleSink<Id>::Corners ids;
+    std::transform(triangle.begin(), triangle.end(), ids.begin(),
+      [&indexOf](std::int64_t id) { return static_cast<Id>(indexOf(id)); });
+    ids = TriangleSink<Id>::fromLowest(ids);
+    local.push_back({ ids, leaves.locate(positions[std::size_t(ids[0])]) });
+  }
+  return local;
+}
+
+/// The step after all partitions are done: sends boundary triangles to the rank that owns their
+/// vertex of lowest id, adds them to its interior triangles, and fetches the points that they use
+/// from other ranks. Collective.
+template <typename Id>
+void collect(Communicator& ranks, OwnedPoints<Id>& points, const std::vector<IdTriangle>& kept,
+  const std::vector<std::size_t>& interiorCounts, std::vector<Duplicate> duplicates,
+  const Tiling& leaves, int threads, DistributedTriangulation& result)
+{
+  const std::size_t rowSize = result.RowSize;
+  const std::int64_t firstOwn = points.FirstIds[std::size_t(ranks.rank())];
+  result.FirstIds = points.FirstIds;
+  const std::vector<IdTriangle> boundary = sendToOwners(ranks, kept, points.FirstIds);
+  result.GhostIds = ghostIds(boundary, firstOwn, firstOwn + std::int64_t(points.size()));
+
+  TriangleSink<Id> sink(points.Buckets);
+  for (std::size_t leaf = 0; leaf < interiorCounts.size(); ++leaf)
+  {
+    sink.setInteriorCount(static_cast<PartitionIndex>(leaf), interiorCounts[leaf]);
+  }
+  Buffer<Id> ids = sink.assemble(
+    { localised<Id>(boundary, result.GhostIds, firstOwn, points.Positions, leaves) }, threads);
+  if constexpr (sizeof(Id) == 4)
+  {
+    result.Ids32 = std::move(ids);
+  }
+  else
+  {
+    result.Ids64 = std::move(ids);
+  }
+
+  result.Owned = std::move(static_cast<PointTuples&>(points));
+  preferLowestGlobalIds(result.Owned, firstOwn, duplicates);
+  result.Duplicates = std::move(duplicates);
+  result.Ghosts = fetchPoints(ranks, result.GhostIds, points.FirstIds, result.Owned, rowSize);
+}
+
 /// One rank's run of the algorithm; its member functions are the steps.
 class DistributedRun
 {
@@ -167,7 +184,7 @@ public:
     {
       this->triangulate(survey);
     }
-    this->restoreMagnitude(this->Input.Points.factor());
+    this->Result.divideBy(this->Input.Points.factor());
     this->Figures.TotalSeconds = watch.seconds();
     this->Figures.Triangles = std::int64_t(this->Result.triangleCount());
     setTotals(this->Ranks, this->Result.triangleCount(), this->Figures, this->Masters,
@@ -204,7 +221,7 @@ private:
     const PointExchange exchange(this->Input, plan.Leaves, this->Threads);
     std::vector<std::int64_t> counts = exchange.counts();
     this->Ranks.sum(counts);
-    if (!plan.IsAlone)
+    if (!plan.isAlone())
     {
       if (first)
       {
@@ -235,7 +252,7 @@ private:
     OwnedPoints<Id> points = exchange.exchange<Id>(this->Ranks, plan.Owners);
     this->Figures.ExchangeSeconds = watch.seconds();
     this->Figures.OwnedPoints = std::int64_t(points.size());
-    if (plan.IsAlone)
+    if (plan.isAlone())
     {
       this->triangulateOnFirst(points, plan.Leaves);
       return true;
@@ -316,21 +333,6 @@ private:
       plan.Leaves, this->Threads, this->Result);
   }
 
-  void restoreMagnitude(double factor)
-  {
-    if (factor != 1)
-    {
-      for (Buffer<Point2>* positions :
-        { &this->Result.Owned.Positions, &this->Result.Ghosts.Positions })
-      {
-        std::transform(positions->begin(), positions->end(), positions->begin(),
-          [factor](Point2 p) {
-            return Point2{ p.x / factor, p.y / factor };
-          });
-      }
-    }
-  }
-
   Communicator& Ranks;
   RankPoints Input;
   const DistributedOptions& Options;
@@ -340,13 +342,88 @@ private:
   std::vector<MasterStatistics> Masters;
 };
 
+/// The triangles of all ranks on the first one, with idOf(index) for each corner.
+template <typename IdOf>
+Buffer<std::int64_t> gatherCorners(
+  Communicator& ranks, const DistributedTriangulation& mine, const IdOf& idOf)
+{
+  Buffer<std::int64_t> ids(3 * mine.triangleCount());
+  std::int64_t* to = ids.data();
+  mine.forEachCorner([&](std::int64_t index) { *to++ = idOf(index); });
+  return gatherValues(ranks, std::move(ids));
+}
+
 } // namespace
+
+void gatherStatistics(Communicator& ranks, RankStatistics own,
+  const std::vector<MasterStatistics>& masters, int threads, DistributedStatistics& statistics)
+{
+  own.SendSeconds = ranks.sendingSeconds();
+  StatisticsOfRank mine{ own, masters, {} };
+  for (const auto& [kind, sent] : ranks.traffic())
+  {
+    mine.Traffic.push_back({ kind, sent });
+  }
+  statistics.ThreadsPerRank = threads;
+  std::map<MessageKind, Communicator::Traffic> traffic;
+  for (const StatisticsOfRank& one : ranks.allGather(mine))
+  {
+    statistics.Ranks.push_back(one.Own);
+    statistics.Masters.insert(statistics.Masters.end(), one.Masters.begin(), one.Masters.end());
+    for (const SentByKind& of : one.Traffic)
+    {
+      traffic[of.Kind].Messages += of.Sent.Messages;
+      traffic[of.Kind].Bytes += of.Sent.Bytes;
+    }
+    statistics.Seconds = std::max(statistics.Seconds, one.Own.TotalSeconds);
+  }
+  for (const auto& [kind, sum] : traffic)
+  {
+    statistics.Traffic.push_back({ nameOf(kind), sum.Messages, sum.Bytes });
+  }
+  std::sort(statistics.Masters.begin(), statistics.Masters.end(),
+    [](const MasterStatistics& a, const MasterStatistics& b) { return a.Area < b.Area; });
+}
 
 DistributedTriangulation triangulateDistributed(
   Communicator& ranks, const RankPoints& points, const DistributedOptions& options)
 {
-  DistributedTriangulation result;
-  ranks.together([&]() { DistributedRun(ranks, points, options, result).run(); });
+  return runTogether<DistributedRun, DistributedTriangulation>(ranks, points, options);
+}
+
+std::vector<IdTriangle> trianglesByIds(const DistributedTriangulation& mine, int rank)
+{
+  const auto idOf = internalIds(mine, rank);
+  std::vector<IdTriangle> triangles(mine.triangleCount());
+  std::size_t corner = 0;
+  mine.forEachCorner(
+    [&](std::int64_t index)
+    {
+      triangles[corner / 3][corner % 3] = idOf(index);
+      ++corner;
+    });
+  return triangles;
+}
+
+GhostTriangles fetchGhosts(Communicator& ranks, const DistributedTriangulation& mine)
+{
+  return fetchGhosts<Point2>(ranks, mine, trianglesByIds(mine, ranks.rank()));
+}
+
+DistributedTriangulation gatherOnFirst(Communicator& ranks, DistributedTriangulation mine)
+{
+  mine.Ids64 = gatherCorners(ranks, mine, internalIds(mine, ranks.rank()));
+  mine.Ids32 = {};
+  gatherPoints(ranks, mine);
+  mine.FirstCell = ranks.isFirst() ? 0 : mine.AllCells;
+  return mine;
+}
+
+Triangulation gatherTriangles(Communicator& ranks, const DistributedTriangulation& mine)
+{
+  Triangulation result;
+  result.Ids64 = gatherCorners(ranks, mine, globalIds(mine));
+  gatherDuplicatesAndRejected(ranks, mine, result);
   return result;
 }
 

@@ -3,7 +3,6 @@
 #define tippDistributedTriangulation_h
 
 #include "Arrays/Buffer.h"
-#include "Constraints/ConstraintSegments.h"
 #include "Distributed/CellExchange.h"
 #include "Distributed/Plan.h"
 #include "Distributed/PointExchange.h"
@@ -100,7 +99,19 @@ void setTotals(Communicator& ranks, std::size_t cells, const RankStatistics& own
   gatherStatistics(ranks, own, masters, threads, mine.Statistics);
 }
 
+/// Makes a Run on each rank, calls its run(), and returns the result that run() has set.
+/// Collective. Throws RankFailure.
+template <typename Run, typename Result, typename Points, typename Options>
+Result runTogether(Communicator& ranks, const Points& points, const Options& options)
+{
+  Result result;
+  ranks.together([&]() { Run(ranks, points, options, result).run(); });
+  return result;
+}
+
 using PointTuples = PointTuplesOf<Point2>;
+using IdTriangle = IdCell<3>;
+using GhostTriangles = GhostCells<3, Point2>;
 
 /// A rank's part of a triangulation. Corners are local indices (see DistributedPoints).
 struct DistributedTriangulation : DistributedPoints<Point2>
@@ -127,12 +138,22 @@ struct DistributedTriangulation : DistributedPoints<Point2>
 VTKTIPPFILTERS_EXPORT DistributedTriangulation triangulateDistributed(
   Communicator& ranks, const RankPoints& points, const DistributedOptions& options = {});
 
-/// Turns all ranks' triangulation into the constrained Delaunay triangulation with these segments,
-/// the same on all ranks, and cuts it to polygons and boundary. Each rank inserts the segments that
-/// are complete in its own triangles, and the first rank the others. Collective; call it within
-/// Communicator::together(). `threads`: of each rank.
-VTKTIPPFILTERS_EXPORT void constrainRanks(Communicator& ranks, const ConstraintSegments& segments,
-  int threads, DistributedTriangulation& mine);
+/// Returns the ghosts of this rank's triangles. Collective.
+VTKTIPPFILTERS_EXPORT GhostTriangles fetchGhosts(
+  Communicator& ranks, const DistributedTriangulation& mine);
+
+/// A rank's triangles by internal ids: indices among all ranks' owned points.
+VTKTIPPFILTERS_EXPORT std::vector<IdTriangle> trianglesByIds(
+  const DistributedTriangulation& mine, int rank);
+
+/// Moves everything to the first rank; the others return an empty triangulation. Collective.
+VTKTIPPFILTERS_EXPORT DistributedTriangulation gatherOnFirst(
+  Communicator& ranks, DistributedTriangulation mine);
+
+/// Returns all ranks' triangles, duplicates and rejected points, by global ids, on the first rank;
+/// an empty triangulation on the others. Collective.
+VTKTIPPFILTERS_EXPORT Triangulation gatherTriangles(
+  Communicator& ranks, const DistributedTriangulation& mine);
 
 } // namespace tipp
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/Plan.h"
 
-#include "Engine/PartitionOrder.h"
+#include "Engine/PartitionSchedule.h"
 #include "Triangulation/BoundaryTriangles.h"
-#include "Triangulation/Tiling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,22 +39,16 @@ std::vector<std::size_t> groupSizes(const std::vector<double>& weights, std::siz
 {
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
   std::vector<std::size_t> sizes(weights.size(), 1);
-  std::size_t left = ranks - weights.size();
-  while (left > 0)
+  const auto missing = [&](std::size_t i)
+  { return weights[i] / total * double(ranks) - double(sizes[i]); };
+  for (std::size_t left = ranks - weights.size(); left > 0; --left)
   {
     std::size_t neediest = 0;
-    double most = -1e300;
-    for (std::size_t i = 0; i < weights.size(); ++i)
+    for (std::size_t i = 1; i < weights.size(); ++i)
     {
-      const double missing = weights[i] / total * double(ranks) - double(sizes[i]);
-      if (missing > most)
-      {
-        most = missing;
-        neediest = i;
-      }
+      neediest = missing(i) > missing(neediest) ? i : neediest;
     }
     ++sizes[neediest];
-    --left;
   }
   return sizes;
 }
@@ -180,23 +173,6 @@ Tiling divideBox(const Box2& box, std::vector<Point2> sample, double points, std
   return Tiling::balanced(box, std::move(sample), partsFor(points, perPart));
 }
 
-/// Chooses the number of major partitions: several per group of ranks.
-int chooseMajors(int ranks)
-{
-  constexpr int fewest = 16;
-  return std::max(fewest, 2 * ranks);
-}
-
-std::vector<std::vector<Point2>> samplesByBox(const Tiling& tiling, const std::vector<Point2>& all)
-{
-  std::vector<std::vector<Point2>> samples(static_cast<std::size_t>(tiling.size()));
-  for (const Point2& p : all)
-  {
-    samples[std::size_t(tiling.locate(p))].push_back(p);
-  }
-  return samples;
-}
-
 /// Splits the items into `parts` consecutive shares of nearly equal weight; returns each item's
 /// share.
 std::vector<std::int32_t> shareOut(const std::vector<double>& weights, std::size_t parts)
@@ -288,7 +264,6 @@ std::size_t wantedSample(std::int64_t points, const DistributedOptions& options,
 Plan planAlone(const Box2& domain)
 {
   Plan plan;
-  plan.IsAlone = true;
   plan.Leaves = Tiling::grid(domain, 1, 1);
   plan.Owners = { 0 };
   plan.Areas.push_back({ plan.Leaves });
@@ -311,15 +286,20 @@ Plan divide(const PlanInput& input, const DistributedOptions& options)
     plan.Areas.push_back({ plan.Leaves });
     return plan.Leaves.size() > 1 ? plan : planAlone(input.Domain);
   }
+  constexpr int fewestMajors = 16;
   const Tiling majors = options.Major.isGiven()
     ? Tiling::grid(input.Domain, options.Major.Columns, options.Major.Rows)
-    : Tiling::balanced(input.Domain, input.Sample, chooseMajors(input.Ranks));
+    : Tiling::balanced(input.Domain, input.Sample, std::max(fewestMajors, 2 * input.Ranks));
   plan.Areas.push_back({ majors });
   if (options.MinorDivision == Division::Grid)
   {
     requireFewLeaves(majors.size() * std::max<std::int64_t>(1, options.Minor.size()));
   }
-  auto samples = samplesByBox(majors, input.Sample);
+  std::vector<std::vector<Point2>> samples(static_cast<std::size_t>(majors.size()));
+  for (const Point2& p : input.Sample)
+  {
+    samples[std::size_t(majors.locate(p))].push_back(p);
+  }
   const double pointsPerSample =
     double(input.Points) / double(std::max(input.Sample.size(), std::size_t(1)));
   std::vector<Tiling> inner;

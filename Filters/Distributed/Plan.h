@@ -93,8 +93,10 @@ struct VTKTIPPFILTERS_EXPORT Plan
   std::vector<Area> Areas;
   Tiling Leaves;                    ///< all partitions that are triangulated, in one tiling
   std::vector<std::int32_t> Owners; ///< by leaf: the rank that owns its points
-  bool IsAlone = false;             ///< one leaf: no initial mesh, no artificial points
 
+  /// Returns whether there is only one leaf. Then there are no initial mesh and no artificial
+  /// points.
+  bool isAlone() const { return this->Leaves.size() == 1; }
   /// Returns the number of major partitions; 0: one master.
   PartitionIndex majors() const { return static_cast<PartitionIndex>(this->Areas.size()) - 1; }
   /// With masters: returns the rank of each leaf's master.
@@ -110,7 +112,7 @@ void serialize(Archive& archive, Area& area)
 template <typename Archive>
 void serialize(Archive& archive, Plan& plan)
 {
-  archive(plan.Areas, plan.Leaves, plan.Owners, plan.IsAlone);
+  archive(plan.Areas, plan.Leaves, plan.Owners);
 }
 
 /// The input of a plan.

@@ -2,11 +2,10 @@
 #ifndef tippRankEngine_h
 #define tippRankEngine_h
 
-#include "Arrays/SortUnique.h"
 #include "Distributed/DistributedTriangulation.h"
 #include "Engine/Inbox.h"
-#include "Engine/PartitionOrder.h"
-#include "Engine/ReadyPartitions.h"
+#include "Engine/PartitionSchedule.h"
+#include "Parallel/Sort.h"
 #include "Parallel/Stopwatch.h"
 #include "Ranks/Communicator.h"
 
@@ -20,6 +19,7 @@
 #include <functional>
 #include <mutex>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -159,11 +159,20 @@ protected:
     const int rank = this->Ranks.rank();
     for (const std::int32_t other : this->recipientsOf(p))
     {
-      if (other != rank)
+      if (other == rank)
       {
-        this->queue(other, PartitionDoneMessage,
-          writeDone(p, sent, [&](PartitionIndex to) { return this->keeperOf(to) == other; }));
+        continue;
       }
+      SaveArchive writer;
+      writer(p);
+      for (const auto& [to, message] : sent)
+      {
+        if (this->keeperOf(to) == other)
+        {
+          writer(to, message);
+        }
+      }
+      this->queue(other, PartitionDoneMessage, writer.take());
     }
     for (auto& [to, message] : sent)
     {
@@ -192,16 +201,32 @@ protected:
   /// Handles the message that a partition of another rank is done.
   virtual void receive(const Message& message)
   {
-    PartitionIndex sender = -1;
-    Sent sent = readDone<SentMessage>(message.Content, this->Inboxes.size(), sender);
-    const bool isGood = message.Kind == PartitionDoneMessage && this->AwaitedMessages > 0 &&
-      this->ownerOf(sender) == message.Source &&
-      std::all_of(sent.begin(), sent.end(),
-        [this](const auto& to) { return this->keeperOf(to.first) == this->Ranks.rank(); });
-    if (!isGood)
+    LoadArchive reader(message.Content);
+    const auto require = [](bool isGood, const char* problem)
     {
-      throw std::runtime_error("A message from another rank is damaged: it is for another one.");
+      if (!isGood)
+      {
+        throw std::runtime_error(
+          std::string("A message from another rank is damaged: ") + problem + ".");
+      }
+    };
+    const auto isPartition = [this](PartitionIndex p)
+    { return p >= 0 && std::size_t(p) < this->Inboxes.size(); };
+    const auto sender = reader.get<PartitionIndex>();
+    require(isPartition(sender), "no such partition");
+    Sent sent;
+    while (reader.left() > 0)
+    {
+      sent.emplace_back(reader.get<PartitionIndex>(), SentMessage{});
+      require(isPartition(sent.back().first), "no such partition");
+      reader(sent.back().second);
+      require(sent.back().second.Sender == sender, "no such partition");
     }
+    require(message.Kind == PartitionDoneMessage && this->AwaitedMessages > 0 &&
+        this->ownerOf(sender) == message.Source &&
+        std::all_of(sent.begin(), sent.end(),
+          [this](const auto& to) { return this->keeperOf(to.first) == this->Ranks.rank(); }),
+      "it is for another one");
     for (auto& [to, vertices] : sent)
     {
       this->put(to, std::move(vertices));

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Distributed/RankRun.h"
+#include "Distributed/SharedInitialMesh.h"
 
 #include "Kernel/DelaunayKernel.h"
-#include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -16,8 +15,6 @@ namespace
 
 using Index = DelaunayKernel::Index;
 
-constexpr std::uint32_t NoSet = ~0U;
-
 /// Triangulates the points around the chosen partitions, and inserts more of them until the
 /// triangles that meet these, and their neighbours, are triangles of the initial mesh.
 class PartMaker
@@ -28,7 +25,7 @@ public:
     : Boxes(regions)
     , Initial(initial)
     , Artificial(artificial)
-    , IsChosen(isChosen)
+    , Choice{ isChosen, {} }
     , Threads(threads)
     , Begins(isChosen.size(), 0)
     , Ends(isChosen.size(), 0)
@@ -40,7 +37,15 @@ public:
       this->Begins[p] = this->Ends[p] == 0 ? i : this->Begins[p];
       this->Ends[p] = i + 1;
     }
-    this->findBounds();
+    for (PartitionIndex p = 0; p < regions.size(); ++p)
+    {
+      if (isChosen[std::size_t(p)] && regions.areUsed()[std::size_t(p)])
+      {
+        Box2& all = this->Choice.Bounds;
+        all = this->IsAny ? unionOf(all, regions[p]) : regions[p];
+        this->IsAny = true;
+      }
+    }
   }
 
   BoundaryTriangles make()
@@ -53,35 +58,19 @@ public:
         this->findTriangles();
         this->addNeighbours();
       } while (this->completeMet());
-      this->addAdjacentSets();
+      this->Found.Mesh.Vertices = std::move(this->Vertices);
+      this->Found.Mesh.AdjacentSets = adjacentSets<3>(this->Kernel, this->Sets);
     }
-    return std::move(this->Mesh);
+    return std::move(this->Found.Mesh);
   }
 
 private:
-  void findBounds()
-  {
-    for (PartitionIndex p = 0; p < this->Boxes.size(); ++p)
-    {
-      if (this->IsChosen[std::size_t(p)] && this->Boxes.areUsed()[std::size_t(p)])
-      {
-        const Box2& box = this->Boxes[p];
-        Box2& all = this->Bounds;
-        all = this->IsAny ? Box2{ std::min(all.xmin, box.xmin), std::min(all.ymin, box.ymin),
-          std::max(all.xmax, box.xmax), std::max(all.ymax, box.ymax) }
-                          : box;
-        this->IsAny = true;
-      }
-    }
-  }
-
   /// Inserts all initial points of complete partitions, and one of every few others.
   void triangulate()
   {
     constexpr std::size_t every = 16;
-    this->Mesh = {};
-    this->Triangles.clear();
-    std::vector<BoundaryVertex>& vertices = this->Mesh.Vertices;
+    std::vector<BoundaryVertex>& vertices = this->Vertices;
+    vertices.clear();
     for (std::size_t p = 0; p < this->Begins.size(); ++p)
     {
       const std::size_t end = this->IsComplete[p]
@@ -96,93 +85,30 @@ private:
     this->Kernel.insert(points.data(), points.size());
   }
 
-  Circumdisk diskOf(Index t) const
-  {
-    const auto v = this->Kernel.corners(t);
-    return { this->Kernel.point(v[0]), this->Kernel.point(v[1]), this->Kernel.point(v[2]) };
-  }
-
-  BoundaryTriangles::Corners cornersOf(Index t) const
-  {
-    const auto v = this->Kernel.corners(t);
-    return { this->Kernel.pointIndex(v[0]), this->Kernel.pointIndex(v[1]),
-      this->Kernel.pointIndex(v[2]) };
-  }
-
-  struct Found
-  {
-    BoundaryTriangles Mesh;
-    std::vector<Index> Triangles; ///< in the kernel
-  };
-
-  /// The triangles in [begin, end) that meet a chosen partition.
-  Found findTriangles(std::int64_t begin, std::int64_t end) const
-  {
-    Found found;
-    std::vector<PartitionIndex> met;
-    for (std::int64_t i = begin; i < end; ++i)
-    {
-      const Index t = DelaunayKernel::triangle(std::size_t(i));
-      if (this->Kernel.isInfinite(t))
-      {
-        continue;
-      }
-      const Circumdisk disk = this->diskOf(t);
-      if (!disk.meets(this->Bounds))
-      {
-        continue;
-      }
-      met.clear();
-      this->Boxes.visitMet(disk, [&met](PartitionIndex p) { met.push_back(p); });
-      if (std::any_of(met.begin(), met.end(),
-            [this](PartitionIndex p) { return this->IsChosen[std::size_t(p)] != 0; }))
-      {
-        found.Mesh.add(this->cornersOf(t), met.data(), met.data() + met.size());
-        found.Triangles.push_back(t);
-      }
-    }
-    return found;
-  }
-
+  /// Finds the triangles that meet a chosen partition.
   void findTriangles()
   {
-    const auto triangles = std::int64_t(this->Kernel.triangleCount());
-    std::vector<Found> parts(static_cast<std::size_t>(this->Threads));
-    parallelFor(this->Threads, this->Threads,
-      [&](std::int64_t i)
-      {
-        parts[std::size_t(i)] =
-          this->findTriangles(triangles * i / this->Threads, triangles * (i + 1) / this->Threads);
-      });
-    for (const Found& part : parts)
+    this->Found = tipp::findTriangles(this->Kernel, this->Boxes, &this->Choice, this->Threads);
+    this->Sets.assign(this->Kernel.triangleCount(), NoSet);
+    for (std::size_t i = 0; i < this->Found.Indices.size(); ++i)
     {
-      this->Mesh.appendTriangles(part.Mesh);
-      this->Triangles.insert(this->Triangles.end(), part.Triangles.begin(), part.Triangles.end());
-    }
-    this->Sets.assign(std::size_t(triangles), NoSet);
-    for (std::size_t i = 0; i < this->Triangles.size(); ++i)
-    {
-      this->Sets[DelaunayKernel::number(this->Triangles[i])] = this->Mesh.SetOf[i];
+      this->Sets[DelaunayKernel::number(this->Found.Indices[i])] = this->Found.Mesh.SetOf[i];
     }
   }
 
   void addNeighbours()
   {
-    std::vector<PartitionIndex> met;
-    const std::size_t count = this->Triangles.size();
+    const std::size_t count = this->Found.Indices.size();
     for (std::size_t i = 0; i < count; ++i)
     {
       for (Index edge = 0; edge < 3; ++edge)
       {
-        const Index other = this->Kernel.neighbour(this->Triangles[i], edge);
+        const Index other = this->Kernel.neighbour(this->Found.Indices[i], edge);
         std::uint32_t& set = this->Sets[DelaunayKernel::number(other)];
         if (set == NoSet && !this->Kernel.isInfinite(other))
         {
-          met.clear();
-          this->Boxes.visitMet(this->diskOf(other), [&met](PartitionIndex p) { met.push_back(p); });
-          this->Mesh.add(this->cornersOf(other), met.data(), met.data() + met.size());
-          set = this->Mesh.SetOf.back();
-          this->Triangles.push_back(other);
+          this->Found.add(this->Kernel, other, this->Boxes, nullptr);
+          set = this->Found.Mesh.SetOf.back();
         }
       }
     }
@@ -192,9 +118,10 @@ private:
   bool completeMet()
   {
     bool isAny = false;
-    for (std::uint32_t set = 0; set < this->Mesh.Sets.size(); ++set)
+    const PartitionSets& sets = this->Found.Mesh.Sets;
+    for (std::uint32_t set = 0; set < sets.size(); ++set)
     {
-      for (auto p = this->Mesh.Sets.begin(set); p != this->Mesh.Sets.end(set); ++p)
+      for (auto p = sets.begin(set); p != sets.end(set); ++p)
       {
         isAny = isAny || !this->IsComplete[std::size_t(*p)];
         this->IsComplete[std::size_t(*p)] = 1;
@@ -203,37 +130,19 @@ private:
     return isAny;
   }
 
-  void addAdjacentSets()
-  {
-    for (const Index t : this->Triangles)
-    {
-      for (Index edge = 0; edge < 3; ++edge)
-      {
-        const std::uint32_t one = this->Sets[DelaunayKernel::number(t)];
-        const std::uint32_t other =
-          this->Sets[DelaunayKernel::number(this->Kernel.neighbour(t, edge))];
-        if (one < other && other != NoSet)
-        {
-          this->Mesh.AdjacentSets.emplace_back(one, other);
-        }
-      }
-    }
-  }
-
   const Regions& Boxes;
   const std::vector<BoundaryVertex>& Initial;
   const std::vector<BoundaryVertex>& Artificial;
-  const std::vector<char>& IsChosen;
+  RegionChoice Choice; ///< the chosen partitions' regions
   const int Threads;
   std::vector<std::size_t> Begins; ///< index of each partition's first point in Initial
   std::vector<std::size_t> Ends;
   std::vector<char> IsComplete; ///< by partition: all its initial points are inserted
-  Box2 Bounds{};                ///< bounds of the chosen regions
   bool IsAny = false;           ///< whether a chosen partition has points
   DelaunayKernel Kernel;
-  BoundaryTriangles Mesh;
-  std::vector<Index> Triangles;    ///< those of Mesh in the kernel
-  std::vector<std::uint32_t> Sets; ///< by the kernel's triangle: its set in Mesh
+  std::vector<BoundaryVertex> Vertices; ///< the kernel's points
+  KernelTriangles Found;
+  std::vector<std::uint32_t> Sets; ///< by the kernel's triangle: its set in Found
 };
 
 } // namespace

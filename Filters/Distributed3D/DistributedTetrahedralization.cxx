@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed3D/DistributedTetrahedralization.h"
 
+#include "Distributed3D/Plan3.h"
 #include "Distributed3D/RankRun3.h"
 #include "Parallel/ParallelFor.h"
-#include "Triangulation3D/InitialMesh3.h"
 #include "Triangulation3D/OrderCells.h"
-#include "Triangulation3D/Tetrahedralize.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <stdexcept>
 #include <unordered_map>
 #include <utility>
@@ -20,78 +16,6 @@ namespace tipp
 {
 namespace
 {
-
-/// Chooses the numbers and shapes of partitions. If slabs are thick enough, parallel slabs are
-/// best, because they pass on the fewest vertices: one per thread, which triangulates its points
-/// while it waits for the neighbours' vertices. Otherwise there are enough boxes to keep all
-/// threads busy.
-PartitionGroups chooseGroups(std::int64_t points, int ranks, int threads, int wanted)
-{
-  constexpr double thick = 10; // in average distances between points
-  constexpr int boxesOfThread = 12;
-  constexpr int most = 512;
-  constexpr double hull = 1; // the first rank gets fewer points because it repairs the hull
-  constexpr std::int64_t largest = std::int64_t(1) << 25;
-  const double slabs = std::cbrt(double(points)) / thick;
-  PartitionGroups groups;
-  groups.Count = ranks;
-  groups.FirstLess = std::min(0.5, hull / std::cbrt(double(std::max<std::int64_t>(points, 1))));
-  groups.AreSlabs = ranks <= slabs;
-  groups.ArePartitionsSlabs = groups.AreSlabs && ranks * threads <= slabs && wanted == 0;
-  groups.Each = wanted > 0 ? (wanted + ranks - 1) / ranks
-                           : (groups.ArePartitionsSlabs ? 1 : boxesOfThread) * threads;
-  groups.Each = std::clamp(groups.Each, 1, std::max(1, most / ranks));
-  groups.Each = std::max(groups.Each, int(points / ranks / largest));
-  return groups;
-}
-
-/// Chooses initial points of this rank's partitions, and returns those of all ranks, with the
-/// regions of all partitions. `buckets`: this rank's points, whose internal ids are those in
-/// `buckets` plus `firstId`. Ids in the result are indices into `ids`, which is set to the internal
-/// ids. A partition without points has no initial points. Collective.
-PointBuckets3 shareInitialPoints(Communicator& ranks, const Tiling3& tiling, std::int64_t firstId,
-  const PointBuckets3& buckets, std::vector<std::int64_t>& ids)
-{
-  // With more points, fewer partitions conflict. There are enough if tetrahedra are much smaller
-  // than partitions, even if these are slabs.
-  constexpr std::size_t most = 8192;
-  constexpr std::size_t share = 16; // at most one in this many of a partition's points
-  const auto partitions = std::size_t(tiling.size());
-  const std::size_t each = std::min(most, 128 * partitions * partitions * partitions) / partitions;
-  std::vector<Box3> regions;
-  std::vector<Vertex3> initial;
-  for (PartitionIndex p = 0; p < tiling.size(); ++p)
-  {
-    if (tiling.groupOf(p) != ranks.rank())
-    {
-      continue;
-    }
-    regions.push_back(buckets.Regions[std::size_t(p)]);
-    const PartitionPoints3 points = buckets.of(p, firstId);
-    if (points.Count > 0)
-    {
-      for (const std::size_t i : chooseInitialPoints(points.Points, points.Count,
-             std::max(InitialMesh3::PointsOfPartition, std::min(each, points.Count / share))))
-      {
-        initial.push_back({ points.Points[i], points.id(i), p });
-      }
-    }
-  }
-  PointBuckets3 all;
-  all.Regions = concatenated(ranks.allGather(regions));
-  all.Begins.assign(partitions + 1, 0);
-  for (const Vertex3& v : concatenated(ranks.allGather(initial)))
-  {
-    all.Points.push_back(v.Position);
-    all.Ids.push_back(std::int32_t(ids.size()));
-    ids.push_back(v.Id);
-    all.Begins.at(std::size_t(v.Partition) + 1) = ids.size();
-  }
-  // Partitions without points begin where the one before them ends.
-  std::partial_sum(all.Begins.begin(), all.Begins.end(), all.Begins.begin(),
-    [](std::size_t a, std::size_t b) { return std::max(a, b); });
-  return all;
-}
 
 /// The run of one rank; its member functions are the steps.
 class DistributedRun3
@@ -133,12 +57,12 @@ private:
   /// Numbers the points, and agrees with other ranks on a factor for all coordinates.
   void survey()
   {
-    const std::vector<std::int64_t> firsts =
-      firstIndices(this->Ranks, std::int64_t(this->Input.Count));
+    const PointsView3& points = this->Input.Points;
+    const std::vector<std::int64_t> firsts = firstIndices(this->Ranks, std::int64_t(points.size()));
     this->Input.FirstId = firsts[std::size_t(this->Ranks.rank())];
     this->Result.AllPoints = firsts.back();
-    this->Figures.InputPoints = std::int64_t(this->Input.Count);
-    const PointSurvey3 found = surveyPoints(this->Input.Points, this->Input.Count);
+    this->Figures.InputPoints = std::int64_t(points.size());
+    const PointSurvey3 found = surveyPoints(points);
     for (const std::int64_t i : found.Rejected)
     {
       this->Result.Rejected.push_back(this->Input.globalId(std::size_t(i)));
@@ -146,12 +70,10 @@ private:
     std::vector<double> largest{ -found.Largest };
     this->Ranks.minimum(largest);
     const double factor = moderateFactor(-largest[0]);
-    std::vector<std::int64_t> sums{
-      areExactTimes(this->Input.Points, this->Input.Count, factor) ? 0 : 1,
-      std::int64_t(this->Input.Count - found.Rejected.size())
-    };
+    std::vector<std::int64_t> sums{ areExactTimes(points, factor) ? 0 : 1,
+      std::int64_t(points.size() - found.Rejected.size()) };
     this->Ranks.sum(sums);
-    this->Factor = sums[0] == 0 ? factor : 1;
+    this->Input.Points.Factor = sums[0] == 0 ? factor : 1;
     this->FinitePoints = sums[1];
   }
 
@@ -160,8 +82,7 @@ private:
   {
     constexpr std::int64_t wanted = 1 << 16;
     const auto step = std::size_t(std::max<std::int64_t>(1, this->Result.AllPoints / wanted));
-    return concatenated(this->Ranks.allGather(
-      samplePoints(this->Input.Points, this->Input.Count, step, this->Factor)));
+    return concatenated(this->Ranks.allGather(samplePoints(this->Input.Points, step)));
   }
 
   /// Divides space among the ranks, and sends each rank the points of its partitions.
@@ -172,8 +93,7 @@ private:
     this->Partitions = this->Ranks.broadcast(this->Options.Partitions);
     this->Groups = chooseGroups(this->FinitePoints, this->Ranks.size(), threads, this->Partitions);
     this->Tiling = std::make_unique<Tiling3>(this->sample(), this->Groups);
-    this->Result.Owned =
-      exchangePoints(this->Ranks, this->Input, *this->Tiling, this->Factor, this->Threads);
+    this->Result.Owned = exchangePoints(this->Ranks, this->Input, *this->Tiling, this->Threads);
     this->Result.FirstIds = firstIndices(this->Ranks, std::int64_t(this->Result.Owned.size()));
     // Half of the indices are reserved for other ranks' points.
     if (this->Result.Owned.size() > std::size_t(std::numeric_limits<std::int32_t>::max() / 2))
@@ -193,8 +113,9 @@ private:
     {
       return false;
     }
-    PointBuckets3 buckets = bucketPoints(this->Result.Owned.Positions.data(),
-      this->Result.Owned.size(), *this->Tiling, 1, this->Threads);
+    PointBuckets3 buckets =
+      bucketPoints({ this->Result.Owned.Positions.data(), this->Result.Owned.size() },
+        *this->Tiling, this->Threads);
     std::vector<std::int64_t> ids;
     const PointBuckets3 initial =
       shareInitialPoints(this->Ranks, *this->Tiling, this->firstOwn(), buckets, ids);
@@ -217,12 +138,7 @@ private:
     }
     std::sort(ids.begin(), ids.end());
     this->InitialIds = std::move(ids);
-    std::vector<char> isUsed(std::size_t(this->Tiling->size()));
-    for (PartitionIndex p = 0; p < this->Tiling->size(); ++p)
-    {
-      isUsed[std::size_t(p)] = initial.count(p) > 0 ? 1 : 0;
-    }
-    const PartitionOrder order(isUsed, mesh);
+    const PartitionOrder order(initial.areUsed(), mesh);
     const RankWork3 work{ *this->Tiling, order, this->Options, this->Threads };
     RankRun3 run(this->Ranks, work, buckets, this->firstOwn());
     run.Statistics = this->Figures;
@@ -397,19 +313,7 @@ private:
     mine.Ids = mine.cellSize() == 3
       ? orderTriangles(this->Inside.back())
       : orderCells(std::move(this->Inside), mine.Owned.size() + mine.Ghosts.size(), this->Threads);
-    if (this->Factor != 1)
-    {
-      this->restore(mine.Owned.Positions);
-      this->restore(mine.Ghosts.Positions);
-    }
-  }
-
-  void restore(Buffer<Point3>& positions) const
-  {
-    std::transform(positions.begin(), positions.end(), positions.begin(),
-      [this](const Point3& p) {
-        return Point3{ p.x / this->Factor, p.y / this->Factor, p.z / this->Factor };
-      });
+    mine.divideBy(this->Input.Points.Factor);
   }
 
   Communicator& Ranks;
@@ -417,7 +321,6 @@ private:
   const TetrahedralizationOptions& Options;
   DistributedTetrahedralization& Result;
   const int Threads;
-  double Factor = 1;
   std::int64_t FinitePoints = 0; ///< of all ranks
   int Partitions = 0;            ///< as requested; 0: chosen automatically
   PartitionGroups Groups;
@@ -429,14 +332,88 @@ private:
   RankStatistics Figures;
 };
 
+/// Returns all ranks' cells on the first rank, sorted. Corners are given by idOf(local index).
+template <typename IdOf>
+Buffer<std::int32_t> gatherCells(Communicator& ranks, const DistributedTetrahedralization& mine,
+  std::int64_t points, const IdOf& idOf, int threads)
+{
+  if (points > std::numeric_limits<std::int32_t>::max())
+  {
+    throw std::length_error("more than 2,147,483,647 points in space are not supported on one "
+                            "rank.");
+  }
+  const auto convert = [&](std::int32_t index) { return std::int32_t(idOf(index)); };
+  if (mine.cellSize() == 3)
+  {
+    Buffer<std::int32_t> ids(mine.Ids.size());
+    std::transform(mine.Ids.begin(), mine.Ids.end(), ids.begin(), convert);
+    ids = gatherValues(ranks, std::move(ids));
+    orderTriangles(ids);
+    return ids;
+  }
+  // All ranks sort their cells, and the first one merges them.
+  std::vector<std::vector<CellIds>> cells(1);
+  cells[0].reserve(mine.cellCount());
+  std::transform(mine.Ids.as<CellIds>(), mine.Ids.as<CellIds>() + mine.cellCount(),
+    std::back_inserter(cells[0]),
+    [&](const CellIds& cell) -> CellIds {
+      return { convert(cell[0]), convert(cell[1]), convert(cell[2]), convert(cell[3]) };
+    });
+  return mergeCells(
+    ranks.gather(Bytes(orderCells(std::move(cells), std::size_t(points), threads))));
+}
+
 } // namespace
 
 DistributedTetrahedralization tetrahedralizeDistributed(
   Communicator& ranks, const RankPoints3& points, const TetrahedralizationOptions& options)
 {
-  DistributedTetrahedralization result;
-  ranks.together([&]() { DistributedRun3(ranks, points, options, result).run(); });
-  return result;
+  return runTogether<DistributedRun3, DistributedTetrahedralization>(ranks, points, options);
+}
+
+GhostTetrahedra fetchGhosts(Communicator& ranks, const DistributedTetrahedralization& mine)
+{
+  const auto idOf = internalIds(mine, ranks.rank());
+  const std::size_t size = mine.cellSize();
+  std::vector<IdCell<4>> cells(mine.cellCount());
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    for (std::size_t k = 0; k < 4; ++k)
+    {
+      cells[i][k] = idOf(mine.Ids[size * i + std::min(k, size - 1)]);
+    }
+  }
+  return fetchGhosts<Point3>(ranks, mine, cells);
+}
+
+DistributedTetrahedralization gatherOnFirst(
+  Communicator& ranks, DistributedTetrahedralization mine, int threads)
+{
+  mine.Ids =
+    gatherCells(ranks, mine, mine.FirstIds.back(), internalIds(mine, ranks.rank()), threads);
+  gatherPoints(ranks, mine);
+  mine.FirstCell = ranks.isFirst() ? 0 : mine.AllCells;
+  return mine;
+}
+
+Tetrahedralization gatherTetrahedra(Communicator& ranks, const DistributedTetrahedralization& mine,
+  int threads, Triangulation& triangles)
+{
+  Tetrahedralization all;
+  all.Dimension = mine.Dimension;
+  Buffer<std::int32_t> ids = gatherCells(ranks, mine, mine.AllPoints, globalIds(mine), threads);
+  gatherDuplicatesAndRejected(ranks, mine, all);
+  if (mine.Dimension == 2)
+  {
+    triangles.Ids32 = std::move(ids);
+    triangles.Duplicates = all.Duplicates;
+    triangles.Rejected = all.Rejected;
+  }
+  else
+  {
+    all.Ids = std::move(ids);
+  }
+  return all;
 }
 
 } // namespace tipp

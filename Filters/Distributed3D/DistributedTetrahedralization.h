@@ -6,8 +6,8 @@
 #include "Distributed/DistributedTriangulation.h"
 #include "Predicates/Points.h"
 #include "Ranks/Communicator.h"
+#include "Triangulation3D/Partitions3.h"
 #include "Triangulation3D/Tetrahedralize.h"
-#include "Triangulation3D/Tiling3.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <algorithm>
@@ -22,17 +22,10 @@ namespace tipp
 /// A rank's input points in space. Does not own the memory.
 struct RankPoints3 : RankPointData
 {
-  const Point3* Points = nullptr;
-  std::size_t Count = 0;
+  PointsView3 Points;
 };
 
 using PointTuples3 = PointTuplesOf<Point3>;
-
-/// Sends each finite point to the rank that owns the partition containing it, and multiplies its
-/// coordinates by `factor`. Returns this rank's points: sorted by the rank that had them, and then
-/// in that rank's order. Collective. Throws RankFailure.
-PointTuples3 exchangePoints(Communicator& ranks, const RankPoints3& points, const Tiling3& tiling,
-  double factor, int threads);
 
 /// Ghost cells. In triangles, the last corner is repeated.
 using GhostTetrahedra = GhostCells<4, Point3>;

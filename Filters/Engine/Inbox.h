@@ -2,16 +2,14 @@
 #ifndef tippInbox_h
 #define tippInbox_h
 
-#include "Engine/PartitionOrder.h"
-#include "Ranks/Communicator.h"
+#include "Engine/PartitionSchedule.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
-#include <stdexcept>
+#include <numeric>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -28,6 +26,14 @@ struct VertexMessageOf
   std::int64_t Cells = 0;     ///< the number of cells that these are the vertices of
   std::vector<Vertex> Vertices;
 };
+
+/// Returns the number of cells that the messages' vertices belong to: the sum of Cells.
+template <typename Vertex>
+std::int64_t cellsOf(const std::vector<VertexMessageOf<Vertex>>& messages)
+{
+  return std::accumulate(messages.begin(), messages.end(), std::int64_t(0),
+    [](std::int64_t sum, const auto& message) { return sum + message.Cells; });
+}
 
 template <typename Archive, typename Vertex>
 void serialize(Archive& archive, VertexMessageOf<Vertex>& message)
@@ -142,55 +148,6 @@ private:
 
   std::atomic<Node*> Last{ nullptr };
 };
-
-/// @name A finished partition's messages, as ranks send them to each other
-///@{
-/// Writes the messages whose recipient satisfies `isIncluded`.
-template <typename Message>
-Bytes writeDone(PartitionIndex sender, const std::vector<std::pair<PartitionIndex, Message>>& sent,
-  const std::function<bool(PartitionIndex)>& isIncluded)
-{
-  SaveArchive writer;
-  writer(sender);
-  for (const auto& [to, message] : sent)
-  {
-    if (isIncluded(to))
-    {
-      writer(to, message);
-    }
-  }
-  return writer.take();
-}
-
-/// Returns the messages and sets `sender`. Throws std::runtime_error if a partition is not below
-/// `count`.
-template <typename Message>
-std::vector<std::pair<PartitionIndex, Message>> readDone(
-  const Bytes& bytes, std::size_t count, PartitionIndex& sender)
-{
-  LoadArchive reader(bytes);
-  const auto requirePartition = [count](PartitionIndex p)
-  {
-    if (p < 0 || std::size_t(p) >= count)
-    {
-      throw std::runtime_error("A message from another rank is damaged: no such partition.");
-    }
-  };
-  sender = reader.get<PartitionIndex>();
-  requirePartition(sender);
-  std::vector<std::pair<PartitionIndex, Message>> sent;
-  while (reader.left() > 0)
-  {
-    const auto to = reader.get<PartitionIndex>();
-    requirePartition(to);
-    sent.emplace_back(to, Message{});
-    reader(sent.back().second);
-    requirePartition(sent.back().second.Sender == sender ? sender : -1);
-  }
-  return sent;
-}
-
-///@}
 
 } // namespace tipp
 

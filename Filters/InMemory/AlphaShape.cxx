@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InMemory/AlphaShape.h"
 
-#include "Arrays/SortUnique.h"
+#include "Parallel/Sort.h"
 
 #include <algorithm>
 #include <array>

@@ -2,14 +2,295 @@
 #include "InMemory/TriangulatePoints.h"
 
 #include "Constraints/KeepInside.h"
-#include "InMemory/TriangulateMerged.h"
 #include "Meshes/MeshFiles.h"
 #include "Output/RunStatistics.h"
+#include "Parallel/ParallelFor.h"
+#include "Parallel/Stopwatch.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace tipp
 {
+
+namespace
+{
+
+/// A hash grid in D dimensions: lists of kept points by the hash of their cell. Cells are at least
+/// twice as wide as the distance, so the points close to a position are in the cells within half a
+/// cell's width of it.
+template <std::size_t D>
+class HashGrid
+{
+public:
+  using Position = std::array<double, D>;
+
+  /// `capacity`: the largest number of points to keep.
+  HashGrid(std::size_t capacity, double distance, double largestCoordinate)
+    : Distance(distance)
+    // Wide enough that cell indices are below 2^41, where `slack` exceeds the rounding errors.
+    , Width(std::max(
+        { 2 * distance, std::ldexp(largestCoordinate, -40), std::numeric_limits<double>::min() }))
+    , Coordinates(D * capacity)
+    , Next(capacity)
+  {
+    std::size_t slots = 1;
+    while (slots < capacity)
+    {
+      slots *= 2;
+    }
+    this->First.assign(slots, -1);
+  }
+
+  /// Returns the index of the first kept point within the distance, or -1.
+  PointId find(const Position& p) const
+  {
+    constexpr double slack = 1.0 / 1024;
+    const Cell low = this->cellOf(p, -0.5 - slack);
+    const Cell high = this->cellOf(p, 0.5 + slack);
+    PointId found = -1;
+    Cell cell = low;
+    for (bool isInside = true; isInside;)
+    {
+      for (PointId k = this->First[this->slot(cell)]; k >= 0; k = this->Next[std::size_t(k)])
+      {
+        if ((found < 0 || k < found) && this->isClose(k, p))
+        {
+          found = k;
+        }
+      }
+      std::size_t axis = 0;
+      for (; axis < D && cell[axis]++ == high[axis]; ++axis)
+      {
+        cell[axis] = low[axis];
+      }
+      isInside = axis < D;
+    }
+    return found;
+  }
+
+  void keep(const Position& p)
+  {
+    PointId& first = this->First[this->slot(this->cellOf(p, 0))];
+    std::copy(p.begin(), p.end(), this->Coordinates.begin() + D * this->Size);
+    this->Next[this->Size] = std::exchange(first, PointId(this->Size));
+    ++this->Size;
+  }
+
+  /// Returns the coordinates of the kept points, interleaved. The grid must not be used any more.
+  Buffer<double> takeCoordinates()
+  {
+    this->Coordinates.truncate(D * this->Size);
+    return std::move(this->Coordinates);
+  }
+
+private:
+  using Cell = std::array<std::int64_t, D>;
+
+  Cell cellOf(const Position& p, double cellsAway) const
+  {
+    Cell cell;
+    for (std::size_t axis = 0; axis < D; ++axis)
+    {
+      cell[axis] = std::int64_t(std::floor(p[axis] / this->Width + cellsAway));
+    }
+    return cell;
+  }
+
+  std::size_t slot(const Cell& cell) const
+  {
+    std::uint64_t hash = 0;
+    for (const std::int64_t index : cell)
+    {
+      hash = (hash ^ std::uint64_t(index)) * 0x9e3779b97f4a7c15U;
+      hash ^= hash >> 32;
+    }
+    return std::size_t(hash & (this->First.size() - 1));
+  }
+
+  bool isClose(PointId k, const Position& p) const
+  {
+    const double* const kept = this->Coordinates.data() + D * std::size_t(k);
+    if constexpr (D == 2)
+    {
+      return std::hypot(p[0] - kept[0], p[1] - kept[1]) <= this->Distance;
+    }
+    else
+    {
+      return std::hypot(p[0] - kept[0], p[1] - kept[1], p[2] - kept[2]) <= this->Distance;
+    }
+  }
+
+  double Distance;
+  double Width; ///< of a cell
+  std::vector<PointId> First;
+  Buffer<double> Coordinates;
+  Buffer<PointId> Next;
+  std::size_t Size = 0;
+};
+
+/// The points that are left after merging.
+struct MergedPoints
+{
+  Buffer<double> Coordinates; ///< of the kept points, D each
+  Buffer<PointId> Ids;        ///< input point indices of the kept points, ascending
+  std::vector<Duplicate> Duplicates;
+  std::vector<PointId> Rejected;
+  bool Aborted = false;
+};
+
+template <std::size_t D>
+bool areFinite(const std::array<double, D>& position)
+{
+  return std::all_of(position.begin(), position.end(), [](double x) { return std::isfinite(x); });
+}
+
+/// Merges `count` points; positionOf(i) returns the coordinates of a point. The result depends only
+/// on the points and their order.
+template <std::size_t D, typename PositionOf>
+MergedPoints mergeClose(std::size_t count, const PositionOf& positionOf, double distance,
+  const std::function<bool(double)>& progress)
+{
+  constexpr std::size_t reportEvery = 1 << 16;
+  double largest = 0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const std::array<double, D> p = positionOf(i);
+    for (std::size_t axis = 0; axis < D && areFinite(p); ++axis)
+    {
+      largest = std::max(largest, std::fabs(p[axis]));
+    }
+  }
+  MergedPoints merged;
+  merged.Ids = Buffer<PointId>(count);
+  HashGrid<D> grid(count, distance, largest);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (i % reportEvery == 0 && progress && !progress(double(i) / double(count)))
+    {
+      merged.Aborted = true;
+      break;
+    }
+    const std::array<double, D> p = positionOf(i);
+    if (!areFinite(p))
+    {
+      merged.Rejected.push_back(PointId(i));
+      continue;
+    }
+    const PointId close = grid.find(p);
+    if (close >= 0)
+    {
+      merged.Duplicates.push_back({ PointId(i), merged.Ids[close] });
+      continue;
+    }
+    grid.keep(p);
+    merged.Ids[kept++] = PointId(i);
+  }
+  merged.Coordinates = grid.takeCoordinates();
+  merged.Ids.truncate(kept);
+  return merged;
+}
+
+template <typename From, typename To>
+Buffer<To> renumbered(const Buffer<From>& ids, const Buffer<PointId>& originals)
+{
+  Buffer<To> result(ids.size());
+  const std::int64_t count = std::int64_t(ids.size());
+#pragma omp parallel for
+  for (std::int64_t i = 0; i < count; ++i)
+  {
+    result[i] = To(originals[std::size_t(ids[i])]);
+  }
+  return result;
+}
+
+void renumber(Triangulation& result, const Buffer<PointId>& originals)
+{
+  if (!result.Ids64.empty())
+  {
+    result.Ids64 = renumbered<std::int64_t, std::int64_t>(result.Ids64, originals);
+  }
+  else if (originals[originals.size() - 1] <= std::numeric_limits<std::int32_t>::max())
+  {
+    result.Ids32 = renumbered<std::int32_t, std::int32_t>(result.Ids32, originals);
+  }
+  else
+  {
+    result.Ids64 = renumbered<std::int32_t, std::int64_t>(result.Ids32, originals);
+    result.Ids32 = {};
+  }
+}
+
+/// The ids keep their order, so the tetrahedra do, too.
+void renumber(Tetrahedralization& result, const Buffer<PointId>& originals)
+{
+  result.Ids = renumbered<std::int32_t, std::int32_t>(result.Ids, originals);
+}
+
+/// Calls merge(progress), then triangulate(points, options) for the points that are left.
+template <typename Options, typename Merge, typename Triangulate>
+auto triangulateKept(const Options& options, const Merge& merge, const Triangulate& triangulate)
+{
+  constexpr double mergingShare = 0.2; // fraction of the reported progress
+  Options scaled = options;
+  scaled.Progress = partOf(options.Progress, mergingShare, 1);
+  const Stopwatch watch;
+  MergedPoints merged = merge(partOf(options.Progress, 0, mergingShare));
+  decltype(triangulate(merged, scaled)) result;
+  if (merged.Aborted)
+  {
+    result.Aborted = true;
+    return result;
+  }
+  const double mergingSeconds = watch.seconds();
+  result = triangulate(merged, scaled);
+  if (!merged.Ids.empty())
+  {
+    renumber(result, merged.Ids);
+  }
+  auto& phases = result.Statistics.Phases;
+  phases.insert(phases.begin(), { "merging", mergingSeconds });
+  result.Duplicates = std::move(merged.Duplicates);
+  result.Rejected = std::move(merged.Rejected);
+  return result;
+}
+
+} // namespace
+
+Triangulation triangulateMerged(
+  PointsView points, double distance, const TriangulationOptions& options)
+{
+  const auto positionOf = [points](std::size_t i)
+  {
+    const Point2 p = points[i];
+    return std::array<double, 2>{ p.x, p.y };
+  };
+  return triangulateKept(
+    options,
+    [&](const Report& progress)
+    { return mergeClose<2>(points.size(), positionOf, distance, progress); },
+    [](const MergedPoints& kept, const TriangulationOptions& scaled)
+    { return triangulate(PointsView(kept.Coordinates.data(), kept.Ids.size(), 2), scaled); });
+}
+
+Tetrahedralization tetrahedralizeMerged(const Point3* points, std::size_t count, double distance,
+  const TetrahedralizationOptions& options)
+{
+  requireShortIds(count);
+  const auto positionOf = [points](std::size_t i) {
+    return std::array<double, 3>{ points[i].x, points[i].y, points[i].z };
+  };
+  return triangulateKept(
+    options,
+    [&](const Report& progress) { return mergeClose<3>(count, positionOf, distance, progress); },
+    [](const MergedPoints& kept, const TetrahedralizationOptions& scaled)
+    { return tetrahedralize(kept.Coordinates.as<Point3>(), kept.Ids.size(), scaled); });
+}
 
 void requireIds(const SourceConstraints& constraints, std::int64_t points)
 {

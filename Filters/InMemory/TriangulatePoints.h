@@ -4,6 +4,7 @@
 
 #include "Arrays/Buffer.h"
 #include "Constraints/TriangulateConstrained.h"
+#include "Triangulation/Triangulate.h"
 #include "Triangulation3D/Tetrahedralize.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -14,6 +15,17 @@
 
 namespace tipp
 {
+
+///@{
+/// Merges close points, and calls triangulate() or tetrahedralize() for those that are left: by
+/// ascending id, each point within `distance` of a point kept before it is merged into the first
+/// such point. `distance` is in the points' unit of length. All ids of the result are indices into
+/// `points`. Merging is one pass with a hash grid, in one thread; Progress can stop it.
+VTKTIPPFILTERS_EXPORT Triangulation triangulateMerged(
+  PointsView points, double distance, const TriangulationOptions& options = {});
+VTKTIPPFILTERS_EXPORT Tetrahedralization tetrahedralizeMerged(const Point3* points,
+  std::size_t count, double distance, const TetrahedralizationOptions& options = {});
+///@}
 
 /// The edges of lines and polygons as constraints between points of a triangulation.
 struct SourceConstraints

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Kernel/DelaunayKernel.h"
 
-#include "Predicates/ExactPredicates.h"
-
 #include <algorithm>
 #include <limits>
 #include <mutex>
 #include <utility>
-#include <vector>
 
 namespace tipp
 {
@@ -145,41 +142,9 @@ bool DelaunayKernel::makeFirstTriangle(Index first)
 namespace
 {
 
-class Pool
+/// Kernels that are not in use.
+struct Pool
 {
-public:
-  /// Returns a kernel that is not in use, or null.
-  std::unique_ptr<DelaunayKernel> take()
-  {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    if (this->Kernels.empty())
-    {
-      return nullptr;
-    }
-    std::unique_ptr<DelaunayKernel> kernel = std::move(this->Kernels.back());
-    this->Kernels.pop_back();
-    this->Bytes -= kernel->bytes();
-    return kernel;
-  }
-
-  void give(std::unique_ptr<DelaunayKernel> kernel)
-  {
-    const std::size_t bytes = kernel->bytes();
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    if (this->Kernels.size() < this->Kernels.capacity() &&
-      this->Bytes + bytes <= PooledKernel::MostBytesKept)
-    {
-      this->Bytes += bytes;
-      this->Kernels.push_back(std::move(kernel));
-    }
-  }
-
-  std::size_t bytes()
-  {
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    return this->Bytes;
-  }
-
   Pool()
   {
     // Destructors return kernels to the pool, so returning one must not throw.
@@ -187,10 +152,9 @@ public:
     this->Kernels.reserve(most);
   }
 
-private:
   std::mutex Mutex;
   std::vector<std::unique_ptr<DelaunayKernel>> Kernels;
-  std::size_t Bytes = 0;
+  std::size_t Bytes = 0; ///< of all kernels
 };
 
 Pool& pool()
@@ -202,22 +166,35 @@ Pool& pool()
 } // namespace
 
 PooledKernel::PooledKernel()
-  : Kernel(pool().take())
 {
-  if (!this->Kernel)
   {
-    this->Kernel = std::make_unique<DelaunayKernel>();
+    const std::lock_guard<std::mutex> lock(pool().Mutex);
+    if (!pool().Kernels.empty())
+    {
+      this->Kernel = std::move(pool().Kernels.back());
+      pool().Kernels.pop_back();
+      pool().Bytes -= this->Kernel->bytes();
+      return;
+    }
   }
+  this->Kernel = std::make_unique<DelaunayKernel>();
 }
 
 PooledKernel::~PooledKernel()
 {
-  pool().give(std::move(this->Kernel));
+  const std::size_t bytes = this->Kernel->bytes();
+  const std::lock_guard<std::mutex> lock(pool().Mutex);
+  if (pool().Kernels.size() < pool().Kernels.capacity() && pool().Bytes + bytes <= MostBytesKept)
+  {
+    pool().Bytes += bytes;
+    pool().Kernels.push_back(std::move(this->Kernel));
+  }
 }
 
 std::size_t PooledKernel::bytesKept()
 {
-  return pool().bytes();
+  const std::lock_guard<std::mutex> lock(pool().Mutex);
+  return pool().Bytes;
 }
 
 } // namespace tipp

@@ -2,7 +2,6 @@
 #include "Kernel/Insertion.h"
 
 #include "Kernel/DelaunayKernel.h"
-#include "Kernel/PointLocation.h"
 
 namespace tipp
 {

@@ -2,20 +2,75 @@
 #ifndef tippInsertionOrder_h
 #define tippInsertionOrder_h
 
-#include "Kernel/CurveOrder.h"
+#include "Arrays/Buffer.h"
 #include "Kernel/Lanes.h"
 #include "Predicates/Points.h"
+#include "vtkTIPPFiltersModule.h"
 
 #include <cstddef>
 #include <cstdint>
-
-// Inline: InsertionOrder.cxx compiles it for several sets of instructions.
+#include <vector>
 
 namespace tipp
 {
 
+/// An order of points along a space-filling curve: 64-bit entries, each with a key in the high bits
+/// and the point's index in the low ones.
+class CurveOrder
+{
+public:
+  static constexpr unsigned IndexBits = 28;
+
+  std::size_t size() const { return this->Entries.size(); }
+
+  /// The input index of the k-th point to insert.
+  std::uint32_t operator[](std::size_t k) const
+  {
+    return static_cast<std::uint32_t>(this->Entries[k] & IndexMask);
+  }
+
+  /// Reserves memory for `points` points.
+  void reserve(std::size_t points)
+  {
+    this->Entries.reserve(points);
+    this->Scratch.reserve(points);
+  }
+
+  std::size_t bytes() const
+  {
+    return (this->Entries.capacity() + this->Scratch.capacity()) * sizeof(std::uint64_t);
+  }
+
+  /// Frees the memory and the order.
+  void release()
+  {
+    Uninitialised<std::uint64_t>().swap(this->Entries);
+    Uninitialised<std::uint64_t>().swap(this->Scratch);
+  }
+
+protected:
+  static constexpr std::uint64_t IndexMask = (std::uint64_t(1) << IndexBits) - 1;
+
+  /// A range of entries.
+  struct Run
+  {
+    std::size_t Begin;
+    std::size_t End;
+  };
+
+  template <unsigned passes, unsigned digitBits, unsigned lowest>
+  void sortByDigits(Run range);
+  void addRuns(Run within, std::vector<Run>& runs) const;
+  template <typename Curve>
+  void sortRuns(const typename Curve::Point* points, std::vector<Run> runs);
+
+  Uninitialised<std::uint64_t> Entries;
+  Uninitialised<std::uint64_t> Scratch;
+};
+
 /// Positions along a Hilbert curve of 16 levels. Without branches and tables, so that compilers
-/// vectorise loops over many cells.
+/// vectorise loops over many cells. Inline, because InsertionOrder.cxx compiles the loops for
+/// several sets of instructions.
 ///
 /// From the coarsest bits of x and y to the finest, the curve is in one of four states (s, f):
 /// whether x and y are swapped, and whether they are complemented. At a level with bits x and y, u
@@ -64,8 +119,8 @@ inline std::uint32_t hilbertKey(std::uint32_t x, std::uint32_t y)
   return spreadBits(f ^ (s & d) ^ x) << 1 | spreadBits(d);
 }
 
-/// The order in which a box's points are inserted: rounds, each along a Hilbert curve. It depends
-/// only on the coordinates and on the points' indices in the array.
+/// The order in which the kernel inserts points in the plane: rounds, each along a Hilbert curve.
+/// It depends only on the coordinates and on the points' indices in the array.
 class InsertionOrder : public CurveOrder
 {
 public:
@@ -84,6 +139,20 @@ private:
   bool hasManyTies(unsigned lowest) const;
 
   const Instructions Allowed;
+};
+
+/// The same for points in space.
+class VTKTIPPFILTERS_EXPORT InsertionOrder3 : public CurveOrder
+{
+public:
+  /// Computes the order of `count` < 2^IndexBits points; replaces the previous order.
+  void compute(const Point3* points, std::size_t count);
+
+  /// For each round the position in the order that follows its last point; ascending.
+  const std::vector<std::size_t>& roundEnds() const { return this->RoundEnds; }
+
+private:
+  std::vector<std::size_t> RoundEnds;
 };
 
 } // namespace tipp

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/FinishPieces.h"
 
-#include "Arrays/SortUnique.h"
-#include "Files/FileSystem.h"
 #include "Files/OutputFile.h"
+#include "Parallel/Sort.h"
+#include "Partitioned/FinishedPieces.h"
 #include "Partitioned/GrowingPiece.h"
-#include "Partitioned/NeighborIds.h"
 #include "Partitioned/PieceFile.h"
-#include "Predicates/ExactPredicates.h"
+#include "Predicates/ExactPredicates3.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
@@ -25,6 +24,43 @@ Box3 boxOf(const Box2& box)
   result.Min = { box.xmin, box.ymin, 0 };
   result.Max = { box.xmax, box.ymax, 0 };
   return result;
+}
+
+/// Returns the path of an empty file that exists once the consumer has the piece's border.
+std::string takenPath(const PieceWork& work, PartitionIndex piece)
+{
+  return work.resultPath(piece) + ".taken";
+}
+
+void takeMesh(
+  const PieceWork& work, const std::string& name, PieceBorder& border, const ResultOf& results)
+{
+  setGhosts(work, results, border);
+  const PieceBorder::Mesh mesh = border.mesh();
+  work.Consumer->take(
+    name, mesh.Rows.data(), work.Rows, mesh.Rows.size() / work.Rows.Words, { mesh.triangles() });
+}
+
+std::string borderName(const PieceWork& work, PartitionIndex piece)
+{
+  return std::to_string(work.Plan.number(piece)) + ".border";
+}
+
+/// Passes triangles at the borders of any pieces to the consumer; `name` identifies this part (see
+/// TriangleConsumer::take()).
+void takeTriangles(const PieceWork& work, const std::string& name, const BordersByOwner& triangles,
+  const ResultOf& results)
+{
+  const PieceInterior none;
+  PieceBorder border(none, work.Rows);
+  for (const auto& [owner, those] : triangles)
+  {
+    for (const std::array<std::int64_t, 3>& corners : those.Corners)
+    {
+      border.addCell(corners.data(), {});
+    }
+  }
+  takeMesh(work, name, border, results);
 }
 
 } // namespace
@@ -81,48 +117,6 @@ void append(BordersByOwner&& from, BordersByOwner& to)
     }
   }
 }
-
-namespace
-{
-
-/// Returns the path of an empty file that exists once the consumer has the piece's border.
-std::string takenPath(const PieceWork& work, PartitionIndex piece)
-{
-  return work.resultPath(piece) + ".taken";
-}
-
-void takeMesh(
-  const PieceWork& work, const std::string& name, PieceBorder& border, const ResultOf& results)
-{
-  setGhosts(work, results, border);
-  const PieceBorder::Mesh mesh = border.mesh();
-  work.Consumer->take(
-    name, mesh.Rows.data(), work.Rows, mesh.Rows.size() / work.Rows.Words, { mesh.triangles() });
-}
-
-std::string borderName(const PieceWork& work, PartitionIndex piece)
-{
-  return std::to_string(work.Plan.number(piece)) + ".border";
-}
-
-/// Passes triangles at the borders of any pieces to the consumer; `name` identifies this part (see
-/// TriangleConsumer::take()).
-void takeTriangles(const PieceWork& work, const std::string& name, const BordersByOwner& triangles,
-  const ResultOf& results)
-{
-  const PieceInterior none;
-  PieceBorder border(none, work.Rows);
-  for (const auto& [owner, those] : triangles)
-  {
-    for (const std::array<std::int64_t, 3>& corners : those.Corners)
-    {
-      border.addCell(corners.data(), {});
-    }
-  }
-  takeMesh(work, name, border, results);
-}
-
-} // namespace
 
 void takeBorder(const PieceWork& work, PartitionIndex piece, const ResultOf& results)
 {
@@ -202,8 +196,8 @@ ConstraintSegments readNear(const PieceSegments& segments, PointsView points,
 class PieceFinisher : public PieceFinisherOf<PieceWork, 3>
 {
 public:
-  PieceFinisher(const PieceWork& work, int threads)
-    : PieceFinisherOf(work)
+  PieceFinisher(const PieceWork& work, int threads, PieceFigures& figures)
+    : PieceFinisherOf(work, figures)
   {
     BorderSorter sorter(work, this->Late);
     repairHull(this->readHullVertices(), work.Plan.Artificial, sorter);
@@ -280,6 +274,37 @@ private:
     }
   }
 
+  /// The points at the corners of triangles, each once.
+  struct CornerPoints
+  {
+    std::vector<std::int64_t> Points; ///< ascending
+    std::vector<Point2> Positions;    ///< of these points
+
+    /// Returns the index of a point, which must be among them.
+    std::size_t find(std::int64_t point) const
+    {
+      return std::size_t(
+        std::lower_bound(this->Points.begin(), this->Points.end(), point) - this->Points.begin());
+    }
+  };
+
+  /// Reads the positions of the triangles' corners from the results.
+  CornerPoints cornersOf(const std::vector<CrossedPart::Corners>& triangles) const
+  {
+    CornerPoints corners;
+    for (const CrossedPart::Corners& triangle : triangles)
+    {
+      corners.Points.insert(corners.Points.end(), triangle.begin(), triangle.end());
+    }
+    sortUnique(corners.Points);
+    corners.Positions.reserve(corners.Points.size());
+    visitBorderRows(this->Work, corners.Points, this->results(),
+      [&](std::int64_t, const double* row) {
+        corners.Positions.push_back({ row[0], row[1] });
+      });
+    return corners;
+  }
+
   /// Returns the triangles that the piece owns at its border and that constraints cross.
   CrossedPart takeCrossedBorder(PartitionIndex piece) const
   {
@@ -287,22 +312,21 @@ private:
     this->forEachBorder(piece,
       [&](const BorderTriangles& border)
       { triangles.insert(triangles.end(), border.Corners.begin(), border.Corners.end()); });
-    const std::vector<std::int64_t> points = pointsOf(triangles);
-    const std::vector<Point2> positions = this->positionsOf(points);
-    std::vector<std::int32_t> corners;
+    const CornerPoints corners = this->cornersOf(triangles);
+    std::vector<std::int32_t> indices;
     for (const CrossedPart::Corners& triangle : triangles)
     {
       for (const std::int64_t point : triangle)
       {
-        corners.push_back(
-          std::int32_t(std::lower_bound(points.begin(), points.end(), point) - points.begin()));
+        indices.push_back(std::int32_t(corners.find(point)));
       }
     }
     CrossedPart part;
-    takeCrossed(PointsView(positions),
-      readNear(*this->Work.Constraints, PointsView(positions), corners.data(), triangles.size(), 1),
-      0, corners.data(), triangles.size(), part);
-    part.rename([&points](std::int64_t index) { return points[std::size_t(index)]; });
+    const PointsView positions(corners.Positions);
+    takeCrossed(positions,
+      readNear(*this->Work.Constraints, positions, indices.data(), triangles.size(), 1), 0,
+      indices.data(), triangles.size(), part);
+    part.rename([&corners](std::int64_t index) { return corners.Points[std::size_t(index)]; });
     return part;
   }
 
@@ -313,9 +337,7 @@ private:
     isKept.reserve(triangles.Corners.size());
     const ConstraintSegments& cutting = this->Work.Constraints->cutting();
     const bool filters = cutting.cuts() || this->Work.MaximumEdge > 0;
-    const std::vector<std::int64_t> points =
-      filters ? pointsOf(triangles.Corners) : std::vector<std::int64_t>();
-    const std::vector<Point2> positions = this->positionsOf(points);
+    const CornerPoints corners = filters ? this->cornersOf(triangles.Corners) : CornerPoints();
     for (const CrossedPart::Corners& triangle : triangles.Corners)
     {
       bool keeps = !std::binary_search(this->Replaced.begin(), this->Replaced.end(), triangle);
@@ -323,40 +345,13 @@ private:
       {
         std::array<Point2, 3> p;
         std::transform(triangle.begin(), triangle.end(), p.begin(),
-          [&](std::int64_t point)
-          {
-            return positions[std::size_t(
-              std::lower_bound(points.begin(), points.end(), point) - points.begin())];
-          });
+          [&](std::int64_t point) { return corners.Positions[corners.find(point)]; });
         keeps = cutting.keeps(p) &&
           !(this->Work.MaximumEdge > 0 && hasLongEdge(p[0], p[1], p[2], this->Work.MaximumEdge));
       }
       isKept.push_back(char(keeps));
     }
     return isKept;
-  }
-
-  /// Returns the corners of the triangles, each once, ascending.
-  static std::vector<std::int64_t> pointsOf(const std::vector<CrossedPart::Corners>& triangles)
-  {
-    std::vector<std::int64_t> points;
-    for (const CrossedPart::Corners& triangle : triangles)
-    {
-      points.insert(points.end(), triangle.begin(), triangle.end());
-    }
-    sortUnique(points);
-    return points;
-  }
-
-  std::vector<Point2> positionsOf(const std::vector<std::int64_t>& points) const
-  {
-    std::vector<Point2> positions;
-    positions.reserve(points.size());
-    visitBorderRows(this->Work, points, this->results(),
-      [&](std::int64_t, const double* row) {
-        positions.push_back({ row[0], row[1] });
-      });
-    return positions;
   }
 
   std::vector<CrossedPart::Corners> Replaced; ///< triangles that constraints cross; sorted
@@ -367,9 +362,7 @@ private:
 std::vector<FinishedPiece> finishPieces(
   const PieceWork& work, int threads, const Report& report, PieceFigures& figures)
 {
-  const PieceFinisher finisher(work, threads);
-  figures = finisher.figures();
-  return finisher.finish(threads, report);
+  return PieceFinisher(work, threads, figures).finish(threads, report);
 }
 
 void numberCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, const Report& report)

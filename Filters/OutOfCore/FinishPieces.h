@@ -4,7 +4,6 @@
 
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/PieceResult.h"
-#include "OutOfCore/StoredPieces.h"
 #include "Parallel/ParallelFor.h"
 #include "Partitioned/GrowingPiece.h"
 
@@ -13,8 +12,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace tipp
@@ -89,35 +86,34 @@ class PieceFinisherOf
 public:
   using Result = typename WorkType::Result;
 
-  /// `work` must outlive this object. Throws IOError.
-  explicit PieceFinisherOf(const WorkType& work)
+  /// Sets `figures` to the sum of all pieces' figures. `work` must outlive this object. Throws
+  /// IOError.
+  PieceFinisherOf(const WorkType& work, PieceFigures& figures)
     : Work(work)
   {
+    figures = PieceFigures();
     for (PartitionIndex piece = 0; piece < work.Plan.pieces(); ++piece)
     {
       this->Results.push_back(std::make_unique<Result>(work.resultPath(piece)));
-      this->Figures.add(this->Results.back()->readFigures());
+      figures.add(this->Results.back()->readFigures());
     }
   }
   virtual ~PieceFinisherOf() = default;
 
-  /// The sum of all pieces' figures.
-  const PieceFigures& figures() const { return this->Figures; }
-
   /// Completes the pieces' files, unless an earlier process did so. Then only the global ids of
-  /// cells and of their neighbours are missing. Returns the pieces in the order of the mesh; an
-  /// empty list if `report` stopped the run. Throws IOError.
+  /// cells and of their neighbours are missing. Returns the pieces in the order of the mesh.
+  /// `report` throws to stop the run. Throws IOError.
   std::vector<FinishedPiece> finish(int threads, const Report& report) const
   {
     std::vector<FinishedPiece> finished(this->Results.size());
-    const bool isDone = forChunks(std::int64_t(finished.size()), 1, threads, report,
+    forChunks(std::int64_t(finished.size()), 1, threads, report,
       [&](std::int64_t at, std::int64_t, int)
       {
         const auto piece = static_cast<PartitionIndex>(at);
         finished[this->Work.Plan.number(piece)] =
           finishOnce(this->Work.finishedPath(piece), [&] { return this->make(piece); });
       });
-    return isDone ? std::move(finished) : std::vector<FinishedPiece>();
+    return finished;
   }
 
 protected:
@@ -192,8 +188,7 @@ protected:
 
   const WorkType& Work;
   std::vector<std::unique_ptr<Result>> Results; ///< of each piece
-  PieceFigures Figures;
-  BordersOf<CornerCount> Late; ///< cells made after all pieces were done
+  BordersOf<CornerCount> Late;                  ///< cells made after all pieces were done
 };
 
 /// Passes to the consumer the triangles between pieces that became final with the last partitions
@@ -220,8 +215,8 @@ private:
 
 /// Completes the files of all pieces once all results exist: repairs the hull (Lemma 3), and adds
 /// the borders to the interiors. Then only the global ids of cells and of their neighbours are
-/// missing. Returns the pieces in the order of the mesh; an empty list if `report` stopped the run.
-/// Throws IOError.
+/// missing. Returns the pieces in the order of the mesh. `report` throws to stop the run. Throws
+/// IOError.
 std::vector<FinishedPiece> finishPieces(
   const PieceWork& work, int threads, const Report& report, PieceFigures& figures);
 

@@ -2,8 +2,11 @@
 #include "OutOfCore/InputPasses.h"
 
 #include "Files/IOError.h"
-#include "OutOfCore/ScratchFiles.h"
+#include "OutOfCore/PiecePlan.h"
 #include "Parallel/Stopwatch.h"
+#include "Points/ReadPoints.h"
+#include "Triangulation/PointBuckets.h"
+#include "Triangulation/PointsView.h"
 #include "Triangulation/Tiling.h"
 
 #include <algorithm>
@@ -13,13 +16,134 @@
 namespace tipp
 {
 
+void applyFactor(InputSurvey& survey, double factor)
+{
+  survey.Factor = factor;
+  survey.Bounds = scaled(survey.Bounds, factor);
+  for (SampledPoint& p : survey.Sample)
+  {
+    p.Position = { p.Position.x * factor, p.Position.y * factor };
+  }
+}
+
+InputSurvey surveyPart(PointStream& points, const PassOptions& options)
+{
+  InputSurvey survey;
+  StreamSampler<Point2> sampler(options.SamplePoints, points.divisible());
+  CollinearityTest line;
+  const std::size_t elevation = findElevation(points.columns());
+  forEachBlock(points, options.BlockPoints,
+    [&](PointBlock& block)
+    {
+      const PointsView view(block.XY.data(), block.size(), 2);
+      const PointSurvey part = surveyPoints(view, options.Threads);
+      survey.Bounds = unionOf(survey.Bounds, part.Bounds);
+      survey.Rejected += std::int64_t(part.Rejected.size());
+      survey.WithoutElevation +=
+        elevation < block.Columns.size() ? countMissing(block.Columns[elevation]) : 0;
+      sampler.add(block.First, view);
+      for (std::size_t i = 0; survey.Collinear && i < view.size(); ++i)
+      {
+        survey.Collinear = line.add(view[i]);
+      }
+      survey.Points += std::int64_t(block.size());
+      options.Progress(survey.Points);
+    });
+  survey.Line = line.line();
+  survey.Sample = sampler.take();
+  return survey;
+}
+
+InputSurvey joinSurveys(std::vector<InputSurvey>& parts)
+{
+  InputSurvey survey;
+  CollinearityTest line;
+  for (InputSurvey& part : parts)
+  {
+    survey.Points += part.Points;
+    survey.Rejected += part.Rejected;
+    survey.WithoutElevation += part.WithoutElevation;
+    survey.Bounds = unionOf(survey.Bounds, part.Bounds);
+    survey.Collinear = survey.Collinear && part.Collinear &&
+      std::all_of(part.Line.begin(), part.Line.end(), [&](Point2 p) { return line.add(p); });
+    survey.Sample.insert(survey.Sample.end(), part.Sample.begin(), part.Sample.end());
+    std::vector<SampledPoint>().swap(part.Sample);
+  }
+  return survey;
+}
+
 void throwChanged()
 {
   throw IOError("The input has changed while it was read; start again.");
 }
 
+template <typename Archive>
+void serialize(Archive& archive, SpilledPart& part)
+{
+  archive(part.Points, part.Rows, part.InPieces);
+}
+
 namespace
 {
+
+/// Returns the InputSurvey::Factor that is exact for all points of a part; 1 if there is none.
+/// Reads the part. `bounds`: of all points, not scaled. Throws IOError.
+double factorOfPart(PointStream& points, std::size_t blockPoints, const Box2& bounds)
+{
+  double factor = withModerateMagnitude(PointsView(), bounds).factor();
+  forEachBlock(points, blockPoints,
+    [&](PointBlock& block)
+    {
+      const PointsView view(block.XY.data(), block.size(), 2);
+      factor = factor == 1 ? 1 : withModerateMagnitude(view, bounds).factor();
+    });
+  return factor;
+}
+
+void limitToPart(PointStream& points, std::int64_t total, int part, int parts)
+{
+  const auto before = [&](int p) { return total / parts * p + total % parts * p / parts; };
+  if (total >= 0)
+  {
+    points.limitTo(before(part), before(part + 1));
+  }
+}
+
+/// Opens the input as the first rank has ordered, limited to this rank's part, and sets the options
+/// that the order contains. Returns null if the input cannot be read or differs.
+std::unique_ptr<PointStream> openPart(
+  const Communicator& ranks, const OpenPoints& open, LoadArchive& order, PassOptions& options)
+{
+  std::string identity;
+  std::int64_t total = 0;
+  std::uint64_t block = 0;
+  std::uint64_t sample = 0;
+  order(identity, total, block, sample);
+  options.BlockPoints = std::size_t(block);
+  options.SamplePoints = std::size_t(sample);
+  try
+  {
+    std::unique_ptr<PointStream> points = open();
+    if (points->identity() == identity && points->divisible() == total)
+    {
+      limitToPart(*points, total, ranks.rank(), ranks.size());
+      return points;
+    }
+  }
+  catch (const IOError&)
+  {
+    // The first rank reads the part.
+  }
+  return nullptr;
+}
+
+/// Returns the index of each piece's first row, and at the end the number of rows.
+std::vector<std::int64_t> startsOf(const std::vector<std::int64_t>& counts)
+{
+  std::vector<std::int64_t> starts(counts.size() + 1, 0);
+  std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
+  return starts;
+}
 
 /// Finds the pieces of a block's points, and the indices of initial points within their pieces.
 class Labelling
@@ -49,14 +173,8 @@ public:
     this->countPoints(block.First);
   }
 
-  std::int32_t labelOf(std::size_t i) const
-  {
-    return this->Labels[i];
-  }
-  const std::vector<std::int64_t>& inPieces() const
-  {
-    return this->InPieces;
-  }
+  std::vector<std::int32_t> Labels;   ///< by point of the block: its piece; -1: none
+  std::vector<std::int64_t> InPieces; ///< see SpilledPart
 
 private:
   void labelRange(const PointBlock& block, std::size_t begin, std::size_t end)
@@ -109,9 +227,7 @@ private:
   const PartitionFinder Pieces;
   const double Factor;
   const int Threads;
-  std::vector<std::int32_t> Labels;
   std::vector<std::int64_t> Counts;
-  std::vector<std::int64_t> InPieces;
   std::size_t NextInitial = 0;
 };
 
@@ -142,13 +258,13 @@ SpilledPart spillPart(PointStream& points, double factor, const PiecePlan& plan,
     {
       labelling.label(block);
       spill.add(
-        block.size(), options.Threads, [&](std::size_t i) { return labelling.labelOf(i); },
+        block.size(), options.Threads, [&](std::size_t i) { return labelling.Labels[i]; },
         [&](std::size_t i, char* to) { writeRow(block, i, to); });
       spilled.Points += std::int64_t(block.size());
       options.Progress(spilled.Points);
     });
   spilled.Rows = spill.close();
-  spilled.InPieces = labelling.inPieces();
+  spilled.InPieces = std::move(labelling.InPieces);
   return spilled;
 }
 
@@ -173,8 +289,7 @@ void placeInitialPoints(
       before[piece] += part.Rows.Counts.at(piece);
     }
   }
-  std::vector<std::int64_t> starts(before.size() + 1, 0);
-  std::partial_sum(before.begin(), before.end(), starts.begin() + 1);
+  const std::vector<std::int64_t> starts = startsOf(before);
   if (seen != survey.Points || starts.back() != survey.Points - survey.Rejected ||
     next != plan.Initial.end())
   {
@@ -189,22 +304,15 @@ void placeInitialPoints(
 SpilledPoints::SpilledPoints(
   const std::string& file, std::size_t words, const std::vector<SpilledRows>& parts)
   : Rows(file, parts.front().Counts.size(), 8 * words, parts)
+  , Starts(startsOf(this->Rows.content().Counts))
 {
-  this->setStarts();
 }
 
 SpilledPoints::SpilledPoints(
   const std::string& file, std::size_t words, PartitionIndex pieces, LoadArchive& archive)
   : Rows(file, std::size_t(pieces), 8 * words, archive.get<SpilledRows>())
+  , Starts(startsOf(this->Rows.content().Counts))
 {
-  this->setStarts();
-}
-
-void SpilledPoints::setStarts()
-{
-  const std::vector<std::int64_t>& counts = this->Rows.content().Counts;
-  this->Starts.assign(counts.size() + 1, 0);
-  std::partial_sum(counts.begin(), counts.end(), this->Starts.begin() + 1);
 }
 
 void SpilledPoints::save(SaveArchive& archive) const
@@ -217,26 +325,6 @@ PartitionIndex SpilledPoints::pieceOf(std::int64_t index) const
   return PartitionIndex(
     std::upper_bound(this->Starts.begin(), this->Starts.end(), index) - this->Starts.begin() - 1);
 }
-
-template <typename Archive>
-void serialize(Archive& archive, SpilledPart& part)
-{
-  archive(part.Points, part.Rows, part.InPieces);
-}
-
-namespace
-{
-
-void limitToPart(PointStream& points, std::int64_t total, int part, int parts)
-{
-  const auto before = [&](int p) { return total / parts * p + total % parts * p / parts; };
-  if (total >= 0)
-  {
-    points.limitTo(before(part), before(part + 1));
-  }
-}
-
-} // namespace
 
 InputPasses::InputPasses(PointStream& points, Communicator* ranks, const PassOptions& options)
   : Points(points)
@@ -286,64 +374,66 @@ Bytes InputPasses::answerOf(int rank)
   }
 }
 
-/// Returns one result per part. Each other rank gets `order` and answers; if it has no result, or
-/// if there are no ranks, work(part) computes it here with the stream limited to the part.
-template <typename Result, typename Work>
-std::vector<Result> InputPasses::share(MessageKind kind, SaveArchive order, const Work& work)
+/// Returns one result per part. Each other rank gets a message, whose content saveOrder() saves,
+/// and answers. If it has no result, or if there are no ranks, work(part) computes it here with the
+/// stream limited to the part.
+template <typename Result, typename SaveOrder, typename Work>
+std::vector<Result> InputPasses::share(
+  MessageKind kind, const SaveOrder& saveOrder, const Work& work)
 {
-  const Bytes bytes = order.take();
   for (int to = 1; to < this->Parts; ++to)
   {
-    Bytes copy(bytes.size());
-    std::copy(bytes.begin(), bytes.end(), copy.begin());
-    this->Ranks->post(to, kind, std::move(copy));
+    SaveArchive order;
+    saveOrder(order);
+    this->Ranks->post(to, kind, order.take());
   }
   std::vector<Result> results;
   for (int part = 0; part < this->Parts; ++part)
   {
     const Bytes answer = part == 0 ? Bytes() : this->answerOf(part);
-    if (answer.size() == 0)
+    if (answer.size() > 0)
     {
-      limitToPart(this->Points, this->Total, part, this->Parts);
-      results.push_back(work(part));
+      results.push_back(unpacked<Result>(answer));
       continue;
     }
-    results.push_back(unpacked<Result>(answer));
+    limitToPart(this->Points, this->Total, part, this->Parts);
+    results.push_back(work(part));
   }
   return results;
 }
 
 InputSurvey InputPasses::survey()
 {
-  SaveArchive order;
-  order(this->Points.identity(), this->Total, std::uint64_t(this->Options.BlockPoints),
-    std::uint64_t(this->Options.SamplePoints));
-  std::vector<InputSurvey> parts = this->share<InputSurvey>(SurveyMessage, std::move(order),
+  std::vector<InputSurvey> parts = this->share<InputSurvey>(
+    SurveyMessage,
+    [this](SaveArchive& order)
+    {
+      order(this->Points.identity(), this->Total, std::uint64_t(this->Options.BlockPoints),
+        std::uint64_t(this->Options.SamplePoints));
+    },
     [this](int) { return surveyPart(this->Points, this->Options); });
   InputSurvey survey = joinSurveys(parts);
-  if (mayNeedFactor(survey))
+  if (survey.Points > survey.Rejected &&
+    withModerateMagnitude(PointsView(), survey.Bounds).factor() != 1)
   {
-    applyFactor(survey, this->commonFactor(survey));
+    const std::vector<double> factors = this->share<double>(
+      FactorMessage, [&](SaveArchive& order) { order(survey.Bounds); },
+      [&](int) { return factorOfPart(this->Points, this->Options.BlockPoints, survey.Bounds); });
+    applyFactor(survey, std::count(factors.begin(), factors.end(), 1.0) > 0 ? 1 : factors[0]);
   }
   return survey;
-}
-
-double InputPasses::commonFactor(const InputSurvey& survey)
-{
-  SaveArchive order;
-  order(survey.Bounds);
-  const std::vector<double> factors = this->share<double>(FactorMessage, std::move(order),
-    [&](int) { return factorOfPart(this->Points, this->Options.BlockPoints, survey.Bounds); });
-  return std::count(factors.begin(), factors.end(), 1.0) > 0 ? 1 : factors[0];
 }
 
 std::unique_ptr<SpilledPoints> InputPasses::spill(
   const InputSurvey& survey, PiecePlan& plan, const std::string& file)
 {
-  SaveArchive order;
-  order(file, survey.Factor);
-  plan.save(order);
-  const std::vector<SpilledPart> parts = this->share<SpilledPart>(SpillMessage, std::move(order),
+  const std::vector<SpilledPart> parts = this->share<SpilledPart>(
+    SpillMessage,
+    [&](SaveArchive& order)
+    {
+      order(file, survey.Factor);
+      plan.save(order);
+    },
     [&](int part)
     { return spillPart(this->Points, survey.Factor, plan, file, part, this->Options); });
   placeInitialPoints(parts, survey, plan);
@@ -353,70 +443,39 @@ std::unique_ptr<SpilledPoints> InputPasses::spill(
   return std::make_unique<SpilledPoints>(file, 3 + this->Points.columns().size(), rows);
 }
 
-InputHelper::InputHelper(Communicator& ranks, OpenPoints open, PassOptions options)
-  : Ranks(ranks)
-  , Open(std::move(open))
-  , Options(std::move(options))
+Message helpWithInput(Communicator& ranks, const OpenPoints& open, PassOptions options,
+  const std::function<Message()>& next)
 {
-}
-
-bool InputHelper::take(const Message& message)
-{
-  if (message.Kind != SurveyMessage && message.Kind != FactorMessage &&
-    message.Kind != SpillMessage)
+  std::unique_ptr<PointStream> points;
+  Message message = next();
+  for (; message.Kind == SurveyMessage || message.Kind == FactorMessage ||
+       message.Kind == SpillMessage;
+       message = next())
   {
-    return false;
-  }
-  LoadArchive order(message.Content);
-  if (message.Kind == SurveyMessage)
-  {
-    this->open(order);
-  }
-  Bytes answer; // empty: the first rank must read the part
-  if (this->Points)
-  {
-    PointStream& points = *this->Points;
-    answer = message.Kind == SurveyMessage ? packed(surveyPart(points, this->Options))
-      : message.Kind == FactorMessage
-      ? packed(factorOfPart(points, this->Options.BlockPoints, order.get<Box2>()))
-      : this->spill(order);
-  }
-  this->Ranks.post(0, PartMessage, std::move(answer));
-  return true;
-}
-
-void InputHelper::open(LoadArchive& order)
-{
-  std::string identity;
-  std::int64_t total = 0;
-  std::uint64_t block = 0;
-  std::uint64_t sample = 0;
-  order(identity, total, block, sample);
-  this->Options.BlockPoints = std::size_t(block);
-  this->Options.SamplePoints = std::size_t(sample);
-  try
-  {
-    this->Points = this->Open();
-    if (this->Points->identity() != identity || this->Points->divisible() != total)
+    LoadArchive order(message.Content);
+    if (message.Kind == SurveyMessage)
     {
-      this->Points.reset();
-      return;
+      points = openPart(ranks, open, order, options);
     }
-    limitToPart(*this->Points, total, this->Ranks.rank(), this->Ranks.size());
+    Bytes answer; // empty: the first rank must read the part
+    if (points && message.Kind == SurveyMessage)
+    {
+      answer = packed(surveyPart(*points, options));
+    }
+    else if (points && message.Kind == FactorMessage)
+    {
+      answer = packed(factorOfPart(*points, options.BlockPoints, order.get<Box2>()));
+    }
+    else if (points)
+    {
+      std::string file;
+      double factor = 1;
+      order(file, factor);
+      answer = packed(spillPart(*points, factor, PiecePlan(order), file, ranks.rank(), options));
+    }
+    ranks.post(0, PartMessage, std::move(answer));
   }
-  catch (const IOError&)
-  {
-    this->Points.reset();
-  }
-}
-
-Bytes InputHelper::spill(LoadArchive& order)
-{
-  std::string file;
-  double factor = 1;
-  order(file, factor);
-  const PiecePlan plan(order);
-  return packed(spillPart(*this->Points, factor, plan, file, this->Ranks.rank(), this->Options));
+  return message;
 }
 
 } // namespace tipp

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/PieceRun.h"
 
+#include "OutOfCore/FinishPieces.h"
 #include "Partitioned/GrowingPiece.h"
-#include "Triangulation/PointSurvey.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/TriangleSink.h"
 
@@ -136,9 +136,8 @@ void LoadedPiece::prepare(Workspace& space)
   }
   const PiecePlan& plan = this->Work.Plan;
   space.Triangulator.reset(); // before the next one is made, which reuses the kernel
-  space.Triangulator =
-    std::make_unique<Worker<std::int32_t>>(plan.Partitions, this->Buckets, this->First);
-  space.Triangulator->setTiling(plan.Partitions, -plan.FirstPartition[std::size_t(this->Piece)]);
+  space.Triangulator = std::make_unique<Worker<std::int32_t>>(
+    plan.Partitions, this->Buckets, this->First, -plan.FirstPartition[std::size_t(this->Piece)]);
   if (this->Constraints)
   {
     space.Triangulator->setEditor(this->Constraints->makeEditor());
@@ -157,9 +156,7 @@ SentMessages LoadedPiece::triangulate(
   this->prepare(space);
   Worker<std::int32_t>& worker = *space.Triangulator;
   Routing<std::int32_t>& routing = *space.Router;
-  routing.setPartition(partition);
-  worker.triangulate(
-    partition, space.Unique.collect(inbox), space.Order.regions()[partition], routing);
+  routing.triangulate(worker, partition, inbox);
 
   std::vector<Duplicate> duplicates = worker.duplicates();
   const LowestPoints lowest(duplicates);

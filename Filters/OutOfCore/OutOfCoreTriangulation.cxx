@@ -2,17 +2,26 @@
 #include "OutOfCore/OutOfCoreTriangulation.h"
 
 #include "Files/IOError.h"
+#include "Files/OutputFile.h"
 #include "OutOfCore/FinishPieces.h"
 #include "OutOfCore/InputPasses.h"
 #include "OutOfCore/OutOfCoreRun.h"
 #include "OutOfCore/PieceRun.h"
-#include "OutOfCore/RunSetup.h"
+#include "OutOfCore/ScratchFiles.h"
+#include "Parallel/ParallelFor.h"
+#include "Parallel/Stopwatch.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <memory>
+#include <new>
+#include <random>
+#include <stdexcept>
 
 namespace tipp
 {
+
 /// The statistics of the whole mesh, without those of this process.
 template <typename Archive>
 void serialize(Archive& archive, OutOfCoreStatistics& statistics)
@@ -25,18 +34,23 @@ void serialize(Archive& archive, OutOfCoreStatistics& statistics)
 namespace
 {
 
+std::string firstLine(const std::string& path)
+{
+  std::string line;
+  std::getline(std::ifstream(path), line);
+  return line;
+}
+
 class Run : OutOfCoreRun<OutOfCoreOptions, OutOfCoreStatistics>
 {
 public:
   Run(PointStream& points, const std::string& path, const OutOfCoreOptions& options,
     Communicator* ranks)
     : OutOfCoreRun(points, path, options, identityOf(points, options), ranks)
+    , Setup(options)
   {
     this->Setup.Mesh.Path = options.CountOnly ? "" : this->Pending.temporaryPath();
     this->Setup.Results = this->Scratch.results();
-    this->Setup.Consumer = options.Consumer;
-    this->Setup.MaximumEdge = options.MaximumEdge;
-    this->Setup.Duplicates = options.Duplicates;
   }
 
   OutOfCoreStatistics run()
@@ -161,7 +175,8 @@ private:
                             .spill(survey, *this->Setup.Plan, this->Scratch.points());
     this->Statistics.SpilledBytes = this->Setup.Spilled->bytes();
     this->Setup.requireMemory(this->Path, this->Options.MemoryLimit);
-    this->Record.saveBegun([this](SaveArchive& archive) { this->Setup.save(archive); });
+    this->Record.save(
+      RunRecord::Stage::Begun, [this](SaveArchive& archive) { this->Setup.save(archive); });
     this->endPhase("spill");
   }
 
@@ -179,24 +194,33 @@ private:
       return;
     }
     const PieceWork work = this->Setup.work();
-    const std::vector<char> isDone = verifyResults(
-      work, this->Threads, [this](double) { return this->proceed(0.2); },
-      [this](const std::string& sentence) { this->warn(sentence); });
-    this->require(!isDone.empty());
+    const std::vector<char> isDone =
+      verifyResults(work, this->Threads, this->reportPart(0.2, 0), this->Options.Warn);
     if (this->Ranks)
     {
-      shareSetup(*this->Ranks, this->Setup, this->Scratch.points(), isDone);
+      this->shareSetup(isDone);
     }
     Communicator alone(nullptr);
     const std::function<bool(double)> progress = [this](double done)
     { return this->proceed(0.2 + 0.65 * done); };
-    PieceRun(work, *this->Memory, this->Threads, progress, this->Ranks ? *this->Ranks : alone)
-      .run(isDone);
-    this->Finished = finishPieces(
-      work, this->Threads, [this](double done) { return this->proceed(0.85 + 0.05 * done); },
-      this->Statistics);
-    this->require(!this->Finished.empty());
+    triangulatePieces(
+      work, *this->Memory, this->Threads, progress, this->Ranks ? *this->Ranks : alone, isDone);
+    this->Finished =
+      finishPieces(work, this->Threads, this->reportPart(0.85, 0.05), this->Statistics);
     this->endPhase("triangulate");
+  }
+
+  /// Sends the other ranks, which wait in help(), the data that they need to work on pieces.
+  void shareSetup(const std::vector<char>& isDone)
+  {
+    for (int to = 1; to < this->Ranks->size(); ++to)
+    {
+      SaveArchive archive;
+      archive(this->Scratch.points(), this->Setup.Mesh.Path, this->Setup.Results, isDone);
+      this->Setup.save(archive);
+      this->Ranks->post(to, SetUpMessage, archive.take());
+      this->Ranks->flush(); // send one copy at a time, to save memory
+    }
   }
 
   void endTaking()
@@ -216,7 +240,8 @@ private:
       this->Statistics.Triangles += piece.Summary.Cells;
       this->Statistics.TriangleSum += piece.TriangleSum;
     }
-    this->Record.saveCounted([this](SaveArchive& archive) { archive(this->Statistics); });
+    this->Record.save(
+      RunRecord::Stage::Counted, [this](SaveArchive& archive) { archive(this->Statistics); });
   }
 
   void publish()
@@ -236,12 +261,146 @@ private:
   RunSetup Setup;
 };
 
+/// Reports progress on a rank other than the first while there are no pieces to triangulate.
+void report(const Communicator& ranks, const OutOfCoreOptions& options, double fraction)
+{
+  if (options.Progress && !options.Progress(fraction))
+  {
+    throw RankFailure(ranks.rank(), true, "The run was stopped.");
+  }
+}
+
+Message waitForOrder(Communicator& ranks, const OutOfCoreOptions& options, double fraction)
+{
+  constexpr double moment = 0.1;
+  Stopwatch sinceReport;
+  Message message;
+  while (!ranks.poll(message))
+  {
+    if (sinceReport.seconds() > moment)
+    {
+      sinceReport.restart();
+      report(ranks, options, fraction);
+    }
+    ranks.pause();
+  }
+  return message;
+}
+
+/// Works on a rank other than the first: helps with the input, and triangulates this rank's pieces.
+void help(Communicator& ranks, const OpenPoints& open, const OutOfCoreOptions& options)
+{
+  requireSharedFolder(ranks, "");
+  requireSharedFolder(ranks, "");
+  const int threads = threadCount(options.Threads);
+  const auto progress = [&](std::int64_t)
+  {
+    Message none; // no message comes; poll() throws if a rank has failed
+    ranks.poll(none);
+    report(ranks, options, 0);
+  };
+  RunSetup setup(options);
+  std::vector<char> isDone;
+  { // the message, which may be large, is freed before the pieces are triangulated
+    const Message message = helpWithInput(
+      ranks, open, { 0, 0, threads, progress }, [&] { return waitForOrder(ranks, options, 0); });
+    if (message.Kind == EndMessage)
+    {
+      return; // there are no pieces to triangulate
+    }
+    std::string points;
+    LoadArchive archive(message.Content);
+    archive(points, setup.Mesh.Path, setup.Results, isDone);
+    setup.load(archive, points);
+  }
+  setup.beginTaking();
+  const MemoryPlan memory(options, setup.Rows.Words, setup.Constraints != nullptr);
+  triangulatePieces(setup.work(), memory, threads, options.Progress, ranks, isDone);
+  while (waitForOrder(ranks, options, 1).Kind != EndMessage)
+  {
+    // A result of another rank, which this rank does not need.
+  }
+}
+
 } // namespace
 
-OutOfCoreStatistics triangulateOutOfCore(PointStream& points, const std::string& path,
-  const OutOfCoreOptions& options, Communicator* ranks)
+void requireSharedFolder(Communicator& ranks, const std::string& folder)
 {
-  return Run(points, path, options, ranks && ranks->size() > 1 ? ranks : nullptr).run();
+  const bool isFirst = ranks.rank() == 0;
+  const RemovedFile mark(isFirst ? folder + "/.ranks" : "");
+  std::string expected;
+  if (isFirst)
+  {
+    std::random_device random;
+    expected = std::to_string(random()) + " " + std::to_string(random());
+    std::ofstream(mark.Path) << expected << "\n";
+    if (firstLine(mark.Path) != expected)
+    {
+      throw IOError(mark.Path, "cannot be written.");
+    }
+  }
+  const std::string path = ranks.broadcast(mark.Path);
+  expected = ranks.broadcast(expected);
+  if (firstLine(path) != expected)
+  {
+    throw IOError(std::filesystem::path(path).parent_path().string(),
+      "does not exist on this rank, but all ranks use it; name folders that all ranks share.");
+  }
+  ranks.barrier(); // all ranks have read the file, so it can be removed
+}
+
+OutOfCoreStatistics triangulateOutOfCore(
+  PointStream& points, const std::string& path, const OutOfCoreOptions& options)
+{
+  return Run(points, path, options, nullptr).run();
+}
+
+OutOfCoreStatistics triangulateOutOfCoreOnRanks(Communicator& ranks, const OpenPoints& open,
+  const std::string& path, const OutOfCoreOptions& options)
+{
+  OutOfCoreStatistics statistics;
+  const auto work = [&]
+  {
+    if (ranks.rank() > 0)
+    {
+      help(ranks, open, options);
+      return;
+    }
+    const std::unique_ptr<PointStream> points = open();
+    statistics = Run(*points, path, options, ranks.size() > 1 ? &ranks : nullptr).run();
+    if (statistics.Aborted)
+    {
+      throw RankFailure(0, true, "The run was stopped.");
+    }
+    for (int to = 1; to < ranks.size(); ++to)
+    {
+      ranks.post(to, EndMessage, Bytes());
+    }
+  };
+  try
+  {
+    ranks.together(
+      [&]
+      {
+        try
+        {
+          work();
+        }
+        catch (const std::bad_alloc&)
+        {
+          throw std::runtime_error("There is not enough memory; lower the memory limit.");
+        }
+      });
+  }
+  catch (const RankFailure& failure)
+  {
+    statistics.Aborted = failure.Aborted;
+    if (!failure.Aborted)
+    {
+      throw;
+    }
+  }
+  return statistics;
 }
 
 } // namespace tipp

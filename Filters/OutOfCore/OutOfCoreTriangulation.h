@@ -2,12 +2,12 @@
 #ifndef tippOutOfCoreTriangulation_h
 #define tippOutOfCoreTriangulation_h
 
-#include "Constraints/ResolveCrossings.h"
-#include "Duplicates/ResolveDuplicates.h"
-#include "Partitioned/PieceBorder.h"
-#include "Points/PointStream.h"
+#include "Constraints/ConstraintPieces.h"
+#include "Partitioned/GrowingPiece.h"
+#include "Points/ReadPoints.h"
 #include "Predicates/Points.h"
 #include "Ranks/Communicator.h"
+#include "Triangulation/ResolveDuplicates.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstddef>
@@ -157,27 +157,22 @@ struct OutOfCoreStatistics : OutOfCoreRunStatistics
 /// a folder ".NAME.part" beside `path`, which is renamed to `path` when the mesh is complete. Once
 /// the points are spilled, the folder is kept if the run fails or is stopped; another run can
 /// resume it and makes the same files. Throws IOError.
-///
-/// `ranks`: the ranks that work together; this must be the first. See
-/// triangulateOutOfCoreOnRanks(). Null: this process works alone.
-VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCore(PointStream& points,
-  const std::string& path, const OutOfCoreOptions& options = {}, Communicator* ranks = nullptr);
+VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCore(
+  PointStream& points, const std::string& path, const OutOfCoreOptions& options = {});
 
 /// @name From the first rank; the kinds before these are those of RankEngine
 ///@{
-/// Handled by InputHelper, like the next two.
+/// Handled by helpWithInput(), like the next two.
 constexpr MessageKind SurveyMessage = kindAfter(2);
 constexpr MessageKind FactorMessage = kindAfter(3);
 constexpr MessageKind SpillMessage = kindAfter(4);
 constexpr MessageKind SetUpMessage = kindAfter(5); ///< RunSetup, and which pieces are done
 constexpr MessageKind EndMessage = kindAfter(6);   ///< there is no more work
 ///@}
-/// An InputHelper's answer to the first rank.
+/// An answer of helpWithInput() to the first rank.
 constexpr MessageKind PartMessage = kindAfter(7);
 /// Between any ranks: the piece is done, and its result is on disk.
 constexpr MessageKind PieceMessage = kindAfter(8);
-
-class RunSetup;
 
 using OpenPoints = std::function<std::unique_ptr<PointStream>()>;
 
@@ -197,12 +192,6 @@ VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCoreOnRanks(Communicat
 /// Checks that all ranks see a folder of the first rank, by means of a temporary file. Collective.
 /// Throws IOError on each rank that does not see it. Only the first rank's `folder` is used.
 VTKTIPPFILTERS_EXPORT void requireSharedFolder(Communicator& ranks, const std::string& folder);
-
-/// Called on the first rank: sends the other ranks, which wait in triangulateOutOfCoreOnRanks(),
-/// the data that they need to work on pieces. `points`: the file of spilled points; `isDone`: for
-/// each piece, whether it is already done.
-VTKTIPPFILTERS_EXPORT void shareSetup(Communicator& ranks, RunSetup& prepared,
-  const std::string& points, const std::vector<char>& isDone);
 
 } // namespace tipp
 

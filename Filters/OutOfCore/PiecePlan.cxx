@@ -57,6 +57,14 @@ std::vector<ConflictGraph::Pair> conflictsOfPieces(
   return pairs;
 }
 
+/// Returns the 64-bit words of memory per spilled row of `words` words. A consumer copies
+/// coordinates, columns and triangles of each piece. Constraints need memory for the triangles that
+/// they cross.
+std::size_t wordsInMemory(const OutOfCoreOptions& options, std::size_t words, bool hasConstraints)
+{
+  return words + (options.Consumer ? 4 + words : 0) + (hasConstraints ? 1 : 0);
+}
+
 } // namespace
 
 std::uint64_t MemoryPlan::pieceBytes(std::int64_t points, std::size_t rowWords)
@@ -75,19 +83,6 @@ InputMemory::InputMemory(std::uint64_t limit, std::size_t rowWords)
   this->SamplePoints =
     std::clamp<std::size_t>(std::size_t(limit / 512), std::size_t(1) << 14, std::size_t(1) << 20);
 }
-
-namespace
-{
-
-/// Returns the 64-bit words of memory per spilled row of `words` words. A consumer copies
-/// coordinates, columns and triangles of each piece. Constraints need memory for the triangles that
-/// they cross.
-std::size_t wordsInMemory(const OutOfCoreOptions& options, std::size_t words, bool hasConstraints)
-{
-  return words + (options.Consumer ? 4 + words : 0) + (hasConstraints ? 1 : 0);
-}
-
-} // namespace
 
 MemoryPlan::MemoryPlan(const OutOfCoreOptions& options, std::size_t words, bool hasConstraints)
   : InputMemory(options.MemoryLimit, wordsInMemory(options, words, hasConstraints))

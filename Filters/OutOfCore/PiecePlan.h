@@ -2,8 +2,8 @@
 #ifndef tippPiecePlan_h
 #define tippPiecePlan_h
 
-#include "Engine/PartitionOrder.h"
-#include "OutOfCore/InputSurvey.h"
+#include "Engine/PartitionSchedule.h"
+#include "OutOfCore/InputPasses.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/Tiling.h"
@@ -15,8 +15,6 @@
 
 namespace tipp
 {
-
-class SpilledPoints;
 
 /// How points are read if memory is limited.
 struct VTKTIPPFILTERS_EXPORT InputMemory
@@ -78,6 +76,7 @@ struct VTKTIPPFILTERS_EXPORT PiecePlan
   bool HasLargeInterface = false;
 
   PartitionIndex pieces() const { return this->Pieces.size(); }
+  Box2 box(PartitionIndex piece) const { return this->Pieces.box(piece); }
 
   /// Returns the piece's index in the mesh. It counts from the other end: here a point on a cut
   /// belongs to the upper box, in the mesh to the piece with the lowest index.

@@ -3,17 +3,22 @@
 #define tippPieceResult_h
 
 #include "Constraints/Insertion/CrossedPart.h"
-#include "Duplicates/ResolveDuplicates.h"
-#include "Engine/Routing.h"
 #include "OutOfCore/InputPasses.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
+#include "OutOfCore/PieceConstraints.h"
 #include "OutOfCore/PiecePlan.h"
-#include "OutOfCore/PieceSegments.h"
 #include "OutOfCore/ScratchFiles.h"
-#include "Partitioned/PieceBorder.h"
+#include "Parallel/ParallelFor.h"
+#include "Partitioned/GrowingPiece.h"
+#include "Partitioned/PieceFile.h"
+#include "Triangulation/Dataflow.h"
+#include "Triangulation/ResolveDuplicates.h"
+#include "Triangulation/Tiling.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -231,6 +236,45 @@ struct PieceWork : PieceWorkOf<PiecePlan, StoredResult>
   /// With constraints it does not, because they may change or remove these triangles.
   bool takesBordersEarly() const { return this->Consumer && !this->Constraints; }
 };
+
+/// The paths of a piece's files, besides its part of the mesh.
+struct StoredPiece
+{
+  std::size_t Number;   ///< the piece's index in the mesh
+  std::string Result;   ///< the SectionFile written when the piece's own points are triangulated
+  std::string Finished; ///< the record of finishOnce(), written when the border is written, too
+};
+
+/// Returns for each piece whether an earlier process left its result and its part of the mesh
+/// undamaged. Reads all of these files. Removes damaged ones, so that their pieces are made again,
+/// and passes a sentence about them to `warn`, if that is set. `interior`: reads the interior of a
+/// piece. `report` throws to stop the run.
+std::vector<char> verifyPieces(const PartitionedMesh& mesh, const std::vector<StoredPiece>& pieces,
+  const std::function<PieceInterior(PartitionIndex)>& interior, int threads, const Report& report,
+  const std::function<void(const std::string&)>& warn);
+
+/// The same for a PieceWork or PieceWork3.
+template <typename Work>
+std::vector<char> verifyResults(const Work& work, int threads, const Report& report,
+  const std::function<void(const std::string&)>& warn)
+{
+  std::vector<StoredPiece> pieces;
+  pieces.reserve(std::size_t(work.Plan.pieces()));
+  for (PartitionIndex piece = 0; piece < work.Plan.pieces(); ++piece)
+  {
+    pieces.push_back({ work.Plan.number(piece), work.resultPath(piece), work.finishedPath(piece) });
+  }
+  return verifyPieces(
+    work.Mesh, pieces,
+    [&](PartitionIndex piece) {
+      return typename Work::Result(work.resultPath(piece)).readInterior(work.Points, piece, true);
+    },
+    threads, report, warn);
+}
+
+/// Reads a finished piece from its record at `path`. If there is no record, calls finish() and
+/// writes its result as the record. Throws IOError.
+FinishedPiece finishOnce(const std::string& path, const std::function<FinishedPiece()>& finish);
 
 } // namespace tipp
 

@@ -2,16 +2,13 @@
 #ifndef tippPieceRun_h
 #define tippPieceRun_h
 
-#include "Distributed/RankEngine.h"
-#include "Engine/ReadyPartitions.h"
-#include "Engine/Routing.h"
-#include "OutOfCore/FinishPieces.h"
+#include "Engine/PartitionSchedule.h"
 #include "OutOfCore/PieceConstraints.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/PieceResult.h"
-#include "Partitioned/PieceWriter.h"
+#include "Partitioned/FinishedPieces.h"
 #include "Ranks/Communicator.h"
-#include "Triangulation/Worker.h"
+#include "Triangulation/Dataflow.h"
 
 #include <array>
 #include <cstdint>
@@ -47,14 +44,12 @@ public:
     {
       this->Triangulator.reset();
       this->Router.reset();
-      this->Unique = UniqueVertices();
     }
 
     const PieceOrder& Order;
     PartitionIndex Piece = -1;
     std::unique_ptr<Worker<std::int32_t>> Triangulator; ///< a worker for Piece
     std::unique_ptr<Routing<std::int32_t>> Router;
-    UniqueVertices Unique;
   };
 
   /// Triangulates a partition's points and the vertices in its inbox. Returns the messages to later
@@ -121,78 +116,14 @@ private:
 std::vector<FinishedPiece> triangulateAlone(const PieceWork& work, bool areCollinear,
   const std::function<bool(std::int64_t)>& progress, PieceFigures& figures);
 
-/// A rank's part of a triangulation out of core. It loads its pieces one after the other, as many
-/// at a time as fit in memory, triangulates their partitions in threads, and writes a piece's
-/// results when its last partition is done.
-///
-/// Pieces are assigned to ranks in order; no rank is a master. A message for a partition goes to
-/// the rank that has its piece. If that piece is loaded, the message goes to the partition's inbox;
-/// otherwise it stays in memory until the sender's piece is on disk. So only messages of unfinished
-/// pieces are in memory, and all others are in the results of finished pieces.
-class VTKTIPPFILTERS_EXPORT PieceRun : private RankEngine<VertexMessage>
-{
-public:
-  /// `progress` is called with the fraction of the points that are triangulated, in the thread that
-  /// calls run(); false stops the run. May be empty. `work` is copied; the other references and
-  /// the objects that `work` refers to must outlive this object.
-  PieceRun(const PieceWork& work, const MemoryPlan& memory, int threads,
-    const std::function<bool(double)>& progress, Communicator& ranks);
-
-  /// Triangulates this rank's pieces that are not done, and writes their results. `isDone` has an
-  /// entry for each piece, the same on all ranks. The first rank returns when all ranks' pieces are
-  /// done, the others when their own are. Throws IOError, and RankFailure, also if `progress`
-  /// stopped the run.
-  void run(const std::vector<char>& isDone);
-
-private:
-  using Lock = std::unique_lock<std::mutex>;
-  /// The state of a piece.
-  struct Piece
-  {
-    std::int32_t Rank = 0; ///< the rank that triangulates it
-    PartitionIndex PartitionsLeft = 0;
-    std::unique_ptr<LoadedPiece> Loaded;
-    std::unique_ptr<StoredResult> Result; ///< once it is done; only if this rank needs it
-    SentMessages Pending;                 ///< messages to its partitions, until it is loaded
-  };
-
-  bool isOwn(PartitionIndex piece) const { return this->at(piece).Rank == this->Ranks.rank(); }
-  Piece& at(PartitionIndex piece) { return this->Pieces[std::size_t(piece)]; }
-  const Piece& at(PartitionIndex piece) const { return this->Pieces[std::size_t(piece)]; }
-  PartitionIndex pieceOf(PartitionIndex partition) const
-  {
-    return this->Work.Plan.PieceOf[std::size_t(partition)];
-  }
-
-  std::int32_t ownerOf(PartitionIndex p) const override { return this->at(this->pieceOf(p)).Rank; }
-  ReadyPartitions& source() override { return *this->Ready; }
-  void put(PartitionIndex to, VertexMessage&& message) override;
-  void setDoneHere(PartitionIndex p) override;
-  void receive(const Message& message) override;
-  bool isFinished() const override;
-
-  void prepare(const std::vector<char>& isDone);
-  void writeEmptyPieces(const std::vector<char>& isDone);
-  void loadPieces();
-  void waitForMemory(PartitionIndex piece);
-  void load(PartitionIndex piece);
-  void work();
-  void finishPiece(PartitionIndex piece);
-  std::vector<PartitionIndex> setPieceDone(PartitionIndex piece);
-  void takeBorders(const std::vector<PartitionIndex>& pieces);
-
-  const PieceWork Work;
-  const MemoryPlan& Memory;
-  const int Threads;
-  std::unique_ptr<PieceOrder> OrderOfPieces;
-  std::unique_ptr<ReadyPartitions> Ready;
-  std::size_t AwaitedPieces = 0; ///< on the first rank: other ranks' pieces that are not done
-
-  // Protected by Mutex.
-  std::vector<Piece> Pieces;
-  std::unique_ptr<BorderQueue> Borders; ///< null: no consumer
-  std::uint64_t LoadedBytes = 0;
-};
+/// Triangulates this rank's pieces that are not done, and writes their results. `isDone` has an
+/// entry for each piece, the same on all ranks. `progress` is called with the fraction of the
+/// points that are triangulated, in the calling thread; false stops the run. May be empty. The
+/// first rank returns when all ranks' pieces are done, the others when their own are. Throws
+/// IOError, and RankFailure, also if `progress` stopped the run.
+VTKTIPPFILTERS_EXPORT void triangulatePieces(const PieceWork& work, const MemoryPlan& memory,
+  int threads, const std::function<bool(double)>& progress, Communicator& ranks,
+  const std::vector<char>& isDone);
 
 } // namespace tipp
 

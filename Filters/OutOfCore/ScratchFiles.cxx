@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/ScratchFiles.h"
 
-#include "Files/FileSystem.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/OutputFile.h"
 #include "Files/TemporaryFiles.h"
 #include "Partitioned/Checksum.h"
 
@@ -17,12 +17,14 @@ namespace tipp
 namespace
 {
 
+namespace fs = std::filesystem;
+
 constexpr const char* nextSuffix = ".next"; // appended to the path until a file is complete
 
 void takeName(const std::string& path)
 {
   std::error_code failure;
-  std::filesystem::rename(path + nextSuffix, path, failure);
+  fs::rename(path + nextSuffix, path, failure);
   if (failure)
   {
     throw IOError(path, "cannot be replaced (" + failure.message() + ").");
@@ -45,6 +47,24 @@ bool isBefore(const SectionEntry& a, const SectionEntry& b)
 [[noreturn]] void refuse(const std::string& path)
 {
   throw IOError(path, "is damaged.");
+}
+
+/// Makes one folder. Missing parent folders are an error: the name may be mistyped.
+void makeFolder(const std::string& path)
+{
+  std::error_code failure;
+  fs::create_directory(path, failure);
+  if (failure)
+  {
+    throw IOError(path, "cannot be made (" + failure.message() + "); name another folder.");
+  }
+}
+
+bool areOnOneDisk(const std::string& a, const std::string& b)
+{
+  struct stat ofA = {};
+  struct stat ofB = {};
+  return stat(a.c_str(), &ofA) == 0 && stat(b.c_str(), &ofB) == 0 && ofA.st_dev == ofB.st_dev;
 }
 
 } // namespace
@@ -169,31 +189,6 @@ void SectionFile::verify() const
   }
 }
 
-namespace fs = std::filesystem;
-
-namespace
-{
-
-/// Makes one folder. Missing parent folders are an error: the name may be mistyped.
-void makeFolder(const std::string& path)
-{
-  std::error_code failure;
-  fs::create_directory(path, failure);
-  if (failure)
-  {
-    throw IOError(path, "cannot be made (" + failure.message() + "); name another folder.");
-  }
-}
-
-bool areOnOneDisk(const std::string& a, const std::string& b)
-{
-  struct stat ofA = {};
-  struct stat ofB = {};
-  return stat(a.c_str(), &ofA) == 0 && stat(b.c_str(), &ofB) == 0 && ofA.st_dev == ofB.st_dev;
-}
-
-} // namespace
-
 ScratchFolder::ScratchFolder(const PendingFolder& mesh, const std::string& other)
   : Mesh(mesh.temporaryPath())
   , Work(mesh.workPath())
@@ -210,9 +205,15 @@ ScratchFolder::ScratchFolder(const PendingFolder& mesh, const std::string& other
 
 ScratchFolder::~ScratchFolder()
 {
-  if (!this->Kept)
+  if (this->Kept)
   {
-    this->remove();
+    return;
+  }
+  this->removeFiles(this->results());
+  this->removeFiles(this->points());
+  if (this->Folder != this->Work)
+  {
+    removeWorkFolder(this->Folder);
   }
 }
 
@@ -240,16 +241,6 @@ void ScratchFolder::requireSpace(
   }
   requireFreeSpace(path, this->Work, mesh);
   requireFreeSpace(path, this->Folder, scratch);
-}
-
-void ScratchFolder::remove()
-{
-  this->removeFiles(this->results());
-  this->removeFiles(this->points());
-  if (this->Folder != this->Work)
-  {
-    removeWorkFolder(this->Folder);
-  }
 }
 
 bool canResume(const std::string& path)

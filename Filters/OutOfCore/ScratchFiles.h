@@ -4,7 +4,7 @@
 
 #include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
-#include "Partitioned/PieceWriter.h"
+#include "Partitioned/FinishedPieces.h"
 #include "Ranks/Archive.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -101,7 +101,8 @@ public:
   /// `other`: a folder on another disk, in which a new folder gets the points and results. Empty:
   /// all files are beside the unfinished mesh. Throws IOError.
   ScratchFolder(const PendingFolder& mesh, const std::string& other);
-  /// Removes all files, unless keep() was called.
+  /// Removes all files except the plan, which the mesh's PendingFolder removes with itself. Removes
+  /// none if keep() was called.
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
@@ -126,8 +127,6 @@ public:
   /// Throws IOError, with the numbers, unless the disks of the mesh and of this folder have space
   /// for `mesh` and `scratch` more bytes. `path`: of the mesh, for the message.
   void requireSpace(const std::string& path, std::uint64_t mesh, std::uint64_t scratch) const;
-  /// Removes all files except the plan, which the mesh's PendingFolder removes with itself.
-  void remove();
 
 private:
   std::vector<std::string> files(const std::string& begin) const;

@@ -2,11 +2,9 @@
 #include "OutOfCore3D/OutOfCoreTetrahedralization.h"
 
 #include "OutOfCore/OutOfCoreRun.h"
-#include "OutOfCore/RunSetup.h"
 #include "OutOfCore3D/PieceRun3.h"
 
 #include <memory>
-#include <utility>
 
 namespace tipp
 {
@@ -85,7 +83,8 @@ private:
     const double all = double(this->Plan->survey().Points);
     this->Plan->spill(this->Input, this->Scratch.points(), this->Memory, this->Threads,
       [&](std::int64_t done) { this->report(0.1 * double(done) / all); });
-    this->Record.saveBegun([this](SaveArchive& archive) { this->Plan->save(archive); });
+    this->Record.save(
+      RunRecord::Stage::Begun, [this](SaveArchive& archive) { this->Plan->save(archive); });
     this->describePlan();
     this->endPhase("spill");
   }
@@ -100,7 +99,7 @@ private:
     this->Statistics.ThinnedOut = survey.ThinnedOut;
     this->Statistics.Pieces = this->Plan->pieces();
     this->Statistics.SpilledBytes = this->Plan->points().bytes();
-    this->describeMesh();
+    describePieces(*this->Plan, survey, this->Mesh);
   }
 
   void describeColumns()
@@ -109,23 +108,6 @@ private:
     this->Mesh.CellSize = 4;
     tipp::describeColumns(
       this->Input.columns(), this->Plan->survey().Elevation, this->Options, this->Rows, this->Mesh);
-  }
-
-  Bounds boundsOf(const Box3& box) const
-  {
-    const double factor = this->Plan->survey().Factor;
-    return { box.Min[0] / factor, box.Max[0] / factor, box.Min[1] / factor, box.Max[1] / factor,
-      box.Min[2] / factor, box.Max[2] / factor };
-  }
-
-  void describeMesh()
-  {
-    const PiecePlan3& plan = *this->Plan;
-    this->Mesh.Domain = this->boundsOf(plan.survey().Bounds);
-    describePieces(
-      plan, plan.survey().Points,
-      [&](PartitionIndex piece) { return this->boundsOf(plan.boxes()[std::size_t(piece)]); },
-      this->Mesh);
   }
 
   void requireSpace() const
@@ -145,19 +127,14 @@ private:
     const PieceWork3 work{ *this->Plan, this->Plan->points(), this->Rows, this->Mesh,
       this->Scratch.results() };
     const double all = double(this->Plan->survey().finite());
-    const std::vector<char> isDone = verifyResults(
-      work, this->Threads, [this](double) { return this->proceed(0.1); },
-      [this](const std::string& sentence) { this->warn(sentence); });
-    this->require(!isDone.empty());
-    this->require(PieceRun3(work, this->Memory, this->Threads,
-      [&](std::int64_t done) {
-        return this->proceed(0.1 + 0.75 * double(done) / all);
-      }).run(isDone));
+    const std::vector<char> isDone =
+      verifyResults(work, this->Threads, this->reportPart(0.1, 0), this->Options.Warn);
+    this->require(triangulatePieces(
+      work, this->Memory, this->Threads,
+      [&](std::int64_t done) { return this->proceed(0.1 + 0.75 * double(done) / all); }, isDone));
     this->endPhase("triangulate");
     this->Finished = finishPieces(
-      work, this->Memory.PieceBytes, this->Threads,
-      [this](double done) { return this->proceed(0.85 + 0.05 * done); }, this->Statistics);
-    this->require(!this->Finished.empty());
+      work, this->Memory.PieceBytes, this->Threads, this->reportPart(0.85, 0.05), this->Statistics);
     this->endPhase("borders");
   }
 

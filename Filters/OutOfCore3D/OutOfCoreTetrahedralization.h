@@ -3,7 +3,7 @@
 #define tippOutOfCoreTetrahedralization_h
 
 #include "OutOfCore/OutOfCoreTriangulation.h"
-#include "Points/PointStream.h"
+#include "Points/ReadPoints.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>

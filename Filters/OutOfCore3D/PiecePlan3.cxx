@@ -2,14 +2,13 @@
 #include "OutOfCore3D/PiecePlan3.h"
 
 #include "Files/IOError.h"
-#include "Kernel3D/DelaunayKernel3.h"
+#include "Kernel/DelaunayKernel3.h"
 #include "OutOfCore/InputPasses.h"
-#include "Predicates/ExactPredicates.h"
+#include "Predicates/ExactPredicates3.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 namespace tipp
 {
@@ -210,7 +209,7 @@ void PiecePlan3::divide(const MemoryPlan3& memory, std::size_t words)
 bool PiecePlan3::samplePays() const
 {
   const std::vector<Point3> sample = positionsOf(this->Sample);
-  const PointBuckets3 buckets = bucketPoints(sample.data(), sample.size(), this->Tiling, 1, 1);
+  const PointBuckets3 buckets = bucketPoints({ sample.data(), sample.size() }, this->Tiling, 1);
   const std::vector<Vertex3> artificial = makeArtificialPoints(buckets);
   return !artificial.empty() && partitionsPay(InitialMesh3(buckets, artificial));
 }

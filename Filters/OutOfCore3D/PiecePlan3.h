@@ -2,13 +2,11 @@
 #ifndef tippPiecePlan3_h
 #define tippPiecePlan3_h
 
-#include "Engine/PartitionOrder.h"
+#include "Engine/PartitionSchedule.h"
 #include "OutOfCore/InputPasses.h"
 #include "OutOfCore/PiecePlan.h"
-#include "OutOfCore/StreamSampler.h"
-#include "Points/PointStream.h"
-#include "Triangulation3D/InitialMesh3.h"
-#include "Triangulation3D/Tiling3.h"
+#include "Points/ReadPoints.h"
+#include "Triangulation3D/Partitions3.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstddef>
@@ -91,7 +89,8 @@ public:
   const InputSurvey3& survey() const { return this->Survey; }
   PartitionIndex pieces() const { return this->Tiling.size(); }
   const Tiling3& tiling() const { return this->Tiling; }
-  const std::vector<Box3>& boxes() const { return this->Boxes; } ///< together they fill the bounds
+  /// Returns the piece's box; the boxes together fill the bounds.
+  const Box3& box(PartitionIndex piece) const { return this->Boxes[std::size_t(piece)]; }
   /// Bounding boxes of the pieces' points.
   const std::vector<Box3>& regions() const { return this->Regions; }
   const std::vector<Vertex3>& artificial() const { return this->Artificial; }

@@ -3,7 +3,6 @@
 
 #include <cstdio>
 #include <numeric>
-#include <type_traits>
 #include <utility>
 
 namespace tipp
@@ -86,23 +85,6 @@ std::string hexadecimal(std::uint64_t value)
   return text;
 }
 
-} // namespace
-
-FigureList stagesOf(const std::vector<TriangulationStatistics::Stage>& stages)
-{
-  using Stage = TriangulationStatistics::Stage;
-  std::vector<std::int64_t> numbers(stages.size());
-  std::iota(numbers.begin(), numbers.end(), std::int64_t(0));
-  const auto column = columnsOf(stages);
-  return { "stages", true,
-    { { "", "Stage", std::move(numbers) },
-      column("active_partitions", "ActivePartitions", &Stage::ActivePartitions),
-      column("mesh_triangles", "MeshTriangles", &Stage::MeshTriangles) } };
-}
-
-namespace
-{
-
 /// Returns statistics with the counts of points and cells. `key` and `array` are the names under
 /// which the number of cells is stored.
 RunStatistics countsOf(std::int64_t points, const char* key, const char* array, std::int64_t cells,
@@ -132,112 +114,29 @@ RunStatistics inMemory(
   return run;
 }
 
+/// Returns the totals of a run on several ranks.
+template <typename Mesh>
+RunStatistics onRanks(const Mesh& mine, const char* key, const char* array, std::int64_t cells)
+{
+  RunStatistics run =
+    countsOf(mine.AllPoints, key, array, cells, mine.AllDuplicates, mine.AllRejected);
+  run.add("seconds", "", mine.Statistics.Seconds);
+  run.add("threads_per_rank", "Threads", mine.Statistics.ThreadsPerRank);
+  run.add("partitions", "Partitions", mine.Statistics.Partitions);
+  return run;
+}
+
 /// Adds, for a run out of core, the statistics that follow the number of pieces.
-template <typename Statistics>
-void addOutOfCore(const Statistics& statistics, RunStatistics& run)
+void addOutOfCore(const OutOfCoreRunStatistics& statistics, RunStatistics& run)
 {
   run.add("worker_vertices", "WorkerVertices", statistics.WorkerVertices);
   run.add("boundary_bytes", "BoundaryBytes", std::int64_t(statistics.BoundaryBytes));
   run.add("spilled_bytes", "SpilledBytes", std::int64_t(statistics.SpilledBytes));
   run.add("mesh_bytes", "MeshBytes", std::int64_t(statistics.MeshBytes));
-  run.Totals.push_back({ "resumed", "Resumed", std::vector<bool>{ statistics.Resumed } });
+  run.add("resumed", "Resumed", statistics.Resumed);
   run.add("threads", "Threads", statistics.Threads);
   run.Lists = { phasesOf(statistics.Phases, true, "Phase", "Seconds") };
 }
-
-} // namespace
-
-RunStatistics statisticsOf(
-  const Triangulation& triangulation, std::int64_t points, std::int64_t triangles)
-{
-  RunStatistics run = inMemory(triangulation, points, "triangles", "Triangles", triangles);
-  run.Lists.push_back(stagesOf(triangulation.Statistics.Stages));
-  return run;
-}
-
-RunStatistics statisticsOf(
-  const Tetrahedralization& mesh, std::int64_t points, std::int64_t tetrahedra)
-{
-  return inMemory(mesh, points, "tetrahedra", "Tetrahedra", tetrahedra);
-}
-
-RunStatistics statisticsOf(const OutOfCoreStatistics& statistics, bool isCounted)
-{
-  RunStatistics run;
-  run.add("points", "Points", statistics.Points);
-  run.add("triangles", "Triangles", statistics.Triangles);
-  run.Totals.push_back(
-    { "triangle_sum", "", std::vector<std::string>{ hexadecimal(statistics.TriangleSum) } });
-  if (isCounted)
-  {
-    run.Totals.push_back(
-      { "", "TriangleSum", std::vector<std::uint64_t>{ statistics.TriangleSum } });
-  }
-  run.add("duplicates", "DuplicatePoints", statistics.Duplicates);
-  run.add("disagreeing_places", "", statistics.DisagreeingPositions);
-  run.add("rejected", "RejectedPoints", statistics.Rejected);
-  run.add("pieces", "Pieces", statistics.Pieces);
-  run.add("partitions", "Partitions", statistics.Partitions);
-  addOutOfCore(statistics, run);
-  if (statistics.Constraints.Constraints > 0)
-  {
-    addConstraintTotals(statistics.Constraints, run);
-  }
-  return run;
-}
-
-RunStatistics statisticsOf(const OutOfCoreStatistics3& statistics)
-{
-  RunStatistics run = countsOf(statistics.Points, "tetrahedra", "Tetrahedra", statistics.Tetrahedra,
-    statistics.Duplicates, statistics.Rejected);
-  run.add("pieces", "Pieces", statistics.Pieces);
-  addOutOfCore(statistics, run);
-  return run;
-}
-
-RunStatistics statisticsOf(const DistributedTriangulation& mine)
-{
-  const DistributedStatistics& statistics = mine.Statistics;
-  // The table only has the figures of the first rank's master, which serves the whole domain.
-  const bool hasMaster = !statistics.Masters.empty() && statistics.Masters.front().Area == 0;
-  const MasterStatistics master = hasMaster ? statistics.Masters.front() : MasterStatistics();
-  RunStatistics run = countsOf(
-    mine.AllPoints, "triangles", "Triangles", mine.AllCells, mine.AllDuplicates, mine.AllRejected);
-  run.Totals.push_back({ "seconds", "", std::vector<double>{ statistics.Seconds } });
-  run.add("threads_per_rank", "Threads", statistics.ThreadsPerRank);
-  run.add("partitions", "Partitions", statistics.Partitions);
-  run.add("major_partitions", "MajorPartitions", statistics.MajorPartitions);
-  run.add("", "LargestMasterMesh", master.LargestMesh);
-  run.Totals.push_back({ "", "MasterSeconds", std::vector<double>{ master.Seconds } });
-  FigureList stages = stagesOf(master.Stages);
-  stages.Key.clear(); // in JSON each master has its own stages
-  run.Lists = { ranksOf(statistics.Ranks, "triangles", "RankTriangles"),
-    mastersOf(statistics.Masters), trafficOf(statistics.Traffic), std::move(stages) };
-  return run;
-}
-
-RunStatistics statisticsOf(const DistributedTetrahedralization& mine)
-{
-  const DistributedStatistics& statistics = mine.Statistics;
-  const std::int64_t tetrahedra = mine.cellSize() == 4 ? mine.AllCells : 0;
-  RunStatistics run = countsOf(
-    mine.AllPoints, "tetrahedra", "Tetrahedra", tetrahedra, mine.AllDuplicates, mine.AllRejected);
-  run.Totals.push_back({ "seconds", "", std::vector<double>{ statistics.Seconds } });
-  run.add("threads_per_rank", "Threads", statistics.ThreadsPerRank);
-  run.add("partitions", "Partitions", statistics.Partitions);
-  run.Lists = { ranksOf(statistics.Ranks, "tetrahedra", "RankTetrahedra"),
-    trafficOf(statistics.Traffic) };
-  return run;
-}
-
-void addConstraintTotals(const ConstraintFigures& figures, RunStatistics& statistics)
-{
-  figures.visit([&statistics](const char* key, const char* array, std::int64_t value)
-    { statistics.add(key, array, value); });
-}
-
-namespace
-{
 
 /// Returns a warning about rejected points, if there are any.
 std::vector<std::string> warnOfRejected(
@@ -270,6 +169,97 @@ std::vector<std::string> withDimension(std::vector<std::string> warnings, int di
 }
 
 } // namespace
+
+FigureList stagesOf(const std::vector<TriangulationStatistics::Stage>& stages)
+{
+  using Stage = TriangulationStatistics::Stage;
+  std::vector<std::int64_t> numbers(stages.size());
+  std::iota(numbers.begin(), numbers.end(), std::int64_t(0));
+  const auto column = columnsOf(stages);
+  return { "stages", true,
+    { { "", "Stage", std::move(numbers) },
+      column("active_partitions", "ActivePartitions", &Stage::ActivePartitions),
+      column("mesh_triangles", "MeshTriangles", &Stage::MeshTriangles) } };
+}
+
+RunStatistics statisticsOf(
+  const Triangulation& triangulation, std::int64_t points, std::int64_t triangles)
+{
+  RunStatistics run = inMemory(triangulation, points, "triangles", "Triangles", triangles);
+  run.Lists.push_back(stagesOf(triangulation.Statistics.Stages));
+  return run;
+}
+
+RunStatistics statisticsOf(
+  const Tetrahedralization& mesh, std::int64_t points, std::int64_t tetrahedra)
+{
+  return inMemory(mesh, points, "tetrahedra", "Tetrahedra", tetrahedra);
+}
+
+RunStatistics statisticsOf(const OutOfCoreStatistics& statistics, bool isCounted)
+{
+  RunStatistics run;
+  run.add("points", "Points", statistics.Points);
+  run.add("triangles", "Triangles", statistics.Triangles);
+  run.add("triangle_sum", "", hexadecimal(statistics.TriangleSum));
+  if (isCounted)
+  {
+    run.add("", "TriangleSum", statistics.TriangleSum);
+  }
+  run.add("duplicates", "DuplicatePoints", statistics.Duplicates);
+  run.add("disagreeing_places", "", statistics.DisagreeingPositions);
+  run.add("rejected", "RejectedPoints", statistics.Rejected);
+  run.add("pieces", "Pieces", statistics.Pieces);
+  run.add("partitions", "Partitions", statistics.Partitions);
+  addOutOfCore(statistics, run);
+  if (statistics.Constraints.Constraints > 0)
+  {
+    addConstraintTotals(statistics.Constraints, run);
+  }
+  return run;
+}
+
+RunStatistics statisticsOf(const OutOfCoreStatistics3& statistics)
+{
+  RunStatistics run = countsOf(statistics.Points, "tetrahedra", "Tetrahedra", statistics.Tetrahedra,
+    statistics.Duplicates, statistics.Rejected);
+  run.add("pieces", "Pieces", statistics.Pieces);
+  addOutOfCore(statistics, run);
+  return run;
+}
+
+RunStatistics statisticsOf(const DistributedTriangulation& mine)
+{
+  const DistributedStatistics& statistics = mine.Statistics;
+  // The table only has the figures of the first rank's master, which serves the whole domain.
+  const bool hasMaster = !statistics.Masters.empty() && statistics.Masters.front().Area == 0;
+  const MasterStatistics master = hasMaster ? statistics.Masters.front() : MasterStatistics();
+  RunStatistics run = onRanks(mine, "triangles", "Triangles", mine.AllCells);
+  run.add("major_partitions", "MajorPartitions", statistics.MajorPartitions);
+  run.add("", "LargestMasterMesh", master.LargestMesh);
+  run.add("", "MasterSeconds", master.Seconds);
+  FigureList stages = stagesOf(master.Stages);
+  stages.Key.clear(); // in JSON each master has its own stages
+  run.Lists = { ranksOf(statistics.Ranks, "triangles", "RankTriangles"),
+    mastersOf(statistics.Masters), trafficOf(statistics.Traffic), std::move(stages) };
+  return run;
+}
+
+RunStatistics statisticsOf(const DistributedTetrahedralization& mine)
+{
+  const DistributedStatistics& statistics = mine.Statistics;
+  const std::int64_t tetrahedra = mine.cellSize() == 4 ? mine.AllCells : 0;
+  RunStatistics run = onRanks(mine, "tetrahedra", "Tetrahedra", tetrahedra);
+  run.Lists = { ranksOf(statistics.Ranks, "tetrahedra", "RankTetrahedra"),
+    trafficOf(statistics.Traffic) };
+  return run;
+}
+
+void addConstraintTotals(const ConstraintFigures& figures, RunStatistics& statistics)
+{
+  figures.visit([&statistics](const char* key, const char* array, std::int64_t value)
+    { statistics.add(key, array, value); });
+}
 
 std::vector<std::string> warningsOf(
   const Triangulation& triangulation, std::int64_t points, bool longEdgesLeftOut)

@@ -2,7 +2,7 @@
 #ifndef tippRunStatistics_h
 #define tippRunStatistics_h
 
-#include "Constraints/ResolveCrossings.h"
+#include "Constraints/ConstraintPieces.h"
 #include "Distributed/DistributedTriangulation.h"
 #include "Distributed3D/DistributedTetrahedralization.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
@@ -13,11 +13,9 @@
 
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
-
-class vtkDataObject;
-class vtkTable;
 
 namespace tipp
 {
@@ -47,10 +45,13 @@ struct RunStatistics
   std::vector<Figures> Totals; ///< single values
   std::vector<FigureList> Lists;
 
-  /// Adds a single value to Totals.
-  void add(const char* key, const char* array, std::int64_t value)
+  /// Adds a single value to Totals. Signed integers are widened to 64 bits.
+  template <typename Value>
+  void add(const char* key, const char* array, Value value)
   {
-    this->Totals.push_back({ key, array, std::vector<std::int64_t>{ value } });
+    using Stored =
+      std::conditional_t<std::is_integral_v<Value> && std::is_signed_v<Value>, std::int64_t, Value>;
+    this->Totals.push_back({ key, array, std::vector<Stored>{ value } });
   }
 };
 
@@ -89,15 +90,6 @@ std::vector<std::string> warningsOf(const DistributedTriangulation& mine);
 VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(
   const DistributedTetrahedralization& mine);
 ///@}
-
-/// Fills an empty table: lists with IsTable become its columns, all else its field data. The
-/// documentation of vtkTIPPDelaunay2D and vtkTIPPOutOfCoreDelaunay2D lists the arrays.
-void fillStatisticsTable(const RunStatistics& statistics, vtkTable* table);
-
-/// Adds this rank's duplicates and rejected points to the field data of `output`, as given: by
-/// global ids.
-void addDuplicatesAndRejected(const std::vector<Duplicate>& duplicates,
-  const std::vector<PointId>& rejected, vtkDataObject* output);
 
 } // namespace tipp
 

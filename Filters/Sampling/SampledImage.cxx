@@ -3,6 +3,7 @@
 
 #include "Arrays/Scalar.h"
 #include "Parallel/Stopwatch.h"
+#include "Sampling/SamplingLattice.h"
 #include "Vtk/CellArrays.h"
 #include "Vtk/Compatibility.h"
 
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <set>
 #include <stdexcept>
 
 namespace tipp
@@ -53,6 +55,31 @@ void markEqual(vtkDataArray* array, double value, std::vector<bool>& marked)
         marked[i / components] = marked[i / components] || equal;
       }
     });
+}
+
+/// The number of bytes per sample of all selected arrays.
+double bytesOfArrays(const std::vector<vtkPointSet*>& meshes, const SamplingSettings& settings)
+{
+  double bytes = 0;
+  std::set<std::string> counted;
+  const auto count = [&](vtkDataSetAttributes* data, bool ofCells)
+  {
+    for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+    {
+      vtkDataArray* const array = data->GetArray(i);
+      if (array && array->GetName() && settings.Selected(ofCells, array->GetName()) &&
+        counted.insert(array->GetName()).second)
+      {
+        bytes += array->GetNumberOfComponents() * array->GetDataTypeSize();
+      }
+    }
+  };
+  for (vtkPointSet* mesh : meshes)
+  {
+    count(mesh->GetPointData(), false);
+    count(mesh->GetCellData(), true);
+  }
+  return bytes;
 }
 
 void addTo(ClaimStatistics& sum, const ClaimStatistics& more)
@@ -141,6 +168,13 @@ SampledImage::Array* SampledImage::findArray(const std::string& name)
   return nullptr;
 }
 
+void SampledImage::removeArray(const std::string& name)
+{
+  this->Arrays.erase(std::remove_if(this->Arrays.begin(), this->Arrays.end(),
+                       [&name](const Array& array) { return array.Name == name; }),
+    this->Arrays.end());
+}
+
 bool SampledImage::accepts(const Array& array, bool ofCells, int type, int components)
 {
   if (array.OfCells != ofCells)
@@ -169,7 +203,13 @@ bool SampledImage::add(vtkPointSet* mesh, const Report& progress)
   const std::int64_t triangles = parts.Triangles.Mesh.Cells;
   if (parts.Tetrahedra.Mesh.Cells > 0 && this->Dimension != 3)
   {
-    this->startAgain();
+    if (this->Dimension == 2)
+    {
+      this->warnOnce("Surface cells beside cells with a volume are not sampled.");
+      this->Statistics.Ignored += this->Statistics.Cells;
+      this->Statistics.Cells = 0;
+    }
+    this->clear();
     this->Dimension = 3;
   }
   else if (triangles > 0 && this->Dimension == 0)
@@ -186,17 +226,6 @@ bool SampledImage::add(vtkPointSet* mesh, const Report& progress)
     this->warnOnce("Surface cells beside cells with a volume are not sampled.");
   }
   return completed;
-}
-
-void SampledImage::startAgain()
-{
-  if (this->Dimension == 2)
-  {
-    this->warnOnce("Surface cells beside cells with a volume are not sampled.");
-    this->Statistics.Ignored += this->Statistics.Cells;
-    this->Statistics.Cells = 0;
-  }
-  this->clear();
 }
 
 bool SampledImage::sample(vtkPointSet* mesh, SimplexSet& simplices, const Report& progress)
@@ -353,11 +382,7 @@ void SampledImage::finish()
   {
     this->clear();
   }
-  this->repeatLayers();
-}
-
-void SampledImage::repeatLayers()
-{
+  // Triangles are sampled in one layer; copy it along the axis of the projection.
   const int projected = 3 - this->Settings.Axes[0] - this->Settings.Axes[1];
   const bool repeats = this->Dimension == 2 && this->samples() > 0;
   const std::size_t layers = repeats ? std::size_t(this->Grid.size(projected)) : 1;
@@ -377,6 +402,25 @@ void SampledImage::repeatLayers()
       std::memcpy(this->Keys.get() + i * layer, this->Keys.get(), layer * sizeof(CellKey));
     }
   }
+}
+
+void refuseTooLarge(const Lattice& local, const Lattice& wanted, bool exchanging,
+  const std::vector<vtkPointSet*>& meshes, const SamplingSettings& settings)
+{
+  // Bytes per sample: the claims; the mask with its two ghost arrays.
+  constexpr double claims = 4;
+  constexpr double mask = 3;
+  const double arrays = bytesOfArrays(meshes, settings) + mask;
+  const double keys = settings.Merging ? sizeof(CellKey) : 0;
+  const auto count = [](const Lattice& lattice)
+  {
+    return lattice.empty()
+      ? 0.0
+      : double(lattice.size(0)) * double(lattice.size(1)) * double(lattice.size(2));
+  };
+  const double needed =
+    count(local) * (arrays + claims + keys) + (exchanging ? count(wanted) * (arrays + keys) : 0);
+  requireMemory(std::max(count(local), count(wanted)), needed);
 }
 
 } // namespace tipp

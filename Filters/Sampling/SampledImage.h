@@ -48,6 +48,8 @@ struct SamplingStatistics
   double ClaimSeconds = 0;
   double InterpolationSeconds = 0;
   double TransferSeconds = 0;
+  double ExchangeSeconds = 0; ///< between ranks
+  double OutputSeconds = 0;   ///< to fill the image
   std::string Device;
 };
 
@@ -71,7 +73,6 @@ public:
 
   const Lattice& lattice() const { return this->Grid; }
   int dimension() const { return this->Dimension; } ///< dimension of the cells; 0: no cells so far
-  std::vector<Array>& arrays() { return this->Arrays; }
   const std::vector<Array>& arrays() const { return this->Arrays; }
   const SamplingStatistics& statistics() const { return this->Statistics; }
   /// The names of the arrays of all meshes added, whether sampled or not.
@@ -94,15 +95,14 @@ public:
   Array& addNullArray(const std::string& name, bool ofCells, int type, int components);
   void setNull(const Array& array, std::int64_t sample) const;
   Array* findArray(const std::string& name);
+  void removeArray(const std::string& name);
   /// Whether an array of this type can be sampled into `array`; if not, adds a warning.
   bool accepts(const Array& array, bool ofCells, int type, int components);
 
 private:
   Array& addArray(const std::string& name, bool ofCells, int type, int components);
-  void repeatLayers();
   bool sample(vtkPointSet* mesh, SimplexSet& simplices, const Report& progress);
   void clear();
-  void startAgain();
   std::vector<Attribute> attributesOf(vtkPointSet* mesh);
   vtkDataArray* valuesOf(vtkPointSet* mesh, const Array& array);
   void addArrays(vtkDataSetAttributes* data, bool ofCells);
@@ -140,19 +140,10 @@ void refuseTooLarge(const Lattice& local, const Lattice& wanted, bool exchanging
 /// valid samples.
 std::int64_t fillImage(SampledImage& samples, int threads, vtkImageData* image);
 
-/// The statistics of a run of the filter.
-struct SamplingReport
-{
-  SamplingStatistics Statistics;
-  std::int64_t Samples = 0; ///< samples of this rank's output
-  std::int64_t Hits = 0;    ///< those of them that lie in a cell
-  int Threads = 1;
-  double ExchangeSeconds = 0;
-  double OutputSeconds = 0;
-};
-
-/// Writes the report to the field data of an empty table.
-void fillTable(const SamplingReport& report, vtkTable* table);
+/// Writes statistics to the field data of `table`. `hits`: how many of the output's samples have
+/// values.
+void fillTable(const SamplingStatistics& statistics, std::int64_t samples, std::int64_t hits,
+  int threads, vtkTable* table);
 
 } // namespace tipp
 

@@ -3,7 +3,7 @@
 
 #include "Ranks/Communicator.h"
 #include "Sampling/SimplexParts.h"
-#include "Vtk/ReadDataSet.h"
+#include "Vtk/DataSets.h"
 
 #include "vtkBoundingBox.h"
 #include "vtkCompositeDataIterator.h"
@@ -50,6 +50,12 @@ vtkBoundingBox boxOf(const std::vector<vtkPointSet*>& meshes, const std::vector<
   return box;
 }
 
+/// Whether no mesh of any rank has a three-dimensional cell. Collective.
+bool areSurfaces(const std::vector<vtkPointSet*>& meshes, Communicator& ranks)
+{
+  return !isTrueOnAny(ranks, std::any_of(meshes.begin(), meshes.end(), hasVolumes));
+}
+
 } // namespace
 
 void HeightRange::add(vtkPointSet* mesh)
@@ -60,14 +66,16 @@ void HeightRange::add(vtkPointSet* mesh)
     this->Low = std::min(this->Low, box.GetBound(4));
     this->High = std::max(this->High, box.GetBound(5));
   }
+  this->HasArray = this->HasArray || mesh->GetPointData()->HasArray(elevationName);
 }
 
 void HeightRange::gather(Communicator& ranks)
 {
-  std::vector<double> both = { this->Low, -this->High };
-  ranks.minimum(both);
-  this->Low = both[0];
-  this->High = -both[1];
+  std::vector<double> least = { this->Low, -this->High, this->HasArray ? 0.0 : 1.0 };
+  ranks.minimum(least);
+  this->Low = least[0];
+  this->High = -least[1];
+  this->HasArray = least[2] == 0;
 }
 
 bool haveElevation(const std::vector<vtkPointSet*>& meshes, Communicator& ranks)
@@ -128,16 +136,13 @@ std::vector<vtkPointSet*> meshesOf(vtkDataObject* data, int threads)
   return meshes;
 }
 
-bool areSurfaces(const std::vector<vtkPointSet*>& meshes, Communicator& ranks)
+std::array<int, 3> chosenDimensions(const std::array<double, 6>& bounds,
+  const std::array<int, 3>& dimensions, const std::vector<vtkPointSet*>& meshes,
+  Communicator& ranks)
 {
-  int volumes = 0;
-  for (vtkPointSet* mesh : meshes)
-  {
-    volumes += int(hasVolumes(mesh));
-  }
-  std::vector<std::int64_t> all{ volumes };
-  ranks.sum(all);
-  return all.front() == 0;
+  return std::count(dimensions.begin(), dimensions.end(), 0) > 0
+    ? chosenDimensions(bounds, dimensions, areSurfaces(meshes, ranks))
+    : dimensions;
 }
 
 std::array<double, 6> boundsOf(const std::vector<vtkPointSet*>& meshes, Communicator& ranks)

@@ -24,11 +24,12 @@ class Communicator;
 /// The name of the point array with the heights of a surface.
 constexpr const char* elevationName = "elevation";
 
-/// The lowest and the highest finite z of points.
+/// The lowest and the highest finite z of meshes, and whether one has an array of elevations.
 struct HeightRange
 {
   double Low = HUGE_VAL;
   double High = -HUGE_VAL;
+  bool HasArray = false;
 
   VTKTIPPFILTERS_EXPORT void add(vtkPointSet* mesh);
   /// Combines the ranges of all ranks, on all ranks. Collective.
@@ -58,8 +59,11 @@ std::array<T, N> toArray(const T (&values)[N])
 /// if one is not a vtkPointSet or fails checkCells().
 std::vector<vtkPointSet*> meshesOf(vtkDataObject* data, int threads);
 
-/// Whether no mesh of any rank has a three-dimensional cell. Collective.
-bool areSurfaces(const std::vector<vtkPointSet*>& meshes, Communicator& ranks);
+/// Returns `dimensions` with each 0 replaced as in SamplingLattice.h; the meshes of all ranks tell
+/// whether they are surfaces. Collective.
+std::array<int, 3> chosenDimensions(const std::array<double, 6>& bounds,
+  const std::array<int, 3>& dimensions, const std::vector<vtkPointSet*>& meshes,
+  Communicator& ranks);
 
 /// Returns the bounding box of all ranks' meshes (xmin, xmax, ymin, ...). Throws std::runtime_error
 /// on all ranks if there are no points. Collective.

@@ -2,7 +2,7 @@
 #include "Sampling/SimplexParts.h"
 
 #include "Vtk/Compatibility.h"
-#include "Vtk/ReadDataSet.h"
+#include "Vtk/DataSets.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

@@ -3,10 +3,7 @@
 
 #include "Kernel/DelaunayKernel.h"
 #include "Kernel/Lanes.h"
-#include "Parallel/ParallelFor.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -59,8 +56,6 @@ void BoundaryTriangles::appendTriangles(const BoundaryTriangles& others)
 namespace
 {
 
-using Index = DelaunayKernel::Index;
-
 double meanLongSide(const Tiling& tiling)
 {
   double sum = 0;
@@ -103,29 +98,6 @@ std::array<std::size_t, 4> findOutmost(const Point2* points, std::size_t count)
     while ((side % 2 == 0 ? points[found[side]].x : points[found[side]].y) != bounds[side])
     {
       ++found[side];
-    }
-  }
-  return found;
-}
-
-/// The finite triangles among the kernel's triangles [begin, end), by number, and the regions that
-/// each meets.
-BoundaryTriangles findMetRegions(
-  const Regions& regions, const DelaunayKernel& kernel, std::size_t begin, std::size_t end)
-{
-  BoundaryTriangles found;
-  std::vector<PartitionIndex> met;
-  for (std::size_t number = begin; number < end; ++number)
-  {
-    const Index t = DelaunayKernel::triangle(number);
-    if (!kernel.isInfinite(t))
-    {
-      const auto [a, b, c] = kernel.corners(t);
-      met.clear();
-      regions.visitMet(Circumdisk(kernel.point(a), kernel.point(b), kernel.point(c)),
-        [&met](PartitionIndex p) { met.push_back(p); });
-      found.add({ kernel.pointIndex(a), kernel.pointIndex(b), kernel.pointIndex(c) }, met.data(),
-        met.data() + met.size());
     }
   }
   return found;
@@ -212,27 +184,55 @@ std::vector<std::size_t> chooseInitialPoints(
   return chosen;
 }
 
-template <typename Id>
-std::vector<BoundaryVertex> chooseInitialPoints(
-  const Tiling& tiling, const PointBuckets<Id>& buckets, int perPartition, int threads)
+void KernelTriangles::add(const DelaunayKernel& kernel, std::int32_t triangle,
+  const Regions& regions, const RegionChoice* choice)
 {
-  std::vector<std::vector<std::size_t>> chosen(std::size_t(tiling.size()));
-  parallelFor(tiling.size(), threads,
+  const auto [a, b, c] = kernel.corners(triangle);
+  const Circumdisk disk(kernel.point(a), kernel.point(b), kernel.point(c));
+  if (choice && !disk.meets(choice->Bounds))
+  {
+    return;
+  }
+  std::vector<PartitionIndex>& met = this->Met;
+  met.clear();
+  regions.visitMet(disk, [&met](PartitionIndex p) { met.push_back(p); });
+  if (!choice ||
+    std::any_of(met.begin(), met.end(),
+      [choice](PartitionIndex p) { return choice->IsChosen[std::size_t(p)] != 0; }))
+  {
+    this->Mesh.add({ kernel.pointIndex(a), kernel.pointIndex(b), kernel.pointIndex(c) }, met.data(),
+      met.data() + met.size());
+    this->Indices.push_back(triangle);
+  }
+}
+
+KernelTriangles findTriangles(
+  const DelaunayKernel& kernel, const Regions& regions, const RegionChoice* choice, int threads)
+{
+  std::vector<KernelTriangles> parts(static_cast<std::size_t>(threads));
+  parallelFor(threads, threads,
     [&](std::int64_t i)
     {
-      const auto p = static_cast<PartitionIndex>(i);
-      chosen[std::size_t(i)] =
-        chooseInitialPoints(buckets.points(p), buckets.count(p), std::size_t(perPartition));
+      KernelTriangles part; // local: threads do not write to the same cache line
+      const auto [begin, end] = evenShare(kernel.triangleCount(), int(i), threads);
+      for (std::size_t number = begin; number < end; ++number)
+      {
+        const DelaunayKernel::Index t = DelaunayKernel::triangle(number);
+        if (!kernel.isInfinite(t))
+        {
+          part.add(kernel, t, regions, choice);
+        }
+      }
+      parts[std::size_t(i)] = std::move(part);
     });
-  std::vector<BoundaryVertex> vertices;
-  for (PartitionIndex p = 0; p < tiling.size(); ++p)
-  {
-    for (const std::size_t at : chosen[std::size_t(p)])
+  KernelTriangles all = std::move(parts.front());
+  std::for_each(parts.begin() + 1, parts.end(),
+    [&all](const KernelTriangles& part)
     {
-      vertices.push_back({ buckets.points(p)[at], buckets.id(p, at), p });
-    }
-  }
-  return vertices;
+      all.Mesh.appendTriangles(part.Mesh);
+      all.Indices.insert(all.Indices.end(), part.Indices.begin(), part.Indices.end());
+    });
+  return all;
 }
 
 BoundaryTriangles triangulateVertices(
@@ -241,18 +241,9 @@ BoundaryTriangles triangulateVertices(
   const std::vector<Point2> points = positionsOf(vertices);
   DelaunayKernel kernel;
   kernel.insert(points.data(), points.size());
-  std::vector<BoundaryTriangles> own(static_cast<std::size_t>(threads));
-  parallelFor(threads, threads,
-    [&](std::int64_t i)
-    {
-      const auto [begin, end] = evenShare(kernel.triangleCount(), int(i), threads);
-      own[std::size_t(i)] = findMetRegions(regions, kernel, begin, end);
-    });
-  BoundaryTriangles all = std::move(own.front());
-  std::for_each(own.begin() + 1, own.end(),
-    [&all](const BoundaryTriangles& part) { all.appendTriangles(part); });
+  BoundaryTriangles all = findTriangles(kernel, regions, nullptr, threads).Mesh;
   all.Vertices = vertices;
-  all.AdjacentSets = adjacentSets<3>(kernel, all.SetOf);
+  all.AdjacentSets = adjacentSets<3>(kernel, setsByNumber(kernel, all.SetOf));
   return all;
 }
 
@@ -273,10 +264,5 @@ bool partitionsPay(const MetPartitions& initialMesh, double most)
   }
   return partitionsPay(cells, met, most);
 }
-
-template std::vector<BoundaryVertex> chooseInitialPoints(
-  const Tiling&, const PointBuckets<std::int32_t>&, int, int);
-template std::vector<BoundaryVertex> chooseInitialPoints(
-  const Tiling&, const PointBuckets<std::int64_t>&, int, int);
 
 } // namespace tipp

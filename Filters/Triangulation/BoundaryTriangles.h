@@ -2,6 +2,7 @@
 #ifndef tippBoundaryTriangles_h
 #define tippBoundaryTriangles_h
 
+#include "Parallel/ParallelFor.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/Tiling.h"
 #include "vtkTIPPFiltersModule.h"
@@ -110,21 +111,31 @@ struct MetPartitions
   const PartitionIndex* metEnd(std::size_t i) const { return this->Sets.end(this->SetOf[i]); }
 };
 
-/// Returns the pairs of different sets of adjacent finite cells. `setOf` is indexed by finite cell,
-/// in the kernel's order.
-template <int Corners, typename Kernel>
-auto adjacentSets(const Kernel& kernel, const std::vector<std::uint32_t>& setOf)
+constexpr std::uint32_t NoSet = ~0U; ///< the set of an infinite cell, or of one that is left out
+
+/// Returns the set of each of a kernel's cells by the cell's number; NoSet for infinite ones.
+/// `setOf` is indexed by finite cell, in the kernel's order.
+template <typename Kernel>
+std::vector<std::uint32_t> setsByNumber(
+  const Kernel& kernel, const std::vector<std::uint32_t>& setOf)
 {
-  using Index = typename Kernel::Index;
-  constexpr std::uint32_t none = ~0U;
   std::vector<std::uint32_t> sets;
   auto set = setOf.begin();
   kernel.forEach(
-    [&](Index cell)
+    [&](typename Kernel::Index cell)
     {
-      sets.resize(Kernel::number(cell) + 1, none);
-      sets.back() = kernel.isInfinite(cell) ? none : *set++;
+      sets.resize(Kernel::number(cell) + 1, NoSet);
+      sets.back() = kernel.isInfinite(cell) ? NoSet : *set++;
     });
+  return sets;
+}
+
+/// Returns the pairs of different sets of a kernel's adjacent cells. `sets` is indexed by cell
+/// number.
+template <int Corners, typename Kernel>
+auto adjacentSets(const Kernel& kernel, const std::vector<std::uint32_t>& sets)
+{
+  using Index = typename Kernel::Index;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
   kernel.forEach(
     [&](Index cell)
@@ -133,7 +144,7 @@ auto adjacentSets(const Kernel& kernel, const std::vector<std::uint32_t>& setOf)
       for (Index i = 0; i < Corners; ++i)
       {
         const std::uint32_t other = sets[Kernel::number(kernel.neighbour(cell, i))];
-        if (one < other && other != none)
+        if (one < other && other != NoSet)
         {
           pairs.emplace_back(one, other);
         }
@@ -168,6 +179,32 @@ struct BoundaryTriangles : MetPartitions
   void appendTriangles(const BoundaryTriangles& others);
 };
 
+class DelaunayKernel;
+
+/// The chosen partitions.
+struct RegionChoice
+{
+  const std::vector<char>& IsChosen; ///< by partition
+  Box2 Bounds;                       ///< contains their regions
+};
+
+/// Triangles found in a kernel. Their corners are the kernel's point indices; Mesh.Vertices is left
+/// empty, for the caller to set.
+struct KernelTriangles
+{
+  BoundaryTriangles Mesh;
+  std::vector<std::int32_t> Indices; ///< the same triangles, as the kernel identifies them
+  std::vector<PartitionIndex> Met;   ///< working memory
+
+  /// Adds a finite triangle if it meets a chosen region. Without `choice` it is always added.
+  void add(const DelaunayKernel& kernel, std::int32_t triangle, const Regions& regions,
+    const RegionChoice* choice);
+};
+
+/// Returns the kernel's finite triangles that meet a chosen region; all of them without `choice`.
+KernelTriangles findTriangles(
+  const DelaunayKernel& kernel, const Regions& regions, const RegionChoice* choice, int threads);
+
 /// Moves a bound outward by the margin, but by at least a few units in the last place: when
 /// coordinates are large and close together, rounding may remove the margin.
 double outward(double bound, double direction, double margin);
@@ -187,7 +224,26 @@ std::vector<std::size_t> chooseInitialPoints(
 /// Chooses `perPartition` points of each partition; their ids are the buckets' ids.
 template <typename Id>
 std::vector<BoundaryVertex> chooseInitialPoints(
-  const Tiling& tiling, const PointBuckets<Id>& buckets, int perPartition, int threads);
+  const Tiling& tiling, const PointBuckets<Id>& buckets, int perPartition, int threads)
+{
+  std::vector<std::vector<std::size_t>> chosen(std::size_t(tiling.size()));
+  parallelFor(tiling.size(), threads,
+    [&](std::int64_t i)
+    {
+      const auto p = static_cast<PartitionIndex>(i);
+      chosen[std::size_t(i)] =
+        chooseInitialPoints(buckets.points(p), buckets.count(p), std::size_t(perPartition));
+    });
+  std::vector<BoundaryVertex> vertices;
+  for (PartitionIndex p = 0; p < tiling.size(); ++p)
+  {
+    for (const std::size_t at : chosen[std::size_t(p)])
+    {
+      vertices.push_back({ buckets.points(p)[at], buckets.id(p, at), p });
+    }
+  }
+  return vertices;
+}
 
 /// The Delaunay triangulation of the vertices, with the regions that each triangle meets, and the
 /// pairs of sets that adjacent triangles meet.

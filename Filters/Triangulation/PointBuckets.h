@@ -3,13 +3,17 @@
 #define tippPointBuckets_h
 
 #include "Arrays/Buffer.h"
+#include "Kernel/Lanes.h"
+#include "Parallel/ParallelFor.h"
 #include "Predicates/Points.h"
 #include "Triangulation/PointsView.h"
+#include "Triangulation/PopulatePages.h"
 #include "Triangulation/Tiling.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -56,10 +60,11 @@ public:
     line.Ids[at % IdsInLine] = id;
     if (at % PointsInLine == PointsInLine - 1)
     {
-      this->writePoints(bucket, at + 1);
+      const Bucket& to = this->Buckets[bucket];
+      write(line.Points, to.Points, to.Next, at + 1);
       if (at % IdsInLine == IdsInLine - 1)
       {
-        this->writeIds(bucket, at + 1);
+        write(line.Ids, to.Ids, to.Next, at + 1);
       }
     }
   }
@@ -70,13 +75,14 @@ public:
     for (std::size_t bucket = 0; bucket < this->Buckets.size(); ++bucket)
     {
       const std::size_t end = this->Next[bucket];
-      if (end > this->Buckets[bucket].Next && end % PointsInLine != 0)
+      const Bucket& to = this->Buckets[bucket];
+      if (end > to.Next && end % PointsInLine != 0)
       {
-        this->writePoints(bucket, end);
+        write(this->Lines[bucket].Points, to.Points, to.Next, end);
       }
-      if (end > this->Buckets[bucket].Next && end % IdsInLine != 0)
+      if (end > to.Next && end % IdsInLine != 0)
       {
-        this->writeIds(bucket, end);
+        write(this->Lines[bucket].Ids, to.Ids, to.Next, end);
       }
     }
 #ifdef __SSE2__
@@ -121,18 +127,6 @@ private:
 #endif
   }
 
-  void writePoints(std::size_t bucket, std::size_t end)
-  {
-    const Bucket& to = this->Buckets[bucket];
-    write(this->Lines[bucket].Points, to.Points, to.Next, end);
-  }
-
-  void writeIds(std::size_t bucket, std::size_t end)
-  {
-    const Bucket& to = this->Buckets[bucket];
-    write(this->Lines[bucket].Ids, to.Ids, to.Next, end);
-  }
-
   const std::vector<Bucket> Buckets;
   std::vector<std::size_t> Next;
   std::vector<Line> Lines;
@@ -147,10 +141,19 @@ class PointBuckets
 public:
   PointBuckets() = default;
   /// `starts` has the index of each partition's first point, and the number of points at the end.
-  explicit PointBuckets(std::vector<std::size_t> starts);
+  explicit PointBuckets(std::vector<std::size_t> starts)
+    : Starts(std::move(starts))
+    , Memory(6 * this->Starts.back())
+  {
+  }
   /// Refers to points that are stored elsewhere in the buckets' order; their ids are their indices
   /// in `points`. `more` is the number of additional triangles to allocate memory for, at the end.
-  PointBuckets(std::vector<std::size_t> starts, const Point2* points, std::size_t more);
+  PointBuckets(std::vector<std::size_t> starts, const Point2* points, std::size_t more)
+    : Starts(std::move(starts))
+    , Elsewhere(points)
+    , Memory(6 * this->Starts.back() + 3 * more)
+  {
+  }
 
   PartitionIndex partitions() const { return static_cast<PartitionIndex>(this->Starts.size() - 1); }
   std::size_t start(PartitionIndex p) const { return this->Starts[std::size_t(p)]; }
@@ -166,7 +169,18 @@ public:
     return this->Elsewhere ? static_cast<Id>(this->start(p) + at) : this->heldIds(p)[at];
   }
   /// Copies the ids of a partition's points to `ids`, which is resized.
-  void copyIds(PartitionIndex p, std::vector<Id>& ids) const;
+  void copyIds(PartitionIndex p, std::vector<Id>& ids) const
+  {
+    ids.resize(this->count(p));
+    if (this->Elsewhere)
+    {
+      std::iota(ids.begin(), ids.end(), static_cast<Id>(this->start(p)));
+    }
+    else
+    {
+      std::copy_n(this->heldIds(p), ids.size(), ids.data());
+    }
+  }
   Id* triangles(PartitionIndex p) { return this->Memory.data() + 6 * this->start(p); }
 
   ///@{
@@ -176,7 +190,11 @@ public:
   ///@}
 
   /// Commits the pages of part `part` of `parts` of the memory, all of which will be used.
-  void populate(int part, int parts);
+  void populate(int part, int parts)
+  {
+    const auto [begin, end] = evenShare(6 * this->size(), part, parts);
+    populatePages(this->Memory.data() + begin, (end - begin) * sizeof(Id));
+  }
 
   /// Returns the memory: all partitions' triangles, with gaps between them.
   Buffer<Id> release() { return std::move(this->Memory); }
@@ -219,14 +237,154 @@ private:
   Buffer<Id> Memory;
 };
 
+/// The region of each partition: a box that contains its points, by default their bounding box. The
+/// lemmas require no more; smaller regions meet fewer triangles.
+class Regions
+{
+public:
+  /// The bounding boxes of the partitions' points. The tiling must outlive this object.
+  template <typename Id>
+  Regions(const Tiling& tiling, const PointBuckets<Id>& buckets, int threads)
+    : Tiles(tiling)
+    , Boxes(std::size_t(tiling.size()))
+    , Used(std::size_t(tiling.size()), 0)
+  {
+    parallelFor(tiling.size(), threads,
+      [&](std::int64_t i)
+      {
+        const auto p = static_cast<PartitionIndex>(i);
+        this->Boxes[std::size_t(i)] = extentOf(buckets.points(p), buckets.count(p)).box();
+        this->Used[std::size_t(i)] = buckets.count(p) > 0;
+      });
+  }
+
+  /// Takes known boxes. `used` has one entry for each partition: 0 if it has no points.
+  Regions(const Tiling& tiling, std::vector<Box2> boxes, std::vector<char> used)
+    : Tiles(tiling)
+    , Boxes(std::move(boxes))
+    , Used(std::move(used))
+  {
+  }
+
+  /// The tiling's boxes.
+  Regions(const Tiling& tiling) // NOLINT(google-explicit-constructor)
+    : Regions(tiling, tiling.boxes(), std::vector<char>(std::size_t(tiling.size()), 1))
+  {
+  }
+
+  PartitionIndex size() const { return static_cast<PartitionIndex>(this->Boxes.size()); }
+  const Box2& operator[](PartitionIndex p) const { return this->Boxes[std::size_t(p)]; }
+
+  /// By partition: not 0 if it has points, and so a region.
+  const std::vector<char>& areUsed() const { return this->Used; }
+
+  /// Calls visit(partition) for every region that the closed disk meets.
+  template <typename Visit>
+  void visitMet(const Circumdisk& disk, Visit&& visit) const
+  {
+    this->Tiles.visitNear(disk.bounds(),
+      [&](PartitionIndex p)
+      {
+        if (this->Used[std::size_t(p)] && disk.meets((*this)[p]))
+        {
+          visit(p);
+        }
+      });
+  }
+
+private:
+  const Tiling& Tiles;
+  std::vector<Box2> Boxes;
+  std::vector<char> Used;
+};
+
 /// Sorts the finite points by partition, stably. Ids are indices into `points`.
 template <typename Id>
-PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threads);
+PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threads)
+{
+  const std::size_t partitions = static_cast<std::size_t>(tiling.size());
+  const PartitionFinder finder(tiling);
+  Buffer<std::uint32_t> labels(points.size());
+  // By part of the input and partition: at first the part's number of points there.
+  std::vector<std::vector<std::size_t>> nextOf(
+    static_cast<std::size_t>(threads), std::vector<std::size_t>(partitions, 0));
+  const auto labelPart = [&](std::int64_t part)
+  {
+    const auto [begin, end] = evenShare(points.size(), int(part), threads);
+    populatePages(labels.data() + begin, (end - begin) * sizeof(std::uint32_t));
+    finder.label(points, begin, end, labels.data(), nextOf[std::size_t(part)]);
+  };
+  parallelFor(threads, threads, labelPart);
+
+  // From here on: the position of each part's next point within its partition.
+  std::vector<std::size_t> starts = { 0 };
+  for (std::size_t partition = 0; partition < partitions; ++partition)
+  {
+    std::size_t sum = 0;
+    for (std::vector<std::size_t>& next : nextOf)
+    {
+      const std::size_t count = next[partition];
+      next[partition] = sum;
+      sum += count;
+    }
+    starts.push_back(starts.back() + sum);
+  }
+
+  PointBuckets<Id> buckets(std::move(starts));
+  const auto scatterPart = [&](std::int64_t part)
+  {
+    buckets.populate(int(part), threads);
+    std::vector<typename BucketWriter<Id>::Bucket> toFill;
+    toFill.reserve(partitions);
+    for (PartitionIndex p = 0; p < tiling.size(); ++p)
+    {
+      toFill.push_back({ buckets.pointsToFill(p), buckets.idsToFill(p),
+        nextOf[std::size_t(part)][std::size_t(p)] });
+    }
+    BucketWriter<Id> writer(std::move(toFill));
+    const auto [begin, end] = evenShare(points.size(), int(part), threads);
+    points.forEach(begin, end,
+      [&](std::size_t id, Point2 p)
+      {
+        if (labels[id] != PartitionFinder::None)
+        {
+          writer.append(labels[id], p, static_cast<Id>(id));
+        }
+      });
+    writer.finish();
+  };
+  parallelFor(threads, threads, scatterPart);
+  return buckets;
+}
 
 /// Puts all points into one bucket. The points are not copied if they are contiguous and all
 /// finite.
 template <typename Id>
-PointBuckets<Id> bucketTogether(PointsView points, const Box2& bounds, bool allFinite, int threads);
+PointBuckets<Id> bucketTogether(PointsView points, const Box2& bounds, bool allFinite, int threads)
+{
+  if (points.contiguous() && allFinite)
+  {
+    PointBuckets<Id> buckets({ 0, points.size() }, points.contiguous(), 0);
+    buckets.populate(0, 1);
+    return buckets;
+  }
+  if (!allFinite)
+  {
+    return bucketPoints<Id>(points, Tiling::grid(bounds, 1, 1), threads);
+  }
+  PointBuckets<Id> buckets({ 0, points.size() });
+  Point2* const to = buckets.pointsToFill(0);
+  Id* const ids = buckets.idsToFill(0);
+  const auto copyPart = [&](std::int64_t part)
+  {
+    const auto [begin, end] = evenShare(points.size(), int(part), threads);
+    buckets.populate(int(part), threads);
+    points.forEach(begin, end, [to](std::size_t id, Point2 p) { to[id] = p; });
+    std::iota(ids + begin, ids + end, static_cast<Id>(begin));
+  };
+  parallelFor(threads, threads, copyPart);
+  return buckets;
+}
 
 } // namespace tipp
 

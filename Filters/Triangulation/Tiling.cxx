@@ -4,7 +4,6 @@
 #include "Ranks/Archive.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace tipp
@@ -25,6 +24,32 @@ std::pair<Box2, Box2> cutBox(const Box2& box, int axis, double at)
 double between(double low, double high, double part)
 {
   return std::clamp(low * (1 - part) + high * part, low, high);
+}
+
+/// Branch-free, so that compilers vectorise it.
+inline void findCells(const CellGrid::Axis& columns, const CellGrid::Axis& rows,
+  const Point2* points, std::size_t count, std::uint32_t* cells)
+{
+  const CellGrid::Axis column = columns;
+  const CellGrid::Axis row = rows;
+  const std::uint32_t width = column.size();
+  const std::uint32_t outside = width * row.size();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const Point2 p = points[i];
+    const std::uint32_t cell = row(p.y) * width + column(p.x);
+    const double nothing = (p.x - p.x) + (p.y - p.y); // NaN if a coordinate is not finite
+    cells[i] = nothing == 0 ? cell : outside;
+  }
+}
+
+/// Chosen so that few cells lie in several boxes, but the grid stays in the processor's cache.
+std::uint32_t cellsAlongASide(PartitionIndex boxes)
+{
+  constexpr double perBox = 32;
+  constexpr double most = 1024;
+  return boxes > 1 ? static_cast<std::uint32_t>(std::min(perBox * std::sqrt(double(boxes)), most))
+                   : 1;
 }
 
 } // namespace
@@ -144,37 +169,6 @@ Tiling Tiling::refined(const std::vector<Tiling>& inner) const
     });
   return tiling;
 }
-
-namespace
-{
-
-/// Branch-free, so that compilers vectorise it.
-inline void findCells(const CellGrid::Axis& columns, const CellGrid::Axis& rows,
-  const Point2* points, std::size_t count, std::uint32_t* cells)
-{
-  const CellGrid::Axis column = columns;
-  const CellGrid::Axis row = rows;
-  const std::uint32_t width = column.size();
-  const std::uint32_t outside = width * row.size();
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const Point2 p = points[i];
-    const std::uint32_t cell = row(p.y) * width + column(p.x);
-    const double nothing = (p.x - p.x) + (p.y - p.y); // NaN if a coordinate is not finite
-    cells[i] = nothing == 0 ? cell : outside;
-  }
-}
-
-/// Chosen so that few cells lie in several boxes, but the grid stays in the processor's cache.
-std::uint32_t cellsAlongASide(PartitionIndex boxes)
-{
-  constexpr double perBox = 32;
-  constexpr double most = 1024;
-  return boxes > 1 ? static_cast<std::uint32_t>(std::min(perBox * std::sqrt(double(boxes)), most))
-                   : 1;
-}
-
-} // namespace
 
 CellGrid::Axis::Axis(double low, double high, std::uint32_t count)
 {

@@ -3,7 +3,7 @@
 #define tippTiling_h
 
 #include "Kernel/Lanes.h"
-#include "Predicates/Circumdisk.h"
+#include "Predicates/Circumball.h"
 #include "Predicates/Points.h"
 #include "Triangulation/PointsView.h"
 #include "vtkTIPPFiltersModule.h"
@@ -157,58 +157,6 @@ private:
   Box2 Domain{};
   std::vector<Node> Nodes; ///< the first is the root
   std::vector<Box2> Boxes;
-};
-
-template <typename Id>
-class PointBuckets;
-
-/// The region of each partition: a box that contains its points, by default their bounding box. The
-/// lemmas require no more; smaller regions meet fewer triangles.
-class Regions
-{
-public:
-  /// The bounding boxes of the partitions' points. The tiling must outlive this object.
-  template <typename Id>
-  Regions(const Tiling& tiling, const PointBuckets<Id>& buckets, int threads);
-
-  /// Takes known boxes. `used` has one entry for each partition: 0 if it has no points.
-  Regions(const Tiling& tiling, std::vector<Box2> boxes, std::vector<char> used)
-    : Tiles(tiling)
-    , Boxes(std::move(boxes))
-    , Used(std::move(used))
-  {
-  }
-
-  /// The tiling's boxes.
-  Regions(const Tiling& tiling) // NOLINT(google-explicit-constructor)
-    : Regions(tiling, tiling.boxes(), std::vector<char>(std::size_t(tiling.size()), 1))
-  {
-  }
-
-  PartitionIndex size() const { return static_cast<PartitionIndex>(this->Boxes.size()); }
-  const Box2& operator[](PartitionIndex p) const { return this->Boxes[std::size_t(p)]; }
-
-  /// By partition: not 0 if it has points, and so a region.
-  const std::vector<char>& areUsed() const { return this->Used; }
-
-  /// Calls visit(partition) for every region that the closed disk meets.
-  template <typename Visit>
-  void visitMet(const Circumdisk& disk, Visit&& visit) const
-  {
-    this->Tiles.visitNear(disk.bounds(),
-      [&](PartitionIndex p)
-      {
-        if (this->Used[std::size_t(p)] && disk.meets((*this)[p]))
-        {
-          visit(p);
-        }
-      });
-  }
-
-private:
-  const Tiling& Tiles;
-  std::vector<Box2> Boxes;
-  std::vector<char> Used;
 };
 
 /// A grid of equal cells over a box, numbered row by row. Non-finite points get the number after

@@ -1,25 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation/Triangulate.h"
 
-#include "Engine/PartitionOrder.h"
-#include "Engine/ReadyPartitions.h"
-#include "Engine/Routing.h"
+#include "Engine/PartitionSchedule.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/Dataflow.h"
 #include "Triangulation/PointBuckets.h"
-#include "Triangulation/PointSurvey.h"
-#include "Triangulation/PointsView.h"
-#include "Triangulation/Tiling.h"
 #include "Triangulation/TriangleSink.h"
-#include "Triangulation/Worker.h"
 
 #include <algorithm>
 #include <atomic>
 #include <limits>
 #include <mutex>
 #include <stdexcept>
-#include <string>
 
 namespace tipp
 {
@@ -260,20 +254,11 @@ private:
     Worker<Id> worker(shared.Tiles, this->Buckets);
     this->setEditor(worker);
     Routing<Id> routing(shared.Order, shared.Boxes);
-    UniqueVertices unique;
     for (PartitionIndex p = shared.Ready.take(); p >= 0; p = shared.Ready.take())
     {
       shared.Stages[shared.Order.position(p)] = { ++shared.Active, shared.Unfinished };
-      std::int64_t handed = 0;
-      {
-        const std::vector<VertexMessage> messages = shared.Inboxes[std::size_t(p)].take();
-        for (const VertexMessage& message : messages)
-        {
-          handed += message.Cells;
-        }
-        routing.setPartition(p);
-        worker.triangulate(p, unique.collect(messages), shared.Boxes[p], routing);
-      }
+      const std::int64_t handed =
+        routing.triangulate(worker, p, shared.Inboxes[std::size_t(p)].take());
       shared.deliver(routing.send(worker, part.Boundary));
       shared.Unfinished -= handed;
       sink.setInteriorCount(p, worker.interiorCount());

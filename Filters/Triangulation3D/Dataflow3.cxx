@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation3D/Dataflow3.h"
 
-#include "Predicates/InSphere.h"
+#include "Predicates/ExactPredicates3.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 namespace tipp
@@ -14,26 +13,78 @@ namespace
 
 using Index = DelaunayKernel3::Index;
 
-Circumball ballOf(const DelaunayKernel3& kernel, const std::array<Index, 4>& v)
+/// Artificial points, which are on the sides of a box, in groups of neighbours with boxes of their
+/// own.
+class ArtificialGroups
 {
-  return { kernel.point(v[0]), kernel.point(v[1]), kernel.point(v[2]), kernel.point(v[3]) };
-}
+public:
+  explicit ArtificialGroups(const std::vector<Vertex3>& artificial)
+  {
+    for (const Vertex3& z : artificial)
+    {
+      this->Bounds.include(z.Position);
+    }
+    const Box3& box = this->Bounds.Box;
+    std::array<std::vector<Point3>, 6> sides;
+    for (const Vertex3& z : artificial)
+    {
+      const Point3& p = z.Position;
+      const std::array<bool, 6> isOn = { p.x == box.Min[0], p.x == box.Max[0], p.y == box.Min[1],
+        p.y == box.Max[1], p.z == box.Min[2], true };
+      sides[std::size_t(std::find(isOn.begin(), isOn.end(), true) - isOn.begin())].push_back(p);
+    }
+    for (const std::vector<Point3>& side : sides)
+    {
+      this->addGroups(side);
+    }
+  }
+
+  /// The box that all points are on.
+  const Box3& box() const { return this->Bounds.Box; }
+
+  /// Whether the tetrahedron of these corners is in conflict with one of the points.
+  bool areInConflict(const Point3& a, const Point3& b, const Point3& c, const Point3& d) const
+  {
+    const Circumball ball(a, b, c, d);
+    const auto isInConflict = [&](const Point3& p)
+    {
+      return ball.meets({ { p.x, p.y, p.z }, { p.x, p.y, p.z } }) &&
+        inSpherePerturbed(a, b, c, d, p);
+    };
+    return std::any_of(this->Groups.begin(), this->Groups.end(),
+      [&](const Group& group)
+      {
+        return ball.meets(group.Bounds.Box) &&
+          std::any_of(group.Points.begin(), group.Points.end(), isInConflict);
+      });
+  }
+
+private:
+  struct Group
+  {
+    PointBounds Bounds;
+    std::vector<Point3> Points;
+  };
+
+  void addGroups(const std::vector<Point3>& side)
+  {
+    constexpr std::size_t most = 16;
+    for (std::size_t i = 0; i < side.size(); ++i)
+    {
+      if (i % most == 0)
+      {
+        this->Groups.emplace_back();
+      }
+      this->Groups.back().Points.push_back(side[i]);
+      this->Groups.back().Bounds.include(side[i]);
+    }
+  }
+
+  PointBounds Bounds;
+  std::vector<Group> Groups;
+};
 
 } // namespace
-
-void FinalCells::addInside(const std::array<std::int64_t, 4>& ids)
-{
-  this->Cells.push_back(
-    { std::int32_t(ids[0]), std::int32_t(ids[1]), std::int32_t(ids[2]), std::int32_t(ids[3]) });
-}
-
-void FinalCells::add(const std::array<Vertex3, 4>& corners)
-{
-  if (!takeHullVertices(corners, this->HullVertices))
-  {
-    this->addInside({ corners[0].Id, corners[1].Id, corners[2].Id, corners[3].Id });
-  }
-}
 
 Vertex3 Worker3::vertex(Index v) const
 {
@@ -246,7 +297,7 @@ void Worker3::route(Index cell, FinalCellConsumer3& final)
     add();
     return;
   }
-  const Circumball ball = ballOf(this->Kernel, v);
+  const Circumball ball(a, b, c, d);
   if (!meetsRegion && !ball.meets(this->Regions[std::size_t(this->Own.Partition)]))
   {
     return;
@@ -273,82 +324,6 @@ SentMessages3 Worker3::send()
   }
   return sent;
 }
-
-namespace
-{
-
-/// Artificial points, which are on the sides of a box, in groups of neighbours with boxes of their
-/// own.
-class ArtificialGroups
-{
-public:
-  explicit ArtificialGroups(const std::vector<Vertex3>& artificial)
-  {
-    for (const Vertex3& z : artificial)
-    {
-      this->Bounds.include(z.Position);
-    }
-    const Box3& box = this->Bounds.Box;
-    std::array<std::vector<Point3>, 6> sides;
-    for (const Vertex3& z : artificial)
-    {
-      const Point3& p = z.Position;
-      const std::array<bool, 6> isOn = { p.x == box.Min[0], p.x == box.Max[0], p.y == box.Min[1],
-        p.y == box.Max[1], p.z == box.Min[2], true };
-      sides[std::size_t(std::find(isOn.begin(), isOn.end(), true) - isOn.begin())].push_back(p);
-    }
-    for (const std::vector<Point3>& side : sides)
-    {
-      this->addGroups(side);
-    }
-  }
-
-  /// The box that all points are on.
-  const Box3& box() const { return this->Bounds.Box; }
-
-  /// Whether the tetrahedron of these corners is in conflict with one of the points.
-  bool areInConflict(const Point3& a, const Point3& b, const Point3& c, const Point3& d) const
-  {
-    const Circumball ball(a, b, c, d);
-    const auto isInConflict = [&](const Point3& p)
-    {
-      return ball.meets({ { p.x, p.y, p.z }, { p.x, p.y, p.z } }) &&
-        inSpherePerturbed(a, b, c, d, p);
-    };
-    return std::any_of(this->Groups.begin(), this->Groups.end(),
-      [&](const Group& group)
-      {
-        return ball.meets(group.Bounds.Box) &&
-          std::any_of(group.Points.begin(), group.Points.end(), isInConflict);
-      });
-  }
-
-private:
-  struct Group
-  {
-    PointBounds Bounds;
-    std::vector<Point3> Points;
-  };
-
-  void addGroups(const std::vector<Point3>& side)
-  {
-    constexpr std::size_t most = 16;
-    for (std::size_t i = 0; i < side.size(); ++i)
-    {
-      if (i % most == 0)
-      {
-        this->Groups.emplace_back();
-      }
-      this->Groups.back().Points.push_back(side[i]);
-      this->Groups.back().Bounds.include(side[i]);
-    }
-  }
-
-  PointBounds Bounds;
-  std::vector<Group> Groups;
-};
-
-} // namespace
 
 void repairHull(std::vector<Vertex3> vertices, const std::vector<Vertex3>& artificial,
   const std::function<void(const std::array<Vertex3, 4>&)>& add)

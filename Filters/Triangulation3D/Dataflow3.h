@@ -3,13 +3,11 @@
 #define tippDataflow3_h
 
 #include "Engine/Inbox.h"
-#include "Engine/PartitionOrder.h"
-#include "Kernel3D/DelaunayKernel3.h"
+#include "Engine/PartitionSchedule.h"
+#include "Kernel/DelaunayKernel3.h"
 #include "Predicates/Circumball.h"
 #include "Triangulation/Triangulate.h"
-#include "Triangulation3D/InitialMesh3.h"
-#include "Triangulation3D/OrderCells.h"
-#include "Triangulation3D/Tiling3.h"
+#include "Triangulation3D/Partitions3.h"
 
 #include <array>
 #include <cstddef>
@@ -34,17 +32,6 @@ public:
   virtual void addInside(const std::array<std::int64_t, 4>& ids) = 0;
   /// Adds any other tetrahedron. It may have artificial corners.
   virtual void add(const std::array<Vertex3, 4>& corners) = 0;
-};
-
-/// Stores final tetrahedra in memory, by the points' ids.
-struct FinalCells : public FinalCellConsumer3
-{
-  std::vector<CellIds> Cells;
-  /// True corners of tetrahedra that have artificial corners; may contain a vertex several times.
-  std::vector<Vertex3> HullVertices;
-
-  void addInside(const std::array<std::int64_t, 4>& ids) override;
-  void add(const std::array<Vertex3, 4>& corners) override;
 };
 
 /// Which tetrahedra of its own points a worker gives to FinalCellConsumer3::addInside().

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation3D/Tetrahedralize.h"
 
-#include "Engine/ReadyPartitions.h"
+#include "Engine/PartitionSchedule.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
-#include "Predicates/NormalAxis.h"
+#include "Predicates/ExactPredicates3.h"
 #include "Triangulation3D/Dataflow3.h"
 #include "Triangulation3D/OrderCells.h"
 
@@ -43,13 +43,34 @@ int choosePartitionCount(std::size_t points, int threads)
     most, std::max(points / best, std::min(points / smallest, perThread * std::size_t(threads)))));
 }
 
+/// Stores final tetrahedra in memory, by the points' ids.
+struct FinalCells : public FinalCellConsumer3
+{
+  std::vector<CellIds> Cells;
+  /// True corners of tetrahedra that have artificial corners; may contain a vertex several times.
+  std::vector<Vertex3> HullVertices;
+
+  void addInside(const std::array<std::int64_t, 4>& ids) override
+  {
+    this->Cells.push_back(
+      { std::int32_t(ids[0]), std::int32_t(ids[1]), std::int32_t(ids[2]), std::int32_t(ids[3]) });
+  }
+
+  void add(const std::array<Vertex3, 4>& corners) override
+  {
+    if (!takeHullVertices(corners, this->HullVertices))
+    {
+      this->addInside({ corners[0].Id, corners[1].Id, corners[2].Id, corners[3].Id });
+    }
+  }
+};
+
 class Run3
 {
 public:
-  Run3(const Point3* points, std::size_t count, const TetrahedralizationOptions& options,
-    Tetrahedralization& result)
+  Run3(
+    const PointsView3& points, const TetrahedralizationOptions& options, Tetrahedralization& result)
     : Points(points)
-    , Count(count)
     , Options(options)
     , Result(result)
     , Threads(threadCount(options.Threads))
@@ -59,14 +80,14 @@ public:
 
   void run()
   {
-    PointSurvey3 survey = surveyPoints(this->Points, this->Count);
+    PointSurvey3 survey = surveyPoints(this->Points);
     this->Result.Rejected = std::move(survey.Rejected);
     const double factor = moderateFactor(survey.Largest);
-    this->Factor = areExactTimes(this->Points, this->Count, factor) ? factor : 1;
+    this->Points.Factor = areExactTimes(this->Points, factor) ? factor : 1;
     this->endPhase("survey");
     const int partitions = this->Options.Partitions > 0
       ? this->Options.Partitions
-      : choosePartitionCount(this->Count, this->Threads);
+      : choosePartitionCount(this->Points.size(), this->Threads);
     const bool done = partitions > 1 && this->runPartitioned(partitions);
     if (!done)
     {
@@ -94,17 +115,17 @@ private:
   {
     this->Result.Statistics.Partitions = 1;
     PointBuckets3 copy;
-    const bool areReady = this->Factor == 1 && this->Result.Rejected.empty();
+    const bool areReady = this->Points.Factor == 1 && this->Result.Rejected.empty();
     if (!areReady)
     {
-      copy = bucketPoints(this->Points, this->Count, Tiling3({}, 1), this->Factor, this->Threads);
+      copy = bucketPoints(this->Points, Tiling3({}, 1), this->Threads);
     }
-    const std::size_t count = areReady ? this->Count : copy.Points.size();
+    const std::size_t count = areReady ? this->Points.size() : copy.Points.size();
     const auto idOf = [&](std::uint32_t index)
     { return areReady ? static_cast<std::int32_t>(index) : copy.Ids[index]; };
     DelaunayKernel3 kernel;
     this->Result.Aborted = !kernel.triangulate(
-      areReady ? this->Points : copy.Points.data(), count,
+      areReady ? this->Points.Points : copy.Points.data(), count,
       [&](std::size_t inserted) { return this->report(double(inserted) / double(count)); },
       this->Threads);
     this->Result.Dimension = kernel.dimension();
@@ -143,11 +164,10 @@ private:
   bool runPartitioned(int partitions)
   {
     constexpr std::size_t samplesPerPartition = 256;
-    const std::size_t step =
-      std::max<std::size_t>(1, this->Count / (samplesPerPartition * std::size_t(partitions)));
-    const Tiling3 tiling(samplePoints(this->Points, this->Count, step, this->Factor), partitions);
-    const PointBuckets3 buckets =
-      bucketPoints(this->Points, this->Count, tiling, this->Factor, this->Threads);
+    const std::size_t step = std::max<std::size_t>(
+      1, this->Points.size() / (samplesPerPartition * std::size_t(partitions)));
+    const Tiling3 tiling(samplePoints(this->Points, step), partitions);
+    const PointBuckets3 buckets = bucketPoints(this->Points, tiling, this->Threads);
     this->endPhase("bucketing");
     const std::vector<Vertex3> artificial = makeArtificialPoints(buckets);
     if (tiling.size() == 1 || artificial.empty())
@@ -243,7 +263,7 @@ private:
       return;
     }
     const Buffer<std::int64_t> representatives =
-      representativeIds(this->Result, std::int64_t(this->Count));
+      representativeIds(this->Result, std::int64_t(this->Points.size()));
     for (std::vector<CellIds>& cells : this->Cells)
     {
       for (CellIds& cell : cells)
@@ -260,42 +280,18 @@ private:
   {
     std::sort(this->Result.Duplicates.begin(), this->Result.Duplicates.end());
     this->useRepresentatives();
-    this->Result.Ids = orderCells(std::move(this->Cells), this->Count, this->Threads);
+    this->Result.Ids = orderCells(std::move(this->Cells), this->Points.size(), this->Threads);
     this->endPhase("output");
     this->report(1);
   }
 
-  const Point3* Points;
-  const std::size_t Count;
+  PointsView3 Points;
   const TetrahedralizationOptions& Options;
   Tetrahedralization& Result;
   const int Threads;
-  double Factor = 1;
   std::vector<std::vector<CellIds>> Cells;
   Stopwatch Watch;
 };
-
-} // namespace
-
-void requireShortIds(std::size_t count)
-{
-  if (count > std::size_t(std::numeric_limits<std::int32_t>::max()))
-  {
-    throw std::length_error("more than 2,147,483,647 points in space are not supported in memory");
-  }
-}
-
-Tetrahedralization tetrahedralize(
-  const Point3* points, std::size_t count, const TetrahedralizationOptions& options)
-{
-  requireShortIds(count);
-  Tetrahedralization result;
-  Run3(points, count, options, result).run();
-  return result;
-}
-
-namespace
-{
 
 /// Returns three of the points that are not collinear. Throws std::logic_error if there are none.
 std::array<Point3, 3> findTriangle(const Point3* points, const std::vector<char>& isLeftOut)
@@ -321,6 +317,23 @@ std::array<Point3, 3> findTriangle(const Point3* points, const std::vector<char>
 }
 
 } // namespace
+
+void requireShortIds(std::size_t count)
+{
+  if (count > std::size_t(std::numeric_limits<std::int32_t>::max()))
+  {
+    throw std::length_error("more than 2,147,483,647 points in space are not supported in memory");
+  }
+}
+
+Tetrahedralization tetrahedralize(
+  const Point3* points, std::size_t count, const TetrahedralizationOptions& options)
+{
+  requireShortIds(count);
+  Tetrahedralization result;
+  Run3({ points, count }, options, result).run();
+  return result;
+}
 
 Triangulation triangulateCoplanar(const Point3* points, std::size_t count,
   const TetrahedralizationOptions& options, Tetrahedralization& mesh)

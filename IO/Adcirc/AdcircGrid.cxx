@@ -6,7 +6,7 @@
 #include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
 #include "Files/TextFile.h"
-#include "Points/PointTable.h"
+#include "Points/ReadPoints.h"
 
 #include <algorithm>
 #include <array>
@@ -315,6 +315,22 @@ bool writeAdcircGrid(const std::string& path, const PointTable& points, Triangle
 namespace
 {
 
+/// Values at the nodes of an ADCIRC grid (https://adcirc.org; fort.63, fort.64, maxele.63 ...): a
+/// title; the numbers of steps and nodes, two unused numbers, and the number of values per node;
+/// for each step a line of time and time step, and a line `node value...` per node. A step may give
+/// a number of nodes and a default value on its first line, and then only the nodes that differ.
+/// Nodes are identified by the grid's node numbers. A file with fewer steps than announced, as from
+/// an interrupted run, is rejected.
+struct AdcircValues
+{
+  int Components = 1;        ///< values per node
+  std::vector<double> Times; ///< times of the steps, in seconds
+  std::vector<double>
+    Values; ///< step by step, in the order of the grid's nodes; -99999 at dry nodes
+};
+
+/// Reads a file of AdcircValues. The constructor and read() throw IOError if the file cannot be
+/// read or its values belong to another grid.
 class ValuesReader
 {
 public:
@@ -409,16 +425,6 @@ private:
   AdcircValues Result;
 };
 
-} // namespace
-
-AdcircValues readAdcircValues(const std::string& path, const AdcircGrid& grid)
-{
-  return ValuesReader(path, grid).read();
-}
-
-namespace
-{
-
 FlatArray floats(std::string name, std::vector<double> values, int components, std::int64_t tuples)
 {
   const auto kept = std::make_shared<std::vector<double>>(std::move(values));
@@ -435,7 +441,7 @@ std::string nameOf(const std::string& path)
 
 void addValues(const std::string& path, const AdcircGrid& grid, FlatContent& content)
 {
-  AdcircValues values = readAdcircValues(path, grid);
+  AdcircValues values = ValuesReader(path, grid).read();
   const std::int64_t nodes = content.Points.Tuples;
   FlatArray array = floats(nameOf(path), std::move(values.Values), values.Components, nodes);
   if (values.Times.size() > 1)

@@ -6,7 +6,9 @@
 #include "Files/InputFile.h"
 #include "Files/TextFile.h"
 #include "Points/ReadPoints.h"
-#include "Vtk/VtkFiles.h"
+#ifdef TIPP_HAVE_GDAL
+#include "Raster/GdalLibrary.h"
+#endif
 
 #include <algorithm>
 #include <array>
@@ -129,6 +131,115 @@ bool isVectorFile(const std::string& extension)
   return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
 }
 
+#ifdef TIPP_HAVE_GDAL
+
+/// Collects the edges of geometries.
+class VectorEdges
+{
+public:
+  void add(OGRGeometryH geometry)
+  {
+    const OGRwkbGeometryType kind = kindOf(geometry);
+    if (kind == wkbLineString)
+    {
+      this->addLine(geometry, this->Table.Edges);
+      return;
+    }
+    // The rings of a polygon, or the members of a collection. Other kinds of geometry have none.
+    const int parts = gdal().OGR_G_GetGeometryCount(geometry);
+    for (int i = 0; i < parts; ++i)
+    {
+      const OGRGeometryH part = gdal().OGR_G_GetGeometryRef(geometry, i);
+      kind == wkbPolygon ? this->addRing(part, i == 0) : this->add(part);
+    }
+  }
+
+  ConstraintTable take()
+  {
+    ConstraintTable& table = this->Table;
+    table.PolygonBegin = table.Edges.size();
+    table.Edges.insert(table.Edges.end(), this->PolygonEdges.begin(), this->PolygonEdges.end());
+    if (std::all_of(
+          table.Height.begin(), table.Height.end(), [](double z) { return std::isnan(z); }))
+    {
+      table.Height.clear();
+    }
+    return std::move(table);
+  }
+
+private:
+  static OGRwkbGeometryType kindOf(OGRGeometryH geometry)
+  {
+    return gdal().OGR_GT_Flatten(gdal().OGR_G_GetGeometryType(geometry));
+  }
+
+  /// Appends the edges of a line. Returns the index of its first point.
+  std::size_t addLine(OGRGeometryH line, std::vector<Edge>& edges)
+  {
+    const auto first = std::int64_t(this->Table.XY.size() / 2);
+    const int points = gdal().OGR_G_GetPointCount(line);
+    const bool hasHeight = gdal().OGR_G_Is3D(line) != 0;
+    for (int i = 0; i < points; ++i)
+    {
+      this->Table.XY.push_back(gdal().OGR_G_GetX(line, i));
+      this->Table.XY.push_back(gdal().OGR_G_GetY(line, i));
+      this->Table.Height.push_back(hasHeight ? gdal().OGR_G_GetZ(line, i) : std::nan(""));
+      if (i > 0)
+      {
+        edges.push_back({ first + i - 1, first + i });
+      }
+    }
+    return std::size_t(first);
+  }
+
+  void addRing(OGRGeometryH ring, bool isOuter)
+  {
+    std::vector<Edge> edges;
+    const std::size_t first = this->addLine(ring, edges);
+    const std::vector<double>& xy = this->Table.XY;
+    double area = 0;
+    for (const Edge& edge : edges)
+    {
+      const auto at = [&](std::int64_t id, std::size_t axis)
+      { return xy[2 * std::size_t(id) + axis] - xy[2 * first + axis]; };
+      area += at(edge[0], 0) * at(edge[1], 1) - at(edge[1], 0) * at(edge[0], 1);
+    }
+    for (Edge& edge : edges)
+    {
+      if ((area > 0) != isOuter)
+      {
+        std::swap(edge[0], edge[1]);
+      }
+      this->PolygonEdges.push_back(edge);
+    }
+  }
+
+  ConstraintTable Table;
+  std::vector<Edge> PolygonEdges;
+};
+
+/// Reads the lines and polygons of all layers with GDAL. Outer rings of polygons become
+/// counter-clockwise, the others clockwise, whatever their orientation in the file; missing heights
+/// are NaN. Throws IOError.
+ConstraintTable readVectorFile(const std::string& path)
+{
+  VectorEdges edges;
+  forFeatures(path,
+    [&edges](OGRFeatureH, OGRGeometryH geometry) { geometry ? edges.add(geometry) : void(); });
+  return edges.take();
+}
+
+#else
+
+ConstraintTable readVectorFile(const std::string& path)
+{
+  throw IOError(path,
+    "needs GDAL, and this program was built without it; install libgdal-dev and build it again, or "
+    "give .csv, .poly or .vtp.");
+}
+
+#endif
+
 } // namespace
 
 SegmentRows::SegmentRows(const std::string& path)
@@ -203,15 +314,12 @@ bool SegmentRows::next(ConstraintTable& table, std::size_t most)
   return true;
 }
 
-#ifndef TIPP_HAVE_GDAL
-
-ConstraintTable readVectorFile(const std::string& path)
+#ifdef TIPP_WITHOUT_VTK
+ConstraintTable readVtkConstraints(const std::string& path)
 {
   throw IOError(path,
-    "needs GDAL, and this program was built without it; install libgdal-dev and build it again, or "
-    "give .csv, .poly or .vtp.");
+    "is a file that VTK reads, and this tipp was built without VTK; give .csv, .poly or .14.");
 }
-
 #endif
 
 ConstraintTable readConstraintFile(const std::string& path)

@@ -2,7 +2,7 @@
 #ifndef tippReadConstraintFile_h
 #define tippReadConstraintFile_h
 
-#include "Points/PointStream.h"
+#include "Points/ReadPoints.h"
 #include "Predicates/Points.h"
 #include "vtkTIPPIOModule.h"
 
@@ -76,11 +76,6 @@ private:
 ConstraintTable readVtkConstraints(const std::string& path);
 VTKTIPPIO_EXPORT ConstraintTable constraintsOf(vtkDataSet* data);
 ///@}
-
-/// Reads the lines and polygons of all layers with GDAL. Outer rings of polygons become
-/// counter-clockwise, the others clockwise, whatever their orientation in the file; missing heights
-/// are NaN. Throws IOError.
-ConstraintTable readVectorFile(const std::string& path);
 
 } // namespace tipp
 

@@ -2,6 +2,8 @@
 #include "Distributions/GeneratePoints.h"
 
 #include "Arrays/Random.h"
+#include "Files/TextFile.h"
+#include "Points/ReadPoints.h"
 
 #include <algorithm>
 #include <array>
@@ -120,14 +122,12 @@ private:
   // normal() returns two numbers at a time.
   double normal()
   {
-    if (this->HasSpare)
+    if (const auto spare = std::exchange(this->Spare, std::nullopt))
     {
-      this->HasSpare = false;
-      return this->Spare;
+      return *spare;
     }
     const Vector pair = this->Generator.normal();
     this->Spare = pair.y;
-    this->HasSpare = true;
     return pair.x;
   }
 
@@ -140,8 +140,7 @@ private:
   std::int64_t Count;
   Random& Generator;
   std::vector<double> XY;
-  double Spare = 0;
-  bool HasSpare = false;
+  std::optional<double> Spare;
 };
 
 /// In the order of the enumerators.
@@ -274,6 +273,85 @@ std::optional<Distribution> distributionFromName(std::string_view name)
 std::vector<std::string> distributionNames()
 {
   return { names.begin(), names.end() };
+}
+
+std::int64_t generatedCount(const std::string& name)
+{
+  const std::string start = "uniform:";
+  if (name.compare(0, start.size(), start) != 0)
+  {
+    return 0;
+  }
+  const auto count = wholeNumber<std::int64_t>(name.substr(start.size()));
+  constexpr std::int64_t most = std::int64_t(1) << 40;
+  return count && *count > 0 && *count <= most ? *count : 0;
+}
+
+namespace
+{
+
+/// The points of Distribution::Uniform with seed 1, generated block by block.
+class GeneratedPoints : public FilePoints
+{
+public:
+  GeneratedPoints(std::int64_t count, bool inSpace)
+    : Count(count)
+    , InSpace(inSpace)
+  {
+  }
+
+  bool next(PointBlock& block, std::size_t most) override
+  {
+    const auto count = std::size_t(std::min(std::int64_t(most), this->Count - this->At));
+    block.Columns.resize(this->InSpace ? 1 : 0);
+    block.resize(count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      block.XY[2 * i] = this->Numbers.uniform();
+      block.XY[2 * i + 1] = this->Numbers.uniform();
+      for (std::vector<double>& z : block.Columns)
+      {
+        z[i] = this->Numbers.uniform();
+      }
+    }
+    this->At += std::int64_t(count);
+    return count > 0;
+  }
+
+  void rewind() override
+  {
+    this->Numbers = Random(1);
+    this->At = 0;
+  }
+
+  std::int64_t divisible() const override { return this->Count; }
+
+  void skip(std::int64_t points) override
+  {
+    for (std::int64_t i = 0; i < (this->InSpace ? 3 : 2) * points; ++i)
+    {
+      this->Numbers.bits(); // one number per coordinate; cheap compared with other work
+    }
+    this->At += points;
+  }
+
+  std::vector<std::string> columns() const override
+  {
+    return this->InSpace ? std::vector<std::string>{ "z" } : std::vector<std::string>();
+  }
+
+private:
+  const std::int64_t Count;
+  const bool InSpace;
+  std::int64_t At = 0;
+  Random Numbers{ 1 };
+};
+
+} // namespace
+
+std::unique_ptr<FilePoints> openGeneratedPoints(std::int64_t count, bool inSpace)
+{
+  return std::make_unique<GeneratedPoints>(count, inSpace);
 }
 
 } // namespace tipp

@@ -9,10 +9,6 @@
 namespace tipp
 {
 
-namespace
-{
-
-/// Text from a damaged file may hold any bytes; a message must stay on one line.
 std::string onOneLine(std::string message)
 {
   std::replace_if(
@@ -20,8 +16,6 @@ std::string onOneLine(std::string message)
     '?');
   return message;
 }
-
-} // namespace
 
 std::string shownText(const std::string& text)
 {

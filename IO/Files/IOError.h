@@ -29,6 +29,10 @@ private:
   std::string Path;
 };
 
+/// Replaces control characters: text from a damaged file may hold any bytes, and a message must
+/// stay on one line.
+VTKTIPPIO_EXPORT std::string onOneLine(std::string message);
+
 /// Formats text from a file for a message: on one line, and shortened if it is long.
 VTKTIPPIO_EXPORT std::string shownText(const std::string& text);
 

@@ -6,8 +6,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <ostream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace tipp
@@ -67,36 +70,66 @@ class VTKTIPPIO_EXPORT OutputStream : public std::ostream
 {
 public:
   explicit OutputStream(const OutputFile& file);
+  ~OutputStream() override;
 
   /// Writes what is buffered. Throws IOError if this or any earlier write failed.
   void finish();
 
 private:
-  class Buffer : public std::streambuf
-  {
-  public:
-    explicit Buffer(const OutputFile& file);
-    const std::string& failure() const { return this->Failure; }
-
-  protected:
-    int overflow(int character) override;
-    std::streamsize xsputn(const char* from, std::streamsize count) override;
-    int sync() override;
-    pos_type seekoff(off_type by, std::ios_base::seekdir from, std::ios_base::openmode) override;
-    pos_type seekpos(pos_type to, std::ios_base::openmode) override;
-
-  private:
-    bool write(const char* from, std::size_t count);
-
-    const OutputFile& File;
-    std::vector<char> Bytes;
-    std::uint64_t Start = 0; ///< offset in the file of the buffer's first byte
-    std::uint64_t End = 0;   ///< size of the file so far, without the buffer
-    std::string Failure;
-  };
-
-  Buffer Content;
+  class Buffer;
+  std::unique_ptr<Buffer> Content;
 };
+
+/// Whether there is a file or folder at the path; false if that cannot be found out.
+inline bool pathExists(const std::string& path)
+{
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored);
+}
+
+/// Removes a file if it is there. Errors are ignored.
+inline void removeFile(const std::string& path)
+{
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+}
+
+/// Removes a file at the end of the scope.
+struct RemovedFile
+{
+  explicit RemovedFile(const std::string& path)
+    : Path(path)
+  {
+  }
+  ~RemovedFile() { removeFile(this->Path); }
+  RemovedFile(const RemovedFile&) = delete;
+  RemovedFile& operator=(const RemovedFile&) = delete;
+
+  const std::string Path;
+};
+
+/// Returns the path that an output must be moved to: absolute, without a slash at the end, and with
+/// links resolved, because a rename would replace the link. Throws IOError if the parent folder is
+/// missing or not writable, or if the name is too long.
+std::filesystem::path outputPath(const std::string& path);
+
+/// Throws IOError if an output is also an input or another output, under any name or link, or is a
+/// folder that holds one. Folders and .pvtu files stand for the files that they consist of; empty
+/// names are ignored. Call it before any work.
+VTKTIPPIO_EXPORT void requireApart(
+  const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
+
+/// Returns the entry for the list of outputs that stands for a run's files in a scratch folder,
+/// which may hold other outputs.
+inline std::string scratchIn(const std::string& folder)
+{
+  return folder.empty() ? "" : folder + "/.scratch";
+}
+
+/// Throws IOError, about the output `path`, if the disk of a folder has less free space than the
+/// `needed` bytes.
+VTKTIPPIO_EXPORT void requireFreeSpace(
+  const std::string& path, const std::string& folder, std::uint64_t needed);
 
 } // namespace tipp
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/PendingOutput.h"
 
-#include "Files/FileSystem.h"
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
 #include "Files/TemporaryFiles.h"
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -25,6 +25,121 @@ namespace fs = std::filesystem;
 
 namespace
 {
+
+PathState stateOf(const std::string& path)
+{
+  struct stat found = {};
+  if (lstat(path.c_str(), &found) != 0)
+  {
+    return {};
+  }
+  PathState state{ { { found.st_dev, found.st_ino, 0, 0, 0 } } };
+  if (S_ISREG(found.st_mode))
+  {
+    state.Values = { found.st_dev, found.st_ino, std::uint64_t(found.st_size),
+      std::uint64_t(found.st_mtim.tv_sec), std::uint64_t(found.st_mtim.tv_nsec) };
+  }
+  return state;
+}
+
+[[noreturn]] void refuseToReplace(
+  const std::string& temporary, const std::string& path, const std::string& reason)
+{
+  throw IOError(path, reason + ", so it is left alone; the finished output is " + temporary + ".");
+}
+
+[[noreturn]] void failToMove(const std::string& temporary, const std::string& path, int reason)
+{
+  refuseToReplace(
+    temporary, path, std::string("cannot be replaced (") + std::strerror(reason) + ")");
+}
+
+bool isUnsupported(int reason)
+{
+  return reason == EINVAL || reason == ENOSYS || reason == ENOTSUP;
+}
+
+int renameAs(const std::string& from, const std::string& to, unsigned flags)
+{
+  return renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags) == 0 ? 0 : errno;
+}
+
+/// Moves to a path that must not exist.
+void moveToFree(const std::string& temporary, const std::string& path)
+{
+  int reason = renameAs(temporary, path, RENAME_NOREPLACE);
+  if (isUnsupported(reason))
+  {
+    reason = stateOf(path).Values ? EEXIST : renameAs(temporary, path, 0);
+  }
+  if (reason == EEXIST)
+  {
+    refuseToReplace(temporary, path, "has appeared since the run began");
+  }
+  if (reason != 0)
+  {
+    failToMove(temporary, path, reason);
+  }
+}
+
+/// Exchanges two paths. On file systems without an atomic exchange, the old output is first moved
+/// aside.
+int exchangePaths(const std::string& temporary, const std::string& path)
+{
+  const int reason = renameAs(temporary, path, RENAME_EXCHANGE);
+  if (!isUnsupported(reason))
+  {
+    return reason;
+  }
+  const std::string old = temporary + ".old";
+  if (const int first = renameAs(path, old, 0))
+  {
+    return first;
+  }
+  if (const int second = renameAs(temporary, path, 0))
+  {
+    renameAs(old, path, 0);
+    return second;
+  }
+  return renameAs(old, temporary, 0);
+}
+
+/// Moves a finished output to `path` in one step, and what was there before, if anything, to
+/// `temporary`. Throws IOError and moves nothing if the path's state is no longer `before`, or if
+/// `objection`, called with the path of what would be removed, returns a reason.
+void publish(const std::string& temporary, const std::string& path, const PathState& before,
+  const std::function<std::string(const std::string&)>& objection)
+{
+  if (!stateOf(path).Values)
+  {
+    moveToFree(temporary, path);
+    return;
+  }
+  const auto reasonToStay = [&](const std::string& at) -> std::string
+  {
+    return !before.Values                   ? "has appeared since the run began"
+      : stateOf(at).Values != before.Values ? "has been changed since the run began"
+      : objection                           ? objection(at)
+                                            : "";
+  };
+  std::string reason = reasonToStay(path);
+  if (reason.empty())
+  {
+    const int failure = exchangePaths(temporary, path);
+    if (failure != 0)
+    {
+      failToMove(temporary, path, failure);
+    }
+    // Another process may have written there in between.
+    reason = reasonToStay(temporary);
+    if (reason.empty())
+    {
+      return;
+    }
+    exchangePaths(temporary, path);
+  }
+  refuseToReplace(temporary, path, reason);
+}
 
 /// The suffix of a temporary file's name: a number, and a hash of the name that no user's file has
 /// by chance, so that only leftovers are removed.
@@ -99,7 +214,7 @@ PendingFile::PendingFile(const std::string& path, const std::optional<PathState>
     throw IOError(path, "is not an ordinary file; name a file to write.");
   }
   this->Path = target.string();
-  this->Before = before ? *before : PathState::of(this->Path);
+  this->Before = before ? *before : stateOf(this->Path);
   const std::string start = hiddenName(target.filename(), ".");
   clearLeftovers(target.parent_path(), start);
   int descriptor = -1;
@@ -155,8 +270,8 @@ PendingFolder::PendingFolder(
   const fs::path target = outputPath(path);
   this->Path = target.string();
   this->Parent = target.parent_path().string();
-  this->Before = PathState::of(this->Path);
-  const std::string objection = this->Before.Exists ? this->objectionTo(this->Path) : "";
+  this->Before = stateOf(this->Path);
+  const std::string objection = this->Before.Values ? this->objectionTo(this->Path) : "";
   if (!objection.empty())
   {
     throw IOError(path, objection + "; remove it or name another folder.");

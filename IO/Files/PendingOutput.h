@@ -3,10 +3,11 @@
 #define tippPendingOutput_h
 
 #include "Files/OutputFile.h"
-#include "Files/OutputPath.h"
 #include "Files/TemporaryFiles.h"
 #include "vtkTIPPIOModule.h"
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -14,6 +15,15 @@
 
 namespace tipp
 {
+
+/// What is at a path. If two states differ, another file or folder is there, or the file was
+/// written to.
+struct PathState
+{
+  /// Device, inode, size in bytes, and time of the last change in seconds and nanoseconds; the last
+  /// three are 0 unless it is a regular file. nullopt: there is nothing at the path.
+  std::optional<std::array<std::uint64_t, 5>> Values;
+};
 
 /// An output file with a temporary name in its own folder, which commit() moves to its path;
 /// without commit() the destructor removes it. So a failed or aborted run leaves no partial file,

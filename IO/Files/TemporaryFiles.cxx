@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/TemporaryFiles.h"
 
-#include "Files/FileSystem.h"
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
 #include "Files/TextFile.h"

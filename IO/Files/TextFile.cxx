@@ -93,6 +93,19 @@ std::string_view trimBlanks(std::string_view text)
   return text;
 }
 
+/// The length of the byte order mark at the beginning of a text; 0: there is none.
+std::size_t sizeOfMark(std::string_view text)
+{
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  return text.substr(0, mark.size()) == mark ? mark.size() : 0;
+}
+
+/// A line without the \r of \r\n.
+std::string_view withoutReturn(std::string_view line)
+{
+  return !line.empty() && line.back() == '\r' ? line.substr(0, line.size() - 1) : line;
+}
+
 void splitAtBlanks(std::string_view line, std::vector<std::string_view>& fields)
 {
   std::size_t at = 0;
@@ -166,13 +179,8 @@ std::string readTextFile(const std::string& path)
 }
 
 LineReader::LineReader(std::string_view text)
-  : Rest(text)
+  : Rest(text.substr(sizeOfMark(text)))
 {
-  constexpr std::string_view byteOrderMark = "\xef\xbb\xbf";
-  if (this->Rest.substr(0, byteOrderMark.size()) == byteOrderMark)
-  {
-    this->Rest.remove_prefix(byteOrderMark.size());
-  }
 }
 
 bool LineReader::next(std::string_view& line)
@@ -182,11 +190,7 @@ bool LineReader::next(std::string_view& line)
     return false;
   }
   const std::size_t end = std::min(this->Rest.find('\n'), this->Rest.size());
-  line = this->Rest.substr(0, end);
-  if (!line.empty() && line.back() == '\r')
-  {
-    line.remove_suffix(1);
-  }
+  line = withoutReturn(this->Rest.substr(0, end));
   this->Rest.remove_prefix(std::min(end + 1, this->Rest.size()));
   ++this->Number;
   return true;
@@ -388,11 +392,7 @@ FileLines::FileLines(const std::string& path, std::size_t blockBytes)
     this->Expected =
       std::int64_t(double(lines + 1) * std::max(1.0, double(status.st_size) / double(this->End)));
   }
-  constexpr std::string_view byteOrderMark = "\xef\xbb\xbf";
-  if (std::string_view(this->Buffer.data(), this->End).substr(0, 3) == byteOrderMark)
-  {
-    this->Begin = byteOrderMark.size();
-  }
+  this->Begin = sizeOfMark({ this->Buffer.data(), this->End });
 }
 
 /// Appends the next bytes to the buffer. Returns false at the end.
@@ -461,12 +461,8 @@ bool FileLines::next(std::string_view& line)
       end = looked; // the last line has no end of line
     }
     // readMore() may have moved the buffer.
-    line = std::string_view(this->Buffer.data() + this->Begin, end);
+    line = withoutReturn({ this->Buffer.data() + this->Begin, end });
     this->Begin = std::min(this->Begin + end + 1, this->End);
-    if (!line.empty() && line.back() == '\r')
-    {
-      line.remove_suffix(1);
-    }
     ++this->Number;
     return true;
   }

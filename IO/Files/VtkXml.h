@@ -96,6 +96,9 @@ struct XmlHead
 /// Reads a file up to its appended data, whose tag is in the first `most` bytes or so.
 XmlHead readXmlHead(const InputFile& file, std::uint64_t most);
 
+/// VTK's name of a cell type; its number in a build without VTK.
+VTKTIPPIO_EXPORT std::string cellTypeName(int type);
+
 /// The text as it stands in an XML file: special and control characters as numbers.
 std::string escapedXml(const std::string& text);
 

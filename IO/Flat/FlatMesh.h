@@ -76,11 +76,8 @@ VTKTIPPIO_EXPORT FlatMesh openFlatMesh(const std::string& path);
 /// file with an appended raw, uncompressed header. Opening it may still fail.
 VTKTIPPIO_EXPORT bool isFlatMesh(const std::string& path);
 
-/// Implement openFlatMesh() and isFlatMesh() for each of the two formats; see FlatFolder.cxx and
-/// FlatVtu.cxx.
+/// Implement openFlatMesh() and isFlatMesh() for .vtu files.
 ///@{
-FlatMesh openFlatFolder(const std::string& path);
-bool isFlatFolder(const std::string& path);
 FlatMesh openFlatVtu(const std::string& path);
 bool isFlatVtu(const std::string& path);
 ///@}
@@ -98,24 +95,17 @@ bool areBelow(const Id* ids, std::size_t count, std::int64_t limit)
   return count == 0 || std::uint64_t(greatest) < std::uint64_t(limit);
 }
 
-/// Reads the cells of a flat mesh in chunks, as 64-bit point indices, and checks these.
+/// Reads the cells of a flat mesh, as 64-bit point indices, and checks these.
 class VTKTIPPIO_EXPORT CellReader
 {
 public:
-  /// Reads the cells in [first, last); last = -1 means the end. `threads` = 0 is OpenMP's default.
-  /// Throws IOError if the file cannot be opened, std::out_of_range if the range exceeds the mesh.
-  explicit CellReader(
-    const FlatMesh& mesh, std::int64_t first = 0, std::int64_t last = -1, int threads = 0);
+  /// `threads` = 0 is OpenMP's default. Throws IOError if the file cannot be opened.
+  explicit CellReader(const FlatMesh& mesh, int threads = 0);
 
-  /// Reads the next chunk of at most `cells` cells (1 or more), CellSize point indices each;
-  /// returns false at the end. The chunk's first cell is firstCell(). Throws IOError naming the
-  /// first cell with a point index that is out of range.
-  bool next(std::int64_t cells, std::vector<std::int64_t>& ids);
-  std::int64_t firstCell() const { return this->First; }
-
-  /// Reads cells [first, first + cells) without changing the position of next(). `ids` has room for
-  /// cells * CellSize point indices.
-  void read(std::int64_t first, std::int64_t cells, std::int64_t* ids) const;
+  /// Reads cells [first, first + cells) into `ids`, which is resized: CellSize point indices each.
+  /// Throws IOError naming the first cell with a point index that is out of range,
+  /// std::out_of_range if the mesh does not have these cells.
+  void read(std::int64_t first, std::int64_t cells, std::vector<std::int64_t>& ids) const;
 
 private:
   void readBlock(std::int64_t firstId, std::int64_t count, std::int64_t* ids) const;
@@ -127,9 +117,6 @@ private:
   int CellSize;
   int Threads;
   InputFile File;
-  std::int64_t First = 0;
-  std::int64_t Next;
-  std::int64_t Last;
 };
 
 /// Returns the file name, without extension, for an array: slashes, control characters, per cent

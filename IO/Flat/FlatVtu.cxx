@@ -6,7 +6,6 @@
 #include "Files/InputFile.h"
 #include "Files/TextFile.h"
 #include "Files/VtkXml.h"
-#include "Vtk/VtkFiles.h"
 
 #include <algorithm>
 #include <limits>
@@ -384,14 +383,9 @@ FlatMesh openFlatVtu(const std::string& path)
       "holds its cells as other than 32-bit or 64-bit signed integers; 'tipp flatten' makes a flat "
       "mesh of it.");
   }
-  if (header.Offsets.Type == Scalar::Int32)
-  {
-    checkOffsets<std::int32_t>(file, header.Offsets, mesh.CellSize);
-  }
-  else
-  {
-    checkOffsets<std::int64_t>(file, header.Offsets, mesh.CellSize);
-  }
+  header.Offsets.Type == Scalar::Int32
+    ? checkOffsets<std::int32_t>(file, header.Offsets, mesh.CellSize)
+    : checkOffsets<std::int64_t>(file, header.Offsets, mesh.CellSize);
   if (mesh.Cells.Tuples != header.Cells * mesh.CellSize)
   {
     throw IOError(path,

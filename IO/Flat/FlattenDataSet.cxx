@@ -3,10 +3,10 @@
 
 #include "Arrays/Scalar.h"
 #include "Files/IOError.h"
+#include "Files/VtkXml.h"
 #include "Parallel/Poll.h"
 #include "Vtk/CellArrays.h"
-#include "Vtk/ReadDataSet.h"
-#include "Vtk/VtkFiles.h"
+#include "Vtk/DataSets.h"
 
 #include "vtkCell.h"
 #include "vtkCellData.h"
@@ -56,23 +56,29 @@ Ids cornersOf(vtkCell* face)
   return corners;
 }
 
+/// Cuts a data set's cells into triangles or tetrahedra over its own points.
 class Cutter
 {
 public:
-  Cutter(vtkDataSet* data, const std::string& path)
+  Cutter(vtkDataSet* data, const std::string& path, Flattened& result)
     : Data(data)
     , Path(path)
     , Ghosts(data->GetCellGhostArray())
+    , Result(result)
+    , Cells(result.Content.Cells)
   {
   }
 
-  Simplices cut()
+  /// Sets the result's cells, and which cells were cut or left out. Returns the id of each
+  /// simplex's cell in the data set; empty if it equals the simplex's index.
+  Ids cut()
   {
     const int dimension = this->findDimension();
-    this->Result.CellSize = dimension + 1;
+    this->CellSize = std::size_t(dimension) + 1;
+    this->Result.Content.CellSize = dimension + 1;
     const vtkIdType cells = this->Data->GetNumberOfCells();
-    this->Result.Ids.reserve(std::size_t(cells) * std::size_t(dimension + 1));
-    this->Result.Parents.reserve(std::size_t(cells));
+    this->Cells.reserve(std::size_t(cells) * this->CellSize);
+    this->Parents.reserve(std::size_t(cells));
     for (vtkIdType cell = 0; cell < cells; ++cell)
     {
       pollAt(cell);
@@ -90,11 +96,8 @@ public:
         this->cutCell(cell, type);
       }
     }
-    if (this->Result.Cut.empty() && this->Result.LeftOut.empty())
-    {
-      this->Result.Parents = {};
-    }
-    return std::move(this->Result);
+    const bool changed = !this->Result.Cut.empty() || !this->Result.LeftOut.empty();
+    return changed ? std::move(this->Parents) : Ids();
   }
 
 private:
@@ -128,11 +131,11 @@ private:
 
   void cutCell(vtkIdType cell, int type)
   {
-    const std::size_t before = this->Result.Ids.size();
+    const std::size_t before = this->Cells.size();
     if (type == VTK_TRIANGLE || type == VTK_TETRA)
     {
       this->Data->GetCellPoints(cell, this->CellIds);
-      this->Result.Ids.insert(this->Result.Ids.end(), this->CellIds->begin(), this->CellIds->end());
+      this->Cells.insert(this->Cells.end(), this->CellIds->begin(), this->CellIds->end());
     }
     else
     {
@@ -140,9 +143,8 @@ private:
       this->cutOther(type);
       ++this->Result.Cut[cellTypeName(type)];
     }
-    const std::size_t made =
-      (this->Result.Ids.size() - before) / std::size_t(this->Result.CellSize);
-    this->Result.Parents.insert(this->Result.Parents.end(), made, cell);
+    const std::size_t made = (this->Cells.size() - before) / this->CellSize;
+    this->Parents.insert(this->Parents.end(), made, cell);
   }
 
   void cutOther(int type)
@@ -154,17 +156,16 @@ private:
         "holds a curved cell (" + cellTypeName(type) +
           ") that cannot be cut along its own points; make it linear first.");
     }
-    if (this->Result.CellSize == 4 && !quadratic)
+    if (this->CellSize == 4 && !quadratic)
     {
       this->cutVolume();
       return;
     }
     this->Cell->Triangulate(0, this->CellIds, this->CellPoints);
-    const auto size = std::size_t(this->Result.CellSize);
-    const Ids ids(this->CellIds->begin(), this->CellIds->end());
-    for (std::size_t i = 0; i + size <= ids.size(); i += size)
+    const auto size = std::ptrdiff_t(this->CellSize);
+    for (auto id = this->CellIds->begin(); this->CellIds->end() - id >= size; id += size)
     {
-      this->append({ ids.begin() + std::ptrdiff_t(i), ids.begin() + std::ptrdiff_t(i + size) });
+      this->append({ id, id + size });
     }
   }
 
@@ -193,7 +194,7 @@ private:
     {
       std::swap(simplex[0], simplex[1]);
     }
-    this->Result.Ids.insert(this->Result.Ids.end(), simplex.begin(), simplex.end());
+    this->Cells.insert(this->Cells.end(), simplex.begin(), simplex.end());
   }
 
   double volume(const Ids& tetrahedron) const
@@ -215,18 +216,11 @@ private:
   vtkNew<vtkGenericCell> Cell;
   vtkNew<vtkIdList> CellIds;
   vtkNew<vtkPoints> CellPoints;
-  Simplices Result;
+  Flattened& Result;
+  Ids& Cells;
+  std::size_t CellSize = 3;
+  Ids Parents;
 };
-
-} // namespace
-
-Simplices simplicesOf(vtkDataSet* data, const std::string& path)
-{
-  return Cutter(data, path).cut();
-}
-
-namespace
-{
 
 constexpr const char* parentName = "vtkOriginalCellIds";
 
@@ -259,7 +253,7 @@ FlatArray flatArray(vtkDataArray* from)
 }
 
 /// Copies the tuples of the parent cells, in the order of `parents`.
-FlatArray gathered(const FlatArray& all, const std::vector<std::int64_t>& parents)
+FlatArray gathered(const FlatArray& all, const Ids& parents)
 {
   FlatArray some = all;
   const std::size_t bytes = std::size_t(all.Components) * scalarSize(all.Type);
@@ -322,9 +316,9 @@ std::vector<FlatArray> arraysOf(vtkDataSetAttributes* attributes, std::vector<st
   return arrays;
 }
 
-FlatArray parentArray(std::vector<std::int64_t> parents)
+FlatArray parentArray(Ids parents)
 {
-  const auto values = std::make_shared<std::vector<std::int64_t>>(std::move(parents));
+  const auto values = std::make_shared<Ids>(std::move(parents));
   const auto count = std::int64_t(values->size());
   return { parentName, Scalar::Int64, 1, count, 0, values->data(), values };
 }
@@ -334,13 +328,9 @@ FlatArray parentArray(std::vector<std::int64_t> parents)
 Flattened flattenDataSet(vtkDataSet* data, const std::string& path)
 {
   checkDataSet(data, path);
-  Simplices simplices = simplicesOf(data, path);
   Flattened flattened;
-  flattened.Cut = std::move(simplices.Cut);
-  flattened.LeftOut = std::move(simplices.LeftOut);
   FlatContent& content = flattened.Content;
-  content.CellSize = simplices.CellSize;
-  content.Cells = std::move(simplices.Ids);
+  Ids parents = Cutter(data, path, flattened).cut();
   content.Points = coordinatesOf(data);
   content.PointData = arraysOf(data->GetPointData(), flattened.ArraysLeftOut);
   content.CellData = arraysOf(data->GetCellData(), flattened.ArraysLeftOut);
@@ -348,13 +338,13 @@ Flattened flattenDataSet(vtkDataSet* data, const std::string& path)
   bool named = false;
   for (FlatArray& array : content.CellData)
   {
-    array = changed ? gathered(array, simplices.Parents) : array;
+    array = changed ? gathered(array, parents) : array;
     named = named || array.Name == parentName;
   }
   // "vtkOriginalCellIds" in the input come from an earlier cut and are kept.
   if (changed && !named)
   {
-    content.CellData.push_back(parentArray(std::move(simplices.Parents)));
+    content.CellData.push_back(parentArray(std::move(parents)));
   }
   return flattened;
 }

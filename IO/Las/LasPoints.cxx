@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Points/FilePoints.h"
+#include "Points/ReadPoints.h"
 
 #include "Files/IOError.h"
 #include "Las/LasHeader.h"
@@ -361,10 +361,6 @@ private:
 
 std::unique_ptr<FilePoints> openLasPoints(const std::string& path, const PointOptions& options)
 {
-  if (!options.X.empty() || !options.Y.empty())
-  {
-    throw IOError(path, "has fixed coordinates; columns can be chosen in .npy and text files.");
-  }
   return std::make_unique<LasFilePoints>(path, options);
 }
 

@@ -1,26 +1,54 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Loading/BlockCache.h"
 
+#include "Parallel/ParallelFor.h"
+
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
 
 namespace tipp
 {
+namespace
+{
+
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+/// The number of bits of a hash table's index, `least` or more. The table is at most half full, so
+/// that probe sequences are short.
+int tableBits(std::size_t items, int least)
+{
+  int bits = least;
+  while ((std::size_t(1) << bits) < 2 * items)
+  {
+    ++bits;
+  }
+  return bits;
+}
+
+void append(std::vector<Run>& runs, const Run& run, std::int64_t gap)
+{
+  if (!runs.empty() &&
+    run.First - (runs.back().First + runs.back().Size) < std::max<std::int64_t>(gap, 1))
+  {
+    runs.back().Size = run.First + run.Size - runs.back().First;
+  }
+  else
+  {
+    runs.push_back(run);
+  }
+}
+
+} // namespace
 
 UniqueIds::UniqueIds(const std::int64_t* ids, std::size_t count)
   : Numbers(count)
 {
-  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   if (count > none)
   {
     throw std::length_error("a chunk of 2^32 vertex ids or more is asked for");
   }
-  int bits = 4;
-  while ((std::size_t(1) << bits) < 2 * count)
-  {
-    ++bits;
-  }
+  const int bits = tableBits(count, 4);
   std::vector<std::uint32_t> table(std::size_t(1) << bits, none); // open addressing
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -40,22 +68,33 @@ UniqueIds::UniqueIds(const std::int64_t* ids, std::size_t count)
   std::sort(this->Sorted.begin(), this->Sorted.end());
 }
 
-namespace
+std::vector<char> findActive(const std::int64_t* ids, std::size_t count, std::int64_t low,
+  std::size_t blocks, int shift, int threads)
 {
-
-void append(std::vector<Run>& runs, const Run& run, std::int64_t gap)
-{
-  if (!runs.empty() && run.First - (runs.back().First + runs.back().Size) < gap)
+  constexpr std::size_t least = 1 << 18;
+  // Each thread has a bitmap of its own, so the number of threads bounds the number of bitmaps.
+  const std::size_t shares =
+    std::max<std::size_t>(std::min(std::size_t(threadCount(threads)), count / least), 1);
+  std::vector<std::vector<char>> parts(shares);
+  parallelFor(std::int64_t(shares), threads,
+    [&](std::int64_t part)
+    {
+      std::vector<char> own(blocks, 0);
+      char* const active = own.data(); // a local, since writing a char may alias a member
+      const std::size_t end = count * (std::size_t(part) + 1) / shares;
+      for (std::size_t i = count * std::size_t(part) / shares; i < end; ++i)
+      {
+        active[std::uint64_t(ids[i] - low) >> shift] = 1;
+      }
+      parts[std::size_t(part)] = std::move(own);
+    });
+  for (std::size_t part = 1; part < shares; ++part)
   {
-    runs.back().Size = run.First + run.Size - runs.back().First;
+    std::transform(parts[part].begin(), parts[part].end(), parts[0].begin(), parts[0].begin(),
+      [](char a, char b) { return char(a | b); });
   }
-  else
-  {
-    runs.push_back(run);
-  }
+  return std::move(parts[0]);
 }
-
-} // namespace
 
 std::vector<Run> runsOfBlocks(const std::vector<char>& active, std::int64_t block, std::int64_t low,
   std::int64_t high, std::int64_t gap)
@@ -66,7 +105,7 @@ std::vector<Run> runsOfBlocks(const std::vector<char>& active, std::int64_t bloc
     if (active[i] != 0)
     {
       const std::int64_t first = low + std::int64_t(i) * block;
-      append(runs, { first, std::min(block, high + 1 - first) }, std::max<std::int64_t>(gap, 1));
+      append(runs, { first, std::min(block, high + 1 - first) }, gap);
     }
   }
   return runs;
@@ -80,18 +119,23 @@ std::vector<Run> runsOfIds(
   {
     if (runs.empty() || pair.first >= runs.back().First + runs.back().Size)
     {
-      append(runs, { pair.first, 1 }, std::max<std::int64_t>(gap, 1));
+      append(runs, { pair.first, 1 }, gap);
     }
   }
   return runs;
 }
 
-std::vector<std::size_t> groupRuns(
-  std::vector<Run>& runs, std::int64_t m, std::int64_t block, std::int64_t low)
+RunPlan::RunPlan(const std::vector<Run>& runs, std::int64_t m, std::int64_t block, std::int64_t low)
+  : Starts{ 0 }
 {
-  std::vector<Run> cut;
-  std::vector<std::size_t> starts{ 0 };
   std::int64_t room = m;
+  const auto add = [&](const Run& run)
+  {
+    this->Packed.push_back(std::uint32_t(m - room));
+    this->GroupOf.push_back(std::uint32_t(this->Starts.size() - 1));
+    this->Runs.push_back(run);
+    room -= run.Size;
+  };
   for (Run run : runs)
   {
     while (run.Size > room)
@@ -101,37 +145,18 @@ std::vector<std::size_t> groupRuns(
       const std::int64_t size = end - run.First;
       if (size > 0)
       {
-        cut.push_back({ run.First, size });
+        add({ run.First, size });
         run = { end, run.Size - size };
       }
-      if (cut.size() > starts.back())
+      if (this->Runs.size() > this->Starts.back())
       {
-        starts.push_back(cut.size());
+        this->Starts.push_back(this->Runs.size());
       }
       room = m;
     }
-    cut.push_back(run);
-    room -= run.Size;
+    add(run);
   }
-  starts.push_back(cut.size());
-  runs = std::move(cut);
-  return starts;
-}
-
-RunPlan::RunPlan(std::vector<Run> runs, std::int64_t m, std::int64_t block, std::int64_t low)
-  : Runs(std::move(runs))
-  , Starts(groupRuns(this->Runs, m, block, low))
-{
-  for (std::size_t group = 0; group < this->groups(); ++group)
-  {
-    std::uint32_t packed = 0;
-    for (std::size_t i = this->Starts[group]; i < this->Starts[group + 1]; ++i)
-    {
-      this->Packed.push_back(packed);
-      this->GroupOf.push_back(std::uint32_t(group));
-      packed += std::uint32_t(this->Runs[i].Size);
-    }
-  }
+  this->Starts.push_back(this->Runs.size());
 }
 
 void HeldBlocks::forget()
@@ -231,24 +256,12 @@ void HeldBlocks::loseFound()
   this->Found.clear();
 }
 
-namespace
-{
-
-constexpr std::uint32_t empty = std::numeric_limits<std::uint32_t>::max();
-
-} // namespace
-
 BlockCache::BlockCache(std::uint32_t slots)
   : Slots(std::size_t(slots) + 1)
   , End(slots)
 {
-  // At most half full, so that probe sequences are short.
-  int bits = 1;
-  while ((std::size_t(1) << bits) < 2 * std::size_t(slots))
-  {
-    ++bits;
-  }
-  this->Table.assign(std::size_t(1) << bits, empty);
+  const int bits = tableBits(slots, 1);
+  this->Table.assign(std::size_t(1) << bits, none);
   this->TableShift = 64 - bits;
   this->Slots[this->End] = { nothing, this->End, this->End };
   for (std::uint32_t slot = 0; slot < slots; ++slot)
@@ -278,7 +291,7 @@ BlockCache::Found BlockCache::use(std::uint64_t block)
 {
   const std::size_t mask = this->Table.size() - 1;
   std::size_t at = this->bucketOf(block);
-  for (; this->Table[at] != empty; at = (at + 1) & mask)
+  for (; this->Table[at] != none; at = (at + 1) & mask)
   {
     const std::uint32_t slot = this->Table[at];
     if (this->Slots[slot].Block == block)
@@ -296,7 +309,7 @@ BlockCache::Found BlockCache::use(std::uint64_t block)
   {
     this->erase(this->Slots[slot].Block);
     // Erasing may have moved the entry that was found.
-    for (at = this->bucketOf(block); this->Table[at] != empty; at = (at + 1) & mask)
+    for (at = this->bucketOf(block); this->Table[at] != none; at = (at + 1) & mask)
     {
     }
   }
@@ -317,7 +330,7 @@ void BlockCache::erase(std::uint64_t block)
   {
     gap = (gap + 1) & mask;
   }
-  for (std::size_t at = (gap + 1) & mask; this->Table[at] != empty; at = (at + 1) & mask)
+  for (std::size_t at = (gap + 1) & mask; this->Table[at] != none; at = (at + 1) & mask)
   {
     const std::size_t bucket = this->bucketOf(this->Slots[this->Table[at]].Block);
     if (((at - bucket) & mask) >= ((at - gap) & mask))
@@ -326,7 +339,7 @@ void BlockCache::erase(std::uint64_t block)
       gap = at;
     }
   }
-  this->Table[gap] = empty;
+  this->Table[gap] = none;
 }
 
 } // namespace tipp

@@ -3,9 +3,7 @@
 #define tippBlockCache_h
 
 #include "Loading/ArrayFiles.h"
-#include "Parallel/ParallelFor.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -27,36 +25,10 @@ struct UniqueIds
   std::vector<std::uint32_t> Numbers; ///< the number of each of the chunk's ids
 };
 
-/// Returns the bitmap of active segments, one element per segment: whether a chunk has ids in it.
-/// segment(id - low) is less than `segments`.
-template <typename Segment>
+/// Returns for each of `blocks` blocks whether the chunk has ids in it: block i has the 2^shift ids
+/// from low + (i << shift) on. All ids must lie in these blocks.
 std::vector<char> findActive(const std::int64_t* ids, std::size_t count, std::int64_t low,
-  std::size_t segments, int threads, const Segment& segment)
-{
-  constexpr std::size_t least = 1 << 18;
-  // Each thread has a bitmap of its own, so the number of threads bounds the number of bitmaps.
-  const std::size_t shares =
-    std::max<std::size_t>(std::min(std::size_t(threadCount(threads)), count / least), 1);
-  std::vector<std::vector<char>> parts(shares);
-  parallelFor(std::int64_t(shares), threads,
-    [&](std::int64_t part)
-    {
-      std::vector<char> own(segments, 0);
-      char* const active = own.data(); // a local, since writing a char may alias a member
-      const std::size_t end = count * (std::size_t(part) + 1) / shares;
-      for (std::size_t i = count * std::size_t(part) / shares; i < end; ++i)
-      {
-        active[segment(std::uint64_t(ids[i] - low))] = 1;
-      }
-      parts[std::size_t(part)] = std::move(own);
-    });
-  for (std::size_t part = 1; part < shares; ++part)
-  {
-    std::transform(parts[part].begin(), parts[part].end(), parts[0].begin(), parts[0].begin(),
-      [](char a, char b) { return char(a | b); });
-  }
-  return std::move(parts[0]);
-}
+  std::size_t blocks, int shift, int threads);
 
 /// Consecutive tuples that one read loads.
 struct Run
@@ -74,19 +46,15 @@ std::vector<Run> runsOfBlocks(const std::vector<char>& active, std::int64_t bloc
 std::vector<Run> runsOfIds(
   const std::vector<std::pair<std::int64_t, std::uint32_t>>& ids, std::int64_t gap);
 
-/// Cuts runs into groups of at most m tuples. Returns the index of each group's first run in the
-/// cut runs, and then the number of runs. Runs are cut at multiples of `block` tuples from `low`.
-std::vector<std::size_t> groupRuns(
-  std::vector<Run>& runs, std::int64_t m, std::int64_t block, std::int64_t low);
-
-/// Runs in groups, and each run's position in the buffer of its group.
+/// Runs in groups of at most m tuples, and each run's position in the buffer of its group.
 struct RunPlan
 {
-  RunPlan(std::vector<Run> runs, std::int64_t m, std::int64_t block, std::int64_t low);
+  /// Longer runs are cut at multiples of `block` tuples from `low`.
+  RunPlan(const std::vector<Run>& runs, std::int64_t m, std::int64_t block, std::int64_t low);
 
   std::size_t groups() const { return this->Starts.size() - 1; }
 
-  std::vector<tipp::Run> Runs;
+  std::vector<tipp::Run> Runs;        ///< cut
   std::vector<std::size_t> Starts;    ///< first run of each group, and the number of runs
   std::vector<std::uint32_t> Packed;  ///< position of each run in tuples; m is below 2^32
   std::vector<std::uint32_t> GroupOf; ///< group of each run

@@ -7,11 +7,9 @@
 // files.
 #include "Loading/ArrayFiles.h"
 #include "Loading/BlockCache.h"
-#include "Loading/GroupedMoves.h"
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -31,8 +29,7 @@ class FineLoader : public VertexLoader
 public:
   FineLoader(ArrayFiles files, std::int64_t m, int threads)
     : Files(std::move(files))
-    // Positions in the buffers are 32-bit numbers.
-    , M(std::min<std::int64_t>(m, std::numeric_limits<std::uint32_t>::max()))
+    , M(m)
     , Threads(threads)
     , Gap(gapBytes / std::int64_t(std::max<std::size_t>(this->Files.recordBytes(), 1)))
     , Shift(shiftFor(this->M))
@@ -75,7 +72,6 @@ public:
     this->loadBlocks(chunk, out);
   }
 
-  const LoadCounters& counters() const override { return this->Counts; }
   const char* name() const override { return "fine"; }
 
 private:
@@ -158,8 +154,6 @@ private:
     return (((tuples - 1) >> this->Shift) + 1) << this->Shift;
   }
 
-  bool fitsWhole() const { return this->Files.tuples() <= this->M; }
-
   void findActiveBlocks(Chunk& chunk, std::size_t blocks) const
   {
     if (!chunk.Active.empty())
@@ -169,8 +163,7 @@ private:
     constexpr std::int64_t dense = 2; // ids per tuple; then nearly all tuples are wanted
     chunk.Active = std::int64_t(chunk.Count) / dense > chunk.High - chunk.Low
       ? std::vector<char>(blocks, 1)
-      : findActive(chunk.Ids, chunk.Count, chunk.Low, blocks, this->Threads,
-          [shift = this->Shift](std::uint64_t id) { return id >> shift; });
+      : findActive(chunk.Ids, chunk.Count, chunk.Low, blocks, this->Shift, this->Threads);
   }
 
   std::int64_t bytesOf(std::int64_t tuples) const
@@ -182,7 +175,7 @@ private:
   /// on all blocks that are read are kept.
   bool wantsAll() const
   {
-    return this->fitsWhole() && this->Spent > this->bytesOf(this->Files.tuples());
+    return this->Files.tuples() <= this->M && this->Spent > this->bytesOf(this->Files.tuples());
   }
 
   std::vector<Run> runsOf(const Chunk& chunk, const std::vector<char>& wanted) const
@@ -203,7 +196,7 @@ private:
     }
     if (tuplesOf(runs) > this->M)
     {
-      this->loadGroups(chunk, std::move(runs), out);
+      this->loadGroups(chunk, runs, out);
       return;
     }
     this->hold(runs);
@@ -240,11 +233,11 @@ private:
 
   /// For more than M tuples: loads group by group, at most M tuples each. Each id's group and
   /// position are computed first.
-  void loadGroups(const Chunk& chunk, std::vector<Run> runs, void* const* out)
+  void loadGroups(const Chunk& chunk, const std::vector<Run>& runs, void* const* out)
   {
     const int shift = this->Shift;
     const std::int64_t block = std::int64_t(1) << shift;
-    const RunPlan plan(std::move(runs), this->M, block, chunk.Low);
+    const RunPlan plan(runs, this->M, block, chunk.Low);
     std::vector<std::uint32_t> starts(chunk.Active.size()); // position of each block, and its group
     std::vector<std::uint32_t> groups(chunk.Active.size());
     for (std::size_t i = 0; i < plan.Runs.size(); ++i)
@@ -424,7 +417,6 @@ private:
   std::int64_t Gap; ///< largest gap to read over, in tuples
   int Shift;        ///< a block is 2^Shift tuples
   HeldBlocks Held;  ///< blocks in the buffers
-  LoadCounters Counts;
   TupleBuffers Buffers;
   std::int64_t Spent = 0;            ///< approximate number of bytes read
   Buffer<std::uint32_t> Sources;     ///< position of each of the chunk's tuples in the buffers

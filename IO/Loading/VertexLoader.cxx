@@ -5,7 +5,6 @@
 
 #include "Files/IOError.h"
 #include "Loading/ArrayFiles.h"
-#include "Loading/GroupedMoves.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -94,13 +93,11 @@ public:
       });
   }
 
-  const LoadCounters& counters() const override { return this->Counts; }
   const char* name() const override { return "mmap"; }
 
 private:
   ArrayFiles Files;
   int Threads;
-  LoadCounters Counts;
   std::vector<std::unique_ptr<Mapping>> Mappings;
 };
 
@@ -109,8 +106,7 @@ class DirectLoader : public VertexLoader
 public:
   DirectLoader(ArrayFiles files, std::int64_t m, int threads)
     : Files(std::move(files))
-    // Positions in the buffers are 32-bit numbers.
-    , M(std::min<std::int64_t>(m, std::numeric_limits<std::uint32_t>::max()))
+    , M(m)
     , Threads(threads)
   {
   }
@@ -150,7 +146,6 @@ public:
     }
   }
 
-  const LoadCounters& counters() const override { return this->Counts; }
   const char* name() const override { return "direct"; }
 
 private:
@@ -167,19 +162,9 @@ private:
   ArrayFiles Files;
   std::int64_t M;
   int Threads;
-  LoadCounters Counts;
   TupleBuffers Buffers;
   GroupedMoves Moves;
 };
-
-constexpr std::uint64_t defaultMemoryLimit = std::uint64_t(512) << 20;
-
-/// Mapped files share the memory with the caller's data, so they may take at most half of it.
-bool fitsWell(const ArrayFiles& files, std::uint64_t memoryLimit)
-{
-  return std::uint64_t(files.tuples()) <=
-    memoryLimit / 2 / std::max<std::size_t>(files.recordBytes(), 1);
-}
 
 } // namespace
 
@@ -203,22 +188,20 @@ std::unique_ptr<VertexLoader> makeVertexLoader(
   std::vector<RawArray> arrays, const LoaderOptions& options)
 {
   ArrayFiles files(std::move(arrays));
+  constexpr std::uint64_t defaultMemoryLimit = std::uint64_t(512) << 20;
   const std::uint64_t limit = options.MemoryLimit > 0 ? options.MemoryLimit : defaultMemoryLimit;
   const std::uint64_t record = std::max<std::size_t>(files.recordBytes(), 1);
   std::int64_t m = options.M > 0 ? options.M : std::int64_t(limit / record);
-  m = std::max<std::int64_t>(std::min(m, files.tuples()), 1);
-  switch (options.Kind)
+  // Positions in the buffers are 32-bit numbers.
+  constexpr std::int64_t most = std::numeric_limits<std::uint32_t>::max();
+  m = std::max<std::int64_t>(std::min({ m, files.tuples(), most }), 1);
+  // Mapped files share the memory with the caller's data, so they may take at most half of it.
+  const bool fitsWell = std::uint64_t(files.tuples()) <= limit / 2 / record;
+  if (options.Kind == Loader::Direct)
   {
-    case Loader::Direct:
-      return std::make_unique<DirectLoader>(std::move(files), m, options.Threads);
-    case Loader::Fine:
-      return makeFineLoader(std::move(files), m, options.Threads);
-    case Loader::Mmap:
-      return std::make_unique<MmapLoader>(std::move(files), options.Threads);
-    case Loader::Auto:
-      break;
+    return std::make_unique<DirectLoader>(std::move(files), m, options.Threads);
   }
-  if (fitsWell(files, limit))
+  if (options.Kind == Loader::Mmap || (options.Kind == Loader::Auto && fitsWell))
   {
     return std::make_unique<MmapLoader>(std::move(files), options.Threads);
   }

@@ -62,9 +62,12 @@ public:
   /// Copies tuple ids[i] of array a to out[a] + i * tupleBytes, for all i and a. Throws IOError if
   /// a file cannot be read or an id is not a tuple's index.
   virtual void load(const std::int64_t* ids, std::size_t count, void* const* out) = 0;
-  virtual const LoadCounters& counters() const = 0;
+  const LoadCounters& counters() const { return this->Counts; }
   /// The name of the loader that was chosen, such as "mmap".
   virtual const char* name() const = 0;
+
+protected:
+  LoadCounters Counts;
 };
 
 /// Creates a loader of arrays with equal numbers of tuples. Throws IOError if a file cannot be

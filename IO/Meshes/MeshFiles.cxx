@@ -2,22 +2,26 @@
 #include "Meshes/MeshFiles.h"
 
 #include "Adcirc/AdcircGrid.h"
+#include "Arrays/Scalar.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Npy/NpyFile.h"
+#include "Partitioned/PieceFormat.h"
+#include "Partitioned/ReadPiece.h"
+#include "Points/ReadPoints.h"
 #include "Vtk/CellArrays.h"
-#include "Vtk/ReadDataSet.h"
-#include "Vtk/VtkFiles.h"
-#include "Vtk/WriteXmlFile.h"
+#include "Vtk/DataSets.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -25,11 +29,11 @@
 #include "vtkSmartPointer.h"
 #include "vtkTypeInt32Array.h"
 #include "vtkTypeInt64Array.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
-#include "vtkXMLPolyDataWriter.h"
-#include "vtkXMLUnstructuredGridWriter.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -64,11 +68,11 @@ const PointTable::Column* findZ(const PointTable& points)
   return nullptr;
 }
 
-void setIds(vtkFieldData* data, const char* name, const std::vector<std::int64_t>* ids, int each)
+void setIds(vtkFieldData* data, const char* name, const std::vector<std::int64_t>& ids, int each)
 {
-  if (ids && !ids->empty())
+  if (!ids.empty())
   {
-    const auto array = borrow<vtkTypeInt64Array>(ids->data(), ids->size());
+    const auto array = borrow<vtkTypeInt64Array>(ids.data(), ids.size());
     array->SetNumberOfComponents(each);
     array->SetName(name);
     data->AddArray(array);
@@ -101,12 +105,6 @@ void setPoints(const PointTable& table, vtkPointSet* data)
       data->GetPointData()->AddArray(array);
     }
   }
-}
-
-void setData(const MeshData& more, int corners, vtkPointSet* data)
-{
-  setIds(data->GetPointData(), "RepresentativePointId", more.Representatives, 1);
-  setIds(data->GetCellData(), neighborsName, more.Neighbors, corners);
 }
 
 template <typename Array>
@@ -158,32 +156,96 @@ vtkSmartPointer<vtkCellArray> makeCells(TrianglesView triangles)
   return withIds(triangles, [&](const auto* ids) { return makeCells(ids, triangles.size(), 3); });
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> makeGrid(
-  const PointTable& points, int type, vtkCellArray* cells, const MeshData& more)
-{
-  auto data = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  setPoints(points, data);
-  data->SetCells(type, cells);
-  setData(more, type == VTK_TRIANGLE ? 3 : 4, data);
-  return data;
-}
-
 } // namespace
 
-vtkSmartPointer<vtkPolyData> makePolyData(
-  const PointTable& points, TrianglesView triangles, const MeshData& more)
+vtkSmartPointer<vtkPolyData> makePolyData(const PointTable& points, TrianglesView triangles)
 {
   auto data = vtkSmartPointer<vtkPolyData>::New();
   setPoints(points, data);
   data->SetPolys(makeCells(triangles));
-  setData(more, 3, data);
   return data;
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> makeUnstructuredGrid(
-  const PointTable& points, TrianglesView triangles, const MeshData& more)
+namespace
 {
-  return makeGrid(points, VTK_TRIANGLE, makeCells(triangles), more);
+
+/// Makes the array take ownership of the buffer.
+template <typename Array>
+vtkSmartPointer<Array> takeOver(Buffer<char>&& buffer, const vtkSmartPointer<Array>& array,
+  int components, std::int64_t tuples, const std::string& name = {})
+{
+  array->SetNumberOfComponents(components);
+  array->SetVoidArray(
+    buffer.release(), vtkIdType(tuples) * components, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
+  name.empty() ? void() : array->SetName(name.c_str());
+  return array;
+}
+
+vtkSmartPointer<vtkDataArray> newArray(Scalar type)
+{
+  return vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(vtkTypeOf(type)));
+}
+
+void setGlobalIds(
+  Buffer<char>&& buffer, std::int64_t tuples, const char* name, vtkDataSetAttributes* data)
+{
+  static_assert(sizeof(vtkIdType) == 8);
+  data->SetGlobalIds(
+    takeOver(std::move(buffer), vtkSmartPointer<vtkIdTypeArray>::New(), 1, tuples, name));
+}
+
+void addGhosts(Buffer<char>&& buffer, std::int64_t tuples, vtkDataSetAttributes* data)
+{
+  data->AddArray(takeOver(std::move(buffer), vtkSmartPointer<vtkUnsignedCharArray>::New(), 1,
+    tuples, vtkDataSetAttributes::GhostArrayName()));
+}
+
+template <typename Array>
+vtkSmartPointer<vtkCellArray> cellsOf(Piece& piece)
+{
+  return makeCells(takeOver(std::move(piece.Connectivity), vtkSmartPointer<Array>::New(), 1,
+                     piece.Cells * piece.CellSize),
+    std::size_t(piece.CellSize));
+}
+
+void addCellGhosts(const Piece& piece, vtkDataSetAttributes* data)
+{
+  if (piece.Cells == piece.OwnedCells)
+  {
+    return;
+  }
+  Buffer<char> ghosts{ std::size_t(piece.Cells) };
+  std::memset(ghosts.data(), 0, std::size_t(piece.OwnedCells));
+  std::memset(ghosts.data() + piece.OwnedCells, vtkDataSetAttributes::DUPLICATECELL,
+    std::size_t(piece.Cells - piece.OwnedCells));
+  addGhosts(std::move(ghosts), piece.Cells, data);
+}
+
+} // namespace
+
+vtkSmartPointer<vtkUnstructuredGrid> makeGrid(Piece&& piece)
+{
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkPoints> points;
+  points->SetData(
+    takeOver(std::move(piece.Coordinates), newArray(piece.PointType), 3, piece.Points));
+  grid->SetPoints(points);
+  setGlobalIds(std::move(piece.PointIds), piece.Points, pointIdsName, grid->GetPointData());
+  addGhosts(std::move(piece.PointGhosts), piece.Points, grid->GetPointData());
+  grid->SetCells(piece.CellSize == 3 ? VTK_TRIANGLE : VTK_TETRA,
+    piece.WideIds ? cellsOf<vtkTypeInt64Array>(piece) : cellsOf<vtkTypeInt32Array>(piece));
+  setGlobalIds(std::move(piece.CellIds), piece.Cells, cellIdsName, grid->GetCellData());
+  addCellGhosts(piece, grid->GetCellData());
+  for (Piece::Attribute& attribute : piece.Attributes)
+  {
+    const StoredArray& description = attribute.Description;
+    vtkFieldData* const data = description.OfPoints
+      ? static_cast<vtkFieldData*>(grid->GetPointData())
+      : static_cast<vtkFieldData*>(grid->GetCellData());
+    data->AddArray(takeOver(std::move(attribute.Values), newArray(description.Type),
+      description.Components, description.OfPoints ? piece.Points : piece.Cells, description.Name));
+  }
+  return grid;
 }
 
 namespace
@@ -310,12 +372,23 @@ bool writeNpy(const std::string& path, const Id* ids, std::size_t cells, std::si
   return true;
 }
 
-std::vector<std::int64_t> neighborsOf(TrianglesView triangles)
+bool writeWithIds(const std::string& path, vtkPointSet* data, int corners,
+  const std::vector<std::int64_t>& neighbors, const MeshOptions& options)
 {
-  std::vector<std::int64_t> neighbors(3 * triangles.size());
-  withIds(
-    triangles, [&](const auto* ids) { findNeighbors(ids, triangles.size(), neighbors.data()); });
-  return neighbors;
+  setIds(data->GetPointData(), "RepresentativePointId", options.Representatives, 1);
+  setIds(data->GetCellData(), neighborsName, neighbors, corners);
+  return writeXmlFile(path, options.Before, data, options.Aborted);
+}
+
+/// Writes a .vtu file of cells of one type.
+bool writeGrid(const std::string& path, const PointTable& points, int type, vtkCellArray* cells,
+  const std::vector<std::int64_t>& neighbors, const MeshOptions& options)
+{
+  vtkNew<vtkUnstructuredGrid> data;
+  setPoints(points, data);
+  data->SetCells(type, cells);
+  const int corners = type == VTK_TRIANGLE ? 3 : 4;
+  return writeWithIds(path, data, corners, neighbors, options);
 }
 
 } // namespace
@@ -340,18 +413,19 @@ bool writeMesh(const std::string& path, const PointTable& points, TrianglesView 
     return writeAdcircGrid(
       path, points, triangles, options.AdcircLike, options.Before, options.Aborted);
   }
-  const std::vector<std::int64_t> neighbors =
-    options.Neighbors ? neighborsOf(triangles) : std::vector<std::int64_t>();
-  const MeshData more{ &options.Representatives, &neighbors };
+  std::vector<std::int64_t> neighbors(options.Neighbors ? 3 * triangles.size() : 0);
+  if (options.Neighbors)
+  {
+    withIds(
+      triangles, [&](const auto* ids) { findNeighbors(ids, triangles.size(), neighbors.data()); });
+  }
   if (extension == ".vtp")
   {
-    const auto data = makePolyData(points, triangles, more);
-    return writeXmlFile<vtkXMLPolyDataWriter>(path, options.Before, data, options.Aborted);
+    return writeWithIds(path, makePolyData(points, triangles), 3, neighbors, options);
   }
   if (extension == ".vtu")
   {
-    const auto data = makeUnstructuredGrid(points, triangles, more);
-    return writeXmlFile<vtkXMLUnstructuredGridWriter>(path, options.Before, data, options.Aborted);
+    return writeGrid(path, points, VTK_TRIANGLE, makeCells(triangles), neighbors, options);
   }
   throw IOError(
     path, "has no extension that tells a kind of mesh file; use .npy, .vtp, .vtu or .14.");
@@ -382,9 +456,7 @@ bool writeTetrahedra(const std::string& path, PointTable points, const std::int3
       path, "has no extension that tells a kind of file of tetrahedra; use .npy or .vtu.");
   }
   points.Columns[requireElevation(points, path)].Name = "z"; // makes it the third coordinate
-  const auto data = makeGrid(
-    points, VTK_TETRA, makeCells(ids, tetrahedra, 4), { &options.Representatives, &neighbors });
-  return writeXmlFile<vtkXMLUnstructuredGridWriter>(path, options.Before, data, options.Aborted);
+  return writeGrid(path, points, VTK_TETRA, makeCells(ids, tetrahedra, 4), neighbors, options);
 }
 
 bool holdsTetrahedra(const std::string& path)

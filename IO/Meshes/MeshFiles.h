@@ -2,8 +2,8 @@
 #ifndef tippMeshFiles_h
 #define tippMeshFiles_h
 
-#include "Files/OutputPath.h"
-#include "Points/PointTable.h"
+#include "Files/PendingOutput.h"
+#include "Points/ReadPoints.h"
 #include "vtkTIPPIOModule.h"
 
 #include <algorithm>
@@ -24,6 +24,8 @@ class vtkSmartPointer;
 
 namespace tipp
 {
+
+struct Piece;
 
 /// A view of triangles in the caller's memory: three consecutive point ids each, of 32 or 64 bits.
 class TrianglesView
@@ -140,20 +142,14 @@ void findNeighbors(const Id* corners, std::size_t cells, Index* neighbors)
     neighbors, neighbors + Corners * cells, neighbors, [=](Index n) { return std::max(n, none); });
 }
 
-/// The content of a data set besides columns of points; each may be null or empty.
-struct MeshData
-{
-  const std::vector<std::int64_t>* Representatives = nullptr; ///< one point id per point
-  const std::vector<std::int64_t>* Neighbors = nullptr;       ///< a cell id per corner of each cell
-};
-
-/// Creates data sets over the caller's memory (only coordinates and cell offsets are copies): they
-/// must not outlive it, and are for writers, which do not change it. A column named z is the third
+/// Creates a data set over the caller's memory, which must outlive it and must not be changed
+/// through it; only coordinates and cell offsets are copies. A column named z is the third
 /// coordinate, the others are point data.
-vtkSmartPointer<vtkPolyData> makePolyData(
-  const PointTable& points, TrianglesView triangles, const MeshData& more);
-vtkSmartPointer<vtkUnstructuredGrid> makeUnstructuredGrid(
-  const PointTable& points, TrianglesView triangles, const MeshData& more);
+vtkSmartPointer<vtkPolyData> makePolyData(const PointTable& points, TrianglesView triangles);
+
+/// Converts a piece to a VTK data set that takes ownership of its memory: global ids as such,
+/// vtkGhostType of points, and of cells if the piece has borrowed ones.
+VTKTIPPIO_EXPORT vtkSmartPointer<vtkUnstructuredGrid> makeGrid(Piece&& piece);
 
 /// Triangles read from a file.
 struct TriangleMesh

@@ -10,37 +10,18 @@
 namespace tipp
 {
 
-#ifdef TIPP_CHECKSUM_AVX2
 // In ChecksumAvx2.cxx: the same checksum, computed faster.
 XXH64_hash_t checksumAvx2(const void* data, size_t bytes);
 void updateChecksumAvx2(XXH3_state_t* state, const void* data, size_t bytes);
-#endif
 
 namespace
 {
 
-/// The functions that compute checksums on this processor.
-struct Functions
-{
-  XXH64_hash_t (*Hash)(const void* data, size_t bytes) = [](const void* data, size_t bytes)
-  { return XXH3_64bits(data, bytes); };
-  void (*Update)(XXH3_state_t* state, const void* data, size_t bytes) =
-    [](XXH3_state_t* state, const void* data, size_t bytes)
-  { XXH3_64bits_update(state, data, bytes); };
-};
-
-Functions chooseFunctions()
-{
 #ifdef TIPP_CHECKSUM_AVX2
-  if (__builtin_cpu_supports("avx2"))
-  {
-    return { &checksumAvx2, &updateChecksumAvx2 };
-  }
+const bool hasAvx2 = __builtin_cpu_supports("avx2") != 0;
+#else
+constexpr bool hasAvx2 = false;
 #endif
-  return {};
-}
-
-const Functions functions = chooseFunctions();
 
 } // namespace
 
@@ -51,7 +32,7 @@ struct Checksum::State
 
 std::uint64_t checksumOf(const void* data, std::size_t bytes)
 {
-  return functions.Hash(data, bytes);
+  return hasAvx2 ? checksumAvx2(data, bytes) : XXH3_64bits(data, bytes);
 }
 
 Checksum::Checksum()
@@ -64,7 +45,8 @@ Checksum::~Checksum() = default;
 
 void Checksum::add(const void* data, std::size_t bytes)
 {
-  functions.Update(&this->Progress->Of, data, bytes);
+  hasAvx2 ? updateChecksumAvx2(&this->Progress->Of, data, bytes)
+          : static_cast<void>(XXH3_64bits_update(&this->Progress->Of, data, bytes));
 }
 
 std::uint64_t Checksum::finish()

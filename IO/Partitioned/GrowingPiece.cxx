@@ -4,11 +4,9 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Partitioned/PieceFile.h"
-#include "Partitioned/PieceWriter.h"
 
 #include <algorithm>
 #include <cstring>
-#include <filesystem>
 
 namespace tipp
 {
@@ -25,17 +23,6 @@ bool holdsCellIds(const PieceArray& array)
 std::int64_t interiorTuples(const PieceInterior& interior, const PieceArray& array)
 {
   return array.ofPoints() ? interior.Points : interior.Cells;
-}
-
-/// Moves the next file to this path, if there is one.
-void takeNextFile(const std::string& path)
-{
-  std::error_code failure;
-  std::filesystem::rename(path + nextPieceSuffix, path, failure);
-  if (failure && failure != std::errc::no_such_file_or_directory)
-  {
-    throw IOError(path, "cannot be replaced (" + failure.message() + ").");
-  }
 }
 
 void requireNarrowIds(
@@ -180,46 +167,33 @@ void addInterior(const PieceArray& array, int cellSize, const PointRowLayout& la
   column.flush();
 }
 
-/// Writes the border's part of an array, and appends the checksum of each group.
-template <typename Item, typename Add>
-void writeGroups(const std::vector<Item>& items, ColumnWriter& column,
-  std::vector<std::uint64_t>& checksums, const Add& add)
+/// Writes the border's part of an array.
+void addBorder(const PieceArray& array, int cellSize, const PointRowLayout& layout,
+  const OrderedBorder& border, std::int64_t interiorCells, ColumnWriter& column)
 {
-  for (std::size_t i = 0; i < items.size(); ++i)
+  const std::size_t tuple = array.tupleBytes();
+  std::size_t next = 0;
+  for (const SharedGroup& group : array.ofPoints() ? border.PointGroups : border.CellGroups)
   {
-    if (i > 0 && items[i].Group != items[i - 1].Group)
+    for (const std::size_t end = next + std::size_t(group.Count); next < end; ++next)
     {
-      column.endPart();
+      if (array.ofPoints())
+      {
+        const OrderedBorder::Point& p = border.Points[next];
+        copyPoint(array, p.Row, layout, p.IsGhost, layout.id(p.Row), column.extend(tuple));
+      }
+      else if (array.Role == PieceRole::Connectivity)
+      {
+        std::memcpy(column.extend(tuple), border.Cells[next].Points.data(), tuple);
+      }
+      else
+      {
+        addShapes(array, cellSize, interiorCells + std::int64_t(next), 1, column);
+      }
     }
-    add(items[i], std::int64_t(i));
-  }
-  if (!items.empty())
-  {
     column.endPart();
   }
   column.flush();
-  checksums.insert(checksums.end(), column.checksums().begin(), column.checksums().end());
-}
-
-void addBorder(const PieceArray& array, int cellSize, const PointRowLayout& layout,
-  const OrderedBorder& border, std::int64_t interiorCells, ColumnWriter& column,
-  std::vector<std::uint64_t>& checksums)
-{
-  const std::size_t tuple = array.tupleBytes();
-  if (array.ofPoints())
-  {
-    writeGroups(border.Points, column, checksums,
-      [&](const OrderedBorder::Point& p, std::int64_t)
-      { copyPoint(array, p.Row, layout, p.IsGhost, layout.id(p.Row), column.extend(tuple)); });
-    return;
-  }
-  writeGroups(border.Cells, column, checksums,
-    [&](const OrderedBorder::Cell& cell, std::int64_t i)
-    {
-      array.Role == PieceRole::Connectivity
-        ? static_cast<void>(std::memcpy(column.extend(tuple), cell.Points.data(), tuple))
-        : addShapes(array, cellSize, interiorCells + i, 1, column);
-    });
 }
 
 PieceSummary summarize(const PartitionedMesh& mesh, std::size_t number,
@@ -328,7 +302,7 @@ FinishedPiece writeBorder(const PartitionedMesh& mesh, std::size_t number,
   {
     const PieceArray& array = file.Arrays[a];
     const std::size_t tuple = array.tupleBytes();
-    const std::uint64_t size = std::uint64_t(storedTuples(mesh, summary, array)) * tuple;
+    const std::uint64_t size = std::uint64_t(storedTuples(mesh, summary, array.ofPoints())) * tuple;
     output.write(file.Offsets[a] - 8, &size, 8);
     std::vector<std::uint64_t>& checksums = finished.Table.Checksums.emplace_back();
     if (holdsCellIds(array))
@@ -339,37 +313,13 @@ FinishedPiece writeBorder(const PartitionedMesh& mesh, std::size_t number,
     ColumnWriter column(output,
       file.Offsets[a] + std::uint64_t(interiorTuples(interior, array)) * tuple,
       columnBufferBytes / 16);
-    addBorder(array, mesh.CellSize, layout, ordered, interior.Cells, column, checksums);
+    addBorder(array, mesh.CellSize, layout, ordered, interior.Cells, column);
+    checksums.insert(checksums.end(), column.checksums().begin(), column.checksums().end());
   }
   summary.FileBytes = writeFrame(output, file, finished.Table);
   finished.Table.PointGroups = ordered.PointGroups;
   finished.Table.CellGroups = ordered.CellGroups;
   return finished;
-}
-
-void writeCellIds(
-  const PartitionedMesh& mesh, std::size_t number, std::int64_t first, FinishedPiece& piece)
-{
-  takeNextFile(mesh.piecePath(number));
-  const std::size_t array = findArray(pieceArrays(mesh, piece.Summary), PieceRole::CellIds);
-  writeCellParts(mesh, number, array, { 0, piece.cellParts() }, piece,
-    [&first](char* to, std::size_t bytes)
-    {
-      std::memcpy(to, &first, bytes);
-      ++first;
-    });
-}
-
-void writeLateArray(const PartitionedMesh& mesh, std::size_t number, std::int64_t attribute,
-  const char* values, FinishedPiece& piece)
-{
-  const std::size_t array = findArrayOf(pieceArrays(mesh, piece.Summary), attribute);
-  writeCellParts(mesh, number, array, { 0, piece.cellParts() }, piece,
-    [&values](char* to, std::size_t bytes)
-    {
-      std::memcpy(to, values, bytes);
-      values += bytes;
-    });
 }
 
 void verifyInterior(const PartitionedMesh& mesh, std::size_t number, const PieceInterior& interior)
@@ -399,16 +349,6 @@ void verifyInterior(const PartitionedMesh& mesh, std::size_t number, const Piece
   }
   copyInterior(path, interior, layout, layout);
   takeNextFile(path);
-}
-
-void verifyFinished(const PartitionedMesh& mesh, std::size_t number, const FinishedPiece& piece)
-{
-  if (mesh.Path.empty())
-  {
-    return;
-  }
-  takeNextFile(mesh.piecePath(number));
-  PieceFile(mesh, number, piece.Summary, piece.Table).verifyAll();
 }
 
 } // namespace tipp

@@ -3,11 +3,15 @@
 #define tippPartitionedMesh_h
 
 #include "Flat/FlatMesh.h"
+#include "Predicates/Points.h"
 #include "vtkTIPPIOModule.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,6 +23,20 @@ using Bounds = std::array<double, 6>;
 
 /// The bounds of an empty set of points.
 constexpr Bounds emptyBounds = { HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL };
+
+/// The box of these bounds, for triangles with z = 0. Infinite bounds become the largest double,
+/// because predicates need finite numbers.
+inline Box3 box3Of(const Bounds& bounds, int dimension)
+{
+  constexpr double most = std::numeric_limits<double>::max();
+  Box3 box;
+  for (std::size_t axis = 0; axis < std::size_t(dimension); ++axis)
+  {
+    box.Min[axis] = std::clamp(bounds[2 * axis], -most, most);
+    box.Max[axis] = std::clamp(bounds[2 * axis + 1], -most, most);
+  }
+  return box;
+}
 
 /// The maximum number of pieces of a mesh.
 constexpr std::int64_t mostPieces = 1 << 24;

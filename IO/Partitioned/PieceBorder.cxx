@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioned/PieceBorder.h"
+#include "Partitioned/GrowingPiece.h"
 
 #include "Arrays/Random.h"
 
@@ -107,7 +107,8 @@ int SharingSets::unite(int a, int b)
   return found->second;
 }
 
-SharingSets::Grouping SharingSets::groups(const std::vector<int>& setOf) const
+std::vector<int> SharingSets::groups(
+  const std::vector<int>& setOf, std::vector<SharedGroup>& groups) const
 {
   std::vector<std::int64_t> counts(this->Sets.size(), 0);
   for (const int set : setOf)
@@ -117,18 +118,17 @@ SharingSets::Grouping SharingSets::groups(const std::vector<int>& setOf) const
       ++counts[std::size_t(set)];
     }
   }
-  Grouping grouping;
-  grouping.IndexOf.assign(this->Sets.size(), -1);
+  std::vector<int> indexOf(this->Sets.size(), -1);
   for (const auto& [set, number] : this->Numbers)
   {
     const std::int64_t count = counts[std::size_t(number)];
     if (count > 0)
     {
-      grouping.IndexOf[std::size_t(number)] = int(grouping.Groups.size());
-      grouping.Groups.push_back({ set, count });
+      indexOf[std::size_t(number)] = int(groups.size());
+      groups.push_back({ set, count });
     }
   }
-  return grouping;
+  return indexOf;
 }
 
 std::size_t PieceInterior::interfacePosition(std::int64_t point) const
@@ -165,11 +165,18 @@ void PieceBorder::setGhost(std::int64_t point, const double* row)
     row, words, this->GhostRows.data() + std::size_t(this->GhostPosition.at(point)) * words);
 }
 
-const double* PieceBorder::rowOf(std::int64_t point) const
+std::size_t PieceBorder::indexOf(std::int64_t point) const
 {
   return this->Interior.owns(point)
-    ? this->Interior.interfaceRow(point, this->Layout)
-    : this->GhostRows.data() + std::size_t(this->GhostPosition.at(point)) * this->Layout.Words;
+    ? this->Interior.interfacePosition(point)
+    : this->Interior.InterfacePoints.size() + std::size_t(this->GhostPosition.at(point));
+}
+
+const double* PieceBorder::row(std::size_t index) const
+{
+  const std::size_t own = this->Interior.InterfacePoints.size();
+  return index < own ? this->Interior.InterfaceRows.data() + index * this->Layout.Words
+                     : this->GhostRows.data() + (index - own) * this->Layout.Words;
 }
 
 PieceBorder::Mesh PieceBorder::mesh() const
@@ -184,7 +191,7 @@ PieceBorder::Mesh PieceBorder::mesh() const
       const auto [found, isNew] = known.emplace(point, std::int32_t(known.size()));
       if (isNew)
       {
-        const double* const row = this->rowOf(point);
+        const double* const row = this->row(this->indexOf(point));
         mesh.Rows.insert(mesh.Rows.end(), row, row + this->Layout.Words);
       }
       mesh.Corners.push_back(found->second);
@@ -202,13 +209,6 @@ OrderedBorder::OrderedBorder(const PieceBorder& border)
   this->addCells();
 }
 
-std::size_t OrderedBorder::index(std::int64_t point) const
-{
-  return this->Interior.owns(point)
-    ? this->Interior.interfacePosition(point)
-    : this->Interior.InterfacePoints.size() + std::size_t(this->Of.GhostPosition.at(point));
-}
-
 /// A point's set of borrowers is the union of its cells' sets.
 void OrderedBorder::uniteSets()
 {
@@ -224,7 +224,7 @@ void OrderedBorder::uniteSets()
     this->CellSets.push_back(set);
     for (std::size_t i = 0; i < this->Of.CellSize; ++i)
     {
-      int& of = this->SetOf[this->index(cell.Points[i])];
+      int& of = this->SetOf[this->Of.indexOf(cell.Points[i])];
       of = this->Sets.unite(of, set);
     }
   }
@@ -232,20 +232,17 @@ void OrderedBorder::uniteSets()
 
 void OrderedBorder::orderPoints()
 {
-  SharingSets::Grouping grouping = this->Sets.groups(this->SetOf);
-  const PointRowLayout& layout = this->Of.Layout;
+  const std::vector<int> groupOf = this->Sets.groups(this->SetOf, this->PointGroups);
   const std::size_t own = this->Interior.InterfacePoints.size();
   for (std::size_t i = 0; i < this->SetOf.size(); ++i)
   {
-    const double* const row = i < own ? this->Interior.InterfaceRows.data() + i * layout.Words
-                                      : this->Of.GhostRows.data() + (i - own) * layout.Words;
+    const double* const row = this->Of.row(i);
     this->Points.push_back(
-      { grouping.IndexOf[std::size_t(this->SetOf[i])], layout.id(row), row, i >= own, i });
+      { groupOf[std::size_t(this->SetOf[i])], this->Of.Layout.id(row), row, i >= own, i });
   }
   std::sort(this->Points.begin(), this->Points.end(),
     [](const Point& a, const Point& b)
     { return a.Group != b.Group ? a.Group < b.Group : a.Id < b.Id; });
-  this->PointGroups = std::move(grouping.Groups);
   this->Position.resize(this->Points.size());
   for (std::size_t i = 0; i < this->Points.size(); ++i)
   {
@@ -279,9 +276,8 @@ void OrderedBorder::addCell(int group, CellCorners corners)
 
 void OrderedBorder::addCells()
 {
-  SharingSets::Grouping grouping = this->Sets.groups(this->CellSets);
-  const auto groupOfNext = [&]
-  { return grouping.IndexOf[std::size_t(this->CellSets[this->Cells.size()])]; };
+  const std::vector<int> groupOf = this->Sets.groups(this->CellSets, this->CellGroups);
+  const auto groupOfNext = [&] { return groupOf[std::size_t(this->CellSets[this->Cells.size()])]; };
   for (CellCorners corners : this->Interior.InterfaceCells)
   {
     for (std::size_t c = 0; c < this->Of.CellSize; ++c)
@@ -296,14 +292,13 @@ void OrderedBorder::addCells()
     CellCorners corners{};
     for (std::size_t c = 0; c < this->Of.CellSize; ++c)
     {
-      corners[c] = this->Position[this->index(cell.Points[c])];
+      corners[c] = this->Position[this->Of.indexOf(cell.Points[c])];
     }
     this->addCell(groupOfNext(), corners);
   }
   std::sort(this->Cells.begin(), this->Cells.end(),
     [](const Cell& a, const Cell& b)
     { return a.Group != b.Group ? a.Group < b.Group : a.Points < b.Points; });
-  this->CellGroups = std::move(grouping.Groups);
 }
 
 } // namespace tipp

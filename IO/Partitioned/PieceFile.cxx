@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioned/PieceFile.h"
 
-#include "Arrays/Buffer.h"
 #include "Files/IOError.h"
 #include "Flat/FlatMesh.h"
-#include "Partitioned/Checksum.h"
 
 #include <algorithm>
 #include <cstring>
@@ -122,16 +120,6 @@ namespace
 /// Bytes that are read at a time, so that they are still in the cache when they are verified.
 constexpr std::size_t blockBytes = std::size_t(1) << 18;
 
-std::vector<std::int64_t> startsOf(const std::vector<std::int64_t>& counts)
-{
-  std::vector<std::int64_t> starts{ 0 };
-  for (const std::int64_t count : counts)
-  {
-    starts.push_back(starts.back() + count);
-  }
-  return starts;
-}
-
 } // namespace
 
 PieceFile::PieceFile(const PartitionedMesh& mesh, std::size_t number)
@@ -147,8 +135,8 @@ PieceFile::PieceFile(
   , File(mesh.piecePath(number))
   , Table(std::move(table))
   , Arrays(pieceArrays(mesh, this->Summary))
-  , PointParts(startsOf(this->Table.parts(mesh, this->Summary, true)))
-  , CellParts(startsOf(this->Table.parts(mesh, this->Summary, false)))
+  , PointParts(this->Table.partStarts(mesh, this->Summary, true))
+  , CellParts(this->Table.partStarts(mesh, this->Summary, false))
 {
   std::string header(std::size_t(this->Table.HeaderBytes), '\0');
   this->File.read(0, header.data(), header.size());
@@ -305,6 +293,92 @@ void PieceFile::verifyAll() const
   {
     this->fail("does not end as it was written");
   }
+}
+
+ColumnWriter::ColumnWriter(const OutputFile& file, std::uint64_t offset, std::size_t bufferBytes)
+  : File(file)
+  , Offset(offset)
+  , Unwritten(bufferBytes)
+{
+}
+
+char* ColumnWriter::extend(std::size_t bytes)
+{
+  if (this->Used + bytes > this->Unwritten.size())
+  {
+    this->flush();
+    if (bytes > this->Unwritten.size())
+    {
+      this->Unwritten = Buffer<char>(bytes);
+    }
+  }
+  char* const room = this->Unwritten.data() + this->Used;
+  this->Used += bytes;
+  return room;
+}
+
+void ColumnWriter::endPart()
+{
+  this->Part.add(this->Unwritten.data() + this->Hashed, this->Used - this->Hashed);
+  this->Hashed = this->Used;
+  this->Checksums.push_back(this->Part.finish());
+}
+
+void ColumnWriter::flush()
+{
+  this->Part.add(this->Unwritten.data() + this->Hashed, this->Used - this->Hashed);
+  this->File.write(this->Offset, this->Unwritten.data(), this->Used);
+  this->Offset += this->Used;
+  this->Used = 0;
+  this->Hashed = 0;
+}
+
+std::uint64_t writeFrame(const OutputFile& file, const PieceLayout& layout, PieceTable& table)
+{
+  file.write(0, layout.Header.data(), layout.Header.size());
+  const std::size_t footer = std::strlen(pieceFooter);
+  file.write(layout.End, pieceFooter, footer);
+  file.startWriteback();
+  table.Offsets = layout.Offsets;
+  table.HeaderBytes = layout.Header.size();
+  table.HeaderChecksum = checksumOf(layout.Header.data(), layout.Header.size());
+  return layout.End + footer;
+}
+
+PieceWriter::PieceWriter(const PartitionedMesh& mesh, std::size_t number,
+  const PieceSummary& summary, std::size_t bufferBytes)
+  : Layout(layOutPiece(mesh, number, summary))
+  , File(mesh.piecePath(number))
+{
+  for (std::size_t a = 0; a < this->Layout.Arrays.size(); ++a)
+  {
+    const PieceArray& array = this->Layout.Arrays[a];
+    const std::uint64_t bytes =
+      std::uint64_t(storedTuples(mesh, summary, array.ofPoints())) * array.tupleBytes();
+    this->File.write(this->Layout.Offsets[a] - 8, &bytes, 8);
+    this->Columns.emplace_back(this->File, this->Layout.Offsets[a], bufferBytes);
+  }
+}
+
+void PieceWriter::endPart(bool ofPoints)
+{
+  for (std::size_t a = 0; a < this->Columns.size(); ++a)
+  {
+    if (this->Layout.Arrays[a].ofPoints() == ofPoints)
+    {
+      this->Columns[a].endPart();
+    }
+  }
+}
+
+std::uint64_t PieceWriter::finish(PieceTable& table)
+{
+  for (ColumnWriter& column : this->Columns)
+  {
+    column.flush();
+    table.Checksums.push_back(std::move(column.checksums()));
+  }
+  return writeFrame(this->File, this->Layout, table);
 }
 
 } // namespace tipp

@@ -2,13 +2,17 @@
 #ifndef tippPieceFile_h
 #define tippPieceFile_h
 
+#include "Arrays/Buffer.h"
 #include "Files/InputFile.h"
+#include "Files/OutputFile.h"
+#include "Partitioned/Checksum.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/PieceFormat.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <vector>
 
@@ -118,6 +122,63 @@ private:
   std::vector<std::int64_t> PointParts;
   std::vector<std::int64_t> CellParts;
   mutable std::int64_t BytesRead = 0;
+};
+
+/// The usual size of a ColumnWriter's buffer.
+constexpr std::size_t columnBufferBytes = std::size_t(1) << 20;
+
+/// Writes one array of a file sequentially through a buffer, and computes a checksum for each of
+/// its parts.
+class ColumnWriter
+{
+public:
+  /// `offset` and `bufferBytes` are in bytes. The file must outlive this.
+  ColumnWriter(const OutputFile& file, std::uint64_t offset, std::size_t bufferBytes);
+
+  /// Returns the buffer for the next bytes, which the caller must fill before the next call. Throws
+  /// IOError.
+  char* extend(std::size_t bytes);
+  void endPart();
+  /// Writes the buffered bytes.
+  void flush();
+  std::vector<std::uint64_t>& checksums() { return this->Checksums; }
+
+private:
+  const OutputFile& File;
+  std::uint64_t Offset;
+  Buffer<char> Unwritten; ///< the first `Used` bytes; not cleared, as most pieces fill little of it
+  std::size_t Used = 0;
+  std::size_t Hashed = 0;
+  Checksum Part;
+  std::vector<std::uint64_t> Checksums;
+};
+
+/// Writes the header before the arrays and the footer after them, and completes the offsets in the
+/// piece's table. Returns the file's size in bytes. Throws IOError.
+std::uint64_t writeFrame(const OutputFile& file, const PieceLayout& layout, PieceTable& table);
+
+/// Writes a piece's file, whose counts are known, array by array in the order of tuples.
+class PieceWriter
+{
+public:
+  /// `bufferBytes` is per array. Throws IOError.
+  PieceWriter(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& summary,
+    std::size_t bufferBytes);
+
+  const std::vector<PieceArray>& arrays() const { return this->Layout.Arrays; }
+  /// Returns the buffer for the next bytes of an array, to be filled before the next call for this
+  /// array.
+  char* extend(std::size_t array, std::size_t bytes) { return this->Columns[array].extend(bytes); }
+  void endPart(bool ofPoints);
+
+  /// Completes the file, and the offsets and checksums in its table. Returns the file's size in
+  /// bytes.
+  std::uint64_t finish(PieceTable& table);
+
+private:
+  PieceLayout Layout;
+  OutputFile File;
+  std::deque<ColumnWriter> Columns;
 };
 
 } // namespace tipp

@@ -155,7 +155,7 @@ void takeArrays(
   for (const PieceArray& array : arrays)
   {
     const std::uint64_t offset = in.word();
-    const auto tuples = std::uint64_t(storedTuples(mesh, piece, array));
+    const auto tuples = std::uint64_t(storedTuples(mesh, piece, array.ofPoints()));
     if (offset > piece.FileBytes || tuples > (piece.FileBytes - offset) / array.tupleBytes())
     {
       in.fail("has the array " + array.Name + " end behind its file");
@@ -172,22 +172,101 @@ void takeArrays(
   }
 }
 
+std::string startOf(const std::string& type)
+{
+  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + type +
+    "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
+}
+
+/// The attributes that describe an array both in a piece and in the .pvtu.
+std::string describe(const PieceArray& array)
+{
+  // VTK's connectivity has one component.
+  const int components = array.Role == PieceRole::Connectivity ? 1 : array.Components;
+  std::string text = std::string(" type=\"") + scalarName(array.Type) + "\" Name=\"" +
+    escapedXml(array.Name) + "\" NumberOfComponents=\"" + std::to_string(components) + "\"";
+  // VTK accepts global ids only in arrays of vtkIdType.
+  const bool ids = array.Role == PieceRole::PointIds || array.Role == PieceRole::CellIds;
+  return ids ? text + " IdType=\"1\"" : text;
+}
+
+/// The section that lists arrays of this role. Relies on the order of the roles.
+const char* sectionOf(PieceRole role)
+{
+  return role == PieceRole::Points ? "Points"
+    : role <= PieceRole::PointData ? "PointData"
+    : role <= PieceRole::Types     ? "Cells"
+                                   : "CellData";
+}
+
+/// The sections that list the arrays of a piece. Null offsets: those of the .pvtu, whose tags begin
+/// with P and which has no section Cells.
+std::string sections(
+  const std::vector<PieceArray>& arrays, const std::vector<std::uint64_t>* offsets)
+{
+  const std::string indent = "      ";
+  const std::string prefix = offsets ? "" : "P";
+  std::string text;
+  for (const std::string name : { "Points", "PointData", "Cells", "CellData" })
+  {
+    if (!offsets && name == "Cells")
+    {
+      continue;
+    }
+    const char* const ids = name == "PointData" ? pointIdsName
+      : name == "CellData"                      ? cellIdsName
+                                                : nullptr;
+    text += indent + "<" + prefix + name +
+      (ids ? " GlobalIds=\"" + std::string(ids) + "\"" : std::string()) + ">\n";
+    for (std::size_t a = 0; a < arrays.size(); ++a)
+    {
+      if (name == sectionOf(arrays[a].Role))
+      {
+        text += indent + "  <" + prefix + "DataArray" + describe(arrays[a]);
+        text += offsets
+          ? " format=\"appended\" offset=\"" + std::to_string((*offsets)[a] - 8) + "\"/>\n"
+          : "/>\n";
+      }
+    }
+    text += indent + "</" + prefix + name + ">\n";
+  }
+  return text;
+}
+
+/// The XML header without its padding; array offsets are relative to the appended data.
+std::string headerText(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& piece,
+  const PieceLayout& layout)
+{
+  std::string header = startOf("UnstructuredGrid");
+  header += "  <!-- Piece " + std::to_string(number) + " of " + std::to_string(mesh.Pieces.size()) +
+    " of a partitioned mesh; ../index.json tells more. -->\n";
+  header += "  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"" +
+    std::to_string(storedTuples(mesh, piece, true)) + "\" NumberOfCells=\"" +
+    std::to_string(storedTuples(mesh, piece, false)) + "\">\n";
+  header += sections(layout.Arrays, &layout.Offsets);
+  header += "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n";
+  return header;
+}
+
 } // namespace
 
-std::vector<std::int64_t> PieceTable::parts(
+std::vector<std::int64_t> PieceTable::partStarts(
   const PartitionedMesh& mesh, const PieceSummary& piece, bool ofPoints) const
 {
-  std::vector<std::int64_t> counts{ ofPoints ? piece.Points : piece.Cells };
-  for (const SharedGroup& group : ofPoints ? this->PointGroups : this->CellGroups)
+  // Backwards: the first part is what the others leave.
+  const std::vector<SharedGroup>& groups = ofPoints ? this->PointGroups : this->CellGroups;
+  std::vector<std::int64_t> starts{ ofPoints ? piece.Points : piece.Cells };
+  for (auto group = groups.rbegin(); group != groups.rend(); ++group)
   {
-    counts.push_back(group.Count);
-    counts[0] -= group.Count;
+    starts.push_back(starts.back() - group->Count);
   }
+  starts.push_back(0);
+  std::reverse(starts.begin(), starts.end());
   if (mesh.Duplicated)
   {
-    counts.push_back(ofPoints ? piece.GhostPoints : piece.BorrowedCells);
+    starts.push_back(storedTuples(mesh, piece, ofPoints));
   }
-  return counts;
+  return starts;
 }
 
 Bytes packTable(const PieceTable& table)
@@ -271,88 +350,6 @@ const char* const cellIdsName = "GlobalCellIds";
 const char* const ghostsName = "vtkGhostType";
 const char* const pieceFooter = "\n  </AppendedData>\n</VTKFile>\n";
 
-namespace
-{
-
-std::string startOf(const std::string& type)
-{
-  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + type +
-    "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
-}
-
-/// The attributes that describe an array both in a piece and in the .pvtu.
-std::string describe(const PieceArray& array)
-{
-  // VTK's connectivity has one component.
-  const int components = array.Role == PieceRole::Connectivity ? 1 : array.Components;
-  std::string text = std::string(" type=\"") + scalarName(array.Type) + "\" Name=\"" +
-    escapedXml(array.Name) + "\" NumberOfComponents=\"" + std::to_string(components) + "\"";
-  // VTK accepts global ids only in arrays of vtkIdType.
-  const bool ids = array.Role == PieceRole::PointIds || array.Role == PieceRole::CellIds;
-  return ids ? text + " IdType=\"1\"" : text;
-}
-
-/// The section that lists arrays of this role. Relies on the order of the roles.
-const char* sectionOf(PieceRole role)
-{
-  return role == PieceRole::Points ? "Points"
-    : role <= PieceRole::PointData ? "PointData"
-    : role <= PieceRole::Types     ? "Cells"
-                                   : "CellData";
-}
-
-/// The sections that list the arrays of a piece. Null offsets: those of the .pvtu, whose tags begin
-/// with P and which has no section Cells.
-std::string sections(
-  const std::vector<PieceArray>& arrays, const std::vector<std::uint64_t>* offsets)
-{
-  const std::string indent = "      ";
-  const std::string prefix = offsets ? "" : "P";
-  std::string text;
-  for (const std::string name : { "Points", "PointData", "Cells", "CellData" })
-  {
-    if (!offsets && name == "Cells")
-    {
-      continue;
-    }
-    const char* const ids = name == "PointData" ? pointIdsName
-      : name == "CellData"                      ? cellIdsName
-                                                : nullptr;
-    text += indent + "<" + prefix + name +
-      (ids ? " GlobalIds=\"" + std::string(ids) + "\"" : std::string()) + ">\n";
-    for (std::size_t a = 0; a < arrays.size(); ++a)
-    {
-      if (name == sectionOf(arrays[a].Role))
-      {
-        text += indent + "  <" + prefix + "DataArray" + describe(arrays[a]);
-        text += offsets
-          ? " format=\"appended\" offset=\"" + std::to_string((*offsets)[a] - 8) + "\"/>\n"
-          : "/>\n";
-      }
-    }
-    text += indent + "</" + prefix + name + ">\n";
-  }
-  return text;
-}
-
-/// The XML header without its padding; array offsets are relative to the appended data.
-std::string headerText(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& piece,
-  const PieceLayout& layout)
-{
-  const std::int64_t cells = piece.Cells + (mesh.Duplicated ? piece.BorrowedCells : 0);
-  std::string header = startOf("UnstructuredGrid");
-  header += "  <!-- Piece " + std::to_string(number) + " of " + std::to_string(mesh.Pieces.size()) +
-    " of a partitioned mesh; ../index.json tells more. -->\n";
-  header += "  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"" +
-    std::to_string(piece.Points + piece.GhostPoints) + "\" NumberOfCells=\"" +
-    std::to_string(cells) + "\">\n";
-  header += sections(layout.Arrays, &layout.Offsets);
-  header += "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n";
-  return header;
-}
-
-} // namespace
-
 std::string storedName(const StoredArray& array)
 {
   return array.Step < 0 ? array.Name : array.Name + " step " + std::to_string(array.Step);
@@ -361,8 +358,8 @@ std::string storedName(const StoredArray& array)
 bool hasWideIds(const PartitionedMesh& mesh, const PieceSummary& piece)
 {
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
-  const std::int64_t cells = piece.Cells + (mesh.Duplicated ? piece.BorrowedCells : 0);
-  return piece.Points + piece.GhostPoints > most || cells > most / mesh.CellSize;
+  return storedTuples(mesh, piece, true) > most ||
+    storedTuples(mesh, piece, false) > most / mesh.CellSize;
 }
 
 std::vector<PieceArray> pieceArrays(const PartitionedMesh& mesh, const PieceSummary& piece)
@@ -398,14 +395,10 @@ std::vector<PieceArray> pieceArrays(const PartitionedMesh& mesh, const PieceSumm
   return arrays;
 }
 
-std::int64_t storedTuples(
-  const PartitionedMesh& mesh, const PieceSummary& piece, const PieceArray& array)
+std::int64_t storedTuples(const PartitionedMesh& mesh, const PieceSummary& piece, bool ofPoints)
 {
-  if (array.ofPoints())
-  {
-    return piece.Points + piece.GhostPoints;
-  }
-  return piece.Cells + (mesh.Duplicated ? piece.BorrowedCells : 0);
+  return ofPoints ? piece.Points + piece.GhostPoints
+                  : piece.Cells + (mesh.Duplicated ? piece.BorrowedCells : 0);
 }
 
 PieceLayout layOutPiece(const PartitionedMesh& mesh, std::size_t number, const PieceSummary& piece,
@@ -419,8 +412,9 @@ PieceLayout layOutPiece(const PartitionedMesh& mesh, std::size_t number, const P
   {
     at += 8;
     layout.Offsets.push_back(at);
-    layout.End =
-      at + std::uint64_t(storedTuples(mesh, room ? *room : piece, array)) * array.tupleBytes();
+    layout.End = at +
+      std::uint64_t(storedTuples(mesh, room ? *room : piece, array.ofPoints())) *
+        array.tupleBytes();
     at = (layout.End + 7) / 8 * 8;
   }
   std::string& header = layout.Header;

@@ -48,8 +48,8 @@ struct PieceTable
   std::uint64_t HeaderBytes = 0;                     ///< size of the file's XML header
   std::uint64_t HeaderChecksum = 0;                  ///< XXH3 of the header, 64 bits
 
-  /// The number of tuples in each part of the arrays of points, or of cells.
-  VTKTIPPIO_EXPORT std::vector<std::int64_t> parts(
+  /// The first tuple of each part of the arrays of points, or of cells, and the end of the last.
+  VTKTIPPIO_EXPORT std::vector<std::int64_t> partStarts(
     const PartitionedMesh& mesh, const PieceSummary& piece, bool ofPoints) const;
 };
 
@@ -115,10 +115,9 @@ bool hasWideIds(const PartitionedMesh& mesh, const PieceSummary& piece);
 VTKTIPPIO_EXPORT std::vector<PieceArray> pieceArrays(
   const PartitionedMesh& mesh, const PieceSummary& piece);
 
-/// The number of tuples of an array in the piece's file, including those of duplicated borrowed
+/// The number of points, or of cells, in the piece's file, including those of duplicated borrowed
 /// cells.
-std::int64_t storedTuples(
-  const PartitionedMesh& mesh, const PieceSummary& piece, const PieceArray& array);
+std::int64_t storedTuples(const PartitionedMesh& mesh, const PieceSummary& piece, bool ofPoints);
 
 /// The offsets, in bytes, of all sections of a piece's file.
 struct PieceLayout

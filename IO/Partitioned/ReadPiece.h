@@ -11,11 +11,6 @@
 #include <functional>
 #include <vector>
 
-// Declared alone: the wheel is built without VTK.
-class vtkUnstructuredGrid;
-template <class T>
-class vtkSmartPointer;
-
 namespace tipp
 {
 
@@ -84,10 +79,6 @@ struct Piece
 /// not verified. Throws IOError. Several threads may read pieces of a mesh at once.
 VTKTIPPIO_EXPORT Piece readPiece(
   const PartitionedMesh& mesh, std::size_t number, const PieceOptions& options = {});
-
-/// Converts a piece to a VTK data set that takes ownership of its memory: global ids as such,
-/// vtkGhostType of points, and of cells if the piece has borrowed ones.
-VTKTIPPIO_EXPORT vtkSmartPointer<vtkUnstructuredGrid> makeGrid(Piece&& piece);
 
 } // namespace tipp
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioning/BuildTree.h"
+#include "Partitioning/MeshTiling.h"
 
 #include "Files/IOError.h"
 #include "OpenCL/Devices.h"
 #include "Parallel/ParallelFor.h"
-#include "Parallel/Poll.h"
 #include "Partition/ClassifyCells.h"
 #include "Ranks/Communicator.h"
 
@@ -29,9 +28,9 @@ struct MeasuredCell
 
 MeasuredCell measure(const CellShape& shape, int dimension, std::size_t index)
 {
-  MeasuredCell cell{ static_cast<std::uint32_t>(index), shape.cell(index), {}, 0.0, false };
+  MeasuredCell cell{ std::uint32_t(index), shape.cell(index), {}, 0.0, false };
   cell.IsFinite = shape.bounds(cell.Corners, cell.Bounds);
-  for (std::size_t axis = 0; axis < static_cast<std::size_t>(dimension); ++axis)
+  for (std::size_t axis = 0; axis < std::size_t(dimension); ++axis)
   {
     cell.Length = std::max(cell.Length, cell.Bounds.Max[axis] - cell.Bounds.Min[axis]);
   }
@@ -67,7 +66,7 @@ std::vector<std::int32_t> leavesAbove(
   std::vector<std::int32_t> leaves;
   for (std::size_t index = 0; index < tree.size(); ++index)
   {
-    const auto node = static_cast<std::int32_t>(index);
+    const auto node = std::int32_t(index);
     if (counts[index] > limit && tree.isLeaf(node) && tree.canSplit(node))
     {
       leaves.push_back(node);
@@ -102,7 +101,7 @@ public:
       [&](std::size_t i, ThreadResult& result)
       { this->visitTree(shape, measure(shape, this->Tree.dimension(), i), result); }));
     const std::size_t most =
-      std::max(std::size_t(1) << 17, 8 * (static_cast<std::size_t>(firstCell) + chunk.Cells));
+      std::max(std::size_t(1) << 17, 8 * (std::size_t(firstCell) + chunk.Cells));
     do
     {
       if (this->Tree.size() > most)
@@ -136,12 +135,12 @@ private:
   template <typename VisitItem>
   std::vector<ThreadResult> onThreads(std::size_t items, const VisitItem& visit) const
   {
-    const auto count = static_cast<std::size_t>(this->Threads);
+    const auto count = std::size_t(this->Threads);
     std::vector<ThreadResult> results(count);
     parallelFor(this->Threads, this->Threads,
       [&](std::int64_t thread)
       {
-        const auto t = static_cast<std::size_t>(thread);
+        const auto t = std::size_t(thread);
         results[t].Counts.resize(this->Tree.size(), 0);
         for (std::size_t i = items * t / count; i < items * (t + 1) / count; ++i)
         {
@@ -163,7 +162,7 @@ private:
           (!isWithin(cell.Bounds, this->Tree.domain()) &&
             !shape.meets(cell.Corners, this->Tree.domain())))
         {
-          throw IOError("Cell " + std::to_string(firstCell + static_cast<std::int64_t>(i)) +
+          throw IOError("Cell " + std::to_string(firstCell + std::int64_t(i)) +
             (cell.IsFinite ? " lies outside the domain that is partitioned."
                            : " has a corner whose coordinates are not finite."));
         }
@@ -187,9 +186,9 @@ private:
       const std::int32_t node = stack[--size];
       if (this->Marked.empty())
       {
-        ++result.Counts[static_cast<std::size_t>(node)];
+        ++result.Counts[std::size_t(node)];
       }
-      else if (this->Marked[static_cast<std::size_t>(node)] != 0)
+      else if (this->Marked[std::size_t(node)] != 0)
       {
         result.Visits.push_back({ node, cell.Index });
       }
@@ -222,7 +221,7 @@ private:
     const std::vector<std::int32_t> leaves = leavesAbove(this->Tree, this->Counts, limit);
     for (const std::int32_t leaf : leaves)
     {
-      this->Marked[static_cast<std::size_t>(leaf)] = 1;
+      this->Marked[std::size_t(leaf)] = 1;
     }
     return !leaves.empty();
   }
@@ -234,7 +233,7 @@ private:
     {
       if (this->Marked[index] != 0)
       {
-        this->Tree.split(static_cast<std::int32_t>(index));
+        this->Tree.split(std::int32_t(index));
       }
     }
     const std::vector<Visit> parents = std::move(this->Visits);
@@ -242,7 +241,7 @@ private:
       [&](std::size_t i, ThreadResult& result)
       {
         const Visit& parent = parents[i];
-        if (this->Marked[static_cast<std::size_t>(parent.Node)] == 0)
+        if (this->Marked[std::size_t(parent.Node)] == 0)
         {
           return;
         }
@@ -250,7 +249,7 @@ private:
         this->forEachChildMet(shape, cell, parent.Node,
           [&](std::int32_t child)
           {
-            ++result.Counts[static_cast<std::size_t>(child)];
+            ++result.Counts[std::size_t(child)];
             result.Visits.push_back({ child, parent.Cell });
           });
       });
@@ -371,7 +370,7 @@ private:
       const std::int64_t count = std::min(this->Options.ChunkCells, this->Share.second - first);
       this->readChunk(first, count);
       counting.add({ this->Cells.Dimension, this->Cells.Corners, this->Coordinates.data(),
-                     static_cast<std::size_t>(count) },
+                     std::size_t(count) },
         first, limit);
     }
     return counting.counts();
@@ -404,8 +403,8 @@ private:
   /// The tiling of the tree without the splits that the counts do not require.
   BoxTiling finish(const RefinementTree& tree, const NodeCounts& counts) const
   {
-    return tree.tiling([&](std::int32_t node)
-      { return counts[static_cast<std::size_t>(node)] > this->Options.Threshold; });
+    return tree.tiling(
+      [&](std::int32_t node) { return counts[std::size_t(node)] > this->Options.Threshold; });
   }
 
   const CellSource& Cells;

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/InputFile.h"
 #include "Flat/FlatMesh.h"
+#include "Loading/ArrayFiles.h"
 #include "Loading/VertexLoader.h"
 #include "Parallel/ParallelFor.h"
-#include "Parallel/Poll.h"
 #include "Partition/ClassifyCells.h"
 #include "Partitioning/MeshTiling.h"
 #include "Partitioning/PartitionJob.h"
 
 #include <algorithm>
 #include <cstring>
-#include <map>
 #include <memory>
 #include <tuple>
 
@@ -24,52 +23,46 @@ namespace
 class ArrayRows
 {
 public:
-  /// Throws IOError if a file cannot be opened.
+  /// The arrays have the same number of tuples. Throws IOError if a file cannot be opened or is too
+  /// short.
   explicit ArrayRows(const std::vector<RawArray>& arrays)
+    : Files(arrays)
   {
-    std::map<std::string, std::shared_ptr<const InputFile>> files;
-    for (const RawArray& array : arrays)
-    {
-      std::shared_ptr<const InputFile>& file = files[array.Path];
-      file = file ? file : std::make_shared<const InputFile>(array.Path);
-      this->Columns.push_back({ file, array.Offset, array.tupleBytes(), {} });
-    }
   }
 
   /// Reads tuples [first, first + count) of each array. Throws IOError.
   void read(std::int64_t first, std::int64_t count, int threads)
   {
-    parallelFor(std::int64_t(this->Columns.size()), threads,
-      [&](std::int64_t number)
-      {
-        Column& column = this->Columns[std::size_t(number)];
-        column.Values.resize(std::size_t(count) * column.TupleBytes);
-        column.File->read(column.Offset + std::uint64_t(first) * column.TupleBytes,
-          column.Values.data(), column.Values.size());
-      });
+    LoadCounters unused;
+    this->Tuples.resize(this->Files, count);
+    for (std::size_t a = 0; a < this->Files.count(); ++a)
+    {
+      this->Files.read(a, first, count, this->Tuples.data(a), threads, unused);
+    }
   }
 
   /// Copies the row at index `index` of the range to `to`; returns the end of the copy.
   char* copyRow(std::size_t index, char* to) const
   {
-    for (const Column& column : this->Columns)
+    for (std::size_t a = 0; a < this->Files.count(); ++a)
     {
-      std::memcpy(to, column.Values.data() + index * column.TupleBytes, column.TupleBytes);
-      to += column.TupleBytes;
+      const std::size_t bytes = this->Files.tupleBytes(a);
+      std::memcpy(to, this->Tuples.data(a) + index * bytes, bytes);
+      to += bytes;
     }
     return to;
   }
 
 private:
-  struct Column
-  {
-    std::shared_ptr<const InputFile> File;
-    std::uint64_t Offset;
-    std::size_t TupleBytes;
-    std::vector<char> Values;
-  };
-  std::vector<Column> Columns;
+  ArrayFiles Files;
+  TupleBuffers Tuples;
 };
+
+/// The owner in an entry of the file that writeOwners() makes.
+std::int32_t ownerOf(std::int32_t entry)
+{
+  return entry < 0 ? -1 - entry : entry;
+}
 
 /// A ghost point: a vertex that a piece needs but does not own.
 struct GhostPoint
@@ -109,7 +102,7 @@ class CellDistribution
 public:
   explicit CellDistribution(PartitionJob& job)
     : Job(job)
-    , Corners(std::size_t(job.Rows.Corners))
+    , Corners(std::size_t(job.Mesh.CellSize))
     , Data(job.CellData)
     , OwnerLoader(makeVertexLoader({ job.owners() }, job.loaderOptions()))
     , PointLoader(makeVertexLoader({ job.Mesh.Points }, job.loaderOptions()))
@@ -119,12 +112,12 @@ public:
   void run()
   {
     const auto [first, last] = this->Job.Team.shareOf(this->Job.Mesh.Cells.Tuples);
-    CellReader reader(this->Job.Mesh, first, last, this->Job.Threads);
+    const CellReader reader(this->Job.Mesh, this->Job.Threads);
     const std::size_t batch = std::size_t(std::max<std::int64_t>(1, this->Job.ChunkCells / 8));
     Chunk chunk;
-    while (reader.next(this->Job.ChunkCells, chunk.Ids))
+    for (chunk.First = first; chunk.First < last; chunk.First += this->Job.ChunkCells)
     {
-      chunk.First = reader.firstCell();
+      reader.read(chunk.First, std::min(this->Job.ChunkCells, last - chunk.First), chunk.Ids);
       chunk.Cells = chunk.Ids.size() / this->Corners;
       this->Data.read(chunk.First, std::int64_t(chunk.Cells), this->Job.Threads);
       this->loadOwners(chunk);
@@ -180,11 +173,7 @@ private:
           }
         }
       });
-    chunk.Border.clear();
-    for (const std::vector<std::uint32_t>& part : border)
-    {
-      chunk.Border.insert(chunk.Border.end(), part.begin(), part.end());
-    }
+    chunk.Border = concatenated(border);
   }
 
   void spillInterior(const Chunk& chunk)
@@ -205,11 +194,8 @@ private:
     }
     const std::vector<double> coordinates =
       loadCoordinates(this->Job.Mesh, *this->PointLoader, ids);
-    ClassifyOptions options;
-    options.Device = this->Job.Options.Device;
-    options.Threads = this->Job.Threads;
     return classifyCells({ int(this->Corners) - 1, int(this->Corners), coordinates.data(), count },
-      *this->Job.Tiling, options);
+      *this->Job.Tiling, { this->Job.Options.Device, this->Job.Threads });
   }
 
   void spillBorder(const Chunk& chunk, std::size_t first, std::size_t count)
@@ -257,7 +243,7 @@ private:
       for (std::size_t corner = 0; corner < this->Corners; ++corner)
       {
         const std::int64_t point = chunk.Ids[cell * this->Corners + corner];
-        const std::int32_t owner = this->ownerOf(chunk.Owners[cell * this->Corners + corner]);
+        const std::int32_t owner = ownerOf(chunk.Owners[cell * this->Corners + corner]);
         if (members.Owner[i] != owner)
         {
           points.push_back({ point, members.Owner[i], 0 });
@@ -279,8 +265,6 @@ private:
       [&](std::size_t i) { return points[i].Point / this->Job.ChunkPoints; },
       [&](std::size_t i, char* to) { std::memcpy(to, &points[i], sizeof(GhostPoint)); });
   }
-
-  std::int32_t ownerOf(std::int32_t entry) const { return entry < 0 ? -1 - entry : entry; }
 
   char* putCell(const Chunk& chunk, std::size_t cell, char* to) const
   {
@@ -405,7 +389,7 @@ private:
     for (std::uint32_t i = 0; i < owners.size(); ++i)
     {
       pollAt(i);
-      copies.push_back({ i, owners[i] < 0 ? -1 - owners[i] : owners[i], 0 });
+      copies.push_back({ i, ownerOf(owners[i]), 0 });
       for (; next != ghosts.end() && next->Point == first + i; ++next)
       {
         const std::uint64_t ghost = next->GhostOnly != 0 ? RowLayout::GhostOnly : 0;

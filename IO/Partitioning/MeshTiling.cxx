@@ -8,13 +8,12 @@
 #include "Files/TextFile.h"
 #include "Flat/FlatMesh.h"
 #include "Parallel/ParallelFor.h"
-#include "Parallel/Poll.h"
-#include "Partitioning/BuildTree.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -124,7 +123,175 @@ Least leastOf(const FlatMesh& mesh, std::int64_t first, std::int64_t count, cons
   return least;
 }
 
+void requirePieces(std::int64_t boxes, const FlatMesh& mesh)
+{
+  if (boxes > mostPieces)
+  {
+    throw IOError(mesh.Path,
+      "would be cut into " + std::to_string(boxes) + " pieces, more than the " +
+        std::to_string(mostPieces) + " that a mesh can have; choose a coarser tiling.");
+  }
+}
+
+Bounds boundsOf(const Box3& box)
+{
+  return { box.Min[0], box.Max[0], box.Min[1], box.Max[1], box.Min[2], box.Max[2] };
+}
+
+/// Greedy runs of weight at most `most`, which no single piece exceeds, leaving at least one piece
+/// for each later rank. The last rank gets the rest.
+std::vector<std::size_t> runsOf(
+  const std::vector<std::int64_t>& weights, std::size_t ranks, std::int64_t most)
+{
+  std::vector<std::size_t> starts = { 0 };
+  std::size_t piece = 0;
+  for (std::size_t later = ranks - 1; later > 0; --later)
+  {
+    const std::size_t end = weights.size() > later ? weights.size() - later : 0;
+    std::int64_t sum = 0;
+    const std::size_t first = piece;
+    for (; piece < end && weights[piece] <= most - sum; ++piece)
+    {
+      sum += weights[piece];
+    }
+    // With fewer pieces than ranks, the first ranks get one each.
+    piece = std::min(std::max(piece, first + 1), weights.size());
+    starts.push_back(piece);
+  }
+  starts.push_back(weights.size());
+  return starts;
+}
+
 } // namespace
+
+RefinementTree::RefinementTree(int dimension, const Box3& domain)
+  : Dimension(dimension)
+  , ChildCount(BoxTiling::childCount(dimension, domain))
+  , FirstChild{ -1 }
+  , Boxes{ domain }
+  , Depths{ 0 }
+{
+}
+
+double RefinementTree::length(std::int32_t node) const
+{
+  const Box3& box = this->box(node);
+  double longest = 0.0;
+  for (std::size_t axis = 0; axis < std::size_t(this->Dimension); ++axis)
+  {
+    longest = std::max(longest, box.Max[axis] - box.Min[axis]);
+  }
+  return longest;
+}
+
+bool RefinementTree::canSplit(std::int32_t node) const
+{
+  if (this->ChildCount == 1 || this->Depths[at(node)] >= BoxTiling::MaxDepth)
+  {
+    return false;
+  }
+  const Box3& box = this->box(node);
+  const Box3 lowest = BoxTiling::childBox(this->Dimension, this->domain(), box, 0);
+  for (std::size_t axis = 0; axis < std::size_t(this->Dimension); ++axis)
+  {
+    const bool cut = this->domain().Min[axis] < this->domain().Max[axis];
+    const double middle = lowest.Max[axis];
+    if (cut && (middle <= box.Min[axis] || middle >= box.Max[axis]))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+void RefinementTree::split(std::int32_t leaf)
+{
+  constexpr std::size_t most = std::size_t(1) << 24;
+  if (this->size() + std::size_t(this->ChildCount) > most)
+  {
+    throw IOError("The tree of partitions would have more than " + std::to_string(most) +
+      " nodes; allow more cells a partition.");
+  }
+  this->FirstChild[at(leaf)] = std::int32_t(this->size());
+  const auto depth = std::uint8_t(this->Depths[at(leaf)] + 1);
+  for (int which = 0; which < this->ChildCount; ++which)
+  {
+    this->Boxes.push_back(
+      BoxTiling::childBox(this->Dimension, this->domain(), this->box(leaf), which));
+    this->FirstChild.push_back(-1);
+    this->Depths.push_back(depth);
+  }
+}
+
+std::string RefinementTree::structure() const
+{
+  std::string letters;
+  letters.reserve(this->size());
+  const auto add = [&](const auto& self, std::int32_t node) -> void
+  {
+    letters.push_back(this->isLeaf(node) ? '0' : '1');
+    for (int which = 0; which < this->ChildCount && !this->isLeaf(node); ++which)
+    {
+      self(self, this->firstChild(node) + which);
+    }
+  };
+  add(add, 0);
+  return letters;
+}
+
+void RefinementTree::refine(const std::string& structure)
+{
+  // Stack of nodes whose letter has not been read, the next one last.
+  std::vector<std::int32_t> waiting = { 0 };
+  const auto require = [](bool isValid)
+  {
+    if (!isValid)
+    {
+      throw IOError("A rank sent nodes that do not make a tree of partitions.");
+    }
+  };
+  for (const char letter : structure)
+  {
+    require(!waiting.empty() && (letter == '0' || letter == '1'));
+    const std::int32_t node = waiting.back();
+    waiting.pop_back();
+    if (letter == '0')
+    {
+      continue;
+    }
+    require(this->Depths[at(node)] < BoxTiling::MaxDepth);
+    if (this->isLeaf(node))
+    {
+      this->split(node);
+    }
+    for (int which = this->ChildCount - 1; which >= 0; --which)
+    {
+      waiting.push_back(this->firstChild(node) + which);
+    }
+  }
+  require(waiting.empty());
+}
+
+BoxTiling RefinementTree::tiling(const std::function<bool(std::int32_t)>& keep) const
+{
+  std::vector<std::int32_t> nodes = { -1 };
+  const auto add = [&](const auto& self, std::int32_t from, std::size_t to) -> void
+  {
+    if (this->isLeaf(from) || !keep(from))
+    {
+      return;
+    }
+    const std::size_t first = nodes.size();
+    nodes[to] = std::int32_t(first);
+    nodes.insert(nodes.end(), std::size_t(this->ChildCount), -1);
+    for (int which = 0; which < this->ChildCount; ++which)
+    {
+      self(self, this->firstChild(from) + which, first + std::size_t(which));
+    }
+  };
+  add(add, 0, 0);
+  return BoxTiling::tree(this->Dimension, this->domain(), nodes);
+}
 
 Box3 boundsOfPoints(const FlatMesh& mesh, Communicator& ranks, int threads)
 {
@@ -201,26 +368,6 @@ std::vector<double> loadCoordinates(
   return coordinates;
 }
 
-namespace
-{
-
-void requirePieces(std::int64_t boxes, const FlatMesh& mesh)
-{
-  if (boxes > mostPieces)
-  {
-    throw IOError(mesh.Path,
-      "would be cut into " + std::to_string(boxes) + " pieces, more than the " +
-        std::to_string(mostPieces) + " that a mesh can have; choose a coarser tiling.");
-  }
-}
-
-Bounds boundsOf(const Box3& box)
-{
-  return { box.Min[0], box.Max[0], box.Min[1], box.Max[1], box.Min[2], box.Max[2] };
-}
-
-} // namespace
-
 BoxTiling makeTiling(const FlatMesh& mesh, const TilingChoice& choice, const LoaderOptions& loading,
   std::int64_t chunkCells, int threads, Communicator& ranks, const Box3& domain)
 {
@@ -239,22 +386,18 @@ BoxTiling makeTiling(const FlatMesh& mesh, const TilingChoice& choice, const Loa
   ranks.attempt(
     [&]
     {
-      reader.emplace(mesh, 0, -1, threads);
+      reader.emplace(mesh, threads);
       loader = makeVertexLoader({ mesh.Points }, loading);
     });
   std::vector<std::int64_t> ids;
   const CellSource source{ dimension, mesh.CellSize, mesh.Cells.Tuples,
     [&](std::int64_t first, std::int64_t count, std::vector<double>& coordinates)
     {
-      ids.resize(std::size_t(count * mesh.CellSize));
-      reader->read(first, count, ids.data());
+      reader->read(first, count, ids);
       std::vector<double>().swap(coordinates); // frees the previous chunk before the next is loaded
       coordinates = loadCoordinates(mesh, *loader, ids);
     } };
-  TreeOptions options;
-  options.Threshold = choice.Threshold;
-  options.ChunkCells = chunkCells;
-  options.Threads = threads;
+  const TreeOptions options{ choice.Threshold, chunkCells, threads };
   BoxTiling tiling = buildTree(source, domain, options, ranks.controller());
   requirePieces(tiling.count(), mesh);
   return tiling;
@@ -268,6 +411,34 @@ void setPieces(PartitionedMesh& mesh, const Box3& domain, const BoxTiling& tilin
   {
     mesh.Pieces[std::size_t(i)].Box = boundsOf(tiling.box(i));
   }
+}
+
+std::vector<std::size_t> assignPieces(std::vector<std::int64_t> weights, int ranks)
+{
+  std::int64_t low = 0;
+  std::int64_t high = 0;
+  for (std::int64_t& weight : weights)
+  {
+    weight = std::max<std::int64_t>(weight, 0);
+    low = std::max(low, weight);
+    high += weight;
+  }
+  const auto count = std::size_t(std::max(ranks, 1));
+  // Bisection for the least possible weight of the heaviest run.
+  while (low < high)
+  {
+    const std::int64_t most = low + (high - low) / 2;
+    const auto last = std::ptrdiff_t(runsOf(weights, count, most)[count - 1]);
+    if (std::accumulate(weights.begin() + last, weights.end(), std::int64_t(0)) <= most)
+    {
+      high = most;
+    }
+    else
+    {
+      low = most + 1;
+    }
+  }
+  return runsOf(weights, count, low);
 }
 
 } // namespace tipp

@@ -2,12 +2,12 @@
 #include "Partitioning/PartitionMesh.h"
 
 #include "Files/IOError.h"
-#include "Files/OutputPath.h"
+#include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
 #include "Flat/FlattenDataSet.h"
-#include "Partitioned/PieceWriter.h"
+#include "Partitioned/FinishedPieces.h"
 #include "Ranks/Communicator.h"
-#include "Vtk/ReadDataSet.h"
+#include "Vtk/DataSets.h"
 
 #include "vtkAppendFilter.h"
 #include "vtkDataSet.h"
@@ -79,9 +79,7 @@ vtkSmartPointer<vtkDataSet> gatherDataSets(
         checkDataSet(set, "the input");
       }
     });
-  std::vector<std::int64_t> count = { std::int64_t(sets.size()) };
-  ranks.sum(count);
-  if (count[0] == 0)
+  if (!isTrueOnAny(ranks, !sets.empty()))
   {
     throw IOError("There is no data set to partition; set an input or InputFileName.");
   }

@@ -6,7 +6,6 @@
 #include "Parallel/ParallelFor.h"
 #include "Partition/BoxTiling.h"
 #include "Partitioned/PartitionedMesh.h"
-#include "Partitioned/PieceWriter.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Partitioning/Spill.h"
 #include "Ranks/Communicator.h"
@@ -24,7 +23,6 @@ namespace tipp
 /// The layout of cells and points in the rows that are spilled. Rows are not aligned.
 struct RowLayout
 {
-  int Corners = 3;            ///< vertices per cell
   std::size_t IdBytes = 4;    ///< size of an id in a cell's row: 8 if 31 bits do not suffice
   std::size_t CellBytes = 0;  ///< the cell's id, its vertices' ids, its attributes
   std::size_t CellData = 0;   ///< offset of its attributes
@@ -109,12 +107,6 @@ void distributePoints(PartitionJob& job);
 /// Writes the pieces' files, each rank a share of equal weight; then the first rank writes tables,
 /// .pvtu and index. All are synced on return. Collective. Throws IOError.
 void writePieces(PartitionJob& job);
-
-/// Writes one piece's file from its spilled rows. Only its points' ids, its shared and borrowed
-/// cells and their points are held in memory; the rest is streamed. `bufferBytes` is per array. The
-/// result lacks the borrowed groups. Throws IOError.
-FinishedPiece writeSpilledPiece(
-  const PartitionJob& job, std::size_t piece, std::size_t bufferBytes);
 
 } // namespace tipp
 

@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioning/PartitionMesh.h"
 
-#include "Files/FileSystem.h"
 #include "Files/IOError.h"
+#include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
 #include "Files/TemporaryFiles.h"
+#include "Npy/NpyFile.h"
 #include "Parallel/ParallelFor.h"
-#include "Parallel/Poll.h"
 #include "Parallel/Stopwatch.h"
+#include "Partitioned/FinishedPieces.h"
 #include "Partitioned/PieceFormat.h"
-#include "Partitioned/PieceWriter.h"
 #include "Partitioning/MeshTiling.h"
 #include "Partitioning/PartitionJob.h"
+#include "Query/Queries.h"
+#include "Query/ResidentMesh.h"
 #include "Ranks/Communicator.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <limits>
-#include <optional>
+#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -62,6 +64,25 @@ std::vector<RawArray> describeArrays(const FlatMesh& mesh, PartitionedMesh& resu
   return arrays;
 }
 
+RawArray PartitionJob::owners() const
+{
+  return { "owners", this->scratch("owners"), 0, Scalar::Int32, 1, this->Mesh.Points.Tuples };
+}
+
+LoaderOptions PartitionJob::loaderOptions() const
+{
+  LoaderOptions options = this->Options.Loading;
+  options.MemoryLimit = this->Options.MemoryLimit / 4;
+  options.Threads = this->Threads;
+  return options;
+}
+
+void PartitionJob::report(double fraction)
+{
+  this->Fraction = fraction;
+  poll();
+}
+
 namespace
 {
 
@@ -78,10 +99,9 @@ std::size_t tupleBytes(const std::vector<RawArray>& arrays)
 void layOutRows(PartitionJob& job)
 {
   RowLayout& rows = job.Rows;
-  rows.Corners = job.Mesh.CellSize;
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
   rows.IdBytes = std::max(job.Mesh.Points.Tuples, job.Mesh.Cells.Tuples) <= most ? 4 : 8;
-  rows.CellData = rows.IdBytes * std::size_t(1 + rows.Corners);
+  rows.CellData = rows.IdBytes * std::size_t(1 + job.Mesh.CellSize);
   rows.CellBytes = rows.CellData + tupleBytes(job.CellData);
   rows.PointBytes = 8 + job.Mesh.Points.tupleBytes() + tupleBytes(job.PointData);
 }
@@ -91,7 +111,7 @@ void chooseChunks(PartitionJob& job)
 {
   const RowLayout& rows = job.Rows;
   const std::uint64_t share = std::max<std::uint64_t>(job.Options.MemoryLimit / 4, 1);
-  const std::size_t corners = std::size_t(rows.Corners);
+  const std::size_t corners = std::size_t(job.Mesh.CellSize);
   const std::size_t perCell = corners * 12 + 12 + 2 * rows.CellBytes;
   const std::size_t perPoint = 20 + 2 * rows.PointBytes;
   constexpr std::int64_t most = 1 << 24;
@@ -109,7 +129,7 @@ std::uint64_t neededBytes(const PartitionJob& job)
 {
   const auto points = std::uint64_t(job.Mesh.Points.Tuples);
   const auto cells = std::uint64_t(job.Mesh.Cells.Tuples);
-  const auto corners = std::uint64_t(job.Rows.Corners);
+  const auto corners = std::uint64_t(job.Mesh.CellSize);
   const std::uint64_t spilled = cells * job.Rows.CellBytes + points * (job.Rows.PointBytes + 4);
   const std::uint64_t stored =
     cells * (corners * 4 + 4 + 1 + 8 + 1 + job.Rows.CellBytes - job.Rows.CellData) +
@@ -164,6 +184,10 @@ void prepare(PartitionJob& job, const std::string& path)
   layOutRows(job);
   chooseChunks(job);
   requireFreeSpace(path, job.Folder, neededBytes(job));
+  if (job.Team.isFirst())
+  {
+    fs::create_directory(job.Folder + "/pieces");
+  }
 }
 
 /// Replaces the temporary folder's path in a message by the mesh's name, which the user knows.
@@ -213,6 +237,130 @@ void runPhases(PartitionJob& job, const std::string& path)
   endPhase("write pieces");
 }
 
+template <typename Array>
+void dropNamed(const std::string& name, std::vector<Array>& arrays)
+{
+  arrays.erase(std::remove_if(arrays.begin(), arrays.end(),
+                 [&](const Array& array) { return array.Name == name; }),
+    arrays.end());
+}
+
+/// Creates the output's hidden folder on the first rank; returns null on the others. If it is not
+/// committed, the returned object's destructor removes it, or the next run if this one is killed.
+/// Collective.
+std::unique_ptr<PendingFolder> makeFolder(const std::string& output, Communicator& ranks)
+{
+  std::unique_ptr<PendingFolder> folder;
+  ranks.attempt(
+    [&]
+    {
+      if (ranks.isFirst())
+      {
+        folder = std::make_unique<PendingFolder>(output, &replaceableMesh);
+      }
+    });
+  return folder;
+}
+
+/// Options for a part of the work.
+PartitionOptions stepOf(const PartitionOptions& options, double begin, double end)
+{
+  PartitionOptions part = options;
+  part.Neighbors = false;
+  part.Progress = partOf(options.Progress, begin, end);
+  return part;
+}
+
+/// Writes the neighbours of all cells of a stored mesh as an .npy file.
+void writeNeighbors(
+  const std::string& stored, const std::string& path, const PartitionOptions& options)
+{
+  ResidentOptions resident;
+  resident.MemoryLimit = options.MemoryLimit;
+  resident.Threads = options.Threads;
+  const ResidentMesh mesh(stored, resident);
+  const int corners = mesh.mesh().CellSize;
+  const std::string start = npyFileStart("<i8", { mesh.mesh().Cells, corners });
+  OutputFile file(path);
+  file.write(0, start.data(), start.size());
+  for (std::size_t piece = 0; piece < mesh.mesh().Pieces.size(); ++piece)
+  {
+    poll();
+    const OwnedNeighbors owned = neighborsInPiece(mesh, piece);
+    const std::size_t bytes = std::size_t(corners) * sizeof(std::int64_t);
+    for (std::size_t begin = 0; begin < owned.Cells.size();)
+    {
+      std::size_t end = begin + 1; // of a run of consecutive ids
+      while (end < owned.Cells.size() && owned.Cells[end] == owned.Cells[end - 1] + 1)
+      {
+        ++end;
+      }
+      file.write(start.size() + std::uint64_t(owned.Cells[begin]) * bytes,
+        owned.Neighbors.data() + begin * std::size_t(corners), (end - begin) * bytes);
+      begin = end;
+    }
+  }
+  file.close();
+}
+
+/// partitionMesh() with the additional array NeighborIds. Neighbours can be found once the mesh is
+/// partitioned. So first only its cells and points are partitioned, into a scratch folder beside
+/// the output. The first rank then finds the neighbours piece by piece and writes their ids to a
+/// scratch file, 8 bytes per corner. Finally the mesh is partitioned with that file as one more
+/// array.
+PartitionStatistics partitionWithNeighbors(const FlatMesh& mesh, const std::string& path,
+  const PartitionOptions& options, vtkMultiProcessController* controller)
+{
+  Communicator ranks(controller);
+  const std::unique_ptr<PendingFolder> scratch = makeFolder(path, ranks);
+  const std::string folder = ranks.broadcast(scratch ? scratch->workPath() : std::string());
+  const FlatMesh bare{ mesh.Path, mesh.CellSize, mesh.Cells, mesh.Points, {}, {}, {}, {}, {} };
+  PartitionOptions first = stepOf(options, 0, 0.3);
+  first.DuplicateBorrowers = false;
+  PartitionStatistics statistics = partitionMesh(bare, folder + "/bare", first, controller);
+  if (statistics.Aborted)
+  {
+    return statistics;
+  }
+  const std::string file = folder + "/neighbors/NeighborIds.npy";
+  FlatMesh whole = mesh;
+  try
+  {
+    const PollScope polled([&options] { return !options.Progress || options.Progress(0.3); });
+    ranks.attempt(
+      [&]
+      {
+        if (ranks.isFirst())
+        {
+          fs::create_directory(folder + "/neighbors");
+          writeNeighbors(folder + "/bare", file, options);
+        }
+      });
+    const std::size_t start = npyFileStart("<i8", { mesh.Cells.Tuples, mesh.CellSize }).size();
+    dropNamed(neighborIdsArray.Name, whole.CellData);
+    whole.CellData.push_back(
+      { neighborIdsArray.Name, file, start, Scalar::Int64, mesh.CellSize, mesh.Cells.Tuples });
+  }
+  catch (const WorkAborted&)
+  {
+    statistics.Aborted = true;
+    return statistics;
+  }
+  return partitionMesh(whole, path, stepOf(options, 0.5, 1), controller);
+}
+
+/// Replaces paths in the temporary flat mesh by the input's name.
+std::string inNameOf(std::string message, const std::string& folder, const std::string& name)
+{
+  const std::size_t begin = message.find(folder);
+  if (begin != std::string::npos)
+  {
+    const std::size_t end = std::min(message.find_first_of(":,", begin), message.size());
+    message.replace(begin, end - begin, name);
+  }
+  return message;
+}
+
 } // namespace
 
 PartitionStatistics partitionMesh(const FlatMesh& mesh, const std::string& path,
@@ -223,16 +371,7 @@ PartitionStatistics partitionMesh(const FlatMesh& mesh, const std::string& path,
     return partitionWithNeighbors(mesh, path, options, controller);
   }
   Communicator ranks(controller);
-  std::optional<PendingFolder> pending;
-  ranks.attempt(
-    [&]
-    {
-      if (ranks.isFirst())
-      {
-        pending.emplace(path, &replaceableMesh);
-        fs::create_directory(pending->temporaryPath() + "/pieces");
-      }
-    });
+  const std::unique_ptr<PendingFolder> pending = makeFolder(path, ranks);
   PartitionJob job(mesh, options, ranks, ranks.broadcast(pending ? pending->temporaryPath() : ""));
   const PollScope polled(
     [&job] { return !job.Options.Progress || job.Options.Progress(job.Fraction); });
@@ -269,45 +408,13 @@ PartitionStatistics partitionMesh(const FlatMesh& mesh, const std::string& path,
   return job.Statistics;
 }
 
-namespace
-{
-
-/// Removes the ids of the partitioned mesh that the data set was read from: the new one gets its
-/// own.
-void removeOwnIds(FlatContent& content)
-{
-  const auto drop = [](std::vector<FlatArray>& arrays, const std::string& name)
-  {
-    arrays.erase(std::remove_if(arrays.begin(), arrays.end(),
-                   [&](const FlatArray& array) { return array.Name == name; }),
-      arrays.end());
-  };
-  drop(content.PointData, pointIdsName);
-  drop(content.CellData, cellIdsName);
-}
-
-/// Replaces paths in the temporary flat mesh by the input's name.
-std::string inNameOf(std::string message, const std::string& folder, const std::string& name)
-{
-  const std::size_t begin = message.find(folder);
-  if (begin != std::string::npos)
-  {
-    const std::size_t end = std::min(message.find_first_of(":,", begin), message.size());
-    message.replace(begin, end - begin, name);
-  }
-  return message;
-}
-
-} // namespace
-
 PartitionStatistics partitionInMemory(const std::function<FlatContent()>& make,
   const std::string& name, const std::string& output, const PartitionOptions& options,
   vtkMultiProcessController* controller)
 {
   Communicator ranks(controller);
   const PollScope polled([&options] { return !options.Progress || options.Progress(0); });
-  // Removed with this object, or by the next run if this one is killed.
-  std::optional<PendingFolder> scratch;
+  const std::unique_ptr<PendingFolder> scratch = makeFolder(output, ranks);
   std::string folder;
   std::string shown; // its path in messages, as the first rank shows it
   try
@@ -317,11 +424,12 @@ PartitionStatistics partitionInMemory(const std::function<FlatContent()>& make,
       {
         if (ranks.isFirst())
         {
-          scratch.emplace(output, &replaceableMesh);
           folder = scratch->temporaryPath() + "/flat";
           shown = shownPath(folder);
           FlatContent content = make();
-          removeOwnIds(content);
+          // Content read from a partitioned mesh has that mesh's ids; the new mesh gets its own.
+          dropNamed(pointIdsName, content.PointData);
+          dropNamed(cellIdsName, content.CellData);
           try
           {
             writeFlatMesh(folder, content);

@@ -99,21 +99,6 @@ VTKTIPPIO_EXPORT PartitionStatistics partitionInMemory(const std::function<FlatC
 /// pieces.
 std::vector<RawArray> describeArrays(const FlatMesh& mesh, PartitionedMesh& result);
 
-/// Assigns each rank a run of consecutive pieces, which are numbered along the Morton curve, so
-/// that the heaviest run is as light as possible. Returns ranks + 1 numbers: rank r has pieces
-/// [result[r], result[r + 1]). If there are more ranks than pieces, the last ranks get empty runs;
-/// no other run is empty. Negative weights count as 0; `ranks` below 1 as 1.
-VTKTIPPIO_EXPORT std::vector<std::size_t> assignPieces(
-  std::vector<std::int64_t> weights, int ranks);
-
-/// partitionMesh() with the additional array NeighborIds. Neighbours can be found once the mesh is
-/// partitioned. So first only its cells and points are partitioned, into a scratch folder beside
-/// the output. The first rank then finds the neighbours piece by piece and writes their ids to a
-/// scratch file, 8 bytes per corner. Finally the mesh is partitioned with that file as one more
-/// array.
-PartitionStatistics partitionWithNeighbors(const FlatMesh& mesh, const std::string& path,
-  const PartitionOptions& options, vtkMultiProcessController* controller);
-
 /// Merges all ranks' data sets, or those in vtkPartitionedDataSets, into one on the first rank;
 /// returns null on the others. Points of different data sets with equal coordinates are merged.
 /// Throws IOError, on all ranks, if there is no data set at all.

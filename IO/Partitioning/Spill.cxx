@@ -11,6 +11,7 @@
 
 namespace tipp
 {
+
 namespace
 {
 
@@ -19,6 +20,14 @@ std::uint64_t combined(std::uint64_t sum, std::uint64_t next)
 {
   const std::array<std::uint64_t, 2> both{ sum, next };
   return checksumOf(both.data(), sizeof(both));
+}
+
+constexpr std::size_t rowBufferBytes = std::size_t(1) << 20;
+
+void appendBytes(const void* row, std::size_t bytes, std::vector<char>& buffer)
+{
+  const char* const begin = static_cast<const char*>(row);
+  buffer.insert(buffer.end(), begin, begin + bytes);
 }
 
 } // namespace
@@ -177,8 +186,7 @@ void Spill::exchange(Communicator& ranks)
 
 void Spill::finish()
 {
-  const std::vector<SpilledRows> mine{ this->close() };
-  this->join(mine);
+  this->join({ this->close() });
 }
 
 void Spill::readRows(std::size_t key, const std::function<Room(std::size_t)>& roomFor) const
@@ -264,6 +272,72 @@ std::vector<char> Spill::readAll(std::size_t key) const
   std::vector<char> rows(std::size_t(this->rows(key)) * this->RowBytes);
   this->readAll(key, rows.data());
   return rows;
+}
+
+RowFile::RowFile(const std::string& path, std::size_t rowBytes)
+  : File(path)
+  , RowBytes(rowBytes)
+  , Out(std::make_unique<OutputFile>(path))
+{
+}
+
+void RowFile::append(const void* row)
+{
+  appendBytes(row, this->RowBytes, this->Buffer);
+  ++this->Count;
+  this->Buffer.size() >= rowBufferBytes ? this->flush() : void();
+}
+
+void RowFile::flush()
+{
+  const std::uint64_t end = std::uint64_t(this->Count) * this->RowBytes;
+  this->Out->write(end - this->Buffer.size(), this->Buffer.data(), this->Buffer.size());
+  this->Buffer.clear();
+}
+
+void RowFile::finish()
+{
+  this->flush();
+  std::vector<char>().swap(this->Buffer);
+  this->Out->close();
+  this->Out.reset();
+  this->In = std::make_unique<InputFile>(this->File.Path);
+}
+
+void RowFile::read(std::int64_t first, std::size_t count, void* to) const
+{
+  this->In->read(std::uint64_t(first) * this->RowBytes, to, count * this->RowBytes);
+}
+
+KeyedRows::KeyedRows(const std::string& path, std::size_t keys, std::size_t rowBytes)
+  : File(path + ".0") // the name that Spill gives it
+  , Rows(path, 0, keys, rowBytes)
+{
+}
+
+void KeyedRows::add(std::size_t key, const void* row)
+{
+  this->BufferedKeys.push_back(std::uint32_t(key));
+  appendBytes(row, this->Rows.rowBytes(), this->Buffer);
+  this->Buffer.size() >= rowBufferBytes ? this->flush() : void();
+}
+
+void KeyedRows::flush()
+{
+  this->Rows.add(
+    this->BufferedKeys.size(), 1, [this](std::size_t i) { return this->BufferedKeys[i]; },
+    [this, bytes = this->Rows.rowBytes()](std::size_t i, char* to)
+    { std::memcpy(to, this->Buffer.data() + i * bytes, bytes); });
+  this->BufferedKeys.clear();
+  this->Buffer.clear();
+}
+
+void KeyedRows::finish()
+{
+  this->flush();
+  std::vector<char>().swap(this->Buffer);
+  std::vector<std::uint32_t>().swap(this->BufferedKeys);
+  this->Rows.finish();
 }
 
 } // namespace tipp

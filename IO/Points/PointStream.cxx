@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Points/PointStream.h"
+#include "Points/ReadPoints.h"
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/TextFile.h"
-#include "Points/FilePoints.h"
 
 #include <algorithm>
 #include <array>
@@ -16,17 +15,7 @@
 namespace tipp
 {
 
-void append(const PointBlock& block, PointTable& table)
-{
-  table.XY.insert(table.XY.end(), block.XY.begin(), block.XY.end());
-  for (std::size_t i = 0; i < table.Columns.size(); ++i)
-  {
-    const std::vector<double>& values = block.Columns.at(i);
-    table.Columns[i].Values.insert(table.Columns[i].Values.end(), values.begin(), values.end());
-  }
-}
-
-PointStream::~PointStream() = default;
+PointSource::~PointSource() = default;
 
 namespace
 {

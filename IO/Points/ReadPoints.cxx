@@ -6,12 +6,11 @@
 #include "Files/InputFile.h"
 #include "Files/TextFile.h"
 #include "Las/LasHeader.h"
-#include "Points/FilePoints.h"
-#include "Points/PointStream.h"
-#include "Vtk/VtkFiles.h"
+#include "Npy/NpyFile.h"
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -55,6 +54,22 @@ std::size_t resolve(const std::string& path, const std::string& wanted,
   throw IOError(path, "has no column '" + wanted + "'; choose from " + listed(names, count) + ".");
 }
 
+void requireNoSelection(const std::string& path, const PointOptions& options)
+{
+  if (options.Las.isGiven())
+  {
+    throw IOError(path, "has no classes and returns; these can be chosen in .las and .laz files.");
+  }
+}
+
+void requireNoChoice(const std::string& path, const PointOptions& options)
+{
+  if (!options.X.empty() || !options.Y.empty())
+  {
+    throw IOError(path, "has fixed coordinates; columns can be chosen in .npy and text files.");
+  }
+}
+
 } // namespace
 
 std::optional<int> LasSelection::parseClass(const std::string& text)
@@ -96,6 +111,184 @@ ColumnChoice chooseColumns(const std::string& path, const std::vector<std::strin
     throw IOError(path, "cannot give the same column as x and y; choose both.");
   }
   return choice;
+}
+
+namespace
+{
+
+/// Points from an .npy table of two or three columns, named x, y and z, of float64 or float32.
+class NpyPoints : public FilePoints
+{
+public:
+  NpyPoints(const std::string& path, const PointOptions& options)
+    : Reader(path)
+    , Width(std::size_t(std::max<std::int64_t>(this->Reader.columns(), 0)))
+  {
+    if ((this->Width != 2 && this->Width != 3) || !this->Reader.isFloat())
+    {
+      throw IOError(
+        path, "does not hold points; save n x 2 or n x 3 numbers of float64 or float32.");
+    }
+    this->Names = { "x", "y", "z" };
+    this->Names.resize(this->Width);
+    this->Choice = chooseColumns(path, this->Names, this->Width, options);
+  }
+
+  bool next(PointBlock& block, std::size_t most) override
+  {
+    const std::size_t count = std::min(most, std::size_t(this->Reader.rows() - this->Row));
+    block.Columns.resize(this->Width - 2);
+    block.resize(count);
+    if (this->Reader.type() == Scalar::Float32)
+    {
+      this->read<float>(block);
+    }
+    else if (this->Width == 2 && this->Choice.X == 0)
+    {
+      this->Reader.read(block.XY.data(), block.XY.size() * sizeof(double)); // as stored
+    }
+    else
+    {
+      this->read<double>(block);
+    }
+    this->Row += std::int64_t(count);
+    return count > 0;
+  }
+
+  void rewind() override { this->skip(-this->Row); }
+  std::int64_t divisible() const override { return this->Reader.rows(); }
+
+  void skip(std::int64_t points) override
+  {
+    this->Row += points;
+    this->Reader.seekRow(this->Row);
+  }
+
+  std::vector<std::string> columns() const override
+  {
+    return this->Width == 3 ? std::vector<std::string>{ this->Names[this->third()] }
+                            : std::vector<std::string>();
+  }
+
+private:
+  /// The index of the column that is neither x nor y, if there are three.
+  std::size_t third() const { return 3 - this->Choice.X - this->Choice.Y; }
+
+  template <typename Scalar>
+  void read(PointBlock& block)
+  {
+    constexpr std::size_t rowsAtOnce = 1 << 15;
+    const std::size_t count = block.size();
+    const std::size_t third = this->third();
+    double* const xy = block.XY.data();
+    double* const further = this->Width == 3 ? block.Columns[0].data() : nullptr;
+    std::vector<Scalar> rows(this->Width * std::min(rowsAtOnce, count));
+    for (std::size_t first = 0; first < count; first += rowsAtOnce)
+    {
+      const std::size_t size = std::min(rowsAtOnce, count - first);
+      this->Reader.read(rows.data(), size * this->Width * sizeof(Scalar));
+      for (std::size_t i = 0; i < size; ++i)
+      {
+        const Scalar* const row = &rows[i * this->Width];
+        xy[2 * (first + i)] = row[this->Choice.X];
+        xy[2 * (first + i) + 1] = row[this->Choice.Y];
+        if (further)
+        {
+          further[first + i] = row[third];
+        }
+      }
+    }
+  }
+
+  NpyReader Reader;
+  std::size_t Width;
+  ColumnChoice Choice;
+  std::vector<std::string> Names;
+  std::int64_t Row = 0;
+};
+
+/// The points of a table. If `load` is given, it reads the table from a file that can only be read
+/// as a whole; each pass calls it again, so that the table is not kept between passes.
+class TablePoints : public FilePoints
+{
+public:
+  TablePoints(PointTable table, std::function<PointTable()> load)
+    : Load(std::move(load))
+    , Names(table.names())
+    , Table(std::move(table))
+  {
+    this->rewind();
+  }
+
+  bool next(PointBlock& block, std::size_t most) override
+  {
+    if (!this->Table)
+    {
+      this->Table = this->Load();
+    }
+    const PointTable& table = *this->Table;
+    const std::size_t end = this->At + std::min(most, table.size() - this->At);
+    const auto copy = [&](const std::vector<double>& from, std::size_t width, auto& to)
+    { to.assign(from.data() + width * this->At, from.data() + width * end); };
+    copy(table.XY, 2, block.XY);
+    block.Columns.resize(table.Columns.size());
+    for (std::size_t i = 0; i < block.Columns.size(); ++i)
+    {
+      copy(table.Columns[i].Values, 1, block.Columns[i]);
+    }
+    this->At = end;
+    return block.size() > 0;
+  }
+
+  void rewind() override
+  {
+    this->Load ? this->Table.reset() : void();
+    this->At = 0;
+  }
+
+  std::int64_t divisible() const override { return this->Load ? -1 : this->most(); }
+  void skip(std::int64_t points) override { this->At += std::size_t(points); }
+  std::vector<std::string> columns() const override { return this->Names; }
+  std::int64_t most() const override { return this->Load ? 0 : std::int64_t(this->Table->size()); }
+
+private:
+  const std::function<PointTable()> Load;
+  const std::vector<std::string> Names;
+  std::optional<PointTable> Table;
+  std::size_t At = 0;
+};
+
+} // namespace
+
+std::unique_ptr<FilePoints> openTable(PointTable table)
+{
+  return std::make_unique<TablePoints>(std::move(table), nullptr);
+}
+
+std::unique_ptr<FilePoints> openFilePoints(const std::string& path, const PointOptions& options)
+{
+  const std::int64_t generated = generatedCount(path);
+  if (generated > 0)
+  {
+    return openGeneratedPoints(generated, options.InSpace);
+  }
+  const std::string extension = extensionOf(path);
+  if (isLasExtension(extension))
+  {
+    requireNoChoice(path, options);
+    return openLasPoints(path, options);
+  }
+  requireNoSelection(path, options);
+  if (extension == ".npy")
+  {
+    return std::make_unique<NpyPoints>(path, options);
+  }
+  if (isTextPath(path) && conversionAdvice(path).empty())
+  {
+    return streamTextPoints(path, options);
+  }
+  const auto load = [path, options] { return readPoints(path, options); };
+  return std::make_unique<TablePoints>(load(), load);
 }
 
 namespace
@@ -146,10 +339,7 @@ PointTable readAdcircPoints(const std::string& path)
 /// Reads a text file, or one with fixed columns.
 PointTable readWhole(const std::string& path, const PointOptions& options)
 {
-  if (options.Las.isGiven())
-  {
-    throw IOError(path, "has no classes and returns; these can be chosen in .las and .laz files.");
-  }
+  requireNoSelection(path, options);
   if (isTextPath(path) && conversionAdvice(path).empty())
   {
     return readTextPoints(path, options);
@@ -167,14 +357,37 @@ PointTable readWhole(const std::string& path, const PointOptions& options)
       "has no extension that tells a kind of point file; use .npy, .csv, .txt, .xyz (or these as "
       ".gz, .xz or .zst), .las, .laz, .14, .grd or one of VTK's.");
   }
-  if (!options.X.empty() || !options.Y.empty())
-  {
-    throw IOError(path, "has fixed coordinates; columns can be chosen in .npy and text files.");
-  }
+  requireNoChoice(path, options);
   return isVtkFile(path) ? readVtkPoints(path) : readAdcircPoints(path);
 }
 
 } // namespace
+
+bool isVtkFile(const std::string& path)
+{
+  constexpr std::array<const char*, 14> extensions = { ".vtp", ".vtu", ".vti", ".vts", ".vtr",
+    ".pvtp", ".pvtu", ".pvti", ".pvts", ".pvtr", ".vtk", ".ply", ".stl", ".obj" };
+  return std::find(extensions.begin(), extensions.end(), extensionOf(path)) != extensions.end();
+}
+
+#ifdef TIPP_WITHOUT_VTK
+PointTable readVtkPoints(const std::string& path)
+{
+  throw IOError(path,
+    "is a file that VTK reads, and this tipp was built without VTK; read it in Python with VTK or "
+    "PyVista, and give its points.");
+}
+#endif
+
+void append(const PointBlock& block, PointTable& table)
+{
+  table.XY.insert(table.XY.end(), block.XY.begin(), block.XY.end());
+  for (std::size_t i = 0; i < table.Columns.size(); ++i)
+  {
+    const std::vector<double>& values = block.Columns.at(i);
+    table.Columns[i].Values.insert(table.Columns[i].Values.end(), values.begin(), values.end());
+  }
+}
 
 PointTable readAllPoints(PointStream& stream)
 {

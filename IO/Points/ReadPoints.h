@@ -2,18 +2,82 @@
 #ifndef tippReadPoints_h
 #define tippReadPoints_h
 
-#include "Points/PointTable.h"
 #include "vtkTIPPIOModule.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <iterator>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace tipp
 {
+
+/// Points read from a file: x and y interleaved, and the other numeric columns by name.
+struct PointTable
+{
+  /// A named column of numbers.
+  struct Column
+  {
+    std::string Name;
+    std::vector<double> Values; ///< one per point
+  };
+
+  std::vector<double> XY; ///< x and y of each point, interleaved
+  std::vector<Column> Columns;
+  std::int64_t LeftOut = 0;    ///< points that the options rejected
+  std::int64_t ThinnedOut = 0; ///< points that thinning removed
+  std::string Crs;             ///< the coordinate reference system: see PointStream::crs()
+
+  std::size_t size() const { return this->XY.size() / 2; }
+  /// The names of Columns.
+  std::vector<std::string> names() const
+  {
+    std::vector<std::string> names;
+    std::transform(this->Columns.begin(), this->Columns.end(), std::back_inserter(names),
+      [](const Column& column) { return column.Name; });
+    return names;
+  }
+};
+
+/// Returns the index of the elevation column, which is named z, Z or elevation; the number of
+/// columns if there is none.
+inline std::size_t findElevation(const std::vector<std::string>& columns)
+{
+  for (const char* const name : { "z", "Z", "elevation" })
+  {
+    const auto found = std::find(columns.begin(), columns.end(), name);
+    if (found != columns.end())
+    {
+      return std::size_t(found - columns.begin());
+    }
+  }
+  return columns.size();
+}
+
+/// Returns the index of the column that decides which points are lowest and highest: the elevation,
+/// else the depth, else the only column. Returns the number of columns if there is none.
+inline std::size_t findRankColumn(const std::vector<std::string>& columns)
+{
+  const std::size_t elevation = findElevation(columns);
+  if (elevation < columns.size() || columns.size() == 1)
+  {
+    return elevation < columns.size() ? elevation : 0;
+  }
+  return std::size_t(std::find(columns.begin(), columns.end(), "depth") - columns.begin());
+}
+
+/// The number of values that are NaN or infinite.
+inline std::int64_t countMissing(const std::vector<double>& values)
+{
+  return std::count_if(
+    values.begin(), values.end(), [](double value) { return !std::isfinite(value); });
+}
 
 /// Which points of a LAS file are read.
 struct LasSelection
@@ -80,8 +144,6 @@ struct Thinning
   bool isGiven() const { return this->Cell > 0; }
 };
 
-class PointStream;
-
 /// Options of reading points.
 struct PointOptions
 {
@@ -116,6 +178,96 @@ VTKTIPPIO_EXPORT PointTable readPoints(const std::string& path, const PointOptio
 VTKTIPPIO_EXPORT PointTable readPoints(
   const std::vector<std::string>& paths, const PointOptions& options);
 
+/// Consecutive points of a stream.
+struct PointBlock
+{
+  std::int64_t First = 0; ///< id of the first point: its index in the stream
+  std::vector<double> XY; ///< x and y of each point, interleaved
+  std::vector<std::vector<double>>
+    Columns; ///< one vector per column, in the order of PointStream::columns()
+
+  std::size_t size() const { return this->XY.size() / 2; }
+  /// Changes the number of points, not that of the columns.
+  void resize(std::size_t points)
+  {
+    this->XY.resize(2 * points);
+    for (std::vector<double>& column : this->Columns)
+    {
+      column.resize(points);
+    }
+  }
+};
+
+/// Appends the points of a block to a table with the same columns.
+VTKTIPPIO_EXPORT void append(const PointBlock& block, PointTable& table);
+
+/// Reads points block by block, in any number of passes. Not thread-safe.
+class VTKTIPPIO_EXPORT PointSource
+{
+public:
+  virtual ~PointSource();
+
+  /// Reads the next points, at most `most`; returns false at the end. Throws IOError.
+  virtual bool next(PointBlock& block, std::size_t most) = 0;
+
+  /// Starts a new pass. Throws IOError if a file has changed since the first one.
+  virtual void rewind() = 0;
+
+  /// The number of points if reading can start at any of them, else -1.
+  virtual std::int64_t divisible() const { return -1; }
+
+  /// Names of the columns besides x and y.
+  virtual std::vector<std::string> columns() const = 0;
+
+  /// The number of points that the options rejected in the last complete pass, for example by their
+  /// class.
+  virtual std::int64_t leftOut() const { return 0; }
+
+  /// An upper bound of the number of points; 0: unknown.
+  virtual std::int64_t most() const { return 0; }
+
+  /// The coordinate reference system of the points: WKT or "EPSG:code", or empty.
+  virtual std::string crs() const { return ""; }
+};
+
+/// A stream of the points of one or more inputs of any size, which can be limited to a range.
+class VTKTIPPIO_EXPORT PointStream : public PointSource
+{
+public:
+  /// Limits the passes from the next rewind() on to points [first, end).
+  virtual void limitTo(std::int64_t first, std::int64_t end) = 0;
+
+  /// The number of points that thinning removed, known after the first pass.
+  virtual std::int64_t thinnedOut() const { return 0; }
+
+  /// Identifies the input across runs: names, sizes and times of the files.
+  virtual std::string identity() const = 0;
+};
+
+/// Opens one or more files as one stream, in their order; all must have the same columns. In each
+/// pass .npy, .las and text files are read block by block, other formats as a whole. Opening a text
+/// file reads it once to find its numeric columns. The name "uniform:COUNT" stands for that many
+/// points, uniform in the unit square or (PointOptions::InSpace) cube, which are generated block by
+/// block. Throws IOError.
+VTKTIPPIO_EXPORT std::unique_ptr<PointStream> openPointStream(
+  const std::vector<std::string>& paths, const PointOptions& options = {});
+
+/// Makes a whole pass: calls take() with each block, and reads the next one meanwhile. take() may
+/// change the block.
+VTKTIPPIO_EXPORT void forEachBlock(
+  PointStream& points, std::size_t most, const std::function<void(PointBlock&)>& take);
+
+/// Returns the points of a stream that thinning keeps, in their order. Of equally good points the
+/// first is kept; points that are not finite are all kept. The first pass reads the stream twice.
+/// Memory: one bit per point, plus the squares. Throws IOError if the rule needs an elevation and
+/// there is none.
+std::unique_ptr<PointStream> thinPoints(
+  std::unique_ptr<PointStream> points, const Thinning& thinning);
+
+/// The points of a table that thinning keeps, as a stream. Throws IOError as thinPoints().
+VTKTIPPIO_EXPORT std::unique_ptr<PointStream> streamTable(
+  PointTable table, const Thinning& thinning = {});
+
 /// Reads all points within the stream's limits. Throws IOError.
 VTKTIPPIO_EXPORT PointTable readAllPoints(PointStream& stream);
 
@@ -123,6 +275,55 @@ VTKTIPPIO_EXPORT PointTable readAllPoints(PointStream& stream);
 /// any of them (.npy, .las), else all for part 0 and none for the others. Throws IOError.
 VTKTIPPIO_EXPORT PointTable readPointsShare(
   const std::vector<std::string>& paths, const PointOptions& options, int part, int parts);
+
+/// The points of one file. next() adds points to an empty block, whose vectors keep their capacity
+/// from the previous call.
+class FilePoints : public PointSource
+{
+public:
+  /// Skips the next points without reading them; call it only if divisible() is not -1.
+  virtual void skip(std::int64_t) {}
+};
+
+/// Opens a file by its extension. Throws IOError.
+std::unique_ptr<FilePoints> openFilePoints(const std::string& path, const PointOptions& options);
+
+/// The points of a table instead of a file.
+std::unique_ptr<FilePoints> openTable(PointTable table);
+
+/// A text file, read in blocks.
+std::unique_ptr<FilePoints> streamTextPoints(const std::string& path, const PointOptions& options);
+
+/// Parses "uniform:COUNT", which stands for that many uniform points instead of a file; returns 0
+/// for other names.
+std::int64_t generatedCount(const std::string& name);
+
+/// Generates `count` points of Distribution::Uniform with seed 1; in space they have a column z.
+std::unique_ptr<FilePoints> openGeneratedPoints(std::int64_t count, bool inSpace);
+
+/// The points of a LAS or LAZ file, read in blocks: x, y, and the columns z, intensity,
+/// classification, gps_time, red, green, blue and nir, if the file's format has them. Throws
+/// IOError.
+std::unique_ptr<FilePoints> openLasPoints(const std::string& path, const PointOptions& options);
+
+/// Reads points from text, one per line. The delimiter is detected: semicolon, comma, tab or
+/// blanks; numbers may have decimal commas unless commas separate the columns. The first line may
+/// hold names, the number of points, or the numbers of points and of edges (0). Empty lines and
+/// lines that start with # are skipped. Another column is kept if all its values are numbers or
+/// missing (NaN); without names the first is z and the others column<number>.
+PointTable readTextPoints(const std::string& path, const PointOptions& options);
+
+/// Whether the path names text: .csv, .tsv, .txt, .xyz or .pts; .gz, .xz or .zst (compressed text);
+/// or "-" (standard input).
+bool isTextPath(const std::string& path);
+
+/// Whether VTK reads files with this extension: .vtp .vtu .vti .vts .vtr and their parallel kinds
+/// (.pvtp ...), .vtk, .ply, .stl, .obj.
+VTKTIPPIO_EXPORT bool isVtkFile(const std::string& path);
+
+/// Reads the points of such a file as pointsOf() returns them. Throws IOError if reading fails, and
+/// always in a build without VTK.
+VTKTIPPIO_EXPORT PointTable readVtkPoints(const std::string& path);
 
 /// The indices of the columns that are x and y.
 struct ColumnChoice

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Points/FilePoints.h"
+#include "Points/ReadPoints.h"
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
@@ -103,197 +103,229 @@ std::string_view trimEnd(std::string_view line)
   return line;
 }
 
-} // namespace
-
-TextRows::TextRows(const std::string& path, const PointOptions& options)
-  : Path(path)
-  , Lines(path)
+/// Reads the rows of a text file of points in order; readTextPoints() describes the format.
+class TextRows
 {
-  this->readStart();
-  this->chooseColumns(options);
-}
-
-bool TextRows::nextLine()
-{
-  while (this->Lines.next(this->Line))
+public:
+  struct Column
   {
-    const std::size_t start = this->Line.find_first_not_of(" \t");
-    if (start != std::string_view::npos && this->Line[start] != '#')
+    std::size_t Index;
+    std::string Name;
+  };
+
+  /// Reads the lines before the first row. Throws IOError.
+  TextRows(const std::string& path, const PointOptions& options)
+    : Path(path)
+    , Lines(path)
+  {
+    this->readStart();
+    this->chooseColumns(options);
+  }
+
+  /// Reads the next row; returns false at the end. Throws IOError if a row has another width, or if
+  /// there are not as many rows as the first line announces.
+  bool next()
+  {
+    if (this->Rows > 0)
     {
-      return true;
+      if (!this->nextLine())
+      {
+        if (this->Count && *this->Count != this->Rows)
+        {
+          throw IOError(this->Path,
+            "announces " + std::to_string(*this->Count) + " points in its first line and holds " +
+              std::to_string(this->Rows) + "; copy it again or correct the line.");
+        }
+        return false;
+      }
+      this->split();
+      if (this->Row.size() != this->Width)
+      {
+        throw IOError(this->Path, this->Lines.lineNumber(),
+          "has " + std::to_string(this->Row.size()) + " columns where the first point has " +
+            std::to_string(this->Width) + "; correct or remove the line.");
+      }
     }
+    ++this->Rows;
+    return true;
   }
-  return false;
-}
 
-void TextRows::requireLine()
-{
-  if (!this->nextLine())
-  {
-    throw IOError(this->Path, "holds no points; give a file with one point a line.");
-  }
-}
+  /// The coordinates of the row; throw IOError if they are not numbers.
+  double x() const { return this->coordinate(this->Choice.X); }
+  double y() const { return this->coordinate(this->Choice.Y); }
 
-void TextRows::split()
-{
-  // Files with blanks between columns may have one at the end of a line, too.
-  const std::string_view line = this->Delimiter == ' ' ? this->Line : trimEnd(this->Line);
-  splitFields(line, this->Delimiter, this->Row);
-}
-
-/// Reads the lines before the first point. Afterwards Row holds the first point's fields.
-void TextRows::readStart()
-{
-  this->requireLine();
-  this->Delimiter = findDelimiter(this->Line);
-  this->split();
-  std::int64_t count = 0;
-  if ((this->Row.size() == 1 && parseInteger(this->Row[0], count)) || this->startsWithCounts(count))
+  enum class Value
   {
-    this->Count = count;
-    this->requireLine();
-  }
-  else if (this->startsWithNames())
+    Number,
+    Missing, ///< NaN
+    Text
+  };
+  Value value(const Column& column, double& value) const
   {
-    const std::string header(this->Line);
-    this->requireLine();
-    this->Delimiter = findDelimiter(this->Line);
-    splitFields(header, this->Delimiter, this->Row);
-    for (const std::string_view name : this->Row)
+    const std::string_view field = this->Row[column.Index];
+    if (this->parse(field, value))
     {
-      this->Names.emplace_back(trimField(name));
+      return Value::Number;
     }
+    value = std::numeric_limits<double>::quiet_NaN();
+    return isMissing(field) ? Value::Missing : Value::Text;
   }
-  this->Delimiter = findDelimiter(this->Line);
-  this->split();
-  if (this->Names.size() != this->Row.size())
-  {
-    this->Names.clear(); // a title
-  }
-}
 
-/// The first line may hold the number of points and 0, the number of edges, or be a point; so the
-/// lines after it are counted.
-bool TextRows::startsWithCounts(std::int64_t& points) const
-{
-  std::int64_t edges = -1;
-  std::error_code ignored;
-  if (this->Row.size() != 2 || !parseInteger(this->Row[0], points) || points < 1 ||
-    !parseInteger(this->Row[1], edges) || edges != 0 ||
-    !std::filesystem::is_regular_file(openablePath(this->Path), ignored))
+  /// All columns but x and y.
+  const std::vector<Column>& further() const { return this->Further; }
+  std::size_t width() const { return this->Width; }
+  /// An estimate of the number of rows; 0: unknown.
+  std::int64_t expectedRows() const { return this->Lines.expectedLines(); }
+
+private:
+  bool nextLine()
   {
+    while (this->Lines.next(this->Line))
+    {
+      const std::size_t start = this->Line.find_first_not_of(" \t");
+      if (start != std::string_view::npos && this->Line[start] != '#')
+      {
+        return true;
+      }
+    }
     return false;
   }
-  FileLines lines(this->Path);
-  std::string_view line;
-  std::int64_t count = -1; // not counting this one
-  while (lines.next(line) && count <= points)
-  {
-    const std::size_t start = line.find_first_not_of(" \t");
-    count += start != std::string_view::npos && line[start] != '#' ? 1 : 0;
-  }
-  return count == points;
-}
 
-/// A point has at least two numbers; a line of names may hold one, such as a year.
-bool TextRows::startsWithNames() const
-{
-  double value;
-  return std::count_if(this->Row.begin(), this->Row.end(),
-           [&](std::string_view field) { return this->parse(field, value); }) < 2;
-}
-
-void TextRows::chooseColumns(const PointOptions& options)
-{
-  this->Width = this->Row.size();
-  this->Choice = tipp::chooseColumns(this->Path, this->Names, this->Width, options);
-  for (std::size_t i = 0; i < this->Width; ++i)
-  {
-    if (i != this->Choice.X && i != this->Choice.Y)
-    {
-      const std::string plain = this->Further.empty() ? "z" : "column" + std::to_string(i);
-      const bool named = !this->Names.empty() && !this->Names[i].empty();
-      this->Further.push_back({ i, named ? this->Names[i] : plain });
-    }
-  }
-}
-
-bool TextRows::next()
-{
-  if (this->Rows > 0)
+  void requireLine()
   {
     if (!this->nextLine())
     {
-      if (this->Count && *this->Count != this->Rows)
+      throw IOError(this->Path, "holds no points; give a file with one point a line.");
+    }
+  }
+
+  void split()
+  {
+    // Files with blanks between columns may have one at the end of a line, too.
+    const std::string_view line = this->Delimiter == ' ' ? this->Line : trimEnd(this->Line);
+    splitFields(line, this->Delimiter, this->Row);
+  }
+
+  /// Reads the lines before the first point. Afterwards Row holds the first point's fields.
+  void readStart()
+  {
+    this->requireLine();
+    this->Delimiter = findDelimiter(this->Line);
+    this->split();
+    std::int64_t count = 0;
+    if ((this->Row.size() == 1 && parseInteger(this->Row[0], count)) ||
+      this->startsWithCounts(count))
+    {
+      this->Count = count;
+      this->requireLine();
+    }
+    else if (this->startsWithNames())
+    {
+      const std::string header(this->Line);
+      this->requireLine();
+      this->Delimiter = findDelimiter(this->Line);
+      splitFields(header, this->Delimiter, this->Row);
+      for (const std::string_view name : this->Row)
       {
-        throw IOError(this->Path,
-          "announces " + std::to_string(*this->Count) + " points in its first line and holds " +
-            std::to_string(this->Rows) + "; copy it again or correct the line.");
+        this->Names.emplace_back(trimField(name));
       }
+    }
+    this->Delimiter = findDelimiter(this->Line);
+    this->split();
+    if (this->Names.size() != this->Row.size())
+    {
+      this->Names.clear(); // a title
+    }
+  }
+
+  /// The first line may hold the number of points and 0, the number of edges, or be a point; so the
+  /// lines after it are counted.
+  bool startsWithCounts(std::int64_t& points) const
+  {
+    std::int64_t edges = -1;
+    std::error_code ignored;
+    if (this->Row.size() != 2 || !parseInteger(this->Row[0], points) || points < 1 ||
+      !parseInteger(this->Row[1], edges) || edges != 0 ||
+      !std::filesystem::is_regular_file(openablePath(this->Path), ignored))
+    {
       return false;
     }
-    this->split();
-    if (this->Row.size() != this->Width)
+    FileLines lines(this->Path);
+    std::string_view line;
+    std::int64_t count = -1; // not counting this one
+    while (lines.next(line) && count <= points)
     {
-      throw IOError(this->Path, this->Lines.lineNumber(),
-        "has " + std::to_string(this->Row.size()) + " columns where the first point has " +
-          std::to_string(this->Width) + "; correct or remove the line.");
+      const std::size_t start = line.find_first_not_of(" \t");
+      count += start != std::string_view::npos && line[start] != '#' ? 1 : 0;
+    }
+    return count == points;
+  }
+
+  /// A point has at least two numbers; a line of names may hold one, such as a year.
+  bool startsWithNames() const
+  {
+    double value;
+    return std::count_if(this->Row.begin(), this->Row.end(),
+             [&](std::string_view field) { return this->parse(field, value); }) < 2;
+  }
+
+  void chooseColumns(const PointOptions& options)
+  {
+    this->Width = this->Row.size();
+    this->Choice = tipp::chooseColumns(this->Path, this->Names, this->Width, options);
+    for (std::size_t i = 0; i < this->Width; ++i)
+    {
+      if (i != this->Choice.X && i != this->Choice.Y)
+      {
+        const std::string plain = this->Further.empty() ? "z" : "column" + std::to_string(i);
+        const bool named = !this->Names.empty() && !this->Names[i].empty();
+        this->Further.push_back({ i, named ? this->Names[i] : plain });
+      }
     }
   }
-  ++this->Rows;
-  return true;
-}
 
-bool TextRows::parse(std::string_view field, double& value) const
-{
-  return parseNumber(field, value) || (this->Delimiter != ',' && parseDecimalComma(field, value));
-}
-
-double TextRows::coordinate(std::size_t index) const
-{
-  double value = 0;
-  if (isMissing(this->Row[index]))
+  bool parse(std::string_view field, double& value) const
   {
-    return std::numeric_limits<double>::quiet_NaN(); // the caller counts points that are not finite
+    return parseNumber(field, value) || (this->Delimiter != ',' && parseDecimalComma(field, value));
   }
-  if (!this->parse(this->Row[index], value))
-  {
-    constexpr std::size_t shown = 40;
-    throw IOError(this->Path, this->Lines.lineNumber(),
-      "'" + std::string(trimField(this->Row[index]).substr(0, shown)) +
-        "' is not a number; correct the line or choose other columns for x and y.");
-  }
-  if (isRoundedInteger(this->Row[index], value))
-  {
-    throw IOError(this->Path, this->Lines.lineNumber(),
-      "'" + std::string(trimField(this->Row[index])) +
-        "' is an integer beyond 2^53 that a double cannot hold; subtract an offset from the "
-        "column.");
-  }
-  return value;
-}
 
-TextRows::Value TextRows::value(const Column& column, double& value) const
-{
-  const std::string_view field = this->Row[column.Index];
-  if (this->parse(field, value))
+  double coordinate(std::size_t index) const
   {
-    return Value::Number;
+    double value = 0;
+    if (isMissing(this->Row[index]))
+    {
+      // The caller counts points that are not finite.
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+    if (!this->parse(this->Row[index], value))
+    {
+      constexpr std::size_t shown = 40;
+      throw IOError(this->Path, this->Lines.lineNumber(),
+        "'" + std::string(trimField(this->Row[index]).substr(0, shown)) +
+          "' is not a number; correct the line or choose other columns for x and y.");
+    }
+    if (isRoundedInteger(this->Row[index], value))
+    {
+      throw IOError(this->Path, this->Lines.lineNumber(),
+        "'" + std::string(trimField(this->Row[index])) +
+          "' is an integer beyond 2^53 that a double cannot hold; subtract an offset from the "
+          "column.");
+    }
+    return value;
   }
-  value = std::numeric_limits<double>::quiet_NaN();
-  return isMissing(field) ? Value::Missing : Value::Text;
-}
 
-bool isTextPath(const std::string& path)
-{
-  const std::string extension = extensionOf(path);
-  return path == "-" || extension == ".csv" || extension == ".tsv" || extension == ".txt" ||
-    extension == ".xyz" || extension == ".pts" || extension == ".gz" || extension == ".xz" ||
-    extension == ".zst";
-}
-
-namespace
-{
+  std::string Path;
+  FileLines Lines;
+  std::string_view Line;
+  char Delimiter = ' ';
+  std::vector<std::string_view> Row;
+  std::size_t Width = 0;
+  std::int64_t Rows = 0;
+  std::optional<std::int64_t> Count;
+  std::vector<std::string> Names;
+  ColumnChoice Choice;
+  std::vector<Column> Further;
+};
 
 /// A column that may hold only numbers or nothing.
 struct NumericColumn
@@ -409,6 +441,14 @@ private:
 };
 
 } // namespace
+
+bool isTextPath(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  return path == "-" || extension == ".csv" || extension == ".tsv" || extension == ".txt" ||
+    extension == ".xyz" || extension == ".pts" || extension == ".gz" || extension == ".xz" ||
+    extension == ".zst";
+}
 
 PointTable readTextPoints(const std::string& path, const PointOptions& options)
 {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Points/PointStream.h"
 
-#include "Files/FileSystem.h"
 #include "Files/IOError.h"
+#include "Files/OutputFile.h"
 #include "Files/TemporaryFiles.h"
 #include "Parallel/Poll.h"
 #include "Partitioning/Spill.h"
-#include "Points/PointTable.h"
+#include "Points/ReadPoints.h"
 
 #include <cmath>
 #include <cstdio>
@@ -138,8 +137,7 @@ public:
     this->Points = 0;
   }
 
-  /// The number of points is unknown before the first pass, so reading cannot start at any of them.
-  std::int64_t divisible() const override { return -1; }
+  /// Not called, because divisible() is -1: the number of points is unknown before the first pass.
   void limitTo(std::int64_t, std::int64_t) override {}
 
   std::vector<std::string> columns() const override { return this->All->columns(); }
@@ -229,7 +227,7 @@ private:
       {
         poll();
         const std::size_t end = std::size_t(block.First) + block.size();
-        this->Kept.resize((end + 63) / 64, 0);
+        this->Kept.resize(end);
         candidates.clear();
         for (std::size_t i = 0; i < block.size(); ++i)
         {
@@ -269,7 +267,7 @@ private:
 
   void keep(std::int64_t id)
   {
-    this->Kept[std::size_t(id) / 64] |= std::uint64_t(1) << (id % 64);
+    this->Kept[std::size_t(id)] = true;
     ++this->KeptCount;
   }
 
@@ -278,8 +276,7 @@ private:
     std::size_t to = 0;
     for (std::size_t i = 0; i < block.size(); ++i)
     {
-      const std::size_t id = std::size_t(block.First) + i;
-      if ((this->Kept[id / 64] >> (id % 64) & 1) == 0)
+      if (!this->Kept[std::size_t(block.First) + i])
       {
         continue;
       }
@@ -297,7 +294,7 @@ private:
   const std::unique_ptr<PointStream> All;
   const Thinning Rule;
   const std::size_t Elevation;
-  std::vector<std::uint64_t> Kept; ///< one bit per point
+  std::vector<bool> Kept; ///< one bit per point
   bool IsDecided = false;
   std::int64_t Seen = 0;
   std::int64_t KeptCount = 0;

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/IOError.h"
 #include "Locate/CellLocator.h"
-#include "Locate/CellPass.h"
 #include "Locate/PointGrid.h"
-#include "Parallel/ParallelFor.h"
-#include "Parallel/Poll.h"
-#include "Query/ResidentMesh.h"
+#include "Query/ForPieces.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -32,7 +30,7 @@ constexpr std::int64_t cellsPerNearOne = 3;
 
 /// Selects the cells whose bounding boxes may contain one of the points. Stops if there are more
 /// than `most`.
-template <int D, typename Coordinate>
+template <int D>
 class NearCells
 {
 public:
@@ -45,17 +43,22 @@ public:
   bool operator()(const Piece& piece, std::int64_t first, std::int64_t count, const void* ids,
     bool wide, std::vector<std::int64_t>& chosen)
   {
-    this->Positions.empty() ? this->findPositions(piece) : void();
+    if (this->Positions.empty())
+    {
+      piece.PointType == Scalar::Float32
+        ? this->findPositions(piece.Coordinates.as<float>(), piece.Points)
+        : this->findPositions(piece.Coordinates.as<double>(), piece.Points);
+    }
     wide ? this->choose(first, count, static_cast<const std::int64_t*>(ids), chosen)
          : this->choose(first, count, static_cast<const std::int32_t*>(ids), chosen);
     return std::int64_t(chosen.size()) <= this->Most;
   }
 
 private:
-  void findPositions(const Piece& piece)
+  template <typename Coordinate>
+  void findPositions(const Coordinate* coordinates, std::int64_t points)
   {
-    this->Positions.resize(std::size_t(piece.Points));
-    const auto* coordinates = piece.Coordinates.as<Coordinate>();
+    this->Positions.resize(std::size_t(points));
     for (auto& position : this->Positions)
     {
       std::array<double, D> at;
@@ -88,19 +91,6 @@ private:
   std::int64_t Most;
 };
 
-PieceOptions::Choose nearCells(
-  const PartitionedMesh& mesh, const AskedPoints& asked, std::int64_t most)
-{
-  const bool isFloat = mesh.PointType == Scalar::Float32;
-  if (mesh.CellSize == 3)
-  {
-    return isFloat ? PieceOptions::Choose(NearCells<2, float>(asked, most))
-                   : PieceOptions::Choose(NearCells<2, double>(asked, most));
-  }
-  return isFloat ? PieceOptions::Choose(NearCells<3, float>(asked, most))
-                 : PieceOptions::Choose(NearCells<3, double>(asked, most));
-}
-
 /// Whether the bounding box of the points covers less than half of a box.
 template <int D>
 bool areNarrow(const AskedPoints& asked, const Bounds& box)
@@ -119,69 +109,6 @@ bool areNarrow(const AskedPoints& asked, const Bounds& box)
   constexpr std::int64_t some = 1 << 10; // in most cases, so many show that all are not narrow
   return (asked.Count <= some || are(some)) && are(asked.Count);
 }
-
-/// Fills an array with NaN, or with 0 if it is an integer array.
-void fillNull(MeshAnswer::Array& array)
-{
-  withScalar(array.Type,
-    [&](auto zero)
-    {
-      using Value = decltype(zero);
-      const Value null = toScalar<Value>(std::numeric_limits<double>::quiet_NaN());
-      std::fill_n(array.Values.as<Value>(), array.Values.size() / sizeof(Value), null);
-    });
-}
-
-} // namespace
-
-MeshAnswer emptyAnswer(std::int64_t count, const std::vector<StoredArray>& arrays, int corners,
-  bool withWeights, bool withKeys)
-{
-  MeshAnswer answer;
-  const auto points = std::size_t(count);
-  answer.Cells.assign(points, -1);
-  answer.Weights.assign(withWeights ? points * std::size_t(corners) : 0, 0);
-  answer.Keys.assign(withKeys ? points : 0, noCellKey);
-  for (const StoredArray& array : arrays)
-  {
-    MeshAnswer::Array values{ array, {} };
-    values.Values = Buffer<char>(points * values.tupleBytes());
-    fillNull(values);
-    answer.Arrays.push_back(std::move(values));
-  }
-  return answer;
-}
-
-PieceGroups groupByPiece(const std::vector<std::int32_t>& pieces)
-{
-  const std::int32_t last = pieces.empty() ? -1 : *std::max_element(pieces.begin(), pieces.end());
-  const auto count = std::size_t(std::int64_t(last) + 1);
-  std::vector<std::int64_t> ends(count + 1, 0);
-  for (const std::int32_t piece : pieces)
-  {
-    ends[std::size_t(std::int64_t(piece) + 1)] += 1; // the first entry counts items without a piece
-  }
-  ends[0] = 0;
-  PieceGroups result;
-  for (std::size_t p = 0; p < count; ++p)
-  {
-    const std::int64_t begin = ends[p];
-    const std::int64_t end = begin + std::exchange(ends[p + 1], begin + ends[p + 1]);
-    end > begin ? result.Groups.push_back({ p, begin, end }) : void();
-  }
-  result.Items.resize(std::size_t(ends[count]));
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-  {
-    if (pieces[i] >= 0)
-    {
-      result.Items[std::size_t(ends[std::size_t(pieces[i])]++)] = std::int64_t(i);
-    }
-  }
-  return result;
-}
-
-namespace
-{
 
 /// Answers the points of a query, one piece per call. Several threads may call it for different
 /// pieces.
@@ -219,7 +146,9 @@ public:
     needs.Locator = pieces.fits(number, needs) &&
       (asked.Count > cells / cellsPerPoint || pieces.uses(number) >= searchesWithoutLocator);
     const ResidentPieces::Lease piece = pieces.get(number, needs);
-    this->answerBy(piece->Locator.get(), *piece->Part, asked, threads);
+    const MeshPart& part = *piece->Part;
+    locatePoints(
+      part.Mesh, part.CellIds, piece->Locator.get(), asked, threads, this->taking(part, asked));
   }
 
 private:
@@ -266,13 +195,6 @@ private:
     const ResidentPieces::Share memory =
       this->Mesh.pieces().note(std::uint64_t(asked.Count) * bytesOfPass);
     return locateInOnePass(part.Mesh, part.CellIds, asked, threads, this->taking(part, asked));
-  }
-
-  /// Answers with a locator or, if it is null, by searching the cells.
-  void answerBy(
-    const CellLocator* locator, const MeshPart& part, const AskedPoints& asked, int threads) const
-  {
-    locatePoints(part.Mesh, part.CellIds, locator, asked, threads, this->taking(part, asked));
   }
 
   /// Whether to read only the cells near the points instead of the whole piece.
@@ -324,7 +246,9 @@ private:
     PieceOptions reading;
     reading.Step = this->Mesh.options().Step;
     reading.Wanted = this->Needs.Arrays;
-    reading.Cells = nearCells(this->Mesh.mesh(), asked, most);
+    reading.Cells = this->Mesh.mesh().CellSize == 3
+      ? PieceOptions::Choose(NearCells<2>(asked, most))
+      : PieceOptions::Choose(NearCells<3>(asked, most));
     Piece near = readPiece(this->Mesh.mesh(), number, reading);
     reading.Cells = nullptr;
     if (near.IsStopped)
@@ -338,7 +262,8 @@ private:
       asked.Count > part.Mesh.Cells / cellsPerPoint
         ? void(locator.emplace(part.Mesh, part.CellIds, threads))
         : void();
-      this->answerBy(locator ? &*locator : nullptr, part, asked, threads);
+      locatePoints(part.Mesh, part.CellIds, locator ? &*locator : nullptr, asked, threads,
+        this->taking(part, asked));
     }
     return true;
   }
@@ -350,6 +275,57 @@ private:
 };
 
 } // namespace
+
+MeshAnswer emptyAnswer(std::int64_t count, const std::vector<StoredArray>& arrays, int corners,
+  bool withWeights, bool withKeys)
+{
+  MeshAnswer answer;
+  const auto points = std::size_t(count);
+  answer.Cells.assign(points, -1);
+  answer.Weights.assign(withWeights ? points * std::size_t(corners) : 0, 0);
+  answer.Keys.assign(withKeys ? points : 0, noCellKey);
+  for (const StoredArray& array : arrays)
+  {
+    MeshAnswer::Array values{ array, {} };
+    values.Values = Buffer<char>(points * values.tupleBytes());
+    withScalar(array.Type,
+      [&](auto zero)
+      {
+        using Value = decltype(zero);
+        const Value null = toScalar<Value>(std::numeric_limits<double>::quiet_NaN());
+        std::fill_n(values.Values.as<Value>(), values.Values.size() / sizeof(Value), null);
+      });
+    answer.Arrays.push_back(std::move(values));
+  }
+  return answer;
+}
+
+PieceGroups groupByPiece(const std::vector<std::int32_t>& pieces)
+{
+  const std::int32_t last = pieces.empty() ? -1 : *std::max_element(pieces.begin(), pieces.end());
+  const auto count = std::size_t(std::int64_t(last) + 1);
+  std::vector<std::int64_t> ends(count + 1, 0);
+  for (const std::int32_t piece : pieces)
+  {
+    ends[std::size_t(std::int64_t(piece) + 1)] += 1; // the first entry counts items without a piece
+  }
+  ends[0] = 0;
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  PieceGroups result;
+  for (std::size_t p = 0; p < count; ++p)
+  {
+    ends[p + 1] > ends[p] ? result.Groups.push_back({ p, ends[p], ends[p + 1] }) : void();
+  }
+  result.Items.resize(std::size_t(ends[count]));
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    if (pieces[i] >= 0)
+    {
+      result.Items[std::size_t(ends[std::size_t(pieces[i])]++)] = std::int64_t(i);
+    }
+  }
+  return result;
+}
 
 MeshAnswer ResidentMesh::answer(const Point3* points, std::int64_t count,
   const AnswerOptions& options, std::vector<std::int32_t> pieceOf) const
@@ -370,10 +346,9 @@ MeshAnswer ResidentMesh::answer(const Point3* points, std::int64_t count,
   MeshAnswer answer =
     emptyAnswer(count, arrays, this->Mesh.CellSize, options.Weights, options.Keys);
   const PointQuery query(*this, options, answer);
-  const int threads = threadCount(this->Options.Threads);
   if (!this->isStored())
   {
-    query.answerPiece(0, { points, nullptr, count }, threads, true);
+    query.answerPiece(0, { points, nullptr, count }, threadCount(this->Options.Threads), true);
     return answer;
   }
   pieceOf = pieceOf.empty() ? this->piecesOf(points, count) : std::move(pieceOf);
@@ -390,18 +365,12 @@ MeshAnswer ResidentMesh::answer(const Point3* points, std::int64_t count,
     together += this->estimate(group.Piece, needs);
   }
   const bool mayStay = together <= this->Options.MemoryLimit;
-  const auto pieces = std::int64_t(groups.Groups.size());
-  // If there are many pieces, each thread processes a piece at a time. Otherwise all threads share
-  // the points of one piece after the other.
-  const bool manyPieces = pieces >= 2 * threads;
-  forChunks(pieces, 1, manyPieces ? threads : 1, {},
-    [&](std::int64_t g, std::int64_t, int)
+  sharePieces(*this, groups.Groups.size(),
+    [&](std::size_t g, int threads)
     {
-      poll();
-      const PieceGroups::Group& group = groups.Groups[std::size_t(g)];
+      const PieceGroups::Group& group = groups.Groups[g];
       query.answerPiece(group.Piece,
-        { points, groups.Items.data() + group.Begin, group.End - group.Begin },
-        manyPieces ? 1 : threads, mayStay);
+        { points, groups.Items.data() + group.Begin, group.End - group.Begin }, threads, mayStay);
     });
   return answer;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Query/Around.h"
+#include "Query/Queries.h"
 
 #include "Files/IOError.h"
 #include "Predicates/ExactPredicates.h"
@@ -70,8 +70,7 @@ private:
     Point2 p[3];
     for (int i = 0; i < 3; ++i)
     {
-      const Point3 corner = positionOf(this->Part, this->Topology.corner(cell, i));
-      p[i] = { corner.x, corner.y };
+      p[i] = flat(positionOf(this->Part, this->Topology.corner(cell, i)));
       turned[i] = i;
     }
     orientation(p[0], p[1], p[2]) < 0 ? std::swap(turned[1], turned[2]) : void();
@@ -86,26 +85,27 @@ private:
     const auto cells = this->Topology.cellsAt(point);
     for (auto left = cells.end() - cells.begin(); left > 0; --left)
     {
-      int before = 0; // the corner that is neither `point` nor `end`
-      while (
-        this->Topology.corner(cell, before) == point || this->Topology.corner(cell, before) == end)
-      {
-        ++before;
-      }
-      const std::int64_t other = lowestAcross(this->Part, this->Topology, cell, before);
+      const std::int64_t other =
+        lowestAcross(this->Part, this->Topology, cell, this->third(cell, point, end));
       if (other < 0)
       {
         break;
       }
       cell = other;
-      int i = 0;
-      while (this->Topology.corner(cell, i) == point || this->Topology.corner(cell, i) == end)
-      {
-        ++i;
-      }
-      end = this->Topology.corner(cell, i);
+      end = this->Topology.corner(cell, this->third(cell, point, end));
     }
     return end;
+  }
+
+  /// The corner of a cell that is neither a nor b.
+  int third(std::int64_t cell, std::int64_t a, std::int64_t b) const
+  {
+    int i = 0;
+    while (this->Topology.corner(cell, i) == a || this->Topology.corner(cell, i) == b)
+    {
+      ++i;
+    }
+    return i;
   }
 
   const MeshPart& Part;
@@ -155,7 +155,7 @@ std::vector<BorderEdge> borderIn(
       PieceBorderEdges border(*piece.Part, *piece.Topology, edges);
       for (std::int64_t point = 0; point < piece.Part->Mesh.PointCount; ++point)
       {
-        owns(*piece.Part, point) ? border.add(point) : void();
+        piece.Part->owns(point) ? border.add(point) : void();
       }
     });
   return edges;

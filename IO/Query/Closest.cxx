@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Query/Closest.h"
+#include "Query/Queries.h"
 
 #include "Locate/CellLocator.h"
 #include "Query/ForPieces.h"
@@ -54,7 +54,10 @@ public:
     this->Tree.searchNear(coordinatesOf<D>(point),
       [&](std::int32_t piece)
       {
-        piece != but&& this->distance(piece, point) <= most ? visit(piece) : void();
+        if (piece != but && this->distance(piece, point) <= most)
+        {
+          visit(piece);
+        }
         return most;
       });
   }
@@ -63,13 +66,7 @@ private:
   Box<D> box(std::int64_t piece) const
   {
     const PieceSummary& summary = this->Pieces[std::size_t(piece)];
-    Box<D> box = Box<D>::empty();
-    for (std::size_t axis = 0; axis < D && summary.Cells + summary.BorrowedCells > 0; ++axis)
-    {
-      box.Low[axis] = summary.Box[2 * axis];
-      box.High[axis] = summary.Box[2 * axis + 1];
-    }
-    return box;
+    return summary.Cells + summary.BorrowedCells > 0 ? boxOf<D>(summary.Box) : Box<D>::empty();
   }
 
   /// A lower bound of the distance between a point and a piece's box.
@@ -88,6 +85,15 @@ private:
   const std::vector<PieceSummary>& Pieces;
   BoxTree<D> Tree;
 };
+
+/// Keeps the nearer one of two cells in `best`.
+void keepBetter(const NearCell& found, const Point3& point, NearCell& best)
+{
+  if (found.Id >= 0 && found.isBetterThan(best, point))
+  {
+    best = found;
+  }
+}
 
 /// Searches pieces[i] for the cell nearest to the point with the index asked[i], and keeps it in
 /// `best` if it is nearer than the cell there.
@@ -111,10 +117,7 @@ void searchPieces(const ResidentMesh& mesh, const std::vector<std::int32_t>& pie
         }
         piece.Locator->findNearest(points[item], found);
         const std::lock_guard<std::mutex> lock(locks[item % locks.size()]);
-        if (found.Id >= 0 && found.isBetterThan(best[item], points[item]))
-        {
-          best[item] = found;
-        }
+        keepBetter(found, points[item], best[item]);
       }
     });
 }
@@ -142,34 +145,24 @@ public:
       return;
     }
     const bool isStored = this->Mesh.isStored();
-    std::vector<std::vector<Question>> questions(std::size_t(this->Ranks->size()));
-    std::vector<std::vector<std::size_t>> items(questions.size());
+    std::vector<Question> questions;
+    std::vector<std::size_t> rankOf;
+    std::vector<std::size_t> items;
     for (std::size_t i = 0; i < pieces.size(); ++i)
     {
       if (pieces[i] >= 0)
       {
-        const auto item = std::size_t(asked[i]);
-        const std::size_t rank =
-          isStored ? rankOfPiece(*this->Ranks, this->Mesh, pieces[i]) : std::size_t(pieces[i]);
-        questions[rank].push_back({ points[item], isStored ? pieces[i] : 0, best[item] });
-        items[rank].push_back(item);
+        items.push_back(std::size_t(asked[i]));
+        questions.push_back({ points[items.back()], isStored ? pieces[i] : 0, best[items.back()] });
+        rankOf.push_back(
+          isStored ? rankOfPiece(*this->Ranks, this->Mesh, pieces[i]) : std::size_t(pieces[i]));
       }
     }
-    std::vector<std::vector<NearCell>> answers;
-    for (const std::vector<Question>& received : this->Ranks->allToAll(questions))
+    const std::vector<NearCell> answers = askRanks(*this->Ranks, rankOf, std::move(questions),
+      [this](const std::vector<Question>& received) { return this->answer(received); });
+    for (std::size_t i = 0; i < items.size(); ++i)
     {
-      answers.push_back(this->answer(received));
-    }
-    answers = this->Ranks->allToAll(answers);
-    for (std::size_t rank = 0; rank < answers.size(); ++rank)
-    {
-      for (std::size_t i = 0; i < items[rank].size(); ++i)
-      {
-        const NearCell& found = answers[rank].at(i);
-        const std::size_t item = items[rank][i];
-        best[item] =
-          found.Id >= 0 && found.isBetterThan(best[item], points[item]) ? found : best[item];
-      }
+      keepBetter(answers[i], points[items[i]], best[items[i]]);
     }
   }
 
@@ -235,23 +228,20 @@ void findOutside(const ResidentMesh& mesh, const std::vector<Point3>& points,
   search(others, asked, points.data(), best);
 }
 
-/// The points that are finite and that no cell contains.
-struct PointsOutside
-{
-  std::vector<std::size_t> Indices;
-  std::vector<Point3> Points;
-};
+} // namespace
 
-/// The locations of the points that are in cells. Collects all other finite points in `outside`,
-/// and leaves their results undefined.
-ClosestLocations insideOf(
-  std::vector<std::int64_t> cells, bool inSpace, const Point3* points, PointsOutside& outside)
+ClosestLocations closestTo(
+  const ResidentMesh& mesh, const Point3* points, std::int64_t count, Communicator* ranks)
 {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   ClosestLocations result;
-  result.Cells = std::move(cells);
+  result.Cells = answerOf(mesh, points, count, {}, ranks).Cells;
   result.Points.assign(result.Cells.size(), { nan, nan, nan });
   result.Distances.assign(result.Cells.size(), std::numeric_limits<double>::infinity());
+  const RankParts parts(ranks, mesh, {});
+  const bool inSpace = parts.Common.CellSize == 4;
+  std::vector<std::size_t> indices; // of the finite points that no cell contains
+  std::vector<Point3> outside;      // their positions
   for (std::size_t i = 0; i < result.Cells.size(); ++i)
   {
     const Point3 p{ points[i].x, points[i].y, inSpace ? points[i].z : 0 };
@@ -260,31 +250,18 @@ ClosestLocations insideOf(
       result.Points[i] = p;
       result.Distances[i] = 0;
     }
-    else if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))
+    else if (isFinite(p))
     {
-      outside.Indices.push_back(i);
-      outside.Points.push_back(p);
+      indices.push_back(i);
+      outside.push_back(p);
     }
   }
-  return result;
-}
-
-} // namespace
-
-ClosestLocations closestTo(
-  const ResidentMesh& mesh, const Point3* points, std::int64_t count, Communicator* ranks)
-{
-  std::vector<std::int64_t> cells = answerOf(mesh, points, count, {}, ranks).Cells;
-  const RankParts parts(ranks, mesh, {});
-  const bool inSpace = parts.Common.CellSize == 4;
-  PointsOutside outside;
-  ClosestLocations result = insideOf(std::move(cells), inSpace, points, outside);
-  std::vector<NearCell> best(outside.Points.size());
+  std::vector<NearCell> best(outside.size());
   const PieceSearch search(ranks, mesh, ranks ? parts.firstCell(*ranks, mesh) : 0);
   if (mesh.isStored())
   {
-    inSpace ? findOutside<3>(mesh, outside.Points, search, best)
-            : findOutside<2>(mesh, outside.Points, search, best);
+    inSpace ? findOutside<3>(mesh, outside, search, best)
+            : findOutside<2>(mesh, outside, search, best);
   }
   else
   {
@@ -293,21 +270,21 @@ ClosestLocations closestTo(
     std::vector<std::int64_t> asked;
     for (std::size_t rank = 0; rank < parts.All.size(); ++rank)
     {
-      for (std::size_t i = 0; i < outside.Points.size() && parts.All[rank].Cells > 0; ++i)
+      for (std::size_t i = 0; i < outside.size() && parts.All[rank].Cells > 0; ++i)
       {
         pieces.push_back(std::int32_t(rank));
         asked.push_back(std::int64_t(i));
       }
     }
-    search(pieces, asked, outside.Points.data(), best);
+    search(pieces, asked, outside.data(), best);
   }
   for (std::size_t k = 0; k < best.size(); ++k)
   {
     if (best[k].Id >= 0)
     {
-      result.Cells[outside.Indices[k]] = best[k].Id;
-      result.Distances[outside.Indices[k]] = best[k].distance(outside.Points[k]);
-      result.Points[outside.Indices[k]] = best[k].At;
+      result.Cells[indices[k]] = best[k].Id;
+      result.Distances[indices[k]] = best[k].distance(outside[k]);
+      result.Points[indices[k]] = best[k].At;
     }
   }
   return result;

@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Arrays/SortUnique.h"
-#include "Query/Around.h"
-#include "Query/ForPieces.h"
-#include "Query/RankAnswer.h"
+#include "Query/Queries.h"
 
 #include "Arrays/Random.h"
+#include "Parallel/Sort.h"
+#include "Query/ForPieces.h"
+#include "Query/RankAnswer.h"
 
 #include <algorithm>
 #include <array>
 #include <iterator>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 namespace tipp
 {
-
 namespace
 {
 
@@ -38,14 +36,13 @@ Components componentsHere(const ResidentMesh& mesh)
   if (!mesh.isStored())
   {
     const ResidentPieces::Lease piece = mesh.pieces().get(0, {});
-    for (std::int64_t cell = 0; piece->Part->Rows && cell < piece->Part->Mesh.Cells; ++cell)
+    for (std::int64_t cell = 0; cell < piece->Part->Mesh.Cells; ++cell)
     {
-      count = std::max(count, piece->Part->Rows[cell] + 1);
+      count = std::max(count, piece->Part->row(cell) + 1);
     }
   }
-  const auto idOf = [&mesh](const MeshPart& part, std::int64_t cell) {
-    return mesh.isStored() ? part.cellId(cell) : part.Rows ? part.Rows[cell] : cell;
-  };
+  const auto idOf = [&mesh](const MeshPart& part, std::int64_t cell)
+  { return mesh.isStored() ? part.cellId(cell) : part.row(cell); };
   std::vector<std::int64_t> parent(std::size_t(count), -1); // -1 for hidden cells
   const auto add = [&parent](std::int64_t cell)
   {
@@ -101,17 +98,9 @@ Components componentsHere(const ResidentMesh& mesh)
 /// Two components that are connected.
 using Link = std::array<std::int64_t, 2>;
 
-/// A face with only one cell on a rank. Unused points are -1.
-struct OpenFace
-{
-  std::array<std::int64_t, 3> Points; ///< global ids, ascending
-  std::int64_t Cell;
-
-  bool operator<(const OpenFace& other) const
-  {
-    return std::tie(this->Points, this->Cell) < std::tie(other.Points, other.Cell);
-  }
-};
+/// A face with only one cell on a rank: the global ids of its three points, ascending, and of the
+/// cell. Unused points are -1.
+using OpenFace = std::array<std::int64_t, 4>;
 
 /// The components of some cells. A component is identified by its lowest cell id.
 class CellComponents
@@ -152,13 +141,13 @@ private:
 
 OpenFace faceOf(const MeshPart& part, const PartTopology& topology, std::int64_t cell, int opposite)
 {
-  OpenFace face{ { -1, -1, -1 }, part.cellId(cell) };
+  OpenFace face{ -1, -1, -1, part.cellId(cell) };
   std::size_t count = 0;
   for (int i = 0; i < topology.corners(); ++i)
   {
-    i != opposite ? void(face.Points[count++] = part.pointId(topology.corner(cell, i))) : void();
+    i != opposite ? void(face[count++] = part.pointId(topology.corner(cell, i))) : void();
   }
-  std::sort(face.Points.begin(), face.Points.end());
+  std::sort(face.begin(), face.end() - 1);
   return face;
 }
 
@@ -171,11 +160,9 @@ std::vector<Link> linksAcross(
   for (OpenFace face : open)
   {
     std::uint64_t hash = 0;
-    for (const std::int64_t point : face.Points)
-    {
-      hash = mixBits(hash + std::uint64_t(point));
-    }
-    face.Cell = own.rootOf(face.Cell);
+    std::for_each(face.begin(), face.end() - 1,
+      [&hash](std::int64_t point) { hash = mixBits(hash + std::uint64_t(point)); });
+    face[3] = own.rootOf(face[3]);
     byRank[std::size_t(hash % std::uint64_t(ranks.size()))].push_back(face);
   }
   std::vector<OpenFace> faces = concatenated(ranks.allToAll(byRank));
@@ -183,9 +170,10 @@ std::vector<Link> linksAcross(
   std::vector<Link> links;
   for (std::size_t i = 1; i < faces.size(); ++i)
   {
-    if (faces[i].Points == faces[i - 1].Points && faces[i].Cell != faces[i - 1].Cell)
+    if (std::equal(faces[i].begin(), faces[i].end() - 1, faces[i - 1].begin()) &&
+      faces[i][3] != faces[i - 1][3])
     {
-      links.push_back({ faces[i - 1].Cell, faces[i].Cell });
+      links.push_back({ faces[i - 1][3], faces[i][3] });
     }
   }
   sortUnique(links);

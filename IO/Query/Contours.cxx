@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Query/Lines.h"
+#include "Query/Queries.h"
 
 #include "Files/IOError.h"
-#include "Parallel/ParallelFor.h"
-#include "Parallel/Poll.h"
 #include "Predicates/ExactPredicates.h"
 #include "Query/ForPieces.h"
 #include "Query/RankAnswer.h"
@@ -62,14 +60,15 @@ Edge edgeOf(const Corner& a, const Corner& b)
   return { std::min(a.Id, b.Id), std::max(a.Id, b.Id) };
 }
 
-/// Adds the segments in one triangle. Its corners are counter-clockwise.
-void addSegments(const Corner (&corners)[3],
-  const std::vector<std::pair<double, std::int32_t>>& levels, std::vector<Segment>& segments)
+/// A level's value and index.
+using Level = std::pair<double, std::int32_t>;
+
+/// Adds the segments of one triangle for the levels [level, end) that are not above `high`. Its
+/// corners are counter-clockwise.
+void addSegments(const Corner (&corners)[3], const Level* level, const Level* end, double high,
+  std::vector<Segment>& segments)
 {
-  const auto [low, high] = std::minmax({ corners[0].Value, corners[1].Value, corners[2].Value });
-  auto level = std::upper_bound(
-    levels.begin(), levels.end(), low, [](double value, const auto& l) { return value < l.first; });
-  for (; level != levels.end() && level->first <= high; ++level)
+  for (; level != end && level->first <= high; ++level)
   {
     // The corner that is the only one on its side of the level.
     bool above[3];
@@ -90,35 +89,26 @@ void addSegments(const Corner (&corners)[3],
   }
 }
 
-/// The values of one component of an array at a part's points, as doubles. Points are local
-/// indices.
-class PointValues
+/// The values of one component of an array at all points of a part, as doubles: the array's own, or
+/// copies in `copied`.
+const double* valuesAtPoints(
+  const MeshPart& part, const PartValues& values, int component, std::vector<double>& copied)
 {
-public:
-  PointValues(const MeshPart& part, const PartValues& values, int component)
+  if (values.doubles())
   {
-    this->First = values.doubles();
-    if (!this->First)
-    {
-      this->Copied.reserve(std::size_t(part.Mesh.PointCount));
-      for (std::int64_t point = 0; point < part.Mesh.PointCount; ++point)
-      {
-        this->Copied.push_back(values.atPoint(point, component));
-      }
-      this->First = this->Copied.data();
-    }
+    return values.doubles();
   }
-
-  double operator[](std::int64_t point) const { return this->First[point]; }
-
-private:
-  std::vector<double> Copied;
-  const double* First;
-};
+  copied.reserve(std::size_t(part.Mesh.PointCount));
+  for (std::int64_t point = 0; point < part.Mesh.PointCount; ++point)
+  {
+    copied.push_back(values.atPoint(point, component));
+  }
+  return copied.data();
+}
 
 template <typename Access>
-void addCells(const Access& access, const MeshPart& part, const PointValues& values,
-  const std::vector<std::pair<double, std::int32_t>>& levels, std::int64_t begin, std::int64_t end,
+void addCells(const Access& access, const MeshPart& part, const double* values,
+  const std::vector<Level>& levels, std::int64_t begin, std::int64_t end,
   std::vector<Segment>& segments)
 {
   for (std::int64_t cell = begin; cell < end; ++cell)
@@ -136,9 +126,10 @@ void addCells(const Access& access, const MeshPart& part, const PointValues& val
       high = std::max(high, corners[i].Value);
       isUsable = isUsable && std::isfinite(corners[i].Value);
     }
-    const auto first = std::upper_bound(levels.begin(), levels.end(), low,
-      [](double value, const auto& l) { return value < l.first; });
-    if (!isUsable || first == levels.end() || first->first > high)
+    const Level* const last = levels.data() + levels.size();
+    const Level* const first = std::upper_bound(
+      levels.data(), last, low, [](double value, const Level& l) { return value < l.first; });
+    if (!isUsable || first == last || first->first > high)
     {
       continue;
     }
@@ -147,9 +138,10 @@ void addCells(const Access& access, const MeshPart& part, const PointValues& val
       corner.At = access.point(corner.Id);
       corner.Id = part.pointId(corner.Id);
     }
-    const auto flat = [&](int i) { return Point2{ corners[i].At.x, corners[i].At.y }; };
-    orientation(flat(0), flat(1), flat(2)) < 0 ? std::swap(corners[1], corners[2]) : void();
-    addSegments(corners, levels, segments);
+    orientation(flat(corners[0].At), flat(corners[1].At), flat(corners[2].At)) < 0
+      ? std::swap(corners[1], corners[2])
+      : void();
+    addSegments(corners, first, last, high, segments);
   }
 }
 
@@ -239,59 +231,6 @@ private:
   std::vector<char> HasBefore;
 };
 
-} // namespace
-
-const StoredArray* fieldOf(
-  const ResidentMesh& mesh, const std::string& array, int component, bool orOfCells)
-{
-  if (mesh.mesh().CellSize != 3)
-  {
-    mesh.refuse("has tetrahedra; ask this of a mesh of triangles.");
-  }
-  const StoredArray* const description = mesh.find(array);
-  if (description && !description->OfPoints && !orOfCells)
-  {
-    mesh.refuse("has '" + array + "' at cells; this needs an array of points.");
-  }
-  if (component < 0 || component >= (description ? description->Components : 1))
-  {
-    mesh.refuse("has no component " + std::to_string(component) + " of '" + array + "'.");
-  }
-  return description;
-}
-
-std::pair<double, double> rangeOf(
-  const ResidentMesh& mesh, const std::string& array, int component, Communicator* ranks)
-{
-  std::vector<double> range = { HUGE_VAL, HUGE_VAL }; // the lowest value, and minus the highest
-  if (canQuery(ranks, mesh))
-  {
-    const StoredArray* const description = fieldOf(mesh, array, component);
-    std::mutex mutex;
-    forPieceRange(mesh, piecesOfRank(ranks, mesh), mesh.needsOf({ array }),
-      threadCount(mesh.options().Threads),
-      [&](const ResidentPiece& piece)
-      {
-        const PartValues values(*piece.Part, description);
-        double low = HUGE_VAL;
-        double high = -HUGE_VAL;
-        for (std::int64_t point = 0; point < piece.Part->Mesh.PointCount; ++point)
-        {
-          const double value = values.atPoint(point, component);
-          low = std::isfinite(value) ? std::min(low, value) : low;
-          high = std::isfinite(value) ? std::max(high, value) : high;
-        }
-        const std::lock_guard<std::mutex> lock(mutex);
-        range = { std::min(range[0], low), std::min(range[1], -high) };
-      });
-  }
-  areSeveral(ranks) ? ranks->minimum(range) : void();
-  return { range[0], -range[1] };
-}
-
-namespace
-{
-
 /// Segments, with a note of their memory: pieces leave space for it.
 struct Segments
 {
@@ -308,8 +247,8 @@ Segments segmentsIn(const ResidentMesh& mesh, const std::string& array, int comp
   {
     return segments;
   }
-  const StoredArray* const description = fieldOf(mesh, array, component);
-  std::vector<std::pair<double, std::int32_t>> sorted;
+  const StoredArray* const description = mesh.fieldOf(array, component);
+  std::vector<Level> sorted;
   for (std::size_t i = 0; i < levels.size(); ++i)
   {
     if (!std::isfinite(levels[i]))
@@ -329,8 +268,9 @@ Segments segmentsIn(const ResidentMesh& mesh, const std::string& array, int comp
     [&](const ResidentPiece& piece)
     {
       const MeshPart& part = *piece.Part;
-      const PartValues described(part, description);
-      const PointValues values(part, described, component);
+      std::vector<double> copied;
+      const double* const values =
+        valuesAtPoints(part, PartValues(part, description), component, copied);
       forChunks(part.OwnedCells, 1 << 14, isOne ? threads : 1, {},
         [&](std::int64_t begin, std::int64_t end, int)
         {
@@ -358,6 +298,35 @@ Segments segmentsIn(const ResidentMesh& mesh, const std::string& array, int comp
 }
 
 } // namespace
+
+std::pair<double, double> rangeOf(
+  const ResidentMesh& mesh, const std::string& array, int component, Communicator* ranks)
+{
+  std::vector<double> range = { HUGE_VAL, HUGE_VAL }; // the lowest value, and minus the highest
+  if (canQuery(ranks, mesh))
+  {
+    const StoredArray* const description = mesh.fieldOf(array, component);
+    std::mutex mutex;
+    forPieceRange(mesh, piecesOfRank(ranks, mesh), mesh.needsOf({ array }),
+      threadCount(mesh.options().Threads),
+      [&](const ResidentPiece& piece)
+      {
+        const PartValues values(*piece.Part, description);
+        double low = HUGE_VAL;
+        double high = -HUGE_VAL;
+        for (std::int64_t point = 0; point < piece.Part->Mesh.PointCount; ++point)
+        {
+          const double value = values.atPoint(point, component);
+          low = std::isfinite(value) ? std::min(low, value) : low;
+          high = std::isfinite(value) ? std::max(high, value) : high;
+        }
+        const std::lock_guard<std::mutex> lock(mutex);
+        range = { std::min(range[0], low), std::min(range[1], -high) };
+      });
+  }
+  areSeveral(ranks) ? ranks->minimum(range) : void();
+  return { range[0], -range[1] };
+}
 
 Contours contoursOf(const ResidentMesh& mesh, const std::string& array, int component,
   const std::vector<double>& levels, Communicator* ranks)

@@ -4,11 +4,9 @@
 
 #include "Locate/MortonOrder.h"
 #include "Parallel/ParallelFor.h"
-#include "Parallel/Poll.h"
-#include "Query/PartTopology.h"
+#include "Query/MeshPart.h"
 #include "Query/ResidentMesh.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -24,15 +22,15 @@ inline Point3 positionOf(const MeshPart& part, std::int64_t point)
   return position;
 }
 
+inline Point2 flat(const Point3& p)
+{
+  return { p.x, p.y };
+}
+
 /// The point at the fraction `share` of the way from a to b.
 inline Point3 between(const Point3& a, const Point3& b, double share)
 {
   return { a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z) };
-}
-
-inline bool owns(const MeshPart& part, std::int64_t point)
-{
-  return !part.Ghosts || part.Ghosts[point] == 0;
 }
 
 /// The cell across the face opposite to a corner of a cell, or -1 if there is none. Of several, the
@@ -50,22 +48,34 @@ inline std::int64_t lowestAcross(
   return found;
 }
 
-/// Calls work(piece, begin, end) for the items groups.Items[begin] ... [end - 1] of each group.
-/// Several threads are used: for different pieces, or for the items of the same piece.
+/// Calls work(i, threads) for each i of [0, count), where each i stands for a piece. If there are
+/// many pieces, each thread processes a piece at a time. Otherwise all threads share one piece
+/// after the other.
+template <typename Work>
+void sharePieces(const ResidentMesh& mesh, std::size_t count, const Work& work)
+{
+  const int threads = threadCount(mesh.options().Threads);
+  const bool areMany = std::int64_t(count) >= 2 * threads;
+  forChunks(std::int64_t(count), 1, areMany ? threads : 1, {},
+    [&](std::int64_t i, std::int64_t, int)
+    {
+      poll();
+      work(std::size_t(i), areMany ? 1 : threads);
+    });
+}
+
+/// Calls work(piece, begin, end) for the items groups.Items[begin] ... [end - 1] of each group, on
+/// several threads.
 template <typename Work>
 void forPieces(
   const ResidentMesh& mesh, const PieceGroups& groups, const PieceNeeds& needs, const Work& work)
 {
-  const int threads = threadCount(mesh.options().Threads);
-  const auto count = std::int64_t(groups.Groups.size());
-  const bool manyPieces = count >= 2 * threads;
-  forChunks(count, 1, manyPieces ? threads : 1, {},
-    [&](std::int64_t g, std::int64_t, int)
+  sharePieces(mesh, groups.Groups.size(),
+    [&](std::size_t g, int threads)
     {
-      poll();
-      const PieceGroups::Group& group = groups.Groups[std::size_t(g)];
+      const PieceGroups::Group& group = groups.Groups[g];
       const ResidentPieces::Lease piece = mesh.pieces().get(group.Piece, needs);
-      forChunks(group.End - group.Begin, 1 << 12, manyPieces ? 1 : threads, {},
+      forChunks(group.End - group.Begin, 1 << 12, threads, {},
         [&](std::int64_t begin, std::int64_t end, int)
         { work(*piece, group.Begin + begin, group.Begin + end); });
     });
@@ -79,8 +89,7 @@ inline PieceNeeds topologyNeeded()
 }
 
 /// Calls work(piece) for the pieces [pieces.first, pieces.second), on `threads` threads; with one
-/// thread in ascending order.
-/// The pieces stay in memory if all of them fit.
+/// thread in ascending order. The pieces stay in memory if all of them fit.
 template <typename Work>
 void forPieceRange(const ResidentMesh& mesh, std::pair<std::size_t, std::size_t> pieces,
   const PieceNeeds& needs, int threads, const Work& work)
@@ -112,6 +121,18 @@ inline bool holds(const Bounds& box, const Point3& p, int dimension)
     (dimension == 2 || (box[4] <= p.z && p.z <= box[5]));
 }
 
+template <int D>
+Box<D> boxOf(const Bounds& bounds)
+{
+  Box<D> box;
+  for (std::size_t axis = 0; axis < D; ++axis)
+  {
+    box.Low[axis] = bounds[2 * axis];
+    box.High[axis] = bounds[2 * axis + 1];
+  }
+  return box;
+}
+
 inline Bounds boundsOf(const Box<2>& box)
 {
   return { box.Low[0], box.High[0], box.Low[1], box.High[1], 0, 0 };
@@ -125,22 +146,17 @@ template <typename Wants, typename Work>
 void forCells(const ResidentMesh& mesh, std::pair<std::size_t, std::size_t> pieces,
   const PieceNeeds& needs, const Wants& wants, const Work& work)
 {
-  std::vector<std::int32_t> wanted;
+  std::vector<std::size_t> wanted;
   for (std::size_t i = pieces.first; i < pieces.second; ++i)
   {
-    !mesh.isStored() || wants(mesh.mesh().Pieces[i].Box) ? wanted.push_back(std::int32_t(i))
-                                                         : void();
+    !mesh.isStored() || wants(mesh.mesh().Pieces[i].Box) ? wanted.push_back(i) : void();
   }
-  const int threads = threadCount(mesh.options().Threads);
-  const bool manyPieces = std::int64_t(wanted.size()) >= 2 * threads;
-  forChunks(std::int64_t(wanted.size()), 1, manyPieces ? threads : 1, {},
-    [&](std::int64_t i, std::int64_t, int)
+  sharePieces(mesh, wanted.size(),
+    [&](std::size_t i, int threads)
     {
-      poll();
-      const auto number = std::size_t(wanted[std::size_t(i)]);
-      const Bounds* const box = mesh.isStored() ? &mesh.mesh().Pieces[number].Box : nullptr;
-      const ResidentPieces::Lease piece = mesh.pieces().get(number, needs);
-      forChunks(piece->Part->Mesh.Cells, 1 << 13, manyPieces ? 1 : threads, {},
+      const Bounds* const box = mesh.isStored() ? &mesh.mesh().Pieces[wanted[i]].Box : nullptr;
+      const ResidentPieces::Lease piece = mesh.pieces().get(wanted[i], needs);
+      forChunks(piece->Part->Mesh.Cells, 1 << 13, threads, {},
         [&](std::int64_t begin, std::int64_t end, int) { work(*piece->Part, box, begin, end); });
     });
 }

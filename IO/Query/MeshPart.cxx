@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -25,12 +27,9 @@ MeshPart partOf(Piece piece)
   part.CellIds = held->CellIds.as<std::int64_t>();
   part.PointIds = held->PointIds.as<std::int64_t>();
   part.Ghosts = held->PointGhosts.as<std::uint8_t>();
-  part.Bytes = std::int64_t(held->Coordinates.size() + held->Connectivity.size() +
-    held->CellIds.size() + held->PointIds.size() + held->PointGhosts.size());
   for (const Piece::Attribute& attribute : held->Attributes)
   {
     part.Arrays.push_back({ attribute.Description, attribute.Values.data() });
-    part.Bytes += std::int64_t(attribute.Values.size());
   }
   part.Keeps = held;
   return part;
@@ -38,7 +37,6 @@ MeshPart partOf(Piece piece)
 
 PartValues::PartValues(const MeshPart& part, const StoredArray* array)
   : Part(part)
-  , Corners(part.Mesh.Dimension + 1)
 {
   if (!array)
   {
@@ -67,15 +65,15 @@ template <typename Value>
 Value PartValues::valueAt(const CellLocation& at, int component) const
 {
   const auto* const values = static_cast<const Value*>(this->Values) + this->First + component;
+  const int corners = this->Part.Mesh.Dimension + 1;
   if (!this->Description.OfPoints)
   {
-    const std::int64_t row = this->Part.Rows ? this->Part.Rows[at.Cell] : at.Cell;
-    return values[row * this->Stride];
+    return values[this->Part.row(at.Cell) * this->Stride];
   }
   if constexpr (std::is_floating_point_v<Value>)
   {
     double sum = 0;
-    for (int i = 0; i < this->Corners; ++i)
+    for (int i = 0; i < corners; ++i)
     {
       // A corner with weight 0 may have the value NaN, which must not count.
       const double value = double(values[this->corner(at.Cell, i) * this->Stride]);
@@ -85,7 +83,7 @@ Value PartValues::valueAt(const CellLocation& at, int component) const
   }
   else
   {
-    const double* const most = std::max_element(at.Weights, at.Weights + this->Corners);
+    const double* const most = std::max_element(at.Weights, at.Weights + corners);
     return values[this->corner(at.Cell, int(most - at.Weights)) * this->Stride];
   }
 }
@@ -106,7 +104,7 @@ void PartValues::sample(
              i % ahead == 0 && this->Description.OfPoints && next < std::min(i + 2 * ahead, count);
              ++next)
         {
-          for (int k = 0; k < this->Corners; ++k)
+          for (int k = 0; k <= this->Part.Mesh.Dimension; ++k)
           {
             __builtin_prefetch(static_cast<const Value*>(this->Values) +
               this->corner(at[next].Cell, k) * this->Stride);
@@ -132,6 +130,65 @@ double PartValues::atPoint(std::int64_t point, int component) const
       result = double(values[point * this->Stride + this->First + component]);
     });
   return result;
+}
+
+namespace
+{
+
+/// A map from global ids to local indices; none if the ids are the indices.
+std::optional<GlobalIdMap> mapOf(const std::int64_t* ids, std::int64_t count)
+{
+  if (!ids)
+  {
+    return std::nullopt;
+  }
+  const auto size = std::size_t(count);
+  if (std::is_sorted(ids, ids + size))
+  {
+    return GlobalIdMap(ids, nullptr, size);
+  }
+  std::vector<std::int64_t> order(size);
+  std::iota(order.begin(), order.end(), std::int64_t(0));
+  std::sort(order.begin(), order.end(), [ids](auto a, auto b) { return ids[a] < ids[b]; });
+  std::vector<std::int64_t> sorted(size);
+  std::transform(order.begin(), order.end(), sorted.begin(), [ids](auto i) { return ids[i]; });
+  return GlobalIdMap(sorted.data(), order.data(), size);
+}
+
+} // namespace
+
+PartTopology::PartTopology(const MeshPart& part)
+  : Mesh(part.Mesh)
+  , Starts(std::size_t(part.Mesh.PointCount) + 1, 0)
+  , PointMap(mapOf(part.PointIds, part.Mesh.PointCount))
+  , CellMap(mapOf(part.CellIds, part.Mesh.Cells))
+{
+  if (this->Mesh.Cells > std::numeric_limits<std::int32_t>::max())
+  {
+    throw std::length_error("More than 2147483647 cells in one piece; partition the mesh first.");
+  }
+  const auto forCorners = [&](const auto& work)
+  {
+    for (std::int64_t cell = 0; cell < this->Mesh.Cells; ++cell)
+    {
+      for (int i = 0; i < this->corners() && !part.isHidden(cell); ++i)
+      {
+        const std::int64_t point = this->corner(cell, i);
+        bool isRepeated = false;
+        for (int k = 0; k < i; ++k)
+        {
+          isRepeated = isRepeated || this->corner(cell, k) == point;
+        }
+        isRepeated ? void() : work(std::size_t(point), cell);
+      }
+    }
+  };
+  forCorners([&](std::size_t point, std::int64_t) { ++this->Starts[point + 1]; });
+  std::partial_sum(this->Starts.begin(), this->Starts.end(), this->Starts.begin());
+  this->AtPoints.resize(std::size_t(this->Starts.back()));
+  std::vector<std::int64_t> next(this->Starts.begin(), this->Starts.end() - 1);
+  forCorners([&](std::size_t point, std::int64_t cell)
+    { this->AtPoints[std::size_t(next[point]++)] = std::int32_t(cell); });
 }
 
 } // namespace tipp

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Query/Around.h"
+#include "Query/Queries.h"
 
-#include "Partitioned/NeighborIds.h"
+#include "Partitioned/FinishedPieces.h"
 #include "Query/ForPieces.h"
-#include "Query/RankLists.h"
+#include "Query/RankMesh.h"
 
 #include <algorithm>
 #include <array>
@@ -23,11 +23,11 @@ struct SharedFace
   Point3 Position; ///< of Points[0]
 };
 
-std::vector<std::int64_t> storedNeighbors(const ResidentMesh& mesh,
-  const std::vector<std::int64_t>& cells, const PieceGroups& groups, std::size_t array)
+Ids storedNeighbors(
+  const ResidentMesh& mesh, const Ids& cells, const PieceGroups& groups, std::size_t array)
 {
   const auto corners = std::size_t(mesh.mesh().CellSize);
-  std::vector<std::int64_t> result(cells.size() * corners, -1);
+  Ids result(cells.size() * corners, -1);
   PieceNeeds needs = topologyNeeded();
   needs.Arrays.assign(mesh.mesh().Arrays.size(), false);
   needs.Arrays[array] = true;
@@ -48,8 +48,7 @@ std::vector<std::int64_t> storedNeighbors(const ResidentMesh& mesh,
 
 /// Finds neighbours across faces of which the owner of the cell may not have all cells. The piece
 /// that owns the face's first point has all cells there.
-void findAcrossShared(
-  const ResidentMesh& mesh, const std::vector<SharedFace>& faces, std::vector<std::int64_t>& result)
+void findAcrossShared(const ResidentMesh& mesh, const std::vector<SharedFace>& faces, Ids& result)
 {
   const int count = mesh.mesh().CellSize - 1;
   Ids points;
@@ -88,11 +87,10 @@ void findAcrossShared(
 }
 
 /// Computes the neighbours of cells that are grouped by the pieces that own them.
-std::vector<std::int64_t> computedNeighbors(
-  const ResidentMesh& mesh, const PieceGroups& groups, const std::vector<std::int64_t>& cells)
+Ids computedNeighbors(const ResidentMesh& mesh, const PieceGroups& groups, const Ids& cells)
 {
   const int corners = mesh.mesh().CellSize;
-  std::vector<std::int64_t> result(cells.size() * std::size_t(corners), -1);
+  Ids result(cells.size() * std::size_t(corners), -1);
   std::vector<SharedFace> shared;
   std::mutex mutex;
   forPieces(mesh, groups, topologyNeeded(),
@@ -112,7 +110,7 @@ std::vector<std::int64_t> computedNeighbors(
           for (int k = 0; k < corners; ++k)
           {
             const std::int64_t point = topology.corner(cell, k);
-            isComplete = isComplete || (k != face && owns(part, point));
+            isComplete = isComplete || (k != face && part.owns(point));
             k != face ? void(other.Points[std::size_t(count++)] = part.pointId(point)) : void();
           }
           if (isComplete)
@@ -132,8 +130,7 @@ std::vector<std::int64_t> computedNeighbors(
 }
 
 /// The neighbours of cells that the pieces own.
-std::vector<std::int64_t> neighborsIn(const ResidentMesh& mesh,
-  const std::vector<std::int64_t>& cells, const std::vector<std::int32_t>& pieces)
+Ids neighborsIn(const ResidentMesh& mesh, const Ids& cells, const std::vector<std::int32_t>& pieces)
 {
   const std::vector<StoredArray>& arrays = mesh.mesh().Arrays;
   const int corners = mesh.mesh().CellSize;
@@ -151,8 +148,7 @@ std::vector<std::int64_t> neighborsIn(const ResidentMesh& mesh,
 
 } // namespace
 
-std::vector<std::int64_t> neighborsOf(
-  const ResidentMesh& mesh, const std::vector<std::int64_t>& cells, Communicator* ranks)
+Ids neighborsOf(const ResidentMesh& mesh, const Ids& cells, Communicator* ranks)
 {
   return listsOf(mesh, cells, false, ranks,
     [](const ResidentMesh& own, const Ids& ids, const std::vector<std::int32_t>& pieces)

@@ -171,14 +171,7 @@ public:
     }
   }
 
-  /// For each rank, the indices of this rank's points that were sent to it.
-  const std::vector<std::vector<std::int64_t>>& asked() const { return this->Asked; }
-  const Buffer<Point3>& received() const { return this->Received; }
-  const MeshAnswer& found() const { return this->Found; }
-  /// The index of a rank's first point among the received ones.
-  std::size_t begin(std::size_t rank) const { return this->Begins[rank]; }
-
-  /// What each rank has found for this rank's points, in the order of asked().
+  /// What each rank has found for this rank's points, in the order of Asked.
   struct Replies
   {
     std::vector<Bytes> Messages;
@@ -234,6 +227,12 @@ public:
     return tipp::emptyAnswer(
       count, this->Common.Arrays, this->Common.CellSize, this->Options.Weights, this->HasKeys);
   }
+
+  /// For each rank, the indices of this rank's points that were sent to it.
+  std::vector<std::vector<std::int64_t>> Asked;
+  Buffer<Point3> Received;
+  std::vector<std::size_t> Begins; ///< index of each rank's first point among the received ones
+  MeshAnswer Found;                ///< the answers for the received points
 
 private:
   /// Sends this rank's points to other ranks, and receives theirs; for a stored mesh also the
@@ -306,12 +305,8 @@ private:
   const AnswerOptions& Options;
   RankPart Common;
   bool HasKeys = false;
-  std::size_t Own = 0; ///< this rank
-  std::vector<std::vector<std::int64_t>> Asked;
-  Buffer<Point3> Received;
+  std::size_t Own = 0;              ///< this rank
   std::vector<std::int32_t> Pieces; ///< the pieces of the received points, for a stored mesh
-  std::vector<std::size_t> Begins;
-  MeshAnswer Found;
 };
 
 /// Chooses the rank that keeps the answer of each of this rank's points. Returns, for each rank and
@@ -432,7 +427,7 @@ MeshAnswer answerOnRanks(Communicator& ranks, const ResidentMesh& mesh, const Po
   const std::vector<Column> columns = questions.columnsOf(answer, 0);
   for (std::size_t rank = 0; rank < replies.OfRanks.size(); ++rank)
   {
-    merge(replies.OfRanks[rank], questions.asked()[rank], columns, answer);
+    merge(replies.OfRanks[rank], questions.Asked[rank], columns, answer);
   }
   options.Keys ? void() : answer.Keys.clear();
   return answer;
@@ -444,8 +439,8 @@ StayingAnswer answerWhereCellsAre(Communicator& ranks, const ResidentMesh& mesh,
   const PointsOnRanks questions(ranks, mesh, points, count, options);
   const PointsOnRanks::Replies replies = questions.exchange(ranks, false);
   const std::vector<std::vector<char>> chosen =
-    ranks.allToAll(chooseRanks(questions.asked(), replies.OfRanks, count));
-  const std::vector<std::vector<std::int64_t>> indices = ranks.allToAll(questions.asked());
+    ranks.allToAll(chooseRanks(questions.Asked, replies.OfRanks, count));
+  const std::vector<std::vector<std::int64_t>> indices = ranks.allToAll(questions.Asked);
 
   StayingAnswer result;
   std::vector<std::size_t> kept; // indices of received points
@@ -455,17 +450,17 @@ StayingAnswer answerWhereCellsAre(Communicator& ranks, const ResidentMesh& mesh,
     {
       if (chosen[rank][i])
       {
-        kept.push_back(questions.begin(rank) + i);
+        kept.push_back(questions.Begins[rank] + i);
         result.Ranks.push_back(std::int64_t(rank));
         result.Indices.push_back(indices[rank][i]);
-        result.Points.push_back(questions.received()[kept.back()]);
+        result.Points.push_back(questions.Received[kept.back()]);
       }
     }
   }
   result.Answer = questions.emptyAnswer(std::int64_t(kept.size()));
   std::vector<std::size_t> rows(kept.size());
   std::iota(rows.begin(), rows.end(), std::size_t(0));
-  const std::vector<Column> from = questions.columnsOf(questions.found(), 0);
+  const std::vector<Column> from = questions.columnsOf(questions.Found, 0);
   const std::vector<Column> to = questions.columnsOf(result.Answer, 0);
   for (std::size_t k = 0; k < from.size(); ++k)
   {

@@ -45,6 +45,34 @@ std::vector<T> gathered(Communicator* ranks, std::vector<T> own)
   return areSeveral(ranks) ? concatenated(ranks->gather(own)) : std::move(own);
 }
 
+/// Sends questions[i] to the rank rankOf[i], and returns the answers in the order of the questions.
+/// answer(received) returns one answer for each question of one rank. Collective.
+template <typename Question, typename Answer>
+auto askRanks(Communicator& ranks, const std::vector<std::size_t>& rankOf,
+  std::vector<Question> questions, const Answer& answer)
+{
+  std::vector<std::vector<Question>> sent(std::size_t(ranks.size()));
+  for (std::size_t i = 0; i < rankOf.size(); ++i)
+  {
+    sent[rankOf[i]].push_back(std::move(questions[i]));
+  }
+  std::vector<Question>().swap(questions); // frees it before the exchange
+  std::vector<decltype(answer(sent[0]))> replies;
+  for (const std::vector<Question>& received : ranks.allToAll(sent))
+  {
+    replies.push_back(answer(received));
+  }
+  replies = ranks.allToAll(replies);
+  decltype(answer(sent[0])) result;
+  result.reserve(rankOf.size());
+  std::vector<std::size_t> next(replies.size(), 0);
+  for (const std::size_t rank : rankOf)
+  {
+    result.push_back(std::move(replies[rank].at(next[rank]++)));
+  }
+  return result;
+}
+
 /// A description of one rank's part of a mesh, for the other ranks.
 struct RankPart
 {

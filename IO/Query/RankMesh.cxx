@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Query/RankMesh.h"
 
-#include "Arrays/SortUnique.h"
+#include "Parallel/Sort.h"
 #include "Partitioned/PieceFile.h"
 #include "Partitioned/ReadPiece.h"
 #include "Query/ForPieces.h"
@@ -10,13 +10,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <memory>
+#include <numeric>
+#include <optional>
 #include <utility>
 
 namespace tipp
 {
-
-using Ids = std::vector<std::int64_t>;
 
 /// The ranks that have an id.
 struct Holders
@@ -34,8 +35,13 @@ public:
   /// `own` are the ids that this rank has. Collective.
   IdDirectory(Communicator& ranks, const Ids& own)
   {
+    std::vector<Ids> blocks(std::size_t(ranks.size()));
+    for (const std::int64_t id : own)
+    {
+      blocks[rankFor(ranks, id)].push_back(id);
+    }
+    const std::vector<Ids> received = ranks.allToAll(blocks);
     std::vector<std::pair<std::int64_t, std::int32_t>> entries; // id, rank
-    const std::vector<Ids> received = ranks.allToAll(inBlocks(ranks, own));
     for (std::size_t rank = 0; rank < received.size(); ++rank)
     {
       for (const std::int64_t id : received[rank])
@@ -60,26 +66,20 @@ public:
   /// Collective; each rank passes its own ids.
   std::vector<Holders> find(Communicator& ranks, const Ids& ids) const
   {
-    std::vector<std::vector<Holders>> replies;
-    for (const Ids& received : ranks.allToAll(inBlocks(ranks, ids)))
-    {
-      replies.emplace_back();
-      for (const std::int64_t id : received)
+    std::vector<std::size_t> rankOf(ids.size());
+    std::transform(ids.begin(), ids.end(), rankOf.begin(),
+      [&ranks](std::int64_t id) { return rankFor(ranks, id); });
+    return askRanks(ranks, rankOf, ids,
+      [this](const Ids& received)
       {
-        const std::int64_t index = this->Indices.find(id);
-        replies.back().push_back(index < 0 ? Holders() : this->HoldersOf[std::size_t(index)]);
-      }
-    }
-    replies = ranks.allToAll(replies);
-    std::vector<Holders> result;
-    result.reserve(ids.size());
-    std::vector<std::size_t> next(replies.size(), 0);
-    for (const std::int64_t id : ids)
-    {
-      const std::size_t rank = rankFor(ranks, id);
-      result.push_back(replies[rank].at(next[rank]++));
-    }
-    return result;
+        std::vector<Holders> holders;
+        for (const std::int64_t id : received)
+        {
+          const std::int64_t index = this->Indices.find(id);
+          holders.push_back(index < 0 ? Holders() : this->HoldersOf[std::size_t(index)]);
+        }
+        return holders;
+      });
   }
 
 private:
@@ -88,16 +88,6 @@ private:
   {
     constexpr int bitsOfBlock = 10;
     return std::size_t((std::uint64_t(id) >> bitsOfBlock) % std::uint64_t(ranks.size()));
-  }
-
-  static std::vector<Ids> inBlocks(const Communicator& ranks, const Ids& ids)
-  {
-    std::vector<Ids> result(std::size_t(ranks.size()));
-    for (const std::int64_t id : ids)
-    {
-      result[rankFor(ranks, id)].push_back(id);
-    }
-    return result;
   }
 
   GlobalIdMap Indices;
@@ -191,14 +181,6 @@ std::vector<CellCopy> copiesAt(const ResidentPiece& piece, const Ids& points)
   return copies;
 }
 
-/// Whether `condition` is true on any rank.
-bool isAny(Communicator& ranks, bool condition)
-{
-  std::vector<std::int64_t> count = { condition ? 1 : 0 };
-  ranks.sum(count);
-  return count[0] > 0;
-}
-
 /// The Sharing of each point of this rank's part. Only points in the box of another rank's part,
 /// and points that are not finite, can be shared.
 std::vector<std::uint8_t> sharingOf(
@@ -247,7 +229,7 @@ ResidentPiece ownPiece(Communicator& ranks, const ResidentMesh& mesh)
   requireIds(&ranks, mesh);
   ResidentPiece piece = *mesh.pieces().get(0, topologyNeeded());
   ResidentMesh::OtherParts& others = mesh.otherParts();
-  if (isAny(ranks, others.Of != ranks.controller()))
+  if (isTrueOnAny(ranks, others.Of != ranks.controller()))
   {
     others = {};
     const RankParts all(&ranks, mesh, {}); // throws if the parts differ in their type of cells
@@ -260,6 +242,71 @@ ResidentPiece ownPiece(Communicator& ranks, const ResidentMesh& mesh)
   return piece;
 }
 
+/// Which rank answers which ids.
+struct Shares
+{
+  std::vector<std::int32_t> Ranks;  ///< the rank that answers each of this rank's ids; -1: none
+  std::vector<Ids> Received;        ///< by rank: its ids that this rank answers, in order
+  std::vector<std::int32_t> Pieces; ///< the piece of each received id
+};
+
+/// For a stored mesh, each rank answers the ids that its pieces own.
+Shares sharesOf(Communicator& ranks, const ResidentMesh& mesh, const Ids& ids, bool ofPoints)
+{
+  const std::vector<Ids> asked = ranks.allGather(ids);
+  const auto [first, end] = piecesOfRank(&ranks, mesh);
+  std::vector<double> pieces; // infinite if no rank has the id
+  for (const std::int32_t piece : mesh.piecesOfIds(concatenated(asked), ofPoints, first, end))
+  {
+    pieces.push_back(piece < 0 ? HUGE_VAL : piece);
+  }
+  ranks.minimum(pieces);
+  Shares shares{ {}, std::vector<Ids>(asked.size()), {} };
+  auto next = pieces.begin();
+  for (std::size_t rank = 0; rank < asked.size(); ++rank)
+  {
+    for (const std::int64_t id : asked[rank])
+    {
+      const double piece = *next++;
+      const int owner =
+        std::isfinite(piece) ? int(rankOfPiece(ranks, mesh, std::int64_t(piece))) : -1;
+      if (owner == ranks.rank())
+      {
+        shares.Received[rank].push_back(id);
+        shares.Pieces.push_back(std::int32_t(piece));
+      }
+      rank == std::size_t(ranks.rank()) ? shares.Ranks.push_back(owner) : void();
+    }
+  }
+  return shares;
+}
+
+/// For a mesh in memory, the lowest rank whose part has an id answers it.
+Shares sharesOf(Communicator& ranks, const RankMesh& mesh, const Ids& ids, bool ofPoints)
+{
+  Shares shares;
+  shares.Ranks = mesh.firstRanksOf(ids, ofPoints);
+  std::vector<Ids> asked(std::size_t(ranks.size()));
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    shares.Ranks[i] < 0 ? void() : asked[std::size_t(shares.Ranks[i])].push_back(ids[i]);
+  }
+  shares.Received = ranks.allToAll(asked);
+  const Ids received = concatenated(shares.Received);
+  shares.Pieces =
+    ofPoints ? mesh.piecesAround(received) : std::vector<std::int32_t>(received.size(), 0);
+  return shares;
+}
+
+/// Throws IOError if an owner is -1.
+void refuseMissing(
+  const ResidentMesh& mesh, const Ids& ids, bool ofPoints, const std::vector<std::int32_t>& owners)
+{
+  const auto missing = std::find(owners.begin(), owners.end(), -1);
+  missing != owners.end() ? mesh.refuseId(ids[std::size_t(missing - owners.begin())], ofPoints)
+                          : void();
+}
+
 } // namespace
 
 RankMesh::RankMesh(Communicator& ranks, const ResidentMesh& part)
@@ -270,15 +317,15 @@ RankMesh::RankMesh(Communicator& ranks, const ResidentMesh& part)
 }
 
 std::vector<std::int32_t> RankMesh::piecesAround(
-  const std::vector<std::int64_t>& points, const std::vector<Point3>&) const
+  const Ids& points, const std::vector<Point3>&) const
 {
   const ResidentPiece& own = this->InMemory[0];
   std::vector<std::int32_t> pieces(points.size(), 0);
-  std::vector<std::int64_t> missing;
+  Ids missing;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     const std::int64_t index = own.Topology->findPoint(points[i]);
-    if (index < 0 || !owns(*own.Part, index))
+    if (index < 0 || !own.Part->owns(index))
     {
       const auto owner = this->Owners.find(points[i]);
       pieces[i] = owner != this->Owners.end() ? owner->second : -1;
@@ -292,16 +339,16 @@ std::vector<std::int32_t> RankMesh::piecesAround(
 
 bool RankMesh::isTrueOnAnyRank(bool condition) const
 {
-  return isAny(this->Ranks, condition);
+  return isTrueOnAny(this->Ranks, condition);
 }
 
 /// Adds a piece that owns these points, which are ascending, with the cells of all ranks there.
 /// Returns its number.
-std::int32_t RankMesh::addCellsAt(const std::vector<std::int64_t>& points) const
+std::int32_t RankMesh::addCellsAt(const Ids& points) const
 {
   std::vector<std::vector<CellCopy>> replies;
-  for (const std::vector<std::int64_t>& asked : this->Ranks.allToAll(
-         std::vector<std::vector<std::int64_t>>(std::size_t(this->Ranks.size()), points)))
+  for (const Ids& asked :
+    this->Ranks.allToAll(std::vector<Ids>(std::size_t(this->Ranks.size()), points)))
   {
     replies.push_back(copiesAt(this->InMemory[0], asked));
   }
@@ -317,7 +364,7 @@ std::int32_t RankMesh::addCellsAt(const std::vector<std::int64_t>& points) const
 std::size_t RankMesh::addFirstShared() const
 {
   const MeshPart& part = *this->InMemory[0].Part;
-  std::vector<std::int64_t> points;
+  Ids points;
   for (std::int64_t point = 0; point < part.Mesh.PointCount; ++point)
   {
     part.Ghosts[point] == FirstShared ? points.push_back(part.pointId(point)) : void();
@@ -325,15 +372,14 @@ std::size_t RankMesh::addFirstShared() const
   return std::size_t(this->addCellsAt(sortedUnique(std::move(points)))) + 1;
 }
 
-std::vector<std::int32_t> RankMesh::firstRanksOf(
-  const std::vector<std::int64_t>& ids, bool ofPoints) const
+std::vector<std::int32_t> RankMesh::firstRanksOf(const Ids& ids, bool ofPoints) const
 {
   ResidentMesh::OtherParts& others = this->Part.otherParts();
   std::shared_ptr<const IdDirectory>& directory = ofPoints ? others.Points : others.Cells;
-  if (isAny(this->Ranks, !directory))
+  if (isTrueOnAny(this->Ranks, !directory))
   {
     const MeshPart& part = *this->InMemory[0].Part;
-    std::vector<std::int64_t> own(std::size_t(ofPoints ? part.Mesh.PointCount : part.Mesh.Cells));
+    Ids own(std::size_t(ofPoints ? part.Mesh.PointCount : part.Mesh.Cells));
     for (std::size_t i = 0; i < own.size(); ++i)
     {
       own[i] = ofPoints ? part.pointId(std::int64_t(i)) : part.cellId(std::int64_t(i));
@@ -344,6 +390,45 @@ std::vector<std::int32_t> RankMesh::firstRanksOf(
   for (const Holders& holders : directory->find(this->Ranks, ids))
   {
     result.push_back(holders.First);
+  }
+  return result;
+}
+
+IdLists listsOf(const ResidentMesh& mesh, const Ids& ids, bool ofPoints, Communicator* ranks,
+  const ListWork& work)
+{
+  if (!areSeveral(ranks))
+  {
+    const std::vector<std::int32_t> pieces =
+      mesh.piecesOfIds(ids, ofPoints, 0, mesh.mesh().Pieces.size());
+    refuseMissing(mesh, ids, ofPoints, pieces);
+    return work(mesh, ids, pieces);
+  }
+  std::optional<RankMesh> inMemory;
+  mesh.isStored() ? void() : void(inMemory.emplace(*ranks, mesh));
+  const Shares shares =
+    inMemory ? sharesOf(*ranks, *inMemory, ids, ofPoints) : sharesOf(*ranks, mesh, ids, ofPoints);
+  refuseMissing(mesh, ids, ofPoints, shares.Ranks);
+  const IdLists lists =
+    work(inMemory ? *inMemory : mesh, concatenated(shares.Received), shares.Pieces);
+  std::vector<IdLists> replies(shares.Received.size());
+  std::size_t next = 0;
+  for (std::size_t rank = 0; rank < replies.size(); ++rank)
+  {
+    for (std::size_t i = 0; i < shares.Received[rank].size(); ++i)
+    {
+      replies[rank].append(lists, next++);
+    }
+  }
+  replies = ranks->allToAll(replies);
+  IdLists result;
+  result.Ids.reserve(std::accumulate(replies.begin(), replies.end(), std::size_t(0),
+    [](std::size_t sum, const IdLists& reply) { return sum + reply.Ids.size(); }));
+  result.Starts.reserve(ids.size() + 1);
+  std::vector<std::size_t> nextOf(replies.size(), 0);
+  for (const std::int32_t rank : shares.Ranks)
+  {
+    result.append(replies[std::size_t(rank)], nextOf[std::size_t(rank)]++);
   }
   return result;
 }

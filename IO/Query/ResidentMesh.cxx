@@ -3,42 +3,28 @@
 
 #include "Files/IOError.h"
 #include "Locate/CellLocator.h"
-#include "Parallel/ParallelFor.h"
-#include "Partitioned/ReadPiece.h"
-#include "Query/PartTopology.h"
+#include "Parallel/Sort.h"
+#include "Query/ForPieces.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <limits>
+#include <mutex>
+#include <numeric>
 #include <utility>
 #include <variant>
 
 namespace tipp
 {
-namespace
-{
-
-constexpr const char* elevation = "elevation";
-
-template <int D>
-Box<D> boxOf(const Bounds& bounds)
-{
-  Box<D> box;
-  for (std::size_t axis = 0; axis < D; ++axis)
-  {
-    box.Low[axis] = bounds[2 * axis];
-    box.High[axis] = bounds[2 * axis + 1];
-  }
-  return box;
-}
-
-} // namespace
-
-/// A tree of the boxes of all pieces.
-class PieceBoxes
+/// Finds pieces of a stored mesh: by position with a tree of their boxes, and by the global ids of
+/// their own cells or points. The mesh has no index of ids, so the id arrays of pieces are read.
+/// The range of each piece's ids is remembered, so that later calls read only pieces that may own
+/// an id.
+class PieceFinder
 {
 public:
-  explicit PieceBoxes(const PartitionedMesh& mesh)
+  explicit PieceFinder(const PartitionedMesh& mesh)
     : Mesh(mesh)
   {
     this->Mesh.CellSize == 3 ? void(this->Tree = this->make<2>())
@@ -51,7 +37,97 @@ public:
     return std::visit([&](const auto& tree) { return this->search(tree, point); }, this->Tree);
   }
 
+  /// For each global id, the piece of [firstPiece, endPiece) that owns it, or -1. Throws IOError.
+  /// Thread-safe.
+  std::vector<std::int32_t> find(const std::vector<std::int64_t>& ids, bool ofPoints, int threads,
+    std::size_t firstPiece, std::size_t endPiece) const
+  {
+    const std::vector<std::int64_t> asked = sortedUnique(ids);
+    const GlobalIdMap map(asked.data(), nullptr, asked.size());
+    std::vector<std::int32_t> owners(asked.size(), -1);
+    std::vector<Range> ranges;
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      this->Ranges[ofPoints].resize(this->Mesh.Pieces.size());
+      ranges = this->Ranges[ofPoints];
+    }
+    // Searches pieces with a known range of ids first, since these may own all ids.
+    std::vector<std::size_t> order(endPiece - firstPiece);
+    std::iota(order.begin(), order.end(), firstPiece);
+    std::stable_partition(order.begin(), order.end(),
+      [&ranges](std::size_t piece) { return ranges[piece].High != INT64_MAX; });
+    std::atomic<std::size_t> missing{ asked.size() };
+    forChunks(std::int64_t(order.size()), 1, threads, {},
+      [&](std::int64_t i, std::int64_t, int)
+      {
+        poll();
+        const std::size_t piece = order[std::size_t(i)];
+        Range& range = ranges[piece];
+        const auto first = std::lower_bound(asked.begin(), asked.end(), range.Low);
+        if (missing == 0 || first == asked.end() || *first > range.High)
+        {
+          return;
+        }
+        const std::vector<std::int64_t> own = this->read(piece, ofPoints);
+        range = own.empty() ? Range{ INT64_MAX, -1 }
+                            : Range{ *std::min_element(own.begin(), own.end()),
+                                *std::max_element(own.begin(), own.end()) };
+        for (const std::int64_t id : own)
+        {
+          const std::int64_t at = map.find(id);
+          if (at >= 0)
+          {
+            owners[std::size_t(at)] = std::int32_t(piece);
+            --missing;
+          }
+        }
+      });
+    {
+      const std::lock_guard<std::mutex> lock(this->Mutex);
+      this->Ranges[ofPoints] = ranges;
+    }
+    std::vector<std::int32_t> result;
+    result.reserve(ids.size());
+    for (const std::int64_t id : ids)
+    {
+      result.push_back(owners[std::size_t(map.find(id))]);
+    }
+    return result;
+  }
+
 private:
+  struct Range
+  {
+    std::int64_t Low = 0;
+    std::int64_t High = INT64_MAX;
+  };
+
+  /// Reads the global ids of the cells or points that a piece owns.
+  std::vector<std::int64_t> read(std::size_t piece, bool ofPoints) const
+  {
+    const PieceFile file(this->Mesh, piece);
+    // Borrowed cells are in the last part of the piece, if they are duplicated.
+    const std::size_t parts =
+      file.partStarts(ofPoints).size() - 1 - (this->Mesh.Duplicated ? 1 : 0);
+    const auto count = std::size_t(file.partStarts(ofPoints)[parts]);
+    std::vector<std::int64_t> ids(count);
+    file.read(file.find(ofPoints ? PieceRole::PointIds : PieceRole::CellIds), 0, parts, ids.data());
+    file.requireIds(ids.data(), count, ofPoints ? this->Mesh.Points : this->Mesh.Cells);
+    if (ofPoints)
+    {
+      std::vector<std::uint8_t> ghosts(count);
+      file.read(file.find(PieceRole::PointGhosts), 0, parts, ghosts.data());
+      std::size_t own = 0;
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        ids[own] = ids[i];
+        own += ghosts[i] == 0 ? 1 : 0;
+      }
+      ids.resize(own);
+    }
+    return ids;
+  }
+
   template <int D>
   BoxTree<D> make() const
   {
@@ -76,10 +152,14 @@ private:
 
   const PartitionedMesh& Mesh;
   std::variant<BoxTree<2>, BoxTree<3>> Tree;
+  mutable std::mutex Mutex;
+  mutable std::vector<Range> Ranges[2]; ///< ranges of cells, ranges of points; by piece
 };
 
 namespace
 {
+
+constexpr const char* elevation = "elevation";
 
 PartitionedMesh describe(const MeshPart& part, int threads)
 {
@@ -133,8 +213,7 @@ ResidentMesh::ResidentMesh(
   : InMemory(std::move(inMemory))
   , Mesh(std::move(mesh))
   , Options(options)
-  , Boxes(isStored() ? std::make_shared<const PieceBoxes>(this->Mesh) : nullptr)
-  , Ids(this->Mesh)
+  , Finder(isStored() ? std::make_shared<const PieceFinder>(this->Mesh) : nullptr)
   , Resident(
       isStored() ? options.MemoryLimit : std::numeric_limits<std::uint64_t>::max() / 2,
       [this](std::size_t number, const PieceNeeds& needs) { return this->estimate(number, needs); },
@@ -189,6 +268,25 @@ const StoredArray* ResidentMesh::find(const std::string& name) const
       listOfNames({ known.begin(), known.end() }, "; there are ") + ".");
   }
   return nullptr;
+}
+
+const StoredArray* ResidentMesh::fieldOf(
+  const std::string& name, int component, bool orOfCells) const
+{
+  if (this->Mesh.CellSize != 3)
+  {
+    this->refuse("has tetrahedra; ask this of a mesh of triangles.");
+  }
+  const StoredArray* const array = this->find(name);
+  if (array && !array->OfPoints && !orOfCells)
+  {
+    this->refuse("has '" + name + "' at cells; this needs an array of points.");
+  }
+  if (component < 0 || component >= (array ? array->Components : 1))
+  {
+    this->refuse("has no component " + std::to_string(component) + " of '" + name + "'.");
+  }
+  return array;
 }
 
 PieceNeeds ResidentMesh::needsOf(const std::vector<std::string>& names) const
@@ -307,7 +405,7 @@ std::vector<std::int32_t> ResidentMesh::piecesOf(const Point3* points, std::int6
       {
         for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
         {
-          pieces[i] = this->Boxes->find(points[i]);
+          pieces[i] = this->Finder->find(points[i]);
         }
       });
   }
@@ -344,7 +442,7 @@ std::vector<std::int32_t> ResidentMesh::piecesOfIds(
   {
     id < 0 || id >= count ? this->refuseId(id, ofPoints) : void();
   }
-  return this->Ids.find(ids, ofPoints, threadCount(this->Options.Threads), first, end);
+  return this->Finder->find(ids, ofPoints, threadCount(this->Options.Threads), first, end);
 }
 
 } // namespace tipp

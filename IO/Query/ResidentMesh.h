@@ -5,7 +5,6 @@
 #include "Partitioned/PartitionedMesh.h"
 #include "Predicates/Points.h"
 #include "Query/MeshPart.h"
-#include "Query/PieceIds.h"
 #include "Query/ResidentPieces.h"
 #include "Resample/Claims.h"
 #include "vtkTIPPIOModule.h"
@@ -21,7 +20,7 @@ class vtkMultiProcessController;
 namespace tipp
 {
 class IdDirectory;
-class PieceBoxes;
+class PieceFinder;
 
 struct ResidentOptions
 {
@@ -111,6 +110,9 @@ public:
   /// The array of this name, at the time step of the options; null for the elevation. Throws
   /// IOError if there is no such array.
   const StoredArray* find(const std::string& name) const;
+  /// As find(). Throws IOError also if the mesh has tetrahedra, the array has no such component, or
+  /// the array is at the cells and `orOfCells` is false.
+  const StoredArray* fieldOf(const std::string& name, int component, bool orOfCells = false) const;
   /// Describes the arrays of these names, and the elevation like an array. Throws as find().
   std::vector<StoredArray> describe(const std::vector<std::string>& names) const;
 
@@ -173,8 +175,7 @@ private:
 
   PartitionedMesh Mesh;
   ResidentOptions Options;
-  std::shared_ptr<const PieceBoxes> Boxes; ///< null: mesh in memory
-  PieceIds Ids;
+  std::shared_ptr<const PieceFinder> Finder; ///< null: mesh in memory
   mutable ResidentPieces Resident;
   mutable OtherParts Others;
 };

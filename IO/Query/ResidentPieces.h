@@ -19,7 +19,6 @@ namespace tipp
 {
 
 class CellLocator;
-class PartTopology;
 
 /// What a query needs from a piece.
 struct PieceNeeds

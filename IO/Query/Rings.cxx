@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Query/Around.h"
+#include "Query/Queries.h"
 
 #include "Arrays/IndexMap.h"
-#include "Arrays/SortUnique.h"
 #include "Query/ForPieces.h"
-#include "Query/RankLists.h"
+#include "Query/RankMesh.h"
 
 #include <algorithm>
 #include <mutex>
@@ -14,35 +13,6 @@
 
 namespace tipp
 {
-
-IdLists starsOf(
-  const ResidentMesh& mesh, const std::vector<std::int64_t>& points, Communicator* ranks)
-{
-  return listsOf(mesh, points, true, ranks,
-    [](const ResidentMesh& own, const Ids& ids, const std::vector<std::int32_t>& pieces)
-    {
-      std::vector<Ids> lists(ids.size());
-      const PieceGroups groups = groupByPiece(pieces);
-      forPieces(own, groups, topologyNeeded(),
-        [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
-        {
-          for (std::int64_t i = begin; i < end; ++i)
-          {
-            const auto item = std::size_t(groups.Items[std::size_t(i)]);
-            for (const std::int32_t cell :
-              piece.Topology->cellsAt(indexOf(own, *piece.Topology, ids[item], true)))
-            {
-              lists[item].push_back(piece.Part->cellId(cell));
-            }
-            sortUnique(lists[item]);
-          }
-        });
-      IdLists result;
-      std::for_each(lists.begin(), lists.end(), [&result](const Ids& list) { result.add(list); });
-      return result;
-    });
-}
-
 namespace
 {
 
@@ -66,10 +36,10 @@ void sortRoughly(std::int64_t* items, const std::int64_t* keys, std::int64_t cou
   constexpr std::int64_t buckets = 4096;
   const std::int64_t range = *std::max_element(keys, keys + count) + 1;
   const auto bucketOf = [range](std::int64_t key) { return std::size_t(key * buckets / range); };
-  std::vector<std::int64_t> next(std::size_t(buckets) + 1, 0);
+  Ids next(std::size_t(buckets) + 1, 0);
   std::for_each(keys, keys + count, [&](std::int64_t key) { ++next[bucketOf(key) + 1]; });
   std::partial_sum(next.begin(), next.end(), next.begin());
-  const std::vector<std::int64_t> before(items, items + count);
+  const Ids before(items, items + count);
   for (std::int64_t i = 0; i < count; ++i)
   {
     items[next[bucketOf(keys[i])]++] = before[std::size_t(i)];
@@ -81,7 +51,7 @@ class LocalRing
 {
 public:
   explicit LocalRing(const ResidentPiece& piece)
-    : Ghosts(piece.Part->Ghosts)
+    : Part(*piece.Part)
     , Topology(*piece.Topology)
   {
   }
@@ -89,7 +59,7 @@ public:
   /// Visits the cells at the points `first`, at the points of these cells, and so on, k times.
   /// Returns false if this reaches a point of another piece. `first` and the results are local
   /// indices.
-  bool grow(const std::vector<std::int64_t>& first, int k, bool wantsCells)
+  bool grow(const Ids& first, int k, bool wantsCells)
   {
     this->Points.clear();
     this->Cells.clear();
@@ -107,7 +77,7 @@ public:
       for (; begin < end; ++begin)
       {
         const std::int64_t point = this->Points[begin];
-        if (this->Ghosts && this->Ghosts[point] != 0)
+        if (!this->Part.owns(point))
         {
           return false;
         }
@@ -117,8 +87,8 @@ public:
     return true;
   }
 
-  std::vector<std::int64_t> Points; ///< in the order in which they were reached
-  std::vector<std::int64_t> Cells;  ///< likewise; empty if not wanted
+  Ids Points; ///< in the order in which they were reached
+  Ids Cells;  ///< likewise; empty if not wanted
 
 private:
   void visit(std::int64_t point, bool wantsCells, bool wantsPoints)
@@ -145,27 +115,29 @@ private:
     this->KnownPoints.insert(point).IsNew ? this->Points.push_back(point) : void();
   }
 
-  const std::uint8_t* const Ghosts;
+  const MeshPart& Part;
   const PartTopology& Topology;
   IndexMap KnownPoints;
   IndexMap KnownCells;
 };
 
-/// Computes the rings of many seeds. A ring that stays in the piece of its seed is computed there.
-/// All others grow together, step by step, and each step visits one piece after the other.
+/// Computes the rings of many seeds, which are points or cells, as lists of points or cells. A ring
+/// that stays in the piece of its seed is computed there. All others grow together, step by step,
+/// and each step visits one piece after the other.
 class RingGrowth
 {
 public:
-  RingGrowth(const ResidentMesh& mesh, const std::vector<std::int64_t>& seeds, bool ofPoints)
+  RingGrowth(const ResidentMesh& mesh, const Ids& seeds, bool fromPoints, bool toCells)
     : Mesh(mesh)
     , Seeds(seeds)
-    , OfPoints(ofPoints)
+    , FromPoints(fromPoints)
+    , ToCells(toCells)
     , PointLists(seeds.size())
     , CellLists(seeds.size())
   {
   }
 
-  /// The ids that are reached in k steps, without the seeds.
+  /// The ids that are reached in k steps, ascending, without the seeds.
   IdLists grown(int k, const std::vector<std::int32_t>& pieces)
   {
     this->start(k, pieces);
@@ -173,14 +145,12 @@ public:
     {
       this->grow();
     }
-    std::vector<std::vector<std::int64_t>>& lists =
-      this->OfPoints ? this->PointLists : this->CellLists;
     for (const std::int64_t item : this->Left)
     {
-      std::vector<std::int64_t>& list = lists[std::size_t(item)];
-      sortUnique(list);
-      list.erase(std::remove(list.begin(), list.end(), this->Seeds[std::size_t(item)]), list.end());
-      this->Done.push_back({ { { 0, std::int64_t(list.size()) }, list }, { item } });
+      Finished done;
+      done.Lists.Ids = (this->ToCells ? this->CellLists : this->PointLists)[std::size_t(item)];
+      this->finish(item, 0, done);
+      this->Done.push_back(std::move(done));
     }
     return this->joined();
   }
@@ -222,7 +192,7 @@ private:
   struct Finished
   {
     IdLists Lists;
-    std::vector<std::int64_t> Items;
+    Ids Items;
   };
 
   IdLists joined() const
@@ -256,10 +226,10 @@ private:
   void sortSeeds(int k, PieceGroups& groups)
   {
     this->Indices.resize(this->Seeds.size());
-    std::vector<std::int64_t> keys(groups.Items.size());
+    Ids keys(groups.Items.size());
     // Cells that are near in space are mostly near in memory, too; points are often in any order.
     // For a single step, finding the cells takes longer than their order saves.
-    const bool byCell = this->OfPoints && k > 1;
+    const bool byCell = this->FromPoints && k > 1;
     forPieces(this->Mesh, groups, topologyNeeded(),
       [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
       {
@@ -267,7 +237,7 @@ private:
         {
           const auto item = std::size_t(groups.Items[i]);
           const std::int64_t index =
-            indexOf(this->Mesh, *piece.Topology, this->Seeds[item], this->OfPoints);
+            indexOf(this->Mesh, *piece.Topology, this->Seeds[item], this->FromPoints);
           this->Indices[item] = keys[i] = index;
           if (byCell)
           {
@@ -293,9 +263,9 @@ private:
       {
         LocalRing ring(piece);
         std::vector<Reached> reached;
-        std::vector<std::int64_t> left;
+        Ids left;
         Finished done;
-        std::vector<std::int64_t> corners;
+        Ids corners;
         constexpr std::int64_t batch = 16;
         std::int64_t indices[batch];
         for (std::int64_t i = begin; i < end; ++i)
@@ -304,7 +274,7 @@ private:
           at == 0 ? this->findIndices(piece, groups, i, std::min(i + batch, end), indices) : void();
           const std::int64_t item = groups.Items[std::size_t(i)];
           corners.assign(1, indices[at]);
-          if (!this->OfPoints)
+          if (!this->FromPoints)
           {
             corners.clear();
             for (int corner = 0; corner < piece.Topology->corners(); ++corner)
@@ -312,7 +282,7 @@ private:
               corners.push_back(piece.Topology->corner(indices[at], corner));
             }
           }
-          if (ring.grow(corners, k, !this->OfPoints))
+          if (ring.grow(corners, k, this->ToCells))
           {
             this->take(*piece.Part, ring, item, done);
             continue;
@@ -339,25 +309,35 @@ private:
     {
       const auto item = std::size_t(groups.Items[std::size_t(i)]);
       indices[i - begin] = this->Indices.empty()
-        ? indexOf(this->Mesh, *piece.Topology, this->Seeds[item], this->OfPoints)
+        ? indexOf(this->Mesh, *piece.Topology, this->Seeds[item], this->FromPoints)
         : this->Indices[item];
     }
-    this->OfPoints ? piece.Topology->prefetch(indices, end - begin) : void();
+    this->FromPoints ? piece.Topology->prefetch(indices, end - begin) : void();
   }
 
   void take(const MeshPart& part, const LocalRing& ring, std::int64_t item, Finished& done) const
   {
-    const std::int64_t seed = this->Seeds[std::size_t(item)];
     Ids& ids = done.Lists.Ids;
     const auto begin = std::ptrdiff_t(ids.size());
-    for (const std::int64_t index : this->OfPoints ? ring.Points : ring.Cells)
+    for (const std::int64_t index : this->ToCells ? ring.Cells : ring.Points)
     {
-      const std::int64_t id = this->OfPoints ? part.pointId(index) : part.cellId(index);
-      id != seed ? ids.push_back(id) : void();
+      ids.push_back(this->ToCells ? part.cellId(index) : part.pointId(index));
     }
+    this->finish(item, begin, done);
+  }
+
+  /// The ids from `begin` on become the list of an item: ascending and without its seed.
+  void finish(std::int64_t item, std::ptrdiff_t begin, Finished& done) const
+  {
+    Ids& ids = done.Lists.Ids;
     std::sort(ids.begin() + begin, ids.end());
     // Parts that a cell was divided into have the same id.
     ids.erase(std::unique(ids.begin() + begin, ids.end()), ids.end());
+    if (this->FromPoints != this->ToCells)
+    {
+      const std::int64_t seed = this->Seeds[std::size_t(item)];
+      ids.erase(std::remove(ids.begin() + begin, ids.end(), seed), ids.end());
+    }
     done.Lists.endList();
     done.Items.push_back(item);
   }
@@ -396,7 +376,7 @@ private:
     for (std::size_t i = 0; i < reached.size(); ++i)
     {
       const Reached& r = reached[i];
-      const std::vector<std::int64_t>& known = this->PointLists[std::size_t(r.Seed)];
+      const Ids& known = this->PointLists[std::size_t(r.Seed)];
       const bool isRepeated = i > 0 && !(reached[i - 1] < r);
       if (!isRepeated && !std::binary_search(known.begin(), known.end(), r.Point))
       {
@@ -405,8 +385,8 @@ private:
     }
     for (std::size_t i = 0; i < this->Front.size();)
     {
-      std::vector<std::int64_t>& known = this->PointLists[std::size_t(this->Front[i].Seed)];
       const std::int64_t seed = this->Front[i].Seed;
+      Ids& known = this->PointLists[std::size_t(seed)];
       const auto middle = std::ptrdiff_t(known.size());
       for (; i < this->Front.size() && this->Front[i].Seed == seed; ++i)
       {
@@ -417,38 +397,42 @@ private:
   }
 
   const ResidentMesh& Mesh;
-  const std::vector<std::int64_t>& Seeds;
-  const bool OfPoints;
-  std::vector<std::int64_t> Indices; ///< of the seeds of a mesh in memory: their local indices
+  const Ids& Seeds;
+  const bool FromPoints; ///< seeds are points; false: cells
+  const bool ToCells;    ///< lists are of cells; false: of points
+  Ids Indices;           ///< of the seeds of a mesh in memory: their local indices
   std::mutex Mutex;
   std::vector<Reached> Front;
   std::vector<Finished> Done;
   /// Items with rings that leave their pieces. Only these have lists below.
-  std::vector<std::int64_t> Left;
-  std::vector<std::vector<std::int64_t>> PointLists; ///< lists per seed, ascending
-  std::vector<std::vector<std::int64_t>> CellLists;  ///< lists per seed, with repetitions
+  Ids Left;
+  std::vector<Ids> PointLists; ///< lists per seed, ascending
+  std::vector<Ids> CellLists;  ///< lists per seed, with repetitions
 };
 
-IdLists ringsOf(
-  const ResidentMesh& mesh, const Ids& seeds, int k, bool ofPoints, Communicator* ranks)
+IdLists ringsOf(const ResidentMesh& mesh, const Ids& seeds, int k, bool fromPoints, bool toCells,
+  Communicator* ranks)
 {
-  return listsOf(mesh, seeds, ofPoints, ranks,
-    [k, ofPoints](const ResidentMesh& own, const Ids& ids, const std::vector<std::int32_t>& pieces)
-    { return RingGrowth(own, ids, ofPoints).grown(k, pieces); });
+  return listsOf(mesh, seeds, fromPoints, ranks,
+    [=](const ResidentMesh& own, const Ids& ids, const std::vector<std::int32_t>& pieces)
+    { return RingGrowth(own, ids, fromPoints, toCells).grown(k, pieces); });
 }
 
 } // namespace
 
-IdLists ringsOfPoints(
-  const ResidentMesh& mesh, const std::vector<std::int64_t>& points, int k, Communicator* ranks)
+IdLists starsOf(const ResidentMesh& mesh, const Ids& points, Communicator* ranks)
 {
-  return ringsOf(mesh, points, k, true, ranks);
+  return ringsOf(mesh, points, 1, true, true, ranks);
 }
 
-IdLists ringsOfCells(
-  const ResidentMesh& mesh, const std::vector<std::int64_t>& cells, int k, Communicator* ranks)
+IdLists ringsOfPoints(const ResidentMesh& mesh, const Ids& points, int k, Communicator* ranks)
 {
-  return ringsOf(mesh, cells, k, false, ranks);
+  return ringsOf(mesh, points, k, true, false, ranks);
+}
+
+IdLists ringsOfCells(const ResidentMesh& mesh, const Ids& cells, int k, Communicator* ranks)
+{
+  return ringsOf(mesh, cells, k, false, true, ranks);
 }
 
 } // namespace tipp

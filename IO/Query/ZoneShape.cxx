@@ -102,6 +102,35 @@ struct Sides
   }
 };
 
+/// Makes a triangle counter-clockwise. Returns false if it has no area or is not finite.
+bool turned(Point2 (&triangle)[3], double (&values)[3])
+{
+  const bool isUsable = isFinite(triangle[0]) && isFinite(triangle[1]) && isFinite(triangle[2]);
+  const int turn = isUsable ? orientation(triangle[0], triangle[1], triangle[2]) : 0;
+  if (turn < 0)
+  {
+    std::swap(triangle[1], triangle[2]);
+    std::swap(values[1], values[2]);
+  }
+  // Starts with the lexicographically lowest corner, so that roundings do not depend on the order
+  // of the corners.
+  int first = 0;
+  for (int i = 1; i < 3; ++i)
+  {
+    first = lexicographicLess(triangle[i], triangle[first]) ? i : first;
+  }
+  std::rotate(triangle, triangle + first, triangle + 3);
+  std::rotate(values, values + first, values + 3);
+  return turn != 0;
+}
+
+Box<2> boxOf(const Point2 (&triangle)[3])
+{
+  Box<2> box = boxOf(triangle[0], triangle[1]);
+  box.extend(boxOf(triangle[2], triangle[2]));
+  return box;
+}
+
 } // namespace
 
 ZoneShape::ZoneShape(const Zone& zone, std::size_t number)
@@ -218,41 +247,6 @@ bool ZoneShape::holds(Point2 point) const
     { isOnBorder = isOnBorder || orientation(edge.From, edge.To, point) == 0; });
   return isOnBorder || this->windingBeside(point, { std::nextafter(point.x, HUGE_VAL), point.y });
 }
-
-namespace
-{
-
-/// Makes a triangle counter-clockwise. Returns false if it has no area or is not finite.
-template <std::size_t N>
-bool turned(Point2 (&triangle)[3], double (&values)[N])
-{
-  const bool isUsable = isFinite(triangle[0]) && isFinite(triangle[1]) && isFinite(triangle[2]);
-  const int turn = isUsable ? orientation(triangle[0], triangle[1], triangle[2]) : 0;
-  if (turn < 0)
-  {
-    std::swap(triangle[1], triangle[2]);
-    std::swap(values[1], values[2]);
-  }
-  // Starts with the lexicographically lowest corner, so that roundings do not depend on the order
-  // of the corners.
-  int first = 0;
-  for (int i = 1; i < 3; ++i)
-  {
-    first = lexicographicLess(triangle[i], triangle[first]) ? i : first;
-  }
-  std::rotate(triangle, triangle + first, triangle + 3);
-  std::rotate(values, values + first, values + 3);
-  return turn != 0;
-}
-
-Box<2> boxOf(const Point2 (&triangle)[3])
-{
-  Box<2> box = boxOf(triangle[0], triangle[1]);
-  box.extend(boxOf(triangle[2], triangle[2]));
-  return box;
-}
-
-} // namespace
 
 ZoneShape::Relation ZoneShape::relationTo(const Point2 (&corners)[3]) const
 {

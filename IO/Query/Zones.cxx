@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Query/Zones.h"
+#include "Query/Queries.h"
 
 #include "Files/IOError.h"
+#include "Parallel/Sort.h"
+#include "Predicates/ExactArithmetic.h"
 #include "Predicates/ExactPredicates.h"
-#include "Predicates/ExactSum.h"
+#include "Predicates/ExactPredicates3.h"
 #include "Query/ForPieces.h"
-#include "Query/Lines.h"
 #include "Query/RankAnswer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 namespace tipp
@@ -184,14 +186,13 @@ public:
     this->Parts.Shared.insert(this->Parts.Shared.end(), shared.begin(), shared.end());
   }
 
-  /// Returns the collected contributions.
-  ZoneParts take() { return std::move(this->Parts); }
-
   bool wants(const Bounds& box) const
   {
     return std::any_of(this->Zones.begin(), this->Zones.end(),
       [&box](const ZoneShape& zone) { return meets(box, boundsOf(zone.bounds()), 2); });
   }
+
+  ZoneParts Parts; ///< what has been collected
 
 private:
   template <typename Access>
@@ -204,9 +205,8 @@ private:
     Box<2> extent = Box<2>::empty();
     for (int i = 0; i < 3; ++i)
     {
-      const Point3 p = access.point(access.ids(cell)[i]);
-      corners[i] = { p.x, p.y };
-      extent.extend({ { p.x, p.y }, { p.x, p.y } });
+      corners[i] = flat(access.point(access.ids(cell)[i]));
+      extent.extend(Box<2>::of({ corners[i].x, corners[i].y }));
     }
     bool isRead = false;
     // No other piece has a cell that is strictly inside this piece's box.
@@ -234,9 +234,8 @@ private:
     for (int i = 0; i < 3; ++i)
     {
       const bool ofPoints = values.description().OfPoints;
-      const std::int64_t row = part.Rows ? part.Rows[cell] : cell;
-      given[i] =
-        values.atPoint(ofPoints ? std::int64_t(access.ids(cell)[i]) : row, this->Component);
+      given[i] = values.atPoint(
+        ofPoints ? std::int64_t(access.ids(cell)[i]) : part.row(cell), this->Component);
     }
   }
 
@@ -260,7 +259,6 @@ private:
   std::vector<ZoneShape> Zones;
   BoxTree<2> Tree;
   std::mutex Mutex;
-  ZoneParts Parts;
 };
 
 /// The contributions of the cells in the pieces [first, last).
@@ -272,7 +270,7 @@ ZoneParts partsIn(const ResidentMesh& mesh, std::pair<std::size_t, std::size_t> 
     mesh.refuse("has tetrahedra; statistics of zones are made over the area of triangles, so ask a "
                 "surface.");
   }
-  const StoredArray* const description = fieldOf(mesh, array, component, true);
+  const StoredArray* const description = mesh.fieldOf(array, component, true);
   if (!std::isfinite(level))
   {
     throw IOError("The level is not a finite number.");
@@ -282,8 +280,102 @@ ZoneParts partsIn(const ResidentMesh& mesh, std::pair<std::size_t, std::size_t> 
     mesh, pieces, mesh.needsOf({ array }), [&](const Bounds& box) { return collector.wants(box); },
     [&](const MeshPart& part, const Bounds* box, std::int64_t begin, std::int64_t end)
     { collector.addCells(part, box, begin, end); });
-  return collector.take();
+  return std::move(collector.Parts);
 }
+
+/// Decides which points and cells are in a region.
+class RegionTest
+{
+public:
+  RegionTest(const ResidentMesh& mesh, const Region& region)
+    : Dimension(mesh.mesh().CellSize - 1)
+    , Box(region.Box)
+    , IsBox(region.Polygons.empty())
+    , Shape(region.Polygons, 0)
+  {
+    for (std::size_t axis = 0; axis < std::size_t(this->Dimension) && this->IsBox; ++axis)
+    {
+      if (!(this->Box[2 * axis] <= this->Box[2 * axis + 1]))
+      {
+        throw IOError("The box has a minimum above its maximum, or bounds that are no numbers.");
+      }
+    }
+    if (!this->IsBox)
+    {
+      this->Box = boundsOf(this->Shape.bounds());
+      this->Box[4] = -HUGE_VAL;
+      this->Box[5] = HUGE_VAL;
+    }
+  }
+
+  bool wants(const Bounds& box) const { return meets(box, this->Box, this->Dimension); }
+
+  bool holds(const Point3& p) const
+  {
+    return tipp::holds(this->Box, p, this->Dimension) &&
+      (this->IsBox || this->Shape.holds(flat(p)));
+  }
+
+  /// Whether a cell meets the region or, if `whole`, lies inside it. Cells without area or volume
+  /// do not.
+  bool has(const Point2 (&t)[3], bool whole) const
+  {
+    if (!this->IsBox)
+    {
+      const ZoneShape::Relation relation = this->Shape.relationTo(t);
+      return relation == ZoneShape::Relation::Inside ||
+        (!whole && relation != ZoneShape::Relation::Apart);
+    }
+    const bool isUsable = isFinite(t[0]) && isFinite(t[1]) && isFinite(t[2]);
+    if (!isUsable || orientation(t[0], t[1], t[2]) == 0)
+    {
+      return false;
+    }
+    return whole ? std::all_of(t, t + 3,
+                     [this](Point2 p) {
+                       return this->holds({ p.x, p.y, 0 });
+                     })
+                 : triangleMeetsBox(t[0], t[1], t[2], box3Of(this->Box, 2));
+  }
+  bool has(const Point3 (&t)[4], bool whole) const
+  {
+    const bool isUsable = std::all_of(t, t + 4, [](const Point3& p) { return isFinite(p); });
+    if (!isUsable || orientation3(t[0], t[1], t[2], t[3]) == 0)
+    {
+      return false;
+    }
+    if (!this->IsBox)
+    {
+      return this->columnHas(t, whole);
+    }
+    return whole ? std::all_of(t, t + 4, [this](const Point3& p) { return this->holds(p); })
+                 : tetrahedronMeetsBox(t[0], t[1], t[2], t[3], box3Of(this->Box, 3));
+  }
+
+private:
+  /// A tetrahedron's projection to x and y is the union of its faces' projections. Faces whose
+  /// projections have no area add nothing.
+  bool columnHas(const Point3 (&t)[4], bool whole) const
+  {
+    bool hasAny = false;
+    bool hasAll = true;
+    for (int i = 0; i < 4; ++i)
+    {
+      const Point2 face[3] = { flat(t[i]), flat(t[(i + 1) % 4]), flat(t[(i + 2) % 4]) };
+      if (orientation(face[0], face[1], face[2]) != 0)
+      {
+        hasAny = hasAny || this->has(face, false);
+        hasAll = hasAll && this->has(face, true);
+      }
+    }
+    return whole ? hasAll : hasAny;
+  }
+
+  const int Dimension;
+  Bounds Box;
+  const bool IsBox;
+  const ZoneShape Shape;
+};
 
 } // namespace
 
@@ -312,6 +404,58 @@ ZoneStatistics statisticsOf(const ResidentMesh& mesh, const std::vector<Zone>& z
     all.Shared.insert(all.Shared.end(), part.Shared.begin(), part.Shared.end());
   }
   return ranks->broadcast(ranks->isFirst() ? resultOf(std::move(all)) : ZoneStatistics());
+}
+
+std::vector<std::int64_t> cellsIn(
+  const ResidentMesh& mesh, const Region& region, bool whole, Communicator* ranks)
+{
+  const RegionTest test(mesh, region);
+  std::vector<std::int64_t> ids;
+  std::mutex mutex;
+  forCells(
+    mesh, piecesOfRank(ranks, mesh), {}, [&](const Bounds& box) { return test.wants(box); },
+    [&](const MeshPart& part, const Bounds*, std::int64_t begin, std::int64_t end)
+    {
+      std::vector<std::int64_t> own;
+      withAccess(part.Mesh,
+        [&](const auto& access)
+        {
+          using Access = std::decay_t<decltype(access)>;
+          typename Access::Point corners[Access::Corners];
+          for (std::int64_t cell = begin; cell < end; ++cell)
+          {
+            access.corners(cell, corners);
+            !part.isHidden(cell) && test.has(corners, whole) ? own.push_back(part.cellId(cell))
+                                                             : void();
+          }
+        });
+      const std::lock_guard<std::mutex> lock(mutex);
+      ids.insert(ids.end(), own.begin(), own.end());
+    });
+  return sortedUnique(gathered(ranks, std::move(ids)));
+}
+
+std::vector<std::int64_t> pointsIn(
+  const ResidentMesh& mesh, const Region& region, Communicator* ranks)
+{
+  const RegionTest test(mesh, region);
+  std::vector<std::int64_t> ids;
+  const auto [first, end] = piecesOfRank(ranks, mesh);
+  for (std::size_t i = first; i < end; ++i)
+  {
+    if (mesh.isStored() && !test.wants(mesh.mesh().Pieces[i].Box))
+    {
+      continue;
+    }
+    poll();
+    const ResidentPieces::Lease piece = mesh.pieces().get(i, {});
+    const MeshPart& part = *piece->Part;
+    for (std::int64_t point = 0; point < part.Mesh.PointCount; ++point)
+    {
+      test.holds(positionOf(part, point)) ? ids.push_back(part.pointId(point)) : void();
+    }
+  }
+  return sortedUnique(gathered(ranks, std::move(ids)));
 }
 
 } // namespace tipp

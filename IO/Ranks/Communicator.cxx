@@ -3,20 +3,132 @@
 
 #include "Parallel/Stopwatch.h"
 
+#ifdef TIPP_HAVE_MPI
+#include "vtkMPIController.h"
+#include "vtkSmartPointer.h"
+#elif !defined(TIPP_WITHOUT_VTK)
+#include "vtkMultiProcessController.h"
+#endif
+
 #include <algorithm>
 #include <array>
 #include <thread>
 
 namespace tipp
 {
+
+/// Sends bytes from rank to rank, with MPI's semantics. Only one thread of each rank may call it.
+class RankTransport
+{
+public:
+  virtual ~RankTransport() = default;
+
+  /// A send in progress.
+  class Sending
+  {
+  public:
+    virtual ~Sending() = default;
+    /// Whether the send has completed, so that its memory may be freed.
+    virtual bool hasLeft() = 0;
+  };
+  virtual std::unique_ptr<Sending> send(const char* data, std::size_t size, int to, int tag) = 0;
+
+  /// Whether a message with the tag has arrived from any rank.
+  virtual bool probe(int tag, int& source, int& size) = 0;
+  /// Receives a message of this size; blocks until it has arrived.
+  virtual void receive(char* data, std::size_t size, int source, int tag) = 0;
+};
+
 namespace
 {
+
+#ifdef TIPP_HAVE_MPI
+
+class MpiSending : public RankTransport::Sending
+{
+public:
+  bool hasLeft() override { return this->Request.Test() != 0; }
+  vtkMPICommunicator::Request Request;
+};
+
+class MpiTransport : public RankTransport
+{
+public:
+  /// Uses its own communicator, so that its messages are not mixed with the program's other
+  /// messages.
+  explicit MpiTransport(vtkMPIController* all)
+  {
+    this->Controller.TakeReference(
+      vtkMPIController::SafeDownCast(all->PartitionController(0, all->GetLocalProcessId())));
+  }
+
+  std::unique_ptr<Sending> send(const char* data, std::size_t size, int to, int tag) override
+  {
+    auto sending = std::make_unique<MpiSending>();
+    this->Controller->NoBlockSend(data, static_cast<int>(size), to, tag, sending->Request);
+    return sending;
+  }
+
+  bool probe(int tag, int& source, int& size) override
+  {
+    int found = 0;
+    const char* const type = nullptr;
+    this->Controller->Iprobe(
+      vtkMultiProcessController::ANY_SOURCE, tag, &found, &source, type, &size);
+    return found != 0;
+  }
+
+  void receive(char* data, std::size_t size, int source, int tag) override
+  {
+    this->Controller->Receive(data, static_cast<vtkIdType>(size), source, tag);
+  }
+
+private:
+  vtkSmartPointer<vtkMPIController> Controller;
+};
+
+/// Connects all ranks of the controller, separately from the program's other messages. Sets `rank`
+/// to this rank's number and `size` to the number of ranks. For one rank returns null and sets
+/// neither. Throws std::invalid_argument if there are several ranks without MPI. Collective.
+std::unique_ptr<RankTransport> openTransport(
+  vtkMultiProcessController* controller, int& rank, int& size)
+{
+  if (!controller || controller->GetNumberOfProcesses() < 2)
+  {
+    return nullptr;
+  }
+  auto* const mpi = vtkMPIController::SafeDownCast(controller);
+  if (!mpi)
+  {
+    throw std::invalid_argument(std::string("The controller is a ") + controller->GetClassName() +
+      "; several ranks need a vtkMPIController.");
+  }
+  rank = mpi->GetLocalProcessId();
+  size = mpi->GetNumberOfProcesses();
+  return std::make_unique<MpiTransport>(mpi);
+}
+
+#else
+
+std::unique_ptr<RankTransport> openTransport(
+  [[maybe_unused]] vtkMultiProcessController* controller, int&, int&)
+{
+#ifndef TIPP_WITHOUT_VTK
+  if (controller && controller->GetNumberOfProcesses() > 1)
+  {
+    throw std::invalid_argument("TIPP was built without MPI, so that it works on one rank alone; "
+                                "build it with -DTIPP_USE_MPI=ON against a VTK that has MPI.");
+  }
+#endif
+  return nullptr;
+}
+
+#endif
 
 constexpr int HeadTag = 1;
 constexpr int PartTag = 2;
 constexpr std::size_t LargestPart = std::size_t(1) << 20;
 constexpr std::size_t LargestInHead = std::size_t(1) << 16;
-constexpr std::size_t LargestReason = 4096; // so that a failure's message is never in parts
 
 // Buffer for messages that are received in parts or discarded, and for those that do not fit into
 // memory: they must be received in any case, or their senders would wait forever.
@@ -61,13 +173,8 @@ struct Communicator::Outgoing
 
 Communicator::Communicator(vtkMultiProcessController* controller)
   : Controller(controller)
-  , Transport(RankTransport::open(controller))
+  , Transport(openTransport(controller, this->Rank, this->Size))
 {
-  if (this->Transport)
-  {
-    this->Rank = this->Transport->rank();
-    this->Size = this->Transport->size();
-  }
   this->HasShutDown.assign(std::size_t(this->Size), 0);
 }
 
@@ -136,10 +243,7 @@ void Communicator::sendTo(
 
 void Communicator::testOutgoing()
 {
-  for (auto it = this->Unsent.begin(); it != this->Unsent.end();)
-  {
-    it = it->hasLeft() ? this->Unsent.erase(it) : std::next(it);
-  }
+  this->Unsent.remove_if([](Outgoing& outgoing) { return outgoing.hasLeft(); });
 }
 
 bool Communicator::probe(Arriving& arriving)
@@ -162,12 +266,12 @@ bool Communicator::probe(Arriving& arriving)
 /// Takes the next kept message of this run, if any.
 bool Communicator::takeEarly(Message& message)
 {
-  if (this->Early.empty() || this->Early.front().Run > this->Run)
+  if (this->Early.empty() || this->Early.begin()->first > this->Run)
   {
     return false;
   }
-  message = std::move(this->Early.front().Content);
-  this->Early.pop_front();
+  message = std::move(this->Early.begin()->second);
+  this->Early.erase(this->Early.begin());
   return true;
 }
 
@@ -175,7 +279,7 @@ bool Communicator::receive(Message& message, const PartReceiver* receiver)
 {
   if (this->takeEarly(message))
   {
-    if (receiver && receiver->concerns(message))
+    if (receiver && receiver->Concerns(message))
     {
       receiver->Take(message.Source, message.Content.data(), message.Content.size());
     }
@@ -190,7 +294,7 @@ bool Communicator::receive(Message& message, const PartReceiver* receiver)
     {
       this->keepForItsRun(arriving);
     }
-    else if (receiver && receiver->concerns(message))
+    else if (receiver && receiver->Concerns(message))
     {
       this->receiveParts(arriving, receiver->Take);
       return true;
@@ -233,11 +337,8 @@ Bytes Communicator::receiveContent(const Arriving& arriving)
 /// Keeps a message of a later run: another rank may have begun the next run before this rank.
 void Communicator::keepForItsRun(const Arriving& arriving)
 {
-  EarlyMessage early{ arriving.Header.Run,
-    { arriving.Source, arriving.Header.Kind, this->receiveContent(arriving) } };
-  const auto isLater = [&](const EarlyMessage& other) { return other.Run > early.Run; };
-  this->Early.insert(
-    std::find_if(this->Early.begin(), this->Early.end(), isLater), std::move(early));
+  this->Early.emplace(arriving.Header.Run,
+    Message{ arriving.Source, arriving.Header.Kind, this->receiveContent(arriving) });
 }
 
 /// Receives all parts, even if `takePart` fails.
@@ -268,44 +369,18 @@ void Communicator::receiveParts(const Arriving& arriving, const TakePart& takePa
   }
 }
 
-/// Receives the next message and discards it unless it reports a failure or belongs to a later run.
-/// Returns whether it reports a failure of this run.
-bool Communicator::receiveOfFailure(Message& message)
-{
-  const auto isOfFailure = [](MessageKind kind)
-  { return kind == MessageKind::Failure || kind == MessageKind::Shutdown; };
-  while (this->takeEarly(message))
-  {
-    if (isOfFailure(message.Kind))
-    {
-      return true;
-    }
-  }
-  Arriving arriving;
-  while (this->probe(arriving))
-  {
-    if (arriving.Header.Run > this->Run)
-    {
-      this->keepForItsRun(arriving);
-    }
-    else if (isOfFailure(arriving.Header.Kind))
-    {
-      message = { arriving.Source, arriving.Header.Kind, this->receiveContent(arriving) };
-      return true;
-    }
-    else
-    {
-      this->receiveParts(arriving, discard);
-    }
-  }
-  return false;
-}
-
 bool Communicator::poll(Message& message)
 {
   // A rank that is ahead may have started a collective call already.
-  const auto isCallers = [](const Message& m) { return m.Kind >= MessageKind::FirstFree; };
-  const auto kept = std::find_if(this->Inbox.begin(), this->Inbox.end(), isCallers);
+  return this->receiveWanted(
+    message, [](const Message& m) { return m.Kind >= MessageKind::FirstFree; });
+}
+
+/// Takes the first wanted message among those that are kept or have arrived, and keeps the others.
+bool Communicator::receiveWanted(
+  Message& message, const std::function<bool(const Message&)>& isWanted)
+{
+  const auto kept = std::find_if(this->Inbox.begin(), this->Inbox.end(), isWanted);
   if (kept != this->Inbox.end())
   {
     message = std::move(*kept);
@@ -314,7 +389,7 @@ bool Communicator::poll(Message& message)
   }
   while (this->receiveGood(message))
   {
-    if (isCallers(message))
+    if (isWanted(message))
     {
       return true;
     }
@@ -331,7 +406,7 @@ bool Communicator::receiveGood(Message& message, const PartReceiver* receiver)
     return false;
   }
   this->Pauses = 0;
-  if (message.Kind == MessageKind::Failure || message.Kind == MessageKind::Shutdown)
+  if (message.isOfFailure())
   {
     this->noteFailure(message);
     throw *this->Failure;
@@ -341,28 +416,13 @@ bool Communicator::receiveGood(Message& message, const PartReceiver* receiver)
 
 Message Communicator::wait(MessageKind kind, int from)
 {
-  const auto wanted = [kind, from](const Message& m) { return m.Kind == kind && m.Source == from; };
-  const auto kept = std::find_if(this->Inbox.begin(), this->Inbox.end(), wanted);
-  if (kept != this->Inbox.end())
+  Message message;
+  while (!this->receiveWanted(
+    message, [kind, from](const Message& m) { return m.Kind == kind && m.Source == from; }))
   {
-    Message message = std::move(*kept);
-    this->Inbox.erase(kept);
-    return message;
+    this->pause();
   }
-  for (;;)
-  {
-    Message message;
-    if (!this->receiveGood(message))
-    {
-      this->pause();
-      continue;
-    }
-    if (wanted(message))
-    {
-      return message;
-    }
-    this->Inbox.push_back(std::move(message));
-  }
+  return message;
 }
 
 void Communicator::flush()
@@ -389,79 +449,6 @@ void Communicator::pause()
   }
   std::this_thread::sleep_for(
     std::chrono::microseconds(std::min(10 * (this->Pauses - yields), longest)));
-}
-
-void Communicator::note(int rank, bool aborted, const std::string& reason)
-{
-  if (!this->Failure || rank < this->Failure->Rank)
-  {
-    this->Failure = std::make_unique<RankFailure>(rank, aborted, reason);
-  }
-}
-
-void Communicator::noteFailure(const Message& message)
-{
-  if (message.Kind == MessageKind::Failure)
-  {
-    LoadArchive reader(message.Content);
-    const bool aborted = reader.get<char>() != 0;
-    this->note(message.Source, aborted, reader.get<std::string>());
-  }
-  else
-  {
-    this->HasShutDown[std::size_t(message.Source)] = 1;
-    this->note(this->Size, false, "Another rank has ended the run.");
-  }
-}
-
-void Communicator::announceFailure(bool aborted, const std::string& why)
-{
-  this->HasAnnounced = true;
-  const std::string reason = why.substr(0, LargestReason);
-  this->note(this->Rank, aborted, reason);
-  for (int to = 0; to < this->Size; ++to)
-  {
-    if (to != this->Rank)
-    {
-      SaveArchive writer;
-      writer(char(aborted));
-      writer(reason);
-      this->sendTo(to, MessageKind::Failure, writer.take());
-    }
-  }
-}
-
-/// Sends a shutdown message to every other rank and receives all messages up to theirs. Afterwards
-/// no message of this run is left for the next one, and all ranks know the same failures.
-void Communicator::shutDown()
-{
-  for (int to = 0; to < this->Size; ++to)
-  {
-    if (to != this->Rank)
-    {
-      this->sendTo(to, MessageKind::Shutdown, Bytes());
-    }
-  }
-  this->HasShutDown[std::size_t(this->Rank)] = 1;
-  while (
-    !this->Unsent.empty() || std::count(this->HasShutDown.begin(), this->HasShutDown.end(), 0) > 0)
-  {
-    Message message;
-    this->receiveOfFailure(message) ? this->noteFailure(message) : this->pause();
-  }
-  const RankFailure failure = *this->Failure;
-  this->Failure.reset();
-  this->HasAnnounced = false;
-  this->HasShutDown.assign(this->HasShutDown.size(), 0);
-  this->Inbox.clear();
-  this->setTogether(false);
-  throw RankFailure(failure);
-}
-
-void Communicator::setTogether(bool together)
-{
-  this->IsTogether = together;
-  ++this->Run;
 }
 
 } // namespace tipp

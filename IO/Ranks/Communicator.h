@@ -24,35 +24,7 @@ class vtkMultiProcessController;
 namespace tipp
 {
 
-/// Sends bytes from rank to rank, with MPI's semantics. Only one thread of each rank may call it.
-class RankTransport
-{
-public:
-  /// Connects all ranks of the controller, separately from the program's other messages. Returns
-  /// null for one rank. Throws std::invalid_argument if there are several ranks without MPI.
-  /// Collective.
-  static std::unique_ptr<RankTransport> open(vtkMultiProcessController* controller);
-
-  virtual ~RankTransport() = default;
-
-  virtual int rank() const = 0;
-  virtual int size() const = 0;
-
-  /// A send in progress.
-  class Sending
-  {
-  public:
-    virtual ~Sending() = default;
-    /// Whether the send has completed, so that its memory may be freed.
-    virtual bool hasLeft() = 0;
-  };
-  virtual std::unique_ptr<Sending> send(const char* data, std::size_t size, int to, int tag) = 0;
-
-  /// Whether a message with the tag has arrived from any rank.
-  virtual bool probe(int tag, int& source, int& size) = 0;
-  /// Receives a message of this size; blocks until it has arrived.
-  virtual void receive(char* data, std::size_t size, int source, int tag) = 0;
-};
+class RankTransport;
 
 /// The kind of a message. Kinds from FirstFree on are the callers'.
 enum class MessageKind : std::uint32_t
@@ -78,6 +50,11 @@ struct Message
   int Source = 0; ///< the rank that sent it
   MessageKind Kind = MessageKind::FirstFree;
   Bytes Content;
+
+  bool isOfFailure() const
+  {
+    return this->Kind == MessageKind::Failure || this->Kind == MessageKind::Shutdown;
+  }
 };
 
 /// Thrown by all ranks, with the same text, if any rank fails.
@@ -267,23 +244,11 @@ private:
   struct Outgoing;
   struct Arriving;
 
-  /// A message of a later run than this rank's.
-  struct EarlyMessage
-  {
-    std::uint32_t Run = 0;
-    Message Content;
-  };
-
-  /// Receives messages in parts, and knows the ranks from which they are awaited.
+  /// Takes some messages in parts, so that they need not be in memory as a whole.
   struct PartReceiver
   {
     const TakePart& Take;
-    std::vector<char> IsAwaited;
-
-    bool concerns(const Message& message) const
-    {
-      return message.Kind == MessageKind::AllToAll && this->IsAwaited[std::size_t(message.Source)];
-    }
+    std::function<bool(const Message&)> Concerns; ///< looks only at the source and kind
   };
 
   template <typename T>
@@ -304,8 +269,8 @@ private:
   void keepForItsRun(const Arriving& arriving);
   void receiveParts(const Arriving& arriving, const TakePart& takePart);
   bool takeEarly(Message& message);
-  bool receiveOfFailure(Message& message);
   bool receiveGood(Message& message, const PartReceiver* receiver = nullptr);
+  bool receiveWanted(Message& message, const std::function<bool(const Message&)>& isWanted);
   void testOutgoing();
   void postRange(
     int to, MessageKind kind, const std::shared_ptr<Bytes>& memory, const ByteRange& range);
@@ -323,12 +288,12 @@ private:
 
   vtkMultiProcessController* Controller;
 
-  std::unique_ptr<RankTransport> Transport; ///< null: one rank
   int Rank = 0;
   int Size = 1;
-  std::uint32_t Run = 0; ///< how often together() has begun or ended
+  std::unique_ptr<RankTransport> Transport; ///< null: one rank
+  std::uint32_t Run = 0;                    ///< how often together() has begun or ended
   std::deque<Message> Inbox;
-  std::deque<EarlyMessage> Early; ///< sorted by run, then as received
+  std::multimap<std::uint32_t, Message> Early; ///< messages of later runs, by run
   std::list<Outgoing> Unsent;
   std::map<MessageKind, Traffic> Sent;
   double SendingSeconds = 0;
@@ -349,6 +314,14 @@ std::vector<T> concatenated(const std::vector<std::vector<T>>& parts)
     all.insert(all.end(), part.begin(), part.end());
   }
   return all;
+}
+
+/// Whether `condition` is true on any rank. Collective.
+inline bool isTrueOnAny(Communicator& ranks, bool condition)
+{
+  std::vector<std::int64_t> count = { condition ? 1 : 0 };
+  ranks.sum(count);
+  return count[0] > 0;
 }
 
 } // namespace tipp

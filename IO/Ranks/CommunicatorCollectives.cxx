@@ -36,30 +36,33 @@ Bytes Communicator::allToAllInParts(
     const int to = (this->Rank + step) % this->Size;
     this->postRange(to, MessageKind::AllToAll, shared, contents[std::size_t(to)]);
   }
-  PartReceiver receiver{ takePart, std::vector<char>(std::size_t(this->Size), 1) };
-  receiver.IsAwaited[std::size_t(this->Rank)] = 0;
+  std::vector<char> isAwaited(std::size_t(this->Size), 1);
+  isAwaited[std::size_t(this->Rank)] = 0;
+  const PartReceiver receiver{ takePart,
+    [&](const Message& message)
+    { return message.Kind == MessageKind::AllToAll && isAwaited[std::size_t(message.Source)]; } };
   // Some messages may have arrived while this rank waited for another.
   for (auto kept = this->Inbox.begin(); kept != this->Inbox.end();)
   {
-    if (!receiver.concerns(*kept))
+    if (!receiver.Concerns(*kept))
     {
       ++kept;
       continue;
     }
-    receiver.IsAwaited[std::size_t(kept->Source)] = 0;
+    isAwaited[std::size_t(kept->Source)] = 0;
     takePart(kept->Source, kept->Content.data(), kept->Content.size());
     kept = this->Inbox.erase(kept);
   }
-  while (std::count(receiver.IsAwaited.begin(), receiver.IsAwaited.end(), 1) > 0)
+  while (std::count(isAwaited.begin(), isAwaited.end(), 1) > 0)
   {
     Message message;
     if (!this->receiveGood(message, &receiver))
     {
       this->pause();
     }
-    else if (receiver.concerns(message))
+    else if (receiver.Concerns(message))
     {
-      receiver.IsAwaited[std::size_t(message.Source)] = 0;
+      isAwaited[std::size_t(message.Source)] = 0;
     }
     else
     {
@@ -254,6 +257,87 @@ void Communicator::attempt(const std::function<void()>& work)
   {
     throw WorkAborted();
   }
+}
+
+void Communicator::note(int rank, bool aborted, const std::string& reason)
+{
+  if (!this->Failure || rank < this->Failure->Rank)
+  {
+    this->Failure = std::make_unique<RankFailure>(rank, aborted, reason);
+  }
+}
+
+void Communicator::noteFailure(const Message& message)
+{
+  if (message.Kind == MessageKind::Failure)
+  {
+    LoadArchive reader(message.Content);
+    const bool aborted = reader.get<char>() != 0;
+    this->note(message.Source, aborted, reader.get<std::string>());
+  }
+  else
+  {
+    this->HasShutDown[std::size_t(message.Source)] = 1;
+    this->note(this->Size, false, "Another rank has ended the run.");
+  }
+}
+
+void Communicator::announceFailure(bool aborted, const std::string& why)
+{
+  constexpr std::size_t longest = 4096; // so that the message is never in parts
+  this->HasAnnounced = true;
+  const std::string reason = why.substr(0, longest);
+  this->note(this->Rank, aborted, reason);
+  for (int to = 0; to < this->Size; ++to)
+  {
+    if (to != this->Rank)
+    {
+      this->sendTo(to, MessageKind::Failure, packed(char(aborted), reason));
+    }
+  }
+}
+
+/// Sends a shutdown message to every other rank and receives all messages up to theirs. Afterwards
+/// no message of this run is left for the next one, and all ranks know the same failures.
+void Communicator::shutDown()
+{
+  for (int to = 0; to < this->Size; ++to)
+  {
+    if (to != this->Rank)
+    {
+      this->sendTo(to, MessageKind::Shutdown, Bytes());
+    }
+  }
+  this->HasShutDown[std::size_t(this->Rank)] = 1;
+  // Messages of this run that report no failure are received in parts and discarded.
+  const TakePart discard = [](int, const char*, std::size_t) {};
+  const PartReceiver others{ discard, [](const Message& m) { return !m.isOfFailure(); } };
+  while (
+    !this->Unsent.empty() || std::count(this->HasShutDown.begin(), this->HasShutDown.end(), 0) > 0)
+  {
+    Message message;
+    if (!this->receive(message, &others))
+    {
+      this->pause();
+    }
+    else if (message.isOfFailure())
+    {
+      this->noteFailure(message);
+    }
+  }
+  const RankFailure failure = *this->Failure;
+  this->Failure.reset();
+  this->HasAnnounced = false;
+  this->HasShutDown.assign(this->HasShutDown.size(), 0);
+  this->Inbox.clear();
+  this->setTogether(false);
+  throw RankFailure(failure);
+}
+
+void Communicator::setTogether(bool together)
+{
+  this->IsTogether = together;
+  ++this->Run;
 }
 
 } // namespace tipp

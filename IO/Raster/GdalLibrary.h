@@ -4,7 +4,6 @@
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
-#include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <gdal.h>
 #include <ogr_api.h>
@@ -25,8 +24,6 @@ namespace tipp
   X(CPLGetLastErrorType)                                                                           \
   X(CPLQuietErrorHandler)                                                                          \
   X(CPLSetErrorHandler)                                                                            \
-  X(CSLDestroy)                                                                                    \
-  X(CSLSetNameValue)                                                                               \
   X(GDALAllRegister)                                                                               \
   X(GDALClose)                                                                                     \
   X(GDALCreate)                                                                                    \

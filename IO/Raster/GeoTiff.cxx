@@ -3,7 +3,6 @@
 #include "Files/OutputFile.h"
 #include "Files/TextFile.h"
 #include "Files/VtkXml.h"
-#include "Raster/GdalRaster.h"
 #include "Raster/RasterFile.h"
 
 #include <algorithm>
@@ -158,12 +157,6 @@ TiffField tiffField(std::uint16_t tag, TiffField::Type type, const std::vector<T
     std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)) };
 }
 
-/// Compresses a tile of values of `valueSize` bytes for a deflated file. Thread-safe.
-std::string deflateTile(const std::string& pixels, std::size_t valueSize)
-{
-  return deflated(predicted(pixels, valueSize));
-}
-
 /// Whether GDAL converts the file from an uncompressed one.
 bool isConverted(const RasterDescription& description)
 {
@@ -175,119 +168,6 @@ bool isDeflated(const RasterDescription& description)
 {
   return !isConverted(description) && description.Compression == "deflate";
 }
-
-/// Writes a TIFF file of floating-point bands, each in its own tiles, from the north-west on. It
-/// becomes a BigTIFF if it may exceed ClassicBytes of the description.
-class TiledTiff
-{
-public:
-  /// The arguments must outlive this object.
-  TiledTiff(const OutputFile& file, const RasterDescription& description)
-    : File(file)
-    , Description(description)
-    , Bands(description.Bands.size())
-  {
-  }
-
-  /// Appends the next tile of a band: RasterTileSize rows of RasterTileSize values of the file's
-  /// type, northernmost row first; for a deflated file, the result of deflateTile(). Throws
-  /// IOError.
-  void append(std::size_t band, const std::string& tile)
-  {
-    this->File.write(this->End, tile.data(), tile.size());
-    this->Bands[band].Offsets.push_back(this->End);
-    this->Bands[band].Sizes.push_back(tile.size());
-    this->End += tile.size();
-  }
-
-  /// Completes the file with a directory of these fields and those that describe the pixels. Throws
-  /// IOError.
-  void finish(std::vector<TiffField> fields)
-  {
-    const std::vector<TiffField> ofPixels = this->pixelFields();
-    fields.insert(fields.end(), ofPixels.begin(), ofPixels.end());
-    std::vector<std::uint64_t> offsets;
-    std::vector<std::uint64_t> sizes;
-    std::uint64_t other = 0;
-    for (const Band& band : this->Bands)
-    {
-      offsets.insert(offsets.end(), band.Offsets.begin(), band.Offsets.end());
-      sizes.insert(sizes.end(), band.Sizes.begin(), band.Sizes.end());
-    }
-    for (const TiffField& field : fields)
-    {
-      other += field.Bytes.size() + 32;
-    }
-    this->End += this->End % 2;
-    const bool isBig =
-      this->End + 16 * offsets.size() + other + 1024 > this->Description.ClassicBytes;
-    const auto addWords = [&](std::uint16_t tag, const std::vector<std::uint64_t>& words)
-    {
-      fields.push_back(isBig ? tiffField(tag, TiffField::Type::Long8, words)
-                             : tiffField(tag, TiffField::Type::Long,
-                                 std::vector<std::uint32_t>(words.begin(), words.end())));
-    };
-    addWords(324, offsets);
-    addWords(325, sizes);
-    std::sort(fields.begin(), fields.end(),
-      [](const TiffField& a, const TiffField& b) { return a.Tag < b.Tag; });
-    const std::string bytes = directory(fields, this->End, isBig);
-    this->File.write(this->End, bytes.data(), bytes.size());
-    std::string header = "II";
-    tipp::append(header, std::uint16_t(isBig ? 43 : 42));
-    if (isBig)
-    {
-      tipp::append(header, std::uint16_t(8));
-      tipp::append(header, std::uint16_t(0));
-    }
-    appendWord(header, this->End, isBig);
-    header.resize(headerSize, '\0');
-    this->File.write(0, header.data(), header.size());
-  }
-
-private:
-  std::vector<TiffField> pixelFields() const
-  {
-    using Type = TiffField::Type;
-    using Short = std::uint16_t;
-    using Long = std::uint32_t;
-    const std::size_t bands = this->Bands.size();
-    const bool deflates = isDeflated(this->Description);
-    const auto repeated = [bands](int value) { return std::vector<Short>(bands, Short(value)); };
-    const auto one = [](int value) { return std::vector<Short>{ Short(value) }; };
-    std::vector<TiffField> fields = {
-      tiffField(256, Type::Long, std::vector<Long>{ Long(this->Description.Grid.Columns) }),
-      tiffField(257, Type::Long, std::vector<Long>{ Long(this->Description.Grid.Rows) }),
-      tiffField(258, Type::Short, repeated(this->Description.Double ? 64 : 32)), // bits
-      tiffField(259, Type::Short, one(deflates ? 8 : 1)),                        // compression
-      tiffField(262, Type::Short, one(1)),                                       // 0 is black
-      tiffField(277, Type::Short, one(int(bands))),        // samples per pixel
-      tiffField(284, Type::Short, one(bands > 1 ? 2 : 1)), // bands stored separately
-      tiffField(322, Type::Short, one(int(RasterTileSize))),
-      tiffField(323, Type::Short, one(int(RasterTileSize))),
-      tiffField(339, Type::Short, repeated(3)), // floating-point numbers
-    };
-    if (deflates)
-    {
-      fields.push_back(tiffField(317, Type::Short, one(3))); // predictor
-    }
-    if (bands > 1)
-    {
-      fields.push_back(tiffField(338, Type::Short, std::vector<Short>(bands - 1, 0))); // no alpha
-    }
-    return fields;
-  }
-
-  const OutputFile& File;
-  const RasterDescription& Description;
-  std::uint64_t End = headerSize; ///< end of the written data
-  struct Band
-  {
-    std::vector<std::uint64_t> Offsets; ///< offsets of its tiles
-    std::vector<std::uint64_t> Sizes;
-  };
-  std::vector<Band> Bands;
-};
 
 TiffField textField(std::uint16_t tag, const std::string& text)
 {
@@ -319,11 +199,13 @@ EncodedTile::Band encodeBand(
       }
     }
   }
-  band.Bytes = isDeflated(description) ? deflateTile(bytes, sizeof(T)) : std::move(bytes);
+  band.Bytes = isDeflated(description) ? deflated(predicted(bytes, sizeof(T))) : std::move(bytes);
   return band;
 }
 
-/// Compresses tiles in the calling threads and appends them to the file in order.
+/// Writes a TIFF file of floating-point bands, each in its own tiles, from the north-west on.
+/// Compresses tiles in the calling threads and appends them to the file in order. The file becomes
+/// a BigTIFF if it may exceed ClassicBytes of the description.
 class GeoTiffWriter : public RasterWriter
 {
 public:
@@ -332,7 +214,7 @@ public:
     : Path(path)
     , Description(description)
     , Pending(path, before)
-    , Sums(description.Bands.size())
+    , Bands(description.Bands.size())
   {
     if (isConverted(description))
     {
@@ -341,10 +223,8 @@ public:
     }
     if (!description.Crs.empty())
     {
-      this->Fields = geoKeysOf(description.Crs);
+      this->Keys = geoKeysOf(description.Crs);
     }
-    this->Tiff = std::make_unique<TiledTiff>(
-      (this->Plain ? *this->Plain : this->Pending).file(), this->Description);
   }
 
   void write(const RasterWindow& window, const std::vector<const double*>& bands) override
@@ -362,8 +242,8 @@ public:
       const EncodedTile& next = this->Waiting.begin()->second;
       for (std::size_t band = 0; band < next.Bands.size(); ++band)
       {
-        this->Tiff->append(band, next.Bands[band].Bytes);
-        this->Sums[band].add(next.Bands[band].Sums);
+        this->append(this->Bands[band], next.Bands[band].Bytes);
+        this->Bands[band].Sums.add(next.Bands[band].Sums);
       }
       this->Waiting.erase(this->Waiting.begin());
       ++this->Written;
@@ -372,8 +252,7 @@ public:
 
   void close() override
   {
-    this->addFields();
-    this->Tiff->finish(std::move(this->Fields));
+    this->finish();
     if (this->Plain)
     {
       convertGeoTiff(
@@ -384,28 +263,125 @@ public:
 
   double hidden() const override
   {
-    return std::accumulate(this->Sums.begin(), this->Sums.end(), 0.0,
-      [](double sum, const BandSums& band) { return sum + band.Hidden; });
+    return std::accumulate(this->Bands.begin(), this->Bands.end(), 0.0,
+      [](double sum, const Band& band) { return sum + band.Sums.Hidden; });
   }
 
 private:
+  /// The tiles of a band so far.
+  struct Band
+  {
+    std::vector<std::uint64_t> Offsets;
+    std::vector<std::uint64_t> Sizes;
+    BandSums Sums;
+  };
+
+  const OutputFile& file() const { return (this->Plain ? *this->Plain : this->Pending).file(); }
+
+  /// Appends the next tile of a band: RasterTileSize rows of RasterTileSize values of the file's
+  /// type, northernmost row first; for a deflated file, predicted and deflated. Throws IOError.
+  void append(Band& band, const std::string& tile)
+  {
+    this->file().write(this->End, tile.data(), tile.size());
+    band.Offsets.push_back(this->End);
+    band.Sizes.push_back(tile.size());
+    this->End += tile.size();
+  }
+
+  /// Completes the file with the directory. Throws IOError.
+  void finish()
+  {
+    std::vector<TiffField> fields = this->Keys;
+    this->addPixelFields(fields);
+    this->addFields(fields);
+    std::vector<std::uint64_t> offsets;
+    std::vector<std::uint64_t> sizes;
+    std::uint64_t other = 0;
+    for (const Band& band : this->Bands)
+    {
+      offsets.insert(offsets.end(), band.Offsets.begin(), band.Offsets.end());
+      sizes.insert(sizes.end(), band.Sizes.begin(), band.Sizes.end());
+    }
+    for (const TiffField& field : fields)
+    {
+      other += field.Bytes.size() + 32;
+    }
+    this->End += this->End % 2;
+    const bool isBig =
+      this->End + 16 * offsets.size() + other + 1024 > this->Description.ClassicBytes;
+    const auto addWords = [&](std::uint16_t tag, const std::vector<std::uint64_t>& words)
+    {
+      fields.push_back(isBig ? tiffField(tag, TiffField::Type::Long8, words)
+                             : tiffField(tag, TiffField::Type::Long,
+                                 std::vector<std::uint32_t>(words.begin(), words.end())));
+    };
+    addWords(324, offsets);
+    addWords(325, sizes);
+    std::sort(fields.begin(), fields.end(),
+      [](const TiffField& a, const TiffField& b) { return a.Tag < b.Tag; });
+    const std::string bytes = directory(fields, this->End, isBig);
+    this->file().write(this->End, bytes.data(), bytes.size());
+    std::string header = "II";
+    tipp::append(header, std::uint16_t(isBig ? 43 : 42));
+    if (isBig)
+    {
+      tipp::append(header, std::uint16_t(8));
+      tipp::append(header, std::uint16_t(0));
+    }
+    appendWord(header, this->End, isBig);
+    header.resize(headerSize, '\0');
+    this->file().write(0, header.data(), header.size());
+  }
+
+  void addPixelFields(std::vector<TiffField>& fields) const
+  {
+    using Type = TiffField::Type;
+    using Short = std::uint16_t;
+    using Long = std::uint32_t;
+    const std::size_t bands = this->Bands.size();
+    const bool deflates = isDeflated(this->Description);
+    const auto repeated = [bands](int value) { return std::vector<Short>(bands, Short(value)); };
+    const auto one = [](int value) { return std::vector<Short>{ Short(value) }; };
+    fields.insert(fields.end(),
+      {
+        tiffField(256, Type::Long, std::vector<Long>{ Long(this->Description.Grid.Columns) }),
+        tiffField(257, Type::Long, std::vector<Long>{ Long(this->Description.Grid.Rows) }),
+        tiffField(258, Type::Short, repeated(this->Description.Double ? 64 : 32)), // bits
+        tiffField(259, Type::Short, one(deflates ? 8 : 1)),                        // compression
+        tiffField(262, Type::Short, one(1)),                                       // 0 is black
+        tiffField(277, Type::Short, one(int(bands))),        // samples per pixel
+        tiffField(284, Type::Short, one(bands > 1 ? 2 : 1)), // bands stored separately
+        tiffField(322, Type::Short, one(int(RasterTileSize))),
+        tiffField(323, Type::Short, one(int(RasterTileSize))),
+        tiffField(339, Type::Short, repeated(3)), // floating-point numbers
+      });
+    if (deflates)
+    {
+      fields.push_back(tiffField(317, Type::Short, one(3))); // predictor
+    }
+    if (bands > 1)
+    {
+      fields.push_back(tiffField(338, Type::Short, std::vector<Short>(bands - 1, 0))); // no alpha
+    }
+  }
+
   /// Adds georeferencing, band names and statistics in the form that GDAL reads.
-  void addFields()
+  void addFields(std::vector<TiffField>& fields) const
   {
     using Type = TiffField::Type;
     const RasterGrid& grid = this->Description.Grid;
-    this->Fields.push_back(
+    fields.push_back(
       tiffField(33550, Type::Double, std::vector<double>{ grid.Pixel[0], grid.Pixel[1], 0 }));
-    this->Fields.push_back(
+    fields.push_back(
       tiffField(33922, Type::Double, std::vector<double>{ 0, 0, 0, grid.West, grid.north(), 0 }));
-    this->Fields.push_back(textField(42112, this->metadata()));
-    this->Fields.push_back(textField(42113, exactText(this->Description.NoData)));
+    fields.push_back(textField(42112, this->metadata()));
+    fields.push_back(textField(42113, exactText(this->Description.NoData)));
   }
 
   std::string metadata() const
   {
     std::string text = "<GDALMetadata>\n";
-    for (std::size_t band = 0; band < this->Sums.size(); ++band)
+    for (std::size_t band = 0; band < this->Bands.size(); ++band)
     {
       const auto add = [&](const char* name, const std::string& value, const char* more = "")
       {
@@ -413,7 +389,7 @@ private:
           "\"" + more + ">" + value + "</Item>\n";
       };
       add("DESCRIPTION", escapedXml(this->Description.Bands[band]), " role=\"description\"");
-      const BandSums& sums = this->Sums[band];
+      const BandSums& sums = this->Bands[band].Sums;
       if (sums.Count > 0)
       {
         add("STATISTICS_MAXIMUM", exactText(sums.Most));
@@ -428,13 +404,13 @@ private:
   const std::string Path;
   const RasterDescription Description;
   PendingFile Pending;
-  std::unique_ptr<PendingFile> Plain; ///< the uncompressed file, only if it is converted
-  std::vector<TiffField> Fields;
-  std::unique_ptr<TiledTiff> Tiff;
+  std::unique_ptr<PendingFile> Plain;          ///< the uncompressed file, only if it is converted
+  std::vector<TiffField> Keys;                 ///< fields of the reference system
   std::mutex Mutex;                            ///< guards the members below
   std::map<std::int64_t, EncodedTile> Waiting; ///< waiting for earlier tiles
   std::int64_t Written = 0;                    ///< tiles
-  std::vector<BandSums> Sums;
+  std::uint64_t End = headerSize;              ///< end of the written data
+  std::vector<Band> Bands;
 };
 
 } // namespace

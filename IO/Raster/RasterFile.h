@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -136,18 +137,22 @@ public:
 /// default. Tiles are numbered row by row from the north, in each row from the west.
 constexpr std::int64_t RasterTileSize = 256;
 
+/// The number of tiles that cover a row or column of pixels.
+inline std::int64_t tilesAlong(std::int64_t pixels)
+{
+  return (pixels + RasterTileSize - 1) / RasterTileSize;
+}
+
 /// The number of tiles that cover the grid.
 inline std::int64_t tileCount(const RasterGrid& grid)
 {
-  const auto along = [](std::int64_t pixels)
-  { return (pixels + RasterTileSize - 1) / RasterTileSize; };
-  return along(grid.Columns) * along(grid.Rows);
+  return tilesAlong(grid.Columns) * tilesAlong(grid.Rows);
 }
 
 /// The window of a tile, given its number (from 0).
 inline RasterWindow tileOf(const RasterGrid& grid, std::int64_t number)
 {
-  const std::int64_t across = (grid.Columns + RasterTileSize - 1) / RasterTileSize;
+  const std::int64_t across = tilesAlong(grid.Columns);
   const std::int64_t column = number % across * RasterTileSize;
   const std::int64_t top = grid.Rows - number / across * RasterTileSize;
   const std::int64_t row = std::max<std::int64_t>(top - RasterTileSize, 0);
@@ -157,7 +162,7 @@ inline RasterWindow tileOf(const RasterGrid& grid, std::int64_t number)
 /// The number of the tile that a window is.
 inline std::int64_t tileNumber(const RasterGrid& grid, const RasterWindow& window)
 {
-  const std::int64_t across = (grid.Columns + RasterTileSize - 1) / RasterTileSize;
+  const std::int64_t across = tilesAlong(grid.Columns);
   const std::int64_t fromNorth = grid.Rows - window.Row - window.Rows;
   return fromNorth / RasterTileSize * across + window.Column / RasterTileSize;
 }
@@ -171,7 +176,7 @@ void forTiles(const RasterGrid& grid, const RasterWindow& window, const Visit& v
   {
     return;
   }
-  const std::int64_t across = (grid.Columns + RasterTileSize - 1) / RasterTileSize;
+  const std::int64_t across = tilesAlong(grid.Columns);
   const std::int64_t right = window.Column + window.Columns;
   const std::int64_t end = window.Row + window.Rows;
   const std::int64_t last = (grid.Rows - 1 - window.Row) / RasterTileSize;
@@ -204,6 +209,22 @@ VTKTIPPIO_EXPORT bool isGeoTiff(const std::string& path);
 std::unique_ptr<RasterWriter> createGeoTiff(
   const std::string& path, const RasterDescription& description, const PathState& before);
 
+/// A field of a TIFF file's directory.
+struct TiffField
+{
+  enum class Type : std::uint16_t
+  {
+    Text = 2,
+    Short = 3,
+    Long = 4,
+    Double = 12,
+    Long8 = 16
+  };
+  std::uint16_t Tag = 0; ///< the field's tag number
+  Type Is = Type::Short;
+  std::string Bytes; ///< the values, little-endian
+};
+
 /// The grid and the reference system of an existing raster.
 struct RasterInfo
 {
@@ -211,11 +232,33 @@ struct RasterInfo
   std::string Crs; ///< WKT, or empty
 };
 
-/// Reads the grid and the reference system of a north-up raster with GDAL. Throws IOError.
+/// Runs `work` in a child process, so that the libraries it loads take no memory in this one, and
+/// returns its result. If `work` throws an IOError, throws one with the same message.
+VTKTIPPIO_EXPORT std::string runInChild(const std::function<std::string()>& work);
+
+/// @name Functions that use GDAL
+/// All throw IOError if GDAL fails or is not installed.
+///@{
+/// Reads the grid and the reference system of a north-up raster.
 VTKTIPPIO_EXPORT RasterInfo readRasterInfo(const std::string& path);
 
-/// Throws IOError if GDAL does not understand the text or is not installed.
-VTKTIPPIO_EXPORT void requireCrs(const std::string& text);
+/// The TIFF fields that describe a coordinate reference system. GDAL's libraries take tens of
+/// megabytes, so it is loaded in a child process.
+VTKTIPPIO_EXPORT const std::vector<TiffField>& geoKeysOf(const std::string& crs);
+
+/// Throws IOError if GDAL does not understand the text.
+inline void requireCrs(const std::string& text)
+{
+  geoKeysOf(text);
+}
+
+/// Throws IOError, which names `path`, unless convertGeoTiff() can write such files.
+void requireConversion(const RasterDescription& description, const std::string& path);
+
+/// Copies a GeoTIFF to `to`, compressed and laid out as described. Errors name `path`.
+void convertGeoTiff(const std::string& from, const std::string& to,
+  const RasterDescription& description, const std::string& path);
+///@}
 
 } // namespace tipp
 

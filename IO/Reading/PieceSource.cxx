@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Reading/PieceSource.h"
 
-#include "Arrays/SortUnique.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Flat/FlatMesh.h"
+#include "Loading/VertexLoader.h"
 #include "Parallel/ParallelFor.h"
-#include "Parallel/Poll.h"
+#include "Parallel/Sort.h"
 #include "Partition/ClassifyCells.h"
 #include "Partitioning/MeshTiling.h"
 #include "Partitioning/PartitionMesh.h"
@@ -15,6 +15,7 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace tipp
@@ -61,37 +62,6 @@ private:
   int Threads;
 };
 
-} // namespace
-
-PieceSource::~PieceSource() = default;
-
-std::unique_ptr<PieceSource> openPieceSource(const std::string& path, const SourceOptions& options)
-{
-  if (isPartitionedMesh(path))
-  {
-    return std::make_unique<StoredPieces>(path, options.Threads);
-  }
-  if (isFlatMesh(path))
-  {
-    return std::make_unique<FlatPieces>(openFlatMesh(path), options);
-  }
-  throw IOError(path,
-    "is neither a partitioned mesh (its folder or index) nor a flat one (a folder of .npy arrays, "
-    "or a .vtu file of appended, raw, uncompressed data).");
-}
-
-namespace
-{
-
-/// The union of a and b, both ascending.
-std::vector<std::int64_t> united(
-  const std::vector<std::int64_t>& a, const std::vector<std::int64_t>& b)
-{
-  std::vector<std::int64_t> all;
-  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
-  return all;
-}
-
 Buffer<char> bufferOf(const std::vector<std::int64_t>& values)
 {
   Buffer<char> buffer(values.size() * sizeof(std::int64_t));
@@ -111,279 +81,319 @@ Buffer<char> withThird(const Buffer<char>& flat, std::int64_t points, std::size_
   return three;
 }
 
-} // namespace
-
-FlatPieces::FlatPieces(FlatMesh mesh, const SourceOptions& options)
-  : Flat(std::move(mesh))
-  , Options(options)
+/// The pieces of a flat mesh, made in memory: chunk by chunk, Direct Load loads the coordinates of
+/// cells, and the cells are classified; those of the requested pieces are kept.
+class FlatPieces : public PieceSource
 {
-  this->Mesh.Path = this->Flat.Path;
-  this->Mesh.CellSize = this->Flat.CellSize;
-  this->Mesh.PointType = this->Flat.Points.Type;
-  this->Mesh.Points = this->Flat.Points.Tuples;
-  this->Mesh.Cells = this->Flat.Cells.Tuples;
-  this->Mesh.Tiling = options.Tiling.text(this->dimension());
-  this->Mesh.Times = this->Flat.Times;
-  this->Arrays = describeArrays(this->Flat, this->Mesh);
-}
-
-LoaderOptions FlatPieces::loading() const
-{
-  LoaderOptions loading;
-  loading.MemoryLimit = std::max<std::uint64_t>(this->Options.MemoryLimit / 4, 1);
-  loading.Threads = this->Options.Threads;
-  return loading;
-}
-
-/// The number of cells in a chunk: with their coordinates they fit in a quarter of the memory
-/// limit.
-std::int64_t FlatPieces::chunkCells() const
-{
-  const auto corners = std::size_t(this->Flat.CellSize);
-  const auto dimension = std::size_t(this->dimension());
-  const std::size_t perCell = corners * (8 + this->Flat.Points.tupleBytes() + 8 * dimension) + 32;
-  constexpr std::uint64_t most = 1 << 22;
-  return std::int64_t(std::clamp<std::uint64_t>(this->Options.MemoryLimit / 4 / perCell, 1, most));
-}
-
-void FlatPieces::prepare(Communicator& ranks)
-{
-  // All ranks must agree whether to continue, because the next step is collective.
-  std::vector<std::int64_t> unprepared = { this->Tiling ? 0 : 1 };
-  ranks.sum(unprepared);
-  if (unprepared[0] == 0)
+public:
+  FlatPieces(FlatMesh mesh, const SourceOptions& options)
+    : Flat(std::move(mesh))
+    , Options(options)
   {
-    return;
+    this->Mesh.Path = this->Flat.Path;
+    this->Mesh.CellSize = this->Flat.CellSize;
+    this->Mesh.PointType = this->Flat.Points.Type;
+    this->Mesh.Points = this->Flat.Points.Tuples;
+    this->Mesh.Cells = this->Flat.Cells.Tuples;
+    this->Mesh.Tiling = options.Tiling.text(this->dimension());
+    this->Mesh.Times = this->Flat.Times;
+    this->Arrays = describeArrays(this->Flat, this->Mesh);
   }
-  this->PointCounts.clear();
-  if (this->Flat.Points.Tuples == 0)
+
+  void prepare(Communicator& ranks) override
   {
-    this->Mesh.Pieces.clear();
-    return;
-  }
-  const int threads = threadCount(this->Options.Threads);
-  const Box3 domain = boundsOfPoints(this->Flat, ranks, threads);
-  BoxTiling tiling = makeTiling(
-    this->Flat, this->Options.Tiling, this->loading(), this->chunkCells(), threads, ranks, domain);
-  setPieces(this->Mesh, domain, tiling);
-  this->Tiling.emplace(std::move(tiling));
-  std::vector<std::int64_t> counts(this->Mesh.Pieces.size(), 0);
-  ranks.attempt(
-    [&]
+    // All ranks must agree whether to continue, because the next step is collective.
+    if (!isTrueOnAny(ranks, !this->Tiling))
     {
-      const auto [first, last] = ranks.shareOf(this->Flat.Points.Tuples);
-      this->forEachOwner(
-        first, last, [&counts](std::int64_t, std::int32_t owner) { ++counts[std::size_t(owner)]; });
-    });
-  ranks.sum(counts);
-  this->PointCounts = std::move(counts);
-}
-
-/// Calls visit(point, owner) for points in ascending order. A point's owner is the first partition
-/// that contains it.
-template <typename Visit>
-void FlatPieces::forEachOwner(std::int64_t first, std::int64_t last, const Visit& visit) const
-{
-  constexpr std::int64_t chunk = 1 << 18;
-  constexpr std::int64_t share = 1 << 14;
-  const RawArray& points = this->Flat.Points;
-  const std::size_t bytes = points.tupleBytes();
-  const auto dimension = std::size_t(this->dimension());
-  const InputFile file(points.Path);
-  std::vector<char> raw;
-  std::vector<std::int32_t> owners;
-  for (std::int64_t from = first; from < last; from += chunk)
-  {
-    const std::int64_t count = std::min(chunk, last - from);
-    poll();
-    raw.resize(std::size_t(count) * bytes);
-    file.read(points.Offset + std::uint64_t(from) * bytes, raw.data(), raw.size());
-    owners.resize(std::size_t(count));
-    parallelFor((count + share - 1) / share, this->Options.Threads,
-      [&](std::int64_t part)
+      return;
+    }
+    this->PointCounts.clear();
+    if (this->Flat.Points.Tuples == 0)
+    {
+      this->Mesh.Pieces.clear();
+      return;
+    }
+    const int threads = threadCount(this->Options.Threads);
+    const Box3 domain = boundsOfPoints(this->Flat, ranks, threads);
+    BoxTiling tiling = makeTiling(this->Flat, this->Options.Tiling, this->loading(),
+      this->chunkCells(), threads, ranks, domain);
+    setPieces(this->Mesh, domain, tiling);
+    this->Tiling.emplace(std::move(tiling));
+    std::vector<std::int64_t> counts(this->Mesh.Pieces.size(), 0);
+    ranks.attempt(
+      [&]
       {
-        const std::int64_t end = std::min((part + 1) * share, count);
-        for (std::int64_t i = part * share; i < end; ++i)
+        const auto [first, last] = ranks.shareOf(this->Flat.Points.Tuples);
+        this->forEachOwner(first, last,
+          [&counts](std::int64_t, std::int32_t owner) { ++counts[std::size_t(owner)]; });
+      });
+    ranks.sum(counts);
+    this->PointCounts = std::move(counts);
+  }
+
+  std::vector<std::int64_t> weights() const override { return this->PointCounts; }
+
+  std::vector<Piece> read(
+    const std::vector<std::size_t>& numbers, const PieceOptions& options) override
+  {
+    std::vector<Piece> pieces;
+    if (numbers.empty())
+    {
+      return pieces;
+    }
+    std::vector<std::int32_t> draftOf(this->Mesh.Pieces.size(), -1);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+    {
+      draftOf[numbers[i]] = std::int32_t(i);
+    }
+    std::vector<Draft> drafts(numbers.size());
+    this->collectCells(draftOf, options.Borrowed, drafts);
+    this->forEachOwner(0, this->Flat.Points.Tuples,
+      [&](std::int64_t point, std::int32_t owner)
+      {
+        if (draftOf[std::size_t(owner)] >= 0)
         {
-          Box3 at;
-          takeCoordinates(
-            points, raw.data() + std::size_t(i) * bytes, 1, int(dimension), at.Min.data());
-          at.Max = at.Min;
-          std::int32_t owner = std::numeric_limits<std::int32_t>::max();
-          this->Tiling->forEachMeeting(
-            at, [&owner](std::int32_t box) { owner = std::min(owner, box); });
-          owners[std::size_t(i)] = owner;
+          drafts[std::size_t(draftOf[std::size_t(owner)])].OwnPoints.push_back(point);
         }
       });
-    for (std::int64_t i = 0; i < count; ++i)
+    for (Draft& draft : drafts)
     {
-      visit(from + i, owners[std::size_t(i)]);
+      pieces.push_back(this->finish(draft, options));
+      draft = {};
     }
-  }
-}
-
-void FlatPieces::collectCells(
-  const std::vector<std::int32_t>& draftOf, bool borrowed, std::vector<Draft>& drafts) const
-{
-  const auto corners = std::size_t(this->Flat.CellSize);
-  const auto dimension = std::size_t(this->dimension());
-  const std::int64_t chunk = this->chunkCells();
-  const auto loader = makeVertexLoader({ this->Flat.Points }, this->loading());
-  ClassifyOptions classify;
-  classify.Device.Kind = Device::OpenMP;
-  classify.Threads = this->Options.Threads;
-  CellReader reader(this->Flat, 0, -1, this->Options.Threads);
-  std::vector<std::int64_t> ids;
-  std::vector<char> raw;
-  std::vector<double> coordinates;
-  while (reader.next(chunk, ids))
-  {
-    raw.resize(ids.size() * this->Flat.Points.tupleBytes());
-    void* const out[] = { raw.data() };
-    poll();
-    loader->load(ids.data(), ids.size(), out);
-    poll();
-    coordinates.resize(ids.size() * dimension);
-    takeCoordinates(this->Flat.Points, raw.data(), ids.size(), int(dimension), coordinates.data());
-    const Membership membership =
-      classifyCells({ int(dimension), int(corners), coordinates.data(), ids.size() / corners },
-        *this->Tiling, classify);
-    for (std::size_t i = 0; i < ids.size() / corners; ++i)
-    {
-      pollAt(std::int64_t(i));
-      const auto take = [&](std::int32_t piece, bool owned)
-      {
-        if (draftOf[std::size_t(piece)] >= 0)
-        {
-          Draft& draft = drafts[std::size_t(draftOf[std::size_t(piece)])];
-          (owned ? draft.Cells : draft.Borrowed).push_back(reader.firstCell() + std::int64_t(i));
-          std::vector<std::int64_t>& to = owned ? draft.Corners : draft.BorrowedCorners;
-          to.insert(to.end(), ids.begin() + std::ptrdiff_t(i * corners),
-            ids.begin() + std::ptrdiff_t((i + 1) * corners));
-        }
-      };
-      take(membership.Owner[i], true);
-      for (std::int64_t b = membership.BorrowerStart[i];
-           borrowed && b < membership.BorrowerStart[i + 1]; ++b)
-      {
-        take(membership.Borrowers[std::size_t(b)], false);
-      }
-    }
-  }
-}
-
-std::vector<Piece> FlatPieces::read(
-  const std::vector<std::size_t>& numbers, const PieceOptions& options)
-{
-  std::vector<Piece> pieces;
-  if (numbers.empty())
-  {
     return pieces;
   }
-  std::vector<std::int32_t> draftOf(this->Mesh.Pieces.size(), -1);
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-  {
-    draftOf[numbers[i]] = std::int32_t(i);
-  }
-  std::vector<Draft> drafts(numbers.size());
-  this->collectCells(draftOf, options.Borrowed, drafts);
-  this->forEachOwner(0, this->Flat.Points.Tuples,
-    [&](std::int64_t point, std::int32_t owner)
-    {
-      if (draftOf[std::size_t(owner)] >= 0)
-      {
-        drafts[std::size_t(draftOf[std::size_t(owner)])].OwnPoints.push_back(point);
-      }
-    });
-  for (Draft& draft : drafts)
-  {
-    pieces.push_back(this->finish(draft, options));
-    draft = {};
-  }
-  return pieces;
-}
 
-Piece FlatPieces::finish(const Draft& draft, const PieceOptions& options) const
-{
-  Piece piece;
-  const std::vector<std::int64_t> owned = united(draft.OwnPoints, sortedUnique(draft.Corners));
-  std::vector<std::int64_t> ghosts;
-  const std::vector<std::int64_t> ofBorrowed = sortedUnique(draft.BorrowedCorners);
-  std::set_difference(
-    ofBorrowed.begin(), ofBorrowed.end(), owned.begin(), owned.end(), std::back_inserter(ghosts));
-  piece.CellSize = this->Flat.CellSize;
-  piece.PointType = this->Flat.Points.Type;
-  piece.OwnedPoints = std::int64_t(owned.size());
-  piece.Points = piece.OwnedPoints + std::int64_t(ghosts.size());
-  piece.OwnedCells = std::int64_t(draft.Cells.size());
-  piece.Cells = piece.OwnedCells + std::int64_t(draft.Borrowed.size());
-  std::vector<std::int64_t> ids = owned;
-  ids.insert(ids.end(), ghosts.begin(), ghosts.end());
-  piece.PointIds = bufferOf(ids);
-  piece.PointGhosts = Buffer<char>(ids.size());
-  for (std::size_t i = 0; i < ids.size(); ++i)
+private:
+  /// A piece before its arrays are loaded. Ids are indices in the flat mesh.
+  struct Draft
   {
-    piece.PointGhosts.data()[i] =
-      std::binary_search(draft.OwnPoints.begin(), draft.OwnPoints.end(), ids[i]) ? 0 : 1;
-  }
-  std::vector<std::int64_t> cells = draft.Cells;
-  cells.insert(cells.end(), draft.Borrowed.begin(), draft.Borrowed.end());
-  piece.CellIds = bufferOf(cells);
-  piece.WideIds = true;
-  piece.Connectivity =
-    Buffer<char>((draft.Corners.size() + draft.BorrowedCorners.size()) * sizeof(std::int64_t));
-  auto* to = piece.Connectivity.as<std::int64_t>();
-  for (const std::vector<std::int64_t>* const corners : { &draft.Corners, &draft.BorrowedCorners })
-  {
-    for (const std::int64_t id : *corners)
-    {
-      const auto own = std::lower_bound(owned.begin(), owned.end(), id);
-      const bool isOwn = own != owned.end() && *own == id;
-      *to++ = isOwn
-        ? own - owned.begin()
-        : piece.OwnedPoints + (std::lower_bound(ghosts.begin(), ghosts.end(), id) - ghosts.begin());
-    }
-  }
-  this->loadData(ids, true, options, piece);
-  this->loadData(cells, false, options, piece);
-  return piece;
-}
-
-/// Loads the attributes of points, with their coordinates, or of cells.
-void FlatPieces::loadData(const std::vector<std::int64_t>& ids, bool ofPoints,
-  const PieceOptions& options, Piece& piece) const
-{
-  std::vector<RawArray> arrays;
-  std::vector<void*> out;
-  const auto add = [&](const RawArray& array)
-  {
-    Buffer<char> values(ids.size() * array.tupleBytes());
-    arrays.push_back(array);
-    out.push_back(values.data());
-    return values;
+    std::vector<std::int64_t> Cells;   ///< owned cells
+    std::vector<std::int64_t> Corners; ///< CellSize point ids for each of these cells
+    std::vector<std::int64_t> Borrowed;
+    std::vector<std::int64_t> BorrowedCorners;
+    std::vector<std::int64_t> OwnPoints; ///< ascending, as all the others
   };
-  Buffer<char> coordinates;
-  if (ofPoints)
+
+  int dimension() const { return this->Flat.CellSize - 1; }
+
+  LoaderOptions loading() const
   {
-    coordinates = add(this->Flat.Points);
+    LoaderOptions loading;
+    loading.MemoryLimit = std::max<std::uint64_t>(this->Options.MemoryLimit / 4, 1);
+    loading.Threads = this->Options.Threads;
+    return loading;
   }
-  for (std::size_t i = 0; i < this->Arrays.size(); ++i)
+
+  /// The number of cells in a chunk: with their coordinates they fit in a quarter of the memory
+  /// limit.
+  std::int64_t chunkCells() const
   {
-    if (this->Mesh.Arrays[i].OfPoints == ofPoints && options.wants(this->Mesh, i))
+    const auto corners = std::size_t(this->Flat.CellSize);
+    const auto dimension = std::size_t(this->dimension());
+    const std::size_t perCell = corners * (8 + this->Flat.Points.tupleBytes() + 8 * dimension) + 32;
+    constexpr std::uint64_t most = 1 << 22;
+    return std::int64_t(
+      std::clamp<std::uint64_t>(this->Options.MemoryLimit / 4 / perCell, 1, most));
+  }
+
+  /// Calls visit(point, owner) for points in ascending order. A point's owner is the first
+  /// partition that contains it.
+  template <typename Visit>
+  void forEachOwner(std::int64_t first, std::int64_t last, const Visit& visit) const
+  {
+    constexpr std::int64_t chunk = 1 << 18;
+    const RawArray& points = this->Flat.Points;
+    const std::size_t bytes = points.tupleBytes();
+    const auto dimension = std::size_t(this->dimension());
+    const InputFile file(points.Path);
+    std::vector<char> raw;
+    std::vector<std::int32_t> owners;
+    for (std::int64_t from = first; from < last; from += chunk)
     {
-      piece.Attributes.push_back({ this->Mesh.Arrays[i], add(this->Arrays[i]) });
+      const std::int64_t count = std::min(chunk, last - from);
+      poll();
+      raw.resize(std::size_t(count) * bytes);
+      file.read(points.Offset + std::uint64_t(from) * bytes, raw.data(), raw.size());
+      owners.resize(std::size_t(count));
+      forChunks(count, 1 << 14, threadCount(this->Options.Threads), {},
+        [&](std::int64_t begin, std::int64_t end, int)
+        {
+          for (std::int64_t i = begin; i < end; ++i)
+          {
+            Box3 at;
+            takeCoordinates(
+              points, raw.data() + std::size_t(i) * bytes, 1, int(dimension), at.Min.data());
+            at.Max = at.Min;
+            std::int32_t owner = std::numeric_limits<std::int32_t>::max();
+            this->Tiling->forEachMeeting(
+              at, [&owner](std::int32_t box) { owner = std::min(owner, box); });
+            owners[std::size_t(i)] = owner;
+          }
+        });
+      for (std::int64_t i = 0; i < count; ++i)
+      {
+        visit(from + i, owners[std::size_t(i)]);
+      }
     }
   }
-  if (!arrays.empty())
+
+  void collectCells(
+    const std::vector<std::int32_t>& draftOf, bool borrowed, std::vector<Draft>& drafts) const
   {
-    makeVertexLoader(std::move(arrays), this->loading())->load(ids.data(), ids.size(), out.data());
+    const auto corners = std::size_t(this->Flat.CellSize);
+    const std::int64_t chunk = this->chunkCells();
+    const auto loader = makeVertexLoader({ this->Flat.Points }, this->loading());
+    ClassifyOptions classify;
+    classify.Device.Kind = Device::OpenMP;
+    classify.Threads = this->Options.Threads;
+    const CellReader reader(this->Flat, this->Options.Threads);
+    std::vector<std::int64_t> ids;
+    const std::int64_t cells = this->Flat.Cells.Tuples;
+    for (std::int64_t first = 0; first < cells; first += chunk)
+    {
+      reader.read(first, std::min(chunk, cells - first), ids);
+      const std::vector<double> coordinates = loadCoordinates(this->Flat, *loader, ids);
+      poll();
+      const Membership membership =
+        classifyCells({ this->dimension(), int(corners), coordinates.data(), ids.size() / corners },
+          *this->Tiling, classify);
+      for (std::size_t i = 0; i < ids.size() / corners; ++i)
+      {
+        pollAt(std::int64_t(i));
+        const auto take = [&](std::int32_t piece, bool owned)
+        {
+          if (draftOf[std::size_t(piece)] >= 0)
+          {
+            Draft& draft = drafts[std::size_t(draftOf[std::size_t(piece)])];
+            (owned ? draft.Cells : draft.Borrowed).push_back(first + std::int64_t(i));
+            std::vector<std::int64_t>& to = owned ? draft.Corners : draft.BorrowedCorners;
+            to.insert(to.end(), ids.begin() + std::ptrdiff_t(i * corners),
+              ids.begin() + std::ptrdiff_t((i + 1) * corners));
+          }
+        };
+        take(membership.Owner[i], true);
+        for (std::int64_t b = membership.BorrowerStart[i];
+             borrowed && b < membership.BorrowerStart[i + 1]; ++b)
+        {
+          take(membership.Borrowers[std::size_t(b)], false);
+        }
+      }
+    }
   }
-  if (ofPoints)
+
+  Piece finish(const Draft& draft, const PieceOptions& options) const
   {
-    piece.Coordinates = this->Flat.Points.Components == 3
-      ? std::move(coordinates)
-      : withThird(coordinates, piece.Points, scalarSize(piece.PointType));
+    Piece piece;
+    const std::vector<std::int64_t> ofOwned = sortedUnique(draft.Corners);
+    std::vector<std::int64_t> owned;
+    std::set_union(ofOwned.begin(), ofOwned.end(), draft.OwnPoints.begin(), draft.OwnPoints.end(),
+      std::back_inserter(owned));
+    std::vector<std::int64_t> ghosts;
+    const std::vector<std::int64_t> ofBorrowed = sortedUnique(draft.BorrowedCorners);
+    std::set_difference(
+      ofBorrowed.begin(), ofBorrowed.end(), owned.begin(), owned.end(), std::back_inserter(ghosts));
+    piece.CellSize = this->Flat.CellSize;
+    piece.PointType = this->Flat.Points.Type;
+    piece.OwnedPoints = std::int64_t(owned.size());
+    piece.Points = piece.OwnedPoints + std::int64_t(ghosts.size());
+    piece.OwnedCells = std::int64_t(draft.Cells.size());
+    piece.Cells = piece.OwnedCells + std::int64_t(draft.Borrowed.size());
+    std::vector<std::int64_t> ids = owned;
+    ids.insert(ids.end(), ghosts.begin(), ghosts.end());
+    piece.PointIds = bufferOf(ids);
+    piece.PointGhosts = Buffer<char>(ids.size());
+    for (std::size_t i = 0; i < ids.size(); ++i)
+    {
+      piece.PointGhosts.data()[i] =
+        std::binary_search(draft.OwnPoints.begin(), draft.OwnPoints.end(), ids[i]) ? 0 : 1;
+    }
+    std::vector<std::int64_t> cells = draft.Cells;
+    cells.insert(cells.end(), draft.Borrowed.begin(), draft.Borrowed.end());
+    piece.CellIds = bufferOf(cells);
+    piece.WideIds = true;
+    piece.Connectivity =
+      Buffer<char>((draft.Corners.size() + draft.BorrowedCorners.size()) * sizeof(std::int64_t));
+    auto* to = piece.Connectivity.as<std::int64_t>();
+    for (const std::vector<std::int64_t>* const corners :
+      { &draft.Corners, &draft.BorrowedCorners })
+    {
+      for (const std::int64_t id : *corners)
+      {
+        const auto own = std::lower_bound(owned.begin(), owned.end(), id);
+        const bool isOwn = own != owned.end() && *own == id;
+        *to++ = isOwn ? own - owned.begin()
+                      : piece.OwnedPoints +
+            (std::lower_bound(ghosts.begin(), ghosts.end(), id) - ghosts.begin());
+      }
+    }
+    this->loadData(ids, true, options, piece);
+    this->loadData(cells, false, options, piece);
+    return piece;
   }
+
+  /// Loads the attributes of points, with their coordinates, or of cells.
+  void loadData(const std::vector<std::int64_t>& ids, bool ofPoints, const PieceOptions& options,
+    Piece& piece) const
+  {
+    std::vector<RawArray> arrays;
+    std::vector<void*> out;
+    const auto add = [&](const RawArray& array)
+    {
+      Buffer<char> values(ids.size() * array.tupleBytes());
+      arrays.push_back(array);
+      out.push_back(values.data());
+      return values;
+    };
+    Buffer<char> coordinates;
+    if (ofPoints)
+    {
+      coordinates = add(this->Flat.Points);
+    }
+    for (std::size_t i = 0; i < this->Arrays.size(); ++i)
+    {
+      if (this->Mesh.Arrays[i].OfPoints == ofPoints && options.wants(this->Mesh, i))
+      {
+        piece.Attributes.push_back({ this->Mesh.Arrays[i], add(this->Arrays[i]) });
+      }
+    }
+    if (!arrays.empty())
+    {
+      makeVertexLoader(std::move(arrays), this->loading())
+        ->load(ids.data(), ids.size(), out.data());
+    }
+    if (ofPoints)
+    {
+      piece.Coordinates = this->Flat.Points.Components == 3
+        ? std::move(coordinates)
+        : withThird(coordinates, piece.Points, scalarSize(piece.PointType));
+    }
+  }
+
+  FlatMesh Flat;
+  SourceOptions Options;
+  std::vector<RawArray> Arrays; ///< the data of Mesh.Arrays
+  std::optional<BoxTiling> Tiling;
+  std::vector<std::int64_t> PointCounts; ///< number of points of each piece
+};
+
+} // namespace
+
+PieceSource::~PieceSource() = default;
+
+std::unique_ptr<PieceSource> openPieceSource(const std::string& path, const SourceOptions& options)
+{
+  if (isPartitionedMesh(path))
+  {
+    return std::make_unique<StoredPieces>(path, options.Threads);
+  }
+  if (isFlatMesh(path))
+  {
+    return std::make_unique<FlatPieces>(openFlatMesh(path), options);
+  }
+  throw IOError(path,
+    "is neither a partitioned mesh (its folder or index) nor a flat one (a folder of .npy arrays, "
+    "or a .vtu file of appended, raw, uncompressed data).");
 }
 
 } // namespace tipp

@@ -2,9 +2,6 @@
 #ifndef tippPieceSource_h
 #define tippPieceSource_h
 
-#include "Flat/FlatMesh.h"
-#include "Loading/VertexLoader.h"
-#include "Partition/BoxTiling.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/ReadPiece.h"
 #include "Partitioning/MeshTiling.h"
@@ -16,7 +13,6 @@
 #include <cstdint>
 #include <list>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,47 +57,6 @@ protected:
 /// Opens a partitioned or a flat mesh; throws IOError.
 std::unique_ptr<PieceSource> openPieceSource(
   const std::string& path, const SourceOptions& options = {});
-
-/// The pieces of a flat mesh, made in memory: chunk by chunk, Direct Load loads the coordinates of
-/// cells, and the cells are classified; those of the requested pieces are kept.
-class FlatPieces : public PieceSource
-{
-public:
-  FlatPieces(FlatMesh mesh, const SourceOptions& options);
-
-  void prepare(Communicator& ranks) override;
-  std::vector<std::int64_t> weights() const override { return this->PointCounts; }
-  std::vector<Piece> read(
-    const std::vector<std::size_t>& numbers, const PieceOptions& options) override;
-
-private:
-  /// A piece before its arrays are loaded. Ids are indices in the flat mesh.
-  struct Draft
-  {
-    std::vector<std::int64_t> Cells;   ///< owned cells
-    std::vector<std::int64_t> Corners; ///< CellSize point ids for each of these cells
-    std::vector<std::int64_t> Borrowed;
-    std::vector<std::int64_t> BorrowedCorners;
-    std::vector<std::int64_t> OwnPoints; ///< ascending, as all the others
-  };
-
-  void collectCells(
-    const std::vector<std::int32_t>& draftOf, bool borrowed, std::vector<Draft>& drafts) const;
-  template <typename Visit>
-  void forEachOwner(std::int64_t first, std::int64_t last, const Visit& visit) const;
-  Piece finish(const Draft& draft, const PieceOptions& options) const;
-  void loadData(const std::vector<std::int64_t>& ids, bool ofPoints, const PieceOptions& options,
-    Piece& piece) const;
-  int dimension() const { return this->Flat.CellSize - 1; }
-  LoaderOptions loading() const;
-  std::int64_t chunkCells() const;
-
-  FlatMesh Flat;
-  SourceOptions Options;
-  std::vector<RawArray> Arrays; ///< the data of Mesh.Arrays
-  std::optional<BoxTiling> Tiling;
-  std::vector<std::int64_t> PointCounts; ///< number of points of each piece
-};
 
 /// An LRU cache of the pieces of one mesh.
 class PieceCache
@@ -182,6 +137,11 @@ public:
   Piece apply(const Piece& piece, std::size_t number, bool borrowed) const;
 
 private:
+  /// The partition of a piece as a box; in 2D the z range is [0, 0].
+  Box3 boxOfPiece(std::size_t number) const
+  {
+    return box3Of(this->Mesh.Pieces[number].Box, this->Mesh.CellSize - 1);
+  }
   bool meets(const Piece& piece, std::int64_t cell, const Box3& box) const;
   /// For each point a bit mask of the sides of the range that it lies outside of.
   std::vector<std::uint8_t> sidesOfPoints(const Piece& piece) const;
@@ -194,9 +154,6 @@ private:
   Box3 Range;
   std::vector<std::size_t> Open;
 };
-
-/// Converts a piece's bounds to a box; in 2D the z range is [0, 0].
-Box3 boxOf(const PartitionedMesh& mesh, const Bounds& bounds);
 
 } // namespace tipp
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Vtk/ReadDataSet.h"
+#include "Vtk/DataSets.h"
 
 #include "Files/IOError.h"
 #include "Parallel/ParallelFor.h"
 #include "Vtk/CellArrays.h"
 #include "Vtk/Compatibility.h"
-#include "Vtk/VtkMessages.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

@@ -9,11 +9,13 @@
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <functional>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -23,6 +25,19 @@ namespace tipp::python
 {
 
 namespace nb = nanobind;
+
+/// Returns an entry of the options. Throws TypeError if it is not of this type.
+template <typename Value>
+Value of(const nb::dict& options, const char* name)
+{
+  Value value{};
+  if (!nb::try_cast(options[name], value))
+  {
+    throw nb::type_error(
+      (std::string(name) + " has a value of a wrong type, or one that is too large.").c_str());
+  }
+  return value;
+}
 
 /// A NumPy array of any type, to read only. The Python side makes sure that it is in C order.
 using InputArray = nb::ndarray<nb::ro, nb::device::cpu, nb::c_contig>;
@@ -43,6 +58,12 @@ inline Scalar scalarOf(nb::dlpack::dtype type)
     default:
       return isReal ? Scalar::Float64 : isSigned ? Scalar::Int64 : Scalar::UInt64;
   }
+}
+
+/// The number of values in each row of an array.
+inline std::size_t componentsOf(const InputArray& array)
+{
+  return array.ndim() > 1 ? array.shape(1) : 1;
 }
 
 /// Describes a mesh of triangles or tetrahedra, without a copy.
@@ -114,14 +135,17 @@ std::vector<Value> vectorOf(const InputArray& array)
   return { first, first + array.nbytes() / sizeof(Value) };
 }
 
-/// Passes progress to a Python callable, which may be None, and finds out whether to continue: the
-/// work stops on Ctrl-C, or if the callable raises or returns False. Only the thread that
-/// constructed the object calls Python; it must have released the GIL.
+/// A Python function that gets the finished fraction, or None.
+using Progress = std::optional<nb::callable>;
+
+/// Passes progress to a Python function, and finds out whether to continue: the work stops on
+/// Ctrl-C, or if the function raises or returns False. Only the thread that constructed the object
+/// calls Python; it must have released the GIL.
 class Reporter
 {
 public:
-  explicit Reporter(nb::object callable)
-    : Callable(std::move(callable))
+  explicit Reporter(Progress progress)
+    : Function(std::move(progress))
     , Owner(std::this_thread::get_id())
   {
   }
@@ -138,8 +162,15 @@ public:
   /// Raises the exception that stopped the work. Requires the GIL.
   void raiseIfStopped() const;
 
+  /// Reports that the work is done, or raises the exception that stopped it. Requires the GIL.
+  void finish()
+  {
+    (*this)(1);
+    this->raiseIfStopped();
+  }
+
 private:
-  nb::object Callable;
+  Progress Function;
   std::thread::id Owner;
   bool Stopped = false;
   std::exception_ptr Raised;
@@ -170,9 +201,8 @@ inline LasSelection lasSelection(
 
 void addTriangulateFunctions(nb::module_& module);
 void addFileFunctions(nb::module_& module);
-void addDemFunction(nb::module_& module);
+void addGridFunctions(nb::module_& module);
 void addQueryClass(nb::module_& module);
-void addResampleFunction(nb::module_& module);
 
 } // namespace tipp::python
 

@@ -2,8 +2,6 @@
 // tipp._core: the cores over NumPy arrays, for the engine in Python, which checks the arguments.
 #include "Binding.h"
 
-#include "Parallel/ParallelFor.h"
-
 #include <new>
 #include <stdexcept>
 
@@ -23,9 +21,9 @@ bool Reporter::operator()(double fraction)
     {
       throw nb::python_error();
     }
-    if (!this->Callable.is_none())
+    if (this->Function)
     {
-      const nb::object answer = this->Callable(fraction);
+      const nb::object answer = (*this->Function)(fraction);
       this->Stopped = answer.ptr() == Py_False;
     }
   }
@@ -73,8 +71,7 @@ NB_MODULE(_core, module)
       }
     });
   tipp::python::addTriangulateFunctions(module);
-  tipp::python::addDemFunction(module);
+  tipp::python::addGridFunctions(module);
   tipp::python::addFileFunctions(module);
   tipp::python::addQueryClass(module);
-  tipp::python::addResampleFunction(module);
 }

@@ -2,20 +2,17 @@
 #include "Binding.h"
 
 #include "Constraints/OnDisk/ConstrainedPoints.h"
-#include "Files/OutputPath.h"
+#include "Files/OutputFile.h"
 #include "Flat/FlatMesh.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Output/RunStatistics.h"
 #include "Parallel/Poll.h"
 #include "Partitioning/PartitionMesh.h"
-#include "Points/PointStream.h"
 #include "Points/ReadPoints.h"
 #include "Ranks/Communicator.h"
 #include "Reading/PieceSource.h"
-#include "Vtk/VtkFiles.h"
 
 #include <nanobind/stl/array.h>
-#include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -23,6 +20,8 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 namespace tipp::python
 {
@@ -76,30 +75,29 @@ nb::dict figuresOf(const OutOfCoreStatistics& statistics, bool countOnly)
   return result;
 }
 
-nb::tuple triangulateFiles(const Strings& inputs, const std::string& output, std::uint64_t memory,
-  int columns, int rows, const std::string& x, const std::string& y, double maximumEdge,
-  bool mapDuplicates, bool neighbors, const std::string& lines, const std::string& boundary,
-  const std::vector<std::pair<double, double>>& holes, bool split, bool mark, bool countOnly,
-  bool resume, const std::string& scratch, int threads, nb::object progress)
+nb::tuple triangulateFiles(
+  const Strings& inputs, const std::string& output, const nb::dict& given, Progress progress)
 {
   Reporter reporter(std::move(progress));
   Strings warnings;
   OutOfCoreOptions options;
-  options.MemoryLimit = memory;
-  options.Threads = threads;
-  options.Columns = columns;
-  options.Rows = rows;
-  options.MaximumEdge = maximumEdge;
-  options.MapDuplicates = mapDuplicates;
-  options.Neighbors = neighbors;
-  options.MarkConstraints = mark;
-  options.CountOnly = countOnly;
-  options.Resume = resume;
-  options.Scratch = scratch;
+  options.MemoryLimit = of<std::uint64_t>(given, "memory");
+  options.Threads = of<int>(given, "threads");
+  std::tie(options.Columns, options.Rows) = of<std::pair<int, int>>(given, "partitions");
+  options.MaximumEdge = of<double>(given, "max_edge");
+  options.MapDuplicates = of<bool>(given, "map_duplicates");
+  options.Neighbors = of<bool>(given, "neighbors");
+  options.MarkConstraints = of<bool>(given, "mark_constraints");
+  options.CountOnly = of<bool>(given, "count_only");
+  options.Resume = of<bool>(given, "resume");
+  options.Scratch = of<std::string>(given, "scratch");
   options.Progress = reporter.function();
   options.Warn = [&](const std::string& sentence) { warnings.push_back(sentence); };
-  const ConstraintFiles constraints{ lines, boundary, holes,
-    split ? CrossingRule::Split : CrossingRule::Refuse };
+  const ConstraintFiles constraints{ of<std::string>(given, "constraints"),
+    of<std::string>(given, "boundary"), of<std::vector<std::pair<double, double>>>(given, "holes"),
+    of<int>(given, "crossings") != 0 ? CrossingRule::Split : CrossingRule::Refuse };
+  const auto [x, y] = of<std::pair<std::string, std::string>>(given, "columns");
+  const PointOptions reading{ x, y };
   OutOfCoreStatistics statistics;
   withoutLock(
     [&]
@@ -109,24 +107,21 @@ nb::tuple triangulateFiles(const Strings& inputs, const std::string& output, std
         alone,
         [&]
         {
-          requireApart({ output, scratchIn(scratch) }, inputs);
-          return joinConstraints(openPointStream(inputs, { x, y }), constraints, options);
+          requireApart({ output, scratchIn(options.Scratch) }, inputs);
+          return joinConstraints(openPointStream(inputs, reading), constraints, options);
         },
         output, options);
     });
   reporter.raiseIfStopped();
   const Strings more = warningsOf(statistics);
   warnings.insert(warnings.end(), more.begin(), more.end());
-  return nb::make_tuple(figuresOf(statistics, countOnly), warnings);
+  return nb::make_tuple(figuresOf(statistics, options.CountOnly), warnings);
 }
 
 std::unique_ptr<PieceSource> openSource(
   const std::string& path, const std::string& tiling, std::uint64_t memory)
 {
-  SourceOptions options;
-  options.Tiling = TilingChoice::require(tiling);
-  options.MemoryLimit = memory;
-  return openPieceSource(path, options);
+  return openPieceSource(path, { TilingChoice::require(tiling), memory });
 }
 
 /// Returns the names of a mesh's point arrays and cell arrays.
@@ -217,11 +212,16 @@ void merge(std::vector<Piece>& pieces)
 }
 
 nb::list readMesh(const std::string& path, const std::optional<Bounds>& bounds,
-  std::optional<double> time, const std::optional<Strings>& pointArrays,
-  const std::optional<Strings>& cellArrays, bool borrowed, bool isMerged, const std::string& tiling,
-  std::uint64_t memory, nb::object progress)
+  const nb::dict& given, Progress progress)
 {
   Reporter reporter(std::move(progress));
+  const auto time = of<std::optional<double>>(given, "time");
+  const auto pointArrays = of<std::optional<Strings>>(given, "point_arrays");
+  const auto cellArrays = of<std::optional<Strings>>(given, "cell_arrays");
+  const auto tiling = of<std::string>(given, "tiling");
+  const auto memory = of<std::uint64_t>(given, "memory_limit");
+  const bool borrowed = of<bool>(given, "borrowed");
+  const bool isMerged = of<bool>(given, "merge");
   std::vector<Piece> pieces;
   try
   {
@@ -252,8 +252,7 @@ nb::list readMesh(const std::string& path, const std::optional<Bounds>& bounds,
   {
     reporter.raiseIfStopped();
   }
-  reporter(1);
-  reporter.raiseIfStopped();
+  reporter.finish();
   nb::list result;
   for (Piece& piece : pieces)
   {
@@ -262,25 +261,23 @@ nb::list readMesh(const std::string& path, const std::optional<Bounds>& bounds,
   return result;
 }
 
-PartitionOptions partitionOptions(const std::string& tiling, bool duplicateBorrowers,
-  std::uint64_t memory, int threads, Reporter& reporter)
+PartitionOptions partitionOptions(const nb::dict& given, Reporter& reporter)
 {
   PartitionOptions options;
-  options.Tiling = TilingChoice::require(tiling);
-  options.DuplicateBorrowers = duplicateBorrowers;
-  options.MemoryLimit = memory;
+  options.Tiling = TilingChoice::require(of<std::string>(given, "tiling"));
+  options.DuplicateBorrowers = of<bool>(given, "duplicate_borrowers");
+  options.MemoryLimit = of<std::uint64_t>(given, "memory_limit");
+  options.Threads = of<int>(given, "threads");
   options.Device.Kind = Device::OpenMP;
-  options.Threads = threads;
   options.Progress = reporter.function();
   return options;
 }
 
-void partitionFile(const std::string& input, const std::string& output, const std::string& tiling,
-  bool duplicateBorrowers, std::uint64_t memory, int threads, nb::object progress)
+void partitionFile(
+  const std::string& input, const std::string& output, const nb::dict& given, Progress progress)
 {
   Reporter reporter(std::move(progress));
-  const PartitionOptions options =
-    partitionOptions(tiling, duplicateBorrowers, memory, threads, reporter);
+  const PartitionOptions options = partitionOptions(given, reporter);
   withoutLock(
     [&]
     {
@@ -299,7 +296,7 @@ FlatArray flatArray(const std::string& name, const InputArray& array)
   FlatArray result;
   result.Name = name;
   result.Type = scalarOf(array.dtype());
-  result.Components = array.ndim() > 1 ? int(array.shape(1)) : 1;
+  result.Components = int(componentsOf(array));
   result.Tuples = std::int64_t(array.shape(0));
   result.Values = array.data();
   return result;
@@ -319,12 +316,10 @@ std::vector<FlatArray> flatArrays(const nb::dict& arrays, NamedArrays& kept)
 }
 
 void partitionArrays(const InputArray& points, const InputArray& cells, const nb::dict& pointData,
-  const nb::dict& cellData, const std::string& output, const std::string& tiling,
-  bool duplicateBorrowers, std::uint64_t memory, int threads, nb::object progress)
+  const nb::dict& cellData, const std::string& output, const nb::dict& given, Progress progress)
 {
   Reporter reporter(std::move(progress));
-  const PartitionOptions options =
-    partitionOptions(tiling, duplicateBorrowers, memory, threads, reporter);
+  const PartitionOptions options = partitionOptions(given, reporter);
   NamedArrays kept;
   FlatContent content;
   content.CellSize = int(cells.shape(1));
@@ -351,24 +346,12 @@ void partitionArrays(const InputArray& points, const InputArray& cells, const nb
 
 void addFileFunctions(nb::module_& module)
 {
-  const auto progress = nb::arg("progress").none();
-  module.def("read_points", &readPointFiles, nb::arg("paths"), nb::arg("columns").none(),
-    nb::arg("classes"), nb::arg("returns"), nb::arg("keep"));
-  module.def("triangulate_files", &triangulateFiles, nb::arg("inputs"), nb::arg("output"),
-    nb::arg("memory"), nb::arg("columns"), nb::arg("rows"), nb::arg("x"), nb::arg("y"),
-    nb::arg("maximum_edge"), nb::arg("map_duplicates"), nb::arg("neighbors"), nb::arg("lines"),
-    nb::arg("boundary"), nb::arg("holes"), nb::arg("split"), nb::arg("mark"), nb::arg("count_only"),
-    nb::arg("resume"), nb::arg("scratch"), nb::arg("threads"), progress);
-  module.def("array_names", &arrayNames, nb::arg("path"), nb::arg("tiling"), nb::arg("memory"));
-  module.def("read", &readMesh, nb::arg("path"), nb::arg("bounds").none(), nb::arg("time").none(),
-    nb::arg("point_arrays").none(), nb::arg("cell_arrays").none(), nb::arg("borrowed"),
-    nb::arg("merge"), nb::arg("tiling"), nb::arg("memory"), progress);
-  module.def("partition_file", &partitionFile, nb::arg("input"), nb::arg("output"),
-    nb::arg("tiling"), nb::arg("duplicate_borrowers"), nb::arg("memory"), nb::arg("threads"),
-    progress);
-  module.def("partition_arrays", &partitionArrays, nb::arg("points"), nb::arg("cells"),
-    nb::arg("point_data"), nb::arg("cell_data"), nb::arg("output"), nb::arg("tiling"),
-    nb::arg("duplicate_borrowers"), nb::arg("memory"), nb::arg("threads"), progress);
+  module.def("read_points", &readPointFiles);
+  module.def("triangulate_files", &triangulateFiles);
+  module.def("array_names", &arrayNames);
+  module.def("read", &readMesh);
+  module.def("partition_file", &partitionFile);
+  module.def("partition_arrays", &partitionArrays);
 }
 
 } // namespace tipp::python

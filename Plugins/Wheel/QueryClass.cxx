@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Binding.h"
 
-#include "Query/Around.h"
-#include "Query/Closest.h"
-#include "Query/Lines.h"
+#include "Query/Queries.h"
 #include "Query/ResidentMesh.h"
-#include "Query/Zones.h"
 
-#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
@@ -67,7 +63,9 @@ class Query
 public:
   Query(const std::string& path, std::uint64_t memory, int step, int threads)
     : Mesh(withoutLock(
-        [&] { return std::make_unique<ResidentMesh>(path, optionsOf(memory, step, threads)); }))
+        [&] {
+          return std::make_unique<ResidentMesh>(path, ResidentOptions{ memory, threads, step });
+        }))
   {
   }
 
@@ -88,11 +86,11 @@ public:
       description.Name = names[i];
       description.OfPoints = i < pointArrays;
       description.Type = scalarOf(arrays[i].dtype());
-      description.Components = arrays[i].ndim() > 1 ? int(arrays[i].shape(1)) : 1;
+      description.Components = int(componentsOf(arrays[i]));
       part.Arrays.push_back({ description, arrays[i].data() });
     }
     part.Keeps = kept;
-    this->Mesh = std::make_unique<ResidentMesh>(std::move(part), optionsOf(1, 0, threads));
+    this->Mesh = std::make_unique<ResidentMesh>(std::move(part), ResidentOptions{ 1, threads });
   }
 
   std::vector<std::string> names() const { return this->Mesh->names(); }
@@ -228,15 +226,6 @@ private:
       columns == 3 ? coordinates.push_back(p.z) : void();
     }
     return copyOf(coordinates, std::size_t(columns));
-  }
-
-  static ResidentOptions optionsOf(std::uint64_t memory, int step, int threads)
-  {
-    ResidentOptions options;
-    options.MemoryLimit = memory;
-    options.Step = step;
-    options.Threads = threads;
-    return options;
   }
 
   MeshAnswer ask(const InputArray& points, const AnswerOptions& options) const

@@ -8,11 +8,12 @@
 #include "Parallel/ParallelFor.h"
 #include "Triangulation/TriangleLocator.h"
 
-#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -67,19 +68,31 @@ SourceConstraints constraintsOf(
 /// its relative position between them.
 nb::object crossingsArray(const std::vector<CrossingPoint>& crossings)
 {
-  constexpr std::size_t columns = 5;
-  Buffer<double> values(columns * crossings.size());
-  double* row = values.data();
+  std::vector<double> values;
   for (const CrossingPoint& crossing : crossings)
   {
-    row[0] = crossing.Position.x;
-    row[1] = crossing.Position.y;
-    row[2] = double(crossing.A);
-    row[3] = double(crossing.B);
-    row[4] = crossing.Fraction;
-    row += columns;
+    values.insert(values.end(),
+      { crossing.Position.x, crossing.Position.y, double(crossing.A), double(crossing.B),
+        crossing.Fraction });
   }
-  return arrayOf(std::move(values), columns);
+  return copyOf(values, 5);
+}
+
+/// Returns values of points, followed by the interpolated values of crossings as crossingsArray()
+/// returns them.
+nb::object interpolate(const InputArray& values, const InputArray& crossings)
+{
+  std::vector<CrossingPoint> points;
+  for (const auto& [x, y, a, b, fraction] : vectorOf<std::array<double, 5>>(crossings))
+  {
+    points.push_back({ { x, y }, PointId(a), PointId(b), fraction });
+  }
+  const Scalar type = scalarOf(values.dtype());
+  const std::size_t columns = componentsOf(values);
+  Buffer<char> result(values.nbytes() + points.size() * columns * scalarSize(type));
+  std::memcpy(result.data(), values.data(), values.nbytes());
+  interpolateTuples(points, values.shape(0), type, columns, result.data());
+  return arrayOf(std::move(result), type, columns);
 }
 
 /// Returns the id that each of the other points has among the points, and which of them are new.
@@ -96,7 +109,7 @@ nb::tuple matchedPositions(const InputArray& points, const InputArray& others)
 nb::dict triangulateArrays(const InputArray& points, const std::optional<InputArray>& pairs,
   const std::optional<InputArray>& cells, std::size_t polygonBegin, bool split, bool marks,
   double distance, double maximumEdge, int columns, int rows, bool stages, int threads,
-  bool neighbors, nb::object progress)
+  bool neighbors, Progress progress)
 {
   Reporter reporter(std::move(progress));
   SourceConstraints source;
@@ -118,8 +131,7 @@ nb::dict triangulateArrays(const InputArray& points, const std::optional<InputAr
   const ThreadLimit limit(threads);
   ConstrainedTriangulation result =
     withoutLock([&] { return triangulatePoints(viewOf(points), request, warnings); });
-  reporter(1);
-  reporter.raiseIfStopped();
+  reporter.finish();
   Triangulation& mesh = result.Mesh;
   const ResolvedConstraints& resolved = result.Constraints;
   RunStatistics statistics = statisticsOf(mesh,
@@ -148,35 +160,28 @@ nb::dict triangulateArrays(const InputArray& points, const std::optional<InputAr
   return dict;
 }
 
-template <typename Id, typename Scalar>
-AlphaShape<Id> shapeOf(
-  const InputArray& points, const InputArray& triangles, double alpha, const InputArray& covered)
-{
-  const auto* const coordinates = static_cast<const Scalar*>(points.data());
-  const std::size_t width = points.shape(1);
-  const auto pointAt = [=](PointId id, double* p)
-  {
-    const Scalar* const from = coordinates + std::size_t(id) * width;
-    p[0] = double(from[0]);
-    p[1] = double(from[1]);
-    p[2] = width > 2 ? double(from[2]) : 0;
-  };
-  Buffer<Id> ids(triangles.size());
-  std::copy_n(static_cast<const Id*>(triangles.data()), ids.size(), ids.data());
-  return alphaShape(ids, PointAt(pointAt), alpha, vectorOf<char>(covered));
-}
-
 template <typename Id>
 nb::tuple alphaTuple(
   const InputArray& points, const InputArray& triangles, double alpha, const InputArray& covered)
 {
-  AlphaShape<Id> shape = withoutLock(
-    [&]
-    {
-      return scalarOf(points.dtype()) == Scalar::Float32
-        ? shapeOf<Id, float>(points, triangles, alpha, covered)
-        : shapeOf<Id, double>(points, triangles, alpha, covered);
-    });
+  const std::size_t width = points.shape(1);
+  const auto read = [&](const auto* coordinates, PointId id, double* p)
+  {
+    const auto* const from = coordinates + std::size_t(id) * width;
+    p[0] = double(from[0]);
+    p[1] = double(from[1]);
+    p[2] = width > 2 ? double(from[2]) : 0;
+  };
+  const bool isFloat = scalarOf(points.dtype()) == Scalar::Float32;
+  const PointAt pointAt = [&](PointId id, double* p)
+  {
+    isFloat ? read(static_cast<const float*>(points.data()), id, p)
+            : read(static_cast<const double*>(points.data()), id, p);
+  };
+  Buffer<Id> ids(triangles.size());
+  std::copy_n(static_cast<const Id*>(triangles.data()), ids.size(), ids.data());
+  AlphaShape<Id> shape =
+    withoutLock([&] { return alphaShape(ids, pointAt, alpha, vectorOf<char>(covered)); });
   const std::size_t vertices = shape.Vertices.size();
   return nb::make_tuple(arrayOf(std::move(shape.Triangles), 3), arrayOf(std::move(shape.Lines), 2),
     arrayOf(std::move(shape.Vertices), { vertices, 1 }));
@@ -276,13 +281,10 @@ private:
 
 void addTriangulateFunctions(nb::module_& module)
 {
-  module.def("triangulate", &triangulateArrays, nb::arg("points"), nb::arg("pairs").none(),
-    nb::arg("cells").none(), nb::arg("polygon_begin"), nb::arg("split"), nb::arg("marks"),
-    nb::arg("distance"), nb::arg("maximum_edge"), nb::arg("columns"), nb::arg("rows"),
-    nb::arg("stages"), nb::arg("threads"), nb::arg("neighbors"), nb::arg("progress").none());
-  module.def("match_positions", &matchedPositions, nb::arg("points"), nb::arg("others"));
-  module.def("alpha_shape", &alphaShapeOf, nb::arg("points"), nb::arg("triangles"),
-    nb::arg("alpha"), nb::arg("covered"));
+  module.def("triangulate", &triangulateArrays);
+  module.def("match_positions", &matchedPositions);
+  module.def("interpolate", &interpolate);
+  module.def("alpha_shape", &alphaShapeOf);
   nb::class_<Locator>(module, "Locator")
     .def(nb::init<InputArray, InputArray, InputArray>())
     .def("find", &Locator::find)

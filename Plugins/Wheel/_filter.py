@@ -26,6 +26,8 @@ class Filter(VTKPythonAlgorithmBase):
     """The smallest and largest values of properties. Values beyond them are clamped, as in VTK."""
     INPUTS: tuple[str, ...] = ()
     OPTIONAL_INPUTS: tuple[int, ...] = ()
+    INPUT_NAMES: dict[str, int] = {}
+    """Names of inputs, such as Source, and their ports. They have methods Set...Data, Set...Connection and Get...."""
     OUTPUTS: tuple[str, ...] = ()
     LIST = ""
     """The name, in methods, of an item of the filter's list of texts, such as file names. Empty: no list."""
@@ -35,6 +37,8 @@ class Filter(VTKPythonAlgorithmBase):
     def __init_subclass__(cls) -> None:
         for name, default in cls.PROPERTIES.items():
             _add_property(cls, name, default)
+        for name, port in cls.INPUT_NAMES.items():
+            _add_input(cls, name, port)
         if cls.LIST:
             _add_list(cls, cls.LIST)
         if cls.SELECTIONS:
@@ -150,6 +154,13 @@ def _add_property(cls: type, name: str, default: Any) -> None:
     if kind is bool:
         setattr(cls, f"{name}On", lambda self: set_value(self, True))
         setattr(cls, f"{name}Off", lambda self: set_value(self, False))
+
+
+def _add_input(cls: type, name: str, port: int) -> None:
+    setattr(cls, f"Set{name}Data", lambda self, data: self.SetInputDataObject(port, data))
+    setattr(cls, f"Set{name}Connection", lambda self, output: self.SetInputConnection(port, output))
+    setattr(cls, f"Get{name}", lambda self: (
+        self.GetInputDataObject(port, 0) if self.GetNumberOfInputConnections(port) else None))
 
 
 def _add_list(cls: type, name: str) -> None:

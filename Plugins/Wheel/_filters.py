@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 
 from . import _arguments as check
-from . import _core, _native_engine
+from . import _core, _engine
+from ._arguments import array_of, DELAUNAY_2D, DELAUNAY_FILE, DEM, options_of, QUERY, READ, WRITE
 from ._arrays import Image
-from ._dem import lines_of
+from ._dem import lines_of, uncompressed
 from ._filter import add_total, Filter
-from ._properties import array_of, DELAUNAY_2D, DELAUNAY_FILE, DEM, options_of, QUERY, READ, WRITE
 from ._vtk import image_of, point_cloud, vtk_array, xyz_of
 from ._vtkmodules import (
     vtkDataObject,
@@ -33,20 +33,7 @@ from ._vtkmodules import (
 _GIGABYTE = 1 << 30
 
 
-class _FilterWithSource(Filter):
-    """A filter whose second input is called its source."""
-
-    def SetSourceData(self, source: Any) -> None:
-        self.SetInputDataObject(1, source)
-
-    def SetSourceConnection(self, port: Any) -> None:
-        self.SetInputConnection(1, port)
-
-    def GetSource(self) -> Any:
-        return self.GetInputDataObject(1, 0) if self.GetNumberOfInputConnections(1) else None
-
-
-class vtkTIPPDelaunay2D(_FilterWithSource):
+class vtkTIPPDelaunay2D(Filter):
     """Exact Delaunay triangulation of the points of a vtkPointSet in the x-y plane. Lines and polygons of the second
     input, the source, are constraints. The second output is a vtkTable with statistics as field data."""
 
@@ -62,6 +49,7 @@ class vtkTIPPDelaunay2D(_FilterWithSource):
               "ConstraintMarks": (0, 2), "Schedule": (0, 2), "NumberOfThreads": (0, 4096)}
     INPUTS = ("vtkPointSet", "vtkPolyData")
     OPTIONAL_INPUTS = (1,)
+    INPUT_NAMES = {"Source": 1}
     OUTPUTS = ("vtkPolyData", "vtkTable")
 
     def GetStatistics(self) -> vtkTable:
@@ -86,7 +74,7 @@ class vtkTIPPDelaunay2D(_FilterWithSource):
             "merge_source_points": self.value("MergeSourcePoints"),
         }
         points = vtkPointSet.GetData(inputs[0])
-        mesh, statistics = _native_engine.delaunay_2d(points, None, options, self.progress)
+        mesh, statistics = _engine.delaunay_2d(points, None, options, self.progress)
         output = vtkPolyData.GetData(outputs, 0)
         output.ShallowCopy(mesh)
         for name, clear in (("AlphaTris", output.SetPolys), ("AlphaLines", output.SetLines),
@@ -131,7 +119,7 @@ class vtkTIPPOutOfCoreDelaunay2D(Filter):
     def execute(self, inputs: Any, outputs: Any) -> None:
         options = {**options_of(self, DELAUNAY_FILE), "holes": self.holes,
                    "columns": (self.value("XColumn"), self.value("YColumn"))}
-        figures = _native_engine.delaunay_file(self.texts, self.value("FileName"), options, self.progress)
+        figures = _engine.delaunay_file(self.texts, self.value("FileName"), options, self.progress)
         totals = vtkTable.GetData(outputs, 0).GetFieldData()
         for key, value in figures.items():
             add_total(array_of(key), value, totals)
@@ -154,23 +142,12 @@ class vtkTIPPPointsToImage(Filter):
     LIST = "Band"
     INPUTS = ("vtkPointSet", "vtkPolyData", "vtkPolyData")
     OPTIONAL_INPUTS = (1, 2)
+    INPUT_NAMES = {"Breaklines": 1, "Boundary": 2}
     OUTPUTS = ("vtkImageData",)
 
     def __init__(self) -> None:
         super().__init__()
         self.texts = ["elevation"]
-
-    def SetBreaklinesData(self, lines: vtkPolyData) -> None:
-        self.SetInputDataObject(1, lines)
-
-    def SetBreaklinesConnection(self, port: Any) -> None:
-        self.SetInputConnection(1, port)
-
-    def SetBoundaryData(self, lines: vtkPolyData) -> None:
-        self.SetInputDataObject(2, lines)
-
-    def SetBoundaryConnection(self, port: Any) -> None:
-        self.SetInputConnection(2, port)
 
     def RequestInformation(self, _request: Any, _inputs: Any, outputs: Any) -> int:
         return self.guarded(lambda: self._describe(outputs.GetInformationObject(0)))
@@ -215,7 +192,7 @@ class vtkTIPPPointsToImage(Filter):
             "classes": None, "returns": 0, "keep": [],
         }
         points = vtkPointSet.GetData(inputs[0])
-        bands, (west, south, columns, rows), _ = _native_engine.raster(points, None, options, self.progress)
+        bands, (west, south, columns, rows), _ = _engine.raster(points, None, options, self.progress)
         arrays = {name: band.ravel() for name, band in zip(self.texts, bands)}
         origin = (west + 0.5 * size, south + 0.5 * size, 0.0)
         image = image_of(Image(origin, (size, size, 1.0), (columns, rows, 1), arrays))
@@ -264,7 +241,7 @@ class vtkRangeResampleFilter(Filter):
             "no_data": self.value("NoDataValue") if self.value("UseNoDataValue") else None, "arrays": names,
             "device": self.value("DeviceChoice"), "threads": self.value("NumberOfThreads"),
         }
-        vtkImageData.GetData(outputs, 0).ShallowCopy(_native_engine.resample(mesh, options, self.progress))
+        vtkImageData.GetData(outputs, 0).ShallowCopy(_engine.resample(mesh, options, self.progress))
 
 
 class vtkPartitionedUnstructuredReader(Filter):
@@ -310,7 +287,7 @@ class vtkPartitionedUnstructuredReader(Filter):
             "borrowed": self.value("BorrowerMode") == 1, "time": None, "point_arrays": chosen[0],
             "cell_arrays": chosen[1],
         }
-        mesh = _native_engine.read(self.value("FileName"), options, self.progress)
+        mesh = _engine.read(self.value("FileName"), options, self.progress)
         vtkDataObject.GetData(outputs, 0).ShallowCopy(mesh)
 
 
@@ -335,11 +312,11 @@ class vtkPartitionedUnstructuredWriter(Filter):
         mesh = vtkDataObject.GetData(inputs[0]) if has_input else self.value("InputFileName")
         if not has_input and not mesh:
             raise RuntimeError("there is neither an input nor an InputFileName; set one.")
-        _native_engine.write(mesh, self.value("FileName"), options_of(self, WRITE), self.progress)
+        _engine.write(mesh, self.value("FileName"), options_of(self, WRITE), self.progress)
         self._is_written = True
 
 
-class vtkPartitionedMeshQuery(_FilterWithSource):
+class vtkPartitionedMeshQuery(Filter):
     """Evaluates a mesh at the points of a data set; the output has the structure of this data set. The mesh is the
     second input (the source, as in vtkProbeFilter), or FileName, a partitioned mesh on disk of any size."""
 
@@ -352,6 +329,7 @@ class vtkPartitionedMeshQuery(_FilterWithSource):
     LIST = "Array"
     INPUTS = ("vtkDataSet", "vtkPointSet")
     OPTIONAL_INPUTS = (1,)
+    INPUT_NAMES = {"Source": 1}
     OUTPUTS = ("vtkDataSet",)
 
     def __init__(self) -> None:
@@ -372,7 +350,7 @@ class vtkPartitionedMeshQuery(_FilterWithSource):
         if not self.value("FileName") and source is None:
             raise RuntimeError("there is neither a source nor a FileName; set one.")
         if self._opened[0] != key:
-            self._opened = (key, _native_engine.open_mesh(self.value("FileName") or source, options))
+            self._opened = (key, _engine.open_mesh(self.value("FileName") or source, options))
         return self._opened[1]
 
     def execute(self, inputs: Any, outputs: Any) -> None:
@@ -420,7 +398,8 @@ class vtkTIPPPointReader(Filter):
             "returns": self.value("Returns"),
             "keep": [flag for flag in ("withheld", "synthetic", "overlap") if self.value("Keep" + flag.capitalize())],
         }
-        array, data, crs = _native_engine.read_points(self.texts, options)
+        with uncompressed(self.texts) as files:
+            array, data, crs = _engine.read_points(files, options)
         cloud = point_cloud(array, data)
         if crs:
             text = vtkStringArray()

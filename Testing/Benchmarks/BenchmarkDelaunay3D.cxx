@@ -6,7 +6,7 @@
 #include "Engines3D.h"
 #include "PointsInSpace.h"
 
-#include "Kernel3D/DelaunayKernel3.h"
+#include "Kernel/DelaunayKernel3.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation3D/Tetrahedralize.h"
 

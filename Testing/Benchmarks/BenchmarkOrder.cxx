@@ -2,11 +2,11 @@
 // Measures the cost of each partition when points are distributed over many ranks. One process
 // triangulates all partitions one after the other, and prints the input of cluster_model.py.
 #include "Distributed/Plan.h"
-#include "Distributed/RankRun.h"
-#include "Engine/Routing.h"
+#include "Distributed/SharedInitialMesh.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/ReadPoints.h"
 #include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/Dataflow.h"
 #include "Triangulation/Tiling.h"
 
 #include <algorithm>
@@ -139,13 +139,11 @@ void printPartitions(SharedOut& shared)
 
   Worker<std::int32_t> worker(tiles, shared.Buckets);
   Routing<std::int32_t> routing(order, regions);
-  UniqueVertices unique;
   for (const PartitionIndex p : order.sequence())
   {
     std::map<PartitionIndex, std::size_t> sent;
     const ProcessorWatch watch;
-    routing.setPartition(p);
-    worker.triangulate(p, unique.collect(inboxes[std::size_t(p)].take()), regions[p], routing);
+    routing.triangulate(worker, p, inboxes[std::size_t(p)].take());
     for (auto& [to, message] : routing.send(worker, final))
     {
       sent[to] = message.Vertices.size();

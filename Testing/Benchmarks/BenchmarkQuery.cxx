@@ -5,9 +5,8 @@
 // MEGABYTES; or, also under mpirun, 'rank-rings' POINTS QUERIES REPEAT.
 #include "ResampleSubjects.h"
 
-#include "Query/Around.h"
-#include "Query/DataSetPart.h"
-#include "Query/Lines.h"
+#include "Query/Queries.h"
+#include "Query/QueryData.h"
 #include "Query/ResidentMesh.h"
 #include "Ranks/Communicator.h"
 #include "vtkPartitionedMeshQuery.h"

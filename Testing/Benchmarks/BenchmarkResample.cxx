@@ -6,7 +6,7 @@
 
 #include "vtkRangeResampleFilter.h"
 
-#include "Vtk/ReadDataSet.h"
+#include "Vtk/DataSets.h"
 
 #include "vtkImageData.h"
 #include "vtkNew.h"

@@ -5,7 +5,6 @@
 #include "Loading/VertexLoader.h"
 #include "OpenCL/Devices.h"
 #include "Partition/ClassifyCells.h"
-#include "Partitioning/BuildTree.h"
 #include "Partitioning/MeshTiling.h"
 
 #include <algorithm>
@@ -29,7 +28,7 @@ struct LoadedCells
     this->Corners = mesh.CellSize;
     this->Dimension = mesh.CellSize - 1;
     std::vector<std::int64_t> ids;
-    CellReader(mesh, 0, -1, threads).next(std::min(most, mesh.Cells.Tuples), ids);
+    CellReader(mesh, threads).read(0, std::min(most, mesh.Cells.Tuples), ids);
     LoaderOptions options;
     options.Kind = Loader::Mmap;
     options.Threads = threads;

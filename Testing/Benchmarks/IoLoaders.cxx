@@ -62,7 +62,7 @@ public:
     : Order(order)
     , Flat(openFlatMesh(path))
   {
-    CellReader(this->Flat).next(this->Flat.Cells.Tuples, this->Ids);
+    CellReader(this->Flat).read(0, this->Flat.Cells.Tuples, this->Ids);
     dropFromCache(this->Flat.Cells.Path);
   }
 

@@ -2,7 +2,7 @@
 // Measures reading points from files, block by block.
 #include "IoSubjects.h"
 
-#include "Points/PointStream.h"
+#include "Points/ReadPoints.h"
 
 #include <chrono>
 #include <cstdio>

@@ -3,6 +3,7 @@
 // cells.
 #include "IoSubjects.h"
 
+#include "Meshes/MeshFiles.h"
 #include "Parallel/ParallelFor.h"
 #include "Partitioned/ReadPiece.h"
 

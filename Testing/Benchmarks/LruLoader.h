@@ -20,7 +20,6 @@ public:
   LruLoader(std::vector<RawArray> arrays, std::int64_t m, std::int64_t blocks);
 
   void load(const std::int64_t* ids, std::size_t count, void* const* out) override;
-  const LoadCounters& counters() const override { return this->Counts; }
   const char* name() const override { return "lru"; }
   /// The number of blocks that were read, since the cache did not hold them.
   std::int64_t misses() const { return this->Misses; }
@@ -34,7 +33,6 @@ private:
   Divisor ByBlock;
   std::uint32_t Slots;
   BlockCache Cache;
-  LoadCounters Counts;
   std::int64_t Misses = 0;
   TupleBuffers Buffers;
 };

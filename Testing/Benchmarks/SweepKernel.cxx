@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SweepKernel.h"
 
-#include "Predicates/Circumdisk.h"
+#include "Predicates/Circumball.h"
 #include "Predicates/ExactPredicates.h"
 
 #include <algorithm>

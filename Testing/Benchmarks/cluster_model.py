@@ -83,7 +83,7 @@ def read_traces(paths):
 def simulate(trace, cores, network, scale=1.0):
     """Seconds until all partitions are triangulated, if rank r computes on core r % cores.
 
-    Of its ready partitions, a core starts the one that the longest chain waits for (Engine/ReadyPartitions.h). With
+    Of its ready partitions, a core starts the one that the longest chain waits for (Engine/PartitionSchedule.h). With
     `scale` times the points, a partition costs `scale` times as much. It sends sqrt(scale) times as many vertices,
     since these are at its boundary.
     """

@@ -70,7 +70,7 @@ def main():
     flat = points[:, :2].copy()
     cloud = tipp._vtk.point_cloud(points)
     copies = {"(n, 3)": copies_of(points), "(n, 2)": copies_of(flat)}
-    filters = tipp._vtk_engine.vtkTIPPDelaunay2D = Remembered()
+    filters = tipp._engine.vtkTIPPDelaunay2D = Remembered()
 
     def update():
         algorithm = filters()

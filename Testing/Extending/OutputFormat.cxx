@@ -2,7 +2,7 @@
 // An output format: OFF, a text format that many mesh programs read.
 #include "Files/PendingOutput.h"
 #include "Meshes/MeshFiles.h"
-#include "Points/PointTable.h"
+#include "Points/ReadPoints.h"
 #include "Triangulation/Triangulate.h"
 
 #include "TemporaryFolder.h"

@@ -2,7 +2,7 @@
 // A point format: binary files with x and y of each point as doubles.
 #include "Files/IOError.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
-#include "Points/PointStream.h"
+#include "Points/ReadPoints.h"
 #include "Triangulation/Triangulate.h"
 
 #include "TemporaryFolder.h"

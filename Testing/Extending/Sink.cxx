@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A sink for final triangles, which adds up their areas instead of writing a mesh.
 #include "OutOfCore/OutOfCoreTriangulation.h"
-#include "Points/PointStream.h"
+#include "Points/ReadPoints.h"
 
 #include "TemporaryFolder.h"
 

@@ -2,11 +2,11 @@
 // Draws points in space, triangulates them with several partitions and threads, and checks the
 // result with an exact checker; triangles of points in one plane are compared with the oracle. A
 // seed and a number identify a case: 'fuzzDelaunay3D --seed S --case N' repeats it.
-#include "Check/TetrahedraChecker.h"
+#include "Check/DelaunayChecker.h"
 #include "Comparison.h"
 #include "DegeneratePoints.h"
 #include "FuzzDriver.h"
-#include "Predicates/NormalAxis.h"
+#include "Predicates/ExactPredicates3.h"
 #include "Triangulation3D/Tetrahedralize.h"
 
 #include <algorithm>

@@ -160,10 +160,11 @@ void readAll(const FlatMesh& mesh, Loader kind)
   options.Kind = kind;
   options.M = 3;
   const auto loader = makeVertexLoader(arrays, options);
-  CellReader cells(mesh);
+  const CellReader cells(mesh);
   std::vector<std::int64_t> ids;
-  while (cells.next(1, ids))
+  for (std::int64_t cell = 0; cell < mesh.Cells.Tuples; ++cell)
   {
+    cells.read(cell, 1, ids);
     std::vector<std::vector<char>> values;
     std::vector<void*> out;
     for (const RawArray& array : arrays)

@@ -5,7 +5,6 @@
 #include "FuzzDriver.h"
 #include "NearDegenerate.h"
 
-#include "Predicates/CoordinateGrid.h"
 #include "Predicates/ExactPredicates.h"
 
 #include <cstdio>

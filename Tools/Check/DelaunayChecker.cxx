@@ -58,7 +58,7 @@ std::uint64_t PieceChecker::hashPoint(std::int64_t id, double x, double y)
 
 void PieceChecker::add(const CheckedPiece& piece)
 {
-  this->Report.Triangles += piece.OwnTriangles;
+  this->Report.Cells += piece.OwnTriangles;
   this->checkTriangles(piece);
   this->checkPoints(piece);
   // Indices of 32 bits halve the memory.
@@ -144,13 +144,15 @@ void PieceChecker::checkPoints(const CheckedPiece& piece)
   }
 }
 
-/// Keeps the points of the piece's convex hull, including those on its edges. `points` are in
+/// Keeps the points of the piece's convex hull, including those on its edges. `vertices` are in
 /// lexicographic order.
-void PieceChecker::keepHull(const std::vector<Vertex>& points)
+void PieceChecker::keepHull(const std::vector<Vertex>& vertices)
 {
-  const auto at = [](const Vertex& vertex) { return vertex.At; };
-  for (const auto& half : { check::halfHull(points.begin(), points.end(), at),
-         check::halfHull(points.rbegin(), points.rend(), at) })
+  std::vector<Position> points(vertices.size());
+  std::transform(vertices.begin(), vertices.end(), points.begin(),
+    [](const Vertex& vertex) { return vertex.At; });
+  for (const auto& half : { check::halfHull(points.begin(), points.end()),
+         check::halfHull(points.rbegin(), points.rend()) })
   {
     for (const Position p : half)
     {
@@ -223,7 +225,7 @@ void PieceChecker::checkEdges(const CheckedPiece& piece)
       }
       else
       {
-        ++this->Report.BadEdges;
+        ++this->Report.BadFacets;
       }
     }
   }
@@ -242,7 +244,7 @@ void PieceChecker::checkInside(const CheckedPiece& piece, std::size_t h, std::si
   const std::int64_t to = piece.Triangles[after(h)];
   if (from == piece.Triangles[twin])
   {
-    ++this->Report.BadEdges;
+    ++this->Report.BadFacets;
     return;
   }
   const auto stores = [&piece](std::size_t own, std::size_t other)
@@ -264,7 +266,7 @@ void PieceChecker::checkPair(const Edge& a, const Edge& b)
   if (a.IsReversed == b.IsReversed || !isSame(a.Ends[0], b.Ends[0]) ||
     !isSame(a.Ends[1], b.Ends[1]))
   {
-    ++this->Report.BadEdges;
+    ++this->Report.BadFacets;
     return;
   }
   this->Report.BadNeighbors += a.Neighbor != b.Cell || b.Neighbor != a.Cell ? 1 : 0;
@@ -279,7 +281,7 @@ void PieceChecker::checkPair(const Edge& a, const Edge& b)
 void PieceChecker::checkCircle(Position a, Position b, Position c, Position d)
 {
   const int side = check::inCircle(a, b, c, d);
-  this->Report.BadCircles += side > 0 ? 1 : 0;
+  this->Report.BadSpheres += side > 0 ? 1 : 0;
   if (side == 0)
   {
     ++this->Report.Ties;
@@ -312,7 +314,7 @@ void PieceChecker::matchEdges()
     }
     else
     {
-      ++this->Report.BadEdges;
+      ++this->Report.BadFacets;
     }
   }
   this->Open.resize(hull);
@@ -321,7 +323,7 @@ void PieceChecker::matchEdges()
 CheckReport PieceChecker::finish()
 {
   this->matchEdges();
-  this->Report.BoundaryEdges = std::int64_t(this->Open.size());
+  this->Report.BoundaryFacets = std::int64_t(this->Open.size());
   if (this->Options.IsCut)
   {
     this->Report.UnusedPoints = 0;
@@ -329,7 +331,7 @@ CheckReport PieceChecker::finish()
       [this](const Edge& edge) { return this->isConstraint(edge.Ids); });
     this->Open.erase(constraints, this->Open.end());
   }
-  if (this->Report.Triangles == 0)
+  if (this->Report.Cells == 0)
   {
     this->Report.UnusedPoints = this->IsCollinear ? 0 : this->Report.UnusedPoints;
     return this->Report;
@@ -363,26 +365,55 @@ CheckReport PieceChecker::finish()
   }
   this->Report.BadHullEdges = check::countHullFaults(xy, hull);
   this->Report.EulerMismatch =
-    this->Report.Triangles - (2 * this->Report.DistinctPoints - 2 - this->Report.BoundaryEdges);
+    this->Report.Cells - (2 * this->Report.DistinctPoints - 2 - this->Report.BoundaryFacets);
   return this->Report;
 }
 
 std::vector<std::string> CheckReport::faults() const
 {
-  return describe({
-    { this->BadIds, "triangles have a point that does not exist or is not finite" },
-    { this->BadTurns, "triangles are clockwise or flat" },
-    { this->BadEdges, "edges are in three or more triangles or twice in one direction" },
-    { this->BadCircles, "edges are not locally Delaunay" },
-    { this->BadTies, "edges break a tie differently than the rule" },
-    { this->UnusedPoints, "distinct points are in no triangle" },
-    { this->TwinVertices, "vertices have the coordinates of another vertex" },
-    { this->BadHullEdges, "boundary edges are not in one convex chain" },
-    { this->LostConstraints, "constraints are not chains of edges" },
-    { this->OpenBoundary, "boundary edges are neither constraints nor edges of the convex hull" },
-    { this->BadNeighbors, "edges have triangles that store wrong neighbours" },
-    { this->EulerMismatch, "more triangles (negative: fewer) than Euler's formula gives" },
-  });
+  struct Fault
+  {
+    std::int64_t Count;
+    const char* OfTriangles;
+    const char* OfTetrahedra;
+  };
+  // Two rows for Euler's formula, because the order of the last two differs.
+  const Fault kinds[] = {
+    { this->BadIds, "triangles have a point that does not exist or is not finite",
+      "tetrahedra have a point that does not exist or is not finite" },
+    { this->BadTurns, "triangles are clockwise or flat", "tetrahedra are inverted or flat" },
+    { this->BadFacets, "edges are in three or more triangles or twice in one direction",
+      "facets are in three or more tetrahedra, or in two on the same side" },
+    { this->BadSpheres, "edges are not locally Delaunay",
+      "interior facets are not locally Delaunay" },
+    { this->BadTies, "edges break a tie differently than the rule",
+      "facets break a tie differently than the rule" },
+    { this->UnusedPoints, "distinct points are in no triangle",
+      "distinct points are in no tetrahedron" },
+    { this->TwinVertices, "vertices have the coordinates of another vertex",
+      "vertices have the coordinates of another vertex" },
+    { this->BadHullEdges, "boundary edges are not in one convex chain",
+      "hull edges are where the hull is not closed or not convex" },
+    { this->LostConstraints, "constraints are not chains of edges", "" },
+    { this->OpenBoundary, "boundary edges are neither constraints nor edges of the convex hull",
+      "" },
+    { this->InSpace ? this->EulerMismatch : 0, "",
+      "is the difference from Euler's formula for vertices, edges, facets and tetrahedra" },
+    { this->BadNeighbors, "edges have triangles that store wrong neighbours",
+      "corners have a wrong tetrahedron in NeighborIds" },
+    { this->InSpace ? 0 : this->EulerMismatch,
+      "more triangles (negative: fewer) than Euler's formula gives", "" },
+  };
+  std::vector<std::string> lines;
+  for (const Fault& kind : kinds)
+  {
+    if (kind.Count != 0)
+    {
+      lines.push_back(
+        std::to_string(kind.Count) + " " + (this->InSpace ? kind.OfTetrahedra : kind.OfTriangles));
+    }
+  }
+  return lines;
 }
 
 CheckReport checkDelaunay(std::vector<double> xy, std::vector<std::int64_t> triangles,

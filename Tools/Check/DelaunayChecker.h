@@ -3,11 +3,11 @@
 #define tippDelaunayChecker_h
 
 #include "Check/ExactTests.h"
-#include "Check/MeshReport.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -34,20 +34,39 @@ struct CheckOptions
   bool IsCut = false;
 };
 
-/// The result of checkDelaunay(). The members from BadEdges on count faults, as do
-/// those of MeshReport from BadIds on.
-struct CheckReport : MeshReport
+/// The result of a check of triangles or tetrahedra. The facets of a triangle are its edges. The
+/// members from BadIds on count faults.
+struct CheckReport
 {
-  std::int64_t Triangles = 0;
-  std::int64_t BoundaryEdges = 0; ///< edges of one triangle
+  /// Returns a line for each kind of fault whose count is not 0.
+  std::vector<std::string> faults() const;
+  bool isCorrect() const { return this->faults().empty(); }
 
-  std::int64_t BadEdges = 0;        ///< edges in three or more triangles, or twice in one direction
-  std::int64_t BadCircles = 0;      ///< interior edges with a point inside the neighbour's circle
+  bool InSpace = false; ///< the cells are tetrahedra
+  std::int64_t Points = 0;
+  std::int64_t DistinctPoints = 0; ///< distinct points with finite coordinates
+  std::int64_t Cells = 0;
+  std::int64_t BoundaryFacets = 0; ///< facets of one cell
+  std::int64_t Ties = 0;           ///< interior facets whose two cells are on one circle or sphere
+
+  std::int64_t BadIds = 0;   ///< cells with an id that does not exist, or of a point not finite
+  std::int64_t BadTurns = 0; ///< cells that are inverted or flat
+  /// Facets in three or more cells, or in two on the same side.
+  std::int64_t BadFacets = 0;
+  /// Interior facets with a point inside the neighbour's circle or sphere.
+  std::int64_t BadSpheres = 0;
+  std::int64_t BadTies = 0;      ///< ties broken against the rule; counted with the tie rule only
+  std::int64_t UnusedPoints = 0; ///< distinct points in no cell
+  std::int64_t TwinVertices = 0; ///< vertices that have the coordinates of another vertex
+  std::int64_t BadHullEdges = 0; ///< edges at which the boundary is not closed or not convex
   std::int64_t LostConstraints = 0; ///< constraints that are no chain of edges
   /// Boundary edges, if IsCut, that are neither constraints nor on the hull.
   std::int64_t OpenBoundary = 0;
-
-  std::vector<std::string> faults() const override;
+  /// Edges (corners) with a wrong neighbour; counted if `neighbors` are given.
+  std::int64_t BadNeighbors = 0;
+  /// For triangles: their number less 2 n - 2 - h, for n distinct points and h boundary edges. For
+  /// tetrahedra: vertices - edges + facets - tetrahedra - 1; also of the hull.
+  std::int64_t EulerMismatch = 0;
 };
 
 /// One piece of a mesh, with all triangles at its points. Some of these are owned by other pieces.
@@ -122,7 +141,7 @@ private:
   void checkInside(const CheckedPiece& piece, std::size_t halfEdge, std::size_t twin);
   void checkCircle(check::Position a, check::Position b, check::Position c, check::Position d);
   bool isConstraint(const FixedEdge& ids) const;
-  void keepHull(const std::vector<Vertex>& points);
+  void keepHull(const std::vector<Vertex>& vertices);
   void matchEdges();
   Edge edgeOf(const CheckedPiece& piece, std::size_t halfEdge) const;
 
@@ -145,6 +164,42 @@ private:
 /// it, or -1; empty: not checked.
 CheckReport checkDelaunay(std::vector<double> xy, std::vector<std::int64_t> triangles,
   const CheckOptions& options = {}, std::vector<std::int64_t> neighbors = {});
+
+/// The constraints, as chains of edges of a mesh.
+struct ConstraintChains
+{
+  std::vector<FixedEdge> Edges; ///< sorted, without duplicates
+  std::int64_t Lost = 0;        ///< number of constraints without a chain
+};
+
+/// Finds for each constraint a chain of edges between its two points. Each vertex of the chain must
+/// lie within two units in the last place of the constraint's coordinates, tested in exact
+/// arithmetic. Constraints whose ends are equal or not finite need no chain. `xy` holds x and y of
+/// each point; `triangles` (three each) and `constraints` hold indices of these points. `isCut`:
+/// the mesh ends at polygons, so chains may have gaps between vertices of its border.
+ConstraintChains findConstraintChains(const std::vector<double>& xy,
+  const std::vector<std::int64_t>& triangles,
+  const std::vector<std::array<std::int64_t, 2>>& constraints, bool isCut);
+
+/// The same for a mesh in pieces: read(number) returns a piece. `constraintXY` holds x and y of the
+/// constraints' points, `edges` two indices of these for each constraint. Returns edges by global
+/// ids. Keeps in memory only triangles near constraints: those with an edge on one, or in a cut
+/// mesh all those at vertices on constraints, which show its border there.
+ConstraintChains findConstraintChains(std::size_t pieces,
+  const std::function<CheckedPiece(std::size_t)>& read, const std::vector<double>& constraintXY,
+  const std::vector<std::array<std::int64_t, 2>>& edges, bool isCut);
+
+/// Checks in exact arithmetic whether tetrahedra are the Delaunay triangulation of the distinct
+/// finite points. It does not compute a triangulation: by Delaunay's lemma it is enough that the
+/// tetrahedra are positively oriented, locally Delaunay, and meet facet to facet within one closed
+/// convex surface. Ties between points on a sphere may be broken either way unless `tieRule` is
+/// set. Points in one plane have no tetrahedra.
+///
+/// `xyz` holds the coordinates of each point, `tetrahedra` four indices of points each. `neighbors`
+/// holds for each corner the index of the tetrahedron opposite to it, or -1; empty: not checked.
+CheckReport checkTetrahedra(const std::vector<double>& xyz,
+  const std::vector<std::int64_t>& tetrahedra, bool tieRule,
+  const std::vector<std::int64_t>& neighbors = {});
 
 } // namespace tipp
 

@@ -22,22 +22,6 @@ Kernel::Point_2 point(Position p)
   return { p.x, p.y };
 }
 
-} // namespace
-
-int turn(Position a, Position b, Position c)
-{
-  return static_cast<int>(Kernel::Orientation_2()(point(a), point(b), point(c)));
-}
-
-int inCircle(Position a, Position b, Position c, Position d)
-{
-  return static_cast<int>(
-    Kernel::Side_of_oriented_circle_2()(point(a), point(b), point(c), point(d)));
-}
-
-namespace
-{
-
 class Chain
 {
 public:
@@ -104,6 +88,17 @@ private:
 
 } // namespace
 
+int turn(Position a, Position b, Position c)
+{
+  return static_cast<int>(Kernel::Orientation_2()(point(a), point(b), point(c)));
+}
+
+int inCircle(Position a, Position b, Position c, Position d)
+{
+  return static_cast<int>(
+    Kernel::Side_of_oriented_circle_2()(point(a), point(b), point(c), point(d)));
+}
+
 std::int64_t countHullFaults(const std::vector<double>& xy, std::vector<DirectedEdge>& edges)
 {
   std::sort(edges.begin(), edges.end(),
@@ -128,9 +123,8 @@ std::int64_t countOffHull(const std::vector<double>& xy, const std::vector<Direc
   const auto isSame = [](Position a, Position b) { return a.x == b.x && a.y == b.y; };
   points.erase(std::unique(points.begin(), points.end(), isSame), points.end());
   std::set<std::array<double, 4>> hull;
-  const auto at = [](Position p) { return p; };
   for (const auto& half :
-    { halfHull(points.begin(), points.end(), at), halfHull(points.rbegin(), points.rend(), at) })
+    { halfHull(points.begin(), points.end()), halfHull(points.rbegin(), points.rend()) })
   {
     for (std::size_t i = 1; i < half.size(); ++i)
     {

@@ -47,14 +47,14 @@ struct DirectedEdge
 std::int64_t countHullFaults(const std::vector<double>& xy, std::vector<DirectedEdge>& edges);
 
 /// Returns the lower half of the convex hull of points in lexicographic order, including the points
-/// on its edges. For the reverse order, returns the upper half. at(*i) is the position of a point.
-template <typename Iterator, typename At>
-std::vector<Position> halfHull(Iterator begin, Iterator end, const At& at)
+/// on its edges. For the reverse order, returns the upper half.
+template <typename Iterator>
+std::vector<Position> halfHull(Iterator begin, Iterator end)
 {
   std::vector<Position> chain;
   for (Iterator i = begin; i != end; ++i)
   {
-    const Position p = at(*i);
+    const Position p = *i;
     while (chain.size() > 1 && turn(chain[chain.size() - 2], chain.back(), p) < 0)
     {
       chain.pop_back();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Check/TetrahedraChecker.h"
+#include "Check/DelaunayChecker.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
@@ -46,10 +46,11 @@ public:
   {
   }
 
-  TetrahedraReport run()
+  CheckReport run()
   {
+    this->Report.InSpace = true;
     this->Report.Points = Id(this->XYZ.size() / 3);
-    this->Report.Tetrahedra = Id(this->Ids.size() / 4);
+    this->Report.Cells = Id(this->Ids.size() / 4);
     this->checkCells();
     this->checkPoints();
     if (this->Report.BadIds == 0)
@@ -251,7 +252,7 @@ private:
   /// Every edge of the hull must be in exactly two facets, which are convex there or coplanar.
   void checkHull()
   {
-    this->Report.HullFacets = Id(this->Hull.size());
+    this->Report.BoundaryFacets = Id(this->Hull.size());
     std::vector<HullEdge> edges;
     for (std::size_t facet = 0; facet < this->Hull.size(); ++facet)
     {
@@ -323,7 +324,7 @@ private:
     if (!this->Ids.empty())
     {
       this->Report.EulerMismatch +=
-        std::abs(vertices - edgeCount + this->Facets - this->Report.Tetrahedra - 1);
+        std::abs(vertices - edgeCount + this->Facets - this->Report.Cells - 1);
     }
   }
 
@@ -331,7 +332,7 @@ private:
   const std::vector<Id>& Ids;
   const std::vector<Id>& Neighbors;
   const bool TieRule;
-  TetrahedraReport Report;
+  CheckReport Report;
   std::vector<bool> Used;
   std::vector<std::size_t> Hull; ///< facets of the hull, as Side::Slot
   Id Facets = 0;
@@ -339,24 +340,7 @@ private:
 
 } // namespace
 
-std::vector<std::string> TetrahedraReport::faults() const
-{
-  return describe({
-    { this->BadIds, "tetrahedra have a point that does not exist or is not finite" },
-    { this->BadTurns, "tetrahedra are inverted or flat" },
-    { this->BadFacets, "facets are in three or more tetrahedra, or in two on the same side" },
-    { this->BadSpheres, "interior facets are not locally Delaunay" },
-    { this->BadTies, "facets break a tie differently than the rule" },
-    { this->UnusedPoints, "distinct points are in no tetrahedron" },
-    { this->TwinVertices, "vertices have the coordinates of another vertex" },
-    { this->BadHullEdges, "hull edges are where the hull is not closed or not convex" },
-    { this->EulerMismatch,
-      "is the difference from Euler's formula for vertices, edges, facets and tetrahedra" },
-    { this->BadNeighbors, "corners have a wrong tetrahedron in NeighborIds" },
-  });
-}
-
-TetrahedraReport checkTetrahedra(const std::vector<double>& xyz,
+CheckReport checkTetrahedra(const std::vector<double>& xyz,
   const std::vector<std::int64_t>& tetrahedra, bool tieRule,
   const std::vector<std::int64_t>& neighbors)
 {

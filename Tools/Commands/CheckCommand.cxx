@@ -1,59 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Commands/CheckRuns.h"
-
-#include "Check/ConstraintChains.h"
+#include "Check/DelaunayChecker.h"
+#include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
+#include "Commands/Report.h"
 #include "Console/Process.h"
+#include "Constraints/ReadConstraintFile.h"
 #include "Files/IOError.h"
 #include "Meshes/MeshFiles.h"
+#include "Parallel/Sort.h"
+#include "Partitioned/FinishedPieces.h"
+#include "Partitioned/PartitionedMesh.h"
+#include "Partitioned/PieceFile.h"
+#include "Partitioned/ReadPiece.h"
+#include "Points/ReadPoints.h"
 #include "Predicates/Points.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
+#include <string>
 #include <utility>
 
 namespace tipp
 {
-
-bool isStoredInPieces(const std::string& mesh)
-{
-  std::error_code ignored;
-  return isPartitionedMesh(mesh) || std::filesystem::is_directory(mesh, ignored);
-}
-
-void refuseOtherPoints(const CheckArguments& arguments, std::size_t found, std::size_t points)
-{
-  throw IOError(arguments.Mesh,
-    fmt::format("its {} points are not the {} points of {}; check it against the points that it "
-                "was made from.",
-      found, points, arguments.Points));
-}
-
-namespace
-{
-
-bool isSameNumber(double a, double b)
-{
-  return a == b || (a != a && b != b);
-}
-
-} // namespace
-
-void requireSamePoints(const CheckArguments& arguments, const std::vector<double>& points,
-  const std::vector<double>& stored, std::size_t dimension)
-{
-  if (!stored.empty() &&
-    !std::equal(points.begin(), points.end(), stored.begin(), stored.end(), isSameNumber))
-  {
-    refuseOtherPoints(arguments, stored.size() / dimension, points.size() / dimension);
-  }
-}
-
 namespace
 {
 
@@ -87,6 +64,57 @@ Examples:
   tipp check particles.npy tetrahedra.vtu --tie-rule
 )";
 
+/// The options of `tipp check`.
+struct CheckArguments
+{
+  std::string Points;
+  std::string Mesh;
+  PointOptions Columns;
+  std::string Constraints; ///< path of a file; empty: none
+  CheckOptions Options;
+
+  /// Returns whether the mesh lacks triangles: with --cut, or if there are polygons or holes.
+  bool isCutBy(const ConstraintTable& table) const
+  {
+    return this->Options.IsCut || table.PolygonBegin < table.Edges.size() || !table.Holes.empty();
+  }
+};
+
+/// Returns whether the mesh is partitioned: only such a mesh is a folder. If its index is missing,
+/// opening it says so.
+bool isStoredInPieces(const std::string& mesh)
+{
+  std::error_code ignored;
+  return isPartitionedMesh(mesh) || std::filesystem::is_directory(mesh, ignored);
+}
+
+/// Throws IOError: the mesh stores `found` points other than the `points` points of the input.
+[[noreturn]] void refuseOtherPoints(
+  const CheckArguments& arguments, std::size_t found, std::size_t points)
+{
+  throw IOError(arguments.Mesh,
+    fmt::format("its {} points are not the {} points of {}; check it against the points that it "
+                "was made from.",
+      found, points, arguments.Points));
+}
+
+bool isSameNumber(double a, double b)
+{
+  return a == b || (a != a && b != b);
+}
+
+/// Throws IOError if the mesh stores points (`stored` is not empty) and they are not the input's
+/// `points`. NaN equals NaN here. Both arrays hold `dimension` coordinates of each point.
+void requireSamePoints(const CheckArguments& arguments, const std::vector<double>& points,
+  const std::vector<double>& stored, std::size_t dimension)
+{
+  if (!stored.empty() &&
+    !std::equal(points.begin(), points.end(), stored.begin(), stored.end(), isSameNumber))
+  {
+    refuseOtherPoints(arguments, stored.size() / dimension, points.size() / dimension);
+  }
+}
+
 /// Returns the constraints as indices of the mesh's points: the first one with equal coordinates,
 /// or -1. Constraints whose ends are not finite are left out.
 std::vector<std::array<std::int64_t, 2>> constraintsAmong(
@@ -99,7 +127,7 @@ std::vector<std::array<std::int64_t, 2>> constraintsAmong(
   const auto pointAt = [](const std::vector<double>& from, std::int64_t i) {
     return std::array<double, 2>{ from[2 * std::size_t(i)], from[2 * std::size_t(i) + 1] };
   };
-  const auto isGood = [](const std::array<double, 2>& p) { return isFinite({ p[0], p[1] }); };
+  const auto isGood = [](const std::array<double, 2>& p) { return isFinite(Point2{ p[0], p[1] }); };
   std::map<std::array<double, 2>, std::int64_t> indices; // NaN has no order
   for (std::int64_t i = 0; i < std::int64_t(xy.size() / 2); ++i)
   {
@@ -172,19 +200,243 @@ CheckReport checkTriangles(const CheckArguments& arguments)
     std::move(xy), std::move(mesh.Triangles), arguments.Options, std::move(mesh.Neighbors));
 }
 
+/// Returns the options to read a piece with the array NeighborIds, if there is one, and no other.
+PieceOptions withNeighborsOnly(const PartitionedMesh& mesh)
+{
+  PieceOptions options;
+  options.Wanted.assign(mesh.Arrays.size(), false);
+  const std::int64_t neighborIds = findNeighborIds(mesh);
+  if (neighborIds >= 0)
+  {
+    options.Wanted[std::size_t(neighborIds)] = true;
+  }
+  return options;
+}
+
+CheckedPiece readChecked(const PartitionedMesh& mesh, std::size_t number)
+{
+  Piece piece = readPiece(mesh, number, withNeighborsOnly(mesh));
+  CheckedPiece checked;
+  const auto points = std::size_t(piece.Points);
+  checked.XY.resize(2 * points);
+  for (std::size_t i = 0; i < points; ++i)
+  {
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      checked.XY[2 * i + axis] = piece.PointType == Scalar::Float64
+        ? piece.Coordinates.as<double>()[3 * i + axis]
+        : double(piece.Coordinates.as<float>()[3 * i + axis]);
+    }
+  }
+  piece.Coordinates = {};
+  const auto* ids = piece.PointIds.as<std::int64_t>();
+  checked.Ids.assign(ids, ids + points);
+  const auto* ghosts = piece.PointGhosts.as<std::uint8_t>();
+  for (std::size_t i = 0; i < points; ++i)
+  {
+    checked.IsOwn.push_back(ghosts[i] == 0);
+  }
+  checked.Triangles.reserve(3 * std::size_t(piece.Cells));
+  for (std::int64_t cell = 0; cell < piece.Cells; ++cell)
+  {
+    for (int i = 0; i < 3; ++i)
+    {
+      checked.Triangles.push_back(piece.corner(cell, i));
+    }
+  }
+  checked.OwnTriangles = piece.OwnedCells;
+  if (!piece.Attributes.empty())
+  {
+    const auto* cells = piece.CellIds.as<std::int64_t>();
+    checked.CellIds.assign(cells, cells + piece.OwnedCells);
+    const auto* neighbors = piece.Attributes[0].Values.as<std::int64_t>();
+    checked.Neighbors.assign(neighbors, neighbors + 3 * piece.OwnedCells);
+  }
+  return checked;
+}
+
+struct InputSum
+{
+  std::int64_t All = 0;
+  std::int64_t Points = 0; ///< points with finite coordinates
+  std::uint64_t Sum = 0;
+};
+
+/// Sums the input points. If the table's edges are ids of input points, reads these points'
+/// coordinates into the table.
+InputSum readInput(const CheckArguments& arguments, ConstraintTable& table)
+{
+  std::vector<std::int64_t> named;
+  for (std::size_t i = 0; table.XY.empty() && i < table.Edges.size(); ++i)
+  {
+    named.insert(named.end(), table.Edges[i].begin(), table.Edges[i].end());
+  }
+  sortUnique(named);
+  table.XY.resize(table.XY.size() + 2 * named.size(), std::nan(""));
+  InputSum input;
+  constexpr std::size_t blockPoints = 1 << 18;
+  const auto stream = openPointStream({ arguments.Points }, arguments.Columns);
+  forEachBlock(*stream, blockPoints,
+    [&](PointBlock& block)
+    {
+      input.All += std::int64_t(block.size());
+      for (std::size_t i = 0; i < block.size(); ++i)
+      {
+        const double x = block.XY[2 * i];
+        const double y = block.XY[2 * i + 1];
+        if (isFinite(Point2{ x, y }))
+        {
+          ++input.Points;
+          input.Sum += PieceChecker::hashPoint(block.First + std::int64_t(i), x, y);
+        }
+      }
+      auto id = std::lower_bound(named.begin(), named.end(), block.First);
+      for (; id != named.end() && *id < input.All; ++id)
+      {
+        const auto from = block.XY.begin() + 2 * std::ptrdiff_t(*id - block.First);
+        std::copy_n(from, 2, table.XY.begin() + 2 * (id - named.begin()));
+      }
+    });
+  for (std::size_t i = 0; !named.empty() && i < table.Edges.size(); ++i)
+  {
+    for (std::int64_t& id : table.Edges[i])
+    {
+      id = std::lower_bound(named.begin(), named.end(), id) - named.begin();
+    }
+  }
+  return input;
+}
+
+/// Checks the triangles of a partitioned mesh against points that are read block by block. One
+/// piece at a time and the triangles near constraints are in memory. Throws IOError if a file
+/// cannot be read, or if the mesh was made from other points.
+CheckReport checkPartitioned(const CheckArguments& arguments)
+{
+  const PartitionedMesh mesh = openPartitionedMesh(arguments.Mesh);
+  verifyPvtu(mesh);
+  CheckOptions options = arguments.Options;
+  ConstraintChains chains;
+  ConstraintTable table;
+  if (!arguments.Constraints.empty())
+  {
+    table = readConstraintFile(arguments.Constraints);
+  }
+  const InputSum input = readInput(arguments, table);
+  if (!arguments.Constraints.empty())
+  {
+    options.IsCut = arguments.isCutBy(table);
+    chains = findConstraintChains(
+      mesh.Pieces.size(), [&mesh](std::size_t number) { return readChecked(mesh, number); },
+      table.XY, table.Edges, options.IsCut);
+    options.Constraints = std::move(chains.Edges);
+  }
+  PieceChecker checker(
+    options, arguments.Constraints.empty() ? std::numeric_limits<std::int64_t>::max() : input.All);
+  {
+    ProgressBar bar("Checking");
+    for (std::size_t number = 0; number < mesh.Pieces.size(); ++number)
+    {
+      PieceFile(mesh, number).verifyAll();
+      checker.add(readChecked(mesh, number));
+      bar.update(double(number + 1) / double(mesh.Pieces.size()));
+    }
+  }
+  CheckReport report = checker.finish();
+  report.LostConstraints = chains.Lost;
+  if (input.Points != checker.givenPoints() || input.Sum != checker.pointSum())
+  {
+    refuseOtherPoints(arguments, std::size_t(checker.givenPoints()), std::size_t(input.Points));
+  }
+  return report;
+}
+
+/// Reads the tetrahedra of a partitioned mesh. Throws IOError unless its points are the finite ones
+/// among `xyz`.
+StoredTetrahedra readPieces(const CheckArguments& arguments, const std::vector<double>& xyz)
+{
+  const PartitionedMesh mesh = openPartitionedMesh(arguments.Mesh);
+  verifyPvtu(mesh);
+  StoredTetrahedra stored;
+  const PieceOptions options = withNeighborsOnly(mesh);
+  std::size_t found = 0;
+  bool areSame = true;
+  for (std::size_t number = 0; number < mesh.Pieces.size(); ++number)
+  {
+    PieceFile(mesh, number).verifyAll();
+    const Piece piece = readPiece(mesh, number, options);
+    const auto* ids = piece.PointIds.as<std::int64_t>();
+    const auto* ghosts = piece.PointGhosts.as<std::uint8_t>();
+    const auto* at = piece.Coordinates.as<double>();
+    for (std::int64_t i = 0; i < piece.Points; ++i)
+    {
+      const bool isOwn = ghosts[i] == 0;
+      found += isOwn ? 1 : 0;
+      areSame = areSame && piece.PointType == Scalar::Float64 && ids[i] >= 0 &&
+        ids[i] < std::int64_t(xyz.size() / 3) &&
+        std::equal(at + 3 * i, at + 3 * i + 3, xyz.begin() + 3 * ids[i]);
+    }
+    for (std::int64_t cell = 0; areSame && cell < piece.OwnedCells; ++cell)
+    {
+      for (int corner = 0; corner < 4; ++corner)
+      {
+        stored.Ids.push_back(ids[piece.corner(cell, corner)]);
+      }
+    }
+    if (!piece.Attributes.empty())
+    {
+      const auto* neighbors = piece.Attributes[0].Values.as<std::int64_t>();
+      stored.Neighbors.insert(stored.Neighbors.end(), neighbors, neighbors + 4 * piece.OwnedCells);
+    }
+  }
+  std::size_t finite = 0;
+  for (std::size_t i = 0; i < xyz.size(); i += 3)
+  {
+    finite += std::isfinite(xyz[i]) && std::isfinite(xyz[i + 1]) && std::isfinite(xyz[i + 2]);
+  }
+  if (!areSame || found != finite)
+  {
+    refuseOtherPoints(arguments, found, finite);
+  }
+  return stored;
+}
+
+/// Checks tetrahedra in memory. Throws IOError if a file cannot be read, or if the mesh was made
+/// from other points.
+CheckReport checkInSpace(const CheckArguments& arguments)
+{
+  PointOptions columns = arguments.Columns;
+  columns.InSpace = true;
+  const PointTable table = readAllPoints(*openPointStream({ arguments.Points }, columns));
+  const std::vector<double>& z = table.Columns[requireElevation(table, arguments.Points)].Values;
+  std::vector<double> xyz;
+  xyz.reserve(3 * table.size());
+  for (std::size_t i = 0; i < table.size(); ++i)
+  {
+    xyz.insert(xyz.end(), { table.XY[2 * i], table.XY[2 * i + 1], z[i] });
+  }
+  const StoredTetrahedra stored =
+    isStoredInPieces(arguments.Mesh) ? readPieces(arguments, xyz) : readTetrahedra(arguments.Mesh);
+  requireSamePoints(arguments, xyz, stored.XYZ, 3);
+  return checkTetrahedra(xyz, stored.Ids, arguments.Options.TieRule, stored.Neighbors);
+}
+
 int runCheck(const CheckArguments& arguments)
 {
   const bool isPartitioned = isStoredInPieces(arguments.Mesh);
-  if (isPartitioned ? openPartitionedMesh(arguments.Mesh).CellSize == 4
-                    : holdsTetrahedra(arguments.Mesh))
+  const bool inSpace = isPartitioned ? openPartitionedMesh(arguments.Mesh).CellSize == 4
+                                     : holdsTetrahedra(arguments.Mesh);
+  const CheckReport report = inSpace ? checkInSpace(arguments)
+    : isPartitioned                  ? checkPartitioned(arguments)
+                                     : checkTriangles(arguments);
+  fmt::print("{} points ({} distinct), {} {}, {} {}, {} {} ties: {}\n", report.Points,
+    report.DistinctPoints, report.Cells, inSpace ? "tetrahedra" : "triangles",
+    report.BoundaryFacets, inSpace ? "hull facets" : "boundary edges", report.Ties,
+    inSpace ? "co-spherical" : "co-circular", report.isCorrect() ? "correct" : "FAULTY");
+  for (const std::string& fault : report.faults())
   {
-    return checkTetrahedra(arguments);
+    fmt::print("  {}\n", fault);
   }
-  const CheckReport report =
-    isPartitioned ? checkPartitioned(arguments) : checkTriangles(arguments);
-  fmt::print("{} points ({} distinct), {} triangles, {} boundary edges, {} co-circular ties: ",
-    report.Points, report.DistinctPoints, report.Triangles, report.BoundaryEdges, report.Ties);
-  return printFaults(report);
+  return report.isCorrect() ? Success : Failure;
 }
 
 } // namespace

@@ -5,13 +5,11 @@
 #include "Commands/Report.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
-#include "Query/LineData.h"
-#include "Query/Lines.h"
-#include "Query/WriteLines.h"
+#include "Query/GisFiles.h"
+#include "Query/Queries.h"
+#include "Query/QueryData.h"
 #include "Ranks/Communicator.h"
-#include "Vtk/WriteXmlFile.h"
-
-#include "vtkXMLPolyDataWriter.h"
+#include "Vtk/DataSets.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -61,15 +59,17 @@ std::vector<double> levelsOf(
   constexpr double most = 1e6;
   if ((high - low) / arguments.Interval > most)
   {
-    throw IOError("An interval of " + fmt::format("{}", arguments.Interval) +
-      " would give more than 1000000 levels; give a larger one.");
+    throw IOError(
+      fmt::format("An interval of {} would give more than 1000000 levels; give a larger one.",
+        arguments.Interval));
   }
   // Beyond 2^53, doubles do not hold all multiples.
-  if (std::max(std::fabs(low), std::fabs(high)) / arguments.Interval > 0x1p53 && low <= high)
+  const double largest = std::max(std::fabs(low), std::fabs(high));
+  if (largest / arguments.Interval > 0x1p53 && low <= high)
   {
-    throw IOError("An interval of " + fmt::format("{}", arguments.Interval) +
-      " is too small for values up to " +
-      fmt::format("{}", std::max(std::fabs(low), std::fabs(high))) + "; give a larger one.");
+    throw IOError(
+      fmt::format("An interval of {} is too small for values up to {}; give a larger one.",
+        arguments.Interval, largest));
   }
   std::vector<double> levels;
   for (double i = std::ceil(low / arguments.Interval); i * arguments.Interval <= high; ++i)
@@ -86,8 +86,7 @@ void write(const ContourArguments& arguments, const Contours& contours, const Pa
     writeGeoPackage(arguments.Output, contours, arguments.Array, arguments.Crs, before);
     return;
   }
-  writeXmlFile<vtkXMLPolyDataWriter>(
-    arguments.Output, before, polyDataOf(contours, arguments.Array));
+  writeXmlFile(arguments.Output, before, polyDataOf(contours, arguments.Array));
 }
 
 /// Makes the contour lines of all pieces, which the ranks share. The first rank writes the file.
@@ -133,11 +132,8 @@ void addContourCommand(CLI::App& app, int& exitCode)
     ".gpkg or .vtp");
   command->add_option("--array", arguments->Array, "The name of a point array, or elevation for z")
     ->capture_default_str();
-  command
-    ->add_option("--component", arguments->Component,
-      "The component of an array that has several, counted from 0")
-    ->check(CLI::Range(0, 1000000))
-    ->capture_default_str();
+  addChecked(*command, "--component", arguments->Component, CLI::Range(0, 1000000),
+    "The component of an array that has several, counted from 0");
   CLI::Option_group* const levels = command->add_option_group("levels");
   levels->add_option("--levels", arguments->Levels, "The values of the lines, separated by commas")
     ->delimiter(',');

@@ -5,14 +5,12 @@
 #include "Console/Process.h"
 #include "Distributed3D/DistributedTetrahedralization.h"
 #include "Files/InputFile.h"
-#include "Files/OutputPath.h"
+#include "Files/PendingOutput.h"
 #include "InMemory/TriangulatePoints.h"
 #include "Meshes/MeshFiles.h"
 #include "OutOfCore3D/OutOfCoreTetrahedralization.h"
 #include "Output/RunStatistics.h"
 #include "Parallel/Stopwatch.h"
-#include "Points/PointStream.h"
-#include "Points/PointTable.h"
 #include "Points/ReadPoints.h"
 #include "Ranks/Communicator.h"
 #include "Triangulation3D/Tetrahedralize.h"
@@ -28,8 +26,6 @@
 #include <utility>
 #include <vector>
 
-class vtkMultiProcessController;
-
 namespace tipp
 {
 namespace
@@ -44,11 +40,12 @@ struct Delaunay3DArguments : RunArguments
   bool Neighbors = false;
 };
 
-/// Returns the points in space. `elevation`: the index of the column with the third coordinate.
-std::vector<Point3> coordinatesOf(const PointTable& table, std::size_t elevation)
+/// Returns the points in space. Throws IOError if there is no column with the third coordinate.
+std::vector<Point3> coordinatesOf(const PointTable& table, const Delaunay3DArguments& arguments)
 {
   std::vector<Point3> points(table.size());
-  const std::vector<double>& z = table.Columns[elevation].Values;
+  const std::vector<double>& z =
+    table.Columns[requireElevation(table, arguments.Inputs.front())].Values;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     points[i] = { table.XY[2 * i], table.XY[2 * i + 1], z[i] };
@@ -128,6 +125,16 @@ Examples:
   mpirun -np 4 tipp delaunay3d particles.npy -o mesh.vtu --threads 2
 )";
 
+TetrahedralizationOptions makeOptions(
+  const Delaunay3DArguments& arguments, const std::unique_ptr<ProgressBar>& bar)
+{
+  TetrahedralizationOptions options;
+  options.Partitions = arguments.Partitions;
+  options.Threads = arguments.Threads;
+  options.Progress = progressOn(bar);
+  return options;
+}
+
 int runDelaunay3D(const Delaunay3DArguments& arguments)
 {
   const PathState before =
@@ -135,8 +142,7 @@ int runDelaunay3D(const Delaunay3DArguments& arguments)
   PointTable table = readPoints(arguments.Inputs, arguments.Columns);
   const auto count = std::int64_t(table.size());
   reportLeftOut(table.LeftOut, table.ThinnedOut);
-  const std::vector<Point3> points =
-    coordinatesOf(table, requireElevation(table, arguments.Inputs.front()));
+  const std::vector<Point3> points = coordinatesOf(table, arguments);
   if (isInterrupted())
   {
     return reportInterrupt();
@@ -146,10 +152,7 @@ int runDelaunay3D(const Delaunay3DArguments& arguments)
   const Stopwatch watch;
   {
     const auto bar = std::make_unique<ProgressBar>("Tetrahedralizing");
-    TetrahedralizationOptions options;
-    options.Partitions = arguments.Partitions;
-    options.Threads = arguments.Threads;
-    options.Progress = progressOn(bar);
+    const TetrahedralizationOptions options = makeOptions(arguments, bar);
     mesh = tetrahedralize(points.data(), points.size(), options);
     if (!mesh.Aborted && mesh.Dimension == 2)
     {
@@ -181,9 +184,8 @@ std::vector<Point3> readShare(const Communicator& ranks, const Delaunay3DArgumen
   {
     reportLeftOut(table.LeftOut, table.ThinnedOut);
   }
-  return table.size() == 0 && !ranks.isFirst()
-    ? std::vector<Point3>()
-    : coordinatesOf(table, requireElevation(table, arguments.Inputs.front()));
+  return table.size() == 0 && !ranks.isFirst() ? std::vector<Point3>()
+                                               : coordinatesOf(table, arguments);
 }
 
 /// Writes the file on the first rank, completely or not at all; the others wait for the outcome.
@@ -212,6 +214,8 @@ void writeOnFirst(Communicator& ranks, const Delaunay3DArguments& arguments,
   }
 }
 
+/// Triangulates on all ranks, in memory. Every rank reads its share of the points; the first one
+/// writes the output and prints messages. Collective.
 void triangulateShares(Communicator& ranks, const Delaunay3DArguments& arguments)
 {
   const PathState before = ranks.isFirst()
@@ -221,51 +225,31 @@ void triangulateShares(Communicator& ranks, const Delaunay3DArguments& arguments
   ranks.barrier();
   const Stopwatch watch;
   RankPoints3 points;
-  points.Points = own.data();
-  points.Count = own.size();
+  points.Points = { own.data(), own.size() };
   auto bar = ranks.isFirst() ? std::make_unique<ProgressBar>("Tetrahedralizing") : nullptr;
-  TetrahedralizationOptions options;
-  options.Partitions = arguments.Partitions;
-  options.Threads = arguments.Threads;
-  options.Progress = progressOn(bar);
-  const DistributedTetrahedralization mine = tetrahedralizeDistributed(ranks, points, options);
+  const DistributedTetrahedralization mine =
+    tetrahedralizeDistributed(ranks, points, makeOptions(arguments, bar));
   bar.reset();
   writeOnFirst(ranks, arguments, mine, watch.seconds(), before);
-}
-
-/// Runs `tipp delaunay3d`, in memory, on the ranks of a controller. Every rank reads its share of
-/// the points; the first one writes the output and prints messages. Returns the exit code, which is
-/// the same on all ranks.
-int runDelaunay3DOnRanks(
-  const Delaunay3DArguments& arguments, vtkMultiProcessController* controller)
-{
-  return runTogether(controller, [&](Communicator& ranks) { triangulateShares(ranks, arguments); });
-}
-
-OutOfCoreStatistics3 makeOutOfCore(const Delaunay3DArguments& arguments)
-{
-  // With this threshold, large blocks are always returned to the system when they are freed.
-  mallopt(M_MMAP_THRESHOLD, 1 << 20);
-  const auto points = openPointStream(arguments.Inputs, withThinningFile(arguments));
-  OutOfCoreOptions3 options;
-  options.MemoryLimit =
-    arguments.Memory.empty() ? options.MemoryLimit : *parseMemorySize(arguments.Memory);
-  options.Threads = arguments.Threads;
-  options.MapDuplicates = arguments.MapDuplicates;
-  options.Neighbors = arguments.Neighbors;
-  options.Resume = arguments.Resume;
-  options.Scratch = arguments.Scratch;
-  const std::string title = "Tetrahedralizing";
-  auto bar = std::make_unique<ProgressBar>(title);
-  options.Progress = progressOn(bar);
-  options.Warn = warnAbove(bar, title);
-  return tetrahedralizeOutOfCore(*points, arguments.Output, options);
 }
 
 int runDelaunay3DOutOfCore(const Delaunay3DArguments& arguments)
 {
   checkOutputs(arguments.Output, arguments.Statistics, arguments.Scratch, arguments.Inputs);
-  const OutOfCoreStatistics3 made = makeOutOfCore(arguments);
+  // With this threshold, large blocks are always returned to the system when they are freed.
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
+  const auto points = openPointStream(arguments.Inputs, withThinningFile(arguments));
+  OutOfCoreOptions3 options;
+  arguments.setOptions(options);
+  options.Threads = arguments.Threads;
+  options.MapDuplicates = arguments.MapDuplicates;
+  options.Neighbors = arguments.Neighbors;
+  const std::string title = "Tetrahedralizing";
+  auto bar = std::make_unique<ProgressBar>(title);
+  options.Progress = progressOn(bar);
+  options.Warn = warnAbove(bar, title);
+  const OutOfCoreStatistics3 made = tetrahedralizeOutOfCore(*points, arguments.Output, options);
+  bar.reset();
   if (made.Aborted)
   {
     return reportInterruptedRun(made.Kept);
@@ -309,17 +293,9 @@ void addDelaunay3DCommand(CLI::App& app, int& exitCode)
     "With a .tipp output");
   addPointOptions(*command, arguments->Columns);
   addThreadsOption(*command, arguments->Threads);
-  command
-    ->add_option(
-      "--partitions", arguments->Partitions, "The number of partitions; 0: chosen automatically")
-    ->check(CLI::Range(0, 512))
-    ->capture_default_str();
-  command->add_flag("--map-duplicates", arguments->MapDuplicates,
-    "Add the point array RepresentativePointId: for each point the id of the vertex with its "
-    "coordinates, -1 if it is not finite");
-  command->add_flag("--neighbors", arguments->Neighbors,
-    "Add the cell array NeighborIds: for each corner the id of the tetrahedron opposite to it, -1 "
-    "at the hull");
+  addChecked(*command, "--partitions", arguments->Partitions, CLI::Range(0, 512),
+    "The number of partitions; 0: chosen automatically");
+  addArrayFlags(*command, arguments->MapDuplicates, arguments->Neighbors, "", "", "tetrahedron");
   command->footer(footer);
   command->callback(
     [arguments, &exitCode]()
@@ -332,8 +308,10 @@ void addDelaunay3DCommand(CLI::App& app, int& exitCode)
         return;
       }
       const MpiSession session;
-      exitCode = session.controller() ? runDelaunay3DOnRanks(*arguments, session.controller())
-                                      : runDelaunay3D(*arguments);
+      exitCode = session.controller()
+        ? runTogether(session.controller(),
+            [&](Communicator& ranks) { triangulateShares(ranks, *arguments); })
+        : runDelaunay3D(*arguments);
     });
 }
 

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 
+#include "Adcirc/AdcircGrid.h"
 #include "Commands/DelaunayRuns.h"
 #include "Commands/PointArguments.h"
-#include "Commands/Report.h"
-#include "Console/Process.h"
 #include "Files/InputFile.h"
+#include "Files/TextFile.h"
 #include "Meshes/MeshFiles.h"
-#include "Parallel/Stopwatch.h"
-#include "Triangulation/Triangulate.h"
+#include "Partitioning/MeshTiling.h"
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace tipp
 {
@@ -62,72 +63,65 @@ Examples:
   mpirun -np 4 tipp delaunay points.npy -o mesh.tipp --memory 512M
 )";
 
-TriangulationOptions makeOptions(
-  const DelaunayArguments& arguments, const std::unique_ptr<ProgressBar>& bar)
+/// Parses "auto", which gives no columns and rows, or a grid such as "8x8"; nullopt for other text.
+std::optional<GridSize> parseGrid(const std::string& text)
 {
-  const GridSize grid = *parseGrid(arguments.Partitions);
-  TriangulationOptions options;
-  options.Columns = grid.Columns;
-  options.Rows = grid.Rows;
+  if (text == "auto")
+  {
+    return GridSize{};
+  }
+  const std::optional<TilingChoice> choice = TilingChoice::parse("grid:" + text);
+  const bool isFlat = std::count(text.begin(), text.end(), 'x') == 1; // has no layers
+  return choice && isFlat ? std::make_optional(GridSize{ choice->Boxes[0], choice->Boxes[1] })
+                          : std::nullopt;
+}
+
+/// Parses "auto", a grid such as "8x8", "auto:T" or "tree:T", and sets how a major partition is
+/// divided into minor ones. Returns false for other text.
+bool parseMinor(const std::string& text, DistributedOptions& options)
+{
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos)
+  {
+    const std::optional<GridSize> grid = parseGrid(text);
+    options.Minor = grid.value_or(GridSize());
+    options.MinorDivision = options.Minor.isGiven() ? Division::Grid : Division::Tree;
+    return grid.has_value();
+  }
+  const std::string kind = text.substr(0, colon);
+  const auto threshold = wholeNumber<std::int64_t>(text.substr(colon + 1));
+  options.MinorDivision = kind == "auto" ? Division::Threshold : Division::Tree;
+  options.Threshold = threshold.value_or(0);
+  return options.Threshold >= 1 && (kind == "auto" || kind == "tree");
+}
+
+/// Returns the options of a run on ranks.
+DistributedOptions makeDistributedOptions(const DelaunayArguments& arguments)
+{
+  DistributedOptions options;
+  options.Design = arguments.Masters == "single" ? Masters::Single
+    : arguments.Masters == "multi"               ? Masters::Multi
+                                                 : Masters::Auto;
+  options.Order = arguments.Order == "stages" ? RankSchedule::Stages
+    : arguments.Order == "producer-consumer"  ? RankSchedule::ProducerConsumer
+                                              : RankSchedule::Dynamic;
+  options.Groups = arguments.Groups == "equal" ? GroupSizes::Equal : GroupSizes::Proportional;
+  options.Major = *parseGrid(arguments.Major);
+  parseMinor(arguments.Minor, options);
+  if (arguments.Grid.isGiven() && !arguments.isForRanks())
+  {
+    options.MinorDivision = Division::Grid;
+    options.Minor = arguments.Grid;
+  }
   options.InitialPointsPerPartition = arguments.InitialPoints;
-  options.Order = arguments.Order == "dynamic" ? Schedule::Dynamic : Schedule::Stages;
   options.Threads = arguments.Threads;
-  options.MaximumEdge = arguments.MaximumEdge;
-  options.Progress = progressOn(bar);
   return options;
 }
 
-/// If there are constraints, appends their new points, and sets `report` to a line about them.
-Triangulation triangulatePoints(
-  const DelaunayArguments& arguments, PointTable& points, std::string& report)
+/// Returns whether a file of this kind stores arrays of points and cells; .npy and .14 do not.
+bool holdsArrays(const std::string& path)
 {
-  const auto bar = std::make_unique<ProgressBar>("Triangulating");
-  if (arguments.Constraints.areGiven())
-  {
-    return triangulateWithConstraints(arguments, points, makeOptions(arguments, bar), report);
-  }
-  return triangulate(PointsView(points.XY.data(), points.size(), 2), makeOptions(arguments, bar));
-}
-
-int runDelaunay(const DelaunayArguments& arguments)
-{
-  const MpiSession session;
-  if (arguments.makesPieces())
-  {
-    return runDelaunayOutOfCore(arguments, session.controller());
-  }
-  if (session.controller() || arguments.isForRanks())
-  {
-    return runDelaunayOnRanks(arguments, session.controller());
-  }
-  const PathState before = requireWritable(arguments);
-  DelaunayRun run;
-  Stopwatch watch;
-  PointTable points = readPointsFor(arguments);
-  run.Points = std::int64_t(points.size());
-  run.ReadSeconds = watch.restart();
-  reportLeftOut(points.LeftOut, points.ThinnedOut);
-  if (isInterrupted())
-  {
-    return reportInterrupt();
-  }
-  std::string constraintReport;
-  const Triangulation result = triangulatePoints(arguments, points, constraintReport);
-  run.TriangulateSeconds = watch.restart();
-  run.DisagreeingPositions = resolveDuplicates(points, result.Duplicates, arguments.Duplicates);
-  if (result.Aborted || isInterrupted() || !writeResult(arguments, points, result, before))
-  {
-    return reportInterrupt();
-  }
-  run.WriteSeconds = watch.restart();
-  const auto triangles = std::int64_t(result.triangleCount());
-  reportRun(arguments, run, jsonOf(statisticsOf(result, run.Points, triangles)));
-  if (!constraintReport.empty())
-  {
-    fmt::print("{}\n", constraintReport);
-  }
-  warnOfNoTriangles(triangles);
-  return Success;
+  return extensionOf(path) != ".npy" && !isAdcircFile(path);
 }
 
 bool isOutput(const std::string& path)
@@ -144,52 +138,34 @@ std::string checkPartitions(const std::string& text)
 
 std::string checkMinor(const std::string& text)
 {
-  return parseMinor(text) ? "" : "'" + text + "' is not auto, COLUMNSxROWS, auto:T or tree:T";
+  DistributedOptions ignored;
+  return parseMinor(text, ignored) ? ""
+                                   : "'" + text + "' is not auto, COLUMNSxROWS, auto:T or tree:T";
 }
 
 void addTuning(CLI::App& command, DelaunayArguments& arguments)
 {
   addThreadsOption(command, arguments.Threads);
-  command
-    .add_option("--partitions", arguments.Partitions,
-      "Columns and rows of partitions, such as 8x8; auto: chosen automatically")
-    ->check(checkPartitions)
-    ->capture_default_str();
-  command
-    .add_option("--schedule", arguments.Order,
-      "dynamic: each partition as soon as those that it waits for are done; stages: all "
-      "independent partitions, then a barrier; producer-consumer: as stages, but a free rank takes "
-      "the next partition of a stage at once")
-    ->check(CLI::IsMember({ "stages", "producer-consumer", "dynamic" }))
-    ->capture_default_str();
-  command
-    .add_option("--masters", arguments.Masters,
-      "auto: no master; single: one master starts all partitions; multi: a sub-master for each "
-      "major partition")
-    ->check(CLI::IsMember({ "auto", "single", "multi" }))
-    ->capture_default_str();
-  command
-    .add_option("--major", arguments.Major,
-      "Columns and rows of major partitions, such as 4x4; auto: boxes of equally many points")
-    ->check(checkPartitions)
-    ->capture_default_str();
-  command
-    .add_option("--minor", arguments.Minor,
-      "Minor partitions of a major one: columns and rows, such as 8x8; auto:T: a square grid, "
-      "about T points each; tree:T: boxes of equally many points, about T each; auto: a tree, T "
-      "chosen automatically")
-    ->check(checkMinor)
-    ->capture_default_str();
-  command
-    .add_option("--groups", arguments.Groups,
-      "Distribute partitions and ranks by points (proportional) or by number (equal)")
-    ->check(CLI::IsMember({ "proportional", "equal" }))
-    ->capture_default_str();
-  command
-    .add_option("--initial-points", arguments.InitialPoints,
-      "Points of each partition in the initial mesh; 0: chosen automatically")
-    ->check(CLI::Range(0, 1000000))
-    ->capture_default_str();
+  addChecked(command, "--partitions", arguments.Partitions, checkPartitions,
+    "Columns and rows of partitions, such as 8x8; auto: chosen automatically");
+  addChecked(command, "--schedule", arguments.Order,
+    CLI::IsMember({ "stages", "producer-consumer", "dynamic" }),
+    "dynamic: each partition as soon as those that it waits for are done; stages: all "
+    "independent partitions, then a barrier; producer-consumer: as stages, but a free rank takes "
+    "the next partition of a stage at once");
+  addChecked(command, "--masters", arguments.Masters, CLI::IsMember({ "auto", "single", "multi" }),
+    "auto: no master; single: one master starts all partitions; multi: a sub-master for each "
+    "major partition");
+  addChecked(command, "--major", arguments.Major, checkPartitions,
+    "Columns and rows of major partitions, such as 4x4; auto: boxes of equally many points");
+  addChecked(command, "--minor", arguments.Minor, checkMinor,
+    "Minor partitions of a major one: columns and rows, such as 8x8; auto:T: a square grid, "
+    "about T points each; tree:T: boxes of equally many points, about T each; auto: a tree, T "
+    "chosen automatically");
+  addChecked(command, "--groups", arguments.Groups, CLI::IsMember({ "proportional", "equal" }),
+    "Distribute partitions and ranks by points (proportional) or by number (equal)");
+  addChecked(command, "--initial-points", arguments.InitialPoints, CLI::Range(0, 1000000),
+    "Points of each partition in the initial mesh; 0: chosen automatically");
 }
 
 void addConstraints(CLI::App& command, DelaunayArguments& arguments)
@@ -240,19 +216,12 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
     ->add_option("--max-edge", arguments->MaximumEdge,
       "Leave out triangles with an edge longer than this, in the units of the points")
     ->check(checkPositive);
-  command->add_flag("--map-duplicates", arguments->MapDuplicates,
-    "Add the point array RepresentativePointId to .vtp or .vtu: for each point the id of the "
-    "vertex with its coordinates, -1 if it is not finite");
-  command->add_flag("--neighbors", arguments->Neighbors,
-    "Add the cell array NeighborIds to .vtp, .vtu or .tipp: for each corner the id of the triangle "
-    "opposite to it, -1 at the hull");
+  addArrayFlags(*command, arguments->MapDuplicates, arguments->Neighbors, " to .vtp or .vtu",
+    " to .vtp, .vtu or .tipp", "triangle");
   addConstraints(*command, *arguments);
-  command
-    ->add_option("--sink", arguments->Sink,
-      "With a .tipp output: mesh: write it; count: only print the number of triangles and their "
-      "checksum")
-    ->check(CLI::IsMember({ "mesh", "count" }))
-    ->capture_default_str();
+  addChecked(*command, "--sink", arguments->Sink, CLI::IsMember({ "mesh", "count" }),
+    "With a .tipp output: mesh: write it; count: only print the number of triangles and their "
+    "checksum");
   command->footer(footer);
   command->callback(
     [arguments, &exitCode]()
@@ -273,6 +242,8 @@ void addDelaunayCommand(CLI::App& app, int& exitCode)
       refuseIf(arguments->Sink != "mesh" && !arguments->makesPieces(), "--sink",
         "needs an output named .tipp");
       arguments->refuseMisplaced();
+      arguments->Grid = *parseGrid(arguments->Partitions);
+      arguments->OnRanks = makeDistributedOptions(*arguments);
       exitCode = runDelaunay(*arguments);
     });
 }

@@ -3,143 +3,20 @@
 
 #include "Commands/DemRuns.h"
 #include "Commands/PointArguments.h"
-#include "Commands/Report.h"
-#include "Console/Process.h"
-#include "Files/IOError.h"
-#include "Files/OutputPath.h"
-#include "Parallel/Stopwatch.h"
-#include "Points/PointStream.h"
-
-#include "vtkMultiProcessController.h"
+#include "Points/ReadPoints.h"
+#include "Raster/RasterFile.h"
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
 namespace tipp
 {
-
-RasterDescription describeEncoding(const DemArguments& arguments)
-{
-  RasterDescription description;
-  description.NoData = arguments.NoData;
-  description.Double = arguments.Type == "float64";
-  description.Compression = arguments.Compression;
-  description.CloudOptimized = arguments.CloudOptimized;
-  return description;
-}
-
-RasterDescription describeRaster(const DemArguments& arguments, const std::string& pointCrs)
-{
-  RasterDescription description = describeEncoding(arguments);
-  description.Crs = arguments.Crs.empty() ? pointCrs : arguments.Crs;
-  if (!arguments.Like.empty() && description.Crs.empty())
-  {
-    description.Crs = readRasterInfo(arguments.Like).Crs;
-  }
-  if (isGeoTiff(arguments.Output) && !description.Crs.empty())
-  {
-    requireCrs(description.Crs); // fail before the computation rather than after it
-  }
-  return description;
-}
-
-void describeGrid(const TerrainSettings& settings, RasterDescription& description)
-{
-  description.Grid = settings.Grid;
-  description.Threads = settings.Threads;
-  description.Bands = settings.Bands.names();
-}
-
-namespace
-{
-
-nlohmann::ordered_json jsonOf(const DemArguments& arguments, const DemReport& report)
-{
-  const RasterGrid& grid = report.Settings.Grid;
-  return {
-    { "input", arguments.Inputs },
-    { "output", arguments.Output },
-    { "points", report.Figures.Points },
-    { "triangles", report.Figures.Triangles },
-    { "duplicates", report.Figures.Duplicates },
-    { "disagreeing_places", report.Figures.DisagreeingPositions },
-    { "rejected", report.Figures.Rejected },
-    { "without_elevation", report.Figures.WithoutElevation },
-    { "columns", grid.Columns },
-    { "rows", grid.Rows },
-    { "west", grid.West },
-    { "south", grid.South },
-    { "pixel", grid.Pixel },
-    { "bands", report.Settings.Bands.names() },
-    { "pixels_with_value", report.Filled },
-    { "values_equal_to_nodata", report.Hidden },
-    { "read_seconds", report.ReadSeconds },
-    { "make_seconds", report.MakeSeconds },
-    { "write_seconds", report.WriteSeconds },
-    { "threads", report.Settings.Threads },
-    { "ranks", report.Ranks },
-    { "peak_memory_bytes", report.PeakMemory },
-  };
-}
-
-} // namespace
-
-void requireDemWritable(const DemArguments& arguments)
-{
-  std::vector<std::string> inputs = arguments.Inputs;
-  inputs.insert(inputs.end(), { arguments.Breaklines, arguments.Boundary });
-  checkOutputs(arguments.Output, arguments.Statistics, arguments.Scratch, inputs);
-}
-
-IOError demError(const DemArguments& arguments, const std::runtime_error& error)
-{
-  const bool isColumn = dynamic_cast<const UnknownBand*>(&error) != nullptr;
-  return IOError(arguments.Inputs.front(),
-    std::string("cannot be made a raster: ") + error.what() +
-      (isColumn ? " 'tipp info' lists all columns; name those to use with --attributes." : ""));
-}
-
-void finishDem(const DemArguments& arguments, const DemReport& report)
-{
-  const nlohmann::ordered_json json = jsonOf(arguments, report);
-  if (!arguments.Statistics.empty())
-  {
-    writeJson(arguments.Statistics, json);
-  }
-  const RasterGrid& grid = report.Settings.Grid;
-  fmt::print("{}, {} x {} pixels, {} with a value, {:.3f} s, peak memory {:.0f} MB{}, in {}\n",
-    describeCounts(json), grid.Columns, grid.Rows, report.Filled,
-    report.ReadSeconds + report.MakeSeconds + report.WriteSeconds, double(report.PeakMemory) / 1e6,
-    report.Ranks == 1 ? "" : " of the largest rank", arguments.Output);
-  if (report.Figures.WithoutElevation > 0)
-  {
-    fmt::print(stderr,
-      "tipp: {} points have no elevation; pixels in triangles at them have no elevation.\n",
-      report.Figures.WithoutElevation);
-  }
-  warnOfHidden(report.Hidden, arguments.NoData);
-  if (report.Figures.Triangles == 0)
-  {
-    fmt::print(stderr,
-      "tipp: warning: no pixel has a value, because there are fewer than three distinct points or "
-      "all lie on one line.\n");
-  }
-  else if (report.Filled == 0)
-  {
-    fmt::print(stderr,
-      "tipp: warning: no pixel has a value; compare --bounds, --like and --max-edge with the "
-      "bounds that 'tipp info' prints.\n");
-  }
-}
-
 namespace
 {
 
@@ -170,79 +47,6 @@ Examples:
   tipp dem tiles/*.las -o dem.tif --resolution 1 --memory 512M --breaklines rivers.csv
   mpirun -np 4 tipp dem tiles/*.las -o dem.tif --resolution 1 --memory 512M
 )";
-
-int runInMemory(const DemArguments& arguments)
-{
-  const PathState before = PendingFile(arguments.Output).before();
-  Stopwatch watch;
-  DemReport report;
-  const auto stream = openPointStream(arguments.Inputs, arguments.Columns);
-  const RasterDescription start = describeRaster(arguments, stream->crs());
-  PointTable points = readAllPoints(*stream);
-  reportLeftOut(points.LeftOut, points.ThinnedOut);
-  if (isInterrupted())
-  {
-    return reportInterrupt();
-  }
-  report.ReadSeconds = watch.restart();
-  auto bar = std::make_unique<ProgressBar>("Making the raster");
-  const auto progress = progressOn(bar);
-  SampledBands samples;
-  report.Figures =
-    makeDem(std::move(points), arguments.Request, progress, report.Settings, samples);
-  report.MakeSeconds = watch.restart();
-  if (report.Figures.Aborted || isInterrupted())
-  {
-    bar.reset();
-    return reportInterrupt();
-  }
-  RasterDescription description = start;
-  describeGrid(report.Settings, description);
-  const auto writer = createRaster(arguments.Output, description, before);
-  report.Filled = writeTiles(
-    *writer, description.Grid, readFrom(report.Settings.Grid, samples),
-    [&](double done) { return progress(0.8 + 0.2 * done); }, report.Settings.Threads,
-    report.Settings.Bands);
-  bar.reset();
-  if (report.Filled < 0)
-  {
-    return reportInterrupt();
-  }
-  writer->close();
-  report.Hidden = writer->hidden();
-  report.WriteSeconds = watch.restart();
-  report.PeakMemory = peakMemoryBytes();
-  finishDem(arguments, report);
-  return Success;
-}
-
-int runDem(const DemArguments& arguments)
-{
-  const MpiSession session;
-  const bool isOnRanks = session.controller() && session.controller()->GetNumberOfProcesses() > 1;
-  try
-  {
-    if (isOnRanks || !arguments.Memory.empty())
-    {
-      DemReport report;
-      return runDemOutOfCore(arguments, session.controller(), report);
-    }
-    requireDemWritable(arguments);
-    return runInMemory(arguments);
-  }
-  catch (const IOError&)
-  {
-    throw;
-  }
-  catch (const std::invalid_argument& error)
-  {
-    throw IOError(arguments.constraintFile(), error.what());
-  }
-  catch (const std::runtime_error& error)
-  {
-    throw demError(arguments, error);
-  }
-}
 
 void addConstraintOptions(CLI::App& command, DemArguments& arguments)
 {
@@ -310,15 +114,11 @@ void addValueOptions(CLI::App& command, DemArguments& arguments)
   command.add_option("--crs", arguments.Crs,
     "The coordinate reference system, such as EPSG:25832 (default: that of the LAS files or of "
     "--like)");
-  command
-    .add_option("--type", arguments.Type, "The type of a GeoTIFF's values: float32 or float64")
-    ->check(CLI::IsMember({ "float32", "float64" }))
-    ->capture_default_str();
-  command
-    .add_option("--compress", arguments.Compression,
-      "The compression of a GeoTIFF: deflate, lzw, zstd or none")
-    ->check(CLI::IsMember({ "deflate", "lzw", "zstd", "none" }))
-    ->capture_default_str();
+  addChecked(command, "--type", arguments.Type, CLI::IsMember({ "float32", "float64" }),
+    "The type of a GeoTIFF's values: float32 or float64");
+  addChecked(command, "--compress", arguments.Compression,
+    CLI::IsMember({ "deflate", "lzw", "zstd", "none" }),
+    "The compression of a GeoTIFF: deflate, lzw, zstd or none");
   command.add_flag(
     "--cog", arguments.CloudOptimized, "Write a cloud optimized GeoTIFF, with overviews");
 }

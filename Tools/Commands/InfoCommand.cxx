@@ -7,7 +7,7 @@
 #include "Las/LasHeader.h"
 #include "OpenCL/Devices.h"
 #include "Parallel/Poll.h"
-#include "Points/PointStream.h"
+#include "Points/ReadPoints.h"
 #include "Predicates/Points.h"
 
 #include <CLI/CLI.hpp>

@@ -166,9 +166,8 @@ void addDuplicatesOption(CLI::App& command, DuplicateRule& rule)
 
 void addThreadsOption(CLI::App& command, int& threads)
 {
-  command.add_option("--threads", threads, "Number of threads; 0: OpenMP's default")
-    ->check(CLI::Range(0, 4096))
-    ->capture_default_str();
+  addChecked(
+    command, "--threads", threads, CLI::Range(0, 4096), "Number of threads; 0: OpenMP's default");
 }
 
 void addOutput(CLI::App& command, std::string& output, const std::string& help,
@@ -194,9 +193,30 @@ void addRunOptions(CLI::App& command, RunArguments& arguments, const std::string
     condition + ": a folder for temporary files (default: that of the output)");
 }
 
+void addArrayFlags(CLI::App& command, bool& mapDuplicates, bool& neighbors,
+  const std::string& duplicatesIn, const std::string& neighborsIn, const std::string& cell)
+{
+  command.add_flag("--map-duplicates", mapDuplicates,
+    "Add the point array RepresentativePointId" + duplicatesIn +
+      ": for each point the id of the vertex with its coordinates, -1 if it is not finite");
+  command.add_flag("--neighbors", neighbors,
+    "Add the cell array NeighborIds" + neighborsIn + ": for each corner the id of the " + cell +
+      " opposite to it, -1 at the hull");
+}
+
 bool RunArguments::makesPieces() const
 {
   return extensionOf(this->Output) == ".tipp";
+}
+
+void RunArguments::setOptions(OutOfCoreRunOptions& options) const
+{
+  if (!this->Memory.empty())
+  {
+    options.MemoryLimit = *parseMemorySize(this->Memory);
+  }
+  options.Resume = this->Resume;
+  options.Scratch = this->Scratch;
 }
 
 void RunArguments::refuseMisplaced() const

@@ -2,18 +2,16 @@
 #ifndef tippPointArguments_h
 #define tippPointArguments_h
 
-#include "Duplicates/ResolveDuplicates.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Points/ReadPoints.h"
+#include "Triangulation/ResolveDuplicates.h"
+
+#include <CLI/CLI.hpp>
 
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
-
-namespace CLI
-{
-class App;
-}
 
 namespace tipp
 {
@@ -32,6 +30,8 @@ struct RunArguments
 
   /// Returns whether the output is a partitioned mesh, which is computed out of core.
   bool makesPieces() const;
+  /// Sets the memory limit, if it is given, and the options Resume and Scratch.
+  void setOptions(OutOfCoreRunOptions& options) const;
   /// Throws CLI::ValidationError if an option is given that needs makesPieces().
   void refuseMisplaced() const;
 };
@@ -43,6 +43,11 @@ void addRunOptions(CLI::App& command, RunArguments& arguments, const std::string
   bool (*suits)(const std::string& path), const std::string& endings, const std::string& memoryHelp,
   const std::string& condition);
 
+/// Adds the flags for the arrays that a mesh has on request. `duplicatesIn` and `neighborsIn` say
+/// which outputs can hold them, such as " to .vtp or .vtu"; `cell` is what the mesh consists of.
+void addArrayFlags(CLI::App& command, bool& mapDuplicates, bool& neighbors,
+  const std::string& duplicatesIn, const std::string& neighborsIn, const std::string& cell);
+
 /// Adds the option --output, which must end in one of the `endings`: `suits` tells whether it does.
 void addOutput(CLI::App& command, std::string& output, const std::string& help,
   bool (*suits)(const std::string& path), const std::string& endings);
@@ -52,6 +57,14 @@ void addPointOptions(CLI::App& command, PointOptions& options);
 
 /// Adds the option --duplicates, which selects the values of points with equal coordinates.
 void addDuplicatesOption(CLI::App& command, DuplicateRule& rule);
+
+/// Adds an option whose value `check` validates. --help shows its default.
+template <typename Value, typename Check>
+void addChecked(CLI::App& command, const std::string& name, Value& value, const Check& check,
+  const std::string& help)
+{
+  command.add_option(name, value, help)->check(check)->capture_default_str();
+}
 
 /// Adds the option --threads.
 void addThreadsOption(CLI::App& command, int& threads);

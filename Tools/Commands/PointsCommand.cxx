@@ -8,7 +8,6 @@
 #include "Files/InputFile.h"
 #include "Files/TextFile.h"
 #include "Npy/NpyFile.h"
-#include "Points/PointTable.h"
 #include "Points/ReadPoints.h"
 #include "Triangulation/Triangulate.h"
 
@@ -136,9 +135,7 @@ void addPointsCommand(CLI::App& app, int& exitCode)
   command->add_option("--count", arguments->Count, "Number of points")
     ->required()
     ->check(CLI::Range(std::int64_t(0), std::int64_t(1) << 40));
-  command->add_option("--seed", arguments->Seed, "The seed of the random numbers")
-    ->check(checkSeed)
-    ->capture_default_str();
+  addChecked(*command, "--seed", arguments->Seed, checkSeed, "The seed of the random numbers");
   addOutput(
     *command, arguments->Output, "The .npy file to write",
     [](const std::string& path) { return extensionOf(path) == ".npy"; }, ".npy");

@@ -9,7 +9,7 @@
 #include "Npy/NpyFile.h"
 #include "Parallel/Poll.h"
 #include "Points/ReadPoints.h"
-#include "Query/Closest.h"
+#include "Query/Queries.h"
 #include "Query/RankAnswer.h"
 #include "Ranks/Communicator.h"
 

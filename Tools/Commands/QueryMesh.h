@@ -2,7 +2,7 @@
 #ifndef tippQueryMesh_h
 #define tippQueryMesh_h
 
-#include "Files/OutputPath.h"
+#include "Files/PendingOutput.h"
 #include "Query/ResidentMesh.h"
 
 #include <functional>

@@ -8,12 +8,124 @@
 #include <fmt/format.h>
 #include <malloc.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <fstream>
 
 namespace tipp
 {
+namespace
+{
+
+std::string textOf(double exactly)
+{
+  const double seconds = exactly - 1e-6; // so that a rounding error does not add a second
+  if (seconds < 60)
+  {
+    return fmt::format("about {:.0f} s left", std::ceil(seconds));
+  }
+  const double minutes = std::ceil(seconds / 60);
+  return minutes < 60 ? fmt::format("about {:.0f} min left", minutes)
+                      : fmt::format("about {:.0f} h {:02.0f} min left", std::floor(minutes / 60),
+                          std::fmod(minutes, 60));
+}
+
+/// Returns the bytes that the process has read or written so far: `name` is "rchar" or "wchar", a
+/// field of Linux's /proc/self/io.
+std::int64_t movedBytes(const std::string& name)
+{
+  std::ifstream file("/proc/self/io");
+  std::string label;
+  std::int64_t bytes = 0;
+  while (file >> label >> bytes)
+  {
+    if (label == name + ":")
+    {
+      return bytes;
+    }
+  }
+  return 0;
+}
+
+/// Prints on the first rank which rank has failed, and why. Returns Failure.
+int reportRankFailure(const RankFailure& failure, const Communicator& ranks)
+{
+  if (ranks.isFirst())
+  {
+    // mpirun may send SIGTERM as soon as another rank has ended; that would be a second sentence.
+    endWatch();
+    fmt::print(stderr, "tipp: {}{}\n",
+      ranks.size() > 1 ? fmt::format("rank {}: ", failure.Rank) : "", failure.what());
+  }
+  return Failure;
+}
+
+} // namespace
+
+std::string TimeLeft::update(double fraction, double seconds)
+{
+  if (this->FirstFraction < 0)
+  {
+    this->FirstFraction = fraction;
+    this->FirstSeconds = seconds;
+  }
+  constexpr double leastSeconds = 0.5;
+  constexpr double leastFraction = 0.02;
+  const double done = fraction - this->FirstFraction;
+  const double taken = seconds - this->FirstSeconds;
+  return taken < leastSeconds || done < leastFraction || fraction >= 1
+    ? std::string()
+    : textOf((1 - fraction) * taken / done);
+}
+
+ProgressBar::ProgressBar(const std::string& task)
+  : Task(task)
+  , OnTerminal(isatty(STDERR_FILENO) == 1)
+{
+  this->draw(0, "");
+}
+
+ProgressBar::~ProgressBar()
+{
+  if (this->OnTerminal)
+  {
+    fmt::print(stderr, "\r\033[K");
+    std::fflush(stderr);
+  }
+}
+
+void ProgressBar::update(double fraction)
+{
+  if (!this->OnTerminal)
+  {
+    return;
+  }
+  const double now = this->Watch.seconds();
+  const std::string left = this->Left.update(fraction, now);
+  const int percent = int(100 * std::clamp(fraction, 0.0, 1.0));
+  if (percent != this->Percent || now >= this->DrawnAt + 1)
+  {
+    this->DrawnAt = now;
+    this->draw(fraction, left);
+  }
+}
+
+void ProgressBar::draw(double fraction, const std::string& left)
+{
+  if (!this->OnTerminal)
+  {
+    return;
+  }
+  this->Percent = int(100 * std::clamp(fraction, 0.0, 1.0));
+  constexpr int width = 40;
+  const std::string done(std::size_t(this->Percent * width / 100), '#');
+  fmt::print(stderr, "\r{} [{:<{}}] {:3} % {}\033[K", this->Task, done, width, this->Percent, left);
+  std::fflush(stderr);
+}
 
 std::int64_t peakMemoryBytes()
 {
@@ -132,28 +244,6 @@ void reportRun(const std::string& path, const nlohmann::ordered_json& figures, d
     figures["peak_memory_bytes"].get<double>() / 1e6, more);
 }
 
-namespace
-{
-
-/// Returns the bytes that the process has read or written so far: `name` is "rchar" or "wchar", a
-/// field of Linux's /proc/self/io.
-std::int64_t movedBytes(const std::string& name)
-{
-  std::ifstream file("/proc/self/io");
-  std::string label;
-  std::int64_t bytes = 0;
-  while (file >> label >> bytes)
-  {
-    if (label == name + ":")
-    {
-      return bytes;
-    }
-  }
-  return 0;
-}
-
-} // namespace
-
 std::function<bool(double)> progressOn(const std::unique_ptr<ProgressBar>& bar)
 {
   return [&bar](double fraction)
@@ -179,24 +269,6 @@ int reportInterruptedRun(bool kept)
   return reportInterrupt(
     kept ? "to continue, run the same command with --resume" : "nothing was written");
 }
-
-namespace
-{
-
-/// Prints on the first rank which rank has failed, and why. Returns Failure.
-int reportRankFailure(const RankFailure& failure, const Communicator& ranks)
-{
-  if (ranks.isFirst())
-  {
-    // mpirun may send SIGTERM as soon as another rank has ended; that would be a second sentence.
-    endWatch();
-    fmt::print(stderr, "tipp: {}{}\n",
-      ranks.size() > 1 ? fmt::format("rank {}: ", failure.Rank) : "", failure.what());
-  }
-  return Failure;
-}
-
-} // namespace
 
 int runTogether(
   vtkMultiProcessController* controller, const std::function<void(Communicator&)>& work)
@@ -241,23 +313,18 @@ int runOutOfCore(Communicator& ranks, const std::string& title, const OpenPoints
   return statistics.Aborted ? reportInterruptedRun(statistics.Kept) : Success;
 }
 
-ProcessUsage::ProcessUsage()
-  : PeakMemory(peakMemoryBytes())
-  , Read(movedBytes("rchar"))
-  , Written(movedBytes("wchar"))
+RankUsage gatherUsage(Communicator& ranks)
 {
-}
-
-std::vector<ProcessUsage> gatherUsage(Communicator& ranks)
-{
-  return ranks.gather(ProcessUsage());
-}
-
-std::int64_t largestMemory(const std::vector<ProcessUsage>& ranks)
-{
-  return std::max_element(ranks.begin(), ranks.end(),
-    [](const ProcessUsage& a, const ProcessUsage& b) { return a.PeakMemory < b.PeakMemory; })
-    ->PeakMemory;
+  const std::array<std::int64_t, 3> own = { peakMemoryBytes(), movedBytes("rchar"),
+    movedBytes("wchar") };
+  RankUsage usage;
+  for (const auto& [memory, read, written] : ranks.gather(own))
+  {
+    usage.PeakMemory.push_back(memory);
+    usage.Read += read;
+    usage.Written += written;
+  }
+  return usage;
 }
 
 } // namespace tipp

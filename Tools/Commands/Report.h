@@ -2,10 +2,10 @@
 #ifndef tippReport_h
 #define tippReport_h
 
-#include "Console/ProgressBar.h"
-#include "Files/OutputPath.h"
+#include "Files/PendingOutput.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Output/RunStatistics.h"
+#include "Parallel/Stopwatch.h"
 
 #include <nlohmann/json.hpp>
 
@@ -18,6 +18,44 @@
 
 namespace tipp
 {
+
+/// Estimates the remaining time of a task from the progress since the first update. Work that an
+/// earlier, interrupted run did is not counted.
+class TimeLeft
+{
+public:
+  /// Returns text such as "about 12 min left"; empty while there is too little data. `fraction`:
+  /// finished, 0 to 1. `seconds`: the time on any clock.
+  std::string update(double fraction, double seconds);
+
+private:
+  double FirstFraction = -1;
+  double FirstSeconds = 0;
+};
+
+/// A progress line on stderr, removed at the end. Prints nothing if stderr is not a terminal.
+class ProgressBar
+{
+public:
+  explicit ProgressBar(const std::string& task);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  /// Sets the finished fraction (0 to 1). Redraws when the percentage changes or a second has
+  /// passed.
+  void update(double fraction);
+
+private:
+  void draw(double fraction, const std::string& left);
+
+  std::string Task;
+  bool OnTerminal;
+  int Percent = -1;
+  Stopwatch Watch;
+  double DrawnAt = 0; ///< in seconds
+  TimeLeft Left;
+};
 
 /// Returns the peak memory of this process so far, in bytes.
 std::int64_t peakMemoryBytes();
@@ -89,21 +127,16 @@ double totalSeconds(const std::vector<Phase>& phases)
     [](double sum, const Phase& phase) { return sum + phase.Seconds; });
 }
 
-/// The resources that a process has used so far, in bytes.
-struct ProcessUsage
+/// The resources that all ranks have used so far, in bytes.
+struct RankUsage
 {
-  ProcessUsage();
-
-  std::int64_t PeakMemory;
-  std::int64_t Read;
-  std::int64_t Written;
+  std::vector<std::int64_t> PeakMemory; ///< by rank
+  std::int64_t Read = 0;                ///< of all ranks
+  std::int64_t Written = 0;
 };
 
-/// Returns the usage of all ranks on the first rank. Collective.
-std::vector<ProcessUsage> gatherUsage(Communicator& ranks);
-
-/// Returns the largest peak memory of a rank, in bytes.
-std::int64_t largestMemory(const std::vector<ProcessUsage>& ranks);
+/// Returns the usage of all ranks on the first rank; PeakMemory is empty on the others. Collective.
+RankUsage gatherUsage(Communicator& ranks);
 
 } // namespace tipp
 

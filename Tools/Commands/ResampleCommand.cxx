@@ -5,7 +5,6 @@
 #include "Commands/Report.h"
 #include "Commands/ResampleInput.h"
 #include "Console/Process.h"
-#include "Console/ProgressBar.h"
 #include "Dem/MakeDem.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
@@ -14,8 +13,7 @@
 #include "OpenCL/Devices.h"
 #include "Ranks/Communicator.h"
 #include "Raster/RasterFile.h"
-#include "Vtk/VtkMessages.h"
-#include "Vtk/WriteXmlFile.h"
+#include "Vtk/DataSets.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkDataArray.h"
@@ -27,7 +25,6 @@
 #include "vtkPointData.h"
 #include "vtkRangeResampleFilter.h"
 #include "vtkTable.h"
-#include "vtkXMLImageDataWriter.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -212,11 +209,11 @@ RasterGrid gridOf(const std::string& path, vtkImageData* image)
 }
 
 /// Returns the arrays with one component, NaN at samples that no cell contains.
-SampledBands bandsOf(vtkImageData* image, std::vector<std::string>& names)
+BandValues bandsOf(vtkImageData* image, std::vector<std::string>& names)
 {
   vtkPointData* const data = image->GetPointData();
   vtkDataArray* const valid = data->GetArray("vtkValidPointMask");
-  SampledBands bands;
+  BandValues bands;
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkDataArray* const array = data->GetArray(i);
@@ -232,7 +229,7 @@ SampledBands bandsOf(vtkImageData* image, std::vector<std::string>& names)
       values[j] = valid->GetTuple1(vtkIdType(j)) == 1 ? array->GetTuple1(vtkIdType(j))
                                                       : std::numeric_limits<double>::quiet_NaN();
     }
-    bands.Values.push_back(std::move(values));
+    bands.push_back(std::move(values));
   }
   return bands;
 }
@@ -273,8 +270,8 @@ void writeGeoTiff(const std::string& path, vtkImageData* image, const std::strin
 {
   RasterDescription description;
   description.Grid = gridOf(path, image);
-  const SampledBands bands = bandsOf(image, description.Bands);
-  if (bands.Values.empty())
+  const BandValues bands = bandsOf(image, description.Bands);
+  if (bands.empty())
   {
     throw IOError(path, "would have no band, because the mesh has no array with one component.");
   }
@@ -321,7 +318,7 @@ int runResample(const ResampleArguments& arguments)
   }
   else
   {
-    writeXmlFile<vtkXMLImageDataWriter>(arguments.Output, before, filter->GetOutput());
+    writeXmlFile(arguments.Output, before, filter->GetOutput());
   }
   summarize(arguments, filter);
   return Success;
@@ -363,11 +360,8 @@ void addResampleCommand(CLI::App& app, int& exitCode)
     "Cells with a corner of this value give no samples, such as -99999 for dry nodes");
   command->add_option(
     "--crs", arguments->Crs, "The reference system of a .tif, such as EPSG:25832");
-  command
-    ->add_option("--memory", arguments->Memory,
-      "The memory limit for the part of a partitioned mesh that is in memory")
-    ->check(checkMemorySize)
-    ->capture_default_str();
+  addChecked(*command, "--memory", arguments->Memory, checkMemorySize,
+    "The memory limit for the part of a partitioned mesh that is in memory");
   command->footer(footer);
   command->callback(
     [arguments, null, noData, &exitCode]()

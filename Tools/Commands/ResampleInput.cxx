@@ -7,7 +7,7 @@
 #include "Partitioned/PartitionedMesh.h"
 #include "Reading/PieceSource.h"
 #include "Sampling/SamplingRange.h"
-#include "Vtk/ReadDataSet.h"
+#include "Vtk/DataSets.h"
 #include "vtkPartitionedUnstructuredReader.h"
 #include "vtkRangeResampleFilter.h"
 
@@ -223,33 +223,6 @@ void selectStoredArrays(const ResampleArguments& arguments, const StoredMesh& st
   filter->GetCellDataArraySelection()->DisableArray("GlobalCellIds");
 }
 
-/// Sets the filter's range and number of samples. The filter cannot find them itself, because it
-/// reads the mesh piece by piece.
-void setRange(
-  const ResampleArguments& arguments, const StoredMesh& stored, vtkRangeResampleFilter* filter)
-{
-  Bounds bounds = stored.Extent;
-  std::copy(arguments.Bounds.begin(), arguments.Bounds.end(), bounds.begin());
-  filter->UseInputBoundsOff();
-  filter->SetSamplingBounds(bounds.data());
-  if (!arguments.Dimensions.empty())
-  {
-    const auto& given = arguments.Dimensions;
-    const std::array<int, 3> dimensions =
-      chosenDimensions(bounds, { given[0], given[1], given[2] }, stored.IsSurface);
-    filter->SetSamplingDimensions(dimensions.data());
-  }
-}
-
-/// Returns into how many parts each rank divides its reading.
-int batches(const ResampleArguments& arguments, const StoredMesh& stored, const Communicator& ranks)
-{
-  const std::uint64_t memory = *parseMemorySize(arguments.Memory);
-  const std::uint64_t bytes =
-    bytesOfCell * std::uint64_t(stored.CellsInRange) / std::uint64_t(ranks.size());
-  return int(std::min<std::uint64_t>(bytes / std::max<std::uint64_t>(memory, 1) + 1, mostPieces));
-}
-
 void connectStored(const ResampleArguments& arguments, Communicator& ranks,
   vtkRangeResampleFilter* filter, ErrorKeeper* reading)
 {
@@ -259,11 +232,26 @@ void connectStored(const ResampleArguments& arguments, Communicator& ranks,
     {
       const StoredMesh stored = describe(arguments);
       selectStoredArrays(arguments, stored, reader, filter);
-      if (stored.Extent[0] <= stored.Extent[1])
+      if (stored.Extent[0] > stored.Extent[1])
       {
-        setRange(arguments, stored, filter);
-        filter->SetNumberOfInputPieces(batches(arguments, stored, ranks));
+        return; // there are no points
       }
+      // The filter cannot find the range itself, because it reads the mesh piece by piece.
+      Bounds bounds = stored.Extent;
+      std::copy(arguments.Bounds.begin(), arguments.Bounds.end(), bounds.begin());
+      filter->UseInputBoundsOff();
+      filter->SetSamplingBounds(bounds.data());
+      if (!arguments.Dimensions.empty())
+      {
+        const auto& given = arguments.Dimensions;
+        const std::array<int, 3> dimensions =
+          chosenDimensions(bounds, { given[0], given[1], given[2] }, stored.IsSurface);
+        filter->SetSamplingDimensions(dimensions.data());
+      }
+      const std::uint64_t memory = *parseMemorySize(arguments.Memory);
+      const std::uint64_t bytes =
+        bytesOfCell * std::uint64_t(stored.CellsInRange) / std::uint64_t(ranks.size());
+      filter->SetNumberOfInputPieces(int(std::min<std::uint64_t>(bytes / memory + 1, mostPieces)));
     });
   filter->SetInputConnection(reader->GetOutputPort());
 }

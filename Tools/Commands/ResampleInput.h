@@ -3,7 +3,7 @@
 #define tippResampleInput_h
 
 #include "Ranks/Communicator.h"
-#include "Vtk/VtkMessages.h"
+#include "Vtk/DataSets.h"
 
 #include <string>
 #include <vector>

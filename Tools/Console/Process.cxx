@@ -3,7 +3,7 @@
 
 #include "Commands/Commands.h"
 #include "Files/TemporaryFiles.h"
-#include "Vtk/ReadDataSet.h"
+#include "Vtk/DataSets.h"
 
 #include "vtkMultiProcessController.h"
 #ifdef TIPP_USE_MPI
@@ -19,7 +19,6 @@
 
 #include <atomic>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>

@@ -2,10 +2,14 @@
 #ifndef tippConstrainedMesh_h
 #define tippConstrainedMesh_h
 
+#include "Constraints/ConstraintPieces.h"
+#include "Constraints/SegmentTree.h"
 #include "Kernel/HalfEdgeMesh.h"
 #include "Kernel/KernelPredicates.h"
+#include "Predicates/ExactPredicates.h"
 #include "Predicates/Points.h"
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -139,6 +143,230 @@ private:
   const Point2* Positions = nullptr;
   Index LastMark = 0;
   std::vector<Index> Out; ///< by vertex: a half-edge from it
+};
+
+/// A walk along a line through a mesh, from a vertex to the next vertex on the line.
+struct LineWalk
+{
+  using Index = ConstrainedMesh::Index;
+  static constexpr Index None = ConstrainedMesh::None;
+
+  enum class End
+  {
+    Reached, ///< at the line's end
+    Touched, ///< at another vertex, which is on the line
+    Left     ///< where the line leaves the part of the mesh that is final
+  };
+  End How = End::Left;
+  Index Vertex = None; ///< where it ends, unless Left
+  Index Edge = None;   ///< from the first vertex to Vertex, if these have an edge
+};
+
+/// A line with a start and an end.
+struct DirectedLine
+{
+  Point2 A; ///< where the line starts
+  Point2 B;
+  ConstrainedMesh::Index Goal; ///< the vertex at B, or LineWalk::None if it is not known
+
+  /// 1 if p is on the left of the line, -1 on the right, 0 on it.
+  int side(Point2 p) const { return orientation(this->B, p, this->A); } // B - A is computed once
+};
+
+/// The triangles that a walk crosses. The edges around them form two chains, on the left and on the
+/// right of the line, both from the vertex at which the walk starts to the one at which it ends.
+struct CrossedCavity
+{
+  using Index = ConstrainedMesh::Index;
+
+  struct ChainVertex
+  {
+    Index Vertex;
+    ConstrainedMesh::Link Outer; ///< from the crossed triangle at the edge before this vertex
+    Point2 Position;
+  };
+
+  /// All have the same size, which is at least Count + 2.
+  std::vector<Index> Triangles;                   ///< in order along the line
+  std::array<std::vector<ChainVertex>, 2> Chains; ///< left and right
+  std::size_t Count = 0;                          ///< of triangles
+  std::array<std::size_t, 2> ChainEnds{};         ///< one past the last vertices of the chains
+  bool HasKept = false;                           ///< whether a crossed triangle must be kept
+  bool HasRepeated = false; ///< whether a chain has a vertex between two occurrences of another
+};
+
+/// Follows lines through a mesh, and finds the triangles that they cross.
+class LineWalker
+{
+public:
+  using Index = ConstrainedMesh::Index;
+  using Link = ConstrainedMesh::Link;
+  static constexpr Index None = LineWalk::None;
+
+  explicit LineWalker(const ConstrainedMesh& mesh)
+    : Mesh(mesh)
+  {
+    this->resize(64);
+  }
+
+  /// Follows the line from vertex a, which is on it, to the next vertex on it. Throws CrossingFound
+  /// if it crosses a fixed edge.
+  LineWalk walk(const DirectedLine& line, Index a)
+  {
+    this->Crossed.Count = 0;
+    LineWalk walk;
+    const Index first = this->findFirst(line, a, walk);
+    if (first != None)
+    {
+      this->cross(line, first, walk);
+    }
+    return walk;
+  }
+
+  /// As walk(), from a half-edge that the line crosses out of its triangle. crossed() then has no
+  /// valid chains.
+  LineWalk walkAcross(const DirectedLine& line, Index half)
+  {
+    LineWalk walk;
+    this->cross(line, half, walk);
+    return walk;
+  }
+
+  /// What the last walk crossed.
+  CrossedCavity& crossed() { return this->Crossed; }
+
+private:
+  /// Turns around vertex a to the first half-edge that the line crosses. None if the line continues
+  /// along an edge, which is written to `walk`, or leaves the mesh.
+  Index findFirst(DirectedLine line, Index a, LineWalk& walk) const
+  {
+    const ConstrainedMesh& mesh = this->Mesh;
+    const Index begin = mesh.out(a);
+    Index h = begin;
+    Index to = mesh.to(h);
+    int side = this->sideOf(line, to);
+    const bool turnsLeft = side != 1; // toward the line
+    do
+    {
+      if (side == 0 && this->isNext(line, a, to))
+      {
+        walk = { to == line.Goal ? LineWalk::End::Reached : LineWalk::End::Touched, to, h };
+        return None;
+      }
+      const Index other = turnsLeft ? mesh.twin(mesh.previous(h)) : mesh.next(mesh.twin(h));
+      to = mesh.to(other);
+      const int otherSide = this->sideOf(line, to);
+      if (turnsLeft ? side == -1 && otherSide == 1 : side == 1 && otherSide == -1)
+      {
+        return mesh.next(turnsLeft ? h : other);
+      }
+      h = other;
+      side = otherSide;
+    } while (h != begin);
+    return None;
+  }
+
+  static constexpr int Unknown = -2; ///< of the infinite vertex
+
+  int sideOf(const DirectedLine& line, Index v) const
+  {
+    return v == ConstrainedMesh::Infinite ? Unknown : line.side(this->Mesh.at(v));
+  }
+
+  bool isNext(const DirectedLine& line, Index a, Index v) const
+  {
+    return v == line.Goal || isBetween(this->Mesh.at(a), this->Mesh.at(v), line.B);
+  }
+
+  /// A vertex of a chain after the edge of a crossed triangle's half-edge.
+  CrossedCavity::ChainVertex chainVertex(Index v, Index inner) const
+  {
+    return { v, this->Mesh.link(inner), this->Mesh.at(v) };
+  }
+
+  /// Follows the line across the half-edge `out`.
+  void cross(DirectedLine line, Index out, LineWalk& walk)
+  {
+    const ConstrainedMesh& mesh = this->Mesh;
+    CrossedCavity& crossed = this->Crossed;
+    const Index a = mesh.apex(out);
+    crossed.Chains[0][0] = crossed.Chains[1][0] = { a, None, mesh.at(a) };
+    crossed.Chains[0][1] = this->chainVertex(mesh.to(out), mesh.next(out));
+    crossed.Chains[1][1] = this->chainVertex(mesh.from(out), mesh.previous(out));
+    crossed.Triangles[0] = mesh.triangleOf(out);
+    crossed.HasKept = mesh.isKept(crossed.Triangles[0]);
+    crossed.HasRepeated = false;
+    std::size_t count = 1;
+    std::size_t left = 2;
+    std::size_t right = 2;
+    for (;;)
+    {
+      crossed.Count = count;
+      if (line.Goal == None &&
+        orientation(mesh.at(mesh.from(out)), mesh.at(mesh.to(out)), line.B) >= 0)
+      {
+        return; // B is in this triangle; another partition will add its vertex
+      }
+      const Link link = mesh.link(out);
+      if (ConstrainedMesh::isFixed(link))
+      {
+        throw CrossingFound();
+      }
+      if (count + 2 == crossed.Triangles.size())
+      {
+        this->resize(2 * count);
+      }
+      const Index in = ConstrainedMesh::twinOf(link);
+      const Index toApex = mesh.next(in);
+      const Index fromApex = mesh.previous(in);
+      const Index apex = mesh.apex(in);
+      crossed.Triangles[count++] = mesh.triangleOf(in);
+      crossed.HasKept |= mesh.isKept(mesh.triangleOf(in));
+      const Point2 position = mesh.at(apex);
+      if (apex == ConstrainedMesh::Infinite)
+      {
+        return;
+      }
+      const int side = apex == line.Goal ? 0 : line.side(position);
+      if (side > 0)
+      {
+        crossed.HasRepeated |= crossed.Chains[0][left - 2].Vertex == apex;
+        crossed.Chains[0][left++] = { apex, mesh.link(fromApex), position };
+        out = toApex;
+      }
+      else if (side < 0)
+      {
+        crossed.HasRepeated |= crossed.Chains[1][right - 2].Vertex == apex;
+        crossed.Chains[1][right++] = { apex, mesh.link(toApex), position };
+        out = fromApex;
+      }
+      else
+      {
+        crossed.Chains[0][left++] = { apex, mesh.link(fromApex), position };
+        crossed.Chains[1][right++] = { apex, mesh.link(toApex), position };
+        crossed.Count = count;
+        crossed.ChainEnds = { left, right };
+        if (apex == line.Goal || !(position == line.B))
+        {
+          walk = { apex == line.Goal ? LineWalk::End::Reached : LineWalk::End::Touched, apex,
+            None };
+        }
+        return;
+      }
+    }
+  }
+
+  void resize(std::size_t size)
+  {
+    this->Crossed.Triangles.resize(size);
+    for (std::vector<CrossedCavity::ChainVertex>& chain : this->Crossed.Chains)
+    {
+      chain.resize(size);
+    }
+  }
+
+  const ConstrainedMesh& Mesh;
+  CrossedCavity Crossed;
 };
 
 } // namespace tipp

@@ -3,13 +3,14 @@
 
 #include "Arrays/IndexMap.h"
 #include "Constraints/Insertion/ConstraintRegion.h"
-#include "Constraints/Insertion/TriangleStrip.h"
 #include "Parallel/ParallelFor.h"
+#include "Parallel/Sort.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
 #include <array>
 #include <deque>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -17,49 +18,6 @@ namespace tipp
 {
 namespace
 {
-
-/// Concatenated lists of numbers.
-struct Lists
-{
-  std::vector<std::int64_t> Starts; ///< start of each list, and the end of the last
-  std::vector<std::int64_t> Items;
-
-  const std::int64_t* begin(std::size_t list) const
-  {
-    return this->Items.data() + this->Starts[list];
-  }
-  const std::int64_t* end(std::size_t list) const
-  {
-    return this->Items.data() + this->Starts[list + 1];
-  }
-  std::size_t size(std::size_t list) const
-  {
-    return std::size_t(this->Starts[list + 1] - this->Starts[list]);
-  }
-};
-
-/// For each list, the ascending indices i for which names[i] is the list's index. Negative names
-/// are in no list.
-Lists listsOf(const std::vector<std::int64_t>& names, std::size_t lists)
-{
-  Lists result;
-  result.Starts.assign(lists + 1, 0);
-  for (const std::int64_t list : names)
-  {
-    result.Starts[std::size_t(list + 1)] += list >= 0 ? 1 : 0;
-  }
-  std::partial_sum(result.Starts.begin(), result.Starts.end(), result.Starts.begin());
-  result.Items.resize(std::size_t(result.Starts.back()));
-  std::vector<std::int64_t> next = result.Starts;
-  for (std::size_t i = 0; i < names.size(); ++i)
-  {
-    if (names[i] >= 0)
-    {
-      result.Items[std::size_t(next[std::size_t(names[i])]++)] = std::int64_t(i);
-    }
-  }
-  return result;
-}
 
 /// Disjoint sets of pieces (union-find).
 class PieceSets
@@ -94,66 +52,38 @@ private:
   std::vector<std::int64_t> Parents;
 };
 
-/// Jobs: groups of triangles and pieces that are retriangulated together.
-struct Jobs
+/// The crossed triangles, by their index in CrossedTriangles::Triangles, sorted by job.
+class JobTriangles
 {
-  std::size_t Count = 0;
-  std::vector<std::int64_t> OfTriangle;
-  std::vector<std::int64_t> Pieces;  ///< that cross triangles, each once
-  std::vector<std::int64_t> OfPiece; ///< by index in Pieces
-};
-
-/// Jobs are in the order of their first triangles, so that a job's memory is near that of the one
-/// before.
-Jobs makeJobs(const CrossedTriangles& crossed)
-{
-  Jobs jobs;
-  IndexMap numbers;                 // only a few of all pieces are left
-  std::vector<std::int64_t> pieces; // as crossed.Pieces, but indices in jobs.Pieces
-  pieces.reserve(crossed.Pieces.size());
-  for (const std::int64_t piece : crossed.Pieces)
+public:
+  explicit JobTriangles(const CrossedTriangles& crossed)
   {
-    const auto [number, isNew] = numbers.insert(piece);
-    isNew ? jobs.Pieces.push_back(piece) : void();
-    pieces.push_back(number);
-  }
-  PieceSets sets(jobs.Pieces.size());
-  for (std::size_t t = 0; t < crossed.Triangles.size(); ++t)
-  {
-    const std::int64_t first = pieces[std::size_t(crossed.Starts[t])];
-    for (std::int64_t i = crossed.Starts[t] + 1; i < crossed.Starts[t + 1]; ++i)
+    const std::vector<std::int64_t> jobs = jobsOfTriangles(crossed);
+    const auto last = std::max_element(jobs.begin(), jobs.end());
+    this->Starts.assign(last == jobs.end() ? 1 : std::size_t(*last) + 2, 0);
+    for (const std::int64_t job : jobs)
     {
-      sets.join(first, pieces[std::size_t(i)]);
+      ++this->Starts[std::size_t(job) + 1];
+    }
+    std::partial_sum(this->Starts.begin(), this->Starts.end(), this->Starts.begin());
+    this->Triangles.resize(jobs.size());
+    std::vector<std::int64_t> next = this->Starts;
+    for (std::size_t t = 0; t < jobs.size(); ++t)
+    {
+      this->Triangles[std::size_t(next[std::size_t(jobs[t])]++)] = std::int64_t(t);
     }
   }
-  constexpr std::int64_t none = -1;
-  jobs.OfPiece.assign(jobs.Pieces.size(), none);
-  jobs.OfTriangle.resize(crossed.Triangles.size());
-  for (std::size_t t = 0; t < crossed.Triangles.size(); ++t)
-  {
-    const std::int64_t begin = crossed.Starts[t];
-    std::int64_t& job = jobs.OfPiece[std::size_t(sets.find(pieces[std::size_t(begin)]))];
-    job = job == none ? std::int64_t(jobs.Count++) : job;
-    jobs.OfTriangle[t] = job;
-    for (std::int64_t i = begin; i < crossed.Starts[t + 1]; ++i)
-    {
-      jobs.OfPiece[std::size_t(pieces[std::size_t(i)])] = job;
-    }
-  }
-  return jobs;
-}
 
-/// The triangles and pieces of each job.
-struct JobLists
-{
-  explicit JobLists(const Jobs& jobs)
-    : Triangles(listsOf(jobs.OfTriangle, jobs.Count))
-    , Pieces(listsOf(jobs.OfPiece, jobs.Count))
+  std::int64_t count() const { return std::int64_t(this->Starts.size()) - 1; }
+  /// The triangles of a job are in [begin(job), begin(job + 1)).
+  const std::int64_t* begin(std::int64_t job) const
   {
+    return this->Triangles.data() + this->Starts[std::size_t(job)];
   }
 
-  Lists Triangles; ///< indices in CrossedTriangles::Triangles
-  Lists Pieces;    ///< indices in Jobs::Pieces
+private:
+  std::vector<std::int64_t> Starts; ///< by job, and the end of the last one
+  std::vector<std::int64_t> Triangles;
 };
 
 /// A thread's workspace for retriangulation.
@@ -164,119 +94,85 @@ public:
   using Corners = std::array<PointId, 3>;
 
   /// `known` are constraints that may already be edges between triangles of a job.
-  JobWorker(PointsView points, Id* triangles, const CrossedTriangles& crossed, const Jobs& jobs,
-    const JobLists& lists, const SplitPieces& split, const ConstraintEdges& known)
+  JobWorker(PointsView points, Id* triangles, const CrossedTriangles& crossed,
+    const JobTriangles& jobs, const SplitPieces& split, const ConstraintEdges& known)
     : Points(points)
     , Triangles(triangles)
     , Crossed(crossed)
-    , Pieces(jobs.Pieces)
-    , All(lists)
+    , Jobs(jobs)
     , Split(split)
     , Known(known)
   {
   }
 
   /// Runs the jobs [begin, end).
-  void run(std::size_t begin, std::size_t end)
+  void run(std::int64_t begin, std::int64_t end)
   {
-    this->load(begin, end);
-    for (std::size_t job = begin; job < end; ++job)
+    this->load(this->Jobs.begin(begin), this->Jobs.begin(end));
+    const LocatedTriangle* loaded = this->Loaded.data();
+    for (std::int64_t job = begin; job < end; ++job)
     {
-      this->retriangulate(job);
+      const std::int64_t* const first = this->Jobs.begin(job);
+      const std::int64_t* const last = this->Jobs.begin(job + 1);
+      this->retriangulate(loaded, first, last);
+      loaded += last - first;
     }
   }
 
 private:
+  struct LocatedTriangle
+  {
+    Corners Ids;
+    std::array<Point2, 3> Positions;
+  };
+
   /// Copies the triangles of all jobs first. They and their points are scattered in memory, and
   /// independent loads overlap.
-  void load(std::size_t begin, std::size_t end)
+  void load(const std::int64_t* first, const std::int64_t* last)
   {
-    const std::int64_t* const first = this->All.Triangles.begin(begin);
-    const auto count = std::size_t(this->All.Triangles.end(end - 1) - first);
-    this->Loaded.resize(count);
-    for (std::size_t i = 0; i < count; ++i)
+    this->Loaded.clear();
+    for (const std::int64_t* t = first; t != last; ++t)
     {
-      const Id* const ids = this->corners(first[i]);
-      this->Loaded[i].Ids = { ids[0], ids[1], ids[2] };
+      const Id* const ids = this->corners(*t);
+      this->Loaded.push_back({ { ids[0], ids[1], ids[2] }, {} });
     }
     for (LocatedTriangle& triangle : this->Loaded)
     {
       std::transform(triangle.Ids.begin(), triangle.Ids.end(), triangle.Positions.begin(),
         [this](PointId id) { return this->Points[std::size_t(id)]; });
     }
-    this->LoadedBegin = first;
   }
 
-  void retriangulate(std::size_t job)
-  {
-    this->New.clear();
-    const ConstraintPiece* const only = this->onlySegment(job);
-    only ? this->retriangulateStrip(job, *only) : this->retriangulateRegion(job);
-    std::sort(this->New.begin(), this->New.end());
-    for (std::size_t i = 0; i < this->New.size(); ++i)
-    {
-      this->store(this->All.Triangles.begin(job)[i], this->New[i]);
-    }
-  }
-
-  /// If the job has only one segment and a few triangles, as most jobs do: this segment. Otherwise
-  /// null.
-  const ConstraintPiece* onlySegment(std::size_t job) const
-  {
-    if (this->All.Pieces.size(job) != 1 ||
-      this->All.Triangles.size(job) > TriangleStrip::MostTriangles)
-    {
-      return nullptr;
-    }
-    const std::size_t piece = this->piece(*this->All.Pieces.begin(job));
-    return this->Split.end(piece) - this->Split.begin(piece) == 1 ? this->Split.begin(piece)
-                                                                  : nullptr;
-  }
-
-  void retriangulateStrip(std::size_t job, const ConstraintPiece& segment)
-  {
-    this->Strip.follow(
-      this->loaded(job), this->All.Triangles.size(job), segment.A, segment.B, this->isKnown());
-    this->Strip.triangulate([this](const Corners& corners) { this->addNew(corners); });
-  }
-
-  void retriangulateRegion(std::size_t job)
+  /// Replaces the triangles [first, last) of a job.
+  void retriangulate(
+    const LocatedTriangle* loaded, const std::int64_t* first, const std::int64_t* last)
   {
     this->Region.clear();
-    std::for_each(this->loaded(job), this->loaded(job) + this->All.Triangles.size(job),
-      [this](const LocatedTriangle& triangle)
-      { this->Region.add(triangle.Ids, triangle.Positions); });
-    this->Region.finish();
-    this->Region.fixEdges(this->isKnown());
-    for (auto i = this->All.Pieces.begin(job); i != this->All.Pieces.end(job); ++i)
+    this->Pieces.clear();
+    for (const std::int64_t* t = first; t != last; ++t, ++loaded)
     {
-      std::for_each(this->Split.begin(this->piece(*i)), this->Split.end(this->piece(*i)),
+      this->Region.add(loaded->Ids, loaded->Positions);
+      this->Pieces.insert(this->Pieces.end(), this->Crossed.begin(*t), this->Crossed.begin(*t + 1));
+    }
+    this->Region.finish();
+    this->Region.fixEdges([this](PointId a, PointId b) { return this->Known.contains(a, b); });
+    sortUnique(this->Pieces);
+    for (const std::int64_t piece : this->Pieces)
+    {
+      std::for_each(this->Split.begin(std::size_t(piece)), this->Split.end(std::size_t(piece)),
         [this](const ConstraintPiece& part) { this->Region.insert(part.A, part.B); });
     }
+    this->New.clear();
     for (std::size_t t = 0; t < this->Region.triangleCount(); ++t)
     {
-      this->addNew(this->Region.triangle(t));
+      this->New.push_back(TriangleSink<PointId>::fromLowest(this->Region.triangle(t)));
     }
-  }
-
-  void addNew(const Corners& corners)
-  {
-    this->New.push_back(TriangleSink<PointId>::fromLowest(corners));
-  }
-
-  std::size_t piece(std::int64_t number) const
-  {
-    return std::size_t(this->Pieces[std::size_t(number)]);
-  }
-
-  auto isKnown() const
-  {
-    return [this](PointId a, PointId b) { return this->Known.contains(a, b); };
-  }
-
-  const LocatedTriangle* loaded(std::size_t job) const
-  {
-    return &this->Loaded[std::size_t(this->All.Triangles.begin(job) - this->LoadedBegin)];
+    std::sort(this->New.begin(), this->New.end());
+    for (const Corners& ids : this->New)
+    {
+      std::transform(
+        ids.begin(), ids.end(), this->corners(*first++), [](PointId id) { return Id(id); });
+    }
   }
 
   Id* corners(std::int64_t crossed) const
@@ -284,23 +180,15 @@ private:
     return this->Triangles + 3 * this->Crossed.Triangles[std::size_t(crossed)];
   }
 
-  void store(std::int64_t crossed, const Corners& ids) const
-  {
-    std::transform(
-      ids.begin(), ids.end(), this->corners(crossed), [](PointId id) { return Id(id); });
-  }
-
   PointsView Points;
   Id* Triangles;
   const CrossedTriangles& Crossed;
-  const std::vector<std::int64_t>& Pieces;
-  const JobLists& All;
+  const JobTriangles& Jobs;
   const SplitPieces& Split;
   const ConstraintEdges& Known;
-  std::vector<LocatedTriangle> Loaded;       ///< of several jobs
-  const std::int64_t* LoadedBegin = nullptr; ///< the entry of All.Triangles for the first one
-  TriangleStrip Strip;
+  std::vector<LocatedTriangle> Loaded; ///< of several jobs
   ConstraintRegion Region;
+  std::vector<std::int64_t> Pieces; ///< that cross the job's triangles
   std::vector<Corners> New;
 };
 
@@ -351,24 +239,46 @@ SplitPieces splitPieces(PointsView points, std::vector<ConstraintPiece>& pieces,
 
 std::vector<std::int64_t> jobsOfTriangles(const CrossedTriangles& crossed)
 {
-  return makeJobs(crossed).OfTriangle;
+  IndexMap numbers;                 // of the pieces; only a few of all pieces are left
+  std::vector<std::int64_t> pieces; // as crossed.Pieces, but numbers
+  pieces.reserve(crossed.Pieces.size());
+  std::transform(crossed.Pieces.begin(), crossed.Pieces.end(), std::back_inserter(pieces),
+    [&numbers](std::int64_t piece) { return numbers.insert(piece).Index; });
+  PieceSets sets(numbers.size());
+  for (std::size_t t = 0; t < crossed.Triangles.size(); ++t)
+  {
+    for (std::int64_t i = crossed.Starts[t] + 1; i < crossed.Starts[t + 1]; ++i)
+    {
+      sets.join(pieces[std::size_t(crossed.Starts[t])], pieces[std::size_t(i)]);
+    }
+  }
+  // Jobs are in the order of their first triangles, so that a job's memory is near that of the one
+  // before.
+  IndexMap jobs;
+  std::vector<std::int64_t> result;
+  result.reserve(crossed.Triangles.size());
+  for (std::size_t t = 0; t < crossed.Triangles.size(); ++t)
+  {
+    const std::int64_t first = pieces[std::size_t(crossed.Starts[t])];
+    result.push_back(jobs.insert(sets.find(first)).Index);
+  }
+  return result;
 }
 
 template <typename Id>
 void retriangulateJobs(PointsView points, Id* triangles, const CrossedTriangles& crossed,
   const SplitPieces& split, const ConstraintEdges& known, int threads)
 {
-  const Jobs jobs = makeJobs(crossed);
-  const JobLists lists(jobs);
+  const JobTriangles jobs(crossed);
   std::deque<JobWorker<Id>> workers;
   for (int thread = 0; thread < threads; ++thread)
   {
-    workers.emplace_back(points, triangles, crossed, jobs, lists, split, known);
+    workers.emplace_back(points, triangles, crossed, jobs, split, known);
   }
   constexpr std::int64_t chunk = 256;
-  forChunks(std::int64_t(jobs.Count), chunk, threads, {},
+  forChunks(jobs.count(), chunk, threads, {},
     [&](std::int64_t begin, std::int64_t end, int thread)
-    { workers[std::size_t(thread)].run(std::size_t(begin), std::size_t(end)); });
+    { workers[std::size_t(thread)].run(begin, end); });
 }
 
 template void retriangulateJobs(PointsView, std::int32_t*, const CrossedTriangles&,

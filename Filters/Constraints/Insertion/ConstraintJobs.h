@@ -2,7 +2,7 @@
 #ifndef tippConstraintJobs_h
 #define tippConstraintJobs_h
 
-#include "Constraints/Constraint.h"
+#include "Constraints/ConstraintPieces.h"
 #include "Constraints/Insertion/CrossedTriangles.h"
 #include "Triangulation/PointsView.h"
 #include "vtkTIPPFiltersModule.h"

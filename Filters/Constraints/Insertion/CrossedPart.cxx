@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/Insertion/CrossedPart.h"
 
-#include "Arrays/SortUnique.h"
 #include "Constraints/ConstraintPoints.h"
 #include "Constraints/Insertion/ConstraintJobs.h"
-#include "Constraints/Insertion/TriangleScan.h"
+#include "Constraints/Insertion/CrossedTriangles.h"
+#include "Parallel/Sort.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
@@ -35,11 +35,6 @@ void removeRepeated(CrossedPart& part)
   sortUniqueBy(part.Known, [](const SegmentTree::Item& item) { return item.Id; });
   sortUniqueBy(part.Touches,
     [](const CrossedPart::Touch& touch) { return std::make_pair(touch.Segment, touch.Vertex); });
-}
-
-std::size_t segmentBegin(const CrossedPart& part, std::size_t triangle)
-{
-  return triangle == 0 ? 0 : std::size_t(part.SegmentEnds[triangle - 1]);
 }
 
 /// The item in part.Known of a segment, given by its Id. Call after removeRepeated().
@@ -75,25 +70,29 @@ void addTriangle(const CrossedPart& from, std::size_t t, CrossedPart& to)
 {
   to.Triangles.push_back(from.Triangles[t]);
   to.Positions.push_back(from.Positions[t]);
+  const auto segments = from.Segments.begin();
   to.Segments.insert(to.Segments.end(),
-    from.Segments.begin() + std::ptrdiff_t(segmentBegin(from, t)),
-    from.Segments.begin() + std::ptrdiff_t(from.SegmentEnds[t]));
+    segments + std::ptrdiff_t(t == 0 ? 0 : from.SegmentEnds[t - 1]),
+    segments + std::ptrdiff_t(from.SegmentEnds[t]));
   to.SegmentEnds.push_back(to.Segments.size());
 }
 
-/// For each of `segments`, whether it is complete in the part. A segment that crosses a triangle is
-/// followed from there to both ends. It leaves a triangle across an edge, then the part must have
-/// the next triangle, or at a vertex, then the part must have all triangles at this vertex.
-std::vector<char> findComplete(const CrossedPart& part, const std::vector<std::int64_t>& segments,
-  const std::function<bool(std::int64_t)>& isInner)
+/// For each of `segments`, whether it is complete in the part. `crossed` is crossingsOf(part,
+/// segments). A segment that
+/// crosses a triangle is followed from there to both ends. It leaves a triangle across an edge,
+/// then the part must have the next triangle, or at a vertex, then the part must have all triangles
+/// at this vertex.
+std::vector<char> findComplete(const CrossedPart& part, const CrossedTriangles& crossed,
+  const std::vector<std::int64_t>& segments, const std::function<bool(std::int64_t)>& isInner)
 {
-  // Segments, and the lower and the higher end of an edge that each crosses.
+  // Indices of segments, and the lower and the higher end of an edge that each crosses.
   std::vector<std::array<std::int64_t, 3>> edges;
   for (std::size_t t = 0; t < part.Triangles.size(); ++t)
   {
-    for (std::size_t s = segmentBegin(part, t); s < part.SegmentEnds[t]; ++s)
+    const std::int64_t* const end = crossed.begin(std::int64_t(t) + 1);
+    for (const std::int64_t* s = crossed.begin(std::int64_t(t)); s != end; ++s)
     {
-      const SegmentTree::Item& segment = knownOf(part, part.Segments[s]);
+      const SegmentTree::Item& segment = knownOf(part, segments[std::size_t(*s)]);
       std::array<int, 3> side;
       std::transform(part.Positions[t].begin(), part.Positions[t].end(), side.begin(),
         [&](Point2 p) { return orientation(segment.A, segment.B, p); });
@@ -103,7 +102,7 @@ std::vector<char> findComplete(const CrossedPart& part, const std::vector<std::i
         {
           const auto [low, high] =
             std::minmax(part.Triangles[t][i], part.Triangles[t][(i + 1) % 3]);
-          edges.push_back({ part.Segments[s], low, high });
+          edges.push_back({ *s, low, high });
         }
       }
     }
@@ -117,7 +116,7 @@ std::vector<char> findComplete(const CrossedPart& part, const std::vector<std::i
       ++i;
       continue; // both triangles at the edge are there
     }
-    isComplete[indexIn(segments, edges[i][0])] = 0;
+    isComplete[std::size_t(edges[i][0])] = 0;
   }
   for (const CrossedPart::Touch& touch : part.Touches)
   {
@@ -221,8 +220,7 @@ std::size_t moveCrossed(PointsView points, const ConstraintSegments& segments, s
     next = t + 1;
     const Id* const its = corners + 3 * t;
     part.Triangles.push_back({ first + its[0], first + its[1], first + its[2] });
-    part.Positions.push_back(
-      { points[std::size_t(its[0])], points[std::size_t(its[1])], points[std::size_t(its[2])] });
+    part.Positions.push_back(cornersOf(points, corners, t));
     for (; crossing != crossings.end() && crossing->Triangle == std::int64_t(t); ++crossing)
     {
       used.push_back(crossing->Piece);
@@ -269,17 +267,15 @@ CrossedPart splitIncomplete(CrossedPart& part, const std::function<bool(std::int
 {
   removeRepeated(part);
   const std::vector<std::int64_t> used = sortedUnique(part.Segments);
-  const std::vector<char> isComplete = findComplete(part, used, isInner);
   const CrossedTriangles crossed = crossingsOf(part, used);
+  const std::vector<char> isComplete = findComplete(part, crossed, used, isInner);
   const std::vector<std::int64_t> jobs = jobsOfTriangles(crossed);
   std::vector<char> isLeft(used.size(), 0); // per job
   for (std::size_t t = 0; t < jobs.size(); ++t)
   {
-    for (std::int64_t i = crossed.Starts[t]; i < crossed.Starts[t + 1]; ++i)
-    {
-      isLeft[std::size_t(jobs[t])] |=
-        char(!isComplete[std::size_t(crossed.Pieces[std::size_t(i)])]);
-    }
+    isLeft[std::size_t(jobs[t])] |=
+      char(std::any_of(crossed.begin(std::int64_t(t)), crossed.begin(std::int64_t(t) + 1),
+        [&](std::int64_t segment) { return !isComplete[std::size_t(segment)]; }));
   }
   CrossedPart whole;
   CrossedPart rest;
@@ -396,12 +392,6 @@ std::size_t cutTriangles(
   PointsView points, const ConstraintSegments& segments, Id* corners, std::size_t triangles)
 {
   constexpr std::size_t most = TriangleScan<Id>::MostTriangles;
-  const auto positions = [&](std::size_t t)
-  {
-    const Id* const its = corners + 3 * t;
-    return std::array<Point2, 3>{ points[std::size_t(its[0])], points[std::size_t(its[1])],
-      points[std::size_t(its[2])] };
-  };
   std::vector<char> isKept(triangles, 0);
   for (std::size_t begin = 0; begin < triangles; begin += most)
   {
@@ -409,7 +399,7 @@ std::size_t cutTriangles(
     Box2 box{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
     for (std::size_t t = begin; t < end; ++t)
     {
-      for (const Point2 p : positions(t))
+      for (const Point2 p : cornersOf(points, corners, t))
       {
         box = unionOf(box, { p.x, p.y, p.x, p.y });
       }
@@ -417,7 +407,8 @@ std::size_t cutTriangles(
     const bool isUncut = segments.isUncut(box);
     for (std::size_t t = begin; t < end; ++t)
     {
-      isKept[t] = isUncut && t > begin ? isKept[begin] : char(segments.keeps(positions(t)));
+      isKept[t] =
+        isUncut && t > begin ? isKept[begin] : char(segments.keeps(cornersOf(points, corners, t)));
     }
   }
   return keepTriangles(corners, triangles, [&](std::size_t t) { return isKept[t] != 0; });

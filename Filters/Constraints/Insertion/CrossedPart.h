@@ -3,7 +3,7 @@
 #define tippCrossedPart_h
 
 #include "Constraints/ConstraintSegments.h"
-#include "Constraints/Insertion/TriangleScan.h"
+#include "Constraints/Insertion/CrossedTriangles.h"
 #include "Triangulation/PointsView.h"
 #include "vtkTIPPFiltersModule.h"
 

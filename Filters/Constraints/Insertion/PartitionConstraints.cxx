@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/Insertion/PartitionConstraints.h"
 
-#include "Arrays/SortUnique.h"
 #include "Constraints/Insertion/ConstrainedMesh.h"
-#include "Constraints/Insertion/LineWalker.h"
 #include "Constraints/Insertion/SegmentInserter.h"
 #include "Constraints/SegmentTree.h"
 #include "Kernel/DelaunayKernel.h"
 #include "Kernel/Lanes.h"
+#include "Parallel/Sort.h"
 
 #include <algorithm>
 #include <array>

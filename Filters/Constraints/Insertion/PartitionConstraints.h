@@ -2,11 +2,11 @@
 #ifndef tippPartitionConstraints_h
 #define tippPartitionConstraints_h
 
-#include "Constraints/Constraint.h"
+#include "Constraints/ConstraintPieces.h"
 #include "Constraints/Insertion/CrossedTriangles.h"
 #include "Constraints/Insertion/PartitionPieces.h"
+#include "Triangulation/Dataflow.h"
 #include "Triangulation/PointsView.h"
-#include "Triangulation/Worker.h"
 
 #include <array>
 #include <cstddef>

@@ -14,72 +14,50 @@ namespace tipp
 namespace
 {
 
-/// Finds the partitions near pieces.
-class PieceFinder
+/// Finds the partitions of the ends A and B of pieces [begin, end).
+void locateEnds(const PartitionFinder& finder, const std::vector<ConstraintPiece>& pieces,
+  const EndPositions& ends, std::size_t begin, std::size_t end, std::uint32_t* partitions)
 {
-public:
-  PieceFinder(
-    const Tiling& tiling, const std::vector<ConstraintPiece>& pieces, const EndPositions& ends)
-    : Tiles(tiling)
-    , Finder(tiling)
-    , Pieces(pieces)
-    , Ends(ends)
-    , OfEnd(2 * pieces.size())
+  constexpr std::size_t group = 128;
+  constexpr std::size_t ahead = 32;
+  const std::size_t last = end - 1;
+  std::array<Point2, 2 * group> positions;
+  populatePages(partitions + 2 * begin, 2 * (end - begin) * sizeof(*partitions));
+  for (; begin < end; begin += group)
   {
-  }
-
-  /// Finds the partitions of the ends of pieces [begin, end). Call this before forPartitions().
-  void locateEnds(std::size_t begin, std::size_t end)
-  {
-    constexpr std::size_t group = 128;
-    constexpr std::size_t ahead = 32;
-    const std::size_t last = end - 1;
-    std::array<Point2, 2 * group> ends;
-    populatePages(this->OfEnd.data() + 2 * begin, 2 * (end - begin) * sizeof(this->OfEnd[0]));
-    for (; begin < end; begin += group)
+    const std::size_t count = std::min(group, end - begin);
+    for (std::size_t i = 0; i < count; ++i)
     {
-      const std::size_t count = std::min(group, end - begin);
-      for (std::size_t i = 0; i < count; ++i)
-      {
-        const ConstraintPiece& later = this->Pieces[std::min(begin + i + ahead, last)];
-        this->Ends.Points.prefetch(std::size_t(later.A)); // points are anywhere in memory
-        this->Ends.Points.prefetch(std::size_t(later.B));
-        ends[2 * i] = this->Ends[this->Pieces[begin + i].A];
-        ends[2 * i + 1] = this->Ends[this->Pieces[begin + i].B];
-      }
-      this->Finder.locate(ends.data(), 2 * count, this->OfEnd.data() + 2 * begin);
+      const ConstraintPiece& later = pieces[std::min(begin + i + ahead, last)];
+      ends.Points.prefetch(std::size_t(later.A)); // points are anywhere in memory
+      ends.Points.prefetch(std::size_t(later.B));
+      positions[2 * i] = ends[pieces[begin + i].A];
+      positions[2 * i + 1] = ends[pieces[begin + i].B];
     }
+    finder.locate(positions.data(), 2 * count, partitions + 2 * begin);
   }
+}
 
-  /// Calls visit(partition) for each partition near a piece.
-  template <typename Visit>
-  void forPartitions(std::size_t piece, const Visit& visit) const
+/// Calls visit(partition) for each partition near a piece. `ofEnds`: the partitions of its ends.
+template <typename Visit>
+void forPartitions(const Tiling& tiling, const ConstraintPiece& piece, const EndPositions& ends,
+  const std::uint32_t* ofEnds, const Visit& visit)
+{
+  if (ofEnds[0] == ofEnds[1] && std::size_t(std::max(piece.A, piece.B)) < ends.Points.size())
   {
-    const std::uint32_t first = this->OfEnd[2 * piece];
-    const PointId last = std::max(this->Pieces[piece].A, this->Pieces[piece].B);
-    if (first == this->OfEnd[2 * piece + 1] && std::size_t(last) < this->Ends.Points.size())
-    {
-      visit(PartitionIndex(first)); // most pieces; boxes are convex
-      return;
-    }
-    const Point2 a = this->Ends[this->Pieces[piece].A];
-    const Point2 b = this->Ends[this->Pieces[piece].B];
-    const Box2 box = boxOf(a, b);
-    this->Tiles.visitNear(box,
-      [&](PartitionIndex p)
-      {
-        const Box2& tile = this->Tiles.box(p);
-        overlap(box, tile) && lineMayMeet(a, b, tile) ? visit(p) : void();
-      });
+    visit(PartitionIndex(ofEnds[0])); // most pieces; boxes are convex
+    return;
   }
-
-private:
-  const Tiling& Tiles;
-  const PartitionFinder Finder;
-  const std::vector<ConstraintPiece>& Pieces;
-  const EndPositions& Ends;
-  Buffer<std::uint32_t> OfEnd; ///< the partitions of each piece's A and B
-};
+  const Point2 a = ends[piece.A];
+  const Point2 b = ends[piece.B];
+  const Box2 box = boxOf(a, b);
+  tiling.visitNear(box,
+    [&](PartitionIndex p)
+    {
+      const Box2& tile = tiling.box(p);
+      overlap(box, tile) && lineMayMeet(a, b, tile) ? visit(p) : void();
+    });
+}
 
 } // namespace
 
@@ -87,7 +65,8 @@ PartitionPieces::PartitionPieces(const Tiling& tiling, const std::vector<Constra
   const EndPositions& ends, int threads)
 {
   const auto partitions = std::size_t(tiling.size());
-  PieceFinder finder(tiling, pieces, ends);
+  const PartitionFinder finder(tiling);
+  Buffer<std::uint32_t> ofEnds(2 * pieces.size()); // the partitions of each piece's A and B
   // A stable counting sort. By share of the pieces and partition: at first the number of entries,
   // later the next entry to write.
   std::vector<std::vector<std::size_t>> nextOf(
@@ -97,10 +76,11 @@ PartitionPieces::PartitionPieces(const Tiling& tiling, const std::vector<Constra
     {
       const auto [begin, end] = evenShare(pieces.size(), int(share), threads);
       std::vector<std::size_t>& counts = nextOf[std::size_t(share)];
-      finder.locateEnds(begin, end);
+      locateEnds(finder, pieces, ends, begin, end, ofEnds.data());
       for (std::size_t piece = begin; piece < end; ++piece)
       {
-        finder.forPartitions(piece, [&](PartitionIndex p) { ++counts[std::size_t(p)]; });
+        forPartitions(tiling, pieces[piece], ends, &ofEnds[2 * piece],
+          [&](PartitionIndex p) { ++counts[std::size_t(p)]; });
       }
     });
   std::size_t sum = 0;
@@ -124,7 +104,7 @@ PartitionPieces::PartitionPieces(const Tiling& tiling, const std::vector<Constra
       populatePages(this->Items.data() + first, (last - first) * sizeof(this->Items[0]));
       for (std::size_t piece = begin; piece < end; ++piece)
       {
-        finder.forPartitions(piece,
+        forPartitions(tiling, pieces[piece], ends, &ofEnds[2 * piece],
           [&](PartitionIndex p) { this->Items[next[std::size_t(p)]++] = std::int64_t(piece); });
       }
     });

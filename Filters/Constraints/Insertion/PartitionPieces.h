@@ -3,7 +3,7 @@
 #define tippPartitionPieces_h
 
 #include "Arrays/Buffer.h"
-#include "Constraints/Constraint.h"
+#include "Constraints/ConstraintPieces.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Tiling.h"
 

@@ -6,9 +6,9 @@
 #include "Constraints/KeepInside.h"
 #include "Constraints/OnDisk/SplitStored.h"
 #include "Constraints/OnDisk/StoredConstraints.h"
-#include "Constraints/TableConstraints.h"
+#include "Constraints/TriangulateConstrained.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
-#include "Points/PointStream.h"
+#include "Points/ReadPoints.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>

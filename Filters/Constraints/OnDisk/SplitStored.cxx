@@ -1,20 +1,113 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/OnDisk/SplitStored.h"
 
-#include "Constraints/OnDisk/SegmentTiles.h"
-#include "Predicates/Points.h"
+#include "OutOfCore/InputPasses.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <utility>
 
 namespace tipp
 {
+
+SegmentTiles::SegmentTiles(
+  const std::string& file, const std::function<void(const Visit&)>& forEach, int tiles, int threads)
+  : Threads(threads)
+{
+  Box2 domain{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+  StreamSampler<Point2> sampler(SamplesPerPartition * std::size_t(tiles), -1);
+  std::int64_t count = 0;
+  std::vector<Point2> middle(1);
+  forEach(
+    [&](const SegmentTree::Item& item)
+    {
+      domain = unionOf(domain, boxOf(item.A, item.B));
+      middle[0] = { item.A.x / 2 + item.B.x / 2, item.A.y / 2 + item.B.y / 2 };
+      sampler.add(count++, middle);
+    });
+  std::vector<Point2> sample;
+  for (const auto& [number, position] : sampler.take())
+  {
+    sample.push_back(position);
+  }
+  constexpr double relative = 0x1p-44; // relative to the largest coordinate
+  this->Margin = count == 0 ? 0
+                            : relative *
+      std::max({ std::fabs(domain.xmin), std::fabs(domain.ymin), std::fabs(domain.xmax),
+        std::fabs(domain.ymax) });
+  const Tiling tiling = count == 0 ? Tiling::grid({ 0, 0, 0, 0 }, 1, 1)
+                                   : Tiling::balanced(domain, std::move(sample), tiles);
+  this->Rows = std::make_unique<KeyedRows>(
+    file + ".tiles", std::size_t(tiling.size()), sizeof(SegmentTree::Item));
+  forEach(
+    [&](const SegmentTree::Item& item)
+    {
+      tiling.visitNear(expanded(boxOf(item.A, item.B), this->Margin),
+        [&](PartitionIndex tile)
+        {
+          lineMayMeet(item.A, item.B, expanded(tiling.box(tile), this->Margin))
+            ? this->Rows->add(std::size_t(tile), &item)
+            : void();
+        });
+    });
+  this->Rows->finish();
+}
+
+void SegmentTiles::findCrossings(const std::function<void(std::int64_t, std::int64_t)>& found) const
+{
+  for (std::size_t tile = 0; tile < this->Rows->keys(); ++tile)
+  {
+    for (const CrossingPair& pair :
+      findCrossingPairs(this->Rows->readAll<SegmentTree::Item>(tile), this->Threads))
+    {
+      found(pair[0], pair[1]);
+    }
+  }
+}
+
+void SegmentTiles::findNear(const std::function<bool(std::int64_t)>& isWanted,
+  const std::function<void(std::int64_t)>& near) const
+{
+  for (std::size_t tile = 0; tile < this->Rows->keys(); ++tile)
+  {
+    std::vector<SegmentTree::Item> items = this->Rows->readAll<SegmentTree::Item>(tile);
+    std::vector<SegmentTree::Item> wanted;
+    std::copy_if(items.begin(), items.end(), std::back_inserter(wanted),
+      [&](const SegmentTree::Item& item) { return isWanted(item.Id); });
+    const SegmentTree tree(
+      wanted.empty() ? std::vector<SegmentTree::Item>() : std::move(items), this->Threads);
+    for (const SegmentTree::Item& item : wanted)
+    {
+      tree.visitNear(
+        item,
+        [&](const SegmentTree::Item& other)
+        {
+          lineMayMeet(item.A, item.B, expanded(boxOf(other.A, other.B), this->Margin))
+            ? near(other.Id)
+            : void();
+          return true;
+        },
+        this->Margin);
+    }
+  }
+}
+
 namespace
 {
 
 using Marks = std::vector<bool>; ///< by index of the constraint
+
+/// How many tiles are needed so that one tile takes a small part of the memory.
+int tilesFor(std::int64_t segments, std::uint64_t memory)
+{
+  constexpr std::uint64_t each = 128; // bytes of a segment and its tree
+  constexpr std::uint64_t most = 4096;
+  const std::uint64_t share = std::max<std::uint64_t>(1, memory / 16);
+  return int(std::clamp<std::uint64_t>(std::uint64_t(segments) * each / share, 1, most));
+}
 
 /// Visits the constraints whose ends are finite and different.
 template <typename Visit>
@@ -39,7 +132,7 @@ public:
     , Work(work)
     , Tiles(
         work.Files, [&](const SegmentTiles::Visit& visit) { forEachWhole(constraints, visit); },
-        this->countWhole(), SegmentTiles::tilesFor(constraints.count(), work.Memory), work.Threads)
+        tilesFor(constraints.count(), work.Memory), work.Threads)
   {
   }
 
@@ -66,13 +159,6 @@ public:
   }
 
 private:
-  std::int64_t countWhole() const
-  {
-    std::int64_t count = 0;
-    forEachWhole(this->Constraints, [&count](const SegmentTree::Item&) { ++count; });
-    return count;
-  }
-
   Marks near(const Marks& wanted) const
   {
     Marks all(wanted.size(), false);
@@ -194,11 +280,8 @@ private:
     }
     for (std::vector<double>& column : values)
     {
-      for (const CrossingPoint& crossing : resolved.Crossings)
-      {
-        column.push_back((1 - crossing.Fraction) * column[std::size_t(crossing.A)] +
-          crossing.Fraction * column[std::size_t(crossing.B)]);
-      }
+      column.resize(count + resolved.Crossings.size());
+      interpolateTuples(resolved.Crossings, count, Scalar::Float64, 1, column.data());
       column.erase(column.begin(), column.begin() + std::ptrdiff_t(count));
     }
     result.Values = std::move(values);

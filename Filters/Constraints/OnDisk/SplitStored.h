@@ -2,15 +2,49 @@
 #ifndef tippSplitStored_h
 #define tippSplitStored_h
 
+#include "Constraints/ConstraintPieces.h"
 #include "Constraints/OnDisk/StoredConstraints.h"
-#include "Constraints/ResolveCrossings.h"
+#include "Constraints/SegmentTree.h"
+#include "Partitioning/Spill.h"
+#include "Triangulation/Tiling.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
 #include <vector>
 
 namespace tipp
 {
+
+/// Segments on disk, sorted by tiles: boxes with about equally many segments. A segment is stored
+/// in each tile that it comes near. In memory are the segments of one tile.
+class VTKTIPPFILTERS_EXPORT SegmentTiles
+{
+public:
+  using Visit = std::function<void(const SegmentTree::Item&)>;
+
+  /// Paths of temporary files begin with `file`. forEach(visit) visits all segments, always in the
+  /// same order; it is called twice. Their ends must be finite.
+  SegmentTiles(const std::string& file, const std::function<void(const Visit&)>& forEach, int tiles,
+    int threads);
+
+  /// Calls found(one, other) with the Ids of each two segments that cross, the lower first. A pair
+  /// that crosses near the border of a tile may be found several times.
+  void findCrossings(const std::function<void(std::int64_t, std::int64_t)>& found) const;
+
+  /// Calls near(id) for each segment near one for which isWanted(id) is true, and for that one
+  /// itself. Finds all at a distance below 128 units in the last place of the largest coordinate,
+  /// and some that are farther. May find a segment several times.
+  void findNear(const std::function<bool(std::int64_t)>& isWanted,
+    const std::function<void(std::int64_t)>& near) const;
+
+private:
+  const int Threads;
+  double Margin = 0; ///< the distance that counts as near
+  std::unique_ptr<KeyedRows> Rows;
+};
 
 /// The result of splitting constraints on disk where they cross.
 struct SplitConstraints

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks of arguments, and progress: a progress bar or the user's function."""
+"""The arguments of the package's functions: checks, the properties of VTK classes with their values, and progress."""
 from __future__ import annotations
 
 import math
@@ -104,6 +104,24 @@ def require_arrays(wanted: list[str] | None, known: list[str], kind: str = "") -
             raise KeyError(f"the mesh has no {kind and kind + ' '}array '{name}'; it has {known}.")
 
 
+DERIVED_BANDS = ("slope", "aspect", "hillshade", "void", "density")
+_RANKED = (1, 2)  # "min" and "max" of tipp.dem
+
+
+def require_bands(wanted: Iterable[str], known: Iterable[str]) -> None:
+    """Raises KeyError for a band that is neither a column nor derived from the triangles."""
+    columns = [*known]
+    for name in wanted:
+        if name not in (*columns, *DERIVED_BANDS, "elevation"):
+            raise KeyError(f"there is no attribute '{name}'; there are {columns}.")
+
+
+def needs_elevation(options: Mapping[str, Any]) -> bool:
+    """Returns whether tipp.dem uses the points' elevation."""
+    is_ranked = options["duplicates"] in _RANKED or (options["thin_size"] > 0 and options["thin_rule"] < 2)
+    return is_ranked or not {"elevation", *DERIVED_BANDS[:3]}.isdisjoint(options["attributes"])
+
+
 def text(value: Any, name: str) -> str:
     if not isinstance(value, str):
         raise TypeError(f"{name} is {_shown(value)}; give a text.")
@@ -123,6 +141,12 @@ def path(value: Any, name: str) -> str:
     if "\0" in result:
         raise ValueError(f"{name} has a null character; give a path without it.")
     return result
+
+
+def are_files(points: Any) -> bool:
+    """Returns whether points are given as the name or names of files."""
+    first = next(iter(points), None) if isinstance(points, (list, tuple)) else points
+    return isinstance(first, (str, os.PathLike))
 
 
 def is_vtk_object(value: Any) -> bool:
@@ -155,6 +179,44 @@ def _shown(value: Any) -> str:
         shown = ""
     shown = " ".join(shown.split())
     return shown if shown and len(shown) <= 60 else f"of type {type(value).__name__}"
+
+
+# The options of the functions, and the properties of VTK's classes that have their values.
+TRIANGULATION = {"tolerance": "Tolerance", "max_edge": "MaximumEdgeLength", "partitions": "NumberOfPartitions",
+                 "schedule": "Schedule", "threads": "NumberOfThreads"}
+MESH = {"alpha": "Alpha", "offset": "Offset", "bound": "BoundingTriangulation",
+        "map_duplicates": "GenerateRepresentativeIds", "neighbors": "GenerateNeighborIds"}
+DELAUNAY_2D = {**TRIANGULATION, **MESH, "crossings": "SplitCrossings", "marks": "ConstraintMarks"}
+DELAUNAY_3D = {**MESH, "tolerance": "Tolerance", "partitions": "NumberOfPartitions", "threads": "NumberOfThreads"}
+DELAUNAY_FILE = {"memory": "MemoryLimit", "partitions": "NumberOfPartitions", "max_edge": "MaximumEdgeLength",
+                 "map_duplicates": "GenerateRepresentativeIds", "neighbors": "GenerateNeighborIds",
+                 "constraints": "ConstraintsFileName", "boundary": "BoundaryFileName", "crossings": "SplitCrossings",
+                 "mark_constraints": "GenerateConstraintEdges", "count_only": "CountOnly", "resume": "Resume",
+                 "scratch": "ScratchFolder", "threads": "NumberOfThreads"}
+DEM = {"align": "AlignToResolution", "max_edge": "MaximumEdgeLength", "duplicates": "Duplicates",
+       "thin_size": "ThinningSize", "thin_rule": "ThinningRule", "memory": "MemoryLimit", "threads": "NumberOfThreads"}
+QUERY = {"memory": "MemoryLimit", "step": "Step", "threads": "NumberOfThreads"}
+READ = {"merge": "MergePieces", "tiling": "Tiling", "memory_limit": "MemoryLimit"}
+WRITE = {"tiling": "Tiling", "duplicate_borrowers": "DuplicateBorrowers", "memory_limit": "MemoryLimit",
+         "threads": "NumberOfThreads"}
+
+
+def set_properties(algorithm: Any, properties: Mapping[str, str], options: Mapping[str, Any]) -> None:
+    """Sets the properties of an algorithm to the values of the options."""
+    for option, name in properties.items():
+        value = options[option]
+        getattr(algorithm, "Set" + name)(*(value if isinstance(value, tuple) else (value,)))
+
+
+def options_of(algorithm: Any, properties: Mapping[str, str]) -> dict[str, Any]:
+    """Returns the options with the values of an algorithm's properties."""
+    return {option: getattr(algorithm, "Get" + name)() for option, name in properties.items()}
+
+
+def array_of(statistic: str) -> str:
+    """Returns the name that a statistic, such as "spilled_bytes", has in a table of VTK."""
+    return {"duplicates": "DuplicatePoints", "rejected": "RejectedPoints"}.get(
+        statistic, statistic.title().replace("_", ""))
 
 
 Progress = Callable[[float], Any]

@@ -88,7 +88,8 @@ def _edges(edges: ArrayLike, count: int) -> list[np.ndarray]:
 def _rings(polygon: Any) -> Iterator[np.ndarray]:
     """Yields the rings of a Shapely polygon: outer rings counter-clockwise, inner ones clockwise."""
     for ring, is_hole in shapely_rings(polygon, "a polygon"):
-        yield _turned(ring, not is_hole)
+        corners = np.asarray(ring.coords)[:-1]  # the last one is the first
+        yield corners if ring.is_ccw != is_hole else corners[::-1]
 
 
 def shapely_rings(polygon: Any, name: str) -> Iterator[tuple[Any, bool]]:
@@ -102,8 +103,3 @@ def shapely_rings(polygon: Any, name: str) -> Iterator[tuple[Any, bool]]:
         yield polygon.exterior, False
         for ring in polygon.interiors:
             yield ring, True
-
-
-def _turned(ring: Any, counter_clockwise: bool) -> np.ndarray:
-    corners = np.asarray(ring.coords)[:-1]  # the last one is the first
-    return corners if ring.is_ccw == counter_clockwise else corners[::-1]

@@ -2,8 +2,11 @@
 """tipp.dem: makes a raster from points."""
 from __future__ import annotations
 
+import contextlib
+import importlib.util
 import os
-from typing import TYPE_CHECKING, Any, Iterable, Mapping, NamedTuple, Sequence, Union
+import tempfile
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, NamedTuple, Sequence, Union
 
 import numpy as np
 
@@ -155,13 +158,16 @@ def dem(
         "threads": check.threads(threads),
     }
     progress = progress_of(progress_bar)
-    if _are_files(points):
+    source: Any = contextlib.nullcontext(points)
+    if check.are_files(points):
         if point_data is not None:
             raise ValueError("point_data needs an array of points; files have their own columns.")
-        points = [check.path(p, "points") for p in ([points] if isinstance(points, (str, os.PathLike)) else points)]
+        source = uncompressed(
+            [check.path(p, "points") for p in ([points] if isinstance(points, (str, os.PathLike)) else points)])
     else:
         check.require_point_set(points, point_data, "a vtkPointSet, an array or names of files")
-    bands, transform, crs = _engine.dem(points, point_data, options, progress)
+    with source as given:
+        bands, transform, crs = _engine.dem(given, point_data, options, progress)
     return Dem(bands[0] if isinstance(attributes, str) else np.stack(bands), transform, crs)
 
 
@@ -217,7 +223,26 @@ def _check_selection(classes: Any, returns: Any, keep: Any) -> None:
         check.choice(flag, "keep", dict.fromkeys(_FLAGS, 0))
 
 
-def _are_files(points: Any) -> bool:
-    is_list = isinstance(points, Iterable) and not isinstance(points, (str, bytes, os.PathLike, np.ndarray))
-    first = next(iter(points), None) if is_list and isinstance(points, (list, tuple)) else points
-    return isinstance(first, (str, os.PathLike))
+@contextlib.contextmanager
+def uncompressed(paths: list[str]) -> Iterator[list[str]]:
+    """Yields the paths, with .laz files replaced by temporary .las files, which laspy writes if it is installed."""
+    compressed = [path for path in paths if path.lower().endswith(".laz")]
+    if not compressed or importlib.util.find_spec("laspy") is None:
+        yield paths
+        return
+    import laspy
+
+    with tempfile.TemporaryDirectory() as folder:
+        files = []
+        for number, path in enumerate(paths):
+            if path not in compressed:
+                files.append(path)
+                continue
+            files.append(os.path.join(folder, f"{number}.las"))
+            try:
+                with laspy.open(path) as source, laspy.open(files[-1], "w", header=source.header, do_compress=False) as to:
+                    for block in source.chunk_iterator(1_000_000):
+                        to.write_points(block)
+            except Exception as error:
+                raise RuntimeError(f"{path}: cannot be decompressed by laspy ({error}).") from None
+        yield files

@@ -13,11 +13,9 @@ import numpy as np
 
 from ._arguments import flag, number
 from ._dem import dem
-from ._meshes import write
+from ._meshes import resample, write
 from ._query import open as open_mesh
-from ._resample import resample
-from ._tetrahedralize import delaunay_3d
-from ._triangulate import delaunay_2d
+from ._triangulate import delaunay_2d, delaunay_3d
 
 
 class Accessor:

@@ -28,35 +28,32 @@ def require(built: str) -> None:
                           "remove that one from the path, or use the wheel of tipp, which works with any VTK.")
 
 
-class Interrupted:
-    """A context in which Ctrl-C aborts the algorithm; on exit it then raises KeyboardInterrupt.
+@contextlib.contextmanager
+def _interruptible(algorithm: vtkAlgorithm) -> Iterator[None]:
+    """A context in which Ctrl-C aborts the algorithm. KeyboardInterrupt is raised when the context ends.
 
     VTK terminates the program if KeyboardInterrupt reaches it from a callback, so our own handler catches the signal.
     Python runs signal handlers during Python callbacks, which progress events trigger often.
     """
+    signals: list[int] = []
 
-    def __init__(self, algorithm: vtkAlgorithm):
-        self._algorithm = algorithm
-        self._happened = False
-        self._former: Any = None
+    def stop(number: int, _frame: Any) -> None:
+        signals.append(number)
+        algorithm.SetAbortExecute(1)
 
-    def _stop(self, _signal: int, _frame: Any) -> None:
-        self._happened = True
-        self._algorithm.SetAbortExecute(1)
-
-    def __enter__(self) -> Interrupted:
-        if threading.current_thread() is threading.main_thread():
-            self._former = signal.getsignal(signal.SIGINT)
-            if callable(self._former) or self._former == signal.SIG_DFL:
-                signal.signal(signal.SIGINT, self._stop)
-        return self
-
-    def __exit__(self, kind: Any, *_: Any) -> None:
-        if self._former is not None:
-            signal.signal(signal.SIGINT, self._former)
-        self._algorithm.SetAbortExecute(0)
-        if self._happened and kind is None:
-            raise KeyboardInterrupt
+    former: Any = None
+    if threading.current_thread() is threading.main_thread():
+        former = signal.getsignal(signal.SIGINT)
+        if callable(former) or former == signal.SIG_DFL:
+            signal.signal(signal.SIGINT, stop)
+    try:
+        yield
+    finally:
+        if former is not None:
+            signal.signal(signal.SIGINT, former)
+        algorithm.SetAbortExecute(0)
+    if signals:
+        raise KeyboardInterrupt
 
 
 @contextlib.contextmanager
@@ -111,7 +108,7 @@ def run(algorithm: vtkAlgorithm, progress: Progress | None = None, call: Callabl
             stack.enter_context(_observed(subject, "ErrorEvent", on_error))
             stack.enter_context(_observed(subject, "WarningEvent", on_warning))
         stack.enter_context(_observed(algorithm, "ProgressEvent", on_progress))
-        stack.enter_context(Interrupted(algorithm))
+        stack.enter_context(_interruptible(algorithm))
         result = call() if call else algorithm.Update()
     finish(progress)
     if raised:

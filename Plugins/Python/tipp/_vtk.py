@@ -155,8 +155,9 @@ def cells_of(ids: np.ndarray) -> vtkCellArray:
     """Returns cells with as many points as the array has columns, in the array's memory."""
     count, size = ids.shape
     cells = vtkCellArray()
-    offsets = np.arange(0, size * count + 1, size, dtype=ids.dtype)
-    cells.SetData(_shared(offsets, 1), _shared(np.ascontiguousarray(ids), 1))
+    arrays = np.arange(0, size * count + 1, size, dtype=ids.dtype), np.ascontiguousarray(ids)
+    cells.SetData(*(_shared(array, 1) for array in arrays))
+    cells._numpy_reference = arrays  # VTK 9.1 keeps the arrays' memory, but not the arrays
     return cells
 
 
@@ -200,12 +201,11 @@ def surface_of(mesh: Mesh, data: Any) -> vtkPolyData:
 
 def _add_arrays(arrays: dict[str, np.ndarray], target: Any) -> None:
     for name, values in arrays.items():
-        array = vtk_array(name, values)
         if name in ("GlobalPointIds", "GlobalCellIds"):
             target.SetGlobalIds(numpy_to_vtk(values, array_type=12))  # VTK_ID_TYPE
             target.GetGlobalIds().SetName(name)
         else:
-            target.AddArray(array)
+            target.AddArray(vtk_array(name, values))
 
 
 def grid_of(mesh: Mesh | None) -> vtkUnstructuredGrid:

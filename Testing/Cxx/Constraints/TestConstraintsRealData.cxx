@@ -6,7 +6,7 @@
 
 #include "Adcirc/AdcircGrid.h"
 #include "Constraints/KeepInside.h"
-#include "Constraints/TableConstraints.h"
+#include "Constraints/TriangulateConstrained.h"
 
 #include <fstream>
 #include <string>

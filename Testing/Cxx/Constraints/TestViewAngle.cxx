@@ -2,7 +2,7 @@
 // The angles at which vertices see a segment, compared with the in-circle test.
 #include "PointSets.h"
 
-#include "Constraints/Insertion/TriangulateChain.h"
+#include "Constraints/Insertion/SegmentInserter.h"
 
 #include <gtest/gtest.h>
 

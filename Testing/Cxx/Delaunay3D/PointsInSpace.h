@@ -2,7 +2,7 @@
 #ifndef PointsInSpace_h
 #define PointsInSpace_h
 
-#include "Points/PointStream.h"
+#include "Points/ReadPoints.h"
 #include "Predicates/Points.h"
 #include "Triangulation3D/Tetrahedralize.h"
 

@@ -30,8 +30,7 @@ struct Part
   RankPoints3 view() const
   {
     RankPoints3 points;
-    points.Points = this->Points.data();
-    points.Count = this->Points.size();
+    points.Points = { this->Points.data(), this->Points.size() };
     points.GlobalIds = this->Ids.data();
     return points;
   }
@@ -171,8 +170,7 @@ TEST(Distributed3D, DuplicatesOnSeveralRanksAreMerged)
     auto more = pointsInSpace("uniform", 2000);
     more.insert(more.end(), own.begin(), own.end());
     RankPoints3 points; // the same on all ranks; ids are counted over ranks
-    points.Points = more.data();
-    points.Count = more.size();
+    points.Points = { more.data(), more.size() };
     const auto mine = tetrahedralizeDistributed(ranks, points, with(1, partitions));
     Triangulation none;
     const Tetrahedralization found = gatherTetrahedra(ranks, mine, 1, none);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointsInSpace.h"
 
-#include "Kernel3D/InsertionOrder3.h"
+#include "Kernel/InsertionOrder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The kernel's predicates agree with the exact ones, even after they have found a common unit of
 // the coordinates and then rely on doubles.
-#include "Kernel3D/KernelPredicates3.h"
-#include "Predicates/ExactPredicates.h"
+#include "Kernel/KernelPredicates.h"
+#include "Predicates/ExactPredicates3.h"
 
 #include <gtest/gtest.h>
 

@@ -5,11 +5,11 @@
 
 #include "Files/IOError.h"
 #include "OutOfCore3D/OutOfCoreTetrahedralization.h"
-#include "Partitioned/NeighborIds.h"
+#include "Partitioned/FinishedPieces.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/ReadPiece.h"
-#include "Points/PointStream.h"
-#include "Predicates/ExactPredicates.h"
+#include "Points/ReadPoints.h"
+#include "Predicates/ExactPredicates3.h"
 
 #include <gtest/gtest.h>
 

@@ -5,10 +5,10 @@
 #include "PointsInSpace.h"
 #include "TemporaryFolder.h"
 
-#include "OutOfCore/StoredPieces.h"
+#include "OutOfCore/PieceResult.h"
 #include "OutOfCore3D/PiecePlan3.h"
 #include "OutOfCore3D/PieceRun3.h"
-#include "Predicates/ExactPredicates.h"
+#include "Predicates/ExactPredicates3.h"
 
 #include <gtest/gtest.h>
 
@@ -93,8 +93,8 @@ public:
   void triangulate()
   {
     const std::vector<char> isDone(std::size_t(this->Plan.pieces()), 0);
-    EXPECT_TRUE(
-      PieceRun3(this->work(), this->Memory, 2, [](std::int64_t) { return true; }).run(isDone));
+    EXPECT_TRUE(triangulatePieces(
+      this->work(), this->Memory, 2, [](std::int64_t) { return true; }, isDone));
   }
 
   std::vector<FinishedPiece> finish(const Report& report = {})
@@ -158,14 +158,15 @@ TEST(PiecePlan3, EverySpilledPointIsInTheBoxOfItsPiece)
       for (std::size_t at = 0; at < rows.size(); at += words)
       {
         const Point3 p{ rows[at], rows[at + 1], rows[at + 2] };
-        EXPECT_TRUE(isIn(p, plan.boxes()[index]) && isIn(p, plan.regions()[index])) << kind;
+        EXPECT_TRUE(isIn(p, plan.box(PartitionIndex(index))) && isIn(p, plan.regions()[index]))
+          << kind;
         EXPECT_TRUE(p == points.at(std::size_t(rows[at + 3])));
         numbers.insert(rows[at + 3]);
       }
       const SpilledPoints& spilled = plan.points();
       EXPECT_EQ(piece, spilled.pieceOf(spilled.first(piece)));
       EXPECT_EQ(piece, spilled.pieceOf(spilled.first(piece) + spilled.count(piece) - 1));
-      volume += volumeOf(plan.boxes()[index]);
+      volume += volumeOf(plan.box(PartitionIndex(index)));
     }
     EXPECT_EQ(points.size(), numbers.size()) << kind;
     EXPECT_NEAR(volumeOf(plan.survey().Bounds), volume, 1e-9 * volume) << kind;
@@ -221,7 +222,7 @@ TEST(PiecePlan3, ComesBackAsItWasSaved)
   ASSERT_EQ(plan.pieces(), restored.pieces());
   for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
   {
-    EXPECT_EQ(plan.boxes()[std::size_t(piece)].Min, restored.boxes()[std::size_t(piece)].Min);
+    EXPECT_EQ(plan.box(piece).Min, restored.box(piece).Min);
     EXPECT_EQ(plan.regions()[std::size_t(piece)].Max, restored.regions()[std::size_t(piece)].Max);
     const std::vector<double> rows = planned.rowsOf(piece);
     std::vector<double> again(rows.size());
@@ -292,7 +293,7 @@ TEST(BorderSorter3, TheOwnerIsTheFirstPieceMet)
     for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
     {
       if (tetrahedronMeetsBox(corners[0].Position, corners[1].Position, corners[2].Position,
-            corners[3].Position, plan.boxes()[std::size_t(piece)]))
+            corners[3].Position, plan.box(piece)))
       {
         expected.push_back(std::int32_t(plan.number(piece)));
       }
@@ -390,7 +391,8 @@ TEST(FinishPieces3, StopsWhenAborted)
   const TemporaryFolder folder;
   PlannedRun run(folder, pointsInSpace("uniform", 2000));
   run.triangulate();
-  EXPECT_TRUE(run.finish([](double) { return false; }).empty());
+  EXPECT_THROW(
+    run.finish([](double) -> bool { throw std::runtime_error("stopped"); }), std::runtime_error);
 }
 
 TEST(PieceRun3, MakesThePiecesAgainThatAreNotDone)
@@ -415,12 +417,12 @@ TEST(PieceRun3, MakesThePiecesAgainThatAreNotDone)
   const auto ignore = [](const std::string& sentence) { FAIL() << sentence; };
   EXPECT_EQ(isDone, verifyResults(run.work(), 2, {}, ignore));
   std::int64_t told = 0;
-  EXPECT_TRUE(PieceRun3(run.work(), run.Memory, 2,
-    [&](std::int64_t done)
-    {
-      told = done;
-      return true;
-    }).run(isDone));
+  const auto progress = [&told](std::int64_t done)
+  {
+    told = done;
+    return true;
+  };
+  EXPECT_TRUE(triangulatePieces(run.work(), run.Memory, 2, progress, isDone));
   EXPECT_EQ(3000, told);
   for (PartitionIndex piece = 0; piece < pieces; ++piece)
   {

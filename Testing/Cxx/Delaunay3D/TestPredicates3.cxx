@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Predicates/Circumball.h"
 #include "Predicates/ExactPredicates.h"
-#include "Predicates/InSphere.h"
-#include "Predicates/NormalAxis.h"
+#include "Predicates/ExactPredicates3.h"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>

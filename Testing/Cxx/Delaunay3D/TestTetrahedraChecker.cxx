@@ -2,7 +2,7 @@
 // The checker finds each kind of error.
 #include "PointsInSpace.h"
 
-#include "Check/TetrahedraChecker.h"
+#include "Check/DelaunayChecker.h"
 #include "InMemory/TriangulatePoints.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ protected:
   {
   }
 
-  TetrahedraReport check() const { return checkTetrahedra(this->XYZ, this->Ids, true); }
+  CheckReport check() const { return checkTetrahedra(this->XYZ, this->Ids, true); }
 
   std::vector<Point3> Points;
   Tetrahedralization Mesh;
@@ -38,7 +38,7 @@ protected:
 
 TEST_F(TetrahedraCheckerTest, AcceptsATriangulation)
 {
-  const TetrahedraReport report = this->check();
+  const CheckReport report = this->check();
   EXPECT_TRUE(report.isCorrect());
   EXPECT_EQ(125, report.DistinctPoints);
   EXPECT_GT(report.Ties, 0);
@@ -53,7 +53,7 @@ TEST_F(TetrahedraCheckerTest, FindsAnInvertedTetrahedron)
 TEST_F(TetrahedraCheckerTest, FindsAMissingTetrahedron)
 {
   this->Ids.resize(this->Ids.size() - 4);
-  const TetrahedraReport report = this->check();
+  const CheckReport report = this->check();
   EXPECT_GT(report.BadHullEdges + report.EulerMismatch, 0);
 }
 
@@ -85,7 +85,7 @@ TEST_F(TetrahedraCheckerTest, FindsAPointInsideASphere)
   const Point3 middle{ 2, 2, 2 };
   const auto found = std::find(this->Points.begin(), this->Points.end(), middle);
   this->XYZ[3 * std::size_t(found - this->Points.begin())] += 0.01;
-  const TetrahedraReport report = this->check();
+  const CheckReport report = this->check();
   EXPECT_GT(report.BadSpheres, 0);
   EXPECT_EQ(0, report.BadTurns);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "PointsInSpace.h"
 
-#include "Check/TetrahedraChecker.h"
-#include "InMemory/TriangulateMerged.h"
-#include "Kernel3D/DelaunayKernel3.h"
+#include "Check/DelaunayChecker.h"
+#include "InMemory/TriangulatePoints.h"
+#include "Kernel/DelaunayKernel3.h"
 #include "Output/RunStatistics.h"
 
 #include <gtest/gtest.h>

@@ -2,6 +2,7 @@
 #include "DistributedTesting.h"
 
 #include "Comparison.h"
+#include "Distributed/ConstrainRanks.h"
 #include "Distributed/DistributedTriangulation.h"
 
 #include "vtkMultiProcessController.h"

@@ -2,8 +2,8 @@
 // The edges on constraints, of which each rank lists its own.
 #include "DistributedTesting.h"
 
-#include "Distributed/ConstraintLines.h"
-#include "Distributed/TriangleExchange.h"
+#include "Distributed/ConstrainRanks.h"
+#include "Distributed/DistributedTriangulation.h"
 
 #include <vtkMultiProcessController.h>
 

@@ -3,7 +3,7 @@
 #include "DistributedTesting.h"
 #include "RankData.h"
 
-#include "Output/FilterPipeline.h"
+#include "Pipeline/FilterPipeline.h"
 
 #include "vtkTIPPDelaunay2D.h"
 

@@ -2,7 +2,7 @@
 // Any distribution of points over the ranks.
 #include "DistributedTesting.h"
 
-#include "Distributed/TriangleExchange.h"
+#include "Distributed/DistributedTriangulation.h"
 
 #include "vtkMultiProcessController.h"
 

@@ -60,8 +60,8 @@ std::vector<std::int64_t> pointsOfRanks(
 TEST(Plan, FewPointsGoToOneRank)
 {
   const Plan plan = divide(inputOf(makePointSet("uniform", 1000), 4), {});
-  EXPECT_TRUE(plan.IsAlone);
-  EXPECT_EQ(plan.Leaves.size(), 1);
+  EXPECT_TRUE(plan.isAlone());
+  EXPECT_EQ(plan.Owners, std::vector<std::int32_t>{ 0 });
 }
 
 TEST(Plan, ThePartitionsOfOneMasterAreTheLeaves)

@@ -3,7 +3,8 @@
 // must show all conflicts.
 #include "../Engine/DataflowScene.h"
 
-#include "Distributed/RankRun.h"
+#include "Distributed/SharedInitialMesh.h"
+#include "Ranks/Archive.h"
 
 #include <set>
 

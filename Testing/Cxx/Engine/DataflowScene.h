@@ -4,11 +4,10 @@
 
 #include "ScheduleTesting.h"
 
-#include "Engine/PartitionOrder.h"
-#include "Engine/Routing.h"
+#include "Engine/PartitionSchedule.h"
 #include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/Dataflow.h"
 #include "Triangulation/Tiling.h"
-#include "Triangulation/Worker.h"
 
 #include <algorithm>
 #include <functional>
@@ -130,8 +129,7 @@ private:
     {
       this->Look(p, messages);
     }
-    routing.setPartition(p);
-    worker.triangulate(p, UniqueVertices().collect(messages), this->Scene.Boxes[p], routing);
+    routing.triangulate(worker, p, messages);
     this->deliver(routing.send(worker, this->Final));
     ++this->Done;
     for (const PartitionIndex q : this->Order.later(p))

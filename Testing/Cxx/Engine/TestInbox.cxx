@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Engine/Routing.h"
+#include "Triangulation/Dataflow.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "DataflowScene.h"
 
-#include "Engine/ReadyPartitions.h"
+#include "Engine/PartitionSchedule.h"
 
 #include <atomic>
 #include <future>

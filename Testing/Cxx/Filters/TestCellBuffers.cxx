@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Output/TriangleOutput.h"
+#include "Output/MeshOutput.h"
 
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"

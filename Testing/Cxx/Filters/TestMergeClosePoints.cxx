@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "InMemory/TriangulateMerged.h"
+#include "InMemory/TriangulatePoints.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bounds, bounding points and views of a data set's points.
-#include "Projection/ProjectedPoints.h"
+#include "Pipeline/InputPoints.h"
 
 #include "vtkFloatArray.h"
 #include "vtkIntArray.h"

@@ -113,7 +113,7 @@ TEST(TriangulatePoints, MarksTheEdgesOfConstraints)
 
 TEST(InterpolateTuples, FollowsTheEdgeAndRoundsIntegers)
 {
-  const std::vector<CrossingPoint> crossings{ { {}, 0, 1, 0.25, {} }, { {}, 2, 1, 0.5, {} } };
+  const std::vector<CrossingPoint> crossings{ { {}, 0, 1, 0.25 }, { {}, 2, 1, 0.5 } };
   std::vector<double> doubles{ 1, 3, 0, 0 };
   interpolateTuples(crossings, 2, Scalar::Float64, 1, doubles.data());
   EXPECT_EQ(std::vector<double>({ 1, 3, 1.5, 2.25 }), doubles);

@@ -4,6 +4,7 @@
 #include "ExpectIOError.h"
 #include "FlatTesting.h"
 
+#include <algorithm>
 #include <random>
 #include <stdexcept>
 
@@ -56,13 +57,12 @@ TEST_P(Cells, AreReadInChunksOfAnySize)
   const tipp::FlatMesh mesh = this->open(ids, 77);
   for (const std::int64_t chunk : { 1, 7, 999, 1000, 1 << 20 })
   {
-    CellReader reader(mesh);
+    const CellReader reader(mesh);
     Ids part;
     Ids all;
-    while (reader.next(chunk, part))
+    for (std::int64_t first = 0; first < 1000; first += chunk)
     {
-      EXPECT_EQ(std::int64_t(all.size()), 3 * reader.firstCell());
-      EXPECT_LE(part.size(), 3 * std::size_t(chunk));
+      reader.read(first, std::min(chunk, 1000 - first), part);
       all.insert(all.end(), part.begin(), part.end());
     }
     EXPECT_EQ(ids, all) << chunk;
@@ -72,11 +72,9 @@ TEST_P(Cells, AreReadInChunksOfAnySize)
 TEST_P(Cells, OfARangeEqualThoseOfTheWholeMesh)
 {
   const Ids ids = randomIds(1000, 77);
-  CellReader reader(this->open(ids, 77), 300, 310);
   Ids part;
-  ASSERT_TRUE(reader.next(100, part));
+  CellReader(this->open(ids, 77)).read(300, 10, part);
   EXPECT_EQ(Ids(ids.begin() + 900, ids.begin() + 930), part);
-  EXPECT_FALSE(reader.next(100, part));
 }
 
 TEST_P(Cells, AreTheSameForAnyNumberOfThreads)
@@ -86,7 +84,7 @@ TEST_P(Cells, AreTheSameForAnyNumberOfThreads)
   for (const int threads : { 1, 2, 5 })
   {
     Ids all;
-    CellReader(mesh, 0, -1, threads).next(200000, all);
+    CellReader(mesh, threads).read(0, 200000, all);
     EXPECT_EQ(ids, all) << threads;
   }
 }
@@ -101,29 +99,29 @@ TEST_P(Cells, WithAnInvalidIdAreRefusedNamingTheFirst)
     const tipp::FlatMesh mesh = this->open(ids, 77);
     for (const int threads : { 1, 4 })
     {
-      CellReader reader(mesh, 0, -1, threads);
+      const CellReader reader(mesh, threads);
       Ids part;
       expectIOError(this->Maker.path("cells.npy"),
-        "cell 200000 the vertex id " + std::to_string(bad), [&] { reader.next(300000, part); });
+        "cell 200000 the vertex id " + std::to_string(bad), [&] { reader.read(0, 300000, part); });
     }
   }
 }
 
-TEST_P(Cells, BeyondTheMeshAreNoChunk)
+TEST_P(Cells, BeyondTheMeshAreRefused)
 {
   const tipp::FlatMesh mesh = this->open(randomIds(10, 7), 7);
-  EXPECT_THROW(CellReader(mesh, 0, 11), std::out_of_range);
-  EXPECT_THROW(CellReader(mesh, 5, 4), std::out_of_range);
-  EXPECT_THROW(CellReader(mesh, -1, 4), std::out_of_range);
-  Ids ids(30);
-  EXPECT_THROW(CellReader(mesh).read(9, 2, ids.data()), std::out_of_range);
+  Ids ids;
+  EXPECT_THROW(CellReader(mesh).read(0, 11, ids), std::out_of_range);
+  EXPECT_THROW(CellReader(mesh).read(5, -1, ids), std::out_of_range);
+  EXPECT_THROW(CellReader(mesh).read(-1, 4, ids), std::out_of_range);
+  EXPECT_THROW(CellReader(mesh).read(9, 2, ids), std::out_of_range);
 }
 
-TEST_P(Cells, OfAnEmptyMeshGiveNoChunk)
+TEST_P(Cells, OfAnEmptyMeshAreNone)
 {
-  CellReader reader(this->open({}, 0));
-  Ids part;
-  EXPECT_FALSE(reader.next(10, part));
+  Ids part{ 1, 2, 3 };
+  CellReader(this->open({}, 0)).read(0, 0, part);
+  EXPECT_TRUE(part.empty());
 }
 
 INSTANTIATE_TEST_SUITE_P(Ids, Cells, testing::Values("<i4", "<i8"),

@@ -3,7 +3,7 @@
 #include "FlatTesting.h"
 #include "Meshes/MeshFiles.h"
 #include "SharedData.h"
-#include "Vtk/ReadDataSet.h"
+#include "Vtk/DataSets.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

@@ -5,7 +5,7 @@
 #include "Flat/FlattenDataSet.h"
 #include "FlatTesting.h"
 #include "SharedData.h"
-#include "Vtk/ReadDataSet.h"
+#include "Vtk/DataSets.h"
 
 #include "vtkBitArray.h"
 #include "vtkCellData.h"

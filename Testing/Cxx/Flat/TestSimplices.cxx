@@ -21,14 +21,14 @@
 namespace
 {
 
-using tipp::Simplices;
-using tipp::simplicesOf;
+using tipp::flattenDataSet;
+using tipp::Flattened;
 using CellPoints = std::vector<vtkIdType>;
 
-class SimplicesOf : public testing::Test
+class FlattenedCells : public testing::Test
 {
 protected:
-  SimplicesOf() { this->Grid->SetPoints(this->Points); }
+  FlattenedCells() { this->Grid->SetPoints(this->Points); }
 
   void insertPoints(std::initializer_list<std::array<double, 3>> points)
   {
@@ -53,16 +53,36 @@ protected:
   const vtkNew<vtkUnstructuredGrid> Grid;
 };
 
+std::int64_t count(const Flattened& simplices)
+{
+  return std::int64_t(simplices.Content.Cells.size()) / simplices.Content.CellSize;
+}
+
+/// The id of each simplex's cell in the data set; empty if no cell was cut or left out.
+std::vector<std::int64_t> parentsOf(const Flattened& simplices)
+{
+  for (const tipp::FlatArray& array : simplices.Content.CellData)
+  {
+    if (array.Name == "vtkOriginalCellIds")
+    {
+      const auto* const ids = static_cast<const std::int64_t*>(array.Values);
+      return { ids, ids + array.Tuples };
+    }
+  }
+  return {};
+}
+
 /// The sum of all areas or volumes. Volumes must be positive.
-double measure(vtkDataSet* data, const Simplices& simplices)
+double measure(vtkDataSet* data, const Flattened& simplices)
 {
   double sum = 0;
-  for (std::int64_t i = 0; i < simplices.count(); ++i)
+  for (std::int64_t i = 0; i < count(simplices); ++i)
   {
     double p[4][3] = {};
-    for (int c = 0; c < simplices.CellSize; ++c)
+    for (int c = 0; c < simplices.Content.CellSize; ++c)
     {
-      data->GetPoint(simplices.Ids[std::size_t(i * simplices.CellSize + c)], p[c]);
+      data->GetPoint(
+        simplices.Content.Cells[std::size_t(i * simplices.Content.CellSize + c)], p[c]);
     }
     double e[3][3];
     for (int axis = 0; axis < 3; ++axis)
@@ -73,7 +93,7 @@ double measure(vtkDataSet* data, const Simplices& simplices)
     }
     const double normal[] = { e[0][1] * e[1][2] - e[0][2] * e[1][1],
       e[0][2] * e[1][0] - e[0][0] * e[1][2], e[0][0] * e[1][1] - e[0][1] * e[1][0] };
-    if (simplices.CellSize == 3)
+    if (simplices.Content.CellSize == 3)
     {
       sum += std::hypot(normal[0], normal[1], normal[2]) / 2;
       continue;
@@ -86,10 +106,10 @@ double measure(vtkDataSet* data, const Simplices& simplices)
 }
 
 /// For each triangle, the number of tetrahedra that have it as a facet.
-std::map<std::array<std::int64_t, 3>, int> sides(const Simplices& simplices)
+std::map<std::array<std::int64_t, 3>, int> sides(const Flattened& simplices)
 {
   std::map<std::array<std::int64_t, 3>, int> counts;
-  for (std::size_t i = 0; i < simplices.Ids.size(); i += 4)
+  for (std::size_t i = 0; i < simplices.Content.Cells.size(); i += 4)
   {
     for (std::size_t left = 0; left < 4; ++left)
     {
@@ -99,7 +119,7 @@ std::map<std::array<std::int64_t, 3>, int> sides(const Simplices& simplices)
       {
         if (corner != left)
         {
-          side[at++] = simplices.Ids[i + corner];
+          side[at++] = simplices.Content.Cells[i + corner];
         }
       }
       std::sort(side.begin(), side.end());
@@ -111,26 +131,26 @@ std::map<std::array<std::int64_t, 3>, int> sides(const Simplices& simplices)
 
 } // namespace
 
-TEST_F(SimplicesOf, TrianglesAreTheSameTriangles)
+TEST_F(FlattenedCells, TrianglesAreTheSameTriangles)
 {
   this->insertPoints({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } });
   this->insert(VTK_TRIANGLE, { 0, 1, 2 });
   this->insert(VTK_TRIANGLE, { 2, 3, 0 });
-  const Simplices simplices = simplicesOf(this->Grid, "a");
-  EXPECT_EQ(3, simplices.CellSize);
-  EXPECT_EQ((std::vector<std::int64_t>{ 0, 1, 2, 2, 3, 0 }), simplices.Ids);
-  EXPECT_TRUE(simplices.Parents.empty());
+  const Flattened simplices = flattenDataSet(this->Grid, "a");
+  EXPECT_EQ(3, simplices.Content.CellSize);
+  EXPECT_EQ((std::vector<std::int64_t>{ 0, 1, 2, 2, 3, 0 }), simplices.Content.Cells);
+  EXPECT_TRUE(parentsOf(simplices).empty());
   EXPECT_TRUE(simplices.Cut.empty());
 }
 
-TEST_F(SimplicesOf, EveryKindOfPlaneCellCoverIt)
+TEST_F(FlattenedCells, EveryKindOfPlaneCellCoverIt)
 {
   this->insertPoints({ { 0, 0, 0 }, { 2, 0, 0 }, { 2, 1, 0 }, { 1, 2, 0 }, { 0, 1, 0 } });
   this->insert(VTK_QUAD, { 0, 1, 2, 4 });
   this->insert(VTK_TRIANGLE, { 4, 2, 3 });
-  const Simplices simplices = simplicesOf(this->Grid, "a");
-  EXPECT_EQ(3, simplices.count());
-  EXPECT_EQ((std::vector<std::int64_t>{ 0, 0, 1 }), simplices.Parents);
+  const Flattened simplices = flattenDataSet(this->Grid, "a");
+  EXPECT_EQ(3, count(simplices));
+  EXPECT_EQ((std::vector<std::int64_t>{ 0, 0, 1 }), parentsOf(simplices));
   EXPECT_EQ(1, simplices.Cut.at("vtkQuad"));
   EXPECT_DOUBLE_EQ(3, measure(this->Grid, simplices));
 
@@ -142,17 +162,17 @@ TEST_F(SimplicesOf, EveryKindOfPlaneCellCoverIt)
   others->InsertNextCell(VTK_POLYGON, 5, polygon);
   others->InsertNextCell(VTK_PIXEL, 4, pixel);
   others->InsertNextCell(VTK_TRIANGLE_STRIP, 4, strip);
-  EXPECT_DOUBLE_EQ(3 + 2 + 2, measure(others, simplicesOf(others, "a")));
+  EXPECT_DOUBLE_EQ(3 + 2 + 2, measure(others, flattenDataSet(others, "a")));
 }
 
-TEST_F(SimplicesOf, AConcavePolygonStayInsideIt)
+TEST_F(FlattenedCells, AConcavePolygonStayInsideIt)
 {
   this->insertPoints({ { 0, 0, 0 }, { 2, 0, 0 }, { 2, 2, 0 }, { 1, 0.5, 0 }, { 0, 2, 0 } });
   this->insert(VTK_POLYGON, { 0, 1, 2, 3, 4 });
-  EXPECT_NEAR(2.5, measure(this->Grid, simplicesOf(this->Grid, "a")), 1e-12);
+  EXPECT_NEAR(2.5, measure(this->Grid, flattenDataSet(this->Grid, "a")), 1e-12);
 }
 
-TEST_F(SimplicesOf, EveryKindOfSolidCellFillIt)
+TEST_F(FlattenedCells, EveryKindOfSolidCellFillIt)
 {
   this->insertUnitCube();
   const std::pair<int, CellPoints> cells[] = { { VTK_HEXAHEDRON, { 0, 1, 2, 3, 4, 5, 6, 7 } },
@@ -164,15 +184,15 @@ TEST_F(SimplicesOf, EveryKindOfSolidCellFillIt)
     vtkNew<vtkUnstructuredGrid> grid;
     grid->SetPoints(this->Points);
     grid->InsertNextCell(cells[i].first, vtkIdType(cells[i].second.size()), cells[i].second.data());
-    const Simplices simplices = simplicesOf(grid, "a");
-    EXPECT_EQ(4, simplices.CellSize);
+    const Flattened simplices = flattenDataSet(grid, "a");
+    EXPECT_EQ(4, simplices.Content.CellSize);
     EXPECT_NEAR(volumes[i], measure(grid, simplices), 1e-12) << i;
   }
 }
 
 // Cubes of a lattice whose points are numbered at random. Neighbouring cubes must cut their common
 // face along the same diagonal: each facet inside belongs to two tetrahedra.
-TEST_F(SimplicesOf, NeighboursAgreeOnTheirFaces)
+TEST_F(FlattenedCells, NeighboursAgreeOnTheirFaces)
 {
   constexpr vtkIdType n = 5;
   std::vector<vtkIdType> number(n * n * n);
@@ -197,7 +217,7 @@ TEST_F(SimplicesOf, NeighboursAgreeOnTheirFaces)
       }
     }
   }
-  const Simplices simplices = simplicesOf(this->Grid, "a");
+  const Flattened simplices = flattenDataSet(this->Grid, "a");
   EXPECT_NEAR(64, measure(this->Grid, simplices), 1e-9);
   int alone = 0;
   for (const auto& [side, count] : sides(simplices))
@@ -208,16 +228,16 @@ TEST_F(SimplicesOf, NeighboursAgreeOnTheirFaces)
   EXPECT_EQ(6 * 16 * 2, alone);
 }
 
-TEST_F(SimplicesOf, AnImageFillIt)
+TEST_F(FlattenedCells, AnImageFillIt)
 {
   vtkNew<vtkImageData> image;
   image->SetDimensions(3, 4, 2);
-  const Simplices simplices = simplicesOf(image, "a");
+  const Flattened simplices = flattenDataSet(image, "a");
   EXPECT_NEAR(6, measure(image, simplices), 1e-12);
   EXPECT_EQ(6, simplices.Cut.at("vtkVoxel"));
 }
 
-TEST_F(SimplicesOf, OfMixedDimensionsReportTheCellsLeftOut)
+TEST_F(FlattenedCells, OfMixedDimensionsReportTheCellsLeftOut)
 {
   this->insertUnitCube();
   this->insert(VTK_TRIANGLE, { 0, 1, 2 });
@@ -225,41 +245,41 @@ TEST_F(SimplicesOf, OfMixedDimensionsReportTheCellsLeftOut)
   this->insert(VTK_LINE, { 0, 1 });
   this->insert(VTK_LINE, { 2, 1 });
   this->insert(VTK_VERTEX, { 2 });
-  const Simplices simplices = simplicesOf(this->Grid, "a");
-  EXPECT_EQ(1, simplices.count());
-  EXPECT_EQ((std::vector<std::int64_t>{ 1 }), simplices.Parents);
+  const Flattened simplices = flattenDataSet(this->Grid, "a");
+  EXPECT_EQ(1, count(simplices));
+  EXPECT_EQ((std::vector<std::int64_t>{ 1 }), parentsOf(simplices));
   EXPECT_EQ(1, simplices.LeftOut.at("vtkTriangle"));
   EXPECT_EQ(2, simplices.LeftOut.at("vtkLine"));
   EXPECT_EQ(1, simplices.LeftOut.at("vtkVertex"));
 }
 
-TEST_F(SimplicesOf, GhostCellsAreLeftOut)
+TEST_F(FlattenedCells, GhostCellsAreLeftOut)
 {
   this->insertPoints({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } });
   this->insert(VTK_TRIANGLE, { 0, 1, 2 });
   this->insert(VTK_TRIANGLE, { 2, 3, 0 });
   this->Grid->AllocateCellGhostArray()->SetValue(0, vtkDataSetAttributes::DUPLICATECELL);
-  const Simplices simplices = simplicesOf(this->Grid, "a");
-  EXPECT_EQ((std::vector<std::int64_t>{ 2, 3, 0 }), simplices.Ids);
+  const Flattened simplices = flattenDataSet(this->Grid, "a");
+  EXPECT_EQ((std::vector<std::int64_t>{ 2, 3, 0 }), simplices.Content.Cells);
   EXPECT_EQ(1, simplices.LeftOut.at("ghost cell"));
 }
 
-TEST_F(SimplicesOf, DataWithoutAreaAreRefused)
+TEST_F(FlattenedCells, DataWithoutAreaAreRefused)
 {
   this->insertPoints({ { 0, 0, 0 }, { 1, 0, 0 } });
   this->insert(VTK_LINE, { 0, 1 });
   tipp::test::expectIOError(
-    "a.vtu", "no cells with an area", [&] { simplicesOf(this->Grid, "a.vtu"); });
+    "a.vtu", "no cells with an area", [&] { flattenDataSet(this->Grid, "a.vtu"); });
 }
 
-TEST_F(SimplicesOf, OfCurvedCellsFollowTheirPointsOrAreRefused)
+TEST_F(FlattenedCells, OfCurvedCellsFollowTheirPointsOrAreRefused)
 {
   this->insertPoints(
     { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0.5, 0, 0 }, { 0.5, 0.5, 0 }, { 0, 0.5, 0 } });
   this->insert(VTK_QUADRATIC_TRIANGLE, { 0, 1, 2, 3, 4, 5 });
-  const Simplices simplices = simplicesOf(this->Grid, "a");
-  EXPECT_EQ(4, simplices.count());
+  const Flattened simplices = flattenDataSet(this->Grid, "a");
+  EXPECT_EQ(4, count(simplices));
   EXPECT_DOUBLE_EQ(0.5, measure(this->Grid, simplices));
   this->insert(VTK_QUADRATIC_QUAD, { 0, 1, 2, 3, 4, 5, 0, 1 });
-  tipp::test::expectIOError("a.vtu", "curved", [&] { simplicesOf(this->Grid, "a.vtu"); });
+  tipp::test::expectIOError("a.vtu", "curved", [&] { flattenDataSet(this->Grid, "a.vtu"); });
 }

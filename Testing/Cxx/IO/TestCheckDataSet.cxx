@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CellStorages.h"
 #include "ExpectIOError.h"
-#include "Vtk/ReadDataSet.h"
+#include "Vtk/DataSets.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"

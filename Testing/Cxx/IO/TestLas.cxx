@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExpectIOError.h"
 #include "Las/LasHeader.h"
-#include "Points/PointStream.h"
 #include "Points/ReadPoints.h"
 #include "SharedData.h"
 #include "TemporaryFolder.h"

@@ -8,7 +8,6 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
-#include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +45,7 @@ void expectTriangles(vtkDataSet* data)
 TEST(MeshDataSet, ColumnZIsTheThirdCoordinateAndOthersArePointData)
 {
   const PointTable table = square();
-  const auto data = makePolyData(table, TrianglesView(Ids32, 2), {});
+  const auto data = makePolyData(table, TrianglesView(Ids32, 2));
   ASSERT_EQ(4, data->GetNumberOfPoints());
   EXPECT_EQ(7, data->GetPoint(2)[2]);
   EXPECT_EQ(2, data->GetPoint(1)[0]);
@@ -59,37 +58,24 @@ TEST(MeshDataSet, WithoutAColumnZPointsLieInThePlane)
 {
   PointTable table = square();
   table.Columns.clear();
-  const auto data = makePolyData(table, TrianglesView(Ids32, 2), {});
+  const auto data = makePolyData(table, TrianglesView(Ids32, 2));
   EXPECT_EQ(0, data->GetPoint(2)[2]);
 }
 
 TEST(MeshDataSet, IdsOfEitherSizeMakeTheSameCells)
 {
   const PointTable table = square();
-  expectTriangles(makePolyData(table, TrianglesView(Ids32, 2), {}));
-  expectTriangles(makePolyData(table, TrianglesView(Ids64, 2), {}));
-  expectTriangles(makeUnstructuredGrid(table, TrianglesView(Ids32, 2), {}));
-  expectTriangles(makeUnstructuredGrid(table, TrianglesView(Ids64, 2), {}));
+  expectTriangles(makePolyData(table, TrianglesView(Ids32, 2)));
+  expectTriangles(makePolyData(table, TrianglesView(Ids64, 2)));
 }
 
 TEST(MeshDataSet, ConnectivityAndColumnsAreNotCopied)
 {
   const PointTable table = square();
-  const auto data = makePolyData(table, TrianglesView(Ids32, 2), {});
+  const auto data = makePolyData(table, TrianglesView(Ids32, 2));
   EXPECT_EQ(Ids32, data->GetPolys()->GetConnectivityArray()->GetVoidPointer(0));
   EXPECT_EQ(
     table.Columns[1].Values.data(), data->GetPointData()->GetArray("depth")->GetVoidPointer(0));
-}
-
-TEST(MeshDataSet, RepresentativesAreASeparateArray)
-{
-  const PointTable table = square();
-  const std::vector<std::int64_t> representatives{ 0, 1, 2, 1 };
-  const auto data =
-    makeUnstructuredGrid(table, TrianglesView(Ids32, 2), { &representatives, nullptr });
-  vtkDataArray* array = data->GetPointData()->GetArray("RepresentativePointId");
-  ASSERT_NE(nullptr, array);
-  EXPECT_EQ(1, array->GetTuple1(3));
 }
 
 } // namespace

@@ -2,7 +2,6 @@
 #include "ExpectIOError.h"
 #include "Npy/NpyFile.h"
 #include "NpyText.h"
-#include "Points/PointTable.h"
 #include "Points/ReadPoints.h"
 #include "TemporaryFolder.h"
 

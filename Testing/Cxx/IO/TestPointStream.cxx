@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Text files as streams: openPointStream() makes TextFilePoints for them.
-#include "Points/PointStream.h"
+#include "Points/ReadPoints.h"
 
 #include "ExpectIOError.h"
 #include "TemporaryFolder.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Points/PointStream.h"
+#include "Points/ReadPoints.h"
 
 #include <gtest/gtest.h>
 

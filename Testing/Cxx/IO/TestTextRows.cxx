@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Points/FilePoints.h"
+#include "Points/ReadPoints.h"
 
 #include "ExpectIOError.h"
 #include "TemporaryFolder.h"
@@ -15,34 +15,20 @@ using namespace tipp::test;
 TEST(TextRows, DistinguishNumbersMissingValuesAndText)
 {
   const TemporaryFolder folder;
-  TextRows rows(folder.file("points.csv", "name,y,x,h\nbuoy,2,1,3.5\n7,4,3,N/A\n"), {});
-  ASSERT_EQ(2U, rows.further().size());
-  const TextRows::Column name = rows.further()[0];
-  const TextRows::Column height = rows.further()[1];
-  EXPECT_EQ("h", height.Name);
-  EXPECT_EQ(4U, rows.width());
-  double value = 0;
-  ASSERT_TRUE(rows.next());
-  EXPECT_EQ(1, rows.x());
-  EXPECT_EQ(2, rows.y());
-  EXPECT_EQ(TextRows::Value::Text, rows.value(name, value));
-  EXPECT_EQ(TextRows::Value::Number, rows.value(height, value));
-  EXPECT_EQ(3.5, value);
-  ASSERT_TRUE(rows.next());
-  EXPECT_EQ(3, rows.x());
-  EXPECT_EQ(TextRows::Value::Number, rows.value(name, value));
-  EXPECT_EQ(TextRows::Value::Missing, rows.value(height, value));
-  EXPECT_TRUE(std::isnan(value));
-  EXPECT_FALSE(rows.next());
+  const PointTable table =
+    readPoints(folder.file("points.csv", "name,y,x,h\nbuoy,2,1,3.5\n7,4,3,N/A\n"));
+  EXPECT_EQ((std::vector<double>{ 1, 2, 3, 4 }), table.XY);
+  ASSERT_EQ(1U, table.Columns.size());
+  EXPECT_EQ("h", table.Columns[0].Name);
+  EXPECT_EQ(3.5, table.Columns[0].Values[0]);
+  EXPECT_TRUE(std::isnan(table.Columns[0].Values[1]));
 }
 
 TEST(TextRows, OfOtherWidthAreReportedWithTheirLine)
 {
   const TemporaryFolder folder;
   const std::string path = folder.file("points.csv", "# begin\n1,2\n\n3,4,5\n");
-  TextRows rows(path, {});
-  EXPECT_TRUE(rows.next());
-  expectIOError(path, "line 4: has 3 columns", [&] { rows.next(); });
+  expectIOError(path, "line 4: has 3 columns", [&] { readPoints(path); });
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 // Insertion in several batches, and degenerate input.
 #include "KernelTesting.h"
 
-#include "Predicates/Circumdisk.h"
+#include "Predicates/Circumball.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Loading/GroupedMoves.h"
+#include "Loading/ArrayFiles.h"
 
 #include "TemporaryFolder.h"
 

@@ -23,8 +23,8 @@ std::ostream& operator<<(std::ostream& stream, const Run& run)
 namespace
 {
 
-using tipp::groupRuns;
 using tipp::Run;
+using tipp::RunPlan;
 using tipp::runsOfBlocks;
 using tipp::runsOfIds;
 using Runs = std::vector<Run>;
@@ -53,16 +53,16 @@ TEST(Runs, OfIdsContainEachOnce)
 
 TEST(Runs, ThatFitAreOneGroup)
 {
-  Runs runs{ { 0, 10 }, { 50, 10 } };
-  EXPECT_EQ((Groups{ 0, 2 }), groupRuns(runs, 20, 10, 0));
-  EXPECT_EQ((Runs{ { 0, 10 }, { 50, 10 } }), runs);
+  const RunPlan plan({ { 0, 10 }, { 50, 10 } }, 20, 10, 0);
+  EXPECT_EQ((Groups{ 0, 2 }), plan.Starts);
+  EXPECT_EQ((Runs{ { 0, 10 }, { 50, 10 } }), plan.Runs);
 }
 
 TEST(Runs, ThatDoNotFitAreCutAtBlocks)
 {
-  Runs runs{ { 5, 40 }, { 105, 20 } };
-  EXPECT_EQ((Groups{ 0, 1, 2, 3 }), groupRuns(runs, 25, 10, 5));
-  EXPECT_EQ((Runs{ { 5, 20 }, { 25, 20 }, { 105, 20 } }), runs);
+  const RunPlan plan({ { 5, 40 }, { 105, 20 } }, 25, 10, 5);
+  EXPECT_EQ((Groups{ 0, 1, 2, 3 }), plan.Starts);
+  EXPECT_EQ((Runs{ { 5, 20 }, { 25, 20 }, { 105, 20 } }), plan.Runs);
 }
 
 TEST(Runs, InGroupsCoverTheSameTuplesWithinM)
@@ -70,8 +70,9 @@ TEST(Runs, InGroupsCoverTheSameTuplesWithinM)
   for (const std::int64_t m : { 4, 5, 8, 13, 64, 1000 })
   {
     const std::vector<char> active{ 1, 1, 0, 1, 0, 0, 1, 1, 1, 1, 1, 0, 1 };
-    Runs runs = runsOfBlocks(active, 4, 3, 3 + 49, 1);
-    const Groups groups = groupRuns(runs, m, 4, 3);
+    const RunPlan plan(runsOfBlocks(active, 4, 3, 3 + 49, 1), m, 4, 3);
+    const Runs& runs = plan.Runs;
+    const Groups& groups = plan.Starts;
     std::vector<char> covered(active.size() * 4, 0);
     EXPECT_EQ(runs.size(), groups.back());
     for (std::size_t group = 0; group + 1 < groups.size(); ++group)

@@ -7,7 +7,6 @@
 #include "MeshChecks.h"
 #include "Npy/NpyFile.h"
 #include "OutOfCore/InputPasses.h"
-#include "OutOfCore/InputSurvey.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/ScratchFiles.h"

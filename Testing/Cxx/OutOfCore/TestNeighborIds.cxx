@@ -5,7 +5,7 @@
 #include "ExpectIOError.h"
 #include "Meshes/MeshFiles.h"
 #include "Npy/NpyFile.h"
-#include "Partitioned/NeighborIds.h"
+#include "Partitioned/FinishedPieces.h"
 
 #include <algorithm>
 #include <filesystem>

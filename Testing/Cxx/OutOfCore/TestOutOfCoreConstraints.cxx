@@ -4,7 +4,7 @@
 
 #include "Constraints/OnDisk/ConstrainedPoints.h"
 #include "ExpectIOError.h"
-#include "OutOfCore/PieceSegments.h"
+#include "OutOfCore/PieceConstraints.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/PieceFile.h"
 #include "Partitioned/ReadPiece.h"

@@ -4,6 +4,7 @@
 
 #include "Npy/NpyFile.h"
 #include "Output/RunStatistics.h"
+#include "Pipeline/FilterPipeline.h"
 #include "vtkPartitionedUnstructuredReader.h"
 #include "vtkTIPPOutOfCoreDelaunay2D.h"
 

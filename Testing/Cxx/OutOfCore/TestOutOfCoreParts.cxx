@@ -5,7 +5,6 @@
 #include "ExpectIOError.h"
 #include "Npy/NpyFile.h"
 #include "OutOfCore/InputPasses.h"
-#include "OutOfCore/InputSurvey.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/ScratchFiles.h"
 

@@ -7,7 +7,6 @@
 #include "Npy/NpyFile.h"
 #include "Partitioned/GrowingPiece.h"
 #include "Partitioned/PartitionedMesh.h"
-#include "Partitioned/PieceBorder.h"
 
 #include <cmath>
 #include <filesystem>

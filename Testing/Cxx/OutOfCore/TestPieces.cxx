@@ -4,9 +4,9 @@
 #include "OutOfCoreTesting.h"
 
 #include "OutOfCore/FinishPieces.h"
+#include "OutOfCore/OutOfCoreRun.h"
 #include "OutOfCore/PieceRun.h"
-#include "OutOfCore/RunSetup.h"
-#include "Partitioned/NeighborIds.h"
+#include "Partitioned/FinishedPieces.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -169,7 +169,7 @@ protected:
     Communicator alone(nullptr);
     try
     {
-      PieceRun(this->Work, this->Memory, 2, progress, alone).run(isDone);
+      triangulatePieces(this->Work, this->Memory, 2, progress, alone, isDone);
       return true;
     }
     catch (const RankFailure& failure)

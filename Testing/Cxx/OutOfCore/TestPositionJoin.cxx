@@ -2,7 +2,7 @@
 // Tests PositionJoin, which matches the ends of constraints with points on disk, and RowFile.
 #include "TemporaryFolder.h"
 
-#include "Constraints/OnDisk/PositionJoin.h"
+#include "Constraints/OnDisk/StoredConstraints.h"
 
 #include <gtest/gtest.h>
 

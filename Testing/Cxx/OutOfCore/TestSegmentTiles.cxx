@@ -2,7 +2,7 @@
 // Compares crossings and near segments from SegmentTiles with tests of all pairs.
 #include "TemporaryFolder.h"
 
-#include "Constraints/OnDisk/SegmentTiles.h"
+#include "Constraints/OnDisk/SplitStored.h"
 #include "Predicates/ExactPredicates.h"
 
 #include <gtest/gtest.h>
@@ -57,7 +57,7 @@ SegmentTiles tilesOf(const TemporaryFolder& folder, const Items& items, int tile
   return { folder.path("tiles"),
     [&items](const SegmentTiles::Visit& visit)
     { std::for_each(items.begin(), items.end(), visit); },
-    std::int64_t(items.size()), tiles, 2 };
+    tiles, 2 };
 }
 
 class Tiles : public testing::TestWithParam<int>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Parallel/RadixSort.h"
+#include "Parallel/Sort.h"
 
 #include "Arrays/Random.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Predicates/ExactPredicates.h"
+#include "Predicates/ExactPredicates3.h"
 
 #include "DegenerateCells.h"
 #include "ExactClipping.h"

@@ -5,7 +5,7 @@
 #include "RealData.h"
 #include "RequireDevice.h"
 
-#include "Vtk/ReadDataSet.h"
+#include "Vtk/DataSets.h"
 
 #include "vtkDataSet.h"
 #include "vtkIdList.h"

@@ -78,13 +78,9 @@ std::size_t ForgedMesh::find(std::size_t piece, PieceRole role) const
 std::size_t ForgedMesh::arrayBytes(std::size_t piece, std::size_t array) const
 {
   const PieceArray description = this->arraysOf(piece)[array];
-  std::int64_t tuples = 0;
-  for (const std::int64_t part :
-    this->PieceTables[piece].parts(this->Mesh, this->Mesh.Pieces[piece], description.ofPoints()))
-  {
-    tuples += part;
-  }
-  return std::size_t(tuples) * description.tupleBytes();
+  const auto starts = this->PieceTables[piece].partStarts(
+    this->Mesh, this->Mesh.Pieces[piece], description.ofPoints());
+  return std::size_t(starts.back()) * description.tupleBytes();
 }
 
 void ForgedMesh::putWord(std::size_t piece, std::size_t array, std::size_t at, std::uint64_t word)
@@ -94,10 +90,11 @@ void ForgedMesh::putWord(std::size_t piece, std::size_t array, std::size_t at, s
   const PieceArray description = this->arraysOf(piece)[array];
   char* data = this->Pieces[piece].data() + table.Offsets[array];
   std::memcpy(data + at, &word, 8);
-  const auto parts = table.parts(this->Mesh, summary, description.ofPoints());
-  for (std::size_t part = 0; part < parts.size(); ++part)
+  const auto starts = table.partStarts(this->Mesh, summary, description.ofPoints());
+  for (std::size_t part = 0; part + 1 < starts.size(); ++part)
   {
-    const std::size_t bytes = std::size_t(parts[part]) * description.tupleBytes();
+    const std::size_t bytes =
+      std::size_t(starts[part + 1] - starts[part]) * description.tupleBytes();
     table.Checksums[array][part] = checksumOf(data, bytes);
     data += bytes;
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshChecks.h"
+#include "Predicates/ExactPredicates3.h"
 
 #include "ExactClipping.h"
 #include "Partition/ClassifyCells.h"

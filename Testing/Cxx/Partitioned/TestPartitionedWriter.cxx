@@ -4,7 +4,7 @@
 #include "TemporaryFolder.h"
 
 #include "Partitioned/PartitionedMesh.h"
-#include "Vtk/VtkMessages.h"
+#include "Vtk/DataSets.h"
 #include "vtkPartitionedUnstructuredReader.h"
 #include "vtkPartitionedUnstructuredWriter.h"
 

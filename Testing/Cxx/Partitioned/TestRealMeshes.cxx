@@ -7,7 +7,7 @@
 #include "Flat/FlatMesh.h"
 #include "Flat/FlattenDataSet.h"
 #include "Partitioning/PartitionMesh.h"
-#include "Vtk/ReadDataSet.h"
+#include "Vtk/DataSets.h"
 #include "vtkPartitionedUnstructuredReader.h"
 
 #include "vtkCellData.h"
@@ -39,7 +39,7 @@ void expectSame(const std::string& flat, const std::string& output, const std::s
   const PartitionedMesh mesh = openPartitionedMesh(output);
   const std::size_t corners = std::size_t(source.CellSize);
   std::vector<std::int64_t> cells(std::size_t(source.Cells.Tuples) * corners);
-  CellReader(source).read(0, source.Cells.Tuples, cells.data());
+  CellReader(source).read(0, source.Cells.Tuples, cells);
   std::vector<int> seenCells(std::size_t(source.Cells.Tuples), 0);
   std::vector<int> seenPoints(std::size_t(source.Points.Tuples), 0);
   for (std::size_t number = 0; number < mesh.Pieces.size(); ++number)

@@ -5,6 +5,7 @@
 
 #include "Files/IOError.h"
 #include "Flat/FlatMesh.h"
+#include "Meshes/MeshFiles.h"
 #include "Partitioned/ReadPiece.h"
 #include "Partitioning/PartitionMesh.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioned/PieceBorder.h"
+#include "Partitioned/GrowingPiece.h"
 
 #include <gtest/gtest.h>
 
@@ -44,15 +44,16 @@ TEST(SharingSets, AreGroupedInLexicographicOrder)
   const int last = sets.number({ 7 });
   const int unused = sets.number({ 3 });
   const int first = sets.number({ 1, 9 });
-  const auto grouping = sets.groups({ last, -1, first, last });
-  ASSERT_EQ(2U, grouping.Groups.size());
-  EXPECT_EQ((Set{ 1, 9 }), grouping.Groups[0].Borrowers);
-  EXPECT_EQ(1, grouping.Groups[0].Count);
-  EXPECT_EQ((Set{ 7 }), grouping.Groups[1].Borrowers);
-  EXPECT_EQ(2, grouping.Groups[1].Count);
-  EXPECT_EQ(0, grouping.IndexOf[std::size_t(first)]);
-  EXPECT_EQ(1, grouping.IndexOf[std::size_t(last)]);
-  EXPECT_EQ(-1, grouping.IndexOf[std::size_t(unused)]);
+  std::vector<tipp::SharedGroup> groups;
+  const std::vector<int> indexOf = sets.groups({ last, -1, first, last }, groups);
+  ASSERT_EQ(2U, groups.size());
+  EXPECT_EQ((Set{ 1, 9 }), groups[0].Borrowers);
+  EXPECT_EQ(1, groups[0].Count);
+  EXPECT_EQ((Set{ 7 }), groups[1].Borrowers);
+  EXPECT_EQ(2, groups[1].Count);
+  EXPECT_EQ(0, indexOf[std::size_t(first)]);
+  EXPECT_EQ(1, indexOf[std::size_t(last)]);
+  EXPECT_EQ(-1, indexOf[std::size_t(unused)]);
 }
 
 } // namespace

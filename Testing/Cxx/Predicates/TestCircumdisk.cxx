@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Predicates/Circumdisk.h"
+#include "Predicates/Circumball.h"
 
 #include "ExactOracle.h"
 #include "NearDegenerate.h"

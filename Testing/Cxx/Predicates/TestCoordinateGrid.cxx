@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Predicates/CoordinateGrid.h"
+#include "Predicates/ExactPredicates.h"
 
 #include "ExactOracle.h"
 #include "NearDegenerate.h"

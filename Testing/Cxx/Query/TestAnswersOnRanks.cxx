@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QueryRanksTesting.h"
 
-#include "Query/Closest.h"
+#include "Query/Queries.h"
 #include "Query/RankAnswer.h"
 
 #include <algorithm>

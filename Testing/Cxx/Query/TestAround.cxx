@@ -4,7 +4,7 @@
 #include "ExpectIOError.h"
 #include "Flat/FlatMesh.h"
 #include "Partitioning/PartitionMesh.h"
-#include "Query/Around.h"
+#include "Query/Queries.h"
 
 #include <gtest/gtest.h>
 

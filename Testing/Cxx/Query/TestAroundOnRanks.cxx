@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QueryRanksTesting.h"
 
-#include "Query/Around.h"
-#include "Query/Lines.h"
+#include "Query/Queries.h"
 
 #include <algorithm>
 #include <limits>

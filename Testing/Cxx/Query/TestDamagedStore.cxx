@@ -2,10 +2,7 @@
 #include "QueryTesting.h"
 
 #include "Files/IOError.h"
-#include "Query/Around.h"
-#include "Query/Closest.h"
-#include "Query/Lines.h"
-#include "Query/Zones.h"
+#include "Query/Queries.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,7 @@
 #include "QueryTesting.h"
 
 #include "Files/IOError.h"
-#include "Query/Around.h"
-#include "Query/Lines.h"
+#include "Query/Queries.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "QueryTesting.h"
 
 #include "Files/IOError.h"
-#include "Query/Lines.h"
+#include "Query/Queries.h"
 
 #include <gtest/gtest.h>
 

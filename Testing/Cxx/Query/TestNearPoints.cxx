@@ -2,9 +2,8 @@
 #include "QueryTesting.h"
 
 #include "Locate/CellLocator.h"
-#include "Locate/CellPass.h"
 #include "Locate/PointGrid.h"
-#include "Locate/PointRows.h"
+#include "Locate/PointsInBox.h"
 
 #include <gtest/gtest.h>
 

@@ -59,7 +59,7 @@ TEST_F(RankMeshTest, ThePieceOfAPointHasAllCellsThere)
         const auto piece = mesh.pieces().get(std::size_t(pieces[i]), topologyNeeded());
         const std::int64_t at = piece->Topology->findPoint(points[i]);
         ASSERT_GE(at, 0) << points[i];
-        EXPECT_TRUE(owns(*piece->Part, at)) << points[i];
+        EXPECT_TRUE(piece->Part->owns(at)) << points[i];
         Ids cells;
         for (const std::int32_t cell : piece->Topology->cellsAt(at))
         {
@@ -93,7 +93,7 @@ TEST_F(RankMeshTest, EachPointWithCellsIsOwnedByAPieceOfOneRank)
         const auto piece = mesh.pieces().get(number, topologyNeeded());
         for (std::int64_t point = 0; point < piece->Part->Mesh.PointCount; ++point)
         {
-          const bool isOwn = owns(*piece->Part, point) && !piece->Topology->cellsAt(point).empty();
+          const bool isOwn = piece->Part->owns(point) && !piece->Topology->cellsAt(point).empty();
           owners[std::size_t(piece->Part->pointId(point))] += isOwn ? 1 : 0;
         }
       }

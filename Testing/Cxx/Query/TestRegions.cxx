@@ -2,7 +2,7 @@
 #include "QueryTesting.h"
 
 #include "Predicates/ExactPredicates.h"
-#include "Query/Zones.h"
+#include "Query/Queries.h"
 
 #include <gtest/gtest.h>
 
@@ -52,6 +52,22 @@ TEST(Regions, BoxesOfTetrahedraAreTheSameForAnyPieces)
       EXPECT_EQ(cells, cellsIn(mesh, box, false));
       EXPECT_EQ(points, pointsIn(mesh, box));
     });
+}
+
+TEST(Regions, BoxesMayBeInfinite)
+{
+  const double all = HUGE_VAL;
+  const ResidentMesh triangles(inMemory(makeSource(latticeTriangles(8, 0.3))));
+  const ResidentMesh tetrahedra(inMemory(makeSource(latticeTetrahedra(4, 0.3))));
+  for (const ResidentMesh* const mesh : { &triangles, &tetrahedra })
+  {
+    // Few of the cells that the strip meets have a corner in it.
+    const auto cells = [mesh](double end) {
+      return cellsIn(*mesh, { { 0.4, 0.401, -end, end, -end, end }, {} }, false);
+    };
+    EXPECT_LT(5U, cells(9).size());
+    EXPECT_EQ(cells(9), cells(all));
+  }
 }
 
 TEST(Regions, PolygonsOverTetrahedraAreColumns)

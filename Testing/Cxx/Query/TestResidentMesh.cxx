@@ -3,8 +3,7 @@
 
 #include "ExpectIOError.h"
 #include "Files/IOError.h"
-#include "Query/Around.h"
-#include "Query/Closest.h"
+#include "Query/Queries.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 #include "QueryTesting.h"
 
 #include "Files/IOError.h"
-#include "Predicates/ExactSum.h"
-#include "Query/Zones.h"
+#include "Predicates/ExactArithmetic.h"
+#include "Query/Queries.h"
 
 #include <gtest/gtest.h>
 

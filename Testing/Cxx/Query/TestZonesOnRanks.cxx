@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QueryRanksTesting.h"
 
-#include "Query/Zones.h"
+#include "Query/Queries.h"
 
 #include <algorithm>
 

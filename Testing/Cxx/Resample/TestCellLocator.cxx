@@ -79,11 +79,9 @@ void expectAsOracle(const Scene& scene, const std::vector<Point3>& points)
   const SimplexMesh mesh = scene.mesh();
   const std::vector<CellLocation> found = locate(mesh, nullptr, points, 2, true);
   const std::vector<CellLocation> byCells = locate(mesh, nullptr, points, 2, false);
-  const CellLocator locator(mesh, nullptr, 1);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     const std::vector<int> expected = expectedCells(scene, points[i]);
-    EXPECT_EQ(found[i].Cell, locator.locate(points[i]).Cell) << scene.Name << " point " << i;
     EXPECT_EQ(found[i].Cell, byCells[i].Cell) << scene.Name << " point " << i;
     EXPECT_EQ(found[i].Weights[1], byCells[i].Weights[1]) << scene.Name << " point " << i;
     if (expected.empty())

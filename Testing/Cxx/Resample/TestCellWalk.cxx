@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Locate/CellWalk.h"
+#include "Locate/CellLocator.h"
 
 #include "Locate/CellChoice.h"
-#include "Locate/CellLocator.h"
 #include "ResampleScenes.h"
 
 #include <gtest/gtest.h>
@@ -198,29 +197,6 @@ TEST(CellWalk, RecognizesPointsOutsideAConvexMesh)
           EXPECT_EQ(CellWalk::Outcome::Unknown, walk.walk(access, { 1, 0.7 }, at));
         }
       });
-  }
-}
-
-TEST(CellWalk, HasTheWeightsOfThinWeights)
-{
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> anywhere(-1, 1);
-  for (int i = 0; i < 2000; ++i)
-  {
-    double edges[2][2] = { { anywhere(random), anywhere(random) },
-      { anywhere(random), anywhere(random) } };
-    const double offset[2] = { anywhere(random), anywhere(random) };
-    if (i % 3 == 0) // thin, or without area
-    {
-      edges[1][0] = edges[0][0] * (1 + (i % 2) * 0x1p-50);
-      edges[1][1] = edges[0][1];
-    }
-    double expected[2];
-    double weights[2];
-    ThinWeights<2>(edges).solve(offset, expected);
-    weighTriangle(edges, offset, weights);
-    EXPECT_EQ(expected[0], weights[0]);
-    EXPECT_EQ(expected[1], weights[1]);
   }
 }
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Resample/BorderClaims.h"
-#include "Resample/FillBlock.h"
-#include "Resample/Interpolate.h"
+#include "Resample/CellLanes.h"
+#include "Resample/CellRows.h"
+#include "Resample/Resample.h"
+#include "Resample/SampleBlock.h"
 #include "Resample/SimplexMesh.h"
-#include "Resample/TetrahedronLanes.h"
-#include "Resample/TriangleRows.h"
 
 #include "ResampleScenes.h"
 
@@ -54,7 +53,7 @@ struct FilledArrays
   std::vector<float> CellSamples;
   std::vector<unsigned char> Valid;
   std::vector<tipp::Attribute> Attributes;
-  tipp::InterpolationOptions Options;
+  tipp::ResampleOptions Options;
 };
 
 void expectAsInTwoWalks(const Scene& scene, const tipp::Lattice& lattice)
@@ -185,7 +184,7 @@ TEST(TriangleLanes, EqualTheScalarCode)
   const tipp::Lattice lattice = latticeOf(2, 90, -0.1, 1.2);
   const tipp::LatticeAxes axes(scene.mesh(), lattice);
   const int told = expectLanesLikeRows<tipp::SimplexAccess<2, double, std::int64_t>>(
-    scene, tipp::TriangleLanes(axes.U, axes.V), tipp::TriangleRows(axes.U, axes.V));
+    scene, tipp::TriangleLanes(axes), tipp::TriangleRows(axes));
   EXPECT_GT(told, scene.cells() / 2);
 }
 
@@ -194,8 +193,8 @@ TEST(TetrahedronLanes, EqualTheScalarCode)
   const Scene scene = jitteredScene(3, 8, 5);
   const tipp::Lattice lattice = latticeOf(3, 30, -0.1, 1.2);
   const tipp::LatticeAxes axes(scene.mesh(), lattice);
-  const int told = expectLanesLikeRows<tipp::SimplexAccess<3, double, std::int64_t>>(scene,
-    tipp::TetrahedronLanes(axes.U, axes.V, axes.W), tipp::TetrahedronRows(axes.U, axes.V, axes.W));
+  const int told = expectLanesLikeRows<tipp::SimplexAccess<3, double, std::int64_t>>(
+    scene, tipp::TetrahedronLanes(axes), tipp::TetrahedronRows(axes));
   EXPECT_GT(told, scene.cells() / 2);
 }
 
@@ -204,8 +203,8 @@ TEST(TetrahedronLanes, SingleSamplesEqualTheScalarCode)
   const Scene scene = jitteredScene(3, 12, 5);
   const tipp::LatticeAxes axes(scene.mesh(), latticeOf(3, 8, -0.1, 1.2));
   const tipp::SimplexAccess<3, double, std::int64_t> cells(scene.mesh());
-  tipp::TetrahedronLanes lanes(axes.U, axes.V, axes.W);
-  tipp::TetrahedronRows rows(axes.U, axes.V, axes.W);
+  tipp::TetrahedronLanes lanes(axes);
+  tipp::TetrahedronRows rows(axes);
   int inside = 0;
   int outside = 0;
   for (int first = 0; first + tipp::laneCount <= scene.cells(); first += tipp::laneCount)
@@ -276,11 +275,11 @@ TEST(OutsidePoints, AreThePointsOfCellsBeyondASideOfASmallLattice)
   const tipp::SimplexMesh mesh = scene.mesh();
   const tipp::Lattice lattice = latticeOf(2, 30, 0.4, 0.5);
   const tipp::LatticeAxes axes(mesh, lattice);
-  tipp::OutsidePoints<Access> outside(mesh, { &axes.U, &axes.V, &axes.W });
+  tipp::OutsidePoints<Access> outside(mesh, axes);
   EXPECT_FALSE(outside.contain(0));
   outside.find(2);
   ASSERT_NE(outside.sides(), nullptr);
-  tipp::TriangleRows rows(axes.U, axes.V);
+  tipp::TriangleRows rows(axes);
   int without = 0;
   for (int cell = 0; cell < scene.cells(); ++cell)
   {
@@ -300,8 +299,7 @@ TEST(OutsidePoints, AreNotUsedIfTheLatticeCoversMostOfTheMesh)
 {
   const Scene scene = jitteredScene(2, 40, 5);
   const tipp::LatticeAxes axes(scene.mesh(), latticeOf(2, 30, 0, 1));
-  tipp::OutsidePoints<tipp::SimplexAccess<2, double, std::int64_t>> outside(
-    scene.mesh(), { &axes.U, &axes.V, &axes.W });
+  tipp::OutsidePoints<tipp::SimplexAccess<2, double, std::int64_t>> outside(scene.mesh(), axes);
   outside.find(2);
   EXPECT_EQ(outside.sides(), nullptr);
 }

@@ -3,7 +3,7 @@
 #include "BesideProbeFilter.h"
 #include "RangeResampleTesting.h"
 
-#include "Vtk/ReadDataSet.h"
+#include "Vtk/DataSets.h"
 
 #include <gtest/gtest.h>
 

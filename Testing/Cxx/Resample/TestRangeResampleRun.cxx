@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MessageCounter.h"
-#include "Output/FilterPipeline.h"
 #include "PieceSource.h"
+#include "Pipeline/FilterPipeline.h"
 #include "RangeResampleTesting.h"
 
 #include "vtkCallbackCommand.h"

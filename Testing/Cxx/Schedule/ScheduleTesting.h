@@ -7,7 +7,6 @@
 #include "Predicates/ExactPredicates.h"
 #include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/PointBuckets.h"
-#include "Triangulation/PointSurvey.h"
 #include "Triangulation/PointsView.h"
 
 #include <map>

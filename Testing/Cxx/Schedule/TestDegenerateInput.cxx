@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ScheduleTesting.h"
 
-#include "Triangulation/PointSurvey.h"
 #include "Triangulation/PointsView.h"
 
 #include <cmath>

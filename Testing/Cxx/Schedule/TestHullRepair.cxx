@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InitialScene.h"
 
-#include "Engine/Routing.h"
+#include "Triangulation/Dataflow.h"
 
 #include <algorithm>
 #include <random>

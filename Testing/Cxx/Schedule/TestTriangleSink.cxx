@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ScheduleTesting.h"
 
-#include "Engine/Routing.h"
+#include "Triangulation/Dataflow.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "InitialScene.h"
 
 #include "ExactDisk.h"
-#include "Triangulation/Worker.h"
+#include "Triangulation/Dataflow.h"
 
 #include <algorithm>
 #include <array>

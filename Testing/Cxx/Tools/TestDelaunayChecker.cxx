@@ -195,8 +195,8 @@ TEST_F(Spoiled, FlippedEdgeIsNotDelaunay)
 {
   this->flipAnEdge();
   const CheckReport report = this->check();
-  EXPECT_GE(report.BadCircles, 1);
-  EXPECT_EQ(0, report.BadTurns + report.BadEdges + report.BadHullEdges + report.EulerMismatch);
+  EXPECT_GE(report.BadSpheres, 1);
+  EXPECT_EQ(0, report.BadTurns + report.BadFacets + report.BadHullEdges + report.EulerMismatch);
 }
 
 TEST_F(Spoiled, DroppedInnerTriangleLeavesAHole)
@@ -222,7 +222,7 @@ TEST_F(Spoiled, FreeBoundaryMayHaveADent)
 TEST_F(Spoiled, FreeBoundaryDoesNotExcuseAFlippedEdge)
 {
   this->flipAnEdge();
-  EXPECT_GE(this->check(boundaryFree()).BadCircles, 1);
+  EXPECT_GE(this->check(boundaryFree()).BadSpheres, 1);
 }
 
 TEST_F(Spoiled, ReversedTriangleIsClockwise)
@@ -230,7 +230,7 @@ TEST_F(Spoiled, ReversedTriangleIsClockwise)
   std::swap(this->Triangles[0], this->Triangles[1]);
   const CheckReport report = this->check();
   EXPECT_EQ(1, report.BadTurns);
-  EXPECT_GT(report.BadEdges, 0);
+  EXPECT_GT(report.BadFacets, 0);
 }
 
 TEST_F(Spoiled, AllTrianglesReversedAreClockwise)
@@ -250,7 +250,7 @@ TEST_F(Spoiled, DoubledTriangleSharesItsEdges)
     this->Triangles.push_back(this->Triangles[inner + k]);
   }
   const CheckReport report = this->check();
-  EXPECT_EQ(3, report.BadEdges);
+  EXPECT_EQ(3, report.BadFacets);
   EXPECT_EQ(1, report.EulerMismatch);
 }
 
@@ -341,9 +341,9 @@ TEST(DelaunayChecker, UlpDecidesBetweenTheDiagonals)
   const Coordinates near{ 0, 0, 1, 0, 0, 1, inside, inside };
   const Coordinates far{ 0, 0, 1, 0, 0, 1, outside, outside };
   EXPECT_TRUE(checkDelaunay(near, throughOrigin).isCorrect());
-  EXPECT_EQ(1, checkDelaunay(near, besideOrigin).BadCircles);
+  EXPECT_EQ(1, checkDelaunay(near, besideOrigin).BadSpheres);
   EXPECT_TRUE(checkDelaunay(far, besideOrigin).isCorrect());
-  EXPECT_EQ(1, checkDelaunay(far, throughOrigin).BadCircles);
+  EXPECT_EQ(1, checkDelaunay(far, throughOrigin).BadSpheres);
 }
 
 TEST(DelaunayChecker, CoordinatesMayBeVerySmallOrLarge)
@@ -390,7 +390,7 @@ TEST(DelaunayChecker, FindsTheKnownErrorsOfMeshes)
   struct Known
   {
     const char* Name;
-    std::int64_t BadCircles;
+    std::int64_t BadSpheres;
   };
   for (const Known& known : { Known{ "adcirc/ec95d/ec95d.grd", 0 },
          Known{ "adcirc/internal_overflow/internal_overflow.grd", 0 },
@@ -399,7 +399,7 @@ TEST(DelaunayChecker, FindsTheKnownErrorsOfMeshes)
     TIPP_REQUIRE_DATA(path, known.Name);
     const tipp::AdcircGrid grid = tipp::readAdcircGrid(path);
     const CheckReport report = checkDelaunay(grid.XY, grid.Triangles, boundaryFree());
-    EXPECT_EQ(known.BadCircles, report.BadCircles) << known.Name;
-    EXPECT_EQ(known.BadCircles > 0 ? 1U : 0U, report.faults().size()) << known.Name;
+    EXPECT_EQ(known.BadSpheres, report.BadSpheres) << known.Name;
+    EXPECT_EQ(known.BadSpheres > 0 ? 1U : 0U, report.faults().size()) << known.Name;
   }
 }

@@ -105,8 +105,8 @@ void expectAsWhole(const Mesh& mesh, bool isCorrect, const CheckOptions& options
   EXPECT_EQ(whole.faults(), pieces.faults());
   EXPECT_EQ(whole.Points, pieces.Points);
   EXPECT_EQ(whole.DistinctPoints, pieces.DistinctPoints);
-  EXPECT_EQ(whole.Triangles, pieces.Triangles);
-  EXPECT_EQ(whole.BoundaryEdges, pieces.BoundaryEdges);
+  EXPECT_EQ(whole.Cells, pieces.Cells);
+  EXPECT_EQ(whole.BoundaryFacets, pieces.BoundaryFacets);
   EXPECT_EQ(whole.Ties, pieces.Ties);
 }
 
@@ -153,7 +153,7 @@ TEST(PieceChecker, FindsEdgesThatAreNotLocallyDelaunay)
   {
     value = std::min(19.9, value + double(random() % 100) / 200);
   }
-  EXPECT_GT(checkInPieces(mesh).BadCircles, 0);
+  EXPECT_GT(checkInPieces(mesh).BadSpheres, 0);
 }
 
 TEST(PieceChecker, FindsARepeatedTriangle)
@@ -163,7 +163,7 @@ TEST(PieceChecker, FindsARepeatedTriangle)
   {
     mesh.Triangles.push_back(mesh.Triangles[i]);
   }
-  EXPECT_GT(checkInPieces(mesh).BadEdges, 0);
+  EXPECT_GT(checkInPieces(mesh).BadFacets, 0);
 }
 
 TEST(PieceChecker, FindsAPointWithOtherCoordinatesInAnotherPiece)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Console/ProgressBar.h"
+#include "Commands/Report.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,6 @@
 #include "Meshes/MeshFiles.h"
 #include "Npy/NpyFile.h"
 #include "OpenCL/Devices.h"
-#include "Points/PointTable.h"
 #include "Points/ReadPoints.h"
 #include "RunTipp.h"
 

@@ -3,7 +3,6 @@
 
 #include "Distributions/GeneratePoints.h"
 #include "Npy/NpyFile.h"
-#include "Points/PointTable.h"
 #include "Points/ReadPoints.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ReferenceTree.h"
+#include "Predicates/ExactPredicates3.h"
 
 #include "ExactClipping.h"
 

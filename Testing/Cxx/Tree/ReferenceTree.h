@@ -5,7 +5,7 @@
 #include "CellSets.h"
 #include "ExpectIOError.h"
 
-#include "Partitioning/BuildTree.h"
+#include "Partitioning/MeshTiling.h"
 
 #include <cstdint>
 #include <string>

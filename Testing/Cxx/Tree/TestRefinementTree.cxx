@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioning/BuildTree.h"
+#include "Partitioning/MeshTiling.h"
 
 #include "ReferenceTree.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Each rank also builds the tree alone, and compares it with that of all ranks.
-#include "Partitioning/BuildTree.h"
+#include "Partitioning/MeshTiling.h"
 #include "Ranks/Communicator.h"
 
 #include "CellSets.h"

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippConstraintPieces_h
+#define tippConstraintPieces_h
+
+#include "Triangulation/PointsView.h"
+#include "Triangulation/Triangulate.h"
+#include "vtkTIPPFiltersModule.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace tipp
+{
+
+/// A segment between two points (point ids) that must be an edge of the triangulation, or a chain
+/// of edges.
+struct Constraint
+{
+  PointId A;
+  PointId B;
+};
+
+/// A part of a constraint between two points (point ids), directed like the constraint.
+struct ConstraintPiece
+{
+  PointId A;
+  PointId B;
+  std::int64_t Constraint; ///< index of the constraint
+};
+
+/// Thrown if pieces cross that should have been split at all crossings.
+struct CrossingFound : std::logic_error
+{
+  CrossingFound()
+    : std::logic_error("A constraint crosses another one.")
+  {
+  }
+};
+
+/// The pieces of constraints [begin, end).
+VTKTIPPFILTERS_EXPORT std::vector<ConstraintPiece> piecesOf(
+  const std::vector<ConstraintPiece>& pieces, std::size_t begin, std::size_t end);
+
+/// A set of constraint edges to be found by their ends.
+class VTKTIPPFILTERS_EXPORT ConstraintEdges
+{
+public:
+  explicit ConstraintEdges(const std::vector<ConstraintPiece>& pieces);
+
+  bool contains(PointId a, PointId b) const { return this->count(a, b) > 0; }
+
+  /// The number of constraints from a to b minus the number from b to a.
+  int balance(PointId a, PointId b) const;
+
+  /// The number of constraints between a and b.
+  int count(PointId a, PointId b) const;
+
+private:
+  using Ends = std::pair<PointId, PointId>; ///< the lower id first
+  struct Edge
+  {
+    Ends Ids;
+    int Direction; ///< 1 from the lower id to the higher, -1 for the opposite
+  };
+
+  using Iterator = std::vector<Edge>::const_iterator;
+  std::pair<Iterator, Iterator> between(PointId a, PointId b) const;
+
+  std::vector<Edge> Edges;   ///< sorted by ends
+  std::vector<char> IsLower; ///< by low bits of ids: whether one is a lower end
+};
+
+enum class CrossingRule
+{
+  Split, ///< constraints that cross are split at a new point
+  Refuse ///< constraints that cross are an error
+};
+
+/// A new point where two constraints cross.
+struct CrossingPoint
+{
+  Point2 Position;
+  PointId A;       ///< it lies between A and B, on the constraint of lower index;
+  PointId B;       ///< both have lower ids than the crossing
+  double Fraction; ///< the fraction of the way from A to B
+};
+
+/// Constraints that cross each other only at common points.
+struct ResolvedConstraints
+{
+  std::vector<ConstraintPiece> Pieces;  ///< sorted by constraint, each from its A to its B
+  std::vector<CrossingPoint> Crossings; ///< their ids follow those of the input's points
+  int Rounds = 0;                       ///< rounds of splitting
+  std::int64_t NotFinite = 0;           ///< constraints left out: an end is not finite
+};
+
+/// The statistics of resolved constraints.
+struct ConstraintFigures
+{
+  std::int64_t Constraints = 0; ///< number of given constraints
+  std::int64_t Segments = 0;    ///< number of edges on constraints
+  std::int64_t Crossings = 0;
+  int Rounds = 0;             ///< rounds of splitting at crossings
+  std::int64_t NotFinite = 0; ///< number of constraints left out
+
+  ConstraintFigures() = default;
+  ConstraintFigures(const ResolvedConstraints& resolved, std::size_t constraints)
+    : Constraints(std::int64_t(constraints))
+    , Segments(std::int64_t(resolved.Pieces.size()))
+    , Crossings(std::int64_t(resolved.Crossings.size()))
+    , Rounds(resolved.Rounds)
+    , NotFinite(resolved.NotFinite)
+  {
+  }
+
+  /// Calls visit(key, array, value) for each figure. `key` is its name in JSON files and Python,
+  /// `array` its name in VTK tables.
+  template <typename Visit>
+  void visit(const Visit& visit) const
+  {
+    visit("constraints", "Constraints", this->Constraints);
+    visit("constraint_edges", "ConstraintEdges", this->Segments);
+    visit("crossing_points", "CrossingPoints", this->Crossings);
+    visit("crossing_rounds", "CrossingRounds", std::int64_t(this->Rounds));
+  }
+};
+
+/// The constraints without those that have equal ends or ends that are not finite. They may cross.
+/// Throws like resolveCrossings() for an invalid point id.
+ResolvedConstraints takeConstraints(
+  PointsView points, const std::vector<Constraint>& constraints, int threads);
+
+/// How messages identify points and constraints; if empty, by their indices.
+struct ConstraintNames
+{
+  std::vector<PointId> Points;
+  std::vector<std::int64_t> Constraints;
+};
+
+/// After this many rounds, crossings are rounded to coarser grids than that of doubles.
+constexpr int RoundsOfDoubles = 10;
+
+/// Splits constraints where they cross. A crossing is rounded to doubles and becomes a point of
+/// both constraints. This is snap rounding (Hobby 1999) on the grid of doubles: a constraint that
+/// crosses others is led through all ends and crossings to which points on it round. So it moves by
+/// at most half a unit in the last place of its coordinates. Throws std::invalid_argument for an
+/// invalid point id and, if `rule` refuses crossings, for the first crossing.
+///
+/// The grid of doubles is not uniform, so parts may cross again. These crossings are rounded and
+/// split in further rounds, each of which may move a constraint by another half unit. The rounds
+/// end: a crossing is rounded to a point in the bounding boxes of both parts, but not to an end of
+/// both. So at least one part is split into parts with smaller boxes, and there are finitely many
+/// boxes with doubles as corners.
+///
+/// This may take long if constraints are within a unit of each other over many orders of magnitude.
+/// So after ten rounds, all units are those of the largest end, and they double in each further
+/// round. Once they exceed all coordinates, crossings only combine existing coordinates, and few
+/// rounds remain.
+VTKTIPPFILTERS_EXPORT ResolvedConstraints resolveCrossings(PointsView points,
+  const std::vector<Constraint>& constraints, CrossingRule rule, int threads,
+  const ConstraintNames& names = {});
+
+} // namespace tipp
+
+#endif

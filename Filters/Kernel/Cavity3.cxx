@@ -1,0 +1,478 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Kernel/Cavity3.h"
+
+#include "Kernel/Lanes.h"
+#include "Predicates/ExactPredicates3.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace tipp
+{
+namespace
+{
+
+using Index = TetrahedronMesh::Index;
+
+/// Four doubles in one vector. Used for local variables only: how a function passes such a vector
+/// depends on the instruction set.
+using Quad = double __attribute__((vector_size(32)));
+using QuadMask = long long __attribute__((vector_size(32)));
+
+/// Four points, with their lift or another value.
+using QuadPoint = LiftedPoint<Quad>;
+
+/// Returns the points in another order.
+template <int A, int B, int C, int D>
+[[gnu::always_inline]] inline QuadPoint permuted(const QuadPoint& p)
+{
+  return { __builtin_shufflevector(p.x, p.x, A, B, C, D),
+    __builtin_shufflevector(p.y, p.y, A, B, C, D), __builtin_shufflevector(p.z, p.z, A, B, C, D),
+    __builtin_shufflevector(p.lift, p.lift, A, B, C, D) };
+}
+
+/// Returns a bit for each lane of the mask: lane i sets bit i.
+inline unsigned bitsOfLanes(const QuadMask& mask)
+{
+  return bitsOf(__builtin_shufflevector(mask, mask, 0, 1)) |
+    bitsOf(__builtin_shufflevector(mask, mask, 2, 3)) << 2;
+}
+
+} // namespace
+
+void Cavity3::restart(const Point3* points, std::size_t count)
+{
+  this->Recent = 0;
+  this->Free.clear();
+  this->Filling.restart();
+  this->extend(points, count);
+}
+
+void Cavity3::extend(const Point3* points, std::size_t count)
+{
+  this->Points = points;
+  this->Predicates.restart(points, count);
+  this->Filling.extend(count);
+}
+
+/// Tests on which sides of a tetrahedron's facets p is, in one vector. Bit i of the result: p is
+/// certainly beyond the facet opposite to corner i. Bit i of `inside`: it is certainly not.
+//
+// The determinants are those of orientation3(p, a, b, c), with a, b, c from FacetCorners. But for
+// rounding, the product of sizes is at least the permanent in the error bound of orientation3().
+inline unsigned Cavity3::facetsBefore(const Index* v, const Point3& p, unsigned& inside) const
+{
+  const Point3* const at = this->Points;
+  const Quad x = Quad{ at[v[0]].x, at[v[1]].x, at[v[2]].x, at[v[3]].x } - p.x;
+  const Quad y = Quad{ at[v[0]].y, at[v[1]].y, at[v[2]].y, at[v[3]].y } - p.y;
+  const Quad z = Quad{ at[v[0]].z, at[v[1]].z, at[v[2]].z, at[v[3]].z } - p.z;
+  const Quad size = (x < 0 ? -x : x) + (y < 0 ? -y : y) + (z < 0 ? -z : z);
+  const QuadPoint corners = { x, y, z, size };
+  const auto [ax, ay, az, aSize] = permuted<1, 0, 0, 0>(corners);
+  const auto [bx, by, bz, bSize] = permuted<2, 3, 1, 2>(corners);
+  const auto [cx, cy, cz, cSize] = permuted<3, 2, 3, 1>(corners);
+  const Quad determinant =
+    (az * (bx * cy - cx * by) - bz * (ax * cy - cx * ay)) + cz * (ax * by - bx * ay);
+  // After an overflow the last term is NaN, and both comparisons are false.
+  const Quad bound =
+    8e-16 * (aSize * bSize * cSize) + 1e-300 * (1.0 + aSize + bSize + cSize) + 0.0 * determinant;
+  inside = bitsOfLanes(determinant > bound);
+  return bitsOfLanes(-determinant > bound);
+}
+
+/// Walks to a tetrahedron that contains the point. If the point is outside of the hull, the walk
+/// ends at an infinite tetrahedron whose hull facet separates the point from the hull.
+//
+// A walk among other threads may read tetrahedra that are removed or reused. All their corners and
+// neighbours are valid indices, so it ends somewhere, or is given up.
+template <typename Access>
+inline Cavity3::Location Cavity3::locate(const TetrahedronMesh& mesh, const Point3& p)
+{
+  constexpr int mostSteps = 1 << 16; // among other threads
+  const Index* const slots = mesh.slots();
+  const Point3* const points = this->Points;
+  Location at = { this->Recent, 0, {} };
+  Index from = 4; // opposite to the facet that the walk crossed last; 4: none yet
+  for (int step = 0; !Access::IsShared || step < mostSteps; ++step)
+  {
+    const Index* const cell = slots + at.Cell;
+    const Index v[4] = { Access::load(cell[0]), Access::load(cell[1]), Access::load(cell[2]),
+      Access::load(cell[3]) };
+    if (Access::IsShared)
+    {
+      std::copy_n(v, 4, at.Corners.begin());
+    }
+    if (v[0] == 0)
+    {
+      return at;
+    }
+    unsigned inside = 0;
+    const unsigned before = this->facetsBefore(v, p, inside) & ~(1U << from);
+    const unsigned unknown = 15 & ~(before | inside | 1U << from);
+    bool isOnFacet = false;
+    Index next = before != 0 ? Index(__builtin_ctz(before)) : 4;
+    for (Index i = 0; unknown != 0 && i < 4 && next == 4; ++i)
+    {
+      if ((unknown >> i & 1) != 0)
+      {
+        const Index* const f = TetrahedronMesh::FacetCorners[i];
+        const int side =
+          this->Predicates.orientation(p, points[v[f[0]]], points[v[f[1]]], points[v[f[2]]]);
+        isOnFacet |= side == 0;
+        next = side < 0 ? i : next;
+      }
+    }
+    if (next == 4)
+    {
+      for (Index i = 0; isOnFacet && i < 4; ++i)
+      {
+        at.EqualTo = points[v[i]] == p ? v[i] : at.EqualTo;
+      }
+      return at;
+    }
+    const Index across = Access::load(cell[next + 4]);
+    at.Cell = TetrahedronMesh::cellOf(across);
+    from = across & 3;
+  }
+  return { NoCell, 0, {} };
+}
+
+/// Tests p against the spheres of the four neighbours of a finite tetrahedron, in one vector. Bit i
+/// of the result: p is certainly inside the sphere of neighbour i. Bit i of `certain`: the sign is
+/// certain. Both bits are 0 for a neighbour at infinity.
+//
+// With the neighbour's apex e, and a, b, c from FacetCorners, orientation3(e, a, b, c) is negative,
+// and so is the determinant of inSphereValue() if p is inside.
+inline unsigned Cavity3::conflictsAcross(
+  const Index* slots, Index cell, const Links& across, const Point3& p, unsigned& certain)
+{
+  const Index* const v = slots + cell;
+  const Point3* const points = this->Points;
+  const Point3& v0 = points[v[0]];
+  const Point3& v1 = points[v[1]];
+  const Point3& v2 = points[v[2]];
+  const Point3& v3 = points[v[3]];
+  const Index apexes[4] = { slots[across[0]], slots[across[1]], slots[across[2]],
+    slots[across[3]] };
+  const Point3& e0 = points[apexes[0]];
+  const Point3& e1 = points[apexes[1]];
+  const Point3& e2 = points[apexes[2]];
+  const Point3& e3 = points[apexes[3]];
+  const Quad x = Quad{ v0.x, v1.x, v2.x, v3.x } - p.x;
+  const Quad y = Quad{ v0.y, v1.y, v2.y, v3.y } - p.y;
+  const Quad z = Quad{ v0.z, v1.z, v2.z, v3.z } - p.z;
+  const Quad ex = Quad{ e0.x, e1.x, e2.x, e3.x } - p.x;
+  const Quad ey = Quad{ e0.y, e1.y, e2.y, e3.y } - p.y;
+  const Quad ez = Quad{ e0.z, e1.z, e2.z, e3.z } - p.z;
+  const Quad lift = x * x + y * y + z * z;
+  const QuadPoint corners = { x, y, z, lift };
+  const QuadPoint e = { ex, ey, ez, ex * ex + ey * ey + ez * ez };
+  const auto [determinant, lifts] = inSphereValue(
+    e, permuted<1, 0, 0, 0>(corners), permuted<2, 3, 1, 2>(corners), permuted<3, 2, 3, 1>(corners));
+  // The same error bound as in isCertain().
+  const Quad square = lifts * lifts;
+  const Quad bound = (9 * 0x1p-106) * (square * square) * lifts + 1e-280;
+  certain = bitsOfLanes(determinant * determinant > bound);
+  for (unsigned i = 0; i < 4; ++i)
+  {
+    certain &= ~(unsigned(apexes[i] == 0) << i);
+  }
+  return certain & bitsOfLanes(determinant < 0);
+}
+
+/// Reads the links of a claimed tetrahedron. Returns false if another thread claims or has just
+/// removed a neighbour.
+//
+// If a thread replaces a neighbour, it changes the link before it frees the neighbour. So if the
+// neighbour is live and the link is still the same, it is the neighbour, and it stays.
+template <typename Access>
+inline bool Cavity3::readLinks(const TetrahedronMesh& mesh, Index cell, Links& across) const
+{
+  const Index* const links = mesh.slots() + cell + 4;
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    across[i] = Access::load(links[i]);
+  }
+  bool areStable = true;
+  for (std::size_t i = 0; Access::IsShared && i < 4; ++i)
+  {
+    const std::uint8_t mark = Access::markOf(mesh.marks()[across[i] / 8]);
+    areStable &= mark == TetrahedronMesh::Live || mark == this->Claim;
+    areStable &= Access::load(links[i]) == across[i];
+  }
+  return areStable;
+}
+
+/// Claims the tetrahedron where a walk has ended. Returns false if another thread has claimed it or
+/// if it is not in conflict with p.
+//
+// The corners are compared too, because the walk has seen that p is at none of them. The sphere is
+// tested because the walk may have entered the tetrahedron from one that is no longer its
+// neighbour.
+template <typename Access>
+inline bool Cavity3::claimFirst(TetrahedronMesh& mesh, const Point3& p, const Location& at)
+{
+  this->Removed.clear();
+  this->Boundary.clear();
+  if (!Access::claim(mesh.marks()[at.Cell / 8], this->Claim))
+  {
+    return false;
+  }
+  this->Removed.push_back(at.Cell);
+  if (!Access::IsShared)
+  {
+    return true;
+  }
+  const Index* const v = mesh.slots() + at.Cell;
+  const Point3* const points = this->Points;
+  if (!std::equal(v, v + 4, at.Corners.begin()))
+  {
+    return false;
+  }
+  return v[0] != 0 ? this->Predicates.isInFiniteConflict(v, p)
+                   : this->Predicates.orientation(p, points[v[1]], points[v[2]], points[v[3]]) > 0;
+}
+
+/// Tests p against an infinite neighbour of the cavity. The test may read the neighbour's finite
+/// neighbour, so the neighbour is claimed meanwhile. Returns false if it cannot be claimed.
+template <typename Access>
+[[gnu::noinline]] bool Cavity3::testInfinite(
+  TetrahedronMesh& mesh, Index cell, const Point3& p, bool& isIn)
+{
+  std::uint8_t& mark = mesh.marks()[cell / 8];
+  if (Access::IsShared && !Access::claim(mark, this->Claim))
+  {
+    return false;
+  }
+  Links across;
+  const bool areStable = this->readLinks<Access>(mesh, cell, across);
+  isIn = areStable && this->Predicates.isInInfiniteConflict(mesh.slots(), cell, p);
+  if (Access::IsShared)
+  {
+    Access::setMark(mark, TetrahedronMesh::Live);
+  }
+  return areStable;
+}
+
+/// Finds the tetrahedra in conflict with p (the cavity), starting from the claimed one, and the
+/// cavity's boundary. Returns false if another thread is at work there.
+template <typename Access>
+inline bool Cavity3::findConflicts(TetrahedronMesh& mesh, const Point3& p)
+{
+  const Index* const slots = mesh.slots();
+  std::uint8_t* const marks = mesh.marks();
+  const std::uint8_t own = this->Claim;
+  for (std::size_t k = 0; k < this->Removed.size(); ++k)
+  {
+    const Index cell = this->Removed[k];
+    Links across;
+    if (!this->readLinks<Access>(mesh, cell, across))
+    {
+      return false;
+    }
+    unsigned certain = 0;
+    const unsigned inside =
+      slots[cell] != 0 ? this->conflictsAcross(slots, cell, across, p, certain) : 0;
+    for (Index i = 0; i < 4; ++i)
+    {
+      const Index beyond = TetrahedronMesh::cellOf(across[i]);
+      if (Access::markOf(marks[beyond / 8]) == own)
+      {
+        continue;
+      }
+      bool isIn = (inside >> i & 1) != 0;
+      if (__builtin_expect((certain >> i & 1) == 0, 0))
+      {
+        if (slots[beyond] != 0)
+        {
+          isIn = this->Predicates.isInFiniteConflict(slots + beyond, p);
+        }
+        else if (!this->testInfinite<Access>(mesh, beyond, p, isIn))
+        {
+          return false;
+        }
+      }
+      if (!isIn)
+      {
+        this->Boundary.push_back({ cell + i, across[i], 0 });
+      }
+      else if (Access::claim(marks[beyond / 8], own))
+      {
+        this->Removed.push_back(beyond);
+      }
+      else
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+/// Reserves as many free tetrahedra as the boundary has facets. Throws std::length_error if there
+/// are not enough indices.
+inline void Cavity3::makeRoom(TetrahedronMesh& mesh)
+{
+  const std::size_t count = this->Boundary.size();
+  if (this->Free.size() >= count)
+  {
+    return;
+  }
+  const std::size_t needed = mesh.end() / 8 + (count - this->Free.size());
+  if (needed > TetrahedronMesh::MostSlots / 8)
+  {
+    throw std::length_error("too many points for one partition: use more partitions");
+  }
+  if (needed > mesh.capacity())
+  {
+    mesh.reserve(needed + needed / 2);
+  }
+  while (this->Free.size() < count)
+  {
+    mesh.marks()[mesh.end() / 8] = TetrahedronMesh::Free;
+    this->Free.push_back(mesh.end());
+    mesh.setEnd(mesh.end() + 8);
+  }
+}
+
+/// As makeRoom(), while other threads do the same. Returns false if the mesh has no memory left.
+inline bool Cavity3::takeRoom(TetrahedronMesh& mesh)
+{
+  constexpr std::uint64_t together = 1024;
+  const auto most = std::min<std::uint64_t>(mesh.capacity(), TetrahedronMesh::MostSlots / 8);
+  while (this->Free.size() < this->Boundary.size())
+  {
+    const std::uint64_t begin = this->SharedEnd->fetch_add(8 * together);
+    if (begin / 8 + together > most)
+    {
+      this->SharedEnd->fetch_sub(8 * together);
+      return false;
+    }
+    // Other threads' walks may enter a tetrahedron before it is complete.
+    std::fill_n(mesh.slots() + begin, 8 * together, Index(0));
+    for (std::uint64_t cell = begin / 8; cell < begin / 8 + together; ++cell)
+    {
+      mesh.marks()[cell] = TetrahedronMesh::Free;
+      this->Free.push_back(Index(8 * cell));
+    }
+  }
+  return true;
+}
+
+/// Fills the cavity that findConflicts() has found with new tetrahedra.
+template <typename Access>
+inline void Cavity3::retriangulate(TetrahedronMesh& mesh, Index vertex)
+{
+  this->Filling.fill<Access>(mesh, vertex, this->Boundary, this->Free);
+  // The walk to the next vertex must start at a finite tetrahedron. Other threads may already
+  // change the new ones, so the removed ones are read.
+  std::size_t last = this->Boundary.size() - 1;
+  const auto isFinite = [&mesh](Index inside)
+  { return (inside & 3) == 0 || mesh.slots()[TetrahedronMesh::cellOf(inside)] != 0; };
+  while (!isFinite(this->Boundary[last].Inside))
+  {
+    --last;
+  }
+  this->Recent = this->Boundary[last].Made;
+  this->setMarks<Access>(mesh, TetrahedronMesh::Free);
+  this->Free.insert(this->Free.end(), this->Removed.begin(), this->Removed.end());
+}
+
+/// Sets the marks of the removed tetrahedra.
+template <typename Access>
+inline void Cavity3::setMarks(TetrahedronMesh& mesh, std::uint8_t mark) const
+{
+  for (const Index cell : this->Removed)
+  {
+    Access::setMark(mesh.marks()[cell / 8], mark);
+  }
+}
+
+/// If another thread has removed the tetrahedron where the next walk would start, chooses the first
+/// finite one in the mesh.
+inline void Cavity3::renewStart(const TetrahedronMesh& mesh)
+{
+  using Access = SharedAccess3;
+  const auto isStart = [&mesh](Index cell)
+  {
+    return Access::markOf(mesh.marks()[cell / 8]) == TetrahedronMesh::Live &&
+      Access::load(mesh.slots()[cell]) != 0;
+  };
+  for (Index cell = 0; !isStart(this->Recent) && cell < mesh.end(); cell += 8)
+  {
+    this->Recent = cell;
+  }
+}
+
+/// Inserts a vertex, or adds it to `found` if it coincides with an earlier one. Returns false, and
+/// changes nothing, if another thread is at work at the vertex or if the shared mesh has no memory
+/// left.
+template <typename Access>
+inline bool Cavity3::insertOne(TetrahedronMesh& mesh, Index vertex, std::vector<Coincidence>& found)
+{
+  const Point3& p = this->Points[vertex];
+  if (Access::IsShared)
+  {
+    this->renewStart(mesh);
+  }
+  const Location at = this->locate<Access>(mesh, p);
+  if (Access::IsShared && at.Cell == NoCell)
+  {
+    return false;
+  }
+  if (__builtin_expect(at.EqualTo != 0, 0))
+  {
+    found.push_back({ vertex, at.EqualTo });
+    return true;
+  }
+  const bool isFound =
+    this->claimFirst<Access>(mesh, p, at) && this->findConflicts<Access>(mesh, p);
+  if (!isFound || (Access::IsShared && !this->takeRoom(mesh)))
+  {
+    this->setMarks<Access>(mesh, TetrahedronMesh::Live);
+    return false;
+  }
+  if (!Access::IsShared)
+  {
+    this->makeRoom(mesh);
+  }
+  this->retriangulate<Access>(mesh, vertex);
+  return true;
+}
+
+void Cavity3::insert(TetrahedronMesh& mesh, Index first, Index end, std::vector<Coincidence>& found)
+{
+  this->Claim = TetrahedronMesh::InConflict;
+  runWith(Instructions::Best,
+    [&]
+    {
+      for (Index vertex = first; vertex < end; ++vertex)
+      {
+        this->insertOne<AloneAccess3>(mesh, vertex, found);
+      }
+    });
+}
+
+void Cavity3::share(std::uint8_t thread, std::atomic<std::uint64_t>& end)
+{
+  this->Claim = static_cast<std::uint8_t>(TetrahedronMesh::Claimed + thread);
+  this->SharedEnd = &end;
+}
+
+void Cavity3::insertShared(TetrahedronMesh& mesh, const Index* begin, const Index* end,
+  std::vector<Index>& left, std::vector<Coincidence>& found)
+{
+  runWith(Instructions::Best,
+    [&]
+    {
+      for (const Index* vertex = begin; vertex != end; ++vertex)
+      {
+        if (!this->insertOne<SharedAccess3>(mesh, *vertex, found))
+        {
+          left.push_back(*vertex);
+        }
+      }
+    });
+}
+
+} // namespace tipp

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippInputPoints_h
+#define tippInputPoints_h
+
+#include "Distributed/PointExchange.h"
+#include "Predicates/Points.h"
+#include "Ranks/Communicator.h"
+#include "Triangulation/PointsView.h"
+
+#include "vtkSmartPointer.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+class vtkAbstractTransform;
+class vtkDataArray;
+class vtkPointSet;
+class vtkPoints;
+class vtkTransform;
+
+namespace tipp
+{
+
+/// A dataset's points projected to the plane of the triangulation. Float and double points stored
+/// as x, y, z are viewed without a copy; others are converted to double.
+class ProjectedPoints
+{
+public:
+  /// A null transform drops z; null points are no points.
+  ProjectedPoints(vtkPoints* points, vtkAbstractTransform* toPlane);
+
+  /// The projected points; valid while this object exists.
+  PointsView view() const { return this->View; }
+
+private:
+  vtkSmartPointer<vtkDataArray> Scalars;
+  PointsView View;
+};
+
+/// Returns the transform that moves the points' least-squares plane to the plane z = 0 and their
+/// centroid to the origin. Points with a NaN or infinite coordinate are ignored; returns null if
+/// there are no others.
+vtkSmartPointer<vtkTransform> bestFittingPlane(vtkPoints* points);
+
+/// The bounding box of the points whose three coordinates are finite, so that a single NaN or
+/// infinity does not determine a tolerance or a bounding circle. All zero if there are no such
+/// points.
+struct FiniteBounds
+{
+  std::array<double, 3> Low{ 0, 0, 0 };
+  std::array<double, 3> High{ 0, 0, 0 };
+
+  double center(int axis) const
+  {
+    return 0.5 * this->Low[std::size_t(axis)] + 0.5 * this->High[std::size_t(axis)];
+  }
+  double diagonal() const
+  {
+    return std::hypot(
+      this->High[0] - this->Low[0], this->High[1] - this->Low[1], this->High[2] - this->Low[2]);
+  }
+};
+
+/// `points` may be null.
+FiniteBounds finiteBounds(vtkPoints* points);
+
+/// Returns the points in double precision, followed by those of `added`.
+vtkSmartPointer<vtkPoints> appendPoints(
+  vtkPoints* points, const std::vector<std::array<double, 3>>& added);
+
+/// Returns the points in double precision, followed by eight points on a circle around the centre
+/// of their bounding box, at its middle height. The radius is `offset` times the box's diagonal.
+vtkSmartPointer<vtkPoints> appendBoundingPoints(vtkPoints* points, double offset);
+
+/// Returns the coordinates as doubles: the memory of `points`, or `copy` filled with them. Valid as
+/// long as both exist.
+const Point3* coordinatesOf(vtkPoints* points, std::vector<Point3>& copy);
+
+/// The points and point data of a data set as rows of bytes, which are sent with the points. A row
+/// has three doubles for the coordinates, and the values of the arrays that all ranks with points
+/// have.
+class PointRows
+{
+public:
+  /// Chooses the arrays that all ranks with points have. Collective: all ranks must call it.
+  PointRows(Communicator& ranks, vtkPointSet* input);
+
+  struct Column
+  {
+    std::string Name;
+    int Type = 0;
+    int Components = 0;
+    std::size_t Size = 0; ///< bytes
+  };
+
+  const std::vector<Column>& columns() const { return this->Columns; }
+  bool areDoubles() const { return this->Doubles; }
+
+  /// Sets the ids and rows of `points`. They refer to this object, which must outlive them.
+  void describe(RankPointData& points) const;
+
+private:
+  std::vector<Column> Columns;
+  std::vector<vtkSmartPointer<vtkDataArray>> Arrays; ///< empty on a rank without points
+  std::vector<const char*> Values;
+  vtkSmartPointer<vtkDataArray> Coordinates;
+  std::vector<PointId> GlobalIds;
+  bool Doubles = false;
+};
+
+} // namespace tipp
+
+#endif

@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Triangulation3D/Partitions3.h"
+
+#include "Arrays/Buffer.h"
+#include "Kernel/DelaunayKernel3.h"
+#include "Parallel/ParallelFor.h"
+#include "Parallel/Sort.h"
+#include "Predicates/Circumball.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace tipp
+{
+namespace
+{
+
+double coordinate(const Point3& p, int axis)
+{
+  return axis == 0 ? p.x : (axis == 1 ? p.y : p.z);
+}
+
+} // namespace
+
+PointBounds::PointBounds()
+{
+  this->Box.Min.fill(std::numeric_limits<double>::infinity());
+  this->Box.Max.fill(-std::numeric_limits<double>::infinity());
+}
+
+void PointBounds::include(const Point3& p)
+{
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    this->Box.Min[k] = std::min(this->Box.Min[k], coordinate(p, int(k)));
+    this->Box.Max[k] = std::max(this->Box.Max[k], coordinate(p, int(k)));
+  }
+}
+
+void PointBounds::include(const PointBounds& other)
+{
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    this->Box.Min[k] = std::min(this->Box.Min[k], other.Box.Min[k]);
+    this->Box.Max[k] = std::max(this->Box.Max[k], other.Box.Max[k]);
+  }
+}
+
+PointSurvey3 surveyPoints(const PointsView3& points)
+{
+  PointSurvey3 survey;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const Point3 p = points[i];
+    const double largest = std::max({ std::fabs(p.x), std::fabs(p.y), std::fabs(p.z) });
+    // The larger of NaN and a number may be either. The sum tells, but may overflow for finite
+    // numbers.
+    if (!std::isfinite(p.x + p.y + p.z) && !isFinite(p))
+    {
+      survey.Rejected.push_back(std::int64_t(i));
+    }
+    else
+    {
+      survey.Largest = std::max(survey.Largest, largest);
+    }
+  }
+  return survey;
+}
+
+std::vector<Point3> samplePoints(const PointsView3& points, std::size_t step)
+{
+  std::vector<Point3> sample;
+  for (std::size_t i = step / 2; i < points.size(); i += step)
+  {
+    if (isFinite(points[i]))
+    {
+      sample.push_back(points[i]);
+    }
+  }
+  return sample;
+}
+
+bool areExactTimes(const PointsView3& points, double factor)
+{
+  return factor == 1 ||
+    std::all_of(points.Points, points.Points + points.size(),
+      [factor](const Point3& p) {
+        return isExactTimes(p.x, factor) && isExactTimes(p.y, factor) && isExactTimes(p.z, factor);
+      });
+}
+
+double moderateFactor(double largest)
+{
+  // Determinants have degree five in the coordinates, and their filters square them.
+  constexpr int moderate = 24;
+  return moderateFactor(largest, moderate);
+}
+
+Tiling3::Tiling3(std::vector<Point3> sample, int count)
+  : Tiling3(std::move(sample), PartitionGroups{ 1, std::max(count, 1) })
+{
+}
+
+Tiling3::Tiling3(std::vector<Point3> sample, const PartitionGroups& groups)
+  : Groups(groups)
+{
+  this->cut(sample.begin(), sample.end(), 0, groups.Count * groups.Each);
+}
+
+/// Returns the axis to cut across: for `count` partitions whose sample points have this bounding
+/// box.
+int Tiling3::axisFor(int count, const Box3& box)
+{
+  const auto side = [&box](int k) { return box.Max[std::size_t(k)] - box.Min[std::size_t(k)]; };
+  int longest = 0;
+  for (int k = 1; k < 3; ++k)
+  {
+    longest = side(k) > side(longest) ? k : longest;
+  }
+  this->SlabAxis = this->SlabAxis < 0 ? longest : this->SlabAxis;
+  const bool isSlab =
+    count > this->Groups.Each ? this->Groups.AreSlabs : this->Groups.ArePartitionsSlabs;
+  return isSlab ? this->SlabAxis : longest;
+}
+
+/// Returns the share of the sample that all partitions with lower numbers get together.
+double Tiling3::shareBefore(int partition) const
+{
+  const double groups = this->Groups.Count;
+  const double rest = (1 + this->Groups.FirstLess) / groups;
+  const double first = std::max(rest - this->Groups.FirstLess, rest / 2);
+  const double before = double(partition) / this->Groups.Each; // groups
+  return before <= 1 ? before * first : first + (before - 1) * (1 - first) / (groups - 1);
+}
+
+void Tiling3::cut(Iterator begin, Iterator end, int first, int count)
+{
+  const std::size_t self = this->Nodes.size();
+  this->Nodes.emplace_back();
+  PointBounds bounds;
+  std::for_each(begin, end, [&bounds](const Point3& p) { bounds.include(p); });
+  const int axis = this->axisFor(count, bounds.Box);
+  const auto below = [axis](const Point3& p, const Point3& q)
+  { return coordinate(p, axis) < coordinate(q, axis); };
+  const int each = count > this->Groups.Each ? this->Groups.Each : 1;
+  const int lower = count / each / 2 * each;
+  const double before = this->shareBefore(first);
+  const Iterator middle = begin +
+    std::ptrdiff_t(double(end - begin) * (this->shareBefore(first + lower) - before) /
+      (this->shareBefore(first + count) - before));
+  bool canCut = count > 1 && middle != end;
+  double at = 0;
+  if (canCut)
+  {
+    std::nth_element(begin, middle, end, below);
+    at = coordinate(*middle, axis);
+    canCut = at > bounds.Box.Min[std::size_t(axis)];
+  }
+  if (!canCut)
+  {
+    this->Nodes[self].Partition = this->Count++;
+    this->Firsts.push_back(first);
+    return;
+  }
+  // Points with the cut's coordinate belong to the upper side.
+  const Iterator split =
+    std::partition(begin, end, [&](const Point3& p) { return coordinate(p, axis) < at; });
+  this->cut(begin, split, first, lower);
+  this->Nodes[self].Axis = axis;
+  this->Nodes[self].Cut = at;
+  this->Nodes[self].Upper = this->Nodes.size();
+  this->cut(split, end, first + lower, count - lower);
+}
+
+PartitionIndex Tiling3::locate(const Point3& p) const
+{
+  std::size_t node = 0;
+  while (this->Nodes[node].Axis >= 0)
+  {
+    const Node& cut = this->Nodes[node];
+    node = coordinate(p, cut.Axis) < cut.Cut ? node + 1 : cut.Upper;
+  }
+  return this->Nodes[node].Partition;
+}
+
+std::vector<Box3> Tiling3::boxes(const Box3& domain) const
+{
+  std::vector<Box3> boxes(std::size_t(this->Count));
+  this->setBoxes(0, domain, boxes);
+  return boxes;
+}
+
+void Tiling3::setBoxes(std::size_t node, const Box3& box, std::vector<Box3>& boxes) const
+{
+  const Node& at = this->Nodes[node];
+  if (at.Axis < 0)
+  {
+    boxes[std::size_t(at.Partition)] = box;
+    return;
+  }
+  Box3 lower = box;
+  Box3 upper = box;
+  lower.Max[std::size_t(at.Axis)] = upper.Min[std::size_t(at.Axis)] = at.Cut;
+  this->setBoxes(node + 1, lower, boxes);
+  this->setBoxes(at.Upper, upper, boxes);
+}
+
+PointBuckets3 bucketPoints(const PointsView3& points, const Tiling3& tiling, int threads)
+{
+  constexpr std::uint16_t none = 0xffff;
+  const auto parts = std::size_t(tiling.size());
+  const auto shares = std::size_t(threads);
+  Buffer<std::uint16_t> owners(points.size());
+  std::vector<std::vector<std::size_t>> next(shares, std::vector<std::size_t>(parts, 0));
+  std::vector<std::vector<PointBounds>> bounds(shares, std::vector<PointBounds>(parts));
+  parallelFor(threads, threads,
+    [&](std::int64_t thread)
+    {
+      const auto share = std::size_t(thread);
+      const auto [begin, end] = evenShare(points.size(), int(thread), threads);
+      points.forEach(begin, end,
+        [&](std::size_t i, const Point3& p)
+        {
+          owners[i] = none;
+          if (isFinite(p))
+          {
+            const auto owner = std::size_t(tiling.locate(p));
+            owners[i] = static_cast<std::uint16_t>(owner);
+            ++next[share][owner];
+            bounds[share][owner].include(p);
+          }
+        });
+    });
+  PointBuckets3 buckets;
+  std::size_t sum = 0;
+  for (std::size_t p = 0; p < parts; ++p)
+  {
+    buckets.Begins.push_back(sum);
+    PointBounds all;
+    for (std::size_t share = 0; share < shares; ++share)
+    {
+      sum += std::exchange(next[share][p], sum);
+      all.include(bounds[share][p]);
+    }
+    buckets.Regions.push_back(all.Box);
+  }
+  buckets.Begins.push_back(sum);
+  buckets.Points.resize(sum);
+  buckets.Ids.resize(sum);
+  parallelFor(threads, threads,
+    [&](std::int64_t thread)
+    {
+      const auto [begin, end] = evenShare(points.size(), int(thread), threads);
+      points.forEach(begin, end,
+        [&, share = std::size_t(thread)](std::size_t i, const Point3& p)
+        {
+          if (owners[i] != none)
+          {
+            const std::size_t at = next[share][owners[i]]++;
+            buckets.Points[at] = p;
+            buckets.Ids[at] = static_cast<std::int32_t>(i);
+          }
+        });
+    });
+  return buckets;
+}
+
+std::vector<std::size_t> chooseInitialPoints(
+  const Point3* points, std::size_t count, std::size_t wanted)
+{
+  std::vector<std::size_t> chosen;
+  const auto add = [&](const auto& isBefore)
+  { chosen.push_back(std::size_t(std::min_element(points, points + count, isBefore) - points)); };
+  for (double Point3::*axis : { &Point3::x, &Point3::y, &Point3::z })
+  {
+    add([axis](const Point3& a, const Point3& b) { return a.*axis < b.*axis; });
+    add([axis](const Point3& a, const Point3& b) { return a.*axis > b.*axis; });
+  }
+  for (std::size_t i = 0; i < wanted; ++i)
+  {
+    chosen.push_back((2 * i + 1) * count / (2 * wanted));
+  }
+  sortUnique(chosen);
+  return chosen;
+}
+
+std::vector<Vertex3> makeArtificialPoints(const PointBuckets3& buckets, bool areSlabs)
+{
+  const std::vector<char> areUsed = buckets.areUsed();
+  PointBounds domain;
+  double margin = 0;
+  std::size_t used = 0;
+  for (std::size_t p = 0; p < buckets.Regions.size(); ++p)
+  {
+    if (areUsed[p])
+    {
+      const Box3& box = buckets.Regions[p];
+      domain.include({ box.Min[0], box.Min[1], box.Min[2] });
+      domain.include({ box.Max[0], box.Max[1], box.Max[2] });
+      const std::initializer_list<double> sides = { box.Max[0] - box.Min[0],
+        box.Max[1] - box.Min[1], box.Max[2] - box.Min[2] };
+      margin += areSlabs ? std::min(sides) / 2 : std::max(sides);
+      ++used;
+    }
+  }
+  margin /= double(std::max<std::size_t>(used, 1));
+  std::array<std::vector<double>, 3> ticks;
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    const double low = outward(domain.Box.Min[k], -1, margin);
+    const double high = outward(domain.Box.Max[k], 1, margin);
+    constexpr double most = 16;
+    if (!std::isfinite(high - low))
+    {
+      return {};
+    }
+    const auto pieces = int(std::clamp(std::ceil((high - low) / margin), 1.0, most));
+    for (int i = 0; i < pieces; ++i)
+    {
+      ticks[k].push_back(low + (high - low) * (double(i) / pieces));
+    }
+    ticks[k].push_back(high);
+  }
+  std::vector<Vertex3> vertices;
+  for (const double x : ticks[0])
+  {
+    for (const double y : ticks[1])
+    {
+      for (const double z : ticks[2])
+      {
+        const auto isEnd = [](double at, const std::vector<double>& all)
+        { return at == all.front() || at == all.back(); };
+        if (isEnd(x, ticks[0]) || isEnd(y, ticks[1]) || isEnd(z, ticks[2]))
+        {
+          vertices.push_back({ { x, y, z }, -1 - std::int64_t(vertices.size()), -1 });
+        }
+      }
+    }
+  }
+  return vertices;
+}
+
+InitialMesh3::InitialMesh3(
+  const PointBuckets3& buckets, const std::vector<Vertex3>& artificial, std::size_t wanted)
+{
+  const std::vector<char> areUsed = buckets.areUsed();
+  const std::size_t partitions = areUsed.size();
+  for (std::size_t p = 0; p < partitions; ++p)
+  {
+    const PartitionPoints3 own = buckets.of(PartitionIndex(p));
+    for (const std::size_t i :
+      areUsed[p] ? chooseInitialPoints(own.Points, own.Count, wanted) : std::vector<std::size_t>())
+    {
+      this->Vertices.push_back({ own.Points[i], own.id(i), own.Partition });
+    }
+  }
+  this->Vertices.insert(this->Vertices.end(), artificial.begin(), artificial.end());
+  const std::vector<Point3> points = positionsOf(this->Vertices);
+  DelaunayKernel3 kernel;
+  kernel.triangulate(points.data(), points.size());
+  std::vector<PartitionIndex> met;
+  kernel.forEach(
+    [&](DelaunayKernel3::Index t)
+    {
+      if (kernel.isInfinite(t))
+      {
+        return;
+      }
+      const auto [a, b, c, d] = kernel.corners(t);
+      this->Cells.push_back(
+        { kernel.pointIndex(a), kernel.pointIndex(b), kernel.pointIndex(c), kernel.pointIndex(d) });
+      const Circumball ball(kernel.point(a), kernel.point(b), kernel.point(c), kernel.point(d));
+      met.clear();
+      for (std::size_t p = 0; p < partitions; ++p)
+      {
+        if (areUsed[p] && ball.meets(buckets.Regions[p]))
+        {
+          met.push_back(PartitionIndex(p));
+        }
+      }
+      this->SetOf.push_back(this->Sets.number(met.data(), met.data() + met.size()));
+    });
+  this->AdjacentSets = adjacentSets<4>(kernel, setsByNumber(kernel, this->SetOf));
+}
+
+} // namespace tipp

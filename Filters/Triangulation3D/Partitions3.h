@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippPartitions3_h
+#define tippPartitions3_h
+
+#include "Predicates/Points.h"
+#include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/PointsView.h"
+#include "Triangulation/Tiling.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tipp
+{
+
+/// Points in memory, multiplied by a factor. Does not own the memory.
+struct PointsView3
+{
+  const Point3* Points = nullptr;
+  std::size_t Count = 0;
+  double Factor = 1;
+
+  std::size_t size() const { return this->Count; }
+  Point3 operator[](std::size_t i) const
+  {
+    const Point3& p = this->Points[i];
+    return { p.x * this->Factor, p.y * this->Factor, p.z * this->Factor };
+  }
+  /// Calls visit(index, point) for begin <= index < end, in order.
+  template <typename Visit>
+  void forEach(std::size_t begin, std::size_t end, const Visit& visit) const
+  {
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      visit(i, (*this)[i]);
+    }
+  }
+};
+
+/// The bounding box of points. Without points Min is +infinity and Max is -infinity.
+struct PointBounds
+{
+  PointBounds();
+  void include(const Point3& p);
+  void include(const PointBounds& other);
+
+  Box3 Box;
+};
+
+/// The result of a first pass over points.
+struct PointSurvey3
+{
+  std::vector<std::int64_t> Rejected; ///< indices of points that are not finite; ascending
+  double Largest = 0;                 ///< largest magnitude of a finite point's coordinate
+};
+PointSurvey3 surveyPoints(const PointsView3& points);
+
+/// Returns every step-th point, if it is finite.
+std::vector<Point3> samplePoints(const PointsView3& points, std::size_t step);
+
+/// Returns a power of two that scales coordinates of very small or very large magnitude to about 1,
+/// so that the predicates' filters work; 1 for other magnitudes.
+double moderateFactor(double largest);
+/// Returns whether multiplying the points by the factor, a power of two, is exact.
+bool areExactTimes(const PointsView3& points, double factor);
+
+/// Groups of partitions, such as those of the ranks of a run.
+struct PartitionGroups
+{
+  int Count = 1;
+  int Each = 1; ///< partitions per group
+  /// By which fraction of all points the first group has fewer points than each other group.
+  double FirstLess = 0;
+  /// Whether the cuts between groups (AreSlabs), or those between the partitions of a group, are
+  /// all across one axis: the longest side of the sample's bounding box.
+  bool AreSlabs = false;
+  bool ArePartitionsSlabs = false;
+};
+
+/// Divides space into partitions with about equal numbers of sample points: a tree of cuts, each
+/// across the longest side of its sample points' bounding box. A point on a cut belongs to the
+/// upper side.
+class Tiling3
+{
+public:
+  /// Cuts space into at most `count` partitions; fewer if the sample has too few distinct points.
+  Tiling3(std::vector<Point3> sample, int count);
+
+  /// Does the same for groups of partitions. A point's group does not depend on the number of
+  /// partitions per group.
+  Tiling3(std::vector<Point3> sample, const PartitionGroups& groups);
+
+  /// Saves or restores a tiling; its groups are not saved.
+  template <typename Archive>
+  friend void serialize(Archive& archive, Tiling3& tiling)
+  {
+    archive(tiling.Nodes, tiling.Firsts, tiling.Count);
+  }
+
+  PartitionIndex size() const { return this->Count; }
+  /// Returns the group of a partition. Groups ascend with the partitions.
+  int groupOf(PartitionIndex p) const { return this->Firsts[std::size_t(p)] / this->Groups.Each; }
+  PartitionIndex locate(const Point3& p) const;
+
+  /// Returns the closed boxes of all partitions. Together they fill `domain`.
+  std::vector<Box3> boxes(const Box3& domain) const;
+
+  /// Calls visit(partition) for the partitions whose closed boxes meet `box`, the lower side of
+  /// each cut first.
+  template <typename Visit>
+  void visitMet(const Box3& box, const Visit& visit) const
+  {
+    this->visitMet(0, box, visit);
+  }
+
+private:
+  struct Node
+  {
+    double Cut = 0;
+    std::size_t Upper = 0; ///< the lower side's node follows this one
+    int Axis = -1;         ///< -1: a partition
+    PartitionIndex Partition = 0;
+  };
+
+  using Iterator = std::vector<Point3>::iterator;
+  void cut(Iterator begin, Iterator end, int first, int count);
+  int axisFor(int count, const Box3& box);
+  double shareBefore(int partition) const;
+  void setBoxes(std::size_t node, const Box3& box, std::vector<Box3>& boxes) const;
+
+  template <typename Visit>
+  void visitMet(std::size_t at, const Box3& box, const Visit& visit) const
+  {
+    const Node& node = this->Nodes[at];
+    if (node.Axis < 0)
+    {
+      visit(node.Partition);
+      return;
+    }
+    if (box.Min[std::size_t(node.Axis)] <= node.Cut)
+    {
+      this->visitMet(at + 1, box, visit);
+    }
+    if (box.Max[std::size_t(node.Axis)] >= node.Cut)
+    {
+      this->visitMet(node.Upper, box, visit);
+    }
+  }
+
+  PartitionGroups Groups;
+  int SlabAxis = -1;
+  std::vector<Node> Nodes;
+  std::vector<int> Firsts; ///< by partition: its number if all requested partitions had been made
+  PartitionIndex Count = 0;
+};
+
+/// The points of a partition.
+struct PartitionPoints3
+{
+  PartitionIndex Partition = -1;
+  const Point3* Points = nullptr;
+  std::size_t Count = 0;
+  const std::int32_t* Ids = nullptr; ///< indices of the points, less First; null: consecutive
+  /// The id of the first point of the rank or input.
+  std::int64_t First = 0;
+
+  std::int64_t id(std::size_t i) const
+  {
+    return this->First + (this->Ids ? this->Ids[i] : std::int64_t(i));
+  }
+};
+
+/// The points of each partition, in the input's order, and their indices in the input.
+struct PointBuckets3
+{
+  std::vector<Point3> Points;
+  std::vector<std::int32_t> Ids;
+  std::vector<std::size_t> Begins; ///< by partition: its first point; one more entry at the end
+  std::vector<Box3> Regions;       ///< by partition: its points' bounding box
+
+  std::size_t count(PartitionIndex p) const
+  {
+    return this->Begins[std::size_t(p) + 1] - this->Begins[std::size_t(p)];
+  }
+  /// Returns for each partition 1 if it has points, else 0.
+  std::vector<char> areUsed() const
+  {
+    std::vector<char> areUsed;
+    for (std::size_t p = 0; p < this->Regions.size(); ++p)
+    {
+      areUsed.push_back(this->count(PartitionIndex(p)) > 0 ? 1 : 0);
+    }
+    return areUsed;
+  }
+  /// Returns the points of a partition. `first` is added to their ids.
+  PartitionPoints3 of(PartitionIndex p, std::int64_t first = 0) const
+  {
+    const std::size_t begin = this->Begins[std::size_t(p)];
+    return { p, this->Points.data() + begin, this->count(p), this->Ids.data() + begin, first };
+  }
+};
+
+/// Sorts the finite points by partition. Leaves out points that are not finite.
+PointBuckets3 bucketPoints(const PointsView3& points, const Tiling3& tiling, int threads);
+
+/// A vertex of a tetrahedron. Artificial points have the partition -1.
+using Vertex3 = VertexOf<Point3>;
+
+/// Returns the indices of about `wanted` points, ascending: the first points with the smallest and
+/// largest coordinates, and others at equal steps in the input's order.
+std::vector<std::size_t> chooseInitialPoints(
+  const Point3* points, std::size_t count, std::size_t wanted);
+
+/// Returns artificial points on the sides of a box around the domain, its corners among them. Their
+/// distance from the domain and from each other is about the width of a partition: its longest side
+/// or, for slabs, half of its shortest one. Returns an empty list if doubles cannot enclose the
+/// domain.
+std::vector<Vertex3> makeArtificialPoints(const PointBuckets3& buckets, bool areSlabs = false);
+
+/// The initial mesh: the Delaunay triangulation of some points of each partition and of the
+/// artificial points. It also lists the partitions that each tetrahedron meets: those whose region
+/// its closed circumball meets. The proof of Lemma 5 in PartitionSchedule.h holds with 'facet' for
+/// 'edge'.
+struct InitialMesh3 : MetPartitions
+{
+  static constexpr std::size_t PointsOfPartition = 48;
+
+  /// `wanted`: about how many initial points a partition gets.
+  InitialMesh3(const PointBuckets3& buckets, const std::vector<Vertex3>& artificial,
+    std::size_t wanted = PointsOfPartition);
+
+  std::vector<Vertex3> Vertices;
+  std::vector<std::array<std::uint32_t, 4>> Cells; ///< indices into Vertices
+};
+
+} // namespace tipp
+
+#endif

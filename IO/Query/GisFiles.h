@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippGisFiles_h
+#define tippGisFiles_h
+
+#include "Files/PendingOutput.h"
+#include "Query/Queries.h"
+#include "vtkTIPPIOModule.h"
+
+#include <string>
+#include <vector>
+
+namespace tipp
+{
+
+struct NamedZone
+{
+  std::string Name;
+  Zone Polygons;
+};
+
+/// Reads zones with GDAL: one per feature of all layers of a GeoPackage, Shapefile, GeoJSON,
+/// FlatGeobuf, or .csv file with a column WKT. Features that are not polygons give zones without
+/// rings; a file without any polygon is refused. A zone's name is the feature's value of `field`
+/// or, if `field` is empty, its index from 0. Throws IOError.
+VTKTIPPIO_EXPORT std::vector<NamedZone> readZones(
+  const std::string& path, const std::string& field);
+
+/// Writes contour lines as a GeoPackage (.gpkg) with GDAL: a layer "contours" of lines in three
+/// dimensions, and a field with the array's name for the level. `crs` is a reference system, for
+/// example "EPSG:25832", or empty. See PendingFile for `before`. Throws IOError, also in a build
+/// without GDAL.
+VTKTIPPIO_EXPORT void writeGeoPackage(const std::string& path, const Contours& contours,
+  const std::string& array, const std::string& crs, const PathState& before);
+
+} // namespace tipp
+
+#endif

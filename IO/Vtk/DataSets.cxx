@@ -1,0 +1,425 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Vtk/DataSets.h"
+
+#include "Constraints/ReadConstraintFile.h"
+#include "Files/IOError.h"
+#include "Files/InputFile.h"
+#include "Files/VtkXml.h"
+
+#include "vtkAbstractArray.h"
+#include "vtkCellType.h"
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkDataSetReader.h"
+#include "vtkFieldData.h"
+#include "vtkIdList.h"
+#include "vtkImageData.h"
+#include "vtkLogger.h"
+#include "vtkNew.h"
+#include "vtkOBJReader.h"
+#include "vtkOutputWindow.h"
+#include "vtkPLYReader.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkSTLReader.h"
+#include "vtkXMLImageDataReader.h"
+#include "vtkXMLImageDataWriter.h"
+#include "vtkXMLPImageDataReader.h"
+#include "vtkXMLPPolyDataReader.h"
+#include "vtkXMLPRectilinearGridReader.h"
+#include "vtkXMLPStructuredGridReader.h"
+#include "vtkXMLPUnstructuredGridReader.h"
+#include "vtkXMLPolyDataReader.h"
+#include "vtkXMLPolyDataWriter.h"
+#include "vtkXMLRectilinearGridReader.h"
+#include "vtkXMLStructuredGridReader.h"
+#include "vtkXMLUnstructuredGridReader.h"
+#include "vtkXMLUnstructuredGridWriter.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <stdexcept>
+
+#if __has_include("vtkCellTypeUtilities.h") // VTK 9.6
+#include "vtkCellTypeUtilities.h"
+#else
+#include "vtkCellTypes.h"
+#endif
+
+namespace tipp
+{
+namespace
+{
+
+/// Captures what VTK would print: readers use internal objects whose errors they do not forward.
+class ErrorWindow
+{
+public:
+  explicit ErrorWindow(ErrorKeeper* errors)
+    : Before(vtkOutputWindow::GetInstance())
+    , Verbosity(vtkLogger::GetCurrentVerbosityCutoff())
+  {
+    // VTK's log prints all errors as well, independently of the window.
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+    const auto window = vtkSmartPointer<Window>::New();
+    window->Errors = errors;
+    vtkOutputWindow::SetInstance(window);
+  }
+  ~ErrorWindow()
+  {
+    vtkOutputWindow::SetInstance(this->Before);
+    vtkLogger::SetStderrVerbosity(this->Verbosity);
+  }
+  ErrorWindow(const ErrorWindow&) = delete;
+  ErrorWindow& operator=(const ErrorWindow&) = delete;
+
+private:
+  class Window : public vtkOutputWindow
+  {
+  public:
+    static Window* New()
+    {
+      auto* const window = new Window;
+      window->InitializeObjectBase();
+      return window;
+    }
+    void DisplayText(const char*) override {}
+    void DisplayErrorText(const char* text) override { this->keep(vtkCommand::ErrorEvent, text); }
+    void DisplayWarningText(const char* text) override
+    {
+      this->keep(vtkCommand::WarningEvent, text);
+    }
+
+    vtkSmartPointer<ErrorKeeper> Errors;
+
+  private:
+    void keep(unsigned long event, std::string text)
+    {
+      this->Errors->Execute(nullptr, event, text.data());
+    }
+  };
+
+  vtkSmartPointer<vtkOutputWindow> Before;
+  vtkLogger::Verbosity Verbosity;
+};
+
+using ReadFunction = vtkSmartPointer<vtkDataSet> (*)(const std::string&);
+
+template <typename Reader>
+vtkSmartPointer<vtkDataSet> readWith(const std::string& path)
+{
+  vtkNew<Reader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  return vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
+}
+
+/// The readers by extension. isVtkFile() lists the same extensions, also for builds without VTK.
+const std::map<std::string, ReadFunction>& readFunctions()
+{
+  static const std::map<std::string, ReadFunction> functions = {
+    { ".obj", readWith<vtkOBJReader> },
+    { ".ply", readWith<vtkPLYReader> },
+    { ".pvti", readWith<vtkXMLPImageDataReader> },
+    { ".pvtp", readWith<vtkXMLPPolyDataReader> },
+    { ".pvtr", readWith<vtkXMLPRectilinearGridReader> },
+    { ".pvts", readWith<vtkXMLPStructuredGridReader> },
+    { ".pvtu", readWith<vtkXMLPUnstructuredGridReader> },
+    { ".stl", readWith<vtkSTLReader> },
+    { ".vti", readWith<vtkXMLImageDataReader> },
+    { ".vtk", readWith<vtkDataSetReader> },
+    { ".vtp", readWith<vtkXMLPolyDataReader> },
+    { ".vtr", readWith<vtkXMLRectilinearGridReader> },
+    { ".vts", readWith<vtkXMLStructuredGridReader> },
+    { ".vtu", readWith<vtkXMLUnstructuredGridReader> },
+  };
+  return functions;
+}
+
+std::atomic<const char*> currentFile{ nullptr };
+
+/// Registers the file being read.
+class CurrentFile
+{
+public:
+  explicit CurrentFile(const std::string& path) { currentFile = path.c_str(); }
+  ~CurrentFile() { currentFile = nullptr; }
+  CurrentFile(const CurrentFile&) = delete;
+  CurrentFile& operator=(const CurrentFile&) = delete;
+};
+
+} // namespace
+
+const char* fileBeingRead()
+{
+  return currentFile;
+}
+
+vtkSmartPointer<vtkDataSet> readDataSet(const std::string& path)
+{
+  if (!std::filesystem::is_regular_file(path))
+  {
+    throw IOError(path, "is not a file that can be read; check the name.");
+  }
+  vtkNew<ErrorKeeper> errors;
+  const auto read = readFunctions().find(extensionOf(path));
+  if (read == readFunctions().end())
+  {
+    refuseKind(path, "is of a kind that VTK's readers here do not know.");
+  }
+  checkVtkFile(path);
+  const CurrentFile current(path);
+  const ErrorWindow window(errors);
+  vtkSmartPointer<vtkDataSet> data;
+  try
+  {
+    data = read->second(path);
+  }
+  catch (const std::length_error&) // thrown if a reader resizes a vector to an absurd size
+  {
+    errors->HasError = true;
+    errors->Messages = { "a count in it is too large" };
+  }
+  if (errors->HasError || !data)
+  {
+    std::string reason = errors->message();
+    reason.erase(reason.find_last_not_of(". ") + 1);
+    reason = reason.empty() ? "no data set in it" : reason;
+    throw IOError(path,
+      "cannot be read as a VTK file (" + reason +
+        "); check that it is whole and that its extension is right.");
+  }
+  checkDataSet(data, path);
+  return data;
+}
+
+std::string cellTypeName(int type)
+{
+#if __has_include("vtkCellTypeUtilities.h")
+  return vtkCellTypeUtilities::GetClassNameFromTypeId(type);
+#else
+  return vtkCellTypes::GetClassNameFromTypeId(type);
+#endif
+}
+
+namespace
+{
+
+void addArray(vtkDataArray* array, std::size_t points, PointTable& table)
+{
+  const int components = array->GetNumberOfComponents();
+  const std::string name = array->GetName() ? array->GetName() : "array";
+  for (int component = 0; component < components; ++component)
+  {
+    PointTable::Column column;
+    column.Name = components == 1 ? name : name + "_" + std::to_string(component);
+    column.Values.resize(points);
+    for (std::size_t i = 0; i < points; ++i)
+    {
+      column.Values[i] = array->GetComponent(vtkIdType(i), component);
+    }
+    table.Columns.push_back(std::move(column));
+  }
+}
+
+} // namespace
+
+PointTable pointsOf(vtkDataSet* data)
+{
+  const auto count = std::size_t(data->GetNumberOfPoints());
+  PointTable table;
+  table.XY.resize(2 * count);
+  table.Columns.push_back({ "z", std::vector<double>(count) });
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    double p[3];
+    data->GetPoint(vtkIdType(i), p);
+    table.XY[2 * i] = p[0];
+    table.XY[2 * i + 1] = p[1];
+    table.Columns[0].Values[i] = p[2];
+  }
+  vtkPointData* const attributes = data->GetPointData();
+  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+  {
+    // A string array is not a vtkDataArray.
+    if (vtkDataArray* const array = attributes->GetArray(i))
+    {
+      addArray(array, count, table);
+    }
+  }
+  return table;
+}
+
+PointTable readVtkPoints(const std::string& path)
+{
+  return pointsOf(readDataSet(path));
+}
+
+ConstraintTable constraintsOf(vtkDataSet* data)
+{
+  ConstraintTable table;
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    data->GetPoint(i, p);
+    table.XY.insert(table.XY.end(), { p[0], p[1] });
+    table.Height.push_back(p[2]);
+  }
+  std::vector<std::array<std::int64_t, 2>> polygonEdges;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType c = 0; c < data->GetNumberOfCells(); ++c)
+  {
+    const int type = data->GetCellType(c);
+    const bool isLine = type == VTK_LINE || type == VTK_POLY_LINE;
+    if (!isLine && type != VTK_POLYGON && type != VTK_TRIANGLE && type != VTK_QUAD)
+    {
+      continue;
+    }
+    data->GetCellPoints(c, ids);
+    const vtkIdType count = ids->GetNumberOfIds();
+    auto& edges = isLine ? table.Edges : polygonEdges;
+    for (vtkIdType i = 0; i + (isLine ? 1 : 0) < count; ++i)
+    {
+      edges.push_back({ ids->GetId(i), ids->GetId((i + 1) % count) });
+    }
+  }
+  table.PolygonBegin = table.Edges.size();
+  table.Edges.insert(table.Edges.end(), polygonEdges.begin(), polygonEdges.end());
+  return table;
+}
+
+ConstraintTable readVtkConstraints(const std::string& path)
+{
+  return constraintsOf(readDataSet(path));
+}
+
+namespace
+{
+
+/// Extracts the message from VTK's "ERROR: In file, line n\nclass (address): message\n\n", on one
+/// line.
+std::string plainMessage(const std::string& text)
+{
+  static const std::regex header("^(ERROR|Warning|Generic Warning): In .*, line [0-9]+\n");
+  static const std::regex object("^[A-Za-z_]\\w* \\((0x)?[0-9a-fA-F]+\\): ");
+  static const std::regex address(" ?\\((0x)?[0-9a-fA-F]{6,}\\)");
+  std::string message = std::regex_replace(text, header, "");
+  message = std::regex_replace(message, object, "");
+  message.erase(std::min(message.find('\n'), message.size()));
+  message = onOneLine(std::regex_replace(message, address, ""));
+  while (!message.empty() && std::isspace(static_cast<unsigned char>(message.back())) != 0)
+  {
+    message.pop_back();
+  }
+  return message;
+}
+
+} // namespace
+
+void ErrorKeeper::Execute(vtkObject*, unsigned long event, void* text)
+{
+  this->HasError = this->HasError || event == vtkCommand::ErrorEvent;
+  const std::string message = plainMessage(text ? static_cast<const char*>(text) : "");
+  // The pipeline's own message adds nothing to the error before it.
+  const bool isEcho = message.find("returned failure for request") != std::string::npos;
+  if (!message.empty() && !isEcho)
+  {
+    this->Messages.push_back(message);
+  }
+}
+
+std::set<std::string> arrayNames(vtkFieldData* data)
+{
+  std::set<std::string> names;
+  for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+  {
+    const char* const name = data->GetAbstractArray(i)->GetName();
+    if (name && *name)
+    {
+      names.insert(name);
+    }
+  }
+  return names;
+}
+
+namespace
+{
+
+/// A VTK XML writer that writes to our stream: with its own stream it would not notice if closing
+/// the file fails because the disk is full.
+template <typename Writer>
+class StreamWriter : public Writer
+{
+public:
+  static vtkSmartPointer<vtkXMLWriter> make(std::ostream& to)
+  {
+    auto* const writer = new StreamWriter(to);
+    writer->InitializeObjectBase();
+    return vtkSmartPointer<vtkXMLWriter>::Take(writer);
+  }
+
+protected:
+  int StartFile() override
+  {
+    this->To.precision(11); // the precision of the writer's own files
+    this->Stream = &this->To;
+    return this->Writer::StartFile();
+  }
+
+private:
+  explicit StreamWriter(std::ostream& to)
+    : To(to)
+  {
+    this->WriteToOutputStringOn(); // so that it opens no file
+  }
+
+  std::ostream& To;
+};
+
+vtkSmartPointer<vtkXMLWriter> writerOf(vtkDataObject* data, std::ostream& to)
+{
+  if (vtkPolyData::SafeDownCast(data))
+  {
+    return StreamWriter<vtkXMLPolyDataWriter>::make(to);
+  }
+  if (vtkImageData::SafeDownCast(data))
+  {
+    return StreamWriter<vtkXMLImageDataWriter>::make(to);
+  }
+  return StreamWriter<vtkXMLUnstructuredGridWriter>::make(to);
+}
+
+} // namespace
+
+bool writeXmlFile(const std::string& path, const std::optional<PathState>& before,
+  vtkDataObject* data, const std::function<bool()>& isStopped)
+{
+  PendingFile pending(path, before);
+  OutputStream stream(pending.file());
+  const vtkSmartPointer<vtkXMLWriter> writer = writerOf(data, stream);
+  vtkNew<ErrorKeeper> errors;
+  writer->AddObserver(vtkCommand::ErrorEvent, errors);
+  writer->SetInputData(data);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetCompressorTypeToNone();
+  writer->SetHeaderTypeToUInt64();
+  const bool isWritten = writer->Write() != 0 && !errors->HasError;
+  stream.finish();
+  if (!isWritten)
+  {
+    throw IOError(path, "cannot be written by VTK's writer.");
+  }
+  if (isStopped && isStopped())
+  {
+    return false;
+  }
+  pending.commit();
+  return true;
+}
+
+} // namespace tipp

@@ -1,0 +1,463 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The engine of a package built with VTK: runs its wrapped filters. Arguments are already checked."""
+from __future__ import annotations
+
+import contextlib
+import threading
+from typing import Any, Callable, Iterator, Tuple, TYPE_CHECKING
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIdTypeArray, vtkStringArray
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPointData, vtkPolyData
+
+from . import _arguments as check
+from ._arguments import (
+    array_of, DELAUNAY_2D, DELAUNAY_3D, DELAUNAY_FILE, DEM, Progress, QUERY, READ, set_properties, TRIANGULATION, WRITE)
+from ._arrays import as_array, Mesh
+from ._constraints import constraints_of
+from ._run import run
+from ._vtk import arrays_of, grid_of, point_cloud, triangles_of, vtk_points, wrapped_like, xyz_of
+from .vtkTIPPFilters import (
+    vtkPartitionedMeshQuery, vtkRangeResampleFilter, vtkTIPPDelaunay2D, vtkTIPPDelaunay3D, vtkTIPPOutOfCoreDelaunay2D,
+    vtkTIPPPointsToImage)
+from .vtkTIPPIO import vtkPartitionedUnstructuredReader, vtkPartitionedUnstructuredWriter, vtkTIPPPointReader
+
+if TYPE_CHECKING:
+    from vtkmodules.vtkCommonDataModel import vtkPointSet
+
+_FIGURES = ("points", "triangles", "duplicates", "rejected", "pieces", "spilled_bytes", "mesh_bytes", "resumed",
+            "triangle_sum")
+_CONSTRAINT_FIGURES = ("constraints", "constraint_edges", "crossing_points", "crossing_rounds")
+_STATISTICS = ("points", "triangles", "tetrahedra", "duplicates", "rejected", "partitions", "initial_points",
+               "worker_vertices", "threads", *_CONSTRAINT_FIGURES)
+
+
+def source_of(data: vtkPointSet, options: dict[str, Any]) -> tuple[vtkPolyData | None, bool]:
+    """Combines the constraints of delaunay_2d() into one source (or None); also returns whether it has its own
+    points."""
+    constraints = constraints_of(
+        data.GetNumberOfPoints(), options["edge_source"], options["edges"], options["polygons"])
+    if constraints is None:
+        return options["edge_source"], False
+    source = vtkPolyData()
+    has_points = len(constraints.corners) > 0
+    if has_points:
+        # Ids refer to the input's points, so these come first.
+        source.SetPoints(vtk_points(np.concatenate([xyz_of(data).astype(np.float64), constraints.corners])))
+    source.SetLines(_cells(constraints.lines))
+    source.SetPolys(_cells(constraints.polygons))
+    return source, has_points
+
+
+def _cells(lists: list[np.ndarray]) -> vtkCellArray:
+    starts = np.concatenate([[0], np.cumsum([len(ids) for ids in lists])])
+    return _cell_array(starts, np.concatenate(lists) if lists else np.zeros(0))
+
+
+def _cell_array(starts: np.ndarray, ids: np.ndarray) -> vtkCellArray:
+    cells = vtkCellArray()
+    cells.SetData(_ids(starts), _ids(ids))
+    return cells
+
+
+def _ids(values: np.ndarray) -> vtkIdTypeArray:
+    return numpy_to_vtkIdTypeArray(values.astype(np.int64, copy=False), deep=True)
+
+
+def delaunay(points: Any, options: dict[str, Any], progress: Progress | None) -> np.ndarray:
+    algorithm = vtkTIPPDelaunay2D()
+    algorithm.SetInputData(_cloud_of(points, None))
+    set_properties(algorithm, TRIANGULATION, options)
+    run(algorithm, progress)
+    return triangles_of(algorithm.GetOutput())
+
+
+def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
+                progress: Progress | None) -> tuple[Any, dict[str, Any]]:
+    algorithm = vtkTIPPDelaunay2D()
+    algorithm.SetInputData(_cloud_of(points, point_data))
+    source, has_points = source_of(algorithm.GetInput(), options)
+    if source is not None:
+        algorithm.SetSourceData(source)
+        algorithm.SetMergeSourcePoints(has_points)
+    set_properties(algorithm, DELAUNAY_2D, options)
+    run(algorithm, progress)
+    return wrapped_like(algorithm.GetOutput(), points), _statistics(algorithm.GetStatistics().GetFieldData())
+
+
+def _cloud_of(points: Any, point_data: Any) -> Any:
+    return points if check.is_vtk_object(points) else point_cloud(points, point_data)
+
+
+def delaunay_3d(points: Any, point_data: Any, options: dict[str, Any],
+                progress: Progress | None) -> tuple[Any, dict[str, Any]]:
+    algorithm = vtkTIPPDelaunay3D()
+    algorithm.SetInputData(_cloud_of(points, point_data))
+    set_properties(algorithm, DELAUNAY_3D, options)
+    run(algorithm, progress)
+    return wrapped_like(algorithm.GetOutput(), points), _statistics(algorithm.GetStatistics().GetFieldData())
+
+
+def _statistics(totals: Any) -> dict[str, Any]:
+    arrays = {totals.GetAbstractArray(i).GetName(): totals.GetAbstractArray(i)
+              for i in range(totals.GetNumberOfArrays())}
+    result: dict[str, Any] = {key: arrays[array_of(key)].GetValue(0) for key in _STATISTICS if array_of(key) in arrays}
+    names, seconds = arrays.get("PhaseName"), arrays.get("PhaseSeconds")
+    if names is not None and seconds is not None:
+        result["seconds"] = {names.GetValue(i): seconds.GetValue(i) for i in range(names.GetNumberOfValues())}
+    return result
+
+
+def delaunay_file(
+    paths: list[str], output: str, options: dict[str, Any], progress: Progress | None
+) -> dict[str, int]:
+    algorithm = vtkTIPPOutOfCoreDelaunay2D()
+    for path in paths:
+        algorithm.AddInputFileName(path)
+    algorithm.SetFileName(output)
+    algorithm.SetXColumn(options["columns"][0])
+    algorithm.SetYColumn(options["columns"][1])
+    for x, y in options["holes"]:
+        algorithm.AddHole(x, y)
+    set_properties(algorithm, DELAUNAY_FILE, options)
+    run(algorithm, progress)
+    totals = algorithm.GetOutput().GetFieldData()
+    arrays = {key: totals.GetArray(array_of(key)) for key in (*_FIGURES, *_CONSTRAINT_FIGURES)}
+    return {key: array.GetValue(0) for key, array in arrays.items() if array is not None}
+
+
+def dem(points: Any, point_data: Any, options: dict[str, Any],
+        progress: Progress | None) -> tuple[list[np.ndarray], tuple[float, ...], str | None]:
+    """Returns the bands, with rows from north to south, their transform, and the CRS of points in files."""
+    names, crs = options["attributes"], None
+    if check.is_vtk_object(points):
+        cloud = points
+    elif check.are_files(points):
+        cloud, crs = _read(points, options)
+    else:
+        cloud = point_cloud(points, point_data)
+        if np.shape(points)[1] == 2 and check.needs_elevation(options):
+            raise ValueError("points have no elevation; give an array of shape (n, 3) or other attributes.")
+    if cloud.GetNumberOfPoints() == 0:
+        raise RuntimeError("There are no points.")
+    arrays = cloud.GetPointData()
+    check.require_bands(names, [arrays.GetArrayName(i) for i in range(arrays.GetNumberOfArrays()) if arrays.GetArray(i)])
+    maker = vtkTIPPPointsToImage()
+    maker.SetInputData(cloud)
+    _set_constraints(maker, options)
+    maker.SetResolution(options["resolution"])
+    if options["bounds"] is not None:
+        maker.UseInputBoundsOff()
+        maker.SetSamplingBounds(*options["bounds"])
+    maker.ClearBands()
+    for name in names:
+        maker.AddBand(name)
+    set_properties(maker, DEM, options)
+    run(maker, progress)
+    image = maker.GetOutput()
+    columns, rows, _ = image.GetDimensions()
+    numbers = image.GetFieldData().GetArray("GeoTransform")
+    west, width, _, north, _, height = (numbers.GetValue(i) for i in range(6))
+    bands = [as_array(image, name).reshape(rows, columns)[::-1] for name in names]
+    return bands, (width, 0.0, west, 0.0, height, north), crs
+
+
+def _set_constraints(maker: Any, options: dict[str, Any]) -> None:
+    for name in ("breaklines", "boundary"):
+        value = options[name]
+        if isinstance(value, str):
+            getattr(maker, f"Set{name.capitalize()}FileName")(value)
+        elif value is not None:
+            getattr(maker, f"Set{name.capitalize()}Data")(_lines(*value))
+
+
+def _lines(xy: np.ndarray, heights: np.ndarray, edges: np.ndarray) -> vtkPolyData:
+    lines = point_cloud(np.column_stack([xy, heights if len(heights) else np.zeros(len(xy))]))
+    lines.SetLines(_cell_array(2 * np.arange(len(edges) + 1), edges.ravel()))
+    return lines
+
+
+def _read(paths: list[str], options: dict[str, Any]) -> tuple[Any, str | None]:
+    reader = vtkTIPPPointReader()
+    if options["classes"] is not None:
+        reader.SetClasses(",".join(str(number) for number in options["classes"]))
+    reader.SetReturns(options["returns"])
+    for flag in options["keep"]:
+        getattr(reader, "SetKeep" + flag.capitalize())(True)
+    reader.SetColumns(",".join(options["attributes"]))
+    reader.SetGenerateVertices(False)
+    for path in paths:
+        reader.AddFileName(path)
+    run(reader)
+    cloud = reader.GetOutput()
+    text = cloud.GetFieldData().GetAbstractArray("CoordinateReferenceSystem")
+    return cloud, text.GetValue(0) if text else None
+
+
+def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> Any:
+    check.data_object(mesh, "mesh", ("vtkPointSet", "vtkCompositeDataSet"), "a mesh or a composite of meshes")
+    algorithm = vtkRangeResampleFilter()
+    algorithm.SetInputDataObject(mesh)
+    if options["bounds"] is not None:
+        algorithm.SetUseInputBounds(False)
+        algorithm.SetSamplingBounds(*options["bounds"])
+    if options["spacing"] is not None:
+        algorithm.SetDelta(*options["spacing"])
+    algorithm.SetSamplingDimensions(*options["dimensions"])
+    algorithm.SetNullValue(options["null_value"])
+    if options["no_data"] is not None:
+        algorithm.SetUseNoDataValue(True)
+        algorithm.SetNoDataValue(options["no_data"])
+    if options["arrays"] is not None:
+        _select(algorithm, mesh, options["arrays"])
+    algorithm.SetNumberOfThreads(options["threads"])
+    run(algorithm, call=lambda: algorithm.SetDeviceChoice(options["device"]))
+    run(algorithm, progress)
+    return wrapped_like(algorithm.GetOutput(), mesh)
+
+
+def _select(algorithm: vtkRangeResampleFilter, mesh: Any, names: list[str]) -> None:
+    """Selects the arrays to sample; the filter warns of names that the mesh does not have."""
+    of_cells = hasattr(mesh, "GetCellData") and mesh.GetCellData()
+    for selection, wanted in (
+        (algorithm.GetPointDataArraySelection(), [n for n in names if not (of_cells and of_cells.HasArray(n))]),
+        (algorithm.GetCellDataArraySelection(), [n for n in names if of_cells and of_cells.HasArray(n)]),
+    ):
+        selection.SetUnknownArraySetting(0)
+        for name in wanted:
+            selection.EnableArray(name)
+
+
+def read(path: str, options: dict[str, Any], progress: Progress | None) -> Any:
+    reader = vtkPartitionedUnstructuredReader()
+    reader.SetFileName(path)
+    if options["bounds"] is not None:
+        reader.SetBounds(*options["bounds"])
+    reader.SetBorrowerMode(reader.OWNED_AND_BORROWED if options["borrowed"] else reader.OWNED)
+    set_properties(reader, READ, options)
+    run(reader, call=reader.UpdateInformation)
+    _keep_only(reader.GetPointDataArraySelection(), options["point_arrays"], "point")
+    _keep_only(reader.GetCellDataArraySelection(), options["cell_arrays"], "cell")
+    controller = reader.GetController()
+    rank = controller.GetLocalProcessId() if controller else 0
+    size = controller.GetNumberOfProcesses() if controller else 1
+    time = options["time"]
+    run(reader, progress, lambda: reader.UpdatePiece(rank, size, 0) if time is None
+        else reader.UpdateTimeStep(time, rank, size, 0))
+    return reader.GetOutputDataObject(0)
+
+
+def _keep_only(selection: Any, wanted: list[str] | None, what: str) -> None:
+    if wanted is None:
+        return
+    known = [selection.GetArrayName(i) for i in range(selection.GetNumberOfArrays())]
+    check.require_arrays(wanted, known, what)
+    for name in known:
+        selection.SetArraySetting(name, name in wanted)
+
+
+def write(mesh: Any, path: str, options: dict[str, Any], progress: Progress | None) -> None:
+    writer = vtkPartitionedUnstructuredWriter()
+    if isinstance(mesh, str):
+        writer.SetInputFileName(mesh)
+    else:
+        writer.SetInputData(check.data_object(mesh, "mesh", ("vtkDataObject",), "a VTK data set or a path"))
+    writer.SetFileName(path)
+    set_properties(writer, WRITE, options)
+    run(writer, progress, writer.Write)
+
+
+Rings = Tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+"""Rings of polygons: (n, 2) corners, the first corner of each ring and the end, each ring's zone, and whether it is a
+hole."""
+
+
+def open_mesh(mesh: Any, options: dict[str, Any]) -> MeshQuery:
+    query = vtkPartitionedMeshQuery()
+    set_properties(query, QUERY, options)
+    if isinstance(mesh, str):
+        query.SetFileName(mesh)
+    else:
+        source = grid_of(mesh) if isinstance(mesh, Mesh) else mesh
+        query.SetSourceData(check.data_object(source, "mesh", ("vtkPointSet", "vtkCompositeDataSet"), "a mesh"))
+    return MeshQuery(query)
+
+
+class MeshQuery:
+    """A vtkPartitionedMeshQuery with NumPy arguments and results. Its errors are VTK events, so only one Python thread
+    at a time may query; each query itself uses several threads."""
+
+    def __init__(self, query: vtkPartitionedMeshQuery) -> None:
+        self._query = query
+        self._turn = threading.Lock()
+
+    def _run(self, call: Callable[[], Any]) -> None:
+        with self._turn:
+            run(self._query, call=call)
+
+    def _found(self, method: Callable[..., Any], arguments: tuple[Any, ...], *kinds: Any) -> tuple[np.ndarray, ...]:
+        """Calls a method of the query with new arrays for its results, which it returns."""
+        results = [kind() for kind in kinds]
+        self._run(lambda: method(*arguments, *results))
+        return tuple(vtk_to_numpy(result) for result in results)
+
+    def _found_lines(self, method: Callable[..., Any], *arguments: Any) -> vtkPolyData:
+        lines = vtkPolyData()
+        self._run(lambda: method(*arguments, lines))
+        return lines
+
+    def _name(self, names: list[str]) -> None:
+        self._query.ClearArrays()
+        for name in names:
+            self._query.AddArray(name)
+
+    def names(self) -> list[str]:
+        names = vtkStringArray()
+        self._run(lambda: self._query.GetNamesOfArrays(names))
+        return [names.GetValue(i) for i in range(names.GetNumberOfValues())]
+
+    def locate(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return self._found(self._query.Locate, (_positions(points),), vtkIdTypeArray, vtkDoubleArray)
+
+    def sample(self, points: np.ndarray, names: list[str]) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+        if not names:
+            return self.locate(points)[0], {}
+        values, cells = vtkPointData(), vtkIdTypeArray()
+
+        def call() -> None:
+            self._name(names)
+            self._query.Interpolate(_positions(points), values, cells)
+
+        self._run(call)
+        return vtk_to_numpy(cells), arrays_of(values)
+
+    def neighbors(self, cells: np.ndarray) -> np.ndarray:
+        return self._found(self._query.Neighbors, (_ids(cells),), vtkIdTypeArray)[0]
+
+    def star(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return self._found(self._query.Star, (_ids(points),), vtkIdTypeArray, vtkIdTypeArray)
+
+    def ring_of_points(self, points: np.ndarray, k: int) -> tuple[np.ndarray, np.ndarray]:
+        return self._found(self._query.RingOfPoints, (_ids(points), k), vtkIdTypeArray, vtkIdTypeArray)
+
+    def ring_of_cells(self, cells: np.ndarray, k: int) -> tuple[np.ndarray, np.ndarray]:
+        return self._found(self._query.RingOfCells, (_ids(cells), k), vtkIdTypeArray, vtkIdTypeArray)
+
+    def boundary(self) -> tuple[np.ndarray, np.ndarray]:
+        loops = self._found_lines(self._query.Boundary)
+        if loops.GetNumberOfPoints() == 0:
+            return np.zeros(1, np.int64), np.zeros(0, np.int64)
+        return _starts(loops), vtk_to_numpy(loops.GetPointData().GetGlobalIds())
+
+    def contours(self, array: str, component: int, levels: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        lines = self._found_lines(self._query.Contours, array, component, numpy_to_vtk(levels, deep=True))
+        if lines.GetNumberOfPoints() == 0:
+            return np.zeros(1, np.int64), np.zeros(0), np.zeros((0, 3))
+        return _starts(lines), vtk_to_numpy(lines.GetCellData().GetScalars()), xyz_of(lines)
+
+    def profile(self, polyline: np.ndarray, spacing: float, names: list[str]) -> tuple[Any, ...]:
+        line = vtkPolyData()
+
+        def call() -> None:
+            self._name(names)
+            self._query.Profile(_positions(polyline), spacing, line)
+
+        self._run(call)
+        values = arrays_of(line.GetPointData())
+        points = xyz_of(line)
+        points = points if self._query.GetMeshDimension() == 3 else points[:, :2]
+        return values.pop("Distance"), points, values.pop("CellId"), {name: values[name] for name in names}
+
+    def closest(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        return self._found(
+            self._query.Closest, (_positions(points),), vtkIdTypeArray, vtkDoubleArray, vtkDoubleArray)
+
+    def cells_in(self, box: list[float], rings: Rings | None, whole: bool) -> np.ndarray:
+        if rings is None:
+            return self._found(self._query.CellsInBox, (box, whole), vtkIdTypeArray)[0]
+        return self._found(self._query.CellsInPolygons, (_polygons(rings), whole), vtkIdTypeArray)[0]
+
+    def points_in(self, box: list[float], rings: Rings | None) -> np.ndarray:
+        if rings is None:
+            return self._found(self._query.PointsInBox, (box,), vtkIdTypeArray)[0]
+        return self._found(self._query.PointsInPolygons, (_polygons(rings),), vtkIdTypeArray)[0]
+
+    def zones(self, rings: Rings, count: int, array: str, component: int, level: float) -> list[np.ndarray]:
+        table = vtkPointData()
+        self._run(lambda: self._query.ZoneStatistics(_polygons(rings), array, component, level, table))
+        columns = [vtk_to_numpy(table.GetArray(i)) for i in range(table.GetNumberOfArrays())]
+        # Zones without rings at the end are not in the data set.
+        missing = [0, 0.0, np.nan, np.nan, np.nan, 0.0, 0.0]
+        return [np.append(c, np.full(count - len(c), m, c.dtype)) for c, m in zip(columns, missing)]
+
+    def descend(self, points: np.ndarray, array: str, component: int
+                ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        lines = self._found_lines(self._query.Descend, _positions(points), array, component)
+        pits, counts = np.full(len(points), -1, np.int64), np.zeros(len(points), np.int64)
+        if lines.GetNumberOfPoints() == 0:
+            return np.zeros(len(points) + 1, np.int64), np.zeros((0, 3)), np.zeros(0), pits
+        data = lines.GetCellData()
+        begun = vtk_to_numpy(data.GetArray("StartId"))
+        pits[begun] = vtk_to_numpy(data.GetArray("PitId"))
+        counts[begun] = np.diff(_starts(lines))
+        values = vtk_to_numpy(lines.GetPointData().GetScalars())
+        return np.concatenate([[0], np.cumsum(counts)]), xyz_of(lines), values, pits
+
+    def components(self) -> tuple[np.ndarray, np.ndarray]:
+        return self._found(self._query.Components, (), vtkIdTypeArray, vtkIdTypeArray)
+
+
+def _positions(points: np.ndarray) -> Any:
+    return vtk_points(points).GetData()
+
+
+def _polygons(rings: Rings) -> vtkPolyData:
+    corners, starts, zones, holes = rings
+    data = vtkPolyData()
+    data.SetPoints(vtk_points(corners))
+    data.SetPolys(_cell_array(starts, np.arange(len(corners))))
+    for name, values in (("ZoneId", zones), ("IsHole", holes)):
+        array = _ids(values)
+        array.SetName(name)
+        data.GetCellData().AddArray(array)
+    return data
+
+
+def _starts(lines: vtkPolyData) -> np.ndarray:
+    """The index of the first point of each line, and the number of points. A closed line repeats its first point, and
+    so does a line of one point."""
+    cells = lines.GetLines()
+    firsts = vtk_to_numpy(cells.GetConnectivityArray())[vtk_to_numpy(cells.GetOffsetsArray())[:-1]]
+    return np.append(firsts, lines.GetNumberOfPoints()).astype(np.int64)
+
+
+@contextlib.contextmanager
+def ranks() -> Iterator[Any]:
+    """A context in which the functions of this package work on all ranks of an MPI run together.
+
+    Requires mpi4py and a VTK built with MPI. Each rank passes its own points, or has its own piece of a mesh. Delete
+    filters that were created inside before leaving it: they hold VTK's controller.
+
+    Yields
+    ------
+    mpi4py.MPI.Comm
+        The communicator of all ranks.
+
+    Examples
+    --------
+    >>> with tipp.ranks() as world:
+    ...     piece = tipp.delaunay_2d(my_points)
+    ...     total = world.allreduce(piece.GetNumberOfCells())
+    """
+    from mpi4py import MPI  # before VTK's controller is initialised
+    from vtkmodules.vtkParallelMPI import vtkMPIController
+
+    controller = vtkMPIController()
+    controller.Initialize()
+    controller.SetGlobalController(controller)
+    try:
+        yield MPI.COMM_WORLD
+    finally:
+        controller.SetGlobalController(None)
+        controller.Finalize(1)

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Functions that sample meshes on regular grids: rasters of points, and images of meshes.
+#include "Binding.h"
+
+#include "Dem/MakeDem.h"
+#include "Flat/FlatMesh.h"
+#include "Parallel/ParallelFor.h"
+#include "Points/ReadPoints.h"
+#include "Resample/Resample.h"
+#include "Sampling/SamplingLattice.h"
+
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <array>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace tipp::python
+{
+namespace
+{
+
+/// Converts (k, 2) coordinates, heights or an empty array, and the (m, 2) ids of the ends of edges.
+ConstraintTable linesOf(const nb::object& arrays)
+{
+  const auto lines = nb::cast<nb::tuple>(arrays);
+  ConstraintTable table;
+  table.XY = vectorOf<double>(nb::cast<InputArray>(lines[0]));
+  table.Height = vectorOf<double>(nb::cast<InputArray>(lines[1]));
+  table.Edges = vectorOf<std::array<std::int64_t, 2>>(nb::cast<InputArray>(lines[2]));
+  return table;
+}
+
+/// Reads a file with read(path), or converts arrays as linesOf(). Returns nothing for None.
+template <typename Read>
+std::optional<ConstraintTable> constraintsOf(const nb::object& given, const Read& read)
+{
+  if (given.is_none())
+  {
+    return std::nullopt;
+  }
+  if (!nb::isinstance<nb::str>(given))
+  {
+    return linesOf(given);
+  }
+  const auto path = nb::cast<std::string>(given);
+  return withoutLock([&] { return read(path); });
+}
+
+DemRequest requestOf(const nb::dict& options)
+{
+  DemRequest request;
+  request.Raster.Resolution = of<double>(options, "resolution");
+  request.Raster.Bounds = of<std::optional<std::array<double, 4>>>(options, "bounds");
+  request.Raster.Aligned = of<bool>(options, "align");
+  request.Bands = of<std::vector<std::string>>(options, "attributes");
+  request.MaximumEdge = of<double>(options, "max_edge");
+  request.Threads = of<int>(options, "threads");
+  request.Duplicates = static_cast<DuplicateRule>(of<int>(options, "duplicates"));
+  auto lines = constraintsOf(options["breaklines"], readBreaklines);
+  auto boundary = constraintsOf(options["boundary"], readBoundary);
+  boundary ? requireClosedBoundary(*boundary) : void();
+  constrain(request, std::move(lines), std::move(boundary));
+  return request;
+}
+
+Thinning thinningOf(const nb::dict& options)
+{
+  Thinning thinning;
+  thinning.Cell = of<double>(options, "thin_size");
+  thinning.Keep = static_cast<Thinning::Rule>(of<int>(options, "thin_rule"));
+  return thinning;
+}
+
+PointOptions pointOptionsOf(const nb::dict& options, const DemRequest& request)
+{
+  PointOptions result;
+  result.Columns = columnsForBands(request.Bands);
+  result.Threads = request.Threads;
+  result.Las = lasSelection(
+    of<std::optional<std::vector<int>>>(options, "classes").value_or(std::vector<int>()),
+    of<int>(options, "returns"), of<std::vector<std::string>>(options, "keep"));
+  return result;
+}
+
+/// Returns a table of points. `xy` has the shape (n, 2); `columns` are values at the points, by
+/// name. All are float64.
+PointTable tableOf(const InputArray& xy, const nb::dict& columns)
+{
+  PointTable table;
+  table.XY = vectorOf<double>(xy);
+  for (const auto& [name, values] : columns)
+  {
+    table.Columns.push_back(
+      { nb::cast<std::string>(name), vectorOf<double>(nb::cast<InputArray>(values)) });
+  }
+  return table;
+}
+
+nb::tuple tupleOf(const RasterGrid& grid)
+{
+  return nb::make_tuple(grid.West, grid.South, grid.Columns, grid.Rows);
+}
+
+/// Returns the bands, with rows from south to north; the west, south, columns and rows of the grid;
+/// the reference system; and the number of points that are not finite. `points`: names of files, or
+/// a tuple of coordinates and columns.
+nb::tuple makeRaster(const nb::object& points, const nb::dict& options, Progress progress)
+{
+  Reporter reporter(std::move(progress));
+  const DemRequest request = requestOf(options);
+  const Thinning thinning = thinningOf(options);
+  const auto memory = of<std::uint64_t>(options, "memory");
+  PointOptions reading = pointOptionsOf(options, request);
+  std::unique_ptr<PointStream> stream;
+  if (nb::isinstance<nb::tuple>(points))
+  {
+    const auto pair = nb::cast<nb::tuple>(points);
+    stream =
+      streamTable(tableOf(nb::cast<InputArray>(pair[0]), nb::cast<nb::dict>(pair[1])), thinning);
+  }
+  else
+  {
+    reading.Thin = thinning;
+    const auto files = nb::cast<std::vector<std::string>>(points);
+    stream = withoutLock([&] { return openPointStream(files, reading); });
+  }
+  const std::string crs = stream->crs();
+  TerrainSettings settings;
+  BandValues samples;
+  OutOfCoreStatistics figures;
+  try
+  {
+    figures = withoutLock(
+      [&]
+      {
+        const ThreadLimit limit(request.Threads);
+        return makeDem(std::move(stream), request, memory, reporter.function(), settings, samples);
+      });
+  }
+  catch (const UnknownBand& error)
+  {
+    throw nb::key_error(error.what());
+  }
+  reporter.finish();
+  fillVoids(settings.Bands, samples);
+  nb::list bands;
+  for (std::vector<double>& band : samples)
+  {
+    bands.append(copyOf(band, std::size_t(settings.Grid.Columns)));
+    std::vector<double>().swap(band);
+  }
+  return nb::make_tuple(bands, tupleOf(settings.Grid), crs, figures.Rejected);
+}
+
+/// Returns the west, south, columns and rows of the pixels that cover xmin, xmax, ymin, ymax.
+nb::tuple rasterGrid(const std::array<double, 4>& bounds, double resolution, bool isAligned)
+{
+  RasterRequest request;
+  request.Resolution = resolution;
+  request.Aligned = isAligned;
+  return tupleOf(makeRasterGrid(request, bounds));
+}
+
+/// Bytes per sample: a 32-bit cell number and the mask.
+constexpr double claimBytes = 5;
+
+double bytesOfTuples(const std::vector<InputArray>& arrays)
+{
+  double bytes = 0;
+  for (const InputArray& array : arrays)
+  {
+    bytes += double(scalarSize(scalarOf(array.dtype()))) * double(componentsOf(array));
+  }
+  return bytes;
+}
+
+/// Repeats the single layer in which a surface is sampled along z.
+void repeatLayers(const Lattice& lattice, std::vector<Buffer<char>>& samples)
+{
+  for (Buffer<char>& buffer : samples)
+  {
+    const std::size_t layer = buffer.size() / std::size_t(lattice.size(2));
+    for (std::size_t at = layer; layer > 0 && at < buffer.size(); at += layer)
+    {
+      std::memcpy(buffer.data() + at, buffer.data(), layer);
+    }
+  }
+}
+
+/// Returns the origin, spacing and numbers of samples.
+nb::tuple describe(const Lattice& lattice)
+{
+  return nb::make_tuple(
+    lattice.Min, lattice.Delta, nb::make_tuple(lattice.size(0), lattice.size(1), lattice.size(2)));
+}
+
+nb::tuple latticeOf(const std::array<double, 6>& bounds, const std::array<int, 3>& dimensions,
+  const std::array<double, 3>& delta)
+{
+  return describe(rangeLattice(bounds, dimensions, delta));
+}
+
+/// Returns the lattice as describe() does, the arrays' samples, the mask and warnings.
+nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
+  const std::optional<InputArray>& hidden, const std::vector<InputArray>& pointArrays,
+  const std::vector<InputArray>& cellArrays, const std::array<double, 6>& bounds,
+  const std::array<int, 3>& given, const std::array<double, 3>& delta, double nullValue,
+  const std::string& device, int threads, Progress progress)
+{
+  Reporter reporter(std::move(progress));
+  const bool surface = cells.shape(1) == 3;
+  const bool isChosen = given[0] == 0 || given[1] == 0 || given[2] == 0;
+  const std::array<int, 3> dimensions = isChosen ? chosenDimensions(bounds, given, surface) : given;
+  const Lattice lattice = rangeLattice(bounds, dimensions, delta);
+  const std::vector<int> axes =
+    surfaceAxes({ int(lattice.size(0)), int(lattice.size(1)), int(lattice.size(2)) });
+  ResampleOptions options;
+  options.Device = parseDeviceChoice(device);
+  options.Threads = threadCount(threads);
+  options.Progress = reporter.function();
+
+  const double count = double(lattice.size(0)) * double(lattice.size(1)) * double(lattice.size(2));
+  requireMemory(
+    count, count * (bytesOfTuples(pointArrays) + bytesOfTuples(cellArrays) + claimBytes));
+  std::vector<Buffer<char>> samples;
+  std::vector<Scalar> types;
+  std::vector<std::size_t> components;
+  std::vector<Attribute> attributes;
+  const auto add = [&](const InputArray& values, bool ofCells)
+  {
+    types.push_back(scalarOf(values.dtype()));
+    components.push_back(componentsOf(values));
+    samples.emplace_back(
+      std::size_t(lattice.samples()) * components.back() * scalarSize(types.back()));
+    attributes.push_back({ values.data(), samples.back().data(), types.back(),
+      int(components.back()), ofCells, nullValue });
+  };
+  for (const InputArray& array : pointArrays)
+  {
+    add(array, false);
+  }
+  for (const InputArray& array : cellArrays)
+  {
+    add(array, true);
+  }
+  samples.emplace_back(std::size_t(lattice.samples()));
+  std::memset(samples.back().data(), 0, samples.back().size());
+  options.Valid = samples.back().as<unsigned char>();
+  SimplexMesh mesh = meshOf(points, cells);
+  mesh.Hidden = hidden ? static_cast<const unsigned char*>(hidden->data()) : nullptr;
+  mesh.Axes[0] = axes[0];
+  mesh.Axes[1] = axes[1];
+  ResampleResult result;
+  withoutLock(
+    [&]
+    {
+      result = resample(mesh, lattice, attributes, options);
+      surface ? repeatLayers(lattice, samples) : void();
+    });
+  reporter.finish();
+  nb::list arrays;
+  for (std::size_t i = 0; i < types.size(); ++i)
+  {
+    arrays.append(arrayOf(std::move(samples[i]), types[i], components[i]));
+  }
+  std::vector<std::string> warnings;
+  if (!result.Warning.empty())
+  {
+    warnings.push_back(result.Warning);
+  }
+  return nb::make_tuple(
+    describe(lattice), arrays, arrayOf(std::move(samples.back()), Scalar::Int8), warnings);
+}
+
+} // namespace
+
+void addGridFunctions(nb::module_& module)
+{
+  module.def("dem", &makeRaster);
+  module.def("raster_grid", &rasterGrid);
+  module.def("resample", &resampleMesh);
+  module.def("range_lattice", &latticeOf);
+}
+
+} // namespace tipp::python

@@ -1,0 +1,387 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The engine of the wheel: calls the C++ cores with NumPy arrays. Arguments are already checked.
+
+If VTK is installed, in any version, functions also accept and return data sets of VTK and PyVista.
+"""
+from __future__ import annotations
+
+import os
+import sys
+import warnings
+from typing import Any, Iterable
+
+import numpy as np
+
+from . import _arguments as check
+from . import _core
+from . import _segments as constraints
+from ._arrays import attributes, coordinates, Image, in_space, Mesh
+from ._arguments import finish, Progress
+from ._vtkmodules import root
+
+_HIDDEN = 32  # vtkDataSetAttributes::HIDDENCELL
+_GHOSTS = "vtkGhostType"
+_OWN_IDS = ("GlobalPointIds", "GlobalCellIds")
+
+
+def warn(sentences: Iterable[str]) -> None:
+    """Issues warnings for the line that called the package."""
+    level = 1
+    here = os.path.dirname(__file__)
+    frame: Any = sys._getframe()
+    while frame is not None and os.path.dirname(frame.f_code.co_filename) == here:
+        frame, level = frame.f_back, level + 1
+    for sentence in sentences:
+        warnings.warn(sentence, RuntimeWarning, stacklevel=level)
+
+
+def plain(points: np.ndarray) -> np.ndarray:
+    """Returns the points in C order, as float32 or float64."""
+    return np.ascontiguousarray(points, points.dtype if points.dtype == np.float32 else np.float64)
+
+
+def box(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the lowest and the highest coordinates of the finite points."""
+    finite = points
+    if len(points) and not np.isfinite(points.sum()):
+        finite = points[np.isfinite(points).all(axis=1)]
+    if len(finite) == 0:
+        return np.zeros(3), np.zeros(3)
+    low, high = np.zeros(3), np.zeros(3)
+    low[: points.shape[1]], high[: points.shape[1]] = finite.min(axis=0), finite.max(axis=0)
+    return low, high
+
+
+def diagonal(points: np.ndarray) -> float:
+    low, high = box(points)
+    return float(np.sqrt(((high - low) ** 2).sum()))
+
+
+def triangulated(points: np.ndarray, options: dict[str, Any], progress: Progress | None,
+                 segments: constraints.Segments | None = None) -> dict[str, Any]:
+    """Returns the core's result. `points` are those of the segments, perhaps followed by others."""
+    tolerance = options["tolerance"]
+    pairs, cells, begin = ((None, None, 0) if segments is None
+                           else (segments.pairs, segments.cells, segments.polygon_begin))
+    result = _core.triangulate(
+        points, pairs, cells, begin, options.get("crossings") == 1,
+        segments is not None and options["marks"] == 2 and options["alpha"] == 0,
+        tolerance * diagonal(points) if tolerance > 0 else 0.0, options["max_edge"], *options["partitions"],
+        options["schedule"] == 0, options["threads"], options.get("neighbors", False), progress)
+    finish(progress)
+    return result
+
+
+def raster(points: Any, point_data: Any, options: dict[str, Any],
+           progress: Progress | None) -> tuple[list[np.ndarray], tuple[float, float, int, int], str]:
+    """Returns the bands, each (rows, columns) from south to north; the grid's west, south, columns and rows; and the
+    CRS of points in files."""
+    source = points if check.are_files(points) else _points_and_columns(points, point_data, options)
+    bands, grid, crs, rejected = _core.dem(source, options, progress)
+    finish(progress)
+    if rejected:
+        warn([f"{rejected} points with a NaN or infinite x or y are left out."])
+    return [np.reshape(band, grid[:1:-1]) for band in bands], grid, crs
+
+
+def dem(points: Any, point_data: Any, options: dict[str, Any],
+        progress: Progress | None) -> tuple[list[np.ndarray], tuple[float, ...], str | None]:
+    """Returns the bands with rows from north to south, their transform, and the CRS of points in files."""
+    bands, (west, south, _, rows), crs = raster(points, point_data, options, progress)
+    size = options["resolution"]
+    return [band[::-1] for band in bands], (size, 0.0, west, 0.0, -size, south + rows * size), crs or None
+
+
+def _points_and_columns(points: Any, point_data: Any, options: dict[str, Any]
+                        ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """Returns the coordinates in the plane, and the columns that the bands need."""
+    if check.is_vtk_object(points):
+        from ._vtk import arrays_of, xyz_of
+
+        array, data = xyz_of(points), arrays_of(points.GetPointData())
+    else:
+        array = coordinates(points)
+        data = attributes(point_data, len(array))
+        if array.shape[1] == 2 and check.needs_elevation(options):
+            raise ValueError("points have no elevation; give an array of shape (n, 3) or other attributes.")
+    if len(array) == 0:
+        raise RuntimeError("There are no points.")
+    check.require_bands(options["attributes"], data)
+    wanted = [*options["attributes"], "elevation"]
+    columns = {name: np.ascontiguousarray(values, np.float64) for name, values in data.items()
+               if name in wanted and values.ndim == 1}
+    if "elevation" not in columns and array.shape[1] == 3:
+        columns = {**columns, "z": np.ascontiguousarray(array[:, 2], np.float64)}
+    return np.ascontiguousarray(array[:, :2], np.float64), columns
+
+
+def read_points(paths: list[str], options: dict[str, Any]) -> tuple[np.ndarray, dict[str, np.ndarray], str]:
+    """Returns (n, 3) coordinates, the columns by name, and the coordinate reference system."""
+    names = options["attributes"]
+    wanted = None if names is None else [*(name for name in names if name not in check.DERIVED_BANDS), "z", "Z"]
+    xy, columns, crs = _core.read_points(paths, wanted, options["classes"] or [], options["returns"], options["keep"])
+    z = next((columns.pop(name) for name in ("z", "Z") if name in columns), np.zeros(len(xy)))
+    return np.column_stack([xy, z]), columns, crs
+
+
+def ranks() -> Any:
+    """Raises RuntimeError, because the wheel works on one rank. In a TIPP with MPI and VTK, it is a context in which
+    the functions of this package work on all ranks of an MPI run together."""
+    raise RuntimeError("tipp.ranks() needs a TIPP that was built with MPI and VTK; the wheel works on one rank.")
+
+
+def delaunay_3d(points: Any, point_data: Any, options: dict[str, Any], progress: Progress | None) -> Any:
+    raise RuntimeError("tipp.delaunay_3d() needs a TIPP that was built with VTK; the wheel has no tetrahedra.")
+
+
+def delaunay(points: Any, options: dict[str, Any], progress: Progress | None) -> np.ndarray:
+    if check.is_vtk_object(points):
+        from ._vtk import xyz_of
+
+        array = xyz_of(points)
+    else:
+        array = coordinates(points)
+    result = triangulated(plain(array), options, progress)
+    if result["warnings"]:
+        warn(result["warnings"])
+    return result["triangles"]
+
+
+def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
+                progress: Progress | None) -> tuple[Any, dict[str, Any]]:
+    if check.is_vtk_object(points):
+        return _delaunay_of_data_set(points, options, progress)
+    if isinstance(points, Mesh):
+        point_data = {**points.point_data, **(point_data or {})}
+        points = points.points
+    array = plain(coordinates(points))
+    if options["polygons"] is not None:  # corners of polygons may have a z
+        array = in_space(array)
+    mesh, statistics, _ = _triangulated(array, attributes(point_data, len(array)), options, progress)
+    if root() is not None:
+        from ._vtk import surface_of
+
+        return surface_of(mesh, None), statistics
+    mesh.points = in_space(mesh.points)
+    return mesh, statistics
+
+
+def _triangulated(points: np.ndarray, data: dict[str, np.ndarray], options: dict[str, Any],
+                  progress: Progress | None) -> tuple[Mesh, dict[str, Any], bool]:
+    """Returns a mesh whose points have as many columns as `points`, statistics, and whether the points are the same."""
+    given = points
+    segments = constraints.segments_of(points, data, options)
+    if segments is not None:
+        points, data = segments.points, data if segments.point_data is None else segments.point_data
+    if options["bound"]:
+        points, data = _with_circle(points, options["offset"]), {}
+    is_marked = segments is not None and options["marks"] != 0
+    has_lines = is_marked and options["marks"] == 1
+    has_all = options["alpha"] == 0
+    wants_neighbors = options["neighbors"] and has_all and not has_lines
+    chosen = {**options, "neighbors": wants_neighbors}
+    result = triangulated(points, chosen, progress, segments)
+    sentences = [*([] if segments is None else segments.warnings), *result["warnings"]]
+    crossings = result.get("crossings", ())
+    if len(crossings):
+        points = constraints.with_crossings(points, crossings)
+        data = {name: constraints.interpolated(values, crossings) for name, values in data.items()}
+    mesh = Mesh(points, result["triangles"], dict(data))
+    if options["map_duplicates"] and (len(result["duplicates"]) or len(result["rejected"])):
+        mesh.point_data["RepresentativePointId"] = _representatives(len(points), result)
+    if wants_neighbors:
+        mesh.cell_data["NeighborIds"] = result["neighbors"]
+    elif options["neighbors"]:
+        sentences.append("No NeighborIds: " + ("the output has lines, too." if has_lines else
+                                               "with alpha not all triangles are output."))
+    if not has_all:
+        covered = np.zeros(len(points), np.uint8)
+        covered[result["duplicates"][:, 0]] = 1
+        covered[result["rejected"]] = 1
+        mesh.cells, mesh.lines, mesh.vertices = _core.alpha_shape(points, mesh.cells, options["alpha"], covered)
+        if is_marked:
+            sentences.append("No marks of constraints: with alpha not all triangles are output.")
+    elif has_lines:
+        pieces = result["pieces"]
+        mesh.lines = np.ascontiguousarray(pieces[:, :2]).astype(mesh.cells.dtype, copy=False)
+        mesh.line_data["ConstraintId"] = segments.cells[pieces[:, 2]]
+    elif is_marked:
+        mesh.cell_data["ConstraintEdges"] = result["marks"]
+    if sentences:
+        warn(sentences)
+    return mesh, result["statistics"], mesh.points is given
+
+
+def _representatives(count: int, result: dict[str, Any]) -> np.ndarray:
+    ids = np.arange(count)
+    point, kept = result["duplicates"].T
+    ids[point] = kept
+    ids[result["rejected"]] = -1
+    return ids
+
+
+def _with_circle(points: np.ndarray, offset: float) -> np.ndarray:
+    """Returns the points and eight more on a circle around them."""
+    low, high = box(points)
+    centre, radius = 0.5 * low + 0.5 * high, offset * diagonal(points)
+    angles = 2 * np.pi * np.arange(8) / 8
+    circle = np.column_stack([centre[0] + radius * np.cos(angles), centre[1] + radius * np.sin(angles),
+                              np.full(8, centre[2])])
+    return np.vstack([points.astype(np.float64), circle[:, : points.shape[1]]])
+
+
+def _delaunay_of_data_set(data: Any, options: dict[str, Any],
+                          progress: Progress | None) -> tuple[Any, dict[str, Any]]:
+    from ._vtk import arrays_of, surface_of, wrapped_like, xyz_of
+
+    has_constraints = any(options[name] is not None for name in ("edge_source", "edges", "polygons"))
+    arrays = arrays_of(data.GetPointData()) if has_constraints else {}
+    mesh, statistics, is_same = _triangulated(plain(xyz_of(data)), arrays, options, progress)
+    return wrapped_like(surface_of(mesh, None if options["bound"] or not is_same else data), data), statistics
+
+
+def delaunay_file(
+    paths: list[str], output: str, options: dict[str, Any], progress: Progress | None
+) -> dict[str, int]:
+    if not output:
+        raise RuntimeError("FileName is not set; name the folder to write.")
+    figures, sentences = _core.triangulate_files(paths, output, options, progress)
+    finish(progress)
+    warn(sentences)
+    return figures
+
+
+def read(path: str, options: dict[str, Any], progress: Progress | None) -> Any:
+    of_points, of_cells = _core.array_names(path, options["tiling"], options["memory_limit"])
+    check.require_arrays(options["point_arrays"], of_points, "point")
+    check.require_arrays(options["cell_arrays"], of_cells, "cell")
+    bounds = options["bounds"]
+    if bounds is not None and bounds[0] > bounds[1]:
+        bounds = None  # read everything, which is the reader's default
+    if bounds is not None and (bounds[2] > bounds[3] or bounds[4] > bounds[5]):
+        raise RuntimeError("Bounds have from > to along y or z; set from <= to, or from > to along x for everything.")
+    pieces = _core.read(path, bounds, options, progress)
+    finish(progress)
+    meshes = [Mesh(**piece) for piece in pieces]
+    if root() is None:
+        empty = Mesh(np.empty((0, 3)), np.empty((0, 3), np.int32))
+        return (meshes or [empty])[0] if options["merge"] else meshes
+    from ._vtk import grid_of, partitioned
+
+    grids = [grid_of(mesh) for mesh in meshes]
+    return (grids or [grid_of(None)])[0] if options["merge"] else partitioned(grids)
+
+
+def write(mesh: Any, path: str, options: dict[str, Any], progress: Progress | None) -> None:
+    if isinstance(mesh, str):
+        _core.partition_file(mesh, path, options, progress)
+    else:
+        mesh = _simplices(mesh, "mesh", ("vtkDataObject",), "a VTK data set or a path")
+        cells, cell_data = mesh.cells, mesh.cell_data
+        if _GHOSTS in cell_data:
+            owned = cell_data[_GHOSTS] == 0
+            cells, cell_data = cells[owned], {name: values[owned] for name, values in cell_data.items()}
+        _core.partition_arrays(plain(mesh.points), np.ascontiguousarray(cells), _numeric_arrays(mesh.point_data),
+                               _numeric_arrays(cell_data), path, options, progress)
+    finish(progress)
+
+
+def _numeric_arrays(data: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Returns the arrays to store: numeric ones, except those that a partitioned mesh always has."""
+    return {name: np.ascontiguousarray(values) for name, values in data.items()
+            if name not in (_GHOSTS, *_OWN_IDS) and values.dtype.kind in "iuf"}
+
+
+def _simplices(mesh: Any, name: str, kinds: tuple[str, ...], wanted: str) -> Mesh:
+    """Returns a data set of triangles or tetrahedra as arrays, after checking it."""
+    if not isinstance(mesh, Mesh):
+        check.data_object(mesh, name, kinds, wanted)
+        from ._vtk import simplices_of
+
+        mesh = simplices_of(mesh)
+    cells = np.asarray(mesh.cells)
+    if cells.ndim != 2 or cells.shape[1] not in (3, 4) or cells.dtype.kind not in "iu":
+        raise RuntimeError("the mesh's cells are not (n, 3) triangles or (n, 4) tetrahedra of whole numbers.")
+    if len(cells) and not 0 <= cells.min() <= cells.max() < len(mesh.points):
+        raise RuntimeError(f"the mesh's cells refer to points from {cells.min()} to {cells.max()}, but there are "
+                           f"{len(mesh.points)} points; repair it or write it again.")
+    if cells.dtype not in (np.int32, np.int64):
+        cells = cells.astype(np.int64)
+    return Mesh(mesh.points, np.ascontiguousarray(cells), mesh.point_data, mesh.cell_data)
+
+
+def open_mesh(mesh: Any, options: dict[str, Any]) -> Any:
+    if isinstance(mesh, str):
+        return _core.Query(mesh, options["memory"], options["step"], options["threads"])
+    mesh = _simplices(mesh, "mesh", ("vtkPolyData", "vtkUnstructuredGrid"), "a mesh")
+    of_points, of_cells = _numeric_arrays(mesh.point_data), _numeric_arrays(mesh.cell_data)
+    return _core.Query(in_space(plain(mesh.points)), mesh.cells, [*of_points, *of_cells],
+                       [*of_points.values(), *of_cells.values()], len(of_points), options["threads"])
+
+
+def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> Any:
+    source = mesh
+    mesh = _simplices(mesh, "mesh", ("vtkPointSet",), "a mesh")
+    points = plain(np.asarray(mesh.points))
+    low, high = box(points)
+    bounds = options["bounds"] if options["bounds"] is not None else np.column_stack([low, high]).ravel().tolist()
+    if options["bounds"] is None and not np.isfinite(points).all(axis=1).any():
+        raise RuntimeError("the input has no points with finite coordinates, so its bounds give no range: "
+                           "give bounds.")
+    chosen = _selected_arrays(mesh, options["arrays"])
+    hidden, sentences = _hidden_cells(mesh, points, options, chosen[0])
+    (origin, spacing, dimensions), samples, mask, more = _core.resample(
+        points, mesh.cells, hidden, list(chosen[0].values()), list(chosen[1].values()), bounds,
+        options["dimensions"], options["spacing"] or [0.0, 0.0, 0.0], options["null_value"], options["device"],
+        options["threads"], progress)
+    finish(progress)
+    if len(mesh.cells) and not mask.any():
+        sentences.append("No sample lies in a cell of the mesh: check the range and the number of samples.")
+    warn([*sentences, *more])
+    arrays = dict(zip([*chosen[0], *chosen[1]], samples))
+    image = Image(tuple(origin), tuple(spacing), dimensions, {**arrays, "vtkValidPointMask": mask})
+    if isinstance(source, Mesh) and root() is None:
+        return image
+    from ._vtk import image_of, wrapped_like
+
+    return wrapped_like(image_of(image), source)
+
+
+def _selected_arrays(mesh: Mesh, names: list[str] | None) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+    """Returns the point arrays and cell arrays to sample."""
+    result: tuple[dict[str, np.ndarray], dict[str, np.ndarray]] = ({}, {})
+    for chosen, data in zip(result, (mesh.point_data, mesh.cell_data)):
+        for name, values in data.items():
+            if name != _GHOSTS and values.dtype.kind in "iuf" and (names is None or name in names):
+                chosen[name] = np.ascontiguousarray(values)
+    missing = [name for name in names or [] if name not in result[0] and name not in result[1]]
+    for name in missing:
+        warn([f"There is no point array '{name}' in the input, so it is not sampled; there are "
+               f"{', '.join(repr(known) for known in mesh.point_data) or 'none'}."])
+    return result
+
+
+def _hidden_cells(mesh: Mesh, points: np.ndarray, options: dict[str, Any],
+                  arrays: dict[str, np.ndarray]) -> tuple[np.ndarray | None, list[str]]:
+    """Returns a mark for each cell that gives no values, and warnings."""
+    marks = np.zeros(len(mesh.cells), bool)
+    sentences = []
+    if _GHOSTS in mesh.cell_data:
+        marks |= (mesh.cell_data[_GHOSTS] & _HIDDEN) != 0
+    axes = slice(0, 2 if mesh.cells.shape[1] == 3 else 3)
+    finite = np.isfinite(points[:, axes]).all(axis=1)
+    if not finite.all():
+        bad = ~finite[mesh.cells].all(axis=1) & ~marks
+        marks |= bad
+        count = int(bad.sum())
+        if count:
+            sentences.append(f"{count} cell has a corner with a NaN or infinite coordinate and yields no value."
+                             if count == 1 else
+                             f"{count} cells have a corner with a NaN or infinite coordinate and yield no value.")
+    if options["no_data"] is not None:
+        for values in arrays.values():
+            equal = values == values.dtype.type(options["no_data"]) if values.dtype.kind == "f" else (
+                values == options["no_data"])
+            equal = equal.any(axis=1) if equal.ndim == 2 else equal
+            marks |= equal[mesh.cells].any(axis=1)
+    return (marks.astype(np.uint8) if marks.any() else None), sentences

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Adcirc/AdcircGrid.h"
+#include "Commands/Commands.h"
+#include "Commands/PointArguments.h"
+#include "Commands/Report.h"
+#include "Console/Process.h"
+#include "Files/OutputFile.h"
+#include "Files/PendingOutput.h"
+#include "Flat/FlatMesh.h"
+#include "Flat/FlattenDataSet.h"
+#include "Partitioning/PartitionMesh.h"
+#include "Ranks/Communicator.h"
+#include "Vtk/DataSets.h"
+
+#include "vtkDataSet.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <memory>
+#include <vector>
+
+namespace tipp
+{
+namespace
+{
+
+constexpr const char* flattenFooter =
+  R"(INPUT   any VTK file, which is read into memory, or an ADCIRC grid (.14, .grd).
+FOLDER  cells.npy, points.npy, point_data/NAME.npy, cell_data/NAME.npy and, for
+        values that vary in time, time.npy. It must not exist yet.
+
+Other cells are cut into triangles or tetrahedra. Cells of a lower dimension, ghost
+cells and arrays of strings are left out. The command reports the cells that it has cut
+or left out. A .vtu file with appended, raw, uncompressed triangles or tetrahedra need
+not be flattened: other commands read it in place.
+
+Examples:
+  tipp flatten bracket.vtu -o bracket
+  tipp flatten fort.14 -o surge --values fort.63 --values maxele.63
+)";
+
+struct FlattenArguments
+{
+  std::string Input;
+  std::string Output;
+  std::vector<std::string> Values;
+};
+
+void reportCut(const FlattenArguments& arguments, const Flattened& flattened)
+{
+  for (const auto& [name, count] : flattened.Cut)
+  {
+    fmt::print("{} cells {} were cut.\n", count, name);
+  }
+  for (const auto& [name, count] : flattened.LeftOut)
+  {
+    fmt::print(stderr, "tipp: warning: {}: {} of {} left out.\n", arguments.Input, count, name);
+  }
+  for (const std::string& name : flattened.ArraysLeftOut)
+  {
+    fmt::print(stderr, "tipp: warning: {}: array '{}' holds no numbers and is left out.\n",
+      arguments.Input, name);
+  }
+}
+
+/// Writes the folder. Returns the exit code.
+int writeContent(const FlattenArguments& arguments, const FlatContent& content)
+{
+  if (!writeFlatMesh(arguments.Output, content, isInterrupted))
+  {
+    return reportInterrupt();
+  }
+  fmt::print("{} {}, {} points, {} arrays{} in {}\n",
+    content.Cells.size() / std::size_t(content.CellSize),
+    content.CellSize == 3 ? "triangles" : "tetrahedra", content.Points.Tuples,
+    content.PointData.size() + content.CellData.size(),
+    content.Times.empty() ? "" : fmt::format(", {} steps", content.Times.size()), arguments.Output);
+  return Success;
+}
+
+int runFlatten(const FlattenArguments& arguments)
+{
+  {
+    // Check the paths before the computation.
+    std::vector<std::string> inputs = arguments.Values;
+    inputs.push_back(arguments.Input);
+    requireApart({ arguments.Output }, inputs);
+    const PendingFolder writable(arguments.Output);
+  }
+  if (isAdcircFile(arguments.Input))
+  {
+    return writeContent(arguments, flattenAdcirc(arguments.Input, arguments.Values));
+  }
+  const vtkSmartPointer<vtkDataSet> data = readDataSet(arguments.Input);
+  const Flattened flattened = flattenDataSet(data, arguments.Input);
+  const int code = writeContent(arguments, flattened.Content);
+  if (code == Success)
+  {
+    reportCut(arguments, flattened);
+  }
+  return code;
+}
+
+} // namespace
+
+void addFlattenCommand(CLI::App& app, int& exitCode)
+{
+  auto arguments = std::make_shared<FlattenArguments>();
+  CLI::App* const command = app.add_subcommand("flatten",
+    "Writes the triangles or tetrahedra of a mesh as a folder of .npy arrays, in their order");
+  command->add_option("input", arguments->Input, "The mesh")->required();
+  command->add_option("-o,--output", arguments->Output, "The folder to write")->required();
+  command->add_option("--values", arguments->Values,
+    "With an ADCIRC grid: ASCII output at its nodes (fort.63, maxele.63 ...)");
+  command->footer(flattenFooter);
+  command->callback(
+    [arguments, &exitCode]()
+    {
+      if (!arguments->Values.empty() && !isAdcircFile(arguments->Input))
+      {
+        throw CLI::ValidationError("--values needs an ADCIRC grid (.14, .grd)");
+      }
+      exitCode = isIdleRank() ? Success : runFlatten(*arguments);
+    });
+}
+
+namespace
+{
+
+constexpr const char* partitionFooter =
+  R"(INPUT   a flat mesh: a folder of cells.npy, points.npy, point_data/NAME.npy and
+        cell_data/NAME.npy, or a .vtu with appended, raw, uncompressed data, read in
+        place whatever its size; or any VTK file of triangles or tetrahedra that
+        fits in memory.
+MESH    a folder: mesh.pvtu, which ParaView and vtkXMLPUnstructuredGridReader read,
+        the pieces, and an index. An existing partitioned mesh is replaced when the new
+        one is complete.
+
+A cell belongs to the first partition that it meets; the other partitions it meets
+borrow it, by reference or as ghost cells in their own pieces. Under mpirun all ranks
+share the work, and the files are the same. Ctrl-C stops the run with exit code 130 and
+no output. --memory is the limit of each rank, in bytes or such as 512M (2^20 bytes) or
+2G.
+
+Examples:
+  tipp partition mesh -o mesh.tipp --tiling grid:8x8
+  tipp partition mesh.vtu -o mesh.tipp --tiling quadtree:100000 --memory 512M
+  mpirun -np 4 tipp partition mesh -o mesh.tipp --borrowers duplicate
+)";
+
+struct PartitionArguments
+{
+  std::string Input;
+  std::string Output;
+  std::string Tiling = "grid:4x4";
+  std::string Borrowers = "reference";
+  bool Neighbors = false;
+  std::string Memory = "2G";
+  std::string Loader = "auto";
+  std::string Device = "openmp";
+  int Threads = 0;
+  std::string Statistics;
+};
+
+/// Writes the file of --stats. Throws IOError.
+void writeReport(const PartitionArguments& arguments, const PartitionStatistics& statistics)
+{
+  const LoadCounters& loads = statistics.Loads;
+  nlohmann::ordered_json json = {
+    { "input", arguments.Input },
+    { "output", arguments.Output },
+    { "points", statistics.Points },
+    { "cells", statistics.Cells },
+    { "pieces", statistics.Pieces },
+    { "border_cells", statistics.BorderCells },
+    { "borrowed_cells", statistics.BorrowedCells },
+    { "copied_points", statistics.CopiedPoints },
+    { "spilled_bytes", statistics.SpilledBytes },
+    { "mesh_bytes", statistics.MeshBytes },
+    { "seconds", totalSeconds(statistics.Phases) },
+    { "peak_memory_bytes", peakMemoryBytes() },
+    { "ranks", statistics.Ranks },
+    { "threads", statistics.Threads },
+    { "loader", statistics.Loader },
+    { "loads",
+      { { "reads", loads.Reads }, { "bytes", loads.Bytes }, { "useful_bytes", loads.UsefulBytes },
+        { "passes", loads.Passes } } },
+    { "phases", nlohmann::ordered_json::array() },
+  };
+  for (const PartitionStatistics::Phase& phase : statistics.Phases)
+  {
+    json["phases"].push_back({ { "name", phase.Name }, { "seconds", phase.Seconds } });
+  }
+  writeJson(arguments.Statistics, json);
+}
+
+std::string checkTiling(const std::string& text)
+{
+  return TilingChoice::parse(text)
+    ? ""
+    : "'" + text + "' is neither grid:COLUMNSxROWS[xLAYERS] of 1 to 10000 each nor quadtree:CELLS";
+}
+
+PartitionOptions makeOptions(
+  const PartitionArguments& arguments, const std::unique_ptr<ProgressBar>& bar)
+{
+  PartitionOptions options;
+  options.Tiling = *TilingChoice::parse(arguments.Tiling);
+  options.DuplicateBorrowers = arguments.Borrowers == "duplicate";
+  options.Neighbors = arguments.Neighbors;
+  options.MemoryLimit = *parseMemorySize(arguments.Memory);
+  options.Loading.Kind = loaderFromName(arguments.Loader);
+  options.Device = parseDeviceChoice(arguments.Device);
+  options.Threads = arguments.Threads;
+  options.Progress = progressOn(bar);
+  return options;
+}
+
+int runPartition(const PartitionArguments& arguments)
+{
+  const MpiSession session;
+  PartitionStatistics statistics;
+  try
+  {
+    // Check the paths before the computation. A failure on one rank fails on all.
+    Communicator(session.controller())
+      .attempt(
+        [&]
+        {
+          if (session.isFirst() && !arguments.Statistics.empty())
+          {
+            checkOutputs(arguments.Output, arguments.Statistics, "", { arguments.Input });
+          }
+        });
+    const auto bar = session.isFirst() ? std::make_unique<ProgressBar>("Partitioning") : nullptr;
+    statistics = partitionInput(
+      arguments.Input, arguments.Output, makeOptions(arguments, bar), session.controller());
+  }
+  catch (const std::exception&)
+  {
+    return reportFailure();
+  }
+  if (statistics.Aborted)
+  {
+    return reportInterrupt();
+  }
+  if (session.isFirst())
+  {
+    if (!arguments.Statistics.empty())
+    {
+      writeReport(arguments, statistics);
+    }
+    fmt::print("{} cells, {} points, {} pieces, {} borrowed cells, {:.0f} MB, {:.3f} s, peak "
+               "memory {:.0f} MB\n",
+      statistics.Cells, statistics.Points, statistics.Pieces, statistics.BorrowedCells,
+      double(statistics.MeshBytes) / 1e6, totalSeconds(statistics.Phases),
+      double(peakMemoryBytes()) / 1e6);
+  }
+  return Success;
+}
+
+} // namespace
+
+void addPartitionCommand(CLI::App& app, int& exitCode)
+{
+  auto arguments = std::make_shared<PartitionArguments>();
+  CLI::App* const command =
+    app.add_subcommand("partition", "Cuts a mesh larger than memory into pieces on the disk");
+  command->add_option("input", arguments->Input, "The mesh")->required();
+  command->add_option("-o,--output", arguments->Output, "The partitioned mesh, such as mesh.tipp")
+    ->required();
+  addChecked(*command, "--tiling", arguments->Tiling, checkTiling,
+    "grid:COLUMNSxROWS[xLAYERS]; or quadtree:CELLS (octree:CELLS): partitions are divided until "
+    "each meets at most CELLS cells that are not longer than the partition");
+  addChecked(*command, "--borrowers", arguments->Borrowers,
+    CLI::IsMember({ "reference", "duplicate" }),
+    "reference: borrowed cells are only in their owners' pieces; duplicate: they are also copied "
+    "to the pieces that borrow them");
+  command->add_flag("--neighbors", arguments->Neighbors,
+    "Add the cell array NeighborIds: the id of the cell across each edge or face; this partitions "
+    "the mesh twice");
+  addChecked(*command, "--memory", arguments->Memory, checkMemorySize,
+    "The memory limit of each rank, such as 512M");
+  addChecked(*command, "--loader", arguments->Loader,
+    CLI::IsMember({ "auto", "direct", "fine", "mmap" }),
+    "How vertices are read: direct: Direct Load; fine: with smaller reads; mmap: mapped files; "
+    "auto: chosen automatically");
+  command
+    ->add_option("--device", arguments->Device,
+      "The device that classifies cells at borders: openmp, opencl, opencl:NAME or auto")
+    ->capture_default_str();
+  addThreadsOption(*command, arguments->Threads);
+  command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
+  command->footer(partitionFooter);
+  command->callback([arguments, &exitCode]() { exitCode = runPartition(*arguments); });
+}
+
+} // namespace tipp
