@@ -6,6 +6,7 @@
 #include "Query/RankMesh.h"
 
 #include <algorithm>
+#include <iterator>
 #include <mutex>
 #include <numeric>
 #include <tuple>
@@ -148,7 +149,9 @@ public:
     for (const std::int64_t item : this->Left)
     {
       Finished done;
-      done.Lists.Ids = (this->ToCells ? this->CellLists : this->PointLists)[std::size_t(item)];
+      const Ids& list = (this->ToCells ? this->CellLists : this->PointLists)[std::size_t(item)];
+      std::copy_if(list.begin(), list.end(), std::back_inserter(done.Lists.Ids),
+        [this, item](std::int64_t id) { return this->isListed(id, item); });
       this->finish(item, 0, done);
       this->Done.push_back(std::move(done));
     }
@@ -321,23 +324,25 @@ private:
     const auto begin = std::ptrdiff_t(ids.size());
     for (const std::int64_t index : this->ToCells ? ring.Cells : ring.Points)
     {
-      ids.push_back(this->ToCells ? part.cellId(index) : part.pointId(index));
+      const std::int64_t id = this->ToCells ? part.cellId(index) : part.pointId(index);
+      this->isListed(id, item) ? ids.push_back(id) : void();
     }
     this->finish(item, begin, done);
   }
 
-  /// The ids from `begin` on become the list of an item: ascending and without its seed.
+  /// Whether an id that an item reaches is in its list: the seed is not.
+  bool isListed(std::int64_t id, std::int64_t item) const
+  {
+    return this->FromPoints == this->ToCells || id != this->Seeds[std::size_t(item)];
+  }
+
+  /// The ids from `begin` on become the list of an item: ascending, each once.
   void finish(std::int64_t item, std::ptrdiff_t begin, Finished& done) const
   {
     Ids& ids = done.Lists.Ids;
     std::sort(ids.begin() + begin, ids.end());
     // Parts that a cell was divided into have the same id.
     ids.erase(std::unique(ids.begin() + begin, ids.end()), ids.end());
-    if (this->FromPoints != this->ToCells)
-    {
-      const std::int64_t seed = this->Seeds[std::size_t(item)];
-      ids.erase(std::remove(ids.begin() + begin, ids.end(), seed), ids.end());
-    }
     done.Lists.endList();
     done.Items.push_back(item);
   }
