@@ -15,7 +15,6 @@
 #include "Vtk/DataSets.h"
 
 #include "vtkAbstractTransform.h"
-#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkErrorCode.h"
 #include "vtkExecutive.h"

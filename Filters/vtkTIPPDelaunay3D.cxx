@@ -12,7 +12,6 @@
 #include "Triangulation3D/Tetrahedralize.h"
 #include "Vtk/DataSets.h"
 
-#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkErrorCode.h"

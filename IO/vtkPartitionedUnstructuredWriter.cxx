@@ -8,7 +8,6 @@
 
 #include "vtkAlgorithm.h"
 #include "vtkAlgorithmOutput.h"
-#include "vtkDataObject.h"
 #include "vtkDataSet.h"
 #include "vtkExecutive.h"
 #include "vtkInformation.h"

@@ -5,7 +5,6 @@
 #include "Predicates/Points.h"
 #include "vtkTIPPAcceleratorsModule.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>

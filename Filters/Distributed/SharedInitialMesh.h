@@ -63,7 +63,7 @@ struct InitialMeshPart
     const std::vector<char>& isChosen, int threads);
 
   /// Adds this part's counts for partitionsPay() to `triangles` and `met`. If every partition is
-  /// chosen in exactly one part, the sums over all parts are those of the whole mesh.
+  /// chosen in exactly one part, the sums over all parts equal the counts for the whole mesh.
   VTKTIPPFILTERS_EXPORT void countMet(std::int64_t& triangles, std::int64_t& met) const;
 
   /// Returns the chosen partitions' conflicts. Slow if partitioning does not pay off.

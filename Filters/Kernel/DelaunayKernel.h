@@ -7,7 +7,6 @@
 #include "Kernel/Insertion.h"
 #include "Kernel/InsertionOrder.h"
 #include "Kernel/KernelPredicates.h"
-#include "Predicates/ExactPredicates.h"
 #include "Predicates/Points.h"
 #include "vtkTIPPFiltersModule.h"
 

@@ -48,10 +48,10 @@ public:
   }
 
   /// Reads the record of an earlier process, if there is one. Calls `begun` with the data
-  /// saved for Stage::Begun, or `whole` with those of the other stages. Verifies the mesh if it is
-  /// complete. Returns false if there is nothing to resume. Throws IOError if the record is damaged
-  /// or belongs to another run, or if the mesh is incomplete and `resumes` is false; the work
-  /// folder is kept in these cases.
+  /// saved at Stage::Begun, or `whole` with the data saved at a later stage. Verifies the mesh if
+  /// it is complete. Returns false if there is nothing to resume. Throws IOError if the record is
+  /// damaged or belongs to another run, or if the mesh is incomplete and `resumes` is false; the
+  /// work folder is kept in these cases.
   bool resume(bool resumes, int threads, const Load& begun, const Load& whole);
 
   enum class Stage : std::uint8_t

@@ -28,8 +28,8 @@ namespace tipp
 class VTKTIPPFILTERS_EXPORT PieceSegments
 {
 public:
-  /// Writes the file; its path begins with `file`. forEach(visit) visits all segments. The plan's
-  /// coordinates are those of the segments times `factor`. The plan must outlive this object.
+  /// Writes the file; its path begins with `file`. forEach(visit) visits all segments. The plan has
+  /// the coordinates of the segments multiplied by `factor`. The plan must outlive this object.
   /// Throws IOError, as all methods do.
   PieceSegments(const std::string& file, const PiecePlan& plan, double factor,
     const std::function<void(const VisitSegment&)>& forEach, int threads);

@@ -138,7 +138,7 @@ private:
       this->Borders = std::make_unique<BorderQueue>(plan, this->OrderOfPieces->partitions());
     }
     const std::vector<PartitionIndex>& sequence = this->OrderOfPieces->sequence();
-    std::vector<char> isToDo(this->Inboxes.size(), 0);
+    std::vector<char> isPending(this->Inboxes.size(), 0);
     std::vector<PartitionIndex> left;
     for (std::size_t i = 0; i < sequence.size(); ++i)
     {
@@ -155,7 +155,7 @@ private:
       this->AwaitedPieces += this->Ranks.isFirst() && !this->isOwn(piece) ? 1 : 0;
       for (PartitionIndex p = begin; p < end; ++p)
       {
-        isToDo[std::size_t(p)] = char(this->isOwn(piece));
+        isPending[std::size_t(p)] = char(this->isOwn(piece));
         left.push_back(p);
       }
     }
@@ -164,13 +164,13 @@ private:
     for (auto& [to, message] :
       sendInitialMesh(this->OrderOfPieces->takeInitialMesh(), this->OrderOfPieces->partitions()))
     {
-      if (isToDo[std::size_t(to)])
+      if (isPending[std::size_t(to)])
       {
         this->put(to, std::move(message));
       }
     }
     this->Ready = std::make_unique<ReadyPartitions>(
-      this->OrderOfPieces->partitions(), ReadyPartitions::Waits::ForEarlierAndLoad, isToDo);
+      this->OrderOfPieces->partitions(), ReadyPartitions::Waits::ForEarlierAndLoad, isPending);
     for (PartitionIndex piece : sequence)
     {
       if (isDone[std::size_t(piece)])

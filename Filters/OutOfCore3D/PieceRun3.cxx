@@ -171,13 +171,13 @@ private:
   bool makePieces(const std::vector<char>& isDone, const PartitionOrder& order)
   {
     this->Order = &order;
-    std::vector<char> isToDo;
-    isToDo.reserve(isDone.size());
+    std::vector<char> isPending;
+    isPending.reserve(isDone.size());
     for (const char done : isDone)
     {
-      isToDo.push_back(char(done == 0));
+      isPending.push_back(char(done == 0));
     }
-    ReadyPartitions ready(order, ReadyPartitions::Waits::ForEarlier, isToDo);
+    ReadyPartitions ready(order, ReadyPartitions::Waits::ForEarlier, isPending);
     this->skipDone(isDone, ready);
     runWorkers(ready, this->Threads,
       [&](int)

@@ -6,8 +6,6 @@
 #include "OutOfCore/PieceResult.h"
 #include "OutOfCore3D/PiecePlan3.h"
 #include "Parallel/ParallelFor.h"
-#include "Partitioned/GrowingPiece.h"
-#include "Partitioned/PartitionedMesh.h"
 #include "Triangulation3D/Dataflow3.h"
 #include "vtkTIPPFiltersModule.h"
 

@@ -121,10 +121,9 @@ namespace
 
 /// One rank's piece of a mesh: its cells, then the ghost cells. The points are those that the rank
 /// owns and uses, then those of other ranks that its cells use, then those that only ghost cells
-/// use. `Mesh` is a
-/// DistributedTriangulation or DistributedTetrahedralization. An id is an internal id (index among
-/// all ranks' points); a local index counts the owned points and then those of other ranks that the
-/// mesh uses.
+/// use. `Mesh` is a DistributedTriangulation or DistributedTetrahedralization. An id is an internal
+/// id (index among all ranks' points); a local index counts the owned points and then those of
+/// other ranks that the mesh uses.
 template <typename Mesh, typename Ghosts>
 class RankPiece
 {

@@ -29,9 +29,9 @@ namespace tipp
 /// The tetrahedra or, if there are none, the triangles of a vtkPointSet with its arrays, for
 /// queries. Other cells are divided into these; cells that vtkGhostType hides are left out. The
 /// result shares the data set's memory where possible, and holds a reference to the data set.
-/// Global ids of cells and points are those of the data set, if it has any. A composite data set
-/// may have only one vtkPointSet with cells. If `data` is null or has no cells, the mesh is empty.
-/// Throws std::runtime_error, with one sentence, if the data cannot be used.
+/// If the data set has global ids of cells or points, the result has them, too. A composite data
+/// set may have only one vtkPointSet with cells. If `data` is null or has no cells, the mesh is
+/// empty. Throws std::runtime_error, with one sentence, if the data cannot be used.
 VTKTIPPFILTERS_EXPORT MeshPart partOf(vtkDataObject* data, int threads);
 
 /// Returns `count` points. at(i, p) writes x, y and z of point i to p; z is 0 unless written.
@@ -117,8 +117,8 @@ VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(
   const Descents& descents, const std::string& name);
 
-/// Creates one polyline with the point arrays "Distance", "CellId" and those of the profile, whose
-/// memory is moved into the result.
+/// Creates one polyline with the point arrays "Distance", "CellId" and the arrays of the profile,
+/// whose memory is moved into the result.
 VTKTIPPFILTERS_EXPORT vtkSmartPointer<vtkPolyData> polyDataOf(Profile&& profile);
 
 /// Creates a vertex for each point, with the arrays of the answer, "CellId", "AskingRank" and

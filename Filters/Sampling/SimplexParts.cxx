@@ -5,7 +5,6 @@
 #include "Vtk/DataSets.h"
 
 #include "vtkCellArray.h"
-#include "vtkCellData.h"
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"

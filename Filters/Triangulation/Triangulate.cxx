@@ -13,7 +13,6 @@
 #include <atomic>
 #include <limits>
 #include <mutex>
-#include <stdexcept>
 
 namespace tipp
 {

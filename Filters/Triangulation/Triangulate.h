@@ -3,14 +3,12 @@
 #define tippTriangulate_h
 
 #include "Arrays/Buffer.h"
-#include "Predicates/Points.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Tiling.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 

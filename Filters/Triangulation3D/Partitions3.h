@@ -8,7 +8,6 @@
 #include "Triangulation/Tiling.h"
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

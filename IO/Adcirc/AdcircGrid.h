@@ -9,7 +9,6 @@
 #include "vtkTIPPIOModule.h"
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>

@@ -199,8 +199,8 @@ const char* sectionOf(PieceRole role)
                                    : "CellData";
 }
 
-/// The sections that list the arrays of a piece. Null offsets: those of the .pvtu, whose tags begin
-/// with P and which has no section Cells.
+/// The sections that list the arrays of a piece in its .vtu file. Without `offsets`: the sections
+/// of the .pvtu file, whose tags begin with P and which has no section Cells.
 std::string sections(
   const std::vector<PieceArray>& arrays, const std::vector<std::uint64_t>* offsets)
 {

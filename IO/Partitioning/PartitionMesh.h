@@ -9,7 +9,6 @@
 #include "Partitioning/MeshTiling.h"
 #include "vtkTIPPIOModule.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>

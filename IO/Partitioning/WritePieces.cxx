@@ -39,7 +39,7 @@ RowPointers rowsOf(const char* first, std::size_t count, std::size_t rowBytes)
   return rows;
 }
 
-/// Copies `bytes` bytes at `offset` of each row; Bytes may be a compile-time constant.
+/// Copies `bytes` bytes at `offset` of each row to `to`; Bytes may be a compile-time constant.
 template <typename Bytes>
 void copyBytes(const RowPointers& rows, std::size_t offset, Bytes bytes, char* to)
 {

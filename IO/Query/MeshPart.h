@@ -5,7 +5,6 @@
 #include "Partitioned/PieceFile.h"
 #include "Partitioned/ReadPiece.h"
 #include "Resample/SimplexMesh.h"
-#include "vtkTIPPIOModule.h"
 
 #include <cstdint>
 #include <memory>

@@ -215,7 +215,7 @@ private:
     }
   }
 
-  /// `corners` are those of the crossed face, edge or point, by ascending ids.
+  /// Adds a crossing. `corners`: the corners of the crossed face, edge or point, by ascending ids.
   void add(const Point3& at, const CellCorner* corners, const double* weights, int count)
   {
     Crossing crossing{ this->shareOf(at),

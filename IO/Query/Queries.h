@@ -24,9 +24,9 @@ class Communicator;
 //
 // `ranks` are the ranks that share the mesh, as for answerOnRanks(); null: this process alone. With
 // ranks, the functions are collective; call them within Communicator::together(). Each rank passes
-// its own points or ids, possibly none, and gets their results, which equal those of the whole mesh
-// in one process, unless stated otherwise. All ranks pass the same arrays, component, levels,
-// spacing and region.
+// its own points or ids, possibly none, and gets the results for them: unless stated otherwise,
+// what one process would get that has the whole mesh. All ranks pass the same arrays, component,
+// levels, spacing and region.
 
 /// Lists of global ids in one array: list i is Ids[Starts[i]] ... Ids[Starts[i + 1] - 1].
 struct IdLists

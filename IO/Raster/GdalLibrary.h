@@ -2,7 +2,6 @@
 #ifndef tippGdalLibrary_h
 #define tippGdalLibrary_h
 
-#include <cpl_conv.h>
 #include <cpl_error.h>
 #include <cpl_vsi.h>
 #include <gdal.h>

@@ -16,7 +16,6 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include <sys/mman.h>
 #include <sys/prctl.h>

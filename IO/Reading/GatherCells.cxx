@@ -3,7 +3,6 @@
 
 #include "Loading/ArrayFiles.h"
 #include "Parallel/Poll.h"
-#include "Predicates/ExactPredicates.h"
 #include "Predicates/ExactPredicates3.h"
 #include "Resample/SimplexMesh.h"
 

@@ -81,8 +81,8 @@ Buffer<char> withThird(const Buffer<char>& flat, std::int64_t points, std::size_
   return three;
 }
 
-/// The pieces of a flat mesh, made in memory: chunk by chunk, Direct Load loads the coordinates of
-/// cells, and the cells are classified; those of the requested pieces are kept.
+/// The pieces of a flat mesh, made in memory. Chunk by chunk, the coordinates of cells are loaded
+/// by Direct Load, and the cells are classified. Cells of the requested pieces are kept.
 class FlatPieces : public PieceSource
 {
 public:

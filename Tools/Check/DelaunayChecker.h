@@ -173,10 +173,11 @@ struct ConstraintChains
 };
 
 /// Finds for each constraint a chain of edges between its two points. Each vertex of the chain must
-/// lie within two units in the last place of the constraint's coordinates, tested in exact
-/// arithmetic. Constraints whose ends are equal or not finite need no chain. `xy` holds x and y of
-/// each point; `triangles` (three each) and `constraints` hold indices of these points. `isCut`:
-/// the mesh ends at polygons, so chains may have gaps between vertices of its border.
+/// be so close to the constraint that rounding explains the distance: at most twice the spacing of
+/// doubles at the constraint's coordinates, tested in exact arithmetic. Constraints whose ends are
+/// equal or not finite need no chain. `xy` holds x and y of each point; `triangles` (three each)
+/// and `constraints` hold indices of these points. `isCut`: the mesh ends at polygons, so chains
+/// may have gaps between vertices of its border.
 ConstraintChains findConstraintChains(const std::vector<double>& xy,
   const std::vector<std::int64_t>& triangles,
   const std::vector<std::array<std::int64_t, 2>>& constraints, bool isCut);

@@ -32,8 +32,8 @@ FOLDER  cells.npy, points.npy, point_data/NAME.npy, cell_data/NAME.npy and, for
 
 Other cells are cut into triangles or tetrahedra. Cells of a lower dimension, ghost
 cells and arrays of strings are left out. The command reports the cells that it has cut
-or left out. A .vtu file with appended, raw, uncompressed triangles or tetrahedra need
-not be flattened: other commands read it in place.
+or left out. A .vtu file with appended, raw, uncompressed triangles or tetrahedra can
+be used directly: other commands read its data where they are in the file.
 
 Examples:
   tipp flatten bracket.vtu -o bracket

@@ -78,10 +78,9 @@ void addTriangle(const CrossedPart& from, std::size_t t, CrossedPart& to)
 }
 
 /// For each of `segments`, whether it is complete in the part. `crossed` is crossingsOf(part,
-/// segments). A segment that
-/// crosses a triangle is followed from there to both ends. It leaves a triangle across an edge,
-/// then the part must have the next triangle, or at a vertex, then the part must have all triangles
-/// at this vertex.
+/// segments). A segment that crosses a triangle is followed from there to both ends. It leaves a
+/// triangle across an edge, then the part must have the next triangle, or at a vertex, then the
+/// part must have all triangles at this vertex.
 std::vector<char> findComplete(const CrossedPart& part, const CrossedTriangles& crossed,
   const std::vector<std::int64_t>& segments, const std::function<bool(std::int64_t)>& isInner)
 {

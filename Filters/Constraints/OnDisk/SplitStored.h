@@ -34,9 +34,9 @@ public:
   /// that crosses near the border of a tile may be found several times.
   void findCrossings(const std::function<void(std::int64_t, std::int64_t)>& found) const;
 
-  /// Calls near(id) for each segment near one for which isWanted(id) is true, and for that one
-  /// itself. Finds all at a distance below 128 units in the last place of the largest coordinate,
-  /// and some that are farther. May find a segment several times.
+  /// Calls near(id) for each segment for which isWanted(id) is true, and for each segment near one
+  /// of these. Finds all whose distance is below 128 times the spacing of doubles at the largest
+  /// coordinate, and some that are farther away. May find a segment several times.
   void findNear(const std::function<bool(std::int64_t)>& isWanted,
     const std::function<void(std::int64_t)>& near) const;
 
