@@ -12,7 +12,6 @@
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -21,56 +20,17 @@
 #include <exception>
 
 vtkStandardNewMacro(vtkPartitionedMeshQuery);
-vtkCxxSetObjectMacro(vtkPartitionedMeshQuery, Controller, vtkMultiProcessController);
 
 vtkPartitionedMeshQuery::vtkPartitionedMeshQuery()
 {
   this->SetNumberOfInputPorts(2);
-  this->vtkPartitionedMeshQuery::SetValidPointMaskArrayName("vtkValidPointMask");
-  this->vtkPartitionedMeshQuery::SetController(vtkMultiProcessController::GetGlobalController());
+  this->Controller = vtkMultiProcessController::GetGlobalController();
   tipp::useCollectivePipeline(this, [this] { return this->Controller; });
-}
-
-vtkPartitionedMeshQuery::~vtkPartitionedMeshQuery()
-{
-  this->vtkPartitionedMeshQuery::SetController(nullptr);
-  this->vtkPartitionedMeshQuery::SetFileName(nullptr);
-  this->vtkPartitionedMeshQuery::SetValidPointMaskArrayName(nullptr);
 }
 
 vtkDataObject* vtkPartitionedMeshQuery::GetSource()
 {
   return this->GetNumberOfInputConnections(1) > 0 ? this->GetInputDataObject(1, 0) : nullptr;
-}
-
-void vtkPartitionedMeshQuery::AddArray(const char* name)
-{
-  if (name)
-  {
-    this->ArrayNames.emplace_back(name);
-    this->Modified();
-  }
-}
-
-void vtkPartitionedMeshQuery::ClearArrays()
-{
-  if (!this->ArrayNames.empty())
-  {
-    this->ArrayNames.clear();
-    this->Modified();
-  }
-}
-
-int vtkPartitionedMeshQuery::GetNumberOfArrays() const
-{
-  return int(this->ArrayNames.size());
-}
-
-const char* vtkPartitionedMeshQuery::GetArray(int index) const
-{
-  return index >= 0 && index < this->GetNumberOfArrays()
-    ? this->ArrayNames[std::size_t(index)].c_str()
-    : nullptr;
 }
 
 int vtkPartitionedMeshQuery::FillInputPortInformation(int port, vtkInformation* info)
@@ -111,9 +71,9 @@ std::pair<int, int> vtkPartitionedMeshQuery::GetRank() const
 std::shared_ptr<const tipp::ResidentMesh> vtkPartitionedMeshQuery::Open()
 {
   const std::lock_guard<std::mutex> lock(this->Opening);
-  const bool isStored = this->FileName && *this->FileName;
+  const bool isStored = !this->FileName.empty();
   vtkDataObject* const source = isStored ? nullptr : this->GetSource();
-  std::string key = isStored ? this->FileName : "";
+  std::string key = this->FileName;
   for (const vtkTypeInt64 number : { vtkTypeInt64(this->MemoryLimit), vtkTypeInt64(this->Step),
          vtkTypeInt64(this->NumberOfThreads), source ? vtkTypeInt64(source->GetMTime()) : 0 })
   {
@@ -139,7 +99,7 @@ std::vector<std::string> vtkPartitionedMeshQuery::ArraysOf(
   tipp::Communicator* ranks, const tipp::ResidentMesh& mesh) const
 {
   const bool hasCells = mesh.mesh().Cells > 0;
-  std::vector<std::string> arrays = this->ArrayNames.empty() ? mesh.names() : this->ArrayNames;
+  std::vector<std::string> arrays = this->Arrays.empty() ? mesh.names() : this->Arrays;
   if (ranks)
   {
     // A rank without cells does not know the arrays' names.
@@ -249,7 +209,7 @@ int vtkPartitionedMeshQuery::RequestData(
       tipp::moveArrays(answer, values, this->NullValue);
       values->AddArray(tipp::arrayOf<vtkIdTypeArray>("CellId", answer.Cells));
       vtkNew<vtkCharArray> mask;
-      mask->SetName(this->ValidPointMaskArrayName ? this->ValidPointMaskArrayName : "");
+      mask->SetName(this->ValidPointMaskArrayName.c_str());
       mask->SetNumberOfValues(vtkIdType(answer.Cells.size()));
       std::transform(answer.Cells.begin(), answer.Cells.end(), mask->GetPointer(0),
         [](std::int64_t cell) { return char(cell >= 0); });
@@ -291,23 +251,15 @@ int vtkPartitionedMeshQuery::Interpolate(
 void vtkPartitionedMeshQuery::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const auto one = [&](const char* name, const auto& value)
-  { os << indent << name << ": " << value << "\n"; };
-  one("FileName", this->FileName ? this->FileName : "(none)");
-  one("MemoryLimit", this->MemoryLimit);
-  one("Step", this->Step);
-  one("NullValue", this->NullValue);
-  one("PassPointArrays", this->PassPointArrays);
-  one("PassCellArrays", this->PassCellArrays);
-  one("PassFieldArrays", this->PassFieldArrays);
-  one("ValidPointMaskArrayName",
-    this->ValidPointMaskArrayName ? this->ValidPointMaskArrayName : "(none)");
-  one("NumberOfThreads", this->NumberOfThreads);
+  vtkTIPPPrintMacro(FileName);
+  vtkTIPPPrintMacro(MemoryLimit);
+  vtkTIPPPrintMacro(Step);
+  vtkTIPPPrintMacro(NullValue);
+  vtkTIPPPrintMacro(PassPointArrays);
+  vtkTIPPPrintMacro(PassCellArrays);
+  vtkTIPPPrintMacro(PassFieldArrays);
+  vtkTIPPPrintMacro(ValidPointMaskArrayName);
+  vtkTIPPPrintMacro(NumberOfThreads);
   os << indent << "Controller: " << this->Controller << "\n";
-  os << indent << "Arrays:";
-  for (const std::string& name : this->ArrayNames)
-  {
-    os << " " << name;
-  }
-  os << "\n";
+  vtkTIPPPrintMacro(Arrays);
 }

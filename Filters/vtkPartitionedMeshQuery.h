@@ -35,21 +35,22 @@
 #define vtkPartitionedMeshQuery_h
 
 #include "vtkDataSetAlgorithm.h"
-#include "vtkTIPPFiltersModule.h" // For export macro
-#include "vtkTIPPSetGet.h"        // For property macros
+#include "vtkMultiProcessController.h" // For the Controller
+#include "vtkSmartPointer.h"           // For the Controller
+#include "vtkTIPPFiltersModule.h"      // For export macro
+#include "vtkTIPPSetGet.h"             // For property macros
 
 #include <functional> // For Direct
 #include <memory>     // For Mesh
 #include <mutex>      // For Opening
-#include <string>     // For ArrayNames
+#include <string>     // For Arrays
 #include <utility>    // For GetRank
-#include <vector>     // For ArrayNames
+#include <vector>     // For Arrays
 
 class vtkDataArray;
 class vtkDataSetAttributes;
 class vtkIdTypeArray;
 class vtkDoubleArray;
-class vtkMultiProcessController;
 class vtkPolyData;
 class vtkStringArray;
 
@@ -84,8 +85,7 @@ public:
    * The mesh, if it is stored: the folder of a partitioned mesh, or the index in it. It takes
    * precedence over a source. Default: none.
    */
-  vtkSetFilePathMacro(FileName);
-  vtkGetFilePathMacro(FileName);
+  vtkTIPPFilePathMacro(FileName);
   ///@}
 
   ///@{
@@ -108,10 +108,7 @@ public:
   /**
    * The names of the arrays to evaluate. Default: an empty list, which evaluates all arrays.
    */
-  void AddArray(const char* name);
-  void ClearArrays();
-  int GetNumberOfArrays() const;
-  const char* GetArray(int index) const;
+  vtkTIPPNameListMacro(Array);
   ///@}
 
   ///@{
@@ -137,8 +134,7 @@ public:
   /**
    * The name of the mask. Default: "vtkValidPointMask".
    */
-  vtkSetStringMacro(ValidPointMaskArrayName);
-  vtkGetStringMacro(ValidPointMaskArrayName);
+  vtkTIPPStringMacro(ValidPointMaskArrayName);
   ///@}
 
   ///@{
@@ -153,8 +149,8 @@ public:
    * The ranks that work together. The global controller by default. With null this process works
    * alone.
    */
-  virtual void SetController(vtkMultiProcessController* controller);
-  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  vtkSetSmartPointerMacro(Controller, vtkMultiProcessController);
+  vtkGetSmartPointerMacro(Controller, vtkMultiProcessController);
   ///@}
 
   /**
@@ -283,7 +279,7 @@ public:
 
 protected:
   vtkPartitionedMeshQuery();
-  ~vtkPartitionedMeshQuery() override;
+  ~vtkPartitionedMeshQuery() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestUpdateExtent(
@@ -307,17 +303,17 @@ private:
   std::shared_ptr<const tipp::ResidentMesh> OpenWhole();
   std::pair<int, int> GetRank() const;
 
-  char* FileName = nullptr;
+  std::string FileName;
   vtkTypeInt64 MemoryLimit = vtkTypeInt64(1) << 30;
   int Step = 0;
-  std::vector<std::string> ArrayNames;
+  std::vector<std::string> Arrays;
   double NullValue = 0;
   bool PassPointArrays = false;
   bool PassCellArrays = false;
   bool PassFieldArrays = true;
-  char* ValidPointMaskArrayName = nullptr;
+  std::string ValidPointMaskArrayName = "vtkValidPointMask";
   int NumberOfThreads = 0;
-  vtkMultiProcessController* Controller = nullptr;
+  vtkSmartPointer<vtkMultiProcessController> Controller;
 
   std::mutex Opening;
   std::shared_ptr<const tipp::ResidentMesh> Mesh;

@@ -11,13 +11,11 @@
 
 #include "vtkAlgorithmOutput.h"
 #include "vtkCommand.h"
-#include "vtkDataArraySelection.h"
 #include "vtkExecutive.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -26,6 +24,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <new>
 #include <stdexcept>
@@ -33,41 +32,30 @@
 #include <vector>
 
 vtkStandardNewMacro(vtkRangeResampleFilter);
-vtkCxxSetObjectMacro(vtkRangeResampleFilter, Controller, vtkMultiProcessController);
 
 using Pipeline = vtkStreamingDemandDrivenPipeline;
 
 vtkRangeResampleFilter::vtkRangeResampleFilter()
-  : PointDataArraySelection(vtkDataArraySelection::New())
-  , CellDataArraySelection(vtkDataArraySelection::New())
 {
   this->PointDataArraySelection->SetUnknownArraySetting(1);
   this->CellDataArraySelection->SetUnknownArraySetting(1);
   for (vtkDataArraySelection* selection :
-    { this->PointDataArraySelection, this->CellDataArraySelection })
+    { this->PointDataArraySelection.Get(), this->CellDataArraySelection.Get() })
   {
     selection->AddObserver(vtkCommand::ModifiedEvent, this, &vtkRangeResampleFilter::Modified);
   }
-  this->vtkRangeResampleFilter::SetController(vtkMultiProcessController::GetGlobalController());
-}
-
-vtkRangeResampleFilter::~vtkRangeResampleFilter()
-{
-  this->vtkRangeResampleFilter::SetController(nullptr);
-  this->vtkRangeResampleFilter::SetDeviceName(nullptr);
-  this->PointDataArraySelection->Delete();
-  this->CellDataArraySelection->Delete();
+  this->Controller = vtkMultiProcessController::GetGlobalController();
 }
 
 void vtkRangeResampleFilter::SetDeviceChoice(const char* text)
 {
-  tipp::runReported(this, nullptr, "", {},
+  tipp::runReported(this, nullptr, "", nullptr,
     [&]
     {
       const tipp::DeviceChoice choice = tipp::parseDeviceChoice(text ? text : "auto");
       this->SetDevice(int(choice.Kind));
       this->SetDeviceIndex(choice.Index);
-      this->SetDeviceName(choice.Name.empty() ? nullptr : choice.Name.c_str());
+      this->SetDeviceName(choice.Name.c_str());
     });
 }
 
@@ -93,7 +81,7 @@ int vtkRangeResampleFilter::RequestInformation(
 {
   vtkInformation* const outInfo = outputs->GetInformationObject(0);
   outInfo->Set(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT(), 1);
-  return tipp::runReported(this, nullptr, "Resampling: ", {},
+  return tipp::runReported(this, nullptr, "Resampling: ", nullptr,
     [&]
     {
       const std::array<double, 3> delta = tipp::toArray(this->Delta);
@@ -233,8 +221,7 @@ public:
 
 private:
   /// Runs `work`; replaces std::bad_alloc by an error with advice for resampling.
-  template <typename Work>
-  static void withMemoryAdvice(const Work& work)
+  static void withMemoryAdvice(const std::function<void()>& work)
   {
     try
     {
@@ -263,7 +250,7 @@ private:
     settings.Selected = [filter](bool ofCells, const std::string& name)
     {
       vtkDataArraySelection* const selection =
-        ofCells ? filter->CellDataArraySelection : filter->PointDataArraySelection;
+        ofCells ? filter->GetCellDataArraySelection() : filter->GetPointDataArraySelection();
       return selection->ArrayIsEnabled(name.c_str()) != 0;
     };
     settings.NullValue = filter->NullValue;
@@ -273,7 +260,7 @@ private:
     }
     settings.Device.Kind = static_cast<tipp::Device>(filter->Device);
     settings.Device.Index = filter->DeviceIndex;
-    settings.Device.Name = filter->DeviceName ? filter->DeviceName : "";
+    settings.Device.Name = filter->DeviceName;
     settings.Threads = tipp::threadCount(filter->NumberOfThreads);
     settings.Merging = true;
     return settings;
@@ -442,7 +429,7 @@ int vtkRangeResampleFilter::RequestData(
   vtkInformation* const outInfo = outputs->GetInformationObject(0);
   vtkImageData* const output = vtkImageData::GetData(outInfo);
   output->Initialize();
-  return tipp::runReported(this, nullptr, "Resampling: ", { output },
+  return tipp::runReported(this, nullptr, "Resampling: ", outputs,
     [&]
     {
       tipp::Communicator ranks(this->Controller);
@@ -461,32 +448,21 @@ int vtkRangeResampleFilter::RequestData(
 void vtkRangeResampleFilter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const auto list = [&](const char* name, const auto& values)
-  {
-    os << indent << name << ":";
-    for (const auto value : values)
-    {
-      os << " " << value;
-    }
-    os << "\n";
-  };
-  list("SamplingBounds", this->SamplingBounds);
-  list("SamplingDimensions", this->SamplingDimensions);
-  list("Delta", this->Delta);
-  const auto one = [&](const char* name, const auto& value)
-  { os << indent << name << ": " << value << "\n"; };
-  one("UseInputBounds", this->UseInputBounds);
-  one("NullValue", this->NullValue);
-  one("UseNoDataValue", this->UseNoDataValue);
-  one("NoDataValue", this->NoDataValue);
-  one("SampleElevation", this->SampleElevation);
-  one("PassFieldArrays", this->PassFieldArrays);
-  one("Device", this->Device);
-  one("DeviceIndex", this->DeviceIndex);
-  one("DeviceName", this->DeviceName ? this->DeviceName : "(none)");
-  one("NumberOfThreads", this->NumberOfThreads);
-  one("NumberOfInputPieces", this->NumberOfInputPieces);
-  one("GatherOnRoot", this->GatherOnRoot);
+  vtkTIPPPrintMacro(SamplingBounds);
+  vtkTIPPPrintMacro(SamplingDimensions);
+  vtkTIPPPrintMacro(Delta);
+  vtkTIPPPrintMacro(UseInputBounds);
+  vtkTIPPPrintMacro(NullValue);
+  vtkTIPPPrintMacro(UseNoDataValue);
+  vtkTIPPPrintMacro(NoDataValue);
+  vtkTIPPPrintMacro(SampleElevation);
+  vtkTIPPPrintMacro(PassFieldArrays);
+  vtkTIPPPrintMacro(Device);
+  vtkTIPPPrintMacro(DeviceIndex);
+  vtkTIPPPrintMacro(DeviceName);
+  vtkTIPPPrintMacro(NumberOfThreads);
+  vtkTIPPPrintMacro(NumberOfInputPieces);
+  vtkTIPPPrintMacro(GatherOnRoot);
   os << indent << "Controller: " << this->Controller << "\n";
   os << indent << "PointDataArraySelection:\n";
   this->PointDataArraySelection->PrintSelf(os, indent.GetNextIndent());

@@ -58,13 +58,14 @@
 #ifndef vtkRangeResampleFilter_h
 #define vtkRangeResampleFilter_h
 
+#include "vtkDataArraySelection.h" // For the selections
 #include "vtkImageAlgorithm.h"
-#include "vtkNew.h"               // For the table
-#include "vtkTIPPFiltersModule.h" // For export macro
-#include "vtkTIPPSetGet.h"        // For property macros
+#include "vtkMultiProcessController.h" // For the Controller
+#include "vtkNew.h"                    // For the table
+#include "vtkSmartPointer.h"           // For the Controller
+#include "vtkTIPPFiltersModule.h"      // For export macro
+#include "vtkTIPPSetGet.h"             // For property macros
 
-class vtkDataArraySelection;
-class vtkMultiProcessController;
 class vtkStringArray;
 class vtkTable;
 
@@ -182,8 +183,7 @@ public:
    */
   vtkSetMacro(DeviceIndex, int);
   vtkGetMacro(DeviceIndex, int);
-  vtkSetStringMacro(DeviceName);
-  vtkGetStringMacro(DeviceName);
+  vtkTIPPStringMacro(DeviceName);
   ///@}
 
   /**
@@ -218,8 +218,8 @@ public:
    * The ranks among which the mesh is distributed. The global controller by default. With null this
    * process works alone.
    */
-  virtual void SetController(vtkMultiProcessController*);
-  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  vtkSetSmartPointerMacro(Controller, vtkMultiProcessController);
+  vtkGetSmartPointerMacro(Controller, vtkMultiProcessController);
   ///@}
 
   ///@{
@@ -237,7 +237,7 @@ public:
 
 protected:
   vtkRangeResampleFilter();
-  ~vtkRangeResampleFilter() override;
+  ~vtkRangeResampleFilter() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(
@@ -251,8 +251,8 @@ protected:
   double SamplingBounds[6] = { 0, 1, 0, 1, 0, 1 };
   int SamplingDimensions[3] = { 10, 10, 10 };
   double Delta[3] = { 0, 0, 0 };
-  vtkDataArraySelection* PointDataArraySelection;
-  vtkDataArraySelection* CellDataArraySelection;
+  vtkNew<vtkDataArraySelection> PointDataArraySelection;
+  vtkNew<vtkDataArraySelection> CellDataArraySelection;
   double NullValue = 0;
   bool UseNoDataValue = false;
   double NoDataValue = -99999;
@@ -260,11 +260,11 @@ protected:
   bool PassFieldArrays = true;
   int Device = DEVICE_AUTO;
   int DeviceIndex = -1;
-  char* DeviceName = nullptr;
+  std::string DeviceName;
   int NumberOfThreads = 0;
   int NumberOfInputPieces = 1;
   bool GatherOnRoot = false;
-  vtkMultiProcessController* Controller = nullptr;
+  vtkSmartPointer<vtkMultiProcessController> Controller;
 
 private:
   vtkRangeResampleFilter(const vtkRangeResampleFilter&) = delete;

@@ -14,14 +14,12 @@
 #include "Pipeline/InputPoints.h"
 #include "Vtk/DataSets.h"
 
-#include "vtkAbstractTransform.h"
 #include "vtkCellData.h"
 #include "vtkErrorCode.h"
 #include "vtkExecutive.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
@@ -36,8 +34,6 @@
 #include <vector>
 
 vtkStandardNewMacro(vtkTIPPDelaunay2D);
-vtkCxxSetObjectMacro(vtkTIPPDelaunay2D, Transform, vtkAbstractTransform);
-vtkCxxSetObjectMacro(vtkTIPPDelaunay2D, Controller, vtkMultiProcessController);
 
 namespace
 {
@@ -88,14 +84,8 @@ vtkTIPPDelaunay2D::vtkTIPPDelaunay2D()
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
-  this->vtkTIPPDelaunay2D::SetController(vtkMultiProcessController::GetGlobalController());
+  this->Controller = vtkMultiProcessController::GetGlobalController();
   tipp::useCollectivePipeline(this, [this] { return this->Controller; });
-}
-
-vtkTIPPDelaunay2D::~vtkTIPPDelaunay2D()
-{
-  this->vtkTIPPDelaunay2D::SetTransform(nullptr);
-  this->vtkTIPPDelaunay2D::SetController(nullptr);
 }
 
 void vtkTIPPDelaunay2D::SetSourceData(vtkPolyData* source)
@@ -160,18 +150,12 @@ int vtkTIPPDelaunay2D::RequestData(
 {
   vtkPointSet* input = vtkPointSet::GetData(inputVector[0]);
   vtkPolyData* source = vtkPolyData::GetData(inputVector[1]);
-  vtkPolyData* output = vtkPolyData::GetData(outputVector, 0);
-  vtkTable* statistics = vtkTable::GetData(outputVector, 1);
   this->NumberOfDuplicatePoints = 0;
   this->NumberOfRejectedPoints = 0;
-  const int isDone = tipp::triangulateReported(this, this->Controller, this->NumberOfThreads,
-    "Triangulating", input, { output, statistics },
-    [&]
-    {
-      tipp::hasSeveralRanks(this->Controller)
-        ? this->ExecuteOnRanks(input, source, tipp::wantsGhosts(outputVector), output, statistics)
-        : this->Execute(input, source, output, statistics);
-    });
+  const int isDone = tipp::triangulateReported(
+    this, this->Controller, this->NumberOfThreads, "Triangulating", input, outputVector,
+    [&] { this->Execute(input, source, outputVector); },
+    [&] { this->ExecuteOnRanks(input, source, outputVector); });
   if (!isDone && tipp::hasSeveralRanks(this->Controller))
   {
     this->SetErrorCode(vtkErrorCode::UserError); // not every rank reports the error
@@ -180,8 +164,9 @@ int vtkTIPPDelaunay2D::RequestData(
 }
 
 void vtkTIPPDelaunay2D::Execute(
-  vtkPointSet* given, vtkPolyData* source, vtkPolyData* output, vtkTable* statistics)
+  vtkPointSet* given, vtkPolyData* source, vtkInformationVector* outputs)
 {
+  vtkPolyData* const output = vtkPolyData::GetData(outputs, 0);
   checkProperties(this);
   tipp::checkPoints(given, "the input");
   vtkSmartPointer<vtkAbstractTransform> toPlane = this->Transform;
@@ -240,7 +225,7 @@ void vtkTIPPDelaunay2D::Execute(
   {
     tipp::addConstraintTotals({ result.Constraints, constraints.Constraints.size() }, run);
   }
-  tipp::fillStatisticsTable(run, statistics);
+  tipp::fillStatisticsTable(run, vtkTable::GetData(outputs, 1));
 }
 
 /// Returns the input or, with MergeSourcePoints, the input followed by the source's new points.
@@ -366,9 +351,11 @@ void vtkTIPPDelaunay2D::SetCells(tipp::Triangulation& triangulation, vtkPolyData
   triangulation.Ids64.empty() ? setCells(triangulation.Ids32) : setCells(triangulation.Ids64);
 }
 
-void vtkTIPPDelaunay2D::ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, bool wantsGhosts,
-  vtkPolyData* output, vtkTable* statistics)
+void vtkTIPPDelaunay2D::ExecuteOnRanks(
+  vtkPointSet* given, vtkPolyData* source, vtkInformationVector* outputs)
 {
+  vtkPolyData* const output = vtkPolyData::GetData(outputs, 0);
+  const bool wantsGhosts = tipp::wantsGhosts(outputs);
   tipp::Communicator ranks(this->Controller);
   tipp::DistributedTriangulation mine;
   std::optional<tipp::RankSource> shared; // if a rank has a source
@@ -428,7 +415,7 @@ void vtkTIPPDelaunay2D::ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, 
     }
     tipp::RunStatistics all = tipp::statisticsOf(mine);
     shared ? tipp::addConstraintTotals(shared->Figures, all) : void();
-    tipp::fillStatisticsTable(all, statistics);
+    tipp::fillStatisticsTable(all, vtkTable::GetData(outputs, 1));
   };
   ranks.together(run);
   this->NumberOfDuplicatePoints = mine.AllDuplicates;

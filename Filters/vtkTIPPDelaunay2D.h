@@ -93,14 +93,14 @@
 #ifndef vtkTIPPDelaunay2D_h
 #define vtkTIPPDelaunay2D_h
 
+#include "vtkAbstractTransform.h"      // For the Transform
+#include "vtkMultiProcessController.h" // For the Controller
 #include "vtkPolyDataAlgorithm.h"
 #include "vtkSmartPointer.h"      // For smart pointer
 #include "vtkTIPPFiltersModule.h" // For export macro
 #include "vtkTIPPSetGet.h"        // For property macros
 
-class vtkAbstractTransform;
 class vtkAlgorithmOutput;
-class vtkMultiProcessController;
 class vtkPoints;
 class vtkPointSet;
 class vtkTable;
@@ -247,8 +247,8 @@ public:
    * The transform applied to the points before their x and y are triangulated; the output's points
    * are not transformed. It need be neither linear nor invertible. None by default.
    */
-  virtual void SetTransform(vtkAbstractTransform*);
-  vtkGetObjectMacro(Transform, vtkAbstractTransform);
+  vtkSetSmartPointerMacro(Transform, vtkAbstractTransform);
+  vtkGetSmartPointerMacro(Transform, vtkAbstractTransform);
   ///@}
 
   /**
@@ -338,8 +338,8 @@ public:
    * The ranks that triangulate together. The global controller by default. With null or a
    * controller of one rank, this process works alone.
    */
-  virtual void SetController(vtkMultiProcessController*);
-  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  vtkSetSmartPointerMacro(Controller, vtkMultiProcessController);
+  vtkGetSmartPointerMacro(Controller, vtkMultiProcessController);
   ///@}
 
   ///@{
@@ -412,7 +412,7 @@ public:
 
 protected:
   vtkTIPPDelaunay2D();
-  ~vtkTIPPDelaunay2D() override;
+  ~vtkTIPPDelaunay2D() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
@@ -428,7 +428,7 @@ protected:
   vtkTypeBool AlphaVerts = true;
   double MaximumEdgeLength = 0;
   int ProjectionPlaneMode = VTK_DELAUNAY_XY_PLANE;
-  vtkAbstractTransform* Transform = nullptr;
+  vtkSmartPointer<vtkAbstractTransform> Transform;
   double Tolerance = 0;
   double Offset = 1;
   vtkTypeBool BoundingTriangulation = false;
@@ -437,7 +437,7 @@ protected:
   int NumberOfPartitions[2] = { 0, 0 };
   int InitialPointsPerPartition = 0;
   int Schedule = DYNAMIC;
-  vtkMultiProcessController* Controller = nullptr;
+  vtkSmartPointer<vtkMultiProcessController> Controller;
   int Masters = AUTO_MASTERS;
   int NumberOfMajorPartitions[2] = { 0, 0 };
   vtkTypeBool EqualGroups = false;
@@ -452,9 +452,8 @@ private:
   vtkTIPPDelaunay2D(const vtkTIPPDelaunay2D&) = delete;
   void operator=(const vtkTIPPDelaunay2D&) = delete;
 
-  void Execute(vtkPointSet* input, vtkPolyData* source, vtkPolyData* output, vtkTable* statistics);
-  void ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, bool wantsGhosts,
-    vtkPolyData* output, vtkTable* statistics);
+  void Execute(vtkPointSet* given, vtkPolyData* source, vtkInformationVector* outputs);
+  void ExecuteOnRanks(vtkPointSet* given, vtkPolyData* source, vtkInformationVector* outputs);
   vtkSmartPointer<vtkPointSet> ReadSource(vtkPointSet* input, vtkPolyData* source,
     vtkAbstractTransform* toPlane, tipp::SourceConstraints& constraints);
   tipp::ConstrainedTriangulation Triangulate(

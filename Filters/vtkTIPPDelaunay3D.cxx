@@ -18,7 +18,6 @@
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
@@ -33,7 +32,6 @@
 #include <vector>
 
 vtkStandardNewMacro(vtkTIPPDelaunay3D);
-vtkCxxSetObjectMacro(vtkTIPPDelaunay3D, Controller, vtkMultiProcessController);
 
 namespace
 {
@@ -63,13 +61,8 @@ void checkProperties(vtkTIPPDelaunay3D* filter)
 vtkTIPPDelaunay3D::vtkTIPPDelaunay3D()
 {
   this->SetNumberOfOutputPorts(2);
-  this->vtkTIPPDelaunay3D::SetController(vtkMultiProcessController::GetGlobalController());
+  this->Controller = vtkMultiProcessController::GetGlobalController();
   tipp::useCollectivePipeline(this, [this] { return this->Controller; });
-}
-
-vtkTIPPDelaunay3D::~vtkTIPPDelaunay3D()
-{
-  this->vtkTIPPDelaunay3D::SetController(nullptr);
 }
 
 vtkTable* vtkTIPPDelaunay3D::GetStatistics()
@@ -101,18 +94,12 @@ int vtkTIPPDelaunay3D::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   vtkPointSet* input = vtkPointSet::GetData(inputVector[0]);
-  vtkUnstructuredGrid* output = vtkUnstructuredGrid::GetData(outputVector, 0);
-  vtkTable* statistics = vtkTable::GetData(outputVector, 1);
   this->NumberOfDuplicatePoints = 0;
   this->NumberOfRejectedPoints = 0;
-  const int isDone = tipp::triangulateReported(this, this->Controller, this->NumberOfThreads,
-    "Tetrahedralizing", input, { output, statistics },
-    [&]
-    {
-      tipp::hasSeveralRanks(this->Controller)
-        ? this->ExecuteOnRanks(input, tipp::wantsGhosts(outputVector), output, statistics)
-        : this->Execute(input, output, statistics);
-    });
+  const int isDone = tipp::triangulateReported(
+    this, this->Controller, this->NumberOfThreads, "Tetrahedralizing", input, outputVector,
+    [&] { this->Execute(input, outputVector); },
+    [&] { this->ExecuteOnRanks(input, outputVector); });
   if (!isDone && tipp::hasSeveralRanks(this->Controller))
   {
     this->SetErrorCode(vtkErrorCode::UserError); // not every rank reports the error
@@ -120,9 +107,9 @@ int vtkTIPPDelaunay3D::RequestData(
   return isDone;
 }
 
-void vtkTIPPDelaunay3D::Execute(
-  vtkPointSet* input, vtkUnstructuredGrid* output, vtkTable* statistics)
+void vtkTIPPDelaunay3D::Execute(vtkPointSet* input, vtkInformationVector* outputs)
 {
+  vtkUnstructuredGrid* const output = vtkUnstructuredGrid::GetData(outputs, 0);
   checkProperties(this);
   tipp::checkPoints(input, "the input");
   vtkSmartPointer<vtkPoints> points = input->GetPoints();
@@ -171,7 +158,8 @@ void vtkTIPPDelaunay3D::Execute(
   mesh.Dimension == 2 ? this->SetCells(triangles.Ids32, 3, mesh, output)
                       : this->SetCells(mesh.Ids, 4, mesh, output);
   mesh.Statistics.Phases.push_back({ "VTK output", watch.seconds() });
-  tipp::fillStatisticsTable(tipp::statisticsOf(mesh, count, tetrahedra), statistics);
+  tipp::fillStatisticsTable(
+    tipp::statisticsOf(mesh, count, tetrahedra), vtkTable::GetData(outputs, 1));
 }
 
 tipp::Tetrahedralization vtkTIPPDelaunay3D::Triangulate(
@@ -236,9 +224,10 @@ void vtkTIPPDelaunay3D::SetCells(tipp::Buffer<int>& ids, int corners,
   add(this->AlphaVerts, shape.Vertices, VTK_VERTEX, 1);
 }
 
-void vtkTIPPDelaunay3D::ExecuteOnRanks(
-  vtkPointSet* input, bool wantsGhosts, vtkUnstructuredGrid* output, vtkTable* statistics)
+void vtkTIPPDelaunay3D::ExecuteOnRanks(vtkPointSet* input, vtkInformationVector* outputs)
 {
+  vtkUnstructuredGrid* const output = vtkUnstructuredGrid::GetData(outputs, 0);
+  const bool wantsGhosts = tipp::wantsGhosts(outputs);
   tipp::Communicator ranks(this->Controller);
   tipp::DistributedTetrahedralization mine;
   const auto run = [&]()
@@ -277,7 +266,7 @@ void vtkTIPPDelaunay3D::ExecuteOnRanks(
     {
       tipp::addDuplicatesAndRejected(mine.Duplicates, mine.Rejected, output);
     }
-    tipp::fillStatisticsTable(tipp::statisticsOf(mine), statistics);
+    tipp::fillStatisticsTable(tipp::statisticsOf(mine), vtkTable::GetData(outputs, 1));
   };
   ranks.together(run);
   this->NumberOfDuplicatePoints = mine.AllDuplicates;

@@ -66,11 +66,12 @@
 #ifndef vtkTIPPDelaunay3D_h
 #define vtkTIPPDelaunay3D_h
 
-#include "vtkTIPPFiltersModule.h" // For export macro
-#include "vtkTIPPSetGet.h"        // For property macros
+#include "vtkMultiProcessController.h" // For the Controller
+#include "vtkSmartPointer.h"           // For the Controller
+#include "vtkTIPPFiltersModule.h"      // For export macro
+#include "vtkTIPPSetGet.h"             // For property macros
 #include "vtkUnstructuredGridAlgorithm.h"
 
-class vtkMultiProcessController;
 class vtkPointSet;
 class vtkTable;
 
@@ -181,8 +182,8 @@ public:
    * The ranks that triangulate together. The global controller by default. With null or a
    * controller of one rank, this process works alone.
    */
-  virtual void SetController(vtkMultiProcessController*);
-  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  vtkSetSmartPointerMacro(Controller, vtkMultiProcessController);
+  vtkGetSmartPointerMacro(Controller, vtkMultiProcessController);
   ///@}
 
   ///@{
@@ -209,7 +210,7 @@ public:
 
 protected:
   vtkTIPPDelaunay3D();
-  ~vtkTIPPDelaunay3D() override;
+  ~vtkTIPPDelaunay3D() override = default;
 
   int FillInputPortInformation(int, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
@@ -228,8 +229,8 @@ protected:
   vtkTypeBool GenerateNeighborIds = false;
   int NumberOfPartitions = 0;
   int NumberOfThreads = 0;
-  vtkMultiProcessController* Controller = nullptr;
   vtkTypeBool GatherOnFirstRank = false;
+  vtkSmartPointer<vtkMultiProcessController> Controller;
   vtkIdType NumberOfDuplicatePoints = 0;
   vtkIdType NumberOfRejectedPoints = 0;
 
@@ -237,9 +238,8 @@ private:
   vtkTIPPDelaunay3D(const vtkTIPPDelaunay3D&) = delete;
   void operator=(const vtkTIPPDelaunay3D&) = delete;
 
-  void ExecuteOnRanks(
-    vtkPointSet* input, bool wantsGhosts, vtkUnstructuredGrid* output, vtkTable* statistics);
-  void Execute(vtkPointSet* input, vtkUnstructuredGrid* output, vtkTable* statistics);
+  void Execute(vtkPointSet* input, vtkInformationVector* outputs);
+  void ExecuteOnRanks(vtkPointSet* input, vtkInformationVector* outputs);
   tipp::Tetrahedralization Triangulate(
     const tipp::Point3* points, vtkIdType count, double diagonal, tipp::Triangulation& triangles);
   void SetCells(tipp::Buffer<int>& ids, int corners, const tipp::TriangulatedPoints& mesh,

@@ -11,68 +11,15 @@
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkTable.h"
 
 vtkStandardNewMacro(vtkTIPPOutOfCoreDelaunay2D);
-vtkCxxSetObjectMacro(vtkTIPPOutOfCoreDelaunay2D, Controller, vtkMultiProcessController);
-
-namespace
-{
-
-std::string textOf(const char* text)
-{
-  return text ? text : "";
-}
-
-} // namespace
 
 vtkTIPPOutOfCoreDelaunay2D::vtkTIPPOutOfCoreDelaunay2D()
 {
   this->SetNumberOfInputPorts(0);
-  this->vtkTIPPOutOfCoreDelaunay2D::SetController(vtkMultiProcessController::GetGlobalController());
-}
-
-vtkTIPPOutOfCoreDelaunay2D::~vtkTIPPOutOfCoreDelaunay2D()
-{
-  this->vtkTIPPOutOfCoreDelaunay2D::SetXColumn(nullptr);
-  this->vtkTIPPOutOfCoreDelaunay2D::SetYColumn(nullptr);
-  this->vtkTIPPOutOfCoreDelaunay2D::SetFileName(nullptr);
-  this->vtkTIPPOutOfCoreDelaunay2D::SetConstraintsFileName(nullptr);
-  this->vtkTIPPOutOfCoreDelaunay2D::SetBoundaryFileName(nullptr);
-  this->vtkTIPPOutOfCoreDelaunay2D::SetScratchFolder(nullptr);
-  this->vtkTIPPOutOfCoreDelaunay2D::SetController(nullptr);
-}
-
-void vtkTIPPOutOfCoreDelaunay2D::AddInputFileName(const char* name)
-{
-  tipp::addName(this, name, this->InputFileNames);
-}
-
-void vtkTIPPOutOfCoreDelaunay2D::SetInputFileName(const char* name)
-{
-  if (name && this->InputFileNames == std::vector<std::string>{ name })
-  {
-    return;
-  }
-  this->ClearInputFileNames();
-  this->AddInputFileName(name);
-}
-
-void vtkTIPPOutOfCoreDelaunay2D::ClearInputFileNames()
-{
-  tipp::clearItems(this, this->InputFileNames);
-}
-
-int vtkTIPPOutOfCoreDelaunay2D::GetNumberOfInputFileNames() const
-{
-  return int(this->InputFileNames.size());
-}
-
-const char* vtkTIPPOutOfCoreDelaunay2D::GetInputFileName(int index) const
-{
-  return tipp::nameAt(this->InputFileNames, index);
+  this->Controller = vtkMultiProcessController::GetGlobalController();
 }
 
 void vtkTIPPOutOfCoreDelaunay2D::AddHole(double x, double y)
@@ -83,7 +30,11 @@ void vtkTIPPOutOfCoreDelaunay2D::AddHole(double x, double y)
 
 void vtkTIPPOutOfCoreDelaunay2D::ClearHoles()
 {
-  tipp::clearItems(this, this->Holes);
+  if (!this->Holes.empty())
+  {
+    this->Holes.clear();
+    this->Modified();
+  }
 }
 
 /// Announces that the filter handles piece requests. Otherwise a pipeline that requests one piece
@@ -103,9 +54,8 @@ int vtkTIPPOutOfCoreDelaunay2D::RequestInformation(
 int vtkTIPPOutOfCoreDelaunay2D::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  vtkTable* const output = vtkTable::GetData(outputVector, 0);
-  const int isDone =
-    tipp::runReported(this, this->Controller, "", { output }, [&] { this->Execute(output); });
+  const int isDone = tipp::runReported(this, this->Controller, "", outputVector,
+    [&] { this->Execute(vtkTable::GetData(outputVector, 0)); });
   if (!isDone)
   {
     this->SetErrorCode(vtkErrorCode::UserError); // not every rank reports the error
@@ -115,7 +65,7 @@ int vtkTIPPOutOfCoreDelaunay2D::RequestData(
 
 void vtkTIPPOutOfCoreDelaunay2D::Execute(vtkTable* output)
 {
-  const std::string path = textOf(this->FileName);
+  const std::string path = this->FileName; // observers of progress may change the property
   tipp::Communicator ranks(this->Controller);
   tipp::Monitor monitor(this);
   tipp::OutOfCoreOptions options = this->Options();
@@ -123,8 +73,8 @@ void vtkTIPPOutOfCoreDelaunay2D::Execute(vtkTable* output)
   options.Warn = [this](const std::string& sentence) { vtkWarningMacro(<< sentence); };
   const auto crossings =
     this->SplitCrossings ? tipp::CrossingRule::Split : tipp::CrossingRule::Refuse;
-  const tipp::ConstraintFiles constraints{ textOf(this->ConstraintsFileName),
-    textOf(this->BoundaryFileName), this->Holes, crossings };
+  const tipp::ConstraintFiles constraints{ this->ConstraintsFileName, this->BoundaryFileName,
+    this->Holes, crossings };
   const auto open = [&]
   {
     if (path.empty())
@@ -133,8 +83,8 @@ void vtkTIPPOutOfCoreDelaunay2D::Execute(vtkTable* output)
     }
     tipp::requireApart({ path, tipp::scratchIn(options.Scratch) }, this->InputFileNames);
     return tipp::joinConstraints(
-      tipp::openPointStream(this->InputFileNames, { textOf(this->XColumn), textOf(this->YColumn) }),
-      constraints, options);
+      tipp::openPointStream(this->InputFileNames, { this->XColumn, this->YColumn }), constraints,
+      options);
   };
   const tipp::OutOfCoreStatistics statistics =
     tipp::triangulateOutOfCoreOnRanks(ranks, open, path, options);
@@ -158,37 +108,31 @@ tipp::OutOfCoreOptions vtkTIPPOutOfCoreDelaunay2D::Options() const
   options.MarkConstraints = this->GenerateConstraintEdges != 0;
   options.CountOnly = this->CountOnly != 0;
   options.Resume = this->Resume != 0;
-  options.Scratch = textOf(this->ScratchFolder);
+  options.Scratch = this->ScratchFolder;
   return options;
 }
 
 void vtkTIPPOutOfCoreDelaunay2D::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const auto print = [&](const char* name, const char* value)
-  { os << indent << name << ": " << (value ? value : "(none)") << "\n"; };
   const auto onOff = [](vtkTypeBool flag) { return flag ? "On\n" : "Off\n"; };
-  for (const std::string& name : this->InputFileNames)
-  {
-    print("InputFileName", name.c_str());
-  }
-  print("XColumn", this->XColumn);
-  print("YColumn", this->YColumn);
-  print("FileName", this->FileName);
-  os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
-  os << indent << "NumberOfPartitions: " << this->NumberOfPartitions[0] << " x "
-     << this->NumberOfPartitions[1] << "\n";
-  os << indent << "MaximumEdgeLength: " << this->MaximumEdgeLength << "\n";
+  vtkTIPPPrintMacro(InputFileNames);
+  vtkTIPPPrintMacro(XColumn);
+  vtkTIPPPrintMacro(YColumn);
+  vtkTIPPPrintMacro(FileName);
+  vtkTIPPPrintMacro(MemoryLimit);
+  vtkTIPPPrintMacro(NumberOfPartitions);
+  vtkTIPPPrintMacro(MaximumEdgeLength);
   os << indent << "GenerateRepresentativeIds: " << onOff(this->GenerateRepresentativeIds);
   os << indent << "GenerateNeighborIds: " << onOff(this->GenerateNeighborIds);
-  print("ConstraintsFileName", this->ConstraintsFileName);
-  print("BoundaryFileName", this->BoundaryFileName);
+  vtkTIPPPrintMacro(ConstraintsFileName);
+  vtkTIPPPrintMacro(BoundaryFileName);
   os << indent << "Holes: " << this->Holes.size() << "\n";
   os << indent << "SplitCrossings: " << onOff(this->SplitCrossings);
   os << indent << "GenerateConstraintEdges: " << onOff(this->GenerateConstraintEdges);
   os << indent << "CountOnly: " << onOff(this->CountOnly);
   os << indent << "Resume: " << onOff(this->Resume);
-  print("ScratchFolder", this->ScratchFolder);
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  vtkTIPPPrintMacro(ScratchFolder);
+  vtkTIPPPrintMacro(NumberOfThreads);
   os << indent << "Controller: " << this->Controller << "\n";
 }

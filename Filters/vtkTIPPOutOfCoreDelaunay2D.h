@@ -62,15 +62,15 @@
 #ifndef vtkTIPPOutOfCoreDelaunay2D_h
 #define vtkTIPPOutOfCoreDelaunay2D_h
 
-#include "vtkTIPPFiltersModule.h" // For export macro
-#include "vtkTIPPSetGet.h"        // For property macros
+#include "vtkMultiProcessController.h" // For the Controller
+#include "vtkSmartPointer.h"           // For the Controller
+#include "vtkTIPPFiltersModule.h"      // For export macro
+#include "vtkTIPPSetGet.h"             // For property macros
 #include "vtkTableAlgorithm.h"
 
 #include <string>  // For InputFileNames
 #include <utility> // For Holes
 #include <vector>  // For InputFileNames
-
-class vtkMultiProcessController;
 
 namespace tipp
 {
@@ -90,11 +90,7 @@ public:
    * or any format that VTK reads. The name "uniform:COUNT" stands for COUNT uniformly distributed
    * points in the unit square instead of a file. SetInputFileName() replaces all files by one.
    */
-  void AddInputFileName(const char* name);
-  void SetInputFileName(const char* name);
-  void ClearInputFileNames();
-  int GetNumberOfInputFileNames() const;
-  const char* GetInputFileName(int index) const;
+  vtkTIPPNameListMacro(InputFileName);
   ///@}
 
   ///@{
@@ -102,10 +98,8 @@ public:
    * The columns of the files that are x and y: a name in the file, or a column index from 0. Empty
    * or null (the default): columns with the usual names, else the first two.
    */
-  vtkSetStringMacro(XColumn);
-  vtkGetStringMacro(XColumn);
-  vtkSetStringMacro(YColumn);
-  vtkGetStringMacro(YColumn);
+  vtkTIPPStringMacro(XColumn);
+  vtkTIPPStringMacro(YColumn);
   ///@}
 
   ///@{
@@ -113,8 +107,7 @@ public:
    * The folder to write, such as mesh.tipp. Must be set; with CountOnly it only gives the place for
    * temporary files.
    */
-  vtkSetFilePathMacro(FileName);
-  vtkGetFilePathMacro(FileName);
+  vtkTIPPFilePathMacro(FileName);
   ///@}
 
   ///@{
@@ -166,8 +159,7 @@ public:
    * which also define the inside (counter-clockwise) and holes (clockwise). Formats: .poly, .csv,
    * .14, GIS files, or any format that VTK reads. None by default.
    */
-  vtkSetFilePathMacro(ConstraintsFileName);
-  vtkGetFilePathMacro(ConstraintsFileName);
+  vtkTIPPFilePathMacro(ConstraintsFileName);
   ///@}
 
   ///@{
@@ -175,8 +167,7 @@ public:
    * A file of closed lines, which become constraints; triangles outside of them are removed. None
    * by default.
    */
-  vtkSetFilePathMacro(BoundaryFileName);
-  vtkGetFilePathMacro(BoundaryFileName);
+  vtkTIPPFilePathMacro(BoundaryFileName);
   ///@}
 
   ///@{
@@ -225,8 +216,7 @@ public:
    * A folder, for example on another disk, to which points are spilled. None by default: they are
    * spilled beside the mesh.
    */
-  vtkSetFilePathMacro(ScratchFolder);
-  vtkGetFilePathMacro(ScratchFolder);
+  vtkTIPPFilePathMacro(ScratchFolder);
   ///@}
 
   ///@{
@@ -241,8 +231,8 @@ public:
    * The ranks that triangulate together. The global controller by default. With null or a
    * controller of one rank, this process works alone.
    */
-  virtual void SetController(vtkMultiProcessController*);
-  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  vtkSetSmartPointerMacro(Controller, vtkMultiProcessController);
+  vtkGetSmartPointerMacro(Controller, vtkMultiProcessController);
   ///@}
 
   /**
@@ -252,18 +242,18 @@ public:
 
 protected:
   vtkTIPPOutOfCoreDelaunay2D();
-  ~vtkTIPPOutOfCoreDelaunay2D() override;
+  ~vtkTIPPOutOfCoreDelaunay2D() override = default;
 
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
+  std::string FileName;
   std::vector<std::string> InputFileNames;
-  char* XColumn = nullptr;
-  char* YColumn = nullptr;
-  char* FileName = nullptr;
-  char* ConstraintsFileName = nullptr;
-  char* BoundaryFileName = nullptr;
-  char* ScratchFolder = nullptr;
+  std::string XColumn;
+  std::string YColumn;
+  std::string ConstraintsFileName;
+  std::string BoundaryFileName;
+  std::string ScratchFolder;
   vtkTypeInt64 MemoryLimit = vtkTypeInt64(1) << 31;
   int NumberOfPartitions[2] = { 0, 0 };
   double MaximumEdgeLength = 0;
@@ -275,7 +265,7 @@ protected:
   vtkTypeBool CountOnly = false;
   vtkTypeBool Resume = false;
   int NumberOfThreads = 0;
-  vtkMultiProcessController* Controller = nullptr;
+  vtkSmartPointer<vtkMultiProcessController> Controller;
 
 private:
   vtkTIPPOutOfCoreDelaunay2D(const vtkTIPPOutOfCoreDelaunay2D&) = delete;

@@ -60,12 +60,6 @@ vtkTIPPPointsToImage::vtkTIPPPointsToImage()
   this->SetNumberOfInputPorts(3);
 }
 
-vtkTIPPPointsToImage::~vtkTIPPPointsToImage()
-{
-  this->vtkTIPPPointsToImage::SetBreaklinesFileName(nullptr);
-  this->vtkTIPPPointsToImage::SetBoundaryFileName(nullptr);
-}
-
 int vtkTIPPPointsToImage::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkPolyData");
@@ -74,26 +68,6 @@ int vtkTIPPPointsToImage::FillInputPortInformation(int port, vtkInformation* inf
     info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
   }
   return 1;
-}
-
-void vtkTIPPPointsToImage::AddBand(const char* name)
-{
-  tipp::addName(this, name, this->Bands);
-}
-
-void vtkTIPPPointsToImage::ClearBands()
-{
-  tipp::clearItems(this, this->Bands);
-}
-
-int vtkTIPPPointsToImage::GetNumberOfBands() const
-{
-  return int(this->Bands.size());
-}
-
-const char* vtkTIPPPointsToImage::GetBand(int index) const
-{
-  return tipp::nameAt(this->Bands, index);
 }
 
 /// `points` may be null if Resolution and SamplingBounds are used.
@@ -117,7 +91,7 @@ int vtkTIPPPointsToImage::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputs)
 {
   vtkInformation* const outInfo = outputs->GetInformationObject(0);
-  return tipp::runReported(this, nullptr, "", {},
+  return tipp::runReported(this, nullptr, "", nullptr,
     [&]
     {
       vtkPointSet* points = nullptr;
@@ -208,10 +182,9 @@ std::array<double, 4> vtkTIPPPointsToImage::PointBounds(vtkPointSet* points) con
 void vtkTIPPPointsToImage::Constrain(
   vtkPolyData* lines, vtkPolyData* boundary, tipp::DemRequest& request) const
 {
-  const auto given = [](const char* name) { return name && *name; };
   std::optional<tipp::ConstraintTable> lineTable;
   std::optional<tipp::ConstraintTable> boundaryTable;
-  if (given(this->BreaklinesFileName))
+  if (!this->BreaklinesFileName.empty())
   {
     lineTable = tipp::readBreaklines(this->BreaklinesFileName);
   }
@@ -220,7 +193,7 @@ void vtkTIPPPointsToImage::Constrain(
     lineTable = tipp::constraintsOf(lines);
     tipp::dropPlainHeights(*lineTable);
   }
-  if (given(this->BoundaryFileName))
+  if (!this->BoundaryFileName.empty())
   {
     boundaryTable = tipp::readBoundary(this->BoundaryFileName);
   }
@@ -285,35 +258,23 @@ int vtkTIPPPointsToImage::RequestData(
 {
   vtkImageData* const output = vtkImageData::GetData(outputs);
   output->Initialize();
-  return tipp::runReported(this, nullptr, "", { output }, [&] { this->Make(inputs, output); });
+  return tipp::runReported(this, nullptr, "", outputs, [&] { this->Make(inputs, output); });
 }
 
 void vtkTIPPPointsToImage::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const auto one = [&](const char* name, const auto& value)
-  { os << indent << name << ": " << value << "\n"; };
-  one("BreaklinesFileName", this->BreaklinesFileName ? this->BreaklinesFileName : "(none)");
-  one("BoundaryFileName", this->BoundaryFileName ? this->BoundaryFileName : "(none)");
-  one("Resolution", this->Resolution);
-  one("UseInputBounds", this->UseInputBounds);
-  os << indent << "SamplingBounds:";
-  for (const double bound : this->SamplingBounds)
-  {
-    os << " " << bound;
-  }
-  os << "\n";
-  one("AlignToResolution", this->AlignToResolution);
-  os << indent << "Bands:";
-  for (const std::string& band : this->Bands)
-  {
-    os << " " << band;
-  }
-  os << "\n";
-  one("MaximumEdgeLength", this->MaximumEdgeLength);
-  one("Duplicates", this->Duplicates);
-  one("ThinningSize", this->ThinningSize);
-  one("ThinningRule", this->ThinningRule);
-  one("MemoryLimit", this->MemoryLimit);
-  one("NumberOfThreads", this->NumberOfThreads);
+  vtkTIPPPrintMacro(BreaklinesFileName);
+  vtkTIPPPrintMacro(BoundaryFileName);
+  vtkTIPPPrintMacro(Resolution);
+  vtkTIPPPrintMacro(UseInputBounds);
+  vtkTIPPPrintMacro(SamplingBounds);
+  vtkTIPPPrintMacro(AlignToResolution);
+  vtkTIPPPrintMacro(Bands);
+  vtkTIPPPrintMacro(MaximumEdgeLength);
+  vtkTIPPPrintMacro(Duplicates);
+  vtkTIPPPrintMacro(ThinningSize);
+  vtkTIPPPrintMacro(ThinningRule);
+  vtkTIPPPrintMacro(MemoryLimit);
+  vtkTIPPPrintMacro(NumberOfThreads);
 }

@@ -69,23 +69,10 @@ public:
 
   ///@{
   /**
-   * Sets the optional inputs: vtkPolyData with lines or polygons.
+   * The bands, see above. "elevation" alone by default; AddBand() adds one, and SetBand() replaces
+   * all by one.
    */
-  void SetBreaklinesConnection(vtkAlgorithmOutput* lines) { this->SetInputConnection(1, lines); }
-  void SetBreaklinesData(vtkDataObject* lines) { this->SetInputData(1, lines); }
-  void SetBoundaryConnection(vtkAlgorithmOutput* lines) { this->SetInputConnection(2, lines); }
-  void SetBoundaryData(vtkDataObject* lines) { this->SetInputData(2, lines); }
-  ///@}
-
-  ///@{
-  /**
-   * Files of lines in the formats of `tipp dem`, which replace the optional inputs. Empty or null
-   * (the default): no files.
-   */
-  vtkSetFilePathMacro(BreaklinesFileName);
-  vtkGetFilePathMacro(BreaklinesFileName);
-  vtkSetFilePathMacro(BoundaryFileName);
-  vtkGetFilePathMacro(BoundaryFileName);
+  vtkTIPPNameListMacro(Band);
   ///@}
 
   ///@{
@@ -123,12 +110,21 @@ public:
 
   ///@{
   /**
-   * The bands, see above. "elevation" alone by default; AddBand() adds one.
+   * Sets the optional inputs: vtkPolyData with lines or polygons.
    */
-  void AddBand(const char* name);
-  void ClearBands();
-  int GetNumberOfBands() const;
-  const char* GetBand(int index) const;
+  void SetBreaklinesConnection(vtkAlgorithmOutput* lines) { this->SetInputConnection(1, lines); }
+  void SetBreaklinesData(vtkDataObject* lines) { this->SetInputData(1, lines); }
+  void SetBoundaryConnection(vtkAlgorithmOutput* lines) { this->SetInputConnection(2, lines); }
+  void SetBoundaryData(vtkDataObject* lines) { this->SetInputData(2, lines); }
+  ///@}
+
+  ///@{
+  /**
+   * Files of lines in the formats of `tipp dem`, which replace the optional inputs. Empty or null
+   * (the default): no files.
+   */
+  vtkTIPPFilePathMacro(BreaklinesFileName);
+  vtkTIPPFilePathMacro(BoundaryFileName);
   ///@}
 
   ///@{
@@ -199,20 +195,20 @@ public:
 
 protected:
   vtkTIPPPointsToImage();
-  ~vtkTIPPPointsToImage() override;
+  ~vtkTIPPPointsToImage() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestUpdateExtent(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
-  char* BreaklinesFileName = nullptr;
-  char* BoundaryFileName = nullptr;
+  std::vector<std::string> Bands = { "elevation" };
   double Resolution = 0;
   bool UseInputBounds = true;
   double SamplingBounds[4] = { 0, 1, 0, 1 };
   bool AlignToResolution = true;
-  std::vector<std::string> Bands = { "elevation" };
+  std::string BreaklinesFileName;
+  std::string BoundaryFileName;
   double MaximumEdgeLength = 0;
   int Duplicates = DUPLICATES_FIRST;
   double ThinningSize = 0;

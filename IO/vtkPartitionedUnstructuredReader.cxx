@@ -16,7 +16,6 @@
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMath.h"
-#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkPartitionedDataSet.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -35,7 +34,6 @@
 #include <vector>
 
 vtkStandardNewMacro(vtkPartitionedUnstructuredReader);
-vtkCxxSetObjectMacro(vtkPartitionedUnstructuredReader, Controller, vtkMultiProcessController);
 
 namespace
 {
@@ -111,16 +109,10 @@ vtkPartitionedUnstructuredReader::vtkPartitionedUnstructuredReader()
 {
   this->SetNumberOfInputPorts(0);
   vtkMath::UninitializeBounds(this->Bounds);
-  vtkPartitionedUnstructuredReader::SetTiling("grid:4x4");
-  vtkPartitionedUnstructuredReader::SetController(vtkMultiProcessController::GetGlobalController());
+  this->Controller = vtkMultiProcessController::GetGlobalController();
 }
 
-vtkPartitionedUnstructuredReader::~vtkPartitionedUnstructuredReader()
-{
-  vtkPartitionedUnstructuredReader::SetFileName(nullptr);
-  vtkPartitionedUnstructuredReader::SetTiling(nullptr);
-  vtkPartitionedUnstructuredReader::SetController(nullptr);
-}
+vtkPartitionedUnstructuredReader::~vtkPartitionedUnstructuredReader() = default;
 
 vtkDataArraySelection* vtkPartitionedUnstructuredReader::GetPointDataArraySelection()
 {
@@ -185,13 +177,12 @@ int vtkPartitionedUnstructuredReader::RequestDataObject(
 
 void vtkPartitionedUnstructuredReader::OpenSource()
 {
-  if (!this->FileName || !*this->FileName)
+  if (this->FileName.empty())
   {
     throw std::invalid_argument("FileName is not set; name a partitioned or a flat mesh.");
   }
-  const std::string tiling = this->Tiling ? this->Tiling : "";
-  const tipp::TilingChoice choice = tipp::TilingChoice::require(tiling);
-  const std::string all = this->FileName + ("\n" + tiling) + "\n" +
+  const tipp::TilingChoice choice = tipp::TilingChoice::require(this->Tiling);
+  const std::string all = this->FileName + "\n" + this->Tiling + "\n" +
     std::to_string(this->MemoryLimit) + "\n" + std::to_string(this->NumberOfThreads);
   const std::string stamped = all + fileStamp(this->FileName);
   if (this->Inner->Source && this->Inner->Opened == stamped)
@@ -472,20 +463,15 @@ int vtkPartitionedUnstructuredReader::RequestData(
 void vtkPartitionedUnstructuredReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
-  os << indent << "Bounds:";
-  for (const double bound : this->Bounds)
-  {
-    os << " " << bound;
-  }
-  os << "\n";
-  os << indent << "BorrowerMode: " << this->BorrowerMode << "\n";
-  os << indent << "MergePieces: " << (this->MergePieces ? "On" : "Off") << "\n";
-  os << indent << "CacheSize: " << this->CacheSize << "\n";
-  os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
-  os << indent << "Tiling: " << (this->Tiling ? this->Tiling : "(none)") << "\n";
-  os << indent << "NumberOfPiecesRead: " << this->NumberOfPiecesRead << "\n";
-  os << indent << "NumberOfBytesRead: " << this->NumberOfBytesRead << "\n";
+  vtkTIPPPrintMacro(FileName);
+  vtkTIPPPrintMacro(Bounds);
+  vtkTIPPPrintMacro(BorrowerMode);
+  vtkTIPPPrintMacro(MergePieces);
+  vtkTIPPPrintMacro(CacheSize);
+  vtkTIPPPrintMacro(MemoryLimit);
+  vtkTIPPPrintMacro(NumberOfThreads);
+  vtkTIPPPrintMacro(Tiling);
+  vtkTIPPPrintMacro(NumberOfPiecesRead);
+  vtkTIPPPrintMacro(NumberOfBytesRead);
   os << indent << "Controller: " << this->Controller << "\n";
 }

@@ -42,14 +42,15 @@
 #define vtkPartitionedUnstructuredReader_h
 
 #include "vtkDataObjectAlgorithm.h"
-#include "vtkNew.h"          // For the arrays' selections
-#include "vtkTIPPIOModule.h" // For export macro
-#include "vtkTIPPSetGet.h"   // For property macros
+#include "vtkMultiProcessController.h" // For the Controller
+#include "vtkNew.h"                    // For the arrays' selections
+#include "vtkSmartPointer.h"           // For the Controller
+#include "vtkTIPPIOModule.h"           // For export macro
+#include "vtkTIPPSetGet.h"             // For property macros
 
 #include <memory> // For std::unique_ptr
 
 class vtkDataArraySelection;
-class vtkMultiProcessController;
 
 class VTKTIPPIO_EXPORT vtkPartitionedUnstructuredReader : public vtkDataObjectAlgorithm
 {
@@ -71,8 +72,7 @@ public:
   /**
    * The mesh: a folder or a file, see above.
    */
-  vtkSetFilePathMacro(FileName);
-  vtkGetFilePathMacro(FileName);
+  vtkTIPPFilePathMacro(FileName);
   ///@}
 
   /**
@@ -140,8 +140,7 @@ public:
    * "quadtree:T" or "octree:T" for a tree whose nodes with more than T cells are split. Cells
    * longer than the node are not counted, and the depth is limited.
    */
-  vtkSetStringMacro(Tiling);
-  vtkGetStringMacro(Tiling);
+  vtkTIPPStringMacro(Tiling);
   ///@}
 
   ///@{
@@ -149,8 +148,8 @@ public:
    * The ranks that execute the reader together. The global controller by default. With null this
    * process works alone.
    */
-  virtual void SetController(vtkMultiProcessController* controller);
-  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  vtkSetSmartPointerMacro(Controller, vtkMultiProcessController);
+  vtkGetSmartPointerMacro(Controller, vtkMultiProcessController);
   ///@}
 
   ///@{
@@ -198,8 +197,8 @@ private:
   void DescribeArrays();
   void ReadPieces(vtkInformation* outInfo);
 
-  char* FileName = nullptr;
-  char* Tiling = nullptr;
+  std::string FileName;
+  std::string Tiling = "grid:4x4";
   double Bounds[6];
   int BorrowerMode = OWNED;
   bool MergePieces = true;
@@ -208,7 +207,7 @@ private:
   int NumberOfThreads = 0;
   vtkTypeInt64 NumberOfPiecesRead = 0;
   vtkTypeInt64 NumberOfBytesRead = 0;
-  vtkMultiProcessController* Controller = nullptr;
+  vtkSmartPointer<vtkMultiProcessController> Controller;
   vtkNew<vtkDataArraySelection> PointDataArraySelection;
   vtkNew<vtkDataArraySelection> CellDataArraySelection;
   std::unique_ptr<Internals> Inner;

@@ -12,7 +12,6 @@
 #include "vtkExecutive.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
@@ -20,7 +19,6 @@
 #include <new>
 
 vtkStandardNewMacro(vtkPartitionedUnstructuredWriter);
-vtkCxxSetObjectMacro(vtkPartitionedUnstructuredWriter, Controller, vtkMultiProcessController);
 
 namespace
 {
@@ -38,21 +36,7 @@ void askForPiece(vtkInformation* input, vtkMultiProcessController* ranks)
 
 vtkPartitionedUnstructuredWriter::vtkPartitionedUnstructuredWriter()
 {
-  this->vtkPartitionedUnstructuredWriter::SetTiling("grid:4x4");
-  this->vtkPartitionedUnstructuredWriter::SetLoader("auto");
-  this->vtkPartitionedUnstructuredWriter::SetDevice("openmp");
-  this->vtkPartitionedUnstructuredWriter::SetController(
-    vtkMultiProcessController::GetGlobalController());
-}
-
-vtkPartitionedUnstructuredWriter::~vtkPartitionedUnstructuredWriter()
-{
-  this->vtkPartitionedUnstructuredWriter::SetFileName(nullptr);
-  this->vtkPartitionedUnstructuredWriter::SetInputFileName(nullptr);
-  this->vtkPartitionedUnstructuredWriter::SetTiling(nullptr);
-  this->vtkPartitionedUnstructuredWriter::SetLoader(nullptr);
-  this->vtkPartitionedUnstructuredWriter::SetDevice(nullptr);
-  this->vtkPartitionedUnstructuredWriter::SetController(nullptr);
+  this->Controller = vtkMultiProcessController::GetGlobalController();
 }
 
 int vtkPartitionedUnstructuredWriter::FillInputPortInformation(int, vtkInformation* info)
@@ -81,7 +65,7 @@ int vtkPartitionedUnstructuredWriter::Write()
 {
   this->Written = false;
   tipp::beginExecution(this);
-  if (this->InputFileName && *this->InputFileName)
+  if (!this->InputFileName.empty())
   {
     this->WritePartitioned();
   }
@@ -158,17 +142,17 @@ void vtkPartitionedUnstructuredWriter::WritePartitioned()
 
 void vtkPartitionedUnstructuredWriter::Partition()
 {
-  const std::string output = this->FileName ? this->FileName : "";
+  const std::string output = this->FileName; // observers of progress may change the property
   if (output.empty())
   {
     throw tipp::IOError("FileName is not set; name the folder to write.");
   }
   tipp::PartitionOptions options;
-  options.Tiling = tipp::TilingChoice::require(this->Tiling ? this->Tiling : "");
+  options.Tiling = tipp::TilingChoice::require(this->Tiling);
   options.DuplicateBorrowers = this->DuplicateBorrowers;
   options.MemoryLimit = std::uint64_t(this->MemoryLimit);
-  options.Loading.Kind = tipp::loaderFromName(this->Loader ? this->Loader : "auto");
-  options.Device = tipp::parseDeviceChoice(this->Device ? this->Device : "openmp");
+  options.Loading.Kind = tipp::loaderFromName(this->Loader.empty() ? "auto" : this->Loader);
+  options.Device = tipp::parseDeviceChoice(this->Device.empty() ? "openmp" : this->Device);
   options.Threads = this->NumberOfThreads;
   options.Progress = [this](double fraction)
   {
@@ -176,7 +160,7 @@ void vtkPartitionedUnstructuredWriter::Partition()
     return !tipp::abortRequested(this);
   };
   tipp::PartitionStatistics statistics;
-  if (this->InputFileName && *this->InputFileName)
+  if (!this->InputFileName.empty())
   {
     statistics = tipp::partitionInput(this->InputFileName, output, options, this->Controller);
   }
@@ -191,15 +175,13 @@ void vtkPartitionedUnstructuredWriter::Partition()
 void vtkPartitionedUnstructuredWriter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  const auto print = [&](const char* name, const char* value)
-  { os << indent << name << ": " << (value ? value : "(none)") << "\n"; };
-  print("FileName", this->FileName);
-  print("InputFileName", this->InputFileName);
-  print("Tiling", this->Tiling);
-  print("Loader", this->Loader);
-  print("Device", this->Device);
-  os << indent << "DuplicateBorrowers: " << this->DuplicateBorrowers << "\n";
-  os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
-  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  vtkTIPPPrintMacro(FileName);
+  vtkTIPPPrintMacro(InputFileName);
+  vtkTIPPPrintMacro(Tiling);
+  vtkTIPPPrintMacro(Loader);
+  vtkTIPPPrintMacro(Device);
+  vtkTIPPPrintMacro(DuplicateBorrowers);
+  vtkTIPPPrintMacro(MemoryLimit);
+  vtkTIPPPrintMacro(NumberOfThreads);
   os << indent << "Controller: " << this->Controller << "\n";
 }

@@ -37,12 +37,12 @@
 #ifndef vtkPartitionedUnstructuredWriter_h
 #define vtkPartitionedUnstructuredWriter_h
 
-#include "vtkTIPPIOModule.h"  // For export macro
-#include "vtkTIPPSetGet.h"    // For property macros
-#include "vtkVersionMacros.h" // For VTK_VERSION_NUMBER
+#include "vtkMultiProcessController.h" // For the Controller
+#include "vtkSmartPointer.h"           // For the Controller
+#include "vtkTIPPIOModule.h"           // For export macro
+#include "vtkTIPPSetGet.h"             // For property macros
+#include "vtkVersionMacros.h"          // For VTK_VERSION_NUMBER
 #include "vtkWriter.h"
-
-class vtkMultiProcessController;
 
 class VTKTIPPIO_EXPORT vtkPartitionedUnstructuredWriter : public vtkWriter
 {
@@ -55,16 +55,14 @@ public:
   /**
    * The folder to write, such as mesh.tipp. Must be set.
    */
-  vtkSetFilePathMacro(FileName);
-  vtkGetFilePathMacro(FileName);
+  vtkTIPPFilePathMacro(FileName);
   ///@}
 
   ///@{
   /**
    * A flat mesh or any file that VTK reads, to write instead of the input. None by default.
    */
-  vtkSetFilePathMacro(InputFileName);
-  vtkGetFilePathMacro(InputFileName);
+  vtkTIPPFilePathMacro(InputFileName);
   ///@}
 
   ///@{
@@ -73,8 +71,7 @@ public:
    * "quadtree:N" or "octree:N" for a tree whose nodes with more than N cells are split. Cells
    * longer than the node are not counted, and the depth is limited.
    */
-  vtkSetStringMacro(Tiling);
-  vtkGetStringMacro(Tiling);
+  vtkTIPPStringMacro(Tiling);
   ///@}
 
   ///@{
@@ -96,8 +93,7 @@ public:
   /**
    * How vertices are loaded: "auto" (the default), "direct", "fine" or "mmap".
    */
-  vtkSetStringMacro(Loader);
-  vtkGetStringMacro(Loader);
+  vtkTIPPStringMacro(Loader);
   ///@}
 
   ///@{
@@ -105,8 +101,7 @@ public:
    * The device that classifies cells at the partitions' borders: "openmp" (the default), "opencl",
    * "opencl:NAME" or "auto".
    */
-  vtkSetStringMacro(Device);
-  vtkGetStringMacro(Device);
+  vtkTIPPStringMacro(Device);
   ///@}
 
   ///@{
@@ -121,8 +116,8 @@ public:
    * The ranks that work together. The global controller by default. With null this process works
    * alone.
    */
-  virtual void SetController(vtkMultiProcessController* controller);
-  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  vtkSetSmartPointerMacro(Controller, vtkMultiProcessController);
+  vtkGetSmartPointerMacro(Controller, vtkMultiProcessController);
   ///@}
 
   /**
@@ -132,7 +127,7 @@ public:
 
 protected:
   vtkPartitionedUnstructuredWriter();
-  ~vtkPartitionedUnstructuredWriter() override;
+  ~vtkPartitionedUnstructuredWriter() override = default;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   vtkTypeBool ProcessRequest(vtkInformation* request, vtkInformationVector** inputVector,
@@ -152,15 +147,15 @@ private:
   void WritePartitioned();
   void Partition();
 
-  char* FileName = nullptr;
-  char* InputFileName = nullptr;
-  char* Tiling = nullptr;
-  char* Loader = nullptr;
-  char* Device = nullptr;
+  std::string FileName;
+  std::string InputFileName;
+  std::string Tiling = "grid:4x4";
+  std::string Loader = "auto";
+  std::string Device = "openmp";
   bool DuplicateBorrowers = false;
   vtkTypeInt64 MemoryLimit = vtkTypeInt64(1) << 31;
   int NumberOfThreads = 0;
-  vtkMultiProcessController* Controller = nullptr;
+  vtkSmartPointer<vtkMultiProcessController> Controller;
   bool Written = false;
 };
 

@@ -26,15 +26,10 @@ vtkStandardNewMacro(vtkTIPPPointReader);
 namespace
 {
 
-std::string textOf(const char* text)
-{
-  return text ? text : "";
-}
-
-std::vector<std::string> partsOf(const char* text)
+std::vector<std::string> partsOf(const std::string& text)
 {
   std::vector<std::string> parts;
-  std::istringstream stream(textOf(text));
+  std::istringstream stream(text);
   for (std::string part; std::getline(stream, part, ',');)
   {
     parts.push_back(part);
@@ -68,54 +63,6 @@ vtkTIPPPointReader::vtkTIPPPointReader()
   this->SetNumberOfInputPorts(0);
 }
 
-vtkTIPPPointReader::~vtkTIPPPointReader()
-{
-  this->vtkTIPPPointReader::SetXColumn(nullptr);
-  this->vtkTIPPPointReader::SetYColumn(nullptr);
-  this->vtkTIPPPointReader::SetClasses(nullptr);
-  this->vtkTIPPPointReader::SetColumns(nullptr);
-}
-
-void vtkTIPPPointReader::AddFileName(const char* name)
-{
-  if (name && *name)
-  {
-    this->FileNames.emplace_back(name);
-    this->Modified();
-  }
-}
-
-void vtkTIPPPointReader::SetFileName(const char* name)
-{
-  if (name && this->FileNames == std::vector<std::string>{ name })
-  {
-    return;
-  }
-  this->ClearFileNames();
-  this->AddFileName(name);
-}
-
-void vtkTIPPPointReader::ClearFileNames()
-{
-  if (!this->FileNames.empty())
-  {
-    this->FileNames.clear();
-    this->Modified();
-  }
-}
-
-int vtkTIPPPointReader::GetNumberOfFileNames() const
-{
-  return int(this->FileNames.size());
-}
-
-const char* vtkTIPPPointReader::GetFileName(int index) const
-{
-  return index >= 0 && index < this->GetNumberOfFileNames()
-    ? this->FileNames[std::size_t(index)].c_str()
-    : nullptr;
-}
-
 int vtkTIPPPointReader::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
@@ -126,8 +73,8 @@ int vtkTIPPPointReader::RequestInformation(
 tipp::PointOptions vtkTIPPPointReader::Options() const
 {
   tipp::PointOptions options;
-  options.X = textOf(this->XColumn);
-  options.Y = textOf(this->YColumn);
+  options.X = this->XColumn;
+  options.Y = this->YColumn;
   for (const std::string& number : partsOf(this->Classes))
   {
     options.Las.Classes.push_back(classOf(number));
@@ -136,7 +83,7 @@ tipp::PointOptions vtkTIPPPointReader::Options() const
   options.Las.KeepWithheld = this->KeepWithheld;
   options.Las.KeepSynthetic = this->KeepSynthetic;
   options.Las.KeepOverlap = this->KeepOverlap;
-  if (!textOf(this->Columns).empty())
+  if (!this->Columns.empty())
   {
     options.Columns = partsOf(this->Columns);
     options.Columns->insert(options.Columns->end(), { "z", "Z" });
@@ -195,22 +142,15 @@ int vtkTIPPPointReader::RequestData(
 void vtkTIPPPointReader::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "FileNames:";
-  for (const std::string& name : this->FileNames)
-  {
-    os << " " << name;
-  }
-  os << "\n";
-  const auto line = [&](const char* name, const auto& value)
-  { os << indent << name << ": " << value << "\n"; };
-  line("XColumn", textOf(this->XColumn));
-  line("YColumn", textOf(this->YColumn));
-  line("Classes", textOf(this->Classes));
-  line("Columns", textOf(this->Columns));
-  line("Returns", this->Returns);
-  line("KeepWithheld", this->KeepWithheld);
-  line("KeepSynthetic", this->KeepSynthetic);
-  line("KeepOverlap", this->KeepOverlap);
-  line("GenerateVertices", this->GenerateVertices);
-  line("NumberOfPointsLeftOut", this->NumberOfPointsLeftOut);
+  vtkTIPPPrintMacro(FileNames);
+  vtkTIPPPrintMacro(XColumn);
+  vtkTIPPPrintMacro(YColumn);
+  vtkTIPPPrintMacro(Classes);
+  vtkTIPPPrintMacro(Columns);
+  vtkTIPPPrintMacro(Returns);
+  vtkTIPPPrintMacro(KeepWithheld);
+  vtkTIPPPrintMacro(KeepSynthetic);
+  vtkTIPPPrintMacro(KeepOverlap);
+  vtkTIPPPrintMacro(GenerateVertices);
+  vtkTIPPPrintMacro(NumberOfPointsLeftOut);
 }

@@ -47,11 +47,7 @@ public:
    * The files, which are read as one set of points; they must have the same columns. SetFileName()
    * replaces all files by one.
    */
-  void AddFileName(const char* name);
-  void SetFileName(const char* name);
-  void ClearFileNames();
-  int GetNumberOfFileNames() const;
-  const char* GetFileName(int index) const;
+  vtkTIPPNameListMacro(FileName);
   ///@}
 
   ///@{
@@ -59,10 +55,8 @@ public:
    * The columns of text and .npy files that are x and y: a name in the file, or a column index from
    * 0. Empty or null (the default): columns with the usual names, else the first two.
    */
-  vtkSetStringMacro(XColumn);
-  vtkGetStringMacro(XColumn);
-  vtkSetStringMacro(YColumn);
-  vtkGetStringMacro(YColumn);
+  vtkTIPPStringMacro(XColumn);
+  vtkTIPPStringMacro(YColumn);
   ///@}
 
   ///@{
@@ -70,8 +64,7 @@ public:
    * The classes of LAS points to read, separated by commas, such as "2,9". Empty or null (the
    * default): all.
    */
-  vtkSetStringMacro(Classes);
-  vtkGetStringMacro(Classes);
+  vtkTIPPStringMacro(Classes);
   ///@}
 
   /**
@@ -106,8 +99,7 @@ public:
    * Names of the columns besides x and y to read, separated by commas. Empty or null (the default):
    * all.
    */
-  vtkSetStringMacro(Columns);
-  vtkGetStringMacro(Columns);
+  vtkTIPPStringMacro(Columns);
   ///@}
 
   ///@{
@@ -127,16 +119,16 @@ public:
 
 protected:
   vtkTIPPPointReader();
-  ~vtkTIPPPointReader() override;
+  ~vtkTIPPPointReader() override = default;
 
   int RequestInformation(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   std::vector<std::string> FileNames;
-  char* XColumn = nullptr;
-  char* YColumn = nullptr;
-  char* Classes = nullptr;
-  char* Columns = nullptr;
+  std::string XColumn;
+  std::string YColumn;
+  std::string Classes;
+  std::string Columns;
   int Returns = RETURNS_ALL;
   bool KeepWithheld = false;
   bool KeepSynthetic = false;

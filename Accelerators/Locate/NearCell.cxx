@@ -75,12 +75,14 @@ Vector<Number, 3> nearestOfFace(const Vector<Number, 3>& p, const Vector<Number,
   const Vector<Number, 3> ac = minus(c, a);
   const Number abA = dot(ab, minus(p, a));
   const Number acA = dot(ac, minus(p, a));
+  const Number abB = dot(ab, minus(p, b));
+  const Number acB = dot(ac, minus(p, b));
+  const Number abC = dot(ab, minus(p, c));
+  const Number acC = dot(ac, minus(p, c));
   if (abA <= 0 && acA <= 0)
   {
     return a;
   }
-  const Number abB = dot(ab, minus(p, b));
-  const Number acB = dot(ac, minus(p, b));
   if (abB >= 0 && acB <= abB)
   {
     return b;
@@ -90,8 +92,6 @@ Vector<Number, 3> nearestOfFace(const Vector<Number, 3>& p, const Vector<Number,
   {
     return between(a, ab, Number(abA / (abA - abB)));
   }
-  const Number abC = dot(ab, minus(p, c));
-  const Number acC = dot(ac, minus(p, c));
   if (acC >= 0 && abC <= acC)
   {
     return c;

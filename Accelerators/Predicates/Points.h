@@ -88,6 +88,13 @@ struct Box3
   std::array<double, 3> Max = {};
 };
 
+/// Returns whether two closed boxes have a common point.
+inline bool boxesMeet(const Box3& a, const Box3& b)
+{
+  return a.Min[0] <= b.Max[0] && b.Min[0] <= a.Max[0] && a.Min[1] <= b.Max[1] &&
+    b.Min[1] <= a.Max[1] && a.Min[2] <= b.Max[2] && b.Min[2] <= a.Max[2];
+}
+
 } // namespace tipp
 
 #endif

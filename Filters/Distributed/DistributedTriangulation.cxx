@@ -73,9 +73,7 @@ InputSurvey surveyRanks(
   }
   // All ranks must scale, or none.
   const PointsView moderate = withModerateMagnitude(points, survey.Bounds);
-  std::vector<std::int64_t> kept = { moderate.factor() == 1 };
-  ranks.sum(kept);
-  if (kept[0] == 0)
+  if (!isTrueOnAny(ranks, moderate.factor() == 1))
   {
     points = moderate;
     applyFactor(survey, moderate.factor());

@@ -6,6 +6,7 @@
 #include "Parallel/ParallelFor.h"
 #include "Triangulation3D/OrderCells.h"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -170,13 +171,10 @@ private:
   /// points are coplanar, or too few, and the kernel finds out which.
   bool hasCells()
   {
-    std::vector<std::int64_t> cells{ std::int64_t(this->Kept.size()) };
-    for (const std::vector<CellIds>& part : this->Inside)
-    {
-      cells[0] += std::int64_t(part.size());
-    }
-    this->Ranks.sum(cells);
-    if (cells[0] > 0)
+    const bool hasOwn = !this->Kept.empty() ||
+      std::any_of(this->Inside.begin(), this->Inside.end(),
+        [](const std::vector<CellIds>& part) { return !part.empty(); });
+    if (isTrueOnAny(this->Ranks, hasOwn))
     {
       this->Result.Dimension = 3;
       return true;

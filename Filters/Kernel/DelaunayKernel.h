@@ -144,8 +144,6 @@ class VTKTIPPFILTERS_EXPORT PooledKernel
 public:
   PooledKernel();
   ~PooledKernel();
-  PooledKernel(const PooledKernel&) = delete;
-  PooledKernel& operator=(const PooledKernel&) = delete;
 
   DelaunayKernel& operator*() { return *this->Kernel; }
 

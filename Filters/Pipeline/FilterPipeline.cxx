@@ -107,28 +107,13 @@ void warn(vtkAlgorithm* filter, const std::vector<std::string>& warnings)
   }
 }
 
-void addName(vtkObject* filter, const char* name, std::vector<std::string>& names)
-{
-  if (name && *name)
-  {
-    names.emplace_back(name);
-    filter->Modified();
-  }
-}
-
-const char* nameAt(const std::vector<std::string>& names, int index)
-{
-  return index >= 0 && index < int(names.size()) ? names[std::size_t(index)].c_str() : nullptr;
-}
-
 bool hasSeveralRanks(vtkMultiProcessController* controller)
 {
   return controller && controller->GetNumberOfProcesses() > 1;
 }
 
 int runReported(vtkAlgorithm* filter, vtkMultiProcessController* controller,
-  const std::string& prefix, std::initializer_list<vtkDataObject*> outputs,
-  const std::function<void()>& work)
+  const std::string& prefix, vtkInformationVector* outputs, const std::function<void()>& work)
 {
   bool isStopped = false;
   try
@@ -152,16 +137,16 @@ int runReported(vtkAlgorithm* filter, vtkMultiProcessController* controller,
       vtkErrorWithObjectMacro(filter, << prefix << error.what());
     }
   }
-  for (vtkDataObject* const output : outputs)
+  for (int port = 0; outputs && port < outputs->GetNumberOfInformationObjects(); ++port)
   {
-    output->Initialize();
+    vtkDataObject::GetData(outputs, port)->Initialize();
   }
   return isStopped ? 1 : 0;
 }
 
 int triangulateReported(vtkAlgorithm* filter, vtkMultiProcessController* controller, int threads,
-  const std::string& doing, vtkPointSet* input, std::initializer_list<vtkDataObject*> outputs,
-  const std::function<void()>& work)
+  const std::string& doing, vtkPointSet* input, vtkInformationVector* outputs,
+  const std::function<void()>& alone, const std::function<void()>& onRanks)
 {
   const std::string prefix = doing + " " + std::to_string(input->GetNumberOfPoints()) + " points: ";
   return runReported(filter, controller, prefix, outputs,
@@ -170,7 +155,7 @@ int triangulateReported(vtkAlgorithm* filter, vtkMultiProcessController* control
       const ThreadLimit limit(threads);
       try
       {
-        work();
+        hasSeveralRanks(controller) ? onRanks() : alone();
       }
       catch (const std::bad_alloc&)
       {

@@ -72,40 +72,23 @@ void requireUnused(std::initializer_list<std::pair<const char*, bool>> propertie
 /// Issues warnings of a filter.
 void warn(vtkAlgorithm* filter, const std::vector<std::string>& warnings);
 
-/// Adds a name to a list that is a property of a filter. Ignores null and an empty name.
-void addName(vtkObject* filter, const char* name, std::vector<std::string>& names);
-
-/// Returns the name with this index, or null if there is none.
-const char* nameAt(const std::vector<std::string>& names, int index);
-
-/// Empties a list that is a property of a filter.
-template <typename Item>
-void clearItems(vtkObject* filter, std::vector<Item>& items)
-{
-  if (!items.empty())
-  {
-    items.clear();
-    filter->Modified();
-  }
-}
-
 /// Returns whether a filter with this controller works on several ranks. Null: it does not.
 bool hasSeveralRanks(vtkMultiProcessController* controller);
 
 /// Calls work(), and returns the result of RequestData(): 0 after an error, else 1. If work()
-/// throws, empties the outputs and, unless the user has stopped the ranks, reports an error of the
-/// filter, which begins with `prefix`. If `controller` has several ranks, only the first one
-/// reports a RankFailure, with the rank's number. Throws nothing.
+/// throws, empties the outputs, if any, and, unless the user has stopped the ranks, reports an
+/// error of the filter, which begins with `prefix`. If `controller` has several ranks, only the
+/// first one reports a RankFailure, with the rank's number. Throws nothing.
 int runReported(vtkAlgorithm* filter, vtkMultiProcessController* controller,
-  const std::string& prefix, std::initializer_list<vtkDataObject*> outputs,
-  const std::function<void()>& work);
+  const std::string& prefix, vtkInformationVector* outputs, const std::function<void()>& work);
 
-/// Does the same for a filter that triangulates the points of `input`. The message begins with
-/// `doing` and the number of points; if memory runs out, it gives advice. `threads` is the number
-/// of OpenMP threads within work(); 0: OpenMP's default.
+/// Does the same for a filter that triangulates the points of `input`: calls onRanks() if the
+/// controller has several ranks, else alone(). The message begins with `doing` and the number of
+/// points; if memory runs out, it gives advice. `threads` is the number of OpenMP threads within
+/// the calls; 0: OpenMP's default.
 int triangulateReported(vtkAlgorithm* filter, vtkMultiProcessController* controller, int threads,
-  const std::string& doing, vtkPointSet* input, std::initializer_list<vtkDataObject*> outputs,
-  const std::function<void()>& work);
+  const std::string& doing, vtkPointSet* input, vtkInformationVector* outputs,
+  const std::function<void()>& alone, const std::function<void()>& onRanks);
 
 /// Updates this rank's piece of a filter's input before the pipeline requests it, at the time step
 /// that `outInfo` requests, if any. Returns null if the input fails; the filter owns the returned

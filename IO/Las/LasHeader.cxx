@@ -234,10 +234,10 @@ namespace
 class PlainRecords : public LasRecords
 {
 public:
-  PlainRecords(const std::string& path, const LasHeader& header)
+  PlainRecords(const std::string& path, std::uint64_t begin, std::size_t length)
     : File(path)
-    , Begin(header.PointOffset)
-    , Length(header.RecordLength)
+    , Begin(begin)
+    , Length(length)
   {
   }
 
@@ -362,7 +362,7 @@ std::unique_ptr<LasRecords> openLasRecords(const std::string& path, const LasHea
 {
   if (!header.Compressed)
   {
-    return std::make_unique<PlainRecords>(path, header);
+    return std::make_unique<PlainRecords>(path, header.PointOffset, header.RecordLength);
   }
 #ifdef TIPP_HAVE_LASZIP
   return std::make_unique<CompressedRecords>(path, header);

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -77,6 +78,20 @@ private:
   std::vector<std::size_t> TupleBytes; ///< per array
   std::int64_t Tuples = 0;
   std::size_t RecordBytes = 0;
+};
+
+/// A loader that reads files.
+class FileLoader : public VertexLoader
+{
+protected:
+  FileLoader(ArrayFiles files, int threads)
+    : Files(std::move(files))
+    , Threads(threads)
+  {
+  }
+
+  ArrayFiles Files;
+  int Threads;
 };
 
 /// Buffers for a number of tuples of every array.

@@ -24,13 +24,12 @@ constexpr int mostShift = 10;
 /// read.
 constexpr std::int64_t gapBytes = 4096;
 
-class FineLoader : public VertexLoader
+class FineLoader : public FileLoader
 {
 public:
   FineLoader(ArrayFiles files, std::int64_t m, int threads)
-    : Files(std::move(files))
+    : FileLoader(std::move(files), threads)
     , M(m)
-    , Threads(threads)
     , Gap(gapBytes / std::int64_t(std::max<std::size_t>(this->Files.recordBytes(), 1)))
     , Shift(shiftFor(this->M))
     , Held(this->Shift, this->Files.tuples())
@@ -411,9 +410,7 @@ private:
       [](std::int64_t sum, const Run& run) { return sum + run.Size; });
   }
 
-  ArrayFiles Files;
   std::int64_t M;
-  int Threads;
   std::int64_t Gap; ///< largest gap to read over, in tuples
   int Shift;        ///< a block is 2^Shift tuples
   HeldBlocks Held;  ///< blocks in the buffers

@@ -58,12 +58,11 @@ private:
   const char* Tuples;
 };
 
-class MmapLoader : public VertexLoader
+class MmapLoader : public FileLoader
 {
 public:
   MmapLoader(ArrayFiles files, int threads)
-    : Files(std::move(files))
-    , Threads(threads)
+    : FileLoader(std::move(files), threads)
   {
     for (std::size_t a = 0; a < this->Files.count() && this->Files.tuples() > 0; ++a)
     {
@@ -96,18 +95,15 @@ public:
   const char* name() const override { return "mmap"; }
 
 private:
-  ArrayFiles Files;
-  int Threads;
   std::vector<std::unique_ptr<Mapping>> Mappings;
 };
 
-class DirectLoader : public VertexLoader
+class DirectLoader : public FileLoader
 {
 public:
   DirectLoader(ArrayFiles files, std::int64_t m, int threads)
-    : Files(std::move(files))
+    : FileLoader(std::move(files), threads)
     , M(m)
-    , Threads(threads)
   {
   }
 
@@ -159,9 +155,7 @@ private:
     ++this->Counts.Passes;
   }
 
-  ArrayFiles Files;
   std::int64_t M;
-  int Threads;
   TupleBuffers Buffers;
   GroupedMoves Moves;
 };

@@ -21,8 +21,6 @@ class VTKTIPPIO_EXPORT Checksum
 public:
   Checksum();
   ~Checksum();
-  Checksum(const Checksum&) = delete;
-  Checksum& operator=(const Checksum&) = delete;
 
   void add(const void* data, std::size_t bytes);
   /// Returns the checksum of all bytes since the last call, and resets the state.

@@ -37,12 +37,6 @@ MeasuredCell measure(const CellShape& shape, int dimension, std::size_t index)
   return cell;
 }
 
-bool boundsMeet(const Box3& a, const Box3& b)
-{
-  return a.Min[0] <= b.Max[0] && b.Min[0] <= a.Max[0] && a.Min[1] <= b.Max[1] &&
-    b.Min[1] <= a.Max[1] && a.Min[2] <= b.Max[2] && b.Min[2] <= a.Max[2];
-}
-
 bool isWithin(const Box3& a, const Box3& b)
 {
   return b.Min[0] <= a.Min[0] && a.Max[0] <= b.Max[0] && b.Min[1] <= a.Min[1] &&
@@ -51,7 +45,7 @@ bool isWithin(const Box3& a, const Box3& b)
 
 bool meetsBox(const CellShape& shape, const MeasuredCell& cell, const Box3& box)
 {
-  return boundsMeet(cell.Bounds, box) &&
+  return boxesMeet(cell.Bounds, box) &&
     (isWithin(cell.Bounds, box) || shape.meets(cell.Corners, box));
 }
 

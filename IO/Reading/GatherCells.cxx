@@ -264,18 +264,6 @@ private:
 constexpr std::uint8_t insideRange =
   0x80; ///< marks points inside the range, which have no side bits
 
-bool boxesMeet(const Box3& a, const Box3& b)
-{
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    if (a.Min[axis] > b.Max[axis] || b.Min[axis] > a.Max[axis])
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
 std::array<double, 3> pointOf(const Piece& piece, std::int64_t point)
 {
   std::array<double, 3> xyz{};

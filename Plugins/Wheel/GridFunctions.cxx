@@ -157,15 +157,6 @@ nb::tuple makeRaster(const nb::object& points, const nb::dict& options, Progress
   return nb::make_tuple(bands, tupleOf(settings.Grid), crs, figures.Rejected);
 }
 
-/// Returns the west, south, columns and rows of the pixels that cover xmin, xmax, ymin, ymax.
-nb::tuple rasterGrid(const std::array<double, 4>& bounds, double resolution, bool isAligned)
-{
-  RasterRequest request;
-  request.Resolution = resolution;
-  request.Aligned = isAligned;
-  return tupleOf(makeRasterGrid(request, bounds));
-}
-
 /// Bytes per sample: a 32-bit cell number and the mask.
 constexpr double claimBytes = 5;
 
@@ -197,12 +188,6 @@ nb::tuple describe(const Lattice& lattice)
 {
   return nb::make_tuple(
     lattice.Min, lattice.Delta, nb::make_tuple(lattice.size(0), lattice.size(1), lattice.size(2)));
-}
-
-nb::tuple latticeOf(const std::array<double, 6>& bounds, const std::array<int, 3>& dimensions,
-  const std::array<double, 3>& delta)
-{
-  return describe(rangeLattice(bounds, dimensions, delta));
 }
 
 /// Returns the lattice as describe() does, the arrays' samples, the mask and warnings.
@@ -282,9 +267,19 @@ nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
 void addGridFunctions(nb::module_& module)
 {
   module.def("dem", &makeRaster);
-  module.def("raster_grid", &rasterGrid);
+  module.def("raster_grid",
+    [](const std::array<double, 4>& bounds, double resolution, bool isAligned)
+    {
+      RasterRequest request;
+      request.Resolution = resolution;
+      request.Aligned = isAligned;
+      return tupleOf(makeRasterGrid(request, bounds));
+    });
   module.def("resample", &resampleMesh);
-  module.def("range_lattice", &latticeOf);
+  module.def("range_lattice",
+    [](const std::array<double, 6>& bounds, const std::array<int, 3>& dimensions,
+      const std::array<double, 3>& delta)
+    { return describe(rangeLattice(bounds, dimensions, delta)); });
 }
 
 } // namespace tipp::python

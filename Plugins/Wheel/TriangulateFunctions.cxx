@@ -281,14 +281,14 @@ private:
 
 void addTriangulateFunctions(nb::module_& module)
 {
-  module.def("triangulate", &triangulateArrays);
-  module.def("match_positions", &matchedPositions);
-  module.def("interpolate", &interpolate);
-  module.def("alpha_shape", &alphaShapeOf);
   nb::class_<Locator>(module, "Locator")
     .def(nb::init<InputArray, InputArray, InputArray>())
     .def("find", &Locator::find)
     .def("interpolate", &Locator::interpolate);
+  module.def("triangulate", &triangulateArrays);
+  module.def("match_positions", &matchedPositions);
+  module.def("interpolate", &interpolate);
+  module.def("alpha_shape", &alphaShapeOf);
 }
 
 } // namespace tipp::python

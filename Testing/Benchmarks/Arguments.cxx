@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <sstream>
+#include <regex>
 #include <stdexcept>
 
 namespace tipp
@@ -28,13 +28,8 @@ std::size_t toCount(const std::string& text)
 
 std::vector<std::string> split(const std::string& text)
 {
-  std::vector<std::string> parts;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, ',');)
-  {
-    parts.push_back(part);
-  }
-  return parts;
+  static const std::regex comma(",");
+  return { std::sregex_token_iterator(text.begin(), text.end(), comma, -1), {} };
 }
 
 std::vector<std::string> toPeers(const std::string& text)

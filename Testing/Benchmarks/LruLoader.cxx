@@ -11,7 +11,7 @@ namespace benchmark
 {
 
 LruLoader::LruLoader(std::vector<RawArray> arrays, std::int64_t m, std::int64_t blocks)
-  : Files(std::move(arrays))
+  : FileLoader(ArrayFiles(std::move(arrays)), 1)
   , Block(std::max<std::int64_t>(m / blocks, 1))
   , ByBlock(std::uint64_t(this->Block))
   , Slots(std::uint32_t(std::min<std::int64_t>(m / this->Block, 1 << 30)))

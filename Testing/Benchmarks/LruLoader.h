@@ -13,7 +13,7 @@ namespace benchmark
 /// The cache that Direct Load is compared with (dissertation, section 4.5.1): M vertices in blocks
 /// of equal size, the least recently used one being replaced. It uses one thread, and must not be
 /// used any more after an error.
-class LruLoader : public VertexLoader
+class LruLoader : public FileLoader
 {
 public:
   /// Throws as makeVertexLoader does. `m` is at least 1; it is divided into `blocks` blocks.
@@ -28,7 +28,6 @@ private:
   std::uint32_t slotOf(std::uint64_t block);
   void copy(std::size_t from, std::size_t to, void* const* out);
 
-  ArrayFiles Files;
   std::int64_t Block; ///< size of a block, in tuples
   Divisor ByBlock;
   std::uint32_t Slots;

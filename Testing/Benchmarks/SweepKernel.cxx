@@ -141,16 +141,20 @@ void SweepKernel::findFront(const Box2& ahead)
     this->Stack.pop_back();
     for (Index i = 0; i < 3; ++i)
     {
-      const Index neighbour = this->Kernel.neighbour(t, i);
-      State& state = this->States[DelaunayKernel::number(neighbour)];
-      if (state == State::Unknown)
-      {
-        state = this->meets(neighbour, ahead) ? State::Front : State::Final;
-        if (state == State::Front)
-        {
-          this->Stack.push_back(neighbour);
-        }
-      }
+      this->visit(this->Kernel.neighbour(t, i), ahead);
+    }
+  }
+}
+
+void SweepKernel::visit(Index triangle, const Box2& ahead)
+{
+  State& state = this->States[DelaunayKernel::number(triangle)];
+  if (state == State::Unknown)
+  {
+    state = this->meets(triangle, ahead) ? State::Front : State::Final;
+    if (state == State::Front)
+    {
+      this->Stack.push_back(triangle);
     }
   }
 }

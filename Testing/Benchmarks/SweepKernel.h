@@ -63,6 +63,7 @@ private:
   void takeStrip(const Point2* points, const std::uint32_t* places, std::size_t count);
   void nameDuplicates();
   void findFront(const Box2& ahead);
+  void visit(Index triangle, const Box2& ahead);
   bool meets(Index triangle, const Box2& box) const;
   void collectFinal(const Box2& before);
   void collectFront();

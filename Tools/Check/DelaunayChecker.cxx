@@ -371,48 +371,40 @@ CheckReport PieceChecker::finish()
 
 std::vector<std::string> CheckReport::faults() const
 {
-  struct Fault
-  {
-    std::int64_t Count;
-    const char* OfTriangles;
-    const char* OfTetrahedra;
-  };
-  // Two rows for Euler's formula, because the order of the last two differs.
-  const Fault kinds[] = {
-    { this->BadIds, "triangles have a point that does not exist or is not finite",
-      "tetrahedra have a point that does not exist or is not finite" },
-    { this->BadTurns, "triangles are clockwise or flat", "tetrahedra are inverted or flat" },
-    { this->BadFacets, "edges are in three or more triangles or twice in one direction",
-      "facets are in three or more tetrahedra, or in two on the same side" },
-    { this->BadSpheres, "edges are not locally Delaunay",
-      "interior facets are not locally Delaunay" },
-    { this->BadTies, "edges break a tie differently than the rule",
-      "facets break a tie differently than the rule" },
-    { this->UnusedPoints, "distinct points are in no triangle",
-      "distinct points are in no tetrahedron" },
-    { this->TwinVertices, "vertices have the coordinates of another vertex",
-      "vertices have the coordinates of another vertex" },
-    { this->BadHullEdges, "boundary edges are not in one convex chain",
-      "hull edges are where the hull is not closed or not convex" },
-    { this->LostConstraints, "constraints are not chains of edges", "" },
-    { this->OpenBoundary, "boundary edges are neither constraints nor edges of the convex hull",
-      "" },
-    { this->InSpace ? this->EulerMismatch : 0, "",
-      "is the difference from Euler's formula for vertices, edges, facets and tetrahedra" },
-    { this->BadNeighbors, "edges have triangles that store wrong neighbours",
-      "corners have a wrong tetrahedron in NeighborIds" },
-    { this->InSpace ? 0 : this->EulerMismatch,
-      "more triangles (negative: fewer) than Euler's formula gives", "" },
-  };
   std::vector<std::string> lines;
-  for (const Fault& kind : kinds)
+  const auto add = [&lines](std::int64_t count, const std::string& fault)
   {
-    if (kind.Count != 0)
+    if (count != 0)
     {
-      lines.push_back(
-        std::to_string(kind.Count) + " " + (this->InSpace ? kind.OfTetrahedra : kind.OfTriangles));
+      lines.push_back(std::to_string(count) + " " + fault);
     }
-  }
+  };
+  const bool isFlat = !this->InSpace;
+  const std::string cells = isFlat ? "triangles" : "tetrahedra";
+  const std::string facets = isFlat ? "edges" : "facets";
+  add(this->BadIds, cells + " have a point that does not exist or is not finite");
+  add(this->BadTurns, cells + (isFlat ? " are clockwise or flat" : " are inverted or flat"));
+  add(this->BadFacets,
+    isFlat ? "edges are in three or more triangles or twice in one direction"
+           : "facets are in three or more tetrahedra, or in two on the same side");
+  add(this->BadSpheres,
+    (isFlat ? "edges" : "interior facets") + std::string(" are not locally Delaunay"));
+  add(this->BadTies, facets + " break a tie differently than the rule");
+  add(this->UnusedPoints,
+    std::string("distinct points are in no ") + (isFlat ? "triangle" : "tetrahedron"));
+  add(this->TwinVertices, "vertices have the coordinates of another vertex");
+  add(this->BadHullEdges,
+    isFlat ? "boundary edges are not in one convex chain"
+           : "hull edges are where the hull is not closed or not convex");
+  add(this->LostConstraints, "constraints are not chains of edges");
+  add(this->OpenBoundary, "boundary edges are neither constraints nor edges of the convex hull");
+  add(isFlat ? 0 : this->EulerMismatch,
+    "is the difference from Euler's formula for vertices, edges, facets and tetrahedra");
+  add(this->BadNeighbors,
+    isFlat ? "edges have triangles that store wrong neighbours"
+           : "corners have a wrong tetrahedron in NeighborIds");
+  add(isFlat ? this->EulerMismatch : 0,
+    "more triangles (negative: fewer) than Euler's formula gives");
   return lines;
 }
 

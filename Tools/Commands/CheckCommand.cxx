@@ -439,30 +439,31 @@ int runCheck(const CheckArguments& arguments)
   return report.isCorrect() ? Success : Failure;
 }
 
+void addOptions(CLI::App& command, CheckArguments& arguments)
+{
+  command.add_option("points", arguments.Points, "The points, in any format of 'tipp delaunay'")
+    ->required();
+  command.add_option("mesh", arguments.Mesh, meshFormats)->required();
+  addPointOptions(command, arguments.Columns);
+  command.add_flag("--tie-rule", arguments.Options.TieRule,
+    "Also check that ties between co-circular points are broken by the points' lexicographic "
+    "order, which makes the triangulation unique");
+  command.add_flag("--boundary-free", arguments.Options.BoundaryFree,
+    "The mesh need not fill the convex hull: do not check its boundary and Euler's formula");
+  command.add_option("--constraints", arguments.Constraints,
+    "The file of constraints that 'tipp delaunay' used; the mesh may have more points after the "
+    "given ones");
+  command.add_flag("--cut", arguments.Options.IsCut,
+    "With --constraints: the mesh lacks triangles outside of polygons or in holes");
+}
+
 } // namespace
 
 void addCheckCommand(CLI::App& app, int& exitCode)
 {
-  auto arguments = std::make_shared<CheckArguments>();
-  CLI::App* const command = app.add_subcommand(
-    "check", "Checks that triangles are the Delaunay triangulation of points, exactly");
-  command->add_option("points", arguments->Points, "The points, in any format of 'tipp delaunay'")
-    ->required();
-  command->add_option("mesh", arguments->Mesh, meshFormats)->required();
-  addPointOptions(*command, arguments->Columns);
-  command->add_flag("--tie-rule", arguments->Options.TieRule,
-    "Also check that ties between co-circular points are broken by the points' lexicographic "
-    "order, which makes the triangulation unique");
-  command->add_flag("--boundary-free", arguments->Options.BoundaryFree,
-    "The mesh need not fill the convex hull: do not check its boundary and Euler's formula");
-  command->add_option("--constraints", arguments->Constraints,
-    "The file of constraints that 'tipp delaunay' used; the mesh may have more points after the "
-    "given ones");
-  command->add_flag("--cut", arguments->Options.IsCut,
-    "With --constraints: the mesh lacks triangles outside of polygons or in holes");
-  command->footer(footer);
-  command->callback(
-    [arguments, &exitCode]() { exitCode = isIdleRank() ? Success : runCheck(*arguments); });
+  addCommand<CheckArguments>(app, exitCode, "check",
+    "Checks that triangles are the Delaunay triangulation of points, exactly", footer, addOptions,
+    [](CheckArguments& arguments) { return isIdleRank() ? Success : runCheck(arguments); });
 }
 
 } // namespace tipp

@@ -18,20 +18,12 @@ enum ExitCode
   Usage = 2
 };
 
-/// Each function adds a subcommand to `app`. When the subcommand has run, `exitCode` is set. It may
-/// throw IOError and std::bad_alloc.
-void addCheckCommand(CLI::App& app, int& exitCode);
-void addContourCommand(CLI::App& app, int& exitCode);
-void addDelaunayCommand(CLI::App& app, int& exitCode);
-void addDelaunay3DCommand(CLI::App& app, int& exitCode);
-void addDemCommand(CLI::App& app, int& exitCode);
-void addDevicesCommand(CLI::App& app, int& exitCode);
-void addFlattenCommand(CLI::App& app, int& exitCode);
-void addInfoCommand(CLI::App& app, int& exitCode);
-void addPartitionCommand(CLI::App& app, int& exitCode);
-void addPointsCommand(CLI::App& app, int& exitCode);
-void addQueryCommand(CLI::App& app, int& exitCode);
-void addResampleCommand(CLI::App& app, int& exitCode);
+/// Adds a subcommand to `app`. When the subcommand has run, `exitCode` is set. It may throw IOError
+/// and std::bad_alloc.
+using AddCommand = void(CLI::App& app, int& exitCode);
+AddCommand addCheckCommand, addContourCommand, addDelaunayCommand, addDelaunay3DCommand,
+  addDemCommand, addDevicesCommand, addFlattenCommand, addInfoCommand, addPartitionCommand,
+  addPointsCommand, addQueryCommand, addResampleCommand;
 
 } // namespace tipp
 

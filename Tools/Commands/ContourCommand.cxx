@@ -114,38 +114,39 @@ void makeContours(const ContourArguments& arguments, Communicator& ranks)
   }
 }
 
-} // namespace
-
-void addContourCommand(CLI::App& app, int& exitCode)
+void addOptions(CLI::App& command, ContourArguments& arguments)
 {
-  auto arguments = std::make_shared<ContourArguments>();
-  CLI::App* const command =
-    app.add_subcommand("contour", "Makes lines of equal values on a mesh of triangles");
-  command->add_option("mesh", arguments->Mesh.Path, "The mesh, see below")->required();
+  command.add_option("mesh", arguments.Mesh.Path, "The mesh, see below")->required();
   addOutput(
-    *command, arguments->Output, "The file to write, see below",
+    command, arguments.Output, "The file to write, see below",
     [](const std::string& path)
     {
       const std::string extension = extensionOf(path);
       return extension == ".gpkg" || extension == ".vtp";
     },
     ".gpkg or .vtp");
-  command->add_option("--array", arguments->Array, "The name of a point array, or elevation for z")
+  command.add_option("--array", arguments.Array, "The name of a point array, or elevation for z")
     ->capture_default_str();
-  addChecked(*command, "--component", arguments->Component, CLI::Range(0, 1000000),
+  addChecked(command, "--component", arguments.Component, CLI::Range(0, 1000000),
     "The component of an array that has several, counted from 0");
-  CLI::Option_group* const levels = command->add_option_group("levels");
-  levels->add_option("--levels", arguments->Levels, "The values of the lines, separated by commas")
+  CLI::Option_group* const levels = command.add_option_group("levels");
+  levels->add_option("--levels", arguments.Levels, "The values of the lines, separated by commas")
     ->delimiter(',');
-  levels->add_option("--interval", arguments->Interval, "Lines at all multiples of this value")
+  levels->add_option("--interval", arguments.Interval, "Lines at all multiples of this value")
     ->check(checkPositive);
   levels->require_option(1);
-  command->add_option(
-    "--crs", arguments->Crs, "The reference system of a .gpkg, such as EPSG:25832");
-  addQueryMeshOptions(*command, arguments->Mesh);
-  command->footer(footer);
-  command->callback([arguments, &exitCode]()
-    { exitCode = runOnRanks([&](Communicator& ranks) { makeContours(*arguments, ranks); }); });
+  command.add_option("--crs", arguments.Crs, "The reference system of a .gpkg, such as EPSG:25832");
+  addQueryMeshOptions(command, arguments.Mesh);
+}
+
+} // namespace
+
+void addContourCommand(CLI::App& app, int& exitCode)
+{
+  addCommand<ContourArguments>(app, exitCode, "contour",
+    "Makes lines of equal values on a mesh of triangles", footer, addOptions,
+    [](ContourArguments& arguments)
+    { return runOnRanks([&](Communicator& ranks) { makeContours(arguments, ranks); }); });
 }
 
 } // namespace tipp

@@ -102,27 +102,30 @@ int runFlatten(const FlattenArguments& arguments)
   return code;
 }
 
+void addOptions(CLI::App& command, FlattenArguments& arguments)
+{
+  command.add_option("input", arguments.Input, "The mesh")->required();
+  command.add_option("-o,--output", arguments.Output, "The folder to write")->required();
+  command.add_option("--values", arguments.Values,
+    "With an ADCIRC grid: ASCII output at its nodes (fort.63, maxele.63 ...)");
+}
+
+int run(FlattenArguments& arguments)
+{
+  if (!arguments.Values.empty() && !isAdcircFile(arguments.Input))
+  {
+    throw CLI::ValidationError("--values needs an ADCIRC grid (.14, .grd)");
+  }
+  return isIdleRank() ? Success : runFlatten(arguments);
+}
+
 } // namespace
 
 void addFlattenCommand(CLI::App& app, int& exitCode)
 {
-  auto arguments = std::make_shared<FlattenArguments>();
-  CLI::App* const command = app.add_subcommand("flatten",
-    "Writes the triangles or tetrahedra of a mesh as a folder of .npy arrays, in their order");
-  command->add_option("input", arguments->Input, "The mesh")->required();
-  command->add_option("-o,--output", arguments->Output, "The folder to write")->required();
-  command->add_option("--values", arguments->Values,
-    "With an ADCIRC grid: ASCII output at its nodes (fort.63, maxele.63 ...)");
-  command->footer(flattenFooter);
-  command->callback(
-    [arguments, &exitCode]()
-    {
-      if (!arguments->Values.empty() && !isAdcircFile(arguments->Input))
-      {
-        throw CLI::ValidationError("--values needs an ADCIRC grid (.14, .grd)");
-      }
-      exitCode = isIdleRank() ? Success : runFlatten(*arguments);
-    });
+  addCommand<FlattenArguments>(app, exitCode, "flatten",
+    "Writes the triangles or tetrahedra of a mesh as a folder of .npy arrays, in their order",
+    flattenFooter, addOptions, run);
 }
 
 namespace
@@ -217,7 +220,7 @@ PartitionOptions makeOptions(
   return options;
 }
 
-int runPartition(const PartitionArguments& arguments)
+int run(PartitionArguments& arguments)
 {
   const MpiSession session;
   PartitionStatistics statistics;
@@ -260,40 +263,41 @@ int runPartition(const PartitionArguments& arguments)
   return Success;
 }
 
-} // namespace
-
-void addPartitionCommand(CLI::App& app, int& exitCode)
+void addOptions(CLI::App& command, PartitionArguments& arguments)
 {
-  auto arguments = std::make_shared<PartitionArguments>();
-  CLI::App* const command =
-    app.add_subcommand("partition", "Cuts a mesh larger than memory into pieces on the disk");
-  command->add_option("input", arguments->Input, "The mesh")->required();
-  command->add_option("-o,--output", arguments->Output, "The partitioned mesh, such as mesh.tipp")
+  command.add_option("input", arguments.Input, "The mesh")->required();
+  command.add_option("-o,--output", arguments.Output, "The partitioned mesh, such as mesh.tipp")
     ->required();
-  addChecked(*command, "--tiling", arguments->Tiling, checkTiling,
+  addChecked(command, "--tiling", arguments.Tiling, checkTiling,
     "grid:COLUMNSxROWS[xLAYERS]; or quadtree:CELLS (octree:CELLS): partitions are divided until "
     "each meets at most CELLS cells that are not longer than the partition");
-  addChecked(*command, "--borrowers", arguments->Borrowers,
+  addChecked(command, "--borrowers", arguments.Borrowers,
     CLI::IsMember({ "reference", "duplicate" }),
     "reference: borrowed cells are only in their owners' pieces; duplicate: they are also copied "
     "to the pieces that borrow them");
-  command->add_flag("--neighbors", arguments->Neighbors,
+  command.add_flag("--neighbors", arguments.Neighbors,
     "Add the cell array NeighborIds: the id of the cell across each edge or face; this partitions "
     "the mesh twice");
-  addChecked(*command, "--memory", arguments->Memory, checkMemorySize,
+  addChecked(command, "--memory", arguments.Memory, checkMemorySize,
     "The memory limit of each rank, such as 512M");
-  addChecked(*command, "--loader", arguments->Loader,
+  addChecked(command, "--loader", arguments.Loader,
     CLI::IsMember({ "auto", "direct", "fine", "mmap" }),
     "How vertices are read: direct: Direct Load; fine: with smaller reads; mmap: mapped files; "
     "auto: chosen automatically");
   command
-    ->add_option("--device", arguments->Device,
+    .add_option("--device", arguments.Device,
       "The device that classifies cells at borders: openmp, opencl, opencl:NAME or auto")
     ->capture_default_str();
-  addThreadsOption(*command, arguments->Threads);
-  command->add_option("--stats", arguments->Statistics, "A JSON file for figures of the run");
-  command->footer(partitionFooter);
-  command->callback([arguments, &exitCode]() { exitCode = runPartition(*arguments); });
+  addThreadsOption(command, arguments.Threads);
+  command.add_option("--stats", arguments.Statistics, "A JSON file for figures of the run");
+}
+
+} // namespace
+
+void addPartitionCommand(CLI::App& app, int& exitCode)
+{
+  addCommand<PartitionArguments>(app, exitCode, "partition",
+    "Cuts a mesh larger than memory into pieces on the disk", partitionFooter, addOptions, run);
 }
 
 } // namespace tipp

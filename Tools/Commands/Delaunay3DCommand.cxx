@@ -281,38 +281,37 @@ void requireFitting(const Delaunay3DArguments& arguments)
   arguments.refuseMisplaced();
 }
 
+void addOptions(CLI::App& command, Delaunay3DArguments& arguments)
+{
+  addRunOptions(command, arguments, "The tetrahedra", isTetrahedronFile, ".vtu, .npy or .tipp",
+    "With a .tipp output: the memory limit of the process, such as 512M (default: 2G)",
+    "With a .tipp output");
+  addThreadsOption(command, arguments.Threads);
+  addChecked(command, "--partitions", arguments.Partitions, CLI::Range(0, 512),
+    "The number of partitions; 0: chosen automatically");
+  addArrayFlags(command, arguments.MapDuplicates, arguments.Neighbors, "", "", "tetrahedron");
+}
+
+int run(Delaunay3DArguments& arguments)
+{
+  requireFitting(arguments);
+  arguments.Columns.InSpace = true;
+  if (arguments.makesPieces())
+  {
+    return isIdleRank() ? Success : runDelaunay3DOutOfCore(arguments);
+  }
+  const MpiSession session;
+  return session.controller() ? runTogether(session.controller(),
+                                  [&](Communicator& ranks) { triangulateShares(ranks, arguments); })
+                              : runDelaunay3D(arguments);
+}
+
 } // namespace
 
 void addDelaunay3DCommand(CLI::App& app, int& exitCode)
 {
-  auto arguments = std::make_shared<Delaunay3DArguments>();
-  CLI::App* const command =
-    app.add_subcommand("delaunay3d", "Tetrahedralizes points: exact 3D Delaunay, in parallel");
-  addRunOptions(*command, *arguments, "The tetrahedra", isTetrahedronFile, ".vtu, .npy or .tipp",
-    "With a .tipp output: the memory limit of the process, such as 512M (default: 2G)",
-    "With a .tipp output");
-  addPointOptions(*command, arguments->Columns);
-  addThreadsOption(*command, arguments->Threads);
-  addChecked(*command, "--partitions", arguments->Partitions, CLI::Range(0, 512),
-    "The number of partitions; 0: chosen automatically");
-  addArrayFlags(*command, arguments->MapDuplicates, arguments->Neighbors, "", "", "tetrahedron");
-  command->footer(footer);
-  command->callback(
-    [arguments, &exitCode]()
-    {
-      requireFitting(*arguments);
-      arguments->Columns.InSpace = true;
-      if (arguments->makesPieces())
-      {
-        exitCode = isIdleRank() ? Success : runDelaunay3DOutOfCore(*arguments);
-        return;
-      }
-      const MpiSession session;
-      exitCode = session.controller()
-        ? runTogether(session.controller(),
-            [&](Communicator& ranks) { triangulateShares(ranks, *arguments); })
-        : runDelaunay3D(*arguments);
-    });
+  addCommand<Delaunay3DArguments>(app, exitCode, "delaunay3d",
+    "Tetrahedralizes points: exact 3D Delaunay, in parallel", footer, addOptions, run);
 }
 
 } // namespace tipp

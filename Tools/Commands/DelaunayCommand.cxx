@@ -199,53 +199,59 @@ void requireValidConstraints(const DelaunayArguments& arguments)
     refuses ? "--refuse-crossings" : "--hole", "needs --constraints");
 }
 
+void addOptions(CLI::App& command, DelaunayArguments& arguments)
+{
+  addRunOptions(command, arguments, "The triangles", isOutput, ".vtp, .vtu, .npy, .14 or .tipp",
+    "With a .tipp output: the memory limit of each process, such as 512M (default: 2G)",
+    "With a .tipp output");
+  addDuplicatesOption(command, arguments.Duplicates);
+  addTuning(command, arguments);
+  command
+    .add_option("--max-edge", arguments.MaximumEdge,
+      "Leave out triangles with an edge longer than this, in the units of the points")
+    ->check(checkPositive);
+  addArrayFlags(command, arguments.MapDuplicates, arguments.Neighbors, " to .vtp or .vtu",
+    " to .vtp, .vtu or .tipp", "triangle");
+  addConstraints(command, arguments);
+  addChecked(command, "--sink", arguments.Sink, CLI::IsMember({ "mesh", "count" }),
+    "With a .tipp output: mesh: write it; count: only print the number of triangles and their "
+    "checksum");
+}
+
+/// Throws CLI::ValidationError for options that would have no effect or contradict each other.
+void requireFitting(const DelaunayArguments& arguments)
+{
+  refuseIf(arguments.MapDuplicates && !holdsArrays(arguments.Output), "--map-duplicates",
+    "needs an output named .vtp or .vtu, which has all points");
+  refuseIf(arguments.Duplicates != DuplicateRule::First && extensionOf(arguments.Output) == ".npy",
+    "--duplicates", "needs an output named .vtp, .vtu or .tipp, which has point data");
+  refuseIf(arguments.Neighbors && !holdsArrays(arguments.Output), "--neighbors",
+    "needs an output named .vtp, .vtu or .tipp, which has cell data");
+  refuseIf(arguments.Partitions != "auto" && arguments.isForRanks(), "--partitions",
+    "cannot be combined with --masters, --major and --minor; give --minor");
+  requireValidConstraints(arguments);
+  refuseIf(arguments.makesPieces() && arguments.isForRanks(), "--masters, --major and --minor",
+    "cannot be combined with an output named .tipp");
+  refuseIf(
+    arguments.Sink != "mesh" && !arguments.makesPieces(), "--sink", "needs an output named .tipp");
+  arguments.refuseMisplaced();
+}
+
+int run(DelaunayArguments& arguments)
+{
+  requireFitting(arguments);
+  arguments.Columns.Threads = arguments.Threads;
+  arguments.Grid = *parseGrid(arguments.Partitions);
+  arguments.OnRanks = makeDistributedOptions(arguments);
+  return runDelaunay(arguments);
+}
+
 } // namespace
 
 void addDelaunayCommand(CLI::App& app, int& exitCode)
 {
-  auto arguments = std::make_shared<DelaunayArguments>();
-  CLI::App* const command =
-    app.add_subcommand("delaunay", "Triangulates points: exact 2D Delaunay, in parallel");
-  addRunOptions(*command, *arguments, "The triangles", isOutput, ".vtp, .vtu, .npy, .14 or .tipp",
-    "With a .tipp output: the memory limit of each process, such as 512M (default: 2G)",
-    "With a .tipp output");
-  addPointOptions(*command, arguments->Columns);
-  addDuplicatesOption(*command, arguments->Duplicates);
-  addTuning(*command, *arguments);
-  command
-    ->add_option("--max-edge", arguments->MaximumEdge,
-      "Leave out triangles with an edge longer than this, in the units of the points")
-    ->check(checkPositive);
-  addArrayFlags(*command, arguments->MapDuplicates, arguments->Neighbors, " to .vtp or .vtu",
-    " to .vtp, .vtu or .tipp", "triangle");
-  addConstraints(*command, *arguments);
-  addChecked(*command, "--sink", arguments->Sink, CLI::IsMember({ "mesh", "count" }),
-    "With a .tipp output: mesh: write it; count: only print the number of triangles and their "
-    "checksum");
-  command->footer(footer);
-  command->callback(
-    [arguments, &exitCode]()
-    {
-      refuseIf(arguments->MapDuplicates && !holdsArrays(arguments->Output), "--map-duplicates",
-        "needs an output named .vtp or .vtu, which has all points");
-      refuseIf(
-        arguments->Duplicates != DuplicateRule::First && extensionOf(arguments->Output) == ".npy",
-        "--duplicates", "needs an output named .vtp, .vtu or .tipp, which has point data");
-      refuseIf(arguments->Neighbors && !holdsArrays(arguments->Output), "--neighbors",
-        "needs an output named .vtp, .vtu or .tipp, which has cell data");
-      refuseIf(arguments->Partitions != "auto" && arguments->isForRanks(), "--partitions",
-        "cannot be combined with --masters, --major and --minor; give --minor");
-      arguments->Columns.Threads = arguments->Threads;
-      requireValidConstraints(*arguments);
-      refuseIf(arguments->makesPieces() && arguments->isForRanks(),
-        "--masters, --major and --minor", "cannot be combined with an output named .tipp");
-      refuseIf(arguments->Sink != "mesh" && !arguments->makesPieces(), "--sink",
-        "needs an output named .tipp");
-      arguments->refuseMisplaced();
-      arguments->Grid = *parseGrid(arguments->Partitions);
-      arguments->OnRanks = makeDistributedOptions(*arguments);
-      exitCode = runDelaunay(*arguments);
-    });
+  addCommand<DelaunayArguments>(app, exitCode, "delaunay",
+    "Triangulates points: exact 2D Delaunay, in parallel", footer, addOptions, run);
 }
 
 } // namespace tipp

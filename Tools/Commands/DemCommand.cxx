@@ -124,17 +124,17 @@ void addValueOptions(CLI::App& command, DemArguments& arguments)
 }
 
 /// Throws CLI::ValidationError for options that would have no effect.
-void requireUseful(const CLI::App& command, const DemArguments& arguments)
+void requireUseful(const DemArguments& arguments)
 {
   for (const char* const name : { "--nodata", "--crs", "--type", "--compress", "--cog" })
   {
-    refuseIf(
-      command.count(name) > 0 && !isGeoTiff(arguments.Output), name, "needs an output named .tif");
+    refuseIf(arguments.Command->count(name) > 0 && !isGeoTiff(arguments.Output), name,
+      "needs an output named .tif");
   }
   for (const char* const name : { "--bounds", "--align" })
   {
-    refuseIf(
-      command.count(name) > 0 && !arguments.Like.empty(), name, "cannot be combined with --like");
+    refuseIf(arguments.Command->count(name) > 0 && !arguments.Like.empty(), name,
+      "cannot be combined with --like");
   }
   std::vector<std::string> bands = arguments.Request.Bands;
   std::sort(bands.begin(), bands.end());
@@ -156,41 +156,44 @@ void requireGood(const DemArguments& arguments)
     arguments.Resume ? "--resume" : "--scratch", "needs --memory");
 }
 
+void addOptions(CLI::App& command, DemArguments& arguments)
+{
+  arguments.Command = &command;
+  addRunOptions(command, arguments, "The raster", isRasterFile, ".tif, .npy or .vti",
+    "The memory limit of each process, such as 512M", "With --memory");
+  addGridOptions(command, arguments);
+  addValueOptions(command, arguments);
+  addConstraintOptions(command, arguments);
+  addDuplicatesOption(command, arguments.Request.Duplicates);
+  addThreadsOption(command, arguments.Request.Threads);
+}
+
+int run(DemArguments& arguments)
+{
+  requireGood(arguments);
+  requireUseful(arguments);
+  arguments.Columns.Threads = arguments.Request.Threads;
+  arguments.Columns.Columns = columnsForBands(arguments.Request.Bands);
+  if (!arguments.Bounds.empty())
+  {
+    const std::vector<double>& bounds = arguments.Bounds;
+    arguments.Request.Raster.Bounds = { bounds[0], bounds[1], bounds[2], bounds[3] };
+  }
+  if (!arguments.Like.empty())
+  {
+    arguments.Request.Raster.Like = readRasterInfo(arguments.Like).Grid;
+  }
+  readConstraints(arguments);
+  return runDem(arguments);
+}
+
 } // namespace
 
 void addDemCommand(CLI::App& app, int& exitCode)
 {
-  auto arguments = std::make_shared<DemArguments>();
-  CLI::App* const command = app.add_subcommand("dem",
-    "Makes a raster from points: the values of the triangulated surface at the pixels' centres");
-  addRunOptions(*command, *arguments, "The raster", isRasterFile, ".tif, .npy or .vti",
-    "The memory limit of each process, such as 512M", "With --memory");
-  addGridOptions(*command, *arguments);
-  addValueOptions(*command, *arguments);
-  addConstraintOptions(*command, *arguments);
-  addPointOptions(*command, arguments->Columns);
-  addDuplicatesOption(*command, arguments->Request.Duplicates);
-  addThreadsOption(*command, arguments->Request.Threads);
-  command->footer(footer);
-  command->callback(
-    [arguments, command, &exitCode]()
-    {
-      requireGood(*arguments);
-      requireUseful(*command, *arguments);
-      arguments->Columns.Threads = arguments->Request.Threads;
-      arguments->Columns.Columns = columnsForBands(arguments->Request.Bands);
-      if (!arguments->Bounds.empty())
-      {
-        const std::vector<double>& bounds = arguments->Bounds;
-        arguments->Request.Raster.Bounds = { bounds[0], bounds[1], bounds[2], bounds[3] };
-      }
-      if (!arguments->Like.empty())
-      {
-        arguments->Request.Raster.Like = readRasterInfo(arguments->Like).Grid;
-      }
-      readConstraints(*arguments);
-      exitCode = runDem(*arguments);
-    });
+  addCommand<DemArguments>(app, exitCode, "dem",
+    "Makes a raster from points: the values of the triangulated surface at the pixels' centres",
+    footer, addOptions, run);
 }
 
 } // namespace tipp

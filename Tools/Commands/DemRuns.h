@@ -14,6 +14,7 @@ namespace tipp
 /// The options of `tipp dem`.
 struct DemArguments : RunArguments
 {
+  const CLI::App* Command = nullptr; ///< tells which options are given
   DemRequest Request;
   std::vector<double> Bounds;
   std::string Like;

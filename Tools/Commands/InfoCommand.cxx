@@ -181,18 +181,19 @@ int runInfo(const InfoArguments& arguments)
   return Success;
 }
 
+void addOptions(CLI::App& command, InfoArguments& arguments)
+{
+  command.add_option("input", arguments.Inputs, "The points, of one or more files")->required();
+  addPointOptions(command, arguments.Points);
+}
+
 } // namespace
 
 void addInfoCommand(CLI::App& app, int& exitCode)
 {
-  auto arguments = std::make_shared<InfoArguments>();
-  CLI::App* const command =
-    app.add_subcommand("info", "Describes files of points: their number, bounds and columns");
-  command->add_option("input", arguments->Inputs, "The points, of one or more files")->required();
-  addPointOptions(*command, arguments->Points);
-  command->footer(footer);
-  command->callback(
-    [arguments, &exitCode]() { exitCode = isIdleRank() ? Success : runInfo(*arguments); });
+  addCommand<InfoArguments>(app, exitCode, "info",
+    "Describes files of points: their number, bounds and columns", footer, addOptions,
+    [](InfoArguments& arguments) { return isIdleRank() ? Success : runInfo(arguments); });
 }
 
 namespace

@@ -191,6 +191,7 @@ void addRunOptions(CLI::App& command, RunArguments& arguments, const std::string
     condition + ": resume a run that was killed, interrupted or failed");
   command.add_option("--scratch", arguments.Scratch,
     condition + ": a folder for temporary files (default: that of the output)");
+  addPointOptions(command, arguments.Columns);
 }
 
 void addArrayFlags(CLI::App& command, bool& mapDuplicates, bool& neighbors,

@@ -9,12 +9,27 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace tipp
 {
+
+/// Adds a subcommand to `app`. `addOptions` adds its options, which fill the arguments; `run`
+/// carries it out and returns the exit code. See Commands.h.
+template <typename Arguments>
+void addCommand(CLI::App& app, int& exitCode, const std::string& name,
+  const std::string& description, const char* footer, void (*addOptions)(CLI::App&, Arguments&),
+  int (*run)(Arguments&))
+{
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* const command = app.add_subcommand(name, description);
+  addOptions(*command, *arguments);
+  command->footer(footer);
+  command->callback([arguments, run, &exitCode]() { exitCode = run(*arguments); });
+}
 
 /// The options of commands that triangulate points.
 struct RunArguments
@@ -36,9 +51,9 @@ struct RunArguments
   void refuseMisplaced() const;
 };
 
-/// Adds the arguments for the files of points and the output, and the options of RunArguments
-/// except Columns. `suits` tells whether an output has one of the `endings`. `condition` begins the
-/// help of options for runs out of core.
+/// Adds the arguments for the files of points and the output, and the options of RunArguments.
+/// `suits` tells whether an output has one of the `endings`. `condition` begins the help of options
+/// for runs out of core.
 void addRunOptions(CLI::App& command, RunArguments& arguments, const std::string& outputHelp,
   bool (*suits)(const std::string& path), const std::string& endings, const std::string& memoryHelp,
   const std::string& condition);

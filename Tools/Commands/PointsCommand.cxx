@@ -119,36 +119,39 @@ void runPoints(const PointsArguments& arguments)
     arguments.Output);
 }
 
+void addOptions(CLI::App& command, PointsArguments& arguments)
+{
+  CLI::Option_group* const kind = command.add_option_group("kind");
+  kind->add_option("--distribution", arguments.Distribution, "The distribution, see below")
+    ->check(CLI::IsMember(distributionNames()));
+  kind->add_option("--like", arguments.Like, "A file of points with the wanted distribution");
+  kind->require_option(1);
+  command.add_option("--count", arguments.Count, "Number of points")
+    ->required()
+    ->check(CLI::Range(std::int64_t(0), std::int64_t(1) << 40));
+  addChecked(command, "--seed", arguments.Seed, checkSeed, "The seed of the random numbers");
+  addOutput(
+    command, arguments.Output, "The .npy file to write",
+    [](const std::string& path) { return extensionOf(path) == ".npy"; }, ".npy");
+}
+
+int run(PointsArguments& arguments)
+{
+  if (!isIdleRank())
+  {
+    runPoints(arguments);
+  }
+  return Success;
+}
+
 } // namespace
 
 void addPointsCommand(CLI::App& app, int& exitCode)
 {
-  auto arguments = std::make_shared<PointsArguments>();
-  CLI::App* const command = app.add_subcommand("points",
+  addCommand<PointsArguments>(app, exitCode, "points",
     "Writes points of a known distribution as an .npy file (N x 2 float64), the same on every "
-    "machine");
-  CLI::Option_group* const kind = command->add_option_group("kind");
-  kind->add_option("--distribution", arguments->Distribution, "The distribution, see below")
-    ->check(CLI::IsMember(distributionNames()));
-  kind->add_option("--like", arguments->Like, "A file of points with the wanted distribution");
-  kind->require_option(1);
-  command->add_option("--count", arguments->Count, "Number of points")
-    ->required()
-    ->check(CLI::Range(std::int64_t(0), std::int64_t(1) << 40));
-  addChecked(*command, "--seed", arguments->Seed, checkSeed, "The seed of the random numbers");
-  addOutput(
-    *command, arguments->Output, "The .npy file to write",
-    [](const std::string& path) { return extensionOf(path) == ".npy"; }, ".npy");
-  command->footer(footer);
-  command->callback(
-    [arguments, &exitCode]()
-    {
-      if (!isIdleRank())
-      {
-        runPoints(*arguments);
-      }
-      exitCode = Success;
-    });
+    "machine",
+    footer, addOptions, run);
 }
 
 } // namespace tipp

@@ -356,74 +356,76 @@ void checkOutput(const QueryArguments& arguments)
   }
 }
 
-} // namespace
-
-void addQueryCommand(CLI::App& app, int& exitCode)
+void addOptions(CLI::App& command, QueryArguments& arguments)
 {
-  auto arguments = std::make_shared<QueryArguments>();
-  CLI::App* const command = app.add_subcommand(
-    "query", "Finds the cells of a mesh that contain points, and interpolates its arrays there");
   command
-    ->add_option("points", arguments->Points, "A file of points; left out with --zones and --ids")
+    .add_option("points", arguments.Points, "A file of points; left out with --zones and --ids")
     ->required();
-  command->add_option("mesh", arguments->Mesh.Path, "The mesh, see below");
-  command->add_option("-o,--output", arguments->Output, "The file to write, see below")->required();
+  command.add_option("mesh", arguments.Mesh.Path, "The mesh, see below");
+  command.add_option("-o,--output", arguments.Output, "The file to write, see below")->required();
   command
-    ->add_option("--arrays", arguments->Arrays,
+    .add_option("--arrays", arguments.Arrays,
       "Names of arrays, or elevation for the z of a surface (default: all)")
     ->delimiter(',');
-  CLI::Option* const weights = command->add_flag(
-    "--weights", arguments->Weights, "Add the barycentric weights of the cell's corners (.csv)");
-  CLI::Option* const closest = command->add_flag("--closest", arguments->Closest,
-    "Add the nearest location on the mesh and its distance (.csv)");
+  CLI::Option* const weights = command.add_flag(
+    "--weights", arguments.Weights, "Add the barycentric weights of the cell's corners (.csv)");
+  CLI::Option* const closest = command.add_flag(
+    "--closest", arguments.Closest, "Add the nearest location on the mesh and its distance (.csv)");
   CLI::Option* const zones =
-    command->add_option("--zones", arguments->Zones.Path, "Statistics in polygons, see below")
+    command.add_option("--zones", arguments.Zones.Path, "Statistics in polygons, see below")
       ->excludes(closest)
       ->excludes(weights);
   command
-    ->add_option("--zone-names", arguments->Zones.Field, "The field with the names of the zones")
+    .add_option("--zone-names", arguments.Zones.Field, "The field with the names of the zones")
     ->needs(zones);
   command
-    ->add_option("--level", arguments->Zones.Level, "The value above which volumes are computed")
+    .add_option("--level", arguments.Zones.Level, "The value above which volumes are computed")
     ->capture_default_str()
     ->needs(zones);
-  CLI::Option* const ids = addRegionOptions(*command, arguments->Region)
+  CLI::Option* const ids = addRegionOptions(command, arguments.Region)
                              ->excludes(closest)
                              ->excludes(weights)
                              ->excludes(zones);
   command
-    ->add_option("--descend", arguments->Descend,
+    .add_option("--descend", arguments.Descend,
       "Lines of steepest descent of this array from each point (.vtp)")
     ->excludes(closest)
     ->excludes(weights)
     ->excludes(zones)
     ->excludes(ids);
-  addQueryMeshOptions(*command, arguments->Mesh);
-  addPointOptions(*command, arguments->Reading);
-  command->footer(footer);
-  command->callback(
-    [arguments, &exitCode]()
-    {
-      const bool isOfMesh = arguments->isOfMesh();
-      if (isOfMesh != arguments->Mesh.Path.empty())
-      {
-        throw CLI::ValidationError(isOfMesh
-            ? "give only the mesh with --zones or --ids, without points"
-            : "give points and a mesh");
-      }
-      if (!arguments->Region.Ids.empty() && arguments->Region.Bounds.empty() &&
-        arguments->Region.Polygons.empty())
-      {
-        throw CLI::ValidationError("--ids needs a region: --bounds or --polygons");
-      }
-      if (arguments->Region.Bounds.size() == 5)
-      {
-        throw CLI::ValidationError("--bounds needs four numbers, or six for tetrahedra");
-      }
-      isOfMesh ? std::swap(arguments->Points, arguments->Mesh.Path) : void();
-      checkOutput(*arguments);
-      exitCode = runOnRanks([&](Communicator& ranks) { runQuery(*arguments, ranks); });
-    });
+  addQueryMeshOptions(command, arguments.Mesh);
+  addPointOptions(command, arguments.Reading);
+}
+
+int run(QueryArguments& arguments)
+{
+  const bool isOfMesh = arguments.isOfMesh();
+  if (isOfMesh != arguments.Mesh.Path.empty())
+  {
+    throw CLI::ValidationError(isOfMesh ? "give only the mesh with --zones or --ids, without points"
+                                        : "give points and a mesh");
+  }
+  if (!arguments.Region.Ids.empty() && arguments.Region.Bounds.empty() &&
+    arguments.Region.Polygons.empty())
+  {
+    throw CLI::ValidationError("--ids needs a region: --bounds or --polygons");
+  }
+  if (arguments.Region.Bounds.size() == 5)
+  {
+    throw CLI::ValidationError("--bounds needs four numbers, or six for tetrahedra");
+  }
+  isOfMesh ? std::swap(arguments.Points, arguments.Mesh.Path) : void();
+  checkOutput(arguments);
+  return runOnRanks([&](Communicator& ranks) { runQuery(arguments, ranks); });
+}
+
+} // namespace
+
+void addQueryCommand(CLI::App& app, int& exitCode)
+{
+  addCommand<QueryArguments>(app, exitCode, "query",
+    "Finds the cells of a mesh that contain points, and interpolates its arrays there", footer,
+    addOptions, run);
 }
 
 } // namespace tipp

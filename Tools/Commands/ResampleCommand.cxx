@@ -86,9 +86,9 @@ void configure(const ResampleArguments& arguments, vtkRangeResampleFilter* filte
   filter->SetNumberOfThreads(arguments.Threads);
   const bool npy = extensionOf(arguments.Output) == ".npy";
   filter->SetNullValue(
-    arguments.HasNull || !npy ? arguments.Null : std::numeric_limits<double>::quiet_NaN());
-  filter->SetUseNoDataValue(arguments.HasNoData);
-  filter->SetNoDataValue(arguments.NoData);
+    arguments.Null.value_or(npy ? std::numeric_limits<double>::quiet_NaN() : 0.0));
+  filter->SetUseNoDataValue(arguments.NoData.has_value());
+  filter->SetNoDataValue(arguments.NoData.value_or(0));
 }
 
 void summarize(const ResampleArguments& arguments, vtkRangeResampleFilter* filter)
@@ -314,7 +314,7 @@ int runResample(const ResampleArguments& arguments)
   {
     constexpr double usual = -9999;
     writeGeoTiff(arguments.Output, filter->GetOutput(), arguments.Crs,
-      arguments.HasNull ? arguments.Null : usual, arguments.Threads, before);
+      arguments.Null.value_or(usual), arguments.Threads, before);
   }
   else
   {
@@ -324,60 +324,57 @@ int runResample(const ResampleArguments& arguments)
   return Success;
 }
 
-} // namespace
-
-void addResampleCommand(CLI::App& app, int& exitCode)
+void addOptions(CLI::App& command, ResampleArguments& arguments)
 {
-  auto arguments = std::make_shared<ResampleArguments>();
-  CLI::App* const command = app.add_subcommand(
-    "resample", "Samples a mesh of triangles or tetrahedra on a regular grid, in parallel");
-  command->add_option("mesh", arguments->Input, "The mesh, see below")->required();
-  addOutput(
-    *command, arguments->Output, "The image, see below", isRasterFile, ".vti, .npy or .tif");
+  command.add_option("mesh", arguments.Input, "The mesh, see below")->required();
+  addOutput(command, arguments.Output, "The image, see below", isRasterFile, ".vti, .npy or .tif");
   command
-    ->add_option("--bounds", arguments->Bounds,
+    .add_option("--bounds", arguments.Bounds,
       "The range: xmin xmax ymin ymax zmin zmax (default: that of the mesh)")
     ->expected(6);
   CLI::Option* const dimensions = command
-                                    ->add_option("--dims", arguments->Dimensions,
+                                    .add_option("--dims", arguments.Dimensions,
                                       "Number of samples along x, y and z; 0: spaced as along the "
                                       "first axis with a number; surfaces have one along z")
                                     ->expected(3);
   CLI::Option* const delta = command
-                               ->add_option("--delta", arguments->Delta,
+                               .add_option("--delta", arguments.Delta,
                                  "Distance between samples along x, y and z; 0: one sample")
                                ->expected(3);
   delta->excludes(dimensions);
-  command->add_option(
-    "--arrays", arguments->Arrays, "Names of arrays (default: all, and elevation)");
+  command.add_option("--arrays", arguments.Arrays, "Names of arrays (default: all, and elevation)");
   command
-    ->add_option("--device", arguments->Device, "auto, openmp, opencl, opencl:INDEX or opencl:NAME")
+    .add_option("--device", arguments.Device, "auto, openmp, opencl, opencl:INDEX or opencl:NAME")
     ->capture_default_str();
-  addThreadsOption(*command, arguments->Threads);
-  CLI::Option* const null =
-    command->add_option("--null", arguments->Null, "The value of samples outside of the mesh");
-  CLI::Option* const noData = command->add_option("--no-data", arguments->NoData,
+  addThreadsOption(command, arguments.Threads);
+  command.add_option("--null", arguments.Null, "The value of samples outside of the mesh");
+  command.add_option("--no-data", arguments.NoData,
     "Cells with a corner of this value give no samples, such as -99999 for dry nodes");
-  command->add_option(
-    "--crs", arguments->Crs, "The reference system of a .tif, such as EPSG:25832");
-  addChecked(*command, "--memory", arguments->Memory, checkMemorySize,
+  command.add_option("--crs", arguments.Crs, "The reference system of a .tif, such as EPSG:25832");
+  addChecked(command, "--memory", arguments.Memory, checkMemorySize,
     "The memory limit for the part of a partitioned mesh that is in memory");
-  command->footer(footer);
-  command->callback(
-    [arguments, null, noData, &exitCode]()
-    {
-      arguments->HasNull = null->count() > 0;
-      arguments->HasNoData = noData->count() > 0;
-      refuseIf(arguments->Dimensions.empty() && arguments->Delta.empty(), "--dims",
-        "or --delta is required");
-      if (extensionOf(arguments->Output) == ".npy" && arguments->Arrays.empty())
-      {
-        arguments->Arrays = { "elevation" };
-      }
-      refuseIf(extensionOf(arguments->Output) == ".npy" && arguments->Arrays.size() != 1,
-        "--arrays", "must name one array for an .npy file");
-      exitCode = runResample(*arguments);
-    });
+}
+
+int run(ResampleArguments& arguments)
+{
+  refuseIf(
+    arguments.Dimensions.empty() && arguments.Delta.empty(), "--dims", "or --delta is required");
+  if (extensionOf(arguments.Output) == ".npy" && arguments.Arrays.empty())
+  {
+    arguments.Arrays = { "elevation" };
+  }
+  refuseIf(extensionOf(arguments.Output) == ".npy" && arguments.Arrays.size() != 1, "--arrays",
+    "must name one array for an .npy file");
+  return runResample(arguments);
+}
+
+} // namespace
+
+void addResampleCommand(CLI::App& app, int& exitCode)
+{
+  addCommand<ResampleArguments>(app, exitCode, "resample",
+    "Samples a mesh of triangles or tetrahedra on a regular grid, in parallel", footer, addOptions,
+    run);
 }
 
 } // namespace tipp

@@ -5,6 +5,7 @@
 #include "Ranks/Communicator.h"
 #include "Vtk/DataSets.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,10 +26,8 @@ struct ResampleArguments
   std::vector<std::string> Arrays; ///< empty: all
   std::string Device = "auto";
   int Threads = 0;
-  double Null = 0;
-  bool HasNull = false;
-  double NoData = 0;
-  bool HasNoData = false;
+  std::optional<double> Null;
+  std::optional<double> NoData;
   std::string Crs;
   std::string Memory = "1G"; ///< of the part of a partitioned mesh that is in memory at a time
 };

@@ -101,6 +101,8 @@ def write(
 ) -> None:
     """Writes a mesh as a partitioned mesh.
 
+    Ranges of it can then be read without the rest, see read().
+
     Parameters
     ----------
     mesh
@@ -152,6 +154,8 @@ def resample(
     progress_bar: ProgressBar = False,
 ) -> Any:
     """Samples a mesh of triangles or tetrahedra on a regular grid.
+
+    Point arrays of floating-point numbers are interpolated linearly in each cell; other arrays keep their values.
 
     Parameters
     ----------

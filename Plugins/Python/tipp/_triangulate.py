@@ -107,6 +107,8 @@ def delaunay_2d(
 ) -> Any:
     """Computes the exact Delaunay triangulation as a mesh, with the keywords of PyVista's delaunay_2d.
 
+    With `edges`, `polygons` or `edge_source` it is a constrained Delaunay triangulation.
+
     Parameters
     ----------
     points

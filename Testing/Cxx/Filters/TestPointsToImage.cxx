@@ -114,6 +114,39 @@ TEST(PointsToImage, IsTheSurfaceOfTheTriangulation)
   EXPECT_EQ(40000U, valuesOf(image, "a").size());
 }
 
+TEST(PointsToImage, SetBandReplacesAllBands)
+{
+  vtkNew<vtkTIPPPointsToImage> maker;
+  maker->AddBand("slope");
+  maker->SetBand(maker->GetBand(1));
+  ASSERT_EQ(1, maker->GetNumberOfBands());
+  EXPECT_STREQ("slope", maker->GetBand(0));
+  maker->SetBand(nullptr);
+  EXPECT_EQ(0, maker->GetNumberOfBands());
+}
+
+TEST(PointsToImage, ThereIsNoBandOutsideOfTheList)
+{
+  vtkNew<vtkTIPPPointsToImage> maker;
+  maker->AddBand("");
+  EXPECT_EQ(nullptr, maker->GetBand(-1));
+  EXPECT_STREQ("elevation", maker->GetBand(0));
+  EXPECT_EQ(nullptr, maker->GetBand(1));
+}
+
+TEST(PointsToImage, EqualPropertiesDoNotModifyIt)
+{
+  vtkNew<vtkTIPPPointsToImage> maker;
+  maker->SetBoundaryFileName("coast.gpkg");
+  const vtkMTimeType before = maker->GetMTime();
+  maker->SetBoundaryFileName("coast.gpkg");
+  maker->SetBand("elevation");
+  EXPECT_EQ(before, maker->GetMTime());
+  maker->SetBoundaryFileName("");
+  EXPECT_LT(before, maker->GetMTime());
+  EXPECT_EQ(nullptr, maker->GetBoundaryFileName());
+}
+
 TEST(PointsToImage, IsTheSameWithinAMemoryLimit)
 {
   vtkNew<vtkTIPPPointsToImage> maker;
