@@ -17,7 +17,7 @@ constexpr double Epsilon = 0x1p-53;
 
 /// The distance of the centre from each finite side of a box, positive inside, times 2d, and the
 /// squared radius times 4d^2, where d is the determinant of the edges from the first corner (d at
-/// Circumdisk::computeIntervals(), D at BallOfCorners). Coordinates are scaled by one power of two
+/// Circumdisk::Circumdisk(), D at BallOfCorners). Coordinates are scaled by one power of two
 /// to integers.
 template <std::size_t D>
 struct ExactBall
@@ -90,36 +90,6 @@ struct ExactBall
 } // namespace
 
 template <std::size_t D>
-void BallIntervals<D>::setIntervals(const Vector& offset, const Vector& errors, double roundings)
-{
-  double square = 0;
-  double sum = 0;
-  for (std::size_t k = 0; k < D; ++k)
-  {
-    square += offset[k] * offset[k];
-    sum += errors[k];
-  }
-  const double radius = std::sqrt(square);
-  const double radiusError = sum + roundings * Epsilon * radius;
-  // Within this limit squares of the radius and of similar distances are finite. False for NaN.
-  if (!(radius + radiusError <= 1e150))
-  {
-    return;
-  }
-  for (std::size_t k = 0; k < D; ++k)
-  {
-    const double centre = this->Corners[0][k] + offset[k];
-    const double error = errors[k] + Epsilon * (4.0 * std::fabs(centre) + radius);
-    this->Low[k] = centre - error;
-    this->High[k] = centre + error;
-  }
-  this->Largest = radius + radiusError;
-  this->Smallest = std::max(0.0, radius - radiusError);
-  this->LargestSquare = this->Largest * this->Largest;
-  this->SmallestSquare = this->Smallest * this->Smallest;
-}
-
-template <std::size_t D>
 bool BallIntervals<D>::meetsExactly(const Vector& low, const Vector& high) const
 {
   const ExactBall<D> ball(this->Corners, low, high);
@@ -146,16 +116,6 @@ bool BallIntervals<D>::liesInsideExactly(const Vector& low, const Vector& high) 
 template class BallIntervals<2>;
 template class BallIntervals<3>;
 
-Circumdisk::Circumdisk(Point2 a, Point2 b, Point2 c)
-  : BallIntervals<2>({ { { a.x, a.y }, { b.x, b.y }, { c.x, c.y } } })
-{
-  this->computeIntervals(b - a, c - a);
-  this->Outer = { this->Low[0] - this->Largest, this->Low[1] - this->Largest,
-    this->High[0] + this->Largest, this->High[1] + this->Largest };
-  this->Inner = { this->High[0] - this->Smallest, this->High[1] - this->Smallest,
-    this->Low[0] + this->Smallest, this->Low[1] + this->Smallest };
-}
-
 // With u = b - a, v = c - a, d = u x v > 0 and w = (vy |u|^2 - uy |v|^2, ux |v|^2 - vx |u|^2), the
 // centre is a + w / 2d and the radius |w| / 2d.
 //
@@ -173,14 +133,17 @@ Circumdisk::Circumdisk(Point2 a, Point2 b, Point2 c)
 // Products and sums are off by 2e70 * 2^-1074, so w by 1e-250, d by 1e-322, q by 1e-99 or 1e-170 q:
 // below e r, for the longest edge is at least s and at most 2 r.
 //
-// Centre a + q: rounded in a + q, in the interval's ends and in Outer and Inner: 4 e |c|, and that
-// e r.
+// Centre a + q: rounded in a + q, in the interval's ends, in bounds() and in inside(): 4 e |c|, and
+// that e r.
 //
 // Radius |q^|: off by the sum of the errors; its own rounding is 3 e r; e r each for the interval's
-// ends, their squares, Outer and Inner; in meets() a squared distance is off by 5 e, its root
+// ends, their squares, bounds() and inside(); in meets() a squared distance is off by 5 e, its root
 // by 2.5 e. With underflow less than 16 e r; 24 e r are allowed for.
-void Circumdisk::computeIntervals(Point2 u, Point2 v)
+Circumdisk::Circumdisk(const Point2& a, const Point2& b, const Point2& c)
+  : BallIntervals<2>({ { { a.x, a.y }, { b.x, b.y }, { c.x, c.y } } })
 {
+  const Point2 u = b - a;
+  const Point2 v = c - a;
   const double left = u.x * v.y;
   const double right = u.y * v.x;
   const double d = left - right;

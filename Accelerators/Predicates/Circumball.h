@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -33,7 +34,35 @@ protected:
   /// Sets the intervals, unless the radius is too large (or NaN); then they stay infinite. `offset`
   /// leads from the first corner to the centre. Its entries are off by at most `errors`; the radius
   /// is off by at most their sum plus `roundings` * 2^-53 * radius.
-  void setIntervals(const Vector& offset, const Vector& errors, double roundings);
+  void setIntervals(const Vector& offset, const Vector& errors, double roundings)
+  {
+    constexpr double epsilon = 0x1p-53;
+    double square = 0;
+    double sum = 0;
+    for (std::size_t k = 0; k < D; ++k)
+    {
+      square += offset[k] * offset[k];
+      sum += errors[k];
+    }
+    const double radius = std::sqrt(square);
+    const double radiusError = sum + roundings * epsilon * radius;
+    // Within this limit squares of the radius and of similar distances are finite. False for NaN.
+    if (!(radius + radiusError <= 1e150))
+    {
+      return;
+    }
+    for (std::size_t k = 0; k < D; ++k)
+    {
+      const double centre = this->Corners[0][k] + offset[k];
+      const double error = errors[k] + epsilon * (4.0 * std::fabs(centre) + radius);
+      this->Low[k] = centre - error;
+      this->High[k] = centre + error;
+    }
+    this->Largest = radius + radiusError;
+    this->Smallest = std::max(0.0, radius - radiusError);
+    this->LargestSquare = this->Largest * this->Largest;
+    this->SmallestSquare = this->Smallest * this->Smallest;
+  }
 
   /// Whether the ball and the box [low, high] share a point.
   bool meetsBox(const Vector& low, const Vector& high) const
@@ -87,7 +116,7 @@ extern template class BallIntervals<3>;
 class VTKTIPPACCELERATORS_EXPORT Circumdisk : BallIntervals<2>
 {
 public:
-  Circumdisk(Point2 a, Point2 b, Point2 c);
+  Circumdisk(const Point2& a, const Point2& b, const Point2& c);
 
   /// Whether disk and box share a point; touching counts.
   bool meets(const Box2& box) const
@@ -98,24 +127,26 @@ public:
   /// Whether the disk lies in the box; touching the box's border from inside counts.
   bool inside(const Box2& box) const
   {
-    if (box.xmin <= this->Outer.xmin && this->Outer.xmax <= box.xmax &&
-      box.ymin <= this->Outer.ymin && this->Outer.ymax <= box.ymax)
+    const Box2 outer = this->bounds();
+    if (box.xmin <= outer.xmin && outer.xmax <= box.xmax && box.ymin <= outer.ymin &&
+      outer.ymax <= box.ymax)
     {
       return true;
     }
-    const bool reachesOut = this->Inner.xmin < box.xmin || box.xmax < this->Inner.xmax ||
-      this->Inner.ymin < box.ymin || box.ymax < this->Inner.ymax;
+    // The disk reaches or crosses each side of this box.
+    const Box2 inner = { this->High[0] - this->Smallest, this->High[1] - this->Smallest,
+      this->Low[0] + this->Smallest, this->Low[1] + this->Smallest };
+    const bool reachesOut = inner.xmin < box.xmin || box.xmax < inner.xmax ||
+      inner.ymin < box.ymin || box.ymax < inner.ymax;
     return !reachesOut && this->liesInsideExactly({ box.xmin, box.ymin }, { box.xmax, box.ymax });
   }
 
   /// A box that contains the disk: rounded outward, and infinite if doubles cannot bound it.
-  Box2 bounds() const { return this->Outer; }
-
-private:
-  void computeIntervals(Point2 u, Point2 v);
-
-  Box2 Outer; // contains the disk's bounding box
-  Box2 Inner; // the disk reaches or crosses each side
+  Box2 bounds() const
+  {
+    return { this->Low[0] - this->Largest, this->Low[1] - this->Largest,
+      this->High[0] + this->Largest, this->High[1] + this->Largest };
+  }
 };
 
 /// The closed ball through the corners of a tetrahedron, computed once and tested exactly against
