@@ -207,8 +207,9 @@ void vtkTIPPDelaunay3D::SetCells(tipp::Buffer<int>& ids, int corners,
   const auto shape = corners == 4
     ? tipp::alphaShape<4>(ids, pointAt, this->Alpha, std::move(leftOut))
     : tipp::alphaShape<3>(ids, pointAt, this->Alpha, std::move(leftOut));
-  output->Allocate(vtkIdType(shape.Tetrahedra.size() / 4 + shape.Triangles.size() / 3 +
-    shape.Lines.size() / 2 + shape.Vertices.size()));
+  const std::size_t count = shape.Tetrahedra.size() / 4 + shape.Triangles.size() / 3 +
+    shape.Lines.size() / 2 + shape.Vertices.size();
+  output->Allocate(vtkIdType(count));
   const auto add = [output](bool isWanted, const tipp::Buffer<int>& cells, int type, int size)
   {
     for (const int* cell = cells.begin(); isWanted && cell != cells.end(); cell += size)

@@ -55,7 +55,7 @@ public:
 
   /// Runs the triangulation. `initial`: the messages of the initial mesh to all partitions.
   /// Collective. Throws RankFailure.
-  void run(SentMessages3 initial)
+  void run(SentMessages3&& initial)
   {
     for (auto& [to, message] : initial)
     {

@@ -110,12 +110,13 @@ void setPoints(const PointTable& table, vtkPointSet* data)
 template <typename Array>
 vtkSmartPointer<vtkCellArray> makeCells(vtkSmartPointer<Array> ids, std::size_t corners)
 {
+  using Id = typename Array::ValueType;
   const std::size_t count = std::size_t(ids->GetNumberOfValues()) / corners;
   vtkNew<Array> offsets;
   offsets->SetNumberOfValues(vtkIdType(count) + 1);
   for (std::size_t i = 0; i <= count; ++i)
   {
-    offsets->SetValue(vtkIdType(i), typename Array::ValueType(corners * i));
+    offsets->SetValue(vtkIdType(i), Id(corners) * Id(i));
   }
   auto cells = vtkSmartPointer<vtkCellArray>::New();
   cells->SetData(offsets.Get(), ids.Get());

@@ -204,8 +204,10 @@ const char* sectionOf(PieceRole role)
 std::string sections(
   const std::vector<PieceArray>& arrays, const std::vector<std::uint64_t>* offsets)
 {
-  const std::string indent = "      ";
   const std::string prefix = offsets ? "" : "P";
+  const std::string begin = "      <" + prefix;
+  const std::string array = "        <" + prefix + "DataArray";
+  const std::string end = "      </" + prefix;
   std::string text;
   for (const std::string name : { "Points", "PointData", "Cells", "CellData" })
   {
@@ -216,19 +218,23 @@ std::string sections(
     const char* const ids = name == "PointData" ? pointIdsName
       : name == "CellData"                      ? cellIdsName
                                                 : nullptr;
-    text += indent + "<" + prefix + name +
-      (ids ? " GlobalIds=\"" + std::string(ids) + "\"" : std::string()) + ">\n";
+    text.append(begin).append(name);
+    if (ids)
+    {
+      text.append(" GlobalIds=\"").append(ids).append("\"");
+    }
+    text += ">\n";
     for (std::size_t a = 0; a < arrays.size(); ++a)
     {
       if (name == sectionOf(arrays[a].Role))
       {
-        text += indent + "  <" + prefix + "DataArray" + describe(arrays[a]);
+        text.append(array).append(describe(arrays[a]));
         text += offsets
           ? " format=\"appended\" offset=\"" + std::to_string((*offsets)[a] - 8) + "\"/>\n"
           : "/>\n";
       }
     }
-    text += indent + "</" + prefix + name + ">\n";
+    text.append(end).append(name).append(">\n");
   }
   return text;
 }

@@ -110,6 +110,7 @@ namespace
 std::vector<char*> gdalOptions(std::vector<std::string>& options)
 {
   std::vector<char*> list;
+  list.reserve(options.size() + 1);
   for (std::string& option : options)
   {
     list.push_back(option.data());
