@@ -179,8 +179,8 @@ private:
   void decideWhoWaits()
   {
     using Waits = ReadyPartitions::Waits;
-    this->AllKeepers = this->Keepers;
-    sortUnique(this->AllKeepers);
+    this->DistinctKeepers = this->Keepers;
+    sortUnique(this->DistinctKeepers);
     this->InFlight.assign(std::size_t(this->Ranks.size()), 0);
     this->Ready = std::make_unique<ReadyPartitions>(*this->OwnOrder,
       this->hasBarriers() ? Waits::ForColour : Waits::ForEarlier, this->thoseOf(this->Keepers));
@@ -218,7 +218,7 @@ private:
     }
     if (this->hasBarriers())
     {
-      ranks.insert(ranks.end(), this->AllKeepers.begin(), this->AllKeepers.end());
+      ranks.insert(ranks.end(), this->DistinctKeepers.begin(), this->DistinctKeepers.end());
     }
     sortUnique(ranks);
     return ranks;
@@ -468,10 +468,10 @@ private:
   std::vector<BoundaryVertex> Artificial;
   std::unique_ptr<Regions> Boxes;
   std::unique_ptr<PartitionOrder> OwnOrder;
-  std::vector<std::int32_t> Keepers;        ///< by partition: the rank that keeps its inbox
-  std::vector<std::int32_t> AllKeepers;     ///< the different ranks in Keepers
-  std::unique_ptr<ReadyPartitions> Ready;   ///< partitions that this rank keeps
-  std::unique_ptr<ReadyPartitions> Started; ///< partitions that it owns; null: same as Ready
+  std::vector<std::int32_t> Keepers;         ///< by partition: the rank that keeps its inbox
+  std::vector<std::int32_t> DistinctKeepers; ///< the different ranks in Keepers
+  std::unique_ptr<ReadyPartitions> Ready;    ///< partitions that this rank keeps
+  std::unique_ptr<ReadyPartitions> Started;  ///< partitions that it owns; null: same as Ready
   FinalBoundary<std::int64_t> Boundary;
 
   // Used by masters only.

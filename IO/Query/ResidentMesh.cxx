@@ -271,14 +271,14 @@ const StoredArray* ResidentMesh::find(const std::string& name) const
 }
 
 const StoredArray* ResidentMesh::fieldOf(
-  const std::string& name, int component, bool orOfCells) const
+  const std::string& name, int component, bool allowsCells) const
 {
   if (this->Mesh.CellSize != 3)
   {
     this->refuse("has tetrahedra; ask this of a mesh of triangles.");
   }
   const StoredArray* const array = this->find(name);
-  if (array && !array->OfPoints && !orOfCells)
+  if (array && !array->OfPoints && !allowsCells)
   {
     this->refuse("has '" + name + "' at cells; this needs an array of points.");
   }

@@ -111,14 +111,15 @@ public:
   /// IOError if there is no such array.
   const StoredArray* find(const std::string& name) const;
   /// As find(). Throws IOError also if the mesh has tetrahedra, the array has no such component, or
-  /// the array is at the cells and `orOfCells` is false.
-  const StoredArray* fieldOf(const std::string& name, int component, bool orOfCells = false) const;
+  /// the array is at the cells and `allowsCells` is false.
+  const StoredArray* fieldOf(
+    const std::string& name, int component, bool allowsCells = false) const;
   /// Describes the arrays of these names, and the elevation like an array. Throws as find().
   std::vector<StoredArray> describe(const std::vector<std::string>& names) const;
 
   /// Locates points and evaluates arrays there. Reads the pieces that contain points, each once.
   /// Throws IOError, also for a name that is not in names(), and WorkAborted.
-  /// `pieceOf` may be what piecesOf() says of the points.
+  /// `pieceOf`: the result of piecesOf() for the points, if it is known.
   MeshAnswer answer(const Point3* points, std::int64_t count, const AnswerOptions& options = {},
     std::vector<std::int32_t> pieceOf = {}) const;
 
