@@ -80,7 +80,7 @@ private:
   std::size_t RecordBytes = 0;
 };
 
-/// A loader that reads files.
+/// The base of all loaders: the open files, and the number of threads (0: OpenMP's default).
 class FileLoader : public VertexLoader
 {
 protected:

@@ -379,31 +379,30 @@ std::vector<std::string> CheckReport::faults() const
       lines.push_back(std::to_string(count) + " " + fault);
     }
   };
-  const bool isFlat = !this->InSpace;
-  const std::string cells = isFlat ? "triangles" : "tetrahedra";
-  const std::string facets = isFlat ? "edges" : "facets";
+  const bool isPlanar = !this->InSpace;
+  const std::string cells = isPlanar ? "triangles" : "tetrahedra";
+  const std::string facets = isPlanar ? "edges" : "facets";
   add(this->BadIds, cells + " have a point that does not exist or is not finite");
-  add(this->BadTurns, cells + (isFlat ? " are clockwise or flat" : " are inverted or flat"));
+  add(this->BadTurns, cells + (isPlanar ? " are clockwise or flat" : " are inverted or flat"));
   add(this->BadFacets,
-    isFlat ? "edges are in three or more triangles or twice in one direction"
-           : "facets are in three or more tetrahedra, or in two on the same side");
-  add(this->BadSpheres,
-    (isFlat ? "edges" : "interior facets") + std::string(" are not locally Delaunay"));
+    isPlanar ? "edges are in three or more triangles or twice in one direction"
+             : "facets are in three or more tetrahedra, or in two on the same side");
+  add(this->BadSpheres, (isPlanar ? "" : "interior ") + facets + " are not locally Delaunay");
   add(this->BadTies, facets + " break a tie differently than the rule");
   add(this->UnusedPoints,
-    std::string("distinct points are in no ") + (isFlat ? "triangle" : "tetrahedron"));
+    std::string("distinct points are in no ") + (isPlanar ? "triangle" : "tetrahedron"));
   add(this->TwinVertices, "vertices have the coordinates of another vertex");
   add(this->BadHullEdges,
-    isFlat ? "boundary edges are not in one convex chain"
-           : "hull edges are where the hull is not closed or not convex");
+    isPlanar ? "boundary edges are not in one convex chain"
+             : "hull edges are where the hull is not closed or not convex");
   add(this->LostConstraints, "constraints are not chains of edges");
   add(this->OpenBoundary, "boundary edges are neither constraints nor edges of the convex hull");
-  add(isFlat ? 0 : this->EulerMismatch,
+  add(isPlanar ? 0 : this->EulerMismatch,
     "is the difference from Euler's formula for vertices, edges, facets and tetrahedra");
   add(this->BadNeighbors,
-    isFlat ? "edges have triangles that store wrong neighbours"
-           : "corners have a wrong tetrahedron in NeighborIds");
-  add(isFlat ? this->EulerMismatch : 0,
+    isPlanar ? "edges have triangles that store wrong neighbours"
+             : "corners have a wrong tetrahedron in NeighborIds");
+  add(isPlanar ? this->EulerMismatch : 0,
     "more triangles (negative: fewer) than Euler's formula gives");
   return lines;
 }
