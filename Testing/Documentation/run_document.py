@@ -31,7 +31,7 @@ SKIPPED = 77
 LIGHT = [
     (r"^sh Utilities/test\.sh$", r"sh Utilities/test.sh format"),
     (r"^sh Utilities/test\.sh build.*$", r"sh Utilities/test.sh format"),
-    (r"^sh Utilities/(build\.sh paraview|paraview\.sh .*|package\.sh .*)$", r"sh -n Utilities/build.sh"),
+    (r"^sh Utilities/(build\.sh (?:paraview|default .*)|paraview\.sh .*|package\.sh .*)$", r"sh -n Utilities/build.sh"),
     (r"^sh Utilities/test\.sh paraview$", r"sh Utilities/test.sh format"),
     (r"^(\w+=\S+ )*sh Utilities/benchmark\.sh.*$", r'for script in Utilities/benchmark.sh Utilities/benchmarks/*.sh; do sh -n "$script"; done'),
     (r"^(cmake --build --preset \S+)$", r"\1 -- -n"),
