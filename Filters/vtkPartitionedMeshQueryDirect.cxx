@@ -3,6 +3,7 @@
 
 #include "Query/Queries.h"
 #include "Query/QueryData.h"
+#include "Vtk/DataSets.h"
 
 #include "vtkCellData.h"
 #include "vtkDataSetAttributes.h"
@@ -33,6 +34,7 @@ std::vector<tipp::Zone> zonesOf(vtkPolyData* data)
   {
     throw std::runtime_error("there are no polygons.");
   }
+  tipp::checkDataSet(data, "the polygons");
   vtkDataArray* const ids = data->GetCellData()->GetArray("ZoneId");
   vtkDataArray* const holes = data->GetCellData()->GetArray("IsHole");
   const vtkIdType count = data->GetNumberOfCells();

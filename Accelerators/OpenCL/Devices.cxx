@@ -9,6 +9,7 @@ namespace tipp
 {
 
 AcceleratorError::~AcceleratorError() = default;
+UnknownDevice::~UnknownDevice() = default;
 
 DeviceChoice parseDeviceChoice(const std::string& text)
 {
@@ -45,7 +46,7 @@ DeviceChoice parseDeviceChoice(const std::string& text)
   }
   catch (const std::out_of_range&)
   {
-    throw AcceleratorError("There is no OpenCL device " + device + ".");
+    throw UnknownDevice("There is no OpenCL device " + device + ".");
   }
   return choice;
 }
@@ -65,7 +66,8 @@ std::string namesOf(const std::vector<DeviceDescription>& devices)
   std::string names;
   for (const DeviceDescription& device : devices)
   {
-    names += (names.empty() ? "" : ", ") + std::to_string(device.Index) + " '" + device.Name + "'";
+    names += (names.empty() ? "" : ", ") + std::to_string(device.Index) + " '" + device.Name + "'" +
+      (device.Platform.empty() ? "" : " of '" + device.Platform + "'");
   }
   return names;
 }
@@ -73,27 +75,33 @@ std::string namesOf(const std::vector<DeviceDescription>& devices)
 [[noreturn]] void failMissing(
   const std::string& wanted, const std::vector<DeviceDescription>& devices)
 {
-  throw AcceleratorError(
-    "There is no OpenCL device " + wanted + "; there are: " + namesOf(devices) + ".");
+  throw UnknownDevice("There is no OpenCL device " + wanted +
+    (devices.empty() ? ". " + noDeviceAdvice() : "; there are: " + namesOf(devices) + "."));
+}
+
+/// The first device with double precision, or else the first one, whose property contains `wanted`,
+/// which is in lower case; null if there is none.
+const DeviceDescription* deviceWith(const std::string& wanted,
+  std::string DeviceDescription::*property, const std::vector<DeviceDescription>& devices)
+{
+  const DeviceDescription* found = nullptr;
+  for (const DeviceDescription& device : devices)
+  {
+    const bool matches = lower(device.*property).find(wanted) != std::string::npos;
+    if (matches && (found == nullptr || (!found->Double && device.Double)))
+    {
+      found = &device;
+    }
+  }
+  return found;
 }
 
 const DeviceDescription& deviceNamed(
   const std::string& name, const std::vector<DeviceDescription>& devices)
 {
   const std::string wanted = lower(name);
-  const DeviceDescription* found = nullptr;
-  for (const DeviceDescription& device : devices)
-  {
-    if (lower(device.Name).find(wanted) == std::string::npos)
-    {
-      continue;
-    }
-    // Of several devices with matching names, take the first with double precision.
-    if (found == nullptr || (!found->Double && device.Double))
-    {
-      found = &device;
-    }
-  }
+  const DeviceDescription* found = deviceWith(wanted, &DeviceDescription::Name, devices);
+  found = found ? found : deviceWith(wanted, &DeviceDescription::Platform, devices);
   if (found == nullptr)
   {
     failMissing("named '" + name + "'", devices);
@@ -144,7 +152,7 @@ std::optional<DeviceDescription> chooseDevice(
     const DeviceDescription* gpu = firstWithDouble(devices, true);
     return gpu != nullptr ? std::optional<DeviceDescription>(*gpu) : std::nullopt;
   }
-  if (devices.empty())
+  if (devices.empty() && choice.Index < 0 && choice.Name.empty())
   {
     throw AcceleratorError(noDeviceAdvice());
   }

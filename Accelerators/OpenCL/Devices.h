@@ -22,6 +22,15 @@ public:
   ~AcceleratorError() override;
 };
 
+/// Thrown if no device has the index or the name that the user chose. Nothing else should do the
+/// work then, because the user asked for this device.
+class VTKTIPPACCELERATORS_EXPORT UnknownDevice : public AcceleratorError
+{
+public:
+  using AcceleratorError::AcceleratorError;
+  ~UnknownDevice() override;
+};
+
 /// The back end of a computation over flat arrays.
 enum class Device
 {
@@ -36,8 +45,9 @@ struct DeviceChoice
   Device Kind = Device::Auto;
   /// With OpenCL: the device's index in listDevices(), or -1.
   int Index = -1;
-  /// With OpenCL and no Index: a substring of the device's name, ignoring case; empty for the first
-  /// GPU with double precision, or else the first device with it.
+  /// With OpenCL and no Index: a substring of the device's name or, if no device has such a name,
+  /// of its platform's, ignoring case; empty for the first GPU with double precision, or else the
+  /// first device with it.
   std::string Name;
   /// With OpenCL: use a CPU device like a graphics card, with copies of all data and small work
   /// items. Slower; for testing the code paths of GPUs on machines without one.
@@ -74,9 +84,9 @@ VTKTIPPACCELERATORS_EXPORT const std::vector<DeviceDescription>& listDevices();
 /// A sentence for users of a machine without OpenCL devices: what is missing and what to do.
 VTKTIPPACCELERATORS_EXPORT std::string noDeviceAdvice();
 
-/// The chosen device among `devices`; nullopt if OpenMP is to be used. Throws AcceleratorError,
-/// which lists the available devices, if the chosen device is missing or has no double precision.
-/// Auto never throws.
+/// The chosen device among `devices`; nullopt if OpenMP is to be used. Throws UnknownDevice, which
+/// lists the available devices, if none has the chosen index or name, and AcceleratorError if there
+/// is no device at all, or the chosen one has no double precision. Auto never throws.
 VTKTIPPACCELERATORS_EXPORT std::optional<DeviceDescription> chooseDevice(
   const DeviceChoice& choice, const std::vector<DeviceDescription>& devices);
 

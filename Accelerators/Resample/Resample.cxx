@@ -429,6 +429,10 @@ private:
     {
       work();
     }
+    catch (const UnknownDevice&)
+    {
+      throw;
+    }
     catch (const AcceleratorError& error)
     {
       this->Device = nullptr;

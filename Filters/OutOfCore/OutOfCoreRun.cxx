@@ -7,6 +7,7 @@
 #include "OutOfCore/PieceRun.h"
 #include "Partitioned/FinishedPieces.h"
 #include "Partitioned/PieceFile.h"
+#include "Partitioned/PieceFormat.h"
 
 #include <algorithm>
 
@@ -162,6 +163,12 @@ void describeColumns(const std::vector<std::string>& columns, std::size_t elevat
   {
     mesh.Arrays.push_back(neighborIdsArray);
     mesh.Arrays.back().Components = mesh.CellSize;
+  }
+  const std::string name = mesh.Path.empty() ? "" : repeatedName(mesh.Arrays); // else not written
+  if (!name.empty())
+  {
+    throw IOError("The input has two columns named " + name +
+      ", or one named as the mesh names an array of its own; rename it, or leave it out.");
   }
 }
 

@@ -240,7 +240,7 @@ private:
 
 /// Sets the layout of the points' rows, and the arrays of a mesh of triangles or tetrahedra.
 /// `elevation`: index of the column with the third coordinate; the number of columns if there is
-/// none.
+/// none. Throws IOError if two arrays would have one name.
 void describeColumns(const std::vector<std::string>& columns, std::size_t elevation,
   const OutOfCoreRunOptions& options, PointRowLayout& rows, PartitionedMesh& mesh);
 

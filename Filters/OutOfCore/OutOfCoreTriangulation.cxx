@@ -49,6 +49,7 @@ public:
     : OutOfCoreRun(points, path, options, identityOf(points, options), ranks)
     , Setup(options)
   {
+    options.CountOnly ? void() : requireFolderName(path);
     this->Setup.Mesh.Path = options.CountOnly ? "" : this->Pending.temporaryPath();
     this->Setup.Results = this->Scratch.results();
   }
@@ -93,6 +94,7 @@ private:
   {
     this->Record.keep(false);
     this->Scratch.clear();
+    this->Setup.describeColumns(this->Input.columns(), this->Options);
     auto* const segments = dynamic_cast<SegmentSource*>(&this->Input);
     this->Memory = std::make_unique<MemoryPlan>(
       this->Options, 3 + this->Input.columns().size(), segments != nullptr);
@@ -108,7 +110,6 @@ private:
         })).survey();
     this->Statistics.LeftOut = this->Input.leftOut();
     this->Statistics.ThinnedOut = this->Input.thinnedOut();
-    this->Setup.describeColumns(this->Input.columns(), this->Options);
     const std::size_t words = this->Setup.Rows.Words;
     requireElevation(this->Options.Duplicates, this->Input.columns());
     if (survey.Points == survey.Rejected)

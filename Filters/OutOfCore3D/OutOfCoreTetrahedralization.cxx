@@ -41,6 +41,7 @@ public:
     : OutOfCoreRun(points, path, options, identityOf(points, options))
     , Memory(options.MemoryLimit, options.PiecePoints, 3 + points.columns().size())
   {
+    requireFolderName(path);
   }
 
   OutOfCoreStatistics3 run()

@@ -9,6 +9,7 @@
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkDataObject.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
@@ -291,24 +292,12 @@ std::vector<Attribute> SampledImage::attributesOf(vtkPointSet* mesh)
 /// The mesh's array to sample into `array`, or null if it has none of a suitable type.
 vtkDataArray* SampledImage::valuesOf(vtkPointSet* mesh, const Array& array)
 {
-  vtkDataSetAttributes* data = mesh->GetPointData();
-  vtkIdType tuples = mesh->GetNumberOfPoints();
-  if (array.OfCells)
-  {
-    data = mesh->GetCellData();
-    tuples = mesh->GetNumberOfCells();
-  }
+  vtkDataSetAttributes* const data =
+    mesh->GetAttributes(array.OfCells ? vtkDataObject::CELL : vtkDataObject::POINT);
   vtkDataArray* const values = data->GetArray(array.Name.c_str());
   if (!values ||
     !this->accepts(array, array.OfCells, values->GetDataType(), values->GetNumberOfComponents()))
   {
-    return nullptr;
-  }
-  if (values->GetNumberOfTuples() < tuples)
-  {
-    this->warnOnce("The array '" + array.Name + "' has " +
-      std::to_string(values->GetNumberOfTuples()) + " values for " + std::to_string(tuples) +
-      (array.OfCells ? " cells" : " points") + "; where it does, it is null.");
     return nullptr;
   }
   this->Values.push_back(contiguous(values));
@@ -359,7 +348,6 @@ void SampledImage::hideNoData(vtkPointSet* mesh, SimplexSet& simplices)
   {
     vtkDataArray* const array = data->GetArray(i);
     if (array && array->GetName() && scalarOf(array->GetDataType()) &&
-      array->GetNumberOfTuples() >= mesh->GetNumberOfPoints() &&
       this->Settings.Selected(false, array->GetName()))
     {
       markEqual(contiguous(array), *this->Settings.NoData, marked);

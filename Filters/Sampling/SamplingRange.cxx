@@ -119,7 +119,7 @@ std::vector<vtkPointSet*> meshesOf(vtkDataObject* data, int threads)
       throw std::runtime_error(std::string("a ") + leaf->GetClassName() +
         " is no mesh with points and cells of its own: convert it to a vtkUnstructuredGrid.");
     }
-    checkCells(mesh, "the input", threads);
+    checkDataSet(mesh, "the input", threads);
     meshes.push_back(mesh);
   };
   auto* composite = vtkCompositeDataSet::SafeDownCast(data);

@@ -56,7 +56,7 @@ std::array<T, N> toArray(const T (&values)[N])
 }
 
 /// Returns the meshes of a data object: itself, or its leaves in order. Throws std::runtime_error
-/// if one is not a vtkPointSet or fails checkCells().
+/// if one is not a vtkPointSet or fails checkDataSet().
 std::vector<vtkPointSet*> meshesOf(vtkDataObject* data, int threads);
 
 /// Returns `dimensions` with each 0 replaced as in SamplingLattice.h; the meshes of all ranks tell

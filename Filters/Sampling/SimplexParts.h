@@ -38,7 +38,7 @@ struct SimplexParts
   vtkSmartPointer<vtkDataArray> Coordinates; ///< float or double
 };
 
-/// Returns the simplices of a mesh that has passed checkCells(). Hexahedra, voxels, wedges,
+/// Returns the simplices of a mesh that has passed checkDataSet(). Hexahedra, voxels, wedges,
 /// pyramids, quads and pixels are cut from their lexicographically least corners, so that
 /// neighbours agree and neither order nor ids matter; other types are cut by VTK. Cells that
 /// vtkGhostType hides are left out, and so are cells with a corner that is NaN or infinite along an

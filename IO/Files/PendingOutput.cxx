@@ -2,6 +2,7 @@
 #include "Files/PendingOutput.h"
 
 #include "Files/IOError.h"
+#include "Files/InputFile.h"
 #include "Files/OutputFile.h"
 #include "Files/TemporaryFiles.h"
 
@@ -11,6 +12,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -256,6 +258,19 @@ namespace
 constexpr const char* suffix = "XXXXXX"; // mkdtemp() replaces the letters by random ones
 
 } // namespace
+
+void requireFolderName(const std::string& path)
+{
+  static const std::set<std::string> formats{ ".14", ".csv", ".npy", ".npz", ".obj", ".ply",
+    ".pvtp", ".pvtu", ".stl", ".txt", ".vtk", ".vtkhdf", ".vtm", ".vtp", ".vtu" };
+  const std::string extension = extensionOf(path);
+  if (formats.count(extension) > 0)
+  {
+    throw IOError(path,
+      "would be a folder, though its name ends like a file's; give a name without " + extension +
+        ", such as NAME.tipp.");
+  }
+}
 
 PendingFolder::PendingFolder(const std::string& path, const Replaceable* replaceable)
   : PendingFolder(path, replaceable, false)

@@ -59,6 +59,10 @@ private:
   std::optional<OutputFile> File; ///< locked while it is open
 };
 
+/// Throws IOError if an output folder's name ends like that of a mesh's or a table's file, such as
+/// "mesh.vtu": programs would take the folder for a file of this format.
+VTKTIPPIO_EXPORT void requireFolderName(const std::string& path);
+
 /// The condition under which an existing folder may be replaced.
 struct Replaceable
 {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <climits>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
@@ -392,7 +393,14 @@ bool writeData(const std::string& folder, const std::vector<FlatArray>& arrays,
     {
       return false;
     }
-    const std::string path = folder + "/" + arrayFileName(array.Name) + ".npy";
+    const std::string name = arrayFileName(array.Name) + ".npy";
+    if (name.size() > NAME_MAX)
+    {
+      throw IOError("The array '" + array.Name.substr(0, 40) + "...' needs a file name of " +
+        std::to_string(name.size()) + " bytes, more than " + std::to_string(NAME_MAX) +
+        "; give it a shorter name.");
+    }
+    const std::string path = folder + "/" + name;
     if (array.Name.empty() || std::filesystem::exists(path))
     {
       throw IOError(folder,
@@ -433,6 +441,7 @@ bool isFlatMesh(const std::string& path)
 bool writeFlatMesh(
   const std::string& path, const FlatContent& content, const std::function<bool()>& aborted)
 {
+  requireFolderName(path);
   PendingFolder folder(path);
   const std::string& in = folder.temporaryPath();
   writeCells(in + "/cells.npy", content);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -359,6 +360,16 @@ const char* const pieceFooter = "\n  </AppendedData>\n</VTKFile>\n";
 std::string storedName(const StoredArray& array)
 {
   return array.Step < 0 ? array.Name : array.Name + " step " + std::to_string(array.Step);
+}
+
+std::string repeatedName(const std::vector<StoredArray>& arrays)
+{
+  std::set<std::pair<bool, std::string>> names{ { true, pointIdsName }, { true, ghostsName },
+    { false, cellIdsName }, { false, ghostsName } };
+  const auto found = std::find_if(arrays.begin(), arrays.end(),
+    [&](const StoredArray& array)
+    { return !names.emplace(array.OfPoints, storedName(array)).second; });
+  return found == arrays.end() ? "" : storedName(*found);
 }
 
 bool hasWideIds(const PartitionedMesh& mesh, const PieceSummary& piece)

@@ -107,6 +107,10 @@ extern const char* const ghostsName;
 /// again for each step that it reads.
 std::string storedName(const StoredArray& array);
 
+/// The first stored name that two arrays of points, or two of cells, have, or that every piece uses
+/// for an array of its own. Empty if all names differ.
+VTKTIPPIO_EXPORT std::string repeatedName(const std::vector<StoredArray>& arrays);
+
 /// Whether the piece's local ids need 64 bits: a point index or the length of the connectivity
 /// exceeds 31 bits.
 bool hasWideIds(const PartitionedMesh& mesh, const PieceSummary& piece);

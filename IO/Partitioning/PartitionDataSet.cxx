@@ -124,6 +124,7 @@ PartitionStatistics partitionInput(const std::string& input, const std::string& 
       if (ranks.isFirst())
       {
         requireApart({ output }, { input });
+        requireFolderName(output);
         // fails early if the output cannot be written
         const PendingFolder writable(output, &replaceableMesh);
       }

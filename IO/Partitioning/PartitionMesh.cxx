@@ -20,7 +20,6 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,18 +32,9 @@ namespace fs = std::filesystem;
 std::vector<RawArray> describeArrays(const FlatMesh& mesh, PartitionedMesh& result)
 {
   std::vector<RawArray> arrays;
-  std::set<std::pair<bool, std::string>> names{ { true, pointIdsName }, { true, ghostsName },
-    { false, cellIdsName }, { false, ghostsName } };
   const auto add = [&](const RawArray& array, bool ofPoints, int step)
   {
-    const StoredArray stored{ array.Name, ofPoints, array.Type, array.Components, step };
-    if (!names.emplace(ofPoints, storedName(stored)).second)
-    {
-      throw IOError(mesh.Path,
-        "has two arrays named " + storedName(stored) +
-          ", or one named as the partitioned mesh names its own; rename it.");
-    }
-    result.Arrays.push_back(stored);
+    result.Arrays.push_back({ array.Name, ofPoints, array.Type, array.Components, step });
     arrays.push_back(array);
   };
   for (const bool ofPoints : { true, false })
@@ -60,6 +50,12 @@ std::vector<RawArray> describeArrays(const FlatMesh& mesh, PartitionedMesh& resu
         add(series[step], ofPoints, int(step));
       }
     }
+  }
+  if (const std::string name = repeatedName(result.Arrays); !name.empty())
+  {
+    throw IOError(mesh.Path,
+      "has two arrays named " + name +
+        ", or one named as the partitioned mesh names its own; rename it.");
   }
   return arrays;
 }
@@ -256,6 +252,7 @@ std::unique_ptr<PendingFolder> makeFolder(const std::string& output, Communicato
     {
       if (ranks.isFirst())
       {
+        requireFolderName(output);
         folder = std::make_unique<PendingFolder>(output, &replaceableMesh);
       }
     });

@@ -86,6 +86,7 @@ int runFlatten(const FlattenArguments& arguments)
     std::vector<std::string> inputs = arguments.Values;
     inputs.push_back(arguments.Input);
     requireApart({ arguments.Output }, inputs);
+    requireFolderName(arguments.Output);
     const PendingFolder writable(arguments.Output);
   }
   if (isAdcircFile(arguments.Input))
@@ -286,7 +287,8 @@ void addOptions(CLI::App& command, PartitionArguments& arguments)
     "auto: chosen automatically");
   command
     .add_option("--device", arguments.Device,
-      "The device that classifies cells at borders: openmp, opencl, opencl:NAME or auto")
+      "The device that classifies cells at borders: auto, openmp, opencl, opencl:INDEX or "
+      "opencl:NAME")
     ->capture_default_str();
   addThreadsOption(command, arguments.Threads);
   command.add_option("--stats", arguments.Statistics, "A JSON file for figures of the run");

@@ -202,7 +202,8 @@ namespace
 constexpr const char* devicesFooter =
   R"(One line per device: INDEX; CPU, GPU or other; memory; whether it has the double
 precision that resampling needs; NAME; and the driver. The option --device of other
-commands accepts opencl:INDEX or opencl:NAME, where NAME is any part of the name.
+commands accepts opencl:INDEX or opencl:NAME, where NAME is any part of the name
+or of the driver's name.
 
 Example:
   tipp devices

@@ -7,6 +7,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -21,19 +23,21 @@ namespace tipp
 
 std::optional<std::uint64_t> parseMemorySize(const std::string& text)
 {
-  std::uint64_t number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
-  const std::string unit(stop, end);
-  const std::size_t power = std::string("KMG").find(unit);
-  const bool known = unit.empty() || (unit.size() == 1 && power != std::string::npos);
-  if (error != std::errc() || !known || number == 0)
+  static const std::map<std::string, int> powers{ { "", 0 }, { "b", 0 }, { "k", 10 }, { "kb", 10 },
+    { "kib", 10 }, { "m", 20 }, { "mb", 20 }, { "mib", 20 }, { "g", 30 }, { "gb", 30 },
+    { "gib", 30 }, { "t", 40 }, { "tb", 40 }, { "tib", 40 } };
+  const std::size_t end = std::min(text.find_first_not_of("0123456789."), text.size());
+  std::string unit = text.substr(std::min(text.find_first_not_of(' ', end), text.size()));
+  std::transform(unit.begin(), unit.end(), unit.begin(),
+    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto power = powers.find(unit);
+  const auto number = wholeNumber<long double>(text.substr(0, end)); // holds 64 bits exactly
+  if (power == powers.end() || !number)
   {
     return std::nullopt;
   }
-  const unsigned shift = unit.empty() ? 0 : 10 * (unsigned(power) + 1);
-  return number <= (~std::uint64_t(0) >> shift) ? std::make_optional(number << shift)
-                                                : std::nullopt;
+  const long double bytes = std::ldexp(*number, power->second);
+  return bytes >= 1 && bytes < 0x1p64L ? std::make_optional(std::uint64_t(bytes)) : std::nullopt;
 }
 
 std::string checkPositive(const std::string& text)

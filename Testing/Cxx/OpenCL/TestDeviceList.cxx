@@ -85,6 +85,17 @@ TEST(DeviceList, ADeviceIsChosenByAPartOfItsNameInAnyCase)
   EXPECT_EQ(chosen(openCl(-1, "DESKTOP"), someDevices()), 3);
 }
 
+TEST(DeviceList, ADeviceIsChosenByAPartOfItsPlatformsNameIfNoDeviceHasThatName)
+{
+  std::vector<DeviceDescription> devices = someDevices();
+  devices[1].Platform = "Intel(R) OpenCL";
+  devices[3].Platform = "Portable Computing Language";
+  EXPECT_EQ(chosen(openCl(-1, "intel"), devices), 1);
+  EXPECT_EQ(chosen(openCl(-1, "portable"), devices), 3);
+  devices[3].Name = "Intel(R) Arc";
+  EXPECT_EQ(chosen(openCl(-1, "intel"), devices), 3);
+}
+
 TEST(DeviceList, OfEqualNamesTheFirstDeviceWithDoublePrecisionIsChosen)
 {
   EXPECT_EQ(chosen(openCl(-1, "processor"), someDevices()), 1);
@@ -97,6 +108,10 @@ TEST(DeviceList, AMissingDeviceIsAnErrorThatNamesTheOthers)
     "There is no OpenCL device 4; there are: 0 'Small Processor', 1 'Large Processor'");
   expectAcceleratorError([] { chooseDevice(openCl(-1, "Quantum"), someDevices()); },
     "There is no OpenCL device named 'Quantum'; there are: 0 'Small Processor'");
+  std::vector<DeviceDescription> devices = someDevices();
+  devices[0].Platform = "Intel(R) OpenCL";
+  expectAcceleratorError([&] { chooseDevice(openCl(-1, "Quantum"), devices); },
+    "there are: 0 'Small Processor' of 'Intel(R) OpenCL', 1");
 }
 
 TEST(DeviceList, ADeviceWithoutDoublePrecisionIsAnError)
@@ -112,6 +127,9 @@ TEST(DeviceList, AMachineWithoutDevicesIsAnErrorThatSaysWhatToInstall)
 {
   expectAcceleratorError(
     [] { chooseDevice(openCl(-1, ""), {}); }, "This machine has no OpenCL device");
+  expectAcceleratorError([] { chooseDevice(openCl(-1, "intel"), {}); },
+    "There is no OpenCL device named 'intel'. This machine has no OpenCL device");
+  EXPECT_THROW(chooseDevice(openCl(0, ""), {}), tipp::UnknownDevice);
 }
 
 TEST(DeviceList, ChoicesAreTheUsableDevices)

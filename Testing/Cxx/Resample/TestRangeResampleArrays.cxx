@@ -18,6 +18,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace
@@ -210,22 +211,25 @@ TEST(RangeResampleArrays, WithoutStandardLayoutSupportNoData)
   EXPECT_FALSE(isValid(filter->GetOutput(), 0));
 }
 
-TEST(RangeResampleArrays, OfTooFewValuesAreNullWithAWarning)
+TEST(RangeResampleArrays, OfTooFewValuesAreRefusedByName)
 {
-  const auto grid = gridOf(jitteredScene(2, 6, 1));
-  addArray<vtkDoubleArray>(grid->GetPointData(), "short", 3);
-  addArray<vtkDoubleArray>(grid->GetCellData(), "few", 3);
-  const auto filter = unitFilter(2, 9);
-  filter->SetInputData(grid);
-  filter->UseNoDataValueOn();
-  filter->SetNullValue(7);
-  const std::string text = warningsOf(filter);
-  EXPECT_NE(text.find("'short' has 3 values for 49 points"), std::string::npos) << text;
-  EXPECT_NE(text.find("'few' has 3 values for 72 cells"), std::string::npos) << text;
-  for (const char* name : { "short", "few" })
+  const auto refused = [](const std::function<void(vtkPointSet*)>& addTo)
   {
-    EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray(name)->GetTuple1(40), 7);
-  }
+    const auto grid = gridOf(jitteredScene(2, 6, 1));
+    addTo(grid);
+    const auto filter = unitFilter(2, 9);
+    filter->SetInputData(grid);
+    vtkNew<tipp::test::MessageCounter> errors;
+    filter->AddObserver(vtkCommand::ErrorEvent, errors);
+    filter->Update();
+    return errors->Text;
+  };
+  const std::string ofPoints =
+    refused([](vtkPointSet* grid) { addArray<vtkDoubleArray>(grid->GetPointData(), "short", 3); });
+  EXPECT_NE(ofPoints.find("'short' has 3 values for 49 points"), std::string::npos) << ofPoints;
+  const std::string ofCells = refused(
+    [](vtkPointSet* grid) { addArray<vtkUnsignedCharArray>(grid->GetCellData(), "few", 3); });
+  EXPECT_NE(ofCells.find("'few' has 3 values for 72 cells"), std::string::npos) << ofCells;
 }
 
 TEST(RangeResampleArrays, OfEqualTypesWithDifferentNamesAreCombined)

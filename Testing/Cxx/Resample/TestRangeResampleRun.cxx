@@ -197,6 +197,19 @@ TEST(RangeResampleRun, ADeviceChoiceSetsTheThreeProperties)
   EXPECT_EQ(filter->GetDevice(), vtkRangeResampleFilter::DEVICE_OPENMP);
 }
 
+TEST(RangeResampleRun, ADeviceThatNoNameMatchesIsAnError)
+{
+  const auto filter = unitFilter(2, 5);
+  filter->SetInputData(gridOf(regularScene(2, 2)));
+  filter->SetDeviceChoice("opencl:no such device");
+  vtkNew<tipp::test::MessageCounter> errors;
+  filter->AddObserver(vtkCommand::ErrorEvent, errors);
+  filter->Update();
+  EXPECT_NE(
+    errors->Text.find("There is no OpenCL device named 'no such device'"), std::string::npos)
+    << errors->Text;
+}
+
 TEST(RangeResampleRun, TheFirstDeviceChoicesNeedNoDevice)
 {
   vtkNew<vtkRangeResampleFilter> filter;

@@ -68,6 +68,25 @@ TEST_F(TippOutOfCore, MakesTheFilesOfTheVtkClass)
   EXPECT_TRUE(filesOf(this->Mesh) == filesOf(other));
 }
 
+TEST_F(TippOutOfCore, AColumnNamedAsAnArrayOfTheMeshIsRefusedAndLeavesNothing)
+{
+  const auto run = [this](const std::string& column, const std::vector<std::string>& more)
+  {
+    this->Folder.file("named.csv", "x,y," + column + "\n0,0,1\n1,0,2\n0,1,3\n");
+    std::vector<std::string> words{ "delaunay", "named.csv", "-o", "named.tipp" };
+    words.insert(words.end(), more.begin(), more.end());
+    return runTipp(this->Folder, words);
+  };
+  for (const std::string column : { "RepresentativePointId", "GlobalPointIds", "vtkGhostType" })
+  {
+    const Outcome outcome = run(column, { "--map-duplicates" });
+    EXPECT_EQ(1, outcome.ExitCode);
+    EXPECT_NE(std::string::npos, outcome.Err.find("two columns named " + column)) << outcome.Err;
+    EXPECT_FALSE(std::filesystem::exists(this->Folder.path(".named.tipp.part")));
+  }
+  EXPECT_EQ(0, run("RepresentativePointId", {}).ExitCode);
+}
+
 TEST_F(TippOutOfCore, ChecksAgainstTheRightPointsOnly)
 {
   this->makePoints("clustered", "3000");

@@ -113,6 +113,26 @@ TEST_F(TippPartition, RefusesAFlatMeshWithReservedArrayNames)
   EXPECT_NE(std::string::npos, outcome.Err.find("rename it")) << outcome.Err;
 }
 
+TEST_F(TippPartition, MemoryMayHaveAnyUnitAndABlank)
+{
+  for (const char* memory : { "1 GB", "1.5G", "64 MiB", "64mb", "65536kB", "67108864 B", "1T" })
+  {
+    EXPECT_EQ(0, this->run({ "--memory", memory }).ExitCode) << memory;
+  }
+  for (const char* memory : { "1 Gib GB", "1 G B", "GB", "0.0001", "-1G", "1e9", "1.5.2G", "5iB" })
+  {
+    EXPECT_EQ(2, this->run({ "--memory", memory }).ExitCode) << memory;
+  }
+}
+
+TEST_F(TippPartition, RefusesAnOutputThatIsNamedLikeAFile)
+{
+  const Outcome outcome = runTipp(this->Folder, { "partition", "flat", "-o", "again.vtu" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("again.vtu: would be a folder")) << outcome.Err;
+  EXPECT_FALSE(fs::exists(this->Folder.path("again.vtu")));
+}
+
 TEST_F(TippPartition, RefusesWrongUsage)
 {
   EXPECT_EQ(2, this->run({ "--tiling", "hexagons:4" }).ExitCode);

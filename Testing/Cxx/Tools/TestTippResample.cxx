@@ -77,6 +77,19 @@ TEST_F(TippFlatten, KeepsAFolderOfOthers)
   EXPECT_FALSE(this->exists("flat/cells.npy"));
 }
 
+TEST_F(TippFlatten, RefusesAnArrayNameThatNoFileCanHave)
+{
+  const std::string name(300, 'n');
+  this->Folder.file("long.csv", "x,y," + name + "\n0,0,1\n1,0,2\n0,1,3\n");
+  ASSERT_EQ(0, this->run({ "delaunay", "long.csv", "-o", "long.vtu" }).ExitCode);
+  const Outcome outcome = this->run({ "flatten", "long.vtu", "-o", "flat" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_EQ("tipp: The array '" + name.substr(0, 40) +
+      "...' needs a file name of 304 bytes, more than 255; give it a shorter name.\n",
+    outcome.Err);
+  EXPECT_FALSE(this->exists("flat"));
+}
+
 TEST_F(TippFlatten, RefusesValuesWithoutAGrid)
 {
   EXPECT_EQ(2, this->run({ "flatten", "mesh.vtu", "-o", "flat", "--values", "fort.63" }).ExitCode);
