@@ -325,9 +325,11 @@ void RasterSink::take(const std::string& name, const double* rows, const PointRo
   const auto copyWord =
     [&](std::size_t word, std::vector<double>& to, std::size_t first, std::size_t stride)
   {
+    const bool isHeight = bands.Elevation && word == 2 + *bands.Elevation;
     for (std::size_t i = 0; i < points; ++i)
     {
-      to[first + i * stride] = rows[i * layout.Words + word];
+      const double value = rows[i * layout.Words + word];
+      to[first + i * stride] = isHeight ? heightOf(value) : value;
     }
   };
   part.XYZ.resize(3 * points);

@@ -22,6 +22,11 @@ namespace tipp
 namespace
 {
 
+void dropInfinite(std::vector<double>& heights)
+{
+  std::transform(heights.begin(), heights.end(), heights.begin(), heightOf);
+}
+
 /// Returns x, y and elevation interleaved, and frees the table's x and y.
 std::vector<double> takeXYZ(PointTable& points, const DemBands& bands)
 {
@@ -167,6 +172,7 @@ void constrain(DemRequest& request, std::optional<ConstraintTable> lines,
   {
     lines->PolygonBegin = lines->Edges.size();
     lines->Holes.clear();
+    dropInfinite(lines->Height);
     constraints.Lines = std::move(*lines);
   }
   if (boundary)
@@ -237,6 +243,10 @@ OutOfCoreStatistics makeDem(PointTable points, const DemRequest& request,
   }
   figures.DisagreeingPositions =
     resolveDuplicates(points, triangulation.Duplicates, request.Duplicates);
+  if (settings.Bands.Elevation)
+  {
+    dropInfinite(points.Columns[*settings.Bands.Elevation].Values);
+  }
   const std::vector<double> xyz = takeXYZ(points, settings.Bands);
   TerrainColumns values;
   for (const PointTable::Column& column : points.Columns)

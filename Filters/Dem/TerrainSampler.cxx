@@ -19,6 +19,7 @@ namespace
 {
 
 constexpr const char* elevation = "elevation";
+constexpr double noValue = std::numeric_limits<double>::quiet_NaN();
 
 const std::map<std::string, DemBand::Kind>& derivedKinds()
 {
@@ -98,6 +99,11 @@ std::vector<std::string> DemBands::names() const
   return names;
 }
 
+double heightOf(double z)
+{
+  return std::isfinite(z) ? z : noValue;
+}
+
 void fillVoids(const DemBands& bands, BandValues& values)
 {
   for (std::size_t i = 0; i < bands.Bands.size(); ++i)
@@ -112,8 +118,6 @@ void fillVoids(const DemBands& bands, BandValues& values)
 
 namespace
 {
-
-constexpr double noValue = std::numeric_limits<double>::quiet_NaN();
 
 /// The x, y and z of a triangle's corners.
 using Corners = std::array<std::array<double, 3>, 3>;
@@ -151,7 +155,7 @@ double shade(const Gradient& gradient)
   constexpr double z = 0.70710678118654752440;
   const double length = std::sqrt(1 + gradient.X * gradient.X + gradient.Y * gradient.Y);
   const double light = (z - gradient.X * x - gradient.Y * y) / length;
-  return 1 + 254 * std::max(0.0, light);
+  return 1 + 254 * (light < 0 ? 0 : light); // NaN stays NaN
 }
 
 double degrees(double radians)

@@ -64,6 +64,9 @@ public:
 VTKTIPPFILTERS_EXPORT DemBands findBands(
   const std::vector<std::string>& bands, const std::vector<std::string>& columns);
 
+/// Returns the elevation of a point with this z: NaN, which means none, unless it is finite.
+double heightOf(double z);
+
 /// Sets the values of Kind::Void bands to 1 where there is no triangle; they are NaN there before.
 void fillVoids(const DemBands& bands, BandValues& values);
 

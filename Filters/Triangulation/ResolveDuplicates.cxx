@@ -37,14 +37,14 @@ bool disagrees(const Group& group, const std::vector<ValueColumn>& columns, std:
         [&](const ValueColumn& column) { return disagrees(group, column); });
 }
 
-/// Returns the first point with the least value times `sign`; NaN compares greater than all
-/// numbers.
+/// Returns the first point with the least value times `sign`; values that are not finite compare
+/// greater than all others.
 std::int64_t findLeast(const Group& group, const ValueColumn& column, double sign)
 {
   const auto valueOf = [&](std::int64_t point)
   {
     const double value = sign * column[point];
-    return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
+    return std::isfinite(value) ? value : std::numeric_limits<double>::infinity();
   };
   return *std::min_element(group.begin(), group.end(),
     [&](std::int64_t a, std::int64_t b) { return valueOf(a) < valueOf(b); });
@@ -57,8 +57,8 @@ double meanOf(const Group& group, const ValueColumn& column)
   for (const std::int64_t point : group)
   {
     const double value = column[point];
-    sum += std::isnan(value) ? 0 : value;
-    count += std::isnan(value) ? 0 : 1;
+    sum += std::isfinite(value) ? value : 0;
+    count += std::isfinite(value) ? 1 : 0;
   }
   return sum / double(count); // NaN if there is none
 }

@@ -20,7 +20,7 @@ enum class DuplicateRule
   First,   ///< the values of the first point
   Lowest,  ///< the values of the first point that is lowest in the column found by findRankColumn()
   Highest, ///< the values of the first point that is highest in it
-  Mean     ///< the mean of each column, ignoring NaN
+  Mean     ///< the mean of each column, ignoring values that are not finite
 };
 
 /// Throws IOError if the rule needs the column of findRankColumn() and there is none.

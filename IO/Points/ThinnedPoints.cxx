@@ -258,7 +258,7 @@ private:
     else
     {
       const double z = block.Columns[this->Elevation][i];
-      rank = std::isnan(z)                          ? std::numeric_limits<double>::infinity()
+      rank = !std::isfinite(z)                      ? std::numeric_limits<double>::infinity()
         : this->Rule.Keep == Thinning::Rule::Lowest ? z
                                                     : -z;
     }

@@ -248,6 +248,58 @@ TEST_F(TippDem, CountsPointsWithoutElevation)
   }
 }
 
+TEST_F(TippDem, InfiniteHeightsAreMissingHeights)
+{
+  // Some points coincide, so that the rules for duplicates and thinning meet missing heights too.
+  const auto write = [this](const char* name, const char* high, const char* low)
+  {
+    std::ofstream csv(this->Folder.path(name));
+    csv << "x,y,z\n0,0,1\n20,0,2\n0,20,3\n20,20,4\n5,5,7\n5,5," << high << "\n15,5," << low
+        << "\n15,5,2\n12,14," << high << "\n3,15," << low << "\n";
+  };
+  write("nan.csv", "nan", "nan");
+  write("inf.csv", "inf", "-inf");
+  this->Folder.file("inf-lines.csv", "1,1,inf,9,2,8\n");
+  this->Folder.file("nan-lines.csv", "1,1,nan,9,2,8\n");
+  const Words bands = { "--resolution", "1", "--attributes",
+    "elevation,slope,aspect,hillshade,density,void" };
+  for (const Words& choice : { Words{}, Words{ "--duplicates", "max" },
+         Words{ "--duplicates", "min" }, Words{ "--duplicates", "mean" },
+         Words{ "--thin", "6:max" }, Words{ "--thin", "6:min" }, Words{ "--breaklines" } })
+  {
+    for (const Words& memory : { Words{}, Words{ "--memory", "8M" } })
+    {
+      const auto make = [&](const std::string& kind)
+      {
+        Words words{ "dem", kind + ".csv", "-o", kind + ".npy" };
+        for (const Words* const more : { &bands, &memory, &choice })
+        {
+          words.insert(words.end(), more->begin(), more->end());
+        }
+        words.insert(words.end(), choice.size() == 1, kind + "-lines.csv");
+        const Outcome outcome = this->run(words);
+        EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
+      };
+      make("nan");
+      make("inf");
+      EXPECT_EQ(this->content("nan.npy"), this->content("inf.npy"))
+        << (choice.empty() ? "" : choice.back()) << " " << memory.size();
+    }
+  }
+}
+
+TEST_F(TippDem, PixelsWithoutElevationHaveNoHillshade)
+{
+  this->Folder.file("points.csv", "x,y,z\n0,0,1\n4,0,nan\n0,4,3\n4,4,4\n");
+  this->make("dem.npy", { "--resolution", "1", "--attributes", "elevation,hillshade" });
+  const std::vector<double> values = this->valuesOf("dem.npy");
+  ASSERT_EQ(32U, values.size());
+  for (std::size_t i = 0; i < 16; ++i)
+  {
+    EXPECT_EQ(std::isnan(values[i]), std::isnan(values[16 + i])) << i;
+  }
+}
+
 TEST_F(TippDem, WarnsWhereNoPixelHasAValue)
 {
   this->makePoints(100);
