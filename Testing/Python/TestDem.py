@@ -122,6 +122,12 @@ class Dem(unittest.TestCase):
                           {"breaklines": self.path(file), "boundary": self.path("ring.csv")}):
                 np.testing.assert_array_equal(expected, tipp.dem(self.points, 0.5, **given).array)
                 np.testing.assert_array_equal(expected, tipp.dem(self.points, 0.5, memory="1M", **given).array)
+        shapes = [{"type": kind, "coordinates": at} for kind, at in (
+            ("LineString", line.tolist()), ("Polygon", [[*ring.tolist(), ring[0].tolist()]]))]
+        for given in ({"breaklines": [shapes[0]], "boundary": [shapes[1]]},
+                      {"breaklines": {"type": "GeometryCollection", "geometries": shapes[:1]}, "boundary": shapes[1]}):
+            self.assertTrue(np.array_equal(tipp.dem(self.points, 0.5, breaklines=[line], boundary=[ring]).array,
+                                           tipp.dem(self.points, 0.5, **given).array, equal_nan=True))
         with self.assertRaisesRegex(ValueError, r"boundary\[0\] has the shape"):
             tipp.dem(self.points, 1, boundary=[ring[:, 0]])
 
