@@ -52,6 +52,12 @@ nb::tuple readPointFiles(const Strings& paths, const std::optional<Strings>& col
   return nb::make_tuple(copyOf(table.XY, 2), named, crs);
 }
 
+/// Returns the names of all columns besides x and y.
+Strings columnNames(const Strings& paths)
+{
+  return withoutLock([&] { return openPointStream(paths, PointOptions())->columns(); });
+}
+
 nb::dict figuresOf(const OutOfCoreStatistics& statistics, bool countOnly)
 {
   nb::dict result;
@@ -345,6 +351,7 @@ void partitionArrays(const InputArray& points, const InputArray& cells, const nb
 void addFileFunctions(nb::module_& module)
 {
   module.def("read_points", &readPointFiles);
+  module.def("column_names", &columnNames);
   module.def("triangulate_files", &triangulateFiles);
   module.def("array_names", &arrayNames);
   module.def("read", &readMesh);

@@ -97,7 +97,12 @@ def raster(points: Any, point_data: Any, options: dict[str, Any],
     """Returns the bands, each (rows, columns) from south to north; the grid's west, south, columns and rows; and the
     CRS of points in files."""
     source = points if check.are_files(points) else _points_and_columns(points, point_data, options)
-    bands, grid, crs, rejected = _core.dem(source, options, progress)
+    try:
+        bands, grid, crs, rejected = _core.dem(source, options, progress)
+    except KeyError:
+        if check.are_files(points):
+            check.require_columns(options, _core.column_names(points))
+        raise
     finish(progress)
     if rejected:
         warn([f"{rejected} points with a NaN or infinite x or y are left out."])

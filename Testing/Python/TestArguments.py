@@ -195,7 +195,11 @@ class Arguments(unittest.TestCase):
             def __len__(self):
                 return len(POINTS)
 
+        class Columns:
+            x, y, z = LasData.xyz.T
+
         np.testing.assert_array_equal(tipp.delaunay(POINTS), tipp.delaunay(LasData()))
+        np.testing.assert_array_equal(tipp.delaunay(POINTS), tipp.delaunay(Columns()))
         self.assertEqual(POINTS[3, 0], tipp.delaunay_2d(LasData()).GetPoint(3)[2])
         np.testing.assert_array_equal(tipp.dem(LasData.xyz, 0.1).array, tipp.dem(LasData(), 0.1).array)
 

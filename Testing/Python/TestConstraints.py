@@ -225,6 +225,7 @@ class Geometries(unittest.TestCase):
         self.assertTrue(has_edge(tipp.delaunay_2d(SQUARES, edges=lines), 6, 2))
         points = geopandas.GeoSeries.from_xy(*SQUARES.T)
         self.assertEqual(len(tipp.delaunay(SQUARES)), len(tipp.delaunay(points)))
+        self.assertEqual(len(tipp.delaunay(SQUARES)), len(tipp.delaunay(geopandas.GeoDataFrame(geometry=points))))
 
     @unittest.skipUnless(importlib.util.find_spec("shapely"), "Shapely is not installed")
     def test_shapely_polygons_bring_their_holes(self):

@@ -173,6 +173,17 @@ class Dem(unittest.TestCase):
             tipp.dem(self.points[:, :2], 1)
 
     @unittest.skipIf(shutil.which("gdalinfo") is None, "no gdalinfo")
+    def test_columns_that_files_lack_are_named_with_those_they_have(self):
+        np.savetxt(self.path("named.csv"), self.points, "%.17g", ",", header="x,y,soil", comments="")
+        np.savetxt(self.path("heights.csv"), self.points, "%.17g", ",", header="x,y,z", comments="")
+        with self.assertRaisesRegex(KeyError, r"no column 'z'; there are \['soil'\]"):
+            tipp.dem(self.path("named.csv"), 2)
+        with self.assertRaisesRegex(KeyError, r"no column 'Soil'; there are \['soil'\]"):
+            tipp.dem(self.path("named.csv"), 2, attributes="Soil")
+        with self.assertRaisesRegex(KeyError, r"no column 'soil'; there are \['z'\]"):
+            tipp.dem(self.path("heights.csv"), 2, attributes="soil")
+        self.assertTrue(np.isfinite(tipp.dem(self.path("named.csv"), 2, attributes="soil").array).any())
+
     def test_gdal_reads_what_was_written(self):
         self.run_tipp("dem", "points.npy", "-o", "dem.npy", "--resolution", 0.5)
         self.run_tipp("dem", "points.npy", "-o", "dem.tif", "--resolution", 0.5, "--crs", "EPSG:25832+7837",

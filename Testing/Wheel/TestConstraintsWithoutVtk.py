@@ -144,8 +144,11 @@ class Rasters(unittest.TestCase):
                 expected = tipp.dem(self.points, 2.0, attributes=attributes, point_data={"a": self.points[:, 0] * 2})
                 np.testing.assert_array_equal(expected.array, grid)
                 self.assertEqual((expected.transform, None), (transform, crs))
-            with self.assertRaisesRegex(KeyError, "no column 'c'"):
+            with self.assertRaisesRegex(KeyError, r"no column 'c'; there are \['z', 'a'\]"):
                 tipp.dem(name, 2.0, attributes="c")
+            np.savetxt(name, self.points, "%.17g", ",", header="x,y,a", comments="")
+            with self.assertRaisesRegex(KeyError, r"no column 'z'; there are \['a'\]"):
+                tipp.dem(name, 2.0)
 
     def test_bounds_alignment_and_long_edges(self):
         inside = tipp.dem(self.points, 2.0, bounds=(10, 60, 20, 50))

@@ -118,6 +118,15 @@ def require_bands(wanted: Iterable[str], known: Iterable[str]) -> None:
             raise KeyError(f"there is no attribute '{name}'; there are {columns}.")
 
 
+def require_columns(options: Mapping[str, Any], known: list[str]) -> None:
+    """Raises KeyError if tipp.dem needs a column that is not among those of the files."""
+    missing = [name for name in options["attributes"] if name not in (*known, *DERIVED_BANDS, "elevation")]
+    if needs_elevation(options) and not {"z", "Z", "elevation"} & {*known}:
+        missing.append("z")
+    if missing:
+        raise KeyError(f"the points have no column '{missing[0]}'; there are {known}.")
+
+
 def needs_elevation(options: Mapping[str, Any]) -> bool:
     """Returns whether tipp.dem uses the points' elevation."""
     is_ranked = options["duplicates"] in _RANKED or (options["thin_size"] > 0 and options["thin_rule"] < 2)

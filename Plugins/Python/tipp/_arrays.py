@@ -7,7 +7,7 @@ from typing import Any, Mapping, TYPE_CHECKING
 
 import numpy as np
 
-from ._arguments import data_object, text
+from ._arguments import data_object, is_vtk_object, text
 from ._geometry import is_geometry, points_of
 
 if TYPE_CHECKING:
@@ -124,14 +124,18 @@ def coordinates(points: ArrayLike) -> np.ndarray:
 
 
 def positions_of(points: Any) -> Any:
-    """Returns the coordinates of laspy's LasData, and of a GeoSeries and other geometries of points; other values as
-    they are."""
-    if isinstance(points, (np.ndarray, list, tuple)):
+    """Returns the coordinates of laspy's LasData and other objects with xyz or x, y and z, and of a GeoSeries and other
+    geometries of points; other values as they are."""
+    if isinstance(points, (np.ndarray, list)) or is_vtk_object(points):
+        return points
+    if hasattr(points, "geometry") or is_geometry(points):
+        return points_of(points, "points")
+    if hasattr(points, "columns"):  # a DataFrame of pandas
         return points
     if hasattr(points, "xyz"):
         return np.asarray(points.xyz)
-    if hasattr(points, "geom_type") or is_geometry(points):
-        return points_of(points, "points")
+    if all(hasattr(points, axis) for axis in "xyz"):
+        return np.column_stack([np.asarray(points.x), np.asarray(points.y), np.asarray(points.z)])
     return points
 
 

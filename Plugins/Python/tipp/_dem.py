@@ -152,7 +152,7 @@ def dem(
         "breaklines": lines_of(breaklines, "breaklines", False),
         "boundary": lines_of(boundary, "boundary", True),
         "memory": 0 if memory is None else check.memory(memory, "memory"),
-        "classes": None if classes is None else check.a_list(classes, "classes"),
+        "classes": None if classes is None else [check.whole(number, "classes") for number in classes],
         "returns": _RETURNS[returns],
         "keep": check.a_list(keep, "keep"),
         "threads": check.threads(threads),

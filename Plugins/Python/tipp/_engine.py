@@ -218,20 +218,37 @@ def _lines(xy: np.ndarray, heights: np.ndarray, edges: np.ndarray) -> vtkPolyDat
 
 
 def _read(paths: list[str], options: dict[str, Any]) -> tuple[Any, str | None]:
+    reader = _reader_of(paths, options)
+    reader.SetColumns(",".join(options["attributes"]))
+    run(reader)
+    cloud = reader.GetOutput()
+    arrays = cloud.GetPointData()
+    has_all = all(arrays.HasArray(name) for name in options["attributes"] if name not in (*check.DERIVED_BANDS, "elevation"))
+    if cloud.GetNumberOfPoints() and not (has_all and (reader.GetHasHeights() or not check.needs_elevation(options))):
+        check.require_columns(options, _columns_in(paths, options))
+    text = cloud.GetFieldData().GetAbstractArray("CoordinateReferenceSystem")
+    return cloud, text.GetValue(0) if text else None
+
+
+def _reader_of(paths: list[str], options: dict[str, Any]) -> vtkTIPPPointReader:
     reader = vtkTIPPPointReader()
     if options["classes"] is not None:
         reader.SetClasses(",".join(str(number) for number in options["classes"]))
     reader.SetReturns(options["returns"])
     for flag in options["keep"]:
         getattr(reader, "SetKeep" + flag.capitalize())(True)
-    reader.SetColumns(",".join(options["attributes"]))
     reader.SetGenerateVertices(False)
     for path in paths:
         reader.AddFileName(path)
+    return reader
+
+
+def _columns_in(paths: list[str], options: dict[str, Any]) -> list[str]:
+    """Returns the names of all columns besides x and y. Reads the files again."""
+    reader = _reader_of(paths, options)
     run(reader)
-    cloud = reader.GetOutput()
-    text = cloud.GetFieldData().GetAbstractArray("CoordinateReferenceSystem")
-    return cloud, text.GetValue(0) if text else None
+    arrays = reader.GetOutput().GetPointData()
+    return ["z"] * reader.GetHasHeights() + [arrays.GetArrayName(i) for i in range(arrays.GetNumberOfArrays())]
 
 
 def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> Any:

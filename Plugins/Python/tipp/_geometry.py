@@ -109,6 +109,8 @@ def points_of(values: Any, name: str) -> np.ndarray:
             if kind != "Point":
                 raise TypeError(f"{name} has a {kind}; give points.")
             corners.append(at)
+    if len({at.shape[1] for at in corners}) > 1:
+        raise ValueError(f"{name} have a z at some points only; give it at all or at none.")
     return np.concatenate(corners) if corners else np.zeros((0, 2))
 
 
