@@ -375,6 +375,10 @@ def open_mesh(mesh: Any, options: dict[str, Any]) -> Any:
                        _numeric_arrays(mesh.cell_data), ids, options["threads"])
 
 
+def open_part(mesh: Mesh, threads: int) -> Any:
+    return open_mesh(mesh, {"threads": threads})
+
+
 def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> Any:
     source = mesh
     mesh, _ = _simplices(mesh, "mesh", ("vtkPointSet",), "a mesh")

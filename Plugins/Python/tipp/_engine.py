@@ -19,7 +19,7 @@ from ._arguments import (
 from ._arrays import as_array, Mesh
 from ._constraints import Constraints, constraints_of
 from ._run import run
-from ._surface import completed
+from ._surface import completed, completed_on_ranks
 from ._vtk import (
     arrays_of, grid_of, numpy_of, point_arrays, point_cloud, triangles_of, vtk_points, wrapped_like, xyz_of)
 from .vtkTIPPFilters import (
@@ -38,38 +38,56 @@ _STATISTICS = ("points", "triangles", "tetrahedra", "duplicates", "rejected", "p
 
 
 def source_of(data: vtkPointSet, options: dict[str, Any]) -> tuple[vtkPolyData | None, bool]:
-    """Combines the constraints of delaunay_2d() into one source (or None); also returns whether it has its own
-    points."""
+    """Combines the constraints of delaunay_2d() into one source (or None); also returns whether the sources of all ranks
+    have their own points. Collective."""
     constraints = constraints_of(
         data.GetNumberOfPoints(), options["edge_source"], options["edges"], options["polygons"])
+    corners = np.zeros((0, 3)) if constraints is None else constraints.corners
+    corners, values, has_points = _completed(data, corners, options["threads"])
     if constraints is None:
-        return options["edge_source"], False
+        return options["edge_source"], has_points
     source = vtkPolyData()
-    has_points = len(constraints.corners) > 0
     if has_points:
-        constraints = _with_own_points(source, data, constraints, options["threads"])
+        constraints = _with_own_points(source, data, constraints._replace(corners=corners), values)
     source.SetLines(_cells(constraints.lines))
     source.SetPolys(_cells(constraints.polygons))
     return source, has_points
 
 
-def _with_own_points(source: vtkPolyData, data: vtkPointSet, constraints: Constraints, threads: int) -> Constraints:
+def _completed(data: vtkPointSet, corners: np.ndarray, threads: int) -> tuple[np.ndarray, dict[str, np.ndarray], bool]:
+    """Returns the corners with heights, the values of the point arrays there, and whether any rank has corners.
+    Collective."""
+    if _count_ranks() == 1:
+        if len(corners) == 0:
+            return corners, {}, False
+        return (*completed(xyz_of(data), point_arrays(data), corners, threads), True)
+    from mpi4py import MPI
+
+    def piece_of() -> Mesh:
+        algorithm = vtkTIPPDelaunay2D()
+        algorithm.SetInputData(data)
+        algorithm.SetNumberOfThreads(threads)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)  # those of the caller's run
+            run(algorithm)
+        piece = algorithm.GetOutput()
+        return Mesh(xyz_of(piece), triangles_of(piece), point_arrays(piece))
+
+    return completed_on_ranks(MPI.COMM_WORLD, corners, piece_of, threads)
+
+
+def _with_own_points(source: vtkPolyData, data: vtkPointSet, constraints: Constraints,
+                     values: dict[str, np.ndarray]) -> Constraints:
     """Sets the source's points: those of the input that constraints name, and the corners, with their values. Returns
     the constraints with the source's ids."""
     points, corners = xyz_of(data), constraints.corners
-    lists = [*constraints.lines, *constraints.polygons]
-    used = np.unique(np.concatenate(lists))
+    used = np.unique(np.concatenate([*constraints.lines, *constraints.polygons]))
     used = used[used < len(points)].astype(np.int64)
-    values: dict[str, np.ndarray] = {}
-    if _count_ranks() == 1:
-        corners, values = completed(points, point_arrays(data), corners, threads)
-    elif np.isnan(corners).any():
-        warnings.warn("On several ranks, corners without z get z = 0, and no values of point arrays; give corners of "
-                      "shape (k, 3).", RuntimeWarning, stacklevel=5)
-        corners = np.where(np.isnan(corners), 0, corners)
     source.SetPoints(vtk_points(np.concatenate([points[used].astype(np.float64), corners])))
     for name, its in values.items():
         given = data.GetPointData().GetArray(name)
+        if given is None:  # of a rank without points
+            continue
         array = vtkDataArray.CreateDataArray(given.GetDataType())
         array.SetName(name)
         array.SetNumberOfComponents(given.GetNumberOfComponents())
@@ -119,7 +137,7 @@ def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
     source, has_points = source_of(algorithm.GetInput(), options)
     if source is not None:
         algorithm.SetSourceData(source)
-        algorithm.SetMergeSourcePoints(has_points)
+    algorithm.SetMergeSourcePoints(has_points)  # must be the same on all ranks
     set_properties(algorithm, DELAUNAY_2D, options)
     run(algorithm, progress)
     return wrapped_like(algorithm.GetOutput(), points), _statistics(algorithm.GetStatistics().GetFieldData())
@@ -364,6 +382,15 @@ def open_mesh(mesh: Any, options: dict[str, Any]) -> MeshQuery:
     else:
         source = grid_of(mesh) if isinstance(mesh, Mesh) else mesh
         query.SetSourceData(check.data_object(source, "mesh", ("vtkPointSet", "vtkCompositeDataSet"), "a mesh"))
+    return MeshQuery(query)
+
+
+def open_part(mesh: Mesh, threads: int) -> MeshQuery:
+    """Opens a mesh for queries of this rank alone."""
+    query = vtkPartitionedMeshQuery()
+    query.SetController(None)
+    query.SetNumberOfThreads(threads)
+    query.SetSourceData(grid_of(mesh))
     return MeshQuery(query)
 
 
