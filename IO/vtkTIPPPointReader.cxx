@@ -103,6 +103,9 @@ void vtkTIPPPointReader::Read(vtkInformation* info, vtkPolyData* output)
   const tipp::PointTable table =
     tipp::readPointsShare(this->FileNames, this->Options(), piece, pieces);
   this->NumberOfPointsLeftOut = table.LeftOut;
+  this->HasHeights = std::any_of(table.Columns.begin(), table.Columns.end(),
+    [](const tipp::PointTable::Column& column)
+    { return column.Name == "z" || column.Name == "Z"; });
   // A deep copy, because the arrays share the table's memory.
   output->DeepCopy(tipp::makePolyData(table, {}));
   if (this->GenerateVertices)
@@ -153,4 +156,5 @@ void vtkTIPPPointReader::PrintSelf(ostream& os, vtkIndent indent)
   vtkTIPPPrintMacro(KeepOverlap);
   vtkTIPPPrintMacro(GenerateVertices);
   vtkTIPPPrintMacro(NumberOfPointsLeftOut);
+  vtkTIPPPrintMacro(HasHeights);
 }

@@ -117,6 +117,13 @@ public:
   vtkGetMacro(NumberOfPointsLeftOut, vtkTypeInt64);
   ///@}
 
+  ///@{
+  /**
+   * Whether the files of the last update have a column z. Otherwise z is 0 at all points.
+   */
+  vtkGetMacro(HasHeights, bool);
+  ///@}
+
 protected:
   vtkTIPPPointReader();
   ~vtkTIPPPointReader() override = default;
@@ -135,6 +142,7 @@ protected:
   bool KeepOverlap = false;
   bool GenerateVertices = true;
   vtkTypeInt64 NumberOfPointsLeftOut = 0;
+  bool HasHeights = false;
 
 private:
   vtkTIPPPointReader(const vtkTIPPPointReader&) = delete;

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Tests a wheel in clean environments with the current packages of PyPI:
 #   sh Utilities/wheel-test.sh WHEEL [PYTHON]
-# without VTK, with scipy, with VTK and PyVista, with PyVista's back end cvista, and with the oldest NumPy for this Python.
+# without VTK, with scipy, with VTK and PyVista, with an earlier VTK, with PyVista's back end cvista, and with the oldest
+# NumPy for this Python.
 set -eu
 
 wheel=$(realpath "$1")
@@ -38,9 +39,12 @@ environment oldest 'numpy<2'
 runs oldest Testing/Wheel/TestWithoutVtk.py Testing/Wheel/TestConstraintsWithoutVtk.py
 environment scipy numpy scipy scikit-learn
 runs scipy Testing/Wheel/TestScipyHabits.py Testing/Wheel/TestTwoOpenMP.py
-environment pyvista 'vtk>=9.7,<9.8' pyvista shapely
+environment pyvista 'vtk>=9.7,<9.8' pyvista shapely geopandas laspy
 runs pyvista Testing/Wheel/TestPyVista.py Testing/Wheel/TestFilters.py Testing/Python/TestArguments.py Testing/Python/TestArrays.py \
   Testing/Python/TestCheck.py Testing/Python/TestConstraints.py Testing/Python/TestInterrupt.py Testing/Python/TestPackage.py Testing/Python/TestPointsToImage.py
+# Before VTK 9.7, references between Python and VTK keep objects forever.
+environment before 'vtk>=9.6,<9.7' numpy
+runs before Testing/Wheel/TestFilters.py Testing/Python/TestConstraints.py
 # cvista has no wheels for Python 3.11.
 if "$python" -c 'import sys; sys.exit(sys.version_info < (3, 12))'; then
   environment cvista 'pyvista[cvista]>=0.49'

@@ -66,6 +66,14 @@ inline std::size_t componentsOf(const InputArray& array)
   return array.ndim() > 1 ? array.shape(1) : 1;
 }
 
+/// An array of a mesh, and its name.
+using NamedArray = std::pair<std::string, InputArray>;
+
+/// Returns the arrays of a dictionary. Throws std::runtime_error if one has fewer rows than there
+/// are points or cells (`of`).
+std::vector<NamedArray> namedArrays(
+  const nb::dict& arrays, const InputArray& due, const std::string& of);
+
 /// Describes a mesh of triangles or tetrahedra, without a copy.
 inline SimplexMesh meshOf(const InputArray& points, const InputArray& cells)
 {

@@ -2,11 +2,31 @@
 // tipp._core: the cores over NumPy arrays, for the engine in Python, which checks the arguments.
 #include "Binding.h"
 
+#include <nanobind/stl/string.h>
+
 #include <new>
 #include <stdexcept>
 
 namespace tipp::python
 {
+
+std::vector<NamedArray> namedArrays(
+  const nb::dict& arrays, const InputArray& due, const std::string& of)
+{
+  std::vector<NamedArray> result;
+  for (const auto& [name, array] : arrays)
+  {
+    result.emplace_back(nb::cast<std::string>(name), nb::cast<InputArray>(array));
+    const InputArray& values = result.back().second;
+    const std::size_t rows = values.ndim() > 0 ? values.shape(0) : 0;
+    if (rows < due.shape(0))
+    {
+      throw std::runtime_error("the array '" + result.back().first + "' has " +
+        std::to_string(rows) + " values for " + std::to_string(due.shape(0)) + " " + of + ".");
+    }
+  }
+  return result;
+}
 
 bool Reporter::operator()(double fraction)
 {

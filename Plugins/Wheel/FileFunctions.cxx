@@ -52,6 +52,12 @@ nb::tuple readPointFiles(const Strings& paths, const std::optional<Strings>& col
   return nb::make_tuple(copyOf(table.XY, 2), named, crs);
 }
 
+/// Returns the names of all columns besides x and y.
+Strings columnNames(const Strings& paths)
+{
+  return withoutLock([&] { return openPointStream(paths, PointOptions())->columns(); });
+}
+
 nb::dict figuresOf(const OutOfCoreStatistics& statistics, bool countOnly)
 {
   nb::dict result;
@@ -302,15 +308,12 @@ FlatArray flatArray(const std::string& name, const InputArray& array)
   return result;
 }
 
-using NamedArrays = std::vector<std::pair<std::string, InputArray>>;
-
-std::vector<FlatArray> flatArrays(const nb::dict& arrays, NamedArrays& kept)
+std::vector<FlatArray> flatArrays(const std::vector<NamedArray>& arrays)
 {
   std::vector<FlatArray> result;
   for (const auto& [name, array] : arrays)
   {
-    kept.emplace_back(nb::cast<std::string>(name), nb::cast<InputArray>(array));
-    result.push_back(flatArray(kept.back().first, kept.back().second));
+    result.push_back(flatArray(name, array));
   }
   return result;
 }
@@ -320,12 +323,13 @@ void partitionArrays(const InputArray& points, const InputArray& cells, const nb
 {
   Reporter reporter(std::move(progress));
   const PartitionOptions options = partitionOptions(given, reporter);
-  NamedArrays kept;
+  const std::vector<NamedArray> ofPoints = namedArrays(pointData, points, "points");
+  const std::vector<NamedArray> ofCells = namedArrays(cellData, cells, "cells");
   FlatContent content;
   content.CellSize = int(cells.shape(1));
   content.Points = flatArray("points", points);
-  content.PointData = flatArrays(pointData, kept);
-  content.CellData = flatArrays(cellData, kept);
+  content.PointData = flatArrays(ofPoints);
+  content.CellData = flatArrays(ofCells);
   withoutLock(
     [&]
     {
@@ -347,6 +351,7 @@ void partitionArrays(const InputArray& points, const InputArray& cells, const nb
 void addFileFunctions(nb::module_& module)
 {
   module.def("read_points", &readPointFiles);
+  module.def("column_names", &columnNames);
   module.def("triangulate_files", &triangulateFiles);
   module.def("array_names", &arrayNames);
   module.def("read", &readMesh);

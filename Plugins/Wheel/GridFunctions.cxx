@@ -93,10 +93,9 @@ PointTable tableOf(const InputArray& xy, const nb::dict& columns)
 {
   PointTable table;
   table.XY = vectorOf<double>(xy);
-  for (const auto& [name, values] : columns)
+  for (const auto& [name, values] : namedArrays(columns, xy, "points"))
   {
-    table.Columns.push_back(
-      { nb::cast<std::string>(name), vectorOf<double>(nb::cast<InputArray>(values)) });
+    table.Columns.push_back({ name, vectorOf<double>(values) });
   }
   return table;
 }
@@ -160,10 +159,10 @@ nb::tuple makeRaster(const nb::object& points, const nb::dict& options, Progress
 /// Bytes per sample: a 32-bit cell number and the mask.
 constexpr double claimBytes = 5;
 
-double bytesOfTuples(const std::vector<InputArray>& arrays)
+double bytesOfTuples(const std::vector<NamedArray>& arrays)
 {
   double bytes = 0;
-  for (const InputArray& array : arrays)
+  for (const auto& [name, array] : arrays)
   {
     bytes += double(scalarSize(scalarOf(array.dtype()))) * double(componentsOf(array));
   }
@@ -192,16 +191,18 @@ nb::tuple describe(const Lattice& lattice)
 
 /// Returns the lattice as describe() does, the arrays' samples, the mask and warnings.
 nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
-  const std::optional<InputArray>& hidden, const std::vector<InputArray>& pointArrays,
-  const std::vector<InputArray>& cellArrays, const std::array<double, 6>& bounds,
-  const std::array<int, 3>& given, const std::array<double, 3>& delta, double nullValue,
-  const std::string& device, int threads, Progress progress)
+  const std::optional<InputArray>& hidden, const nb::dict& pointData, const nb::dict& cellData,
+  const std::array<double, 6>& bounds, const std::array<int, 3>& given,
+  const std::array<double, 3>& delta, double nullValue, const std::string& device, int threads,
+  Progress progress)
 {
   Reporter reporter(std::move(progress));
   const bool surface = cells.shape(1) == 3;
   const bool isChosen = given[0] == 0 || given[1] == 0 || given[2] == 0;
   const std::array<int, 3> dimensions = isChosen ? chosenDimensions(bounds, given, surface) : given;
   const Lattice lattice = rangeLattice(bounds, dimensions, delta);
+  const std::vector<NamedArray> pointArrays = namedArrays(pointData, points, "points");
+  const std::vector<NamedArray> cellArrays = namedArrays(cellData, cells, "cells");
   const std::vector<int> axes =
     surfaceAxes({ int(lattice.size(0)), int(lattice.size(1)), int(lattice.size(2)) });
   ResampleOptions options;
@@ -225,11 +226,11 @@ nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
     attributes.push_back({ values.data(), samples.back().data(), types.back(),
       int(components.back()), ofCells, nullValue });
   };
-  for (const InputArray& array : pointArrays)
+  for (const auto& [name, array] : pointArrays)
   {
     add(array, false);
   }
-  for (const InputArray& array : cellArrays)
+  for (const auto& [name, array] : cellArrays)
   {
     add(array, true);
   }

@@ -69,25 +69,34 @@ public:
   {
   }
 
-  /// Opens a mesh in memory, which it does not copy. `arrays`: first the point arrays, then the
-  /// cell arrays.
-  Query(InputArray points, InputArray cells, const std::vector<std::string>& names,
-    const std::vector<InputArray>& arrays, std::size_t pointArrays, int threads)
+  /// Opens a mesh in memory, which it does not copy. `ids`: the ids of its cells; none: their
+  /// indices.
+  Query(const InputArray& points, const InputArray& cells, const nb::dict& pointData,
+    const nb::dict& cellData, const std::optional<InputArray>& ids, int threads)
   {
-    auto kept = std::make_shared<std::vector<InputArray>>(arrays);
-    kept->push_back(points);
-    kept->push_back(cells);
+    struct Kept
+    {
+      InputArray Points, Cells;
+      std::optional<InputArray> Ids;
+      std::vector<NamedArray> Arrays[2];
+    };
+    const std::shared_ptr<const Kept> kept(new Kept{ points, cells, ids,
+      { namedArrays(pointData, points, "points"), namedArrays(cellData, cells, "cells") } });
     MeshPart part;
     part.Mesh = meshOf(points, cells);
     part.OwnedCells = part.Mesh.Cells;
-    for (std::size_t i = 0; i < arrays.size(); ++i)
+    part.CellIds = ids ? static_cast<const std::int64_t*>(ids->data()) : nullptr;
+    for (const bool ofPoints : { true, false })
     {
-      StoredArray description;
-      description.Name = names[i];
-      description.OfPoints = i < pointArrays;
-      description.Type = scalarOf(arrays[i].dtype());
-      description.Components = int(componentsOf(arrays[i]));
-      part.Arrays.push_back({ description, arrays[i].data() });
+      for (const auto& [name, array] : kept->Arrays[ofPoints ? 0 : 1])
+      {
+        StoredArray description;
+        description.Name = name;
+        description.OfPoints = ofPoints;
+        description.Type = scalarOf(array.dtype());
+        description.Components = int(componentsOf(array));
+        part.Arrays.push_back({ description, array.data() });
+      }
     }
     part.Keeps = kept;
     this->Mesh = std::make_unique<ResidentMesh>(std::move(part), ResidentOptions{ 1, threads });
@@ -248,8 +257,9 @@ void addQueryClass(nb::module_& module)
 {
   nb::class_<Query>(module, "Query")
     .def(nb::init<const std::string&, std::uint64_t, int, int>())
-    .def(nb::init<InputArray, InputArray, const std::vector<std::string>&,
-      const std::vector<InputArray>&, std::size_t, int>())
+    .def(nb::init<const InputArray&, const InputArray&, const nb::dict&, const nb::dict&,
+           const std::optional<InputArray>&, int>(),
+      nb::arg(), nb::arg(), nb::arg(), nb::arg(), nb::arg().none(), nb::arg())
     .def("names", &Query::names)
     .def("locate", &Query::locate)
     .def("sample", &Query::sample)

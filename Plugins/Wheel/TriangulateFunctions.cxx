@@ -15,6 +15,7 @@
 #include <array>
 #include <cstring>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace tipp::python
@@ -85,6 +86,10 @@ nb::object interpolate(const InputArray& values, const InputArray& crossings)
   std::vector<CrossingPoint> points;
   for (const auto& [x, y, a, b, fraction] : vectorOf<std::array<double, 5>>(crossings))
   {
+    if (std::max(a, b) >= double(values.shape(0) + points.size()))
+    {
+      throw std::runtime_error("an array has fewer values than there are points.");
+    }
     points.push_back({ { x, y }, PointId(a), PointId(b), fraction });
   }
   const Scalar type = scalarOf(values.dtype());

@@ -5,17 +5,19 @@ If VTK is installed, in any version, functions also accept and return data sets 
 """
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
+import threading
 import warnings
-from typing import Any, Iterable
+from typing import Any, Iterable, Iterator
 
 import numpy as np
 
 from . import _arguments as check
 from . import _core
 from . import _segments as constraints
-from ._arrays import attributes, coordinates, Image, in_space, Mesh
+from ._arrays import attribute, attributes, coordinates, Image, in_space, Mesh, require_values
 from ._arguments import finish, Progress
 from ._vtkmodules import root
 
@@ -24,8 +26,26 @@ _GHOSTS = "vtkGhostType"
 _OWN_IDS = ("GlobalPointIds", "GlobalCellIds")
 
 
+_kept = threading.local()
+
+
+@contextlib.contextmanager
+def kept_warnings() -> Iterator[list[str]]:
+    """A context in which warn() appends to the list instead of issuing warnings in this thread."""
+    before = getattr(_kept, "sentences", None)
+    _kept.sentences = []
+    try:
+        yield _kept.sentences
+    finally:
+        _kept.sentences = before
+
+
 def warn(sentences: Iterable[str]) -> None:
     """Issues warnings for the line that called the package."""
+    kept = getattr(_kept, "sentences", None)
+    if kept is not None:
+        kept.extend(sentences)
+        return
     level = 1
     here = os.path.dirname(__file__)
     frame: Any = sys._getframe()
@@ -77,7 +97,12 @@ def raster(points: Any, point_data: Any, options: dict[str, Any],
     """Returns the bands, each (rows, columns) from south to north; the grid's west, south, columns and rows; and the
     CRS of points in files."""
     source = points if check.are_files(points) else _points_and_columns(points, point_data, options)
-    bands, grid, crs, rejected = _core.dem(source, options, progress)
+    try:
+        bands, grid, crs, rejected = _core.dem(source, options, progress)
+    except KeyError:
+        if check.are_files(points):
+            check.require_columns(options, _core.column_names(points))
+        raise
     finish(progress)
     if rejected:
         warn([f"{rejected} points with a NaN or infinite x or y are left out."])
@@ -96,9 +121,9 @@ def _points_and_columns(points: Any, point_data: Any, options: dict[str, Any]
                         ) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """Returns the coordinates in the plane, and the columns that the bands need."""
     if check.is_vtk_object(points):
-        from ._vtk import arrays_of, xyz_of
+        from ._vtk import point_arrays, xyz_of
 
-        array, data = xyz_of(points), arrays_of(points.GetPointData())
+        array, data = xyz_of(points), point_arrays(points)
     else:
         array = coordinates(points)
         data = attributes(point_data, len(array))
@@ -155,7 +180,7 @@ def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
         point_data = {**points.point_data, **(point_data or {})}
         points = points.points
     array = plain(coordinates(points))
-    if options["polygons"] is not None:  # corners of polygons may have a z
+    if options["polygons"] is not None or options["edges"] is not None:  # their corners may have a z
         array = in_space(array)
     mesh, statistics, _ = _triangulated(array, attributes(point_data, len(array)), options, progress)
     if root() is not None:
@@ -232,10 +257,10 @@ def _with_circle(points: np.ndarray, offset: float) -> np.ndarray:
 
 def _delaunay_of_data_set(data: Any, options: dict[str, Any],
                           progress: Progress | None) -> tuple[Any, dict[str, Any]]:
-    from ._vtk import arrays_of, surface_of, wrapped_like, xyz_of
+    from ._vtk import point_arrays, surface_of, wrapped_like, xyz_of
 
     has_constraints = any(options[name] is not None for name in ("edge_source", "edges", "polygons"))
-    arrays = arrays_of(data.GetPointData()) if has_constraints else {}
+    arrays = point_arrays(data) if has_constraints else {}
     mesh, statistics, is_same = _triangulated(plain(xyz_of(data)), arrays, options, progress)
     return wrapped_like(surface_of(mesh, None if options["bound"] or not is_same else data), data), statistics
 
@@ -276,14 +301,31 @@ def write(mesh: Any, path: str, options: dict[str, Any], progress: Progress | No
     if isinstance(mesh, str):
         _core.partition_file(mesh, path, options, progress)
     else:
-        mesh = _simplices(mesh, "mesh", ("vtkDataObject",), "a VTK data set or a path")
+        source = mesh
+        mesh, _ = _simplices(source, "mesh", ("vtkDataObject",), "a VTK data set or a path")
         cells, cell_data = mesh.cells, mesh.cell_data
+        sentences = []
+        thin = _count_thin(source, mesh)
+        if thin:
+            sentences.append(f"{thin} cells of fewer dimensions are left out: a partitioned mesh has triangles or "
+                             "tetrahedra only.")
         if _GHOSTS in cell_data:
             owned = cell_data[_GHOSTS] == 0
+            ghosts = len(cells) - int(owned.sum())
+            if ghosts:
+                sentences.append(f"{ghosts} ghost cells are left out.")
             cells, cell_data = cells[owned], {name: values[owned] for name, values in cell_data.items()}
         _core.partition_arrays(plain(mesh.points), np.ascontiguousarray(cells), _numeric_arrays(mesh.point_data),
                                _numeric_arrays(cell_data), path, options, progress)
+        warn(sentences)
     finish(progress)
+
+
+def _count_thin(source: Any, simplices: Mesh) -> int:
+    """Returns the number of a mesh's cells that are not among its simplices."""
+    if isinstance(source, Mesh):
+        return sum(len(cells) for cells in (source.lines, source.vertices) if cells is not None)
+    return source.GetNumberOfCells() - len(simplices.cells)
 
 
 def _numeric_arrays(data: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
@@ -292,13 +334,15 @@ def _numeric_arrays(data: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
             if name not in (_GHOSTS, *_OWN_IDS) and values.dtype.kind in "iuf"}
 
 
-def _simplices(mesh: Any, name: str, kinds: tuple[str, ...], wanted: str) -> Mesh:
-    """Returns a data set of triangles or tetrahedra as arrays, after checking it."""
+def _simplices(mesh: Any, name: str, kinds: tuple[str, ...], wanted: str) -> tuple[Mesh, np.ndarray | None]:
+    """Returns a data set of triangles or tetrahedra as arrays, after checking it, and their indices among its cells;
+    None if they are all its cells."""
+    rows = None
     if not isinstance(mesh, Mesh):
         check.data_object(mesh, name, kinds, wanted)
         from ._vtk import simplices_of
 
-        mesh = simplices_of(mesh)
+        mesh, rows = simplices_of(mesh)
     cells = np.asarray(mesh.cells)
     if cells.ndim != 2 or cells.shape[1] not in (3, 4) or cells.dtype.kind not in "iu":
         raise RuntimeError("the mesh's cells are not (n, 3) triangles or (n, 4) tetrahedra of whole numbers.")
@@ -307,21 +351,37 @@ def _simplices(mesh: Any, name: str, kinds: tuple[str, ...], wanted: str) -> Mes
                            f"{len(mesh.points)} points; repair it or write it again.")
     if cells.dtype not in (np.int32, np.int64):
         cells = cells.astype(np.int64)
-    return Mesh(mesh.points, np.ascontiguousarray(cells), mesh.point_data, mesh.cell_data)
+    return Mesh(mesh.points, np.ascontiguousarray(cells), _checked(mesh.point_data, len(mesh.points), "points"),
+                _checked(mesh.cell_data, len(cells), "cells")), rows
+
+
+def _checked(data: dict[str, np.ndarray], count: int, of: str) -> dict[str, np.ndarray]:
+    """Returns the arrays with a value or a row for each point or cell, numbers as by attribute(). Raises RuntimeError
+    if one has too few."""
+    result = {}
+    for name, values in data.items():
+        array = np.atleast_1d(values)
+        require_values(name, len(array), count, of)
+        result[name] = attribute(name, array[:count], "the array") if array.dtype.kind in "iufb" else array[:count]
+    return result
 
 
 def open_mesh(mesh: Any, options: dict[str, Any]) -> Any:
     if isinstance(mesh, str):
         return _core.Query(mesh, options["memory"], options["step"], options["threads"])
-    mesh = _simplices(mesh, "mesh", ("vtkPolyData", "vtkUnstructuredGrid"), "a mesh")
-    of_points, of_cells = _numeric_arrays(mesh.point_data), _numeric_arrays(mesh.cell_data)
-    return _core.Query(in_space(plain(mesh.points)), mesh.cells, [*of_points, *of_cells],
-                       [*of_points.values(), *of_cells.values()], len(of_points), options["threads"])
+    mesh, rows = _simplices(mesh, "mesh", ("vtkPolyData", "vtkUnstructuredGrid"), "a mesh")
+    ids = None if rows is None else np.ascontiguousarray(rows, np.int64)
+    return _core.Query(in_space(plain(mesh.points)), mesh.cells, _numeric_arrays(mesh.point_data),
+                       _numeric_arrays(mesh.cell_data), ids, options["threads"])
+
+
+def open_part(mesh: Mesh, threads: int) -> Any:
+    return open_mesh(mesh, {"threads": threads})
 
 
 def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> Any:
     source = mesh
-    mesh = _simplices(mesh, "mesh", ("vtkPointSet",), "a mesh")
+    mesh, _ = _simplices(mesh, "mesh", ("vtkPointSet",), "a mesh")
     points = plain(np.asarray(mesh.points))
     low, high = box(points)
     bounds = options["bounds"] if options["bounds"] is not None else np.column_stack([low, high]).ravel().tolist()
@@ -331,7 +391,7 @@ def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> A
     chosen = _selected_arrays(mesh, options["arrays"])
     hidden, sentences = _hidden_cells(mesh, points, options, chosen[0])
     (origin, spacing, dimensions), samples, mask, more = _core.resample(
-        points, mesh.cells, hidden, list(chosen[0].values()), list(chosen[1].values()), bounds,
+        points, mesh.cells, hidden, chosen[0], chosen[1], bounds,
         options["dimensions"], options["spacing"] or [0.0, 0.0, 0.0], options["null_value"], options["device"],
         options["threads"], progress)
     finish(progress)
@@ -348,16 +408,13 @@ def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> A
 
 
 def _selected_arrays(mesh: Mesh, names: list[str] | None) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
-    """Returns the point arrays and cell arrays to sample."""
+    """Returns the point arrays and cell arrays to sample. Raises KeyError for names that the mesh does not have."""
     result: tuple[dict[str, np.ndarray], dict[str, np.ndarray]] = ({}, {})
     for chosen, data in zip(result, (mesh.point_data, mesh.cell_data)):
         for name, values in data.items():
             if name != _GHOSTS and values.dtype.kind in "iuf" and (names is None or name in names):
                 chosen[name] = np.ascontiguousarray(values)
-    missing = [name for name in names or [] if name not in result[0] and name not in result[1]]
-    for name in missing:
-        warn([f"There is no point array '{name}' in the input, so it is not sampled; there are "
-               f"{', '.join(repr(known) for known in mesh.point_data) or 'none'}."])
+    check.require_arrays(names, list(dict.fromkeys([*mesh.point_data, *mesh.cell_data])))
     return result
 
 

@@ -2,10 +2,12 @@
 """The base class of the wheel's VTK filters: properties, lists of texts, selections of arrays, errors."""
 from __future__ import annotations
 
-import warnings
+import re
+import weakref
 from typing import Any, Callable
 
 from ._arguments import STOPPED
+from ._engine import kept_warnings
 from ._vtkmodules import (
     VTKPythonAlgorithmBase,
     vtkAlgorithm,
@@ -42,17 +44,33 @@ class Filter(VTKPythonAlgorithmBase):
         if cls.LIST:
             _add_list(cls, cls.LIST)
         if cls.SELECTIONS:
-            cls.GetPointDataArraySelection = lambda self: self._selections["Point"]
-            cls.GetCellDataArraySelection = lambda self: self._selections["Cell"]
+            for kind in ("Point", "Cell"):
+                _add_selection(cls, kind)
 
-    def __init__(self) -> None:
+    def __init__(self, **properties: Any) -> None:
+        """Sets properties by their names in Python, such as alpha=0.02."""
         super().__init__(nInputPorts=len(self.INPUTS), nOutputPorts=len(self.OUTPUTS),
                          outputType=self.OUTPUTS[0])
         self._values = dict(self.PROPERTIES)
         self.texts: list[str] = []
-        self._selections = {kind: vtkDataArraySelection() for kind in ("Point", "Cell")}
+        self._selections = {kind: vtkDataArraySelection() for kind in ("Point", "Cell")} if self.SELECTIONS else {}
+        # An observer with a reference to this object would keep it forever.
+        self._observed = observed = [weakref.ref(self)]
         for selection in self._selections.values():
-            selection.AddObserver("ModifiedEvent", lambda *_: self.Modified())
+            selection.AddObserver("ModifiedEvent", lambda *_: _modify(observed[0]()))
+        self.prepare()
+        self._is_made = True
+        for name, value in properties.items():
+            setattr(self, name, value)
+
+    def prepare(self) -> None:
+        """Sets the other attributes of a subclass."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not name.startswith("_") and "_is_made" in self.__dict__ and not (
+                name in self.__dict__ or hasattr(type(self), name)):
+            raise AttributeError(f"{type(self).__name__} has no property '{name}'.")
+        super().__setattr__(name, value)
 
     def FillInputPortInformation(self, port: int, info: Any) -> int:
         info.Set(vtkAlgorithm.INPUT_REQUIRED_DATA_TYPE(), self.INPUTS[port])
@@ -90,23 +108,23 @@ class Filter(VTKPythonAlgorithmBase):
         return [name for name in names
                 if name and name != "vtkGhostType" and (not selection.ArrayExists(name) or selection.ArrayIsEnabled(name))]
 
-    def progress(self, fraction: float) -> bool:
+    def show_progress(self, fraction: float) -> bool:
         self.UpdateProgress(fraction)
         return not self.GetAbortExecute()
 
     def guarded(self, work: Callable[[], None]) -> int:
-        """Returns 1 if work() succeeds, else 0. Turns exceptions and warnings into VTK's errors and warnings."""
+        """Returns 1 if work() succeeds, else 0. Turns exceptions and the package's warnings into VTK's errors and
+        warnings."""
         try:
-            with warnings.catch_warnings(record=True) as caught:
-                warnings.simplefilter("always")
+            with kept_warnings() as sentences:
                 work()
         except Exception as error:  # pylint: disable=broad-except
             if str(error) == STOPPED and self.GetAbortExecute():
                 return 1
             self._report("ErrorEvent", str(error.args[0]) if error.args else type(error).__name__)
             return 0
-        for warning in caught:
-            self._report("WarningEvent", str(warning.message))
+        for sentence in sentences:
+            self._report("WarningEvent", sentence)
         return 1
 
     def _report(self, event: str, sentence: str) -> None:
@@ -118,6 +136,16 @@ class Filter(VTKPythonAlgorithmBase):
             window.DisplayErrorText(f"ERROR: {type(self).__name__}: {sentence}\n")
         else:
             window.DisplayWarningText(f"Warning: {type(self).__name__}: {sentence}\n")
+
+
+def _modify(algorithm: Filter | None) -> None:
+    if algorithm is not None:
+        algorithm.Modified()
+
+
+def _in_python(name: str) -> str:
+    """Returns the name that VTK 9.4 and later give a property in Python: maximum_edge_length for MaximumEdgeLength."""
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
 
 
 def _add_property(cls: type, name: str, default: Any) -> None:
@@ -151,16 +179,36 @@ def _add_property(cls: type, name: str, default: Any) -> None:
     get_value.__doc__ = f"Returns {name}."
     setattr(cls, f"Set{name}", set_value)
     setattr(cls, f"Get{name}", get_value)
+    setattr(cls, _in_python(name), property(get_value, set_value, doc=f"{name}; the default is {default!r}."))
     if kind is bool:
         setattr(cls, f"{name}On", lambda self: set_value(self, True))
         setattr(cls, f"{name}Off", lambda self: set_value(self, False))
 
 
+def _add_selection(cls: type, kind: str) -> None:
+    def get(self: Any) -> Any:
+        self._observed[0] = weakref.ref(self)  # VTK may have made another Python object for the same algorithm
+        return self._selections[kind]
+
+    setattr(cls, f"Get{kind}DataArraySelection", get)
+    setattr(cls, _in_python(f"{kind}DataArraySelection"), property(get))
+
+
 def _add_input(cls: type, name: str, port: int) -> None:
-    setattr(cls, f"Set{name}Data", lambda self, data: self.SetInputDataObject(port, data))
-    setattr(cls, f"Set{name}Connection", lambda self, output: self.SetInputConnection(port, output))
-    setattr(cls, f"Get{name}", lambda self: (
-        self.GetInputDataObject(port, 0) if self.GetNumberOfInputConnections(port) else None))
+    def set_data(self: Any, data: Any) -> None:
+        self.SetInputDataObject(port, data)
+
+    def set_connection(self: Any, output: Any) -> None:
+        self.SetInputConnection(port, output)
+
+    def get(self: Any) -> Any:
+        return self.GetInputDataObject(port, 0) if self.GetNumberOfInputConnections(port) else None
+
+    for method, function in ((f"Set{name}Data", set_data), (f"Set{name}Connection", set_connection), (f"Get{name}", get)):
+        setattr(cls, method, function)
+    setattr(cls, _in_python(name), property(get))
+    setattr(cls, _in_python(name + "Data"), property(None, set_data))
+    setattr(cls, _in_python(name + "Connection"), property(None, set_connection))
 
 
 def _add_list(cls: type, name: str) -> None:

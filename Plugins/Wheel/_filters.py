@@ -74,7 +74,7 @@ class vtkTIPPDelaunay2D(Filter):
             "merge_source_points": self.value("MergeSourcePoints"),
         }
         points = vtkPointSet.GetData(inputs[0])
-        mesh, statistics = _engine.delaunay_2d(points, None, options, self.progress)
+        mesh, statistics = _engine.delaunay_2d(points, None, options, self.show_progress)
         output = vtkPolyData.GetData(outputs, 0)
         output.ShallowCopy(mesh)
         for name, clear in (("AlphaTris", output.SetPolys), ("AlphaLines", output.SetLines),
@@ -101,8 +101,7 @@ class vtkTIPPOutOfCoreDelaunay2D(Filter):
     LIST = "InputFileName"
     OUTPUTS = ("vtkTable",)
 
-    def __init__(self) -> None:
-        super().__init__()
+    def prepare(self) -> None:
         self.holes: list[tuple[float, float]] = []
 
     def AddHole(self, x: float, y: float) -> None:
@@ -119,7 +118,7 @@ class vtkTIPPOutOfCoreDelaunay2D(Filter):
     def execute(self, inputs: Any, outputs: Any) -> None:
         options = {**options_of(self, DELAUNAY_FILE), "holes": self.holes,
                    "columns": (self.value("XColumn"), self.value("YColumn"))}
-        figures = _engine.delaunay_file(self.texts, self.value("FileName"), options, self.progress)
+        figures = _engine.delaunay_file(self.texts, self.value("FileName"), options, self.show_progress)
         totals = vtkTable.GetData(outputs, 0).GetFieldData()
         for key, value in figures.items():
             add_total(array_of(key), value, totals)
@@ -145,8 +144,7 @@ class vtkTIPPPointsToImage(Filter):
     INPUT_NAMES = {"Breaklines": 1, "Boundary": 2}
     OUTPUTS = ("vtkImageData",)
 
-    def __init__(self) -> None:
-        super().__init__()
+    def prepare(self) -> None:
         self.texts = ["elevation"]
 
     def RequestInformation(self, _request: Any, _inputs: Any, outputs: Any) -> int:
@@ -192,7 +190,7 @@ class vtkTIPPPointsToImage(Filter):
             "classes": None, "returns": 0, "keep": [],
         }
         points = vtkPointSet.GetData(inputs[0])
-        bands, (west, south, columns, rows), _ = _engine.raster(points, None, options, self.progress)
+        bands, (west, south, columns, rows), _ = _engine.raster(points, None, options, self.show_progress)
         arrays = {name: band.ravel() for name, band in zip(self.texts, bands)}
         origin = (west + 0.5 * size, south + 0.5 * size, 0.0)
         image = image_of(Image(origin, (size, size, 1.0), (columns, rows, 1), arrays))
@@ -241,7 +239,7 @@ class vtkRangeResampleFilter(Filter):
             "no_data": self.value("NoDataValue") if self.value("UseNoDataValue") else None, "arrays": names,
             "device": self.value("DeviceChoice"), "threads": self.value("NumberOfThreads"),
         }
-        vtkImageData.GetData(outputs, 0).ShallowCopy(_engine.resample(mesh, options, self.progress))
+        vtkImageData.GetData(outputs, 0).ShallowCopy(_engine.resample(mesh, options, self.show_progress))
 
 
 class vtkPartitionedUnstructuredReader(Filter):
@@ -287,7 +285,7 @@ class vtkPartitionedUnstructuredReader(Filter):
             "borrowed": self.value("BorrowerMode") == 1, "time": None, "point_arrays": chosen[0],
             "cell_arrays": chosen[1],
         }
-        mesh = _engine.read(self.value("FileName"), options, self.progress)
+        mesh = _engine.read(self.value("FileName"), options, self.show_progress)
         vtkDataObject.GetData(outputs, 0).ShallowCopy(mesh)
 
 
@@ -312,7 +310,7 @@ class vtkPartitionedUnstructuredWriter(Filter):
         mesh = vtkDataObject.GetData(inputs[0]) if has_input else self.value("InputFileName")
         if not has_input and not mesh:
             raise RuntimeError("there is neither an input nor an InputFileName; set one.")
-        _engine.write(mesh, self.value("FileName"), options_of(self, WRITE), self.progress)
+        _engine.write(mesh, self.value("FileName"), options_of(self, WRITE), self.show_progress)
         self._is_written = True
 
 
@@ -332,8 +330,7 @@ class vtkPartitionedMeshQuery(Filter):
     INPUT_NAMES = {"Source": 1}
     OUTPUTS = ("vtkDataSet",)
 
-    def __init__(self) -> None:
-        super().__init__()
+    def prepare(self) -> None:
         self._opened: tuple[Any, Any] = (None, None)
 
     def RequestDataObject(self, _request: Any, inputs: Any, outputs: Any) -> int:

@@ -8,6 +8,7 @@ import numpy as np
 
 from . import _core
 from ._constraints import constraints_of
+from ._surface import completed
 
 
 class Segments(NamedTuple):
@@ -50,10 +51,15 @@ def segments_of(points: np.ndarray, data: dict[str, np.ndarray], options: dict[s
         ids, new = _core.match_positions(points, corners)
         pairs = np.concatenate([np.arange(count), ids])[pairs]
         if len(new):
+            corners = corners[new]
+            if constraints is None:
+                values = {name: array[new] for name, array in own.items()}
+            else:
+                corners, values = completed(points, data, corners, options["threads"])
             kind = np.promote_types(points.dtype, corners.dtype)
-            points = np.concatenate([points.astype(kind), corners[new, : points.shape[1]]])
-            joined = {name: np.concatenate([values, own[name][new]]) for name, values in data.items()
-                      if name in own and own[name].dtype == values.dtype and own[name].shape[1:] == values.shape[1:]}
+            joined = {name: np.concatenate([array, values[name]]) for name, array in data.items()
+                      if name in values and values[name].dtype == array.dtype and values[name].shape[1:] == array.shape[1:]}
+            points = np.concatenate([points.astype(kind), corners[:, : points.shape[1]]])
             lost = len(data) - len(joined)
             if lost:
                 warnings.append(f"{lost} point arrays of the input are left out: the source has {len(new)} new points "

@@ -164,6 +164,52 @@ class Arguments(unittest.TestCase):
         bounds, dimensions = np.array([0, 1, 0, 1, 0, 0]), np.array([3, 3, 1])
         self.assertEqual(tipp.resample(self.mesh, bounds, dimensions).GetDimensions(), (3, 3, 1))
 
+    def test_memory_has_any_unit_in_any_case(self):
+        for text, size in (("1 GB", 1 << 30), ("512M", 1 << 29), ("64 MiB", 1 << 26), ("64mb", 1 << 26), ("7 kB", 7 << 10),
+                           ("7K", 7 << 10), ("100 B", 100), ("100b", 100), ("2  gib", 1 << 31)):
+            self.assertEqual(size, tipp._arguments.memory(text, "memory"), text)
+        for text in ("1 G B", "GB", "1 TB", "1e9", "-1 GB", "0 GB", "5iB", "1 GB GB"):
+            with self.assertRaisesRegex(ValueError, "^memory is"):
+                tipp._arguments.memory(text, "memory")
+
+    def test_an_array_is_bounds_and_dimensions(self):
+        expected = tipp.resample(self.mesh, (0.2, 0.8, 0.1, 0.9), (5, 4), arrays="f")
+        for bounds, dimensions in ((np.array([0.2, 0.8, 0.1, 0.9]), np.array([5, 4])),
+                                   (np.array([0.2, 0.8, 0.1, 0.9, 0, 0]), np.array([5, 4, 1], np.int32))):
+            image = tipp.resample(self.mesh, bounds, dimensions, arrays="f")
+            np.testing.assert_array_equal(tipp.as_array(expected, "f"), tipp.as_array(image, "f"))
+        heights = np.c_[POINTS, POINTS[:, 0]]
+        np.testing.assert_array_equal(tipp.dem(heights, 0.1, bounds=(0.2, 0.8, 0.1, 0.9)).array,
+                                      tipp.dem(heights, 0.1, bounds=np.array([0.2, 0.8, 0.1, 0.9])).array)
+
+    def test_an_array_that_the_mesh_does_not_have_is_a_key_error(self):
+        for arrays in ("q", ["f", "q"]):
+            with self.assertRaisesRegex(KeyError, r"no array 'q'; it has \['f'"):
+                tipp.resample(self.mesh, dimensions=(3, 3), arrays=arrays)
+
+    def test_points_of_laspy_are_points(self):
+        class LasData:
+            xyz = np.c_[POINTS, POINTS[:, 0]]
+            x, y, z = xyz.T
+
+            def __len__(self):
+                return len(POINTS)
+
+        class Columns:
+            x, y, z = LasData.xyz.T
+
+        np.testing.assert_array_equal(tipp.delaunay(POINTS), tipp.delaunay(LasData()))
+        np.testing.assert_array_equal(tipp.delaunay(POINTS), tipp.delaunay(Columns()))
+        self.assertEqual(POINTS[3, 0], tipp.delaunay_2d(LasData()).GetPoint(3)[2])
+        np.testing.assert_array_equal(tipp.dem(LasData.xyz, 0.1).array, tipp.dem(LasData(), 0.1).array)
+
+    def test_an_output_folder_is_not_named_like_a_file(self):
+        folder = os.path.join(self.folder.name, "mesh.vtu")
+        for write in (lambda: tipp.write(self.mesh, folder), lambda: tipp.delaunay_file(self.points, folder)):
+            with self.assertRaisesRegex(RuntimeError, "mesh.vtu: would be a folder, though its name ends like a file's"):
+                write()
+        self.assertFalse(os.path.exists(folder))
+
     def test_an_open_range_is_read(self):
         self.assertEqual(tipp.read(self.stored, (-INF, INF) * 3).GetNumberOfCells(), self.mesh.GetNumberOfPolys())
 

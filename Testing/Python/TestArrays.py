@@ -6,6 +6,8 @@ import unittest
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
+from vtkmodules.vtkCommonDataModel import vtkPointData
 
 import tipp
 
@@ -80,6 +82,55 @@ class PointData(unittest.TestCase):
         for values in (np.float64(3), np.zeros((COUNT, 2, 2)), np.zeros((COUNT, 0)), np.zeros(0), [[1, 2], [3]]):
             with self.assertRaisesRegex(ValueError, r"^point_data\['v'\] "):
                 stored(values)
+
+
+class TooFewValues(unittest.TestCase):
+    """Arrays of data sets, which are not checked when they are added."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.output = os.path.join(folder.name, "mesh.tipp")
+        self.corners = np.array([[0.2, 0.2], [0.8, 0.3], [0.5, 0.7]])
+
+    def mesh(self, of_cells=False, name="short"):
+        mesh = tipp.delaunay_2d(random_points())
+        array = vtkUnsignedCharArray()
+        array.SetName(name)
+        array.SetNumberOfTuples(2)
+        (mesh.GetCellData() if of_cells else mesh.GetPointData()).AddArray(array)
+        return mesh
+
+    def test_are_refused_by_every_function_with_the_name(self):
+        functions = {"open": tipp.open, "resample": tipp.resample, "write": lambda mesh: tipp.write(mesh, self.output)}
+        of_points = {"delaunay_2d": lambda mesh: tipp.delaunay_2d(mesh, polygons=[self.corners]),
+                     "dem": lambda mesh: tipp.dem(mesh, 0.1, attributes="short"),
+                     "crossings": lambda mesh: tipp.delaunay_2d(mesh, edges=[[0, 1], [2, 3], [4, 5], [6, 7], [8, 9]])}
+        for of_cells in (False, True):
+            for name, function in {**functions, **({} if of_cells else of_points)}.items():
+                with self.subTest(name, of_cells=of_cells), self.assertRaisesRegex(
+                        RuntimeError, f"array 'short' has 2 values for [0-9]+ {'cells' if of_cells else 'points'}"):
+                    function(self.mesh(of_cells))
+
+    def test_are_refused_in_marks_of_ghosts(self):
+        for function in (tipp.open, tipp.resample):
+            with self.assertRaisesRegex(RuntimeError, "array 'vtkGhostType' has 2 values"):
+                function(self.mesh(True, "vtkGhostType"))
+
+    def test_are_refused_in_polygons_of_a_query(self):
+        if not hasattr(tipp.vtkPartitionedMeshQuery, "ZoneStatistics"):
+            self.skipTest("the wheel's class has no ZoneStatistics")
+        query = tipp.vtkPartitionedMeshQuery()
+        query.SetSourceData(tipp.delaunay_2d(random_points()))
+        errors = []
+
+        def on_error(_object, _event, text):
+            errors.append(text)
+
+        on_error.CallDataType = "string0"
+        query.AddObserver("ErrorEvent", on_error)
+        self.assertEqual(0, query.ZoneStatistics(self.mesh(True, "IsHole"), "elevation", 0, 0.0, vtkPointData()))
+        self.assertIn("'IsHole' has 2 values", errors[0])
 
 
 class Points(unittest.TestCase):

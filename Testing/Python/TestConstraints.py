@@ -87,6 +87,146 @@ class Polygons(unittest.TestCase):
         points = vtk_to_numpy(mesh.GetPoints().GetData())
         self.assertEqual([3, 4, 5, 6], points[9:, 2].tolist())
 
+class NewCorners(unittest.TestCase):
+    def setUp(self):
+        xy = np.random.default_rng(6).random((400, 2))
+        self.points = np.c_[xy, 400 + 3 * xy[:, 0] - 2 * xy[:, 1]]
+        self.data = {"depth": xy @ [5.0, 1.0], "kind": np.full(400, 7, np.int16), "pair": xy}
+        self.inside = np.array([[0.2, 0.2], [0.8, 0.25], [0.7, 0.8], [0.3, 0.7]])
+
+    def added(self, **constraints):
+        """The points and the arrays of the corners that are new."""
+        mesh = tipp.delaunay_2d(self.points, point_data=self.data, **constraints)
+        return (vtk_to_numpy(mesh.GetPoints().GetData())[400:],
+                {name: tipp.as_array(mesh, name)[400:] for name in self.data})
+
+    def test_have_the_height_and_the_values_of_the_surface(self):
+        for corners in (self.inside, np.c_[self.inside, np.zeros(4)], np.c_[self.inside, np.full(4, np.nan)]):
+            for constraints in ({"polygons": [corners]}, {"edges": [corners]}):
+                points, values = self.added(**constraints)
+                x, y = self.inside.T
+                np.testing.assert_array_equal(self.inside, points[:, :2])
+                np.testing.assert_allclose(points[:, 2], 400 + 3 * x - 2 * y, rtol=1e-12)
+                np.testing.assert_allclose(values["depth"], 5 * x + y, rtol=1e-12)
+                np.testing.assert_allclose(values["pair"], self.inside, rtol=1e-12)
+                self.assertEqual(([7] * 4, np.int16), (values["kind"].tolist(), values["kind"].dtype))
+
+    def test_keep_their_own_heights_and_have_the_values_of_the_surface(self):
+        points, values = self.added(polygons=[np.c_[self.inside, [1, 0, 2, 3]]])
+        self.assertEqual([1, 0, 2, 3], points[:, 2].tolist())
+        np.testing.assert_allclose(values["depth"], self.inside @ [5.0, 1.0], rtol=1e-12)
+
+    def test_outside_of_the_surface_have_those_of_its_nearest_location(self):
+        self.points[:4] = [[0, 0, 1], [1, 0, 1], [1, 1, 3], [0, 1, 3]]
+        self.data["depth"][:4] = [1, 2, 3, 4]
+        points, values = self.added(polygons=[[[-1, -1], [2, -1], [2, 0.5], [0.5, 2], [-1, 2]]])
+        self.assertEqual([1, 1, 2, 3, 3], points[:, 2].tolist())
+        self.assertEqual([1, 2, 2.5, 3.5, 4], values["depth"].tolist())
+
+    def test_beside_points_on_a_line_have_the_values_of_the_nearest(self):
+        points = np.array([[0.0, 0, 5], [1, 0, 6], [2, 0, 7]])
+        mesh = tipp.delaunay_2d(points, polygons=[[[0.1, -1], [1.9, -1], [1.1, 1]]])
+        self.assertEqual([5, 7, 6], vtk_to_numpy(mesh.GetPoints().GetData())[3:, 2].tolist())
+
+    def test_beside_points_that_are_not_finite_have_those_of_the_others(self):
+        self.points[:5, 0] = np.nan
+        with self.assertWarns(RuntimeWarning):
+            points, _ = self.added(polygons=[self.inside])
+        x, y = self.inside.T
+        np.testing.assert_allclose(points[:, 2], 400 + 3 * x - 2 * y, rtol=1e-12)
+
+    def test_over_points_without_heights_have_none(self):
+        mesh = tipp.delaunay_2d(SQUARES, polygons=[[[1.0, 1.0], [7.0, 1.0], [7.0, 7.0]]])
+        self.assertEqual([0, 0, 0], vtk_to_numpy(mesh.GetPoints().GetData())[9:, 2].tolist())
+
+
+class Shape:
+    """A geometry as of Shapely."""
+
+    def __init__(self, kind, coordinates):
+        self.__geo_interface__ = {"type": kind, "coordinates": coordinates}
+
+
+class Line:
+    """A geometry with coordinates only."""
+
+    def __init__(self, coords):
+        self.coords = coords
+
+
+class Column:
+    """A GeoSeries: it is iterable, and is a collection of features, whose geometry may be None."""
+
+    def __init__(self, shapes):
+        self.shapes = shapes
+        self.geometry = self
+
+    def __iter__(self):
+        return iter(self.shapes)
+
+    @property
+    def __geo_interface__(self):
+        return {"type": "FeatureCollection", "features": [
+            {"type": "Feature", "geometry": s and s.__geo_interface__, "properties": {}} for s in self.shapes]}
+
+
+class Table:
+    """A GeoDataFrame, as far as it has a column of geometries."""
+
+    def __init__(self, shapes):
+        self.geometry = Column(shapes)
+
+
+class Geometries(unittest.TestCase):
+    RING = [*SQUARES[INNER].tolist(), SQUARES[4].tolist()]
+    OUTER = [[0, 0], [0, 8], [8, 8], [8, 0], [0, 0]]
+
+    def test_are_polygons_of_any_kind_and_orientation(self):
+        ring, hole = self.RING, self.RING[::-1]
+        donut, inner = Shape("Polygon", [self.OUTER, ring]), Shape("Polygon", [hole])
+        cases = [([donut], 60), (donut, 60), ([inner], 4), (Shape("MultiPolygon", [[self.OUTER, hole]]), 60),
+                 (Column([donut, None]), 60), (Table([inner]), 4), (donut.__geo_interface__, 60),
+                 ([Shape("LinearRing", hole)], 4), ([Line(ring)], 4),
+                 ({"type": "GeometryCollection", "geometries": [inner.__geo_interface__]}, 4),
+                 ([Shape("Polygon", ()), inner], 4), (np.array([inner, None], object), 4)]
+        for polygons, expected in cases:
+            with self.subTest(polygons=polygons):
+                self.assertEqual(expected, area(tipp.delaunay_2d(SQUARES, polygons=polygons)))
+
+    def test_are_edges(self):
+        line = [[0, 0], [4, 4.25], [8, 8]]
+        for edges in ([Shape("LineString", line)], Shape("LineString", line), Line(line), Column([Shape("LineString", line)]),
+                      Table([None, Shape("MultiLineString", [line])]), [np.array(line)], Line(np.c_[line, [1, 2, 3]])):
+            mesh = tipp.delaunay_2d(SQUARES, edges=edges, marks="lines")
+            self.assertEqual(9, mesh.GetNumberOfPoints())
+            self.assertTrue(has_edge(mesh, 8, 2) and has_edge(mesh, 8, 4) and has_edge(mesh, 4, 0))
+        closed = tipp.delaunay_2d(SQUARES, edges=[Shape("Polygon", [self.RING])], marks="lines")
+        self.assertEqual((64, 4), (area(closed), closed.GetNumberOfLines()))
+
+    def test_of_another_kind_are_refused_by_name(self):
+        for arguments, text in (({"polygons": [Shape("LineString", [[0, 0], [1, 1]])]}, r"polygons\[0\] is a LineString that is not"),
+                                ({"polygons": [Shape("Point", [0, 0])]}, r"polygons\[0\] is a Point;"),
+                                ({"edges": [Shape("Point", [0, 0])]}, r"edges\[0\] is a Point;"),
+                                ({"edges": [Shape("Circle", [0, 0])]}, r"edges\[0\] is a Circle;")):
+            with self.assertRaisesRegex(TypeError, text):
+                tipp.delaunay_2d(SQUARES, **arguments)
+        with self.assertRaisesRegex(ValueError, r"polygons\[0\] has corners that are not all"):
+            tipp.delaunay_2d(SQUARES, polygons=[Shape("Polygon", [[[0, 0], [1, 0, 3], [1, 1]]])])
+
+    @unittest.skipUnless(importlib.util.find_spec("geopandas"), "GeoPandas is not installed")
+    def test_of_geopandas(self):
+        import geopandas
+        from shapely.geometry import LineString, Polygon
+
+        frame = geopandas.GeoDataFrame({"name": ["donut", "none"]}, geometry=[Polygon(self.OUTER, [self.RING]), None])
+        self.assertEqual(60, area(tipp.delaunay_2d(SQUARES, polygons=frame)))
+        self.assertEqual(60, area(tipp.delaunay_2d(SQUARES, polygons=frame.geometry)))
+        lines = geopandas.GeoSeries([LineString([[0, 0], [8, 8]])])
+        self.assertTrue(has_edge(tipp.delaunay_2d(SQUARES, edges=lines), 6, 2))
+        points = geopandas.GeoSeries.from_xy(*SQUARES.T)
+        self.assertEqual(len(tipp.delaunay(SQUARES)), len(tipp.delaunay(points)))
+        self.assertEqual(len(tipp.delaunay(SQUARES)), len(tipp.delaunay(geopandas.GeoDataFrame(geometry=points))))
+
     @unittest.skipUnless(importlib.util.find_spec("shapely"), "Shapely is not installed")
     def test_shapely_polygons_bring_their_holes(self):
         from shapely.geometry import Polygon

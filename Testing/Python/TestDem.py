@@ -122,6 +122,12 @@ class Dem(unittest.TestCase):
                           {"breaklines": self.path(file), "boundary": self.path("ring.csv")}):
                 np.testing.assert_array_equal(expected, tipp.dem(self.points, 0.5, **given).array)
                 np.testing.assert_array_equal(expected, tipp.dem(self.points, 0.5, memory="1M", **given).array)
+        shapes = [{"type": kind, "coordinates": at} for kind, at in (
+            ("LineString", line.tolist()), ("Polygon", [[*ring.tolist(), ring[0].tolist()]]))]
+        for given in ({"breaklines": [shapes[0]], "boundary": [shapes[1]]},
+                      {"breaklines": {"type": "GeometryCollection", "geometries": shapes[:1]}, "boundary": shapes[1]}):
+            self.assertTrue(np.array_equal(tipp.dem(self.points, 0.5, breaklines=[line], boundary=[ring]).array,
+                                           tipp.dem(self.points, 0.5, **given).array, equal_nan=True))
         with self.assertRaisesRegex(ValueError, r"boundary\[0\] has the shape"):
             tipp.dem(self.points, 1, boundary=[ring[:, 0]])
 
@@ -167,6 +173,17 @@ class Dem(unittest.TestCase):
             tipp.dem(self.points[:, :2], 1)
 
     @unittest.skipIf(shutil.which("gdalinfo") is None, "no gdalinfo")
+    def test_columns_that_files_lack_are_named_with_those_they_have(self):
+        np.savetxt(self.path("named.csv"), self.points, "%.17g", ",", header="x,y,soil", comments="")
+        np.savetxt(self.path("heights.csv"), self.points, "%.17g", ",", header="x,y,z", comments="")
+        with self.assertRaisesRegex(KeyError, r"no column 'z'; there are \['soil'\]"):
+            tipp.dem(self.path("named.csv"), 2)
+        with self.assertRaisesRegex(KeyError, r"no column 'Soil'; there are \['soil'\]"):
+            tipp.dem(self.path("named.csv"), 2, attributes="Soil")
+        with self.assertRaisesRegex(KeyError, r"no column 'soil'; there are \['z'\]"):
+            tipp.dem(self.path("heights.csv"), 2, attributes="soil")
+        self.assertTrue(np.isfinite(tipp.dem(self.path("named.csv"), 2, attributes="soil").array).any())
+
     def test_gdal_reads_what_was_written(self):
         self.run_tipp("dem", "points.npy", "-o", "dem.npy", "--resolution", 0.5)
         self.run_tipp("dem", "points.npy", "-o", "dem.tif", "--resolution", 0.5, "--crs", "EPSG:25832+7837",

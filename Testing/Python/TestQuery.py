@@ -166,6 +166,20 @@ class Query(unittest.TestCase):
             self.assertEqual(zones.cells[2], 0)
             self.assertEqual(mesh.zones([], "height").area.shape, (0,))
 
+    def test_zones_are_the_rows_of_a_table_of_geometries(self):
+        ring = [[0.2, 0.2], [0.8, 0.3], [0.5, 0.8], [0.2, 0.2]]
+        table = {"type": "FeatureCollection", "features": [
+            {"type": "Feature", "geometry": shape, "properties": {}} for shape in (
+                {"type": "Polygon", "coordinates": [ring]}, None, {"type": "MultiPolygon", "coordinates": [[ring]]})]}
+        with tipp.open(self.path) as mesh:
+            expected = mesh.zones([ring[:-1]], "height")
+            zones = mesh.zones(table, "height")
+            self.assertEqual([expected.area[0], 0, expected.area[0]], zones.area.tolist())
+            self.assertEqual([expected.integral[0], 0, expected.integral[0]], zones.integral.tolist())
+            np.testing.assert_array_equal(mesh.cells_in(polygon=ring[:-1]), mesh.cells_in(polygon=table))
+            line = {"type": "LineString", "coordinates": [[0.1, 0.1], [0.9, 0.8]]}
+            np.testing.assert_array_equal(mesh.profile(line["coordinates"], 0.1).points, mesh.profile(line, 0.1).points)
+
     def test_zones_of_shapely(self):
         if not importlib.util.find_spec("shapely"):
             self.skipTest("shapely is not installed")

@@ -77,10 +77,19 @@ class Constraints(unittest.TestCase):
     def test_coordinates_are_existing_or_new_points(self):
         mesh = tipp.delaunay_2d(SQUARES, polygons=[SQUARES[INNER]])
         self.assertEqual((9, 4), (len(mesh.points), area(mesh)))
-        with self.assertWarnsRegex(RuntimeWarning, "1 point arrays of the input are left out"):
-            mesh = tipp.delaunay_2d(SQUARES, polygons=[[[1.0, 1.0], [7.0, 1.0], [7.0, 7.0], [1.0, 7.0]]],
-                                    point_data={"depth": np.arange(9.0)})
+        mesh = tipp.delaunay_2d(SQUARES, polygons=[[[1.0, 1.0], [7.0, 1.0], [7.0, 7.0], [1.0, 7.0]]],
+                                point_data={"sum": SQUARES.sum(axis=1)})
         self.assertEqual((13, 36), (len(mesh.points), area(mesh)))
+        np.testing.assert_allclose(mesh.point_data["sum"], mesh.points.sum(axis=1), atol=1e-12)
+
+    def test_new_corners_have_the_height_and_the_values_of_the_surface(self):
+        xy = np.random.default_rng(6).random((400, 2))
+        points = np.c_[xy, 400 + 3 * xy[:, 0]]
+        ring = np.array([[0.2, 0.2], [0.8, 0.25], [0.7, 0.8], [-0.3, 0.7]])
+        mesh = tipp.delaunay_2d(points, polygons=[ring], point_data={"kind": np.full(400, 7, np.int16)})
+        np.testing.assert_allclose(mesh.points[400:403, 2], 400 + 3 * ring[:3, 0], rtol=1e-12)
+        self.assertTrue(400 <= mesh.points[403, 2] < 400.2)  # outside: that of the nearest location
+        self.assertEqual([7] * 404, mesh.point_data["kind"].tolist())
 
     def test_polygons_with_a_corner_that_is_not_finite_are_refused(self):
         points = SQUARES.copy()
@@ -135,8 +144,11 @@ class Rasters(unittest.TestCase):
                 expected = tipp.dem(self.points, 2.0, attributes=attributes, point_data={"a": self.points[:, 0] * 2})
                 np.testing.assert_array_equal(expected.array, grid)
                 self.assertEqual((expected.transform, None), (transform, crs))
-            with self.assertRaisesRegex(KeyError, "no column 'c'"):
+            with self.assertRaisesRegex(KeyError, r"no column 'c'; there are \['z', 'a'\]"):
                 tipp.dem(name, 2.0, attributes="c")
+            np.savetxt(name, self.points, "%.17g", ",", header="x,y,a", comments="")
+            with self.assertRaisesRegex(KeyError, r"no column 'z'; there are \['a'\]"):
+                tipp.dem(name, 2.0)
 
     def test_bounds_alignment_and_long_edges(self):
         inside = tipp.dem(self.points, 2.0, bounds=(10, 60, 20, 50))

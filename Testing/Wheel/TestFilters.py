@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The wheel's VTK filters in pipelines of the installed VTK."""
+import gc
 import os
 import tempfile
 import unittest
+import warnings
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -11,6 +13,8 @@ from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkUnstruct
 from vtkmodules.vtkFiltersSources import vtkPointSource
 
 import tipp
+import tipp._filters
+from tipp._filter import Filter
 from tipp._vtk import point_cloud, triangles_of
 
 
@@ -117,6 +121,82 @@ class Delaunay2D(unittest.TestCase):
         self.filter.Modified()
         self.filter.Update()
         self.assertEqual(([], 0), (self.errors, self.filter.GetOutput().GetNumberOfPolys()))
+
+
+def every_filter():
+    return [getattr(tipp, name) for name in dir(tipp._filters) if name.startswith(("vtkTIPP", "vtkPartitioned", "vtkRange"))
+            and issubclass(getattr(tipp._filters, name), Filter)]
+
+
+class Properties(unittest.TestCase):
+    def test_have_the_names_of_python(self):
+        made = tipp.vtkTIPPDelaunay2D(alpha=0.02)
+        made.maximum_edge_length = 3
+        made.number_of_partitions = (3, 2)
+        made.generate_neighbor_ids = True
+        self.assertEqual((0.02, 3.0, (3, 2), True), (made.GetAlpha(), made.GetMaximumEdgeLength(),
+                                                     made.GetNumberOfPartitions(), made.GetGenerateNeighborIds()))
+        self.assertEqual((0.02, 1.0), (made.alpha, made.offset))
+        before = made.GetMTime()
+        made.alpha = 0.03
+        self.assertGreater(made.GetMTime(), before)
+
+    def test_of_every_filter_have_both_names(self):
+        for kind in every_filter():
+            made = kind()
+            for name in kind.PROPERTIES:
+                self.assertEqual(getattr(made, f"Get{name}")(), getattr(made, tipp._filter._in_python(name)), name)
+
+    def test_that_are_unknown_raise(self):
+        for kind in every_filter():
+            with self.assertRaisesRegex(AttributeError, f"{kind.__name__} has no property 'alpah'"):
+                kind().alpah = 0.02
+            with self.assertRaisesRegex(AttributeError, "has no property 'alpah'"):
+                kind(alpah=0.02)
+
+    def test_inputs_are_properties(self):
+        made = tipp.vtkTIPPDelaunay2D()
+        made.source_data = polygon([3, 40, 70])
+        self.assertEqual(1, made.source.GetNumberOfPolys())
+
+
+class Memory(unittest.TestCase):
+    def test_of_every_filter_is_freed(self):
+        for kind in every_filter():
+            made = kind()
+            freed = []
+            made.AddObserver("DeleteEvent", lambda *_: freed.append(True))
+            del made
+            gc.collect()
+            self.assertEqual([True], freed, kind.__name__)
+
+    def test_a_selection_of_arrays_modifies_its_filter(self):
+        made = tipp.vtkRangeResampleFilter()
+        before = made.GetMTime()
+        made.GetPointDataArraySelection().DisableArray("height")
+        self.assertGreater(made.GetMTime(), before)
+
+
+class Warnings(unittest.TestCase):
+    def test_of_the_package_are_events_and_others_are_left_to_python(self):
+        points = cloud(50)
+        points.GetPoints().SetPoint(7, float("nan"), 0, 0)
+        made = tipp.vtkTIPPDelaunay2D()
+        made.SetInputData(points)
+        told = []
+
+        def on_warning(_object, _event, text):
+            told.append(text)
+
+        on_warning.CallDataType = "string0"
+        made.AddObserver("WarningEvent", on_warning)
+        made.AddObserver("ProgressEvent", lambda *_: warnings.warn("of another package", DeprecationWarning))
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            made.Update()
+        self.assertRegex(told[0], "the first is point 7")
+        self.assertEqual(1, len(told))
+        self.assertIn("of another package", {str(w.message) for w in caught})
 
 
 class Meshes(unittest.TestCase):

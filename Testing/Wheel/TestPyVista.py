@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The wheel with PyVista, for both of its back ends: VTK and cvista."""
+import importlib
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import numpy as np
 import pyvista
 
 import tipp
-from tipp._vtkmodules import vtk_to_numpy, vtkCellArray, vtkPolyData, vtkUnstructuredGrid, vtkVersion
+from tipp._vtkmodules import root, vtk_to_numpy, vtkCellArray, vtkPolyData, vtkUnstructuredGrid, vtkVersion
 
 
 def terrain(count=2000):
@@ -16,6 +18,18 @@ def terrain(count=2000):
     cloud = pyvista.PolyData(points)
     cloud["height"] = points[:, 0] + points[:, 1]
     return cloud
+
+
+def implicit_array(count):
+    """An array with the values 5, 7, 9 ... that VTK computes; None if this VTK has none."""
+    try:
+        array = getattr(importlib.import_module(f"{root()}.vtkCommonCore"), "vtkAffineTypeFloat64Array")()
+        array.ConstructBackend(2.0, 5.0)
+    except (AttributeError, TypeError):
+        return None
+    array.SetNumberOfTuples(count)
+    array.SetName("implicit")
+    return array
 
 
 class PyVista(unittest.TestCase):
@@ -70,6 +84,53 @@ class PyVista(unittest.TestCase):
         x, y = np.meshgrid(np.linspace(0.2, 0.8, 7), np.linspace(0.2, 0.8, 7))
         np.testing.assert_allclose(tipp.as_array(image, "height"), x + y, atol=1e-12)
 
+    def test_a_mesh_with_lines_and_vertices_is_used_as_its_triangles(self):
+        points = np.c_[np.random.default_rng(2).random((2000, 2)), np.zeros(2000)]
+        cloud = pyvista.PolyData(points)
+        cloud["height"] = points[:, 0] + points[:, 1]
+        asked = np.random.default_rng(3).random((50, 2)) * 0.8 + 0.1
+        for options in ({"polygons": [[[0.1, 0.1], [0.9, 0.1], [0.5, 0.9]]], "marks": "lines"}, {"alpha": 0.05}):
+            mesh = cloud.tipp.delaunay_2d(**options)
+            self.assertGreater(mesh.n_lines, 0)
+            mesh.cell_data["number"] = np.arange(mesh.n_cells)
+            image = mesh.tipp.resample_to_image(bounds=(0.2, 0.8, 0.2, 0.8), dimensions=(7, 7))
+            inside = tipp.as_array(image, "vtkValidPointMask") == 1
+            x, y = np.meshgrid(np.linspace(0.2, 0.8, 7), np.linspace(0.2, 0.8, 7))
+            np.testing.assert_allclose(tipp.as_array(image, "height")[inside], (x + y)[inside], atol=1e-12)
+            with tipp.open(mesh) as opened:
+                cells, values = opened.locate(asked)[0], opened.interpolate(asked, "number")
+                found = cells >= 0
+                self.assertTrue(found.any())
+                np.testing.assert_array_equal(cells[found], values[found])  # ids are those of the data set's cells
+                self.assertGreaterEqual(cells[found].min(), mesh.n_lines + mesh.n_verts)
+                neighbors = opened.neighbors(cells[found])
+                self.assertTrue(((neighbors == -1) | (neighbors >= mesh.n_lines + mesh.n_verts)).all())
+            with tempfile.TemporaryDirectory() as folder:
+                with self.assertWarnsRegex(RuntimeWarning, f"^{mesh.n_lines + mesh.n_verts} cells of fewer dimensions"):
+                    mesh.tipp.save(f"{folder}/mesh.tipp")
+                self.assertEqual(mesh.GetNumberOfPolys(), tipp.read(f"{folder}/mesh.tipp").GetNumberOfCells())
+            grid = mesh.cast_to_unstructured_grid()
+            with tipp.open(grid) as opened:
+                np.testing.assert_array_equal(cells, opened.locate(asked)[0])
+
+    def test_ghost_cells_are_left_out_of_a_stored_mesh_with_a_warning(self):
+        mesh = terrain().tipp.delaunay_2d()
+        mesh.cell_data["vtkGhostType"] = (np.arange(mesh.n_cells) < 16).astype(np.uint8)
+        with tempfile.TemporaryDirectory() as folder, self.assertWarnsRegex(RuntimeWarning, "^16 ghost cells are left out"):
+            mesh.tipp.save(f"{folder}/mesh.tipp")
+
+    @unittest.skipUnless(implicit_array(2), "this VTK has no implicit arrays")
+    def test_arrays_that_compute_their_values_are_arrays_like_others(self):
+        mesh = terrain(300).tipp.delaunay_2d()
+        mesh.GetPointData().AddArray(implicit_array(300))
+        image = tipp.resample(mesh, dimensions=(9, 9))
+        np.testing.assert_allclose(tipp.as_array(mesh, "implicit"), 5 + 2 * np.arange(300))
+        with tipp.open(mesh) as opened:
+            at = np.asarray(mesh.points)[:20, :2]
+            np.testing.assert_allclose(opened.interpolate(at, "implicit"), 5 + 2 * np.arange(20), atol=1e-9)
+            np.testing.assert_allclose(opened.interpolate(at, "height"), mesh["height"][:20], atol=1e-9)
+        self.assertIn("implicit", image.point_data)
+
     def test_a_data_set_samples_a_mesh_as_pyvista_does(self):
         points = terrain().points.copy()
         points[:, 2] = 0
@@ -107,8 +168,6 @@ class PyVista(unittest.TestCase):
                 np.testing.assert_array_equal(expected, tipp.as_array(tipp.resample(copy, dimensions=(9, 9)), "height"))
 
     def test_a_mesh_is_stored_and_read_again(self):
-        import tempfile
-
         with tempfile.TemporaryDirectory() as folder:
             mesh = terrain().tipp.delaunay_2d()
             mesh.tipp.save(f"{folder}/mesh.tipp")

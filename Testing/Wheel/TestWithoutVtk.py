@@ -96,6 +96,38 @@ class WithoutVtk(unittest.TestCase):
         with self.assertRaisesRegex(RuntimeError, "refer to points from 0 to 9, but there are 3 points"):
             tipp.resample(tipp.Mesh(np.zeros((3, 3)), np.array([[0, 1, 9]])), dimensions=(2, 2))
 
+    def test_arrays_of_too_few_values_are_refused_by_name(self):
+        points, cells = self.mesh.points, self.mesh.cells
+        for of_points, of_cells, words in (({"q": np.ones(2)}, {}, "2 values for 3004 points"),
+                                           ({}, {"q": np.ones(5, np.uint8)}, f"5 values for {len(cells)} cells"),
+                                           ({}, {"vtkGhostType": np.zeros(1, np.uint8)}, f"1 values for {len(cells)} cells")):
+            mesh = tipp.Mesh(points, cells, of_points, of_cells)
+            with tempfile.TemporaryDirectory() as folder:
+                for use in (tipp.open, tipp.resample, lambda m: tipp.write(m, f"{folder}/mesh.tipp")):
+                    with self.assertRaisesRegex(RuntimeError, f"array '(q|vtkGhostType)' has {words}"):
+                        use(mesh)
+
+    def test_arrays_of_every_type_and_byte_order_keep_their_values(self):
+        numbers = np.arange(len(self.points)) % 100
+        for kind in ("f2", "f4", ">f8", "i1", "u2", ">i2", "i4", ">u8", "?"):
+            mesh = tipp.Mesh(self.mesh.points, self.mesh.cells, {"q": (numbers % (2 if kind == "?" else 100)).astype(kind)})
+            with tipp.open(mesh) as opened:
+                np.testing.assert_allclose(opened.interpolate(self.points[:50], "q"), mesh.point_data["q"][:50], atol=1e-9)
+
+    def test_equal_meshes_are_equal(self):
+        copy = tipp.Mesh(self.mesh.points.copy(), self.mesh.cells.copy(), {"h": self.height.copy()})
+        self.assertTrue(self.mesh == copy)
+        copy.point_data["h"][3] = np.nan
+        self.assertTrue(self.mesh != copy)
+        self.assertTrue(copy == tipp.Mesh(self.mesh.points, self.mesh.cells, {"h": copy.point_data["h"].copy()}))
+        self.assertFalse(self.mesh == tipp.Mesh(self.mesh.points, self.mesh.cells))
+        self.assertFalse(self.mesh == 3)
+        self.assertTrue(tipp.resample(self.mesh, dimensions=(3, 3)) == tipp.resample(self.mesh, dimensions=(3, 3)))
+
+    def test_a_device_that_no_name_matches_is_an_error(self):
+        with self.assertRaisesRegex(RuntimeError, "no OpenCL device named 'intel'. TIPP was built without OpenCL"):
+            tipp.resample(self.mesh, dimensions=(5, 4), device="opencl:intel")
+
     def test_the_warning_of_a_missing_device_names_the_build(self):
         with self.assertWarnsRegex(RuntimeWarning, "built without OpenCL.*OpenMP does it instead"):
             tipp.resample(self.mesh, dimensions=(5, 4), device="opencl")

@@ -23,21 +23,19 @@ namespace tipp
 
 std::optional<std::uint64_t> parseMemorySize(const std::string& text)
 {
-  static const std::map<std::string, int> powers{ { "", 0 }, { "b", 0 }, { "k", 10 }, { "kb", 10 },
-    { "kib", 10 }, { "m", 20 }, { "mb", 20 }, { "mib", 20 }, { "g", 30 }, { "gb", 30 },
-    { "gib", 30 }, { "t", 40 }, { "tb", 40 }, { "tib", 40 } };
-  const std::size_t end = std::min(text.find_first_not_of("0123456789."), text.size());
+  static const std::map<std::string, unsigned> shifts{ { "", 0 }, { "b", 0 }, { "k", 10 },
+    { "kb", 10 }, { "kib", 10 }, { "m", 20 }, { "mb", 20 }, { "mib", 20 }, { "g", 30 },
+    { "gb", 30 }, { "gib", 30 } };
+  const std::size_t end = std::min(text.find_first_not_of("0123456789"), text.size());
   std::string unit = text.substr(std::min(text.find_first_not_of(' ', end), text.size()));
   std::transform(unit.begin(), unit.end(), unit.begin(),
     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const auto power = powers.find(unit);
-  const auto number = wholeNumber<long double>(text.substr(0, end)); // holds 64 bits exactly
-  if (power == powers.end() || !number)
-  {
-    return std::nullopt;
-  }
-  const long double bytes = std::ldexp(*number, power->second);
-  return bytes >= 1 && bytes < 0x1p64L ? std::make_optional(std::uint64_t(bytes)) : std::nullopt;
+  const auto known = shifts.find(unit);
+  const auto number = wholeNumber<std::uint64_t>(text.substr(0, end));
+  return known != shifts.end() && number && *number > 0 &&
+      *number <= (~std::uint64_t(0) >> known->second)
+    ? std::make_optional(*number << known->second)
+    : std::nullopt;
 }
 
 std::string checkPositive(const std::string& text)

@@ -14,6 +14,7 @@ import numpy as np
 
 _LARGEST_INT = (1 << 31) - 1  # C's int
 _MOST_THREADS = 4096
+_SHIFTS = {None: 0, "K": 10, "M": 20, "G": 30}
 
 
 def number(value: Any, name: str, *, at_least: float = -math.inf, finite: bool = True) -> float:
@@ -51,13 +52,14 @@ def threads(value: Any) -> int:
 
 
 def memory(value: Any, name: str) -> int:
-    """Returns a number of bytes, from a number or a text such as '512M'."""
+    """Returns a number of bytes, from a number or a text such as '512M', '1 GB' or '2 GiB'. K, M and G are powers of
+    1024, in any case, with B or iB or without."""
     if not isinstance(value, str):
         return whole(value, name, at_least=1, at_most=(1 << 63) - 1)
-    match = re.fullmatch(r"([0-9]+)([KMG]?)", value)
-    size = int(match[1]) << {"": 0, "K": 10, "M": 20, "G": 30}[match[2]] if match and len(value) < 30 else 0
+    match = re.fullmatch(r"([0-9]+) *(?:([KMG])(?:I?B)?|B)?", value.upper())
+    size = int(match[1]) << _SHIFTS[match[2]] if match and len(value) < 30 else 0
     if not 0 < size < 1 << 63:
-        raise ValueError(f"{name} is {_shown(value)}; give a number of bytes, such as 536870912, '512M' or '2G'.")
+        raise ValueError(f"{name} is {_shown(value)}; give a number of bytes, such as 536870912, '512M' or '2 GB'.")
     return size
 
 
@@ -114,6 +116,15 @@ def require_bands(wanted: Iterable[str], known: Iterable[str]) -> None:
     for name in wanted:
         if name not in (*columns, *DERIVED_BANDS, "elevation"):
             raise KeyError(f"there is no attribute '{name}'; there are {columns}.")
+
+
+def require_columns(options: Mapping[str, Any], known: list[str]) -> None:
+    """Raises KeyError if tipp.dem needs a column that is not among those of the files."""
+    missing = [name for name in options["attributes"] if name not in (*known, *DERIVED_BANDS, "elevation")]
+    if needs_elevation(options) and not {"z", "Z", "elevation"} & {*known}:
+        missing.append("z")
+    if missing:
+        raise KeyError(f"the points have no column '{missing[0]}'; there are {known}.")
 
 
 def needs_elevation(options: Mapping[str, Any]) -> bool:

@@ -7,7 +7,8 @@ from typing import Any, Mapping, TYPE_CHECKING
 
 import numpy as np
 
-from ._arguments import data_object, text
+from ._arguments import data_object, is_vtk_object, text
+from ._geometry import is_geometry, points_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -19,6 +20,14 @@ class Data:
     point_data: dict[str, np.ndarray]
     cell_data: dict[str, np.ndarray]
 
+    def __eq__(self, other: object) -> bool:
+        """Returns whether all values and names are equal; NaN equals NaN."""
+        if type(other) is not type(self):
+            return NotImplemented
+        return all(_are_equal(getattr(self, name), getattr(other, name)) for name in self.__dataclass_fields__)
+
+    __hash__ = None  # type: ignore[assignment]
+
     def array(self, name: str) -> np.ndarray:
         """Returns the array with this name of the points, else of the cells, else of a mesh's lines."""
         groups = [self.point_data, self.cell_data, getattr(self, "line_data", {})]
@@ -28,7 +37,16 @@ class Data:
         raise KeyError(f"there is no array '{name}'; there are {[known for arrays in groups for known in arrays]}.")
 
 
-@dataclass
+def _are_equal(a: Any, b: Any) -> bool:
+    if isinstance(a, dict):
+        return a.keys() == b.keys() and all(_are_equal(a[name], b[name]) for name in a)
+    if a is None or b is None:
+        return a is b
+    x, y = np.asarray(a), np.asarray(b)
+    return np.array_equal(x, y, equal_nan=x.dtype.kind == "f" and y.dtype.kind == "f")
+
+
+@dataclass(eq=False)
 class Mesh(Data):
     """A mesh of triangles or tetrahedra.
 
@@ -46,7 +64,7 @@ class Mesh(Data):
     line_data: dict[str, np.ndarray] = field(default_factory=dict)
 
 
-@dataclass
+@dataclass(eq=False)
 class Image(Data):
     """Samples at origin + index * spacing; as_array() returns them in the image's shape."""
 
@@ -94,6 +112,7 @@ def converted(values: ArrayLike, name: str) -> np.ndarray:
 def coordinates(points: ArrayLike) -> np.ndarray:
     if type(points) is np.ndarray and points.dtype is _DOUBLE and points.ndim == 2 and points.shape[1] in (2, 3):
         return points  # the usual case, to keep small calls fast
+    points = positions_of(points)
     if isinstance(points, np.ma.MaskedArray) and points.dtype.kind in "iu":
         points = np.ma.MaskedArray(_as_doubles(points.data, points.mask), points.mask)
     array = converted(points, "points")
@@ -102,6 +121,22 @@ def coordinates(points: ArrayLike) -> np.ndarray:
     if np.asarray(points).dtype.kind == "b":
         raise TypeError("points are of type bool; give real numbers.")
     return _as_doubles(array) if array.dtype.kind in "iu" and array.dtype.itemsize == 8 else array
+
+
+def positions_of(points: Any) -> Any:
+    """Returns the coordinates of laspy's LasData and other objects with xyz or x, y and z, and of a GeoSeries and other
+    geometries of points; other values as they are."""
+    if isinstance(points, (np.ndarray, list)) or is_vtk_object(points):
+        return points
+    if hasattr(points, "geometry") or is_geometry(points):
+        return points_of(points, "points")
+    if hasattr(points, "columns"):  # a DataFrame of pandas
+        return points
+    if hasattr(points, "xyz"):
+        return np.asarray(points.xyz)
+    if all(hasattr(points, axis) for axis in "xyz"):
+        return np.column_stack([np.asarray(points.x), np.asarray(points.y), np.asarray(points.z)])
+    return points
 
 
 def _as_doubles(integers: np.ndarray, mask: Any = False) -> np.ndarray:
@@ -151,6 +186,12 @@ def attributes(point_data: Mapping[str, ArrayLike] | None, points: int) -> dict[
     return result
 
 
+def require_values(name: str, found: int, due: int, of: str) -> None:
+    """Raises RuntimeError if an array has fewer values than there are points or cells."""
+    if found < due:
+        raise RuntimeError(f"the array '{name}' has {found} values for {due} {of}; repair it or write it again.")
+
+
 def as_array(data: Any, name: str) -> np.ndarray:
     """Returns an array of a data set's points or cells, in the data set's memory.
 
@@ -177,14 +218,14 @@ def as_array(data: Any, name: str) -> np.ndarray:
     if isinstance(data, Data):
         return data.array(name)
     data_object(data, "data", ("vtkDataSet",), "a VTK data set")
-    from ._vtkmodules import vtk_to_numpy
+    from ._vtk import numpy_of
 
     of_points, of_cells = data.GetPointData(), data.GetCellData()
     array = of_points.GetArray(name) or of_cells.GetArray(name)
     if array is None:
         names = [d.GetArrayName(i) for d in (of_points, of_cells) for i in range(d.GetNumberOfArrays())]
         raise KeyError(f"there is no array '{name}'; there are {names}.")
-    values = vtk_to_numpy(array)
+    values = numpy_of(array)
     if not data.IsA("vtkImageData"):
         return values
     samples = _samples(data, bool(of_points.HasArray(name)))

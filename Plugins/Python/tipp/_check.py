@@ -160,7 +160,7 @@ def _points_and_triangles(points: Any, name: str) -> tuple[np.ndarray, np.ndarra
 
     if points.GetNumberOfCells() == 0 or points.GetCellType(0) in (1, 2):  # vertices: a cloud
         return _plane(xyz_of(points)), None, None
-    mesh = simplices_of(points)
+    mesh, _ = simplices_of(points)
     return _plane(xyz_of(points)), _ids(mesh.cells, name, 3), mesh.cell_data.get("NeighborIds")
 
 

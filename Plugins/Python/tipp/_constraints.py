@@ -2,12 +2,13 @@
 """Checks the constraints of delaunay_2d() and converts them to lists of point ids."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Iterable, Iterator, NamedTuple
+from typing import TYPE_CHECKING, Any, Iterable, Mapping, NamedTuple
 
 import numpy as np
 
 from . import _arguments as check
-from ._arrays import converted, in_space
+from ._arrays import converted
+from ._geometry import is_geometry, items_of, lines_of, oriented_rings_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -19,13 +20,58 @@ class Constraints(NamedTuple):
     lines: list[np.ndarray]
     polygons: list[np.ndarray]
     corners: np.ndarray
-    """(k, 3) coordinates"""
+    """(k, 3) coordinates. z is NaN where it is to be that of the surface of the points."""
+
+
+class _Builder:
+    """Numbers the corners that are given by position after `count` points."""
+
+    def __init__(self, count: int) -> None:
+        self.count = count
+        self.lines: list[np.ndarray] = []
+        self.polygons: list[np.ndarray] = []
+        self._corners = [np.zeros((0, 3))]
+        self._next = count
+
+    def add(self, values: Any, name: str, lists: list[np.ndarray]) -> None:
+        """Appends a line or polygon, given by ids or by coordinates, to one of the lists."""
+        array = converted(values, name)
+        if array.ndim == 1 and array.dtype.kind in "iu":
+            self.require_ids(array, name)
+            lists.append(array)
+        elif array.ndim == 2 and array.shape[1] in (2, 3) and array.dtype.kind in "fiu":
+            self._corners.append(with_height(array))
+            lists.append(np.arange(self._next, self._next + len(array)))
+            self._next += len(array)
+        else:
+            raise ValueError(f"{name} has the shape {array.shape} and type {array.dtype}; give point ids, or "
+                             "coordinates of shape (k, 2) or (k, 3).")
+
+    def require_ids(self, ids: np.ndarray, name: str) -> None:
+        wrong = ids[(ids < 0) | (ids >= self.count)]
+        if wrong.size > 0:
+            raise ValueError(f"{name}: there is no point {wrong.flat[0]}, because there are {self.count} points; "
+                             "ids count from 0.")
+
+    def corners(self) -> np.ndarray:
+        corners = np.concatenate(self._corners)
+        given = corners[~np.isnan(corners[:, 2]), 2]
+        if not given.any():  # lines without heights often have z = 0
+            corners[:, 2] = np.nan
+        return corners
+
+
+def with_height(array: np.ndarray) -> np.ndarray:
+    """Returns (k, 2) or (k, 3) coordinates as (k, 3) doubles; a missing z is NaN."""
+    corners = np.full((len(array), 3), np.nan)
+    corners[:, : array.shape[1]] = array
+    return corners
 
 
 def constraints_of(
     count: int,
     edge_source: Any,
-    edges: ArrayLike | None,
+    edges: Any,
     polygons: Iterable[Any] | None,
 ) -> Constraints | None:
     """Combines the constraints of all arguments, for `count` points. Returns None if there are none."""
@@ -36,70 +82,31 @@ def constraints_of(
         return None
     if edges is None and polygons is None:
         return None
-    lines = [] if edges is None else _edges(edges, count)
-    by_id: list[np.ndarray] = []
-    by_position: list[np.ndarray] = []
-    for number, polygon in enumerate([] if polygons is None else _polygons(polygons)):
+    builder = _Builder(count)
+    if edges is not None:
+        _add_edges(edges, builder)
+    for number, polygon in enumerate([] if polygons is None else items_of(polygons, "polygons")):
         name = f"polygons[{number}]"
-        rings = list(_rings(polygon)) if hasattr(polygon, "geom_type") else [polygon]
-        for ring in rings:
-            array = converted(ring, name)
-            if array.ndim == 1 and array.dtype.kind in "iu":
-                _require_ids(array, count, name)
-                by_id.append(array)
-            elif array.ndim == 2 and array.shape[1] in (2, 3) and array.dtype.kind in "fiu":
-                by_position.append(in_space(array.astype(np.float64)))
-            else:
-                raise ValueError(f"{name} has the shape {array.shape} and type {array.dtype}; give point ids, or "
-                                 "coordinates of shape (k, 2) or (k, 3).")
-    starts = np.cumsum([count, *(len(corners) for corners in by_position)])
-    by_id += [np.arange(first, first + len(corners)) for first, corners in zip(starts, by_position)]
-    return Constraints(lines, by_id, np.concatenate([np.zeros((0, 3)), *by_position]))
+        for ring in oriented_rings_of(polygon, name) if polygon is None or is_geometry(polygon) else [polygon]:
+            builder.add(ring, name, builder.polygons)
+    return Constraints(builder.lines, builder.polygons, builder.corners())
 
 
-def rings_of(polygons: Any) -> Iterator[Any]:
-    """Yields the rings of a list of polygons (arrays or Shapely polygons), or of a single Shapely polygon."""
-    for polygon in _polygons(polygons):
-        yield from _rings(polygon) if hasattr(polygon, "geom_type") else [polygon]
-
-
-def _polygons(polygons: Any) -> Iterable[Any]:
-    if hasattr(polygons, "geom_type"):
-        return [polygons]
-    if isinstance(polygons, (str, bytes)) or not isinstance(polygons, Iterable):
-        raise TypeError("polygons is not a list; give a list of polygons.")
-    return polygons
-
-
-def _require_ids(ids: np.ndarray, count: int, name: str) -> None:
-    wrong = ids[(ids < 0) | (ids >= count)]
-    if wrong.size > 0:
-        raise ValueError(f"{name}: there is no point {wrong.flat[0]}, because there are {count} points; ids count from 0.")
-
-
-def _edges(edges: ArrayLike, count: int) -> list[np.ndarray]:
+def _add_edges(edges: ArrayLike | Any, builder: _Builder) -> None:
+    """Adds pairs of ids, or lines given by their corners."""
+    are_ids = isinstance(edges, np.ndarray) and edges.ndim == 2 or isinstance(edges, (str, bytes))
+    is_list = is_geometry(edges) or hasattr(edges, "geometry") or isinstance(edges, Iterable) and not isinstance(edges, Mapping)
+    items = items_of(edges, "edges") if is_list and not are_ids else []
+    first = next((item for item in items if item is not None), None)
+    if is_geometry(first) or (isinstance(first, (list, tuple, np.ndarray)) and np.ndim(first) == 2):
+        for number, item in enumerate(items):
+            name = f"edges[{number}]"
+            for line in lines_of(item, name) if item is None or is_geometry(item) else [item]:
+                builder.add(line, name, builder.lines)
+        return
     array = converted(edges, "edges")
     if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
-        raise ValueError(f"edges have the shape {array.shape} and type {array.dtype}; give point ids of shape (m, 2).")
-    _require_ids(array, count, "edges")
-    return list(array)
-
-
-def _rings(polygon: Any) -> Iterator[np.ndarray]:
-    """Yields the rings of a Shapely polygon: outer rings counter-clockwise, inner ones clockwise."""
-    for ring, is_hole in shapely_rings(polygon, "a polygon"):
-        corners = np.asarray(ring.coords)[:-1]  # the last one is the first
-        yield corners if ring.is_ccw != is_hole else corners[::-1]
-
-
-def shapely_rings(polygon: Any, name: str) -> Iterator[tuple[Any, bool]]:
-    """Yields the rings of a Shapely polygon, and whether each is a hole."""
-    if polygon.geom_type == "MultiPolygon":
-        for part in polygon.geoms:
-            yield from shapely_rings(part, name)
-    elif polygon.geom_type != "Polygon":
-        raise TypeError(f"{name} is a Shapely {polygon.geom_type}; give a Polygon or a MultiPolygon.")
-    elif not polygon.is_empty:
-        yield polygon.exterior, False
-        for ring in polygon.interiors:
-            yield ring, True
+        raise ValueError(f"edges have the shape {array.shape} and type {array.dtype}; give point ids of shape (m, 2), or "
+                         "lines.")
+    builder.require_ids(array, "edges")
+    builder.lines.extend(array)

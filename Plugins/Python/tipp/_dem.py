@@ -13,8 +13,8 @@ import numpy as np
 from . import _arguments as check
 from . import _engine
 from ._arguments import ProgressBar, progress_of
-from ._arrays import converted, in_space
-from ._constraints import rings_of
+from ._arrays import converted, in_space, positions_of
+from ._geometry import is_geometry, items_of, lines_of as lines_of_geometry, oriented_rings_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -99,12 +99,12 @@ def dem(
         For LAS files: the classes to read (None: all), the returns ("all", "first" or "last"), and which flagged
         points to read, too ("withheld", "synthetic", "overlap").
     breaklines
-        Lines that become edges of triangles: a file as for --breaklines of `tipp dem`, a vtkPolyData, or a list of
-        arrays of corners of shape (k, 2) or (k, 3). If no heights are given, or all are 0, the corners get the height
-        of the surface without breaklines.
+        Lines that become edges of triangles: a file as for --breaklines of `tipp dem`, a vtkPolyData, a list of
+        arrays of corners of shape (k, 2) or (k, 3), or Shapely geometries, a GeoSeries or a GeoDataFrame of lines or
+        polygons. If no heights are given, or all are 0, the corners get the height of the surface without breaklines.
     boundary
-        Closed lines outside of which there are no values: a file, a vtkPolyData, a list of arrays of corners, or one
-        or more Shapely polygons.
+        Closed lines outside of which there are no values: a file, a vtkPolyData, a list of arrays of corners, or
+        Shapely polygons, a GeoSeries or a GeoDataFrame.
     memory
         The memory limit for points and triangles, in bytes or as a text such as "512M", not counting the raster and
         points passed as arrays. Data that does not fit is spilled to temporary files. A package built with VTK also
@@ -152,13 +152,13 @@ def dem(
         "breaklines": lines_of(breaklines, "breaklines", False),
         "boundary": lines_of(boundary, "boundary", True),
         "memory": 0 if memory is None else check.memory(memory, "memory"),
-        "classes": None if classes is None else check.a_list(classes, "classes"),
+        "classes": None if classes is None else [check.whole(number, "classes") for number in classes],
         "returns": _RETURNS[returns],
         "keep": check.a_list(keep, "keep"),
         "threads": check.threads(threads),
     }
     progress = progress_of(progress_bar)
-    source: Any = contextlib.nullcontext(points)
+    source: Any
     if check.are_files(points):
         if point_data is not None:
             raise ValueError("point_data needs an array of points; files have their own columns.")
@@ -166,6 +166,7 @@ def dem(
             [check.path(p, "points") for p in ([points] if isinstance(points, (str, os.PathLike)) else points)])
     else:
         check.require_point_set(points, point_data, "a vtkPointSet, an array or names of files")
+        source = contextlib.nullcontext(positions_of(points))
     with source as given:
         bands, transform, crs = _engine.dem(given, point_data, options, progress)
     return Dem(bands[0] if isinstance(attributes, str) else np.stack(bands), transform, crs)
@@ -184,9 +185,8 @@ def lines_of(lines: Any, name: str, is_closed: bool) -> str | tuple[np.ndarray, 
         corners = np.asarray(xyz_of(lines), np.float64)
         chains = cell_lists(lines.GetLines()) + [np.r_[ids, ids[:1]] for ids in cell_lists(lines.GetPolys())]
     else:
-        rings = list(rings_of(lines)) if hasattr(lines, "geom_type") else check.a_list(lines, name)
-        rings = list(rings_of(rings)) if is_closed else rings
-        parts = [_corners(part, f"{name}[{number}]") for number, part in enumerate(rings)]
+        parts = [_corners(part, f"{name}[{number}]") for number, item in enumerate(items_of(lines, name))
+                 for part in _parts_of(item, f"{name}[{number}]", is_closed)]
         starts = np.cumsum([0, *(len(part) for part in parts)])
         chains = [np.arange(first, first + len(part)) for first, part in zip(starts, parts)]
         if is_closed:
@@ -196,6 +196,13 @@ def lines_of(lines: Any, name: str, is_closed: bool) -> str | tuple[np.ndarray, 
     edges = edges[(corners[edges[:, 0], :2] != corners[edges[:, 1], :2]).any(axis=1)]  # a ring may repeat its first corner
     heights = corners[:, 2] if corners[:, 2].any() else np.zeros(0)
     return np.ascontiguousarray(corners[:, :2]), np.ascontiguousarray(heights), np.ascontiguousarray(edges, np.int64)
+
+
+def _parts_of(item: Any, name: str, is_closed: bool) -> list[Any]:
+    """Returns the lines of a geometry or, if `is_closed`, the rings of its polygons. An array is one line."""
+    if item is not None and not is_geometry(item):
+        return [item]
+    return list((oriented_rings_of if is_closed else lines_of_geometry)(item, name))
 
 
 def _corners(part: Any, name: str) -> np.ndarray:

@@ -4,20 +4,24 @@ from __future__ import annotations
 
 import contextlib
 import threading
+import warnings
 from typing import Any, Callable, Iterator, Tuple, TYPE_CHECKING
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIdTypeArray, vtkStringArray
+from vtkmodules.vtkCommonCore import vtkDataArray, vtkDoubleArray, vtkIdTypeArray, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPointData, vtkPolyData
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 from . import _arguments as check
 from ._arguments import (
     array_of, DELAUNAY_2D, DELAUNAY_3D, DELAUNAY_FILE, DEM, Progress, QUERY, READ, set_properties, TRIANGULATION, WRITE)
 from ._arrays import as_array, Mesh
-from ._constraints import constraints_of
+from ._constraints import Constraints, constraints_of
 from ._run import run
-from ._vtk import arrays_of, grid_of, point_cloud, triangles_of, vtk_points, wrapped_like, xyz_of
+from ._surface import completed, completed_on_ranks
+from ._vtk import (
+    arrays_of, grid_of, numpy_of, point_arrays, point_cloud, triangles_of, vtk_points, wrapped_like, xyz_of)
 from .vtkTIPPFilters import (
     vtkPartitionedMeshQuery, vtkRangeResampleFilter, vtkTIPPDelaunay2D, vtkTIPPDelaunay3D, vtkTIPPOutOfCoreDelaunay2D,
     vtkTIPPPointsToImage)
@@ -34,20 +38,73 @@ _STATISTICS = ("points", "triangles", "tetrahedra", "duplicates", "rejected", "p
 
 
 def source_of(data: vtkPointSet, options: dict[str, Any]) -> tuple[vtkPolyData | None, bool]:
-    """Combines the constraints of delaunay_2d() into one source (or None); also returns whether it has its own
-    points."""
+    """Combines the constraints of delaunay_2d() into one source (or None); also returns whether the sources of all ranks
+    have their own points. Collective."""
     constraints = constraints_of(
         data.GetNumberOfPoints(), options["edge_source"], options["edges"], options["polygons"])
+    corners = np.zeros((0, 3)) if constraints is None else constraints.corners
+    corners, values, has_points = _completed(data, corners, options["threads"])
     if constraints is None:
-        return options["edge_source"], False
+        return options["edge_source"], has_points
     source = vtkPolyData()
-    has_points = len(constraints.corners) > 0
     if has_points:
-        # Ids refer to the input's points, so these come first.
-        source.SetPoints(vtk_points(np.concatenate([xyz_of(data).astype(np.float64), constraints.corners])))
+        constraints = _with_own_points(source, data, constraints._replace(corners=corners), values)
     source.SetLines(_cells(constraints.lines))
     source.SetPolys(_cells(constraints.polygons))
     return source, has_points
+
+
+def _completed(data: vtkPointSet, corners: np.ndarray, threads: int) -> tuple[np.ndarray, dict[str, np.ndarray], bool]:
+    """Returns the corners with heights, the values of the point arrays there, and whether any rank has corners.
+    Collective."""
+    if _count_ranks() == 1:
+        if len(corners) == 0:
+            return corners, {}, False
+        return (*completed(xyz_of(data), point_arrays(data), corners, threads), True)
+    from mpi4py import MPI
+
+    def piece_of() -> Mesh:
+        algorithm = vtkTIPPDelaunay2D()
+        algorithm.SetInputData(data)
+        algorithm.SetNumberOfThreads(threads)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)  # those of the caller's run
+            run(algorithm)
+        piece = algorithm.GetOutput()
+        return Mesh(xyz_of(piece), triangles_of(piece), point_arrays(piece))
+
+    return completed_on_ranks(MPI.COMM_WORLD, corners, piece_of, threads)
+
+
+def _with_own_points(source: vtkPolyData, data: vtkPointSet, constraints: Constraints,
+                     values: dict[str, np.ndarray]) -> Constraints:
+    """Sets the source's points: those of the input that constraints name, and the corners, with their values. Returns
+    the constraints with the source's ids."""
+    points, corners = xyz_of(data), constraints.corners
+    used = np.unique(np.concatenate([*constraints.lines, *constraints.polygons]))
+    used = used[used < len(points)].astype(np.int64)
+    source.SetPoints(vtk_points(np.concatenate([points[used].astype(np.float64), corners])))
+    for name, its in values.items():
+        given = data.GetPointData().GetArray(name)
+        if given is None:  # of a rank without points
+            continue
+        array = vtkDataArray.CreateDataArray(given.GetDataType())
+        array.SetName(name)
+        array.SetNumberOfComponents(given.GetNumberOfComponents())
+        array.SetNumberOfTuples(len(used) + len(corners))
+        vtk_to_numpy(array)[:] = np.concatenate([numpy_of(given)[used], its])
+        source.GetPointData().AddArray(array)
+
+    def renumbered(ids: np.ndarray) -> np.ndarray:
+        return np.where(ids < len(points), np.searchsorted(used, ids), ids - len(points) + len(used))
+
+    return Constraints([renumbered(ids) for ids in constraints.lines],
+                       [renumbered(ids) for ids in constraints.polygons], corners)
+
+
+def _count_ranks() -> int:
+    controller = vtkMultiProcessController.GetGlobalController()
+    return controller.GetNumberOfProcesses() if controller else 1
 
 
 def _cells(lists: list[np.ndarray]) -> vtkCellArray:
@@ -80,7 +137,7 @@ def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
     source, has_points = source_of(algorithm.GetInput(), options)
     if source is not None:
         algorithm.SetSourceData(source)
-        algorithm.SetMergeSourcePoints(has_points)
+    algorithm.SetMergeSourcePoints(has_points)  # must be the same on all ranks
     set_properties(algorithm, DELAUNAY_2D, options)
     run(algorithm, progress)
     return wrapped_like(algorithm.GetOutput(), points), _statistics(algorithm.GetStatistics().GetFieldData())
@@ -179,20 +236,37 @@ def _lines(xy: np.ndarray, heights: np.ndarray, edges: np.ndarray) -> vtkPolyDat
 
 
 def _read(paths: list[str], options: dict[str, Any]) -> tuple[Any, str | None]:
+    reader = _reader_of(paths, options)
+    reader.SetColumns(",".join(options["attributes"]))
+    run(reader)
+    cloud = reader.GetOutput()
+    arrays = cloud.GetPointData()
+    has_all = all(arrays.HasArray(name) for name in options["attributes"] if name not in (*check.DERIVED_BANDS, "elevation"))
+    if cloud.GetNumberOfPoints() and not (has_all and (reader.GetHasHeights() or not check.needs_elevation(options))):
+        check.require_columns(options, _columns_in(paths, options))
+    text = cloud.GetFieldData().GetAbstractArray("CoordinateReferenceSystem")
+    return cloud, text.GetValue(0) if text else None
+
+
+def _reader_of(paths: list[str], options: dict[str, Any]) -> vtkTIPPPointReader:
     reader = vtkTIPPPointReader()
     if options["classes"] is not None:
         reader.SetClasses(",".join(str(number) for number in options["classes"]))
     reader.SetReturns(options["returns"])
     for flag in options["keep"]:
         getattr(reader, "SetKeep" + flag.capitalize())(True)
-    reader.SetColumns(",".join(options["attributes"]))
     reader.SetGenerateVertices(False)
     for path in paths:
         reader.AddFileName(path)
+    return reader
+
+
+def _columns_in(paths: list[str], options: dict[str, Any]) -> list[str]:
+    """Returns the names of all columns besides x and y. Reads the files again."""
+    reader = _reader_of(paths, options)
     run(reader)
-    cloud = reader.GetOutput()
-    text = cloud.GetFieldData().GetAbstractArray("CoordinateReferenceSystem")
-    return cloud, text.GetValue(0) if text else None
+    arrays = reader.GetOutput().GetPointData()
+    return ["z"] * reader.GetHasHeights() + [arrays.GetArrayName(i) for i in range(arrays.GetNumberOfArrays())]
 
 
 def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> Any:
@@ -218,15 +292,42 @@ def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> A
 
 
 def _select(algorithm: vtkRangeResampleFilter, mesh: Any, names: list[str]) -> None:
-    """Selects the arrays to sample; the filter warns of names that the mesh does not have."""
-    of_cells = hasattr(mesh, "GetCellData") and mesh.GetCellData()
+    """Selects the arrays to sample. Raises KeyError for names that the mesh does not have."""
+    of_points, of_cells = _names_in(mesh)
+    if _count_ranks() == 1:  # this rank's part may have no arrays
+        check.require_arrays(names, list(dict.fromkeys([*of_points, *of_cells])))
     for selection, wanted in (
-        (algorithm.GetPointDataArraySelection(), [n for n in names if not (of_cells and of_cells.HasArray(n))]),
-        (algorithm.GetCellDataArraySelection(), [n for n in names if of_cells and of_cells.HasArray(n)]),
+        (algorithm.GetPointDataArraySelection(), [n for n in names if n in of_points or n not in of_cells]),
+        (algorithm.GetCellDataArraySelection(), [n for n in names if n in of_cells and n not in of_points]),
     ):
         selection.SetUnknownArraySetting(0)
         for name in wanted:
             selection.EnableArray(name)
+
+
+def _names_in(mesh: Any) -> tuple[list[str], list[str]]:
+    """Returns the names of the point arrays, with those that the filter adds, and of the cell arrays."""
+    of_points: list[str] = []
+    of_cells: list[str] = []
+    for leaf in _leaves(mesh):
+        for data, names in ((leaf.GetPointData(), of_points), (leaf.GetCellData(), of_cells)):
+            names.extend(data.GetArrayName(i) for i in range(data.GetNumberOfArrays()) if data.GetArrayName(i))
+        bounds = leaf.GetBounds()
+        if bounds[4] < bounds[5]:
+            of_points.append("elevation")
+    return of_points, of_cells
+
+
+def _leaves(mesh: Any) -> Iterator[Any]:
+    if not mesh.IsA("vtkCompositeDataSet"):
+        yield mesh
+        return
+    iterator = mesh.NewIterator()
+    iterator.InitTraversal()
+    while not iterator.IsDoneWithTraversal():
+        if iterator.GetCurrentDataObject().IsA("vtkDataSet"):
+            yield iterator.GetCurrentDataObject()
+        iterator.GoToNextItem()
 
 
 def read(path: str, options: dict[str, Any], progress: Progress | None) -> Any:
@@ -281,6 +382,15 @@ def open_mesh(mesh: Any, options: dict[str, Any]) -> MeshQuery:
     else:
         source = grid_of(mesh) if isinstance(mesh, Mesh) else mesh
         query.SetSourceData(check.data_object(source, "mesh", ("vtkPointSet", "vtkCompositeDataSet"), "a mesh"))
+    return MeshQuery(query)
+
+
+def open_part(mesh: Mesh, threads: int) -> MeshQuery:
+    """Opens a mesh for queries of this rank alone."""
+    query = vtkPartitionedMeshQuery()
+    query.SetController(None)
+    query.SetNumberOfThreads(threads)
+    query.SetSourceData(grid_of(mesh))
     return MeshQuery(query)
 
 
@@ -385,11 +495,16 @@ class MeshQuery:
 
     def zones(self, rings: Rings, count: int, array: str, component: int, level: float) -> list[np.ndarray]:
         table = vtkPointData()
-        self._run(lambda: self._query.ZoneStatistics(_polygons(rings), array, component, level, table))
-        columns = [vtk_to_numpy(table.GetArray(i)) for i in range(table.GetNumberOfArrays())]
-        # Zones without rings at the end are not in the data set.
-        missing = [0, 0.0, np.nan, np.nan, np.nan, 0.0, 0.0]
-        return [np.append(c, np.full(count - len(c), m, c.dtype)) for c, m in zip(columns, missing)]
+        corners, starts, zones, holes = rings
+        present, numbers = np.unique(zones, return_inverse=True)  # some zones may have no rings
+        used = corners, starts, numbers, holes
+        self._run(lambda: self._query.ZoneStatistics(_polygons(used), array, component, level, table))
+        results = []
+        for i, missing in enumerate([0, 0.0, np.nan, np.nan, np.nan, 0.0, 0.0]):
+            found = vtk_to_numpy(table.GetArray(i))
+            results.append(np.full(count, missing, found.dtype))
+            results[i][present] = found
+        return results
 
     def descend(self, points: np.ndarray, array: str, component: int
                 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:

@@ -6,6 +6,8 @@ import math
 import os
 from typing import TYPE_CHECKING, Any, Iterable, Sequence
 
+import numpy as np
+
 from . import _arguments as check
 from . import _engine
 from ._arguments import ProgressBar, progress_of
@@ -219,7 +221,8 @@ def resample(
 
 def _along_axes(values: Any, name: str, count: int, convert: Any, **limits: Any) -> list[Any]:
     """Returns values for x, y and z; z may be omitted."""
-    if isinstance(values, Sequence) and not isinstance(values, (str, bytes)) and len(values) == count * 2 // 3:
+    is_list = isinstance(values, Sequence) and not isinstance(values, (str, bytes))
+    if (is_list or isinstance(values, np.ndarray) and values.ndim == 1) and len(values) == count * 2 // 3:
         of_z = {"bounds": [0, 0], "spacing": [0], "dimensions": [1]}[name]
         values = [*values, *of_z]
     return check.several(values, name, count, convert, **limits)

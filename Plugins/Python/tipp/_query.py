@@ -9,7 +9,7 @@ import numpy as np
 from . import _arguments as check
 from . import _engine
 from ._arrays import coordinates, in_space
-from ._constraints import shapely_rings
+from ._geometry import is_geometry, items_of, parts_of, rings_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -224,7 +224,7 @@ class ResidentMesh:
         Parameters
         ----------
         polyline
-            (n, 2) or (n, 3) coordinates; for triangles only x and y are used.
+            (n, 2) or (n, 3) coordinates, or a LineString; for triangles only x and y are used.
         spacing
             The distance between samples, in addition to those at the polyline's corners. 0: samples at its corners and
             wherever it crosses an edge of a triangle or a face of a tetrahedron.
@@ -238,7 +238,7 @@ class ResidentMesh:
             `values`. With spacing 0, `cells` has the cell between each point and the next, -1 before a gap.
         """
         distance = check.number(spacing, "spacing", at_least=0)
-        return Profile(*self._opened().profile(_points(polyline), distance, self._wanted(arrays)))
+        return Profile(*self._opened().profile(_points(_corners(polyline)), distance, self._wanted(arrays)))
 
     def closest(self, points: ArrayLike) -> Closest:
         """Finds the location on the mesh nearest to each point; for triangles, distances are measured in x and y.
@@ -286,7 +286,7 @@ class ResidentMesh:
         ----------
         polygons
             One zone each: corners of shape (k, 2); a list of such rings, the first of which is the outer ring and the
-            others are holes; or a Shapely Polygon or MultiPolygon.
+            others are holes; or a Shapely Polygon or MultiPolygon. A GeoSeries or GeoDataFrame has one in each row.
         array
             The array's name; "elevation" is the z of the points.
         component
@@ -303,7 +303,7 @@ class ResidentMesh:
         """
         name = check.text(array, "array")
         check.require_arrays([name], self._names)
-        zones = [polygons] if hasattr(polygons, "geom_type") else check.a_list(polygons, "polygons")
+        zones = items_of(polygons, "polygons")
         return Zones(*self._opened().zones(
             _rings(zones), len(zones), name, check.whole(component, "component"), check.number(level, "level")))
 
@@ -359,14 +359,24 @@ def _rings(zones: list[Any]) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.nda
 
 
 def _rings_of(zone: Any, name: str) -> list[tuple[Any, bool]]:
-    if hasattr(zone, "geom_type"):
-        return [(np.asarray(ring.coords), is_hole) for ring, is_hole in shapely_rings(zone, name)]
+    if zone is None or is_geometry(zone):
+        return list(rings_of(zone, name))
     if isinstance(zone, np.ndarray):
         return [(zone, False)]
     rings = check.a_list(zone, name)
     if rings and all(np.ndim(corner) == 1 for corner in rings):
         return [(rings, False)]
     return [(ring, i > 0) for i, ring in enumerate(rings)]
+
+
+def _corners(polyline: Any) -> Any:
+    """Returns the corners of a line, or the array as it is."""
+    if not is_geometry(polyline):
+        return polyline
+    parts = list(parts_of(polyline, "polyline"))
+    if len(parts) != 1 or parts[0].kind not in ("LineString", "LinearRing"):
+        raise TypeError("polyline is not one line; give a LineString.")
+    return parts[0].corners
 
 
 def _points(points: ArrayLike) -> np.ndarray:

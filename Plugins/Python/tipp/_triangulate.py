@@ -10,6 +10,7 @@ import numpy as np
 from . import _arguments as check
 from . import _engine
 from ._arguments import ProgressBar, progress_of
+from ._arrays import positions_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -36,7 +37,8 @@ def delaunay(
     ----------
     points
         Coordinates of shape (n, 2) or (n, 3); z is ignored. A writable (n, 3) array of float32 or float64 in C order
-        is not copied; any other array is copied once. Masked coordinates become NaN.
+        is not copied; any other array is copied once. Masked coordinates become NaN. Or laspy's LasData, or geometries
+        of points such as a GeoSeries.
     tol
         Points within this fraction of the bounding box's diagonal of each other are merged. 0 merges only coincident
         points.
@@ -92,7 +94,7 @@ def delaunay_2d(
     offset: float = 1.0,
     bound: bool = False,
     point_data: Mapping[str, ArrayLike] | None = None,
-    edges: ArrayLike | None = None,
+    edges: Any = None,
     polygons: Iterable[Any] | None = None,
     edge_source: Any = None,
     crossings: str = "split",
@@ -125,11 +127,14 @@ def delaunay_2d(
     point_data
         For an array of points: a dictionary of arrays with values at the points.
     edges
-        Constraints, which become edges of the triangulation, as an (m, 2) array of point ids.
+        Constraints, which become edges of the triangulation: an (m, 2) array of point ids; or a list of lines, each an
+        array of coordinates, a LineString or another geometry; or a GeoSeries or GeoDataFrame of these.
     polygons
-        Closed polygons: sequences of point ids; arrays of coordinates of shape (k, 2) or (k, 3), which add new points
-        where `points` has none; or Shapely polygons with their holes. Only triangles inside of counter-clockwise polygons
-        are kept; clockwise ones are holes. Shapely polygons may have any orientation.
+        Closed polygons: sequences of point ids; arrays of coordinates of shape (k, 2) or (k, 3); or Shapely polygons
+        with their holes, a GeoSeries or a GeoDataFrame. Only triangles inside of counter-clockwise polygons are kept;
+        clockwise ones are holes. Polygons that are geometries may have any orientation. Corners of polygons and lines
+        where `points` has no point are new points. Values at them are interpolated from the points, and so is z if no
+        corner has one, or if all are 0.
     edge_source
         Instead of both: a vtkPolyData or pyvista.PolyData whose lines and polygons are constraints. Their point ids
         refer to `points`.
@@ -278,6 +283,7 @@ def delaunay_3d(
         "threads": check.threads(threads),
     }
     check.require_point_set(points, point_data)
+    points = positions_of(points)
     is_array = not check.is_vtk_object(points) and np.ndim(points) == 2
     if is_array and np.shape(points)[1] == 2 and np.asarray(points).dtype.kind in "iuf":
         raise ValueError(f"points has the shape {np.shape(points)}; points in space have the shape (n, 3).")

@@ -11,11 +11,12 @@ from typing import TYPE_CHECKING, Any, Mapping
 
 import numpy as np
 
-from ._arrays import attribute, attributes, coordinates, Image, Mesh
+from ._arrays import attribute, attributes, coordinates, Image, Mesh, require_values
 from ._vtkmodules import (
     numpy_to_vtk,
     vtk_to_numpy,
     vtkCellArray,
+    vtkDataArray,
     vtkDataObject,
     vtkDoubleArray,
     vtkFloatArray,
@@ -31,7 +32,6 @@ from ._vtkmodules import (
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
-    from vtkmodules.vtkCommonCore import vtkDataArray
 
 _BLOCK = 4096  # rows
 _SHARE = 64 * _BLOCK  # rows that a thread copies at a time
@@ -142,13 +142,15 @@ def wrapped_like(result: vtkDataObject, source: Any) -> Any:
 
 # Additional helpers for the wheel.
 
-_TYPES = {3: 5, 4: 10}  # VTK_TRIANGLE and VTK_TETRA, by their number of corners
+_TRIANGLE, _TETRAHEDRON = 5, 10  # VTK_TRIANGLE and VTK_TETRA
+_TYPES = {3: _TRIANGLE, 4: _TETRAHEDRON}  # by their number of corners
+_THIN = (0, 1, 2, 3, 4)  # VTK_EMPTY_CELL to VTK_POLY_LINE
 
 
 def xyz_of(data: Any) -> np.ndarray:
     """Returns the coordinates of a vtkPointSet's points."""
     points = data.GetPoints()
-    return vtk_to_numpy(points.GetData()) if points and points.GetNumberOfPoints() else np.empty((0, 3))
+    return numpy_of(points.GetData()) if points and points.GetNumberOfPoints() else np.empty((0, 3))
 
 
 def cells_of(ids: np.ndarray) -> vtkCellArray:
@@ -250,26 +252,80 @@ def _add_ghosts(image: Image, result: vtkImageData) -> None:
     result.GetCellData().AddArray(vtk_array("vtkGhostType", of_cells.ravel()))
 
 
-def arrays_of(data: Any) -> dict[str, np.ndarray]:
-    """Returns the numeric arrays that have a name."""
-    arrays = (data.GetArray(i) for i in range(data.GetNumberOfArrays()))
-    return {array.GetName(): vtk_to_numpy(array) for array in arrays if array is not None and array.GetName()}
+def numpy_of(array: Any) -> np.ndarray:
+    """Returns the values of a VTK array, in its memory if it has them in one block. Implicit arrays, which compute their
+    values, and arrays of one block for each component are copied."""
+    if array.HasStandardMemoryLayout():
+        return vtk_to_numpy(array)
+    copy = vtkDataArray.CreateDataArray(array.GetDataType())
+    copy.DeepCopy(array)
+    return vtk_to_numpy(copy)
 
 
-def simplices_of(data: Any) -> Mesh:
-    """Returns the triangles or tetrahedra of a data set, sharing its memory. Raises RuntimeError for other cells."""
+def arrays_of(data: Any, count: int = 0, of: str = "points") -> dict[str, np.ndarray]:
+    """Returns the numeric arrays that have a name. Raises RuntimeError if one has fewer values than `count`."""
+    arrays = [data.GetArray(i) for i in range(data.GetNumberOfArrays())]
+    named = {array.GetName(): array for array in arrays if array is not None and array.GetName()}
+    for name, array in named.items():
+        require_values(name, array.GetNumberOfTuples(), count, of)
+    return {name: numpy_of(array) for name, array in named.items()}
+
+
+def point_arrays(data: Any) -> dict[str, np.ndarray]:
+    """Returns the numeric point arrays of a data set, as arrays_of()."""
+    return arrays_of(data.GetPointData(), data.GetNumberOfPoints())
+
+
+def simplices_of(data: Any) -> tuple[Mesh, np.ndarray | None]:
+    """Returns the triangles or tetrahedra of a data set, sharing its memory, and their indices among its cells; None if
+    they are all its cells. Cells of fewer dimensions are left out. Raises RuntimeError for other cells."""
+    found = None
     if data.IsA("vtkPolyData"):
-        cells, kinds = data.GetPolys(), {5}
-        is_uniform = cells.GetNumberOfCells() == data.GetNumberOfCells() and cells.IsHomogeneous() in (-1, 0, 3)
+        found = _triangles_in(data)
     elif data.IsA("vtkUnstructuredGrid"):
-        cells = data.GetCells()
-        kinds = {data.GetCellType(0)} if data.GetNumberOfCells() else {5}
-        is_uniform = kinds <= {5, 10} and (data.GetNumberOfCells() == 0 or bool(data.IsHomogeneous()))
-    else:
-        cells, kinds, is_uniform = None, set(), False
-    if not is_uniform:
+        found = _simplices_in(data)
+    if found is None:
         raise RuntimeError(f"the mesh is a {data.GetClassName()} whose cells are not only triangles or only tetrahedra; "
                            "convert them first, for example by PyVista's triangulate().")
-    corners = 4 if kinds == {10} else 3
-    ids = vtk_to_numpy(cells.GetConnectivityArray()) if cells.GetNumberOfCells() else np.empty(0, np.int64)
-    return Mesh(xyz_of(data), ids.reshape(-1, corners), arrays_of(data.GetPointData()), arrays_of(data.GetCellData()))
+    corners, rows = found
+    of_cells = arrays_of(data.GetCellData(), data.GetNumberOfCells(), "cells")
+    if rows is not None:
+        of_cells = {name: values[rows] for name, values in of_cells.items()}
+    return Mesh(xyz_of(data), corners, point_arrays(data), of_cells), rows
+
+
+def _triangles_in(surface: Any) -> tuple[np.ndarray, np.ndarray | None] | None:
+    """Returns the corners of triangles, and their indices among all cells, which begin with vertices and lines."""
+    cells = surface.GetPolys()
+    if surface.GetNumberOfStrips() or cells.IsHomogeneous() not in (-1, 0, 3):
+        return None
+    corners = _ids_of(cells).reshape(-1, 3)
+    before = surface.GetNumberOfVerts() + surface.GetNumberOfLines()
+    return corners, np.arange(before, before + len(corners)) if before else None
+
+
+def _simplices_in(grid: Any) -> tuple[np.ndarray, np.ndarray | None] | None:
+    """Returns the same for the tetrahedra of a grid or, if it has none, for its triangles."""
+    types = _types_of(grid) if grid.GetNumberOfCells() else np.zeros(0, np.uint8)
+    kind = _TETRAHEDRON if (types == _TETRAHEDRON).any() else _TRIANGLE
+    if not np.isin(types, (*_THIN, _TRIANGLE, kind)).all():
+        return None
+    size = 4 if kind == _TETRAHEDRON else 3
+    cells = grid.GetCells()
+    ids = _ids_of(cells)
+    if (types == kind).all():
+        return ids.reshape(-1, size), None
+    rows = np.flatnonzero(types == kind)
+    begins = numpy_of(cells.GetOffsetsArray())[rows]
+    return ids[begins[:, np.newaxis] + np.arange(size)], rows
+
+
+def _types_of(grid: Any) -> np.ndarray:
+    try:
+        return numpy_of(grid.GetCellTypes())  # since VTK 9.6
+    except TypeError:
+        return numpy_of(grid.GetCellTypesArray())
+
+
+def _ids_of(cells: Any) -> np.ndarray:
+    return numpy_of(cells.GetConnectivityArray()) if cells and cells.GetNumberOfCells() else np.zeros(0, np.int64)

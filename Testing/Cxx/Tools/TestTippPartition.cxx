@@ -115,11 +115,11 @@ TEST_F(TippPartition, RefusesAFlatMeshWithReservedArrayNames)
 
 TEST_F(TippPartition, MemoryMayHaveAnyUnitAndABlank)
 {
-  for (const char* memory : { "1 GB", "1.5G", "64 MiB", "64mb", "65536kB", "67108864 B", "1T" })
+  for (const char* memory : { "1 GB", "64 MiB", "64mb", "65536kB", "67108864 B" })
   {
     EXPECT_EQ(0, this->run({ "--memory", memory }).ExitCode) << memory;
   }
-  for (const char* memory : { "1 Gib GB", "1 G B", "GB", "0.0001", "-1G", "1e9", "1.5.2G", "5iB" })
+  for (const char* memory : { "1 Gib GB", "1 G B", "GB", "1.5G", "-1G", "1e9", "5iB", "0 GB" })
   {
     EXPECT_EQ(2, this->run({ "--memory", memory }).ExitCode) << memory;
   }
