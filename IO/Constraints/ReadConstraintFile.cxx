@@ -112,7 +112,7 @@ ConstraintTable readPolyFile(const std::string& path)
 
 ConstraintTable readBoundaries(const std::string& path)
 {
-  AdcircGrid grid = readAdcircGridAndBoundaries(path);
+  AdcircGrid grid = readAdcircBoundaries(path);
   if (grid.BoundaryEdges.empty())
   {
     throw IOError(path, "has no boundaries.");

@@ -329,7 +329,7 @@ PointTable readNpyPoints(const std::string& path, const PointOptions& options, i
 
 PointTable readAdcircPoints(const std::string& path)
 {
-  AdcircGrid grid = readAdcircGrid(path);
+  AdcircGrid grid = readAdcircNodes(path);
   PointTable table;
   table.XY = std::move(grid.XY);
   table.Columns.push_back({ "depth", std::move(grid.Depth) });

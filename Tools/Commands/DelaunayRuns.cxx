@@ -55,7 +55,7 @@ std::string describeAdded(std::int64_t points, const DelaunayArguments& argument
 /// nodes.
 void warnOfLostBoundaries(const DelaunayArguments& arguments)
 {
-  const std::string boundaries = readAdcircGrid(arguments.Inputs.front()).Boundaries;
+  const std::string boundaries = readAdcircNodes(arguments.Inputs.front()).Boundaries;
   constexpr std::ptrdiff_t linesOfNone = 4; // a grid without boundaries has only the counts
   if (std::count(boundaries.begin(), boundaries.end(), '\n') > linesOfNone)
   {
