@@ -1,40 +1,94 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Adcirc/AdcircGrid.h"
 
-#include "Files/IOError.h"
+#include "Adcirc/ListDirectedRows.h"
 #include "Files/InputFile.h"
-#include "Files/OutputFile.h"
-#include "Files/PendingOutput.h"
-#include "Files/TextFile.h"
-#include "Points/ReadPoints.h"
 
-#include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
-#include <filesystem>
-#include <limits>
-#include <memory>
+#include <optional>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 namespace tipp
 {
 
+bool isAdcircFile(const std::string& path)
+{
+  const std::string extension = extensionOf(path);
+  return extension == ".14" || extension == ".grd";
+}
+
 namespace
 {
+
+/// How the boundaries of a kind, ADCIRC's IBTYPE, list their nodes.
+enum class Listing
+{
+  Chain,  ///< a node per line, which parameters may follow
+  Island, ///< a closed chain
+  Weir,   ///< a pair of nodes per line, on both sides of a weir or wall
+  Pairs   ///< a pair of nodes per line, on two sides of a periodic domain
+};
+
+/// Returns nothing for a number that is no kind of ADCIRC's.
+std::optional<Listing> listingOf(std::int64_t kind)
+{
+  constexpr std::int64_t baroclinic = 100; // added to the kinds of rivers
+  switch (kind >= baroclinic && kind < 2 * baroclinic ? kind - baroclinic : kind)
+  {
+    case 1:
+    case 11:
+    case 21:
+      return Listing::Island;
+    case 4:
+    case 5:
+    case 24:
+    case 25:
+    case 64:
+      return Listing::Weir;
+    case 94:
+      return Listing::Pairs;
+    case 0:
+    case 2:
+    case 3:
+    case 10:
+    case 12:
+    case 13:
+    case 18:
+    case 20:
+    case 22:
+    case 23:
+    case 30:
+    case 32:
+    case 40:
+    case 41:
+    case 52:
+    case 60:
+    case 61:
+      return Listing::Chain;
+    default:
+      return std::nullopt;
+  }
+}
+
+/// What is read besides the nodes. Elements are always checked.
+enum class Contents
+{
+  Nodes,
+  Triangles,
+  Boundaries
+};
 
 class AdcircReader
 {
 public:
-  explicit AdcircReader(const std::string& path)
+  AdcircReader(const std::string& path, Contents contents)
     : Rows(path, "an ADCIRC grid")
+    , Wanted(contents)
   {
   }
 
-  AdcircGrid read(bool readsBoundaries)
+  AdcircGrid read()
   {
     this->Grid.Title = this->Rows.title();
     this->Rows.next(2, "the numbers of elements and nodes");
@@ -54,7 +108,7 @@ public:
     {
       this->Grid.Boundaries.append(line) += '\n';
     }
-    readsBoundaries ? this->readBoundaries() : void();
+    this->Wanted == Contents::Boundaries ? this->readBoundaries() : void();
     return std::move(this->Grid);
   }
 
@@ -64,8 +118,7 @@ private:
   {
     for (const bool isLand : { false, true })
     {
-      this->Rows.next(1, "the number of boundaries");
-      const std::int64_t boundaries = this->Rows.integer(0);
+      const std::int64_t boundaries = this->nextCount(1, "the number of boundaries");
       this->Rows.next(1, "the number of boundary nodes");
       for (std::int64_t i = 0; i < boundaries; ++i)
       {
@@ -77,24 +130,29 @@ private:
 
   void readBoundary(bool isLand)
   {
-    this->Rows.next(isLand ? 2 : 1, "the number of a boundary's nodes and its kind");
-    const std::int64_t count = this->Rows.integer(0);
-    const std::int64_t kind = isLand ? this->Rows.integer(1) % 10 : 0;
-    constexpr std::int64_t island = 1;
-    constexpr std::int64_t weir = 4; // 4 and 5: paired nodes on both sides of a weir
-    const bool isWeir = kind == weir || kind == weir + 1;
+    const std::int64_t count =
+      this->nextCount(isLand ? 2 : 1, "the number of a boundary's nodes and its kind");
+    const std::int64_t kind = isLand ? this->Rows.integer(1) : 0;
+    const std::optional<Listing> listing = listingOf(kind);
+    if (!listing)
+    {
+      this->Rows.fail("has a boundary of the kind " + std::to_string(kind) +
+        ", which is no IBTYPE of ADCIRC; correct it.");
+    }
+    const bool isWeir = *listing == Listing::Weir;
+    const bool hasPairs = isWeir || *listing == Listing::Pairs;
     std::vector<std::int64_t> front;
     std::vector<std::int64_t> back;
     for (std::int64_t i = 0; i < count; ++i)
     {
-      this->Rows.next(isWeir ? 2 : 1, "a node of a boundary");
+      this->Rows.next(hasPairs ? 2 : 1, "a node of a boundary");
       front.push_back(this->node(0));
-      if (isWeir)
+      if (hasPairs)
       {
         back.push_back(this->node(1));
       }
     }
-    if (kind == island && !front.empty() && front.front() != front.back())
+    if (*listing == Listing::Island && !front.empty() && front.front() != front.back())
     {
       front.push_back(front.front());
     }
@@ -110,6 +168,19 @@ private:
         this->Grid.BoundaryEdges.push_back({ nodes[i - 1], nodes[i] });
       }
     }
+  }
+
+  std::int64_t nextCount(std::size_t fields, const char* what)
+  {
+    this->Rows.next(fields, what);
+    const std::int64_t count = this->Rows.integer(0);
+    if (count < 0 || count > this->Rows.remainingLines())
+    {
+      this->Rows.fail("announces " + std::to_string(count) + " boundaries or nodes, but " +
+        std::to_string(this->Rows.remainingLines()) +
+        " lines follow; copy the file again or correct the number.");
+    }
+    return count;
   }
 
   /// The two sides of a weir are continued by other boundaries; where they are not, an edge is
@@ -164,22 +235,30 @@ private:
 
   void readElements(std::int64_t count)
   {
-    this->Grid.Triangles.reserve(3 * std::size_t(count));
     for (std::int64_t i = 0; i < count; ++i)
     {
       this->Rows.next(5, "an element");
-      if (this->Rows.integer(1) != 3)
+      const std::int64_t corners = this->Rows.integer(1);
+      const bool needsTriangle = this->Wanted == Contents::Triangles;
+      if (corners != 3 && (needsTriangle || corners != 4))
       {
-        this->Rows.fail("holds an element that is not a triangle; only triangles can be read.");
+        this->Rows.fail("the element is not a triangle but has " + std::to_string(corners) +
+          " corners; divide such elements, or use the nodes alone, as 'tipp delaunay' does.");
       }
-      for (std::size_t corner = 2; corner < 5; ++corner)
+      if (this->Rows.fields() < std::size_t(2 + corners))
       {
-        this->Grid.Triangles.push_back(this->node(corner));
+        this->Rows.fail("has too few numbers for an element; check that it is an ADCIRC grid.");
+      }
+      for (std::int64_t corner = 0; corner < corners; ++corner)
+      {
+        const std::int64_t node = this->node(std::size_t(2 + corner));
+        needsTriangle ? this->Grid.Triangles.push_back(node) : void();
       }
     }
   }
 
-  NumberRows Rows;
+  ListDirectedRows Rows;
+  const Contents Wanted;
   AdcircGrid Grid;
   std::vector<std::array<std::int64_t, 2>> WeirEnds; ///< pairs of opposite nodes
 };
@@ -188,289 +267,17 @@ private:
 
 AdcircGrid readAdcircGrid(const std::string& path)
 {
-  return AdcircReader(path).read(false);
+  return AdcircReader(path, Contents::Triangles).read();
 }
 
-AdcircGrid readAdcircGridAndBoundaries(const std::string& path)
+AdcircGrid readAdcircNodes(const std::string& path)
 {
-  return AdcircReader(path).read(true);
+  return AdcircReader(path, Contents::Nodes).read();
 }
 
-namespace
+AdcircGrid readAdcircBoundaries(const std::string& path)
 {
-
-constexpr const char* noBoundaries = "0 = number of open boundaries\n"
-                                     "0 = total number of open boundary nodes\n"
-                                     "0 = number of land boundaries\n"
-                                     "0 = total number of land boundary nodes\n";
-
-void append(std::string& line, double value)
-{
-  char text[32];
-  line += ' ';
-  line.append(text, std::to_chars(text, text + sizeof text, value).ptr);
-}
-
-std::vector<double> depthsOf(const PointTable& points)
-{
-  const std::vector<std::string> names = points.names();
-  const auto depth = std::find(names.begin(), names.end(), "depth");
-  if (depth != names.end())
-  {
-    return points.Columns[std::size_t(depth - names.begin())].Values;
-  }
-  std::vector<double> depths(points.size(), 0);
-  const std::size_t elevation = findElevation(names);
-  if (elevation < names.size())
-  {
-    const std::vector<double>& z = points.Columns[elevation].Values;
-    std::transform(z.begin(), z.end(), depths.begin(), [](double value) { return 0 - value; });
-  }
-  return depths;
-}
-
-/// The numbers of a grid's nodes, in the order of the file `path`, and of further nodes up to
-/// `points`. Throws IOError if these would exceed 64 bits.
-std::vector<std::int64_t> nodeNumbers(
-  const std::string& path, const AdcircGrid& grid, std::size_t points)
-{
-  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
-  std::vector<std::int64_t> numbers(grid.IndexOf.size());
-  std::int64_t last = numbers.empty() ? 0 : std::numeric_limits<std::int64_t>::min();
-  for (const auto& [number, index] : grid.IndexOf)
-  {
-    numbers[std::size_t(index)] = number;
-    last = std::max(last, number);
-  }
-  while (numbers.size() < points)
-  {
-    if (last == most)
-    {
-      throw IOError(path,
-        "has the largest node number possible, so new nodes cannot be numbered; renumber its "
-        "nodes.");
-    }
-    numbers.push_back(++last);
-  }
-  return numbers;
-}
-
-} // namespace
-
-bool isAdcircFile(const std::string& path)
-{
-  const std::string extension = extensionOf(path);
-  return extension == ".14" || extension == ".grd";
-}
-
-bool writeAdcircGrid(const std::string& path, const PointTable& points, TrianglesView triangles,
-  const std::string& like, const std::optional<PathState>& before,
-  const std::function<bool()>& aborted)
-{
-  AdcircGrid frame; // its title, node numbers and boundaries are written
-  frame.Title = "Triangles made by tipp";
-  if (!like.empty())
-  {
-    frame = readAdcircGrid(like);
-  }
-  const std::vector<std::int64_t> numbers = nodeNumbers(like, frame, points.size());
-  const std::vector<double> depths = depthsOf(points);
-  PendingFile pending(path, before);
-  OutputStream out(pending.file());
-  out << frame.Title << "\n" << triangles.size() << " " << points.size() << "\n";
-  std::string line;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    if (!std::isfinite(points.XY[2 * i]) || !std::isfinite(points.XY[2 * i + 1]))
-    {
-      throw IOError(path,
-        "cannot hold point " + std::to_string(i) +
-          ", whose coordinates are not finite; remove it, or write .vtu.");
-    }
-    line = std::to_string(numbers[i]);
-    append(line, points.XY[2 * i]);
-    append(line, points.XY[2 * i + 1]);
-    append(line, depths[i]);
-    out << line << "\n";
-  }
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-  {
-    line = std::to_string(t + 1) + " 3";
-    for (int corner = 0; corner < 3; ++corner)
-    {
-      line += ' ' + std::to_string(numbers[std::size_t(triangles.id(t, corner))]);
-    }
-    out << line << "\n";
-  }
-  out << (frame.Boundaries.empty() ? noBoundaries : frame.Boundaries);
-  out.finish();
-  if (aborted && aborted())
-  {
-    return false;
-  }
-  pending.commit();
-  return true;
-}
-
-namespace
-{
-
-/// Values at the nodes of an ADCIRC grid (https://adcirc.org; fort.63, fort.64, maxele.63 ...): a
-/// title; the numbers of steps and nodes, two unused numbers, and the number of values per node;
-/// for each step a line of time and time step, and a line `node value...` per node. A step may give
-/// a number of nodes and a default value on its first line, and then only the nodes that differ.
-/// Nodes are identified by the grid's node numbers. A file with fewer steps than announced, as from
-/// an interrupted run, is rejected.
-struct AdcircValues
-{
-  int Components = 1;        ///< values per node
-  std::vector<double> Times; ///< times of the steps, in seconds
-  std::vector<double>
-    Values; ///< step by step, in the order of the grid's nodes; -99999 at dry nodes
-};
-
-/// Reads a file of AdcircValues. The constructor and read() throw IOError if the file cannot be
-/// read or its values belong to another grid.
-class ValuesReader
-{
-public:
-  ValuesReader(const std::string& path, const AdcircGrid& grid)
-    : Grid(grid)
-    , Rows(path, "ADCIRC's output in ASCII")
-  {
-  }
-
-  AdcircValues read()
-  {
-    this->Rows.title();
-    this->Rows.next(5, "the numbers of steps, nodes and values");
-    const std::int64_t steps = this->Rows.integer(0);
-    this->Nodes = this->Rows.integer(1);
-    const std::int64_t components = this->Rows.integer(4);
-    const std::int64_t lines = this->Rows.remainingLines();
-    // A step has at least one line; the number of its nodes is checked when it is read.
-    if (steps < 1 || steps > lines || this->Nodes < 1 || this->Nodes > lines || components < 1 ||
-      components > 3)
-    {
-      this->Rows.fail("announces " + std::to_string(steps) + " steps of " +
-        std::to_string(this->Nodes) + " nodes with " + std::to_string(components) +
-        " values, but " + std::to_string(lines) + " lines follow; copy the file again.");
-    }
-    if (std::size_t(this->Nodes) != this->Grid.Depth.size())
-    {
-      this->Rows.fail("gives values at " + std::to_string(this->Nodes) +
-        " nodes, but the grid has " + std::to_string(this->Grid.Depth.size()) +
-        "; name the grid that it belongs to.");
-    }
-    this->Result.Components = int(components);
-    this->LastStep.assign(std::size_t(this->Nodes), -1);
-    for (std::int64_t step = 0; step < steps; ++step)
-    {
-      this->readStep(step);
-    }
-    return std::move(this->Result);
-  }
-
-private:
-  void readStep(std::int64_t step)
-  {
-    this->Rows.next(2, "a step");
-    this->Result.Times.push_back(this->Rows.number(0));
-    const bool sparse = this->Rows.fields() >= 4;
-    const std::int64_t given = sparse ? this->Rows.integer(2) : this->Nodes;
-    const std::int64_t lines = this->Rows.remainingLines();
-    if (given < 0 || given > this->Nodes || given > lines)
-    {
-      this->Rows.fail("announces " + std::to_string(given) + " nodes, but " +
-        std::to_string(lines) + " lines follow; copy the file again.");
-    }
-    const auto components = std::size_t(this->Result.Components);
-    const std::size_t first = this->Result.Values.size();
-    const double rest = sparse ? this->Rows.number(3) : 0;
-    this->Result.Values.resize(first + std::size_t(this->Nodes) * components, rest);
-    for (std::int64_t i = 0; i < given; ++i)
-    {
-      this->Rows.next(1 + components, "a node's values");
-      const std::size_t node = this->nodeOf(this->Rows.integer(0), step);
-      for (std::size_t c = 0; c < components; ++c)
-      {
-        this->Result.Values[first + node * components + c] = this->Rows.number(1 + c);
-      }
-    }
-  }
-
-  /// The index in the grid of a node number. A step may list a node only once.
-  std::size_t nodeOf(std::int64_t number, std::int64_t step)
-  {
-    const auto node = this->Grid.IndexOf.find(number);
-    if (node == this->Grid.IndexOf.end())
-    {
-      this->Rows.fail("names node " + std::to_string(number) +
-        ", which the grid does not have; name the grid that it belongs to.");
-    }
-    std::int64_t& last = this->LastStep[std::size_t(node->second)];
-    if (last == step)
-    {
-      this->Rows.fail(
-        "gives node " + std::to_string(number) + " twice in a step; copy the file again.");
-    }
-    last = step;
-    return std::size_t(node->second);
-  }
-
-  const AdcircGrid& Grid;
-  NumberRows Rows;
-  std::int64_t Nodes = 0;
-  std::vector<std::int64_t> LastStep; ///< the last step that gave the node, or -1
-  AdcircValues Result;
-};
-
-FlatArray floats(std::string name, std::vector<double> values, int components, std::int64_t tuples)
-{
-  const auto kept = std::make_shared<std::vector<double>>(std::move(values));
-  return { std::move(name), Scalar::Float64, components, tuples, 0, kept->data(), kept };
-}
-
-/// The array's name. ADCIRC's own file names, such as fort.63, keep their extension, which
-/// identifies the content.
-std::string nameOf(const std::string& path)
-{
-  const std::filesystem::path file(path);
-  return file.stem() == "fort" ? file.filename().string() : file.stem().string();
-}
-
-void addValues(const std::string& path, const AdcircGrid& grid, FlatContent& content)
-{
-  AdcircValues values = ValuesReader(path, grid).read();
-  const std::int64_t nodes = content.Points.Tuples;
-  FlatArray array = floats(nameOf(path), std::move(values.Values), values.Components, nodes);
-  if (values.Times.size() > 1)
-  {
-    if (!content.Times.empty() && content.Times != values.Times)
-    {
-      throw IOError(path, "has other times than the file before it; flatten them one by one.");
-    }
-    content.Times = std::move(values.Times);
-    array.Steps = std::int64_t(content.Times.size());
-  }
-  content.PointData.push_back(std::move(array));
-}
-
-} // namespace
-
-FlatContent flattenAdcirc(const std::string& grid, const std::vector<std::string>& values)
-{
-  AdcircGrid read = readAdcircGrid(grid);
-  FlatContent content;
-  content.Cells = std::move(read.Triangles);
-  const auto nodes = std::int64_t(read.Depth.size());
-  content.Points = floats("points", std::move(read.XY), 2, nodes);
-  content.PointData.push_back(floats("depth", read.Depth, 1, nodes));
-  for (const std::string& path : values)
-  {
-    addValues(path, read, content);
-  }
-  return content;
+  return AdcircReader(path, Contents::Boundaries).read();
 }
 
 } // namespace tipp

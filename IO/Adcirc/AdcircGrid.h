@@ -21,7 +21,7 @@ namespace tipp
 
 /// Nodes and triangles of an ADCIRC grid (fort.14, https://adcirc.org): a title; the numbers of
 /// elements and nodes; a line `id x y depth` per node; a line `id 3 a b c` per element; and lists
-/// of the nodes of boundaries.
+/// of the nodes of boundaries. Numbers are written as ListDirectedRows reads them.
 struct AdcircGrid
 {
   std::string Title;
@@ -35,11 +35,15 @@ struct AdcircGrid
   std::vector<std::array<std::int64_t, 2>> BoundaryEdges;
 };
 
-/// Reads the grid without BoundaryEdges. Throws IOError.
+/// Reads the grid without BoundaryEdges. Throws IOError, also if an element is not a triangle.
 VTKTIPPIO_EXPORT AdcircGrid readAdcircGrid(const std::string& path);
 
-/// Reads the whole grid. Throws IOError.
-AdcircGrid readAdcircGridAndBoundaries(const std::string& path);
+///@{
+/// Reads the grid without Triangles and, in the first case, without BoundaryEdges. Elements may
+/// have three or four corners. Throws IOError.
+VTKTIPPIO_EXPORT AdcircGrid readAdcircNodes(const std::string& path);
+AdcircGrid readAdcircBoundaries(const std::string& path);
+///@}
 
 /// Whether the path's extension is .14 or .grd.
 VTKTIPPIO_EXPORT bool isAdcircFile(const std::string& path);

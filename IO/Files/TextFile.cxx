@@ -278,13 +278,6 @@ NumberRows::NumberRows(const std::string& path, std::string kind, char comment)
 {
 }
 
-std::string_view NumberRows::title()
-{
-  std::string_view line;
-  this->Lines.next(line);
-  return line;
-}
-
 void NumberRows::next(std::size_t fields, const char* what)
 {
   std::string_view line;

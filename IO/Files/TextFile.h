@@ -81,15 +81,11 @@ public:
   /// `comment`, this character begins a comment, and lines without a field are skipped.
   NumberRows(const std::string& path, std::string kind, char comment = '\0');
 
-  /// Reads a line as text.
-  std::string_view title();
   /// Reads the next row, which must have at least `fields` fields; `what` is for errors.
   void next(std::size_t fields, const char* what);
   std::size_t fields() const { return this->Row.size(); }
   double number(std::size_t field) const;
   std::int64_t integer(std::size_t field) const;
-  /// The text after the row.
-  std::string_view rest() const { return this->Lines.rest(); }
   /// An upper bound of the number of lines after the row.
   std::int64_t remainingLines() const { return this->Total - this->Lines.lineNumber(); }
 

@@ -211,6 +211,29 @@ TEST_F(Flatten, AdcircValuesGoToTheNodesOfTheirNumbers)
     (std::vector<double>{ -9, -9, 2 }), valuesOf<double>(arrayNamed(mesh.PointData, "maxvel")));
 }
 
+TEST_F(Flatten, AdcircStepsMayGiveFewNodes)
+{
+  // Fewer lines than nodes, as ADCIRC writes where most of a large grid is dry.
+  std::string grid = "title\n0 40\n";
+  for (int node = 1; node <= 40; ++node)
+  {
+    grid += std::to_string(node) + " " + std::to_string(node) + " 0 0\n";
+  }
+  const std::string path = this->Folder.file("fort.14", grid);
+  const std::string values = this->Folder.file("fort.63",
+    "run\n3 40 3600.0 3600 1 FileFmtVersion: 1050624\n  3.6D+03 3600 2 -99999.0\n7 1.0E-001\n40 "
+    "2.5-101\n 7.2E+03 7200 0 -99999.0\n 1.08E+04 10800 1 0.5\n1 3\n");
+  const tipp::FlatContent content = tipp::flattenAdcirc(path, { values });
+  EXPECT_EQ((std::vector<double>{ 3600, 7200, 10800 }), content.Times);
+  const auto* const given = static_cast<const double*>(content.PointData.at(1).Values);
+  for (int node = 1; node <= 40; ++node)
+  {
+    EXPECT_EQ(node == 7 ? 0.1 : node == 40 ? 2.5e-101 : -99999, given[node - 1]) << node;
+    EXPECT_EQ(-99999, given[40 + node - 1]) << node;
+    EXPECT_EQ(node == 1 ? 3 : 0.5, given[80 + node - 1]) << node;
+  }
+}
+
 TEST_F(Flatten, AdcircValuesThatAreCutOffOrOfAnotherGridAreRefused)
 {
   const std::string grid = this->grid();
@@ -218,7 +241,7 @@ TEST_F(Flatten, AdcircValuesThatAreCutOffOrOfAnotherGridAreRefused)
     { "title\n", "file ends before" },
     { "title\n1 4 1 1 1\n10 1\n1 0.5\n", "announces" },
     { "title\n2 4 1 1 1\n10 1\n1 1\n2 1\n3 1\n4 1\n", "file ends before a step" },
-    { "title\n1 999999999999 1 1 1\n10 1\n", "announces" },
+    { "title\n1 999999999999 1 1 1\n10 1\n", "at 999999999999 nodes, but the grid has 4" },
     { "title\n1 3 1 1 1\n10 1\n1 1\n2 1\n3 1\n", "the grid has 4" },
     { "title\n1 4 1 1 1\n10 1\n1 1\n2 1\n3 1\n9 1\n", "names node 9" },
     { "title\n1 4 1 1 1\n10 1\n1 1\n2 1\n3 1\n1 2\n", "node 1 twice" },

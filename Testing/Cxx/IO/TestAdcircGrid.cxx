@@ -109,6 +109,64 @@ TEST_F(AdcircGrid, NewNodesNeedNumbersThatTheFormatCanHold)
     [&]() { tipp::writeMesh(path, points, {}, options); });
 }
 
+TEST_F(AdcircGrid, NumbersAreReadAsFortranReadsThem)
+{
+  const std::pair<const char*, double> numbers[] = { { "1.5D+01", 15 }, { "1.5d1", 15 },
+    { "-1.5+01", -15 }, { "1.5-002", 0.015 }, { "25.Q-1", 2.5 }, { "+.5E+0", 0.5 }, { "7", 7 } };
+  for (const auto& [text, value] : numbers)
+  {
+    const std::string path = this->file("\n0 1\n1 " + std::string(text) + " 0 0\n");
+    EXPECT_EQ(value, tipp::readPoints(path).XY[0]) << text;
+  }
+  for (const std::string text : { "1.5D", "1.5D+", "D+01", "1.5m", "1-2-3", "***" })
+  {
+    this->expectError("\n0 1\n1 " + text + " 0 0\n", "'" + text + "' is not a number");
+  }
+}
+
+TEST_F(AdcircGrid, RowsMayHaveCommasRepeatsBlankLinesAndSlashes)
+{
+  const std::string grids[] = { "t\n1, 3\n1, 0 , 0,5.5\n2,1,0,-1,\n3 0, 1 2\n1,3,1,2,3\n",
+    "t\n\n1 3\n\n1 2*0 5.5\n \t\n2 1 0 -1\n3 0 1 2 \n\n1 3 1 2 3\n",
+    "t\r\n1 3 / sizes\r\n1 0 0 5.5/x, y\r\n2 1 0 -1\r\n\r\n3 0 1 2 'a, b'\r\n1 3 1 2 3\r\n",
+    "t\n1 3\n1 0.0\n 0.0 5.5\n2 1 0\n,-1\n3,\n0,1\n2\n1 3 1\n2 3\n" };
+  for (const std::string& grid : grids)
+  {
+    const tipp::AdcircGrid read = tipp::readAdcircGrid(this->file(grid));
+    EXPECT_EQ((std::vector<double>{ 0, 0, 1, 0, 0, 1 }), read.XY) << grid;
+    EXPECT_EQ((std::vector<double>{ 5.5, -1, 2 }), read.Depth) << grid;
+    EXPECT_EQ((Ids{ 0, 1, 2 }), read.Triangles) << grid;
+  }
+}
+
+TEST_F(AdcircGrid, ValuesThatFortranWouldLeaveUnchangedAreRefused)
+{
+  this->expectError("t\n0 1\n1 ,,0 5\n", "line 3: gives no value where a number is needed");
+  this->expectError("t\n0 1\n1 2* 5\n", "line 3: gives no value where a number is needed");
+  this->expectError("t\n0 1\n1 0 0 /\n", "line 3: has too few numbers for a node");
+  this->expectError("t\n0 1\n1 0 0 ,,\n", "line 3: gives no value where a number is needed");
+  this->expectError("t\n0 1\n1 99999999999*0 0 0\n", "'99999999999*0' is not a number");
+}
+
+TEST_F(AdcircGrid, ARowThatLacksANumberDoesNotTakeThoseOfTheNext)
+{
+  this->expectError(
+    "t\n0 3\n1 0 0 5.5\n2 1 0\n3 0 1 2\n", "line 4: has too few numbers for a node");
+}
+
+TEST_F(AdcircGrid, QuadrilateralsHaveNodesButAreNoMesh)
+{
+  const std::string path =
+    this->file("t\n2 4\n" + this->Nodes + "4 1 1 0\n1 4 1 2 4 3\n2 3 1 2 3\n0\n0\n0\n0\n");
+  EXPECT_EQ(4U, tipp::readPoints(path).size());
+  tipp::test::expectIOError(
+    path, "line 7: the element is not a triangle but has 4 corners", [&] { tipp::readMesh(path); });
+  this->expectError("t\n1 3\n" + this->Nodes + "1 5 1 2 3 1 2\n", "has 5 corners");
+  const std::string cut = this->file("t\n1 3\n" + this->Nodes + "1 4 1 2 3\n");
+  tipp::test::expectIOError(
+    cut, "line 6: has too few numbers for an element", [&] { tipp::readPoints(cut); });
+}
+
 TEST_F(AdcircGrid, ColumnsCannotBeChosen)
 {
   const std::string path = this->file("title\n0 3\n" + this->Nodes);

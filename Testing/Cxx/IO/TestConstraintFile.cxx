@@ -114,6 +114,42 @@ TEST_F(ConstraintFile, BoundariesOfAnAdcircGrid)
   this->expectError("fort.14", grid + "1\n2\n2\n1\n9\n", "names node 9, which is not given");
 }
 
+TEST_F(ConstraintFile, BoundariesOfEveryKindOfAdcirc)
+{
+  const std::string grid = "title\n0 6\n1 0 0 0\n2 1 0 0\n3 2 0 0\n4 0 1 0\n5 1 1 0\n6 2 1 0\n";
+  const auto edgesOf = [&](int kind, const std::string& rows)
+  {
+    return this->read(
+                 "fort.14", grid + "0\n0\n1\n3\n3 " + std::to_string(kind) + " = kind\n" + rows)
+      .Edges;
+  };
+  const Edges chain{ { 0, 1 }, { 1, 2 } };
+  for (const int kind : { 0, 2, 10, 12, 20, 22, 30, 32, 40, 41, 52, 102, 112, 122, 152 })
+  {
+    EXPECT_EQ(chain, edgesOf(kind, "1\n2 ! second\n3\n")) << kind;
+  }
+  for (const int kind : { 1, 11, 21 })
+  {
+    EXPECT_EQ((Edges{ { 0, 1 }, { 1, 2 }, { 2, 0 } }), edgesOf(kind, "1\n2\n3\n")) << kind;
+  }
+  for (const int kind : { 3, 13, 23 })
+  {
+    EXPECT_EQ(chain, edgesOf(kind, "1 1.5 1.0\n2 1.5 1.0\n3 1.5 1.0\n")) << kind;
+  }
+  const Edges sides{ { 0, 1 }, { 1, 2 }, { 3, 4 }, { 4, 5 } };
+  Edges closed = sides;
+  closed.insert(closed.end(), { { 0, 3 }, { 2, 5 } });
+  for (const int kind : { 4, 5, 24, 25, 64 })
+  {
+    const std::string more = kind % 10 == 5 ? " 1.5 1 1 0.2 0.1 1\n" : " 1.5 1.0 1.0\n";
+    EXPECT_EQ(closed, edgesOf(kind, "1 4" + more + "2 5" + more + "3 6" + more)) << kind;
+  }
+  EXPECT_EQ(sides, edgesOf(94, "1 4\n2 5\n3 6\n")); // the periodic sides of a domain
+  this->expectError(
+    "fort.14", grid + "0\n0\n1\n3\n3 77\n1\n2\n3\n", "kind 77, which is no IBTYPE of ADCIRC");
+  this->expectError("fort.14", grid + "0\n0\n-1\n3\n", "announces -1 boundaries");
+}
+
 TEST_F(ConstraintFile, BoundariesOfARealGridAreChains)
 {
   TIPP_REQUIRE_DATA(path, "adcirc/internal_overflow/internal_overflow.grd");
