@@ -201,6 +201,35 @@ TEST(OutOfCoreConstraint, MayReferToPointIds)
   EXPECT_TRUE(run.matches());
 }
 
+/// Points with small integer coordinates: most positions have several points, many of them on
+/// constraints.
+Coordinates coincidingPoints(std::mt19937_64& random, int count, int side)
+{
+  Coordinates xy;
+  for (int i = 0; i < 2 * count; ++i)
+  {
+    xy.push_back(double(random() % unsigned(side)));
+  }
+  return xy;
+}
+
+TEST(OutOfCoreConstraint, IsKeptWherePointsCoincide)
+{
+  for (unsigned seed = 0; seed < 25; ++seed)
+  {
+    std::mt19937_64 random(seed);
+    const Coordinates xy = coincidingPoints(random, 2000, 40);
+    TableConstraints constraints;
+    constraints.Lines = randomSegments(xy, 12, seed);
+    ConstrainedRun run(xy, constraints);
+    run.Options.PartitionPoints = 0;
+    run.Options.Columns = run.Options.Rows = 4;
+    run.makeExpected();
+    run.run();
+    ASSERT_TRUE(run.matches()) << seed;
+  }
+}
+
 TEST(OutOfCoreConstraint, RemovesTrianglesOutsidePolygonsAndInHoles)
 {
   const Coordinates xy = makePointSet("uniform", 3000);
