@@ -309,6 +309,8 @@ public:
 
   InputSurvey Survey;
   PointRowLayout Rows;
+  /// Of the finite points that are no points of constraints; not multiplied by the factor.
+  Box2 InputBounds{};
   PartitionedMesh Mesh;
   std::string Results; ///< prefix of the paths of results
   TriangleConsumer* const Consumer;
@@ -323,7 +325,6 @@ public:
 private:
   template <typename Archive>
   void exchangeInput(Archive& archive);
-  Box2 inputBounds() const;
 };
 
 /// Returns a text that is equal for runs that make the same mesh from the same input with the same

@@ -106,6 +106,8 @@ private:
         [this](std::int64_t) {
           this->require(this->proceed(0));
         })).survey();
+    this->Setup.InputBounds =
+      segments ? segments->inputBounds() : scaled(survey.Bounds, 1 / survey.Factor);
     this->Statistics.LeftOut = this->Input.leftOut();
     this->Statistics.ThinnedOut = this->Input.thinnedOut();
     this->Setup.describeColumns(this->Input.columns(), this->Options);

@@ -11,6 +11,8 @@
 #include "Points/ReadPoints.h"
 #include "vtkTIPPFiltersModule.h"
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -60,6 +62,7 @@ public:
   std::int64_t count() const override;
   const ConstraintFigures& figures() const override { return this->Counts; }
   void forEach(const VisitSegment& visit) override;
+  Box2 inputBounds() const override { return this->InputBounds; }
   void end() override;
 
   /// After the first pass: the additional points.
@@ -91,6 +94,7 @@ private:
   bool IsResolved = false;
   std::int64_t InputPoints = 0;   ///< read in this pass so far
   bool IsInputRead = false;       ///< whether this pass has read all input points
+  Box2 InputBounds{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
   std::unique_ptr<RowFile> Added; ///< the additional points: x, y and columns
   std::int64_t NextAdded = 0;
 };
