@@ -55,6 +55,8 @@ public:
   virtual std::int64_t count() const = 0;
   /// The statistics of the constraints.
   virtual const ConstraintFigures& figures() const = 0;
+  /// The bounds of the finite points that do not come from the segments.
+  virtual Box2 inputBounds() const = 0;
   /// Visits all segments, in the same order each time.
   virtual void forEach(const VisitSegment& visit) = 0;
   /// Frees the memory that is only needed for the segments.

@@ -201,6 +201,10 @@ void dropPlainHeights(ConstraintTable& lines)
 TerrainSettings makeTerrainSettings(
   const DemRequest& request, const Box2& bounds, const std::vector<std::string>& columns)
 {
+  if (!(bounds.xmin <= bounds.xmax))
+  {
+    throw std::runtime_error("there is no point with finite coordinates.");
+  }
   TerrainSettings settings;
   settings.Grid =
     makeRasterGrid(request.Raster, { bounds.xmin, bounds.xmax, bounds.ymin, bounds.ymax });
@@ -215,10 +219,6 @@ OutOfCoreStatistics makeDem(PointTable points, const DemRequest& request,
   const std::vector<std::string> columns = points.names();
   const PointsView view(points.XY.data(), points.size(), 2);
   const Box2 bounds = surveyPoints(view, threadCount(request.Threads)).Bounds;
-  if (!(bounds.xmin <= bounds.xmax))
-  {
-    throw std::runtime_error("there is no point with finite coordinates.");
-  }
   requireElevation(request.Duplicates, columns);
   settings = makeTerrainSettings(request, bounds, columns);
   requireMemory(settings);

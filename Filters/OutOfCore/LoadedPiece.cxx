@@ -259,7 +259,7 @@ void LoadedPiece::filterTriangles(const Filter& filter)
 void LoadedPiece::constrain()
 {
   CrossedPart crossed;
-  this->Constraints->finishInserting();
+  this->Constraints->finishInserting(this->Representatives);
   this->filterTriangles([&](std::int32_t* corners, std::size_t count, PartitionIndex bucket)
     { return this->Constraints->takeCrossed(bucket, this->First, corners, count, crossed); });
   this->Constraints->addEdgesAndTouches(this->First, crossed);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/OutOfCoreRun.h"
 
+#include "Constraints/OnDisk/UncoveredSegments.h"
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
 #include "Files/TextFile.h"
@@ -115,7 +116,8 @@ void RunRecord::putInPlace()
 template <typename Archive>
 void RunSetup::exchangeInput(Archive& archive)
 {
-  archive(this->Survey, this->Columns, this->Rows, this->Mesh.Arrays, this->Marks);
+  archive(
+    this->Survey, this->InputBounds, this->Columns, this->Rows, this->Mesh.Arrays, this->Marks);
 }
 
 void RunSetup::save(SaveArchive& archive)
@@ -197,31 +199,30 @@ Bounds boundsOf(const Box3& box, double factor)
     box.Min[2] / factor, box.Max[2] / factor };
 }
 
-Box2 RunSetup::inputBounds() const
-{
-  const Bounds bounds = boundsOf(this->Survey.Bounds, this->Survey.Factor);
-  return { bounds[0], bounds[2], bounds[1], bounds[3] };
-}
-
 void RunSetup::beginTaking() const
 {
   if (this->Consumer)
   {
-    this->Consumer->begin(this->inputBounds(), this->Columns, this->Results);
+    this->Consumer->begin(this->InputBounds, this->Columns, this->Results);
   }
 }
 
 std::uint64_t RunSetup::takenBytes() const
 {
-  return this->Consumer ? this->Consumer->fileBytes(this->inputBounds(), this->Columns) : 0;
+  return this->Consumer ? this->Consumer->fileBytes(this->InputBounds, this->Columns) : 0;
 }
 
-void RunSetup::setConstraints(const std::string& points, SegmentSource& segments, int threads)
+void RunSetup::setConstraints(
+  const std::string& points, SegmentSource& segments, std::uint64_t memory, int threads)
 {
-  const auto forEach = [&segments](const VisitSegment& visit) { segments.forEach(visit); };
-  this->Constraints = segments.count() == 0
-    ? nullptr
-    : std::make_unique<PieceSegments>(points, *this->Plan, this->Survey.Factor, forEach, threads);
+  this->Constraints.reset();
+  if (segments.count() > 0)
+  {
+    const UncoveredSegments uncovered(points + ".lines", segments, memory, threads);
+    this->Constraints = std::make_unique<PieceSegments>(
+      points, *this->Plan, this->Survey.Factor,
+      [&uncovered](const VisitSegment& visit) { uncovered.forEach(visit); }, threads);
+  }
   segments.end();
 }
 
@@ -245,7 +246,7 @@ void RunSetup::requireMemory(const std::string& path, std::uint64_t limit) const
 
 std::string identityOf(const PointStream& input, const OutOfCoreOptions& options)
 {
-  return "TIPP out of core 14\n" + input.identity() + std::to_string(options.Columns) + "x" +
+  return "TIPP out of core 15\n" + input.identity() + std::to_string(options.Columns) + "x" +
     std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
     std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
     (options.Neighbors ? " linked" : "") + (options.MarkConstraints ? " marked" : "") +

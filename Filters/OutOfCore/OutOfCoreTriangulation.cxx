@@ -109,6 +109,8 @@ private:
         [this](std::int64_t) {
           this->require(this->proceed(0));
         })).survey();
+    this->Setup.InputBounds =
+      segments ? segments->inputBounds() : scaled(survey.Bounds, 1 / survey.Factor);
     this->Statistics.LeftOut = this->Input.leftOut();
     this->Statistics.ThinnedOut = this->Input.thinnedOut();
     const std::size_t words = this->Setup.Rows.Words;
@@ -124,7 +126,8 @@ private:
     if (segments)
     {
       this->Statistics.Constraints = segments->figures();
-      this->Setup.setConstraints(this->Scratch.points(), *segments, this->Threads);
+      this->Setup.setConstraints(
+        this->Scratch.points(), *segments, this->Options.MemoryLimit, this->Threads);
     }
     this->warnOfLongitudes(survey);
     std::vector<SampledPoint>().swap(survey.Sample); // assigning {} would keep the memory

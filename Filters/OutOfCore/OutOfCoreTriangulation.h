@@ -37,7 +37,7 @@ public:
 
   /// Called once, on all ranks, when the points are known and before the first triangles. `files`:
   /// prefix for paths of files that stay until the end of the run; all ranks see them. `bounds`: of
-  /// the finite points. `columns`: of the input, beside x and y.
+  /// the finite points, without those of constraints. `columns`: of the input, beside x and y.
   virtual void begin(
     const Box2& bounds, const std::vector<std::string>& columns, const std::string& files) = 0;
 

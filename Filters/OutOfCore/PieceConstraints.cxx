@@ -184,8 +184,15 @@ PieceConstraints::PieceConstraints(
   this->Inserted->begin(points.scaled(factor), partitions);
 }
 
-void PieceConstraints::finishInserting()
+void PieceConstraints::finishInserting(
+  const std::unordered_map<std::int32_t, std::int32_t>& representatives)
 {
+  this->Inserted->rename(
+    [&representatives](PointId id)
+    {
+      const auto found = representatives.find(std::int32_t(id));
+      return found == representatives.end() ? id : PointId(found->second);
+    });
   std::vector<ConstraintSegment> segments;
   std::vector<std::int64_t> names;
   this->Remaining = this->Inserted->remaining();

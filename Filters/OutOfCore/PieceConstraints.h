@@ -17,6 +17,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace tipp
@@ -89,8 +90,9 @@ public:
   /// Returns an editor for a thread's worker. This object must outlive it.
   std::unique_ptr<PartitionEditor> makeEditor() { return this->Inserted->makeEditor(); }
 
-  /// Call this when all partitions are triangulated, before the methods below.
-  void finishInserting();
+  /// Call this when all partitions are triangulated, before the methods below. `representatives`:
+  /// for each point that coincides with another one, the point that represents both in triangles.
+  void finishInserting(const std::unordered_map<std::int32_t, std::int32_t>& representatives);
 
   /// Removes the triangles that are crossed by segments not yet inserted, and adds them to `part`,
   /// where vertex ids are indices plus `first`. The other triangles keep their order. `bucket`: the

@@ -11,7 +11,10 @@
 #include "Points/ReadPoints.h"
 #include "vtkTIPPFiltersModule.h"
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -59,6 +62,7 @@ public:
   /// The number of segments: parts of constraints split at crossings, and edges around holes.
   std::int64_t count() const override;
   const ConstraintFigures& figures() const override { return this->Counts; }
+  Box2 inputBounds() const override { return this->InputBounds; }
   void forEach(const VisitSegment& visit) override;
   void end() override;
 
@@ -66,7 +70,8 @@ public:
   PointBlock added() const;
 
 private:
-  void resolve();
+  void forEachBlock(std::size_t most, const std::function<void(const PointBlock&)>& visit) const;
+  void resolve(std::size_t blockPoints);
   void addPoints();
   void countSegments();
   void addHoles();
@@ -89,6 +94,7 @@ private:
   std::vector<PositionPair> HoleEdges;
   HullOfPoints Hull; ///< used if there are holes
   bool IsResolved = false;
+  Box2 InputBounds{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
   std::int64_t InputPoints = 0;   ///< read in this pass so far
   bool IsInputRead = false;       ///< whether this pass has read all input points
   std::unique_ptr<RowFile> Added; ///< the additional points: x, y and columns

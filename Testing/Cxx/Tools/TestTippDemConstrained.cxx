@@ -69,6 +69,24 @@ TEST_F(TippDemBreaklines, BoundaryLeavesPixelsOutsideWithoutValue)
   EXPECT_GE(plain.size(), inside.size());
 }
 
+TEST_F(TippDemBreaklines, AndBoundariesBeyondThePointsDoNotEnlargeTheRaster)
+{
+  this->Folder.file("long.csv", "x1,y1,z1,x2,y2,z2\n5,2,0,100000,700,0\n");
+  this->Folder.file(
+    "around.csv", "x1,y1,x2,y2\n-5,-5,25,-5\n25,-5,25,25\n25,25,-5,25\n-5,25,-5,-5\n");
+  for (const Words& lines :
+    { Words{ "--breaklines", "long.csv" }, Words{ "--boundary", "around.csv" } })
+  {
+    const std::vector<double> expected = this->values(lines);
+    EXPECT_EQ(100u, expected.size());
+    Words within = lines;
+    within.insert(within.end(), { "--memory", "64M" });
+    const std::vector<double> made = this->values(within);
+    ASSERT_EQ(expected.size(), made.size());
+    EXPECT_EQ(0, std::memcmp(expected.data(), made.data(), 100 * sizeof(double)));
+  }
+}
+
 TEST_F(TippDemBreaklines, RefusesABoundaryThatIsNotClosed)
 {
   const Outcome outcome = this->run(
