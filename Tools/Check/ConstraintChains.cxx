@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Check/ConstraintRoute.h"
 #include "Check/DelaunayChecker.h"
-
-#include <gmpxx.h>
+#include "Check/NearConstraints.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
-#include <set>
 #include <unordered_map>
 #include <utility>
 
@@ -15,359 +15,448 @@ namespace tipp
 namespace
 {
 
+using check::ConstraintRoutes;
+using check::MeshEdges;
 using check::Position;
+using check::Route;
+using check::RoutePreference;
+using check::RouteSetting;
 using Ids = std::vector<std::int64_t>;
 
+/// Chooses a route for each constraint. Where several are possible, the constraints together must
+/// pass all edges that must be on constraints.
 class ChainFinder
 {
 public:
-  ChainFinder(const std::vector<double>& xy, const Ids& triangles)
-    : XY(xy)
+  ChainFinder(
+    const std::vector<double>& xy, const Ids& triangles, const ConstraintsInMesh& constraints)
+    : Given(constraints)
+    , Mesh(xy, triangles)
+    , Setting{ Mesh, [this](std::int64_t vertex) { return this->attracts(vertex); }, {},
+      constraints.IsCut }
   {
-    const std::int64_t points = std::int64_t(xy.size() / 2);
-    for (std::size_t i = 0; i + 2 < triangles.size(); i += 3)
+    if (constraints.IsCut)
     {
-      for (std::size_t k = 0; k < 3; ++k)
+      this->Setting.Border = this->Mesh.borderVertices();
+    }
+    for (const FixedEdge& edge : constraints.Edges)
+    {
+      if (this->needsChain(edge))
       {
-        const std::int64_t a = triangles[i + k];
-        const std::int64_t b = triangles[i + (k + 1) % 3];
-        if (std::min(a, b) >= 0 && std::max(a, b) < points)
+        this->Ends.push_back(this->Mesh.vertexAt(this->Mesh.at(edge[0])));
+        this->Ends.push_back(this->Mesh.vertexAt(this->Mesh.at(edge[1])));
+      }
+    }
+    sortUnique(this->Ends);
+  }
+
+  ConstraintChains find()
+  {
+    ConstraintChains chains;
+    for (std::size_t i = 0; i < this->Given.Edges.size(); ++i)
+    {
+      chains.Lost += this->needsChain(this->Given.Edges[i]) && !this->findFirst(i) ? 1 : 0;
+    }
+    this->chooseAmongSeveral();
+    this->straighten();
+    chains.UndecidedEdges = this->uncovered();
+    chains.UndecidedConstraints = this->countUnproved();
+    for (const ChainEdge& edge : this->Edges)
+    {
+      chains.Edges.push_back(edge.Ends);
+    }
+    for (const Choice& choice : this->Choices)
+    {
+      visitEdges(choice.Way, [&chains](const FixedEdge& edge) { chains.Edges.push_back(edge); });
+    }
+    for (const auto& [edge, constraints] : this->Needed)
+    {
+      chains.Edges.push_back(edge);
+    }
+    sortUnique(chains.Edges);
+    return chains;
+  }
+
+private:
+  /// The route of a constraint that may have been moved.
+  struct Choice
+  {
+    std::size_t Constraint;
+    Route Way;
+    bool IsOneOfSeveral;
+  };
+
+  struct ChainEdge
+  {
+    FixedEdge Ends;
+    std::size_t Constraint;
+  };
+
+  /// A vertex on the route of a constraint.
+  using Passing = std::pair<std::int64_t, std::size_t>;
+
+  template <typename Value>
+  static void sortUnique(std::vector<Value>& values)
+  {
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+  }
+
+  static FixedEdge sorted(std::int64_t a, std::int64_t b)
+  {
+    return { std::min(a, b), std::max(a, b) };
+  }
+
+  template <typename Visit>
+  static void visitEdges(const Route& route, const Visit& visit)
+  {
+    for (std::size_t i = 1; i < route.Vertices.size(); ++i)
+    {
+      if (!route.IsGap[i - 1])
+      {
+        visit(sorted(route.Vertices[i - 1], route.Vertices[i]));
+      }
+    }
+  }
+
+  bool attracts(std::int64_t vertex) const
+  {
+    return this->Given.IsAdded(vertex) ||
+      std::binary_search(this->Ends.begin(), this->Ends.end(), vertex);
+  }
+
+  bool needsChain(const FixedEdge& constraint) const
+  {
+    const Position a = this->Mesh.at(constraint[0]);
+    const Position b = this->Mesh.at(constraint[1]);
+    return check::isFinite(a) && check::isFinite(b) && (a.x != b.x || a.y != b.y);
+  }
+
+  ConstraintRoutes routesOf(std::size_t constraint) const
+  {
+    const FixedEdge& edge = this->Given.Edges[constraint];
+    return { this->Setting, this->Mesh.at(edge[0]), this->Mesh.at(edge[1]) };
+  }
+
+  /// Finds the route of a constraint, or one of several. Returns false if there is none.
+  bool findFirst(std::size_t constraint)
+  {
+    const ConstraintRoutes routes = this->routesOf(constraint);
+    if (!routes.exist())
+    {
+      return false;
+    }
+    Route route =
+      routes.best([](std::int64_t, std::int64_t) { return 0; }, RoutePreference::Explained);
+    const bool areSeveral = routes.areSeveral();
+    if (areSeveral || route.Unexplained > 0 || routes.meetRounding())
+    {
+      this->Choices.push_back({ constraint, std::move(route), areSeveral });
+    }
+    else
+    {
+      visitEdges(route,
+        [&](const FixedEdge& edge) {
+          this->Edges.push_back({ edge, constraint });
+        });
+    }
+    if (areSeveral)
+    {
+      routes.visitEdges(
+        [this](std::int64_t from, std::int64_t to)
         {
-          this->Edges.push_back({ a, b });
-          this->Edges.push_back({ b, a });
+          if (this->Mesh.needsConstraint(from, to, this->Given.TieRule, this->Given.IsCut))
+          {
+            this->Needed.emplace(sorted(from, to), 0);
+          }
+        });
+    }
+    return true;
+  }
+
+  /// Adds `change` to the number of constraints that pass an edge, if it is a needed one.
+  void count(const FixedEdge& edge, std::int64_t change)
+  {
+    const auto found = this->Needed.find(edge);
+    if (found != this->Needed.end())
+    {
+      found->second += change;
+    }
+  }
+
+  void count(const Route& route, std::int64_t change)
+  {
+    visitEdges(route, [&](const FixedEdge& edge) { this->count(edge, change); });
+  }
+
+  /// Returns the number of needed edges that no constraint passes.
+  std::int64_t uncovered() const
+  {
+    return std::count_if(this->Needed.begin(), this->Needed.end(),
+      [](const auto& needed) { return needed.second == 0; });
+  }
+
+  /// Chooses again, constraint by constraint, as long as this covers more of the needed edges:
+  /// first only among the routes with the fewest unexplained vertices, then among all.
+  void chooseAmongSeveral()
+  {
+    for (const ChainEdge& edge : this->Edges)
+    {
+      this->count(edge.Ends, 1);
+    }
+    for (const Choice& choice : this->Choices)
+    {
+      this->count(choice.Way, 1);
+    }
+    constexpr int mostPasses = 16;
+    for (const RoutePreference preference : { RoutePreference::Explained, RoutePreference::Gain })
+    {
+      std::int64_t before = std::numeric_limits<std::int64_t>::max();
+      for (int pass = 0; pass < mostPasses && this->uncovered() < before; ++pass)
+      {
+        before = this->uncovered();
+        for (std::size_t i = 0; i < this->Choices.size() && before > 0; ++i)
+        {
+          this->Choices[i].IsOneOfSeveral ? this->chooseAgain(this->Choices[i], preference)
+                                          : void();
         }
       }
     }
-    std::sort(this->Edges.begin(), this->Edges.end());
-    for (auto begin = this->Edges.begin(); begin != this->Edges.end();)
+  }
+
+  /// Chooses the route that covers the most needed edges that no other constraint covers, if this
+  /// is what `preference` says.
+  void chooseAgain(Choice& choice, RoutePreference preference)
+  {
+    this->count(choice.Way, -1);
+    const auto gain = [this](std::int64_t from, std::int64_t to) -> std::int64_t
     {
-      const auto end = std::find_if(
-        begin, this->Edges.end(), [begin](const FixedEdge& edge) { return edge != *begin; });
-      if (end - begin == 1) // an edge of one triangle only: at the mesh's border
+      const auto found = this->Needed.find(sorted(from, to));
+      return found != this->Needed.end() && found->second == 0 ? 1 : 0;
+    };
+    choice.Way = this->routesOf(choice.Constraint).best(gain, preference);
+    this->count(choice.Way, 1);
+  }
+
+  /// Takes the straightest routes where others are not proved, unless fewer needed edges are
+  /// covered then.
+  void straighten()
+  {
+    this->findPassings();
+    const std::int64_t before = this->uncovered();
+    for (Choice& choice : this->Choices)
+    {
+      if (choice.IsOneOfSeveral && !this->isProved(choice))
       {
-        this->Border.insert((*begin)[0]);
+        Choice other = choice;
+        this->chooseAgain(other, RoutePreference::Straight);
+        if (this->uncovered() > before || !this->isProved(other))
+        {
+          this->count(other.Way, -1);
+          this->count(choice.Way, 1);
+          continue;
+        }
+        choice = std::move(other);
       }
-      begin = end;
-    }
-    this->Edges.erase(std::unique(this->Edges.begin(), this->Edges.end()), this->Edges.end());
-    for (const FixedEdge& edge : this->Edges)
-    {
-      // Of several points with equal coordinates, the mesh uses one: find it by the coordinates.
-      this->VertexAt[{ this->x(edge[0]), this->y(edge[0]) }] = edge[0];
     }
   }
 
-  /// Does the same as find() for a constraint of which a cut mesh has only a part. Gaps in its
-  /// chain begin and end at the mesh's border.
-  bool findParts(std::int64_t first, std::int64_t last, std::vector<FixedEdge>& edges)
+  /// Finds which constraints pass the vertices that choices pass or round to.
+  void findPassings()
   {
-    this->A = first;
-    this->B = last;
-    const auto [west, east] = std::minmax({ this->x(first), this->x(last) });
-    const double none = -HUGE_VAL;
-    Ids on;
-    for (auto at = this->VertexAt.lower_bound({ west, none });
-         at != this->VertexAt.end() && at->first.first <= east; ++at)
+    Ids vertices;
+    for (const Choice& choice : this->Choices)
     {
-      const std::int64_t v = at->second;
-      const bool isBetween = (this->isSame(v, first) || this->isBefore(first, v)) &&
-        (this->isSame(v, last) || this->isBefore(v, last));
-      if (isBetween && this->isOnConstraint(v))
-      {
-        on.push_back(v);
-      }
+      vertices.insert(vertices.end(), choice.Way.Vertices.begin(), choice.Way.Vertices.end());
+      this->routesOf(choice.Constraint)
+        .visitRounding([&](std::int64_t vertex, Position) { vertices.push_back(vertex); });
     }
-    std::sort(on.begin(), on.end(),
-      [this](std::int64_t p, std::int64_t q) { return this->isBefore(p, q); });
-    const auto isOnBorder = [this](std::int64_t v) { return this->Border.count(v) > 0; };
-    bool isGood = on.empty() ||
-      ((this->isSame(on.front(), first) || isOnBorder(on.front())) &&
-        (this->isSame(on.back(), last) || isOnBorder(on.back())));
-    for (std::size_t i = 1; i < on.size(); ++i)
+    sortUnique(vertices);
+    this->Passings.clear();
+    const auto add = [&](const FixedEdge& edge, std::size_t constraint)
     {
-      const FixedEdge edge{ on[i - 1], on[i] };
-      if (std::binary_search(this->Edges.begin(), this->Edges.end(), edge))
+      for (const std::int64_t end : edge)
       {
-        edges.push_back({ std::min(edge[0], edge[1]), std::max(edge[0], edge[1]) });
+        if (std::binary_search(vertices.begin(), vertices.end(), end))
+        {
+          this->Passings.push_back({ end, constraint });
+        }
       }
-      else
-      {
-        isGood = isGood && isOnBorder(on[i - 1]) && isOnBorder(on[i]);
-      }
+    };
+    for (const ChainEdge& edge : this->Edges)
+    {
+      add(edge.Ends, edge.Constraint);
     }
-    return isGood;
+    for (const Choice& choice : this->Choices)
+    {
+      visitEdges(choice.Way, [&](const FixedEdge& edge) { add(edge, choice.Constraint); });
+    }
+    sortUnique(this->Passings);
   }
 
-  /// Appends the edges of the constraint's chain; returns false if there is none.
-  bool find(std::int64_t first, std::int64_t last, std::vector<FixedEdge>& edges)
+  /// Counts the routes that are not proved to be right.
+  std::int64_t countUnproved()
   {
-    if (!this->isFinite(first) || !this->isFinite(last) || this->isSame(first, last))
+    this->findPassings();
+    return std::count_if(this->Choices.begin(), this->Choices.end(),
+      [this](const Choice& choice) { return !this->isProved(choice); });
+  }
+
+  /// Calls visit(constraint) for each other constraint whose route passes a vertex. Returns true
+  /// as soon as visit() does.
+  template <typename Visit>
+  bool anyOther(std::int64_t vertex, std::size_t constraint, const Visit& visit) const
+  {
+    auto passing =
+      std::lower_bound(this->Passings.begin(), this->Passings.end(), Passing{ vertex, 0 });
+    for (; passing != this->Passings.end() && passing->first == vertex; ++passing)
+    {
+      if (passing->second != constraint && visit(passing->second))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Returns whether a route is the one that the rule of crossings prescribes. A constraint is
+  /// split at the input points on it. A part that crosses another constraint passes all vertices of
+  /// constraints to which it rounds; other parts are not moved.
+  bool isProved(const Choice& choice) const
+  {
+    const Route& route = choice.Way;
+    const auto attracts = [&](std::int64_t vertex)
+    {
+      return this->attracts(vertex) ||
+        this->anyOther(vertex, choice.Constraint, [](std::size_t) { return true; });
+    };
+    if (route.hasGap()) // crossings may be outside of the mesh
+    {
+      return route.Unexplained == 0;
+    }
+    if (!check::isExplained(route, attracts))
+    {
+      return false;
+    }
+    const ConstraintRoutes routes = this->routesOf(choice.Constraint);
+    Ids passed = route.Vertices;
+    std::sort(passed.begin(), passed.end());
+    std::vector<Position> leftOut;
+    routes.visitRounding(
+      [&](std::int64_t vertex, Position at)
+      {
+        const bool isPassed = std::binary_search(passed.begin(), passed.end(), vertex);
+        // Added points may have been added later.
+        isPassed || this->Given.IsAdded(vertex) || !attracts(vertex) ? void()
+                                                                     : leftOut.push_back(at);
+      });
+    const check::SnappedLine line(route.Positions.front(), route.Positions.back());
+    std::sort(leftOut.begin(), leftOut.end(),
+      [&line](Position p, Position q) { return line.isBefore(p, q); });
+    std::size_t first = 0;
+    for (std::size_t i = 1; i < route.Vertices.size(); ++i)
+    {
+      const bool isLast = i + 1 == route.Vertices.size();
+      if (isLast || (line.holds(route.Positions[i]) && !this->Given.IsAdded(route.Vertices[i])))
+      {
+        if (!this->isPartProved(choice, line, leftOut, first, i))
+        {
+          return false;
+        }
+        first = i;
+      }
+    }
+    return true;
+  }
+
+  /// Does the same for the part between the vertices `first` and `last` of the route. `near`: the
+  /// input points at ends of constraints to which the constraint rounds, but which it does not
+  /// pass, in its order.
+  bool isPartProved(const Choice& choice, const check::SnappedLine& line,
+    const std::vector<Position>& near, std::size_t first, std::size_t last) const
+  {
+    const std::vector<Position>& at = choice.Way.Positions;
+    const auto isCrossed = [&](bool byParts)
+    {
+      for (std::size_t i = first + 1; i < last; ++i)
+      {
+        const bool isFound = this->anyOther(choice.Way.Vertices[i], choice.Constraint,
+          [&](std::size_t other) { return this->crosses(other, byParts, at[first], at[last]); });
+        if (isFound)
+        {
+          return true;
+        }
+      }
+      return false;
+    };
+    const bool isMoved = std::any_of(at.begin() + std::ptrdiff_t(first) + 1,
+      at.begin() + std::ptrdiff_t(last), [&](Position p) { return !line.holds(p); });
+    const auto next = std::upper_bound(near.begin(), near.end(), at[first],
+      [&line](Position p, Position q) { return line.isBefore(p, q); });
+    const bool leavesOut = next != near.end() && line.isBefore(*next, at[last]);
+    return (!isMoved || isCrossed(true)) && (!leavesOut || !isCrossed(false));
+  }
+
+  /// Returns whether a constraint crosses the segment from p to q. With `byParts` also whether a
+  /// part of it between two vertices of its route does.
+  bool crosses(std::size_t constraint, bool byParts, Position p, Position q) const
+  {
+    const auto doCross = [&](Position a, Position b)
+    {
+      return check::turn(a, b, p) * check::turn(a, b, q) < 0 &&
+        check::turn(p, q, a) * check::turn(p, q, b) < 0;
+    };
+    const FixedEdge& edge = this->Given.Edges[constraint];
+    if (doCross(this->Mesh.at(edge[0]), this->Mesh.at(edge[1])))
     {
       return true;
     }
-    const auto a = this->VertexAt.find({ this->x(first), this->y(first) });
-    const auto b = this->VertexAt.find({ this->x(last), this->y(last) });
-    if (a == this->VertexAt.end() || b == this->VertexAt.end())
+    const auto choice = std::lower_bound(this->Choices.begin(), this->Choices.end(), constraint,
+      [](const Choice& one, std::size_t wanted) { return one.Constraint < wanted; });
+    constexpr std::size_t most = 64; // pairs of more would take long
+    if (!byParts || choice == this->Choices.end() || choice->Constraint != constraint ||
+      choice->Way.Positions.size() > most)
     {
       return false;
     }
-    this->A = a->second;
-    this->B = b->second;
-    // A depth-first search, because a path may be a dead end if vertices are only a few roundings
-    // apart.
-    std::vector<Ids> open{ this->onward(this->A) };
-    Ids way{ this->A };
-    while (!open.empty() && way.back() != this->B)
+    const std::vector<Position>& at = choice->Way.Positions;
+    for (std::size_t i = 0; i < at.size(); ++i)
     {
-      if (open.back().empty())
+      for (std::size_t k = i + 1; k < at.size(); ++k)
       {
-        open.pop_back();
-        way.pop_back();
-        continue;
-      }
-      way.push_back(open.back().back());
-      open.back().pop_back();
-      open.push_back(way.back() == this->B ? Ids{} : this->onward(way.back()));
-    }
-    for (std::size_t i = 1; i < way.size(); ++i)
-    {
-      edges.push_back({ std::min(way[i - 1], way[i]), std::max(way[i - 1], way[i]) });
-    }
-    return !open.empty();
-  }
-
-private:
-  double x(std::int64_t id) const { return this->XY[2 * std::size_t(id)]; }
-  double y(std::int64_t id) const { return this->XY[2 * std::size_t(id) + 1]; }
-  bool isFinite(std::int64_t id) const
-  {
-    return std::isfinite(this->x(id)) && std::isfinite(this->y(id));
-  }
-  bool isSame(std::int64_t a, std::int64_t b) const
-  {
-    return this->x(a) == this->x(b) && this->y(a) == this->y(b);
-  }
-
-  /// Returns the vertex's neighbours on the constraint that are nearer to its end, in descending
-  /// order of their distance from the vertex.
-  Ids onward(std::int64_t vertex) const
-  {
-    Ids next;
-    auto edge = std::lower_bound(this->Edges.begin(), this->Edges.end(), FixedEdge{ vertex, -1 });
-    for (; edge != this->Edges.end() && (*edge)[0] == vertex; ++edge)
-    {
-      const std::int64_t id = (*edge)[1];
-      if (this->isBefore(vertex, id) && (id == this->B || this->isBefore(id, this->B)) &&
-        this->isOnConstraint(id))
-      {
-        next.push_back(id);
+        if (doCross(at[i], at[k]))
+        {
+          return true;
+        }
       }
     }
-    std::sort(next.begin(), next.end(),
-      [this](std::int64_t p, std::int64_t q) { return this->isBefore(q, p); });
-    return next;
+    return false;
   }
 
-  /// Whether p precedes q along the constraint in both coordinates.
-  bool isBefore(std::int64_t p, std::int64_t q) const
-  {
-    const double signX = this->x(this->B) < this->x(this->A) ? -1 : 1;
-    const double signY = this->y(this->B) < this->y(this->A) ? -1 : 1;
-    return signX * this->x(p) <= signX * this->x(q) && signY * this->y(p) <= signY * this->y(q) &&
-      !this->isSame(p, q);
-  }
-
-  static mpq_class twoUnits(double a, double b)
-  {
-    const double largest = std::max(std::fabs(a), std::fabs(b));
-    return 2 * (mpq_class(std::nextafter(largest, HUGE_VAL)) - mpq_class(largest));
-  }
-
-  bool isOnConstraint(std::int64_t id) const
-  {
-    const mpq_class ax(this->x(this->A));
-    const mpq_class ay(this->y(this->A));
-    const mpq_class dx = mpq_class(this->x(this->B)) - ax;
-    const mpq_class dy = mpq_class(this->y(this->B)) - ay;
-    const mpq_class off = dx * (mpq_class(this->y(id)) - ay) - dy * (mpq_class(this->x(id)) - ax);
-    return off == 0 ||
-      abs(off) <= abs(dx) * twoUnits(this->y(this->A), this->y(this->B)) +
-        abs(dy) * twoUnits(this->x(this->A), this->x(this->B));
-  }
-
-  const std::vector<double>& XY;
-  std::vector<FixedEdge> Edges; ///< both directions of each edge; sorted
-  std::map<std::pair<double, double>, std::int64_t> VertexAt;
-  std::set<std::int64_t> Border; ///< vertices of edges with one triangle
-  std::int64_t A = 0;            ///< the ends of the current constraint
-  std::int64_t B = 0;
-};
-
-/// Finds the edges of a large mesh that may be parts of constraints, so that only these are kept in
-/// memory. It may keep too many edges, but must not miss one, which would be reported as a lost
-/// constraint.
-class NearConstraints
-{
-public:
-  /// `xy`: x and y of each point. `edges`: two indices of points each. Both are copied.
-  NearConstraints(
-    const std::vector<double>& xy, const std::vector<std::array<std::int64_t, 2>>& edges)
-  {
-    const auto at = [&xy](std::int64_t id) {
-      return Position{ xy[2 * std::size_t(id)], xy[2 * std::size_t(id) + 1] };
-    };
-    this->Low = { HUGE_VAL, HUGE_VAL };
-    this->High = { -HUGE_VAL, -HUGE_VAL };
-    double largest = 0;
-    for (const auto& edge : edges)
-    {
-      const Segment segment{ at(edge[0]), at(edge[1]) };
-      if (!check::isFinite(segment.A) || !check::isFinite(segment.B))
-      {
-        continue; // constraints that are not finite are ignored
-      }
-      this->Segments.push_back(segment);
-      for (const Position p : { segment.A, segment.B })
-      {
-        this->Low = { std::min(this->Low[0], p.x), std::min(this->Low[1], p.y) };
-        this->High = { std::max(this->High[0], p.x), std::max(this->High[1], p.y) };
-        largest = std::max({ largest, std::fabs(p.x), std::fabs(p.y) });
-      }
-    }
-    constexpr double relative = 1e-10;
-    this->Tolerance = relative * largest;
-    constexpr double most = 2048;
-    this->Side = std::int64_t(std::clamp(std::sqrt(double(this->Segments.size())), 1.0, most));
-    this->Starts.assign(std::size_t(this->Side * this->Side) + 1, 0);
-    for (const Segment& segment : this->Segments)
-    {
-      this->visitCells(segment, [this](std::size_t cell) { ++this->Starts[cell + 1]; });
-    }
-    for (std::size_t cell = 1; cell < this->Starts.size(); ++cell)
-    {
-      this->Starts[cell] += this->Starts[cell - 1];
-    }
-    this->InCells.resize(this->Starts.back());
-    std::vector<std::size_t> next = this->Starts;
-    for (std::size_t i = 0; i < this->Segments.size(); ++i)
-    {
-      this->visitCells(this->Segments[i],
-        [&](std::size_t cell) { this->InCells[next[cell]++] = std::uint32_t(i); });
-    }
-  }
-
-  /// Returns whether both ends of an edge are within about a million rounding errors of one
-  /// constraint.
-  bool mayHave(Position a, Position b) const
-  {
-    if (this->Segments.empty())
-    {
-      return false;
-    }
-    const auto cell = std::size_t(this->cellOf(a.y, 1) * this->Side + this->cellOf(a.x, 0));
-    return std::any_of(this->InCells.begin() + std::ptrdiff_t(this->Starts[cell]),
-      this->InCells.begin() + std::ptrdiff_t(this->Starts[cell + 1]),
-      [&](std::uint32_t s)
-      { return this->isNear(a, this->Segments[s]) && this->isNear(b, this->Segments[s]); });
-  }
-
-private:
-  struct Segment
-  {
-    Position A;
-    Position B;
-  };
-
-  std::int64_t cellOf(double value, std::size_t axis) const
-  {
-    // Halved, because the difference could overflow.
-    const double length = this->High[axis] / 2 - this->Low[axis] / 2;
-    const double part = (value / 2 - this->Low[axis] / 2) / length;
-    return part > 0
-      ? std::min(std::int64_t(std::min(part, 1.0) * double(this->Side)), this->Side - 1)
-      : 0;
-  }
-
-  /// Visits the cells that a segment crosses and their neighbours.
-  template <typename Visit>
-  void visitCells(const Segment& segment, const Visit& visit) const
-  {
-    const auto clamped = [this](std::int64_t cell)
-    { return std::clamp<std::int64_t>(cell, 0, this->Side - 1); };
-    const auto [bottom, top] =
-      std::minmax({ this->cellOf(segment.A.y, 1), this->cellOf(segment.B.y, 1) });
-    const double height = this->High[1] / 2 - this->Low[1] / 2;
-    const double rise = segment.B.y / 2 - segment.A.y / 2;
-    // Returns the column of the segment at the lower border of a row of cells.
-    const auto columnAt = [&](std::int64_t row)
-    {
-      const double y = this->Low[1] / 2 + height * (double(row) / double(this->Side));
-      const double part = rise == 0 ? 0 : std::clamp((y - segment.A.y / 2) / rise, 0.0, 1.0);
-      return this->cellOf(segment.A.x + 2 * part * (segment.B.x / 2 - segment.A.x / 2), 0);
-    };
-    for (std::int64_t row = clamped(bottom - 1); row <= clamped(top + 1); ++row)
-    {
-      const auto [left, right] = rise == 0
-        ? std::minmax({ this->cellOf(segment.A.x, 0), this->cellOf(segment.B.x, 0) })
-        : std::minmax({ columnAt(row - 1), columnAt(row), columnAt(row + 1), columnAt(row + 2) });
-      for (std::int64_t column = clamped(left - 1); column <= clamped(right + 1); ++column)
-      {
-        visit(std::size_t(row * this->Side + column));
-      }
-    }
-  }
-
-  bool isNear(Position p, const Segment& segment) const
-  {
-    const Position a = segment.A;
-    const Position b = segment.B;
-    const double tolerance = this->Tolerance;
-    if (p.x < std::min(a.x, b.x) - tolerance || p.x > std::max(a.x, b.x) + tolerance ||
-      p.y < std::min(a.y, b.y) - tolerance || p.y > std::max(a.y, b.y) + tolerance)
-    {
-      return false;
-    }
-    const double dx = b.x / 2 - a.x / 2;
-    const double dy = b.y / 2 - a.y / 2;
-    const double length = std::hypot(dx, dy);
-    const double off = std::fabs(dx / length * (p.y - a.y) - dy / length * (p.x - a.x));
-    return !(off > tolerance); // true if the computation has overflowed
-  }
-
-  std::vector<Segment> Segments;
-  std::array<double, 2> Low{};
-  std::array<double, 2> High{};
-  double Tolerance = 0;
-  std::int64_t Side = 1; ///< cells of the grid along each axis
-  /// By cell: the start of its entries in InCells; one more entry at the end.
-  std::vector<std::size_t> Starts;
-  std::vector<std::uint32_t> InCells; ///< indices of Segments, cell by cell
+  const ConstraintsInMesh& Given;
+  const MeshEdges Mesh;
+  RouteSetting Setting;
+  Ids Ends; ///< the vertices at ends of constraints, sorted
+  std::vector<ChainEdge> Edges;
+  std::vector<Choice> Choices;   ///< sorted by constraint
+  std::vector<Passing> Passings; ///< at vertices that choices pass or round to, sorted
+  /// The edges of several routes that must be on constraints, and how many constraints pass them.
+  std::map<FixedEdge, std::int64_t> Needed;
 };
 
 } // namespace
 
 ConstraintChains findConstraintChains(const std::vector<double>& xy,
-  const std::vector<std::int64_t>& triangles,
-  const std::vector<std::array<std::int64_t, 2>>& constraints, bool isCut)
+  const std::vector<std::int64_t>& triangles, const ConstraintsInMesh& constraints)
 {
-  ConstraintChains chains;
-  ChainFinder finder(xy, triangles);
-  for (const auto& constraint : constraints)
-  {
-    const bool isFound = finder.find(constraint[0], constraint[1], chains.Edges) ||
-      (isCut && finder.findParts(constraint[0], constraint[1], chains.Edges));
-    chains.Lost += isFound ? 0 : 1;
-  }
-  std::sort(chains.Edges.begin(), chains.Edges.end());
-  chains.Edges.erase(std::unique(chains.Edges.begin(), chains.Edges.end()), chains.Edges.end());
-  return chains;
+  return ChainFinder(xy, triangles, constraints).find();
 }
 
 ConstraintChains findConstraintChains(std::size_t pieces,
   const std::function<CheckedPiece(std::size_t)>& read, const std::vector<double>& constraintXY,
-  const std::vector<std::array<std::int64_t, 2>>& edges, bool isCut)
+  const ConstraintsInMesh& constraints)
 {
-  const NearConstraints near(constraintXY, edges);
+  const check::NearConstraints near(constraintXY, constraints.Edges);
   std::vector<double> xy;
   std::vector<std::int64_t> ids;
   std::vector<std::int64_t> triangles;
@@ -387,7 +476,7 @@ ConstraintChains findConstraintChains(std::size_t pieces,
       for (std::size_t i = 0; i < 3; ++i)
       {
         const Position from = at(corners[i]);
-        isNear = isNear || near.mayHave(from, isCut ? from : at(corners[(i + 1) % 3]));
+        isNear = isNear || near.mayHave(from, constraints.IsCut ? from : at(corners[(i + 1) % 3]));
       }
       for (std::size_t i = 0; isNear && i < 3; ++i)
       {
@@ -410,12 +499,14 @@ ConstraintChains findConstraintChains(std::size_t pieces,
   }
   const auto own = std::int64_t(xy.size() / 2);
   xy.insert(xy.end(), constraintXY.begin(), constraintXY.end());
-  std::vector<std::array<std::int64_t, 2>> constraints = edges;
-  for (auto& edge : constraints)
+  ConstraintsInMesh among = constraints;
+  for (FixedEdge& edge : among.Edges)
   {
     edge = { edge[0] + own, edge[1] + own };
   }
-  ConstraintChains chains = findConstraintChains(xy, triangles, constraints, isCut);
+  among.IsAdded = [&](std::int64_t vertex)
+  { return constraints.IsAdded(ids[std::size_t(vertex)]); };
+  ConstraintChains chains = findConstraintChains(xy, triangles, among);
   for (FixedEdge& edge : chains.Edges)
   {
     const auto [low, high] = std::minmax({ ids[std::size_t(edge[0])], ids[std::size_t(edge[1])] });

@@ -285,9 +285,7 @@ void PieceChecker::checkCircle(Position a, Position b, Position c, Position d)
   if (side == 0)
   {
     ++this->Report.Ties;
-    const Position end = check::isBefore(a, b) ? b : a;
-    const Position off = check::isBefore(c, d) ? d : c;
-    this->Report.BadTies += this->Options.TieRule && check::isBefore(off, end) ? 1 : 0;
+    this->Report.BadTies += check::breaksDelaunay(a, b, c, d, this->Options.TieRule) ? 1 : 0;
   }
 }
 
@@ -369,16 +367,35 @@ CheckReport PieceChecker::finish()
   return this->Report;
 }
 
+namespace
+{
+
+/// Appends a line unless the count is 0.
+void addCount(std::vector<std::string>& lines, std::int64_t count, const std::string& text)
+{
+  if (count != 0)
+  {
+    lines.push_back(std::to_string(count) + " " + text);
+  }
+}
+
+} // namespace
+
+std::vector<std::string> CheckReport::undecided() const
+{
+  std::vector<std::string> lines;
+  addCount(lines, this->UndecidedConstraints,
+    "constraints are chains of edges within several roundings, which may be right or not");
+  addCount(lines, this->UndecidedEdges,
+    "edges are not locally Delaunay, but may be on constraints within several roundings");
+  return lines;
+}
+
 std::vector<std::string> CheckReport::faults() const
 {
   std::vector<std::string> lines;
   const auto add = [&lines](std::int64_t count, const std::string& fault)
-  {
-    if (count != 0)
-    {
-      lines.push_back(std::to_string(count) + " " + fault);
-    }
-  };
+  { addCount(lines, count, fault); };
   const bool isPlanar = !this->InSpace;
   const std::string cells = isPlanar ? "triangles" : "tetrahedra";
   const std::string facets = isPlanar ? "edges" : "facets";

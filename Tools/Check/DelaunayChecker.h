@@ -35,12 +35,15 @@ struct CheckOptions
 };
 
 /// The result of a check of triangles or tetrahedra. The facets of a triangle are its edges. The
-/// members from BadIds on count faults.
+/// members from BadIds on count faults, except those named Undecided.
 struct CheckReport
 {
   /// Returns a line for each kind of fault whose count is not 0.
   std::vector<std::string> faults() const;
-  bool isCorrect() const { return this->faults().empty(); }
+  /// Returns a line for each kind of thing that the check cannot decide.
+  std::vector<std::string> undecided() const;
+  /// Returns whether the check proves that the mesh is right.
+  bool isCorrect() const { return this->faults().empty() && this->undecided().empty(); }
 
   bool InSpace = false; ///< the cells are tetrahedra
   std::int64_t Points = 0;
@@ -60,6 +63,9 @@ struct CheckReport
   std::int64_t TwinVertices = 0; ///< vertices that have the coordinates of another vertex
   std::int64_t BadHullEdges = 0; ///< edges at which the boundary is not closed or not convex
   std::int64_t LostConstraints = 0; ///< constraints that are no chain of edges
+  /// As in ConstraintChains: neither faults nor correct.
+  std::int64_t UndecidedConstraints = 0;
+  std::int64_t UndecidedEdges = 0;
   /// Boundary edges, if IsCut, that are neither constraints nor on the hull.
   std::int64_t OpenBoundary = 0;
   /// Edges (corners) with a wrong neighbour; counted if `neighbors` are given.
@@ -165,30 +171,50 @@ private:
 CheckReport checkDelaunay(std::vector<double> xy, std::vector<std::int64_t> triangles,
   const CheckOptions& options = {}, std::vector<std::int64_t> neighbors = {});
 
+/// The constraints of a mesh.
+struct ConstraintsInMesh
+{
+  std::vector<FixedEdge> Edges; ///< two points for each constraint
+  /// Returns whether a point of the mesh is none of the input. Constraints cross at such points.
+  std::function<bool(std::int64_t)> IsAdded;
+  bool IsCut = false;   ///< as in CheckOptions
+  bool TieRule = false; ///< as in CheckOptions
+};
+
 /// The constraints, as chains of edges of a mesh.
 struct ConstraintChains
 {
   std::vector<FixedEdge> Edges; ///< sorted, without duplicates
   std::int64_t Lost = 0;        ///< number of constraints without a chain
+  /// Number of constraints with a chain that rounding may explain, which is not proved.
+  std::int64_t UndecidedConstraints = 0;
+  /// Number of edges that must be on constraints, may be, and are not on the chains found.
+  std::int64_t UndecidedEdges = 0;
 };
 
-/// Finds for each constraint a chain of edges between its two points. Each vertex of the chain must
-/// be so close to the constraint that rounding explains the distance: at most twice the spacing of
-/// doubles at the constraint's coordinates, tested in exact arithmetic. Constraints whose ends are
-/// equal or not finite need no chain. `xy` holds x and y of each point; `triangles` (three each)
-/// and `constraints` hold indices of these points. `isCut`: the mesh ends at polygons, so chains
-/// may have gaps between vertices of its border.
+/// Finds for each constraint a chain of edges between its two points. Where rounding may have led a
+/// constraint along several chains, those are chosen that together pass all edges that are not
+/// locally Delaunay. All tests are exact. The result is a proof either way:
+///
+/// - A chain found is explained by snap rounding: the constraint passes through the box of points
+///   that round to a vertex, or is split at such vertices into parts that do, in any number of
+///   rounds. The vertices are ends or crossings of constraints, or on the constraint.
+/// - If a constraint is lost, no chain is as near as up to 16 rounds of rounding can lead it.
+///
+/// What is between these is counted as undecided. Constraints whose ends are equal or not finite
+/// need no chain. `xy` holds x and y of each point; `triangles` (three each) and the constraints
+/// hold indices of these points. If the mesh is cut, chains may have gaps where the constraint is
+/// outside of it.
 ConstraintChains findConstraintChains(const std::vector<double>& xy,
-  const std::vector<std::int64_t>& triangles,
-  const std::vector<std::array<std::int64_t, 2>>& constraints, bool isCut);
+  const std::vector<std::int64_t>& triangles, const ConstraintsInMesh& constraints);
 
 /// The same for a mesh in pieces: read(number) returns a piece. `constraintXY` holds x and y of the
-/// constraints' points, `edges` two indices of these for each constraint. Returns edges by global
-/// ids. Keeps in memory only triangles near constraints: those with an edge on one, or in a cut
-/// mesh all those at vertices on constraints, which show its border there.
+/// constraints' points, to which the constraints refer; IsAdded takes global ids. Returns edges by
+/// global ids. Keeps in memory only triangles near constraints: those with an edge on one, or in a
+/// cut mesh all those at vertices on constraints, which show its border there.
 ConstraintChains findConstraintChains(std::size_t pieces,
   const std::function<CheckedPiece(std::size_t)>& read, const std::vector<double>& constraintXY,
-  const std::vector<std::array<std::int64_t, 2>>& edges, bool isCut);
+  const ConstraintsInMesh& constraints);
 
 /// Checks in exact arithmetic whether tetrahedra are the Delaunay triangulation of the distinct
 /// finite points. It does not compute a triangulation: by Delaunay's lemma it is enough that the

@@ -99,6 +99,13 @@ int inCircle(Position a, Position b, Position c, Position d)
     Kernel::Side_of_oriented_circle_2()(point(a), point(b), point(c), point(d)));
 }
 
+bool breaksDelaunay(Position a, Position b, Position c, Position d, bool tieRule)
+{
+  const int side = inCircle(a, b, c, d);
+  return side > 0 ||
+    (side == 0 && tieRule && isBefore(isBefore(c, d) ? d : c, isBefore(a, b) ? b : a));
+}
+
 std::int64_t countHullFaults(const std::vector<double>& xy, std::vector<DirectedEdge>& edges)
 {
   std::sort(edges.begin(), edges.end(),

@@ -34,6 +34,11 @@ int turn(Position a, Position b, Position c);
 /// Returns +1 if d is inside the circle of the counter-clockwise a, b, c, -1 outside, 0 on it.
 int inCircle(Position a, Position b, Position c, Position d);
 
+/// Returns whether the edge from a to b, with c on its left and d on its right, is not locally
+/// Delaunay. With `tieRule` also if all four are on a circle and the edge is the diagonal that the
+/// rule forbids.
+bool breaksDelaunay(Position a, Position b, Position c, Position d, bool tieRule);
+
 /// A directed edge between two points, given by their indices in `xy`.
 struct DirectedEdge
 {

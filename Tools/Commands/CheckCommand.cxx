@@ -44,11 +44,13 @@ at most two triangles, all triangles are counter-clockwise, every interior edge 
 Delaunay, the boundary is one convex chain, the number of triangles follows Euler's formula,
 and every distinct point is a vertex. If the mesh has the cell array NeighborIds, the two
 triangles of every edge must store each other. A partitioned mesh is read piece by piece
-and may be larger than memory. Exit codes: 0: no fault; 1: faults, or a file that cannot be
-read; 2: wrong usage.
+and may be larger than memory. Exit codes: 0: proved to be correct; 1: faults, or a file that
+cannot be read; 2: wrong usage; 3: cannot decide.
 
 With --constraints, the constraints' edges need not be locally Delaunay, and the mesh may
-have more points after the given ones. With --cut, or if the constraints have polygons or
+have more points after the given ones. A constraint is a chain of edges through points that
+it passes exactly, or of ends and crossings to which points of it round. Where only several
+roundings could explain a chain, the check may be unable to decide: this is no fault. With --cut, or if the constraints have polygons or
 holes, each boundary edge must be an edge of a constraint or of the convex hull, and
 constraints may lie outside of the mesh. Whether the right triangles were removed is not
 checked.
@@ -155,6 +157,21 @@ std::vector<std::array<std::int64_t, 2>> constraintsAmong(
   return constraints;
 }
 
+/// `given`: the number of input points, which have the lowest ids.
+ConstraintsInMesh constraintsInMesh(std::vector<std::array<std::int64_t, 2>> constraints,
+  std::int64_t given, const CheckOptions& options)
+{
+  return { std::move(constraints), [given](std::int64_t id) { return id >= given; }, options.IsCut,
+    options.TieRule };
+}
+
+void addChains(CheckReport& report, const ConstraintChains& chains)
+{
+  report.LostConstraints = chains.Lost;
+  report.UndecidedConstraints = chains.UndecidedConstraints;
+  report.UndecidedEdges = chains.UndecidedEdges;
+}
+
 /// Checks a mesh with constraints, whose first points are the input points.
 CheckReport checkConstrained(
   const CheckArguments& arguments, std::vector<double>& points, TriangleMesh& mesh)
@@ -178,11 +195,13 @@ CheckReport checkConstrained(
   constraints.erase(lost, constraints.end());
   CheckOptions options = arguments.Options;
   options.IsCut = arguments.isCutBy(table);
-  ConstraintChains chains = findConstraintChains(xy, mesh.Triangles, constraints, options.IsCut);
+  ConstraintChains chains = findConstraintChains(xy, mesh.Triangles,
+    constraintsInMesh(std::move(constraints), std::int64_t(points.size() / 2), options));
   options.Constraints = std::move(chains.Edges);
   CheckReport report =
     checkDelaunay(std::move(xy), std::move(mesh.Triangles), options, std::move(mesh.Neighbors));
-  report.LostConstraints = chains.Lost + missing;
+  chains.Lost += missing;
+  addChains(report, chains);
   return report;
 }
 
@@ -327,7 +346,7 @@ CheckReport checkPartitioned(const CheckArguments& arguments)
     options.IsCut = arguments.isCutBy(table);
     chains = findConstraintChains(
       mesh.Pieces.size(), [&mesh](std::size_t number) { return readChecked(mesh, number); },
-      table.XY, table.Edges, options.IsCut);
+      table.XY, constraintsInMesh(table.Edges, input.All, options));
     options.Constraints = std::move(chains.Edges);
   }
   PieceChecker checker(
@@ -342,7 +361,7 @@ CheckReport checkPartitioned(const CheckArguments& arguments)
     }
   }
   CheckReport report = checker.finish();
-  report.LostConstraints = chains.Lost;
+  addChains(report, chains);
   if (input.Points != checker.givenPoints() || input.Sum != checker.pointSum())
   {
     refuseOtherPoints(arguments, std::size_t(checker.givenPoints()), std::size_t(input.Points));
@@ -431,12 +450,18 @@ int runCheck(const CheckArguments& arguments)
   fmt::print("{} points ({} distinct), {} {}, {} {}, {} {} ties: {}\n", report.Points,
     report.DistinctPoints, report.Cells, inSpace ? "tetrahedra" : "triangles",
     report.BoundaryFacets, inSpace ? "hull facets" : "boundary edges", report.Ties,
-    inSpace ? "co-spherical" : "co-circular", report.isCorrect() ? "correct" : "FAULTY");
-  for (const std::string& fault : report.faults())
+    inSpace ? "co-spherical" : "co-circular",
+    report.isCorrect()          ? "correct"
+      : report.faults().empty() ? "cannot decide"
+                                : "FAULTY");
+  for (const auto& lines : { report.faults(), report.undecided() })
   {
-    fmt::print("  {}\n", fault);
+    for (const std::string& line : lines)
+    {
+      fmt::print("  {}\n", line);
+    }
   }
-  return report.isCorrect() ? Success : Failure;
+  return report.isCorrect() ? Success : report.faults().empty() ? Undecided : Failure;
 }
 
 void addOptions(CLI::App& command, CheckArguments& arguments)

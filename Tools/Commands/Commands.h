@@ -15,7 +15,8 @@ enum ExitCode
 {
   Success = 0,
   Failure = 1,
-  Usage = 2
+  Usage = 2,
+  Undecided = 3 ///< of 'tipp check'
 };
 
 /// Adds a subcommand to `app`. When the subcommand has run, `exitCode` is set. It may throw IOError

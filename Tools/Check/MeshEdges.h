@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippMeshEdges_h
+#define tippMeshEdges_h
+
+#include "Check/ExactTests.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace tipp
+{
+namespace check
+{
+
+/// The edges of triangles, with their triangles on both sides.
+class MeshEdges
+{
+public:
+  static constexpr std::int64_t None = -1;
+
+  /// `xy`: x and y of each point; it must outlive this object. `triangles`: three indices of points
+  /// each; those with an index that does not exist are left out.
+  MeshEdges(const std::vector<double>& xy, const std::vector<std::int64_t>& triangles);
+
+  Position at(std::int64_t point) const
+  {
+    return { this->XY[2 * std::size_t(point)], this->XY[2 * std::size_t(point) + 1] };
+  }
+
+  /// Returns the vertex at a position, or None. If the input has several points there, only one of
+  /// them is a vertex.
+  std::int64_t vertexAt(Position p) const;
+
+  /// Calls visit(neighbour) for each vertex at the other end of an edge.
+  template <typename Visit>
+  void visitNeighbors(std::int64_t vertex, const Visit& visit) const
+  {
+    for (std::size_t i = this->firstFrom(vertex); this->isFrom(i, vertex); ++i)
+    {
+      visit(this->Edges[i].To);
+    }
+  }
+
+  /// Returns whether an edge must be on a constraint: it is not locally Delaunay, with `tieRule`
+  /// breaks a tie against the rule, or with `isCut` has one triangle only.
+  bool needsConstraint(std::int64_t a, std::int64_t b, bool tieRule, bool isCut) const;
+
+  /// Returns the vertices of edges that have one triangle only, sorted by position.
+  std::vector<std::int64_t> borderVertices() const;
+
+  /// Returns whether the way from a vertex to a position begins inside of a triangle, or along an
+  /// edge.
+  bool entersMesh(std::int64_t vertex, Position to) const;
+
+private:
+  struct Edge
+  {
+    std::int64_t From;
+    std::int64_t To;
+    std::int64_t Left; ///< the third corner of the triangle on the left; None: there is none
+  };
+
+  std::size_t firstFrom(std::int64_t vertex) const;
+  bool isFrom(std::size_t i, std::int64_t vertex) const
+  {
+    return i < this->Edges.size() && this->Edges[i].From == vertex;
+  }
+  /// Returns the third corner of the triangle on the left of an edge; None: there is none.
+  std::int64_t leftOf(std::int64_t from, std::int64_t to) const;
+  bool isBeforeAt(std::int64_t a, std::int64_t b) const
+  {
+    return isBefore(this->at(a), this->at(b));
+  }
+
+  const std::vector<double>& XY;
+  std::vector<Edge> Edges;            ///< both directions of each edge, sorted
+  std::vector<std::int64_t> Vertices; ///< sorted by position
+};
+
+} // namespace check
+} // namespace tipp
+
+#endif
