@@ -81,6 +81,9 @@ void addChecked(CLI::App& command, const std::string& name, Value& value, const 
   command.add_option(name, value, help)->check(check)->capture_default_str();
 }
 
+/// Adds the option --curve-tolerance, for commands that read lines or polygons of a GIS.
+void addCurveOption(CLI::App& command);
+
 /// Adds the option --threads.
 void addThreadsOption(CLI::App& command, int& threads);
 
@@ -91,6 +94,10 @@ PointOptions withThinningFile(const RunArguments& arguments);
 /// Prints to stderr how many points of LAS files were not selected, and how many were removed by
 /// thinning.
 void reportLeftOut(std::int64_t points, std::int64_t thinnedOut);
+
+/// Prints which columns of tables have been read, to stdout, and warnings about their values, to
+/// stderr.
+void reportTables(const std::vector<TableReport>& reports);
 
 /// Parses a number of bytes, which may have the suffix K, M or G for 2^10, 2^20 or 2^30 bytes, such
 /// as "512M". Returns nullopt for other text and for 0.

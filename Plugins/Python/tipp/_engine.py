@@ -186,6 +186,9 @@ def _read(paths: list[str], options: dict[str, Any]) -> tuple[Any, str | None]:
     for flag in options["keep"]:
         getattr(reader, "SetKeep" + flag.capitalize())(True)
     reader.SetColumns(",".join(options["attributes"]))
+    reader.SetZColumn(options["z"])
+    reader.SetLayer(options["layer"])
+    reader.SetCoordinateReferenceSystem(options["crs"])
     reader.SetGenerateVertices(False)
     for path in paths:
         reader.AddFileName(path)
