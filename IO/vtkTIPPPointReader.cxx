@@ -75,6 +75,9 @@ tipp::PointOptions vtkTIPPPointReader::Options() const
   tipp::PointOptions options;
   options.X = this->XColumn;
   options.Y = this->YColumn;
+  options.Z = this->ZColumn;
+  options.Layer = this->Layer;
+  options.Crs = this->CoordinateReferenceSystem;
   for (const std::string& number : partsOf(this->Classes))
   {
     options.Las.Classes.push_back(classOf(number));
@@ -83,6 +86,8 @@ tipp::PointOptions vtkTIPPPointReader::Options() const
   options.Las.KeepWithheld = this->KeepWithheld;
   options.Las.KeepSynthetic = this->KeepSynthetic;
   options.Las.KeepOverlap = this->KeepOverlap;
+  options.Las.KeepTruncated = this->KeepTruncated;
+  options.Las.KeepUncounted = this->KeepUncounted;
   if (!this->Columns.empty())
   {
     options.Columns = partsOf(this->Columns);
@@ -106,11 +111,22 @@ void vtkTIPPPointReader::Read(vtkInformation* info, vtkPolyData* output)
   this->HasHeights = std::any_of(table.Columns.begin(), table.Columns.end(),
     [](const tipp::PointTable::Column& column)
     { return column.Name == "z" || column.Name == "Z"; });
+  for (const tipp::TableReport& report : table.Reports)
+  {
+    for (const std::string& warning : report.Warnings)
+    {
+      vtkWarningMacro(<< report.Path << ": " << warning);
+    }
+  }
   // A deep copy, because the arrays share the table's memory.
   output->DeepCopy(tipp::makePolyData(table, {}));
   if (this->GenerateVertices)
   {
     addVertices(output);
+  }
+  if (!table.CrsProblem.empty())
+  {
+    vtkWarningMacro(<< table.CrsProblem << ".");
   }
   if (!table.Crs.empty())
   {
@@ -148,12 +164,17 @@ void vtkTIPPPointReader::PrintSelf(ostream& os, vtkIndent indent)
   vtkTIPPPrintMacro(FileNames);
   vtkTIPPPrintMacro(XColumn);
   vtkTIPPPrintMacro(YColumn);
+  vtkTIPPPrintMacro(ZColumn);
+  vtkTIPPPrintMacro(Layer);
+  vtkTIPPPrintMacro(CoordinateReferenceSystem);
   vtkTIPPPrintMacro(Classes);
   vtkTIPPPrintMacro(Columns);
   vtkTIPPPrintMacro(Returns);
   vtkTIPPPrintMacro(KeepWithheld);
   vtkTIPPPrintMacro(KeepSynthetic);
   vtkTIPPPrintMacro(KeepOverlap);
+  vtkTIPPPrintMacro(KeepTruncated);
+  vtkTIPPPrintMacro(KeepUncounted);
   vtkTIPPPrintMacro(GenerateVertices);
   vtkTIPPPrintMacro(NumberOfPointsLeftOut);
   vtkTIPPPrintMacro(HasHeights);

@@ -61,6 +61,29 @@ public:
 
   ///@{
   /**
+   * The attribute of GIS files that is z. Empty or null (the default): z of the points, or else an
+   * attribute named z, elevation, elev or height.
+   */
+  vtkTIPPStringMacro(ZColumn);
+  ///@}
+
+  ///@{
+  /**
+   * The layer of GIS files whose points are read. Empty or null (the default): all layers.
+   */
+  vtkTIPPStringMacro(Layer);
+  ///@}
+
+  ///@{
+  /**
+   * The coordinate reference system of the points, such as "EPSG:25832". Empty or null (the
+   * default): that of the files, which must be the same in all of them.
+   */
+  vtkTIPPStringMacro(CoordinateReferenceSystem);
+  ///@}
+
+  ///@{
+  /**
    * The classes of LAS points to read, separated by commas, such as "2,9". Empty or null (the
    * default): all.
    */
@@ -92,6 +115,15 @@ public:
   vtkTIPPSwitchMacro(KeepWithheld, bool);
   vtkTIPPSwitchMacro(KeepSynthetic, bool);
   vtkTIPPSwitchMacro(KeepOverlap, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Whether LAS files that end too early are read as far as they go, and whether points beyond the
+   * number in the header are read. Off by default: the first is an error, the second a warning.
+   */
+  vtkTIPPSwitchMacro(KeepTruncated, bool);
+  vtkTIPPSwitchMacro(KeepUncounted, bool);
   ///@}
 
   ///@{
@@ -134,12 +166,17 @@ protected:
   std::vector<std::string> FileNames;
   std::string XColumn;
   std::string YColumn;
+  std::string ZColumn;
+  std::string Layer;
+  std::string CoordinateReferenceSystem;
   std::string Classes;
   std::string Columns;
   int Returns = RETURNS_ALL;
   bool KeepWithheld = false;
   bool KeepSynthetic = false;
   bool KeepOverlap = false;
+  bool KeepTruncated = false;
+  bool KeepUncounted = false;
   bool GenerateVertices = true;
   vtkTypeInt64 NumberOfPointsLeftOut = 0;
   bool HasHeights = false;

@@ -98,9 +98,8 @@ struct Kind
 };
 
 constexpr const char* meshio = "meshio convert";
-constexpr const char* ogr = "ogr2ogr -f CSV -lco GEOMETRY=AS_XYZ out.csv";
 
-constexpr std::array<Kind, 11> kinds = { {
+constexpr std::array<Kind, 8> kinds = { {
   { ".14 .grd", "an ADCIRC grid", "tipp flatten", "-o mesh" },
   { ".ex2 .exo .e", "an Exodus file", meshio, "out.vtu" },
   { ".node .ele", "a file of TetGen or Triangle", meshio, "out.vtu" },
@@ -108,9 +107,6 @@ constexpr std::array<Kind, 11> kinds = { {
   { ".xml", "a mesh of DOLFIN or other XML", meshio, "out.vtu" },
   { ".2dm", "a mesh of SMS", meshio, "out.vtu" },
   { ".med", "a mesh of Salome", meshio, "out.vtu" },
-  { ".shp", "a shape file", ogr, "" },
-  { ".gpkg", "a GeoPackage", ogr, "" },
-  { ".geojson", "a GeoJSON file", ogr, "" },
   { ".e57", "an E57 file", "pdal translate", "out.las" },
 } };
 

@@ -3,11 +3,13 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Points/ReadPoints.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -52,83 +54,45 @@ public:
       {
         return;
       }
-      const bool isProjection = std::memcmp(bytes.data() + 2, "LASF_Projection", 16) == 0;
+      const auto record = valueAt<std::uint16_t>(&bytes[18]);
+      const bool isProjection = std::memcmp(bytes.data() + 2, "LASF_Projection", 16) == 0 ||
+        (std::memcmp(bytes.data() + 2, "liblas", 7) == 0 && record == wkt);
       if (isProjection && length <= longest)
       {
-        this->take(
-          valueAt<std::uint16_t>(&bytes[18]), readBytes(this->File, at, std::size_t(length)));
+        this->take(record, readBytes(this->File, at, std::size_t(length)));
       }
       at += length;
     }
   }
 
-  /// Sets the system of the header. Later versions write WKT, possibly with keys as well.
-  void describe(LasHeader& header) const
-  {
-    const int horizontal = this->Projected > 0 ? this->Projected : this->Geographic;
-    header.Crs = this->Wkt;
-    header.HasUnknownCrs = this->Wkt.empty() && horizontal <= 0 && this->HasKeys;
-    if (this->Wkt.empty() && horizontal > 0)
-    {
-      header.Crs = "EPSG:" + std::to_string(horizontal) +
-        (this->Vertical > 0 ? "+" + std::to_string(this->Vertical) : std::string());
-    }
-  }
+  CrsRecords take() { return std::move(this->Found); }
 
 private:
+  static constexpr int wkt = 2112;
+
   void take(int record, const std::vector<char>& content)
   {
-    constexpr int wkt = 2112;
-    constexpr int keys = 34735;
-    if (record == wkt)
+    std::string* const slot = record == wkt ? &this->Found.Text
+      : record == 34735                     ? &this->Found.Keys
+      : record == 34736                     ? &this->Found.Doubles
+      : record == 34737                     ? &this->Found.Ascii
+                                            : nullptr;
+    if (slot)
     {
-      this->Wkt.assign(content.begin(), std::find(content.begin(), content.end(), '\0'));
+      slot->assign(content.begin(), content.end());
     }
-    if (record == keys)
+    if (record == wkt) // ends at the first null byte
     {
-      this->takeKeys(content);
+      slot->resize(std::min(slot->find('\0'), slot->size()));
     }
-  }
-
-  /// GeoTIFF's key directory has four 16-bit numbers per key: its id, the location of its value (0:
-  /// here), the count, and the value.
-  void takeKeys(const std::vector<char>& content)
-  {
-    constexpr int userDefined = 32767;
-    const std::size_t entries = content.size() / 8;
-    for (std::size_t i = 1; i < entries; ++i)
-    {
-      const auto number = [&](std::size_t j)
-      { return int(valueAt<std::uint16_t>(&content[8 * i + 2 * j])); };
-      if (number(1) != 0 || number(3) == 0)
-      {
-        continue;
-      }
-      const int code = number(3) == userDefined ? -1 : number(3);
-      int* const slot = number(0) == 3072 ? &this->Projected
-        : number(0) == 2048               ? &this->Geographic
-        : number(0) == 4096               ? &this->Vertical
-                                          : nullptr;
-      if (slot)
-      {
-        *slot = code;
-        this->HasKeys = true;
-      }
-    }
-    // With a user-defined projection, the geographic system is not that of the points.
-    this->Geographic = this->Projected < 0 ? -1 : this->Geographic;
   }
 
   const InputFile& File;
-  std::string Wkt;
-  int Projected = 0; ///< 0: none; -1: not an EPSG code
-  int Geographic = 0;
-  int Vertical = 0;
-  bool HasKeys = false;
+  CrsRecords Found;
 };
 
 constexpr std::size_t shortHeader = 227; ///< header size of versions 1.0 to 1.2
-constexpr std::size_t longHeader = 375;  ///< header size of version 1.4
+constexpr std::size_t longHeader = 375;  ///< header size of version 1.4; that of 1.5 is longer
 
 /// The least number of bytes of a record, by format.
 constexpr std::array<std::size_t, 11> recordLengths = { 20, 28, 26, 34, 57, 63, 30, 36, 38, 59,
@@ -148,9 +112,12 @@ void readFormat(const std::vector<char>& fields, const std::string& path, LasHea
   header.Compressed = (format & 0xC0) != 0;
   header.Format = format & 0x3F;
   header.RecordLength = valueAt<std::uint16_t>(&fields[105]);
-  requireGood(std::size_t(header.Format) < recordLengths.size(), path,
-    "is a LAS file with points of format " + std::to_string(header.Format) +
-      ", and there are 0 to 10");
+  if (std::size_t(header.Format) >= recordLengths.size())
+  {
+    throw IOError(path,
+      "has points of format " + std::to_string(header.Format) +
+        ", which is not known here; write it with one of the formats 0 to 10.");
+  }
   const std::size_t least = recordLengths[std::size_t(header.Format)];
   requireGood(header.RecordLength >= least, path,
     "gives " + std::to_string(header.RecordLength) + " bytes for a point of format " +
@@ -171,22 +138,77 @@ void readTransform(const std::vector<char>& fields, const std::string& path, Las
   }
 }
 
-void readCount(const std::vector<char>& fields, const std::string& path, std::uint64_t fileSize,
-  std::size_t headerSize, LasHeader& header)
+/// Returns the number of points that the header announces. Version 1.4 has a count of 64 bits,
+/// which some programs leave 0 beside the older one.
+std::uint64_t announcedCount(const std::vector<char>& fields, int minor)
 {
-  std::uint64_t count = valueAt<std::uint32_t>(&fields[107]);
-  if (header.Minor >= 4)
+  const std::uint64_t older = valueAt<std::uint32_t>(&fields[107]);
+  const std::uint64_t count = minor >= 4 ? valueAt<std::uint64_t>(&fields[247]) : 0;
+  return count > 0 ? count : older;
+}
+
+/// Returns where the point records end at the latest, in bytes: where the waveforms (since version
+/// 1.3) or the extended variable length records (since 1.4) begin, or the file ends.
+std::uint64_t endOfPoints(
+  const std::vector<char>& fields, const LasHeader& header, std::uint64_t fileSize)
+{
+  constexpr std::size_t waveforms = 227;
+  constexpr std::size_t records = 235;
+  std::uint64_t end = fileSize;
+  const auto endAt = [&](std::size_t field, int minor)
   {
-    count = valueAt<std::uint64_t>(&fields[247]);
-  }
+    const bool isThere = header.Minor >= minor && fields.size() >= field + sizeof(std::uint64_t);
+    const std::uint64_t begin = isThere ? valueAt<std::uint64_t>(&fields[field]) : 0;
+    end = begin > header.PointOffset ? std::min(end, begin) : end;
+  };
+  endAt(waveforms, 3);
+  endAt(records, 4);
+  return end;
+}
+
+std::string pointsOf(std::uint64_t count)
+{
+  return std::to_string(count) + (count == 1 ? " point" : " points");
+}
+
+void readCount(const std::vector<char>& fields, const std::string& path, std::uint64_t fileSize,
+  std::size_t headerSize, const LasSelection& selection, LasHeader& header)
+{
+  const std::uint64_t count = announcedCount(fields, header.Minor);
   header.PointOffset = valueAt<std::uint32_t>(&fields[96]);
   requireGood(header.PointOffset >= headerSize && header.PointOffset <= fileSize, path,
     "has its points at byte " + std::to_string(header.PointOffset) +
       " by its header, where there is no room for them");
-  const std::uint64_t room = (fileSize - header.PointOffset) / header.RecordLength;
-  requireGood(header.Compressed ? count < (std::uint64_t(1) << 48) : count <= room, path,
-    "announces " + std::to_string(count) + " points and has room for " + std::to_string(room));
   header.Points = std::int64_t(count);
+  if (header.Compressed)
+  {
+    requireGood(count < (std::uint64_t(1) << 48), path, "announces " + pointsOf(count));
+    return;
+  }
+  const std::uint64_t room = (fileSize - header.PointOffset) / header.RecordLength;
+  const std::uint64_t whole =
+    (endOfPoints(fields, header, fileSize) - header.PointOffset) / header.RecordLength;
+  if (count > room)
+  {
+    const std::string problem =
+      "announces " + pointsOf(count) + " and ends after " + std::to_string(room);
+    if (!selection.KeepTruncated)
+    {
+      throw IOError(
+        path, problem + "; copy it again, or read the points that it has with --keep truncated.");
+    }
+    header.Points = std::int64_t(room);
+    header.Remark = problem + ", which are read";
+  }
+  else if (count < whole)
+  {
+    const std::string problem =
+      "announces " + pointsOf(count) + " and has room for " + std::to_string(whole);
+    header.Points = std::int64_t(selection.KeepUncounted ? whole : count);
+    header.Remark = problem +
+      (selection.KeepUncounted ? ", which are read"
+                               : "; the others are not read, except with --keep uncounted");
+  }
 }
 
 } // namespace
@@ -198,6 +220,11 @@ bool isLasExtension(const std::string& extension)
 
 LasHeader readLasHeader(const std::string& path)
 {
+  return readLasHeader(path, {});
+}
+
+LasHeader readLasHeader(const std::string& path, const LasSelection& selection)
+{
   const InputFile file(path);
   requireGood(file.size() >= shortHeader, path, "is too short for a LAS file");
   const std::vector<char> start = readBytes(file, 0, shortHeader);
@@ -205,17 +232,20 @@ LasHeader readLasHeader(const std::string& path)
   LasHeader header;
   const int major = valueAt<std::uint8_t>(&start[24]);
   header.Minor = valueAt<std::uint8_t>(&start[25]);
-  requireGood(major == 1 && header.Minor <= 4, path,
-    "is a LAS file of version " + std::to_string(major) + "." + std::to_string(header.Minor) +
-      ", and 1.0 to 1.4 can be read");
+  if (major != 1 || header.Minor > 5)
+  {
+    throw IOError(path,
+      "is a LAS file of version " + std::to_string(major) + "." + std::to_string(header.Minor) +
+        ", which is not known here; write it as version 1.0 to 1.5.");
+  }
   const std::size_t size = valueAt<std::uint16_t>(&start[94]);
   const std::size_t least = header.Minor >= 4 ? longHeader : shortHeader;
   requireGood(size >= least && size <= file.size(), path,
     "has a header of " + std::to_string(size) + " bytes, too few or too many");
-  const std::vector<char> fields = readBytes(file, 0, least);
+  const std::vector<char> fields = readBytes(file, 0, std::min(size, longHeader));
   readFormat(fields, path, header);
   readTransform(fields, path, header);
-  readCount(fields, path, file.size(), size, header);
+  readCount(fields, path, file.size(), size, selection, header);
   CrsFinder finder(file);
   finder.search(
     size, std::min(header.PointOffset, file.size()), valueAt<std::uint32_t>(&fields[100]), false);
@@ -224,7 +254,7 @@ LasHeader readLasHeader(const std::string& path)
   {
     finder.search(extended, file.size(), valueAt<std::uint32_t>(&fields[243]), true);
   }
-  finder.describe(header);
+  header.Crs = finder.take();
   return header;
 }
 
@@ -343,7 +373,8 @@ private:
     if (!good)
     {
       throw IOError(this->Path,
-        "cannot be decompressed after point " + std::to_string(this->At) + "; copy it again.");
+        "cannot be decompressed after point " + std::to_string(this->At) +
+          "; copy it again, or read the points before it with --keep truncated.");
     }
   }
 
@@ -367,9 +398,11 @@ std::unique_ptr<LasRecords> openLasRecords(const std::string& path, const LasHea
 #ifdef TIPP_HAVE_LASZIP
   return std::make_unique<CompressedRecords>(path, header);
 #else
+  const std::string name = std::filesystem::path(path).filename().string();
   throw IOError(path,
-    "is compressed (LAZ), and this program was built without LASzip; install liblaszip-dev and "
-    "build it again, or decompress the file, as with 'pdal translate in.laz out.las'.");
+    "is compressed (LAZ), which needs LASzip, and this tipp was built without it; decompress the "
+    "file, as with 'pdal translate " +
+      name + " " + name.substr(0, name.rfind('.')) + ".las', or in Python with laspy and lazrs.");
 #endif
 }
 

@@ -2,6 +2,7 @@
 #ifndef tippLasHeader_h
 #define tippLasHeader_h
 
+#include "Crs/ReferenceSystem.h"
 #include "vtkTIPPIOModule.h"
 
 #include <array>
@@ -14,7 +15,9 @@
 namespace tipp
 {
 
-/// The header of a LAS file, version 1.0 to 1.4.
+struct LasSelection;
+
+/// The header of a LAS file, version 1.0 to 1.5.
 struct LasHeader
 {
   int Minor = 0;                 ///< minor version: the file's version is 1.Minor
@@ -22,13 +25,12 @@ struct LasHeader
   bool Compressed = false;       ///< LAZ
   std::size_t RecordLength = 0;  ///< bytes per point record
   std::uint64_t PointOffset = 0; ///< offset of the first record, in bytes
-  std::int64_t Points = 0;       ///< number of point records
+  std::int64_t Points = 0;       ///< number of point records to read
   std::array<double, 3> Scale{}; ///< a coordinate is its stored integer * Scale + Offset
   std::array<double, 3> Offset{};
   std::array<double, 6> Bounds{}; ///< xmin, xmax, ymin ... as the header states them
-  /// WKT, "EPSG:code" or "EPSG:code+code"; empty if there is none or it is not understood.
-  std::string Crs;
-  bool HasUnknownCrs = false; ///< there are records of a CRS, but of no supported kind
+  CrsRecords Crs;                 ///< the records of the coordinate reference system
+  std::string Remark; ///< how Points differs from what the header or the file says, or empty
 
   bool hasTime() const { return this->Format == 1 || (this->Format >= 3); }
   bool hasColour() const
@@ -40,8 +42,9 @@ struct LasHeader
   bool isExtended() const { return this->Format >= 6; } ///< 256 classes, 15 returns
 };
 
-/// Reads and checks the header. Throws IOError if the file is not LAS or has less data than the
-/// header announces.
+/// Reads and checks the header. Throws IOError if the file is not LAS, is of a kind that is not
+/// read, or has less data than the header announces (unless `selection` keeps truncated files).
+VTKTIPPIO_EXPORT LasHeader readLasHeader(const std::string& path, const LasSelection& selection);
 VTKTIPPIO_EXPORT LasHeader readLasHeader(const std::string& path);
 
 /// Whether the extension is .las or .laz.

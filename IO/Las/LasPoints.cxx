@@ -117,11 +117,15 @@ class LasFilePoints : public FilePoints
 public:
   LasFilePoints(const std::string& path, const PointOptions& options)
     : Path(path)
-    , Header(readLasHeader(path))
+    , Header(readLasHeader(path, options.Las))
     , Filter(this->Header, options.Las)
     , Threads(threadCount(options.Threads))
   {
     openLasRecords(path, this->Header); // to report errors early
+    if (this->Header.Compressed && options.Las.KeepTruncated)
+    {
+      this->keepReadable();
+    }
     for (const LasColumn& column : columnsOf(this->Header))
     {
       if (options.wants(column.Name))
@@ -190,10 +194,50 @@ public:
     return this->KeptBefore.empty() ? this->DroppedOfPass
                                     : this->Header.Points - this->KeptBefore.back();
   }
-  std::string crs() const override { return this->Header.Crs; }
+  ReferenceSystem referenceSystem() const override
+  {
+    ReferenceSystem system = understandCrs(this->Header.Crs);
+    if (!system.Problem.empty())
+    {
+      system.Problem = IOError(this->Path, system.Problem).what();
+    }
+    return system;
+  }
+  std::vector<TableReport> reports() const override
+  {
+    std::vector<TableReport> reports;
+    if (!this->Header.Remark.empty())
+    {
+      reports.emplace_back().Path = this->Path;
+      reports.back().Warnings.push_back(this->Header.Remark + ".");
+    }
+    return reports;
+  }
 
 private:
   static constexpr std::int64_t chunkRecords = 1 << 14;
+
+  /// Limits the points of a compressed file to those that can be decompressed.
+  void keepReadable()
+  {
+    const auto records = openLasRecords(this->Path, this->Header);
+    std::vector<char> record(this->Header.RecordLength);
+    std::int64_t readable = 0;
+    try
+    {
+      for (; readable < this->Header.Points; ++readable)
+      {
+        records->read(readable, 1, record.data());
+      }
+    }
+    catch (const IOError&)
+    {
+      this->Header.Remark = "announces " + std::to_string(this->Header.Points) +
+        " points and can be decompressed up to point " + std::to_string(readable) +
+        "; those before it are read";
+      this->Header.Points = readable;
+    }
+  }
 
   /// Records that one thread decodes.
   struct Share
@@ -345,7 +389,7 @@ private:
   }
 
   const std::string Path;
-  const LasHeader Header;
+  LasHeader Header;
   const RecordFilter Filter;
   const int Threads;
   std::vector<LasColumn> Wanted;

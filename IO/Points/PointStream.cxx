@@ -50,12 +50,15 @@ public:
     }
     this->Identity += options.Las.text() + "\n";
     this->Identity += this->Wrap > 0 ? "wrap " + std::to_string(this->Wrap) + "\n" : "";
+    this->Identity += options.X + "\n" + options.Y + "\n" + options.Z + "\n" + options.Layer + "\n";
     for (const std::string& name : this->Files[0]->columns())
     {
       this->Kept.push_back(options.wants(name));
     }
     this->requireSameColumns();
-    this->requireSameCrs();
+    this->Crs = options.Crs;
+    this->AnyCrs = options.AnyCrs;
+    options.Crs.empty() && paths.size() > 1 ? this->compareCrs() : void();
   }
 
   explicit FileSequence(std::unique_ptr<FilePoints> table)
@@ -159,16 +162,20 @@ public:
     return points;
   }
 
-  std::string crs() const override
+  ReferenceSystem referenceSystem() const override
   {
+    return this->Crs.empty() ? systemOf(this->Files) : describeCrs(this->Crs);
+  }
+
+  std::vector<TableReport> reports() const override
+  {
+    std::vector<TableReport> all = this->CrsReports;
     for (const auto& file : this->Files)
     {
-      if (!file->crs().empty())
-      {
-        return file->crs();
-      }
+      const std::vector<TableReport> reports = file->reports();
+      all.insert(all.end(), reports.begin(), reports.end());
     }
-    return "";
+    return all;
   }
 
   std::string identity() const override { return this->Identity; }
@@ -197,19 +204,54 @@ private:
     }
   }
 
-  /// Throws if files have different reference systems. A file without one is assumed to be in that
-  /// of the others.
-  void requireSameCrs() const
+  /// Returns the system of the files: that of the first that has one of heights, too, else of the
+  /// first that has one. If no file has one, the first problem remains.
+  static ReferenceSystem systemOf(const std::vector<std::unique_ptr<FilePoints>>& files)
   {
-    const std::string crs = this->crs();
-    for (std::size_t i = 0; i < this->Files.size(); ++i)
+    ReferenceSystem system;
+    for (const auto& file : files)
     {
-      if (!this->Files[i]->crs().empty() && this->Files[i]->crs() != crs)
+      const ReferenceSystem own = file->referenceSystem();
+      if (!own.Text.empty() &&
+        (system.Text.empty() || (hasHeightSystem(own.Text) && !hasHeightSystem(system.Text))))
       {
-        throw IOError(this->Paths[i],
-          "is in another coordinate reference system than the files before it; reproject it.");
+        system = own;
+      }
+      else if (system.Text.empty() && system.Problem.empty())
+      {
+        system.Problem = own.Problem;
       }
     }
+    return system;
+  }
+
+  /// Throws if files have different reference systems, however they write them, or only reports it
+  /// if that is allowed. A file without one, or without one of heights, is assumed to be in that of
+  /// the others.
+  void compareCrs()
+  {
+    const ReferenceSystem all = systemOf(this->Files);
+    for (std::size_t i = 0; i < this->Files.size(); ++i)
+    {
+      const ReferenceSystem own = this->Files[i]->referenceSystem();
+      if (!own.Text.empty() && !areSameCrs(own.Text, all.Text))
+      {
+        const std::string problem = "is in another coordinate reference system (" + inWords(own) +
+          ") than the other files (" + inWords(all) +
+          "); reproject it, or name the right system of all files with --crs.";
+        if (!this->AnyCrs)
+        {
+          throw IOError(this->Paths[i], problem);
+        }
+        this->CrsReports.emplace_back().Path = this->Paths[i];
+        this->CrsReports.back().Warnings.push_back(problem);
+      }
+    }
+  }
+
+  static std::string inWords(const ReferenceSystem& system)
+  {
+    return shownText(system.Words.empty() ? system.Text : system.Words);
   }
 
   void dropColumns(PointBlock& block) const
@@ -244,6 +286,9 @@ private:
   std::int64_t Points = 0;
   std::int64_t First = 0;
   std::int64_t End = std::numeric_limits<std::int64_t>::max();
+  std::string Crs; ///< that of the options
+  bool AnyCrs = false;
+  std::vector<TableReport> CrsReports;
 };
 
 } // namespace

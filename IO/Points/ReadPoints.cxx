@@ -63,9 +63,10 @@ void requireNoSelection(const std::string& path, const PointOptions& options)
   }
 }
 
-void requireNoChoice(const std::string& path, const PointOptions& options)
+void requireNoChoice(
+  const std::string& path, const PointOptions& options, bool hasChoiceOfHeights = false)
 {
-  if (!options.X.empty() || !options.Y.empty())
+  if (!options.X.empty() || !options.Y.empty() || (!options.Z.empty() && !hasChoiceOfHeights))
   {
     throw IOError(path, "has fixed coordinates; columns can be chosen in .npy and text files.");
   }
@@ -284,6 +285,11 @@ std::unique_ptr<FilePoints> openFilePoints(const std::string& path, const PointO
   {
     return std::make_unique<NpyPoints>(path, options);
   }
+  if (isGisPath(path))
+  {
+    requireNoChoice(path, options, true);
+    return openGisPoints(path, options);
+  }
   if (isTextPath(path) && conversionAdvice(path).empty())
   {
     return streamTextPoints(path, options);
@@ -357,7 +363,8 @@ PointTable readWhole(const std::string& path, const PointOptions& options)
   {
     refuseKind(path,
       "has no extension that tells a kind of point file; use .npy, .csv, .txt, .xyz (or these as "
-      ".gz, .xz or .zst), .las, .laz, .14, .grd or one of VTK's.");
+      ".gz, .xz or .zst), .las, .laz, .gpkg, .shp, .geojson, .fgb, .kml, .dxf, .14, .grd or "
+      "one of VTK's.");
   }
   requireNoChoice(path, options);
   return isVtkFile(path) ? readVtkPoints(path) : readAdcircPoints(path);
@@ -411,7 +418,10 @@ PointTable readAllPoints(PointStream& stream)
   forEachBlock(stream, block, [&table](const PointBlock& more) { append(more, table); });
   table.LeftOut = stream.leftOut();
   table.ThinnedOut = stream.thinnedOut();
-  table.Crs = stream.crs();
+  const ReferenceSystem system = stream.referenceSystem();
+  table.Crs = system.Text;
+  table.CrsProblem = system.Problem;
+  table.Reports = stream.reports();
   return table;
 }
 
@@ -424,7 +434,7 @@ PointTable readPoints(const std::vector<std::string>& paths, const PointOptions&
 PointTable readPoints(const std::string& path, const PointOptions& options)
 {
   const std::string extension = extensionOf(path);
-  if (isLasExtension(extension) || options.Thin.isGiven())
+  if (isLasExtension(extension) || isGisPath(path) || options.Thin.isGiven())
   {
     return readAllPoints(*openPointStream({ path }, options));
   }

@@ -2,6 +2,7 @@
 #ifndef tippReadPoints_h
 #define tippReadPoints_h
 
+#include "Crs/ReferenceSystem.h"
 #include "vtkTIPPIOModule.h"
 
 #include <algorithm>
@@ -18,6 +19,15 @@
 namespace tipp
 {
 
+/// What a reader has taken from a table, for people.
+struct TableReport
+{
+  std::string Path;
+  std::string Columns; ///< such as "x from 'Easting', y from 'Northing', z from 'Elevation'"
+  std::vector<std::string> Warnings; ///< sentences about values that may not be meant
+  std::vector<std::string> Remarks;  ///< sentences about what was left out or changed
+};
+
 /// Points read from a file: x and y interleaved, and the other numeric columns by name.
 struct PointTable
 {
@@ -33,6 +43,8 @@ struct PointTable
   std::int64_t LeftOut = 0;    ///< points that the options rejected
   std::int64_t ThinnedOut = 0; ///< points that thinning removed
   std::string Crs;             ///< the coordinate reference system: see PointStream::crs()
+  std::vector<TableReport> Reports = {}; ///< one for each file of text
+  std::string CrsProblem = {};           ///< see ReferenceSystem::Problem
 
   std::size_t size() const { return this->XY.size() / 2; }
   /// The names of Columns.
@@ -99,13 +111,18 @@ struct LasSelection
   /// Whether to keep points flagged as overlap of another swath: a flag in formats 6 to 10, class
   /// 12 in others.
   bool KeepOverlap = false;
+  bool KeepTruncated = false; ///< whether to read what a file has that ends too early
+  bool KeepUncounted = false; ///< whether to read the points beyond the number in the header
 
-  /// Keeps the points with a flag: "withheld", "synthetic" or "overlap".
+  /// Keeps the points with a flag: "withheld", "synthetic" or "overlap"; or "truncated" or
+  /// "uncounted" for the members above.
   void keep(const std::string& flag)
   {
     this->KeepWithheld = this->KeepWithheld || flag == "withheld";
     this->KeepSynthetic = this->KeepSynthetic || flag == "synthetic";
     this->KeepOverlap = this->KeepOverlap || flag == "overlap";
+    this->KeepTruncated = this->KeepTruncated || flag == "truncated";
+    this->KeepUncounted = this->KeepUncounted || flag == "uncounted";
   }
 
   /// Whether something is selected that only LAS files have.
@@ -115,7 +132,8 @@ struct LasSelection
   std::string text() const
   {
     std::string text = std::to_string(int(this->Kind)) + (this->KeepWithheld ? "w" : "") +
-      (this->KeepSynthetic ? "s" : "") + (this->KeepOverlap ? "o" : "");
+      (this->KeepSynthetic ? "s" : "") + (this->KeepOverlap ? "o" : "") +
+      (this->KeepTruncated ? "t" : "") + (this->KeepUncounted ? "u" : "");
     for (const int number : this->Classes)
     {
       text += "," + std::to_string(number);
@@ -162,6 +180,15 @@ struct PointOptions
   bool InSpace = false;
   /// Names of the columns besides x and y to read, if the file has them; nullopt: all.
   std::optional<std::vector<std::string>> Columns = {};
+  /// Which column of a text or .npy file is z, like X and Y; empty: by findCoordinates(); without
+  /// names the third.
+  std::string Z = {};
+  /// The layer of a GIS file whose points are read; empty: all layers.
+  std::string Layer = {};
+  /// The coordinate reference system of the points, whatever the files state; empty: theirs.
+  std::string Crs = {};
+  /// Whether files in different systems are read together. A Crs allows it, too.
+  bool AnyCrs = false;
 
   bool wants(const std::string& column) const
   {
@@ -173,7 +200,8 @@ struct PointOptions
 /// Reads points by the file's extension:
 /// .npy (n x 2 or n x 3, float64 or float32); .csv, .txt, .xyz (one point per line, columns
 /// separated by comma, semicolon, tab or spaces, with or without a first line of names or with the
-/// count); .las, .laz (see openLasPoints); .14, .grd (ADCIRC grids: nodes and depth); any format
+/// count); .las, .laz (see openLasPoints); .gpkg, .shp, .geojson, .fgb, .kml, .dxf (see
+/// openGisPoints); .14, .grd (ADCIRC grids: nodes and depth); any format
 /// that VTK reads (points and point data, a column for each component). Throws IOError.
 VTKTIPPIO_EXPORT PointTable readPoints(const std::string& path, const PointOptions& options = {});
 
@@ -229,8 +257,13 @@ public:
   /// An upper bound of the number of points; 0: unknown.
   virtual std::int64_t most() const { return 0; }
 
-  /// The coordinate reference system of the points: WKT or "EPSG:code", or empty.
-  virtual std::string crs() const { return ""; }
+  /// The coordinate reference system of the points; its Problem is a sentence.
+  virtual ReferenceSystem referenceSystem() const { return {}; }
+  /// Its text: WKT or "EPSG:code", or empty.
+  std::string crs() const { return this->referenceSystem().Text; }
+
+  /// What has been taken from tables, known once the source is open.
+  virtual std::vector<TableReport> reports() const { return {}; }
 };
 
 /// A stream of the points of one or more inputs of any size, which can be limited to a range.
@@ -308,6 +341,16 @@ std::unique_ptr<FilePoints> openGeneratedPoints(std::int64_t count, bool inSpace
 /// classification, gps_time, red, green, blue and nir, if the file's format has them. Throws
 /// IOError.
 std::unique_ptr<FilePoints> openLasPoints(const std::string& path, const PointOptions& options);
+
+/// Whether GDAL reads points from files with this extension: .gpkg, .shp, .geojson, .json, .fgb,
+/// .kml or .dxf.
+bool isGisPath(const std::string& path);
+
+/// The points of a file of a GIS, read in blocks with GDAL: those of all layers or of one, also the
+/// parts of multipoints. Columns: z, if the points have a z or the options name an attribute for
+/// it, and the attributes that are numbers. Features without a point are left out. Throws IOError,
+/// always in a build without GDAL.
+std::unique_ptr<FilePoints> openGisPoints(const std::string& path, const PointOptions& options);
 
 /// Reads points from text, one per line. The delimiter is detected: semicolon, comma, tab or
 /// blanks; numbers may have decimal commas unless commas separate the columns. The first line may

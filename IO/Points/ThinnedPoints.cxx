@@ -143,7 +143,8 @@ public:
   std::vector<std::string> columns() const override { return this->All->columns(); }
   std::int64_t leftOut() const override { return this->All->leftOut(); }
   std::int64_t thinnedOut() const override { return this->Seen - this->KeptCount; }
-  std::string crs() const override { return this->All->crs(); }
+  ReferenceSystem referenceSystem() const override { return this->All->referenceSystem(); }
+  std::vector<TableReport> reports() const override { return this->All->reports(); }
 
   std::string identity() const override
   {

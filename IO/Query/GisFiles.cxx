@@ -71,14 +71,10 @@ void addLine(OGRLayerH layer, const Contours& contours, std::size_t line, const 
 void makePackage(const Contours& contours, const std::string& array, const std::string& crs,
   const std::string& path)
 {
-  GdalOwner<OGRSpatialReferenceH, &GdalLibrary::OSRDestroySpatialReference> reference;
-  if (!crs.empty())
+  const GdalReference reference = crs.empty() ? nullptr : importUserCrs(crs);
+  if (!crs.empty() && !reference)
   {
-    reference.reset(gdal().OSRNewSpatialReference(nullptr));
-    if (gdal().OSRSetFromUserInput(reference.get(), crs.c_str()) != OGRERR_NONE)
-    {
-      throw IOError("'" + crs + "' is no coordinate reference system that GDAL knows.");
-    }
+    throw IOError("'" + crs + "' is no coordinate reference system that GDAL knows.");
   }
   const GdalDataSet data(gdal().GDALCreate(
     gdal().GDALGetDriverByName("GPKG"), memoryPath, 0, 0, 0, GDT_Unknown, nullptr));
@@ -152,6 +148,8 @@ void writeGeoPackage(const std::string& path, const Contours& contours, const st
 }
 
 #else
+
+void setCurveTolerance(double) {}
 
 std::vector<NamedZone> readZones(const std::string& path, const std::string&)
 {

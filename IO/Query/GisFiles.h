@@ -25,6 +25,11 @@ struct NamedZone
 VTKTIPPIO_EXPORT std::vector<NamedZone> readZones(
   const std::string& path, const std::string& field);
 
+/// Sets how far the segments that replace the curves of GIS files may be from them, in the units of
+/// the file, for all files that this process reads from now on. 0, the default: a segment for each
+/// 4 degrees of an arc.
+VTKTIPPIO_EXPORT void setCurveTolerance(double distance);
+
 /// Writes contour lines as a GeoPackage (.gpkg) with GDAL: a layer "contours" of lines in three
 /// dimensions, and a field with the array's name for the level. `crs` is a reference system, for
 /// example "EPSG:25832", or empty. See PendingFile for `before`. Throws IOError, also in a build

@@ -3,11 +3,17 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Query/GisFiles.h"
 #include "Raster/RasterFile.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cctype>
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <map>
 #include <mutex>
 #include <string>
@@ -20,6 +26,19 @@ namespace tipp
 {
 namespace
 {
+
+/// Answers each request of GDAL to the network with an error, which GDAL frees.
+CPLHTTPResult* refuseNetwork(
+  const char*, CSLConstList, GDALProgressFunc, void*, CPLHTTPFetchWriteFunc, void*, void*)
+{
+  auto* const result = static_cast<CPLHTTPResult*>(std::calloc(1, sizeof(CPLHTTPResult)));
+  if (result)
+  {
+    result->nStatus = 1;
+    result->pszErrBuf = strdup("tipp does not use the network");
+  }
+  return result;
+}
 
 GdalLibrary openGdal()
 {
@@ -45,6 +64,7 @@ GdalLibrary openGdal()
 #undef TIPP_FIND_FUNCTION
   // GDAL must not print: its messages are included in our exceptions.
   functions.CPLSetErrorHandler(functions.CPLQuietErrorHandler);
+  functions.CPLHTTPSetFetchCallback(&refuseNetwork, nullptr);
   functions.GDALAllRegister();
   return functions;
 }
@@ -57,12 +77,154 @@ const GdalLibrary& gdal()
   return library;
 }
 
+namespace
+{
+
+/// The drivers of GDAL that an extension stands for.
+struct Drivers
+{
+  const char* Extension;
+  unsigned Flags;
+  std::array<const char*, 4> Names; ///< ended by null
+};
+
+/// None of these opens files or addresses that are named in a file.
+constexpr std::array<Drivers, 13> knownDrivers = { {
+  { ".tif", GDAL_OF_RASTER, { "GTiff" } },
+  { ".tiff", GDAL_OF_RASTER, { "GTiff" } },
+  { ".asc", GDAL_OF_RASTER, { "AAIGrid" } },
+  { ".flt", GDAL_OF_RASTER, { "EHdr" } },
+  { ".bil", GDAL_OF_RASTER, { "EHdr" } },
+  { ".gpkg", GDAL_OF_VECTOR, { "GPKG" } },
+  { ".shp", GDAL_OF_VECTOR, { "ESRI Shapefile" } },
+  { ".geojson", GDAL_OF_VECTOR, { "GeoJSON" } },
+  { ".json", GDAL_OF_VECTOR, { "GeoJSON", "TopoJSON", "ESRIJSON" } },
+  { ".fgb", GDAL_OF_VECTOR, { "FlatGeobuf" } },
+  { ".kml", GDAL_OF_VECTOR, { "LIBKML", "KML" } },
+  { ".dxf", GDAL_OF_VECTOR, { "DXF" } },
+  { ".csv", GDAL_OF_VECTOR, { "CSV" } },
+} };
+
+/// Opens a file on disk; see openWithGdal().
+GdalDataSet openWithDrivers(const std::string& path, unsigned flags, const char* const* drivers)
+{
+  // A path on disk: GDAL also takes connections ("PG:..."), addresses and its own file systems
+  // (/vsicurl/...).
+  const std::string onDisk = std::filesystem::absolute(path).lexically_normal().string();
+  if (onDisk.compare(0, 4, "/vsi") == 0)
+  {
+    throw IOError(path, "is not the path of a file on disk.");
+  }
+  gdal().CPLErrorReset();
+  // No .aux.xml beside a raster is read.
+  gdal().CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", "NO");
+  GdalDataSet data(
+    gdal().GDALOpenEx(onDisk.c_str(), flags | GDAL_OF_READONLY, drivers, nullptr, nullptr));
+  gdal().CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", nullptr);
+  return data;
+}
+
+} // namespace
+
+GdalDataSet openWithGdal(const std::string& path, unsigned flags)
+{
+  const std::string extension = extensionOf(path);
+  const auto known = std::find_if(knownDrivers.begin(), knownDrivers.end(),
+    [&](const Drivers& drivers)
+    { return drivers.Flags == flags && drivers.Extension == extension; });
+  if (known == knownDrivers.end())
+  {
+    std::string list;
+    for (const Drivers& drivers : knownDrivers)
+    {
+      list +=
+        drivers.Flags == flags ? (list.empty() ? "" : ", ") + std::string(drivers.Extension) : "";
+    }
+    throw IOError(path,
+      std::string("has no extension that tells a kind of ") +
+        (flags == GDAL_OF_RASTER ? "raster" : "file of a GIS") + "; use " + list + ".");
+  }
+  const InputFile exists(path); // throws a better message than GDAL
+  return openWithDrivers(path, flags, known->Names.data());
+}
+
+namespace
+{
+
+/// Returns the radius of the circle through three points, of which the first and the last are equal
+/// if the arc is a whole circle; 0 if they lie on a line.
+double radiusOf(OGRGeometryH arc, int first)
+{
+  const auto distance = [&](int i, int j)
+  {
+    return std::hypot(gdal().OGR_G_GetX(arc, first + i) - gdal().OGR_G_GetX(arc, first + j),
+      gdal().OGR_G_GetY(arc, first + i) - gdal().OGR_G_GetY(arc, first + j));
+  };
+  const double a = distance(0, 1);
+  const double b = distance(1, 2);
+  const double c = distance(2, 0);
+  if (c == 0)
+  {
+    return a / 2;
+  }
+  const double s = (a + b + c) / 2;
+  const double area = std::sqrt(std::max(s * (s - a) * (s - b) * (s - c), 0.0));
+  return area > 0 ? a * b * c / (4 * area) : 0;
+}
+
+/// Returns the largest radius of the arcs in a geometry; 0 if there are none.
+double largestRadius(OGRGeometryH geometry)
+{
+  double largest = 0;
+  if (gdal().OGR_GT_Flatten(gdal().OGR_G_GetGeometryType(geometry)) == wkbCircularString)
+  {
+    const int points = gdal().OGR_G_GetPointCount(geometry);
+    for (int i = 0; i + 2 < points; i += 2)
+    {
+      largest = std::max(largest, radiusOf(geometry, i));
+    }
+    return largest;
+  }
+  const int parts = gdal().OGR_G_GetGeometryCount(geometry);
+  for (int i = 0; i < parts; ++i)
+  {
+    largest = std::max(largest, largestRadius(gdal().OGR_G_GetGeometryRef(geometry, i)));
+  }
+  return largest;
+}
+
+std::atomic<double> curveTolerance{ 0 };
+
+/// Returns the angle of a segment, in degrees, with which those of the geometry's arcs keep the
+/// tolerance; 0: GDAL's default of 4 degrees.
+double angleOfSegments(OGRGeometryH geometry)
+{
+  constexpr double degrees = 180 / 3.14159265358979323846;
+  constexpr double least = 360.0 / 1000000; // a million segments for a circle
+  constexpr double most = 60;
+  const double tolerance = curveTolerance;
+  const double radius = tolerance > 0 ? largestRadius(geometry) : 0;
+  if (radius == 0)
+  {
+    return 0;
+  }
+  // GDAL rounds the number of segments of an arc, so that they may be half as long again.
+  constexpr double share = 2.0 / 3;
+  const double cosine = std::max(1 - tolerance / radius, 0.0);
+  return std::clamp(share * 2 * std::acos(cosine) * degrees, least, most);
+}
+
+} // namespace
+
+void setCurveTolerance(double distance)
+{
+  curveTolerance = distance;
+}
+
 void forFeatures(
   const std::string& path, const std::function<void(OGRFeatureH, OGRGeometryH)>& visit)
 {
-  gdal().CPLErrorReset();
-  const GdalDataSet file(
-    gdal().GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, nullptr, nullptr));
+  const GdalDataSet file = openWithGdal(path, GDAL_OF_VECTOR);
   if (!file)
   {
     const std::string reason = gdal().CPLGetLastErrorMsg();
@@ -80,8 +242,9 @@ void forFeatures(
       const GdalOwner<OGRFeatureH, &GdalLibrary::OGR_F_Destroy> held(feature);
       const OGRGeometryH geometry = gdal().OGR_F_GetGeometryRef(feature);
       const bool isCurved = geometry && gdal().OGR_G_HasCurveGeometry(geometry, 1);
-      const GdalOwner<OGRGeometryH, &GdalLibrary::OGR_G_DestroyGeometry> straight(
-        isCurved ? gdal().OGR_G_GetLinearGeometry(geometry, 0, nullptr) : nullptr);
+      const GdalOwner<OGRGeometryH, &GdalLibrary::OGR_G_DestroyGeometry> straight(isCurved
+          ? gdal().OGR_G_GetLinearGeometry(geometry, angleOfSegments(geometry), nullptr)
+          : nullptr);
       visit(feature, isCurved ? straight.get() : geometry);
     }
   }
@@ -134,10 +297,9 @@ T valueAt(const std::string& bytes, std::size_t offset)
 /// The bytes of a GeoTIFF of one pixel that GDAL writes with this reference system.
 std::string smallGeoTiff(const std::string& crs)
 {
-  const GdalOwner<OGRSpatialReferenceH, &GdalLibrary::OSRDestroySpatialReference> reference(
-    gdal().OSRNewSpatialReference(nullptr));
   gdal().CPLErrorReset();
-  if (gdal().OSRSetFromUserInput(reference.get(), crs.c_str()) != OGRERR_NONE)
+  const GdalReference reference = importUserCrs(crs);
+  if (!reference)
   {
     throw IOError("'" + crs.substr(0, 60) +
       "' is no coordinate reference system that GDAL knows; give --crs EPSG:CODE.");
@@ -249,7 +411,8 @@ void convertGeoTiff(const std::string& from, const std::string& to,
       options.emplace_back("ZLEVEL=1"); // higher levels take twice the time and gain a few per cent
     }
   }
-  const GdalDataSet plain(gdal().GDALOpen(from.c_str(), GA_ReadOnly));
+  const std::array<const char*, 2> driver = { "GTiff", nullptr };
+  const GdalDataSet plain = openWithDrivers(from, GDAL_OF_RASTER, driver.data());
   GdalDataSet copy(plain
       ? gdal().GDALCreateCopy(
           gdal().GDALGetDriverByName(description.CloudOptimized ? "COG" : "GTiff"), to.c_str(),
@@ -268,8 +431,7 @@ void convertGeoTiff(const std::string& from, const std::string& to,
 
 RasterInfo readRasterInfo(const std::string& path)
 {
-  gdal().CPLErrorReset();
-  const GdalDataSet data(gdal().GDALOpen(path.c_str(), GA_ReadOnly));
+  const GdalDataSet data = openWithGdal(path, GDAL_OF_RASTER);
   if (!data)
   {
     fail(path, "cannot be read as a raster");

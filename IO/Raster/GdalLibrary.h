@@ -2,7 +2,11 @@
 #ifndef tippGdalLibrary_h
 #define tippGdalLibrary_h
 
+#include "Crs/ReferenceSystem.h"
+
+#include <cpl_conv.h>
 #include <cpl_error.h>
+#include <cpl_http.h>
 #include <cpl_vsi.h>
 #include <gdal.h>
 #include <ogr_api.h>
@@ -21,8 +25,10 @@ namespace tipp
   X(CPLErrorReset)                                                                                 \
   X(CPLGetLastErrorMsg)                                                                            \
   X(CPLGetLastErrorType)                                                                           \
+  X(CPLHTTPSetFetchCallback)                                                                       \
   X(CPLQuietErrorHandler)                                                                          \
   X(CPLSetErrorHandler)                                                                            \
+  X(CPLSetThreadLocalConfigOption)                                                                 \
   X(GDALAllRegister)                                                                               \
   X(GDALClose)                                                                                     \
   X(GDALCreate)                                                                                    \
@@ -37,21 +43,27 @@ namespace tipp
   X(GDALGetProjectionRef)                                                                          \
   X(GDALGetRasterXSize)                                                                            \
   X(GDALGetRasterYSize)                                                                            \
-  X(GDALOpen)                                                                                      \
+  X(GDALGetSpatialRef)                                                                             \
   X(GDALOpenEx)                                                                                    \
   X(GDALSetCacheMax64)                                                                             \
   X(GDALSetGeoTransform)                                                                           \
   X(GDALSetMetadataItem)                                                                           \
   X(GDALSetSpatialRef)                                                                             \
+  X(OGR_FD_GetFieldCount)                                                                          \
+  X(OGR_FD_GetFieldDefn)                                                                           \
   X(OGR_F_Create)                                                                                  \
   X(OGR_F_Destroy)                                                                                 \
+  X(OGR_F_GetFieldAsDouble)                                                                        \
   X(OGR_F_GetFieldAsString)                                                                        \
   X(OGR_F_GetFieldIndex)                                                                           \
   X(OGR_F_GetGeometryRef)                                                                          \
+  X(OGR_F_IsFieldSetAndNotNull)                                                                    \
   X(OGR_F_SetFieldDouble)                                                                          \
   X(OGR_F_SetGeometryDirectly)                                                                     \
   X(OGR_Fld_Create)                                                                                \
   X(OGR_Fld_Destroy)                                                                               \
+  X(OGR_Fld_GetNameRef)                                                                            \
+  X(OGR_Fld_GetType)                                                                               \
   X(OGR_GT_Flatten)                                                                                \
   X(OGR_G_AddPoint)                                                                                \
   X(OGR_G_CreateGeometry)                                                                          \
@@ -66,14 +78,41 @@ namespace tipp
   X(OGR_G_GetZ)                                                                                    \
   X(OGR_G_HasCurveGeometry)                                                                        \
   X(OGR_G_Is3D)                                                                                    \
+  X(OGR_G_IsEmpty)                                                                                 \
   X(OGR_L_CreateFeature)                                                                           \
   X(OGR_L_CreateField)                                                                             \
   X(OGR_L_GetLayerDefn)                                                                            \
+  X(OGR_L_GetName)                                                                                 \
   X(OGR_L_GetNextFeature)                                                                          \
+  X(OGR_L_GetSpatialRef)                                                                           \
   X(OGR_L_ResetReading)                                                                            \
+  X(OSRClone)                                                                                      \
+  X(OSRDemoteTo2D)                                                                                 \
   X(OSRDestroySpatialReference)                                                                    \
+  X(OSRExportToWktEx)                                                                              \
+  X(OSRFindMatches)                                                                                \
+  X(OSRFreeSRSArray)                                                                               \
+  X(OSRGetAngularUnits)                                                                            \
+  X(OSRGetAttrValue)                                                                               \
+  X(OSRGetAuthorityCode)                                                                           \
+  X(OSRGetAuthorityName)                                                                           \
+  X(OSRGetAxis)                                                                                    \
+  X(OSRGetName)                                                                                    \
+  X(OSRGetTargetLinearUnits)                                                                       \
+  X(OSRImportFromEPSG)                                                                             \
+  X(OSRImportFromWkt)                                                                              \
+  X(OSRIsGeographic)                                                                               \
+  X(OSRIsLocal)                                                                                    \
+  X(OSRIsSameEx)                                                                                   \
+  X(OSRIsSameVertCS)                                                                               \
+  X(OSRIsVertical)                                                                                 \
   X(OSRNewSpatialReference)                                                                        \
+  X(OSRSetCompoundCS)                                                                              \
   X(OSRSetFromUserInput)                                                                           \
+  X(OSRStripVertical)                                                                              \
+  X(VSIFCloseL)                                                                                    \
+  X(VSIFileFromMemBuffer)                                                                          \
+  X(VSIFree)                                                                                       \
   X(VSIGetMemFileBuffer)                                                                           \
   X(VSIUnlink)
 
@@ -103,6 +142,30 @@ struct GdalRelease
 template <typename Handle, auto Release>
 using GdalOwner = std::unique_ptr<std::remove_pointer_t<Handle>, GdalRelease<Release>>;
 using GdalDataSet = GdalOwner<GDALDatasetH, &GdalLibrary::GDALClose>;
+
+using GdalReference = GdalOwner<OGRSpatialReferenceH, &GdalLibrary::OSRDestroySpatialReference>;
+
+/// Opens a file on disk with the drivers that its extension stands for, and no others: a VRT, which
+/// names other files or addresses, is not opened under another name. `flags`: GDAL_OF_RASTER or
+/// GDAL_OF_VECTOR. Returns null if GDAL cannot read the file; CPLGetLastErrorMsg() has the reason.
+/// Throws IOError if there is no such file, or its extension stands for no driver.
+GdalDataSet openWithGdal(const std::string& path, unsigned flags);
+
+/// @name Coordinate reference systems
+/// All return null if the system is not understood.
+///@{
+/// Imports "EPSG:code", "EPSG:code+code", WKT or PROJJSON. Text from files: nothing is opened or
+/// fetched.
+GdalReference importCrs(const std::string& text);
+/// Imports any text that GDAL understands, which may be the name of a file. For text that the user
+/// gave.
+GdalReference importUserCrs(const std::string& text);
+/// Imports the horizontal system that GeoTIFF's keys describe.
+GdalReference importGeoKeys(const CrsRecords& records);
+///@}
+
+/// Exports a system as WKT of 2019 or as another `format` of GDAL; empty if it cannot be expressed.
+std::string wktOf(OGRSpatialReferenceH system, const char* format = "WKT2_2019");
 
 /// Calls visit(feature, geometry) for each feature of all layers of a vector file, in their order.
 /// Curves are converted to straight lines; the geometry may be null. Throws IOError, and whatever

@@ -212,6 +212,27 @@ void addFileFunctions(nb::module_& module);
 void addGridFunctions(nb::module_& module);
 void addQueryClass(nb::module_& module);
 
+/// Issues Python warnings of what readers report, and of a reference system that is not understood.
+inline void warnOfFiles(const std::vector<TableReport>& reports, const std::string& crsProblem)
+{
+  nb::list sentences;
+  for (const TableReport& report : reports)
+  {
+    for (const std::string& warning : report.Warnings)
+    {
+      sentences.append(report.Path + ": " + warning);
+    }
+  }
+  if (!crsProblem.empty())
+  {
+    sentences.append(crsProblem + ".");
+  }
+  if (sentences.size() > 0)
+  {
+    nb::module_::import_("tipp._engine").attr("warn")(sentences);
+  }
+}
+
 } // namespace tipp::python
 
 #endif

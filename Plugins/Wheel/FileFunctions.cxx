@@ -37,19 +37,14 @@ nb::tuple readPointFiles(const Strings& paths, const std::optional<Strings>& col
   PointOptions options;
   options.Columns = columns;
   options.Las = lasSelection(classes, returns, keep);
-  std::string crs;
-  const PointTable table = withoutLock(
-    [&]
-    {
-      crs = openPointStream(paths, options)->crs();
-      return readPoints(paths, options);
-    });
+  const PointTable table = withoutLock([&] { return readPoints(paths, options); });
+  warnOfFiles(table.Reports, table.CrsProblem);
   nb::dict named;
   for (const PointTable::Column& column : table.Columns)
   {
     named[column.Name.c_str()] = copyOf(column.Values);
   }
-  return nb::make_tuple(copyOf(table.XY, 2), named, crs);
+  return nb::make_tuple(copyOf(table.XY, 2), named, table.Crs);
 }
 
 /// Returns the names of all columns besides x and y.

@@ -81,6 +81,9 @@ PointOptions pointOptionsOf(const nb::dict& options, const DemRequest& request)
   PointOptions result;
   result.Columns = columnsForBands(request.Bands);
   result.Threads = request.Threads;
+  result.Z = of<std::string>(options, "z");
+  result.Layer = of<std::string>(options, "layer");
+  result.Crs = of<std::string>(options, "crs");
   result.Las = lasSelection(
     of<std::optional<std::vector<int>>>(options, "classes").value_or(std::vector<int>()),
     of<int>(options, "returns"), of<std::vector<std::string>>(options, "keep"));
@@ -128,7 +131,8 @@ nb::tuple makeRaster(const nb::object& points, const nb::dict& options, Progress
     const auto files = nb::cast<std::vector<std::string>>(points);
     stream = withoutLock([&] { return openPointStream(files, reading); });
   }
-  const std::string crs = stream->crs();
+  const ReferenceSystem system = stream->referenceSystem();
+  warnOfFiles(stream->reports(), system.Problem);
   TerrainSettings settings;
   BandValues samples;
   OutOfCoreStatistics figures;
@@ -153,7 +157,7 @@ nb::tuple makeRaster(const nb::object& points, const nb::dict& options, Progress
     bands.append(copyOf(band, std::size_t(settings.Grid.Columns)));
     std::vector<double>().swap(band);
   }
-  return nb::make_tuple(bands, tupleOf(settings.Grid), crs, figures.Rejected);
+  return nb::make_tuple(bands, tupleOf(settings.Grid), system.Text, figures.Rejected);
 }
 
 /// Bytes per sample: a 32-bit cell number and the mask.

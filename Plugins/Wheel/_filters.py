@@ -187,7 +187,7 @@ class vtkTIPPPointsToImage(Filter):
         options = {
             **options_of(self, DEM), "resolution": size, "bounds": bounds, "attributes": self.texts,
             "breaklines": self._lines("Breaklines", lines[0]), "boundary": self._lines("Boundary", lines[1]),
-            "classes": None, "returns": 0, "keep": [],
+            "classes": None, "returns": 0, "keep": [], "z": "", "layer": "", "crs": "",
         }
         points = vtkPointSet.GetData(inputs[0])
         bands, (west, south, columns, rows), _ = _engine.raster(points, None, options, self.show_progress)
@@ -380,7 +380,7 @@ class vtkTIPPPointReader(Filter):
 
     RETURNS_ALL, RETURNS_FIRST, RETURNS_LAST = range(3)
     PROPERTIES = {"Classes": "", "Returns": 0, "KeepWithheld": False, "KeepSynthetic": False, "KeepOverlap": False,
-                  "Columns": ""}
+                  "KeepTruncated": False, "KeepUncounted": False, "Columns": ""}
     LIMITS = {"Returns": (0, 2)}
     LIST = "FileName"
     OUTPUTS = ("vtkPolyData",)
@@ -393,7 +393,8 @@ class vtkTIPPPointReader(Filter):
             "attributes": columns.split(",") if columns else None,
             "classes": [int(number) for number in self.value("Classes").split(",") if number],
             "returns": self.value("Returns"),
-            "keep": [flag for flag in ("withheld", "synthetic", "overlap") if self.value("Keep" + flag.capitalize())],
+            "keep": [flag for flag in ("withheld", "synthetic", "overlap", "truncated", "uncounted")
+                     if self.value("Keep" + flag.capitalize())],
         }
         with uncompressed(self.texts) as files:
             array, data, crs = _engine.read_points(files, options)

@@ -478,6 +478,7 @@ void addOptions(CLI::App& command, CheckArguments& arguments)
   command.add_option("--constraints", arguments.Constraints,
     "The file of constraints that 'tipp delaunay' used; the mesh may have more points after the "
     "given ones");
+  addCurveOption(command);
   command.add_flag("--cut", arguments.Options.IsCut,
     "With --constraints: the mesh lacks triangles outside of polygons or in holes");
 }

@@ -24,17 +24,19 @@ namespace
 constexpr const char* footer =
   R"(INPUT   -: text from standard input; .npy (n x 2 or n x 3, float64 or float32); .csv,
         .txt, .xyz (a point per line, columns separated by comma, semicolon, tab or
-        blanks; a first line of names or of the count is recognized); .las (1.0 to 1.4),
-        .laz if built with LASzip; .14, .grd (ADCIRC); any VTK file. Several files with
-        the same columns are one set of points. With a .tipp output also uniform:COUNT:
-        that many random points, uniform in the unit square. Points of LAS files flagged
-        as withheld, synthetic or overlap are left out unless --keep names the flag.
+        blanks; a first line of names or of the count is recognized); .las (1.0 to 1.5),
+        .laz if built with LASzip; .gpkg, .shp, .geojson, .fgb, .kml, .dxf (the points;
+        --z names the attribute that is z) if built with GDAL; .14, .grd (ADCIRC); any
+        VTK file. Several files with the same columns are one set of points. With a
+        .tipp output also uniform:COUNT: that many random points, uniform in the unit
+        square. Points of LAS files flagged as withheld, synthetic or overlap are left
+        out unless --keep names the flag.
 OUTPUT  .vtp, .vtu (all points with their data, a column named z as third
         coordinate); .npy (m x 3 int64: point ids, counted from 0, counter-clockwise);
         .14 (ADCIRC: node numbers and boundaries of a .14 input are kept; depth is the
         column depth, else minus z); or .tipp: a partitioned mesh, made out of core.
-        Points and triangles may then be larger than memory: .npy, .las and text are
-        read in blocks, other files as a whole.
+        Points and triangles may then be larger than memory: .npy, .las, text and files
+        of a GIS are read in blocks, other files as a whole.
 
 CONSTRAINTS  .poly (Triangle); .csv, .txt (a segment per line: x and y of both ends, or
         two ids of points counted from 0); .14, .grd (ADCIRC: the boundaries); any VTK
@@ -175,6 +177,7 @@ void addConstraints(CLI::App& command, DelaunayArguments& arguments)
     "removed");
   command.add_option("--boundary", arguments.Constraints.Boundary,
     "A file of closed lines, outside of which triangles are removed");
+  addCurveOption(command);
   command.add_flag(
     "--refuse-crossings",
     [&arguments](std::int64_t) { arguments.Constraints.Crossings = CrossingRule::Refuse; },

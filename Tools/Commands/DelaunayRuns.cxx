@@ -203,6 +203,7 @@ int runInMemory(const DelaunayArguments& arguments)
   LongitudeSpan span;
   span.add(points.XY);
   warnOfLongitudes(span);
+  reportTables(points.Reports);
   if (isInterrupted())
   {
     return reportInterrupt();
@@ -343,6 +344,7 @@ void triangulateShares(Communicator& ranks, const DelaunayArguments& arguments)
       span.add(other);
     }
     warnOfLongitudes(span);
+    reportTables(points.Reports);
   }
   RankPoints input;
   input.Points = PointsView(points.XY.data(), points.size(), 2);
@@ -414,8 +416,9 @@ int runInPieces(const DelaunayArguments& arguments, vtkMultiProcessController* c
     {
       checkOutputs(arguments.Output, arguments.Statistics, arguments.Scratch, arguments.Inputs);
     }
-    return joinConstraints(openPointStream(arguments.Inputs, withThinningFile(arguments)),
-      arguments.Constraints, options);
+    auto points = openPointStream(arguments.Inputs, withThinningFile(arguments));
+    reportTables(points->reports());
+    return joinConstraints(std::move(points), arguments.Constraints, options);
   };
   OutOfCoreStatistics statistics;
   const int code =

@@ -55,6 +55,7 @@ void addConstraintOptions(CLI::App& command, DemArguments& arguments)
     "those of the surface without the lines");
   command.add_option("--boundary", arguments.Boundary,
     "A file of closed lines: only pixels inside of them have values");
+  addCurveOption(command);
 }
 
 /// Reads the files of breaklines and boundary.
@@ -111,9 +112,9 @@ void addValueOptions(CLI::App& command, DemArguments& arguments)
     .add_option(
       "--nodata", arguments.NoData, "The number that a GeoTIFF has where there is no triangle")
     ->capture_default_str();
-  command.add_option("--crs", arguments.Crs,
-    "The coordinate reference system, such as EPSG:25832 (default: that of the LAS files or of "
-    "--like)");
+  command.add_flag("--strict-crs", arguments.StrictCrs,
+    "Fail, rather than warn, if the files state a coordinate reference system that is not "
+    "understood");
   addChecked(command, "--type", arguments.Type, CLI::IsMember({ "float32", "float64" }),
     "The type of a GeoTIFF's values: float32 or float64");
   addChecked(command, "--compress", arguments.Compression,
@@ -126,7 +127,7 @@ void addValueOptions(CLI::App& command, DemArguments& arguments)
 /// Throws CLI::ValidationError for options that would have no effect.
 void requireUseful(const DemArguments& arguments)
 {
-  for (const char* const name : { "--nodata", "--crs", "--type", "--compress", "--cog" })
+  for (const char* const name : { "--nodata", "--strict-crs", "--type", "--compress", "--cog" })
   {
     refuseIf(arguments.Command->count(name) > 0 && !isGeoTiff(arguments.Output), name,
       "needs an output named .tif");

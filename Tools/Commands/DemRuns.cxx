@@ -56,19 +56,64 @@ RasterDescription describeEncoding(const DemArguments& arguments)
   return description;
 }
 
-/// Returns the description of the raster without its grid and bands. `pointCrs`: the reference
-/// system of the points. Throws IOError if GDAL does not know the reference system.
-RasterDescription describeRaster(const DemArguments& arguments, const std::string& pointCrs)
+/// Returns the part of a system that a GeoTIFF can state, and what it cannot as the Problem.
+ReferenceSystem statedInGeoTiff(ReferenceSystem system)
+{
+  while (!system.Text.empty())
+  {
+    try
+    {
+      requireCrs(system.Text);
+      break;
+    }
+    catch (const IOError& error)
+    {
+      system.Problem = error.what();
+      const std::size_t heights = system.Text.rfind('+');
+      const bool hasMore = hasHeightSystem(system.Text) && heights != std::string::npos;
+      system.Text.resize(hasMore ? heights : 0);
+    }
+  }
+  return system;
+}
+
+/// Returns the description of the raster without its grid and bands. `ofPoints`: the reference
+/// system of the points. A problem with it is an error with --strict-crs, else a warning, which is
+/// printed if `isFirst`. Throws IOError if GDAL does not know that of --crs.
+RasterDescription describeRaster(
+  const DemArguments& arguments, const ReferenceSystem& ofPoints, bool isFirst)
 {
   RasterDescription description = describeEncoding(arguments);
-  description.Crs = arguments.Crs.empty() ? pointCrs : arguments.Crs;
-  if (!arguments.Like.empty() && description.Crs.empty())
+  description.Crs = arguments.Columns.Crs;
+  if (!description.Crs.empty())
   {
-    description.Crs = readRasterInfo(arguments.Like).Crs;
+    // Fail before the computation rather than after it.
+    isGeoTiff(arguments.Output) ? requireCrs(description.Crs) : void();
+    return description;
   }
-  if (isGeoTiff(arguments.Output) && !description.Crs.empty())
+  ReferenceSystem system = ofPoints;
+  if (!arguments.Like.empty() && system.Text.empty())
   {
-    requireCrs(description.Crs); // fail before the computation rather than after it
+    system.Text = readRasterInfo(arguments.Like).Crs;
+  }
+  if (isGeoTiff(arguments.Output))
+  {
+    system = statedInGeoTiff(system);
+  }
+  description.Crs = system.Text;
+  if (!system.Problem.empty() && arguments.StrictCrs)
+  {
+    throw IOError(system.Problem + "; name the right system with --crs.");
+  }
+  if (!system.Problem.empty() && isFirst && isGeoTiff(arguments.Output))
+  {
+    const ReferenceSystem stated = describeCrs(system.Text);
+    fmt::print(stderr,
+      "tipp: warning: {}; the raster states {}; --crs EPSG:CODE names the right system.\n",
+      system.Problem,
+      system.Text.empty()      ? "no reference system"
+        : stated.Words.empty() ? shownText(system.Text)
+                               : stated.Words);
   }
   return description;
 }
@@ -184,12 +229,13 @@ int runInMemory(const DemArguments& arguments)
   Stopwatch watch;
   DemReport report;
   const auto stream = openPointStream(arguments.Inputs, arguments.Columns);
-  const RasterDescription description = describeRaster(arguments, stream->crs());
+  const RasterDescription description = describeRaster(arguments, stream->referenceSystem(), true);
   PointTable points = readAllPoints(*stream);
   reportLeftOut(points.LeftOut, points.ThinnedOut);
   LongitudeSpan span;
   span.add(points.XY);
   warnOfLongitudes(span);
+  reportTables(points.Reports);
   if (isInterrupted())
   {
     return reportInterrupt();
@@ -314,6 +360,7 @@ int runInPieces(const DemArguments& arguments, vtkMultiProcessController* contro
       return writeRaster(arguments, description, before, tiles, progress, report);
     },
     isGeoTiff(arguments.Output) ? std::make_optional(encoding) : std::nullopt);
+  bool isReported = false; // the points may be opened twice
   const auto open = [&]
   {
     if (isFirst)
@@ -323,7 +370,9 @@ int runInPieces(const DemArguments& arguments, vtkMultiProcessController* contro
     auto stream = openPointStream(arguments.Inputs, withThinningFile(arguments));
     if (isFirst)
     {
-      description = describeRaster(arguments, stream->crs());
+      isReported ? void() : reportTables(stream->reports());
+      description = describeRaster(arguments, stream->referenceSystem(), !isReported);
+      isReported = true;
       sink.setIdentity(identityOf(arguments, description));
     }
     return stream;

@@ -18,7 +18,7 @@ struct DemArguments : RunArguments
   DemRequest Request;
   std::vector<double> Bounds;
   std::string Like;
-  std::string Crs;
+  bool StrictCrs = false; ///< whether a reference system that is not understood is an error
   double NoData = -9999;
   std::string Type = "float32";
   std::string Compression = "deflate";

@@ -131,15 +131,15 @@ double roundNumber(double value)
   return power * (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10);
 }
 
-void describeLas(const std::string& path)
+void describeLas(const std::string& path, const LasSelection& selection)
 {
-  const LasHeader header = readLasHeader(path);
+  const LasHeader header = readLasHeader(path, selection);
   fmt::print("{}: LAS 1.{}, point format {}{}, {} points\n", path, header.Minor, header.Format,
     header.Compressed ? ", compressed" : "", header.Points);
-  if (header.HasUnknownCrs)
+  const ReferenceSystem system = understandCrs(header.Crs);
+  if (!system.Problem.empty())
   {
-    fmt::print(
-      "  its coordinate reference system has no EPSG code; give --crs if an output needs it\n");
+    fmt::print("  {}; name the right one with --crs if an output needs it\n", system.Problem);
   }
 }
 
@@ -149,11 +149,12 @@ int runInfo(const InfoArguments& arguments)
   {
     if (isLasExtension(extensionOf(path)))
     {
-      describeLas(path);
+      describeLas(path, arguments.Points.Las);
     }
   }
   PointOptions options = arguments.Points;
   options.Threads = 0;
+  options.AnyCrs = true;
   const auto stream = openPointStream(arguments.Inputs, options);
   Summary summary = read(*stream);
   if (isInterrupted())
@@ -161,6 +162,7 @@ int runInfo(const InfoArguments& arguments)
     return reportInterrupt();
   }
   reportLeftOut(stream->leftOut(), stream->thinnedOut());
+  reportTables(stream->reports());
   fmt::print("points      {}{}\n", summary.Points,
     summary.NotFinite > 0 ? fmt::format(", {} without finite coordinates", summary.NotFinite) : "");
   fmt::print("x           {}\ny           {}\n", summary.X.text(), summary.Y.text());
@@ -169,8 +171,11 @@ int runInfo(const InfoArguments& arguments)
   {
     fmt::print("{:<11} {}\n", names[i], summary.Columns[i].text());
   }
-  const std::string crs = stream->crs();
-  fmt::print("CRS         {}\n", crs.empty() ? "not given" : crs);
+  const ReferenceSystem crs = stream->referenceSystem();
+  fmt::print("CRS         {}\n",
+    crs.Text.empty()      ? "not given"
+      : crs.Words.empty() ? crs.Text
+                          : crs.Words);
   fmt::print("duplicates  {}\n", duplicatesOf(summary.Compared));
   const double area = (summary.X.High - summary.X.Low) * (summary.Y.High - summary.Y.Low);
   if (area > 0 && std::isfinite(area))

@@ -2,7 +2,9 @@
 #include "Commands/PointArguments.h"
 
 #include "Files/InputFile.h"
+#include "Files/TemporaryFiles.h"
 #include "Files/TextFile.h"
+#include "Query/GisFiles.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -106,6 +108,12 @@ void addPointOptions(CLI::App& command, PointOptions& options)
 {
   command.add_option("--x", options.X, "Column of x: a name, or a number counted from 0");
   command.add_option("--y", options.Y, "Column of y: a name, or a number counted from 0");
+  command.add_option("--z", options.Z, "Column of z: a name, or a number counted from 0");
+  command.add_option("--layer", options.Layer,
+    "Read only the points of this layer of a .gpkg, .kml or .dxf file (default: all layers)");
+  command.add_option("--crs", options.Crs,
+    "The coordinate reference system of the points, such as EPSG:25832 (default: that of the "
+    "files)");
   command
     .add_option("--wrap", options.Wrap,
       "x are longitudes in degrees: 360: move those below 0 by 360, as for points on both sides of "
@@ -146,10 +154,12 @@ void addPointOptions(CLI::App& command, PointOptions& options)
           options.Las.keep(flag);
         }
       },
-      "Also read points with these flags from LAS files: withheld, synthetic, overlap")
+      "Also read points with these flags from LAS files: withheld, synthetic, overlap. truncated: "
+      "read the points of a file that ends too early; uncounted: those beyond the number in its "
+      "header")
     ->delimiter(',')
     ->allow_extra_args(false)
-    ->check(CLI::IsMember({ "withheld", "synthetic", "overlap" }));
+    ->check(CLI::IsMember({ "withheld", "synthetic", "overlap", "truncated", "uncounted" }));
   command
     .add_option_function<std::string>(
       "--thin", [&options](const std::string& text) { options.Thin = *parseThinning(text); },
@@ -169,6 +179,15 @@ void addDuplicatesOption(CLI::App& command, DuplicateRule& rule)
       "The values of points with equal coordinates: those of the first, of the lowest (min) or "
       "highest (max), or the mean of each column (default: first)")
     ->check(CLI::IsMember({ "first", "min", "max", "mean" }));
+}
+
+void addCurveOption(CLI::App& command)
+{
+  command
+    .add_option_function<double>("--curve-tolerance", setCurveTolerance,
+      "The largest distance between curves of GIS files and the segments that replace them, in "
+      "their units (default: a segment for each 4 degrees of an arc)")
+    ->check(checkPositive);
 }
 
 void addThreadsOption(CLI::App& command, int& threads)
@@ -268,6 +287,32 @@ void warnOfLongitudes(const LongitudeSpan& span)
   if (!warning.empty())
   {
     fmt::print(stderr, "tipp: warning: {}\n", warning);
+  }
+}
+
+void reportTables(const std::vector<TableReport>& reports)
+{
+  constexpr std::size_t mostWarnings = 10;
+  std::size_t warnings = 0;
+  for (const TableReport& report : reports)
+  {
+    if (!report.Columns.empty() &&
+      (report.Columns != reports.front().Columns || &report == &reports.front()))
+    {
+      fmt::print("{}: {}\n", shownPath(report.Path), report.Columns);
+    }
+    for (const std::string& warning : report.Warnings)
+    {
+      warnings++ < mostWarnings
+        ? fmt::print(stderr, "tipp: warning: {}: {}\n", shownPath(report.Path), warning)
+        : void();
+    }
+  }
+  if (warnings > mostWarnings)
+  {
+    fmt::print(stderr,
+      "tipp: warning: {} more such warnings; 'tipp info' on each file shows them.\n",
+      warnings - mostWarnings);
   }
 }
 

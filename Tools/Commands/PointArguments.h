@@ -82,6 +82,9 @@ void addChecked(CLI::App& command, const std::string& name, Value& value, const 
   command.add_option(name, value, help)->check(check)->capture_default_str();
 }
 
+/// Adds the option --curve-tolerance, for commands that read lines or polygons of a GIS.
+void addCurveOption(CLI::App& command);
+
 /// Adds the option --threads.
 void addThreadsOption(CLI::App& command, int& threads);
 
@@ -95,6 +98,10 @@ void reportLeftOut(std::int64_t points, std::int64_t thinnedOut);
 
 /// Prints a warning if points lie on both sides of the meridian at which longitudes jump.
 void warnOfLongitudes(const LongitudeSpan& span);
+
+/// Prints which columns of tables have been read, to stdout, and warnings about their values, to
+/// stderr.
+void reportTables(const std::vector<TableReport>& reports);
 
 /// Parses a number of bytes, which may have the unit K, M or G for 2^10, 2^20 or 2^30 bytes, such
 /// as "512M", "1 GB" or "2 GiB": in any case, also with B or iB, and with blanks before it. Returns

@@ -50,7 +50,7 @@ public:
   std::vector<std::string> columns() const override { return this->Input->columns(); }
   std::int64_t leftOut() const override { return this->Input->leftOut(); }
   std::int64_t thinnedOut() const override { return this->Input->thinnedOut(); }
-  std::string crs() const override { return this->Input->crs(); }
+  ReferenceSystem referenceSystem() const override { return this->Input->referenceSystem(); }
   std::string identity() const override;
 
   /// Call before the first pass. For each column, the values at the points of both tables. A new

@@ -23,7 +23,7 @@ _Path = Union[str, "os.PathLike[str]"]
 _RETURNS = {"all": 0, "first": 1, "last": 2}
 _DUPLICATES = {"first": 0, "min": 1, "max": 2, "mean": 3}
 _THINNINGS = {"min": 0, "max": 1, "nearest": 2}
-_FLAGS = ("withheld", "synthetic", "overlap")
+_FLAGS = ("withheld", "synthetic", "overlap", "truncated", "uncounted")
 
 
 class Dem(NamedTuple):
@@ -66,6 +66,9 @@ def dem(
     memory: int | str | None = None,
     threads: int = 0,
     progress_bar: ProgressBar = False,
+    z: str | None = None,
+    layer: str | None = None,
+    crs: str | None = None,
 ) -> Dem:
     """Makes a raster of elevations: the exact Delaunay surface of points, sampled at the pixel centres.
 
@@ -97,7 +100,8 @@ def dem(
         "nearest" to its centre.
     classes, returns, keep
         For LAS files: the classes to read (None: all), the returns ("all", "first" or "last"), and which flagged
-        points to read, too ("withheld", "synthetic", "overlap").
+        points to read, too ("withheld", "synthetic", "overlap"). "truncated" reads a file that ends too early as far
+        as it goes, "uncounted" also the points beyond the number in its header.
     breaklines
         Lines that become edges of triangles: a file as for --breaklines of `tipp dem`, a vtkPolyData, a list of
         arrays of corners of shape (k, 2) or (k, 3), or Shapely geometries, a GeoSeries or a GeoDataFrame of lines or
@@ -111,6 +115,12 @@ def dem(
         keeps the points of files in memory. None: no limit.
     threads, progress_bar
         As for delaunay().
+    z, layer
+        For files of a GIS (.gpkg, .shp, .geojson, .fgb, .kml, .dxf): the attribute that has the heights (None: z of
+        the points), and the layer to read (None: all).
+    crs
+        The coordinate reference system of the points, such as "EPSG:25832", whatever the files state. None: that of
+        the files, which must be the same in all of them.
 
     Returns
     -------
@@ -156,6 +166,9 @@ def dem(
         "returns": _RETURNS[returns],
         "keep": check.a_list(keep, "keep"),
         "threads": check.threads(threads),
+        "z": _text(z, "z"),
+        "layer": _text(layer, "layer"),
+        "crs": _text(crs, "crs"),
     }
     progress = progress_of(progress_bar)
     source: Any
@@ -168,8 +181,8 @@ def dem(
         check.require_point_set(points, point_data, "a vtkPointSet, an array or names of files")
         source = contextlib.nullcontext(positions_of(points))
     with source as given:
-        bands, transform, crs = _engine.dem(given, point_data, options, progress)
-    return Dem(bands[0] if isinstance(attributes, str) else np.stack(bands), transform, crs)
+        bands, transform, stated = _engine.dem(given, point_data, options, progress)
+    return Dem(bands[0] if isinstance(attributes, str) else np.stack(bands), transform, crs or stated)
 
 
 def lines_of(lines: Any, name: str, is_closed: bool) -> str | tuple[np.ndarray, ...] | None:
@@ -220,6 +233,12 @@ def _thinning(thin: Any) -> dict[str, Any]:
     if not side > 0:
         raise ValueError(f"thin is {thin!r}; give a side above 0.")
     return {"thin_size": side, "thin_rule": check.choice(pair[1], "thin", _THINNINGS)}
+
+
+def _text(value: Any, name: str) -> str:
+    if value is not None and not isinstance(value, str):
+        raise TypeError(f"{name} is a {type(value).__name__}; give a text.")
+    return value or ""
 
 
 def _check_selection(classes: Any, returns: Any, keep: Any) -> None:

@@ -255,6 +255,9 @@ def _reader_of(paths: list[str], options: dict[str, Any]) -> vtkTIPPPointReader:
     reader.SetReturns(options["returns"])
     for flag in options["keep"]:
         getattr(reader, "SetKeep" + flag.capitalize())(True)
+    reader.SetZColumn(options["z"])
+    reader.SetLayer(options["layer"])
+    reader.SetCoordinateReferenceSystem(options["crs"])
     reader.SetGenerateVertices(False)
     for path in paths:
         reader.AddFileName(path)

@@ -362,7 +362,7 @@ TEST_F(TippDem, RefusesConflictingOptions)
   EXPECT_EQ(2,
     this->run({ "dem", "points.csv", "-o", "dem.npy", "--resolution", "1", "--resume" }).ExitCode);
   for (const Words& more : { Words{ "--compress", "zstd" }, Words{ "--nodata", "0" },
-         Words{ "--crs", "EPSG:25832" }, Words{ "--attributes", "elevation,void,elevation" } })
+         Words{ "--strict-crs" }, Words{ "--attributes", "elevation,void,elevation" } })
   {
     Words words{ "dem", "points.csv", "-o", "dem.npy", "--resolution", "1" };
     words.insert(words.end(), more.begin(), more.end());

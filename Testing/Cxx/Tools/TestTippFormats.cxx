@@ -153,7 +153,6 @@ TEST_F(TippFormats, OtherKindsNameTheCommandThatConvertsThem)
     { "mesh.node", "'meshio convert mesh.node out.vtu'" },
     { "mesh.msh", "'meshio convert mesh.msh out.vtu'" },
     { "mesh.xml.gz", "'gunzip mesh.xml.gz && meshio convert mesh.xml out.vtu'" },
-    { "points.shp", "'ogr2ogr -f CSV -lco GEOMETRY=AS_XYZ out.csv points.shp'" },
   };
   for (const auto& [name, command] : kinds)
   {

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef tippReferenceSystem_h
+#define tippReferenceSystem_h
+
+#include "vtkTIPPIOModule.h"
+
+#include <string>
+#include <tuple>
+
+namespace tipp
+{
+
+/// What a file says about its coordinate reference system, as it says it. This is data of unknown
+/// origin: it may describe a system, but it never names a file or an address to read.
+struct CrsRecords
+{
+  std::string Text;    ///< WKT or PROJJSON; empty: there is none
+  std::string Keys;    ///< GeoTIFF's key directory, little-endian (tag 34735)
+  std::string Doubles; ///< the numbers that the keys refer to (tag 34736)
+  std::string Ascii;   ///< the texts that the keys refer to (tag 34737)
+
+  bool isEmpty() const { return this->Text.empty() && this->Keys.empty(); }
+  bool operator<(const CrsRecords& other) const { return this->tied() < other.tied(); }
+
+private:
+  std::tuple<const std::string&, const std::string&, const std::string&, const std::string&> tied()
+    const
+  {
+    return std::tie(this->Text, this->Keys, this->Doubles, this->Ascii);
+  }
+};
+
+/// A coordinate reference system, as far as it is understood.
+struct ReferenceSystem
+{
+  /// "EPSG:code", "EPSG:code+code" (the second is that of the heights) or WKT; empty if there is
+  /// none, or if nothing of it is understood.
+  std::string Text;
+  std::string Words;   ///< its name, code and units, for people; empty without GDAL
+  std::string Problem; ///< what is not understood: the end of a sentence about the file; or empty
+};
+
+/// Understands the records of a file, with GDAL if that is there; without it, EPSG codes and WKT
+/// are passed on as they are. GDAL runs in a child process: see geoKeysOf(). Does not throw because
+/// of the records' content.
+VTKTIPPIO_EXPORT ReferenceSystem understandCrs(const CrsRecords& records);
+
+/// Describes the system that a text names, one that a user gave or that of a ReferenceSystem.
+/// Returns it as it is, and without words if it is not understood.
+VTKTIPPIO_EXPORT ReferenceSystem describeCrs(const std::string& text);
+
+/// Returns whether the texts of two ReferenceSystems mean the same system, however it is written.
+/// If only one has a system of heights, only the horizontal systems are compared.
+VTKTIPPIO_EXPORT bool areSameCrs(const std::string& a, const std::string& b);
+
+/// Whether the text has a system of heights besides the horizontal one.
+VTKTIPPIO_EXPORT bool hasHeightSystem(const std::string& text);
+
+} // namespace tipp
+
+#endif
