@@ -11,6 +11,7 @@
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Sort.h"
 #include "Parallel/Stopwatch.h"
+#include "Points/Longitudes.h"
 #include "Triangulation/TriangleSink.h"
 
 #include <algorithm>
@@ -402,23 +403,24 @@ TableConstraints readConstraints(const ConstraintFiles& files)
   TableConstraints constraints;
   if (!files.Lines.empty())
   {
-    constraints.Lines = readConstraintFile(files.Lines);
+    constraints.Lines = readConstraintFile(files.Lines, files.Wrap);
   }
   for (const auto& [x, y] : files.Holes)
   {
     constraints.Lines.Holes.insert(constraints.Lines.Holes.end(), { x, y });
   }
+  wrapLongitudes(files.name(), files.Wrap, constraints.Lines.Holes);
   if (!files.Boundary.empty())
   {
-    constraints.Boundary = readBoundary(files.Boundary);
+    constraints.Boundary = readBoundary(files.Boundary, files.Wrap);
   }
   constraints.Crossings = files.Crossings;
   return constraints;
 }
 
-ConstraintTable readBoundary(const std::string& path)
+ConstraintTable readBoundary(const std::string& path, int wrap)
 {
-  ConstraintTable boundary = readConstraintFile(path);
+  ConstraintTable boundary = readConstraintFile(path, wrap);
   try
   {
     requireClosedBoundary(boundary);

@@ -67,6 +67,7 @@ struct ConstraintFiles
   std::vector<std::pair<double, double>>
     Holes; ///< x and y of points in holes, in addition to those of Lines
   CrossingRule Crossings = CrossingRule::Split;
+  int Wrap = 0; ///< PointOptions::Wrap
 
   bool areGiven() const { return !this->Lines.empty() || !this->Boundary.empty(); }
   /// The name of a file, for messages.
@@ -76,8 +77,8 @@ struct ConstraintFiles
 /// Reads both files. Throws IOError.
 VTKTIPPFILTERS_EXPORT TableConstraints readConstraints(const ConstraintFiles& files);
 
-/// Reads the closed lines of a boundary. Throws IOError.
-VTKTIPPFILTERS_EXPORT ConstraintTable readBoundary(const std::string& path);
+/// Reads the closed lines of a boundary. `wrap`: PointOptions::Wrap. Throws IOError.
+VTKTIPPFILTERS_EXPORT ConstraintTable readBoundary(const std::string& path, int wrap = 0);
 
 /// Throws std::invalid_argument unless all lines of a boundary are closed.
 VTKTIPPFILTERS_EXPORT void requireClosedBoundary(const ConstraintTable& boundary);

@@ -182,9 +182,9 @@ void constrain(DemRequest& request, std::optional<ConstraintTable> lines,
   }
 }
 
-ConstraintTable readBreaklines(const std::string& path)
+ConstraintTable readBreaklines(const std::string& path, int wrap)
 {
-  ConstraintTable lines = readConstraintFile(path);
+  ConstraintTable lines = readConstraintFile(path, wrap);
   isVtkFile(path) ? dropPlainHeights(lines) : void();
   return lines;
 }

@@ -40,7 +40,7 @@ VTKTIPPFILTERS_EXPORT void constrain(DemRequest& request, std::optional<Constrai
   std::optional<ConstraintTable> boundary);
 
 /// Reads breaklines. Heights from a VTK file are dropped if all are 0. Throws IOError.
-VTKTIPPFILTERS_EXPORT ConstraintTable readBreaklines(const std::string& path);
+VTKTIPPFILTERS_EXPORT ConstraintTable readBreaklines(const std::string& path, int wrap = 0);
 
 /// Removes the heights of lines if all are 0. For lines from VTK, which always have heights.
 VTKTIPPFILTERS_EXPORT void dropPlainHeights(ConstraintTable& lines);

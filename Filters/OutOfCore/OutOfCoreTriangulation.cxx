@@ -10,6 +10,7 @@
 #include "OutOfCore/ScratchFiles.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
+#include "Points/Longitudes.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -124,6 +125,7 @@ private:
       this->Statistics.Constraints = segments->figures();
       this->Setup.setConstraints(this->Scratch.points(), *segments, this->Threads);
     }
+    this->warnOfLongitudes(survey);
     std::vector<SampledPoint>().swap(survey.Sample); // assigning {} would keep the memory
     if (this->Setup.Plan->HasLargeInterface)
     {
@@ -135,6 +137,24 @@ private:
     this->Setup.describeMesh();
     this->describePlan();
     this->endPhase("survey");
+  }
+
+  /// Warns of points on both sides of 180 degrees, judged by the sample.
+  void warnOfLongitudes(const InputSurvey& survey) const
+  {
+    const Box2& bounds = survey.Bounds;
+    LongitudeSpan span;
+    span.add(bounds.xmin, bounds.ymin);
+    span.add(bounds.xmax, bounds.ymax);
+    for (const SampledPoint& sampled : survey.Sample)
+    {
+      span.add(sampled.Position.x, sampled.Position.y);
+    }
+    const std::string warning = span.warning();
+    if (!warning.empty() && this->Options.Warn)
+    {
+      this->Options.Warn(warning);
+    }
   }
 
   PassOptions passOptions(const std::function<void(std::int64_t)>& progress) const

@@ -5,6 +5,7 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/TextFile.h"
+#include "Points/Longitudes.h"
 #include "Points/ReadPoints.h"
 #ifdef TIPP_HAVE_GDAL
 #include "Raster/GdalLibrary.h"
@@ -242,8 +243,9 @@ ConstraintTable readVectorFile(const std::string& path)
 
 } // namespace
 
-SegmentRows::SegmentRows(const std::string& path)
+SegmentRows::SegmentRows(const std::string& path, int wrap)
   : Path(path)
+  , Wrap(wrap)
   , Rows(openPointStream({ path }, { "0", "1" }))
 {
   const std::size_t columns = this->Rows->columns().size();
@@ -311,6 +313,7 @@ bool SegmentRows::next(ConstraintTable& table, std::size_t most)
     table.Edges.push_back({ id, id + 1 });
   }
   table.PolygonBegin = table.Edges.size();
+  wrapLongitudes(this->Path, this->Wrap, table.XY);
   return true;
 }
 
@@ -322,7 +325,10 @@ ConstraintTable readVtkConstraints(const std::string& path)
 }
 #endif
 
-ConstraintTable readConstraintFile(const std::string& path)
+namespace
+{
+
+ConstraintTable readTable(const std::string& path)
 {
   const std::string extension = extensionOf(path);
   if (extension == ".poly")
@@ -350,6 +356,16 @@ ConstraintTable readConstraintFile(const std::string& path)
   throw IOError(path,
     "has no extension that tells a kind of constraints; use .poly, .csv, .txt, .14, .grd, .gpkg, "
     ".shp, .geojson, .fgb, .vtp or another kind of VTK file.");
+}
+
+} // namespace
+
+ConstraintTable readConstraintFile(const std::string& path, int wrap)
+{
+  ConstraintTable table = readTable(path);
+  wrapLongitudes(path, wrap, table.XY);
+  wrapLongitudes(path, wrap, table.Holes);
+  return table;
 }
 
 } // namespace tipp

@@ -44,8 +44,8 @@ struct ConstraintTable
 /// .csv, .txt (one segment per line: x and y, or x, y and z of both ends, or two ids of points
 /// counted from 0); .14, .grd (ADCIRC: the boundaries of the grid); .gpkg, .shp, .geojson, .json,
 /// .fgb (lines and polygons of a GIS); any VTK file (its lines, and its polygons as polygons).
-/// Throws IOError.
-VTKTIPPIO_EXPORT ConstraintTable readConstraintFile(const std::string& path);
+/// `wrap`: PointOptions::Wrap. Throws IOError.
+VTKTIPPIO_EXPORT ConstraintTable readConstraintFile(const std::string& path, int wrap = 0);
 
 /// Reads the segments of a text file (.csv, .txt) block by block.
 class VTKTIPPIO_EXPORT SegmentRows
@@ -53,8 +53,8 @@ class VTKTIPPIO_EXPORT SegmentRows
 public:
   static bool isFor(const std::string& path);
 
-  /// Opens the file. The constructor and next() throw IOError.
-  explicit SegmentRows(const std::string& path);
+  /// Opens the file. `wrap`: PointOptions::Wrap. The constructor and next() throw IOError.
+  explicit SegmentRows(const std::string& path, int wrap = 0);
 
   /// Replaces the content of `table` by the next segments, at most `most`. Their ids are indices in
   /// the table's own points, if it has any. Returns false at the end.
@@ -67,6 +67,7 @@ private:
   void takeIds(const PointBlock& block, ConstraintTable& table) const;
 
   std::string Path;
+  int Wrap;
   std::unique_ptr<PointStream> Rows;
 };
 

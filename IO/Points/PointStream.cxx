@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/TextFile.h"
+#include "Points/Longitudes.h"
 
 #include <algorithm>
 #include <array>
@@ -39,6 +40,7 @@ class FileSequence : public PointStream
 {
 public:
   FileSequence(const std::vector<std::string>& paths, const PointOptions& options)
+    : Wrap(options.Wrap)
   {
     for (const std::string& path : paths)
     {
@@ -47,6 +49,7 @@ public:
       this->Files.push_back(openFilePoints(path, options));
     }
     this->Identity += options.Las.text() + "\n";
+    this->Identity += this->Wrap > 0 ? "wrap " + std::to_string(this->Wrap) + "\n" : "";
     for (const std::string& name : this->Files[0]->columns())
     {
       this->Kept.push_back(options.wants(name));
@@ -71,6 +74,7 @@ public:
       if (this->Files[this->At]->next(block, std::size_t(std::min<std::uint64_t>(most, left))))
       {
         this->dropColumns(block);
+        this->Wrap > 0 ? wrapLongitudes(this->Paths[this->At], this->Wrap, block.XY) : void();
         block.First = this->Points;
         this->Points += std::int64_t(block.size());
         return true;
@@ -231,6 +235,7 @@ private:
     return this->Identity.compare(0, identity.size(), identity) == 0;
   }
 
+  const int Wrap = 0; ///< PointOptions::Wrap
   std::vector<std::string> Paths;
   std::vector<std::unique_ptr<FilePoints>> Files;
   std::string Identity;

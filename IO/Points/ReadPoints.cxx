@@ -7,6 +7,7 @@
 #include "Files/TextFile.h"
 #include "Las/LasHeader.h"
 #include "Npy/NpyFile.h"
+#include "Points/Longitudes.h"
 
 #include <algorithm>
 #include <array>
@@ -319,6 +320,7 @@ PointTable readNpyPoints(const std::string& path, const PointOptions& options, i
   file->next(block, std::size_t(shareBegin(file->divisible(), part + 1, parts) - begin));
   PointTable table;
   table.XY = std::move(block.XY);
+  wrapLongitudes(path, options.Wrap, table.XY);
   for (std::size_t i = 0; i < block.Columns.size(); ++i)
   {
     table.Columns.push_back({ file->columns()[i], std::move(block.Columns[i]) });
@@ -431,6 +433,7 @@ PointTable readPoints(const std::string& path, const PointOptions& options)
     return readNpyPoints(path, options, 0, 1);
   }
   PointTable table = readWhole(path, options);
+  wrapLongitudes(path, options.Wrap, table.XY);
   dropUnwanted(options, table);
   return table;
 }

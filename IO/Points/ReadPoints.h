@@ -153,6 +153,9 @@ struct PointOptions
   std::string X;
   std::string Y; ///< likewise
   LasSelection Las = {};
+  /// 180 or 360: x are longitudes in degrees, which are moved by 360 into [Wrap - 360, Wrap). 0:
+  /// no.
+  int Wrap = 0;
   Thinning Thin = {}; ///< applied to the points of all files together
   int Threads = 1;    ///< threads that decode LAS files; 0: OpenMP's default
   /// Whether points that are generated have a column z.

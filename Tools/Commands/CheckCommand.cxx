@@ -168,7 +168,7 @@ CheckReport checkConstrained(
                   "was made from.",
         points.size() / 2, arguments.Points));
   }
-  const ConstraintTable table = readConstraintFile(arguments.Constraints);
+  const ConstraintTable table = readConstraintFile(arguments.Constraints, arguments.Columns.Wrap);
   std::vector<std::array<std::int64_t, 2>> constraints = constraintsAmong(xy, table);
   const std::int64_t count = std::int64_t(xy.size() / 2);
   const auto lost = std::remove_if(constraints.begin(), constraints.end(),
@@ -319,7 +319,7 @@ CheckReport checkPartitioned(const CheckArguments& arguments)
   ConstraintTable table;
   if (!arguments.Constraints.empty())
   {
-    table = readConstraintFile(arguments.Constraints);
+    table = readConstraintFile(arguments.Constraints, arguments.Columns.Wrap);
   }
   const InputSum input = readInput(arguments, table);
   if (!arguments.Constraints.empty())

@@ -241,6 +241,7 @@ int run(DelaunayArguments& arguments)
 {
   requireFitting(arguments);
   arguments.Columns.Threads = arguments.Threads;
+  arguments.Constraints.Wrap = arguments.Columns.Wrap;
   arguments.Grid = *parseGrid(arguments.Partitions);
   arguments.OnRanks = makeDistributedOptions(arguments);
   return runDelaunay(arguments);

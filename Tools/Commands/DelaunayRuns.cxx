@@ -200,6 +200,9 @@ int runInMemory(const DelaunayArguments& arguments)
   run.Points = std::int64_t(points.size());
   run.ReadSeconds = watch.restart();
   reportLeftOut(points.LeftOut, points.ThinnedOut);
+  LongitudeSpan span;
+  span.add(points.XY);
+  warnOfLongitudes(span);
   if (isInterrupted())
   {
     return reportInterrupt();
@@ -329,9 +332,17 @@ void triangulateShares(Communicator& ranks, const DelaunayArguments& arguments)
   }
   ranks.barrier();
   run.ReadSeconds = watch.restart();
+  LongitudeSpan span;
+  span.add(points.XY);
+  const std::vector<LongitudeSpan> spans = ranks.gather(span);
   if (ranks.isFirst()) // it counts the points of all files
   {
     reportLeftOut(points.LeftOut, points.ThinnedOut);
+    for (const LongitudeSpan& other : spans)
+    {
+      span.add(other);
+    }
+    warnOfLongitudes(span);
   }
   RankPoints input;
   input.Points = PointsView(points.XY.data(), points.size(), 2);

@@ -64,11 +64,11 @@ void readConstraints(DemArguments& arguments)
   std::optional<ConstraintTable> boundary;
   if (!arguments.Breaklines.empty())
   {
-    lines = readBreaklines(arguments.Breaklines);
+    lines = readBreaklines(arguments.Breaklines, arguments.Columns.Wrap);
   }
   if (!arguments.Boundary.empty())
   {
-    boundary = readBoundary(arguments.Boundary);
+    boundary = readBoundary(arguments.Boundary, arguments.Columns.Wrap);
   }
   constrain(arguments.Request, std::move(lines), std::move(boundary));
 }

@@ -187,6 +187,9 @@ int runInMemory(const DemArguments& arguments)
   const RasterDescription description = describeRaster(arguments, stream->crs());
   PointTable points = readAllPoints(*stream);
   reportLeftOut(points.LeftOut, points.ThinnedOut);
+  LongitudeSpan span;
+  span.add(points.XY);
+  warnOfLongitudes(span);
   if (isInterrupted())
   {
     return reportInterrupt();

@@ -105,6 +105,11 @@ void addPointOptions(CLI::App& command, PointOptions& options)
   command.add_option("--x", options.X, "Column of x: a name, or a number counted from 0");
   command.add_option("--y", options.Y, "Column of y: a name, or a number counted from 0");
   command
+    .add_option("--wrap", options.Wrap,
+      "x are longitudes in degrees: 360: move those below 0 by 360, as for points on both sides of "
+      "180 degrees; 180: move those from 180 on by -360. Constraints are moved too")
+    ->check(CLI::IsMember({ 180, 360 }));
+  command
     .add_option_function<std::vector<std::string>>(
       "--class",
       [&options](const std::vector<std::string>& numbers)
@@ -252,6 +257,15 @@ void reportLeftOut(std::int64_t points, std::int64_t thinnedOut)
   if (thinnedOut > 0)
   {
     fmt::print(stderr, "tipp: {} points are left out by thinning.\n", thinnedOut);
+  }
+}
+
+void warnOfLongitudes(const LongitudeSpan& span)
+{
+  const std::string warning = span.warning();
+  if (!warning.empty())
+  {
+    fmt::print(stderr, "tipp: warning: {}\n", warning);
   }
 }
 

@@ -3,6 +3,7 @@
 #define tippPointArguments_h
 
 #include "OutOfCore/OutOfCoreTriangulation.h"
+#include "Points/Longitudes.h"
 #include "Points/ReadPoints.h"
 #include "Triangulation/ResolveDuplicates.h"
 
@@ -91,6 +92,9 @@ PointOptions withThinningFile(const RunArguments& arguments);
 /// Prints to stderr how many points of LAS files were not selected, and how many were removed by
 /// thinning.
 void reportLeftOut(std::int64_t points, std::int64_t thinnedOut);
+
+/// Prints a warning if points lie on both sides of the meridian at which longitudes jump.
+void warnOfLongitudes(const LongitudeSpan& span);
 
 /// Parses a number of bytes, which may have the suffix K, M or G for 2^10, 2^20 or 2^30 bytes, such
 /// as "512M". Returns nullopt for other text and for 0.

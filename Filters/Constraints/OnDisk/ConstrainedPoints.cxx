@@ -260,7 +260,7 @@ std::unique_ptr<ConstrainedPoints> joinConstraints(
   std::unique_ptr<SegmentRows> lines;
   if (SegmentRows::isFor(tables.Lines))
   {
-    lines = std::make_unique<SegmentRows>(tables.Lines);
+    lines = std::make_unique<SegmentRows>(tables.Lines, tables.Wrap);
     tables.Lines.clear();
   }
   return std::make_unique<ConstrainedPoints>(
