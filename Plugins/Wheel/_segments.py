@@ -70,13 +70,13 @@ def segments_of(points: np.ndarray, data: dict[str, np.ndarray], options: dict[s
 
 def _read_source(source: Any, count: int, has_own_points: bool) -> tuple[Any, ...]:
     """Returns lines, polygons, and the source's own points and values, whose ids follow the input's."""
-    from ._vtk import arrays_of, cell_lists, xyz_of
+    from ._vtk import cell_lists, point_arrays, xyz_of
 
     lines, polygons = cell_lists(source.GetLines()), cell_lists(source.GetPolys())
     if not has_own_points or source.GetNumberOfPoints() == 0:
         return lines, polygons, np.zeros((0, 3)), {}
     shifted = [[ids + count for ids in cells] for cells in (lines, polygons)]
-    return (*shifted, np.ascontiguousarray(xyz_of(source)), arrays_of(source.GetPointData()))
+    return (*shifted, np.ascontiguousarray(xyz_of(source)), point_arrays(source))
 
 
 def _edges_of(lines: Any, polygons: Any) -> tuple[np.ndarray, np.ndarray, int]:

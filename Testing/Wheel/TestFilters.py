@@ -15,7 +15,7 @@ from vtkmodules.vtkFiltersSources import vtkPointSource
 import tipp
 import tipp._filters
 from tipp._filter import Filter
-from tipp._vtk import point_cloud, triangles_of
+from tipp._vtk import point_cloud, triangles_of, vtk_array
 
 
 def cloud(count=500):
@@ -99,6 +99,15 @@ class Delaunay2D(unittest.TestCase):
         a, b, c = vtk_to_numpy(self.filter.GetOutput().GetPoints().GetData())[triangles_of(self.filter.GetOutput()).T]
         areas = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
         self.assertAlmostEqual(9.0, areas.sum() / 2)
+
+    def test_an_array_of_the_source_with_too_few_values_is_an_error_that_names_it(self):
+        self.filter.SetInputData(cloud(100))
+        source = polygon(range(4), np.array([[-1.0, -1, 0], [2, -1, 0], [2, 2, 0], [-1, 2, 0]]))
+        source.GetPointData().AddArray(vtk_array("height", np.ones(2)))
+        self.filter.SetSourceData(source)
+        self.filter.MergeSourcePointsOn()
+        self.filter.Update()
+        self.assertRegex(self.errors[0], "array 'height' has 2 values for 4 points")
 
     def test_failures_are_errors_of_vtk_and_leave_no_exception(self):
         self.filter.SetInputData(cloud(100))

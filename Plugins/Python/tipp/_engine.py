@@ -314,7 +314,8 @@ def _names_in(mesh: Any) -> tuple[list[str], list[str]]:
     of_cells: list[str] = []
     for leaf in _leaves(mesh):
         for data, names in ((leaf.GetPointData(), of_points), (leaf.GetCellData(), of_cells)):
-            names.extend(data.GetArrayName(i) for i in range(data.GetNumberOfArrays()) if data.GetArrayName(i))
+            its = [data.GetArrayName(i) for i in range(data.GetNumberOfArrays())]
+            names.extend(name for name in its if name and name != "vtkGhostType")
         bounds = leaf.GetBounds()
         if bounds[4] < bounds[5]:
             of_points.append("elevation")
