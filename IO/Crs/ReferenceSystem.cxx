@@ -165,6 +165,17 @@ std::string reasonOfGdal()
   return reason.empty() ? "" : " (" + reason + ")";
 }
 
+/// Software of ESRI writes its own codes into the 16 bits of a key, which cuts them. Returns a hint
+/// at the system that a code may have been.
+std::string uncut(int code)
+{
+  constexpr int cut = 1 << 16;
+  const std::string whole = "ESRI:" + std::to_string(code + cut);
+  const GdalReference system = importUserCrs(whole);
+  const char* const name = system ? gdal().OSRGetName(system.get()) : nullptr;
+  return name ? "; perhaps " + whole + " (" + name + ") is meant" : std::string();
+}
+
 /// Understands GeoTIFF's keys: GDAL the horizontal part, which may be a projection with parameters,
 /// and our table the heights.
 ReferenceSystem fromKeys(const CrsRecords& records)
@@ -177,7 +188,7 @@ ReferenceSystem fromKeys(const CrsRecords& records)
     const int code = std::max(keys.Projected, keys.Geographic);
     system.Problem = code > 0 && code != GeoKeys::UserDefined
       ? "gives the code " + std::to_string(code) +
-        " for its coordinate reference system, which is none of EPSG's"
+        " for its coordinate reference system, which is none of EPSG's" + uncut(code)
       : "describes its coordinate reference system in a way that GDAL does not understand";
     return system;
   }

@@ -417,7 +417,7 @@ int runInPieces(const DelaunayArguments& arguments, vtkMultiProcessController* c
       checkOutputs(arguments.Output, arguments.Statistics, arguments.Scratch, arguments.Inputs);
     }
     auto points = openPointStream(arguments.Inputs, withThinningFile(arguments));
-    reportTables(points->reports());
+    ranks.rank() == 0 ? reportTables(points->reports()) : void();
     return joinConstraints(std::move(points), arguments.Constraints, options);
   };
   OutOfCoreStatistics statistics;
