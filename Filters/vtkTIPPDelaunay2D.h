@@ -69,14 +69,14 @@
  * clockwise polygons surround it, so clockwise polygons are holes. If all polygons are clockwise,
  * everything but the holes is kept. The source's cells refer to the points of the first input by
  * id, and the source's own coordinates are ignored (unless MergeSourcePoints is on). Constraints
- * may overlap, coincide and pass through points. Where two cross, a new point is added after the
- * input's points (see SplitCrossings): its coordinates in the plane are those of the crossing,
- * rounded, and its point data are interpolated along the crossing edge that comes first in the
- * source; the output's points are doubles then. Tolerance cannot be combined with a source. The
- * statistics also have the field data Constraints, ConstraintEdges, CrossingPoints and
- * CrossingRounds. On several ranks the sources of all ranks are combined; a cell that several ranks
- * have counts once. Their point ids are the input's global ids or, without these, consecutive by
- * rank. New points get ids after all others.
+ * may overlap, coincide and pass through points. Where two cross and there is no point, a new one
+ * is added after the input's points (see SplitCrossings): its coordinates in the plane are those of
+ * the crossing, rounded, and its point data are interpolated between the points beside it on the
+ * edge that comes first in the source; the output's points are doubles then. Tolerance cannot be
+ * combined with a source. The statistics also have the field data Constraints, ConstraintEdges,
+ * CrossingPoints and CrossingRounds. On several ranks the sources of all ranks are combined; a cell
+ * that several ranks have counts once. Their point ids are the input's global ids or, without
+ * these, consecutive by rank. New points get ids after all others.
  *
  * Differences from vtkDelaunay2D: Tolerance is 0 by default. A transform that is set while
  * ProjectionPlaneMode is VTK_BEST_FITTING_PLANE is ignored instead of replacing the plane.

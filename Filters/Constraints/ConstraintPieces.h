@@ -93,6 +93,7 @@ struct ResolvedConstraints
 {
   std::vector<ConstraintPiece> Pieces;  ///< sorted by constraint, each from its A to its B
   std::vector<CrossingPoint> Crossings; ///< their ids follow those of the input's points
+  std::vector<char> Crosses;            ///< by constraint: 1 if it crosses others; if resolved
   int Rounds = 0;                       ///< rounds of splitting
   std::int64_t NotFinite = 0;           ///< constraints left out: an end is not finite
 };
@@ -143,11 +144,16 @@ struct ConstraintNames
 /// After this many rounds, crossings are rounded to coarser grids than that of doubles.
 constexpr int RoundsOfDoubles = 10;
 
-/// Splits constraints where they cross. A crossing is rounded to doubles and becomes a point of
-/// both constraints. This is snap rounding (Hobby 1999) on the grid of doubles: a constraint that
-/// crosses others is led through all ends and crossings to which points on it round. So it moves by
-/// at most half a unit in the last place of its coordinates. Throws std::invalid_argument for an
-/// invalid point id and, if `rule` refuses crossings, for the first crossing.
+/// Splits constraints where they cross. Those that cross others are first split at the points that
+/// lie exactly on them; so two that cross at a point have it in common, and need no other. A
+/// crossing is rounded to doubles and becomes a point of both constraints. If it rounds to the
+/// position of a point, it is this point, of equal ones the first.
+///
+/// This is snap rounding (Hobby 1999) on the grid of doubles: a part that crosses others is led
+/// through all vertices of constraints to which points on it round. So each vertex of a constraint
+/// is one of its points, moved by at most half a unit in the last place of the vertex's
+/// coordinates. Throws std::invalid_argument for an invalid point id and, if `rule` refuses
+/// crossings, for the first crossing.
 ///
 /// The grid of doubles is not uniform, so parts may cross again. These crossings are rounded and
 /// split in further rounds, each of which may move a constraint by another half unit. The rounds

@@ -3,7 +3,10 @@
 
 #include "Arrays/IndexMap.h"
 #include "Constraints/ConstraintPoints.h"
+#include "Constraints/NearSegments.h"
+#include "Constraints/SegmentTree.h"
 #include "Constraints/SourceConstraints.h"
+#include "Parallel/ParallelFor.h"
 #include "Pipeline/InputPoints.h"
 #include "Vtk/DataSets.h"
 
@@ -24,11 +27,27 @@ namespace tipp
 namespace
 {
 
-/// A vertex of a constraint, and the id of the point at it.
+/// A vertex of a constraint, and the point at it.
 struct Found
 {
   std::int64_t Vertex;
   std::int64_t Id;
+  Point2 Position;
+};
+
+/// A point of this rank's input.
+struct InputPoint
+{
+  Point2 Position;
+  std::int64_t Id;
+  std::int64_t Index;
+
+  /// By position; of equal ones the lowest id is first.
+  bool operator<(const InputPoint& other) const
+  {
+    return this->Position == other.Position ? this->Id < other.Id
+                                            : lexicographicLess(this->Position, other.Position);
+  }
 };
 
 /// How the points of a rank's input are numbered.
@@ -54,7 +73,9 @@ public:
     this->gatherSources(source);
     this->numberInput();
     this->Options.MergesPoints ? this->takePoints() : this->takeIds();
-    const std::vector<Bytes> rows = this->sendRows(this->findVertices());
+    this->findVertices();
+    this->resolve();
+    const std::vector<Bytes> rows = this->sendRows();
     RankSource result;
     result.Input = this->Input;
     SaveArchive writer;
@@ -196,13 +217,13 @@ private:
     }
   }
 
-  /// Sets the ids and the owners of vertices. Returns, for each vertex, the index of a point at it
-  /// on this rank, or -1.
-  std::vector<std::int64_t> findVertices()
+  /// Sets the positions, ids and owners of vertices, and the points of this rank at them.
+  void findVertices()
   {
     constexpr std::int64_t none = -1;
-    std::vector<std::int64_t> point(
-      this->Index ? this->Positions.size() : this->Named.size(), none);
+    std::vector<std::int64_t>& point = this->PointAt;
+    point.assign(this->Index ? this->Positions.size() : this->Named.size(), none);
+    this->Positions.resize(point.size());
     const ProjectedPoints projected(this->Input->GetPoints(), this->Options.ToPlane);
     const PointsView view = projected.view();
     view.forEach(0, view.size(),
@@ -221,7 +242,8 @@ private:
     {
       if (point[v] >= 0)
       {
-        found.push_back({ std::int64_t(v), this->idOf(std::size_t(point[v])) });
+        found.push_back(
+          { std::int64_t(v), this->idOf(std::size_t(point[v])), view[std::size_t(point[v])] });
       }
     }
     this->VertexIds.assign(point.size(), none);
@@ -236,11 +258,11 @@ private:
         {
           id = one.Id;
           this->Owners[std::size_t(one.Vertex)] = rank;
+          this->Positions[std::size_t(one.Vertex)] = one.Position;
         }
       }
     }
     this->numberNewVertices();
-    return point;
   }
 
   void numberNewVertices()
@@ -258,16 +280,133 @@ private:
     }
   }
 
+  /// Splits the constraints at crossings, on the last rank. Points of the input that are on
+  /// constraints, or where constraints cross, become vertices.
+  void resolve()
+  {
+    if (!this->haveCrossings())
+    {
+      this->isLast() ? this->resolveVertices() : void();
+      return;
+    }
+    this->addVertices(this->pointsOnConstraints());
+    std::vector<Point2> crossings;
+    if (this->isLast())
+    {
+      this->resolveVertices();
+      for (const CrossingPoint& crossing : this->Resolved.Crossings)
+      {
+        crossings.push_back(crossing.Position);
+      }
+    }
+    const bool isAnyNew =
+      this->addVertices(this->pointsAt(this->Ranks.allGather(crossings).back()));
+    this->isLast() && isAnyNew ? this->resolveVertices() : void();
+  }
+
+  /// The constraints whose ends are finite and different.
+  std::vector<SegmentTree::Item> segments() const
+  {
+    std::vector<SegmentTree::Item> items;
+    for (const Constraint& constraint : this->Constraints)
+    {
+      const Point2 a = this->Positions[std::size_t(constraint.A)];
+      const Point2 b = this->Positions[std::size_t(constraint.B)];
+      isFinite(a) && isFinite(b) && !(a == b)
+        ? items.push_back({ a, b, std::int64_t(items.size()) })
+        : void();
+    }
+    return items;
+  }
+
+  int threads() const { return threadCount(this->Options.Threads); }
+
+  bool haveCrossings() const
+  {
+    return !findCrossingPairs(this->segments(), this->threads()).empty();
+  }
+
+  /// This rank's points that lie exactly on constraints.
+  std::vector<InputPoint> pointsOnConstraints() const
+  {
+    const ProjectedPoints projected(this->Input->GetPoints(), this->Options.ToPlane);
+    const PointsView view = projected.view();
+    std::vector<InputPoint> points;
+    for (const auto& [segment, i] : findPointsOn(this->segments(), view, this->threads()))
+    {
+      points.push_back({ view[i], this->idOf(i), std::int64_t(i) });
+    }
+    return points;
+  }
+
+  /// This rank's points at these positions.
+  std::vector<InputPoint> pointsAt(const std::vector<Point2>& positions) const
+  {
+    const PositionIndex index(positions);
+    const ProjectedPoints projected(this->Input->GetPoints(), this->Options.ToPlane);
+    const PointsView view = projected.view();
+    std::vector<InputPoint> points;
+    view.forEach(0, view.size(),
+      [&](std::size_t i, Point2 p) {
+        index.find(p) >= 0 ? points.push_back({ p, this->idOf(i), std::int64_t(i) }) : void();
+      });
+    return points;
+  }
+
+  /// Adds vertices at points of all ranks, of equal points only the one with the lowest id. Returns
+  /// whether any of them is new.
+  bool addVertices(std::vector<InputPoint> mine)
+  {
+    std::vector<std::pair<InputPoint, int>> all; // with their ranks
+    keepFirst(mine, [](const InputPoint& point) { return point; });
+    const std::vector<std::vector<InputPoint>> byRank = this->Ranks.allGather(mine);
+    for (std::size_t rank = 0; rank < byRank.size(); ++rank)
+    {
+      for (const InputPoint& point : byRank[rank])
+      {
+        all.emplace_back(point, int(rank));
+      }
+    }
+    keepFirst(all, [](const auto& one) { return one.first; });
+    std::vector<std::int64_t> known = this->VertexIds;
+    std::sort(known.begin(), known.end());
+    bool isAnyNew = false;
+    for (const auto& [point, rank] : all)
+    {
+      if (!std::binary_search(known.begin(), known.end(), point.Id))
+      {
+        this->Positions.push_back(point.Position);
+        this->VertexIds.push_back(point.Id);
+        this->Owners.push_back(rank);
+        this->PointAt.push_back(rank == this->Ranks.rank() ? point.Index : -1);
+        isAnyNew = true;
+      }
+    }
+    return isAnyNew;
+  }
+
+  /// Sorts points, and of those at one position keeps the first.
+  template <typename Item, typename PointOf>
+  static void keepFirst(std::vector<Item>& items, const PointOf& pointOf)
+  {
+    std::stable_sort(items.begin(), items.end(),
+      [&](const Item& a, const Item& b) { return pointOf(a) < pointOf(b); });
+    items.erase(
+      std::unique(items.begin(), items.end(),
+        [&](const Item& a, const Item& b) { return pointOf(a).Position == pointOf(b).Position; }),
+      items.end());
+  }
+
   /// Sends the points at this rank's vertices, in the order of the vertices, to the last rank,
   /// which gets a data set from each rank.
-  std::vector<Bytes> sendRows(const std::vector<std::int64_t>& points)
+  std::vector<Bytes> sendRows()
   {
     std::vector<DataSetRow> rows;
-    for (std::size_t v = 0; v < points.size(); ++v)
+    for (std::size_t v = 0; v < this->PointAt.size(); ++v)
     {
       if (this->Owners[v] == this->Ranks.rank())
       {
-        rows.push_back({ 0, vtkIdType(points[v]) });
+        rows.push_back({ 0, vtkIdType(this->PointAt[v]) });
       }
     }
     std::vector<Bytes> sent(std::size_t(this->Ranks.size()));
@@ -275,34 +414,40 @@ private:
     return this->Ranks.allToAll(std::move(sent));
   }
 
-  /// On the last rank: makes segments of the constraints, and appends new points to the input.
-  void join(const std::vector<Bytes>& rows, RankSource& result)
+  /// On the last rank: splits the constraints where they cross.
+  void resolveVertices()
   {
     this->sortVertices();
-    const vtkSmartPointer<vtkPolyData> vertices = this->makeVertices(rows);
-    const std::vector<Point2> positions = this->positionsOf(vertices);
-    const PointsView view(positions);
+    this->SortedPositions.clear();
+    std::vector<PointId> names;
+    for (const std::size_t v : this->Sorted)
+    {
+      this->SortedPositions.push_back(this->Positions[v]);
+      names.push_back(this->VertexIds[v]);
+    }
     std::vector<Constraint> constraints;
     for (const Constraint& constraint : this->Constraints)
     {
       constraints.push_back(
         { this->indexInSorted(constraint.A), this->indexInSorted(constraint.B) });
     }
-    std::vector<PointId> names;
-    for (const std::size_t v : this->Sorted)
-    {
-      names.push_back(this->VertexIds[v]);
-    }
-    const ResolvedConstraints resolved = resolveCrossings(
-      view, constraints, this->Options.Crossings, this->Options.Threads, { names, {} });
+    this->Resolved = resolveCrossings(PointsView(this->SortedPositions), constraints,
+      this->Options.Crossings, this->Options.Threads, { names, {} });
+  }
+
+  /// On the last rank: makes segments of the constraints, and appends new points to the input.
+  void join(const std::vector<Bytes>& rows, RankSource& result)
+  {
+    const ResolvedConstraints& resolved = this->Resolved;
+    const vtkSmartPointer<vtkPolyData> vertices = this->makeVertices(rows);
     if (resolved.NotFinite > 0 &&
       std::find(this->Roles.begin(), this->Roles.end(), SegmentRole::Polygon) != this->Roles.end())
     {
       throw std::invalid_argument("the source has polygons, and a point that is NaN or infinite: "
                                   "remove the polygon or correct the point.");
     }
-    result.Figures = { resolved, constraints.size() };
-    std::vector<Point2> all = positions;
+    result.Figures = { resolved, this->Constraints.size() };
+    std::vector<Point2> all = this->SortedPositions;
     for (const CrossingPoint& crossing : resolved.Crossings)
     {
       all.push_back(crossing.Position);
@@ -316,14 +461,15 @@ private:
         result.Cells.push_back(this->Cells[std::size_t(piece.Constraint)]);
       }
     }
-    const auto firstNew =
-      std::size_t(std::lower_bound(names.begin(), names.end(), this->EndOfIds) - names.begin());
+    const auto isNew = [this](std::size_t v) { return this->VertexIds[v] >= this->EndOfIds; };
+    const auto firstNew = std::size_t(
+      std::find_if(this->Sorted.begin(), this->Sorted.end(), isNew) - this->Sorted.begin());
     if (firstNew < all.size())
     {
       vtkNew<vtkPolyData> extended;
       extended->SetPoints(
         appendCrossings(vertices->GetPoints(), resolved.Crossings, !this->Options.ToPlane));
-      interpolateCrossings(vertices->GetPointData(), vtkIdType(positions.size()),
+      interpolateCrossings(vertices->GetPointData(), vtkIdType(this->Sorted.size()),
         resolved.Crossings, extended->GetPointData());
       this->appendTo(extended, firstNew, result);
       result.Positions.insert(
@@ -379,23 +525,6 @@ private:
     return copyRows(from, rowOf);
   }
 
-  std::vector<Point2> positionsOf(vtkPolyData* vertices) const
-  {
-    std::vector<Point2> positions;
-    if (this->Index)
-    {
-      for (const std::size_t v : this->Sorted)
-      {
-        positions.push_back(this->Positions[v]);
-      }
-      return positions;
-    }
-    const ProjectedPoints projected(vertices->GetPoints(), this->Options.ToPlane);
-    const PointsView view = projected.view();
-    view.forEach(0, view.size(), [&](std::size_t, Point2 p) { positions.push_back(p); });
-    return positions;
-  }
-
   /// Appends the points from index `begin` on to the input.
   void appendTo(vtkPolyData* extended, std::size_t begin, RankSource& result) const
   {
@@ -435,12 +564,13 @@ private:
   bool HasIds = false;                               ///< whether the points of all ranks have ids
   std::int64_t First = 0;                            ///< first id of this rank if they have none
   std::int64_t EndOfIds = 0;                         ///< larger than all ids of the inputs' points
-  std::vector<Point2> Positions;                     ///< per vertex, if points are merged
-  std::vector<DataSetRow> SourceRows;                ///< likewise: the first point in Sources
-  std::unique_ptr<PositionIndex> Index;              ///< of Positions
-  IndexMap VertexOf;                                 ///< by point id, if points are not merged
-  std::vector<std::int64_t> Named;                   ///< point id per vertex, likewise
-  std::vector<std::int64_t> VertexIds;               ///< per vertex: the id of the point at it
+  std::vector<Point2> Positions;                     ///< per vertex
+  std::vector<std::int64_t> PointAt;    ///< per vertex: index of this rank's point, or -1
+  std::vector<DataSetRow> SourceRows;   ///< likewise: the first point in Sources
+  std::unique_ptr<PositionIndex> Index; ///< of Positions
+  IndexMap VertexOf;                    ///< by point id, if points are not merged
+  std::vector<std::int64_t> Named;      ///< point id per vertex, likewise
+  std::vector<std::int64_t> VertexIds;  ///< per vertex: the id of the point at it
   std::vector<int> Owners;         ///< per vertex: the rank that sends its point; -1 if it is new
   std::vector<std::size_t> Sorted; ///< vertices, sorted by id
   std::vector<PointId> IndexInSorted;  ///< per vertex
@@ -448,6 +578,8 @@ private:
   std::vector<SegmentRole> Roles;      ///< per constraint
   std::vector<std::int64_t> Cells;     ///< source cell per constraint
   std::int64_t FirstCell = 0;          ///< cell number at which the next source starts
+  ResolvedConstraints Resolved;        ///< on the last rank, between sorted vertices
+  std::vector<Point2> SortedPositions; ///< likewise: of the sorted vertices
   std::vector<ConstraintSegment> Segments;
 };
 

@@ -50,7 +50,7 @@ class Edges(unittest.TestCase):
         mesh = tipp.delaunay_2d(SQUARES, edges=[[0, 2], [5, 7]], point_data={"depth": np.arange(9.0)})
         self.assertEqual(10, mesh.GetNumberOfPoints())
         self.assertEqual((4, 4, 0), mesh.GetPoint(9))
-        self.assertEqual(1, tipp.as_array(mesh, "depth")[9])
+        self.assertEqual(5, tipp.as_array(mesh, "depth")[9])  # between points 4 and 6, which are on the edge
 
     def test_crossing_is_refused(self):
         with self.assertRaisesRegex(RuntimeError, "constraint 0 .* crosses constraint 1"):

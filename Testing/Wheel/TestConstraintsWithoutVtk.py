@@ -38,7 +38,8 @@ class Constraints(unittest.TestCase):
         mesh = tipp.delaunay_2d(SQUARES, edges=[[0, 2], [5, 7]],
                                 point_data={"depth": np.arange(9.0), "class": np.arange(9) * 7})
         self.assertEqual((4, 4, 0), tuple(mesh.points[9]))
-        self.assertEqual((1.0, 7), (mesh.point_data["depth"][9], mesh.point_data["class"][9]))
+        # Points 4 and 6 are on the first edge, beside the crossing.
+        self.assertEqual((5.0, 35), (mesh.point_data["depth"][9], mesh.point_data["class"][9]))
 
     def test_crossings_on_crossings_are_interpolated(self):
         rows = [[0, i] for i in range(1, 6)]

@@ -101,7 +101,7 @@ bool ConstrainedPoints::next(PointBlock& block, std::size_t most)
   {
     try
     {
-      this->resolve();
+      this->resolve(most);
     }
     catch (const std::invalid_argument& error)
     {
@@ -195,10 +195,48 @@ void ConstrainedPoints::countSegments()
   }
 }
 
-void ConstrainedPoints::resolve()
+/// Visits the points of the input again, and then the vertices that are not among them.
+void ConstrainedPoints::forEachBlock(
+  std::size_t most, const std::function<void(const PointBlock&)>& visit) const
+{
+  PointBlock block;
+  for (this->Input->rewind(); this->Input->next(block, most);)
+  {
+    visit(block);
+  }
+  const std::size_t columns = this->columns().size();
+  const auto restart = [&](std::int64_t first)
+  {
+    block.First = first;
+    block.XY.clear();
+    block.Columns.assign(columns, {});
+  };
+  restart(this->InputPoints);
+  this->Stored->forEachNew(
+    [&](Point2 position, const double* values)
+    {
+      block.XY.insert(block.XY.end(), { position.x, position.y });
+      for (std::size_t c = 0; c < columns; ++c)
+      {
+        block.Columns[c].push_back(values[c]);
+      }
+      if (block.size() == most)
+      {
+        visit(block);
+        restart(block.First + std::int64_t(most));
+      }
+    });
+  visit(block);
+}
+
+void ConstrainedPoints::resolve(std::size_t blockPoints)
 {
   this->Stored->match();
-  this->Split = splitStored(*this->Stored, this->Crossings, this->columns().size(), this->Work);
+  this->Split = splitStored(
+    *this->Stored,
+    [&](const std::function<void(const PointBlock&)>& visit)
+    { this->forEachBlock(blockPoints, visit); },
+    this->Crossings, this->columns().size(), this->Work);
   this->addPoints();
   this->countSegments();
   this->addHoles();

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -61,15 +62,16 @@ public:
   /// The number of segments: parts of constraints split at crossings, and edges around holes.
   std::int64_t count() const override;
   const ConstraintFigures& figures() const override { return this->Counts; }
-  void forEach(const VisitSegment& visit) override;
   Box2 inputBounds() const override { return this->InputBounds; }
+  void forEach(const VisitSegment& visit) override;
   void end() override;
 
   /// After the first pass: the additional points.
   PointBlock added() const;
 
 private:
-  void resolve();
+  void forEachBlock(std::size_t most, const std::function<void(const PointBlock&)>& visit) const;
+  void resolve(std::size_t blockPoints);
   void addPoints();
   void countSegments();
   void addHoles();
@@ -92,9 +94,9 @@ private:
   std::vector<PositionPair> HoleEdges;
   HullOfPoints Hull; ///< used if there are holes
   bool IsResolved = false;
+  Box2 InputBounds{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
   std::int64_t InputPoints = 0;   ///< read in this pass so far
   bool IsInputRead = false;       ///< whether this pass has read all input points
-  Box2 InputBounds{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
   std::unique_ptr<RowFile> Added; ///< the additional points: x, y and columns
   std::int64_t NextAdded = 0;
 };

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/OnDisk/SplitStored.h"
 
+#include "Constraints/NearSegments.h"
 #include "OutOfCore/InputPasses.h"
+#include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -38,17 +41,17 @@ SegmentTiles::SegmentTiles(
                             : relative *
       std::max({ std::fabs(domain.xmin), std::fabs(domain.ymin), std::fabs(domain.xmax),
         std::fabs(domain.ymax) });
-  const Tiling tiling = count == 0 ? Tiling::grid({ 0, 0, 0, 0 }, 1, 1)
-                                   : Tiling::balanced(domain, std::move(sample), tiles);
+  this->Boxes = count == 0 ? Tiling::grid({ 0, 0, 0, 0 }, 1, 1)
+                           : Tiling::balanced(domain, std::move(sample), tiles);
   this->Rows = std::make_unique<KeyedRows>(
-    file + ".tiles", std::size_t(tiling.size()), sizeof(SegmentTree::Item));
+    file + ".tiles", std::size_t(this->Boxes.size()), sizeof(SegmentTree::Item));
   forEach(
     [&](const SegmentTree::Item& item)
     {
-      tiling.visitNear(expanded(boxOf(item.A, item.B), this->Margin),
+      this->Boxes.visitNear(expanded(boxOf(item.A, item.B), this->Margin),
         [&](PartitionIndex tile)
         {
-          lineMayMeet(item.A, item.B, expanded(tiling.box(tile), this->Margin))
+          lineMayMeet(item.A, item.B, expanded(this->Boxes.box(tile), this->Margin))
             ? this->Rows->add(std::size_t(tile), &item)
             : void();
         });
@@ -95,19 +98,18 @@ void SegmentTiles::findNear(const std::function<bool(std::int64_t)>& isWanted,
   }
 }
 
-namespace
-{
-
-using Marks = std::vector<bool>; ///< by index of the constraint
-
-/// How many tiles are needed so that one tile takes a small part of the memory.
-int tilesFor(std::int64_t segments, std::uint64_t memory)
+int SegmentTiles::tilesFor(std::int64_t segments, std::uint64_t memory)
 {
   constexpr std::uint64_t each = 128; // bytes of a segment and its tree
   constexpr std::uint64_t most = 4096;
   const std::uint64_t share = std::max<std::uint64_t>(1, memory / 16);
   return int(std::clamp<std::uint64_t>(std::uint64_t(segments) * each / share, 1, most));
 }
+
+namespace
+{
+
+using Marks = std::vector<bool>; ///< by index of the constraint
 
 /// Visits the constraints whose ends are finite and different.
 template <typename Visit>
@@ -123,39 +125,50 @@ void forEachWhole(const StoredConstraints& constraints, const Visit& visit)
     });
 }
 
+/// Points of the stream, the first one at each position, in the order of their ids.
+struct FoundPoints
+{
+  std::vector<Point2> Positions;
+  std::vector<PointId> Ids;
+  std::vector<std::vector<double>> Values; ///< by column
+};
+
+/// Constraints that are split in memory. Their vertices are the found points, and then their ends.
+struct TakenConstraints
+{
+  std::vector<std::int64_t> Numbers;
+  StoredConstraints::Ends Ends;
+  FoundPoints Points;
+  std::vector<Point2> Positions; ///< of the vertices
+  std::vector<Constraint> Edges; ///< between vertices, one per constraint
+};
+
 class Splitter
 {
 public:
-  Splitter(const StoredConstraints& constraints, std::size_t columns, const DiskWork& work)
+  Splitter(const StoredConstraints& constraints, const VisitBlocks& forEachBlock,
+    std::size_t columns, const DiskWork& work)
     : Constraints(constraints)
+    , ForEachBlock(forEachBlock)
     , Columns(columns)
     , Work(work)
     , Tiles(
         work.Files, [&](const SegmentTiles::Visit& visit) { forEachWhole(constraints, visit); },
-        tilesFor(constraints.count(), work.Memory), work.Threads)
+        SegmentTiles::tilesFor(constraints.count(), work.Memory), work.Threads)
   {
   }
 
   SplitConstraints split(CrossingRule rule)
   {
     Marks crossing(std::size_t(this->Constraints.count()), false);
-    constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
-    CrossingPair first{ most, most };
+    bool isAny = false;
     this->Tiles.findCrossings(
       [&](std::int64_t one, std::int64_t other)
       {
         crossing[std::size_t(one)] = crossing[std::size_t(other)] = true;
-        first = std::min(first, { one, other });
+        isAny = true;
       });
-    if (first[0] == most)
-    {
-      return {};
-    }
-    if (rule == CrossingRule::Refuse)
-    {
-      this->refuse(first);
-    }
-    return this->splitNear(std::move(crossing));
+    return isAny ? this->splitNear(std::move(crossing), rule) : SplitConstraints();
   }
 
 private:
@@ -175,106 +188,171 @@ private:
     return all;
   }
 
-  ResolvedConstraints resolve(
-    const StoredConstraints::Ends& ends, CrossingRule rule, const ConstraintNames& names = {}) const
+  /// Loads the marked constraints, and the points near them or at one of `others`.
+  TakenConstraints take(const Marks& isTaken, const std::vector<Point2>& others) const
   {
-    return resolveCrossings(
-      PointsView(ends.Positions), ends.Edges, rule, this->Work.Threads, names);
+    TakenConstraints taken;
+    for (std::size_t i = 0; i < isTaken.size(); ++i)
+    {
+      isTaken[i] ? taken.Numbers.push_back(std::int64_t(i)) : void();
+    }
+    taken.Ends =
+      this->Constraints.endsOf([&](std::int64_t number) { return isTaken[std::size_t(number)]; });
+    const std::vector<Point2>& ends = taken.Ends.Positions;
+    std::vector<SegmentTree::Item> items;
+    items.reserve(taken.Ends.Edges.size());
+    for (const Constraint& edge : taken.Ends.Edges)
+    {
+      items.push_back({ ends[std::size_t(edge.A)], ends[std::size_t(edge.B)], 0 });
+    }
+    taken.Points = this->findPoints(
+      NearSegments(std::move(items), this->Work.Threads, this->Tiles.margin()), others);
+    // Found points come first, because of equal vertices the one with the lowest id is used.
+    taken.Positions = taken.Points.Positions;
+    taken.Positions.insert(taken.Positions.end(), ends.begin(), ends.end());
+    const auto found = PointId(taken.Points.Positions.size());
+    for (const Constraint& edge : taken.Ends.Edges)
+    {
+      taken.Edges.push_back({ found + edge.A, found + edge.B });
+    }
+    return taken;
   }
 
-  [[noreturn]] void refuse(const CrossingPair& pair) const
+  FoundPoints findPoints(const NearSegments& segments, const std::vector<Point2>& others) const
   {
-    const StoredConstraints::Ends ends = this->Constraints.endsOf(
-      [&](std::int64_t number) { return number == pair[0] || number == pair[1]; });
-    ConstraintNames names;
-    names.Constraints = { pair[0], pair[1] };
-    names.Points.resize(ends.Positions.size());
-    this->Constraints.lookUp(
-      ends, [&](std::size_t end, PointId id, const double*) { names.Points[end] = id; });
-    this->resolve(ends, CrossingRule::Refuse, names);
-    throw std::logic_error("Constraints cross, and do not when they are looked at again.");
+    const PositionIndex index(others);
+    FoundPoints found;
+    found.Values.resize(this->Columns);
+    std::set<std::pair<double, double>> known;
+    std::vector<char> isFound;
+    this->ForEachBlock(
+      [&](const PointBlock& block)
+      {
+        const PointsView points(block.XY.data(), block.size(), 2);
+        isFound.assign(block.size(), 0);
+        constexpr std::int64_t chunk = 4096;
+        forChunks(std::int64_t(block.size()), chunk, this->Work.Threads, {},
+          [&](std::int64_t begin, std::int64_t end, int)
+          {
+            points.forEach(std::size_t(begin), std::size_t(end),
+              [&](std::size_t i, Point2 p)
+              { isFound[i] = char(isFinite(p) && (segments.isNear(p) || index.find(p) >= 0)); });
+          });
+        for (std::size_t i = 0; i < block.size(); ++i)
+        {
+          const Point2 p = points[i];
+          if (isFound[i] != 0 && known.emplace(p.x, p.y).second)
+          {
+            found.Positions.push_back(p);
+            found.Ids.push_back(block.First + PointId(i));
+            for (std::size_t c = 0; c < this->Columns; ++c)
+            {
+              found.Values[c].push_back(block.Columns[c][i]);
+            }
+          }
+        }
+      });
+    return found;
+  }
+
+  /// How messages name the vertices and constraints.
+  ConstraintNames namesOf(const TakenConstraints& taken) const
+  {
+    ConstraintNames names{ taken.Points.Ids, taken.Numbers };
+    const std::size_t found = names.Points.size();
+    names.Points.resize(taken.Positions.size());
+    this->Constraints.lookUp(taken.Ends,
+      [&](std::size_t end, PointId id, const double*) { names.Points[found + end] = id; });
+    return names;
   }
 
   /// `crossing` marks all constraints that cross others. In a round, parts of these move by at most
   /// a unit. So constraints that they newly cross are near them, and these may be led through
-  /// points near themselves. Once such a constraint is split, it counts as crossing. No other
-  /// constraint can change.
-  SplitConstraints splitNear(Marks crossing) const
+  /// points near themselves. Once such a constraint is split at a crossing, it counts as crossing.
+  /// No other constraint can change. After many rounds they may move far, and a crossing may be at
+  /// any point.
+  SplitConstraints splitNear(Marks crossing, CrossingRule rule) const
   {
     bool isAll = false;
+    std::vector<Point2> others;
     for (;;)
     {
-      const Marks taken = isAll ? this->allWhole() : this->near(this->near(crossing));
-      std::vector<std::int64_t> numbers;
-      for (std::size_t i = 0; i < taken.size(); ++i)
-      {
-        taken[i] ? numbers.push_back(std::int64_t(i)) : void();
-      }
-      const StoredConstraints::Ends ends =
-        this->Constraints.endsOf([&](std::int64_t number) { return taken[std::size_t(number)]; });
-      const ResolvedConstraints resolved = this->resolve(ends, CrossingRule::Split);
-      if (!isAll && resolved.Rounds > RoundsOfDoubles) // now they may move far
+      const TakenConstraints taken =
+        this->take(isAll ? this->allWhole() : this->near(this->near(crossing)), others);
+      const bool isRefused = rule == CrossingRule::Refuse;
+      const ResolvedConstraints resolved =
+        resolveCrossings(PointsView(taken.Positions), taken.Edges, rule, this->Work.Threads,
+          isRefused ? this->namesOf(taken) : ConstraintNames());
+      if (!isAll && resolved.Rounds > RoundsOfDoubles)
       {
         isAll = true;
         continue;
       }
-      bool isComplete = true;
-      SplitConstraints result;
-      this->takeParts(ends, resolved, numbers, result);
-      for (const SplitConstraints::Part& part : result.Parts)
+      if (isAll && others.empty() && !resolved.Crossings.empty())
       {
-        isComplete = isComplete && crossing[std::size_t(part.Number)];
-        crossing[std::size_t(part.Number)] = true;
+        std::transform(resolved.Crossings.begin(), resolved.Crossings.end(),
+          std::back_inserter(others),
+          [](const CrossingPoint& crossed) { return crossed.Position; });
+        continue;
+      }
+      bool isComplete = true;
+      for (std::size_t i = 0; i < taken.Numbers.size(); ++i)
+      {
+        const auto number = std::size_t(taken.Numbers[i]);
+        isComplete = isComplete && (!resolved.Crosses[i] || crossing[number]);
+        crossing[number] = crossing[number] || resolved.Crosses[i];
       }
       if (isAll || isComplete)
       {
-        this->interpolate(ends, resolved, result);
-        return result;
+        return this->result(taken, resolved);
       }
     }
   }
 
-  /// Collects the parts of constraints that are split.
-  void takeParts(const StoredConstraints::Ends& ends, const ResolvedConstraints& resolved,
-    const std::vector<std::int64_t>& numbers, SplitConstraints& result) const
+  SplitConstraints result(const TakenConstraints& taken, const ResolvedConstraints& resolved) const
   {
+    SplitConstraints result;
     const auto at = [&](PointId id)
     {
       const auto i = std::size_t(id);
-      return i < ends.Positions.size() ? ends.Positions[i]
-                                       : resolved.Crossings[i - ends.Positions.size()].Position;
+      return i < taken.Positions.size() ? taken.Positions[i]
+                                        : resolved.Crossings[i - taken.Positions.size()].Position;
     };
-    const std::vector<ConstraintPiece>& pieces = resolved.Pieces;
-    for (std::size_t i = 0; i < pieces.size(); ++i)
+    for (const ConstraintPiece& piece : resolved.Pieces)
     {
-      const auto isSame = [&](std::size_t other)
-      { return other < pieces.size() && pieces[other].Constraint == pieces[i].Constraint; };
-      if (isSame(i + 1) || (i > 0 && isSame(i - 1)))
+      if (resolved.Crosses[std::size_t(piece.Constraint)])
       {
         result.Parts.push_back(
-          { numbers[std::size_t(pieces[i].Constraint)], at(pieces[i].A), at(pieces[i].B) });
+          { taken.Numbers[std::size_t(piece.Constraint)], at(piece.A), at(piece.B) });
       }
     }
-    for (const CrossingPoint& crossing : resolved.Crossings)
+    for (const CrossingPoint& crossed : resolved.Crossings)
     {
-      result.Crossings.push_back(crossing.Position);
+      result.Crossings.push_back(crossed.Position);
     }
     result.Rounds = resolved.Rounds;
+    this->interpolate(taken, resolved, result);
+    return result;
   }
 
-  void interpolate(const StoredConstraints::Ends& ends, const ResolvedConstraints& resolved,
+  void interpolate(const TakenConstraints& taken, const ResolvedConstraints& resolved,
     SplitConstraints& result) const
   {
-    const std::size_t count = ends.Positions.size();
-    std::vector<std::vector<double>> values(this->Columns, std::vector<double>(count));
+    const std::size_t found = taken.Points.Positions.size();
+    const std::size_t count = taken.Positions.size();
+    std::vector<std::vector<double>> values = taken.Points.Values;
+    for (std::vector<double>& column : values)
+    {
+      column.resize(count);
+    }
     if (this->Columns > 0)
     {
-      this->Constraints.lookUp(ends,
+      this->Constraints.lookUp(taken.Ends,
         [&](std::size_t end, PointId, const double* its)
         {
           for (std::size_t c = 0; c < this->Columns; ++c)
           {
-            values[c][end] = its[c];
+            values[c][found + end] = its[c];
           }
         });
     }
@@ -288,6 +366,7 @@ private:
   }
 
   const StoredConstraints& Constraints;
+  const VisitBlocks& ForEachBlock;
   const std::size_t Columns;
   const DiskWork& Work;
   const SegmentTiles Tiles;
@@ -295,10 +374,10 @@ private:
 
 } // namespace
 
-SplitConstraints splitStored(const StoredConstraints& constraints, CrossingRule rule,
-  std::size_t columns, const DiskWork& work)
+SplitConstraints splitStored(const StoredConstraints& constraints, const VisitBlocks& forEachBlock,
+  CrossingRule rule, std::size_t columns, const DiskWork& work)
 {
-  return Splitter(constraints, columns, work).split(rule);
+  return Splitter(constraints, forEachBlock, columns, work).split(rule);
 }
 
 } // namespace tipp

@@ -40,9 +40,16 @@ public:
   void findNear(const std::function<bool(std::int64_t)>& isWanted,
     const std::function<void(std::int64_t)>& near) const;
 
+  /// The number of tiles so that each takes a small part of the memory, which is in bytes.
+  static int tilesFor(std::int64_t segments, std::uint64_t memory);
+
+  /// The distance that counts as near.
+  double margin() const { return this->Margin; }
+
 private:
   const int Threads;
-  double Margin = 0; ///< the distance that counts as near
+  double Margin = 0;
+  Tiling Boxes;
   std::unique_ptr<KeyedRows> Rows;
 };
 
@@ -62,12 +69,16 @@ struct SplitConstraints
   int Rounds = 0;                          ///< of splitting
 };
 
+/// Visits all points before crossings, block by block, in the order of their ids.
+using VisitBlocks = std::function<void(const std::function<void(const PointBlock&)>&)>;
+
 /// Splits constraints where they cross, with the result of resolveCrossings() for all of them.
-/// Finds the constraints that cross others, tile by tile. Only these, and constraints so near that
-/// rounding may matter, are then passed to resolveCrossings(). Omits constraints with an end that
-/// is not finite, or with equal ends. Throws as resolveCrossings() does.
-SplitConstraints splitStored(const StoredConstraints& constraints, CrossingRule rule,
-  std::size_t columns, const DiskWork& work);
+/// Finds the constraints that cross others, tile by tile. Only these, constraints so near that
+/// rounding may matter, and the points on them are then passed to resolveCrossings(). For the
+/// points, all points are visited once more if there are crossings. Omits constraints with an end
+/// that is not finite, or with equal ends. Throws as resolveCrossings() does.
+SplitConstraints splitStored(const StoredConstraints& constraints, const VisitBlocks& forEachBlock,
+  CrossingRule rule, std::size_t columns, const DiskWork& work);
 
 } // namespace tipp
 

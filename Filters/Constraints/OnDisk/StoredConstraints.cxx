@@ -432,7 +432,7 @@ StoredConstraints::Ends StoredConstraints::endsOf(
   Ends ends;
   ends.OwnCount = own.size();
   ends.Positions = own;
-  ends.Positions.resize(own.size() + named.size());
+  ends.Positions.resize(own.size() + named.size(), { std::nan(""), std::nan("") });
   ends.Own = std::make_unique<PositionIndex>(std::move(own));
   ends.Named = std::make_unique<PositionIndex>(std::move(named));
   for (const Taken& one : taken)

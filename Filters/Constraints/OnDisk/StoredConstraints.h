@@ -164,7 +164,7 @@ public:
   /// Ends of some constraints.
   struct Ends
   {
-    std::vector<Point2> Positions; ///< by index of the end; some indices are unused
+    std::vector<Point2> Positions; ///< by index of the end; NaN: the index is unused
     std::vector<Constraint> Edges; ///< per constraint, the indices of its ends
     std::size_t OwnCount = 0;      ///< lower indices are those of Own
     std::unique_ptr<PositionIndex> Own;

@@ -3,13 +3,17 @@
 #include "Comparison.h"
 #include "ConstrainedOracle.h"
 
+#include "Constraints/NearSegments.h"
 #include "Predicates/ExactPredicates.h"
 
 #include <gmpxx.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <set>
 #include <stdexcept>
+#include <vector>
 
 namespace
 {
@@ -131,6 +135,112 @@ TEST(Crossings, AreNotReportedIfThereAreNone)
     isConstrained(xy, constraints, triangulateSplit(xy, constraints, CrossingRule::Refuse)));
 }
 
+/// The ids of the chain of a constraint.
+std::vector<PointId> chainOf(const ConstrainedTriangulation& result, std::int64_t constraint)
+{
+  std::vector<PointId> chain;
+  for (const ConstraintPiece& piece : result.Constraints.Pieces)
+  {
+    if (piece.Constraint == constraint)
+    {
+      chain.empty() ? chain.push_back(piece.A) : void();
+      chain.push_back(piece.B);
+    }
+  }
+  return chain;
+}
+
+/// Survey points on a line, and another line that crosses it between two of them. The crossing is
+/// not exactly on the line.
+TEST(Crossings, LeaveThePointsOnAConstraintInItsChain)
+{
+  Coordinates xy;
+  for (int i = 0; i <= 10; ++i)
+  {
+    xy.insert(xy.end(), { double(i), 3.0 * i });
+  }
+  xy.insert(xy.end(), { 0, 9.5, 10, 9, 3, 17, 8, 1 });
+  const std::vector<Constraint> constraints{ { 0, 10 }, { 11, 12 } };
+  const ConstrainedTriangulation result = triangulateSplit(xy, constraints);
+  EXPECT_TRUE(isConstrained(xy, constraints, result));
+  EXPECT_EQ(1u, result.Constraints.Crossings.size());
+  EXPECT_EQ((std::vector<PointId>{ 0, 1, 2, 3, 15, 4, 5, 6, 7, 8, 9, 10 }), chainOf(result, 0));
+}
+
+TEST(Crossings, AtAPointAreThisPointBesideOtherCrossings)
+{
+  const Coordinates xy{ 3, 3, 0, 3, 6, 3, 3, 0, 3, 6, 5, 0, 5, 6, 3, 3, 1, 1 };
+  const std::vector<Constraint> constraints{ { 1, 2 }, { 3, 4 }, { 5, 6 } };
+  const ConstrainedTriangulation result = triangulateSplit(xy, constraints);
+  EXPECT_TRUE(isConstrained(xy, constraints, result));
+  EXPECT_EQ(1u, result.Constraints.Crossings.size());
+  EXPECT_EQ((std::vector<PointId>{ 1, 0, 9, 2 }), chainOf(result, 0));
+  EXPECT_EQ((std::vector<PointId>{ 3, 0, 4 }), chainOf(result, 1));
+}
+
+/// The crossing is not a double, and the point is at the nearest one.
+TEST(Crossings, ThatRoundToAPointAreThisPoint)
+{
+  Coordinates xy{ 0, 0, 1, 1, 0, 1, 0.5, 0, 2, 2 };
+  const Point2 crossing = crossingPoint({ 0, 0 }, { 1, 1 }, { 0, 1 }, { 0.5, 0 });
+  xy.insert(xy.end(), { crossing.x, crossing.y, crossing.x, crossing.y });
+  const std::vector<Constraint> constraints{ { 0, 1 }, { 2, 3 } };
+  const ConstrainedTriangulation result = triangulateSplit(xy, constraints);
+  EXPECT_TRUE(isConstrained(xy, constraints, result));
+  EXPECT_EQ(0u, result.Constraints.Crossings.size());
+  EXPECT_EQ((std::vector<PointId>{ 2, 5, 3 }), chainOf(result, 1));
+}
+
+TEST(Crossings, AtPointsAreNotRefusedAndOthersAreNamedByWholeConstraints)
+{
+  Coordinates xy{ 3, 3, 0, 3, 6, 3, 3, 0, 3, 6, 5, 0, 5, 6, 3, 5 };
+  EXPECT_EQ(0, resolveCrossings(view(xy), { { 1, 2 }, { 3, 4 } }, CrossingRule::Refuse, 1).Rounds);
+  try
+  {
+    resolveCrossings(view(xy), { { 1, 2 }, { 3, 4 }, { 5, 6 } }, CrossingRule::Refuse, 1);
+    FAIL();
+  }
+  catch (const std::invalid_argument& error)
+  {
+    EXPECT_STREQ("constraint 0 (points 1 and 2) crosses constraint 2 (points 5 and 6) at (5, 3): "
+                 "have crossings split, or remove one of the two.",
+      error.what());
+  }
+}
+
+TEST(NearSegments, AreFoundByPointsOnThemAndBesideThem)
+{
+  std::mt19937_64 random(3);
+  for (const int range : { 20, 400 })
+  {
+    std::vector<SegmentTree::Item> segments;
+    const auto draw = [&] { return double(std::int64_t(random() % unsigned(range)) - range / 2); };
+    for (int i = 0; i < 60; ++i)
+    {
+      segments.push_back({ { draw(), draw() }, { draw(), draw() }, 0 });
+    }
+    const NearSegments exact(segments, 2);
+    const NearSegments near(segments, 2, 1.0 / 4);
+    for (int i = 0; i < 2000; ++i)
+    {
+      const Point2 p{ draw(), draw() };
+      std::set<std::size_t> expected;
+      for (std::size_t s = 0; s < segments.size(); ++s)
+      {
+        const auto& [a, b, id] = segments[s];
+        const bool isOn = (b.x - a.x) * (p.y - a.y) == (b.y - a.y) * (p.x - a.x);
+        const bool isInBox = std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) &&
+          std::min(a.y, b.y) <= p.y && p.y <= std::max(a.y, b.y);
+        isOn&& isInBox ? void(expected.insert(s)) : void();
+      }
+      std::set<std::size_t> found;
+      exact.visitOn(p, [&found](std::size_t s) { found.insert(s); });
+      ASSERT_EQ(expected, found);
+      ASSERT_TRUE(expected.empty() || near.isNear({ p.x + 0.125, p.y - 0.125 }));
+    }
+  }
+}
+
 TEST(Crossings, OfLongSegmentsAreSplitUntilNothingCrosses)
 {
   std::mt19937_64 random(7);
@@ -197,6 +307,59 @@ TEST(Crossings, OfNearlyParallelSegmentsOverOrdersOfMagnitudeEnd)
   const ConstrainedTriangulation result = triangulateSplit(xy, constraints);
   EXPECT_TRUE(isConstrained(xy, constraints, result));
   EXPECT_LT(result.Constraints.Rounds, 30);
+}
+
+/// In one round, each vertex of a chain is a point of the constraint, rounded to the nearest
+/// double. At a power of two, the larger of the two units counts. Many vertices are near such, or
+/// near 0.
+TEST(Crossings, MoveEachVertexByAtMostHalfAUnit)
+{
+  std::mt19937_64 random(17);
+  const auto draw = [&random]
+  {
+    const double powers[] = { -1, -0.5, -0x1p-10, 0, 0x1p-20, 0x1p-3, 0.5, 1 };
+    return powers[random() % 8] + (double(random() % 2001) - 1000) * 0x1p-53;
+  };
+  const auto half = [](double value) -> mpq_class
+  {
+    const double size = std::fabs(value);
+    return (mpq_class(std::nextafter(size, HUGE_VAL)) - mpq_class(size)) / 2;
+  };
+  int vertices = 0;
+  for (int round = 0; round < 400; ++round)
+  {
+    Coordinates xy;
+    for (int i = 0; i < 16; ++i)
+    {
+      xy.push_back(i % 4 < 2 ? draw() : 3 * draw());
+    }
+    const std::vector<Constraint> constraints{ { 0, 1 }, { 2, 3 }, { 4, 5 }, { 6, 7 } };
+    const ResolvedConstraints resolved =
+      resolveCrossings(view(xy), constraints, CrossingRule::Split, 1);
+    if (resolved.Rounds > 1)
+    {
+      continue;
+    }
+    for (const CrossingPoint& crossing : resolved.Crossings)
+    {
+      xy.insert(xy.end(), { crossing.Position.x, crossing.Position.y });
+    }
+    const auto at = [&xy](PointId id, std::size_t axis)
+    { return mpq_class(xy[2 * std::size_t(id) + axis]); };
+    for (const ConstraintPiece& piece : resolved.Pieces)
+    {
+      const auto& [a, b] = constraints[std::size_t(piece.Constraint)];
+      const PointId p = piece.B;
+      const mpq_class dx = at(b, 0) - at(a, 0);
+      const mpq_class dy = at(b, 1) - at(a, 1);
+      const mpq_class off = dx * (at(p, 1) - at(a, 1)) - dy * (at(p, 0) - at(a, 0));
+      EXPECT_TRUE(abs(off) <=
+        abs(dx) * half(xy[2 * std::size_t(p) + 1]) + abs(dy) * half(xy[2 * std::size_t(p)]))
+        << round;
+      vertices += p >= 8 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(vertices, 500);
 }
 
 /// The line passes the box of all points that round to a vertex at a ten-thousandth of its size, so

@@ -205,6 +205,72 @@ TEST(SourceOnRanks, InsertTheSourceLikeOneRank)
   }
 }
 
+/// A lattice, some of it twice: lines pass through its points, and cross there and elsewhere.
+TEST(SourceOnRanks, KeepsPointsOnLinesAndCrossingsAtPoints)
+{
+  constexpr int side = 12;
+  Coordinates xy;
+  for (int i = 0; i < 2 * side * side; ++i)
+  {
+    const int place = i * 7 % (side * side);
+    xy.insert(xy.end(), { double(place % side), double(place / side) });
+  }
+  vtkNew<vtkCellArray> lines;
+  vtkNew<vtkPoints> ends;
+  ends->SetDataTypeToDouble();
+  vtkNew<vtkDoubleArray> height;
+  height->SetName("height");
+  const auto addLine = [&](double x, double y, double toX, double toY)
+  {
+    const vtkIdType line[2] = { ends->InsertNextPoint(x, y, 1),
+      ends->InsertNextPoint(toX, toY, 2) };
+    height->InsertNextValue(100);
+    height->InsertNextValue(200);
+    lines->InsertNextCell(2, line);
+  };
+  addLine(0, 0, 11, 11);
+  addLine(0, 11, 11, 0);
+  addLine(0, 6, 11, 6);
+  addLine(0.5, 4, 10, 9);
+  addLine(4, 0, 4, 11);
+  vtkNew<vtkPolyData> source;
+  source->SetPoints(ends);
+  source->GetPointData()->AddArray(height);
+  source->SetLines(lines);
+  const auto update = [&](vtkTIPPDelaunay2D* filter, vtkPolyData* input)
+  {
+    filter->SetMergeSourcePoints(true);
+    filter->SetConstraintMarks(vtkTIPPDelaunay2D::EDGE_FLAGS);
+    filter->SetPointsPerPartition(20);
+    filter->SetInputData(input);
+    filter->SetSourceData(source);
+    filter->SetGatherOnFirstRank(true);
+    filter->Update();
+    ASSERT_EQ(0u, filter->GetErrorCode());
+  };
+  const auto crossings = [](vtkTIPPDelaunay2D* filter)
+  { return filter->GetStatistics()->GetFieldData()->GetArray("CrossingPoints")->GetTuple1(0); };
+  for (const bool withIds : { true, false })
+  {
+    vtkNew<vtkTIPPDelaunay2D> filter;
+    update(filter, shareAsData(xy, withIds));
+    if (rank() == 0)
+    {
+      vtkNew<vtkTIPPDelaunay2D> alone;
+      alone->SetController(nullptr);
+      update(alone, allAsData(xy));
+      const ConstrainedCells expected = constrainedCells(alone->GetOutput(), nullptr);
+      const ConstrainedCells made =
+        constrainedCells(filter->GetOutput(), filter->GetOutput()->GetPointData()->GetGlobalIds());
+      EXPECT_EQ(expected.Cells, made.Cells);
+      EXPECT_EQ(expected.Points, made.Points);
+      EXPECT_EQ(crossings(alone), crossings(filter));
+      EXPECT_GT(crossings(alone), 0);
+    }
+    Communicator(vtkMultiProcessController::GetGlobalController()).barrier();
+  }
+}
+
 TEST(SourceOnRanks, GhostsHaveMarksOfConstraints)
 {
   const Coordinates xy = makePointSet("uniform", 3000);

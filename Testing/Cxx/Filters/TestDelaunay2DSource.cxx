@@ -170,8 +170,8 @@ TEST_F(Source, CrossingIsANewPointWithInterpolatedData)
   const double* const p = mesh->GetPoint(9);
   EXPECT_EQ(4, p[0]);
   EXPECT_EQ(4, p[1]);
-  EXPECT_EQ(4, p[2]) << "along the first line, from height 0 to height 8";
-  EXPECT_EQ(1, mesh->GetPointData()->GetArray("depth")->GetComponent(9, 0));
+  EXPECT_EQ(0, p[2]) << "between points 4 and 6, which are on the first line";
+  EXPECT_EQ(5, mesh->GetPointData()->GetArray("depth")->GetComponent(9, 0));
   EXPECT_EQ(8, mesh->GetPointData()->GetArray("depth")->GetComponent(8, 0));
   EXPECT_EQ(1, this->total("CrossingPoints"));
   EXPECT_EQ(64, areaOf(mesh));

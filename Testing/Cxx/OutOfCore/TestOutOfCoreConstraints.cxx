@@ -8,6 +8,7 @@
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/PieceFile.h"
 #include "Partitioned/ReadPiece.h"
+#include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
 #include <cmath>
@@ -226,6 +227,76 @@ TEST(OutOfCoreConstraint, IsKeptWherePointsCoincide)
     run.Options.Columns = run.Options.Rows = 4;
     run.makeExpected();
     run.run();
+    ASSERT_TRUE(run.matches()) << seed;
+  }
+}
+
+/// Lines that cross at a point of the input, and a line that crosses them elsewhere.
+TEST(OutOfCoreConstraint, CrossesAnotherAtAPointWithoutANewPoint)
+{
+  const Coordinates xy{ 3, 3, 0, 0, 6, 0, 6, 6, 0, 6, 3, 3, 1, 3 };
+  TableConstraints constraints;
+  constraints.Lines.XY = { 0, 3, 6, 3, 3, 0, 3, 6, 5, 1, 5, 5 };
+  constraints.Lines.Edges = { { 0, 1 }, { 2, 3 }, { 4, 5 } };
+  constraints.Lines.PolygonBegin = 3;
+  for (const std::int64_t crossings : { 1, 0 })
+  {
+    ConstrainedRun run(xy, constraints);
+    run.makeExpected();
+    const OutOfCoreStatistics statistics = run.run();
+    EXPECT_EQ(crossings, statistics.Constraints.Crossings);
+    EXPECT_EQ(std::int64_t(run.All.size()), statistics.Points);
+    EXPECT_TRUE(run.matches());
+    constraints.Lines.Edges.pop_back();
+    constraints.Lines.PolygonBegin = 2;
+    constraints.Crossings = CrossingRule::Refuse; // there is nothing to refuse any more
+  }
+}
+
+/// The crossing is not a double. The nearest one is a point of the input, or a point of the
+/// constraints' file that no constraint uses.
+TEST(OutOfCoreConstraint, CrossesAnotherAtThePointToWhichTheCrossingRounds)
+{
+  const Coordinates corners{ 0, 0, 2, 0, 2, 2, 0, 2 };
+  const Point2 at = crossingPoint({ 0, 0 }, { 1, 1 }, { 0, 1 }, { 0.5, 0 });
+  for (const bool isGiven : { true, false })
+  {
+    Coordinates xy = corners;
+    isGiven ? void(xy.insert(xy.end(), { at.x, at.y })) : void();
+    TableConstraints constraints;
+    constraints.Lines.XY = { 0, 0, 1, 1, 0, 1, 0.5, 0 };
+    isGiven ? void()
+            : void(constraints.Lines.XY.insert(constraints.Lines.XY.end(), { at.x, at.y }));
+    constraints.Lines.Edges = { { 0, 1 }, { 2, 3 } };
+    constraints.Lines.PolygonBegin = 2;
+    ConstrainedRun run(xy, constraints);
+    run.makeExpected();
+    const OutOfCoreStatistics statistics = run.run();
+    EXPECT_EQ(0, statistics.Constraints.Crossings);
+    EXPECT_EQ(8, statistics.Points);
+    EXPECT_TRUE(run.matches());
+  }
+}
+
+/// Points are on the constraints, and others round to their crossings.
+TEST(OutOfCoreConstraint, LeavesPointsInItsChainIfOthersCrossIt)
+{
+  for (unsigned seed = 0; seed < 10; ++seed)
+  {
+    std::mt19937_64 random(seed);
+    const Coordinates xy = coincidingPoints(random, 600, 15);
+    TableConstraints constraints;
+    for (int i = 0; i < 12; ++i)
+    {
+      constraints.Lines.Edges.push_back(
+        { std::int64_t(random() % 600), std::int64_t(random() % 600) });
+    }
+    constraints.Lines.PolygonBegin = constraints.Lines.Edges.size();
+    ConstrainedRun run(xy, constraints);
+    run.makeExpected();
+    const OutOfCoreStatistics statistics = run.run();
+    EXPECT_GT(statistics.Constraints.Crossings, 0);
+    EXPECT_EQ(std::int64_t(run.All.size()), statistics.Points);
     ASSERT_TRUE(run.matches()) << seed;
   }
 }

@@ -149,6 +149,16 @@ bool isNearLine(const Coordinates& xy, const Constraint& constraint, std::int64_
   return abs(off) <= units * (abs(dx) * unit(1) + abs(dy) * unit(0));
 }
 
+/// Whether a point lies exactly on a constraint, between its ends.
+bool isOnLine(const Coordinates& xy, const Constraint& constraint, std::int64_t id)
+{
+  const Epick::Point_2 a = pointOf(xy, constraint.A);
+  const Epick::Point_2 b = pointOf(xy, constraint.B);
+  const Epick::Point_2 p = pointOf(xy, id);
+  return std::isfinite(p.x()) && std::isfinite(p.y()) && CGAL::collinear(a, p, b) &&
+    CGAL::collinear_are_strictly_ordered_along_line(a, p, b);
+}
+
 std::set<Edge> edgesOf(const Triangles& triangles)
 {
   std::set<Edge> edges;
@@ -162,11 +172,21 @@ std::set<Edge> edgesOf(const Triangles& triangles)
   return edges;
 }
 
-/// Whether each constraint's pieces form a chain of edges from its first point to its second.
+/// Whether each constraint's pieces form a chain of edges from its first point to its second, with
+/// all points on it, and no crossing is at a point.
 testing::AssertionResult areChains(const Coordinates& all,
   const std::vector<Constraint>& constraints, const ResolvedConstraints& resolved,
   const Ids& representative, const std::set<Edge>& edges)
 {
+  const std::size_t points = all.size() / 2 - resolved.Crossings.size();
+  for (std::size_t i = points; i < representative.size(); ++i)
+  {
+    if (representative[i] != std::int64_t(i))
+    {
+      return testing::AssertionFailure()
+        << "crossing " << i << " is at point " << representative[i];
+    }
+  }
   std::size_t next = 0;
   std::int64_t omitted = 0;
   for (std::size_t c = 0; c < constraints.size(); ++c)
@@ -174,6 +194,7 @@ testing::AssertionResult areChains(const Coordinates& all,
     const std::int64_t first = representative[std::size_t(constraints[c].A)];
     const std::int64_t last = representative[std::size_t(constraints[c].B)];
     std::int64_t at = first;
+    std::set<std::int64_t> vertices{ first };
     bool isEmpty = true;
     for (; next < resolved.Pieces.size() && resolved.Pieces[next].Constraint == std::int64_t(c);
          ++next)
@@ -185,6 +206,7 @@ testing::AssertionResult areChains(const Coordinates& all,
         return testing::AssertionFailure() << "constraint " << c << " is interrupted at " << at;
       }
       at = piece.B;
+      vertices.insert(at);
       if (!edges.count(std::minmax(piece.A, piece.B)))
       {
         return testing::AssertionFailure()
@@ -202,6 +224,13 @@ testing::AssertionResult areChains(const Coordinates& all,
     else if (at != last)
     {
       return testing::AssertionFailure() << "constraint " << c << " ends at " << at;
+    }
+    for (std::size_t i = 0; i < points && first >= 0 && last >= 0 && first != last; ++i)
+    {
+      if (isOnLine(all, { first, last }, std::int64_t(i)) && !vertices.count(representative[i]))
+      {
+        return testing::AssertionFailure() << "constraint " << c << " omits point " << i;
+      }
     }
   }
   return omitted == resolved.NotFinite

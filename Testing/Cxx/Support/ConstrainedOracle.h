@@ -24,8 +24,8 @@ Coordinates withCrossings(const Coordinates& xy, const ConstrainedTriangulation&
 Triangles constrainedDelaunay(const Coordinates& xy, const std::vector<Constraint>& segments);
 
 /// Whether the result is correct. Every constraint must be a chain of edges from its first point to
-/// its second, straight within rounding errors. The triangles must be the oracle's for all points
-/// and the chains' edges.
+/// its second, straight within rounding errors, with all points that lie exactly on it. No crossing
+/// may be at a point. The triangles must be the oracle's for all points and the chains' edges.
 testing::AssertionResult isConstrained(const Coordinates& xy,
   const std::vector<Constraint>& constraints, const ConstrainedTriangulation& result);
 

@@ -248,7 +248,7 @@ TEST_F(TippConstraints, AreInsertedOnRanks)
   const Outcome outcome =
     this->delaunay({ "-o", "ranks.vtp", "--masters", "single", "--constraints", "cross.csv" });
   ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
-  EXPECT_NE(std::string::npos, outcome.Out.find("2 constraints of 4 segments, 1 crossings"))
+  EXPECT_NE(std::string::npos, outcome.Out.find("2 constraints of 8 segments, 1 crossings"))
     << outcome.Out;
   const Outcome checked = runTipp(this->Folder,
     { "check", "points.csv", "ranks.vtp", "--tie-rule", "--constraints", "cross.csv" });
@@ -260,7 +260,7 @@ TEST_F(TippConstraints, PartitionedMeshesAreMadeAndChecked)
   const Outcome made = this->delaunay({ "-o", "mesh.tipp", "--memory", "1M", "--constraints",
     "cross.csv", "--neighbors", "--mark-constraints" });
   ASSERT_EQ(0, made.ExitCode) << made.Err;
-  EXPECT_NE(std::string::npos, made.Out.find("2 constraints of 4 segments, 1 crossings"))
+  EXPECT_NE(std::string::npos, made.Out.find("2 constraints of 8 segments, 1 crossings"))
     << made.Out;
   const auto check = [this](const std::string& constraints)
   {
