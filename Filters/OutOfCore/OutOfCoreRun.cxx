@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/OutOfCoreRun.h"
 
+#include "Constraints/OnDisk/UncoveredSegments.h"
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
 #include "Files/TextFile.h"
@@ -204,12 +205,17 @@ std::uint64_t RunSetup::takenBytes() const
   return this->Consumer ? this->Consumer->fileBytes(this->InputBounds, this->Columns) : 0;
 }
 
-void RunSetup::setConstraints(const std::string& points, SegmentSource& segments, int threads)
+void RunSetup::setConstraints(
+  const std::string& points, SegmentSource& segments, std::uint64_t memory, int threads)
 {
-  const auto forEach = [&segments](const VisitSegment& visit) { segments.forEach(visit); };
-  this->Constraints = segments.count() == 0
-    ? nullptr
-    : std::make_unique<PieceSegments>(points, *this->Plan, this->Survey.Factor, forEach, threads);
+  this->Constraints.reset();
+  if (segments.count() > 0)
+  {
+    const UncoveredSegments uncovered(points + ".lines", segments, memory, threads);
+    this->Constraints = std::make_unique<PieceSegments>(
+      points, *this->Plan, this->Survey.Factor,
+      [&uncovered](const VisitSegment& visit) { uncovered.forEach(visit); }, threads);
+  }
   segments.end();
 }
 

@@ -301,16 +301,17 @@ public:
   void requireMemory(const std::string& path, std::uint64_t limit) const;
 
   /// Writes the constraint segments beside the spilled points. Requires the plan. `points`: the
-  /// file of spilled points. Throws IOError.
-  void setConstraints(const std::string& points, SegmentSource& segments, int threads);
+  /// file of spilled points. `memory`: in bytes, of which a part is used. Throws IOError.
+  void setConstraints(
+    const std::string& points, SegmentSource& segments, std::uint64_t memory, int threads);
 
   /// Returns the bytes that the consumer needs on disk.
   std::uint64_t takenBytes() const;
 
   InputSurvey Survey;
-  PointRowLayout Rows;
   /// Of the finite points that are no points of constraints; not multiplied by the factor.
   Box2 InputBounds{};
+  PointRowLayout Rows;
   PartitionedMesh Mesh;
   std::string Results; ///< prefix of the paths of results
   TriangleConsumer* const Consumer;

@@ -124,7 +124,8 @@ private:
     if (segments)
     {
       this->Statistics.Constraints = segments->figures();
-      this->Setup.setConstraints(this->Scratch.points(), *segments, this->Threads);
+      this->Setup.setConstraints(
+        this->Scratch.points(), *segments, this->Options.MemoryLimit, this->Threads);
     }
     std::vector<SampledPoint>().swap(survey.Sample); // assigning {} would keep the memory
     if (this->Setup.Plan->HasLargeInterface)

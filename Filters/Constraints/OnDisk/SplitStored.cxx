@@ -4,6 +4,7 @@
 #include "Constraints/NearSegments.h"
 #include "OutOfCore/InputPasses.h"
 #include "Parallel/ParallelFor.h"
+#include "Predicates/ExactPredicates.h"
 
 #include <algorithm>
 #include <cmath>
@@ -94,6 +95,74 @@ void SegmentTiles::findNear(const std::function<bool(std::int64_t)>& isWanted,
           return true;
         },
         this->Margin);
+    }
+  }
+}
+
+namespace
+{
+
+/// A segment's ends in lexicographic order.
+std::pair<Point2, Point2> orderedEnds(const SegmentTree::Item& segment)
+{
+  return lexicographicLess(segment.A, segment.B) ? std::make_pair(segment.A, segment.B)
+                                                 : std::make_pair(segment.B, segment.A);
+}
+
+/// Whether the lower segment of two on one line counts as the first.
+bool isFirst(const SegmentTree::Item& one, const SegmentTree::Item& other)
+{
+  const auto [low, high] = orderedEnds(one);
+  const auto [otherLow, otherHigh] = orderedEnds(other);
+  if (!(low == otherLow))
+  {
+    return lexicographicLess(low, otherLow);
+  }
+  return high == otherHigh ? one.Id < other.Id : lexicographicLess(otherHigh, high);
+}
+
+/// The end of the part that earlier segments cover; the lower end if there is none.
+Point2 endOfCovered(const SegmentTree::Item& segment, const NearSegments& all)
+{
+  const auto [low, high] = orderedEnds(segment);
+  Point2 end = low;
+  all.visitOn(low,
+    [&, low = low, high = high](std::size_t i)
+    {
+      const SegmentTree::Item& other = all.segments()[i];
+      const auto [otherLow, otherHigh] = orderedEnds(other);
+      if (isFirst(other, segment) && lexicographicLess(end, otherHigh) &&
+        orientation(otherLow, otherHigh, high) == 0)
+      {
+        end = lexicographicLess(high, otherHigh) ? high : otherHigh;
+      }
+    });
+  return end;
+}
+
+} // namespace
+
+void SegmentTiles::findCovered(const std::function<void(std::int64_t, Point2)>& covered) const
+{
+  for (std::size_t tile = 0; tile < this->Rows->keys(); ++tile)
+  {
+    const NearSegments all(this->Rows->readAll<SegmentTree::Item>(tile), this->Threads);
+    const std::vector<SegmentTree::Item>& items = all.segments();
+    std::vector<Point2> ends(items.size());
+    constexpr std::int64_t chunk = 256;
+    forChunks(std::int64_t(items.size()), chunk, this->Threads, {},
+      [&](std::int64_t begin, std::int64_t end, int)
+      {
+        for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
+        {
+          const Point2 low = orderedEnds(items[i]).first;
+          const bool isHere = std::size_t(this->Boxes.locate(low)) == tile; // in one tile only
+          ends[i] = isHere ? endOfCovered(items[i], all) : low;
+        }
+      });
+    for (std::size_t i = 0; i < items.size(); ++i)
+    {
+      ends[i] == orderedEnds(items[i]).first ? void() : covered(items[i].Id, ends[i]);
     }
   }
 }

@@ -40,6 +40,12 @@ public:
   void findNear(const std::function<bool(std::int64_t)>& isWanted,
     const std::function<void(std::int64_t)>& near) const;
 
+  /// Calls covered(id, end) for each segment of which a part lies on others that begin before it in
+  /// lexicographic order; of those that begin at one point, the longest is the first. They cover it
+  /// from its lower end to `end`, which may be its higher end. So the parts that are left of all
+  /// segments do not overlap, and make up all segments.
+  void findCovered(const std::function<void(std::int64_t, Point2)>& covered) const;
+
   /// The number of tiles so that each takes a small part of the memory, which is in bytes.
   static int tilesFor(std::int64_t segments, std::uint64_t memory);
 

@@ -301,6 +301,33 @@ TEST(OutOfCoreConstraint, LeavesPointsInItsChainIfOthersCrossIt)
   }
 }
 
+TEST(OutOfCoreConstraint, MayLieOnOthers)
+{
+  std::mt19937_64 random(4);
+  const Coordinates xy = makePointSet("lattice-shuffled", 900); // 30 x 30 points with spacing 1
+  TableConstraints constraints;
+  const auto draw = [&random] { return double(random() % 59) / 2; };
+  for (int i = 0; i < 300; ++i)
+  {
+    const double from = draw();
+    const double to = draw();
+    i % 3 == 0
+      ? constraints.Lines.XY.insert(constraints.Lines.XY.end(), { from, 7, to, 7 })
+      : constraints.Lines.XY.insert(constraints.Lines.XY.end(), { from, from - 0.5, to, to - 0.5 });
+    constraints.Lines.Edges.push_back({ 2 * i, 2 * i + 1 });
+  }
+  addPolygon(14.5, 7, 9, 4, constraints.Lines); // two of its corners are on the lines
+  constraints.Lines.PolygonBegin = 300;
+  for (const bool hasCrossing : { false, true })
+  {
+    hasCrossing ? constraints.Lines.Edges[0] = { 0, 4 } : constraints.Lines.Edges[0];
+    ConstrainedRun run(xy, constraints);
+    run.makeExpected();
+    run.run();
+    EXPECT_TRUE(run.matches()) << hasCrossing;
+  }
+}
+
 TEST(OutOfCoreConstraint, RemovesTrianglesOutsidePolygonsAndInHoles)
 {
   const Coordinates xy = makePointSet("uniform", 3000);

@@ -8,7 +8,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <random>
 #include <set>
 #include <utility>
@@ -124,6 +127,55 @@ TEST_P(Tiles, FindSegmentsNearOthers)
         EXPECT_EQ(1U, near.count(item.Id));
       }
     }
+  }
+}
+
+/// The steps between neighbouring lattice points along a segment between two of these.
+void countSteps(Point2 a, Point2 b, std::map<std::array<double, 4>, int>& counts)
+{
+  const auto steps = std::gcd(std::int64_t(b.x - a.x), std::int64_t(b.y - a.y));
+  for (std::int64_t i = 0; i < steps; ++i)
+  {
+    const auto at = [&](std::int64_t step)
+    {
+      const double part = double(step);
+      return Point2{ a.x + (b.x - a.x) / double(steps) * part,
+        a.y + (b.y - a.y) / double(steps) * part };
+    };
+    const Point2 p = at(i);
+    const Point2 q = at(i + 1);
+    const auto [low, high] =
+      std::minmax(p, q, [](Point2 one, Point2 other) { return lexicographicLess(one, other); });
+    ++counts[{ std::round(low.x), std::round(low.y), std::round(high.x), std::round(high.y) }];
+  }
+}
+
+TEST_P(Tiles, FindPartsThatEarlierSegmentsCover)
+{
+  const TemporaryFolder folder;
+  Items items = randomSegments(2, 300, 1, 3);
+  items.push_back(items.front());
+  items.back().Id = 2;
+  std::map<std::array<double, 4>, int> all;
+  std::map<std::array<double, 4>, int> left;
+  std::map<std::int64_t, Point2> ends;
+  tilesOf(folder, items, GetParam())
+    .findCovered(
+      [&](std::int64_t id, Point2 end) { EXPECT_TRUE(ends.emplace(id, end).second) << "twice"; });
+  EXPECT_GT(ends.size(), 50u);
+  for (const SegmentTree::Item& item : items)
+  {
+    countSteps(item.A, item.B, all);
+    const auto covered = ends.find(item.Id);
+    const bool isUp = lexicographicLess(item.A, item.B);
+    const Point2 low = isUp ? item.A : item.B;
+    countSteps(covered == ends.end() ? low : covered->second, isUp ? item.B : item.A, left);
+  }
+  ASSERT_EQ(all.size(), left.size());
+  for (const auto& [step, count] : left)
+  {
+    EXPECT_EQ(1u, all.count(step));
+    EXPECT_EQ(1, count);
   }
 }
 
