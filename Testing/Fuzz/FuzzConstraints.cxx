@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Draws point sets, constraints and options, triangulates them, and compares with the oracle. A
-// seed and a number identify a case: 'fuzzConstraints --seed S --case N' repeats it.
-#include "Comparison.h"
-#include "ConstrainedOracle.h"
-#include "DegeneratePoints.h"
+// Draws point sets, constraints and options, triangulates them in memory and out of core, and
+// compares both with each other and with the oracle. A seed and a number identify a case:
+// 'fuzzConstraints --seed S --case N' repeats it. With TEST_TMPDIR=/dev/shm it is faster.
+#include "ConstraintCases.h"
 #include "FuzzDriver.h"
+#include "TemporaryFolder.h"
+
+#include "Constraints/OnDisk/ConstrainedPoints.h"
+#include "Files/IOError.h"
 
 #include <cstdio>
 #include <exception>
-#include <stdexcept>
 #include <string>
 
 namespace
@@ -17,57 +19,39 @@ namespace
 using namespace tipp;
 using namespace tipp::test;
 
-/// Pairs of points, the segments of a star, a chain of segments, or constraints that follow each
-/// other back and forth: overlapping ones, where points are on a line.
-std::vector<Constraint> drawConstraints(Engine& random, std::size_t points)
+testing::AssertionResult isSameOnDisk(const ConstraintCase& drawn, const MadeInMemory& made)
 {
-  std::vector<Constraint> constraints;
-  if (points == 0)
+  if (made.Points.size() == made.Result.Mesh.Rejected.size() && made.Refused.empty())
   {
-    return constraints;
+    return testing::AssertionSuccess(); // out of core, no finite point is an error
   }
-  enum class Kind
+  const TemporaryFolder folder;
+  ConstrainedPoints points(drawn.stream(), drawn.Constraints, "constraints", 1);
+  try
   {
-    Pairs,
-    Star,
-    Chain,
-    BackAndForth
-  };
-  const Kind kinds[] = { Kind::Pairs, Kind::Pairs, Kind::Star, Kind::Chain, Kind::BackAndForth };
-  const Kind kind = kinds[random() % 5];
-  const std::size_t mosts[] = { 5, 5, 12, 25 };
-  const std::size_t count = random() % mosts[random() % 4];
-  const auto draw = [&] { return PointId(random() % points); };
-  PointId from = draw();
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const PointId to = draw();
-    constraints.push_back({ from, to });
-    if (kind == Kind::BackAndForth)
-    {
-      constraints.push_back({ to, draw() });
-    }
-    from = kind == Kind::Star ? from : kind == Kind::Chain ? to : draw();
+    triangulateOutOfCore(points, folder.path("mesh.tipp"), drawn.OnDisk);
   }
-  return constraints;
+  catch (const IOError& error)
+  {
+    return std::string(error.what()) == "constraints: " + made.Refused
+      ? testing::AssertionSuccess()
+      : testing::AssertionFailure() << "out of core: " << error.what();
+  }
+  if (!made.Refused.empty())
+  {
+    return testing::AssertionFailure() << "out of core the crossing is not refused";
+  }
+  const auto outcome = isSameMesh(folder.path("mesh.tipp"), made);
+  return outcome ? outcome : testing::AssertionFailure() << "out of core: " << outcome.message();
 }
 
-TriangulationOptions drawOptions(Engine& random)
-{
-  TriangulationOptions options;
-  const int sides[] = { 0, 1, 2, 5 };
-  options.Columns = options.Rows = sides[random() % 4];
-  options.Threads = random() % 8 == 0 ? 2 : 1;
-  return options;
-}
-
-testing::AssertionResult check(const Coordinates& xy, const std::vector<Constraint>& constraints,
-  const TriangulationOptions& options)
+testing::AssertionResult check(const ConstraintCase& drawn)
 {
   try
   {
-    return isConstrained(
-      xy, constraints, triangulateConstrained(view(xy), constraints, CrossingRule::Split, options));
+    const MadeInMemory made = makeInMemory(drawn);
+    const auto outcome = isRight(drawn, made);
+    return outcome ? isSameOnDisk(drawn, made) : outcome;
   }
   catch (const std::exception& error)
   {
@@ -80,25 +64,15 @@ bool passes(std::uint64_t seed, std::uint64_t number)
 {
   std::seed_seq both{ seed, number };
   Engine random(both);
-  const Coordinates xy = drawDegeneratePoints(random);
-  const std::vector<Constraint> constraints = drawConstraints(random, xy.size() / 2);
-  const TriangulationOptions options = drawOptions(random);
-  const auto outcome = check(xy, constraints, options);
-  if (outcome)
+  const ConstraintCase drawn = drawConstraintCase(random);
+  const auto outcome = check(drawn);
+  if (!outcome)
   {
-    return true;
+    std::printf("case %llu of seed %llu, %s: %s\n", (unsigned long long)number,
+      (unsigned long long)seed, describe(drawn.Options).c_str(), outcome.message());
+    drawn.print();
   }
-  std::printf("case %llu of seed %llu, %s: %s\n", (unsigned long long)number,
-    (unsigned long long)seed, describe(options).c_str(), outcome.message());
-  for (std::size_t i = 0; i < xy.size(); i += 2)
-  {
-    std::printf("  %a, %a, // %zu: %.17g %.17g\n", xy[i], xy[i + 1], i / 2, xy[i], xy[i + 1]);
-  }
-  for (const Constraint& constraint : constraints)
-  {
-    std::printf("  { %lld, %lld },\n", (long long)constraint.A, (long long)constraint.B);
-  }
-  return false;
+  return bool(outcome);
 }
 
 } // namespace

@@ -22,8 +22,8 @@ int usage(const char* name)
 
 } // namespace
 
-int fuzz(
-  const char* name, int argc, char** argv, bool (*passes)(std::uint64_t seed, std::uint64_t number))
+int fuzz(const char* name, int argc, char** argv,
+  bool (*passes)(std::uint64_t seed, std::uint64_t number), bool (*goesOn)(bool hasTime))
 {
   double seconds = 60;
   std::uint64_t most = UINT64_MAX;
@@ -60,11 +60,11 @@ int fuzz(
   }
   const auto now = [] { return std::chrono::steady_clock::now(); };
   const auto begin = now();
-  const auto isOver = [&]
-  { return std::chrono::duration<double>(now() - begin).count() >= seconds; };
+  const auto hasTime = [&]
+  { return std::chrono::duration<double>(now() - begin).count() < seconds; };
   std::uint64_t cases = 0;
   std::uint64_t failures = 0;
-  for (; cases < most && failures < 10 && !isOver(); ++cases)
+  for (; cases < most && failures < 10 && goesOn(hasTime()); ++cases)
   {
     failures += passes(seed, cases) ? 0 : 1;
   }
