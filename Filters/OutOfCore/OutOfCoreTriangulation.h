@@ -152,11 +152,12 @@ struct OutOfCoreStatistics : OutOfCoreRunStatistics
 /// stream. They are written to a file and read piece by piece, except for those that decide which
 /// triangles are kept: these stay in memory.
 ///
-/// Points are read twice (three times if coordinates are so far from 1 that they are scaled) and
-/// spilled once, sorted by piece. Triangles are written as soon as they are final. All files are in
-/// a folder ".NAME.part" beside `path`, which is renamed to `path` when the mesh is complete. Once
-/// the points are spilled, the folder is kept if the run fails or is stopped; another run can
-/// resume it and makes the same files. Throws IOError.
+/// Points are read twice (once more if coordinates are so far from 1 that they are scaled, and once
+/// more if segments of the stream's constraints cross) and spilled once, sorted by piece. Triangles
+/// are written as soon as they are final. All files are in a folder ".NAME.part" beside `path`,
+/// which is renamed to `path` when the mesh is complete. Once the points are spilled, the folder is
+/// kept if the run fails or is stopped; another run can resume it and makes the same files. Throws
+/// IOError.
 VTKTIPPFILTERS_EXPORT OutOfCoreStatistics triangulateOutOfCore(
   PointStream& points, const std::string& path, const OutOfCoreOptions& options = {});
 

@@ -146,23 +146,39 @@ void SegmentTiles::findCovered(const std::function<void(std::int64_t, Point2)>& 
 {
   for (std::size_t tile = 0; tile < this->Rows->keys(); ++tile)
   {
-    const NearSegments all(this->Rows->readAll<SegmentTree::Item>(tile), this->Threads);
-    const std::vector<SegmentTree::Item>& items = all.segments();
-    std::vector<Point2> ends(items.size());
+    std::vector<SegmentTree::Item> items = this->Rows->readAll<SegmentTree::Item>(tile);
+    const auto isHere = [&](const SegmentTree::Item& item) // in one tile only
+    { return std::size_t(this->Boxes.locate(orderedEnds(item).first)) == tile; };
+    // Many segments may be equal, so only the first of them is compared with others.
+    std::sort(items.begin(), items.end(), isFirst);
+    std::vector<SegmentTree::Item> differing;
+    for (const SegmentTree::Item& item : items)
+    {
+      if (differing.empty() || !(orderedEnds(differing.back()) == orderedEnds(item)))
+      {
+        differing.push_back(item);
+      }
+      else if (isHere(item))
+      {
+        covered(item.Id, orderedEnds(item).second);
+      }
+    }
+    const NearSegments all(std::move(differing), this->Threads);
+    const std::vector<SegmentTree::Item>& distinct = all.segments();
+    std::vector<Point2> ends(distinct.size());
     constexpr std::int64_t chunk = 256;
-    forChunks(std::int64_t(items.size()), chunk, this->Threads, {},
+    forChunks(std::int64_t(distinct.size()), chunk, this->Threads, {},
       [&](std::int64_t begin, std::int64_t end, int)
       {
         for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
         {
-          const Point2 low = orderedEnds(items[i]).first;
-          const bool isHere = std::size_t(this->Boxes.locate(low)) == tile; // in one tile only
-          ends[i] = isHere ? endOfCovered(items[i], all) : low;
+          ends[i] =
+            isHere(distinct[i]) ? endOfCovered(distinct[i], all) : orderedEnds(distinct[i]).first;
         }
       });
-    for (std::size_t i = 0; i < items.size(); ++i)
+    for (std::size_t i = 0; i < distinct.size(); ++i)
     {
-      ends[i] == orderedEnds(items[i]).first ? void() : covered(items[i].Id, ends[i]);
+      ends[i] == orderedEnds(distinct[i]).first ? void() : covered(distinct[i].Id, ends[i]);
     }
   }
 }
