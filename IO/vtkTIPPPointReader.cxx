@@ -103,6 +103,13 @@ void vtkTIPPPointReader::Read(vtkInformation* info, vtkPolyData* output)
   const tipp::PointTable table =
     tipp::readPointsShare(this->FileNames, this->Options(), piece, pieces);
   this->NumberOfPointsLeftOut = table.LeftOut;
+  for (const tipp::TableReport& report : table.Reports)
+  {
+    for (const std::string& warning : report.Warnings)
+    {
+      vtkWarningMacro(<< report.Path << ": " << warning);
+    }
+  }
   // A deep copy, because the arrays share the table's memory.
   output->DeepCopy(tipp::makePolyData(table, {}));
   if (this->GenerateVertices)

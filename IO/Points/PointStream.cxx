@@ -47,6 +47,9 @@ public:
       this->Files.push_back(openFilePoints(path, options));
     }
     this->Identity += options.Las.text() + "\n";
+    this->Identity += options.X + "\n" + options.Y + "\n" + options.Z + "\n";
+    this->Identity += options.NoData ? exactText(*options.NoData) + "\n" : "";
+    this->NoData.NoData = options.NoData;
     for (const std::string& name : this->Files[0]->columns())
     {
       this->Kept.push_back(options.wants(name));
@@ -70,7 +73,7 @@ public:
       const auto left = std::uint64_t(this->End - this->Points);
       if (this->Files[this->At]->next(block, std::size_t(std::min<std::uint64_t>(most, left))))
       {
-        this->dropColumns(block);
+        this->finishColumns(block);
         block.First = this->Points;
         this->Points += std::int64_t(block.size());
         return true;
@@ -167,6 +170,17 @@ public:
     return "";
   }
 
+  std::vector<TableReport> reports() const override
+  {
+    std::vector<TableReport> all;
+    for (const auto& file : this->Files)
+    {
+      const std::vector<TableReport> reports = file->reports();
+      all.insert(all.end(), reports.begin(), reports.end());
+    }
+    return all;
+  }
+
   std::string identity() const override { return this->Identity; }
 
 private:
@@ -208,7 +222,8 @@ private:
     }
   }
 
-  void dropColumns(PointBlock& block) const
+  /// Drops the columns that are not asked for, and clears values that stand for missing ones.
+  void finishColumns(PointBlock& block) const
   {
     std::size_t next = 0;
     for (std::size_t i = 0; i < block.Columns.size(); ++i)
@@ -219,6 +234,10 @@ private:
       }
     }
     block.Columns.resize(next);
+    for (std::vector<double>& column : block.Columns)
+    {
+      clearNoData(this->NoData, column);
+    }
   }
 
   bool areUnchanged() const
@@ -235,6 +254,7 @@ private:
   std::vector<std::unique_ptr<FilePoints>> Files;
   std::string Identity;
   std::vector<bool> Kept; ///< which of the files' columns are kept
+  PointOptions NoData;    ///< only this option
   std::size_t At = 0;
   std::int64_t Points = 0;
   std::int64_t First = 0;

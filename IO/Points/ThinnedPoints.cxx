@@ -144,6 +144,7 @@ public:
   std::int64_t leftOut() const override { return this->All->leftOut(); }
   std::int64_t thinnedOut() const override { return this->Seen - this->KeptCount; }
   std::string crs() const override { return this->All->crs(); }
+  std::vector<TableReport> reports() const override { return this->All->reports(); }
 
   std::string identity() const override
   {

@@ -142,6 +142,7 @@ int runDelaunay3D(const Delaunay3DArguments& arguments)
   PointTable table = readPoints(arguments.Inputs, arguments.Columns);
   const auto count = std::int64_t(table.size());
   reportLeftOut(table.LeftOut, table.ThinnedOut);
+  reportTables(table.Reports);
   const std::vector<Point3> points = coordinatesOf(table, arguments);
   if (isInterrupted())
   {
@@ -183,6 +184,7 @@ std::vector<Point3> readShare(const Communicator& ranks, const Delaunay3DArgumen
   if (ranks.isFirst()) // it counts the points of all files
   {
     reportLeftOut(table.LeftOut, table.ThinnedOut);
+    reportTables(table.Reports);
   }
   return table.size() == 0 && !ranks.isFirst() ? std::vector<Point3>()
                                                : coordinatesOf(table, arguments);
@@ -239,6 +241,7 @@ int runDelaunay3DOutOfCore(const Delaunay3DArguments& arguments)
   // With this threshold, large blocks are always returned to the system when they are freed.
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
   const auto points = openPointStream(arguments.Inputs, withThinningFile(arguments));
+  reportTables(points->reports());
   OutOfCoreOptions3 options;
   arguments.setOptions(options);
   options.Threads = arguments.Threads;

@@ -200,6 +200,7 @@ int runInMemory(const DelaunayArguments& arguments)
   run.Points = std::int64_t(points.size());
   run.ReadSeconds = watch.restart();
   reportLeftOut(points.LeftOut, points.ThinnedOut);
+  reportTables(points.Reports);
   if (isInterrupted())
   {
     return reportInterrupt();
@@ -332,6 +333,7 @@ void triangulateShares(Communicator& ranks, const DelaunayArguments& arguments)
   if (ranks.isFirst()) // it counts the points of all files
   {
     reportLeftOut(points.LeftOut, points.ThinnedOut);
+    reportTables(points.Reports);
   }
   RankPoints input;
   input.Points = PointsView(points.XY.data(), points.size(), 2);
@@ -403,8 +405,9 @@ int runInPieces(const DelaunayArguments& arguments, vtkMultiProcessController* c
     {
       checkOutputs(arguments.Output, arguments.Statistics, arguments.Scratch, arguments.Inputs);
     }
-    return joinConstraints(openPointStream(arguments.Inputs, withThinningFile(arguments)),
-      arguments.Constraints, options);
+    auto points = openPointStream(arguments.Inputs, withThinningFile(arguments));
+    reportTables(points->reports());
+    return joinConstraints(std::move(points), arguments.Constraints, options);
   };
   OutOfCoreStatistics statistics;
   const int code =

@@ -187,6 +187,7 @@ int runInMemory(const DemArguments& arguments)
   const RasterDescription description = describeRaster(arguments, stream->crs());
   PointTable points = readAllPoints(*stream);
   reportLeftOut(points.LeftOut, points.ThinnedOut);
+  reportTables(points.Reports);
   if (isInterrupted())
   {
     return reportInterrupt();
@@ -311,6 +312,7 @@ int runInPieces(const DemArguments& arguments, vtkMultiProcessController* contro
       return writeRaster(arguments, description, before, tiles, progress, report);
     },
     isGeoTiff(arguments.Output) ? std::make_optional(encoding) : std::nullopt);
+  bool isReported = false; // the points may be opened twice
   const auto open = [&]
   {
     if (isFirst)
@@ -320,6 +322,8 @@ int runInPieces(const DemArguments& arguments, vtkMultiProcessController* contro
     auto stream = openPointStream(arguments.Inputs, withThinningFile(arguments));
     if (isFirst)
     {
+      isReported ? void() : reportTables(stream->reports());
+      isReported = true;
       description = describeRaster(arguments, stream->crs());
       sink.setIdentity(identityOf(arguments, description));
     }

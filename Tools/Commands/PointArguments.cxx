@@ -2,6 +2,7 @@
 #include "Commands/PointArguments.h"
 
 #include "Files/InputFile.h"
+#include "Files/TemporaryFiles.h"
 #include "Files/TextFile.h"
 
 #include <CLI/CLI.hpp>
@@ -69,6 +70,11 @@ std::string checkClass(const std::string& text)
     : "'" + text + "' is not a class; give numbers from 0 to 255, such as 2,9";
 }
 
+std::string checkNumber(const std::string& text)
+{
+  return wholeNumber<double>(text) ? "" : "'" + text + "' is not a number";
+}
+
 /// Parses CELL:RULE; nullopt for other text.
 std::optional<Thinning> parseThinning(const std::string& text)
 {
@@ -104,6 +110,14 @@ void addPointOptions(CLI::App& command, PointOptions& options)
 {
   command.add_option("--x", options.X, "Column of x: a name, or a number counted from 0");
   command.add_option("--y", options.Y, "Column of y: a name, or a number counted from 0");
+  command.add_option("--z", options.Z, "Column of z: a name, or a number counted from 0");
+  command
+    .add_option_function<std::string>(
+      "--input-nodata",
+      [&options](const std::string& text) { options.NoData = wholeNumber<double>(text); },
+      "The number that stands for a missing value in the columns besides x and y, such as -9999")
+    ->check(checkNumber)
+    ->allow_extra_args(false);
   command
     .add_option_function<std::vector<std::string>>(
       "--class",
@@ -252,6 +266,32 @@ void reportLeftOut(std::int64_t points, std::int64_t thinnedOut)
   if (thinnedOut > 0)
   {
     fmt::print(stderr, "tipp: {} points are left out by thinning.\n", thinnedOut);
+  }
+}
+
+void reportTables(const std::vector<TableReport>& reports)
+{
+  constexpr std::size_t mostWarnings = 10;
+  std::size_t warnings = 0;
+  for (const TableReport& report : reports)
+  {
+    const bool isNew = &report == &reports.front() || report.Columns != reports.front().Columns;
+    if (isNew && !report.IsObvious)
+    {
+      fmt::print("{}: {}\n", shownPath(report.Path), report.Columns);
+    }
+    for (const std::string& warning : report.Warnings)
+    {
+      warnings++ < mostWarnings
+        ? fmt::print(stderr, "tipp: warning: {}: {}\n", shownPath(report.Path), warning)
+        : void();
+    }
+  }
+  if (warnings > mostWarnings)
+  {
+    fmt::print(stderr,
+      "tipp: warning: {} more such warnings; 'tipp info' on each file shows them.\n",
+      warnings - mostWarnings);
   }
 }
 

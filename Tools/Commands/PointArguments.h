@@ -92,6 +92,10 @@ PointOptions withThinningFile(const RunArguments& arguments);
 /// thinning.
 void reportLeftOut(std::int64_t points, std::int64_t thinnedOut);
 
+/// Prints which columns of tables have been read, to stdout, unless they are called x, y and z, and
+/// warnings about their values, to stderr.
+void reportTables(const std::vector<TableReport>& reports);
+
 /// Parses a number of bytes, which may have the suffix K, M or G for 2^10, 2^20 or 2^30 bytes, such
 /// as "512M". Returns nullopt for other text and for 0.
 std::optional<std::uint64_t> parseMemorySize(const std::string& text);

@@ -91,6 +91,7 @@ std::vector<Point3> readShare(const QueryArguments& arguments, bool inSpace, int
   if (rank == 0) // it counts the points of all files
   {
     reportLeftOut(table.LeftOut, table.ThinnedOut);
+    reportTables(table.Reports);
   }
   const std::vector<std::string> names = table.names();
   const std::size_t z = findElevation(names);
