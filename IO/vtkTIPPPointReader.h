@@ -53,7 +53,8 @@ public:
   ///@{
   /**
    * The columns of text and .npy files that are x and y: a name in the file, or a column index from
-   * 0. Empty or null (the default): columns with the usual names, else the first two.
+   * 0. Empty or null (the default): columns with the usual names, or
+   * without names the first two.
    */
   vtkTIPPStringMacro(XColumn);
   vtkTIPPStringMacro(YColumn);

@@ -34,7 +34,8 @@ void append(std::string& line, double value)
 std::vector<double> depthsOf(const PointTable& points)
 {
   const std::vector<std::string> names = points.names();
-  const auto depth = std::find(names.begin(), names.end(), "depth");
+  const auto depth = std::find_if(
+    names.begin(), names.end(), [](const std::string& name) { return lowerCase(name) == "depth"; });
   if (depth != names.end())
   {
     return points.Columns[std::size_t(depth - names.begin())].Values;

@@ -241,12 +241,19 @@ ConstraintTable readVectorFile(const std::string& path)
 
 #endif
 
+PointOptions segmentOptions()
+{
+  PointOptions options;
+  options.AsIs = true;
+  return options;
+}
+
 } // namespace
 
 SegmentRows::SegmentRows(const std::string& path, int wrap)
   : Path(path)
   , Wrap(wrap)
-  , Rows(openPointStream({ path }, { "0", "1" }))
+  , Rows(openPointStream({ path }, segmentOptions()))
 {
   const std::size_t columns = this->Rows->columns().size();
   if (columns != 0 && columns != 2 && columns != 4)

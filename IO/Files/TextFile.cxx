@@ -106,8 +106,24 @@ std::string_view withoutReturn(std::string_view line)
   return !line.empty() && line.back() == '\r' ? line.substr(0, line.size() - 1) : line;
 }
 
-void splitAtBlanks(std::string_view line, std::vector<std::string_view>& fields)
+/// The index after the text in double quotes that begins at `at`, in which two quotes are one; npos
+/// if the quote does not end.
+std::size_t endOfQuoted(std::string_view line, std::size_t at)
 {
+  for (std::size_t end = line.find('"', at + 1); end != std::string_view::npos;)
+  {
+    if (end + 1 == line.size() || line[end + 1] != '"')
+    {
+      return end + 1;
+    }
+    end = line.find('"', end + 2);
+  }
+  return std::string_view::npos;
+}
+
+bool splitAtBlanks(std::string_view line, std::vector<std::string_view>& fields)
+{
+  bool isClosed = true;
   std::size_t at = 0;
   while (at < line.size())
   {
@@ -116,6 +132,12 @@ void splitAtBlanks(std::string_view line, std::vector<std::string_view>& fields)
       ++at;
     }
     const std::size_t start = at;
+    if (at < line.size() && line[at] == '"')
+    {
+      const std::size_t end = endOfQuoted(line, at);
+      isClosed = isClosed && end != std::string_view::npos;
+      at = std::min(end, line.size());
+    }
     while (at < line.size() && !isBlank(line[at]))
     {
       ++at;
@@ -125,6 +147,7 @@ void splitAtBlanks(std::string_view line, std::vector<std::string_view>& fields)
       fields.push_back(line.substr(start, at - start));
     }
   }
+  return isClosed;
 }
 
 /// Throws IOError unless the beginning of a file, "-" for the standard input, may be text.
@@ -143,6 +166,10 @@ void requireText(const std::string& path, std::string_view text)
         "is compressed; decompress it first, as in \"" + std::string(program) +
           " -dc FILE | tipp ...\", or give it the extension of such files.");
     }
+  }
+  if (text.substr(0, 2) == "\xff\xfe" || text.substr(0, 2) == "\xfe\xff")
+  {
+    throw IOError(path, "is UTF-16 text; save it as UTF-8, as with 'iconv -f UTF-16 -t UTF-8'.");
   }
   if (text.substr(0, 4096).find('\0') != std::string_view::npos)
   {
@@ -204,6 +231,59 @@ std::string lowerCase(std::string_view text)
   return lower;
 }
 
+namespace
+{
+
+/// The length of the UTF-8 character at the beginning of a text; 0: there is none.
+std::size_t utf8Length(std::string_view text)
+{
+  const auto byte = [&](std::size_t i)
+  { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U; };
+  const unsigned first = byte(0);
+  const std::size_t length = first < 0x80 ? 1
+    : first >= 0xC2 && first < 0xE0       ? 2
+    : first >= 0xE0 && first < 0xF0       ? 3
+    : first >= 0xF0 && first < 0xF5       ? 4
+                                          : 0;
+  for (std::size_t i = 1; i < length; ++i)
+  {
+    if (byte(i) < 0x80 || byte(i) > 0xBF)
+    {
+      return 0;
+    }
+  }
+  // Not overlong, no surrogates, not beyond U+10FFFF.
+  const bool isBad = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xED && byte(1) > 0x9F) ||
+    (first == 0xF0 && byte(1) < 0x90) || (first == 0xF4 && byte(1) > 0x8F);
+  return isBad ? 0 : length;
+}
+
+} // namespace
+
+std::string utf8Of(std::string_view text)
+{
+  bool isUtf8 = true;
+  for (std::size_t at = 0; at < text.size() && isUtf8;)
+  {
+    const std::size_t length = utf8Length(text.substr(at));
+    isUtf8 = length > 0;
+    at += length;
+  }
+  std::string result;
+  for (const char c : text)
+  {
+    const auto code = static_cast<unsigned char>(c);
+    if (isUtf8 || code < 0x80)
+    {
+      result += c;
+      continue;
+    }
+    result += char(0xC0 | code >> 6);
+    result += char(0x80 | (code & 0x3F));
+  }
+  return result;
+}
+
 std::string_view trimField(std::string_view field)
 {
   field = trimBlanks(field);
@@ -238,14 +318,14 @@ bool parseInteger(std::string_view field, std::int64_t& value)
   return number.has_value();
 }
 
-void splitFields(std::string_view line, char delimiter, std::vector<std::string_view>& fields)
+bool splitFields(std::string_view line, char delimiter, std::vector<std::string_view>& fields)
 {
   fields.clear();
   if (delimiter == ' ')
   {
-    splitAtBlanks(line, fields);
-    return;
+    return splitAtBlanks(line, fields);
   }
+  bool isClosed = true;
   std::size_t start = 0;
   while (true)
   {
@@ -256,13 +336,15 @@ void splitFields(std::string_view line, char delimiter, std::vector<std::string_
     }
     if (from < line.size() && line[from] == '"')
     {
-      from = std::min(line.find('"', from + 1), line.size());
+      const std::size_t end = endOfQuoted(line, from);
+      isClosed = isClosed && end != std::string_view::npos;
+      from = std::min(end, line.size());
     }
     const std::size_t end = std::min(line.find(delimiter, from), line.size());
     fields.push_back(line.substr(start, end - start));
     if (end == line.size())
     {
-      return;
+      return isClosed;
     }
     start = end + 1;
   }
@@ -385,7 +467,14 @@ FileLines::FileLines(const std::string& path, std::size_t blockBytes)
     this->Expected =
       std::int64_t(double(lines + 1) * std::max(1.0, double(status.st_size) / double(this->End)));
   }
-  this->Begin = sizeOfMark({ this->Buffer.data(), this->End });
+  const std::string_view begin(this->Buffer.data(), this->End);
+  this->Begin = sizeOfMark(begin);
+  // Old Macintosh files end lines with \r alone.
+  const std::size_t ending = begin.find_first_of("\r\n");
+  if (ending + 1 < begin.size() && begin[ending] == '\r' && begin.find('\n') == begin.npos)
+  {
+    this->LineEnd = '\r';
+  }
 }
 
 /// Appends the next bytes to the buffer. Returns false at the end.
@@ -439,7 +528,7 @@ bool FileLines::next(std::string_view& line)
   for (;;)
   {
     const std::string_view rest(this->Buffer.data() + this->Begin, this->End - this->Begin);
-    std::size_t end = rest.find('\n', looked);
+    std::size_t end = rest.find(this->LineEnd, looked);
     if (end == std::string_view::npos)
     {
       looked = rest.size();

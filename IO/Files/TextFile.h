@@ -47,6 +47,9 @@ private:
 /// The text with lower-case letters; letters beyond ASCII stay.
 std::string lowerCase(std::string_view text);
 
+/// The text in UTF-8: text that is not UTF-8 is taken as Latin-1.
+std::string utf8Of(std::string_view text);
+
 /// The number that the whole text is, without blanks around it; nullopt for other text.
 template <typename Number>
 std::optional<Number> wholeNumber(std::string_view text)
@@ -66,8 +69,9 @@ bool parseInteger(std::string_view field, std::int64_t& value);
 VTKTIPPIO_EXPORT std::string exactText(double value);
 
 /// Splits a line at a delimiter, or at any run of blanks if the delimiter is a space. A field in
-/// double quotes may contain the delimiter.
-void splitFields(std::string_view line, char delimiter, std::vector<std::string_view>& fields);
+/// double quotes may contain the delimiter, and two quotes for one, as in RFC 4180.
+/// Returns false if a quote at the beginning of a field does not end.
+bool splitFields(std::string_view line, char delimiter, std::vector<std::string_view>& fields);
 
 /// Removes blanks and one pair of quotes around the field.
 std::string_view trimField(std::string_view field);
@@ -101,9 +105,9 @@ private:
   std::vector<std::string_view> Row;
 };
 
-/// Reads the lines of a text file of any size or of a pipe, without their ends (\n or \r\n) and
-/// without a byte order mark. A .gz, .xz or .zst file is decompressed by the program gzip, xz or
-/// zstd.
+/// Reads the lines of a text file of any size or of a pipe, without their ends (\n, \r\n, or \r if
+/// there is no \n) and without a byte order mark. A .gz, .xz or .zst file is decompressed by the
+/// program gzip, xz or zstd.
 class VTKTIPPIO_EXPORT FileLines
 {
 public:
@@ -129,6 +133,7 @@ private:
   std::vector<char> Buffer;
   std::size_t Begin = 0; ///< start of the bytes that have not been returned
   std::size_t End = 0;
+  char LineEnd = '\n';
   std::int64_t Number = 0;
   std::int64_t Expected = 0;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/VtkXml.h"
 
+#include "Files/TextFile.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -438,11 +440,16 @@ std::string cellTypeName(int type)
 std::string escapedXml(const std::string& text)
 {
   std::string out;
-  for (const char c : text)
+  for (const char c : utf8Of(text))
   {
-    if (c == '&' || c == '<' || c == '>' || c == '"' || static_cast<unsigned char>(c) < 0x20)
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '&' || c == '<' || c == '>' || c == '"' || c == '\t' || c == '\n' || c == '\r')
     {
-      out += "&#" + std::to_string(int(static_cast<unsigned char>(c))) + ";";
+      out += "&#" + std::to_string(int(code)) + ";";
+    }
+    else if (code < 0x20)
+    {
+      out += '?'; // XML has no other control characters
     }
     else
     {

@@ -99,7 +99,8 @@ XmlHead readXmlHead(const InputFile& file, std::uint64_t most);
 /// VTK's name of a cell type; its number in a build without VTK.
 VTKTIPPIO_EXPORT std::string cellTypeName(int type);
 
-/// The text as it stands in an XML file: special and control characters as numbers.
+/// The text as it stands in an XML file: special characters as numbers, control characters that XML
+/// does not have as question marks, and text that is not UTF-8 as Latin-1.
 std::string escapedXml(const std::string& text);
 
 } // namespace tipp

@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/TextFile.h"
 #include "Partitioned/Checksum.h"
 #include "Partitioned/PieceFormat.h"
 
@@ -53,7 +54,7 @@ OrderedJson packPiece(const PieceSummary& piece)
 
 OrderedJson packArray(const StoredArray& array)
 {
-  return { { "name", array.Name }, { "of", array.OfPoints ? "points" : "cells" },
+  return { { "name", utf8Of(array.Name) }, { "of", array.OfPoints ? "points" : "cells" },
     { "type", scalarName(array.Type) }, { "components", array.Components },
     { "step", array.Step } };
 }

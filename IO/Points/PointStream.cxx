@@ -51,6 +51,8 @@ public:
     this->Identity += options.Las.text() + "\n";
     this->Identity += this->Wrap > 0 ? "wrap " + std::to_string(this->Wrap) + "\n" : "";
     this->Identity += options.X + "\n" + options.Y + "\n" + options.Z + "\n" + options.Layer + "\n";
+    this->Identity += options.NoData ? exactText(*options.NoData) + "\n" : "";
+    this->NoData.NoData = options.NoData;
     for (const std::string& name : this->Files[0]->columns())
     {
       this->Kept.push_back(options.wants(name));
@@ -76,7 +78,7 @@ public:
       const auto left = std::uint64_t(this->End - this->Points);
       if (this->Files[this->At]->next(block, std::size_t(std::min<std::uint64_t>(most, left))))
       {
-        this->dropColumns(block);
+        this->finishColumns(block);
         this->Wrap > 0 ? wrapLongitudes(this->Paths[this->At], this->Wrap, block.XY) : void();
         block.First = this->Points;
         this->Points += std::int64_t(block.size());
@@ -254,7 +256,8 @@ private:
     return shownText(system.Words.empty() ? system.Text : system.Words);
   }
 
-  void dropColumns(PointBlock& block) const
+  /// Drops the columns that are not asked for, and clears values that stand for missing ones.
+  void finishColumns(PointBlock& block) const
   {
     std::size_t next = 0;
     for (std::size_t i = 0; i < block.Columns.size(); ++i)
@@ -265,6 +268,10 @@ private:
       }
     }
     block.Columns.resize(next);
+    for (std::vector<double>& column : block.Columns)
+    {
+      clearNoData(this->NoData, column);
+    }
   }
 
   bool areUnchanged() const
@@ -282,6 +289,7 @@ private:
   std::vector<std::unique_ptr<FilePoints>> Files;
   std::string Identity;
   std::vector<bool> Kept; ///< which of the files' columns are kept
+  PointOptions NoData;    ///< only this option
   std::size_t At = 0;
   std::int64_t Points = 0;
   std::int64_t First = 0;

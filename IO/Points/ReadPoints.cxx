@@ -12,7 +12,9 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <limits>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace tipp
@@ -20,24 +22,10 @@ namespace tipp
 namespace
 {
 
-constexpr std::array<std::pair<const char*, const char*>, 6> usualNames = { { { "x", "y" },
-  { "lon", "lat" }, { "longitude", "latitude" }, { "easting", "northing" }, { "lng", "lat" },
-  { "long", "lat" } } };
-
 std::optional<std::size_t> find(const std::vector<std::string>& names, const std::string& name)
 {
   const auto at = std::find(names.begin(), names.end(), name);
   return at == names.end() ? std::nullopt : std::make_optional(std::size_t(at - names.begin()));
-}
-
-std::string listed(const std::vector<std::string>& names, std::size_t count)
-{
-  std::string list;
-  for (const std::string& name : names)
-  {
-    list += (list.empty() ? "" : ", ") + name;
-  }
-  return names.empty() ? "0 to " + std::to_string(count - 1) : list;
 }
 
 std::size_t resolve(const std::string& path, const std::string& wanted,
@@ -52,7 +40,9 @@ std::size_t resolve(const std::string& path, const std::string& wanted,
   {
     return *number;
   }
-  throw IOError(path, "has no column '" + wanted + "'; choose from " + listed(names, count) + ".");
+  throw IOError(path,
+    "has no column '" + wanted + "'; choose from " +
+      (names.empty() ? "0 to " + std::to_string(count - 1) : listOf(names)) + ".");
 }
 
 void requireNoSelection(const std::string& path, const PointOptions& options)
@@ -74,11 +64,45 @@ void requireNoChoice(
 
 } // namespace
 
+bool isNoDataMark(double height)
+{
+  constexpr std::array<double, 12> marks = { -9999, -99999, -999999, -9999.99, -32768, -32767,
+    1.70141e38, double(std::numeric_limits<float>::lowest()),
+    double(std::numeric_limits<float>::max()), -3.402823e38, 1e20, 1e30 };
+  return std::find(marks.begin(), marks.end(), height) != marks.end();
+}
+
 std::optional<int> LasSelection::parseClass(const std::string& text)
 {
   const auto number = wholeNumber<int>(text);
   return number && *number >= 0 && *number <= 255 ? number : std::nullopt;
 }
+
+namespace
+{
+
+/// Chooses columns by their names, as far as the options do not.
+ColumnChoice chooseByName(
+  const std::string& path, const std::vector<std::string>& names, const PointOptions& options)
+{
+  ColumnChoice choice;
+  try
+  {
+    const bool isChosen = !options.X.empty() && !options.Y.empty();
+    if (!isChosen)
+    {
+      return requireCoordinates(names);
+    }
+    options.Z.empty() ? findHeights(names, choice) : void();
+    return choice;
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw IOError(path, error.what());
+  }
+}
+
+} // namespace
 
 ColumnChoice chooseColumns(const std::string& path, const std::vector<std::string>& names,
   std::size_t count, const PointOptions& options)
@@ -87,30 +111,30 @@ ColumnChoice chooseColumns(const std::string& path, const std::vector<std::strin
   {
     throw IOError(path, "has a single column; x and y are needed.");
   }
-  ColumnChoice choice;
-  std::vector<std::string> lower;
-  std::transform(names.begin(), names.end(), std::back_inserter(lower), lowerCase);
-  for (const auto& [x, y] : usualNames)
+  ColumnChoice choice =
+    options.AsIs || names.empty() ? ColumnChoice() : chooseByName(path, names, options);
+  const auto take = [&](const std::string& wanted, auto& column)
+  { wanted.empty() ? void() : void(column = resolve(path, wanted, names, count)); };
+  take(options.X, choice.X);
+  take(options.Y, choice.Y);
+  const std::size_t next = std::max(choice.X, choice.Y) + 1;
+  if (names.empty() && !options.AsIs && next < count)
   {
-    const auto atX = find(lower, x);
-    const auto atY = find(lower, y);
-    if (atX && atY)
-    {
-      choice = { *atX, *atY };
-      break;
-    }
+    choice.Z = next;
   }
-  if (!options.X.empty())
-  {
-    choice.X = resolve(path, options.X, names, count);
-  }
-  if (!options.Y.empty())
-  {
-    choice.Y = resolve(path, options.Y, names, count);
-  }
+  take(options.Z, choice.Z);
+  choice.IsDepth = choice.IsDepth && options.Z.empty();
   if (choice.X == choice.Y)
   {
     throw IOError(path, "cannot give the same column as x and y; choose both.");
+  }
+  if (choice.Z == choice.X || choice.Z == choice.Y)
+  {
+    if (!options.Z.empty())
+    {
+      throw IOError(path, "cannot give the same column as z and as x or y; choose all three.");
+    }
+    choice.Z.reset();
   }
   return choice;
 }
@@ -168,11 +192,14 @@ public:
 
   std::vector<std::string> columns() const override
   {
-    return this->Width == 3 ? std::vector<std::string>{ this->Names[this->third()] }
-                            : std::vector<std::string>();
+    return this->Width == 3
+      ? std::vector<std::string>{ this->isThirdAsked() ? "z" : this->Names[this->third()] }
+      : std::vector<std::string>();
   }
 
 private:
+  bool isThirdAsked() const { return this->Choice.Z == this->third(); }
+
   /// The index of the column that is neither x nor y, if there are three.
   std::size_t third() const { return 3 - this->Choice.X - this->Choice.Y; }
 
@@ -262,6 +289,15 @@ private:
 
 } // namespace
 
+void clearNoData(const PointOptions& options, std::vector<double>& values)
+{
+  if (options.NoData)
+  {
+    std::replace(
+      values.begin(), values.end(), *options.NoData, std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
 std::unique_ptr<FilePoints> openTable(PointTable table)
 {
   return std::make_unique<TablePoints>(std::move(table), nullptr);
@@ -303,6 +339,10 @@ namespace
 
 void dropUnwanted(const PointOptions& options, PointTable& table)
 {
+  for (PointTable::Column& column : table.Columns)
+  {
+    clearNoData(options, column.Values);
+  }
   std::vector<PointTable::Column>& columns = table.Columns;
   columns.erase(
     std::remove_if(columns.begin(), columns.end(),

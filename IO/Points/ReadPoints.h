@@ -3,6 +3,7 @@
 #define tippReadPoints_h
 
 #include "Crs/ReferenceSystem.h"
+#include "Points/TableColumns.h"
 #include "vtkTIPPIOModule.h"
 
 #include <algorithm>
@@ -23,7 +24,8 @@ namespace tipp
 struct TableReport
 {
   std::string Path;
-  std::string Columns; ///< such as "x from 'Easting', y from 'Northing', z from 'Elevation'"
+  std::string Columns;    ///< such as "x from 'Easting', y from 'Northing', z from 'Elevation'"
+  bool IsObvious = false; ///< the columns are called x, y and z
   std::vector<std::string> Warnings; ///< sentences about values that may not be meant
   std::vector<std::string> Remarks;  ///< sentences about what was left out or changed
 };
@@ -83,6 +85,10 @@ inline std::size_t findRankColumn(const std::vector<std::string>& columns)
   }
   return std::size_t(std::find(columns.begin(), columns.end(), "depth") - columns.begin());
 }
+
+/// Whether a height is one of the numbers that mark missing values in rasters and tables, such as
+/// -9999.
+VTKTIPPIO_EXPORT bool isNoDataMark(double height);
 
 /// The number of values that are NaN or infinite.
 inline std::int64_t countMissing(const std::vector<double>& values)
@@ -165,9 +171,8 @@ struct Thinning
 /// Options of reading points.
 struct PointOptions
 {
-  /// Which columns are x and y: a name in the file's header, or a column index from 0. Empty:
-  /// columns with the usual names (x, y; lon, lat; longitude, latitude; easting, northing), else
-  /// the first two.
+  /// Which columns are x and y: a name in the file's header, or a column index from 0. Empty: by
+  /// findCoordinates(); without names the first two.
   std::string X;
   std::string Y; ///< likewise
   LasSelection Las = {};
@@ -189,6 +194,10 @@ struct PointOptions
   std::string Crs = {};
   /// Whether files in different systems are read together. A Crs allows it, too.
   bool AnyCrs = false;
+  /// The value that stands for a missing one in all columns but x and y.
+  std::optional<double> NoData = {};
+  /// Whether the columns of text are taken as they are, the first two as x and y.
+  bool AsIs = false;
 
   bool wants(const std::string& column) const
   {
@@ -321,6 +330,9 @@ public:
   virtual void skip(std::int64_t) {}
 };
 
+/// Replaces the options' no-data value by NaN.
+void clearNoData(const PointOptions& options, std::vector<double>& values);
+
 /// Opens a file by its extension. Throws IOError.
 std::unique_ptr<FilePoints> openFilePoints(const std::string& path, const PointOptions& options);
 
@@ -353,10 +365,14 @@ bool isGisPath(const std::string& path);
 std::unique_ptr<FilePoints> openGisPoints(const std::string& path, const PointOptions& options);
 
 /// Reads points from text, one per line. The delimiter is detected: semicolon, comma, tab or
-/// blanks; numbers may have decimal commas unless commas separate the columns. The first line may
-/// hold names, the number of points, or the numbers of points and of edges (0). Empty lines and
-/// lines that start with # are skipped. Another column is kept if all its values are numbers or
-/// missing (NaN); without names the first is z and the others column<number>.
+/// blanks; numbers may have decimal commas unless commas separate the columns. Lines above the
+/// first row may hold names, also behind a comment mark, units, a title, the number of points, or
+/// the numbers of points and of edges (0). Empty lines and comments are skipped.
+///
+/// The column of heights becomes z, and is also kept under its own name. Other columns are kept if
+/// they hold numbers; without names they are called column<number>. A few fields of text in a
+/// column of numbers are missing values (NaN), which are counted in the report; more of them are an
+/// error in z or in a column that is asked for, else the column is left out.
 PointTable readTextPoints(const std::string& path, const PointOptions& options);
 
 /// Whether the path names text: .csv, .tsv, .txt, .xyz or .pts; .gz, .xz or .zst (compressed text);
@@ -371,15 +387,9 @@ VTKTIPPIO_EXPORT bool isVtkFile(const std::string& path);
 /// always in a build without VTK.
 VTKTIPPIO_EXPORT PointTable readVtkPoints(const std::string& path);
 
-/// The indices of the columns that are x and y.
-struct ColumnChoice
-{
-  std::size_t X = 0;
-  std::size_t Y = 1;
-};
-
-/// Finds x and y among a file's columns; `names` is empty or as long as `count`. Throws IOError if
-/// there are fewer than two columns or the options ask for one that is not there.
+/// Finds x, y and z among a file's columns; `names` is empty or as long as `count`. Throws IOError
+/// if there are fewer than two columns, the options ask for one that is not there, or the names do
+/// not tell.
 ColumnChoice chooseColumns(const std::string& path, const std::vector<std::string>& names,
   std::size_t count, const PointOptions& options);
 

@@ -4,12 +4,13 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/TextFile.h"
+#include "Points/TableRows.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <filesystem>
+#include <iterator>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -18,360 +19,247 @@ namespace tipp
 namespace
 {
 
-/// A number with a decimal comma, as "-1,5".
-bool parseDecimalComma(std::string_view field, double& value)
+/// A column that may hold numbers, with what has been found in it.
+struct SurveyedColumn
 {
-  constexpr std::size_t longest = 64;
-  field = trimField(field);
-  const std::size_t comma = field.find(',');
-  const auto isDigit = [&](std::size_t at)
-  { return at < field.size() && field[at] >= '0' && field[at] <= '9'; };
-  if (comma == std::string_view::npos || comma == 0 || field.size() > longest ||
-    !isDigit(comma - 1) || !isDigit(comma + 1) || field.find('.') != std::string_view::npos)
-  {
-    return false;
-  }
-  std::string text(field);
-  text[comma] = '.';
-  return parseNumber(text, value);
-}
+  TableRows::Column Column;
+  bool IsHeight = false;
+  std::vector<double> Values = {};
+  std::int64_t Numbers = 0;
+  std::int64_t Missing = 0; ///< words for missing values, and texts
+  std::int64_t Texts = 0;
+  std::int64_t Sentinels = 0;    ///< numbers such as -9999
+  std::string FirstMissing = {}; ///< with its line
+  std::string FirstText = {};
+  std::int64_t FirstTextLine = 0;
+  bool IsText = false; ///< too many texts: its values are not kept
+};
 
-/// Whether blanks separate fields with decimal commas, as in "1,5 2,5".
-bool hasDecimalCommas(std::string_view line)
-{
-  std::vector<std::string_view> fields;
-  splitFields(line, ' ', fields);
-  double value = 0;
-  return fields.size() > 1 &&
-    std::all_of(fields.begin(), fields.end(),
-      [&](std::string_view field)
-      { return parseNumber(field, value) || parseDecimalComma(field, value); });
-}
-
-char findDelimiter(std::string_view line)
-{
-  if (line.find(';') == std::string_view::npos && hasDecimalCommas(line))
-  {
-    return line.find('\t') != std::string_view::npos ? '\t' : ' ';
-  }
-  for (const char candidate : { ';', ',', '\t' })
-  {
-    if (line.find(candidate) != std::string_view::npos)
-    {
-      return candidate;
-    }
-  }
-  return ' ';
-}
-
-bool isMissing(std::string_view field)
-{
-  field = trimField(field);
-  return field.empty() || field == "NA" || field == "N/A" || field == "null" || field == "-";
-}
-
-/// Whether a field of digits only differs from the double that it was parsed as.
-bool isRoundedInteger(std::string_view field, double value)
-{
-  constexpr double exact = 0x1p53;
-  if (!(std::fabs(value) >= exact))
-  {
-    return false;
-  }
-  field = trimField(field);
-  if (field.front() == '+' || field.front() == '-')
-  {
-    field.remove_prefix(1);
-  }
-  field.remove_prefix(std::min(field.find_first_not_of('0'), field.size()));
-  if (field.find_first_not_of("0123456789") != std::string_view::npos)
-  {
-    return false;
-  }
-  char digits[400];
-  const auto [end, error] =
-    std::to_chars(digits, digits + sizeof(digits), std::fabs(value), std::chars_format::fixed, 0);
-  return error != std::errc() || field != std::string_view(digits, std::size_t(end - digits));
-}
-
-std::string_view trimEnd(std::string_view line)
-{
-  while (!line.empty() && line.back() == ' ')
-  {
-    line.remove_suffix(1);
-  }
-  return line;
-}
-
-/// Reads the rows of a text file of points in order; readTextPoints() describes the format.
-class TextRows
+/// Reads all rows, and thereby finds all errors in the file.
+class TableSurvey
 {
 public:
-  struct Column
-  {
-    std::size_t Index;
-    std::string Name;
-  };
-
-  /// Reads the lines before the first row. Throws IOError.
-  TextRows(const std::string& path, const PointOptions& options)
+  /// The values of `Columns` and `XY` stay empty unless `keepsValues`.
+  TableSurvey(const std::string& path, const PointOptions& options, bool keepsValues)
     : Path(path)
-    , Lines(path)
+    , Options(options)
+    , Rows(path, options)
+    , KeepsValues(keepsValues)
   {
-    this->readStart();
-    this->chooseColumns(options);
-  }
-
-  /// Reads the next row; returns false at the end. Throws IOError if a row has another width, or if
-  /// there are not as many rows as the first line announces.
-  bool next()
-  {
-    if (this->Rows > 0)
+    const std::size_t expected = keepsValues ? std::size_t(this->Rows.expectedRows()) : 0;
+    this->XY.reserve(2 * expected);
+    for (const TableRows::Column& column : this->Rows.further())
     {
-      if (!this->nextLine())
-      {
-        if (this->Count && *this->Count != this->Rows)
-        {
-          throw IOError(this->Path,
-            "announces " + std::to_string(*this->Count) + " points in its first line and holds " +
-              std::to_string(this->Rows) + "; copy it again or correct the line.");
-        }
-        return false;
-      }
-      this->split();
-      if (this->Row.size() != this->Width)
-      {
-        throw IOError(this->Path, this->Lines.lineNumber(),
-          "has " + std::to_string(this->Row.size()) + " columns where the first point has " +
-            std::to_string(this->Width) + "; correct or remove the line.");
-      }
+      this->Columns.push_back({ column, this->Columns.size() == this->Rows.height() });
+      this->Columns.back().Values.reserve(expected);
     }
-    ++this->Rows;
-    return true;
+    this->readRows();
+    this->finish();
   }
 
-  /// The coordinates of the row; throw IOError if they are not numbers.
-  double x() const { return this->coordinate(this->Choice.X); }
-  double y() const { return this->coordinate(this->Choice.Y); }
-
-  enum class Value
-  {
-    Number,
-    Missing, ///< NaN
-    Text
-  };
-  Value value(const Column& column, double& value) const
-  {
-    const std::string_view field = this->Row[column.Index];
-    if (this->parse(field, value))
-    {
-      return Value::Number;
-    }
-    value = std::numeric_limits<double>::quiet_NaN();
-    return isMissing(field) ? Value::Missing : Value::Text;
-  }
-
-  /// All columns but x and y.
-  const std::vector<Column>& further() const { return this->Further; }
-  std::size_t width() const { return this->Width; }
-  /// An estimate of the number of rows; 0: unknown.
-  std::int64_t expectedRows() const { return this->Lines.expectedLines(); }
+  std::vector<double> XY;
+  std::vector<SurveyedColumn> Columns; ///< those that hold numbers
+  /// The index in Columns of the heights if they need a copy named z; Columns' size: they do not.
+  std::size_t Copied = 0;
+  TableReport Report;
 
 private:
-  bool nextLine()
+  void keep(double value, std::vector<double>& values) const
   {
-    while (this->Lines.next(this->Line))
+    this->KeepsValues ? values.push_back(value) : void();
+  }
+
+  void readRows()
+  {
+    std::optional<PointNumberTest> test = this->Rows.numberTest();
+    while (this->Rows.next())
     {
-      const std::size_t start = this->Line.find_first_not_of(" \t");
-      if (start != std::string_view::npos && this->Line[start] != '#')
+      this->addCoordinates();
+      for (SurveyedColumn& column : this->Columns)
       {
-        return true;
+        if (column.IsText)
+        {
+          continue;
+        }
+        double value = 0;
+        const FieldKind kind = this->Rows.value(column.Column, value);
+        kind == FieldKind::Number ? void(++column.Numbers) : this->note(kind, column);
+        if (column.IsHeight && std::fabs(value) >= leastMark && isNoDataMark(value) &&
+          value != this->Options.NoData)
+        {
+          ++column.Sentinels;
+        }
+        this->keep(value, column.Values);
       }
+      this->Rows.requireOneKindOfDecimals();
+      test ? this->Rows.add(*test) : void();
     }
-    return false;
+    if (test && test->holdsNumbers())
+    {
+      this->Rows.failForNumbers();
+    }
+    this->Rows.requireClearCommas();
   }
 
-  void requireLine()
+  void addCoordinates()
   {
-    if (!this->nextLine())
+    const double x = this->Rows.x();
+    const double y = this->Rows.y();
+    if ((std::isnan(x) || std::isnan(y)) && this->Rows.lacksCoordinate())
     {
-      throw IOError(this->Path, "holds no points; give a file with one point a line.");
+      this->FirstNotFinite = this->NotFinite == 0 ? this->Rows.lineNumber() : this->FirstNotFinite;
+      ++this->NotFinite;
     }
+    this->keep(x, this->XY);
+    this->keep(y, this->XY);
   }
 
-  void split()
+  /// Notes a field that is not a number.
+  void note(FieldKind kind, SurveyedColumn& column)
   {
-    // Files with blanks between columns may have one at the end of a line, too.
-    const std::string_view line = this->Delimiter == ' ' ? this->Line : trimEnd(this->Line);
-    splitFields(line, this->Delimiter, this->Row);
-  }
-
-  /// Reads the lines before the first point. Afterwards Row holds the first point's fields.
-  void readStart()
-  {
-    this->requireLine();
-    this->Delimiter = findDelimiter(this->Line);
-    this->split();
-    std::int64_t count = 0;
-    if ((this->Row.size() == 1 && parseInteger(this->Row[0], count)) ||
-      this->startsWithCounts(count))
+    if (kind == FieldKind::Empty)
     {
-      this->Count = count;
-      this->requireLine();
+      return;
     }
-    else if (this->startsWithNames())
+    const std::string shown = "'" + TableRows::shown(this->Rows.field(column.Column)) +
+      "' in line " + std::to_string(this->Rows.lineNumber());
+    column.FirstMissing = column.Missing++ == 0 ? shown : column.FirstMissing;
+    if (kind == FieldKind::Text)
     {
-      const std::string header(this->Line);
-      this->requireLine();
-      this->Delimiter = findDelimiter(this->Line);
-      splitFields(header, this->Delimiter, this->Row);
-      for (const std::string_view name : this->Row)
+      column.FirstText = column.Texts == 0 ? shown : column.FirstText;
+      if (++column.Texts > fewTexts)
       {
-        this->Names.emplace_back(trimField(name));
-      }
-    }
-    this->Delimiter = findDelimiter(this->Line);
-    this->split();
-    if (this->Names.size() != this->Row.size())
-    {
-      this->Names.clear(); // a title
-    }
-  }
-
-  /// The first line may hold the number of points and 0, the number of edges, or be a point; so the
-  /// lines after it are counted.
-  bool startsWithCounts(std::int64_t& points) const
-  {
-    std::int64_t edges = -1;
-    std::error_code ignored;
-    if (this->Row.size() != 2 || !parseInteger(this->Row[0], points) || points < 1 ||
-      !parseInteger(this->Row[1], edges) || edges != 0 ||
-      !std::filesystem::is_regular_file(openablePath(this->Path), ignored))
-    {
-      return false;
-    }
-    FileLines lines(this->Path);
-    std::string_view line;
-    std::int64_t count = -1; // not counting this one
-    while (lines.next(line) && count <= points)
-    {
-      const std::size_t start = line.find_first_not_of(" \t");
-      count += start != std::string_view::npos && line[start] != '#' ? 1 : 0;
-    }
-    return count == points;
-  }
-
-  /// A point has at least two numbers; a line of names may hold one, such as a year.
-  bool startsWithNames() const
-  {
-    double value;
-    return std::count_if(this->Row.begin(), this->Row.end(),
-             [&](std::string_view field) { return this->parse(field, value); }) < 2;
-  }
-
-  void chooseColumns(const PointOptions& options)
-  {
-    this->Width = this->Row.size();
-    this->Choice = tipp::chooseColumns(this->Path, this->Names, this->Width, options);
-    for (std::size_t i = 0; i < this->Width; ++i)
-    {
-      if (i != this->Choice.X && i != this->Choice.Y)
-      {
-        const std::string plain = this->Further.empty() ? "z" : "column" + std::to_string(i);
-        const bool named = !this->Names.empty() && !this->Names[i].empty();
-        this->Further.push_back({ i, named ? this->Names[i] : plain });
+        this->setText(column);
       }
     }
   }
 
-  bool parse(std::string_view field, double& value) const
+  /// Gives up a column of text, unless it is needed. Throws IOError.
+  void setText(SurveyedColumn& column)
   {
-    return parseNumber(field, value) || (this->Delimiter != ',' && parseDecimalComma(field, value));
+    const std::string& name = column.Column.Name;
+    const bool isAsked = this->Options.Columns && this->Options.wants(name);
+    const bool isHeight =
+      column.IsHeight && (this->Options.wants("z") || this->Options.wants(name));
+    const bool isNeeded = (isHeight && (this->Rows.isNamed() || column.Numbers > 0)) ||
+      (isAsked && !column.IsHeight) || (this->Options.AsIs && column.Numbers > 0);
+    if (isNeeded)
+    {
+      throw IOError(this->Path,
+        "has text that is not a number in column '" + shownText(name) + "', first " +
+          column.FirstText + "; correct it, or choose another column" +
+          (column.IsHeight ? " with --z." : "."));
+    }
+    column.IsText = true;
+    std::vector<double>().swap(column.Values);
   }
 
-  double coordinate(std::size_t index) const
+  void finish()
   {
-    double value = 0;
-    if (isMissing(this->Row[index]))
+    for (SurveyedColumn& column : this->Columns)
     {
-      // The caller counts points that are not finite.
-      return std::numeric_limits<double>::quiet_NaN();
+      const bool areFew = 2 * column.Texts <= column.Numbers;
+      column.Texts > 0 && !areFew && !column.IsText ? this->setText(column) : void();
     }
-    if (!this->parse(this->Row[index], value))
-    {
-      constexpr std::size_t shown = 40;
-      throw IOError(this->Path, this->Lines.lineNumber(),
-        "'" + std::string(trimField(this->Row[index]).substr(0, shown)) +
-          "' is not a number; correct the line or choose other columns for x and y.");
-    }
-    if (isRoundedInteger(this->Row[index], value))
-    {
-      throw IOError(this->Path, this->Lines.lineNumber(),
-        "'" + std::string(trimField(this->Row[index])) +
-          "' is an integer beyond 2^53 that a double cannot hold; subtract an offset from the "
-          "column.");
-    }
-    return value;
+    this->report();
+    this->Columns.erase(
+      std::remove_if(this->Columns.begin(), this->Columns.end(),
+        [](const SurveyedColumn& column) { return column.IsText || column.Numbers == 0; }),
+      this->Columns.end());
+    this->nameHeights();
   }
 
-  std::string Path;
-  FileLines Lines;
-  std::string_view Line;
-  char Delimiter = ' ';
-  std::vector<std::string_view> Row;
-  std::size_t Width = 0;
-  std::int64_t Rows = 0;
-  std::optional<std::int64_t> Count;
-  std::vector<std::string> Names;
-  ColumnChoice Choice;
-  std::vector<Column> Further;
+  /// Heights under another name than z are read under both.
+  void nameHeights()
+  {
+    const auto height = std::find_if(this->Columns.begin(), this->Columns.end(),
+      [](const SurveyedColumn& column) { return column.IsHeight; });
+    this->Copied = this->Columns.size();
+    if (height == this->Columns.end() || height->Column.Name == "z")
+    {
+      return;
+    }
+    for (SurveyedColumn& column : this->Columns)
+    {
+      column.Column.Name += column.Column.Name == "z" ? "_2" : "";
+    }
+    if (lowerCase(height->Column.Name) == "z")
+    {
+      height->Column.Name = "z";
+      return;
+    }
+    this->Copied = std::size_t(height - this->Columns.begin());
+  }
+
+  void report()
+  {
+    this->Report.Path = this->Path;
+    this->Report.Columns = this->Rows.describe();
+    this->Report.IsObvious = this->Rows.areObvious();
+    if (this->NotFinite > 0)
+    {
+      this->warn(counted(this->NotFinite, "point has", "points have") +
+        " no x or y; the first is in line " + std::to_string(this->FirstNotFinite) + ".");
+    }
+    for (const std::string& name : this->Rows.changedNames())
+    {
+      name.empty() ? void()
+                   : this->remark("several columns are named '" + shownText(name) +
+                       "'; the later ones get _2, _3 and so on.");
+    }
+    for (const SurveyedColumn& column : this->Columns)
+    {
+      this->report(column);
+    }
+  }
+
+  void report(const SurveyedColumn& column)
+  {
+    const std::string name = "column '" + shownText(column.Column.Name) + "'";
+    if (column.IsText && column.Numbers > 0)
+    {
+      this->warn(name + " holds text, such as " + column.FirstText + ", and is left out.");
+    }
+    else if (column.IsText || (column.Numbers == 0 && column.Missing > 0))
+    {
+      this->remark(name + " holds no numbers and is left out.");
+    }
+    else if (column.Numbers == 0)
+    {
+      column.IsHeight ? this->warn(name + " is empty, so there are no heights.")
+                      : this->remark(name + " is empty and is left out.");
+    }
+    else if (column.Missing > 0)
+    {
+      const std::string sentence = counted(column.Missing, "value", "values") + " in " + name +
+        " " + (column.Missing == 1 ? "is" : "are") + " missing, first " + column.FirstMissing + ".";
+      column.IsHeight || column.Texts > 0 ? this->warn(sentence) : this->remark(sentence);
+    }
+    if (column.Sentinels > 0)
+    {
+      this->warn(counted(column.Sentinels, "height", "heights") + " in " + name +
+        " look like the mark of a missing one, such as -9999; give --input-nodata with the value.");
+    }
+  }
+
+  static std::string counted(std::int64_t count, const char* one, const char* many)
+  {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+  }
+
+  void warn(std::string sentence) { this->Report.Warnings.push_back(std::move(sentence)); }
+  void remark(std::string sentence) { this->Report.Remarks.push_back(std::move(sentence)); }
+
+  static constexpr double leastMark = 9999;   ///< a quick test of what isNoDataMark() tests
+  static constexpr std::int64_t fewTexts = 5; ///< texts that are missing values
+
+  const std::string Path;
+  const PointOptions Options;
+  TableRows Rows;
+  const bool KeepsValues;
+  std::int64_t NotFinite = 0;
+  std::int64_t FirstNotFinite = 0;
 };
-
-/// A column that may hold only numbers or nothing.
-struct NumericColumn
-{
-  TextRows::Column Column;
-  std::vector<double> Values;
-  bool HasNumber = false;
-};
-
-/// Reads all rows, and thereby finds all errors in the file. Returns the other columns that hold
-/// only numbers or nothing, and at least one number. Their values and `xy` stay empty unless
-/// `keepsValues`.
-std::vector<NumericColumn> readRows(TextRows rows, bool keepsValues, std::vector<double>& xy)
-{
-  const std::size_t expected = keepsValues ? std::size_t(rows.expectedRows()) : 0;
-  xy.reserve(2 * expected);
-  std::vector<NumericColumn> columns;
-  for (const TextRows::Column& column : rows.further())
-  {
-    columns.push_back({ column, {} });
-    columns.back().Values.reserve(expected);
-  }
-  const auto keep = [keepsValues](double value, std::vector<double>& values)
-  { keepsValues ? values.push_back(value) : void(); };
-  while (rows.next())
-  {
-    keep(rows.x(), xy);
-    keep(rows.y(), xy);
-    for (std::size_t i = 0; i < columns.size();)
-    {
-      double value = 0;
-      const TextRows::Value kind = rows.value(columns[i].Column, value);
-      if (kind == TextRows::Value::Text)
-      {
-        columns.erase(columns.begin() + std::ptrdiff_t(i));
-        continue;
-      }
-      columns[i].HasNumber = columns[i].HasNumber || kind == TextRows::Value::Number;
-      keep(value, columns[i++].Values);
-    }
-  }
-  columns.erase(std::remove_if(columns.begin(), columns.end(),
-                  [](const NumericColumn& column) { return !column.HasNumber; }),
-    columns.end());
-  return columns;
-}
 
 class TextFilePoints : public FilePoints
 {
@@ -380,10 +268,12 @@ public:
     : Path(path)
     , Options(options)
   {
-    std::vector<double> none;
-    for (const NumericColumn& column : readRows(TextRows(path, options), false, none))
+    TableSurvey survey(path, options, false);
+    this->Report = std::move(survey.Report);
+    this->Copied = survey.Copied;
+    for (SurveyedColumn& column : survey.Columns)
     {
-      this->Numeric.push_back(column.Column);
+      this->Numeric.push_back({ std::move(column.Column), column.Texts > 0 });
     }
   }
 
@@ -393,7 +283,10 @@ public:
     {
       this->Rows.emplace(this->Path, this->Options);
     }
-    block.Columns.resize(this->Numeric.size());
+    const bool isCopied = this->Copied < this->Numeric.size();
+    block.Columns.resize(this->Numeric.size() + (isCopied ? 1 : 0));
+    // The copy comes first among the columns that are read.
+    std::vector<double>* const columns = block.Columns.data() + (isCopied ? 1 : 0);
     std::size_t count = 0;
     for (; count < most && this->Rows->next(); ++count)
     {
@@ -401,8 +294,12 @@ public:
       block.XY.push_back(this->Rows->y());
       for (std::size_t i = 0; i < this->Numeric.size(); ++i)
       {
-        block.Columns[i].push_back(this->valueOf(this->Numeric[i]));
+        columns[i].push_back(this->valueOf(this->Numeric[i]));
       }
+    }
+    if (isCopied)
+    {
+      block.Columns[0] = columns[this->Copied];
     }
     return count > 0;
   }
@@ -415,19 +312,31 @@ public:
   std::vector<std::string> columns() const override
   {
     std::vector<std::string> names;
-    for (const TextRows::Column& column : this->Numeric)
+    if (this->Copied < this->Numeric.size())
     {
-      names.push_back(column.Name);
+      names.emplace_back("z");
+    }
+    for (const NumericColumn& column : this->Numeric)
+    {
+      names.push_back(column.Column.Name);
     }
     return names;
   }
 
+  std::vector<TableReport> reports() const override { return { this->Report }; }
+
 private:
-  double valueOf(const TextRows::Column& column) const
+  struct NumericColumn
+  {
+    TableRows::Column Column;
+    bool HasTexts; ///< a few, which are missing values
+  };
+
+  double valueOf(const NumericColumn& column)
   {
     double value = 0;
-    if (column.Index >= this->Rows->width() ||
-      this->Rows->value(column, value) == TextRows::Value::Text)
+    if (column.Column.Index >= this->Rows->width() ||
+      (this->Rows->value(column.Column, value) == FieldKind::Text && !column.HasTexts))
     {
       throw IOError(this->Path, "has been changed meanwhile; start again.");
     }
@@ -436,8 +345,10 @@ private:
 
   const std::string Path;
   const PointOptions Options;
-  std::vector<TextRows::Column> Numeric;
-  std::optional<TextRows> Rows;
+  std::vector<NumericColumn> Numeric;
+  std::size_t Copied = 0;
+  TableReport Report;
+  std::optional<TableRows> Rows;
 };
 
 } // namespace
@@ -452,11 +363,18 @@ bool isTextPath(const std::string& path)
 
 PointTable readTextPoints(const std::string& path, const PointOptions& options)
 {
+  TableSurvey survey(path, options, true);
   PointTable table;
-  for (NumericColumn& column : readRows(TextRows(path, options), true, table.XY))
+  table.XY = std::move(survey.XY);
+  if (survey.Copied < survey.Columns.size())
+  {
+    table.Columns.push_back({ "z", survey.Columns[survey.Copied].Values });
+  }
+  for (SurveyedColumn& column : survey.Columns)
   {
     table.Columns.push_back({ std::move(column.Column.Name), std::move(column.Values) });
   }
+  table.Reports.push_back(std::move(survey.Report));
   return table;
 }
 

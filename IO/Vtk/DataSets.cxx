@@ -4,6 +4,7 @@
 #include "Constraints/ReadConstraintFile.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/TextFile.h"
 #include "Files/VtkXml.h"
 
 #include "vtkAbstractArray.h"
@@ -12,6 +13,7 @@
 #include "vtkDataSet.h"
 #include "vtkDataSetReader.h"
 #include "vtkFieldData.h"
+#include "vtkFloatArray.h"
 #include "vtkIdList.h"
 #include "vtkImageData.h"
 #include "vtkLogger.h"
@@ -251,6 +253,12 @@ PointTable pointsOf(vtkDataSet* data)
       addArray(array, count, table);
     }
   }
+  std::vector<std::string> names = table.names();
+  makeDifferent(names); // an array may be called z, like the coordinate
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    table.Columns[i].Name = utf8Of(names[i]);
+  }
   return table;
 }
 
@@ -393,6 +401,79 @@ vtkSmartPointer<vtkXMLWriter> writerOf(vtkDataObject* data, std::ostream& to)
   return StreamWriter<vtkXMLUnstructuredGridWriter>::make(to);
 }
 
+/// Whether VTK's writer escapes special characters in names; some versions do not.
+bool doesVtkEscape()
+{
+  static const bool does = []
+  {
+    vtkNew<vtkFloatArray> array;
+    array->SetName("&");
+    vtkNew<vtkPolyData> data;
+    data->GetFieldData()->AddArray(array);
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writer->SetInputData(data);
+    writer->WriteToOutputStringOn();
+    writer->Write();
+    return writer->GetOutputString().find("\"&\"") == std::string::npos;
+  }();
+  return does;
+}
+
+/// The text in UTF-8 without the control characters that XML does not have.
+std::string xmlText(const std::string& text)
+{
+  std::string result = utf8Of(text);
+  std::replace_if(
+    result.begin(), result.end(),
+    [](char c)
+    { return static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r'; },
+    '?');
+  return result;
+}
+
+/// While it exists, the names of a data set's arrays are such that VTK's writer makes well-formed
+/// XML of them.
+class XmlNames
+{
+public:
+  explicit XmlNames(vtkDataObject* data)
+  {
+    for (int type = 0; type < vtkDataObject::NUMBER_OF_ATTRIBUTE_TYPES; ++type)
+    {
+      vtkFieldData* const arrays = data->GetAttributesAsFieldData(type);
+      for (int i = 0; arrays && i < arrays->GetNumberOfArrays(); ++i)
+      {
+        this->change(arrays->GetAbstractArray(i));
+      }
+    }
+  }
+
+  ~XmlNames()
+  {
+    for (const auto& [array, name] : this->Changed)
+    {
+      array->SetName(name.c_str());
+    }
+  }
+
+  XmlNames(const XmlNames&) = delete;
+  XmlNames& operator=(const XmlNames&) = delete;
+
+private:
+  void change(vtkAbstractArray* array)
+  {
+    const std::string name = array && array->GetName() ? array->GetName() : "";
+    const std::string written = doesVtkEscape() ? xmlText(name) : escapedXml(name);
+    if (written != name)
+    {
+      this->Changed.emplace_back(array, name);
+      array->SetName(written.c_str());
+    }
+  }
+
+  std::vector<std::pair<vtkSmartPointer<vtkAbstractArray>, std::string>> Changed;
+};
+
 } // namespace
 
 bool writeXmlFile(const std::string& path, const std::optional<PathState>& before,
@@ -402,6 +483,7 @@ bool writeXmlFile(const std::string& path, const std::optional<PathState>& befor
   OutputStream stream(pending.file());
   const vtkSmartPointer<vtkXMLWriter> writer = writerOf(data, stream);
   vtkNew<ErrorKeeper> errors;
+  const XmlNames names(data);
   writer->AddObserver(vtkCommand::ErrorEvent, errors);
   writer->SetInputData(data);
   writer->SetDataModeToAppended();

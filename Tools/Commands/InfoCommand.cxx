@@ -4,6 +4,7 @@
 #include "Commands/PointArguments.h"
 #include "Console/Process.h"
 #include "Files/InputFile.h"
+#include "Files/TemporaryFiles.h"
 #include "Las/LasHeader.h"
 #include "OpenCL/Devices.h"
 #include "Parallel/Poll.h"
@@ -26,7 +27,9 @@ namespace
 constexpr const char* footer =
   R"(Reads all points of the files, in blocks, as 'tipp delaunay' does. Prints their number, their
 bounds, the columns and their ranges, the coordinate reference system, the number of
-duplicates, and a resolution for 'tipp dem' that gives about one point per pixel.
+duplicates, and a resolution for 'tipp dem' that gives about one point per pixel. Of text it
+prints which columns are x, y and z. A line 'check' names what may not be meant, and the
+option for it.
 
 Examples:
   tipp info tile.las
@@ -64,6 +67,98 @@ struct Range
   }
 };
 
+constexpr std::size_t mostCompared = 20000000;
+
+/// Heights, and what is suspicious about them.
+class HeightCheck
+{
+public:
+  void add(const std::vector<double>& values)
+  {
+    for (const double value : values)
+    {
+      this->Marks += isNoDataMark(value) ? 1 : 0;
+      if (std::isfinite(value) && this->Sample.size() < mostSampled)
+      {
+        this->Sample.push_back(value);
+      }
+    }
+  }
+
+  /// Sentences; the column's name begins them.
+  std::vector<std::string> sentences()
+  {
+    std::vector<std::string> found;
+    if (this->Marks > 0)
+    {
+      found.push_back(
+        fmt::format("holds {} values that mark missing ones elsewhere, such as -9999; "
+                    "give --input-nodata with the value",
+          this->Marks));
+    }
+    std::vector<double>& sorted = this->Sample;
+    std::sort(sorted.begin(), sorted.end());
+    if (sorted.size() > 2 && sorted.front() == 0 && sorted.back() == 0)
+    {
+      found.emplace_back("is 0 everywhere; choose the heights with --z");
+    }
+    else if (const std::int64_t far = this->countFar(); far > 0)
+    {
+      found.push_back(fmt::format("has {} values far from all others ({} to {}, while half of them "
+                                  "lie in {} to {}); give --input-nodata if they mark missing ones",
+        far, sorted.front(), sorted.back(), this->quartile(1), this->quartile(3)));
+    }
+    return found;
+  }
+
+private:
+  double quartile(std::size_t quarter) const
+  {
+    return this->Sample[(this->Sample.size() - 1) * quarter / 4];
+  }
+
+  /// The number of values farther from the middle half than twenty times its width.
+  std::int64_t countFar() const
+  {
+    constexpr std::size_t least = 8;
+    constexpr double widths = 20;
+    if (this->Sample.size() < least)
+    {
+      return 0;
+    }
+    const double far = widths * (this->quartile(3) - this->quartile(1));
+    const double low = this->quartile(1) - far;
+    const double high = this->quartile(3) + far;
+    return far > 0 ? std::count_if(this->Sample.begin(), this->Sample.end(),
+                       [&](double value) { return value < low || value > high; })
+                   : 0;
+  }
+
+  static constexpr std::size_t mostSampled = 4000000;
+
+  std::int64_t Marks = 0;
+  std::vector<double> Sample; ///< sorted by sentences()
+};
+
+/// Whether values are whole numbers that count up from point to point.
+class CountCheck
+{
+public:
+  void add(double value)
+  {
+    this->Counts =
+      this->Counts && std::floor(value) == value && (this->Values == 0 || value == this->Last + 1);
+    this->Last = value;
+    ++this->Values;
+  }
+  bool counts() const { return this->Counts && this->Values > 3; }
+
+private:
+  bool Counts = true;
+  double Last = 0;
+  std::int64_t Values = 0;
+};
+
 struct Summary
 {
   std::int64_t Points = 0;
@@ -71,17 +166,19 @@ struct Summary
   Range X;
   Range Y;
   std::vector<Range> Columns;
+  CountCheck XCount;
+  CountCheck YCount;
+  HeightCheck Heights;
   /// The finite points, to find duplicates; empty if there are too many.
   std::vector<Point2> Compared;
 };
-
-constexpr std::size_t mostCompared = 20000000;
 
 Summary read(PointStream& stream)
 {
   constexpr std::size_t block = std::size_t(1) << 18;
   Summary summary;
   summary.Columns.resize(stream.columns().size());
+  const std::size_t height = findElevation(stream.columns());
   forEachBlock(stream, block,
     [&](const PointBlock& points)
     {
@@ -93,6 +190,8 @@ Summary read(PointStream& stream)
         summary.NotFinite += isGood ? 0 : 1;
         summary.X.add(p.x);
         summary.Y.add(p.y);
+        summary.XCount.add(p.x);
+        summary.YCount.add(p.y);
         if (isGood && summary.Compared.size() <= mostCompared)
         {
           summary.Compared.push_back(p);
@@ -104,6 +203,10 @@ Summary read(PointStream& stream)
         {
           summary.Columns[column].add(value);
         }
+      }
+      if (height < points.Columns.size())
+      {
+        summary.Heights.add(points.Columns[height]);
       }
       summary.Points += std::int64_t(points.size());
     });
@@ -143,6 +246,49 @@ void describeLas(const std::string& path, const LasSelection& selection)
   }
 }
 
+void printTables(const std::vector<TableReport>& reports)
+{
+  for (const TableReport& report : reports)
+  {
+    fmt::print("{}: {}\n", shownPath(report.Path), report.Columns);
+    for (const std::string& remark : report.Remarks)
+    {
+      fmt::print("  {}\n", remark);
+    }
+  }
+}
+
+/// Prints what is suspicious about the points, and which option mends it.
+void printChecks(const std::vector<TableReport>& reports, const std::vector<std::string>& columns,
+  Summary& summary)
+{
+  const auto print = [](const std::string& sentence) { fmt::print("check       {}\n", sentence); };
+  for (const TableReport& report : reports)
+  {
+    for (const std::string& warning : report.Warnings)
+    {
+      print(shownPath(report.Path) + ": " + warning);
+    }
+  }
+  if (summary.XCount.counts() || summary.YCount.counts())
+  {
+    print(std::string(summary.XCount.counts() ? "x" : "y") +
+      " counts the points, as a number of the point does; choose the columns with --x, --y and "
+      "--z.");
+  }
+  const std::size_t height = findElevation(columns);
+  if (height == columns.size())
+  {
+    print(columns.empty() ? "there are no heights."
+                          : "there are no heights; choose a column with --z.");
+    return;
+  }
+  for (const std::string& sentence : summary.Heights.sentences())
+  {
+    print(columns[height] + " " + sentence + ".");
+  }
+}
+
 int runInfo(const InfoArguments& arguments)
 {
   for (const std::string& path : arguments.Inputs)
@@ -162,7 +308,7 @@ int runInfo(const InfoArguments& arguments)
     return reportInterrupt();
   }
   reportLeftOut(stream->leftOut(), stream->thinnedOut());
-  reportTables(stream->reports());
+  printTables(stream->reports());
   fmt::print("points      {}{}\n", summary.Points,
     summary.NotFinite > 0 ? fmt::format(", {} without finite coordinates", summary.NotFinite) : "");
   fmt::print("x           {}\ny           {}\n", summary.X.text(), summary.Y.text());
@@ -171,6 +317,7 @@ int runInfo(const InfoArguments& arguments)
   {
     fmt::print("{:<11} {}\n", names[i], summary.Columns[i].text());
   }
+  printChecks(stream->reports(), names, summary);
   const ReferenceSystem crs = stream->referenceSystem();
   fmt::print("CRS         {}\n",
     crs.Text.empty()      ? "not given"

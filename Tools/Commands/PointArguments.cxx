@@ -73,6 +73,11 @@ std::string checkClass(const std::string& text)
     : "'" + text + "' is not a class; give numbers from 0 to 255, such as 2,9";
 }
 
+std::string checkNumber(const std::string& text)
+{
+  return wholeNumber<double>(text) ? "" : "'" + text + "' is not a number";
+}
+
 /// Parses CELL:RULE; nullopt for other text.
 std::optional<Thinning> parseThinning(const std::string& text)
 {
@@ -119,6 +124,13 @@ void addPointOptions(CLI::App& command, PointOptions& options)
       "x are longitudes in degrees: 360: move those below 0 by 360, as for points on both sides of "
       "180 degrees; 180: move those from 180 on by -360. Constraints are moved too")
     ->check(CLI::IsMember({ 180, 360 }));
+  command
+    .add_option_function<std::string>(
+      "--input-nodata",
+      [&options](const std::string& text) { options.NoData = wholeNumber<double>(text); },
+      "The number that stands for a missing value in the columns besides x and y, such as -9999")
+    ->check(checkNumber)
+    ->allow_extra_args(false);
   command
     .add_option_function<std::vector<std::string>>(
       "--class",
@@ -296,8 +308,8 @@ void reportTables(const std::vector<TableReport>& reports)
   std::size_t warnings = 0;
   for (const TableReport& report : reports)
   {
-    if (!report.Columns.empty() &&
-      (report.Columns != reports.front().Columns || &report == &reports.front()))
+    const bool isNew = &report == &reports.front() || report.Columns != reports.front().Columns;
+    if (isNew && !report.IsObvious && !report.Columns.empty())
     {
       fmt::print("{}: {}\n", shownPath(report.Path), report.Columns);
     }

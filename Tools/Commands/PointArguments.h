@@ -99,8 +99,8 @@ void reportLeftOut(std::int64_t points, std::int64_t thinnedOut);
 /// Prints a warning if points lie on both sides of the meridian at which longitudes jump.
 void warnOfLongitudes(const LongitudeSpan& span);
 
-/// Prints which columns of tables have been read, to stdout, and warnings about their values, to
-/// stderr.
+/// Prints which columns of tables have been read, to stdout, unless they are called x, y and z, and
+/// warnings about their values, to stderr.
 void reportTables(const std::vector<TableReport>& reports);
 
 /// Parses a number of bytes, which may have the unit K, M or G for 2^10, 2^20 or 2^30 bytes, such

@@ -94,6 +94,18 @@ TEST_F(DataSetPoints, PolyDataGivesPointsAndNumericPointData)
   EXPECT_EQ((Values{ 20, 21, 22 }), points.Columns[3].Values);
 }
 
+TEST_F(DataSetPoints, AnArrayNamedLikeACoordinateIsRenamed)
+{
+  const vtkSmartPointer<vtkPolyData> data = triangle();
+  data->GetPointData()->GetArray("heat")->SetName("z");
+  const std::string path = this->Folder.path("points.vtp");
+  write<vtkXMLPolyDataWriter>(path, data);
+  const PointTable points = readPoints(path);
+  this->expectTriangle(points);
+  EXPECT_EQ("z", points.Columns[0].Name);
+  EXPECT_EQ("z_2", points.Columns[1].Name);
+}
+
 TEST_F(DataSetPoints, LegacyPlyAndStlFilesAreRead)
 {
   const std::string legacy = this->Folder.path("points.vtk");

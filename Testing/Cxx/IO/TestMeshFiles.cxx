@@ -43,6 +43,25 @@ using EveryMeshFormat = MeshFiles;
 
 } // namespace
 
+TEST_F(MeshFiles, NamesThatXmlDoesNotHoldAreReadAsWritten)
+{
+  const std::vector<std::string> names{ "z", "a&b", "c<d>", "\"quoted\"", "b\xe9ton", "t\x01" };
+  this->Points.Columns.resize(1);
+  for (std::size_t i = 1; i < names.size(); ++i)
+  {
+    this->Points.Columns.push_back({ names[i], { 1, 2, 3, 4 } });
+  }
+  for (const char* const file : { "mesh.vtp", "mesh.vtu" })
+  {
+    const std::string path = this->Folder.path(file);
+    ASSERT_TRUE(tipp::writeMesh(path, this->Points, this->view32()));
+    const std::vector<std::string> expected{ "z", "a&b", "c<d>", "\"quoted\"", "b\xc3\xa9ton",
+      "t?" };
+    EXPECT_EQ(expected, tipp::readPoints(path).names()) << file;
+    EXPECT_EQ("a&b", this->Points.Columns[1].Name);
+  }
+}
+
 TEST_P(EveryMeshFormat, TrianglesOf32BitIdsAreReadAsWritten)
 {
   const std::string path = this->Folder.path(GetParam());

@@ -70,7 +70,7 @@ TEST(PointStream, TextInBlocksEqualsTheWholeText)
 {
   const TemporaryFolder folder;
   for (const char* text :
-    { survey, "1 2\n", "3\n1;2;3\n4;5;6\n7;8;9\n", "A title\n1 2 x 4\n5 6 7 8\n" })
+    { survey, "1 2\n", "3\n1;2;3\n4;5;6\n7;8;9\n", "A title\n1 2 3 x\n5 6 7 8\n" })
   {
     const std::string path = folder.file("points.csv", text);
     const std::string expected = textOf(readPoints(path));

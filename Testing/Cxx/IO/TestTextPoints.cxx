@@ -95,9 +95,10 @@ TEST_F(TextPoints, UsualNamesAreFoundInAnyOrderAndCase)
   EXPECT_EQ((Values{ 1, 2 }), this->read("Northing;Easting\n2;1\n").XY);
 }
 
-TEST_F(TextPoints, UnusualNamesSelectTheFirstTwoColumns)
+TEST_F(TextPoints, UnusualNamesAreRefusedUnlessThereAreTwo)
 {
-  EXPECT_EQ((Values{ 1, 2 }), this->read("a,b,c\n1,2,3\n").XY);
+  this->expectError("a,b,c\n1,2,3\n", "has the columns a, b, c, and their names do not tell");
+  EXPECT_EQ((Values{ 1, 2 }), this->read("a,b\n1,2\n").XY);
 }
 
 TEST_F(TextPoints, ColumnsAreChosenByNameOrNumber)
@@ -115,9 +116,9 @@ TEST_F(TextPoints, MissingColumnIsReportedWithTheNames)
 
 TEST_F(TextPoints, FurtherNumericColumnsBecomeAttributes)
 {
-  const PointTable points = this->read("x,y,station,h,t\n1,2,North,3,\n4,5,South,NA,6\n");
+  const PointTable points = this->read("x,y,station,q,t\n1,2,North,3,\n4,5,South,NA,6\n");
   ASSERT_EQ(2U, points.Columns.size());
-  EXPECT_EQ("h", points.Columns[0].Name);
+  EXPECT_EQ("q", points.Columns[0].Name);
   EXPECT_EQ(3, points.Columns[0].Values[0]);
   EXPECT_TRUE(std::isnan(points.Columns[0].Values[1]));
   EXPECT_EQ("t", points.Columns[1].Name);

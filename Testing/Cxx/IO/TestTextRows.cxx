@@ -16,10 +16,10 @@ TEST(TextRows, DistinguishNumbersMissingValuesAndText)
 {
   const TemporaryFolder folder;
   const PointTable table =
-    readPoints(folder.file("points.csv", "name,y,x,h\nbuoy,2,1,3.5\n7,4,3,N/A\n"));
+    readPoints(folder.file("points.csv", "name,y,x,q\nbuoy,2,1,3.5\n7,4,3,N/A\n"));
   EXPECT_EQ((std::vector<double>{ 1, 2, 3, 4 }), table.XY);
   ASSERT_EQ(1U, table.Columns.size());
-  EXPECT_EQ("h", table.Columns[0].Name);
+  EXPECT_EQ("q", table.Columns[0].Name);
   EXPECT_EQ(3.5, table.Columns[0].Values[0]);
   EXPECT_TRUE(std::isnan(table.Columns[0].Values[1]));
 }

@@ -108,6 +108,7 @@ TEST_F(TippDuplicates, LowestAndHighestMayBeOfADepthOrTheOnlyColumn)
 {
   this->Folder.file(
     "points.csv", "x,y,depth,speed\n0,0,4,1\n2,0,2,1\n0,2,3,1\n0,0,1,8\n0,0,9,2\n2,2,2,1\n");
+  this->Folder.file("speeds.csv", "x,y,speed\n0,0,1\n2,0,1\n0,2,1\n0,0,8\n0,0,2\n2,2,1\n");
   const std::map<std::pair<std::string, std::string>, double> expected = {
     { { "depth", "min" }, 1 }, { { "depth", "max" }, 9 }, { { "speed", "min" }, 1 },
     { { "speed", "max" }, 8 }, { { "depth,speed", "max" }, 9 }
@@ -116,7 +117,8 @@ TEST_F(TippDuplicates, LowestAndHighestMayBeOfADepthOrTheOnlyColumn)
   {
     for (const Words& more : { Words{}, Words{ "--memory", "2M" } })
     {
-      Words words{ "dem", "points.csv", "-o", "dem.npy", "--resolution", "0.002", "--attributes",
+      const std::string points = request.first == "speed" ? "speeds.csv" : "points.csv";
+      Words words{ "dem", points, "-o", "dem.npy", "--resolution", "0.002", "--attributes",
         request.first, "--duplicates", request.second, "--bounds", "-0.001", "0.001", "-0.001",
         "0.001", "--align", "bounds" };
       words.insert(words.end(), more.begin(), more.end());

@@ -49,7 +49,7 @@ TEST_F(TippQuery, WritesCellsAndArraysAsCsv)
   EXPECT_EQ("x,y,cell,elevation,height", line);
   std::getline(lines, line);
   EXPECT_EQ("1,0.5,", line.substr(0, 6));
-  EXPECT_EQ(",0,6", line.substr(line.size() - 4));
+  EXPECT_EQ(",6,6", line.substr(line.size() - 4));
   std::getline(lines, line);
   EXPECT_EQ("9,9,-1,,", line);
 }

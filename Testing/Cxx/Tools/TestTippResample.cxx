@@ -151,7 +151,8 @@ TEST_F(TippResample, ListsTheArraysOfTheMesh)
     const Outcome outcome = this->run(
       { "resample", mesh, "-o", "image.npy", "--arrays", "depth", "--dims", "8", "8", "1" });
     EXPECT_EQ(1, outcome.ExitCode);
-    EXPECT_EQ("tipp: " + mesh + ": has no array 'depth'; it has 'height'.\n", outcome.Err);
+    EXPECT_EQ(
+      "tipp: " + mesh + ": has no array 'depth'; it has 'elevation', 'height'.\n", outcome.Err);
   }
 }
 
@@ -262,11 +263,12 @@ TEST_F(TippResample, SamplesTheHeightsOfASurface)
   std::vector<double> heights(9);
   std::copy_n(file.end() - 72, 72, reinterpret_cast<char*>(heights.data()));
   EXPECT_EQ((std::vector<double>{ 1, 2, 3, 3, 4, 5, 5, 6, 7 }), heights);
+  this->Folder.file("flat.csv", "x,y,q\n0,0,1\n2,0,3\n0,2,5\n");
+  ASSERT_EQ(0, this->run({ "delaunay", "flat.csv", "-o", "flat.vtu" }).ExitCode);
   const Outcome flat =
-    this->run({ "resample", "mesh.vtu", "-o", "flat.npy", "--dims", "3", "3", "1" });
+    this->run({ "resample", "flat.vtu", "-o", "flat.npy", "--dims", "3", "3", "1" });
   EXPECT_EQ(1, flat.ExitCode);
-  EXPECT_NE(std::string::npos, flat.Err.find("has no array 'elevation'; it has 'height'"))
-    << flat.Err;
+  EXPECT_NE(std::string::npos, flat.Err.find("has no array 'elevation'; it has 'q'")) << flat.Err;
 }
 
 TEST_F(TippResample, ReportsAMissingArray)
