@@ -166,9 +166,9 @@ def dem(
         "returns": _RETURNS[returns],
         "keep": check.a_list(keep, "keep"),
         "threads": check.threads(threads),
-        "z": _text(z, "z"),
-        "layer": _text(layer, "layer"),
-        "crs": _text(crs, "crs"),
+        "z": "" if z is None else check.text(z, "z"),
+        "layer": "" if layer is None else check.text(layer, "layer"),
+        "crs": "" if crs is None else check.text(crs, "crs"),
     }
     progress = progress_of(progress_bar)
     source: Any
@@ -233,12 +233,6 @@ def _thinning(thin: Any) -> dict[str, Any]:
     if not side > 0:
         raise ValueError(f"thin is {thin!r}; give a side above 0.")
     return {"thin_size": side, "thin_rule": check.choice(pair[1], "thin", _THINNINGS)}
-
-
-def _text(value: Any, name: str) -> str:
-    if value is not None and not isinstance(value, str):
-        raise TypeError(f"{name} is a {type(value).__name__}; give a text.")
-    return value or ""
 
 
 def _check_selection(classes: Any, returns: Any, keep: Any) -> None:
