@@ -23,9 +23,6 @@ namespace tipp
 {
 namespace fs = std::filesystem;
 
-namespace
-{
-
 PathState stateOf(const std::string& path)
 {
   struct stat found = {};
@@ -41,6 +38,9 @@ PathState stateOf(const std::string& path)
   }
   return state;
 }
+
+namespace
+{
 
 [[noreturn]] void refuseToReplace(
   const std::string& temporary, const std::string& path, const std::string& reason)
