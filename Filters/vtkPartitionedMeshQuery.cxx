@@ -4,6 +4,7 @@
 #include "Parallel/ParallelFor.h"
 #include "Pipeline/FilterPipeline.h"
 #include "Query/QueryData.h"
+#include "Reading/PieceSource.h"
 
 #include "vtkCellData.h"
 #include "vtkCharArray.h"
@@ -79,7 +80,9 @@ std::shared_ptr<const tipp::ResidentMesh> vtkPartitionedMeshQuery::Open()
   {
     key += "|" + std::to_string(number);
   }
-  if (!this->Mesh || this->Opened != key)
+  const bool isOther =
+    this->Mesh && tipp::wasReplaced(this->Mesh->mesh()) && tipp::isPartitionedMesh(this->FileName);
+  if (!this->Mesh || this->Opened != key || isOther)
   {
     this->Mesh.reset();
     tipp::ResidentOptions options;
@@ -121,7 +124,13 @@ void vtkPartitionedMeshQuery::AskMesh(const Question& ask)
     return;
   }
   tipp::Communicator ranks(this->Controller);
-  ranks.together([&] { ask(&ranks, *this->Open()); });
+  ranks.together(
+    [&]
+    {
+      const auto mesh = this->Open();
+      tipp::requireSameMesh(ranks, mesh->mesh());
+      ask(&ranks, *mesh);
+    });
 }
 
 /// Evaluates the mesh at points. Collective if there are several ranks.

@@ -30,6 +30,8 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -85,6 +87,38 @@ std::string fileStamp(const std::string& path)
     stamp += "\n" + file.string() + " " + std::to_string(time);
   }
   return stamp;
+}
+
+std::unordered_map<std::string, bool> settingsOf(vtkDataArraySelection* selection)
+{
+  std::unordered_map<std::string, bool> settings;
+  for (int i = 0; i < selection->GetNumberOfArrays(); ++i)
+  {
+    settings.emplace(selection->GetArrayName(i), selection->GetArraySetting(i) != 0);
+  }
+  return settings;
+}
+
+/// Adds those of the arrays that the selection does not have. Their number may be large: adding
+/// them one by one would search the selection for each.
+void addMissing(const std::vector<const char*>& arrays, vtkDataArraySelection* selection)
+{
+  const std::unordered_map<std::string, bool> settings = settingsOf(selection);
+  std::vector<const char*> names;
+  for (int i = 0; i < selection->GetNumberOfArrays(); ++i)
+  {
+    names.push_back(selection->GetArrayName(i));
+  }
+  const std::size_t known = names.size();
+  std::unordered_set<std::string> added;
+  for (const char* const array : arrays)
+  {
+    settings.count(array) == 0 && added.insert(array).second ? names.push_back(array) : void();
+  }
+  if (names.size() > known)
+  {
+    selection->SetArrays(names.data(), int(names.size()));
+  }
 }
 
 /// The last step that is not after the time, or the first step.
@@ -201,12 +235,14 @@ void vtkPartitionedUnstructuredReader::OpenSource()
 
 void vtkPartitionedUnstructuredReader::DescribeArrays()
 {
+  std::vector<const char*> ofPoints;
+  std::vector<const char*> ofCells;
   for (const tipp::StoredArray& array : this->Inner->Source->mesh().Arrays)
   {
-    // Does not change the setting of a known array.
-    (array.OfPoints ? this->PointDataArraySelection : this->CellDataArraySelection)
-      ->AddArray(array.Name.c_str());
+    (array.OfPoints ? ofPoints : ofCells).push_back(array.Name.c_str());
   }
+  addMissing(ofPoints, this->PointDataArraySelection);
+  addMissing(ofCells, this->CellDataArraySelection);
 }
 
 int vtkPartitionedUnstructuredReader::RequestInformation(
@@ -371,11 +407,11 @@ void vtkPartitionedUnstructuredReader::ReadPieces(vtkInformation* outInfo)
   const Request request(outInfo);
   tipp::PieceOptions options;
   options.Step = stepAt(mesh.Times, request.Time.value_or(mesh.Times.empty() ? 0 : mesh.Times[0]));
+  const auto ofPoints = settingsOf(this->PointDataArraySelection);
+  const auto ofCells = settingsOf(this->CellDataArraySelection);
   for (const tipp::StoredArray& array : mesh.Arrays)
   {
-    options.Wanted.push_back(
-      (array.OfPoints ? this->PointDataArraySelection : this->CellDataArraySelection)
-        ->ArrayIsEnabled(array.Name.c_str()) != 0);
+    options.Wanted.push_back((array.OfPoints ? ofPoints : ofCells).at(array.Name));
   }
   const bool borrowed = request.Borrowed || this->BorrowerMode == OWNED_AND_BORROWED;
   std::optional<tipp::RangeFilter> range;
@@ -414,6 +450,43 @@ void vtkPartitionedUnstructuredReader::ReadPieces(vtkInformation* outInfo)
   }
 }
 
+/// Opens the mesh and reads the requested pieces; again, if it was replaced meanwhile. All ranks
+/// read the same mesh. Collective; throws on all ranks.
+void vtkPartitionedUnstructuredReader::ReadUnchanged(
+  vtkInformation* outInfo, tipp::Communicator& ranks)
+{
+  for (int triesLeft = 8;; --triesLeft)
+  {
+    ranks.attempt(
+      [this]
+      {
+        this->CheckBounds();
+        this->OpenSource();
+        this->DescribeArrays();
+      });
+    tipp::PieceSource& source = *this->Inner->Source;
+    try
+    {
+      tipp::requireSameMesh(ranks, source.mesh());
+      source.prepare(ranks);
+      ranks.attempt([&] { this->ReadPieces(outInfo); });
+      return;
+    }
+    catch (const tipp::IOError&)
+    {
+      // A flat mesh is not replaced as a whole.
+      const bool isStored = source.mesh().IndexState.Values.has_value();
+      if (!isStored || triesLeft == 0 || !isTrueOnAny(ranks, wasReplaced(source.mesh())))
+      {
+        throw;
+      }
+    }
+    this->Inner->Source.reset();
+    this->Inner->Cache.clear();
+    vtkDataObject::GetData(outInfo)->Initialize();
+  }
+}
+
 int vtkPartitionedUnstructuredReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
@@ -430,15 +503,7 @@ int vtkPartitionedUnstructuredReader::RequestData(
   int isGood = 0;
   try
   {
-    ranks.attempt(
-      [this]
-      {
-        this->CheckBounds();
-        this->OpenSource();
-        this->DescribeArrays();
-      });
-    this->Inner->Source->prepare(ranks);
-    ranks.attempt([&] { this->ReadPieces(outInfo); });
+    this->ReadUnchanged(outInfo, ranks);
     return 1;
   }
   catch (const tipp::WorkAborted&)

@@ -52,6 +52,11 @@
 
 class vtkDataArraySelection;
 
+namespace tipp
+{
+class Communicator;
+}
+
 class VTKTIPPIO_EXPORT vtkPartitionedUnstructuredReader : public vtkDataObjectAlgorithm
 {
 public:
@@ -196,6 +201,7 @@ private:
   void OpenSource();
   void DescribeArrays();
   void ReadPieces(vtkInformation* outInfo);
+  void ReadUnchanged(vtkInformation* outInfo, tipp::Communicator& ranks);
 
   std::string FileName;
   std::string Tiling = "grid:4x4";

@@ -6,6 +6,7 @@
 #   mutants   damaged input files of every format that a command reads
 #   disk      full disks, and outputs that cannot be written
 #   ranks     lost, killed and interrupted ranks
+#   agree     random points and constraints in memory, out of core and on ranks
 # Prints trials, failures, and the seed of each failure. TIPP_BUILD_DIR names a build to use; without it, build/ is
 # built first.
 set -eu
@@ -13,9 +14,9 @@ set -eu
 top=$(cd "$(dirname "$0")/.." && pwd)
 name=${1:-}
 case $name in
-  kill | damage | mutants | disk | ranks) shift ;;
+  kill | damage | mutants | disk | ranks | agree) shift ;;
   *)
-    sed -n '3,10s/^# \{0,1\}//p' "$0" >&2
+    sed -n '3,11s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac

@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
+#include "Files/TextFile.h"
 #include "Points/ReadPoints.h"
 
 #include <algorithm>

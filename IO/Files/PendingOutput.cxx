@@ -25,9 +25,6 @@ namespace tipp
 {
 namespace fs = std::filesystem;
 
-namespace
-{
-
 PathState stateOf(const std::string& path)
 {
   struct stat found = {};
@@ -43,6 +40,9 @@ PathState stateOf(const std::string& path)
   }
   return state;
 }
+
+namespace
+{
 
 [[noreturn]] void refuseToReplace(
   const std::string& temporary, const std::string& path, const std::string& reason)

@@ -25,6 +25,8 @@ struct PathState
   std::optional<std::array<std::uint64_t, 5>> Values;
 };
 
+PathState stateOf(const std::string& path);
+
 /// An output file with a temporary name in its own folder, which commit() moves to its path;
 /// without commit() the destructor removes it. So a failed or aborted run leaves no partial file,
 /// and the previous file stays. Files left behind by a killed process are removed by the next run

@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/PendingOutput.h"
 #include "Files/TextFile.h"
 #include "Partitioned/Checksum.h"
 #include "Partitioned/PieceFormat.h"
@@ -225,13 +226,13 @@ void parsePieces(const Fields& fields, const std::string& path, PartitionedMesh&
   fields.require(cells == mesh.Cells, "has wrong counts of cells");
 }
 
-Json parseJson(const std::string& text, const std::string& path)
+/// Parses the text, and sets `checksum` to the one that it names and has.
+Json parseJson(const std::string& text, const std::string& path, std::uint64_t& checksum)
 {
   constexpr std::size_t digits = 16;
   constexpr std::size_t tail = checksumStart.size() + digits + checksumEnd.size();
   const std::size_t hashed = text.size() - std::min(tail, text.size());
   const std::string_view last = std::string_view(text).substr(hashed);
-  std::uint64_t checksum = 0;
   if (last.size() < tail || last.substr(0, checksumStart.size()) != checksumStart ||
     last.substr(tail - checksumEnd.size()) != checksumEnd ||
     !parseChecksum(std::string(last.substr(checksumStart.size(), digits)), checksum))
@@ -344,7 +345,8 @@ std::string indexText(const PartitionedMesh& mesh, const std::string& pvtu)
 PartitionedMesh parseIndex(const std::string& text, const std::string& path)
 {
   constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max() / 64;
-  const Json json = parseJson(text, path);
+  PartitionedMesh mesh;
+  const Json json = parseJson(text, path, mesh.IndexChecksum);
   const Fields fields(json, path, "");
   fields.require(fields.text("format") == formatName, "is not one of a partitioned mesh");
   if (fields.integer("version", 1, most) != formatVersion)
@@ -353,7 +355,6 @@ PartitionedMesh parseIndex(const std::string& text, const std::string& path)
       "is of version " + std::to_string(fields.integer("version", 1, most)) +
         ", and this program reads version 1; use a newer one.");
   }
-  PartitionedMesh mesh;
   const std::string cellType = fields.text("cell_type");
   fields.require(cellType == "triangle" || cellType == "tetrahedron", "has a wrong cell_type");
   mesh.CellSize = cellType == "triangle" ? 3 : 4;
@@ -409,9 +410,11 @@ std::string PartitionedMesh::pvtuPath() const
   return this->Path + "/" + pvtuName;
 }
 
-PartitionedMesh openPartitionedMesh(const std::string& path)
+namespace
 {
-  const std::string index = indexOf(path);
+
+PartitionedMesh openIndex(const std::string& index)
+{
   PartitionedMesh mesh = parseIndex(readText(index), index);
   const fs::path folder = fs::path(index).parent_path();
   mesh.Path = folder.empty() ? "." : folder.string();
@@ -431,14 +434,53 @@ PartitionedMesh openPartitionedMesh(const std::string& path)
   return mesh;
 }
 
+} // namespace
+
+PartitionedMesh openPartitionedMesh(const std::string& path)
+{
+  const std::string index = indexOf(path);
+  for (int triesLeft = 16;; --triesLeft)
+  {
+    const PathState state = stateOf(index);
+    try
+    {
+      PartitionedMesh mesh = openIndex(index);
+      mesh.IndexState = state;
+      return mesh;
+    }
+    catch (const IOError&)
+    {
+      if (stateOf(index).Values == state.Values)
+      {
+        throw;
+      }
+      triesLeft == 0 ? failReplaced(path) : void();
+    }
+  }
+}
+
+bool wasReplaced(const PartitionedMesh& mesh)
+{
+  return mesh.IndexState.Values && stateOf(mesh.indexPath()).Values != mesh.IndexState.Values;
+}
+
+void failReplaced(const std::string& path)
+{
+  throw IOError(path, "was replaced or removed while it was read; read it again.");
+}
+
 void verifyPvtu(const PartitionedMesh& mesh)
 {
-  const std::string text = readText(mesh.pvtuPath());
-  if (checksumOf(text.data(), text.size()) != mesh.PvtuChecksum)
-  {
-    throw IOError(mesh.pvtuPath(),
-      "does not have the checksum that the index gives; copy or make the mesh again.");
-  }
+  readUnchanged(mesh,
+    [&mesh]
+    {
+      const std::string text = readText(mesh.pvtuPath());
+      if (checksumOf(text.data(), text.size()) != mesh.PvtuChecksum)
+      {
+        throw IOError(mesh.pvtuPath(),
+          "does not have the checksum that the index gives; copy or make the mesh again.");
+      }
+    });
 }
 
 bool isPartitionedMesh(const std::string& path)

@@ -2,6 +2,8 @@
 #ifndef tippPartitionedMesh_h
 #define tippPartitionedMesh_h
 
+#include "Files/IOError.h"
+#include "Files/PendingOutput.h"
 #include "Flat/FlatMesh.h"
 #include "Predicates/Points.h"
 #include "vtkTIPPIOModule.h"
@@ -93,6 +95,8 @@ struct PartitionedMesh
   std::vector<PieceSummary> Pieces;   ///< in the order of piece indices
   std::uint64_t PvtuBytes = 0;        ///< size of mesh.pvtu, once it is written
   std::uint64_t PvtuChecksum = 0;
+  std::uint64_t IndexChecksum = 0; ///< the one that the index names; differs between meshes
+  PathState IndexState;            ///< of the index when it was opened; nothing if it was not
 
   std::string piecePath(std::size_t piece) const;
   std::string tablesPath() const;
@@ -104,8 +108,32 @@ struct PartitionedMesh
 VTKTIPPIO_EXPORT std::string pieceName(std::size_t piece);
 
 /// Reads the index; `path` is the mesh's folder or the index itself. Checks every count in it and
-/// the sizes of all files. Throws IOError naming the file and the reason.
+/// the sizes of all files. If the mesh is replaced meanwhile, opens the new one. Throws IOError
+/// naming the file and the reason.
 VTKTIPPIO_EXPORT PartitionedMesh openPartitionedMesh(const std::string& path);
+
+/// Whether another mesh, or nothing, is now where this one was opened. False for a mesh that was
+/// not opened.
+VTKTIPPIO_EXPORT bool wasReplaced(const PartitionedMesh& mesh);
+
+/// Throws IOError: the mesh was replaced while it was read.
+[[noreturn]] VTKTIPPIO_EXPORT void failReplaced(const std::string& path);
+
+/// Calls read(), which reads files of the mesh. If that fails because the mesh was replaced
+/// meanwhile, the IOError says so instead of calling a file damaged.
+template <typename Read>
+auto readUnchanged(const PartitionedMesh& mesh, const Read& read)
+{
+  try
+  {
+    return read();
+  }
+  catch (const IOError&)
+  {
+    wasReplaced(mesh) ? failReplaced(mesh.Path) : void();
+    throw;
+  }
+}
 
 /// Returns the text of index.json including its checksum; `pvtu` is the text of mesh.pvtu.
 std::string indexText(const PartitionedMesh& mesh, const std::string& pvtu);

@@ -138,6 +138,14 @@ PieceFile::PieceFile(
   , PointParts(this->Table.partStarts(mesh, this->Summary, true))
   , CellParts(this->Table.partStarts(mesh, this->Summary, false))
 {
+  this->OfAttribute.assign(mesh.Arrays.size(), this->Arrays.size());
+  for (std::size_t i = 0; i < this->Arrays.size(); ++i)
+  {
+    if (this->Arrays[i].Attribute >= 0)
+    {
+      this->OfAttribute[std::size_t(this->Arrays[i].Attribute)] = i;
+    }
+  }
   std::string header(std::size_t(this->Table.HeaderBytes), '\0');
   this->File.read(0, header.data(), header.size());
   this->BytesRead += std::int64_t(header.size());

@@ -83,10 +83,7 @@ public:
   /// The index of the array with a role other than data.
   std::size_t find(PieceRole role) const { return findArray(this->Arrays, role); }
   /// The index of the array of an attribute of the mesh.
-  std::size_t findAttribute(std::size_t attribute) const
-  {
-    return findArrayOf(this->Arrays, std::int64_t(attribute));
-  }
+  std::size_t findAttribute(std::size_t attribute) const { return this->OfAttribute[attribute]; }
 
   /// Reads parts [first, end) of an array and verifies their checksums; `to` may be null, to verify
   /// them only. Throws IOError.
@@ -119,6 +116,7 @@ private:
   InputFile File;
   PieceTable Table;
   std::vector<PieceArray> Arrays;
+  std::vector<std::size_t> OfAttribute; ///< by attribute of the mesh: index of its array
   std::vector<std::int64_t> PointParts;
   std::vector<std::int64_t> CellParts;
   mutable std::int64_t BytesRead = 0;

@@ -493,7 +493,7 @@ bool PieceOptions::wants(const PartitionedMesh& mesh, std::size_t attribute) con
 
 Piece readPiece(const PartitionedMesh& mesh, std::size_t number, const PieceOptions& options)
 {
-  return PieceReader(mesh, number, options).read();
+  return readUnchanged(mesh, [&] { return PieceReader(mesh, number, options).read(); });
 }
 
 } // namespace tipp

@@ -12,6 +12,7 @@
 #include <limits>
 #include <mutex>
 #include <numeric>
+#include <unordered_set>
 #include <utility>
 #include <variant>
 
@@ -104,6 +105,11 @@ private:
 
   /// Reads the global ids of the cells or points that a piece owns.
   std::vector<std::int64_t> read(std::size_t piece, bool ofPoints) const
+  {
+    return readUnchanged(this->Mesh, [&] { return this->readIds(piece, ofPoints); });
+  }
+
+  std::vector<std::int64_t> readIds(std::size_t piece, bool ofPoints) const
   {
     const PieceFile file(this->Mesh, piece);
     // Borrowed cells are in the last part of the piece, if they are duplicated.
@@ -221,6 +227,14 @@ ResidentMesh::ResidentMesh(
       { return this->load(number, needs, before); },
       [this](std::size_t number, std::uint64_t bytes) { this->refusePiece(number, bytes); })
 {
+  for (std::size_t i = 0; i < this->Mesh.Arrays.size(); ++i)
+  {
+    const StoredArray& array = this->Mesh.Arrays[i];
+    if (array.Step < 0 || array.Step == options.Step)
+    {
+      this->ByName.try_emplace(array.Name, i);
+    }
+  }
   const auto steps = std::int64_t(this->Mesh.Times.size());
   if (this->isStored() && options.Step != 0 && (options.Step < 0 || options.Step >= steps))
   {
@@ -239,13 +253,12 @@ std::int32_t ResidentMesh::addPiece(MeshPart part) const
 std::vector<std::string> ResidentMesh::names() const
 {
   std::vector<std::string> names;
-  const auto has = [&names](const std::string& name)
-  { return std::find(names.begin(), names.end(), name) != names.end(); };
+  std::unordered_set<std::string> known;
   for (const StoredArray& array : this->Mesh.Arrays)
   {
-    has(array.Name) ? void() : names.push_back(array.Name);
+    known.insert(array.Name).second ? names.push_back(array.Name) : void();
   }
-  if (this->Mesh.CellSize == 3 && !has(elevation))
+  if (this->Mesh.CellSize == 3 && known.count(elevation) == 0)
   {
     names.insert(names.begin(), elevation);
   }
@@ -254,12 +267,10 @@ std::vector<std::string> ResidentMesh::names() const
 
 const StoredArray* ResidentMesh::find(const std::string& name) const
 {
-  for (const StoredArray& array : this->Mesh.Arrays)
+  const auto found = this->ByName.find(name);
+  if (found != this->ByName.end())
   {
-    if (array.Name == name && (array.Step < 0 || array.Step == this->Options.Step))
-    {
-      return &array;
-    }
+    return &this->Mesh.Arrays[found->second];
   }
   const std::vector<std::string> known = this->names();
   if (name != elevation || std::find(known.begin(), known.end(), name) == known.end())

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 class vtkMultiProcessController;
@@ -176,7 +177,8 @@ private:
 
   PartitionedMesh Mesh;
   ResidentOptions Options;
-  std::shared_ptr<const PieceFinder> Finder; ///< null: mesh in memory
+  std::unordered_map<std::string, std::size_t> ByName; ///< the mesh's arrays at Options.Step
+  std::shared_ptr<const PieceFinder> Finder;           ///< null: mesh in memory
   mutable ResidentPieces Resident;
   mutable OtherParts Others;
 };

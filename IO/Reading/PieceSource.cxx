@@ -381,6 +381,18 @@ private:
 
 PieceSource::~PieceSource() = default;
 
+void requireSameMesh(Communicator& ranks, const PartitionedMesh& mesh)
+{
+  const std::vector<std::uint64_t> all = ranks.allGather(mesh.IndexChecksum);
+  if (std::any_of(
+        all.begin(), all.end(), [&all](std::uint64_t checksum) { return checksum != all[0]; }))
+  {
+    throw IOError(mesh.Path,
+      "is not the same mesh for all ranks: it was replaced while it was opened, or ranks see other "
+      "folders; read it again.");
+  }
+}
+
 std::unique_ptr<PieceSource> openPieceSource(const std::string& path, const SourceOptions& options)
 {
   if (isPartitionedMesh(path))

@@ -58,6 +58,9 @@ protected:
 std::unique_ptr<PieceSource> openPieceSource(
   const std::string& path, const SourceOptions& options = {});
 
+/// Throws IOError on all ranks unless they have opened the same mesh. Collective.
+VTKTIPPIO_EXPORT void requireSameMesh(Communicator& ranks, const PartitionedMesh& mesh);
+
 /// An LRU cache of the pieces of one mesh.
 class PieceCache
 {

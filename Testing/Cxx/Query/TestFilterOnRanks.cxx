@@ -73,6 +73,32 @@ TEST_F(FilterOnRanks, TheFilterLeavesValuesOnOwnersAndSharesZonesAndDescents)
   EXPECT_EQ(double(source.cells()), statistics->GetArray("Cells")->GetComponent(0, 0));
 }
 
+TEST_F(FilterOnRanks, AMeshThatIsReplacedIsOpenedAgain)
+{
+  vtkNew<vtkDoubleArray> asked;
+  asked->SetNumberOfComponents(3);
+  asked->InsertNextTuple3(0.31, 0.32, 0);
+  asked->InsertNextTuple3(0.77, 0.81, 0);
+  vtkNew<vtkPartitionedMeshQuery> query;
+  query->SetFileName(this->Path.c_str());
+  for (const int size : { 10, 4, 7 })
+  {
+    const SourceMesh source = makeSource(latticeTriangles(size, 0.3));
+    this->store(source, "grid:2x2");
+    vtkNew<vtkPartitionedMeshQuery> fresh;
+    fresh->SetFileName(this->Path.c_str());
+    vtkNew<vtkIdTypeArray> expected;
+    ASSERT_EQ(1, fresh->Locate(asked, expected, nullptr));
+    vtkNew<vtkIdTypeArray> cells;
+    ASSERT_EQ(1, query->Locate(asked, cells, nullptr));
+    for (vtkIdType i = 0; i < 2; ++i)
+    {
+      EXPECT_EQ(expected->GetValue(i), cells->GetValue(i));
+      EXPECT_LT(cells->GetValue(i), source.cells());
+    }
+  }
+}
+
 TEST_F(FilterOnRanks, ContoursNeedAnArrayOfLevels)
 {
   this->store(makeSource(latticeTriangles(4, 0.3)), "grid:2x2");

@@ -7,10 +7,13 @@
 #include "TemporaryFolder.h"
 
 #include "vtkCallbackCommand.h"
+#include "vtkDataArraySelection.h"
 #include "vtkExecutive.h"
 
+#include <atomic>
 #include <cmath>
 #include <fstream>
+#include <thread>
 
 namespace
 {
@@ -170,4 +173,49 @@ TEST_F(ReaderErrors, AnAbortLeavesNoOutputAndNoError)
     EXPECT_GT(stop.Calls, 4) << mesh;
   }
   EXPECT_EQ(0, this->Errors->Count);
+}
+
+TEST_F(ReaderErrors, AMeshThatIsReplacedMeanwhileIsReadAgain)
+{
+  tipp::test::writeMesh(tipp::test::makeMesh(3, 12), this->path("larger"));
+  std::atomic<bool> isDone{ false };
+  std::thread writer(
+    [&]
+    {
+      tipp::PartitionOptions options;
+      options.Threads = 1;
+      for (int i = 0; i < 40; ++i)
+      {
+        tipp::partitionMesh(tipp::openFlatMesh(this->path(i % 2 == 0 ? "larger" : "flat")),
+          this->path("stored"), options);
+      }
+      isDone = true;
+    });
+  this->Reader->SetFileName(this->path("stored").c_str());
+  int complete = 0;
+  while (!isDone)
+  {
+    this->Reader->Modified();
+    this->Reader->Update();
+    const auto cells =
+      vtkUnstructuredGrid::SafeDownCast(this->Reader->GetOutputDataObject(0))->GetNumberOfCells();
+    complete += cells == 7 * 7 * 2 || cells == 11 * 11 * 2 ? 1 : 0;
+    EXPECT_TRUE(complete > 0 || this->Errors->Count > 0) << cells;
+  }
+  writer.join();
+  EXPECT_GT(complete, 0);
+  EXPECT_EQ(std::string::npos, this->Errors->Text.find("copy or make the mesh again"))
+    << this->Errors->Text;
+}
+
+TEST_F(ReaderErrors, SettingsOfArraysAreKeptWhereAMeshHasOthers)
+{
+  this->Reader->SetFileName(this->path("stored").c_str());
+  this->Reader->GetPointDataArraySelection()->DisableArray("twice");
+  this->Reader->GetPointDataArraySelection()->DisableArray("none");
+  this->Reader->Update();
+  vtkDataArraySelection* const arrays = this->Reader->GetPointDataArraySelection();
+  EXPECT_EQ(3, arrays->GetNumberOfArrays());
+  EXPECT_EQ(0, arrays->ArrayIsEnabled("twice"));
+  EXPECT_EQ(1, arrays->ArrayIsEnabled("late"));
 }
