@@ -48,7 +48,8 @@ vtkSmartPointer<vtkDoubleArray> arrayOf(const std::string& name, const std::vect
 
 void setGrid(const tipp::RasterGrid& grid, vtkImageData* image)
 {
-  image->SetOrigin(grid.West + 0.5 * grid.Pixel[0], grid.South + 0.5 * grid.Pixel[1], 0);
+  const std::array<double, 2> first = grid.firstCentre();
+  image->SetOrigin(first[0], first[1], 0);
   image->SetSpacing(grid.Pixel[0], grid.Pixel[1], 1);
   image->SetDimensions(int(grid.Columns), int(grid.Rows), 1);
 }

@@ -16,17 +16,17 @@
 #define ROUNDINGS 0x1p-47
 #define SMALLEST 1e-280
 
-// A LatticeAxis; s0 to s7 are origin, inverse, first, limit, error scale, error offset,
-// delta, size.
-typedef double8 Axis;
+// A LatticeAxis; s0 to sa are origin, inverse, first, limit, error scale, error offset, delta, size,
+// and the start, step and scale of its GridSteps.
+typedef double16 Axis;
 
 double coordinateOf(Axis axis, int i)
 {
-  return axis.s0 + (i + axis.s2) * axis.s6;
+  return (axis.s8 + (i + axis.s2) * axis.s9) / axis.sa;
 }
 double4 coordinatesOf(Axis axis, int4 i)
 {
-  return axis.s0 + (convert_double4(i) + axis.s2) * axis.s6;
+  return (axis.s8 + (convert_double4(i) + axis.s2) * axis.s9) / axis.sa;
 }
 // The position of v in steps: LatticeAxis::position().
 double4 placesOf(Axis axis, double4 v)
@@ -46,7 +46,9 @@ typedef struct
   double4 origin;
   double4 inverse;
   double4 first;
-  double4 delta;
+  double4 start;
+  double4 step;
+  double4 scale;
   double4 last; // index of the last sample
 } Axes;
 
@@ -56,7 +58,9 @@ INLINE Axes axesOf(Axis a, Axis b, Axis c, Axis d)
   axes.origin = (double4)(a.s0, b.s0, c.s0, d.s0);
   axes.inverse = (double4)(a.s1, b.s1, c.s1, d.s1);
   axes.first = (double4)(a.s2, b.s2, c.s2, d.s2);
-  axes.delta = (double4)(a.s6, b.s6, c.s6, d.s6);
+  axes.start = (double4)(a.s8, b.s8, c.s8, d.s8);
+  axes.step = (double4)(a.s9, b.s9, c.s9, d.s9);
+  axes.scale = (double4)(a.sa, b.sa, c.sa, d.sa);
   axes.last = (double4)(a.s7, b.s7, c.s7, d.s7) - 1;
   return axes;
 }
@@ -71,7 +75,7 @@ INLINE int4 nearestTo(const Axes* axes, double4 v)
 // The coordinates of samples, as LatticeAxis computes them.
 INLINE double4 samplesAt(const Axes* axes, int4 i)
 {
-  return axes->origin + (convert_double4(i) + axes->first) * axes->delta;
+  return (axes->start + (convert_double4(i) + axes->first) * axes->step) / axes->scale;
 }
 // How many samples lie before v. (A comparison is -1 where it is true.)
 INLINE int4 countBefore(const Axes* axes, double4 v)
@@ -388,7 +392,7 @@ INLINE int setBox(Cell* t, const double3* p, Axis x, Axis y, Axis z)
   const double3 high = MOST(mostOfTwo, mostOfOthers);
   t->size = high - low;
   t->error = MOST(-low, high) * (double3)(x.s4, y.s4, z.s4) + (double3)(x.s5, y.s5, z.s5);
-  const Axis single = (Axis)(0, 1, 0, 0, 0, 0, 1, 1);
+  const Axis single = (Axis)(0, 1, 0, 0, 0, 0, 1, 1, 0, 1, 1, 0, 0, 0, 0, 0);
   const Axes axes = axesOf(x, y, z, single);
   t->box.begin = countBefore(&axes, (double4)(low, 0));
   t->box.end = countUpTo(&axes, (double4)(high, 0));

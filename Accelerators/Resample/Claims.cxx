@@ -7,6 +7,7 @@
 #include "Predicates/ExactPredicates3.h"
 #include "Resample/CellVisitor.h"
 #include "Resample/Lattice.h"
+#include "Resample/NearBorder.h"
 #include "Resample/SimplexMesh.h"
 
 #include <algorithm>
@@ -45,7 +46,12 @@ int moveRank(const Point2 (&corners)[3], Point2 sample)
   {
     const Point2 a = corners[i];
     const Point2 b = corners[(i + 1) % 3];
-    if (orientation(a, b, sample) == 0)
+    const int side = orientation(a, b, sample);
+    if (side == -turn)
+    {
+      return nearOnly;
+    }
+    if (side == 0)
     {
       moves &= movesInside(turn * signOf(a.y - b.y), turn * signOf(b.x - a.x), 0);
     }
@@ -137,8 +143,12 @@ SampleWindow SampleWindow::around(const SimplexMesh& mesh, const Lattice& lattic
       {
         const auto axis = std::size_t(axes[i]);
         // With an infinite error each sample is compared exactly, just as the cells do.
+        const LatticeAxis samples(lattice, int(axis));
+        const double slack = mesh.Dimension == 2 && samples.Slack > 0
+          ? std::max(samples.Slack, roundingOf(bounds.Low[i], bounds.High[i]))
+          : 0;
         const IndexRange found =
-          LatticeAxis(lattice, int(axis)).range(bounds.Low[i], bounds.High[i], HUGE_VAL);
+          samples.range(bounds.Low[i] - slack, bounds.High[i] + slack, HUGE_VAL);
         begins[i] = found.Begin;
         const int first = lattice.Extent[2 * axis];
         window.Part.Extent[2 * axis] = first + found.Begin;
@@ -357,6 +367,22 @@ private:
     {
       this->Result.Cells[std::size_t(claim.Sample)] = claim.Cell;
     }
+    this->addNearSamples();
+  }
+
+  void addNearSamples()
+  {
+    std::vector<BorderClaim>& border = this->Result.Border;
+    this->Result.Near =
+      nearSamplesOf(this->Mesh, this->Axes, this->Threads, this->Result.Cells.get(), unclaimed);
+    const auto size = std::ptrdiff_t(border.size());
+    for (const NearSample& near : this->Result.Near)
+    {
+      this->Result.Cells[std::size_t(near.Sample)] = near.Cell;
+      border.push_back({ near.Sample, near.Cell });
+    }
+    std::inplace_merge(border.begin(), border.begin() + size, border.end(),
+      [](const BorderClaim& a, const BorderClaim& b) { return a.Sample < b.Sample; });
   }
 
   void settleOverlaps()

@@ -78,7 +78,11 @@ inline CellKey withRank(CellKey key, int rank)
 /// it.
 constexpr int closedOnly = 8;
 
-/// Exact. The corners are in any order; the triangle has an area and contains the sample.
+/// The rank of a triangle at a sample that is outside of it, but within Lattice::Slack.
+constexpr int nearOnly = 9;
+
+/// Exact. The corners are in any order; the triangle has an area. nearOnly if the sample is
+/// outside.
 int moveRank(const Point2 (&corners)[3], Point2 sample);
 /// Exact. The corners are in any order; the tetrahedron has a volume and contains the sample.
 int moveRank(const Point3 (&corners)[4], Point3 sample);
@@ -89,6 +93,18 @@ struct BorderSample
 {
   std::int64_t Sample; ///< index of the sample
   CellKey Key;
+};
+
+/// A sample outside of all triangles, but within Lattice::Slack of one, which claims it.
+struct NearSample
+{
+  std::int64_t Sample; ///< index of the sample
+  std::int32_t Cell;   ///< index of the triangle
+  CellKey Key;         ///< of the triangle, with the rank nearOnly
+  double Distance;     ///< from the triangle's nearest edge
+  Point2 Ends[2];      ///< of this edge
+  std::int64_t Ids[2]; ///< the indices of its ends
+  double Weight;       ///< of its second end at the point that is nearest to the sample
 };
 
 /// A box of a lattice's samples, and its position in the lattice. It makes the cost of a part of a
@@ -180,15 +196,17 @@ struct Claims
 {
   /// cell index per sample, the first axis fastest; -1: none
   std::unique_ptr<std::int32_t[]> Cells;
-  std::vector<BorderClaim> Border; ///< sorted by sample
+  std::vector<BorderClaim> Border; ///< sorted by sample; with the samples of Near
+  std::vector<NearSample> Near;    ///< sorted by sample
   ClaimStatistics Statistics;
   bool Aborted = false; ///< whether the report stopped the work; the claims are incomplete
 };
 
 /// Returns the cell of lowest CellKey at each sample: the one that contains it after a move by (e,
 /// e^2, e^3) for all sufficiently small e, or on the border after the mirrored moves, or as a
-/// closed set. Exact for finite coordinates; a cell without area or volume or with a coordinate
-/// that is not finite claims nothing. Of cells with the same corners the first claims.
+/// closed set, or within Lattice::Slack. Exact for finite coordinates; a cell without area or
+/// volume or with a coordinate that is not finite claims nothing. Of cells with the same corners
+/// the first claims.
 ///
 /// Triangles are sampled in the plane of the two axes `mesh.Axes`; the third one is ignored. The
 /// number of cells must be below 2^31. The result does not depend on the number of threads.

@@ -122,10 +122,11 @@ struct AxisLanes : AxisConstants
     return lanes;
   }
 
-  /// The coordinates of samples with these indices, as coordinate() returns them.
+  /// The coordinates of samples with these indices.
   [[gnu::always_inline]] Lanes coordinates(Lanes numbers) const
   {
-    return this->Origin + (numbers + this->First) * this->Delta;
+    const LaneInts i = toInts(numbers);
+    return Lanes{ this->Axis[i[0]], this->Axis[i[1]], this->Axis[i[2]], this->Axis[i[3]] };
   }
 
   const LatticeAxis& Axis;

@@ -2,6 +2,8 @@
 #ifndef tippLattice_h
 #define tippLattice_h
 
+#include "Arrays/Decimal.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,14 +13,17 @@
 namespace tipp
 {
 
-/// Samples at Min + i * Delta, for the indices of an extent as VTK's images have them: first and
-/// last along x, y, z, both inclusive. The indices count from the whole lattice's origin, so that
-/// parts of a lattice have the very same samples.
+/// Samples at Min + i * Delta (see GridSteps), for the indices of an extent as VTK's images have
+/// them: first and last along x, y, z, both inclusive. The indices count from the whole lattice's
+/// origin, so that parts of a lattice have the very same samples.
 struct Lattice
 {
   std::array<double, 3> Min = {};            ///< coordinates of the sample with index (0, 0, 0)
   std::array<double, 3> Delta = { 1, 1, 1 }; ///< spacing along x, y, z
   std::array<int, 6> Extent = {};            ///< first and last index along x, y, z
+  /// How far, along x, y, z, a sample outside of all triangles may be from one and still count as
+  /// on its border. Volumes do not use it.
+  std::array<double, 3> Slack = {};
 
   std::int64_t size(int axis) const
   {
@@ -66,9 +71,10 @@ struct AxisConstants
 {
   double Origin; ///< of the lattice; the first sample's coordinate differs if its index is not 0
   double Delta;
-  double Inverse; ///< 1 / Delta
-  double First;   ///< index of the first sample
-  double Limit;   ///< the largest position()
+  double Inverse;  ///< 1 / Delta
+  double First;    ///< index of the first sample
+  double Limit;    ///< the largest position()
+  GridSteps Steps; ///< from the origin to each sample
   ///@{ See LatticeAxis::error().
   double ErrorScale = HUGE_VAL;
   double ErrorOffset = HUGE_VAL;
@@ -82,13 +88,15 @@ class LatticeAxis : public AxisConstants
 public:
   LatticeAxis(const Lattice& lattice, int axis)
     : AxisConstants{ lattice.Min[axis], lattice.Delta[axis], 1.0 / lattice.Delta[axis],
-      double(lattice.Extent[2 * axis]), double(lattice.size(axis)) + 0.5 }
+      double(lattice.Extent[2 * axis]), double(lattice.size(axis)) + 0.5,
+      GridSteps(lattice.Min[axis], lattice.Delta[axis]) }
+    , Slack(lattice.Slack[axis])
     , Count(int(lattice.size(axis)))
     , Coordinates(std::size_t(this->Count) + Padding)
   {
     for (std::size_t i = 0; i < this->Coordinates.size(); ++i)
     {
-      this->Coordinates[i] = this->Origin + (double(i) + this->First) * this->Delta;
+      this->Coordinates[i] = this->Steps[double(i) + this->First];
     }
     // A step of 0 makes it infinite: no estimate is certain then.
     const double scale = Roundings * std::fabs(this->Inverse);
@@ -98,6 +106,8 @@ public:
       this->ErrorOffset = scale * std::fabs(this->Origin);
     }
   }
+
+  const double Slack; ///< see Lattice::Slack
 
   int size() const { return this->Count; }
   double operator[](int i) const { return this->Coordinates[std::size_t(i)]; }

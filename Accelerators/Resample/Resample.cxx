@@ -3,6 +3,7 @@
 
 #include "Parallel/Stopwatch.h"
 #include "Resample/CellVisitor.h"
+#include "Resample/NearBorder.h"
 #include "Resample/SampleBlock.h"
 
 #include <algorithm>
@@ -292,6 +293,22 @@ DirectResult sampleRest(const SimplexMesh& mesh, const LatticeAxes& axes,
   return result;
 }
 
+/// Fills the samples near the border of a complete mesh or part, after those inside; see
+/// Lattice::Slack.
+void fillNearBorder(const SimplexMesh& mesh, const LatticeAxes& axes,
+  const std::vector<Attribute>& attributes, const ResampleOptions& options,
+  std::vector<BorderSample>* border)
+{
+  const std::vector<NearSample> samples =
+    nearSamplesOf<unsigned char>(mesh, axes, options.Threads, options.Valid, 0);
+  fillNear(samples, attributes, options.Parents);
+  for (const NearSample& near : samples)
+  {
+    options.Valid[near.Sample] = 1;
+    border ? border->push_back({ near.Sample, near.Key }) : void();
+  }
+}
+
 } // namespace
 
 DirectResult sampleDirectly(const SimplexMesh& mesh, const Lattice& lattice,
@@ -300,7 +317,12 @@ DirectResult sampleDirectly(const SimplexMesh& mesh, const Lattice& lattice,
 {
   const LatticeAxes axes(mesh, lattice);
   fillInChunks(options.Valid, axes.samples(), (unsigned char)(0), options.Threads);
-  return sampleRest(mesh, axes, attributes, options, 0, border);
+  const DirectResult result = sampleRest(mesh, axes, attributes, options, 0, border);
+  if (!result.Aborted && !result.Overlapping)
+  {
+    fillNearBorder(mesh, axes, attributes, options, border);
+  }
+  return result;
 }
 
 DirectResult finishDirectly(const SimplexMesh& mesh, const Lattice& lattice,
@@ -308,8 +330,14 @@ DirectResult finishDirectly(const SimplexMesh& mesh, const Lattice& lattice,
   const SampledCells& sampled)
 {
   const PartMesh part(mesh, sampled.Open);
-  return sampleRest(
-    part.mesh(), LatticeAxes(mesh, lattice), attributes, options, sampled.Claimed, nullptr);
+  const LatticeAxes axes(mesh, lattice);
+  const DirectResult result =
+    sampleRest(part.mesh(), axes, attributes, options, sampled.Claimed, nullptr);
+  if (!result.Aborted && !result.Overlapping)
+  {
+    fillNearBorder(mesh, axes, attributes, options, nullptr);
+  }
+  return result;
 }
 
 namespace
@@ -359,6 +387,7 @@ public:
     {
       this->Result.Aborted = !interpolate(this->Mesh, this->Window, claims.Cells.get(),
         this->Attributes, this->withProgress(partOf(this->Options.Progress, 0.7, 1)));
+      this->fillNear(claims);
       this->Result.InterpolationSeconds += this->lap();
     }
     this->Result.Device = this->deviceName();
@@ -404,6 +433,22 @@ private:
     this->Result.ClaimSeconds = this->lap() - direct.FinishSeconds;
     this->Result.Device = this->deviceName();
     return !direct.Overlapping;
+  }
+
+  /// Fills the samples that no cell contains; interpolate() has extrapolated their values.
+  void fillNear(const Claims& claims)
+  {
+    const std::int64_t width = LatticeAxes(this->Mesh, this->Window.lattice()).U.size();
+    std::vector<NearSample> kept;
+    for (NearSample near : claims.Near)
+    {
+      if (claims.Cells[std::size_t(near.Sample)] == near.Cell)
+      {
+        near.Sample = this->Window.indexOf(near.Sample / width) + near.Sample % width;
+        kept.push_back(near);
+      }
+    }
+    tipp::fillNear(kept, this->Attributes, this->Options.Parents);
   }
 
   /// Seconds since the last lap without those of transfers, which are counted separately.

@@ -226,10 +226,10 @@ std::size_t tupleBytes(const Attribute& attribute)
   return std::size_t(attribute.Components) * (attribute.Type == Scalar::Float32 ? 4 : 8);
 }
 
-cl_double8 axisArgument(const LatticeAxis& axis)
+cl_double16 axisArgument(const LatticeAxis& axis)
 {
   return { { axis.Origin, axis.Inverse, axis.First, axis.Limit, axis.ErrorScale, axis.ErrorOffset,
-    axis.Delta, double(axis.size()) } };
+    axis.Delta, double(axis.size()), axis.Steps.Start, axis.Steps.Step, axis.Steps.Scale } };
 }
 
 /// One run of the kernels of SampleCells.cl over a mesh: they mark the samples that cells claim,

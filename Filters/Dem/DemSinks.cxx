@@ -441,6 +441,7 @@ void RasterSink::sampleTile(Part& part, const Tile& tile) const
   lattice.Extent = { int(window.Column), int(window.Column + window.Columns - 1), int(window.Row),
     int(window.Row + window.Rows - 1), 0, 0 };
   const SampledPart sampled = samplePart(this->Settings, part.Columns, mesh, lattice);
+  this->Settings.IsSingle ? this->requireSingles(sampled.Values) : void();
   for (const BorderSample& at : sampled.Border)
   {
     const std::int64_t column = window.Column + at.Sample % window.Columns;
@@ -452,6 +453,18 @@ void RasterSink::sampleTile(Part& part, const Tile& tile) const
     }
   }
   this->Store->set(window, sampled.IsInside, sampled.Values);
+}
+
+/// Throws IOError if a value is too large for 32 bits.
+void RasterSink::requireSingles(const BandValues& values) const
+{
+  for (std::size_t band = 0; band < values.size(); ++band)
+  {
+    for (const double value : values[band])
+    {
+      requireSingle(value, this->Settings.Bands.Bands[band].Name);
+    }
+  }
 }
 
 /// Sets the samples on the border of the whole mesh, which no triangle contains.

@@ -91,6 +91,7 @@ private:
   RasterWindow windowOf(const Box2& box) const;
   void sampleByTile(Part& part, const std::vector<TriangleRange>& triangles) const;
   void sampleTile(Part& part, const Tile& tile) const;
+  void requireSingles(const BandValues& values) const;
   void answerBorders();
 
   std::string Identity;

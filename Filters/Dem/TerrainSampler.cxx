@@ -99,6 +99,19 @@ std::vector<std::string> DemBands::names() const
   return names;
 }
 
+std::vector<OverviewRule> DemBands::overviews() const
+{
+  std::vector<OverviewRule> rules;
+  for (const DemBand& band : this->Bands)
+  {
+    const bool isClass = band.Is == DemBand::Kind::Void || band.Name == "classification";
+    rules.push_back(isClass                ? OverviewRule::Nearest
+        : band.Is == DemBand::Kind::Aspect ? OverviewRule::Direction
+                                           : OverviewRule::Mean);
+  }
+  return rules;
+}
+
 double heightOf(double z)
 {
   return std::isfinite(z) ? z : noValue;
@@ -180,7 +193,8 @@ double derivedValue(DemBand::Kind kind, const Corners& corners)
     {
       const double angle = degrees(std::atan2(-gradient.X, -gradient.Y));
       const bool isFlat = gradient.X == 0 && gradient.Y == 0;
-      return isFlat ? noValue : angle < 0 ? angle + 360 : angle;
+      const double turned = angle < 0 ? angle + 360 : angle;
+      return isFlat ? noValue : turned < 360 ? turned : 0;
     }
     default:
       return shade(gradient);
@@ -259,9 +273,12 @@ void allocate(const TerrainSettings& settings, std::int64_t count, BandValues& s
 Lattice latticeOf(const RasterGrid& grid)
 {
   Lattice lattice;
-  lattice.Min = { grid.West + 0.5 * grid.Pixel[0], grid.South + 0.5 * grid.Pixel[1], 0 };
+  const std::array<double, 2> first = grid.firstCentre();
+  lattice.Min = { first[0], first[1], 0 };
   lattice.Delta = { grid.Pixel[0], grid.Pixel[1], 1 };
   lattice.Extent = { 0, int(grid.Columns - 1), 0, int(grid.Rows - 1), 0, 0 };
+  lattice.Slack = { roundingOf(grid.West, gridPosition(grid.West, grid.Pixel[0], 2 * grid.Columns)),
+    roundingOf(grid.South, grid.north()), 0 };
   return lattice;
 }
 

@@ -43,6 +43,8 @@ struct DemBands
   std::optional<std::size_t> Elevation; ///< index of the elevation among the columns
 
   std::vector<std::string> names() const;
+  /// How overviews of the bands are made.
+  std::vector<OverviewRule> overviews() const;
 };
 
 /// Values by band, then by pixel or sample; NaN where there is no triangle.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Sampling/SamplingLattice.h"
 
+#include "Arrays/Decimal.h"
+
 #include <unistd.h>
 
 #include <algorithm>
@@ -71,7 +73,7 @@ Lattice rangeLattice(const std::array<double, 6>& bounds, const std::array<int, 
     }
     if (delta[axis] > 0)
     {
-      const double steps = std::floor((high - low) / delta[axis]);
+      const double steps = stepsUpTo(low, delta[axis], high, 0);
       if (!(steps < std::numeric_limits<int>::max()))
       {
         throw std::runtime_error(
@@ -89,13 +91,13 @@ Lattice rangeLattice(const std::array<double, 6>& bounds, const std::array<int, 
     if (delta[axis] > 0)
     {
       lattice.Delta[axis] = delta[axis];
+      lattice.Slack[axis] = roundingOf(low, high);
     }
     else if (count > 1)
     {
-      const double steps = count - 1;
-      lattice.Delta[axis] = (high - low) / steps;
+      lattice.Delta[axis] = partOfRange(low, high, count - 1);
       // Rounding must not move the last sample out of the range.
-      while (lattice.Delta[axis] > 0 && low + steps * lattice.Delta[axis] > high)
+      while (lattice.Delta[axis] > 0 && GridSteps(low, lattice.Delta[axis])[count - 1] > high)
       {
         lattice.Delta[axis] = std::nextafter(lattice.Delta[axis], 0.0);
       }

@@ -17,7 +17,8 @@ VTKTIPPFILTERS_EXPORT std::array<int, 3> chosenDimensions(
   const std::array<double, 6>& bounds, std::array<int, 3> dimensions, bool surfaces);
 
 /// Returns the lattice of a range: along each axis with the spacing `delta` if it is above 0, else
-/// with `dimensions` samples, the last of them not beyond the range. Throws std::runtime_error for
+/// with `dimensions` samples, the last of them not beyond the range. Only steps of a given length,
+/// which are on a grid of written numbers, have a Slack. Throws std::runtime_error for
 /// an invalid range or number.
 Lattice rangeLattice(const std::array<double, 6>& bounds, const std::array<int, 3>& dimensions,
   const std::array<double, 3>& delta);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
+#include "Arrays/Decimal.h"
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
 #include "Files/TemporaryFiles.h"
@@ -7,7 +8,9 @@
 #include "Partitioning/Spill.h"
 #include "Points/ReadPoints.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <limits>
@@ -98,6 +101,53 @@ private:
   std::vector<Candidate> Slots; ///< a power of two; at least half of them are empty
   std::size_t Count = 0;
 };
+
+/// Where a coordinate lies along an axis of the squares.
+struct InSquare
+{
+  double Number;     ///< of the square
+  double FromCentre; ///< twice the distance from its centre, in billionths
+};
+
+/// Decides with the decimal numbers that users write. Exact if the coordinate and the side have at
+/// most nine decimals; otherwise a coordinate within rounding of a border counts as on it.
+InSquare squareOf(double coordinate, double side)
+{
+  constexpr double unit = 1e9;
+  constexpr double most = 0x1p53;
+  const double at = std::nearbyint(coordinate * unit);
+  const double size = std::nearbyint(side * unit);
+  if (std::fabs(at) < most && size < most && at / unit == coordinate && size / unit == side)
+  {
+    const auto whole = std::int64_t(at);
+    const auto wholeSize = std::int64_t(size);
+    const std::int64_t number = whole / wholeSize - (whole % wholeSize < 0 ? 1 : 0);
+    return { double(number), double(2 * (whole - number * wholeSize) - wholeSize) };
+  }
+  constexpr double unsure = 0x1p-48;
+  const double sides = coordinate / side;
+  const bool isClear =
+    std::fabs(sides - std::nearbyint(sides)) > unsure * std::max(1.0, std::fabs(sides));
+  const double number =
+    isClear ? std::floor(sides) : stepsUpTo(0, side, coordinate, roundingOf(std::fabs(coordinate)));
+  return { number, unit * (2 * (coordinate - number * side) - side) };
+}
+
+/// Returns a * a + b * b, rounded once, for whole numbers of at most 54 bits: then equal distances
+/// have equal squares.
+double squareSum(double a, double b)
+{
+  constexpr double most = 0x1p54;
+  if (!(std::fabs(a) <= most && std::fabs(b) <= most))
+  {
+    return a * a + b * b;
+  }
+  __extension__ using Wide = __int128;
+  const auto squareOf = [](double value)
+  { return Wide(std::int64_t(value)) * std::int64_t(value); };
+  const bool isWhole = std::floor(a) == a && std::floor(b) == b;
+  return isWhole ? double(squareOf(a) + squareOf(b)) : a * a + b * b;
+}
 
 class ThinnedPoints : public PointStream
 {
@@ -244,17 +294,12 @@ private:
 
   Candidate candidateOf(const PointBlock& block, std::size_t i, std::int64_t id) const
   {
-    const double cell = this->Rule.Cell;
-    const double x = block.XY[2 * i] / cell;
-    const double y = block.XY[2 * i + 1] / cell;
-    const double column = std::floor(x);
-    const double row = std::floor(y);
+    const InSquare x = squareOf(block.XY[2 * i], this->Rule.Cell);
+    const InSquare y = squareOf(block.XY[2 * i + 1], this->Rule.Cell);
     double rank = 0;
     if (this->Rule.Keep == Thinning::Rule::Nearest)
     {
-      const double dx = x - column - 0.5;
-      const double dy = y - row - 0.5;
-      rank = dx * dx + dy * dy;
+      rank = squareSum(x.FromCentre, y.FromCentre);
     }
     else
     {
@@ -263,7 +308,7 @@ private:
         : this->Rule.Keep == Thinning::Rule::Lowest ? z
                                                     : -z;
     }
-    return { column, row, rank, id };
+    return { x.Number, y.Number, rank, id };
   }
 
   void keep(std::int64_t id)

@@ -448,7 +448,7 @@ RasterInfo readRasterInfo(const std::string& path)
   grid.Rows = gdal().GDALGetRasterYSize(data.get());
   grid.Pixel = { transform[1], -transform[5] };
   grid.West = transform[0];
-  grid.South = transform[3] + double(grid.Rows) * transform[5];
+  grid.South = gridPosition(transform[3], transform[5], 2 * grid.Rows);
   grid.North = transform[3];
   const char* const crs = gdal().GDALGetProjectionRef(data.get());
   info.Crs = crs ? crs : "";

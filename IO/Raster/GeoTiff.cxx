@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/IOError.h"
+#include "Files/InputFile.h"
 #include "Files/OutputFile.h"
 #include "Files/TextFile.h"
 #include "Files/VtkXml.h"
+#include "Raster/Overviews.h"
 #include "Raster/RasterFile.h"
 
 #include <algorithm>
@@ -121,8 +123,9 @@ void appendWord(std::string& bytes, std::uint64_t value, bool isBig)
 }
 
 /// Returns the directory, to be written at offset `at`, followed by the values that do not fit into
-/// its entries.
-std::string directory(const std::vector<TiffField>& fields, std::uint64_t at, bool isBig)
+/// its entries. The next directory, if there is one, must follow at once.
+std::string directory(
+  const std::vector<TiffField>& fields, std::uint64_t at, bool isBig, bool isLast)
 {
   const std::size_t word = isBig ? 8 : 4;
   const std::uint64_t entries = fields.size() * (4 + 2 * word);
@@ -145,7 +148,7 @@ std::string directory(const std::vector<TiffField>& fields, std::uint64_t at, bo
     values += padded;
     end += padded.size();
   }
-  appendWord(bytes, 0, isBig); // no further directory
+  appendWord(bytes, isLast ? 0 : end, isBig);
   return bytes + values;
 }
 
@@ -175,8 +178,8 @@ TiffField textField(std::uint16_t tag, const std::string& text)
 
 /// Encodes a band of a tile. Pixels beyond the raster's border have no data.
 template <typename T>
-EncodedTile::Band encodeBand(
-  const RasterDescription& description, const RasterWindow& window, const double* values)
+EncodedTile::Band encodeBand(const RasterDescription& description, const RasterWindow& window,
+  const double* values, const std::string& name)
 {
   constexpr auto side = std::size_t(RasterTileSize);
   const T noData = T(description.NoData);
@@ -193,8 +196,8 @@ EncodedTile::Band encodeBand(
       if (!std::isnan(from[i]))
       {
         to[i] = T(from[i]);
-        band.Sums.add(double(to[i]));
-        band.Sums.Hidden += to[i] == noData ? 1 : 0;
+        std::isinf(to[i]) && sizeof(T) < sizeof(double) ? requireSingle(from[i], name) : void();
+        to[i] == noData ? void(band.Sums.Hidden += 1) : band.Sums.add(double(to[i]));
       }
     }
   }
@@ -251,6 +254,7 @@ public:
 
   void close() override
   {
+    this->Description.CloudOptimized ? this->addOverviews() : void();
     this->finish();
     if (this->Plain)
     {
@@ -275,39 +279,144 @@ private:
     BandSums Sums;
   };
 
+  /// The raster or one of its overviews, which a directory of the file describes.
+  struct Level
+  {
+    OverviewSize Size;
+    std::vector<Band> Bands;
+  };
+
   const OutputFile& file() const { return (this->Plain ? *this->Plain : this->Pending).file(); }
 
   /// Appends the next tile of a band: RasterTileSize rows of RasterTileSize values of the file's
   /// type, northernmost row first; for a deflated file, predicted and deflated. Throws IOError.
   void append(Band& band, const std::string& tile)
   {
-    this->file().write(this->End, tile.data(), tile.size());
-    band.Offsets.push_back(this->End);
+    band.Offsets.push_back(this->append(tile));
     band.Sizes.push_back(tile.size());
-    this->End += tile.size();
   }
 
-  /// Completes the file with the directory. Throws IOError.
+  /// Returns the offset.
+  std::uint64_t append(const std::string& tile)
+  {
+    const std::uint64_t offset = this->End;
+    this->file().write(offset, tile.data(), tile.size());
+    this->End += tile.size();
+    return offset;
+  }
+
+  /// Adds the overviews, from the uncompressed tiles in the file. Throws IOError.
+  void addOverviews()
+  {
+    const std::vector<OverviewSize> sizes = overviewSizes(this->Description.Grid);
+    for (std::size_t level = 1; level < sizes.size(); ++level)
+    {
+      Band empty;
+      empty.Offsets.resize(std::size_t(sizes[level].tiles()));
+      empty.Sizes.resize(empty.Offsets.size());
+      this->Overviews.push_back({ sizes[level], std::vector<Band>(this->Bands.size(), empty) });
+    }
+    const InputFile file(this->Plain->temporaryPath());
+    for (std::size_t i = 0; i < this->Bands.size(); ++i)
+    {
+      OverviewTiles tiles;
+      tiles.Read = [&](std::int64_t tile)
+      {
+        std::string bytes(this->Bands[i].Sizes[std::size_t(tile)], '\0');
+        file.read(this->Bands[i].Offsets[std::size_t(tile)], bytes.data(), bytes.size());
+        return this->Description.Double ? pixelsOf<double>(bytes) : pixelsOf<float>(bytes);
+      };
+      tiles.Write = [&](std::size_t level, std::int64_t tile, const TilePixels& pixels)
+      {
+        const std::string bytes =
+          this->Description.Double ? bytesOf<double>(pixels) : bytesOf<float>(pixels);
+        Band& band = this->Overviews[level - 1].Bands[i];
+        band.Offsets[std::size_t(tile)] = this->append(bytes);
+        band.Sizes[std::size_t(tile)] = bytes.size();
+      };
+      const std::vector<OverviewRule>& rules = this->Description.Overviews;
+      makeOverviews(sizes, i < rules.size() ? rules[i] : OverviewRule::Mean, tiles);
+    }
+  }
+
+  /// The values of an uncompressed tile.
+  template <typename T>
+  TilePixels pixelsOf(const std::string& bytes) const
+  {
+    const T noData = T(this->Description.NoData);
+    TilePixels pixels(bytes.size() / sizeof(T));
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+    {
+      T value;
+      std::memcpy(&value, bytes.data() + i * sizeof value, sizeof value);
+      pixels[i] = value == noData ? std::numeric_limits<double>::quiet_NaN() : double(value);
+    }
+    return pixels;
+  }
+
+  template <typename T>
+  std::string bytesOf(const TilePixels& pixels) const
+  {
+    std::string bytes;
+    bytes.reserve(pixels.size() * sizeof(T));
+    for (const double pixel : pixels)
+    {
+      tipp::append(bytes, T(std::isnan(pixel) ? this->Description.NoData : pixel));
+    }
+    return bytes;
+  }
+
+  /// Completes the file with the directories. Throws IOError.
   void finish()
   {
-    std::vector<TiffField> fields = this->Keys;
-    this->addPixelFields(fields);
-    this->addFields(fields);
+    const RasterGrid& grid = this->Description.Grid;
+    std::vector<Level> levels = { { { grid.Columns, grid.Rows }, this->Bands } };
+    levels.insert(levels.end(), this->Overviews.begin(), this->Overviews.end());
+    std::vector<std::vector<TiffField>> directories;
+    std::uint64_t bytes = 0;
+    for (const Level& level : levels)
+    {
+      std::vector<TiffField>& fields = directories.emplace_back();
+      this->addPixelFields(fields, level.Size);
+      directories.size() == 1 ? this->addFields(fields) : addOverviewField(fields);
+      for (const TiffField& field : fields)
+      {
+        bytes += field.Bytes.size() + 32;
+      }
+      bytes += 16 * level.Bands.size() * level.Bands.front().Offsets.size() + 1024;
+    }
+    this->End += this->End % 2;
+    const std::uint64_t first = this->End;
+    const bool isBig = first + bytes > this->Description.ClassicBytes;
+    for (std::size_t i = 0; i < levels.size(); ++i)
+    {
+      addOffsets(levels[i], isBig, directories[i]);
+      std::sort(directories[i].begin(), directories[i].end(),
+        [](const TiffField& a, const TiffField& b) { return a.Tag < b.Tag; });
+      this->append(directory(directories[i], this->End, isBig, i + 1 == levels.size()));
+    }
+    std::string header = "II";
+    tipp::append(header, std::uint16_t(isBig ? 43 : 42));
+    if (isBig)
+    {
+      tipp::append(header, std::uint16_t(8));
+      tipp::append(header, std::uint16_t(0));
+    }
+    appendWord(header, first, isBig);
+    header.resize(headerSize, '\0');
+    this->file().write(0, header.data(), header.size());
+  }
+
+  /// Adds where the tiles are.
+  static void addOffsets(const Level& level, bool isBig, std::vector<TiffField>& fields)
+  {
     std::vector<std::uint64_t> offsets;
     std::vector<std::uint64_t> sizes;
-    std::uint64_t other = 0;
-    for (const Band& band : this->Bands)
+    for (const Band& band : level.Bands)
     {
       offsets.insert(offsets.end(), band.Offsets.begin(), band.Offsets.end());
       sizes.insert(sizes.end(), band.Sizes.begin(), band.Sizes.end());
     }
-    for (const TiffField& field : fields)
-    {
-      other += field.Bytes.size() + 32;
-    }
-    this->End += this->End % 2;
-    const bool isBig =
-      this->End + 16 * offsets.size() + other + 1024 > this->Description.ClassicBytes;
     const auto addWords = [&](std::uint16_t tag, const std::vector<std::uint64_t>& words)
     {
       fields.push_back(isBig ? tiffField(tag, TiffField::Type::Long8, words)
@@ -316,23 +425,15 @@ private:
     };
     addWords(324, offsets);
     addWords(325, sizes);
-    std::sort(fields.begin(), fields.end(),
-      [](const TiffField& a, const TiffField& b) { return a.Tag < b.Tag; });
-    const std::string bytes = directory(fields, this->End, isBig);
-    this->file().write(this->End, bytes.data(), bytes.size());
-    std::string header = "II";
-    tipp::append(header, std::uint16_t(isBig ? 43 : 42));
-    if (isBig)
-    {
-      tipp::append(header, std::uint16_t(8));
-      tipp::append(header, std::uint16_t(0));
-    }
-    appendWord(header, this->End, isBig);
-    header.resize(headerSize, '\0');
-    this->file().write(0, header.data(), header.size());
   }
 
-  void addPixelFields(std::vector<TiffField>& fields) const
+  static void addOverviewField(std::vector<TiffField>& fields)
+  {
+    fields.push_back(
+      tiffField(254, TiffField::Type::Long, std::vector<std::uint32_t>{ 1 })); // reduced resolution
+  }
+
+  void addPixelFields(std::vector<TiffField>& fields, const OverviewSize& size) const
   {
     using Type = TiffField::Type;
     using Short = std::uint16_t;
@@ -343,8 +444,8 @@ private:
     const auto one = [](int value) { return std::vector<Short>{ Short(value) }; };
     fields.insert(fields.end(),
       {
-        tiffField(256, Type::Long, std::vector<Long>{ Long(this->Description.Grid.Columns) }),
-        tiffField(257, Type::Long, std::vector<Long>{ Long(this->Description.Grid.Rows) }),
+        tiffField(256, Type::Long, std::vector<Long>{ Long(size.Columns) }),
+        tiffField(257, Type::Long, std::vector<Long>{ Long(size.Rows) }),
         tiffField(258, Type::Short, repeated(this->Description.Double ? 64 : 32)), // bits
         tiffField(259, Type::Short, one(deflates ? 8 : 1)),                        // compression
         tiffField(262, Type::Short, one(1)),                                       // 0 is black
@@ -353,6 +454,7 @@ private:
         tiffField(322, Type::Short, one(int(RasterTileSize))),
         tiffField(323, Type::Short, one(int(RasterTileSize))),
         tiffField(339, Type::Short, repeated(3)), // floating-point numbers
+        textField(42113, exactText(this->storedNoData())),
       });
     if (deflates)
     {
@@ -364,7 +466,14 @@ private:
     }
   }
 
-  /// Adds georeferencing, band names and statistics in the form that GDAL reads.
+  /// The number that pixels without data have.
+  double storedNoData() const
+  {
+    const double number = this->Description.NoData;
+    return this->Description.Double ? number : double(float(number));
+  }
+
+  /// Adds georeferencing, the reference system, band names and statistics as GDAL reads them.
   void addFields(std::vector<TiffField>& fields) const
   {
     using Type = TiffField::Type;
@@ -374,7 +483,7 @@ private:
     fields.push_back(
       tiffField(33922, Type::Double, std::vector<double>{ 0, 0, 0, grid.West, grid.north(), 0 }));
     fields.push_back(textField(42112, this->metadata()));
-    fields.push_back(textField(42113, exactText(this->Description.NoData)));
+    fields.insert(fields.end(), this->Keys.begin(), this->Keys.end());
   }
 
   std::string metadata() const
@@ -410,6 +519,7 @@ private:
   std::int64_t Written = 0;                    ///< tiles
   std::uint64_t End = headerSize;              ///< end of the written data
   std::vector<Band> Bands;
+  std::vector<Level> Overviews;
 };
 
 } // namespace
@@ -418,12 +528,23 @@ EncodedTile encodeTile(const RasterDescription& description, const RasterWindow&
   const std::vector<const double*>& bands)
 {
   EncodedTile tile;
-  for (const double* const band : bands)
+  for (std::size_t i = 0; i < bands.size(); ++i)
   {
-    tile.Bands.push_back(description.Double ? encodeBand<double>(description, window, band)
-                                            : encodeBand<float>(description, window, band));
+    const std::string name = i < description.Bands.size() ? description.Bands[i] : "";
+    tile.Bands.push_back(description.Double
+        ? encodeBand<double>(description, window, bands[i], name)
+        : encodeBand<float>(description, window, bands[i], name));
   }
   return tile;
+}
+
+void requireSingle(double value, const std::string& band)
+{
+  if (std::isfinite(value) && std::isinf(float(value)))
+  {
+    throw IOError("The value " + exactText(value) + " of the band '" + band +
+      "' is too large for 32 bits; give --type float64.");
+  }
 }
 
 std::unique_ptr<RasterWriter> createGeoTiff(

@@ -42,17 +42,24 @@ GridAxis coverRange(double low, double high, double size, bool aligned, const ch
       " are not a range: give finite bounds, the lower one first.");
   }
   // Rounding must not add a pixel to a range of whole pixels.
-  constexpr double slack = 1e-9;
-  const double first = aligned ? std::floor(low / size + slack) : 0;
-  const double origin = aligned ? first * size : low;
-  const double count = std::ceil((high - origin) / size - slack);
+  const double slack = roundingOf(low, high);
+  if (!(4 * slack < size))
+  {
+    throw std::runtime_error(std::string("the bounds along ") + name +
+      " are too far from 0 for so small a resolution, because coordinates have 16 digits: give a "
+      "larger one, or points from which a constant is subtracted.");
+  }
+  const double first = aligned ? stepsUpTo(0, size, low, slack) : 0;
+  const double count =
+    aligned ? stepsToReach(0, size, high, slack) - first : stepsToReach(low, size, high, slack);
   if (!(count < std::numeric_limits<std::int32_t>::max()))
   {
     throw std::runtime_error(
       std::string("the raster would have more than 2147483646 pixels along ") + name +
       ": give a larger resolution or smaller bounds.");
   }
-  return { origin, count < 1 ? 1 : std::int64_t(count) };
+  return { aligned ? gridPosition(0, size, 2 * std::int64_t(first)) : low,
+    std::max<std::int64_t>(1, std::int64_t(count)) };
 }
 
 } // namespace
@@ -82,6 +89,7 @@ void BandSums::add(double value)
 
 void BandSums::add(const BandSums& other)
 {
+  this->Hidden += other.Hidden;
   if (other.Count == 0)
   {
     return;
@@ -93,7 +101,6 @@ void BandSums::add(const BandSums& other)
   this->Mean += difference * (other.Count / count);
   this->Squares += other.Squares + difference * difference * (this->Count * other.Count / count);
   this->Count = count;
-  this->Hidden += other.Hidden;
 }
 
 RasterWriter::~RasterWriter() = default;
@@ -206,8 +213,7 @@ std::unique_ptr<RasterWriter> createVti(
   std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" "
                      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <ImageData "
                      "WholeExtent=\"" +
-    extent + "\" Origin=\"" +
-    numbers({ grid.West + 0.5 * grid.Pixel[0], grid.South + 0.5 * grid.Pixel[1], 0 }) +
+    extent + "\" Origin=\"" + numbers({ grid.firstCentre()[0], grid.firstCentre()[1], 0 }) +
     "\" Spacing=\"" + numbers({ grid.Pixel[0], grid.Pixel[1], 1 }) + "\">\n    <Piece Extent=\"" +
     extent + "\">\n      <PointData Scalars=\"" + escapedXml(description.Bands.front()) + "\">\n";
   for (std::size_t band = 0; band < description.Bands.size(); ++band)

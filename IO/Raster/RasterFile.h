@@ -2,6 +2,7 @@
 #ifndef tippRasterFile_h
 #define tippRasterFile_h
 
+#include "Arrays/Decimal.h"
 #include "Files/PendingOutput.h"
 #include "vtkTIPPIOModule.h"
 
@@ -20,7 +21,7 @@ namespace tipp
 {
 
 /// The pixel grid of a raster, in the units of the points; rows run along x. A pixel's value is
-/// that at its centre.
+/// that at its centre. Positions in the grid are those of gridPosition().
 struct RasterGrid
 {
   double West = 0;                        ///< border of the first column
@@ -32,7 +33,13 @@ struct RasterGrid
 
   double north() const
   {
-    return this->North.value_or(this->South + double(this->Rows) * this->Pixel[1]);
+    return this->North ? *this->North : gridPosition(this->South, this->Pixel[1], 2 * this->Rows);
+  }
+  /// The centre of the south-western pixel.
+  std::array<double, 2> firstCentre() const
+  {
+    return { gridPosition(this->West, this->Pixel[0], 1),
+      gridPosition(this->South, this->Pixel[1], 1) };
   }
   std::int64_t pixels() const { return this->Columns * this->Rows; }
 };
@@ -50,16 +57,25 @@ struct RasterRequest
 };
 
 /// Returns the grid that covers the bounds; `pointBounds` are xmin, xmax, ymin, ymax of the points.
-/// Throws std::runtime_error if they are not finite, or the raster would have too many rows or
-/// columns.
+/// Bounds within rounding of a pixel border (see roundingOf()) count as on it. Throws
+/// std::runtime_error if they are not finite, or the raster would have too many rows or columns.
 VTKTIPPIO_EXPORT RasterGrid makeRasterGrid(
   const RasterRequest& request, const std::array<double, 4>& pointBounds);
+
+/// How a pixel of an overview is made from the pixels that it stands for.
+enum class OverviewRule
+{
+  Mean,     ///< the mean of their values
+  Nearest,  ///< the value of one of them, for masks and classes
+  Direction ///< the mean direction of angles in degrees
+};
 
 /// What a raster file contains and how it is stored.
 struct RasterDescription
 {
   RasterGrid Grid;
-  std::vector<std::string> Bands; ///< their names
+  std::vector<std::string> Bands;      ///< their names
+  std::vector<OverviewRule> Overviews; ///< by band; Mean for those without
   std::string Crs;       ///< WKT, "EPSG:code" or any text that GDAL understands; may be empty
   double NoData = -9999; ///< value of a GeoTIFF's pixels without data
   bool Double = false;   ///< whether a GeoTIFF's values have 64 bits or 32
@@ -87,7 +103,7 @@ struct BandSums
   double Most = -std::numeric_limits<double>::infinity();
   double Mean = 0;    ///< mean of the values
   double Squares = 0; ///< sum of squared differences from the mean
-  double Count = 0;   ///< number of values, without NaN
+  double Count = 0;   ///< number of values, without NaN and NoData
   double Hidden = 0;  ///< number of values that equal NoData
 
   void add(double value);
@@ -106,8 +122,12 @@ struct EncodedTile
   std::vector<Band> Bands;
 };
 
+/// Throws IOError, which names the band, if a finite value is too large for 32 bits.
+VTKTIPPIO_EXPORT void requireSingle(double value, const std::string& band);
+
 /// Encodes a tile (see tileOf()) of a GeoTIFF with the grid, type, compression and NoData of the
-/// description. `bands` as for RasterWriter::write(). Thread-safe.
+/// description. `bands` as for RasterWriter::write(). Thread-safe. Throws IOError as
+/// requireSingle().
 VTKTIPPIO_EXPORT EncodedTile encodeTile(const RasterDescription& description,
   const RasterWindow& window, const std::vector<const double*>& bands);
 

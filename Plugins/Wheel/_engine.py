@@ -17,7 +17,7 @@ import numpy as np
 from . import _arguments as check
 from . import _core
 from . import _segments as constraints
-from ._arrays import attribute, attributes, coordinates, Image, in_space, Mesh, require_values
+from ._arrays import attribute, attributes, coordinates, grid_position, Image, in_space, Mesh, require_values
 from ._arguments import finish, Progress
 from ._vtkmodules import root
 
@@ -114,7 +114,7 @@ def dem(points: Any, point_data: Any, options: dict[str, Any],
     """Returns the bands with rows from north to south, their transform, and the CRS of points in files."""
     bands, (west, south, _, rows), crs = raster(points, point_data, options, progress)
     size = options["resolution"]
-    return [band[::-1] for band in bands], (size, 0.0, west, 0.0, -size, south + rows * size), crs or None
+    return [band[::-1] for band in bands], (size, 0.0, west, 0.0, -size, grid_position(south, size, 2 * rows)), crs or None
 
 
 def _points_and_columns(points: Any, point_data: Any, options: dict[str, Any]

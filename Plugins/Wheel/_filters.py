@@ -13,7 +13,7 @@ import numpy as np
 from . import _arguments as check
 from . import _core, _engine
 from ._arguments import array_of, DELAUNAY_2D, DELAUNAY_FILE, DEM, options_of, QUERY, READ, WRITE
-from ._arrays import Image
+from ._arrays import grid_position, Image
 from ._dem import lines_of, uncompressed
 from ._filter import add_total, Filter
 from ._vtk import image_of, point_cloud, vtk_array, xyz_of
@@ -171,7 +171,8 @@ class vtkTIPPPointsToImage(Filter):
         bounds, size = self._pixels()
         west, south, columns, rows = _core.raster_grid(bounds, size, self.value("AlignToResolution"))
         information.Set(vtkStreamingDemandDrivenPipeline.WHOLE_EXTENT(), (0, columns - 1, 0, rows - 1, 0, 0), 6)
-        information.Set(vtkDataObject.ORIGIN(), (west + 0.5 * size, south + 0.5 * size, 0.0), 3)
+        information.Set(
+            vtkDataObject.ORIGIN(), (grid_position(west, size, 1), grid_position(south, size, 1), 0.0), 3)
         information.Set(vtkDataObject.SPACING(), (size, size, 1.0), 3)
 
     def _lines(self, name: str, data: Any) -> Any:
@@ -192,10 +193,11 @@ class vtkTIPPPointsToImage(Filter):
         points = vtkPointSet.GetData(inputs[0])
         bands, (west, south, columns, rows), _ = _engine.raster(points, None, options, self.show_progress)
         arrays = {name: band.ravel() for name, band in zip(self.texts, bands)}
-        origin = (west + 0.5 * size, south + 0.5 * size, 0.0)
+        origin = (grid_position(west, size, 1), grid_position(south, size, 1), 0.0)
         image = image_of(Image(origin, (size, size, 1.0), (columns, rows, 1), arrays))
         image.GetPointData().SetActiveScalars(self.texts[0])
-        image.GetFieldData().AddArray(vtk_array("GeoTransform", [west, size, 0.0, south + rows * size, 0.0, -size]))
+        north = grid_position(south, size, 2 * rows)
+        image.GetFieldData().AddArray(vtk_array("GeoTransform", [west, size, 0.0, north, 0.0, -size]))
         vtkImageData.GetData(outputs, 0).ShallowCopy(image)
 
 

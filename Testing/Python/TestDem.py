@@ -30,6 +30,31 @@ def exact_height(corners, x, y):
     return az + u * (bz - az) + v * (cz - az) if u >= 0 and v >= 0 and u + v <= 1 else None
 
 
+def tiff_levels(path):
+    """Reads an uncompressed GeoTIFF of float32: for the raster and each overview an array (bands, rows, columns)."""
+    with open(path, "rb") as file:
+        data = file.read()
+    levels, (at,) = [], struct.unpack_from("<I", data, 4)
+    while at:
+        (count,) = struct.unpack_from("<H", data, at)
+        fields = {}
+        for entry in range(at + 2, at + 2 + 12 * count, 12):
+            tag, kind, number = struct.unpack_from("<HHI", data, entry)
+            if kind in (3, 4):
+                code = f"<{number}{'HI'[kind - 3]}"
+                where = entry + 8 if struct.calcsize(code) <= 4 else struct.unpack_from("<I", data, entry + 8)[0]
+                fields[tag] = struct.unpack_from(code, data, where)
+        (columns,), (rows,), (side,), (bands,) = (fields[tag] for tag in (256, 257, 322, 277))
+        across, down = -(-columns // side), -(-rows // side)
+        apart = fields.get(284, (1,))[0] == 2  # bands
+        tiles = np.stack([np.frombuffer(data, "<f4", side * side * (1 if apart else bands), offset) for offset in fields[324]])
+        tiles = (tiles.reshape(bands, down, across, side, side) if apart
+                 else np.moveaxis(tiles.reshape(down, across, side, side, bands), 4, 0))
+        levels.append(tiles.transpose(0, 1, 3, 2, 4).reshape(bands, down * side, across * side)[:, :rows, :columns])
+        (at,) = struct.unpack_from("<I", data, at + 2 + 12 * count)
+    return levels
+
+
 def thinness(corners):
     """The square of the longest edge, divided by the area."""
     edges = corners - np.roll(corners, 1, axis=0)
@@ -182,6 +207,61 @@ class Dem(unittest.TestCase):
         with self.assertRaisesRegex(KeyError, r"no column 'soil'; there are \['z'\]"):
             tipp.dem(self.path("heights.csv"), 2, attributes="soil")
         self.assertTrue(np.isfinite(tipp.dem(self.path("named.csv"), 2, attributes="soil").array).any())
+
+    def test_overviews_of_a_cog_have_values_of_their_bands(self):
+        names = ["elevation", "aspect", "density", "void"]
+        for options in ([], ["--memory", "64M"]):
+            words = ["dem", "points.npy", "--resolution", 0.08, "--cog", "--max-edge", 3, "--attributes", ",".join(names),
+                     *options]
+            self.run_tipp(*words, "-o", "packed.tif")
+            with open(self.path("packed.tif"), "rb") as file:
+                self.assertIn(b"LAYOUT=IFDS_BEFORE_DATA", file.read(1000))  # GDAL tells this of compressed files only
+            self.run_tipp(*words, "-o", "cog.tif", "--compress", "none")
+            base, *overviews = tiff_levels(self.path("cog.tif"))
+            self.assertEqual([level.shape for level in overviews], [(4, 625, 625), (4, 313, 313)])
+            void = base[names.index("void")]
+            self.assertTrue(0 < void.mean() < 1)
+            for number, overview in enumerate(overviews, 1):
+                side = 2 ** number
+                padded = np.full((4, side * overview.shape[1], side * overview.shape[2]), np.nan)
+                padded[:, :base.shape[1], :base.shape[2]] = np.where(base == -9999, np.nan, base)
+                blocks = padded.reshape(4, overview.shape[1], side, overview.shape[2], side).transpose(0, 1, 3, 2, 4)
+                blocks = blocks.reshape(*overview.shape, side * side)
+                empty = np.isnan(blocks).all(axis=3)
+                for band in (0, 2):
+                    values = blocks[band][~empty[band]]
+                    np.testing.assert_array_equal(overview[band] == -9999, empty[band])
+                    np.testing.assert_allclose(overview[band][~empty[band]], np.nanmean(values, axis=1), rtol=1e-6)
+                np.testing.assert_array_equal(overview[3], void[::side, ::side])
+                angles = np.radians(blocks[1])
+                mean = np.degrees(np.arctan2(np.nansum(np.sin(angles), axis=2), np.nansum(np.cos(angles), axis=2)))
+                difference = (overview[1] - mean + 180) % 360 - 180
+                self.assertLess(np.abs(difference[~empty[1]]).max(), 0.01)
+                self.assertTrue((overview[1][empty[1]] == -9999).all())
+                self.assertTrue(((overview[1] >= 0) & (overview[1] <= 360))[~empty[1]].all())
+
+    def test_large_values_need_64_bits(self):
+        points = self.points.copy()
+        points[7, 2] = 1e300
+        np.save(self.path("large.npy"), points)
+        for options in ([], ["--memory", "64M"], ["--cog"]):
+            run = subprocess.run([TIPP, "dem", "large.npy", "-o", "a.tif", "--resolution", "1", *options],
+                                 cwd=self.folder, capture_output=True, text=True)
+            self.assertEqual(run.returncode, 1)
+            self.assertIn("of the band 'elevation' is too large for 32 bits; give --type float64.", run.stderr)
+            self.assertFalse(os.path.exists(self.path("a.tif")))
+            self.run_tipp("dem", "large.npy", "-o", "b.tif", "--resolution", 1, "--type", "float64", *options)
+
+    def test_rasters_of_their_pixels_are_the_same(self):
+        for size, low in ((0.1, 0), (0.05, 500000), (0.333333, 5000000), (0.7, -3)):
+            points = self.points + [low, 2 * low, 0]
+            grid, transform, _ = tipp.dem(points, size, bounds=(low + 10, low + 14, 2 * low + 20, 2 * low + 23))
+            rows, columns = np.indices(grid.shape)
+            width, _, west, _, height, north = transform
+            centres = np.c_[(west + (columns + 0.5) * width).ravel(), (north + (rows + 0.5) * height).ravel(), grid.ravel()]
+            again, other, _ = tipp.dem(centres, size)
+            self.assertEqual(other, transform)
+            np.testing.assert_allclose(again, grid, atol=1e-6)
 
     @unittest.skipIf(shutil.which("gdalinfo") is None, "no gdalinfo")
     def test_gdal_reads_what_was_written(self):

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -150,8 +149,10 @@ void requireGood(const DemArguments& arguments)
 {
   refuseIf(arguments.Like.empty() == (arguments.Request.Raster.Resolution == 0), "--resolution",
     arguments.Like.empty() ? "or --like is required" : "cannot be combined with --like");
-  refuseIf(arguments.Type == "float32" && std::isfinite(arguments.NoData) &&
-      std::fabs(arguments.NoData) > double(std::numeric_limits<float>::max()),
+  const auto single = float(arguments.NoData);
+  refuseIf(arguments.Type == "float32" &&
+      (std::isinf(single) != std::isinf(arguments.NoData) ||
+        (single == 0) != (arguments.NoData == 0)),
     "--nodata", "is not a 32-bit number; give another one, or --type float64");
   refuseIf(arguments.Memory.empty() && (arguments.Resume || !arguments.Scratch.empty()),
     arguments.Resume ? "--resume" : "--scratch", "needs --memory");

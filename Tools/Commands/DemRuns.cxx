@@ -177,6 +177,7 @@ bool writeRaster(const DemArguments& arguments, RasterDescription description,
   description.Grid = settings.Grid;
   description.Threads = settings.Threads;
   description.Bands = settings.Bands.names();
+  description.Overviews = settings.Bands.overviews();
   const auto writer = createRaster(arguments.Output, description, before);
   report.Filled =
     writeTiles(*writer, settings.Grid, tiles, progress, settings.Threads, settings.Bands);

@@ -29,6 +29,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
@@ -53,7 +55,7 @@ IMAGE   .vti: all arrays, vtkValidPointMask (1 where a cell contains the sample)
         x rows x columns. Components come last. Samples in no cell are NaN, or the
         number of --null. .tif: a GeoTIFF, which needs GDAL, with a band for each array;
         the samples are the pixels' centres, and --null is its number for no value
-        (default: -9999).
+        (default: -9999). Values have 32 bits, or 64 if they are too large for that.
 
 Under mpirun the ranks share the cells, and the first one writes the image. Every rank
 reads the whole of a VTK file, but only its own part of a partitioned or flat mesh.
@@ -203,13 +205,27 @@ RasterGrid gridOf(const std::string& path, vtkImageData* image)
   grid.Columns = dimensions[0];
   grid.Rows = dimensions[1];
   grid.Pixel = { spacing[0], spacing[1] };
-  grid.West = origin[0] - 0.5 * spacing[0];
-  grid.South = origin[1] - 0.5 * spacing[1];
+  grid.West = gridPosition(origin[0], spacing[0], -1);
+  grid.South = gridPosition(origin[1], spacing[1], -1);
   return grid;
 }
 
-/// Returns the arrays with one component, NaN at samples that no cell contains.
-BandValues bandsOf(vtkImageData* image, std::vector<std::string>& names)
+/// Whether values are too large for 32 bits, or whole numbers that would lose digits.
+bool needs64Bits(const std::vector<double>& values, int type)
+{
+  constexpr double mostWhole = 1 << 24;
+  const bool isWhole = type != VTK_FLOAT && type != VTK_DOUBLE;
+  return std::any_of(values.begin(), values.end(),
+    [isWhole](double value)
+    {
+      return isWhole ? std::fabs(value) > mostWhole
+                     : std::isfinite(value) && std::isinf(float(value));
+    });
+}
+
+/// Returns the arrays with one component, NaN at samples that no cell contains. Sets the names of
+/// the bands, and whether they have 64 bits.
+BandValues bandsOf(vtkImageData* image, RasterDescription& description)
 {
   vtkPointData* const data = image->GetPointData();
   vtkDataArray* const valid = data->GetArray("vtkValidPointMask");
@@ -222,13 +238,14 @@ BandValues bandsOf(vtkImageData* image, std::vector<std::string>& names)
     {
       continue;
     }
-    names.emplace_back(array->GetName());
+    description.Bands.emplace_back(array->GetName());
     std::vector<double> values(std::size_t(array->GetNumberOfTuples()));
     for (std::size_t j = 0; j < values.size(); ++j)
     {
       values[j] = valid->GetTuple1(vtkIdType(j)) == 1 ? array->GetTuple1(vtkIdType(j))
                                                       : std::numeric_limits<double>::quiet_NaN();
     }
+    description.Double = description.Double || needs64Bits(values, array->GetDataType());
     bands.push_back(std::move(values));
   }
   return bands;
@@ -270,13 +287,14 @@ void writeGeoTiff(const std::string& path, vtkImageData* image, const std::strin
 {
   RasterDescription description;
   description.Grid = gridOf(path, image);
-  const BandValues bands = bandsOf(image, description.Bands);
+  const BandValues bands = bandsOf(image, description);
   if (bands.empty())
   {
     throw IOError(path, "would have no band, because the mesh has no array with one component.");
   }
   description.Crs = crs;
   description.NoData = noData;
+  description.Double = description.Double || needs64Bits({ noData }, VTK_DOUBLE);
   description.Threads = threads;
   const auto writer = createRaster(path, description, before);
   writeTiles(*writer, description.Grid, readFrom(description.Grid, bands), {}, threads);

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from fractions import Fraction
 from typing import Any, Mapping, TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +13,11 @@ from ._geometry import is_geometry, points_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
+
+
+def grid_position(origin: float, step: float, halves: int) -> float:
+    """Returns origin + halves / 2 * step, computed with the numbers as they are written, and rounded once."""
+    return float(Fraction(repr(float(origin))) + Fraction(repr(float(step))) * halves / 2)
 
 
 class Data:

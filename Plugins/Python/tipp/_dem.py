@@ -13,7 +13,7 @@ import numpy as np
 from . import _arguments as check
 from . import _engine
 from ._arguments import ProgressBar, progress_of
-from ._arrays import converted, in_space, positions_of
+from ._arrays import converted, grid_position, in_space, positions_of
 from ._geometry import is_geometry, items_of, lines_of as lines_of_geometry, oriented_rings_of
 
 if TYPE_CHECKING:
@@ -43,7 +43,8 @@ class Dem(NamedTuple):
         width, _, west, _, height, north = self.transform
         rows, columns = self.array.shape[-2:]
         names = ("band", "y", "x")[-self.array.ndim:]
-        coordinates = {"x": west + width * (np.arange(columns) + 0.5), "y": north + height * (np.arange(rows) + 0.5)}
+        coordinates = {"x": [grid_position(west, width, 2 * i + 1) for i in range(columns)],
+                       "y": [grid_position(north, height, 2 * i + 1) for i in range(rows)]}
         return xarray.DataArray(self.array, coordinates, names, attrs={"crs": self.crs} if self.crs else {})
 
 

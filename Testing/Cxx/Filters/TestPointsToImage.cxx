@@ -114,6 +114,26 @@ TEST(PointsToImage, IsTheSurfaceOfTheTriangulation)
   EXPECT_EQ(40000U, valuesOf(image, "a").size());
 }
 
+TEST(PointsToImage, CentresOnTheBorderHaveValuesAtDecimalResolutions)
+{
+  vtkNew<vtkPoints> corners;
+  corners->SetDataTypeToDouble();
+  for (const double x : { 0.05, 1.15 }) // no double is exactly 0.1
+  {
+    corners->InsertNextPoint(x, 0.05, 1);
+    corners->InsertNextPoint(x, 1.15, 1);
+  }
+  vtkNew<vtkPolyData> points;
+  points->SetPoints(corners);
+  vtkNew<vtkTIPPPointsToImage> maker;
+  maker->SetInputData(points);
+  maker->SetResolution(0.1);
+  maker->Update();
+  EXPECT_EQ(std::vector<double>(144, 1), valuesOf(maker->GetOutput(), "elevation"));
+  EXPECT_EQ(0.05, maker->GetOutput()->GetOrigin()[0]);
+  EXPECT_EQ(1.2, maker->GetOutput()->GetFieldData()->GetArray("GeoTransform")->GetComponent(3, 0));
+}
+
 TEST(PointsToImage, SetBandReplacesAllBands)
 {
   vtkNew<vtkTIPPPointsToImage> maker;

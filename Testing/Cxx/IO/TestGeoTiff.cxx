@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Raster/RasterFile.h"
 
+#include "ExpectIOError.h"
 #include "TemporaryFolder.h"
 
 #include <gtest/gtest.h>
@@ -101,6 +102,18 @@ TEST_F(GeoTiff, IsABigTiffIfLargerThanAClassicTiffMayBe)
   EXPECT_EQ(0.019F, at<float>(big, tile));
   EXPECT_EQ(1.019F, at<float>(big, tile + 4));
   EXPECT_EQ(classic.substr(16, 2 * 4 * 256 * 256), big.substr(16, 2 * 4 * 256 * 256));
+}
+
+TEST_F(GeoTiff, RefusesValuesThatAreTooLargeFor32Bits)
+{
+  const std::string path = this->Folder.path("a.tif");
+  const RasterWindow window = tileOf(this->Description.Grid, 0);
+  std::vector<double> values = valuesOf(window);
+  values[5] = 1e300;
+  const auto encode = [&] { encodeTile(this->Description, window, { values.data() }); };
+  expectIOError("The value 1", "e+300 of the band 'elevation'", encode);
+  this->Description.Double = true;
+  EXPECT_NO_THROW(encodeTile(this->Description, window, { values.data() }));
 }
 
 TEST_F(GeoTiff, TilesMayBeEncodedInAdvance)

@@ -88,6 +88,46 @@ TEST(TablePoints, NoneAreAnEmptyStream)
   EXPECT_EQ(0, stream->most());
 }
 
+/// The x of the points that are left.
+std::vector<double> thinned(std::vector<double> xy, double side, Thinning::Rule rule)
+{
+  PointTable table;
+  table.Columns.push_back({ "z", std::vector<double>(xy.size() / 2, 1) });
+  table.XY = std::move(xy);
+  Thinning thinning;
+  thinning.Cell = side;
+  thinning.Keep = rule;
+  const PointTable left = readAllPoints(*streamTable(std::move(table), thinning));
+  std::vector<double> xs;
+  for (std::size_t i = 0; i < left.size(); ++i)
+  {
+    xs.push_back(left.XY[2 * i]);
+  }
+  return xs;
+}
+
+TEST(TablePoints, OfTheNearestPointsThinningKeepsTheFirst)
+{
+  // All are 0.02 from the centre of a square of side 0.1.
+  EXPECT_EQ(std::vector<double>{ 0.33 },
+    thinned({ 0.33, 0.05, 0.37, 0.05, 0.35, 0.03, 0.35, 0.07 }, 0.1, Thinning::Rule::Nearest));
+  EXPECT_EQ(
+    std::vector<double>{ 0.37 }, thinned({ 0.37, 0.05, 0.33, 0.05 }, 0.1, Thinning::Rule::Nearest));
+  EXPECT_EQ(std::vector<double>{ 500000.37 },
+    thinned({ 500000.37, 0.05, 500000.33, 0.05 }, 0.1, Thinning::Rule::Nearest));
+}
+
+TEST(TablePoints, ThinningDecidesBordersWithTheWrittenNumbers)
+{
+  // 0.3 / 0.1 is less than 3, and 0.30000000000000004 is 3 * 0.1.
+  EXPECT_EQ((std::vector<double>{ 0.29, 0.3 }),
+    thinned({ 0.29, 0, 0.3, 0, 0.35, 0 }, 0.1, Thinning::Rule::Lowest));
+  EXPECT_EQ((std::vector<double>{ 0.29, 0.30000000000000004 }),
+    thinned({ 0.29, 0, 0.30000000000000004, 0, 0.35, 0 }, 0.1, Thinning::Rule::Lowest));
+  EXPECT_EQ((std::vector<double>{ -0.31, -0.3 }),
+    thinned({ -0.31, 0, -0.3, 0, -0.25, 0 }, 0.1, Thinning::Rule::Lowest));
+}
+
 TEST(TablePoints, ThinningKeepsOneInEachSquare)
 {
   Thinning thinning;

@@ -302,7 +302,7 @@ void sampleOf(const tipp::Lattice& lattice, std::int64_t sample, double (&coordi
   {
     const std::int64_t index = sample % lattice.size(axis) + lattice.Extent[std::size_t(2 * axis)];
     sample /= lattice.size(axis);
-    coordinates[axis] =
-      lattice.Min[std::size_t(axis)] + double(index) * lattice.Delta[std::size_t(axis)];
+    coordinates[axis] = tipp::GridSteps(
+      lattice.Min[std::size_t(axis)], lattice.Delta[std::size_t(axis)])[double(index)];
   }
 }

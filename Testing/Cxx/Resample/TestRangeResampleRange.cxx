@@ -55,6 +55,19 @@ TEST(RangeResampleRange, NoRoundingPutsTheLastSampleOutside)
   }
 }
 
+TEST(RangeResampleRange, StepsAreThoseOfTheWrittenNumbers)
+{
+  const auto filter = unitFilter(2, 9);
+  filter->SetInputData(square());
+  filter->SetSamplingBounds(0.1, 0.7, 0.3, 0.6, 0, 0); // 0.6 / 0.1 is less than 6 in doubles
+  filter->SetDelta(0.1, 0.1, 0);
+  filter->Update();
+  int dimensions[3];
+  filter->GetOutput()->GetDimensions(dimensions);
+  EXPECT_EQ(7, dimensions[0]);
+  EXPECT_EQ(4, dimensions[1]);
+}
+
 TEST(RangeResampleRange, DeltaStepsFromTheMinimum)
 {
   const auto filter = unitFilter(2, 9);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -29,6 +30,30 @@ TEST_F(TippDem, EqualsTriangulationAndResampling)
     this->make("dem.npy",
       { "--resolution", "0.25", "--bounds", "0", "100.25", "0", "100.25", "--threads", threads });
     EXPECT_EQ(this->content("steps.npy"), this->content("dem.npy"));
+  }
+}
+
+TEST_F(TippDem, EqualsResamplingAtDecimalPositions)
+{
+  // Pixel centres are on the long edge. No double is exactly 0.1.
+  this->Folder.file("points.csv", "x,y,z\n0.05,0.05,1\n1.55,0.55,2\n0.05,1.15,4\n");
+  ASSERT_EQ(0, this->run({ "delaunay", "points.csv", "-o", "mesh.vtu" }).ExitCode);
+  ASSERT_EQ(0, this->run({ "partition", "mesh.vtu", "-o", "mesh.tipp" }).ExitCode);
+  this->make("dem.npy", { "--resolution", "0.1" });
+  this->make("small.npy", { "--resolution", "0.1", "--memory", "2M" });
+  EXPECT_EQ(this->content("dem.npy"), this->content("small.npy"));
+  const std::vector<double> values = this->valuesOf("dem.npy");
+  ASSERT_EQ(16U * 12, values.size());
+  EXPECT_EQ(
+    93, std::count_if(values.begin(), values.end(), [](double v) { return !std::isnan(v); }));
+  for (const char* const mesh : { "mesh.vtu", "mesh.tipp" })
+  {
+    ASSERT_EQ(0,
+      this
+        ->run({ "resample", mesh, "-o", "steps.npy", "--bounds", "0.05", "1.55", "0.05", "1.15",
+          "0", "0", "--delta", "0.1", "0.1", "0" })
+        .ExitCode);
+    EXPECT_EQ(this->content("dem.npy"), this->content("steps.npy")) << mesh;
   }
 }
 
