@@ -5,8 +5,10 @@
 #include "Files/TemporaryFiles.h"
 #include "Parallel/Poll.h"
 #include "Partitioning/Spill.h"
+#include "Points/DecimalSquare.h"
 #include "Points/ReadPoints.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -25,6 +27,7 @@ struct Candidate
   double Row;
   double Rank;
   std::int64_t Id;
+  std::array<double, 2> At;
 };
 
 std::uint64_t hashOf(const Candidate& candidate)
@@ -41,7 +44,11 @@ std::uint64_t hashOf(const Candidate& candidate)
 class SquareTable
 {
 public:
-  SquareTable() { this->Slots.resize(std::size_t(1) << 10, empty); }
+  explicit SquareTable(const Thinning& rule)
+    : Rule(rule)
+  {
+    this->Slots.resize(std::size_t(1) << 10, empty);
+  }
 
   void offer(const Candidate& candidate)
   {
@@ -51,9 +58,7 @@ public:
     }
     Candidate& slot = this->slotOf(candidate);
     this->Count += slot.Id < 0 ? 1 : 0;
-    const bool isBetter =
-      candidate.Rank < slot.Rank || (candidate.Rank == slot.Rank && candidate.Id < slot.Id);
-    if (slot.Id < 0 || isBetter)
+    if (slot.Id < 0 || this->isBetter(candidate, slot))
     {
       slot = candidate;
     }
@@ -69,7 +74,21 @@ public:
   }
 
 private:
-  static constexpr Candidate empty{ 0, 0, 0, -1 };
+  static constexpr Candidate empty{ 0, 0, 0, -1, {} };
+
+  bool isBetter(const Candidate& one, const Candidate& other) const
+  {
+    int order = one.Rank < other.Rank ? -1 : one.Rank > other.Rank ? 1 : 0;
+    // Distances from the centre are divided by the square's side, which rounds them.
+    constexpr double rounding = 1e-14;
+    if (this->Rule.Keep == Thinning::Rule::Nearest &&
+      std::fabs(one.Rank - other.Rank) <=
+        rounding * (1 + std::fabs(one.Column) + std::fabs(one.Row)))
+    {
+      order = compareDistances(one.At, other.At, { one.Column, one.Row }, this->Rule.Cell);
+    }
+    return order < 0 || (order == 0 && one.Id < other.Id);
+  }
 
   Candidate& slotOf(const Candidate& candidate)
   {
@@ -95,6 +114,7 @@ private:
     }
   }
 
+  const Thinning Rule;
   std::vector<Candidate> Slots; ///< a power of two; at least half of them are empty
   std::size_t Count = 0;
 };
@@ -169,7 +189,7 @@ private:
 
   void decideInMemory()
   {
-    SquareTable squares;
+    SquareTable squares(this->Rule);
     this->forEachCandidate(
       [&](const std::vector<Candidate>& candidates)
       {
@@ -203,7 +223,7 @@ private:
     for (std::size_t key = 0; key < keys; ++key)
     {
       poll();
-      SquareTable squares;
+      SquareTable squares(this->Rule);
       sorted.read(key, blockPoints,
         [&](const char* rows, std::size_t count)
         {
@@ -244,15 +264,14 @@ private:
   Candidate candidateOf(const PointBlock& block, std::size_t i, std::int64_t id) const
   {
     const double cell = this->Rule.Cell;
-    const double x = block.XY[2 * i] / cell;
-    const double y = block.XY[2 * i + 1] / cell;
-    const double column = std::floor(x);
-    const double row = std::floor(y);
+    const std::array<double, 2> at{ block.XY[2 * i], block.XY[2 * i + 1] };
+    const double column = intervalOf(at[0], cell);
+    const double row = intervalOf(at[1], cell);
     double rank = 0;
     if (this->Rule.Keep == Thinning::Rule::Nearest)
     {
-      const double dx = x - column - 0.5;
-      const double dy = y - row - 0.5;
+      const double dx = at[0] / cell - column - 0.5;
+      const double dy = at[1] / cell - row - 0.5;
       rank = dx * dx + dy * dy;
     }
     else
@@ -262,7 +281,7 @@ private:
         : this->Rule.Keep == Thinning::Rule::Lowest ? z
                                                     : -z;
     }
-    return { column, row, rank, id };
+    return { column, row, rank, id, at };
   }
 
   void keep(std::int64_t id)
