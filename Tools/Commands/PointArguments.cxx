@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -162,6 +163,12 @@ void addDuplicatesOption(CLI::App& command, DuplicateRule& rule)
       "The values of points with equal coordinates: those of the first, of the lowest (min) or "
       "highest (max), or the mean of each column (default: first)")
     ->check(CLI::IsMember({ "first", "min", "max", "mean" }));
+}
+
+void addStepOption(CLI::App& command, int& step)
+{
+  addChecked(command, "--step", step, CLI::Range(0, std::numeric_limits<int>::max()),
+    "The time step of arrays that vary in time, counted from 0");
 }
 
 void addThreadsOption(CLI::App& command, int& threads)

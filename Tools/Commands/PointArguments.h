@@ -81,6 +81,9 @@ void addChecked(CLI::App& command, const std::string& name, Value& value, const 
   command.add_option(name, value, help)->check(check)->capture_default_str();
 }
 
+/// Adds the option --step, for the number of a time step.
+void addStepOption(CLI::App& command, int& step);
+
 /// Adds the option --threads.
 void addThreadsOption(CLI::App& command, int& threads);
 
