@@ -23,6 +23,12 @@ namespace
 
 using Edge = std::array<std::int64_t, 2>;
 
+[[noreturn]] void refuseWithoutLines(const std::string& path)
+{
+  throw IOError(
+    path, "holds no lines or polygons, so it would have no effect; give a file that does.");
+}
+
 constexpr const char* triangleFile = "a file of Triangle";
 
 void nextRow(NumberRows& rows, std::size_t fields, const char* what)
@@ -290,8 +296,10 @@ bool SegmentRows::next(ConstraintTable& table, std::size_t most)
   PointBlock block;
   if (!this->Rows->next(block, most))
   {
+    this->IsEmpty ? refuseWithoutLines(this->Path) : void();
     return false;
   }
+  this->IsEmpty = false;
   if (block.Columns.empty())
   {
     this->takeIds(block, table);
@@ -322,7 +330,10 @@ ConstraintTable readVtkConstraints(const std::string& path)
 }
 #endif
 
-ConstraintTable readConstraintFile(const std::string& path)
+namespace
+{
+
+ConstraintTable readAnyKind(const std::string& path)
 {
   const std::string extension = extensionOf(path);
   if (extension == ".poly")
@@ -350,6 +361,18 @@ ConstraintTable readConstraintFile(const std::string& path)
   throw IOError(path,
     "has no extension that tells a kind of constraints; use .poly, .csv, .txt, .14, .grd, .gpkg, "
     ".shp, .geojson, .fgb, .vtp or another kind of VTK file.");
+}
+
+} // namespace
+
+ConstraintTable readConstraintFile(const std::string& path)
+{
+  ConstraintTable table = readAnyKind(path);
+  if (table.Edges.empty() && table.Holes.empty())
+  {
+    refuseWithoutLines(path);
+  }
+  return table;
 }
 
 } // namespace tipp

@@ -122,6 +122,9 @@ class Dem(unittest.TestCase):
                           {"breaklines": self.path(file), "boundary": self.path("ring.csv")}):
                 np.testing.assert_array_equal(expected, tipp.dem(self.points, 0.5, **given).array)
                 np.testing.assert_array_equal(expected, tipp.dem(self.points, 0.5, memory="1M", **given).array)
+        soft = tipp.dem(self.points, 0.5, breaklines=[line[:, :2]]).array
+        for given in ([line], self.path("lines.csv")):
+            np.testing.assert_array_equal(soft, tipp.dem(self.points, 0.5, breaklines=given, soft=True).array)
         with self.assertRaisesRegex(ValueError, r"boundary\[0\] has the shape"):
             tipp.dem(self.points, 1, boundary=[ring[:, 0]])
 
