@@ -194,6 +194,10 @@ void vtkTIPPPointsToImage::Constrain(
     lineTable = tipp::constraintsOf(lines);
     tipp::dropPlainHeights(*lineTable);
   }
+  if (lineTable && this->SoftBreaklines)
+  {
+    lineTable->Height.clear();
+  }
   if (!this->BoundaryFileName.empty())
   {
     boundaryTable = tipp::readBoundary(this->BoundaryFileName);
@@ -266,6 +270,7 @@ void vtkTIPPPointsToImage::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   vtkTIPPPrintMacro(BreaklinesFileName);
+  vtkTIPPPrintMacro(SoftBreaklines);
   vtkTIPPPrintMacro(BoundaryFileName);
   vtkTIPPPrintMacro(Resolution);
   vtkTIPPPrintMacro(UseInputBounds);

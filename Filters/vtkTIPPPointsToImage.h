@@ -129,6 +129,15 @@ public:
 
   ///@{
   /**
+   * Whether the heights of breaklines are not used, as in files that have 0 for heights that are
+   * not known. Their points then get the elevation of the surface without breaklines. Off by
+   * default.
+   */
+  vtkTIPPSwitchMacro(SoftBreaklines, bool);
+  ///@}
+
+  ///@{
+  /**
    * Triangles with an edge longer than this, measured in x and y in the units of the points, are
    * removed, so that pixels there have no value. 0 (the default): no limit.
    */
@@ -209,6 +218,7 @@ protected:
   bool AlignToResolution = true;
   std::string BreaklinesFileName;
   std::string BoundaryFileName;
+  bool SoftBreaklines = false;
   double MaximumEdgeLength = 0;
   int Duplicates = DUPLICATES_FIRST;
   double ThinningSize = 0;

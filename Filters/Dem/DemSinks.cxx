@@ -157,6 +157,7 @@ void SurfaceSink::begin(
   const Box2&, const std::vector<std::string>& columns, const std::string& files)
 {
   this->Columns = columns.size();
+  this->Elevation = findElevation(columns);
   this->Files = files;
 }
 

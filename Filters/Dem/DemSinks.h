@@ -37,6 +37,13 @@ public:
   /// surface. On the first rank, after the run.
   std::vector<std::vector<double>> takeValues() { return std::move(this->Values); }
 
+  /// Returns the heights among these values, which may be none. Call it before takeValues().
+  std::vector<double> heights() const
+  {
+    return this->Elevation < this->Values.size() ? this->Values[this->Elevation]
+                                                 : std::vector<double>();
+  }
+
   std::string identity() const override { return this->Identity; }
   std::uint64_t fileBytes(const Box2&, const std::vector<std::string>&) const override;
   void begin(
@@ -50,6 +57,7 @@ private:
   const std::vector<Point2> Positions;
   const SurfacePositions Wanted;
   std::size_t Columns = 0;
+  std::size_t Elevation = 0; ///< index of the column of heights; Columns: there is none
   std::string Files;
   std::vector<std::vector<double>> Values;
 };

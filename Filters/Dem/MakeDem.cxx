@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Dem/MakeDem.h"
 
+#include "Constraints/ConstraintPoints.h"
 #include "Constraints/OnDisk/ConstrainedPoints.h"
 #include "Dem/DemSinks.h"
 #include "Files/TemporaryFiles.h"
@@ -10,8 +11,11 @@
 #include "Triangulation/PointsView.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -189,14 +193,97 @@ ConstraintTable readBreaklines(const std::string& path, int wrap)
   return lines;
 }
 
+bool haveZeroHeights(const ConstraintTable& lines)
+{
+  const std::vector<double>& heights = lines.Height;
+  return !heights.empty() &&
+    std::all_of(heights.begin(), heights.end(), [](double height) { return height == 0; });
+}
+
 void dropPlainHeights(ConstraintTable& lines)
 {
-  std::vector<double>& heights = lines.Height;
-  if (std::all_of(heights.begin(), heights.end(), [](double height) { return height == 0; }))
+  haveZeroHeights(lines) ? lines.Height.clear() : void();
+}
+
+std::vector<double> heightsBelow(
+  const ConstraintTable& lines, const PointTable& points, int threads)
+{
+  const std::size_t column = findElevation(points.names());
+  if (column == points.Columns.size())
   {
-    heights.clear();
+    return {};
+  }
+  const PointsView view(points.XY.data(), points.size(), 2);
+  TriangulationOptions options;
+  options.Threads = threads;
+  std::vector<Point2> ends;
+  for (std::size_t i = 0; i < lines.XY.size(); i += 2)
+  {
+    ends.push_back({ lines.XY[i], lines.XY[i + 1] });
+  }
+  return valuesOnSurface(
+    ends, view, triangulate(view, options), { points.Columns[column].Values.data() }, threads)
+    .front();
+}
+
+namespace
+{
+
+using PlaneBounds = std::array<double, 4>; ///< xmin, xmax, ymin, ymax
+
+/// Returns the part of a box's area that another one covers.
+double partCovered(const PlaneBounds& box, const PlaneBounds& cover)
+{
+  double part = 1;
+  for (std::size_t low = 0; low < 4; low += 2)
+  {
+    const double length = std::min(box[low + 1], cover[low + 1]) - std::max(box[low], cover[low]);
+    part *= length < 0 ? 0 : length == 0 ? 1 : length / (box[low + 1] - box[low]);
+  }
+  return part;
+}
+
+std::string textOf(const PlaneBounds& box)
+{
+  std::ostringstream text;
+  text.precision(10);
+  text << "x from " << box[0] << " to " << box[1] << " and y from " << box[2] << " to " << box[3];
+  return text.str();
+}
+
+/// Throws std::runtime_error if the bounds of a raster are those of GDAL: xmin ymin xmax ymax. Read
+/// in our order, they are far from the points or much larger.
+void requireOurOrder(const PlaneBounds& bounds, const PlaneBounds& points)
+{
+  const PlaneBounds asGdal{ bounds[0], bounds[2], bounds[1], bounds[3] };
+  constexpr double little = 0.01;
+  constexpr double much = 0.5;
+  if (asGdal[0] < asGdal[1] && asGdal[2] < asGdal[3] && partCovered(bounds, points) < little &&
+    std::max(partCovered(asGdal, points), partCovered(points, asGdal)) > much)
+  {
+    throw std::runtime_error("the bounds are " + textOf(bounds) + ", but those of the points are " +
+      textOf(points) + "; give the bounds in the order xmin xmax ymin ymax.");
   }
 }
+
+void requireNear(const ConstraintTable& boundary, const PlaneBounds& points)
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  PlaneBounds box{ infinity, -infinity, infinity, -infinity };
+  for (std::size_t i = 0; i < boundary.XY.size(); ++i)
+  {
+    const std::size_t low = i % 2 * 2;
+    box[low] = std::min(box[low], boundary.XY[i]);
+    box[low + 1] = std::max(box[low + 1], boundary.XY[i]);
+  }
+  if (!boundary.XY.empty() && partCovered(box, points) == 0)
+  {
+    throw std::runtime_error("the boundary, " + textOf(box) + ", is nowhere near the points, " +
+      textOf(points) + ". Is it in another coordinate reference system?");
+  }
+}
+
+} // namespace
 
 TerrainSettings makeTerrainSettings(
   const DemRequest& request, const Box2& bounds, const std::vector<std::string>& columns)
@@ -205,6 +292,9 @@ TerrainSettings makeTerrainSettings(
   {
     throw std::runtime_error("there is no point with finite coordinates.");
   }
+  const PlaneBounds box{ bounds.xmin, bounds.xmax, bounds.ymin, bounds.ymax };
+  request.Raster.Bounds ? requireOurOrder(*request.Raster.Bounds, box) : void();
+  request.Constraints ? requireNear(request.Constraints->Boundary, box) : void();
   TerrainSettings settings;
   settings.Grid =
     makeRasterGrid(request.Raster, { bounds.xmin, bounds.xmax, bounds.ymin, bounds.ymax });

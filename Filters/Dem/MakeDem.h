@@ -45,7 +45,17 @@ VTKTIPPFILTERS_EXPORT ConstraintTable readBreaklines(const std::string& path, in
 /// Removes the heights of lines if all are 0. For lines from VTK, which always have heights.
 VTKTIPPFILTERS_EXPORT void dropPlainHeights(ConstraintTable& lines);
 
-/// Returns the settings for points with these bounds and columns. Throws std::runtime_error.
+/// Returns whether lines have heights and all are 0, as those that CAD programs write for lines
+/// without heights.
+VTKTIPPFILTERS_EXPORT bool haveZeroHeights(const ConstraintTable& lines);
+
+/// Returns the heights of the surface of the points at the ends of lines; NaN outside of it, and
+/// none at all if the points have no column of heights.
+VTKTIPPFILTERS_EXPORT std::vector<double> heightsBelow(
+  const ConstraintTable& lines, const PointTable& points, int threads);
+
+/// Returns the settings for points with these bounds and columns. Throws std::runtime_error, also
+/// if the raster's bounds are in GDAL's order, or if the boundary is nowhere near the points.
 VTKTIPPFILTERS_EXPORT TerrainSettings makeTerrainSettings(
   const DemRequest& request, const Box2& bounds, const std::vector<std::string>& columns);
 

@@ -24,6 +24,12 @@ namespace
 
 using Edge = std::array<std::int64_t, 2>;
 
+[[noreturn]] void refuseWithoutLines(const std::string& path)
+{
+  throw IOError(
+    path, "holds no lines or polygons, so it would have no effect; give a file that does.");
+}
+
 constexpr const char* triangleFile = "a file of Triangle";
 
 void nextRow(NumberRows& rows, std::size_t fields, const char* what)
@@ -299,8 +305,10 @@ bool SegmentRows::next(ConstraintTable& table, std::size_t most)
   PointBlock block;
   if (!this->Rows->next(block, most))
   {
+    this->IsEmpty ? refuseWithoutLines(this->Path) : void();
     return false;
   }
+  this->IsEmpty = false;
   if (block.Columns.empty())
   {
     this->takeIds(block, table);
@@ -335,7 +343,7 @@ ConstraintTable readVtkConstraints(const std::string& path)
 namespace
 {
 
-ConstraintTable readTable(const std::string& path)
+ConstraintTable readAnyKind(const std::string& path)
 {
   const std::string extension = extensionOf(path);
   if (extension == ".poly")
@@ -369,7 +377,11 @@ ConstraintTable readTable(const std::string& path)
 
 ConstraintTable readConstraintFile(const std::string& path, int wrap)
 {
-  ConstraintTable table = readTable(path);
+  ConstraintTable table = readAnyKind(path);
+  if (table.Edges.empty() && table.Holes.empty())
+  {
+    refuseWithoutLines(path);
+  }
   wrapLongitudes(path, wrap, table.XY);
   wrapLongitudes(path, wrap, table.Holes);
   return table;

@@ -44,7 +44,8 @@ struct ConstraintTable
 /// .csv, .txt (one segment per line: x and y, or x, y and z of both ends, or two ids of points
 /// counted from 0); .14, .grd (ADCIRC: the boundaries of the grid); .gpkg, .shp, .geojson, .json,
 /// .fgb (lines and polygons of a GIS); any VTK file (its lines, and its polygons as polygons).
-/// `wrap`: PointOptions::Wrap. Throws IOError.
+/// `wrap`: PointOptions::Wrap. Throws IOError, also if the file has neither lines nor polygons nor
+/// holes.
 VTKTIPPIO_EXPORT ConstraintTable readConstraintFile(const std::string& path, int wrap = 0);
 
 /// Reads the segments of a text file (.csv, .txt) block by block.
@@ -69,6 +70,7 @@ private:
   std::string Path;
   int Wrap;
   std::unique_ptr<PointStream> Rows;
+  bool IsEmpty = true; ///< no segment has been read so far
 };
 
 ///@{

@@ -93,21 +93,28 @@ struct Kind
 {
   const char* Extensions; ///< separated by blanks
   const char* Name;
-  const char* Command; ///< before the file's name
-  const char* Output;  ///< behind it
+  const char* Command; ///< what to do; with FILE as the file's name
 };
 
-constexpr const char* meshio = "meshio convert";
+constexpr const char* meshio = "convert it, as with 'meshio convert FILE out.vtu'.";
 
-constexpr std::array<Kind, 8> kinds = { {
-  { ".14 .grd", "an ADCIRC grid", "tipp flatten", "-o mesh" },
-  { ".ex2 .exo .e", "an Exodus file", meshio, "out.vtu" },
-  { ".node .ele", "a file of TetGen or Triangle", meshio, "out.vtu" },
-  { ".msh", "a file of Gmsh", meshio, "out.vtu" },
-  { ".xml", "a mesh of DOLFIN or other XML", meshio, "out.vtu" },
-  { ".2dm", "a mesh of SMS", meshio, "out.vtu" },
-  { ".med", "a mesh of Salome", meshio, "out.vtu" },
-  { ".e57", "an E57 file", "pdal translate", "out.las" },
+constexpr std::array<Kind, 10> kinds = { {
+  { ".14 .grd", "an ADCIRC grid", "convert it, as with 'tipp flatten FILE -o mesh'." },
+  { ".ex2 .exo .e", "an Exodus file", meshio },
+  // meshio reads only TetGen's files, in space.
+  { ".node", "a file of TetGen or Triangle",
+    "take the points of one in the plane, as with \"awk 'NR > 1 {print $2, $3, $4}' FILE > "
+    "points.xyz\", and convert one in space, as with 'meshio convert FILE out.vtu'." },
+  { ".ele", "a file of TetGen or Triangle", meshio },
+  { ".msh", "a file of Gmsh", meshio },
+  { ".xml", "a mesh of DOLFIN or other XML", meshio },
+  { ".2dm", "a mesh of SMS",
+    "take its points, as with \"awk '/^ND/ {print $3, $4, $5}' FILE > points.xyz\"." },
+  { ".med", "a mesh of Salome", meshio },
+  { ".nc .nc4 .cdf", "a NetCDF file",
+    "give a text file, such as ADCIRC's ASCII output, or convert a raster, as with "
+    "'gdal_translate FILE out.xyz'." },
+  { ".e57", "an E57 file", "convert it, as with 'pdal translate FILE out.las'." },
 } };
 
 } // namespace
@@ -126,10 +133,14 @@ std::string conversionAdvice(const std::string& path)
   {
     return "";
   }
-  const std::string unpack = isCompressed ? "gunzip " + name + " && " : "";
-  const std::string output = *kind->Output ? std::string(" ") + kind->Output : "";
-  return std::string("is ") + kind->Name + ", which is not read here; convert it, as with '" +
-    unpack + kind->Command + " " + plain + output + "'.";
+  std::string command = kind->Command;
+  for (std::size_t at = command.find("FILE"); at != std::string::npos;
+       at = command.find("FILE", at + plain.size()))
+  {
+    command.replace(at, 4, plain);
+  }
+  const std::string unpack = isCompressed ? "unpack it, as with 'gunzip " + name + "', and " : "";
+  return std::string("is ") + kind->Name + ", which is not read here; " + unpack + command;
 }
 
 void refuseKind(const std::string& path, const std::string& problem)

@@ -173,7 +173,7 @@ void requireText(const std::string& path, std::string_view text)
   }
   if (text.substr(0, 4096).find('\0') != std::string_view::npos)
   {
-    throw IOError(path, "is not a text file; give its extension as what it is.");
+    refuseKind(path, "is not a text file; give its extension as what it is.");
   }
 }
 

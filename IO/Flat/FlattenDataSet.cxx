@@ -85,7 +85,7 @@ public:
       const int type = this->Data->GetCellType(cell);
       if (this->isGhost(cell))
       {
-        ++this->Result.LeftOut["ghost cell"];
+        ++this->Result.GhostCells;
       }
       else if (dimensionOf(type, this->Cell) != dimension)
       {
@@ -96,7 +96,7 @@ public:
         this->cutCell(cell, type);
       }
     }
-    const bool changed = !this->Result.Cut.empty() || !this->Result.LeftOut.empty();
+    const bool changed = this->Result.areCellsChanged();
     return changed ? std::move(this->Parents) : Ids();
   }
 
@@ -334,7 +334,7 @@ Flattened flattenDataSet(vtkDataSet* data, const std::string& path)
   content.Points = coordinatesOf(data);
   content.PointData = arraysOf(data->GetPointData(), flattened.ArraysLeftOut);
   content.CellData = arraysOf(data->GetCellData(), flattened.ArraysLeftOut);
-  const bool changed = !flattened.Cut.empty() || !flattened.LeftOut.empty();
+  const bool changed = flattened.areCellsChanged();
   bool named = false;
   for (FlatArray& array : content.CellData)
   {

@@ -96,28 +96,26 @@ void forEachBlock(const FlatMesh& mesh, Communicator& ranks, int threads, const 
     });
 }
 
-/// The least coordinates, and the least of the negated ones.
+/// The least coordinates of finite points, and the least of the negated ones.
 using Least = std::vector<double>;
 
-Least leastOf(const FlatMesh& mesh, std::int64_t first, std::int64_t count, const double* values)
+bool isFinite(const double* point, std::size_t dimension)
+{
+  return std::all_of(point, point + dimension, [](double value) { return std::isfinite(value); });
+}
+
+/// Points that are not finite are left out. If a cell has one, loadCoordinates() fails.
+Least leastOf(const FlatMesh& mesh, std::int64_t count, const double* values)
 {
   const std::size_t dimension = std::size_t(mesh.CellSize) - 1;
   Least least(6, infinity);
-  double sum = 0; // not finite if one of the values is not
-  for (std::size_t i = 0; i < std::size_t(count) * dimension; ++i)
+  for (std::size_t i = 0; i < std::size_t(count); ++i)
   {
-    const std::size_t axis = dimension == 2 ? i & 1 : i % 3;
-    least[axis] = std::min(least[axis], values[i]);
-    least[3 + axis] = std::min(least[3 + axis], -values[i]);
-    sum += values[i] * 0;
-  }
-  for (std::size_t i = 0; sum != 0 && i < std::size_t(count) * dimension; ++i)
-  {
-    if (!std::isfinite(values[i]))
+    const double* const point = values + i * dimension;
+    for (std::size_t axis = 0; axis < dimension && isFinite(point, dimension); ++axis)
     {
-      throw IOError(mesh.Points.Path,
-        "point " + std::to_string(first + std::int64_t(i / dimension)) +
-          " has a coordinate that is not finite; leave such points out.");
+      least[axis] = std::min(least[axis], point[axis]);
+      least[3 + axis] = std::min(least[3 + axis], -point[axis]);
     }
   }
   return least;
@@ -302,8 +300,8 @@ Box3 boundsOfPoints(const FlatMesh& mesh, Communicator& ranks, int threads)
       const auto [from, to] = ranks.shareOf(mesh.Points.Tuples);
       std::vector<Least> blocks(std::size_t((to - from + blockPoints - 1) / blockPoints));
       forEachBlock(mesh, ranks, threads,
-        [&](std::int64_t block, std::int64_t first, std::int64_t count, const double* values)
-        { blocks[std::size_t(block)] = leastOf(mesh, first, count, values); });
+        [&](std::int64_t block, std::int64_t, std::int64_t count, const double* values)
+        { blocks[std::size_t(block)] = leastOf(mesh, count, values); });
       for (const Least& least : blocks)
       {
         std::transform(least.begin(), least.end(), all.begin(), all.begin(),
@@ -311,6 +309,10 @@ Box3 boundsOfPoints(const FlatMesh& mesh, Communicator& ranks, int threads)
       }
     });
   ranks.minimum(all);
+  if (mesh.Points.Tuples > 0 && all[0] > -all[3])
+  {
+    throw IOError(mesh.Path, "has no point with finite coordinates.");
+  }
   Box3 box;
   for (std::size_t axis = 0; axis < std::size_t(mesh.CellSize) - 1; ++axis)
   {
@@ -347,7 +349,11 @@ void writeOwners(const FlatMesh& mesh, const BoxTiling& tiling, const std::strin
             point.Max = point.Min;
             int met = 0;
             std::int32_t owner = 0;
-            tiling.forEachMeeting(point, [&](std::int32_t id) { owner = met++ == 0 ? id : owner; });
+            if (isFinite(values + i * dimension, dimension)) // else no cell has it
+            {
+              tiling.forEachMeeting(
+                point, [&](std::int32_t id) { owner = met++ == 0 ? id : owner; });
+            }
             owners[i] = met == 1 ? owner : -1 - owner;
           }
           file.write(std::uint64_t(first) * 4, owners.data(), owners.size() * 4);
@@ -365,6 +371,15 @@ std::vector<double> loadCoordinates(
   const int dimension = mesh.CellSize - 1;
   std::vector<double> coordinates(ids.size() * std::size_t(dimension));
   takeCoordinates(mesh.Points, raw.data(), ids.size(), dimension, coordinates.data());
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    if (!isFinite(coordinates.data() + i * std::size_t(dimension), std::size_t(dimension)))
+    {
+      throw IOError(mesh.Points.Path,
+        "point " + std::to_string(ids[i]) +
+          " has a coordinate that is not finite; leave such points out.");
+    }
+  }
   return coordinates;
 }
 

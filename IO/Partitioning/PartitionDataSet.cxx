@@ -107,8 +107,16 @@ vtkSmartPointer<vtkDataSet> gatherDataSets(
 PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
   const std::string& output, const PartitionOptions& options, vtkMultiProcessController* controller)
 {
-  const auto make = [&] { return flattenDataSet(data, name).Content; };
-  return partitionInMemory(make, name, output, options, controller);
+  Flattened flattened;
+  const auto make = [&]
+  {
+    flattened = flattenDataSet(data, name);
+    return std::move(flattened.Content);
+  };
+  PartitionStatistics statistics = partitionInMemory(make, name, output, options, controller);
+  statistics.LeftOut = std::move(flattened.LeftOut);
+  statistics.GhostCells = flattened.GhostCells;
+  return statistics;
 }
 
 PartitionStatistics partitionInput(const std::string& input, const std::string& output,

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,9 @@ struct PartitionStatistics
   std::int64_t BorderCells = 0;   ///< cells that meet more than one partition
   std::int64_t BorrowedCells = 0; ///< a cell counts once per borrower
   std::int64_t CopiedPoints = 0;  ///< ghost points stored in pieces
+  /// Of a VTK data set on the first rank: as in Flattened.
+  std::map<std::string, std::int64_t> LeftOut;
+  std::int64_t GhostCells = 0;
   std::uint64_t SpilledBytes = 0; ///< on all ranks
   std::uint64_t MeshBytes = 0;    ///< size of all files
   int Ranks = 1;

@@ -63,6 +63,7 @@ DemRequest requestOf(const nb::dict& options)
   request.Duplicates = static_cast<DuplicateRule>(of<int>(options, "duplicates"));
   auto lines = constraintsOf(options["breaklines"], readBreaklines);
   auto boundary = constraintsOf(options["boundary"], readBoundary);
+  lines&& of<bool>(options, "soft") ? lines->Height.clear() : void();
   boundary ? requireClosedBoundary(*boundary) : void();
   constrain(request, std::move(lines), std::move(boundary));
   return request;

@@ -132,9 +132,9 @@ class vtkTIPPPointsToImage(Filter):
     DUPLICATES_FIRST, DUPLICATES_LOWEST, DUPLICATES_HIGHEST, DUPLICATES_MEAN = range(4)
     THIN_LOWEST, THIN_HIGHEST, THIN_NEAREST = range(3)
     PROPERTIES = {
-        "BreaklinesFileName": "", "BoundaryFileName": "", "Resolution": 0.0, "UseInputBounds": True,
-        "SamplingBounds": (0.0, 1.0, 0.0, 1.0), "AlignToResolution": True, "MaximumEdgeLength": 0.0, "Duplicates": 0,
-        "ThinningSize": 0.0, "ThinningRule": 2, "MemoryLimit": 0, "NumberOfThreads": 0,
+        "BreaklinesFileName": "", "BoundaryFileName": "", "SoftBreaklines": False, "Resolution": 0.0,
+        "UseInputBounds": True, "SamplingBounds": (0.0, 1.0, 0.0, 1.0), "AlignToResolution": True,
+        "MaximumEdgeLength": 0.0, "Duplicates": 0, "ThinningSize": 0.0, "ThinningRule": 2, "MemoryLimit": 0, "NumberOfThreads": 0,
     }
     LIMITS = {"Resolution": (0, None), "MaximumEdgeLength": (0, None), "Duplicates": (0, 3), "ThinningSize": (0, None),
               "ThinningRule": (0, 2), "MemoryLimit": (0, None), "NumberOfThreads": (0, 4096)}

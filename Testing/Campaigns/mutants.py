@@ -224,7 +224,8 @@ def run(command, env):
 def mutant(job):
     words, out, tipp, env = job
     result = run([tipp] + words, env)
-    if words[0] == "check" and result.code == 1 and "FAULTY" in result.output:
+    if words[0] == "check" and (result.code == 1 and "FAULTY" in result.output
+                                or result.code == 3 and "cannot decide" in result.output):
         return
     campaign.require_clear_end(result)
     if TEMPORARY.search(result.error):

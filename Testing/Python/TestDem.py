@@ -153,6 +153,9 @@ class Dem(unittest.TestCase):
                       {"breaklines": {"type": "GeometryCollection", "geometries": shapes[:1]}, "boundary": shapes[1]}):
             self.assertTrue(np.array_equal(tipp.dem(self.points, 0.5, breaklines=[line], boundary=[ring]).array,
                                            tipp.dem(self.points, 0.5, **given).array, equal_nan=True))
+        soft = tipp.dem(self.points, 0.5, breaklines=[line[:, :2]]).array
+        for given in ([line], self.path("lines.csv")):
+            np.testing.assert_array_equal(soft, tipp.dem(self.points, 0.5, breaklines=given, soft=True).array)
         with self.assertRaisesRegex(ValueError, r"boundary\[0\] has the shape"):
             tipp.dem(self.points, 1, boundary=[ring[:, 0]])
 

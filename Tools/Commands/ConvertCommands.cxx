@@ -17,7 +17,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace tipp
@@ -47,16 +50,27 @@ struct FlattenArguments
   std::vector<std::string> Values;
 };
 
+/// `leftOut` and `ghostCells`: as in Flattened.
+void warnOfCellsLeftOut(const std::string& input,
+  const std::map<std::string, std::int64_t>& leftOut, std::int64_t ghostCells)
+{
+  for (const auto& [name, count] : leftOut)
+  {
+    fmt::print(stderr, "tipp: warning: {}: {} of {} left out.\n", input, count, name);
+  }
+  if (ghostCells > 0)
+  {
+    fmt::print(stderr, "tipp: warning: {}: {} ghost cells left out.\n", input, ghostCells);
+  }
+}
+
 void reportCut(const FlattenArguments& arguments, const Flattened& flattened)
 {
   for (const auto& [name, count] : flattened.Cut)
   {
     fmt::print("{} cells {} were cut.\n", count, name);
   }
-  for (const auto& [name, count] : flattened.LeftOut)
-  {
-    fmt::print(stderr, "tipp: warning: {}: {} of {} left out.\n", arguments.Input, count, name);
-  }
+  warnOfCellsLeftOut(arguments.Input, flattened.LeftOut, flattened.GhostCells);
   for (const std::string& name : flattened.ArraysLeftOut)
   {
     fmt::print(stderr, "tipp: warning: {}: array '{}' holds no numbers and is left out.\n",
@@ -260,6 +274,7 @@ int run(PartitionArguments& arguments)
       statistics.Cells, statistics.Points, statistics.Pieces, statistics.BorrowedCells,
       double(statistics.MeshBytes) / 1e6, totalSeconds(statistics.Phases),
       double(peakMemoryBytes()) / 1e6);
+    warnOfCellsLeftOut(arguments.Input, statistics.LeftOut, statistics.GhostCells);
   }
   return Success;
 }

@@ -52,6 +52,8 @@ void addConstraintOptions(CLI::App& command, DemArguments& arguments)
   command.add_option("--breaklines", arguments.Breaklines,
     "A file of lines that become edges of triangles; their points have the file's heights, else "
     "those of the surface without the lines");
+  command.add_flag("--soft", arguments.Soft,
+    "The breaklines have no heights, even if the file has: they get those of the surface");
   command.add_option("--boundary", arguments.Boundary,
     "A file of closed lines: only pixels inside of them have values");
   addCurveOption(command);
@@ -65,6 +67,7 @@ void readConstraints(DemArguments& arguments)
   if (!arguments.Breaklines.empty())
   {
     lines = readBreaklines(arguments.Breaklines, arguments.Columns.Wrap);
+    arguments.Soft ? lines->Height.clear() : void();
   }
   if (!arguments.Boundary.empty())
   {
@@ -136,6 +139,7 @@ void requireUseful(const DemArguments& arguments)
     refuseIf(arguments.Command->count(name) > 0 && !arguments.Like.empty(), name,
       "cannot be combined with --like");
   }
+  refuseIf(arguments.Soft && arguments.Breaklines.empty(), "--soft", "needs --breaklines");
   std::vector<std::string> bands = arguments.Request.Bands;
   std::sort(bands.begin(), bands.end());
   const auto twice = std::adjacent_find(bands.begin(), bands.end());

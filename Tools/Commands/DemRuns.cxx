@@ -20,6 +20,7 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -212,15 +213,41 @@ void finishDem(const DemArguments& arguments, const DemReport& report)
   warnOfHidden(report.Hidden, arguments.NoData);
   if (report.Figures.Triangles == 0)
   {
-    fmt::print(stderr,
-      "tipp: warning: no pixel has a value, because there are fewer than three distinct points or "
-      "all lie on one line.\n");
+    const std::int64_t distinct =
+      report.Figures.Points - report.Figures.Duplicates - report.Figures.Rejected;
+    const bool mayBeLong = arguments.Request.MaximumEdge > 0 && distinct > 2;
+    fmt::print(stderr, "tipp: warning: no pixel has a value, because {}.\n",
+      mayBeLong ? fmt::format("each triangle has an edge longer than the {} of --max-edge, or all "
+                              "points lie on one line",
+                    arguments.Request.MaximumEdge)
+                : "there are fewer than three distinct points or all lie on one line");
   }
   else if (report.Filled == 0)
   {
     fmt::print(stderr,
-      "tipp: warning: no pixel has a value; compare --bounds, --like and --max-edge with the "
-      "bounds that 'tipp info' prints.\n");
+      "tipp: warning: no pixel has a value; compare --bounds (xmin xmax ymin ymax), --like and "
+      "--max-edge with the bounds that 'tipp info' prints.\n");
+  }
+}
+
+bool haveZeroHeights(const DemRequest& request)
+{
+  return request.Constraints && haveZeroHeights(request.Constraints->Lines);
+}
+
+/// Warns if the surface is on one side of breaklines whose heights are all 0. `heights`: of the
+/// surface, at the breaklines.
+void warnOfZeroHeights(const DemArguments& arguments, std::vector<double> heights)
+{
+  const auto missing = [](double height) { return !std::isfinite(height); };
+  heights.erase(std::remove_if(heights.begin(), heights.end(), missing), heights.end());
+  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+  if (!heights.empty() && (*low > 0 || *high < 0))
+  {
+    fmt::print(stderr,
+      "tipp: warning: {}: all heights are 0, but the surface at the lines is from {} to {}. They "
+      "move it to 0; if they have no heights, give --soft.\n",
+      arguments.Breaklines, *low, *high);
   }
 }
 
@@ -242,6 +269,11 @@ int runInMemory(const DemArguments& arguments)
     return reportInterrupt();
   }
   report.ReadSeconds = watch.restart();
+  if (haveZeroHeights(arguments.Request))
+  {
+    warnOfZeroHeights(arguments,
+      heightsBelow(arguments.Request.Constraints->Lines, points, arguments.Request.Threads));
+  }
   auto bar = std::make_unique<ProgressBar>("Making the raster");
   const auto progress = progressOn(bar);
   BandValues samples;
@@ -306,15 +338,16 @@ OutOfCoreOptions optionsOf(const DemArguments& arguments)
 }
 
 /// Triangulates the points without constraints, and sets `values` on the first rank: the heights
-/// of this surface at the points of constraints. Does nothing if no point needs a height, or if the
+/// of this surface at the points of constraints. Does nothing if no height is needed, or if the
 /// run that uses them has already begun. Returns the exit code.
 int findSurface(const DemArguments& arguments, Communicator& ranks, const OpenPoints& open,
   std::vector<std::vector<double>>& values, DemReport& report)
 {
   const DemRequest& request = arguments.Request;
   const bool isNeeded = request.Constraints && needsSurface(*request.Constraints, request.Bands);
+  const bool areZero = haveZeroHeights(request);
   const bool hasBegun = ranks.rank() == 0 && canResume(arguments.Output + workSuffix);
-  if (!isNeeded || ranks.broadcast(hasBegun))
+  if ((!isNeeded && !areZero) || ranks.broadcast(hasBegun))
   {
     return Success;
   }
@@ -324,7 +357,13 @@ int findSurface(const DemArguments& arguments, Communicator& ranks, const OpenPo
   OutOfCoreStatistics statistics;
   const int code = runOutOfCore(ranks, "Finding heights for the lines", open,
     arguments.Output + surfaceSuffix, options, statistics);
-  values = sink.takeValues();
+  if (areZero && ranks.isFirst())
+  {
+    std::vector<double> heights = sink.heights();
+    heights.resize(std::min(heights.size(), request.Constraints->Lines.XY.size() / 2));
+    warnOfZeroHeights(arguments, std::move(heights));
+  }
+  values = isNeeded ? sink.takeValues() : std::vector<std::vector<double>>();
   report.MakeSeconds += totalSeconds(statistics.Phases);
   return code;
 }

@@ -24,6 +24,7 @@ struct DemArguments : RunArguments
   std::string Compression = "deflate";
   bool CloudOptimized = false;
   std::string Breaklines; ///< path of a file; empty: none
+  bool Soft = false;      ///< the heights of Breaklines are not used
   std::string Boundary;   ///< path of a file; empty: none
 
   /// Returns the file of constraints that messages name.

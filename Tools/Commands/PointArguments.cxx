@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -200,6 +201,12 @@ void addCurveOption(CLI::App& command)
       "The largest distance between curves of GIS files and the segments that replace them, in "
       "their units (default: a segment for each 4 degrees of an arc)")
     ->check(checkPositive);
+}
+
+void addStepOption(CLI::App& command, int& step)
+{
+  addChecked(command, "--step", step, CLI::Range(0, std::numeric_limits<int>::max()),
+    "The time step of arrays that vary in time, counted from 0");
 }
 
 void addThreadsOption(CLI::App& command, int& threads)

@@ -33,8 +33,7 @@ namespace tipp
 
 void addQueryMeshOptions(CLI::App& command, QueryMeshArguments& arguments)
 {
-  addChecked(command, "--step", arguments.Step, CLI::Range(0, std::numeric_limits<int>::max()),
-    "The time step of arrays that vary in time, counted from 0");
+  addStepOption(command, arguments.Step);
   addChecked(command, "--memory", arguments.Memory, checkMemorySize,
     "The memory limit for pieces of a partitioned mesh");
   addThreadsOption(command, arguments.Threads);

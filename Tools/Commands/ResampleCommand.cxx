@@ -33,6 +33,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,10 +46,10 @@ namespace
 constexpr const char* footer =
   R"(MESH    any VTK file of triangles, tetrahedra or other cells, which are cut into these; or
         a partitioned mesh (its folder or index) or a flat one (a folder of .npy
-        arrays), of which only the range of --bounds is read. The first step of arrays
-        that vary in time is sampled. A partitioned mesh may be larger than memory: it
-        is read in parts of about --memory, in bytes or such as 512M. The z of a surface
-        is sampled as the array elevation, unless all points have the same z.
+        arrays), of which only the range of --bounds is read. Of arrays that vary in
+        time the values of --step are sampled. A partitioned mesh may be larger than
+        memory: it is read in parts of about --memory, in bytes or such as 512M. The z of
+        a surface is sampled as the array elevation, unless all points have the same z.
 IMAGE   .vti: all arrays, vtkValidPointMask (1 where a cell contains the sample) and
         vtkGhostType. .npy: one array (--arrays NAME, default: elevation), in its own
         type or float64: rows x columns, the row of lowest y first; for a volume layers
@@ -147,7 +148,7 @@ PathState sample(
   filter->GatherOnRootOn();
   configure(arguments, filter);
   const vtkNew<ErrorKeeper> reading;
-  connectMesh(arguments, ranks, filter, reading);
+  const std::optional<double> time = connectMesh(arguments, ranks, filter, reading);
   ProgressBar bar("resampling");
   vtkNew<vtkCallbackCommand> progress;
   progress->SetClientData(&bar);
@@ -164,7 +165,7 @@ PathState sample(
   filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, problems);
   vtkNew<ErrorKeeper> warnings;
   filter->AddObserver(vtkCommand::WarningEvent, warnings);
-  filter->Update();
+  time ? void(filter->UpdateTimeStep(*time)) : filter->Update();
   ranks.attempt(
     []
     {
@@ -361,6 +362,7 @@ void addOptions(CLI::App& command, ResampleArguments& arguments)
                                ->expected(3);
   delta->excludes(dimensions);
   command.add_option("--arrays", arguments.Arrays, "Names of arrays (default: all, and elevation)");
+  addStepOption(command, arguments.Step);
   command
     .add_option("--device", arguments.Device, "auto, openmp, opencl, opencl:INDEX or opencl:NAME")
     ->capture_default_str();

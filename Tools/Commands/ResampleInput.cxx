@@ -17,9 +17,11 @@
 #include "vtkDataArraySelection.h"
 #include "vtkDataSet.h"
 #include "vtkExecutive.h"
+#include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
@@ -182,6 +184,22 @@ vtkSmartPointer<vtkPartitionedUnstructuredReader> openReader(
   return reader;
 }
 
+/// Returns the time of the step to sample; none if the mesh has no times. Throws IOError if it does
+/// not have the step.
+std::optional<double> timeOf(const ResampleArguments& arguments, vtkAlgorithm* reader)
+{
+  vtkInformation* const information = reader ? reader->GetOutputInformation(0) : nullptr;
+  auto* const key = vtkStreamingDemandDrivenPipeline::TIME_STEPS();
+  const int steps = information && information->Has(key) ? information->Length(key) : 0;
+  if (arguments.Step > 0 && arguments.Step >= steps)
+  {
+    throw IOError(arguments.Input,
+      "has no time step " + std::to_string(arguments.Step) + "; there are " +
+        std::to_string(steps) + ", counted from 0.");
+  }
+  return steps > 0 ? std::make_optional(information->Get(key)[arguments.Step]) : std::nullopt;
+}
+
 /// Data from the index of a partitioned mesh.
 struct StoredMesh
 {
@@ -223,13 +241,15 @@ void selectStoredArrays(const ResampleArguments& arguments, const StoredMesh& st
   filter->GetCellDataArraySelection()->DisableArray("GlobalCellIds");
 }
 
-void connectStored(const ResampleArguments& arguments, Communicator& ranks,
+std::optional<double> connectStored(const ResampleArguments& arguments, Communicator& ranks,
   vtkRangeResampleFilter* filter, ErrorKeeper* reading)
 {
   const auto reader = openReader(arguments, ranks, reading);
+  std::optional<double> time;
   ranks.attempt(
     [&]
     {
+      time = timeOf(arguments, reader);
       const StoredMesh stored = describe(arguments);
       selectStoredArrays(arguments, stored, reader, filter);
       if (stored.Extent[0] > stored.Extent[1])
@@ -254,6 +274,7 @@ void connectStored(const ResampleArguments& arguments, Communicator& ranks,
       filter->SetNumberOfInputPieces(int(std::min<std::uint64_t>(bytes / memory + 1, mostPieces)));
     });
   filter->SetInputConnection(reader->GetOutputPort());
+  return time;
 }
 
 vtkSmartPointer<vtkDataSet> readFlat(
@@ -263,8 +284,15 @@ vtkSmartPointer<vtkDataSet> readFlat(
   const auto reader = openReader(arguments, ranks, errors);
   names = namesIn(reader);
   // Before the mesh is read. Whether it has an elevation is known only afterwards.
-  ranks.attempt([&] { requireArrays(arguments, names, elevationName); });
-  reader->UpdatePiece(ranks.rank(), ranks.size(), 0);
+  std::optional<double> time;
+  ranks.attempt(
+    [&]
+    {
+      requireArrays(arguments, names, elevationName);
+      time = timeOf(arguments, reader);
+    });
+  time ? reader->UpdateTimeStep(*time, ranks.rank(), ranks.size(), 0)
+       : int(reader->UpdatePiece(ranks.rank(), ranks.size(), 0));
   ranks.attempt([&] { throwFirst(errors); });
   vtkSmartPointer<vtkDataSet> mesh = vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
   // Remove the arrays that the reader adds: they are not fields to sample.
@@ -293,6 +321,7 @@ vtkSmartPointer<vtkDataSet> readMesh(
       // A .vtu file may be a flat mesh. If it has cells of other types, VTK's reader reads it.
       if (!isFlatMesh(arguments.Input) || isVtkFile(arguments.Input))
       {
+        timeOf(arguments, nullptr);
         mesh = readDataSet(arguments.Input);
         if (!vtkPointSet::SafeDownCast(mesh))
         {
@@ -311,13 +340,12 @@ vtkSmartPointer<vtkDataSet> readMesh(
 
 } // namespace
 
-void connectMesh(const ResampleArguments& arguments, Communicator& ranks,
+std::optional<double> connectMesh(const ResampleArguments& arguments, Communicator& ranks,
   vtkRangeResampleFilter* filter, ErrorKeeper* reading)
 {
   if (isPartitionedMesh(arguments.Input))
   {
-    connectStored(arguments, ranks, filter, reading);
-    return;
+    return connectStored(arguments, ranks, filter, reading);
   }
   ArrayNames names;
   vtkSmartPointer<vtkDataSet> mesh = readMesh(arguments, ranks, names);
@@ -330,6 +358,7 @@ void connectMesh(const ResampleArguments& arguments, Communicator& ranks,
   }
   filter->SetInputData(mesh);
   ranks.attempt([&] { selectArrays(arguments, names, filter); });
+  return std::nullopt;
 }
 
 } // namespace tipp

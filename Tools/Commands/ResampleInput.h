@@ -24,6 +24,7 @@ struct ResampleArguments
   /// Distance of samples; empty: given by Dimensions.
   std::vector<double> Delta;
   std::vector<std::string> Arrays; ///< empty: all
+  int Step = 0;                    ///< the time step to sample of arrays that vary in time
   std::string Device = "auto";
   int Threads = 0;
   std::optional<double> Null;
@@ -35,8 +36,9 @@ struct ResampleArguments
 /// Connects the mesh to a filter, sets the filter's range and numbers of samples, and selects the
 /// arrays to sample. A partitioned mesh is read while the filter runs, in batches of pieces, so it
 /// may be larger than memory; `reading` then collects the reader's errors. Any other mesh is read
-/// here. Collective. Throws IOError on all ranks.
-void connectMesh(const ResampleArguments& arguments, Communicator& ranks,
+/// here. Returns the time to sample, if the mesh has times. Collective. Throws IOError on all
+/// ranks.
+std::optional<double> connectMesh(const ResampleArguments& arguments, Communicator& ranks,
   vtkRangeResampleFilter* filter, ErrorKeeper* reading);
 
 } // namespace tipp

@@ -204,7 +204,7 @@ DELAUNAY_FILE = {"memory": "MemoryLimit", "partitions": "NumberOfPartitions", "m
                  "constraints": "ConstraintsFileName", "boundary": "BoundaryFileName", "crossings": "SplitCrossings",
                  "mark_constraints": "GenerateConstraintEdges", "count_only": "CountOnly", "resume": "Resume",
                  "scratch": "ScratchFolder", "threads": "NumberOfThreads"}
-DEM = {"align": "AlignToResolution", "max_edge": "MaximumEdgeLength", "duplicates": "Duplicates",
+DEM = {"align": "AlignToResolution", "soft": "SoftBreaklines", "max_edge": "MaximumEdgeLength", "duplicates": "Duplicates",
        "thin_size": "ThinningSize", "thin_rule": "ThinningRule", "memory": "MemoryLimit", "threads": "NumberOfThreads"}
 QUERY = {"memory": "MemoryLimit", "step": "Step", "threads": "NumberOfThreads"}
 READ = {"merge": "MergePieces", "tiling": "Tiling", "memory_limit": "MemoryLimit"}

@@ -64,6 +64,7 @@ def dem(
     keep: Sequence[str] = (),
     breaklines: Any = None,
     boundary: Any = None,
+    soft: bool = False,
     memory: int | str | None = None,
     threads: int = 0,
     progress_bar: ProgressBar = False,
@@ -106,10 +107,14 @@ def dem(
     breaklines
         Lines that become edges of triangles: a file as for --breaklines of `tipp dem`, a vtkPolyData, a list of
         arrays of corners of shape (k, 2) or (k, 3), or Shapely geometries, a GeoSeries or a GeoDataFrame of lines or
-        polygons. If no heights are given, or all are 0, the corners get the height of the surface without breaklines.
+        polygons. If no heights are given, or all of an array, a geometry or a vtkPolyData are 0, the corners get the
+        height of the surface without breaklines.
     boundary
         Closed lines outside of which there are no values: a file, a vtkPolyData, a list of arrays of corners, or
         Shapely polygons, a GeoSeries or a GeoDataFrame.
+    soft
+        Whether the heights of breaklines are not used, such as those of a file that has 0 for heights that are not
+        known.
     memory
         The memory limit for points and triangles, in bytes or as a text such as "512M", not counting the raster and
         points passed as arrays. Data that does not fit is spilled to temporary files. A package built with VTK also
@@ -162,6 +167,7 @@ def dem(
         **({} if thin is None else _thinning(thin)),
         "breaklines": lines_of(breaklines, "breaklines", False),
         "boundary": lines_of(boundary, "boundary", True),
+        "soft": check.flag(soft, "soft"),
         "memory": 0 if memory is None else check.memory(memory, "memory"),
         "classes": None if classes is None else [check.whole(number, "classes") for number in classes],
         "returns": _RETURNS[returns],

@@ -261,7 +261,7 @@ TEST_F(FlattenedCells, GhostCellsAreLeftOut)
   this->Grid->AllocateCellGhostArray()->SetValue(0, vtkDataSetAttributes::DUPLICATECELL);
   const Flattened simplices = flattenDataSet(this->Grid, "a");
   EXPECT_EQ((std::vector<std::int64_t>{ 2, 3, 0 }), simplices.Content.Cells);
-  EXPECT_EQ(1, simplices.LeftOut.at("ghost cell"));
+  EXPECT_EQ(1, simplices.GhostCells);
 }
 
 TEST_F(FlattenedCells, DataWithoutAreaAreRefused)

@@ -181,7 +181,9 @@ protected:
   {
     try
     {
-      this->read("empty.geojson", R"({"type": "FeatureCollection", "features": []})");
+      this->read("line.geojson",
+        R"({"type": "Feature", "properties": {}, "geometry":
+        {"type": "LineString", "coordinates": [[0, 0], [1, 1]]}})");
     }
     catch (const tipp::IOError& error)
     {
@@ -194,6 +196,15 @@ protected:
     }
   }
 };
+
+TEST_F(ConstraintVectorFile, GeoJsonWithoutLinesIsAnError)
+{
+  this->expectError("points.geojson",
+    R"({"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [0, 0]}})",
+    "holds no lines or polygons");
+  this->expectError(
+    "none.geojson", R"({"type": "FeatureCollection", "features": []})", "holds no lines");
+}
 
 TEST_F(ConstraintVectorFile, GeoJsonLinesAndHeights)
 {

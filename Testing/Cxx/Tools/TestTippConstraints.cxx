@@ -312,4 +312,45 @@ TEST_F(TippConstraints, MissingFileIsNamed)
   EXPECT_NE(std::string::npos, outcome.Err.find("lost.csv")) << outcome.Err;
 }
 
+/// The second constraint ends at a point that is on the first one but for rounding. As none crosses
+/// it, the first one is straight. The check cannot know whether another one had crossed it there.
+TEST_F(TippConstraints, CheckMayBeUnableToDecide)
+{
+  this->Folder.file("few.csv", "x,y\n0,0\n3,1\n1,0.33333333333333331\n1,-2\n1,2\n");
+  this->Folder.file("lines.csv", "first,last\n0,1\n2,3\n");
+  this->Folder.file("through.vtk",
+    "# vtk DataFile Version 3.0\n\nASCII\nDATASET POLYDATA\nPOINTS 5 double\n0 0 0\n3 1 0\n1 "
+    "0.33333333333333331 0\n1 -2 0\n1 2 0\nPOLYGONS 4 16\n3 0 2 4\n3 2 1 4\n3 0 3 2\n3 2 3 1\n");
+  const Words check{ "check", "few.csv", "through.vtk", "--constraints", "lines.csv" };
+  const Outcome outcome = runTipp(this->Folder, check);
+  EXPECT_EQ(3, outcome.ExitCode) << outcome.Out << outcome.Err;
+  EXPECT_NE(std::string::npos, outcome.Out.find("cannot decide\n")) << outcome.Out;
+  ASSERT_EQ(0,
+    runTipp(
+      this->Folder, { "delaunay", "few.csv", "-o", "right.vtp", "--constraints", "lines.csv" })
+      .ExitCode);
+  EXPECT_EQ(0,
+    runTipp(this->Folder, { "check", "few.csv", "right.vtp", "--constraints", "lines.csv" })
+      .ExitCode);
+}
+
+TEST_F(TippConstraints, FilesWithoutLinesAreRefused)
+{
+  this->Folder.file("none.csv", "x1,y1,x2,y2\n");
+  this->Folder.file("none.poly", "0 2 0 0\n0 0\n0\n");
+  this->Folder.file("none.node", "1 2 0 0\n1 5 5\n");
+  for (const std::string file : { "none.csv", "none.poly" })
+  {
+    for (const char* const option : { "--constraints", "--boundary" })
+    {
+      for (const char* const output : { "mesh.vtp", "mesh.tipp" })
+      {
+        const Outcome outcome = this->delaunay({ "-o", output, option, file });
+        EXPECT_EQ(1, outcome.ExitCode) << option;
+        EXPECT_NE(std::string::npos, outcome.Err.find(file + ": holds no ")) << outcome.Err;
+      }
+    }
+  }
+}
+
 } // namespace

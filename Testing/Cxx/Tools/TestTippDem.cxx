@@ -434,4 +434,30 @@ TEST_F(TippDem, ResumesAKilledRun)
   EXPECT_EQ(0U, results());
 }
 
+TEST_F(TippDem, SaysThatAllTrianglesHaveTooLongEdges)
+{
+  this->Folder.file("points.csv", "x,y,z\n0,0,1\n10,0,1\n0,10,1\n10,10,1\n");
+  const Outcome outcome =
+    this->run({ "dem", "points.csv", "-o", "dem.npy", "--resolution", "1", "--max-edge", "5" });
+  EXPECT_EQ(0, outcome.ExitCode);
+  EXPECT_NE(std::string::npos,
+    outcome.Err.find("each triangle has an edge longer than the 5 of --max-edge"))
+    << outcome.Err;
+}
+
+TEST_F(TippDem, RefusesBoundsInTheOrderOfGdal)
+{
+  this->Folder.file("points.csv",
+    "x,y,z\n500000,4900000,1\n500100,4900000,1\n500000,4900200,1\n500100,4900200,1\n");
+  const Words words{ "dem", "points.csv", "-o", "dem.npy", "--resolution", "10", "--bounds" };
+  Words gdal = words;
+  gdal.insert(gdal.end(), { "500000", "4900000", "500100", "4900200" });
+  const Outcome outcome = this->run(gdal);
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("in the order xmin xmax ymin ymax")) << outcome.Err;
+  Words ours = words;
+  ours.insert(ours.end(), { "500000", "500100", "4900000", "4900200" });
+  EXPECT_EQ(0, this->run(ours).ExitCode);
+}
+
 } // namespace

@@ -96,6 +96,85 @@ TEST_F(TippDemBreaklines, RefusesABoundaryThatIsNotClosed)
     << outcome.Err;
 }
 
+TEST_F(TippDemBreaklines, WithHeightsOfZeroFarFromTheSurfaceAreReported)
+{
+  const Words words{ "dem", "points.csv", "-o", "dem.npy", "--resolution", "1", "--breaklines",
+    "hard.csv" };
+  for (const Words& more : { Words{}, Words{ "--memory", "4M" } })
+  {
+    Words all = words;
+    all.insert(all.end(), more.begin(), more.end());
+    const Outcome outcome = this->run(all);
+    EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
+    EXPECT_NE(std::string::npos,
+      outcome.Err.find("hard.csv: all heights are 0, but the surface at the lines is from"))
+      << outcome.Err;
+    EXPECT_NE(std::string::npos, outcome.Err.find("give --soft")) << outcome.Err;
+    all.emplace_back("--soft");
+    EXPECT_EQ(std::string::npos, this->run(all).Err.find("--soft"));
+  }
+}
+
+TEST_F(TippDemBreaklines, WithHeightsOfZeroOnASurfaceAroundItAreNotReported)
+{
+  this->Folder.file("shore.csv", "x,y,z\n0,0,-1\n0,10,-1\n10,0,1\n10,10,1\n");
+  this->Folder.file("line.csv", "x1,y1,z1,x2,y2,z2\n4,1,0,6,9,0\n");
+  const Outcome outcome = this->run(
+    { "dem", "shore.csv", "-o", "dem.npy", "--resolution", "1", "--breaklines", "line.csv" });
+  EXPECT_EQ(0, outcome.ExitCode);
+  EXPECT_EQ("", outcome.Err);
+}
+
+TEST_F(TippDemBreaklines, AreSoftOnRequest)
+{
+  EXPECT_EQ(this->values({ "--breaklines", "soft.csv" }),
+    this->values({ "--breaklines", "hard.csv", "--soft" }));
+  EXPECT_EQ(this->values({ "--breaklines", "soft.csv" }),
+    this->values({ "--breaklines", "hard.csv", "--soft", "--memory", "4M" }));
+}
+
+TEST_F(TippDemBreaklines, NeedAFileForSoft)
+{
+  const Outcome outcome =
+    this->run({ "dem", "points.csv", "-o", "dem.npy", "--resolution", "1", "--soft" });
+  EXPECT_EQ(2, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("--soft: needs --breaklines")) << outcome.Err;
+}
+
+TEST_F(TippDemBreaklines, RefuseAFileWithoutLines)
+{
+  this->Folder.file("none.csv", "x1,y1,x2,y2\n");
+  this->Folder.file("none.poly", "0 2 0 0\n0 0\n0\n");
+  this->Folder.file("none.node", "1 2 0 0\n1 5 5\n");
+  for (const char* const file : { "none.csv", "none.poly" })
+  {
+    for (const Words& more : { Words{ "--breaklines", file }, Words{ "--boundary", file },
+           Words{ "--breaklines", file, "--memory", "4M" } })
+    {
+      Words words{ "dem", "points.csv", "-o", "dem.npy", "--resolution", "1" };
+      words.insert(words.end(), more.begin(), more.end());
+      const Outcome outcome = this->run(words);
+      EXPECT_EQ(1, outcome.ExitCode) << file;
+      EXPECT_NE(std::string::npos, outcome.Err.find(std::string(file) + ": holds no "))
+        << outcome.Err;
+    }
+  }
+}
+
+TEST_F(TippDemBreaklines, RefuseABoundaryFarFromThePoints)
+{
+  this->Folder.file(
+    "degrees.csv", "x1,y1,x2,y2\n-77,35,-76,35\n-76,35,-76,36\n-76,36,-77,36\n-77,36,-77,35\n");
+  const Outcome outcome = this->run(
+    { "dem", "points.csv", "-o", "dem.npy", "--resolution", "1", "--boundary", "degrees.csv" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos,
+    outcome.Err.find("the boundary, x from -77 to -76 and y from 35 to 36, is nowhere near the "
+                     "points, x from 0 to 10 and y from 0 to 10. Is it in another coordinate "
+                     "reference system?"))
+    << outcome.Err;
+}
+
 /// Points of a lattice and other points, some of them twice, with crossing lines and a boundary.
 /// Their corners are points, lie on edges of triangles, or inside triangles.
 class TippDemConstrained : public TippDem

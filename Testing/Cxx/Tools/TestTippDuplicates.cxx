@@ -167,6 +167,31 @@ TEST_F(TippDuplicates, ThinningKeepsOnePointOfASquare)
   }
 }
 
+/// Each pair of points is equally far from the centre of its square, as the numbers are written.
+TEST_F(TippDuplicates, ThinningKeepsTheFirstOfPointsEquallyNear)
+{
+  struct Tie
+  {
+    const char* Side;
+    const char* Points; ///< the first two
+  };
+  const Tie ties[] = { { "3", "1,1.5\n2,1.5\n" }, { "3", "2,1.5\n1,1.5\n" },
+    { "7", "499997,1\n500002,1\n" }, { "7", "500002,1\n499997,1\n" },
+    { "0.1", "0.12,0.15\n0.18,0.15\n" }, { "0.1", "0.18,0.15\n0.12,0.15\n" },
+    { "0.1", "0.31,0.32\n0.38,0.39\n" }, { "0.3", "-0.2,-0.15\n-0.1,-0.15\n" },
+    { "0.7", "345678.43,5432100.4\n345678.67,5432100.4\n" } };
+  for (const auto& [side, points] : ties)
+  {
+    this->Folder.file("points.csv", std::string("x,y\n") + points + "-900,-900\n900,-950\n0,900\n");
+    this->run(
+      { "delaunay", "points.csv", "-o", "mesh.vtu", "--thin", side + std::string(":nearest") });
+    const tipp::PointTable all = tipp::readPoints(this->Folder.path("points.csv"));
+    const tipp::PointTable kept = tipp::readPoints(this->Folder.path("mesh.vtu"));
+    EXPECT_EQ(4U, kept.size()) << side << " " << points;
+    EXPECT_EQ(all.XY[0], kept.XY[0]) << side << " " << points;
+  }
+}
+
 TEST_F(TippDuplicates, ThinningIsTheSameWithinAMemoryLimit)
 {
   this->makePlaces(40000);

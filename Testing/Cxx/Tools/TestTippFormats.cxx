@@ -151,8 +151,12 @@ TEST_F(TippFormats, OtherKindsNameTheCommandThatConvertsThem)
   const std::vector<std::pair<std::string, std::string>> kinds = {
     { "mesh.ex2", "'meshio convert mesh.ex2 out.vtu'" },
     { "mesh.node", "'meshio convert mesh.node out.vtu'" },
+    { "plane.node", "\"awk 'NR > 1 {print $2, $3, $4}' plane.node > points.xyz\"" },
+    { "mesh.2dm", "\"awk '/^ND/ {print $3, $4, $5}' mesh.2dm > points.xyz\"" },
+    { "fort.63.nc", "is a NetCDF file, which is not read here; give a text file" },
     { "mesh.msh", "'meshio convert mesh.msh out.vtu'" },
-    { "mesh.xml.gz", "'gunzip mesh.xml.gz && meshio convert mesh.xml out.vtu'" },
+    { "mesh.xml.gz",
+      "'gunzip mesh.xml.gz', and convert it, as with 'meshio convert mesh.xml out.vtu'" },
   };
   for (const auto& [name, command] : kinds)
   {

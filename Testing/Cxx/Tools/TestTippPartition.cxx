@@ -234,4 +234,37 @@ TEST_F(TippPartition, ReportsAFullDiskAndLeavesNoFiles)
   EXPECT_EQ(0, result);
 }
 
+TEST_F(TippPartition, UnusedPointsNeedNotBeFinite)
+{
+  this->Folder.file("points.csv", "x,y,z\n0,0,1\n8,0,1\nnan,3,1\n8,8,1\n0,8,1\n3,inf,2\n");
+  ASSERT_EQ(0, runTipp(this->Folder, { "delaunay", "points.csv", "-o", "few.vtu" }).ExitCode);
+  for (const char* const tiling : { "grid:2x2", "quadtree:1" })
+  {
+    const Outcome outcome =
+      runTipp(this->Folder, { "partition", "few.vtu", "-o", "few", "--tiling", tiling });
+    EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
+    EXPECT_EQ(0U, outcome.Out.find("2 cells, 6 points")) << outcome.Out;
+    const Outcome image =
+      runTipp(this->Folder, { "resample", "few", "-o", "image.npy", "--dims", "4", "4", "1" });
+    EXPECT_EQ(0, image.ExitCode) << image.Err;
+  }
+}
+
+TEST_F(TippPartition, ReportsTheGhostCellsLeftOut)
+{
+  this->Folder.file("ghosts.vtk",
+    "# vtk DataFile Version 3.0\n\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 4 0 0 "
+    "4 "
+    "4 0 0 4 0\nCELLS 3 11\n3 0 1 2\n3 0 2 3\n2 0 1\nCELL_TYPES 3\n5\n5\n3\nCELL_DATA 3\nSCALARS "
+    "vtkGhostType unsigned_char 1\nLOOKUP_TABLE default\n0\n1\n0\n");
+  for (const char* const command : { "partition", "flatten" })
+  {
+    const Outcome outcome = runTipp(this->Folder, { command, "ghosts.vtk", "-o", command });
+    EXPECT_EQ(0, outcome.ExitCode) << outcome.Err;
+    EXPECT_EQ("tipp: warning: ghosts.vtk: 1 of vtkLine left out.\n"
+              "tipp: warning: ghosts.vtk: 1 ghost cells left out.\n",
+      outcome.Err);
+  }
+}
+
 } // namespace

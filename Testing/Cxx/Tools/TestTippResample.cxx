@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -311,6 +312,41 @@ TEST_F(TippPointsLike, AreInTheBoxOfTheOthers)
   const std::vector<double> xy = readPoints(this->Folder.path("more.npy")).XY;
   EXPECT_EQ(600U, xy.size());
   EXPECT_TRUE(std::all_of(xy.begin(), xy.end(), [](double c) { return c >= 0 && c <= 1; }));
+}
+
+TEST_F(TippResample, SamplesTheTimeStepAskedFor)
+{
+  this->Folder.file(
+    "fort.14", "grid\n2 4\n1 0 0 5\n2 8 0 5\n3 8 8 5\n4 0 8 5\n1 3 1 2 3\n2 3 1 3 4\n0\n0\n0\n0\n");
+  this->Folder.file(
+    "fort.63", "run\n2 4 1 1 1\n1 1\n1 10\n2 10\n3 10\n4 10\n2 2\n1 20\n2 20\n3 20\n4 20\n");
+  ASSERT_EQ(0, this->run({ "flatten", "fort.14", "-o", "steps", "--values", "fort.63" }).ExitCode);
+  ASSERT_EQ(
+    0, this->run({ "partition", "steps", "-o", "steps.tipp", "--tiling", "grid:2x2" }).ExitCode);
+  for (const char* const mesh : { "steps", "steps.tipp" })
+  {
+    for (const int step : { 0, 1 })
+    {
+      const Outcome outcome = this->run({ "resample", mesh, "-o", "step.npy", "--arrays", "fort.63",
+        "--dims", "3", "3", "1", "--step", std::to_string(step) });
+      ASSERT_EQ(0, outcome.ExitCode) << outcome.Err;
+      const std::string image = contentOf(this->Folder.path("step.npy"));
+      double last;
+      std::memcpy(&last, image.data() + image.size() - sizeof last, sizeof last);
+      EXPECT_EQ(10 * (step + 1), last) << mesh;
+    }
+    const Outcome outcome = this->run({ "resample", mesh, "-o", "step.npy", "--arrays", "fort.63",
+      "--dims", "3", "3", "1", "--step", "2" });
+    EXPECT_EQ(1, outcome.ExitCode);
+    EXPECT_NE(
+      std::string::npos, outcome.Err.find("has no time step 2; there are 2, counted from 0."))
+      << outcome.Err;
+  }
+  const Outcome outcome =
+    this->run({ "resample", "mesh.vtu", "-o", "step.vti", "--dims", "3", "3", "1", "--step", "1" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("has no time step 1; there are 0, counted from 0."))
+    << outcome.Err;
 }
 
 } // namespace
