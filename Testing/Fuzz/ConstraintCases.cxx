@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ConstraintCases.h"
 
+#include "Check/DelaunayChecker.h"
 #include "ConstrainedOracle.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/ReadPiece.h"
@@ -209,6 +210,38 @@ std::vector<Constraint> constraintsOf(const ConstraintCase& drawn, const Coordin
   return constraints;
 }
 
+/// Whether `tipp check --constraints --tie-rule` finds no fault in the result; it may be unable to
+/// decide. `given`: the number of points of the input.
+testing::AssertionResult isNotFaulty(const Coordinates& all, std::size_t given,
+  const std::vector<Constraint>& constraints, const Triangles& triangles)
+{
+  std::vector<std::int64_t> corners;
+  for (const Triangle& triangle : triangles)
+  {
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  }
+  CheckOptions options;
+  options.TieRule = true;
+  ConstraintsInMesh inMesh;
+  for (const Constraint& constraint : constraints)
+  {
+    inMesh.Edges.push_back({ constraint.A, constraint.B });
+  }
+  inMesh.IsAdded = [given](std::int64_t id) { return id >= std::int64_t(given); };
+  inMesh.TieRule = options.TieRule;
+  ConstraintChains chains;
+  if (!triangles.empty())
+  {
+    chains = findConstraintChains(all, corners, inMesh);
+  }
+  options.Constraints = std::move(chains.Edges);
+  CheckReport report = checkDelaunay(all, corners, options);
+  report.LostConstraints = chains.Lost;
+  const std::vector<std::string> faults = report.faults();
+  return faults.empty() ? testing::AssertionSuccess()
+                        : testing::AssertionFailure() << "the checker says: " << faults.front();
+}
+
 bool isSameBits(double a, double b)
 {
   return std::memcmp(&a, &b, sizeof a) == 0 || (std::isnan(a) && std::isnan(b));
@@ -318,7 +351,10 @@ testing::AssertionResult isRight(const ConstraintCase& drawn, const MadeInMemory
   Coordinates xy = made.Points.XY;
   xy.resize(xy.size() - 2 * crossings);
   const std::vector<Constraint> constraints = constraintsOf(drawn, xy);
-  return isConstrained(xy, constraints, made.Result);
+  const auto outcome = isConstrained(xy, constraints, made.Result);
+  return outcome
+    ? isNotFaulty(made.Points.XY, drawn.points(), constraints, trianglesOf(made.Result.Mesh))
+    : outcome;
 }
 
 testing::AssertionResult isSameMesh(const std::string& path, const MadeInMemory& made)

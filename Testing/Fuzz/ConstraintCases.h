@@ -50,7 +50,8 @@ struct MadeInMemory
 
 MadeInMemory makeInMemory(const ConstraintCase& drawn);
 
-/// Compares a result in memory with the oracle. Polygons are not checked.
+/// Compares a result in memory with the oracle and the checker of `tipp check`. Polygons are not
+/// checked.
 testing::AssertionResult isRight(const ConstraintCase& drawn, const MadeInMemory& made);
 
 /// Compares the points, heights and triangles of a mesh in a folder with the result in memory.

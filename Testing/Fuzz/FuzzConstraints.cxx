@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Draws point sets, constraints and options, triangulates them in memory and out of core, and
-// compares both with each other and with the oracle. A seed and a number identify a case:
-// 'fuzzConstraints --seed S --case N' repeats it. With TEST_TMPDIR=/dev/shm it is faster.
+// compares both with each other, with the oracle and with the checker. A seed and a number identify
+// a case: 'fuzzConstraints --seed S --case N' repeats it. With TEST_TMPDIR=/dev/shm it is faster.
 #include "ConstraintCases.h"
 #include "FuzzDriver.h"
 #include "TemporaryFolder.h"
