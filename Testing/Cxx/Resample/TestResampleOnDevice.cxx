@@ -370,11 +370,11 @@ TEST_P(ResampleOnDevice, WithoutDeviceMemoryForTheSamplesOpenMPIsUsed)
   EXPECT_EQ(result.Values, sampled(scene, latticeOf(2, 65, 0, 1), openMP).Values);
 }
 
-TEST(ResampleDevices, AMissingDeviceIsAWarning)
+TEST(ResampleDevices, AnUnknownDeviceIsAnError)
 {
   const Scene scene = jitteredScene(2, 8, 3);
-  const Sampled result = sampled(scene, latticeOf(2, 65, 0, 1), { tipp::Device::OpenCL, 99, "" });
-  EXPECT_EQ(result.Result.Device, "OpenMP");
-  EXPECT_NE(result.Result.Warning, "");
-  EXPECT_EQ(result.Values, sampled(scene, latticeOf(2, 65, 0, 1), openMP).Values);
+  EXPECT_THROW(
+    sampled(scene, latticeOf(2, 65, 0, 1), { tipp::Device::OpenCL, 99, "" }), tipp::UnknownDevice);
+  EXPECT_THROW(sampled(scene, latticeOf(2, 65, 0, 1), { tipp::Device::OpenCL, -1, "no such name" }),
+    tipp::UnknownDevice);
 }
