@@ -250,7 +250,10 @@ void printTables(const std::vector<TableReport>& reports)
 {
   for (const TableReport& report : reports)
   {
-    fmt::print("{}: {}\n", shownPath(report.Path), report.Columns);
+    if (!report.Columns.empty())
+    {
+      fmt::print("{}: {}\n", shownPath(report.Path), report.Columns);
+    }
     for (const std::string& remark : report.Remarks)
     {
       fmt::print("  {}\n", remark);

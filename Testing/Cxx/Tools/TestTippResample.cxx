@@ -152,8 +152,9 @@ TEST_F(TippResample, ListsTheArraysOfTheMesh)
     const Outcome outcome = this->run(
       { "resample", mesh, "-o", "image.npy", "--arrays", "depth", "--dims", "8", "8", "1" });
     EXPECT_EQ(1, outcome.ExitCode);
-    EXPECT_EQ(
-      "tipp: " + mesh + ": has no array 'depth'; it has 'elevation', 'height'.\n", outcome.Err);
+    // The points of a flat mesh are not read before, so it is not known whether it has heights.
+    const std::string names = mesh == "flat" ? "'height'" : "'elevation', 'height'";
+    EXPECT_EQ("tipp: " + mesh + ": has no array 'depth'; it has " + names + ".\n", outcome.Err);
   }
 }
 
