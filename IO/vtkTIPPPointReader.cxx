@@ -4,6 +4,7 @@
 #include "Files/IOError.h"
 #include "Meshes/MeshFiles.h"
 #include "Points/ReadPoints.h"
+#include "Points/TableColumns.h"
 
 #include "vtkCellArray.h"
 #include "vtkFieldData.h"
@@ -68,6 +69,28 @@ int vtkTIPPPointReader::RequestInformation(
 {
   outputVector->GetInformationObject(0)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
   return 1;
+}
+
+std::string vtkTIPPPointReader::FindCoordinates(vtkStringArray* names, int columns[3])
+{
+  std::fill_n(columns, 3, -1);
+  try
+  {
+    std::vector<std::string> texts;
+    for (vtkIdType i = 0; names && i < names->GetNumberOfValues(); ++i)
+    {
+      texts.push_back(names->GetValue(i));
+    }
+    const tipp::ColumnChoice choice = tipp::requireCoordinates(texts);
+    columns[0] = int(choice.X);
+    columns[1] = int(choice.Y);
+    columns[2] = choice.Z ? int(*choice.Z) : -1;
+    return {};
+  }
+  catch (const std::exception& error)
+  {
+    return error.what();
+  }
 }
 
 tipp::PointOptions vtkTIPPPointReader::Options() const

@@ -35,6 +35,8 @@ namespace tipp
 struct PointOptions;
 }
 
+class vtkStringArray;
+
 class VTKTIPPIO_EXPORT vtkTIPPPointReader : public vtkPolyDataAlgorithm
 {
 public:
@@ -156,6 +158,14 @@ public:
    */
   vtkGetMacro(HasHeights, bool);
   ///@}
+
+  /**
+   * Finds x, y and z among the names of the columns of a table, as for a file: by the usual names,
+   * and never an id. Sets their indices, -1 for z if there are no heights. Returns an empty text,
+   * or why the names do not tell, such as "has the columns id, a, b, and their names do not tell x
+   * and y".
+   */
+  static std::string FindCoordinates(vtkStringArray* names, int columns[3]);
 
 protected:
   vtkTIPPPointReader();

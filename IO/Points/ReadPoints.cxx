@@ -98,7 +98,7 @@ ColumnChoice chooseByName(
   }
   catch (const std::invalid_argument& error)
   {
-    throw IOError(path, error.what());
+    throw IOError(path, std::string(error.what()) + "; choose the columns with --x, --y and --z.");
   }
 }
 

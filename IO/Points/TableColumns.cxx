@@ -131,8 +131,7 @@ public:
       if (this->Read[i] == name && found)
       {
         throw std::invalid_argument("has two columns that may be " + std::string(name) + ", '" +
-          this->Given[*found] + "' and '" + this->Given[i] +
-          "'; choose the columns with --x, --y and --z.");
+          this->Given[*found] + "' and '" + this->Given[i] + "'");
       }
       found = this->Read[i] == name ? i : found;
     }
@@ -274,8 +273,8 @@ ColumnChoice requireCoordinates(const std::vector<std::string>& names)
   {
     return {};
   }
-  throw std::invalid_argument("has the columns " + listOf(names) +
-    ", and their names do not tell x and y; choose the columns with --x, --y and --z.");
+  throw std::invalid_argument(
+    "has the columns " + listOf(names) + ", and their names do not tell x and y");
 }
 
 std::string listOf(const std::vector<std::string>& names)

@@ -43,12 +43,13 @@ bool isTextColumn(const std::string& name);
 /// Finds x and y, and z if there is one, by the usual names in any case: x, y, z; easting,
 /// northing, elevation; lon, lat, height; POINT_X, RD_Y and others. Exact names come before names
 /// with a prefix or a unit, and projected coordinates before longitude and latitude. Returns
-/// nullopt if x or y is not found. Throws std::invalid_argument if two columns fit equally well.
+/// nullopt if x or y is not found. Throws std::invalid_argument if two columns fit equally well;
+/// the caller adds how to choose them.
 VTKTIPPIO_EXPORT std::optional<ColumnChoice> findCoordinates(const std::vector<std::string>& names);
 
 /// Returns x, y and z of a table whose columns have these names, for which a caller has to choose.
-/// Two columns are x and y, whatever their names. Throws std::invalid_argument, with a sentence
-/// that lists the names, if they do not tell.
+/// Two columns of unknown names are x and y. Throws std::invalid_argument if the names do not tell,
+/// with a list of them; the caller adds how to choose.
 VTKTIPPIO_EXPORT ColumnChoice requireCoordinates(const std::vector<std::string>& names);
 
 /// Finds the column of heights, or else of depths, among the names, likewise. Sets Z and IsDepth.

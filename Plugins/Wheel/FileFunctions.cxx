@@ -9,6 +9,7 @@
 #include "Parallel/Poll.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Points/ReadPoints.h"
+#include "Points/TableColumns.h"
 #include "Ranks/Communicator.h"
 #include "Reading/PieceSource.h"
 
@@ -20,6 +21,7 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -51,6 +53,22 @@ nb::tuple readPointFiles(const Strings& paths, const std::optional<Strings>& col
 Strings columnNames(const Strings& paths)
 {
   return withoutLock([&] { return openPointStream(paths, PointOptions())->columns(); });
+}
+
+/// Returns the indices of x, y and, if there are heights, z among the names of a table's columns.
+std::vector<std::size_t> findColumns(const Strings& names)
+{
+  try
+  {
+    const ColumnChoice choice = requireCoordinates(names);
+    std::vector<std::size_t> columns = { choice.X, choice.Y };
+    choice.Z ? columns.push_back(*choice.Z) : void();
+    return columns;
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw nb::value_error(error.what());
+  }
 }
 
 nb::dict figuresOf(const OutOfCoreStatistics& statistics, bool countOnly)
@@ -347,6 +365,7 @@ void addFileFunctions(nb::module_& module)
 {
   module.def("read_points", &readPointFiles);
   module.def("column_names", &columnNames);
+  module.def("find_coordinates", &findColumns);
   module.def("triangulate_files", &triangulateFiles);
   module.def("array_names", &arrayNames);
   module.def("read", &readMesh);

@@ -140,6 +140,12 @@ def _points_and_columns(points: Any, point_data: Any, options: dict[str, Any]
     return np.ascontiguousarray(array[:, :2], np.float64), columns
 
 
+def find_coordinates(names: list[str]) -> list[int]:
+    """Returns the indices of x, y and, if there are heights, z among the names of a table's columns. Raises ValueError
+    with the reason if the names do not tell."""
+    return _core.find_coordinates(names)
+
+
 def read_points(paths: list[str], options: dict[str, Any]) -> tuple[np.ndarray, dict[str, np.ndarray], str]:
     """Returns (n, 3) coordinates, the columns by name, and the coordinate reference system."""
     names = options["attributes"]

@@ -9,7 +9,7 @@ import numpy as np
 
 from . import _arguments as check
 from . import _core
-from ._arrays import converted, coordinates
+from ._arrays import columns_of, converted, coordinates
 
 
 class Delaunay:
@@ -116,7 +116,7 @@ class Delaunay:
 
 def _queries(xi: Any) -> tuple[np.ndarray, tuple[int, ...]]:
     """Returns the points as (n, 2) float64, and the shape of the results."""
-    array = converted(xi, "xi")
+    array = converted(columns_of(xi, "xi"), "xi")
     if array.ndim == 0 or array.shape[-1] != 2:
         raise ValueError(f"xi has the shape {array.shape}; give x and y along the last axis.")
     return np.ascontiguousarray(array.reshape(-1, 2), np.float64), array.shape[:-1]

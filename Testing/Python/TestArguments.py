@@ -79,7 +79,7 @@ TABLE = {
             "duplicates": (TEXT[0], ["second"]), "thin": ([3, "2", [None, "min"], [1.5, 2]], [[0, "min"], [1], [1, "good"]]),
             "classes": ([3, "2", [None], [1.5]], [[256], [-1]]), "returns": (TEXT[0], ["second"]),
             "keep": ([3, 1.5, {"f": 1}, [None], [1]], [["good"]]), "breaklines": PATH_OR_NONE, "boundary": PATH_OR_NONE,
-            "memory": (BYTES[0][1:], BYTES[1] + ["", "2T", "1.5G"]), "threads": THREADS, "progress_bar": FLAG,
+            "soft": FLAG, "memory": (BYTES[0][1:], BYTES[1] + ["", "2T", "1.5G"]), "threads": THREADS, "progress_bar": FLAG,
             "z": (TEXT[0], []), "layer": (TEXT[0], []), "crs": (TEXT[0], [])},
     "resample": {"mesh": DATA, "bounds": BOUNDS, "dimensions": DIMENSIONS, "spacing": SPACING,
                  "null_value": ANY_NUMBER, "no_data": ANY_NUMBER, "arrays": NAMES, "device": TEXT,

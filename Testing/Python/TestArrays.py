@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Arrays of every type and layout are used with their values, or refused in one sentence."""
+import importlib.util
 import os
 import tempfile
 import unittest
@@ -27,6 +28,116 @@ def stored(values):
 def coordinates(points):
     """The coordinates of the mesh that is made of these points."""
     return vtk_to_numpy(tipp.delaunay_2d(points).GetPoints().GetData())
+
+
+class Frame:
+    """A table with the habits of pandas: a column by its name, and an array of all columns."""
+
+    def __init__(self, columns):
+        self._values = dict(columns)
+        self.columns = list(self._values)
+
+    def __getitem__(self, name):
+        return self._values[name]
+
+    def to_numpy(self):
+        return np.column_stack(list(self._values.values()))
+
+    def __array__(self, dtype=None, copy=None):
+        return self.to_numpy().astype(dtype)
+
+
+def frames():
+    """The kinds of tables to test."""
+    if importlib.util.find_spec("pandas"):
+        import pandas
+
+        return [Frame, pandas.DataFrame]
+    return [Frame]
+
+
+class Tables(unittest.TestCase):
+    """Tables with named columns, such as pandas' DataFrame."""
+
+    def setUp(self):
+        self.x, self.y, self.z = random_points().T
+        self.ids = np.arange(1, COUNT + 1)
+
+    def assert_points(self, columns, z=None):
+        expected = np.column_stack([self.x, self.y, np.zeros(COUNT) if z is None else z])
+        for frame in frames():
+            with self.subTest(list(columns), kind=frame.__module__):
+                np.testing.assert_array_equal(coordinates(frame(columns)), expected)
+
+    def assert_refused(self, columns, message):
+        for frame in frames():
+            with self.subTest(list(columns), kind=frame.__module__), self.assertRaisesRegex(ValueError, message):
+                tipp.delaunay(frame(columns))
+
+    def test_an_id_is_no_coordinate(self):
+        self.assert_points({"id": self.ids, "x": self.x, "y": self.y})
+        self.assert_points({"ID": self.ids, "X": self.x, "Y": self.y, "Z": self.z}, self.z)
+
+    def test_coordinates_are_found_by_their_names_in_any_order(self):
+        self.assert_points({"Elevation (m)": self.z, "POINT_Y": self.y, "POINT_X": self.x}, self.z)
+        self.assert_points({"lat": self.y, "lon": self.x})
+
+    def test_other_columns_are_no_heights(self):
+        self.assert_points({"x": self.x, "y": self.y, "class": self.ids})
+        self.assert_points({"x": self.x, "y": self.y, "name": np.full(COUNT, "a"), "h": self.z}, self.z)
+
+    def test_two_columns_of_unknown_names_are_x_and_y(self):
+        self.assert_points({"a": self.x, "b": self.y})
+
+    def test_numbered_columns_are_taken_by_position(self):
+        for names in ((0, 1, 2), (np.int64(1), np.int64(2), np.int64(3)), ("column_0", "column_1", "column_2")):
+            self.assert_points(dict(zip(names, (self.x, self.y, self.z))), self.z)
+
+    def test_names_that_do_not_tell_are_refused_with_all_of_them(self):
+        message = (r"^points is a table that has the columns id, a, b, and their names do not tell x and y; give the "
+                   r"columns of x and y \(and z\) as an array, such as df\[\['a', 'b'\]\]\.to_numpy\(\)\.$")
+        self.assert_refused({"id": self.ids, "a": self.x, "b": self.y}, message)
+        self.assert_refused({"a": self.x, "b": self.y, "c": self.z}, "the columns a, b, c, and their names")
+        self.assert_refused({"id": self.ids, "a": self.x}, "the columns id, a, and their names")
+
+    def test_names_that_tell_twice_are_refused_with_both(self):
+        self.assert_refused({"POINT_X": self.x, "GPS_X": self.x, "POINT_Y": self.y},
+                            "points is a table that has two columns that may be x, 'POINT_X' and 'GPS_X'; give the")
+
+    def test_the_array_that_the_message_advises_is_accepted(self):
+        table = Frame({"a": self.x, "b": self.y, "c": self.z}).to_numpy()
+        np.testing.assert_array_equal(coordinates(table), random_points())
+
+    def test_a_dem_has_the_named_heights(self):
+        table = {"id": self.ids, "x": self.x, "y": self.y, "z": self.z}
+        expected = tipp.dem(random_points(), 0.1).array
+        for frame in frames():
+            np.testing.assert_array_equal(tipp.dem(frame(table), 0.1).array, expected)
+
+    def test_a_dem_does_not_take_an_unknown_column_as_the_height(self):
+        for frame in frames():
+            with self.assertRaisesRegex(ValueError, "^points have no elevation"):
+                tipp.dem(frame({"x": self.x, "y": self.y, "code": self.ids}), 0.1)
+
+    def test_corners_and_stations_are_found_by_name(self):
+        corners = np.array([[0.1, 0.1], [0.9, 0.1], [0.5, 0.9]])
+        named = Frame({"id": np.arange(3), "x": corners[:, 0], "y": corners[:, 1]})
+        np.testing.assert_array_equal(coordinates_within(named), coordinates_within(corners))
+        query = tipp.open(tipp.delaunay_2d(random_points()))
+        np.testing.assert_array_equal(query.locate(named)[0], query.locate(corners)[0])
+
+    def test_values_that_are_no_numbers_are_refused_with_the_column(self):
+        with self.assertRaisesRegex(TypeError, r"^points\['x'\] is of type .*; give real numbers\.$"):
+            tipp.delaunay(Frame({"id": self.ids, "x": np.full(COUNT, "a"), "y": self.y}))
+
+    def test_integers_beside_other_numbers_are_not_rounded(self):
+        large = self.ids + 2**53
+        with self.assertRaisesRegex(ValueError, r"integers beyond 2\*\*53"):
+            tipp.delaunay(Frame({"x": large, "y": self.y}))
+
+
+def coordinates_within(polygon):
+    return vtk_to_numpy(tipp.delaunay_2d(random_points(), polygons=[polygon]).GetPoints().GetData())
 
 
 class PointData(unittest.TestCase):

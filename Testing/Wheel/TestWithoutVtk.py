@@ -31,6 +31,19 @@ class WithoutVtk(unittest.TestCase):
         self.assertTrue((areas > 0).all())
         self.assertAlmostEqual(1.0, areas.sum() / 2, places=12)
 
+    def test_columns_of_a_table_are_found_by_name(self):
+        class Frame(dict):
+            columns = property(list)
+
+        x, y = self.points.T
+        ids = np.arange(len(x))
+        for table in (Frame(id=ids, X=x, Y=y), Frame(name=ids, lat=y, lon=x)):
+            np.testing.assert_array_equal(self.points, tipp.delaunay_2d(table).points[:, :2])
+            np.testing.assert_array_equal(tipp.Delaunay(self.points).find_simplex(self.points),
+                                          tipp.Delaunay(table).find_simplex(table))
+        with self.assertRaisesRegex(ValueError, "has the columns id, a, b, and their names do not tell x and y; give"):
+            tipp.delaunay(Frame(id=ids, a=x, b=y))
+
     def test_a_mesh_has_the_points_and_their_data(self):
         self.assertIsInstance(self.mesh, tipp.Mesh)
         np.testing.assert_array_equal(self.points, self.mesh.points[:, :2])

@@ -130,19 +130,42 @@ def coordinates(points: ArrayLike) -> np.ndarray:
 
 
 def positions_of(points: Any) -> Any:
-    """Returns the coordinates of laspy's LasData and other objects with xyz or x, y and z, and of a GeoSeries and other
-    geometries of points; other values as they are."""
+    """Returns the coordinates of tables, of laspy's LasData and others with xyz or x, y and z, and of a GeoSeries and
+    other geometries of points; other values as they are."""
     if isinstance(points, (np.ndarray, list)) or is_vtk_object(points):
         return points
     if hasattr(points, "geometry") or is_geometry(points):
         return points_of(points, "points")
-    if hasattr(points, "columns"):  # a DataFrame of pandas
-        return points
+    if hasattr(points, "columns"):
+        return columns_of(points, "points")
     if hasattr(points, "xyz"):
         return np.asarray(points.xyz)
     if all(hasattr(points, axis) for axis in "xyz"):
         return np.column_stack([np.asarray(points.x), np.asarray(points.y), np.asarray(points.z)])
     return points
+
+
+def columns_of(table: Any, name: str) -> Any:
+    """Returns x, y and, if there are heights, z of a DataFrame or another table, by the names of its columns as in
+    files. Other values, and tables whose columns only have numbers, are returned as they are."""
+    if isinstance(table, (np.ndarray, list)) or not hasattr(table, "columns"):
+        return table
+    names = list(table.column_names if hasattr(type(table), "column_names") else table.columns)  # the former in pyarrow
+    if len(names) < 2 or all(str(each).removeprefix("column_").isdigit() for each in names):  # column_0 in polars
+        return table
+    from . import _engine
+
+    try:
+        chosen = [names[i] for i in _engine.find_coordinates([str(each) for each in names])]
+    except ValueError as error:
+        raise ValueError(f"{name} is a table that {error}; give the columns of x and y (and z) as an array, such as "
+                         "df[['a', 'b']].to_numpy().") from None
+    if len(set(chosen)) < len(chosen):  # the two columns of one name
+        return table
+    columns = [converted(table[each], f"{name}['{each}']") for each in chosen]
+    if len({column.dtype for column in columns}) > 1:  # NumPy would round large integers
+        columns = [_as_doubles(column) if column.dtype.kind in "iu" else column for column in columns]
+    return np.column_stack(columns)
 
 
 def _as_doubles(integers: np.ndarray, mask: Any = False) -> np.ndarray:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Iterable, Mapping, NamedTuple
 import numpy as np
 
 from . import _arguments as check
-from ._arrays import converted
+from ._arrays import columns_of, converted
 from ._geometry import is_geometry, items_of, lines_of, oriented_rings_of
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ class _Builder:
 
     def add(self, values: Any, name: str, lists: list[np.ndarray]) -> None:
         """Appends a line or polygon, given by ids or by coordinates, to one of the lists."""
-        array = converted(values, name)
+        array = converted(columns_of(values, name), name)
         if array.ndim == 1 and array.dtype.kind in "iu":
             self.require_ids(array, name)
             lists.append(array)

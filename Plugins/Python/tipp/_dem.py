@@ -13,7 +13,7 @@ import numpy as np
 from . import _arguments as check
 from . import _engine
 from ._arguments import ProgressBar, progress_of
-from ._arrays import converted, grid_position, in_space, positions_of
+from ._arrays import columns_of, converted, grid_position, in_space, positions_of
 from ._geometry import is_geometry, items_of, lines_of as lines_of_geometry, oriented_rings_of
 
 if TYPE_CHECKING:
@@ -226,7 +226,7 @@ def _parts_of(item: Any, name: str, is_closed: bool) -> list[Any]:
 
 
 def _corners(part: Any, name: str) -> np.ndarray:
-    array = converted(part, name)
+    array = converted(columns_of(part, name), name)
     if array.ndim != 2 or array.shape[1] not in (2, 3) or array.dtype.kind not in "fiu":
         raise ValueError(f"{name} has the shape {array.shape} and type {array.dtype}; give corners of shape (k, 2) or (k, 3).")
     return in_space(array.astype(np.float64))

@@ -264,6 +264,19 @@ def _reader_of(paths: list[str], options: dict[str, Any]) -> vtkTIPPPointReader:
     return reader
 
 
+def find_coordinates(names: list[str]) -> list[int]:
+    """Returns the indices of x, y and, if there are heights, z among the names of a table's columns. Raises ValueError
+    with the reason if the names do not tell."""
+    texts = vtkStringArray()
+    for name in names:
+        texts.InsertNextValue(name)
+    columns = [-1, -1, -1]
+    problem = vtkTIPPPointReader.FindCoordinates(texts, columns)
+    if problem:
+        raise ValueError(problem)
+    return [column for column in columns if column >= 0]
+
+
 def _columns_in(paths: list[str], options: dict[str, Any]) -> list[str]:
     """Returns the names of all columns besides x and y. Reads the files again."""
     reader = _reader_of(paths, options)

@@ -8,7 +8,7 @@ import numpy as np
 
 from . import _arguments as check
 from . import _engine
-from ._arrays import coordinates, in_space
+from ._arrays import columns_of, coordinates, in_space
 from ._geometry import is_geometry, items_of, parts_of, rings_of
 
 if TYPE_CHECKING:
@@ -348,7 +348,7 @@ def _rings(zones: list[Any]) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.nda
     corners, zone_of, holes = [np.zeros((0, 2))], [], []
     for number, zone in enumerate(zones):
         for ring, is_hole in _rings_of(zone, f"polygons[{number}]"):
-            points = np.asarray(ring, np.float64)
+            points = np.asarray(columns_of(ring, f"polygons[{number}]"), np.float64)
             if points.ndim != 2 or points.shape[1] not in (2, 3):
                 raise ValueError(f"polygons[{number}] has a ring of shape {points.shape}; give corners (k, 2).")
             corners.append(points[:, :2])
