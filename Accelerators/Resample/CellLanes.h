@@ -49,6 +49,8 @@ public:
 
   IndexRange columns(int lane) const { return this->Columns.range(lane); }
   IndexRange rows(int lane) const { return this->Rows.range(lane); }
+  const RangeLanes& columns() const { return this->Columns; }
+  const RangeLanes& rows() const { return this->Rows; }
   static IndexRange layers(int) { return { 0, 1 }; }
 
   static void prepareRows() {}

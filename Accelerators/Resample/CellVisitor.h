@@ -6,12 +6,14 @@
 #include "Resample/CellLanes.h"
 #include "Resample/CellRows.h"
 #include "Resample/Claims.h"
+#include "Resample/GroupBoxes.h"
 #include "Resample/Lattice.h"
 #include "Resample/SimplexMesh.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -47,7 +49,8 @@ public:
   /// Returns false if `report` stopped it.
   bool run(const Report& report)
   {
-    constexpr std::int64_t chunk = 4096;
+    constexpr std::int64_t chunk = 64 * GroupBoxes::Size;
+    Dimension == 2 ? this->Groups.reset(this->Mesh.Cells) : void();
     this->Outside.find(int(this->Sinks.size()));
     const bool wide = hasAvx2();
     const auto visit = [this, wide](std::int64_t begin, std::int64_t end, int thread)
@@ -55,6 +58,9 @@ public:
     return forChunks(this->Mesh.Cells, chunk, int(this->Sinks.size()), report, visit) &&
       this->visitLargeCells(report);
   }
+
+  /// The boxes of triangles, after run().
+  GroupBoxes& boxes() { return this->Groups; }
 
 private:
   static constexpr int Dimension = Access::Dimension;
@@ -89,6 +95,7 @@ private:
     Sink& sink = this->Sinks[std::size_t(thread)];
     Rows rows(this->Axes);
     FourCells lanes(this->Axes);
+    BoxLanes box;
     bool outside[2 * Ahead] = {};
     std::int64_t cell = begin;
     for (; cell + laneCount <= end; cell += laneCount)
@@ -101,9 +108,16 @@ private:
       const bool* const without = outside + cell % (2 * Ahead);
       if (without[0] && without[1] && without[2] && without[3])
       {
+        box.addUnknown();
+        this->endGroup(cell + laneCount, box);
         continue;
       }
       lanes.set(this->Cells, cell);
+      if constexpr (Dimension == 2)
+      {
+        box.add(lanes.columns(), lanes.rows());
+        this->endGroup(cell + laneCount, box);
+      }
       if (lanes.nothing())
       {
         continue;
@@ -138,6 +152,16 @@ private:
     }
     sink.addExactTests(rows.exactTests());
     sink.endChunk();
+  }
+
+  /// Stores the box of a group that ends before cell `end`; others are not complete.
+  [[gnu::always_inline]] void endGroup(std::int64_t end, BoxLanes& box)
+  {
+    if (Dimension == 2 && end % GroupBoxes::Size == 0)
+    {
+      this->Groups.set(end / GroupBoxes::Size - 1, box.box());
+      box = BoxLanes();
+    }
   }
 
   bool hidden(std::int64_t cell) const
@@ -342,19 +366,22 @@ private:
   OutsidePoints<Access> Outside;
   std::vector<Sink>& Sinks;
   std::vector<std::vector<Part>> Large;
+  GroupBoxes Groups;
 };
 
-/// Runs a CellVisitor over the mesh.
+/// Runs a CellVisitor over the mesh. Sets `boxes` to its boxes.
 template <typename Sink>
-bool visitCells(
-  const SimplexMesh& mesh, const LatticeAxes& axes, std::vector<Sink>& sinks, const Report& report)
+bool visitCells(const SimplexMesh& mesh, const LatticeAxes& axes, std::vector<Sink>& sinks,
+  const Report& report, GroupBoxes& boxes)
 {
   bool completed = false;
   withAccess(mesh,
     [&](const auto& access)
     {
       using Access = std::decay_t<decltype(access)>;
-      completed = CellVisitor<Access, Sink>(mesh, axes, sinks).run(report);
+      CellVisitor<Access, Sink> visitor(mesh, axes, sinks);
+      completed = visitor.run(report);
+      boxes = std::move(visitor.boxes());
     });
   return completed;
 }

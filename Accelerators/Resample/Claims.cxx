@@ -345,7 +345,9 @@ private:
   {
     std::vector<FirstWalk> walks(
       std::size_t(this->Threads), FirstWalk(this->Result.Cells.get(), names));
-    this->Result.Aborted = !visitCells(mesh, this->Axes, walks, this->Progress);
+    GroupBoxes boxes;
+    this->Result.Aborted = !visitCells(mesh, this->Axes, walks, this->Progress, boxes);
+    names ? void() : void(this->Boxes = std::move(boxes));
     this->Result.Aborted ? void() : this->settle(walks, claimed);
   }
 
@@ -373,8 +375,8 @@ private:
   void addNearSamples()
   {
     std::vector<BorderClaim>& border = this->Result.Border;
-    this->Result.Near =
-      nearSamplesOf(this->Mesh, this->Axes, this->Threads, this->Result.Cells.get(), unclaimed);
+    this->Result.Near = nearSamplesOf(
+      this->Mesh, this->Axes, this->Threads, this->Boxes, this->Result.Cells.get(), unclaimed);
     const auto size = std::ptrdiff_t(border.size());
     for (const NearSample& near : this->Result.Near)
     {
@@ -422,6 +424,7 @@ private:
   LatticeAxes Axes;
   int Threads;
   const Report& Progress;
+  GroupBoxes Boxes; ///< of the whole mesh, unless a device has visited it
   Claims Result;
 };
 

@@ -139,12 +139,12 @@ struct RangeLanes
   [[gnu::always_inline]] RangeLanes(const AxisLanes& axis, Lanes low, Lanes high)
     : Error(axis.error(low, high))
   {
-    const Lanes begin = axis.position(low);
-    const Lanes end = axis.position(high);
-    this->Begin = whole(begin);
-    this->End = whole(end);
-    const LaneMask certain = AxisLanes::certain(begin, this->Begin, this->Error) &
-      AxisLanes::certain(end, this->End, this->Error);
+    this->Low = axis.position(low);
+    this->High = axis.position(high);
+    this->Begin = whole(this->Low);
+    this->End = whole(this->High);
+    const LaneMask certain = AxisLanes::certain(this->Low, this->Begin, this->Error) &
+      AxisLanes::certain(this->High, this->End, this->Error);
     any(~certain) ? this->findExactly(axis, low, high, certain) : void();
     this->Empty = this->Begin >= this->End;
   }
@@ -161,6 +161,8 @@ struct RangeLanes
     }
   }
 
+  Lanes Low; ///< the position of the lower end, with rounding errors
+  Lanes High;
   Lanes Error;
   Lanes Begin;
   Lanes End;

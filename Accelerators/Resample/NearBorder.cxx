@@ -4,10 +4,9 @@
 #include "Arrays/Decimal.h"
 #include "Predicates/ExactPredicates.h"
 
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <cstring>
 #include <optional>
 #include <tuple>
 #include <type_traits>
@@ -21,64 +20,37 @@ OpenBlocks::OpenBlocks(const LatticeAxes& axes)
 {
   constexpr std::int64_t mostBlocks = 1 << 26;
   const auto blocks = [this](int size) { return ((std::int64_t(size) - 1) >> this->Shift) + 1; };
-  const auto measure = [&]
-  {
-    for (this->RowBits = 0; (std::int64_t(1) << this->RowBits) < blocks(this->Axes.U.size());)
-    {
-      ++this->RowBits;
-    }
-    return blocks(this->Axes.V.size()) << this->RowBits;
-  };
-  while (measure() > mostBlocks)
+  while (blocks(axes.U.size()) * blocks(axes.V.size()) > mostBlocks)
   {
     ++this->Shift;
   }
-  this->Marks.resize(std::size_t(measure()), 0);
-}
-
-void OpenBlocks::mark(std::int64_t column, std::int64_t row)
-{
-  const auto from = [this](std::int64_t i)
-  { return std::max<std::int64_t>(i - 1, 0) >> this->Shift; };
-  const auto to = [this](std::int64_t i, int size)
-  { return std::min<std::int64_t>(i + 1, size - 1) >> this->Shift; };
-  for (std::int64_t v = from(row); v <= to(row, this->Axes.V.size()); ++v)
-  {
-    for (std::int64_t u = from(column); u <= to(column, this->Axes.U.size()); ++u)
-    {
-      unsigned char* const at = &this->Marks[std::size_t((v << this->RowBits) + u)];
-      // Several threads may mark a block. Most are marked already.
-      if (__atomic_load_n(at, __ATOMIC_RELAXED) == 0)
-      {
-        __atomic_store_n(at, 1, __ATOMIC_RELAXED);
-      }
-    }
-  }
-}
-
-bool OpenBlocks::anyAround(std::uint32_t a, std::uint32_t b, std::uint32_t c) const
-{
-  const std::uint32_t mask = (std::uint32_t(1) << this->RowBits) - 1;
-  const auto [left, right] = std::minmax({ a & mask, b & mask, c & mask });
-  const auto rowOf = [this](std::uint32_t block) { return (block & ~Marked) >> this->RowBits; };
-  const auto [bottom, top] = std::minmax({ rowOf(a), rowOf(b), rowOf(c) });
-  for (std::uint32_t v = bottom; v <= top; ++v)
-  {
-    const unsigned char* const row = this->Marks.data() + (std::size_t(v) << this->RowBits);
-    for (std::uint32_t u = left; u <= right; ++u)
-    {
-      if (row[u] != 0)
-      {
-        return true;
-      }
-    }
-  }
-  return false;
+  this->Columns = blocks(axes.U.size());
+  this->Marks.resize(std::size_t(this->Columns * blocks(axes.V.size())), 0);
 }
 
 bool OpenBlocks::any() const
 {
   return std::find(this->Marks.begin(), this->Marks.end(), 1) != this->Marks.end();
+}
+
+bool OpenBlocks::anyIn(const SampleBox& box) const
+{
+  const auto first = [this](int low, const LatticeAxis& axis)
+  { return std::clamp(low - 1, 0, axis.size() - 1) >> this->Shift; };
+  const auto last = [this](int high, const LatticeAxis& axis)
+  { return std::clamp(high + 1, 0, axis.size() - 1) >> this->Shift; };
+  const std::int64_t left = first(box.Low[0], this->Axes.U);
+  const std::int64_t width = last(box.High[0], this->Axes.U) + 1 - left;
+  const std::int64_t top = last(box.High[1], this->Axes.V);
+  for (std::int64_t row = first(box.Low[1], this->Axes.V); row <= top; ++row)
+  {
+    const unsigned char* const marks = this->Marks.data() + row * this->Columns + left;
+    if (std::memchr(marks, 1, std::size_t(width)))
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 namespace
@@ -164,11 +136,12 @@ template <typename Access>
 class NearFinder
 {
 public:
-  NearFinder(const SimplexMesh& mesh, const LatticeAxes& axes, const OpenBlocks& blocks,
-    const std::function<bool(std::int64_t)>& isOpen, int threads)
+  NearFinder(const SimplexMesh& mesh, const LatticeAxes& axes, const GroupBoxes& boxes,
+    const OpenBlocks& blocks, const std::function<bool(std::int64_t)>& isOpen, int threads)
     : Mesh(mesh)
     , Cells(mesh)
     , Axes(axes)
+    , Boxes(boxes)
     , Blocks(blocks)
     , IsOpen(isOpen)
     , Threads(threads)
@@ -177,53 +150,55 @@ public:
 
   std::vector<NearSample> run()
   {
-    this->findBlocks();
     std::vector<std::vector<NearSample>> found(std::size_t(this->Threads));
-    forChunks(this->Mesh.Cells, 1 << 12, this->Threads, {},
+    constexpr std::int64_t size = GroupBoxes::Size;
+    forChunks((this->Mesh.Cells + size - 1) / size, 64, this->Threads, {},
       [&](std::int64_t begin, std::int64_t end, int thread)
       {
-        constexpr std::int64_t ahead = 32;
-        for (std::int64_t cell = begin; cell < end; ++cell)
+        for (std::int64_t group = begin; group < end; ++group)
         {
-          const auto* const soon = this->Cells.ids(std::min(cell + ahead, end - 1));
-          for (int i = 0; i < 3; ++i)
+          const SampleBox* const box = this->Boxes.find(group);
+          if (!box || this->Blocks.anyIn(*box))
           {
-            __builtin_prefetch(&this->OfPoints[std::size_t(soon[i])]);
+            this->visitGroup(group * size, std::min((group + 1) * size, this->Mesh.Cells),
+              found[std::size_t(thread)]);
           }
-          this->mayBeNear(cell) ? this->visit(cell, found[std::size_t(thread)]) : void();
         }
       });
     return firstOfEach(found);
   }
 
 private:
-  /// The blocks of all points: smaller than coordinates, which cells fetch from random addresses.
-  void findBlocks()
+  void visitGroup(std::int64_t begin, std::int64_t end, std::vector<NearSample>& found) const
   {
-    this->OfPoints.resize(std::size_t(this->Mesh.PointCount));
-    forChunks(this->Mesh.PointCount, 1 << 14, this->Threads, {},
-      [&](std::int64_t begin, std::int64_t end, int)
-      {
-        for (std::int64_t id = begin; id < end; ++id)
-        {
-          this->OfPoints[std::size_t(id)] = this->Blocks.blockOf(this->Cells.coordinates(id));
-        }
-      });
+    for (std::int64_t cell = begin; cell < end; ++cell)
+    {
+      this->Cells.prefetch(cell);
+    }
+    for (std::int64_t cell = begin; cell < end; ++cell)
+    {
+      this->Blocks.anyIn(this->boxOf(cell)) ? this->visit(cell, found) : void();
+    }
   }
 
-  bool mayBeNear(std::int64_t cell) const
+  SampleBox boxOf(std::int64_t cell) const
   {
-    const auto* const ids = this->Cells.ids(cell);
-    const std::uint32_t a = this->OfPoints[std::size_t(ids[0])];
-    const std::uint32_t b = this->OfPoints[std::size_t(ids[1])];
-    const std::uint32_t c = this->OfPoints[std::size_t(ids[2])];
-    const bool isClear = a == b && b == c && (a & OpenBlocks::Marked) == 0;
-    return !isClear && ((a | b | c) >= OpenBlocks::Marked || this->Blocks.anyAround(a, b, c)) &&
-      !(this->Mesh.Hidden && this->Mesh.Hidden[cell] != 0);
+    Point2 p[3];
+    this->Cells.corners(cell, p);
+    const auto index = [](const LatticeAxis& axis, double v) { return int(axis.position(v)) - 1; };
+    const auto [left, right] = std::minmax(
+      { index(this->Axes.U, p[0].x), index(this->Axes.U, p[1].x), index(this->Axes.U, p[2].x) });
+    const auto [low, high] = std::minmax(
+      { index(this->Axes.V, p[0].y), index(this->Axes.V, p[1].y), index(this->Axes.V, p[2].y) });
+    return { { left, low }, { right, high } };
   }
 
   void visit(std::int64_t cell, std::vector<NearSample>& found) const
   {
+    if (this->Mesh.Hidden && this->Mesh.Hidden[cell] != 0)
+    {
+      return;
+    }
     Point2 corners[3];
     this->Cells.corners(cell, corners);
     const bool isFinite = std::all_of(corners, corners + 3,
@@ -274,10 +249,10 @@ private:
   const SimplexMesh& Mesh;
   Access Cells;
   const LatticeAxes& Axes;
+  const GroupBoxes& Boxes;
   const OpenBlocks& Blocks;
   const std::function<bool(std::int64_t)>& IsOpen;
   const int Threads;
-  std::vector<std::uint32_t> OfPoints;
 };
 
 /// The value of an array at the nearest point of an edge. Integers are those of the nearer end.
@@ -316,7 +291,8 @@ void fillArray(
 } // namespace
 
 std::vector<NearSample> nearSamples(const SimplexMesh& mesh, const LatticeAxes& axes, int threads,
-  const OpenBlocks& blocks, const std::function<bool(std::int64_t)>& isOpen)
+  const GroupBoxes& boxes, const OpenBlocks& blocks,
+  const std::function<bool(std::int64_t)>& isOpen)
 {
   std::vector<NearSample> found;
   withAccess(mesh,
@@ -325,7 +301,7 @@ std::vector<NearSample> nearSamples(const SimplexMesh& mesh, const LatticeAxes& 
       using Access = std::decay_t<decltype(access)>;
       if constexpr (Access::Dimension == 2)
       {
-        found = NearFinder<Access>(mesh, axes, blocks, isOpen, threads).run();
+        found = NearFinder<Access>(mesh, axes, boxes, blocks, isOpen, threads).run();
       }
     });
   return found;

@@ -263,10 +263,10 @@ void fillBorder(const Access& access, const LatticeAxes& axes,
 }
 
 /// `claimed`: the number of samples that a device has filled already, which `options.Valid` marks.
-/// For `border`, which may be null, see sampleDirectly().
+/// For `border`, which may be null, see sampleDirectly(). Sets `boxes` to those of the mesh.
 DirectResult sampleRest(const SimplexMesh& mesh, const LatticeAxes& axes,
   const std::vector<Attribute>& attributes, const ResampleOptions& options, std::int64_t claimed,
-  std::vector<BorderSample>* border)
+  std::vector<BorderSample>* border, GroupBoxes& boxes)
 {
   DirectResult result;
   withAccess(mesh,
@@ -275,8 +275,9 @@ DirectResult sampleRest(const SimplexMesh& mesh, const LatticeAxes& axes,
       using Access = std::decay_t<decltype(access)>;
       std::vector<FillingWalk<Access>> walks(
         std::size_t(options.Threads), FillingWalk<Access>(mesh, axes, attributes, options));
-      result.Aborted =
-        !CellVisitor<Access, FillingWalk<Access>>(mesh, axes, walks).run(options.Progress);
+      CellVisitor<Access, FillingWalk<Access>> visitor(mesh, axes, walks);
+      result.Aborted = !visitor.run(options.Progress);
+      boxes = std::move(visitor.boxes());
       std::vector<Touch> touches = joinWalks(walks, result.Statistics, claimed);
       const Stopwatch watch;
       if (!result.Aborted)
@@ -294,13 +295,13 @@ DirectResult sampleRest(const SimplexMesh& mesh, const LatticeAxes& axes,
 }
 
 /// Fills the samples near the border of a complete mesh or part, after those inside; see
-/// Lattice::Slack.
+/// Lattice::Slack. For `boxes` see nearSamples().
 void fillNearBorder(const SimplexMesh& mesh, const LatticeAxes& axes,
-  const std::vector<Attribute>& attributes, const ResampleOptions& options,
+  const std::vector<Attribute>& attributes, const ResampleOptions& options, const GroupBoxes& boxes,
   std::vector<BorderSample>* border)
 {
   const std::vector<NearSample> samples =
-    nearSamplesOf<unsigned char>(mesh, axes, options.Threads, options.Valid, 0);
+    nearSamplesOf<unsigned char>(mesh, axes, options.Threads, boxes, options.Valid, 0);
   fillNear(samples, attributes, options.Parents);
   for (const NearSample& near : samples)
   {
@@ -317,10 +318,11 @@ DirectResult sampleDirectly(const SimplexMesh& mesh, const Lattice& lattice,
 {
   const LatticeAxes axes(mesh, lattice);
   fillInChunks(options.Valid, axes.samples(), (unsigned char)(0), options.Threads);
-  const DirectResult result = sampleRest(mesh, axes, attributes, options, 0, border);
+  GroupBoxes boxes;
+  const DirectResult result = sampleRest(mesh, axes, attributes, options, 0, border, boxes);
   if (!result.Aborted && !result.Overlapping)
   {
-    fillNearBorder(mesh, axes, attributes, options, border);
+    fillNearBorder(mesh, axes, attributes, options, boxes, border);
   }
   return result;
 }
@@ -331,11 +333,12 @@ DirectResult finishDirectly(const SimplexMesh& mesh, const Lattice& lattice,
 {
   const PartMesh part(mesh, sampled.Open);
   const LatticeAxes axes(mesh, lattice);
+  GroupBoxes boxes;
   const DirectResult result =
-    sampleRest(part.mesh(), axes, attributes, options, sampled.Claimed, nullptr);
+    sampleRest(part.mesh(), axes, attributes, options, sampled.Claimed, nullptr, boxes);
   if (!result.Aborted && !result.Overlapping)
   {
-    fillNearBorder(mesh, axes, attributes, options, nullptr);
+    fillNearBorder(mesh, axes, attributes, options, GroupBoxes(), nullptr);
   }
   return result;
 }

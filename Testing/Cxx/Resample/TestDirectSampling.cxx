@@ -159,6 +159,32 @@ TEST(DirectSampling, EqualsClaimsAndInterpolationInSpace)
   }
 }
 
+TEST(DirectSampling, SamplesNearTheBorderAreThoseNearSomeTriangle)
+{
+  const Scene scene = jitteredScene(2, 25, 5);
+  // The samples at -0.01 are outside, but within the slack.
+  tipp::Lattice lattice = latticeOf(2, 41, -0.51, 1.49);
+  lattice.Slack = { 0.02, 0.02, 0 };
+  std::vector<unsigned char> expected(std::size_t(lattice.samples()), 0);
+  for (int cell = 0; cell < scene.cells(); ++cell)
+  {
+    Scene triangle = scene;
+    triangle.Ids.assign(scene.Ids.begin() + 3 * cell, scene.Ids.begin() + 3 * cell + 3);
+    FilledArrays alone(triangle, lattice);
+    tipp::sampleDirectly(triangle.mesh(), lattice, alone.Attributes, alone.Options);
+    std::transform(alone.Valid.begin(), alone.Valid.end(), expected.begin(), expected.begin(),
+      [](unsigned char a, unsigned char b) { return (unsigned char)(a | b); });
+  }
+  for (const Scene& mesh : { scene, scene.shuffled(3) })
+  {
+    FilledArrays sampled(mesh, lattice);
+    tipp::sampleDirectly(mesh.mesh(), lattice, sampled.Attributes, sampled.Options);
+    EXPECT_EQ(expected, sampled.Valid);
+    const tipp::Claims claims = tipp::claimSamples(mesh.mesh(), lattice, 2);
+    EXPECT_EQ(41U, claims.Near.size()); // 20 at each of two sides, and one at the corner
+  }
+}
+
 TEST(DirectSampling, ReportsThatCellsOverlap)
 {
   const Scene scene = overlappingScene(20, 1);
