@@ -162,9 +162,14 @@ private:
       column.Texts > 0 && !areFew && !column.IsText ? this->setText(column) : void();
     }
     this->report();
-    this->Columns.erase(
-      std::remove_if(this->Columns.begin(), this->Columns.end(),
-        [](const SurveyedColumn& column) { return column.IsText || column.Numbers == 0; }),
+    this->Columns.erase(std::remove_if(this->Columns.begin(), this->Columns.end(),
+                          [this](const SurveyedColumn& column)
+                          {
+                            // All heights of segments may be missing; their columns are told by
+                            // their number.
+                            const bool isNeeded = this->Options.AsIs && column.Missing > 0;
+                            return column.IsText || (column.Numbers == 0 && !isNeeded);
+                          }),
       this->Columns.end());
     this->nameHeights();
   }
