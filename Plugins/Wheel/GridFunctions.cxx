@@ -35,7 +35,7 @@ ConstraintTable linesOf(const nb::object& arrays)
   return table;
 }
 
-/// Reads a file with read(path), or converts arrays as linesOf(). Returns nothing for None.
+/// Reads a file with read(path, wrap), or converts arrays as linesOf(). Returns nothing for None.
 template <typename Read>
 std::optional<ConstraintTable> constraintsOf(const nb::object& given, const Read& read)
 {
@@ -48,7 +48,7 @@ std::optional<ConstraintTable> constraintsOf(const nb::object& given, const Read
     return linesOf(given);
   }
   const auto path = nb::cast<std::string>(given);
-  return withoutLock([&] { return read(path); });
+  return withoutLock([&] { return read(path, 0); });
 }
 
 DemRequest requestOf(const nb::dict& options)
