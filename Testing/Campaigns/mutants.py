@@ -201,7 +201,7 @@ def check_output(result, out, tipp, env):
     if out is None:
         return
     if out.suffix == ".npy":
-        points = int(re.match(r"(\d+) points", result.output).group(1))
+        points = int(re.search(r"^(\d+) points", result.output, re.MULTILINE).group(1))
         require_ids(result, read_npy(out)[1], points)
     elif out.suffix == ".tipp":
         image = ["resample", out, "-o", out.parent / "again.npy", "--arrays", "GlobalCellIds", "--dims", "4", "4", "1"]
