@@ -284,7 +284,7 @@ bool TableRows::takeLine(bool isFirst)
       this->Header->hasOneColumn() ? "has a single column; x and y are needed."
                                    : "holds no points; give a file with one point a line.");
   }
-  this->Delimiter = findDelimiter(this->Line);
+  this->Delimiter = findDelimiter(withoutTrailingComment(this->Line));
   this->Parser = FieldParser(this->Delimiter);
   this->split();
   std::int64_t count = 0;

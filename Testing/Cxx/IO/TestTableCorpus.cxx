@@ -111,6 +111,7 @@ const std::vector<Entry> tables = {
   { "blanks in the header", "id x y z\n7,500000,4000000,10\n8,500010,4000000,11\n9,500000,4000010,12\n11,500010,4000010,13\n", pit },
   { "semicolons in the header", "id;x;y;z\n7\t500000\t4000000\t10\n8\t500010\t4000000\t11\n9\t500000\t4000010\t12\n11\t500010\t4000010\t13\n", pit },
   { "a comment after the names", "id x y z # made by instrument\n7 500000 4000000 10\n8 500010 4000000 11\n9 500000 4000010 12\n11 500010 4000010 13\n", pit },
+  { "a comment between tabs after a first row of few numbers", "y coord\tcode\tz\tx coord\n4000000\t\"\"\t****\t500000 # checked\n4000000\ttree 5\t\t500010\n4000010\t\t12\t500000\n", { 500000, 4000000, missing, 500010, 4000000, missing, 500000, 4000010, 12 } },
   { "a comment after a row", "id x y z\n7 500000 4000000 10 # first\n8 500010 4000000 11\n9 500000 4000010 12\n11 500010 4000010 13 # last\n", pit },
   { "gaps between names with blanks", "Point No   X Coord   Y Coord   Z Coord\n7   500000   4000000   10\n8   500010   4000000   11\n9   500000   4000010   12\n11   500010   4000010   13\n", pit },
   { "units in brackets between blanks", "E (m) N (m) H (m)\n500000 4000000 10\n500010 4000000 11\n500000 4000010 12\n500010 4000010 13\n", pit },
