@@ -339,8 +339,10 @@ void cutOutside(
   const std::size_t lines = constraints.Lines.Edges.size();
   const Cuts cuts{ piecesOf(pieces, constraints.Lines.PolygonBegin, lines),
     piecesOf(pieces, lines, lines + constraints.Boundary.Edges.size()), constraints.Lines.holes() };
-  // A polygon with a missing edge has no inside.
-  if (!(cuts.Polygons.empty() && cuts.Boundary.empty()) && result.Constraints.NotFinite > 0)
+  // A polygon with a missing edge has no inside, nor has one without any edge left.
+  const bool hasPolygons =
+    constraints.Lines.PolygonBegin < lines || !constraints.Boundary.Edges.empty();
+  if (hasPolygons && result.Constraints.NotFinite > 0)
   {
     throw std::invalid_argument(
       "it has polygons, and a point that is NaN or infinite; correct the point.");

@@ -176,19 +176,17 @@ void ConstrainedPoints::addPoints()
 
 void ConstrainedPoints::countSegments()
 {
-  bool cuts = false;
-  this->Counts.Constraints = this->Stored->count();
-  this->forEach(
-    [&](const ConstraintSegment& segment)
-    {
-      ++this->Counts.Segments;
-      cuts = cuts || segment.Role != SegmentRole::Line;
-    });
+  const std::int64_t constraints = this->Stored->count();
+  this->Counts.Constraints = constraints;
+  this->forEach([this](const ConstraintSegment&) { ++this->Counts.Segments; });
   this->Stored->forEach([this](std::int64_t, Point2 a, Point2 b)
     { this->Counts.NotFinite += isFinite(a) && isFinite(b) ? 0 : 1; });
   this->Counts.Crossings = std::int64_t(this->Split.Crossings.size());
   this->Counts.Rounds = this->Split.Rounds;
-  if (cuts && this->Counts.NotFinite > 0)
+  // Edges of polygons come last. A polygon with a missing edge has no inside.
+  const bool hasPolygons =
+    constraints > 0 && this->Stored->roleOf(constraints - 1) != SegmentRole::Line;
+  if (hasPolygons && this->Counts.NotFinite > 0)
   {
     throw std::invalid_argument(
       "it has polygons, and a point that is NaN or infinite; correct the point.");
