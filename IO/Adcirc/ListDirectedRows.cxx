@@ -141,17 +141,11 @@ double ListDirectedRows::number(std::size_t field) const
 std::int64_t ListDirectedRows::integer(std::size_t field) const
 {
   std::int64_t value = 0;
-  if (parseInteger(this->Row[field], value))
-  {
-    return value;
-  }
-  double number = 0; // such as 3.0
-  if (!parseNumber(this->Row[field], number) || std::floor(number) != number ||
-    std::fabs(number) > 0x1p53)
+  if (!parseWhole(this->Row[field], value))
   {
     this->failToRead(field, "an integer");
   }
-  return std::int64_t(number);
+  return value;
 }
 
 void ListDirectedRows::failToRead(std::size_t field, const char* kind) const

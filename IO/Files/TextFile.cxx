@@ -318,6 +318,19 @@ bool parseInteger(std::string_view field, std::int64_t& value)
   return number.has_value();
 }
 
+bool parseWhole(std::string_view field, std::int64_t& value)
+{
+  if (parseInteger(field, value))
+  {
+    return true;
+  }
+  double number = 0;
+  const bool isWhole =
+    parseNumber(field, number) && std::floor(number) == number && std::fabs(number) <= 0x1p53;
+  value = isWhole ? std::int64_t(number) : 0;
+  return isWhole;
+}
+
 bool splitFields(std::string_view line, char delimiter, std::vector<std::string_view>& fields)
 {
   fields.clear();
@@ -391,17 +404,11 @@ double NumberRows::number(std::size_t field) const
 std::int64_t NumberRows::integer(std::size_t field) const
 {
   std::int64_t value = 0;
-  if (parseInteger(this->Row[field], value))
-  {
-    return value;
-  }
-  double number = 0; // such as 3.0
-  if (!parseNumber(this->Row[field], number) || std::floor(number) != number ||
-    std::fabs(number) > 0x1p53)
+  if (!parseWhole(this->Row[field], value))
   {
     this->fail("'" + std::string(this->Row[field]) + "' is not an integer; correct the line.");
   }
-  return std::int64_t(number);
+  return value;
 }
 
 void NumberRows::fail(const std::string& problem) const

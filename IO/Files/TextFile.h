@@ -64,6 +64,9 @@ std::optional<Number> wholeNumber(std::string_view text)
 bool parseNumber(std::string_view field, double& value);
 /// Parses a whole field as an integer.
 bool parseInteger(std::string_view field, std::int64_t& value);
+/// Also parses a whole number that is written with a decimal point or an exponent, such as 3.0, up
+/// to 2^53.
+bool parseWhole(std::string_view field, std::int64_t& value);
 
 /// The number in decimal with 17 digits, from which it can be restored.
 VTKTIPPIO_EXPORT std::string exactText(double value);
