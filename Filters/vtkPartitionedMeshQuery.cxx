@@ -194,9 +194,18 @@ int vtkPartitionedMeshQuery::RequestData(
   vtkDataSet* const input = vtkDataSet::GetData(inputs[0]);
   vtkDataSet* const output = vtkDataSet::GetData(outputs);
   output->CopyStructure(input);
-  this->PassPointArrays ? output->GetPointData()->PassData(input->GetPointData()) : void();
-  this->PassCellArrays ? output->GetCellData()->PassData(input->GetCellData()) : void();
-  this->PassFieldArrays ? output->GetFieldData()->PassData(input->GetFieldData()) : void();
+  if (this->PassPointArrays)
+  {
+    output->GetPointData()->PassData(input->GetPointData());
+  }
+  if (this->PassCellArrays)
+  {
+    output->GetCellData()->PassData(input->GetCellData());
+  }
+  if (this->PassFieldArrays)
+  {
+    output->GetFieldData()->PassData(input->GetFieldData());
+  }
   const int isDone = this->Try(
     [&]
     {

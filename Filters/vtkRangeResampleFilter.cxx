@@ -319,7 +319,10 @@ private:
       if (this->AddsElevation)
       {
         mesh = tipp::withElevation(meshes[i]);
-        this->Filter->NumberOfInputPieces > 1 ? this->Heights.add(meshes[i]) : void();
+        if (this->Filter->NumberOfInputPieces > 1)
+        {
+          this->Heights.add(meshes[i]);
+        }
       }
       this->Stopped = !this->Image->add(mesh, report);
     }

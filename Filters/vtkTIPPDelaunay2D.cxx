@@ -285,7 +285,10 @@ tipp::ConstrainedTriangulation vtkTIPPDelaunay2D::Triangulate(
     // A single partition is triangulated without progress reports.
     result.Mesh.Aborted = result.Mesh.Aborted || !monitor(1);
   }
-  result.Mesh.Aborted ? void() : tipp::warn(this, warnings);
+  if (!result.Mesh.Aborted)
+  {
+    tipp::warn(this, warnings);
+  }
   auto& phases = result.Mesh.Statistics.Phases;
   phases.insert(phases.begin(), { "projection", projectionSeconds });
   return result;
@@ -414,7 +417,10 @@ void vtkTIPPDelaunay2D::ExecuteOnRanks(
       tipp::addDuplicatesAndRejected(mine.Duplicates, mine.Rejected, output);
     }
     tipp::RunStatistics all = tipp::statisticsOf(mine);
-    shared ? tipp::addConstraintTotals(shared->Figures, all) : void();
+    if (shared)
+    {
+      tipp::addConstraintTotals(shared->Figures, all);
+    }
     tipp::fillStatisticsTable(all, vtkTable::GetData(outputs, 1));
   };
   ranks.together(run);
@@ -426,7 +432,10 @@ void vtkTIPPDelaunay2D::ExecuteOnRanks(
     warnings.push_back(std::to_string(shared->Figures.NotFinite) +
       " edges of the source have an end that is NaN or infinite and are left out.");
   }
-  ranks.isFirst() ? tipp::warn(this, warnings) : void();
+  if (ranks.isFirst())
+  {
+    tipp::warn(this, warnings);
+  }
 }
 
 void vtkTIPPDelaunay2D::PrintSelf(ostream& os, vtkIndent indent)

@@ -218,7 +218,10 @@ void vtkTIPPPointsToImage::Make(vtkInformationVector** inputs, vtkImageData* out
   tipp::checkPoints(points, "the input");
   for (vtkPolyData* const data : { lines, boundary })
   {
-    data ? tipp::checkCells(data, "the lines", this->NumberOfThreads) : void();
+    if (data)
+    {
+      tipp::checkCells(data, "the lines", this->NumberOfThreads);
+    }
   }
   if (this->Bands.empty())
   {

@@ -113,7 +113,10 @@ void addMissing(const std::vector<const char*>& arrays, vtkDataArraySelection* s
   std::unordered_set<std::string> added;
   for (const char* const array : arrays)
   {
-    settings.count(array) == 0 && added.insert(array).second ? names.push_back(array) : void();
+    if (settings.count(array) == 0 && added.insert(array).second)
+    {
+      names.push_back(array);
+    }
   }
   if (names.size() > known)
   {

@@ -38,7 +38,10 @@ public:
   /// The index of a key, which is inserted if it is not there. At most 2^31 keys.
   Inserted insert(std::int64_t key)
   {
-    2 * this->size() >= this->Entries.size() ? this->enlarge() : void();
+    if (2 * this->size() >= this->Entries.size())
+    {
+      this->enlarge();
+    }
     Entry& entry = this->Entries[this->locate(key)];
     const bool isNew = entry.Map != this->Current;
     if (isNew)

@@ -86,7 +86,10 @@ public:
     };
     std::array<Child, (Width - 1) * MostLevels + Width> stack;
     std::size_t top = 0;
-    this->Levels.empty() ? void() : void(stack[top++] = { 0, int(this->Levels.size()) - 1, 0 });
+    if (!this->Levels.empty())
+    {
+      stack[top++] = { 0, int(this->Levels.size()) - 1, 0 };
+    }
     double wanted = std::numeric_limits<double>::infinity();
     while (top > 0)
     {
@@ -320,7 +323,10 @@ private:
       std::fill_n(low, D, std::numeric_limits<float>::quiet_NaN());
       std::fill_n(high, D, std::numeric_limits<float>::quiet_NaN());
       const std::size_t child = n * Width + std::size_t(i);
-      child < children ? boundsOf(child, low, high) : void();
+      if (child < children)
+      {
+        boundsOf(child, low, high);
+      }
       for (int axis = 0; axis < D; ++axis)
       {
         node.Low[axis][i] = low[axis];

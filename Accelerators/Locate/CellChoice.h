@@ -101,7 +101,10 @@ public:
     }
     if (this->Cell >= 0)
     {
-      this->IsRanked ? void() : this->rank(this->Cell);
+      if (!this->IsRanked)
+      {
+        this->rank(this->Cell);
+      }
       this->IsRanked = true;
       const auto before = std::make_pair(this->Best, this->Cell);
       this->rank(cell);
@@ -203,11 +206,17 @@ public:
   {
     this->Points[std::size_t(this->Count)] = point;
     this->At[std::size_t(this->Count)] = at;
-    ++this->Count == Most ? this->flush() : void();
+    if (++this->Count == Most)
+    {
+      this->flush();
+    }
   }
   void flush()
   {
-    this->Count > 0 ? this->Take(this->Points.data(), this->At.data(), this->Count) : void();
+    if (this->Count > 0)
+    {
+      this->Take(this->Points.data(), this->At.data(), this->Count);
+    }
     this->Count = 0;
   }
 

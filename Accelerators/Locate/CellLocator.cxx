@@ -60,7 +60,10 @@ void locateByCells(const Access& access, const SimplexMesh& mesh, const std::int
             found[std::size_t(thread)].push_back({ i, cell });
           }
         };
-        box.isEmpty() ? void() : tree.search(box, offer);
+        if (!box.isEmpty())
+        {
+          tree.search(box, offer);
+        }
       }
     });
   std::vector<Choice<Access>> choices;
@@ -80,7 +83,10 @@ void locateByCells(const Access& access, const SimplexMesh& mesh, const std::int
   for (std::int64_t i = 0; i < points.Count; ++i)
   {
     const std::int64_t cell = choices[std::size_t(i)].cell();
-    cell >= 0 ? locations.add(points.index(i), weighed(access, cell, at(i))) : void();
+    if (cell >= 0)
+    {
+      locations.add(points.index(i), weighed(access, cell, at(i)));
+    }
   }
   locations.flush();
 }
@@ -95,7 +101,14 @@ CellLocator::CellLocator(const SimplexMesh& mesh, const std::int64_t* cellIds, i
 {
   if (!this->Walk.isUsable())
   {
-    mesh.Dimension == 2 ? void(this->tree<2>()) : void(this->tree<3>());
+    if (mesh.Dimension == 2)
+    {
+      this->tree<2>();
+    }
+    else
+    {
+      this->tree<3>();
+    }
   }
 }
 
@@ -135,7 +148,10 @@ void CellLocator::findInOrder(const Access& access, const AskedPoints& points,
     Choice<Access> choice(access, this->CellIds, point);
     search(Box<D>::of(arrayOf(point)), [&](std::int32_t cell) { choice.offer(cell); });
     const std::int64_t cell = choice.cell();
-    cell >= 0 ? locations.add(points.index(order[i]), weighed(access, cell, point)) : void();
+    if (cell >= 0)
+    {
+      locations.add(points.index(order[i]), weighed(access, cell, point));
+    }
   };
   std::int64_t shared = mostShared / 4;
   int alone = 0; // how many of the next points to search one by one, since they are far apart

@@ -249,7 +249,10 @@ CellWalk::Outcome CellWalk::walk(const Access& access, Point2 point, Position& a
   };
   const auto length = [](Point2 p) { return std::fabs(p.x) + std::fabs(p.y); };
   const bool isFirst = at.Cell < 0;
-  isFirst ? this->jump(point, at) : void();
+  if (isFirst)
+  {
+    this->jump(point, at);
+  }
   start();
   if (!isFirst && !(length(a.Offset) <= 16 * std::max(length(b.At - a.At), length(c.At - a.At))))
   {
@@ -260,7 +263,10 @@ CellWalk::Outcome CellWalk::walk(const Access& access, Point2 point, Position& a
   int apex = 0; // the corner that is a
   // The corner opposite to the edge to cross next; -1: not known yet.
   int exit = isBeyond(b, c) ? 0 : -1;
-  exit == 0 ? std::swap(b, c) : void();
+  if (exit == 0)
+  {
+    std::swap(b, c);
+  }
   for (std::int64_t step = 0; step < MostSteps; ++step)
   {
     if (exit < 0)

@@ -32,7 +32,10 @@ public:
   {
     const double area = (this->B.x - this->A.x) * (this->C.y - this->A.y) -
       (this->B.y - this->A.y) * (this->C.x - this->A.x);
-    area < 0 ? std::swap(this->B, this->C) : void();
+    if (area < 0)
+    {
+      std::swap(this->B, this->C);
+    }
     // The error bound of orientation(), with the box's extents as the largest factors, plus a
     // margin for the rounding of the area, whose sign is used. Infinite after an overflow.
     constexpr double relative = 3.3306690738754716e-16;
@@ -126,7 +129,12 @@ public:
   {
     forChunks(this->Mesh.Cells, 1 << 12, this->Threads, {},
       [&](std::int64_t begin, std::int64_t end, int)
-      { this->IsTooMuch ? void() : this->addCells(begin, end); });
+      {
+        if (!this->IsTooMuch)
+        {
+          this->addCells(begin, end);
+        }
+      });
     if (this->IsTooMuch || !this->isEachClaimKept())
     {
       return false;
@@ -207,7 +215,10 @@ private:
   {
     std::atomic<std::int32_t>& claim = this->Claims[at.Entry];
     const bool isFree = claim.load(std::memory_order_relaxed) < 0;
-    isFree ? claim.store(at.Cell, std::memory_order_relaxed) : void();
+    if (isFree)
+    {
+      claim.store(at.Cell, std::memory_order_relaxed);
+    }
     return isFree;
   }
 
@@ -242,7 +253,10 @@ private:
           const Point point = pointAt(this->Near.at(entry));
           Choice<Access> choice(this->Cells, this->CellIds, point);
           const std::int32_t claim = this->Claims[entry];
-          claim >= 0 ? choice.offer(claim) : void();
+          if (claim >= 0)
+          {
+            choice.offer(claim);
+          }
           for (std::size_t k = i; k < this->Doubts.size() && this->Doubts[k].Entry == entry; ++k)
           {
             choice.offer(this->Doubts[k].Cell);

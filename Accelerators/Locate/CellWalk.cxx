@@ -143,9 +143,10 @@ private:
         for (std::int64_t point = begin; point < end; ++point)
         {
           const std::uint32_t first = point > 0 ? ends[std::size_t(point) - 1].load() : 0;
-          this->matchAt(edges.get() + first, edges.get() + ends[std::size_t(point)].load())
-            ? void()
-            : isManifold.store(false);
+          if (!this->matchAt(edges.get() + first, edges.get() + ends[std::size_t(point)].load()))
+          {
+            isManifold.store(false);
+          }
         }
       });
     return isManifold;
@@ -254,7 +255,12 @@ private:
             box.extend(this->boxOf(this->Cells.ids(cell)[2]));
             tree.search(box,
               [&](std::int32_t i)
-              { this->meets(cell, border[std::size_t(i)]) ? doMeet.store(true) : void(); });
+              {
+                if (this->meets(cell, border[std::size_t(i)]))
+                {
+                  doMeet.store(true);
+                }
+              });
           }
         }
       });
@@ -320,7 +326,10 @@ private:
       {
         ++cell;
       }
-      cell < end ? cells.push_back(std::int32_t(cell)) : void();
+      if (cell < end)
+      {
+        cells.push_back(std::int32_t(cell));
+      }
     }
     const auto boxOfSeed = [&](std::int64_t i)
     { return this->boxOf(this->Cells.ids(cells[std::size_t(i)])[0]); };

@@ -75,7 +75,10 @@ Box<D> boundsOf(std::int64_t count, int threads, const BoxOf& boxOf)
       for (std::int64_t i = begin; i < end; ++i)
       {
         const Box<D> box = boxOf(i);
-        box.isEmpty() ? void() : own.extend(box);
+        if (!box.isEmpty())
+        {
+          own.extend(box);
+        }
       }
       bounds[std::size_t(thread)].extend(own);
     });
@@ -150,7 +153,10 @@ std::vector<std::int32_t> mortonOrder(
   order.reserve(entries.size());
   for (const auto& [code, number] : entries)
   {
-    number >= 0 ? order.push_back(number) : void();
+    if (number >= 0)
+    {
+      order.push_back(number);
+    }
   }
   return order;
 }
@@ -183,7 +189,10 @@ std::vector<std::int32_t> nearOrder(std::int64_t count, int threads, const At& a
   order.reserve(words.size());
   for (const std::uint64_t word : words)
   {
-    word != notFinite ? order.push_back(std::int32_t(std::uint32_t(word))) : void();
+    if (word != notFinite)
+    {
+      order.push_back(std::int32_t(std::uint32_t(word)));
+    }
   }
   return order;
 }

@@ -262,7 +262,10 @@ private:
             }
           }
         }
-        areHere ? void() : are.store(false);
+        if (!areHere)
+        {
+          are.store(false);
+        }
       });
     return are;
   }
@@ -299,7 +302,10 @@ public:
           for (std::int64_t i = begin; i < end; ++i)
           {
             const std::array<double, D> point = at(i);
-            Box<D>::of(point).isEmpty() ? void() : work(i, point, this->bucketOf(point));
+            if (!Box<D>::of(point).isEmpty())
+            {
+              work(i, point, this->bucketOf(point));
+            }
           }
         });
     };

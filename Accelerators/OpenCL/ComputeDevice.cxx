@@ -281,7 +281,10 @@ void ComputeDevice::transfer(
   const bool isStaged = bytes > stageBytes && !this->SharesHostMemory;
   // Held until run() has emptied the queue after an error.
   std::unique_lock<std::mutex> lock(this->StageMutex, std::defer_lock);
-  isStaged ? lock.lock() : void();
+  if (isStaged)
+  {
+    lock.lock();
+  }
   this->run(
     [&]
     {

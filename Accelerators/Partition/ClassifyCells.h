@@ -120,7 +120,14 @@ private:
 /// at -1.
 inline void addPartition(std::int32_t id, std::int32_t& owner, std::vector<std::int32_t>& borrowers)
 {
-  owner < 0 ? void(owner = id) : borrowers.push_back(id);
+  if (owner < 0)
+  {
+    owner = id;
+  }
+  else
+  {
+    borrowers.push_back(id);
+  }
 }
 
 /// classifyCells() on an OpenCL device, in pieces that need at most options.DeviceMemory besides

@@ -59,9 +59,14 @@ struct ExactBall
     {
       this->Square += centre[k] * centre[k];
       const std::size_t side = D * (D + 1) + k;
-      std::isfinite(low[k]) ? this->Depths.push_back(centre[k] - twice * (n[side] - n[k])) : void();
-      std::isfinite(high[k]) ? this->Depths.push_back(twice * (n[side + D] - n[k]) - centre[k])
-                             : void();
+      if (std::isfinite(low[k]))
+      {
+        this->Depths.push_back(centre[k] - twice * (n[side] - n[k]));
+      }
+      if (std::isfinite(high[k]))
+      {
+        this->Depths.push_back(twice * (n[side + D] - n[k]) - centre[k]);
+      }
     }
   }
 

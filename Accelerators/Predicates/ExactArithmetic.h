@@ -46,10 +46,16 @@ public:
     for (const double part : this->Parts)
     {
       double large = part;
-      std::fabs(large) < std::fabs(term) ? std::swap(large, term) : void();
+      if (std::fabs(large) < std::fabs(term))
+      {
+        std::swap(large, term);
+      }
       const double sum = large + term;
       const double rest = term - (sum - large);
-      rest != 0 ? void(this->Parts[kept++] = rest) : void();
+      if (rest != 0)
+      {
+        this->Parts[kept++] = rest;
+      }
       term = sum;
     }
     this->Parts.resize(kept);
@@ -120,7 +126,10 @@ public:
   {
     const ExactDifference difference = exactDifference(x, y);
     this->include(difference.head);
-    difference.tail != 0.0 ? this->include(difference.tail) : void();
+    if (difference.tail != 0.0)
+    {
+      this->include(difference.tail);
+    }
   }
 
   /// Whether the digits span at most `count` bits and the values can be scaled to integers without

@@ -88,7 +88,13 @@ private:
     return { low, high, (high.x - low.x) / (high.y - low.y) };
   }
 
-  static void lowFirst(Point2& a, Point2& b) { b.y < a.y ? std::swap(a, b) : void(); }
+  static void lowFirst(Point2& a, Point2& b)
+  {
+    if (b.y < a.y)
+    {
+      std::swap(a, b);
+    }
+  }
 
   [[gnu::always_inline]] bool setEdges(Point2 a, Point2 b, Point2 c)
   {

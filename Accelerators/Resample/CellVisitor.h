@@ -50,7 +50,10 @@ public:
   bool run(const Report& report)
   {
     constexpr std::int64_t chunk = 64 * GroupBoxes::Size;
-    Dimension == 2 ? this->Groups.reset(this->Mesh.Cells) : void();
+    if (Dimension == 2)
+    {
+      this->Groups.reset(this->Mesh.Cells);
+    }
     this->Outside.find(int(this->Sinks.size()));
     const bool wide = hasAvx2();
     const auto visit = [this, wide](std::int64_t begin, std::int64_t end, int thread)
@@ -140,15 +143,19 @@ private:
       {
         if (!lanes.nothing(lane) && !this->hidden(cell + lane))
         {
-          lanes.fast(lane) && this->visitLane(lanes, lane, cell + lane, rows, sink)
-            ? void()
-            : this->visitCell(cell + lane, rows, thread);
+          if (!(lanes.fast(lane) && this->visitLane(lanes, lane, cell + lane, rows, sink)))
+          {
+            this->visitCell(cell + lane, rows, thread);
+          }
         }
       }
     }
     for (; cell < end; ++cell)
     {
-      this->hidden(cell) ? void() : this->visitCell(cell, rows, thread);
+      if (!this->hidden(cell))
+      {
+        this->visitCell(cell, rows, thread);
+      }
     }
     sink.addExactTests(rows.exactTests());
     sink.endChunk();
@@ -223,7 +230,10 @@ private:
     const auto spans = lanes.singleRows();
     for (int lane = 0; lane < laneCount; ++lane)
     {
-      lanes.nothing(lane) ? void() : sink.visit(lanes.columns(lane).size());
+      if (!lanes.nothing(lane))
+      {
+        sink.visit(lanes.columns(lane).size());
+      }
     }
     for (unsigned open = spans.Open; open != 0; open &= open - 1)
     {
@@ -294,7 +304,10 @@ private:
     for (std::int64_t cell = begin; cell < end; ++cell)
     {
       outside[cell % (2 * Ahead)] = this->Outside.contain(cell);
-      outside[cell % (2 * Ahead)] ? void() : this->Cells.prefetch(cell);
+      if (!outside[cell % (2 * Ahead)])
+      {
+        this->Cells.prefetch(cell);
+      }
     }
   }
 

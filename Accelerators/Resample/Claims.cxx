@@ -347,8 +347,14 @@ private:
       std::size_t(this->Threads), FirstWalk(this->Result.Cells.get(), names));
     GroupBoxes boxes;
     this->Result.Aborted = !visitCells(mesh, this->Axes, walks, this->Progress, boxes);
-    names ? void() : void(this->Boxes = std::move(boxes));
-    this->Result.Aborted ? void() : this->settle(walks, claimed);
+    if (!names)
+    {
+      this->Boxes = std::move(boxes);
+    }
+    if (!this->Result.Aborted)
+    {
+      this->settle(walks, claimed);
+    }
   }
 
   void settle(std::vector<FirstWalk>& walks, std::int64_t claimed)
@@ -412,9 +418,12 @@ private:
         {
           this->fill(this->Result.Cells.get(), unclaimed);
           this->Result.Aborted = !walk(
-            [&](std::int64_t sample, std::int32_t cell, CellKey key) {
-              keys[std::size_t(sample)] == key ? lowerTo(claims + sample, std::uint32_t(cell))
-                                               : void();
+            [&](std::int64_t sample, std::int32_t cell, CellKey key)
+            {
+              if (keys[std::size_t(sample)] == key)
+              {
+                lowerTo(claims + sample, std::uint32_t(cell));
+              }
             });
         }
       });
@@ -472,7 +481,14 @@ void mergeRun(const Access& access, const LatticeAxes& axes, Claims& claims, std
       mine = withRank(key, borderRank(access, axes, i, cell));
       ++border;
     }
-    mine < keys[i + shift] ? void(keys[i + shift] = mine) : void(cell = unclaimed);
+    if (mine < keys[i + shift])
+    {
+      keys[i + shift] = mine;
+    }
+    else
+    {
+      cell = unclaimed;
+    }
   }
 }
 

@@ -37,7 +37,10 @@ CellKey cellKey(const Point3 (&corners)[Corners])
   {
     for (int j = i + 1; j < Corners; ++j)
     {
-      lexicographicLess(sorted[j], sorted[i]) ? std::swap(sorted[i], sorted[j]) : void();
+      if (lexicographicLess(sorted[j], sorted[i]))
+      {
+        std::swap(sorted[i], sorted[j]);
+      }
     }
   }
   std::uint64_t hash = 0;

@@ -145,7 +145,10 @@ struct RangeLanes
     this->End = whole(this->High);
     const LaneMask certain = AxisLanes::certain(this->Low, this->Begin, this->Error) &
       AxisLanes::certain(this->High, this->End, this->Error);
-    any(~certain) ? this->findExactly(axis, low, high, certain) : void();
+    if (any(~certain))
+    {
+      this->findExactly(axis, low, high, certain);
+    }
     this->Empty = this->Begin >= this->End;
   }
 

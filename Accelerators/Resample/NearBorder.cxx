@@ -177,7 +177,10 @@ private:
     }
     for (std::int64_t cell = begin; cell < end; ++cell)
     {
-      this->Blocks.anyIn(this->boxOf(cell)) ? this->visit(cell, found) : void();
+      if (this->Blocks.anyIn(this->boxOf(cell)))
+      {
+        this->visit(cell, found);
+      }
     }
   }
 

@@ -91,7 +91,10 @@ void forCellRuns(const Access& access, const LatticeAxes& axes, const SampleWind
       {
         const std::int64_t soon = std::min(i + ahead, end - 1);
         const std::int64_t later = std::min(i + 2 * ahead, end - 1);
-        claims[soon] >= 0 ? access.prefetch(claims[soon]) : void();
+        if (claims[soon] >= 0)
+        {
+          access.prefetch(claims[soon]);
+        }
         __builtin_prefetch(access.ids(std::max(claims[later], 0)));
         work(cell, row, int(first - rowBegin), int(i - first));
       }
@@ -222,12 +225,18 @@ std::int64_t finishSamples(
           inside -= last - first;
           for (const Attribute& attribute : attributes)
           {
-            attribute.Values ? fillNull(attribute, first, last, always) : void();
+            if (attribute.Values)
+            {
+              fillNull(attribute, first, last, always);
+            }
           }
         });
       for (const Attribute& attribute : attributes)
       {
-        attribute.Values ? void() : fillNull(attribute, begin, end, always);
+        if (!attribute.Values)
+        {
+          fillNull(attribute, begin, end, always);
+        }
       }
       return inside;
     });
@@ -306,7 +315,10 @@ void fillNearBorder(const SimplexMesh& mesh, const LatticeAxes& axes,
   for (const NearSample& near : samples)
   {
     options.Valid[near.Sample] = 1;
-    border ? border->push_back({ near.Sample, near.Key }) : void();
+    if (border)
+    {
+      border->push_back({ near.Sample, near.Key });
+    }
   }
 }
 

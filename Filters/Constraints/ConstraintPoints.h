@@ -63,7 +63,10 @@ public:
       {
         const std::int64_t index =
           this->isMarked(hashes[i]) ? this->lookUp(positions[begin + i], hashes[i]) : -1;
-        index >= 0 ? found(begin + i, std::size_t(index)) : void();
+        if (index >= 0)
+        {
+          found(begin + i, std::size_t(index));
+        }
       }
     }
   }

@@ -95,9 +95,10 @@ std::vector<std::pair<std::size_t, std::size_t>> findPointsOn(
             [&](std::size_t i)
             {
               const SegmentTree::Item& segment = near.segments()[i];
-              isBetween(segment.A, p, segment.B)
-                ? void(found[std::size_t(thread)].emplace_back(i, point))
-                : void();
+              if (isBetween(segment.A, p, segment.B))
+              {
+                found[std::size_t(thread)].emplace_back(i, point);
+              }
             });
         });
     });

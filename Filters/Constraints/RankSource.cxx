@@ -122,7 +122,10 @@ private:
         std::none_of(all.begin(), one,
           [&](const Bytes& other)
           { return std::equal(other.begin(), other.end(), one->begin(), one->end()); });
-      isNew ? this->Sources.push_back(unpackDataSet(*one)) : void();
+      if (isNew)
+      {
+        this->Sources.push_back(unpackDataSet(*one));
+      }
     }
   }
 
@@ -211,7 +214,10 @@ private:
         [this](PointId id)
         {
           const auto [vertex, isNew] = this->VertexOf.insert(id);
-          isNew ? this->Named.push_back(id) : void();
+          if (isNew)
+          {
+            this->Named.push_back(id);
+          }
           return PointId(vertex);
         });
     }
@@ -286,7 +292,10 @@ private:
   {
     if (!this->haveCrossings())
     {
-      this->isLast() ? this->resolveVertices() : void();
+      if (this->isLast())
+      {
+        this->resolveVertices();
+      }
       return;
     }
     this->addVertices(this->pointsOnConstraints());
@@ -301,7 +310,10 @@ private:
     }
     const bool isAnyNew =
       this->addVertices(this->pointsAt(this->Ranks.allGather(crossings).back()));
-    this->isLast() && isAnyNew ? this->resolveVertices() : void();
+    if (this->isLast() && isAnyNew)
+    {
+      this->resolveVertices();
+    }
   }
 
   /// The constraints whose ends are finite and different.
@@ -312,9 +324,10 @@ private:
     {
       const Point2 a = this->Positions[std::size_t(constraint.A)];
       const Point2 b = this->Positions[std::size_t(constraint.B)];
-      isFinite(a) && isFinite(b) && !(a == b)
-        ? items.push_back({ a, b, std::int64_t(items.size()) })
-        : void();
+      if (isFinite(a) && isFinite(b) && !(a == b))
+      {
+        items.push_back({ a, b, std::int64_t(items.size()) });
+      }
     }
     return items;
   }
@@ -347,8 +360,12 @@ private:
     const PointsView view = projected.view();
     std::vector<InputPoint> points;
     view.forEach(0, view.size(),
-      [&](std::size_t i, Point2 p) {
-        index.find(p) >= 0 ? points.push_back({ p, this->idOf(i), std::int64_t(i) }) : void();
+      [&](std::size_t i, Point2 p)
+      {
+        if (index.find(p) >= 0)
+        {
+          points.push_back({ p, this->idOf(i), std::int64_t(i) });
+        }
       });
     return points;
   }
@@ -501,7 +518,10 @@ private:
     for (const Bytes& bytes : rows)
     {
       next.push_back({ from.size(), 0 });
-      bytes.size() > 0 ? void(from.emplace_back(unpackDataSet(bytes))) : void();
+      if (bytes.size() > 0)
+      {
+        from.emplace_back(unpackDataSet(bytes));
+      }
     }
     std::vector<DataSetRow> rowOf(this->Sorted.size());
     std::size_t used = this->Sources.size(); // the source of the last new vertex so far
@@ -536,7 +556,10 @@ private:
     vtkNew<vtkIdTypeArray> ids;
     ids->SetName("GlobalPointIds");
     const vtkIdType given = this->Input->GetNumberOfPoints();
-    given > 0 ? void(from.emplace_back(this->Input)) : void();
+    if (given > 0)
+    {
+      from.emplace_back(this->Input);
+    }
     for (vtkIdType i = 0; i < given; ++i)
     {
       rows.push_back({ 0, i });

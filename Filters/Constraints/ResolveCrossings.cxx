@@ -244,9 +244,14 @@ private:
     {
       const auto end = std::find_if(next, this->Result.Pieces.cend(),
         [&whole](const ConstraintPiece& piece) { return piece.Constraint != whole.Constraint; });
-      this->Result.Crosses[std::size_t(whole.Constraint)]
-        ? void(pieces.insert(pieces.end(), next, end))
-        : pieces.push_back(whole);
+      if (this->Result.Crosses[std::size_t(whole.Constraint)])
+      {
+        pieces.insert(pieces.end(), next, end);
+      }
+      else
+      {
+        pieces.push_back(whole);
+      }
       next = end;
     }
     this->Result.Pieces = std::move(pieces);
@@ -405,7 +410,10 @@ private:
             return true;
           });
       }
-      this->appendParts(whole, points) > 1 ? this->setCrosses(whole) : void();
+      if (this->appendParts(whole, points) > 1)
+      {
+        this->setCrosses(whole);
+      }
     }
   }
 

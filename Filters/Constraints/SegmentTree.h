@@ -121,7 +121,10 @@ public:
         {
           for (const Item* one = begin; one != end && one != &other; ++one)
           {
-            overlap(its, boxOf(one->A, one->B)) ? visit(*one, other) : void();
+            if (overlap(its, boxOf(one->A, one->B)))
+            {
+              visit(*one, other);
+            }
           }
         }
         return true;

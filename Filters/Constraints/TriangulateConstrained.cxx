@@ -97,7 +97,10 @@ CrossedTriangles findCrossedTriangles(PointsView points, const Id* corners, std:
       for (auto [triangle, piece] : inserted.crossingsIn(range.Partition))
       {
         triangle += std::int64_t(range.Begin);
-        triangle < std::int64_t(range.End) ? here.Crossings.push_back({ triangle, piece }) : void();
+        if (triangle < std::int64_t(range.End))
+        {
+          here.Crossings.push_back({ triangle, piece });
+        }
       }
     });
   CrossedTriangles all;
@@ -233,7 +236,10 @@ ConstrainedTriangulation insert(PointsView points, ResolvedConstraints resolved,
         ? constrain(points, result.Mesh.Ids32, blocks, pieces, inserted, threads)
         : constrain(points, result.Mesh.Ids64, blocks, pieces, inserted, threads);
     }
-    cut ? cut(result) : void();
+    if (cut)
+    {
+      cut(result);
+    }
     leaveOutLong(points, maximumEdge, result.Mesh);
     phases.push_back({ "constraints", watch.restart() });
   }

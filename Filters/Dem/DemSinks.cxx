@@ -336,7 +336,10 @@ void RasterSink::take(const std::string& name, const double* rows, const PointRo
   part.XYZ.resize(3 * points);
   copyWord(0, part.XYZ, 0, 3);
   copyWord(1, part.XYZ, 1, 3);
-  bands.Elevation ? copyWord(2 + *bands.Elevation, part.XYZ, 2, 3) : void();
+  if (bands.Elevation)
+  {
+    copyWord(2 + *bands.Elevation, part.XYZ, 2, 3);
+  }
   part.Values.resize(layout.Words - 3);
   part.Columns.resize(part.Values.size());
   for (const DemBand& band : bands.Bands)
@@ -411,7 +414,10 @@ void RasterSink::sampleByTile(Part& part, const std::vector<TriangleRange>& tria
           tile.extend(inTile);
           ++part.Assigned;
         });
-      part.Assigned > mostAssigned ? sampleAll() : void();
+      if (part.Assigned > mostAssigned)
+      {
+        sampleAll();
+      }
     });
   sampleAll();
 }
@@ -442,7 +448,10 @@ void RasterSink::sampleTile(Part& part, const Tile& tile) const
   lattice.Extent = { int(window.Column), int(window.Column + window.Columns - 1), int(window.Row),
     int(window.Row + window.Rows - 1), 0, 0 };
   const SampledPart sampled = samplePart(this->Settings, part.Columns, mesh, lattice);
-  this->Settings.IsSingle ? this->requireSingles(sampled.Values) : void();
+  if (this->Settings.IsSingle)
+  {
+    this->requireSingles(sampled.Values);
+  }
   for (const BorderSample& at : sampled.Border)
   {
     const std::int64_t column = window.Column + at.Sample % window.Columns;

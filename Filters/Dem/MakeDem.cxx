@@ -189,7 +189,10 @@ void constrain(DemRequest& request, std::optional<ConstraintTable> lines,
 ConstraintTable readBreaklines(const std::string& path, int wrap)
 {
   ConstraintTable lines = readConstraintFile(path, wrap);
-  isVtkFile(path) ? dropPlainHeights(lines) : void();
+  if (isVtkFile(path))
+  {
+    dropPlainHeights(lines);
+  }
   return lines;
 }
 
@@ -202,7 +205,10 @@ bool haveZeroHeights(const ConstraintTable& lines)
 
 void dropPlainHeights(ConstraintTable& lines)
 {
-  haveZeroHeights(lines) ? lines.Height.clear() : void();
+  if (haveZeroHeights(lines))
+  {
+    lines.Height.clear();
+  }
 }
 
 std::vector<double> heightsBelow(
@@ -293,8 +299,14 @@ TerrainSettings makeTerrainSettings(
     throw std::runtime_error("there is no point with finite coordinates.");
   }
   const PlaneBounds box{ bounds.xmin, bounds.xmax, bounds.ymin, bounds.ymax };
-  request.Raster.Bounds ? requireOurOrder(*request.Raster.Bounds, box) : void();
-  request.Constraints ? requireNear(request.Constraints->Boundary, box) : void();
+  if (request.Raster.Bounds)
+  {
+    requireOurOrder(*request.Raster.Bounds, box);
+  }
+  if (request.Constraints)
+  {
+    requireNear(request.Constraints->Boundary, box);
+  }
   TerrainSettings settings;
   settings.Grid =
     makeRasterGrid(request.Raster, { bounds.xmin, bounds.xmax, bounds.ymin, bounds.ymax });

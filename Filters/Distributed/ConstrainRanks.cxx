@@ -209,7 +209,10 @@ private:
       const bool isLeft = isAscending ==
         lexicographicLess(
           this->Positions[std::size_t(ends[0])], this->Positions[std::size_t(ends[1])]);
-      isLeft ? void() : std::swap(ends[0], ends[1]);
+      if (!isLeft)
+      {
+        std::swap(ends[0], ends[1]);
+      }
       const auto [low, high] = std::minmax({ idOf(ends[0]), idOf(ends[1]) });
       this->Sides.push_back(
         { { this->Named.Order[std::size_t(edge.Segment)], low, high, isLeft ? 1 : 0 }, isAscending,

@@ -128,7 +128,12 @@ std::vector<Cell<Id, Corners>> smallFacesOfLarge(
     {
       forEachFace<Corners>(cellAt<CellCorners>(cells, i),
         [&](const Cell<Id, Corners>& face)
-        { isSmall(face, pointAt, alpha) ? faces.push_back(face) : void(); });
+        {
+          if (isSmall(face, pointAt, alpha))
+          {
+            faces.push_back(face);
+          }
+        });
     }
   }
   sortUnique(faces);

@@ -345,7 +345,10 @@ ConstrainedTriangulation triangulatePoints(
   {
     result.Mesh = request.Distance > 0 ? triangulateMerged(points, request.Distance, options)
                                        : triangulate(points, options);
-    result.Mesh.Aborted ? void() : warn(result.Mesh, points.size());
+    if (!result.Mesh.Aborted)
+    {
+      warn(result.Mesh, points.size());
+    }
     return result;
   }
   const SourceConstraints& source = *request.Source;

@@ -187,8 +187,14 @@ ConstraintSegments readNear(const PieceSegments& segments, PointsView points,
   {
     const Point2 p = points[std::size_t(corners[c])];
     const Box2 box{ p.x, p.y, p.x, p.y };
-    c % (3 * together) == 0 ? boxes.push_back(box)
-                            : void(boxes.back() = unionOf(boxes.back(), box));
+    if (c % (3 * together) == 0)
+    {
+      boxes.push_back(box);
+    }
+    else
+    {
+      boxes.back() = unionOf(boxes.back(), box);
+    }
   }
   return segments.readNear(boxes);
 }

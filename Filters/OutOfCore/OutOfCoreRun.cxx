@@ -125,7 +125,10 @@ void RunSetup::save(SaveArchive& archive)
   this->exchangeInput(archive);
   this->Plan->save(archive);
   archive(std::uint8_t(this->Constraints != nullptr));
-  this->Constraints ? this->Constraints->save(archive) : void();
+  if (this->Constraints)
+  {
+    this->Constraints->save(archive);
+  }
   this->Spilled->save(archive);
 }
 

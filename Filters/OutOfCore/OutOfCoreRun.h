@@ -185,7 +185,10 @@ protected:
   {
     this->Statistics.Resumed = this->Record.resume(this->Options.Resume, this->Threads, loadPlan,
       [this](LoadArchive& archive) { archive(this->Statistics); });
-    this->Statistics.Resumed ? this->endPhase("resume") : void();
+    if (this->Statistics.Resumed)
+    {
+      this->endPhase("resume");
+    }
     return this->Statistics.Resumed;
   }
 

@@ -50,7 +50,10 @@ public:
     : OutOfCoreRun(points, path, options, identityOf(points, options), ranks)
     , Setup(options)
   {
-    options.CountOnly ? void() : requireFolderName(path);
+    if (!options.CountOnly)
+    {
+      requireFolderName(path);
+    }
     this->Setup.Mesh.Path = options.CountOnly ? "" : this->Pending.temporaryPath();
     this->Setup.Results = this->Scratch.results();
   }

@@ -51,7 +51,10 @@ PieceSegments::PieceSegments(const std::string& file, const PiecePlan& plan, dou
     [&](const ConstraintSegment& segment)
     {
       const Row row{ segment, name++ };
-      segment.Role != SegmentRole::Line ? cutting.push_back(segment) : void();
+      if (segment.Role != SegmentRole::Line)
+      {
+        cutting.push_back(segment);
+      }
       if (segment.Role == SegmentRole::Hole)
       {
         return; // a hole's outline is no edge of the triangulation
@@ -59,12 +62,22 @@ PieceSegments::PieceSegments(const std::string& file, const PiecePlan& plan, dou
       const Point2 a{ segment.A.x * factor, segment.A.y * factor };
       const Point2 b{ segment.B.x * factor, segment.B.y * factor };
       plan.Pieces.visitNear(boxOf(a, b),
-        [&](PartitionIndex piece) {
-          lineMayMeet(a, b, plan.Pieces.box(piece)) ? rows.push_back({ row, piece }) : void();
+        [&](PartitionIndex piece)
+        {
+          if (lineMayMeet(a, b, plan.Pieces.box(piece)))
+          {
+            rows.push_back({ row, piece });
+          }
         });
-      rows.size() >= most ? writeRows() : void();
+      if (rows.size() >= most)
+      {
+        writeRows();
+      }
     });
-  rows.empty() ? void() : writeRows();
+  if (!rows.empty())
+  {
+    writeRows();
+  }
   this->Rows = std::make_unique<Spill>(
     pathOf(file), pieces, sizeof(Row), std::vector<SpilledRows>{ spill.close() });
   this->Cutting = ConstraintSegments(cutting);

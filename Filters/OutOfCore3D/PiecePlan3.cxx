@@ -138,7 +138,10 @@ PiecePlan3::PiecePlan3(PointStream& points, const MemoryPlan3& memory, const Pro
           continue;
         }
         bounds.include(p);
-        dimension.dimension() < 3 ? dimension.add(p) : void();
+        if (dimension.dimension() < 3)
+        {
+          dimension.add(p);
+        }
       }
       survey.Points += std::int64_t(view.size());
       progress(survey.Points);

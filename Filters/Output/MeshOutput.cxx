@@ -245,7 +245,10 @@ public:
       });
     output->SetPoints(points);
     data->SetGlobalIds(ids);
-    this->Others ? void(data->AddArray(ghost)) : void();
+    if (this->Others)
+    {
+      data->AddArray(ghost);
+    }
   }
 
   /// Sets the global ids of the cells of `output` and, with ghosts, vtkGhostType. The first

@@ -220,7 +220,14 @@ void fillStatisticsTable(const RunStatistics& statistics, vtkTable* table)
       return;
     }
     const vtkSmartPointer<vtkAbstractArray> array = arrayOf(figures);
-    isColumn ? table->AddColumn(array) : void(totals->AddArray(array));
+    if (isColumn)
+    {
+      table->AddColumn(array);
+    }
+    else
+    {
+      totals->AddArray(array);
+    }
   };
   for (const Figures& total : statistics.Totals)
   {

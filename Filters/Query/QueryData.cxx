@@ -97,7 +97,10 @@ vtkSmartPointer<vtkPolyData> linesOf(
     {
       lines->InsertCellPoint(at);
     }
-    repeatsFirst ? lines->InsertCellPoint(starts[i]) : void();
+    if (repeatsFirst)
+    {
+      lines->InsertCellPoint(starts[i]);
+    }
   }
   auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(pointsOf(positions));

@@ -34,7 +34,10 @@ vtkBoundingBox boxOf(const std::vector<vtkPointSet*>& meshes, const std::vector<
     if (allPointsFinite(mesh))
     {
       // Without points VTK's bounds are from 1 to -1.
-      mesh->GetNumberOfPoints() > 0 ? box.AddBounds(mesh->GetBounds()) : void();
+      if (mesh->GetNumberOfPoints() > 0)
+      {
+        box.AddBounds(mesh->GetBounds());
+      }
       continue;
     }
     for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)

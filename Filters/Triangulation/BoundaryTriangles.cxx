@@ -167,7 +167,10 @@ std::vector<std::size_t> chooseInitialPoints(
   {
     for (const std::size_t i : findOutmost(points, count))
     {
-      isChosen(i) ? void() : chosen.push_back(i);
+      if (!isChosen(i))
+      {
+        chosen.push_back(i);
+      }
     }
   }
   const std::size_t spaced = wanted - chosen.size();

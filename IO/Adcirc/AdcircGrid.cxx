@@ -108,7 +108,10 @@ public:
     {
       this->Grid.Boundaries.append(line) += '\n';
     }
-    this->Wanted == Contents::Boundaries ? this->readBoundaries() : void();
+    if (this->Wanted == Contents::Boundaries)
+    {
+      this->readBoundaries();
+    }
     return std::move(this->Grid);
   }
 
@@ -252,7 +255,10 @@ private:
       for (std::int64_t corner = 0; corner < corners; ++corner)
       {
         const std::int64_t node = this->node(std::size_t(2 + corner));
-        needsTriangle ? this->Grid.Triangles.push_back(node) : void();
+        if (needsTriangle)
+        {
+          this->Grid.Triangles.push_back(node);
+        }
       }
     }
   }

@@ -61,7 +61,10 @@ void ListDirectedRows::next(std::size_t fields, const char* what)
     std::string_view line;
     if (!this->Lines.next(line))
     {
-      before > 0 ? failShort() : void();
+      if (before > 0)
+      {
+        failShort();
+      }
       this->RowLine = this->Lines.lineNumber();
       this->fail(std::string("the file ends before ") + what + "; copy it again.");
     }
@@ -88,7 +91,10 @@ void ListDirectedRows::addLine(std::string_view line)
     }
     else if (c == ',')
     {
-      this->ExpectsValue ? this->addValues(1, {}) : void();
+      if (this->ExpectsValue)
+      {
+        this->addValues(1, {});
+      }
       this->ExpectsValue = true;
     }
     else if (separators.find(c) == std::string_view::npos)

@@ -232,7 +232,13 @@ ConstraintTable readVectorFile(const std::string& path)
 {
   VectorEdges edges;
   forFeatures(path,
-    [&edges](OGRFeatureH, OGRGeometryH geometry) { geometry ? edges.add(geometry) : void(); });
+    [&edges](OGRFeatureH, OGRGeometryH geometry)
+    {
+      if (geometry)
+      {
+        edges.add(geometry);
+      }
+    });
   return edges.take();
 }
 
@@ -305,7 +311,10 @@ bool SegmentRows::next(ConstraintTable& table, std::size_t most)
   PointBlock block;
   if (!this->Rows->next(block, most))
   {
-    this->IsEmpty ? refuseWithoutLines(this->Path) : void();
+    if (this->IsEmpty)
+    {
+      refuseWithoutLines(this->Path);
+    }
     return false;
   }
   this->IsEmpty = false;

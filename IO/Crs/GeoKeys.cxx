@@ -68,7 +68,10 @@ GeoKeys::GeoKeys(const CrsRecords& records)
       : entry[0] == 4096               ? &this->Heights
       : entry[0] == 4099               ? &this->UnitOfHeights
                                        : nullptr;
-    slot ? void(*slot = entry[3]) : void();
+    if (slot)
+    {
+      *slot = entry[3];
+    }
   }
 }
 

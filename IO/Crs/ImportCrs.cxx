@@ -204,7 +204,10 @@ GdalReference importGeoKeys(const CrsRecords& records)
                      int tag, TiffField::Type type, std::size_t size, const std::string& bytes)
   {
     const std::string whole = bytes.substr(0, bytes.size() - bytes.size() % size);
-    whole.empty() ? void() : tiff.add(tag, type, whole);
+    if (!whole.empty())
+    {
+      tiff.add(tag, type, whole);
+    }
   };
   add(directory, TiffField::Type::Short, sizeof(std::uint16_t), records.Keys);
   add(doubles, TiffField::Type::Double, sizeof(double), records.Doubles);
@@ -226,7 +229,10 @@ GdalReference importGeoKeys(const CrsRecords& records)
     system.reset(found && gdal().OSRIsLocal(found) == 0 ? gdal().OSRClone(found) : nullptr);
   }
   gdal().VSIUnlink(path);
-  system ? void(gdal().OSRStripVertical(system.get())) : void();
+  if (system)
+  {
+    gdal().OSRStripVertical(system.get());
+  }
   return system;
 }
 

@@ -162,7 +162,10 @@ EndedPaths endTemporaryPaths()
   for (const auto& [path, use] : listed().Paths)
   {
     ended.HasKept = ended.HasKept || use.IsKept;
-    use.IsKept ? void() : removePath(path);
+    if (!use.IsKept)
+    {
+      removePath(path);
+    }
   }
   return ended;
 }

@@ -6,10 +6,12 @@
 #include "Files/OutputFile.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -294,8 +296,55 @@ std::string_view trimField(std::string_view field)
   return field;
 }
 
+namespace
+{
+
+/// Parses a number of digits and at most one decimal point, up to 2^53 without the point. Such a
+/// number is a quotient of two integers that doubles hold, and division rounds correctly: Clinger,
+/// How to read floating point numbers accurately, 1990. Returns false for all other fields.
+bool parseShortNumber(std::string_view field, double& value)
+{
+  constexpr std::size_t mostDigits = 15; // 10^15 < 2^53
+  constexpr std::array<double, mostDigits + 1> powers = { 1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7,
+    1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15 };
+  const bool isNegative = !field.empty() && field.front() == '-';
+  field.remove_prefix(isNegative ? 1 : 0);
+  if (field.empty() || field.size() > mostDigits + 1)
+  {
+    return false;
+  }
+  std::uint64_t number = 0;
+  std::size_t digits = 0;
+  std::size_t afterPoint = 0; // the point itself is counted
+  for (const char c : field)
+  {
+    const unsigned digit = static_cast<unsigned char>(c) - unsigned('0');
+    if (digit > 9 && (c != '.' || afterPoint > 0))
+    {
+      return false;
+    }
+    const bool isDigit = digit <= 9;
+    number = isDigit ? 10 * number + digit : number;
+    digits += isDigit ? 1 : 0;
+    afterPoint += !isDigit || afterPoint > 0 ? 1 : 0;
+  }
+  if (digits == 0 || digits > mostDigits)
+  {
+    return false;
+  }
+  const double quotient = double(number) / powers[afterPoint > 0 ? afterPoint - 1 : 0];
+  value = isNegative ? -quotient : quotient;
+  return true;
+}
+
+} // namespace
+
 bool parseNumber(std::string_view field, double& value)
 {
+  if (parseShortNumber(field, value))
+  {
+    return true;
+  }
   field = trimField(field);
   if (field.size() > 1 && field[0] == '+' && field[1] != '-')
   {

@@ -260,7 +260,10 @@ public:
   {
     for (const char c : text)
     {
-      isSpace(c) ? void() : this->add(c);
+      if (!isSpace(c))
+      {
+        this->add(c);
+      }
     }
   }
 

@@ -178,7 +178,10 @@ vtkSmartPointer<Array> takeOver(Buffer<char>&& buffer, const vtkSmartPointer<Arr
   array->SetNumberOfComponents(components);
   array->SetVoidArray(
     buffer.release(), vtkIdType(tuples) * components, 0, vtkAbstractArray::VTK_DATA_ARRAY_FREE);
-  name.empty() ? void() : array->SetName(name.c_str());
+  if (!name.empty())
+  {
+    array->SetName(name.c_str());
+  }
   return array;
 }
 

@@ -454,7 +454,10 @@ PartitionedMesh openPartitionedMesh(const std::string& path)
       {
         throw;
       }
-      triesLeft == 0 ? failReplaced(path) : void();
+      if (triesLeft == 0)
+      {
+        failReplaced(path);
+      }
     }
   }
 }

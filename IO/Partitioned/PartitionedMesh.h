@@ -130,7 +130,10 @@ auto readUnchanged(const PartitionedMesh& mesh, const Read& read)
   }
   catch (const IOError&)
   {
-    wasReplaced(mesh) ? failReplaced(mesh.Path) : void();
+    if (wasReplaced(mesh))
+    {
+      failReplaced(mesh.Path);
+    }
     throw;
   }
 }

@@ -269,7 +269,10 @@ void OrderedBorder::addCell(int group, CellCorners corners)
       }
     }
     std::sort(corners.begin(), corners.end());
-    isOdd ? std::swap(corners[2], corners[3]) : void();
+    if (isOdd)
+    {
+      std::swap(corners[2], corners[3]);
+    }
   }
   this->Cells.push_back({ group, corners });
 }

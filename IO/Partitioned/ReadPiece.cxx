@@ -312,7 +312,10 @@ public:
     if (!this->Result.IsStopped)
     {
       this->readAttributes();
-      this->Borrowed ? this->Borrowed->addIds(this->Result) : void();
+      if (this->Borrowed)
+      {
+        this->Borrowed->addIds(this->Result);
+      }
     }
     this->Result.BytesRead =
       this->File.bytesRead() + (this->Borrowed ? this->Borrowed->bytesRead() : 0);

@@ -87,7 +87,10 @@ vtkSmartPointer<vtkDataSet> gatherDataSets(
   {
     return unite(sets);
   }
-  sets.empty() ? sets.push_back(vtkSmartPointer<vtkUnstructuredGrid>::New()) : void();
+  if (sets.empty())
+  {
+    sets.push_back(vtkSmartPointer<vtkUnstructuredGrid>::New());
+  }
   const vtkSmartPointer<vtkDataSet> mine = unite(sets);
   std::vector<vtkSmartPointer<vtkDataObject>> all;
   controller->Gather(mine, all, 0);

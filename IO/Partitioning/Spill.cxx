@@ -285,7 +285,10 @@ void RowFile::append(const void* row)
 {
   appendBytes(row, this->RowBytes, this->Buffer);
   ++this->Count;
-  this->Buffer.size() >= rowBufferBytes ? this->flush() : void();
+  if (this->Buffer.size() >= rowBufferBytes)
+  {
+    this->flush();
+  }
 }
 
 void RowFile::flush()
@@ -319,7 +322,10 @@ void KeyedRows::add(std::size_t key, const void* row)
 {
   this->BufferedKeys.push_back(std::uint32_t(key));
   appendBytes(row, this->Rows.rowBytes(), this->Buffer);
-  this->Buffer.size() >= rowBufferBytes ? this->flush() : void();
+  if (this->Buffer.size() >= rowBufferBytes)
+  {
+    this->flush();
+  }
 }
 
 void KeyedRows::flush()

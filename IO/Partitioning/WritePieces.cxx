@@ -333,7 +333,10 @@ private:
         this->appendArray(rows, arrays[a], areGhosts, to);
       }
     }
-    ofPoints && !areGhosts ? this->extendBounds(rows) : void();
+    if (ofPoints && !areGhosts)
+    {
+      this->extendBounds(rows);
+    }
     this->CellsWritten += ofPoints ? 0 : std::int64_t(rows.size());
   }
 

@@ -60,7 +60,10 @@ public:
     this->requireSameColumns();
     this->Crs = options.Crs;
     this->AnyCrs = options.AnyCrs;
-    options.Crs.empty() && paths.size() > 1 ? this->compareCrs() : void();
+    if (options.Crs.empty() && paths.size() > 1)
+    {
+      this->compareCrs();
+    }
   }
 
   explicit FileSequence(std::unique_ptr<FilePoints> table)
@@ -79,7 +82,10 @@ public:
       if (this->Files[this->At]->next(block, std::size_t(std::min<std::uint64_t>(most, left))))
       {
         this->finishColumns(block);
-        this->Wrap > 0 ? wrapLongitudes(this->Paths[this->At], this->Wrap, block.XY) : void();
+        if (this->Wrap > 0)
+        {
+          wrapLongitudes(this->Paths[this->At], this->Wrap, block.XY);
+        }
         block.First = this->Points;
         this->Points += std::int64_t(block.size());
         return true;

@@ -93,7 +93,10 @@ ColumnChoice chooseByName(
     {
       return requireCoordinates(names);
     }
-    options.Z.empty() ? findHeights(names, choice) : void();
+    if (options.Z.empty())
+    {
+      findHeights(names, choice);
+    }
     return choice;
   }
   catch (const std::invalid_argument& error)
@@ -114,7 +117,12 @@ ColumnChoice chooseColumns(const std::string& path, const std::vector<std::strin
   ColumnChoice choice =
     options.AsIs || names.empty() ? ColumnChoice() : chooseByName(path, names, options);
   const auto take = [&](const std::string& wanted, auto& column)
-  { wanted.empty() ? void() : void(column = resolve(path, wanted, names, count)); };
+  {
+    if (!wanted.empty())
+    {
+      column = resolve(path, wanted, names, count);
+    }
+  };
   take(options.X, choice.X);
   take(options.Y, choice.Y);
   const std::size_t next = std::max(choice.X, choice.Y) + 1;
@@ -271,7 +279,10 @@ public:
 
   void rewind() override
   {
-    this->Load ? this->Table.reset() : void();
+    if (this->Load)
+    {
+      this->Table.reset();
+    }
     this->At = 0;
   }
 

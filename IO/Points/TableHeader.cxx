@@ -84,7 +84,10 @@ void addSplits(std::string_view line, char delimiter, std::vector<Names>& splits
     }
     splits.push_back(candidate == ' ' ? withUnitsJoined(names) : names);
   }
-  areListed ? void() : splits.push_back(splitAtGaps(line));
+  if (!areListed)
+  {
+    splits.push_back(splitAtGaps(line));
+  }
 }
 
 /// The ways to split a header, the likeliest ones first.

@@ -187,7 +187,10 @@ void TableRows::fitRow()
 {
   const std::size_t fields = this->Row.size();
   const std::string_view bare = withoutTrailingComment(this->Line);
-  bare.size() < this->Line.size() ? this->split(bare) : void();
+  if (bare.size() < this->Line.size())
+  {
+    this->split(bare);
+  }
   if (this->fits())
   {
     return;
@@ -331,7 +334,10 @@ void TableRows::cutTrailingComment()
   {
     const std::ptrdiff_t numbers = this->count(FieldKind::Number);
     this->split(bare);
-    this->count(FieldKind::Number) < numbers ? this->split() : void();
+    if (this->count(FieldKind::Number) < numbers)
+    {
+      this->split();
+    }
   }
 }
 

@@ -168,7 +168,10 @@ public:
   void add(PointNumberTest& test)
   {
     double height = 0;
-    this->Width > 2 ? void(this->parse(2, height)) : void();
+    if (this->Width > 2)
+    {
+      this->parse(2, height);
+    }
     test.add(this->Row, height, this->Parser);
   }
 

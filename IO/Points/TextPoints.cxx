@@ -66,7 +66,10 @@ public:
 private:
   void keep(double value, std::vector<double>& values) const
   {
-    this->KeepsValues ? values.push_back(value) : void();
+    if (this->KeepsValues)
+    {
+      values.push_back(value);
+    }
   }
 
   void readRows()
@@ -83,7 +86,14 @@ private:
         }
         double value = 0;
         const FieldKind kind = this->Rows.value(column.Column, value);
-        kind == FieldKind::Number ? void(++column.Numbers) : this->note(kind, column);
+        if (kind == FieldKind::Number)
+        {
+          ++column.Numbers;
+        }
+        else
+        {
+          this->note(kind, column);
+        }
         if (column.IsHeight && std::fabs(value) >= leastMark && isNoDataMark(value) &&
           value != this->Options.NoData)
         {
@@ -92,7 +102,10 @@ private:
         this->keep(value, column.Values);
       }
       this->Rows.requireOneKindOfDecimals();
-      test ? this->Rows.add(*test) : void();
+      if (test)
+      {
+        this->Rows.add(*test);
+      }
     }
     if (test && test->holdsNumbers())
     {
@@ -159,7 +172,10 @@ private:
     for (SurveyedColumn& column : this->Columns)
     {
       const bool areFew = 2 * column.Texts <= column.Numbers;
-      column.Texts > 0 && !areFew && !column.IsText ? this->setText(column) : void();
+      if (column.Texts > 0 && !areFew && !column.IsText)
+      {
+        this->setText(column);
+      }
     }
     this->report();
     this->Columns.erase(std::remove_if(this->Columns.begin(), this->Columns.end(),
@@ -208,9 +224,11 @@ private:
     }
     for (const std::string& name : this->Rows.changedNames())
     {
-      name.empty() ? void()
-                   : this->remark("several columns are named '" + shownText(name) +
-                       "'; the later ones get _2, _3 and so on.");
+      if (!name.empty())
+      {
+        this->remark("several columns are named '" + shownText(name) +
+          "'; the later ones get _2, _3 and so on.");
+      }
     }
     for (const SurveyedColumn& column : this->Columns)
     {

@@ -67,7 +67,10 @@ public:
   {
     for (const Candidate& slot : this->Slots)
     {
-      slot.Id >= 0 ? visit(slot.Id) : void();
+      if (slot.Id >= 0)
+      {
+        visit(slot.Id);
+      }
     }
   }
 

@@ -259,9 +259,10 @@ private:
     if (!this->answerInOnePass(part, asked, threads))
     {
       std::optional<CellLocator> locator;
-      asked.Count > part.Mesh.Cells / cellsPerPoint
-        ? void(locator.emplace(part.Mesh, part.CellIds, threads))
-        : void();
+      if (asked.Count > part.Mesh.Cells / cellsPerPoint)
+      {
+        locator.emplace(part.Mesh, part.CellIds, threads);
+      }
       locatePoints(part.Mesh, part.CellIds, locator ? &*locator : nullptr, asked, threads,
         this->taking(part, asked));
     }
@@ -314,7 +315,10 @@ PieceGroups groupByPiece(const std::vector<std::int32_t>& pieces)
   PieceGroups result;
   for (std::size_t p = 0; p < count; ++p)
   {
-    ends[p + 1] > ends[p] ? result.Groups.push_back({ p, ends[p], ends[p + 1] }) : void();
+    if (ends[p + 1] > ends[p])
+    {
+      result.Groups.push_back({ p, ends[p], ends[p + 1] });
+    }
   }
   result.Items.resize(std::size_t(ends[count]));
   for (std::size_t i = 0; i < pieces.size(); ++i)

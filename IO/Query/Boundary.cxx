@@ -73,7 +73,10 @@ private:
       p[i] = flat(positionOf(this->Part, this->Topology.corner(cell, i)));
       turned[i] = i;
     }
-    orientation(p[0], p[1], p[2]) < 0 ? std::swap(turned[1], turned[2]) : void();
+    if (orientation(p[0], p[1], p[2]) < 0)
+    {
+      std::swap(turned[1], turned[2]);
+    }
   }
 
   /// Goes around `point`, from the cell's border edge that ends there to the border edge that
@@ -155,7 +158,10 @@ std::vector<BorderEdge> borderIn(
       PieceBorderEdges border(*piece.Part, *piece.Topology, edges);
       for (std::int64_t point = 0; point < piece.Part->Mesh.PointCount; ++point)
       {
-        piece.Part->owns(point) ? border.add(point) : void();
+        if (piece.Part->owns(point))
+        {
+          border.add(point);
+        }
       }
     });
   return edges;

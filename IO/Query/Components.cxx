@@ -145,7 +145,10 @@ OpenFace faceOf(const MeshPart& part, const PartTopology& topology, std::int64_t
   std::size_t count = 0;
   for (int i = 0; i < topology.corners(); ++i)
   {
-    i != opposite ? void(face[count++] = part.pointId(topology.corner(cell, i))) : void();
+    if (i != opposite)
+    {
+      face[count++] = part.pointId(topology.corner(cell, i));
+    }
   }
   std::sort(face.begin(), face.end() - 1);
   return face;
@@ -200,7 +203,10 @@ Components componentsOf(const ResidentMesh& mesh, Communicator* ranks)
         for (std::int64_t cell = 0; cell < piece.Part->OwnedCells; ++cell)
         {
           pollAt(cell);
-          piece.Part->isHidden(cell) ? void() : work(*piece.Part, *piece.Topology, cell);
+          if (!piece.Part->isHidden(cell))
+          {
+            work(*piece.Part, *piece.Topology, cell);
+          }
         }
       });
   };
@@ -219,11 +225,17 @@ Components componentsOf(const ResidentMesh& mesh, Communicator* ranks)
           [&](std::int64_t other)
           {
             const bool isOwn = own.has(part.cellId(other));
-            isOwn ? own.join(part.cellId(cell), part.cellId(other)) : void();
+            if (isOwn)
+            {
+              own.join(part.cellId(cell), part.cellId(other));
+            }
             hasOwn = hasOwn || isOwn;
             hasForeign = hasForeign || !isOwn;
           });
-        !hasOwn || hasForeign ? open.push_back(faceOf(part, topology, cell, face)) : void();
+        if (!hasOwn || hasForeign)
+        {
+          open.push_back(faceOf(part, topology, cell, face));
+        }
       }
     });
   Ids roots;

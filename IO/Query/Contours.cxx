@@ -51,7 +51,10 @@ struct Corner
 /// bits.
 Point3 crossing(Corner a, Corner b, double level)
 {
-  b.Id < a.Id ? std::swap(a, b) : void();
+  if (b.Id < a.Id)
+  {
+    std::swap(a, b);
+  }
   return between(a.At, b.At, (level - a.Value) / (b.Value - a.Value));
 }
 
@@ -138,9 +141,10 @@ void addCells(const Access& access, const MeshPart& part, const double* values,
       corner.At = access.point(corner.Id);
       corner.Id = part.pointId(corner.Id);
     }
-    orientation(flat(corners[0].At), flat(corners[1].At), flat(corners[2].At)) < 0
-      ? std::swap(corners[1], corners[2])
-      : void();
+    if (orientation(flat(corners[0].At), flat(corners[1].At), flat(corners[2].At)) < 0)
+    {
+      std::swap(corners[1], corners[2]);
+    }
     addSegments(corners, first, last, high, segments);
   }
 }
@@ -161,7 +165,10 @@ public:
     {
       const std::size_t next = this->after(segment);
       this->Next.push_back(next);
-      next < this->Segments.size() ? void(this->HasBefore[next] = 1) : void();
+      if (next < this->Segments.size())
+      {
+        this->HasBefore[next] = 1;
+      }
     }
   }
 
@@ -180,9 +187,10 @@ public:
       {
         for (std::size_t i = begin; i < end; ++i)
         {
-          !this->IsUsed[i] && (!isOpen || !this->HasBefore[i])
-            ? this->follow(i, levels[std::size_t(this->Segments[i].Level)], lines)
-            : void();
+          if (!this->IsUsed[i] && (!isOpen || !this->HasBefore[i]))
+          {
+            this->follow(i, levels[std::size_t(this->Segments[i].Level)], lines);
+          }
         }
       }
       begin = end;
@@ -212,9 +220,10 @@ private:
     {
       this->IsUsed[at] = 1;
       // If a point of the mesh has exactly the level's value, several edges are crossed there.
-      lines.Points.back() == this->Segments[at].End
-        ? void()
-        : lines.Points.push_back(this->Segments[at].End);
+      if (!(lines.Points.back() == this->Segments[at].End))
+      {
+        lines.Points.push_back(this->Segments[at].End);
+      }
     }
     if (lines.Points.size() < begin + 2)
     {
@@ -324,7 +333,10 @@ std::pair<double, double> rangeOf(
         range = { std::min(range[0], low), std::min(range[1], -high) };
       });
   }
-  areSeveral(ranks) ? ranks->minimum(range) : void();
+  if (areSeveral(ranks))
+  {
+    ranks->minimum(range);
+  }
   return { range[0], -range[1] };
 }
 

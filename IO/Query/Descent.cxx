@@ -170,7 +170,10 @@ private:
   static void toEdge(
     Walk& walk, const Slope& slope, Point3 from, SlopeCorner a, SlopeCorner b, bool isFirst = false)
   {
-    b.Id < a.Id ? std::swap(a, b) : void();
+    if (b.Id < a.Id)
+    {
+      std::swap(a, b);
+    }
     const double ofA = std::fabs(turn(slope.Down, apart(a.At, from)));
     const double ofB = std::fabs(turn(slope.Down, apart(b.At, from)));
     const double share = ofA + ofB > 0 ? ofA / (ofA + ofB) : 0;
@@ -404,7 +407,10 @@ void follow(const ResidentMesh& mesh, const std::string& array, int component,
           Walk& walk = walks[std::size_t(groups.Items[std::size_t(i)])];
           const std::size_t before = walk.Points.size();
           descent.follow(walk);
-          walk.Cell >= 0 && walk.Points.size() == before ? mesh.refuseId(walk.Low, true) : void();
+          if (walk.Cell >= 0 && walk.Points.size() == before)
+          {
+            mesh.refuseId(walk.Low, true);
+          }
         }
       });
   }
@@ -485,7 +491,10 @@ Descents descentsOf(const ResidentMesh& mesh, const std::vector<Point3>& points,
     walks[i].Cell = cells[i];
     walks[i].At = walks[i].OfLow = { points[i].x, points[i].y, 0 };
   }
-  ranks ? void() : follow(mesh, array, component, piecesOfRank(nullptr, mesh), walks);
+  if (!ranks)
+  {
+    follow(mesh, array, component, piecesOfRank(nullptr, mesh), walks);
+  }
   while (ranks && followOnRanks(*ranks, mesh, array, component, walks))
   {
   }

@@ -149,7 +149,10 @@ void forCells(const ResidentMesh& mesh, std::pair<std::size_t, std::size_t> piec
   std::vector<std::size_t> wanted;
   for (std::size_t i = pieces.first; i < pieces.second; ++i)
   {
-    !mesh.isStored() || wants(mesh.mesh().Pieces[i].Box) ? wanted.push_back(i) : void();
+    if (!mesh.isStored() || wants(mesh.mesh().Pieces[i].Box))
+    {
+      wanted.push_back(i);
+    }
   }
   sharePieces(mesh, wanted.size(),
     [&](std::size_t i, int threads)

@@ -65,7 +65,10 @@ void addLine(OGRLayerH layer, const Contours& contours, std::size_t line, const 
   gdal().OGR_F_SetGeometryDirectly(feature, geometry);
   const bool isAdded = gdal().OGR_L_CreateFeature(layer, feature) == OGRERR_NONE;
   gdal().OGR_F_Destroy(feature);
-  isAdded ? void() : refusePackage(path);
+  if (!isAdded)
+  {
+    refusePackage(path);
+  }
 }
 
 void makePackage(const Contours& contours, const std::string& array, const std::string& crs,
@@ -96,7 +99,10 @@ void makePackage(const Contours& contours, const std::string& array, const std::
   {
     addLine(layer, contours, line, path);
   }
-  gdal().GDALDatasetCommitTransaction(data.get()) == OGRERR_NONE ? void() : refusePackage(path);
+  if (gdal().GDALDatasetCommitTransaction(data.get()) != OGRERR_NONE)
+  {
+    refusePackage(path);
+  }
 }
 
 } // namespace
@@ -119,7 +125,10 @@ std::vector<NamedZone> readZones(const std::string& path, const std::string& fie
         }
         zone.Name = gdal().OGR_F_GetFieldAsString(feature, column);
       }
-      geometry ? addPolygons(geometry, zone.Polygons) : void();
+      if (geometry)
+      {
+        addPolygons(geometry, zone.Polygons);
+      }
       hasPolygons = hasPolygons || !zone.Polygons.empty();
       zones.push_back(zone);
     });

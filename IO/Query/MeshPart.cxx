@@ -179,7 +179,10 @@ PartTopology::PartTopology(const MeshPart& part)
         {
           isRepeated = isRepeated || this->corner(cell, k) == point;
         }
-        isRepeated ? void() : work(std::size_t(point), cell);
+        if (!isRepeated)
+        {
+          work(std::size_t(point), cell);
+        }
       }
     }
   };

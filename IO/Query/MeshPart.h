@@ -168,7 +168,10 @@ public:
     int count = 0;
     for (int i = 0; i < this->corners(); ++i)
     {
-      i != face ? void(corners[count++] = this->corner(cell, i)) : void();
+      if (i != face)
+      {
+        corners[count++] = this->corner(cell, i);
+      }
     }
     for (const std::int32_t other : this->cellsAt(corners[0]))
     {

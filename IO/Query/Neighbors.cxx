@@ -111,7 +111,10 @@ Ids computedNeighbors(const ResidentMesh& mesh, const PieceGroups& groups, const
           {
             const std::int64_t point = topology.corner(cell, k);
             isComplete = isComplete || (k != face && part.owns(point));
-            k != face ? void(other.Points[std::size_t(count++)] = part.pointId(point)) : void();
+            if (k != face)
+            {
+              other.Points[std::size_t(count++)] = part.pointId(point);
+            }
           }
           if (isComplete)
           {
@@ -125,7 +128,10 @@ Ids computedNeighbors(const ResidentMesh& mesh, const PieceGroups& groups, const
         }
       }
     });
-  mesh.isTrueOnAnyRank(!shared.empty()) ? findAcrossShared(mesh, shared, result) : void();
+  if (mesh.isTrueOnAnyRank(!shared.empty()))
+  {
+    findAcrossShared(mesh, shared, result);
+  }
   return result;
 }
 

@@ -112,9 +112,11 @@ public:
       const CellCorner& a = corners[(face + 1) % 4];
       const CellCorner& b = corners[(face + 2) % 4];
       const CellCorner& c = corners[(face + 3) % 4];
-      orientation3(a.At, b.At, c.At, this->Begin) * orientation3(a.At, b.At, c.At, this->End) < 0
-        ? this->addFace(a, b, c)
-        : void();
+      if (orientation3(a.At, b.At, c.At, this->Begin) * orientation3(a.At, b.At, c.At, this->End) <
+        0)
+      {
+        this->addFace(a, b, c);
+      }
     }
   }
 
@@ -158,7 +160,10 @@ private:
   /// cells at the edge compute the same bits.
   void addEdge(CellCorner a, CellCorner b)
   {
-    b.Id < a.Id ? std::swap(a, b) : void();
+    if (b.Id < a.Id)
+    {
+      std::swap(a, b);
+    }
     const Point3 ofA = cross(this->Along, a.At - this->Begin);
     const Point3 ofB = cross(this->Along, b.At - this->Begin);
     const double distanceA = std::sqrt(dot(ofA, ofA));
@@ -173,9 +178,18 @@ private:
   /// The ends of the segment are on different sides of the face's plane.
   void addFace(CellCorner a, CellCorner b, CellCorner c)
   {
-    b.Id < a.Id ? std::swap(a, b) : void();
-    c.Id < b.Id ? std::swap(b, c) : void();
-    b.Id < a.Id ? std::swap(a, b) : void();
+    if (b.Id < a.Id)
+    {
+      std::swap(a, b);
+    }
+    if (c.Id < b.Id)
+    {
+      std::swap(b, c);
+    }
+    if (b.Id < a.Id)
+    {
+      std::swap(a, b);
+    }
     const int ofA = orientation3(this->Begin, this->End, b.At, c.At);
     const int ofB = orientation3(this->Begin, this->End, c.At, a.At);
     const int ofC = orientation3(this->Begin, this->End, a.At, b.At);
@@ -293,7 +307,10 @@ CrossingLists crossingsIn(const ResidentMesh& mesh, const std::vector<Point3>& p
         const bool isMet = !mesh.isStored() ||
           (inSpace ? tetrahedronMeetsBox(from, to, to, to, box)
                    : triangleMeetsBox(flat(from), flat(to), flat(to), box));
-        isMet ? met.push_back(s) : void();
+        if (isMet)
+        {
+          met.push_back(s);
+        }
       }
       if (met.empty())
       {
@@ -402,7 +419,10 @@ Profile profileOf(const ResidentMesh& mesh, const std::vector<Point3>& given, do
   for (const Point3& p : given)
   {
     const Point3 corner{ p.x, p.y, inSpace ? p.z : 0 };
-    polyline.empty() || !(polyline.back() == corner) ? polyline.push_back(corner) : void();
+    if (polyline.empty() || !(polyline.back() == corner))
+    {
+      polyline.push_back(corner);
+    }
   }
   requirePolyline(polyline, spacing);
   Profile profile;
@@ -427,8 +447,10 @@ Profile profileOf(const ResidentMesh& mesh, const std::vector<Point3>& given, do
         found.push_back(&crossing);
       }
     }
-    length > 0 && spacing > 0 ? addSamples(polyline[i], polyline[i + 1], before, spacing, profile)
-                              : void();
+    if (length > 0 && spacing > 0)
+    {
+      addSamples(polyline[i], polyline[i + 1], before, spacing, profile);
+    }
     before += length;
   }
   if (spacing > 0)

@@ -26,12 +26,17 @@ std::vector<std::vector<std::int64_t>> shareOut(const Communicator& communicator
     for (std::int64_t i = 0; i < count; ++i)
     {
       const std::int64_t piece = mesh.isStored() ? pieceOf[std::size_t(i)] : -1;
-      piece >= 0 ? work(rankOfPiece(communicator, mesh, piece), i) : void();
+      if (piece >= 0)
+      {
+        work(rankOfPiece(communicator, mesh, piece), i);
+      }
       for (std::size_t rank = 0; rank < parts.size() && !mesh.isStored(); ++rank)
       {
         const RankPart& part = parts[rank];
-        part.CellSize != 0 && holds(part.Domain, points[i], part.CellSize - 1) ? work(rank, i)
-                                                                               : void();
+        if (part.CellSize != 0 && holds(part.Domain, points[i], part.CellSize - 1))
+        {
+          work(rank, i);
+        }
       }
     }
   };
@@ -211,10 +216,14 @@ public:
       columns.push_back({ reinterpret_cast<const char*>(values) + first * width, width });
     };
     add(answer.Cells.data(), sizeof(std::int64_t));
-    this->HasKeys ? add(answer.Keys.data(), sizeof(CellKey)) : void();
-    this->Options.Weights
-      ? add(answer.Weights.data(), std::size_t(this->Common.CellSize) * sizeof(double))
-      : void();
+    if (this->HasKeys)
+    {
+      add(answer.Keys.data(), sizeof(CellKey));
+    }
+    if (this->Options.Weights)
+    {
+      add(answer.Weights.data(), std::size_t(this->Common.CellSize) * sizeof(double));
+    }
     for (const MeshAnswer::Array& array : answer.Arrays)
     {
       add(array.Values.data(), array.tupleBytes());
@@ -429,7 +438,10 @@ MeshAnswer answerOnRanks(Communicator& ranks, const ResidentMesh& mesh, const Po
   {
     merge(replies.OfRanks[rank], questions.Asked[rank], columns, answer);
   }
-  options.Keys ? void() : answer.Keys.clear();
+  if (!options.Keys)
+  {
+    answer.Keys.clear();
+  }
   return answer;
 }
 
@@ -466,7 +478,10 @@ StayingAnswer answerWhereCellsAre(Communicator& ranks, const ResidentMesh& mesh,
   {
     copyRows(from[k], kept, rows, const_cast<char*>(to[k].Values));
   }
-  options.Keys ? void() : result.Answer.Keys.clear();
+  if (!options.Keys)
+  {
+    result.Answer.Keys.clear();
+  }
   return result;
 }
 

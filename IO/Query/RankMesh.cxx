@@ -208,7 +208,10 @@ std::vector<std::uint8_t> sharingOf(
     {
       points.push_back(point);
       ids.push_back(part.pointId(point));
-      hasCells(point) ? withCells.push_back(ids.back()) : void();
+      if (hasCells(point))
+      {
+        withCells.push_back(ids.back());
+      }
     }
   }
   const std::vector<Holders> holders = IdDirectory(ranks, withCells).find(ranks, ids);
@@ -275,7 +278,10 @@ Shares sharesOf(Communicator& ranks, const ResidentMesh& mesh, const Ids& ids, b
         shares.Received[rank].push_back(id);
         shares.Pieces.push_back(std::int32_t(piece));
       }
-      rank == std::size_t(ranks.rank()) ? shares.Ranks.push_back(owner) : void();
+      if (rank == std::size_t(ranks.rank()))
+      {
+        shares.Ranks.push_back(owner);
+      }
     }
   }
   return shares;
@@ -289,7 +295,10 @@ Shares sharesOf(Communicator& ranks, const RankMesh& mesh, const Ids& ids, bool 
   std::vector<Ids> asked(std::size_t(ranks.size()));
   for (std::size_t i = 0; i < ids.size(); ++i)
   {
-    shares.Ranks[i] < 0 ? void() : asked[std::size_t(shares.Ranks[i])].push_back(ids[i]);
+    if (!(shares.Ranks[i] < 0))
+    {
+      asked[std::size_t(shares.Ranks[i])].push_back(ids[i]);
+    }
   }
   shares.Received = ranks.allToAll(asked);
   const Ids received = concatenated(shares.Received);
@@ -303,8 +312,10 @@ void refuseMissing(
   const ResidentMesh& mesh, const Ids& ids, bool ofPoints, const std::vector<std::int32_t>& owners)
 {
   const auto missing = std::find(owners.begin(), owners.end(), -1);
-  missing != owners.end() ? mesh.refuseId(ids[std::size_t(missing - owners.begin())], ofPoints)
-                          : void();
+  if (missing != owners.end())
+  {
+    mesh.refuseId(ids[std::size_t(missing - owners.begin())], ofPoints);
+  }
 }
 
 } // namespace
@@ -329,7 +340,10 @@ std::vector<std::int32_t> RankMesh::piecesAround(
     {
       const auto owner = this->Owners.find(points[i]);
       pieces[i] = owner != this->Owners.end() ? owner->second : -1;
-      pieces[i] < 0 ? missing.push_back(points[i]) : void();
+      if (pieces[i] < 0)
+      {
+        missing.push_back(points[i]);
+      }
     }
   }
   const std::int32_t added = this->addCellsAt(sortedUnique(std::move(missing)));
@@ -367,7 +381,10 @@ std::size_t RankMesh::addFirstShared() const
   Ids points;
   for (std::int64_t point = 0; point < part.Mesh.PointCount; ++point)
   {
-    part.Ghosts[point] == FirstShared ? points.push_back(part.pointId(point)) : void();
+    if (part.Ghosts[point] == FirstShared)
+    {
+      points.push_back(part.pointId(point));
+    }
   }
   return std::size_t(this->addCellsAt(sortedUnique(std::move(points)))) + 1;
 }
@@ -405,7 +422,10 @@ IdLists listsOf(const ResidentMesh& mesh, const Ids& ids, bool ofPoints, Communi
     return work(mesh, ids, pieces);
   }
   std::optional<RankMesh> inMemory;
-  mesh.isStored() ? void() : void(inMemory.emplace(*ranks, mesh));
+  if (!mesh.isStored())
+  {
+    inMemory.emplace(*ranks, mesh);
+  }
   const Shares shares =
     inMemory ? sharesOf(*ranks, *inMemory, ids, ofPoints) : sharesOf(*ranks, mesh, ids, ofPoints);
   refuseMissing(mesh, ids, ofPoints, shares.Ranks);

@@ -28,8 +28,14 @@ public:
   explicit PieceFinder(const PartitionedMesh& mesh)
     : Mesh(mesh)
   {
-    this->Mesh.CellSize == 3 ? void(this->Tree = this->make<2>())
-                             : void(this->Tree = this->make<3>());
+    if (this->Mesh.CellSize == 3)
+    {
+      this->Tree = this->make<2>();
+    }
+    else
+    {
+      this->Tree = this->make<3>();
+    }
   }
 
   /// The first piece whose closed box contains a point, or -1.
@@ -152,7 +158,10 @@ private:
       found =
         isFirst && boxOf<D>(this->Mesh.Pieces[std::size_t(piece)].Box).holds(at) ? piece : found;
     };
-    Box<D>::of(at).isEmpty() ? void() : tree.search(Box<D>::of(at), offer);
+    if (!Box<D>::of(at).isEmpty())
+    {
+      tree.search(Box<D>::of(at), offer);
+    }
     return found;
   }
 
@@ -256,7 +265,10 @@ std::vector<std::string> ResidentMesh::names() const
   std::unordered_set<std::string> known;
   for (const StoredArray& array : this->Mesh.Arrays)
   {
-    known.insert(array.Name).second ? names.push_back(array.Name) : void();
+    if (known.insert(array.Name).second)
+    {
+      names.push_back(array.Name);
+    }
   }
   if (this->Mesh.CellSize == 3 && known.count(elevation) == 0)
   {
@@ -451,7 +463,10 @@ std::vector<std::int32_t> ResidentMesh::piecesOfIds(
   const std::int64_t count = ofPoints ? this->Mesh.Points : this->Mesh.Cells;
   for (const std::int64_t id : ids)
   {
-    id < 0 || id >= count ? this->refuseId(id, ofPoints) : void();
+    if (id < 0 || id >= count)
+    {
+      this->refuseId(id, ofPoints);
+    }
   }
   return this->Finder->find(ids, ofPoints, threadCount(this->Options.Threads), first, end);
 }

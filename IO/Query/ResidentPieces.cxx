@@ -99,7 +99,10 @@ PieceNeeds ResidentPieces::needsWithin(
     return all;
   }
   const std::uint64_t bytes = this->BytesOf(number, needs);
-  bytes > this->Limit ? this->RefusePiece(number, bytes) : void();
+  if (bytes > this->Limit)
+  {
+    this->RefusePiece(number, bytes);
+  }
   this->Changed.wait(lock, [&slot] { return !slot.Loading && slot.Users == 0; });
   this->drop(slot);
   return needs;
@@ -130,7 +133,10 @@ bool ResidentPieces::dropOldest(const Slot& keep)
       oldest = &slot;
     }
   }
-  oldest ? this->drop(*oldest) : void();
+  if (oldest)
+  {
+    this->drop(*oldest);
+  }
   return oldest != nullptr;
 }
 

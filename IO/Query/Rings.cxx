@@ -113,7 +113,10 @@ private:
 
   void addPoint(std::int64_t point)
   {
-    this->KnownPoints.insert(point).IsNew ? this->Points.push_back(point) : void();
+    if (this->KnownPoints.insert(point).IsNew)
+    {
+      this->Points.push_back(point);
+    }
   }
 
   const MeshPart& Part;
@@ -259,7 +262,10 @@ private:
   void start(int k, const std::vector<std::int32_t>& pieces)
   {
     PieceGroups groups = groupByPiece(pieces);
-    this->Mesh.isStored() ? void() : this->sortSeeds(k, groups);
+    if (!this->Mesh.isStored())
+    {
+      this->sortSeeds(k, groups);
+    }
     std::vector<Reached> first;
     forPieces(this->Mesh, groups, topologyNeeded(),
       [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)
@@ -274,7 +280,10 @@ private:
         for (std::int64_t i = begin; i < end; ++i)
         {
           const std::int64_t at = (i - begin) % batch;
-          at == 0 ? this->findIndices(piece, groups, i, std::min(i + batch, end), indices) : void();
+          if (at == 0)
+          {
+            this->findIndices(piece, groups, i, std::min(i + batch, end), indices);
+          }
           const std::int64_t item = groups.Items[std::size_t(i)];
           corners.assign(1, indices[at]);
           if (!this->FromPoints)
@@ -315,7 +324,10 @@ private:
         ? indexOf(this->Mesh, *piece.Topology, this->Seeds[item], this->FromPoints)
         : this->Indices[item];
     }
-    this->FromPoints ? piece.Topology->prefetch(indices, end - begin) : void();
+    if (this->FromPoints)
+    {
+      piece.Topology->prefetch(indices, end - begin);
+    }
   }
 
   void take(const MeshPart& part, const LocalRing& ring, std::int64_t item, Finished& done) const
@@ -325,7 +337,10 @@ private:
     for (const std::int64_t index : this->ToCells ? ring.Cells : ring.Points)
     {
       const std::int64_t id = this->ToCells ? part.cellId(index) : part.pointId(index);
-      this->isListed(id, item) ? ids.push_back(id) : void();
+      if (this->isListed(id, item))
+      {
+        ids.push_back(id);
+      }
     }
     this->finish(item, begin, done);
   }

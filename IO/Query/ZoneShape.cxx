@@ -157,7 +157,10 @@ void ZoneShape::addRing(const ZoneRing& ring)
   std::vector<Point2> corners;
   for (const Point2 p : ring.Corners)
   {
-    corners.empty() || !(corners.back() == p) ? corners.push_back(p) : void();
+    if (corners.empty() || !(corners.back() == p))
+    {
+      corners.push_back(p);
+    }
   }
   while (corners.size() > 1 && corners.back() == corners.front())
   {
@@ -186,7 +189,10 @@ void ZoneShape::visitNear(const Box<2>& box, const Visit& visit) const
       [&](std::int32_t i)
       {
         const Edge& edge = this->Edges[std::size_t(i)];
-        meets(box, boxOf(edge.From, edge.To)) ? visit(edge) : void();
+        if (meets(box, boxOf(edge.From, edge.To)))
+        {
+          visit(edge);
+        }
       });
   }
 }
@@ -333,8 +339,14 @@ public:
   void addSide(int side, int winding)
   {
     this->addPart(this->corner(side), this->corner((side + 1) % 3), winding);
-    winding != 0 ? this->extend(this->Values[side]) : void();
-    winding - this->Jumps[side] != 0 ? this->extend(this->Values[(side + 1) % 3]) : void();
+    if (winding != 0)
+    {
+      this->extend(this->Values[side]);
+    }
+    if (winding - this->Jumps[side] != 0)
+    {
+      this->extend(this->Values[(side + 1) % 3]);
+    }
   }
 
   /// Adds the result to the integral, after all edges and sides.

@@ -213,18 +213,23 @@ private:
     const bool isInner = !box ||
       ((*box)[0] < extent.Low[0] && extent.High[0] < (*box)[1] && (*box)[2] < extent.Low[1] &&
         extent.High[1] < (*box)[3]);
-    extent.isEmpty() ? void()
-                     : this->Tree.search(extent,
-                         [&](std::int32_t z)
-                         {
-                           isRead ? void() : this->read(access, part, values, cell, given);
-                           isRead = true;
-                           Contribution found{ z, part.cellId(cell), {}, 0 };
-                           if (this->integrate(std::size_t(z), corners, given, found))
-                           {
-                             (isInner ? inner : shared).push_back(found);
-                           }
-                         });
+    if (!extent.isEmpty())
+    {
+      this->Tree.search(extent,
+        [&](std::int32_t z)
+        {
+          if (!isRead)
+          {
+            this->read(access, part, values, cell, given);
+          }
+          isRead = true;
+          Contribution found{ z, part.cellId(cell), {}, 0 };
+          if (this->integrate(std::size_t(z), corners, given, found))
+          {
+            (isInner ? inner : shared).push_back(found);
+          }
+        });
+    }
   }
 
   template <typename Access>
@@ -425,8 +430,10 @@ std::vector<std::int64_t> cellsIn(
           for (std::int64_t cell = begin; cell < end; ++cell)
           {
             access.corners(cell, corners);
-            !part.isHidden(cell) && test.has(corners, whole) ? own.push_back(part.cellId(cell))
-                                                             : void();
+            if (!part.isHidden(cell) && test.has(corners, whole))
+            {
+              own.push_back(part.cellId(cell));
+            }
           }
         });
       const std::lock_guard<std::mutex> lock(mutex);
@@ -452,7 +459,10 @@ std::vector<std::int64_t> pointsIn(
     const MeshPart& part = *piece->Part;
     for (std::int64_t point = 0; point < part.Mesh.PointCount; ++point)
     {
-      test.holds(positionOf(part, point)) ? ids.push_back(part.pointId(point)) : void();
+      if (test.holds(positionOf(part, point)))
+      {
+        ids.push_back(part.pointId(point));
+      }
     }
   }
   return sortedUnique(gathered(ranks, std::move(ids)));

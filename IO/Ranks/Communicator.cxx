@@ -356,7 +356,10 @@ void Communicator::receiveParts(const Arriving& arriving, const TakePart& takePa
     this->Transport->receive(Taken, part, arriving.Source, PartTag);
     try
     {
-      failure ? void() : takePart(arriving.Source, Taken, part);
+      if (!failure)
+      {
+        takePart(arriving.Source, Taken, part);
+      }
     }
     catch (...)
     {

@@ -196,8 +196,18 @@ EncodedTile::Band encodeBand(const RasterDescription& description, const RasterW
       if (!std::isnan(from[i]))
       {
         to[i] = T(from[i]);
-        std::isinf(to[i]) && sizeof(T) < sizeof(double) ? requireSingle(from[i], name) : void();
-        to[i] == noData ? void(band.Sums.Hidden += 1) : band.Sums.add(double(to[i]));
+        if (std::isinf(to[i]) && sizeof(T) < sizeof(double))
+        {
+          requireSingle(from[i], name);
+        }
+        if (to[i] == noData)
+        {
+          band.Sums.Hidden += 1;
+        }
+        else
+        {
+          band.Sums.add(double(to[i]));
+        }
       }
     }
   }
@@ -254,7 +264,10 @@ public:
 
   void close() override
   {
-    this->Description.CloudOptimized ? this->addOverviews() : void();
+    if (this->Description.CloudOptimized)
+    {
+      this->addOverviews();
+    }
     this->finish();
     if (this->Plain)
     {

@@ -40,7 +40,10 @@ TileSums sumsOf(const TilePixels& pixels, OverviewRule rule)
     }
     const bool isDirection = rule == OverviewRule::Direction;
     sums.X[i] = isDirection ? std::cos(degree * pixels[i]) : pixels[i];
-    isDirection ? void(sums.Y[i] = std::sin(degree * pixels[i])) : void();
+    if (isDirection)
+    {
+      sums.Y[i] = std::sin(degree * pixels[i]);
+    }
     sums.Count[i] = 1;
   }
   return sums;
@@ -62,7 +65,10 @@ void addQuarter(
       const std::size_t from = row * side + column;
       const std::size_t to = (down * side + row) / 2 * side + (right * side + column) / 2;
       sums.X[to] += below.X[from];
-      sums.Y.empty() ? void() : void(sums.Y[to] += below.Y[from]);
+      if (!sums.Y.empty())
+      {
+        sums.Y[to] += below.Y[from];
+      }
       sums.Count[to] += below.Count[from];
     }
   }

@@ -289,7 +289,10 @@ private:
   {
     for (std::int64_t cell = 0; cell < count; ++cell)
     {
-      types[cell] == VTK_POLYHEDRON ? this->checkFaces(grid, cell) : void();
+      if (types[cell] == VTK_POLYHEDRON)
+      {
+        this->checkFaces(grid, cell);
+      }
     }
   }
 
@@ -452,7 +455,10 @@ bool allPointsFinite(vtkDataSet* data, int threads)
     return true;
   }
   const bool finite = computeFinite(data, threads);
-  finite ? stamp.keep(data, finiteKey()) : void();
+  if (finite)
+  {
+    stamp.keep(data, finiteKey());
+  }
   return finite;
 }
 

@@ -62,7 +62,10 @@ std::vector<std::size_t> findColumns(const Strings& names)
   {
     const ColumnChoice choice = requireCoordinates(names);
     std::vector<std::size_t> columns = { choice.X, choice.Y };
-    choice.Z ? columns.push_back(*choice.Z) : void();
+    if (choice.Z)
+    {
+      columns.push_back(*choice.Z);
+    }
     return columns;
   }
   catch (const std::invalid_argument& error)

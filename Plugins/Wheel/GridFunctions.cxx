@@ -63,8 +63,14 @@ DemRequest requestOf(const nb::dict& options)
   request.Duplicates = static_cast<DuplicateRule>(of<int>(options, "duplicates"));
   auto lines = constraintsOf(options["breaklines"], readBreaklines);
   auto boundary = constraintsOf(options["boundary"], readBoundary);
-  lines&& of<bool>(options, "soft") ? lines->Height.clear() : void();
-  boundary ? requireClosedBoundary(*boundary) : void();
+  if (lines && of<bool>(options, "soft"))
+  {
+    lines->Height.clear();
+  }
+  if (boundary)
+  {
+    requireClosedBoundary(*boundary);
+  }
   constrain(request, std::move(lines), std::move(boundary));
   return request;
 }
@@ -251,7 +257,10 @@ nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
     [&]
     {
       result = resample(mesh, lattice, attributes, options);
-      surface ? repeatLayers(lattice, samples) : void();
+      if (surface)
+      {
+        repeatLayers(lattice, samples);
+      }
     });
   reporter.finish();
   nb::list arrays;

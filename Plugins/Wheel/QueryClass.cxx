@@ -232,7 +232,10 @@ private:
     for (const Point3& p : points)
     {
       coordinates.insert(coordinates.end(), { p.x, p.y });
-      columns == 3 ? coordinates.push_back(p.z) : void();
+      if (columns == 3)
+      {
+        coordinates.push_back(p.z);
+      }
     }
     return copyOf(coordinates, std::size_t(columns));
   }

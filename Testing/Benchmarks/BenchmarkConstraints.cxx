@@ -87,7 +87,10 @@ std::vector<Constraint> readSegments(const std::vector<double>& xy, const std::s
   std::vector<Constraint> segments;
   for (std::size_t i = 0; i < all.size(); ++i)
   {
-    crosses[i] ? void() : segments.push_back(all[i]);
+    if (!crosses[i])
+    {
+      segments.push_back(all[i]);
+    }
   }
   std::printf("%zu segments cross others and are left out\n", all.size() - segments.size());
   return segments;
@@ -111,8 +114,10 @@ void print(const std::string& name, const Measurement& best, bool tellsPhases)
   }
   for (const auto& phase : best.Result.Statistics.Phases)
   {
-    tellsPhases ? void(std::printf("%28s %-18s %7.3f s\n", "", phase.Name.c_str(), phase.Seconds))
-                : void();
+    if (tellsPhases)
+    {
+      std::printf("%28s %-18s %7.3f s\n", "", phase.Name.c_str(), phase.Seconds);
+    }
   }
   std::fflush(stdout);
 }

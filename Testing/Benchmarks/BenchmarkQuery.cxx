@@ -282,7 +282,10 @@ long peakMemory()
   long kilobytes = 0;
   for (std::string word; status >> word && kilobytes == 0;)
   {
-    word == "VmHWM:" ? void(status >> kilobytes) : void();
+    if (word == "VmHWM:")
+    {
+      status >> kilobytes;
+    }
   }
   std::ofstream("/proc/self/clear_refs") << "5";
   return kilobytes / 1024;

@@ -181,6 +181,11 @@ private:
   std::size_t Next = 0;
 };
 
+bool isFinite(double x, double y)
+{
+  return std::isfinite(x) && std::isfinite(y); // x + y may overflow
+}
+
 /// The constraints' ends as indices of the points in memory: of equal ones, the first.
 std::vector<Constraint> constraintsOf(const ConstraintCase& drawn, const Coordinates& xy)
 {
@@ -195,8 +200,9 @@ std::vector<Constraint> constraintsOf(const ConstraintCase& drawn, const Coordin
     const double y = lines.XY[2 * std::size_t(own) + 1];
     PointId i = 0;
     // A point that is not finite equals none; any other such point is as good.
-    while (!(xy[2 * std::size_t(i)] == x && xy[2 * std::size_t(i) + 1] == y) &&
-      (std::isfinite(x + y) || std::isfinite(xy[2 * std::size_t(i)] + xy[2 * std::size_t(i) + 1])))
+    const auto matches = [&](double atX, double atY)
+    { return isFinite(x, y) ? atX == x && atY == y : !isFinite(atX, atY); };
+    while (!matches(xy[2 * std::size_t(i)], xy[2 * std::size_t(i) + 1]))
     {
       ++i;
     }

@@ -108,7 +108,10 @@ public:
     auto data = vtkSmartPointer<vtkPolyData>::New();
     data->SetPoints(this->Points);
     data->GetPointData()->AddArray(this->Heights);
-    hasIds ? void(data->GetPointData()->SetGlobalIds(this->Ids)) : void();
+    if (hasIds)
+    {
+      data->GetPointData()->SetGlobalIds(this->Ids);
+    }
     return data;
   }
 

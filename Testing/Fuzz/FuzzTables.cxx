@@ -170,7 +170,10 @@ private:
     }
     const bool isSwapped = this->HasNames && this->oneIn(3);
     this->Columns = isSwapped ? std::vector<Column>{ y, x } : std::vector<Column>{ x, y };
-    this->HasHeights ? this->Columns.push_back(z) : void();
+    if (this->HasHeights)
+    {
+      this->Columns.push_back(z);
+    }
     if (this->oneIn(2))
     {
       this->Columns.insert(this->Columns.begin(), id);
@@ -249,7 +252,14 @@ private:
     {
       this->IsDamaged = true;
       const auto at = fields.begin() + std::ptrdiff_t(this->below(fields.size()));
-      this->oneIn(2) ? void(fields.erase(at)) : void(fields.insert(at, "9"));
+      if (this->oneIn(2))
+      {
+        fields.erase(at);
+      }
+      else
+      {
+        fields.insert(at, "9");
+      }
     }
     std::string line = this->joined(fields, this->Delimiter);
     if (this->HasLongTexts && this->Columns.back().Is == Column::Code && !this->IsQuoted)

@@ -217,8 +217,10 @@ private:
         before = this->uncovered();
         for (std::size_t i = 0; i < this->Choices.size() && before > 0; ++i)
         {
-          this->Choices[i].IsOneOfSeveral ? this->chooseAgain(this->Choices[i], preference)
-                                          : void();
+          if (this->Choices[i].IsOneOfSeveral)
+          {
+            this->chooseAgain(this->Choices[i], preference);
+          }
         }
       }
     }
@@ -347,8 +349,10 @@ private:
       {
         const bool isPassed = std::binary_search(passed.begin(), passed.end(), vertex);
         // Added points may have been added later.
-        isPassed || this->Given.IsAdded(vertex) || !attracts(vertex) ? void()
-                                                                     : leftOut.push_back(at);
+        if (!isPassed && !this->Given.IsAdded(vertex) && attracts(vertex))
+        {
+          leftOut.push_back(at);
+        }
       });
     const check::SnappedLine line(route.Positions.front(), route.Positions.back());
     std::sort(leftOut.begin(), leftOut.end(),

@@ -56,7 +56,10 @@ ConstraintRoutes::ConstraintRoutes(const RouteSetting& setting, Position a, Posi
     const std::size_t found = this->Nodes.size();
     for (std::size_t i = 0; i < this->Nodes.size(); ++i)
     {
-      i < found ? void() : this->addEdges(i);
+      if (i >= found)
+      {
+        this->addEdges(i);
+      }
       this->addGaps(i, border);
     }
     this->findWhatLeadsToEnd();

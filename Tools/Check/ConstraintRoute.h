@@ -98,7 +98,10 @@ public:
   {
     for (const Node& node : this->Nodes)
     {
-      node.Rounds ? visit(node.Vertex, node.At) : void();
+      if (node.Rounds)
+      {
+        visit(node.Vertex, node.At);
+      }
     }
   }
 

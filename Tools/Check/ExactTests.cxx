@@ -124,7 +124,10 @@ std::int64_t countOffHull(const std::vector<double>& xy, const std::vector<Direc
   for (std::size_t i = 0; i + 1 < xy.size(); i += 2)
   {
     const Position p{ xy[i], xy[i + 1] };
-    isFinite(p) ? points.push_back(p) : void();
+    if (isFinite(p))
+    {
+      points.push_back(p);
+    }
   }
   std::sort(points.begin(), points.end(), isBefore);
   const auto isSame = [](Position a, Position b) { return a.x == b.x && a.y == b.y; };

@@ -417,7 +417,10 @@ int runInPieces(const DelaunayArguments& arguments, vtkMultiProcessController* c
       checkOutputs(arguments.Output, arguments.Statistics, arguments.Scratch, arguments.Inputs);
     }
     auto points = openPointStream(arguments.Inputs, withThinningFile(arguments));
-    ranks.rank() == 0 ? reportTables(points->reports()) : void();
+    if (ranks.rank() == 0)
+    {
+      reportTables(points->reports());
+    }
     return joinConstraints(std::move(points), arguments.Constraints, options);
   };
   OutOfCoreStatistics statistics;

@@ -67,7 +67,10 @@ void readConstraints(DemArguments& arguments)
   if (!arguments.Breaklines.empty())
   {
     lines = readBreaklines(arguments.Breaklines, arguments.Columns.Wrap);
-    arguments.Soft ? lines->Height.clear() : void();
+    if (arguments.Soft)
+    {
+      lines->Height.clear();
+    }
   }
   if (!arguments.Boundary.empty())
   {

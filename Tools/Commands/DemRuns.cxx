@@ -89,7 +89,10 @@ RasterDescription describeRaster(
   if (!description.Crs.empty())
   {
     // Fail before the computation rather than after it.
-    isGeoTiff(arguments.Output) ? requireCrs(description.Crs) : void();
+    if (isGeoTiff(arguments.Output))
+    {
+      requireCrs(description.Crs);
+    }
     return description;
   }
   ReferenceSystem system = ofPoints;
@@ -410,7 +413,10 @@ int runInPieces(const DemArguments& arguments, vtkMultiProcessController* contro
     auto stream = openPointStream(arguments.Inputs, withThinningFile(arguments));
     if (isFirst)
     {
-      isReported ? void() : reportTables(stream->reports());
+      if (!isReported)
+      {
+        reportTables(stream->reports());
+      }
       description = describeRaster(arguments, stream->referenceSystem(), !isReported);
       isReported = true;
       sink.setIdentity(identityOf(arguments, description));

@@ -322,9 +322,10 @@ void reportTables(const std::vector<TableReport>& reports)
     }
     for (const std::string& warning : report.Warnings)
     {
-      warnings++ < mostWarnings
-        ? fmt::print(stderr, "tipp: warning: {}: {}\n", shownPath(report.Path), warning)
-        : void();
+      if (warnings++ < mostWarnings)
+      {
+        fmt::print(stderr, "tipp: warning: {}: {}\n", shownPath(report.Path), warning);
+      }
     }
   }
   if (warnings > mostWarnings)

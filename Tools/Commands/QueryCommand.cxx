@@ -206,8 +206,10 @@ Bytes rowsOf(const MeshAnswer& answer)
       for (std::size_t k = 0; k < std::size_t(array.Components); ++k)
       {
         double number = std::numeric_limits<double>::quiet_NaN();
-        answer.Cells[i] >= 0 ? withValue(array, i, k, [&](auto value) { number = double(value); })
-                             : void();
+        if (answer.Cells[i] >= 0)
+        {
+          withValue(array, i, k, [&](auto value) { number = double(value); });
+        }
         *to++ = number;
       }
     }
@@ -416,7 +418,10 @@ int run(QueryArguments& arguments)
   {
     throw CLI::ValidationError("--bounds needs four numbers, or six for tetrahedra");
   }
-  isOfMesh ? std::swap(arguments.Points, arguments.Mesh.Path) : void();
+  if (isOfMesh)
+  {
+    std::swap(arguments.Points, arguments.Mesh.Path);
+  }
   checkOutput(arguments);
   return runOnRanks([&](Communicator& ranks) { runQuery(arguments, ranks); });
 }

@@ -248,7 +248,10 @@ std::function<bool(double)> progressOn(const std::unique_ptr<ProgressBar>& bar)
 {
   return [&bar](double fraction)
   {
-    bar ? bar->update(fraction) : void();
+    if (bar)
+    {
+      bar->update(fraction);
+    }
     return !isInterrupted();
   };
 }

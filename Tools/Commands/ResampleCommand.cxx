@@ -165,7 +165,14 @@ PathState sample(
   filter->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, problems);
   vtkNew<ErrorKeeper> warnings;
   filter->AddObserver(vtkCommand::WarningEvent, warnings);
-  time ? void(filter->UpdateTimeStep(*time)) : filter->Update();
+  if (time)
+  {
+    filter->UpdateTimeStep(*time);
+  }
+  else
+  {
+    filter->Update();
+  }
   ranks.attempt(
     []
     {

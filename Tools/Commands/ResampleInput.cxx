@@ -221,7 +221,10 @@ StoredMesh describe(const ResampleArguments& arguments)
     const bool meets = isWhole || range.Intersects(vtkBoundingBox(piece.Box.data()));
     stored.CellsInRange += meets ? piece.Cells : 0;
     const vtkBoundingBox own(piece.Extent.data());
-    own.IsValid() ? extent.AddBox(own) : void();
+    if (own.IsValid())
+    {
+      extent.AddBox(own);
+    }
   }
   extent.GetBounds(stored.Extent.data());
   return stored;

@@ -208,8 +208,10 @@ std::size_t moveCrossed(PointsView points, const ConstraintSegments& segments, s
   std::size_t next = 0; // the first triangle that has not been moved yet
   const auto keepUntil = [&](std::size_t end)
   {
-    kept < next ? void(std::copy(corners + 3 * next, corners + 3 * end, corners + 3 * kept))
-                : void();
+    if (kept < next)
+    {
+      std::copy(corners + 3 * next, corners + 3 * end, corners + 3 * kept);
+    }
     kept += end - next;
   };
   for (auto crossing = crossings.begin(); crossing != crossings.end();)

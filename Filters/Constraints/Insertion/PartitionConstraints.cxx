@@ -64,7 +64,10 @@ public:
       if (this->Ids[end] == id)
       {
         this->VertexOf[end] = vertex;
-        this->VertexOf[end ^ 1] != NoVertex ? visit(end) : void();
+        if (this->VertexOf[end ^ 1] != NoVertex)
+        {
+          visit(end);
+        }
       }
     }
   }
@@ -317,7 +320,10 @@ private:
       {
         const LineWalk walk = this->Walker.walkAcross(line, edge.Half);
         this->note(piece);
-        walk.How == LineWalk::End::Touched ? noteFromVertex(walk.Vertex) : void();
+        if (walk.How == LineWalk::End::Touched)
+        {
+          noteFromVertex(walk.Vertex);
+        }
       }
     }
   }
@@ -356,7 +362,10 @@ private:
   void touch(std::int64_t piece, Index vertex)
   {
     const PointId id = this->IdOf(vertex);
-    id >= 0 ? this->Touches.push_back({ piece, id }) : void();
+    if (id >= 0)
+    {
+      this->Touches.push_back({ piece, id });
+    }
   }
 
   bool insert(const LineWalk& walk)
@@ -482,7 +491,10 @@ std::vector<std::int64_t> PartitionConstraints::remaining() const
   std::vector<std::int64_t> pieces;
   for (std::size_t piece = 0; piece < this->Done.size(); ++piece)
   {
-    this->Done[piece] ? void() : pieces.push_back(std::int64_t(piece));
+    if (!this->Done[piece])
+    {
+      pieces.push_back(std::int64_t(piece));
+    }
   }
   return pieces;
 }

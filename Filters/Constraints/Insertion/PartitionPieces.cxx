@@ -55,7 +55,10 @@ void forPartitions(const Tiling& tiling, const ConstraintPiece& piece, const End
     [&](PartitionIndex p)
     {
       const Box2& tile = tiling.box(p);
-      overlap(box, tile) && lineMayMeet(a, b, tile) ? visit(p) : void();
+      if (overlap(box, tile) && lineMayMeet(a, b, tile))
+      {
+        visit(p);
+      }
     });
 }
 

@@ -156,7 +156,10 @@ void ConstrainedPoints::addPoints()
     {
       row[0] = position.x;
       row[1] = position.y;
-      this->Seeds.empty() ? void() : this->Hull.add(position);
+      if (!this->Seeds.empty())
+      {
+        this->Hull.add(position);
+      }
       std::copy(values, values + columns, row.begin() + 2);
       this->Added->append(row.data());
     });
@@ -164,7 +167,10 @@ void ConstrainedPoints::addPoints()
   {
     row[0] = this->Split.Crossings[i].x;
     row[1] = this->Split.Crossings[i].y;
-    this->Seeds.empty() ? void() : this->Hull.add(this->Split.Crossings[i]);
+    if (!this->Seeds.empty())
+    {
+      this->Hull.add(this->Split.Crossings[i]);
+    }
     for (std::size_t c = 0; c < columns; ++c)
     {
       row[2 + c] = this->Split.Values[c][i];

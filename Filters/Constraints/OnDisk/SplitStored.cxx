@@ -52,9 +52,10 @@ SegmentTiles::SegmentTiles(
       this->Boxes.visitNear(expanded(boxOf(item.A, item.B), this->Margin),
         [&](PartitionIndex tile)
         {
-          lineMayMeet(item.A, item.B, expanded(this->Boxes.box(tile), this->Margin))
-            ? this->Rows->add(std::size_t(tile), &item)
-            : void();
+          if (lineMayMeet(item.A, item.B, expanded(this->Boxes.box(tile), this->Margin)))
+          {
+            this->Rows->add(std::size_t(tile), &item);
+          }
         });
     });
   this->Rows->finish();
@@ -89,9 +90,10 @@ void SegmentTiles::findNear(const std::function<bool(std::int64_t)>& isWanted,
         item,
         [&](const SegmentTree::Item& other)
         {
-          lineMayMeet(item.A, item.B, expanded(boxOf(other.A, other.B), this->Margin))
-            ? near(other.Id)
-            : void();
+          if (lineMayMeet(item.A, item.B, expanded(boxOf(other.A, other.B), this->Margin)))
+          {
+            near(other.Id);
+          }
           return true;
         },
         this->Margin);
@@ -178,7 +180,10 @@ void SegmentTiles::findCovered(const std::function<void(std::int64_t, Point2)>& 
       });
     for (std::size_t i = 0; i < distinct.size(); ++i)
     {
-      ends[i] == orderedEnds(distinct[i]).first ? void() : covered(distinct[i].Id, ends[i]);
+      if (!(ends[i] == orderedEnds(distinct[i]).first))
+      {
+        covered(distinct[i].Id, ends[i]);
+      }
     }
   }
 }
@@ -279,7 +284,10 @@ private:
     TakenConstraints taken;
     for (std::size_t i = 0; i < isTaken.size(); ++i)
     {
-      isTaken[i] ? taken.Numbers.push_back(std::int64_t(i)) : void();
+      if (isTaken[i])
+      {
+        taken.Numbers.push_back(std::int64_t(i));
+      }
     }
     taken.Ends =
       this->Constraints.endsOf([&](std::int64_t number) { return isTaken[std::size_t(number)]; });

@@ -90,7 +90,10 @@ std::vector<std::size_t> PositionJoin::mayMatch(PointsView points)
     for (std::size_t i = 0; i < size; ++i)
     {
       const std::uint64_t bits = bitsOf(hashes[i]);
-      (this->wordOf(hashes[i]) & bits) == bits ? its.push_back(first + i) : void();
+      if ((this->wordOf(hashes[i]) & bits) == bits)
+      {
+        its.push_back(first + i);
+      }
     }
   };
   forChunks(count, chunk, this->Threads, {},
@@ -300,7 +303,10 @@ void StoredConstraints::match()
   std::int64_t count = 0;
   for (std::size_t vertex = 0; vertex < this->IsNew.size(); ++vertex)
   {
-    vertex % VerticesPerCount == 0 ? this->NewBefore.push_back(count) : void();
+    if (vertex % VerticesPerCount == 0)
+    {
+      this->NewBefore.push_back(count);
+    }
     count += this->IsNew[vertex] ? 1 : 0;
   }
   if (this->Named)
@@ -422,7 +428,10 @@ StoredConstraints::Ends StoredConstraints::endsOf(
       if (isTaken(number))
       {
         Taken one{ this->isNamed(number), { a, b }, { a, b } };
-        one.IsNamed ? this->Keys->read(number, 1, &one.Keys) : void();
+        if (one.IsNamed)
+        {
+          this->Keys->read(number, 1, &one.Keys);
+        }
         std::vector<Point2>& keys = one.IsNamed ? named : own;
         keys.insert(keys.end(), { one.Keys.A, one.Keys.B });
         taken.push_back(one);

@@ -19,7 +19,10 @@ UncoveredSegments::UncoveredSegments(
       [&](const ConstraintSegment& segment)
       {
         // A hole's outline is no edge of the triangulation.
-        segment.Role == SegmentRole::Hole ? void() : visit({ segment.A, segment.B, index });
+        if (segment.Role != SegmentRole::Hole)
+        {
+          visit({ segment.A, segment.B, index });
+        }
         ++index;
       });
   };
@@ -47,7 +50,10 @@ void UncoveredSegments::forEach(const VisitSegment& visit) const
         return;
       }
       const Point2 high = lexicographicLess(segment.A, segment.B) ? segment.B : segment.A;
-      end == high ? void() : visit({ end, high, segment.Role });
+      if (!(end == high))
+      {
+        visit({ end, high, segment.Role });
+      }
     });
 }
 

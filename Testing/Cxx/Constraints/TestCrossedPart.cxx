@@ -280,7 +280,10 @@ TEST(ConstraintSegments, KeepTheSameTrianglesAsInMemory)
   Triangles kept;
   for (const Triangle& t : all)
   {
-    cutting.keeps({ at(t[0]), at(t[1]), at(t[2]) }) ? kept.push_back(t) : void();
+    if (cutting.keeps({ at(t[0]), at(t[1]), at(t[2]) }))
+    {
+      kept.push_back(t);
+    }
   }
   EXPECT_TRUE(sameTriangles(xy, kept, trianglesOf(made.Mesh)));
   EXPECT_GT(kept.size(), 20u);

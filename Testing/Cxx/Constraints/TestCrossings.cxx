@@ -143,7 +143,10 @@ std::vector<PointId> chainOf(const ConstrainedTriangulation& result, std::int64_
   {
     if (piece.Constraint == constraint)
     {
-      chain.empty() ? chain.push_back(piece.A) : void();
+      if (chain.empty())
+      {
+        chain.push_back(piece.A);
+      }
       chain.push_back(piece.B);
     }
   }
@@ -231,7 +234,10 @@ TEST(NearSegments, AreFoundByPointsOnThemAndBesideThem)
         const bool isOn = (b.x - a.x) * (p.y - a.y) == (b.y - a.y) * (p.x - a.x);
         const bool isInBox = std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) &&
           std::min(a.y, b.y) <= p.y && p.y <= std::max(a.y, b.y);
-        isOn&& isInBox ? void(expected.insert(s)) : void();
+        if (isOn && isInBox)
+        {
+          expected.insert(s);
+        }
       }
       std::set<std::size_t> found;
       exact.visitOn(p, [&found](std::size_t s) { found.insert(s); });

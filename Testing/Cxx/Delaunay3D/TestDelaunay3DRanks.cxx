@@ -231,7 +231,10 @@ TEST(Delaunay3DRanks, GhostsAreCopiesOfOtherRanksCells)
   const std::vector<PieceCell> all = gatherCells(filter->GetOutput());
   for (const PieceCell& cell : all)
   {
-    cell.IsGhost == 0 ? void(own.emplace(cell.Number, cell.Corners)) : void();
+    if (cell.IsGhost == 0)
+    {
+      own.emplace(cell.Number, cell.Corners);
+    }
   }
   std::size_t ghosts = 0;
   for (const PieceCell& cell : all)

@@ -57,7 +57,10 @@ TEST_P(KernelPredicates3On, Lattice)
     {
       continue;
     }
-    side < 0 ? std::swap(v[0], v[1]) : void();
+    if (side < 0)
+    {
+      std::swap(v[0], v[1]);
+    }
     const Point3& a = points[v[0]];
     const Point3& b = points[v[1]];
     const Point3& c = points[v[2]];

@@ -444,7 +444,10 @@ TEST(FinishPieces3, ADamagedResultIsRefused)
       const StoredResult3 result(path);
       for (PartitionIndex to = 0; to < run.Plan.pieces(); ++to)
       {
-        result.sentBytes(to) > 0 ? void(result.readMessages(to)) : void();
+        if (result.sentBytes(to) > 0)
+        {
+          result.readMessages(to);
+        }
       }
     },
     IOError);

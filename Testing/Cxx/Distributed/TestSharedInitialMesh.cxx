@@ -96,7 +96,10 @@ TEST_P(SharedInitialMesh, PartsAreThoseOfTheWholeMesh)
         ASSERT_EQ(trianglesThatMeet(scene.Whole, isChosen), trianglesThatMeet(part.Mesh, isChosen))
           << partitions << " partitions, rank " << rank << " of " << ranks;
         part.countMet(triangles, met);
-        partitionsPay ? parts.push_back(part.conflicts()) : void();
+        if (partitionsPay)
+        {
+          parts.push_back(part.conflicts());
+        }
       }
       EXPECT_EQ(partitionsPay, tipp::partitionsPay(triangles, met));
       const auto conflicts = joinConflicts(parts, count);

@@ -177,7 +177,10 @@ TEST_F(DemBorder, CentresOnSlantedEdgesHaveValues)
     {
       continue;
     }
-    area < 0 ? std::swap(triangle[0], triangle[1]) : void();
+    if (area < 0)
+    {
+      std::swap(triangle[0], triangle[1]);
+    }
     SCOPED_TRACE(testing::Message() << i << ": " << resolution.Units << "e-" << resolution.Places);
     expectExact(triangle, rasterOf(triangle, resolution));
   }
@@ -199,7 +202,10 @@ TEST_F(DemBorder, IsTheSameOutOfCore)
       const Node node{ x + this->upTo(2800), y + this->upTo(1900) };
       const bool isInside = areaOf(triangle[0], triangle[1], node) > 0 &&
         areaOf(triangle[1], triangle[2], node) > 0 && areaOf(triangle[2], triangle[0], node) > 0;
-      isInside ? nodes.push_back(node) : void();
+      if (isInside)
+      {
+        nodes.push_back(node);
+      }
     }
     const Raster expected = rasterOf(nodes, resolution);
     const Raster raster = rasterOf(nodes, resolution, memory);

@@ -63,10 +63,16 @@ public:
     const bool wide = this->isExtended();
     put(14, std::uint8_t(returnNumber | (returns << (wide ? 4 : 3))));
     put(15, std::uint8_t(wide ? flags : number | (flags << 5)));
-    wide ? put(16, std::uint8_t(number)) : void();
+    if (wide)
+    {
+      put(16, std::uint8_t(number));
+    }
     const std::size_t basics = wide ? 22 : 20;
     const bool timed = this->Format == 1 || this->Format >= 3;
-    timed ? put(basics, 1.5) : void();
+    if (timed)
+    {
+      put(basics, 1.5);
+    }
     const std::size_t colour = basics + (timed ? 8 : 0);
     for (std::size_t i = 0; i < 4 && colour + 2 * i + 2 <= record.size(); ++i)
     {

@@ -325,7 +325,10 @@ protected:
     GDALDatasetH target = translate(path.c_str(), nullptr, 1, &source, options, nullptr);
     release(options);
     EXPECT_NE(nullptr, target) << to;
-    target ? void(close(target)) : void();
+    if (target)
+    {
+      close(target);
+    }
     close(source);
     return path;
   }

@@ -63,7 +63,10 @@ protected:
     las.add(3, 0, 30, 12);
     las.add(4, 0, 40, 2, 1); // flag 'synthetic'
     las.add(5, 0, 50, 2, 4); // flag 'withheld'
-    las.isExtended() ? las.add(6, 0, 60, 2, 8) : void();
+    if (las.isExtended())
+    {
+      las.add(6, 0, 60, 2, 8);
+    }
     return las;
   }
 

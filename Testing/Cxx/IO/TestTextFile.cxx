@@ -5,6 +5,10 @@
 #include "TemporaryFolder.h"
 
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <random>
+#include <string>
 
 namespace
 {
@@ -124,6 +128,26 @@ TEST(ParseNumber, ParsesAWholeField)
   EXPECT_EQ(-0.25, value);
   for (const char* wrong : { "", "1.5x", "1 2", "+-1", "--1", "abc" })
   {
+    EXPECT_FALSE(parseNumber(wrong, value)) << wrong;
+  }
+}
+
+TEST(ParseNumber, ShortNumbersAreTheNearestDoubles)
+{
+  std::mt19937_64 random(20261128);
+  for (int i = 0; i < 100000; ++i)
+  {
+    std::string digits = std::to_string(random() >> (random() % 64));
+    digits.insert(random() % (digits.size() + 1), random() % 4 == 0 ? "" : ".");
+    const std::string text = (random() % 2 == 0 ? "-" : "") + digits;
+    double value = 0;
+    ASSERT_TRUE(parseNumber(text, value)) << text;
+    const double nearest = std::strtod(text.c_str(), nullptr);
+    ASSERT_EQ(std::memcmp(&value, &nearest, sizeof value), 0) << text;
+  }
+  for (const char* const wrong : { "", "-", ".", "-.", "1.2.3", "--1", "1-", "1 2", "1.5x" })
+  {
+    double value = 0;
     EXPECT_FALSE(parseNumber(wrong, value)) << wrong;
   }
 }

@@ -41,7 +41,10 @@ ConstraintTable randomSegments(const Coordinates& xy, int count, unsigned seed)
       const double value = xy[2 * p + axis];
       table.XY.push_back(isNew ? value / 2 + xy[2 * q + axis] / 2 : value);
     }
-    i % 2 == 1 ? table.Edges.push_back({ i - 1, i }) : void();
+    if (i % 2 == 1)
+    {
+      table.Edges.push_back({ i - 1, i });
+    }
   }
   table.PolygonBegin = table.Edges.size();
   return table;
@@ -262,11 +265,16 @@ TEST(OutOfCoreConstraint, CrossesAnotherAtThePointToWhichTheCrossingRounds)
   for (const bool isGiven : { true, false })
   {
     Coordinates xy = corners;
-    isGiven ? void(xy.insert(xy.end(), { at.x, at.y })) : void();
+    if (isGiven)
+    {
+      xy.insert(xy.end(), { at.x, at.y });
+    }
     TableConstraints constraints;
     constraints.Lines.XY = { 0, 0, 1, 1, 0, 1, 0.5, 0 };
-    isGiven ? void()
-            : void(constraints.Lines.XY.insert(constraints.Lines.XY.end(), { at.x, at.y }));
+    if (!isGiven)
+    {
+      constraints.Lines.XY.insert(constraints.Lines.XY.end(), { at.x, at.y });
+    }
     constraints.Lines.Edges = { { 0, 1 }, { 2, 3 } };
     constraints.Lines.PolygonBegin = 2;
     ConstrainedRun run(xy, constraints);
@@ -335,7 +343,10 @@ TEST(OutOfCoreConstraint, RemovesTrianglesOutsidePolygonsAndInHoles)
   {
     TableConstraints constraints;
     constraints.Lines = randomSegments(xy, 10, 3);
-    hasInside ? addPolygon(0.5, 0.5, 0.4, 30, constraints.Lines) : void();
+    if (hasInside)
+    {
+      addPolygon(0.5, 0.5, 0.4, 30, constraints.Lines);
+    }
     addPolygon(0.5, 0.5, 0.2, -13, constraints.Lines);
     addPolygon(0.55, 0.5, 0.1, 4, constraints.Lines);
     addPolygon(0.9, 0.9, 0.05, -5, constraints.Lines);
@@ -473,8 +484,10 @@ TEST(PieceSegments, AreReadByPieceAndNearBoxes)
       if (overlap(box, boxOf(segments[i].A, segments[i].B)))
       {
         overlapping.insert(std::int64_t(i));
-        lineMayMeet(segments[i].A, segments[i].B, box) ? void(expected.insert(std::int64_t(i)))
-                                                       : void();
+        if (lineMayMeet(segments[i].A, segments[i].B, box))
+        {
+          expected.insert(std::int64_t(i));
+        }
       }
     }
     EXPECT_EQ(expected, namesOf(stored.read(piece)));

@@ -80,9 +80,10 @@ TEST_P(Tiles, FindAllPairsThatCross)
       {
         for (std::size_t j = 0; j < i; ++j)
         {
-          crossProperly(items[j].A, items[j].B, items[i].A, items[i].B)
-            ? void(expected.insert({ items[j].Id, items[i].Id }))
-            : void();
+          if (crossProperly(items[j].A, items[j].B, items[i].A, items[i].B))
+          {
+            expected.insert({ items[j].Id, items[i].Id });
+          }
         }
       }
       std::set<Pair> found;

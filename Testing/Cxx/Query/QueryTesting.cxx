@@ -157,8 +157,14 @@ std::vector<Point3> pointsAround(const SourceMesh& source, int atRandom)
   {
     Point3 p{ between(low.x, high.x, share(random)), between(low.y, high.y, share(random)),
       between(low.z, high.z, share(random)) };
-    i % 3 == 0 ? void(p.x = between(low.x, high.x, 0.25 * double(i / 3 % 5))) : void();
-    i % 5 == 0 ? void(p.y = between(low.y, high.y, 0.25 * double(i / 5 % 5))) : void();
+    if (i % 3 == 0)
+    {
+      p.x = between(low.x, high.x, 0.25 * double(i / 3 % 5));
+    }
+    if (i % 5 == 0)
+    {
+      p.y = between(low.y, high.y, 0.25 * double(i / 5 % 5));
+    }
     points.push_back(p);
   }
   return points;

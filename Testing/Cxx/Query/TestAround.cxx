@@ -81,8 +81,10 @@ std::set<std::int64_t> cellsAt(const SourceMesh& source, const std::set<std::int
   std::set<std::int64_t> cells;
   for (std::size_t i = 0; i < source.Cells.size(); ++i)
   {
-    points.count(source.Cells[i]) > 0 ? void(cells.insert(std::int64_t(i) / source.CellSize))
-                                      : void();
+    if (points.count(source.Cells[i]) > 0)
+    {
+      cells.insert(std::int64_t(i) / source.CellSize);
+    }
   }
   return cells;
 }

@@ -51,7 +51,10 @@ protected:
         this->Ranks.sum(count);
         EXPECT_EQ(std::int64_t(source.cells()), count[0]);
         this->expectProfilesAsAlone(mesh, whole);
-        source.CellSize == 3 ? this->expectLinesAsAlone(mesh, whole) : void();
+        if (source.CellSize == 3)
+        {
+          this->expectLinesAsAlone(mesh, whole);
+        }
       });
   }
 
@@ -61,7 +64,10 @@ protected:
     const double shift = 0.05 * this->Ranks.rank();
     std::vector<Point3> polyline = { { -0.2, 0.3 + shift, 0.4 }, { 0.7, 0.6, 0.5 + shift },
       { 0.4, 1.2, 0.3 } };
-    this->isLast() ? polyline.clear() : void();
+    if (this->isLast())
+    {
+      polyline.clear();
+    }
     const std::vector<std::string> arrays = { "value", "label" };
     for (const double spacing : { 0.0, 0.07 })
     {

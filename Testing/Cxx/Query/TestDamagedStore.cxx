@@ -104,7 +104,10 @@ void expectRefusals(const SourceMesh& source, const std::string& tiling, bool du
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(path))
   {
-    entry.is_regular_file() ? files.push_back(entry.path().string()) : void();
+    if (entry.is_regular_file())
+    {
+      files.push_back(entry.path().string());
+    }
   }
   std::sort(files.begin(), files.end());
   ASSERT_LT(4U, files.size());

@@ -31,8 +31,10 @@ protected:
     Ids cells;
     for (std::size_t i = 0; i < this->Source.Cells.size(); ++i)
     {
-      this->Source.Cells[i] == point ? cells.push_back(std::int64_t(i) / this->Source.CellSize)
-                                     : void();
+      if (this->Source.Cells[i] == point)
+      {
+        cells.push_back(std::int64_t(i) / this->Source.CellSize);
+      }
     }
     return cells;
   }

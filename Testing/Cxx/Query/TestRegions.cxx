@@ -107,8 +107,14 @@ TEST(Regions, PolygonsOverTetrahedraAreColumns)
         meets = meets || (!isFlat && relation != ZoneShape::Relation::Apart);
         isInside = isInside && (isFlat || relation == ZoneShape::Relation::Inside);
       }
-      meets ? met.push_back(std::int64_t(cell)) : void();
-      isInside ? inside.push_back(std::int64_t(cell)) : void();
+      if (meets)
+      {
+        met.push_back(std::int64_t(cell));
+      }
+      if (isInside)
+      {
+        inside.push_back(std::int64_t(cell));
+      }
     }
     EXPECT_LT(inside.size(), met.size());
     withEachMesh(source,

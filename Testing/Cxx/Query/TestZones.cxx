@@ -44,8 +44,14 @@ std::vector<Exact> clipped(const std::vector<Exact>& line, const Side& side)
     const Exact& b = line[(i + 1) % line.size()];
     const mpq_class ofA = side(a);
     const mpq_class ofB = side(b);
-    sgn(ofA) >= 0 ? result.push_back(a) : void();
-    sgn(ofA) * sgn(ofB) < 0 ? result.push_back(between(a, b, ofA / (ofA - ofB))) : void();
+    if (sgn(ofA) >= 0)
+    {
+      result.push_back(a);
+    }
+    if (sgn(ofA) * sgn(ofB) < 0)
+    {
+      result.push_back(between(a, b, ofA / (ofA - ofB)));
+    }
   }
   return result;
 }
@@ -78,7 +84,10 @@ std::array<mpq_class, 3> bruteForce(const SourceMesh& source, const Zone& zone, 
       t.push_back(
         { mpq_class(p.x), mpq_class(p.y), mpq_class(double(source.Values[2 * std::size_t(id)])) });
     }
-    turn(t[0], t[1], t[2]) < 0 ? std::swap(t[1], t[2]) : void();
+    if (turn(t[0], t[1], t[2]) < 0)
+    {
+      std::swap(t[1], t[2]);
+    }
     const mpq_class whole = turn(t[0], t[1], t[2]);
     for (const ZoneRing& ring : zone)
     {
@@ -127,8 +136,14 @@ InZone bruteForce(const SourceMesh& source, const Zone& zone)
     one.Cells.assign(source.Cells.begin() + std::ptrdiff_t(3 * cell),
       source.Cells.begin() + std::ptrdiff_t(3 * cell + 3));
     const mpq_class area = bruteForce(one, zone, 0)[0];
-    sgn(area) > 0 ? in.Met.push_back(std::int64_t(cell)) : void();
-    area == bruteForce(one, all, 0)[0] ? in.Whole.push_back(std::int64_t(cell)) : void();
+    if (sgn(area) > 0)
+    {
+      in.Met.push_back(std::int64_t(cell));
+    }
+    if (area == bruteForce(one, all, 0)[0])
+    {
+      in.Whole.push_back(std::int64_t(cell));
+    }
   }
   for (std::size_t i = 0; i < source.points(); ++i)
   {
@@ -151,7 +166,10 @@ InZone bruteForce(const SourceMesh& source, const Zone& zone)
             std::min(a.y, b.y) <= p.y && p.y <= std::max(a.y, b.y));
       }
     }
-    isInside || isOnBorder ? in.Points.push_back(std::int64_t(i)) : void();
+    if (isInside || isOnBorder)
+    {
+      in.Points.push_back(std::int64_t(i));
+    }
   }
   return in;
 }

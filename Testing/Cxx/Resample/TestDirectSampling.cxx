@@ -101,7 +101,10 @@ int expectLanesLikeRows(const Scene& scene, Lanes lanes, Rows rows)
     {
       continue;
     }
-    lanes.nothing() ? void() : lanes.prepareRows();
+    if (!lanes.nothing())
+    {
+      lanes.prepareRows();
+    }
     for (int lane = 0; lane < tipp::laneCount; ++lane)
     {
       typename Access::Point corners[Access::Corners];

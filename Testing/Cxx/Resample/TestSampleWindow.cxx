@@ -36,7 +36,10 @@ std::set<std::int64_t> inBox(const Scene& scene, const tipp::Lattice& lattice)
     {
       inside = inside && at[axis] >= low[axis] && at[axis] <= high[axis];
     }
-    inside ? void(samples.insert(i)) : void();
+    if (inside)
+    {
+      samples.insert(i);
+    }
   }
   return samples;
 }

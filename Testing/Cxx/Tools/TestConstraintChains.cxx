@@ -365,7 +365,10 @@ bool flip(Map& map, const FixedEdge& edge)
     const std::size_t first = i / 3 * 3;
     const auto [low, high] =
       std::minmax(map.Triangles[first + (i + 1) % 3], map.Triangles[first + (i + 2) % 3]);
-    low == edge[0] && high == edge[1] ? corners.push_back(i) : void();
+    if (low == edge[0] && high == edge[1])
+    {
+      corners.push_back(i);
+    }
   }
   if (corners.size() != 2)
   {

@@ -67,7 +67,10 @@ TEST_F(TippDem, MakesTheSameFileForAnyMemoryAndDivisionOfTheInput)
   for (int i = 0; std::getline(csv, line); ++i)
   {
     (i < 12000 || i == 0 ? first : second) << line << "\n";
-    i == 0 ? void(second << line << "\n") : void();
+    if (i == 0)
+    {
+      second << line << "\n";
+    }
   }
   first.close();
   second.close();

@@ -198,7 +198,10 @@ protected:
       const auto corner = [&]
       {
         lines << draw(800) / 8.0 << "," << draw(800) / 8.0 << ",";
-        i % 3 == 0 ? void() : void(lines << draw(100));
+        if (i % 3 != 0)
+        {
+          lines << draw(100);
+        }
       };
       corner();
       lines << ",";

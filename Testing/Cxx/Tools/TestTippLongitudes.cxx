@@ -97,7 +97,10 @@ TEST_F(TippLongitudes, ConstraintsAreWrappedToo)
     {
       Words words = more;
       words.insert(words.end(), { "--resolution", "0.25" });
-      output.empty() ? void() : void(words.insert(words.end(), { output, "1M" }));
+      if (!output.empty())
+      {
+        words.insert(words.end(), { output, "1M" });
+      }
       this->run({ "dem", points, "-o", "dem.npy" }, words);
       return this->content("dem.npy");
     };
