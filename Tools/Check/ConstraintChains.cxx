@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -28,12 +29,13 @@ using Ids = std::vector<std::int64_t>;
 class ChainFinder
 {
 public:
-  ChainFinder(
-    const std::vector<double>& xy, const Ids& triangles, const ConstraintsInMesh& constraints)
+  /// `wideReach`: as in RouteSetting.
+  ChainFinder(const MeshEdges& mesh, const ConstraintsInMesh& constraints,
+    std::optional<Position> wideReach = {})
     : Given(constraints)
-    , Mesh(xy, triangles)
+    , Mesh(mesh)
     , Setting{ Mesh, [this](std::int64_t vertex) { return this->attracts(vertex); }, {},
-      constraints.IsCut }
+      constraints.IsCut, wideReach }
   {
     if (constraints.IsCut)
     {
@@ -438,7 +440,7 @@ private:
   }
 
   const ConstraintsInMesh& Given;
-  const MeshEdges Mesh;
+  const MeshEdges& Mesh;
   RouteSetting Setting;
   Ids Ends; ///< the vertices at ends of constraints, sorted
   std::vector<ChainEdge> Edges;
@@ -448,12 +450,50 @@ private:
   std::map<FixedEdge, std::int64_t> Needed;
 };
 
+/// How far 29 rounds of rounding can lead a constraint in x and y: 2^20 units in the last place of
+/// the largest coordinate of constraints.
+Position reachOfManyRounds(const MeshEdges& mesh, const std::vector<FixedEdge>& constraints)
+{
+  Position largest{ 0, 0 };
+  for (const FixedEdge& edge : constraints)
+  {
+    for (const std::int64_t end : edge)
+    {
+      const Position p = mesh.at(end);
+      largest = check::isFinite(p)
+        ? Position{ std::max(largest.x, std::fabs(p.x)), std::max(largest.y, std::fabs(p.y)) }
+        : largest;
+    }
+  }
+  return { check::relativeReach * largest.x, check::relativeReach * largest.y };
+}
+
+/// Returns whether no constraint is lost, and the chains have all edges that must be constraints.
+bool areComplete(
+  const ConstraintChains& chains, const MeshEdges& mesh, const ConstraintsInMesh& constraints)
+{
+  return chains.Lost == 0 &&
+    mesh.allEdges(
+      [&](std::int64_t a, std::int64_t b)
+      {
+        return std::binary_search(chains.Edges.begin(), chains.Edges.end(),
+                 FixedEdge{ std::min(a, b), std::max(a, b) }) ||
+          !mesh.needsConstraint(a, b, constraints.TieRule, false);
+      });
+}
+
 } // namespace
 
 ConstraintChains findConstraintChains(const std::vector<double>& xy,
   const std::vector<std::int64_t>& triangles, const ConstraintsInMesh& constraints)
 {
-  return ChainFinder(xy, triangles, constraints).find();
+  const MeshEdges mesh(xy, triangles);
+  ConstraintChains chains = ChainFinder(mesh, constraints).find();
+  const bool hasCrossings = std::any_of(
+    triangles.begin(), triangles.end(), [&](std::int64_t p) { return constraints.IsAdded(p); });
+  return !hasCrossings || areComplete(chains, mesh, constraints)
+    ? chains
+    : ChainFinder(mesh, constraints, reachOfManyRounds(mesh, constraints.Edges)).find();
 }
 
 ConstraintChains findConstraintChains(std::size_t pieces,

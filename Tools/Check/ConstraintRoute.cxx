@@ -29,7 +29,7 @@ ConstraintRoutes::ConstraintRoutes(const RouteSetting& setting, Position a, Posi
   : Setting(setting)
   , A(a)
   , B(b)
-  , Line(a, b)
+  , Line(a, b, setting.WideReach)
 {
   for (const Position p : { a, b })
   {

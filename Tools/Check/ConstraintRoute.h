@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct RouteSetting
   /// If the mesh is cut: the vertices of its border, sorted by position; else empty.
   std::vector<std::int64_t> Border;
   bool IsCut = false;
+  /// How far rounding may have led a constraint, in x and y; by default as far as 16 rounds can.
+  std::optional<Position> WideReach = {};
 };
 
 /// A way along edges of the mesh.

@@ -199,7 +199,7 @@ struct ConstraintChains
 /// - A chain found is explained by snap rounding: the constraint passes through the box of points
 ///   that round to a vertex, or is split at such vertices into parts that do, in any number of
 ///   rounds. The vertices are ends or crossings of constraints, or on the constraint.
-/// - If a constraint is lost, no chain is as near as up to 16 rounds of rounding can lead it.
+/// - If a constraint is lost, no chain is as near as up to 29 rounds of rounding can lead it.
 ///
 /// What is between these is counted as undecided. Constraints whose ends are equal or not finite
 /// need no chain. `xy` holds x and y of each point; `triangles` (three each) and the constraints

@@ -4,6 +4,7 @@
 
 #include "Check/ExactTests.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -45,6 +46,14 @@ public:
   /// Returns whether an edge must be on a constraint: it is not locally Delaunay, with `tieRule`
   /// breaks a tie against the rule, or with `isCut` has one triangle only.
   bool needsConstraint(std::int64_t a, std::int64_t b, bool tieRule, bool isCut) const;
+
+  /// Returns whether test(a, b), of two vertices, is true for all edges, or until it is not.
+  template <typename Test>
+  bool allEdges(const Test& test) const
+  {
+    return std::all_of(this->Edges.begin(), this->Edges.end(),
+      [&test](const Edge& edge) { return test(edge.From, edge.To); });
+  }
 
   /// Returns the vertices of edges that have one triangle only, sorted by position.
   std::vector<std::int64_t> borderVertices() const;

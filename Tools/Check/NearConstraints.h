@@ -16,6 +16,10 @@ namespace tipp
 namespace check
 {
 
+/// How far from a constraint its chain is looked for, as a part of the largest coordinate: a
+/// million units in the last place. 29 rounds of snap rounding lead a constraint less far.
+constexpr double relativeReach = 0x1p-32;
+
 /// Finds the edges of a large mesh that may be parts of constraints, so that only these are kept in
 /// memory. It may keep too many edges, but must not miss one, which would be reported as a lost
 /// constraint.
@@ -47,8 +51,7 @@ public:
         largest = std::max({ largest, std::fabs(p.x), std::fabs(p.y) });
       }
     }
-    constexpr double relative = 1e-10;
-    this->Tolerance = relative * largest;
+    this->Tolerance = relativeReach * largest;
     constexpr double most = 2048;
     this->Side = std::int64_t(std::clamp(std::sqrt(double(this->Segments.size())), 1.0, most));
     this->Starts.assign(std::size_t(this->Side * this->Side) + 1, 0);
@@ -69,8 +72,7 @@ public:
     }
   }
 
-  /// Returns whether both ends of an edge are within about a million rounding errors of one
-  /// constraint.
+  /// Returns whether both ends of an edge are within relativeReach of one constraint.
   bool mayHave(Position a, Position b) const
   {
     if (this->Segments.empty())

@@ -17,6 +17,11 @@ namespace
 /// The distances from a coordinate to the next doubles below and above it.
 struct Gaps
 {
+  Gaps(double below, double above)
+    : Below(below)
+    , Above(above)
+  {
+  }
   explicit Gaps(double value)
     : Below(value - std::nextafter(value, -HUGE_VAL))
     , Above(std::nextafter(value, HUGE_VAL) - value)
@@ -95,6 +100,11 @@ bool SnappedLine::roundsTo(Position p) const
 
 bool SnappedLine::reaches(Position p) const
 {
+  if (this->WideReach)
+  {
+    const auto [x, y] = *this->WideReach;
+    return meets(this->A, this->B, p, { x, x }, { y, y }, 1);
+  }
   constexpr double units = 64;
   return meets(this->A, this->B, p, gapsAtLarger(this->A.x, this->B.x),
     gapsAtLarger(this->A.y, this->B.y), units);

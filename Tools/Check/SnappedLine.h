@@ -4,6 +4,8 @@
 
 #include "Check/ExactTests.h"
 
+#include <optional>
+
 namespace tipp
 {
 namespace check
@@ -14,10 +16,12 @@ namespace check
 class SnappedLine
 {
 public:
-  /// `a` and `b`: the ends, which are finite and differ.
-  SnappedLine(Position a, Position b)
+  /// `a` and `b`: the ends, which are finite and differ. `wideReach`: how far from the line
+  /// reaches() looks in x and y; by default as far as 16 rounds of rounding lead a constraint.
+  SnappedLine(Position a, Position b, std::optional<Position> wideReach = {})
     : A(a)
     , B(b)
+    , WideReach(wideReach)
   {
   }
 
@@ -32,14 +36,16 @@ public:
   /// Returns whether p is on the line.
   bool holds(Position p) const { return turn(this->A, this->B, p) == 0; }
 
-  /// Returns whether p may be on the constraint after up to 16 rounds of rounding: it is at most 64
-  /// units in the last place of the larger end away in each coordinate. The first ten rounds move a
-  /// constraint by half a unit each, and the next six by at most 1/2, 1, 2, 4, 8 and 16 units.
+  /// Returns whether p may be on the constraint after many rounds of rounding. The first ten rounds
+  /// move a constraint by half a unit in the last place each, and the next ones by at most 1/2, 1,
+  /// 2, 4 ... units. So after 16 rounds it is less than 64 units of the larger end away in each
+  /// coordinate.
   bool reaches(Position p) const;
 
 private:
   Position A;
   Position B;
+  std::optional<Position> WideReach;
 };
 
 } // namespace check

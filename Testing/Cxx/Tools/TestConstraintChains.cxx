@@ -328,6 +328,40 @@ TEST(ConstraintChains, CutMeshesAreNeverFaulty)
   EXPECT_LE(undecided, 2);
 }
 
+/// Five places of which three are nearly on one line, and constraints between all of them. Nearly
+/// equal constraints cross each other in 23 rounds.
+Map crossedInManyRounds()
+{
+  Map map;
+  const double places[5][2] = { { 0x1.74876e8014ccdp+32, 0x1.74876e8008p+32 },
+    { 0x1.74876e800cccdp+32, 0x1.74876e8p+32 }, { 0x1.74876e800cccdp+32, 0x1.74876e800199ap+36 },
+    { 0x1.74876e800e666p+36, 0x1.74876e8003333p+36 },
+    { 0x1.74876e801b333p+36, 0x1.74876e800999ap+36 } };
+  for (const auto& [x, y] : places)
+  {
+    map.add(x, y);
+  }
+  map.Constraints = { { 4, 0 }, { 0, 1 }, { 3, 4 }, { 3, 1 }, { 3, 0 }, { 0, 2 }, { 4, 2 },
+    { 2, 1 }, { 2, 3 }, { 4, 1 } };
+  map.triangulate();
+  return map;
+}
+
+TEST(ConstraintChains, ManyRoundsOfRoundingAreNoFault)
+{
+  const CheckReport report = crossedInManyRounds().check();
+  EXPECT_TRUE(report.faults().empty()) << textOf(report);
+  EXPECT_FALSE(report.undecided().empty());
+}
+
+TEST(ConstraintChains, AFlippedEdgeIsAFaultAfterManyRoundsOfRounding)
+{
+  Map map = crossedInManyRounds();
+  map.Constraints.erase(map.Constraints.begin() + 5); // from 0 to 2, far from the others
+  const CheckReport report = map.check();
+  EXPECT_EQ(1, report.BadSpheres) << textOf(report);
+}
+
 TEST(ConstraintChains, OfPiecesAreThoseOfTheWhole)
 {
   for (std::uint64_t seed = 0; seed < 20; ++seed)
