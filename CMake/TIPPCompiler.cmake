@@ -12,6 +12,9 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_BINDIR}"
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib")
 set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib")
 
+# A program is not linked again when only the inside of a shared library has changed.
+set(CMAKE_LINK_DEPENDS_NO_SHARED ON)
+
 option(TIPP_WARNINGS_AS_ERRORS "Treat the compiler's warnings as errors" OFF)
 set(TIPP_SANITIZE "" CACHE STRING "Sanitizers to build with, as for -fsanitize=")
 

@@ -20,7 +20,7 @@ check_format() {
   fi
 }
 
-check_build() { sh Utilities/build.sh default; }
+check_build() { sh Utilities/build.sh full; }
 
 # Analyses the libraries and the tool, but not the tests.
 run_tidy() { # OPTION...

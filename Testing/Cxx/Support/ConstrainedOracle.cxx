@@ -118,7 +118,9 @@ private:
 
 double oracleUnit(double value)
 {
-  return std::nextafter(std::fabs(value), HUGE_VAL) - std::fabs(value);
+  const double size = std::fabs(value);
+  const double above = std::nextafter(size, HUGE_VAL);
+  return std::isfinite(above) ? above - size : size - std::nextafter(size, 0);
 }
 
 /// Whether a point lies on a constraint within rounding errors. In each of the first ten rounds the
