@@ -4,6 +4,7 @@
 #include "Constraints/OnDisk/ConstrainedPoints.h"
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
+#include "Files/RequireApart.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Output/RunStatistics.h"
 #include "Pipeline/FilterPipeline.h"

@@ -86,9 +86,10 @@ public:
 
   ///@{
   /**
-   * The files of points, read in this order as one input: .npy, text (.csv, .txt, .xyz), .14, .grd,
-   * or any format that VTK reads. The name "uniform:COUNT" stands for COUNT uniformly distributed
-   * points in the unit square instead of a file. SetInputFileName() replaces all files by one.
+   * The files of points, read in this order as one input: .npy, text, .las, .laz, files of a GIS,
+   * ADCIRC grids, or any format that VTK reads. The name "uniform:COUNT" stands for COUNT uniformly
+   * distributed points in the unit square instead of a file. SetInputFileName() replaces all files
+   * by one.
    */
   vtkTIPPNameListMacro(InputFileName);
   ///@}

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/KeepInside.h"
 
+#include "Arrays/FindNeighbors.h"
 #include "Constraints/ConstraintPoints.h"
 #include "Constraints/TriangulateConstrained.h"
-#include "Meshes/MeshFiles.h"
 #include "Predicates/ExactPredicates.h"
 #include "Triangulation/TriangleSink.h"
 

@@ -4,7 +4,8 @@
 #include "Constraints/ConstraintPoints.h"
 #include "Constraints/OnDisk/ConstrainedPoints.h"
 #include "Dem/DemSinks.h"
-#include "Files/TemporaryFiles.h"
+#include "Files/Formats.h"
+#include "Files/WorkFolder.h"
 #include "Parallel/ParallelFor.h"
 #include "Points/ReadPoints.h"
 #include "Resample/SimplexMesh.h"
@@ -111,7 +112,7 @@ bool readTiles(const TerrainSettings& settings, const TileSource& tiles,
 OutOfCoreStatistics triangulateInto(TriangleConsumer& taker, PointStream& points,
   OutOfCoreOptions options, const std::function<bool(double)>& progress)
 {
-  const ScratchDirectory folder;
+  const WorkFolder folder = WorkFolder::inSystem();
   options.CountOnly = true;
   options.Consumer = &taker;
   options.Progress = progress;
@@ -189,7 +190,7 @@ void constrain(DemRequest& request, std::optional<ConstraintTable> lines,
 ConstraintTable readBreaklines(const std::string& path, int wrap)
 {
   ConstraintTable lines = readConstraintFile(path, wrap);
-  if (isVtkFile(path))
+  if (isOpenedBy(path, Opener::Vtk))
   {
     dropPlainHeights(lines);
   }

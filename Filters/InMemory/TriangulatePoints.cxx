@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InMemory/TriangulatePoints.h"
 
+#include "Arrays/FindNeighbors.h"
 #include "Constraints/KeepInside.h"
-#include "Meshes/MeshFiles.h"
 #include "Output/RunStatistics.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"

@@ -5,10 +5,10 @@
 #include "Arrays/Random.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Partitioned/GrowingPiece.h"
-#include "Partitioning/Spill.h"
 #include "Points/ReadPoints.h"
 #include "Predicates/Points.h"
 #include "Ranks/Communicator.h"
+#include "Ranks/Spill.h"
 #include "Triangulation/Tiling.h"
 #include "vtkTIPPFiltersModule.h"
 

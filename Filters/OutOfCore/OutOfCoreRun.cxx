@@ -15,12 +15,6 @@
 namespace tipp
 {
 
-void RunRecord::keep(bool kept)
-{
-  this->Pending.keep(kept);
-  this->Scratch.keep(kept);
-}
-
 bool RunRecord::resume(bool resumes, int threads, const Load& begun, const Load& whole)
 {
   if (!this->Scratch.hasRun())

@@ -71,8 +71,8 @@ public:
   void putInPlace();
 
   /// Sets whether the work folder is kept when this process ends.
-  void keep(bool kept);
-  bool isKept() const { return this->Pending.isKept(); }
+  void keep(bool kept) { this->Scratch.keep(kept); }
+  bool isKept() const { return this->Scratch.isKept(); }
 
 private:
   bool hasMeshToPublish() const { return this->Reached == Stage::Whole && !this->IsInPlace; }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/ScratchFiles.h"
 
+#include "Files/Checksum.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
-#include "Files/TemporaryFiles.h"
-#include "Partitioned/Checksum.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -49,7 +48,6 @@ bool isBefore(const SectionEntry& a, const SectionEntry& b)
   throw IOError(path, "is damaged.");
 }
 
-/// Makes one folder. Missing parent folders are an error: the name may be mistyped.
 void makeFolder(const std::string& path)
 {
   std::error_code failure;
@@ -189,31 +187,33 @@ void SectionFile::verify() const
   }
 }
 
-ScratchFolder::ScratchFolder(const PendingFolder& mesh, const std::string& other)
-  : Mesh(mesh.temporaryPath())
-  , Work(mesh.workPath())
-  , Folder(other.empty() ? this->Work : other + "/" + fs::path(this->Work).filename().string())
+ScratchFolder::ScratchFolder(PendingFolder& mesh, const std::string& other)
+  : Mesh(mesh)
 {
-  if (this->Folder != this->Work)
+  if (!other.empty())
   {
-    makeFolder(other);
-    claimWorkFolder(this->Folder, "Temporary files of the run that makes " + this->Mesh + "\n");
-    this->Listed.list(this->Folder);
+    const std::string name = fs::path(mesh.workPath()).filename().string();
+    this->Other.reset(new WorkFolder(WorkFolder::at(
+      other + "/" + name, "Temporary files of the run that makes " + mesh.temporaryPath() + "\n")));
   }
-  this->keep(mesh.isKept());
+  this->keep(this->isKept());
 }
 
 ScratchFolder::~ScratchFolder()
 {
-  if (this->Kept)
+  if (!this->isKept())
   {
-    return;
+    this->removeFiles(this->results());
+    this->removeFiles(this->points());
   }
-  this->removeFiles(this->results());
-  this->removeFiles(this->points());
-  if (this->Folder != this->Work)
+}
+
+void ScratchFolder::keep(bool kept)
+{
+  this->Mesh.work().keep(kept);
+  if (this->Other)
   {
-    removeWorkFolder(this->Folder);
+    this->Other->keep(kept);
   }
 }
 
@@ -226,28 +226,28 @@ void ScratchFolder::clear()
 {
   // Results without a plan would look like those of a run that lost its plan.
   this->removeFiles(this->results());
-  clearWorkFolder(this->Work);
-  makeFolder(this->Mesh);
-  makeFolder(this->Mesh + "/pieces");
+  this->Mesh.work().clear();
+  makeFolder(this->Mesh.temporaryPath());
+  makeFolder(this->Mesh.temporaryPath() + "/pieces");
 }
 
 void ScratchFolder::requireSpace(
   const std::string& path, std::uint64_t mesh, std::uint64_t scratch) const
 {
-  if (areOnOneDisk(this->Work, this->Folder))
+  if (areOnOneDisk(this->Mesh.workPath(), this->folder()))
   {
-    requireFreeSpace(path, this->Folder, mesh + scratch);
+    requireFreeSpace(path, this->folder(), mesh + scratch);
     return;
   }
-  requireFreeSpace(path, this->Work, mesh);
-  requireFreeSpace(path, this->Folder, scratch);
+  requireFreeSpace(path, this->Mesh.workPath(), mesh);
+  requireFreeSpace(path, this->folder(), scratch);
 }
 
 bool canResume(const std::string& path)
 {
   try
   {
-    return pathExists(PendingFolder::lastingPath(path) + ScratchFolder::planName);
+    return pathExists(WorkFolder::lastingPath(path) + ScratchFolder::planName);
   }
   catch (const IOError&) // a run reports this error
   {
@@ -255,13 +255,13 @@ bool canResume(const std::string& path)
   }
 }
 
-/// Returns the files in Folder whose paths begin with `begin` and a dot.
+/// Returns the files in folder() whose paths begin with `begin` and a dot.
 std::vector<std::string> ScratchFolder::files(const std::string& begin) const
 {
   const std::string prefix = fs::path(begin).filename().string() + ".";
   std::vector<std::string> paths;
   std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(this->Folder, ignored))
+  for (const fs::directory_entry& entry : fs::directory_iterator(this->folder(), ignored))
   {
     if (entry.path().filename().string().compare(0, prefix.size(), prefix) == 0)
     {

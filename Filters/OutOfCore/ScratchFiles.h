@@ -4,12 +4,14 @@
 
 #include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
+#include "Files/WorkFolder.h"
 #include "Partitioned/FinishedPieces.h"
 #include "Ranks/Archive.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -91,39 +93,39 @@ private:
   std::vector<SectionEntry> Table; ///< sorted by key
 };
 
-/// The folder of a run's temporary files, until the mesh is published: the spilled points, the
-/// plan, and the results of pieces.
+/// The temporary files of a run until the mesh is published: the plan beside the unfinished mesh,
+/// and the spilled points and the results of pieces there or on another disk.
 class ScratchFolder
 {
 public:
   static constexpr const char* planName = "/.plan";
 
   /// `other`: a folder on another disk, in which a new folder gets the points and results. Empty:
-  /// all files are beside the unfinished mesh. Throws IOError.
-  ScratchFolder(const PendingFolder& mesh, const std::string& other);
+  /// all files are beside the unfinished mesh. Throws IOError. `mesh` must outlive this object.
+  ScratchFolder(PendingFolder& mesh, const std::string& other);
   /// Removes all files except the plan, which the mesh's PendingFolder removes with itself. Removes
   /// none if keep() was called.
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
 
-  const std::string& folder() const { return this->Folder; }
-  std::string points() const { return this->Folder + "/.points"; }
-  std::string plan() const { return this->Work + planName; }
+  const std::string& folder() const
+  {
+    return this->Other ? this->Other->path() : this->Mesh.workPath();
+  }
+  std::string points() const { return this->folder() + "/.points"; }
+  std::string plan() const { return this->Mesh.workPath() + planName; }
   /// Returns the prefix of the paths of results.
-  std::string results() const { return this->Folder + "/.piece"; }
+  std::string results() const { return this->folder() + "/.piece"; }
 
   /// Returns whether there is a run to resume. Results without a plan are from a run that lost its
   /// plan.
   bool hasRun() const;
   /// Removes the files of earlier runs, and makes an empty folder for the pieces.
   void clear();
-  /// Sets whether the destructor leaves the files, so that the run can be resumed.
-  void keep(bool kept = true)
-  {
-    this->Kept = kept;
-    this->Listed.keep(kept);
-  }
+  bool isKept() const { return this->Mesh.work().isKept(); }
+  /// Sets whether the files and the unfinished mesh stay, so that the run can be resumed.
+  void keep(bool kept = true);
   /// Throws IOError, with the numbers, unless the disks of the mesh and of this folder have space
   /// for `mesh` and `scratch` more bytes. `path`: of the mesh, for the message.
   void requireSpace(const std::string& path, std::uint64_t mesh, std::uint64_t scratch) const;
@@ -132,11 +134,8 @@ private:
   std::vector<std::string> files(const std::string& begin) const;
   void removeFiles(const std::string& begin) const;
 
-  std::string Mesh;
-  std::string Work;
-  std::string Folder;
-  TemporaryPath Listed; ///< Folder, if it differs from Work
-  bool Kept = false;
+  PendingFolder& Mesh;
+  std::unique_ptr<WorkFolder> Other;
 };
 
 /// Returns whether there is a run for this mesh to resume: its points are spilled.

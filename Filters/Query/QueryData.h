@@ -3,9 +3,9 @@
 #define tippQueryData_h
 
 #include "Predicates/Points.h"
-#include "Query/MeshPart.h"
 #include "Query/Queries.h"
 #include "Query/RankAnswer.h"
+#include "Resident/MeshPart.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include "vtkDataArray.h"

@@ -2,7 +2,6 @@
 #include "Adcirc/AdcircGrid.h"
 
 #include "Adcirc/ListDirectedRows.h"
-#include "Files/InputFile.h"
 
 #include <optional>
 #include <string>
@@ -11,12 +10,6 @@
 
 namespace tipp
 {
-
-bool isAdcircFile(const std::string& path)
-{
-  const std::string extension = extensionOf(path);
-  return extension == ".14" || extension == ".grd";
-}
 
 namespace
 {

@@ -2,16 +2,10 @@
 #ifndef tippAdcircGrid_h
 #define tippAdcircGrid_h
 
-#include "Files/PendingOutput.h"
-#include "Flat/FlatMesh.h"
-#include "Meshes/MeshFiles.h"
-#include "Points/ReadPoints.h"
 #include "vtkTIPPIOModule.h"
 
 #include <array>
 #include <cstdint>
-#include <functional>
-#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -44,24 +38,6 @@ VTKTIPPIO_EXPORT AdcircGrid readAdcircGrid(const std::string& path);
 VTKTIPPIO_EXPORT AdcircGrid readAdcircNodes(const std::string& path);
 AdcircGrid readAdcircBoundaries(const std::string& path);
 ///@}
-
-/// Whether the path's extension is .14 or .grd.
-VTKTIPPIO_EXPORT bool isAdcircFile(const std::string& path);
-
-/// Writes points and triangles as an ADCIRC grid. The depth of a node is the column depth, else the
-/// negated elevation, else 0. `like` is the path of a grid whose nodes are the first points; its
-/// title, node numbers and boundary lists are kept. If it is empty, nodes are numbered from 1 and
-/// there are no boundaries. Returns false if `aborted` returned true; throws IOError.
-bool writeAdcircGrid(const std::string& path, const PointTable& points, TrianglesView triangles,
-  const std::string& like, const std::optional<PathState>& before,
-  const std::function<bool()>& aborted);
-
-/// Converts an ADCIRC grid (AdcircGrid) with the point data "depth" and, for each file of values at
-/// its nodes (fort.63, fort.64, maxele.63 ...), point data named after the file without extension;
-/// "fort.63" and "fort.64" are kept as they are. Several steps become an array that varies in time;
-/// files of several steps must have equal times. Throws IOError.
-VTKTIPPIO_EXPORT FlatContent flattenAdcirc(
-  const std::string& grid, const std::vector<std::string>& values);
 
 } // namespace tipp
 

@@ -2,13 +2,14 @@
 #include "Constraints/ReadConstraintFile.h"
 
 #include "Adcirc/AdcircGrid.h"
+#include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/TextFile.h"
 #include "Points/Longitudes.h"
 #include "Points/ReadPoints.h"
 #ifdef TIPP_HAVE_GDAL
-#include "Raster/GdalLibrary.h"
+#include "Gdal/GdalLibrary.h"
 #endif
 
 #include <algorithm>
@@ -129,13 +130,6 @@ ConstraintTable readBoundaries(const std::string& path)
   table.Edges = std::move(grid.BoundaryEdges);
   table.PolygonBegin = table.Edges.size();
   return table;
-}
-
-/// Whether GDAL reads files with this extension.
-bool isVectorFile(const std::string& extension)
-{
-  const std::array<const char*, 5> extensions{ ".gpkg", ".shp", ".geojson", ".json", ".fgb" };
-  return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
 }
 
 #ifdef TIPP_HAVE_GDAL
@@ -279,8 +273,7 @@ SegmentRows::SegmentRows(const std::string& path, int wrap)
 
 bool SegmentRows::isFor(const std::string& path)
 {
-  const std::string extension = extensionOf(path);
-  return extension == ".csv" || extension == ".txt";
+  return openerOf(path, Use::Constraints) == Opener::Text;
 }
 
 void SegmentRows::takeIds(const PointBlock& block, ConstraintTable& table) const
@@ -354,32 +347,27 @@ namespace
 
 ConstraintTable readAnyKind(const std::string& path)
 {
-  const std::string extension = extensionOf(path);
-  if (extension == ".poly")
+  switch (openerOf(path, Use::Constraints))
   {
-    return readPolyFile(path);
+    case Opener::Triangle:
+      return readPolyFile(path);
+    case Opener::Text:
+    {
+      ConstraintTable table;
+      SegmentRows(path).next(table, std::numeric_limits<std::size_t>::max());
+      return table;
+    }
+    case Opener::Adcirc:
+      return readBoundaries(path);
+    case Opener::Gdal:
+      return readVectorFile(path);
+    case Opener::Vtk:
+      return readVtkConstraints(path);
+    default:
+      throw IOError(path,
+        "has no extension that tells a kind of constraints; use " +
+          listFormats(Use::Constraints, ".vtp or another kind of VTK file") + ".");
   }
-  if (SegmentRows::isFor(path))
-  {
-    ConstraintTable table;
-    SegmentRows(path).next(table, std::numeric_limits<std::size_t>::max());
-    return table;
-  }
-  if (isAdcircFile(path))
-  {
-    return readBoundaries(path);
-  }
-  if (isVectorFile(extension))
-  {
-    return readVectorFile(path);
-  }
-  if (isVtkFile(path))
-  {
-    return readVtkConstraints(path);
-  }
-  throw IOError(path,
-    "has no extension that tells a kind of constraints; use .poly, .csv, .txt, .14, .grd, .gpkg, "
-    ".shp, .geojson, .fgb, .vtp or another kind of VTK file.");
 }
 
 } // namespace

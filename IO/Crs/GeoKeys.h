@@ -2,12 +2,29 @@
 #ifndef tippGeoKeys_h
 #define tippGeoKeys_h
 
-#include "Crs/ReferenceSystem.h"
+#include "Crs/CrsRecords.h"
 
+#include <cstdint>
 #include <string>
 
 namespace tipp
 {
+
+/// A field of a TIFF file's directory.
+struct TiffField
+{
+  enum class Type : std::uint16_t
+  {
+    Text = 2,
+    Short = 3,
+    Long = 4,
+    Double = 12,
+    Long8 = 16
+  };
+  std::uint16_t Tag = 0; ///< the field's tag number
+  Type Is = Type::Short;
+  std::string Bytes; ///< the values, little-endian
+};
 
 /// The EPSG code of a system of heights.
 struct HeightCode

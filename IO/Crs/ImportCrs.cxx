@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Crs/ImportCrs.h"
+
+#include "Crs/GeoKeys.h"
 #include "Files/TextFile.h"
-#include "Raster/GdalLibrary.h"
-#include "Raster/RasterFile.h"
 
 #include <nlohmann/json.hpp>
 

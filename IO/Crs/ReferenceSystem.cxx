@@ -2,10 +2,10 @@
 #include "Crs/ReferenceSystem.h"
 
 #include "Crs/GeoKeys.h"
+#include "Files/ChildProcess.h"
 #include "Files/IOError.h"
-#include "Raster/RasterFile.h"
 #ifdef TIPP_HAVE_GDAL
-#include "Raster/GdalLibrary.h"
+#include "Crs/ImportCrs.h"
 #endif
 
 #include <algorithm>

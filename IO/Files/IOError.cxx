@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/IOError.h"
 
-#include "Files/TemporaryFiles.h"
+#include "Files/TemporaryPaths.h"
 
 #include <algorithm>
 #include <cctype>

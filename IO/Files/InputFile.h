@@ -31,7 +31,9 @@ public:
   /// Reads exactly `bytes` bytes from byte `offset`. Throws IOError if the file ends before that or
   /// cannot be read.
   void read(std::uint64_t offset, void* to, std::size_t bytes) const;
-  /// The same in blocks that fit in the processor's cache: calls take(data, bytes) for each.
+  /// Reads exactly `bytes` bytes from byte `offset`, in blocks that fit in the processor's cache:
+  /// calls take(data, bytes) for each. Throws IOError if the file ends before that or cannot be
+  /// read.
   template <typename Take>
   void readBlocks(std::uint64_t offset, std::uint64_t bytes, Take take) const
   {
@@ -60,13 +62,6 @@ VTKTIPPIO_EXPORT std::size_t readUpTo(
 
 /// Returns a path's extension in lower case with its dot, such as ".vtp"; empty if there is none.
 VTKTIPPIO_EXPORT std::string extensionOf(const std::string& path);
-
-/// For a file of a known kind that TIPP does not read, such as Gmsh's: names the kind and a command
-/// that converts it; else empty.
-std::string conversionAdvice(const std::string& path);
-
-/// Throws IOError: with that advice, or else with `problem`.
-[[noreturn]] void refuseKind(const std::string& path, const std::string& problem);
 
 } // namespace tipp
 

@@ -58,6 +58,10 @@ VTKTIPPIO_EXPORT void writeFully(int descriptor, const std::string& path, std::u
 /// Throws IOError with the reason in errno.
 [[noreturn]] VTKTIPPIO_EXPORT void failToWrite(const std::string& path);
 
+/// Locks a file or folder until the descriptor is closed; returns -1 if it cannot be opened or,
+/// with errno EWOULDBLOCK, if another process has locked it.
+int lockPath(const std::string& path, int flags);
+
 /// Returns once a file or folder is on its disk; throws IOError.
 VTKTIPPIO_EXPORT void syncToDisk(const std::string& path);
 
@@ -112,19 +116,6 @@ struct RemovedFile
 /// links resolved, because a rename would replace the link. Throws IOError if the parent folder is
 /// missing or not writable, or if the name is too long.
 std::filesystem::path outputPath(const std::string& path);
-
-/// Throws IOError if an output is also an input or another output, under any name or link, or is a
-/// folder that holds one. Folders and .pvtu files stand for the files that they consist of; empty
-/// names are ignored. Call it before any work.
-VTKTIPPIO_EXPORT void requireApart(
-  const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
-
-/// Returns the entry for the list of outputs that stands for a run's files in a scratch folder,
-/// which may hold other outputs.
-inline std::string scratchIn(const std::string& folder)
-{
-  return folder.empty() ? "" : folder + "/.scratch";
-}
 
 /// Throws IOError, about the output `path`, if the disk of a folder has less free space than the
 /// `needed` bytes.

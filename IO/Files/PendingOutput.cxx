@@ -4,7 +4,6 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
-#include "Files/TemporaryFiles.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -150,20 +149,6 @@ std::string ending(const std::string& start, const std::string& number)
   return number + "-" + hashText(start + number).substr(0, 8) + ".tmp";
 }
 
-/// Locks a file or folder until the descriptor is closed; returns -1 if it cannot be opened or,
-/// with errno EWOULDBLOCK, if another process has locked it.
-int lockPath(const std::string& path, int flags)
-{
-  const int lock = open(path.c_str(), O_RDONLY | O_CLOEXEC | flags);
-  if (lock >= 0 && flock(lock, LOCK_EX | LOCK_NB) != 0)
-  {
-    close(lock);
-    errno = EWOULDBLOCK;
-    return -1;
-  }
-  return lock;
-}
-
 /// Removes the files with this prefix that killed processes have left: those that no process has
 /// locked.
 void clearLeftovers(const fs::path& folder, const std::string& start)
@@ -252,13 +237,6 @@ void PendingFile::commit()
   syncToDisk(fs::path(this->Path).parent_path().string());
 }
 
-namespace
-{
-
-constexpr const char* suffix = "XXXXXX"; // mkdtemp() replaces the letters by random ones
-
-} // namespace
-
 void requireFolderName(const std::string& path)
 {
   static const std::set<std::string> formats{ ".14", ".csv", ".npy", ".npz", ".obj", ".ply",
@@ -272,139 +250,39 @@ void requireFolderName(const std::string& path)
   }
 }
 
-PendingFolder::PendingFolder(const std::string& path, const Replaceable* replaceable)
-  : PendingFolder(path, replaceable, false)
-{
-}
-
 PendingFolder::PendingFolder(
   const std::string& path, const Replaceable* replaceable, bool isLasting)
   : MayReplace(replaceable)
+  , Path(outputPath(path).string())
+  , Before(this->requireReplaceable(path))
   , IsLasting(isLasting)
+  , Work(isLasting ? WorkFolder::lasting(this->Path) : WorkFolder::beside(this->Path))
+  , Temporary(this->Work.path() + "/" + fs::path(this->Path).filename().string())
 {
-  const fs::path target = outputPath(path);
-  this->Path = target.string();
-  this->Parent = target.parent_path().string();
-  this->Before = stateOf(this->Path);
-  const std::string objection = this->Before.Values ? this->objectionTo(this->Path) : "";
-  if (!objection.empty())
-  {
-    throw IOError(path, objection + "; remove it or name another folder.");
-  }
-  const std::string name = target.filename().string();
-  isLasting ? this->openLasting(lastingPath(path)) : this->makeTemporary(hiddenName(name, ".tmp."));
-  this->Temporary = this->Work + "/" + name;
   if (!isLasting) // for a lasting one, messages show where the work is kept
   {
-    this->Listed.showAs(this->Temporary, this->Path);
+    this->Work.showAs(this->Temporary, this->Path);
   }
-  mkdir(this->Temporary.c_str(), 0777);
+  const bool isMade = mkdir(this->Temporary.c_str(), 0777) == 0;
+  const int reason = errno;
   std::error_code failure;
-  if (!fs::is_directory(this->Temporary, failure))
+  if (!isMade && !fs::is_directory(this->Temporary, failure))
   {
-    const int reason = errno;
-    removeWorkFolder(this->Work);
     errno = reason;
     failToWrite(path);
   }
 }
 
-std::string PendingFolder::lastingPath(const std::string& path)
+/// Returns the state of what is at the path. Throws IOError if that may not be replaced.
+PathState PendingFolder::requireReplaceable(const std::string& path) const
 {
-  const fs::path target = outputPath(path);
-  return target.parent_path().string() + "/" + hiddenName(target.filename().string(), ".part");
-}
-
-void PendingFolder::makeTemporary(const std::string& prefix)
-{
-  this->clearLeftovers(prefix);
-  std::string folder = this->Parent + "/" + prefix + suffix;
-  if (!mkdtemp(folder.data()))
+  PathState state = stateOf(this->Path);
+  const std::string objection = state.Values ? this->objectionTo(this->Path) : "";
+  if (!objection.empty())
   {
-    failToWrite(this->Path);
+    throw IOError(path, objection + "; remove it or name another folder.");
   }
-  this->Work = folder;
-  this->Lock.emplace(lockPath(this->Work, O_DIRECTORY), this->Work);
-  if (this->Lock->descriptor() < 0)
-  {
-    failToWrite(this->Path);
-  }
-  claimWorkFolder(this->Work, "");
-  this->Listed.list(this->Work);
-}
-
-void PendingFolder::openLasting(const std::string& folder)
-{
-  const auto isStillThere = [&]
-  {
-    struct stat opened = {};
-    struct stat named = {};
-    return fstat(this->Lock->descriptor(), &opened) == 0 && stat(folder.c_str(), &named) == 0 &&
-      opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
-  };
-  bool wasThere = false;
-  for (;;)
-  {
-    wasThere = mkdir(folder.c_str(), 0777) != 0;
-    if (wasThere && errno != EEXIST)
-    {
-      failToWrite(this->Path);
-    }
-    this->Lock.emplace(lockPath(folder, O_DIRECTORY), folder);
-    if (this->Lock->descriptor() >= 0)
-    {
-      if (isStillThere())
-      {
-        break;
-      }
-    }
-    else if (errno == EWOULDBLOCK)
-    {
-      throw IOError(this->Path, "is being made by another process; wait for it or end it.");
-    }
-    else if (errno == ENOTDIR)
-    {
-      throw IOError(folder, "is a file where the work folder of the run is to be; move it.");
-    }
-    else if (errno != ENOENT) // ENOENT: its owner has just finished
-    {
-      failToWrite(folder);
-    }
-  }
-  claimWorkFolder(folder, "");
-  this->Work = folder;
-  this->Listed.list(folder);
-  this->keep(wasThere);
-}
-
-PendingFolder::~PendingFolder()
-{
-  if (!this->Work.empty() && !this->Kept)
-  {
-    removeWorkFolder(this->Work);
-  }
-}
-
-void PendingFolder::clearLeftovers(const std::string& prefix) const
-{
-  std::error_code failure;
-  for (const fs::directory_entry& entry : fs::directory_iterator(this->Parent, failure))
-  {
-    const std::string name = entry.path().filename().string();
-    const bool isNamedSo = name.size() == prefix.size() + std::strlen(suffix) &&
-      name.compare(0, prefix.size(), prefix) == 0 &&
-      entry.symlink_status(failure).type() == fs::file_type::directory;
-    // Locked: its owner is still running.
-    const int lock = isNamedSo ? lockPath(entry.path().string(), O_DIRECTORY) : -1;
-    if (lock >= 0)
-    {
-      if (isWorkFolder(entry.path().string()))
-      {
-        removeWorkFolder(entry.path().string());
-      }
-      close(lock);
-    }
-  }
+  return state;
 }
 
 /// Returns why a folder must not be replaced; empty if it may be.
@@ -458,14 +336,10 @@ void PendingFolder::commit()
   }
   catch (const IOError&)
   {
-    this->keep();
-    if (!this->IsLasting)
-    {
-      unmarkWorkFolder(this->Work); // so that no other run removes it
-    }
+    this->IsLasting ? this->Work.keep() : this->Work.giveUp();
     throw;
   }
-  syncToDisk(this->Parent);
+  syncToDisk(fs::path(this->Path).parent_path().string());
   // The previous output is in the work folder now, and is removed with it.
 }
 

@@ -3,7 +3,8 @@
 #define tippPendingOutput_h
 
 #include "Files/OutputFile.h"
-#include "Files/TemporaryFiles.h"
+#include "Files/TemporaryPaths.h"
+#include "Files/WorkFolder.h"
 #include "vtkTIPPIOModule.h"
 
 #include <array>
@@ -76,38 +77,30 @@ struct Replaceable
 };
 
 /// An output folder in a hidden work folder beside its path until commit(). Without commit() it is
-/// removed; folders left behind by a killed process are removed by the same user's next run for
-/// the same path.
-/// A work folder is marked as created here, and only files that runs write are removed from it.
+/// removed with the work folder.
 class VTKTIPPIO_EXPORT PendingFolder
 {
 public:
-  /// Throws IOError if the parent folder is missing or not writable, or if the path holds something
-  /// other than an empty folder or, if `replaceable` is given, a replaceable one.
-  explicit PendingFolder(const std::string& path, const Replaceable* replaceable = nullptr);
-  /// Uses a work folder with a fixed name, ".NAME.part". It may exist, left by an interrupted run,
-  /// and is then kept until keep(false); after keep() it stays. Files in it beside the output are
-  /// never published. Throws IOError also if another process uses it.
+  /// Uses WorkFolder::beside(). Throws IOError if the parent folder is missing or not writable, or
+  /// if the path holds something other than an empty folder or, if `replaceable` is given, a
+  /// replaceable one.
+  explicit PendingFolder(const std::string& path, const Replaceable* replaceable = nullptr)
+    : PendingFolder(path, replaceable, false)
+  {
+  }
+  /// Uses WorkFolder::lasting() instead: after keep() the folder stays, and a later run resumes
+  /// from it. Files in the work folder beside the output are never published. Throws IOError also
+  /// if another process uses the folder.
   static PendingFolder lasting(const std::string& path, const Replaceable* replaceable)
   {
     return { path, replaceable, true };
   }
-  /// The work folder of lasting().
-  static std::string lastingPath(const std::string& path);
-  ~PendingFolder();
-  PendingFolder(const PendingFolder&) = delete;
-  PendingFolder& operator=(const PendingFolder&) = delete;
 
   /// The folder to write to.
   const std::string& temporaryPath() const { return this->Temporary; }
   /// The work folder that contains it.
-  const std::string& workPath() const { return this->Work; }
-  bool isKept() const { return this->Kept; }
-  void keep(bool kept = true)
-  {
-    this->Kept = kept;
-    this->Listed.keep(kept);
-  }
+  WorkFolder& work() { return this->Work; }
+  const std::string& workPath() const { return this->Work.path(); }
 
   /// Moves the folder to its path in one step and removes what was there. The caller must have
   /// synced its files for them to survive a crash. Throws IOError if that fails, or if what is at
@@ -117,22 +110,15 @@ public:
 
 private:
   PendingFolder(const std::string& path, const Replaceable* replaceable, bool isLasting);
-  void makeTemporary(const std::string& prefix);
-  void openLasting(const std::string& folder);
-  void clearLeftovers(const std::string& prefix) const;
+  PathState requireReplaceable(const std::string& path) const;
   std::string objectionTo(const std::string& folder) const;
 
-  std::string Path;
-  std::string Parent;
   const Replaceable* const MayReplace;
-  PathState Before;
-  std::string Temporary;
-  std::string Work;
-  TemporaryPath Listed;
-  bool IsLasting;
-  bool Kept = false;
-
-  std::optional<OutputFile> Lock; ///< the work folder, locked while it is open
+  const std::string Path;
+  const PathState Before;
+  const bool IsLasting;
+  WorkFolder Work;
+  const std::string Temporary;
 };
 
 } // namespace tipp

@@ -4,44 +4,18 @@
 
 #include "Arrays/Scalar.h"
 #include "Files/InputFile.h"
+#include "Files/RawArray.h"
 #include "vtkTIPPIOModule.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 namespace tipp
 {
-
-/// The size of a value in bytes.
-VTKTIPPIO_EXPORT std::size_t scalarSize(Scalar type);
-/// The name in VTK's XML files: "Int8" ... "Float64".
-VTKTIPPIO_EXPORT const char* scalarName(Scalar type);
-/// The name in NumPy: "|i1", "<f8".
-VTKTIPPIO_EXPORT const char* scalarDescr(Scalar type);
-/// The inverse of scalarName() and scalarDescr(); nullopt for any other text.
-std::optional<Scalar> scalarFromName(const std::string& name);
-std::optional<Scalar> scalarFromDescr(const std::string& descr);
-
-/// An array's tuples in a file: little-endian and contiguous.
-struct RawArray
-{
-  std::string Name;
-  std::string Path;         ///< the file
-  std::uint64_t Offset = 0; ///< offset of the first tuple from the file's start, in bytes
-  Scalar Type = Scalar::Float64;
-  int Components = 1;      ///< components per tuple
-  std::int64_t Tuples = 0; ///< number of tuples
-
-  std::size_t tupleBytes() const { return std::size_t(this->Components) * scalarSize(this->Type); }
-  std::uint64_t bytes() const { return std::uint64_t(this->Tuples) * this->tupleBytes(); }
-};
 
 /// A mesh of triangles or of tetrahedra as arrays in files. Nothing is loaded, so the mesh may be
 /// larger than memory. The sizes of all arrays have been checked against their files. Point indices
@@ -81,19 +55,6 @@ VTKTIPPIO_EXPORT bool isFlatMesh(const std::string& path);
 FlatMesh openFlatVtu(const std::string& path);
 bool isFlatVtu(const std::string& path);
 ///@}
-
-/// Whether all ids are in [0, limit).
-template <typename Id>
-bool areBelow(const Id* ids, std::size_t count, std::int64_t limit)
-{
-  using Unsigned = std::make_unsigned_t<Id>; // in which negative ids are large
-  Unsigned greatest = 0;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    greatest = std::max(greatest, Unsigned(ids[i]));
-  }
-  return count == 0 || std::uint64_t(greatest) < std::uint64_t(limit);
-}
 
 /// Reads the cells of a flat mesh, as 64-bit point indices, and checks these.
 class VTKTIPPIO_EXPORT CellReader
@@ -155,6 +116,13 @@ struct FlatContent
 /// true; throws IOError.
 VTKTIPPIO_EXPORT bool writeFlatMesh(
   const std::string& path, const FlatContent& content, const std::function<bool()>& aborted = {});
+
+/// Converts an ADCIRC grid (AdcircGrid) with the point data "depth" and, for each file of values at
+/// its nodes (fort.63, fort.64, maxele.63 ...), point data named after the file without extension;
+/// "fort.63" and "fort.64" are kept as they are. Several steps become an array that varies in time;
+/// files of several steps must have equal times. Throws IOError.
+VTKTIPPIO_EXPORT FlatContent flattenAdcirc(
+  const std::string& grid, const std::vector<std::string>& values);
 
 } // namespace tipp
 

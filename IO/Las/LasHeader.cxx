@@ -213,11 +213,6 @@ void readCount(const std::vector<char>& fields, const std::string& path, std::ui
 
 } // namespace
 
-bool isLasExtension(const std::string& extension)
-{
-  return extension == ".las" || extension == ".laz";
-}
-
 LasHeader readLasHeader(const std::string& path)
 {
   return readLasHeader(path, {});

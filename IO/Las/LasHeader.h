@@ -47,9 +47,6 @@ struct LasHeader
 VTKTIPPIO_EXPORT LasHeader readLasHeader(const std::string& path, const LasSelection& selection);
 VTKTIPPIO_EXPORT LasHeader readLasHeader(const std::string& path);
 
-/// Whether the extension is .las or .laz.
-VTKTIPPIO_EXPORT bool isLasExtension(const std::string& extension);
-
 /// Reads point records, in the layout of the LAS specification.
 class LasRecords
 {

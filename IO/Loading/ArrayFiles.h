@@ -4,7 +4,7 @@
 
 #include "Arrays/Buffer.h"
 #include "Files/InputFile.h"
-#include "Flat/FlatMesh.h"
+#include "Files/RawArray.h"
 #include "Loading/VertexLoader.h"
 #include "Parallel/ParallelFor.h"
 
@@ -53,7 +53,8 @@ struct IdRange
 class ArrayFiles
 {
 public:
-  /// Throws as makeVertexLoader does.
+  /// Throws IOError if a file cannot be opened or is too short for its array; std::invalid_argument
+  /// if the arrays' numbers of tuples differ.
   explicit ArrayFiles(std::vector<RawArray> arrays);
 
   std::size_t count() const { return this->Arrays.size(); }

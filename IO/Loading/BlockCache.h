@@ -42,7 +42,8 @@ struct Run
 std::vector<Run> runsOfBlocks(const std::vector<char>& active, std::int64_t block, std::int64_t low,
   std::int64_t high, std::int64_t gap);
 
-/// The same for single ids, the first members of the pairs, in ascending order.
+/// Returns single ids, the first members of the pairs, in ascending order, as runs. Runs less than
+/// `gap` tuples apart are merged.
 std::vector<Run> runsOfIds(
   const std::vector<std::pair<std::int64_t, std::uint32_t>>& ids, std::int64_t gap);
 

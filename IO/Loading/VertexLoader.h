@@ -2,7 +2,7 @@
 #ifndef tippVertexLoader_h
 #define tippVertexLoader_h
 
-#include "Flat/FlatMesh.h"
+#include "Files/RawArray.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstddef>

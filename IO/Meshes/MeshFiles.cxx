@@ -2,7 +2,9 @@
 #include "Meshes/MeshFiles.h"
 
 #include "Adcirc/AdcircGrid.h"
+#include "Arrays/FindNeighbors.h"
 #include "Arrays/Scalar.h"
+#include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Npy/NpyFile.h"
@@ -333,24 +335,26 @@ std::vector<std::int64_t> neighborsOf(vtkDataSet* data, int corners)
 
 TriangleMesh readMesh(const std::string& path)
 {
-  const std::string extension = extensionOf(path);
-  if (extension == ".npy")
+  switch (openerOf(path, Use::Triangles))
   {
-    return { readNpyIds(path, 3, "triangles"), {}, {} };
+    case Opener::Npy:
+      return { readNpyIds(path, 3, "triangles"), {}, {} };
+    case Opener::Adcirc:
+    {
+      AdcircGrid grid = readAdcircGrid(path);
+      return { std::move(grid.Triangles), std::move(grid.XY), {} };
+    }
+    case Opener::Vtk:
+    {
+      const vtkSmartPointer<vtkDataSet> data = readDataSet(path);
+      std::vector<std::int64_t> ids = cellIdsOf(data, VTK_TRIANGLE, path);
+      return { std::move(ids), std::move(pointsOf(data).XY), neighborsOf(data, 3) };
+    }
+    default:
+      refuseKind(path,
+        "has no extension that tells a kind of mesh file; use " +
+          listFormats(Use::Triangles, "one of VTK's") + ".");
   }
-  if (isAdcircFile(path))
-  {
-    AdcircGrid grid = readAdcircGrid(path);
-    return { std::move(grid.Triangles), std::move(grid.XY), {} };
-  }
-  if (isVtkFile(path))
-  {
-    const vtkSmartPointer<vtkDataSet> data = readDataSet(path);
-    std::vector<std::int64_t> ids = cellIdsOf(data, VTK_TRIANGLE, path);
-    return { std::move(ids), std::move(pointsOf(data).XY), neighborsOf(data, 3) };
-  }
-  refuseKind(
-    path, "has no extension that tells a kind of mesh file; use .npy, .14, .grd or one of VTK's.");
 }
 
 namespace
@@ -397,22 +401,22 @@ bool writeGrid(const std::string& path, const PointTable& points, int type, vtkC
 
 } // namespace
 
-bool isMeshFile(const std::string& path)
-{
-  const std::string extension = extensionOf(path);
-  return extension == ".npy" || extension == ".vtp" || extension == ".vtu" || isAdcircFile(path);
-}
-
 bool writeMesh(const std::string& path, const PointTable& points, TrianglesView triangles,
   const MeshOptions& options)
 {
-  const std::string extension = extensionOf(path);
-  if (extension == ".npy")
+  const Opener opener = openerOf(path, Use::WritesTriangles);
+  if (opener == Opener::None)
+  {
+    throw IOError(path,
+      "has no extension that tells a kind of mesh file; use " + listFormats(Use::WritesTriangles) +
+        ".");
+  }
+  if (opener == Opener::Npy)
   {
     return withIds(triangles,
       [&](const auto* ids) { return writeNpy(path, ids, triangles.size(), 3, options); });
   }
-  if (isAdcircFile(path))
+  if (opener == Opener::Adcirc)
   {
     return writeAdcircGrid(
       path, points, triangles, options.AdcircLike, options.Before, options.Aborted);
@@ -423,16 +427,9 @@ bool writeMesh(const std::string& path, const PointTable& points, TrianglesView 
     withIds(
       triangles, [&](const auto* ids) { findNeighbors(ids, triangles.size(), neighbors.data()); });
   }
-  if (extension == ".vtp")
-  {
-    return writeWithIds(path, makePolyData(points, triangles), 3, neighbors, options);
-  }
-  if (extension == ".vtu")
-  {
-    return writeGrid(path, points, VTK_TRIANGLE, makeCells(triangles), neighbors, options);
-  }
-  throw IOError(
-    path, "has no extension that tells a kind of mesh file; use .npy, .vtp, .vtu or .14.");
+  return extensionOf(path) == ".vtp"
+    ? writeWithIds(path, makePolyData(points, triangles), 3, neighbors, options)
+    : writeGrid(path, points, VTK_TRIANGLE, makeCells(triangles), neighbors, options);
 }
 
 std::size_t requireElevation(const PointTable& points, const std::string& path)
@@ -449,15 +446,16 @@ std::size_t requireElevation(const PointTable& points, const std::string& path)
 bool writeTetrahedra(const std::string& path, PointTable points, const std::int32_t* ids,
   std::size_t tetrahedra, const std::vector<std::int64_t>& neighbors, const MeshOptions& options)
 {
-  const std::string extension = extensionOf(path);
-  if (extension == ".npy")
+  const Opener opener = openerOf(path, Use::WritesTetrahedra);
+  if (opener == Opener::Npy)
   {
     return writeNpy(path, ids, tetrahedra, 4, options);
   }
-  if (extension != ".vtu")
+  if (opener != Opener::Vtk)
   {
-    throw IOError(
-      path, "has no extension that tells a kind of file of tetrahedra; use .npy or .vtu.");
+    throw IOError(path,
+      "has no extension that tells a kind of file of tetrahedra; use " +
+        listFormats(Use::WritesTetrahedra) + ".");
   }
   points.Columns[requireElevation(points, path)].Name = "z"; // makes it the third coordinate
   return writeGrid(path, points, VTK_TETRA, makeCells(ids, tetrahedra, 4), neighbors, options);
@@ -465,7 +463,7 @@ bool writeTetrahedra(const std::string& path, PointTable points, const std::int3
 
 bool holdsTetrahedra(const std::string& path)
 {
-  if (extensionOf(path) == ".npy")
+  if (isOpenedBy(path, Opener::Npy))
   {
     const NpyReader reader(path);
     return reader.columns() == 4 && !reader.isFloat();
@@ -480,7 +478,7 @@ bool holdsTetrahedra(const std::string& path)
 
 StoredTetrahedra readTetrahedra(const std::string& path)
 {
-  if (extensionOf(path) == ".npy")
+  if (isOpenedBy(path, Opener::Npy))
   {
     return { readNpyIds(path, 4, "tetrahedra"), {}, {} };
   }

@@ -6,8 +6,6 @@
 #include "Points/ReadPoints.h"
 #include "vtkTIPPIOModule.h"
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -62,85 +60,6 @@ private:
   std::size_t Count = 0;
 };
 
-/// For triangles that meet edge to edge and have the same orientation, or tetrahedra that meet
-/// facet to facet (Corners = 4): finds for each corner the index of the cell across the opposite
-/// edge or facet, or -1. The number of corners of all cells must fit in Index.
-///
-/// Facets whose second cell has not been found are kept in lists, which are found by a hash of the
-/// points and linked in `neighbors` itself.
-template <std::size_t Corners = 3, typename Id, typename Index>
-void findNeighbors(const Id* corners, std::size_t cells, Index* neighbors)
-{
-  constexpr Index none = -1;
-  // A link to slot h is -2 - h, so it is neither a cell nor -1, the end of a list.
-  const auto link = [](Index slot) { return Index(-2 - slot); };
-  // Of a triangle: the start and the end of the edge opposite to corner h % 3.
-  const auto from = [&](std::size_t h) { return corners[h % 3 == 2 ? h - 2 : h + 1]; };
-  const auto to = [&](std::size_t h) { return corners[h % 3 == 0 ? h + 2 : h - 1]; };
-  // The points of the opposite edge or facet, ascending.
-  const auto facetOf = [&](std::size_t h)
-  {
-    if constexpr (Corners == 3)
-    {
-      const auto [low, high] = std::minmax({ from(h), to(h) });
-      return std::array<Id, 2>{ low, high };
-    }
-    else
-    {
-      const Id* const v = corners + h / 4 * 4;
-      const std::size_t i = h % 4;
-      std::array<Id, 3> facet = { v[i == 0 ? 1 : 0], v[i <= 1 ? 2 : 1], v[i == 3 ? 2 : 3] };
-      std::sort(facet.begin(), facet.end());
-      return facet;
-    }
-  };
-  std::size_t lists = 1;
-  while (lists < (Corners - 2) * cells)
-  {
-    lists *= 2;
-  }
-  std::vector<Index> newest(lists, none);
-  for (std::size_t h = 0; h < Corners * cells; ++h)
-  {
-    const auto facet = facetOf(h);
-    const auto isSame = [&](std::size_t other)
-    {
-      if constexpr (Corners == 3)
-      {
-        return from(other) == to(h) && to(other) == from(h);
-      }
-      else
-      {
-        return facetOf(other) == facet;
-      }
-    };
-    // Nearby points have nearby hashes, and the many facets of one point are spread.
-    std::size_t hash = 0;
-    for (std::size_t i = facet.size(); i-- > 0;)
-    {
-      hash = 5 * hash + std::size_t(facet[i]);
-    }
-    Index& first = newest[hash & (lists - 1)];
-    Index* at = &first;
-    while (*at != none && !isSame(std::size_t(link(*at))))
-    {
-      at = &neighbors[std::size_t(link(*at))];
-    }
-    if (*at == none)
-    {
-      neighbors[h] = first;
-      first = link(Index(h));
-      continue;
-    }
-    const Index other = link(*at);
-    *at = neighbors[std::size_t(other)];
-    neighbors[h] = other / Index(Corners);
-    neighbors[std::size_t(other)] = Index(h / Corners);
-  }
-  std::transform(
-    neighbors, neighbors + Corners * cells, neighbors, [=](Index n) { return std::max(n, none); });
-}
-
 /// Creates a data set over the caller's memory, which must outlive it and must not be changed
 /// through it; only coordinates and cell offsets are copies. A column named z is the third
 /// coordinate, the others are point data.
@@ -180,15 +99,20 @@ struct MeshOptions
   std::function<bool()> Aborted;
 };
 
-/// Whether writeMesh() supports the extension.
-VTKTIPPIO_EXPORT bool isMeshFile(const std::string& path);
-
 /// Writes triangles by the path's extension: .npy (m x 3 int64 point ids; points are not written),
 /// .vtp or .vtu (appended raw binary: all points, the column named z as third coordinate or else 0,
 /// the other columns as point data), or .14, .grd (an ADCIRC grid, see writeAdcircGrid). The file
 /// appears only when it is complete. Returns false if Aborted returned true; throws IOError.
 VTKTIPPIO_EXPORT bool writeMesh(const std::string& path, const PointTable& points,
   TrianglesView triangles, const MeshOptions& options = {});
+
+/// Writes points and triangles as an ADCIRC grid. The depth of a node is the column depth, else the
+/// negated elevation, else 0. `like` is the path of a grid whose nodes are the first points; its
+/// title, node numbers and boundary lists are kept. If it is empty, nodes are numbered from 1 and
+/// there are no boundaries. Returns false if `aborted` returned true; throws IOError.
+bool writeAdcircGrid(const std::string& path, const PointTable& points, TrianglesView triangles,
+  const std::string& like, const std::optional<PathState>& before,
+  const std::function<bool()>& aborted);
 
 /// The index of a table's column that is the third coordinate: named z, Z or elevation. Throws
 /// IOError, with the file's name `path`, if there is none.

@@ -3,7 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
-#include "Flat/FlatMesh.h"
+#include "Files/RawArray.h"
 #include "Parallel/Poll.h"
 
 #include <algorithm>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioned/FinishedPieces.h"
 
+#include "Arrays/FindNeighbors.h"
+#include "Files/Checksum.h"
 #include "Files/IOError.h"
 #include "Files/TextFile.h"
-#include "Meshes/MeshFiles.h"
 #include "Parallel/ParallelFor.h"
-#include "Partitioned/Checksum.h"
 #include "Partitioned/PieceFile.h"
 
 #include <algorithm>

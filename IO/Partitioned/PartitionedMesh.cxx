@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioned/PartitionedMesh.h"
 
+#include "Files/Checksum.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/PendingOutput.h"
 #include "Files/TextFile.h"
-#include "Partitioned/Checksum.h"
 #include "Partitioned/PieceFormat.h"
 
 #include <algorithm>

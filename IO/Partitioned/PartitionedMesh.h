@@ -4,7 +4,7 @@
 
 #include "Files/IOError.h"
 #include "Files/PendingOutput.h"
-#include "Flat/FlatMesh.h"
+#include "Files/RawArray.h"
 #include "Predicates/Points.h"
 #include "vtkTIPPIOModule.h"
 

@@ -2,7 +2,7 @@
 #include "Partitioned/PieceFile.h"
 
 #include "Files/IOError.h"
-#include "Flat/FlatMesh.h"
+#include "Files/RawArray.h"
 
 #include <algorithm>
 #include <cstring>

@@ -3,9 +3,9 @@
 #define tippPieceFile_h
 
 #include "Arrays/Buffer.h"
+#include "Files/Checksum.h"
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
-#include "Partitioned/Checksum.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/PieceFormat.h"
 #include "vtkTIPPIOModule.h"

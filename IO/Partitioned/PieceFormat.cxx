@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioned/PieceFormat.h"
 
+#include "Files/Checksum.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/VtkXml.h"
-#include "Partitioned/Checksum.h"
 
 #include <algorithm>
 #include <cstring>

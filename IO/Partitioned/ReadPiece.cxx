@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioned/ReadPiece.h"
 
-#include "Flat/FlatMesh.h"
+#include "Files/RawArray.h"
 #include "Parallel/Sort.h"
 #include "Partitioned/PieceFile.h"
 
@@ -480,7 +480,7 @@ private:
   const PieceOptions& Options;
   const PieceFile File;
   std::int64_t StoredPoints = 0; ///< that are in the file and needed
-  std::int64_t StoredCells = 0;  ///< likewise
+  std::int64_t StoredCells = 0;  ///< that are in the file and needed
   std::optional<BorrowedCells> Borrowed;
   std::vector<std::int64_t> Chosen; ///< indices in the file of the chosen cells, ascending
   Piece Result;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioning/PartitionMesh.h"
 
+#include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
+#include "Files/RequireApart.h"
 #include "Flat/FlattenDataSet.h"
 #include "Partitioned/FinishedPieces.h"
 #include "Ranks/Communicator.h"
@@ -139,7 +141,7 @@ PartitionStatistics partitionInput(const std::string& input, const std::string& 
         // fails early if the output cannot be written
         const PendingFolder writable(output, &replaceableMesh);
       }
-      isFlat = isFlatMesh(input) || !isVtkFile(input);
+      isFlat = isFlatMesh(input) || !isOpenedBy(input, Opener::Vtk);
       if (isFlat)
       {
         mesh = openFlatMesh(input);

@@ -6,9 +6,9 @@
 #include "Parallel/ParallelFor.h"
 #include "Partition/BoxTiling.h"
 #include "Partitioned/PartitionedMesh.h"
-#include "Partitioning/PartitionMesh.h"
-#include "Partitioning/Spill.h"
+#include "Partitioning/PartitionOptions.h"
 #include "Ranks/Communicator.h"
+#include "Ranks/Spill.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -4,7 +4,7 @@
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
-#include "Files/TemporaryFiles.h"
+#include "Files/TemporaryPaths.h"
 #include "Npy/NpyFile.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
@@ -12,9 +12,8 @@
 #include "Partitioned/PieceFormat.h"
 #include "Partitioning/MeshTiling.h"
 #include "Partitioning/PartitionJob.h"
-#include "Query/Queries.h"
-#include "Query/ResidentMesh.h"
 #include "Ranks/Communicator.h"
+#include "Resident/PieceNeighbors.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -4,8 +4,9 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #ifdef TIPP_HAVE_GDAL
+#include "Crs/ImportCrs.h"
 #include "Files/TextFile.h"
-#include "Raster/GdalLibrary.h"
+#include "Gdal/GdalLibrary.h"
 #endif
 
 #include <algorithm>
@@ -17,13 +18,6 @@
 
 namespace tipp
 {
-
-bool isGisPath(const std::string& path)
-{
-  constexpr std::array<const char*, 7> extensions = { ".gpkg", ".shp", ".geojson", ".json", ".fgb",
-    ".kml", ".dxf" };
-  return std::find(extensions.begin(), extensions.end(), extensionOf(path)) != extensions.end();
-}
 
 #ifdef TIPP_HAVE_GDAL
 

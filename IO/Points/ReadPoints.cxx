@@ -2,10 +2,9 @@
 #include "Points/ReadPoints.h"
 
 #include "Adcirc/AdcircGrid.h"
+#include "Files/Formats.h"
 #include "Files/IOError.h"
-#include "Files/InputFile.h"
 #include "Files/TextFile.h"
-#include "Las/LasHeader.h"
 #include "Npy/NpyFile.h"
 #include "Points/Longitudes.h"
 
@@ -149,6 +148,14 @@ ColumnChoice chooseColumns(const std::string& path, const std::vector<std::strin
 
 namespace
 {
+
+/// Whether a file is text, by its extension. "FILE.msh.gz" is not, although it is compressed.
+bool isText(const std::string& path)
+{
+  const Opener opener = openerOf(path, Use::Points);
+  return (opener == Opener::Text || opener == Opener::CompressedText) &&
+    conversionAdvice(path).empty();
+}
 
 /// Points from an .npy table of two or three columns, named x, y and z, of float64 or float32.
 class NpyPoints : public FilePoints
@@ -321,23 +328,25 @@ std::unique_ptr<FilePoints> openFilePoints(const std::string& path, const PointO
   {
     return openGeneratedPoints(generated, options.InSpace);
   }
-  const std::string extension = extensionOf(path);
-  if (isLasExtension(extension))
+  const Opener opener = openerOf(path, Use::Points);
+  if (opener != Opener::Las)
   {
-    requireNoChoice(path, options);
-    return openLasPoints(path, options);
+    requireNoSelection(path, options);
   }
-  requireNoSelection(path, options);
-  if (extension == ".npy")
+  switch (opener)
   {
-    return std::make_unique<NpyPoints>(path, options);
+    case Opener::Las:
+      requireNoChoice(path, options);
+      return openLasPoints(path, options);
+    case Opener::Npy:
+      return std::make_unique<NpyPoints>(path, options);
+    case Opener::Gdal:
+      requireNoChoice(path, options, true);
+      return openGisPoints(path, options);
+    default:
+      break;
   }
-  if (isGisPath(path))
-  {
-    requireNoChoice(path, options, true);
-    return openGisPoints(path, options);
-  }
-  if (isTextPath(path) && conversionAdvice(path).empty())
+  if (isText(path))
   {
     return streamTextPoints(path, options);
   }
@@ -399,7 +408,7 @@ PointTable readAdcircPoints(const std::string& path)
 PointTable readWhole(const std::string& path, const PointOptions& options)
 {
   requireNoSelection(path, options);
-  if (isTextPath(path) && conversionAdvice(path).empty())
+  if (isText(path))
   {
     return readTextPoints(path, options);
   }
@@ -410,25 +419,18 @@ PointTable readWhole(const std::string& path, const PointOptions& options)
         ? "stands for points that are never all in memory; name an output that ends in .tipp."
         : "has no number of points after the colon, such as uniform:1000000.");
   }
-  if (!isAdcircFile(path) && !isVtkFile(path))
+  const Opener opener = openerOf(path, Use::Points);
+  if (opener != Opener::Adcirc && opener != Opener::Vtk)
   {
     refuseKind(path,
-      "has no extension that tells a kind of point file; use .npy, .csv, .txt, .xyz (or these as "
-      ".gz, .xz or .zst), .las, .laz, .gpkg, .shp, .geojson, .fgb, .kml, .dxf, .14, .grd or "
-      "one of VTK's.");
+      "has no extension that tells a kind of point file; use " +
+        listFormats(Use::Points, "one of VTK's") + ".");
   }
   requireNoChoice(path, options);
-  return isVtkFile(path) ? readVtkPoints(path) : readAdcircPoints(path);
+  return opener == Opener::Vtk ? readVtkPoints(path) : readAdcircPoints(path);
 }
 
 } // namespace
-
-bool isVtkFile(const std::string& path)
-{
-  constexpr std::array<const char*, 14> extensions = { ".vtp", ".vtu", ".vti", ".vts", ".vtr",
-    ".pvtp", ".pvtu", ".pvti", ".pvts", ".pvtr", ".vtk", ".ply", ".stl", ".obj" };
-  return std::find(extensions.begin(), extensions.end(), extensionOf(path)) != extensions.end();
-}
 
 #ifdef TIPP_WITHOUT_VTK
 PointTable readVtkPoints(const std::string& path)
@@ -484,12 +486,12 @@ PointTable readPoints(const std::vector<std::string>& paths, const PointOptions&
 
 PointTable readPoints(const std::string& path, const PointOptions& options)
 {
-  const std::string extension = extensionOf(path);
-  if (isLasExtension(extension) || isGisPath(path) || options.Thin.isGiven())
+  const Opener opener = openerOf(path, Use::Points);
+  if (opener == Opener::Las || opener == Opener::Gdal || options.Thin.isGiven())
   {
     return readAllPoints(*openPointStream({ path }, options));
   }
-  if (extension == ".npy")
+  if (opener == Opener::Npy)
   {
     return readNpyPoints(path, options, 0, 1);
   }
@@ -506,13 +508,12 @@ PointTable readPointsShare(
   {
     return part == 0 ? readPoints(paths, options) : PointTable();
   }
-  if (paths.size() == 1 && extensionOf(paths[0]) == ".npy")
+  if (paths.size() == 1 && isOpenedBy(paths[0], Opener::Npy))
   {
     return readNpyPoints(paths[0], options, part, parts);
   }
   const bool isDivisible = std::all_of(paths.begin(), paths.end(),
-    [](const std::string& path)
-    { return extensionOf(path) == ".npy" || isLasExtension(extensionOf(path)); });
+    [](const std::string& path) { return formatOf(path, Use::Divisible) != nullptr; });
   if (!isDivisible)
   {
     return part == 0 ? readPoints(paths, options) : PointTable();

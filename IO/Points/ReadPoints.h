@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+class vtkDataSet;
+
 namespace tipp
 {
 
@@ -174,7 +176,7 @@ struct PointOptions
   /// Which columns are x and y: a name in the file's header, or a column index from 0. Empty: by
   /// findCoordinates(); without names the first two.
   std::string X;
-  std::string Y; ///< likewise
+  std::string Y;
   LasSelection Las = {};
   /// 180 or 360: x are longitudes in degrees, which are moved by 360 into [Wrap - 360, Wrap). 0:
   /// no.
@@ -206,12 +208,8 @@ struct PointOptions
   }
 };
 
-/// Reads points by the file's extension:
-/// .npy (n x 2 or n x 3, float64 or float32); .csv, .txt, .xyz (one point per line, columns
-/// separated by comma, semicolon, tab or spaces, with or without a first line of names or with the
-/// count); .las, .laz (see openLasPoints); .gpkg, .shp, .geojson, .fgb, .kml, .dxf (see
-/// openGisPoints); .14, .grd (ADCIRC grids: nodes and depth); any format
-/// that VTK reads (points and point data, a column for each component). Throws IOError.
+/// Reads points by the file's extension (Files/Formats.h). Of VTK's formats, a column for each
+/// component of point data; of ADCIRC grids nodes and depth. Throws IOError.
 VTKTIPPIO_EXPORT PointTable readPoints(const std::string& path, const PointOptions& options = {});
 
 /// Reads the points of several files, in their order. Throws IOError.
@@ -354,10 +352,6 @@ std::unique_ptr<FilePoints> openGeneratedPoints(std::int64_t count, bool inSpace
 /// IOError.
 std::unique_ptr<FilePoints> openLasPoints(const std::string& path, const PointOptions& options);
 
-/// Whether GDAL reads points from files with this extension: .gpkg, .shp, .geojson, .json, .fgb,
-/// .kml or .dxf.
-bool isGisPath(const std::string& path);
-
 /// The points of a file of a GIS, read in blocks with GDAL: those of all layers or of one, also the
 /// parts of multipoints. Columns: z, if the points have a z or the options name an attribute for
 /// it, and the attributes that are numbers. Features without a point are left out. Throws IOError,
@@ -375,17 +369,13 @@ std::unique_ptr<FilePoints> openGisPoints(const std::string& path, const PointOp
 /// error in z or in a column that is asked for, else the column is left out.
 PointTable readTextPoints(const std::string& path, const PointOptions& options);
 
-/// Whether the path names text: .csv, .tsv, .txt, .xyz or .pts; .gz, .xz or .zst (compressed text);
-/// or "-" (standard input).
-bool isTextPath(const std::string& path);
-
-/// Whether VTK reads files with this extension: .vtp .vtu .vti .vts .vtr and their parallel kinds
-/// (.pvtp ...), .vtk, .ply, .stl, .obj.
-VTKTIPPIO_EXPORT bool isVtkFile(const std::string& path);
-
-/// Reads the points of such a file as pointsOf() returns them. Throws IOError if reading fails, and
-/// always in a build without VTK.
+/// Reads the points of a file of VTK as pointsOf() returns them. Throws IOError if reading fails,
+/// and always in a build without VTK.
 VTKTIPPIO_EXPORT PointTable readVtkPoints(const std::string& path);
+
+/// Converts a data set's points and numeric point data to a table with a column z; an array of
+/// several components becomes columns name_0, name_1 ...
+VTKTIPPIO_EXPORT PointTable pointsOf(vtkDataSet* data);
 
 /// Finds x, y and z among a file's columns; `names` is empty or as long as `count`. Throws IOError
 /// if there are fewer than two columns, the options ask for one that is not there, or the names do

@@ -33,7 +33,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 33> pairs = 
   { "lond", "latd" }, { "longitud", "latitud" }, { "laengengrad", "breitengrad" },
   { "l\xc3\xa4ngengrad", "breitengrad" }, { "laenge", "breite" }, { "lambda", "phi" } } };
 
-/// Names of heights, likewise.
+/// Names of heights, from the most to the least preferred.
 constexpr std::array<std::string_view, 37> heights = { "z", "elevation", "elev",
   "orthometricheight", "orthoheight", "orthoht", "altitude", "alt", "height", "hoehe",
   "h\xc3\xb6he", "ellipsoidalheight", "ellipsoidheight", "ellheight", "h", "ht", "hgt", "rl",

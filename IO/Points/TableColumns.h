@@ -52,7 +52,7 @@ VTKTIPPIO_EXPORT std::optional<ColumnChoice> findCoordinates(const std::vector<s
 /// with a list of them; the caller adds how to choose.
 VTKTIPPIO_EXPORT ColumnChoice requireCoordinates(const std::vector<std::string>& names);
 
-/// Finds the column of heights, or else of depths, among the names, likewise. Sets Z and IsDepth.
+/// Finds the column of heights, or else of depths, among the names, and sets Z and IsDepth.
 void findHeights(const std::vector<std::string>& names, ColumnChoice& choice);
 
 /// The names, separated by commas; after twenty the number of the others.

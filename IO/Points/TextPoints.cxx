@@ -376,14 +376,6 @@ private:
 
 } // namespace
 
-bool isTextPath(const std::string& path)
-{
-  const std::string extension = extensionOf(path);
-  return path == "-" || extension == ".csv" || extension == ".tsv" || extension == ".txt" ||
-    extension == ".xyz" || extension == ".pts" || extension == ".gz" || extension == ".xz" ||
-    extension == ".zst";
-}
-
 PointTable readTextPoints(const std::string& path, const PointOptions& options)
 {
   TableSurvey survey(path, options, true);

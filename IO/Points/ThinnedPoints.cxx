@@ -3,10 +3,10 @@
 #include "Arrays/Decimal.h"
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
-#include "Files/TemporaryFiles.h"
+#include "Files/TemporaryPaths.h"
 #include "Parallel/Poll.h"
-#include "Partitioning/Spill.h"
 #include "Points/ReadPoints.h"
+#include "Ranks/Spill.h"
 
 #include <algorithm>
 #include <cmath>

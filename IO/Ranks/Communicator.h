@@ -130,7 +130,7 @@ public:
     const std::function<std::string(const std::string&, const std::string&)>& merge);
   ///@}
 
-  /// @{ The same for any type that SaveArchive can save.
+  /// @{ The collectives above for values of any type that SaveArchive can save.
   template <typename T>
   std::vector<T> gather(const T& value)
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Raster/RasterFile.h"
 
+#include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
@@ -8,19 +9,11 @@
 #include "Files/VtkXml.h"
 #include "Npy/NpyFile.h"
 
-#include <cerrno>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
-#include <exception>
 #include <limits>
 #include <stdexcept>
 #include <string>
-
-#include <sys/mman.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace tipp
 {
@@ -231,99 +224,22 @@ std::unique_ptr<RasterWriter> createVti(
 
 } // namespace
 
-bool isGeoTiff(const std::string& path)
-{
-  const std::string extension = extensionOf(path);
-  return extension == ".tif" || extension == ".tiff";
-}
-
-bool isRasterFile(const std::string& path)
-{
-  const std::string extension = extensionOf(path);
-  return isGeoTiff(path) || extension == ".npy" || extension == ".vti";
-}
-
 std::unique_ptr<RasterWriter> createRaster(
   const std::string& path, const RasterDescription& description, const PathState& before)
 {
-  const std::string extension = extensionOf(path);
-  if (isGeoTiff(path))
+  switch (openerOf(path, Use::WritesRasters))
   {
-    return createGeoTiff(path, description, before);
+    case Opener::GeoTiff:
+      return createGeoTiff(path, description, before);
+    case Opener::Npy:
+      return createNpy(path, description, before);
+    case Opener::Vtk:
+      return createVti(path, description, before);
+    default:
+      throw IOError(path,
+        "has no extension that tells a kind of raster; use " + listFormats(Use::WritesRasters) +
+          ".");
   }
-  if (extension == ".npy")
-  {
-    return createNpy(path, description, before);
-  }
-  if (extension == ".vti")
-  {
-    return createVti(path, description, before);
-  }
-  throw IOError(path, "has no extension that tells a kind of raster; use .tif, .npy or .vti.");
-}
-
-std::string runInChild(const std::function<std::string()>& work)
-{
-  constexpr char success = '+';
-  constexpr char failure = '-';
-  const int memory = memfd_create("tipp-result", MFD_CLOEXEC);
-  if (memory < 0)
-  {
-    return work();
-  }
-  const OutputFile output(memory, "The result of a child process");
-  const pid_t parent = getpid();
-  const pid_t child = fork();
-  if (child == 0)
-  {
-    // This process' signal handlers wake a thread that the child does not have.
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent)
-    {
-      _exit(1);
-    }
-    try
-    {
-      char kind = success;
-      std::string text;
-      try
-      {
-        text = work();
-      }
-      catch (const std::exception& error)
-      {
-        kind = failure;
-        text = error.what();
-      }
-      output.write(1, text.data(), text.size());
-      output.write(0, &kind, 1); // last, because it shows that the result is complete
-      _exit(0);                  // skips this process' own clean-up
-    }
-    catch (...)
-    {
-      _exit(1);
-    }
-  }
-  if (child < 0)
-  {
-    return work(); // fork() failed: run in this process
-  }
-  int status = 0; // stays 0 if SIGCHLD is ignored
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR)
-  {
-  }
-  const InputFile input("/proc/self/fd/" + std::to_string(memory));
-  std::string result(std::size_t(input.size()), '\0');
-  input.read(0, result.data(), result.size());
-  const char kind = result.empty() ? '\0' : result.front();
-  if (status != 0 || (kind != success && kind != failure))
-  {
-    throw IOError("A process that was to do a part of the work has ended early; try again.");
-  }
-  result.erase(0, 1);
-  return kind == success ? result : throw IOError(result);
 }
 
 #ifndef TIPP_HAVE_GDAL

@@ -3,6 +3,7 @@
 #define tippRasterFile_h
 
 #include "Arrays/Decimal.h"
+#include "Crs/GeoKeys.h"
 #include "Files/PendingOutput.h"
 #include "vtkTIPPIOModule.h"
 
@@ -143,7 +144,8 @@ public:
   /// IOError.
   virtual void write(const RasterWindow& window, const std::vector<const double*>& bands) = 0;
 
-  /// The same for a tile from encodeTile(). For GeoTIFFs only.
+  /// Writes a tile that encodeTile() has made, once, in any order and on any thread. For GeoTIFFs
+  /// only. Throws IOError.
   virtual void writeEncoded(std::int64_t tile, EncodedTile encoded);
 
   /// Completes the file and moves it to its path. Throws IOError.
@@ -220,30 +222,8 @@ void forTiles(const RasterGrid& grid, const RasterWindow& window, const Visit& v
 VTKTIPPIO_EXPORT std::unique_ptr<RasterWriter> createRaster(
   const std::string& path, const RasterDescription& description, const PathState& before);
 
-/// Whether the path is .tif, .tiff, .npy or .vti.
-VTKTIPPIO_EXPORT bool isRasterFile(const std::string& path);
-
-/// Whether the path is .tif or .tiff.
-VTKTIPPIO_EXPORT bool isGeoTiff(const std::string& path);
-
 std::unique_ptr<RasterWriter> createGeoTiff(
   const std::string& path, const RasterDescription& description, const PathState& before);
-
-/// A field of a TIFF file's directory.
-struct TiffField
-{
-  enum class Type : std::uint16_t
-  {
-    Text = 2,
-    Short = 3,
-    Long = 4,
-    Double = 12,
-    Long8 = 16
-  };
-  std::uint16_t Tag = 0; ///< the field's tag number
-  Type Is = Type::Short;
-  std::string Bytes; ///< the values, little-endian
-};
 
 /// The grid and the reference system of an existing raster.
 struct RasterInfo
@@ -251,10 +231,6 @@ struct RasterInfo
   RasterGrid Grid;
   std::string Crs; ///< WKT, or empty
 };
-
-/// Runs `work` in a child process, so that the libraries it loads take no memory in this one, and
-/// returns its result. If `work` throws an IOError, throws one with the same message.
-VTKTIPPIO_EXPORT std::string runInChild(const std::function<std::string()>& work);
 
 /// @name Functions that use GDAL
 /// All throw IOError if GDAL fails or is not installed.

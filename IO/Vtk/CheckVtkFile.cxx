@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Vtk/DataSets.h"
 
+#include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/TextFile.h"
@@ -491,7 +492,7 @@ void checkVtkFile(const std::string& path)
     LegacyCheck(path).run();
   }
   // The names of VTK's XML kinds, and no others here, contain "vt": .vtu, .pvtu ...
-  else if (isVtkFile(path) && extension.find("vt") != std::string::npos)
+  else if (isOpenedBy(path, Opener::Vtk) && extension.find("vt") != std::string::npos)
   {
     XmlCheck(path).run();
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Vtk/DataSets.h"
 
-#include "Constraints/ReadConstraintFile.h"
+#include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/TextFile.h"
@@ -120,7 +120,7 @@ vtkSmartPointer<vtkDataSet> readWith(const std::string& path)
   return vtkDataSet::SafeDownCast(reader->GetOutputDataObject(0));
 }
 
-/// The readers by extension. isVtkFile() lists the same extensions, also for builds without VTK.
+/// The readers by extension. The table of formats (Files/Formats.cxx) has the same extensions.
 const std::map<std::string, ReadFunction>& readFunctions()
 {
   static const std::map<std::string, ReadFunction> functions = {
@@ -206,103 +206,6 @@ std::string cellTypeName(int type)
 #else
   return vtkCellTypes::GetClassNameFromTypeId(type);
 #endif
-}
-
-namespace
-{
-
-void addArray(vtkDataArray* array, std::size_t points, PointTable& table)
-{
-  const int components = array->GetNumberOfComponents();
-  const std::string name = array->GetName() ? array->GetName() : "array";
-  for (int component = 0; component < components; ++component)
-  {
-    PointTable::Column column;
-    column.Name = components == 1 ? name : name + "_" + std::to_string(component);
-    column.Values.resize(points);
-    for (std::size_t i = 0; i < points; ++i)
-    {
-      column.Values[i] = array->GetComponent(vtkIdType(i), component);
-    }
-    table.Columns.push_back(std::move(column));
-  }
-}
-
-} // namespace
-
-PointTable pointsOf(vtkDataSet* data)
-{
-  const auto count = std::size_t(data->GetNumberOfPoints());
-  PointTable table;
-  table.XY.resize(2 * count);
-  table.Columns.push_back({ "z", std::vector<double>(count) });
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    double p[3];
-    data->GetPoint(vtkIdType(i), p);
-    table.XY[2 * i] = p[0];
-    table.XY[2 * i + 1] = p[1];
-    table.Columns[0].Values[i] = p[2];
-  }
-  vtkPointData* const attributes = data->GetPointData();
-  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
-  {
-    // A string array is not a vtkDataArray.
-    if (vtkDataArray* const array = attributes->GetArray(i))
-    {
-      addArray(array, count, table);
-    }
-  }
-  std::vector<std::string> names = table.names();
-  makeDifferent(names); // an array may be called z, like the coordinate
-  for (std::size_t i = 0; i < names.size(); ++i)
-  {
-    table.Columns[i].Name = utf8Of(names[i]);
-  }
-  return table;
-}
-
-PointTable readVtkPoints(const std::string& path)
-{
-  return pointsOf(readDataSet(path));
-}
-
-ConstraintTable constraintsOf(vtkDataSet* data)
-{
-  ConstraintTable table;
-  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
-  {
-    double p[3];
-    data->GetPoint(i, p);
-    table.XY.insert(table.XY.end(), { p[0], p[1] });
-    table.Height.push_back(p[2]);
-  }
-  std::vector<std::array<std::int64_t, 2>> polygonEdges;
-  vtkNew<vtkIdList> ids;
-  for (vtkIdType c = 0; c < data->GetNumberOfCells(); ++c)
-  {
-    const int type = data->GetCellType(c);
-    const bool isLine = type == VTK_LINE || type == VTK_POLY_LINE;
-    if (!isLine && type != VTK_POLYGON && type != VTK_TRIANGLE && type != VTK_QUAD)
-    {
-      continue;
-    }
-    data->GetCellPoints(c, ids);
-    const vtkIdType count = ids->GetNumberOfIds();
-    auto& edges = isLine ? table.Edges : polygonEdges;
-    for (vtkIdType i = 0; i + (isLine ? 1 : 0) < count; ++i)
-    {
-      edges.push_back({ ids->GetId(i), ids->GetId((i + 1) % count) });
-    }
-  }
-  table.PolygonBegin = table.Edges.size();
-  table.Edges.insert(table.Edges.end(), polygonEdges.begin(), polygonEdges.end());
-  return table;
-}
-
-ConstraintTable readVtkConstraints(const std::string& path)
-{
-  return constraintsOf(readDataSet(path));
 }
 
 namespace

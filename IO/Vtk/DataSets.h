@@ -3,7 +3,6 @@
 #define tippDataSets_h
 
 #include "Files/PendingOutput.h"
-#include "Points/ReadPoints.h"
 #include "vtkTIPPIOModule.h"
 
 #include "vtkCommand.h"
@@ -29,10 +28,6 @@ VTKTIPPIO_EXPORT vtkSmartPointer<vtkDataSet> readDataSet(const std::string& path
 /// The file that readDataSet() is reading; null at other times. VTK's readers trust what they read,
 /// so a damaged file can crash them; a program's signal handler can then name the file.
 VTKTIPPIO_EXPORT const char* fileBeingRead();
-
-/// Converts a data set's points and numeric point data to a table with a column z; an array of
-/// several components becomes columns name_0, name_1 ...
-VTKTIPPIO_EXPORT PointTable pointsOf(vtkDataSet* data);
 
 /// Writes a vtkPolyData, vtkUnstructuredGrid or vtkImageData as a VTK XML file, raw and appended.
 /// `before` as for PendingFile. Returns false, and publishes no file, if `isStopped` returns true

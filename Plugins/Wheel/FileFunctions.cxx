@@ -2,7 +2,9 @@
 #include "Binding.h"
 
 #include "Constraints/OnDisk/ConstrainedPoints.h"
+#include "Files/Formats.h"
 #include "Files/OutputFile.h"
+#include "Files/RequireApart.h"
 #include "Flat/FlatMesh.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Output/RunStatistics.h"
@@ -304,7 +306,7 @@ void partitionFile(
     [&]
     {
       requireApart({ output }, { input });
-      if (isVtkFile(input) && !isFlatMesh(input))
+      if (isOpenedBy(input, Opener::Vtk) && !isFlatMesh(input))
       {
         readVtkPoints(input); // throws an error that says what to do
       }

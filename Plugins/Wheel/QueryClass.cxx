@@ -2,7 +2,7 @@
 #include "Binding.h"
 
 #include "Query/Queries.h"
-#include "Query/ResidentMesh.h"
+#include "Resident/ResidentMesh.h"
 
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>

@@ -7,8 +7,8 @@
 
 #include "Query/Queries.h"
 #include "Query/QueryData.h"
-#include "Query/ResidentMesh.h"
 #include "Ranks/Communicator.h"
+#include "Resident/ResidentMesh.h"
 #include "vtkPartitionedMeshQuery.h"
 #include "vtkRangeResampleFilter.h"
 #include "vtkTIPPDelaunay2D.h"

@@ -375,7 +375,7 @@ private:
     return true;
   }
 
-  /// Does the same for the part between the vertices `first` and `last` of the route. `near`: the
+  /// Whether a part of a route, between its vertices `first` and `last`, is proved. `near`: the
   /// input points at ends of constraints to which the constraint rounds, but which it does not
   /// pass, in its order.
   bool isPartProved(const Choice& choice, const check::SnappedLine& line,

@@ -208,10 +208,11 @@ struct ConstraintChains
 ConstraintChains findConstraintChains(const std::vector<double>& xy,
   const std::vector<std::int64_t>& triangles, const ConstraintsInMesh& constraints);
 
-/// The same for a mesh in pieces: read(number) returns a piece. `constraintXY` holds x and y of the
-/// constraints' points, to which the constraints refer; IsAdded takes global ids. Returns edges by
-/// global ids. Keeps in memory only triangles near constraints: those with an edge on one, or in a
-/// cut mesh all those at vertices on constraints, which show its border there.
+/// Finds the chains of the constraints in a mesh in pieces: read(number) returns a piece.
+/// `constraintXY` holds x and y of the constraints' points, to which the constraints refer; IsAdded
+/// takes global ids. Returns edges by global ids. Keeps in memory only triangles near constraints:
+/// those with an edge on one, or in a cut mesh all those at vertices on constraints, which show its
+/// border there.
 ConstraintChains findConstraintChains(std::size_t pieces,
   const std::function<CheckedPiece(std::size_t)>& read, const std::vector<double>& constraintXY,
   const ConstraintsInMesh& constraints);

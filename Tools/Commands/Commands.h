@@ -10,15 +10,6 @@ class App;
 namespace tipp
 {
 
-/// Exit codes of all commands. Usage errors are found while the command line is parsed.
-enum ExitCode
-{
-  Success = 0,
-  Failure = 1,
-  Usage = 2,
-  Undecided = 3 ///< of 'tipp check'
-};
-
 /// Adds a subcommand to `app`. When the subcommand has run, `exitCode` is set. It may throw IOError
 /// and std::bad_alloc.
 using AddCommand = void(CLI::App& app, int& exitCode);

@@ -3,9 +3,9 @@
 #include "Commands/PointArguments.h"
 #include "Commands/QueryMesh.h"
 #include "Commands/Report.h"
+#include "Files/Formats.h"
 #include "Files/IOError.h"
-#include "Files/InputFile.h"
-#include "Query/GisFiles.h"
+#include "Gis/GisFiles.h"
 #include "Query/Queries.h"
 #include "Query/QueryData.h"
 #include "Ranks/Communicator.h"
@@ -81,7 +81,7 @@ std::vector<double> levelsOf(
 
 void write(const ContourArguments& arguments, const Contours& contours, const PathState& before)
 {
-  if (extensionOf(arguments.Output) == ".gpkg")
+  if (isOpenedBy(arguments.Output, Opener::Gdal))
   {
     writeGeoPackage(arguments.Output, contours, arguments.Array, arguments.Crs, before);
     return;
@@ -117,14 +117,7 @@ void makeContours(const ContourArguments& arguments, Communicator& ranks)
 void addOptions(CLI::App& command, ContourArguments& arguments)
 {
   command.add_option("mesh", arguments.Mesh.Path, "The mesh, see below")->required();
-  addOutput(
-    command, arguments.Output, "The file to write, see below",
-    [](const std::string& path)
-    {
-      const std::string extension = extensionOf(path);
-      return extension == ".gpkg" || extension == ".vtp";
-    },
-    ".gpkg or .vtp");
+  addOutput(command, arguments.Output, "The file to write, see below", Use::WritesLines);
   command.add_option("--array", arguments.Array, "The name of a point array, or elevation for z")
     ->capture_default_str();
   addChecked(command, "--component", arguments.Component, CLI::Range(0, 1000000),

@@ -4,8 +4,10 @@
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Console/Process.h"
+#include "Files/Formats.h"
 #include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
+#include "Files/RequireApart.h"
 #include "Flat/FlatMesh.h"
 #include "Flat/FlattenDataSet.h"
 #include "Partitioning/PartitionMesh.h"
@@ -103,7 +105,7 @@ int runFlatten(const FlattenArguments& arguments)
     requireFolderName(arguments.Output);
     const PendingFolder writable(arguments.Output);
   }
-  if (isAdcircFile(arguments.Input))
+  if (isOpenedBy(arguments.Input, Opener::Adcirc))
   {
     return writeContent(arguments, flattenAdcirc(arguments.Input, arguments.Values));
   }
@@ -127,7 +129,7 @@ void addOptions(CLI::App& command, FlattenArguments& arguments)
 
 int run(FlattenArguments& arguments)
 {
-  if (!arguments.Values.empty() && !isAdcircFile(arguments.Input))
+  if (!arguments.Values.empty() && !isOpenedBy(arguments.Input, Opener::Adcirc))
   {
     throw CLI::ValidationError("--values needs an ADCIRC grid (.14, .grd)");
   }

@@ -4,7 +4,7 @@
 #include "Commands/Report.h"
 #include "Console/Process.h"
 #include "Distributed3D/DistributedTetrahedralization.h"
-#include "Files/InputFile.h"
+#include "Files/Formats.h"
 #include "Files/PendingOutput.h"
 #include "InMemory/TriangulatePoints.h"
 #include "Meshes/MeshFiles.h"
@@ -135,7 +135,7 @@ TetrahedralizationOptions makeOptions(
   return options;
 }
 
-int runDelaunay3D(const Delaunay3DArguments& arguments)
+int runInMemory(const Delaunay3DArguments& arguments)
 {
   const PathState before =
     requireWritable(arguments.Output, arguments.Statistics, arguments.Inputs);
@@ -201,7 +201,7 @@ void writeOnFirst(Communicator& ranks, const Delaunay3DArguments& arguments,
     return;
   }
   // An .npy output of tetrahedra needs no points.
-  PointTable table = extensionOf(arguments.Output) == ".npy" && all.Dimension != 2
+  PointTable table = arguments.OutputIs == Opener::Npy && all.Dimension != 2
     ? PointTable()
     : readPoints(arguments.Inputs, arguments.Columns);
   if (!writeResult(arguments, std::move(table), all, triangles, before))
@@ -235,7 +235,7 @@ void triangulateShares(Communicator& ranks, const Delaunay3DArguments& arguments
   writeOnFirst(ranks, arguments, mine, watch.seconds(), before);
 }
 
-int runDelaunay3DOutOfCore(const Delaunay3DArguments& arguments)
+int runOutOfCore(const Delaunay3DArguments& arguments)
 {
   checkOutputs(arguments.Output, arguments.Statistics, arguments.Scratch, arguments.Inputs);
   // With this threshold, large blocks are always returned to the system when they are freed.
@@ -266,16 +266,10 @@ int runDelaunay3DOutOfCore(const Delaunay3DArguments& arguments)
   return Success;
 }
 
-bool isTetrahedronFile(const std::string& path)
-{
-  const std::string extension = extensionOf(path);
-  return extension == ".vtu" || extension == ".npy" || extension == ".tipp";
-}
-
 /// Throws CLI::ValidationError for options that the kind of output does not support.
 void requireFitting(const Delaunay3DArguments& arguments)
 {
-  const bool hasNoArrays = extensionOf(arguments.Output) == ".npy";
+  const bool hasNoArrays = arguments.OutputIs == Opener::Npy;
   constexpr const char* needsArrays = "needs an output named .vtu or .tipp";
   refuseIf(arguments.Neighbors && hasNoArrays, "--neighbors", needsArrays);
   refuseIf(arguments.MapDuplicates && hasNoArrays, "--map-duplicates", needsArrays);
@@ -286,7 +280,7 @@ void requireFitting(const Delaunay3DArguments& arguments)
 
 void addOptions(CLI::App& command, Delaunay3DArguments& arguments)
 {
-  addRunOptions(command, arguments, "The tetrahedra", isTetrahedronFile, ".vtu, .npy or .tipp",
+  addRunOptions(command, arguments, "The tetrahedra", Use::WritesTetrahedra | Use::WritesPieces,
     "With a .tipp output: the memory limit of the process, such as 512M (default: 2G)",
     "With a .tipp output");
   addThreadsOption(command, arguments.Threads);
@@ -297,16 +291,17 @@ void addOptions(CLI::App& command, Delaunay3DArguments& arguments)
 
 int run(Delaunay3DArguments& arguments)
 {
+  arguments.OutputIs = openerOf(arguments.Output, Use::WritesTetrahedra | Use::WritesPieces);
   requireFitting(arguments);
   arguments.Columns.InSpace = true;
-  if (arguments.makesPieces())
+  if (arguments.makesPieces()) // by the first rank alone, without MPI
   {
-    return isIdleRank() ? Success : runDelaunay3DOutOfCore(arguments);
+    return isIdleRank() ? Success : runOutOfCore(arguments);
   }
   const MpiSession session;
   return session.controller() ? runTogether(session.controller(),
                                   [&](Communicator& ranks) { triangulateShares(ranks, arguments); })
-                              : runDelaunay3D(arguments);
+                              : runInMemory(arguments);
 }
 
 } // namespace

@@ -1,23 +1,494 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
-
-#include "Commands/DemRuns.h"
 #include "Commands/PointArguments.h"
+#include "Commands/Report.h"
+#include "Console/Process.h"
+#include "Constraints/OnDisk/ConstrainedPoints.h"
+#include "Dem/DemSinks.h"
+#include "Dem/MakeDem.h"
+#include "Files/Formats.h"
+#include "Files/IOError.h"
+#include "Files/PendingOutput.h"
+#include "OutOfCore/ScratchFiles.h"
+#include "Parallel/Stopwatch.h"
 #include "Points/ReadPoints.h"
 #include "Raster/RasterFile.h"
 
+#include "vtkMultiProcessController.h"
+
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace tipp
 {
 namespace
 {
+
+/// The options of `tipp dem`.
+struct DemArguments : RunArguments
+{
+  const CLI::App* Command = nullptr; ///< tells which options are given
+  DemRequest Request;
+  std::vector<double> Bounds;
+  std::string Like;
+  bool StrictCrs = false; ///< whether a reference system that is not understood is an error
+  double NoData = -9999;
+  std::string Type = "float32";
+  std::string Compression = "deflate";
+  bool CloudOptimized = false;
+  std::string Breaklines; ///< path of a file; empty: none
+  bool Soft = false;      ///< the heights of Breaklines are not used
+  std::string Boundary;   ///< path of a file; empty: none
+
+  /// Returns the file of constraints that messages name.
+  std::string constraintFile() const
+  {
+    return this->Breaklines.empty() ? this->Boundary : this->Breaklines;
+  }
+};
+
+/// The figures of a run of `tipp dem`.
+struct DemReport
+{
+  OutOfCoreStatistics Figures;
+  TerrainSettings Settings;
+  std::int64_t Filled = 0; ///< pixels with a value
+  double Hidden = 0;       ///< number of values that equal --nodata
+  double ReadSeconds = 0;
+  double MakeSeconds = 0;
+  double WriteSeconds = 0;
+  std::int64_t PeakMemory = 0; ///< in bytes, of the process; with ranks, the largest of all
+  int Ranks = 1;
+};
+
+/// Returns how a GeoTIFF stores values; the same on all ranks.
+RasterDescription describeEncoding(const DemArguments& arguments)
+{
+  RasterDescription description;
+  description.NoData = arguments.NoData;
+  description.Double = arguments.Type == "float64";
+  description.Compression = arguments.Compression;
+  description.CloudOptimized = arguments.CloudOptimized;
+  return description;
+}
+
+/// Returns the part of a system that a GeoTIFF can state, and what it cannot as the Problem.
+ReferenceSystem statedInGeoTiff(ReferenceSystem system)
+{
+  while (!system.Text.empty())
+  {
+    try
+    {
+      requireCrs(system.Text);
+      break;
+    }
+    catch (const IOError& error)
+    {
+      system.Problem = error.what();
+      const std::size_t heights = system.Text.rfind('+');
+      const bool hasMore = hasHeightSystem(system.Text) && heights != std::string::npos;
+      system.Text.resize(hasMore ? heights : 0);
+    }
+  }
+  return system;
+}
+
+/// Returns the description of the raster without its grid and bands. `ofPoints`: the reference
+/// system of the points. A problem with it is an error with --strict-crs, else a warning, which is
+/// printed if `isFirst`. Throws IOError if GDAL does not know that of --crs.
+RasterDescription describeRaster(
+  const DemArguments& arguments, const ReferenceSystem& ofPoints, bool isFirst)
+{
+  RasterDescription description = describeEncoding(arguments);
+  description.Crs = arguments.Columns.Crs;
+  if (!description.Crs.empty())
+  {
+    // Fail before the computation rather than after it.
+    if (arguments.OutputIs == Opener::GeoTiff)
+    {
+      requireCrs(description.Crs);
+    }
+    return description;
+  }
+  ReferenceSystem system = ofPoints;
+  if (!arguments.Like.empty() && system.Text.empty())
+  {
+    system.Text = readRasterInfo(arguments.Like).Crs;
+  }
+  if (arguments.OutputIs == Opener::GeoTiff)
+  {
+    system = statedInGeoTiff(system);
+  }
+  description.Crs = system.Text;
+  if (!system.Problem.empty() && arguments.StrictCrs)
+  {
+    throw IOError(system.Problem + "; name the right system with --crs.");
+  }
+  if (!system.Problem.empty() && isFirst && arguments.OutputIs == Opener::GeoTiff)
+  {
+    const ReferenceSystem stated = describeCrs(system.Text);
+    fmt::print(stderr,
+      "tipp: warning: {}; the raster states {}; --crs EPSG:CODE names the right system.\n",
+      system.Problem,
+      system.Text.empty()      ? "no reference system"
+        : stated.Words.empty() ? shownText(system.Text)
+                               : stated.Words);
+  }
+  return description;
+}
+
+nlohmann::ordered_json jsonOf(const DemArguments& arguments, const DemReport& report)
+{
+  const RasterGrid& grid = report.Settings.Grid;
+  return {
+    { "input", arguments.Inputs },
+    { "output", arguments.Output },
+    { "points", report.Figures.Points },
+    { "triangles", report.Figures.Triangles },
+    { "duplicates", report.Figures.Duplicates },
+    { "disagreeing_places", report.Figures.DisagreeingPositions },
+    { "rejected", report.Figures.Rejected },
+    { "without_elevation", report.Figures.WithoutElevation },
+    { "columns", grid.Columns },
+    { "rows", grid.Rows },
+    { "west", grid.West },
+    { "south", grid.South },
+    { "pixel", grid.Pixel },
+    { "bands", report.Settings.Bands.names() },
+    { "pixels_with_value", report.Filled },
+    { "values_equal_to_nodata", report.Hidden },
+    { "read_seconds", report.ReadSeconds },
+    { "make_seconds", report.MakeSeconds },
+    { "write_seconds", report.WriteSeconds },
+    { "threads", report.Settings.Threads },
+    { "ranks", report.Ranks },
+    { "peak_memory_bytes", report.PeakMemory },
+  };
+}
+
+/// Throws IOError if an output is also an input, or cannot be written. Call it before the
+/// computation. Returns the state of the output's path; writeRaster() refuses to replace anything
+/// else.
+PathState requireDemWritable(const DemArguments& arguments)
+{
+  std::vector<std::string> inputs = arguments.Inputs;
+  inputs.insert(inputs.end(), { arguments.Breaklines, arguments.Boundary });
+  checkOutputs(arguments.Output, arguments.Statistics, arguments.Scratch, inputs);
+  return PendingFile(arguments.Output).before();
+}
+
+/// Returns the error to throw if no raster can be made from the points.
+IOError demError(const DemArguments& arguments, const std::runtime_error& error)
+{
+  const bool isColumn = dynamic_cast<const UnknownBand*>(&error) != nullptr;
+  return IOError(arguments.Inputs.front(),
+    std::string("cannot be made a raster: ") + error.what() +
+      (isColumn ? " 'tipp info' lists all columns; name those to use with --attributes." : ""));
+}
+
+/// Writes the raster's file. `description`: from describeRaster(); `report`: its Settings are set.
+/// Returns false, without a file, if `progress` stopped it.
+bool writeRaster(const DemArguments& arguments, RasterDescription description,
+  const PathState& before, const TileSource& tiles, const std::function<bool(double)>& progress,
+  DemReport& report)
+{
+  const TerrainSettings& settings = report.Settings;
+  description.Grid = settings.Grid;
+  description.Threads = settings.Threads;
+  description.Bands = settings.Bands.names();
+  description.Overviews = settings.Bands.overviews();
+  const auto writer = createRaster(arguments.Output, description, before);
+  report.Filled =
+    writeTiles(*writer, settings.Grid, tiles, progress, settings.Threads, settings.Bands);
+  if (report.Filled < 0)
+  {
+    return false;
+  }
+  writer->close();
+  report.Hidden = writer->hidden();
+  return true;
+}
+
+/// Prints the summary, and writes the statistics if they are requested.
+void finishDem(const DemArguments& arguments, const DemReport& report)
+{
+  const nlohmann::ordered_json json = jsonOf(arguments, report);
+  if (!arguments.Statistics.empty())
+  {
+    writeJson(arguments.Statistics, json);
+  }
+  const RasterGrid& grid = report.Settings.Grid;
+  fmt::print("{}, {} x {} pixels, {} with a value, {:.3f} s, peak memory {:.0f} MB{}, in {}\n",
+    describeCounts(json), grid.Columns, grid.Rows, report.Filled,
+    report.ReadSeconds + report.MakeSeconds + report.WriteSeconds, double(report.PeakMemory) / 1e6,
+    report.Ranks == 1 ? "" : " of the largest rank", arguments.Output);
+  if (report.Figures.WithoutElevation > 0)
+  {
+    fmt::print(stderr,
+      "tipp: {} points have no elevation; pixels in triangles at them have no elevation.\n",
+      report.Figures.WithoutElevation);
+  }
+  warnOfHidden(report.Hidden, arguments.NoData);
+  if (report.Figures.Triangles == 0)
+  {
+    const std::int64_t distinct =
+      report.Figures.Points - report.Figures.Duplicates - report.Figures.Rejected;
+    const bool mayBeLong = arguments.Request.MaximumEdge > 0 && distinct > 2;
+    fmt::print(stderr, "tipp: warning: no pixel has a value, because {}.\n",
+      mayBeLong ? fmt::format("each triangle has an edge longer than the {} of --max-edge, or all "
+                              "points lie on one line",
+                    arguments.Request.MaximumEdge)
+                : "there are fewer than three distinct points or all lie on one line");
+  }
+  else if (report.Filled == 0)
+  {
+    fmt::print(stderr,
+      "tipp: warning: no pixel has a value; compare --bounds (xmin xmax ymin ymax), --like and "
+      "--max-edge with the bounds that 'tipp info' prints.\n");
+  }
+}
+
+bool haveZeroHeights(const DemRequest& request)
+{
+  return request.Constraints && haveZeroHeights(request.Constraints->Lines);
+}
+
+/// Warns if the surface is on one side of breaklines whose heights are all 0. `heights`: of the
+/// surface, at the breaklines.
+void warnOfZeroHeights(const DemArguments& arguments, std::vector<double> heights)
+{
+  const auto missing = [](double height) { return !std::isfinite(height); };
+  heights.erase(std::remove_if(heights.begin(), heights.end(), missing), heights.end());
+  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+  if (!heights.empty() && (*low > 0 || *high < 0))
+  {
+    fmt::print(stderr,
+      "tipp: warning: {}: all heights are 0, but the surface at the lines is from {} to {}. They "
+      "move it to 0; if they have no heights, give --soft.\n",
+      arguments.Breaklines, *low, *high);
+  }
+}
+
+int runInMemory(const DemArguments& arguments)
+{
+  const PathState before = requireDemWritable(arguments);
+  Stopwatch watch;
+  DemReport report;
+  const auto stream = openPointStream(arguments.Inputs, arguments.Columns);
+  const RasterDescription description = describeRaster(arguments, stream->referenceSystem(), true);
+  PointTable points = readAllPoints(*stream);
+  reportLeftOut(points.LeftOut, points.ThinnedOut);
+  LongitudeSpan span;
+  span.add(points.XY);
+  warnOfLongitudes(span);
+  reportTables(points.Reports);
+  if (isInterrupted())
+  {
+    return reportInterrupt();
+  }
+  report.ReadSeconds = watch.restart();
+  if (haveZeroHeights(arguments.Request))
+  {
+    warnOfZeroHeights(arguments,
+      heightsBelow(arguments.Request.Constraints->Lines, points, arguments.Request.Threads));
+  }
+  auto bar = std::make_unique<ProgressBar>("Making the raster");
+  const auto progress = progressOn(bar);
+  BandValues samples;
+  report.Figures =
+    makeDem(std::move(points), arguments.Request, progress, report.Settings, samples);
+  report.MakeSeconds = watch.restart();
+  if (report.Figures.Aborted || isInterrupted())
+  {
+    bar.reset();
+    return reportInterrupt();
+  }
+  const bool isWritten = writeRaster(
+    arguments, description, before, readFrom(report.Settings.Grid, samples),
+    [&](double done) { return progress(0.8 + 0.2 * done); }, report);
+  bar.reset();
+  if (!isWritten)
+  {
+    return reportInterrupt();
+  }
+  report.WriteSeconds = watch.restart();
+  report.PeakMemory = peakMemoryBytes();
+  finishDem(arguments, report);
+  return Success;
+}
+
+/// Returns a text of the options that a resumed run must have in common with the first one, besides
+/// the points and the memory.
+std::string identityOf(const DemArguments& arguments, const RasterDescription& description)
+{
+  const RasterRequest& raster = arguments.Request.Raster;
+  std::string text = fmt::format("raster tiles {} {} {} {} {} {} {}", raster.Resolution,
+    raster.Aligned, description.NoData, description.Double, description.Compression,
+    description.CloudOptimized, description.Crs);
+  for (const double bound : arguments.Bounds)
+  {
+    text += fmt::format(" {}", bound);
+  }
+  if (raster.Like)
+  {
+    text += fmt::format(" like {} {} {} {} {} {}", raster.Like->West, raster.Like->South,
+      raster.Like->Pixel[0], raster.Like->Pixel[1], raster.Like->Columns, raster.Like->Rows);
+  }
+  for (const std::string& band : arguments.Request.Bands)
+  {
+    text += "\n" + band;
+  }
+  return text;
+}
+
+/// Suffixes of the folders beside the output in which runs keep their files.
+constexpr const char* workSuffix = ".pixels";
+constexpr const char* surfaceSuffix = ".surface";
+
+OutOfCoreOptions optionsOf(const DemArguments& arguments)
+{
+  OutOfCoreOptions options;
+  arguments.setOptions(options);
+  options.Threads = arguments.Request.Threads;
+  options.Duplicates = arguments.Request.Duplicates;
+  options.CountOnly = true;
+  return options;
+}
+
+/// Triangulates the points without constraints, and sets `values` on the first rank: the heights
+/// of this surface at the points of constraints. Does nothing if no height is needed, or if the
+/// run that uses them has already begun. Returns the exit code.
+int findSurface(const DemArguments& arguments, Communicator& ranks, const OpenPoints& open,
+  std::vector<std::vector<double>>& values, DemReport& report)
+{
+  const DemRequest& request = arguments.Request;
+  const bool isNeeded = request.Constraints && needsSurface(*request.Constraints, request.Bands);
+  const bool areZero = haveZeroHeights(request);
+  const bool hasBegun = ranks.rank() == 0 && canResume(arguments.Output + workSuffix);
+  if ((!isNeeded && !areZero) || ranks.broadcast(hasBegun))
+  {
+    return Success;
+  }
+  SurfaceSink sink(*request.Constraints);
+  OutOfCoreOptions options = optionsOf(arguments);
+  options.Consumer = &sink;
+  OutOfCoreStatistics statistics;
+  const int code = runOutOfCore(ranks, "Finding heights for the lines", open,
+    arguments.Output + surfaceSuffix, options, statistics);
+  if (areZero && ranks.isFirst())
+  {
+    std::vector<double> heights = sink.heights();
+    heights.resize(std::min(heights.size(), request.Constraints->Lines.XY.size() / 2));
+    warnOfZeroHeights(arguments, std::move(heights));
+  }
+  values = isNeeded ? sink.takeValues() : std::vector<std::vector<double>>();
+  report.MakeSeconds += totalSeconds(statistics.Phases);
+  return code;
+}
+
+/// Runs `tipp dem` with a memory limit, on the ranks of a controller or in this process alone
+/// (null). Returns the exit code, which is the same on all ranks.
+int runInPieces(const DemArguments& arguments, vtkMultiProcessController* controller)
+{
+  DemReport report;
+  Communicator ranks(controller);
+  const bool isFirst = ranks.rank() == 0;
+  PathState before;
+  RasterDescription description;
+  const RasterDescription encoding = describeEncoding(arguments);
+  RasterSink sink(
+    [&](const Box2& bounds, const std::vector<std::string>& columns)
+    {
+      try
+      {
+        TerrainSettings settings = makeTerrainSettings(arguments.Request, bounds, columns);
+        settings.IsSingle = arguments.OutputIs == Opener::GeoTiff && arguments.Type == "float32";
+        return settings;
+      }
+      catch (const std::runtime_error& error)
+      {
+        throw demError(arguments, error);
+      }
+    },
+    [&](const TerrainSettings& settings, const TileSource& tiles,
+      const std::function<bool(double)>& progress)
+    {
+      malloc_trim(0); // return the memory of pieces to the system
+      report.Settings = settings;
+      return writeRaster(arguments, description, before, tiles, progress, report);
+    },
+    arguments.OutputIs == Opener::GeoTiff ? std::make_optional(encoding) : std::nullopt);
+  bool isReported = false; // the points may be opened twice
+  const auto open = [&]
+  {
+    if (isFirst)
+    {
+      before = requireDemWritable(arguments);
+    }
+    auto stream = openPointStream(arguments.Inputs, withThinningFile(arguments));
+    if (isFirst)
+    {
+      if (!isReported)
+      {
+        reportTables(stream->reports());
+      }
+      description = describeRaster(arguments, stream->referenceSystem(), !isReported);
+      isReported = true;
+      sink.setIdentity(identityOf(arguments, description));
+    }
+    return stream;
+  };
+  std::vector<std::vector<double>> surface;
+  const int surfaceCode = findSurface(arguments, ranks, open, surface, report);
+  if (surfaceCode != Success)
+  {
+    return surfaceCode;
+  }
+  const auto openConstrained = [&]() -> std::unique_ptr<PointStream>
+  {
+    auto stream = open();
+    if (!arguments.Request.Constraints)
+    {
+      return stream;
+    }
+    auto joined = std::make_unique<ConstrainedPoints>(std::move(stream),
+      *arguments.Request.Constraints, arguments.constraintFile(), arguments.Request.Threads);
+    joined->setSurface(std::move(surface));
+    return joined;
+  };
+  OutOfCoreOptions options = optionsOf(arguments);
+  options.MaximumEdge = arguments.Request.MaximumEdge;
+  options.Consumer = &sink;
+  OutOfCoreStatistics statistics;
+  const int code = runOutOfCore(ranks, "Making the raster", openConstrained,
+    arguments.Output + workSuffix, options, statistics);
+  if (code != Success)
+  {
+    return code;
+  }
+  const RankUsage usage = gatherUsage(ranks);
+  if (!isFirst)
+  {
+    return Success;
+  }
+  reportLeftOut(statistics.LeftOut, statistics.ThinnedOut);
+  report.PeakMemory = *std::max_element(usage.PeakMemory.begin(), usage.PeakMemory.end());
+  report.Ranks = ranks.size();
+  report.Figures = statistics;
+  report.MakeSeconds += totalSeconds(statistics.Phases);
+  finishDem(arguments, report);
+  return Success;
+}
 
 constexpr const char* footer =
   R"(INPUT   one or more files of points, as for 'tipp delaunay': .las, .laz, .npy, .csv,
@@ -134,7 +605,7 @@ void requireUseful(const DemArguments& arguments)
 {
   for (const char* const name : { "--nodata", "--strict-crs", "--type", "--compress", "--cog" })
   {
-    refuseIf(arguments.Command->count(name) > 0 && !isGeoTiff(arguments.Output), name,
+    refuseIf(arguments.Command->count(name) > 0 && arguments.OutputIs != Opener::GeoTiff, name,
       "needs an output named .tif");
   }
   for (const char* const name : { "--bounds", "--align" })
@@ -168,7 +639,7 @@ void requireGood(const DemArguments& arguments)
 void addOptions(CLI::App& command, DemArguments& arguments)
 {
   arguments.Command = &command;
-  addRunOptions(command, arguments, "The raster", isRasterFile, ".tif, .npy or .vti",
+  addRunOptions(command, arguments, "The raster", Use::WritesRasters,
     "The memory limit of each process, such as 512M", "With --memory");
   addGridOptions(command, arguments);
   addValueOptions(command, arguments);
@@ -177,10 +648,11 @@ void addOptions(CLI::App& command, DemArguments& arguments)
   addThreadsOption(command, arguments.Request.Threads);
 }
 
-int run(DemArguments& arguments)
+/// Sets what the runs take from several options. Throws IOError if a file of --like, --breaklines
+/// or
+/// --boundary cannot be read.
+void complete(DemArguments& arguments)
 {
-  requireGood(arguments);
-  requireUseful(arguments);
   arguments.Columns.Threads = arguments.Request.Threads;
   arguments.Columns.Columns = columnsForBands(arguments.Request.Bands);
   if (!arguments.Bounds.empty())
@@ -193,7 +665,33 @@ int run(DemArguments& arguments)
     arguments.Request.Raster.Like = readRasterInfo(arguments.Like).Grid;
   }
   readConstraints(arguments);
-  return runDem(arguments);
+}
+
+int run(DemArguments& arguments)
+{
+  arguments.OutputIs = openerOf(arguments.Output, Use::WritesRasters);
+  requireGood(arguments);
+  requireUseful(arguments);
+  complete(arguments);
+  const MpiSession session;
+  const bool isOnRanks = session.controller() && session.controller()->GetNumberOfProcesses() > 1;
+  try
+  {
+    return isOnRanks || !arguments.Memory.empty() ? runInPieces(arguments, session.controller())
+                                                  : runInMemory(arguments);
+  }
+  catch (const IOError&)
+  {
+    throw;
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw IOError(arguments.constraintFile(), error.what());
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw demError(arguments, error);
+  }
 }
 
 } // namespace

@@ -3,8 +3,8 @@
 
 #include "Commands/PointArguments.h"
 #include "Console/Process.h"
-#include "Files/InputFile.h"
-#include "Files/TemporaryFiles.h"
+#include "Files/Formats.h"
+#include "Files/TemporaryPaths.h"
 #include "Las/LasHeader.h"
 #include "OpenCL/Devices.h"
 #include "Parallel/Poll.h"
@@ -296,7 +296,7 @@ int runInfo(const InfoArguments& arguments)
 {
   for (const std::string& path : arguments.Inputs)
   {
-    if (isLasExtension(extensionOf(path)))
+    if (isOpenedBy(path, Opener::Las))
     {
       describeLas(path, arguments.Points.Las);
     }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/PointArguments.h"
 
-#include "Files/InputFile.h"
-#include "Files/TemporaryFiles.h"
+#include "Files/Formats.h"
+#include "Files/TemporaryPaths.h"
 #include "Files/TextFile.h"
-#include "Query/GisFiles.h"
+#include "Gis/GisFiles.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -18,6 +18,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -215,21 +216,47 @@ void addThreadsOption(CLI::App& command, int& threads)
     command, "--threads", threads, CLI::Range(0, 4096), "Number of threads; 0: OpenMP's default");
 }
 
-void addOutput(CLI::App& command, std::string& output, const std::string& help,
-  bool (*suits)(const std::string& path), const std::string& endings)
+void addOutput(CLI::App& command, std::string& output, const std::string& help, unsigned uses)
 {
   command.add_option("-o,--output", output, help)
     ->required()
-    ->check([suits, endings](const std::string& path)
-      { return suits(path) ? "" : "'" + path + "' does not end in " + endings; });
+    ->check(
+      [uses](const std::string& path) {
+        return formatOf(path, uses) ? "" : "'" + path + "' does not end in " + listFormats(uses);
+      });
+}
+
+std::string paragraph(const std::string& title, const std::string& text)
+{
+  constexpr std::size_t width = 88;
+  constexpr std::size_t indent = 8;
+  std::string lines = title + std::string(indent - std::min(indent, title.size()), ' ');
+  std::size_t used = lines.size();
+  std::istringstream words(text);
+  for (std::string word; words >> word;)
+  {
+    const bool isFirst = used == indent;
+    if (!isFirst && used + 1 + word.size() > width)
+    {
+      lines += "\n" + std::string(indent, ' ');
+      used = indent;
+    }
+    else if (!isFirst)
+    {
+      lines += ' ';
+      ++used;
+    }
+    lines += word;
+    used += word.size();
+  }
+  return lines + '\n';
 }
 
 void addRunOptions(CLI::App& command, RunArguments& arguments, const std::string& outputHelp,
-  bool (*suits)(const std::string& path), const std::string& endings, const std::string& memoryHelp,
-  const std::string& condition)
+  unsigned uses, const std::string& memoryHelp, const std::string& condition)
 {
   command.add_option("input", arguments.Inputs, "The points, of one or more files")->required();
-  addOutput(command, arguments.Output, outputHelp, suits, endings);
+  addOutput(command, arguments.Output, outputHelp, uses);
   command.add_option("--stats", arguments.Statistics, "A JSON file for figures of the run");
   command.add_option("--memory", arguments.Memory, memoryHelp)->check(checkRunMemory);
   command.add_flag("--resume", arguments.Resume,
@@ -248,11 +275,6 @@ void addArrayFlags(CLI::App& command, bool& mapDuplicates, bool& neighbors,
   command.add_flag("--neighbors", neighbors,
     "Add the cell array NeighborIds" + neighborsIn + ": for each corner the id of the " + cell +
       " opposite to it, -1 at the hull");
-}
-
-bool RunArguments::makesPieces() const
-{
-  return extensionOf(this->Output) == ".tipp";
 }
 
 void RunArguments::setOptions(OutOfCoreRunOptions& options) const

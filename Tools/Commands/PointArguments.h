@@ -2,6 +2,7 @@
 #ifndef tippPointArguments_h
 #define tippPointArguments_h
 
+#include "Files/Formats.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Points/Longitudes.h"
 #include "Points/ReadPoints.h"
@@ -22,8 +23,8 @@ namespace tipp
 /// carries it out and returns the exit code. See Commands.h.
 template <typename Arguments>
 void addCommand(CLI::App& app, int& exitCode, const std::string& name,
-  const std::string& description, const char* footer, void (*addOptions)(CLI::App&, Arguments&),
-  int (*run)(Arguments&))
+  const std::string& description, const std::string& footer,
+  void (*addOptions)(CLI::App&, Arguments&), int (*run)(Arguments&))
 {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* const command = app.add_subcommand(name, description);
@@ -44,8 +45,10 @@ struct RunArguments
   bool Resume = false;
   std::string Scratch;
 
+  Opener OutputIs = Opener::None; ///< the format of Output, set before the options are checked
+
   /// Returns whether the output is a partitioned mesh, which is computed out of core.
-  bool makesPieces() const;
+  bool makesPieces() const { return this->OutputIs == Opener::Pieces; }
   /// Sets the memory limit, if it is given, and the options Resume and Scratch.
   void setOptions(OutOfCoreRunOptions& options) const;
   /// Throws CLI::ValidationError if an option is given that needs makesPieces().
@@ -53,20 +56,22 @@ struct RunArguments
 };
 
 /// Adds the arguments for the files of points and the output, and the options of RunArguments.
-/// `suits` tells whether an output has one of the `endings`. `condition` begins the help of options
-/// for runs out of core.
+/// `uses`: what the output is (Files/Formats.h). `condition` begins the help of options for runs
+/// out of core.
 void addRunOptions(CLI::App& command, RunArguments& arguments, const std::string& outputHelp,
-  bool (*suits)(const std::string& path), const std::string& endings, const std::string& memoryHelp,
-  const std::string& condition);
+  unsigned uses, const std::string& memoryHelp, const std::string& condition);
 
 /// Adds the flags for the arrays that a mesh has on request. `duplicatesIn` and `neighborsIn` say
 /// which outputs can hold them, such as " to .vtp or .vtu"; `cell` is what the mesh consists of.
 void addArrayFlags(CLI::App& command, bool& mapDuplicates, bool& neighbors,
   const std::string& duplicatesIn, const std::string& neighborsIn, const std::string& cell);
 
-/// Adds the option --output, which must end in one of the `endings`: `suits` tells whether it does.
-void addOutput(CLI::App& command, std::string& output, const std::string& help,
-  bool (*suits)(const std::string& path), const std::string& endings);
+/// Adds the option --output, whose format must have one of the `uses` (Files/Formats.h).
+void addOutput(CLI::App& command, std::string& output, const std::string& help, unsigned uses);
+
+/// Returns a paragraph of a footer in lines of at most 88 characters: after `title`, which begins
+/// the first one, all are indented by eight blanks.
+std::string paragraph(const std::string& title, const std::string& text);
 
 /// Adds the options that select the points and columns to read.
 void addPointOptions(CLI::App& command, PointOptions& options);
@@ -114,7 +119,8 @@ std::optional<std::uint64_t> parseMemorySize(const std::string& text);
 /// Validates a memory size on the command line: returns an error message, or an empty text.
 std::string checkMemorySize(const std::string& text);
 
-/// Validates a finite number above 0, likewise.
+/// Validates a finite number above 0 on the command line: returns an error message, or an empty
+/// text.
 std::string checkPositive(const std::string& text);
 
 /// Throws CLI::ValidationError if an option does not suit the others; `problem` follows its name.

@@ -5,7 +5,7 @@
 #include "Commands/Report.h"
 #include "Console/Process.h"
 #include "Distributions/GeneratePoints.h"
-#include "Files/InputFile.h"
+#include "Files/Formats.h"
 #include "Files/TextFile.h"
 #include "Npy/NpyFile.h"
 #include "Points/ReadPoints.h"
@@ -130,9 +130,7 @@ void addOptions(CLI::App& command, PointsArguments& arguments)
     ->required()
     ->check(CLI::Range(std::int64_t(0), std::int64_t(1) << 40));
   addChecked(command, "--seed", arguments.Seed, checkSeed, "The seed of the random numbers");
-  addOutput(
-    command, arguments.Output, "The .npy file to write",
-    [](const std::string& path) { return extensionOf(path) == ".npy"; }, ".npy");
+  addOutput(command, arguments.Output, "The .npy file to write", Use::WritesPoints);
 }
 
 int run(PointsArguments& arguments)

@@ -3,6 +3,7 @@
 #include "Commands/PointArguments.h"
 #include "Commands/QueryMesh.h"
 #include "Commands/Report.h"
+#include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/PendingOutput.h"
@@ -79,7 +80,7 @@ struct QueryArguments
   /// Returns whether the query is about the mesh alone, without points.
   bool isOfMesh() const { return !this->Zones.Path.empty() || !this->Region.Ids.empty(); }
 
-  bool toNpy() const { return extensionOf(this->Output) == ".npy"; }
+  bool toNpy() const { return isOpenedBy(this->Output, Opener::Npy); }
 };
 
 /// Returns this rank's share of the points. Throws IOError if points in space have no column z.

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/QueryMesh.h"
 
-#include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Console/Process.h"
+#include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
+#include "Gis/GisFiles.h"
 #include "Npy/NpyFile.h"
 #include "Parallel/ParallelFor.h"
-#include "Query/GisFiles.h"
 #include "Query/Queries.h"
 #include "Query/QueryData.h"
 #include "Ranks/Communicator.h"
@@ -219,7 +219,7 @@ void writeRegion(Communicator* shared, const ResidentMesh& mesh, const RegionArg
   {
     return;
   }
-  if (extensionOf(output) == ".npy")
+  if (isOpenedBy(output, Opener::Npy))
   {
     NpyWriter writer(output, "<i8", { std::int64_t(ids.size()) }, before);
     writer.write(ids.data(), ids.size() * sizeof(std::int64_t));

@@ -3,7 +3,7 @@
 #define tippQueryMesh_h
 
 #include "Files/PendingOutput.h"
-#include "Query/ResidentMesh.h"
+#include "Resident/ResidentMesh.h"
 
 #include <functional>
 #include <memory>

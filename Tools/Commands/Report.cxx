@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Report.h"
 
-#include "Commands/Commands.h"
 #include "Console/Process.h"
 #include "Files/PendingOutput.h"
+#include "Files/RequireApart.h"
 
 #include <fmt/format.h>
 #include <malloc.h>

@@ -6,8 +6,8 @@
 #include "Commands/ResampleInput.h"
 #include "Console/Process.h"
 #include "Dem/MakeDem.h"
+#include "Files/Formats.h"
 #include "Files/IOError.h"
-#include "Files/InputFile.h"
 #include "Flat/FlatMesh.h"
 #include "Npy/NpyFile.h"
 #include "OpenCL/Devices.h"
@@ -87,7 +87,7 @@ void configure(const ResampleArguments& arguments, vtkRangeResampleFilter* filte
   parseDeviceChoice(arguments.Device); // throw here; the filter would only report an error
   filter->SetDeviceChoice(arguments.Device.c_str());
   filter->SetNumberOfThreads(arguments.Threads);
-  const bool npy = extensionOf(arguments.Output) == ".npy";
+  const bool npy = arguments.OutputIs == Opener::Npy;
   filter->SetNullValue(
     arguments.Null.value_or(npy ? std::numeric_limits<double>::quiet_NaN() : 0.0));
   filter->SetUseNoDataValue(arguments.NoData.has_value());
@@ -332,11 +332,11 @@ int runResample(const ResampleArguments& arguments)
   {
     return Success;
   }
-  if (extensionOf(arguments.Output) == ".npy")
+  if (arguments.OutputIs == Opener::Npy)
   {
     writeNpy(arguments.Output, arguments.Arrays.front(), filter->GetOutput(), before);
   }
-  else if (isGeoTiff(arguments.Output))
+  else if (arguments.OutputIs == Opener::GeoTiff)
   {
     constexpr double usual = -9999;
     writeGeoTiff(arguments.Output, filter->GetOutput(), arguments.Crs,
@@ -353,7 +353,7 @@ int runResample(const ResampleArguments& arguments)
 void addOptions(CLI::App& command, ResampleArguments& arguments)
 {
   command.add_option("mesh", arguments.Input, "The mesh, see below")->required();
-  addOutput(command, arguments.Output, "The image, see below", isRasterFile, ".vti, .npy or .tif");
+  addOutput(command, arguments.Output, "The image, see below", Use::WritesRasters);
   command
     .add_option("--bounds", arguments.Bounds,
       "The range: xmin xmax ymin ymax zmin zmax (default: that of the mesh)")
@@ -384,13 +384,14 @@ void addOptions(CLI::App& command, ResampleArguments& arguments)
 
 int run(ResampleArguments& arguments)
 {
+  arguments.OutputIs = openerOf(arguments.Output, Use::WritesRasters);
   refuseIf(
     arguments.Dimensions.empty() && arguments.Delta.empty(), "--dims", "or --delta is required");
-  if (extensionOf(arguments.Output) == ".npy" && arguments.Arrays.empty())
+  if (arguments.OutputIs == Opener::Npy && arguments.Arrays.empty())
   {
     arguments.Arrays = { "elevation" };
   }
-  refuseIf(extensionOf(arguments.Output) == ".npy" && arguments.Arrays.size() != 1, "--arrays",
+  refuseIf(arguments.OutputIs == Opener::Npy && arguments.Arrays.size() != 1, "--arrays",
     "must name one array for an .npy file");
   return runResample(arguments);
 }

@@ -322,7 +322,7 @@ vtkSmartPointer<vtkDataSet> readMesh(
     [&]
     {
       // A .vtu file may be a flat mesh. If it has cells of other types, VTK's reader reads it.
-      if (!isFlatMesh(arguments.Input) || isVtkFile(arguments.Input))
+      if (!isFlatMesh(arguments.Input) || isOpenedBy(arguments.Input, Opener::Vtk))
       {
         timeOf(arguments, nullptr);
         mesh = readDataSet(arguments.Input);

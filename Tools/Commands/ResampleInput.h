@@ -2,6 +2,7 @@
 #ifndef tippResampleInput_h
 #define tippResampleInput_h
 
+#include "Files/Formats.h"
 #include "Ranks/Communicator.h"
 #include "Vtk/DataSets.h"
 
@@ -19,8 +20,9 @@ struct ResampleArguments
 {
   std::string Input;
   std::string Output;
-  std::vector<double> Bounds;  ///< empty: those of the mesh
-  std::vector<int> Dimensions; ///< number of samples; empty: given by Delta
+  Opener OutputIs = Opener::None; ///< the format of Output
+  std::vector<double> Bounds;     ///< empty: those of the mesh
+  std::vector<int> Dimensions;    ///< number of samples; empty: given by Delta
   /// Distance of samples; empty: given by Dimensions.
   std::vector<double> Delta;
   std::vector<std::string> Arrays; ///< empty: all

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Console/Process.h"
 
-#include "Commands/Commands.h"
-#include "Files/TemporaryFiles.h"
+#include "Files/TemporaryPaths.h"
 #include "Vtk/DataSets.h"
 
 #include "vtkMultiProcessController.h"

@@ -9,6 +9,15 @@ class vtkMultiProcessController;
 namespace tipp
 {
 
+/// Exit codes of all commands. Usage errors are found while the command line is parsed.
+enum ExitCode
+{
+  Success = 0,
+  Failure = 1,
+  Usage = 2,
+  Undecided = 3 ///< of 'tipp check'
+};
+
 /// Returns the rank with which mpirun or a batch system started this process; -1 if it is not a
 /// rank. Works before MPI is initialised.
 int startedRank();

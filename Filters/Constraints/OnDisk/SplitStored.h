@@ -5,7 +5,7 @@
 #include "Constraints/ConstraintPieces.h"
 #include "Constraints/OnDisk/StoredConstraints.h"
 #include "Constraints/SegmentTree.h"
-#include "Partitioning/Spill.h"
+#include "Ranks/Spill.h"
 #include "Triangulation/Tiling.h"
 #include "vtkTIPPFiltersModule.h"
 

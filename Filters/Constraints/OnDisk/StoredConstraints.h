@@ -5,8 +5,8 @@
 #include "Constraints/ConstraintPoints.h"
 #include "Constraints/ConstraintSegments.h"
 #include "Constraints/TriangulateConstrained.h"
-#include "Partitioning/Spill.h"
 #include "Points/ReadPoints.h"
+#include "Ranks/Spill.h"
 #include "Triangulation/PointsView.h"
 #include "vtkTIPPFiltersModule.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Files/ChildProcess.h"
 #include "Files/IOError.h"
-#include "Raster/RasterFile.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExpectIOError.h"
 #include "Files/IOError.h"
+#include "Gis/GisFiles.h"
 #include "Points/ReadPoints.h"
-#include "Query/GisFiles.h"
 #include "TemporaryFolder.h"
 
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 // The neighbour ids in a mesh in pieces, compared with neighbours computed from its edges.
 #include "OutOfCoreTesting.h"
 
+#include "Arrays/FindNeighbors.h"
 #include "ExpectIOError.h"
-#include "Meshes/MeshFiles.h"
 #include "Npy/NpyFile.h"
 #include "Partitioned/FinishedPieces.h"
 

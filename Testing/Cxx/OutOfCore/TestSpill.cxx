@@ -4,7 +4,7 @@
 #include "TemporaryFolder.h"
 
 #include "Files/OutputFile.h"
-#include "Partitioning/Spill.h"
+#include "Ranks/Spill.h"
 
 #include <gtest/gtest.h>
 

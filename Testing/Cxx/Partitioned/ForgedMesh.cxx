@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ForgedMesh.h"
 
-#include "Partitioned/Checksum.h"
+#include "Files/Checksum.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Partitioned/Checksum.h"
+#include "Files/Checksum.h"
 
 // xxHash without vector instructions, inlined into this file.
 #define XXH_INLINE_ALL

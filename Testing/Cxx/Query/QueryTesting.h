@@ -5,7 +5,7 @@
 #include "SourceMesh.h"
 #include "TemporaryFolder.h"
 
-#include "Query/ResidentMesh.h"
+#include "Resident/ResidentMesh.h"
 
 #include <cstdint>
 #include <functional>

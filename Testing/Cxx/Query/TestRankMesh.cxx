@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "QueryRanksTesting.h"
 
-#include "Query/ForPieces.h"
 #include "Query/RankMesh.h"
+#include "Resident/ForPieces.h"
 
 #include <numeric>
 

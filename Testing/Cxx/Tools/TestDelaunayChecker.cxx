@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Adcirc/AdcircGrid.h"
+#include "Arrays/FindNeighbors.h"
 #include "Check/DelaunayChecker.h"
 #include "Distributions/GeneratePoints.h"
-#include "Meshes/MeshFiles.h"
 #include "SharedData.h"
 #include "Triangulation/Triangulate.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Meshes/MeshFiles.h"
+#include "Arrays/FindNeighbors.h"
 #include "Triangulation/TriangleLocator.h"
 #include "Triangulation/Triangulate.h"
 

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Flat/FlatMesh.h"
+
+#include "Adcirc/AdcircGrid.h"
+#include "Adcirc/ListDirectedRows.h"
+#include "Files/IOError.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tipp
+{
+
+namespace
+{
+
+/// Values at the nodes of an ADCIRC grid (https://adcirc.org; fort.63, fort.64, maxele.63 ...): a
+/// title; the numbers of steps and nodes, two unused numbers, and the number of values per node;
+/// for each step a line of time and time step, and a line `node value...` per node. A step may give
+/// a number of nodes and a default value on its first line, and then only the nodes that differ.
+/// Nodes are identified by the grid's node numbers. A file with fewer steps than announced, as from
+/// an interrupted run, is rejected.
+struct AdcircValues
+{
+  int Components = 1;        ///< values per node
+  std::vector<double> Times; ///< times of the steps, in seconds
+  std::vector<double>
+    Values; ///< step by step, in the order of the grid's nodes; -99999 at dry nodes
+};
+
+/// Reads a file of AdcircValues. The constructor and read() throw IOError if the file cannot be
+/// read or its values belong to another grid.
+class ValuesReader
+{
+public:
+  ValuesReader(const std::string& path, const AdcircGrid& grid)
+    : Grid(grid)
+    , Rows(path, "ADCIRC's output in ASCII")
+  {
+  }
+
+  AdcircValues read()
+  {
+    this->Rows.title();
+    this->Rows.next(5, "the numbers of steps, nodes and values");
+    const std::int64_t steps = this->Rows.integer(0);
+    this->Nodes = this->Rows.integer(1);
+    const std::int64_t components = this->Rows.integer(4);
+    const std::int64_t lines = this->Rows.remainingLines();
+    // A step has at least one line; the number of its nodes is checked when it is read.
+    if (steps < 1 || steps > lines || this->Nodes < 1 || components < 1 || components > 3)
+    {
+      this->Rows.fail("announces " + std::to_string(steps) + " steps of " +
+        std::to_string(this->Nodes) + " nodes with " + std::to_string(components) +
+        " values, but " + std::to_string(lines) + " lines follow; copy the file again.");
+    }
+    if (std::size_t(this->Nodes) != this->Grid.Depth.size())
+    {
+      this->Rows.fail("gives values at " + std::to_string(this->Nodes) +
+        " nodes, but the grid has " + std::to_string(this->Grid.Depth.size()) +
+        "; name the grid that it belongs to.");
+    }
+    this->Result.Components = int(components);
+    this->LastStep.assign(std::size_t(this->Nodes), -1);
+    for (std::int64_t step = 0; step < steps; ++step)
+    {
+      this->readStep(step);
+    }
+    return std::move(this->Result);
+  }
+
+private:
+  void readStep(std::int64_t step)
+  {
+    this->Rows.next(2, "a step");
+    this->Result.Times.push_back(this->Rows.number(0));
+    const bool sparse =
+      this->Rows.fields() >= 4 && this->Rows.isNumber(2) && this->Rows.isNumber(3);
+    const std::int64_t given = sparse ? this->Rows.integer(2) : this->Nodes;
+    const std::int64_t lines = this->Rows.remainingLines();
+    if (given < 0 || given > this->Nodes || given > lines)
+    {
+      this->Rows.fail("announces " + std::to_string(given) + " nodes, but " +
+        std::to_string(lines) + " lines follow; copy the file again.");
+    }
+    const auto components = std::size_t(this->Result.Components);
+    const std::size_t first = this->Result.Values.size();
+    const double rest = sparse ? this->Rows.number(3) : 0;
+    this->Result.Values.resize(first + std::size_t(this->Nodes) * components, rest);
+    for (std::int64_t i = 0; i < given; ++i)
+    {
+      this->Rows.next(1 + components, "a node's values");
+      const std::size_t node = this->nodeOf(this->Rows.integer(0), step);
+      for (std::size_t c = 0; c < components; ++c)
+      {
+        this->Result.Values[first + node * components + c] = this->Rows.number(1 + c);
+      }
+    }
+  }
+
+  /// The index in the grid of a node number. A step may list a node only once.
+  std::size_t nodeOf(std::int64_t number, std::int64_t step)
+  {
+    const auto node = this->Grid.IndexOf.find(number);
+    if (node == this->Grid.IndexOf.end())
+    {
+      this->Rows.fail("names node " + std::to_string(number) +
+        ", which the grid does not have; name the grid that it belongs to.");
+    }
+    std::int64_t& last = this->LastStep[std::size_t(node->second)];
+    if (last == step)
+    {
+      this->Rows.fail(
+        "gives node " + std::to_string(number) + " twice in a step; copy the file again.");
+    }
+    last = step;
+    return std::size_t(node->second);
+  }
+
+  const AdcircGrid& Grid;
+  ListDirectedRows Rows;
+  std::int64_t Nodes = 0;
+  std::vector<std::int64_t> LastStep; ///< the last step that gave the node, or -1
+  AdcircValues Result;
+};
+
+FlatArray floats(std::string name, std::vector<double> values, int components, std::int64_t tuples)
+{
+  const auto kept = std::make_shared<std::vector<double>>(std::move(values));
+  return { std::move(name), Scalar::Float64, components, tuples, 0, kept->data(), kept };
+}
+
+/// The array's name. ADCIRC's own file names, such as fort.63, keep their extension, which
+/// identifies the content.
+std::string nameOf(const std::string& path)
+{
+  const std::filesystem::path file(path);
+  return file.stem() == "fort" ? file.filename().string() : file.stem().string();
+}
+
+void addValues(const std::string& path, const AdcircGrid& grid, FlatContent& content)
+{
+  AdcircValues values = ValuesReader(path, grid).read();
+  const std::int64_t nodes = content.Points.Tuples;
+  FlatArray array = floats(nameOf(path), std::move(values.Values), values.Components, nodes);
+  if (values.Times.size() > 1)
+  {
+    if (!content.Times.empty() && content.Times != values.Times)
+    {
+      throw IOError(path, "has other times than the file before it; flatten them one by one.");
+    }
+    content.Times = std::move(values.Times);
+    array.Steps = std::int64_t(content.Times.size());
+  }
+  content.PointData.push_back(std::move(array));
+}
+
+} // namespace
+
+FlatContent flattenAdcirc(const std::string& grid, const std::vector<std::string>& values)
+{
+  AdcircGrid read = readAdcircGrid(grid);
+  FlatContent content;
+  content.Cells = std::move(read.Triangles);
+  const auto nodes = std::int64_t(read.Depth.size());
+  content.Points = floats("points", std::move(read.XY), 2, nodes);
+  content.PointData.push_back(floats("depth", read.Depth, 1, nodes));
+  for (const std::string& path : values)
+  {
+    addValues(path, read, content);
+  }
+  return content;
+}
+
+} // namespace tipp
