@@ -1,23 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
-#include "Commands/QueryMesh.h"
 #include "Commands/Report.h"
+#include "Console/Process.h"
 #include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
+#include "Gis/GisFiles.h"
 #include "Npy/NpyFile.h"
+#include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
 #include "Points/ReadPoints.h"
 #include "Query/Queries.h"
+#include "Query/QueryData.h"
 #include "Query/RankAnswer.h"
 #include "Ranks/Communicator.h"
+#include "Resident/ResidentMesh.h"
+#include "Vtk/DataSets.h"
+
+#include "vtkDataSet.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <memory>
@@ -29,6 +41,295 @@ namespace tipp
 {
 namespace
 {
+
+/// The mesh that a command queries, and how.
+struct QueryMeshArguments
+{
+  std::string Path;
+  /// Memory limit for the pieces of a partitioned mesh, as text.
+  std::string Memory = "1G";
+  /// Time step of arrays that vary in time.
+  int Step = 0;
+  int Threads = 0;
+};
+
+/// The options of --zones.
+struct ZoneArguments
+{
+  std::string Path;
+  std::string Field; ///< the field with the zones' names; empty: zones are numbered
+  double Level = 0;  ///< volumes are computed above this value
+};
+
+/// The options of --ids.
+struct RegionArguments
+{
+  std::string Ids; ///< "cells" or "points"; empty: not given
+  std::vector<double> Bounds;
+  std::string Polygons; ///< path of a file
+  bool Whole = false;   ///< only cells that lie completely in the region
+};
+
+/// Adds --step, --memory and --threads.
+void addQueryMeshOptions(CLI::App& command, QueryMeshArguments& arguments)
+{
+  addStepOption(command, arguments.Step);
+  addChecked(command, "--memory", arguments.Memory, checkMemorySize,
+    "The memory limit for pieces of a partitioned mesh");
+  addThreadsOption(command, arguments.Threads);
+}
+
+/// Returns a name as a field of a .csv file, in quotes if necessary.
+std::string quotedField(const std::string& name)
+{
+  if (name.find_first_of(",\"\n") == std::string::npos)
+  {
+    return name;
+  }
+  std::string text = "\"";
+  for (const char c : name)
+  {
+    text += c == '"' ? "\"\"" : std::string(1, c);
+  }
+  return text + "\"";
+}
+
+/// Opens a partitioned mesh, or reads a VTK file of any kind. Throws IOError.
+std::unique_ptr<ResidentMesh> openQueryMesh(const QueryMeshArguments& arguments)
+{
+  ResidentOptions options;
+  options.MemoryLimit = *parseMemorySize(arguments.Memory);
+  options.Threads = arguments.Threads;
+  options.Step = arguments.Step;
+  if (isPartitionedMesh(arguments.Path))
+  {
+    return std::make_unique<ResidentMesh>(arguments.Path, options);
+  }
+  const vtkSmartPointer<vtkDataSet> data = readDataSet(arguments.Path);
+  try
+  {
+    return std::make_unique<ResidentMesh>(partOf(data, arguments.Threads), options);
+  }
+  catch (const IOError&)
+  {
+    throw;
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw IOError(arguments.Path, std::string("cannot be used: ") + error.what());
+  }
+}
+
+/// Runs a collective function on all ranks, until it returns or Ctrl-C is pressed. Prints the
+/// message of any exception. Returns the command's exit code.
+int runOnRanks(const std::function<void(Communicator&)>& work)
+{
+  // With this threshold, large blocks, such as pieces, are returned to the system when they are
+  // freed.
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);
+  const MpiSession session;
+  try
+  {
+    Communicator ranks(session.controller());
+    const PollScope scope(
+      [&ranks]()
+      {
+        if (isInterrupted())
+        {
+          throw RankFailure(ranks.rank(), true, "The run was stopped.");
+        }
+        return true;
+      });
+    ranks.together([&] { work(ranks); });
+  }
+  catch (const RankFailure& failure)
+  {
+    return failure.Aborted ? reportInterrupt() : reportFailure();
+  }
+  catch (const std::exception&)
+  {
+    return reportFailure();
+  }
+  return Success;
+}
+
+void writeText(const std::string& path, const std::string& text, const PathState& before)
+{
+  PendingFile pending(path, before);
+  pending.file().write(0, text.data(), text.size());
+  pending.commit();
+}
+
+Region regionOf(const RegionArguments& arguments, const ResidentMesh& mesh)
+{
+  Region region;
+  if (arguments.Polygons.empty())
+  {
+    const auto wanted = std::size_t(mesh.mesh().CellSize == 4 ? 6 : 4);
+    if (arguments.Bounds.size() < wanted)
+    {
+      throw IOError("--bounds needs xmin xmax ymin ymax zmin zmax for a mesh of tetrahedra.");
+    }
+    std::copy(arguments.Bounds.begin(), arguments.Bounds.end(), region.Box.begin());
+    return region;
+  }
+  for (const NamedZone& zone : readZones(arguments.Polygons, ""))
+  {
+    region.Polygons.insert(region.Polygons.end(), zone.Polygons.begin(), zone.Polygons.end());
+  }
+  return region;
+}
+
+/// Returns the statistics as lines of a .csv file.
+std::string tableOf(const std::vector<NamedZone>& zones, const std::vector<std::string>& arrays,
+  const std::vector<ZoneStatistics>& statistics)
+{
+  std::string text = "zone,cells,area";
+  const auto out = std::back_inserter(text);
+  for (const std::string& array : arrays)
+  {
+    for (const char* const column : { "min", "max", "mean", "integral", "above" })
+    {
+      text += "," + quotedField(array + "_" + column);
+    }
+  }
+  text += '\n';
+  for (std::size_t i = 0; i < zones.size(); ++i)
+  {
+    // The number of cells and the area count cells that have values of the first array.
+    fmt::format_to(
+      out, "{},{},{}", quotedField(zones[i].Name), statistics[0].Cells[i], statistics[0].Area[i]);
+    for (const ZoneStatistics& of : statistics)
+    {
+      const bool isMet = of.Cells[i] > 0;
+      isMet ? fmt::format_to(
+                out, ",{},{},{},{},{}", of.Low[i], of.High[i], of.Mean[i], of.Sum[i], of.Above[i])
+            : fmt::format_to(out, ",,,,,");
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+/// Returns the lines of all ranks on the first one.
+Descents gathered(Communicator& ranks, const Descents& own)
+{
+  Descents all;
+  for (const Descents& part : ranks.gather(own))
+  {
+    const std::int64_t first = all.Starts.back();
+    for (std::size_t i = 1; i < part.Starts.size(); ++i)
+    {
+      all.Starts.push_back(first + part.Starts[i]);
+    }
+    all.Points.insert(all.Points.end(), part.Points.begin(), part.Points.end());
+    all.Values.insert(all.Values.end(), part.Values.begin(), part.Values.end());
+    all.Pits.insert(all.Pits.end(), part.Pits.begin(), part.Pits.end());
+  }
+  return all;
+}
+
+/// Adds --ids and the options that define regions. Returns the option --ids.
+CLI::Option* addRegionOptions(CLI::App& command, RegionArguments& arguments)
+{
+  CLI::Option* const ids =
+    command
+      .add_option("--ids", arguments.Ids, "Write the ids of cells or points in a region, see below")
+      ->check(CLI::IsMember({ "cells", "points" }));
+  CLI::Option* const bounds =
+    command.add_option("--bounds", arguments.Bounds, "The region: xmin xmax ymin ymax [zmin zmax]")
+      ->expected(4, 6)
+      ->needs(ids);
+  command.add_option("--polygons", arguments.Polygons, "The region: a file of polygons")
+    ->needs(ids)
+    ->excludes(bounds);
+  command.add_flag("--whole", arguments.Whole, "Only cells that lie completely in the region")
+    ->needs(ids);
+  return ids;
+}
+
+void writeRegion(Communicator* shared, const ResidentMesh& mesh, const RegionArguments& arguments,
+  const std::string& output, const PathState& before)
+{
+  const Region region = regionOf(arguments, mesh);
+  const bool ofCells = arguments.Ids == "cells";
+  const std::vector<std::int64_t> ids =
+    ofCells ? cellsIn(mesh, region, arguments.Whole, shared) : pointsIn(mesh, region, shared);
+  if (shared && !shared->isFirst())
+  {
+    return;
+  }
+  if (isOpenedBy(output, Opener::Npy))
+  {
+    NpyWriter writer(output, "<i8", { std::int64_t(ids.size()) }, before);
+    writer.write(ids.data(), ids.size() * sizeof(std::int64_t));
+    writer.close();
+  }
+  else
+  {
+    std::string text = ofCells ? "cell\n" : "point\n";
+    for (const std::int64_t id : ids)
+    {
+      fmt::format_to(std::back_inserter(text), "{}\n", id);
+    }
+    writeText(output, text, before);
+  }
+  fmt::print("{} {}, in {}\n", ids.size(), arguments.Ids, output);
+}
+
+// The functions that write query the mesh, and the first rank writes the file. `shared`: the ranks
+// that share the mesh, all of which must call the function; null: this process alone. `before`: the
+// first rank's state of the output's path before the query. They throw IOError.
+
+/// Writes statistics of arrays in the zones of a file, as .csv.
+void writeZones(Communicator* shared, const ResidentMesh& mesh, const ZoneArguments& arguments,
+  const std::vector<std::string>& arrays, const std::string& output, const PathState& before)
+{
+  const bool isFirst = !shared || shared->isFirst();
+  const std::vector<NamedZone> named =
+    isFirst ? readZones(arguments.Path, arguments.Field) : std::vector<NamedZone>();
+  std::vector<Zone> zones;
+  zones.reserve(named.size());
+  for (const NamedZone& zone : named)
+  {
+    zones.push_back(zone.Polygons);
+  }
+  std::vector<ZoneStatistics> statistics;
+  std::vector<std::string> names;
+  for (const std::string& array : arrays)
+  {
+    const StoredArray* const description = mesh.find(array);
+    const int components = description ? description->Components : 1;
+    for (int k = 0; k < components; ++k)
+    {
+      names.push_back(array + (components > 1 ? "_" + std::to_string(k) : ""));
+      statistics.push_back(statisticsOf(mesh, zones, array, k, arguments.Level, shared));
+    }
+  }
+  if (!isFirst)
+  {
+    return;
+  }
+  const std::string text = tableOf(named, names, statistics);
+  writeText(output, text, before);
+  fmt::print("{} zones, in {}\n", zones.size(), output);
+}
+
+/// Writes the lines of steepest descent from this rank's points, as .vtp.
+void writeDescents(Communicator* shared, const ResidentMesh& mesh,
+  const std::vector<Point3>& points, const std::string& array, const std::string& output,
+  const PathState& before)
+{
+  const Descents own = descentsOf(mesh, points, array, 0, shared);
+  const Descents descents = shared ? gathered(*shared, own) : own;
+  if (shared && !shared->isFirst())
+  {
+    return;
+  }
+  writeXmlFile(output, before, polyDataOf(descents, array));
+  fmt::print(
+    "{} lines of {} points, in {}\n", descents.Pits.size(), descents.Points.size(), output);
+}
 
 constexpr const char* footer =
   R"(POINTS  any file of points that 'tipp delaunay' reads. For a mesh of tetrahedra it needs a
@@ -434,6 +735,127 @@ void addQueryCommand(CLI::App& app, int& exitCode)
   addCommand<QueryArguments>(app, exitCode, "query",
     "Finds the cells of a mesh that contain points, and interpolates its arrays there", footer,
     addOptions, run);
+}
+
+namespace
+{
+
+constexpr const char* contourFooter =
+  R"(MESH    a partitioned mesh of triangles, which is read piece by piece; or any VTK file of
+        triangles, or of other cells, which are cut into triangles.
+LINES   .gpkg: a GeoPackage, which needs GDAL; or .vtp. Each line stores its level, and its
+        points have the z of the surface.
+
+Lines continue from piece to piece; they do not depend on pieces, threads and ranks. The
+higher side is on the left. Under mpirun the ranks share the pieces of a partitioned
+mesh. --memory is the limit of each rank, in bytes or such as 512M (2^20 bytes) or 2G.
+
+Examples:
+  tipp contour terrain.tipp -o contours.gpkg --interval 5 --crs EPSG:25832
+  tipp contour surge.vtu -o level.vtp --array zeta --levels 0.5,1,2
+)";
+
+struct ContourArguments
+{
+  QueryMeshArguments Mesh;
+  std::string Output;
+  std::string Array = "elevation";
+  int Component = 0;
+  std::vector<double> Levels;
+  double Interval = 0;
+  std::string Crs;
+};
+
+/// Returns the multiples of the interval within the array's range. Collective.
+std::vector<double> levelsOf(
+  Communicator& ranks, const ResidentMesh& mesh, const ContourArguments& arguments)
+{
+  const auto [low, high] = rangeOf(mesh, arguments.Array, arguments.Component, &ranks);
+  constexpr double most = 1e6;
+  if ((high - low) / arguments.Interval > most)
+  {
+    throw IOError(
+      fmt::format("An interval of {} would give more than 1000000 levels; give a larger one.",
+        arguments.Interval));
+  }
+  // Beyond 2^53, doubles do not hold all multiples.
+  const double largest = std::max(std::fabs(low), std::fabs(high));
+  if (largest / arguments.Interval > 0x1p53 && low <= high)
+  {
+    throw IOError(
+      fmt::format("An interval of {} is too small for values up to {}; give a larger one.",
+        arguments.Interval, largest));
+  }
+  std::vector<double> levels;
+  for (double i = std::ceil(low / arguments.Interval); i * arguments.Interval <= high; ++i)
+  {
+    levels.push_back(i * arguments.Interval);
+  }
+  return levels;
+}
+
+void writeContours(
+  const ContourArguments& arguments, const Contours& contours, const PathState& before)
+{
+  if (isOpenedBy(arguments.Output, Opener::Gdal))
+  {
+    writeGeoPackage(arguments.Output, contours, arguments.Array, arguments.Crs, before);
+    return;
+  }
+  writeXmlFile(arguments.Output, before, polyDataOf(contours, arguments.Array));
+}
+
+/// Makes the contour lines of all pieces, which the ranks share. The first rank writes the file.
+/// Collective.
+void makeContours(const ContourArguments& arguments, Communicator& ranks)
+{
+  PathState before;
+  if (ranks.isFirst())
+  {
+    before = requireWritable(arguments.Output, "", { arguments.Mesh.Path });
+  }
+  // Only the first rank reads a mesh that is not partitioned.
+  std::unique_ptr<ResidentMesh> mesh = ranks.isFirst() || isPartitionedMesh(arguments.Mesh.Path)
+    ? openQueryMesh(arguments.Mesh)
+    : std::make_unique<ResidentMesh>(MeshPart());
+  const std::vector<double> levels =
+    arguments.Interval > 0 ? levelsOf(ranks, *mesh, arguments) : arguments.Levels;
+  const Contours contours = contoursOf(*mesh, arguments.Array, arguments.Component, levels, &ranks);
+  mesh.reset(); // its memory is free for the file's
+  if (ranks.isFirst())
+  {
+    writeContours(arguments, contours, before);
+    fmt::print("{} lines of {} points, in {}\n", contours.Levels.size(), contours.Points.size(),
+      arguments.Output);
+  }
+}
+
+void addOptions(CLI::App& command, ContourArguments& arguments)
+{
+  command.add_option("mesh", arguments.Mesh.Path, "The mesh, see below")->required();
+  addOutput(command, arguments.Output, "The file to write, see below", Use::WritesLines);
+  command.add_option("--array", arguments.Array, "The name of a point array, or elevation for z")
+    ->capture_default_str();
+  addChecked(command, "--component", arguments.Component, CLI::Range(0, 1000000),
+    "The component of an array that has several, counted from 0");
+  CLI::Option_group* const levels = command.add_option_group("levels");
+  levels->add_option("--levels", arguments.Levels, "The values of the lines, separated by commas")
+    ->delimiter(',');
+  levels->add_option("--interval", arguments.Interval, "Lines at all multiples of this value")
+    ->check(checkPositive);
+  levels->require_option(1);
+  command.add_option("--crs", arguments.Crs, "The reference system of a .gpkg, such as EPSG:25832");
+  addQueryMeshOptions(command, arguments.Mesh);
+}
+
+} // namespace
+
+void addContourCommand(CLI::App& app, int& exitCode)
+{
+  addCommand<ContourArguments>(app, exitCode, "contour",
+    "Makes lines of equal values on a mesh of triangles", contourFooter, addOptions,
+    [](ContourArguments& arguments)
+    { return runOnRanks([&](Communicator& ranks) { makeContours(arguments, ranks); }); });
 }
 
 } // namespace tipp
