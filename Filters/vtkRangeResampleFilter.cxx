@@ -6,6 +6,7 @@
 #include "Parallel/Stopwatch.h"
 #include "Pipeline/FilterPipeline.h"
 #include "Ranks/Communicator.h"
+#include "Sampling/ImageOutput.h"
 #include "Sampling/SampledImage.h"
 #include "Sampling/SamplingRange.h"
 
@@ -129,7 +130,7 @@ int vtkRangeResampleFilter::RequestUpdateExtent(
 {
   const bool several = tipp::hasSeveralRanks(this->Controller);
   const int count = this->NumberOfInputPieces;
-  tipp::askForPiece(inputs[0]->GetInformationObject(0),
+  tipp::askForUpdatePiece(inputs[0]->GetInformationObject(0),
     several ? this->Controller->GetLocalProcessId() * count : 0,
     several ? this->Controller->GetNumberOfProcesses() * count : count);
   return 1;
@@ -173,8 +174,8 @@ public:
       bool read = true;
       if (this->Piece > 0)
       {
-        tipp::askForPiece(input->GetInformationObject(0), this->Ranks.rank() * count + this->Piece,
-          this->Ranks.size() * count);
+        tipp::askForUpdatePiece(input->GetInformationObject(0),
+          this->Ranks.rank() * count + this->Piece, this->Ranks.size() * count);
         read = source->GetProducer()->GetExecutive()->Update(source->GetIndex()) != 0;
       }
       if (!this->Problem && !this->Stopped)

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTIPPDelaunay2D.h"
 
-#include "Constraints/RankSource.h"
-#include "Constraints/SourceConstraints.h"
 #include "Distributed/ConstrainRanks.h"
 #include "Distributed/DistributedTriangulation.h"
 #include "InMemory/AlphaShape.h"
 #include "InMemory/TriangulatePoints.h"
-#include "Output/MeshOutput.h"
-#include "Output/RunStatistics.h"
 #include "Parallel/Stopwatch.h"
 #include "Pipeline/FilterPipeline.h"
 #include "Pipeline/InputPoints.h"
+#include "Pipeline/MeshOutput.h"
+#include "Pipeline/RankSource.h"
+#include "Pipeline/SourceData.h"
+#include "Statistics/RunStatistics.h"
 #include "Vtk/DataSets.h"
 
 #include "vtkCellData.h"
@@ -140,7 +140,7 @@ vtkAbstractTransform* vtkTIPPDelaunay2D::ComputeBestFittingPlane(vtkPointSet* in
 int vtkTIPPDelaunay2D::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  return tipp::askForRankPieces(this->Controller, inputVector, this->GetNumberOfInputPorts())
+  return tipp::askForUpdatePieces(this->Controller, inputVector, this->GetNumberOfInputPorts())
     ? 1
     : this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
 }
@@ -321,7 +321,7 @@ void vtkTIPPDelaunay2D::AddArrays(const tipp::ConstrainedTriangulation& result, 
   else if (hasSource && this->ConstraintMarks == EDGE_FLAGS)
   {
     output->GetCellData()->AddArray(tipp::takeArray(
-      "ConstraintEdges", tipp::constraintMarks(result.Mesh, result.Constraints.Pieces), 3));
+      "ConstraintEdges", tipp::constraintMarks(result.Mesh, result.Constraints.Segments), 3));
   }
 }
 
@@ -408,10 +408,10 @@ void vtkTIPPDelaunay2D::ExecuteOnRanks(
       lines =
         tipp::findConstraintLines(ranks, { *shared->Segments, shared->Order, shared->Cells }, mine);
     }
-    tipp::PieceMarks marks;
+    tipp::ConstraintMarks marks;
     marks.Flags = shared && this->ConstraintMarks == EDGE_FLAGS ? shared->Segments.get() : nullptr;
     marks.Lines = shared && this->ConstraintMarks == LINES ? &lines : nullptr;
-    tipp::fillPiece(mine, ranks.rank(), rows, wantsGhosts ? &ghosts : nullptr, marks, output);
+    tipp::fillOutput(mine, ranks.rank(), rows, wantsGhosts ? &ghosts : nullptr, marks, output);
     if (this->GenerateRepresentativeIds)
     {
       tipp::addDuplicatesAndRejected(mine.Duplicates, mine.Rejected, output);

@@ -4,11 +4,11 @@
 #include "Distributed3D/DistributedTetrahedralization.h"
 #include "InMemory/AlphaShape.h"
 #include "InMemory/TriangulatePoints.h"
-#include "Output/MeshOutput.h"
-#include "Output/RunStatistics.h"
 #include "Parallel/Stopwatch.h"
 #include "Pipeline/FilterPipeline.h"
 #include "Pipeline/InputPoints.h"
+#include "Pipeline/MeshOutput.h"
+#include "Statistics/RunStatistics.h"
 #include "Triangulation3D/Tetrahedralize.h"
 #include "Vtk/DataSets.h"
 
@@ -85,7 +85,7 @@ int vtkTIPPDelaunay3D::FillOutputPortInformation(int port, vtkInformation* info)
 int vtkTIPPDelaunay3D::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  return tipp::askForRankPieces(this->Controller, inputVector, 1)
+  return tipp::askForUpdatePieces(this->Controller, inputVector, 1)
     ? 1
     : this->Superclass::RequestUpdateExtent(request, inputVector, outputVector);
 }
@@ -262,7 +262,7 @@ void vtkTIPPDelaunay3D::ExecuteOnRanks(vtkPointSet* input, vtkInformationVector*
     }
     const tipp::GhostTetrahedra ghosts =
       wishes[1] > 0 ? tipp::fetchGhosts(ranks, mine) : tipp::GhostTetrahedra();
-    tipp::fillPiece(mine, ranks.rank(), rows, wantsGhosts ? &ghosts : nullptr, output);
+    tipp::fillOutput(mine, ranks.rank(), rows, wantsGhosts ? &ghosts : nullptr, output);
     if (this->GenerateRepresentativeIds)
     {
       tipp::addDuplicatesAndRejected(mine.Duplicates, mine.Rejected, output);

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkTIPPOutOfCoreDelaunay2D.h"
 
-#include "Constraints/OnDisk/ConstrainedPoints.h"
+#include "Constraints/OnDisk/ConstrainedStream.h"
+#include "Constraints/ResolveCrossings.h"
+#include "Constraints/TableConstraints.h"
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
+#include "OutOfCore/OutOfCoreOptions.h"
 #include "Files/RequireApart.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
-#include "Output/RunStatistics.h"
 #include "Pipeline/FilterPipeline.h"
+#include "Statistics/RunStatistics.h"
 
 #include "vtkErrorCode.h"
 #include "vtkInformation.h"
@@ -85,7 +88,7 @@ void vtkTIPPOutOfCoreDelaunay2D::Execute(vtkTable* output)
     tipp::requireApart({ path, tipp::scratchIn(options.Scratch) }, this->InputFileNames);
     return tipp::joinConstraints(
       tipp::openPointStream(this->InputFileNames, { this->XColumn, this->YColumn }), constraints,
-      options);
+      options.MarkConstraints, options.Threads);
   };
   const tipp::OutOfCoreStatistics statistics =
     tipp::triangulateOutOfCoreOnRanks(ranks, open, path, options);

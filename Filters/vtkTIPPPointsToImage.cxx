@@ -119,7 +119,7 @@ int vtkTIPPPointsToImage::RequestUpdateExtent(
   {
     if (inputs[port]->GetNumberOfInformationObjects() > 0)
     {
-      tipp::askForPiece(inputs[port]->GetInformationObject(0), 0, 1);
+      tipp::askForUpdatePiece(inputs[port]->GetInformationObject(0), 0, 1);
     }
   }
   return 1;

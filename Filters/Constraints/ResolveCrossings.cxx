@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Constraints/ConstraintPieces.h"
+#include "Constraints/ResolveCrossings.h"
 
-#include "Constraints/ConstraintPoints.h"
 #include "Constraints/NearSegments.h"
+#include "Constraints/PositionIndex.h"
 #include "Constraints/SegmentTree.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Sort.h"
@@ -65,9 +65,9 @@ int signOfReach(Point2 a, Point2 b, Point2 p, int side)
 bool roundsTo(Point2 a, Point2 b, Point2 p)
 {
   using Long = long double; // its exponent range holds all products
-  struct Range
+  struct RoundingInterval
   {
-    explicit Range(double value)
+    explicit RoundingInterval(double value)
       : Below((Long(value) + std::nextafter(value, -HUGE_VAL)) / 2)
       , Above((Long(value) + std::nextafter(value, HUGE_VAL)) / 2)
     {
@@ -77,8 +77,8 @@ bool roundsTo(Point2 a, Point2 b, Point2 p)
     Long Below;
     Long Above;
   };
-  const Range x(p.x);
-  const Range y(p.y);
+  const RoundingInterval x(p.x);
+  const RoundingInterval y(p.y);
   if (!std::isfinite(x.half()) || !std::isfinite(y.half()))
   {
     return false; // next to the largest doubles
@@ -109,21 +109,21 @@ public:
   {
   }
 
-  void addPieces(const std::vector<Constraint>& constraints)
+  void addSegments(const std::vector<Constraint>& constraints)
   {
     this->Given = &constraints;
     this->Result.Crosses.assign(constraints.size(), 0);
     std::vector<char> isTaken(constraints.size());
     constexpr std::size_t ahead = 32;
-    this->Result.Pieces.reserve(constraints.size());
-    ConstraintPiece* const pieces = this->Result.Pieces.data();
+    this->Result.Segments.reserve(constraints.size());
+    IdSegment* const segments = this->Result.Segments.data();
     this->Result.NotFinite =
       sumOfChunks(std::int64_t(constraints.size()), SegmentTree::Chunk, this->Threads,
         [&](std::int64_t begin, std::int64_t end)
         {
           std::int64_t notFinite = 0;
-          // Faster than page faults when the pieces are written below.
-          populatePages(pieces + begin, std::size_t(end - begin) * sizeof(ConstraintPiece));
+          // Faster than page faults when the segments are written below.
+          populatePages(segments + begin, std::size_t(end - begin) * sizeof(IdSegment));
           for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
           {
             const Constraint& later = constraints[std::min(i + ahead, constraints.size() - 1)];
@@ -141,14 +141,14 @@ public:
     {
       if (isTaken[i])
       {
-        this->Result.Pieces.push_back({ constraints[i].A, constraints[i].B, std::int64_t(i) });
+        this->Result.Segments.push_back({ constraints[i].A, constraints[i].B, std::int64_t(i) });
       }
     }
   }
 
   void resolve(CrossingRule rule)
   {
-    const std::vector<ConstraintPiece> wholes = this->Result.Pieces;
+    const std::vector<IdSegment> wholes = this->Result.Segments;
     std::vector<CrossingPair> crossings = this->findCrossings();
     if (crossings.empty())
     {
@@ -160,7 +160,7 @@ public:
       this->setCrosses(wholes[std::size_t(other)]);
     }
     this->splitAtPoints(wholes);
-    crossings = this->Result.Pieces.size() > wholes.size() ? this->findCrossings() : crossings;
+    crossings = this->Result.Segments.size() > wholes.size() ? this->findCrossings() : crossings;
     for (; !crossings.empty(); crossings = this->findCrossings())
     {
       if (rule == CrossingRule::Refuse)
@@ -193,17 +193,17 @@ private:
                                    : this->Result.Crossings[std::size_t(id) - input].Position;
   }
 
-  /// The pieces with their ends' positions. Id: the index of the piece.
+  /// The segments with their ends' positions. Id: the index of the segment.
   std::vector<SegmentTree::Item> items() const
   {
-    const std::vector<ConstraintPiece>& pieces = this->Result.Pieces;
-    std::vector<SegmentTree::Item> all(pieces.size());
+    const std::vector<IdSegment>& segments = this->Result.Segments;
+    std::vector<SegmentTree::Item> all(segments.size());
     forChunks(std::int64_t(all.size()), SegmentTree::Chunk, this->Threads, {},
       [&](std::int64_t begin, std::int64_t end, int)
       {
         for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
         {
-          all[i] = { this->at(pieces[i].A), this->at(pieces[i].B), std::int64_t(i) };
+          all[i] = { this->at(segments[i].A), this->at(segments[i].B), std::int64_t(i) };
         }
       });
     return all;
@@ -216,45 +216,45 @@ private:
 
   /// Splits the constraints at the points that lie exactly on them. These are vertices of the
   /// constraints, also of those that are led through other vertices afterwards.
-  void splitAtPoints(const std::vector<ConstraintPiece>& wholes)
+  void splitAtPoints(const std::vector<IdSegment>& wholes)
   {
     std::vector<std::vector<PointId>> on(wholes.size());
-    for (const auto& [piece, point] : findPointsOn(this->items(), this->Points, this->Threads))
+    for (const auto& [segment, point] : findPointsOn(this->items(), this->Points, this->Threads))
     {
-      on[piece].push_back(PointId(point));
+      on[segment].push_back(PointId(point));
     }
-    this->Result.Pieces.clear();
+    this->Result.Segments.clear();
     for (std::size_t i = 0; i < wholes.size(); ++i)
     {
       this->appendParts(wholes[i], on[i]);
     }
   }
 
-  void setCrosses(const ConstraintPiece& piece)
+  void setCrosses(const IdSegment& segment)
   {
-    this->Result.Crosses[std::size_t(piece.Constraint)] = 1;
+    this->Result.Crosses[std::size_t(segment.Constraint)] = 1;
   }
 
   /// Makes constraints that do not cross others whole again.
-  void restoreOthers(const std::vector<ConstraintPiece>& wholes)
+  void restoreOthers(const std::vector<IdSegment>& wholes)
   {
-    std::vector<ConstraintPiece> pieces;
-    auto next = this->Result.Pieces.cbegin();
-    for (const ConstraintPiece& whole : wholes)
+    std::vector<IdSegment> segments;
+    auto next = this->Result.Segments.cbegin();
+    for (const IdSegment& whole : wholes)
     {
-      const auto end = std::find_if(next, this->Result.Pieces.cend(),
-        [&whole](const ConstraintPiece& piece) { return piece.Constraint != whole.Constraint; });
+      const auto end = std::find_if(next, this->Result.Segments.cend(),
+        [&whole](const IdSegment& segment) { return segment.Constraint != whole.Constraint; });
       if (this->Result.Crosses[std::size_t(whole.Constraint)])
       {
-        pieces.insert(pieces.end(), next, end);
+        segments.insert(segments.end(), next, end);
       }
       else
       {
-        pieces.push_back(whole);
+        segments.push_back(whole);
       }
       next = end;
     }
-    this->Result.Pieces = std::move(pieces);
+    this->Result.Segments = std::move(segments);
   }
 
   /// Replaces the crossings that are at points by these points.
@@ -280,7 +280,7 @@ private:
       rename(crossings[i]);
     }
     crossings.resize(matched.New.size());
-    std::for_each(this->Result.Pieces.begin(), this->Result.Pieces.end(), rename);
+    std::for_each(this->Result.Segments.begin(), this->Result.Segments.end(), rename);
   }
 
   static std::string textOf(const std::vector<std::int64_t>& names, std::int64_t number)
@@ -290,15 +290,15 @@ private:
 
   [[noreturn]] void refuse(const CrossingPair& crossing) const
   {
-    const ConstraintPiece& one = this->Result.Pieces[std::size_t(crossing[0])];
-    const ConstraintPiece& other = this->Result.Pieces[std::size_t(crossing[1])];
+    const IdSegment& one = this->Result.Segments[std::size_t(crossing[0])];
+    const IdSegment& other = this->Result.Segments[std::size_t(crossing[1])];
     const Point2 position =
       crossingPoint(this->at(one.A), this->at(one.B), this->at(other.A), this->at(other.B));
     const auto name = [this](PointId id) { return textOf(this->Names.Points, id); };
-    const auto describe = [&](const ConstraintPiece& piece)
+    const auto describe = [&](const IdSegment& segment)
     {
-      const Constraint& whole = (*this->Given)[std::size_t(piece.Constraint)];
-      return "constraint " + textOf(this->Names.Constraints, piece.Constraint) + " (points " +
+      const Constraint& whole = (*this->Given)[std::size_t(segment.Constraint)];
+      return "constraint " + textOf(this->Names.Constraints, segment.Constraint) + " (points " +
         name(whole.A) + " and " + name(whole.B) + ")";
     };
     std::ostringstream text;
@@ -318,12 +318,12 @@ private:
     return part > 0 ? std::min(part, 1.0) : 0;
   }
 
-  /// The id of the point where two pieces cross: an end of one of them, if the crossing rounds to
+  /// The id of the point where two segments cross: an end of one of them, if the crossing rounds to
   /// it, or the point of another crossing at this position, or a new point.
   PointId pointOf(const CrossingPair& crossing)
   {
-    const ConstraintPiece& one = this->Result.Pieces[std::size_t(crossing[0])];
-    const ConstraintPiece& other = this->Result.Pieces[std::size_t(crossing[1])];
+    const IdSegment& one = this->Result.Segments[std::size_t(crossing[0])];
+    const IdSegment& other = this->Result.Segments[std::size_t(crossing[1])];
     const Point2 position = this->positionOf(one, other);
     for (const PointId end : { one.A, one.B, other.A, other.B })
     {
@@ -342,9 +342,9 @@ private:
     return known->second;
   }
 
-  /// The position where two pieces cross, rounded to doubles, and after some rounds to a coarser
+  /// The position where two segments cross, rounded to doubles, and after some rounds to a coarser
   /// grid.
-  Point2 positionOf(const ConstraintPiece& one, const ConstraintPiece& other) const
+  Point2 positionOf(const IdSegment& one, const IdSegment& other) const
   {
     const Point2 a = this->at(one.A);
     const Point2 b = this->at(one.B);
@@ -358,7 +358,7 @@ private:
   }
 
   /// Rounds a coordinate of a crossing to a multiple of the largest end's unit in the last place,
-  /// times a power of two. The result stays between the ends of both pieces.
+  /// times a power of two. The result stays between the ends of both segments.
   static double rounded(
     double value, std::pair<double, double> one, std::pair<double, double> other, int coarser)
   {
@@ -376,7 +376,7 @@ private:
 
   void split(const std::vector<CrossingPair>& crossings)
   {
-    std::vector<std::vector<PointId>> through(this->Result.Pieces.size());
+    std::vector<std::vector<PointId>> through(this->Result.Segments.size());
     for (const CrossingPair& crossing : crossings)
     {
       const PointId point = this->pointOf(crossing);
@@ -391,11 +391,11 @@ private:
       items.push_back({ this->at(vertex), this->at(vertex), std::int64_t(items.size()) });
     }
     const SegmentTree tree(std::move(items));
-    const std::vector<ConstraintPiece> wholes = std::move(this->Result.Pieces);
-    this->Result.Pieces.clear();
+    const std::vector<IdSegment> wholes = std::move(this->Result.Segments);
+    this->Result.Segments.clear();
     for (std::size_t i = 0; i < wholes.size(); ++i)
     {
-      const ConstraintPiece& whole = wholes[i];
+      const IdSegment& whole = wholes[i];
       std::vector<PointId>& points = through[i];
       if (!points.empty())
       {
@@ -421,10 +421,10 @@ private:
   std::vector<PointId> constraintVertices() const
   {
     std::vector<PointId> vertices;
-    for (const ConstraintPiece& piece : this->Result.Pieces)
+    for (const IdSegment& segment : this->Result.Segments)
     {
-      vertices.push_back(piece.A);
-      vertices.push_back(piece.B);
+      vertices.push_back(segment.A);
+      vertices.push_back(segment.B);
     }
     for (std::size_t i = 0; i < this->Result.Crossings.size(); ++i)
     {
@@ -434,11 +434,11 @@ private:
     return vertices;
   }
 
-  /// Appends the parts of a piece that is led through these points. Returns their number. Rounding
-  /// keeps the order of both coordinates along a segment, so points are sorted by them.
-  std::size_t appendParts(const ConstraintPiece& whole, std::vector<PointId>& points)
+  /// Appends the parts of a segment that is led through these points. Returns their number.
+  /// Rounding keeps the order of both coordinates along a segment, so points are sorted by them.
+  std::size_t appendParts(const IdSegment& whole, std::vector<PointId>& points)
   {
-    const std::size_t before = this->Result.Pieces.size();
+    const std::size_t before = this->Result.Segments.size();
     const Point2 a = this->at(whole.A);
     const Point2 b = this->at(whole.B);
     const double signX = b.x < a.x ? -1 : 1;
@@ -455,12 +455,12 @@ private:
     {
       if (!(this->at(to) == this->at(from)) && !(this->at(to) == b))
       {
-        this->Result.Pieces.push_back({ from, to, whole.Constraint });
+        this->Result.Segments.push_back({ from, to, whole.Constraint });
         from = to;
       }
     }
-    this->Result.Pieces.push_back({ from, whole.B, whole.Constraint });
-    return this->Result.Pieces.size() - before;
+    this->Result.Segments.push_back({ from, whole.B, whole.Constraint });
+    return this->Result.Segments.size() - before;
   }
 
   PointsView Points;
@@ -477,7 +477,7 @@ ResolvedConstraints takeConstraints(
   PointsView points, const std::vector<Constraint>& constraints, int threads)
 {
   ResolvedConstraints result;
-  Resolver(points, result, threads, {}).addPieces(constraints);
+  Resolver(points, result, threads, {}).addSegments(constraints);
   return result;
 }
 
@@ -486,7 +486,7 @@ ResolvedConstraints resolveCrossings(PointsView points, const std::vector<Constr
 {
   ResolvedConstraints result;
   Resolver resolver(points, result, threads, names);
-  resolver.addPieces(constraints);
+  resolver.addSegments(constraints);
   resolver.resolve(rule);
   return result;
 }

@@ -155,19 +155,19 @@ std::vector<CrossingPair> findCrossingPairs(std::vector<SegmentTree::Item> all, 
   forChunks(groups + std::int64_t(longOnes.items().size()), chunk, threads, {},
     [&](std::int64_t begin, std::int64_t end, int thread)
     {
-      std::vector<CrossingPair>& its = found[std::size_t(thread)];
+      std::vector<CrossingPair>& pairs = found[std::size_t(thread)];
       for (std::int64_t i = begin; i < std::min(end, groups); ++i)
       {
         shortOnes.visitPairs(std::size_t(i),
-          [&its](const SegmentTree::Item& one, const SegmentTree::Item& other)
-          { compare(one, other, its); });
+          [&pairs](const SegmentTree::Item& one, const SegmentTree::Item& other)
+          { compare(one, other, pairs); });
       }
       for (std::int64_t i = std::max(begin, groups); i < end; ++i)
       {
         const SegmentTree::Item& one = longOnes.items()[std::size_t(i - groups)];
         const auto compareWith = [&](const SegmentTree::Item& other)
         {
-          compare(one, other, its);
+          compare(one, other, pairs);
           return true;
         };
         shortOnes.visitNear(one, compareWith);

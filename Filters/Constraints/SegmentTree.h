@@ -116,12 +116,12 @@ public:
     this->visitNodes([&box](const Box2& node) { return overlap(box, node); },
       [&](const Item& other)
       {
-        const Box2 its = boxOf(other.A, other.B);
-        if (&other >= begin && overlap(box, its))
+        const Box2 otherBox = boxOf(other.A, other.B);
+        if (&other >= begin && overlap(box, otherBox))
         {
           for (const Item* one = begin; one != end && one != &other; ++one)
           {
-            if (overlap(its, boxOf(one->A, one->B)))
+            if (overlap(otherBox, boxOf(one->A, one->B)))
             {
               visit(*one, other);
             }

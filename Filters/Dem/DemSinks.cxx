@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Dem/DemSinks.h"
 
-#include "Constraints/OnDisk/ConstrainedPoints.h"
+#include "Constraints/OnDisk/ConstrainedStream.h"
 #include "Dem/TerrainSampler.h"
 #include "Files/IOError.h"
 #include "OutOfCore/ScratchFiles.h"
@@ -344,7 +344,7 @@ void RasterSink::take(const std::string& name, const double* rows, const PointRo
   part.Columns.resize(part.Values.size());
   for (const DemBand& band : bands.Bands)
   {
-    if (band.Is == DemBand::Kind::Column)
+    if (band.Type == DemBand::Kind::Column)
     {
       std::vector<double>& column = part.Values[band.Column];
       column.resize(points);
@@ -481,11 +481,11 @@ void RasterSink::requireSingles(const BandValues& values) const
 void RasterSink::answerBorders()
 {
   const std::size_t bands = this->Settings.Bands.Bands.size();
-  struct Entry : BorderPixel
+  struct BorderSample : BorderPixel
   {
-    std::size_t At; ///< index of its values among all
+    std::size_t Values; ///< index of its values among all
   };
-  std::vector<Entry> entries;
+  std::vector<BorderSample> samples;
   std::vector<double> values;
   for (const std::string& path : filesBeginning(this->Files + borderSuffix))
   {
@@ -496,18 +496,18 @@ void RasterSink::answerBorders()
     archive(pixels, ofPixels);
     for (const BorderPixel& pixel : pixels)
     {
-      entries.push_back({ pixel, entries.size() * bands });
+      samples.push_back({ pixel, samples.size() * bands });
     }
     values.insert(values.end(), ofPixels.begin(), ofPixels.end());
   }
-  std::sort(entries.begin(), entries.end(),
-    [](const Entry& a, const Entry& b)
+  std::sort(samples.begin(), samples.end(),
+    [](const BorderSample& a, const BorderSample& b)
     { return std::tie(a.Pixel, a.Key) < std::tie(b.Pixel, b.Key); });
-  for (std::size_t i = 0; i < entries.size(); ++i)
+  for (std::size_t i = 0; i < samples.size(); ++i)
   {
-    if (i == 0 || entries[i].Pixel != entries[i - 1].Pixel)
+    if (i == 0 || samples[i].Pixel != samples[i - 1].Pixel)
     {
-      this->Store->setIfMissing(entries[i].Pixel, values.data() + entries[i].At);
+      this->Store->setIfMissing(samples[i].Pixel, values.data() + samples[i].Values);
     }
   }
 }

@@ -2,11 +2,12 @@
 #ifndef tippDemSinks_h
 #define tippDemSinks_h
 
-#include "Constraints/ConstraintPoints.h"
-#include "Constraints/TriangulateConstrained.h"
-#include "Dem/MakeDem.h"
+#include "Constraints/SurfaceValues.h"
+#include "Constraints/TableConstraints.h"
+#include "Dem/RasterTiles.h"
+#include "Dem/TerrainSampler.h"
 #include "Dem/TileStore.h"
-#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "OutOfCore/TriangleConsumer.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <array>

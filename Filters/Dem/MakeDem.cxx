@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Dem/MakeDem.h"
 
-#include "Constraints/ConstraintPoints.h"
-#include "Constraints/OnDisk/ConstrainedPoints.h"
+#include "Constraints/Insertion/TriangulateTable.h"
+#include "Constraints/OnDisk/ConstrainedStream.h"
+#include "Constraints/SurfaceValues.h"
+#include "Constraints/TableConstraints.h"
 #include "Dem/DemSinks.h"
+#include "Dem/RasterTiles.h"
 #include "Files/Formats.h"
 #include "Files/WorkFolder.h"
+#include "OutOfCore/OutOfCoreOptions.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "OutOfCore/TriangleConsumer.h"
 #include "Parallel/ParallelFor.h"
 #include "Points/ReadPoints.h"
 #include "Resample/SimplexMesh.h"
@@ -13,8 +19,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <cmath>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -58,16 +62,6 @@ SimplexMesh meshOf(const std::vector<double>& xyz, const Triangulation& triangul
   return mesh;
 }
 
-/// Calls copy(begin in the tile, begin in the grid, size) for each row of a tile of the grid.
-template <typename Copy>
-void forRows(const RasterGrid& grid, const RasterWindow& tile, const Copy& copy)
-{
-  for (std::int64_t row = 0; row < tile.Rows; ++row)
-  {
-    copy(row * tile.Columns, (tile.Row + row) * grid.Columns + tile.Column, tile.Columns);
-  }
-}
-
 /// Throws std::runtime_error if the pixels do not fit into this machine's memory.
 void requireMemory(const TerrainSettings& settings)
 {
@@ -81,31 +75,6 @@ void requireMemory(const TerrainSettings& settings)
       " pixels, more than the memory of this machine: give a " +
       "larger resolution or smaller bounds, or --memory.");
   }
-}
-
-/// Copies all tiles into the grid. Returns false if `progress` stopped it.
-bool readTiles(const TerrainSettings& settings, const TileSource& tiles,
-  const std::function<bool(double)>& progress, BandValues& samples)
-{
-  const RasterGrid& grid = settings.Grid;
-  samples.resize(settings.Bands.Bands.size());
-  for (std::vector<double>& band : samples)
-  {
-    band.resize(std::size_t(grid.pixels()));
-  }
-  return forChunks(tileCount(grid), 1, settings.Threads, progress,
-    [&](std::int64_t number, std::int64_t, int)
-    {
-      const RasterWindow window = tileOf(grid, number);
-      BandValues values;
-      tiles.Read(window, values);
-      for (std::size_t band = 0; band < values.size(); ++band)
-      {
-        forRows(grid, window,
-          [&](std::int64_t inTile, std::int64_t inGrid, std::int64_t size)
-          { std::copy_n(values[band].data() + inTile, size, samples[band].data() + inGrid); });
-      }
-    });
 }
 
 /// Triangulates out of core in a temporary folder; `taker` receives the triangles.
@@ -141,7 +110,7 @@ OutOfCoreStatistics makeWithin(std::unique_ptr<PointStream> points, const DemReq
       }
       finished = 0.4;
     }
-    auto constrained = std::make_unique<ConstrainedPoints>(
+    auto constrained = std::make_unique<ConstrainedStream>(
       std::move(points), *request.Constraints, "the constraints", request.Threads);
     constrained->setSurface(surface.takeValues());
     points = std::move(constrained);
@@ -359,65 +328,6 @@ OutOfCoreStatistics makeDem(PointTable points, const DemRequest& request,
   figures.Aborted = !sampleTerrain(
     settings, values, meshOf(xyz, triangulation), partOf(progress, 0.5, 0.8), samples);
   return figures;
-}
-
-TileSource readFrom(const RasterGrid& grid, const BandValues& samples)
-{
-  TileSource source;
-  source.Read = [&grid, &samples](const RasterWindow& window, BandValues& values)
-  {
-    values.resize(samples.size());
-    for (std::size_t band = 0; band < values.size(); ++band)
-    {
-      values[band].resize(std::size_t(window.Columns * window.Rows));
-      forRows(grid, window,
-        [&](std::int64_t inTile, std::int64_t inGrid, std::int64_t size)
-        { std::copy_n(samples[band].data() + inGrid, size, values[band].data() + inTile); });
-    }
-  };
-  return source;
-}
-
-std::int64_t fillTile(const DemBands& bands, BandValues& values)
-{
-  const auto filled = std::count_if(
-    values.front().begin(), values.front().end(), [](double value) { return !std::isnan(value); });
-  fillVoids(bands, values);
-  return filled;
-}
-
-std::vector<const double*> pointersTo(const BandValues& values)
-{
-  std::vector<const double*> pointers;
-  pointers.reserve(values.size());
-  for (const std::vector<double>& band : values)
-  {
-    pointers.push_back(band.data());
-  }
-  return pointers;
-}
-
-std::int64_t writeTiles(RasterWriter& writer, const RasterGrid& grid, const TileSource& tiles,
-  const std::function<bool(double)>& progress, int threads, const DemBands& bands)
-{
-  std::atomic<std::int64_t> filled{ 0 };
-  const bool isDone = forChunks(tileCount(grid), 1, threadCount(threads), progress,
-    [&](std::int64_t number, std::int64_t, int)
-    {
-      std::optional<FinishedTile> finished;
-      if (tiles.ReadFinished && (finished = tiles.ReadFinished(number)))
-      {
-        filled += finished->Filled;
-        writer.writeEncoded(number, std::move(finished->Encoded));
-        return;
-      }
-      const RasterWindow window = tileOf(grid, number);
-      BandValues values;
-      tiles.Read(window, values);
-      filled += fillTile(bands, values);
-      writer.write(window, pointersTo(values));
-    });
-  return isDone ? filled.load() : -1;
 }
 
 OutOfCoreStatistics makeDem(std::unique_ptr<PointStream> points, const DemRequest& request,

@@ -77,8 +77,8 @@ DemBands findBands(const std::vector<std::string>& bands, const std::vector<std:
     band.Name = name;
     const auto derived = derivedKinds().find(name);
     const bool isColumn = derived == derivedKinds().end();
-    band.Is = isColumn ? DemBand::Kind::Column : derived->second;
-    const bool isOfElevation = needsElevation(band.Is) || name == elevation;
+    band.Type = isColumn ? DemBand::Kind::Column : derived->second;
+    const bool isOfElevation = needsElevation(band.Type) || name == elevation;
     band.Column = isOfElevation ? heights : find(columns, name);
     if ((isColumn || isOfElevation) && band.Column >= columns.size())
     {
@@ -104,10 +104,10 @@ std::vector<OverviewRule> DemBands::overviews() const
   std::vector<OverviewRule> rules;
   for (const DemBand& band : this->Bands)
   {
-    const bool isClass = band.Is == DemBand::Kind::Void || band.Name == "classification";
-    rules.push_back(isClass                ? OverviewRule::Nearest
-        : band.Is == DemBand::Kind::Aspect ? OverviewRule::Direction
-                                           : OverviewRule::Mean);
+    const bool isClass = band.Type == DemBand::Kind::Void || band.Name == "classification";
+    rules.push_back(isClass                  ? OverviewRule::Nearest
+        : band.Type == DemBand::Kind::Aspect ? OverviewRule::Direction
+                                             : OverviewRule::Mean);
   }
   return rules;
 }
@@ -121,7 +121,7 @@ void fillVoids(const DemBands& bands, BandValues& values)
 {
   for (std::size_t i = 0; i < bands.Bands.size(); ++i)
   {
-    if (bands.Bands[i].Is == DemBand::Kind::Void)
+    if (bands.Bands[i].Type == DemBand::Kind::Void)
     {
       std::replace_if(
         values[i].begin(), values[i].end(), [](double value) { return std::isnan(value); }, 1.0);
@@ -229,10 +229,10 @@ public:
       Attribute attribute;
       attribute.Samples = samples[i].data();
       attribute.NullValue = noValue;
-      attribute.OfCells = bands[i].Is != DemBand::Kind::Column;
+      attribute.OfCells = bands[i].Type != DemBand::Kind::Column;
       if (attribute.OfCells)
       {
-        this->derive(bands[i].Is, mesh, threads, this->Derived[i]);
+        this->derive(bands[i].Type, mesh, threads, this->Derived[i]);
       }
       attribute.Values = attribute.OfCells ? this->Derived[i].data() : columns[bands[i].Column];
       this->Attributes.push_back(attribute);

@@ -32,7 +32,7 @@ struct DemBand
     Void       ///< 0 in triangles, 1 elsewhere; see fillVoids()
   };
   std::string Name;
-  Kind Is = Kind::Column;
+  Kind Type = Kind::Column;
   std::size_t Column = 0; ///< for Kind::Column: index of the point column
 };
 

@@ -202,8 +202,8 @@ private:
     for (const ScannedTriangles::Edge& edge :
       edgesOnSegments(view, this->Named.Segments, corners.data(), corners.size() / 3))
     {
-      const Id* const its = corners.data() + 3 * edge.Triangle;
-      std::array<std::int64_t, 2> ends{ its[edge.From], its[(edge.From + 1) % 3] };
+      const Id* const ids = corners.data() + 3 * edge.Triangle;
+      std::array<std::int64_t, 2> ends{ ids[edge.From], ids[(edge.From + 1) % 3] };
       const SegmentTree::Item& segment = this->Named.Segments.at(edge.Segment);
       const bool isAscending = lexicographicLess(segment.A, segment.B);
       const bool isLeft = isAscending ==

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/DistributedTriangulation.h"
 
+#include "Distributed/MasterRun.h"
 #include "Distributed/RankRun.h"
-#include "OutOfCore/InputPasses.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Triangulation/Dataflow.h"
+#include "Triangulation/InputSurvey.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/TriangleSink.h"
@@ -17,36 +18,6 @@ namespace tipp
 {
 namespace
 {
-
-std::string nameOf(MessageKind kind)
-{
-  const std::map<MessageKind, std::string> names = { { MessageKind::AllToAll, "all to all" },
-    { MessageKind::Gather, "gather" }, { MessageKind::Broadcast, "broadcast" },
-    { MessageKind::Sum, "sum" }, { PartitionDoneMessage, "partition done" },
-    { TaskMessage, "task" } };
-  const auto name = names.find(kind);
-  return name != names.end() ? name->second : "other";
-}
-
-struct SentByKind
-{
-  MessageKind Kind;
-  Communicator::Traffic Sent;
-};
-
-/// What a rank reports to the others for the statistics.
-struct StatisticsOfRank
-{
-  RankStatistics Own;
-  std::vector<MasterStatistics> Masters;
-  std::vector<SentByKind> Traffic;
-};
-
-template <typename Archive>
-void serialize(Archive& archive, StatisticsOfRank& one)
-{
-  archive(one.Own, one.Masters, one.Traffic);
-}
 
 /// Surveys all ranks' points, and scales `points`, this rank's, to a moderate magnitude. Sets
 /// `rejected` to the indices of this rank's points that are not finite. Collective.
@@ -255,10 +226,22 @@ private:
       this->triangulateOnFirst(points, plan.Leaves);
       return true;
     }
-    RankRun<Id> run(this->Ranks, plan, points, this->Options, this->Threads);
+    if (this->Options.isMasterless())
+    {
+      RankRun<Id> run(this->Ranks, plan, points, this->Options, this->Threads);
+      return this->triangulate(run, plan, points);
+    }
+    MasterRun<Id> run(this->Ranks, plan, points, this->Options, this->Threads);
+    const bool done = this->triangulate(run, plan, points);
+    this->Masters = std::move(run.Masters);
+    return done;
+  }
+
+  template <typename Id>
+  bool triangulate(RankRun<Id>& run, const Plan& plan, OwnedPoints<Id>& points)
+  {
     run.Statistics = this->Figures;
     run.run();
-    this->Masters = std::move(run.Masters);
     if (!run.PartitionsPay)
     {
       return false;
@@ -352,36 +335,6 @@ Buffer<std::int64_t> gatherCorners(
 }
 
 } // namespace
-
-void gatherStatistics(Communicator& ranks, RankStatistics own,
-  const std::vector<MasterStatistics>& masters, int threads, DistributedStatistics& statistics)
-{
-  own.SendSeconds = ranks.sendingSeconds();
-  StatisticsOfRank mine{ own, masters, {} };
-  for (const auto& [kind, sent] : ranks.traffic())
-  {
-    mine.Traffic.push_back({ kind, sent });
-  }
-  statistics.ThreadsPerRank = threads;
-  std::map<MessageKind, Communicator::Traffic> traffic;
-  for (const StatisticsOfRank& one : ranks.allGather(mine))
-  {
-    statistics.Ranks.push_back(one.Own);
-    statistics.Masters.insert(statistics.Masters.end(), one.Masters.begin(), one.Masters.end());
-    for (const SentByKind& of : one.Traffic)
-    {
-      traffic[of.Kind].Messages += of.Sent.Messages;
-      traffic[of.Kind].Bytes += of.Sent.Bytes;
-    }
-    statistics.Seconds = std::max(statistics.Seconds, one.Own.TotalSeconds);
-  }
-  for (const auto& [kind, sum] : traffic)
-  {
-    statistics.Traffic.push_back({ nameOf(kind), sum.Messages, sum.Bytes });
-  }
-  std::sort(statistics.Masters.begin(), statistics.Masters.end(),
-    [](const MasterStatistics& a, const MasterStatistics& b) { return a.Area < b.Area; });
-}
 
 DistributedTriangulation triangulateDistributed(
   Communicator& ranks, const RankPoints& points, const DistributedOptions& options)

@@ -129,7 +129,7 @@ public:
     this->add(layout, source, destination.Positions.data(), sizeof(Position));
     this->add(layout, source, destination.GlobalIds.data(), sizeof(PointId));
     this->add(layout, source, destination.Rows.data(), rowSize);
-    std::reverse(this->Left.begin(), this->Left.end());
+    std::reverse(this->ToFill.begin(), this->ToFill.end());
   }
 
   /// Copies the next part. Throws std::runtime_error if the rank sent more than it announced.
@@ -137,12 +137,12 @@ public:
   {
     while (size > 0)
     {
-      if (this->Left.empty())
+      if (this->ToFill.empty())
       {
         throw std::runtime_error(
           "Points from another rank are damaged: they are more than it announced.");
       }
-      Range& range = this->Left.back();
+      ByteRange& range = this->ToFill.back();
       const std::size_t taken = std::min(size, range.Size);
       std::memcpy(range.To, part, taken);
       part += taken;
@@ -150,7 +150,7 @@ public:
       range = { range.To + taken, range.Size - taken };
       if (range.Size == 0)
       {
-        this->Left.pop_back();
+        this->ToFill.pop_back();
       }
     }
   }
@@ -158,7 +158,7 @@ public:
   /// Throws std::runtime_error if the rank sent less than it announced.
   void requireComplete() const
   {
-    if (!this->Left.empty())
+    if (!this->ToFill.empty())
     {
       throw std::runtime_error(
         "Points from another rank are damaged: they are fewer than it announced.");
@@ -173,20 +173,20 @@ private:
     {
       if (counts[leaf] > 0 && itemSize > 0)
       {
-        this->Left.push_back({ static_cast<char*>(array) + layout.Firsts[source][leaf] * itemSize,
+        this->ToFill.push_back({ static_cast<char*>(array) + layout.Firsts[source][leaf] * itemSize,
           counts[leaf] * itemSize });
       }
     }
   }
 
   /// A byte range of the destination that is not filled yet.
-  struct Range
+  struct ByteRange
   {
     char* To;
     std::size_t Size;
   };
 
-  std::vector<Range> Left; ///< ranges still to fill, in reverse order
+  std::vector<ByteRange> ToFill; ///< in reverse order
 };
 
 /// Commits the pages of memory that will be used completely.

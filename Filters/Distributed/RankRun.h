@@ -2,22 +2,17 @@
 #ifndef tippRankRun_h
 #define tippRankRun_h
 
-#include "Distributed/DistributedTriangulation.h"
+#include "Distributed/DistributedStatistics.h"
 #include "Distributed/Plan.h"
 #include "Distributed/PointExchange.h"
-#include "Distributed/RankEngine.h"
 #include "Distributed/SharedInitialMesh.h"
+#include "Engine/RankEngine.h"
 #include "Parallel/Sort.h"
 #include "Triangulation/Dataflow.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cstdint>
-#include <functional>
 #include <memory>
-#include <mutex>
-#include <numeric>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -27,8 +22,8 @@ namespace tipp
 /// A rank's part of a triangulation in the plane.
 ///
 /// Every rank finds the conflicts of some partitions in its part of the initial mesh, and computes
-/// the order from all ranks' conflicts. With the dissertation's masters, the keeper of a partition
-/// is the first rank (Algorithm 1), or the lead of its major partition's group (Algorithm 3).
+/// the order from all ranks' conflicts. There is no master: the owner of a partition's points keeps
+/// its inbox and starts it.
 template <typename Id>
 class RankRun : public RankEngine<VertexMessage>
 {
@@ -38,9 +33,9 @@ public:
     : RankEngine(ranks, std::size_t(plan.Leaves.size()), points.size(), options.Progress)
     , InteriorCounts(static_cast<std::size_t>(plan.Leaves.size()), 0)
     , Work(plan)
-    , Points(points)
     , Options(options)
     , Threads(threads)
+    , Points(points)
     , FirstId(points.FirstIds[std::size_t(ranks.rank())])
   {
   }
@@ -62,15 +57,12 @@ public:
       this->Duplicates.insert(
         this->Duplicates.end(), part.Duplicates.begin(), part.Duplicates.end());
       this->Statistics.WorkerVertices += part.WorkerVertices;
-      this->Statistics.ComputeSeconds +=
-        std::accumulate(part.Seconds.begin(), part.Seconds.end(), 0.0);
+      this->Statistics.ComputeSeconds += part.Seconds;
+      this->Statistics.Partitions += part.Partitions;
     }
     this->Statistics.WaitSeconds =
       std::max(0.0, seconds - this->Statistics.ComputeSeconds / this->Threads);
-    if (this->hasMasters())
-    {
-      this->keepFigures(parts);
-    }
+    this->gatherFigures();
     // The first rank has the triangles at the hull (Lemma 3).
     std::vector<BoundaryVertex> vertices = gatherList(this->Ranks, this->Boundary.HullVertices);
     if (this->Ranks.isFirst())
@@ -86,8 +78,49 @@ public:
   /// Boundary triangles that have become final on this rank, by internal ids.
   std::vector<IdTriangle> Kept;
   std::vector<std::size_t> InteriorCounts; ///< number of interior triangles, by partition
-  std::vector<MasterStatistics> Masters;   ///< statistics of the masters on this rank
-  bool PartitionsPay = true;               ///< the same on all ranks; false: nothing was done
+  std::vector<Duplicate> Duplicates;       ///< with internal ids
+  RankStatistics Statistics;
+  bool PartitionsPay = true; ///< the same on all ranks; false: nothing was done
+
+protected:
+  /// Returns by partition the rank that keeps its inbox.
+  virtual const std::vector<std::int32_t>& keepers() const { return this->Work.Owners; }
+
+  /// Makes the queue from which threads take partitions. Called once the order is known.
+  virtual void makeQueue()
+  {
+    this->Ready = std::make_unique<ReadyPartitions>(
+      *this->OwnOrder, ReadyPartitions::Waits::ForEarlier, this->chosenBy(this->Work.Owners));
+  }
+
+  /// Called by the thread that has triangulated a partition.
+  virtual void addSeconds(PartitionIndex /*p*/, double /*seconds*/) {}
+
+  /// Called when all partitions are done. Collective.
+  virtual void gatherFigures() {}
+
+  std::int32_t ownerOf(PartitionIndex p) const override
+  {
+    return this->Work.Owners[std::size_t(p)];
+  }
+  ReadyPartitions& source() override { return *this->Ready; }
+
+  /// Returns for each partition whether `ranks` assigns it to this rank and it has points.
+  std::vector<char> chosenBy(const std::vector<std::int32_t>& ranks) const
+  {
+    std::vector<char> isChosen(ranks.size(), 0);
+    for (std::size_t p = 0; p < isChosen.size(); ++p)
+    {
+      isChosen[p] = ranks[p] == this->Ranks.rank() && this->Boxes->areUsed()[p];
+    }
+    return isChosen;
+  }
+
+  const Plan& Work;
+  const DistributedOptions& Options;
+  const int Threads;
+  std::unique_ptr<PartitionOrder> OwnOrder;
+  std::unique_ptr<ReadyPartitions> Ready; ///< partitions whose inboxes this rank keeps
 
 private:
   /// A partition's region, as ranks send it to each other.
@@ -103,7 +136,8 @@ private:
     FinalBoundary<std::int64_t> Boundary;
     std::vector<Duplicate> Duplicates;
     std::int64_t WorkerVertices = 0;
-    std::vector<double> Seconds; ///< computing time, by colour
+    std::int64_t Partitions = 0;
+    double Seconds = 0; ///< computing time
   };
 
   void makeInitialMesh()
@@ -116,9 +150,8 @@ private:
       this->PartitionsPay = false;
       return;
     }
-    this->Keepers = this->Options.isMasterless() ? this->Work.Owners : this->Work.masters();
     const InitialMeshPart part(
-      *this->Boxes, vertices, this->Artificial, this->thoseOf(this->Keepers), this->Threads);
+      *this->Boxes, vertices, this->Artificial, this->chosenBy(this->keepers()), this->Threads);
     std::vector<std::int64_t> counts(2, 0);
     part.countMet(counts[0], counts[1]);
     this->Ranks.sum(counts);
@@ -129,8 +162,9 @@ private:
       return;
     }
     this->OwnOrder = std::make_unique<PartitionOrder>(this->Boxes->areUsed(),
-      joinConflicts(this->Ranks.allGather(part.conflicts()), this->Keepers.size()));
-    this->decideWhoWaits();
+      joinConflicts(this->Ranks.allGather(part.conflicts()), this->keepers().size()));
+    this->makeQueue();
+    this->begin(*this->OwnOrder, this->OwnOrder->sequence());
     // The triangles of this rank's part go to the inboxes that it keeps.
     for (auto& [to, message] : sendInitialMesh(part.Mesh, *this->Order))
     {
@@ -176,63 +210,12 @@ private:
     return concatenated(this->Ranks.allGather(initial));
   }
 
-  void decideWhoWaits()
-  {
-    using Waits = ReadyPartitions::Waits;
-    this->DistinctKeepers = this->Keepers;
-    sortUnique(this->DistinctKeepers);
-    this->InFlight.assign(std::size_t(this->Ranks.size()), 0);
-    this->Ready = std::make_unique<ReadyPartitions>(*this->OwnOrder,
-      this->hasBarriers() ? Waits::ForColour : Waits::ForEarlier, this->thoseOf(this->Keepers));
-    if (!this->Options.isMasterless())
-    {
-      this->Started = std::make_unique<ReadyPartitions>(
-        *this->OwnOrder, Waits::ForLoad, this->thoseOf(this->Work.Owners));
-    }
-    this->begin(*this->OwnOrder, this->OwnOrder->sequence());
-  }
-
-  std::int32_t ownerOf(PartitionIndex p) const override
-  {
-    return this->Work.Owners[std::size_t(p)];
-  }
-  std::int32_t keeperOf(PartitionIndex p) const override { return this->Keepers[std::size_t(p)]; }
-
-  /// For each partition, whether `ranks` assigns it to this rank and it has points.
-  std::vector<char> thoseOf(const std::vector<std::int32_t>& ranks) const
-  {
-    std::vector<char> those(ranks.size(), 0);
-    for (std::size_t p = 0; p < those.size(); ++p)
-    {
-      those[p] = ranks[p] == this->Ranks.rank() && this->Boxes->areUsed()[p];
-    }
-    return those;
-  }
-
-  std::vector<std::int32_t> recipientsOf(PartitionIndex p) const override
-  {
-    std::vector<std::int32_t> ranks = RankEngine::recipientsOf(p);
-    if (this->hasMasters())
-    {
-      ranks.push_back(this->keeperOf(p));
-    }
-    if (this->hasBarriers())
-    {
-      ranks.insert(ranks.end(), this->DistinctKeepers.begin(), this->DistinctKeepers.end());
-    }
-    sortUnique(ranks);
-    return ranks;
-  }
-
-  ReadyPartitions& source() override { return this->hasMasters() ? *this->Started : *this->Ready; }
-
   /// A worker thread's loop.
   void work(Contribution& part)
   {
     Worker<Id> worker(this->Work.Leaves, this->Points.Buckets, this->FirstId);
     Routing<Id> routing(*this->Order, *this->Boxes);
-    part.Seconds.assign(this->Order->colourCount(), 0);
-    for (PartitionIndex p = this->take(); p >= 0; p = this->take())
+    for (PartitionIndex p = this->take(); p != NoPartition; p = this->take())
     {
       const ProcessorWatch watch;
       routing.triangulate(worker, p, this->Inboxes[std::size_t(p)].take());
@@ -241,246 +224,19 @@ private:
       part.WorkerVertices += std::int64_t(worker.vertexCount());
       part.Duplicates.insert(
         part.Duplicates.end(), worker.duplicates().begin(), worker.duplicates().end());
-      part.Seconds[this->Order->colourOf(p)] += watch.seconds();
+      ++part.Partitions;
+      const double seconds = watch.seconds();
+      part.Seconds += seconds;
+      this->addSeconds(p, seconds);
       this->finish(p, std::move(sent), this->Points.Buckets.count(p));
     }
   }
 
-  void put(PartitionIndex to, VertexMessage&& message) override
-  {
-    this->KeptTriangles += message.Cells;
-    RankEngine::put(to, std::move(message));
-  }
-
-  void setDone(PartitionIndex p) override
-  {
-    this->Ready->finish(p);
-    if (this->hasMasters() && this->keeperOf(p) == this->Ranks.rank())
-    {
-      --this->InFlight[std::size_t(this->ownerOf(p))];
-      --this->AllInFlight;
-    }
-  }
-
-  void setDoneHere(PartitionIndex p) override
-  {
-    if (!this->hasMasters())
-    {
-      this->Ready->finish(p);
-      return;
-    }
-    const std::lock_guard<std::mutex> lock(this->Mutex);
-    this->DoneHere.push_back(p);
-  }
-
-  void receive(const Message& message) override
-  {
-    if (message.Kind == TaskMessage)
-    {
-      this->receiveTask(message);
-      return;
-    }
-    const ProcessorWatch watch;
-    RankEngine::receive(message);
-    this->Figures.Seconds += watch.seconds();
-  }
-
-  /// Sums the statistics of several masters stage by stage.
-  static void addStages(const std::vector<TriangulationStatistics::Stage>& more,
-    std::vector<TriangulationStatistics::Stage>& stages)
-  {
-    stages.resize(std::max(stages.size(), more.size()));
-    for (std::size_t i = 0; i < more.size(); ++i)
-    {
-      stages[i].ActivePartitions += more[i].ActivePartitions;
-      stages[i].MeshTriangles += more[i].MeshTriangles;
-    }
-  }
-
-  /// Collects the statistics. Collective.
-  void keepFigures(const std::vector<Contribution>& parts)
-  {
-    std::vector<double> seconds(this->Order->colourCount(), 0);
-    for (const Contribution& part : parts)
-    {
-      std::transform(part.Seconds.begin(), part.Seconds.end(), seconds.begin(), seconds.begin(),
-        std::plus<double>());
-    }
-    if (!this->hasBarriers())
-    {
-      seconds = { std::accumulate(seconds.begin(), seconds.end(), 0.0) };
-    }
-    MasterStatistics whole;
-    std::vector<double> longest(seconds.size(), 0);
-    for (const std::vector<double>& other : this->Ranks.gather(seconds))
-    {
-      std::transform(other.begin(), other.end(), longest.begin(), longest.begin(),
-        [](double a, double b) { return std::max(a, b); });
-    }
-    for (const MasterStatistics& other : this->Ranks.gather(this->Figures))
-    {
-      addStages(other.Stages, whole.Stages);
-      whole.LargestMesh = std::max(whole.LargestMesh, other.LargestMesh);
-    }
-    whole.PathSeconds = std::accumulate(longest.begin(), longest.end(), 0.0);
-    const bool isSingle = this->Work.majors() == 0;
-    const int rank = this->Ranks.rank();
-    std::vector<std::int32_t> group;
-    for (const PartitionIndex p : this->Order->sequence())
-    {
-      if (this->keeperOf(p) == rank)
-      {
-        group.push_back(this->ownerOf(p));
-      }
-    }
-    sortUnique(group);
-    this->Figures.Rank = rank;
-    this->Figures.GroupSize = std::int32_t(group.size());
-    (isSingle ? this->Statistics.MasterSeconds : this->Statistics.SubMasterSeconds) =
-      this->Figures.Seconds;
-    if (!isSingle && !group.empty())
-    {
-      const auto& areas = this->Work.Areas;
-      const auto first = std::find_if(
-        areas.begin() + 1, areas.end(), [rank](const Area& area) { return area.Lead == rank; });
-      this->Figures.Area = std::int32_t(first - areas.begin());
-      this->Masters.push_back(this->Figures);
-    }
-    if (rank == 0)
-    {
-      whole.GroupSize = isSingle ? this->Figures.GroupSize : std::int32_t(this->Ranks.size());
-      whole.Seconds = isSingle ? this->Figures.Seconds : 0;
-      this->Masters.push_back(std::move(whole));
-    }
-  }
-
-  /// @name Functions of a master
-  ///@{
-  bool hasMasters() const { return this->Started != nullptr; }
-  bool hasBarriers() const { return this->Options.Order != RankSchedule::Dynamic; }
-
-  /// Marks this rank's partitions as done, and starts all partitions that may start. Returns false
-  /// if there are none.
-  bool startPartitions() override
-  {
-    if (!this->hasMasters())
-    {
-      return false;
-    }
-    std::vector<PartitionIndex> done;
-    {
-      const std::lock_guard<std::mutex> lock(this->Mutex);
-      done.swap(this->DoneHere);
-    }
-    std::for_each(done.begin(), done.end(), [this](PartitionIndex p) { this->setDone(p); });
-    const ProcessorWatch watch;
-    for (PartitionIndex p = this->Ready->tryTake(); p >= 0; p = this->Ready->tryTake())
-    {
-      this->Waiting.push_back(p);
-    }
-    if (this->Waiting.empty() ||
-      (this->Options.Order == RankSchedule::Stages && this->AllInFlight > 0))
-    {
-      return false;
-    }
-    std::vector<PartitionIndex> waiting;
-    std::swap(waiting, this->Waiting);
-    for (const PartitionIndex p : waiting)
-    {
-      if (this->canStart(p))
-      {
-        this->start(p);
-      }
-      else
-      {
-        this->Waiting.push_back(p);
-      }
-    }
-    this->Figures.Seconds += watch.seconds();
-    return this->Waiting.size() < waiting.size();
-  }
-
-  bool areOthersWaiting() const override { return this->hasMasters(); }
-
-  /// Whether a partition may start now. With barriers, a rank gets at most one partition per
-  /// thread; in waves (Algorithm 1), all started partitions must be done first.
-  bool canStart(PartitionIndex p) const
-  {
-    return !this->hasBarriers() || this->InFlight[std::size_t(this->ownerOf(p))] < this->Threads;
-  }
-
-  void start(PartitionIndex p)
-  {
-    const std::vector<VertexMessage> messages = this->Inboxes[std::size_t(p)].take();
-    VertexMessage all{ -1, cellsOf(messages), UniqueVertices().collect(messages) };
-    const std::int32_t owner = this->ownerOf(p);
-    ++this->InFlight[std::size_t(owner)];
-    ++this->AllInFlight;
-    const std::int64_t kept = this->KeptTriangles;
-    this->Figures.LargestMesh = std::max(this->Figures.LargestMesh, kept);
-    const std::size_t colour = this->Order->colourOf(p);
-    if (!this->hasBarriers())
-    {
-      this->Figures.Stages.push_back({ this->AllInFlight, kept });
-    }
-    else
-    {
-      if (colour >= this->Figures.Stages.size()) // the colour's first partition
-      {
-        this->Figures.Stages.resize(colour);
-        this->Figures.Stages.push_back({ 0, kept });
-      }
-      ++this->Figures.Stages[colour].ActivePartitions;
-    }
-    this->KeptTriangles -= all.Cells;
-    if (owner == this->Ranks.rank())
-    {
-      this->Inboxes[std::size_t(p)].put(std::move(all));
-      this->Started->setLoaded(p);
-      return;
-    }
-    this->Ranks.post(owner, TaskMessage, packed(p, all));
-  }
-
-  /// Receives a partition to triangulate from its keeper.
-  void receiveTask(const Message& message)
-  {
-    LoadArchive reader(message.Content);
-    const auto p = reader.get<PartitionIndex>();
-    auto all = reader.get<VertexMessage>();
-    if (p < 0 || std::size_t(p) >= this->Inboxes.size() || this->AwaitedTasks == 0 ||
-      this->ownerOf(p) != this->Ranks.rank() || this->keeperOf(p) != message.Source)
-    {
-      throw std::runtime_error("A message from another rank is damaged: no such partition.");
-    }
-    --this->AwaitedTasks;
-    this->Inboxes[std::size_t(p)].put(std::move(all));
-    this->Started->setLoaded(p);
-  }
-
-  ///@}
-
-  const Plan& Work;
   OwnedPoints<Id>& Points;
-  const DistributedOptions& Options;
-  const int Threads;
   const std::int64_t FirstId;
   std::vector<BoundaryVertex> Artificial;
   std::unique_ptr<Regions> Boxes;
-  std::unique_ptr<PartitionOrder> OwnOrder;
-  std::vector<std::int32_t> Keepers;         ///< by partition: the rank that keeps its inbox
-  std::vector<std::int32_t> DistinctKeepers; ///< the different ranks in Keepers
-  std::unique_ptr<ReadyPartitions> Ready;    ///< partitions that this rank keeps
-  std::unique_ptr<ReadyPartitions> Started;  ///< partitions that it owns; null: same as Ready
   FinalBoundary<std::int64_t> Boundary;
-
-  // Used by masters only.
-  std::vector<PartitionIndex> DoneHere; ///< for the main thread; protected by Mutex
-  std::vector<PartitionIndex> Waiting;  ///< ready, but their ranks are busy
-  std::vector<int> InFlight;            ///< by rank: number of partitions started and not done
-  int AllInFlight = 0;
-  std::atomic<std::int64_t> KeptTriangles{ 0 }; ///< triangles in the inboxes
-  MasterStatistics Figures;
 };
 
 } // namespace tipp

@@ -3,7 +3,8 @@
 #define tippDistributedTetrahedralization_h
 
 #include "Arrays/Buffer.h"
-#include "Distributed/DistributedTriangulation.h"
+#include "Distributed/DistributedStatistics.h"
+#include "Distributed3D/Plan3.h"
 #include "Predicates/Points.h"
 #include "Ranks/Communicator.h"
 #include "Triangulation3D/Partitions3.h"
@@ -16,14 +17,6 @@
 
 namespace tipp
 {
-
-/// A rank's input points in space. Does not own the memory.
-struct RankPoints3 : RankPointData
-{
-  PointsView3 Points;
-};
-
-using PointTuples3 = PointTuplesOf<Point3>;
 
 /// Ghost cells. In triangles, the last corner is repeated.
 using GhostTetrahedra = GhostCells<4, Point3>;

@@ -3,7 +3,6 @@
 #define tippPlan3_h
 
 #include "Distributed/PointExchange.h"
-#include "Distributed3D/DistributedTetrahedralization.h"
 #include "Triangulation3D/Partitions3.h"
 
 #include <algorithm>
@@ -15,6 +14,14 @@
 
 namespace tipp
 {
+
+/// A rank's input points in space. Does not own the memory.
+struct RankPoints3 : RankPointData
+{
+  PointsView3 Points;
+};
+
+using PointTuples3 = PointTuplesOf<Point3>;
 
 /// Chooses the numbers and shapes of partitions. If slabs are thick enough, parallel slabs are
 /// best, because they pass on the fewest vertices: one per thread, which triangulates its points

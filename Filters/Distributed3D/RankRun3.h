@@ -2,8 +2,8 @@
 #ifndef tippRankRun3_h
 #define tippRankRun3_h
 
-#include "Distributed/RankEngine.h"
-#include "Distributed3D/DistributedTetrahedralization.h"
+#include "Distributed/DistributedStatistics.h"
+#include "Engine/RankEngine.h"
 #include "Triangulation3D/Dataflow3.h"
 #include "Triangulation3D/OrderCells.h"
 #include "Triangulation3D/Tetrahedralize.h"
@@ -87,6 +87,8 @@ public:
   std::vector<std::vector<CellIds>> Inside;
   std::vector<IdCell<4>> Kept; ///< other tetrahedra that became final on this rank, by internal ids
   std::vector<Vertex3> HullVertices; ///< true corners of tetrahedra with artificial corners
+  std::vector<Duplicate> Duplicates; ///< with internal ids
+  RankStatistics Statistics;
 
 private:
   /// Sorts the final tetrahedra of one thread.
@@ -149,7 +151,7 @@ private:
     while (this->IsReady[std::size_t(p)] == 0 && !this->Ready.isStopped())
     {
       const PartitionIndex ready = this->Ready.tryTake();
-      if (ready >= 0)
+      if (ready != NoPartition)
       {
         this->IsReady[std::size_t(ready)] = 1;
         this->Changed.notify_all(); // its thread may be another one
@@ -168,6 +170,7 @@ private:
   {
     const ProcessorWatch watch;
     Worker3 worker(this->Points.Regions, this->Work.Order);
+    std::int64_t partitions = 0;
     const auto inboxOf = [this](PartitionIndex p) { return this->Inboxes[std::size_t(p)].take(); };
     if (this->OwnPartitions.size() <= std::size_t(this->Work.Threads))
     {
@@ -187,18 +190,21 @@ private:
         {
           this->PointsDone -= inserted;
           this->finish(p, worker.finish(inboxOf(p), cells), this->Points.count(p));
+          ++partitions;
         }
       }
     }
     else
     {
-      for (PartitionIndex p = this->take(); p >= 0; p = this->take())
+      for (PartitionIndex p = this->take(); p != NoPartition; p = this->take())
       {
         this->finish(p, worker.triangulate(this->Points.of(p, this->FirstId), inboxOf(p), cells),
           this->Points.count(p));
+        ++partitions;
       }
     }
     const std::lock_guard<std::mutex> lock(this->Mutex);
+    this->Statistics.Partitions += partitions;
     this->Statistics.WorkerVertices += std::int64_t(worker.vertexCount());
     this->Statistics.ComputeSeconds += watch.seconds();
     this->Duplicates.insert(

@@ -22,8 +22,8 @@ namespace tipp
 template <typename Vertex>
 struct VertexMessageOf
 {
-  PartitionIndex Sender = -1; ///< -1: the initial mesh
-  std::int64_t Cells = 0;     ///< the number of cells that these are the vertices of
+  PartitionIndex Sender = NoPartition; ///< NoPartition: the initial mesh
+  std::int64_t Cells = 0;              ///< the number of cells that these are the vertices of
   std::vector<Vertex> Vertices;
 };
 
@@ -93,8 +93,8 @@ auto sendInitialMesh(const Mesh& mesh, const PartitionOrder& order)
       cells[std::size_t(order.first(mesh.metBegin(i), mesh.metEnd(i)))].push_back(mesh.Cells[i]);
     }
   }
-  return messagesWith(
-    -1, cells, mesh.Vertices.size(), [&mesh](std::uint32_t index) { return mesh.Vertices[index]; });
+  return messagesWith(NoPartition, cells, mesh.Vertices.size(),
+    [&mesh](std::uint32_t index) { return mesh.Vertices[index]; });
 }
 
 /// The messages sent to one partition; a message has the member `Sender`. Any thread may add one,

@@ -2,7 +2,6 @@
 #include "Engine/PartitionSchedule.h"
 
 #include "Parallel/Sort.h"
-#include "Triangulation/BoundaryTriangles.h"
 
 #include <algorithm>
 #include <chrono>
@@ -235,7 +234,7 @@ void PartitionOrder::colour()
   }
 }
 
-PartitionOrder::Range PartitionOrder::later(PartitionIndex p) const
+PartitionOrder::LaterPartitions PartitionOrder::later(PartitionIndex p) const
 {
   if (this->Total)
   {
@@ -255,7 +254,7 @@ PartitionIndex PartitionOrder::first(const PartitionIndex* begin, const Partitio
 
 ReadyPartitions::ReadyPartitions(const PartitionOrder& order, Waits waits, std::vector<char> isOwn)
   : Order(order)
-  , For(waits)
+  , Condition(waits)
   , Own(std::move(isOwn))
   , Awaited(order.partitionCount())
   , LeftInColour(waits == Waits::ForColour ? order.colourCount() : 0)
@@ -270,7 +269,7 @@ ReadyPartitions::ReadyPartitions(const PartitionOrder& order, Waits waits, std::
       this->Urgency.push_back(p);
     }
   }
-  this->Left = this->Urgency.size();
+  this->NotTaken = this->Urgency.size();
   if (waits != Waits::ForColour)
   {
     this->awaitEarlier();
@@ -290,8 +289,8 @@ void ReadyPartitions::awaitEarlier()
 {
   for (const PartitionIndex p : this->Order.sequence())
   {
-    this->Awaited[std::size_t(p)] += this->For == Waits::ForEarlier ? 0 : 1;
-    if (this->For != Waits::ForLoad)
+    this->Awaited[std::size_t(p)] += this->Condition == Waits::ForEarlier ? 0 : 1;
+    if (this->Condition != Waits::ForLoad)
     {
       for (const PartitionIndex later : this->Order.later(p))
       {
@@ -335,7 +334,7 @@ PartitionIndex ReadyPartitions::take()
   for (int turn = 0; !this->isStopped(); ++turn)
   {
     const PartitionIndex p = this->tryTake();
-    if (p >= 0 || this->Left.load(std::memory_order_relaxed) == 0)
+    if (p != NoPartition || this->NotTaken.load(std::memory_order_relaxed) == 0)
     {
       return p;
     }
@@ -344,7 +343,7 @@ PartitionIndex ReadyPartitions::take()
     turn < yields ? std::this_thread::yield()
                   : std::this_thread::sleep_for(std::chrono::microseconds(50));
   }
-  return -1;
+  return NoPartition;
 }
 
 PartitionIndex ReadyPartitions::tryTake()
@@ -358,21 +357,21 @@ PartitionIndex ReadyPartitions::tryTake()
       seen = bits.fetch_and(~lowest, std::memory_order_acquire);
       if ((seen & lowest) != 0)
       {
-        this->Left.fetch_sub(1, std::memory_order_relaxed);
+        this->NotTaken.fetch_sub(1, std::memory_order_relaxed);
         return this->Urgency[64 * i + std::size_t(__builtin_ctzll(lowest))];
       }
     }
   }
-  return -1;
+  return NoPartition;
 }
 
 void ReadyPartitions::finish(PartitionIndex p)
 {
-  if (this->For == Waits::ForLoad)
+  if (this->Condition == Waits::ForLoad)
   {
     return;
   }
-  if (this->For == Waits::ForColour)
+  if (this->Condition == Waits::ForColour)
   {
     const std::size_t colour = this->Order.colourOf(p);
     const bool isLast = this->LeftInColour[colour].fetch_sub(1, std::memory_order_acq_rel) == 1;

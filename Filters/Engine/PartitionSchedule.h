@@ -2,7 +2,8 @@
 #ifndef tippPartitionSchedule_h
 #define tippPartitionSchedule_h
 
-#include "Triangulation/Tiling.h"
+#include "Engine/MetPartitions.h"
+#include "Engine/PartitionIndex.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <atomic>
@@ -35,9 +36,9 @@ public:
   explicit ConflictGraph(std::vector<std::vector<PartitionIndex>> neighbours)
     : Neighbours(std::move(neighbours))
   {
-    for (const auto& those : this->Neighbours)
+    for (const auto& neighbours : this->Neighbours)
     {
-      this->Count += those.size();
+      this->Count += neighbours.size();
     }
   }
 
@@ -69,8 +70,6 @@ private:
   std::size_t Count = 0;
 };
 
-struct MetPartitions;
-
 /// Returns the conflicts of `partitions` partitions (Lemma 5, below). Returns nullopt if nearly all
 /// conflict, as with co-circular points: the caller then treats all pairs as conflicting.
 VTKTIPPFILTERS_EXPORT std::optional<ConflictGraph> findConflicts(
@@ -100,7 +99,7 @@ std::size_t mostConflicts(std::size_t partitions);
 class VTKTIPPFILTERS_EXPORT PartitionOrder
 {
 public:
-  struct Range
+  struct LaterPartitions
   {
     const PartitionIndex* First;
     const PartitionIndex* Last;
@@ -137,7 +136,7 @@ public:
   std::size_t position(PartitionIndex p) const { return this->Positions[std::size_t(p)]; }
 
   /// The conflicting partitions that come after p, in order.
-  Range later(PartitionIndex p) const;
+  LaterPartitions later(PartitionIndex p) const;
 
   /// The first partition, in the order, of the non-empty range [begin, end).
   PartitionIndex first(const PartitionIndex* begin, const PartitionIndex* end) const;
@@ -186,12 +185,12 @@ public:
   /// `order` must outlive this object.
   ReadyPartitions(const PartitionOrder& order, Waits waits, std::vector<char> isOwn = {});
 
-  /// Returns a ready partition and waits until there is one. Returns -1 if all were handed out or
-  /// the run was stopped.
+  /// Returns a ready partition and waits until there is one. Returns NoPartition if all were handed
+  /// out or the run was stopped.
   PartitionIndex take();
 
-  /// Returns a ready partition, or -1 if none is ready now, all were handed out or the run was
-  /// stopped.
+  /// Returns a ready partition, or NoPartition if none is ready now, all were handed out or the run
+  /// was stopped.
   PartitionIndex tryTake();
 
   /// Marks a partition of this or another rank as done. Call it when its messages are in the
@@ -214,14 +213,14 @@ private:
   void releaseColour(std::size_t colour);
 
   const PartitionOrder& Order;
-  const Waits For;
+  const Waits Condition;
   const std::vector<char> Own;                    ///< empty: all
   std::vector<std::atomic<std::int32_t>> Awaited; ///< events each partition waits for
   std::vector<std::atomic<std::int64_t>> LeftInColour;
   std::vector<PartitionIndex> Urgency; ///< the partitions to hand out, the most urgent first
   std::vector<std::uint32_t> Ranks;    ///< by partition: its position in Urgency
   std::vector<std::atomic<std::uint64_t>> ReadyBits; ///< by position in Urgency
-  std::atomic<std::size_t> Left;                     ///< partitions not handed out yet
+  std::atomic<std::size_t> NotTaken;                 ///< partitions not handed out yet
   std::atomic<bool> Stopped{ false };
   std::mutex FailureMutex;
   std::exception_ptr Failure;

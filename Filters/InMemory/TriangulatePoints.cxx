@@ -2,10 +2,12 @@
 #include "InMemory/TriangulatePoints.h"
 
 #include "Arrays/FindNeighbors.h"
-#include "Constraints/KeepInside.h"
-#include "Output/RunStatistics.h"
+#include "Constraints/ConstraintEdges.h"
+#include "Constraints/Insertion/KeepInside.h"
+#include "Constraints/Insertion/TriangulateConstrained.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
+#include "Statistics/RunStatistics.h"
 
 #include <algorithm>
 #include <array>
@@ -356,9 +358,9 @@ ConstrainedTriangulation triangulatePoints(
   const auto cut = [&](ConstrainedTriangulation& whole)
   {
     warn(whole.Mesh, points.size() + whole.Constraints.Crossings.size());
-    const std::vector<ConstraintPiece>& pieces = whole.Constraints.Pieces;
-    keepInside({}, whole.Mesh, pieces,
-      { piecesOf(pieces, source.PolygonBegin, source.Constraints.size()), {}, {} });
+    const std::vector<IdSegment>& segments = whole.Constraints.Segments;
+    keepInside({}, whole.Mesh, segments,
+      { segmentsOf(segments, source.PolygonBegin, source.Constraints.size()), {}, {} });
   };
   result = triangulateConstrained(points, source.Constraints, request.Crossings, options, cut);
   if (!result.Mesh.Aborted && result.Constraints.NotFinite > 0)
@@ -410,9 +412,9 @@ Buffer<unsigned char> marksOf(const Buffer<Id>& ids, const ConstraintEdges& edge
 } // namespace
 
 Buffer<unsigned char> constraintMarks(
-  const Triangulation& triangulation, const std::vector<ConstraintPiece>& pieces)
+  const Triangulation& triangulation, const std::vector<IdSegment>& segments)
 {
-  const ConstraintEdges edges(pieces);
+  const ConstraintEdges edges(segments);
   return triangulation.Ids64.empty() ? marksOf(triangulation.Ids32, edges)
                                      : marksOf(triangulation.Ids64, edges);
 }

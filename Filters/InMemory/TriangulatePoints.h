@@ -3,7 +3,9 @@
 #define tippTriangulatePoints_h
 
 #include "Arrays/Buffer.h"
-#include "Constraints/TriangulateConstrained.h"
+#include "Constraints/ConstraintEdges.h"
+#include "Constraints/Insertion/TriangulateConstrained.h"
+#include "Constraints/ResolveCrossings.h"
 #include "Triangulation/Triangulate.h"
 #include "Triangulation3D/Tetrahedralize.h"
 #include "vtkTIPPFiltersModule.h"
@@ -67,7 +69,7 @@ VTKTIPPFILTERS_EXPORT Buffer<std::int64_t> neighborIds(const Tetrahedralization&
 /// Returns three values for each triangle: for each corner 1 if the opposite edge is part of a
 /// constraint, else 0.
 Buffer<unsigned char> constraintMarks(
-  const Triangulation& triangulation, const std::vector<ConstraintPiece>& pieces);
+  const Triangulation& triangulation, const std::vector<IdSegment>& segments);
 
 } // namespace tipp
 

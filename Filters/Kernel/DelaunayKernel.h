@@ -3,8 +3,8 @@
 #define tippDelaunayKernel_h
 
 #include "Arrays/Buffer.h"
+#include "Kernel/Cavity.h"
 #include "Kernel/HalfEdgeMesh.h"
-#include "Kernel/Insertion.h"
 #include "Kernel/InsertionOrder.h"
 #include "Kernel/KernelPredicates.h"
 #include "Predicates/Points.h"

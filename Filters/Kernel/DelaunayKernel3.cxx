@@ -75,7 +75,7 @@ private:
   struct Worker
   {
     Cavity3 Opened;
-    std::vector<Index> Left; ///< vertices that were not inserted
+    std::vector<Index> NotInserted; ///< vertices
     std::vector<Cavity3::Coincidence> Found;
   };
 
@@ -115,7 +115,7 @@ private:
       this->Next[k] = this->beginOf(k);
       this->Workers[k].Opened.continueAt(this->startOf(k));
       this->Workers[k].Opened.share(static_cast<std::uint8_t>(k), this->End);
-      this->Workers[k].Left.clear();
+      this->Workers[k].NotInserted.clear();
     }
     this->End = this->Mesh.end();
     const int caller = omp_get_thread_num();
@@ -125,7 +125,8 @@ private:
     this->Waiting.clear();
     for (const Worker& worker : this->Workers)
     {
-      this->Waiting.insert(this->Waiting.end(), worker.Left.begin(), worker.Left.end());
+      this->Waiting.insert(
+        this->Waiting.end(), worker.NotInserted.begin(), worker.NotInserted.end());
     }
     std::sort(this->Waiting.begin(), this->Waiting.end());
   }
@@ -154,13 +155,13 @@ private:
         }
         const Index* const vertices = this->Waiting.data();
         const std::size_t last = std::min(end, first + block);
-        const std::size_t before = worker.Left.size();
+        const std::size_t before = worker.NotInserted.size();
         again.clear();
         worker.Opened.insertShared(
           this->Mesh, vertices + first, vertices + last, again, worker.Found);
         worker.Opened.insertShared(
-          this->Mesh, again.data(), again.data() + again.size(), worker.Left, worker.Found);
-        this->Done += last - first - (worker.Left.size() - before);
+          this->Mesh, again.data(), again.data() + again.size(), worker.NotInserted, worker.Found);
+        this->Done += last - first - (worker.NotInserted.size() - before);
       }
     }
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Kernel/Insertion.h"
+#include "Kernel/Cavity.h"
 
 #include "Kernel/DelaunayKernel.h"
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 namespace tipp
@@ -214,7 +213,7 @@ struct Curve3
 
 /// Radix sort of a range by `passes` digits from bit `lowest` up, least significant digit first.
 template <unsigned passes, unsigned digitBits, unsigned lowest>
-void CurveOrder::sortByDigits(Run range)
+void CurveOrder::sortByDigits(EntryRange range)
 {
   constexpr std::uint64_t mask = (1U << digitBits) - 1;
   std::array<std::array<std::uint32_t, mask + 1>, passes> starts = {};
@@ -253,7 +252,7 @@ void CurveOrder::sortByDigits(Run range)
 
 /// Adds the runs of equal keys in `within` that have more than a few points. Shorter runs are not
 /// worth sorting: a walk among their points is short.
-void CurveOrder::addRuns(Run within, std::vector<Run>& runs) const
+void CurveOrder::addRuns(EntryRange within, std::vector<EntryRange>& runs) const
 {
   constexpr std::size_t few = 16;
   std::size_t begin = within.Begin;
@@ -275,13 +274,13 @@ void CurveOrder::addRuns(Run within, std::vector<Run>& runs) const
 /// on: coordinates may differ by hundreds of powers of two. The points of a run must be in the
 /// order of their indices.
 template <typename Curve>
-void CurveOrder::sortRuns(const typename Curve::Point* points, std::vector<Run> runs)
+void CurveOrder::sortRuns(const typename Curve::Point* points, std::vector<EntryRange> runs)
 {
   constexpr std::size_t few = 4096;
   Uninitialised<typename Curve::Point> local;
   while (!runs.empty())
   {
-    const Run run = runs.back();
+    const EntryRange run = runs.back();
     runs.pop_back();
     // A copy of the points, so that compilers vectorise the computation of keys.
     local.resize(run.End - run.Begin);
@@ -347,7 +346,7 @@ void InsertionOrder::compute(const Point2* points, std::size_t count)
     this->sortByDigits<3, 12, IndexBits>({ 0, count });
     if (this->hasManyTies(IndexBits))
     {
-      std::vector<Run> runs;
+      std::vector<EntryRange> runs;
       this->addRuns({ 0, count }, runs);
       this->sortRuns<Curve2>(points, std::move(runs));
     }

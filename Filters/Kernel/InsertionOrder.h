@@ -52,17 +52,17 @@ protected:
   static constexpr std::uint64_t IndexMask = (std::uint64_t(1) << IndexBits) - 1;
 
   /// A range of entries.
-  struct Run
+  struct EntryRange
   {
     std::size_t Begin;
     std::size_t End;
   };
 
   template <unsigned passes, unsigned digitBits, unsigned lowest>
-  void sortByDigits(Run range);
-  void addRuns(Run within, std::vector<Run>& runs) const;
+  void sortByDigits(EntryRange range);
+  void addRuns(EntryRange within, std::vector<EntryRange>& runs) const;
   template <typename Curve>
-  void sortRuns(const typename Curve::Point* points, std::vector<Run> runs);
+  void sortRuns(const typename Curve::Point* points, std::vector<EntryRange> runs);
 
   Uninitialised<std::uint64_t> Entries;
   Uninitialised<std::uint64_t> Scratch;

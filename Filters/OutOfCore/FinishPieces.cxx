@@ -53,9 +53,9 @@ void takeTriangles(const PieceWork& work, const std::string& name, const Borders
 {
   const PieceInterior none;
   PieceBorder border(none, work.Rows);
-  for (const auto& [owner, those] : triangles)
+  for (const auto& [owner, cells] : triangles)
   {
-    for (const std::array<std::int64_t, 3>& corners : those.Corners)
+    for (const std::array<std::int64_t, 3>& corners : cells.Corners)
     {
       border.addCell(corners.data(), {});
     }
@@ -142,8 +142,8 @@ BorderQueue::BorderQueue(const PiecePlan& plan, const PartitionOrder& order)
 {
   for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
   {
-    std::vector<PartitionIndex>& those = this->Neighbours[std::size_t(piece)];
-    those.push_back(piece);
+    std::vector<PartitionIndex>& neighbours = this->Neighbours[std::size_t(piece)];
+    neighbours.push_back(piece);
     const PartitionIndex end = plan.FirstPartition[std::size_t(piece) + 1];
     for (PartitionIndex p = plan.FirstPartition[std::size_t(piece)]; p < end; ++p)
     {
@@ -153,11 +153,11 @@ BorderQueue::BorderQueue(const PiecePlan& plan, const PartitionOrder& order)
       }
       for (const PartitionIndex q : order.conflicts().neighbours(p))
       {
-        those.push_back(plan.PieceOf[std::size_t(q)]);
+        neighbours.push_back(plan.PieceOf[std::size_t(q)]);
       }
     }
-    sortUnique(those);
-    this->Open[std::size_t(piece)] = those.size() + (order.isTotal() ? 1 : 0);
+    sortUnique(neighbours);
+    this->Open[std::size_t(piece)] = neighbours.size() + (order.isTotal() ? 1 : 0);
   }
 }
 
@@ -179,7 +179,7 @@ namespace
 
 /// Reads the segments near the triangles, by the bounding box of each `together` consecutive
 /// triangles. `corners` are indices into `points`.
-ConstraintSegments readNear(const PieceSegments& segments, PointsView points,
+ConstraintSegments readNear(const SpilledSegments& segments, PointsView points,
   const std::int32_t* corners, std::size_t triangles, std::size_t together)
 {
   std::vector<Box2> boxes;
@@ -382,7 +382,7 @@ void numberCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, cons
 }
 
 void markCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, std::int64_t array,
-  const PieceSegments* constraints, int threads, const Report& report)
+  const SpilledSegments* constraints, int threads, const Report& report)
 {
   forChunks(std::int64_t(pieces.size()), 1, threads, report,
     [&](std::int64_t at, std::int64_t, int)

@@ -226,7 +226,7 @@ void numberCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, cons
 /// Writes the cell array that marks edges of constraints; call it after numberCells(). `array`: its
 /// index among the mesh's arrays. `constraints`: null if there are none. Throws IOError.
 void markCells(PartitionedMesh& mesh, std::vector<FinishedPiece>& pieces, std::int64_t array,
-  const PieceSegments* constraints, int threads, const Report& report);
+  const SpilledSegments* constraints, int threads, const Report& report);
 
 /// Writes the cell array NeighborIds; call it after numberCells(). Uses as many of the threads as
 /// `memory` bytes allow. Throws IOError.

@@ -2,29 +2,23 @@
 #include "OutOfCore/InputPasses.h"
 
 #include "Files/IOError.h"
+#include "OutOfCore/OutOfCoreMessages.h"
 #include "OutOfCore/PiecePlan.h"
+#include "OutOfCore/SpilledPoints.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/ReadPoints.h"
+#include "Triangulation/InputSurvey.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/PointsView.h"
+#include "Triangulation/StreamSampler.h"
 #include "Triangulation/Tiling.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cstring>
 #include <utility>
 
 namespace tipp
 {
-
-void applyFactor(InputSurvey& survey, double factor)
-{
-  survey.Factor = factor;
-  survey.Bounds = scaled(survey.Bounds, factor);
-  for (SampledPoint& p : survey.Sample)
-  {
-    p.Position = { p.Position.x * factor, p.Position.y * factor };
-  }
-}
 
 InputSurvey surveyPart(PointStream& points, const PassOptions& options)
 {
@@ -51,24 +45,6 @@ InputSurvey surveyPart(PointStream& points, const PassOptions& options)
     });
   survey.Line = line.line();
   survey.Sample = sampler.take();
-  return survey;
-}
-
-InputSurvey joinSurveys(std::vector<InputSurvey>& parts)
-{
-  InputSurvey survey;
-  CollinearityTest line;
-  for (InputSurvey& part : parts)
-  {
-    survey.Points += part.Points;
-    survey.Rejected += part.Rejected;
-    survey.WithoutElevation += part.WithoutElevation;
-    survey.Bounds = unionOf(survey.Bounds, part.Bounds);
-    survey.Collinear = survey.Collinear && part.Collinear &&
-      std::all_of(part.Line.begin(), part.Line.end(), [&](Point2 p) { return line.add(p); });
-    survey.Sample.insert(survey.Sample.end(), part.Sample.begin(), part.Sample.end());
-    std::vector<SampledPoint>().swap(part.Sample);
-  }
   return survey;
 }
 
@@ -135,14 +111,6 @@ std::unique_ptr<PointStream> openPart(
     // The first rank reads the part.
   }
   return nullptr;
-}
-
-/// Returns the index of each piece's first row, and at the end the number of rows.
-std::vector<std::int64_t> startsOf(const std::vector<std::int64_t>& counts)
-{
-  std::vector<std::int64_t> starts(counts.size() + 1, 0);
-  std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
-  return starts;
 }
 
 /// Finds the pieces of a block's points, and the indices of initial points within their pieces.
@@ -299,31 +267,6 @@ void placeInitialPoints(
   {
     p.InPieces += starts[std::size_t(plan.PieceOf[std::size_t(p.Partition)])];
   }
-}
-
-SpilledPoints::SpilledPoints(
-  const std::string& file, std::size_t words, const std::vector<SpilledRows>& parts)
-  : Rows(file, parts.front().Counts.size(), 8 * words, parts)
-  , Starts(startsOf(this->Rows.content().Counts))
-{
-}
-
-SpilledPoints::SpilledPoints(
-  const std::string& file, std::size_t words, PartitionIndex pieces, LoadArchive& archive)
-  : Rows(file, std::size_t(pieces), 8 * words, archive.get<SpilledRows>())
-  , Starts(startsOf(this->Rows.content().Counts))
-{
-}
-
-void SpilledPoints::save(SaveArchive& archive) const
-{
-  archive(this->Rows.content());
-}
-
-PartitionIndex SpilledPoints::pieceOf(std::int64_t index) const
-{
-  return PartitionIndex(
-    std::upper_bound(this->Starts.begin(), this->Starts.end(), index) - this->Starts.begin() - 1);
 }
 
 InputPasses::InputPasses(PointStream& points, Communicator* ranks, const PassOptions& options)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "OutOfCore/PieceRun.h"
+#include "OutOfCore/LoadedPiece.h"
 
 #include "OutOfCore/FinishPieces.h"
+#include "OutOfCore/OutOfCoreOptions.h"
 #include "Partitioned/GrowingPiece.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/TriangleSink.h"
@@ -30,7 +31,7 @@ bool isWorthKeeping(std::size_t vertices, std::size_t points)
 struct LoadedPiece::FinalTriangleSorter : public FinalTriangleConsumer
 {
   FinalTriangleSorter(const LoadedPiece& piece, const LowestPoints& lowest)
-    : Of(piece)
+    : Loaded(piece)
     , Lowest(lowest)
     , Sorter(piece.Work, this->Borders)
   {
@@ -50,7 +51,7 @@ struct LoadedPiece::FinalTriangleSorter : public FinalTriangleConsumer
       return;
     }
     std::copy_if(renamed.begin(), renamed.end(), std::back_inserter(this->InterfaceVertices),
-      [this](const BoundaryVertex& v) { return this->Of.owns(v); });
+      [this](const BoundaryVertex& v) { return this->Loaded.owns(v); });
     if (!isHull)
     {
       this->Sorter.add(renamed);
@@ -66,12 +67,12 @@ private:
   bool isInterior(const BoundaryTriangle& triangle) const
   {
     bool isInterior = true;
-    this->Of.Work.Plan.Pieces.visitMet(
+    this->Loaded.Work.Plan.Pieces.visitMet(
       Circumdisk(triangle[0].Position, triangle[1].Position, triangle[2].Position),
       [&](PartitionIndex piece)
       {
         isInterior =
-          isInterior && (piece == this->Of.Piece || this->Of.Work.Points.count(piece) == 0);
+          isInterior && (piece == this->Loaded.Piece || this->Loaded.Work.Points.count(piece) == 0);
       });
     return isInterior;
   }
@@ -81,14 +82,14 @@ private:
     std::array<std::int32_t, 3> corners{};
     for (std::size_t i = 0; i < 3; ++i)
     {
-      corners[i] = std::int32_t(triangle[i].Id - this->Of.First);
+      corners[i] = std::int32_t(triangle[i].Id - this->Loaded.First);
     }
     // The worker does not determine which corner is first, so put the lowest one first.
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
     this->BoundaryTriangles.push_back(corners);
   }
 
-  const LoadedPiece& Of;
+  const LoadedPiece& Loaded;
   const LowestPoints& Lowest;
   BorderSorter Sorter;
 };
@@ -106,7 +107,7 @@ LoadedPiece::LoadedPiece(const PieceWork& work, PartitionIndex piece)
   this->InteriorCounts.assign(std::size_t(inner.size()), 0);
   if (work.Constraints && work.Constraints->count(piece) > 0)
   {
-    this->Constraints = std::make_unique<PieceConstraints>(
+    this->Constraints = std::make_unique<LoadedSegments>(
       work.Constraints->read(piece), this->points(), work.Factor, inner);
   }
 }
@@ -236,9 +237,9 @@ void LoadedPiece::markInterface(const BoundaryVertex& v)
   }
 }
 
-/// Calls filter(corners, count, bucket) for the triangles of each partition, and with bucket -1 for
-/// the interior triangles between partitions. filter() removes triangles and returns how many are
-/// left.
+/// Calls filter(corners, count, bucket) for the triangles of each partition, and with NoPartition
+/// for the interior triangles between partitions. filter() removes triangles and returns how many
+/// are left.
 template <typename Filter>
 void LoadedPiece::filterTriangles(const Filter& filter)
 {
@@ -250,7 +251,7 @@ void LoadedPiece::filterTriangles(const Filter& filter)
   if (!this->BoundaryTriangles.empty())
   {
     this->BoundaryTriangles.resize(
-      filter(this->BoundaryTriangles.front().data(), this->BoundaryTriangles.size(), -1));
+      filter(this->BoundaryTriangles.front().data(), this->BoundaryTriangles.size(), NoPartition));
   }
 }
 

@@ -3,16 +3,24 @@
 
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
+#include "Files/TextFile.h"
+#include "OutOfCore/DescribeMesh.h"
 #include "OutOfCore/FinishPieces.h"
 #include "OutOfCore/InputPasses.h"
+#include "OutOfCore/LoadedPiece.h"
+#include "OutOfCore/OutOfCoreMessages.h"
+#include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/OutOfCoreRun.h"
 #include "OutOfCore/PieceRun.h"
+#include "OutOfCore/RunRecord.h"
+#include "OutOfCore/RunSetup.h"
 #include "OutOfCore/ScratchFiles.h"
+#include "OutOfCore/SpilledSegments.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/Longitudes.h"
+#include "Triangulation/InputSurvey.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -42,10 +50,26 @@ std::string firstLine(const std::string& path)
   return line;
 }
 
-class Run : OutOfCoreRun<OutOfCoreOptions, OutOfCoreStatistics>
+/// Returns a text that is equal for runs that make the same mesh from the same input with the same
+/// options.
+std::string identityOf(const PointStream& input, const OutOfCoreOptions& options)
+{
+  return "TIPP out of core 15\n" + input.identity() + std::to_string(options.Columns) + "x" +
+    std::to_string(options.Rows) + " " + std::to_string(options.PiecePoints) + " " +
+    std::to_string(options.PartitionPoints) + (options.MapDuplicates ? " mapped" : "") +
+    (options.Neighbors ? " linked" : "") + (options.MarkConstraints ? " marked" : "") +
+    (options.CountOnly ? " counted" : "") +
+    (options.MaximumEdge > 0 ? " edges " + exactText(options.MaximumEdge) : "") +
+    (options.Duplicates != DuplicateRule::First
+        ? " duplicates " + std::to_string(int(options.Duplicates))
+        : "") +
+    "\n" + (options.Consumer ? options.Consumer->identity() : "") + "\n" + options.Scratch;
+}
+
+class TriangulationRun : OutOfCoreRun<OutOfCoreOptions, OutOfCoreStatistics>
 {
 public:
-  Run(PointStream& points, const std::string& path, const OutOfCoreOptions& options,
+  TriangulationRun(PointStream& points, const std::string& path, const OutOfCoreOptions& options,
     Communicator* ranks)
     : OutOfCoreRun(points, path, options, identityOf(points, options), ranks)
     , Setup(options)
@@ -123,7 +147,7 @@ private:
       throw IOError(
         "The input has no point with finite coordinates, so there is nothing to write.");
     }
-    this->requireSpace(0, segments ? PieceSegments::fileBytes(segments->count()) : 0);
+    this->requireSpace(0, segments ? SpilledSegments::fileBytes(segments->count()) : 0);
     this->Setup.Plan =
       std::make_unique<PiecePlan>(survey, this->Options, *this->Memory, words, this->Threads);
     if (segments)
@@ -379,7 +403,7 @@ void requireSharedFolder(Communicator& ranks, const std::string& folder)
 OutOfCoreStatistics triangulateOutOfCore(
   PointStream& points, const std::string& path, const OutOfCoreOptions& options)
 {
-  return Run(points, path, options, nullptr).run();
+  return TriangulationRun(points, path, options, nullptr).run();
 }
 
 OutOfCoreStatistics triangulateOutOfCoreOnRanks(Communicator& ranks, const OpenPoints& open,
@@ -394,7 +418,8 @@ OutOfCoreStatistics triangulateOutOfCoreOnRanks(Communicator& ranks, const OpenP
       return;
     }
     const std::unique_ptr<PointStream> points = open();
-    statistics = Run(*points, path, options, ranks.size() > 1 ? &ranks : nullptr).run();
+    statistics =
+      TriangulationRun(*points, path, options, ranks.size() > 1 ? &ranks : nullptr).run();
     if (statistics.Aborted)
     {
       throw RankFailure(0, true, "The run was stopped.");

@@ -2,9 +2,11 @@
 #include "OutOfCore/PiecePlan.h"
 
 #include "Files/IOError.h"
-#include "OutOfCore/InputPasses.h"
+#include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/ScratchFiles.h"
+#include "OutOfCore/SpilledPoints.h"
 #include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/InputSurvey.h"
 #include "Triangulation/Tiling.h"
 
 #include <algorithm>

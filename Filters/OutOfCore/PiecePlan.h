@@ -3,9 +3,10 @@
 #define tippPiecePlan_h
 
 #include "Engine/PartitionSchedule.h"
-#include "OutOfCore/InputPasses.h"
-#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "OutOfCore/OutOfCoreOptions.h"
+#include "OutOfCore/SpilledPoints.h"
 #include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/InputSurvey.h"
 #include "Triangulation/Tiling.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -15,6 +16,19 @@
 
 namespace tipp
 {
+
+/// Returns a piece's index in the mesh: pieces are numbered from the last to the first. For a
+/// tiling gives a point on a cut to the upper box, which has the higher index, and a mesh gives a
+/// point that pieces share to the piece of lowest index. Reversed, both rules choose the same
+/// piece.
+///
+/// Boxes in the order of the mesh would need no reversal. But spilled points would then be in
+/// another order, and so would the triangles that are sorted by them: the same input would give
+/// other files, and runs of earlier versions could not be resumed.
+inline std::size_t numberInMesh(PartitionIndex piece, PartitionIndex pieces)
+{
+  return static_cast<std::size_t>(pieces - 1 - piece);
+}
 
 /// How points are read if memory is limited.
 struct VTKTIPPFILTERS_EXPORT InputMemory
@@ -78,12 +92,8 @@ struct VTKTIPPFILTERS_EXPORT PiecePlan
   PartitionIndex pieces() const { return this->Pieces.size(); }
   Box2 box(PartitionIndex piece) const { return this->Pieces.box(piece); }
 
-  /// Returns the piece's index in the mesh. It counts from the other end: here a point on a cut
-  /// belongs to the upper box, in the mesh to the piece with the lowest index.
-  std::size_t number(PartitionIndex piece) const
-  {
-    return static_cast<std::size_t>(this->pieces() - 1 - piece);
-  }
+  /// See numberInMesh().
+  std::size_t number(PartitionIndex piece) const { return numberInMesh(piece, this->pieces()); }
 
   /// Returns the vertices of the initial mesh. Their ids are valid once the initial points have
   /// InPieces.

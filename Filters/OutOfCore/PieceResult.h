@@ -3,11 +3,12 @@
 #define tippPieceResult_h
 
 #include "Constraints/Insertion/CrossedPart.h"
-#include "OutOfCore/InputPasses.h"
-#include "OutOfCore/OutOfCoreTriangulation.h"
-#include "OutOfCore/PieceConstraints.h"
+#include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/ScratchFiles.h"
+#include "OutOfCore/SpilledPoints.h"
+#include "OutOfCore/SpilledSegments.h"
+#include "OutOfCore/TriangleConsumer.h"
 #include "Parallel/ParallelFor.h"
 #include "Partitioned/GrowingPiece.h"
 #include "Partitioned/PieceFile.h"
@@ -228,7 +229,7 @@ struct PieceWork : PieceWorkOf<PiecePlan, StoredResult>
   TriangleConsumer* Consumer = nullptr; ///< null: triangles are written to the mesh
   double MaximumEdge = 0; ///< triangles with a longer edge are left out; 0: all are kept
   DuplicateRule Duplicates = DuplicateRule::First;
-  const PieceSegments* Constraints = nullptr; ///< null: no constraints
+  const SpilledSegments* Constraints = nullptr; ///< null: no constraints
   /// Its index among the columns; the number of columns if there is none.
   std::size_t Elevation = 0;
 

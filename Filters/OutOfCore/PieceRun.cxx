@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/PieceRun.h"
 
-#include "Distributed/RankEngine.h"
 #include "Engine/PartitionSchedule.h"
+#include "Engine/RankEngine.h"
 #include "OutOfCore/FinishPieces.h"
-#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "OutOfCore/LoadedPiece.h"
+#include "OutOfCore/OutOfCoreMessages.h"
 #include "Partitioned/GrowingPiece.h"
 
 #include <algorithm>
@@ -271,7 +272,7 @@ private:
   void work()
   {
     LoadedPiece::Workspace space(*this->OrderOfPieces);
-    for (PartitionIndex p = this->take(); p >= 0; p = this->take())
+    for (PartitionIndex p = this->take(); p != NoPartition; p = this->take())
     {
       LoadedPiece& piece = *this->at(this->pieceOf(p)).Loaded;
       const auto points = std::size_t(piece.pointsOf(p));
@@ -316,7 +317,7 @@ private:
       }
       SentMessages& pending = this->at(other).Pending;
       const auto isOfPiece = [&](const SentMessages::value_type& sent)
-      { return sent.second.Sender >= 0 && this->pieceOf(sent.second.Sender) == piece; };
+      { return sent.second.Sender != NoPartition && this->pieceOf(sent.second.Sender) == piece; };
       pending.erase(std::remove_if(pending.begin(), pending.end(), isOfPiece), pending.end());
     }
     return this->Borders ? this->Borders->setDone(piece) : std::vector<PartitionIndex>();

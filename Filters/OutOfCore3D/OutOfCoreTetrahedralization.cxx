@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore3D/OutOfCoreTetrahedralization.h"
 
+#include "OutOfCore/DescribeMesh.h"
+#include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/OutOfCoreRun.h"
+#include "OutOfCore/PieceRun.h"
+#include "OutOfCore/RunRecord.h"
 #include "OutOfCore3D/PieceRun3.h"
 
 #include <memory>
@@ -34,10 +38,11 @@ std::string identityOf(const PointStream& input, const OutOfCoreOptions3& option
     (options.Neighbors ? " linked" : "") + "\n" + options.Scratch;
 }
 
-class Run : OutOfCoreRun<OutOfCoreOptions3, OutOfCoreStatistics3>
+class TetrahedralizationRun : OutOfCoreRun<OutOfCoreOptions3, OutOfCoreStatistics3>
 {
 public:
-  Run(PointStream& points, const std::string& path, const OutOfCoreOptions3& options)
+  TetrahedralizationRun(
+    PointStream& points, const std::string& path, const OutOfCoreOptions3& options)
     : OutOfCoreRun(points, path, options, identityOf(points, options))
     , Memory(options.MemoryLimit, options.PiecePoints, 3 + points.columns().size())
   {
@@ -157,7 +162,7 @@ private:
 OutOfCoreStatistics3 tetrahedralizeOutOfCore(
   PointStream& points, const std::string& path, const OutOfCoreOptions3& options)
 {
-  return Run(points, path, options).run();
+  return TetrahedralizationRun(points, path, options).run();
 }
 
 } // namespace tipp

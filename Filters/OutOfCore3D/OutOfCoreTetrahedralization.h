@@ -2,7 +2,7 @@
 #ifndef tippOutOfCoreTetrahedralization_h
 #define tippOutOfCoreTetrahedralization_h
 
-#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "OutOfCore/OutOfCoreOptions.h"
 #include "Points/ReadPoints.h"
 #include "vtkTIPPFiltersModule.h"
 

@@ -4,7 +4,9 @@
 #include "Files/IOError.h"
 #include "Kernel/DelaunayKernel3.h"
 #include "OutOfCore/InputPasses.h"
+#include "OutOfCore/SpilledPoints.h"
 #include "Predicates/ExactPredicates3.h"
+#include "Triangulation/StreamSampler.h"
 
 #include <algorithm>
 #include <array>
@@ -252,13 +254,13 @@ struct PiecePlan3::Labels
   void label(const PointBlock& block, int threads)
   {
     const BlockView3 view(block, this->Plan.Survey.Elevation, this->Plan.Survey.Factor);
-    this->Of.resize(view.size());
+    this->PieceOf.resize(view.size());
     const auto count = std::ptrdiff_t(view.size());
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (std::ptrdiff_t i = 0; i < count; ++i)
     {
       const Point3 p = view[std::size_t(i)];
-      this->Of[std::size_t(i)] = isFinite(p) ? this->Plan.Tiling.locate(p) : -1;
+      this->PieceOf[std::size_t(i)] = isFinite(p) ? this->Plan.Tiling.locate(p) : -1;
     }
     const std::vector<Sampled>& sample = this->Plan.Sample;
     for (std::size_t i = 0; i < view.size(); ++i)
@@ -266,9 +268,9 @@ struct PiecePlan3::Labels
       const bool isSampled =
         this->Next < sample.size() && sample[this->Next].Id == block.First + std::int64_t(i);
       this->Next += isSampled ? 1 : 0;
-      if (this->Of[i] >= 0)
+      if (this->PieceOf[i] >= 0)
       {
-        this->add(std::size_t(this->Of[i]), view[i], isSampled);
+        this->add(std::size_t(this->PieceOf[i]), view[i], isSampled);
       }
     }
     this->Points += std::int64_t(view.size());
@@ -301,8 +303,8 @@ struct PiecePlan3::Labels
 
   PiecePlan3& Plan;
   std::vector<SpilledPiece3> Pieces;
-  std::vector<PartitionIndex> Of; ///< by point of the block: its piece; -1: rejected
-  std::size_t Next = 0;           ///< index in the sample of the next sampled point
+  std::vector<PartitionIndex> PieceOf; ///< by point of the block: its piece; -1: rejected
+  std::size_t Next = 0;                ///< index in the sample of the next sampled point
   std::int64_t Points = 0;
 };
 
@@ -318,7 +320,7 @@ void PiecePlan3::spill(PointStream& points, const std::string& file, const Memor
     {
       labels.label(block, threads);
       spill.add(
-        block.size(), threads, [&](std::size_t i) { return labels.Of[i]; },
+        block.size(), threads, [&](std::size_t i) { return labels.PieceOf[i]; },
         [&](std::size_t i, char* to) { writeRow(block, i, to); });
       progress(labels.Points);
     });

@@ -3,9 +3,10 @@
 #define tippPiecePlan3_h
 
 #include "Engine/PartitionSchedule.h"
-#include "OutOfCore/InputPasses.h"
 #include "OutOfCore/PiecePlan.h"
+#include "OutOfCore/SpilledPoints.h"
 #include "Points/ReadPoints.h"
+#include "Triangulation/StreamSampler.h"
 #include "Triangulation3D/Partitions3.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -95,9 +96,8 @@ public:
   const std::vector<Box3>& regions() const { return this->Regions; }
   const std::vector<Vertex3>& artificial() const { return this->Artificial; }
 
-  /// Returns the piece's index in the mesh. It counts from the other end: here a point on a cut
-  /// belongs to the upper box, in the mesh to the piece with the lowest index.
-  std::size_t number(PartitionIndex piece) const { return std::size_t(this->pieces() - 1 - piece); }
+  /// See numberInMesh().
+  std::size_t number(PartitionIndex piece) const { return numberInMesh(piece, this->pieces()); }
 
   /// The spilled points; valid after spill(). Their coordinates are not multiplied by Factor.
   const SpilledPoints& points() const { return *this->Spilled; }

@@ -2,8 +2,9 @@
 #ifndef tippPieceRun3_h
 #define tippPieceRun3_h
 
-#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/PieceResult.h"
+#include "OutOfCore/PieceRun.h"
 #include "OutOfCore3D/PiecePlan3.h"
 #include "Parallel/ParallelFor.h"
 #include "Triangulation3D/Dataflow3.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/FilterPipeline.h"
 
-#include "Output/RunStatistics.h"
 #include "Parallel/ParallelFor.h"
 #include "Ranks/Communicator.h"
+#include "Statistics/RunStatistics.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCommunicator.h"
@@ -38,7 +38,7 @@ using Executive = vtkStreamingDemandDrivenPipeline;
 namespace
 {
 
-void setPiece(vtkInformation* inInfo, int piece, int pieces)
+void setUpdatePiece(vtkInformation* inInfo, int piece, int pieces)
 {
   inInfo->Set(Executive::UPDATE_PIECE_NUMBER(), piece);
   inInfo->Set(Executive::UPDATE_NUMBER_OF_PIECES(), pieces);
@@ -181,17 +181,17 @@ vtkDataObject* updatedInput(vtkAlgorithm* filter, int rank, int ranks, vtkInform
   return source->Update(port, requests) ? source->GetOutputDataObject(port) : nullptr;
 }
 
-void askForPiece(vtkInformation* inInfo, int piece, int pieces)
+void askForUpdatePiece(vtkInformation* inInfo, int piece, int pieces)
 {
   inInfo->Remove(Executive::UPDATE_EXTENT());
   if (inInfo->Has(Executive::WHOLE_EXTENT())) // structured data
   {
     inInfo->Set(Executive::UPDATE_EXTENT(), inInfo->Get(Executive::WHOLE_EXTENT()), 6);
   }
-  setPiece(inInfo, piece, pieces);
+  setUpdatePiece(inInfo, piece, pieces);
 }
 
-bool askForRankPieces(
+bool askForUpdatePieces(
   vtkMultiProcessController* controller, vtkInformationVector** inputs, int ports)
 {
   const bool several = hasSeveralRanks(controller);
@@ -199,7 +199,7 @@ bool askForRankPieces(
   {
     if (vtkInformation* const input = inputs[port]->GetInformationObject(0))
     {
-      setPiece(input, controller->GetLocalProcessId(), controller->GetNumberOfProcesses());
+      setUpdatePiece(input, controller->GetLocalProcessId(), controller->GetNumberOfProcesses());
     }
   }
   return several;

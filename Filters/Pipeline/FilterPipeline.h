@@ -96,12 +96,12 @@ int triangulateReported(vtkAlgorithm* filter, vtkMultiProcessController* control
 vtkDataObject* updatedInput(vtkAlgorithm* filter, int rank, int ranks, vtkInformation* outInfo);
 
 /// Requests a piece of a filter's input; for structured data, the whole extent.
-void askForPiece(vtkInformation* inInfo, int piece, int pieces);
+void askForUpdatePiece(vtkInformation* inInfo, int piece, int pieces);
 
 /// Returns whether the controller has several ranks. If so, requests this rank's piece of each
 /// input, without ghost cells: every rank contributes its share, whichever piece is requested of
 /// the filter.
-bool askForRankPieces(
+bool askForUpdatePieces(
   vtkMultiProcessController* controller, vtkInformationVector** inputs, int ports);
 
 /// Returns whether ghost cells are requested of a filter's first output.

@@ -22,7 +22,7 @@ struct BorderEdge
   std::int64_t From;
   std::int64_t To;
   std::int64_t Next;
-  Point3 At; ///< position of To
+  Point3 Position; ///< position of To
 
   bool operator<(const BorderEdge& other) const
   {
@@ -128,7 +128,7 @@ BoundaryLoops linked(std::vector<BorderEdge> edges)
     {
       isUsed[at] = 1;
       loops.Points.Ids.push_back(edges[at].To);
-      loops.Positions.push_back(edges[at].At);
+      loops.Positions.push_back(edges[at].Position);
       const BorderEdge next{ edges[at].To, edges[at].Next, 0, {} };
       const auto found = std::lower_bound(edges.begin(), edges.end(), next);
       at = found != edges.end() && !(next < *found) ? std::size_t(found - edges.begin())

@@ -169,7 +169,7 @@ public:
 private:
   struct Question
   {
-    Point3 At;
+    Point3 Position;
     std::int32_t Piece;
     NearCell Best; ///< the nearest cell found so far
   };
@@ -184,7 +184,7 @@ private:
     {
       asked.push_back(std::int64_t(points.size()));
       pieces.push_back(question.Piece);
-      points.push_back(question.At);
+      points.push_back(question.Position);
       best.push_back(question.Best);
     }
     searchPieces(this->Mesh, pieces, asked, points.data(), best);

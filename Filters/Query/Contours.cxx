@@ -43,7 +43,7 @@ struct Segment
 struct Corner
 {
   std::int64_t Id;
-  Point3 At;
+  Point3 Position;
   double Value;
 };
 
@@ -55,7 +55,7 @@ Point3 crossing(Corner a, Corner b, double level)
   {
     std::swap(a, b);
   }
-  return between(a.At, b.At, (level - a.Value) / (b.Value - a.Value));
+  return between(a.Position, b.Position, (level - a.Value) / (b.Value - a.Value));
 }
 
 Edge edgeOf(const Corner& a, const Corner& b)
@@ -138,10 +138,11 @@ void addCells(const Access& access, const MeshPart& part, const double* values,
     }
     for (Corner& corner : corners)
     {
-      corner.At = access.point(corner.Id);
+      corner.Position = access.point(corner.Id);
       corner.Id = part.pointId(corner.Id);
     }
-    if (orientation(flat(corners[0].At), flat(corners[1].At), flat(corners[2].At)) < 0)
+    if (orientation(
+          flat(corners[0].Position), flat(corners[1].Position), flat(corners[2].Position)) < 0)
     {
       std::swap(corners[1], corners[2]);
     }

@@ -20,7 +20,7 @@ struct SlopeCorner
 {
   std::int64_t Index; ///< local index in the piece
   std::int64_t Id;
-  Point3 At;
+  Point3 Position;
   double Value;
 };
 
@@ -51,7 +51,7 @@ struct Walk
   std::int64_t Low = -1;  ///< the point, or the edge's end of lower id; -1: in the cell
   std::int64_t High = -1; ///< the other end of the edge; -1: not on an edge
   Point3 OfLow{};         ///< position of Low, whose piece has all cells there
-  Point3 At{};
+  Point3 Position{};
   double Value = 0;
   std::int64_t Pit = -1;
   std::vector<Point3> Points;
@@ -61,8 +61,8 @@ struct Walk
 template <typename Archive>
 void serialize(Archive& archive, Walk& walk)
 {
-  archive(walk.Cell, walk.Low, walk.High, walk.OfLow, walk.At, walk.Value, walk.Pit, walk.Points,
-    walk.Values);
+  archive(walk.Cell, walk.Low, walk.High, walk.OfLow, walk.Position, walk.Value, walk.Pit,
+    walk.Points, walk.Values);
 }
 
 /// Follows paths within one piece.
@@ -115,12 +115,12 @@ private:
       slope.Corners[i] = this->cornerOf(this->Topology.corner(cell, i));
     }
     auto& [a, b, c] = slope.Corners;
-    if (turn(apart(b.At, a.At), apart(c.At, a.At)) < 0)
+    if (turn(apart(b.Position, a.Position), apart(c.Position, a.Position)) < 0)
     {
       std::swap(b, c);
     }
-    const Point2 u = apart(b.At, a.At);
-    const Point2 v = apart(c.At, a.At);
+    const Point2 u = apart(b.Position, a.Position);
+    const Point2 v = apart(c.Position, a.Position);
     const double area = turn(u, v);
     const double toB = b.Value - a.Value;
     const double toC = c.Value - a.Value;
@@ -131,7 +131,7 @@ private:
 
   static void append(Walk& walk)
   {
-    walk.Points.push_back(walk.At);
+    walk.Points.push_back(walk.Position);
     walk.Values.push_back(walk.Value);
   }
 
@@ -139,7 +139,7 @@ private:
   {
     walk.Low = corner.Id;
     walk.High = -1;
-    walk.OfLow = walk.At = corner.At;
+    walk.OfLow = walk.Position = corner.Position;
     walk.Value = corner.Value;
     append(walk);
   }
@@ -174,8 +174,8 @@ private:
     {
       std::swap(a, b);
     }
-    const double ofA = std::fabs(turn(slope.Down, apart(a.At, from)));
-    const double ofB = std::fabs(turn(slope.Down, apart(b.At, from)));
+    const double ofA = std::fabs(turn(slope.Down, apart(a.Position, from)));
+    const double ofB = std::fabs(turn(slope.Down, apart(b.Position, from)));
     const double share = ofA + ofB > 0 ? ofA / (ofA + ofB) : 0;
     const double value = a.Value + share * (b.Value - a.Value);
     // Requires a lower value for each step, so that the path ends in spite of rounding.
@@ -191,8 +191,8 @@ private:
     }
     walk.Low = a.Id;
     walk.High = b.Id;
-    walk.OfLow = a.At;
-    walk.At = between(a.At, b.At, share);
+    walk.OfLow = a.Position;
+    walk.Position = between(a.Position, b.Position, share);
     walk.Value = value;
     append(walk);
   }
@@ -210,14 +210,17 @@ private:
     }
     // Computes value and height at the start.
     const auto& [a, b, c] = slope.Corners;
-    const double whole = turn(apart(b.At, a.At), apart(c.At, a.At));
-    const double ofB = turn(apart(walk.At, a.At), apart(c.At, a.At)) / whole;
-    const double ofC = turn(apart(b.At, a.At), apart(walk.At, a.At)) / whole;
+    const double whole = turn(apart(b.Position, a.Position), apart(c.Position, a.Position));
+    const double ofB =
+      turn(apart(walk.Position, a.Position), apart(c.Position, a.Position)) / whole;
+    const double ofC =
+      turn(apart(b.Position, a.Position), apart(walk.Position, a.Position)) / whole;
     walk.Value = a.Value + ofB * (b.Value - a.Value) + ofC * (c.Value - a.Value);
-    walk.At.z = a.At.z + ofB * (b.At.z - a.At.z) + ofC * (c.At.z - a.At.z);
+    walk.Position.z =
+      a.Position.z + ofB * (b.Position.z - a.Position.z) + ofC * (c.Position.z - a.Position.z);
     for (const SlopeCorner& corner : slope.Corners)
     {
-      if (corner.At.x == walk.At.x && corner.At.y == walk.At.y)
+      if (corner.Position.x == walk.Position.x && corner.Position.y == walk.Position.y)
       {
         toPoint(walk, corner);
         return;
@@ -228,10 +231,10 @@ private:
     {
       const SlopeCorner& from = slope.Corners[i];
       const SlopeCorner& to = slope.Corners[(i + 1) % 3];
-      if (turn(slope.Down, apart(from.At, walk.At)) <= 0 &&
-        turn(slope.Down, apart(to.At, walk.At)) > 0)
+      if (turn(slope.Down, apart(from.Position, walk.Position)) <= 0 &&
+        turn(slope.Down, apart(to.Position, walk.Position)) > 0)
       {
-        toEdge(walk, slope, walk.At, from, to, true);
+        toEdge(walk, slope, walk.Position, from, to, true);
         return;
       }
     }
@@ -271,15 +274,15 @@ private:
       const SlopeCorner& left = slope.Corners[(at + 2) % 3];
       for (const SlopeCorner* const corner : { &right, &left })
       {
-        const Point2 way = apart(corner->At, from.At);
+        const Point2 way = apart(corner->Position, from.Position);
         if (isSteeper((from.Value - corner->Value) / std::hypot(way.x, way.y), true, corner->Id))
         {
           next = *corner;
           exit = -1;
         }
       }
-      if (turn(apart(right.At, from.At), slope.Down) > 0 &&
-        turn(slope.Down, apart(left.At, from.At)) > 0 &&
+      if (turn(apart(right.Position, from.Position), slope.Down) > 0 &&
+        turn(slope.Down, apart(left.Position, from.Position)) > 0 &&
         isSteeper(slope.Steepness, false, slope.Cell))
       {
         best = slope;
@@ -291,9 +294,9 @@ private:
       end(walk);
       return;
     }
-    exit < 0
-      ? toPoint(walk, next)
-      : toEdge(walk, best, walk.At, best.Corners[(exit + 1) % 3], best.Corners[(exit + 2) % 3]);
+    exit < 0 ? toPoint(walk, next)
+             : toEdge(walk, best, walk.Position, best.Corners[(exit + 1) % 3],
+                 best.Corners[(exit + 2) % 3]);
   }
 
   /// Continues from an edge, down its steepest triangle, or along the edge if no triangle descends
@@ -321,7 +324,8 @@ private:
       {
         tip = slope.Corners[i].Index != ends[0] && slope.Corners[i].Index != ends[1] ? i : tip;
       }
-      const Point2 along = apart(slope.Corners[(tip + 2) % 3].At, slope.Corners[(tip + 1) % 3].At);
+      const Point2 along =
+        apart(slope.Corners[(tip + 2) % 3].Position, slope.Corners[(tip + 1) % 3].Position);
       const bool isBetter = bestTip < 0 ||
         std::make_tuple(-slope.Steepness, slope.Cell) < std::make_tuple(-best.Steepness, best.Cell);
       if (turn(along, slope.Down) > 0 && isBetter)
@@ -333,10 +337,10 @@ private:
     if (bestTip >= 0)
     {
       const SlopeCorner& tip = best.Corners[bestTip];
-      const double side = turn(best.Down, apart(tip.At, walk.At));
+      const double side = turn(best.Down, apart(tip.Position, walk.Position));
       side == 0 && tip.Value < walk.Value
         ? toPoint(walk, tip)
-        : toEdge(walk, best, walk.At, tip, best.Corners[(bestTip + (side > 0 ? 2 : 1)) % 3]);
+        : toEdge(walk, best, walk.Position, tip, best.Corners[(bestTip + (side > 0 ? 2 : 1)) % 3]);
       return;
     }
     const SlopeCorner low = this->cornerOf(ends[0]);
@@ -489,7 +493,7 @@ Descents descentsOf(const ResidentMesh& mesh, const std::vector<Point3>& points,
   for (std::size_t i = 0; i < walks.size(); ++i)
   {
     walks[i].Cell = cells[i];
-    walks[i].At = walks[i].OfLow = { points[i].x, points[i].y, 0 };
+    walks[i].Position = walks[i].OfLow = { points[i].x, points[i].y, 0 };
   }
   if (!ranks)
   {

@@ -27,7 +27,7 @@ struct Crossing
   /// Ascending global ids of the points of the crossed face, edge or point. If there are fewer than
   /// three, the last is repeated.
   std::array<std::int64_t, 3> Ids;
-  Point3 At;                  ///< z is 0 for triangles
+  Point3 Position;            ///< z is 0 for triangles
   std::vector<double> Values; ///< all components of each point array
 
   bool operator<(const Crossing& other) const
@@ -40,7 +40,7 @@ struct Crossing
 template <typename Archive>
 void serialize(Archive& archive, Crossing& crossing)
 {
-  archive(crossing.Share, crossing.Ids, crossing.At, crossing.Values);
+  archive(crossing.Share, crossing.Ids, crossing.Position, crossing.Values);
 }
 
 /// The crossings of each segment of a polyline.
@@ -61,7 +61,7 @@ struct CellCorner
 {
   std::int64_t Index; ///< local index in the piece
   std::int64_t Id;    ///< global id
-  Point3 At;
+  Point3 Position;
 };
 
 /// Finds where one segment crosses the cells of a piece. Crossings at its ends may be left out.
@@ -83,7 +83,7 @@ public:
     int sides[3];
     for (int i = 0; i < 3; ++i)
     {
-      sides[i] = orientation(flat(this->Begin), flat(this->End), flat(corners[i].At));
+      sides[i] = orientation(flat(this->Begin), flat(this->End), flat(corners[i].Position));
     }
     for (int i = 0; i < 3; ++i)
     {
@@ -94,8 +94,8 @@ public:
         this->addPoint(a);
       }
       if (sides[i] * sides[(i + 1) % 3] < 0 &&
-        orientation(flat(a.At), flat(b.At), flat(this->Begin)) *
-            orientation(flat(a.At), flat(b.At), flat(this->End)) <
+        orientation(flat(a.Position), flat(b.Position), flat(this->Begin)) *
+            orientation(flat(a.Position), flat(b.Position), flat(this->End)) <
           0)
       {
         this->addEdge(a, b);
@@ -112,7 +112,8 @@ public:
       const CellCorner& a = corners[(face + 1) % 4];
       const CellCorner& b = corners[(face + 2) % 4];
       const CellCorner& c = corners[(face + 3) % 4];
-      if (orientation3(a.At, b.At, c.At, this->Begin) * orientation3(a.At, b.At, c.At, this->End) <
+      if (orientation3(a.Position, b.Position, c.Position, this->Begin) *
+          orientation3(a.Position, b.Position, c.Position, this->End) <
         0)
       {
         this->addFace(a, b, c);
@@ -128,12 +129,12 @@ public:
       double high = -HUGE_VAL;
       for (int i = 0; i < count; ++i)
       {
-        if (!std::isfinite(corners[i].At.*axis))
+        if (!std::isfinite(corners[i].Position.*axis))
         {
           return false;
         }
-        low = std::min(low, corners[i].At.*axis);
-        high = std::max(high, corners[i].At.*axis);
+        low = std::min(low, corners[i].Position.*axis);
+        high = std::max(high, corners[i].Position.*axis);
       }
       if (low > std::max(this->Begin.*axis, this->End.*axis) ||
         high < std::min(this->Begin.*axis, this->End.*axis))
@@ -153,7 +154,7 @@ private:
   void addPoint(const CellCorner& point)
   {
     const double one = 1;
-    this->add(point.At, &point, &one, 1);
+    this->add(point.Position, &point, &one, 1);
   }
 
   /// The position is weighted by the distances of the edge's ends from the line, in doubles. All
@@ -164,15 +165,15 @@ private:
     {
       std::swap(a, b);
     }
-    const Point3 ofA = cross(this->Along, a.At - this->Begin);
-    const Point3 ofB = cross(this->Along, b.At - this->Begin);
+    const Point3 ofA = cross(this->Along, a.Position - this->Begin);
+    const Point3 ofB = cross(this->Along, b.Position - this->Begin);
     const double distanceA = std::sqrt(dot(ofA, ofA));
     const double distanceB = std::sqrt(dot(ofB, ofB));
     const double sum = distanceA + distanceB;
     const double share = sum > 0 ? distanceA / sum : 0.5;
     const CellCorner ends[2] = { a, b };
     const double weights[2] = { 1 - share, share };
-    this->add(between(a.At, b.At, share), ends, weights, 2);
+    this->add(between(a.Position, b.Position, share), ends, weights, 2);
   }
 
   /// The ends of the segment are on different sides of the face's plane.
@@ -190,9 +191,9 @@ private:
     {
       std::swap(a, b);
     }
-    const int ofA = orientation3(this->Begin, this->End, b.At, c.At);
-    const int ofB = orientation3(this->Begin, this->End, c.At, a.At);
-    const int ofC = orientation3(this->Begin, this->End, a.At, b.At);
+    const int ofA = orientation3(this->Begin, this->End, b.Position, c.Position);
+    const int ofB = orientation3(this->Begin, this->End, c.Position, a.Position);
+    const int ofC = orientation3(this->Begin, this->End, a.Position, b.Position);
     const auto [low, high] = std::minmax({ ofA, ofB, ofC });
     if (low < 0 && high > 0)
     {
@@ -214,16 +215,17 @@ private:
       for (int i = 0; i < 3; ++i)
       {
         weights[i] = std::fabs(dot(this->Along,
-          cross(corners[(i + 1) % 3].At - this->Begin, corners[(i + 2) % 3].At - this->Begin)));
+          cross(corners[(i + 1) % 3].Position - this->Begin,
+            corners[(i + 2) % 3].Position - this->Begin)));
       }
       const double sum = weights[0] + weights[1] + weights[2];
       Point3 at{ 0, 0, 0 };
       for (int i = 0; i < 3; ++i)
       {
         weights[i] = sum > 0 ? weights[i] / sum : 1.0 / 3;
-        at.x += weights[i] * corners[i].At.x;
-        at.y += weights[i] * corners[i].At.y;
-        at.z += weights[i] * corners[i].At.z;
+        at.x += weights[i] * corners[i].Position.x;
+        at.y += weights[i] * corners[i].Position.y;
+        at.z += weights[i] * corners[i].Position.z;
       }
       this->add(at, corners, weights, 3);
     }
@@ -272,8 +274,8 @@ void addCells(const Access& access, const MeshPart& part, SegmentCrossings& cros
     for (int i = 0; i < corners; ++i)
     {
       of[i].Index = access.ids(cell)[i];
-      of[i].At = access.point(of[i].Index);
-      of[i].At.z = corners == 4 ? of[i].At.z : 0;
+      of[i].Position = access.point(of[i].Index);
+      of[i].Position.z = corners == 4 ? of[i].Position.z : 0;
     }
     if (crossings.meetsBox(of, corners))
     {
@@ -440,10 +442,10 @@ Profile profileOf(const ResidentMesh& mesh, const std::vector<Point3>& given, do
     for (const Crossing& crossing : crossings[i])
     {
       // Corners of the polyline are added anyway.
-      if (!(crossing.At == polyline[i]) && !(crossing.At == polyline[i + 1]))
+      if (!(crossing.Position == polyline[i]) && !(crossing.Position == polyline[i + 1]))
       {
         profile.Distances.push_back(before + crossing.Share * length);
-        profile.Points.push_back(crossing.At);
+        profile.Points.push_back(crossing.Position);
         found.push_back(&crossing);
       }
     }

@@ -34,16 +34,17 @@ namespace tipp
 /// empty. Throws std::runtime_error, with one sentence, if the data cannot be used.
 VTKTIPPFILTERS_EXPORT MeshPart partOf(vtkDataObject* data, int threads);
 
-/// Returns `count` points. at(i, p) writes x, y and z of point i to p; z is 0 unless written.
-template <typename At>
-std::vector<Point3> collected(vtkIdType count, const At& at)
+/// Returns `count` points. positionAt(i, p) writes x, y and z of point i to p; z is 0 unless
+/// written.
+template <typename PositionAt>
+std::vector<Point3> collected(vtkIdType count, const PositionAt& positionAt)
 {
   std::vector<Point3> points;
   points.reserve(std::size_t(count));
   for (vtkIdType i = 0; i < count; ++i)
   {
     double p[3] = { 0, 0, 0 };
-    at(i, p);
+    positionAt(i, p);
     points.push_back({ p[0], p[1], p[2] });
   }
   return points;

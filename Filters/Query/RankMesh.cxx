@@ -111,7 +111,7 @@ struct CellCopy
   std::int64_t Id;
   std::int64_t Corners;
   std::array<std::int64_t, 4> Points;
-  std::array<Point3, 4> At;
+  std::array<Point3, 4> Position;
 };
 
 /// A piece of these cells. `owned` are the ids of its own points, ascending.
@@ -147,7 +147,7 @@ MeshPart partOf(const std::vector<CellCopy>& cells, const Ids& owned)
     {
       const auto at = std::lower_bound(points.begin(), points.end(), cells[cell].Points[i]);
       *corner = at - points.begin();
-      piece.Coordinates.as<Point3>()[*corner++] = cells[cell].At[i];
+      piece.Coordinates.as<Point3>()[*corner++] = cells[cell].Position[i];
     }
   }
   return partOf(std::move(piece));
@@ -174,7 +174,7 @@ std::vector<CellCopy> copiesAt(const ResidentPiece& piece, const Ids& points)
     for (int i = 0; i < topology.corners(); ++i)
     {
       copy.Points[std::size_t(i)] = piece.Part->pointId(topology.corner(cell, i));
-      copy.At[std::size_t(i)] = positionOf(*piece.Part, topology.corner(cell, i));
+      copy.Position[std::size_t(i)] = positionOf(*piece.Part, topology.corner(cell, i));
     }
     copies.push_back(copy);
   }

@@ -23,7 +23,7 @@ struct Reached
 {
   std::int64_t Seed;
   std::int64_t Point;
-  Point3 At;
+  Point3 Position;
 
   bool operator<(const Reached& other) const
   {
@@ -149,7 +149,7 @@ public:
     {
       this->grow();
     }
-    for (const std::int64_t item : this->Left)
+    for (const std::int64_t item : this->NotVisited)
     {
       Finished done;
       const Ids& list = (this->ToCells ? this->CellLists : this->PointLists)[std::size_t(item)];
@@ -170,7 +170,7 @@ private:
     for (const Reached& r : this->Front)
     {
       points.push_back(r.Point);
-      positions.push_back(r.At);
+      positions.push_back(r.Position);
     }
     std::vector<Reached> next;
     const PieceGroups groups = groupByPiece(this->Mesh.piecesAround(points, positions));
@@ -307,7 +307,7 @@ private:
         }
         const std::lock_guard<std::mutex> lock(this->Mutex);
         first.insert(first.end(), reached.begin(), reached.end());
-        this->Left.insert(this->Left.end(), left.begin(), left.end());
+        this->NotVisited.insert(this->NotVisited.end(), left.begin(), left.end());
         this->Done.push_back(std::move(done));
       });
     this->take(std::move(first));
@@ -425,7 +425,7 @@ private:
   std::vector<Reached> Front;
   std::vector<Finished> Done;
   /// Items with rings that leave their pieces. Only these have lists below.
-  Ids Left;
+  Ids NotVisited;
   std::vector<Ids> PointLists; ///< lists per seed, ascending
   std::vector<Ids> CellLists;  ///< lists per seed, with repetitions
 };

@@ -363,7 +363,7 @@ private:
   /// A point in the triangle, and the value of the field there.
   struct FieldPoint
   {
-    Point2 At; ///< relative to the first corner
+    Point2 Position; ///< relative to the first corner
     double Value;
   };
 
@@ -393,13 +393,14 @@ private:
     const double ofA = std::fabs(product(along, this->Corners[side] - from));
     const double ofB = std::fabs(product(along, this->Corners[(side + 1) % 3] - from));
     const double share = ofA + ofB > 0 ? ofA / (ofA + ofB) : 0.5;
-    return { { a.At.x + share * (b.At.x - a.At.x), a.At.y + share * (b.At.y - a.At.y) },
+    return { { a.Position.x + share * (b.Position.x - a.Position.x),
+               a.Position.y + share * (b.Position.y - a.Position.y) },
       a.Value + share * (b.Value - a.Value) };
   }
 
   void addPart(const FieldPoint& a, const FieldPoint& b, int times)
   {
-    const double area = times * product(a.At, b.At) / 2;
+    const double area = times * product(a.Position, b.Position) / 2;
     this->Area += area;
     this->Sum += area * ((this->Values[0] + a.Value + b.Value) / 3);
   }

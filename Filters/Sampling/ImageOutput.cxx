@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Exchanges the samples between ranks, and makes the output image and its statistics.
-#include "Sampling/SampledImage.h"
+#include "Sampling/ImageOutput.h"
 
-#include "Output/RunStatistics.h"
 #include "Parallel/ParallelFor.h"
 #include "Pipeline/FilterPipeline.h"
 #include "Ranks/Communicator.h"
+#include "Statistics/RunStatistics.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

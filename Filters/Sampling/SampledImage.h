@@ -19,8 +19,6 @@
 class vtkDataArray;
 class vtkDataSetAttributes;
 class vtkPointSet;
-class vtkImageData;
-class vtkTable;
 
 namespace tipp
 {
@@ -122,28 +120,11 @@ private:
   std::vector<std::string> Warnings;
 };
 
-class Communicator;
-
-/// Combines the samples of all ranks: for each sample of its lattice's extent, `result` gets the
-/// one with the lowest key of any rank. Adds warnings about arrays that differ between ranks.
-/// Extents may differ and be empty. Both images must be Merging. Each rank sends one message to
-/// each rank whose extent overlaps. Collective.
-void exchangeSamples(SampledImage& local, SampledImage& result, Communicator& ranks);
-
 /// Throws std::runtime_error, stating the bytes needed, if the samples do not fit into this
 /// machine's memory. `local` is the lattice sampled on this rank, `wanted` the lattice of its
 /// output; `exchanging` is true if they differ.
 void refuseTooLarge(const Lattice& local, const Lattice& wanted, bool exchanging,
   const std::vector<vtkPointSet*>& meshes, const SamplingSettings& settings);
-
-/// Moves the arrays into the image, with vtkValidPointMask and vtkGhostType. Returns the number of
-/// valid samples.
-std::int64_t fillImage(SampledImage& samples, int threads, vtkImageData* image);
-
-/// Writes statistics to the field data of `table`. `hits`: how many of the output's samples have
-/// values.
-void fillTable(const SamplingStatistics& statistics, std::int64_t samples, std::int64_t hits,
-  int threads, vtkTable* table);
 
 } // namespace tipp
 

@@ -10,34 +10,6 @@
 namespace tipp
 {
 
-std::uint32_t PartitionSets::number(const PartitionIndex* first, const PartitionIndex* last)
-{
-  const auto isEqual = [&](std::uint32_t set)
-  { return std::equal(this->begin(set), this->end(set), first, last); };
-  if (this->Last < this->size() && isEqual(this->Last))
-  {
-    return this->Last;
-  }
-  std::uint64_t hash = 0;
-  for (const PartitionIndex* p = first; p != last; ++p)
-  {
-    hash = (hash ^ std::uint64_t(*p + 1)) * 0x9e3779b97f4a7c15U;
-  }
-  const auto [begin, end] = this->ByHash.equal_range(hash);
-  const auto known =
-    std::find_if(begin, end, [&](const auto& entry) { return isEqual(entry.second); });
-  if (known != end)
-  {
-    this->Last = known->second;
-    return this->Last;
-  }
-  this->Last = static_cast<std::uint32_t>(this->size());
-  this->Members.insert(this->Members.end(), first, last);
-  this->Ends.push_back(this->Members.size());
-  this->ByHash.emplace(hash, this->Last);
-  return this->Last;
-}
-
 void BoundaryTriangles::appendTriangles(const BoundaryTriangles& others)
 {
   std::vector<std::uint32_t> numbers;
@@ -67,7 +39,7 @@ double meanLongSide(const Tiling& tiling)
   return sum;
 }
 
-int piecesOf(double side, double spacing)
+int stepsAlong(double side, double spacing)
 {
   constexpr double most = 4096;
   return static_cast<int>(std::clamp(std::ceil(side / spacing), 1.0, most));
@@ -133,14 +105,14 @@ std::vector<BoundaryVertex> makeArtificialPoints(const Tiling& tiling)
     const Point2 p = { x, y };
     vertices.push_back({ p, -1 - std::int64_t(vertices.size()), tiling.locate(p) });
   };
-  const int columns = piecesOf(width, margin);
+  const int columns = stepsAlong(width, margin);
   for (int i = 0; i <= columns; ++i)
   {
     const double x = i < columns ? frame.xmin + width * (double(i) / columns) : frame.xmax;
     add(x, frame.ymin);
     add(x, frame.ymax);
   }
-  const int rows = piecesOf(height, margin);
+  const int rows = stepsAlong(height, margin);
   for (int i = 1; i < rows; ++i)
   {
     const double y = frame.ymin + height * (double(i) / rows);

@@ -6,10 +6,10 @@
 #include "Engine/PartitionSchedule.h"
 #include "Kernel/DelaunayKernel.h"
 #include "Triangulation/BoundaryTriangles.h"
+#include "Triangulation/Duplicate.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/Tiling.h"
 #include "Triangulation/TriangleSink.h"
-#include "Triangulation/Triangulate.h"
 
 #include <algorithm>
 #include <array>
@@ -269,7 +269,7 @@ private:
   const Regions& Boxes;
   UniqueVertices Unique;
   PartitionIndex Sender = 0;
-  PartitionOrder::Range Later{ nullptr, nullptr };
+  PartitionOrder::LaterPartitions Later{ nullptr, nullptr };
   std::size_t VertexEnd = 0;
   std::vector<std::vector<Corners>> Outgoing; ///< triangles by their recipient's index in Later
   std::vector<Corners> Final;                 ///< triangles without recipient

@@ -4,7 +4,7 @@
 #include "Kernel/Lanes.h"
 #include "Parallel/ParallelFor.h"
 #include "Predicates/ExactPredicates.h"
-#include "Triangulation/Triangulate.h"
+#include "Triangulation/Duplicate.h"
 
 namespace tipp
 {

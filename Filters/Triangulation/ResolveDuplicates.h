@@ -3,7 +3,7 @@
 #define tippResolveDuplicates_h
 
 #include "Points/ReadPoints.h"
-#include "Triangulation/Triangulate.h"
+#include "Triangulation/Duplicate.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstddef>

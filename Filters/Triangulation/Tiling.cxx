@@ -146,7 +146,7 @@ std::int32_t Tiling::addTree(const Tiling& tree, std::int32_t from, const MakeBo
   return node.isBox()
     ? makeBox(node.Partition)
     : this->addCut(
-        node.Axis, node.At, [&] { return this->addTree(tree, node.Child[0], makeBox); },
+        node.Axis, node.Coordinate, [&] { return this->addTree(tree, node.Child[0], makeBox); },
         [&] { return this->addTree(tree, node.Child[1], makeBox); });
 }
 
@@ -213,7 +213,7 @@ void PartitionFinder::fill(std::int32_t node, const Block& block)
   if (!cut.isBox())
   {
     const std::uint32_t at =
-      cut.Axis == 0 ? this->Cells.columns()(cut.At) : this->Cells.rows()(cut.At);
+      cut.Axis == 0 ? this->Cells.columns()(cut.Coordinate) : this->Cells.rows()(cut.Coordinate);
     Block below = block;
     Block above = block;
     below.End[cut.Axis] = std::min(block.End[cut.Axis], at);

@@ -2,6 +2,7 @@
 #ifndef tippTiling_h
 #define tippTiling_h
 
+#include "Engine/PartitionIndex.h"
 #include "Kernel/Lanes.h"
 #include "Predicates/Circumball.h"
 #include "Predicates/Points.h"
@@ -44,8 +45,6 @@ inline void requireFitsKernel(std::size_t pointsInPartition)
       "line.");
   }
 }
-
-using PartitionIndex = std::int32_t;
 
 /// The partitions' boxes: a domain cut in two repeatedly. Every point belongs to exactly one
 /// partition (a point on a cut to the upper one); the boxes are closed and share their borders.
@@ -104,8 +103,8 @@ public:
       const Node* node = &this->node(pending[--size]);
       while (!node->isBox())
       {
-        const bool below = low[node->Axis] <= node->At;
-        const bool above = high[node->Axis] >= node->At;
+        const bool below = low[node->Axis] <= node->Coordinate;
+        const bool above = high[node->Axis] >= node->Coordinate;
         if (below && above)
         {
           pending[size++] = node->Child[1];
@@ -122,7 +121,7 @@ private:
   /// A cut or a box.
   struct Node
   {
-    double At;
+    double Coordinate;
     std::int32_t Axis;
     std::int32_t Child[2]; ///< nodes below the cut and above it; for a box, itself
     PartitionIndex Partition;
@@ -139,7 +138,7 @@ private:
     const Node* at = &this->node(from);
     while (!at->isBox())
     {
-      at = &this->node(at->Child[coordinates[at->Axis] >= at->At]);
+      at = &this->node(at->Child[coordinates[at->Axis] >= at->Coordinate]);
     }
     return at->Partition;
   }

@@ -6,13 +6,12 @@
 #include "Predicates/Points.h"
 #include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/PointBuckets.h"
-#include "Triangulation/Triangulate.h"
+#include "Triangulation/Triangulation.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <numeric>
 #include <unordered_map>
 #include <vector>

@@ -37,10 +37,11 @@ int threadsForPass(std::size_t points, int threads)
 
 /// One run of the algorithm; its member functions are the steps.
 template <typename Id>
-class Run
+class PartitionedTriangulation
 {
 public:
-  Run(PointsView points, const TriangulationOptions& options, Triangulation& result)
+  PartitionedTriangulation(
+    PointsView points, const TriangulationOptions& options, Triangulation& result)
     : Points(points)
     , Options(options)
     , Result(result)
@@ -253,7 +254,7 @@ private:
     Worker<Id> worker(shared.Tiles, this->Buckets);
     this->setEditor(worker);
     Routing<Id> routing(shared.Order, shared.Boxes);
-    for (PartitionIndex p = shared.Ready.take(); p >= 0; p = shared.Ready.take())
+    for (PartitionIndex p = shared.Ready.take(); p != NoPartition; p = shared.Ready.take())
     {
       shared.Stages[shared.Order.position(p)] = { ++shared.Active, shared.Unfinished };
       const std::int64_t handed =
@@ -393,11 +394,11 @@ Triangulation triangulateAll(PointsView input, const TriangulationOptions& optio
   statistics.Phases.push_back({ "survey and tiling", watch.seconds() });
   if (points.size() <= std::size_t(std::numeric_limits<std::int32_t>::max()))
   {
-    Run<std::int32_t>(points, options, result).run(tiling);
+    PartitionedTriangulation<std::int32_t>(points, options, result).run(tiling);
   }
   else
   {
-    Run<std::int64_t>(points, options, result).run(tiling);
+    PartitionedTriangulation<std::int64_t>(points, options, result).run(tiling);
   }
   return result;
 }
@@ -409,39 +410,6 @@ Triangulation triangulate(PointsView input, const TriangulationOptions& options)
   Triangulation result = triangulateAll(input, options);
   leaveOutLong(input, options.MaximumEdge, result);
   return result;
-}
-
-std::vector<char> findLeftOut(const TriangulatedPoints& mesh, std::int64_t points)
-{
-  std::vector<char> isLeftOut(std::size_t(points), 0);
-  for (const Duplicate& duplicate : mesh.Duplicates)
-  {
-    isLeftOut[std::size_t(duplicate.Point)] = 1;
-  }
-  for (const PointId rejected : mesh.Rejected)
-  {
-    isLeftOut[std::size_t(rejected)] = 1;
-  }
-  return isLeftOut;
-}
-
-Buffer<std::int64_t> representativeIds(const TriangulatedPoints& mesh, std::int64_t points)
-{
-  Buffer<std::int64_t> ids{ std::size_t(points) };
-#pragma omp parallel for num_threads(threadCount(mesh.Statistics.Threads))
-  for (std::int64_t i = 0; i < points; ++i)
-  {
-    ids[std::size_t(i)] = i;
-  }
-  for (const Duplicate& duplicate : mesh.Duplicates)
-  {
-    ids[std::size_t(duplicate.Point)] = duplicate.Representative;
-  }
-  for (const PointId rejected : mesh.Rejected)
-  {
-    ids[std::size_t(rejected)] = -1;
-  }
-  return ids;
 }
 
 void leaveOutLong(PointsView points, double longest, Triangulation& mesh)

@@ -302,7 +302,7 @@ void Worker3::route(Index cell, FinalCellConsumer3& final)
   {
     return;
   }
-  const PartitionOrder::Range later = this->Order.later(this->Own.Partition);
+  const PartitionOrder::LaterPartitions later = this->Order.later(this->Own.Partition);
   const auto next = std::find_if(later.begin(), later.end(),
     [&](PartitionIndex q) { return ball.meets(this->Regions[std::size_t(q)]); });
   if (next == later.end())
@@ -317,7 +317,7 @@ SentMessages3 Worker3::send()
 {
   SentMessages3 sent = messagesWith(this->Own.Partition, this->Outgoing, this->Kernel.vertexEnd(),
     [this](Index v) { return this->vertex(v); });
-  const PartitionOrder::Range later = this->Order.later(this->Own.Partition);
+  const PartitionOrder::LaterPartitions later = this->Order.later(this->Own.Partition);
   for (auto& [to, message] : sent)
   {
     to = later.begin()[to];

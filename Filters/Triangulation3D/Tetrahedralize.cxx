@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <mutex>
 #include <stdexcept>
@@ -223,7 +222,7 @@ private:
       {
         FinalCells& mine = made[std::size_t(thread)];
         Worker3 worker(buckets.Regions, order);
-        for (PartitionIndex p = ready.take(); p >= 0; p = ready.take())
+        for (PartitionIndex p = ready.take(); p != NoPartition; p = ready.take())
         {
           SentMessages3 sent =
             worker.triangulate(buckets.of(p), inboxes[std::size_t(p)].take(), mine);

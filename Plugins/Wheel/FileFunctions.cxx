@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Binding.h"
+#include "Constraints/ResolveCrossings.h"
+#include "Constraints/TableConstraints.h"
+#include "OutOfCore/OutOfCoreOptions.h"
 
-#include "Constraints/OnDisk/ConstrainedPoints.h"
+#include "Constraints/OnDisk/ConstrainedStream.h"
 #include "Files/Formats.h"
 #include "Files/OutputFile.h"
 #include "Files/RequireApart.h"
 #include "Flat/FlatMesh.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
-#include "Output/RunStatistics.h"
 #include "Parallel/Poll.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Points/ReadPoints.h"
 #include "Points/TableColumns.h"
 #include "Ranks/Communicator.h"
 #include "Reading/PieceSource.h"
+#include "Statistics/RunStatistics.h"
 
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/pair.h>
@@ -132,7 +135,8 @@ nb::tuple triangulateFiles(
         [&]
         {
           requireApart({ output, scratchIn(options.Scratch) }, inputs);
-          return joinConstraints(openPointStream(inputs, reading), constraints, options);
+          return joinConstraints(openPointStream(inputs, reading), constraints,
+            options.MarkConstraints, options.Threads);
         },
         output, options);
     });

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Binding.h"
+#include "Constraints/ConstraintEdges.h"
+#include "Constraints/Insertion/TriangulateConstrained.h"
+#include "Constraints/PositionIndex.h"
+#include "Constraints/ResolveCrossings.h"
 
-#include "Constraints/ConstraintPoints.h"
+#include "Constraints/SurfaceValues.h"
 #include "InMemory/AlphaShape.h"
 #include "InMemory/TriangulatePoints.h"
-#include "Output/RunStatistics.h"
 #include "Parallel/ParallelFor.h"
+#include "Statistics/RunStatistics.h"
 #include "Triangulation/TriangleLocator.h"
 
 #include <nanobind/stl/string.h>
@@ -145,7 +149,7 @@ nb::dict triangulateArrays(const InputArray& points, const std::optional<InputAr
   if (pairs)
   {
     addConstraintTotals({ resolved, source.Constraints.size() }, statistics);
-    dict["pieces"] = idRowsOf(resolved.Pieces);
+    dict["pieces"] = idRowsOf(resolved.Segments);
     dict["crossings"] = crossingsArray(resolved.Crossings);
   }
   dict["duplicates"] = idRowsOf(mesh.Duplicates);
@@ -158,7 +162,8 @@ nb::dict triangulateArrays(const InputArray& points, const std::optional<InputAr
   }
   if (marks)
   {
-    dict["marks"] = arrayOf(withoutLock([&] { return constraintMarks(mesh, resolved.Pieces); }), 3);
+    dict["marks"] =
+      arrayOf(withoutLock([&] { return constraintMarks(mesh, resolved.Segments); }), 3);
   }
   dict["triangles"] =
     mesh.Ids64.empty() ? arrayOf(std::move(mesh.Ids32), 3) : arrayOf(std::move(mesh.Ids64), 3);

@@ -79,10 +79,10 @@ std::vector<Constraint> readSegments(const std::vector<double>& xy, const std::s
   // This process must not start threads, because measure() forks.
   std::vector<char> crosses(all.size(), 0);
   const ResolvedConstraints resolved = resolveCrossings(points, all, CrossingRule::Split, 1);
-  for (const ConstraintPiece& piece : resolved.Pieces)
+  for (const IdSegment& segment : resolved.Segments)
   {
-    const Constraint& whole = all[std::size_t(piece.Constraint)];
-    crosses[std::size_t(piece.Constraint)] |= char(whole.A != piece.A || whole.B != piece.B);
+    const Constraint& whole = all[std::size_t(segment.Constraint)];
+    crosses[std::size_t(segment.Constraint)] |= char(whole.A != segment.A || whole.B != segment.B);
   }
   std::vector<Constraint> segments;
   for (std::size_t i = 0; i < all.size(); ++i)

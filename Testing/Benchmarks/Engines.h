@@ -2,7 +2,7 @@
 #ifndef tippBenchmarkEngines_h
 #define tippBenchmarkEngines_h
 
-#include "Constraints/TriangulateConstrained.h"
+#include "Constraints/ConstraintEdges.h"
 #include "Triangulation/Triangulate.h"
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A point format: binary files with x and y of each point as doubles.
 #include "Files/IOError.h"
+#include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Points/ReadPoints.h"
 #include "Triangulation/Triangulate.h"

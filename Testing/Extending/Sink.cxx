@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A sink for final triangles, which adds up their areas instead of writing a mesh.
+#include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
+#include "OutOfCore/TriangleConsumer.h"
 #include "Points/ReadPoints.h"
 
 #include "TemporaryFolder.h"

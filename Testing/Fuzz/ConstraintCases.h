@@ -3,10 +3,11 @@
 #define tippConstraintCases_h
 
 #include "Comparison.h"
+#include "Constraints/TableConstraints.h"
 #include "DegeneratePoints.h"
+#include "OutOfCore/OutOfCoreOptions.h"
 
-#include "Constraints/TriangulateConstrained.h"
-#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "Constraints/Insertion/TriangulateConstrained.h"
 #include "Points/ReadPoints.h"
 
 #include <cstdint>

@@ -6,8 +6,9 @@
 #include "FuzzDriver.h"
 #include "TemporaryFolder.h"
 
-#include "Constraints/OnDisk/ConstrainedPoints.h"
+#include "Constraints/OnDisk/ConstrainedStream.h"
 #include "Files/IOError.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
 
 #include <cstdio>
 #include <exception>
@@ -26,7 +27,7 @@ testing::AssertionResult isSameOnDisk(const ConstraintCase& drawn, const MadeInM
     return testing::AssertionSuccess(); // out of core, no finite point is an error
   }
   const TemporaryFolder folder;
-  ConstrainedPoints points(drawn.stream(), drawn.Constraints, "constraints", 1);
+  ConstrainedStream points(drawn.stream(), drawn.Constraints, "constraints", 1);
   try
   {
     triangulateOutOfCore(points, folder.path("mesh.tipp"), drawn.OnDisk);

@@ -2,10 +2,12 @@
 // Draws the cases of fuzzConstraints, and triangulates them on several ranks: in the memory of the
 // ranks, and out of core. Compares the results with that of one process in memory.
 #include "ConstraintCases.h"
+#include "Constraints/ResolveCrossings.h"
 #include "FuzzDriver.h"
 #include "TemporaryFolder.h"
 
-#include "Constraints/OnDisk/ConstrainedPoints.h"
+#include "Constraints/OnDisk/ConstrainedStream.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
 #include "Ranks/Communicator.h"
 
 #include "vtkCellArray.h"
@@ -66,7 +68,7 @@ testing::AssertionResult isSameOnDisk(const ConstraintCase& drawn, const MadeInM
       ranks,
       [&]
       {
-        return std::make_unique<ConstrainedPoints>(
+        return std::make_unique<ConstrainedStream>(
           drawn.stream(), drawn.Constraints, "constraints", 1);
       },
       path, drawn.OnDisk);

@@ -9,10 +9,10 @@
 #include "InMemory/TriangulatePoints.h"
 #include "Meshes/MeshFiles.h"
 #include "OutOfCore3D/OutOfCoreTetrahedralization.h"
-#include "Output/RunStatistics.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/ReadPoints.h"
 #include "Ranks/Communicator.h"
+#include "Statistics/RunStatistics.h"
 #include "Triangulation3D/Tetrahedralize.h"
 
 #include <CLI/CLI.hpp>

@@ -4,8 +4,12 @@
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Console/Process.h"
-#include "Constraints/OnDisk/ConstrainedPoints.h"
-#include "Constraints/TriangulateConstrained.h"
+#include "Constraints/ConstraintEdges.h"
+#include "Constraints/Insertion/TriangulateConstrained.h"
+#include "Constraints/Insertion/TriangulateTable.h"
+#include "Constraints/OnDisk/ConstrainedStream.h"
+#include "Constraints/ResolveCrossings.h"
+#include "Constraints/TableConstraints.h"
 #include "Distributed/ConstrainRanks.h"
 #include "Distributed/DistributedTriangulation.h"
 #include "Files/Formats.h"
@@ -14,6 +18,7 @@
 #include "Files/TextFile.h"
 #include "Files/WorkFolder.h"
 #include "Meshes/MeshFiles.h"
+#include "OutOfCore/OutOfCoreOptions.h"
 #include "Parallel/Stopwatch.h"
 #include "Partitioning/MeshTiling.h"
 #include "Points/ReadPoints.h"
@@ -215,7 +220,7 @@ Triangulation triangulatePoints(
     }
     report = fmt::format("{} constraints of {} edges, {} crossings{}",
       constraints.Lines.Edges.size() + constraints.Boundary.Edges.size(),
-      result.Constraints.Pieces.size(), result.Constraints.Crossings.size(),
+      result.Constraints.Segments.size(), result.Constraints.Crossings.size(),
       describeLeftOut(result.Constraints.NotFinite));
     return std::move(result.Mesh);
   }
@@ -454,7 +459,8 @@ int runInPieces(const DelaunayArguments& arguments, vtkMultiProcessController* c
     {
       reportTables(points->reports());
     }
-    return joinConstraints(std::move(points), arguments.Constraints, options);
+    return joinConstraints(
+      std::move(points), arguments.Constraints, options.MarkConstraints, options.Threads);
   };
   OutOfCoreStatistics statistics;
   const int code =

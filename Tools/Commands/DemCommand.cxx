@@ -3,7 +3,7 @@
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Console/Process.h"
-#include "Constraints/OnDisk/ConstrainedPoints.h"
+#include "Constraints/OnDisk/ConstrainedStream.h"
 #include "Dem/DemSinks.h"
 #include "Dem/MakeDem.h"
 #include "Files/Formats.h"
@@ -461,7 +461,7 @@ int runInPieces(const DemArguments& arguments, vtkMultiProcessController* contro
     {
       return stream;
     }
-    auto joined = std::make_unique<ConstrainedPoints>(std::move(stream),
+    auto joined = std::make_unique<ConstrainedStream>(std::move(stream),
       *arguments.Request.Constraints, arguments.constraintFile(), arguments.Request.Threads);
     joined->setSurface(std::move(surface));
     return joined;

@@ -4,6 +4,8 @@
 #include "Console/Process.h"
 #include "Files/PendingOutput.h"
 #include "Files/RequireApart.h"
+#include "OutOfCore/OutOfCoreOptions.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
 
 #include <fmt/format.h>
 #include <malloc.h>

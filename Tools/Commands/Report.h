@@ -3,9 +3,9 @@
 #define tippReport_h
 
 #include "Files/PendingOutput.h"
-#include "OutOfCore/OutOfCoreTriangulation.h"
-#include "Output/RunStatistics.h"
+#include "OutOfCore/OutOfCoreOptions.h"
 #include "Parallel/Stopwatch.h"
+#include "Statistics/RunStatistics.h"
 
 #include <nlohmann/json.hpp>
 

@@ -4,7 +4,7 @@
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
 #include "Console/Process.h"
-#include "Dem/MakeDem.h"
+#include "Dem/RasterTiles.h"
 #include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Flat/FlatMesh.h"

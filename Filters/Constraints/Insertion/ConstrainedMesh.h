@@ -2,7 +2,7 @@
 #ifndef tippConstrainedMesh_h
 #define tippConstrainedMesh_h
 
-#include "Constraints/ConstraintPieces.h"
+#include "Constraints/ResolveCrossings.h"
 #include "Constraints/SegmentTree.h"
 #include "Kernel/HalfEdgeMesh.h"
 #include "Kernel/KernelPredicates.h"
@@ -25,7 +25,7 @@ class ConstrainedMesh
 public:
   using Index = HalfEdgeMesh::Index;
   static constexpr Index Infinite = InfiniteVertex;
-  static constexpr Index None = -1;
+  static constexpr Index NoIndex = -1;
 
   /// The twin of a half-edge, plus FixedBit if their edge is fixed.
   using Link = Index;
@@ -38,7 +38,7 @@ public:
     this->Slots = slots;
     this->Positions = positions;
     this->LastMark = 0;
-    this->Out.assign(vertices, None);
+    this->Out.assign(vertices, NoIndex);
     for (Index t = 0; t < end; t += 8)
     {
       for (Index i = 0; i < 3; ++i)
@@ -62,7 +62,7 @@ public:
   Point2 at(Index v) const { return this->Positions[std::size_t(v)]; }
 
   /// Whether a vertex has triangles. A duplicate has none.
-  bool isUsed(Index v) const { return this->out(v) != None; }
+  bool isUsed(Index v) const { return this->out(v) != NoIndex; }
   /// A half-edge from the vertex.
   Index out(Index v) const { return this->Out[std::size_t(v)]; }
   void setOut(Index v, Index h) { this->Out[std::size_t(v)] = h; }
@@ -149,17 +149,17 @@ private:
 struct LineWalk
 {
   using Index = ConstrainedMesh::Index;
-  static constexpr Index None = ConstrainedMesh::None;
+  static constexpr Index NoIndex = ConstrainedMesh::NoIndex;
 
   enum class End
   {
     Reached, ///< at the line's end
     Touched, ///< at another vertex, which is on the line
-    Left     ///< where the line leaves the part of the mesh that is final
+    LeftMesh ///< where the line leaves the part of the mesh that is final
   };
-  End How = End::Left;
-  Index Vertex = None; ///< where it ends, unless Left
-  Index Edge = None;   ///< from the first vertex to Vertex, if these have an edge
+  End Reason = End::LeftMesh;
+  Index Vertex = NoIndex; ///< where it ends, unless LeftMesh
+  Index Edge = NoIndex;   ///< from the first vertex to Vertex, if these have an edge
 };
 
 /// A line with a start and an end.
@@ -167,7 +167,7 @@ struct DirectedLine
 {
   Point2 A; ///< where the line starts
   Point2 B;
-  ConstrainedMesh::Index Goal; ///< the vertex at B, or LineWalk::None if it is not known
+  ConstrainedMesh::Index Goal; ///< the vertex at B, or LineWalk::NoIndex if it is not known
 
   /// 1 if p is on the left of the line, -1 on the right, 0 on it.
   int side(Point2 p) const { return orientation(this->B, p, this->A); } // B - A is computed once
@@ -201,7 +201,7 @@ class LineWalker
 public:
   using Index = ConstrainedMesh::Index;
   using Link = ConstrainedMesh::Link;
-  static constexpr Index None = LineWalk::None;
+  static constexpr Index NoIndex = LineWalk::NoIndex;
 
   explicit LineWalker(const ConstrainedMesh& mesh)
     : Mesh(mesh)
@@ -216,7 +216,7 @@ public:
     this->Crossed.Count = 0;
     LineWalk walk;
     const Index first = this->findFirst(line, a, walk);
-    if (first != None)
+    if (first != NoIndex)
     {
       this->cross(line, first, walk);
     }
@@ -236,8 +236,8 @@ public:
   CrossedCavity& crossed() { return this->Crossed; }
 
 private:
-  /// Turns around vertex a to the first half-edge that the line crosses. None if the line continues
-  /// along an edge, which is written to `walk`, or leaves the mesh.
+  /// Turns around vertex a to the first half-edge that the line crosses. NoIndex if the line
+  /// continues along an edge, which is written to `walk`, or leaves the mesh.
   Index findFirst(DirectedLine line, Index a, LineWalk& walk) const
   {
     const ConstrainedMesh& mesh = this->Mesh;
@@ -251,7 +251,7 @@ private:
       if (side == 0 && this->isNext(line, a, to))
       {
         walk = { to == line.Goal ? LineWalk::End::Reached : LineWalk::End::Touched, to, h };
-        return None;
+        return NoIndex;
       }
       const Index other = turnsLeft ? mesh.twin(mesh.previous(h)) : mesh.next(mesh.twin(h));
       to = mesh.to(other);
@@ -263,7 +263,7 @@ private:
       h = other;
       side = otherSide;
     } while (h != begin);
-    return None;
+    return NoIndex;
   }
 
   static constexpr int Unknown = -2; ///< of the infinite vertex
@@ -290,7 +290,7 @@ private:
     const ConstrainedMesh& mesh = this->Mesh;
     CrossedCavity& crossed = this->Crossed;
     const Index a = mesh.apex(out);
-    crossed.Chains[0][0] = crossed.Chains[1][0] = { a, None, mesh.at(a) };
+    crossed.Chains[0][0] = crossed.Chains[1][0] = { a, NoIndex, mesh.at(a) };
     crossed.Chains[0][1] = this->chainVertex(mesh.to(out), mesh.next(out));
     crossed.Chains[1][1] = this->chainVertex(mesh.from(out), mesh.previous(out));
     crossed.Triangles[0] = mesh.triangleOf(out);
@@ -302,7 +302,7 @@ private:
     for (;;)
     {
       crossed.Count = count;
-      if (line.Goal == None &&
+      if (line.Goal == NoIndex &&
         orientation(mesh.at(mesh.from(out)), mesh.at(mesh.to(out)), line.B) >= 0)
       {
         return; // B is in this triangle; another partition will add its vertex
@@ -349,7 +349,7 @@ private:
         if (apex == line.Goal || !(position == line.B))
         {
           walk = { apex == line.Goal ? LineWalk::End::Reached : LineWalk::End::Touched, apex,
-            None };
+            NoIndex };
         }
         return;
       }

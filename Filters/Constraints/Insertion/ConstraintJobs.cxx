@@ -19,25 +19,25 @@ namespace tipp
 namespace
 {
 
-/// Disjoint sets of pieces (union-find).
-class PieceSets
+/// Disjoint sets of segments (union-find).
+class SegmentSets
 {
 public:
-  explicit PieceSets(std::size_t pieces)
-    : Parents(pieces)
+  explicit SegmentSets(std::size_t segments)
+    : Parents(segments)
   {
     std::iota(this->Parents.begin(), this->Parents.end(), std::int64_t(0));
   }
 
-  /// The lowest piece in the set of a piece, which represents the set.
-  std::int64_t find(std::int64_t piece)
+  /// The lowest segment in the set of a segment, which represents the set.
+  std::int64_t find(std::int64_t segment)
   {
-    while (this->parent(piece) != piece)
+    while (this->parent(segment) != segment)
     {
-      this->parent(piece) = this->parent(this->parent(piece));
-      piece = this->parent(piece);
+      this->parent(segment) = this->parent(this->parent(segment));
+      segment = this->parent(segment);
     }
-    return piece;
+    return segment;
   }
 
   void join(std::int64_t a, std::int64_t b)
@@ -47,7 +47,7 @@ public:
   }
 
 private:
-  std::int64_t& parent(std::int64_t piece) { return this->Parents[std::size_t(piece)]; }
+  std::int64_t& parent(std::int64_t segment) { return this->Parents[std::size_t(segment)]; }
 
   std::vector<std::int64_t> Parents;
 };
@@ -95,7 +95,7 @@ public:
 
   /// `known` are constraints that may already be edges between triangles of a job.
   JobWorker(PointsView points, Id* triangles, const CrossedTriangles& crossed,
-    const JobTriangles& jobs, const SplitPieces& split, const ConstraintEdges& known)
+    const JobTriangles& jobs, const SplitSegments& split, const ConstraintEdges& known)
     : Points(points)
     , Triangles(triangles)
     , Crossed(crossed)
@@ -148,19 +148,20 @@ private:
     const LocatedTriangle* loaded, const std::int64_t* first, const std::int64_t* last)
   {
     this->Region.clear();
-    this->Pieces.clear();
+    this->Segments.clear();
     for (const std::int64_t* t = first; t != last; ++t, ++loaded)
     {
       this->Region.add(loaded->Ids, loaded->Positions);
-      this->Pieces.insert(this->Pieces.end(), this->Crossed.begin(*t), this->Crossed.begin(*t + 1));
+      this->Segments.insert(
+        this->Segments.end(), this->Crossed.begin(*t), this->Crossed.begin(*t + 1));
     }
     this->Region.finish();
     this->Region.fixEdges([this](PointId a, PointId b) { return this->Known.contains(a, b); });
-    sortUnique(this->Pieces);
-    for (const std::int64_t piece : this->Pieces)
+    sortUnique(this->Segments);
+    for (const std::int64_t segment : this->Segments)
     {
-      std::for_each(this->Split.begin(std::size_t(piece)), this->Split.end(std::size_t(piece)),
-        [this](const ConstraintPiece& part) { this->Region.insert(part.A, part.B); });
+      std::for_each(this->Split.begin(std::size_t(segment)), this->Split.end(std::size_t(segment)),
+        [this](const IdSegment& part) { this->Region.insert(part.A, part.B); });
     }
     this->New.clear();
     for (std::size_t t = 0; t < this->Region.triangleCount(); ++t)
@@ -184,52 +185,52 @@ private:
   Id* Triangles;
   const CrossedTriangles& Crossed;
   const JobTriangles& Jobs;
-  const SplitPieces& Split;
+  const SplitSegments& Split;
   const ConstraintEdges& Known;
   std::vector<LocatedTriangle> Loaded; ///< of several jobs
   ConstraintRegion Region;
-  std::vector<std::int64_t> Pieces; ///< that cross the job's triangles
+  std::vector<std::int64_t> Segments; ///< that cross the job's triangles
   std::vector<Corners> New;
 };
 
 } // namespace
 
-SplitPieces splitPieces(PointsView points, std::vector<ConstraintPiece>& pieces,
+SplitSegments splitSegments(PointsView points, std::vector<IdSegment>& segments,
   const std::vector<CrossedTriangles::Touch>& touches)
 {
-  SplitPieces split;
+  SplitSegments split;
   if (touches.empty())
   {
-    split.Parts = std::move(pieces);
+    split.Parts = std::move(segments);
     return split;
   }
   const auto at = [&](PointId id) { return points[std::size_t(id)]; };
-  split.Parts.reserve(pieces.size() + touches.size());
-  split.Starts.reserve(pieces.size() + 1);
+  split.Parts.reserve(segments.size() + touches.size());
+  split.Starts.reserve(segments.size() + 1);
   auto touch = touches.begin();
   std::vector<PointId> vertices;
-  for (std::size_t p = 0; p < pieces.size(); ++p)
+  for (std::size_t p = 0; p < segments.size(); ++p)
   {
-    const ConstraintPiece& piece = pieces[p];
+    const IdSegment& segment = segments[p];
     vertices.clear();
-    for (; touch != touches.end() && touch->Piece == std::int64_t(p); ++touch)
+    for (; touch != touches.end() && touch->Segment == std::int64_t(p); ++touch)
     {
       vertices.push_back(touch->Vertex);
     }
     if (!vertices.empty()) // seldom; positions are anywhere in memory
     {
-      const bool isAscending = lexicographicLess(at(piece.A), at(piece.B));
+      const bool isAscending = lexicographicLess(at(segment.A), at(segment.B));
       std::sort(vertices.begin(), vertices.end(),
         [&](PointId a, PointId b) {
           return isAscending ? lexicographicLess(at(a), at(b)) : lexicographicLess(at(b), at(a));
         });
     }
-    vertices.push_back(piece.B);
+    vertices.push_back(segment.B);
     split.Starts.push_back(std::int64_t(split.Parts.size()));
-    PointId from = piece.A;
+    PointId from = segment.A;
     for (const PointId to : vertices)
     {
-      split.Parts.push_back({ from, to, piece.Constraint });
+      split.Parts.push_back({ from, to, segment.Constraint });
       from = to;
     }
   }
@@ -239,17 +240,17 @@ SplitPieces splitPieces(PointsView points, std::vector<ConstraintPiece>& pieces,
 
 std::vector<std::int64_t> jobsOfTriangles(const CrossedTriangles& crossed)
 {
-  IndexMap numbers;                 // of the pieces; only a few of all pieces are left
-  std::vector<std::int64_t> pieces; // as crossed.Pieces, but numbers
-  pieces.reserve(crossed.Pieces.size());
-  std::transform(crossed.Pieces.begin(), crossed.Pieces.end(), std::back_inserter(pieces),
-    [&numbers](std::int64_t piece) { return numbers.insert(piece).Index; });
-  PieceSets sets(numbers.size());
+  IndexMap numbers;                   // of the segments; only a few of all segments are left
+  std::vector<std::int64_t> segments; // as crossed.Segments, but numbers
+  segments.reserve(crossed.Segments.size());
+  std::transform(crossed.Segments.begin(), crossed.Segments.end(), std::back_inserter(segments),
+    [&numbers](std::int64_t segment) { return numbers.insert(segment).Index; });
+  SegmentSets sets(numbers.size());
   for (std::size_t t = 0; t < crossed.Triangles.size(); ++t)
   {
     for (std::int64_t i = crossed.Starts[t] + 1; i < crossed.Starts[t + 1]; ++i)
     {
-      sets.join(pieces[std::size_t(crossed.Starts[t])], pieces[std::size_t(i)]);
+      sets.join(segments[std::size_t(crossed.Starts[t])], segments[std::size_t(i)]);
     }
   }
   // Jobs are in the order of their first triangles, so that a job's memory is near that of the one
@@ -259,7 +260,7 @@ std::vector<std::int64_t> jobsOfTriangles(const CrossedTriangles& crossed)
   result.reserve(crossed.Triangles.size());
   for (std::size_t t = 0; t < crossed.Triangles.size(); ++t)
   {
-    const std::int64_t first = pieces[std::size_t(crossed.Starts[t])];
+    const std::int64_t first = segments[std::size_t(crossed.Starts[t])];
     result.push_back(jobs.insert(sets.find(first)).Index);
   }
   return result;
@@ -267,7 +268,7 @@ std::vector<std::int64_t> jobsOfTriangles(const CrossedTriangles& crossed)
 
 template <typename Id>
 void retriangulateJobs(PointsView points, Id* triangles, const CrossedTriangles& crossed,
-  const SplitPieces& split, const ConstraintEdges& known, int threads)
+  const SplitSegments& split, const ConstraintEdges& known, int threads)
 {
   const JobTriangles jobs(crossed);
   std::deque<JobWorker<Id>> workers;
@@ -282,8 +283,8 @@ void retriangulateJobs(PointsView points, Id* triangles, const CrossedTriangles&
 }
 
 template void retriangulateJobs(PointsView, std::int32_t*, const CrossedTriangles&,
-  const SplitPieces&, const ConstraintEdges&, int);
+  const SplitSegments&, const ConstraintEdges&, int);
 template void retriangulateJobs(PointsView, std::int64_t*, const CrossedTriangles&,
-  const SplitPieces&, const ConstraintEdges&, int);
+  const SplitSegments&, const ConstraintEdges&, int);
 
 } // namespace tipp

@@ -2,7 +2,7 @@
 #ifndef tippConstraintJobs_h
 #define tippConstraintJobs_h
 
-#include "Constraints/ConstraintPieces.h"
+#include "Constraints/ConstraintEdges.h"
 #include "Constraints/Insertion/CrossedTriangles.h"
 #include "Triangulation/PointsView.h"
 #include "vtkTIPPFiltersModule.h"
@@ -14,27 +14,28 @@
 namespace tipp
 {
 
-/// Pieces that are split at the vertices on them.
-struct SplitPieces
+/// Segments that are split at the vertices on them.
+struct SplitSegments
 {
-  std::vector<ConstraintPiece> Parts;
-  std::vector<std::int64_t> Starts; ///< first part of each piece; empty if all have one part
+  std::vector<IdSegment> Parts;
+  std::vector<std::int64_t> Starts; ///< first part of each segment; empty if all have one part
 
   ///@{
-  /// The first part of a piece, and one past the last.
-  const ConstraintPiece* begin(std::size_t piece) const
+  /// The first part of a segment, and one past the last.
+  const IdSegment* begin(std::size_t segment) const
   {
-    return this->Parts.data() + (this->Starts.empty() ? std::int64_t(piece) : this->Starts[piece]);
+    return this->Parts.data() +
+      (this->Starts.empty() ? std::int64_t(segment) : this->Starts[segment]);
   }
-  const ConstraintPiece* end(std::size_t piece) const { return this->begin(piece + 1); }
+  const IdSegment* end(std::size_t segment) const { return this->begin(segment + 1); }
   ///@}
 };
 
-/// `touches` must be sorted by piece. The pieces are moved into the result.
-VTKTIPPFILTERS_EXPORT SplitPieces splitPieces(PointsView points,
-  std::vector<ConstraintPiece>& pieces, const std::vector<CrossedTriangles::Touch>& touches);
+/// `touches` must be sorted by segment. The segments are moved into the result.
+VTKTIPPFILTERS_EXPORT SplitSegments splitSegments(PointsView points,
+  std::vector<IdSegment>& segments, const std::vector<CrossedTriangles::Touch>& touches);
 
-/// The job of each triangle in `crossed`. Pieces that cross a common triangle belong to the same
+/// The job of each triangle in `crossed`. Segments that cross a common triangle belong to the same
 /// job, with all triangles that they cross. Jobs are numbered by their first triangle.
 VTKTIPPFILTERS_EXPORT std::vector<std::int64_t> jobsOfTriangles(const CrossedTriangles& crossed);
 
@@ -44,7 +45,7 @@ VTKTIPPFILTERS_EXPORT std::vector<std::int64_t> jobsOfTriangles(const CrossedTri
 /// CrossingFound.
 template <typename Id>
 void retriangulateJobs(PointsView points, Id* triangles, const CrossedTriangles& crossed,
-  const SplitPieces& split, const ConstraintEdges& known, int threads);
+  const SplitSegments& split, const ConstraintEdges& known, int threads);
 
 } // namespace tipp
 

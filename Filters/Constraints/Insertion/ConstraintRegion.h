@@ -97,15 +97,15 @@ public:
     }
     const DirectedLine line{ this->Mesh.at(from), this->Mesh.at(to), to };
     const LineWalk walk = this->Walker.walk(line, from);
-    if (walk.How == LineWalk::End::Touched)
+    if (walk.Reason == LineWalk::End::Touched)
     {
       throw std::logic_error("A vertex lies on a constraint that was not split there.");
     }
-    if (walk.Edge != LineWalk::None)
+    if (walk.Edge != LineWalk::NoIndex)
     {
       this->Mesh.fix(walk.Edge);
     }
-    else if (walk.How == LineWalk::End::Reached)
+    else if (walk.Reason == LineWalk::End::Reached)
     {
       this->Inserter.insert(this->Walker.crossed());
     }
@@ -129,7 +129,7 @@ private:
   struct OutsideTriangle
   {
     Index Triangle;
-    Index Next; ///< index of another one whose border edge starts at the same vertex, or None
+    Index Next; ///< index of another one whose border edge starts at the same vertex, or NoIndex
   };
 
   static Index halfEdge(std::size_t corner) { return Index(8 * (corner / 3) + corner % 3); }
@@ -150,7 +150,7 @@ private:
   /// Appends a triangle without neighbours.
   Index append(const std::array<Index, 3>& corners)
   {
-    constexpr Index none = ConstrainedMesh::None;
+    constexpr Index none = ConstrainedMesh::NoIndex;
     const auto triangle = Index(this->Slots.size());
     this->Slots.insert(
       this->Slots.end(), { corners[0], corners[1], corners[2], 0, none, none, none, 0 });
@@ -175,10 +175,10 @@ private:
   void surround()
   {
     this->Outside.clear();
-    this->FirstOutside.assign(this->Positions.size(), ConstrainedMesh::None);
+    this->FirstOutside.assign(this->Positions.size(), ConstrainedMesh::NoIndex);
     for (const Index h : this->HalfOfEdge)
     {
-      if (this->twin(h) == ConstrainedMesh::None)
+      if (this->twin(h) == ConstrainedMesh::NoIndex)
       {
         const Index outside =
           this->append({ ConstrainedMesh::Infinite, this->to(h), this->from(h) });
@@ -192,7 +192,7 @@ private:
     {
       const Index from = this->Slots[std::size_t(one.Triangle) + 2];
       const Index next =
-        one.Next != ConstrainedMesh::None ? one.Next : this->FirstOutside[std::size_t(from)];
+        one.Next != ConstrainedMesh::NoIndex ? one.Next : this->FirstOutside[std::size_t(from)];
       this->join(this->Outside[std::size_t(next)].Triangle + 1, this->lastAfter(one.Triangle) + 2);
     }
   }
@@ -218,7 +218,7 @@ private:
   IndexMap Edges;                ///< for joinInside()
   std::vector<Index> HalfOfEdge; ///< by edge, one of its half-edges
   std::vector<OutsideTriangle> Outside;
-  std::vector<Index> FirstOutside; ///< by vertex: index of the first in Outside, or None
+  std::vector<Index> FirstOutside; ///< by vertex: index of the first in Outside, or NoIndex
   ConstrainedMesh Mesh;
   LineWalker Walker;
   SegmentInserter Inserter;

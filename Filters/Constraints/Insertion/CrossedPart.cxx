@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/Insertion/CrossedPart.h"
 
-#include "Constraints/ConstraintPoints.h"
+#include "Constraints/ConstraintEdges.h"
 #include "Constraints/Insertion/ConstraintJobs.h"
 #include "Constraints/Insertion/CrossedTriangles.h"
+#include "Constraints/PositionIndex.h"
+#include "Constraints/SurfaceValues.h"
 #include "Parallel/Sort.h"
 #include "Triangulation/TriangleSink.h"
 
@@ -61,7 +63,7 @@ CrossedTriangles crossingsOf(const CrossedPart& part, const std::vector<std::int
   crossed.Starts.insert(crossed.Starts.end(), part.SegmentEnds.begin(), part.SegmentEnds.end());
   for (const std::int64_t segment : part.Segments)
   {
-    crossed.Pieces.push_back(std::int64_t(indexIn(segments, segment)));
+    crossed.Segments.push_back(std::int64_t(indexIn(segments, segment)));
   }
   return crossed;
 }
@@ -219,13 +221,13 @@ std::size_t moveCrossed(PointsView points, const ConstraintSegments& segments, s
     const auto t = std::size_t(crossing->Triangle);
     keepUntil(t);
     next = t + 1;
-    const Id* const its = corners + 3 * t;
-    part.Triangles.push_back({ first + its[0], first + its[1], first + its[2] });
+    const Id* const ids = corners + 3 * t;
+    part.Triangles.push_back({ first + ids[0], first + ids[1], first + ids[2] });
     part.Positions.push_back(cornersOf(points, corners, t));
     for (; crossing != crossings.end() && crossing->Triangle == std::int64_t(t); ++crossing)
     {
-      used.push_back(crossing->Piece);
-      part.Segments.push_back(segments.nameOf(crossing->Piece));
+      used.push_back(crossing->Segment);
+      part.Segments.push_back(segments.nameOf(crossing->Segment));
     }
     part.SegmentEnds.push_back(part.Segments.size());
   }
@@ -253,13 +255,13 @@ std::size_t takeCrossed(PointsView points, const ConstraintSegments& segments, s
   }
   for (const ScannedTriangles::Edge& edge : found.Edges) // before triangles are moved
   {
-    const Id* const its = corners + 3 * edge.Triangle;
-    part.FixedEdges.push_back({ first + its[edge.From], first + its[(edge.From + 1) % 3] });
+    const Id* const ids = corners + 3 * edge.Triangle;
+    part.FixedEdges.push_back({ first + ids[edge.From], first + ids[(edge.From + 1) % 3] });
   }
   for (const CrossedTriangles::Touch& touch : found.Touches)
   {
     part.Touches.push_back(
-      { segments.nameOf(touch.Piece), first + touch.Vertex, points[std::size_t(touch.Vertex)] });
+      { segments.nameOf(touch.Segment), first + touch.Vertex, points[std::size_t(touch.Vertex)] });
   }
   return moveCrossed(points, segments, first, found.Crossings, corners, triangles, part);
 }
@@ -322,13 +324,13 @@ void retriangulate(CrossedPart& part, int threads)
   PartVertices vertices(part);
   for (const CrossedPart::Touch& touch : part.Touches)
   {
-    const std::size_t piece = indexIn(used, touch.Segment);
-    if (piece < used.size() && used[piece] == touch.Segment)
+    const std::size_t index = indexIn(used, touch.Segment);
+    if (index < used.size() && used[index] == touch.Segment)
     {
-      crossed.Touches.push_back({ std::int64_t(piece), vertices.indexOf(touch.Vertex) });
+      crossed.Touches.push_back({ std::int64_t(index), vertices.indexOf(touch.Vertex) });
     }
   }
-  std::vector<ConstraintPiece> known;
+  std::vector<IdSegment> known;
   for (const auto& edge : part.FixedEdges)
   {
     if (vertices.has(edge[0]) && vertices.has(edge[1])) // others were moved to the rest
@@ -342,15 +344,15 @@ void retriangulate(CrossedPart& part, int threads)
     std::transform(triangle.begin(), triangle.end(), std::back_inserter(corners),
       [&](std::int64_t number) { return vertices.indexOf(number); });
   }
-  std::vector<ConstraintPiece> pieces;
+  std::vector<IdSegment> idSegments;
   for (std::size_t i = 0; i < used.size(); ++i)
   {
     const SegmentTree::Item& segment = knownOf(part, used[i]);
     const PointId a = vertices.indexAt(segment.A);
-    pieces.push_back({ a, vertices.indexAt(segment.B), std::int64_t(i) });
+    idSegments.push_back({ a, vertices.indexAt(segment.B), std::int64_t(i) });
   }
   const PointsView view(vertices.Positions);
-  const SplitPieces split = splitPieces(view, pieces, crossed.Touches);
+  const SplitSegments split = splitSegments(view, idSegments, crossed.Touches);
   retriangulateJobs(view, corners.data(), crossed, split, ConstraintEdges(known), threads);
   for (std::size_t t = 0; t < part.Triangles.size(); ++t)
   {

@@ -5,8 +5,8 @@
 #include "Constraints/SegmentTree.h"
 #include "Kernel/Lanes.h"
 #include "Predicates/ExactPredicates.h"
+#include "Triangulation/Duplicate.h"
 #include "Triangulation/PointsView.h"
-#include "Triangulation/Triangulate.h"
 
 #include <algorithm>
 #include <array>
@@ -20,50 +20,50 @@
 namespace tipp
 {
 
-/// The triangles that pieces of constraints cross, and the vertices on pieces.
+/// The triangles that segments of constraints cross, and the vertices on segments.
 struct CrossedTriangles
 {
-  /// A triangle whose interior a piece meets.
+  /// A triangle whose interior a segment meets.
   struct Crossing
   {
     std::int64_t Triangle;
-    std::int64_t Piece;
+    std::int64_t Segment;
 
     bool operator<(const Crossing& other) const
     {
-      return std::tie(this->Triangle, this->Piece) < std::tie(other.Triangle, other.Piece);
+      return std::tie(this->Triangle, this->Segment) < std::tie(other.Triangle, other.Segment);
     }
     bool operator==(const Crossing& other) const
     {
-      return this->Triangle == other.Triangle && this->Piece == other.Piece;
+      return this->Triangle == other.Triangle && this->Segment == other.Segment;
     }
   };
-  /// A vertex in the interior of a piece.
+  /// A vertex in the interior of a segment.
   struct Touch
   {
-    std::int64_t Piece;
+    std::int64_t Segment;
     PointId Vertex;
 
     bool operator<(const Touch& other) const
     {
-      return std::tie(this->Piece, this->Vertex) < std::tie(other.Piece, other.Vertex);
+      return std::tie(this->Segment, this->Vertex) < std::tie(other.Segment, other.Vertex);
     }
     bool operator==(const Touch& other) const
     {
-      return this->Piece == other.Piece && this->Vertex == other.Vertex;
+      return this->Segment == other.Segment && this->Vertex == other.Vertex;
     }
   };
 
   std::vector<std::int64_t> Triangles; ///< crossed triangles, ascending
-  std::vector<std::int64_t> Starts;    ///< start of each triangle's range in Pieces, and the end
-  std::vector<std::int64_t> Pieces;
-  std::vector<Touch> Touches; ///< sorted by piece and vertex, without repetition
+  std::vector<std::int64_t> Starts;    ///< start of each triangle's range in Segments, and the end
+  std::vector<std::int64_t> Segments;
+  std::vector<Touch> Touches; ///< sorted by segment and vertex, without repetition
 
-  /// The pieces that cross a triangle are in [begin(t), begin(t + 1)), where t is its index in
+  /// The segments that cross a triangle are in [begin(t), begin(t + 1)), where t is its index in
   /// Triangles.
   const std::int64_t* begin(std::int64_t triangle) const
   {
-    return this->Pieces.data() + this->Starts[std::size_t(triangle)];
+    return this->Segments.data() + this->Starts[std::size_t(triangle)];
   }
 };
 
@@ -94,12 +94,12 @@ public:
     for (std::size_t s = 0; s < segments.size(); ++s)
     {
       const SegmentTree::Item& segment = *segments[s];
-      const Box2 its = boxOf(segment.A, segment.B);
-      const int xEnd = this->X.cellOf(its.xmax);
-      const int yEnd = this->Y.cellOf(its.ymax);
-      for (int y = this->Y.cellOf(its.ymin); y <= yEnd; ++y)
+      const Box2 bounds = boxOf(segment.A, segment.B);
+      const int xEnd = this->X.cellOf(bounds.xmax);
+      const int yEnd = this->Y.cellOf(bounds.ymax);
+      for (int y = this->Y.cellOf(bounds.ymin); y <= yEnd; ++y)
       {
-        for (int x = this->X.cellOf(its.xmin); x <= xEnd; ++x)
+        for (int x = this->X.cellOf(bounds.xmin); x <= xEnd; ++x)
         {
           const Box2 cell{ this->X.begin(x), this->Y.begin(y), this->X.end(x), this->Y.end(y) };
           if (lineMayMeet(segment.A, segment.B, cell))
@@ -151,7 +151,7 @@ public:
 private:
   static constexpr int Cells = 32; ///< cells per axis; also the bits of a row of Used
 
-  struct Entry
+  struct SegmentOfCell
   {
     std::int32_t Cell;
     std::int32_t Segment;
@@ -205,7 +205,7 @@ private:
 
   Axis X;
   Axis Y;
-  std::vector<Entry> Near;
+  std::vector<SegmentOfCell> Near;
   std::array<std::int32_t, std::size_t(Cells) * Cells + 1> Starts{};
   std::array<std::uint32_t, Cells> Used{}; ///< per row: a bit for each cell with segments nearby
   std::vector<std::int32_t> Sorted;

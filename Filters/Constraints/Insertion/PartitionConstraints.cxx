@@ -21,27 +21,27 @@ namespace
 
 using Index = DelaunayKernel::Index;
 
-constexpr Index NoVertex = LineWalk::None;
+constexpr Index NoVertex = LineWalk::NoIndex;
 
-/// The vertices of a partition at the ends of pieces.
+/// The vertices of a partition at the ends of segments.
 class EndVertices
 {
 public:
-  /// An end of a piece: twice the piece's number in the partition, plus 1 for B.
+  /// An end of a segment: twice the segment's number in the partition, plus 1 for B.
   using End = std::uint32_t;
 
-  void begin(std::size_t pieces)
+  void begin(std::size_t segments)
   {
     std::size_t lists = 1;
-    while (lists < 4 * pieces)
+    while (lists < 4 * segments)
     {
       lists *= 2;
     }
     this->Last.assign(lists, NoEnd);
     this->Marks.fill(0);
-    this->Ids.resize(2 * pieces);
-    this->Earlier.resize(2 * pieces);
-    this->VertexOf.assign(2 * pieces, NoVertex);
+    this->Ids.resize(2 * segments);
+    this->Earlier.resize(2 * segments);
+    this->VertexOf.assign(2 * segments, NoVertex);
   }
 
   void add(End end, PointId id)
@@ -54,8 +54,8 @@ public:
   /// A quick filter: false for most ids that are not ends.
   bool mayHave(PointId id) const { return (this->Marks[word(id)] & bit(id)) != 0; }
 
-  /// Sets the vertex of all ends with this id. Calls visit(end) for each of them whose piece's ends
-  /// are now both known.
+  /// Sets the vertex of all ends with this id. Calls visit(end) for each of them whose segment's
+  /// ends are now both known.
   template <typename Visit>
   void setVertex(PointId id, Index vertex, const Visit& visit)
   {
@@ -101,8 +101,8 @@ private:
 class PartitionConstraints::Editor : public PartitionEditor
 {
 public:
-  explicit Editor(PartitionConstraints& of)
-    : Of(of)
+  explicit Editor(PartitionConstraints& shared)
+    : Shared(shared)
     , Walker(this->Mesh)
     , Inserter(this->Mesh)
   {
@@ -112,10 +112,10 @@ public:
   void edit(const Partition<std::int64_t>& partition) override { this->editAny(partition); }
 
 private:
-  /// A piece that starts at a vertex of the partition.
-  struct BegunPiece
+  /// A segment that starts at a vertex of the partition.
+  struct BegunSegment
   {
-    std::int64_t Piece;
+    std::int64_t Segment;
     Index From;
     DirectedLine Line;
   };
@@ -123,8 +123,8 @@ private:
   template <typename Id>
   void editAny(const Partition<Id>& partition)
   {
-    this->Near = this->Of.Near.begin(partition.Bucket);
-    this->NearCount = std::size_t(this->Of.Near.end(partition.Bucket) - this->Near);
+    this->Near = this->Shared.Near.begin(partition.Bucket);
+    this->NearCount = std::size_t(this->Shared.Near.end(partition.Bucket) - this->Near);
     if (this->NearCount > 0)
     {
       this->IsBoundary = partition.IsBoundary;
@@ -153,22 +153,22 @@ private:
     }
   }
 
-  const ConstraintPiece& piece(std::size_t number) const
+  const IdSegment& segment(std::size_t number) const
   {
-    return this->Of.Pieces[std::size_t(this->Near[number])];
+    return this->Shared.Segments[std::size_t(this->Near[number])];
   }
 
-  /// Finds the vertices at the ends of pieces. Pieces that have both are in Whole.
+  /// Finds the vertices at the ends of segments. Segments that have both are in Whole.
   template <typename Id>
   void findEnds(const Partition<Id>& partition)
   {
     this->Ends.begin(this->NearCount);
-    constexpr std::size_t ahead = 16; // pieces are scattered in memory
+    constexpr std::size_t ahead = 16; // segments are scattered in memory
     for (std::size_t i = 0; i < this->NearCount; ++i)
     {
-      __builtin_prefetch(&this->piece(std::min(i + ahead, this->NearCount - 1)));
-      this->Ends.add(EndVertices::End(2 * i), this->piece(i).A);
-      this->Ends.add(EndVertices::End(2 * i + 1), this->piece(i).B);
+      __builtin_prefetch(&this->segment(std::min(i + ahead, this->NearCount - 1)));
+      this->Ends.add(EndVertices::End(2 * i), this->segment(i).A);
+      this->Ends.add(EndVertices::End(2 * i + 1), this->segment(i).B);
     }
     this->Whole.clear();
     this->Coinciding.clear();
@@ -216,19 +216,19 @@ private:
                                                                            : NoVertex;
   }
 
-  BegunPiece begun(std::size_t number, bool fromB) const
+  BegunSegment begun(std::size_t number, bool fromB) const
   {
     const auto from = EndVertices::End(2 * number + (fromB ? 1 : 0));
     const Index a = this->Ends.vertex(from);
     const Index b = this->Ends.vertex(from ^ 1);
-    const ConstraintPiece& ids = this->piece(number);
+    const IdSegment& ids = this->segment(number);
     return { this->Near[number], a,
-      { this->Mesh.at(a), b != NoVertex ? this->Mesh.at(b) : this->Of.EndsAt[fromB ? ids.A : ids.B],
-        b } };
+      { this->Mesh.at(a),
+        b != NoVertex ? this->Mesh.at(b) : this->Shared.EndsAt[fromB ? ids.A : ids.B], b } };
   }
 
   /// Inserts what can be inserted, before crossings are recorded, because this changes the edges
-  /// that other pieces cross.
+  /// that other segments cross.
   void insertWhole()
   {
     this->Begun.clear();
@@ -238,20 +238,20 @@ private:
         for (std::size_t i = 0; i < this->Whole.size(); ++i)
         {
           this->prefetchAfter(i);
-          const BegunPiece piece = this->begun(this->Whole[i] / 2, this->Whole[i] % 2 != 0);
-          if (this->follow(piece, true))
+          const BegunSegment segment = this->begun(this->Whole[i] / 2, this->Whole[i] % 2 != 0);
+          if (this->follow(segment, true))
           {
-            this->Of.Done[std::size_t(piece.Piece)] = 1;
+            this->Shared.Done[std::size_t(segment.Segment)] = 1;
           }
           else
           {
-            this->Begun.push_back(piece);
+            this->Begun.push_back(segment);
           }
         }
       });
   }
 
-  /// Starts to load what the next pieces in Whole need, because the mesh is larger than the
+  /// Starts to load what the next segments in Whole need, because the mesh is larger than the
   /// second-level cache.
   [[gnu::always_inline]] void prefetchAfter(std::size_t i) const
   {
@@ -262,7 +262,7 @@ private:
     this->Mesh.prefetchAround(startOf(i + 2));
   }
 
-  /// Records the interior triangles that the remaining pieces cross.
+  /// Records the interior triangles that the remaining segments cross.
   void noteOthers(const std::vector<BorderEdge>& border)
   {
     this->Through.clear();
@@ -279,9 +279,9 @@ private:
         this->Through.push_back(i);
       }
     }
-    for (const BegunPiece& piece : this->Begun)
+    for (const BegunSegment& segment : this->Begun)
     {
-      this->follow(piece, false);
+      this->follow(segment, false);
     }
     this->Border.clear();
     for (const std::size_t number : this->Through)
@@ -290,18 +290,18 @@ private:
     }
   }
 
-  /// Records the interior triangles that a piece without ends in the partition crosses. Follows it
-  /// from each edge and vertex where it enters them.
+  /// Records the interior triangles that a segment without ends in the partition crosses. Follows
+  /// it from each edge and vertex where it enters them.
   void noteEntries(const std::vector<BorderEdge>& border, std::size_t number)
   {
     this->locateBorder(border);
-    const std::int64_t piece = this->Near[number];
-    const ConstraintPiece& ids = this->piece(number);
-    const DirectedLine line{ this->Of.EndsAt[ids.A], this->Of.EndsAt[ids.B], NoVertex };
+    const std::int64_t segment = this->Near[number];
+    const IdSegment& ids = this->segment(number);
+    const DirectedLine line{ this->Shared.EndsAt[ids.A], this->Shared.EndsAt[ids.B], NoVertex };
     const auto noteFromVertex = [&](Index vertex)
     {
-      this->touch(piece, vertex);
-      this->follow({ piece, vertex, line }, false);
+      this->touch(segment, vertex);
+      this->follow({ segment, vertex, line }, false);
     };
     const Box2 box = boxOf(line.A, line.B);
     for (const EntryEdge& edge : this->Border)
@@ -319,8 +319,8 @@ private:
         orientation(edge.From, edge.To, line.B) < 0)
       {
         const LineWalk walk = this->Walker.walkAcross(line, edge.Half);
-        this->note(piece);
-        if (walk.How == LineWalk::End::Touched)
+        this->note(segment);
+        if (walk.Reason == LineWalk::End::Touched)
         {
           noteFromVertex(walk.Vertex);
         }
@@ -339,38 +339,38 @@ private:
     }
   }
 
-  /// Follows a piece from a vertex on it. If `inserts`, inserts its parts that only cross interior
-  /// triangles; otherwise records the interior triangles that it crosses. Returns whether all parts
-  /// are edges.
-  bool follow(const BegunPiece& begun, bool inserts)
+  /// Follows a segment from a vertex on it. If `inserts`, inserts its parts that only cross
+  /// interior triangles; otherwise records the interior triangles that it crosses. Returns whether
+  /// all parts are edges.
+  bool follow(const BegunSegment& begun, bool inserts)
   {
     Index at = begun.From;
     bool isAllThere = true;
     for (;;)
     {
       const LineWalk walk = this->Walker.walk(begun.Line, at);
-      isAllThere = (inserts ? this->insert(walk) : this->note(begun.Piece)) && isAllThere;
-      if (walk.How != LineWalk::End::Touched)
+      isAllThere = (inserts ? this->insert(walk) : this->note(begun.Segment)) && isAllThere;
+      if (walk.Reason != LineWalk::End::Touched)
       {
-        return isAllThere && walk.How == LineWalk::End::Reached;
+        return isAllThere && walk.Reason == LineWalk::End::Reached;
       }
       at = walk.Vertex;
-      this->touch(begun.Piece, at);
+      this->touch(begun.Segment, at);
     }
   }
 
-  void touch(std::int64_t piece, Index vertex)
+  void touch(std::int64_t segment, Index vertex)
   {
     const PointId id = this->IdOf(vertex);
     if (id >= 0)
     {
-      this->Touches.push_back({ piece, id });
+      this->Touches.push_back({ segment, id });
     }
   }
 
   bool insert(const LineWalk& walk)
   {
-    if (walk.How == LineWalk::End::Left)
+    if (walk.Reason == LineWalk::End::LeftMesh)
     {
       return false;
     }
@@ -389,23 +389,23 @@ private:
     return true;
   }
 
-  bool note(std::int64_t piece)
+  bool note(std::int64_t segment)
   {
     const CrossedCavity& crossed = this->Walker.crossed();
     for (std::size_t i = 0; i < crossed.Count; ++i)
     {
-      this->noteTriangle(piece, crossed.Triangles[i]);
+      this->noteTriangle(segment, crossed.Triangles[i]);
     }
     return false;
   }
 
-  void noteTriangle(std::int64_t piece, Index triangle)
+  void noteTriangle(std::int64_t segment, Index triangle)
   {
     if (this->Mesh.isKept(triangle))
     {
       return;
     }
-    this->Noted.push_back({ std::int64_t(DelaunayKernel::number(triangle)), piece });
+    this->Noted.push_back({ std::int64_t(DelaunayKernel::number(triangle)), segment });
     for (Index i = 0; i < 3; ++i)
     {
       const Index half = triangle + i;
@@ -424,35 +424,36 @@ private:
     crossings.reserve(this->Noted.size());
     std::int64_t at = 0;
     std::int64_t before = 0; // number of interior triangles before `at`
-    for (const auto& [triangle, piece] : this->Noted)
+    for (const auto& [triangle, segment] : this->Noted)
     {
       before += std::count(this->IsBoundary + at, this->IsBoundary + triangle, 0);
       at = triangle;
-      crossings.push_back({ before, piece });
+      crossings.push_back({ before, segment });
     }
-    this->Of.Crossings[std::size_t(partition)] = std::move(crossings);
-    const std::lock_guard<std::mutex> lock(this->Of.Mutex);
-    this->Of.Touches.insert(this->Of.Touches.end(), this->Touches.begin(), this->Touches.end());
-    this->Of.FixedEdges.insert(
-      this->Of.FixedEdges.end(), this->FixedEdges.begin(), this->FixedEdges.end());
+    this->Shared.Crossings[std::size_t(partition)] = std::move(crossings);
+    const std::lock_guard<std::mutex> lock(this->Shared.Mutex);
+    this->Shared.Touches.insert(
+      this->Shared.Touches.end(), this->Touches.begin(), this->Touches.end());
+    this->Shared.FixedEdges.insert(
+      this->Shared.FixedEdges.end(), this->FixedEdges.begin(), this->FixedEdges.end());
     this->Touches.clear();
     this->FixedEdges.clear();
     this->Noted.clear();
   }
 
-  PartitionConstraints& Of;
+  PartitionConstraints& Shared;
   ConstrainedMesh Mesh;
   LineWalker Walker;
   SegmentInserter Inserter;
   const char* IsBoundary = nullptr;
   std::function<PointId(Index)> IdOf;
-  const std::int64_t* Near = nullptr; ///< the pieces near the partition
+  const std::int64_t* Near = nullptr; ///< the segments near the partition
   std::size_t NearCount = 0;
   EndVertices Ends;
   std::vector<EndVertices::End>
-    Whole;                       ///< of pieces with both ends in the partition: the one found last
-  std::vector<BegunPiece> Begun; ///< pieces with one or both ends here that are not inserted
-  std::vector<std::size_t> Through; ///< by number in Near: pieces without ends in the partition
+    Whole; ///< of segments with both ends in the partition: the one found last
+  std::vector<BegunSegment> Begun;  ///< segments with one or both ends here that are not inserted
+  std::vector<std::size_t> Through; ///< by number in Near: segments without ends in the partition
   std::vector<std::pair<std::size_t, Index>> Coinciding; ///< points and the vertices at them
   struct EntryEdge
   {
@@ -467,11 +468,11 @@ private:
 };
 
 PartitionConstraints::PartitionConstraints(
-  const std::vector<ConstraintPiece>& pieces, int threads, std::vector<Point2> others)
-  : Pieces(pieces)
+  const std::vector<IdSegment>& segments, int threads, std::vector<Point2> others)
+  : Segments(segments)
   , Threads(threads)
   , EndsAt{ {}, std::move(others) }
-  , Done(pieces.size(), 0)
+  , Done(segments.size(), 0)
 {
 }
 
@@ -483,20 +484,20 @@ void PartitionConstraints::begin(PointsView points, const Tiling& tiling)
     p = { p.x * points.factor(), p.y * points.factor() };
   }
   this->Crossings.resize(std::size_t(tiling.size()));
-  this->Near = PartitionPieces(tiling, this->Pieces, this->EndsAt, this->Threads);
+  this->Near = PartitionSegments(tiling, this->Segments, this->EndsAt, this->Threads);
 }
 
 std::vector<std::int64_t> PartitionConstraints::remaining() const
 {
-  std::vector<std::int64_t> pieces;
-  for (std::size_t piece = 0; piece < this->Done.size(); ++piece)
+  std::vector<std::int64_t> segments;
+  for (std::size_t segment = 0; segment < this->Done.size(); ++segment)
   {
-    if (!this->Done[piece])
+    if (!this->Done[segment])
     {
-      pieces.push_back(std::int64_t(piece));
+      segments.push_back(std::int64_t(segment));
     }
   }
-  return pieces;
+  return segments;
 }
 
 std::unique_ptr<PartitionEditor> PartitionConstraints::makeEditor()

@@ -149,7 +149,7 @@ private:
       return;
     }
     v.Outer = ~(Link(2 * this->Inner.size()) + (ConstrainedMesh::isFixed(v.Outer) ? 1 : 0));
-    this->Inner.push_back(ConstrainedMesh::None);
+    this->Inner.push_back(ConstrainedMesh::NoIndex);
     this->Mesh.setLink(twin, v.Outer);
   }
 
@@ -162,7 +162,7 @@ private:
       return;
     }
     Index& first = this->Inner[std::size_t(~outer / 2)];
-    if (first == ConstrainedMesh::None)
+    if (first == ConstrainedMesh::NoIndex)
     {
       first = half;
     }
@@ -339,7 +339,7 @@ private:
 
   ConstrainedMesh& Mesh;
   const Index* Removed = nullptr; ///< one past the crossed triangles that have not been reused yet
-  std::vector<Index> Inner;       ///< by inner edge: a new half-edge, or None
+  std::vector<Index> Inner;       ///< by inner edge: a new half-edge, or NoIndex
   std::vector<Index> Suspects;    ///< half-edges that may have to be flipped
 };
 

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/OnDisk/SplitStored.h"
 
+#include "Constraints/ConstraintEdges.h"
 #include "Constraints/NearSegments.h"
-#include "OutOfCore/InputPasses.h"
+#include "Constraints/PositionIndex.h"
+#include "Constraints/ResolveCrossings.h"
+#include "Constraints/SurfaceValues.h"
 #include "Parallel/ParallelFor.h"
 #include "Predicates/ExactPredicates.h"
+#include "Triangulation/StreamSampler.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <set>
-#include <stdexcept>
 #include <utility>
 
 namespace tipp
@@ -411,12 +413,12 @@ private:
       return i < taken.Positions.size() ? taken.Positions[i]
                                         : resolved.Crossings[i - taken.Positions.size()].Position;
     };
-    for (const ConstraintPiece& piece : resolved.Pieces)
+    for (const IdSegment& segment : resolved.Segments)
     {
-      if (resolved.Crosses[std::size_t(piece.Constraint)])
+      if (resolved.Crosses[std::size_t(segment.Constraint)])
       {
         result.Parts.push_back(
-          { taken.Numbers[std::size_t(piece.Constraint)], at(piece.A), at(piece.B) });
+          { taken.Numbers[std::size_t(segment.Constraint)], at(segment.A), at(segment.B) });
       }
     }
     for (const CrossingPoint& crossed : resolved.Crossings)
@@ -441,11 +443,11 @@ private:
     if (this->Columns > 0)
     {
       this->Constraints.lookUp(taken.Ends,
-        [&](std::size_t end, PointId, const double* its)
+        [&](std::size_t end, PointId, const double* row)
         {
           for (std::size_t c = 0; c < this->Columns; ++c)
           {
-            values[c][found + end] = its[c];
+            values[c][found + end] = row[c];
           }
         });
     }

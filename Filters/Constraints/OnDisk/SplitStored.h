@@ -2,8 +2,8 @@
 #ifndef tippSplitStored_h
 #define tippSplitStored_h
 
-#include "Constraints/ConstraintPieces.h"
 #include "Constraints/OnDisk/StoredConstraints.h"
+#include "Constraints/ResolveCrossings.h"
 #include "Constraints/SegmentTree.h"
 #include "Ranks/Spill.h"
 #include "Triangulation/Tiling.h"

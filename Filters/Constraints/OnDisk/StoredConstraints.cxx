@@ -79,7 +79,7 @@ std::vector<std::size_t> PositionJoin::mayMatch(PointsView points)
   const auto count = std::int64_t(points.size());
   std::vector<std::vector<std::size_t>> found(std::size_t((count + chunk - 1) / chunk));
   const auto look =
-    [&](const Point2* block, std::size_t first, std::size_t size, std::vector<std::size_t>& its)
+    [&](const Point2* block, std::size_t first, std::size_t size, std::vector<std::size_t>& matches)
   {
     std::array<std::uint64_t, group> hashes;
     for (std::size_t i = 0; i < size; ++i)
@@ -92,7 +92,7 @@ std::vector<std::size_t> PositionJoin::mayMatch(PointsView points)
       const std::uint64_t bits = bitsOf(hashes[i]);
       if ((this->wordOf(hashes[i]) & bits) == bits)
       {
-        its.push_back(first + i);
+        matches.push_back(first + i);
       }
     }
   };

@@ -2,9 +2,10 @@
 #ifndef tippStoredConstraints_h
 #define tippStoredConstraints_h
 
-#include "Constraints/ConstraintPoints.h"
+#include "Constraints/ConstraintEdges.h"
 #include "Constraints/ConstraintSegments.h"
-#include "Constraints/TriangulateConstrained.h"
+#include "Constraints/PositionIndex.h"
+#include "Constraints/TableConstraints.h"
 #include "Points/ReadPoints.h"
 #include "Ranks/Spill.h"
 #include "Triangulation/PointsView.h"

@@ -49,8 +49,8 @@ TEST(Constrain, SplitsAtAPointOnTheSegment)
   const std::vector<Constraint> constraints{ { 0, 2 } };
   const ConstrainedTriangulation result = run(xy, constraints);
   EXPECT_TRUE(isConstrained(xy, constraints, result));
-  ASSERT_EQ(2u, result.Constraints.Pieces.size());
-  EXPECT_EQ(6, result.Constraints.Pieces[0].B);
+  ASSERT_EQ(2u, result.Constraints.Segments.size());
+  EXPECT_EQ(6, result.Constraints.Segments[0].B);
 }
 
 TEST(Constrain, AcceptsOverlappingRepeatedAndReversedSegments)
@@ -68,7 +68,7 @@ TEST(Constrain, MapsEndsToRepresentatives)
   const std::vector<Constraint> constraints{ { 6, 7 }, { 0, 6 } };
   const ConstrainedTriangulation result = run(xy, constraints);
   EXPECT_TRUE(isConstrained(xy, constraints, result));
-  EXPECT_EQ(0, result.Constraints.Pieces.front().A);
+  EXPECT_EQ(0, result.Constraints.Segments.front().A);
 }
 
 TEST(Constrain, LeavesOutEndsThatAreNotFinite)

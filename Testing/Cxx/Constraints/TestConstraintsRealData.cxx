@@ -2,11 +2,15 @@
 // Real boundaries and breaklines.
 #include "Comparison.h"
 #include "ConstrainedOracle.h"
+#include "Constraints/ConstraintEdges.h"
+#include "Constraints/Insertion/KeepInside.h"
+#include "Constraints/Insertion/TriangulateTable.h"
+#include "Constraints/ResolveCrossings.h"
+#include "Constraints/TableConstraints.h"
 #include "RealData.h"
 
 #include "Adcirc/AdcircGrid.h"
-#include "Constraints/KeepInside.h"
-#include "Constraints/TriangulateConstrained.h"
+#include "Constraints/Insertion/TriangulateConstrained.h"
 
 #include <fstream>
 #include <string>
@@ -165,8 +169,8 @@ TEST(RealConstraints, BorderOfLacLemanCutsTheLake)
   const FreeFemMesh lake = readFreeFem(path);
   ConstrainedTriangulation result =
     triangulateConstrained(view(lake.Mesh.Nodes), lake.Border, CrossingRule::Refuse);
-  const std::vector<ConstraintPiece>& pieces = result.Constraints.Pieces;
-  keepInside(view(lake.Mesh.Nodes), result.Mesh, pieces, { {}, pieces, {} });
+  const std::vector<IdSegment>& segments = result.Constraints.Segments;
+  keepInside(view(lake.Mesh.Nodes), result.Mesh, segments, { {}, segments, {} });
   // By Euler's formula, all triangulations of the lake have this number of triangles.
   EXPECT_EQ(lake.Mesh.Elements.size(), result.Mesh.triangleCount());
 }

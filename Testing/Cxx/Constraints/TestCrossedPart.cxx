@@ -2,11 +2,13 @@
 // Jobs of crossed triangles, and parts of a triangulation, as in out-of-core runs and on ranks.
 #include "Comparison.h"
 #include "ConstrainedOracle.h"
+#include "Constraints/ConstraintEdges.h"
+#include "Constraints/Insertion/KeepInside.h"
+#include "Constraints/Insertion/TriangulateConstrained.h"
 #include "PointSets.h"
 
 #include "Constraints/Insertion/ConstraintJobs.h"
 #include "Constraints/Insertion/CrossedPart.h"
-#include "Constraints/KeepInside.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +25,7 @@ TEST(ConstraintJobs, JoinPiecesThatCrossTheSameTriangle)
 {
   CrossedTriangles crossed;
   crossed.Triangles = { 3, 8, 9, 20, 21 };
-  crossed.Pieces = { 1, 4, /**/ 2, /**/ 4, 5, /**/ 2, /**/ 5 };
+  crossed.Segments = { 1, 4, /**/ 2, /**/ 4, 5, /**/ 2, /**/ 5 };
   crossed.Starts = { 0, 2, 3, 5, 6, 7 };
   // Jobs are numbered by their first triangle: 1, 4 and 5 are job 0, 2 is job 1.
   EXPECT_EQ((std::vector<std::int64_t>{ 0, 1, 0, 1, 0 }), jobsOfTriangles(crossed));
@@ -32,12 +34,12 @@ TEST(ConstraintJobs, JoinPiecesThatCrossTheSameTriangle)
 TEST(ConstraintJobs, SplitPiecesAtTouchesAlongTheirDirection)
 {
   const Coordinates xy{ 0, 0, 1, 0, 2, 0, 3, 0, 0, 5 };
-  std::vector<ConstraintPiece> pieces{ { 0, 3, 7 }, { 3, 0, 8 }, { 0, 4, 9 } };
-  const SplitPieces split =
-    splitPieces(view(xy), pieces, { { 0, 1 }, { 0, 2 }, { 1, 1 }, { 1, 2 } });
+  std::vector<IdSegment> idSegments{ { 0, 3, 7 }, { 3, 0, 8 }, { 0, 4, 9 } };
+  const SplitSegments split =
+    splitSegments(view(xy), idSegments, { { 0, 1 }, { 0, 2 }, { 1, 1 }, { 1, 2 } });
   EXPECT_EQ((std::vector<std::int64_t>{ 0, 3, 6, 7 }), split.Starts);
   std::vector<PointId> ends;
-  for (const ConstraintPiece& part : split.Parts)
+  for (const IdSegment& part : split.Parts)
   {
     ends.insert(ends.end(), { part.A, part.B });
   }
@@ -48,8 +50,8 @@ TEST(ConstraintJobs, SplitPiecesAtTouchesAlongTheirDirection)
 
 TEST(ConstraintJobs, LeavePiecesWithoutTouchesWhole)
 {
-  std::vector<ConstraintPiece> pieces{ { 0, 1, 0 } };
-  const SplitPieces split = splitPieces(view({ 0, 0, 1, 0 }), pieces, {});
+  std::vector<IdSegment> idSegments{ { 0, 1, 0 } };
+  const SplitSegments split = splitSegments(view({ 0, 0, 1, 0 }), idSegments, {});
   EXPECT_TRUE(split.Starts.empty());
   EXPECT_EQ(1u, split.Parts.size());
 }
@@ -70,9 +72,9 @@ struct Scene
     this->Whole = triangulateConstrained(view(this->XY), this->Constraints);
     this->XY = withCrossings(this->XY, this->Whole);
     this->Mesh = trianglesOf(triangulate(view(this->XY)));
-    for (const ConstraintPiece& piece : this->Whole.Constraints.Pieces)
+    for (const IdSegment& segment : this->Whole.Constraints.Segments)
     {
-      this->Segments.push_back({ this->at(piece.A), this->at(piece.B), SegmentRole::Line });
+      this->Segments.push_back({ this->at(segment.A), this->at(segment.B), SegmentRole::Line });
     }
     // Adds a segment with points on it: a segment need not be split at the points on it.
     const Constraint& first = this->Constraints.front();
@@ -211,7 +213,7 @@ TEST_P(CrossedParts, MarkTheEdgesOfSegments)
   }
   std::vector<std::uint8_t> marks(corners.size());
   markEdges(view(scene.XY), segments, corners.data(), mesh.size(), marks.data());
-  const ConstraintEdges edges(scene.Whole.Constraints.Pieces);
+  const ConstraintEdges edges(scene.Whole.Constraints.Segments);
   for (std::size_t c = 0; c < corners.size(); ++c)
   {
     const std::int32_t a = corners[c % 3 == 2 ? c - 2 : c + 1];
@@ -248,11 +250,12 @@ TEST(ConstraintSegments, KeepTheSameTrianglesAsInMemory)
   addRing(0.8, 0.55, 0.1, 4); // lines around a hole
   ConstrainedTriangulation made = triangulateConstrained(view(xy), constraints);
   xy = withCrossings(xy, made);
-  const std::vector<ConstraintPiece>& pieces = made.Constraints.Pieces;
+  const std::vector<IdSegment>& idSegments = made.Constraints.Segments;
   const std::vector<Point2> seeds{ { 0.8, 0.55 } };
   Triangles all = trianglesOf(made.Mesh);
-  keepInside(view(xy), made.Mesh, pieces,
-    { piecesOf(pieces, 0, polygonEnd), piecesOf(pieces, polygonEnd, boundaryEnd), seeds });
+  keepInside(view(xy), made.Mesh, idSegments,
+    { segmentsOf(idSegments, 0, polygonEnd), segmentsOf(idSegments, polygonEnd, boundaryEnd),
+      seeds });
   std::vector<ConstraintSegment> segments;
   std::vector<PositionPair> lines;
   HullOfPoints hull;
@@ -263,14 +266,14 @@ TEST(ConstraintSegments, KeepTheSameTrianglesAsInMemory)
   {
     hull.add(at(std::int64_t(i)));
   }
-  for (const ConstraintPiece& piece : pieces)
+  for (const IdSegment& segment : idSegments)
   {
-    const auto constraint = std::size_t(piece.Constraint);
-    segments.push_back({ at(piece.A), at(piece.B),
+    const auto constraint = std::size_t(segment.Constraint);
+    segments.push_back({ at(segment.A), at(segment.B),
       constraint < polygonEnd      ? SegmentRole::Polygon
         : constraint < boundaryEnd ? SegmentRole::Boundary
                                    : SegmentRole::Line });
-    lines.push_back({ at(piece.A), at(piece.B) });
+    lines.push_back({ at(segment.A), at(segment.B) });
   }
   for (const auto& [a, b] : edgesAroundHoles(hull.corners(), lines, seeds, 2))
   {

@@ -51,9 +51,9 @@ Counts countsOfTipp(const Coordinates& xy, const std::vector<Constraint>& constr
 {
   const ConstrainedTriangulation result = triangulateConstrained(view(xy), constraints);
   std::set<std::pair<PointId, PointId>> edges;
-  for (const ConstraintPiece& piece : result.Constraints.Pieces)
+  for (const IdSegment& segment : result.Constraints.Segments)
   {
-    edges.insert(std::minmax(piece.A, piece.B));
+    edges.insert(std::minmax(segment.A, segment.B));
   }
   return { xy.size() / 2 + result.Constraints.Crossings.size() - result.Mesh.Duplicates.size(),
     edges.size() };

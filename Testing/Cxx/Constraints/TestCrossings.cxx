@@ -139,15 +139,15 @@ TEST(Crossings, AreNotReportedIfThereAreNone)
 std::vector<PointId> chainOf(const ConstrainedTriangulation& result, std::int64_t constraint)
 {
   std::vector<PointId> chain;
-  for (const ConstraintPiece& piece : result.Constraints.Pieces)
+  for (const IdSegment& segment : result.Constraints.Segments)
   {
-    if (piece.Constraint == constraint)
+    if (segment.Constraint == constraint)
     {
       if (chain.empty())
       {
-        chain.push_back(piece.A);
+        chain.push_back(segment.A);
       }
-      chain.push_back(piece.B);
+      chain.push_back(segment.B);
     }
   }
   return chain;
@@ -352,10 +352,10 @@ TEST(Crossings, MoveEachVertexByAtMostHalfAUnit)
     }
     const auto at = [&xy](PointId id, std::size_t axis)
     { return mpq_class(xy[2 * std::size_t(id) + axis]); };
-    for (const ConstraintPiece& piece : resolved.Pieces)
+    for (const IdSegment& segment : resolved.Segments)
     {
-      const auto& [a, b] = constraints[std::size_t(piece.Constraint)];
-      const PointId p = piece.B;
+      const auto& [a, b] = constraints[std::size_t(segment.Constraint)];
+      const PointId p = segment.B;
       const mpq_class dx = at(b, 0) - at(a, 0);
       const mpq_class dy = at(b, 1) - at(a, 1);
       const mpq_class off = dx * (at(p, 1) - at(a, 1)) - dy * (at(p, 0) - at(a, 0));
@@ -378,9 +378,9 @@ TEST(Crossings, DoNotMoveConstraintsByMoreThanRounding)
   const ResolvedConstraints resolved =
     resolveCrossings(view(xy), { { 0, 1 }, { 2, 3 }, { 4, 5 } }, CrossingRule::Split, 1, {});
   EXPECT_EQ(1u, resolved.Crossings.size());
-  ASSERT_EQ(5u, resolved.Pieces.size());
-  EXPECT_EQ(6, resolved.Pieces[0].B);
-  EXPECT_EQ(1, resolved.Pieces[1].B);
+  ASSERT_EQ(5u, resolved.Segments.size());
+  EXPECT_EQ(6, resolved.Segments[0].B);
+  EXPECT_EQ(1, resolved.Segments[1].B);
 }
 
 /// The segments are one unit in the last place apart, so a rounded crossing may be far along them.

@@ -4,7 +4,7 @@
 #include "Check/DelaunayChecker.h"
 #include "InMemory/TriangulatePoints.h"
 #include "Kernel/DelaunayKernel3.h"
-#include "Output/RunStatistics.h"
+#include "Statistics/RunStatistics.h"
 
 #include <gtest/gtest.h>
 

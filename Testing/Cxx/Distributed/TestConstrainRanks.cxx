@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Constraints on several ranks give the triangles of one process.
+#include "Constraints/ConstraintEdges.h"
+#include "Constraints/Insertion/KeepInside.h"
+#include "Constraints/ResolveCrossings.h"
 #include "DistributedTesting.h"
 
 #include "Comparison.h"
-#include "Constraints/KeepInside.h"
-#include "Constraints/TriangulateConstrained.h"
+#include "Constraints/Insertion/TriangulateConstrained.h"
 
 #include <cmath>
 #include <random>
@@ -30,9 +32,9 @@ Case makeCase(Coordinates xy, const std::vector<Constraint>& constraints, std::s
     triangulateConstrained(view(xy), constraints, CrossingRule::Split, {},
       [&](ConstrainedTriangulation& all)
       {
-        const std::vector<ConstraintPiece>& pieces = all.Constraints.Pieces;
-        const auto polygons = piecesOf(pieces, polygonBegin, constraints.size());
-        keepInside({}, all.Mesh, pieces, { polygons, {}, {} });
+        const std::vector<IdSegment>& segments = all.Constraints.Segments;
+        const auto polygons = segmentsOf(segments, polygonBegin, constraints.size());
+        keepInside({}, all.Mesh, segments, { polygons, {}, {} });
       });
   result.Expected = trianglesOf(whole.Mesh);
   for (const CrossingPoint& crossing : whole.Constraints.Crossings)
@@ -42,10 +44,10 @@ Case makeCase(Coordinates xy, const std::vector<Constraint>& constraints, std::s
   const auto at = [&xy](std::int64_t id) {
     return Point2{ xy[2 * std::size_t(id)], xy[2 * std::size_t(id) + 1] };
   };
-  for (const ConstraintPiece& piece : whole.Constraints.Pieces)
+  for (const IdSegment& segment : whole.Constraints.Segments)
   {
-    result.Segments.push_back({ at(piece.A), at(piece.B),
-      std::size_t(piece.Constraint) >= polygonBegin ? SegmentRole::Polygon : SegmentRole::Line });
+    result.Segments.push_back({ at(segment.A), at(segment.B),
+      std::size_t(segment.Constraint) >= polygonBegin ? SegmentRole::Polygon : SegmentRole::Line });
   }
   result.XY = std::move(xy);
   return result;

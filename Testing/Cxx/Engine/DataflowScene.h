@@ -174,7 +174,7 @@ inline bool conflict(const PartitionOrder& order, PartitionIndex p, PartitionInd
 {
   const auto isLater = [&order](PartitionIndex a, PartitionIndex b)
   {
-    const PartitionOrder::Range later = order.later(a);
+    const PartitionOrder::LaterPartitions later = order.later(a);
     return std::find(later.begin(), later.end(), b) != later.end();
   };
   return isLater(p, q) || isLater(q, p);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Output/MeshOutput.h"
+#include "Pipeline/MeshOutput.h"
 
 #include "vtkCellArray.h"
 #include "vtkDataArray.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Output/RunStatistics.h"
 #include "Pipeline/FilterPipeline.h"
+#include "Statistics/RunStatistics.h"
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"

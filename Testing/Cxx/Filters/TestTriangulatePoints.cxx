@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Constraints/Insertion/TriangulateConstrained.h"
+#include "Constraints/ResolveCrossings.h"
 #include "InMemory/TriangulatePoints.h"
 
-#include "Constraints/ConstraintPoints.h"
+#include "Constraints/SurfaceValues.h"
 
 #include <gtest/gtest.h>
 
@@ -102,7 +104,7 @@ TEST(TriangulatePoints, MarksTheEdgesOfConstraints)
   request.Source = &source;
   std::vector<std::string> warnings;
   const ConstrainedTriangulation result = triangulatePoints(viewOf(squares), request, warnings);
-  const Buffer<unsigned char> marks = constraintMarks(result.Mesh, result.Constraints.Pieces);
+  const Buffer<unsigned char> marks = constraintMarks(result.Mesh, result.Constraints.Segments);
   EXPECT_EQ(4, std::count(marks.begin(), marks.end(), 1)); // all edges except the diagonal
   const Buffer<std::int64_t> neighbors = neighborIds(result.Mesh);
   for (std::size_t i = 0; i < marks.size(); ++i)

@@ -2,7 +2,7 @@
 // Each insertion of a point is checked against the circumdisks of all triangles.
 #include "KernelTesting.h"
 
-#include "Kernel/Insertion.h"
+#include "Kernel/Cavity.h"
 #include "Kernel/PointLocation.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // AVX2 instructions change only the speed of insertion, not the mesh.
 #include "KernelTesting.h"
 
-#include "Kernel/Insertion.h"
+#include "Kernel/Cavity.h"
 
 #include <algorithm>
 

@@ -7,10 +7,12 @@
 #include "MeshChecks.h"
 #include "Npy/NpyFile.h"
 #include "OutOfCore/InputPasses.h"
-#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/ScratchFiles.h"
+#include "OutOfCore/SpilledPoints.h"
 #include "TemporaryFolder.h"
+#include "Triangulation/InputSurvey.h"
 
 #include <memory>
 #include <string>

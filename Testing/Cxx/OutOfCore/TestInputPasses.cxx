@@ -2,6 +2,7 @@
 // The results of the passes over the input do not depend on how the input is divided among ranks.
 #include "Comparison.h"
 #include "TemporaryFolder.h"
+#include "Triangulation/InputSurvey.h"
 
 #include "Npy/NpyFile.h"
 #include "OutOfCore/InputPasses.h"

@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Constraints out of core give the triangles that are made in memory.
+#include "Constraints/ConstraintEdges.h"
+#include "Constraints/Insertion/TriangulateConstrained.h"
+#include "Constraints/Insertion/TriangulateTable.h"
+#include "Constraints/ResolveCrossings.h"
+#include "Constraints/TableConstraints.h"
+#include "OutOfCore/OutOfCoreOptions.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
+#include "OutOfCore/SpilledSegments.h"
 #include "OutOfCoreTesting.h"
+#include "Triangulation/InputSurvey.h"
 
-#include "Constraints/OnDisk/ConstrainedPoints.h"
+#include "Constraints/OnDisk/ConstrainedStream.h"
 #include "ExpectIOError.h"
-#include "OutOfCore/PieceConstraints.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/PieceFile.h"
 #include "Partitioned/ReadPiece.h"
@@ -81,12 +89,12 @@ public:
     plain.MaximumEdge = this->Options.MaximumEdge;
     ConstrainedTriangulation made = triangulateTable(this->All, this->Constraints, plain);
     this->Expected = trianglesOf(made.Mesh);
-    this->Pieces = std::move(made.Constraints.Pieces);
+    this->Segments = std::move(made.Constraints.Segments);
   }
 
   OutOfCoreStatistics run()
   {
-    ConstrainedPoints points(openPointStream({ this->Folder.path("points.npy") }),
+    ConstrainedStream points(openPointStream({ this->Folder.path("points.npy") }),
       this->Constraints, "constraints.csv", 2);
     return triangulateOutOfCore(points, this->mesh(), this->Options);
   }
@@ -102,7 +110,7 @@ public:
   PointTable All; ///< all points; makeExpected() adds those of the constraints
   OutOfCoreOptions Options;
   Triangles Expected;
-  std::vector<ConstraintPiece> Pieces; ///< the expected mesh's edges on constraints
+  std::vector<IdSegment> Segments; ///< the expected mesh's edges on constraints
   TemporaryFolder Folder;
 };
 
@@ -425,7 +433,7 @@ TEST(OutOfCoreConstraint, CutsHolesInsideOfPolygonsAndBoundaries)
   expectIOError("constraints.csv", "the hole at (-4, 1) is in no triangle", [&] { run.run(); });
 }
 
-TEST(PieceSegments, AreReadByPieceAndNearBoxes)
+TEST(SpilledSegments, AreReadByPieceAndNearBoxes)
 {
   const Coordinates xy = makePointSet("clustered", 4000);
   const ConstraintTable table = randomSegments(xy, 300, 9);
@@ -455,10 +463,10 @@ TEST(PieceSegments, AreReadByPieceAndNearBoxes)
   SaveArchive saved;
   const auto forEach = [&segments](const VisitSegment& visit)
   { std::for_each(segments.begin(), segments.end(), visit); };
-  PieceSegments(folder.path("points"), plan, factor, forEach, 2).save(saved);
+  SpilledSegments(folder.path("points"), plan, factor, forEach, 2).save(saved);
   const Bytes bytes = saved.take();
   LoadArchive archive(bytes);
-  const PieceSegments stored(folder.path("points"), plan, factor, archive);
+  const SpilledSegments stored(folder.path("points"), plan, factor, archive);
 
   const auto namesOf = [&](const ConstraintSegments& read)
   {

@@ -3,8 +3,8 @@
 #include "OutOfCoreTesting.h"
 
 #include "Npy/NpyFile.h"
-#include "Output/RunStatistics.h"
 #include "Pipeline/FilterPipeline.h"
+#include "Statistics/RunStatistics.h"
 #include "vtkPartitionedUnstructuredReader.h"
 #include "vtkTIPPOutOfCoreDelaunay2D.h"
 

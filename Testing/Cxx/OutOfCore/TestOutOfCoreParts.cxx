@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The first steps of a run: checkpoints, survey, plan, spilled points.
+#include "OutOfCore/SpilledPoints.h"
 #include "OutOfCoreTesting.h"
+#include "Triangulation/InputSurvey.h"
 
 #include "ExpectIOError.h"
 #include "Npy/NpyFile.h"
-#include "OutOfCore/InputPasses.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/ScratchFiles.h"
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Several ranks make the same files as one process, and end together.
+#include "Constraints/TableConstraints.h"
+#include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCoreTesting.h"
 
-#include "Constraints/OnDisk/ConstrainedPoints.h"
+#include "Constraints/OnDisk/ConstrainedStream.h"
 #include "Files/IOError.h"
 #include "Npy/NpyFile.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
@@ -65,7 +67,7 @@ protected:
     {
       return points;
     }
-    return std::make_unique<ConstrainedPoints>(
+    return std::make_unique<ConstrainedStream>(
       std::move(points), this->Constraints, "constraints", 1);
   }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pieces: the order of their triangulation, their results, and the parts of these that other ranks
 // need.
+#include "OutOfCore/DescribeMesh.h"
+#include "OutOfCore/OutOfCoreOptions.h"
+#include "OutOfCore/RunSetup.h"
+#include "OutOfCore/SpilledPoints.h"
 #include "OutOfCoreTesting.h"
 
 #include "OutOfCore/FinishPieces.h"
-#include "OutOfCore/OutOfCoreRun.h"
 #include "OutOfCore/PieceRun.h"
 #include "Partitioned/FinishedPieces.h"
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Compares constraints that are matched and split on disk with those in memory.
+#include "Constraints/ConstraintEdges.h"
+#include "Constraints/PositionIndex.h"
+#include "Constraints/ResolveCrossings.h"
+#include "Constraints/TableConstraints.h"
 #include "OutOfCoreTesting.h"
 
-#include "Constraints/ConstraintPoints.h"
-#include "Constraints/OnDisk/ConstrainedPoints.h"
+#include "Constraints/OnDisk/ConstrainedStream.h"
 #include "ExpectIOError.h"
 
 #include <array>
@@ -85,9 +88,9 @@ Outcome outcomeInMemory(const Coordinates& xy, const ConstraintTable& table)
     heights.push_back((1 - crossing.Fraction) * heights[std::size_t(crossing.A)] +
       crossing.Fraction * heights[std::size_t(crossing.B)]);
   }
-  for (const ConstraintPiece& piece : resolved.Pieces)
+  for (const IdSegment& segment : resolved.Segments)
   {
-    for (const PointId end : { piece.A, piece.B })
+    for (const PointId end : { segment.A, segment.B })
     {
       const auto at = 2 * std::size_t(end);
       outcome.Parts.insert(outcome.Parts.end(), { all[at], all[at + 1] });
@@ -115,7 +118,7 @@ Outcome outcomeOnDisk(const Coordinates& xy, const ConstraintTable& table, std::
   const TemporaryFolder folder;
   TableConstraints constraints;
   constraints.Lines = table;
-  ConstrainedPoints points(streamOf(xy), constraints, "lines.csv", 2);
+  ConstrainedStream points(streamOf(xy), constraints, "lines.csv", 2);
   points.begin(folder.path("constraints"), memory);
   forEachBlock(points, 700, [](PointBlock&) {});
   Outcome outcome;
@@ -297,7 +300,7 @@ TEST(StoredConstraint, IsRefusedIfItCrossesOthersOrNamesAnUnknownPoint)
     constraints.Lines = std::move(table);
     constraints.Lines.PolygonBegin = constraints.Lines.Edges.size();
     constraints.Crossings = CrossingRule::Refuse;
-    ConstrainedPoints points(streamOf(xy), constraints, "lines.csv", 1);
+    ConstrainedStream points(streamOf(xy), constraints, "lines.csv", 1);
     points.begin(folder.path("constraints"), 1 << 12);
     forEachBlock(points, 3, [](PointBlock&) {});
   };

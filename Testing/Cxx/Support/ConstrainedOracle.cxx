@@ -174,8 +174,8 @@ std::set<Edge> edgesOf(const Triangles& triangles)
   return edges;
 }
 
-/// Whether each constraint's pieces form a chain of edges from its first point to its second, with
-/// all points on it, and no crossing is at a point.
+/// Whether each constraint's segments form a chain of edges from its first point to its second,
+/// with all points on it, and no crossing is at a point.
 testing::AssertionResult areChains(const Coordinates& all,
   const std::vector<Constraint>& constraints, const ResolvedConstraints& resolved,
   const Ids& representative, const std::set<Edge>& edges)
@@ -198,21 +198,21 @@ testing::AssertionResult areChains(const Coordinates& all,
     std::int64_t at = first;
     std::set<std::int64_t> vertices{ first };
     bool isEmpty = true;
-    for (; next < resolved.Pieces.size() && resolved.Pieces[next].Constraint == std::int64_t(c);
+    for (; next < resolved.Segments.size() && resolved.Segments[next].Constraint == std::int64_t(c);
          ++next)
     {
-      const ConstraintPiece& piece = resolved.Pieces[next];
+      const IdSegment& segment = resolved.Segments[next];
       isEmpty = false;
-      if (piece.A != at)
+      if (segment.A != at)
       {
         return testing::AssertionFailure() << "constraint " << c << " is interrupted at " << at;
       }
-      at = piece.B;
+      at = segment.B;
       vertices.insert(at);
-      if (!edges.count(std::minmax(piece.A, piece.B)))
+      if (!edges.count(std::minmax(segment.A, segment.B)))
       {
         return testing::AssertionFailure()
-          << "constraint " << c << ": " << piece.A << ", " << piece.B << " is no edge";
+          << "constraint " << c << ": " << segment.A << ", " << segment.B << " is no edge";
       }
       if (!isNearLine(all, { first, last }, at, resolved.Rounds))
       {
@@ -303,9 +303,9 @@ testing::AssertionResult isConstrained(const Coordinates& xy,
     return chains;
   }
   std::vector<Constraint> segments;
-  for (const ConstraintPiece& piece : result.Constraints.Pieces)
+  for (const IdSegment& segment : result.Constraints.Segments)
   {
-    segments.push_back({ piece.A, piece.B });
+    segments.push_back({ segment.A, segment.B });
   }
   try
   {
@@ -313,7 +313,7 @@ testing::AssertionResult isConstrained(const Coordinates& xy,
   }
   catch (const std::exception& error) // CGAL's Intersection_of_constraints_exception
   {
-    return testing::AssertionFailure() << "the pieces cross: " << error.what();
+    return testing::AssertionFailure() << "the segments cross: " << error.what();
   }
 }
 

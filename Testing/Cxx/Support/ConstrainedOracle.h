@@ -2,9 +2,10 @@
 #ifndef tippConstrainedOracle_h
 #define tippConstrainedOracle_h
 
+#include "Constraints/ConstraintEdges.h"
 #include "DelaunayOracle.h"
 
-#include "Constraints/TriangulateConstrained.h"
+#include "Constraints/Insertion/TriangulateConstrained.h"
 
 #include <gtest/gtest.h>
 

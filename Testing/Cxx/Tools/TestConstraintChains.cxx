@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The check of constraints where rounding moves them.
 #include "Check/DelaunayChecker.h"
-#include "Constraints/TriangulateConstrained.h"
+#include "Constraints/ConstraintEdges.h"
+#include "Constraints/Insertion/TriangulateConstrained.h"
+#include "Constraints/Insertion/TriangulateTable.h"
+#include "Constraints/ResolveCrossings.h"
+#include "Constraints/TableConstraints.h"
 
 #include <gtest/gtest.h>
 
@@ -57,9 +61,9 @@ struct Map
     }
     this->Triangles.assign(made.Mesh.Ids32.begin(), made.Mesh.Ids32.end());
     this->Chains.clear();
-    for (const ConstraintPiece& piece : made.Constraints.Pieces)
+    for (const IdSegment& segment : made.Constraints.Segments)
     {
-      this->Chains.push_back({ std::min(piece.A, piece.B), std::max(piece.A, piece.B) });
+      this->Chains.push_back({ std::min(segment.A, segment.B), std::max(segment.A, segment.B) });
     }
   }
 
@@ -284,9 +288,9 @@ Map cutMap(std::uint64_t seed)
       map.Constraints.push_back({ idOf(edge[0]), idOf(edge[1]) });
     }
   }
-  for (const ConstraintPiece& piece : made.Constraints.Pieces)
+  for (const IdSegment& segment : made.Constraints.Segments)
   {
-    map.Chains.push_back({ std::min(piece.A, piece.B), std::max(piece.A, piece.B) });
+    map.Chains.push_back({ std::min(segment.A, segment.B), std::max(segment.A, segment.B) });
   }
   return map;
 }
