@@ -92,7 +92,7 @@ tipp::Region regionOf(vtkPolyData* polygons)
 tipp::Region regionOf(const double* box)
 {
   tipp::Region region;
-  std::copy_n(box, 6, region.Box.begin());
+  region.Box = tipp::boxOfVtkBounds<3>(box);
   return region;
 }
 

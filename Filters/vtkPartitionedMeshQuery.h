@@ -59,7 +59,8 @@ namespace tipp
 class Communicator;
 struct AnswerOptions;
 struct MeshAnswer;
-struct Point3;
+template <int D>
+struct Point;
 class ResidentMesh;
 }
 
@@ -294,7 +295,7 @@ private:
   std::shared_ptr<const tipp::ResidentMesh> Open();
   std::vector<std::string> ArraysOf(
     tipp::Communicator* ranks, const tipp::ResidentMesh& mesh) const;
-  tipp::MeshAnswer Ask(const std::vector<tipp::Point3>& points, bool weights, bool arrays);
+  tipp::MeshAnswer Ask(const std::vector<tipp::Point<3>>& points, bool weights, bool arrays);
   int Try(const std::function<void()>& work);
   int Direct(const std::function<void()>& work);
   using Question = std::function<void(tipp::Communicator*, const tipp::ResidentMesh&)>;

@@ -88,9 +88,8 @@ int vtkRangeResampleFilter::RequestInformation(
       const std::array<double, 3> delta = tipp::toArray(this->Delta);
       const bool byDelta = delta[0] > 0 || delta[1] > 0 || delta[2] > 0;
       // Bounds are not needed if all SamplingDimensions are given; any valid ones will do.
-      std::array<double, 6> bounds = this->UseInputBounds
-        ? std::array<double, 6>{ 0, 1, 0, 1, 0, 1 }
-        : tipp::toArray(this->SamplingBounds);
+      tipp::Box3 bounds = this->UseInputBounds ? tipp::Box3{ { 0, 0, 0 }, { 1, 1, 1 } }
+                                               : tipp::boxOfVtkBounds<3>(this->SamplingBounds);
       std::array<int, 3> dimensions = tipp::toArray(this->SamplingDimensions);
       const bool chosen = std::count(dimensions.begin(), dimensions.end(), 0) > 0;
       if (chosen || (byDelta && this->UseInputBounds))
@@ -270,9 +269,9 @@ private:
   void makeImage(const std::vector<vtkPointSet*>& meshes, vtkInformation* outInfo)
   {
     vtkRangeResampleFilter* const filter = this->Filter;
-    const std::array<double, 6> bounds = filter->UseInputBounds
+    const tipp::Box3 bounds = filter->UseInputBounds
       ? tipp::boundsOf(meshes, this->Ranks)
-      : tipp::toArray(filter->SamplingBounds);
+      : tipp::boxOfVtkBounds<3>(filter->SamplingBounds);
     this->Wanted = tipp::rangeLattice(bounds,
       tipp::chosenDimensions(
         bounds, tipp::toArray(filter->SamplingDimensions), meshes, this->Ranks),

@@ -263,7 +263,7 @@ tipp::ConstrainedTriangulation vtkTIPPDelaunay2D::Triangulate(
   tipp::Monitor monitor(this);
   tipp::PointsRequest request;
   request.Distance =
-    this->Tolerance > 0 ? this->Tolerance * tipp::finiteBounds(points).diagonal() : 0;
+    this->Tolerance > 0 ? this->Tolerance * tipp::diagonalOf(tipp::finiteBounds(points)) : 0;
   request.Source = &constraints;
   request.Crossings = crossingRule(this);
   tipp::TriangulationOptions& options = request.Options;

@@ -39,10 +39,9 @@ namespace
 /// The points and the corners of an octahedron around them.
 vtkSmartPointer<vtkPoints> withOctahedron(vtkPoints* points, double offset)
 {
-  const tipp::FiniteBounds bounds = tipp::finiteBounds(points);
-  const double distance = offset * bounds.diagonal();
-  std::vector<std::array<double, 3>> corners(
-    6, { bounds.center(0), bounds.center(1), bounds.center(2) });
+  const tipp::Box3 bounds = tipp::finiteBounds(points);
+  const double distance = offset * tipp::diagonalOf(bounds);
+  std::vector<tipp::Point3> corners(6, bounds.center());
   for (std::size_t i = 0; i < corners.size(); ++i)
   {
     corners[i][i / 2] += i % 2 == 0 ? -distance : distance;
@@ -126,7 +125,7 @@ void vtkTIPPDelaunay3D::Execute(vtkPointSet* input, vtkInformationVector* output
   const tipp::Point3* const coordinates = tipp::coordinatesOf(points, copy);
   tipp::Triangulation triangles; // of coplanar points
   tipp::Tetrahedralization mesh =
-    this->Triangulate(coordinates, count, tipp::finiteBounds(points).diagonal(), triangles);
+    this->Triangulate(coordinates, count, tipp::diagonalOf(tipp::finiteBounds(points)), triangles);
   if (mesh.Aborted)
   {
     return;

@@ -77,7 +77,8 @@ class vtkTable;
 
 namespace tipp
 {
-struct Point3;
+template <int D>
+struct Point;
 struct Tetrahedralization;
 struct TriangulatedPoints;
 struct Triangulation;
@@ -241,7 +242,7 @@ private:
   void Execute(vtkPointSet* input, vtkInformationVector* outputs);
   void ExecuteOnRanks(vtkPointSet* input, vtkInformationVector* outputs);
   tipp::Tetrahedralization Triangulate(
-    const tipp::Point3* points, vtkIdType count, double diagonal, tipp::Triangulation& triangles);
+    const tipp::Point<3>* points, vtkIdType count, double diagonal, tipp::Triangulation& triangles);
   void SetCells(tipp::Buffer<int>& ids, int corners, const tipp::TriangulatedPoints& mesh,
     vtkUnstructuredGrid* output) const;
 };

@@ -24,7 +24,6 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -48,8 +47,8 @@ vtkSmartPointer<vtkDoubleArray> arrayOf(const std::string& name, const std::vect
 
 void setGrid(const tipp::RasterGrid& grid, vtkImageData* image)
 {
-  const std::array<double, 2> first = grid.firstCentre();
-  image->SetOrigin(first[0], first[1], 0);
+  const tipp::Point2 first = grid.firstCentre();
+  image->SetOrigin(first.x, first.y, 0);
   image->SetSpacing(grid.Pixel[0], grid.Pixel[1], 1);
   image->SetDimensions(int(grid.Columns), int(grid.Rows), 1);
 }
@@ -77,11 +76,11 @@ tipp::RasterGrid vtkTIPPPointsToImage::Grid(vtkPointSet* points) const
   tipp::RasterRequest request;
   request.Resolution = this->Resolution;
   request.Aligned = this->AlignToResolution;
-  const std::array<double, 4> bounds =
-    this->UseInputBounds ? this->PointBounds(points) : tipp::toArray(this->SamplingBounds);
+  const tipp::Box2 bounds = this->UseInputBounds ? this->PointBounds(points)
+                                                 : tipp::boxOfVtkBounds<2>(this->SamplingBounds);
   if (points && request.Resolution == 0)
   {
-    const double area = (bounds[1] - bounds[0]) * (bounds[3] - bounds[2]);
+    const double area = bounds.width(0) * bounds.width(1);
     const double count = double(std::max<vtkIdType>(points->GetNumberOfPoints(), 1));
     request.Resolution = area > 0 ? std::sqrt(area / count) : 1;
   }
@@ -155,9 +154,9 @@ std::unique_ptr<tipp::PointStream> vtkTIPPPointsToImage::Stream(vtkPointSet* poi
   return tipp::streamTable(this->Table(points), thinning);
 }
 
-std::array<double, 4> vtkTIPPPointsToImage::PointBounds(vtkPointSet* points) const
+tipp::Box2 vtkTIPPPointsToImage::PointBounds(vtkPointSet* points) const
 {
-  tipp::Box2 box = tipp::PointSurvey().Bounds;
+  tipp::Box2 box = tipp::Box2::empty();
   if (this->ThinningSize > 0)
   {
     constexpr std::size_t blockPoints = 1 << 16;
@@ -165,7 +164,7 @@ std::array<double, 4> vtkTIPPPointsToImage::PointBounds(vtkPointSet* points) con
       [&](const tipp::PointBlock& block)
       {
         const tipp::PointsView view(block.XY.data(), block.size(), 2);
-        box = tipp::unionOf(box, tipp::surveyPoints(view, 1).Bounds);
+        box.extend(tipp::surveyPoints(view, 1).Bounds);
       });
   }
   else
@@ -173,11 +172,11 @@ std::array<double, 4> vtkTIPPPointsToImage::PointBounds(vtkPointSet* points) con
     const tipp::ProjectedPoints projected(points->GetPoints(), nullptr);
     box = tipp::surveyPoints(projected.view(), tipp::threadCount(this->NumberOfThreads)).Bounds;
   }
-  if (!(box.xmin <= box.xmax))
+  if (box.isEmpty())
   {
     throw std::runtime_error("There is no point with finite coordinates.");
   }
-  return { box.xmin, box.xmax, box.ymin, box.ymax };
+  return box;
 }
 
 void vtkTIPPPointsToImage::Constrain(

@@ -43,7 +43,6 @@
 #include "vtkTIPPFiltersModule.h" // For export macro
 #include "vtkTIPPSetGet.h"        // For property macros
 
-#include <array>  // For PointBounds
 #include <memory> // For Stream
 #include <string> // For Bands
 #include <vector> // For Bands
@@ -54,6 +53,8 @@ class vtkPolyData;
 
 namespace tipp
 {
+template <int D>
+struct Box;
 struct DemRequest;
 class PointStream;
 struct PointTable;
@@ -233,7 +234,7 @@ private:
   tipp::RasterGrid Grid(vtkPointSet* points) const;
   tipp::PointTable Table(vtkPointSet* points) const;
   std::unique_ptr<tipp::PointStream> Stream(vtkPointSet* points) const;
-  std::array<double, 4> PointBounds(vtkPointSet* points) const; // after thinning
+  tipp::Box<2> PointBounds(vtkPointSet* points) const; // after thinning
   void Constrain(vtkPolyData* lines, vtkPolyData* boundary, tipp::DemRequest& request) const;
   void Make(vtkInformationVector** inputs, vtkImageData* output);
 };

@@ -422,8 +422,7 @@ void vtkPartitionedUnstructuredReader::ReadPieces(vtkInformation* outInfo)
   std::iota(numbers.begin(), numbers.end(), std::size_t(0));
   if (this->HasBounds())
   {
-    const double* const b = this->Bounds;
-    range.emplace(mesh, tipp::Bounds{ b[0], b[1], b[2], b[3], b[4], b[5] });
+    range.emplace(mesh, tipp::boxOfVtkBounds<3>(this->Bounds));
     numbers = range->pieces();
   }
   options.Borrowed = borrowed || range;

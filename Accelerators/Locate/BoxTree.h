@@ -3,7 +3,7 @@
 #define tippBoxTree_h
 
 #include "Locate/MortonOrder.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 
 #include <algorithm>
 #include <array>
@@ -16,16 +16,6 @@
 
 namespace tipp
 {
-
-/// The first D coordinates.
-template <int D>
-std::array<double, D> coordinatesOf(const Point3& point)
-{
-  const double coordinates[3] = { point.x, point.y, point.z };
-  std::array<double, D> at;
-  std::copy_n(coordinates, D, at.begin());
-  return at;
-}
 
 /// Finds which of many boxes meet a given box: a packed R-tree (Kamel and Faloutsos, On Packing
 /// R-trees, 1993) over the boxes, sorted by their centres along the Morton curve. A node stores the
@@ -49,12 +39,9 @@ public:
       throw std::length_error("A search tree can hold 2147483647 boxes at most.");
     }
     const Box<D> all = boundsOf<D>(count, threads, boxOf);
-    if (!all.isEmpty())
+    if (isFinite(all))
     {
-      for (int axis = 0; axis < D; ++axis)
-      {
-        this->Centre[axis] = all.Low[axis] / 2 + all.High[axis] / 2;
-      }
+      this->Centre = all.center();
       this->Order = mortonOrder(count, threads, all, boxOf);
       this->makeNodes(threads, boxOf);
     }
@@ -76,7 +63,7 @@ public:
   /// Calls visit(i) for boxes, nearest to the point first. visit() returns the distance up to which
   /// boxes are still of interest; every nearer box is visited.
   template <typename Visit>
-  void searchNear(const std::array<double, D>& point, const Visit& visit) const
+  void searchNear(const Point<D>& point, const Visit& visit) const
   {
     struct Child
     {
@@ -215,7 +202,7 @@ private:
   }
 
   /// A lower bound of the distance of a point from a child's box.
-  double distanceTo(const Node& node, int child, const std::array<double, D>& point) const
+  double distanceTo(const Node& node, int child, const Point<D>& point) const
   {
     double squared = 0;
     double largest = 0;
@@ -346,14 +333,14 @@ private:
     { return std::fabs(value) * 2.4e-7f + std::numeric_limits<float>::min(); };
     for (int axis = 0; axis < D; ++axis)
     {
-      const float lowest = rounded(box.Low[axis], axis);
-      const float highest = rounded(box.High[axis], axis);
+      const float lowest = rounded(box.Min[axis], axis);
+      const float highest = rounded(box.Max[axis], axis);
       low[axis] = lowest - margin(lowest);
       high[axis] = highest + margin(highest);
     }
   }
 
-  std::array<double, D> Centre{};
+  Point<D> Centre{};
   std::vector<std::int32_t> Order; ///< box indices along the Morton curve
   std::vector<std::vector<Node>>
     Levels; ///< of the first level, the children are boxes; the last level is the root

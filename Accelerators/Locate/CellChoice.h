@@ -59,15 +59,6 @@ inline Side sideOf(const Point3 (&corners)[4], const Point3& p)
   return side;
 }
 
-inline std::array<double, 2> arrayOf(Point2 p)
-{
-  return { p.x, p.y };
-}
-inline std::array<double, 3> arrayOf(const Point3& p)
-{
-  return { p.x, p.y, p.z };
-}
-
 template <typename Access>
 CellKey keyOfCell(const Access& access, std::int64_t cell, const typename Access::Point& point)
 {
@@ -155,16 +146,16 @@ CellLocation weighed(const Access& access, std::int64_t cell, const typename Acc
       std::swap(order[k], order[k - 1]);
     }
   }
-  const auto first = arrayOf(corners[order[0]]);
+  const auto& first = corners[order[0]];
   double edges[D][D];
   double offset[D];
   for (int axis = 0; axis < D; ++axis)
   {
     for (int i = 0; i < D; ++i)
     {
-      edges[i][axis] = arrayOf(corners[order[i + 1]])[std::size_t(axis)] - first[std::size_t(axis)];
+      edges[i][axis] = corners[order[i + 1]][axis] - first[axis];
     }
-    offset[axis] = arrayOf(point)[std::size_t(axis)] - first[std::size_t(axis)];
+    offset[axis] = point[axis] - first[axis];
   }
   double weights[D];
   thinWeights(edges, offset, weights);
@@ -186,8 +177,8 @@ auto boxOfCell(const Access& access, const SimplexMesh& mesh, std::int64_t cell)
   bool isUsable = !mesh.Hidden || !mesh.Hidden[cell];
   for (int i = 0; i < Access::Corners; ++i)
   {
-    const auto corner = CellBox::of(access.coordinates(access.ids(cell)[i]));
-    isUsable = isUsable && !corner.isEmpty();
+    const auto corner = access.coordinates(access.ids(cell)[i]);
+    isUsable = isUsable && isFinite(corner);
     box.extend(corner);
   }
   return isUsable ? box : CellBox::empty();

@@ -20,13 +20,11 @@ void locateByCells(const Access& access, const SimplexMesh& mesh, const std::int
 {
   constexpr int D = Access::Dimension;
   const auto at = [&](std::int64_t i) { return access.flattened(points.at(i)); };
-  const BoxTree<D> tree(
-    points.Count, threads, [&](std::int64_t i) { return Box<D>::of(arrayOf(at(i))); });
+  const BoxTree<D> tree(points.Count, threads, [&](std::int64_t i) { return Box<D>::of(at(i)); });
   // Most cells contain no point; a grid detects this from the positions of their corners. That does
   // not pay off if the mesh has fewer cells than points.
   const bool usesGrid = mesh.Cells >= mesh.PointCount;
-  const PointGrid<D> grid(
-    usesGrid ? points.Count : 0, threads, [&](std::int64_t i) { return arrayOf(at(i)); });
+  const PointGrid<D> grid(usesGrid ? points.Count : 0, threads, at);
   std::vector<typename PointGrid<D>::Position> positions(
     usesGrid ? std::size_t(mesh.PointCount) : 0);
   forChunks(std::int64_t(positions.size()), 1 << 14, threads, {},
@@ -55,7 +53,7 @@ void locateByCells(const Access& access, const SimplexMesh& mesh, const std::int
         const Box<D> box = boxOfCell(access, mesh, cell);
         const auto offer = [&](std::int32_t i)
         {
-          if (box.holds(arrayOf(at(i))))
+          if (box.contains(at(i)))
           {
             found[std::size_t(thread)].push_back({ i, cell });
           }
@@ -146,7 +144,7 @@ void CellLocator::findInOrder(const Access& access, const AskedPoints& points,
   {
     const auto point = at(i);
     Choice<Access> choice(access, this->CellIds, point);
-    search(Box<D>::of(arrayOf(point)), [&](std::int32_t cell) { choice.offer(cell); });
+    search(Box<D>::of(point), [&](std::int32_t cell) { choice.offer(cell); });
     const std::int64_t cell = choice.cell();
     if (cell >= 0)
     {
@@ -163,7 +161,7 @@ void CellLocator::findInOrder(const Access& access, const AskedPoints& points,
     Box<D> region = Box<D>::empty();
     for (std::int64_t i = begin; i < end; ++i)
     {
-      region.extend(Box<D>::of(arrayOf(at(i))));
+      region.extend(at(i));
     }
     const bool isGathered = shared > 1 && tree.gather(region, gathered);
     if (shared > 1 && !isGathered)
@@ -226,9 +224,8 @@ std::vector<std::int64_t> CellLocator::walkAll(
 {
   const auto pointOf = [&](std::int64_t i) { return access.flattened(points.at(i)); };
   const bool inOrder = this->areNear(access, points);
-  const std::vector<std::int32_t> order = inOrder
-    ? std::vector<std::int32_t>()
-    : nearOrder<2>(points.Count, threads, [&](std::int64_t i) { return arrayOf(pointOf(i)); });
+  const std::vector<std::int32_t> order =
+    inOrder ? std::vector<std::int32_t>() : nearOrder<2>(points.Count, threads, pointOf);
   std::vector<std::vector<std::int64_t>> left(static_cast<std::size_t>(threads));
   forChunks(inOrder ? points.Count : std::int64_t(order.size()), 1 << 14, threads, {},
     [&](std::int64_t begin, std::int64_t end, int thread)
@@ -285,8 +282,8 @@ void CellLocator::locateAll(
       }
     }
   }
-  const std::vector<std::int32_t> order = nearOrder<D>(
-    rest.Count, threads, [&](std::int64_t i) { return arrayOf(access.flattened(rest.at(i))); });
+  const std::vector<std::int32_t> order =
+    nearOrder<D>(rest.Count, threads, [&](std::int64_t i) { return access.flattened(rest.at(i)); });
   forChunks(std::int64_t(order.size()), 1 << 12, threads, {},
     [&](std::int64_t begin, std::int64_t end, int)
     { this->findInOrder(access, rest, order.data() + begin, end - begin, take); });

@@ -5,7 +5,7 @@
 #include "Locate/BoxTree.h"
 #include "Locate/MortonOrder.h"
 #include "Predicates/ExactPredicates.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "Resample/Claims.h"
 #include "Resample/SimplexMesh.h"
 #include "vtkTIPPAcceleratorsModule.h"
@@ -113,7 +113,7 @@ private:
   /// clockwise. Empty if walks are not possible.
   std::vector<std::uint32_t> Neighbors;
   bool IsConvex = false; ///< the border is a single convex loop
-  Box<2> Bounds = Box<2>::empty();
+  Box2 Bounds = Box2::empty();
   std::vector<std::uint64_t> SeedCodes; ///< Morton codes, ascending
   std::vector<std::uint32_t> Seeds;     ///< triangles; the highest bit is set for clockwise ones
 };

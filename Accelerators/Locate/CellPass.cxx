@@ -5,7 +5,6 @@
 #include "Locate/PointsInBox.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -24,7 +23,7 @@ namespace
 class TriangleFilter
 {
 public:
-  TriangleFilter(const Point2 (&corners)[3], const Box<2>& box)
+  TriangleFilter(const Point2 (&corners)[3], const Box2& box)
     : Around(box)
     , A(corners[0])
     , B(corners[1])
@@ -39,30 +38,30 @@ public:
     // The error bound of orientation(), with the box's extents as the largest factors, plus a
     // margin for the rounding of the area, whose sign is used. Infinite after an overflow.
     constexpr double relative = 3.3306690738754716e-16;
-    this->Bound = 8 * relative * (box.High[0] - box.Low[0]) * (box.High[1] - box.Low[1]) + 1e-300;
+    this->Bound = 8 * relative * box.width(0) * box.width(1) + 1e-300;
   }
 
   /// True only if the point is outside.
-  bool isOutside(const std::array<double, 2>& at) const
+  bool isOutside(Point2 at) const
   {
     // Branch-free. NaN, after an overflow, does not count as outside.
-    const int isApart = int(at[0] < this->Around.Low[0]) | int(at[0] > this->Around.High[0]) |
-      int(at[1] < this->Around.Low[1]) | int(at[1] > this->Around.High[1]);
+    const int isApart = int(at.x < this->Around.Min.x) | int(at.x > this->Around.Max.x) |
+      int(at.y < this->Around.Min.y) | int(at.y > this->Around.Max.y);
     return (isApart | int(this->lowest(at) < -this->Bound)) != 0;
   }
   /// True only if the point of the box is strictly inside.
-  bool isInside(const std::array<double, 2>& at) const { return this->lowest(at) > this->Bound; }
+  bool isInside(Point2 at) const { return this->lowest(at) > this->Bound; }
 
 private:
   /// The lowest of the three orientations.
-  double lowest(const std::array<double, 2>& at) const
+  double lowest(Point2 at) const
   {
-    const double ax = this->A.x - at[0];
-    const double ay = this->A.y - at[1];
-    const double bx = this->B.x - at[0];
-    const double by = this->B.y - at[1];
-    const double cx = this->C.x - at[0];
-    const double cy = this->C.y - at[1];
+    const double ax = this->A.x - at.x;
+    const double ay = this->A.y - at.y;
+    const double bx = this->B.x - at.x;
+    const double by = this->B.y - at.y;
+    const double cx = this->C.x - at.x;
+    const double cy = this->C.y - at.y;
     const double ab = ax * by - ay * bx;
     const double bc = bx * cy - by * cx;
     const double ca = cx * ay - cy * ax;
@@ -72,7 +71,7 @@ private:
                                        : std::numeric_limits<double>::quiet_NaN();
   }
 
-  const Box<2>& Around;
+  const Box2& Around;
   Point2 A;
   Point2 B;
   Point2 C;
@@ -83,15 +82,15 @@ private:
 class BoxFilter
 {
 public:
-  BoxFilter(const Point3 (&)[4], const Box<3>& box)
+  BoxFilter(const Point3 (&)[4], const Box3& box)
     : Around(box)
   {
   }
-  bool isOutside(const std::array<double, 3>& at) const { return !this->Around.holds(at); }
-  bool isInside(const std::array<double, 3>&) const { return false; }
+  bool isOutside(const Point3& at) const { return !this->Around.contains(at); }
+  bool isInside(const Point3&) const { return false; }
 
 private:
-  const Box<3>& Around;
+  const Box3& Around;
 };
 
 /// The pass over the cells of a mesh, which look for their points in GridBuckets or PointRows.
@@ -177,14 +176,13 @@ private:
       this->Cells.corners(cell, corners);
       const std::conditional_t<D == 2, TriangleFilter, BoxFilter> filter(corners, box);
       this->Near.visitNear(box,
-        [&](std::uint32_t entry, const std::array<double, D>& at)
+        [&](std::uint32_t entry, const Point& point)
         {
           ++tests;
-          if (!filter.isOutside(at))
+          if (!filter.isOutside(point))
           {
-            const Point point = pointAt(at);
             const Doubt here{ entry, std::int32_t(cell) };
-            const Side side = filter.isInside(at) ? Side::Inside : sideOf(corners, point);
+            const Side side = filter.isInside(point) ? Side::Inside : sideOf(corners, point);
             if (side == Side::Inside && this->claim(here))
             {
               ++claims;
@@ -250,7 +248,7 @@ private:
           {
             continue; // in the same group as the first one
           }
-          const Point point = pointAt(this->Near.at(entry));
+          const Point point = this->Near.at(entry);
           Choice<Access> choice(this->Cells, this->CellIds, point);
           const std::int32_t claim = this->Claims[entry];
           if (claim >= 0)
@@ -299,7 +297,7 @@ bool locateInOnePass(const SimplexMesh& mesh, const std::int64_t* cellIds,
       {
         using Access = std::decay_t<decltype(access)>;
         constexpr int D = Access::Dimension;
-        const auto at = [&](std::int64_t i) { return arrayOf(access.flattened(points.at(i))); };
+        const auto at = [&](std::int64_t i) { return access.flattened(points.at(i)); };
         const auto passes = [&](const auto& search)
         {
           return Pass<Access, std::decay_t<decltype(search)>>(

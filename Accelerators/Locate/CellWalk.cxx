@@ -65,7 +65,7 @@ private:
                                        : std::make_pair(after, before);
   }
 
-  Point2 at(std::int64_t point) const { return pointAt(this->Cells.coordinates(point)); }
+  Point2 at(std::int64_t point) const { return this->Cells.coordinates(point); }
 
   bool isUsed(std::int64_t cell) const { return this->Turns[std::size_t(cell)] != 0; }
   bool isClockwise(std::int64_t cell) const { return this->Turns[std::size_t(cell)] < 0; }
@@ -238,9 +238,7 @@ private:
       [&](std::int64_t i)
       {
         const auto [first, second] = this->endsOf(border[std::size_t(i)]);
-        Box<2> box = this->boxOf(first);
-        box.extend(this->boxOf(second));
-        return box;
+        return Box2::of(this->at(first), this->at(second));
       });
     std::atomic<bool> doMeet{ false };
     this->forParts(this->Mesh.Cells,
@@ -250,9 +248,9 @@ private:
         {
           if (this->isUsed(cell))
           {
-            Box<2> box = this->boxOf(this->Cells.ids(cell)[0]);
-            box.extend(this->boxOf(this->Cells.ids(cell)[1]));
-            box.extend(this->boxOf(this->Cells.ids(cell)[2]));
+            const auto* const ids = this->Cells.ids(cell);
+            Box2 box = Box2::of(this->at(ids[0]), this->at(ids[1]));
+            box.extend(this->at(ids[2]));
             tree.search(box,
               [&](std::int32_t i)
               {
@@ -266,8 +264,6 @@ private:
       });
     return doMeet;
   }
-
-  Box<2> boxOf(std::int64_t point) const { return Box<2>::of(this->Cells.coordinates(point)); }
 
   bool meets(std::int64_t cell, std::int64_t edge) const
   {
@@ -332,9 +328,9 @@ private:
       }
     }
     const auto boxOfSeed = [&](std::int64_t i)
-    { return this->boxOf(this->Cells.ids(cells[std::size_t(i)])[0]); };
+    { return Box2::of(this->at(this->Cells.ids(cells[std::size_t(i)])[0])); };
     const auto count = std::int64_t(cells.size());
-    const Box<2> bounds = boundsOf<2>(count, this->Threads, boxOfSeed);
+    const Box2 bounds = boundsOf<2>(count, this->Threads, boxOfSeed);
     for (const std::int32_t i : mortonOrder(count, this->Threads, bounds, boxOfSeed))
     {
       const std::int32_t cell = cells[std::size_t(i)];
@@ -373,7 +369,7 @@ CellWalk::CellWalk(const SimplexMesh& mesh, int threads)
 
 void CellWalk::jump(Point2 point, Position& at) const
 {
-  const std::uint64_t code = mortonCode(Box<2>::of({ point.x, point.y }), this->Bounds);
+  const std::uint64_t code = mortonCode(Box2::of(point), this->Bounds);
   const auto after = std::lower_bound(this->SeedCodes.begin(), this->SeedCodes.end(), code);
   const auto i = std::size_t(after - this->SeedCodes.begin());
   const std::uint32_t seed = this->Seeds[std::min(i, this->Seeds.size() - 1)];

@@ -4,66 +4,19 @@
 
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Sort.h"
+#include "Predicates/Geometry.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <utility>
 #include <vector>
 
 namespace tipp
 {
 
-/// A closed box in D dimensions.
-template <int D>
-struct Box
-{
-  std::array<double, D> Low;
-  std::array<double, D> High;
-
-  static Box empty()
-  {
-    Box box;
-    box.Low.fill(std::numeric_limits<double>::infinity());
-    box.High.fill(-std::numeric_limits<double>::infinity());
-    return box;
-  }
-  static Box of(const std::array<double, D>& point) { return { point, point }; }
-
-  /// Whether it holds no finite point, or has bounds that are infinite or NaN.
-  bool isEmpty() const
-  {
-    bool usable = true;
-    for (int axis = 0; axis < D; ++axis)
-    {
-      usable = usable && this->Low[axis] <= this->High[axis] && std::isfinite(this->Low[axis]) &&
-        std::isfinite(this->High[axis]);
-    }
-    return !usable;
-  }
-  bool holds(const std::array<double, D>& point) const
-  {
-    bool inside = true;
-    for (int axis = 0; axis < D; ++axis)
-    {
-      inside = inside && this->Low[axis] <= point[axis] && point[axis] <= this->High[axis];
-    }
-    return inside;
-  }
-  void extend(const Box& by)
-  {
-    for (int axis = 0; axis < D; ++axis)
-    {
-      this->Low[axis] = std::min(this->Low[axis], by.Low[axis]);
-      this->High[axis] = std::max(this->High[axis], by.High[axis]);
-    }
-  }
-};
-
-/// The common bounds of the boxes boxOf(0) ... boxOf(count - 1), ignoring empty ones.
+/// The common bounds of the boxes boxOf(0) ... boxOf(count - 1), ignoring those that are not
+/// finite.
 template <int D, typename BoxOf>
 Box<D> boundsOf(std::int64_t count, int threads, const BoxOf& boxOf)
 {
@@ -75,7 +28,7 @@ Box<D> boundsOf(std::int64_t count, int threads, const BoxOf& boxOf)
       for (std::int64_t i = begin; i < end; ++i)
       {
         const Box<D> box = boxOf(i);
-        if (!box.isEmpty())
+        if (isFinite(box))
         {
           own.extend(box);
         }
@@ -120,9 +73,9 @@ std::uint64_t mortonCode(const Box<D>& box, const Box<D>& all)
   for (int axis = 0; axis < D; ++axis)
   {
     // Halves, so that nothing overflows.
-    const double low = all.Low[axis] / 2;
-    const double extent = all.High[axis] / 2 - low;
-    const double centre = (box.Low[axis] / 2 - low) / 2 + (box.High[axis] / 2 - low) / 2;
+    const double low = all.Min[axis] / 2;
+    const double extent = all.Max[axis] / 2 - low;
+    const double centre = (box.Min[axis] / 2 - low) / 2 + (box.Max[axis] / 2 - low) / 2;
     const double share = extent > 0 ? centre / extent : 0;
     code |= spreadBits<D>(std::uint64_t(std::min(std::max(share, 0.0) * cells, cells - 1))) << axis;
   }
@@ -130,13 +83,13 @@ std::uint64_t mortonCode(const Box<D>& box, const Box<D>& all)
 }
 
 /// The indices of the boxes boxOf(0) ... boxOf(count - 1), sorted by the Morton code of their
-/// centres within `all`, their bounds. Empty boxes are left out. `count` must be below 2^31. The
-/// order does not depend on the number of threads.
+/// centres within `all`, their bounds. Boxes that are not finite are left out. `count` must be
+/// below 2^31. The order does not depend on the number of threads.
 template <int D, typename BoxOf>
 std::vector<std::int32_t> mortonOrder(
   std::int64_t count, int threads, const Box<D>& all, const BoxOf& boxOf)
 {
-  using Entry = std::pair<std::uint64_t, std::int32_t>; // a code and a box; -1: empty
+  using Entry = std::pair<std::uint64_t, std::int32_t>; // a code and a box; -1: not finite
   std::vector<Entry> entries(static_cast<std::size_t>(count));
   forChunks(count, 1 << 14, threads, {},
     [&](std::int64_t begin, std::int64_t end, int)
@@ -144,8 +97,8 @@ std::vector<std::int32_t> mortonOrder(
       for (std::int64_t i = begin; i < end; ++i)
       {
         const Box<D> box = boxOf(i);
-        entries[std::size_t(i)] = box.isEmpty() ? Entry{ ~std::uint64_t(0), -1 }
-                                                : Entry{ mortonCode(box, all), std::int32_t(i) };
+        entries[std::size_t(i)] = isFinite(box) ? Entry{ mortonCode(box, all), std::int32_t(i) }
+                                                : Entry{ ~std::uint64_t(0), -1 };
       }
     });
   sortInParts(entries.begin(), entries.end(), threads);
@@ -161,7 +114,7 @@ std::vector<std::int32_t> mortonOrder(
   return order;
 }
 
-/// The indices of the points at(0) ... at(count - 1), arrays of D coordinates, in an order in which
+/// The indices of the points at(0) ... at(count - 1) in an order in which
 /// successive points are near each other: approximately that of their Morton codes. Non-finite
 /// points are left out. `count` must be below 2^31. The order does not depend on the number of
 /// threads.
@@ -178,8 +131,8 @@ std::vector<std::int32_t> nearOrder(std::int64_t count, int threads, const At& a
       for (std::int64_t i = begin; i < end; ++i)
       {
         const Box<D> box = boxOf(i);
-        const std::uint64_t code = box.isEmpty() ? 0 : mortonCode(box, all) << (D == 2 ? 0 : 1);
-        words[std::size_t(i)] = box.isEmpty() ? notFinite : (code >> 32 << 32) | std::uint64_t(i);
+        const std::uint64_t code = isFinite(box) ? mortonCode(box, all) << (D == 2 ? 0 : 1) : 0;
+        words[std::size_t(i)] = isFinite(box) ? (code >> 32 << 32) | std::uint64_t(i) : notFinite;
       }
     });
   // Sorts by as many bits as give about one point per key.

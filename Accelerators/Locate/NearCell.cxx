@@ -115,9 +115,11 @@ Vector<Number, 3> nearestOfFace(const Vector<Number, 3>& p, const Vector<Number,
 template <typename Number, std::size_t D>
 Vector<Number, D> vectorOf(const Point3& p)
 {
-  const auto at = coordinatesOf<int(D)>(p);
   Vector<Number, D> result;
-  std::copy(at.begin(), at.end(), result.begin());
+  for (std::size_t axis = 0; axis < D; ++axis)
+  {
+    result[axis] = p[axis];
+  }
   return result;
 }
 
@@ -287,15 +289,13 @@ void CellLocator::findNearest(const Point3& point, NearCell& best) const
     [&](const auto& access)
     {
       constexpr int D = std::decay_t<decltype(access)>::Dimension;
-      const auto placed = [this](const Point3& p)
-      {
-        const double c[3] = { p.x, p.y, p.z };
-        return D == 3 ? p : Point3{ c[this->Mesh.Axes[0]], c[this->Mesh.Axes[1]], 0 };
+      const auto placed = [this](const Point3& p) {
+        return D == 3 ? p : Point3{ p[this->Mesh.Axes[0]], p[this->Mesh.Axes[1]], 0 };
       };
       const Point3 from = placed(point);
       NearCell cell;
       cell.Dimension = D;
-      this->tree<D>().searchNear(vectorOf<double, D>(from),
+      this->tree<D>().searchNear(projected<D>(from),
         [&](std::int32_t index)
         {
           for (int i = 0; i <= D; ++i)

@@ -22,7 +22,7 @@ class PointGrid
 public:
   using Position = std::array<std::uint16_t, D>;
 
-  /// A grid around the points at(0) ... at(count - 1), arrays of D coordinates.
+  /// A grid around the points at(0) ... at(count - 1).
   template <typename At>
   PointGrid(std::int64_t count, int threads, const At& at)
     : Bounds(boundsOf<D>(count, threads, [&at](std::int64_t i) { return Box<D>::of(at(i)); }))
@@ -31,7 +31,7 @@ public:
     for (int axis = 0; axis < D; ++axis)
     {
       // Infinite if the extent is 0, and 0 if the extent overflows.
-      const double extent = this->Bounds.High[axis] - this->Bounds.Low[axis];
+      const double extent = this->Bounds.width(axis);
       this->Scale[axis] = (Side - 2) * (1 - 1e-9) / extent;
     }
     for (std::int64_t i = 0; i < count; ++i)
@@ -43,12 +43,12 @@ public:
 
   /// The grid position of a point, monotonic along each axis: 0 before all points, 1 and more among
   /// them, at most Side - 1.
-  Position position(const std::array<double, D>& point) const
+  Position position(const Point<D>& point) const
   {
     Position result;
     for (std::size_t axis = 0; axis < D; ++axis)
     {
-      const double at = (point[axis] - this->Bounds.Low[axis]) * this->Scale[axis];
+      const double at = (point[axis] - this->Bounds.Min[axis]) * this->Scale[axis];
       // NaN, as of 0 times infinity, becomes 1.
       result[axis] = std::uint16_t(at < 0 ? 0 : at > 0 ? 1 + std::min(at, double(Side - 2)) : 1);
     }

@@ -50,9 +50,9 @@ public:
 
   std::size_t size() const { return this->Count; }
   std::int64_t number(std::size_t entry) const { return std::int64_t(entry); }
-  std::array<double, D> at(std::size_t entry) const
+  Point<D> at(std::size_t entry) const
   {
-    std::array<double, D> point;
+    Point<D> point;
     for (std::size_t axis = 0; axis < D; ++axis)
     {
       const Axis& of = this->Axes[axis];
@@ -62,7 +62,7 @@ public:
     return point;
   }
 
-  /// Calls visit(entry, coordinates) for all points in a closed box.
+  /// Calls visit(entry, point) for all points in a closed box.
   template <typename Visit>
   void visitNear(const Box<D>& box, const Visit& visit) const
   {
@@ -70,8 +70,8 @@ public:
     std::array<std::int64_t, D> end;
     for (std::size_t axis = 0; axis < D; ++axis)
     {
-      begin[axis] = this->Axes[axis].firstFrom(box.Low[axis]);
-      end[axis] = this->Axes[axis].firstBeyond(box.High[axis], begin[axis]);
+      begin[axis] = this->Axes[axis].firstFrom(box.Min[axis]);
+      end[axis] = this->Axes[axis].firstBeyond(box.Max[axis], begin[axis]);
       if (begin[axis] == end[axis])
       {
         return;
@@ -139,7 +139,7 @@ private:
     }
   };
 
-  /// Calls visit(entry, coordinates) for the indices [begin, end) along each axis.
+  /// Calls visit(entry, point) for the indices [begin, end) along each axis.
   template <std::size_t Fast, typename Visit>
   void visitRows(const std::array<std::int64_t, D>& begin, const std::array<std::int64_t, D>& end,
     const Visit& visit) const
@@ -149,7 +149,7 @@ private:
     for (bool isInside = true; isInside;)
     {
       std::int64_t entry = this->First;
-      std::array<double, D> point;
+      Point<D> point;
       for (std::size_t axis = 0; axis < D; ++axis)
       {
         entry += index[axis] * this->Axes[axis].Step;
@@ -301,8 +301,8 @@ public:
         {
           for (std::int64_t i = begin; i < end; ++i)
           {
-            const std::array<double, D> point = at(i);
-            if (!Box<D>::of(point).isEmpty())
+            const Point<D> point = at(i);
+            if (isFinite(point))
             {
               work(i, point, this->bucketOf(point));
             }
@@ -328,10 +328,10 @@ public:
   }
 
   std::size_t size() const { return this->Count; }
-  const std::array<double, D>& at(std::size_t entry) const { return this->Entries[entry].At; }
+  const Point<D>& at(std::size_t entry) const { return this->Entries[entry].At; }
   std::int64_t number(std::size_t entry) const { return this->Entries[entry].Number; }
 
-  /// Calls visit(entry, coordinates) for all points in a box, and some near it.
+  /// Calls visit(entry, point) for all points in a box, and some near it.
   template <typename Visit>
   void visitNear(const Box<D>& box, const Visit& visit) const
   {
@@ -339,12 +339,12 @@ public:
     std::array<std::int64_t, D> high;
     for (std::size_t axis = 0; axis < D; ++axis)
     {
-      if (box.High[axis] < this->Bounds.Low[axis] || this->Bounds.High[axis] < box.Low[axis])
+      if (box.Max[axis] < this->Bounds.Min[axis] || this->Bounds.Max[axis] < box.Min[axis])
       {
         return;
       }
-      low[axis] = this->positionOf(box.Low[axis], axis);
-      high[axis] = this->positionOf(box.High[axis], axis);
+      low[axis] = this->positionOf(box.Min[axis], axis);
+      high[axis] = this->positionOf(box.Max[axis], axis);
     }
     std::array<std::int64_t, D> at = low;
     for (bool isInside = true; isInside;)
@@ -370,7 +370,7 @@ public:
 private:
   struct Entry
   {
-    std::array<double, D> At;
+    Point<D> At;
     std::int32_t Number;
   };
 
@@ -381,7 +381,7 @@ private:
     std::array<double, D> extents;
     for (std::size_t axis = 0; axis < D; ++axis)
     {
-      extents[axis] = this->Bounds.High[axis] - this->Bounds.Low[axis];
+      extents[axis] = this->Bounds.width(axis);
       volume *= extents[axis];
     }
     const double width = std::pow(volume / std::max(double(count) / 2, 1.0), 1.0 / D);
@@ -396,7 +396,7 @@ private:
   /// Monotonic in the coordinate.
   std::int64_t positionOf(double coordinate, std::size_t axis) const
   {
-    const double at = (coordinate - this->Bounds.Low[axis]) * this->Scale[axis];
+    const double at = (coordinate - this->Bounds.Min[axis]) * this->Scale[axis];
     return at > 0 ? std::int64_t(std::min(at, double(this->Sides[axis] - 1))) : 0;
   }
   std::size_t indexOf(const std::array<std::int64_t, D>& at) const
@@ -408,7 +408,7 @@ private:
     }
     return std::size_t(index);
   }
-  std::size_t bucketOf(const std::array<double, D>& point) const
+  std::size_t bucketOf(const Point<D>& point) const
   {
     std::array<std::int64_t, D> at;
     for (std::size_t axis = 0; axis < D; ++axis)

@@ -2,7 +2,7 @@
 #ifndef tippBoxTiling_h
 #define tippBoxTiling_h
 
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "vtkTIPPAcceleratorsModule.h"
 
 #include <array>
@@ -126,9 +126,9 @@ private:
   template <typename Visit>
   void visitGrid(const Box3& box, Visit&& visit) const
   {
-    const Range x = this->rangeAlong(0, box.Min[0], box.Max[0]);
-    const Range y = this->rangeAlong(1, box.Min[1], box.Max[1]);
-    const Range z = this->rangeAlong(2, box.Min[2], box.Max[2]);
+    const Range x = this->rangeAlong(0, box.Min.x, box.Max.x);
+    const Range y = this->rangeAlong(1, box.Min.y, box.Max.y);
+    const Range z = this->rangeAlong(2, box.Min.z, box.Max.z);
     for (int k = z.First; k <= z.Last; ++k)
     {
       for (int j = y.First; j <= y.Last; ++j)

@@ -111,7 +111,7 @@ private:
         });
       // A single candidate meets the cell if the cell meets the domain. That needs a test only if
       // the bounding box extends beyond the domain.
-      if (candidates == 1 && this->inDomain(bounds))
+      if (candidates == 1 && this->Tiling.domain().contains(bounds))
       {
         return only;
       }
@@ -122,18 +122,6 @@ private:
       this->reportOutside(index);
     }
     return owner;
-  }
-
-  bool inDomain(const Box3& bounds) const
-  {
-    const Box3& domain = this->Tiling.domain();
-    bool inside = true;
-    for (std::size_t axis = 0; axis < static_cast<std::size_t>(this->Tiling.dimension()); ++axis)
-    {
-      inside =
-        inside && domain.Min[axis] <= bounds.Min[axis] && bounds.Max[axis] <= domain.Max[axis];
-    }
-    return inside;
   }
 
   std::int32_t decide(const double* cell, const Box3& bounds, std::vector<std::int32_t>& borrowers)

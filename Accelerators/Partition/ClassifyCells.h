@@ -86,8 +86,8 @@ private:
   template <std::size_t Dimension, std::size_t Components, std::size_t Corners>
   static bool boundsOf(const double* corner, Box3& box)
   {
-    box.Min[2] = 0.0;
-    box.Max[2] = 0.0;
+    box.Min.z = 0.0;
+    box.Max.z = 0.0;
     double check = 0.0;
     for (std::size_t axis = 0; axis < Dimension; ++axis)
     {

@@ -31,8 +31,6 @@ cl::Buffer inputOf(const ComputeDevice& device, const std::vector<Value>& values
   return device.input(values.data(), values.size() * sizeof(Value));
 }
 
-static_assert(sizeof(Box3) == 6 * sizeof(double), "Classify.cl reads boxes as six doubles");
-
 // Cells to be tested, and the index of each cell's first candidate.
 struct Listed
 {

@@ -22,11 +22,9 @@ constexpr double Epsilon = 0x1p-53;
 template <std::size_t D>
 struct ExactBall
 {
-  using Vector = std::array<double, D>;
-
-  ExactBall(const std::array<Vector, D + 1>& corners, const Vector& low, const Vector& high)
+  ExactBall(const std::array<Point<D>, D + 1>& corners, const Box<D>& box)
   {
-    const auto n = toCommonExponent(coordinatesOf(corners, low, high));
+    const auto n = toCommonExponent(coordinatesOf(corners, box));
     std::array<std::array<mpz_class, D>, D> u;
     std::array<mpz_class, D> lift;
     for (std::size_t i = 0; i < D; ++i)
@@ -59,11 +57,11 @@ struct ExactBall
     {
       this->Square += centre[k] * centre[k];
       const std::size_t side = D * (D + 1) + k;
-      if (std::isfinite(low[k]))
+      if (std::isfinite(box.Min[k]))
       {
         this->Depths.push_back(centre[k] - twice * (n[side] - n[k]));
       }
-      if (std::isfinite(high[k]))
+      if (std::isfinite(box.Max[k]))
       {
         this->Depths.push_back(twice * (n[side + D] - n[k]) - centre[k]);
       }
@@ -72,18 +70,17 @@ struct ExactBall
 
   /// Returns the coordinates of the corners and of the box; infinite bounds become 0.
   static std::array<double, D*(D + 3)> coordinatesOf(
-    const std::array<Vector, D + 1>& corners, const Vector& low, const Vector& high)
+    const std::array<Point<D>, D + 1>& corners, const Box<D>& box)
   {
     std::array<double, D*(D + 3)> coordinates;
-    auto* to = coordinates.data();
-    for (const Vector& corner : corners)
+    for (std::size_t k = 0; k < D; ++k)
     {
-      to = std::copy(corner.begin(), corner.end(), to);
-    }
-    for (const Vector& bounds : { low, high })
-    {
-      to = std::transform(bounds.begin(), bounds.end(), to,
-        [](double bound) { return std::isfinite(bound) ? bound : 0.0; });
+      for (std::size_t i = 0; i <= D; ++i)
+      {
+        coordinates[D * i + k] = corners[i][k];
+      }
+      coordinates[D * (D + 1) + k] = std::isfinite(box.Min[k]) ? box.Min[k] : 0;
+      coordinates[D * (D + 2) + k] = std::isfinite(box.Max[k]) ? box.Max[k] : 0;
     }
     return coordinates;
   }
@@ -95,9 +92,9 @@ struct ExactBall
 } // namespace
 
 template <std::size_t D>
-bool BallIntervals<D>::meetsExactly(const Vector& low, const Vector& high) const
+bool BallIntervals<D>::meetsExactly(const Box<D>& box) const
 {
-  const ExactBall<D> ball(this->Corners, low, high);
+  const ExactBall<D> ball(this->Corners, box);
   mpz_class distance = 0;
   for (const mpz_class& depth : ball.Depths)
   {
@@ -111,9 +108,9 @@ bool BallIntervals<D>::meetsExactly(const Vector& low, const Vector& high) const
 }
 
 template <std::size_t D>
-bool BallIntervals<D>::liesInsideExactly(const Vector& low, const Vector& high) const
+bool BallIntervals<D>::liesInsideExactly(const Box<D>& box) const
 {
-  const ExactBall<D> ball(this->Corners, low, high);
+  const ExactBall<D> ball(this->Corners, box);
   return std::all_of(ball.Depths.begin(), ball.Depths.end(),
     [&ball](const mpz_class& depth) { return depth >= 0 && depth * depth >= ball.Square; });
 }
@@ -145,7 +142,7 @@ template class BallIntervals<3>;
 // ends, their squares, bounds() and inside(); in meets() a squared distance is off by 5 e, its root
 // by 2.5 e. With underflow less than 16 e r; 24 e r are allowed for.
 Circumdisk::Circumdisk(const Point2& a, const Point2& b, const Point2& c)
-  : BallIntervals<2>({ { { a.x, a.y }, { b.x, b.y }, { c.x, c.y } } })
+  : BallIntervals<2>({ a, b, c })
 {
   const Point2 u = b - a;
   const Point2 v = c - a;
@@ -209,7 +206,7 @@ struct BallOfCorners
 };
 
 /// Of a cross product, the sums of its products' magnitudes.
-std::array<double, 3> crossPermanent(const Point3& p, const Point3& q)
+Point3 crossPermanent(const Point3& p, const Point3& q)
 {
   return { std::fabs(p.y * q.z) + std::fabs(p.z * q.y), std::fabs(p.z * q.x) + std::fabs(p.x * q.z),
     std::fabs(p.x * q.y) + std::fabs(p.y * q.x) };
@@ -237,14 +234,13 @@ std::array<double, 3> crossPermanent(const Point3& p, const Point3& q)
 // ends and their squares; in meets() a squared distance is off by 6 e, its root by 3 e. 32 e r are
 // allowed for.
 Circumball::Circumball(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
-  : BallIntervals<3>(
-      { { { a.x, a.y, a.z }, { b.x, b.y, b.z }, { c.x, c.y, c.z }, { d.x, d.y, d.z } } })
+  : BallIntervals<3>({ a, b, c, d })
 {
   const BallOfCorners ball(a, b, c, d);
   const auto& [u, v, w] = ball.Edges;
   const Vector permanents[3] = { crossPermanent(v, w), crossPermanent(w, u), crossPermanent(u, v) };
-  const double permanent = std::fabs(u.x) * permanents[0][0] + std::fabs(u.y) * permanents[0][1] +
-    std::fabs(u.z) * permanents[0][2];
+  const double permanent = std::fabs(u.x) * permanents[0].x + std::fabs(u.y) * permanents[0].y +
+    std::fabs(u.z) * permanents[0].z;
   double longest = 0;
   for (const Point3& edge : ball.Edges)
   {
@@ -290,8 +286,8 @@ bool Circumball::isSurelyInside(
     const double reach = radius + 16 * Epsilon * std::fabs(centre);
     return low < centre - reach && centre + reach < high;
   };
-  return isBetween(box.Min[0], a.x + q.x, box.Max[0]) &&
-    isBetween(box.Min[1], a.y + q.y, box.Max[1]) && isBetween(box.Min[2], a.z + q.z, box.Max[2]);
+  return isBetween(box.Min.x, a.x + q.x, box.Max.x) && isBetween(box.Min.y, a.y + q.y, box.Max.y) &&
+    isBetween(box.Min.z, a.z + q.z, box.Max.z);
 }
 
 // The same filter, squared: without root and division. The radius is at least half an edge, so the

@@ -2,7 +2,7 @@
 #ifndef tippCircumball_h
 #define tippCircumball_h
 
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "vtkTIPPAcceleratorsModule.h"
 
 #include <algorithm>
@@ -20,15 +20,18 @@ template <std::size_t D>
 class VTKTIPPACCELERATORS_EXPORT BallIntervals
 {
 protected:
-  using Vector = std::array<double, D>;
+  using Vector = Point<D>;
   static constexpr double Infinity = std::numeric_limits<double>::infinity();
 
   /// Leaves the intervals infinite, so that every test uses exact arithmetic.
   explicit BallIntervals(const std::array<Vector, D + 1>& corners)
     : Corners(corners)
   {
-    this->Low.fill(-Infinity);
-    this->High.fill(Infinity);
+    for (std::size_t k = 0; k < D; ++k)
+    {
+      this->Centre.Min[k] = -Infinity;
+      this->Centre.Max[k] = Infinity;
+    }
   }
 
   /// Sets the intervals, unless the radius is too large (or NaN); then they stay infinite. `offset`
@@ -55,8 +58,8 @@ protected:
     {
       const double centre = this->Corners[0][k] + offset[k];
       const double error = errors[k] + epsilon * (4.0 * std::fabs(centre) + radius);
-      this->Low[k] = centre - error;
-      this->High[k] = centre + error;
+      this->Centre.Min[k] = centre - error;
+      this->Centre.Max[k] = centre + error;
     }
     this->Largest = radius + radiusError;
     this->Smallest = std::max(0.0, radius - radiusError);
@@ -64,15 +67,16 @@ protected:
     this->SmallestSquare = this->Smallest * this->Smallest;
   }
 
-  /// Whether the ball and the box [low, high] share a point.
-  bool meetsBox(const Vector& low, const Vector& high) const
+  /// Whether the ball and the box share a point.
+  bool meetsBox(const Box<D>& box) const
   {
     // Lower and upper bound of the distance from the centre to the nearest point of the box.
     double near = 0;
     double far = 0;
     for (std::size_t k = 0; k < D; ++k)
     {
-      const double atLeast = gap(low[k] - this->High[k], this->Low[k] - high[k]);
+      const double atLeast =
+        gap(box.Min[k] - this->Centre.Max[k], this->Centre.Min[k] - box.Max[k]);
       near += atLeast * atLeast;
     }
     if (near > this->LargestSquare)
@@ -81,21 +85,20 @@ protected:
     }
     for (std::size_t k = 0; k < D; ++k)
     {
-      const double atMost = gap(low[k] - this->Low[k], this->High[k] - high[k]);
+      const double atMost = gap(box.Min[k] - this->Centre.Min[k], this->Centre.Max[k] - box.Max[k]);
       far += atMost * atMost;
     }
-    return far <= this->SmallestSquare || this->meetsExactly(low, high);
+    return far <= this->SmallestSquare || this->meetsExactly(box);
   }
 
   ///@{
   /// Exact, for boxes whose bounds may be infinite.
-  bool meetsExactly(const Vector& low, const Vector& high) const;
-  bool liesInsideExactly(const Vector& low, const Vector& high) const;
+  bool meetsExactly(const Box<D>& box) const;
+  bool liesInsideExactly(const Box<D>& box) const;
   ///@}
 
   std::array<Vector, D + 1> Corners;
-  Vector Low;           // the centre lies between Low
-  Vector High;          // and High
+  Box<D> Centre;        // contains the centre
   double Smallest = -1; // interval of the radius
   double Largest = Infinity;
   double SmallestSquare = -1;      // interval of the squared radius,
@@ -119,33 +122,30 @@ public:
   Circumdisk(const Point2& a, const Point2& b, const Point2& c);
 
   /// Whether disk and box share a point; touching counts.
-  bool meets(const Box2& box) const
-  {
-    return this->meetsBox({ box.xmin, box.ymin }, { box.xmax, box.ymax });
-  }
+  bool meets(const Box2& box) const { return this->meetsBox(box); }
 
   /// Whether the disk lies in the box; touching the box's border from inside counts.
   bool inside(const Box2& box) const
   {
-    const Box2 outer = this->bounds();
-    if (box.xmin <= outer.xmin && outer.xmax <= box.xmax && box.ymin <= outer.ymin &&
-      outer.ymax <= box.ymax)
+    if (box.contains(this->bounds()))
     {
       return true;
     }
     // The disk reaches or crosses each side of this box.
-    const Box2 inner = { this->High[0] - this->Smallest, this->High[1] - this->Smallest,
-      this->Low[0] + this->Smallest, this->Low[1] + this->Smallest };
-    const bool reachesOut = inner.xmin < box.xmin || box.xmax < inner.xmax ||
-      inner.ymin < box.ymin || box.ymax < inner.ymax;
-    return !reachesOut && this->liesInsideExactly({ box.xmin, box.ymin }, { box.xmax, box.ymax });
+    const Box2& centre = this->Centre;
+    const Box2 inner = { { centre.Max.x - this->Smallest, centre.Max.y - this->Smallest },
+      { centre.Min.x + this->Smallest, centre.Min.y + this->Smallest } };
+    const bool reachesOut = inner.Min.x < box.Min.x || box.Max.x < inner.Max.x ||
+      inner.Min.y < box.Min.y || box.Max.y < inner.Max.y;
+    return !reachesOut && this->liesInsideExactly(box);
   }
 
   /// A box that contains the disk: rounded outward, and infinite if doubles cannot bound it.
   Box2 bounds() const
   {
-    return { this->Low[0] - this->Largest, this->Low[1] - this->Largest,
-      this->High[0] + this->Largest, this->High[1] + this->Largest };
+    const auto& [low, high] = this->Centre;
+    return { { low.x - this->Largest, low.y - this->Largest },
+      { high.x + this->Largest, high.y + this->Largest } };
   }
 };
 
@@ -157,7 +157,7 @@ public:
   Circumball(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
   /// Whether ball and box share a point; touching counts.
-  bool meets(const Box3& box) const { return this->meetsBox(box.Min, box.Max); }
+  bool meets(const Box3& box) const { return this->meetsBox(box); }
 
   /// A quick sufficient test: true only if the ball of the tetrahedron lies in the interior of the
   /// box. May be false for a ball close to the box's border or for a thin tetrahedron.

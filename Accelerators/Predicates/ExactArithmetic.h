@@ -2,7 +2,7 @@
 #ifndef tippExactArithmetic_h
 #define tippExactArithmetic_h
 
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 
 #include <algorithm>
 #include <array>

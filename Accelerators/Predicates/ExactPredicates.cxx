@@ -211,17 +211,14 @@ void CoordinateGrid::analyse(const Point2* points, std::size_t count)
   // so a multiple of the same unit.
   const Point2 reference = points[0];
   BitSpan span;
-  Box2 box = { reference.x, reference.y, reference.x, reference.y };
+  Box2 box = Box2::of(reference);
   constexpr std::size_t blockSize = 256;
   for (std::size_t begin = 0; begin < count; begin += blockSize)
   {
     const std::size_t end = std::min(count, begin + blockSize);
     for (std::size_t i = begin; i < end; ++i)
     {
-      box.xmin = std::min(box.xmin, points[i].x);
-      box.ymin = std::min(box.ymin, points[i].y);
-      box.xmax = std::max(box.xmax, points[i].x);
-      box.ymax = std::max(box.ymax, points[i].y);
+      box.extend(points[i]);
       span.includeDifference(points[i].x, reference.x);
       span.includeDifference(points[i].y, reference.y);
     }
@@ -233,7 +230,7 @@ void CoordinateGrid::analyse(const Point2* points, std::size_t count)
   }
   this->Scale = span.scale();
   // Rounding is monotone: if this size is below a power of two, so is the exact one.
-  this->Mode = modeOf(std::max(box.xmax - box.xmin, box.ymax - box.ymin), this->Scale);
+  this->Mode = modeOf(std::max(box.width(0), box.width(1)), this->Scale);
 }
 
 int CoordinateGrid::orientation(Point2 a, Point2 b, Point2 c) const

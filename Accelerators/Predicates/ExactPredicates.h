@@ -2,7 +2,7 @@
 #ifndef tippExactPredicates_h
 #define tippExactPredicates_h
 
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "vtkTIPPAcceleratorsModule.h"
 
 #include <cmath>

@@ -292,19 +292,14 @@ namespace
 
 // A Box2 is the projection of a box along an axis.
 
-bool contains(const Box2& box, Point2 p)
-{
-  return box.xmin <= p.x && p.x <= box.xmax && box.ymin <= p.y && p.y <= box.ymax;
-}
-
 // +1 or -1 if the rectangle lies strictly on that side of the directed line ab, else 0.
 int strictSide(Point2 a, Point2 b, const Box2& box)
 {
   // The rectangle's extreme corners to the left and to the right of the line.
   const bool east = b.x > a.x;
   const bool north = b.y > a.y;
-  const Point2 left = { north ? box.xmin : box.xmax, east ? box.ymax : box.ymin };
-  const Point2 right = { north ? box.xmax : box.xmin, east ? box.ymin : box.ymax };
+  const Point2 left = { north ? box.Min.x : box.Max.x, east ? box.Max.y : box.Min.y };
+  const Point2 right = { north ? box.Max.x : box.Min.x, east ? box.Min.y : box.Max.y };
   if (orientation(a, b, right) > 0)
   {
     return 1;
@@ -342,10 +337,10 @@ bool faceSeparates(
   const int x = orientation({ a.y, a.z }, { b.y, b.z }, { c.y, c.z });
   const int y = orientation({ a.z, a.x }, { b.z, b.x }, { c.z, c.x });
   const int z = orientation({ a.x, a.y }, { b.x, b.y }, { c.x, c.y });
-  const Point3 highest = { x > 0 ? box.Max[0] : box.Min[0], y > 0 ? box.Max[1] : box.Min[1],
-    z > 0 ? box.Max[2] : box.Min[2] };
-  const Point3 lowest = { x > 0 ? box.Min[0] : box.Max[0], y > 0 ? box.Min[1] : box.Max[1],
-    z > 0 ? box.Min[2] : box.Max[2] };
+  const Point3 highest = { x > 0 ? box.Max.x : box.Min.x, y > 0 ? box.Max.y : box.Min.y,
+    z > 0 ? box.Max.z : box.Min.z };
+  const Point3 lowest = { x > 0 ? box.Min.x : box.Max.x, y > 0 ? box.Min.y : box.Max.y,
+    z > 0 ? box.Min.z : box.Max.z };
   int side = orientation3(a, b, c, lowest) > 0 ? 1 : 0;
   if (side == 0 && orientation3(a, b, c, highest) < 0)
   {
@@ -363,28 +358,22 @@ bool apartAlongAxis(const std::array<double, N>& values, double low, double high
 
 bool boundsMeet(const std::array<Point3, 4>& p, const Box3& box)
 {
-  return !apartAlongAxis<4>({ p[0].x, p[1].x, p[2].x, p[3].x }, box.Min[0], box.Max[0]) &&
-    !apartAlongAxis<4>({ p[0].y, p[1].y, p[2].y, p[3].y }, box.Min[1], box.Max[1]) &&
-    !apartAlongAxis<4>({ p[0].z, p[1].z, p[2].z, p[3].z }, box.Min[2], box.Max[2]);
-}
-
-bool contains(const Box3& box, const Point3& p)
-{
-  return box.Min[0] <= p.x && p.x <= box.Max[0] && box.Min[1] <= p.y && p.y <= box.Max[1] &&
-    box.Min[2] <= p.z && p.z <= box.Max[2];
+  return !apartAlongAxis<4>({ p[0].x, p[1].x, p[2].x, p[3].x }, box.Min.x, box.Max.x) &&
+    !apartAlongAxis<4>({ p[0].y, p[1].y, p[2].y, p[3].y }, box.Min.y, box.Max.y) &&
+    !apartAlongAxis<4>({ p[0].z, p[1].z, p[2].z, p[3].z }, box.Min.z, box.Max.z);
 }
 
 } // namespace
 
 bool triangleMeetsBox(Point2 a, Point2 b, Point2 c, const Box3& box)
 {
-  const Box2 shadow = { box.Min[0], box.Min[1], box.Max[0], box.Max[1] };
-  if (contains(shadow, a) || contains(shadow, b) || contains(shadow, c))
+  const Box2 shadow = projected<2>(box);
+  if (shadow.contains(a) || shadow.contains(b) || shadow.contains(c))
   {
     return true;
   }
-  return !apartAlongAxis<3>({ a.x, b.x, c.x }, box.Min[0], box.Max[0]) &&
-    !apartAlongAxis<3>({ a.y, b.y, c.y }, box.Min[1], box.Max[1]) &&
+  return !apartAlongAxis<3>({ a.x, b.x, c.x }, box.Min.x, box.Max.x) &&
+    !apartAlongAxis<3>({ a.y, b.y, c.y }, box.Min.y, box.Max.y) &&
     !edgeSeparates<1>(a, b, { c }, shadow) && !edgeSeparates<1>(b, c, { a }, shadow) &&
     !edgeSeparates<1>(c, a, { b }, shadow);
 }
@@ -393,7 +382,7 @@ bool tetrahedronMeetsBox(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Box3& box)
 {
   const std::array<Point3, 4> p = { a, b, c, d };
-  if (std::any_of(p.begin(), p.end(), [&](const Point3& corner) { return contains(box, corner); }))
+  if (std::any_of(p.begin(), p.end(), [&](const Point3& corner) { return box.contains(corner); }))
   {
     return true;
   }
@@ -408,7 +397,7 @@ bool tetrahedronMeetsBox(
       { c.*first, c.*second }, { d.*first, d.*second } } };
   };
   const auto shadow = [&](std::size_t first, std::size_t second) {
-    return Box2{ box.Min[first], box.Min[second], box.Max[first], box.Max[second] };
+    return Box2{ { box.Min[first], box.Min[second] }, { box.Max[first], box.Max[second] } };
   };
   return !edgesSeparate(seen(&Point3::x, &Point3::y), shadow(0, 1)) &&
     !edgesSeparate(seen(&Point3::y, &Point3::z), shadow(1, 2)) &&

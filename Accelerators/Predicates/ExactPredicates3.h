@@ -3,7 +3,7 @@
 #define tippExactPredicates3_h
 
 #include "Predicates/ExactPredicates.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "vtkTIPPAcceleratorsModule.h"
 
 #include <cmath>

@@ -2,6 +2,7 @@
 #ifndef tippCellVisitor_h
 #define tippCellVisitor_h
 
+#include "Parallel/Instructions.h"
 #include "Parallel/ParallelFor.h"
 #include "Resample/CellLanes.h"
 #include "Resample/CellRows.h"
@@ -55,9 +56,8 @@ public:
       this->Groups.reset(this->Mesh.Cells);
     }
     this->Outside.find(int(this->Sinks.size()));
-    const bool wide = hasAvx2();
-    const auto visit = [this, wide](std::int64_t begin, std::int64_t end, int thread)
-    { wide ? this->visitChunkAvx2(begin, end, thread) : this->visitChunk(begin, end, thread); };
+    const auto visit = [this](std::int64_t begin, std::int64_t end, int thread)
+    { runWith(Instructions::Best, [&] { this->visitChunk(begin, end, thread); }); };
     return forChunks(this->Mesh.Cells, chunk, int(this->Sinks.size()), report, visit) &&
       this->visitLargeCells(report);
   }
@@ -83,15 +83,6 @@ private:
     std::int64_t RowBegin; ///< relative to the first row of the cell's first layer
     std::int64_t RowEnd;
   };
-
-#ifdef __x86_64__
-  [[gnu::flatten, gnu::target("avx2")]]
-#endif
-  void
-  visitChunkAvx2(std::int64_t begin, std::int64_t end, int thread)
-  {
-    this->visitChunk(begin, end, thread);
-  }
 
   [[gnu::always_inline]] void visitChunk(std::int64_t begin, std::int64_t end, int thread)
   {
@@ -171,10 +162,7 @@ private:
     }
   }
 
-  bool hidden(std::int64_t cell) const
-  {
-    return this->Mesh.Hidden && this->Mesh.Hidden[cell] != 0;
-  }
+  bool hidden(std::int64_t cell) const { return this->Mesh.Hidden && this->Mesh.Hidden[cell] != 0; }
 
   /// A bit mask of the hidden cells from `first` on.
   unsigned hiddenLanes(std::int64_t first) const

@@ -106,7 +106,7 @@ auto boundsOfCells(const SimplexMesh& mesh, const Access& access, int threads)
       Box<D> box = Box<D>::empty();
       for (int i = 0; i < Access::Corners; ++i)
       {
-        box.extend(Box<D>::of(access.coordinates(access.ids(cell)[i])));
+        box.extend(access.coordinates(access.ids(cell)[i]));
       }
       return box;
     });
@@ -139,16 +139,16 @@ SampleWindow SampleWindow::around(const SimplexMesh& mesh, const Lattice& lattic
     [&](const auto& access)
     {
       const auto bounds = boundsOfCells(mesh, access, threads);
-      for (std::size_t i = 0; i < bounds.Low.size(); ++i)
+      for (std::size_t i = 0; i < access.Dimension; ++i)
       {
         const auto axis = std::size_t(axes[i]);
         // With an infinite error each sample is compared exactly, just as the cells do.
         const LatticeAxis samples(lattice, int(axis));
         const double slack = mesh.Dimension == 2 && samples.Slack > 0
-          ? std::max(samples.Slack, roundingOf(bounds.Low[i], bounds.High[i]))
+          ? std::max(samples.Slack, roundingOf(bounds.Min[i], bounds.Max[i]))
           : 0;
         const IndexRange found =
-          samples.range(bounds.Low[i] - slack, bounds.High[i] + slack, HUGE_VAL);
+          samples.range(bounds.Min[i] - slack, bounds.Max[i] + slack, HUGE_VAL);
         begins[i] = found.Begin;
         const int first = lattice.Extent[2 * axis];
         window.Part.Extent[2 * axis] = first + found.Begin;

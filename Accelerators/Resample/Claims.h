@@ -4,7 +4,7 @@
 
 #include "Arrays/Random.h"
 #include "Parallel/ParallelFor.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "Resample/Lattice.h"
 #include "Resample/SimplexMesh.h"
 #include "vtkTIPPAcceleratorsModule.h"

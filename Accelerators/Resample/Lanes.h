@@ -2,9 +2,9 @@
 #ifndef tippLanes_h
 #define tippLanes_h
 
+#include "Predicates/Geometry.h"
 #include "Resample/Lattice.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -27,16 +27,6 @@ using TwoDoubles = double __attribute__((vector_size(16)));
 using FourFloats = float __attribute__((vector_size(16)));
 
 constexpr int laneCount = 4;
-
-/// Whether this processor can run the functions compiled for AVX2.
-inline bool hasAvx2()
-{
-#ifdef __x86_64__
-  return __builtin_cpu_supports("avx2") != 0;
-#else
-  return false;
-#endif
-}
 
 [[gnu::always_inline]] inline Lanes allLanes(double value)
 {
@@ -329,7 +319,7 @@ struct alignas(32) GroupLanes
   {
     for (int corner = 0; corner <= D; ++corner)
     {
-      std::array<double, D> p[laneCount];
+      Point<D> p[laneCount];
       for (int lane = 0; lane < laneCount; ++lane)
       {
         const std::int64_t id = access.ids(cells[lane])[corner];

@@ -3,6 +3,7 @@
 #define tippSampleBlock_h
 
 #include "Arrays/Scalar.h"
+#include "Parallel/Instructions.h"
 #include "Resample/CellVisitor.h"
 #include "Resample/Lanes.h"
 #include "Resample/Resample.h"
@@ -72,7 +73,10 @@ public:
   }
 
   /// Computes the groups' corners, the gradients of their weights, and the samples' offsets.
-  void weigh() { hasAvx2() ? this->weighAvx2() : this->weighAll(); }
+  void weigh()
+  {
+    runWith(Instructions::Best, [this] { this->weighAll(); });
+  }
 
   int size() const { return this->Size; }
   /// The index of each sample in the lattice.
@@ -159,15 +163,6 @@ private:
     this->RunOfSamples[j] = this->RunCount;
   }
 
-#ifdef __x86_64__
-  [[gnu::target("avx2")]]
-#endif
-  void
-  weighAvx2()
-  {
-    this->weighAll();
-  }
-
   [[gnu::always_inline]] void weighAll()
   {
     const int groups = this->groups();
@@ -237,7 +232,7 @@ public:
     {
       for (int component = 0; component < this->Components; ++component)
       {
-        hasAvx2() ? this->interpolateAvx2(component) : this->interpolate(component);
+        runWith(Instructions::Best, [&] { this->interpolate(component); });
       }
     }
     else
@@ -282,15 +277,6 @@ private:
     {
       store(this->sample(j) + component, from[component]);
     }
-  }
-
-#ifdef __x86_64__
-  [[gnu::target("avx2")]]
-#endif
-  void
-  interpolateAvx2(int component)
-  {
-    this->interpolate(component);
   }
 
   [[gnu::always_inline]] void interpolate(int component)

@@ -3,11 +3,10 @@
 #define tippSimplexMesh_h
 
 #include "Parallel/ParallelFor.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "Resample/Lattice.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -44,15 +43,6 @@ struct CellLocation
   double Weights[4] = {};
 };
 
-inline Point2 pointAt(const std::array<double, 2>& at)
-{
-  return { at[0], at[1] };
-}
-inline Point3 pointAt(const std::array<double, 3>& at)
-{
-  return { at[0], at[1], at[2] };
-}
-
 /// Typed access to the cells of a SimplexMesh.
 template <int D, typename Scalar, typename Id>
 class SimplexAccess
@@ -60,7 +50,7 @@ class SimplexAccess
 public:
   static constexpr int Dimension = D;
   static constexpr int Corners = D + 1;
-  using Point = std::conditional_t<D == 2, Point2, Point3>;
+  using Point = tipp::Point<D>;
 
   explicit SimplexAccess(const SimplexMesh& mesh)
     : Points(static_cast<const Scalar*>(mesh.Points))
@@ -76,12 +66,12 @@ public:
   {
     for (int i = 0; i < Corners; ++i)
     {
-      corners[i] = pointAt(this->coordinates(this->ids(cell)[i]));
+      corners[i] = this->coordinates(this->ids(cell)[i]);
     }
   }
 
   /// The coordinates of a point that are used.
-  [[gnu::always_inline]] std::array<double, D> coordinates(std::int64_t id) const
+  [[gnu::always_inline]] Point coordinates(std::int64_t id) const
   {
     const Scalar* p = this->Points + 3 * id;
     if constexpr (D == 2)
@@ -97,10 +87,9 @@ public:
   /// The coordinates that are used of a point in space.
   Point flattened(const Point3& p) const
   {
-    const double all[3] = { p.x, p.y, p.z };
     if constexpr (D == 2)
     {
-      return { all[this->U], all[this->V] };
+      return { p[this->U], p[this->V] };
     }
     else
     {
@@ -352,7 +341,7 @@ public:
 private:
   [[gnu::always_inline]] unsigned char sidesOf(std::int64_t id) const
   {
-    const std::array<double, D> p = this->Cells.coordinates(id);
+    const auto p = this->Cells.coordinates(id);
     int sides = 0;
     for (std::size_t axis = 0; axis < D; ++axis)
     {

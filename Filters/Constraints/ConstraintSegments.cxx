@@ -58,7 +58,7 @@ void visitAbove(const SegmentTree& tree, const Wedge& wedge, const Visit& visit)
   // corner's.
   const Point2 p = wedge.Corner;
   const double infinity = std::numeric_limits<double>::infinity();
-  tree.visitNear(Box2{ p.x, p.y, p.x, infinity },
+  tree.visitNear(Box2{ p, { p.x, infinity } },
     [&](const SegmentTree::Item& item)
     {
       const bool goesLeft = item.B.x < item.A.x;

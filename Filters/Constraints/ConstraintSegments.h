@@ -3,7 +3,7 @@
 #define tippConstraintSegments_h
 
 #include "Constraints/SegmentTree.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <array>

@@ -61,11 +61,7 @@ double roundingOf(const std::vector<SegmentTree::Item>& segments, int threads)
   }
   constexpr double relative = 0x1p-50;
   constexpr double smallest = 0x1p-1070; // for products that underflow
-  const Box2 all = SegmentTree::boxOfAll(segments, threads);
-  return smallest +
-    relative *
-    std::max(
-      { std::fabs(all.xmin), std::fabs(all.ymin), std::fabs(all.xmax), std::fabs(all.ymax) });
+  return smallest + relative * SegmentTree::boxOfAll(segments, threads).largest();
 }
 
 } // namespace

@@ -34,8 +34,7 @@ public:
       [&](std::size_t i)
       {
         const SegmentTree::Item& segment = this->Segments[i];
-        if (overlap({ p.x, p.y, p.x, p.y }, boxOf(segment.A, segment.B)) &&
-          orientation(segment.A, segment.B, p) == 0)
+        if (segment.box().contains(p) && orientation(segment.A, segment.B, p) == 0)
         {
           visit(i);
         }
@@ -47,13 +46,12 @@ public:
   bool isNear(Point2 p) const
   {
     bool isNear = false;
-    const Box2 box = expanded({ p.x, p.y, p.x, p.y }, this->Margin);
+    const Box2 box = expanded(Box2::of(p), this->Margin);
     this->visitParts(p,
       [&](std::size_t i)
       {
         const SegmentTree::Item& segment = this->Segments[i];
-        isNear =
-          overlap(box, boxOf(segment.A, segment.B)) && lineMayMeet(segment.A, segment.B, box);
+        isNear = box.meets(segment.box()) && lineMayMeet(segment.A, segment.B, box);
         return !isNear;
       });
     return isNear;
@@ -63,7 +61,7 @@ private:
   template <typename Visit>
   void visitParts(Point2 p, const Visit& visit) const
   {
-    this->Parts.visitNear(expanded({ p.x, p.y, p.x, p.y }, this->Slack),
+    this->Parts.visitNear(expanded(Box2::of(p), this->Slack),
       [&visit](const SegmentTree::Item& part) { return visit(std::size_t(part.Id)); });
   }
 

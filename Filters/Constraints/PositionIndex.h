@@ -2,7 +2,7 @@
 #ifndef tippPositionIndex_h
 #define tippPositionIndex_h
 
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "Triangulation/Duplicate.h"
 #include "Triangulation/PointsView.h"
 #include "vtkTIPPFiltersModule.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/SegmentTree.h"
 
-#include "Kernel/InsertionOrder.h"
+#include "Locate/MortonOrder.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Sort.h"
 #include "Predicates/ExactPredicates.h"
@@ -26,10 +26,10 @@ std::uint32_t cellOf(double value, double low, double high)
   return fraction > 0 ? std::uint32_t(std::min(fraction, 1.0) * cells) : 0;
 }
 
-std::uint32_t mortonKey(const SegmentTree::Item& item, const Box2& all)
+std::uint64_t mortonKey(const SegmentTree::Item& item, const Box2& all)
 {
-  return spreadBits(cellOf(item.A.x / 2 + item.B.x / 2, all.xmin, all.xmax)) |
-    spreadBits(cellOf(item.A.y / 2 + item.B.y / 2, all.ymin, all.ymax)) << 1;
+  return spreadBits<2>(cellOf(item.A.x / 2 + item.B.x / 2, all.Min.x, all.Max.x)) |
+    spreadBits<2>(cellOf(item.A.y / 2 + item.B.y / 2, all.Min.y, all.Max.y)) << 1;
 }
 
 void compare(
@@ -47,22 +47,8 @@ void compare(
 
 Box2 SegmentTree::boxOfAll(const std::vector<Item>& segments, int threads)
 {
-  const Box2 first = segments.empty() ? Box2{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL }
-                                      : boxOf(segments.front().A, segments.front().B);
-  std::vector<Box2> boxes(std::size_t(threads), first);
-  forChunks(std::int64_t(segments.size()), SegmentTree::Chunk, threads, {},
-    [&](std::int64_t begin, std::int64_t end, int thread)
-    {
-      Box2 box = first;
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        const Item& item = segments[std::size_t(i)];
-        box = unionOf(box, boxOf(item.A, item.B));
-      }
-      Box2& all = boxes[std::size_t(thread)];
-      all = unionOf(all, box);
-    });
-  return std::accumulate(boxes.begin(), boxes.end(), first, unionOf);
+  return boundsOf<2>(std::int64_t(segments.size()), threads,
+    [&segments](std::int64_t i) { return segments[std::size_t(i)].box(); });
 }
 
 SegmentTree::SegmentTree(std::vector<Item> segments, int threads)
@@ -89,8 +75,7 @@ SegmentTree::SegmentTree(std::vector<Item> segments, int threads)
         }
       });
   };
-  forAll(
-    count, [&](std::size_t i) { order[i] = std::uint64_t(mortonKey(segments[i], all)) << 32 | i; });
+  forAll(count, [&](std::size_t i) { order[i] = mortonKey(segments[i], all) << 32 | i; });
   sortByUpperHalf(order, threads);
   this->Items.resize(segments.size());
   forAll(
@@ -104,14 +89,14 @@ SegmentTree::SegmentTree(std::vector<Item> segments, int threads)
         Box2 box = boxAt(group * Fanout);
         for (std::size_t i = group * Fanout + 1; i < std::min(items, (group + 1) * Fanout); ++i)
         {
-          box = unionOf(box, boxAt(i));
+          box.extend(boxAt(i));
         }
         boxes[group] = box;
       });
     return boxes;
   };
-  this->Levels.push_back(boxesOfGroups(this->Items.size(),
-    [this](std::size_t i) { return boxOf(this->Items[i].A, this->Items[i].B); }));
+  this->Levels.push_back(
+    boxesOfGroups(this->Items.size(), [this](std::size_t i) { return this->Items[i].box(); }));
   while (this->Levels.back().size() > 1)
   {
     const std::vector<Box2>& below = this->Levels.back();
@@ -138,8 +123,8 @@ std::vector<CrossingPair> findCrossingPairs(std::vector<SegmentTree::Item> all, 
   const Box2 box = SegmentTree::boxOfAll(all, threads);
   // Halves, because a difference may overflow.
   constexpr double part = 1.0 / 64;
-  const double width = part * (box.xmax / 2 - box.xmin / 2);
-  const double height = part * (box.ymax / 2 - box.ymin / 2);
+  const double width = part * (box.Max.x / 2 - box.Min.x / 2);
+  const double height = part * (box.Max.y / 2 - box.Min.y / 2);
   const auto firstLong = std::stable_partition(all.begin(), all.end(),
     [width, height](const SegmentTree::Item& item)
     {

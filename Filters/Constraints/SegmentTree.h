@@ -2,7 +2,7 @@
 #ifndef tippSegmentTree_h
 #define tippSegmentTree_h
 
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 
 #include <algorithm>
 #include <array>
@@ -14,16 +14,6 @@
 namespace tipp
 {
 
-inline Box2 boxOf(Point2 a, Point2 b)
-{
-  return { std::min(a.x, b.x), std::min(a.y, b.y), std::max(a.x, b.x), std::max(a.y, b.y) };
-}
-
-inline bool overlap(const Box2& a, const Box2& b)
-{
-  return a.xmin <= b.xmax && b.xmin <= a.xmax && a.ymin <= b.ymax && b.ymin <= a.ymax;
-}
-
 /// Whether p, a point on the line through a and b, is strictly between these.
 inline bool isBetween(Point2 a, Point2 p, Point2 b)
 {
@@ -33,7 +23,7 @@ inline bool isBetween(Point2 a, Point2 p, Point2 b)
 
 inline Box2 expanded(const Box2& box, double margin)
 {
-  return { box.xmin - margin, box.ymin - margin, box.xmax + margin, box.ymax + margin };
+  return { { box.Min.x - margin, box.Min.y - margin }, { box.Max.x + margin, box.Max.y + margin } };
 }
 
 /// Whether the line through a and b may meet the closed box. False only if it certainly does not.
@@ -45,10 +35,9 @@ inline bool lineMayMeet(Point2 a, Point2 b, const Box2& box)
   constexpr double smallest = 0x1p-1070; // for halves of denormal numbers
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
-  const double centerX = box.xmin / 2 + box.xmax / 2;
-  const double centerY = box.ymin / 2 + box.ymax / 2;
-  const double halfX = box.xmax / 2 - box.xmin / 2;
-  const double halfY = box.ymax / 2 - box.ymin / 2;
+  const auto [centerX, centerY] = box.center();
+  const double halfX = box.Max.x / 2 - box.Min.x / 2;
+  const double halfY = box.Max.y / 2 - box.Min.y / 2;
   const double distance = std::fabs(dx * (centerY - a.y) - dy * (centerX - a.x));
   const double reach = std::fabs(dx) * halfY + std::fabs(dy) * halfX;
   const double error = relative *
@@ -67,14 +56,16 @@ public:
     Point2 A;
     Point2 B;
     std::int64_t Id; ///< chosen by the caller
+
+    Box2 box() const { return Box2::of(this->A, this->B); }
   };
 
   explicit SegmentTree(std::vector<Item> segments, int threads = 1);
 
-  static constexpr std::int64_t Chunk = 8192; ///< number of items that a thread processes at a time
-
   /// The bounding box of all segments; without segments, an empty box.
   static Box2 boxOfAll(const std::vector<Item>& segments, int threads);
+
+  static constexpr std::int64_t Chunk = 8192; ///< number of items that a thread processes at a time
 
   const std::vector<Item>& items() const { return this->Items; }
 
@@ -86,19 +77,19 @@ public:
   template <typename Visit>
   void visitNear(const Box2& box, const Visit& visit) const
   {
-    this->visitNodes([&box](const Box2& node) { return overlap(box, node); },
-      [&](const Item& item) { return !overlap(box, boxOf(item.A, item.B)) || visit(item); });
+    this->visitNodes([&box](const Box2& node) { return box.meets(node); },
+      [&](const Item& item) { return !box.meets(item.box()) || visit(item); });
   }
 
   /// As above, for segments whose bounding box this segment may meet, or come within `margin` of.
   template <typename Visit>
   void visitNear(const Item& segment, const Visit& visit, double margin = 0) const
   {
-    const Box2 box = expanded(boxOf(segment.A, segment.B), margin);
+    const Box2 box = expanded(segment.box(), margin);
     const auto isNear = [&](const Box2& node)
-    { return overlap(box, node) && lineMayMeet(segment.A, segment.B, expanded(node, margin)); };
-    this->visitNodes(isNear,
-      [&](const Item& item) { return !overlap(box, boxOf(item.A, item.B)) || visit(item); });
+    { return box.meets(node) && lineMayMeet(segment.A, segment.B, expanded(node, margin)); };
+    this->visitNodes(
+      isNear, [&](const Item& item) { return !box.meets(item.box()) || visit(item); });
   }
 
   /// The number of groups of neighbouring items, for visitPairs().
@@ -113,15 +104,15 @@ public:
     const Box2& box = this->Levels.front()[group];
     const Item* const begin = this->Items.data() + group * Fanout;
     const Item* const end = this->Items.data() + std::min(this->Items.size(), (group + 1) * Fanout);
-    this->visitNodes([&box](const Box2& node) { return overlap(box, node); },
+    this->visitNodes([&box](const Box2& node) { return box.meets(node); },
       [&](const Item& other)
       {
-        const Box2 otherBox = boxOf(other.A, other.B);
-        if (&other >= begin && overlap(box, otherBox))
+        const Box2 otherBox = other.box();
+        if (&other >= begin && box.meets(otherBox))
         {
           for (const Item* one = begin; one != end && one != &other; ++one)
           {
-            if (overlap(otherBox, boxOf(one->A, one->B)))
+            if (otherBox.meets(one->box()))
             {
               visit(*one, other);
             }

@@ -75,8 +75,8 @@ public:
   template <typename Visit>
   void visitInside(const std::array<Point2, 3>& p, const Visit& visit) const
   {
-    const Box2 box{ std::min({ p[0].x, p[1].x, p[2].x }), std::min({ p[0].y, p[1].y, p[2].y }),
-      std::max({ p[0].x, p[1].x, p[2].x }), std::max({ p[0].y, p[1].y, p[2].y }) };
+    Box2 box = Box2::of(p[0], p[1]);
+    box.extend(p[2]);
     this->Tree.visitNear(box,
       [&](const SegmentTree::Item& item)
       {

@@ -427,9 +427,9 @@ RasterWindow RasterSink::windowOf(const Box2& box) const
 {
   const RasterGrid& grid = this->Settings.Grid;
   const auto [column, lastColumn] =
-    samplesBetween(box.xmin, box.xmax, grid.West, grid.Pixel[0], this->Margins[0], grid.Columns);
+    samplesBetween(box.Min.x, box.Max.x, grid.West, grid.Pixel[0], this->Margins[0], grid.Columns);
   const auto [row, lastRow] =
-    samplesBetween(box.ymin, box.ymax, grid.South, grid.Pixel[1], this->Margins[1], grid.Rows);
+    samplesBetween(box.Min.y, box.Max.y, grid.South, grid.Pixel[1], this->Margins[1], grid.Rows);
   return column > lastColumn || row > lastRow
     ? RasterWindow()
     : RasterWindow{ column, row, lastColumn - column + 1, lastRow - row + 1 };

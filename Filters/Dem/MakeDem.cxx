@@ -18,8 +18,6 @@
 #include "Triangulation/PointsView.h"
 
 #include <algorithm>
-#include <array>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -205,36 +203,36 @@ std::vector<double> heightsBelow(
 namespace
 {
 
-using PlaneBounds = std::array<double, 4>; ///< xmin, xmax, ymin, ymax
-
 /// Returns the part of a box's area that another one covers.
-double partCovered(const PlaneBounds& box, const PlaneBounds& cover)
+double partCovered(const Box2& box, const Box2& cover)
 {
   double part = 1;
-  for (std::size_t low = 0; low < 4; low += 2)
+  for (std::size_t axis = 0; axis < 2; ++axis)
   {
-    const double length = std::min(box[low + 1], cover[low + 1]) - std::max(box[low], cover[low]);
-    part *= length < 0 ? 0 : length == 0 ? 1 : length / (box[low + 1] - box[low]);
+    const double length =
+      std::min(box.Max[axis], cover.Max[axis]) - std::max(box.Min[axis], cover.Min[axis]);
+    part *= length < 0 ? 0 : length == 0 ? 1 : length / box.width(axis);
   }
   return part;
 }
 
-std::string textOf(const PlaneBounds& box)
+std::string textOf(const Box2& box)
 {
   std::ostringstream text;
   text.precision(10);
-  text << "x from " << box[0] << " to " << box[1] << " and y from " << box[2] << " to " << box[3];
+  text << "x from " << box.Min.x << " to " << box.Max.x << " and y from " << box.Min.y << " to "
+       << box.Max.y;
   return text.str();
 }
 
 /// Throws std::runtime_error if the bounds of a raster are those of GDAL: xmin ymin xmax ymax. Read
 /// in our order, they are far from the points or much larger.
-void requireOurOrder(const PlaneBounds& bounds, const PlaneBounds& points)
+void requireOurOrder(const Box2& bounds, const Box2& points)
 {
-  const PlaneBounds asGdal{ bounds[0], bounds[2], bounds[1], bounds[3] };
+  const Box2 asGdal{ { bounds.Min.x, bounds.Max.x }, { bounds.Min.y, bounds.Max.y } };
   constexpr double little = 0.01;
   constexpr double much = 0.5;
-  if (asGdal[0] < asGdal[1] && asGdal[2] < asGdal[3] && partCovered(bounds, points) < little &&
+  if (asGdal.width(0) > 0 && asGdal.width(1) > 0 && partCovered(bounds, points) < little &&
     std::max(partCovered(asGdal, points), partCovered(points, asGdal)) > much)
   {
     throw std::runtime_error("the bounds are " + textOf(bounds) + ", but those of the points are " +
@@ -242,15 +240,12 @@ void requireOurOrder(const PlaneBounds& bounds, const PlaneBounds& points)
   }
 }
 
-void requireNear(const ConstraintTable& boundary, const PlaneBounds& points)
+void requireNear(const ConstraintTable& boundary, const Box2& points)
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  PlaneBounds box{ infinity, -infinity, infinity, -infinity };
-  for (std::size_t i = 0; i < boundary.XY.size(); ++i)
+  Box2 box = Box2::empty();
+  for (std::size_t i = 0; i < boundary.XY.size(); i += 2)
   {
-    const std::size_t low = i % 2 * 2;
-    box[low] = std::min(box[low], boundary.XY[i]);
-    box[low + 1] = std::max(box[low + 1], boundary.XY[i]);
+    box.extend(Point2{ boundary.XY[i], boundary.XY[i + 1] });
   }
   if (!boundary.XY.empty() && partCovered(box, points) == 0)
   {
@@ -264,22 +259,20 @@ void requireNear(const ConstraintTable& boundary, const PlaneBounds& points)
 TerrainSettings makeTerrainSettings(
   const DemRequest& request, const Box2& bounds, const std::vector<std::string>& columns)
 {
-  if (!(bounds.xmin <= bounds.xmax))
+  if (bounds.isEmpty())
   {
     throw std::runtime_error("there is no point with finite coordinates.");
   }
-  const PlaneBounds box{ bounds.xmin, bounds.xmax, bounds.ymin, bounds.ymax };
   if (request.Raster.Bounds)
   {
-    requireOurOrder(*request.Raster.Bounds, box);
+    requireOurOrder(*request.Raster.Bounds, bounds);
   }
   if (request.Constraints)
   {
-    requireNear(request.Constraints->Boundary, box);
+    requireNear(request.Constraints->Boundary, bounds);
   }
   TerrainSettings settings;
-  settings.Grid =
-    makeRasterGrid(request.Raster, { bounds.xmin, bounds.xmax, bounds.ymin, bounds.ymax });
+  settings.Grid = makeRasterGrid(request.Raster, bounds);
   settings.Bands = findBands(request.Bands, columns);
   settings.Threads = threadCount(request.Threads);
   return settings;

@@ -7,7 +7,7 @@
 #include "Dem/TileStore.h"
 #include "OutOfCore/OutOfCoreOptions.h"
 #include "Points/ReadPoints.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "Triangulation/ResolveDuplicates.h"
 #include "Triangulation/Triangulate.h"
 #include "vtkTIPPFiltersModule.h"

@@ -132,8 +132,7 @@ void fillVoids(const DemBands& bands, BandValues& values)
 namespace
 {
 
-/// The x, y and z of a triangle's corners.
-using Corners = std::array<std::array<double, 3>, 3>;
+using Corners = std::array<Point3, 3>;
 
 /// The slopes along x and y of the plane through three points.
 struct Gradient
@@ -141,17 +140,13 @@ struct Gradient
   explicit Gradient(Corners corners)
   {
     // Sorted, so that rounding does not depend on the order of the corners.
-    std::sort(corners.begin(), corners.end());
-    const auto& [a, b, c] = corners;
-    const double bx = b[0] - a[0];
-    const double by = b[1] - a[1];
-    const double bz = b[2] - a[2];
-    const double cx = c[0] - a[0];
-    const double cy = c[1] - a[1];
-    const double cz = c[2] - a[2];
-    const double area = bx * cy - by * cx;
-    this->X = (bz * cy - by * cz) / area;
-    this->Y = (bx * cz - bz * cx) / area;
+    std::sort(corners.begin(), corners.end(),
+      [](const Point3& p, const Point3& q) { return lexicographicLess(p, q); });
+    const Point3 b = corners[1] - corners[0];
+    const Point3 c = corners[2] - corners[0];
+    const double area = b.x * c.y - b.y * c.x;
+    this->X = (b.z * c.y - b.y * c.z) / area;
+    this->Y = (b.x * c.z - b.z * c.x) / area;
     this->TwiceArea = std::fabs(area);
   }
 
@@ -273,8 +268,8 @@ void allocate(const TerrainSettings& settings, std::int64_t count, BandValues& s
 Lattice latticeOf(const RasterGrid& grid)
 {
   Lattice lattice;
-  const std::array<double, 2> first = grid.firstCentre();
-  lattice.Min = { first[0], first[1], 0 };
+  const Point2 first = grid.firstCentre();
+  lattice.Min = { first.x, first.y, 0 };
   lattice.Delta = { grid.Pixel[0], grid.Pixel[1], 1 };
   lattice.Extent = { 0, int(grid.Columns - 1), 0, int(grid.Rows - 1), 0, 0 };
   lattice.Slack = { roundingOf(grid.West, gridPosition(grid.West, grid.Pixel[0], 2 * grid.Columns)),

@@ -4,7 +4,7 @@
 
 #include "Distributed/CellExchange.h"
 #include "Parallel/ParallelFor.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "Ranks/Communicator.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/PointsView.h"

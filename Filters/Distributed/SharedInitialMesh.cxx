@@ -25,7 +25,7 @@ public:
     : Boxes(regions)
     , Initial(initial)
     , Artificial(artificial)
-    , Choice{ isChosen, {} }
+    , Choice{ isChosen, Box2::empty() }
     , Threads(threads)
     , Begins(isChosen.size(), 0)
     , Ends(isChosen.size(), 0)
@@ -41,8 +41,7 @@ public:
     {
       if (isChosen[std::size_t(p)] && regions.areUsed()[std::size_t(p)])
       {
-        Box2& all = this->Choice.Bounds;
-        all = this->IsAny ? unionOf(all, regions[p]) : regions[p];
+        this->Choice.Bounds.extend(regions[p]);
         this->IsAny = true;
       }
     }

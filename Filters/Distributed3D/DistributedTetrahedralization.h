@@ -5,7 +5,7 @@
 #include "Arrays/Buffer.h"
 #include "Distributed/DistributedStatistics.h"
 #include "Distributed3D/Plan3.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "Ranks/Communicator.h"
 #include "Triangulation3D/Partitions3.h"
 #include "Triangulation3D/Tetrahedralize.h"

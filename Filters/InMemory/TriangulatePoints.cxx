@@ -29,7 +29,7 @@ template <std::size_t D>
 class HashGrid
 {
 public:
-  using Position = std::array<double, D>;
+  using Position = Point<D>;
 
   /// `capacity`: the largest number of points to keep.
   HashGrid(std::size_t capacity, double distance, double largestCoordinate)
@@ -78,7 +78,7 @@ public:
   void keep(const Position& p)
   {
     PointId& first = this->First[this->slot(this->cellOf(p, 0))];
-    std::copy(p.begin(), p.end(), this->Coordinates.begin() + D * this->Size);
+    std::copy_n(&p.x, D, this->Coordinates.begin() + D * this->Size);
     this->Next[this->Size] = std::exchange(first, PointId(this->Size));
     ++this->Size;
   }
@@ -145,13 +145,7 @@ struct MergedPoints
   bool Aborted = false;
 };
 
-template <std::size_t D>
-bool areFinite(const std::array<double, D>& position)
-{
-  return std::all_of(position.begin(), position.end(), [](double x) { return std::isfinite(x); });
-}
-
-/// Merges `count` points; positionOf(i) returns the coordinates of a point. The result depends only
+/// Merges `count` points; positionOf(i) returns a point. The result depends only
 /// on the points and their order.
 template <std::size_t D, typename PositionOf>
 MergedPoints mergeClose(std::size_t count, const PositionOf& positionOf, double distance,
@@ -161,8 +155,8 @@ MergedPoints mergeClose(std::size_t count, const PositionOf& positionOf, double 
   double largest = 0;
   for (std::size_t i = 0; i < count; ++i)
   {
-    const std::array<double, D> p = positionOf(i);
-    for (std::size_t axis = 0; axis < D && areFinite(p); ++axis)
+    const Point<D> p = positionOf(i);
+    for (std::size_t axis = 0; axis < D && isFinite(p); ++axis)
     {
       largest = std::max(largest, std::fabs(p[axis]));
     }
@@ -178,8 +172,8 @@ MergedPoints mergeClose(std::size_t count, const PositionOf& positionOf, double 
       merged.Aborted = true;
       break;
     }
-    const std::array<double, D> p = positionOf(i);
-    if (!areFinite(p))
+    const Point<D> p = positionOf(i);
+    if (!isFinite(p))
     {
       merged.Rejected.push_back(PointId(i));
       continue;
@@ -267,11 +261,7 @@ auto triangulateKept(const Options& options, const Merge& merge, const Triangula
 Triangulation triangulateMerged(
   PointsView points, double distance, const TriangulationOptions& options)
 {
-  const auto positionOf = [points](std::size_t i)
-  {
-    const Point2 p = points[i];
-    return std::array<double, 2>{ p.x, p.y };
-  };
+  const auto positionOf = [points](std::size_t i) { return points[i]; };
   return triangulateKept(
     options,
     [&](const Report& progress)
@@ -284,9 +274,7 @@ Tetrahedralization tetrahedralizeMerged(const Point3* points, std::size_t count,
   const TetrahedralizationOptions& options)
 {
   requireShortIds(count);
-  const auto positionOf = [points](std::size_t i) {
-    return std::array<double, 3>{ points[i].x, points[i].y, points[i].z };
-  };
+  const auto positionOf = [points](std::size_t i) { return points[i]; };
   return triangulateKept(
     options,
     [&](const Report& progress) { return mergeClose<3>(count, positionOf, distance, progress); },

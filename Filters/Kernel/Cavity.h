@@ -4,9 +4,9 @@
 
 #include "Kernel/HalfEdgeMesh.h"
 #include "Kernel/KernelPredicates.h"
-#include "Kernel/Lanes.h"
+#include "Kernel/Pairs.h"
 #include "Kernel/PointLocation.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 
 #include <cstddef>
 #include <vector>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Kernel/Cavity3.h"
 
-#include "Kernel/Lanes.h"
+#include "Kernel/Pairs.h"
+#include "Parallel/Instructions.h"
 #include "Predicates/ExactPredicates3.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include "Kernel/KernelPredicates.h"
 #include "Kernel/TetrahedronMesh.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 
 #include <array>
 #include <atomic>

@@ -7,7 +7,7 @@
 #include "Kernel/HalfEdgeMesh.h"
 #include "Kernel/InsertionOrder.h"
 #include "Kernel/KernelPredicates.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <array>

@@ -6,7 +6,7 @@
 #include "Kernel/Cavity3.h"
 #include "Kernel/InsertionOrder.h"
 #include "Kernel/TetrahedronMesh.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <array>

@@ -92,13 +92,14 @@ inline void fillBlock(const Point2* points, std::size_t first, std::size_t count
 inline void fillEntries(const Point2* points, std::size_t count, std::uint64_t* entries)
 {
   const Extent extent = extentOf(points, count);
-  const Pair sides = extent.High - extent.Low;
+  const Pair low = pairAt(&extent.Bounds.Min.x);
+  const Pair sides = pairAt(&extent.Bounds.Max.x) - low;
   const double scale = (1U << Levels2) / std::max(sides[0], sides[1]);
   const unsigned lastRound = earlierRounds(count, 256, (1U << RoundBits) - 1);
   for (std::size_t first = 0; first < count; first += PointsInBlock)
   {
     fillBlock(
-      points, first, std::min(PointsInBlock, count - first), extent.Low, scale, lastRound, entries);
+      points, first, std::min(PointsInBlock, count - first), low, scale, lastRound, entries);
   }
 }
 

@@ -3,8 +3,9 @@
 #define tippInsertionOrder_h
 
 #include "Arrays/Buffer.h"
-#include "Kernel/Lanes.h"
-#include "Predicates/Points.h"
+#include "Kernel/Pairs.h"
+#include "Parallel/Instructions.h"
+#include "Predicates/Geometry.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstddef>

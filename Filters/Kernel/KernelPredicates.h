@@ -6,7 +6,7 @@
 #include "Kernel/TetrahedronMesh.h"
 #include "Predicates/ExactPredicates.h"
 #include "Predicates/ExactPredicates3.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 
 #include <cstddef>
 

@@ -4,8 +4,8 @@
 
 #include "Kernel/HalfEdgeMesh.h"
 #include "Kernel/KernelPredicates.h"
-#include "Kernel/Lanes.h"
-#include "Predicates/Points.h"
+#include "Kernel/Pairs.h"
+#include "Predicates/Geometry.h"
 
 #include <utility>
 

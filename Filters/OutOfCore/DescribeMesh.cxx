@@ -38,15 +38,4 @@ void describeColumns(const std::vector<std::string>& columns, std::size_t elevat
   }
 }
 
-Bounds boundsOf(const Box2& box, double factor)
-{
-  return { box.xmin / factor, box.xmax / factor, box.ymin / factor, box.ymax / factor, 0, 0 };
-}
-
-Bounds boundsOf(const Box3& box, double factor)
-{
-  return { box.Min[0] / factor, box.Max[0] / factor, box.Min[1] / factor, box.Max[1] / factor,
-    box.Min[2] / factor, box.Max[2] / factor };
-}
-
 } // namespace tipp

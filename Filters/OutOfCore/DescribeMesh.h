@@ -5,7 +5,7 @@
 #include "OutOfCore/OutOfCoreOptions.h"
 #include "Partitioned/GrowingPiece.h"
 #include "Partitioned/PartitionedMesh.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "Triangulation/Tiling.h"
 
 #include <cstddef>
@@ -21,23 +21,17 @@ namespace tipp
 void describeColumns(const std::vector<std::string>& columns, std::size_t elevation,
   const OutOfCoreRunOptions& options, PointRowLayout& rows, PartitionedMesh& mesh);
 
-///@{
-/// Returns a box whose coordinates were multiplied by `factor` as the bounds of a mesh.
-Bounds boundsOf(const Box2& box, double factor);
-Bounds boundsOf(const Box3& box, double factor);
-///@}
-
 /// Sets the domain, the number of points and the pieces' boxes of a mesh.
 template <typename Plan, typename Survey>
 void describePieces(const Plan& plan, const Survey& survey, PartitionedMesh& mesh)
 {
-  mesh.Domain = boundsOf(survey.Bounds, survey.Factor);
+  mesh.Domain = inSpace(scaled(survey.Bounds, 1 / survey.Factor));
   mesh.Points = survey.Points;
   mesh.Tiling = "delaunay:" + std::to_string(plan.pieces());
   mesh.Pieces.resize(std::size_t(plan.pieces()));
   for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
   {
-    mesh.Pieces[plan.number(piece)].Box = boundsOf(plan.box(piece), survey.Factor);
+    mesh.Pieces[plan.number(piece)].Box = inSpace(scaled(plan.box(piece), 1 / survey.Factor));
   }
 }
 

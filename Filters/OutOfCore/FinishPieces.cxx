@@ -18,14 +18,6 @@ namespace tipp
 namespace
 {
 
-Box3 boxOf(const Box2& box)
-{
-  Box3 result;
-  result.Min = { box.xmin, box.ymin, 0 };
-  result.Max = { box.xmax, box.ymax, 0 };
-  return result;
-}
-
 /// Returns the path of an empty file that exists once the consumer has the piece's border.
 std::string takenPath(const PieceWork& work, PartitionIndex piece)
 {
@@ -76,7 +68,7 @@ void BorderSorter::findMet(const BoundaryTriangle& triangle)
   plan.Pieces.visitMet(Circumdisk(a, b, c),
     [&](PartitionIndex piece)
     {
-      if (triangleMeetsBox(a, b, c, boxOf(plan.Pieces.box(piece))))
+      if (triangleMeetsBox(a, b, c, inSpace(plan.Pieces.box(piece))))
       {
         this->Met.push_back(std::int32_t(plan.number(piece)));
       }
@@ -186,15 +178,11 @@ ConstraintSegments readNear(const SpilledSegments& segments, PointsView points,
   for (std::size_t c = 0; c < 3 * triangles; ++c)
   {
     const Point2 p = points[std::size_t(corners[c])];
-    const Box2 box{ p.x, p.y, p.x, p.y };
     if (c % (3 * together) == 0)
     {
-      boxes.push_back(box);
+      boxes.push_back(Box2::empty());
     }
-    else
-    {
-      boxes.back() = unionOf(boxes.back(), box);
-    }
+    boxes.back().extend(p);
   }
   return segments.readNear(boxes);
 }

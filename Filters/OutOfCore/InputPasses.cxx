@@ -31,7 +31,7 @@ InputSurvey surveyPart(PointStream& points, const PassOptions& options)
     {
       const PointsView view(block.XY.data(), block.size(), 2);
       const PointSurvey part = surveyPoints(view, options.Threads);
-      survey.Bounds = unionOf(survey.Bounds, part.Bounds);
+      survey.Bounds.extend(part.Bounds);
       survey.Rejected += std::int64_t(part.Rejected.size());
       survey.WithoutElevation +=
         elevation < block.Columns.size() ? countMissing(block.Columns[elevation]) : 0;

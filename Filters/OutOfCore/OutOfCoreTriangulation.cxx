@@ -175,8 +175,8 @@ private:
   {
     const Box2& bounds = survey.Bounds;
     LongitudeSpan span;
-    span.add(bounds.xmin, bounds.ymin);
-    span.add(bounds.xmax, bounds.ymax);
+    span.add(bounds.Min.x, bounds.Min.y);
+    span.add(bounds.Max.x, bounds.Max.y);
     for (const SampledPoint& sampled : survey.Sample)
     {
       span.add(sampled.Position.x, sampled.Position.y);

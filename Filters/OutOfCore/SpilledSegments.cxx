@@ -57,7 +57,7 @@ SpilledSegments::SpilledSegments(const std::string& file, const PiecePlan& plan,
       }
       const Point2 a{ segment.A.x * factor, segment.A.y * factor };
       const Point2 b{ segment.B.x * factor, segment.B.y * factor };
-      plan.Pieces.visitNear(boxOf(a, b),
+      plan.Pieces.visitNear(Box2::of(a, b),
         [&](PartitionIndex piece)
         {
           if (lineMayMeet(a, b, plan.Pieces.box(piece)))
@@ -138,7 +138,7 @@ ConstraintSegments SpilledSegments::readNear(const std::vector<Box2>& boxes) con
   std::set<PartitionIndex> pieces;
   for (const Box2& box : boxes)
   {
-    items.push_back({ { box.xmin, box.ymin }, { box.xmax, box.ymax }, 0 });
+    items.push_back({ box.Min, box.Max, 0 });
     this->Plan.Pieces.visitNear(
       scaled(box, this->Factor), [&pieces](PartitionIndex piece) { pieces.insert(piece); });
   }
@@ -152,7 +152,7 @@ ConstraintSegments SpilledSegments::readNear(const std::vector<Box2>& boxes) con
       [&](const Row& row)
       {
         bool isNear = false;
-        tree.visitNear(boxOf(row.Segment.A, row.Segment.B),
+        tree.visitNear(Box2::of(row.Segment.A, row.Segment.B),
           [&isNear](const SegmentTree::Item&)
           {
             isNear = true;

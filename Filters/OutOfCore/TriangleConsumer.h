@@ -3,7 +3,7 @@
 #define tippTriangleConsumer_h
 
 #include "Partitioned/GrowingPiece.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 
 #include <cstddef>
 #include <cstdint>

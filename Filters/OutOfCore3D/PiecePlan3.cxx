@@ -24,7 +24,7 @@ constexpr std::size_t initialPointsOfPiece = 48;
 struct SpilledPiece3
 {
   std::int64_t Count = 0;
-  PointBounds Region; ///< the bounding box of its points
+  Box3 Region = Box3::empty(); ///< the bounding box of its points
   /// Indices in the piece of points on the region's six sides.
   std::array<std::int64_t, 6> Extreme = {};
   std::array<Point3, 6> ExtremePositions = {};
@@ -124,7 +124,7 @@ PiecePlan3::PiecePlan3(PointStream& points, const MemoryPlan3& memory, const Pro
     throw IOError("The input has no column z, Z or elevation, the third coordinate.");
   }
   StreamSampler<Point3> sampler(memory.SamplePoints, points.divisible());
-  PointBounds bounds;
+  survey.Bounds = Box3::empty();
   DimensionTest dimension;
   forEachBlock(points, memory.BlockPoints,
     [&](PointBlock& block)
@@ -139,7 +139,7 @@ PiecePlan3::PiecePlan3(PointStream& points, const MemoryPlan3& memory, const Pro
           ++survey.Rejected;
           continue;
         }
-        bounds.include(p);
+        survey.Bounds.extend(p);
         if (dimension.dimension() < 3)
         {
           dimension.add(p);
@@ -152,14 +152,8 @@ PiecePlan3::PiecePlan3(PointStream& points, const MemoryPlan3& memory, const Pro
   survey.ThinnedOut = points.thinnedOut();
   survey.Dimension = dimension.dimension();
   requireDimension(survey.Dimension);
-  survey.Bounds = bounds.Box;
   this->Sample = sampler.take();
-  double largest = 0;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    largest = std::max({ largest, std::fabs(bounds.Box.Min[k]), std::fabs(bounds.Box.Max[k]) });
-  }
-  this->findFactor(points, memory.BlockPoints, largest);
+  this->findFactor(points, memory.BlockPoints, survey.Bounds.largest());
 }
 
 /// Sets the factor, if multiplying by it is exact for all points.
@@ -180,11 +174,7 @@ void PiecePlan3::findFactor(PointStream& points, std::size_t blockPoints, double
       factor = areExact ? factor : 1;
     });
   this->Survey.Factor = factor;
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    this->Survey.Bounds.Min[k] *= factor;
-    this->Survey.Bounds.Max[k] *= factor;
-  }
+  this->Survey.Bounds = scaled(this->Survey.Bounds, factor);
   for (Sampled& p : this->Sample)
   {
     p.Position = { p.Position.x * factor, p.Position.y * factor, p.Position.z * factor };
@@ -279,21 +269,20 @@ struct PiecePlan3::Labels
   void add(std::size_t piece, const Point3& p, bool isInitial)
   {
     SpilledPiece3& of = this->Pieces[piece];
-    const std::array<double, 3> at = { p.x, p.y, p.z };
     for (std::size_t k = 0; k < 3; ++k)
     {
-      if (at[k] < of.Region.Box.Min[k])
+      if (p[k] < of.Region.Min[k])
       {
         of.Extreme[2 * k] = of.Count;
         of.ExtremePositions[2 * k] = p;
       }
-      if (at[k] > of.Region.Box.Max[k])
+      if (p[k] > of.Region.Max[k])
       {
         of.Extreme[2 * k + 1] = of.Count;
         of.ExtremePositions[2 * k + 1] = p;
       }
     }
-    of.Region.include(p);
+    of.Region.extend(p);
     if (isInitial)
     {
       this->Plan.Initial[piece].push_back({ of.Count, p });
@@ -342,7 +331,7 @@ void PiecePlan3::spill(PointStream& points, const std::string& file, const Memor
     {
       p.Index += this->Spilled->first(piece);
     }
-    this->Regions.push_back(of.Region.Box);
+    this->Regions.push_back(of.Region);
   }
   std::vector<Sampled>().swap(this->Sample);
   this->enclose();

@@ -21,13 +21,13 @@ namespace tipp
 
 const std::vector<std::int32_t>& BorderSorter3::findMet(const std::array<Vertex3, 4>& corners)
 {
-  PointBounds bounds;
+  Box3 bounds = Box3::empty();
   for (const Vertex3& v : corners)
   {
-    bounds.include(v.Position);
+    bounds.extend(v.Position);
   }
   this->Met.clear();
-  this->Plan.tiling().visitMet(bounds.Box,
+  this->Plan.tiling().visitMet(bounds,
     [&](PartitionIndex piece)
     {
       if (tetrahedronMeetsBox(corners[0].Position, corners[1].Position, corners[2].Position,

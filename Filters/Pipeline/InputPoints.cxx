@@ -123,7 +123,7 @@ vtkSmartPointer<vtkTransform> bestFittingPlane(vtkPoints* points)
   return transform;
 }
 
-FiniteBounds finiteBounds(vtkPoints* points)
+Box3 finiteBounds(vtkPoints* points)
 {
   double low[3] = { HUGE_VAL, HUGE_VAL, HUGE_VAL };
   double high[3] = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
@@ -140,13 +140,16 @@ FiniteBounds finiteBounds(vtkPoints* points)
       high[axis] = std::max(high[axis], p[axis]);
     }
   }
-  return low[0] <= high[0]
-    ? FiniteBounds{ { low[0], low[1], low[2] }, { high[0], high[1], high[2] } }
-    : FiniteBounds{};
+  return low[0] <= high[0] ? Box3{ { low[0], low[1], low[2] }, { high[0], high[1], high[2] } }
+                           : Box3{};
 }
 
-vtkSmartPointer<vtkPoints> appendPoints(
-  vtkPoints* points, const std::vector<std::array<double, 3>>& added)
+double diagonalOf(const Box3& box)
+{
+  return std::hypot(box.width(0), box.width(1), box.width(2));
+}
+
+vtkSmartPointer<vtkPoints> appendPoints(vtkPoints* points, const std::vector<Point3>& added)
 {
   const vtkIdType count = points->GetNumberOfPoints();
   vtkNew<vtkDoubleArray> scalars;
@@ -155,7 +158,7 @@ vtkSmartPointer<vtkPoints> appendPoints(
   scalars->InsertTuples(0, count, 0, points->GetData());
   for (std::size_t i = 0; i < added.size(); ++i)
   {
-    scalars->SetTuple(count + vtkIdType(i), added[i].data());
+    scalars->SetTuple(count + vtkIdType(i), &added[i].x);
   }
   auto extended = vtkSmartPointer<vtkPoints>::New();
   extended->SetData(scalars);
@@ -164,21 +167,21 @@ vtkSmartPointer<vtkPoints> appendPoints(
 
 vtkSmartPointer<vtkPoints> appendBoundingPoints(vtkPoints* points, double offset)
 {
-  const FiniteBounds bounds = finiteBounds(points);
-  const double radius = offset * bounds.diagonal();
-  std::vector<std::array<double, 3>> circle(8);
+  const Box3 bounds = finiteBounds(points);
+  const Point3 center = bounds.center();
+  const double radius = offset * diagonalOf(bounds);
+  std::vector<Point3> circle(8);
   for (std::size_t i = 0; i < circle.size(); ++i)
   {
     const double angle = 2 * vtkMath::Pi() * double(i) / double(circle.size());
-    circle[i] = { bounds.center(0) + radius * std::cos(angle),
-      bounds.center(1) + radius * std::sin(angle), bounds.center(2) };
+    circle[i] = { center.x + radius * std::cos(angle), center.y + radius * std::sin(angle),
+      center.z };
   }
   return appendPoints(points, circle);
 }
 
 const Point3* coordinatesOf(vtkPoints* points, std::vector<Point3>& copy)
 {
-  static_assert(sizeof(Point3) == 3 * sizeof(double), "a point is its coordinates");
   if (auto* const doubles = vtkDoubleArray::SafeDownCast(points->GetData()))
   {
     return reinterpret_cast<const Point3*>(doubles->GetPointer(0));

@@ -3,14 +3,12 @@
 #define tippInputPoints_h
 
 #include "Distributed/PointExchange.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "Ranks/Communicator.h"
 #include "Triangulation/PointsView.h"
 
 #include "vtkSmartPointer.h"
 
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -45,31 +43,16 @@ private:
 /// there are no others.
 vtkSmartPointer<vtkTransform> bestFittingPlane(vtkPoints* points);
 
-/// The bounding box of the points whose three coordinates are finite, so that a single NaN or
-/// infinity does not determine a tolerance or a bounding circle. All zero if there are no such
-/// points.
-struct FiniteBounds
-{
-  std::array<double, 3> Low{ 0, 0, 0 };
-  std::array<double, 3> High{ 0, 0, 0 };
+/// Returns the bounding box of the points whose three coordinates are finite, so that a single NaN
+/// or infinity does not determine a tolerance or a bounding circle. All zero if there are no such
+/// points. `points` may be null.
+Box3 finiteBounds(vtkPoints* points);
 
-  double center(int axis) const
-  {
-    return 0.5 * this->Low[std::size_t(axis)] + 0.5 * this->High[std::size_t(axis)];
-  }
-  double diagonal() const
-  {
-    return std::hypot(
-      this->High[0] - this->Low[0], this->High[1] - this->Low[1], this->High[2] - this->Low[2]);
-  }
-};
-
-/// `points` may be null.
-FiniteBounds finiteBounds(vtkPoints* points);
+/// Returns the length of the box's diagonal.
+double diagonalOf(const Box3& box);
 
 /// Returns the points in double precision, followed by those of `added`.
-vtkSmartPointer<vtkPoints> appendPoints(
-  vtkPoints* points, const std::vector<std::array<double, 3>>& added);
+vtkSmartPointer<vtkPoints> appendPoints(vtkPoints* points, const std::vector<Point3>& added);
 
 /// Returns the points in double precision, followed by eight points on a circle around the centre
 /// of their bounding box, at its middle height. The radius is `offset` times the box's diagonal.

@@ -70,7 +70,7 @@ private:
     Point2 p[3];
     for (int i = 0; i < 3; ++i)
     {
-      p[i] = flat(positionOf(this->Part, this->Topology.corner(cell, i)));
+      p[i] = projected<2>(positionOf(this->Part, this->Topology.corner(cell, i)));
       turned[i] = i;
     }
     if (orientation(p[0], p[1], p[2]) < 0)

@@ -32,7 +32,7 @@ public:
   {
     std::int32_t found = -1;
     double least = std::numeric_limits<double>::infinity();
-    this->Tree.searchNear(coordinatesOf<D>(point),
+    this->Tree.searchNear(projected<D>(point),
       [&](std::int32_t piece)
       {
         const double apart = this->distance(piece, point);
@@ -51,7 +51,7 @@ public:
   template <typename Visit>
   void visitOthers(const Point3& point, std::int32_t but, double most, const Visit& visit) const
   {
-    this->Tree.searchNear(coordinatesOf<D>(point),
+    this->Tree.searchNear(projected<D>(point),
       [&](std::int32_t piece)
       {
         if (piece != but && this->distance(piece, point) <= most)
@@ -66,18 +66,18 @@ private:
   Box<D> box(std::int64_t piece) const
   {
     const PieceSummary& summary = this->Pieces[std::size_t(piece)];
-    return summary.Cells + summary.BorrowedCells > 0 ? boxOf<D>(summary.Box) : Box<D>::empty();
+    return summary.Cells + summary.BorrowedCells > 0 ? projected<D>(summary.Box) : Box<D>::empty();
   }
 
   /// A lower bound of the distance between a point and a piece's box.
   double distance(std::int32_t piece, const Point3& point) const
   {
     const Box<D> box = this->box(piece);
-    const std::array<double, D> at = coordinatesOf<D>(point);
+    const Point<D> at = projected<D>(point);
     double apart[3] = { 0, 0, 0 };
     for (std::size_t axis = 0; axis < D; ++axis)
     {
-      apart[axis] = std::max({ box.Low[axis] - at[axis], at[axis] - box.High[axis], 0.0 });
+      apart[axis] = std::max({ box.Min[axis] - at[axis], at[axis] - box.Max[axis], 0.0 });
     }
     return std::hypot(apart[0], apart[1], apart[2]) * (1 - 1e-14);
   }

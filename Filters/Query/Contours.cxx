@@ -141,8 +141,8 @@ void addCells(const Access& access, const MeshPart& part, const double* values,
       corner.Position = access.point(corner.Id);
       corner.Id = part.pointId(corner.Id);
     }
-    if (orientation(
-          flat(corners[0].Position), flat(corners[1].Position), flat(corners[2].Position)) < 0)
+    if (orientation(projected<2>(corners[0].Position), projected<2>(corners[1].Position),
+          projected<2>(corners[2].Position)) < 0)
     {
       std::swap(corners[1], corners[2]);
     }

@@ -83,7 +83,8 @@ public:
     int sides[3];
     for (int i = 0; i < 3; ++i)
     {
-      sides[i] = orientation(flat(this->Begin), flat(this->End), flat(corners[i].Position));
+      sides[i] = orientation(
+        projected<2>(this->Begin), projected<2>(this->End), projected<2>(corners[i].Position));
     }
     for (int i = 0; i < 3; ++i)
     {
@@ -94,8 +95,9 @@ public:
         this->addPoint(a);
       }
       if (sides[i] * sides[(i + 1) % 3] < 0 &&
-        orientation(flat(a.Position), flat(b.Position), flat(this->Begin)) *
-            orientation(flat(a.Position), flat(b.Position), flat(this->End)) <
+        orientation(projected<2>(a.Position), projected<2>(b.Position), projected<2>(this->Begin)) *
+            orientation(
+              projected<2>(a.Position), projected<2>(b.Position), projected<2>(this->End)) <
           0)
       {
         this->addEdge(a, b);
@@ -301,14 +303,14 @@ CrossingLists crossingsIn(const ResidentMesh& mesh, const std::vector<Point3>& p
       const std::size_t number = first + std::size_t(i);
       std::vector<std::size_t> met;
       const bool inSpace = mesh.mesh().CellSize == 4;
-      const Box3 box = box3Of(mesh.mesh().Pieces[number].Box, inSpace ? 3 : 2);
+      const Box3 box = boundedBox(mesh.mesh().Pieces[number].Box, inSpace ? 3 : 2);
       for (std::size_t s = 0; s < result.size(); ++s)
       {
         const Point3& from = polyline[s];
         const Point3& to = polyline[s + 1];
         const bool isMet = !mesh.isStored() ||
           (inSpace ? tetrahedronMeetsBox(from, to, to, to, box)
-                   : triangleMeetsBox(flat(from), flat(to), flat(to), box));
+                   : triangleMeetsBox(projected<2>(from), projected<2>(to), projected<2>(to), box));
         if (isMet)
         {
           met.push_back(s);

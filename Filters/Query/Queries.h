@@ -204,8 +204,7 @@ VTKTIPPFILTERS_EXPORT ZoneStatistics statisticsOf(const ResidentMesh& mesh,
 /// A closed box or zone.
 struct Region
 {
-  /// x min, x max, y min, y max, and for tetrahedra z min, z max.
-  Bounds Box = {};
+  Box3 Box;      ///< z only for tetrahedra
   Zone Polygons; ///< for tetrahedra, columns with any z; if empty, the region is Box
 };
 

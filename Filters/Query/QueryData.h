@@ -2,7 +2,7 @@
 #ifndef tippQueryData_h
 #define tippQueryData_h
 
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "Query/Queries.h"
 #include "Query/RankAnswer.h"
 #include "Resident/MeshPart.h"

@@ -33,7 +33,7 @@ std::vector<std::vector<std::int64_t>> shareOut(const Communicator& communicator
       for (std::size_t rank = 0; rank < parts.size() && !mesh.isStored(); ++rank)
       {
         const RankPart& part = parts[rank];
-        if (part.CellSize != 0 && holds(part.Domain, points[i], part.CellSize - 1))
+        if (part.CellSize != 0 && contains(part.Domain, points[i], part.CellSize - 1))
         {
           work(rank, i);
         }

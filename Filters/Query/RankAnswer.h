@@ -78,7 +78,7 @@ struct RankPart
 {
   int CellSize = 0; ///< 0 if it has no cells
   std::int64_t Cells = 0;
-  Bounds Domain{};
+  Box3 Domain;
   std::vector<StoredArray> Arrays; ///< the requested arrays; these may include the elevation
 };
 

@@ -186,7 +186,7 @@ std::vector<CellCopy> copiesAt(const ResidentPiece& piece, const Ids& points)
 std::vector<std::uint8_t> sharingOf(
   Communicator& ranks, const ResidentMesh& mesh, const ResidentPiece& piece)
 {
-  std::vector<Bounds> boxes = ranks.allGather(mesh.mesh().Domain);
+  std::vector<Box3> boxes = ranks.allGather(mesh.mesh().Domain);
   boxes.erase(boxes.begin() + ranks.rank());
   const MeshPart& part = *piece.Part;
   const auto hasCells = [&piece](std::int64_t point)
@@ -197,7 +197,7 @@ std::vector<std::uint8_t> sharingOf(
     at.z = part.Mesh.Dimension == 3 ? at.z : 0; // as in the bounds of triangles
     return !std::isfinite(at.x + at.y + at.z) ||
       std::any_of(boxes.begin(), boxes.end(),
-        [&](const Bounds& box) { return holds(box, at, part.Mesh.Dimension); });
+        [&](const Box3& box) { return contains(box, at, part.Mesh.Dimension); });
   };
   Ids points; // local indices
   Ids ids;

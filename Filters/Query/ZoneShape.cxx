@@ -14,17 +14,6 @@ namespace tipp
 namespace
 {
 
-Box<2> boxOf(Point2 a, Point2 b)
-{
-  return { { std::min(a.x, b.x), std::min(a.y, b.y) }, { std::max(a.x, b.x), std::max(a.y, b.y) } };
-}
-
-bool meets(const Box<2>& a, const Box<2>& b)
-{
-  return a.Low[0] <= b.High[0] && b.Low[0] <= a.High[0] && a.Low[1] <= b.High[1] &&
-    b.Low[1] <= a.High[1];
-}
-
 double product(Point2 a, Point2 b)
 {
   return a.x * b.y - a.y * b.x;
@@ -124,10 +113,10 @@ bool turned(Point2 (&triangle)[3], double (&values)[3])
   return turn != 0;
 }
 
-Box<2> boxOf(const Point2 (&triangle)[3])
+Box2 boxOf(const Point2 (&triangle)[3])
 {
-  Box<2> box = boxOf(triangle[0], triangle[1]);
-  box.extend(boxOf(triangle[2], triangle[2]));
+  Box2 box = Box2::of(triangle[0], triangle[1]);
+  box.extend(triangle[2]);
   return box;
 }
 
@@ -146,7 +135,7 @@ ZoneShape::ZoneShape(const Zone& zone, std::size_t number)
     this->addRing(ring);
   }
   const auto boxOfEdge = [this](std::int64_t i)
-  { return boxOf(this->Edges[std::size_t(i)].From, this->Edges[std::size_t(i)].To); };
+  { return Box2::of(this->Edges[std::size_t(i)].From, this->Edges[std::size_t(i)].To); };
   this->Tree = BoxTree<2>(std::int64_t(this->Edges.size()), 1, boxOfEdge);
   this->Bounds = boundsOf<2>(std::int64_t(this->Edges.size()), 1, boxOfEdge);
   this->refuseCrossings(number);
@@ -181,15 +170,15 @@ void ZoneShape::addRing(const ZoneRing& ring)
 }
 
 template <typename Visit>
-void ZoneShape::visitNear(const Box<2>& box, const Visit& visit) const
+void ZoneShape::visitNear(const Box2& box, const Visit& visit) const
 {
-  if (meets(box, this->Bounds))
+  if (box.meets(this->Bounds))
   {
     this->Tree.search(box,
       [&](std::int32_t i)
       {
         const Edge& edge = this->Edges[std::size_t(i)];
-        if (meets(box, boxOf(edge.From, edge.To)))
+        if (box.meets(Box2::of(edge.From, edge.To)))
         {
           visit(edge);
         }
@@ -201,7 +190,7 @@ void ZoneShape::refuseCrossings(std::size_t number) const
 {
   for (const Edge& edge : this->Edges)
   {
-    this->visitNear(boxOf(edge.From, edge.To),
+    this->visitNear(Box2::of(edge.From, edge.To),
       [&](const Edge& other)
       {
         if (crossProperly(edge.From, edge.To, other.From, other.To))
@@ -222,7 +211,7 @@ int ZoneShape::windingBeside(Point2 a, Point2 b) const
   const bool isLower = b.y < a.y || (b.y == a.y && b.x < a.x);
   const auto isAbove = [&](Point2 p) { return p.y > a.y || (p.y == a.y && isLower); };
   int winding = 0;
-  this->visitNear({ { a.x, a.y }, { this->Bounds.High[0], a.y } },
+  this->visitNear({ a, { this->Bounds.Max.x, a.y } },
     [&](const Edge& edge)
     {
       const bool isUpward = isAbove(edge.To);
@@ -243,12 +232,12 @@ int ZoneShape::windingBeside(Point2 a, Point2 b) const
 
 bool ZoneShape::holds(Point2 point) const
 {
-  if (!isFinite(point) || !this->Bounds.holds({ point.x, point.y }))
+  if (!isFinite(point) || !this->Bounds.contains(point))
   {
     return false;
   }
   bool isOnBorder = false;
-  this->visitNear(boxOf(point, point),
+  this->visitNear(Box2::of(point),
     [&](const Edge& edge)
     { isOnBorder = isOnBorder || orientation(edge.From, edge.To, point) == 0; });
   return isOnBorder || this->windingBeside(point, { std::nextafter(point.x, HUGE_VAL), point.y });
@@ -258,7 +247,7 @@ ZoneShape::Relation ZoneShape::relationTo(const Point2 (&corners)[3]) const
 {
   Point2 triangle[3] = { corners[0], corners[1], corners[2] };
   double none[3] = {};
-  if (!turned(triangle, none) || !meets(boxOf(triangle), this->Bounds))
+  if (!turned(triangle, none) || !boxOf(triangle).meets(this->Bounds))
   {
     return Relation::Apart;
   }
@@ -426,7 +415,7 @@ void ZoneShape::integrate(
 {
   Point2 triangle[3] = { corners[0], corners[1], corners[2] };
   double values[3] = { given[0], given[1], given[2] };
-  if (!turned(triangle, values) || !meets(boxOf(triangle), this->Bounds))
+  if (!turned(triangle, values) || !boxOf(triangle).meets(this->Bounds))
   {
     return;
   }

@@ -4,7 +4,7 @@
 
 #include "Gis/GisFiles.h"
 #include "Locate/BoxTree.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "vtkTIPPFiltersModule.h"
 
 #include <cstddef>
@@ -24,7 +24,7 @@ public:
   /// index, for messages. Throws IOError if a corner is not finite, or if edges cross.
   ZoneShape(const Zone& zone, std::size_t number);
 
-  const Box<2>& bounds() const { return this->Bounds; }
+  const Box2& bounds() const { return this->Bounds; }
 
   /// Whether the point is inside the zone or on its border.
   bool holds(Point2 point) const;
@@ -63,12 +63,12 @@ private:
   void refuseCrossings(std::size_t number) const;
   int windingBeside(Point2 a, Point2 b) const;
   template <typename Visit>
-  void visitNear(const Box<2>& box, const Visit& visit) const;
+  void visitNear(const Box2& box, const Visit& visit) const;
 
   class CutTriangle;
 
   std::vector<Edge> Edges;
-  Box<2> Bounds = Box<2>::empty();
+  Box2 Bounds = Box2::empty();
   BoxTree<2> Tree;
 };
 

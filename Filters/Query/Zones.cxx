@@ -162,7 +162,7 @@ public:
       [this](std::int64_t i) { return this->Zones[std::size_t(i)].bounds(); });
   }
 
-  void addCells(const MeshPart& part, const Bounds* box, std::int64_t begin, std::int64_t end)
+  void addCells(const MeshPart& part, const Box3* box, std::int64_t begin, std::int64_t end)
   {
     const PartValues values(part, this->Array);
     std::vector<Contribution> inner;
@@ -186,10 +186,10 @@ public:
     this->Parts.Shared.insert(this->Parts.Shared.end(), shared.begin(), shared.end());
   }
 
-  bool wants(const Bounds& box) const
+  bool wants(const Box3& box) const
   {
     return std::any_of(this->Zones.begin(), this->Zones.end(),
-      [&box](const ZoneShape& zone) { return meets(box, boundsOf(zone.bounds()), 2); });
+      [&box](const ZoneShape& zone) { return projected<2>(box).meets(zone.bounds()); });
   }
 
   ZoneParts Parts; ///< what has been collected
@@ -197,23 +197,23 @@ public:
 private:
   template <typename Access>
   void addCell(const Access& access, const MeshPart& part, const PartValues& values,
-    std::int64_t cell, const Bounds* box, std::vector<Contribution>& inner,
+    std::int64_t cell, const Box3* box, std::vector<Contribution>& inner,
     std::vector<Contribution>& shared) const
   {
     Point2 corners[3];
     double given[3];
-    Box<2> extent = Box<2>::empty();
+    Box2 extent = Box2::empty();
     for (int i = 0; i < 3; ++i)
     {
-      corners[i] = flat(access.point(access.ids(cell)[i]));
-      extent.extend(Box<2>::of({ corners[i].x, corners[i].y }));
+      corners[i] = projected<2>(access.point(access.ids(cell)[i]));
+      extent.extend(corners[i]);
     }
     bool isRead = false;
     // No other piece has a cell that is strictly inside this piece's box.
     const bool isInner = !box ||
-      ((*box)[0] < extent.Low[0] && extent.High[0] < (*box)[1] && (*box)[2] < extent.Low[1] &&
-        extent.High[1] < (*box)[3]);
-    if (!extent.isEmpty())
+      (box->Min.x < extent.Min.x && extent.Max.x < box->Max.x && box->Min.y < extent.Min.y &&
+        extent.Max.y < box->Max.y);
+    if (isFinite(extent))
     {
       this->Tree.search(extent,
         [&](std::int32_t z)
@@ -282,8 +282,8 @@ ZoneParts partsIn(const ResidentMesh& mesh, std::pair<std::size_t, std::size_t> 
   }
   ZoneCollector collector(zones, description, component, level);
   forCells(
-    mesh, pieces, mesh.needsOf({ array }), [&](const Bounds& box) { return collector.wants(box); },
-    [&](const MeshPart& part, const Bounds* box, std::int64_t begin, std::int64_t end)
+    mesh, pieces, mesh.needsOf({ array }), [&](const Box3& box) { return collector.wants(box); },
+    [&](const MeshPart& part, const Box3* box, std::int64_t begin, std::int64_t end)
     { collector.addCells(part, box, begin, end); });
   return std::move(collector.Parts);
 }
@@ -300,25 +300,24 @@ public:
   {
     for (std::size_t axis = 0; axis < std::size_t(this->Dimension) && this->IsBox; ++axis)
     {
-      if (!(this->Box[2 * axis] <= this->Box[2 * axis + 1]))
+      if (!(this->Box.Min[axis] <= this->Box.Max[axis]))
       {
         throw IOError("The box has a minimum above its maximum, or bounds that are no numbers.");
       }
     }
     if (!this->IsBox)
     {
-      this->Box = boundsOf(this->Shape.bounds());
-      this->Box[4] = -HUGE_VAL;
-      this->Box[5] = HUGE_VAL;
+      const auto& [low, high] = this->Shape.bounds();
+      this->Box = { { low.x, low.y, -HUGE_VAL }, { high.x, high.y, HUGE_VAL } };
     }
   }
 
-  bool wants(const Bounds& box) const { return meets(box, this->Box, this->Dimension); }
+  bool wants(const Box3& box) const { return meets(box, this->Box, this->Dimension); }
 
   bool holds(const Point3& p) const
   {
-    return tipp::holds(this->Box, p, this->Dimension) &&
-      (this->IsBox || this->Shape.holds(flat(p)));
+    return contains(this->Box, p, this->Dimension) &&
+      (this->IsBox || this->Shape.holds(projected<2>(p)));
   }
 
   /// Whether a cell meets the region or, if `whole`, lies inside it. Cells without area or volume
@@ -340,7 +339,7 @@ public:
                      [this](Point2 p) {
                        return this->holds({ p.x, p.y, 0 });
                      })
-                 : triangleMeetsBox(t[0], t[1], t[2], box3Of(this->Box, 2));
+                 : triangleMeetsBox(t[0], t[1], t[2], boundedBox(this->Box, 2));
   }
   bool has(const Point3 (&t)[4], bool whole) const
   {
@@ -354,7 +353,7 @@ public:
       return this->columnHas(t, whole);
     }
     return whole ? std::all_of(t, t + 4, [this](const Point3& p) { return this->holds(p); })
-                 : tetrahedronMeetsBox(t[0], t[1], t[2], t[3], box3Of(this->Box, 3));
+                 : tetrahedronMeetsBox(t[0], t[1], t[2], t[3], boundedBox(this->Box, 3));
   }
 
 private:
@@ -366,7 +365,8 @@ private:
     bool hasAll = true;
     for (int i = 0; i < 4; ++i)
     {
-      const Point2 face[3] = { flat(t[i]), flat(t[(i + 1) % 4]), flat(t[(i + 2) % 4]) };
+      const Point2 face[3] = { projected<2>(t[i]), projected<2>(t[(i + 1) % 4]),
+        projected<2>(t[(i + 2) % 4]) };
       if (orientation(face[0], face[1], face[2]) != 0)
       {
         hasAny = hasAny || this->has(face, false);
@@ -377,7 +377,7 @@ private:
   }
 
   const int Dimension;
-  Bounds Box;
+  Box3 Box;
   const bool IsBox;
   const ZoneShape Shape;
 };
@@ -418,8 +418,8 @@ std::vector<std::int64_t> cellsIn(
   std::vector<std::int64_t> ids;
   std::mutex mutex;
   forCells(
-    mesh, piecesOfRank(ranks, mesh), {}, [&](const Bounds& box) { return test.wants(box); },
-    [&](const MeshPart& part, const Bounds*, std::int64_t begin, std::int64_t end)
+    mesh, piecesOfRank(ranks, mesh), {}, [&](const Box3& box) { return test.wants(box); },
+    [&](const MeshPart& part, const Box3*, std::int64_t begin, std::int64_t end)
     {
       std::vector<std::int64_t> own;
       withAccess(part.Mesh,

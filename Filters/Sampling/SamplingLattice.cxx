@@ -17,15 +17,14 @@ namespace tipp
 {
 
 std::array<int, 3> chosenDimensions(
-  const std::array<double, 6>& bounds, std::array<int, 3> dimensions, bool surfaces)
+  const Box3& bounds, std::array<int, 3> dimensions, bool surfaces)
 {
-  const auto length = [&](std::size_t axis) { return bounds[2 * axis + 1] - bounds[2 * axis]; };
   std::optional<double> step;
   for (std::size_t axis = 0; axis < 3 && !step; ++axis)
   {
     if (dimensions[axis] > 0)
     {
-      step = length(axis) / std::max(dimensions[axis] - 1, 1);
+      step = bounds.width(axis) / std::max(dimensions[axis] - 1, 1);
     }
   }
   if (!step)
@@ -38,7 +37,7 @@ std::array<int, 3> chosenDimensions(
     if (dimensions[axis] == 0)
     {
       const bool one = (axis == 2 && surfaces) || !(*step > 0); // invalid bounds are reported later
-      const double steps = one ? 0 : std::max(std::round(length(axis) / *step), 0.0);
+      const double steps = one ? 0 : std::max(std::round(bounds.width(axis) / *step), 0.0);
       if (!(steps < std::numeric_limits<int>::max()))
       {
         throw std::runtime_error("more than 2147483647 samples along " +
@@ -51,15 +50,15 @@ std::array<int, 3> chosenDimensions(
   return dimensions;
 }
 
-Lattice rangeLattice(const std::array<double, 6>& bounds, const std::array<int, 3>& dimensions,
-  const std::array<double, 3>& delta)
+Lattice rangeLattice(
+  const Box3& bounds, const std::array<int, 3>& dimensions, const std::array<double, 3>& delta)
 {
   Lattice lattice;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const std::string name(1, "xyz"[axis]);
-    const double low = bounds[2 * axis];
-    const double high = bounds[2 * axis + 1];
+    const double low = bounds.Min[axis];
+    const double high = bounds.Max[axis];
     int count = dimensions[axis];
     if (!std::isfinite(high - low) || low > high)
     {

@@ -2,6 +2,7 @@
 #ifndef tippSamplingLattice_h
 #define tippSamplingLattice_h
 
+#include "Predicates/Geometry.h"
 #include "Resample/Lattice.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -14,14 +15,14 @@ namespace tipp
 /// Returns `dimensions` with each 0 replaced by the number of samples that gives the spacing of the
 /// first axis with a number; by 1 along z for surfaces. Throws std::runtime_error if all are 0.
 VTKTIPPFILTERS_EXPORT std::array<int, 3> chosenDimensions(
-  const std::array<double, 6>& bounds, std::array<int, 3> dimensions, bool surfaces);
+  const Box3& bounds, std::array<int, 3> dimensions, bool surfaces);
 
 /// Returns the lattice of a range: along each axis with the spacing `delta` if it is above 0, else
 /// with `dimensions` samples, the last of them not beyond the range. Only steps of a given length,
 /// which are on a grid of written numbers, have a Slack. Throws std::runtime_error for
 /// an invalid range or number.
-Lattice rangeLattice(const std::array<double, 6>& bounds, const std::array<int, 3>& dimensions,
-  const std::array<double, 3>& delta);
+Lattice rangeLattice(
+  const Box3& bounds, const std::array<int, 3>& dimensions, const std::array<double, 3>& delta);
 
 /// Returns the two axes that surface cells are sampled along: all except the last axis with one
 /// sample, or except z.

@@ -5,7 +5,6 @@
 #include "Sampling/SimplexParts.h"
 #include "Vtk/DataSets.h"
 
-#include "vtkBoundingBox.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
@@ -26,9 +25,9 @@ namespace
 {
 
 /// The bounding box of the points that are finite along the axes.
-vtkBoundingBox boxOf(const std::vector<vtkPointSet*>& meshes, const std::vector<int>& axes)
+Box3 boxOf(const std::vector<vtkPointSet*>& meshes, const std::vector<int>& axes)
 {
-  vtkBoundingBox box;
+  Box3 box = Box3::empty();
   for (vtkPointSet* mesh : meshes)
   {
     if (allPointsFinite(mesh))
@@ -36,17 +35,17 @@ vtkBoundingBox boxOf(const std::vector<vtkPointSet*>& meshes, const std::vector<
       // Without points VTK's bounds are from 1 to -1.
       if (mesh->GetNumberOfPoints() > 0)
       {
-        box.AddBounds(mesh->GetBounds());
+        box.extend(boxOfVtkBounds<3>(mesh->GetBounds()));
       }
       continue;
     }
     for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
     {
-      double p[3];
-      mesh->GetPoint(i, p);
+      Point3 p;
+      mesh->GetPoint(i, &p.x);
       if (std::all_of(axes.begin(), axes.end(), [&](int axis) { return std::isfinite(p[axis]); }))
       {
-        box.AddPoint(p);
+        box.extend(p);
       }
     }
   }
@@ -63,11 +62,11 @@ bool areSurfaces(const std::vector<vtkPointSet*>& meshes, Communicator& ranks)
 
 void HeightRange::add(vtkPointSet* mesh)
 {
-  const vtkBoundingBox box = boxOf({ mesh }, { 2 });
-  if (box.GetBound(4) <= box.GetBound(5))
+  const Box3 box = boxOf({ mesh }, { 2 });
+  if (box.Min.z <= box.Max.z)
   {
-    this->Low = std::min(this->Low, box.GetBound(4));
-    this->High = std::max(this->High, box.GetBound(5));
+    this->Low = std::min(this->Low, box.Min.z);
+    this->High = std::max(this->High, box.Max.z);
   }
   this->HasArray = this->HasArray || mesh->GetPointData()->HasArray(elevationName);
 }
@@ -139,24 +138,18 @@ std::vector<vtkPointSet*> meshesOf(vtkDataObject* data, int threads)
   return meshes;
 }
 
-std::array<int, 3> chosenDimensions(const std::array<double, 6>& bounds,
-  const std::array<int, 3>& dimensions, const std::vector<vtkPointSet*>& meshes,
-  Communicator& ranks)
+std::array<int, 3> chosenDimensions(const Box3& bounds, const std::array<int, 3>& dimensions,
+  const std::vector<vtkPointSet*>& meshes, Communicator& ranks)
 {
   return std::count(dimensions.begin(), dimensions.end(), 0) > 0
     ? chosenDimensions(bounds, dimensions, areSurfaces(meshes, ranks))
     : dimensions;
 }
 
-std::array<double, 6> boundsOf(const std::vector<vtkPointSet*>& meshes, Communicator& ranks)
+Box3 boundsOf(const std::vector<vtkPointSet*>& meshes, Communicator& ranks)
 {
-  std::array<double, 6> bounds;
-  boxOf(meshes, { 0, 1, 2 }).GetBounds(bounds.data());
-  std::vector<double> least = { bounds[0], -bounds[1], bounds[2], -bounds[3], bounds[4],
-    -bounds[5] };
-  ranks.minimum(least);
-  bounds = { least[0], -least[1], least[2], -least[3], least[4], -least[5] };
-  if (!(bounds[0] <= bounds[1]))
+  const Box3 bounds = ranks.boundsOfAll(boxOf(meshes, { 0, 1, 2 }));
+  if (bounds.isEmpty())
   {
     throw std::runtime_error(
       "the input has no points with finite coordinates, so its bounds give no range: turn "
@@ -168,21 +161,21 @@ std::array<double, 6> boundsOf(const std::vector<vtkPointSet*>& meshes, Communic
 Lattice cropped(
   const Lattice& lattice, const std::vector<vtkPointSet*>& meshes, const std::vector<int>& axes)
 {
-  const vtkBoundingBox box = boxOf(meshes, axes);
+  const Box3 box = boxOf(meshes, axes);
   Lattice result = lattice;
   for (const int axis : axes)
   {
     int& first = result.Extent[2 * axis];
     int& last = result.Extent[2 * axis + 1];
-    if (!box.IsValid())
+    if (box.isEmpty())
     {
       last = first - 1;
       continue;
     }
     // One more step on either side covers rounding errors.
     const double delta = lattice.Delta[axis];
-    const double low = std::floor((box.GetBound(2 * axis) - lattice.Min[axis]) / delta) - 1;
-    const double high = std::ceil((box.GetBound(2 * axis + 1) - lattice.Min[axis]) / delta) + 1;
+    const double low = std::floor((box.Min[axis] - lattice.Min[axis]) / delta) - 1;
+    const double high = std::ceil((box.Max[axis] - lattice.Min[axis]) / delta) + 1;
     first = low > first ? int(std::min(low, double(last) + 1)) : first;
     last = high < last ? int(std::max(high, double(first) - 1)) : last;
   }

@@ -61,13 +61,12 @@ std::vector<vtkPointSet*> meshesOf(vtkDataObject* data, int threads);
 
 /// Returns `dimensions` with each 0 replaced as in SamplingLattice.h; the meshes of all ranks tell
 /// whether they are surfaces. Collective.
-std::array<int, 3> chosenDimensions(const std::array<double, 6>& bounds,
-  const std::array<int, 3>& dimensions, const std::vector<vtkPointSet*>& meshes,
-  Communicator& ranks);
+std::array<int, 3> chosenDimensions(const Box3& bounds, const std::array<int, 3>& dimensions,
+  const std::vector<vtkPointSet*>& meshes, Communicator& ranks);
 
-/// Returns the bounding box of all ranks' meshes (xmin, xmax, ymin, ...). Throws std::runtime_error
+/// Returns the bounding box of all ranks' meshes. Throws std::runtime_error
 /// on all ranks if there are no points. Collective.
-std::array<double, 6> boundsOf(const std::vector<vtkPointSet*>& meshes, Communicator& ranks);
+Box3 boundsOf(const std::vector<vtkPointSet*>& meshes, Communicator& ranks);
 
 /// Returns the part of the lattice that the meshes' bounding boxes meet along `axes`; along other
 /// axes it is not cropped.

@@ -2,7 +2,7 @@
 #include "Triangulation/BoundaryTriangles.h"
 
 #include "Kernel/DelaunayKernel.h"
-#include "Kernel/Lanes.h"
+#include "Kernel/Pairs.h"
 
 #include <cmath>
 #include <numeric>
@@ -34,7 +34,7 @@ double meanLongSide(const Tiling& tiling)
   for (PartitionIndex i = 0; i < tiling.size(); ++i)
   {
     const Box2& box = tiling.box(i);
-    sum += std::max(box.xmax - box.xmin, box.ymax - box.ymin) / tiling.size();
+    sum += std::max(box.width(0), box.width(1)) / tiling.size();
   }
   return sum;
 }
@@ -50,24 +50,23 @@ int stepsAlong(double side, double spacing)
 std::array<std::size_t, 4> findOutmost(const Point2* points, std::size_t count)
 {
   constexpr std::size_t block = 1024;
-  std::array<double, 4> bounds{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+  const auto boundOf = [](const Box2& box, std::size_t side)
+  { return side < 2 ? box.Min[side] : box.Max[side - 2]; };
+  Box2 bounds = Box2::empty();
   std::array<std::size_t, 4> found{ 0, 0, 0, 0 };
   for (std::size_t begin = 0; begin < count; begin += block)
   {
-    const Box2 box = extentOf(points + begin, std::min(block, count - begin)).box();
-    const std::array<double, 4> here{ box.xmin, box.ymin, box.xmax, box.ymax };
+    Box2 all = bounds;
+    all.extend(extentOf(points + begin, std::min(block, count - begin)).Bounds);
     for (std::size_t side = 0; side < 4; ++side)
     {
-      if (side < 2 ? here[side] < bounds[side] : here[side] > bounds[side])
-      {
-        bounds[side] = here[side];
-        found[side] = begin;
-      }
+      found[side] = boundOf(all, side) != boundOf(bounds, side) ? begin : found[side];
     }
+    bounds = all;
   }
   for (std::size_t side = 0; side < 4; ++side)
   {
-    while ((side % 2 == 0 ? points[found[side]].x : points[found[side]].y) != bounds[side])
+    while (points[found[side]][side % 2] != boundOf(bounds, side))
     {
       ++found[side];
     }
@@ -91,10 +90,10 @@ std::vector<BoundaryVertex> makeArtificialPoints(const Tiling& tiling)
 {
   const double margin = meanLongSide(tiling);
   const Box2& domain = tiling.domain();
-  const Box2 frame = { outward(domain.xmin, -1, margin), outward(domain.ymin, -1, margin),
-    outward(domain.xmax, 1, margin), outward(domain.ymax, 1, margin) };
-  const double width = frame.xmax - frame.xmin;
-  const double height = frame.ymax - frame.ymin;
+  const Box2 frame = { { outward(domain.Min.x, -1, margin), outward(domain.Min.y, -1, margin) },
+    { outward(domain.Max.x, 1, margin), outward(domain.Max.y, 1, margin) } };
+  const double width = frame.width(0);
+  const double height = frame.width(1);
   std::vector<BoundaryVertex> vertices;
   if (!std::isfinite(width) || !std::isfinite(height))
   {
@@ -108,16 +107,16 @@ std::vector<BoundaryVertex> makeArtificialPoints(const Tiling& tiling)
   const int columns = stepsAlong(width, margin);
   for (int i = 0; i <= columns; ++i)
   {
-    const double x = i < columns ? frame.xmin + width * (double(i) / columns) : frame.xmax;
-    add(x, frame.ymin);
-    add(x, frame.ymax);
+    const double x = i < columns ? frame.Min.x + width * (double(i) / columns) : frame.Max.x;
+    add(x, frame.Min.y);
+    add(x, frame.Max.y);
   }
   const int rows = stepsAlong(height, margin);
   for (int i = 1; i < rows; ++i)
   {
-    const double y = frame.ymin + height * (double(i) / rows);
-    add(frame.xmin, y);
-    add(frame.xmax, y);
+    const double y = frame.Min.y + height * (double(i) / rows);
+    add(frame.Min.x, y);
+    add(frame.Max.x, y);
   }
   return vertices;
 }

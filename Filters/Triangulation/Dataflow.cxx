@@ -16,8 +16,8 @@ using Index = DelaunayKernel::Index;
 /// The largest closed box such that disks inside it do not touch the boxes around `box`.
 Box2 openBox(const Box2& box)
 {
-  return { std::nextafter(box.xmin, HUGE_VAL), std::nextafter(box.ymin, HUGE_VAL),
-    std::nextafter(box.xmax, -HUGE_VAL), std::nextafter(box.ymax, -HUGE_VAL) };
+  return { { std::nextafter(box.Min.x, HUGE_VAL), std::nextafter(box.Min.y, HUGE_VAL) },
+    { std::nextafter(box.Max.x, -HUGE_VAL), std::nextafter(box.Max.y, -HUGE_VAL) } };
 }
 
 } // namespace
@@ -324,8 +324,7 @@ void repairHull(std::vector<BoundaryVertex> vertices, const std::vector<Boundary
         const auto isInConflict = [&](const BoundaryVertex& z)
         {
           const Point2 p = z.Position;
-          return bounds.xmin <= p.x && p.x <= bounds.xmax && bounds.ymin <= p.y &&
-            p.y <= bounds.ymax && inCirclePerturbed(a, b, c, p);
+          return bounds.contains(p) && inCirclePerturbed(a, b, c, p);
         };
         if (std::any_of(artificial.begin(), artificial.end(), isInConflict))
         {

@@ -27,7 +27,7 @@ InputSurvey joinSurveys(std::vector<InputSurvey>& parts)
     survey.Points += part.Points;
     survey.Rejected += part.Rejected;
     survey.WithoutElevation += part.WithoutElevation;
-    survey.Bounds = unionOf(survey.Bounds, part.Bounds);
+    survey.Bounds.extend(part.Bounds);
     survey.Collinear = survey.Collinear && part.Collinear &&
       std::all_of(part.Line.begin(), part.Line.end(), [&](Point2 p) { return line.add(p); });
     survey.Sample.insert(survey.Sample.end(), part.Sample.begin(), part.Sample.end());

@@ -2,11 +2,10 @@
 #ifndef tippInputSurvey_h
 #define tippInputSurvey_h
 
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "Triangulation/StreamSampler.h"
 #include "vtkTIPPFiltersModule.h"
 
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -22,7 +21,7 @@ struct InputSurvey
   std::int64_t Points = 0;
   std::int64_t Rejected = 0;         ///< points with NaN or infinite coordinates
   std::int64_t WithoutElevation = 0; ///< points whose elevation is NaN or infinite
-  Box2 Bounds{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL }; ///< of the finite points
+  Box2 Bounds = Box2::empty();       ///< of the finite points
   /// A power of two that brings very small or large coordinates to about 1; else 1.
   double Factor = 1;
   /// Whether all finite points are on one line.

@@ -3,9 +3,9 @@
 #define tippPointBuckets_h
 
 #include "Arrays/Buffer.h"
-#include "Kernel/Lanes.h"
+#include "Kernel/Pairs.h"
 #include "Parallel/ParallelFor.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/PopulatePages.h"
 #include "Triangulation/Tiling.h"
@@ -253,7 +253,7 @@ public:
       [&](std::int64_t i)
       {
         const auto p = static_cast<PartitionIndex>(i);
-        this->Boxes[std::size_t(i)] = extentOf(buckets.points(p), buckets.count(p)).box();
+        this->Boxes[std::size_t(i)] = extentOf(buckets.points(p), buckets.count(p)).Bounds;
         this->Used[std::size_t(i)] = buckets.count(p) > 0;
       });
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation/PointsView.h"
 
-#include "Kernel/Lanes.h"
+#include "Kernel/Pairs.h"
 #include "Parallel/ParallelFor.h"
 #include "Predicates/ExactPredicates.h"
 #include "Triangulation/Duplicate.h"
@@ -28,7 +28,7 @@ void addPoints(PointSurvey& survey, std::size_t first, const Point2* points, std
   }
   else
   {
-    survey.Bounds = unionOf(survey.Bounds, extent.box());
+    survey.Bounds.extend(extent.Bounds);
   }
 }
 
@@ -49,7 +49,7 @@ PointSurvey surveyPoints(PointsView points, int threads)
   PointSurvey all;
   for (const PointSurvey& part : parts)
   {
-    all.Bounds = unionOf(all.Bounds, part.Bounds);
+    all.Bounds.extend(part.Bounds);
     all.Rejected.insert(all.Rejected.end(), part.Rejected.begin(), part.Rejected.end());
   }
   return all;
@@ -84,9 +84,7 @@ PointsView withModerateMagnitude(PointsView points, const Box2& bounds)
 {
   // Determinants have degree four in the coordinates, and rounding errors are 53 bits smaller.
   constexpr int moderate = 200;
-  const double largest = std::max({ std::fabs(bounds.xmin), std::fabs(bounds.xmax),
-    std::fabs(bounds.ymin), std::fabs(bounds.ymax) });
-  const double factor = moderateFactor(largest, moderate);
+  const double factor = moderateFactor(bounds.largest(), moderate);
   for (std::size_t i = 0; factor != 1 && i < points.size(); ++i)
   {
     const Point2 p = points[i];

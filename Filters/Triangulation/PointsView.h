@@ -2,7 +2,7 @@
 #ifndef tippPointsView_h
 #define tippPointsView_h
 
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 
 #include <algorithm>
 #include <array>
@@ -16,19 +16,6 @@ namespace tipp
 {
 
 struct Duplicate;
-
-/// The smallest box that holds both.
-inline Box2 unionOf(const Box2& a, const Box2& b)
-{
-  return { std::min(a.xmin, b.xmin), std::min(a.ymin, b.ymin), std::max(a.xmax, b.xmax),
-    std::max(a.ymax, b.ymax) };
-}
-
-/// A box of points that are multiplied by a factor above 0.
-inline Box2 scaled(const Box2& box, double factor)
-{
-  return { box.xmin * factor, box.ymin * factor, box.xmax * factor, box.ymax * factor };
-}
 
 /// The range [begin, end) of n items that is share `part` of `parts` equal shares.
 inline std::pair<std::size_t, std::size_t> evenShare(std::size_t n, int part, int parts)
@@ -155,7 +142,7 @@ private:
 /// The result of one pass over the points.
 struct PointSurvey
 {
-  Box2 Bounds{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL }; ///< bounds of the finite points
+  Box2 Bounds = Box2::empty();        ///< bounds of the finite points
   std::vector<std::int64_t> Rejected; ///< ids of points that are not finite; ascending
 };
 

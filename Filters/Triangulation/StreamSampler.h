@@ -3,7 +3,7 @@
 #define tippStreamSampler_h
 
 #include "Arrays/Random.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 
 #include <algorithm>
 #include <cstddef>

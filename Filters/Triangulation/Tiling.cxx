@@ -11,14 +11,6 @@ namespace tipp
 namespace
 {
 
-std::pair<Box2, Box2> cutBox(const Box2& box, int axis, double at)
-{
-  std::pair<Box2, Box2> halves{ box, box };
-  (axis == 0 ? halves.first.xmax : halves.first.ymax) = at;
-  (axis == 0 ? halves.second.xmin : halves.second.ymin) = at;
-  return halves;
-}
-
 /// A coordinate inside (low, high) that splits off the fraction `part`; high if none is
 /// representable.
 double between(double low, double high, double part)
@@ -99,9 +91,8 @@ std::int32_t Tiling::cutGrid(const Box2& box, int columns, int rows)
   const int axis = columns >= rows ? 0 : 1;
   const int count = axis == 0 ? columns : rows;
   const int lower = count / 2;
-  const double at = axis == 0 ? between(box.xmin, box.xmax, double(lower) / count)
-                              : between(box.ymin, box.ymax, double(lower) / count);
-  const auto halves = cutBox(box, axis, at);
+  const double at = between(box.Min[axis], box.Max[axis], double(lower) / count);
+  const auto halves = box.cut(std::size_t(axis), at);
   const auto child = [&](const Box2& half, int part)
   { return axis == 0 ? this->cutGrid(half, part, rows) : this->cutGrid(half, columns, part); };
   return this->addCut(
@@ -125,13 +116,12 @@ std::int32_t Tiling::cutSample(const Box2& box, Point2* begin, Point2* end, int 
   {
     return this->addBox(box, this->size());
   }
-  const int axis = box.xmax - box.xmin >= box.ymax - box.ymin ? 0 : 1;
-  const auto along = [axis](const Point2& p) { return axis == 0 ? p.x : p.y; };
-  const auto less = [&along](const Point2& p, const Point2& q) { return along(p) < along(q); };
+  const int axis = box.width(0) >= box.width(1) ? 0 : 1;
+  const auto less = [axis](const Point2& p, const Point2& q) { return p[axis] < q[axis]; };
   Point2* middle = begin + lower;
   std::nth_element(begin, middle, end, less);
-  const double at = between(along(*std::max_element(begin, middle, less)), along(*middle), 0.5);
-  const auto halves = cutBox(box, axis, at);
+  const double at = between((*std::max_element(begin, middle, less))[axis], (*middle)[axis], 0.5);
+  const auto halves = box.cut(std::size_t(axis), at);
   return this->addCut(
     axis, at, [&] { return this->cutSample(halves.first, begin, middle, count / 2); },
     [&] { return this->cutSample(halves.second, middle, end, count - count / 2); });
@@ -182,8 +172,8 @@ CellGrid::Axis::Axis(double low, double high, std::uint32_t count)
 }
 
 CellGrid::CellGrid(const Box2& box, std::uint32_t perSide)
-  : Columns(box.xmin, box.xmax, perSide)
-  , Rows(box.ymin, box.ymax, perSide)
+  : Columns(box.Min.x, box.Max.x, perSide)
+  , Rows(box.Min.y, box.Max.y, perSide)
 {
 }
 

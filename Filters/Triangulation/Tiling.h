@@ -3,9 +3,10 @@
 #define tippTiling_h
 
 #include "Engine/PartitionIndex.h"
-#include "Kernel/Lanes.h"
+#include "Kernel/Pairs.h"
+#include "Parallel/Instructions.h"
 #include "Predicates/Circumball.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "Triangulation/PointsView.h"
 #include "vtkTIPPFiltersModule.h"
 
@@ -93,8 +94,6 @@ public:
   template <typename Visit>
   void visitNear(const Box2& bounds, Visit&& visit) const
   {
-    const double low[2] = { bounds.xmin, bounds.ymin };
-    const double high[2] = { bounds.xmax, bounds.ymax };
     std::array<std::int32_t, MaximumDepth> pending;
     std::size_t size = 0;
     pending[size++] = 0;
@@ -103,8 +102,8 @@ public:
       const Node* node = &this->node(pending[--size]);
       while (!node->isBox())
       {
-        const bool below = low[node->Axis] <= node->Coordinate;
-        const bool above = high[node->Axis] >= node->Coordinate;
+        const bool below = bounds.Min[node->Axis] <= node->Coordinate;
+        const bool above = bounds.Max[node->Axis] >= node->Coordinate;
         if (below && above)
         {
           pending[size++] = node->Child[1];
@@ -134,11 +133,10 @@ private:
   /// The partition of a point that is known to be below the node `from`.
   PartitionIndex locate(Point2 p, std::int32_t from) const
   {
-    const double coordinates[2] = { p.x, p.y };
     const Node* at = &this->node(from);
     while (!at->isBox())
     {
-      at = &this->node(at->Child[coordinates[at->Axis] >= at->Coordinate]);
+      at = &this->node(at->Child[p[at->Axis] >= at->Coordinate]);
     }
     return at->Partition;
   }

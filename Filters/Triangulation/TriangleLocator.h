@@ -33,20 +33,18 @@ public:
     {
       return;
     }
-    Point2 high{ -HUGE_VAL, -HUGE_VAL };
-    this->Low = { HUGE_VAL, HUGE_VAL };
+    Box2 box = Box2::empty();
     for (std::size_t i = 0; i < 3 * triangles; ++i)
     {
-      const Point2 p = points[std::size_t(corners[i])];
-      this->Low = { std::min(this->Low.x, p.x), std::min(this->Low.y, p.y) };
-      high = { std::max(high.x, p.x), std::max(high.y, p.y) };
+      box.extend(points[std::size_t(corners[i])]);
     }
+    this->Low = box.Min;
     constexpr double trianglesPerCell = 4;
     this->Side = std::size_t(std::ceil(std::sqrt(double(triangles) / trianglesPerCell)));
     // The extent of finite points may overflow; half of it does not.
-    const auto perUnit = [this](double low, double high)
-    { return 0.5 * double(this->Side) / (0.5 * high - 0.5 * low); };
-    this->PerUnit = { perUnit(this->Low.x, high.x), perUnit(this->Low.y, high.y) };
+    const auto perUnit = [&](std::size_t axis)
+    { return 0.5 * double(this->Side) / (0.5 * box.Max[axis] - 0.5 * box.Min[axis]); };
+    this->PerUnit = { perUnit(0), perUnit(1) };
     constexpr std::int32_t none = -1;
     this->Nearby.assign(this->Side * this->Side, none);
     for (std::size_t t = 0; t < triangles; ++t)

@@ -3,7 +3,7 @@
 #define tippTriangleSink_h
 
 #include "Arrays/Buffer.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/PointBuckets.h"
 #include "Triangulation/Triangulation.h"

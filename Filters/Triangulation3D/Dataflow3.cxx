@@ -22,15 +22,15 @@ public:
   {
     for (const Vertex3& z : artificial)
     {
-      this->Bounds.include(z.Position);
+      this->Bounds.extend(z.Position);
     }
-    const Box3& box = this->Bounds.Box;
+    const Box3& box = this->Bounds;
     std::array<std::vector<Point3>, 6> sides;
     for (const Vertex3& z : artificial)
     {
       const Point3& p = z.Position;
-      const std::array<bool, 6> isOn = { p.x == box.Min[0], p.x == box.Max[0], p.y == box.Min[1],
-        p.y == box.Max[1], p.z == box.Min[2], true };
+      const std::array<bool, 6> isOn = { p.x == box.Min.x, p.x == box.Max.x, p.y == box.Min.y,
+        p.y == box.Max.y, p.z == box.Min.z, true };
       sides[std::size_t(std::find(isOn.begin(), isOn.end(), true) - isOn.begin())].push_back(p);
     }
     for (const std::vector<Point3>& side : sides)
@@ -40,21 +40,18 @@ public:
   }
 
   /// The box that all points are on.
-  const Box3& box() const { return this->Bounds.Box; }
+  const Box3& box() const { return this->Bounds; }
 
   /// Whether the tetrahedron of these corners is in conflict with one of the points.
   bool areInConflict(const Point3& a, const Point3& b, const Point3& c, const Point3& d) const
   {
     const Circumball ball(a, b, c, d);
     const auto isInConflict = [&](const Point3& p)
-    {
-      return ball.meets({ { p.x, p.y, p.z }, { p.x, p.y, p.z } }) &&
-        inSpherePerturbed(a, b, c, d, p);
-    };
+    { return ball.meets(Box3::of(p)) && inSpherePerturbed(a, b, c, d, p); };
     return std::any_of(this->Groups.begin(), this->Groups.end(),
       [&](const Group& group)
       {
-        return ball.meets(group.Bounds.Box) &&
+        return ball.meets(group.Bounds) &&
           std::any_of(group.Points.begin(), group.Points.end(), isInConflict);
       });
   }
@@ -62,7 +59,7 @@ public:
 private:
   struct Group
   {
-    PointBounds Bounds;
+    Box3 Bounds = Box3::empty();
     std::vector<Point3> Points;
   };
 
@@ -76,11 +73,11 @@ private:
         this->Groups.emplace_back();
       }
       this->Groups.back().Points.push_back(side[i]);
-      this->Groups.back().Bounds.include(side[i]);
+      this->Groups.back().Bounds.extend(side[i]);
     }
   }
 
-  PointBounds Bounds;
+  Box3 Bounds = Box3::empty();
   std::vector<Group> Groups;
 };
 
@@ -112,9 +109,7 @@ Box3 Worker3::boxBesideLater() const
 {
   const Box3& own = this->Regions[std::size_t(this->Own.Partition)];
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  Box3 box;
-  box.Min.fill(-infinity);
-  box.Max.fill(infinity);
+  Box3 box{ { -infinity, -infinity, -infinity }, { infinity, infinity, infinity } };
   for (const PartitionIndex q : this->Order.later(this->Own.Partition))
   {
     const Box3& later = this->Regions[std::size_t(q)];
@@ -152,8 +147,8 @@ void Worker3::measureVertices()
     const bool isOwn = i < this->Own.Count;
     const Point3& p = this->Kernel.point(v);
     this->Vertices[v] = isOwn ? Measured{ this->Own.id(i),
-      std::min({ p.x - box.Min[0], box.Max[0] - p.x, p.y - box.Min[1], box.Max[1] - p.y,
-        p.z - box.Min[2], box.Max[2] - p.z }) }
+      std::min({ p.x - box.Min.x, box.Max.x - p.x, p.y - box.Min.y, box.Max.y - p.y,
+        p.z - box.Min.z, box.Max.z - p.z }) }
                               : Measured{ this->Others[i - this->Own.Count].Id, -1 };
   }
 }

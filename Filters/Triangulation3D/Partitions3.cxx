@@ -8,45 +8,10 @@
 #include "Predicates/Circumball.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace tipp
 {
-namespace
-{
-
-double coordinate(const Point3& p, int axis)
-{
-  return axis == 0 ? p.x : (axis == 1 ? p.y : p.z);
-}
-
-} // namespace
-
-PointBounds::PointBounds()
-{
-  this->Box.Min.fill(std::numeric_limits<double>::infinity());
-  this->Box.Max.fill(-std::numeric_limits<double>::infinity());
-}
-
-void PointBounds::include(const Point3& p)
-{
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    this->Box.Min[k] = std::min(this->Box.Min[k], coordinate(p, int(k)));
-    this->Box.Max[k] = std::max(this->Box.Max[k], coordinate(p, int(k)));
-  }
-}
-
-void PointBounds::include(const PointBounds& other)
-{
-  for (std::size_t k = 0; k < 3; ++k)
-  {
-    this->Box.Min[k] = std::min(this->Box.Min[k], other.Box.Min[k]);
-    this->Box.Max[k] = std::max(this->Box.Max[k], other.Box.Max[k]);
-  }
-}
-
 PointSurvey3 surveyPoints(const PointsView3& points)
 {
   PointSurvey3 survey;
@@ -112,11 +77,10 @@ Tiling3::Tiling3(std::vector<Point3> sample, const PartitionGroups& groups)
 /// box.
 int Tiling3::axisFor(int count, const Box3& box)
 {
-  const auto side = [&box](int k) { return box.Max[std::size_t(k)] - box.Min[std::size_t(k)]; };
   int longest = 0;
   for (int k = 1; k < 3; ++k)
   {
-    longest = side(k) > side(longest) ? k : longest;
+    longest = box.width(k) > box.width(longest) ? k : longest;
   }
   this->SlabAxis = this->SlabAxis < 0 ? longest : this->SlabAxis;
   const bool isSlab =
@@ -138,11 +102,10 @@ void Tiling3::cut(Iterator begin, Iterator end, int first, int count)
 {
   const std::size_t self = this->Nodes.size();
   this->Nodes.emplace_back();
-  PointBounds bounds;
-  std::for_each(begin, end, [&bounds](const Point3& p) { bounds.include(p); });
-  const int axis = this->axisFor(count, bounds.Box);
-  const auto below = [axis](const Point3& p, const Point3& q)
-  { return coordinate(p, axis) < coordinate(q, axis); };
+  Box3 bounds = Box3::empty();
+  std::for_each(begin, end, [&bounds](const Point3& p) { bounds.extend(p); });
+  const int axis = this->axisFor(count, bounds);
+  const auto below = [axis](const Point3& p, const Point3& q) { return p[axis] < q[axis]; };
   const int each = count > this->Groups.Each ? this->Groups.Each : 1;
   const int lower = count / each / 2 * each;
   const double before = this->shareBefore(first);
@@ -154,8 +117,8 @@ void Tiling3::cut(Iterator begin, Iterator end, int first, int count)
   if (canCut)
   {
     std::nth_element(begin, middle, end, below);
-    at = coordinate(*middle, axis);
-    canCut = at > bounds.Box.Min[std::size_t(axis)];
+    at = (*middle)[axis];
+    canCut = at > bounds.Min[axis];
   }
   if (!canCut)
   {
@@ -164,8 +127,7 @@ void Tiling3::cut(Iterator begin, Iterator end, int first, int count)
     return;
   }
   // Points with the cut's coordinate belong to the upper side.
-  const Iterator split =
-    std::partition(begin, end, [&](const Point3& p) { return coordinate(p, axis) < at; });
+  const Iterator split = std::partition(begin, end, [&](const Point3& p) { return p[axis] < at; });
   this->cut(begin, split, first, lower);
   this->Nodes[self].Axis = axis;
   this->Nodes[self].Cut = at;
@@ -179,7 +141,7 @@ PartitionIndex Tiling3::locate(const Point3& p) const
   while (this->Nodes[node].Axis >= 0)
   {
     const Node& cut = this->Nodes[node];
-    node = coordinate(p, cut.Axis) < cut.Cut ? node + 1 : cut.Upper;
+    node = p[cut.Axis] < cut.Cut ? node + 1 : cut.Upper;
   }
   return this->Nodes[node].Partition;
 }
@@ -199,9 +161,7 @@ void Tiling3::setBoxes(std::size_t node, const Box3& box, std::vector<Box3>& box
     boxes[std::size_t(at.Partition)] = box;
     return;
   }
-  Box3 lower = box;
-  Box3 upper = box;
-  lower.Max[std::size_t(at.Axis)] = upper.Min[std::size_t(at.Axis)] = at.Cut;
+  const auto [lower, upper] = box.cut(std::size_t(at.Axis), at.Cut);
   this->setBoxes(node + 1, lower, boxes);
   this->setBoxes(at.Upper, upper, boxes);
 }
@@ -213,7 +173,7 @@ PointBuckets3 bucketPoints(const PointsView3& points, const Tiling3& tiling, int
   const auto shares = std::size_t(threads);
   Buffer<std::uint16_t> owners(points.size());
   std::vector<std::vector<std::size_t>> next(shares, std::vector<std::size_t>(parts, 0));
-  std::vector<std::vector<PointBounds>> bounds(shares, std::vector<PointBounds>(parts));
+  std::vector<std::vector<Box3>> bounds(shares, std::vector<Box3>(parts, Box3::empty()));
   parallelFor(threads, threads,
     [&](std::int64_t thread)
     {
@@ -228,7 +188,7 @@ PointBuckets3 bucketPoints(const PointsView3& points, const Tiling3& tiling, int
             const auto owner = std::size_t(tiling.locate(p));
             owners[i] = static_cast<std::uint16_t>(owner);
             ++next[share][owner];
-            bounds[share][owner].include(p);
+            bounds[share][owner].extend(p);
           }
         });
     });
@@ -237,13 +197,13 @@ PointBuckets3 bucketPoints(const PointsView3& points, const Tiling3& tiling, int
   for (std::size_t p = 0; p < parts; ++p)
   {
     buckets.Begins.push_back(sum);
-    PointBounds all;
+    Box3 all = Box3::empty();
     for (std::size_t share = 0; share < shares; ++share)
     {
       sum += std::exchange(next[share][p], sum);
-      all.include(bounds[share][p]);
+      all.extend(bounds[share][p]);
     }
-    buckets.Regions.push_back(all.Box);
+    buckets.Regions.push_back(all);
   }
   buckets.Begins.push_back(sum);
   buckets.Points.resize(sum);
@@ -288,7 +248,7 @@ std::vector<std::size_t> chooseInitialPoints(
 std::vector<Vertex3> makeArtificialPoints(const PointBuckets3& buckets, bool areSlabs)
 {
   const std::vector<char> areUsed = buckets.areUsed();
-  PointBounds domain;
+  Box3 domain = Box3::empty();
   double margin = 0;
   std::size_t used = 0;
   for (std::size_t p = 0; p < buckets.Regions.size(); ++p)
@@ -296,10 +256,8 @@ std::vector<Vertex3> makeArtificialPoints(const PointBuckets3& buckets, bool are
     if (areUsed[p])
     {
       const Box3& box = buckets.Regions[p];
-      domain.include({ box.Min[0], box.Min[1], box.Min[2] });
-      domain.include({ box.Max[0], box.Max[1], box.Max[2] });
-      const std::initializer_list<double> sides = { box.Max[0] - box.Min[0],
-        box.Max[1] - box.Min[1], box.Max[2] - box.Min[2] };
+      domain.extend(box);
+      const std::initializer_list<double> sides = { box.width(0), box.width(1), box.width(2) };
       margin += areSlabs ? std::min(sides) / 2 : std::max(sides);
       ++used;
     }
@@ -308,8 +266,8 @@ std::vector<Vertex3> makeArtificialPoints(const PointBuckets3& buckets, bool are
   std::array<std::vector<double>, 3> ticks;
   for (std::size_t k = 0; k < 3; ++k)
   {
-    const double low = outward(domain.Box.Min[k], -1, margin);
-    const double high = outward(domain.Box.Max[k], 1, margin);
+    const double low = outward(domain.Min[k], -1, margin);
+    const double high = outward(domain.Max[k], 1, margin);
     constexpr double most = 16;
     if (!std::isfinite(high - low))
     {

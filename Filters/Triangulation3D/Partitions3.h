@@ -2,7 +2,7 @@
 #ifndef tippPartitions3_h
 #define tippPartitions3_h
 
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/PointsView.h"
 #include "Triangulation/Tiling.h"
@@ -37,16 +37,6 @@ struct PointsView3
       visit(i, (*this)[i]);
     }
   }
-};
-
-/// The bounding box of points. Without points Min is +infinity and Max is -infinity.
-struct PointBounds
-{
-  PointBounds();
-  void include(const Point3& p);
-  void include(const PointBounds& other);
-
-  Box3 Box;
 };
 
 /// The result of a first pass over points.
@@ -139,11 +129,11 @@ private:
       visit(node.Partition);
       return;
     }
-    if (box.Min[std::size_t(node.Axis)] <= node.Cut)
+    if (box.Min[node.Axis] <= node.Cut)
     {
       this->visitMet(at + 1, box, visit);
     }
-    if (box.Max[std::size_t(node.Axis)] >= node.Cut)
+    if (box.Max[node.Axis] >= node.Cut)
     {
       this->visitMet(node.Upper, box, visit);
     }

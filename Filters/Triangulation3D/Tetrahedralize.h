@@ -3,7 +3,7 @@
 #define tippTetrahedralize_h
 
 #include "Arrays/Buffer.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "Triangulation/Triangulate.h"
 #include "vtkTIPPFiltersModule.h"
 

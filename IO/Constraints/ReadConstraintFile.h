@@ -3,7 +3,7 @@
 #define tippReadConstraintFile_h
 
 #include "Points/ReadPoints.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "vtkTIPPIOModule.h"
 
 #include <array>

@@ -5,6 +5,7 @@
 #include "Files/IOError.h"
 #include "Files/VtkXml.h"
 #include "Parallel/Poll.h"
+#include "Predicates/Geometry.h"
 #include "Vtk/CellArrays.h"
 #include "Vtk/DataSets.h"
 
@@ -199,15 +200,16 @@ private:
 
   double volume(const Ids& tetrahedron) const
   {
-    std::array<std::array<double, 3>, 4> p{};
+    Point3 p[4];
     for (std::size_t i = 0; i < 4; ++i)
     {
-      this->Data->GetPoint(tetrahedron[i], p[i].data());
+      this->Data->GetPoint(tetrahedron[i], &p[i].x);
     }
-    const auto edge = [&p](std::size_t to, std::size_t axis) { return p[to][axis] - p[0][axis]; };
-    return edge(1, 0) * (edge(2, 1) * edge(3, 2) - edge(2, 2) * edge(3, 1)) -
-      edge(1, 1) * (edge(2, 0) * edge(3, 2) - edge(2, 2) * edge(3, 0)) +
-      edge(1, 2) * (edge(2, 0) * edge(3, 1) - edge(2, 1) * edge(3, 0));
+    const Point3 u = p[1] - p[0];
+    const Point3 v = p[2] - p[0];
+    const Point3 w = p[3] - p[0];
+    return u.x * (v.y * w.z - v.z * w.y) - u.y * (v.x * w.z - v.z * w.x) +
+      u.z * (v.x * w.y - v.y * w.x);
   }
 
   vtkDataSet* Data;

@@ -3,7 +3,7 @@
 #define tippGisFiles_h
 
 #include "Files/PendingOutput.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "vtkTIPPIOModule.h"
 
 #include <cstdint>

@@ -133,8 +133,6 @@ void readTransform(const std::vector<char>& fields, const std::string& path, Las
     requireGood(std::isfinite(header.Scale[axis]) && header.Scale[axis] != 0 &&
         std::isfinite(header.Offset[axis]),
       path, std::string("has no usable scale or offset of ") + "xyz"[axis] + " in its header");
-    header.Bounds[2 * axis] = valueAt<double>(&fields[187 + 16 * axis]);
-    header.Bounds[2 * axis + 1] = valueAt<double>(&fields[179 + 16 * axis]);
   }
 }
 

@@ -28,8 +28,7 @@ struct LasHeader
   std::int64_t Points = 0;       ///< number of point records to read
   std::array<double, 3> Scale{}; ///< a coordinate is its stored integer * Scale + Offset
   std::array<double, 3> Offset{};
-  std::array<double, 6> Bounds{}; ///< xmin, xmax, ymin ... as the header states them
-  CrsRecords Crs;                 ///< the records of the coordinate reference system
+  CrsRecords Crs;     ///< the records of the coordinate reference system
   std::string Remark; ///< how Points differs from what the header or the file says, or empty
 
   bool hasTime() const { return this->Format == 1 || (this->Format >= 3); }

@@ -84,7 +84,7 @@ void addShapes(const PieceArray& array, int cellSize, std::int64_t first, std::i
 std::vector<std::int32_t> orderPoints(
   const InteriorContent& content, const PointRowLayout& layout, PieceInterior& interior)
 {
-  interior.Extent = emptyBounds;
+  interior.Extent = Box3::empty();
   std::vector<std::int32_t> positions(std::size_t(content.Points));
   std::int32_t next = 0;
   for (std::size_t i = 0; i < positions.size(); ++i)

@@ -38,7 +38,7 @@ struct PointRowLayout
     std::memcpy(&id, row + this->Words - 1, sizeof(id));
     return id;
   }
-  std::array<double, 3> point(const double* row) const
+  Point3 point(const double* row) const
   {
     return { row[0], row[1], this->Z < 0 ? 0 : row[this->Z] };
   }
@@ -73,10 +73,10 @@ void copyPoint(const PieceArray& array, const double* row, const PointRowLayout&
   bool isGhost, std::int64_t representative, char* to);
 
 /// Extends the bounds by a point; coordinates that are not finite, as z may be, are ignored.
-void extendBounds(Bounds& bounds, const std::array<double, 3>& point);
+void extendBounds(Box3& bounds, const Point3& point);
 
 /// Sets the bounds of z to 0 if no point has extended them.
-void completeBounds(Bounds& bounds);
+void completeBounds(Box3& bounds);
 
 /// Numbers the distinct sets of pieces that borrow from one piece.
 class VTKTIPPIO_EXPORT SharingSets
@@ -112,7 +112,7 @@ struct VTKTIPPIO_EXPORT PieceInterior
   std::int64_t Points = 0;                   ///< own points that are not on the interface
   std::int64_t Cells = 0;                    ///< cells with only such points
   std::uint64_t TriangleSum = 0;             ///< sum of hashTriangle(); only without a file
-  Bounds Extent{};                           ///< bounds of the own points
+  Box3 Extent;                               ///< bounds of the own points
   std::vector<std::uint64_t> Checksums;      ///< checksum of each array's first part
   std::vector<std::int64_t> InterfacePoints; ///< indices, ascending
   std::vector<double> InterfaceRows;         ///< rows of InterfacePoints, in their order

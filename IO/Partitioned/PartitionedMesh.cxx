@@ -6,9 +6,9 @@
 #include "Files/InputFile.h"
 #include "Files/PendingOutput.h"
 #include "Files/TextFile.h"
-#include "Partitioned/PieceFormat.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
@@ -39,14 +39,14 @@ constexpr int formatVersion = 1;
 constexpr std::string_view checksumStart = ",\n\"xxh3\": \"";
 constexpr std::string_view checksumEnd = "\"\n}\n";
 
-OrderedJson packBounds(const Bounds& bounds)
+OrderedJson packBox(const Box3& box)
 {
-  return bounds[0] <= bounds[1] ? OrderedJson(bounds) : OrderedJson::array();
+  return box.Min.x <= box.Max.x ? OrderedJson(vtkBoundsOf(box)) : OrderedJson::array();
 }
 
 OrderedJson packPiece(const PieceSummary& piece)
 {
-  return { { "box", packBounds(piece.Box) }, { "extent", packBounds(piece.Extent) },
+  return { { "box", packBox(piece.Box) }, { "extent", packBox(piece.Extent) },
     { "points", piece.Points }, { "cells", piece.Cells }, { "borrowed_cells", piece.BorrowedCells },
     { "ghost_points", piece.GhostPoints }, { "bytes", piece.FileBytes },
     { "table", { piece.TableOffset, piece.TableBytes } },
@@ -123,11 +123,11 @@ public:
     return value;
   }
 
-  /// An empty list denotes empty bounds.
-  Bounds bounds(const char* name) const
+  /// An empty list denotes an empty box.
+  Box3 box(const char* name) const
   {
     const Json& value = this->list(name);
-    Bounds result = emptyBounds;
+    std::array<double, 6> result = vtkBoundsOf(Box3::empty());
     this->require(value.empty() || value.size() == 6, "has a wrong ", name);
     for (std::size_t i = 0; i < value.size(); ++i)
     {
@@ -136,7 +136,7 @@ public:
       const bool good = std::isfinite(result[i]) && (i % 2 == 0 || result[i - 1] <= result[i]);
       this->require(good, "has a wrong ", name);
     }
-    return result;
+    return boxOfVtkBounds<3>(result.data());
   }
 
   static std::optional<std::int64_t> integerOf(const Json& value)
@@ -174,8 +174,8 @@ PieceSummary parsePiece(const Fields& fields, const PartitionedMesh& mesh)
 {
   constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
   PieceSummary piece;
-  piece.Box = fields.bounds("box");
-  piece.Extent = fields.bounds("extent");
+  piece.Box = fields.box("box");
+  piece.Extent = fields.box("extent");
   piece.Points = fields.integer("points", 0, mesh.Points);
   piece.Cells = fields.integer("cells", 0, mesh.Cells);
   piece.BorrowedCells = fields.integer("borrowed_cells", 0, mesh.Cells);
@@ -309,7 +309,7 @@ std::string indexText(const PartitionedMesh& mesh, const std::string& pvtu)
     { "borrowers", mesh.Duplicated ? "duplicate" : "reference" },
     { "points", mesh.Points },
     { "cells", mesh.Cells },
-    { "domain", packBounds(mesh.Domain) },
+    { "domain", packBox(mesh.Domain) },
     { "tiling", mesh.Tiling },
     { "times", mesh.Times },
     { "tables_bytes", bytesOfTables(mesh) },
@@ -367,7 +367,7 @@ PartitionedMesh parseIndex(const std::string& text, const std::string& path)
   mesh.Duplicated = borrowers == "duplicate";
   mesh.Points = fields.integer("points", 0, most);
   mesh.Cells = fields.integer("cells", 0, most);
-  mesh.Domain = fields.bounds("domain");
+  mesh.Domain = fields.box("domain");
   mesh.Tiling = fields.text("tiling");
   for (const Json& time : fields.list("times"))
   {

@@ -5,12 +5,10 @@
 #include "Files/IOError.h"
 #include "Files/PendingOutput.h"
 #include "Files/RawArray.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "vtkTIPPIOModule.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -20,22 +18,16 @@
 namespace tipp
 {
 
-/// x min, x max, y min, y max, z min, z max.
-using Bounds = std::array<double, 6>;
-
-/// The bounds of an empty set of points.
-constexpr Bounds emptyBounds = { HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL, HUGE_VAL, -HUGE_VAL };
-
-/// The box of these bounds, for triangles with z = 0. Infinite bounds become the largest double,
-/// because predicates need finite numbers.
-inline Box3 box3Of(const Bounds& bounds, int dimension)
+/// Returns the box as the predicates need it: infinite bounds become the largest double, and z is 0
+/// if the dimension is 2.
+inline Box3 boundedBox(const Box3& given, int dimension)
 {
   constexpr double most = std::numeric_limits<double>::max();
   Box3 box;
   for (std::size_t axis = 0; axis < std::size_t(dimension); ++axis)
   {
-    box.Min[axis] = std::clamp(bounds[2 * axis], -most, most);
-    box.Max[axis] = std::clamp(bounds[2 * axis + 1], -most, most);
+    box.Min[axis] = std::clamp(given.Min[axis], -most, most);
+    box.Max[axis] = std::clamp(given.Max[axis], -most, most);
   }
   return box;
 }
@@ -46,8 +38,8 @@ constexpr std::int64_t mostPieces = 1 << 24;
 /// The index's entry for a piece.
 struct PieceSummary
 {
-  Bounds Box{};            ///< the partition: a closed box
-  Bounds Extent{};         ///< bounding box of the piece's own points; min > max if there are none
+  Box3 Box;                ///< the partition
+  Box3 Extent;             ///< bounding box of the piece's own points; empty if there are none
   std::int64_t Points = 0; ///< excluding GhostPoints
   std::int64_t Cells = 0;  ///< owned
   std::int64_t BorrowedCells = 0;  ///< stored by reference, or duplicated at the end of the piece
@@ -88,7 +80,7 @@ struct PartitionedMesh
   bool Duplicated = false;            ///< borrowed cells are copied to the borrowers' pieces
   std::int64_t Points = 0;            ///< distinct points of the whole mesh
   std::int64_t Cells = 0;             ///< distinct cells of the whole mesh
-  Bounds Domain{};                    ///< the box that the pieces' boxes tile
+  Box3 Domain;                        ///< the box that the pieces' boxes tile
   std::string Tiling;                 ///< as requested: "grid:4x4", "quadtree:100000"
   std::vector<double> Times;          ///< times of the steps, ascending; empty for a static mesh
   std::vector<StoredArray> Arrays;    ///< point arrays first

@@ -41,8 +41,8 @@ void copyPoint(const PieceArray& array, const double* row, const PointRowLayout&
   {
     case PieceRole::Points:
     {
-      const std::array<double, 3> point = layout.point(row);
-      std::memcpy(to, point.data(), sizeof(point));
+      const Point3 point = layout.point(row);
+      std::memcpy(to, &point, sizeof(point));
       break;
     }
     case PieceRole::PointIds:
@@ -60,23 +60,23 @@ void copyPoint(const PieceArray& array, const double* row, const PointRowLayout&
   }
 }
 
-void extendBounds(Bounds& bounds, const std::array<double, 3>& point)
+void extendBounds(Box3& bounds, const Point3& point)
 {
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     if (std::isfinite(point[axis]))
     {
-      bounds[2 * axis] = std::min(bounds[2 * axis], point[axis]);
-      bounds[2 * axis + 1] = std::max(bounds[2 * axis + 1], point[axis]);
+      bounds.Min[axis] = std::min(bounds.Min[axis], point[axis]);
+      bounds.Max[axis] = std::max(bounds.Max[axis], point[axis]);
     }
   }
 }
 
-void completeBounds(Bounds& bounds)
+void completeBounds(Box3& bounds)
 {
-  if (bounds[4] > bounds[5])
+  if (bounds.Min.z > bounds.Max.z)
   {
-    bounds[4] = bounds[5] = 0;
+    bounds.Min.z = bounds.Max.z = 0;
   }
 }
 

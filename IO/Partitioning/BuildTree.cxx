@@ -32,21 +32,14 @@ MeasuredCell measure(const CellShape& shape, int dimension, std::size_t index)
   cell.IsFinite = shape.bounds(cell.Corners, cell.Bounds);
   for (std::size_t axis = 0; axis < std::size_t(dimension); ++axis)
   {
-    cell.Length = std::max(cell.Length, cell.Bounds.Max[axis] - cell.Bounds.Min[axis]);
+    cell.Length = std::max(cell.Length, cell.Bounds.width(axis));
   }
   return cell;
 }
 
-bool isWithin(const Box3& a, const Box3& b)
-{
-  return b.Min[0] <= a.Min[0] && a.Max[0] <= b.Max[0] && b.Min[1] <= a.Min[1] &&
-    a.Max[1] <= b.Max[1] && b.Min[2] <= a.Min[2] && a.Max[2] <= b.Max[2];
-}
-
 bool meetsBox(const CellShape& shape, const MeasuredCell& cell, const Box3& box)
 {
-  return boxesMeet(cell.Bounds, box) &&
-    (isWithin(cell.Bounds, box) || shape.meets(cell.Corners, box));
+  return cell.Bounds.meets(box) && (box.contains(cell.Bounds) || shape.meets(cell.Corners, box));
 }
 
 /// For each node of a tree, the number of cells that share a point with its closed box and are no
@@ -153,7 +146,7 @@ private:
       {
         const MeasuredCell cell = measure(shape, this->Tree.dimension(), i);
         if (!cell.IsFinite ||
-          (!isWithin(cell.Bounds, this->Tree.domain()) &&
+          (!this->Tree.domain().contains(cell.Bounds) &&
             !shape.meets(cell.Corners, this->Tree.domain())))
         {
           throw IOError("Cell " + std::to_string(firstCell + std::int64_t(i)) +

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -71,7 +70,6 @@ namespace
 {
 
 constexpr std::int64_t blockPoints = 1 << 16;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Calls work(first point, count, coordinates) for blocks of this rank's share.
 template <typename Work>
@@ -96,29 +94,26 @@ void forEachBlock(const FlatMesh& mesh, Communicator& ranks, int threads, const 
     });
 }
 
-/// The least coordinates of finite points, and the least of the negated ones.
-using Least = std::vector<double>;
-
 bool isFinite(const double* point, std::size_t dimension)
 {
   return std::all_of(point, point + dimension, [](double value) { return std::isfinite(value); });
 }
 
 /// Points that are not finite are left out. If a cell has one, loadCoordinates() fails.
-Least leastOf(const FlatMesh& mesh, std::int64_t count, const double* values)
+Box3 boundsOfFinite(const FlatMesh& mesh, std::int64_t count, const double* values)
 {
   const std::size_t dimension = std::size_t(mesh.CellSize) - 1;
-  Least least(6, infinity);
+  Box3 box = Box3::empty();
   for (std::size_t i = 0; i < std::size_t(count); ++i)
   {
-    const double* const point = values + i * dimension;
-    for (std::size_t axis = 0; axis < dimension && isFinite(point, dimension); ++axis)
+    Point3 point{};
+    std::copy_n(values + i * dimension, dimension, &point.x);
+    if (isFinite(point))
     {
-      least[axis] = std::min(least[axis], point[axis]);
-      least[3 + axis] = std::min(least[3 + axis], -point[axis]);
+      box.extend(point);
     }
   }
-  return least;
+  return box;
 }
 
 void requirePieces(std::int64_t boxes, const FlatMesh& mesh)
@@ -129,11 +124,6 @@ void requirePieces(std::int64_t boxes, const FlatMesh& mesh)
       "would be cut into " + std::to_string(boxes) + " pieces, more than the " +
         std::to_string(mostPieces) + " that a mesh can have; choose a coarser tiling.");
   }
-}
-
-Bounds boundsOf(const Box3& box)
-{
-  return { box.Min[0], box.Max[0], box.Min[1], box.Max[1], box.Min[2], box.Max[2] };
 }
 
 /// Greedy runs of weight at most `most`, which no single piece exceeds, leaving at least one piece
@@ -177,7 +167,7 @@ double RefinementTree::length(std::int32_t node) const
   double longest = 0.0;
   for (std::size_t axis = 0; axis < std::size_t(this->Dimension); ++axis)
   {
-    longest = std::max(longest, box.Max[axis] - box.Min[axis]);
+    longest = std::max(longest, box.width(axis));
   }
   return longest;
 }
@@ -293,31 +283,24 @@ BoxTiling RefinementTree::tiling(const std::function<bool(std::int32_t)>& keep) 
 
 Box3 boundsOfPoints(const FlatMesh& mesh, Communicator& ranks, int threads)
 {
-  Least all(6, infinity);
+  Box3 all = Box3::empty();
   ranks.attempt(
     [&]
     {
       const auto [from, to] = ranks.shareOf(mesh.Points.Tuples);
-      std::vector<Least> blocks(std::size_t((to - from + blockPoints - 1) / blockPoints));
+      std::vector<Box3> blocks(std::size_t((to - from + blockPoints - 1) / blockPoints));
       forEachBlock(mesh, ranks, threads,
         [&](std::int64_t block, std::int64_t, std::int64_t count, const double* values)
-        { blocks[std::size_t(block)] = leastOf(mesh, count, values); });
-      for (const Least& least : blocks)
+        { blocks[std::size_t(block)] = boundsOfFinite(mesh, count, values); });
+      for (const Box3& block : blocks)
       {
-        std::transform(least.begin(), least.end(), all.begin(), all.begin(),
-          [](double a, double b) { return std::min(a, b); });
+        all.extend(block);
       }
     });
-  ranks.minimum(all);
-  if (mesh.Points.Tuples > 0 && all[0] > -all[3])
+  const Box3 box = ranks.boundsOfAll(all);
+  if (mesh.Points.Tuples > 0 && box.isEmpty())
   {
     throw IOError(mesh.Path, "has no point with finite coordinates.");
-  }
-  Box3 box;
-  for (std::size_t axis = 0; axis < std::size_t(mesh.CellSize) - 1; ++axis)
-  {
-    box.Min[axis] = all[axis];
-    box.Max[axis] = -all[3 + axis];
   }
   return box;
 }
@@ -345,7 +328,7 @@ void writeOwners(const FlatMesh& mesh, const BoxTiling& tiling, const std::strin
           for (std::size_t i = 0; i < owners.size(); ++i)
           {
             Box3 point;
-            std::copy_n(values + i * dimension, dimension, point.Min.begin());
+            std::copy_n(values + i * dimension, dimension, &point.Min.x);
             point.Max = point.Min;
             int met = 0;
             std::int32_t owner = 0;
@@ -420,11 +403,11 @@ BoxTiling makeTiling(const FlatMesh& mesh, const TilingChoice& choice, const Loa
 
 void setPieces(PartitionedMesh& mesh, const Box3& domain, const BoxTiling& tiling)
 {
-  mesh.Domain = boundsOf(domain);
+  mesh.Domain = domain;
   mesh.Pieces.assign(std::size_t(tiling.count()), {});
   for (std::int64_t i = 0; i < tiling.count(); ++i)
   {
-    mesh.Pieces[std::size_t(i)].Box = boundsOf(tiling.box(i));
+    mesh.Pieces[std::size_t(i)].Box = tiling.box(i);
   }
 }
 

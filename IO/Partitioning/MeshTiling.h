@@ -6,7 +6,7 @@
 #include "Loading/VertexLoader.h"
 #include "Partition/BoxTiling.h"
 #include "Partitioned/PartitionedMesh.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "Ranks/Communicator.h"
 #include "vtkTIPPIOModule.h"
 

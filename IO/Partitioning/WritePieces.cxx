@@ -8,7 +8,6 @@
 #include "Partitioned/PieceFile.h"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -208,7 +207,7 @@ private:
 
   void writePoints()
   {
-    this->Summary.Extent = emptyBounds;
+    this->Summary.Extent = Box3::empty();
     const Spill& points = *this->Job.Points;
     const std::size_t rowBytes = points.rowBytes();
     // Rows of later parts are kept until the first part is complete.
@@ -315,8 +314,8 @@ private:
     const RawArray& points = this->Job.Mesh.Points;
     for (const char* row : rows)
     {
-      std::array<double, 3> point{};
-      takeCoordinates(points, row + 8, 1, points.Components, point.data());
+      Point3 point{};
+      takeCoordinates(points, row + 8, 1, points.Components, &point.x);
       tipp::extendBounds(this->Summary.Extent, point);
     }
   }

@@ -7,6 +7,7 @@
 #include "Crs/ImportCrs.h"
 #include "Files/TextFile.h"
 #include "Gdal/GdalLibrary.h"
+#include "Predicates/Geometry.h"
 #endif
 
 #include <algorithm>
@@ -439,11 +440,11 @@ private:
   /// Appends the next point of the feature.
   void take(PointBlock& block)
   {
-    const std::array<double, 3>& point = this->Pending[this->At++];
-    block.XY.insert(block.XY.end(), { point[0], point[1] });
+    const Point3& point = this->Pending[this->At++];
+    block.XY.insert(block.XY.end(), { point.x, point.y });
     for (std::size_t i = 0; i < this->Columns.size(); ++i)
     {
-      block.Columns[i].push_back(this->Columns[i].IsGeometry ? point[2] : this->Values[i]);
+      block.Columns[i].push_back(this->Columns[i].IsGeometry ? point.z : this->Values[i]);
     }
   }
 
@@ -454,9 +455,9 @@ private:
   std::vector<Column> Columns;
   TableReport Report;
   std::unique_ptr<GisFeatures> Features;
-  std::vector<std::array<double, 3>> Pending; ///< the points of the current feature
-  std::size_t At = 0;                         ///< the next of them
-  std::vector<double> Values;                 ///< the attributes of the current feature
+  std::vector<Point3> Pending; ///< the points of the current feature
+  std::size_t At = 0;          ///< the next of them
+  std::vector<double> Values;  ///< the attributes of the current feature
 };
 
 } // namespace

@@ -3,6 +3,7 @@
 #define tippCommunicator_h
 
 #include "Parallel/Poll.h"
+#include "Predicates/Geometry.h"
 #include "Ranks/Archive.h"
 #include "vtkTIPPIOModule.h"
 
@@ -123,6 +124,7 @@ public:
   Bytes broadcast(Bytes content);              ///< returns rank 0's content on all ranks
   void sum(std::vector<std::int64_t>& values);
   void minimum(std::vector<double>& values);
+  Box3 boundsOfAll(const Box3& own); ///< the bounding box of all ranks' boxes
   void barrier();
   /// Combines all ranks' texts by merge(mine, other) in a binary tree. Returns the result on rank
   /// 0, an empty text on the others. If merge throws on any rank, throws on all, like attempt().

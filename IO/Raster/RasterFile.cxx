@@ -57,16 +57,16 @@ GridAxis coverRange(double low, double high, double size, bool aligned, const ch
 
 } // namespace
 
-RasterGrid makeRasterGrid(const RasterRequest& request, const std::array<double, 4>& pointBounds)
+RasterGrid makeRasterGrid(const RasterRequest& request, const Box2& pointBounds)
 {
   if (request.Like)
   {
     return *request.Like;
   }
-  const std::array<double, 4> bounds = request.Bounds.value_or(pointBounds);
+  const Box2 bounds = request.Bounds.value_or(pointBounds);
   const double size = request.Resolution;
-  const GridAxis x = coverRange(bounds[0], bounds[1], size, request.Aligned, "x");
-  const GridAxis y = coverRange(bounds[2], bounds[3], size, request.Aligned, "y");
+  const GridAxis x = coverRange(bounds.Min.x, bounds.Max.x, size, request.Aligned, "x");
+  const GridAxis y = coverRange(bounds.Min.y, bounds.Max.y, size, request.Aligned, "y");
   return { x.Origin, y.Origin, { size, size }, x.Count, y.Count, std::nullopt };
 }
 
@@ -206,7 +206,7 @@ std::unique_ptr<RasterWriter> createVti(
   std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" "
                      "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <ImageData "
                      "WholeExtent=\"" +
-    extent + "\" Origin=\"" + numbers({ grid.firstCentre()[0], grid.firstCentre()[1], 0 }) +
+    extent + "\" Origin=\"" + numbers({ grid.firstCentre().x, grid.firstCentre().y, 0 }) +
     "\" Spacing=\"" + numbers({ grid.Pixel[0], grid.Pixel[1], 1 }) + "\">\n    <Piece Extent=\"" +
     extent + "\">\n      <PointData Scalars=\"" + escapedXml(description.Bands.front()) + "\">\n";
   for (std::size_t band = 0; band < description.Bands.size(); ++band)

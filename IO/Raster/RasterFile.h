@@ -5,6 +5,7 @@
 #include "Arrays/Decimal.h"
 #include "Crs/GeoKeys.h"
 #include "Files/PendingOutput.h"
+#include "Predicates/Geometry.h"
 #include "vtkTIPPIOModule.h"
 
 #include <algorithm>
@@ -37,7 +38,7 @@ struct RasterGrid
     return this->North ? *this->North : gridPosition(this->South, this->Pixel[1], 2 * this->Rows);
   }
   /// The centre of the south-western pixel.
-  std::array<double, 2> firstCentre() const
+  Point2 firstCentre() const
   {
     return { gridPosition(this->West, this->Pixel[0], 1),
       gridPosition(this->South, this->Pixel[1], 1) };
@@ -48,20 +49,18 @@ struct RasterGrid
 /// The pixel grid that a user requests.
 struct RasterRequest
 {
-  double Resolution = 0; ///< side of a pixel, in the units of the points
-  /// xmin, xmax, ymin, ymax; nullopt: those of the points.
-  std::optional<std::array<double, 4>> Bounds;
+  double Resolution = 0;      ///< side of a pixel, in the units of the points
+  std::optional<Box2> Bounds; ///< nullopt: those of the points
   /// Whether pixel borders are at multiples of the resolution; if not, the first pixel starts at
   /// the bounds.
   bool Aligned = true;
   std::optional<RasterGrid> Like; ///< the grid of another raster, which replaces the other members
 };
 
-/// Returns the grid that covers the bounds; `pointBounds` are xmin, xmax, ymin, ymax of the points.
-/// Bounds within rounding of a pixel border (see roundingOf()) count as on it. Throws
-/// std::runtime_error if they are not finite, or the raster would have too many rows or columns.
-VTKTIPPIO_EXPORT RasterGrid makeRasterGrid(
-  const RasterRequest& request, const std::array<double, 4>& pointBounds);
+/// Returns the grid that covers the bounds; `pointBounds` are those of the points. Bounds within
+/// rounding of a pixel border (see roundingOf()) count as on it. Throws std::runtime_error if they
+/// are not finite, or the raster would have too many rows or columns.
+VTKTIPPIO_EXPORT RasterGrid makeRasterGrid(const RasterRequest& request, const Box2& pointBounds);
 
 /// How a pixel of an overview is made from the pixels that it stands for.
 enum class OverviewRule

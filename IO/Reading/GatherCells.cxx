@@ -7,7 +7,6 @@
 #include "Resample/SimplexMesh.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -264,16 +263,16 @@ private:
 constexpr std::uint8_t insideRange =
   0x80; ///< marks points inside the range, which have no side bits
 
-std::array<double, 3> pointOf(const Piece& piece, std::int64_t point)
+Point3 pointOf(const Piece& piece, std::int64_t point)
 {
-  std::array<double, 3> xyz{};
+  Point3 p{};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const std::size_t at = 3 * std::size_t(point) + axis;
-    xyz[axis] = piece.PointType == Scalar::Float32 ? double(piece.Coordinates.as<float>()[at])
-                                                   : piece.Coordinates.as<double>()[at];
+    p[axis] = piece.PointType == Scalar::Float32 ? double(piece.Coordinates.as<float>()[at])
+                                                 : piece.Coordinates.as<double>()[at];
   }
-  return xyz;
+  return p;
 }
 
 } // namespace
@@ -323,14 +322,14 @@ Piece mergePieces(const std::vector<const Piece*>& pieces)
   return gatherCells(pieces, owned, ghosts, true);
 }
 
-RangeFilter::RangeFilter(const PartitionedMesh& mesh, const Bounds& range)
+RangeFilter::RangeFilter(const PartitionedMesh& mesh, const Box3& range)
   : Mesh(mesh)
-  , Range(box3Of(range, mesh.CellSize - 1))
+  , Range(boundedBox(range, mesh.CellSize - 1))
 {
   // Clip to the domain, outside of which there are no cells, so that the predicates get numbers of
   // the mesh's own magnitude.
-  const Box3 domain = box3Of(mesh.Domain, mesh.CellSize - 1);
-  const bool apart = !boxesMeet(this->Range, domain);
+  const Box3 domain = boundedBox(mesh.Domain, mesh.CellSize - 1);
+  const bool apart = !this->Range.meets(domain);
   for (std::size_t axis = 0; axis < 3 && !apart; ++axis)
   {
     this->Range.Min[axis] = std::max(this->Range.Min[axis], domain.Min[axis]);
@@ -338,7 +337,7 @@ RangeFilter::RangeFilter(const PartitionedMesh& mesh, const Bounds& range)
   }
   for (std::size_t i = 0; i < mesh.Pieces.size() && !apart; ++i)
   {
-    if (boxesMeet(this->boxOfPiece(i), this->Range))
+    if (this->boxOfPiece(i).meets(this->Range))
     {
       this->Open.push_back(i);
     }
@@ -347,7 +346,7 @@ RangeFilter::RangeFilter(const PartitionedMesh& mesh, const Bounds& range)
 
 bool RangeFilter::meets(const Piece& piece, std::int64_t cell, const Box3& box) const
 {
-  const auto corner = [&](int i) { return pointAt(pointOf(piece, piece.corner(cell, i))); };
+  const auto corner = [&](int i) { return pointOf(piece, piece.corner(cell, i)); };
   const Point3 a = corner(0);
   const Point3 b = corner(1);
   const Point3 c = corner(2);
@@ -380,11 +379,10 @@ void RangeFilter::setPointGhosts(Piece& piece, std::size_t number) const
     {
       continue;
     }
-    std::array<double, 3> xyz = pointOf(piece, point);
-    xyz[2] = piece.CellSize == 3 ? 0 : xyz[2];
-    const Box3 at{ xyz, xyz };
+    Point3 at = pointOf(piece, point);
+    at.z = piece.CellSize == 3 ? 0 : at.z;
     const auto owner = std::find_if(this->Open.begin(), this->Open.end(),
-      [&](std::size_t other) { return boxesMeet(at, this->boxOfPiece(other)); });
+      [&](std::size_t other) { return this->boxOfPiece(other).contains(at); });
     ghosts[point] = owner != this->Open.end() && *owner != number ? 1 : 0;
   }
 }
@@ -395,14 +393,14 @@ std::vector<std::uint8_t> RangeFilter::sidesOfPoints(const Piece& piece) const
   std::vector<std::uint8_t> sides(std::size_t(piece.Points));
   for (std::int64_t point = 0; point < piece.Points; ++point)
   {
-    const std::array<double, 3> xyz = pointOf(piece, point);
+    const Point3 at = pointOf(piece, point);
     int beyond = 0;
     bool within = true; // false for NaN
     for (std::size_t axis = 0; axis < axes; ++axis)
     {
-      beyond |= int(xyz[axis] < this->Range.Min[axis]) << (2 * axis);
-      beyond |= int(xyz[axis] > this->Range.Max[axis]) << (2 * axis + 1);
-      within = within && xyz[axis] >= this->Range.Min[axis] && xyz[axis] <= this->Range.Max[axis];
+      beyond |= int(at[axis] < this->Range.Min[axis]) << (2 * axis);
+      beyond |= int(at[axis] > this->Range.Max[axis]) << (2 * axis + 1);
+      within = within && at[axis] >= this->Range.Min[axis] && at[axis] <= this->Range.Max[axis];
     }
     sides[std::size_t(point)] = std::uint8_t(within ? insideRange : beyond);
   }

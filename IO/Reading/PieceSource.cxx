@@ -223,7 +223,7 @@ private:
           {
             Box3 at;
             takeCoordinates(
-              points, raw.data() + std::size_t(i) * bytes, 1, int(dimension), at.Min.data());
+              points, raw.data() + std::size_t(i) * bytes, 1, int(dimension), &at.Min.x);
             at.Max = at.Min;
             std::int32_t owner = std::numeric_limits<std::int32_t>::max();
             this->Tiling->forEachMeeting(

@@ -5,7 +5,7 @@
 #include "Partitioned/PartitionedMesh.h"
 #include "Partitioned/ReadPiece.h"
 #include "Partitioning/MeshTiling.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "Ranks/Communicator.h"
 
 #include <algorithm>
@@ -129,7 +129,7 @@ Piece mergePieces(const std::vector<const Piece*>& pieces);
 class RangeFilter
 {
 public:
-  RangeFilter(const PartitionedMesh& mesh, const Bounds& range);
+  RangeFilter(const PartitionedMesh& mesh, const Box3& range);
 
   /// The indices of the pieces whose partition meets the range, ascending.
   const std::vector<std::size_t>& pieces() const { return this->Open; }
@@ -143,7 +143,7 @@ private:
   /// The partition of a piece as a box; in 2D the z range is [0, 0].
   Box3 boxOfPiece(std::size_t number) const
   {
-    return box3Of(this->Mesh.Pieces[number].Box, this->Mesh.CellSize - 1);
+    return boundedBox(this->Mesh.Pieces[number].Box, this->Mesh.CellSize - 1);
   }
   bool meets(const Piece& piece, std::int64_t cell, const Box3& box) const;
   /// For each point a bit mask of the sides of the range that it lies outside of.

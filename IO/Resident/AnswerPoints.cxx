@@ -5,7 +5,6 @@
 #include "Resident/ForPieces.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -35,7 +34,7 @@ class NearCells
 {
 public:
   NearCells(const AskedPoints& asked, std::int64_t most)
-    : Grid(asked.Count, 1, [&asked](std::int64_t i) { return coordinatesOf<D>(asked.at(i)); })
+    : Grid(asked.Count, 1, [&asked](std::int64_t i) { return projected<D>(asked.at(i)); })
     , Most(most)
   {
   }
@@ -61,8 +60,8 @@ private:
     this->Positions.resize(std::size_t(points));
     for (auto& position : this->Positions)
     {
-      std::array<double, D> at;
-      std::copy_n(coordinates, D, at.begin());
+      Point<D> at;
+      std::copy_n(coordinates, D, &at.x);
       position = this->Grid.position(at);
       coordinates += 3;
     }
@@ -93,16 +92,16 @@ private:
 
 /// Whether the bounding box of the points covers less than half of a box.
 template <int D>
-bool areNarrow(const AskedPoints& asked, const Bounds& box)
+bool areNarrow(const AskedPoints& asked, const Box3& box)
 {
   const auto are = [&](std::int64_t count)
   {
     const Box<D> around = boundsOf<D>(
-      count, 1, [&asked](std::int64_t i) { return Box<D>::of(coordinatesOf<D>(asked.at(i))); });
+      count, 1, [&asked](std::int64_t i) { return Box<D>::of(projected<D>(asked.at(i))); });
     double share = 1;
     for (std::size_t axis = 0; axis < D; ++axis)
     {
-      share *= (around.High[axis] - around.Low[axis]) / (box[2 * axis + 1] - box[2 * axis]);
+      share *= around.width(axis) / box.width(axis);
     }
     return share < 0.5;
   };

@@ -22,11 +22,6 @@ inline Point3 positionOf(const MeshPart& part, std::int64_t point)
   return position;
 }
 
-inline Point2 flat(const Point3& p)
-{
-  return { p.x, p.y };
-}
-
 /// The point at the fraction `share` of the way from a to b.
 inline Point3 between(const Point3& a, const Point3& b, double share)
 {
@@ -105,38 +100,17 @@ void forPieceRange(const ResidentMesh& mesh, std::pair<std::size_t, std::size_t>
     });
 }
 
-inline bool meets(const Bounds& a, const Bounds& b, int dimension)
+///@{
+/// Whether boxes meet, or a box contains a point; with dimension 2 whatever z is.
+inline bool meets(const Box3& a, const Box3& b, int dimension)
 {
-  bool met = true;
-  for (std::size_t axis = 0; axis < std::size_t(dimension); ++axis)
-  {
-    met = met && a[2 * axis] <= b[2 * axis + 1] && b[2 * axis] <= a[2 * axis + 1];
-  }
-  return met;
+  return dimension == 2 ? projected<2>(a).meets(projected<2>(b)) : a.meets(b);
 }
-
-inline bool holds(const Bounds& box, const Point3& p, int dimension)
+inline bool contains(const Box3& box, const Point3& p, int dimension)
 {
-  return box[0] <= p.x && p.x <= box[1] && box[2] <= p.y && p.y <= box[3] &&
-    (dimension == 2 || (box[4] <= p.z && p.z <= box[5]));
+  return dimension == 2 ? projected<2>(box).contains(projected<2>(p)) : box.contains(p);
 }
-
-template <int D>
-Box<D> boxOf(const Bounds& bounds)
-{
-  Box<D> box;
-  for (std::size_t axis = 0; axis < D; ++axis)
-  {
-    box.Low[axis] = bounds[2 * axis];
-    box.High[axis] = bounds[2 * axis + 1];
-  }
-  return box;
-}
-
-inline Bounds boundsOf(const Box<2>& box)
-{
-  return { box.Low[0], box.High[0], box.Low[1], box.High[1], 0, 0 };
-}
+///@}
 
 /// Calls work(part, box, begin, end) for the cells [begin, end) of each piece of [first, last)
 /// whose box satisfies wants(box), on several threads. These include borrowed cells: every piece
@@ -157,7 +131,7 @@ void forCells(const ResidentMesh& mesh, std::pair<std::size_t, std::size_t> piec
   sharePieces(mesh, wanted.size(),
     [&](std::size_t i, int threads)
     {
-      const Bounds* const box = mesh.isStored() ? &mesh.mesh().Pieces[wanted[i]].Box : nullptr;
+      const Box3* const box = mesh.isStored() ? &mesh.mesh().Pieces[wanted[i]].Box : nullptr;
       const ResidentPieces::Lease piece = mesh.pieces().get(wanted[i], needs);
       forChunks(piece->Part->Mesh.Cells, 1 << 13, threads, {},
         [&](std::int64_t begin, std::int64_t end, int) { work(*piece->Part, box, begin, end); });

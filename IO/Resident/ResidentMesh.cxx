@@ -3,11 +3,11 @@
 
 #include "Files/IOError.h"
 #include "Locate/CellLocator.h"
+#include "Locate/MortonOrder.h"
+#include "Parallel/ParallelFor.h"
 #include "Parallel/Sort.h"
-#include "Resident/ForPieces.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <limits>
 #include <mutex>
@@ -144,21 +144,20 @@ private:
   BoxTree<D> make() const
   {
     return BoxTree<D>(std::int64_t(this->Mesh.Pieces.size()), 1,
-      [this](std::int64_t i) { return boxOf<D>(this->Mesh.Pieces[std::size_t(i)].Box); });
+      [this](std::int64_t i) { return projected<D>(this->Mesh.Pieces[std::size_t(i)].Box); });
   }
 
   template <int D>
   std::int32_t search(const BoxTree<D>& tree, const Point3& point) const
   {
     std::int32_t found = -1;
-    const std::array<double, D> at = coordinatesOf<D>(point);
+    const Point<D> at = projected<D>(point);
     const auto offer = [&](std::int32_t piece)
     {
-      const bool isFirst = found < 0 || piece < found;
-      found =
-        isFirst && boxOf<D>(this->Mesh.Pieces[std::size_t(piece)].Box).holds(at) ? piece : found;
+      const Box<D> box = projected<D>(this->Mesh.Pieces[std::size_t(piece)].Box);
+      found = (found < 0 || piece < found) && box.contains(at) ? piece : found;
     };
-    if (!Box<D>::of(at).isEmpty())
+    if (isFinite(at))
     {
       tree.search(Box<D>::of(at), offer);
     }
@@ -190,14 +189,13 @@ PartitionedMesh describe(const MeshPart& part, int threads)
   withAccess(part.Mesh,
     [&](const auto& access)
     {
-      const Box<3> box = boundsOf<3>(part.Mesh.PointCount, threads,
+      mesh.Domain = boundsOf<3>(part.Mesh.PointCount, threads,
         [&](std::int64_t i)
         {
-          std::array<double, 3> at = coordinatesOf<3>(access.point(i));
-          at[2] = part.Mesh.Dimension == 3 ? at[2] : 0; // the z of triangles may be NaN
-          return Box<3>::of(at);
+          Point3 at = access.point(i);
+          at.z = part.Mesh.Dimension == 3 ? at.z : 0; // the z of triangles may be NaN
+          return Box3::of(at);
         });
-      mesh.Domain = { box.Low[0], box.High[0], box.Low[1], box.High[1], box.Low[2], box.High[2] };
     });
   mesh.Pieces.emplace_back();
   mesh.Pieces[0].Points = mesh.Points;

@@ -3,7 +3,7 @@
 #define tippResidentMesh_h
 
 #include "Partitioned/PartitionedMesh.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "Resample/Claims.h"
 #include "Resident/MeshPart.h"
 #include "Resident/ResidentPieces.h"

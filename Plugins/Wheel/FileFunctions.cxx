@@ -204,8 +204,8 @@ bool isIn(const std::optional<Strings>& names, const std::string& name)
   return !names || std::find(names->begin(), names->end(), name) != names->end();
 }
 
-std::vector<Piece> readRange(
-  PieceSource& source, const std::optional<Bounds>& bounds, PieceOptions options, bool borrowed)
+std::vector<Piece> readRange(PieceSource& source,
+  const std::optional<std::array<double, 6>>& bounds, PieceOptions options, bool borrowed)
 {
   Communicator alone(nullptr);
   source.prepare(alone);
@@ -214,7 +214,7 @@ std::vector<Piece> readRange(
   std::optional<RangeFilter> range;
   if (bounds)
   {
-    range.emplace(source.mesh(), *bounds);
+    range.emplace(source.mesh(), boxOfVtkBounds<3>(bounds->data()));
     numbers = range->pieces();
   }
   options.Borrowed = borrowed || range;
@@ -239,7 +239,7 @@ void merge(std::vector<Piece>& pieces)
   pieces.push_back(std::move(one));
 }
 
-nb::list readMesh(const std::string& path, const std::optional<Bounds>& bounds,
+nb::list readMesh(const std::string& path, const std::optional<std::array<double, 6>>& bounds,
   const nb::dict& given, Progress progress)
 {
   Reporter reporter(std::move(progress));

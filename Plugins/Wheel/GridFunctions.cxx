@@ -55,7 +55,10 @@ DemRequest requestOf(const nb::dict& options)
 {
   DemRequest request;
   request.Raster.Resolution = of<double>(options, "resolution");
-  request.Raster.Bounds = of<std::optional<std::array<double, 4>>>(options, "bounds");
+  if (const auto bounds = of<std::optional<std::array<double, 4>>>(options, "bounds"))
+  {
+    request.Raster.Bounds = boxOfVtkBounds<2>(bounds->data());
+  }
   request.Raster.Aligned = of<bool>(options, "align");
   request.Bands = of<std::vector<std::string>>(options, "attributes");
   request.MaximumEdge = of<double>(options, "max_edge");
@@ -203,12 +206,13 @@ nb::tuple describe(const Lattice& lattice)
 /// Returns the lattice as describe() does, the arrays' samples, the mask and warnings.
 nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
   const std::optional<InputArray>& hidden, const nb::dict& pointData, const nb::dict& cellData,
-  const std::array<double, 6>& bounds, const std::array<int, 3>& given,
+  const std::array<double, 6>& givenBounds, const std::array<int, 3>& given,
   const std::array<double, 3>& delta, double nullValue, const std::string& device, int threads,
   Progress progress)
 {
   Reporter reporter(std::move(progress));
   const bool surface = cells.shape(1) == 3;
+  const Box3 bounds = boxOfVtkBounds<3>(givenBounds.data());
   const bool isChosen = given[0] == 0 || given[1] == 0 || given[2] == 0;
   const std::array<int, 3> dimensions = isChosen ? chosenDimensions(bounds, given, surface) : given;
   const Lattice lattice = rangeLattice(bounds, dimensions, delta);
@@ -288,13 +292,13 @@ void addGridFunctions(nb::module_& module)
       RasterRequest request;
       request.Resolution = resolution;
       request.Aligned = isAligned;
-      return tupleOf(makeRasterGrid(request, bounds));
+      return tupleOf(makeRasterGrid(request, boxOfVtkBounds<2>(bounds.data())));
     });
   module.def("resample", &resampleMesh);
   module.def("range_lattice",
     [](const std::array<double, 6>& bounds, const std::array<int, 3>& dimensions,
       const std::array<double, 3>& delta)
-    { return describe(rangeLattice(bounds, dimensions, delta)); });
+    { return describe(rangeLattice(boxOfVtkBounds<3>(bounds.data()), dimensions, delta)); });
 }
 
 } // namespace tipp::python

@@ -47,7 +47,7 @@ std::vector<Zone> zonesOf(const RingArrays& rings, std::size_t count)
 Region regionOf(const std::vector<double>& box, const std::optional<RingArrays>& rings)
 {
   Region region;
-  std::copy_n(box.begin(), 6, region.Box.begin());
+  region.Box = boxOfVtkBounds<3>(box.data());
   region.Polygons = rings ? zonesOf(*rings, 1)[0] : Zone();
   if (rings && region.Polygons.empty())
   {

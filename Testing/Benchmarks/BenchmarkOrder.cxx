@@ -24,12 +24,10 @@ using namespace tipp;
 
 Box2 boundsOf(const PointsView& points)
 {
-  Box2 box{ points[0].x, points[0].y, points[0].x, points[0].y };
+  Box2 box = Box2::of(points[0]);
   for (std::size_t i = 1; i < points.size(); ++i)
   {
-    const Point2 p = points[i];
-    box = { std::min(box.xmin, p.x), std::min(box.ymin, p.y), std::max(box.xmax, p.x),
-      std::max(box.ymax, p.y) };
+    box.extend(points[i]);
   }
   return box;
 }

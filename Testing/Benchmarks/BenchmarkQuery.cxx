@@ -312,7 +312,7 @@ void benchmarkStored(const std::string& path, std::int64_t queries, std::uint64_
     "|---|---|---|---|\n",
     static_cast<long long>(mesh.mesh().Cells), mesh.mesh().Pieces.size(),
     static_cast<long long>(queries), static_cast<unsigned long long>(megabytes));
-  const Bounds& domain = mesh.mesh().Domain;
+  const std::array<double, 6> domain = vtkBoundsOf(mesh.mesh().Domain);
   const std::vector<Point3> everywhere = scattered(queries, domain.data());
   peakMemory();
   row("random points", 1, [&] { return hits(mesh.answer(everywhere.data(), queries)); });
@@ -329,8 +329,8 @@ void benchmarkStored(const std::string& path, std::int64_t queries, std::uint64_
 void benchmarkStoredContours(const std::string& path, std::uint64_t megabytes)
 {
   const ResidentMesh mesh = openStored(path, megabytes);
-  const Bounds& domain = mesh.mesh().Domain;
-  const std::vector<double> levels = MemoryRows::tenLevels(domain[4], domain[5]);
+  const auto& [low, high] = mesh.mesh().Domain;
+  const std::vector<double> levels = MemoryRows::tenLevels(low.z, high.z);
   row("contours of ten levels", 1,
     [&] { return std::int64_t(contoursOf(mesh, "elevation", 0, levels).Points.size()); });
   printPeak();

@@ -2,7 +2,7 @@
 #ifndef tippEngines3D_h
 #define tippEngines3D_h
 
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 
 #include <cstddef>
 #include <vector>

@@ -51,16 +51,13 @@ struct Taken
 };
 
 /// Opens the mesh, and makes VTK grids of the owned cells in the pieces that meet a range.
-Taken readRange(const std::string& path, const Bounds& range, int threads)
+Taken readRange(const std::string& path, const Box3& range, int threads)
 {
   const PartitionedMesh mesh = openPartitionedMesh(path);
   std::vector<std::size_t> pieces;
   for (std::size_t i = 0; i < mesh.Pieces.size(); ++i)
   {
-    const Bounds& extent = mesh.Pieces[i].Extent;
-    const bool meets = extent[0] <= range[1] && extent[1] >= range[0] && extent[2] <= range[3] &&
-      extent[3] >= range[2];
-    if (meets)
+    if (projected<2>(mesh.Pieces[i].Extent).meets(projected<2>(range)))
     {
       pieces.push_back(i);
     }
@@ -87,14 +84,13 @@ Taken readRange(const std::string& path, const Bounds& range, int threads)
 }
 
 /// The middle of the domain: a tenth of each side, so 1 % of the area.
-Bounds middleOf(const Bounds& domain)
+Box3 middleOf(const Box3& domain)
 {
-  Bounds range = domain;
+  Box3 range = domain;
   for (std::size_t axis = 0; axis < 2; ++axis)
   {
-    const double length = domain[2 * axis + 1] - domain[2 * axis];
-    range[2 * axis] = domain[2 * axis] + 0.45 * length;
-    range[2 * axis + 1] = domain[2 * axis] + 0.55 * length;
+    range.Min[axis] = domain.Min[axis] + 0.45 * domain.width(axis);
+    range.Max[axis] = domain.Min[axis] + 0.55 * domain.width(axis);
   }
   return range;
 }
@@ -113,7 +109,7 @@ void benchmarkReading(const IoArguments& arguments)
       reader->Update();
     });
   std::printf("vtkXMLUnstructuredGridReader, one .vtu: %.3f s\n", vtk);
-  const Bounds all = openPartitionedMesh(path).Domain;
+  const Box3 all = openPartitionedMesh(path).Domain;
   Taken taken;
   double whole = 0;
   for (const int threads : { 1, arguments.Threads })

@@ -25,8 +25,8 @@ std::size_t chooseStrip(std::size_t points)
 /// Whether the closed half-plane to the left of the line from a to b meets the box.
 bool halfPlaneMeets(Point2 a, Point2 b, const Box2& box)
 {
-  const Point2 corners[4] = { { box.xmin, box.ymin }, { box.xmax, box.ymin },
-    { box.xmax, box.ymax }, { box.xmin, box.ymax } };
+  const Point2 corners[4] = { { box.Min.x, box.Min.y }, { box.Max.x, box.Min.y },
+    { box.Max.x, box.Max.y }, { box.Min.x, box.Max.y } };
   return std::any_of(
     corners, corners + 4, [&](Point2 corner) { return orientation(a, b, corner) >= 0; });
 }

@@ -3,7 +3,7 @@
 #define tippSweepKernel_h
 
 #include "Kernel/DelaunayKernel.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "SweepStrips.h"
 
 #include <array>

@@ -40,17 +40,15 @@ std::vector<double> chooseCuts(const Point2* points, std::size_t count, std::siz
 
 SweepStrips::SweepStrips(const Point2* points, std::size_t count, std::size_t pointsInStrip)
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const std::size_t strips = std::max<std::size_t>(count / pointsInStrip, 1);
   this->Cuts = chooseCuts(points, count, strips);
-  this->Bounds = { infinity, infinity, -infinity, -infinity };
+  this->Bounds = Box2::empty();
   this->Starts.assign(this->Cuts.size() + 2, 0);
   std::vector<std::uint32_t> stripOf(count);
   for (std::size_t i = 0; i < count; ++i)
   {
     const Point2 p = points[i];
-    this->Bounds = { std::min(this->Bounds.xmin, p.x), std::min(this->Bounds.ymin, p.y),
-      std::max(this->Bounds.xmax, p.x), std::max(this->Bounds.ymax, p.y) };
+    this->Bounds.extend(p);
     const auto behind = std::upper_bound(this->Cuts.begin(), this->Cuts.end(), p.x);
     stripOf[i] = std::uint32_t(behind - this->Cuts.begin());
     ++this->Starts[stripOf[i] + 1];
@@ -70,7 +68,7 @@ SweepStrips::SweepStrips(const Point2* points, std::size_t count, std::size_t po
 Box2 SweepStrips::boxFrom(std::size_t strip) const
 {
   Box2 box = this->Bounds;
-  box.xmin = strip == 0 ? box.xmin : this->Cuts[strip - 1];
+  box.Min.x = strip == 0 ? box.Min.x : this->Cuts[strip - 1];
   return box;
 }
 

@@ -2,7 +2,7 @@
 #ifndef tippSweepStrips_h
 #define tippSweepStrips_h
 
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 
 #include <cstddef>
 #include <cstdint>

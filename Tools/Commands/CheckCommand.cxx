@@ -13,7 +13,7 @@
 #include "Partitioned/PieceFile.h"
 #include "Partitioned/ReadPiece.h"
 #include "Points/ReadPoints.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

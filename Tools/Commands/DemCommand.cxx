@@ -657,8 +657,7 @@ void complete(DemArguments& arguments)
   arguments.Columns.Columns = columnsForBands(arguments.Request.Bands);
   if (!arguments.Bounds.empty())
   {
-    const std::vector<double>& bounds = arguments.Bounds;
-    arguments.Request.Raster.Bounds = { bounds[0], bounds[1], bounds[2], bounds[3] };
+    arguments.Request.Raster.Bounds = boxOfVtkBounds<2>(arguments.Bounds.data());
   }
   if (!arguments.Like.empty())
   {

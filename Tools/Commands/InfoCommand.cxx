@@ -9,7 +9,7 @@
 #include "OpenCL/Devices.h"
 #include "Parallel/Poll.h"
 #include "Points/ReadPoints.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

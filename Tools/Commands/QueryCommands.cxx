@@ -27,6 +27,7 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -170,7 +171,9 @@ Region regionOf(const RegionArguments& arguments, const ResidentMesh& mesh)
     {
       throw IOError("--bounds needs xmin xmax ymin ymax zmin zmax for a mesh of tetrahedra.");
     }
-    std::copy(arguments.Bounds.begin(), arguments.Bounds.end(), region.Box.begin());
+    std::array<double, 6> bounds{};
+    std::copy(arguments.Bounds.begin(), arguments.Bounds.end(), bounds.begin());
+    region.Box = boxOfVtkBounds<3>(bounds.data());
     return region;
   }
   for (const NamedZone& zone : readZones(arguments.Polygons, ""))

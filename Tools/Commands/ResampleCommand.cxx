@@ -17,7 +17,6 @@
 #include "Sampling/SamplingRange.h"
 #include "Vtk/DataSets.h"
 
-#include "vtkBoundingBox.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -246,7 +245,7 @@ std::optional<double> timeOf(const ResampleArguments& arguments, vtkAlgorithm* r
 /// Data from the index of a partitioned mesh.
 struct StoredMesh
 {
-  Bounds Extent{}; ///< bounds of its points; the lowest exceeds the highest if there are none
+  Box3 Extent = Box3::empty(); ///< bounding box of its points
   bool IsSurface = true;
   std::int64_t CellsInRange = 0; ///< cells of the pieces that meet the range
 };
@@ -257,19 +256,13 @@ StoredMesh describe(const ResampleArguments& arguments)
   StoredMesh stored;
   stored.IsSurface = mesh.CellSize == 3;
   const bool isWhole = arguments.Bounds.empty();
-  const vtkBoundingBox range = isWhole ? vtkBoundingBox() : vtkBoundingBox(arguments.Bounds.data());
-  vtkBoundingBox extent;
+  const Box3 range = isWhole ? Box3() : boxOfVtkBounds<3>(arguments.Bounds.data());
   for (const PieceSummary& piece : mesh.Pieces)
   {
-    const bool meets = isWhole || range.Intersects(vtkBoundingBox(piece.Box.data()));
+    const bool meets = isWhole || range.meets(piece.Box);
     stored.CellsInRange += meets ? piece.Cells : 0;
-    const vtkBoundingBox own(piece.Extent.data());
-    if (own.IsValid())
-    {
-      extent.AddBox(own);
-    }
+    stored.Extent.extend(piece.Extent);
   }
-  extent.GetBounds(stored.Extent.data());
   return stored;
 }
 
@@ -278,7 +271,7 @@ void selectStoredArrays(const ResampleArguments& arguments, const StoredMesh& st
   vtkPartitionedUnstructuredReader* reader, vtkRangeResampleFilter* filter)
 {
   ArrayNames names = namesIn(reader);
-  if (stored.IsSurface && stored.Extent[4] < stored.Extent[5])
+  if (stored.IsSurface && stored.Extent.Min.z < stored.Extent.Max.z)
   {
     names.OfPoints.insert(elevationName);
   }
@@ -298,15 +291,15 @@ std::optional<double> connectStored(const ResampleArguments& arguments, Communic
       time = timeOf(arguments, reader);
       const StoredMesh stored = describe(arguments);
       selectStoredArrays(arguments, stored, reader, filter);
-      if (stored.Extent[0] > stored.Extent[1])
+      if (stored.Extent.isEmpty())
       {
         return; // there are no points
       }
       // The filter cannot find the range itself, because it reads the mesh piece by piece.
-      Bounds bounds = stored.Extent;
-      std::copy(arguments.Bounds.begin(), arguments.Bounds.end(), bounds.begin());
+      const Box3 bounds =
+        arguments.Bounds.empty() ? stored.Extent : boxOfVtkBounds<3>(arguments.Bounds.data());
       filter->UseInputBoundsOff();
-      filter->SetSamplingBounds(bounds.data());
+      filter->SetSamplingBounds(vtkBoundsOf(bounds).data());
       if (!arguments.Dimensions.empty())
       {
         const auto& given = arguments.Dimensions;

@@ -7,7 +7,7 @@
 #include "Kernel/HalfEdgeMesh.h"
 #include "Kernel/KernelPredicates.h"
 #include "Predicates/ExactPredicates.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 
 #include <array>
 #include <cstddef>

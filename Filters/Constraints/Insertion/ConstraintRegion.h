@@ -5,7 +5,7 @@
 #include "Arrays/IndexMap.h"
 #include "Constraints/Insertion/ConstrainedMesh.h"
 #include "Constraints/Insertion/SegmentInserter.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "Triangulation/Triangulate.h"
 
 #include <algorithm>

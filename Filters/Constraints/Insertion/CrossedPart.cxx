@@ -399,12 +399,12 @@ std::size_t cutTriangles(
   for (std::size_t begin = 0; begin < triangles; begin += most)
   {
     const std::size_t end = std::min(begin + most, triangles);
-    Box2 box{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+    Box2 box = Box2::empty();
     for (std::size_t t = begin; t < end; ++t)
     {
       for (const Point2 p : cornersOf(points, corners, t))
       {
-        box = unionOf(box, { p.x, p.y, p.x, p.y });
+        box.extend(p);
       }
     }
     const bool isUncut = segments.isUncut(box);

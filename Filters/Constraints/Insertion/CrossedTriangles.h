@@ -3,7 +3,7 @@
 #define tippCrossedTriangles_h
 
 #include "Constraints/SegmentTree.h"
-#include "Kernel/Lanes.h"
+#include "Kernel/Pairs.h"
 #include "Predicates/ExactPredicates.h"
 #include "Triangulation/Duplicate.h"
 #include "Triangulation/PointsView.h"
@@ -88,20 +88,21 @@ class SegmentRaster
 public:
   void fill(const Box2& box, const std::vector<const SegmentTree::Item*>& segments)
   {
-    this->X = Axis(box.xmin, box.xmax);
-    this->Y = Axis(box.ymin, box.ymax);
+    this->X = Axis(box.Min.x, box.Max.x);
+    this->Y = Axis(box.Min.y, box.Max.y);
     this->Near.clear();
     for (std::size_t s = 0; s < segments.size(); ++s)
     {
       const SegmentTree::Item& segment = *segments[s];
-      const Box2 bounds = boxOf(segment.A, segment.B);
-      const int xEnd = this->X.cellOf(bounds.xmax);
-      const int yEnd = this->Y.cellOf(bounds.ymax);
-      for (int y = this->Y.cellOf(bounds.ymin); y <= yEnd; ++y)
+      const Box2 bounds = segment.box();
+      const int xEnd = this->X.cellOf(bounds.Max.x);
+      const int yEnd = this->Y.cellOf(bounds.Max.y);
+      for (int y = this->Y.cellOf(bounds.Min.y); y <= yEnd; ++y)
       {
-        for (int x = this->X.cellOf(bounds.xmin); x <= xEnd; ++x)
+        for (int x = this->X.cellOf(bounds.Min.x); x <= xEnd; ++x)
         {
-          const Box2 cell{ this->X.begin(x), this->Y.begin(y), this->X.end(x), this->Y.end(y) };
+          const Box2 cell{ { this->X.begin(x), this->Y.begin(y) },
+            { this->X.end(x), this->Y.end(y) } };
           if (lineMayMeet(segment.A, segment.B, cell))
           {
             this->Near.push_back({ y * Cells + x, std::int32_t(s) });
@@ -130,11 +131,11 @@ public:
   template <typename Visit>
   void visitNear(const Box2& box, const Visit& visit) const
   {
-    const int xBegin = this->X.cellOf(box.xmin);
-    const int xEnd = this->X.cellOf(box.xmax);
+    const int xBegin = this->X.cellOf(box.Min.x);
+    const int xEnd = this->X.cellOf(box.Max.x);
     const std::uint32_t columns = (~0U << xBegin) & (~0U >> (Cells - 1 - xEnd));
-    const int yEnd = this->Y.cellOf(box.ymax);
-    for (int y = this->Y.cellOf(box.ymin); y <= yEnd; ++y)
+    const int yEnd = this->Y.cellOf(box.Max.y);
+    for (int y = this->Y.cellOf(box.Min.y); y <= yEnd; ++y)
     {
       if ((this->Used[std::size_t(y)] & columns) == 0)
       {
@@ -267,7 +268,7 @@ private:
     this->Positions.resize(3 * (end - begin));
     std::transform(corners + 3 * begin, corners + 3 * end, this->Positions.begin(),
       [this](Id id) { return this->Points[std::size_t(id)]; });
-    return extentOf(this->Positions.data(), this->Positions.size()).box();
+    return extentOf(this->Positions.data(), this->Positions.size()).Bounds;
   }
 
   void scanTriangle(std::size_t t, const Id* ids, const Point2* p, ScannedTriangles& found)
@@ -277,14 +278,14 @@ private:
     const Pair c = pairAt(&p[2].x);
     const Pair low = lower(lower(a, b), c);
     const Pair high = higher(higher(a, b), c);
-    const Box2 box{ low[0], low[1], high[0], high[1] };
+    const Box2 box{ { low[0], low[1] }, { high[0], high[1] } };
     const std::size_t edgesBefore = found.Edges.size();
     bool isCrossed = false;
     this->Raster.visitNear(box,
       [&](std::size_t s)
       {
         const SegmentTree::Item& segment = *this->Segments[s];
-        if (this->LastTriangle[s] != t && overlap(box, boxOf(segment.A, segment.B)))
+        if (this->LastTriangle[s] != t && box.meets(segment.box()))
         {
           this->LastTriangle[s] = t;
           if (crosses(segment, t, ids, p, found))

@@ -5,7 +5,7 @@
 #include "Constraints/Insertion/SegmentInserter.h"
 #include "Constraints/SegmentTree.h"
 #include "Kernel/DelaunayKernel.h"
-#include "Kernel/Lanes.h"
+#include "Parallel/Instructions.h"
 #include "Parallel/Sort.h"
 
 #include <algorithm>
@@ -303,10 +303,10 @@ private:
       this->touch(segment, vertex);
       this->follow({ segment, vertex, line }, false);
     };
-    const Box2 box = boxOf(line.A, line.B);
+    const Box2 box = Box2::of(line.A, line.B);
     for (const EntryEdge& edge : this->Border)
     {
-      if (!overlap(box, boxOf(edge.From, edge.To)))
+      if (!box.meets(Box2::of(edge.From, edge.To)))
       {
         continue;
       }

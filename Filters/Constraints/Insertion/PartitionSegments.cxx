@@ -50,12 +50,12 @@ void forPartitions(const Tiling& tiling, const IdSegment& segment, const EndPosi
   }
   const Point2 a = ends[segment.A];
   const Point2 b = ends[segment.B];
-  const Box2 box = boxOf(a, b);
+  const Box2 box = Box2::of(a, b);
   tiling.visitNear(box,
     [&](PartitionIndex p)
     {
       const Box2& tile = tiling.box(p);
-      if (overlap(box, tile) && lineMayMeet(a, b, tile))
+      if (box.meets(tile) && lineMayMeet(a, b, tile))
       {
         visit(p);
       }

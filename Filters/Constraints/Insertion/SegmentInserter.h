@@ -3,9 +3,9 @@
 #define tippSegmentInserter_h
 
 #include "Constraints/Insertion/ConstrainedMesh.h"
-#include "Kernel/Lanes.h"
+#include "Kernel/Pairs.h"
 #include "Predicates/ExactPredicates.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 
 #include <algorithm>
 #include <cmath>

@@ -88,7 +88,7 @@ bool ConstrainedStream::next(PointBlock& block, std::size_t most)
     {
       this->Stored->add(block);
       const PointsView points(block.XY.data(), block.size(), 2);
-      this->InputBounds = unionOf(this->InputBounds, surveyPoints(points, this->Threads).Bounds);
+      this->InputBounds.extend(surveyPoints(points, this->Threads).Bounds);
     }
     for (std::size_t i = 0; !this->IsResolved && !this->Seeds.empty() && i < block.size(); ++i)
     {

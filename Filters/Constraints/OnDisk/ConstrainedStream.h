@@ -94,7 +94,7 @@ private:
   std::vector<PositionPair> HoleEdges;
   HullOfPoints Hull; ///< used if there are holes
   bool IsResolved = false;
-  Box2 InputBounds{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+  Box2 InputBounds = Box2::empty();
   std::int64_t InputPoints = 0;   ///< read in this pass so far
   bool IsInputRead = false;       ///< whether this pass has read all input points
   std::unique_ptr<RowFile> Added; ///< the additional points: x, y and columns

@@ -23,14 +23,14 @@ SegmentTiles::SegmentTiles(
   const std::string& file, const std::function<void(const Visit&)>& forEach, int tiles, int threads)
   : Threads(threads)
 {
-  Box2 domain{ HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+  Box2 domain = Box2::empty();
   StreamSampler<Point2> sampler(SamplesPerPartition * std::size_t(tiles), -1);
   std::int64_t count = 0;
   std::vector<Point2> middle(1);
   forEach(
     [&](const SegmentTree::Item& item)
     {
-      domain = unionOf(domain, boxOf(item.A, item.B));
+      domain.extend(item.box());
       middle[0] = { item.A.x / 2 + item.B.x / 2, item.A.y / 2 + item.B.y / 2 };
       sampler.add(count++, middle);
     });
@@ -40,10 +40,7 @@ SegmentTiles::SegmentTiles(
     sample.push_back(position);
   }
   constexpr double relative = 0x1p-44; // relative to the largest coordinate
-  this->Margin = count == 0 ? 0
-                            : relative *
-      std::max({ std::fabs(domain.xmin), std::fabs(domain.ymin), std::fabs(domain.xmax),
-        std::fabs(domain.ymax) });
+  this->Margin = count == 0 ? 0 : relative * domain.largest();
   this->Boxes = count == 0 ? Tiling::grid({ 0, 0, 0, 0 }, 1, 1)
                            : Tiling::balanced(domain, std::move(sample), tiles);
   this->Rows = std::make_unique<KeyedRows>(
@@ -51,7 +48,7 @@ SegmentTiles::SegmentTiles(
   forEach(
     [&](const SegmentTree::Item& item)
     {
-      this->Boxes.visitNear(expanded(boxOf(item.A, item.B), this->Margin),
+      this->Boxes.visitNear(expanded(item.box(), this->Margin),
         [&](PartitionIndex tile)
         {
           if (lineMayMeet(item.A, item.B, expanded(this->Boxes.box(tile), this->Margin)))
@@ -92,7 +89,7 @@ void SegmentTiles::findNear(const std::function<bool(std::int64_t)>& isWanted,
         item,
         [&](const SegmentTree::Item& other)
         {
-          if (lineMayMeet(item.A, item.B, expanded(boxOf(other.A, other.B), this->Margin)))
+          if (lineMayMeet(item.A, item.B, expanded(other.box(), this->Margin)))
           {
             near(other.Id);
           }

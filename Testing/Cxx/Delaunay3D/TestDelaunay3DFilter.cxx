@@ -105,7 +105,7 @@ TEST(Delaunay3DFilter, TetrahedraHavePositiveVolumes)
 
 TEST(Delaunay3DFilter, ALatticeIsFilled)
 {
-  std::vector<Point> points;
+  std::vector<Point3> points;
   for (int i = 0; i < 12 * 12 * 12; ++i)
   {
     points.push_back({ double(i % 12), double(i / 12 % 12), double(i / 144) });
@@ -235,7 +235,7 @@ TEST(Delaunay3DFilter, AlphaFlagsChooseCells)
 TEST(Delaunay3DFilter, ToleranceMergesClosePoints)
 {
   auto points = randomPoints(100);
-  points.push_back({ points[3].X + 1e-6, points[3].Y, points[3].Z });
+  points.push_back({ points[3].x + 1e-6, points[3].y, points[3].z });
   vtkNew<vtkTIPPDelaunay3D> delaunay;
   delaunay->SetInputData(dataset(points));
   delaunay->Update();
@@ -264,10 +264,10 @@ TEST(Delaunay3DFilter, BoundingTriangulationHasAnOctahedron)
 
 TEST(Delaunay3DFilter, PointsInAPlaneMakeTrianglesAndAWarning)
 {
-  std::vector<Point> points = randomPoints(30);
-  for (Point& p : points)
+  std::vector<Point3> points = randomPoints(30);
+  for (Point3& p : points)
   {
-    p.Z = 2;
+    p.z = 2;
   }
   const auto input = dataset(points);
   vtkNew<vtkTIPPDelaunay3D> delaunay;
@@ -292,7 +292,7 @@ TEST(Delaunay3DFilter, PointsInAPlaneMakeTrianglesAndAWarning)
 
 TEST(Delaunay3DFilter, AlphaAppliesToTrianglesOfAPlane)
 {
-  std::vector<Point> points;
+  std::vector<Point3> points;
   for (int i = 0; i < 5; ++i)
   {
     points.push_back({ double(i), 0, 3 });

@@ -107,15 +107,9 @@ public:
   PieceFigures Figures;
 };
 
-bool isIn(const Point3& p, const Box3& box)
-{
-  return p.x >= box.Min[0] && p.x <= box.Max[0] && p.y >= box.Min[1] && p.y <= box.Max[1] &&
-    p.z >= box.Min[2] && p.z <= box.Max[2];
-}
-
 double volumeOf(const Box3& box)
 {
-  return (box.Max[0] - box.Min[0]) * (box.Max[1] - box.Min[1]) * (box.Max[2] - box.Min[2]);
+  return box.width(0) * box.width(1) * box.width(2);
 }
 
 /// A result without empty parts.
@@ -158,7 +152,8 @@ TEST(PiecePlan3, EverySpilledPointIsInTheBoxOfItsPiece)
       for (std::size_t at = 0; at < rows.size(); at += words)
       {
         const Point3 p{ rows[at], rows[at + 1], rows[at + 2] };
-        EXPECT_TRUE(isIn(p, plan.box(PartitionIndex(index))) && isIn(p, plan.regions()[index]))
+        EXPECT_TRUE(
+          plan.box(PartitionIndex(index)).contains(p) && plan.regions()[index].contains(p))
           << kind;
         EXPECT_TRUE(p == points.at(std::size_t(rows[at + 3])));
         numbers.insert(rows[at + 3]);

@@ -215,7 +215,7 @@ TEST(Circumball, SurelySmallBallsReachNoFartherThanTheirDiameter)
     }
     ++small;
     constexpr double far = 1e8;
-    const std::array<double, 3> at = { t[0].x, t[0].y, t[0].z };
+    const Point3& at = t[0];
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       Box3 beyond{ { -far, -far, -far }, { far, far, far } };

@@ -4,6 +4,7 @@
 
 // Shared by the tests of vtkTIPPDelaunay2D.
 
+#include "Predicates/Geometry.h"
 #include "vtkTIPPDelaunay2D.h"
 
 #include "vtkAlgorithm.h"
@@ -25,19 +26,16 @@
 namespace testing_delaunay
 {
 
-struct Point
-{
-  double X, Y, Z;
-};
+using tipp::Point3;
 
 inline vtkSmartPointer<vtkPolyData> dataset(
-  const std::vector<Point>& points, int dataType = VTK_DOUBLE)
+  const std::vector<Point3>& points, int dataType = VTK_DOUBLE)
 {
   vtkNew<vtkPoints> vtk;
   vtk->SetDataType(dataType);
-  for (const Point& p : points)
+  for (const Point3& p : points)
   {
-    vtk->InsertNextPoint(p.X, p.Y, p.Z);
+    vtk->InsertNextPoint(p.x, p.y, p.z);
   }
   auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(vtk);
@@ -45,12 +43,12 @@ inline vtkSmartPointer<vtkPolyData> dataset(
 }
 
 /// Random points in the unit cube. No three are collinear in any coordinate plane.
-inline std::vector<Point> randomPoints(int count, unsigned seed = 1)
+inline std::vector<Point3> randomPoints(int count, unsigned seed = 1)
 {
   std::mt19937 generator(seed);
   std::uniform_real_distribution<double> uniform(0, 1);
-  std::vector<Point> points(static_cast<std::size_t>(count));
-  for (Point& p : points)
+  std::vector<Point3> points(static_cast<std::size_t>(count));
+  for (Point3& p : points)
   {
     p = { uniform(generator), uniform(generator), uniform(generator) };
   }

@@ -13,15 +13,15 @@ namespace
 {
 
 /// Two clusters and a few isolated points, whose alpha shape has triangles, lines and vertices.
-std::vector<Point> clumps()
+std::vector<Point3> clumps()
 {
   auto points = randomPoints(120);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    points[i].X = (i % 2 ? 3.0 : 0.0) + points[i].X;
-    points[i].Z *= 0.1;
+    points[i].x = (i % 2 ? 3.0 : 0.0) + points[i].x;
+    points[i].z *= 0.1;
   }
-  const Point strays[] = { { 1.7, 2.5, 0 }, { 1.75, 2.51, 0 }, { -2, 5, 0 }, { 2.1, -1, 0 } };
+  const Point3 strays[] = { { 1.7, 2.5, 0 }, { 1.75, 2.51, 0 }, { -2, 5, 0 }, { 2.1, -1, 0 } };
   points.insert(points.end(), std::begin(strays), std::end(strays));
   return points;
 }

@@ -24,7 +24,7 @@ std::vector<vtkIdType> representativesOf(vtkTIPPDelaunay2D* delaunay)
     : std::vector<vtkIdType>{};
 }
 
-void expectNoTrianglesAndOneWarning(const std::vector<Point>& points)
+void expectNoTrianglesAndOneWarning(const std::vector<Point3>& points)
 {
   vtkNew<vtkTIPPDelaunay2D> delaunay;
   delaunay->SetInputData(dataset(points));
@@ -115,7 +115,7 @@ TEST(Delaunay2DWithoutTriangles, TwoPoints)
 
 TEST(Delaunay2DWithoutTriangles, EqualPoints)
 {
-  expectNoTrianglesAndOneWarning(std::vector<Point>(50, { 1, 2, 3 }));
+  expectNoTrianglesAndOneWarning(std::vector<Point3>(50, { 1, 2, 3 }));
 }
 
 TEST(Delaunay2DWithoutTriangles, CollinearPoints)

@@ -113,9 +113,9 @@ TEST(Delaunay2DOutput, ZIsIgnored)
 {
   auto points = randomPoints(100);
   const Cells expected = triangulated(dataset(points));
-  for (Point& p : points)
+  for (Point3& p : points)
   {
-    p.Z = std::nan("");
+    p.z = std::nan("");
   }
   EXPECT_EQ(expected, triangulated(dataset(points)));
 }
@@ -129,9 +129,9 @@ TEST(Delaunay2DOutput, FloatPointsAreNotConverted)
 TEST(Delaunay2DOutput, IntegerPointsAreTriangulated)
 {
   auto points = randomPoints(100);
-  for (Point& p : points)
+  for (Point3& p : points)
   {
-    p = { std::floor(1e6 * p.X), std::floor(1e6 * p.Y), 0 };
+    p = { std::floor(1e6 * p.x), std::floor(1e6 * p.y), 0 };
   }
   EXPECT_EQ(triangulated(dataset(points)), triangulated(dataset(points, VTK_INT)));
 }
@@ -141,9 +141,9 @@ TEST(Delaunay2DOutput, PointsInSeparateCoordinateArraysAreTriangulated)
   const auto points = randomPoints(100);
   vtkNew<vtkSOADataArrayTemplate<float>> scalars;
   scalars->SetNumberOfComponents(3);
-  for (const Point& p : points)
+  for (const Point3& p : points)
   {
-    scalars->InsertNextTuple3(p.X, p.Y, p.Z);
+    scalars->InsertNextTuple3(p.x, p.y, p.z);
   }
   const auto input = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkPoints> separate;
@@ -171,7 +171,7 @@ TEST(Delaunay2DOutput, StructuredGridIsTriangulatedByItsPoints)
 
 TEST(Delaunay2DOutput, LatticeIsCoveredByTwoTrianglesASquare)
 {
-  std::vector<Point> points;
+  std::vector<Point3> points;
   for (int i = 0; i < 30 * 20; ++i)
   {
     points.push_back({ double(i % 30), double(i / 30), 0 });
@@ -181,7 +181,7 @@ TEST(Delaunay2DOutput, LatticeIsCoveredByTwoTrianglesASquare)
 
 TEST(Delaunay2DOutput, OrderOfThePointsDoesNotMatterOnALattice)
 {
-  std::vector<Point> points;
+  std::vector<Point3> points;
   for (int i = 0; i < 8 * 8; ++i)
   {
     points.push_back({ double(i % 8), double(i / 8), 0 });

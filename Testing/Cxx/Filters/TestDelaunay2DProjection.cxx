@@ -17,12 +17,12 @@ namespace
 {
 
 /// Points near a steep plane.
-std::vector<Point> slope()
+std::vector<Point3> slope()
 {
   auto points = randomPoints(150);
-  for (Point& p : points)
+  for (Point3& p : points)
   {
-    p.Z = 3 * p.X - 2 * p.Y + 0.1 * p.Z;
+    p.z = 3 * p.x - 2 * p.y + 0.1 * p.z;
   }
   return points;
 }
@@ -83,9 +83,9 @@ TEST(Delaunay2DProjection, TransformNeedNotBeLinear)
   const double matrix[16] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.3, 0.2, 0.1, 1 };
   transform->SetMatrix(matrix);
   auto points = randomPoints(150);
-  for (Point& p : points)
+  for (Point3& p : points)
   {
-    p = { 2 + p.X, 2 + p.Y, 2 + p.Z };
+    p = { 2 + p.x, 2 + p.y, 2 + p.z };
   }
   Cells expected, actual;
   transformPlane(dataset(points), transform, expected, actual);
@@ -148,9 +148,9 @@ TEST(Delaunay2DProjection, BestFittingPlaneModeTriangulatesAsVtkDelaunay2D)
 TEST(Delaunay2DProjection, VerticalPlaneIsTriangulatedInTheBestFittingPlane)
 {
   auto points = randomPoints(100);
-  for (Point& p : points)
+  for (Point3& p : points)
   {
-    p.X = 5;
+    p.x = 5;
   }
   Cells expected, actual;
   transformPlane(dataset(points), nullptr, expected, actual, VTK_BEST_FITTING_PLANE);

@@ -43,7 +43,7 @@ vtkSmartPointer<vtkPolyData> sourceOf(
 }
 
 /// A square with a centre point, and a smaller square inside it.
-const std::vector<Point> Squares{ { 0, 0, 0 }, { 8, 0, 0 }, { 8, 8, 8 }, { 0, 8, 8 }, { 3, 3, 0 },
+const std::vector<Point3> Squares{ { 0, 0, 0 }, { 8, 0, 0 }, { 8, 8, 8 }, { 0, 8, 8 }, { 3, 3, 0 },
   { 5, 3, 0 }, { 5, 5, 0 }, { 3, 5, 0 }, { 4, 4.25, 0 } };
 
 bool tells(const std::vector<std::string>& messages, const std::string& text)
@@ -139,7 +139,7 @@ TEST_F(Source, ClockwisePolygonIsAHole)
 TEST_F(Source, PolygonsNest)
 {
   // A country with a lake, which has an island.
-  std::vector<Point> points = Squares;
+  std::vector<Point3> points = Squares;
   points.insert(points.end(), { { 1, 1, 0 }, { 7, 1, 0 }, { 7, 7, 0 }, { 1, 7, 0 } });
   const auto source = sourceOf({}, { { 0, 1, 2, 3 }, { 12, 11, 10, 9 }, { 4, 5, 6, 7 } });
   EXPECT_EQ(64 - 36 + 4, areaOf(this->run(dataset(points), source)));
@@ -147,7 +147,7 @@ TEST_F(Source, PolygonsNest)
 
 TEST_F(Source, PolygonsMayShareAnEdge)
 {
-  const std::vector<Point> points{ { 0, 0, 0 }, { 2, 0, 0 }, { 2, 2, 0 }, { 0, 2, 0 }, { 4, 0, 0 },
+  const std::vector<Point3> points{ { 0, 0, 0 }, { 2, 0, 0 }, { 2, 2, 0 }, { 0, 2, 0 }, { 4, 0, 0 },
     { 4, 2, 0 }, { 9, 9, 0 } };
   EXPECT_EQ(
     8, areaOf(this->run(dataset(points), sourceOf({}, { { 0, 1, 2, 3 }, { 1, 4, 5, 2 } }))));
@@ -194,16 +194,16 @@ TEST_F(Source, InvalidPointIdIsAnError)
 
 TEST_F(Source, PolygonWithACornerThatIsNotFiniteIsAnError)
 {
-  std::vector<Point> points = Squares;
-  points[5].X = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Point3> points = Squares;
+  points[5].x = std::numeric_limits<double>::quiet_NaN();
   this->run(dataset(points), sourceOf({}, { { 4, 5, 6, 7 } }));
   EXPECT_TRUE(tells(this->Heard.Errors, "a polygon, has the corner 5"));
 }
 
 TEST_F(Source, LineWithAnEndThatIsNotFiniteIsLeftOutWithAWarning)
 {
-  std::vector<Point> points = Squares;
-  points[5].X = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Point3> points = Squares;
+  points[5].x = std::numeric_limits<double>::quiet_NaN();
   vtkPolyData* const mesh = this->run(dataset(points), sourceOf({ { 4, 5, 6 }, { 0, 2 } }, {}));
   EXPECT_EQ(64, areaOf(mesh));
   EXPECT_TRUE(tells(this->Heard.Warnings, "2 edges of the source have an end"));

@@ -33,11 +33,10 @@ vtkSmartPointer<vtkPoints> box()
 
 TEST(FiniteBounds, AreThoseOfAllFinitePoints)
 {
-  const FiniteBounds bounds = finiteBounds(box());
-  EXPECT_EQ((std::array<double, 3>{ 1, 2, 3 }), bounds.Low);
-  EXPECT_EQ((std::array<double, 3>{ 4, 6, 15 }), bounds.High);
-  EXPECT_EQ(9, bounds.center(2));
-  EXPECT_EQ(13, bounds.diagonal());
+  const Box3 bounds = finiteBounds(box());
+  EXPECT_EQ((std::array<double, 6>{ 1, 4, 2, 6, 3, 15 }), vtkBoundsOf(bounds));
+  EXPECT_EQ(9, bounds.center().z);
+  EXPECT_EQ(13, diagonalOf(bounds));
 }
 
 TEST(FiniteBounds, IgnoreAPointWithACoordinateThatIsNotFinite)
@@ -45,22 +44,22 @@ TEST(FiniteBounds, IgnoreAPointWithACoordinateThatIsNotFinite)
   const auto points = box();
   points->InsertNextPoint(100, 100, NaN);
   points->InsertNextPoint(-Infinity, -100, 0);
-  EXPECT_EQ(13, finiteBounds(points).diagonal());
+  EXPECT_EQ(13, diagonalOf(finiteBounds(points)));
 }
 
 TEST(FiniteBounds, AreZeroWithoutFinitePoints)
 {
   vtkNew<vtkPoints> points;
-  EXPECT_EQ(0, finiteBounds(points).diagonal());
-  EXPECT_EQ(0, finiteBounds(nullptr).diagonal());
+  EXPECT_EQ(0, diagonalOf(finiteBounds(points)));
+  EXPECT_EQ(0, diagonalOf(finiteBounds(nullptr)));
   points->InsertNextPoint(NaN, 0, 0);
-  EXPECT_EQ(0, finiteBounds(points).High[1]);
+  EXPECT_EQ(0, finiteBounds(points).Max.y);
 }
 
 TEST(FiniteBounds, CentreOfHugeBoundsDoesNotOverflow)
 {
-  const FiniteBounds bounds{ { 1.5e308, 0, 0 }, { 1.7e308, 0, 0 } };
-  EXPECT_DOUBLE_EQ(1.6e308, bounds.center(0));
+  const Box3 bounds{ { 1.5e308, 0, 0 }, { 1.7e308, 0, 0 } };
+  EXPECT_DOUBLE_EQ(1.6e308, bounds.center().x);
 }
 
 TEST(BoundingPoints, FollowThePointsOnACircleAroundTheirBox)

@@ -15,7 +15,7 @@ RasterGrid gridFor(double resolution, const std::array<double, 4>& bounds, bool 
   RasterRequest request;
   request.Resolution = resolution;
   request.Aligned = aligned;
-  return makeRasterGrid(request, bounds);
+  return makeRasterGrid(request, boxOfVtkBounds<2>(bounds.data()));
 }
 
 TEST(RasterGrid, CoversTheBoundsWithBordersAtMultiples)

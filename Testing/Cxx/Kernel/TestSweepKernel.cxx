@@ -143,7 +143,8 @@ TEST(SweepStrips, OrderPointsFromLeftToRight)
     {
       const Point2 p = points[all[i]];
       const Box2 box = strips.boxFrom(strip);
-      const bool isHeld = box.xmin <= p.x && p.x <= box.xmax && box.ymin <= p.y && p.y <= box.ymax;
+      const bool isHeld =
+        box.Min.x <= p.x && p.x <= box.Max.x && box.Min.y <= p.y && p.y <= box.Max.y;
       ASSERT_EQ(i >= strips.start(strip), isHeld);
     }
   }

@@ -56,7 +56,7 @@ TEST(InputSurvey, IsTheSameForAnyDivisionOfTheInput)
     }
     const InputSurvey survey = joinSurveys(parts);
     EXPECT_EQ(10001, survey.Points);
-    EXPECT_EQ(expected.Bounds.xmax, survey.Bounds.xmax);
+    EXPECT_EQ(expected.Bounds.Max.x, survey.Bounds.Max.x);
     ASSERT_EQ(expected.Sample.size(), survey.Sample.size());
     for (std::size_t i = 0; i < survey.Sample.size(); ++i)
     {

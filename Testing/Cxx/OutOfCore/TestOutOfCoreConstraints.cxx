@@ -448,12 +448,12 @@ TEST(SpilledSegments, AreReadByPieceAndNearBoxes)
   InputSurvey survey;
   survey.Points = std::int64_t(xy.size() / 2);
   survey.Factor = factor;
-  survey.Bounds = { HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
+  survey.Bounds = Box2::empty();
   for (std::size_t i = 0; i < xy.size(); i += 2)
   {
     const Point2 p{ factor * xy[i], factor * xy[i + 1] };
     survey.Sample.push_back({ std::int64_t(i / 2), p });
-    survey.Bounds = unionOf(survey.Bounds, { p.x, p.y, p.x, p.y });
+    survey.Bounds.extend(p);
   }
   OutOfCoreOptions options;
   options.PiecePoints = 150;
@@ -483,13 +483,12 @@ TEST(SpilledSegments, AreReadByPieceAndNearBoxes)
   std::size_t all = 0;
   for (PartitionIndex piece = 0; piece < plan.pieces(); ++piece)
   {
-    const Box2 its = plan.Pieces.box(piece);
-    const Box2 box{ its.xmin / factor, its.ymin / factor, its.xmax / factor, its.ymax / factor };
+    const Box2 box = scaled(plan.Pieces.box(piece), 1 / factor);
     std::set<std::int64_t> expected;
     std::set<std::int64_t> overlapping;
     for (std::size_t i = 0; i < segments.size(); ++i)
     {
-      if (overlap(box, boxOf(segments[i].A, segments[i].B)))
+      if (box.meets(Box2::of(segments[i].A, segments[i].B)))
       {
         overlapping.insert(std::int64_t(i));
         if (lineMayMeet(segments[i].A, segments[i].B, box))

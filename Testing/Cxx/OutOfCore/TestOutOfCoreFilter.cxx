@@ -179,7 +179,7 @@ TEST_F(OutOfCoreFilter, ReadsColumnsByNameAndFilesInOrder)
   EXPECT_EQ("", this->Errors);
   EXPECT_EQ(1, this->total("Triangles"));
   const PartitionedMesh mesh = openPartitionedMesh(this->Folder.path("mesh.tipp"));
-  EXPECT_EQ((Bounds{ 0, 4, 0, 9, 0, 0 }), mesh.Domain);
+  EXPECT_EQ((std::array<double, 6>{ 0, 4, 0, 9, 0, 0 }), vtkBoundsOf(mesh.Domain));
   ASSERT_EQ(2U, mesh.Arrays.size());
   EXPECT_EQ("height", mesh.Arrays[0].Name);
   EXPECT_EQ("RepresentativePointId", mesh.Arrays[1].Name);

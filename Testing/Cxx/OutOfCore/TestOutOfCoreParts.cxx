@@ -137,8 +137,8 @@ TEST(InputSurvey, CountsPointsAndTheirBounds)
   const InputSurvey survey = Steps(xy).Survey;
   EXPECT_EQ(5000, survey.Points);
   EXPECT_EQ(2, survey.Rejected);
-  EXPECT_EQ(-3, survey.Bounds.xmin);
-  EXPECT_EQ(17, survey.Bounds.ymax);
+  EXPECT_EQ(-3, survey.Bounds.Min.x);
+  EXPECT_EQ(17, survey.Bounds.Max.y);
   EXPECT_FALSE(survey.Collinear);
   EXPECT_EQ(1, survey.Factor);
 }
@@ -185,7 +185,7 @@ TEST(InputSurvey, ScalesCoordinatesThatAreFarFromOneByAPowerOfTwo)
   int exponent = 0;
   EXPECT_EQ(0.5, std::frexp(survey.Factor, &exponent));
   EXPECT_LT(survey.Factor, 1);
-  EXPECT_LT(survey.Bounds.xmax, 1e150);
+  EXPECT_LT(survey.Bounds.Max.x, 1e150);
 }
 
 TEST(PiecePlan, EachPartitionLiesInItsPiece)

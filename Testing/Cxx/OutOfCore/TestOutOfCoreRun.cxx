@@ -141,7 +141,8 @@ TEST(OutOfCore, HeightsNeedNotBeFinite)
     const auto points = openPointStream({ folder.file("points.csv", rows) });
     EXPECT_EQ(1, triangulateOutOfCore(*points, folder.path("mesh.tipp")).Triangles) << height;
     const PartitionedMesh mesh = openPartitionedMesh(folder.path("mesh.tipp"));
-    EXPECT_EQ((Bounds{ 0, 1, 0, 1, 1, 2 }), mesh.Pieces.at(0).Extent) << height;
+    EXPECT_EQ((std::array<double, 6>{ 0, 1, 0, 1, 1, 2 }), vtkBoundsOf(mesh.Pieces.at(0).Extent))
+      << height;
   }
 }
 

@@ -2,7 +2,7 @@
 #ifndef tippDegenerateCells_h
 #define tippDegenerateCells_h
 
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 
 #include <array>
 #include <cmath>

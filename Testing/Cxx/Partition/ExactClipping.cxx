@@ -91,7 +91,7 @@ bool tetrahedronMeetsBox(const std::array<tipp::Point3, 4>& corners, const tipp:
   return polygonMeetsBox({ p[0], p[1], p[2] }, box) || polygonMeetsBox({ p[0], p[1], p[3] }, box) ||
     polygonMeetsBox({ p[0], p[2], p[3] }, box) || polygonMeetsBox({ p[1], p[2], p[3] }, box) ||
     // The box meets no face, so it is either inside the tetrahedron or disjoint from it.
-    contains(p, exact({ box.Min[0], box.Min[1], box.Min[2] }));
+    contains(p, exact(box.Min));
 }
 
 int orientation3(const std::array<tipp::Point3, 4>& corners)

@@ -2,7 +2,7 @@
 #ifndef tippExactClipping_h
 #define tippExactClipping_h
 
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 
 #include <array>
 #include <vector>

@@ -90,10 +90,10 @@ TEST(BoxTiling, AGridIsNumberedWithXFastest)
 {
   const BoxTiling tiling = BoxTiling::grid(2, Square, { 4, 2, 0 });
   ASSERT_EQ(tiling.count(), 8);
-  EXPECT_EQ(tiling.box(0).Min, (std::array<double, 3>{ 0, 0, 0 }));
-  EXPECT_EQ(tiling.box(1).Min, (std::array<double, 3>{ 2, 0, 0 }));
-  EXPECT_EQ(tiling.box(4).Min, (std::array<double, 3>{ 0, 2, 0 }));
-  EXPECT_EQ(tiling.box(7).Max, (std::array<double, 3>{ 8, 4, 0 }));
+  EXPECT_EQ(tiling.box(0).Min, (tipp::Point3{ 0, 0, 0 }));
+  EXPECT_EQ(tiling.box(1).Min, (tipp::Point3{ 2, 0, 0 }));
+  EXPECT_EQ(tiling.box(4).Min, (tipp::Point3{ 0, 2, 0 }));
+  EXPECT_EQ(tiling.box(7).Max, (tipp::Point3{ 8, 4, 0 }));
 }
 
 TEST(BoxTiling, ATreesLeavesAreNumberedAlongTheMortonCurve)
@@ -101,12 +101,12 @@ TEST(BoxTiling, ATreesLeavesAreNumberedAlongTheMortonCurve)
   // The root's upper right child is split again.
   const BoxTiling tiling = BoxTiling::tree(2, Square, { 1, -1, -1, -1, 5, -1, -1, -1, -1 });
   ASSERT_EQ(tiling.count(), 7);
-  EXPECT_EQ(tiling.box(0).Max, (std::array<double, 3>{ 4, 2, 0 }));
-  EXPECT_EQ(tiling.box(1).Min, (std::array<double, 3>{ 4, 0, 0 }));
-  EXPECT_EQ(tiling.box(2).Min, (std::array<double, 3>{ 0, 2, 0 }));
-  EXPECT_EQ(tiling.box(3).Min, (std::array<double, 3>{ 4, 2, 0 }));
-  EXPECT_EQ(tiling.box(4).Min, (std::array<double, 3>{ 6, 2, 0 }));
-  EXPECT_EQ(tiling.box(6).Max, (std::array<double, 3>{ 8, 4, 0 }));
+  EXPECT_EQ(tiling.box(0).Max, (tipp::Point3{ 4, 2, 0 }));
+  EXPECT_EQ(tiling.box(1).Min, (tipp::Point3{ 4, 0, 0 }));
+  EXPECT_EQ(tiling.box(2).Min, (tipp::Point3{ 0, 2, 0 }));
+  EXPECT_EQ(tiling.box(3).Min, (tipp::Point3{ 4, 2, 0 }));
+  EXPECT_EQ(tiling.box(4).Min, (tipp::Point3{ 6, 2, 0 }));
+  EXPECT_EQ(tiling.box(6).Max, (tipp::Point3{ 8, 4, 0 }));
 }
 
 TEST(BoxTiling, NeighboursShareTheirBorders)

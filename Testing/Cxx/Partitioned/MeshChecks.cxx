@@ -18,15 +18,9 @@ namespace test
 namespace
 {
 
-bool holds(const Bounds& box, const double* point, int dimension)
+bool holds(const Box3& box, const double* point, int dimension)
 {
-  bool inside = true;
-  for (int axis = 0; axis < dimension; ++axis)
-  {
-    inside = inside && box[std::size_t(2 * axis)] <= point[axis] &&
-      point[axis] <= box[std::size_t(2 * axis + 1)];
-  }
-  return inside;
+  return box.contains(Point3{ point[0], point[1], dimension == 3 ? point[2] : box.Min.z });
 }
 
 std::string copyOf(const Buffer<char>& buffer)
@@ -168,13 +162,9 @@ Membership membersOf(const PartitionedMesh& mesh, const SourceMesh& source)
   std::vector<std::vector<std::int32_t>> met(source.cells());
   for (std::size_t piece = 0; piece < mesh.Pieces.size(); ++piece)
   {
-    const Bounds& box = mesh.Pieces[piece].Box;
-    Box3 one;
-    one.Min = { box[0], box[2], box[4] };
-    one.Max = { box[1], box[3], box[5] };
     for (std::size_t cell = 0; cell < met.size(); ++cell)
     {
-      if (meets(source, cell, one))
+      if (meets(source, cell, mesh.Pieces[piece].Box))
       {
         met[cell].push_back(std::int32_t(piece));
       }

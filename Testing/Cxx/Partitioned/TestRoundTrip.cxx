@@ -376,8 +376,8 @@ TEST_F(RoundTrip, ExtentsOfTrianglesIgnoreElevationsThatAreNotFinite)
     const PartitionedMesh made = openPartitionedMesh(this->make("grid:2x2"));
     for (const PieceSummary& piece : made.Pieces)
     {
-      EXPECT_EQ(piece.Extent[4], known == 7 ? 7 : 0);
-      EXPECT_EQ(piece.Extent[5], known == 7 ? 7 : 0);
+      EXPECT_EQ(piece.Extent.Min.z, known == 7 ? 7 : 0);
+      EXPECT_EQ(piece.Extent.Max.z, known == 7 ? 7 : 0);
     }
   }
 }

@@ -56,15 +56,15 @@ bool fits(const Rational& centre, const Rational& square, double low, double hig
 
 bool Disk::meets(const tipp::Box2& box) const
 {
-  return squaredGap(this->Centre.x(), box.xmin, box.xmax) +
-    squaredGap(this->Centre.y(), box.ymin, box.ymax) <=
+  return squaredGap(this->Centre.x(), box.Min.x, box.Max.x) +
+    squaredGap(this->Centre.y(), box.Min.y, box.Max.y) <=
     this->Square;
 }
 
 bool Disk::inside(const tipp::Box2& box) const
 {
-  return fits(this->Centre.x(), this->Square, box.xmin, box.xmax) &&
-    fits(this->Centre.y(), this->Square, box.ymin, box.ymax);
+  return fits(this->Centre.x(), this->Square, box.Min.x, box.Max.x) &&
+    fits(this->Centre.y(), this->Square, box.Min.y, box.Max.y);
 }
 
 } // namespace oracle

@@ -2,7 +2,7 @@
 #ifndef tippExactOracle_h
 #define tippExactOracle_h
 
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 
 #include <CGAL/Gmpq.h>
 #include <CGAL/Simple_cartesian.h>

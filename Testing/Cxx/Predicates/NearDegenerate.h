@@ -2,7 +2,7 @@
 #ifndef tippNearDegenerate_h
 #define tippNearDegenerate_h
 
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 
 #include <array>
 #include <cstdint>

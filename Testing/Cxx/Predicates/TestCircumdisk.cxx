@@ -48,13 +48,13 @@ Box2 drawBox(NearDegenerate& draw, const NearDegenerate::Points& q, const Box2& 
 {
   const auto x = [&]() -> double
   {
-    const double choices[] = { q[0].x, q[1].x, q[2].x, q[3].x, bounds.xmin, bounds.xmax,
+    const double choices[] = { q[0].x, q[1].x, q[2].x, q[3].x, bounds.Min.x, bounds.Max.x,
       q[draw.integer(0, 3)].x + (q[0].x - q[1].x) * draw.real(-2, 2), -Infinity, Infinity };
     return choices[draw.integer(0, 8)];
   };
   const auto y = [&]() -> double
   {
-    const double choices[] = { q[0].y, q[1].y, q[2].y, q[3].y, bounds.ymin, bounds.ymax,
+    const double choices[] = { q[0].y, q[1].y, q[2].y, q[3].y, bounds.Min.y, bounds.Max.y,
       q[draw.integer(0, 3)].y + (q[0].y - q[1].y) * draw.real(-2, 2), -Infinity, Infinity };
     return choices[draw.integer(0, 8)];
   };
@@ -87,8 +87,8 @@ Counts compareWithRationals(NearDegenerate& draw, int count, Draw drawPoints)
     {
       const Box2 box = drawBox(draw, q, disk.bounds());
       // Skips boxes that begin at infinity and so contain no point.
-      if (box.xmin == Infinity || box.ymin == Infinity || box.xmax == -Infinity ||
-        box.ymax == -Infinity)
+      if (box.Min.x == Infinity || box.Min.y == Infinity || box.Max.x == -Infinity ||
+        box.Max.y == -Infinity)
       {
         continue;
       }
@@ -161,17 +161,17 @@ TEST(Circumdisk, UnboundedBoxes)
 TEST(Circumdisk, BoundsAreTightForOrdinaryTriangles)
 {
   const Box2 bounds = tipp::Circumdisk(A, B, C).bounds();
-  EXPECT_NEAR(-5, bounds.xmin, 1e-13);
-  EXPECT_NEAR(-5, bounds.ymin, 1e-13);
-  EXPECT_NEAR(5, bounds.xmax, 1e-13);
-  EXPECT_NEAR(5, bounds.ymax, 1e-13);
+  EXPECT_NEAR(-5, bounds.Min.x, 1e-13);
+  EXPECT_NEAR(-5, bounds.Min.y, 1e-13);
+  EXPECT_NEAR(5, bounds.Max.x, 1e-13);
+  EXPECT_NEAR(5, bounds.Max.y, 1e-13);
 }
 
 TEST(Circumdisk, BoundsAreInfiniteWhereDoublesCannotTell)
 {
   const Box2 bounds = tipp::Circumdisk({ 0, 0 }, { 1e-200, 0 }, { 0, 1e-200 }).bounds();
-  EXPECT_EQ(-Infinity, bounds.xmin);
-  EXPECT_EQ(Infinity, bounds.ymax);
+  EXPECT_EQ(-Infinity, bounds.Min.x);
+  EXPECT_EQ(Infinity, bounds.Max.y);
 }
 
 TEST(Circumdisk, ExactForLatticeTriangles)

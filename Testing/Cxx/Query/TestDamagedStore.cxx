@@ -24,7 +24,7 @@ std::vector<std::function<void(const ResidentMesh&)>> questions()
   const std::vector<Point3> points = { { 0.2, 0.2, 0.2 }, { 0.8, 0.3, 0.6 }, { 1.4, 0.5, 0.5 },
     { 0.7, 0.9, 0.4 }, { 0.1, 0.8, 0.9 } };
   const std::vector<std::int64_t> ids = { 0, 7, 31 };
-  const Region region = { { 0.1, 0.9, 0.2, 0.8, 0.1, 0.9 }, {} };
+  const Region region = { { { 0.1, 0.2, 0.1 }, { 0.9, 0.8, 0.9 } }, {} };
   return {
     [=](const ResidentMesh& mesh)
     {

@@ -42,22 +42,20 @@ AnswerOptions allArrays(const ResidentMesh& mesh)
 }
 
 template <int D>
-void expectGridFindsAll(const std::vector<std::array<double, D>>& points,
-  const std::vector<std::array<double, D>>& corners)
+void expectGridFindsAll(const std::vector<Point<D>>& points, const std::vector<Point<D>>& corners)
 {
   const PointGrid<D> grid(
     std::int64_t(points.size()), 1, [&](std::int64_t i) { return points[std::size_t(i)]; });
   int passedOver = 0;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i)
   {
-    Box<D> box = Box<D>::of(corners[i]);
-    box.extend(Box<D>::of(corners[i + 1]));
-    const auto low = grid.position(box.Low);
-    const auto high = grid.position(box.High);
+    const Box<D> box = Box<D>::of(corners[i], corners[i + 1]);
+    const auto low = grid.position(box.Min);
+    const auto high = grid.position(box.Max);
     const bool mayHold = grid.mayHold(low, high);
     passedOver += mayHold ? 0 : 1;
     const bool holds = std::any_of(
-      points.begin(), points.end(), [&box](const auto& point) { return box.holds(point); });
+      points.begin(), points.end(), [&box](const auto& point) { return box.contains(point); });
     EXPECT_TRUE(mayHold || !holds);
   }
   EXPECT_LT(0, passedOver);
@@ -196,7 +194,6 @@ TEST(OnePass, FindsPointsInRowsLikeOtherPoints)
   const std::vector<double> x = { -0.1, 0, 0.125, 0.3, 0.3125, 0.75, 1 };
   const std::vector<double> y = { 1.5, 1, 0.5, 0.4, 0.0625 };
   const std::vector<double> z = { 0.25, 0.5, 0.6 };
-  const auto at = [](const Point3& p) { return coordinatesOf<3>(p); };
   for (const int fastest : { 0, 1, 2 })
   {
     std::vector<Point3> points;
@@ -213,7 +210,7 @@ TEST(OnePass, FindsPointsInRowsLikeOtherPoints)
         { x[i / step[0] % x.size()], y[i / step[1] % y.size()], z[i / step[2] % z.size()] });
     }
     const auto count = std::int64_t(points.size());
-    const auto pointAt = [&](std::int64_t i) { return at(points[std::size_t(i)]); };
+    const auto pointAt = [&](std::int64_t i) { return points[std::size_t(i)]; };
     EXPECT_EQ(points.size(), PointRows<3>(count, 1, pointAt).size());
     for (const double jitter : { 0.0, 0.3 })
     {
@@ -230,7 +227,7 @@ TEST(OnePass, FindsPointsInRowsLikeOtherPoints)
       plane.push_back({ u, v, 0 });
     }
   }
-  const auto planeAt = [&](std::int64_t i) { return coordinatesOf<2>(plane[std::size_t(i)]); };
+  const auto planeAt = [&](std::int64_t i) { return projected<2>(plane[std::size_t(i)]); };
   for (const double jitter : { 0.0, 0.3 })
   {
     expectAsByLocator(inMemory(makeSource(latticeTriangles(16, jitter))), plane);
@@ -285,15 +282,15 @@ TEST(PointGrid, NeverMissesABoxThatContainsAPoint)
   constexpr double infinity = std::numeric_limits<double>::infinity();
   std::mt19937 random(1);
   std::uniform_real_distribution<double> at(0, 1);
-  std::vector<std::array<double, 2>> corners = { { -infinity, 0.5 }, { 0.1, 0.1 },
-    { infinity, 0.2 }, { 2, 2 }, { 3, 3 }, { -5, 0.5 }, { -4, 0.6 } };
-  std::vector<std::array<double, 3>> inSpace = { { 2, 2, 2 }, { 3, 3, 3 } };
+  std::vector<Point2> corners = { { -infinity, 0.5 }, { 0.1, 0.1 }, { infinity, 0.2 }, { 2, 2 },
+    { 3, 3 }, { -5, 0.5 }, { -4, 0.6 } };
+  std::vector<Point3> inSpace = { { 2, 2, 2 }, { 3, 3, 3 } };
   for (int i = 0; i < 400; ++i)
   {
     corners.push_back({ 0.4 + 0.3 * at(random), 0.5 + 0.01 * at(random) });
     inSpace.push_back({ at(random), 0.1 * at(random), at(random) });
   }
-  std::vector<std::array<double, 2>> points = { { 0.5, 0.5 } };
+  std::vector<Point2> points = { { 0.5, 0.5 } };
   expectGridFindsAll<2>(points, corners); // a single point
   points.push_back({ 0.5, 0.9 });         // points on a line
   expectGridFindsAll<2>(points, corners);

@@ -38,14 +38,14 @@ TEST(Regions, ContainPointsOnTheirBorder)
 TEST(Regions, BoxesOfTetrahedraAreTheSameForAnyPieces)
 {
   const SourceMesh source = makeSource(latticeTetrahedra(4, 0));
-  const Region box = { { 0.25, 0.6, 0.25, 0.75, 0.5, 0.5 }, {} };
+  const Region box = { { { 0.25, 0.25, 0.5 }, { 0.6, 0.75, 0.5 } }, {} };
   const ResidentMesh whole(inMemory(source));
   const std::vector<std::int64_t> cells = cellsIn(whole, box, false);
   const std::vector<std::int64_t> points = pointsIn(whole, box);
   EXPECT_EQ(6U, points.size()); // 2 x 3 lattice points on the plane z = 0.5
   EXPECT_LT(20U, cells.size());
   EXPECT_TRUE(cellsIn(whole, box, true).empty());
-  EXPECT_EQ(source.cells(), cellsIn(whole, { { 0, 1, 0, 1, 0, 1 }, {} }, true).size());
+  EXPECT_EQ(source.cells(), cellsIn(whole, { { { 0, 0, 0 }, { 1, 1, 1 } }, {} }, true).size());
   withEachMesh(source,
     [&](const ResidentMesh& mesh)
     {
@@ -63,7 +63,7 @@ TEST(Regions, BoxesMayBeInfinite)
   {
     // Few of the cells that the strip meets have a corner in it.
     const auto cells = [mesh](double end) {
-      return cellsIn(*mesh, { { 0.4, 0.401, -end, end, -end, end }, {} }, false);
+      return cellsIn(*mesh, { { { 0.4, -end, -end }, { 0.401, end, end } }, {} }, false);
     };
     EXPECT_LT(5U, cells(9).size());
     EXPECT_EQ(cells(9), cells(all));
@@ -77,7 +77,7 @@ TEST(Regions, PolygonsOverTetrahedraAreColumns)
     const SourceMesh source = makeSource(latticeTetrahedra(4, jitter));
     const ResidentMesh whole(inMemory(source));
     // A rectangle over all heights is a box.
-    const Region box = { { 0.3, 0.6, 0.2, 0.75, -9, 9 }, {} };
+    const Region box = { { { 0.3, 0.2, -9 }, { 0.6, 0.75, 9 } }, {} };
     const Region column = { {}, { rectangle(0.3, 0.6, 0.2, 0.75) } };
     const Region notch = { {}, { { { { -1, -1 }, { 2, -1 }, { 2, 2 }, { 0.4, 0.3 } }, false } } };
     const std::vector<std::int64_t> cells = cellsIn(whole, box, false);

@@ -245,7 +245,7 @@ TEST_F(ResidentMeshTest, ReadsOnlyThePiecesThatContainPoints)
   store(makeSource(latticeTriangles(20, 0.3)), this->path(), "grid:4x4", true);
   const ResidentMesh mesh(this->path());
   const PieceSummary& piece = mesh.mesh().Pieces[5];
-  const Point3 middle{ (piece.Box[0] + piece.Box[1]) / 2, (piece.Box[2] + piece.Box[3]) / 2, 0 };
+  const Point3 middle = piece.Box.center();
   EXPECT_LE(0, mesh.answer(&middle, 1).Cells[0]);
   EXPECT_EQ(1, mesh.pieces().loads());
   const Point3 outside{ -10, -10, 0 };
@@ -293,12 +293,8 @@ TEST_F(ResidentMeshTest, NamesADamagedPieceAndAnswersInTheOthers)
   std::string content = contentOf(piece);
   content[content.size() / 2] = char(content[content.size() / 2] ^ 1);
   std::ofstream(piece, std::ios::binary) << content;
-  const Bounds& good = mesh.mesh().Pieces[0].Box;
-  const Bounds& bad = mesh.mesh().Pieces[3].Box;
-  const std::vector<Point3> points = {
-    { (good[0] + good[1]) / 2, (good[2] + good[3]) / 2, 0 },
-    { (bad[0] + bad[1]) / 2, (bad[2] + bad[3]) / 2, 0 },
-  };
+  const std::vector<Point3> points = { mesh.mesh().Pieces[0].Box.center(), // good
+    mesh.mesh().Pieces[3].Box.center() };                                  // damaged
   EXPECT_LE(0, mesh.answer(&points[0], 1).Cells[0]);
   for (int i = 0; i < 2; ++i)
   {

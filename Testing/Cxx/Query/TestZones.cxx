@@ -387,7 +387,7 @@ TEST(Zones, RefusePolygonsThatCrossThemselves)
   const ResidentMesh tetrahedra(inMemory(makeSource(latticeTetrahedra(2, 0))));
   EXPECT_THROW(statisticsOf(tetrahedra, {}, "value", 0), IOError);
   EXPECT_THROW(cellsIn(tetrahedra, { {}, bowTie }, false), IOError);
-  EXPECT_THROW(cellsIn(mesh, { { 1, 0, 0, 1 }, {} }, false), IOError);
+  EXPECT_THROW(cellsIn(mesh, { { { 1, 0, 0 }, { 0, 1, 0 } }, {} }, false), IOError);
 }
 
 TEST(Regions, HaveTheCellsAndPointsOfBruteForce)

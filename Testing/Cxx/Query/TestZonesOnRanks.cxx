@@ -65,7 +65,7 @@ TEST_F(ZonesOnRanks, ShareTheCellsAndPointsOfRegions)
   this->store(source, "grid:3x2");
   const ResidentMesh whole(inMemory(source));
   const ResidentMesh mesh(this->Path);
-  const Region region = { { 0.2, 0.6, 0.3, 0.7, 0, 0 }, {} };
+  const Region region = { { { 0.2, 0.3, 0 }, { 0.6, 0.7, 0 } }, {} };
   this->Ranks.together(
     [&]
     {

@@ -40,11 +40,6 @@ inline std::vector<Point2> asPoints(const Coordinates& xy)
   return points;
 }
 
-inline bool holds(const Box2& box, Point2 p)
-{
-  return box.xmin <= p.x && p.x <= box.xmax && box.ymin <= p.y && p.y <= box.ymax;
-}
-
 inline Box2 boundsOf(const Coordinates& xy)
 {
   return surveyPoints(view(xy), 1).Bounds;

@@ -34,10 +34,10 @@ TEST(ArtificialPoints, EncloseTheDomainStrictly)
     for (const int side : { 1, 2, 16 })
     {
       const Box2 frame = frameOf(makeArtificialPoints(Tiling::grid(domain, side, side)));
-      EXPECT_LT(frame.xmin, domain.xmin);
-      EXPECT_LT(frame.ymin, domain.ymin);
-      EXPECT_GT(frame.xmax, domain.xmax);
-      EXPECT_GT(frame.ymax, domain.ymax);
+      EXPECT_LT(frame.Min.x, domain.Min.x);
+      EXPECT_LT(frame.Min.y, domain.Min.y);
+      EXPECT_GT(frame.Max.x, domain.Max.x);
+      EXPECT_GT(frame.Max.y, domain.Max.y);
     }
   }
 }
@@ -49,8 +49,9 @@ TEST(ArtificialPoints, StandAtTheRectanglesCorners)
   {
     const std::vector<BoundaryVertex> points = makeArtificialPoints(Tiling::grid(domain, 4, 4));
     const Box2 frame = frameOf(points);
-    for (const Point2 corner : { Point2{ frame.xmin, frame.ymin }, Point2{ frame.xmax, frame.ymin },
-           Point2{ frame.xmin, frame.ymax }, Point2{ frame.xmax, frame.ymax } })
+    for (const Point2 corner :
+      { Point2{ frame.Min.x, frame.Min.y }, Point2{ frame.Max.x, frame.Min.y },
+        Point2{ frame.Min.x, frame.Max.y }, Point2{ frame.Max.x, frame.Max.y } })
     {
       EXPECT_TRUE(std::any_of(points.begin(), points.end(),
         [&](const BoundaryVertex& v) { return v.Position == corner; }));
@@ -66,8 +67,8 @@ TEST(ArtificialPoints, NoneIsInsideTheRectangle)
     const Box2 frame = frameOf(points);
     for (const BoundaryVertex& v : points)
     {
-      EXPECT_TRUE(v.Position.x == frame.xmin || v.Position.x == frame.xmax ||
-        v.Position.y == frame.ymin || v.Position.y == frame.ymax);
+      EXPECT_TRUE(v.Position.x == frame.Min.x || v.Position.x == frame.Max.x ||
+        v.Position.y == frame.Min.y || v.Position.y == frame.Max.y);
     }
   }
 }
@@ -178,17 +179,12 @@ TYPED_TEST(InitialPoints, IncludeTheOutermostPointsOfEachPartition)
   std::map<PartitionIndex, Box2> reached;
   for (const BoundaryVertex& v : chooseInitialPoints(tiling, buckets, 8, 2))
   {
-    const Point2 p = v.Position;
-    Box2& box = reached.emplace(v.Partition, Box2{ p.x, p.y, p.x, p.y }).first->second;
-    box = { std::min(box.xmin, p.x), std::min(box.ymin, p.y), std::max(box.xmax, p.x),
-      std::max(box.ymax, p.y) };
+    reached.emplace(v.Partition, Box2::empty()).first->second.extend(v.Position);
   }
   for (const auto& [partition, box] : reached)
   {
     const Box2& region = regions[partition];
-    EXPECT_TRUE(box.xmin == region.xmin && box.ymin == region.ymin && box.xmax == region.xmax &&
-      box.ymax == region.ymax)
-      << partition;
+    EXPECT_TRUE(box.Min == region.Min && box.Max == region.Max) << partition;
   }
 }
 

@@ -19,21 +19,21 @@ std::vector<Point2> pointsAround(const Tiling& tiling)
 {
   std::mt19937_64 random(11);
   const Box2& domain = tiling.domain();
-  const double width = domain.xmax - domain.xmin;
-  const double height = domain.ymax - domain.ymin;
+  const double width = domain.Max.x - domain.Min.x;
+  const double height = domain.Max.y - domain.Min.y;
   std::vector<Point2> points;
   for (int i = 0; i < 2000; ++i)
   {
     const double u = double(random() % 3000) / 1000 - 1;
     const double v = double(random() % 3000) / 1000 - 1;
-    points.push_back({ domain.xmin + u * width, domain.ymin + v * height });
+    points.push_back({ domain.Min.x + u * width, domain.Min.y + v * height });
   }
   for (PartitionIndex i = 0; i < tiling.size(); ++i)
   {
     const Box2& box = tiling.box(i);
-    for (const double x : { box.xmin, std::nextafter(box.xmin, -HUGE_VAL), box.xmax })
+    for (const double x : { box.Min.x, std::nextafter(box.Min.x, -HUGE_VAL), box.Max.x })
     {
-      for (const double y : { box.ymin, std::nextafter(box.ymin, -HUGE_VAL), box.ymax })
+      for (const double y : { box.Min.y, std::nextafter(box.Min.y, -HUGE_VAL), box.Max.y })
       {
         points.push_back({ x, y });
       }

@@ -147,10 +147,10 @@ TEST(PointSurvey, BoundsAreThoseOfTheFinitePoints)
   for (const int threads : { 1, 2, 8 })
   {
     const Box2 bounds = surveyPoints(view(xy), threads).Bounds;
-    EXPECT_EQ(-1, bounds.xmin);
-    EXPECT_EQ(4, bounds.ymin);
-    EXPECT_EQ(3, bounds.xmax);
-    EXPECT_EQ(9, bounds.ymax);
+    EXPECT_EQ(-1, bounds.Min.x);
+    EXPECT_EQ(4, bounds.Min.y);
+    EXPECT_EQ(3, bounds.Max.x);
+    EXPECT_EQ(9, bounds.Max.y);
   }
 }
 

@@ -15,7 +15,7 @@ using namespace tipp::test;
 
 double areaOf(const Box2& box)
 {
-  return (box.xmax - box.xmin) * (box.ymax - box.ymin);
+  return (box.Max.x - box.Min.x) * (box.Max.y - box.Min.y);
 }
 
 /// Whether the boxes cover the domain, lie in it and share no area.
@@ -26,8 +26,8 @@ testing::AssertionResult tiles(const Tiling& tiling)
   for (PartitionIndex i = 0; i < tiling.size(); ++i)
   {
     const Box2& a = tiling.box(i);
-    if (!holds(domain, { a.xmin, a.ymin }) || !holds(domain, { a.xmax, a.ymax }) ||
-      a.xmin > a.xmax || a.ymin > a.ymax)
+    if (!domain.contains(a.Min) || !domain.contains(a.Max) || a.Min.x > a.Max.x ||
+      a.Min.y > a.Max.y)
     {
       return testing::AssertionFailure() << "box " << i << " is none of the domain";
     }
@@ -35,8 +35,8 @@ testing::AssertionResult tiles(const Tiling& tiling)
     for (PartitionIndex j = 0; j < i; ++j)
     {
       const Box2& b = tiling.box(j);
-      if (std::max(a.xmin, b.xmin) < std::min(a.xmax, b.xmax) &&
-        std::max(a.ymin, b.ymin) < std::min(a.ymax, b.ymax))
+      if (std::max(a.Min.x, b.Min.x) < std::min(a.Max.x, b.Max.x) &&
+        std::max(a.Min.y, b.Min.y) < std::min(a.Max.y, b.Max.y))
       {
         return testing::AssertionFailure() << "boxes " << i << " and " << j << " overlap";
       }
@@ -73,8 +73,8 @@ TEST(Tiling, AGridsBoxesAreEqual)
   const Tiling tiling = Tiling::grid({ -1, 2, 5, 10 }, 6, 5);
   for (PartitionIndex i = 0; i < tiling.size(); ++i)
   {
-    EXPECT_NEAR(1, tiling.box(i).xmax - tiling.box(i).xmin, 1e-14);
-    EXPECT_NEAR(1.6, tiling.box(i).ymax - tiling.box(i).ymin, 1e-14);
+    EXPECT_NEAR(1, tiling.box(i).Max.x - tiling.box(i).Min.x, 1e-14);
+    EXPECT_NEAR(1.6, tiling.box(i).Max.y - tiling.box(i).Min.y, 1e-14);
   }
 }
 
@@ -86,7 +86,7 @@ TEST(Tiling, TheBoxFoundForAPointContainsIt)
   {
     for (const Point2 p : points)
     {
-      ASSERT_TRUE(holds(tiling.box(tiling.locate(p)), p));
+      ASSERT_TRUE(tiling.box(tiling.locate(p)).contains(p));
     }
   }
 }
@@ -99,8 +99,8 @@ TEST(Tiling, APointOnACutBelongsToTheUpperBox)
     for (double y = 0; y <= 4; ++y)
     {
       const Box2& box = tiling.box(tiling.locate({ x, y }));
-      EXPECT_EQ(std::min(x, 3.0), box.xmin);
-      EXPECT_EQ(std::min(y, 3.0), box.ymin);
+      EXPECT_EQ(std::min(x, 3.0), box.Min.x);
+      EXPECT_EQ(std::min(y, 3.0), box.Min.y);
     }
   }
 }
@@ -109,9 +109,9 @@ TEST(Tiling, APointOnACutBelongsToTheUpperBox)
 TEST(Tiling, APointOutsideTheDomainIsFoundInANearestBox)
 {
   const Tiling tiling = Tiling::grid({ 0, 0, 4, 4 }, 4, 4);
-  EXPECT_TRUE(holds(tiling.box(tiling.locate({ -9, 1.5 })), { 0, 1.5 }));
-  EXPECT_TRUE(holds(tiling.box(tiling.locate({ 2.5, 99 })), { 2.5, 4 }));
-  EXPECT_TRUE(holds(tiling.box(tiling.locate({ 1e300, -1e300 })), { 4, 0 }));
+  EXPECT_TRUE(tiling.box(tiling.locate({ -9, 1.5 })).contains(Point2{ 0, 1.5 }));
+  EXPECT_TRUE(tiling.box(tiling.locate({ 2.5, 99 })).contains(Point2{ 2.5, 4 }));
+  EXPECT_TRUE(tiling.box(tiling.locate({ 1e300, -1e300 })).contains(Point2{ 4, 0 }));
 }
 
 TEST(Tiling, OneBoxIsTheDomain)
@@ -119,7 +119,7 @@ TEST(Tiling, OneBoxIsTheDomain)
   const Tiling tiling = Tiling::grid({ 1, 2, 3, 5 }, 1, 1);
   EXPECT_EQ(1, tiling.size());
   EXPECT_EQ(0, tiling.locate({ 2, 3 }));
-  EXPECT_EQ(3, tiling.box(0).xmax);
+  EXPECT_EQ(3, tiling.box(0).Max.x);
 }
 
 /// Fewer than 100 doubles lie between the bounds, so some boxes have no extent.
@@ -132,7 +132,7 @@ TEST(Tiling, MoreBoxesThanDoublesBetweenTheBoundsTileTheDomain)
   EXPECT_TRUE(tiles(tiling));
   for (double at = x; at <= far; at = std::nextafter(at, HUGE_VAL))
   {
-    EXPECT_TRUE(holds(tiling.box(tiling.locate({ at, 0.5 })), { at, 0.5 }));
+    EXPECT_TRUE(tiling.box(tiling.locate({ at, 0.5 })).contains(Point2{ at, 0.5 }));
   }
 }
 
@@ -143,8 +143,8 @@ TEST(Tiling, ADomainAcrossAllDoublesIsCut)
   EXPECT_EQ(16, tiling.size());
   for (PartitionIndex i = 0; i < tiling.size(); ++i)
   {
-    EXPECT_LT(tiling.box(i).xmin, tiling.box(i).xmax);
-    EXPECT_LT(tiling.box(i).ymin, tiling.box(i).ymax);
+    EXPECT_LT(tiling.box(i).Min.x, tiling.box(i).Max.x);
+    EXPECT_LT(tiling.box(i).Min.y, tiling.box(i).Max.y);
   }
 }
 
@@ -179,7 +179,7 @@ TEST(Tiling, EqualSamplePointsGiveNoMoreBoxesThanRequested)
   EXPECT_TRUE(tiles(tiling));
   for (const Point2 p : somePoints(200))
   {
-    EXPECT_TRUE(holds(tiling.box(tiling.locate(p)), p));
+    EXPECT_TRUE(tiling.box(tiling.locate(p)).contains(p));
   }
 }
 

@@ -244,7 +244,7 @@ TEST_P(WorkerOn, MakesTheTrianglesThatBelongToItsPartition)
     const Box2& box = run.Scene.Boxes.box(p);
     ASSERT_TRUE(sameTriangles(run.XY, made,
       belonging(
-        run.XY, delaunay(run.XY, run.Inserted), { box.xmin, box.ymin, box.xmax, box.ymax })))
+        run.XY, delaunay(run.XY, run.Inserted), { box.Min.x, box.Min.y, box.Max.x, box.Max.y })))
       << "partition " << p;
   }
 }

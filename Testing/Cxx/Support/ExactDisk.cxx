@@ -64,12 +64,12 @@ int sideOfDisk(const Coordinates& xy, const Triangle& triangle, double x, double
   return sideOf(circumdisk(xy, triangle), Rational(x), Rational(y));
 }
 
-bool diskMeetsBox(const Coordinates& xy, const Triangle& triangle, const Box& box)
+bool diskMeetsBox(const Coordinates& xy, const Triangle& triangle, const Box2& box)
 {
   const Disk disk = circumdisk(xy, triangle);
   // The point of the box closest to the centre.
-  const Rational x = std::min(std::max(disk.X, Rational(box.XMin)), Rational(box.XMax));
-  const Rational y = std::min(std::max(disk.Y, Rational(box.YMin)), Rational(box.YMax));
+  const Rational x = std::min(std::max(disk.X, Rational(box.Min.x)), Rational(box.Max.x));
+  const Rational y = std::min(std::max(disk.Y, Rational(box.Min.y)), Rational(box.Max.y));
   return sideOf(disk, x, y) <= 0;
 }
 
@@ -78,7 +78,7 @@ int orientationOf(const Coordinates& xy, const Triangle& triangle)
   return int(CGAL::sign(area(xy, triangle)));
 }
 
-Triangles belonging(const Coordinates& xy, const Triangles& triangles, const Box& box)
+Triangles belonging(const Coordinates& xy, const Triangles& triangles, const Box2& box)
 {
   Triangles result;
   std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(result),

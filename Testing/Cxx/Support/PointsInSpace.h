@@ -3,7 +3,7 @@
 #define PointsInSpace_h
 
 #include "Points/ReadPoints.h"
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 #include "Triangulation3D/Tetrahedralize.h"
 
 #include <array>

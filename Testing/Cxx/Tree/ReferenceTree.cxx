@@ -16,7 +16,7 @@ namespace
 
 double longest(const Box3& box)
 {
-  return std::max({ box.Max[0] - box.Min[0], box.Max[1] - box.Min[1], box.Max[2] - box.Min[2] });
+  return std::max({ box.width(0), box.width(1), box.width(2) });
 }
 
 class Recursion

@@ -18,7 +18,7 @@ struct Scene
 {
   Coordinates XY; ///< the artificial points are first
   std::int64_t Artificial = 0;
-  std::vector<Box> Partitions;
+  std::vector<Box2> Partitions;
   std::vector<Ids> Points; ///< per partition, without the initial points
   Ids Initial;             ///< the initial points, without the artificial ones
 
@@ -63,23 +63,23 @@ inline Scene makeScene(const std::string& set, std::size_t count, int side, std:
   double margin, std::uint64_t seed)
 {
   const Coordinates points = makePointSet(set, count, seed);
-  Box domain{ points[0], points[1], points[0], points[1] };
+  Box2 domain{ points[0], points[1], points[0], points[1] };
   for (std::size_t i = 0; i < points.size(); i += 2)
   {
-    domain.XMin = std::min(domain.XMin, points[i]);
-    domain.XMax = std::max(domain.XMax, points[i]);
-    domain.YMin = std::min(domain.YMin, points[i + 1]);
-    domain.YMax = std::max(domain.YMax, points[i + 1]);
+    domain.Min.x = std::min(domain.Min.x, points[i]);
+    domain.Max.x = std::max(domain.Max.x, points[i]);
+    domain.Min.y = std::min(domain.Min.y, points[i + 1]);
+    domain.Max.y = std::max(domain.Max.y, points[i + 1]);
   }
-  const double w = domain.XMax - domain.XMin;
-  const double h = domain.YMax - domain.YMin;
+  const double w = domain.Max.x - domain.Min.x;
+  const double h = domain.Max.y - domain.Min.y;
   Scene scene;
   for (int i = 0; i <= side; ++i)
   {
-    const double x = domain.XMin - margin * w + i * (1 + 2 * margin) * w / side;
-    const double y = domain.YMin - margin * h + i * (1 + 2 * margin) * h / side;
-    const double low = domain.YMin - margin * h;
-    const double left = domain.XMin - margin * w;
+    const double x = domain.Min.x - margin * w + i * (1 + 2 * margin) * w / side;
+    const double y = domain.Min.y - margin * h + i * (1 + 2 * margin) * h / side;
+    const double low = domain.Min.y - margin * h;
+    const double left = domain.Min.x - margin * w;
     scene.XY.insert(scene.XY.end(), { x, low, x, low + (1 + 2 * margin) * h });
     if (i > 0 && i < side)
     {
@@ -96,8 +96,8 @@ inline Scene makeScene(const std::string& set, std::size_t count, int side, std:
     const int column = i % side;
     const int row = i / side;
     scene.Partitions.push_back(
-      { cut(domain.XMin, domain.XMax, column), cut(domain.YMin, domain.YMax, row),
-        cut(domain.XMin, domain.XMax, column + 1), cut(domain.YMin, domain.YMax, row + 1) });
+      { cut(domain.Min.x, domain.Max.x, column), cut(domain.Min.y, domain.Max.y, row),
+        cut(domain.Min.x, domain.Max.x, column + 1), cut(domain.Min.y, domain.Max.y, row + 1) });
   }
   scene.Points.resize(scene.Partitions.size());
   for (std::size_t i = 0; i < points.size() / 2; ++i)
@@ -105,7 +105,9 @@ inline Scene makeScene(const std::string& set, std::size_t count, int side, std:
     const auto id = scene.Artificial + std::int64_t(i);
     // A point on a common border belongs to the first of the partitions there.
     const auto owner = std::find_if(scene.Partitions.begin(), scene.Partitions.end(),
-      [&](const Box& box) { return box.holds(points[2 * i], points[2 * i + 1]); });
+      [&](const Box2& box) {
+        return box.contains(Point2{ points[2 * i], points[2 * i + 1] });
+      });
     Ids& ids =
       i % every == 0 ? scene.Initial : scene.Points[std::size_t(owner - scene.Partitions.begin())];
     ids.push_back(id);

@@ -11,6 +11,7 @@
 namespace
 {
 
+using namespace tipp;
 using namespace tipp::test;
 
 /// Whether a triangle belongs to both partitions.
@@ -57,8 +58,8 @@ struct Counterexample
   Ids Inserted{ 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11 };
   std::int64_t X = 12;
   std::int64_t Y = 13;
-  Box P{ -0.1, 0.62, 0.1, 0.82 };
-  Box Q{ -0.1, -0.82, 0.1, -0.62 };
+  Box2 P{ -0.1, 0.62, 0.1, 0.82 };
+  Box2 Q{ -0.1, -0.82, 0.1, -0.62 };
 };
 
 TEST(ConflictRule, NoCommonDiskIsNotEnough)
@@ -89,7 +90,7 @@ TEST(ConflictRule, ACommonEdgeShowsTheConflict)
 }
 
 /// A random box in the unit square, at most 0.2 wide and high.
-Box randomBox(std::mt19937_64& random)
+Box2 randomBox(std::mt19937_64& random)
 {
   const auto unit = [&] { return double(random() >> 11) * 0x1p-53; };
   const double x = 0.9 * unit();
@@ -102,7 +103,7 @@ struct Draw
 {
   Coordinates XY;
   Ids Inserted;
-  Box Boxes[2];
+  Box2 Boxes[2];
   Ids Points[2];
 
   std::int64_t add(double x, double y)
@@ -120,11 +121,11 @@ Draw drawUniform(std::mt19937_64& random)
   draw.Inserted = scene.initialMesh();
   for (int i = 0; i < 2; ++i)
   {
-    const Box box = draw.Boxes[i] = randomBox(random);
+    const Box2 box = draw.Boxes[i] = randomBox(random);
     for (int n = 0; n < 12; ++n)
     {
-      const double x = box.XMin + (box.XMax - box.XMin) * double(random() >> 11) * 0x1p-53;
-      const double y = box.YMin + (box.YMax - box.YMin) * double(random() >> 11) * 0x1p-53;
+      const double x = box.Min.x + (box.Max.x - box.Min.x) * double(random() >> 11) * 0x1p-53;
+      const double y = box.Min.y + (box.Max.y - box.Min.y) * double(random() >> 11) * 0x1p-53;
       draw.Points[i].push_back(draw.add(x, y));
     }
   }

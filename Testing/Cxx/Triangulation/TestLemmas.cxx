@@ -7,6 +7,7 @@
 namespace
 {
 
+using namespace tipp;
 using namespace tipp::test;
 
 struct Case
@@ -27,10 +28,10 @@ public:
 };
 
 /// The box, slightly larger on each side. Gathering more triangles than necessary does no harm.
-Box grown(const Box& box)
+Box2 grown(const Box2& box)
 {
-  const double hair = 1e-9 * (box.XMax - box.XMin + box.YMax - box.YMin);
-  return { box.XMin - hair, box.YMin - hair, box.XMax + hair, box.YMax + hair };
+  const double hair = 1e-9 * (box.Max.x - box.Min.x + box.Max.y - box.Min.y);
+  return { box.Min.x - hair, box.Min.y - hair, box.Max.x + hair, box.Max.y + hair };
 }
 
 /// Lemma 1, for partitions one after the other, as in a run. A worker sees only the vertices of the
@@ -43,7 +44,7 @@ TEST_P(Lemma, Worker_TheVerticesAroundAPartitionSuffice)
   Triangles mesh = delaunay(scene.XY, inserted);
   for (std::size_t p = 0; p < scene.Partitions.size(); ++p)
   {
-    const Box& box = scene.Partitions[p];
+    const Box2& box = scene.Partitions[p];
     const Ids around = verticesOf(belonging(scene.XY, mesh, grown(box)));
     const Triangles worker = delaunay(scene.XY, together(around, scene.Points[p]));
     inserted = together(inserted, scene.Points[p]);
@@ -91,7 +92,7 @@ TEST_P(Lemma, Final_ATriangleThatMeetsNoUnfinishedPartitionStays)
     for (const Triangle& t : mesh)
     {
       if (std::none_of(scene.Partitions.begin() + std::ptrdiff_t(done) + 1, scene.Partitions.end(),
-            [&](const Box& box) { return diskMeetsBox(scene.XY, t, box); }))
+            [&](const Box2& box) { return diskMeetsBox(scene.XY, t, box); }))
       {
         ASSERT_TRUE(std::binary_search(last.begin(), last.end(), t)) << "after partition " << done;
         ++finalOnes;
@@ -165,9 +166,9 @@ TEST(LemmaTies, PartitionsOfALatticeAgreeOnTouchingDisks)
     Triangles mesh = delaunay(scene.XY, inserted);
     for (std::size_t p = 0; p < scene.Partitions.size(); ++p)
     {
-      const Box& box = scene.Partitions[p];
+      const Box2& box = scene.Partitions[p];
       const Triangles near = belonging(scene.XY, mesh, grown(box));
-      const Box shrunk{ box.XMin + 1e-9, box.YMin + 1e-9, box.XMax - 1e-9, box.YMax - 1e-9 };
+      const Box2 shrunk{ box.Min.x + 1e-9, box.Min.y + 1e-9, box.Max.x - 1e-9, box.Max.y - 1e-9 };
       touching += near.size() - belonging(scene.XY, mesh, shrunk).size();
       const Triangles worker = delaunay(scene.XY, together(verticesOf(near), scene.Points[p]));
       inserted = together(inserted, scene.Points[p]);

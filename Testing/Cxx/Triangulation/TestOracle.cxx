@@ -12,6 +12,7 @@
 namespace
 {
 
+using namespace tipp;
 using namespace tipp::test;
 
 class Oracle : public testing::TestWithParam<std::string>

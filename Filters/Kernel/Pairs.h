@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippKernelLanes_h
-#define tippKernelLanes_h
+#ifndef tippPairs_h
+#define tippPairs_h
 
-#include "Predicates/Points.h"
+#include "Predicates/Geometry.h"
 
 #include <array>
 #include <cstddef>
@@ -14,46 +14,6 @@
 
 namespace tipp
 {
-
-/// Which instruction set the kernel may use. The triangles are identical, bit for bit: neither
-/// version contracts a multiplication and an addition.
-enum class Instructions
-{
-  Common, ///< the architecture's baseline
-  Best    ///< the best one that this processor supports
-};
-
-/// @name Running work() compiled for an instruction set
-/// `flatten` inlines all calls into these functions, so that everything is compiled for it.
-///@{
-template <typename Work>
-[[gnu::flatten]] void runCommon(const Work& work)
-{
-  work();
-}
-#ifdef __x86_64__
-template <typename Work>
-[[gnu::flatten, gnu::target("avx2,bmi,bmi2")]] void runAvx2(const Work& work)
-{
-  work();
-}
-#endif
-
-template <typename Work>
-void runWith(Instructions instructions, const Work& work)
-{
-#ifdef __x86_64__
-  if (instructions == Instructions::Best && __builtin_cpu_supports("avx2") &&
-    __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2"))
-  {
-    runAvx2(work);
-    return;
-  }
-#endif
-  static_cast<void>(instructions);
-  runCommon(work);
-}
-///@}
 
 /// Two doubles side by side.
 using Pair = double __attribute__((vector_size(16)));
@@ -121,17 +81,14 @@ inline Pair high(Pair a, Pair b)
   return __builtin_shufflevector(a, b, 1, 3);
 }
 
-/// The smallest and the largest coordinates of points; NaN is ignored.
+/// The bounding box of points, and whether all are finite; NaN is ignored.
 struct Extent
 {
-  Pair Low;
-  Pair High;
+  Box2 Bounds;
   bool AllFinite;
-
-  Box2 box() const { return { this->Low[0], this->Low[1], this->High[0], this->High[1] }; }
 };
 
-/// Returns the extent of `count` points; for none, Low is infinity and High is minus infinity.
+/// Returns the extent of `count` points; for none, the box is empty.
 inline Extent extentOf(const Point2* points, std::size_t count)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -168,7 +125,7 @@ inline Extent extentOf(const Point2* points, std::size_t count)
     high[0] = higher(high[lane], high[0]);
     finite[0] &= finite[lane];
   }
-  return { low[0], high[0], bitsOf(finite[0]) == 3 };
+  return { { { low[0][0], low[0][1] }, { high[0][0], high[0][1] } }, bitsOf(finite[0]) == 3 };
 }
 
 } // namespace tipp

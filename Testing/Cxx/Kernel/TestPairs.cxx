@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Kernel/Lanes.h"
+#include "Kernel/Pairs.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace
 
 using namespace tipp;
 
-TEST(Lanes, MagnitudeDropsTheSignOfEachLane)
+TEST(Pairs, MagnitudeDropsTheSignOfEachLane)
 {
   const Pair a = magnitude(Pair{ -2.5, 3 });
   EXPECT_EQ(2.5, a[0]);
@@ -20,7 +20,7 @@ TEST(Lanes, MagnitudeDropsTheSignOfEachLane)
   EXPECT_EQ(HUGE_VAL, b[1]);
 }
 
-TEST(Lanes, TheBitsShowWhichComparisonsHold)
+TEST(Pairs, TheBitsShowWhichComparisonsHold)
 {
   const Pair zero{ 0, 0 };
   EXPECT_EQ(0U, bitsOf(Pair{ -1, -1 } > zero));
@@ -30,7 +30,7 @@ TEST(Lanes, TheBitsShowWhichComparisonsHold)
 }
 
 /// The filters rely on this: after an overflow, no comparison decides.
-TEST(Lanes, AComparisonWithNaNFails)
+TEST(Pairs, AComparisonWithNaNFails)
 {
   const Pair nan{ std::nan(""), std::nan("") };
   EXPECT_EQ(0U, bitsOf(nan > Pair{ 0, 0 }));
@@ -38,7 +38,7 @@ TEST(Lanes, AComparisonWithNaNFails)
   EXPECT_EQ(0U, bitsOf(Pair{ 1, 1 } > nan));
 }
 
-TEST(Lanes, LowTakesTheFirstLanesAndHighTheSecond)
+TEST(Pairs, LowTakesTheFirstLanesAndHighTheSecond)
 {
   const Pair a{ 1, 2 };
   const Pair b{ 3, 4 };
