@@ -175,14 +175,8 @@ tipp::Tetrahedralization vtkTIPPDelaunay3D::Triangulate(
   {
     return mesh;
   }
-  const double distance = this->Tolerance * diagonal;
-  mesh = distance > 0 ? tipp::tetrahedralizeMerged(points, std::size_t(count), distance, options)
-                      : tipp::tetrahedralize(points, std::size_t(count), options);
-  if (!mesh.Aborted && mesh.Dimension == 2)
-  {
-    triangles = tipp::triangulateCoplanar(points, std::size_t(count), options, mesh);
-    mesh.Aborted = triangles.Aborted;
-  }
+  mesh = tipp::tetrahedralizePoints(
+    points, std::size_t(count), this->Tolerance * diagonal, options, triangles);
   mesh.Aborted = mesh.Aborted || !monitor(1);
   if (!mesh.Aborted)
   {

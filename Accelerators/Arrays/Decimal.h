@@ -48,14 +48,14 @@ struct VTKTIPPACCELERATORS_EXPORT GridSteps
 
 ///@}
 
-/// By how much rounding may move coordinates of up to this absolute value, when they are read,
-/// scaled or computed from an origin and a step.
+/// Returns by how much rounding may move coordinates of up to this absolute value, when they are
+/// read, scaled or computed from an origin and a step.
 inline double roundingOf(double largest)
 {
   return 0x1p-50 * largest;
 }
 
-/// The same for a range of coordinates.
+/// Returns by how much rounding may move coordinates from `low` to `high`.
 inline double roundingOf(double low, double high)
 {
   return roundingOf(std::max(std::fabs(low), std::fabs(high)));

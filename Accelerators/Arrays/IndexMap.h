@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -35,7 +36,8 @@ public:
 
   std::size_t size() const { return std::size_t(this->Count); }
 
-  /// The index of a key, which is inserted if it is not there. At most 2^31 keys.
+  /// The index of a key, which is inserted if it is not there. Throws std::length_error if there
+  /// would be more than 2^31 keys.
   Inserted insert(std::int64_t key)
   {
     if (2 * this->size() >= this->Entries.size())
@@ -81,6 +83,11 @@ private:
 
   void enlarge()
   {
+    constexpr std::size_t most = std::size_t(1) << 32; // half of the entries are free
+    if (this->Entries.size() >= most)
+    {
+      throw std::length_error("more than 2^31 different ids are to be numbered");
+    }
     const std::vector<Entry> old =
       std::exchange(this->Entries, std::vector<Entry>(2 * this->Entries.size()));
     for (const Entry& entry : old)

@@ -144,7 +144,8 @@ public:
     return isWhole;
   }
 
-  /// Like search(), for a box inside the region for which boxes were gathered.
+  /// Calls visit(i) for each gathered box i that meets `box`, which must be inside the region for
+  /// which the boxes were gathered. May also visit boxes that miss it narrowly.
   template <typename Visit>
   void search(const Gathered& gathered, const Box<D>& box, const Visit& visit) const
   {

@@ -104,6 +104,8 @@ private:
   /// Sets `at` to a triangle near a point.
   void jump(Point2 point, Position& at) const;
 
+  /// After so many steps a walk gives up, and the point is searched with the tree. It starts at the
+  /// nearest of a sample of the cells, so ordinary meshes need a few dozen.
   static constexpr std::int64_t MostSteps = 4096;
   static constexpr std::uint32_t None = ~std::uint32_t(0);
   static constexpr std::uint32_t Turned = 0x80000000u;
@@ -198,8 +200,9 @@ private:
 VTKTIPPACCELERATORS_EXPORT void locatePoints(const SimplexMesh& mesh, const std::int64_t* cellIds,
   const CellLocator* locator, const AskedPoints& points, int threads, const TakeLocations& take);
 
-/// Does the same as locatePoints() in one pass over the cells, each of which looks up its points in
-/// a grid. It needs no locator and is the fastest way if there are about as many points as cells.
+/// Calls `take` with the locations of the asked points that lie in a cell, from several threads, in
+/// any order. Makes one pass over the cells, each of which looks up its points in a grid. It needs
+/// no locator and is the fastest way if there are about as many points as cells.
 /// Returns false if the pass is too slow for this input, for example because of many thin cells or
 /// many points on edges, or if cells overlap; `take` may then have received only some points, and
 /// wrong locations. Takes about 30 bytes per point. Exact; at most 2^31 - 1 points.

@@ -2,6 +2,7 @@
 #include "Locate/CellLocator.h"
 
 #include "Locate/BoxTree.h"
+#include "Parallel/CountingSort.h"
 #include "Parallel/ParallelFor.h"
 
 #include <atomic>
@@ -116,25 +117,11 @@ private:
   bool matchEdges()
   {
     const std::int64_t points = this->Mesh.PointCount;
-    const bool isAlone = this->Threads == 1;
-    const SharedCounters ends(new std::atomic<std::uint32_t>[std::size_t(points) + 1]());
-    this->forParts(this->Mesh.Cells,
-      [&](std::int64_t begin, std::int64_t end)
+    const GroupedItems<Edge, std::uint32_t> edges(std::size_t(points), this->Threads,
+      [&](const auto& visit)
       {
-        this->forEdges(
-          begin, end, [&](std::size_t point, Edge) { addOne(ends[point + 1], isAlone); });
-      });
-    for (std::int64_t i = 0; i < points; ++i)
-    {
-      ends[std::size_t(i) + 1].store(ends[std::size_t(i) + 1] + ends[std::size_t(i)]);
-    }
-    const std::unique_ptr<Edge[]> edges(new Edge[ends[std::size_t(points)]]);
-    // Each list's end now advances from its beginning.
-    this->forParts(this->Mesh.Cells,
-      [&](std::int64_t begin, std::int64_t end)
-      {
-        this->forEdges(begin, end,
-          [&](std::size_t point, Edge edge) { edges[addOne(ends[point], isAlone)] = edge; });
+        this->forParts(this->Mesh.Cells,
+          [&](std::int64_t begin, std::int64_t end) { this->forEdges(begin, end, visit); });
       });
     std::atomic<bool> isManifold{ true };
     this->forParts(points,
@@ -142,8 +129,7 @@ private:
       {
         for (std::int64_t point = begin; point < end; ++point)
         {
-          const std::uint32_t first = point > 0 ? ends[std::size_t(point) - 1].load() : 0;
-          if (!this->matchAt(edges.get() + first, edges.get() + ends[std::size_t(point)].load()))
+          if (!this->matchAt(edges.begin(std::size_t(point)), edges.end(std::size_t(point))))
           {
             isManifold.store(false);
           }

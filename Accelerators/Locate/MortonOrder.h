@@ -2,6 +2,7 @@
 #ifndef tippMortonOrder_h
 #define tippMortonOrder_h
 
+#include "Parallel/BoundsOf.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Sort.h"
 #include "Predicates/Geometry.h"
@@ -14,33 +15,6 @@
 
 namespace tipp
 {
-
-/// The common bounds of the boxes boxOf(0) ... boxOf(count - 1), ignoring those that are not
-/// finite.
-template <int D, typename BoxOf>
-Box<D> boundsOf(std::int64_t count, int threads, const BoxOf& boxOf)
-{
-  std::vector<Box<D>> bounds(std::size_t(threads), Box<D>::empty());
-  forChunks(count, 1 << 14, threads, {},
-    [&](std::int64_t begin, std::int64_t end, int thread)
-    {
-      Box<D> own = Box<D>::empty();
-      for (std::int64_t i = begin; i < end; ++i)
-      {
-        const Box<D> box = boxOf(i);
-        if (isFinite(box))
-        {
-          own.extend(box);
-        }
-      }
-      bounds[std::size_t(thread)].extend(own);
-    });
-  for (const Box<D>& box : bounds)
-  {
-    bounds[0].extend(box);
-  }
-  return bounds[0];
-}
 
 /// Puts D - 1 zeros between the bits of a number of 32 bits (D = 2) or 21 bits (D = 3).
 template <int D>

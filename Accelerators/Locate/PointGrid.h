@@ -84,7 +84,8 @@ public:
     return false;
   }
 
-  /// As above, for a cell whose corners are indices into `positions`.
+  /// Returns false if there certainly is no point in the box of a cell. Its corners are indices
+  /// into `positions`.
   template <int Corners, typename Id>
   bool mayHold(const std::vector<Position>& positions, const Id* corners) const
   {

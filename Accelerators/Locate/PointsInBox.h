@@ -3,6 +3,7 @@
 #define tippPointsInBox_h
 
 #include "Locate/MortonOrder.h"
+#include "Parallel/CountingSort.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -11,7 +12,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 namespace tipp
@@ -293,41 +293,25 @@ public:
     {
       buckets *= std::size_t(side);
     }
-    this->Starts = SharedCounters(new std::atomic<std::uint32_t>[buckets + 1]());
-    const auto forPoints = [&](const auto& work)
-    {
-      forChunks(count, 1 << 14, threads, {},
-        [&](std::int64_t begin, std::int64_t end, int)
-        {
-          for (std::int64_t i = begin; i < end; ++i)
+    this->Entries = { buckets, threads,
+      [&](const auto& visit)
+      {
+        forChunks(count, 1 << 14, threads, {},
+          [&](std::int64_t begin, std::int64_t end, int)
           {
-            const Point<D> point = at(i);
-            if (isFinite(point))
+            for (std::int64_t i = begin; i < end; ++i)
             {
-              work(i, point, this->bucketOf(point));
+              const Point<D> point = at(i);
+              if (isFinite(point))
+              {
+                visit(this->bucketOf(point), Entry{ point, std::int32_t(i) });
+              }
             }
-          }
-        });
-    };
-    const bool isAlone = threads == 1;
-    forPoints([&](std::int64_t, const auto&, std::size_t bucket)
-      { addOne(this->Starts[bucket + 1], isAlone); });
-    std::uint32_t sum = 0;
-    for (std::size_t bucket = 0; bucket < buckets; ++bucket)
-    {
-      this->Starts[bucket].store(sum, std::memory_order_relaxed);
-      sum += this->Starts[bucket + 1].load(std::memory_order_relaxed);
-    }
-    this->Count = sum;
-    this->Entries = std::unique_ptr<Entry[]>(new Entry[sum]);
-    // Each start is advanced to the end of its box, which is the start of the next.
-    forPoints(
-      [&](std::int64_t i, const auto& point, std::size_t bucket) {
-        this->Entries[addOne(this->Starts[bucket], isAlone)] = { point, std::int32_t(i) };
-      });
+          });
+      } };
   }
 
-  std::size_t size() const { return this->Count; }
+  std::size_t size() const { return this->Entries.size(); }
   const Point<D>& at(std::size_t entry) const { return this->Entries[entry].At; }
   std::int64_t number(std::size_t entry) const { return this->Entries[entry].Number; }
 
@@ -351,10 +335,8 @@ public:
     {
       const std::size_t first = this->indexOf(at);
       const std::size_t last = first + std::size_t(high[0] - low[0]);
-      const std::uint32_t end = this->Starts[last].load(std::memory_order_relaxed);
-      for (std::uint32_t entry = first > 0 ? this->Starts[first - 1].load(std::memory_order_relaxed)
-                                           : 0;
-           entry < end; ++entry)
+      const std::uint32_t end = this->Entries.start(last + 1);
+      for (std::uint32_t entry = this->Entries.start(first); entry < end; ++entry)
       {
         visit(entry, this->Entries[entry].At);
       }
@@ -421,9 +403,7 @@ private:
   Box<D> Bounds;
   std::array<std::int64_t, D> Sides{};
   std::array<double, D> Scale{};
-  SharedCounters Starts; ///< in the end, the end of each box
-  std::unique_ptr<Entry[]> Entries;
-  std::size_t Count = 0;
+  GroupedItems<Entry, std::uint32_t> Entries; ///< by box
 };
 
 } // namespace tipp

@@ -2,13 +2,13 @@
 #ifndef tippSort_h
 #define tippSort_h
 
+#include "Parallel/CountingSort.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace tipp
@@ -73,14 +73,7 @@ inline void sortByUpperHalf(std::vector<std::uint64_t>& words, int threads, unsi
         counts.fill(0);
         forShare(share, [&](std::uint64_t word) { ++counts[digitOf(word)]; });
       });
-    std::size_t begin = 0;
-    for (std::size_t digit = 0; digit < digits; ++digit)
-    {
-      for (auto& counts : next)
-      {
-        begin += std::exchange(counts[digit], begin);
-      }
-    }
+    countsToIndices(digits, next);
     parallelFor(shares, threads,
       [&](std::int64_t share)
       {

@@ -32,7 +32,7 @@ public:
   /// The leaves of a tree whose nodes are bisected along every axis with some extent. firstChild
   /// has an entry for each node, the root first: -1 for a leaf, else the index of the first of
   /// childCount() consecutive children, which is larger than the node's own. Throws
-  /// AcceleratorError for an invalid domain as above or an invalid tree.
+  /// AcceleratorError for an invalid tree, or if the domain is not finite or inverted.
   static BoxTiling tree(
     int dimension, const Box3& domain, const std::vector<std::int32_t>& firstChild);
 

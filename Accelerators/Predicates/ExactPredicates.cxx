@@ -116,7 +116,8 @@ InCircleIntegers integersOf(Point2 a, Point2 b, Point2 c, Point2 p, double scale
     toUnits(b.y, p.y, scale), toUnits(c.x, p.x, scale), toUnits(c.y, p.y, scale) };
 }
 
-// As orientationAnyLength().
+// Computed with the coordinates themselves, because differences of coordinates with very different
+// exponents have too many digits.
 int inCircleAnyLength(Point2 a, Point2 b, Point2 c, Point2 p)
 {
   const BinaryNumber x[4] = { binaryNumber(a.x), binaryNumber(b.x), binaryNumber(c.x),

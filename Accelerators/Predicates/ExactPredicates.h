@@ -11,8 +11,7 @@
 namespace tipp
 {
 
-/// Like orientation(), but goes straight to exact arithmetic: for callers whose own filter has
-/// failed.
+/// Returns orientation() by exact arithmetic, for callers whose own filter has failed.
 VTKTIPPACCELERATORS_EXPORT int orientationExact(Point2 a, Point2 b, Point2 c);
 
 /// Exact for all finite coordinates: +1 if a, b, c turn counter-clockwise, -1 if clockwise, 0 if
@@ -90,7 +89,7 @@ inline double inCircleErrorBound(double lifts)
   return relative * (lifts * lifts) + absolute;
 }
 
-/// Like inCircle(), but goes straight to exact arithmetic: for callers whose own filter has failed.
+/// Returns inCircle() by exact arithmetic, for callers whose own filter has failed.
 VTKTIPPACCELERATORS_EXPORT int inCircleExact(Point2 a, Point2 b, Point2 c, Point2 p);
 
 /// The position of p relative to the circle through a, b, c, which must turn counter-clockwise.

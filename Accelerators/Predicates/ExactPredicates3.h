@@ -11,7 +11,7 @@
 namespace tipp
 {
 
-/// Like orientation3(), but goes straight to exact arithmetic.
+/// Returns orientation3() by exact arithmetic, without a filter in doubles.
 VTKTIPPACCELERATORS_EXPORT int orientation3Exact(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
@@ -124,7 +124,7 @@ inline bool isCertain(const InSphereValue& value)
     relative * (square * square) * value.lifts + absolute;
 }
 
-/// Like inSphere(), for callers whose own filter has failed: tries a sharper filter, then exact
+/// Returns inSphere() for callers whose own filter has failed: tries a sharper filter, then exact
 /// arithmetic.
 VTKTIPPACCELERATORS_EXPORT int inSphereExact(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& p);

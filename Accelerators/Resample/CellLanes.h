@@ -111,8 +111,8 @@ private:
     const Lanes bound = 3.3306690738754716e-16 * (absolute(left) + absolute(right)) + 1e-300;
     this->LongIsLeft = determinant < 0;
     this->Slopes[0] = (x[2] - x[0]) / (y[2] - y[0]);
-    this->Slopes[1] = (x[1] - x[0]) / (y[1] - y[0]); // unused if level
-    this->Slopes[2] = (x[2] - x[1]) / (y[2] - y[1]); // likewise
+    this->Slopes[1] = (x[1] - x[0]) / (y[1] - y[0]); // not used if y[0] == y[1]
+    this->Slopes[2] = (x[2] - x[1]) / (y[2] - y[1]); // not used if y[1] == y[2]
     const Lanes none = allLanes(0);
     const Lanes lower = y[0] < y[1] ? absolute(this->Slopes[1]) : none;
     const Lanes upper = y[1] < y[2] ? absolute(this->Slopes[2]) : none;
@@ -301,7 +301,7 @@ public:
   }
 
 private:
-  /// As in TetrahedronRows.
+  /// Where the plane of a face of each tetrahedron crosses rows of samples parallel to x.
   struct Face
   {
     Lanes Position;

@@ -106,7 +106,7 @@ private:
     this->Middle = b.y;
     this->Long = edge(a, c);
     this->Short[0] = edge(a, b); // unused if level: no row is below b then
-    this->Short[1] = edge(b, c); // likewise
+    this->Short[1] = edge(b, c); // unused if level: no row is above b then
     // Without an overflow a slope is at most the quotient of the largest and the smallest step.
     if (!(std::fabs(this->Long.Slope) + this->slopeInUse(0) + this->slopeInUse(1) < HUGE_VAL))
     {
@@ -324,7 +324,7 @@ private:
     }
   }
 
-  /// The same for a face parallel to x: all samples of the row are on the same side.
+  /// Removes the samples outside a face that is parallel to x from the row: all of them or none.
   void cutLevel(const Face& face, double y, double z, RowSpan& span) const
   {
     ++this->ExactTests;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/Claims.h"
 
-#include "Locate/MortonOrder.h"
+#include "Parallel/BoundsOf.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Sort.h"
 #include "Predicates/ExactPredicates3.h"

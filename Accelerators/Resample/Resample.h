@@ -119,10 +119,12 @@ public:
 
   /// Whether sample() supports all of the arrays: a few floating-point point arrays.
   virtual bool canSample(const std::vector<Attribute>& attributes) const = 0;
-  /// sampleDirectly() on the device; the statistics count only the cells that threads do.
+  /// Returns what sampleDirectly() returns. The statistics count only the cells that threads
+  /// process.
   virtual DirectResult sample(const Lattice& lattice, const std::vector<Attribute>& attributes,
     const ResampleOptions& options) = 0;
-  /// claimSamples() on the device, likewise. The claims are the same.
+  /// Returns the claims that claimSamples() returns. The statistics count only the cells that
+  /// threads process.
   virtual Claims claim(const Lattice& lattice, const Report& report) = 0;
 };
 

@@ -44,7 +44,7 @@ struct CellLocation
 };
 
 /// Typed access to the cells of a SimplexMesh.
-template <int D, typename Scalar, typename Id>
+template <int D, typename Coordinate, typename Id>
 class SimplexAccess
 {
 public:
@@ -53,7 +53,7 @@ public:
   using Point = tipp::Point<D>;
 
   explicit SimplexAccess(const SimplexMesh& mesh)
-    : Points(static_cast<const Scalar*>(mesh.Points))
+    : Points(static_cast<const Coordinate*>(mesh.Points))
     , Ids(static_cast<const Id*>(mesh.Ids))
     , U(mesh.Axes[0])
     , V(mesh.Axes[1])
@@ -73,7 +73,7 @@ public:
   /// The coordinates of a point that are used.
   [[gnu::always_inline]] Point coordinates(std::int64_t id) const
   {
-    const Scalar* p = this->Points + 3 * id;
+    const Coordinate* p = this->Points + 3 * id;
     if constexpr (D == 2)
     {
       return { double(p[this->U]), double(p[this->V]) };
@@ -99,7 +99,7 @@ public:
 
   Point3 point(std::int64_t id) const
   {
-    const Scalar* p = this->Points + 3 * id;
+    const Coordinate* p = this->Points + 3 * id;
     return { double(p[0]), double(p[1]), double(p[2]) };
   }
 
@@ -114,7 +114,7 @@ public:
   }
 
 private:
-  const Scalar* Points;
+  const Coordinate* Points;
   const Id* Ids;
   int U;
   int V;
@@ -127,9 +127,9 @@ void withAccess(const SimplexMesh& mesh, const Work& work)
   const auto withIds = [&](auto dimension, auto scalar)
   {
     constexpr int d = decltype(dimension)::value;
-    using Scalar = decltype(scalar);
-    mesh.Wide ? work(SimplexAccess<d, Scalar, std::int64_t>(mesh))
-              : work(SimplexAccess<d, Scalar, std::int32_t>(mesh));
+    using Coordinate = decltype(scalar);
+    mesh.Wide ? work(SimplexAccess<d, Coordinate, std::int64_t>(mesh))
+              : work(SimplexAccess<d, Coordinate, std::int32_t>(mesh));
   };
   const auto withScalar = [&](auto dimension)
   // NOLINTNEXTLINE(bugprone-branch-clone): the types differ.
@@ -205,7 +205,8 @@ inline void thinWeights(
   }
 }
 
-/// The same for a triangle, in fewer instructions than loops.
+/// Solves the 2 x 2 system of a thin triangle's weights by elimination with complete pivoting, in
+/// fewer instructions than the loops for any dimension.
 inline void thinWeights(
   const double (&edges)[2][2], const double (&offset)[2], double (&weights)[2])
 {

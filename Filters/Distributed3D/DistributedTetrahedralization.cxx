@@ -4,6 +4,7 @@
 #include "Distributed/DistributedTriangulation.h"
 #include "Distributed3D/Plan3.h"
 #include "Distributed3D/RankRun3.h"
+#include "InMemory/TriangulatePoints.h"
 #include "Parallel/ParallelFor.h"
 #include "Triangulation3D/OrderCells.h"
 
@@ -221,13 +222,9 @@ private:
   {
     TetrahedralizationOptions options = this->Options;
     options.Partitions = 1;
-    Tetrahedralization whole = tetrahedralize(points.data(), points.size(), options);
     Triangulation flat;
-    if (whole.Dimension == 2)
-    {
-      flat = triangulateCoplanar(points.data(), points.size(), options, whole);
-    }
-    if (whole.Aborted || flat.Aborted)
+    Tetrahedralization whole = tetrahedralizePoints(points.data(), points.size(), 0, options, flat);
+    if (whole.Aborted)
     {
       throw RankFailure(this->Ranks.rank(), true, "The run was stopped.");
     }

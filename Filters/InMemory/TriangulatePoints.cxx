@@ -359,6 +359,19 @@ ConstrainedTriangulation triangulatePoints(
   return result;
 }
 
+Tetrahedralization tetrahedralizePoints(const Point3* points, std::size_t count, double distance,
+  const TetrahedralizationOptions& options, Triangulation& triangles)
+{
+  Tetrahedralization mesh = distance > 0 ? tetrahedralizeMerged(points, count, distance, options)
+                                         : tetrahedralize(points, count, options);
+  if (!mesh.Aborted && mesh.Dimension == 2)
+  {
+    triangles = triangulateCoplanar(points, count, options, mesh);
+    mesh.Aborted = triangles.Aborted;
+  }
+  return mesh;
+}
+
 Buffer<std::int64_t> neighborIds(const Triangulation& triangulation)
 {
   const std::size_t triangles = triangulation.triangleCount();

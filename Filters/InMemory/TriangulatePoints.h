@@ -58,6 +58,12 @@ struct PointsRequest
 VTKTIPPFILTERS_EXPORT ConstrainedTriangulation triangulatePoints(
   PointsView points, const PointsRequest& request, std::vector<std::string>& warnings);
 
+/// Computes the tetrahedra of points in memory. If all points lie in one plane there are none, and
+/// `triangles` receives the result of triangulateCoplanar(). `distance`: see PointsRequest.
+VTKTIPPFILTERS_EXPORT Tetrahedralization tetrahedralizePoints(const Point3* points,
+  std::size_t count, double distance, const TetrahedralizationOptions& options,
+  Triangulation& triangles);
+
 /// Returns three values for each triangle: for each corner the index of the triangle across the
 /// opposite edge, or -1.
 Buffer<std::int64_t> neighborIds(const Triangulation& triangulation);

@@ -24,15 +24,15 @@ namespace tipp
 namespace
 {
 
-template <typename Scalar>
+template <typename Coordinate>
 bool viewInPlace(vtkDataArray* array, PointsView& view)
 {
-  auto scalars = vtkAOSDataArrayTemplate<Scalar>::FastDownCast(array);
-  if (scalars)
+  auto typed = vtkAOSDataArrayTemplate<Coordinate>::FastDownCast(array);
+  if (typed)
   {
-    view = PointsView(scalars->GetPointer(0), std::size_t(scalars->GetNumberOfTuples()), 3);
+    view = PointsView(typed->GetPointer(0), std::size_t(typed->GetNumberOfTuples()), 3);
   }
-  return scalars != nullptr;
+  return typed != nullptr;
 }
 
 bool isFinite(const double p[3])

@@ -399,7 +399,7 @@ void follow(const ResidentMesh& mesh, const std::string& array, int component,
     }
     return groupByPiece(pieces);
   };
-  for (PieceGroups groups = groupsOfOpen(); !groups.Items.empty(); groups = groupsOfOpen())
+  for (PieceGroups groups = groupsOfOpen(); !groups.Groups.empty(); groups = groupsOfOpen())
   {
     forPieces(mesh, groups, needs,
       [&](const ResidentPiece& piece, std::int64_t begin, std::int64_t end)

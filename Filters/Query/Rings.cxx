@@ -37,14 +37,15 @@ void sortRoughly(std::int64_t* items, const std::int64_t* keys, std::int64_t cou
   constexpr std::int64_t buckets = 4096;
   const std::int64_t range = *std::max_element(keys, keys + count) + 1;
   const auto bucketOf = [range](std::int64_t key) { return std::size_t(key * buckets / range); };
-  Ids next(std::size_t(buckets) + 1, 0);
-  std::for_each(keys, keys + count, [&](std::int64_t key) { ++next[bucketOf(key) + 1]; });
-  std::partial_sum(next.begin(), next.end(), next.begin());
-  const Ids before(items, items + count);
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    items[next[bucketOf(keys[i])]++] = before[std::size_t(i)];
-  }
+  const GroupedItems<std::int64_t> sorted(std::size_t(buckets), 1,
+    [&](const auto& visit)
+    {
+      for (std::int64_t i = 0; i < count; ++i)
+      {
+        visit(bucketOf(keys[i]), items[i]);
+      }
+    });
+  std::copy_n(sorted.data(), count, items);
 }
 
 /// Computes the ring of one seed within one piece.

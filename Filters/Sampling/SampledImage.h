@@ -80,7 +80,7 @@ public:
   std::int64_t samples() const { return this->Mask->GetNumberOfValues(); }
   /// By sample: 1 if it has a value, else 0.
   unsigned char* valid() const;
-  /// The same as VTK array, for the image.
+  /// The array that valid() points into, for the image.
   vtkCharArray* mask() const { return this->Mask; }
   /// By sample: the key of its cell; null unless Merging.
   CellKey* keys() { return this->Keys.get(); }

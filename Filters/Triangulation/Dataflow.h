@@ -2,6 +2,7 @@
 #ifndef tippDataflow_h
 #define tippDataflow_h
 
+#include "Arrays/IndexMap.h"
 #include "Engine/Inbox.h"
 #include "Engine/PartitionSchedule.h"
 #include "Kernel/DelaunayKernel.h"
@@ -149,7 +150,7 @@ public:
   std::vector<BoundaryVertex> collect(const std::vector<VertexMessage>& messages);
 
 private:
-  std::vector<std::uint32_t> HashTable; ///< vertex indices; a member to reuse its memory
+  IndexMap Known; ///< ids; a member to reuse its memory
 };
 
 /// Receives boundary triangles that have become final.

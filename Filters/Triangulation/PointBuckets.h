@@ -4,6 +4,7 @@
 
 #include "Arrays/Buffer.h"
 #include "Kernel/Pairs.h"
+#include "Parallel/CountingSort.h"
 #include "Parallel/ParallelFor.h"
 #include "Predicates/Geometry.h"
 #include "Triangulation/PointsView.h"
@@ -315,22 +316,8 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
     finder.label(points, begin, end, labels.data(), nextOf[std::size_t(part)]);
   };
   parallelFor(threads, threads, labelPart);
-
-  // From here on: the position of each part's next point within its partition.
-  std::vector<std::size_t> starts = { 0 };
-  for (std::size_t partition = 0; partition < partitions; ++partition)
-  {
-    std::size_t sum = 0;
-    for (std::vector<std::size_t>& next : nextOf)
-    {
-      const std::size_t count = next[partition];
-      next[partition] = sum;
-      sum += count;
-    }
-    starts.push_back(starts.back() + sum);
-  }
-
-  PointBuckets<Id> buckets(std::move(starts));
+  // From here on: the index of each part's next point in the sorted order.
+  PointBuckets<Id> buckets(countsToIndices(partitions, nextOf));
   const auto scatterPart = [&](std::int64_t part)
   {
     buckets.populate(int(part), threads);
@@ -339,7 +326,7 @@ PointBuckets<Id> bucketPoints(PointsView points, const Tiling& tiling, int threa
     for (PartitionIndex p = 0; p < tiling.size(); ++p)
     {
       toFill.push_back({ buckets.pointsToFill(p), buckets.idsToFill(p),
-        nextOf[std::size_t(part)][std::size_t(p)] });
+        nextOf[std::size_t(part)][std::size_t(p)] - buckets.start(p) });
     }
     BucketWriter<Id> writer(std::move(toFill));
     const auto [begin, end] = evenShare(points.size(), int(part), threads);

@@ -121,14 +121,14 @@ public:
   }
 
 private:
-  template <typename Scalar, typename Visit>
-  void scan(const Scalar* scalars, std::size_t begin, std::size_t end, Visit& visit) const
+  template <typename Coordinate, typename Visit>
+  void scan(const Coordinate* coordinates, std::size_t begin, std::size_t end, Visit& visit) const
   {
     const std::size_t stride = this->Stride;
     const double factor = this->Factor;
     for (std::size_t i = begin; i < end; ++i)
     {
-      visit(i, Point2{ scalars[i * stride] * factor, scalars[i * stride + 1] * factor });
+      visit(i, Point2{ coordinates[i * stride] * factor, coordinates[i * stride + 1] * factor });
     }
   }
 

@@ -3,6 +3,7 @@
 #define tippTriangleSink_h
 
 #include "Arrays/Buffer.h"
+#include "Parallel/CountingSort.h"
 #include "Predicates/Geometry.h"
 #include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/PointBuckets.h"
@@ -101,7 +102,7 @@ public:
   /// buckets, so there can be more than two triangles per point.
   Buffer<Id> assemble(const std::vector<std::vector<FinalTriangle>>& boundary, int threads)
   {
-    const std::vector<Corners> sorted = this->sortBoundary(boundary, threads);
+    const GroupedItems<Corners> sorted = this->sortBoundary(boundary, threads);
     const std::size_t total =
       std::accumulate(this->InteriorCounts.begin(), this->InteriorCounts.end(), sorted.size());
     const std::size_t room = 2 * this->Buckets.size();
@@ -129,14 +130,15 @@ public:
       }
       return ids.data() + 3 * --donorAt;
     };
-    auto next = sorted.begin();
+    const Corners* next = sorted.data();
+    const Corners* const end = next + sorted.size();
     for (PartitionIndex p = 0; p < this->Buckets.partitions(); ++p)
     {
       const std::size_t gap = 2 * this->Buckets.start(p) + this->InteriorCounts[std::size_t(p)];
       const std::size_t gapEnd = std::min(2 * this->Buckets.start(p + 1), total);
       for (std::size_t at = gap; at < gapEnd; ++at)
       {
-        copyTriangle(at, next != sorted.end() ? (next++)->data() : nextBeyond());
+        copyTriangle(at, next != end ? (next++)->data() : nextBeyond());
       }
     }
     for (std::size_t at = room; at < total; ++at)
@@ -149,33 +151,25 @@ public:
 
 private:
   /// The boundary triangles by partition, sorted within each.
-  std::vector<Corners> sortBoundary(
+  GroupedItems<Corners> sortBoundary(
     const std::vector<std::vector<FinalTriangle>>& boundary, int threads) const
   {
     const std::size_t partitions = this->InteriorCounts.size();
-    std::vector<std::size_t> ends(
-      partitions + 1, 0); // end of each partition's triangles, shifted by one
-    for (const std::vector<FinalTriangle>& list : boundary)
-    {
-      for (const FinalTriangle& triangle : list)
+    GroupedItems<Corners> sorted(partitions, 1,
+      [&boundary](const auto& visit)
       {
-        ++ends[std::size_t(triangle.Partition) + 1];
-      }
-    }
-    std::partial_sum(ends.begin(), ends.end(), ends.begin());
-    std::vector<Corners> sorted(ends.back());
-    for (const std::vector<FinalTriangle>& list : boundary)
-    {
-      for (const FinalTriangle& triangle : list)
-      {
-        sorted[ends[std::size_t(triangle.Partition)]++] = triangle.Ids;
-      }
-    }
+        for (const std::vector<FinalTriangle>& list : boundary)
+        {
+          for (const FinalTriangle& triangle : list)
+          {
+            visit(std::size_t(triangle.Partition), triangle.Ids);
+          }
+        }
+      });
 #pragma omp parallel for num_threads(threads) schedule(dynamic, 16)
     for (std::size_t p = 0; p < partitions; ++p)
     {
-      const std::size_t begin = p == 0 ? 0 : ends[p - 1];
-      std::sort(sorted.begin() + std::ptrdiff_t(begin), sorted.begin() + std::ptrdiff_t(ends[p]));
+      std::sort(sorted.begin(p), sorted.end(p));
     }
     return sorted;
   }

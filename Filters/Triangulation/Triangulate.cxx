@@ -103,7 +103,8 @@ private:
                                                        : InitialPointsOfPartition;
   }
 
-  /// Whether one thread does most of the work in any case.
+  /// Whether one partition has more than 7/8 of the points. Several threads would then gain less
+  /// than a seventh (Amdahl 1967).
   bool onePartitionHasMost() const
   {
     std::int64_t most = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Triangulation3D/OrderCells.h"
 
+#include "Parallel/CountingSort.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
@@ -60,31 +61,20 @@ struct IsBeforeAny
   }
 };
 
-/// Sorts the cells whose first id is in [first, first + width); `scratch` is working memory.
-void sortRange(CellIds* cells, std::size_t count, std::int32_t first, std::size_t width,
-  std::vector<CellIds>& scratch)
+/// Sorts the cells whose first id is in [first, first + width).
+void sortRange(CellIds* begin, CellIds* end, std::int32_t first, std::size_t width)
 {
-  std::vector<std::uint32_t> ends(width + 1, 0);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    ++ends[std::size_t(cells[i][0] - first) + 1];
-  }
+  GroupedItems<CellIds, std::uint32_t> sorted(width, 1,
+    [&](const auto& visit)
+    {
+      std::for_each(
+        begin, end, [&](const CellIds& cell) { visit(std::size_t(cell[0] - first), cell); });
+    });
   for (std::size_t i = 0; i < width; ++i)
   {
-    ends[i + 1] += ends[i];
+    std::sort(sorted.begin(i), sorted.end(i), IsBefore());
   }
-  scratch.resize(count);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    scratch[ends[std::size_t(cells[i][0] - first)]++] = cells[i];
-  }
-  std::uint32_t begin = 0;
-  for (std::size_t i = 0; i < width; ++i)
-  {
-    std::sort(scratch.begin() + begin, scratch.begin() + ends[i], IsBefore());
-    begin = ends[i];
-  }
-  std::copy(scratch.begin(), scratch.end(), cells);
+  std::copy_n(sorted.data(), sorted.size(), begin);
 }
 
 Buffer<char> merged(const Buffer<char>& a, const Buffer<char>& b)
@@ -123,18 +113,8 @@ Buffer<std::int32_t> orderCells(
         ++next[std::size_t(part)][std::size_t(cell[0]) >> shift];
       }
     });
-  std::vector<std::size_t> begins;
-  std::size_t sum = 0;
-  for (std::size_t range = 0; range < ranges; ++range)
-  {
-    begins.push_back(sum);
-    for (auto& counts : next)
-    {
-      sum += std::exchange(counts[range], sum);
-    }
-  }
-  begins.push_back(sum);
-  Buffer<std::int32_t> ids(4 * sum);
+  const std::vector<std::size_t> begins = countsToIndices(ranges, next);
+  Buffer<std::int32_t> ids(4 * begins.back());
   auto* const cells = ids.as<CellIds>();
   parallelFor(count, threads,
     [&](std::int64_t part)
@@ -145,13 +125,12 @@ Buffer<std::int32_t> orderCells(
       }
       std::vector<CellIds>().swap(parts[std::size_t(part)]);
     });
-  std::vector<std::vector<CellIds>> scratch(std::size_t(threadCount(threads)));
-  forChunks(std::int64_t(ranges), 1, threadCount(threads), {},
-    [&](std::int64_t range, std::int64_t, int thread)
+  parallelFor(std::int64_t(ranges), threads,
+    [&](std::int64_t range)
     {
       const auto r = std::size_t(range);
-      sortRange(cells + begins[r], begins[r + 1] - begins[r], std::int32_t(r << shift),
-        std::size_t(1) << shift, scratch[std::size_t(thread)]);
+      sortRange(cells + begins[r], cells + begins[r + 1], std::int32_t(r << shift),
+        std::size_t(1) << shift);
     });
   return ids;
 }

@@ -3,6 +3,7 @@
 
 #include "Arrays/Buffer.h"
 #include "Kernel/DelaunayKernel3.h"
+#include "Parallel/CountingSort.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Sort.h"
 #include "Predicates/Circumball.h"
@@ -193,21 +194,18 @@ PointBuckets3 bucketPoints(const PointsView3& points, const Tiling3& tiling, int
         });
     });
   PointBuckets3 buckets;
-  std::size_t sum = 0;
   for (std::size_t p = 0; p < parts; ++p)
   {
-    buckets.Begins.push_back(sum);
     Box3 all = Box3::empty();
-    for (std::size_t share = 0; share < shares; ++share)
+    for (const std::vector<Box3>& ofShare : bounds)
     {
-      sum += std::exchange(next[share][p], sum);
-      all.extend(bounds[share][p]);
+      all.extend(ofShare[p]);
     }
     buckets.Regions.push_back(all);
   }
-  buckets.Begins.push_back(sum);
-  buckets.Points.resize(sum);
-  buckets.Ids.resize(sum);
+  buckets.Begins = countsToIndices(parts, next);
+  buckets.Points.resize(buckets.Begins.back());
+  buckets.Ids.resize(buckets.Begins.back());
   parallelFor(threads, threads,
     [&](std::int64_t thread)
     {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Loading/BlockCache.h"
 
+#include "Arrays/IndexMap.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <limits>
-#include <stdexcept>
 
 namespace tipp
 {
@@ -13,18 +13,6 @@ namespace
 {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-
-/// The number of bits of a hash table's index, `least` or more. The table is at most half full, so
-/// that probe sequences are short.
-int tableBits(std::size_t items, int least)
-{
-  int bits = least;
-  while ((std::size_t(1) << bits) < 2 * items)
-  {
-    ++bits;
-  }
-  return bits;
-}
 
 void append(std::vector<Run>& runs, const Run& run, std::int64_t gap)
 {
@@ -44,26 +32,15 @@ void append(std::vector<Run>& runs, const Run& run, std::int64_t gap)
 UniqueIds::UniqueIds(const std::int64_t* ids, std::size_t count)
   : Numbers(count)
 {
-  if (count > none)
-  {
-    throw std::length_error("a chunk of 2^32 vertex ids or more is asked for");
-  }
-  const int bits = tableBits(count, 4);
-  std::vector<std::uint32_t> table(std::size_t(1) << bits, none); // open addressing
+  IndexMap numbers;
   for (std::size_t i = 0; i < count; ++i)
   {
-    constexpr std::uint64_t goldenRatio = 0x9E3779B97F4A7C15;
-    std::size_t at = std::size_t((std::uint64_t(ids[i]) * goldenRatio) >> (64 - bits));
-    while (table[at] != none && this->Sorted[table[at]].first != ids[i])
+    const auto [number, isNew] = numbers.insert(ids[i]);
+    this->Numbers[i] = std::uint32_t(number);
+    if (isNew)
     {
-      at = (at + 1) & (table.size() - 1);
+      this->Sorted.emplace_back(ids[i], this->Numbers[i]);
     }
-    if (table[at] == none)
-    {
-      table[at] = std::uint32_t(this->Sorted.size());
-      this->Sorted.emplace_back(ids[i], table[at]);
-    }
-    this->Numbers[i] = table[at];
   }
   std::sort(this->Sorted.begin(), this->Sorted.end());
 }
@@ -260,7 +237,11 @@ BlockCache::BlockCache(std::uint32_t slots)
   : Slots(std::size_t(slots) + 1)
   , End(slots)
 {
-  const int bits = tableBits(slots, 1);
+  int bits = 1;
+  while ((std::size_t(1) << bits) < 2 * std::size_t(slots)) // at most half full
+  {
+    ++bits;
+  }
   this->Table.assign(std::size_t(1) << bits, none);
   this->TableShift = 64 - bits;
   this->Slots[this->End] = { nothing, this->End, this->End };

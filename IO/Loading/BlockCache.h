@@ -17,7 +17,7 @@ namespace tipp
 /// planar mesh.
 struct UniqueIds
 {
-  /// Throws std::length_error for 2^32 ids or more. Ids must not be negative.
+  /// Throws std::length_error for more than 2^31 distinct ids.
   UniqueIds(const std::int64_t* ids, std::size_t count);
 
   /// each distinct id and its number, sorted by id

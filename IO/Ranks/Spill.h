@@ -5,6 +5,7 @@
 #include "Files/Checksum.h"
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
+#include "Parallel/CountingSort.h"
 #include "Parallel/Poll.h"
 #include "Ranks/Communicator.h"
 #include "vtkTIPPIOModule.h"
@@ -167,20 +168,8 @@ void Spill::addChunk(
     }
   };
   forEachItem([](std::size_t, std::uint32_t& position) { ++position; });
-  std::vector<std::uint32_t> starts{ 0 };
-  starts.reserve(this->Keys + 1);
-  std::uint32_t total = 0;
-  for (std::size_t key = 0; key < this->Keys; ++key)
-  {
-    for (std::vector<std::uint32_t>& mine : positions)
-    {
-      const std::uint32_t here = mine[key];
-      mine[key] = total;
-      total += here;
-    }
-    starts.push_back(total);
-  }
-  this->Buffer.resize(this->listBytes() + std::size_t(total) * this->RowBytes);
+  const std::vector<std::uint32_t> starts = countsToIndices(this->Keys, positions);
+  this->Buffer.resize(this->listBytes() + std::size_t(starts.back()) * this->RowBytes);
   char* const rows = this->Buffer.data() + this->listBytes();
   forEachItem([&](std::size_t i, std::uint32_t& position)
     { fill(i, rows + std::size_t(position++) * this->RowBytes); });

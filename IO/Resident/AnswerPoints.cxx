@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -304,27 +303,25 @@ PieceGroups groupByPiece(const std::vector<std::int32_t>& pieces)
 {
   const std::int32_t last = pieces.empty() ? -1 : *std::max_element(pieces.begin(), pieces.end());
   const auto count = std::size_t(std::int64_t(last) + 1);
-  std::vector<std::int64_t> ends(count + 1, 0);
-  for (const std::int32_t piece : pieces)
-  {
-    ends[std::size_t(std::int64_t(piece) + 1)] += 1; // the first entry counts items without a piece
-  }
-  ends[0] = 0;
-  std::partial_sum(ends.begin(), ends.end(), ends.begin());
   PieceGroups result;
+  result.Items = { count, 1,
+    [&pieces](const auto& visit)
+    {
+      for (std::size_t i = 0; i < pieces.size(); ++i)
+      {
+        if (pieces[i] >= 0)
+        {
+          visit(std::size_t(pieces[i]), std::int64_t(i));
+        }
+      }
+    } };
   for (std::size_t p = 0; p < count; ++p)
   {
-    if (ends[p + 1] > ends[p])
+    const auto begin = std::int64_t(result.Items.start(p));
+    const auto end = std::int64_t(result.Items.start(p + 1));
+    if (begin < end)
     {
-      result.Groups.push_back({ p, ends[p], ends[p + 1] });
-    }
-  }
-  result.Items.resize(std::size_t(ends[count]));
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-  {
-    if (pieces[i] >= 0)
-    {
-      result.Items[std::size_t(ends[std::size_t(pieces[i])]++)] = std::int64_t(i);
+      result.Groups.push_back({ p, begin, end });
     }
   }
   return result;

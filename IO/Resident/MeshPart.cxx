@@ -159,7 +159,6 @@ std::optional<GlobalIdMap> mapOf(const std::int64_t* ids, std::int64_t count)
 
 PartTopology::PartTopology(const MeshPart& part)
   : Mesh(part.Mesh)
-  , Starts(std::size_t(part.Mesh.PointCount) + 1, 0)
   , PointMap(mapOf(part.PointIds, part.Mesh.PointCount))
   , CellMap(mapOf(part.CellIds, part.Mesh.Cells))
 {
@@ -167,31 +166,26 @@ PartTopology::PartTopology(const MeshPart& part)
   {
     throw std::length_error("More than 2147483647 cells in one piece; partition the mesh first.");
   }
-  const auto forCorners = [&](const auto& work)
-  {
-    for (std::int64_t cell = 0; cell < this->Mesh.Cells; ++cell)
+  this->AtPoints = { std::size_t(this->Mesh.PointCount), 1,
+    [&](const auto& visit)
     {
-      for (int i = 0; i < this->corners() && !part.isHidden(cell); ++i)
+      for (std::int64_t cell = 0; cell < this->Mesh.Cells; ++cell)
       {
-        const std::int64_t point = this->corner(cell, i);
-        bool isRepeated = false;
-        for (int k = 0; k < i; ++k)
+        for (int i = 0; i < this->corners() && !part.isHidden(cell); ++i)
         {
-          isRepeated = isRepeated || this->corner(cell, k) == point;
-        }
-        if (!isRepeated)
-        {
-          work(std::size_t(point), cell);
+          const std::int64_t point = this->corner(cell, i);
+          bool isRepeated = false;
+          for (int k = 0; k < i; ++k)
+          {
+            isRepeated = isRepeated || this->corner(cell, k) == point;
+          }
+          if (!isRepeated)
+          {
+            visit(std::size_t(point), std::int32_t(cell));
+          }
         }
       }
-    }
-  };
-  forCorners([&](std::size_t point, std::int64_t) { ++this->Starts[point + 1]; });
-  std::partial_sum(this->Starts.begin(), this->Starts.end(), this->Starts.begin());
-  this->AtPoints.resize(std::size_t(this->Starts.back()));
-  std::vector<std::int64_t> next(this->Starts.begin(), this->Starts.end() - 1);
-  forCorners([&](std::size_t point, std::int64_t cell)
-    { this->AtPoints[std::size_t(next[point]++)] = std::int32_t(cell); });
+    } };
 }
 
 } // namespace tipp

@@ -2,6 +2,7 @@
 #ifndef tippMeshPart_h
 #define tippMeshPart_h
 
+#include "Parallel/CountingSort.h"
 #include "Partitioned/PieceFile.h"
 #include "Partitioned/ReadPiece.h"
 #include "Resample/SimplexMesh.h"
@@ -123,8 +124,7 @@ public:
   Cells cellsAt(std::int64_t point) const
   {
     const auto at = std::size_t(point);
-    return { this->AtPoints.data() + this->Starts[at],
-      this->AtPoints.data() + this->Starts[at + 1] };
+    return { this->AtPoints.begin(at), this->AtPoints.end(at) };
   }
 
   /// Prefetches the cells at points (local indices), which are accessed at random.
@@ -132,11 +132,11 @@ public:
   {
     for (std::int64_t i = 0; i < count; ++i)
     {
-      __builtin_prefetch(this->Starts.data() + points[i]);
+      __builtin_prefetch(this->AtPoints.startAddress(std::size_t(points[i])));
     }
     for (std::int64_t i = 0; i < count; ++i)
     {
-      __builtin_prefetch(this->AtPoints.data() + this->Starts[std::size_t(points[i])]);
+      __builtin_prefetch(this->AtPoints.begin(std::size_t(points[i])));
     }
     const std::size_t bytes = std::size_t(this->corners()) * (this->Mesh.Wide ? 8 : 4);
     for (std::int64_t i = 0; i < count; ++i)
@@ -208,8 +208,7 @@ private:
   }
 
   const SimplexMesh Mesh;
-  std::vector<std::int64_t> Starts;
-  std::vector<std::int32_t> AtPoints;
+  GroupedItems<std::int32_t> AtPoints; ///< cells by point
   std::optional<GlobalIdMap> PointMap; ///< none: global ids are local indices
   std::optional<GlobalIdMap> CellMap;
 };

@@ -2,6 +2,7 @@
 #ifndef tippResidentMesh_h
 #define tippResidentMesh_h
 
+#include "Parallel/CountingSort.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Predicates/Geometry.h"
 #include "Resample/Claims.h"
@@ -65,7 +66,7 @@ struct PieceGroups
     std::int64_t End;
   };
   std::vector<Group> Groups; ///< only pieces with items, in ascending order
-  std::vector<std::int64_t> Items;
+  GroupedItems<std::int64_t> Items;
 };
 
 /// Groups items by pieces: pieces[i] is the piece of item i, or -1 to leave it out.

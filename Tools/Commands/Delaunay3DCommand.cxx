@@ -153,13 +153,8 @@ int runInMemory(const Delaunay3DArguments& arguments)
   const Stopwatch watch;
   {
     const auto bar = std::make_unique<ProgressBar>("Tetrahedralizing");
-    const TetrahedralizationOptions options = makeOptions(arguments, bar);
-    mesh = tetrahedralize(points.data(), points.size(), options);
-    if (!mesh.Aborted && mesh.Dimension == 2)
-    {
-      triangles = triangulateCoplanar(points.data(), points.size(), options, mesh);
-      mesh.Aborted = triangles.Aborted;
-    }
+    mesh =
+      tetrahedralizePoints(points.data(), points.size(), 0, makeOptions(arguments, bar), triangles);
   }
   const double seconds = watch.seconds();
   if (mesh.Aborted || isInterrupted() ||

@@ -3,6 +3,7 @@
 
 #include "Arrays/IndexMap.h"
 #include "Constraints/Insertion/ConstraintRegion.h"
+#include "Parallel/CountingSort.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Sort.h"
 #include "Triangulation/TriangleSink.h"
@@ -52,39 +53,22 @@ private:
   std::vector<std::int64_t> Parents;
 };
 
-/// The crossed triangles, by their index in CrossedTriangles::Triangles, sorted by job.
-class JobTriangles
+/// The crossed triangles by job: their indices in CrossedTriangles::Triangles.
+using JobTriangles = GroupedItems<std::int64_t>;
+
+JobTriangles sortByJob(const CrossedTriangles& crossed)
 {
-public:
-  explicit JobTriangles(const CrossedTriangles& crossed)
-  {
-    const std::vector<std::int64_t> jobs = jobsOfTriangles(crossed);
-    const auto last = std::max_element(jobs.begin(), jobs.end());
-    this->Starts.assign(last == jobs.end() ? 1 : std::size_t(*last) + 2, 0);
-    for (const std::int64_t job : jobs)
+  const std::vector<std::int64_t> jobs = jobsOfTriangles(crossed);
+  const auto last = std::max_element(jobs.begin(), jobs.end());
+  return { last == jobs.end() ? 0 : std::size_t(*last) + 1, 1,
+    [&](const auto& visit)
     {
-      ++this->Starts[std::size_t(job) + 1];
-    }
-    std::partial_sum(this->Starts.begin(), this->Starts.end(), this->Starts.begin());
-    this->Triangles.resize(jobs.size());
-    std::vector<std::int64_t> next = this->Starts;
-    for (std::size_t t = 0; t < jobs.size(); ++t)
-    {
-      this->Triangles[std::size_t(next[std::size_t(jobs[t])]++)] = std::int64_t(t);
-    }
-  }
-
-  std::int64_t count() const { return std::int64_t(this->Starts.size()) - 1; }
-  /// The triangles of a job are in [begin(job), begin(job + 1)).
-  const std::int64_t* begin(std::int64_t job) const
-  {
-    return this->Triangles.data() + this->Starts[std::size_t(job)];
-  }
-
-private:
-  std::vector<std::int64_t> Starts; ///< by job, and the end of the last one
-  std::vector<std::int64_t> Triangles;
-};
+      for (std::size_t t = 0; t < jobs.size(); ++t)
+      {
+        visit(std::size_t(jobs[t]), std::int64_t(t));
+      }
+    } };
+}
 
 /// A thread's workspace for retriangulation.
 template <typename Id>
@@ -106,16 +90,14 @@ public:
   }
 
   /// Runs the jobs [begin, end).
-  void run(std::int64_t begin, std::int64_t end)
+  void run(std::size_t begin, std::size_t end)
   {
     this->load(this->Jobs.begin(begin), this->Jobs.begin(end));
     const LocatedTriangle* loaded = this->Loaded.data();
-    for (std::int64_t job = begin; job < end; ++job)
+    for (std::size_t job = begin; job < end; ++job)
     {
-      const std::int64_t* const first = this->Jobs.begin(job);
-      const std::int64_t* const last = this->Jobs.begin(job + 1);
-      this->retriangulate(loaded, first, last);
-      loaded += last - first;
+      this->retriangulate(loaded, this->Jobs.begin(job), this->Jobs.end(job));
+      loaded += this->Jobs.end(job) - this->Jobs.begin(job);
     }
   }
 
@@ -270,16 +252,16 @@ template <typename Id>
 void retriangulateJobs(PointsView points, Id* triangles, const CrossedTriangles& crossed,
   const SplitSegments& split, const ConstraintEdges& known, int threads)
 {
-  const JobTriangles jobs(crossed);
+  const JobTriangles jobs = sortByJob(crossed);
   std::deque<JobWorker<Id>> workers;
   for (int thread = 0; thread < threads; ++thread)
   {
     workers.emplace_back(points, triangles, crossed, jobs, split, known);
   }
   constexpr std::int64_t chunk = 256;
-  forChunks(jobs.count(), chunk, threads, {},
+  forChunks(std::int64_t(jobs.groups()), chunk, threads, {},
     [&](std::int64_t begin, std::int64_t end, int thread)
-    { workers[std::size_t(thread)].run(begin, end); });
+    { workers[std::size_t(thread)].run(std::size_t(begin), std::size_t(end)); });
 }
 
 template void retriangulateJobs(PointsView, std::int32_t*, const CrossedTriangles&,

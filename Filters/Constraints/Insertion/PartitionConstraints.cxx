@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/Insertion/PartitionConstraints.h"
 
+#include "Arrays/IndexMap.h"
 #include "Constraints/Insertion/ConstrainedMesh.h"
 #include "Constraints/Insertion/SegmentInserter.h"
 #include "Constraints/SegmentTree.h"
@@ -32,22 +33,21 @@ public:
 
   void begin(std::size_t segments)
   {
-    std::size_t lists = 1;
-    while (lists < 4 * segments)
-    {
-      lists *= 2;
-    }
-    this->Last.assign(lists, NoEnd);
+    this->Lists.clear();
+    this->Last.clear();
     this->Marks.fill(0);
-    this->Ids.resize(2 * segments);
     this->Earlier.resize(2 * segments);
     this->VertexOf.assign(2 * segments, NoVertex);
   }
 
   void add(End end, PointId id)
   {
-    this->Ids[end] = id;
-    this->Earlier[end] = std::exchange(this->Last[this->list(id)], end);
+    const auto [list, isNew] = this->Lists.insert(id);
+    if (isNew)
+    {
+      this->Last.push_back(NoEnd);
+    }
+    this->Earlier[end] = std::exchange(this->Last[std::size_t(list)], end);
     this->Marks[word(id)] |= bit(id);
   }
 
@@ -59,15 +59,14 @@ public:
   template <typename Visit>
   void setVertex(PointId id, Index vertex, const Visit& visit)
   {
-    for (End end = this->Last[this->list(id)]; end != NoEnd; end = this->Earlier[end])
+    const std::int32_t list = this->Lists.find(id);
+    for (End end = list == IndexMap::None ? NoEnd : this->Last[std::size_t(list)]; end != NoEnd;
+         end = this->Earlier[end])
     {
-      if (this->Ids[end] == id)
+      this->VertexOf[end] = vertex;
+      if (this->VertexOf[end ^ 1] != NoVertex)
       {
-        this->VertexOf[end] = vertex;
-        if (this->VertexOf[end ^ 1] != NoVertex)
-        {
-          visit(end);
-        }
+        visit(end);
       }
     }
   }
@@ -80,18 +79,11 @@ private:
   static constexpr std::size_t Words = 2048; ///< so few that they stay in the first-level cache
   static std::size_t word(PointId id) { return std::size_t(id) / 64 % Words; }
   static std::uint64_t bit(PointId id) { return std::uint64_t(1) << (std::size_t(id) % 64); }
-  /// The list of ends that has this id, among others.
-  std::size_t list(PointId id) const
-  {
-    constexpr std::uint64_t golden = 0x9E3779B97F4A7C15; // Fibonacci hashing
-    constexpr int unusedBits = 32;
-    return std::size_t(std::uint64_t(id) * golden >> unusedBits) & (this->Last.size() - 1);
-  }
 
   std::array<std::uint64_t, Words> Marks{}; ///< bits at the ids of ends, modulo the number of bits
+  IndexMap Lists;                           ///< numbers the ids of ends, which have a list each
   std::vector<End> Last;                    ///< by list: the last end added
   std::vector<End> Earlier;                 ///< by end: the end added to its list before, or NoEnd
-  std::vector<PointId> Ids;                 ///< by end
   std::vector<Index> VertexOf;              ///< by end
 };
 

@@ -2,12 +2,12 @@
 #include "Constraints/Insertion/PartitionSegments.h"
 
 #include "Constraints/SegmentTree.h"
+#include "Parallel/CountingSort.h"
 #include "Parallel/ParallelFor.h"
 #include "Triangulation/PopulatePages.h"
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 namespace tipp
 {
@@ -86,18 +86,8 @@ PartitionSegments::PartitionSegments(const Tiling& tiling, const std::vector<IdS
           [&](PartitionIndex p) { ++counts[std::size_t(p)]; });
       }
     });
-  std::size_t sum = 0;
-  this->Starts.reserve(partitions + 1);
-  for (std::size_t p = 0; p < partitions; ++p)
-  {
-    this->Starts.push_back(sum);
-    for (std::vector<std::size_t>& next : nextOf)
-    {
-      sum += std::exchange(next[p], sum);
-    }
-  }
-  this->Starts.push_back(sum);
-  this->Items = Buffer<std::int64_t>(sum);
+  this->Starts = countsToIndices(partitions, nextOf);
+  this->Items = Buffer<std::int64_t>(this->Starts.back());
   parallelFor(threads, threads,
     [&](std::int64_t share)
     {
