@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Dem/MakeDem.h"
 
-#include "Constraints/Insertion/TriangulateTable.h"
 #include "Constraints/OnDisk/ConstrainedStream.h"
 #include "Constraints/SurfaceValues.h"
 #include "Constraints/TableConstraints.h"
@@ -9,6 +8,7 @@
 #include "Dem/RasterTiles.h"
 #include "Files/Formats.h"
 #include "Files/WorkFolder.h"
+#include "InMemory/TriangulateTable.h"
 #include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "OutOfCore/TriangleConsumer.h"
@@ -292,9 +292,9 @@ OutOfCoreStatistics makeDem(PointTable points, const DemRequest& request,
   options.Threads = request.Threads;
   options.MaximumEdge = request.MaximumEdge;
   options.Progress = partOf(progress, 0, 0.5);
-  const Triangulation triangulation = request.Constraints
-    ? std::move(triangulateTable(points, *request.Constraints, options).Mesh)
-    : triangulate(view, options);
+  const TableConstraints none;
+  const Triangulation triangulation = std::move(
+    triangulateTable(points, request.Constraints ? *request.Constraints : none, options).Mesh);
   figures.Points = std::int64_t(points.size());
   figures.WithoutElevation =
     settings.Bands.Elevation ? countMissing(points.Columns[*settings.Bands.Elevation].Values) : 0;

@@ -67,10 +67,10 @@ VTKTIPPFILTERS_EXPORT TerrainSettings makeTerrainSettings(
 VTKTIPPFILTERS_EXPORT OutOfCoreStatistics makeDem(PointTable points, const DemRequest& request,
   const std::function<bool(double)>& progress, TerrainSettings& settings, BandValues& samples);
 
-/// Makes a raster in memory from the points of a stream, with the same values as the other
-/// makeDem(). `memory` limits the bytes for points and triangles; what does not fit is spilled to a
-/// temporary folder; 0: no limit. Throws IOError, std::runtime_error if there is no finite point or
-/// a band's column is missing, and std::invalid_argument for invalid constraints.
+/// Makes a raster in memory from the points of a stream; the values are those for the same points
+/// in a table. `memory` limits the bytes for points and triangles; what does not fit is spilled to
+/// a temporary folder; 0: no limit. Throws IOError, std::runtime_error if there is no finite point
+/// or a band's column is missing, and std::invalid_argument for invalid constraints.
 VTKTIPPFILTERS_EXPORT OutOfCoreStatistics makeDem(std::unique_ptr<PointStream> points,
   const DemRequest& request, std::uint64_t memory, const std::function<bool(double)>& progress,
   TerrainSettings& settings, BandValues& samples);

@@ -302,10 +302,11 @@ void requireIds(const SourceConstraints& constraints, std::int64_t points)
 namespace
 {
 
-/// Throws if a polygon has a rejected corner: without it the inside would be undefined.
+/// Throws if a polygon of a data set has a rejected corner: without it the inside would be
+/// undefined.
 void requireClosed(PointsView points, const SourceConstraints& constraints)
 {
-  for (std::size_t i = constraints.PolygonBegin; i < constraints.Constraints.size(); ++i)
+  for (std::size_t i = constraints.PolygonBegin; i < constraints.Cells.size(); ++i)
   {
     const auto id = std::size_t(constraints.Constraints[i].A);
     if (id < points.size() && !isFinite(points[id]))
@@ -331,7 +332,7 @@ ConstrainedTriangulation triangulatePoints(
   const auto warn = [&](const Triangulation& mesh, std::size_t count)
   { append(warnings, warningsOf(mesh, std::int64_t(count), options.MaximumEdge > 0)); };
   ConstrainedTriangulation result;
-  if (!request.Source || request.Source->Constraints.empty())
+  if (!request.Source || (request.Source->Constraints.empty() && request.Source->Holes.empty()))
   {
     result.Mesh = request.Distance > 0 ? triangulateMerged(points, request.Distance, options)
                                        : triangulate(points, options);
@@ -343,12 +344,21 @@ ConstrainedTriangulation triangulatePoints(
   }
   const SourceConstraints& source = *request.Source;
   requireClosed(points, source);
-  const auto cut = [&](ConstrainedTriangulation& whole)
+  const auto cut = [&](ConstrainedTriangulation& whole, PointsView all)
   {
-    warn(whole.Mesh, points.size() + whole.Constraints.Crossings.size());
+    warn(whole.Mesh, all.size());
     const std::vector<IdSegment>& segments = whole.Constraints.Segments;
-    keepInside({}, whole.Mesh, segments,
-      { segmentsOf(segments, source.PolygonBegin, source.Constraints.size()), {}, {} });
+    const std::size_t end = source.Constraints.size();
+    const std::size_t boundary = end - source.BoundaryEdges;
+    // A polygon with a missing edge has no inside, nor has one without any edge left.
+    if (source.Cells.empty() && source.PolygonBegin < end && whole.Constraints.NotFinite > 0)
+    {
+      throw std::invalid_argument(
+        "it has polygons, and a point that is NaN or infinite; correct the point.");
+    }
+    keepInside(all, whole.Mesh, segments,
+      { segmentsOf(segments, source.PolygonBegin, boundary), segmentsOf(segments, boundary, end),
+        source.Holes });
   };
   result = triangulateConstrained(points, source.Constraints, request.Crossings, options, cut);
   if (!result.Mesh.Aborted && result.Constraints.NotFinite > 0)

@@ -29,15 +29,20 @@ VTKTIPPFILTERS_EXPORT Tetrahedralization tetrahedralizeMerged(const Point3* poin
   std::size_t count, double distance, const TetrahedralizationOptions& options = {});
 ///@}
 
-/// The edges of lines and polygons as constraints between points of a triangulation.
+/// The edges of lines, polygons and a boundary, in this order, as constraints between points of a
+/// triangulation; and points in holes.
 struct SourceConstraints
 {
   std::vector<Constraint> Constraints;
-  std::vector<std::int64_t> Cells; ///< by constraint: the source's cell that it is an edge of
-  std::size_t PolygonBegin = 0;    ///< constraints from here on are edges of polygons
+  /// By constraint: the cell of a data set that it is an edge of, for messages. Empty if the
+  /// constraints are not from a data set.
+  std::vector<std::int64_t> Cells;
+  std::size_t PolygonBegin = 0;  ///< constraints from here on are edges of polygons
+  std::size_t BoundaryEdges = 0; ///< so many of the last constraints are edges of the boundary
+  std::vector<Point2> Holes;
 };
 
-/// Throws std::runtime_error if a constraint has a point id outside of [0, points).
+/// Throws std::runtime_error if a constraint of a data set has a point id outside of [0, points).
 VTKTIPPFILTERS_EXPORT void requireIds(const SourceConstraints& constraints, std::int64_t points);
 
 /// How points in memory are triangulated.
@@ -51,10 +56,13 @@ struct PointsRequest
   CrossingRule Crossings = CrossingRule::Split; ///< what to do with constraints that cross
 };
 
-/// Computes the triangulation that vtkTIPPDelaunay2D and Python return for points in memory. With
-/// constraints, the polygons determine which triangles are kept. Ids are indices into `points`,
-/// followed by the crossing points. `warnings` receives a sentence for each problem. Throws like
-/// triangulateConstrained(), and std::runtime_error for a polygon with a non-finite corner.
+/// Computes the triangulation of points in memory, for the tool, for vtkTIPPDelaunay2D and for
+/// Python. Ids are indices into `points`, followed by the crossing points. With constraints,
+/// triangles outside polygons, in holes and outside the boundary are left out: a triangle is inside
+/// the boundary if a path to it from outside crosses the boundary's lines an odd number of times.
+/// `warnings` receives a sentence for each problem. Throws std::invalid_argument if constraints
+/// cross and must not, or have unknown points, and std::runtime_error for a polygon of a data set
+/// with a corner that is not finite.
 VTKTIPPFILTERS_EXPORT ConstrainedTriangulation triangulatePoints(
   PointsView points, const PointsRequest& request, std::vector<std::string>& warnings);
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/SpilledSegments.h"
 
+#include "Arrays/IndexMap.h"
+
 #include <cstring>
 #include <set>
-#include <unordered_set>
 #include <utility>
 
 namespace tipp
@@ -145,7 +146,7 @@ ConstraintSegments SpilledSegments::readNear(const std::vector<Box2>& boxes) con
   const SegmentTree tree(std::move(items));
   std::vector<ConstraintSegment> segments;
   std::vector<std::int64_t> names;
-  std::unordered_set<std::int64_t> known; // a long segment is in many pieces
+  IndexMap known; // a long segment is in many pieces
   for (const PartitionIndex piece : pieces)
   {
     this->visit(piece,
@@ -158,7 +159,7 @@ ConstraintSegments SpilledSegments::readNear(const std::vector<Box2>& boxes) con
             isNear = true;
             return false;
           });
-        if (isNear && known.insert(row.Name).second)
+        if (isNear && known.insert(row.Name).IsNew)
         {
           segments.push_back(row.Segment);
           names.push_back(row.Name);

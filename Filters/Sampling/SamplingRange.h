@@ -59,8 +59,9 @@ std::array<T, N> toArray(const T (&values)[N])
 /// if one is not a vtkPointSet or fails checkDataSet().
 std::vector<vtkPointSet*> meshesOf(vtkDataObject* data, int threads);
 
-/// Returns `dimensions` with each 0 replaced as in SamplingLattice.h; the meshes of all ranks tell
-/// whether they are surfaces. Collective.
+/// Returns `dimensions` with each 0 replaced by the number of samples that gives the spacing of the
+/// first axis with a number; by 1 along z if the meshes of all ranks are surfaces. Throws
+/// std::runtime_error if all are 0. Collective.
 std::array<int, 3> chosenDimensions(const Box3& bounds, const std::array<int, 3>& dimensions,
   const std::vector<vtkPointSet*>& meshes, Communicator& ranks);
 

@@ -214,7 +214,10 @@ BoundaryTriangles triangulateVertices(
   const Regions& regions, const std::vector<BoundaryVertex>& vertices, int threads);
 
 /// The limit of partitionsPay() in the plane, if a mesh with four times as many points is tried
-/// before partitions are given up.
+/// before partitions are given up. By measurement, circumdisks meet 2.7 partitions or more on
+/// average for points on a circle, a parabola or a cubic, however many initial points there are.
+/// For ordinary points they meet 1.8 to 3.0 with 8 initial points per partition, and 1.4 to 2.0
+/// with 32.
 constexpr double MostMetPartitions = 2.6;
 
 /// Whether partitioning pays off: whether cells meet at most `most` partitions on average.
@@ -222,8 +225,8 @@ constexpr double MostMetPartitions = 2.6;
 /// average stays high with more initial points; for ordinary points it falls. Cells that meet no
 /// partition do not count.
 bool partitionsPay(const MetPartitions& initialMesh, double most = 3);
-/// The same from counts: the number of cells that meet partitions, and the sum of the numbers of
-/// partitions that they meet.
+/// Whether partitioning pays off, from counts: the number of cells that meet partitions, and the
+/// sum of the numbers of partitions that they meet.
 bool partitionsPay(std::int64_t cells, std::int64_t met, double most = 3);
 
 } // namespace tipp

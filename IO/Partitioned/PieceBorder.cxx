@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioned/GrowingPiece.h"
 
+#include "Arrays/IndexMap.h"
 #include "Arrays/Random.h"
 
 #include <algorithm>
@@ -182,19 +183,19 @@ const double* PieceBorder::row(std::size_t index) const
 PieceBorder::Mesh PieceBorder::mesh() const
 {
   Mesh mesh;
-  std::unordered_map<std::int64_t, std::int32_t> known;
+  IndexMap numbers;
   for (const Cell& cell : this->Cells)
   {
     for (std::size_t i = 0; i < 3; ++i)
     {
       const std::int64_t point = cell.Points[i];
-      const auto [found, isNew] = known.emplace(point, std::int32_t(known.size()));
+      const auto [number, isNew] = numbers.insert(point);
       if (isNew)
       {
         const double* const row = this->row(this->indexOf(point));
         mesh.Rows.insert(mesh.Rows.end(), row, row + this->Layout.Words);
       }
-      mesh.Corners.push_back(found->second);
+      mesh.Corners.push_back(number);
     }
   }
   return mesh;

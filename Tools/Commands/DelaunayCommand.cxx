@@ -6,7 +6,6 @@
 #include "Console/Process.h"
 #include "Constraints/ConstraintEdges.h"
 #include "Constraints/Insertion/TriangulateConstrained.h"
-#include "Constraints/Insertion/TriangulateTable.h"
 #include "Constraints/OnDisk/ConstrainedStream.h"
 #include "Constraints/ResolveCrossings.h"
 #include "Constraints/TableConstraints.h"
@@ -17,6 +16,7 @@
 #include "Files/PendingOutput.h"
 #include "Files/TextFile.h"
 #include "Files/WorkFolder.h"
+#include "InMemory/TriangulateTable.h"
 #include "Meshes/MeshFiles.h"
 #include "OutOfCore/OutOfCoreOptions.h"
 #include "Parallel/Stopwatch.h"
@@ -207,7 +207,7 @@ Triangulation triangulatePoints(
   options.Progress = progressOn(bar);
   if (!arguments.Constraints.areGiven())
   {
-    return triangulate(PointsView(points.XY.data(), points.size(), 2), options);
+    return std::move(triangulateTable(points, {}, options).Mesh);
   }
   const TableConstraints constraints = readConstraints(arguments.Constraints);
   const std::size_t given = points.size();

@@ -199,8 +199,7 @@ std::vector<Point2> allPoints(PointsView points, const std::vector<CrossingPoint
 /// Triangulates with constraints that do not cross. Throws CrossingFound if they do. `watch` has
 /// measured the time for the crossings.
 ConstrainedTriangulation insert(PointsView points, ResolvedConstraints resolved,
-  TriangulationOptions options, const std::function<void(ConstrainedTriangulation&)>& cut,
-  Stopwatch& watch)
+  TriangulationOptions options, const CutTriangles& cut, Stopwatch& watch)
 {
   const TriangulationStatistics::Phase crossings{ "crossings", watch.restart() };
   const int threads = threadCount(options.Threads);
@@ -233,7 +232,7 @@ ConstrainedTriangulation insert(PointsView points, ResolvedConstraints resolved,
     }
     if (cut)
     {
-      cut(result);
+      cut(result, points);
     }
     leaveOutLong(points, maximumEdge, result.Mesh);
     phases.push_back({ "constraints", watch.restart() });
@@ -245,7 +244,7 @@ ConstrainedTriangulation insert(PointsView points, ResolvedConstraints resolved,
 
 ConstrainedTriangulation triangulateConstrained(PointsView points,
   const std::vector<Constraint>& constraints, CrossingRule crossings,
-  const TriangulationOptions& options, const std::function<void(ConstrainedTriangulation&)>& cut)
+  const TriangulationOptions& options, const CutTriangles& cut)
 {
   Stopwatch watch;
   TriangulationOptions plain = options;

@@ -21,16 +21,18 @@ struct ConstrainedTriangulation
   ResolvedConstraints Constraints;
 };
 
+/// Removes triangles of a triangulation of the points.
+using CutTriangles = std::function<void(ConstrainedTriangulation&, PointsView)>;
+
 /// Computes the constrained Delaunay triangulation of the distinct finite points. Every constraint
 /// is a chain of edges. A triangle's circumdisk contains no vertex that is visible from the
 /// triangle's interior, where constraints block the view. Ties are broken as without constraints.
 /// The set of triangles does not depend on the options or on the order. Throws like
-/// resolveCrossings(). `cut` may remove triangles, for example outside polygons; it is called
-/// before triangles with too long edges are removed.
+/// resolveCrossings(). `cut` may remove triangles, for example outside polygons; it is called with
+/// the points and the crossings, before triangles with too long edges are removed.
 VTKTIPPFILTERS_EXPORT ConstrainedTriangulation triangulateConstrained(PointsView points,
   const std::vector<Constraint>& constraints, CrossingRule crossings = CrossingRule::Split,
-  const TriangulationOptions& options = {},
-  const std::function<void(ConstrainedTriangulation&)>& cut = {});
+  const TriangulationOptions& options = {}, const CutTriangles& cut = {});
 
 } // namespace tipp
 

@@ -4,9 +4,9 @@
 #include "ConstrainedOracle.h"
 #include "Constraints/ConstraintEdges.h"
 #include "Constraints/Insertion/KeepInside.h"
-#include "Constraints/Insertion/TriangulateTable.h"
 #include "Constraints/ResolveCrossings.h"
 #include "Constraints/TableConstraints.h"
+#include "InMemory/TriangulateTable.h"
 #include "RealData.h"
 
 #include "Adcirc/AdcircGrid.h"

@@ -30,7 +30,7 @@ Case makeCase(Coordinates xy, const std::vector<Constraint>& constraints, std::s
   Case result;
   const ConstrainedTriangulation whole =
     triangulateConstrained(view(xy), constraints, CrossingRule::Split, {},
-      [&](ConstrainedTriangulation& all)
+      [&](ConstrainedTriangulation& all, PointsView)
       {
         const std::vector<IdSegment>& segments = all.Constraints.Segments;
         const auto polygons = segmentsOf(segments, polygonBegin, constraints.size());

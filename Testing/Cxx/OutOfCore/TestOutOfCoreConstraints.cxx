@@ -2,9 +2,9 @@
 // Constraints out of core give the triangles that are made in memory.
 #include "Constraints/ConstraintEdges.h"
 #include "Constraints/Insertion/TriangulateConstrained.h"
-#include "Constraints/Insertion/TriangulateTable.h"
 #include "Constraints/ResolveCrossings.h"
 #include "Constraints/TableConstraints.h"
+#include "InMemory/TriangulateTable.h"
 #include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
 #include "OutOfCore/SpilledSegments.h"

@@ -3,9 +3,9 @@
 #include "Check/DelaunayChecker.h"
 #include "Constraints/ConstraintEdges.h"
 #include "Constraints/Insertion/TriangulateConstrained.h"
-#include "Constraints/Insertion/TriangulateTable.h"
 #include "Constraints/ResolveCrossings.h"
 #include "Constraints/TableConstraints.h"
+#include "InMemory/TriangulateTable.h"
 
 #include <gtest/gtest.h>
 

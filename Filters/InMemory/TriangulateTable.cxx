@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Constraints/Insertion/TriangulateTable.h"
+#include "InMemory/TriangulateTable.h"
 
-#include "Constraints/ConstraintEdges.h"
-#include "Constraints/Insertion/KeepInside.h"
 #include "Constraints/PositionIndex.h"
-#include "Constraints/ResolveCrossings.h"
 #include "Constraints/SurfaceValues.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace tipp
@@ -110,44 +107,30 @@ void appendCrossings(const std::vector<CrossingPoint>& crossings, PointTable& po
   }
 }
 
-void cutOutside(
-  const TableConstraints& constraints, const PointTable& points, ConstrainedTriangulation& result)
-{
-  const std::vector<IdSegment>& segments = result.Constraints.Segments;
-  const std::size_t lines = constraints.Lines.Edges.size();
-  const Cuts cuts{ segmentsOf(segments, constraints.Lines.PolygonBegin, lines),
-    segmentsOf(segments, lines, lines + constraints.Boundary.Edges.size()),
-    constraints.Lines.holes() };
-  // A polygon with a missing edge has no inside, nor has one without any edge left.
-  const bool hasPolygons =
-    constraints.Lines.PolygonBegin < lines || !constraints.Boundary.Edges.empty();
-  if (hasPolygons && result.Constraints.NotFinite > 0)
-  {
-    throw std::invalid_argument(
-      "it has polygons, and a point that is NaN or infinite; correct the point.");
-  }
-  keepInside(viewOf(points.XY), result.Mesh, segments, cuts);
-}
-
 } // namespace
 
 ConstrainedTriangulation triangulateTable(
   PointTable& points, const TableConstraints& constraints, const TriangulationOptions& options)
 {
   const std::size_t given = points.size();
-  std::vector<Constraint> all;
-  join(constraints.Lines, points, all);
-  join(constraints.Boundary, points, all);
+  SourceConstraints joined;
+  join(constraints.Lines, points, joined.Constraints);
+  join(constraints.Boundary, points, joined.Constraints);
+  joined.PolygonBegin = constraints.Lines.PolygonBegin;
+  joined.BoundaryEdges = constraints.Boundary.Edges.size();
+  joined.Holes = constraints.Lines.holes();
   if (constraints.Surface)
   {
     takeSurface(given, *constraints.Surface, options, points);
   }
-  const auto cut = [&](ConstrainedTriangulation& whole)
+  std::vector<std::string> warnings; // are those of other callers
+  ConstrainedTriangulation result =
+    triangulatePoints(viewOf(points.XY), { options, 0, &joined, constraints.Crossings }, warnings);
+  if (!result.Mesh.Aborted)
   {
-    appendCrossings(whole.Constraints.Crossings, points);
-    cutOutside(constraints, points, whole);
-  };
-  return triangulateConstrained(viewOf(points.XY), all, constraints.Crossings, options, cut);
+    appendCrossings(result.Constraints.Crossings, points);
+  }
+  return result;
 }
 
 } // namespace tipp
