@@ -2,6 +2,7 @@
 #include "Predicates/Circumball.h"
 
 #include "Predicates/ExactArithmetic.h"
+#include "Predicates/Vectors.h"
 
 #include <algorithm>
 #include <array>
@@ -169,11 +170,6 @@ Circumdisk::Circumdisk(const Point2& a, const Point2& b, const Point2& c)
 namespace
 {
 
-double square(const Point3& p)
-{
-  return p.x * p.x + p.y * p.y + p.z * p.z;
-}
-
 /// Of a tetrahedron: its volume times six, the square of its longest edge at a corner, and the
 /// centre of its ball from there, times twelve volumes. With u = b - a, v = c - a, w = d - a these
 /// are D = u . (v x w) > 0 and n = |u|^2 (v x w) + |v|^2 (w x u) + |w|^2 (u x v): the centre is
@@ -182,17 +178,15 @@ struct BallOfCorners
 {
   BallOfCorners(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
     : Edges{ b - a, c - a, d - a }
-    , Lifts{ square(this->Edges[0]), square(this->Edges[1]), square(this->Edges[2]) }
+    , Lifts{ dot(this->Edges[0], this->Edges[0]), dot(this->Edges[1], this->Edges[1]),
+      dot(this->Edges[2], this->Edges[2]) }
   {
-    const auto cross = [](const Point3& p, const Point3& q) -> Point3 {
-      return { p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x };
-    };
     const auto& [u, v, w] = this->Edges;
     const auto& [uu, vv, ww] = this->Lifts;
     const Point3 vw = cross(v, w);
     const Point3 wu = cross(w, u);
     const Point3 uv = cross(u, v);
-    this->Volume = u.x * vw.x + u.y * vw.y + u.z * vw.z;
+    this->Volume = dot(u, vw);
     this->Edge = std::max({ uu, vv, ww });
     this->Centre = { uu * vw.x + vv * wu.x + ww * uv.x, uu * vw.y + vv * wu.y + ww * uv.y,
       uu * vw.z + vv * wu.z + ww * uv.z };
@@ -280,7 +274,7 @@ bool Circumball::isSurelyInside(
   }
   const double half = 0.5 / ball.Volume;
   const Point3 q = { half * ball.Centre.x, half * ball.Centre.y, half * ball.Centre.z };
-  const double radius = std::sqrt(square(q)) + 1e-6 * s;
+  const double radius = std::sqrt(dot(q, q)) + 1e-6 * s;
   const auto isBetween = [radius](double low, double centre, double high)
   {
     const double reach = radius + 16 * Epsilon * std::fabs(centre);
@@ -300,7 +294,7 @@ bool Circumball::isSurelySmall(
   const double volume = ball.Volume * ball.Volume;
   return ball.Volume > 0 && ball.Edge >= 1e-40 && ball.Edge <= 1e40 &&
     volume >= 0x1p-20 * (ball.Edge * ball.Edge * ball.Edge) &&
-    square(ball.Centre) < margin * volume * (diameter * diameter);
+    dot(ball.Centre, ball.Centre) < margin * volume * (diameter * diameter);
 }
 
 } // namespace tipp

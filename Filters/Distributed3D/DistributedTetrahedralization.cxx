@@ -4,7 +4,6 @@
 #include "Distributed/DistributedTriangulation.h"
 #include "Distributed3D/Plan3.h"
 #include "Distributed3D/RankRun3.h"
-#include "InMemory/TriangulatePoints.h"
 #include "Parallel/ParallelFor.h"
 #include "Triangulation3D/OrderCells.h"
 
@@ -222,9 +221,13 @@ private:
   {
     TetrahedralizationOptions options = this->Options;
     options.Partitions = 1;
+    Tetrahedralization whole = tetrahedralize(points.data(), points.size(), options);
     Triangulation flat;
-    Tetrahedralization whole = tetrahedralizePoints(points.data(), points.size(), 0, options, flat);
-    if (whole.Aborted)
+    if (whole.Dimension == 2)
+    {
+      flat = triangulateCoplanar(points.data(), points.size(), options, whole);
+    }
+    if (whole.Aborted || flat.Aborted)
     {
       throw RankFailure(this->Ranks.rank(), true, "The run was stopped.");
     }

@@ -2,6 +2,7 @@
 #include "InMemory/AlphaShape.h"
 
 #include "Parallel/Sort.h"
+#include "Predicates/Vectors.h"
 
 #include <algorithm>
 #include <array>
@@ -11,16 +12,6 @@ namespace tipp
 {
 namespace
 {
-
-Point3 cross(const Point3& u, const Point3& v)
-{
-  return { u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x };
-}
-
-double dot(const Point3& u, const Point3& v)
-{
-  return u.x * v.x + u.y * v.y + u.z * v.z;
-}
 
 double squaredCircumradius(const std::array<Point3, 2>& ends)
 {

@@ -39,7 +39,7 @@ struct SourceConstraints
   std::vector<std::int64_t> Cells;
   std::size_t PolygonBegin = 0;  ///< constraints from here on are edges of polygons
   std::size_t BoundaryEdges = 0; ///< so many of the last constraints are edges of the boundary
-  std::vector<Point2> Holes;
+  std::vector<Point2> Holes = {};
 };
 
 /// Throws std::runtime_error if a constraint of a data set has a point id outside of [0, points).

@@ -2,6 +2,7 @@
 #include "Query/Queries.h"
 
 #include "Files/IOError.h"
+#include "Predicates/Vectors.h"
 #include "Query/RankAnswer.h"
 #include "Resident/ForPieces.h"
 
@@ -33,11 +34,6 @@ struct Slope
   Point2 Down;
   double Steepness;
 };
-
-double turn(Point2 a, Point2 b)
-{
-  return a.x * b.y - a.y * b.x;
-}
 
 Point2 apart(const Point3& a, const Point3& b)
 {
@@ -115,13 +111,13 @@ private:
       slope.Corners[i] = this->cornerOf(this->Topology.corner(cell, i));
     }
     auto& [a, b, c] = slope.Corners;
-    if (turn(apart(b.Position, a.Position), apart(c.Position, a.Position)) < 0)
+    if (cross(apart(b.Position, a.Position), apart(c.Position, a.Position)) < 0)
     {
       std::swap(b, c);
     }
     const Point2 u = apart(b.Position, a.Position);
     const Point2 v = apart(c.Position, a.Position);
-    const double area = turn(u, v);
+    const double area = cross(u, v);
     const double toB = b.Value - a.Value;
     const double toC = c.Value - a.Value;
     slope.Down = { (toC * u.y - toB * v.y) / area, (toB * v.x - toC * u.x) / area };
@@ -174,8 +170,8 @@ private:
     {
       std::swap(a, b);
     }
-    const double ofA = std::fabs(turn(slope.Down, apart(a.Position, from)));
-    const double ofB = std::fabs(turn(slope.Down, apart(b.Position, from)));
+    const double ofA = std::fabs(cross(slope.Down, apart(a.Position, from)));
+    const double ofB = std::fabs(cross(slope.Down, apart(b.Position, from)));
     const double share = ofA + ofB > 0 ? ofA / (ofA + ofB) : 0;
     const double value = a.Value + share * (b.Value - a.Value);
     // Requires a lower value for each step, so that the path ends in spite of rounding.
@@ -210,11 +206,11 @@ private:
     }
     // Computes value and height at the start.
     const auto& [a, b, c] = slope.Corners;
-    const double whole = turn(apart(b.Position, a.Position), apart(c.Position, a.Position));
+    const double whole = cross(apart(b.Position, a.Position), apart(c.Position, a.Position));
     const double ofB =
-      turn(apart(walk.Position, a.Position), apart(c.Position, a.Position)) / whole;
+      cross(apart(walk.Position, a.Position), apart(c.Position, a.Position)) / whole;
     const double ofC =
-      turn(apart(b.Position, a.Position), apart(walk.Position, a.Position)) / whole;
+      cross(apart(b.Position, a.Position), apart(walk.Position, a.Position)) / whole;
     walk.Value = a.Value + ofB * (b.Value - a.Value) + ofC * (c.Value - a.Value);
     walk.Position.z =
       a.Position.z + ofB * (b.Position.z - a.Position.z) + ofC * (c.Position.z - a.Position.z);
@@ -231,8 +227,8 @@ private:
     {
       const SlopeCorner& from = slope.Corners[i];
       const SlopeCorner& to = slope.Corners[(i + 1) % 3];
-      if (turn(slope.Down, apart(from.Position, walk.Position)) <= 0 &&
-        turn(slope.Down, apart(to.Position, walk.Position)) > 0)
+      if (cross(slope.Down, apart(from.Position, walk.Position)) <= 0 &&
+        cross(slope.Down, apart(to.Position, walk.Position)) > 0)
       {
         toEdge(walk, slope, walk.Position, from, to, true);
         return;
@@ -281,8 +277,8 @@ private:
           exit = -1;
         }
       }
-      if (turn(apart(right.Position, from.Position), slope.Down) > 0 &&
-        turn(slope.Down, apart(left.Position, from.Position)) > 0 &&
+      if (cross(apart(right.Position, from.Position), slope.Down) > 0 &&
+        cross(slope.Down, apart(left.Position, from.Position)) > 0 &&
         isSteeper(slope.Steepness, false, slope.Cell))
       {
         best = slope;
@@ -328,7 +324,7 @@ private:
         apart(slope.Corners[(tip + 2) % 3].Position, slope.Corners[(tip + 1) % 3].Position);
       const bool isBetter = bestTip < 0 ||
         std::make_tuple(-slope.Steepness, slope.Cell) < std::make_tuple(-best.Steepness, best.Cell);
-      if (turn(along, slope.Down) > 0 && isBetter)
+      if (cross(along, slope.Down) > 0 && isBetter)
       {
         best = slope;
         bestTip = tip;
@@ -337,7 +333,7 @@ private:
     if (bestTip >= 0)
     {
       const SlopeCorner& tip = best.Corners[bestTip];
-      const double side = turn(best.Down, apart(tip.Position, walk.Position));
+      const double side = cross(best.Down, apart(tip.Position, walk.Position));
       side == 0 && tip.Value < walk.Value
         ? toPoint(walk, tip)
         : toEdge(walk, best, walk.Position, tip, best.Corners[(bestTip + (side > 0 ? 2 : 1)) % 3]);

@@ -5,6 +5,7 @@
 #include "Parallel/Sort.h"
 #include "Predicates/ExactPredicates.h"
 #include "Predicates/ExactPredicates3.h"
+#include "Predicates/Vectors.h"
 #include "Query/RankAnswer.h"
 #include "Resident/ForPieces.h"
 
@@ -45,16 +46,6 @@ void serialize(Archive& archive, Crossing& crossing)
 
 /// The crossings of each segment of a polyline.
 using CrossingLists = std::vector<std::vector<Crossing>>;
-
-double dot(const Point3& a, const Point3& b)
-{
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-Point3 cross(const Point3& a, const Point3& b)
-{
-  return { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
-}
 
 /// A corner of a cell.
 struct CellCorner

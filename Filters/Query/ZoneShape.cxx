@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Predicates/ExactPredicates.h"
+#include "Predicates/Vectors.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,11 +15,6 @@ namespace tipp
 namespace
 {
 
-double product(Point2 a, Point2 b)
-{
-  return a.x * b.y - a.y * b.x;
-}
-
 /// Whether a ring is counter-clockwise. Decided by the turn at its lexicographically first corner
 /// or, if the ring goes back on itself there, by its area.
 bool isCounterClockwise(const std::vector<Point2>& ring)
@@ -29,7 +25,7 @@ bool isCounterClockwise(const std::vector<Point2>& ring)
   for (std::size_t i = 0; i < count; ++i)
   {
     first = lexicographicLess(ring[i], ring[first]) ? i : first;
-    area += product(ring[i] - ring[0], ring[(i + 1) % count] - ring[0]);
+    area += cross(ring[i] - ring[0], ring[(i + 1) % count] - ring[0]);
   }
   const int turn =
     orientation(ring[(first + count - 1) % count], ring[first], ring[(first + 1) % count]);
@@ -286,7 +282,7 @@ public:
     std::copy_n(values, 3, this->Values);
     const Point2 u = triangle[1] - triangle[0];
     const Point2 v = triangle[2] - triangle[0];
-    const double area = product(u, v);
+    const double area = cross(u, v);
     this->SlopeX = ((values[1] - values[0]) * v.y - (values[2] - values[0]) * u.y) / area;
     this->SlopeY = ((values[2] - values[0]) * u.x - (values[1] - values[0]) * v.x) / area;
   }
@@ -342,7 +338,7 @@ public:
   void finish()
   {
     const double whole =
-      product(this->Corners[1] - this->Corners[0], this->Corners[2] - this->Corners[0]) / 2;
+      cross(this->Corners[1] - this->Corners[0], this->Corners[2] - this->Corners[0]) / 2;
     this->To.Area += std::clamp(this->Area, 0.0, std::fabs(whole));
     this->To.Sum += this->Sum;
     this->To.IsMet = true;
@@ -379,8 +375,8 @@ private:
     const FieldPoint a = this->corner(side);
     const FieldPoint b = this->corner((side + 1) % 3);
     const Point2 along = to - from;
-    const double ofA = std::fabs(product(along, this->Corners[side] - from));
-    const double ofB = std::fabs(product(along, this->Corners[(side + 1) % 3] - from));
+    const double ofA = std::fabs(cross(along, this->Corners[side] - from));
+    const double ofB = std::fabs(cross(along, this->Corners[(side + 1) % 3] - from));
     const double share = ofA + ofB > 0 ? ofA / (ofA + ofB) : 0.5;
     return { { a.Position.x + share * (b.Position.x - a.Position.x),
                a.Position.y + share * (b.Position.y - a.Position.y) },
@@ -389,7 +385,7 @@ private:
 
   void addPart(const FieldPoint& a, const FieldPoint& b, int times)
   {
-    const double area = times * product(a.Position, b.Position) / 2;
+    const double area = times * cross(a.Position, b.Position) / 2;
     this->Area += area;
     this->Sum += area * ((this->Values[0] + a.Value + b.Value) / 3);
   }

@@ -366,7 +366,7 @@ ConstraintTable readAnyKind(const std::string& path)
     default:
       throw IOError(path,
         "has no extension that tells a kind of constraints; use " +
-          listFormats(Use::Constraints, ".vtp or another kind of VTK file") + ".");
+          listFormats(Use::Constraints, ", .vtp or another kind of VTK file") + ".");
   }
 }
 

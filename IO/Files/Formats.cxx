@@ -122,7 +122,8 @@ constexpr std::array<Kind, 10> kinds = { {
 
 const Format* formatOf(const std::string& path, unsigned uses)
 {
-  const std::string extension = path == "-" ? ".txt" : extensionOf(path);
+  const bool isStandardInput = path == "-" && uses == Use::Points;
+  const std::string extension = isStandardInput ? ".txt" : extensionOf(path);
   const auto* const found = std::find_if(formats.begin(), formats.end(),
     [&](const Format& format)
     { return (format.Uses & uses) != 0 && has(allOf(format), extension); });
@@ -170,11 +171,7 @@ std::string listFormats(unsigned uses, const std::string& forVtk)
     }
     list.insert(list.end(), extensions.begin(), extensions.end());
   }
-  if (!forVtk.empty())
-  {
-    list.push_back(forVtk);
-  }
-  return joined(list, " or ");
+  return forVtk.empty() ? joined(list, " or ") : joined(list, ", ") + forVtk;
 }
 
 std::string describePointFormats()

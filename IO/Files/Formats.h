@@ -61,7 +61,7 @@ struct Format
 };
 
 /// Returns the format of a file for one of these uses, by the extension of its name; null if there
-/// is none. "-", the standard input, is text.
+/// is none. "-", the standard input, is points as text.
 VTKTIPPIO_EXPORT const Format* formatOf(const std::string& path, unsigned uses);
 
 /// Returns what opens a file for one of these uses.
@@ -74,8 +74,8 @@ VTKTIPPIO_EXPORT bool isOpenedBy(const std::string& path, Opener opener);
 VTKTIPPIO_EXPORT std::vector<std::string> extensionsFor(unsigned uses);
 
 /// Returns the extensions that have one of these uses as a list for messages, such as
-/// ".tif, .npy or .vti". `forVtk`, if it is not empty, stands at the end for all formats of VTK,
-/// such as "one of VTK's".
+/// ".tif, .npy or .vti". `forVtk`, if it is not empty, is the end of the list, instead of all
+/// formats of VTK, such as " or one of VTK's".
 VTKTIPPIO_EXPORT std::string listFormats(unsigned uses, const std::string& forVtk = "");
 
 /// Returns what the help says about files of points: a list of all formats.

@@ -353,7 +353,7 @@ TriangleMesh readMesh(const std::string& path)
     default:
       refuseKind(path,
         "has no extension that tells a kind of mesh file; use " +
-          listFormats(Use::Triangles, "one of VTK's") + ".");
+          listFormats(Use::Triangles, " or one of VTK's") + ".");
   }
 }
 

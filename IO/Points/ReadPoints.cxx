@@ -424,7 +424,7 @@ PointTable readWhole(const std::string& path, const PointOptions& options)
   {
     refuseKind(path,
       "has no extension that tells a kind of point file; use " +
-        listFormats(Use::Points, "one of VTK's") + ".");
+        listFormats(Use::Points, " or one of VTK's") + ".");
   }
   requireNoChoice(path, options);
   return opener == Opener::Vtk ? readVtkPoints(path) : readAdcircPoints(path);

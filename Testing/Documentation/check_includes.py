@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Checks that includes run one way, between folders and between files: check_includes.py SOURCE
+"""Checks that includes run one way, between folders and between files, and that Architecture.md's graph shows those of
+folders: check_includes.py SOURCE
 
 A file is a header with its source. Arrows that go back are listed, each with a reason, in back_includes.txt."""
 import pathlib
@@ -103,10 +104,47 @@ def read_list(path):
     return [(entry[1], entry[2]) for entry in entries]
 
 
+def read_graph(page):
+    """Returns from the graph in Architecture.md which folders include which, without those reached through others."""
+    graph, layer = {}, ""
+    for line in page.partition("## The graph")[2].partition("\n## ")[0].splitlines():
+        if re.fullmatch(r"    [A-Z]\w+", line):
+            layer = line.strip()
+        row = re.fullmatch(r"      (\w+) +(?:<- ([\w, ]*?)  +)?\S.*", line)
+        if row:
+            graph[f"{layer}/{row[1]}"] = {f"{layer}/{folder}" for folder in (row[2] or "").split(", ") if folder}
+    return graph
+
+
+def graph_problems(pairs, listed, page):
+    """Compares the graph in Architecture.md with the includes between folders of a layer."""
+    folders = lambda file: "/".join(file.split("/")[:2]) if file.count("/") > 1 else ""
+    arrows = arrows_between(pairs, folders)
+    arrows = {
+        folder: {b for b in others if b and b.split("/")[0] == folder.split("/")[0]}
+        for folder, others in arrows.items()
+        if folder
+    }
+    for a, b in listed:
+        arrows.get(a, set()).discard(b)
+    direct = {
+        folder: {b for b in others if not any(reaches(arrows, c, b) for c in others - {b})}
+        for folder, others in arrows.items()
+    }
+    graph = read_graph(page)
+    return [
+        f"Architecture.md's graph says '{folder} <- {', '.join(sorted(graph.get(folder, ['nothing'])))}', "
+        f"but it includes {', '.join(sorted(direct.get(folder, ['nothing']))) or 'no other'}."
+        for folder in sorted(graph.keys() | direct.keys())
+        if graph.get(folder) != direct.get(folder)
+    ]
+
+
 def main(source):
     pairs = read_includes(source)
     listed = read_list(pathlib.Path(__file__).with_name("back_includes.txt"))
-    found = problems(pairs, listed)
+    page = (source / "Documentation/Architecture.md").read_text(encoding="utf-8")
+    found = problems(pairs, listed) + graph_problems(pairs, listed, page)
     if found or len(pairs) < 1000:
         sys.exit("\n".join(found) or "Too few includes were found.")
     # The check itself: a circle of two files, one of two folders, and a higher layer are found.

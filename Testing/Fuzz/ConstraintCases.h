@@ -8,6 +8,7 @@
 #include "OutOfCore/OutOfCoreOptions.h"
 
 #include "Constraints/Insertion/TriangulateConstrained.h"
+#include "InMemory/TriangulateTable.h"
 #include "Points/ReadPoints.h"
 
 #include <cstdint>

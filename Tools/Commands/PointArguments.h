@@ -2,8 +2,8 @@
 #ifndef tippPointArguments_h
 #define tippPointArguments_h
 
-#include "OutOfCore/OutOfCoreOptions.h"
 #include "Files/Formats.h"
+#include "OutOfCore/OutOfCoreOptions.h"
 #include "Points/Longitudes.h"
 #include "Points/ReadPoints.h"
 #include "Triangulation/ResolveDuplicates.h"

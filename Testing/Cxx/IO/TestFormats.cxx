@@ -29,6 +29,7 @@ TEST(Formats, ChoosesByExtensionAndUse)
   EXPECT_EQ(tipp::openerOf("zones.csv", Use::Zones), Opener::Gdal);
   EXPECT_EQ(tipp::openerOf("points.csv", Use::Points), Opener::Text);
   EXPECT_EQ(tipp::openerOf("-", Use::Points), Opener::Text);
+  EXPECT_EQ(tipp::openerOf("-", Use::Constraints), Opener::None);
   EXPECT_EQ(tipp::openerOf("mesh.tipp/", Use::WritesPieces), Opener::Pieces);
   EXPECT_EQ(tipp::openerOf("a.tsv", Use::Constraints), Opener::None);
   EXPECT_EQ(tipp::formatOf("las", Use::Points), nullptr);
@@ -40,7 +41,7 @@ TEST(Formats, ListsExtensionsForMessages)
 {
   EXPECT_EQ(tipp::listFormats(Use::WritesRasters), ".tif, .npy or .vti");
   EXPECT_EQ(tipp::listFormats(Use::WritesPieces), ".tipp");
-  EXPECT_EQ(tipp::listFormats(Use::Points, "one of VTK's"),
+  EXPECT_EQ(tipp::listFormats(Use::Points, " or one of VTK's"),
     ".npy, .csv, .txt, .xyz (or these as .gz, .xz or .zst), .las, .laz, .gpkg, .shp, .geojson, "
     ".fgb, .kml, .dxf, .14, .grd or one of VTK's");
 }

@@ -7,10 +7,11 @@
 #include "MeshChecks.h"
 #include "Npy/NpyFile.h"
 #include "OutOfCore/InputPasses.h"
-#include "OutOfCore/OutOfCoreOptions.h"
+#include "OutOfCore/OutOfCoreTriangulation.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/ScratchFiles.h"
 #include "OutOfCore/SpilledPoints.h"
+#include "Partitioned/GrowingPiece.h"
 #include "TemporaryFolder.h"
 #include "Triangulation/InputSurvey.h"
 
