@@ -157,8 +157,10 @@ bool isOnLine(const Coordinates& xy, const Constraint& constraint, std::int64_t 
   const Epick::Point_2 a = pointOf(xy, constraint.A);
   const Epick::Point_2 b = pointOf(xy, constraint.B);
   const Epick::Point_2 p = pointOf(xy, id);
-  return std::isfinite(p.x()) && std::isfinite(p.y()) && CGAL::collinear(a, p, b) &&
-    CGAL::collinear_are_strictly_ordered_along_line(a, p, b);
+  const auto isWithin = [](double value, double one, double other)
+  { return std::min(one, other) <= value && value <= std::max(one, other); };
+  return isWithin(p.x(), a.x(), b.x()) && isWithin(p.y(), a.y(), b.y()) &&
+    CGAL::collinear(a, p, b) && CGAL::collinear_are_strictly_ordered_along_line(a, p, b);
 }
 
 std::set<Edge> edgesOf(const Triangles& triangles)
