@@ -199,7 +199,7 @@ private:
     locations.flush();
     const std::lock_guard<std::mutex> lock(this->Mutex);
     this->Tests += tests;
-    this->ClaimCount += claims;
+    this->ClaimedPoints += claims;
     this->Doubts.insert(this->Doubts.end(), doubts.begin(), doubts.end());
     if (this->Tests > this->MostTests || this->Doubts.size() > this->MostDoubts)
     {
@@ -229,7 +229,7 @@ private:
         return std::count_if(this->Claims.get() + begin, this->Claims.get() + end,
           [](const auto& claim) { return claim.load(std::memory_order_relaxed) >= 0; });
       });
-    return kept == this->ClaimCount;
+    return kept == this->ClaimedPoints;
   }
 
   /// Chooses a cell for points on cell borders and in overlapping cells.
@@ -279,7 +279,7 @@ private:
   const std::size_t MostDoubts;
   std::mutex Mutex;
   std::int64_t Tests = 0;
-  std::int64_t ClaimCount = 0;
+  std::int64_t ClaimedPoints = 0;
   std::vector<Doubt> Doubts;
   std::atomic<bool> IsTooMuch{ false };
 };

@@ -72,7 +72,7 @@ public:
     for (std::size_t row = 0; row < rows; ++row)
     {
       const std::size_t first = this->indexOf(at);
-      if (this->hasAny(first, first + (high[0] - low[0])))
+      if (this->isAnySet(first, first + (high[0] - low[0])))
       {
         return true;
       }
@@ -118,8 +118,8 @@ private:
     return index;
   }
 
-  /// Whether a bit from the first to the last one is set.
-  bool hasAny(std::size_t first, std::size_t last) const
+  /// Whether any bit of [first, last] is set.
+  bool isAnySet(std::size_t first, std::size_t last) const
   {
     const std::uint64_t from = ~std::uint64_t(0) << (first % 64);
     const std::uint64_t to = ~std::uint64_t(0) >> (63 - last % 64);

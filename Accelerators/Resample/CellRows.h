@@ -107,7 +107,7 @@ private:
     this->Long = edge(a, c);
     this->Short[0] = edge(a, b); // unused if level: no row is below b then
     this->Short[1] = edge(b, c); // unused if level: no row is above b then
-    // Without an overflow a slope is at most the quotient of the largest and the smallest step.
+    // A slope that is infinite or NaN gives no estimate, so exact tests decide all crossings.
     if (!(std::fabs(this->Long.Slope) + this->slopeInUse(0) + this->slopeInUse(1) < HUGE_VAL))
     {
       this->Error = HUGE_VAL;

@@ -69,12 +69,12 @@ struct ResampleResult
 VTKTIPPACCELERATORS_EXPORT ResampleResult resample(const SimplexMesh& mesh, const Lattice& lattice,
   const std::vector<Attribute>& attributes, const ResampleOptions& options);
 
-/// Fills the attributes' samples, and Valid, in a window from its claims; other samples, and
-/// with Keys those without a claim, are left unchanged. Floating-point point arrays are
-/// interpolated linearly in double precision; integer point arrays are taken from the corner of
-/// largest weight; cell arrays from the cell. The weights are evaluated with the corners in
-/// lexicographic order of their coordinates, so that a cell gives the same bits however it is
-/// stored. Returns false if Progress stopped it.
+/// Computes, from a window's claims, the attributes' samples and Valid within the window. Samples
+/// outside of it are left unchanged, and with Keys so are those without a claim. Floating-point
+/// point arrays are interpolated linearly in double precision; integer point arrays are taken from
+/// the corner of largest weight; cell arrays from the cell. The weights are evaluated with the
+/// corners in lexicographic order of their coordinates, so that a cell gives the same bits however
+/// it is stored. Returns false if Progress stopped it.
 VTKTIPPACCELERATORS_EXPORT bool interpolate(const SimplexMesh& mesh, const SampleWindow& window,
   const std::int32_t* claims, const std::vector<Attribute>& attributes,
   const ResampleOptions& options);

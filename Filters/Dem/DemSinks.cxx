@@ -58,7 +58,7 @@ void forEachTriangle(const std::vector<TriangleRange>& triangles, const Visit& v
 }
 
 /// The suffix of files with surface values, appended to the run's own path.
-constexpr const char* answersSuffix = ".surface.";
+constexpr const char* surfaceSuffix = ".surface.";
 
 struct Answer
 {
@@ -190,7 +190,7 @@ void SurfaceSink::take(const std::string& name, const double* rows, const PointR
     });
   if (!answers.empty())
   {
-    writeCheckedFile(this->Files + answersSuffix + name,
+    writeCheckedFile(this->Files + surfaceSuffix + name,
       [&answers](SaveArchive& archive)
       {
         archive(std::uint64_t(answers.size()));
@@ -205,7 +205,7 @@ void SurfaceSink::take(const std::string& name, const double* rows, const PointR
 bool SurfaceSink::end(const std::function<bool(double)>& progress)
 {
   Answers answers;
-  for (const std::string& path : filesBeginning(this->Files + answersSuffix))
+  for (const std::string& path : filesBeginning(this->Files + surfaceSuffix))
   {
     const Bytes bytes = readCheckedFile(path);
     LoadArchive archive(bytes);

@@ -70,7 +70,7 @@ struct InitialMeshPart
   VTKTIPPFILTERS_EXPORT PartConflicts conflicts() const;
 
   BoundaryTriangles Mesh;
-  std::vector<char> IsChosen;
+  std::vector<char> IsChosen; ///< by partition
 };
 
 /// Returns all conflicts as findConflicts() does. Each partition must have been chosen in exactly

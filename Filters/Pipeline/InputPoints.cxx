@@ -223,7 +223,7 @@ std::vector<PointRows::Column> columnsOf(vtkPointSet* input)
 }
 
 /// The point type and arrays of one rank, or those that all ranks with points have in common.
-struct PointKinds
+struct PointColumns
 {
   bool HasPoints = false;
   bool HasIds = false;
@@ -232,7 +232,7 @@ struct PointKinds
 };
 
 template <typename Archive>
-void serialize(Archive& archive, PointKinds& kinds)
+void serialize(Archive& archive, PointColumns& kinds)
 {
   archive(kinds.HasPoints, kinds.HasIds, kinds.HasDoubles, kinds.Columns);
 }
@@ -248,13 +248,13 @@ PointRows::PointRows(Communicator& ranks, vtkPointSet* input)
 {
   const bool hasPoints = input->GetNumberOfPoints() > 0;
   vtkDataArray* ids = hasPoints ? input->GetPointData()->GetGlobalIds() : nullptr;
-  PointKinds mine;
+  PointColumns mine;
   mine.HasPoints = hasPoints;
   mine.HasIds = ids != nullptr;
   mine.HasDoubles = hasPoints && input->GetPoints()->GetDataType() != VTK_FLOAT;
   mine.Columns = hasPoints ? columnsOf(input) : std::vector<Column>();
-  PointKinds agreed;
-  for (const PointKinds& other : ranks.gather(mine))
+  PointColumns agreed;
+  for (const PointColumns& other : ranks.gather(mine))
   {
     if (!other.HasPoints)
     {

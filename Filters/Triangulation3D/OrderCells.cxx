@@ -52,7 +52,7 @@ struct IsBefore
   }
 };
 
-/// Compares cells of any ids.
+/// Compares any two cells: by their first ids, then by IsBefore.
 struct IsBeforeAny
 {
   bool operator()(const CellIds& a, const CellIds& b) const

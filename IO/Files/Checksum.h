@@ -15,7 +15,7 @@ namespace tipp
 /// Returns the XXH3 checksum with 64 bits and no seed (https://github.com/Cyan4973/xxHash).
 VTKTIPPIO_EXPORT std::uint64_t checksumOf(const void* data, std::size_t bytes);
 
-/// Computes the same checksum of bytes that are added part by part.
+/// Computes the checksum of checksumOf() from bytes that are added part by part.
 class VTKTIPPIO_EXPORT Checksum
 {
 public:

@@ -153,7 +153,8 @@ bool splitAtBlanks(std::string_view line, std::vector<std::string_view>& fields)
   return isClosed;
 }
 
-/// Throws IOError unless the beginning of a file, "-" for the standard input, may be text.
+/// Throws IOError unless `text`, the beginning of a file, may be text. `path` is "-" for the
+/// standard input.
 void requireText(const std::string& path, std::string_view text)
 {
   constexpr std::string_view signatures[][2] = { { "\x1f\x8b", "gzip" },

@@ -300,7 +300,8 @@ void NeighborWriter::writeBorder(std::size_t number, const Border& border)
     [at = border.Values.begin()]() mutable { return *at++; });
 }
 
-/// Writes these parts of the array; next() returns the values one by one.
+/// Writes the parts [parts.first, parts.second) of the array of neighbour ids of piece `number`.
+/// next() returns the values one by one.
 template <typename Next>
 void NeighborWriter::write(std::size_t number, std::pair<std::size_t, std::size_t> parts, Next next)
 {

@@ -116,9 +116,9 @@ struct TreeOptions
 ///
 /// The dissertation counts all cells that meet a node. Then splitting would not terminate at cells
 /// that share a point or at adjacent slivers, since splitting does not reduce their number. So
-/// cells longer than the node are not counted. In a domain of equal sides each level then has at
-/// most 2^d Cells / Threshold splits. BoxTiling::MaxDepth bounds the remaining case: many tiny
-/// cells in one location.
+/// a node does not count cells that are longer than its box. In a domain of equal sides each level
+/// then has at most 2^d Cells / Threshold splits. BoxTiling::MaxDepth bounds the remaining case:
+/// many tiny cells in one location.
 ///
 /// Each rank reads an equal share of the cells and builds a tree of its own. The trees' structures
 /// are merged in pairs and broadcast; then the cells are counted in the common tree, and that is

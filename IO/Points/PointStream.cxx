@@ -233,9 +233,9 @@ private:
     return system;
   }
 
-  /// Throws if files have different reference systems, however they write them, or only reports it
-  /// if that is allowed. A file without one, or without one of heights, is assumed to be in that of
-  /// the others.
+  /// Throws if files have different reference systems, or only reports it if that is allowed.
+  /// Different spellings of one system are equal. A file without one, or without one of heights, is
+  /// assumed to be in that of the others.
   void compareCrs()
   {
     const ReferenceSystem all = systemOf(this->Files);

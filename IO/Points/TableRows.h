@@ -49,9 +49,9 @@ public:
     this->Last = *number;
     this->AreDifferent =
       this->AreDifferent && (this->Seen.size() == mostSeen || this->Seen.insert(*number).second);
-    this->addHeight(double(*number), height);
-    this->HasDecimals = this->HasDecimals || row[1].find('.') != std::string_view::npos ||
-      row[1].find(',') != std::string_view::npos;
+    this->testThirdColumn(double(*number), height);
+    this->SecondHasDecimals = this->SecondHasDecimals ||
+      row[1].find('.') != std::string_view::npos || row[1].find(',') != std::string_view::npos;
     this->HasCode = this->HasCode || (this->Width > 4 && this->isText(row.back(), parser));
     ++this->Rows;
     this->IsOpen = this->Increases || this->AreDifferent;
@@ -61,7 +61,7 @@ public:
   {
     constexpr std::int64_t few = 3;
     if (this->IsOpen && this->Rows > 0 &&
-      (this->AreFar || (this->AreDifferent && this->HasDecimals)))
+      (this->AreFar || (this->AreDifferent && this->SecondHasDecimals)))
     {
       return true;
     }
@@ -79,7 +79,7 @@ private:
   }
 
   /// The third column, which would be the height, may be a coordinate, too.
-  void addHeight(double number, double height)
+  void testThirdColumn(double number, double height)
   {
     constexpr double highest = 50000;
     constexpr double factor = 100;
@@ -94,7 +94,7 @@ private:
   bool IsCounted = true;
   bool AreDifferent = true;
   bool AreFar = true;
-  bool HasDecimals = false;
+  bool SecondHasDecimals = false;
   bool HasCode = false;
   std::int64_t Rows = 0;
   std::int64_t Last = 0;

@@ -187,11 +187,11 @@ private:
                             return column.IsText || (column.Numbers == 0 && !isNeeded);
                           }),
       this->Columns.end());
-    this->nameHeights();
+    this->offerHeightsAsZ();
   }
 
   /// Heights under another name than z are read under both.
-  void nameHeights()
+  void offerHeightsAsZ()
   {
     const auto height = std::find_if(this->Columns.begin(), this->Columns.end(),
       [](const SurveyedColumn& column) { return column.IsHeight; });

@@ -111,7 +111,7 @@ std::size_t sizeOf(TiffField::Type type)
 }
 
 template <typename T>
-void append(std::string& bytes, T value)
+void appendNumber(std::string& bytes, T value)
 {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
@@ -119,7 +119,7 @@ void append(std::string& bytes, T value)
 /// Appends an offset or count, which has 32 bits in a TIFF and 64 in a BigTIFF.
 void appendWord(std::string& bytes, std::uint64_t value, bool isBig)
 {
-  isBig ? append(bytes, value) : append(bytes, std::uint32_t(value));
+  isBig ? appendNumber(bytes, value) : appendNumber(bytes, std::uint32_t(value));
 }
 
 /// Returns the directory, to be written at offset `at`, followed by the values that do not fit into
@@ -132,11 +132,12 @@ std::string directory(
   std::uint64_t end = at + (isBig ? 8 : 2) + entries + word;
   std::string bytes;
   std::string values;
-  isBig ? append(bytes, std::uint64_t(fields.size())) : append(bytes, std::uint16_t(fields.size()));
+  isBig ? appendNumber(bytes, std::uint64_t(fields.size()))
+        : appendNumber(bytes, std::uint16_t(fields.size()));
   for (const TiffField& field : fields)
   {
-    append(bytes, field.Tag);
-    append(bytes, static_cast<std::uint16_t>(field.Is));
+    appendNumber(bytes, field.Tag);
+    appendNumber(bytes, static_cast<std::uint16_t>(field.Is));
     appendWord(bytes, field.Bytes.size() / sizeOf(field.Is), isBig);
     if (field.Bytes.size() <= word)
     {
@@ -374,7 +375,7 @@ private:
     bytes.reserve(pixels.size() * sizeof(T));
     for (const double pixel : pixels)
     {
-      tipp::append(bytes, T(std::isnan(pixel) ? this->Description.NoData : pixel));
+      appendNumber(bytes, T(std::isnan(pixel) ? this->Description.NoData : pixel));
     }
     return bytes;
   }
@@ -409,11 +410,11 @@ private:
       this->append(directory(directories[i], this->End, isBig, i + 1 == levels.size()));
     }
     std::string header = "II";
-    tipp::append(header, std::uint16_t(isBig ? 43 : 42));
+    appendNumber(header, std::uint16_t(isBig ? 43 : 42));
     if (isBig)
     {
-      tipp::append(header, std::uint16_t(8));
-      tipp::append(header, std::uint16_t(0));
+      appendNumber(header, std::uint16_t(8));
+      appendNumber(header, std::uint16_t(0));
     }
     appendWord(header, first, isBig);
     header.resize(headerSize, '\0');

@@ -247,9 +247,9 @@ void PieceChecker::checkInside(const CheckedPiece& piece, std::size_t h, std::si
     ++this->Report.BadFacets;
     return;
   }
-  const auto stores = [&piece](std::size_t own, std::size_t other)
+  const auto hasAsNeighbor = [&piece](std::size_t own, std::size_t other)
   { return piece.Neighbors[after(after(own))] == piece.CellIds[other / 3]; };
-  const bool isGood = piece.Neighbors.empty() || (stores(h, twin) && stores(twin, h));
+  const bool isGood = piece.Neighbors.empty() || (hasAsNeighbor(h, twin) && hasAsNeighbor(twin, h));
   this->Report.BadNeighbors += isGood ? 0 : 1;
   const bool isFixed = !this->Options.Constraints.empty() &&
     this->isConstraint(sorted(piece.Ids[std::size_t(from)], piece.Ids[std::size_t(to)]));

@@ -193,13 +193,14 @@ private:
       const Index from = this->Slots[std::size_t(one.Triangle) + 2];
       const Index next =
         one.Next != ConstrainedMesh::NoIndex ? one.Next : this->FirstOutside[std::size_t(from)];
-      this->join(this->Outside[std::size_t(next)].Triangle + 1, this->lastAfter(one.Triangle) + 2);
+      this->join(
+        this->Outside[std::size_t(next)].Triangle + 1, this->outsideAfterInside(one.Triangle) + 2);
     }
   }
 
-  /// The infinite triangle after the triangles inside that follow `outside` counter-clockwise
-  /// around the start of its edge.
-  Index lastAfter(Index outside) const
+  /// The infinite triangle that is reached from `outside` by turning counter-clockwise around the
+  /// start of its edge, through the triangles inside.
+  Index outsideAfterInside(Index outside) const
   {
     Index h = this->twin(outside);
     while (!this->isOutside(h))

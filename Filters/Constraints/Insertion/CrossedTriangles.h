@@ -152,7 +152,7 @@ public:
 private:
   static constexpr int Cells = 32; ///< cells per axis; also the bits of a row of Used
 
-  struct SegmentOfCell
+  struct CellSegment
   {
     std::int32_t Cell;
     std::int32_t Segment;
@@ -206,7 +206,7 @@ private:
 
   Axis X;
   Axis Y;
-  std::vector<SegmentOfCell> Near;
+  std::vector<CellSegment> Near;
   std::array<std::int32_t, std::size_t(Cells) * Cells + 1> Starts{};
   std::array<std::uint32_t, Cells> Used{}; ///< per row: a bit for each cell with segments nearby
   std::vector<std::int32_t> Sorted;
