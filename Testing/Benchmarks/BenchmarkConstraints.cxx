@@ -10,6 +10,7 @@
 #include "Measure.h"
 #include "PointSets.h"
 
+#include "Constraints/ResolveCrossings.h"
 #include "Points/ReadPoints.h"
 
 #include <algorithm>

@@ -2,6 +2,8 @@
 #include "Engines.h"
 #include "VtkData.h"
 
+#include "Constraints/Insertion/TriangulateConstrained.h"
+
 #include <vtkCellArray.h>
 #include <vtkDelaunay2D.h>
 #include <vtkIdList.h>
