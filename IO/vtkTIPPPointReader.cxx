@@ -101,6 +101,7 @@ tipp::PointOptions vtkTIPPPointReader::Options() const
   options.Z = this->ZColumn;
   options.Layer = this->Layer;
   options.Crs = this->CoordinateReferenceSystem;
+  options.Threads = 0;
   for (const std::string& number : partsOf(this->Classes))
   {
     options.Las.Classes.push_back(classOf(number));

@@ -4,7 +4,7 @@
  * @brief   reads points from LAS, text, .npy and other files
  *
  * vtkTIPPPointReader reads the files that `tipp delaunay` reads: .las (versions 1.0 to 1.4, all
- * point formats), .laz (if built with LASzip), .csv, .txt, .xyz, .npy, .14, .grd and the files that
+ * point formats), .laz, .csv, .txt, .xyz, .npy, .14, .grd and the files that
  * VTK reads. The output is a vtkPolyData with the points of all files, in the order of the files. A
  * column named z is the third coordinate; the other columns become point data (float64). For LAS
  * files these are intensity, classification, gps_time, red, green, blue and nir, as far as the file

@@ -9,13 +9,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <string>
 #include <vector>
-
-#ifdef TIPP_HAVE_LASZIP
-#include <laszip/laszip_api.h>
-#endif
 
 namespace tipp
 {
@@ -29,12 +24,12 @@ std::vector<char> readBytes(const InputFile& file, std::uint64_t offset, std::si
   return bytes;
 }
 
-/// Finds the coordinate reference system in variable length records. Damaged records count as
-/// absent, since the points can be read without them.
-class CrsFinder
+/// Finds the coordinate reference system and the compression in variable length records. Damaged
+/// records count as absent, since points that are not compressed can be read without them.
+class RecordFinder
 {
 public:
-  explicit CrsFinder(const InputFile& file)
+  explicit RecordFinder(const InputFile& file)
     : File(file)
   {
   }
@@ -61,14 +56,24 @@ public:
       {
         this->take(record, readBytes(this->File, at, std::size_t(length)));
       }
+      if (std::memcmp(bytes.data() + 2, "laszip encoded", 15) == 0 && record == laz && !wide)
+      {
+        const std::vector<char> content = readBytes(this->File, at, std::size_t(length));
+        this->Compression.assign(content.begin(), content.end());
+      }
       at += length;
     }
   }
 
-  CrsRecords take() { return std::move(this->Found); }
+  void giveTo(LasHeader& header)
+  {
+    header.Crs = std::move(this->Found);
+    header.Compression = std::move(this->Compression);
+  }
 
 private:
   static constexpr int wkt = 2112;
+  static constexpr int laz = 22204;
 
   void take(int record, const std::vector<char>& content)
   {
@@ -89,6 +94,7 @@ private:
 
   const InputFile& File;
   CrsRecords Found;
+  std::string Compression;
 };
 
 constexpr std::size_t shortHeader = 227; ///< header size of versions 1.0 to 1.2
@@ -239,7 +245,7 @@ LasHeader readLasHeader(const std::string& path, const LasSelection& selection)
   readFormat(fields, path, header);
   readTransform(fields, path, header);
   readCount(fields, path, file.size(), size, selection, header);
-  CrsFinder finder(file);
+  RecordFinder finder(file);
   finder.search(
     size, std::min(header.PointOffset, file.size()), valueAt<std::uint32_t>(&fields[100]), false);
   const std::uint64_t extended = header.Minor >= 4 ? valueAt<std::uint64_t>(&fields[235]) : 0;
@@ -247,156 +253,8 @@ LasHeader readLasHeader(const std::string& path, const LasSelection& selection)
   {
     finder.search(extended, file.size(), valueAt<std::uint32_t>(&fields[243]), true);
   }
-  header.Crs = finder.take();
+  finder.giveTo(header);
   return header;
-}
-
-namespace
-{
-
-class PlainRecords : public LasRecords
-{
-public:
-  PlainRecords(const std::string& path, std::uint64_t begin, std::size_t length)
-    : File(path)
-    , Begin(begin)
-    , Length(length)
-  {
-  }
-
-  void read(std::int64_t first, std::size_t count, char* records) override
-  {
-    this->File.read(
-      this->Begin + std::uint64_t(first) * this->Length, records, count * this->Length);
-  }
-
-private:
-  InputFile File;
-  const std::uint64_t Begin;
-  const std::size_t Length;
-};
-
-#ifdef TIPP_HAVE_LASZIP
-
-template <typename T>
-void put(char* record, std::size_t offset, T value)
-{
-  std::memcpy(record + offset, &value, sizeof(T));
-}
-
-/// LASzip's point as a record of the file's format; wave packets and extra bytes are left out.
-void encode(const laszip_point& point, const LasHeader& header, char* record)
-{
-  put(record, 0, point.X);
-  put(record, 4, point.Y);
-  put(record, 8, point.Z);
-  put(record, 12, point.intensity);
-  std::size_t time = 20;
-  std::size_t colour = header.hasTime() ? 28 : 20;
-  if (header.isExtended())
-  {
-    const unsigned returns =
-      (point.extended_return_number & 15U) | (unsigned(point.extended_number_of_returns) << 4);
-    put(record, 14, std::uint8_t(returns));
-    put(record, 15, std::uint8_t(point.extended_classification_flags & 15U));
-    put(record, 16, point.extended_classification);
-    time = 22;
-    colour = 30;
-  }
-  else
-  {
-    const unsigned returns = (point.return_number & 7U) | (unsigned(point.number_of_returns) << 3);
-    const unsigned flags = (unsigned(point.synthetic_flag) << 5) |
-      (unsigned(point.keypoint_flag) << 6) | (unsigned(point.withheld_flag) << 7);
-    put(record, 14, std::uint8_t(returns & 63U));
-    put(record, 15, std::uint8_t((point.classification & 31U) | flags));
-  }
-  if (header.hasTime())
-  {
-    put(record, time, point.gps_time);
-  }
-  if (header.hasColour())
-  {
-    const std::size_t colours = header.hasInfrared() ? 4 : 3;
-    std::memcpy(record + colour, point.rgb, 2 * colours);
-  }
-}
-
-class CompressedRecords : public LasRecords
-{
-public:
-  CompressedRecords(const std::string& path, const LasHeader& header)
-    : Path(path)
-    , Header(header)
-  {
-    laszip_BOOL isCompressed = 0;
-    this->check(laszip_create(&this->Reader) == 0);
-    if (laszip_open_reader(this->Reader, path.c_str(), &isCompressed) != 0 ||
-      laszip_get_point_pointer(this->Reader, &this->Point) != 0)
-    {
-      laszip_destroy(this->Reader);
-      this->check(false);
-    }
-  }
-  ~CompressedRecords() override
-  {
-    laszip_close_reader(this->Reader);
-    laszip_destroy(this->Reader);
-  }
-  CompressedRecords(const CompressedRecords&) = delete;
-  CompressedRecords& operator=(const CompressedRecords&) = delete;
-
-  void read(std::int64_t first, std::size_t count, char* records) override
-  {
-    if (first != this->At)
-    {
-      this->check(laszip_seek_point(this->Reader, first) == 0);
-      this->At = first;
-    }
-    for (std::size_t i = 0; i < count; ++i, ++this->At)
-    {
-      this->check(laszip_read_point(this->Reader) == 0);
-      encode(*this->Point, this->Header, records + i * this->Header.RecordLength);
-    }
-  }
-
-private:
-  void check(bool good) const
-  {
-    if (!good)
-    {
-      throw IOError(this->Path,
-        "cannot be decompressed after point " + std::to_string(this->At) +
-          "; copy it again, or read the points before it with --keep truncated.");
-    }
-  }
-
-  const std::string Path;
-  const LasHeader Header;
-  laszip_POINTER Reader = nullptr;
-  laszip_point* Point = nullptr;
-  std::int64_t At = 0;
-};
-
-#endif
-
-} // namespace
-
-std::unique_ptr<LasRecords> openLasRecords(const std::string& path, const LasHeader& header)
-{
-  if (!header.Compressed)
-  {
-    return std::make_unique<PlainRecords>(path, header.PointOffset, header.RecordLength);
-  }
-#ifdef TIPP_HAVE_LASZIP
-  return std::make_unique<CompressedRecords>(path, header);
-#else
-  const std::string name = std::filesystem::path(path).filename().string();
-  throw IOError(path,
-    "is compressed (LAZ), which needs LASzip, and this tipp was built without it; decompress the "
-    "file, as with 'pdal translate " +
-      name + " " + name.substr(0, name.rfind('.')) + ".las', or in Python with laspy and lazrs.");
-#endif
 }
 
 } // namespace tipp

@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <memory>
 #include <string>
 
 namespace tipp
@@ -28,8 +27,9 @@ struct LasHeader
   std::int64_t Points = 0;       ///< number of point records to read
   std::array<double, 3> Scale{}; ///< a coordinate is its stored integer * Scale + Offset
   std::array<double, 3> Offset{};
-  CrsRecords Crs;     ///< the records of the coordinate reference system
-  std::string Remark; ///< how Points differs from what the header or the file says, or empty
+  CrsRecords Crs;          ///< the records of the coordinate reference system
+  std::string Compression; ///< the record of the compression, or empty
+  std::string Remark;      ///< how Points differs from what the header or the file says, or empty
 
   bool hasTime() const { return this->Format == 1 || (this->Format >= 3); }
   bool hasColour() const
@@ -45,19 +45,6 @@ struct LasHeader
 /// read, or has less data than the header announces (unless `selection` keeps truncated files).
 VTKTIPPIO_EXPORT LasHeader readLasHeader(const std::string& path, const LasSelection& selection);
 VTKTIPPIO_EXPORT LasHeader readLasHeader(const std::string& path);
-
-/// Reads point records, in the layout of the LAS specification.
-class LasRecords
-{
-public:
-  virtual ~LasRecords() = default;
-  /// Reads records [first, first + count), which must exist. Throws IOError.
-  virtual void read(std::int64_t first, std::size_t count, char* records) = 0;
-};
-
-/// Opens the records of a LAS or LAZ file. Throws IOError if the file cannot be opened, or for LAZ
-/// in a build without LASzip.
-std::unique_ptr<LasRecords> openLasRecords(const std::string& path, const LasHeader& header);
 
 /// Reads a value from a header or record.
 template <typename T>

@@ -2,12 +2,16 @@
 #include "Points/ReadPoints.h"
 
 #include "Files/IOError.h"
+#include "Files/InputFile.h"
 #include "Las/LasHeader.h"
+#include "Las/LazFile.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstring>
+#include <memory>
 #include <vector>
 
 namespace tipp
@@ -43,6 +47,14 @@ public:
     this->LeftOut = header.Minor == 0 ? 0
                                       : (selection.KeepSynthetic ? 0 : synthetic) |
         (selection.KeepWithheld ? 0 : withheld) | (selection.KeepOverlap ? 0 : overlap);
+  }
+
+  /// The attributes of compressed points that decide.
+  unsigned attributes() const
+  {
+    const bool isAnyClass =
+      std::count(this->IsClassKept.begin(), this->IsClassKept.end(), false) == 0;
+    return (isAnyClass ? 0 : laz::Class) | (this->LeftOut == 0 ? 0 : laz::Flags);
   }
 
   unsigned classOf(const char* record) const
@@ -86,47 +98,45 @@ struct LasColumn
   const char* Name;
   Kind Is;
   std::size_t Offset;
+  unsigned Attribute; ///< of compressed points
 };
 
 std::vector<LasColumn> columnsOf(const LasHeader& header)
 {
   using Kind = LasColumn::Kind;
-  std::vector<LasColumn> columns = { { "z", Kind::Height, 8 }, { "intensity", Kind::Short, 12 },
-    { "classification", Kind::Class, 0 } };
+  std::vector<LasColumn> columns = { { "z", Kind::Height, 8, laz::Z },
+    { "intensity", Kind::Short, 12, laz::Intensity },
+    { "classification", Kind::Class, 0, laz::Class } };
   const std::size_t afterBasics = header.isExtended() ? 22 : 20;
   if (header.hasTime())
   {
-    columns.push_back({ "gps_time", Kind::Time, afterBasics });
+    columns.push_back({ "gps_time", Kind::Time, afterBasics, laz::Time });
   }
   const std::size_t colour = afterBasics + (header.hasTime() ? 8 : 0);
   if (header.hasColour())
   {
-    columns.push_back({ "red", Kind::Short, colour });
-    columns.push_back({ "green", Kind::Short, colour + 2 });
-    columns.push_back({ "blue", Kind::Short, colour + 4 });
+    columns.push_back({ "red", Kind::Short, colour, laz::Colour });
+    columns.push_back({ "green", Kind::Short, colour + 2, laz::Colour });
+    columns.push_back({ "blue", Kind::Short, colour + 4, laz::Colour });
   }
   if (header.hasInfrared())
   {
-    columns.push_back({ "nir", Kind::Short, colour + 6 });
+    columns.push_back({ "nir", Kind::Short, colour + 6, laz::Infrared });
   }
   return columns;
 }
 
+/// What files that are compressed or not have in common. Their records come in chunks.
 class LasFilePoints : public FilePoints
 {
 public:
-  LasFilePoints(const std::string& path, const PointOptions& options)
+  LasFilePoints(const std::string& path, const LasHeader& header, const PointOptions& options)
     : Path(path)
-    , Header(readLasHeader(path, options.Las))
-    , Filter(this->Header, options.Las)
+    , Header(header)
+    , Filter(header, options.Las)
     , Threads(threadCount(options.Threads))
   {
-    openLasRecords(path, this->Header); // to report errors early
-    if (this->Header.Compressed && options.Las.KeepTruncated)
-    {
-      this->keepReadable();
-    }
-    for (const LasColumn& column : columnsOf(this->Header))
+    for (const LasColumn& column : columnsOf(header))
     {
       if (options.wants(column.Name))
       {
@@ -135,27 +145,11 @@ public:
     }
   }
 
-  bool next(PointBlock& block, std::size_t most) override
-  {
-    block.Columns.resize(this->Wanted.size());
-    std::size_t points = 0;
-    while (points <= most / 2 && this->NextRecord < this->Header.Points)
-    {
-      points = this->append(block, points, most - points);
-    }
-    if (this->NextRecord == this->Header.Points)
-    {
-      this->DroppedOfPass = this->Dropped;
-    }
-    return points > 0;
-  }
-
   void rewind() override
   {
-    this->Records.reset(); // reopened when needed: there may be many files
-    std::vector<Share>().swap(this->Shares);
+    this->File.reset(); // reopened when needed: there may be many files
     this->Dropped = 0;
-    this->NextRecord = 0;
+    this->seek(0);
   }
 
   std::int64_t divisible() const override
@@ -169,7 +163,7 @@ public:
     this->countKept();
     const auto after = std::upper_bound(this->KeptBefore.begin(), this->KeptBefore.end(), points);
     const std::int64_t chunk = after - this->KeptBefore.begin() - 1;
-    this->NextRecord = std::min(chunk * chunkRecords, this->Header.Points);
+    this->seek(chunk);
     auto left = std::size_t(points - this->KeptBefore[std::size_t(chunk)]);
     for (PointBlock block; left > 0 && this->next(block, left);)
     {
@@ -214,112 +208,39 @@ public:
     return reports;
   }
 
-private:
-  static constexpr std::int64_t chunkRecords = 1 << 14;
-
-  /// Limits the points of a compressed file to those that can be decompressed.
-  void keepReadable()
-  {
-    const auto records = openLasRecords(this->Path, this->Header);
-    std::vector<char> record(this->Header.RecordLength);
-    std::int64_t readable = 0;
-    try
-    {
-      for (; readable < this->Header.Points; ++readable)
-      {
-        records->read(readable, 1, record.data());
-      }
-    }
-    catch (const IOError&)
-    {
-      this->Header.Remark = "announces " + std::to_string(this->Header.Points) +
-        " points and can be decompressed up to point " + std::to_string(readable) +
-        "; those before it are read";
-      this->Header.Points = readable;
-    }
-  }
-
-  /// Records that one thread decodes.
+protected:
+  /// Records on their way to a block.
   struct Share
   {
-    std::int64_t First = 0;
-    std::int64_t Count = 0;
-    std::size_t To = 0;            ///< index of its first point in the block
-    std::size_t Points = 0;        ///< number of selected points
-    std::vector<char> Raw;         ///< a part of the records
+    std::vector<char> Raw;
     std::vector<const char*> Kept; ///< the selected records among these
   };
 
-  /// Appends the selected of the next `most` records to the block; returns the number of points it
-  /// then has.
-  std::size_t append(PointBlock& block, std::size_t points, std::size_t most)
+  /// Goes to the first record of a chunk, or behind the last chunk.
+  virtual void seek(std::int64_t chunk) = 0;
+  /// Returns the number of selected points in each chunk.
+  virtual std::vector<std::int64_t> keptOfChunks() const = 0;
+
+  const InputFile& file()
   {
-    const std::int64_t count =
-      std::min<std::int64_t>(std::int64_t(most), this->Header.Points - this->NextRecord);
-    // LAZ records are decompressed sequentially.
-    const std::int64_t shares = this->Header.Compressed
-      ? 1
-      : std::clamp<std::int64_t>(count / chunkRecords, 1, this->Threads);
-    block.resize(points + std::size_t(count));
-    this->Shares.resize(std::size_t(shares));
-    if (!this->Records)
+    if (!this->File)
     {
-      this->Records = openLasRecords(this->Path, this->Header);
+      this->File = std::make_unique<InputFile>(this->Path);
     }
-    parallelFor(shares, int(shares),
-      [&](std::int64_t i)
-      {
-        Share& share = this->Shares[std::size_t(i)];
-        const std::int64_t begin = count * i / shares;
-        share.First = this->NextRecord + begin;
-        share.Count = count * (i + 1) / shares - begin;
-        share.To = points + std::size_t(begin);
-        this->decode(share, block);
-      });
-    for (const Share& share : this->Shares)
-    {
-      move(block, share.To, points, share.Points);
-      points += share.Points;
-      this->Dropped += share.Count - std::int64_t(share.Points);
-    }
-    block.resize(points);
-    this->NextRecord += count;
-    return points;
+    return *this->File;
   }
 
-  /// Moves points within a block, towards its beginning.
-  static void move(PointBlock& block, std::size_t from, std::size_t to, std::size_t count)
+  /// Makes room for records, and returns it.
+  char* roomFor(std::size_t count, Share& share) const
   {
-    if (from == to || count == 0)
-    {
-      return;
-    }
-    std::memmove(&block.XY[2 * to], &block.XY[2 * from], 2 * count * sizeof(double));
-    for (std::vector<double>& column : block.Columns)
-    {
-      std::memmove(&column[to], &column[from], count * sizeof(double));
-    }
+    share.Raw.resize(count * this->Header.RecordLength);
+    return share.Raw.data();
   }
 
-  /// Writes the selected points of a share to their positions in the block.
-  void decode(Share& share, PointBlock& block) const
-  {
-    share.Points = 0;
-    for (std::int64_t done = 0; done < share.Count; done += chunkRecords)
-    {
-      const auto count = std::size_t(std::min(chunkRecords, share.Count - done));
-      this->select(*this->Records, share.First + done, count, share);
-      this->write(share.Kept, block, share.To + share.Points);
-      share.Points += share.Kept.size();
-    }
-  }
-
-  /// Reads records, and finds the selected ones.
-  void select(LasRecords& records, std::int64_t first, std::size_t count, Share& share) const
+  /// Finds the selected ones of a share's records.
+  void select(std::size_t count, Share& share) const
   {
     const std::size_t length = this->Header.RecordLength;
-    share.Raw.resize(count * length);
-    records.read(first, count, share.Raw.data());
     share.Kept.clear();
     for (const char* record = share.Raw.data(); count > 0; record += length, --count)
     {
@@ -369,43 +290,505 @@ private:
     }
   }
 
-  /// The number of points selected before each chunk of records, and in total.
+  const std::string Path;
+  LasHeader Header;
+  const RecordFilter Filter;
+  const int Threads;
+  std::vector<LasColumn> Wanted;
+  std::int64_t Dropped = 0; ///< points dropped so far in this pass
+  std::int64_t DroppedOfPass = 0;
+
+private:
   void countKept() const
   {
     if (!this->KeptBefore.empty())
     {
       return;
     }
-    const auto records = openLasRecords(this->Path, this->Header);
     std::vector<std::int64_t> before{ 0 };
-    Share share;
-    for (std::int64_t first = 0; first < this->Header.Points; first += chunkRecords)
+    for (const std::int64_t kept : this->keptOfChunks())
     {
-      const auto count = std::size_t(std::min(chunkRecords, this->Header.Points - first));
-      this->select(*records, first, count, share);
-      before.push_back(before.back() + std::int64_t(share.Kept.size()));
+      before.push_back(before.back() + kept);
     }
     this->KeptBefore = std::move(before);
   }
 
-  const std::string Path;
-  LasHeader Header;
-  const RecordFilter Filter;
-  const int Threads;
-  std::vector<LasColumn> Wanted;
-  std::unique_ptr<LasRecords> Records;
-  std::vector<Share> Shares;
-  std::int64_t NextRecord = 0;
-  std::int64_t Dropped = 0; ///< points dropped so far in this pass
-  std::int64_t DroppedOfPass = 0;
+  std::unique_ptr<InputFile> File;
+  /// The number of points selected before each chunk of records, and in total.
   mutable std::vector<std::int64_t> KeptBefore;
+};
+
+/// The points of a file that is not compressed, decoded straight to the block.
+class PlainLasPoints : public LasFilePoints
+{
+public:
+  using LasFilePoints::LasFilePoints;
+
+  bool next(PointBlock& block, std::size_t most) override
+  {
+    block.Columns.resize(this->Wanted.size());
+    std::size_t points = 0;
+    while (points <= most / 2 && this->NextRecord < this->Header.Points)
+    {
+      points = this->append(block, points, most - points);
+    }
+    if (this->NextRecord == this->Header.Points)
+    {
+      this->DroppedOfPass = this->Dropped;
+    }
+    return points > 0;
+  }
+
+protected:
+  void seek(std::int64_t chunk) override
+  {
+    std::vector<Part>().swap(this->Parts);
+    this->NextRecord = std::min(chunk * chunkRecords, this->Header.Points);
+  }
+
+  std::vector<std::int64_t> keptOfChunks() const override
+  {
+    const InputFile file(this->Path);
+    std::vector<std::int64_t> kept;
+    Share share;
+    for (std::int64_t first = 0; first < this->Header.Points; first += chunkRecords)
+    {
+      const auto count = std::size_t(std::min(chunkRecords, this->Header.Points - first));
+      this->select(file, first, count, share);
+      kept.push_back(std::int64_t(share.Kept.size()));
+    }
+    return kept;
+  }
+
+private:
+  static constexpr std::int64_t chunkRecords = 1 << 14;
+
+  /// Records that one thread decodes.
+  struct Part : public Share
+  {
+    std::int64_t First = 0;
+    std::int64_t Count = 0;
+    std::size_t To = 0;     ///< index of its first point in the block
+    std::size_t Points = 0; ///< number of selected points
+  };
+
+  /// Appends the selected of the next `most` records to the block; returns the number of points it
+  /// then has.
+  std::size_t append(PointBlock& block, std::size_t points, std::size_t most)
+  {
+    const std::int64_t count =
+      std::min<std::int64_t>(std::int64_t(most), this->Header.Points - this->NextRecord);
+    const std::int64_t parts = std::clamp<std::int64_t>(count / chunkRecords, 1, this->Threads);
+    block.resize(points + std::size_t(count));
+    this->Parts.resize(std::size_t(parts));
+    const InputFile& file = this->file();
+    parallelFor(parts, int(parts),
+      [&](std::int64_t i)
+      {
+        Part& part = this->Parts[std::size_t(i)];
+        const std::int64_t begin = count * i / parts;
+        part.First = this->NextRecord + begin;
+        part.Count = count * (i + 1) / parts - begin;
+        part.To = points + std::size_t(begin);
+        this->decode(file, part, block);
+      });
+    for (const Part& part : this->Parts)
+    {
+      move(block, part.To, points, part.Points);
+      points += part.Points;
+      this->Dropped += part.Count - std::int64_t(part.Points);
+    }
+    block.resize(points);
+    this->NextRecord += count;
+    return points;
+  }
+
+  /// Moves points within a block, towards its beginning.
+  static void move(PointBlock& block, std::size_t from, std::size_t to, std::size_t count)
+  {
+    if (from == to || count == 0)
+    {
+      return;
+    }
+    std::memmove(&block.XY[2 * to], &block.XY[2 * from], 2 * count * sizeof(double));
+    for (std::vector<double>& column : block.Columns)
+    {
+      std::memmove(&column[to], &column[from], count * sizeof(double));
+    }
+  }
+
+  /// Writes the selected points of a part to their positions in the block.
+  void decode(const InputFile& file, Part& part, PointBlock& block) const
+  {
+    part.Points = 0;
+    for (std::int64_t done = 0; done < part.Count; done += chunkRecords)
+    {
+      const auto count = std::size_t(std::min(chunkRecords, part.Count - done));
+      this->select(file, part.First + done, count, part);
+      this->write(part.Kept, block, part.To + part.Points);
+      part.Points += part.Kept.size();
+    }
+  }
+
+  /// Reads records, and finds the selected ones.
+  void select(const InputFile& file, std::int64_t first, std::size_t count, Share& share) const
+  {
+    const std::size_t length = this->Header.RecordLength;
+    file.read(this->Header.PointOffset + std::uint64_t(first) * length, this->roomFor(count, share),
+      count * length);
+    this->LasFilePoints::select(count, share);
+  }
+
+  std::vector<Part> Parts;
+  std::int64_t NextRecord = 0;
+};
+
+/// The points of a compressed file. Some chunks ahead of the stream are decoded at the same time.
+class LazPoints : public LasFilePoints
+{
+public:
+  LazPoints(const std::string& path, const LasHeader& header, const PointOptions& options)
+    : LasFilePoints(path, header, options)
+    , Laz(path, header)
+    , Needed(this->Filter.attributes())
+  {
+    this->Header.Remark = this->Laz.remark();
+    for (const LasColumn& column : this->Wanted)
+    {
+      this->Needed |= column.Attribute;
+    }
+    if (options.Las.KeepTruncated)
+    {
+      this->keepReadable();
+    }
+  }
+
+  bool next(PointBlock& block, std::size_t most) override
+  {
+    block.Columns.resize(this->Wanted.size());
+    block.resize(0);
+    while (block.size() < most && this->hasPoints())
+    {
+      const PointBlock& from = this->Ahead[this->Served].Points;
+      const std::size_t count = std::min(most - block.size(), from.size() - this->ServedOfChunk);
+      append(from, this->ServedOfChunk, count, block);
+      this->ServedOfChunk += count;
+    }
+    return block.size() > 0;
+  }
+
+protected:
+  void seek(std::int64_t chunk) override
+  {
+    std::vector<Decoded>().swap(this->Ahead);
+    std::vector<LazReader>().swap(this->Readers);
+    this->AheadCount = 0;
+    this->Served = 0;
+    this->ServedOfChunk = 0;
+    this->NextChunk = std::size_t(chunk);
+    this->DoneOfChunk = 0;
+  }
+
+  std::vector<std::int64_t> keptOfChunks() const override
+  {
+    const std::size_t chunks = this->Laz.chunks().size();
+    std::vector<std::int64_t> kept(chunks);
+    std::vector<LazReader> readers = this->makeReaders(1, this->Filter.attributes());
+    const InputFile file(this->Path);
+    forChunks(std::int64_t(chunks), 1, this->Threads, {},
+      [&](std::int64_t i, std::int64_t, int thread)
+      {
+        const auto chunk = std::size_t(i);
+        Share share;
+        this->readChunk(readers[std::size_t(thread)], file, chunk, share,
+          [&](std::size_t count)
+          {
+            this->select(count, share);
+            kept[chunk] += std::int64_t(share.Kept.size());
+          });
+      });
+    return kept;
+  }
+
+private:
+  static constexpr std::uint64_t stepRecords = 4096; ///< which stay in the processor's cache
+  /// Points that are decoded ahead, unless it takes more of them to have a chunk for each thread.
+  static constexpr std::uint64_t manyPoints = 1 << 20;
+  static constexpr std::uint64_t mostPoints = 2 * manyPoints;
+  /// Small chunks are decoded together until they have so many points.
+  static constexpr std::uint64_t fewPoints = 1 << 14;
+  /// Records of a chunk of more than `mostPoints` that are decoded at a time.
+  static constexpr std::uint64_t partOfChunk = 1 << 17;
+
+  /// The selected points of a chunk, or of a part of it.
+  struct Decoded : public Share
+  {
+    PointBlock Points;
+    std::uint64_t Records = 0; ///< to decode
+    std::size_t Size = 0;      ///< selected points so far
+  };
+
+  std::vector<LazReader> makeReaders(std::size_t ofThread, unsigned attributes) const
+  {
+    std::vector<LazReader> readers;
+    readers.reserve(ofThread * std::size_t(this->Threads));
+    while (readers.size() < readers.capacity())
+    {
+      readers.emplace_back(this->Laz, attributes);
+    }
+    return readers;
+  }
+
+  /// Decodes records, and calls take(count) when some are in the share.
+  template <typename Take>
+  void readRecords(LazReader& reader, std::uint64_t records, Share& share, const Take& take) const
+  {
+    while (records > 0)
+    {
+      const std::uint64_t count = std::min(stepRecords, records);
+      reader.read(std::size_t(count), this->roomFor(std::size_t(count), share));
+      take(std::size_t(count));
+      records -= count;
+    }
+  }
+
+  template <typename Take>
+  void readChunk(LazReader& reader, const InputFile& file, std::size_t chunk, Share& share,
+    const Take& take) const
+  {
+    reader.begin(file, chunk);
+    this->readRecords(reader, this->Laz.chunks()[chunk].Points, share, take);
+  }
+
+  /// Limits the points to those of the chunks before the first one that cannot be decoded.
+  void keepReadable()
+  {
+    const std::size_t chunks = this->Laz.chunks().size();
+    std::atomic<std::size_t> readable{ chunks };
+    std::vector<LazReader> readers = this->makeReaders(1, this->Needed);
+    const InputFile file(this->Path);
+    forChunks(std::int64_t(chunks), 1, this->Threads, {},
+      [&](std::int64_t i, std::int64_t, int thread)
+      {
+        const auto chunk = std::size_t(i);
+        try
+        {
+          Share share;
+          this->readChunk(readers[std::size_t(thread)], file, chunk, share, [](std::size_t) {});
+        }
+        catch (const IOError&)
+        {
+          std::size_t before = readable;
+          while (chunk < before && !readable.compare_exchange_weak(before, chunk))
+          {
+          }
+        }
+      });
+    if (readable < chunks)
+    {
+      const auto points = std::int64_t(this->Laz.chunks()[readable].FirstPoint);
+      this->Header.Remark = "announces " + std::to_string(this->Header.Points) +
+        " points and can be decompressed up to point " + std::to_string(points) +
+        "; those before it are read";
+      this->Header.Points = points;
+      this->Laz.keepFirst(readable);
+    }
+  }
+
+  /// Whether there are points to serve; decodes more if necessary.
+  bool hasPoints()
+  {
+    while (true)
+    {
+      for (; this->Served < this->AheadCount; ++this->Served, this->ServedOfChunk = 0)
+      {
+        if (this->ServedOfChunk < this->Ahead[this->Served].Points.size())
+        {
+          return true;
+        }
+      }
+      if (this->NextChunk == this->Laz.chunks().size())
+      {
+        this->DroppedOfPass = this->Dropped;
+        return false;
+      }
+      this->decodeAhead();
+    }
+  }
+
+  void decodeAhead()
+  {
+    if (this->Readers.empty())
+    {
+      this->Readers = this->makeReaders(2, this->Needed);
+    }
+    const bool isLarge = this->Laz.chunks()[this->NextChunk].Points > mostPoints;
+    this->AheadCount = isLarge ? 1 : this->chunksAhead();
+    this->Ahead.resize(std::max(this->Ahead.size(), this->AheadCount));
+    this->Served = 0;
+    this->ServedOfChunk = 0;
+    isLarge ? this->decodePart() : this->decodeChunks();
+    for (std::size_t i = 0; i < this->AheadCount; ++i)
+    {
+      this->Dropped += std::int64_t(this->Ahead[i].Records - this->Ahead[i].Points.size());
+    }
+  }
+
+  /// Returns how many chunks to decode at the same time: if possible two or four for each thread.
+  std::size_t chunksAhead() const
+  {
+    const auto threads = std::size_t(this->Threads);
+    const std::size_t left = this->Laz.chunks().size() - this->NextChunk;
+    std::uint64_t points = 0;
+    std::size_t count = 0;
+    for (; count < left && (count < 4 * threads || points < fewPoints); ++count)
+    {
+      points += this->Laz.chunks()[this->NextChunk + count].Points;
+      if (count > 0 && points > (count < threads ? mostPoints : manyPoints))
+      {
+        break;
+      }
+    }
+    const std::size_t unit = count >= 2 * threads ? 2 * threads : count >= threads ? threads : 1;
+    return count < left ? count / unit * unit : count;
+  }
+
+  void decodeChunks()
+  {
+    const InputFile& file = this->file();
+    const bool inPairs = this->AheadCount >= 2 * std::size_t(this->Threads);
+    forChunks(std::int64_t(this->AheadCount), inPairs ? 2 : 1, this->Threads, {},
+      [&](std::int64_t begin, std::int64_t end, int thread)
+      {
+        LazReader* const readers = &this->Readers[2 * std::size_t(thread)];
+        if (end - begin == 2 && this->decodePair(file, std::size_t(begin), readers))
+        {
+          return;
+        }
+        for (auto i = std::size_t(begin); i < std::size_t(end); ++i)
+        {
+          this->start(this->Ahead[i], this->Laz.chunks()[this->NextChunk + i].Points);
+          readers->begin(file, this->NextChunk + i);
+          this->finish(*readers, this->Ahead[i], this->Ahead[i].Records);
+        }
+      });
+    this->NextChunk += this->AheadCount;
+  }
+
+  /// Returns false if one of the chunks is damaged.
+  bool decodePair(const InputFile& file, std::size_t at, LazReader* readers)
+  {
+    const LazChunkPlace* const places = &this->Laz.chunks()[this->NextChunk + at];
+    Decoded* const decoded = &this->Ahead[at];
+    const std::uint64_t shorter = std::min(places[0].Points, places[1].Points);
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+      this->start(decoded[i], places[i].Points);
+      readers[i].begin(file, this->NextChunk + at + i);
+    }
+    try
+    {
+      for (std::uint64_t done = 0; done < shorter; done += stepRecords)
+      {
+        const auto count = std::size_t(std::min(stepRecords, shorter - done));
+        readers[0].readWith(
+          readers[1], count, this->roomFor(count, decoded[0]), this->roomFor(count, decoded[1]));
+        this->take(count, decoded[0]);
+        this->take(count, decoded[1]);
+      }
+    }
+    catch (const LazError&)
+    {
+      return false;
+    }
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+      this->finish(readers[i], decoded[i], places[i].Points - shorter);
+    }
+    return true;
+  }
+
+  /// Decodes a part of a chunk that is too large to be decoded at once.
+  void decodePart()
+  {
+    const std::uint64_t points = this->Laz.chunks()[this->NextChunk].Points;
+    LazReader& reader = this->Readers.front();
+    if (this->DoneOfChunk == 0)
+    {
+      reader.begin(this->file(), this->NextChunk);
+    }
+    const std::uint64_t count = std::min(partOfChunk, points - this->DoneOfChunk);
+    this->start(this->Ahead.front(), count);
+    this->finish(reader, this->Ahead.front(), count);
+    this->DoneOfChunk += count;
+    if (this->DoneOfChunk == points)
+    {
+      this->DoneOfChunk = 0;
+      ++this->NextChunk;
+    }
+  }
+
+  void start(Decoded& decoded, std::uint64_t records) const
+  {
+    decoded.Points.Columns.resize(this->Wanted.size());
+    decoded.Points.resize(std::size_t(records));
+    decoded.Records = records;
+    decoded.Size = 0;
+  }
+
+  /// Takes the selected ones of records that are decoded.
+  void take(std::size_t count, Decoded& decoded) const
+  {
+    this->select(count, decoded);
+    this->write(decoded.Kept, decoded.Points, decoded.Size);
+    decoded.Size += decoded.Kept.size();
+  }
+
+  /// Decodes the last records.
+  void finish(LazReader& reader, Decoded& decoded, std::uint64_t records) const
+  {
+    this->readRecords(
+      reader, records, decoded, [&](std::size_t count) { this->take(count, decoded); });
+    decoded.Points.resize(decoded.Size);
+  }
+
+  /// Appends `count` points to another block.
+  static void append(const PointBlock& from, std::size_t begin, std::size_t count, PointBlock& to)
+  {
+    const auto copy =
+      [&](const std::vector<double>& values, std::vector<double>& more, std::size_t width)
+    {
+      const double* const first = values.data() + width * begin;
+      more.insert(more.end(), first, first + width * count);
+    };
+    copy(from.XY, to.XY, 2);
+    for (std::size_t i = 0; i < from.Columns.size(); ++i)
+    {
+      copy(from.Columns[i], to.Columns[i], 1);
+    }
+  }
+
+  LazFile Laz;
+  unsigned Needed;                ///< attributes to decode
+  std::vector<LazReader> Readers; ///< two of each thread
+  std::vector<Decoded> Ahead;     ///< the points to serve, in order
+  std::size_t AheadCount = 0;     ///< how many of these are in use
+  std::size_t Served = 0;         ///< the first of them that is not all served
+  std::size_t ServedOfChunk = 0;  ///< points of it that are served
+  std::size_t NextChunk = 0;      ///< to decode
+  std::uint64_t DoneOfChunk = 0;  ///< records of the next chunk that are decoded already
 };
 
 } // namespace
 
 std::unique_ptr<FilePoints> openLasPoints(const std::string& path, const PointOptions& options)
 {
-  return std::make_unique<LasFilePoints>(path, options);
+  const LasHeader header = readLasHeader(path, options.Las);
+  if (header.Compressed)
+  {
+    return std::make_unique<LazPoints>(path, header, options);
+  }
+  return std::make_unique<PlainLasPoints>(path, header, options);
 }
 
 } // namespace tipp

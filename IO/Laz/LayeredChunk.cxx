@@ -784,7 +784,7 @@ public:
     const std::size_t header = this->RecordLength + 4 + 4 * this->Layers.size();
     if (size < header)
     {
-      throw LazError("ends before the layers of a chunk");
+      throw LazError("ends before its layers");
     }
     this->First = bytes;
     this->IsFirst = true;
@@ -798,7 +798,7 @@ public:
         const auto layerSize = std::size_t(loadFrom<std::uint32_t>(length));
         if (layerSize > size - this->Position)
         {
-          throw LazError("has a chunk whose layers are longer than the chunk");
+          throw LazError("has layers that are longer than itself");
         }
         Layer& layer = item->Layers[i];
         layer.IsUsed = layerSize > 0 && item->wants(i);
@@ -868,7 +868,7 @@ private:
   {
     if (!this->Items.front()->Layers[0].IsUsed)
     {
-      throw LazError("has a chunk without coordinates");
+      throw LazError("has no coordinates");
     }
     const unsigned channel = (this->First[15] >> 4) & 3U;
     for (const std::unique_ptr<LayeredItem>& item : this->Items)

@@ -78,6 +78,11 @@ LazItem readItem(const std::uint8_t* bytes, std::size_t offset)
     throw LazError("has compressed items of kind " + std::to_string(kind) + " and " +
       std::to_string(item.Size) + " bytes, which are not known here");
   }
+  if (item.Version == 1 && !isLayered(item.What) && item.What != LazItem::Kind::Wave13)
+  {
+    throw LazError("is compressed as LASzip 1 did until 2010, which is not read here; decompress "
+                   "it with a LASzip of today");
+  }
   if (!isKnownVersion(item))
   {
     throw LazError("has items of kind " + std::to_string(kind) + " compressed by version " +

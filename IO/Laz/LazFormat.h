@@ -12,7 +12,8 @@
 namespace tipp
 {
 
-/// Thrown if compressed points cannot be decoded. what() goes on after the file's name: "has ...".
+/// Thrown if compressed points cannot be decoded. what() goes on after the name of the
+/// file or the chunk: "has ...".
 class VTKTIPPIO_EXPORT LazError : public std::runtime_error
 {
   using std::runtime_error::runtime_error;

@@ -234,7 +234,7 @@ public:
   {
     if (size < this->RecordLength)
     {
-      throw LazError("ends before the first point of a chunk");
+      throw LazError("ends before its first point");
     }
     this->First = bytes;
     this->Size = size;

@@ -44,6 +44,7 @@ nb::tuple readPointFiles(const Strings& paths, const std::optional<Strings>& col
   PointOptions options;
   options.Columns = columns;
   options.Las = lasSelection(classes, returns, keep);
+  options.Threads = 0;
   const PointTable table = withoutLock([&] { return readPoints(paths, options); });
   warnOfFiles(table.Reports, table.CrsProblem);
   nb::dict named;

@@ -14,7 +14,7 @@ from . import _arguments as check
 from . import _core, _engine
 from ._arguments import array_of, DELAUNAY_2D, DELAUNAY_FILE, DEM, options_of, QUERY, READ, WRITE
 from ._arrays import grid_position, Image
-from ._dem import lines_of, uncompressed
+from ._dem import lines_of
 from ._filter import add_total, Filter
 from ._vtk import image_of, point_cloud, vtk_array, xyz_of
 from ._vtkmodules import (
@@ -377,8 +377,7 @@ class vtkPartitionedMeshQuery(Filter):
 
 
 class vtkTIPPPointReader(Filter):
-    """Reads points from files: .las, .npy, .csv, .xyz, and .laz if this build has LASzip or laspy is installed. The
-    output is a vtkPolyData."""
+    """Reads points from files: .las, .laz, .npy, .csv and .xyz. The output is a vtkPolyData."""
 
     RETURNS_ALL, RETURNS_FIRST, RETURNS_LAST = range(3)
     PROPERTIES = {"Classes": "", "Returns": 0, "KeepWithheld": False, "KeepSynthetic": False, "KeepOverlap": False,
@@ -398,8 +397,7 @@ class vtkTIPPPointReader(Filter):
             "keep": [flag for flag in ("withheld", "synthetic", "overlap", "truncated", "uncounted")
                      if self.value("Keep" + flag.capitalize())],
         }
-        with uncompressed(self.texts) as files:
-            array, data, crs = _engine.read_points(files, options)
+        array, data, crs = _engine.read_points(self.texts, options)
         cloud = point_cloud(array, data)
         if crs:
             text = vtkStringArray()

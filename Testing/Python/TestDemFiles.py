@@ -63,6 +63,10 @@ class DemFiles(unittest.TestCase):
                     np.save(self.path("ground.npy"), np.c_[las.x, las.y, las.z][ground])
                     self.dem("points.las", "-o", "las.npy", "--resolution", 3, "--class", 2)
                     self.dem("ground.npy", "-o", "npy.npy", "--resolution", 3)
+                    if importlib.util.find_spec("lazrs"):
+                        las.write(self.path("points.laz"))
+                        self.dem("points.laz", "-o", "laz.npy", "--resolution", 3, "--class", 2)
+                        np.testing.assert_array_equal(np.load(self.path("laz.npy")), np.load(self.path("las.npy")))
                     np.testing.assert_array_equal(np.load(self.path("las.npy")), np.load(self.path("npy.npy")))
                     self.dem("points.las", "-o", "las.npy", "--resolution", 3, "--attributes", "intensity")
                     self.assertLess(np.nanmax(np.load(self.path("las.npy"))), 65536)

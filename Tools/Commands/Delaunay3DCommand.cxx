@@ -289,6 +289,7 @@ int run(Delaunay3DArguments& arguments)
   arguments.OutputIs = openerOf(arguments.Output, Use::WritesTetrahedra | Use::WritesPieces);
   requireFitting(arguments);
   arguments.Columns.InSpace = true;
+  arguments.Columns.Threads = arguments.Threads;
   if (arguments.makesPieces()) // by the first rank alone, without MPI
   {
     return isIdleRank() ? Success : runOutOfCore(arguments);

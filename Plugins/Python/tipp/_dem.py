@@ -2,11 +2,8 @@
 """tipp.dem: makes a raster from points."""
 from __future__ import annotations
 
-import contextlib
-import importlib.util
 import os
-import tempfile
-from typing import TYPE_CHECKING, Any, Iterator, Mapping, NamedTuple, Sequence, Union
+from typing import TYPE_CHECKING, Any, Mapping, NamedTuple, Sequence, Union
 
 import numpy as np
 
@@ -78,7 +75,7 @@ def dem(
     ----------
     points
         Coordinates of shape (n, 3), a vtkPointSet, or one or more files: .las, .laz, .npy, .csv, .xyz or any format
-        that VTK reads. If this build cannot read .laz files, laspy reads them if it is installed.
+        that VTK reads.
     resolution
         Width and height of a pixel, in the units of the points.
     bounds
@@ -178,17 +175,15 @@ def dem(
         "crs": "" if crs is None else check.text(crs, "crs"),
     }
     progress = progress_of(progress_bar)
-    source: Any
+    given: Any
     if check.are_files(points):
         if point_data is not None:
             raise ValueError("point_data needs an array of points; files have their own columns.")
-        source = uncompressed(
-            [check.path(p, "points") for p in ([points] if isinstance(points, (str, os.PathLike)) else points)])
+        given = [check.path(p, "points") for p in ([points] if isinstance(points, (str, os.PathLike)) else points)]
     else:
         check.require_point_set(points, point_data, "a vtkPointSet, an array or names of files")
-        source = contextlib.nullcontext(positions_of(points))
-    with source as given:
-        bands, transform, stated = _engine.dem(given, point_data, options, progress)
+        given = positions_of(points)
+    bands, transform, stated = _engine.dem(given, point_data, options, progress)
     return Dem(bands[0] if isinstance(attributes, str) else np.stack(bands), transform, crs or stated)
 
 
@@ -248,28 +243,3 @@ def _check_selection(classes: Any, returns: Any, keep: Any) -> None:
     check.choice(returns, "returns", _RETURNS)
     for flag in check.a_list(keep, "keep"):
         check.choice(flag, "keep", dict.fromkeys(_FLAGS, 0))
-
-
-@contextlib.contextmanager
-def uncompressed(paths: list[str]) -> Iterator[list[str]]:
-    """Yields the paths, with .laz files replaced by temporary .las files, which laspy writes if it is installed."""
-    compressed = [path for path in paths if path.lower().endswith(".laz")]
-    if not compressed or importlib.util.find_spec("laspy") is None:
-        yield paths
-        return
-    import laspy
-
-    with tempfile.TemporaryDirectory() as folder:
-        files = []
-        for number, path in enumerate(paths):
-            if path not in compressed:
-                files.append(path)
-                continue
-            files.append(os.path.join(folder, f"{number}.las"))
-            try:
-                with laspy.open(path) as source, laspy.open(files[-1], "w", header=source.header, do_compress=False) as to:
-                    for block in source.chunk_iterator(1_000_000):
-                        to.write_points(block)
-            except Exception as error:
-                raise RuntimeError(f"{path}: cannot be decompressed by laspy ({error}).") from None
-        yield files

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // File formats that commands read and write.
+#include "LazText.h"
 #include "RunTipp.h"
 
 #include "Points/ReadPoints.h"
@@ -144,6 +145,27 @@ TEST_F(TippFormats, NumbersMayHaveDecimalCommas)
   // Commas that separate columns are not decimal commas.
   EXPECT_EQ((std::vector<double>{ 1, 5, 3, 4 }),
     tipp::readPoints(this->Folder.file("plain.txt", "1, 5, 2\n3, 4, 7\n")).XY);
+}
+
+TEST_F(TippFormats, CompressedPointsGiveTheSameRaster)
+{
+  for (const LazInput& input : lazInputs)
+  {
+    const LasAndLaz files = filesOf(input);
+    this->Folder.file("a.las", files.Plain);
+    this->Folder.file("b.laz", files.Compressed);
+    for (const std::string memory : { "1G", "16M" })
+    {
+      for (const std::string name : { "a.las", "b.laz" })
+      {
+        this->run({ "dem", name, "-o", name + ".npy", "--keep", "withheld,synthetic,overlap",
+          "--resolution", "1e5", "--threads", "2", "--memory", memory });
+      }
+      EXPECT_EQ(this->content("a.las.npy"), this->content("b.laz.npy")) << input.Format;
+    }
+  }
+  const std::string info = this->run({ "info", "b.laz" }).Out;
+  EXPECT_NE(std::string::npos, info.find("point format 10, compressed, 40 points")) << info;
 }
 
 TEST_F(TippFormats, OtherKindsNameTheCommandThatConvertsThem)
