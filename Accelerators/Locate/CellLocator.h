@@ -104,8 +104,9 @@ private:
   /// Sets `at` to a triangle near a point.
   void jump(Point2 point, Position& at) const;
 
-  /// After so many steps a walk gives up, and the point is searched with the tree. It starts at the
-  /// nearest of a sample of the cells, so ordinary meshes need a few dozen.
+  /// A walk that takes more steps than this is given up, and the tree finds the point's cell. A
+  /// walk starts at the nearest of a sample of the cells, so ordinary meshes need a few dozen
+  /// steps.
   static constexpr std::int64_t MostSteps = 4096;
   static constexpr std::uint32_t None = ~std::uint32_t(0);
   static constexpr std::uint32_t Turned = 0x80000000u;

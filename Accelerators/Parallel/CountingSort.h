@@ -12,10 +12,11 @@
 namespace tipp
 {
 
-/// Prepares a stable counting sort in which each thread counts, and later places, its own share of
-/// the items. `counts[share][group]` is the number of the share's items in a group. Each count is
-/// replaced by the index at which the share's first item of the group is to be placed. Returns the
-/// index of the first item of each group, and the number of all items at the end.
+/// Prepares a stable counting sort by several threads, each of which first counts and then places
+/// its own share of the items. `counts[share][group]` is the number of the share's items in a
+/// group. Each count is replaced by the index at which the share's first item of the group is to be
+/// placed. Returns the index of the first item of each group, and the number of all items at the
+/// end.
 template <typename Counts>
 std::vector<typename Counts::value_type> countsToIndices(
   std::size_t groups, std::vector<Counts>& counts)

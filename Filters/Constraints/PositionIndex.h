@@ -91,8 +91,10 @@ private:
 /// The ids of other points after they have been added to a triangulation's points.
 struct MatchedPositions
 {
-  std::vector<PointId> Ids;     ///< per other point: the first point equal to it, or a new id
-  std::vector<std::size_t> New; ///< other points with new ids, which follow those of the points
+  /// For each other point, the id of the first point equal to it, or a new id. New ids continue
+  /// those of the points.
+  std::vector<PointId> Ids;
+  std::vector<std::size_t> New; ///< the other points that have new ids
 };
 
 VTKTIPPFILTERS_EXPORT MatchedPositions matchPositions(PointsView points, PointsView others);

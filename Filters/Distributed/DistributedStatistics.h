@@ -34,7 +34,7 @@ struct RankStatistics
   double TotalSeconds = 0;
 };
 
-/// A master's statistics; without masters, those of the whole domain.
+/// The statistics of one master, or of the whole domain if the run has no masters.
 struct MasterStatistics
 {
   std::int32_t Area = 0;        ///< 0: the whole domain; else its first major partition, from 1

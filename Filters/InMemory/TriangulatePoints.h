@@ -38,7 +38,7 @@ struct SourceConstraints
   /// constraints are not from a data set.
   std::vector<std::int64_t> Cells;
   std::size_t PolygonBegin = 0;  ///< constraints from here on are edges of polygons
-  std::size_t BoundaryEdges = 0; ///< so many of the last constraints are edges of the boundary
+  std::size_t BoundaryEdges = 0; ///< number of edges of the boundary, which come last
   std::vector<Point2> Holes = {};
 };
 

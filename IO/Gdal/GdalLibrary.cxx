@@ -171,8 +171,8 @@ double largestRadius(OGRGeometryH geometry)
   return largest;
 }
 
-/// Returns the angle of a segment, in degrees, with which those of the geometry's arcs keep the
-/// tolerance; 0: GDAL's default of 4 degrees.
+/// Returns the angle in degrees that each segment of an arc may span so that the geometry's arcs
+/// are approximated within the tolerance; 0: GDAL's default of 4 degrees.
 double angleOfSegments(OGRGeometryH geometry)
 {
   constexpr double degrees = 180 / 3.14159265358979323846;

@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/RawValues.h"
 #include "Points/ReadPoints.h"
 
 #include <algorithm>

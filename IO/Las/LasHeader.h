@@ -8,7 +8,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <string>
 
 namespace tipp
@@ -45,15 +44,6 @@ struct LasHeader
 /// read, or has less data than the header announces (unless `selection` keeps truncated files).
 VTKTIPPIO_EXPORT LasHeader readLasHeader(const std::string& path, const LasSelection& selection);
 VTKTIPPIO_EXPORT LasHeader readLasHeader(const std::string& path);
-
-/// Reads a value from a header or record.
-template <typename T>
-T valueAt(const char* bytes)
-{
-  T value;
-  std::memcpy(&value, bytes, sizeof value);
-  return value;
-}
 
 } // namespace tipp
 

@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/RawValues.h"
 #include "Las/LasHeader.h"
 #include "Las/LazFile.h"
 #include "Parallel/ParallelFor.h"
@@ -515,7 +516,7 @@ private:
   /// Points that are decoded ahead, unless it takes more of them to have a chunk for each thread.
   static constexpr std::uint64_t manyPoints = 1 << 20;
   static constexpr std::uint64_t mostPoints = 2 * manyPoints;
-  /// Small chunks are decoded together until they have so many points.
+  /// Small chunks are decoded together until they have at least this many points.
   static constexpr std::uint64_t fewPoints = 1 << 14;
   /// Records of a chunk of more than `mostPoints` that are decoded at a time.
   static constexpr std::uint64_t partOfChunk = 1 << 17;
@@ -560,7 +561,7 @@ private:
     this->readRecords(reader, this->Laz.chunks()[chunk].Points, share, take);
   }
 
-  /// Limits the points to those of the chunks before the first one that cannot be decoded.
+  /// Leaves out the first chunk that cannot be decoded, and all after it.
   void keepReadable()
   {
     const std::size_t chunks = this->Laz.chunks().size();

@@ -149,17 +149,17 @@ public:
   {
     this->IsReady.fill(false);
     Channel& last = this->prepare(channel);
-    last.LastX = loadFrom<std::int32_t>(first);
-    last.LastY = loadFrom<std::int32_t>(first + 4);
-    last.LastZ = loadFrom<std::int32_t>(first + 8);
-    last.LastIntensity = loadFrom<std::uint16_t>(first + 12);
+    last.LastX = valueAt<std::int32_t>(first);
+    last.LastY = valueAt<std::int32_t>(first + 4);
+    last.LastZ = valueAt<std::int32_t>(first + 8);
+    last.LastIntensity = valueAt<std::uint16_t>(first + 12);
     last.LastReturns = first[14];
     last.LastFlags = std::uint8_t((first[15] & 15U) | (unsigned(first[15] >> 6) << 4));
     last.LastClass = first[16];
     last.LastUserData = first[17];
-    last.LastAngle = loadFrom<std::int16_t>(first + 18);
-    last.LastSource = loadFrom<std::uint16_t>(first + 20);
-    last.LastTime = loadFrom<std::uint64_t>(first + 22);
+    last.LastAngle = valueAt<std::int16_t>(first + 18);
+    last.LastSource = valueAt<std::uint16_t>(first + 20);
+    last.LastTime = valueAt<std::uint64_t>(first + 22);
     this->resetState(last);
     this->Current = channel;
   }
@@ -503,18 +503,18 @@ private:
 
   void store(const Channel& last, std::uint8_t* record) const
   {
-    storeTo(record, last.LastX);
-    storeTo(record + 4, last.LastY);
-    storeTo(record + 8, last.LastZ);
-    storeTo(record + 12, last.LastIntensity);
+    setValue(record, last.LastX);
+    setValue(record + 4, last.LastY);
+    setValue(record + 8, last.LastZ);
+    setValue(record + 12, last.LastIntensity);
     record[14] = last.LastReturns;
     record[15] = std::uint8_t(
       (last.LastFlags & 15U) | (this->Current << 4) | (unsigned(last.LastFlags >> 4) << 6));
     record[16] = last.LastClass;
     record[17] = last.LastUserData;
-    storeTo(record + 18, last.LastAngle);
-    storeTo(record + 20, last.LastSource);
-    storeTo(record + 22, last.LastTime);
+    setValue(record + 18, last.LastAngle);
+    setValue(record + 20, last.LastSource);
+    setValue(record + 22, last.LastTime);
   }
 
   const unsigned Attributes;
@@ -762,7 +762,7 @@ class LayeredChunk : public LazChunkDecoder
 {
 public:
   LayeredChunk(const LazFormat& format, unsigned attributes)
-    : RecordLength(format.RecordLength)
+    : LazChunkDecoder(format.RecordLength)
   {
     std::size_t layers = 0;
     for (const LazItem& item : format.Items)
@@ -779,23 +779,23 @@ public:
     }
   }
 
-  void begin(const std::uint8_t* bytes, std::size_t size) override
+  std::size_t position() const override { return this->Position; }
+
+private:
+  void open(std::size_t size) override
   {
     const std::size_t header = this->RecordLength + 4 + 4 * this->Layers.size();
     if (size < header)
     {
       throw LazError("ends before its layers");
     }
-    this->First = bytes;
-    this->IsFirst = true;
-    this->IsStarted = false;
     this->Position = header;
-    const std::uint8_t* length = bytes + this->RecordLength + 4;
+    const std::uint8_t* length = this->First + this->RecordLength + 4;
     for (const std::unique_ptr<LayeredItem>& item : this->Items)
     {
       for (std::size_t i = 0; i < item->layers(); ++i, length += 4)
       {
-        const auto layerSize = std::size_t(loadFrom<std::uint32_t>(length));
+        const auto layerSize = std::size_t(valueAt<std::uint32_t>(length));
         if (layerSize > size - this->Position)
         {
           throw LazError("has layers that are longer than itself");
@@ -803,33 +803,27 @@ public:
         Layer& layer = item->Layers[i];
         layer.IsUsed = layerSize > 0 && item->wants(i);
         layer.Decoder =
-          layer.IsUsed ? RangeDecoder(bytes + this->Position, layerSize) : RangeDecoder();
+          layer.IsUsed ? RangeDecoder(this->First + this->Position, layerSize) : RangeDecoder();
         this->Position += layerSize;
       }
     }
   }
 
-  void read(std::size_t count, std::uint8_t* records) override
+  void decode(std::size_t count, std::uint8_t* records) override
   {
-    const std::size_t first = this->readFirst(count, records);
-    for (std::size_t done = first; done < count; done += most)
+    for (std::size_t done = 0; done < count; done += most)
     {
       this->readSome(std::min(most, count - done), records + done * this->RecordLength);
     }
   }
 
-  void readWith(LazChunkDecoder& decoder, std::size_t count, std::uint8_t* records,
+  void decodeWith(LazChunkDecoder& decoder, std::size_t count, std::uint8_t* records,
     std::uint8_t* otherRecords) override
   {
     auto& other = static_cast<LayeredChunk&>(decoder);
     const std::array<LayeredChunk*, 2> chunks = { this, &other };
     const std::array<std::uint8_t*, 2> begin = { records, otherRecords };
-    const std::size_t first = this->readFirst(count, records);
-    if (other.readFirst(count, otherRecords) != first)
-    {
-      throw LazError("has chunks that are not read from their first points on");
-    }
-    for (std::size_t done = first; done < count; done += most)
+    for (std::size_t done = 0; done < count; done += most)
     {
       const std::size_t some = std::min(most, count - done);
       const std::array<std::uint8_t*, 2> to = { begin[0] + done * this->RecordLength,
@@ -844,27 +838,7 @@ public:
     }
   }
 
-  std::size_t position() const override { return this->Position; }
-
-private:
-  /// Copies the first point if it is the next one, and starts the models if there are others.
-  /// Returns the number of points copied.
-  std::size_t readFirst(std::size_t count, std::uint8_t* records)
-  {
-    const std::size_t first = count > 0 && this->IsFirst ? 1 : 0;
-    if (first > 0)
-    {
-      std::memcpy(records, this->First, this->RecordLength);
-      this->IsFirst = false;
-    }
-    if (count > first && !this->IsStarted) // for a chunk of one point there is nothing to start
-    {
-      this->start();
-    }
-    return first;
-  }
-
-  void start()
+  void start() override
   {
     if (!this->Items.front()->Layers[0].IsUsed)
     {
@@ -875,7 +849,6 @@ private:
     {
       item->begin(this->First + item->Item.Offset, channel);
     }
-    this->IsStarted = true;
   }
 
   /// As many points as stay in the processor's first cache until all items are decoded.
@@ -909,13 +882,9 @@ private:
     }
   }
 
-  const std::size_t RecordLength;
   std::vector<std::unique_ptr<LayeredItem>> Items;
   std::vector<Layer> Layers; ///< of all items
-  const std::uint8_t* First = nullptr;
   std::size_t Position = 0;
-  bool IsFirst = true;    ///< the first point is the next one to read
-  bool IsStarted = false; ///< the models are those of this chunk
 };
 
 } // namespace

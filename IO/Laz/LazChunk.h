@@ -32,21 +32,42 @@ constexpr unsigned Extra = 2048; ///< extra bytes
 constexpr unsigned All = 4095;
 } // namespace laz
 
-/// The methods of compression: decodes one chunk at a time.
+/// A method of compression: decodes one chunk at a time. A chunk begins with its first point, which
+/// is not compressed, and from which the models start.
 class VTKTIPPIO_EXPORT LazChunkDecoder
 {
 public:
   virtual ~LazChunkDecoder() = default;
-  virtual void begin(const std::uint8_t* bytes, std::size_t size) = 0;
-  virtual void read(std::size_t count, std::uint8_t* records) = 0;
+
+  void begin(const std::uint8_t* bytes, std::size_t size);
+  void read(std::size_t count, std::uint8_t* records);
   /// Decodes points of this chunk and of another one of the same kind.
-  virtual void readWith(
-    LazChunkDecoder& other, std::size_t count, std::uint8_t* records, std::uint8_t* otherRecords)
-  {
-    this->read(count, records);
-    other.read(count, otherRecords);
-  }
+  void readWith(
+    LazChunkDecoder& other, std::size_t count, std::uint8_t* records, std::uint8_t* otherRecords);
   virtual std::size_t position() const = 0;
+
+protected:
+  explicit LazChunkDecoder(std::size_t recordLength)
+    : RecordLength(recordLength)
+  {
+  }
+
+  /// Reads what precedes the compressed points; First is set.
+  virtual void open(std::size_t size) = 0;
+  /// Starts the models with the first point.
+  virtual void start() = 0;
+  virtual void decode(std::size_t count, std::uint8_t* records) = 0;
+  virtual void decodeWith(LazChunkDecoder& other, std::size_t count, std::uint8_t* records,
+    std::uint8_t* otherRecords) = 0;
+
+  const std::size_t RecordLength;
+  const std::uint8_t* First = nullptr; ///< the first point, where the chunk begins
+  bool IsStarted = false;              ///< the models are those of this chunk
+
+private:
+  std::size_t readFirst(std::size_t count, std::uint8_t* records);
+
+  bool IsFirst = true; ///< the first point is the next one to read
 };
 
 VTKTIPPIO_EXPORT std::unique_ptr<LazChunkDecoder> pointwiseDecoder(const LazFormat& format);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Laz/LazFormat.h"
 
+#include "Files/RawValues.h"
 #include "Laz/IntegerDecoder.h"
 
 #include <algorithm>
@@ -12,18 +13,6 @@ namespace tipp
 {
 namespace
 {
-
-/// Reads a little-endian value.
-template <typename T>
-T littleEndian(const std::uint8_t* bytes)
-{
-  T value = 0;
-  for (std::size_t i = sizeof(T); i-- > 0;)
-  {
-    value = T((std::uint64_t(value) << 8) | bytes[i]);
-  }
-  return value;
-}
 
 /// Returns the size of an item of a known kind, 0 if any size is good.
 std::size_t sizeOf(LazItem::Kind kind)
@@ -66,10 +55,10 @@ bool isKnownVersion(const LazItem& item)
 LazItem readItem(const std::uint8_t* bytes, std::size_t offset)
 {
   LazItem item;
-  const auto kind = littleEndian<std::uint16_t>(bytes);
+  const auto kind = valueAt<std::uint16_t>(bytes);
   item.What = LazItem::Kind(kind);
-  item.Size = littleEndian<std::uint16_t>(bytes + 2);
-  item.Version = littleEndian<std::uint16_t>(bytes + 4);
+  item.Size = valueAt<std::uint16_t>(bytes + 2);
+  item.Version = valueAt<std::uint16_t>(bytes + 4);
   item.Offset = offset;
   const bool isKnown = kind == 0 || (kind >= 6 && kind <= 14);
   const std::size_t size = sizeOf(item.What);
@@ -101,9 +90,9 @@ LazFormat::LazFormat(const std::uint8_t* content, std::size_t size)
   {
     throw LazError("has a damaged record of its compression");
   }
-  const auto compressor = littleEndian<std::uint16_t>(content);
-  const auto coder = littleEndian<std::uint16_t>(content + 2);
-  const std::size_t items = littleEndian<std::uint16_t>(content + 32);
+  const auto compressor = valueAt<std::uint16_t>(content);
+  const auto coder = valueAt<std::uint16_t>(content + 2);
+  const std::size_t items = valueAt<std::uint16_t>(content + 32);
   if (compressor < 1 || compressor > 3 || coder != 0)
   {
     throw LazError("is compressed by method " + std::to_string(compressor) + " with coder " +
@@ -116,7 +105,7 @@ LazFormat::LazFormat(const std::uint8_t* content, std::size_t size)
   this->IsChunked = compressor != 1;
   this->IsLayered = compressor == 3;
   // Some writers state variable chunks as 0.
-  const auto points = littleEndian<std::uint32_t>(content + 12);
+  const auto points = valueAt<std::uint32_t>(content + 12);
   this->ChunkPoints = points == 0 ? VariableChunks : points;
   for (std::size_t i = 0; i < items; ++i)
   {
@@ -146,11 +135,11 @@ std::vector<LazChunkPlace> readLazChunkTable(const LazFormat& format, const std:
   std::size_t size, std::uint64_t points, std::uint64_t begin, std::uint64_t end)
 {
   constexpr std::size_t header = 8;
-  if (size < header || littleEndian<std::uint32_t>(table) != 0)
+  if (size < header || valueAt<std::uint32_t>(table) != 0)
   {
     throw LazError("has a damaged chunk table");
   }
-  const std::uint64_t count = littleEndian<std::uint32_t>(table + 4);
+  const std::uint64_t count = valueAt<std::uint32_t>(table + 4);
   const bool isVariable = format.ChunkPoints == LazFormat::VariableChunks;
   // Each chunk has a record at least, so that a damaged count cannot ask for much memory.
   if (count > (end - std::min(begin, end)) / std::max<std::size_t>(format.RecordLength, 1))

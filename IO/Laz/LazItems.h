@@ -2,6 +2,7 @@
 #ifndef tippLazItems_h
 #define tippLazItems_h
 
+#include "Files/RawValues.h"
 #include "Laz/IntegerDecoder.h"
 
 #include <algorithm>
@@ -16,21 +17,6 @@
 
 namespace tipp
 {
-
-// The records of LAS are little-endian, as are all machines that TIPP is built for.
-template <typename T>
-T loadFrom(const std::uint8_t* bytes)
-{
-  T value;
-  std::memcpy(&value, bytes, sizeof value);
-  return value;
-}
-
-template <typename T>
-void storeTo(std::uint8_t* bytes, T value)
-{
-  std::memcpy(bytes, &value, sizeof value);
-}
 
 /// Models of 2^8 or fewer symbols for each of many contexts, of which a file uses few.
 template <unsigned Capacity, std::size_t Contexts>
@@ -323,8 +309,8 @@ public:
   {
     packet[0] = std::uint8_t(decoder.symbol(this->Index));
     this->LastKind = decoder.symbol(this->OffsetKinds[this->LastKind]);
-    auto offset = loadFrom<std::uint64_t>(packet + 1);
-    const auto size = loadFrom<std::int32_t>(packet + 9);
+    auto offset = valueAt<std::uint64_t>(packet + 1);
+    const auto size = valueAt<std::int32_t>(packet + 9);
     if (this->LastKind == 1)
     {
       offset += std::uint32_t(size);
@@ -339,13 +325,13 @@ public:
       const std::uint64_t low = decoder.bits(32);
       offset = (std::uint64_t(decoder.bits(32)) << 32) | low;
     }
-    storeTo(packet + 1, offset);
-    storeTo(packet + 9, this->Sizes.decode(decoder, size, 0));
-    storeTo(packet + 13, this->Returns.decode(decoder, loadFrom<std::int32_t>(packet + 13), 0));
+    setValue(packet + 1, offset);
+    setValue(packet + 9, this->Sizes.decode(decoder, size, 0));
+    setValue(packet + 13, this->Returns.decode(decoder, valueAt<std::int32_t>(packet + 13), 0));
     for (unsigned axis = 0; axis < 3; ++axis)
     {
       std::uint8_t* const at = packet + 17 + 4 * axis;
-      storeTo(at, this->Directions.decode(decoder, loadFrom<std::int32_t>(at), axis));
+      setValue(at, this->Directions.decode(decoder, valueAt<std::int32_t>(at), axis));
     }
   }
 

@@ -84,7 +84,7 @@ public:
       this->LastIntensity[pair] = std::uint16_t(
         this->Intensities.decode(decoder, this->LastIntensity[pair], std::min(pair, 3U)));
     }
-    storeTo(last + 12, this->LastIntensity[pair]);
+    setValue(last + 12, this->LastIntensity[pair]);
     if (changes & 15U)
     {
       this->decodeOthers(decoder, changes);
@@ -129,7 +129,7 @@ public:
   {
     std::int32_t& z = this->LastZ[contexts10.Level[this->Last[14] & 63U]];
     z = this->Z.decodeCorrection(decoder, z);
-    storeTo(&this->Last[8], z);
+    setValue(&this->Last[8], z);
   }
 
   void store(std::uint8_t* record) const
@@ -156,14 +156,14 @@ private:
     }
     if (changes & 1U)
     {
-      const auto source = loadFrom<std::uint16_t>(last + 18);
-      storeTo(last + 18, std::uint16_t(this->Sources.decode(decoder, source, 0)));
+      const auto source = valueAt<std::uint16_t>(last + 18);
+      setValue(last + 18, std::uint16_t(this->Sources.decode(decoder, source, 0)));
     }
   }
 
   void add(std::size_t at, std::int32_t step)
   {
-    storeTo(&this->Last[at], loadFrom<std::uint32_t>(&this->Last[at]) + std::uint32_t(step));
+    setValue(&this->Last[at], valueAt<std::uint32_t>(&this->Last[at]) + std::uint32_t(step));
   }
 
   unsigned Pair = 0;   ///< context of the point's returns
@@ -202,7 +202,7 @@ class PointwiseChunk : public LazChunkDecoder
 {
 public:
   explicit PointwiseChunk(const LazFormat& format)
-    : RecordLength(format.RecordLength)
+    : LazChunkDecoder(format.RecordLength)
   {
     for (const LazItem& description : format.Items)
     {
@@ -230,39 +230,6 @@ public:
     }
   }
 
-  void begin(const std::uint8_t* bytes, std::size_t size) override
-  {
-    if (size < this->RecordLength)
-    {
-      throw LazError("ends before its first point");
-    }
-    this->First = bytes;
-    this->Size = size;
-    this->IsFirst = true;
-    this->IsStarted = false;
-  }
-
-  void read(std::size_t count, std::uint8_t* records) override
-  {
-    const std::size_t first = this->readFirst(count, records);
-    std::array<Stream, 1> streams = { Stream(*this, records + first * this->RecordLength) };
-    decodeStreams(streams, count - first);
-  }
-
-  void readWith(LazChunkDecoder& decoder, std::size_t count, std::uint8_t* records,
-    std::uint8_t* otherRecords) override
-  {
-    auto& other = static_cast<PointwiseChunk&>(decoder);
-    const std::size_t first = this->readFirst(count, records);
-    if (other.readFirst(count, otherRecords) != first)
-    {
-      throw LazError("has chunks that are not read from their first points on");
-    }
-    std::array<Stream, 2> streams = { Stream(*this, records + first * this->RecordLength),
-      Stream(other, otherRecords + first * this->RecordLength) };
-    decodeStreams(streams, count - first);
-  }
-
   std::size_t position() const override
   {
     constexpr std::size_t fewest = 4; // of a stream without symbols
@@ -270,6 +237,22 @@ public:
   }
 
 private:
+  void open(std::size_t size) override { this->Size = size; }
+
+  void decode(std::size_t count, std::uint8_t* records) override
+  {
+    std::array<Stream, 1> streams = { Stream(*this, records) };
+    decodeStreams(streams, count);
+  }
+
+  void decodeWith(LazChunkDecoder& decoder, std::size_t count, std::uint8_t* records,
+    std::uint8_t* otherRecords) override
+  {
+    std::array<Stream, 2> streams = { Stream(*this, records),
+      Stream(static_cast<PointwiseChunk&>(decoder), otherRecords) };
+    decodeStreams(streams, count);
+  }
+
   /// The state of a chunk while some of its points are decoded, as in LayeredChunk: steps of two
   /// chunks in turn take less time than one chunk after the other.
   struct Stream
@@ -350,31 +333,13 @@ private:
     {
       PointwiseItem& item = stream.Chunk.Items[number];
       stream.IsGood =
-        decode(stream.Decoder, item, stream.Record + item.Item.Offset) && stream.IsGood;
+        decodeItem(stream.Decoder, item, stream.Record + item.Item.Offset) && stream.IsGood;
     }
   }
 
-  /// Copies the first point if it is the next one, and starts the models if there are others.
-  /// Returns the number of points copied.
-  std::size_t readFirst(std::size_t count, std::uint8_t* records)
-  {
-    const std::size_t first = count > 0 && this->IsFirst ? 1 : 0;
-    if (first > 0)
-    {
-      std::memcpy(records, this->First, this->RecordLength);
-      this->IsFirst = false;
-    }
-    if (count > first && !this->IsStarted) // for a chunk of one point there is nothing to start
-    {
-      this->start();
-    }
-    return first;
-  }
-
-  void start()
+  void start() override
   {
     this->Decoder = RangeDecoder(this->First + this->RecordLength, this->Size - this->RecordLength);
-    this->IsStarted = true;
     for (PointwiseItem& item : this->Items)
     {
       const std::uint8_t* const first = this->First + item.Item.Offset;
@@ -385,7 +350,7 @@ private:
           item.Point->reset(first);
           break;
         case LazItem::Kind::Time11:
-          item.Time->reset(loadFrom<std::uint64_t>(first));
+          item.Time->reset(valueAt<std::uint64_t>(first));
           break;
         case LazItem::Kind::Colour12:
           item.Colour->reset();
@@ -402,14 +367,14 @@ private:
   }
 
   /// Returns false if the item is damaged.
-  static bool decode(RangeDecoder& decoder, PointwiseItem& item, std::uint8_t* record)
+  static bool decodeItem(RangeDecoder& decoder, PointwiseItem& item, std::uint8_t* record)
   {
     switch (item.Item.What)
     {
       case LazItem::Kind::Time11:
       {
         const bool isGood = item.Time->decode(decoder);
-        storeTo(record, item.Time->time());
+        setValue(record, item.Time->time());
         return isGood;
       }
       case LazItem::Kind::Colour12:
@@ -434,13 +399,9 @@ private:
     return true;
   }
 
-  std::size_t RecordLength;
   std::vector<PointwiseItem> Items;
   RangeDecoder Decoder;
-  const std::uint8_t* First = nullptr;
   std::size_t Size = 0;
-  bool IsFirst = true;    ///< the first point is the next one to read
-  bool IsStarted = false; ///< the models are those of this chunk
 };
 
 } // namespace

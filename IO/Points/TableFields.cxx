@@ -187,7 +187,10 @@ std::string_view withoutTrailingComment(std::string_view line)
     const bool isAfterBlank = line[at - 1] == ' ' || line[at - 1] == '\t';
     if (isAfterBlank && (line[at] == '#' || line[at] == '!') && isComment(line.substr(at)))
     {
-      return line.substr(0, line.find_last_not_of(" \t", at - 1) + 1);
+      // A tab before blanks may begin an empty last field.
+      const std::size_t end =
+        line[at - 1] == '\t' ? at - 1 : line.find_last_not_of(' ', at - 1) + 1;
+      return line.substr(0, end);
     }
   }
   return line;

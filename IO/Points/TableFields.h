@@ -97,7 +97,8 @@ bool isComment(std::string_view line);
 /// A comment without the characters that begin it.
 std::string_view withoutCommentMarks(std::string_view line);
 
-/// The line up to a comment at its end, which begins with # or ! after a blank.
+/// The line up to a comment at its end, which begins with # or ! after a blank or a tab, and
+/// without the blanks, or the tab, before it.
 std::string_view withoutTrailingComment(std::string_view line);
 
 /// A name as it stands in a header, in UTF-8 and without blanks and quotes around it and control

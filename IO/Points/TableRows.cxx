@@ -276,6 +276,11 @@ void TableRows::readStart()
   this->FirstFields = this->Row.size();
   this->Names = this->Header->namesFor(this->Delimiter, this->Row, this->Lines.lineNumber());
   this->Width = this->isNamed() ? this->Names.size() : this->Row.size();
+  if (this->Doubtful > 0 && (!this->isNamed() || this->Header->line() == this->Doubtful))
+  {
+    throw IOError(this->Path, this->Doubtful,
+      "is a title, or a point that lacks a coordinate; correct or remove the line.");
+  }
   this->refuseNumberedColumns();
 }
 
@@ -313,8 +318,18 @@ bool TableRows::takeLine(bool isFirst)
   if (this->Header->texts() == 0 || !TableHeader::areUnits(this->Line))
   {
     this->Header->addText(this->Lines.lineNumber(), this->Line);
+    this->Doubtful = this->mayBePoint() ? this->Lines.lineNumber() : this->Doubtful;
   }
   return false;
+}
+
+bool TableRows::mayBePoint()
+{
+  const std::string_view first = trimField(this->Row.front());
+  const std::size_t mark = std::min(first.find_first_of(".,"), first.size());
+  const bool hasDecimals = mark + 1 < first.size();
+  return this->Row.size() > 1 && this->Parser.isNumber(first) &&
+    (hasDecimals || this->count(FieldKind::Missing) > 0);
 }
 
 std::ptrdiff_t TableRows::count(FieldKind kind)

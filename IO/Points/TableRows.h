@@ -236,6 +236,9 @@ private:
   /// Takes the next line before or at the first point; returns true if it is the point.
   bool takeLine(bool isFirst);
   std::ptrdiff_t count(FieldKind kind);
+  /// Whether a line of text may be a point that lacks a coordinate: it begins with a number that
+  /// has decimals, or has a word for a missing value.
+  bool mayBePoint();
   /// Leaves out a comment at the end of the first row, unless it holds numbers.
   void cutTrailingComment();
 
@@ -267,6 +270,7 @@ private:
   std::size_t FirstFields = 0;
   std::int64_t Rows = 0;
   std::optional<std::int64_t> Count;
+  std::int64_t Doubtful = 0; ///< a line before the first row that may be a point; 0: there is none
   std::vector<std::string> Names;   ///< as they stand in the file; empty: there are none
   std::vector<std::string> Changed; ///< names that are not unique
   ColumnChoice Choice;

@@ -162,9 +162,8 @@ void nameRepresentatives(const std::vector<Duplicate>& duplicates, std::vector<I
 }
 
 /// Turns a triangulation of points into the constrained Delaunay triangulation with these segments,
-/// in place. `inserted` has segments that were inserted during the triangulation. No segment
-/// crosses another. Afterwards the segments refer to representatives, and are split at the vertices
-/// on them.
+/// in place. `inserted`: segments that are already in the triangulation. Segments must not cross.
+/// Afterwards the segments refer to representatives, and are split at the vertices on them.
 ///
 /// Only triangles that a segment crosses change. Segments that cross a common triangle form one
 /// job, with all triangles that they cross; jobs are independent of each other. A job's new

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ExpectIOError.h"
 #include "Files/InputFile.h"
+#include "Files/RawValues.h"
 #include "Las/LasHeader.h"
 #include "Las/LazFile.h"
 #include "LasText.h"
