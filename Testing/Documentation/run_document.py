@@ -35,7 +35,8 @@ LIGHT = [
     (r"^sh Utilities/test\.sh paraview$", r"sh Utilities/test.sh format"),
     (r"^(\w+=\S+ )*sh Utilities/benchmark\.sh.*$", r'for script in Utilities/benchmark.sh Utilities/benchmarks/*.sh; do sh -n "$script"; done'),
     (r"^(cmake --build --preset \S+)$", r"\1 -- -n"),
-    (r"^((?:xvfb-run -a )?ctest --preset .*)$", r"\1 -N --no-tests=ignore"),
+    (r"^(ctest --preset default -R .*)$", r"\1 -N --no-tests=error"),
+    (r"^((?:xvfb-run -a )?ctest --preset (?!.* -N).*)$", r"\1 -N --no-tests=ignore"),
 ]
 
 
