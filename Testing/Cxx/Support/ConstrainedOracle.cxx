@@ -163,6 +163,48 @@ bool isOnLine(const Coordinates& xy, const Constraint& constraint, std::int64_t 
     CGAL::collinear(a, p, b) && CGAL::collinear_are_strictly_ordered_along_line(a, p, b);
 }
 
+/// Points in the order of x, so that those on a constraint are found without looking at all.
+class PointsByX
+{
+public:
+  PointsByX(const Coordinates& xy, std::size_t count)
+    : XY(xy)
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (std::isfinite(xy[2 * i]))
+      {
+        this->Ids.push_back(std::int64_t(i));
+      }
+    }
+    std::sort(this->Ids.begin(), this->Ids.end(),
+      [this](std::int64_t a, std::int64_t b) { return this->x(a) < this->x(b); });
+  }
+
+  std::vector<std::int64_t> onLine(const Constraint& constraint) const
+  {
+    const double left = std::min(this->x(constraint.A), this->x(constraint.B));
+    const double right = std::max(this->x(constraint.A), this->x(constraint.B));
+    auto id = std::lower_bound(this->Ids.begin(), this->Ids.end(), left,
+      [this](std::int64_t i, double value) { return this->x(i) < value; });
+    std::vector<std::int64_t> found;
+    for (; id != this->Ids.end() && this->x(*id) <= right; ++id)
+    {
+      if (isOnLine(this->XY, constraint, *id))
+      {
+        found.push_back(*id);
+      }
+    }
+    return found;
+  }
+
+private:
+  double x(std::int64_t id) const { return this->XY[std::size_t(2 * id)]; }
+
+  const Coordinates& XY;
+  std::vector<std::int64_t> Ids;
+};
+
 std::set<Edge> edgesOf(const Triangles& triangles)
 {
   std::set<Edge> edges;
@@ -191,6 +233,7 @@ testing::AssertionResult areChains(const Coordinates& all,
         << "crossing " << i << " is at point " << representative[i];
     }
   }
+  const PointsByX byX(all, points);
   std::size_t next = 0;
   std::int64_t omitted = 0;
   for (std::size_t c = 0; c < constraints.size(); ++c)
@@ -229,11 +272,15 @@ testing::AssertionResult areChains(const Coordinates& all,
     {
       return testing::AssertionFailure() << "constraint " << c << " ends at " << at;
     }
-    for (std::size_t i = 0; i < points && first >= 0 && last >= 0 && first != last; ++i)
+    if (first < 0 || last < 0 || first == last)
     {
-      if (isOnLine(all, { first, last }, std::int64_t(i)) && !vertices.count(representative[i]))
+      continue;
+    }
+    for (const std::int64_t id : byX.onLine({ first, last }))
+    {
+      if (!vertices.count(representative[std::size_t(id)]))
       {
-        return testing::AssertionFailure() << "constraint " << c << " omits point " << i;
+        return testing::AssertionFailure() << "constraint " << c << " omits point " << id;
       }
     }
   }
