@@ -94,6 +94,11 @@ int main(int argc, char** argv)
       benchmarkPoints(arguments);
       return 0;
     }
+    if (subject == "laz" && !arguments.Meshes.empty())
+    {
+      benchmarkLaz(arguments);
+      return 0;
+    }
     std::fputs(
       "usage: benchmarkIo loaders [--repeat R] [--threads T] [--parts P,P...] [--chunks C,C...] "
       "RANDOM-MESH LOCAL-MESH\n"
@@ -101,6 +106,7 @@ int main(int argc, char** argv)
       "       benchmarkIo reading [--repeat R] [--threads T] ONE.vtu PARTITIONED-MESH\n"
       "       benchmarkIo borrowing [--repeat R] LENT-MESH COPIED-MESH\n"
       "       benchmarkIo points [--repeat R] [--threads T] FILE...\n"
+      "       benchmarkIo laz [--repeat R] [--threads T] FILE.laz...\n"
       "M is the number of vertices over P; chunks are in cells.\n",
       stderr);
     return 2;

@@ -6,21 +6,11 @@
 
 #include <chrono>
 #include <cstdio>
-#include <ctime>
 
 namespace tipp
 {
 namespace benchmark
 {
-namespace
-{
-
-double processorSeconds()
-{
-  return double(std::clock()) / CLOCKS_PER_SEC; // the sum over all threads
-}
-
-} // namespace
 
 void benchmarkPoints(const IoArguments& arguments)
 {

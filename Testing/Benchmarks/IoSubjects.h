@@ -3,6 +3,7 @@
 #define tippIoSubjects_h
 
 #include <cstdint>
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -11,9 +12,15 @@ namespace tipp
 namespace benchmark
 {
 
+/// Processor seconds of this process so far, the sum over all threads.
+inline double processorSeconds()
+{
+  return double(std::clock()) / CLOCKS_PER_SEC;
+}
+
 struct IoArguments
 {
-  std::vector<std::string> Meshes; ///< paths of flat meshes
+  std::vector<std::string> Meshes; ///< paths of flat meshes, or of files of points
   int Repeat = 3;
   int Threads = 2;
   std::vector<std::int64_t> Parts{ 64, 8, 1 }; ///< M: number of vertices / these
@@ -37,6 +44,10 @@ void benchmarkBorrowing(const IoArguments& arguments);
 
 /// Measures reading the points of the files in `arguments.Meshes`.
 void benchmarkPoints(const IoArguments& arguments);
+
+/// Measures decoding LAZ files, the paths in `arguments.Meshes`, to records: x, y, z, returns and
+/// classes alone ('some'), and all attributes. Prints each run.
+void benchmarkLaz(const IoArguments& arguments);
 
 } // namespace benchmark
 } // namespace tipp
