@@ -5,13 +5,12 @@
 #include "Files/IOError.h"
 #include "FuzzDriver.h"
 #include "Points/ReadPoints.h"
+#include "ScratchFile.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <random>
 #include <string>
 #include <vector>
@@ -19,7 +18,6 @@
 namespace
 {
 
-namespace fs = std::filesystem;
 using namespace tipp;
 
 struct Column
@@ -339,36 +337,6 @@ private:
 };
 
 /// A file in memory where there is a folder for such files.
-class TableFile
-{
-public:
-  TableFile()
-  {
-    const fs::path shared = "/dev/shm";
-    const fs::path folder = fs::exists(shared) ? shared : fs::temp_directory_path();
-    std::string pattern = (folder / "tippTableXXXXXX").string();
-    if (!mkdtemp(pattern.data()))
-    {
-      std::perror("fuzzTables");
-      std::exit(2);
-    }
-    this->Folder = pattern;
-  }
-  ~TableFile() { fs::remove_all(this->Folder); }
-  TableFile(const TableFile&) = delete;
-  TableFile& operator=(const TableFile&) = delete;
-
-  std::string write(const std::string& text) const
-  {
-    const std::string path = (this->Folder / "table.csv").string();
-    std::ofstream(path, std::ios::binary) << text;
-    return path;
-  }
-
-private:
-  fs::path Folder;
-};
-
 PointTable readInBlocks(const std::string& path)
 {
   const auto stream = openPointStream({ path });
@@ -420,7 +388,7 @@ std::int64_t refused = 0;
 
 bool passes(std::uint64_t seed, std::uint64_t number)
 {
-  static const TableFile file;
+  static const test::ScratchFile file("table.csv");
   std::mt19937_64 random(seed * 1000003 + number);
   const Table table = TableMaker(random).make();
   const std::string path = file.write(table.Text);
