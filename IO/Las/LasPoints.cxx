@@ -676,19 +676,20 @@ private:
     this->NextChunk += this->AheadCount;
   }
 
-  /// Returns false if one of the chunks is damaged.
+  /// Returns false if one of the chunks is damaged: then they are decoded one after the other, so
+  /// that the error is that of the first damaged one, as with any number of threads.
   bool decodePair(const InputFile& file, std::size_t at, LazReader* readers)
   {
     const LazChunkPlace* const places = &this->Laz.chunks()[this->NextChunk + at];
     Decoded* const decoded = &this->Ahead[at];
     const std::uint64_t shorter = std::min(places[0].Points, places[1].Points);
-    for (std::size_t i = 0; i < 2; ++i)
-    {
-      this->start(decoded[i], places[i].Points);
-      readers[i].begin(file, this->NextChunk + at + i);
-    }
     try
     {
+      for (std::size_t i = 0; i < 2; ++i)
+      {
+        this->start(decoded[i], places[i].Points);
+        readers[i].begin(file, this->NextChunk + at + i);
+      }
       for (std::uint64_t done = 0; done < shorter; done += stepRecords)
       {
         const auto count = std::size_t(std::min(stepRecords, shorter - done));
@@ -699,6 +700,10 @@ private:
       }
     }
     catch (const LazError&)
+    {
+      return false;
+    }
+    catch (const IOError&) // of the second chunk, perhaps; the first may be damaged, too
     {
       return false;
     }

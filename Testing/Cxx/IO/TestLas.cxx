@@ -470,6 +470,34 @@ TEST_F(Las, DamagedChunksAreNamed)
   }
 }
 
+TEST_F(Las, TheFirstOfSeveralDamagedChunksIsNamed)
+{
+  const LasAndLaz files = filesOf(lazInputs[6]);
+  const std::string whole = this->Folder.file("a.laz", files.Compressed);
+  const LazFile laz(whole, readLasHeader(whole));
+  const LazChunkPlace& first = laz.chunks()[0];
+  const LazChunkPlace& second = laz.chunks()[1];
+  std::string text = files.Compressed;
+  const std::size_t layers = laz.format().RecordLength + 4 + 4 * 11; // behind their sizes
+  std::fill(text.begin() + std::ptrdiff_t(first.Begin + layers),
+    text.begin() + std::ptrdiff_t(first.Begin + first.Bytes), '\xFF');
+  const std::size_t sizes = std::size_t(second.Begin) + laz.format().RecordLength + 4;
+  putAt(text, sizes, 0xFFFFFFFFU); // of the second chunk's first layer
+  const std::string path = this->Folder.file("damaged.laz", text);
+  for (const int threads : { 1, 2, 3 })
+  {
+    PointOptions options;
+    options.Threads = threads;
+    options.Las = keepAll();
+    expectIOError(path, "chunk 1 of 3",
+      [&]
+      {
+        PointBlock block;
+        openPointStream({ path }, options)->next(block, 40);
+      });
+  }
+}
+
 TEST_F(Las, UnknownCompressionIsRefused)
 {
   const LasAndLaz files = filesOf(lazInputs[1]);
