@@ -9,8 +9,10 @@ Programs run by turns, so that a busy machine slows all alike; a ratio is that o
 """
 import argparse
 import importlib.util
+import math
 import pathlib
 import statistics
+import struct
 import subprocess
 import sys
 
@@ -119,20 +121,38 @@ def peers(options):
     output.unlink(missing_ok=True)
 
 
+def copies(path, count):
+    """Copies of a tile side by side, which differ in the header's offsets and box; their width and height together."""
+    data = bytearray(path.read_bytes())
+    offset, box = list(struct.unpack_from("<2d", data, 155)), list(struct.unpack_from("<4d", data, 179))
+    width, height = box[0] - box[1] + 1, box[2] - box[3] + 1
+    side = math.ceil(math.sqrt(count))
+    paths = []
+    for i in range(count):
+        east, north = i % side * width, i // side * height
+        struct.pack_into("<2d", data, 155, offset[0] + east, offset[1] + north)
+        struct.pack_into("<4d", data, 179, box[0] + east, box[1] + east, box[2] + north, box[3] + north)
+        paths.append(path.with_name(f"{path.stem}-copy{i}{path.suffix}"))
+        paths[-1].write_bytes(data)
+    return paths, side * width, math.ceil(count / side) * height
+
+
 def large(options):
-    """A raster of as many pixels as points within 512 MB, from LAZ and from LAS."""
-    laz = tile(options, 6, options.large, "large")
+    """A raster of as many pixels as points within 512 MB, from LAZ and from LAS: the tile side by side."""
+    laz = tile(options, 6, options.tile, "tile")
     las = laz.with_suffix(".las")
     if not las.exists():
         subprocess.run([options.tipp, "points", laz, "-o", las], check=True)
-    counts = subprocess.run([options.tipp, "info", laz], check=True, capture_output=True, text=True).stdout
-    size = next(line.split()[1].rstrip(",") for line in counts.splitlines() if line.startswith("resolution"))
+    count = math.ceil(options.large / options.tile)
     times = {}
-    for path in (las, laz):
-        output = options.folder / f"out-{path.suffix[1:]}.tif"
-        times[path] = dem_peers.measure([options.tipp, "dem", path, "-o", output, "--resolution", size, "--memory", "512M",
-                                         "--threads", 2], 1)
-        dem_peers.row(f"tipp dem, {options.large} points of {path.suffix}", times[path], times[las], "1.35 x")
+    for kind, path in (("las", las), ("laz", laz)):
+        paths, width, height = copies(path, count)
+        size = round(math.sqrt(width * height / (count * options.tile)), 3)
+        times[kind] = dem_peers.measure([options.tipp, "dem", *paths, "-o", options.folder / f"out-{kind}.tif", "--resolution",
+                                         size, "--memory", "512M", "--threads", 2])
+        dem_peers.row(f"tipp dem, {count * options.tile} points of .{kind}", times[kind], times["las"], "1.35 x")
+        for copy in paths:
+            copy.unlink()
     first, second = (options.folder / f"out-{kind}.tif" for kind in ("las", "laz"))
     is_same = first.read_bytes() == second.read_bytes()
     print("the files are equal" if is_same else "the files DIFFER")

@@ -4,9 +4,9 @@
 #                decode:  points per processor second, beside lazrs and LASzip, of a made tile of format 6 and one of 3
 #                threads: the same, two threads beside one
 #                peers:   from a tenth of the tile to a raster, beside laspy with startinpy or scipy, and rasterio
-#                large:   a raster of as many pixels as points with 512 MB, from LAZ and from LAS
+#                large:   a raster of as many pixels as points with 512 MB, from LAZ and from LAS: the tile side by side
 #   --tile N     points of a tile (20000000)
-#   --large N    points of the large run (500000000; 20 GB of disk)
+#   --large N    points of the large run (500000000; 30 GB of disk)
 #   --repeat R   runs of each program, by turns; the median counts (5)
 # The inputs are kept in $TIPP_DEM_INPUTS (default: the build's folder for inputs). $TIPP_PEERS_PYTHON (/usr/bin/python3)
 # needs laspy and lazrs; laszip, startinpy, scipy and rasterio are left out if they are not installed.
