@@ -305,6 +305,23 @@ ReferenceSystem describeCrs(const std::string& text)
     });
 }
 
+std::string wkt1Of(const std::string& text, bool isOfUser)
+{
+  try
+  {
+    return runInChild(
+      [&]
+      {
+        const GdalReference system = isOfUser ? importUserCrs(text) : importCrs(text);
+        return system ? wktOf(system.get(), "WKT1_GDAL") : std::string();
+      });
+  }
+  catch (const IOError&) // no GDAL
+  {
+    return "";
+  }
+}
+
 bool areSameCrs(const std::string& a, const std::string& b)
 {
   static std::map<std::pair<std::string, std::string>, bool> known;
@@ -411,6 +428,11 @@ ReferenceSystem understandCrs(const CrsRecords& records)
 ReferenceSystem describeCrs(const std::string& text)
 {
   return { text, "", "" };
+}
+
+std::string wkt1Of(const std::string&, bool)
+{
+  return "";
 }
 
 bool areSameCrs(const std::string& a, const std::string& b)

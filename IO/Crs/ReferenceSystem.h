@@ -29,6 +29,10 @@ VTKTIPPIO_EXPORT ReferenceSystem understandCrs(const CrsRecords& records);
 /// Returns it as it is, and without words if it is not understood.
 VTKTIPPIO_EXPORT ReferenceSystem describeCrs(const std::string& text);
 
+/// Returns the WKT 1 (of 2001, as LAS has it) of a ReferenceSystem's text, or of one that the user
+/// gave; empty if it cannot be expressed so, and without GDAL.
+VTKTIPPIO_EXPORT std::string wkt1Of(const std::string& text, bool isOfUser = false);
+
 /// Returns whether the texts of two ReferenceSystems mean the same system, however it is written.
 /// If only one has a system of heights, only the horizontal systems are compared.
 VTKTIPPIO_EXPORT bool areSameCrs(const std::string& a, const std::string& b);

@@ -18,11 +18,44 @@ namespace tipp
 namespace
 {
 
+/// The least number of bytes of a record, by format.
+constexpr std::array<std::size_t, 11> recordLengths = { 20, 28, 26, 34, 57, 63, 30, 36, 38, 59,
+  67 };
+
 std::vector<char> readBytes(const InputFile& file, std::uint64_t offset, std::size_t size)
 {
   std::vector<char> bytes(size);
   file.read(offset, bytes.data(), size);
   return bytes;
+}
+
+/// Splits the bytes of a record from `begin` to `end` as the descriptions say. Bytes that none
+/// describes are the last.
+std::vector<LasExtra> extrasOf(const std::string& descriptors, std::size_t begin, std::size_t end)
+{
+  constexpr std::array<std::size_t, 11> sizes = { 0, 1, 1, 2, 2, 4, 4, 8, 8, 4, 8 };
+  constexpr std::size_t types = sizes.size() - 1;
+  std::vector<LasExtra> extras;
+  for (std::size_t at = 0; descriptors.size() - at >= LasExtra::DescriptorSize;
+       at += LasExtra::DescriptorSize)
+  {
+    // Arrays of two and three values have the numbers after those of single values.
+    const std::size_t type = std::uint8_t(descriptors[at + 2]);
+    const std::size_t size = type == 0 ? std::uint8_t(descriptors[at + 3])
+      : type <= 3 * types              ? sizes[(type - 1) % types + 1] * ((type - 1) / types + 1)
+                                       : 0;
+    if (size == 0 || size > end - begin)
+    {
+      break;
+    }
+    extras.push_back({ descriptors.substr(at, LasExtra::DescriptorSize), size, begin });
+    begin += size;
+  }
+  if (begin < end)
+  {
+    extras.push_back({ "", end - begin, begin });
+  }
+  return extras;
 }
 
 /// Finds the coordinate reference system and the compression in variable length records. Damaged
@@ -57,10 +90,22 @@ public:
       {
         this->take(record, readBytes(this->File, at, std::size_t(length)));
       }
-      if (std::memcmp(bytes.data() + 2, "laszip encoded", 15) == 0 && record == laz && !wide)
+      const bool isDescription =
+        std::memcmp(bytes.data() + 2, "LASF_Spec", 10) == 0 && record == extraBytes;
+      const bool isCompression =
+        std::memcmp(bytes.data() + 2, "laszip encoded", 15) == 0 && record == laz;
+      const bool isIndex = std::memcmp(bytes.data() + 2, "copc", 5) == 0;
+      const bool isKnown = isProjection || isDescription || isCompression || isIndex;
+      this->Others += isKnown ? 0 : 1;
+      if (isCompression && !wide)
       {
         const std::vector<char> content = readBytes(this->File, at, std::size_t(length));
         this->Compression.assign(content.begin(), content.end());
+      }
+      if (isDescription && length <= longest)
+      {
+        const std::vector<char> content = readBytes(this->File, at, std::size_t(length));
+        this->Descriptors.assign(content.begin(), content.end());
       }
       at += length;
     }
@@ -70,9 +115,12 @@ public:
   {
     header.Crs = std::move(this->Found);
     header.Compression = std::move(this->Compression);
+    header.Extras =
+      extrasOf(this->Descriptors, lasRecordLength(header.Format), header.RecordLength);
   }
 
 private:
+  static constexpr int extraBytes = 4;
   static constexpr int wkt = 2112;
   static constexpr int laz = 22204;
 
@@ -96,14 +144,12 @@ private:
   const InputFile& File;
   CrsRecords Found;
   std::string Compression;
+  std::string Descriptors; ///< of the extra bytes
+  int Others = 0;          ///< records of other kinds
 };
 
 constexpr std::size_t shortHeader = 227; ///< header size of versions 1.0 to 1.2
 constexpr std::size_t longHeader = 375;  ///< header size of version 1.4; that of 1.5 is longer
-
-/// The least number of bytes of a record, by format.
-constexpr std::array<std::size_t, 11> recordLengths = { 20, 28, 26, 34, 57, 63, 30, 36, 38, 59,
-  67 };
 
 void requireGood(bool condition, const std::string& path, const std::string& problem)
 {
@@ -125,7 +171,7 @@ void readFormat(const std::vector<char>& fields, const std::string& path, LasHea
       "has points of format " + std::to_string(header.Format) +
         ", which is not known here; write it with one of the formats 0 to 10.");
   }
-  const std::size_t least = recordLengths[std::size_t(header.Format)];
+  const std::size_t least = lasRecordLength(header.Format);
   requireGood(header.RecordLength >= least, path,
     "gives " + std::to_string(header.RecordLength) + " bytes for a point of format " +
       std::to_string(header.Format) + ", which has " + std::to_string(least));
@@ -218,6 +264,32 @@ void readCount(const std::vector<char>& fields, const std::string& path, std::ui
 
 } // namespace
 
+std::size_t lasRecordLength(int format)
+{
+  return recordLengths[std::size_t(format)];
+}
+
+std::string LasExtra::name() const
+{
+  constexpr std::size_t begin = 4;
+  constexpr std::size_t longest = 32;
+  return this->Descriptor.empty() ? std::string()
+                                  : std::string(this->Descriptor.substr(begin, longest).c_str());
+}
+
+std::string LasExtra::key() const
+{
+  if (this->Descriptor.empty())
+  {
+    return std::to_string(this->Size);
+  }
+  // Without the least and the greatest value, and the text for people.
+  constexpr std::size_t least = 64;
+  constexpr std::size_t scale = 112;
+  constexpr std::size_t text = 160;
+  return this->Descriptor.substr(2, least - 2) + this->Descriptor.substr(scale, text - scale);
+}
+
 LasHeader readLasHeader(const std::string& path)
 {
   return readLasHeader(path, {});
@@ -243,6 +315,8 @@ LasHeader readLasHeader(const std::string& path, const LasSelection& selection)
   requireGood(size >= least && size <= file.size(), path,
     "has a header of " + std::to_string(size) + " bytes, too few or too many");
   const std::vector<char> fields = readBytes(file, 0, std::min(size, longHeader));
+  header.Encoding = valueAt<std::uint16_t>(&fields[6]);
+  header.System = std::string(&fields[26], 32).c_str();
   readFormat(fields, path, header);
   readTransform(fields, path, header);
   readCount(fields, path, file.size(), size, selection, header);

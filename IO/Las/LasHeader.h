@@ -9,11 +9,29 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace tipp
 {
 
 struct LasSelection;
+
+/// Some bytes of each record besides those of its format: the values of one name.
+struct LasExtra
+{
+  /// Their description in the file's record 4, LasExtra::DescriptorSize bytes; empty: there is
+  /// none.
+  std::string Descriptor;
+  std::size_t Size = 0;   ///< bytes
+  std::size_t Offset = 0; ///< of the first one in the record
+
+  static constexpr std::size_t DescriptorSize = 192;
+
+  /// The name in the description, or empty.
+  std::string name() const;
+  /// A text that is equal if two files' bytes mean the same.
+  std::string key() const;
+};
 
 /// The header of a LAS file, version 1.0 to 1.5.
 struct LasHeader
@@ -26,9 +44,14 @@ struct LasHeader
   std::int64_t Points = 0;       ///< number of point records to read
   std::array<double, 3> Scale{}; ///< a coordinate is its stored integer * Scale + Offset
   std::array<double, 3> Offset{};
-  CrsRecords Crs;          ///< the records of the coordinate reference system
-  std::string Compression; ///< the record of the compression, or empty
-  std::string Remark;      ///< how Points differs from what the header or the file says, or empty
+  CrsRecords Crs;               ///< the records of the coordinate reference system
+  std::string Compression;      ///< the record of the compression, or empty
+  std::uint16_t Encoding = 0;   ///< the bits of the global encoding
+  std::string System;           ///< the system identifier
+  std::vector<LasExtra> Extras; ///< all bytes of a record besides those of its format, in order
+  int OtherRecords =
+    0; ///< variable length records besides those of Crs, Compression, Extras and COPC
+  std::string Remark; ///< how Points differs from what the header or the file says, or empty
 
   bool hasTime() const { return this->Format == 1 || (this->Format >= 3); }
   bool hasColour() const
@@ -38,7 +61,14 @@ struct LasHeader
   }
   bool hasInfrared() const { return this->Format == 8 || this->Format == 10; }
   bool isExtended() const { return this->Format >= 6; } ///< 256 classes, 15 returns
+  bool hasWaves() const
+  {
+    return this->Format == 4 || this->Format == 5 || this->Format == 9 || this->Format == 10;
+  }
 };
+
+/// The number of bytes of a record of a format, 0 to 10, without extra bytes.
+VTKTIPPIO_EXPORT std::size_t lasRecordLength(int format);
 
 /// Reads and checks the header. Throws IOError if the file is not LAS, is of a kind that is not
 /// read, or has less data than the header announces (unless `selection` keeps truncated files).

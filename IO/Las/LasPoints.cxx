@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <memory>
 #include <vector>
 
@@ -33,7 +35,6 @@ public:
     {
       this->IsClassKept[std::size_t(number)] = true;
     }
-    constexpr std::size_t overlapClass = 12;
     const bool asksForOverlap =
       std::count(selection.Classes.begin(), selection.Classes.end(), int(overlapClass)) > 0;
     if (!this->Extended && !selection.KeepOverlap && !asksForOverlap)
@@ -58,6 +59,31 @@ public:
     return (isAnyClass ? 0 : laz::Class) | (this->LeftOut == 0 ? 0 : laz::Flags);
   }
 
+  /// The class as formats 6 to 10 have it: overlap is a flag there, and the class is unknown.
+  unsigned writtenClassOf(const char* record) const
+  {
+    constexpr unsigned unclassified = 1;
+    return this->isOverlapClass(record) ? unclassified : this->classOf(record);
+  }
+
+  unsigned writtenFlagsOf(const char* record) const
+  {
+    const unsigned flags = valueAt<std::uint8_t>(record + 15);
+    if (this->Extended)
+    {
+      return flags;
+    }
+    const unsigned ofClass = this->ClassMask == 31 ? flags >> 5 : 0;
+    const unsigned ofScan = valueAt<std::uint8_t>(record + 14) & 0xC0U;
+    return ofClass | (this->isOverlapClass(record) ? 8U : 0U) | ofScan;
+  }
+
+  unsigned returnsOf(const char* record) const
+  {
+    const unsigned returns = valueAt<std::uint8_t>(record + 14);
+    return this->Extended ? returns : (returns & 7U) | (((returns >> 3) & 7U) << 4);
+  }
+
   unsigned classOf(const char* record) const
   {
     return valueAt<std::uint8_t>(record + (this->Extended ? 16 : 15)) & this->ClassMask;
@@ -70,11 +96,18 @@ public:
   }
 
 private:
+  static constexpr unsigned overlapClass = 12; ///< of formats 0 to 5
+
+  bool isOverlapClass(const char* record) const
+  {
+    return !this->Extended && this->classOf(record) == overlapClass;
+  }
+
   bool keepsReturn(const char* record) const
   {
-    const unsigned byte = valueAt<std::uint8_t>(record + 14);
-    const unsigned number = this->Extended ? byte & 15U : byte & 7U;
-    const unsigned count = this->Extended ? byte >> 4 : (byte >> 3) & 7U;
+    const unsigned returns = this->returnsOf(record);
+    const unsigned number = returns & 15U;
+    const unsigned count = returns >> 4;
     return this->Kind == LasSelection::Returns::All ||
       (this->Kind == LasSelection::Returns::First ? number <= 1 : number >= count);
   }
@@ -94,17 +127,83 @@ struct LasColumn
     Height,
     Class,
     Short, ///< 16 bits
-    Time
+    Time,
+    // As formats 6 to 10 have them:
+    WrittenClass,
+    Returns, ///< 4 bits each: the number, and how many there are
+    Flags,   ///< 8 bits: of the class, the scanner channel, direction and edge
+    Angle,   ///< in units of 0.006 degrees
+    Bytes,   ///< a whole number of up to 4 bytes
+    Zero     ///< the file has no such field
   };
-  const char* Name;
+  std::string Name;
   Kind Is;
   std::size_t Offset;
   unsigned Attribute; ///< of compressed points
+  std::size_t Size = 1;
 };
 
-std::vector<LasColumn> columnsOf(const LasHeader& header)
+/// The columns for writing: see LasFields.
+std::vector<LasColumn> columnsToWrite(const LasHeader& header, const LasFields& fields)
 {
   using Kind = LasColumn::Kind;
+  const bool isExtended = header.isExtended();
+  const auto named = [](const char* name) { return std::string(LasFields::Prefix) + name; };
+  std::vector<LasColumn> columns = { { "z", Kind::Height, 8, laz::Z },
+    { "intensity", Kind::Short, 12, laz::Intensity },
+    { "classification", Kind::WrittenClass, 0, laz::Class },
+    { named("returns"), Kind::Returns, 14, 0 },
+    { named("flags"), Kind::Flags, 15, laz::Flags | laz::Class },
+    { named("user data"), Kind::Bytes, 17, laz::UserData },
+    { named("angle"), Kind::Angle, isExtended ? 18U : 16U, laz::Angle },
+    { named("source"), Kind::Bytes, isExtended ? 20U : 18U, laz::Source, 2 } };
+  const std::size_t time = isExtended ? 22 : 20;
+  const std::size_t colour = time + (header.hasTime() ? 8 : 0);
+  columns.push_back({ "gps_time", header.hasTime() ? Kind::Time : Kind::Zero, time, laz::Time });
+  const auto addShorts =
+    [&](bool isThere, std::size_t at, unsigned attribute, std::initializer_list<const char*> names)
+  {
+    for (const char* const name : names)
+    {
+      columns.push_back({ name, isThere ? Kind::Short : Kind::Zero, at, attribute });
+      at += 2;
+    }
+  };
+  if (fields.HasColour)
+  {
+    addShorts(header.hasColour(), colour, laz::Colour, { "red", "green", "blue" });
+  }
+  if (fields.HasInfrared)
+  {
+    addShorts(header.hasInfrared(), colour + 6, laz::Infrared, { "nir" });
+  }
+  std::vector<LasExtra> extras = header.Extras;
+  for (std::size_t i = 0; i < fields.Extras.size(); ++i)
+  {
+    const auto extra = std::find_if(extras.begin(), extras.end(),
+      [&](const LasExtra& own) { return own.Size > 0 && own.key() == fields.Extras[i]; });
+    if (extra == extras.end())
+    {
+      throw IOError("The extra bytes of a LAS file have been changed meanwhile; start again.");
+    }
+    for (std::size_t done = 0; done < extra->Size; done += 4)
+    {
+      columns.push_back(
+        { named(("extra " + std::to_string(i) + "." + std::to_string(done)).c_str()), Kind::Bytes,
+          extra->Offset + done, laz::Extra, std::min<std::size_t>(4, extra->Size - done) });
+    }
+    extra->Size = 0; // another one may have the same name
+  }
+  return columns;
+}
+
+std::vector<LasColumn> columnsOf(const LasHeader& header, const PointOptions& options)
+{
+  using Kind = LasColumn::Kind;
+  if (options.Fields)
+  {
+    return columnsToWrite(header, *options.Fields);
+  }
   std::vector<LasColumn> columns = { { "z", Kind::Height, 8, laz::Z },
     { "intensity", Kind::Short, 12, laz::Intensity },
     { "classification", Kind::Class, 0, laz::Class } };
@@ -137,7 +236,7 @@ public:
     , Filter(header, options.Las)
     , Threads(threadCount(options.Threads))
   {
-    for (const LasColumn& column : columnsOf(header))
+    for (const LasColumn& column : columnsOf(header, options))
     {
       if (options.wants(column.Name))
       {
@@ -258,6 +357,15 @@ protected:
       this->Header.Offset[axis];
   }
 
+  /// The scan angle in units of 0.006 degrees, from such a number or one of whole degrees.
+  double angleOf(const char* at) const
+  {
+    constexpr double unitsOfDegree = 500.0 / 3;
+    return this->Header.isExtended()
+      ? double(valueAt<std::int16_t>(at))
+      : std::nearbyint(double(valueAt<std::int8_t>(at)) * unitsOfDegree);
+  }
+
   void write(const std::vector<const char*>& records, PointBlock& block, std::size_t to) const
   {
     double* xy = block.XY.data() + 2 * to;
@@ -286,6 +394,30 @@ protected:
         case LasColumn::Kind::Short:
           fill([&](const char* record)
             { return double(valueAt<std::uint16_t>(record + column.Offset)); });
+          break;
+        case LasColumn::Kind::WrittenClass:
+          fill([this](const char* record) { return double(this->Filter.writtenClassOf(record)); });
+          break;
+        case LasColumn::Kind::Returns:
+          fill([this](const char* record) { return double(this->Filter.returnsOf(record)); });
+          break;
+        case LasColumn::Kind::Flags:
+          fill([this](const char* record) { return double(this->Filter.writtenFlagsOf(record)); });
+          break;
+        case LasColumn::Kind::Angle:
+          fill([&](const char* record) { return this->angleOf(record + column.Offset); });
+          break;
+        case LasColumn::Kind::Bytes:
+          fill(
+            [&](const char* record)
+            {
+              std::uint32_t number = 0;
+              std::memcpy(&number, record + column.Offset, column.Size);
+              return double(number);
+            });
+          break;
+        case LasColumn::Kind::Zero:
+          std::fill_n(values, records.size(), 0.0);
           break;
       }
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Laz/LayeredModels.h"
 #include "Laz/LazChunk.h"
-#include "Laz/LazItems.h"
 
 #include <algorithm>
 #include <array>
@@ -12,50 +12,6 @@ namespace tipp
 {
 namespace
 {
-
-constexpr unsigned channels = 4; ///< scanner channels, each of which has models of its own
-
-/// Returns the context of X and Y by the return number and the number of returns, 0 to 15 (LAZ
-/// specification, POINT14): the first few returns apart, the last one, and those between.
-constexpr unsigned context14(unsigned number, unsigned count)
-{
-  const unsigned low = number < count ? number : count;
-  const unsigned high = number < count ? count : number;
-  constexpr std::array<std::uint8_t, 10> withoutCount = { 0, 1, 2, 3, 4, 5, 3, 4, 4, 5 };
-  constexpr unsigned some = 4;
-  constexpr unsigned last = 5;
-  if (low == 0)
-  {
-    return withoutCount[high < 9 ? high : 9];
-  }
-  if (low <= 2)
-  {
-    return high <= 2 ? low + high - 2 : low == 1 || high > 10 ? 3 : some;
-  }
-  return high - low <= (high >= 12 ? 1U : 0U) ? last : some;
-}
-
-/// Contexts by the byte of returns.
-struct ReturnContexts14
-{
-  std::array<std::uint8_t, 256> Pair{};  ///< 6 contexts
-  std::array<std::uint8_t, 256> Level{}; ///< 8 contexts: returns after this one
-  std::array<std::uint8_t, 256> Place{}; ///< 1: the last return, 2: the first, 3: both
-
-  constexpr ReturnContexts14()
-  {
-    for (unsigned byte = 0; byte < 256; ++byte)
-    {
-      const unsigned number = byte & 15U;
-      const unsigned count = byte >> 4;
-      const unsigned level = number < count ? count - number : number - count;
-      this->Pair[byte] = std::uint8_t(context14(number, count));
-      this->Level[byte] = std::uint8_t(level < 7 ? level : 7);
-      this->Place[byte] = std::uint8_t((number == 1 ? 2 : 0) + (number >= count ? 1 : 0));
-    }
-  }
-};
-constexpr ReturnContexts14 contexts14;
 
 /// The bytes of an attribute in a chunk. There are none if it is the same in all points, and they
 /// are left alone if it is not asked for.
@@ -88,44 +44,6 @@ public:
   Layer* Layers = nullptr; ///< its own, of the chunk
 };
 
-/// The models and the last point of a scanner channel.
-struct Channel
-{
-  std::int32_t LastX = 0;
-  std::int32_t LastY = 0;
-  std::int32_t LastZ = 0;
-  std::uint16_t LastIntensity = 0;
-  std::uint8_t LastReturns = 0;
-  std::uint8_t LastFlags = 0; ///< 0 to 3: of the class, 4: direction, 5: edge
-  std::uint8_t LastClass = 0;
-  std::uint8_t LastUserData = 0;
-  std::int16_t LastAngle = 0;
-  std::uint16_t LastSource = 0;
-  std::uint64_t LastTime = 0;
-  bool HasTimeChanged = false;
-
-  std::array<SymbolModel<128>, 8> Changes; ///< by the last return's place and change of time
-  SymbolModel<3> ChannelSteps;
-  ContextModels<16, 16> Counts;
-  ContextModels<16, 16> Numbers;
-  SymbolModel<13> NumberSteps;
-  std::array<std::array<StreamingMedian, 2>, 6> MedianX; ///< by returns and change of time
-  std::array<std::array<StreamingMedian, 2>, 6> MedianY;
-  IntegerDecoder<32, 2> X;
-  IntegerDecoder<32, 22> Y;
-
-  std::array<std::int32_t, 8> LevelZ{};
-  IntegerDecoder<32, 20> Z;
-  ContextModels<256, 64> Classes;
-  ContextModels<64, 64> Flags;
-  std::array<std::array<std::uint16_t, 2>, 4> Intensity{};
-  IntegerDecoder<16, 4> Intensities;
-  IntegerDecoder<16, 2> Angles;
-  ContextModels<256, 64> UserData;
-  IntegerDecoder<16, 1> Sources;
-  TimeDecoder<false> Times;
-};
-
 /// Decodes the 30 bytes that points of all formats 6 to 10 begin with.
 class Point14 : public LayeredItem
 {
@@ -136,32 +54,23 @@ public:
   {
   }
 
-  std::size_t layers() const override { return LayerCount; }
+  std::size_t layers() const override { return LayerCount14; }
 
   bool wants(std::size_t layer) const override
   {
-    constexpr std::array<unsigned, LayerCount> attributes = { ~0U, laz::Z, laz::Class, laz::Flags,
+    constexpr std::array<unsigned, LayerCount14> attributes = { ~0U, laz::Z, laz::Class, laz::Flags,
       laz::Intensity, laz::Angle, laz::UserData, laz::Source, laz::Time };
     return layer == XYLayer || (this->Attributes & attributes[layer]) != 0;
   }
 
-  void begin(const std::uint8_t* first, unsigned channel) override
+  void begin(const std::uint8_t* first, unsigned /*channel*/) override
   {
-    this->IsReady.fill(false);
-    Channel& last = this->prepare(channel);
-    last.LastX = valueAt<std::int32_t>(first);
-    last.LastY = valueAt<std::int32_t>(first + 4);
-    last.LastZ = valueAt<std::int32_t>(first + 8);
-    last.LastIntensity = valueAt<std::uint16_t>(first + 12);
-    last.LastReturns = first[14];
-    last.LastFlags = std::uint8_t((first[15] & 15U) | (unsigned(first[15] >> 6) << 4));
-    last.LastClass = first[16];
-    last.LastUserData = first[17];
-    last.LastAngle = valueAt<std::int16_t>(first + 18);
-    last.LastSource = valueAt<std::uint16_t>(first + 20);
-    last.LastTime = valueAt<std::uint64_t>(first + 22);
-    this->resetState(last);
-    this->Current = channel;
+    std::array<bool, LayerCount14> used;
+    for (std::size_t i = 0; i < used.size(); ++i)
+    {
+      used[i] = this->Layers[i].IsUsed;
+    }
+    this->Channels.start(first, used);
   }
 
   bool decode(std::size_t count, std::uint8_t* records, std::size_t recordLength,
@@ -181,20 +90,6 @@ public:
   }
 
 private:
-  enum LayerNumber : std::size_t
-  {
-    XYLayer,
-    ZLayer,
-    ClassLayer,
-    FlagsLayer,
-    IntensityLayer,
-    AngleLayer,
-    UserDataLayer,
-    SourceLayer,
-    TimeLayer,
-    LayerCount
-  };
-
   /// The state of a chunk while some of its points are decoded, in steps of a symbol. A symbol
   /// needs the one before it, so that a processor that decodes one chunk mostly waits; the steps
   /// of two chunks in turn fill the time.
@@ -207,12 +102,11 @@ private:
       , Classes(points.Layers[ClassLayer].Decoder)
       , HasZ(points.Layers[ZLayer].IsUsed)
       , HasClass(points.Layers[ClassLayer].IsUsed)
-      , IsVersion3(points.Item.Version < 4)
-      , Last(points.Channels[points.Current].get())
+      , Last(&points.Channels.current())
       , Record(record)
       , ItemChannel(channel)
     {
-      for (std::size_t i = FlagsLayer; i < LayerCount; ++i)
+      for (std::size_t i = FlagsLayer; i < LayerCount14; ++i)
       {
         this->HasOthers = this->HasOthers || points.Layers[i].IsUsed;
       }
@@ -227,11 +121,11 @@ private:
       if (__builtin_expect(isOtherChannel, 0))
       {
         const unsigned step = this->XY.symbol(this->Last->ChannelSteps) + 1;
-        this->Last = this->Points.changeChannel(step, *this->Last);
+        this->Last =
+          &this->Points.Channels.change((this->Points.Channels.number() + step) % scannerChannels);
       }
-      // In version 3 the other items' channel is 0 unless the channel has just changed.
       *this->ItemChannel++ =
-        std::uint8_t(this->IsVersion3 && !isOtherChannel ? 0 : this->Points.Current);
+        itemChannel(this->Points.Item.Version, isOtherChannel != 0, this->Points.Channels.number());
       this->TimeChanged = (this->Changes >> 4) & 1U;
       decodeReturns(this->XY, *this->Last, this->Changes);
       this->Single = this->Last->LastReturns >> 4 == 1 ? 1 : 0;
@@ -287,8 +181,7 @@ private:
     {
       if (this->HasClass)
       {
-        const bool isSingle = contexts14.Place[this->Last->LastReturns] == 3;
-        const unsigned context = (this->Last->LastClass & 31U) * 2 + (isSingle ? 1 : 0);
+        const unsigned context = contextOfClass(*this->Last);
         this->Last->LastClass = std::uint8_t(
           this->Classes.symbol(this->Last->Classes.of(context), this->Last->LastClass));
       }
@@ -302,7 +195,7 @@ private:
         this->IsGood = this->Points.decodeOthers(*this->Last, place, this->Changes) && this->IsGood;
       }
       this->Last->HasTimeChanged = this->TimeChanged != 0;
-      this->Points.store(*this->Last, this->Record);
+      this->Last->store(this->Points.Channels.number(), this->Record);
       this->Record += recordLength;
     }
 
@@ -322,12 +215,11 @@ private:
     const bool HasClass;
     bool HasOthers = false;
     bool IsGood = true;
-    const bool IsVersion3;
     unsigned Changes = 0;
     unsigned TimeChanged = 0;
     unsigned Single = 0;
     unsigned Pair = 0;
-    Channel* Last;
+    Channel14* Last;
     std::uint8_t* Record;
     std::uint8_t* ItemChannel;
   };
@@ -365,88 +257,8 @@ private:
     return isGood;
   }
 
-  /// 1: the first return, 2: the last one, 3: both.
-  static unsigned lastPlaces(std::uint8_t returns)
-  {
-    constexpr std::array<std::uint8_t, 4> swapped = { 0, 2, 1, 3 };
-    return swapped[contexts14.Place[returns]];
-  }
-
-  /// Initialises the models of a channel, of the layers that are used.
-  Channel& prepare(unsigned number)
-  {
-    std::unique_ptr<Channel>& channel = this->Channels[number];
-    if (!channel)
-    {
-      channel = std::make_unique<Channel>();
-    }
-    channel->Changes[0].reset(128);
-    std::fill(channel->Changes.begin() + 1, channel->Changes.end(), channel->Changes[0]);
-    channel->ChannelSteps.reset(3);
-    channel->Counts.reset();
-    channel->Numbers.reset();
-    channel->NumberSteps.reset(13);
-    channel->MedianX = {};
-    channel->MedianY = {};
-    channel->X.reset();
-    channel->Y.reset();
-    const auto resetIf = [this](LayerNumber layer, auto& models)
-    {
-      if (this->Layers[layer].IsUsed)
-      {
-        models.reset();
-      }
-    };
-    resetIf(ZLayer, channel->Z);
-    resetIf(ClassLayer, channel->Classes);
-    resetIf(FlagsLayer, channel->Flags);
-    resetIf(IntensityLayer, channel->Intensities);
-    resetIf(AngleLayer, channel->Angles);
-    resetIf(UserDataLayer, channel->UserData);
-    resetIf(SourceLayer, channel->Sources);
-    this->IsReady[number] = true;
-    return *channel;
-  }
-
-  /// Initialises what depends on the channel's last point.
-  void resetState(Channel& channel) const
-  {
-    channel.HasTimeChanged = false;
-    channel.LevelZ.fill(channel.LastZ);
-    for (auto& intensities : channel.Intensity)
-    {
-      intensities.fill(channel.LastIntensity);
-    }
-    if (this->Layers[TimeLayer].IsUsed)
-    {
-      channel.Times.reset(channel.LastTime);
-    }
-  }
-
-  [[gnu::noinline]] Channel* changeChannel(unsigned step, const Channel& from)
-  {
-    this->Current = (this->Current + step) % channels;
-    if (!this->IsReady[this->Current])
-    {
-      Channel& to = this->prepare(this->Current);
-      to.LastX = from.LastX;
-      to.LastY = from.LastY;
-      to.LastZ = from.LastZ;
-      to.LastIntensity = from.LastIntensity;
-      to.LastReturns = from.LastReturns;
-      to.LastFlags = from.LastFlags;
-      to.LastClass = from.LastClass;
-      to.LastUserData = from.LastUserData;
-      to.LastAngle = from.LastAngle;
-      to.LastSource = from.LastSource;
-      to.LastTime = from.LastTime;
-      this->resetState(to);
-    }
-    return this->Channels[this->Current].get();
-  }
-
   [[gnu::always_inline]] static void decodeReturns(
-    RangeDecoder& decoder, Channel& last, unsigned changes)
+    RangeDecoder& decoder, Channel14& last, unsigned changes)
   {
     const unsigned lastNumber = last.LastReturns & 15U;
     unsigned count = last.LastReturns >> 4;
@@ -465,7 +277,7 @@ private:
   }
 
   /// Returns false if a time is damaged.
-  bool decodeOthers(Channel& last, unsigned place, unsigned changes)
+  bool decodeOthers(Channel14& last, unsigned place, unsigned changes)
   {
     const unsigned timeChanged = (changes >> 4) & 1U;
     if (Layer& layer = this->Layers[FlagsLayer]; layer.IsUsed)
@@ -501,26 +313,8 @@ private:
     return true;
   }
 
-  void store(const Channel& last, std::uint8_t* record) const
-  {
-    setValue(record, last.LastX);
-    setValue(record + 4, last.LastY);
-    setValue(record + 8, last.LastZ);
-    setValue(record + 12, last.LastIntensity);
-    record[14] = last.LastReturns;
-    record[15] = std::uint8_t(
-      (last.LastFlags & 15U) | (this->Current << 4) | (unsigned(last.LastFlags >> 4) << 6));
-    record[16] = last.LastClass;
-    record[17] = last.LastUserData;
-    setValue(record + 18, last.LastAngle);
-    setValue(record + 20, last.LastSource);
-    setValue(record + 22, last.LastTime);
-  }
-
   const unsigned Attributes;
-  std::array<std::unique_ptr<Channel>, channels> Channels;
-  std::array<bool, channels> IsReady{};
-  unsigned Current = 0;
+  Channels14 Channels;
 };
 
 /// An item whose bytes are predicted by its last bytes in the same channel.
@@ -531,20 +325,14 @@ public:
     : LayeredItem(item)
     , IsWanted(isWanted)
   {
-    for (std::vector<std::uint8_t>& last : this->Last)
-    {
-      last.resize(item.Size);
-    }
   }
 
   bool wants(std::size_t /*layer*/) const override { return this->IsWanted; }
 
   void begin(const std::uint8_t* first, unsigned channel) override
   {
-    this->IsReady.fill(false);
-    this->Current = channel;
-    std::copy_n(first, this->Item.Size, this->Last[channel].begin());
-    this->prepare(channel);
+    this->Last.start(first, this->Item.Size, channel);
+    this->resetModels(channel);
   }
 
   bool decode(std::size_t count, std::uint8_t* records, std::size_t recordLength,
@@ -552,10 +340,9 @@ public:
   {
     for (std::size_t i = 0; i < count; ++i, records += recordLength)
     {
-      const unsigned from = this->Current;
-      this->Current = channel[i];
-      std::uint8_t* const last = this->lastBytes(from);
-      this->decodeNext(this->Current, last);
+      std::uint8_t* const last =
+        this->Last.next(channel[i], this->Item.Version, [&] { this->resetModels(channel[i]); });
+      this->decodeNext(channel[i], last);
       std::memcpy(records, last, this->Item.Size);
     }
     return true;
@@ -567,48 +354,8 @@ protected:
   virtual void decodeNext(unsigned channel, std::uint8_t* last) = 0;
 
 private:
-  void prepare(unsigned channel)
-  {
-    this->resetModels(channel);
-    this->IsReady[channel] = true;
-  }
-
-  /// Returns the bytes by which the next ones are predicted. Version 3 takes those of the channel
-  /// before, if that has just changed to one that was there already.
-  std::uint8_t* lastBytes(unsigned from)
-  {
-    const unsigned to = this->Current;
-    if (!this->IsReady[to])
-    {
-      this->Last[to] = this->Last[from];
-      this->prepare(to);
-      return this->Last[to].data();
-    }
-    return this->Last[this->Item.Version < 4 ? from : to].data();
-  }
-
   const bool IsWanted;
-  std::array<std::vector<std::uint8_t>, channels> Last;
-  std::array<bool, channels> IsReady{};
-  unsigned Current = 0;
-};
-
-/// The models of the channels, which are there once they are used.
-template <typename Models>
-class ModelsOfChannels
-{
-public:
-  Models& of(unsigned channel)
-  {
-    if (!this->There[channel])
-    {
-      this->There[channel] = std::make_unique<Models>();
-    }
-    return *this->There[channel];
-  }
-
-private:
-  std::array<std::unique_ptr<Models>, channels> There;
+  LastBytes Last;
 };
 
 /// Red, green and blue, and infrared where the item has it.
@@ -637,10 +384,7 @@ protected:
     }
     if (this->HasInfrared && this->Layers[1].IsUsed)
     {
-      Infrared& models = this->Infrareds.of(channel);
-      models.Changes.reset(4);
-      models.Bytes[0].reset(256);
-      models.Bytes[1] = models.Bytes[0];
+      this->Infrareds.of(channel).reset();
     }
   }
 
@@ -655,30 +399,15 @@ protected:
     }
     if (this->HasInfrared && this->Layers[1].IsUsed)
     {
-      Infrared& models = this->Infrareds.of(channel);
-      RangeDecoder& decoder = this->Layers[1].Decoder;
-      const unsigned changes = decoder.symbol(models.Changes);
-      for (std::size_t i = 0; i < 2; ++i)
-      {
-        if (changes & (1U << i))
-        {
-          last[6 + i] = std::uint8_t(last[6 + i] + decoder.symbol(models.Bytes[i]));
-        }
-      }
+      this->Infrareds.of(channel).decode(this->Layers[1].Decoder, last + 6);
     }
   }
 
 private:
-  struct Infrared
-  {
-    SymbolModel<4> Changes;
-    std::array<SymbolModel<256>, 2> Bytes;
-  };
-
   const bool HasInfrared;
   const bool WantsInfrared;
-  ModelsOfChannels<ColourDecoder> Colours;
-  ModelsOfChannels<Infrared> Infrareds;
+  ModelsOfChannels<ColourCoder> Colours;
+  ModelsOfChannels<InfraredCoder> Infrareds;
 };
 
 class Wave14 : public FollowingItem
@@ -716,17 +445,11 @@ public:
   std::size_t layers() const override { return this->Item.Size; }
 
 protected:
-  void resetModels(unsigned channel) override
-  {
-    std::vector<SymbolModel<256>>& models = this->Models.of(channel);
-    models.resize(this->Item.Size);
-    models[0].reset(256);
-    std::fill(models.begin() + 1, models.end(), models[0]);
-  }
+  void resetModels(unsigned channel) override { this->Models.of(channel).reset(this->Item.Size); }
 
   void decodeNext(unsigned channel, std::uint8_t* last) override
   {
-    std::vector<SymbolModel<256>>& models = this->Models.of(channel);
+    std::vector<SymbolModel<256>>& models = this->Models.of(channel).Models;
     for (std::size_t i = 0; i < this->Item.Size; ++i)
     {
       if (this->Layers[i].IsUsed)
@@ -737,7 +460,7 @@ protected:
   }
 
 private:
-  ModelsOfChannels<std::vector<SymbolModel<256>>> Models;
+  ModelsOfChannels<ByteModels> Models;
 };
 
 std::unique_ptr<LayeredItem> makeItem(const LazItem& item, unsigned attributes)

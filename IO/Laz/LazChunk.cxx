@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Laz/LazChunk.h"
 
-#include "Laz/IntegerDecoder.h"
+#include "Laz/IntegerCoder.h"
 
 #include <cstring>
 

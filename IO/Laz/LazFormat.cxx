@@ -2,7 +2,7 @@
 #include "Laz/LazFormat.h"
 
 #include "Files/RawValues.h"
-#include "Laz/IntegerDecoder.h"
+#include "Laz/IntegerCoder.h"
 
 #include <algorithm>
 #include <cstring>
@@ -80,12 +80,13 @@ LazItem readItem(const std::uint8_t* bytes, std::size_t offset)
   return item;
 }
 
+constexpr std::size_t fixedPart = 34; ///< of the record of the compression
+constexpr std::size_t itemPart = 6;
+
 } // namespace
 
 LazFormat::LazFormat(const std::uint8_t* content, std::size_t size)
 {
-  constexpr std::size_t fixedPart = 34;
-  constexpr std::size_t itemPart = 6;
   if (size < fixedPart)
   {
     throw LazError("has a damaged record of its compression");
@@ -131,6 +132,76 @@ LazFormat::LazFormat(const std::uint8_t* content, std::size_t size)
   }
 }
 
+LazFormat LazFormat::layered(int pointFormat, std::size_t extraBytes)
+{
+  LazFormat format;
+  format.IsChunked = true;
+  format.IsLayered = true;
+  format.ChunkPoints = UsualChunkPoints;
+  const auto add = [&format](LazItem::Kind kind, std::size_t size)
+  {
+    constexpr int version = 3;
+    format.Items.push_back({ kind, size, format.RecordLength, version });
+    format.RecordLength += size;
+  };
+  add(LazItem::Kind::Point14, sizeOf(LazItem::Kind::Point14));
+  if (pointFormat >= 7)
+  {
+    const LazItem::Kind kind =
+      pointFormat == 8 ? LazItem::Kind::ColourInfrared14 : LazItem::Kind::Colour14;
+    add(kind, sizeOf(kind));
+  }
+  if (extraBytes > 0)
+  {
+    add(LazItem::Kind::Bytes14, extraBytes);
+  }
+  return format;
+}
+
+std::vector<std::uint8_t> LazFormat::record() const
+{
+  std::vector<std::uint8_t> content(fixedPart + this->Items.size() * itemPart);
+  setValue(&content[0], std::uint16_t(3)); // the compressor: layers in chunks
+  content[4] = 3;                          // the version of LASzip whose format this is
+  content[5] = 4;
+  setValue(&content[6], std::uint16_t(3));
+  setValue(&content[12], this->ChunkPoints);
+  setValue(&content[16], std::int64_t(-1)); // special records: unknown
+  setValue(&content[24], std::int64_t(-1));
+  setValue(&content[32], std::uint16_t(this->Items.size()));
+  std::uint8_t* at = &content[fixedPart];
+  for (const LazItem& item : this->Items)
+  {
+    setValue(at, std::uint16_t(item.What));
+    setValue(at + 2, std::uint16_t(item.Size));
+    setValue(at + 4, std::uint16_t(item.Version));
+    at += itemPart;
+  }
+  return content;
+}
+
+std::vector<std::uint8_t> writeLazChunkTable(const std::vector<std::uint32_t>& sizes)
+{
+  std::vector<std::uint8_t> table(8);
+  setValue(&table[4], std::uint32_t(sizes.size()));
+  if (sizes.empty())
+  {
+    return table;
+  }
+  RangeEncoder encoder;
+  const auto integers = std::make_unique<IntegerCoder<32, 2>>();
+  integers->reset();
+  std::int32_t last = 0;
+  for (const std::uint32_t size : sizes)
+  {
+    integers->encode(encoder, last, std::int32_t(size), 1);
+    last = std::int32_t(size);
+  }
+  encoder.finish();
+  table.insert(table.end(), encoder.bytes(), encoder.bytes() + encoder.size());
+  return table;
+}
+
 std::vector<LazChunkPlace> readLazChunkTable(const LazFormat& format, const std::uint8_t* table,
   std::size_t size, std::uint64_t points, std::uint64_t begin, std::uint64_t end)
 {
@@ -147,7 +218,7 @@ std::vector<LazChunkPlace> readLazChunkTable(const LazFormat& format, const std:
     throw LazError("has a damaged chunk table");
   }
   RangeDecoder decoder(table + header, size - header);
-  const auto integers = std::make_unique<IntegerDecoder<32, 2>>();
+  const auto integers = std::make_unique<IntegerCoder<32, 2>>();
   integers->reset();
   std::vector<LazChunkPlace> places;
   std::uint64_t left = points;

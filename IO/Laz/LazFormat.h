@@ -46,6 +46,9 @@ struct VTKTIPPIO_EXPORT LazFormat
 {
   static constexpr std::uint32_t VariableChunks = 0xFFFFFFFF;
 
+  /// Points of a chunk as all writers have them.
+  static constexpr std::uint32_t UsualChunkPoints = 50000;
+
   std::vector<LazItem> Items;    ///< in the order of the record's bytes
   std::size_t RecordLength = 0;  ///< bytes of a point
   bool IsChunked = false;        ///< false: one chunk, and no table
@@ -56,6 +59,11 @@ struct VTKTIPPIO_EXPORT LazFormat
   /// kind that is not known.
   LazFormat(const std::uint8_t* content, std::size_t size);
   LazFormat() = default;
+
+  /// How points of format 6, 7 or 8 are compressed here: in layers, by version 3 of the items.
+  static LazFormat layered(int pointFormat, std::size_t extraBytes);
+  /// Returns the content of the record of a layered format.
+  std::vector<std::uint8_t> record() const;
 };
 
 /// Where a chunk is.
@@ -73,6 +81,11 @@ struct LazChunkPlace
 VTKTIPPIO_EXPORT std::vector<LazChunkPlace> readLazChunkTable(const LazFormat& format,
   const std::uint8_t* table, std::size_t size, std::uint64_t points, std::uint64_t begin,
   std::uint64_t end);
+
+/// Returns a chunk table, from its version on, for chunks of these sizes in bytes, all of which but
+/// the last have as many points as the format says.
+VTKTIPPIO_EXPORT std::vector<std::uint8_t> writeLazChunkTable(
+  const std::vector<std::uint32_t>& sizes);
 
 } // namespace tipp
 

@@ -3,7 +3,7 @@
 #define tippLazItems_h
 
 #include "Files/RawValues.h"
-#include "Laz/IntegerDecoder.h"
+#include "Laz/IntegerCoder.h"
 
 #include <algorithm>
 #include <array>
@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <optional>
 
 /// @file
 /// The models that the pointwise and the layered compressors have in common.
@@ -84,11 +85,11 @@ inline unsigned contextOfWidth(unsigned width, unsigned most)
   return std::min(width & ~1U, most);
 }
 
-/// Decodes the times of points, as the bits of doubles. They come from up to four interleaved
+/// Codes the times of points, as the bits of doubles. They come from up to four interleaved
 /// sequences, in each of which the difference of consecutive times is mostly the same. `HasSame`:
 /// the models have a symbol for a time that equals the last one, as pointwise compression does.
 template <bool HasSame>
-class TimeDecoder
+class TimeCoder
 {
 public:
   void reset(std::uint64_t first)
@@ -121,6 +122,40 @@ public:
   }
 
   std::uint64_t time() const { return this->Sequences[this->Current].Time; }
+
+  void encode(RangeEncoder& encoder, std::uint64_t time)
+  {
+    static_assert(!HasSame, "pointwise compression is only read");
+    if (!this->differenceTo(time, this->Current))
+    {
+      unsigned change = 1; // to the next sequence that the time may follow
+      while (change < 4 && !this->differenceTo(time, (this->Current + change) & 3U))
+      {
+        ++change;
+      }
+      this->encodeChange(encoder, change & 3U);
+      if (change == 4)
+      {
+        this->encodeStart(encoder, time);
+        return;
+      }
+      this->Current = (this->Current + change) & 3U;
+    }
+    Sequence& sequence = this->Sequences[this->Current];
+    const std::int32_t difference = *this->differenceTo(time, this->Current);
+    if (sequence.Step == 0)
+    {
+      encoder.symbol(this->AfterZero, 0);
+      this->Integers.encode(encoder, 0, difference, 0);
+      sequence.Step = difference;
+      sequence.Extremes = 0;
+    }
+    else
+    {
+      this->encodeMultiple(encoder, difference, sequence);
+    }
+    sequence.Time = time;
+  }
 
 private:
   struct Sequence
@@ -190,21 +225,83 @@ private:
   void decodeOther(RangeDecoder& decoder, int symbol, Sequence& sequence)
   {
     const int multiple = symbol <= mostMultiple ? symbol : mostMultiple - symbol;
+    const std::int32_t difference =
+      this->Integers.decode(decoder, predictionOf(multiple, sequence), contextOf(multiple));
+    countExtreme(multiple, difference, sequence);
+    advance(sequence, difference);
+  }
+
+  /// The context of a difference that is about `multiple` times the usual one.
+  static unsigned contextOf(int multiple)
+  {
+    return multiple == 0          ? 7
+      : multiple == leastMultiple ? 6
+      : multiple < 0              ? 5
+      : multiple == mostMultiple  ? 4
+      : multiple >= 10            ? 3
+      : multiple > 1              ? 2
+                                  : 1;
+  }
+
+  static std::int32_t predictionOf(int multiple, const Sequence& sequence)
+  {
+    return std::int32_t(std::uint32_t(multiple) * std::uint32_t(sequence.Step));
+  }
+
+  /// Changes the usual difference after some extreme multiples of it.
+  static void countExtreme(int multiple, std::int32_t difference, Sequence& sequence)
+  {
     const bool isExtreme = multiple == 0 || multiple == mostMultiple || multiple == leastMultiple;
-    const unsigned context = multiple == 0 ? 7
-      : multiple == leastMultiple          ? 6
-      : multiple < 0                       ? 5
-      : multiple == mostMultiple           ? 4
-      : multiple >= 10                     ? 3
-                                           : 2;
-    const auto prediction = std::int32_t(std::uint32_t(multiple) * std::uint32_t(sequence.Step));
-    const std::int32_t difference = this->Integers.decode(decoder, prediction, context);
     if (isExtreme && ++sequence.Extremes > 3)
     {
       sequence.Step = difference;
       sequence.Extremes = 0;
     }
-    advance(sequence, difference);
+  }
+
+  /// Returns the difference to a sequence's last time; nullopt if it has more than 32 bits.
+  std::optional<std::int32_t> differenceTo(std::uint64_t time, unsigned sequence) const
+  {
+    const auto difference = std::int64_t(time - this->Sequences[sequence].Time);
+    const auto low = std::int32_t(difference);
+    return low == difference ? std::make_optional(low) : std::nullopt;
+  }
+
+  /// Encodes that the time is of another sequence; 0: of a new one.
+  void encodeChange(RangeEncoder& encoder, unsigned change)
+  {
+    if (this->Sequences[this->Current].Step == 0)
+    {
+      encoder.symbol(this->AfterZero, 1 + change);
+    }
+    else
+    {
+      encoder.symbol(this->Multiples, huge + change);
+    }
+  }
+
+  void encodeStart(RangeEncoder& encoder, std::uint64_t time)
+  {
+    const std::uint64_t last = this->Sequences[this->Current].Time;
+    this->Integers.encode(encoder, std::int32_t(last >> 32), std::int32_t(time >> 32), 8);
+    encoder.bits(std::uint32_t(time), 32);
+    this->beginSequence(time);
+  }
+
+  void encodeMultiple(RangeEncoder& encoder, std::int32_t difference, Sequence& sequence)
+  {
+    // In floats, as other encoders have it: the multiple is not part of the format.
+    const float ratio = float(difference) / float(sequence.Step);
+    const float rounded = ratio >= 0 ? ratio + 0.5F : ratio - 0.5F;
+    const int multiple = int(std::clamp(rounded, float(leastMultiple), float(mostMultiple)));
+    encoder.symbol(this->Multiples, unsigned(multiple >= 0 ? multiple : mostMultiple - multiple));
+    this->Integers.encode(
+      encoder, predictionOf(multiple, sequence), difference, contextOf(multiple));
+    if (multiple == 1)
+    {
+      sequence.Extremes = 0;
+    }
+    countExtreme(multiple, difference, sequence);
   }
 
   void startSequence(RangeDecoder& decoder, const Sequence& from)
@@ -212,22 +309,27 @@ private:
     const auto high =
       std::uint32_t(this->Integers.decode(decoder, std::int32_t(from.Time >> 32), 8));
     const std::uint64_t low = decoder.bits(32);
+    this->beginSequence((std::uint64_t(high) << 32) | low);
+  }
+
+  void beginSequence(std::uint64_t time)
+  {
     this->Next = (this->Next + 1) & 3U;
-    this->Sequences[this->Next] = { (std::uint64_t(high) << 32) | low, 0, 0 };
+    this->Sequences[this->Next] = { time, 0, 0 };
     this->Current = this->Next;
   }
 
   SymbolModel<huge + 4 + same> Multiples; ///< of times after a difference other than 0
   SymbolModel<5 + same> AfterZero;        ///< and after a difference of 0
-  IntegerDecoder<32, 9> Integers;
+  IntegerCoder<32, 9> Integers;
   std::array<Sequence, 4> Sequences;
   unsigned Current = 0;
   unsigned Next = 0;
 };
 
-/// Decodes red, green and blue, byte by byte: green's bytes are predicted by red's change, and
-/// blue's by both.
-class ColourDecoder
+/// Codes red, green and blue, byte by byte: green's bytes are predicted by red's change, and blue's
+/// by both.
+class ColourCoder
 {
 public:
   void reset()
@@ -241,46 +343,92 @@ public:
   void decode(RangeDecoder& decoder, std::uint16_t* colour)
   {
     const unsigned changes = decoder.symbol(this->Changes);
-    std::array<std::array<int, 2>, 3> last;
-    for (std::size_t c = 0; c < 3; ++c)
+    const Colour last(colour);
+    Colour next = last;
+    forChanges(changes, last, next,
+      [&](std::size_t number, int prediction)
+      {
+        const unsigned corrected = unsigned(prediction) + decoder.symbol(this->Bytes[number]);
+        next.Bytes[number] = int(corrected & 255U);
+      });
+    if ((changes & isColoured) == 0) // green and blue are as red
     {
-      last[c] = { colour[c] & 255, colour[c] >> 8 };
+      std::copy_n(next.Bytes.begin(), 2, next.Bytes.begin() + 2);
+      std::copy_n(next.Bytes.begin(), 2, next.Bytes.begin() + 4);
     }
-    std::array<std::array<int, 2>, 3> next = last;
-    const auto decodeByte = [&](std::size_t c, std::size_t half, int prediction)
+    next.store(colour);
+  }
+
+  /// Encodes the colour after `lastColour`.
+  void encode(
+    RangeEncoder& encoder, const std::uint16_t* lastColour, const std::uint16_t* nextColour)
+  {
+    const Colour last(lastColour);
+    const Colour next(nextColour);
+    const bool isGrey = nextColour[0] == nextColour[1] && nextColour[0] == nextColour[2];
+    unsigned changes = isGrey ? 0 : isColoured;
+    for (std::size_t i = 0; i < next.Bytes.size(); ++i)
     {
-      const std::size_t number = 2 * c + half;
+      changes |= unsigned(next.Bytes[i] != last.Bytes[i]) << i;
+    }
+    encoder.symbol(this->Changes, changes);
+    forChanges(changes, last, next,
+      [&](std::size_t number, int prediction)
+      { encoder.symbol(this->Bytes[number], unsigned(next.Bytes[number] - prediction) & 255U); });
+  }
+
+private:
+  /// The low and the high bytes of red, green and blue.
+  struct Colour
+  {
+    explicit Colour(const std::uint16_t* colour)
+    {
+      for (std::size_t i = 0; i < this->Bytes.size(); ++i)
+      {
+        this->Bytes[i] = (colour[i / 2] >> (8 * (i % 2))) & 255;
+      }
+    }
+
+    void store(std::uint16_t* colour) const
+    {
+      for (std::size_t c = 0; c < 3; ++c)
+      {
+        colour[c] = std::uint16_t(this->Bytes[2 * c] | (this->Bytes[2 * c + 1] << 8));
+      }
+    }
+
+    std::array<int, 6> Bytes;
+  };
+  static constexpr unsigned isColoured = 64;
+
+  /// Calls code(number, prediction) for each byte that differs from the last colour's. A byte of
+  /// `next` must be there when the one after it is predicted.
+  template <typename Code>
+  [[gnu::always_inline]] static void forChanges(
+    unsigned changes, const Colour& last, const Colour& next, const Code& code)
+  {
+    const auto codeByte = [&](std::size_t number, int prediction)
+    {
       if (changes & (1U << number))
       {
-        const auto corrected =
-          unsigned(std::clamp(prediction, 0, 255)) + decoder.symbol(this->Bytes[number]);
-        next[c][half] = int(corrected & 255U);
+        code(number, std::clamp(prediction, 0, 255));
       }
     };
-    decodeByte(0, 0, last[0][0]);
-    decodeByte(0, 1, last[0][1]);
-    if (changes & 64U)
+    codeByte(0, last.Bytes[0]);
+    codeByte(1, last.Bytes[1]);
+    if (changes & isColoured)
     {
       // The order of the specification: the low bytes of green and blue, then the high ones.
       for (std::size_t half = 0; half < 2; ++half)
       {
-        const int red = next[0][half] - last[0][half];
-        decodeByte(1, half, red + last[1][half]);
-        const int both = (red + next[1][half] - last[1][half]) / 2;
-        decodeByte(2, half, both + last[2][half]);
+        const int red = next.Bytes[half] - last.Bytes[half];
+        codeByte(2 + half, red + last.Bytes[2 + half]);
+        const int both = (red + next.Bytes[2 + half] - last.Bytes[2 + half]) / 2;
+        codeByte(4 + half, both + last.Bytes[4 + half]);
       }
-    }
-    else // grey
-    {
-      next[1] = next[2] = next[0];
-    }
-    for (std::size_t c = 0; c < 3; ++c)
-    {
-      colour[c] = std::uint16_t(next[c][0] | (next[c][1] << 8));
     }
   }
 
-private:
   SymbolModel<128> Changes;
   std::array<SymbolModel<256>, 6> Bytes;
 };
@@ -338,10 +486,10 @@ public:
 private:
   SymbolModel<256> Index;
   std::array<SymbolModel<4>, 4> OffsetKinds; ///< by the last one
-  IntegerDecoder<32, 1> Offsets;
-  IntegerDecoder<32, 1> Sizes;
-  IntegerDecoder<32, 1> Returns;
-  IntegerDecoder<32, 3> Directions;
+  IntegerCoder<32, 1> Offsets;
+  IntegerCoder<32, 1> Sizes;
+  IntegerCoder<32, 1> Returns;
+  IntegerCoder<32, 3> Directions;
   std::int32_t LastDifference = 0;
   unsigned LastKind = 0;
 };

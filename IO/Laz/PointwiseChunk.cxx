@@ -178,11 +178,11 @@ private:
   ContextModels<256, 256> Classes;
   ContextModels<256, 256> UserData;
   std::array<SymbolModel<256>, 2> Angles;
-  IntegerDecoder<16, 4> Intensities;
-  IntegerDecoder<16, 1> Sources;
-  IntegerDecoder<32, 2> X;
-  IntegerDecoder<32, 22> Y;
-  IntegerDecoder<32, 20> Z;
+  IntegerCoder<16, 4> Intensities;
+  IntegerCoder<16, 1> Sources;
+  IntegerCoder<32, 2> X;
+  IntegerCoder<32, 22> Y;
+  IntegerCoder<32, 20> Z;
 };
 
 /// An item and its models, of which only those of its kind are there.
@@ -190,8 +190,8 @@ struct PointwiseItem
 {
   LazItem Item;
   std::unique_ptr<Point10Decoder> Point;
-  std::unique_ptr<TimeDecoder<true>> Time;
-  std::unique_ptr<ColourDecoder> Colour;
+  std::unique_ptr<TimeCoder<true>> Time;
+  std::unique_ptr<ColourCoder> Colour;
   std::unique_ptr<WaveDecoder> Wave;
   std::vector<SymbolModel<256>> Bytes;
   std::vector<std::uint8_t> Last; ///< the item's bytes in the last point
@@ -215,10 +215,10 @@ public:
           item.Point = std::make_unique<Point10Decoder>();
           break;
         case LazItem::Kind::Time11:
-          item.Time = std::make_unique<TimeDecoder<true>>();
+          item.Time = std::make_unique<TimeCoder<true>>();
           break;
         case LazItem::Kind::Colour12:
-          item.Colour = std::make_unique<ColourDecoder>();
+          item.Colour = std::make_unique<ColourCoder>();
           break;
         case LazItem::Kind::Wave13:
           item.Wave = std::make_unique<WaveDecoder>();

@@ -57,6 +57,7 @@ public:
     {
       this->Kept.push_back(options.wants(name));
     }
+    this->Names = this->columns();
     this->requireSameColumns();
     this->Crs = options.Crs;
     this->AnyCrs = options.AnyCrs;
@@ -274,9 +275,12 @@ private:
       }
     }
     block.Columns.resize(next);
-    for (std::vector<double>& column : block.Columns)
+    for (std::size_t i = 0; this->NoData.NoData && i < block.Columns.size(); ++i)
     {
-      clearNoData(this->NoData, column);
+      if (!LasFields::isName(this->Names[i]))
+      {
+        clearNoData(this->NoData, block.Columns[i]);
+      }
     }
   }
 
@@ -294,8 +298,9 @@ private:
   std::vector<std::string> Paths;
   std::vector<std::unique_ptr<FilePoints>> Files;
   std::string Identity;
-  std::vector<bool> Kept; ///< which of the files' columns are kept
-  PointOptions NoData;    ///< only this option
+  std::vector<bool> Kept;         ///< which of the files' columns are kept
+  PointOptions NoData;            ///< only this option
+  std::vector<std::string> Names; ///< of the columns that are kept
   std::size_t At = 0;
   std::int64_t Points = 0;
   std::int64_t First = 0;

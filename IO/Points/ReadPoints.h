@@ -150,6 +150,21 @@ struct LasSelection
   }
 };
 
+/// The fields that points of several LAS files have when they are to be written again: all of
+/// formats 6, 7 or 8, as columns besides those that readers of LAS files give otherwise. A file
+/// without one of the fields gives zeros.
+struct LasFields
+{
+  bool HasColour = false;
+  bool HasInfrared = false;
+  /// The extra bytes, which all files have: LasExtra::key() of each.
+  std::vector<std::string> Extras;
+
+  /// Begins the names of the columns with the stored bits of a record.
+  static constexpr const char* Prefix = "las:";
+  static bool isName(const std::string& column) { return column.compare(0, 4, Prefix) == 0; }
+};
+
 /// Thinning: keeps one point in each square of a grid whose lines are at multiples of the cell
 /// size.
 struct Thinning
@@ -200,6 +215,8 @@ struct PointOptions
   std::optional<double> NoData = {};
   /// Whether the columns of text are taken as they are, the first two as x and y.
   bool AsIs = false;
+  /// The columns of LAS files that are to be written again; then `Columns` must not be given.
+  std::optional<LasFields> Fields = {};
 
   bool wants(const std::string& column) const
   {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef tippIntegerDecoder_h
-#define tippIntegerDecoder_h
+#ifndef tippIntegerCoder_h
+#define tippIntegerCoder_h
 
 #include "Laz/RangeDecoder.h"
+#include "Laz/RangeEncoder.h"
 
 #include <array>
 #include <cstdint>
@@ -10,11 +11,11 @@
 namespace tipp
 {
 
-/// Decodes integers of up to 32 bits that were predicted (LASzip's paper, section 5.1): first the
+/// Codes integers of up to 32 bits that are predicted (LASzip's paper, section 5.1): first the
 /// number k of bits of the correction, by a model of the context, then the correction, whose
 /// highest eight bits have a model for each k.
 template <unsigned Bits, unsigned Contexts>
-class IntegerDecoder
+class IntegerCoder
 {
 public:
   void reset()
@@ -49,6 +50,21 @@ public:
     return std::int32_t(std::uint32_t(prediction) + this->correction(decoder, this->Width));
   }
 
+  /// Encodes an integer. Of fewer than 32 bits, prediction and value are compared modulo 2^Bits.
+  [[gnu::always_inline]] void encode(
+    RangeEncoder& encoder, std::int32_t prediction, std::int32_t value, unsigned context)
+  {
+    constexpr unsigned unused = 32 - Bits;
+    const std::uint32_t difference = std::uint32_t(value) - std::uint32_t(prediction);
+    const std::int32_t correction = std::int32_t(difference << unused) >> unused;
+    // With k bits there are the corrections from -2^k + 1 to -2^(k-1), and from 2^(k-1) + 1 to 2^k.
+    const std::uint32_t magnitude =
+      correction <= 0 ? 0U - std::uint32_t(correction) : std::uint32_t(correction) - 1;
+    this->Width = magnitude == 0 ? 0 : 32U - unsigned(__builtin_clz(magnitude));
+    encoder.symbol(this->Widths[context], this->Width);
+    this->encodeCorrection(encoder, std::uint32_t(correction), this->Width);
+  }
+
   /// The number of bits of the last correction.
   unsigned width() const { return this->Width; }
 
@@ -70,6 +86,24 @@ private:
     // negative, and ends before -2^(k-1). With k = 0 the value is the correction.
     const std::uint32_t isLow = (((value << 1) >> k) & 1U) ^ 1U;
     return value + 1 - (isLow << k);
+  }
+
+  [[gnu::always_inline]] void encodeCorrection(
+    RangeEncoder& encoder, std::uint32_t correction, unsigned k)
+  {
+    if (k == 32) // of a single correction
+    {
+      return;
+    }
+    const bool isNegative = correction >> 31 != 0;
+    const std::uint32_t value =
+      k == 0 ? correction : correction - 1 + (isNegative ? std::uint32_t(1) << k : 0);
+    const unsigned low = k > modelled ? k - modelled : 0;
+    encoder.symbol(this->Corrections[k], value >> low);
+    if (low > 0)
+    {
+      encoder.bits(value & ((std::uint32_t(1) << low) - 1), low);
+    }
   }
 
   unsigned Width = 0;
