@@ -35,7 +35,8 @@ constexpr std::array<Format, 26> formats = { {
   { ".gz .xz .zst", "", Opener::CompressedText, Use::Points, "",
     "a point per line, columns separated by comma, semicolon, tab or blanks; a first line of names "
     "or of the count is recognized" },
-  { ".las .laz", "", Opener::Las, Use::Points | Use::Divisible, "", "1.0 to 1.5" },
+  { ".las .laz", "", Opener::Las, Use::Points | Use::Divisible | Use::WritesPoints, "",
+    "1.0 to 1.5" },
   { ".gpkg", "", Opener::Gdal, Use::Points | Use::Constraints | Use::Zones | Use::WritesLines,
     "GPKG", "" },
   { ".shp", "", Opener::Gdal, Use::Points | Use::Constraints | Use::Zones, "ESRI Shapefile", "" },

@@ -608,6 +608,13 @@ bool FileLines::next(std::string_view& line)
   }
 }
 
+std::string shortText(double value)
+{
+  std::array<char, 32> text;
+  const char* const end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return std::string(text.data(), std::size_t(end - text.data()));
+}
+
 std::string exactText(double value)
 {
   char text[32];

@@ -70,6 +70,8 @@ bool parseWhole(std::string_view field, std::int64_t& value);
 
 /// The number in decimal with 17 digits, from which it can be restored.
 VTKTIPPIO_EXPORT std::string exactText(double value);
+/// The shortest decimal number from which it can be restored, such as 0.01.
+VTKTIPPIO_EXPORT std::string shortText(double value);
 
 /// Splits a line at a delimiter, or at any run of blanks if the delimiter is a space. A field in
 /// double quotes may contain the delimiter, and two quotes for one, as in RFC 4180.

@@ -72,7 +72,6 @@ public:
   void search(std::uint64_t at, std::uint64_t end, std::uint32_t count, bool wide)
   {
     const std::size_t header = wide ? 60 : 54; // bytes before a record's content
-    constexpr std::uint64_t longest = std::uint64_t(1) << 24;
     for (std::uint32_t i = 0; i < count && at <= end && end - at >= header; ++i)
     {
       const std::vector<char> bytes = readBytes(this->File, at, header);
@@ -83,30 +82,7 @@ public:
       {
         return;
       }
-      const auto record = valueAt<std::uint16_t>(&bytes[18]);
-      const bool isProjection = std::memcmp(bytes.data() + 2, "LASF_Projection", 16) == 0 ||
-        (std::memcmp(bytes.data() + 2, "liblas", 7) == 0 && record == wkt);
-      if (isProjection && length <= longest)
-      {
-        this->take(record, readBytes(this->File, at, std::size_t(length)));
-      }
-      const bool isDescription =
-        std::memcmp(bytes.data() + 2, "LASF_Spec", 10) == 0 && record == extraBytes;
-      const bool isCompression =
-        std::memcmp(bytes.data() + 2, "laszip encoded", 15) == 0 && record == laz;
-      const bool isIndex = std::memcmp(bytes.data() + 2, "copc", 5) == 0;
-      const bool isKnown = isProjection || isDescription || isCompression || isIndex;
-      this->Others += isKnown ? 0 : 1;
-      if (isCompression && !wide)
-      {
-        const std::vector<char> content = readBytes(this->File, at, std::size_t(length));
-        this->Compression.assign(content.begin(), content.end());
-      }
-      if (isDescription && length <= longest)
-      {
-        const std::vector<char> content = readBytes(this->File, at, std::size_t(length));
-        this->Descriptors.assign(content.begin(), content.end());
-      }
+      this->take(bytes, at, length, wide);
       at += length;
     }
   }
@@ -115,6 +91,7 @@ public:
   {
     header.Crs = std::move(this->Found);
     header.Compression = std::move(this->Compression);
+    header.OtherRecords = this->Others;
     header.Extras =
       extrasOf(this->Descriptors, lasRecordLength(header.Format), header.RecordLength);
   }
@@ -124,7 +101,39 @@ private:
   static constexpr int wkt = 2112;
   static constexpr int laz = 22204;
 
-  void take(int record, const std::vector<char>& content)
+  /// Takes what is of interest in a record, whose header is `header`, and whose content begins at
+  /// `at`.
+  void take(const std::vector<char>& header, std::uint64_t at, std::uint64_t length, bool wide)
+  {
+    constexpr std::uint64_t longest = std::uint64_t(1) << 24;
+    const auto record = valueAt<std::uint16_t>(&header[18]);
+    const auto isOf = [&header](const char* user)
+    { return std::memcmp(header.data() + 2, user, std::strlen(user)) == 0; };
+    const auto content = [&]
+    {
+      const std::vector<char> bytes =
+        readBytes(this->File, at, std::size_t(length <= longest ? length : 0));
+      return std::string(bytes.begin(), bytes.end());
+    };
+    if (isOf("LASF_Projection") || (isOf("liblas") && record == wkt))
+    {
+      this->takeCrs(record, content());
+    }
+    else if (isOf("laszip encoded") && record == laz)
+    {
+      this->Compression = wide ? this->Compression : content();
+    }
+    else if (isOf("LASF_Spec") && record == extraBytes)
+    {
+      this->Descriptors += content(); // some writers give each its own record
+    }
+    else
+    {
+      this->Others += isOf("copc") ? 0 : 1;
+    }
+  }
+
+  void takeCrs(int record, const std::string& content)
   {
     std::string* const slot = record == wkt ? &this->Found.Text
       : record == 34735                     ? &this->Found.Keys
@@ -133,7 +142,7 @@ private:
                                             : nullptr;
     if (slot)
     {
-      slot->assign(content.begin(), content.end());
+      *slot = content;
     }
     if (record == wkt) // ends at the first null byte
     {
@@ -277,17 +286,31 @@ std::string LasExtra::name() const
                                   : std::string(this->Descriptor.substr(begin, longest).c_str());
 }
 
+std::string LasExtra::descriptorWithoutRange() const
+{
+  constexpr std::size_t options = 3;
+  constexpr unsigned isRangeThere = 2 | 4;
+  constexpr std::size_t range = 64;
+  constexpr std::size_t rangeBytes = 48;
+  std::string descriptor = this->Descriptor;
+  if (!descriptor.empty() && descriptor[2] != 0) // bytes of type 0 have no options
+  {
+    descriptor[options] = char(std::uint8_t(descriptor[options]) & ~isRangeThere);
+    descriptor.replace(range, rangeBytes, rangeBytes, '\0');
+  }
+  return descriptor;
+}
+
 std::string LasExtra::key() const
 {
   if (this->Descriptor.empty())
   {
     return std::to_string(this->Size);
   }
-  // Without the least and the greatest value, and the text for people.
-  constexpr std::size_t least = 64;
-  constexpr std::size_t scale = 112;
-  constexpr std::size_t text = 160;
-  return this->Descriptor.substr(2, least - 2) + this->Descriptor.substr(scale, text - scale);
+  constexpr std::size_t type = 2;
+  constexpr std::size_t text = 160; // for people
+  const std::string key = this->descriptorWithoutRange();
+  return key.substr(type, text - type);
 }
 
 LasHeader readLasHeader(const std::string& path)

@@ -27,6 +27,8 @@ struct LasExtra
 
   static constexpr std::size_t DescriptorSize = 192;
 
+  /// The description without the least and the greatest value, which are those of one file.
+  std::string descriptorWithoutRange() const;
   /// The name in the description, or empty.
   std::string name() const;
   /// A text that is equal if two files' bytes mean the same.
@@ -49,8 +51,7 @@ struct LasHeader
   std::uint16_t Encoding = 0;   ///< the bits of the global encoding
   std::string System;           ///< the system identifier
   std::vector<LasExtra> Extras; ///< all bytes of a record besides those of its format, in order
-  int OtherRecords =
-    0; ///< variable length records besides those of Crs, Compression, Extras and COPC
+  int OtherRecords = 0;         ///< variable length records besides these and those of COPC
   std::string Remark; ///< how Points differs from what the header or the file says, or empty
 
   bool hasTime() const { return this->Format == 1 || (this->Format >= 3); }

@@ -646,11 +646,15 @@ protected:
 private:
   static constexpr std::uint64_t stepRecords = 4096; ///< which stay in the processor's cache
   /// Points that are decoded ahead, unless it takes more of them to have a chunk for each thread.
-  static constexpr std::uint64_t manyPoints = 1 << 20;
-  static constexpr std::uint64_t mostPoints = 2 * manyPoints;
+  std::uint64_t manyPoints() const
+  {
+    constexpr std::uint64_t manyValues = 1 << 24; // a file says itself how many columns it has
+    return std::min<std::uint64_t>(1 << 20, manyValues / (this->Wanted.size() + 2) + 1);
+  }
+  std::uint64_t mostPoints() const { return 2 * this->manyPoints(); }
   /// Small chunks are decoded together until they have at least this many points.
   static constexpr std::uint64_t fewPoints = 1 << 14;
-  /// Records of a chunk of more than `mostPoints` that are decoded at a time.
+  /// Records of a chunk of more than mostPoints() that are decoded at a time.
   static constexpr std::uint64_t partOfChunk = 1 << 17;
 
   /// The selected points of a chunk, or of a part of it.
@@ -755,7 +759,7 @@ private:
     {
       this->Readers = this->makeReaders(2, this->Needed);
     }
-    const bool isLarge = this->Laz.chunks()[this->NextChunk].Points > mostPoints;
+    const bool isLarge = this->Laz.chunks()[this->NextChunk].Points > this->mostPoints();
     this->AheadCount = isLarge ? 1 : this->chunksAhead();
     this->Ahead.resize(std::max(this->Ahead.size(), this->AheadCount));
     this->Served = 0;
@@ -777,7 +781,7 @@ private:
     for (; count < left && (count < 4 * threads || points < fewPoints); ++count)
     {
       points += this->Laz.chunks()[this->NextChunk + count].Points;
-      if (count > 0 && points > (count < threads ? mostPoints : manyPoints))
+      if (count > 0 && points > (count < threads ? this->mostPoints() : this->manyPoints()))
       {
         break;
       }
@@ -855,7 +859,8 @@ private:
     {
       reader.begin(this->file(), this->NextChunk);
     }
-    const std::uint64_t count = std::min(partOfChunk, points - this->DoneOfChunk);
+    const std::uint64_t count =
+      std::min({ partOfChunk, this->manyPoints(), points - this->DoneOfChunk });
     this->start(this->Ahead.front(), count);
     this->finish(reader, this->Ahead.front(), count);
     this->DoneOfChunk += count;

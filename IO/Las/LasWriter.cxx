@@ -94,8 +94,6 @@ LasWriter::LasWriter(const std::string& path, const LasLayout& layout, int threa
   }
   constexpr std::size_t chunksOfThread = 2; // so that threads rarely wait for each other
   this->Chunks.resize(chunksOfThread * std::size_t(this->Threads));
-  this->Records.resize(
-    this->Chunks.size() * LazFormat::UsualChunkPoints * this->Format.RecordLength);
   for (int i = 0; this->IsCompressed && i < this->Threads; ++i)
   {
     this->Encoders.emplace_back(this->Format);
@@ -111,8 +109,11 @@ std::size_t LasWriter::makeRoom(std::size_t most, std::uint8_t*& records)
   {
     this->flush();
   }
-  records = &this->Records[this->Waiting * this->Format.RecordLength];
-  return std::min(most, capacity - this->Waiting);
+  const std::size_t length = this->Format.RecordLength;
+  const std::size_t count = std::min(most, capacity - this->Waiting);
+  this->Records.resize(std::max(this->Records.size(), (this->Waiting + count) * length));
+  records = this->Records.data() + this->Waiting * length;
+  return count;
 }
 
 /// Writes the waiting records. All chunks but the last one of the file are whole, since no others

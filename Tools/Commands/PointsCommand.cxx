@@ -6,7 +6,9 @@
 #include "Console/Process.h"
 #include "Distributions/GeneratePoints.h"
 #include "Files/Formats.h"
+#include "Files/IOError.h"
 #include "Files/TextFile.h"
+#include "Las/WriteLas.h"
 #include "Npy/NpyFile.h"
 #include "Points/ReadPoints.h"
 #include "Triangulation/Triangulate.h"
@@ -70,7 +72,14 @@ std::vector<double> pointsLike(const std::string& path, std::int64_t count, std:
   return xy;
 }
 
-constexpr const char* footer = R"(Distributions:
+constexpr const char* footer =
+  R"(INPUT   one or more files of points, as for 'tipp delaunay'. The options of reading choose
+        points, which are copied in their order.
+OUTPUT  .las, .laz: version 1.4, format 6, 7 (with colour) or 8 (with infrared). All fields and
+        extra bytes of LAS files stay; columns of other files become extra bytes, unless they are
+        called as a field and fit. .npy: x, y and z, if there are heights, as float64.
+
+Distributions:
   uniform    independent and uniform in the unit square
   clustered  100 Gaussian clusters in the unit square, standard deviations 1e-5 to 1e-2
   kuzmin     Kuzmin's disk: dense at the centre, unbounded
@@ -82,7 +91,9 @@ constexpr const char* footer = R"(Distributions:
 --like accepts any file of points that 'tipp delaunay' reads. The new points are random in
 the triangles of its points' triangulation, all triangles being equally likely.
 
-Example:
+Examples:
+  tipp points tiles/*.laz -o ground.laz --class 2 --thin 0.5:min
+  tipp points survey.csv -o survey.las --crs EPSG:25832
   tipp points --distribution coast --count 1000000 --seed 7 -o coast.npy
   tipp points --like fort.14 --count 1000000 -o dense.npy
 )";
@@ -98,46 +109,204 @@ std::string checkSeed(const std::string& text)
 
 struct PointsArguments
 {
+  const CLI::App* Command = nullptr;
+  std::vector<std::string> Inputs;
+  PointOptions Columns;
+  std::vector<std::string> ReadingOptions; ///< the names of those that fill Columns
   std::string Distribution;
   std::string Like;
   std::int64_t Count = 0;
   std::uint64_t Seed = 1;
+  std::vector<double> Scale;
+  int Threads = 0;
   std::string Output;
+
+  bool makesLas() const { return openerOf(this->Output, Use::WritesPoints) == Opener::Las; }
+  LasOptions lasOptions(const PathState& before) const
+  {
+    return { "TIPP " TIPP_VERSION, this->Scale, this->Threads, before };
+  }
 };
 
-void runPoints(const PointsArguments& arguments)
+std::string describe(const LasReport& report)
+{
+  const auto& scale = report.Transform.Scale;
+  return fmt::format("format {}, scales {} {} {}", report.Format, scale[0], scale[1], scale[2]);
+}
+
+void warn(const LasReport& report)
+{
+  for (const std::string& warning : report.Warnings)
+  {
+    fmt::print(stderr, "tipp: warning: {}\n", warning);
+  }
+  if (report.NotFinite > 0)
+  {
+    fmt::print(stderr, "tipp: warning: {} points are left out, since x, y or z is not a number.\n",
+      report.NotFinite);
+  }
+}
+
+/// Writes points of a known distribution.
+void makePoints(const PointsArguments& arguments)
 {
   const bool isLike = !arguments.Like.empty();
   const PathState before = requireWritable(arguments.Output, "", { arguments.Like });
-  writePoints(arguments.Output,
-    isLike ? pointsLike(arguments.Like, arguments.Count, arguments.Seed)
-           : generatePoints(
-               *distributionFromName(arguments.Distribution), arguments.Count, arguments.Seed),
-    before);
-  fmt::print("{} {} points, seed {}, in {}\n", arguments.Count,
-    isLike ? "like '" + arguments.Like + "'" : arguments.Distribution, arguments.Seed,
+  PointTable table;
+  table.XY = isLike ? pointsLike(arguments.Like, arguments.Count, arguments.Seed)
+                    : generatePoints(*distributionFromName(arguments.Distribution), arguments.Count,
+                        arguments.Seed);
+  std::string more;
+  if (arguments.makesLas())
+  {
+    const LasReport report =
+      writeLas(*streamTable(std::move(table)), arguments.Output, arguments.lasOptions(before));
+    warn(report);
+    more = ", " + describe(report);
+  }
+  else
+  {
+    writePoints(arguments.Output, table.XY, before);
+  }
+  fmt::print("{} {} points, seed {}{}, in {}\n", arguments.Count,
+    isLike ? "like '" + arguments.Like + "'" : arguments.Distribution, arguments.Seed, more,
     arguments.Output);
+}
+
+/// Returns the names of the columns that an .npy file of points does not have.
+std::string columnsBesides(std::size_t height, const std::vector<std::string>& columns)
+{
+  std::string names;
+  for (std::size_t i = 0; i < columns.size(); ++i)
+  {
+    names += i == height ? "" : (names.empty() ? "" : ", ") + shownText(columns[i]);
+  }
+  return names;
+}
+
+/// Copies x, y and, if there are heights, z.
+void copyToNpy(const PointsArguments& arguments, const PathState& before)
+{
+  constexpr std::size_t blockPoints = std::size_t(1) << 16;
+  PointOptions options = arguments.Columns;
+  options.Threads = arguments.Threads;
+  const std::unique_ptr<PointStream> points = openPointStream(arguments.Inputs, options);
+  reportTables(points->reports());
+  const std::vector<std::string> columns = points->columns();
+  const std::size_t height = findElevation(columns);
+  const std::size_t width = height < columns.size() ? 3 : 2;
+  std::int64_t count = 0; // the header is written first
+  forEachBlock(
+    *points, blockPoints, [&](const PointBlock& block) { count += std::int64_t(block.size()); });
+  if (count == 0)
+  {
+    throw IOError(arguments.Output, "is not written, since there are no points to write.");
+  }
+  NpyWriter writer(arguments.Output, "<f8", { count, std::int64_t(width) }, before);
+  std::vector<double> rows;
+  forEachBlock(*points, blockPoints,
+    [&](const PointBlock& block)
+    {
+      rows.clear();
+      for (std::size_t i = 0; i < block.size(); ++i)
+      {
+        rows.insert(rows.end(), { block.XY[2 * i], block.XY[2 * i + 1] });
+        if (width == 3)
+        {
+          rows.push_back(block.Columns[height][i]);
+        }
+      }
+      writer.write(rows.data(), rows.size() * sizeof(double));
+    });
+  writer.close();
+  reportLeftOut(points->leftOut(), points->thinnedOut());
+  const std::string besides = columnsBesides(height, columns);
+  if (!besides.empty())
+  {
+    fmt::print(
+      stderr, "tipp: warning: {} has no room for these columns: {}.\n", arguments.Output, besides);
+  }
+  fmt::print("{} points in {}\n", count, arguments.Output);
+}
+
+void copyPoints(const PointsArguments& arguments)
+{
+  const PathState before = requireWritable(arguments.Output, "", arguments.Inputs);
+  if (!arguments.makesLas())
+  {
+    copyToNpy(arguments, before);
+    return;
+  }
+  const LasReport report =
+    copyToLas(arguments.Inputs, arguments.Columns, arguments.Output, arguments.lasOptions(before));
+  reportTables(report.Tables);
+  reportLeftOut(report.LeftOut, report.ThinnedOut);
+  warn(report);
+  fmt::print("{} points, {}, in {}\n", report.Points, describe(report), arguments.Output);
 }
 
 void addOptions(CLI::App& command, PointsArguments& arguments)
 {
-  CLI::Option_group* const kind = command.add_option_group("kind");
-  kind->add_option("--distribution", arguments.Distribution, "The distribution, see below")
+  arguments.Command = &command;
+  command.add_option("input", arguments.Inputs, "The points to copy, of one or more files");
+  addOutput(command, arguments.Output, "The file to write", Use::WritesPoints);
+  command.add_option("--distribution", arguments.Distribution, "The distribution, see below")
     ->check(CLI::IsMember(distributionNames()));
-  kind->add_option("--like", arguments.Like, "A file of points with the wanted distribution");
-  kind->require_option(1);
-  command.add_option("--count", arguments.Count, "Number of points")
-    ->required()
+  command.add_option("--like", arguments.Like, "A file of points with the wanted distribution");
+  command.add_option("--count", arguments.Count, "Number of points to make")
     ->check(CLI::Range(std::int64_t(0), std::int64_t(1) << 40));
   addChecked(command, "--seed", arguments.Seed, checkSeed, "The seed of the random numbers");
-  addOutput(command, arguments.Output, "The .npy file to write", Use::WritesPoints);
+  command
+    .add_option("--scale", arguments.Scale,
+      "Round the coordinates of a .las or .laz file to multiples of this, or of three numbers "
+      "for x, y and z, such as 1e-7,1e-7,0.01 (default: that of LAS inputs, else the decimals)")
+    ->delimiter(',')
+    ->allow_extra_args(false)
+    ->check(checkPositive);
+  const std::size_t before = command.get_options().size();
+  addPointOptions(command, arguments.Columns);
+  const std::vector<CLI::Option*> options = command.get_options();
+  for (std::size_t i = before; i < options.size(); ++i)
+  {
+    arguments.ReadingOptions.push_back(options[i]->get_name());
+  }
+  addThreadsOption(command, arguments.Threads);
+}
+
+/// Throws CLI::ValidationError for options that are missing or would have no effect.
+void requireUseful(const PointsArguments& arguments)
+{
+  const CLI::App& command = *arguments.Command;
+  const bool copies = !arguments.Inputs.empty();
+  const int kinds =
+    int(copies) + int(!arguments.Distribution.empty()) + int(!arguments.Like.empty());
+  refuseIf(kinds != 1, "INPUT",
+    kinds == 0 ? "is required: files of points, --distribution or --like"
+               : "cannot be combined: give files of points, --distribution or --like");
+  refuseIf(!copies && command.count("--count") == 0, "--count",
+    "is required with --distribution and --like");
+  for (const char* const name : { "--count", "--seed" })
+  {
+    refuseIf(copies && command.count(name) > 0, name, "needs --distribution or --like");
+  }
+  for (const std::string& name : arguments.ReadingOptions)
+  {
+    refuseIf(!copies && command.count(name) > 0, name, "needs files of points");
+  }
+  refuseIf(!copies && !arguments.makesLas() && command.count("--threads") > 0, "--threads",
+    "needs files of points, or an output named .las or .laz");
+  refuseIf(!arguments.Scale.empty() && !arguments.makesLas(), "--scale",
+    "needs an output named .las or .laz");
+  refuseIf(arguments.Scale.size() == 2 || arguments.Scale.size() > 3, "--scale",
+    "is one number, or three for x, y and z");
 }
 
 int run(PointsArguments& arguments)
 {
+  requireUseful(arguments);
   if (!isIdleRank())
   {
-    runPoints(arguments);
+    arguments.Inputs.empty() ? makePoints(arguments) : copyPoints(arguments);
   }
   return Success;
 }
@@ -147,8 +316,8 @@ int run(PointsArguments& arguments)
 void addPointsCommand(CLI::App& app, int& exitCode)
 {
   addCommand<PointsArguments>(app, exitCode, "points",
-    "Writes points of a known distribution as an .npy file (N x 2 float64), the same on every "
-    "machine",
+    "Copies points, chosen and thinned, to a LAS, LAZ or .npy file; or makes points of a known "
+    "distribution, the same on every machine",
     footer, addOptions, run);
 }
 

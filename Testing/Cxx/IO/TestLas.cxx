@@ -4,6 +4,7 @@
 #include "Files/RawValues.h"
 #include "Las/LasHeader.h"
 #include "Las/LazFile.h"
+#include "LasRecords.h"
 #include "LasText.h"
 #include "LazText.h"
 #include "Points/ReadPoints.h"
@@ -300,13 +301,6 @@ TEST_F(Las, DamagedRecordsOfTheReferenceSystemAreIgnored)
   EXPECT_EQ("", readPoints(this->Folder.file("a.las", las.text())).Crs);
 }
 
-LasSelection keepAll()
-{
-  LasSelection all;
-  all.KeepWithheld = all.KeepSynthetic = all.KeepOverlap = true;
-  return all;
-}
-
 void expectSame(const PointTable& expected, const PointTable& points)
 {
   EXPECT_EQ(expected.XY, points.XY);
@@ -376,17 +370,7 @@ std::string decompressed(const std::string& path)
   {
     putAt(text, 235, std::uint64_t(0));
   }
-  const LazFile laz(path, header);
-  LazReader reader(laz, laz::All);
-  for (std::size_t i = 0; i < laz.chunks().size(); ++i)
-  {
-    const auto points = std::size_t(laz.chunks()[i].Points);
-    const std::size_t end = text.size();
-    text.resize(end + points * header.RecordLength);
-    reader.begin(file, i);
-    reader.read(points, &text[end]);
-  }
-  return text;
+  return text + recordsOf(path);
 }
 
 TEST_F(Las, RealCompressedFilesHaveTheSamePoints)

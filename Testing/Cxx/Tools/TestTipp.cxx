@@ -123,7 +123,7 @@ const Misuse misuses[] = {
   { "MemoryBelowTheSmallest", { "delaunay3d", "points.npy", "-o", "a.tipp", "--memory", "1023K" },
     "give 1M or more" },
   { "PointsNotInNpy", { "points", "--distribution", "coast", "--count", "1", "-o", "a.csv" },
-    "'a.csv' does not end in .npy" },
+    "'a.csv' does not end in .npy, .las or .laz" },
   { "CheckOfPointsAlone", { "check", "points.npy" }, "mesh" },
 };
 
@@ -195,7 +195,8 @@ TEST_F(Tipp, HelpOfACommandNamesItsOptionsAndAnExample)
     { "delaunay",
       { "--output", "--threads", "--partitions", "--schedule", "--initial-points", "--x", "--y",
         "--map-duplicates", "--stats", "Examples:" } },
-    { "points", { "--distribution", "--count", "--seed", "--output", "Example:" } },
+    { "points",
+      { "--distribution", "--count", "--seed", "--output", "--class", "--scale", "Examples:" } },
     { "check", { "--x", "--y", "--tie-rule", "--boundary-free", "Examples:" } },
   };
   for (const auto& [command, options] : commands)
