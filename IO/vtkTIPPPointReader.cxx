@@ -112,6 +112,16 @@ tipp::PointOptions vtkTIPPPointReader::Options() const
   options.Las.KeepOverlap = this->KeepOverlap;
   options.Las.KeepTruncated = this->KeepTruncated;
   options.Las.KeepUncounted = this->KeepUncounted;
+  if (this->Bounds[0] <= this->Bounds[1])
+  {
+    options.Region = tipp::boxOfVtkBounds<2>(this->Bounds);
+    if (options.Region->isEmpty())
+    {
+      throw tipp::IOError(
+        "Bounds have ymin > ymax; set ymin <= ymax, or xmin > xmax for all points.");
+    }
+  }
+  options.Spacing = this->Spacing;
   if (!this->Columns.empty())
   {
     options.Columns = partsOf(this->Columns);
@@ -193,6 +203,8 @@ void vtkTIPPPointReader::PrintSelf(ostream& os, vtkIndent indent)
   vtkTIPPPrintMacro(CoordinateReferenceSystem);
   vtkTIPPPrintMacro(Classes);
   vtkTIPPPrintMacro(Columns);
+  vtkTIPPPrintMacro(Bounds);
+  vtkTIPPPrintMacro(Spacing);
   vtkTIPPPrintMacro(Returns);
   vtkTIPPPrintMacro(KeepWithheld);
   vtkTIPPPrintMacro(KeepSynthetic);

@@ -131,6 +131,24 @@ public:
 
   ///@{
   /**
+   * The range of x and y of the points to read: xmin, xmax, ymin, ymax. xmin > xmax (the default)
+   * reads all points; ymin > ymax alone is an error. Of LAS, LAZ and COPC files, parts outside of
+   * the range are not read.
+   */
+  vtkSetVector4Macro(Bounds, double);
+  vtkGetVector4Macro(Bounds, double);
+  ///@}
+
+  ///@{
+  /**
+   * Of COPC files, only the levels are read that are needed for points about this far apart, in the
+   * units of the points; other files are then an error. 0 (the default): all levels.
+   */
+  vtkTIPPClampedMacro(Spacing, double, 0, VTK_DOUBLE_MAX);
+  ///@}
+
+  ///@{
+  /**
    * Names of the columns besides x and y to read, separated by commas. Empty or null (the default):
    * all.
    */
@@ -182,6 +200,8 @@ protected:
   std::string CoordinateReferenceSystem;
   std::string Classes;
   std::string Columns;
+  double Bounds[4] = { 1, -1, 1, -1 };
+  double Spacing = 0;
   int Returns = RETURNS_ALL;
   bool KeepWithheld = false;
   bool KeepSynthetic = false;

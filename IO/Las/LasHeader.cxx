@@ -58,13 +58,15 @@ std::vector<LasExtra> extrasOf(const std::string& descriptors, std::size_t begin
   return extras;
 }
 
-/// Finds the coordinate reference system and the compression in variable length records. Damaged
-/// records count as absent, since points that are not compressed can be read without them.
+/// Finds the coordinate reference system, the compression, and what tells where points are, in
+/// variable length records. Damaged records count as absent, since points that are not compressed
+/// can be read without them.
 class RecordFinder
 {
 public:
-  explicit RecordFinder(const InputFile& file)
+  RecordFinder(const InputFile& file, LasHeader& found)
     : File(file)
+    , Found(found)
   {
   }
 
@@ -87,19 +89,15 @@ public:
     }
   }
 
-  void giveTo(LasHeader& header)
-  {
-    header.Crs = std::move(this->Found);
-    header.Compression = std::move(this->Compression);
-    header.OtherRecords = this->Others;
-    header.Extras =
-      extrasOf(this->Descriptors, lasRecordLength(header.Format), header.RecordLength);
-  }
+  /// The descriptions of extra bytes, one after the other.
+  const std::string& descriptors() const { return this->Descriptors; }
 
 private:
   static constexpr int extraBytes = 4;
   static constexpr int wkt = 2112;
   static constexpr int laz = 22204;
+  static constexpr int copc = 1;
+  static constexpr int index = 30;
 
   /// Takes what is of interest in a record, whose header is `header`, and whose content begins at
   /// `at`.
@@ -108,7 +106,7 @@ private:
     constexpr std::uint64_t longest = std::uint64_t(1) << 24;
     const auto record = valueAt<std::uint16_t>(&header[18]);
     const auto isOf = [&header](const char* user)
-    { return std::memcmp(header.data() + 2, user, std::strlen(user)) == 0; };
+    { return std::memcmp(header.data() + 2, user, std::strlen(user) + 1) == 0; };
     const auto content = [&]
     {
       const std::vector<char> bytes =
@@ -121,7 +119,16 @@ private:
     }
     else if (isOf("laszip encoded") && record == laz)
     {
-      this->Compression = wide ? this->Compression : content();
+      this->Found.Compression = wide ? this->Found.Compression : content();
+    }
+    else if (isOf("copc"))
+    {
+      this->Found.Copc = record == copc && !wide ? content() : this->Found.Copc;
+    }
+    else if (isOf("LAStools") && record == index)
+    {
+      this->Found.IndexOffset = at;
+      this->Found.IndexBytes = length;
     }
     else if (isOf("LASF_Spec") && record == extraBytes)
     {
@@ -129,16 +136,17 @@ private:
     }
     else
     {
-      this->Others += isOf("copc") ? 0 : 1;
+      ++this->Found.OtherRecords;
     }
   }
 
   void takeCrs(int record, const std::string& content)
   {
-    std::string* const slot = record == wkt ? &this->Found.Text
-      : record == 34735                     ? &this->Found.Keys
-      : record == 34736                     ? &this->Found.Doubles
-      : record == 34737                     ? &this->Found.Ascii
+    CrsRecords& found = this->Found.Crs;
+    std::string* const slot = record == wkt ? &found.Text
+      : record == 34735                     ? &found.Keys
+      : record == 34736                     ? &found.Doubles
+      : record == 34737                     ? &found.Ascii
                                             : nullptr;
     if (slot)
     {
@@ -151,10 +159,8 @@ private:
   }
 
   const InputFile& File;
-  CrsRecords Found;
-  std::string Compression;
-  std::string Descriptors; ///< of the extra bytes
-  int Others = 0;          ///< records of other kinds
+  LasHeader& Found;
+  std::string Descriptors;
 };
 
 constexpr std::size_t shortHeader = 227; ///< header size of versions 1.0 to 1.2
@@ -196,6 +202,24 @@ void readTransform(const std::vector<char>& fields, const std::string& path, Las
         std::isfinite(header.Offset[axis]),
       path, std::string("has no usable scale or offset of ") + "xyz"[axis] + " in its header");
   }
+}
+
+void readBounds(const std::vector<char>& fields, LasHeader& header)
+{
+  Box2 box;
+  bool isZero = true;
+  for (std::size_t axis = 0; axis < 2; ++axis)
+  {
+    const auto high = valueAt<double>(&fields[179 + 16 * axis]);
+    const auto low = valueAt<double>(&fields[187 + 16 * axis]);
+    isZero = isZero && low == 0 && high == 0;
+    // Coordinates are multiples of the scale; some programs round the bounds differently.
+    const double slack =
+      std::fabs(header.Scale[axis]) + 1e-14 * std::max(std::fabs(low), std::fabs(high));
+    box.Min[axis] = low - slack;
+    box.Max[axis] = low <= high ? high + slack : std::nan("");
+  }
+  header.Bounds = isFinite(box) && !isZero ? box : Box2::empty();
 }
 
 /// Returns the number of points that the header announces. Version 1.4 has a count of 64 bits,
@@ -343,7 +367,8 @@ LasHeader readLasHeader(const std::string& path, const LasSelection& selection)
   readFormat(fields, path, header);
   readTransform(fields, path, header);
   readCount(fields, path, file.size(), size, selection, header);
-  RecordFinder finder(file);
+  readBounds(fields, header);
+  RecordFinder finder(file, header);
   finder.search(
     size, std::min(header.PointOffset, file.size()), valueAt<std::uint32_t>(&fields[100]), false);
   const std::uint64_t extended = header.Minor >= 4 ? valueAt<std::uint64_t>(&fields[235]) : 0;
@@ -351,7 +376,19 @@ LasHeader readLasHeader(const std::string& path, const LasSelection& selection)
   {
     finder.search(extended, file.size(), valueAt<std::uint32_t>(&fields[243]), true);
   }
-  finder.giveTo(header);
+  // LASzip names records of its own in that of the compression.
+  if (header.Compression.size() >= 32)
+  {
+    const auto count = valueAt<std::int64_t>(&header.Compression[16]);
+    const auto offset = valueAt<std::int64_t>(&header.Compression[24]);
+    constexpr std::int64_t many = 1000;
+    if (count > 0 && offset > 0)
+    {
+      finder.search(std::uint64_t(offset), file.size(), std::uint32_t(std::min(count, many)), true);
+    }
+  }
+  header.Extras =
+    extrasOf(finder.descriptors(), lasRecordLength(header.Format), header.RecordLength);
   return header;
 }
 

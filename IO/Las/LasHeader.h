@@ -3,6 +3,7 @@
 #define tippLasHeader_h
 
 #include "Crs/ReferenceSystem.h"
+#include "Predicates/Geometry.h"
 #include "vtkTIPPIOModule.h"
 
 #include <array>
@@ -46,13 +47,19 @@ struct LasHeader
   std::int64_t Points = 0;       ///< number of point records to read
   std::array<double, 3> Scale{}; ///< a coordinate is its stored integer * Scale + Offset
   std::array<double, 3> Offset{};
-  CrsRecords Crs;               ///< the records of the coordinate reference system
-  std::string Compression;      ///< the record of the compression, or empty
-  std::uint16_t Encoding = 0;   ///< the bits of the global encoding
-  std::string System;           ///< the system identifier
-  std::vector<LasExtra> Extras; ///< all bytes of a record besides those of its format, in order
-  int OtherRecords = 0;         ///< variable length records besides these and those of COPC
-  std::string Remark; ///< how Points differs from what the header or the file says, or empty
+  /// The bounds of the points by the header, grown by the rounding of coordinates; empty if the
+  /// header's cannot be right.
+  Box2 Bounds = Box2::empty();
+  CrsRecords Crs;                ///< the records of the coordinate reference system
+  std::string Compression;       ///< the record of the compression, or empty
+  std::string Copc;              ///< the record 'info' of a COPC file, or empty
+  std::uint64_t IndexOffset = 0; ///< of a LASindex among the records, in bytes
+  std::uint64_t IndexBytes = 0;  ///< its length; 0: there is none
+  std::uint16_t Encoding = 0;    ///< the bits of the global encoding
+  std::string System;            ///< the system identifier
+  std::vector<LasExtra> Extras;  ///< all bytes of a record besides those of its format, in order
+  int OtherRecords = 0; ///< variable length records besides these and those of COPC and LASindex
+  std::string Remark;   ///< how Points differs from what the header or the file says, or empty
 
   bool hasTime() const { return this->Format == 1 || (this->Format >= 3); }
   bool hasColour() const

@@ -4,7 +4,9 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/RawValues.h"
+#include "Las/CopcHierarchy.h"
 #include "Las/LasHeader.h"
+#include "Las/LasIndex.h"
 #include "Las/LazFile.h"
 #include "Parallel/ParallelFor.h"
 
@@ -234,7 +236,9 @@ public:
     : Path(path)
     , Header(header)
     , Filter(header, options.Las)
+    , Region(options.Region)
     , Threads(threadCount(options.Threads))
+    , Records(header.Points)
   {
     for (const LasColumn& column : columnsOf(header, options))
     {
@@ -281,12 +285,20 @@ public:
     return names;
   }
 
-  std::int64_t most() const override { return this->Header.Points; }
+  std::int64_t most() const override { return this->Records; }
   std::int64_t leftOut() const override
   {
     // A pass may be limited to a part of the file.
     return this->KeptBefore.empty() ? this->DroppedOfPass
-                                    : this->Header.Points - this->KeptBefore.back();
+                                    : this->InRegion - this->KeptBefore.back();
+  }
+  ReadFigures readFigures() const override
+  {
+    ReadFigures figures;
+    figures.Files = 1;
+    figures.Points = this->Header.Points;
+    figures.SkippedPoints = this->Header.Points - this->Records;
+    return figures;
   }
   ReferenceSystem referenceSystem() const override
   {
@@ -300,10 +312,13 @@ public:
   std::vector<TableReport> reports() const override
   {
     std::vector<TableReport> reports;
-    if (!this->Header.Remark.empty())
+    for (const std::string& remark : { this->Header.Remark, this->IndexRemark })
     {
-      reports.emplace_back().Path = this->Path;
-      reports.back().Warnings.push_back(this->Header.Remark + ".");
+      if (!remark.empty())
+      {
+        reports.emplace_back().Path = this->Path;
+        reports.back().Warnings.push_back(remark + ".");
+      }
     }
     return reports;
   }
@@ -314,12 +329,31 @@ protected:
   {
     std::vector<char> Raw;
     std::vector<const char*> Kept; ///< the selected records among these
+    std::int64_t InRegion = 0;     ///< records so far that lie in the region, selected or not
+  };
+
+  /// Numbers of records of a chunk.
+  struct Counts
+  {
+    std::int64_t InRegion = 0;
+    std::int64_t Kept = 0; ///< the selected ones of these
   };
 
   /// Goes to the first record of a chunk, or behind the last chunk.
   virtual void seek(std::int64_t chunk) = 0;
-  /// Returns the number of selected points in each chunk.
-  virtual std::vector<std::int64_t> keptOfChunks() const = 0;
+  virtual std::vector<Counts> countChunks() const = 0;
+
+  /// Returns the records that may lie in the region by an index; nullopt: all.
+  std::optional<std::vector<RecordRange>> indexedRecords()
+  {
+    if (!this->Region)
+    {
+      return std::nullopt;
+    }
+    IndexedRecords found = findIndexedRecords(this->Path, this->Header, *this->Region);
+    this->IndexRemark = found.Remark;
+    return std::move(found.Ranges);
+  }
 
   const InputFile& file()
   {
@@ -340,15 +374,39 @@ protected:
   /// Finds the selected ones of a share's records.
   void select(std::size_t count, Share& share) const
   {
+    if (this->Region)
+    {
+      this->select(count, share,
+        [this](const char* record)
+        {
+          return this->Region->contains(
+            Point2{ this->coordinate(record, 0), this->coordinate(record, 1) });
+        });
+    }
+    else
+    {
+      this->select(count, share, [](const char*) { return true; });
+    }
+  }
+
+  template <typename IsInRegion>
+  void select(std::size_t count, Share& share, const IsInRegion& isInRegion) const
+  {
     const std::size_t length = this->Header.RecordLength;
     share.Kept.clear();
+    std::int64_t inRegion = 0;
     for (const char* record = share.Raw.data(); count > 0; record += length, --count)
     {
-      if (this->Filter.keeps(record))
+      if (isInRegion(record))
       {
-        share.Kept.push_back(record);
+        ++inRegion;
+        if (this->Filter.keeps(record))
+        {
+          share.Kept.push_back(record);
+        }
       }
     }
+    share.InRegion += inRegion;
   }
 
   double coordinate(const char* record, std::size_t axis) const
@@ -426,7 +484,10 @@ protected:
   const std::string Path;
   LasHeader Header;
   const RecordFilter Filter;
+  const std::optional<Box2> Region;
   const int Threads;
+  std::int64_t Records;    ///< number of records to decode
+  std::string IndexRemark; ///< see IndexedRecords
   std::vector<LasColumn> Wanted;
   std::int64_t Dropped = 0; ///< points dropped so far in this pass
   std::int64_t DroppedOfPass = 0;
@@ -439,9 +500,10 @@ private:
       return;
     }
     std::vector<std::int64_t> before{ 0 };
-    for (const std::int64_t kept : this->keptOfChunks())
+    for (const Counts& counts : this->countChunks())
     {
-      before.push_back(before.back() + kept);
+      before.push_back(before.back() + counts.Kept);
+      this->InRegion += counts.InRegion;
     }
     this->KeptBefore = std::move(before);
   }
@@ -449,23 +511,61 @@ private:
   std::unique_ptr<InputFile> File;
   /// The number of points selected before each chunk of records, and in total.
   mutable std::vector<std::int64_t> KeptBefore;
+  mutable std::int64_t InRegion = 0; ///< records in the region, once these are counted
+};
+
+/// The points of a file that has none in the region.
+class SkippedPoints : public LasFilePoints
+{
+public:
+  SkippedPoints(const std::string& path, const LasHeader& header, const PointOptions& options)
+    : LasFilePoints(path, header, options)
+  {
+    this->Records = 0;
+  }
+
+  bool next(PointBlock& block, std::size_t) override
+  {
+    block.Columns.resize(this->Wanted.size());
+    block.resize(0);
+    return false;
+  }
+
+  ReadFigures readFigures() const override
+  {
+    ReadFigures figures = LasFilePoints::readFigures();
+    figures.SkippedFiles = 1;
+    return figures;
+  }
+
+protected:
+  void seek(std::int64_t) override {}
+  std::vector<Counts> countChunks() const override { return {}; }
 };
 
 /// The points of a file that is not compressed, decoded straight to the block.
 class PlainLasPoints : public LasFilePoints
 {
 public:
-  using LasFilePoints::LasFilePoints;
+  PlainLasPoints(const std::string& path, const LasHeader& header, const PointOptions& options)
+    : LasFilePoints(path, header, options)
+  {
+    if (const auto ranges = this->indexedRecords())
+    {
+      this->keepChunks(*ranges);
+    }
+  }
 
   bool next(PointBlock& block, std::size_t most) override
   {
     block.Columns.resize(this->Wanted.size());
+    block.resize(0);
     std::size_t points = 0;
-    while (points <= most / 2 && this->NextRecord < this->Header.Points)
+    while (points <= most / 2 && this->NextRecord < this->Records)
     {
       points = this->append(block, points, most - points);
     }
-    if (this->NextRecord == this->Header.Points)
+    if (this->NextRecord == this->Records)
     {
       this->DroppedOfPass = this->Dropped;
     }
@@ -476,25 +576,50 @@ protected:
   void seek(std::int64_t chunk) override
   {
     std::vector<Part>().swap(this->Parts);
-    this->NextRecord = std::min(chunk * chunkRecords, this->Header.Points);
+    this->NextRecord = std::min(chunk * chunkRecords, this->Records);
   }
 
-  std::vector<std::int64_t> keptOfChunks() const override
+  std::vector<Counts> countChunks() const override
   {
     const InputFile file(this->Path);
-    std::vector<std::int64_t> kept;
-    Share share;
-    for (std::int64_t first = 0; first < this->Header.Points; first += chunkRecords)
+    std::vector<Counts> counts;
+    for (std::int64_t first = 0; first < this->Records; first += chunkRecords)
     {
-      const auto count = std::size_t(std::min(chunkRecords, this->Header.Points - first));
-      this->select(file, first, count, share);
-      kept.push_back(std::int64_t(share.Kept.size()));
+      Share share;
+      this->select(file, first, std::size_t(std::min(chunkRecords, this->Records - first)), share);
+      counts.push_back({ share.InRegion, std::int64_t(share.Kept.size()) });
     }
-    return kept;
+    return counts;
   }
 
 private:
   static constexpr std::int64_t chunkRecords = 1 << 14;
+
+  /// Limits the records to the chunks that have some of the ranges.
+  void keepChunks(const std::vector<RecordRange>& ranges)
+  {
+    this->Chunks.emplace();
+    this->Records = 0;
+    for (const RecordRange& range : ranges)
+    {
+      const auto end = (std::int64_t(range.End) + chunkRecords - 1) / chunkRecords;
+      auto chunk = std::int64_t(range.Begin) / chunkRecords;
+      chunk = this->Chunks->empty() ? chunk : std::max(chunk, this->Chunks->back() + 1);
+      for (; chunk < end; ++chunk)
+      {
+        this->Chunks->push_back(chunk);
+        this->Records += std::min(chunkRecords, this->Header.Points - chunk * chunkRecords);
+      }
+    }
+  }
+
+  /// Returns the index in the file of one of the records to decode. Only the last chunk is short.
+  std::int64_t inFile(std::int64_t record) const
+  {
+    return this->Chunks
+      ? (*this->Chunks)[std::size_t(record / chunkRecords)] * chunkRecords + record % chunkRecords
+      : record;
+  }
 
   /// Records that one thread decodes.
   struct Part : public Share
@@ -510,7 +635,7 @@ private:
   std::size_t append(PointBlock& block, std::size_t points, std::size_t most)
   {
     const std::int64_t count =
-      std::min<std::int64_t>(std::int64_t(most), this->Header.Points - this->NextRecord);
+      std::min<std::int64_t>(std::int64_t(most), this->Records - this->NextRecord);
     const std::int64_t parts = std::clamp<std::int64_t>(count / chunkRecords, 1, this->Threads);
     block.resize(points + std::size_t(count));
     this->Parts.resize(std::size_t(parts));
@@ -529,7 +654,7 @@ private:
     {
       move(block, part.To, points, part.Points);
       points += part.Points;
-      this->Dropped += part.Count - std::int64_t(part.Points);
+      this->Dropped += part.InRegion - std::int64_t(part.Points);
     }
     block.resize(points);
     this->NextRecord += count;
@@ -554,26 +679,30 @@ private:
   void decode(const InputFile& file, Part& part, PointBlock& block) const
   {
     part.Points = 0;
-    for (std::int64_t done = 0; done < part.Count; done += chunkRecords)
+    part.InRegion = 0;
+    for (std::int64_t first = part.First; first < part.First + part.Count;)
     {
-      const auto count = std::size_t(std::min(chunkRecords, part.Count - done));
-      this->select(file, part.First + done, count, part);
+      const std::int64_t ofChunk = chunkRecords - first % chunkRecords;
+      const std::int64_t count = std::min(ofChunk, part.First + part.Count - first);
+      this->select(file, first, std::size_t(count), part);
       this->write(part.Kept, block, part.To + part.Points);
       part.Points += part.Kept.size();
+      first += count;
     }
   }
 
-  /// Reads records, and finds the selected ones.
+  /// Reads records of a chunk, and finds the selected ones.
   void select(const InputFile& file, std::int64_t first, std::size_t count, Share& share) const
   {
     const std::size_t length = this->Header.RecordLength;
-    file.read(this->Header.PointOffset + std::uint64_t(first) * length, this->roomFor(count, share),
-      count * length);
+    file.read(this->Header.PointOffset + std::uint64_t(this->inFile(first)) * length,
+      this->roomFor(count, share), count * length);
     this->LasFilePoints::select(count, share);
   }
 
   std::vector<Part> Parts;
-  std::int64_t NextRecord = 0;
+  std::int64_t NextRecord = 0;                     ///< counted among those to decode
+  std::optional<std::vector<std::int64_t>> Chunks; ///< those to decode; nullopt: all
 };
 
 /// The points of a compressed file. Some chunks ahead of the stream are decoded at the same time.
@@ -590,6 +719,8 @@ public:
     {
       this->Needed |= column.Attribute;
     }
+    this->AllChunks = this->Laz.chunks().size();
+    this->keepChunks(options.Spacing);
     if (options.Las.KeepTruncated)
     {
       this->keepReadable();
@@ -610,6 +741,14 @@ public:
     return block.size() > 0;
   }
 
+  ReadFigures readFigures() const override
+  {
+    ReadFigures figures = LasFilePoints::readFigures();
+    figures.Chunks = std::int64_t(this->AllChunks);
+    figures.SkippedChunks = std::int64_t(this->AllChunks - this->Laz.chunks().size());
+    return figures;
+  }
+
 protected:
   void seek(std::int64_t chunk) override
   {
@@ -622,10 +761,10 @@ protected:
     this->DoneOfChunk = 0;
   }
 
-  std::vector<std::int64_t> keptOfChunks() const override
+  std::vector<Counts> countChunks() const override
   {
     const std::size_t chunks = this->Laz.chunks().size();
-    std::vector<std::int64_t> kept(chunks);
+    std::vector<Counts> counts(chunks);
     std::vector<LazReader> readers = this->makeReaders(1, this->Filter.attributes());
     const InputFile file(this->Path);
     forChunks(std::int64_t(chunks), 1, this->Threads, {},
@@ -637,10 +776,11 @@ protected:
           [&](std::size_t count)
           {
             this->select(count, share);
-            kept[chunk] += std::int64_t(share.Kept.size());
+            counts[chunk].Kept += std::int64_t(share.Kept.size());
           });
+        counts[chunk].InRegion = share.InRegion;
       });
-    return kept;
+    return counts;
   }
 
 private:
@@ -664,6 +804,57 @@ private:
     std::uint64_t Records = 0; ///< to decode
     std::size_t Size = 0;      ///< selected points so far
   };
+
+  /// Leaves out the chunks that cannot have points in the region, or that are of finer levels.
+  void keepChunks(double spacing)
+  {
+    if (!this->Header.Copc.empty() && (this->Region || spacing > 0))
+    {
+      this->Laz.keep(this->chunksOfNodes(spacing));
+    }
+    else if (const auto ranges = this->indexedRecords())
+    {
+      this->Laz.keep(this->chunksOfRanges(*ranges));
+    }
+    this->countRecords();
+  }
+
+  /// Returns for each chunk whether it is a node that is needed.
+  std::vector<bool> chunksOfNodes(double spacing) const
+  {
+    std::vector<bool> isKept(this->Laz.chunks().size(), false);
+    for (const CopcNode& node :
+      findCopcNodes(this->Path, this->Header, this->Laz.chunks(), { this->Region, spacing }))
+    {
+      isKept[node.Chunk] = true;
+    }
+    return isKept;
+  }
+
+  /// Returns for each chunk whether it has some of the records.
+  std::vector<bool> chunksOfRanges(const std::vector<RecordRange>& ranges) const
+  {
+    std::vector<bool> isKept;
+    auto range = ranges.begin();
+    for (const LazChunkPlace& place : this->Laz.chunks())
+    {
+      while (range != ranges.end() && range->End <= place.FirstPoint)
+      {
+        ++range;
+      }
+      isKept.push_back(range != ranges.end() && range->Begin < place.FirstPoint + place.Points);
+    }
+    return isKept;
+  }
+
+  void countRecords()
+  {
+    this->Records = 0;
+    for (const LazChunkPlace& place : this->Laz.chunks())
+    {
+      this->Records += std::int64_t(place.Points);
+    }
+  }
 
   std::vector<LazReader> makeReaders(std::size_t ofThread, unsigned attributes) const
   {
@@ -727,8 +918,12 @@ private:
       this->Header.Remark = "announces " + std::to_string(this->Header.Points) +
         " points and can be decompressed up to point " + std::to_string(points) +
         "; those before it are read";
-      this->Header.Points = points;
+      // What cannot be read does not count as a part that is not needed.
+      const std::int64_t records = this->Records;
+      this->AllChunks -= chunks - readable;
       this->Laz.keepFirst(readable);
+      this->countRecords();
+      this->Header.Points -= records - this->Records;
     }
   }
 
@@ -767,7 +962,7 @@ private:
     isLarge ? this->decodePart() : this->decodeChunks();
     for (std::size_t i = 0; i < this->AheadCount; ++i)
     {
-      this->Dropped += std::int64_t(this->Ahead[i].Records - this->Ahead[i].Points.size());
+      this->Dropped += this->Ahead[i].InRegion - std::int64_t(this->Ahead[i].Points.size());
     }
   }
 
@@ -877,6 +1072,7 @@ private:
     decoded.Points.resize(std::size_t(records));
     decoded.Records = records;
     decoded.Size = 0;
+    decoded.InRegion = 0;
   }
 
   /// Takes the selected ones of records that are decoded.
@@ -912,6 +1108,7 @@ private:
   }
 
   LazFile Laz;
+  std::size_t AllChunks = 0;      ///< number of chunks of the file
   unsigned Needed;                ///< attributes to decode
   std::vector<LazReader> Readers; ///< two of each thread
   std::vector<Decoded> Ahead;     ///< the points to serve, in order
@@ -927,6 +1124,14 @@ private:
 std::unique_ptr<FilePoints> openLasPoints(const std::string& path, const PointOptions& options)
 {
   const LasHeader header = readLasHeader(path, options.Las);
+  if (options.Spacing > 0 && header.Copc.empty())
+  {
+    refuseSpacing(path);
+  }
+  if (options.Region && !header.Bounds.isEmpty() && !header.Bounds.meets(*options.Region))
+  {
+    return std::make_unique<SkippedPoints>(path, header, options);
+  }
   if (header.Compressed)
   {
     return std::make_unique<LazPoints>(path, header, options);

@@ -184,6 +184,27 @@ LazFile::LazFile(const std::string& path, const LasHeader& header)
   }
 }
 
+void LazFile::keep(const std::vector<bool>& isKept)
+{
+  this->All = this->Chunks.size();
+  for (std::size_t i = 0; i < this->All; ++i)
+  {
+    if (isKept[i])
+    {
+      this->Chunks[this->Numbers.size()] = this->Chunks[i];
+      this->Numbers.push_back(i);
+    }
+  }
+  this->Chunks.resize(this->Numbers.size());
+}
+
+std::string LazFile::numberOf(std::size_t chunk) const
+{
+  const std::size_t number = this->Numbers.empty() ? chunk : this->Numbers[chunk];
+  const std::size_t all = this->Numbers.empty() ? this->Chunks.size() : this->All;
+  return std::to_string(number + 1) + " of " + std::to_string(all);
+}
+
 void LazReader::begin(const InputFile& file, std::size_t chunk)
 {
   const LazChunkPlace& place = this->Laz.chunks()[chunk];
@@ -221,8 +242,7 @@ void LazReader::readWith(LazReader& other, std::size_t count, char* records, cha
 void LazReader::refuse(const LazError& error) const
 {
   throw IOError(this->Laz.path(),
-    "cannot be decompressed: chunk " + std::to_string(this->Chunk + 1) + " of " +
-      std::to_string(this->Laz.chunks().size()) + " " + error.what() +
+    "cannot be decompressed: chunk " + this->Laz.numberOf(this->Chunk) + " " + error.what() +
       "; copy it again, or read the chunks before it with --keep truncated.");
 }
 

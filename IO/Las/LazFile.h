@@ -27,16 +27,22 @@ public:
   const std::string& path() const { return this->Path; }
   const LazFormat& format() const { return this->Format; }
   const std::vector<LazChunkPlace>& chunks() const { return this->Chunks; }
+  /// The number of a chunk among all of the file, for messages: such as "2 of 7".
+  std::string numberOf(std::size_t chunk) const;
   /// What is wrong with the chunk table, or empty.
   const std::string& remark() const { return this->Remark; }
 
   /// Forgets all but the first `count` chunks.
   void keepFirst(std::size_t count) { this->Chunks.resize(count); }
+  /// Forgets the chunks whose entry is false.
+  void keep(const std::vector<bool>& isKept);
 
 private:
   const std::string Path;
   LazFormat Format;
   std::vector<LazChunkPlace> Chunks;
+  std::vector<std::size_t> Numbers; ///< of the chunks, if not all are kept
+  std::size_t All = 0;              ///< number of chunks before keep()
   std::string Remark;
 };
 

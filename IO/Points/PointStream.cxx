@@ -52,6 +52,14 @@ public:
     this->Identity += this->Wrap > 0 ? "wrap " + std::to_string(this->Wrap) + "\n" : "";
     this->Identity += options.X + "\n" + options.Y + "\n" + options.Z + "\n" + options.Layer + "\n";
     this->Identity += options.NoData ? exactText(*options.NoData) + "\n" : "";
+    if (options.Region)
+    {
+      for (const double bound : vtkBoundsOf(*options.Region))
+      {
+        this->Identity += exactText(bound) + "\n";
+      }
+    }
+    this->Identity += options.Spacing > 0 ? "spacing " + exactText(options.Spacing) + "\n" : "";
     this->NoData.NoData = options.NoData;
     for (const std::string& name : this->Files[0]->columns())
     {
@@ -183,6 +191,16 @@ public:
     {
       const std::vector<TableReport> reports = file->reports();
       all.insert(all.end(), reports.begin(), reports.end());
+    }
+    return all;
+  }
+
+  ReadFigures readFigures() const override
+  {
+    ReadFigures all;
+    for (const auto& file : this->Files)
+    {
+      all.add(file->readFigures());
     }
     return all;
   }

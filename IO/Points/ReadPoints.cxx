@@ -46,6 +46,10 @@ std::size_t resolve(const std::string& path, const std::string& wanted,
 
 void requireNoSelection(const std::string& path, const PointOptions& options)
 {
+  if (options.Spacing > 0)
+  {
+    refuseSpacing(path);
+  }
   if (options.Las.isGiven())
   {
     throw IOError(path, "has no classes and returns; these can be chosen in .las and .laz files.");
@@ -62,6 +66,12 @@ void requireNoChoice(
 }
 
 } // namespace
+
+void refuseSpacing(const std::string& path)
+{
+  throw IOError(path,
+    "is no COPC file, and only these have levels of different spacings; thin the points instead.");
+}
 
 bool isNoDataMark(double height)
 {
@@ -324,14 +334,20 @@ std::unique_ptr<FilePoints> openTable(PointTable table)
 std::unique_ptr<FilePoints> openFilePoints(const std::string& path, const PointOptions& options)
 {
   const std::int64_t generated = generatedCount(path);
-  if (generated > 0)
+  const Opener opener = generated > 0 ? Opener::None : openerOf(path, Use::Points);
+  if (options.Region && (opener != Opener::Las || options.Wrap > 0))
   {
-    return openGeneratedPoints(generated, options.InSpace);
+    PointOptions all = options;
+    all.Region.reset();
+    return keepRegion(openFilePoints(path, all), path, options);
   }
-  const Opener opener = openerOf(path, Use::Points);
   if (opener != Opener::Las)
   {
     requireNoSelection(path, options);
+  }
+  if (generated > 0)
+  {
+    return openGeneratedPoints(generated, options.InSpace);
   }
   switch (opener)
   {
@@ -475,6 +491,7 @@ PointTable readAllPoints(PointStream& stream)
   table.Crs = system.Text;
   table.CrsProblem = system.Problem;
   table.Reports = stream.reports();
+  table.Figures = stream.readFigures();
   return table;
 }
 
@@ -487,7 +504,7 @@ PointTable readPoints(const std::vector<std::string>& paths, const PointOptions&
 PointTable readPoints(const std::string& path, const PointOptions& options)
 {
   const Opener opener = openerOf(path, Use::Points);
-  if (opener == Opener::Las || opener == Opener::Gdal || options.Thin.isGiven())
+  if (opener == Opener::Las || opener == Opener::Gdal || options.Thin.isGiven() || options.Region)
   {
     return readAllPoints(*openPointStream({ path }, options));
   }
@@ -508,7 +525,7 @@ PointTable readPointsShare(
   {
     return part == 0 ? readPoints(paths, options) : PointTable();
   }
-  if (paths.size() == 1 && isOpenedBy(paths[0], Opener::Npy))
+  if (paths.size() == 1 && isOpenedBy(paths[0], Opener::Npy) && !options.Region)
   {
     return readNpyPoints(paths[0], options, part, parts);
   }
@@ -520,6 +537,10 @@ PointTable readPointsShare(
   }
   const auto stream = openPointStream(paths, options);
   const std::int64_t points = stream->divisible();
+  if (points < 0)
+  {
+    return part == 0 ? readAllPoints(*stream) : PointTable();
+  }
   stream->limitTo(shareBegin(points, part, parts), shareBegin(points, part + 1, parts));
   return readAllPoints(*stream);
 }

@@ -4,6 +4,7 @@
 
 #include "Crs/ReferenceSystem.h"
 #include "Points/TableColumns.h"
+#include "Predicates/Geometry.h"
 #include "vtkTIPPIOModule.h"
 
 #include <algorithm>
@@ -32,6 +33,27 @@ struct TableReport
   std::vector<std::string> Remarks;  ///< sentences about what was left out or changed
 };
 
+/// How much of LAS and LAZ files is read where PointOptions::Region or Spacing leaves out the rest.
+struct ReadFigures
+{
+  std::int64_t Files = 0;
+  std::int64_t SkippedFiles = 0; ///< of which only the header is read
+  std::int64_t Chunks = 0;       ///< of compressed files
+  std::int64_t SkippedChunks = 0;
+  std::int64_t Points = 0;
+  std::int64_t SkippedPoints = 0; ///< not decoded
+
+  void add(const ReadFigures& other)
+  {
+    this->Files += other.Files;
+    this->SkippedFiles += other.SkippedFiles;
+    this->Chunks += other.Chunks;
+    this->SkippedChunks += other.SkippedChunks;
+    this->Points += other.Points;
+    this->SkippedPoints += other.SkippedPoints;
+  }
+};
+
 /// Points read from a file: x and y interleaved, and the other numeric columns by name.
 struct PointTable
 {
@@ -49,6 +71,7 @@ struct PointTable
   std::string Crs;             ///< the coordinate reference system: see PointStream::crs()
   std::vector<TableReport> Reports = {}; ///< one for each file of text
   std::string CrsProblem = {};           ///< see ReferenceSystem::Problem
+  ReadFigures Figures = {};
 
   std::size_t size() const { return this->XY.size() / 2; }
   /// The names of Columns.
@@ -217,6 +240,12 @@ struct PointOptions
   bool AsIs = false;
   /// The columns of LAS files that are to be written again; then `Columns` must not be given.
   std::optional<LasFields> Fields = {};
+  /// The box of the points to read, after Wrap; the others are left out. Of LAS and LAZ files the
+  /// parts that cannot have points in it are not read. nullopt: all points.
+  std::optional<Box2> Region = {};
+  /// For COPC files, the only ones with this: the finest levels are left out if the points of the
+  /// others are about this far apart. 0: all levels are read.
+  double Spacing = 0;
 
   bool wants(const std::string& column) const
   {
@@ -288,6 +317,9 @@ public:
 
   /// What has been taken from tables, known once the source is open.
   virtual std::vector<TableReport> reports() const { return {}; }
+
+  /// How much of LAS and LAZ files is read, known once the source is open.
+  virtual ReadFigures readFigures() const { return {}; }
 };
 
 /// A stream of the points of one or more inputs of any size, which can be limited to a range.
@@ -332,7 +364,8 @@ VTKTIPPIO_EXPORT std::unique_ptr<PointStream> streamTable(
 VTKTIPPIO_EXPORT PointTable readAllPoints(PointStream& stream);
 
 /// Reads share `part` of `parts` of the files' points: consecutive points if reading can start at
-/// any of them (.npy, .las), else all for part 0 and none for the others. Throws IOError.
+/// any of them (.npy and .las, but .npy not within a region), else all for part 0 and none for the
+/// others. Throws IOError.
 VTKTIPPIO_EXPORT PointTable readPointsShare(
   const std::vector<std::string>& paths, const PointOptions& options, int part, int parts);
 
@@ -348,8 +381,15 @@ public:
 /// Replaces the options' no-data value by NaN.
 void clearNoData(const PointOptions& options, std::vector<double>& values);
 
+/// Throws IOError: PointOptions::Spacing needs a COPC file.
+[[noreturn]] void refuseSpacing(const std::string& path);
+
 /// Opens a file by its extension. Throws IOError.
 std::unique_ptr<FilePoints> openFilePoints(const std::string& path, const PointOptions& options);
+
+/// The points of a file that lie in PointOptions::Region, after PointOptions::Wrap.
+std::unique_ptr<FilePoints> keepRegion(
+  std::unique_ptr<FilePoints> points, const std::string& path, const PointOptions& options);
 
 /// The points of a table instead of a file.
 std::unique_ptr<FilePoints> openTable(PointTable table);

@@ -198,6 +198,7 @@ public:
   std::int64_t thinnedOut() const override { return this->Seen - this->KeptCount; }
   ReferenceSystem referenceSystem() const override { return this->All->referenceSystem(); }
   std::vector<TableReport> reports() const override { return this->All->reports(); }
+  ReadFigures readFigures() const override { return this->All->readFigures(); }
 
   std::string identity() const override
   {
