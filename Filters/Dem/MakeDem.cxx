@@ -4,6 +4,7 @@
 #include "Constraints/OnDisk/ConstrainedStream.h"
 #include "Constraints/SurfaceValues.h"
 #include "Constraints/TableConstraints.h"
+#include "Dem/DemRegion.h"
 #include "Dem/DemSinks.h"
 #include "Dem/RasterTiles.h"
 #include "Files/Formats.h"
@@ -86,7 +87,7 @@ OutOfCoreStatistics triangulateInto(TriangleConsumer& taker, PointStream& points
   return triangulateOutOfCore(points, folder.path() + "/dem", options);
 }
 
-OutOfCoreStatistics makeWithin(std::unique_ptr<PointStream> points, const DemRequest& request,
+DemFigures makeWithin(std::unique_ptr<PointStream> points, const DemRequest& request,
   std::uint64_t memory, const std::function<bool(double)>& progress, TerrainSettings& settings,
   BandValues& samples)
 {
@@ -104,7 +105,7 @@ OutOfCoreStatistics makeWithin(std::unique_ptr<PointStream> points, const DemReq
         triangulateInto(surface, *points, options, partOf(progress, 0, 0.4));
       if (made.Aborted)
       {
-        return made;
+        return { made };
       }
       finished = 0.4;
     }
@@ -126,7 +127,7 @@ OutOfCoreStatistics makeWithin(std::unique_ptr<PointStream> points, const DemReq
       return readTiles(settings, tiles, written, samples);
     });
   options.MaximumEdge = request.MaximumEdge;
-  return triangulateInto(sink, *points, options, partOf(progress, finished, 1));
+  return { triangulateInto(sink, *points, options, partOf(progress, finished, 1)) };
 }
 
 } // namespace
@@ -278,23 +279,35 @@ TerrainSettings makeTerrainSettings(
   return settings;
 }
 
-OutOfCoreStatistics makeDem(PointTable points, const DemRequest& request,
+DemFigures makeDem(PointTable points, const DemRequest& request,
   const std::function<bool(double)>& progress, TerrainSettings& settings, BandValues& samples)
 {
+  DemFigures figures;
+  figures.IsOfPart = request.Region.has_value();
   const std::vector<std::string> columns = points.names();
   const PointsView view(points.XY.data(), points.size(), 2);
   const Box2 bounds = surveyPoints(view, threadCount(request.Threads)).Bounds;
   requireElevation(request.Duplicates, columns);
-  settings = makeTerrainSettings(request, bounds, columns);
+  figures.IsUnknown = request.Region && bounds.isEmpty();
+  if (figures.IsUnknown)
+  {
+    return figures;
+  }
+  settings = makeTerrainSettings(request, request.Region.value_or(bounds), columns);
   requireMemory(settings);
-  OutOfCoreStatistics figures;
   TriangulationOptions options;
   options.Threads = request.Threads;
-  options.MaximumEdge = request.MaximumEdge;
+  options.MaximumEdge = request.Region ? 0 : request.MaximumEdge;
   options.Progress = partOf(progress, 0, 0.5);
   const TableConstraints none;
-  const Triangulation triangulation = std::move(
+  Triangulation triangulation = std::move(
     triangulateTable(points, request.Constraints ? *request.Constraints : none, options).Mesh);
+  if (request.Region && !triangulation.Aborted)
+  {
+    figures.IsUnknown =
+      !isKnown(view, triangulation, settings.Grid, *request.Region, settings.Threads);
+    leaveOutLong(view, request.MaximumEdge, triangulation);
+  }
   figures.Points = std::int64_t(points.size());
   figures.WithoutElevation =
     settings.Bands.Elevation ? countMissing(points.Columns[*settings.Bands.Elevation].Values) : 0;
@@ -302,7 +315,7 @@ OutOfCoreStatistics makeDem(PointTable points, const DemRequest& request,
   figures.Duplicates = std::int64_t(triangulation.Duplicates.size());
   figures.Rejected = std::int64_t(triangulation.Rejected.size());
   figures.Aborted = triangulation.Aborted;
-  if (figures.Aborted)
+  if (figures.Aborted || figures.IsUnknown)
   {
     return figures;
   }
@@ -323,12 +336,53 @@ OutOfCoreStatistics makeDem(PointTable points, const DemRequest& request,
   return figures;
 }
 
-OutOfCoreStatistics makeDem(std::unique_ptr<PointStream> points, const DemRequest& request,
+DemFigures makeDem(std::unique_ptr<PointStream> points, const DemRequest& request,
   std::uint64_t memory, const std::function<bool(double)>& progress, TerrainSettings& settings,
   BandValues& samples)
 {
   return memory == 0 ? makeDem(readAllPoints(*points), request, progress, settings, samples)
                      : makeWithin(std::move(points), request, memory, progress, settings, samples);
+}
+
+namespace
+{
+
+DemFigures makeOfPart(const DemFiles& files, const std::optional<Box2>& region, DemRequest request,
+  const std::function<bool(double)>& progress, TerrainSettings& settings, BandValues& samples)
+{
+  PointOptions options = files.Options;
+  options.Region = region ? region : options.Region;
+  request.Region = region;
+  const auto stream = openPointStream(files.Paths, options);
+  if (files.Opened)
+  {
+    files.Opened(*stream);
+  }
+  PointTable points = readAllPoints(*stream);
+  if (files.Read)
+  {
+    files.Read(points, region.has_value());
+  }
+  return makeDem(std::move(points), request, progress, settings, samples);
+}
+
+} // namespace
+
+DemFigures makeDem(const DemFiles& files, const DemRequest& request,
+  const std::function<bool(double)>& progress, TerrainSettings& settings, BandValues& samples)
+{
+  DemRegion region(files.Paths, files.Options, request.Raster);
+  while (true)
+  {
+    // Constraints change triangles, so that circumdisks prove nothing.
+    const auto box = request.Constraints ? std::nullopt : region.box();
+    const DemFigures figures = makeOfPart(files, box, request, progress, settings, samples);
+    if (!figures.IsUnknown)
+    {
+      return figures;
+    }
+    region.grow();
+  }
 }
 
 } // namespace tipp

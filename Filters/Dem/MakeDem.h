@@ -31,6 +31,16 @@ struct DemRequest
   int Threads = 0;        ///< 0: OpenMP's default
   DuplicateRule Duplicates = DuplicateRule::First; ///< which values coincident points get
   std::optional<TableConstraints> Constraints;     ///< see constrain()
+  /// The box of the points that are there, if they are a part of all of them: see DemRegion. Only
+  /// for points in a table, and without constraints.
+  std::optional<Box2> Region = {};
+};
+
+/// The figures of a raster.
+struct DemFigures : OutOfCoreStatistics
+{
+  bool IsOfPart = false;  ///< of the points of a region
+  bool IsUnknown = false; ///< there is no raster, since it depends on points outside of the region
 };
 
 /// Sets request.Constraints from breaklines and a boundary, either of which may be missing. Set
@@ -62,18 +72,36 @@ VTKTIPPFILTERS_EXPORT TerrainSettings makeTerrainSettings(
 /// Makes a raster from points in memory: triangulates them and samples the triangles, with the same
 /// result as in two steps. Consumes the points to save memory. Sets these members of the result:
 /// Points (including those of the constraints), Triangles, Duplicates, DisagreeingPositions,
-/// Rejected, WithoutElevation and Aborted. Throws std::runtime_error if there is no finite point,
-/// and std::invalid_argument for invalid constraints.
-VTKTIPPFILTERS_EXPORT OutOfCoreStatistics makeDem(PointTable points, const DemRequest& request,
+/// Rejected, WithoutElevation, Aborted and IsUnknown. Throws std::runtime_error if there is no
+/// finite point, and std::invalid_argument for invalid constraints.
+VTKTIPPFILTERS_EXPORT DemFigures makeDem(PointTable points, const DemRequest& request,
   const std::function<bool(double)>& progress, TerrainSettings& settings, BandValues& samples);
 
 /// Makes a raster in memory from the points of a stream; the values are those for the same points
 /// in a table. `memory` limits the bytes for points and triangles; what does not fit is spilled to
-/// a temporary folder; 0: no limit. Throws IOError, std::runtime_error if there is no finite point
-/// or a band's column is missing, and std::invalid_argument for invalid constraints.
-VTKTIPPFILTERS_EXPORT OutOfCoreStatistics makeDem(std::unique_ptr<PointStream> points,
+/// a temporary folder; 0: no limit. The request has no Region. Throws IOError, std::runtime_error
+/// if there is no finite point or a band's column is missing, and std::invalid_argument for invalid
+/// constraints.
+VTKTIPPFILTERS_EXPORT DemFigures makeDem(std::unique_ptr<PointStream> points,
   const DemRequest& request, std::uint64_t memory, const std::function<bool(double)>& progress,
   TerrainSettings& settings, BandValues& samples);
+
+/// Points of files on their way to a raster. The functions may be null.
+struct DemFiles
+{
+  std::vector<std::string> Paths;
+  PointOptions Options;
+  /// Called with the points before they are read.
+  std::function<void(const PointStream& points)> Opened = {};
+  /// Called with the points after they have been read: a part of them if `isPart`.
+  std::function<void(const PointTable& points, bool isPart)> Read = {};
+};
+
+/// Makes a raster in memory from the points of files, of which it reads only those near the raster
+/// if these are enough. It may have to read them more than once. The values are those for all
+/// points. Throws as the functions above.
+VTKTIPPFILTERS_EXPORT DemFigures makeDem(const DemFiles& files, const DemRequest& request,
+  const std::function<bool(double)>& progress, TerrainSettings& settings, BandValues& samples);
 
 } // namespace tipp
 

@@ -128,7 +128,15 @@ nb::tuple makeRaster(const nb::object& points, const nb::dict& options, Progress
   const Thinning thinning = thinningOf(options);
   const auto memory = of<std::uint64_t>(options, "memory");
   PointOptions reading = pointOptionsOf(options, request);
-  std::unique_ptr<PointStream> stream;
+  std::unique_ptr<PointStream> stream; // null: the points of `files`
+  DemFiles files;
+  ReferenceSystem system;
+  std::vector<TableReport> reports;
+  files.Opened = [&](const PointStream& points)
+  {
+    system = points.referenceSystem();
+    reports = points.reports();
+  };
   if (nb::isinstance<nb::tuple>(points))
   {
     const auto pair = nb::cast<nb::tuple>(points);
@@ -138,21 +146,26 @@ nb::tuple makeRaster(const nb::object& points, const nb::dict& options, Progress
   else
   {
     reading.Thin = thinning;
-    const auto files = nb::cast<std::vector<std::string>>(points);
-    stream = withoutLock([&] { return openPointStream(files, reading); });
+    files.Paths = nb::cast<std::vector<std::string>>(points);
+    files.Options = reading;
+    if (memory > 0)
+    {
+      stream = withoutLock([&] { return openPointStream(files.Paths, reading); });
+      files.Opened(*stream);
+    }
   }
-  const ReferenceSystem system = stream->referenceSystem();
-  warnOfFiles(stream->reports(), system.Problem);
   TerrainSettings settings;
   BandValues samples;
-  OutOfCoreStatistics figures;
+  DemFigures figures;
   try
   {
     figures = withoutLock(
       [&]
       {
         const ThreadLimit limit(request.Threads);
-        return makeDem(std::move(stream), request, memory, reporter.function(), settings, samples);
+        return stream
+          ? makeDem(std::move(stream), request, memory, reporter.function(), settings, samples)
+          : makeDem(files, request, reporter.function(), settings, samples);
       });
   }
   catch (const UnknownBand& error)
@@ -160,6 +173,7 @@ nb::tuple makeRaster(const nb::object& points, const nb::dict& options, Progress
     throw nb::key_error(error.what());
   }
   reporter.finish();
+  warnOfFiles(reports, system.Problem);
   fillVoids(settings.Bands, samples);
   nb::list bands;
   for (std::vector<double>& band : samples)

@@ -166,6 +166,8 @@ class Dem(unittest.TestCase):
         struct.pack_into("<BB", header, 24, 1, 2)
         struct.pack_into("<HIIBHI", header, 94, 227, 227, 0, 0, 20, len(integers))
         struct.pack_into("<6d", header, 131, 0.01, 0.01, 0.01, 1000, 2000, 0)
+        bounds = np.stack([integers.max(axis=0), integers.min(axis=0)], axis=1) * 0.01 + [[1000], [2000], [0]]
+        struct.pack_into("<6d", header, 179, *bounds.ravel())
         records = np.zeros(len(integers), [("xyz", "<i4", 3), ("intensity", "<u2"), ("bytes", "u1", 6)])
         records["xyz"] = integers
         records["bytes"][:, 1] = 2  # the class
@@ -183,6 +185,16 @@ class Dem(unittest.TestCase):
             for files in (["whole.las"], ["west.las", "east.las"], ["east.las", "west.las"]):
                 self.run_tipp("dem", *files, "-o", files[0] + ".npy", "--resolution", 0.15, "--duplicates", "max", *memory)
                 np.testing.assert_array_equal(np.load(self.path("whole.las.npy")), np.load(self.path(files[0] + ".npy")))
+
+    def test_bounds_of_files_have_the_pixels_of_all_points(self):
+        integers = self.random.integers(0, 8000, (30000, 3))
+        self.write_las("west.las", integers[integers[:, 0] < 2000])
+        self.write_las("east.las", integers[integers[:, 0] >= 2000])
+        files = [self.path("west.las"), self.path("east.las")]
+        points = integers * 0.01 + [1000, 2000, 0]
+        for west, south in ((1030, 2040), (1000, 2000), (1022, 2010)):
+            bounds = (west, west + 7, south, south + 5)
+            np.testing.assert_array_equal(tipp.dem(files, 0.25, bounds=bounds).array, tipp.dem(points, 0.25, bounds=bounds).array)
 
     def test_attributes_are_bands(self):
         data = {"a": self.points[:, 0] * 2, "b": np.arange(len(self.points)).astype(float)}

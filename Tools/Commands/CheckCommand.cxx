@@ -470,6 +470,7 @@ void addOptions(CLI::App& command, CheckArguments& arguments)
     ->required();
   command.add_option("mesh", arguments.Mesh, meshFormats)->required();
   addPointOptions(command, arguments.Columns);
+  addBoundsOption(command, arguments.Columns);
   command.add_flag("--tie-rule", arguments.Options.TieRule,
     "Also check that ties between co-circular points are broken by the points' lexicographic "
     "order, which makes the triangulation unique");

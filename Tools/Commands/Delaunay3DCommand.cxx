@@ -141,6 +141,8 @@ int runInMemory(const Delaunay3DArguments& arguments)
     requireWritable(arguments.Output, arguments.Statistics, arguments.Inputs);
   PointTable table = readPoints(arguments.Inputs, arguments.Columns);
   const auto count = std::int64_t(table.size());
+  requireInBounds(arguments.Inputs, arguments.Columns, count);
+  reportRead(table.Figures);
   reportLeftOut(table.LeftOut, table.ThinnedOut);
   reportTables(table.Reports);
   const std::vector<Point3> points = coordinatesOf(table, arguments);
@@ -178,6 +180,7 @@ std::vector<Point3> readShare(const Communicator& ranks, const Delaunay3DArgumen
     readPointsShare(arguments.Inputs, arguments.Columns, ranks.rank(), ranks.size());
   if (ranks.isFirst()) // it counts the points of all files
   {
+    reportRead(table.Figures);
     reportLeftOut(table.LeftOut, table.ThinnedOut);
     reportTables(table.Reports);
   }
@@ -236,6 +239,8 @@ int runOutOfCore(const Delaunay3DArguments& arguments)
   // With this threshold, large blocks are always returned to the system when they are freed.
   mallopt(M_MMAP_THRESHOLD, 1 << 20);
   const auto points = openPointStream(arguments.Inputs, withThinningFile(arguments));
+  requireInBounds(arguments.Inputs, arguments.Columns, points->readFigures());
+  reportRead(points->readFigures());
   reportTables(points->reports());
   OutOfCoreOptions3 options;
   arguments.setOptions(options);
@@ -278,6 +283,7 @@ void addOptions(CLI::App& command, Delaunay3DArguments& arguments)
   addRunOptions(command, arguments, "The tetrahedra", Use::WritesTetrahedra | Use::WritesPieces,
     "With a .tipp output: the memory limit of the process, such as 512M (default: 2G)",
     "With a .tipp output");
+  addBoundsOption(command, arguments.Columns);
   addThreadsOption(command, arguments.Threads);
   addChecked(command, "--partitions", arguments.Partitions, CLI::Range(0, 512),
     "The number of partitions; 0: chosen automatically");

@@ -109,6 +109,7 @@ void warnOfLostBoundaries(const DelaunayArguments& arguments)
 PointTable readPointsFor(const DelaunayArguments& arguments)
 {
   PointTable points = readPoints(arguments.Inputs, arguments.Columns);
+  requireInBounds(arguments.Inputs, arguments.Columns, std::int64_t(points.size()));
   requireElevation(arguments.Duplicates, points.names());
   if (arguments.OutputIs == Opener::Npy)
   {
@@ -163,6 +164,7 @@ struct DelaunayRun
 {
   std::int64_t DisagreeingPositions = 0; ///< positions whose points have different elevations
   std::int64_t Points = 0;
+  ReadFigures Read;
   double ReadSeconds = 0; ///< all times are wall-clock seconds
   double TriangulateSeconds = 0;
   double WriteSeconds = 0;
@@ -177,6 +179,7 @@ void reportResult(const DelaunayArguments& arguments, const DelaunayRun& run,
     { "input", arguments.Inputs.front() },
     { "output", arguments.Output },
     { "points", run.Points },
+    { "not_read", jsonOf(run.Read) },
     { "points_per_second",
       run.TriangulateSeconds > 0 ? double(run.Points) / run.TriangulateSeconds : 0 },
     { "disagreeing_places", run.DisagreeingPositions },
@@ -237,7 +240,9 @@ int runInMemory(const DelaunayArguments& arguments)
   Stopwatch watch;
   PointTable points = readPointsFor(arguments);
   run.Points = std::int64_t(points.size());
+  run.Read = points.Figures;
   run.ReadSeconds = watch.restart();
+  reportRead(points.Figures);
   reportLeftOut(points.LeftOut, points.ThinnedOut);
   LongitudeSpan span;
   span.add(points.XY);
@@ -376,6 +381,8 @@ void triangulateShares(Communicator& ranks, const DelaunayArguments& arguments)
   const std::vector<LongitudeSpan> spans = ranks.gather(span);
   if (ranks.isFirst()) // it counts the points of all files
   {
+    run.Read = points.Figures;
+    reportRead(points.Figures);
     reportLeftOut(points.LeftOut, points.ThinnedOut);
     for (const LongitudeSpan& other : spans)
     {
@@ -457,6 +464,8 @@ int runInPieces(const DelaunayArguments& arguments, vtkMultiProcessController* c
     auto points = openPointStream(arguments.Inputs, withThinningFile(arguments));
     if (ranks.rank() == 0)
     {
+      requireInBounds(arguments.Inputs, arguments.Columns, points->readFigures());
+      reportRead(points->readFigures());
       reportTables(points->reports());
     }
     return joinConstraints(
@@ -513,6 +522,7 @@ triangulation alone and memory in millions of bytes.
 Examples:
   tipp delaunay points.npy -o triangles.npy
   tipp delaunay tile.las --class 2 -o ground.vtu
+  tipp delaunay tiles/*.laz --bounds 5000 6000 2000 3000 -o part.vtu
   tipp delaunay survey.csv --x easting --y northing -o survey.vtp --threads 4
   tipp delaunay survey.csv -o survey.vtp --constraints breaklines.vtp
   tipp delaunay fort.14 -o mesh.vtu --partitions 8x8 --stats run.json
@@ -653,6 +663,7 @@ void addOptions(CLI::App& command, DelaunayArguments& arguments)
   addRunOptions(command, arguments, "The triangles", Use::WritesTriangles | Use::WritesPieces,
     "With a .tipp output: the memory limit of each process, such as 512M (default: 2G)",
     "With a .tipp output");
+  addBoundsOption(command, arguments.Columns);
   addDuplicatesOption(command, arguments.Duplicates);
   addTuning(command, arguments);
   command

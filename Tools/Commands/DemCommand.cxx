@@ -4,6 +4,7 @@
 #include "Commands/Report.h"
 #include "Console/Process.h"
 #include "Constraints/OnDisk/ConstrainedStream.h"
+#include "Dem/DemRegion.h"
 #include "Dem/DemSinks.h"
 #include "Dem/MakeDem.h"
 #include "Files/Formats.h"
@@ -47,6 +48,7 @@ struct DemArguments : RunArguments
   std::string Compression = "deflate";
   bool CloudOptimized = false;
   std::string Breaklines; ///< path of a file; empty: none
+  bool Preview = false;   ///< reads only the levels of COPC files that are needed
   bool Soft = false;      ///< the heights of Breaklines are not used
   std::string Boundary;   ///< path of a file; empty: none
 
@@ -60,7 +62,8 @@ struct DemArguments : RunArguments
 /// The figures of a run of `tipp dem`.
 struct DemReport
 {
-  OutOfCoreStatistics Figures;
+  DemFigures Figures;
+  ReadFigures Read;
   TerrainSettings Settings;
   std::int64_t Filled = 0; ///< pixels with a value
   double Hidden = 0;       ///< number of values that equal --nodata
@@ -154,6 +157,7 @@ nlohmann::ordered_json jsonOf(const DemArguments& arguments, const DemReport& re
     { "input", arguments.Inputs },
     { "output", arguments.Output },
     { "points", report.Figures.Points },
+    { "not_read", jsonOf(report.Read) },
     { "triangles", report.Figures.Triangles },
     { "duplicates", report.Figures.Duplicates },
     { "disagreeing_places", report.Figures.DisagreeingPositions },
@@ -279,42 +283,85 @@ void warnOfZeroHeights(const DemArguments& arguments, std::vector<double> height
   }
 }
 
+/// What is noteworthy about points that have been read.
+class PointNotes
+{
+public:
+  explicit PointNotes(const PointTable& points)
+    : Read(points.Figures)
+    , LeftOut(points.LeftOut)
+    , ThinnedOut(points.ThinnedOut)
+    , Reports(points.Reports)
+  {
+    this->Span.add(points.XY);
+  }
+
+  void print() const
+  {
+    reportRead(this->Read);
+    reportLeftOut(this->LeftOut, this->ThinnedOut);
+    warnOfLongitudes(this->Span);
+    reportTables(this->Reports);
+  }
+
+private:
+  ReadFigures Read;
+  std::int64_t LeftOut;
+  std::int64_t ThinnedOut;
+  std::vector<TableReport> Reports;
+  LongitudeSpan Span;
+};
+
 int runInMemory(const DemArguments& arguments)
 {
   const PathState before = requireDemWritable(arguments);
-  Stopwatch watch;
+  const DemRequest& request = arguments.Request;
   DemReport report;
-  const auto stream = openPointStream(arguments.Inputs, arguments.Columns);
-  const RasterDescription description = describeRaster(arguments, stream->referenceSystem(), true);
-  PointTable points = readAllPoints(*stream);
-  reportLeftOut(points.LeftOut, points.ThinnedOut);
-  LongitudeSpan span;
-  span.add(points.XY);
-  warnOfLongitudes(span);
-  reportTables(points.Reports);
-  if (isInterrupted())
+  std::optional<RasterDescription> description;
+  std::optional<PointNotes> notes;
+  std::unique_ptr<ProgressBar> bar;
+  Stopwatch watch;
+  DemFiles files{ arguments.Inputs, arguments.Columns };
+  files.Opened = [&](const PointStream& stream)
   {
-    return reportInterrupt();
-  }
-  report.ReadSeconds = watch.restart();
-  if (haveZeroHeights(arguments.Request))
+    bar.reset();
+    report.MakeSeconds += watch.restart();
+    if (!description)
+    {
+      description = describeRaster(arguments, stream.referenceSystem(), true);
+    }
+  };
+  files.Read = [&](const PointTable& points, bool isPart)
   {
-    warnOfZeroHeights(arguments,
-      heightsBelow(arguments.Request.Constraints->Lines, points, arguments.Request.Threads));
-  }
-  auto bar = std::make_unique<ProgressBar>("Making the raster");
+    notes.emplace(points);
+    report.Read = points.Figures;
+    report.ReadSeconds += watch.restart();
+    if (!isPart) // it may turn out that more points are needed
+    {
+      notes->print();
+    }
+    if (haveZeroHeights(request) && !isInterrupted())
+    {
+      warnOfZeroHeights(
+        arguments, heightsBelow(request.Constraints->Lines, points, request.Threads));
+    }
+    bar = std::make_unique<ProgressBar>("Making the raster");
+  };
   const auto progress = progressOn(bar);
   BandValues samples;
-  report.Figures =
-    makeDem(std::move(points), arguments.Request, progress, report.Settings, samples);
-  report.MakeSeconds = watch.restart();
+  report.Figures = makeDem(files, request, progress, report.Settings, samples);
+  report.MakeSeconds += watch.restart();
   if (report.Figures.Aborted || isInterrupted())
   {
     bar.reset();
     return reportInterrupt();
   }
+  if (report.Figures.IsOfPart)
+  {
+    notes->print();
+  }
   const bool isWritten = writeRaster(
-    arguments, description, before, readFrom(report.Settings.Grid, samples),
+    arguments, *description, before, readFrom(report.Settings.Grid, samples),
     [&](double done) { return progress(0.8 + 0.2 * done); }, report);
   bar.reset();
   if (!isWritten)
@@ -440,6 +487,8 @@ int runInPieces(const DemArguments& arguments, vtkMultiProcessController* contro
     {
       if (!isReported)
       {
+        report.Read = stream->readFigures();
+        reportRead(report.Read);
         reportTables(stream->reports());
       }
       description = describeRaster(arguments, stream->referenceSystem(), !isReported);
@@ -484,7 +533,7 @@ int runInPieces(const DemArguments& arguments, vtkMultiProcessController* contro
   reportLeftOut(statistics.LeftOut, statistics.ThinnedOut);
   report.PeakMemory = *std::max_element(usage.PeakMemory.begin(), usage.PeakMemory.end());
   report.Ranks = ranks.size();
-  report.Figures = statistics;
+  report.Figures = { statistics };
   report.MakeSeconds += totalSeconds(statistics.Phases);
   finishDem(arguments, report);
   return Success;
@@ -500,7 +549,8 @@ OUTPUT  .tif: a tiled and compressed GeoTIFF of float32. .npy: float64, rows x c
 
 A pixel has the value of the triangulated surface at its centre: the value that 'tipp
 delaunay' and then 'tipp resample' give. The raster covers the points; borders of pixels
-are at multiples of the resolution. Triangles are not stored.
+are at multiples of the resolution. Triangles are not stored. With --bounds, only the
+points of LAS and LAZ files are read that the pixels depend on, unless memory is limited.
 
 Without --memory everything is in memory. With it, points, triangles and pixels may be
 larger than memory: they are stored in a folder beside the output, or in that of
@@ -512,6 +562,8 @@ Examples:
   tipp dem survey.csv -o dem.tif --resolution 0.5 --max-edge 20 --crs EPSG:32633
   tipp dem tile.las -o relief.tif --resolution 1 --attributes elevation,slope,hillshade
   tipp dem tile.las -o same.tif --like other.tif
+  tipp dem tile.copc.laz -o part.tif --resolution 1 --bounds 5000 6000 2000 3000
+  tipp dem tile.copc.laz -o small.tif --resolution 20 --preview
   tipp dem tile.las -o dem.tif --resolution 1 --breaklines rivers.csv --boundary area.vtp
   tipp dem tiles/*.las -o dem.tif --resolution 1 --memory 512M
   tipp dem tiles/*.las -o dem.tif --resolution 1 --memory 512M --breaklines rivers.csv
@@ -571,6 +623,12 @@ void addGridOptions(CLI::App& command, DemArguments& arguments)
     "A raster with the same pixels, instead of --resolution and --bounds");
 }
 
+void addPreviewOption(CLI::App& command, DemArguments& arguments)
+{
+  command.add_flag("--preview", arguments.Preview,
+    "Of COPC files, read only the levels that are needed for about one point a pixel");
+}
+
 void addValueOptions(CLI::App& command, DemArguments& arguments)
 {
   command
@@ -613,6 +671,8 @@ void requireUseful(const DemArguments& arguments)
     refuseIf(arguments.Command->count(name) > 0 && !arguments.Like.empty(), name,
       "cannot be combined with --like");
   }
+  refuseIf(arguments.Preview && arguments.Columns.Spacing > 0, "--preview",
+    "cannot be combined with --spacing, which chooses the levels");
   refuseIf(arguments.Soft && arguments.Breaklines.empty(), "--soft", "needs --breaklines");
   std::vector<std::string> bands = arguments.Request.Bands;
   std::sort(bands.begin(), bands.end());
@@ -642,6 +702,7 @@ void addOptions(CLI::App& command, DemArguments& arguments)
   addRunOptions(command, arguments, "The raster", Use::WritesRasters,
     "The memory limit of each process, such as 512M", "With --memory");
   addGridOptions(command, arguments);
+  addPreviewOption(command, arguments);
   addValueOptions(command, arguments);
   addConstraintOptions(command, arguments);
   addDuplicatesOption(command, arguments.Request.Duplicates);
@@ -662,6 +723,17 @@ void complete(DemArguments& arguments)
   if (!arguments.Like.empty())
   {
     arguments.Request.Raster.Like = readRasterInfo(arguments.Like).Grid;
+  }
+  const RasterRequest& raster = arguments.Request.Raster;
+  double& spacing = arguments.Columns.Spacing;
+  if (arguments.Preview)
+  {
+    spacing =
+      raster.Like ? std::min(raster.Like->Pixel[0], raster.Like->Pixel[1]) : raster.Resolution;
+  }
+  if (spacing > 0 && (raster.Like || raster.Bounds))
+  {
+    arguments.Columns.Region = DemRegion::around(raster, spacing);
   }
   readConstraints(arguments);
 }

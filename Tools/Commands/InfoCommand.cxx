@@ -5,7 +5,9 @@
 #include "Console/Process.h"
 #include "Files/Formats.h"
 #include "Files/TemporaryPaths.h"
+#include "Las/CopcHierarchy.h"
 #include "Las/LasHeader.h"
+#include "Las/LazFile.h"
 #include "OpenCL/Devices.h"
 #include "Parallel/Poll.h"
 #include "Points/ReadPoints.h"
@@ -17,7 +19,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace tipp
 {
@@ -27,13 +32,14 @@ namespace
 constexpr const char* footer =
   R"(Reads all points of the files, in blocks, as 'tipp delaunay' does. Prints their number, their
 bounds, the columns and their ranges, the coordinate reference system, the number of
-duplicates, and a resolution for 'tipp dem' that gives about one point per pixel. Of text it
-prints which columns are x, y and z. A line 'check' names what may not be meant, and the
+duplicates, and a resolution for 'tipp dem' that gives about one point per pixel. Of a COPC
+file it prints the levels, each with its points. Of text it prints which columns are x, y and z. A line 'check' names what may not be meant, and the
 option for it.
 
 Examples:
   tipp info tile.las
   tipp info tiles/*.las --class 2
+  tipp info tile.copc.laz --spacing 10
 )";
 
 struct InfoArguments
@@ -234,11 +240,42 @@ double roundNumber(double value)
   return power * (digit < 1.5 ? 1 : digit < 3.5 ? 2 : digit < 7.5 ? 5 : 10);
 }
 
+/// Prints the octree of a COPC file, and its levels.
+void describeCopc(const std::string& path, const LasHeader& header)
+{
+  const CopcInfo info = readCopcInfo(path, header);
+  const std::vector<CopcNode> nodes =
+    findCopcNodes(path, header, LazFile(path, header).chunks(), {});
+  const Box3 box = info.bounds();
+  fmt::print("  COPC: {} nodes with points; octree x {} to {}, y {} to {}, z {} to {}\n",
+    nodes.size(), box.Min.x, box.Max.x, box.Min.y, box.Max.y, box.Min.z, box.Max.z);
+  struct Level
+  {
+    std::size_t Nodes = 0;
+    std::uint64_t Points = 0;
+  };
+  std::map<int, Level> levels;
+  for (const CopcNode& node : nodes)
+  {
+    ++levels[node.Level].Nodes;
+    levels[node.Level].Points += node.Points;
+  }
+  for (const auto& [number, level] : levels)
+  {
+    fmt::print("  level {}: spacing {:.3g}, {} nodes, {} points\n", number,
+      std::ldexp(info.Spacing, -number), level.Nodes, level.Points);
+  }
+}
+
 void describeLas(const std::string& path, const LasSelection& selection)
 {
   const LasHeader header = readLasHeader(path, selection);
   fmt::print("{}: LAS 1.{}, point format {}{}, {} points\n", path, header.Minor, header.Format,
     header.Compressed ? ", compressed" : "", header.Points);
+  if (!header.Copc.empty())
+  {
+    describeCopc(path, header);
+  }
   const ReferenceSystem system = understandCrs(header.Crs);
   if (!system.Problem.empty())
   {
@@ -310,6 +347,8 @@ int runInfo(const InfoArguments& arguments)
   {
     return reportInterrupt();
   }
+  requireInBounds(arguments.Inputs, options, summary.Points);
+  reportRead(stream->readFigures());
   reportLeftOut(stream->leftOut(), stream->thinnedOut());
   printTables(stream->reports());
   fmt::print("points      {}{}\n", summary.Points,
@@ -340,6 +379,7 @@ void addOptions(CLI::App& command, InfoArguments& arguments)
 {
   command.add_option("input", arguments.Inputs, "The points, of one or more files")->required();
   addPointOptions(command, arguments.Points);
+  addBoundsOption(command, arguments.Points);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "Commands/PointArguments.h"
 
 #include "Files/Formats.h"
+#include "Files/IOError.h"
 #include "Files/TemporaryPaths.h"
 #include "Files/TextFile.h"
 #include "Gis/GisFiles.h"
@@ -175,11 +176,61 @@ void addPointOptions(CLI::App& command, PointOptions& options)
     ->allow_extra_args(false)
     ->check(CLI::IsMember({ "withheld", "synthetic", "overlap", "truncated", "uncounted" }));
   command
+    .add_option("--spacing", options.Spacing,
+      "Of COPC files, read only the levels that are needed for points about this far apart")
+    ->check(checkPositive);
+  command
     .add_option_function<std::string>(
       "--thin", [&options](const std::string& text) { options.Thin = *parseThinning(text); },
       "Keep one point in each square with this side, such as 0.5:min: the lowest (min), the "
       "highest (max), or the nearest to the middle (nearest)")
     ->check(checkThinning);
+}
+
+namespace
+{
+
+std::string inWords(const Box2& box)
+{
+  return fmt::format(
+    "x from {} to {} and y from {} to {}", box.Min.x, box.Max.x, box.Min.y, box.Max.y);
+}
+
+} // namespace
+
+void addBoundsOption(CLI::App& command, PointOptions& options)
+{
+  command
+    .add_option_function<std::vector<double>>(
+      "--bounds",
+      [&options](const std::vector<double>& bounds)
+      {
+        options.Region = boxOfVtkBounds<2>(bounds.data());
+        refuseIf(options.Region->isEmpty(), "--bounds",
+          "is " + inWords(*options.Region) + ", which is no range; give xmin xmax ymin ymax");
+      },
+      "Read only the points in this range: xmin xmax ymin ymax. Of LAS, LAZ and COPC files the "
+      "parts outside of it are not read")
+    ->expected(4);
+}
+
+void requireInBounds(
+  const std::vector<std::string>& files, const PointOptions& options, std::int64_t points)
+{
+  if (options.Region && points == 0)
+  {
+    throw IOError(files.front(),
+      (files.size() > 1 ? "and the other files have no point with " : "has no point with ") +
+        inWords(*options.Region) +
+        "; compare --bounds (xmin xmax ymin ymax) with the bounds that 'tipp info' prints.");
+  }
+}
+
+void requireInBounds(
+  const std::vector<std::string>& files, const PointOptions& options, const ReadFigures& figures)
+{
+  const bool areLas = std::size_t(figures.Files) == files.size();
+  requireInBounds(files, options, areLas ? figures.Points - figures.SkippedPoints : 1);
 }
 
 void addDuplicatesOption(CLI::App& command, DuplicateRule& rule)
@@ -320,6 +371,25 @@ void reportLeftOut(std::int64_t points, std::int64_t thinnedOut)
   {
     fmt::print(stderr, "tipp: {} points are left out by thinning.\n", thinnedOut);
   }
+}
+
+void reportRead(const ReadFigures& figures)
+{
+  if (figures.SkippedPoints == 0)
+  {
+    return;
+  }
+  std::string skipped;
+  if (figures.SkippedFiles > 0)
+  {
+    skipped += fmt::format(", {} of {} files", figures.SkippedFiles, figures.Files);
+  }
+  if (figures.SkippedChunks > 0)
+  {
+    skipped += fmt::format(", {} of {} chunks", figures.SkippedChunks, figures.Chunks);
+  }
+  fmt::print(stderr, "tipp: not read, because not needed: {} of {} points{}.\n",
+    figures.SkippedPoints, figures.Points, skipped);
 }
 
 void warnOfLongitudes(const LongitudeSpan& span)

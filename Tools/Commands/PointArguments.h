@@ -76,6 +76,17 @@ std::string paragraph(const std::string& title, const std::string& text);
 /// Adds the options that select the points and columns to read.
 void addPointOptions(CLI::App& command, PointOptions& options);
 
+/// Adds --bounds, which limits the points that are read.
+void addBoundsOption(CLI::App& command, PointOptions& options);
+
+/// Throws IOError if no point of the files is within --bounds.
+void requireInBounds(
+  const std::vector<std::string>& files, const PointOptions& options, std::int64_t points);
+
+/// The same before points are read, if no part of the files can have such a point.
+void requireInBounds(
+  const std::vector<std::string>& files, const PointOptions& options, const ReadFigures& figures);
+
 /// Adds the option --duplicates, which selects the values of points with equal coordinates.
 void addDuplicatesOption(CLI::App& command, DuplicateRule& rule);
 
@@ -103,6 +114,9 @@ PointOptions withThinningFile(const RunArguments& arguments);
 /// Prints to stderr how many points of LAS files were not selected, and how many were removed by
 /// thinning.
 void reportLeftOut(std::int64_t points, std::int64_t thinnedOut);
+
+/// Prints to stderr how much of LAS and LAZ files was not read, if something was not.
+void reportRead(const ReadFigures& figures);
 
 /// Prints a warning if points lie on both sides of the meridian at which longitudes jump.
 void warnOfLongitudes(const LongitudeSpan& span);

@@ -167,6 +167,12 @@ nlohmann::ordered_json jsonOf(const RunStatistics& statistics)
   return json;
 }
 
+nlohmann::ordered_json jsonOf(const ReadFigures& figures)
+{
+  return { { "points", figures.SkippedPoints }, { "files", figures.SkippedFiles },
+    { "chunks", figures.SkippedChunks } };
+}
+
 void warnOfNoTriangles(std::int64_t triangles)
 {
   if (triangles == 0)

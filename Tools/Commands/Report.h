@@ -5,6 +5,7 @@
 #include "Files/PendingOutput.h"
 #include "OutOfCore/OutOfCoreOptions.h"
 #include "Parallel/Stopwatch.h"
+#include "Points/ReadPoints.h"
 #include "Statistics/RunStatistics.h"
 
 #include <nlohmann/json.hpp>
@@ -64,6 +65,8 @@ std::int64_t peakMemoryBytes();
 nlohmann::ordered_json jsonOf(const RunStatistics& statistics);
 /// Returns an array with an object for each row of the list.
 nlohmann::ordered_json jsonOf(const FigureList& list);
+/// Returns an object with what was not read.
+nlohmann::ordered_json jsonOf(const ReadFigures& figures);
 
 /// Prints a warning if a run has made no triangles.
 void warnOfNoTriangles(std::int64_t triangles);

@@ -79,7 +79,8 @@ def dem(
     resolution
         Width and height of a pixel, in the units of the points.
     bounds
-        (xmin, xmax, ymin, ymax). None: the bounds of the points.
+        (xmin, xmax, ymin, ymax). None: the bounds of the points. The pixels are those of all points. The wheel reads
+        only the points of LAS and LAZ files that they depend on.
     align
         Whether pixel borders are at multiples of the resolution. Otherwise the first pixel starts at the bounds.
     attributes
