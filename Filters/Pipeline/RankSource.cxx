@@ -8,6 +8,7 @@
 #include "Constraints/ResolveCrossings.h"
 #include "Constraints/SegmentTree.h"
 #include "Parallel/ParallelFor.h"
+#include "Parallel/Sort.h"
 #include "Pipeline/InputPoints.h"
 #include "Pipeline/SourceData.h"
 #include "Vtk/DataSets.h"
@@ -19,7 +20,6 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -29,27 +29,17 @@ namespace tipp
 namespace
 {
 
-/// A vertex of a constraint, and the point at it.
-struct Found
+/// A point of an input.
+struct InputPoint
 {
-  std::int64_t Vertex;
   std::int64_t Id;
   Point2 Position;
 };
 
-/// A point of this rank's input.
-struct InputPoint
+/// A point of some rank's input that is an end of constraints, or on constraints that cross.
+struct Vertex : InputPoint
 {
-  Point2 Position;
-  std::int64_t Id;
-  std::int64_t Index;
-
-  /// By position; of equal ones the lowest id is first.
-  bool operator<(const InputPoint& other) const
-  {
-    return this->Position == other.Position ? this->Id < other.Id
-                                            : lexicographicLess(this->Position, other.Position);
-  }
+  DataSetRow Row; ///< in SourceSharer::Received
 };
 
 /// How the points of a rank's input are numbered.
@@ -60,6 +50,8 @@ struct Numbering
   bool HasIds = false;
 };
 
+/// All ranks know the sources. The last rank collects the points that matter for them, and then
+/// does the same as in memory.
 class SourceSharer
 {
 public:
@@ -67,6 +59,7 @@ public:
     : Ranks(ranks)
     , Input(input)
     , Options(options)
+    , Projected(input->GetPoints(), options.ToPlane)
   {
   }
 
@@ -74,23 +67,23 @@ public:
   {
     this->gatherSources(source);
     this->numberInput();
-    this->Options.MergesPoints ? this->takePoints() : this->takeIds();
-    this->findVertices();
+    this->addVertices(this->Options.MergesPoints ? this->pointsAt(this->sourcePositions())
+                                                 : this->pointsNamed());
     this->resolve();
-    const std::vector<Bytes> rows = this->sendRows();
     RankSource result;
     result.Input = this->Input;
     SaveArchive writer;
     if (this->isLast())
     {
-      this->join(rows, result);
-      writer(this->Segments, result.Cells, result.Figures);
+      this->join(result);
+      writer(this->segments(), result.Cells, result.Figures);
     }
     const std::vector<Bytes> all = this->Ranks.allGather(writer.take());
     LoadArchive reader(all.back());
-    reader(this->Segments, result.Cells, result.Figures);
+    const auto segments = reader.get<std::vector<ConstraintSegment>>();
+    reader(result.Cells, result.Figures);
     result.Segments = std::make_unique<ConstraintSegments>(
-      this->Segments, this->Options.WantsCells ? &result.Order : nullptr);
+      segments, this->Options.WantsCells ? &result.Order : nullptr);
     return result;
   }
 
@@ -137,10 +130,10 @@ private:
     Numbering mine{ this->Input->GetNumberOfPoints(), 0, ids != nullptr };
     if (ids)
     {
-      this->Ids->DeepCopy(ids); // exact, while a double would round ids beyond 2^53
-      for (vtkIdType i = 0; i < this->Ids->GetNumberOfTuples(); ++i)
+      this->GlobalIds->DeepCopy(ids); // exact, while a double would round ids beyond 2^53
+      for (vtkIdType i = 0; i < this->GlobalIds->GetNumberOfTuples(); ++i)
       {
-        mine.EndOfIds = std::max<std::int64_t>(mine.EndOfIds, this->Ids->GetValue(i) + 1);
+        mine.EndOfIds = std::max<std::int64_t>(mine.EndOfIds, this->GlobalIds->GetValue(i) + 1);
       }
     }
     const std::vector<Numbering> all = this->Ranks.allGather(mine);
@@ -156,143 +149,129 @@ private:
 
   std::int64_t idOf(std::size_t point) const
   {
-    return this->HasIds ? std::int64_t(this->Ids->GetValue(vtkIdType(point)))
+    return this->HasIds ? std::int64_t(this->GlobalIds->GetValue(vtkIdType(point)))
                         : this->First + std::int64_t(point);
   }
 
-  /// Appends the constraints of a source. index(id) turns the source's point ids into vertices.
-  template <typename Index>
-  void takeConstraints(vtkPolyData* source, const Index& index)
+  /// Calls visit(source, point, position) for all points of the sources.
+  template <typename Visit>
+  void forSourcePoints(const Visit& visit) const
   {
-    const SourceConstraints read = readConstraints(source, {});
-    for (std::size_t i = 0; i < read.Constraints.size(); ++i)
-    {
-      const Constraint& constraint = read.Constraints[i];
-      this->Constraints.push_back({ index(constraint.A), index(constraint.B) });
-      this->Roles.push_back(i < read.PolygonBegin ? SegmentRole::Line : SegmentRole::Polygon);
-      this->Cells.push_back(this->FirstCell + read.Cells[i]);
-    }
-    this->FirstCell += source->GetNumberOfCells();
-  }
-
-  /// Uses the different positions of the sources' points as vertices, in their order.
-  void takePoints()
-  {
-    std::vector<Point2> given;
-    std::vector<DataSetRow> rows;
     for (std::size_t s = 0; s < this->Sources.size(); ++s)
     {
       const ProjectedPoints projected(this->Sources[s]->GetPoints(), this->Options.ToPlane);
-      const PointsView view = projected.view();
-      view.forEach(0, view.size(),
-        [&](std::size_t i, Point2 p)
-        {
-          given.push_back(p);
-          rows.push_back({ s, vtkIdType(i) });
-        });
-    }
-    const MatchedPositions matched = matchPositions(PointsView(), PointsView(given));
-    PointId first = 0;
-    for (vtkPolyData* const source : this->Sources)
-    {
-      this->takeConstraints(
-        source, [&](PointId id) { return matched.Ids[std::size_t(first + id)]; });
-      first += source->GetNumberOfPoints();
-    }
-    for (const std::size_t i : matched.New)
-    {
-      this->Positions.push_back(given[i]);
-      this->SourceRows.push_back(rows[i]);
-    }
-    this->Index = std::make_unique<PositionIndex>(this->Positions);
-  }
-
-  /// Uses the points that the sources refer to by id as vertices.
-  void takeIds()
-  {
-    for (vtkPolyData* const source : this->Sources)
-    {
-      this->takeConstraints(source,
-        [this](PointId id)
-        {
-          const auto [vertex, isNew] = this->VertexOf.insert(id);
-          if (isNew)
-          {
-            this->Named.push_back(id);
-          }
-          return PointId(vertex);
-        });
+      projected.view().forEach(
+        0, projected.view().size(), [&](std::size_t i, Point2 p) { visit(s, i, p); });
     }
   }
 
-  /// Sets the positions, ids and owners of vertices, and the points of this rank at them.
-  void findVertices()
+  std::vector<Point2> sourcePositions() const
   {
-    constexpr std::int64_t none = -1;
-    std::vector<std::int64_t>& point = this->PointAt;
-    point.assign(this->Index ? this->Positions.size() : this->Named.size(), none);
-    this->Positions.resize(point.size());
-    const ProjectedPoints projected(this->Input->GetPoints(), this->Options.ToPlane);
-    const PointsView view = projected.view();
-    view.forEach(0, view.size(),
-      [&](std::size_t i, Point2 p)
+    std::vector<Point2> positions;
+    this->forSourcePoints(
+      [&](std::size_t, std::size_t, Point2 p) { positions.push_back(p); });
+    return positions;
+  }
+
+  /// This rank's points at these positions.
+  std::vector<std::size_t> pointsAt(const std::vector<Point2>& positions) const
+  {
+    const PositionIndex index(positions);
+    const PointsView view = this->Projected.view();
+    std::vector<std::size_t> points;
+    view.forBlocks(0, view.size(),
+      [&](std::size_t first, const Point2* block, std::size_t count)
       {
-        const std::int64_t v =
-          this->Index ? this->Index->find(p) : this->VertexOf.find(this->idOf(i));
-        std::int64_t* const first = v < 0 ? nullptr : &point[std::size_t(v)];
-        if (first && (*first < 0 || this->idOf(i) < this->idOf(std::size_t(*first))))
-        {
-          *first = std::int64_t(i);
-        }
+        index.findAll(
+          block, count, [&](std::size_t i, std::size_t) { points.push_back(first + i); });
       });
-    std::vector<Found> found;
-    for (std::size_t v = 0; v < point.size(); ++v)
-    {
-      if (point[v] >= 0)
-      {
-        found.push_back(
-          { std::int64_t(v), this->idOf(std::size_t(point[v])), view[std::size_t(point[v])] });
-      }
-    }
-    this->VertexIds.assign(point.size(), none);
-    this->Owners.assign(point.size(), -1);
-    const std::vector<std::vector<Found>> all = this->Ranks.allGather(found);
-    for (int rank = 0; rank < this->Ranks.size(); ++rank)
-    {
-      for (const Found& one : all[std::size_t(rank)])
-      {
-        std::int64_t& id = this->VertexIds.at(std::size_t(one.Vertex));
-        if (id < 0 || one.Id < id)
-        {
-          id = one.Id;
-          this->Owners[std::size_t(one.Vertex)] = rank;
-          this->Positions[std::size_t(one.Vertex)] = one.Position;
-        }
-      }
-    }
-    this->numberNewVertices();
+    return points;
   }
 
-  void numberNewVertices()
+  /// This rank's points that the sources refer to by id.
+  std::vector<std::size_t> pointsNamed() const
   {
-    std::int64_t next = this->EndOfIds;
-    for (std::size_t v = 0; v < this->VertexIds.size(); ++v)
+    IndexMap named;
+    for (vtkPolyData* const source : this->Sources)
     {
-      if (this->VertexIds[v] < 0 && !this->Options.MergesPoints)
+      for (const Constraint& constraint : readConstraints(source, {}).Constraints)
       {
-        throw std::invalid_argument("the source names point " + std::to_string(this->Named[v]) +
-          ", which no rank's input has: the source's ids are the input's, unless "
-          "MergeSourcePoints is on.");
+        named.insert(constraint.A);
+        named.insert(constraint.B);
       }
-      this->VertexIds[v] = this->VertexIds[v] < 0 ? next++ : this->VertexIds[v];
     }
+    std::vector<std::size_t> points;
+    for (std::size_t i = 0; i < this->Projected.view().size(); ++i)
+    {
+      if (named.find(this->idOf(i)) != IndexMap::None)
+      {
+        points.push_back(i);
+      }
+    }
+    return points;
+  }
+
+  /// Makes vertices of points of this rank, on the last rank; of points with one id, which several
+  /// ranks may have, only one. Returns whether any is new; on other ranks false. Collective.
+  bool addVertices(const std::vector<std::size_t>& points)
+  {
+    SaveArchive writer;
+    if (!points.empty())
+    {
+      std::vector<InputPoint> sent;
+      std::vector<DataSetRow> rows;
+      for (const std::size_t i : points)
+      {
+        sent.push_back({ this->idOf(i), this->Projected.view()[i] });
+        rows.push_back({ 0, vtkIdType(i) });
+      }
+      const Bytes data = packDataSet(copyRows({ this->Input }, rows));
+      writer(sent);
+      writer.raw(data.data(), data.size());
+    }
+    std::vector<Bytes> contents(std::size_t(this->Ranks.size()));
+    contents.back() = writer.take();
+    const std::size_t before = this->Vertices.size();
+    for (const Bytes& content : this->Ranks.allToAll(std::move(contents)))
+    {
+      if (content.size() > 0)
+      {
+        this->receiveVertices(LoadArchive(content));
+      }
+    }
+    std::stable_sort(this->Vertices.begin(), this->Vertices.end(),
+      [](const Vertex& a, const Vertex& b) { return a.Id < b.Id; });
+    this->Vertices.erase(std::unique(this->Vertices.begin(), this->Vertices.end(),
+                           [](const Vertex& a, const Vertex& b) { return a.Id == b.Id; }),
+      this->Vertices.end());
+    return this->Vertices.size() > before;
+  }
+
+  void receiveVertices(LoadArchive reader)
+  {
+    vtkIdType row = 0;
+    for (const InputPoint& point : reader.get<std::vector<InputPoint>>())
+    {
+      this->Vertices.push_back({ point, { this->Received.size(), row++ } });
+    }
+    const std::size_t size = reader.left();
+    Bytes data(size);
+    std::copy_n(reader.raw(size), size, data.data());
+    this->Received.emplace_back(unpackDataSet(data));
   }
 
   /// Splits the constraints at crossings, on the last rank. Points of the input that are on
   /// constraints, or where constraints cross, become vertices.
   void resolve()
   {
-    if (!this->haveCrossings())
+    std::vector<SegmentTree::Item> crossing;
+    if (this->isLast())
+    {
+      this->readVertices();
+      crossing = this->crossingSegments();
+    }
+    crossing = this->Ranks.allGather(crossing).back();
+    if (crossing.empty())
     {
       if (this->isLast())
       {
@@ -300,26 +279,28 @@ private:
       }
       return;
     }
-    this->addVertices(this->pointsOnConstraints());
+    this->addVertices(this->pointsOn(std::move(crossing)));
     std::vector<Point2> crossings;
     if (this->isLast())
     {
+      this->readVertices();
       this->resolveVertices();
       for (const CrossingPoint& crossing : this->Resolved.Crossings)
       {
         crossings.push_back(crossing.Position);
       }
     }
-    const bool isAnyNew =
-      this->addVertices(this->pointsAt(this->Ranks.allGather(crossings).back()));
-    if (this->isLast() && isAnyNew)
+    if (this->addVertices(this->pointsAt(this->Ranks.allGather(crossings).back())))
     {
+      this->readVertices();
       this->resolveVertices();
     }
   }
 
-  /// The constraints whose ends are finite and different.
-  std::vector<SegmentTree::Item> segments() const
+  int threads() const { return threadCount(this->Options.Threads); }
+
+  /// The constraints whose ends are finite and different, if any of them cross.
+  std::vector<SegmentTree::Item> crossingSegments() const
   {
     std::vector<SegmentTree::Item> items;
     for (const Constraint& constraint : this->Constraints)
@@ -331,134 +312,134 @@ private:
         items.push_back({ a, b, std::int64_t(items.size()) });
       }
     }
-    return items;
+    return findCrossingPairs(items, this->threads()).empty() ? std::vector<SegmentTree::Item>()
+                                                             : items;
   }
 
-  int threads() const { return threadCount(this->Options.Threads); }
-
-  bool haveCrossings() const
+  /// This rank's points that lie exactly on segments.
+  std::vector<std::size_t> pointsOn(std::vector<SegmentTree::Item> segments) const
   {
-    return !findCrossingPairs(this->segments(), this->threads()).empty();
-  }
-
-  /// This rank's points that lie exactly on constraints.
-  std::vector<InputPoint> pointsOnConstraints() const
-  {
-    const ProjectedPoints projected(this->Input->GetPoints(), this->Options.ToPlane);
-    const PointsView view = projected.view();
-    std::vector<InputPoint> points;
-    for (const auto& [segment, i] : findPointsOn(this->segments(), view, this->threads()))
+    std::vector<std::size_t> points;
+    for (const auto& [segment, i] :
+      findPointsOn(std::move(segments), this->Projected.view(), this->threads()))
     {
-      points.push_back({ view[i], this->idOf(i), std::int64_t(i) });
+      points.push_back(i);
     }
-    return points;
+    return sortedUnique(std::move(points));
   }
 
-  /// This rank's points at these positions.
-  std::vector<InputPoint> pointsAt(const std::vector<Point2>& positions) const
+  /// On the last rank: the vertices by ascending id, then the sources' points that are at none of
+  /// them, and the constraints between these.
+  void readVertices()
   {
-    const PositionIndex index(positions);
-    const ProjectedPoints projected(this->Input->GetPoints(), this->Options.ToPlane);
-    const PointsView view = projected.view();
-    std::vector<InputPoint> points;
-    view.forEach(0, view.size(),
-      [&](std::size_t i, Point2 p)
-      {
-        if (index.find(p) >= 0)
+    this->Positions.clear();
+    this->Ids.clear();
+    this->Rows.clear();
+    for (const Vertex& vertex : this->Vertices)
+    {
+      this->addPoint(vertex.Position, vertex.Id, vertex.Row);
+    }
+    std::vector<PointId> indices; // of the sources' points
+    if (this->Options.MergesPoints)
+    {
+      const std::vector<Point2> given = this->sourcePositions();
+      MatchedPositions matched = matchPositions(PointsView(this->Positions), PointsView(given));
+      indices = std::move(matched.Ids);
+      auto next = matched.New.begin();
+      std::size_t point = 0;
+      this->forSourcePoints(
+        [&](std::size_t source, std::size_t i, Point2 p)
         {
-          points.push_back({ p, this->idOf(i), std::int64_t(i) });
-        }
-      });
-    return points;
+          if (next != matched.New.end() && *next == point++)
+          {
+            this->addPoint(p, this->EndOfIds + (next++ - matched.New.begin()),
+              { this->Received.size() + source, vtkIdType(i) });
+          }
+        });
+    }
+    this->readSources(indices);
   }
 
-  /// Adds vertices at points of all ranks, of equal points only the one with the lowest id. Returns
-  /// whether any of them is new.
-  bool addVertices(std::vector<InputPoint> mine)
+  void addPoint(Point2 position, std::int64_t id, DataSetRow row)
   {
-    std::vector<std::pair<InputPoint, int>> all; // with their ranks
-    keepFirst(mine, [](const InputPoint& point) { return point; });
-    const std::vector<std::vector<InputPoint>> byRank = this->Ranks.allGather(mine);
-    for (std::size_t rank = 0; rank < byRank.size(); ++rank)
-    {
-      for (const InputPoint& point : byRank[rank])
-      {
-        all.emplace_back(point, int(rank));
-      }
-    }
-    keepFirst(all, [](const auto& one) { return one.first; });
-    std::vector<std::int64_t> known = this->VertexIds;
-    std::sort(known.begin(), known.end());
-    bool isAnyNew = false;
-    for (const auto& [point, rank] : all)
-    {
-      if (!std::binary_search(known.begin(), known.end(), point.Id))
-      {
-        this->Positions.push_back(point.Position);
-        this->VertexIds.push_back(point.Id);
-        this->Owners.push_back(rank);
-        this->PointAt.push_back(rank == this->Ranks.rank() ? point.Index : -1);
-        isAnyNew = true;
-      }
-    }
-    return isAnyNew;
+    this->Positions.push_back(position);
+    this->Ids.push_back(id);
+    this->Rows.push_back(row);
   }
 
-  /// Sorts points, and of those at one position keeps the first.
-  template <typename Item, typename PointOf>
-  static void keepFirst(std::vector<Item>& items, const PointOf& pointOf)
+  /// Sets the constraints. `indices`: of the points of all sources, if they are merged.
+  void readSources(const std::vector<PointId>& indices)
   {
-    std::stable_sort(items.begin(), items.end(),
-      [&](const Item& a, const Item& b) { return pointOf(a) < pointOf(b); });
-    items.erase(
-      std::unique(items.begin(), items.end(),
-        [&](const Item& a, const Item& b) { return pointOf(a).Position == pointOf(b).Position; }),
-      items.end());
+    this->Constraints.clear();
+    this->Roles.clear();
+    this->Cells.clear();
+    PointId firstPoint = 0;
+    std::int64_t firstCell = 0;
+    for (vtkPolyData* const source : this->Sources)
+    {
+      const auto index = [&](PointId id)
+      { return indices.empty() ? this->indexOf(id) : indices[std::size_t(firstPoint + id)]; };
+      const SourceConstraints read = readConstraints(source, {});
+      for (std::size_t i = 0; i < read.Constraints.size(); ++i)
+      {
+        const Constraint& constraint = read.Constraints[i];
+        this->Constraints.push_back({ index(constraint.A), index(constraint.B) });
+        this->Roles.push_back(i < read.PolygonBegin ? SegmentRole::Line : SegmentRole::Polygon);
+        this->Cells.push_back(firstCell + read.Cells[i]);
+      }
+      firstPoint += source->GetNumberOfPoints();
+      firstCell += source->GetNumberOfCells();
+    }
   }
 
-  /// Sends the points at this rank's vertices, in the order of the vertices, to the last rank,
-  /// which gets a data set from each rank.
-  std::vector<Bytes> sendRows()
+  /// The index of the point with an id.
+  PointId indexOf(std::int64_t id) const
   {
-    std::vector<DataSetRow> rows;
-    for (std::size_t v = 0; v < this->PointAt.size(); ++v)
+    const auto found = std::lower_bound(this->Ids.begin(), this->Ids.end(), id);
+    if (found == this->Ids.end() || *found != id)
     {
-      if (this->Owners[v] == this->Ranks.rank())
-      {
-        rows.push_back({ 0, vtkIdType(this->PointAt[v]) });
-      }
+      throw std::invalid_argument("the source names point " + std::to_string(id) +
+        ", which no rank's input has: the source's ids are the input's, unless "
+        "MergeSourcePoints is on.");
     }
-    std::vector<Bytes> sent(std::size_t(this->Ranks.size()));
-    sent.back() = rows.empty() ? Bytes() : packDataSet(copyRows({ this->Input }, rows));
-    return this->Ranks.allToAll(std::move(sent));
+    return PointId(found - this->Ids.begin());
   }
 
   /// On the last rank: splits the constraints where they cross.
   void resolveVertices()
   {
-    this->sortVertices();
-    this->SortedPositions.clear();
-    std::vector<PointId> names;
-    for (const std::size_t v : this->Sorted)
-    {
-      this->SortedPositions.push_back(this->Positions[v]);
-      names.push_back(this->VertexIds[v]);
-    }
-    std::vector<Constraint> constraints;
-    for (const Constraint& constraint : this->Constraints)
-    {
-      constraints.push_back(
-        { this->indexInSorted(constraint.A), this->indexInSorted(constraint.B) });
-    }
-    this->Resolved = resolveCrossings(PointsView(this->SortedPositions), constraints,
-      this->Options.Crossings, this->Options.Threads, { names, {} });
+    this->Resolved = resolveCrossings(PointsView(this->Positions), this->Constraints,
+      this->Options.Crossings, this->Options.Threads, { this->Ids, {} });
   }
 
-  /// On the last rank: makes segments of the constraints, and appends new points to the input.
-  void join(const std::vector<Bytes>& rows, RankSource& result)
+  /// The vertices' positions, followed by those of crossings.
+  std::vector<Point2> allPositions() const
+  {
+    std::vector<Point2> all = this->Positions;
+    for (const CrossingPoint& crossing : this->Resolved.Crossings)
+    {
+      all.push_back(crossing.Position);
+    }
+    return all;
+  }
+
+  /// The segments of the constraints.
+  std::vector<ConstraintSegment> segments() const
+  {
+    const std::vector<Point2> all = this->allPositions();
+    std::vector<ConstraintSegment> segments;
+    for (const IdSegment& segment : this->Resolved.Segments)
+    {
+      segments.push_back({ all[std::size_t(segment.A)], all[std::size_t(segment.B)],
+        this->Roles[std::size_t(segment.Constraint)] });
+    }
+    return segments;
+  }
+
+  /// On the last rank: appends new points to the input, and sets the cells and figures.
+  void join(RankSource& result)
   {
     const ResolvedConstraints& resolved = this->Resolved;
-    const vtkSmartPointer<vtkPolyData> vertices = this->makeVertices(rows);
     if (resolved.NotFinite > 0 &&
       std::find(this->Roles.begin(), this->Roles.end(), SegmentRole::Polygon) != this->Roles.end())
     {
@@ -466,114 +447,49 @@ private:
                                   "remove the polygon or correct the point.");
     }
     result.Figures = { resolved, this->Constraints.size() };
-    std::vector<Point2> all = this->SortedPositions;
-    for (const CrossingPoint& crossing : resolved.Crossings)
-    {
-      all.push_back(crossing.Position);
-    }
     for (const IdSegment& segment : resolved.Segments)
     {
-      this->Segments.push_back({ all[std::size_t(segment.A)], all[std::size_t(segment.B)],
-        this->Roles[std::size_t(segment.Constraint)] });
       if (this->Options.WantsCells)
       {
         result.Cells.push_back(this->Cells[std::size_t(segment.Constraint)]);
       }
     }
-    const auto isNew = [this](std::size_t v) { return this->VertexIds[v] >= this->EndOfIds; };
-    const auto firstNew = std::size_t(
-      std::find_if(this->Sorted.begin(), this->Sorted.end(), isNew) - this->Sorted.begin());
-    if (firstNew < all.size())
+    if (this->Vertices.size() < this->Positions.size() + resolved.Crossings.size())
     {
+      std::vector<vtkSmartPointer<vtkPointSet>> from = this->Received;
+      from.insert(from.end(), this->Sources.begin(), this->Sources.end());
+      const vtkSmartPointer<vtkPolyData> vertices = copyRows(from, this->Rows);
       vtkNew<vtkPolyData> extended;
       extended->SetPoints(
         appendCrossings(vertices->GetPoints(), resolved.Crossings, !this->Options.ToPlane));
-      interpolateCrossings(vertices->GetPointData(), vtkIdType(this->Sorted.size()),
+      interpolateCrossings(vertices->GetPointData(), vtkIdType(this->Positions.size()),
         resolved.Crossings, extended->GetPointData());
-      this->appendTo(extended, firstNew, result);
-      result.Positions.insert(
-        result.Positions.end(), all.begin() + std::ptrdiff_t(firstNew), all.end());
+      this->appendTo(extended, result);
     }
   }
 
-  /// Sorts the vertices by their ids, as in memory. New points are last.
-  void sortVertices()
+  /// Appends the points that are not vertices to the input.
+  void appendTo(vtkPolyData* extended, RankSource& result) const
   {
-    this->Sorted.resize(this->VertexIds.size());
-    std::iota(this->Sorted.begin(), this->Sorted.end(), std::size_t(0));
-    std::sort(this->Sorted.begin(), this->Sorted.end(),
-      [this](std::size_t a, std::size_t b) { return this->VertexIds[a] < this->VertexIds[b]; });
-    this->IndexInSorted.resize(this->Sorted.size());
-    for (std::size_t i = 0; i < this->Sorted.size(); ++i)
-    {
-      this->IndexInSorted[this->Sorted[i]] = PointId(i);
-    }
-  }
-
-  PointId indexInSorted(PointId vertex) const { return this->IndexInSorted[std::size_t(vertex)]; }
-
-  /// The sorted vertices, with the point arrays that all of them have.
-  vtkSmartPointer<vtkPolyData> makeVertices(const std::vector<Bytes>& rows) const
-  {
-    std::vector<vtkSmartPointer<vtkPointSet>> from;
-    std::vector<DataSetRow> next; // by rank: its first point that has not been taken yet
-    for (const Bytes& bytes : rows)
-    {
-      next.push_back({ from.size(), 0 });
-      if (bytes.size() > 0)
-      {
-        from.emplace_back(unpackDataSet(bytes));
-      }
-    }
-    std::vector<DataSetRow> rowOf(this->Sorted.size());
-    std::size_t used = this->Sources.size(); // the source of the last new vertex so far
-    for (std::size_t v = 0; v < this->Owners.size(); ++v)
-    {
-      DataSetRow& taken = rowOf[std::size_t(this->indexInSorted(PointId(v)))];
-      if (this->Owners[v] >= 0)
-      {
-        taken = next[std::size_t(this->Owners[v])];
-        ++next[std::size_t(this->Owners[v])].Row;
-        continue;
-      }
-      const auto [source, row] = this->SourceRows[v];
-      if (used != source)
-      {
-        from.emplace_back(this->Sources[source]);
-        used = source;
-      }
-      taken = { from.size() - 1, row };
-    }
-    return copyRows(from, rowOf);
-  }
-
-  /// Appends the points from index `begin` on to the input.
-  void appendTo(vtkPolyData* extended, std::size_t begin, RankSource& result) const
-  {
-    const ProjectedPoints projected(this->Input->GetPoints(), this->Options.ToPlane);
-    const PointsView view = projected.view();
+    const auto begin = vtkIdType(this->Vertices.size());
+    const PointsView view = this->Projected.view();
     view.forEach(0, view.size(), [&](std::size_t, Point2 p) { result.Positions.push_back(p); });
-    std::vector<vtkSmartPointer<vtkPointSet>> from;
+    const std::vector<Point2> all = this->allPositions();
+    result.Positions.insert(result.Positions.end(), all.begin() + begin, all.end());
     std::vector<DataSetRow> rows;
     vtkNew<vtkIdTypeArray> ids;
     ids->SetName("GlobalPointIds");
-    const vtkIdType given = this->Input->GetNumberOfPoints();
-    if (given > 0)
+    for (std::size_t i = 0; i < view.size(); ++i)
     {
-      from.emplace_back(this->Input);
+      rows.push_back({ 0, vtkIdType(i) });
+      ids->InsertNextValue(this->idOf(i));
     }
-    for (vtkIdType i = 0; i < given; ++i)
+    for (vtkIdType i = begin; i < extended->GetNumberOfPoints(); ++i)
     {
-      rows.push_back({ 0, i });
-      ids->InsertNextValue(this->idOf(std::size_t(i)));
+      rows.push_back({ 1, i });
+      ids->InsertNextValue(this->EndOfIds + (i - begin));
     }
-    for (vtkIdType i = vtkIdType(begin); i < extended->GetNumberOfPoints(); ++i)
-    {
-      rows.push_back({ from.size(), i });
-      ids->InsertNextValue(this->EndOfIds + (i - vtkIdType(begin)));
-    }
-    from.emplace_back(extended);
-    const vtkSmartPointer<vtkPolyData> joined = copyRows(from, rows);
+    const vtkSmartPointer<vtkPolyData> joined = copyRows({ this->Input, extended }, rows);
     if (this->HasIds)
     {
       joined->GetPointData()->SetGlobalIds(ids);
@@ -584,28 +500,25 @@ private:
   Communicator& Ranks;
   vtkPointSet* const Input;
   const RankSourceOptions& Options;
+  const ProjectedPoints Projected;
   std::vector<vtkSmartPointer<vtkPolyData>> Sources; ///< the distinct sources of all ranks
-  vtkNew<vtkIdTypeArray> Ids;                        ///< ids of the input's points, if it has ids
+  vtkNew<vtkIdTypeArray> GlobalIds;                  ///< of the input's points, if it has ids
   bool HasIds = false;                               ///< whether the points of all ranks have ids
   std::int64_t First = 0;                            ///< first id of this rank if they have none
   std::int64_t EndOfIds = 0;                         ///< larger than all ids of the inputs' points
-  std::vector<Point2> Positions;                     ///< per vertex
-  std::vector<std::int64_t> PointAt;    ///< per vertex: index of this rank's point, or -1
-  std::vector<DataSetRow> SourceRows;   ///< likewise: the first point in Sources
-  std::unique_ptr<PositionIndex> Index; ///< of Positions
-  IndexMap VertexOf;                    ///< by point id, if points are not merged
-  std::vector<std::int64_t> Named;      ///< point id per vertex, likewise
-  std::vector<std::int64_t> VertexIds;  ///< per vertex: the id of the point at it
-  std::vector<int> Owners;         ///< per vertex: the rank that sends its point; -1 if it is new
-  std::vector<std::size_t> Sorted; ///< vertices, sorted by id
-  std::vector<PointId> IndexInSorted;  ///< per vertex
-  std::vector<Constraint> Constraints; ///< between vertices
+
+  /// @name On the last rank
+  ///@{
+  std::vector<Vertex> Vertices; ///< by ascending id
+  std::vector<vtkSmartPointer<vtkPointSet>> Received;
+  std::vector<Point2> Positions;       ///< of the vertices, and then of the sources' new points
+  std::vector<std::int64_t> Ids;       ///< likewise
+  std::vector<DataSetRow> Rows;        ///< likewise, in Received and then Sources
+  std::vector<Constraint> Constraints; ///< between these, by index
   std::vector<SegmentRole> Roles;      ///< per constraint
   std::vector<std::int64_t> Cells;     ///< source cell per constraint
-  std::int64_t FirstCell = 0;          ///< cell number at which the next source starts
-  ResolvedConstraints Resolved;        ///< on the last rank, between sorted vertices
-  std::vector<Point2> SortedPositions; ///< likewise: of the sorted vertices
-  std::vector<ConstraintSegment> Segments;
+  ResolvedConstraints Resolved;
+  ///@}
 };
 
 } // namespace

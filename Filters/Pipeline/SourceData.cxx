@@ -228,13 +228,23 @@ vtkSmartPointer<vtkPolyData> copyRows(
   points->SetDataTypeToDouble();
   points->SetNumberOfPoints(vtkIdType(rows.size()));
   vtkPointData* const data = result->GetPointData();
-  vtkDataSetAttributes::FieldList fields;
-  for (vtkPointSet* const one : from)
+  std::vector<int> indices(from.size(), -1); // in the list of arrays; -1: the set has no rows here
+  for (const DataSetRow& row : rows)
   {
-    fields.IntersectFieldList(one->GetPointData());
+    indices[row.Set] = 0;
+  }
+  vtkDataSetAttributes::FieldList fields;
+  int sets = 0;
+  for (std::size_t i = 0; i < from.size(); ++i)
+  {
+    if (indices[i] == 0)
+    {
+      fields.IntersectFieldList(from[i]->GetPointData());
+      indices[i] = sets++;
+    }
   }
   data->CopyGlobalIdsOff();
-  if (!from.empty())
+  if (sets > 0)
   {
     fields.CopyAllocate(data, vtkDataSetAttributes::COPYTUPLE, vtkIdType(rows.size()), 0);
   }
@@ -242,7 +252,7 @@ vtkSmartPointer<vtkPolyData> copyRows(
   {
     vtkPointSet* const set = from[rows[i].Set];
     points->SetPoint(vtkIdType(i), set->GetPoint(rows[i].Row));
-    fields.CopyData(int(rows[i].Set), set->GetPointData(), rows[i].Row, data, vtkIdType(i));
+    fields.CopyData(indices[rows[i].Set], set->GetPointData(), rows[i].Row, data, vtkIdType(i));
   }
   result->SetPoints(points);
   return result;

@@ -67,8 +67,8 @@ struct DataSetRow
   vtkIdType Row;
 };
 
-/// Copies rows of data sets in the order of `rows`. The result has the point arrays that all data
-/// sets have, without global ids, and coordinates in double precision.
+/// Copies rows of data sets in the order of `rows`. The result has the point arrays of all data
+/// sets that have a row here, without global ids, and coordinates in double precision.
 vtkSmartPointer<vtkPolyData> copyRows(
   const std::vector<vtkSmartPointer<vtkPointSet>>& from, const std::vector<DataSetRow>& rows);
 
