@@ -2,12 +2,11 @@
 #ifndef tippCellChoice_h
 #define tippCellChoice_h
 
-#include "Locate/CellLocator.h"
+#include "Predicates/ExactPredicates.h"
 #include "Predicates/ExactPredicates3.h"
+#include "Resample/CellKey.h"
 #include "Resample/SimplexMesh.h"
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <tuple>
@@ -183,41 +182,6 @@ auto boxOfCell(const Access& access, const SimplexMesh& mesh, std::int64_t cell)
   }
   return isUsable ? box : CellBox::empty();
 }
-
-/// Buffers locations and passes them to a TakeLocations in batches.
-class Locations
-{
-public:
-  explicit Locations(const TakeLocations& take)
-    : Take(take)
-  {
-  }
-
-  void add(std::int64_t point, const CellLocation& at)
-  {
-    this->Points[std::size_t(this->Count)] = point;
-    this->At[std::size_t(this->Count)] = at;
-    if (++this->Count == Most)
-    {
-      this->flush();
-    }
-  }
-  void flush()
-  {
-    if (this->Count > 0)
-    {
-      this->Take(this->Points.data(), this->At.data(), this->Count);
-    }
-    this->Count = 0;
-  }
-
-private:
-  static constexpr std::int64_t Most = 128;
-  const TakeLocations& Take;
-  std::int64_t Count = 0;
-  std::array<std::int64_t, Most> Points;
-  std::array<CellLocation, Most> At;
-};
 
 } // namespace tipp
 

@@ -3,10 +3,11 @@
 #define tippCellLocator_h
 
 #include "Locate/BoxTree.h"
+#include "Locate/Locations.h"
 #include "Locate/MortonOrder.h"
 #include "Predicates/ExactPredicates.h"
 #include "Predicates/Geometry.h"
-#include "Resample/Claims.h"
+#include "Resample/CellKey.h"
 #include "Resample/SimplexMesh.h"
 #include "vtkTIPPAcceleratorsModule.h"
 
@@ -120,22 +121,6 @@ private:
   std::vector<std::uint64_t> SeedCodes; ///< Morton codes, ascending
   std::vector<std::uint32_t> Seeds;     ///< triangles; the highest bit is set for clockwise ones
 };
-
-/// Points to locate: points[asked[i]] for all i < count, or points[i] if `asked` is null.
-struct AskedPoints
-{
-  const Point3* Points = nullptr;
-  const std::int64_t* Asked = nullptr;
-  std::int64_t Count = 0; ///< number of points to locate
-
-  std::int64_t index(std::int64_t i) const { return this->Asked ? this->Asked[i] : i; }
-  const Point3& at(std::int64_t i) const { return this->Points[this->index(i)]; }
-};
-
-/// Receives some of the locations: `count` indices into the array of all points, and the points'
-/// locations. The arrays are valid during the call only.
-using TakeLocations =
-  std::function<void(const std::int64_t* points, const CellLocation* at, std::int64_t count)>;
 
 /// Finds the cells of a SimplexMesh that contain given points, by the same rule as resampling. A
 /// point's cell is the one that contains it after a symbolic move by (e, e^2, e^3) with

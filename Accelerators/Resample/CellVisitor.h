@@ -20,14 +20,6 @@
 namespace tipp
 {
 
-/// A row of a lattice's samples along the first axis.
-struct SampleRow
-{
-  std::int64_t First; ///< index of its first sample
-  int Row;
-  int Layer;
-};
-
 /// Visits the samples of all cells; each thread has its own sink. It calls sink.visit(samples) for
 /// each cell whose box has samples, with their number; sink.claim(row, begin, count, cell) for the
 /// samples of a row that a cell claims (none if count <= 0); sink.touch(row, begin, count, cell)

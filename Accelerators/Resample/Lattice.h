@@ -192,6 +192,14 @@ private:
   std::vector<double> Coordinates;
 };
 
+/// A row of a lattice's samples along the first axis.
+struct SampleRow
+{
+  std::int64_t First; ///< index of its first sample
+  int Row;
+  int Layer;
+};
+
 /// A cell's samples in a row: those it claims, and those on its border beyond them.
 struct RowSpan
 {

@@ -3,9 +3,9 @@
 #define tippNearBorder_h
 
 #include "Parallel/ParallelFor.h"
+#include "Resample/Attribute.h"
 #include "Resample/Claims.h"
 #include "Resample/GroupBoxes.h"
-#include "Resample/Resample.h"
 #include "Resample/SimplexMesh.h"
 
 #include <algorithm>

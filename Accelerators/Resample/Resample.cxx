@@ -3,6 +3,7 @@
 
 #include "Parallel/Stopwatch.h"
 #include "Resample/CellVisitor.h"
+#include "Resample/ClaimSamples.h"
 #include "Resample/NearBorder.h"
 #include "Resample/SampleBlock.h"
 

@@ -2,10 +2,13 @@
 #ifndef tippResample_h
 #define tippResample_h
 
-#include "Arrays/Scalar.h"
 #include "OpenCL/Devices.h"
 #include "Parallel/ParallelFor.h"
+#include "Resample/Attribute.h"
+#include "Resample/CellKey.h"
 #include "Resample/Claims.h"
+#include "Resample/Lattice.h"
+#include "Resample/SampleWindow.h"
 #include "Resample/SimplexMesh.h"
 #include "vtkTIPPAcceleratorsModule.h"
 
@@ -16,19 +19,6 @@
 
 namespace tipp
 {
-
-/// An array of a mesh, and the array of samples to compute from it.
-struct Attribute
-{
-  /// Values per point or per cell, Components per tuple; not owned. Null: all samples get
-  /// NullValue.
-  const void* Values = nullptr;
-  void* Samples = nullptr;       ///< Components per sample; not owned
-  Scalar Type = Scalar::Float64; ///< type of Values and of Samples
-  int Components = 1;            ///< components per tuple
-  bool OfCells = false;          ///< whether Values are per cell; otherwise per point
-  double NullValue = 0;          ///< value of samples outside of all cells
-};
 
 /// Options of resample(). interpolate() and sampleDirectly() ignore Device and DeviceMemory.
 struct ResampleOptions

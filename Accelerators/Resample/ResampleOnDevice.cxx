@@ -2,6 +2,7 @@
 #include "OpenCL/ComputeDevice.h"
 #include "Parallel/ParallelFor.h"
 #include "Resample/CellVisitor.h"
+#include "Resample/ClaimSamples.h"
 #include "Resample/Resample.h"
 #include "Resample/SampleCells.cl.h"
 

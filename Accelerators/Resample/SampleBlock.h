@@ -4,9 +4,11 @@
 
 #include "Arrays/Scalar.h"
 #include "Parallel/Instructions.h"
-#include "Resample/CellVisitor.h"
+#include "Resample/Attribute.h"
+#include "Resample/CellLanes.h"
 #include "Resample/Lanes.h"
-#include "Resample/Resample.h"
+#include "Resample/Lattice.h"
+#include "Resample/SimplexMesh.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -6,6 +6,8 @@
 #include "Files/IOError.h"
 #include "OutOfCore/ScratchFiles.h"
 #include "Resample/Claims.h"
+#include "Resample/Lattice.h"
+#include "Resample/SimplexMesh.h"
 #include "Triangulation/PointsView.h"
 
 #include <algorithm>

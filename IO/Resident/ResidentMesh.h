@@ -5,7 +5,7 @@
 #include "Parallel/CountingSort.h"
 #include "Partitioned/PartitionedMesh.h"
 #include "Predicates/Geometry.h"
-#include "Resample/Claims.h"
+#include "Resample/CellKey.h"
 #include "Resident/MeshPart.h"
 #include "Resident/ResidentPieces.h"
 #include "vtkTIPPIOModule.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Resample/Claims.h"
+#include "Resample/SampleWindow.h"
 
 #include "ResampleScenes.h"
 

@@ -1,166 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Resample/Claims.h"
+#include "Resample/ClaimSamples.h"
 
-#include "Parallel/BoundsOf.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Sort.h"
-#include "Predicates/ExactPredicates3.h"
 #include "Resample/CellVisitor.h"
 #include "Resample/Lattice.h"
 #include "Resample/NearBorder.h"
 #include "Resample/SimplexMesh.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <functional>
 #include <utility>
 #include <vector>
 
 namespace tipp
 {
-namespace
-{
-
-/// The set of moves, a bit each, to the inner side of an edge or face. x, y and z are the signs of
-/// its inner normal's components; the first nonzero one decides.
-unsigned movesInside(int x, int y, int z)
-{
-  // The moves that are not mirrored along the deciding axis.
-  const unsigned upward = x != 0 ? 0x55u : y != 0 ? 0x33u : 0x0fu;
-  return (x != 0 ? x : y != 0 ? y : z) > 0 ? upward : ~upward;
-}
-
-int firstOf(unsigned moves)
-{
-  return moves != 0 ? __builtin_ctz(moves) : closedOnly;
-}
-
-} // namespace
-
-int moveRank(const Point2 (&corners)[3], Point2 sample)
-{
-  unsigned moves = 0x0f;
-  const int turn = orientation(corners[0], corners[1], corners[2]);
-  for (int i = 0; i < 3; ++i)
-  {
-    const Point2 a = corners[i];
-    const Point2 b = corners[(i + 1) % 3];
-    const int side = orientation(a, b, sample);
-    if (side == -turn)
-    {
-      return nearOnly;
-    }
-    if (side == 0)
-    {
-      moves &= movesInside(turn * signOf(a.y - b.y), turn * signOf(b.x - a.x), 0);
-    }
-  }
-  return firstOf(moves);
-}
-
-int moveRank(const Point3 (&corners)[4], Point3 sample)
-{
-  constexpr int faces[4][3] = { { 1, 3, 2 }, { 0, 2, 3 }, { 0, 3, 1 }, { 0, 1, 2 } };
-  unsigned moves = 0xff;
-  const int side = orientation3(corners[0], corners[1], corners[2], corners[3]);
-  for (const int(&face)[3] : faces)
-  {
-    const Point3 a = corners[face[0]];
-    const Point3 b = corners[face[1]];
-    const Point3 c = corners[face[2]];
-    if (orientation3(a, b, c, sample) == 0)
-    {
-      moves &= movesInside(side * orientation({ a.y, a.z }, { b.y, b.z }, { c.y, c.z }),
-        side * orientation({ a.z, a.x }, { b.z, b.x }, { c.z, c.x }),
-        side * orientation({ a.x, a.y }, { b.x, b.y }, { c.x, c.y }));
-    }
-  }
-  return firstOf(moves);
-}
-
-namespace
-{
-
-/// The lattice's axes that a mesh is sampled along, in the order of Access::coordinates().
-std::array<int, 3> axesOf(const SimplexMesh& mesh)
-{
-  return mesh.Dimension == 2 ? std::array<int, 3>{ mesh.Axes[0], mesh.Axes[1], -1 }
-                             : std::array<int, 3>{ 0, 1, 2 };
-}
-
-/// The bounding box of the cells, or of all points if that is faster.
-template <typename Access>
-auto boundsOfCells(const SimplexMesh& mesh, const Access& access, int threads)
-{
-  constexpr int D = Access::Dimension;
-  // Each part of a mesh may have all points of the whole mesh.
-  if (mesh.PointCount <= mesh.Cells * Access::Corners)
-  {
-    return boundsOf<D>(mesh.PointCount, threads,
-      [&](std::int64_t point) { return Box<D>::of(access.coordinates(point)); });
-  }
-  return boundsOf<D>(mesh.Cells, threads,
-    [&](std::int64_t cell)
-    {
-      Box<D> box = Box<D>::empty();
-      for (int i = 0; i < Access::Corners; ++i)
-      {
-        box.extend(access.coordinates(access.ids(cell)[i]));
-      }
-      return box;
-    });
-}
-
-} // namespace
-
-SampleWindow::SampleWindow(const SimplexMesh& mesh, const Lattice& lattice)
-  : Part(lattice)
-{
-  this->measure(mesh);
-  this->AllWidth = this->Width;
-  this->AllHeight = this->Height;
-}
-
-void SampleWindow::measure(const SimplexMesh& mesh)
-{
-  const std::array<int, 3> axes = axesOf(mesh);
-  this->Width = this->Part.size(axes[0]);
-  this->Height = this->Part.size(axes[1]);
-  this->Layers = mesh.Dimension == 3 ? this->Part.size(axes[2]) : 1;
-}
-
-SampleWindow SampleWindow::around(const SimplexMesh& mesh, const Lattice& lattice, int threads)
-{
-  SampleWindow window(mesh, lattice);
-  const std::array<int, 3> axes = axesOf(mesh);
-  std::int64_t begins[3] = {};
-  withAccess(mesh,
-    [&](const auto& access)
-    {
-      const auto bounds = boundsOfCells(mesh, access, threads);
-      for (std::size_t i = 0; i < access.Dimension; ++i)
-      {
-        const auto axis = std::size_t(axes[i]);
-        // With an infinite error each sample is compared exactly, just as the cells do.
-        const LatticeAxis samples(lattice, int(axis));
-        const double slack = mesh.Dimension == 2 && samples.Slack > 0
-          ? std::max(samples.Slack, roundingOf(bounds.Min[i], bounds.Max[i]))
-          : 0;
-        const IndexRange found =
-          samples.range(bounds.Min[i] - slack, bounds.Max[i] + slack, HUGE_VAL);
-        begins[i] = found.Begin;
-        const int first = lattice.Extent[2 * axis];
-        window.Part.Extent[2 * axis] = first + found.Begin;
-        window.Part.Extent[2 * axis + 1] = first + std::max(found.End, found.Begin) - 1;
-      }
-    });
-  window.measure(mesh);
-  window.First = (begins[2] * window.AllHeight + begins[1]) * window.AllWidth + begins[0];
-  window.Whole = window.Part.Extent == lattice.Extent;
-  return window;
-}
-
 namespace
 {
 
