@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace tipp
@@ -35,34 +34,6 @@ struct ConstraintSegment
 };
 
 using VisitSegment = std::function<void(const ConstraintSegment&)>;
-
-struct ConstraintFigures;
-
-/// Provides the segments that constrain an out-of-core triangulation, after the first pass over its
-/// points. No segment crosses another. The segments need not fit into memory. All methods throw
-/// IOError.
-class VTKTIPPFILTERS_EXPORT SegmentSource
-{
-public:
-  virtual ~SegmentSource() = default;
-
-  /// Call before the first pass. `files` is the beginning of the paths of temporary files. `memory`
-  /// is the run's memory limit in bytes.
-  virtual void begin(const std::string& files, std::uint64_t memory) = 0;
-
-  /// @name After the first pass
-  ///@{
-  virtual std::int64_t count() const = 0;
-  /// The statistics of the constraints.
-  virtual const ConstraintFigures& figures() const = 0;
-  /// The bounds of the finite points that do not come from the segments.
-  virtual Box2 inputBounds() const = 0;
-  /// Visits all segments, in the same order each time.
-  virtual void forEach(const VisitSegment& visit) = 0;
-  /// Frees the memory that is only needed for the segments.
-  virtual void end() = 0;
-  ///@}
-};
 
 /// All segments that constrain a triangulation whose points and triangles are distributed. Segments
 /// cross only at common ends.

@@ -123,7 +123,7 @@ private:
     this->Record.keep(false);
     this->Scratch.clear();
     this->Setup.describeColumns(this->Input.columns(), this->Options);
-    auto* const segments = dynamic_cast<SegmentSource*>(&this->Input);
+    auto* const segments = dynamic_cast<ConstrainedStream*>(&this->Input);
     this->Memory = std::make_unique<MemoryPlan>(
       this->Options, 3 + this->Input.columns().size(), segments != nullptr);
     if (segments)

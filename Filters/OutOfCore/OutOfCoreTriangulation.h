@@ -17,7 +17,7 @@ namespace tipp
 /// in the stream; the cells of a piece have consecutive global ids. The files are the same for any
 /// number of threads. A column named z is the third coordinate; other columns become point arrays.
 ///
-/// If `points` is also a SegmentSource, its segments become edges; their ends are points of the
+/// If `points` is a ConstrainedStream, its segments become edges; their ends are points of the
 /// stream. They are written to a file and read piece by piece, except for those that decide which
 /// triangles are kept: these stay in memory.
 ///

@@ -72,15 +72,16 @@ std::uint64_t RunSetup::takenBytes() const
 }
 
 void RunSetup::setConstraints(
-  const std::string& points, SegmentSource& segments, std::uint64_t memory, int threads)
+  const std::string& points, ConstrainedStream& segments, std::uint64_t memory, int threads)
 {
   this->Constraints.reset();
   if (segments.count() > 0)
   {
-    const UncoveredSegments uncovered(points + ".lines", segments, memory, threads);
     this->Constraints = std::make_unique<SpilledSegments>(
       points, *this->Plan, this->Survey.Factor,
-      [&uncovered](const VisitSegment& visit) { uncovered.forEach(visit); }, threads);
+      [&](const VisitSegment& visit)
+      { visitUncovered(points + ".lines", segments, memory, threads, visit); },
+      threads);
   }
   segments.end();
 }

@@ -2,6 +2,7 @@
 #ifndef tippRunSetup_h
 #define tippRunSetup_h
 
+#include "Constraints/OnDisk/ConstrainedStream.h"
 #include "OutOfCore/DescribeMesh.h"
 #include "OutOfCore/OutOfCoreOptions.h"
 #include "OutOfCore/PiecePlan.h"
@@ -61,7 +62,7 @@ public:
   /// Writes the constraint segments beside the spilled points. Requires the plan. `points`: the
   /// file of spilled points. `memory`: in bytes, of which a part is used. Throws IOError.
   void setConstraints(
-    const std::string& points, SegmentSource& segments, std::uint64_t memory, int threads);
+    const std::string& points, ConstrainedStream& segments, std::uint64_t memory, int threads);
 
   /// Returns the bytes that the consumer needs on disk.
   std::uint64_t takenBytes() const;

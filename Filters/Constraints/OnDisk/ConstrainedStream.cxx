@@ -265,7 +265,7 @@ std::int64_t ConstrainedStream::count() const
   return this->Counts.Segments + std::int64_t(this->HoleEdges.size());
 }
 
-void ConstrainedStream::forEach(const VisitSegment& visit)
+void ConstrainedStream::forEach(const VisitSegment& visit) const
 {
   auto part = this->Split.Parts.begin();
   this->Stored->forEach(

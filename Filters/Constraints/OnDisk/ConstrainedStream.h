@@ -31,9 +31,7 @@ std::string identityOf(const TableConstraints& constraints);
 /// values; TableConstraints::Surface must be set. The first pass finds the additional points, on
 /// disk. In memory are only the constraints that cross others and those near them; with holes, all
 /// segments.
-class VTKTIPPFILTERS_EXPORT ConstrainedStream
-  : public PointStream
-  , public SegmentSource
+class VTKTIPPFILTERS_EXPORT ConstrainedStream : public PointStream
 {
 public:
   /// `name` is that of the constraints' file, for messages. `lines` are those of a text file, and
@@ -57,17 +55,25 @@ public:
   /// point gets them if it has no given height, see TableConstraints::Surface.
   void setSurface(std::vector<std::vector<double>> values) { this->Surface = std::move(values); }
 
-  /// Writes the constraints to disk. Call before the first pass.
-  void begin(const std::string& files, std::uint64_t memory) override;
-  /// The number of segments: parts of constraints split at crossings, and edges around holes.
-  std::int64_t count() const override;
-  const ConstraintFigures& figures() const override { return this->Counts; }
-  Box2 inputBounds() const override { return this->InputBounds; }
-  void forEach(const VisitSegment& visit) override;
-  void end() override;
+  /// Writes the constraints to disk. Call before the first pass. `files` is the beginning of the
+  /// paths of temporary files. `memory` is the run's memory limit in bytes.
+  void begin(const std::string& files, std::uint64_t memory);
 
-  /// After the first pass: the additional points.
+  /// @name After the first pass
+  ///@{
+  /// The number of segments: parts of constraints split at crossings, and edges around holes.
+  std::int64_t count() const;
+  /// The statistics of the constraints.
+  const ConstraintFigures& figures() const { return this->Counts; }
+  /// The bounds of the finite points that do not come from the segments.
+  Box2 inputBounds() const { return this->InputBounds; }
+  /// Visits all segments, in the same order each time. No segment crosses another.
+  void forEach(const VisitSegment& visit) const;
+  /// The additional points.
   PointBlock added() const;
+  /// Frees the memory that is only needed for the segments.
+  void end();
+  ///@}
 
 private:
   void forEachBlock(std::size_t most, const std::function<void(const PointBlock&)>& visit) const;

@@ -4,13 +4,20 @@
 #include "Constraints/OnDisk/SplitStored.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace tipp
 {
+namespace
+{
 
-UncoveredSegments::UncoveredSegments(
-  const std::string& file, SegmentSource& segments, std::uint64_t memory, int threads)
-  : All(segments)
+/// The index of a segment, and the end of the part that others cover.
+using CoveredPart = std::pair<std::int64_t, Point2>;
+
+/// Returns the covered parts by ascending index.
+std::vector<CoveredPart> findCovered(
+  const std::string& file, const ConstrainedStream& segments, std::uint64_t memory, int threads)
 {
   const auto forEachItem = [&segments](const SegmentTiles::Visit& visit)
   {
@@ -28,20 +35,26 @@ UncoveredSegments::UncoveredSegments(
   };
   const SegmentTiles tiles(
     file, forEachItem, SegmentTiles::tilesFor(segments.count(), memory), threads);
+  std::vector<CoveredPart> covered;
   tiles.findCovered(
-    [this](std::int64_t segment, Point2 end) { this->Covered.emplace_back(segment, end); });
-  std::sort(this->Covered.begin(), this->Covered.end(),
-    [](const auto& a, const auto& b) { return a.first < b.first; });
+    [&covered](std::int64_t segment, Point2 end) { covered.emplace_back(segment, end); });
+  std::sort(covered.begin(), covered.end(),
+    [](const CoveredPart& a, const CoveredPart& b) { return a.first < b.first; });
+  return covered;
 }
 
-void UncoveredSegments::forEach(const VisitSegment& visit) const
+} // namespace
+
+void visitUncovered(const std::string& file, const ConstrainedStream& segments,
+  std::uint64_t memory, int threads, const VisitSegment& visit)
 {
+  const std::vector<CoveredPart> all = findCovered(file, segments, memory, threads);
   std::int64_t index = 0;
-  auto covered = this->Covered.begin();
-  this->All.forEach(
+  auto covered = all.begin();
+  segments.forEach(
     [&](const ConstraintSegment& segment)
     {
-      const bool isCovered = covered != this->Covered.end() && covered->first == index;
+      const bool isCovered = covered != all.end() && covered->first == index;
       ++index;
       const Point2 end = isCovered ? (covered++)->second : segment.A;
       if (!isCovered || segment.Role != SegmentRole::Line) // others also decide what is inside
