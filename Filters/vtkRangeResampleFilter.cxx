@@ -136,10 +136,10 @@ int vtkRangeResampleFilter::RequestUpdateExtent(
 }
 
 /// One execution of the filter.
-class vtkRangeResampleFilter::Run
+class vtkRangeResampleFilter::Resampling
 {
 public:
-  Run(vtkRangeResampleFilter* filter, tipp::Communicator& ranks)
+  Resampling(vtkRangeResampleFilter* filter, tipp::Communicator& ranks)
     : Filter(filter)
     , Ranks(ranks)
     , Progress(filter)
@@ -436,7 +436,7 @@ int vtkRangeResampleFilter::RequestData(
     [&]
     {
       tipp::Communicator ranks(this->Controller);
-      Run run(this, ranks);
+      Resampling run(this, ranks);
       run.start(inputs[0], outInfo);
       run.addPieces(inputs[0]);
       run.finish(output);

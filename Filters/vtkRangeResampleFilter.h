@@ -270,7 +270,7 @@ private:
   vtkRangeResampleFilter(const vtkRangeResampleFilter&) = delete;
   void operator=(const vtkRangeResampleFilter&) = delete;
 
-  class Run;
+  class Resampling;
 
   vtkNew<vtkTable> Statistics;
   vtkNew<vtkStringArray> DeviceChoices;

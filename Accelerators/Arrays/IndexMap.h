@@ -29,7 +29,7 @@ public:
     this->Count = 0;
     if (++this->Current == 0)
     {
-      this->Entries.assign(this->Entries.size(), Entry{});
+      this->Slots.assign(this->Slots.size(), Slot{});
       this->Current = 1;
     }
   }
@@ -40,41 +40,41 @@ public:
   /// would be more than 2^31 keys.
   Inserted insert(std::int64_t key)
   {
-    if (2 * this->size() >= this->Entries.size())
+    if (2 * this->size() >= this->Slots.size())
     {
       this->enlarge();
     }
-    Entry& entry = this->Entries[this->locate(key)];
-    const bool isNew = entry.Map != this->Current;
+    Slot& slot = this->Slots[this->locate(key)];
+    const bool isNew = slot.Map != this->Current;
     if (isNew)
     {
-      entry = { key, this->Current, this->Count++ };
+      slot = { key, this->Current, this->Count++ };
     }
-    return { entry.Index, isNew };
+    return { slot.Index, isNew };
   }
 
   /// The index of a key, or None.
   std::int32_t find(std::int64_t key) const
   {
-    const Entry& entry = this->Entries[this->locate(key)];
-    return entry.Map == this->Current ? entry.Index : None;
+    const Slot& slot = this->Slots[this->locate(key)];
+    return slot.Map == this->Current ? slot.Index : None;
   }
 
 private:
-  struct Entry
+  struct Slot
   {
     std::int64_t Key = 0;
-    std::uint32_t Map = 0; ///< the entry is free if this is not Current
+    std::uint32_t Map = 0; ///< the slot is free if this is not Current
     std::int32_t Index = 0;
   };
 
-  /// The key's entry, or the free one where it belongs.
+  /// The key's slot, or the free one where it belongs.
   std::size_t locate(std::int64_t key) const
   {
-    const std::size_t mask = this->Entries.size() - 1;
+    const std::size_t mask = this->Slots.size() - 1;
     constexpr std::uint64_t multiplier = 0x9E3779B97F4A7C15; // 2^64 over the golden ratio
     std::size_t at = std::size_t((std::uint64_t(key) * multiplier) >> 32) & mask;
-    while (this->Entries[at].Map == this->Current && this->Entries[at].Key != key)
+    while (this->Slots[at].Map == this->Current && this->Slots[at].Key != key)
     {
       at = (at + 1) & mask;
     }
@@ -83,25 +83,25 @@ private:
 
   void enlarge()
   {
-    constexpr std::size_t most = std::size_t(1) << 32; // half of the entries are free
-    if (this->Entries.size() >= most)
+    constexpr std::size_t most = std::size_t(1) << 32; // half of the slots are free
+    if (this->Slots.size() >= most)
     {
       throw std::length_error("more than 2^31 different ids are to be numbered");
     }
-    const std::vector<Entry> old =
-      std::exchange(this->Entries, std::vector<Entry>(2 * this->Entries.size()));
-    for (const Entry& entry : old)
+    const std::vector<Slot> old =
+      std::exchange(this->Slots, std::vector<Slot>(2 * this->Slots.size()));
+    for (const Slot& slot : old)
     {
-      if (entry.Map == this->Current)
+      if (slot.Map == this->Current)
       {
-        this->Entries[this->locate(entry.Key)] = entry;
+        this->Slots[this->locate(slot.Key)] = slot;
       }
     }
   }
 
   std::uint32_t Current = 1;
   std::int32_t Count = 0;
-  std::vector<Entry> Entries = std::vector<Entry>(64); ///< a power of two
+  std::vector<Slot> Slots = std::vector<Slot>(64); ///< a power of two
 };
 
 } // namespace tipp

@@ -77,7 +77,7 @@ public:
   Choice(const Access& access, const std::int64_t* cellIds, const Point& point)
     : Cells(access)
     , CellIds(cellIds)
-    , Of(point)
+    , Position(point)
   {
   }
 
@@ -85,7 +85,7 @@ public:
   {
     Point corners[Access::Corners];
     this->Cells.corners(cell, corners);
-    if (sideOf(corners, this->Of) == Side::Outside)
+    if (sideOf(corners, this->Position) == Side::Outside)
     {
       return;
     }
@@ -114,13 +114,13 @@ private:
 
   void rank(std::int64_t cell)
   {
-    this->Best = { keyOfCell(this->Cells, cell, this->Of),
+    this->Best = { keyOfCell(this->Cells, cell, this->Position),
       this->CellIds ? this->CellIds[cell] : cell };
   }
 
   const Access& Cells;
   const std::int64_t* CellIds;
-  Point Of;
+  Point Position;
   std::int64_t Cell = -1;
   Rank Best{};
   bool IsRanked = false;

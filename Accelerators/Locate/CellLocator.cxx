@@ -35,12 +35,12 @@ void locateByCells(const Access& access, const SimplexMesh& mesh, const std::int
         positions[std::size_t(i)] = grid.position(access.coordinates(i));
       }
     });
-  struct Found
+  struct PointInCell
   {
     std::int32_t Point;
     std::int64_t Cell;
   };
-  std::vector<std::vector<Found>> found(static_cast<std::size_t>(threads));
+  std::vector<std::vector<PointInCell>> found(static_cast<std::size_t>(threads));
   forChunks(mesh.Cells, 1 << 12, threads, {},
     [&](std::int64_t begin, std::int64_t end, int thread)
     {
@@ -70,9 +70,9 @@ void locateByCells(const Access& access, const SimplexMesh& mesh, const std::int
   {
     choices.emplace_back(access, cellIds, at(i));
   }
-  for (const std::vector<Found>& part : found)
+  for (const std::vector<PointInCell>& part : found)
   {
-    for (const Found& f : part)
+    for (const PointInCell& f : part)
     {
       choices[std::size_t(f.Point)].offer(f.Cell);
     }

@@ -63,22 +63,22 @@ template <int D, typename BoxOf>
 std::vector<std::int32_t> mortonOrder(
   std::int64_t count, int threads, const Box<D>& all, const BoxOf& boxOf)
 {
-  using Entry = std::pair<std::uint64_t, std::int32_t>; // a code and a box; -1: not finite
-  std::vector<Entry> entries(static_cast<std::size_t>(count));
+  using CodedBox = std::pair<std::uint64_t, std::int32_t>; // a code and a box; -1: not finite
+  std::vector<CodedBox> boxes(static_cast<std::size_t>(count));
   forChunks(count, 1 << 14, threads, {},
     [&](std::int64_t begin, std::int64_t end, int)
     {
       for (std::int64_t i = begin; i < end; ++i)
       {
         const Box<D> box = boxOf(i);
-        entries[std::size_t(i)] = isFinite(box) ? Entry{ mortonCode(box, all), std::int32_t(i) }
-                                                : Entry{ ~std::uint64_t(0), -1 };
+        boxes[std::size_t(i)] = isFinite(box) ? CodedBox{ mortonCode(box, all), std::int32_t(i) }
+                                              : CodedBox{ ~std::uint64_t(0), -1 };
       }
     });
-  sortInParts(entries.begin(), entries.end(), threads);
+  sortInParts(boxes.begin(), boxes.end(), threads);
   std::vector<std::int32_t> order;
-  order.reserve(entries.size());
-  for (const auto& [code, number] : entries)
+  order.reserve(boxes.size());
+  for (const auto& [code, number] : boxes)
   {
     if (number >= 0)
     {

@@ -304,7 +304,7 @@ public:
               const Point<D> point = at(i);
               if (isFinite(point))
               {
-                visit(this->bucketOf(point), Entry{ point, std::int32_t(i) });
+                visit(this->bucketOf(point), NumberedPoint{ point, std::int32_t(i) });
               }
             }
           });
@@ -312,7 +312,7 @@ public:
   }
 
   std::size_t size() const { return this->Entries.size(); }
-  const Point<D>& at(std::size_t entry) const { return this->Entries[entry].At; }
+  const Point<D>& at(std::size_t entry) const { return this->Entries[entry].Position; }
   std::int64_t number(std::size_t entry) const { return this->Entries[entry].Number; }
 
   /// Calls visit(entry, point) for all points in a box, and some near it.
@@ -338,7 +338,7 @@ public:
       const std::uint32_t end = this->Entries.start(last + 1);
       for (std::uint32_t entry = this->Entries.start(first); entry < end; ++entry)
       {
-        visit(entry, this->Entries[entry].At);
+        visit(entry, this->Entries[entry].Position);
       }
       std::size_t axis = 1;
       for (; axis < D && at[axis]++ == high[axis]; ++axis)
@@ -350,9 +350,9 @@ public:
   }
 
 private:
-  struct Entry
+  struct NumberedPoint
   {
-    Point<D> At;
+    Point<D> Position;
     std::int32_t Number;
   };
 
@@ -403,7 +403,7 @@ private:
   Box<D> Bounds;
   std::array<std::int64_t, D> Sides{};
   std::array<double, D> Scale{};
-  GroupedItems<Entry, std::uint32_t> Entries; ///< by box
+  GroupedItems<NumberedPoint, std::uint32_t> Entries; ///< by box
 };
 
 } // namespace tipp

@@ -77,7 +77,7 @@ public:
   ///@}
 
 private:
-  struct Range
+  struct BoxRange
   {
     int First;
     int Last;
@@ -96,7 +96,7 @@ private:
   }
 
   // The boxes along an axis that [low, high] meets; empty (First > Last) outside the domain.
-  Range rangeAlong(std::size_t axis, double low, double high) const
+  BoxRange rangeAlong(std::size_t axis, double low, double high) const
   {
     const double* cuts = this->Cuts.data() + this->CutStart[axis];
     const int n = this->Counts[axis];
@@ -126,9 +126,9 @@ private:
   template <typename Visit>
   void visitGrid(const Box3& box, Visit&& visit) const
   {
-    const Range x = this->rangeAlong(0, box.Min.x, box.Max.x);
-    const Range y = this->rangeAlong(1, box.Min.y, box.Max.y);
-    const Range z = this->rangeAlong(2, box.Min.z, box.Max.z);
+    const BoxRange x = this->rangeAlong(0, box.Min.x, box.Max.x);
+    const BoxRange y = this->rangeAlong(1, box.Min.y, box.Max.y);
+    const BoxRange z = this->rangeAlong(2, box.Min.z, box.Max.z);
     for (int k = z.First; k <= z.Last; ++k)
     {
       for (int j = y.First; j <= y.Last; ++j)

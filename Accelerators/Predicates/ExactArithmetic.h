@@ -394,14 +394,14 @@ private:
     Int128 A;
     Int128 B;
   };
-  struct Entry
+  struct OrderedTerm
   {
     int Exponent;
     int Term;
   };
 
   std::array<Term, Most> Terms;
-  std::array<Entry, Most> Order; ///< sorted by descending exponent
+  std::array<OrderedTerm, Most> Order; ///< sorted by descending exponent
   std::size_t Count = 0;
 };
 

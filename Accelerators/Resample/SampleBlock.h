@@ -144,7 +144,7 @@ private:
   /// Samples that add() writes at a time; LatticeAxis::data() is padded by as many.
   static constexpr int Stride = 4;
 
-  struct Run
+  struct SampleRun
   {
     std::int32_t Row;
     std::int32_t Layer;
@@ -179,7 +179,7 @@ private:
     }
     for (int run = 0; run < this->RunCount; ++run)
     {
-      const Run& of = this->Runs[std::size_t(run)];
+      const SampleRun& of = this->Runs[std::size_t(run)];
       const auto& origin = this->groupLanes(of.Group / laneCount).Corners[0];
       const int lane = of.Group % laneCount;
       RunOffset& offset = this->RunOffsets[std::size_t(run)];
@@ -206,7 +206,7 @@ private:
   std::vector<std::int64_t> Indices;
   std::vector<double> Offsets; ///< the samples' coordinates before weigh()
   std::vector<std::int32_t> RunOfSamples;
-  std::vector<Run> Runs;
+  std::vector<SampleRun> Runs;
   std::vector<RunOffset> RunOffsets;
   std::vector<std::int32_t> GroupCells;
   std::vector<GroupLanes<Access>> Groups; ///< four each

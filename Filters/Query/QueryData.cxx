@@ -26,7 +26,7 @@ namespace
 {
 
 /// Owns everything that a MeshPart of a data set refers to.
-struct Kept
+struct OwnedMesh
 {
   vtkSmartPointer<vtkPointSet> Mesh;
   SimplexParts Simplices;
@@ -35,13 +35,13 @@ struct Kept
 };
 
 /// Returns the array, or a copy if its tuples are not contiguous; `kept` holds a reference.
-vtkDataArray* keep(vtkDataArray* array, Kept& kept)
+vtkDataArray* keep(vtkDataArray* array, OwnedMesh& kept)
 {
   kept.Arrays.push_back(contiguous(array));
   return kept.Arrays.back();
 }
 
-void addArrays(vtkDataSetAttributes* data, bool ofPoints, Kept& kept, MeshPart& part)
+void addArrays(vtkDataSetAttributes* data, bool ofPoints, OwnedMesh& kept, MeshPart& part)
 {
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
@@ -61,7 +61,7 @@ void addArrays(vtkDataSetAttributes* data, bool ofPoints, Kept& kept, MeshPart& 
   }
 }
 
-const std::int64_t* globalIds(vtkDataSetAttributes* data, Kept& kept)
+const std::int64_t* globalIds(vtkDataSetAttributes* data, OwnedMesh& kept)
 {
   vtkDataArray* const ids = data->GetGlobalIds();
   static_assert(sizeof(vtkIdType) == sizeof(std::int64_t));
@@ -112,7 +112,7 @@ vtkSmartPointer<vtkPolyData> linesOf(
 
 MeshPart partOf(vtkDataObject* data, int threads)
 {
-  const auto kept = std::make_shared<Kept>();
+  const auto kept = std::make_shared<OwnedMesh>();
   for (vtkPointSet* const mesh : data ? meshesOf(data, threads) : std::vector<vtkPointSet*>())
   {
     if (mesh->GetNumberOfCells() > 0)

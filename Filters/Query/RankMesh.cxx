@@ -232,12 +232,12 @@ ResidentPiece ownPiece(Communicator& ranks, const ResidentMesh& mesh)
   requireIds(&ranks, mesh);
   ResidentPiece piece = *mesh.pieces().get(0, topologyNeeded());
   ResidentMesh::OtherParts& others = mesh.otherParts();
-  if (isTrueOnAny(ranks, others.Of != ranks.controller()))
+  if (isTrueOnAny(ranks, others.Controller != ranks.controller()))
   {
     others = {};
     const RankParts all(&ranks, mesh, {}); // throws if the parts differ in their type of cells
     others.Sharing = sharingOf(ranks, mesh, piece);
-    others.Of = ranks.controller();
+    others.Controller = ranks.controller();
   }
   MeshPart part = *piece.Part;
   part.Ghosts = others.Sharing.data();

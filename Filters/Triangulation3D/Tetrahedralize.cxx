@@ -64,10 +64,10 @@ struct FinalCells : public FinalCellConsumer3
   }
 };
 
-class Run3
+class Tetrahedralizer
 {
 public:
-  Run3(
+  Tetrahedralizer(
     const PointsView3& points, const TetrahedralizationOptions& options, Tetrahedralization& result)
     : Points(points)
     , Options(options)
@@ -330,7 +330,7 @@ Tetrahedralization tetrahedralize(
 {
   requireShortIds(count);
   Tetrahedralization result;
-  Run3({ points, count }, options, result).run();
+  Tetrahedralizer({ points, count }, options, result).run();
   return result;
 }
 

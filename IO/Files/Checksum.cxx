@@ -27,7 +27,7 @@ constexpr bool hasAvx2 = false;
 
 struct Checksum::State
 {
-  XXH3_state_t Of;
+  XXH3_state_t Xxh3;
 };
 
 std::uint64_t checksumOf(const void* data, std::size_t bytes)
@@ -38,21 +38,21 @@ std::uint64_t checksumOf(const void* data, std::size_t bytes)
 Checksum::Checksum()
   : Progress(std::make_unique<State>())
 {
-  XXH3_64bits_reset(&this->Progress->Of);
+  XXH3_64bits_reset(&this->Progress->Xxh3);
 }
 
 Checksum::~Checksum() = default;
 
 void Checksum::add(const void* data, std::size_t bytes)
 {
-  hasAvx2 ? updateChecksumAvx2(&this->Progress->Of, data, bytes)
-          : static_cast<void>(XXH3_64bits_update(&this->Progress->Of, data, bytes));
+  hasAvx2 ? updateChecksumAvx2(&this->Progress->Xxh3, data, bytes)
+          : static_cast<void>(XXH3_64bits_update(&this->Progress->Xxh3, data, bytes));
 }
 
 std::uint64_t Checksum::finish()
 {
-  const std::uint64_t value = XXH3_64bits_digest(&this->Progress->Of);
-  XXH3_64bits_reset(&this->Progress->Of);
+  const std::uint64_t value = XXH3_64bits_digest(&this->Progress->Xxh3);
+  XXH3_64bits_reset(&this->Progress->Xxh3);
   return value;
 }
 

@@ -133,14 +133,15 @@ const Format* formatOf(const std::string& path, unsigned uses)
 Opener openerOf(const std::string& path, unsigned uses)
 {
   const Format* const format = formatOf(path, uses);
-  return format ? format->With : Opener::None;
+  return format ? format->OpenedBy : Opener::None;
 }
 
 bool isOpenedBy(const std::string& path, Opener opener)
 {
   const std::string extension = extensionOf(path);
   return std::any_of(formats.begin(), formats.end(),
-    [&](const Format& format) { return format.With == opener && has(allOf(format), extension); });
+    [&](const Format& format)
+    { return format.OpenedBy == opener && has(allOf(format), extension); });
 }
 
 std::vector<std::string> extensionsFor(unsigned uses)
@@ -162,9 +163,9 @@ std::string listFormats(unsigned uses, const std::string& forVtk)
   for (const Format& format : formats)
   {
     const bool isListed =
-      (format.Uses & uses) != 0 && (forVtk.empty() || format.With != Opener::Vtk);
+      (format.Uses & uses) != 0 && (forVtk.empty() || format.OpenedBy != Opener::Vtk);
     const std::vector<std::string> extensions = wordsOf(isListed ? format.Extensions : "");
-    if (isListed && format.With == Opener::CompressedText)
+    if (isListed && format.OpenedBy == Opener::CompressedText)
     {
       list.back() += " (or these as " + joined(extensions, " or ") + ")";
       continue;
@@ -179,7 +180,7 @@ std::string describePointFormats()
   std::string text;
   for (const Format& format : formats)
   {
-    if ((format.Uses & Use::Points) != 0 && format.With != Opener::Vtk)
+    if ((format.Uses & Use::Points) != 0 && format.OpenedBy != Opener::Vtk)
     {
       const std::string help = format.Help;
       text += joined(wordsOf(allOf(format)), ", ") + (help.empty() ? ", " : " (" + help + "); ");

@@ -53,7 +53,7 @@ struct Format
 {
   const char* Extensions; ///< in lower case and with their dots, separated by blanks
   const char* Others;     ///< more extensions, which messages do not list
-  Opener With;
+  Opener OpenedBy;
   unsigned Uses;
   const char* Drivers; ///< the names of GDAL's drivers, separated by commas; empty: GDAL has none
   const char* Help; ///< what the help says about points of this format and of those above it that

@@ -19,15 +19,15 @@ namespace
 
 namespace fs = std::filesystem;
 
-struct Listed
+struct PathRegistry
 {
   std::mutex Mutex;
-  struct Use
+  struct PathUse
   {
     int Count = 0; ///< a path may be listed twice
     bool IsKept = false;
   };
-  std::map<std::string, Use> Paths;
+  std::map<std::string, PathUse> Paths;
   /// A separate mutex, because a failing commit builds a message, which looks up these paths.
   std::mutex FinalsMutex;
   std::map<std::string, std::string> Finals; ///< final path of each temporary folder
@@ -35,9 +35,9 @@ struct Listed
 };
 
 /// Never destroyed: a signal may come while static objects are destroyed.
-Listed& listed()
+PathRegistry& listed()
 {
-  static auto* const all = new Listed;
+  static auto* const all = new PathRegistry;
   return *all;
 }
 

@@ -14,7 +14,7 @@ namespace
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-void append(std::vector<Run>& runs, const Run& run, std::int64_t gap)
+void append(std::vector<TupleRun>& runs, const TupleRun& run, std::int64_t gap)
 {
   if (!runs.empty() &&
     run.First - (runs.back().First + runs.back().Size) < std::max<std::int64_t>(gap, 1))
@@ -73,10 +73,10 @@ std::vector<char> findActive(const std::int64_t* ids, std::size_t count, std::in
   return std::move(parts[0]);
 }
 
-std::vector<Run> runsOfBlocks(const std::vector<char>& active, std::int64_t block, std::int64_t low,
-  std::int64_t high, std::int64_t gap)
+std::vector<TupleRun> runsOfBlocks(const std::vector<char>& active, std::int64_t block,
+  std::int64_t low, std::int64_t high, std::int64_t gap)
 {
-  std::vector<Run> runs;
+  std::vector<TupleRun> runs;
   for (std::size_t i = 0; i < active.size(); ++i)
   {
     if (active[i] != 0)
@@ -88,10 +88,10 @@ std::vector<Run> runsOfBlocks(const std::vector<char>& active, std::int64_t bloc
   return runs;
 }
 
-std::vector<Run> runsOfIds(
+std::vector<TupleRun> runsOfIds(
   const std::vector<std::pair<std::int64_t, std::uint32_t>>& ids, std::int64_t gap)
 {
-  std::vector<Run> runs;
+  std::vector<TupleRun> runs;
   for (const auto& pair : ids)
   {
     if (runs.empty() || pair.first >= runs.back().First + runs.back().Size)
@@ -102,18 +102,19 @@ std::vector<Run> runsOfIds(
   return runs;
 }
 
-RunPlan::RunPlan(const std::vector<Run>& runs, std::int64_t m, std::int64_t block, std::int64_t low)
+RunPlan::RunPlan(
+  const std::vector<TupleRun>& runs, std::int64_t m, std::int64_t block, std::int64_t low)
   : Starts{ 0 }
 {
   std::int64_t room = m;
-  const auto add = [&](const Run& run)
+  const auto add = [&](const TupleRun& run)
   {
     this->Packed.push_back(std::uint32_t(m - room));
     this->GroupOf.push_back(std::uint32_t(this->Starts.size() - 1));
     this->Runs.push_back(run);
     room -= run.Size;
   };
-  for (Run run : runs)
+  for (TupleRun run : runs)
   {
     while (run.Size > room)
     {
@@ -154,7 +155,7 @@ std::vector<char> HeldBlocks::missing(const std::vector<char>& active, std::int6
   return missing;
 }
 
-void HeldBlocks::add(const Run& run)
+void HeldBlocks::add(const TupleRun& run)
 {
   for (std::int64_t at = 0; at < run.Size; at += std::int64_t(1) << this->Shift)
   {
@@ -199,9 +200,9 @@ bool HeldBlocks::find(const std::int64_t* ids, std::size_t count, std::uint32_t*
   return true;
 }
 
-std::vector<Run> HeldBlocks::found() const
+std::vector<TupleRun> HeldBlocks::found() const
 {
-  std::vector<Run> runs;
+  std::vector<TupleRun> runs;
   for (const std::uint64_t block : this->Found)
   {
     const std::int64_t first = std::int64_t(block) << this->Shift;
@@ -268,7 +269,7 @@ void BlockCache::linkFirst(std::uint32_t slot)
   this->Slots[this->End].After = slot;
 }
 
-BlockCache::Found BlockCache::use(std::uint64_t block)
+BlockCache::UsedSlot BlockCache::use(std::uint64_t block)
 {
   const std::size_t mask = this->Table.size() - 1;
   std::size_t at = this->bucketOf(block);

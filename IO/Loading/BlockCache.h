@@ -31,7 +31,7 @@ std::vector<char> findActive(const std::int64_t* ids, std::size_t count, std::in
   std::size_t blocks, int shift, int threads);
 
 /// Consecutive tuples that one read loads.
-struct Run
+struct TupleRun
 {
   std::int64_t First; ///< index of the first tuple
   std::int64_t Size;  ///< number of tuples
@@ -39,23 +39,23 @@ struct Run
 
 /// Returns the active blocks, of `block` tuples each, as runs within [low, high). Runs less than
 /// `gap` tuples apart are merged.
-std::vector<Run> runsOfBlocks(const std::vector<char>& active, std::int64_t block, std::int64_t low,
-  std::int64_t high, std::int64_t gap);
+std::vector<TupleRun> runsOfBlocks(const std::vector<char>& active, std::int64_t block,
+  std::int64_t low, std::int64_t high, std::int64_t gap);
 
 /// Returns single ids, the first members of the pairs, in ascending order, as runs. Runs less than
 /// `gap` tuples apart are merged.
-std::vector<Run> runsOfIds(
+std::vector<TupleRun> runsOfIds(
   const std::vector<std::pair<std::int64_t, std::uint32_t>>& ids, std::int64_t gap);
 
 /// Runs in groups of at most m tuples, and each run's position in the buffer of its group.
 struct RunPlan
 {
   /// Longer runs are cut at multiples of `block` tuples from `low`.
-  RunPlan(const std::vector<Run>& runs, std::int64_t m, std::int64_t block, std::int64_t low);
+  RunPlan(const std::vector<TupleRun>& runs, std::int64_t m, std::int64_t block, std::int64_t low);
 
   std::size_t groups() const { return this->Starts.size() - 1; }
 
-  std::vector<tipp::Run> Runs;        ///< cut
+  std::vector<TupleRun> Runs;         ///< cut
   std::vector<std::size_t> Starts;    ///< first run of each group, and the number of runs
   std::vector<std::uint32_t> Packed;  ///< position of each run in tuples; m is below 2^32
   std::vector<std::uint32_t> GroupOf; ///< group of each run
@@ -91,7 +91,7 @@ public:
   /// tuple `low`.
   std::vector<char> missing(const std::vector<char>& active, std::int64_t low);
   /// Adds a run of whole blocks, positioned after those already held.
-  void add(const Run& run);
+  void add(const TupleRun& run);
 
   /// Writes the buffer position of each id's tuple to `positions`. Blocks that are not held are
   /// assigned a position, and the caller must read them next, see found(). Returns false, and adds
@@ -99,7 +99,7 @@ public:
   /// id is not a tuple's index.
   bool find(const std::int64_t* ids, std::size_t count, std::uint32_t* positions);
   /// The runs to read after find(), in the order of their positions.
-  std::vector<Run> found() const;
+  std::vector<TupleRun> found() const;
   void keepFound();
   void loseFound();
 
@@ -122,7 +122,7 @@ private:
 class BlockCache
 {
 public:
-  struct Found
+  struct UsedSlot
   {
     std::uint32_t Slot;
     bool Miss; ///< the slot is assigned to the block, but the caller has yet to fill it
@@ -133,7 +133,7 @@ public:
 
   /// Returns the block's slot and makes it the most recently used one. A block that is not cached
   /// replaces the least recently used one.
-  Found use(std::uint64_t block);
+  UsedSlot use(std::uint64_t block);
 
   /// Prefetches the table entry that use(block) will read first.
   void prefetch(std::uint64_t block) const

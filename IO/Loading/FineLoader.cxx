@@ -127,11 +127,11 @@ private:
 
   void readFound()
   {
-    const std::vector<Run> runs = this->Held.found();
+    const std::vector<TupleRun> runs = this->Held.found();
     try
     {
       std::int64_t to = this->Held.used();
-      for (const Run& run : runs)
+      for (const TupleRun& run : runs)
       {
         this->read(run, to);
         to += this->wholeBlocks(run.Size);
@@ -177,7 +177,7 @@ private:
     return this->Files.tuples() <= this->M && this->Spent > this->bytesOf(this->Files.tuples());
   }
 
-  std::vector<Run> runsOf(const Chunk& chunk, const std::vector<char>& wanted) const
+  std::vector<TupleRun> runsOf(const Chunk& chunk, const std::vector<char>& wanted) const
   {
     const std::int64_t end = chunk.Low + (std::int64_t(wanted.size()) << this->Shift);
     return runsOfBlocks(wanted, std::int64_t(1) << this->Shift, chunk.Low,
@@ -187,7 +187,7 @@ private:
   void loadBlocks(const Chunk& chunk, void* const* out)
   {
     this->Cache.reset();
-    std::vector<Run> runs = this->runsOf(chunk, this->Held.missing(chunk.Active, chunk.Low));
+    std::vector<TupleRun> runs = this->runsOf(chunk, this->Held.missing(chunk.Active, chunk.Low));
     if (this->Held.used() + tuplesOf(runs) > this->Held.room())
     {
       this->Held.forget();
@@ -214,7 +214,7 @@ private:
 
   /// Reads runs of blocks to the positions after those held; drops all held blocks first if the
   /// runs do not fit.
-  void hold(const std::vector<Run>& runs)
+  void hold(const std::vector<TupleRun>& runs)
   {
     if (this->Held.isEmpty())
     {
@@ -222,7 +222,7 @@ private:
       this->Buffers.resize(this->Files, this->Held.room());
     }
     this->Spent += this->bytesOf(tuplesOf(runs));
-    for (const Run& run : runs)
+    for (const TupleRun& run : runs)
     {
       this->read(run, this->Held.used());
       this->Held.add(run);
@@ -232,7 +232,7 @@ private:
 
   /// For more than M tuples: loads group by group, at most M tuples each. Each id's group and
   /// position are computed first.
-  void loadGroups(const Chunk& chunk, const std::vector<Run>& runs, void* const* out)
+  void loadGroups(const Chunk& chunk, const std::vector<TupleRun>& runs, void* const* out)
   {
     const int shift = this->Shift;
     const std::int64_t block = std::int64_t(1) << shift;
@@ -241,7 +241,7 @@ private:
     std::vector<std::uint32_t> groups(chunk.Active.size());
     for (std::size_t i = 0; i < plan.Runs.size(); ++i)
     {
-      const Run& run = plan.Runs[i];
+      const TupleRun& run = plan.Runs[i];
       for (std::int64_t at = 0; at < run.Size; at += block)
       {
         const auto index = std::size_t((run.First + at - chunk.Low) >> shift);
@@ -322,7 +322,7 @@ private:
     std::vector<std::pair<std::int64_t, std::uint32_t>> missing; // ids and their slots
     for (const auto& [id, number] : unique.Sorted)
     {
-      const BlockCache::Found found = this->Cache->Slots.use(std::uint64_t(id));
+      const BlockCache::UsedSlot found = this->Cache->Slots.use(std::uint64_t(id));
       slots[number] = found.Slot;
       if (found.Miss)
       {
@@ -357,7 +357,7 @@ private:
       this->readGroup(plan, group);
       for (; run < plan.Starts[group + 1]; ++run)
       {
-        const Run& read = plan.Runs[run];
+        const TupleRun& read = plan.Runs[run];
         for (; next != missing.end() && next->first < read.First + read.Size; ++next)
         {
           const std::size_t index = plan.Packed[run] + std::size_t(next->first - read.First);
@@ -394,7 +394,7 @@ private:
     ++this->Counts.Passes;
   }
 
-  void read(const Run& run, std::int64_t to)
+  void read(const TupleRun& run, std::int64_t to)
   {
     for (std::size_t a = 0; a < this->Files.count(); ++a)
     {
@@ -404,10 +404,10 @@ private:
     }
   }
 
-  static std::int64_t tuplesOf(const std::vector<Run>& runs)
+  static std::int64_t tuplesOf(const std::vector<TupleRun>& runs)
   {
     return std::accumulate(runs.begin(), runs.end(), std::int64_t(0),
-      [](std::int64_t sum, const Run& run) { return sum + run.Size; });
+      [](std::int64_t sum, const TupleRun& run) { return sum + run.Size; });
   }
 
   std::int64_t M;

@@ -228,7 +228,7 @@ private:
   void addCell(int group, CellCorners corners);
   void addCells();
 
-  const PieceBorder& Of;
+  const PieceBorder& Border;
   const PieceInterior& Interior;
   SharingSets Sets;
   std::vector<int> SetOf;             ///< by point: the number of its set

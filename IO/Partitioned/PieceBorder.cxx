@@ -202,7 +202,7 @@ PieceBorder::Mesh PieceBorder::mesh() const
 }
 
 OrderedBorder::OrderedBorder(const PieceBorder& border)
-  : Of(border)
+  : Border(border)
   , Interior(border.Interior)
 {
   this->uniteSets();
@@ -214,18 +214,18 @@ OrderedBorder::OrderedBorder(const PieceBorder& border)
 void OrderedBorder::uniteSets()
 {
   const int none = this->Sets.number({}); // sorts first
-  this->SetOf.assign(this->Interior.InterfacePoints.size() + this->Of.Ghosts.size(), none);
+  this->SetOf.assign(this->Interior.InterfacePoints.size() + this->Border.Ghosts.size(), none);
   this->CellSets.assign(this->Interior.InterfaceCells.size(), none);
-  auto begin = this->Of.Borrowers.begin();
-  for (const PieceBorder::Cell& cell : this->Of.Cells)
+  auto begin = this->Border.Borrowers.begin();
+  for (const PieceBorder::Cell& cell : this->Border.Cells)
   {
-    const auto end = this->Of.Borrowers.begin() + std::ptrdiff_t(cell.BorrowerEnd);
+    const auto end = this->Border.Borrowers.begin() + std::ptrdiff_t(cell.BorrowerEnd);
     const int set = this->Sets.number({ begin, end });
     begin = end;
     this->CellSets.push_back(set);
-    for (std::size_t i = 0; i < this->Of.CellSize; ++i)
+    for (std::size_t i = 0; i < this->Border.CellSize; ++i)
     {
-      int& of = this->SetOf[this->Of.indexOf(cell.Points[i])];
+      int& of = this->SetOf[this->Border.indexOf(cell.Points[i])];
       of = this->Sets.unite(of, set);
     }
   }
@@ -237,9 +237,9 @@ void OrderedBorder::orderPoints()
   const std::size_t own = this->Interior.InterfacePoints.size();
   for (std::size_t i = 0; i < this->SetOf.size(); ++i)
   {
-    const double* const row = this->Of.row(i);
+    const double* const row = this->Border.row(i);
     this->Points.push_back(
-      { groupOf[std::size_t(this->SetOf[i])], this->Of.Layout.id(row), row, i >= own, i });
+      { groupOf[std::size_t(this->SetOf[i])], this->Border.Layout.id(row), row, i >= own, i });
   }
   std::sort(this->Points.begin(), this->Points.end(),
     [](const Point& a, const Point& b)
@@ -254,7 +254,7 @@ void OrderedBorder::orderPoints()
 /// Adds a cell, its corners permuted to a canonical order of the same orientation.
 void OrderedBorder::addCell(int group, CellCorners corners)
 {
-  if (this->Of.CellSize == 3)
+  if (this->Border.CellSize == 3)
   {
     std::rotate(
       corners.begin(), std::min_element(corners.begin(), corners.end() - 1), corners.end() - 1);
@@ -284,19 +284,19 @@ void OrderedBorder::addCells()
   const auto groupOfNext = [&] { return groupOf[std::size_t(this->CellSets[this->Cells.size()])]; };
   for (CellCorners corners : this->Interior.InterfaceCells)
   {
-    for (std::size_t c = 0; c < this->Of.CellSize; ++c)
+    for (std::size_t c = 0; c < this->Border.CellSize; ++c)
     {
       std::int32_t& corner = corners[c];
       corner = corner < 0 ? this->Position[std::size_t(-1 - corner)] : corner;
     }
     this->addCell(groupOfNext(), corners);
   }
-  for (const PieceBorder::Cell& cell : this->Of.Cells)
+  for (const PieceBorder::Cell& cell : this->Border.Cells)
   {
     CellCorners corners{};
-    for (std::size_t c = 0; c < this->Of.CellSize; ++c)
+    for (std::size_t c = 0; c < this->Border.CellSize; ++c)
     {
-      corners[c] = this->Position[this->Of.indexOf(cell.Points[c])];
+      corners[c] = this->Position[this->Border.indexOf(cell.Points[c])];
     }
     this->addCell(groupOfNext(), corners);
   }

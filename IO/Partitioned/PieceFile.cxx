@@ -42,7 +42,7 @@ GlobalIdMap::GlobalIdMap(const std::int64_t* ids, const std::int64_t* values, st
 }
 
 template <typename Number>
-void GlobalIdMap::fill(std::vector<Entry<Number>>& entries, const std::int64_t* ids,
+void GlobalIdMap::fill(std::vector<IdValue<Number>>& entries, const std::int64_t* ids,
   const std::int64_t* values, std::size_t count)
 {
   entries.resize(count);
@@ -60,7 +60,8 @@ void GlobalIdMap::fill(std::vector<Entry<Number>>& entries, const std::int64_t* 
 }
 
 template <typename Number>
-std::int64_t GlobalIdMap::search(const std::vector<Entry<Number>>& entries, std::uint64_t key) const
+std::int64_t GlobalIdMap::search(
+  const std::vector<IdValue<Number>>& entries, std::uint64_t key) const
 {
   if (key > this->Range || entries.empty())
   {

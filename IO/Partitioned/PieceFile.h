@@ -38,15 +38,15 @@ public:
 
 private:
   template <typename Number>
-  struct Entry
+  struct IdValue
   {
     Number Id; ///< minus the least id
     Number Value;
   };
   template <typename Number>
-  std::int64_t search(const std::vector<Entry<Number>>& entries, std::uint64_t key) const;
+  std::int64_t search(const std::vector<IdValue<Number>>& entries, std::uint64_t key) const;
   template <typename Number>
-  void fill(std::vector<Entry<Number>>& entries, const std::int64_t* ids,
+  void fill(std::vector<IdValue<Number>>& entries, const std::int64_t* ids,
     const std::int64_t* values, std::size_t count);
 
   std::int64_t Least = 0;
@@ -54,8 +54,8 @@ private:
   int Shift = 0;
   std::vector<std::uint32_t> Starts; ///< first entry for each value of the upper bits, and the end
   // Only one is used; the first if everything fits in 32 bits.
-  std::vector<Entry<std::uint32_t>> Narrow;
-  std::vector<Entry<std::uint64_t>> Wide;
+  std::vector<IdValue<std::uint32_t>> Narrow;
+  std::vector<IdValue<std::uint64_t>> Wide;
 };
 
 /// A piece's open file, read part by part. Not thread-safe: reading counts the bytes.

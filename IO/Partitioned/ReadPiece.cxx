@@ -69,7 +69,7 @@ public:
     std::vector<char> tuples;
     for (const auto& [owner, source] : this->Sources)
     {
-      for (const Run& run : source.runs(ofPoints))
+      for (const BorrowedRun& run : source.runs(ofPoints))
       {
         tuples.resize(std::size_t(run.Count) * bytes);
         source.File.read(array, run.Part, run.Part + 1, tuples.data());
@@ -99,7 +99,7 @@ public:
     for (const auto& [owner, source] : this->Sources)
     {
       const bool wide = hasWideIds(this->Mesh, source.File.summary());
-      for (const Run& run : source.CellRuns)
+      for (const BorrowedRun& run : source.CellRuns)
       {
         wide ? this->addCells<std::int64_t>(source, run, piece)
              : this->addCells<std::int32_t>(source, run, piece);
@@ -109,7 +109,7 @@ public:
 
 private:
   /// A group of tuples that the piece borrows.
-  struct Run
+  struct BorrowedRun
   {
     std::int64_t InOwner; ///< first tuple in the owner's array
     std::int64_t First;   ///< index among all borrowed tuples, as read
@@ -124,10 +124,10 @@ private:
     }
 
     const PieceFile File;
-    std::vector<Run> PointRuns; ///< ascending
-    std::vector<Run> CellRuns;
+    std::vector<BorrowedRun> PointRuns; ///< ascending
+    std::vector<BorrowedRun> CellRuns;
 
-    const std::vector<Run>& runs(bool ofPoints) const
+    const std::vector<BorrowedRun>& runs(bool ofPoints) const
     {
       return ofPoints ? this->PointRuns : this->CellRuns;
     }
@@ -150,7 +150,7 @@ private:
       const std::size_t part = std::size_t(group.Group) + 1;
       const std::vector<std::int64_t>& starts = source.File.partStarts(ofPoints);
       std::int64_t& count = ofPoints ? this->PointsAsRead : this->CellsAsRead;
-      const Run run{ starts[part], count, starts[part + 1] - starts[part], part };
+      const BorrowedRun run{ starts[part], count, starts[part + 1] - starts[part], part };
       (ofPoints ? source.PointRuns : source.CellRuns).push_back(run);
       count += run.Count;
     }
@@ -161,7 +161,7 @@ private:
     std::vector<std::int64_t> ids(std::size_t(ofPoints ? this->PointsAsRead : this->CellsAsRead));
     for (const auto& [owner, source] : this->Sources)
     {
-      for (const Run& run : source.runs(ofPoints))
+      for (const BorrowedRun& run : source.runs(ofPoints))
       {
         std::int64_t* const to = ids.data() + std::size_t(run.First);
         source.File.read(source.File.find(role), run.Part, run.Part + 1, to);
@@ -218,7 +218,7 @@ private:
   }
 
   template <typename Id>
-  void addCells(const Source& source, const Run& run, Piece& piece) const
+  void addCells(const Source& source, const BorrowedRun& run, Piece& piece) const
   {
     const std::size_t corners = std::size_t(piece.CellSize);
     std::vector<Id> ids(std::size_t(run.Count) * corners);
@@ -227,12 +227,12 @@ private:
     {
       const std::int64_t inOwner = ids[i];
       const auto after = std::upper_bound(source.PointRuns.begin(), source.PointRuns.end(), inOwner,
-        [](std::int64_t point, const Run& points) { return point < points.InOwner; });
+        [](std::int64_t point, const BorrowedRun& points) { return point < points.InOwner; });
       if (after == source.PointRuns.begin() || inOwner - (after - 1)->InOwner >= (after - 1)->Count)
       {
         source.File.fail("lends cells without their points");
       }
-      const Run& points = *(after - 1);
+      const BorrowedRun& points = *(after - 1);
       const std::int64_t point =
         this->PointIndices[std::size_t(points.First + inOwner - points.InOwner)];
       const auto cell =

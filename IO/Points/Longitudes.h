@@ -31,7 +31,7 @@ public:
   std::string warning() const;
 
 private:
-  struct Range
+  struct LongitudeRange
   {
     double Low = HUGE_VAL;
     double High = -HUGE_VAL;
@@ -43,8 +43,8 @@ private:
     }
   };
 
-  Range Given;
-  Range Turned;
+  LongitudeRange Given;
+  LongitudeRange Turned;
   bool IsInDegrees = true;
 };
 

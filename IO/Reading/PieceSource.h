@@ -83,30 +83,30 @@ public:
   /// Null if the piece is not cached.
   std::shared_ptr<const Piece> find(const Key& key)
   {
-    const auto entry = std::find_if(
-      this->Entries.begin(), this->Entries.end(), [&key](const Entry& e) { return e.What == key; });
-    if (entry == this->Entries.end())
+    const auto piece = std::find_if(this->Pieces.begin(), this->Pieces.end(),
+      [&key](const CachedPiece& one) { return one.Identity == key; });
+    if (piece == this->Pieces.end())
     {
       return nullptr;
     }
-    this->Entries.splice(this->Entries.begin(), this->Entries, entry);
-    return entry->Held;
+    this->Pieces.splice(this->Pieces.begin(), this->Pieces, piece);
+    return piece->Held;
   }
   void keep(const Key& key, std::shared_ptr<const Piece> piece)
   {
-    this->Entries.push_front({ key, std::move(piece) });
+    this->Pieces.push_front({ key, std::move(piece) });
   }
   /// Drops the least recently used pieces until `pieces` are left.
-  void shrink(std::size_t pieces) { this->Entries.resize(std::min(pieces, this->Entries.size())); }
-  void clear() { this->Entries.clear(); }
+  void shrink(std::size_t pieces) { this->Pieces.resize(std::min(pieces, this->Pieces.size())); }
+  void clear() { this->Pieces.clear(); }
 
 private:
-  struct Entry
+  struct CachedPiece
   {
-    Key What;
+    Key Identity;
     std::shared_ptr<const Piece> Held;
   };
-  std::list<Entry> Entries; ///< the most recently used one first
+  std::list<CachedPiece> Pieces; ///< the most recently used one first
 };
 
 /// A cell of one of several pieces, by its index in the piece.

@@ -52,7 +52,7 @@ public:
     const std::vector<std::int64_t> asked = sortedUnique(ids);
     const GlobalIdMap map(asked.data(), nullptr, asked.size());
     std::vector<std::int32_t> owners(asked.size(), -1);
-    std::vector<Range> ranges;
+    std::vector<IdRange> ranges;
     {
       const std::lock_guard<std::mutex> lock(this->Mutex);
       this->Ranges[ofPoints].resize(this->Mesh.Pieces.size());
@@ -69,15 +69,15 @@ public:
       {
         poll();
         const std::size_t piece = order[std::size_t(i)];
-        Range& range = ranges[piece];
+        IdRange& range = ranges[piece];
         const auto first = std::lower_bound(asked.begin(), asked.end(), range.Low);
         if (missing == 0 || first == asked.end() || *first > range.High)
         {
           return;
         }
         const std::vector<std::int64_t> own = this->read(piece, ofPoints);
-        range = own.empty() ? Range{ INT64_MAX, -1 }
-                            : Range{ *std::min_element(own.begin(), own.end()),
+        range = own.empty() ? IdRange{ INT64_MAX, -1 }
+                            : IdRange{ *std::min_element(own.begin(), own.end()),
                                 *std::max_element(own.begin(), own.end()) };
         for (const std::int64_t id : own)
         {
@@ -103,7 +103,7 @@ public:
   }
 
 private:
-  struct Range
+  struct IdRange
   {
     std::int64_t Low = 0;
     std::int64_t High = INT64_MAX;
@@ -167,7 +167,7 @@ private:
   const PartitionedMesh& Mesh;
   std::variant<BoxTree<2>, BoxTree<3>> Tree;
   mutable std::mutex Mutex;
-  mutable std::vector<Range> Ranges[2]; ///< ranges of cells, ranges of points; by piece
+  mutable std::vector<IdRange> Ranges[2]; ///< ranges of cells, ranges of points; by piece
 };
 
 namespace

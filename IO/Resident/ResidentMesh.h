@@ -155,7 +155,7 @@ public:
   /// for the next one.
   struct OtherParts
   {
-    const vtkMultiProcessController* Of = nullptr; ///< null: nothing is known
+    const vtkMultiProcessController* Controller = nullptr; ///< null: nothing is known
     std::vector<std::uint8_t> Sharing;         ///< ghost flag per point of this part, for RankMesh
     std::shared_ptr<const IdDirectory> Points; ///< null: not made yet
     std::shared_ptr<const IdDirectory> Cells;

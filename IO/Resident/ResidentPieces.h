@@ -75,7 +75,7 @@ public:
   {
   public:
     Lease(ResidentPieces& pieces, std::size_t number, ResidentPiece piece)
-      : Of(&pieces, Release{ number })
+      : Pieces(&pieces, Release{ number })
       , Held(std::move(piece))
     {
     }
@@ -89,7 +89,7 @@ public:
       std::size_t Number;
       void operator()(ResidentPieces* pieces) const { pieces->release(this->Number); }
     };
-    std::unique_ptr<ResidentPieces, Release> Of; ///< releases the piece after Held is destroyed
+    std::unique_ptr<ResidentPieces, Release> Pieces; ///< releases the piece after Held is destroyed
     ResidentPiece Held;
   };
 

@@ -74,13 +74,13 @@ public:
   Query(const InputArray& points, const InputArray& cells, const nb::dict& pointData,
     const nb::dict& cellData, const std::optional<InputArray>& ids, int threads)
   {
-    struct Kept
+    struct OwnedMesh
     {
       InputArray Points, Cells;
       std::optional<InputArray> Ids;
       std::vector<NamedArray> Arrays[2];
     };
-    const std::shared_ptr<const Kept> kept(new Kept{ points, cells, ids,
+    const std::shared_ptr<const OwnedMesh> kept(new OwnedMesh{ points, cells, ids,
       { namedArrays(pointData, points, "points"), namedArrays(cellData, cells, "cells") } });
     MeshPart part;
     part.Mesh = meshOf(points, cells);

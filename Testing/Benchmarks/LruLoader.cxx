@@ -46,7 +46,7 @@ void LruLoader::load(const std::int64_t* ids, std::size_t count, void* const* ou
 
 std::uint32_t LruLoader::slotOf(std::uint64_t block)
 {
-  const BlockCache::Found found = this->Cache.use(block);
+  const BlockCache::UsedSlot found = this->Cache.use(block);
   if (found.Miss)
   {
     ++this->Misses;

@@ -48,7 +48,7 @@ struct InfoArguments
   PointOptions Points;
 };
 
-struct Range
+struct ValueRange
 {
   double Low = std::numeric_limits<double>::infinity();
   double High = -std::numeric_limits<double>::infinity();
@@ -169,9 +169,9 @@ struct Summary
 {
   std::int64_t Points = 0;
   std::int64_t NotFinite = 0;
-  Range X;
-  Range Y;
-  std::vector<Range> Columns;
+  ValueRange X;
+  ValueRange Y;
+  std::vector<ValueRange> Columns;
   CountCheck XCount;
   CountCheck YCount;
   HeightCheck Heights;

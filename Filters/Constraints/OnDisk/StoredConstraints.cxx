@@ -53,7 +53,8 @@ PositionJoin::PositionJoin(const std::string& file, std::int64_t wanted, std::si
   , Threads(threads)
   , Mask(wordsFor(wanted, memory) - 1)
   , Bits(std::size_t(this->Mask) + 1, 0)
-  , Positions(file + ".wanted", bucketsFor(wanted, columns, memory, MostBuckets), sizeof(Wanted))
+  , Positions(
+      file + ".wanted", bucketsFor(wanted, columns, memory, MostBuckets), sizeof(WantedPosition))
   , Candidates(file + ".points", this->Positions.keys(), (2 + columns) * sizeof(double))
 {
 }
@@ -62,7 +63,7 @@ void PositionJoin::want(Point2 position, std::int64_t number)
 {
   const std::uint64_t hash = PositionIndex::hashOf(position);
   this->wordOf(hash) |= bitsOf(hash);
-  const Wanted wanted{ position, number };
+  const WantedPosition wanted{ position, number };
   this->Positions.add(this->bucketOf(position), &wanted);
 }
 
@@ -134,11 +135,11 @@ void PositionJoin::forEachMatch(const std::function<void(const Match&)>& visit) 
 void PositionJoin::matchBucket(
   std::size_t bucket, const std::function<void(const Match&)>& visit) const
 {
-  const std::vector<Wanted> wanted = this->Positions.readAll<Wanted>(bucket);
+  const std::vector<WantedPosition> wanted = this->Positions.readAll<WantedPosition>(bucket);
   std::vector<Point2> positions;
   positions.reserve(wanted.size());
   std::transform(wanted.begin(), wanted.end(), std::back_inserter(positions),
-    [](const Wanted& one) { return one.Position; });
+    [](const WantedPosition& one) { return one.Position; });
   const PositionIndex index(std::move(positions));
   constexpr std::int64_t none = -1;
   std::vector<std::int64_t> rowOf(wanted.size(), none); // row of the first point at each position
@@ -159,7 +160,7 @@ void PositionJoin::matchBucket(
           &rows[rows.size() - words], bytes + sizeof position, this->Columns * sizeof(double));
       }
     });
-  for (const Wanted& one : wanted)
+  for (const WantedPosition& one : wanted)
   {
     const auto first = std::size_t(index.find(one.Position));
     visit({ one.Position, one.Number, wanted[first].Number,
@@ -170,7 +171,7 @@ void PositionJoin::matchBucket(
 StoredConstraints::StoredConstraints(
   DiskWork work, TableConstraints constraints, SegmentRows* lines, Columns columns)
   : Work(std::move(work))
-  , Wanted(std::move(columns))
+  , PointColumns(std::move(columns))
   , Vertices(std::make_unique<RowFile>(this->Work.Files + ".vertices", sizeof(Vertex)))
   , Keys(std::make_unique<RowFile>(this->Work.Files + ".ends", sizeof(Segment)))
 {
@@ -226,7 +227,7 @@ void StoredConstraints::wantVertices()
   }
   this->IsNew.assign(std::size_t(count), false);
   this->Own = std::make_unique<PositionJoin>(this->Work.Files + ".own", count,
-    1 + this->Wanted.Names.size(), this->Work.Memory, this->Work.Threads);
+    1 + this->PointColumns.Names.size(), this->Work.Memory, this->Work.Threads);
   this->Vertices->forEach<Vertex>(
     [&](std::int64_t number, const Vertex& vertex)
     {
@@ -249,7 +250,7 @@ void StoredConstraints::wantNamed()
     return;
   }
   this->Named = std::make_unique<PositionJoin>(this->Work.Files + ".named", 2 * this->count(),
-    2 + this->Wanted.Names.size(), this->Work.Memory, this->Work.Threads);
+    2 + this->PointColumns.Names.size(), this->Work.Memory, this->Work.Threads);
   this->Keys->forEach<Segment>(
     [&](std::int64_t number, const Segment& segment)
     {
@@ -381,11 +382,11 @@ std::int64_t StoredConstraints::newBefore(std::int64_t vertex) const
 std::vector<double> StoredConstraints::valuesOf(std::int64_t number, const Vertex& vertex) const
 {
   std::vector<double> values;
-  for (std::size_t c = 0; c < this->Wanted.Names.size(); ++c)
+  for (std::size_t c = 0; c < this->PointColumns.Names.size(); ++c)
   {
-    const double given = isHeightColumn(this->Wanted.Names[c]) ? vertex.Height : std::nan("");
-    values.push_back(std::isnan(given) && !this->Wanted.Surface.empty()
-        ? this->Wanted.Surface.at(c).at(std::size_t(number))
+    const double given = isHeightColumn(this->PointColumns.Names[c]) ? vertex.Height : std::nan("");
+    values.push_back(std::isnan(given) && !this->PointColumns.Surface.empty()
+        ? this->PointColumns.Surface.at(c).at(std::size_t(number))
         : given);
   }
   return values;
@@ -413,13 +414,13 @@ void StoredConstraints::forEachNew(const std::function<void(Point2, const double
 StoredConstraints::Ends StoredConstraints::endsOf(
   const std::function<bool(std::int64_t)>& isTaken) const
 {
-  struct Taken
+  struct TakenConstraint
   {
     bool IsNamed;
     Segment Keys;
     Segment Positions;
   };
-  std::vector<Taken> taken;
+  std::vector<TakenConstraint> taken;
   std::vector<Point2> own;
   std::vector<Point2> named;
   this->forEach(
@@ -427,7 +428,7 @@ StoredConstraints::Ends StoredConstraints::endsOf(
     {
       if (isTaken(number))
       {
-        Taken one{ this->isNamed(number), { a, b }, { a, b } };
+        TakenConstraint one{ this->isNamed(number), { a, b }, { a, b } };
         if (one.IsNamed)
         {
           this->Keys->read(number, 1, &one.Keys);
@@ -444,7 +445,7 @@ StoredConstraints::Ends StoredConstraints::endsOf(
   ends.Positions.resize(own.size() + named.size(), { std::nan(""), std::nan("") });
   ends.Own = std::make_unique<PositionIndex>(std::move(own));
   ends.Named = std::make_unique<PositionIndex>(std::move(named));
-  for (const Taken& one : taken)
+  for (const TakenConstraint& one : taken)
   {
     const auto indexOf = [&](Point2 key) {
       return one.IsNamed ? std::int64_t(ends.OwnCount) + ends.Named->find(key)

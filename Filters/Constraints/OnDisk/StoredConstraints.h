@@ -72,7 +72,7 @@ public:
   void forEachMatch(const std::function<void(const Match&)>& visit) const;
 
 private:
-  struct Wanted
+  struct WantedPosition
   {
     Point2 Position;
     std::int64_t Number;
@@ -99,7 +99,7 @@ private:
   const int Threads;
   std::uint64_t Mask;              ///< for indices of Bits
   std::vector<std::uint64_t> Bits; ///< the filter: a few bits are set for each position
-  KeyedRows Positions;             ///< rows of Wanted
+  KeyedRows Positions;             ///< rows of WantedPosition
   KeyedRows Candidates;            ///< points that passed the filter: x, y and values
 };
 
@@ -208,7 +208,7 @@ private:
   static constexpr std::size_t VerticesPerCount = 4096;
 
   const DiskWork Work;
-  const Columns Wanted;
+  const Columns PointColumns;
   std::int64_t PolygonBegin = 0;
   std::int64_t BoundaryBegin = 0;
   bool AreLinesNamed = false;

@@ -70,7 +70,7 @@ TEST(BlockCache, AgreesWithAListOnRandomUse)
       {
         // Half of the blocks have ids that collide in the hash table.
         const std::uint64_t block = random() % blocks << (i % 2 ? 0 : 40);
-        const BlockCache::Found found = cache.use(block);
+        const BlockCache::UsedSlot found = cache.use(block);
         ASSERT_EQ(model.isMiss(block), found.Miss) << i;
         ASSERT_LT(found.Slot, slots);
         if (!found.Miss)

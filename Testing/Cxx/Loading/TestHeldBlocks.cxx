@@ -10,7 +10,7 @@ namespace
 {
 
 using tipp::HeldBlocks;
-using tipp::Run;
+using tipp::TupleRun;
 using Ids = std::vector<std::int64_t>;
 using Places = std::vector<std::uint32_t>;
 using FirstsAndSizes = std::vector<std::pair<std::int64_t, std::int64_t>>;
@@ -36,7 +36,7 @@ Places found(HeldBlocks& places, const Ids& ids)
 FirstsAndSizes toRead(const HeldBlocks& places)
 {
   FirstsAndSizes runs;
-  for (const Run& run : places.found())
+  for (const TupleRun& run : places.found())
   {
     runs.push_back({ run.First, run.Size });
   }

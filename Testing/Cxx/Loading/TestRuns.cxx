@@ -8,12 +8,12 @@
 namespace tipp
 {
 
-bool operator==(const Run& a, const Run& b)
+bool operator==(const TupleRun& a, const TupleRun& b)
 {
   return a.First == b.First && a.Size == b.Size;
 }
 
-std::ostream& operator<<(std::ostream& stream, const Run& run)
+std::ostream& operator<<(std::ostream& stream, const TupleRun& run)
 {
   return stream << run.First << "+" << run.Size;
 }
@@ -23,11 +23,11 @@ std::ostream& operator<<(std::ostream& stream, const Run& run)
 namespace
 {
 
-using tipp::Run;
 using tipp::RunPlan;
 using tipp::runsOfBlocks;
 using tipp::runsOfIds;
-using Runs = std::vector<Run>;
+using tipp::TupleRun;
+using Runs = std::vector<TupleRun>;
 using Groups = std::vector<std::size_t>;
 
 } // namespace
