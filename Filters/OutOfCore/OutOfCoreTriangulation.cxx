@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
+#include "Files/TemporaryPaths.h"
 #include "Files/TextFile.h"
 #include "OutOfCore/DescribeMesh.h"
 #include "OutOfCore/FinishPieces.h"
@@ -25,6 +26,7 @@
 #include <fstream>
 #include <memory>
 #include <new>
+#include <optional>
 #include <random>
 #include <stdexcept>
 
@@ -378,19 +380,22 @@ void help(Communicator& ranks, const OpenPoints& open, const OutOfCoreOptions& o
 void requireSharedFolder(Communicator& ranks, const std::string& folder)
 {
   const bool isFirst = ranks.rank() == 0;
-  const RemovedFile mark(isFirst ? folder + "/.ranks" : "");
+  std::optional<TemporaryFile> mark;
+  std::string path;
   std::string expected;
   if (isFirst)
   {
+    path = folder + "/.ranks";
+    mark.emplace(path);
     std::random_device random;
     expected = std::to_string(random()) + " " + std::to_string(random());
-    std::ofstream(mark.Path) << expected << "\n";
-    if (firstLine(mark.Path) != expected)
+    std::ofstream(path) << expected << "\n";
+    if (firstLine(path) != expected)
     {
-      throw IOError(mark.Path, "cannot be written.");
+      throw IOError(path, "cannot be written.");
     }
   }
-  const std::string path = ranks.broadcast(mark.Path);
+  path = ranks.broadcast(path);
   expected = ranks.broadcast(expected);
   if (firstLine(path) != expected)
   {

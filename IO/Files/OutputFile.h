@@ -98,20 +98,6 @@ inline void removeFile(const std::string& path)
   std::filesystem::remove(path, ignored);
 }
 
-/// Removes a file at the end of the scope.
-struct RemovedFile
-{
-  explicit RemovedFile(const std::string& path)
-    : Path(path)
-  {
-  }
-  ~RemovedFile() { removeFile(this->Path); }
-  RemovedFile(const RemovedFile&) = delete;
-  RemovedFile& operator=(const RemovedFile&) = delete;
-
-  const std::string Path;
-};
-
 /// Returns the path that an output must be moved to: absolute, without a slash at the end, and with
 /// links resolved, because a rename would replace the link. Throws IOError if the parent folder is
 /// missing or not writable, or if the name is too long.

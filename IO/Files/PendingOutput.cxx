@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Files/PendingOutput.h"
 
+#include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
@@ -11,7 +12,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <set>
 #include <system_error>
 #include <utility>
 
@@ -239,10 +239,9 @@ void PendingFile::commit()
 
 void requireFolderName(const std::string& path)
 {
-  static const std::set<std::string> formats{ ".14", ".csv", ".npy", ".npz", ".obj", ".ply",
-    ".pvtp", ".pvtu", ".stl", ".txt", ".vtk", ".vtkhdf", ".vtm", ".vtp", ".vtu" };
   const std::string extension = extensionOf(path);
-  if (formats.count(extension) > 0)
+  const bool isOfOthers = extension == ".npz" || extension == ".vtkhdf" || extension == ".vtm";
+  if (isOfOthers || formatOf(path, ~unsigned(Use::WritesPieces)))
   {
     throw IOError(path,
       "would be a folder, though its name ends like a file's; give a name without " + extension +

@@ -100,6 +100,18 @@ void TemporaryPath::keep(bool kept)
   listed().Paths[this->Path].IsKept = kept;
 }
 
+TemporaryFile::TemporaryFile(const std::string& path)
+  : Path(path)
+{
+  this->Listed.list(path);
+}
+
+TemporaryFile::~TemporaryFile()
+{
+  std::error_code ignored;
+  fs::remove(this->Path, ignored);
+}
+
 std::string shownPath(const std::string& path)
 {
   const std::lock_guard<std::mutex> lock(listed().FinalsMutex);

@@ -33,6 +33,20 @@ private:
   std::string Shown; ///< the folder that messages replace by its final path
 };
 
+/// A temporary file, which is removed with the object, or when a signal ends the process.
+class VTKTIPPIO_EXPORT TemporaryFile
+{
+public:
+  explicit TemporaryFile(const std::string& path);
+  ~TemporaryFile();
+
+  const std::string& path() const { return this->Path; }
+
+private:
+  const std::string Path;
+  TemporaryPath Listed;
+};
+
 /// Returns the path to show to the user: for a path in a registered folder, the finished output's.
 VTKTIPPIO_EXPORT std::string shownPath(const std::string& path);
 

@@ -2,8 +2,6 @@
 
 #include "Arrays/Decimal.h"
 #include "Files/IOError.h"
-#include "Files/OutputFile.h"
-#include "Files/TemporaryPaths.h"
 #include "Parallel/Poll.h"
 #include "Points/ReadPoints.h"
 #include "Ranks/Spill.h"
@@ -241,33 +239,25 @@ private:
   void decideOnDisk()
   {
     constexpr std::size_t keys = 1024;
-    const std::string path = this->Rule.File + ".0"; // the name that Spill gives it
-    TemporaryPath listed;
-    listed.list(path);
-    const RemovedFile removed(path);
-    Spill spill(this->Rule.File, 0, keys, sizeof(Candidate));
+    KeyedRows rows(this->Rule.File, keys, sizeof(Candidate));
     this->forEachCandidate(
       [&](const std::vector<Candidate>& candidates)
       {
-        spill.add(
-          candidates.size(), 1, [&](std::size_t i) { return hashOf(candidates[i]) >> 20 & 1023; },
-          [&](std::size_t i, char* row) { std::memcpy(row, &candidates[i], sizeof(Candidate)); });
+        for (const Candidate& candidate : candidates)
+        {
+          rows.add(hashOf(candidate) >> 20 & (keys - 1), &candidate);
+        }
       });
-    Spill sorted(
-      this->Rule.File, keys, sizeof(Candidate), std::vector<SpilledRows>{ spill.close() });
+    rows.finish();
     for (std::size_t key = 0; key < keys; ++key)
     {
-      poll();
       SquareTable squares;
-      sorted.read(key, blockPoints,
-        [&](const char* rows, std::size_t count)
+      rows.forEach(key,
+        [&squares](const char* bytes)
         {
-          for (std::size_t i = 0; i < count; ++i)
-          {
-            Candidate candidate;
-            std::memcpy(&candidate, rows + i * sizeof candidate, sizeof candidate);
-            squares.offer(candidate);
-          }
+          Candidate candidate;
+          std::memcpy(&candidate, bytes, sizeof candidate);
+          squares.offer(candidate);
         });
       squares.forEach([this](std::int64_t id) { this->keep(id); });
     }

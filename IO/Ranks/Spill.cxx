@@ -304,7 +304,7 @@ void RowFile::finish()
   std::vector<char>().swap(this->Buffer);
   this->Out->close();
   this->Out.reset();
-  this->In = std::make_unique<InputFile>(this->File.Path);
+  this->In = std::make_unique<InputFile>(this->File.path());
 }
 
 void RowFile::read(std::int64_t first, std::size_t count, void* to) const

@@ -5,6 +5,7 @@
 #include "Files/Checksum.h"
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
+#include "Files/TemporaryPaths.h"
 #include "Parallel/CountingSort.h"
 #include "Parallel/Poll.h"
 #include "Ranks/Communicator.h"
@@ -213,7 +214,7 @@ public:
 private:
   void flush();
 
-  const RemovedFile File;
+  const TemporaryFile File;
   const std::size_t RowBytes;
   std::unique_ptr<OutputFile> Out; ///< until finish()
   std::unique_ptr<InputFile> In;   ///< after it
@@ -264,7 +265,7 @@ public:
 private:
   void flush();
 
-  const RemovedFile File;
+  const TemporaryFile File;
   Spill Rows;
   std::vector<std::uint32_t> BufferedKeys;
   std::vector<char> Buffer;
