@@ -229,13 +229,9 @@ private:
   }
 
   /// The cell of lowest key, and its nearest edge, for each sample.
-  static std::vector<NearSample> firstOfEach(std::vector<std::vector<NearSample>>& found)
+  static std::vector<NearSample> firstOfEach(const std::vector<std::vector<NearSample>>& found)
   {
-    std::vector<NearSample> all;
-    for (std::vector<NearSample>& some : found)
-    {
-      all.insert(all.end(), some.begin(), some.end());
-    }
+    std::vector<NearSample> all = concatenated(found);
     const auto order = [](const NearSample& near)
     {
       return std::make_tuple(near.Sample, near.Key, near.Distance, near.Ends[0].x, near.Ends[0].y,

@@ -98,12 +98,7 @@ std::vector<std::pair<std::size_t, std::size_t>> findPointsOn(
             });
         });
     });
-  std::vector<std::pair<std::size_t, std::size_t>> all;
-  for (const auto& part : found)
-  {
-    all.insert(all.end(), part.begin(), part.end());
-  }
-  return all;
+  return concatenated(found);
 }
 
 } // namespace tipp

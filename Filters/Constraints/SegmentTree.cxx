@@ -160,11 +160,7 @@ std::vector<CrossingPair> findCrossingPairs(std::vector<SegmentTree::Item> all, 
           [&](const SegmentTree::Item& other) { return other.Id <= one.Id || compareWith(other); });
       }
     });
-  std::vector<CrossingPair> pairs;
-  for (const std::vector<CrossingPair>& part : found)
-  {
-    pairs.insert(pairs.end(), part.begin(), part.end());
-  }
+  std::vector<CrossingPair> pairs = concatenated(found);
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }

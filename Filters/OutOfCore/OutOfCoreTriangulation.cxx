@@ -155,8 +155,7 @@ private:
     if (segments)
     {
       this->Statistics.Constraints = segments->figures();
-      this->Setup.setConstraints(
-        this->Scratch.points(), *segments, this->Options.MemoryLimit, this->Threads);
+      this->Setup.setConstraints(this->Scratch.points(), *segments, this->Threads);
     }
     this->warnOfLongitudes(survey);
     std::vector<SampledPoint>().swap(survey.Sample); // assigning {} would keep the memory

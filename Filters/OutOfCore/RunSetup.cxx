@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OutOfCore/RunSetup.h"
 
-#include "Constraints/OnDisk/UncoveredSegments.h"
 #include "Files/IOError.h"
 #include "OutOfCore/LoadedPiece.h"
 #include "OutOfCore/SpilledSegments.h"
@@ -71,17 +70,14 @@ std::uint64_t RunSetup::takenBytes() const
   return this->Consumer ? this->Consumer->fileBytes(this->InputBounds, this->Columns) : 0;
 }
 
-void RunSetup::setConstraints(
-  const std::string& points, ConstrainedStream& segments, std::uint64_t memory, int threads)
+void RunSetup::setConstraints(const std::string& points, ConstrainedStream& segments, int threads)
 {
   this->Constraints.reset();
   if (segments.count() > 0)
   {
     this->Constraints = std::make_unique<SpilledSegments>(
       points, *this->Plan, this->Survey.Factor,
-      [&](const VisitSegment& visit)
-      { visitUncovered(points + ".lines", segments, memory, threads, visit); },
-      threads);
+      [&segments](const VisitSegment& visit) { segments.forEachUncovered(visit); }, threads);
   }
   segments.end();
 }

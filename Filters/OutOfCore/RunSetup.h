@@ -60,9 +60,8 @@ public:
   void requireMemory(const std::string& path, std::uint64_t limit) const;
 
   /// Writes the constraint segments beside the spilled points. Requires the plan. `points`: the
-  /// file of spilled points. `memory`: in bytes, of which a part is used. Throws IOError.
-  void setConstraints(
-    const std::string& points, ConstrainedStream& segments, std::uint64_t memory, int threads);
+  /// file of spilled points. Throws IOError.
+  void setConstraints(const std::string& points, ConstrainedStream& segments, int threads);
 
   /// Returns the bytes that the consumer needs on disk.
   std::uint64_t takenBytes() const;

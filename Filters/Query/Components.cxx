@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Query/Queries.h"
 
+#include "Arrays/DisjointSets.h"
 #include "Arrays/Random.h"
 #include "Parallel/Sort.h"
 #include "Query/RankAnswer.h"
@@ -18,16 +19,6 @@ namespace
 {
 
 using Ids = std::vector<std::int64_t>;
-
-/// The root of an item in a forest in which each root is its own parent. Halves the path to it.
-std::int64_t rootIn(std::vector<std::int64_t>& parents, std::int64_t item)
-{
-  for (auto at = std::size_t(item); parents[at] != item; at = std::size_t(item))
-  {
-    item = parents[at] = parents[std::size_t(parents[at])];
-  }
-  return item;
-}
 
 /// The components of the mesh in this process.
 Components componentsHere(const ResidentMesh& mesh)
@@ -68,9 +59,7 @@ Components componentsHere(const ResidentMesh& mesh)
             [&](std::int64_t other)
             {
               add(idOf(part, other));
-              const std::int64_t a = rootIn(parent, idOf(part, cell));
-              const std::int64_t b = rootIn(parent, idOf(part, other));
-              parent[std::size_t(std::max(a, b))] = std::min(a, b);
+              joinIn(parent, idOf(part, cell), idOf(part, other));
             });
         }
       }
@@ -119,9 +108,7 @@ public:
   }
   void join(std::int64_t a, std::int64_t b)
   {
-    const std::int64_t first = rootIn(this->Parents, this->indexOf(a));
-    const std::int64_t second = rootIn(this->Parents, this->indexOf(b));
-    this->Parents[std::size_t(std::max(first, second))] = std::min(first, second);
+    joinIn(this->Parents, this->indexOf(a), this->indexOf(b));
   }
   std::int64_t rootOf(std::int64_t cell)
   {

@@ -2,6 +2,7 @@
 #ifndef tippCommunicator_h
 #define tippCommunicator_h
 
+#include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
 #include "Predicates/Geometry.h"
 #include "Ranks/Archive.h"
@@ -305,18 +306,6 @@ private:
   std::unique_ptr<RankFailure> Failure;
   std::vector<char> HasShutDown;
 };
-
-/// All items of several lists, such as those that ranks have gathered, in their order.
-template <typename T>
-std::vector<T> concatenated(const std::vector<std::vector<T>>& parts)
-{
-  std::vector<T> all;
-  for (const std::vector<T>& part : parts)
-  {
-    all.insert(all.end(), part.begin(), part.end());
-  }
-  return all;
-}
 
 /// Whether `condition` is true on any rank. Collective.
 inline bool isTrueOnAny(Communicator& ranks, bool condition)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/Insertion/ConstraintJobs.h"
 
+#include "Arrays/DisjointSets.h"
 #include "Arrays/IndexMap.h"
 #include "Constraints/Insertion/ConstraintRegion.h"
 #include "Parallel/CountingSort.h"
@@ -19,39 +20,6 @@ namespace tipp
 {
 namespace
 {
-
-/// Disjoint sets of segments (union-find).
-class SegmentSets
-{
-public:
-  explicit SegmentSets(std::size_t segments)
-    : Parents(segments)
-  {
-    std::iota(this->Parents.begin(), this->Parents.end(), std::int64_t(0));
-  }
-
-  /// The lowest segment in the set of a segment, which represents the set.
-  std::int64_t find(std::int64_t segment)
-  {
-    while (this->parent(segment) != segment)
-    {
-      this->parent(segment) = this->parent(this->parent(segment));
-      segment = this->parent(segment);
-    }
-    return segment;
-  }
-
-  void join(std::int64_t a, std::int64_t b)
-  {
-    const auto [low, high] = std::minmax({ this->find(a), this->find(b) });
-    this->parent(high) = low;
-  }
-
-private:
-  std::int64_t& parent(std::int64_t segment) { return this->Parents[std::size_t(segment)]; }
-
-  std::vector<std::int64_t> Parents;
-};
 
 /// The crossed triangles by job: their indices in CrossedTriangles::Triangles.
 using JobTriangles = GroupedItems<std::int64_t>;
@@ -227,12 +195,13 @@ std::vector<std::int64_t> jobsOfTriangles(const CrossedTriangles& crossed)
   segments.reserve(crossed.Segments.size());
   std::transform(crossed.Segments.begin(), crossed.Segments.end(), std::back_inserter(segments),
     [&numbers](std::int64_t segment) { return numbers.insert(segment).Index; });
-  SegmentSets sets(numbers.size());
+  std::vector<std::int64_t> sets(numbers.size()); // of segments
+  std::iota(sets.begin(), sets.end(), std::int64_t(0));
   for (std::size_t t = 0; t < crossed.Triangles.size(); ++t)
   {
     for (std::int64_t i = crossed.Starts[t] + 1; i < crossed.Starts[t + 1]; ++i)
     {
-      sets.join(segments[std::size_t(crossed.Starts[t])], segments[std::size_t(i)]);
+      joinIn(sets, segments[std::size_t(crossed.Starts[t])], segments[std::size_t(i)]);
     }
   }
   // Jobs are in the order of their first triangles, so that a job's memory is near that of the one
@@ -243,7 +212,7 @@ std::vector<std::int64_t> jobsOfTriangles(const CrossedTriangles& crossed)
   for (std::size_t t = 0; t < crossed.Triangles.size(); ++t)
   {
     const std::int64_t first = segments[std::size_t(crossed.Starts[t])];
-    result.push_back(jobs.insert(sets.find(first)).Index);
+    result.push_back(jobs.insert(rootIn(sets, first)).Index);
   }
   return result;
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/OnDisk/ConstrainedStream.h"
 
+#include "Files/Checksum.h"
 #include "Files/IOError.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
-#include <cstring>
 #include <stdexcept>
 #include <utility>
 
@@ -14,31 +14,22 @@ namespace tipp
 
 std::string identityOf(const TableConstraints& constraints)
 {
-  std::uint64_t hash = 0;
-  const auto addBits = [&hash](const auto& values)
+  Checksum sum;
+  const auto add = [&sum](const auto& values)
   {
-    for (const auto& value : values)
-    {
-      std::uint64_t bits = 0;
-      static_assert(sizeof value == sizeof bits);
-      std::memcpy(&bits, &value, sizeof bits);
-      hash = (hash ^ bits) * 0x9e3779b97f4a7c15U;
-      hash ^= hash >> 29;
-    }
-    hash = (hash ^ values.size()) * 0x9e3779b97f4a7c15U;
+    const std::size_t count = values.size();
+    sum.add(&count, sizeof count);
+    sum.add(values.data(), values.size() * sizeof(values[0]));
   };
   for (const ConstraintTable* const table : { &constraints.Lines, &constraints.Boundary })
   {
-    addBits(table->XY);
-    addBits(table->Height);
-    addBits(table->Holes);
-    for (const auto& edge : table->Edges)
-    {
-      addBits(edge);
-    }
-    hash += table->PolygonBegin;
+    add(table->XY);
+    add(table->Height);
+    add(table->Holes);
+    add(table->Edges);
+    sum.add(&table->PolygonBegin, sizeof table->PolygonBegin);
   }
-  return "constraints " + std::to_string(hash) +
+  return "constraints " + checksumText(sum.finish()) +
     (constraints.Crossings == CrossingRule::Refuse ? " not crossing\n" : "\n");
 }
 
@@ -288,6 +279,57 @@ void ConstrainedStream::forEach(const VisitSegment& visit) const
   {
     visit({ a, b, SegmentRole::Hole });
   }
+}
+
+/// The indices of segments that others cover in part, ascending, and the end of that part.
+std::vector<std::pair<std::int64_t, Point2>> ConstrainedStream::findCovered() const
+{
+  const auto forEachItem = [this](const SegmentTiles::Visit& visit)
+  {
+    std::int64_t index = 0;
+    this->forEach(
+      [&](const ConstraintSegment& segment)
+      {
+        // A hole's outline is no edge of the triangulation.
+        if (segment.Role != SegmentRole::Hole)
+        {
+          visit({ segment.A, segment.B, index });
+        }
+        ++index;
+      });
+  };
+  const SegmentTiles tiles(this->Work.Files, forEachItem,
+    SegmentTiles::tilesFor(this->count(), this->Work.Memory), this->Threads);
+  std::vector<std::pair<std::int64_t, Point2>> covered;
+  tiles.findCovered(
+    [&covered](std::int64_t segment, Point2 end) { covered.emplace_back(segment, end); });
+  std::sort(
+    covered.begin(), covered.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  return covered;
+}
+
+void ConstrainedStream::forEachUncovered(const VisitSegment& visit) const
+{
+  const std::vector<std::pair<std::int64_t, Point2>> all = this->findCovered();
+  std::int64_t index = 0;
+  auto covered = all.begin();
+  this->forEach(
+    [&](const ConstraintSegment& segment)
+    {
+      const bool isCovered = covered != all.end() && covered->first == index;
+      ++index;
+      const Point2 end = isCovered ? (covered++)->second : segment.A;
+      if (!isCovered || segment.Role != SegmentRole::Line) // others also decide what is inside
+      {
+        visit(segment);
+        return;
+      }
+      const Point2 high = lexicographicLess(segment.A, segment.B) ? segment.B : segment.A;
+      if (!(end == high))
+      {
+        visit({ end, high, segment.Role });
+      }
+    });
 }
 
 void ConstrainedStream::end()

@@ -69,6 +69,10 @@ public:
   Box2 inputBounds() const { return this->InputBounds; }
   /// Visits all segments, in the same order each time. No segment crosses another.
   void forEach(const VisitSegment& visit) const;
+  /// The same without the parts of lines that lie on other segments. These parts are edges anyway,
+  /// and many overlapping segments would need much memory, because each of them is split at all
+  /// points on it.
+  void forEachUncovered(const VisitSegment& visit) const;
   /// The additional points.
   PointBlock added() const;
   /// Frees the memory that is only needed for the segments.
@@ -81,6 +85,7 @@ private:
   void addPoints();
   void countSegments();
   void addHoles();
+  std::vector<std::pair<std::int64_t, Point2>> findCovered() const;
   bool nextAdded(PointBlock& block, std::size_t most);
   void readAdded(std::int64_t first, std::size_t count, PointBlock& block) const;
 

@@ -110,12 +110,7 @@ std::vector<std::size_t> PositionJoin::mayMatch(PointsView points)
           }
         });
     });
-  std::vector<std::size_t> all;
-  for (const std::vector<std::size_t>& part : found)
-  {
-    all.insert(all.end(), part.begin(), part.end());
-  }
-  return all;
+  return concatenated(found);
 }
 
 void PositionJoin::finish()
