@@ -67,8 +67,8 @@ public:
   {
     this->gatherSources(source);
     this->numberInput();
-    this->addVertices(this->Options.MergesPoints ? this->pointsAt(this->sourcePositions())
-                                                 : this->pointsNamed());
+    this->addVertices(
+      this->Options.MergesPoints ? this->pointsAt(this->sourcePositions()) : this->pointsNamed());
     this->resolve();
     RankSource result;
     result.Input = this->Input;
@@ -168,8 +168,7 @@ private:
   std::vector<Point2> sourcePositions() const
   {
     std::vector<Point2> positions;
-    this->forSourcePoints(
-      [&](std::size_t, std::size_t, Point2 p) { positions.push_back(p); });
+    this->forSourcePoints([&](std::size_t, std::size_t, Point2 p) { positions.push_back(p); });
     return positions;
   }
 
@@ -180,8 +179,7 @@ private:
     const PointsView view = this->Projected.view();
     std::vector<std::size_t> points;
     view.forBlocks(0, view.size(),
-      [&](std::size_t first, const Point2* block, std::size_t count)
-      {
+      [&](std::size_t first, const Point2* block, std::size_t count) {
         index.findAll(
           block, count, [&](std::size_t i, std::size_t) { points.push_back(first + i); });
       });
@@ -447,12 +445,9 @@ private:
                                   "remove the polygon or correct the point.");
     }
     result.Figures = { resolved, this->Constraints.size() };
-    for (const IdSegment& segment : resolved.Segments)
+    for (std::size_t i = 0; this->Options.WantsCells && i < resolved.Segments.size(); ++i)
     {
-      if (this->Options.WantsCells)
-      {
-        result.Cells.push_back(this->Cells[std::size_t(segment.Constraint)]);
-      }
+      result.Cells.push_back(this->Cells[std::size_t(resolved.Segments[i].Constraint)]);
     }
     if (this->Vertices.size() < this->Positions.size() + resolved.Crossings.size())
     {

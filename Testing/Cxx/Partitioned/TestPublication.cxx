@@ -305,6 +305,17 @@ TEST_F(Publication, RefusesAFile)
   expectIOError(this->Folder.path("mesh"), "no partitioned mesh", [this] { this->make(); });
 }
 
+TEST_F(Publication, RefusesAFolderNamedLikeAFileOfAnyFormat)
+{
+  for (const char* const path :
+    { "mesh.vtu", "mesh.las", "mesh.tif", "mesh.geojson", "mesh.vtkhdf" })
+  {
+    expectIOError(path, "would be a folder", [path] { requireFolderName(path); });
+  }
+  EXPECT_NO_THROW(requireFolderName("mesh.tipp"));
+  EXPECT_NO_THROW(requireFolderName("mesh"));
+}
+
 TEST_F(Publication, NamesAMissingFolder)
 {
   const std::string path = this->Folder.path("none/mesh");
