@@ -12,7 +12,6 @@
 #include <exception>
 #include <functional>
 #include <memory>
-#include <vector>
 
 namespace tipp
 {
@@ -139,18 +138,6 @@ public:
 private:
   int Before;
 };
-
-/// All items of several lists, such as those that threads or ranks have found, in their order.
-template <typename T>
-std::vector<T> concatenated(const std::vector<std::vector<T>>& parts)
-{
-  std::vector<T> all;
-  for (const std::vector<T>& part : parts)
-  {
-    all.insert(all.end(), part.begin(), part.end());
-  }
-  return all;
-}
 
 } // namespace tipp
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Resample/NearBorder.h"
 
+#include "Arrays/Concatenated.h"
 #include "Arrays/Decimal.h"
 #include "Predicates/ExactPredicates.h"
 

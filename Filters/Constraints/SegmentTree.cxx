@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/SegmentTree.h"
 
+#include "Arrays/Concatenated.h"
 #include "Locate/MortonOrder.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Sort.h"

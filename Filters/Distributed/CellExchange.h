@@ -3,6 +3,7 @@
 #define tippCellExchange_h
 
 #include "Arrays/Buffer.h"
+#include "Arrays/Concatenated.h"
 #include "Parallel/Sort.h"
 #include "Ranks/Archive.h"
 #include "Ranks/Communicator.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed/ConstrainRanks.h"
 
+#include "Arrays/Concatenated.h"
 #include "Constraints/Insertion/CrossedPart.h"
 #include "Parallel/ParallelFor.h"
 #include "Parallel/Sort.h"

@@ -2,6 +2,7 @@
 #ifndef tippRankRun_h
 #define tippRankRun_h
 
+#include "Arrays/Concatenated.h"
 #include "Distributed/DistributedStatistics.h"
 #include "Distributed/Plan.h"
 #include "Distributed/PointExchange.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Distributed3D/DistributedTetrahedralization.h"
 
+#include "Arrays/Concatenated.h"
 #include "Distributed/DistributedTriangulation.h"
 #include "Distributed3D/Plan3.h"
 #include "Distributed3D/RankRun3.h"

@@ -2,6 +2,7 @@
 #ifndef tippPlan3_h
 #define tippPlan3_h
 
+#include "Arrays/Concatenated.h"
 #include "Distributed/PointExchange.h"
 #include "Triangulation3D/Partitions3.h"
 

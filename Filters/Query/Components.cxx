@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Query/Queries.h"
 
+#include "Arrays/Concatenated.h"
 #include "Arrays/DisjointSets.h"
 #include "Arrays/Random.h"
 #include "Parallel/Sort.h"

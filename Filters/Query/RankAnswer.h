@@ -2,6 +2,7 @@
 #ifndef tippRankAnswer_h
 #define tippRankAnswer_h
 
+#include "Arrays/Concatenated.h"
 #include "Ranks/Communicator.h"
 #include "Resident/ResidentMesh.h"
 #include "vtkTIPPFiltersModule.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Query/RankMesh.h"
 
+#include "Arrays/Concatenated.h"
 #include "Parallel/Sort.h"
 #include "Partitioned/PieceFile.h"
 #include "Partitioned/ReadPiece.h"

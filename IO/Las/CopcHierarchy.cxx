@@ -173,11 +173,13 @@ private:
           ", which is no part of it");
     }
     const bool isWanted = entry.At.Level <= this->LastLevel && this->meetsRegion(entry.At);
-    if (entry.Points == CopcEntry::Page)
+    if (entry.Points == CopcEntry::Page && !isWanted)
     {
-      isWanted ? this->addPage(
-                   entry.At, entry.Offset, std::uint64_t(std::max<std::int64_t>(entry.Size, 0)))
-               : static_cast<void>(this->IsWhole = false);
+      this->IsWhole = false;
+    }
+    else if (entry.Points == CopcEntry::Page)
+    {
+      this->addPage(entry.At, entry.Offset, std::uint64_t(std::max<std::int64_t>(entry.Size, 0)));
     }
     else if (entry.Points != 0)
     {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Arrays/Concatenated.h"
 #include "Files/InputFile.h"
 #include "Flat/FlatMesh.h"
 #include "Loading/ArrayFiles.h"

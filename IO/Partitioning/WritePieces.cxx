@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioning/PartitionJob.h"
 
+#include "Arrays/Concatenated.h"
 #include "Files/OutputFile.h"
 #include "Parallel/ParallelFor.h"
 #include "Partitioned/FinishedPieces.h"

@@ -2,7 +2,6 @@
 #ifndef tippCommunicator_h
 #define tippCommunicator_h
 
-#include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
 #include "Predicates/Geometry.h"
 #include "Ranks/Archive.h"

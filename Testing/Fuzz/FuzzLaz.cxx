@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Changes bytes of LAZ files of all point formats, and reads them with one thread and with two.
-// Both must give the same points, or the same IOError. A seed and a number identify a case:
-// 'fuzzLaz --seed S --case N' repeats it.
+// Changes bytes of LAZ files of all point formats, and of a COPC file, and reads them or a region
+// of them with one thread and with two. Both must give the same points, or the same IOError. A seed
+// and a number identify a case: 'fuzzLaz --seed S --case N' repeats it.
+#include "CopcText.h"
 #include "Files/IOError.h"
 #include "FuzzDriver.h"
 #include "LazText.h"
@@ -81,6 +82,15 @@ PointOptions drawOptions(Engine& random)
   {
     options.Las.Classes = { int(random() % 32) };
   }
+  if ((bits & 96U) == 96U)
+  {
+    const double west = double(random() % 8000);
+    options.Region = Box2{ { west, 100 }, { west + 3000, 5000 } };
+  }
+  if ((bits & 896U) == 896U)
+  {
+    options.Spacing = double(random() % 100);
+  }
   return options;
 }
 
@@ -110,6 +120,15 @@ std::vector<test::LasAndLaz> makeFiles()
   {
     files.push_back(test::filesOf(input));
   }
+  test::CopcText copc;
+  Engine random(52);
+  for (int i = 0; i < 40; ++i)
+  {
+    const auto draw = [&] { return std::int32_t(random() % test::CopcText::Side); };
+    copc.add(draw(), draw(), draw());
+  }
+  const std::string text = copc.text();
+  files.push_back({ "", text, test::CopcText::Info + 160 });
   return files;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Constraints/OnDisk/StoredConstraints.h"
 
+#include "Arrays/Concatenated.h"
 #include "Parallel/ParallelFor.h"
 
 #include <algorithm>
