@@ -112,13 +112,13 @@ tipp::PointOptions vtkTIPPPointReader::Options() const
   options.Las.KeepOverlap = this->KeepOverlap;
   options.Las.KeepTruncated = this->KeepTruncated;
   options.Las.KeepUncounted = this->KeepUncounted;
-  if (this->Bounds[0] <= this->Bounds[1])
+  if (!(this->Bounds[0] > this->Bounds[1]))
   {
     options.Region = tipp::boxOfVtkBounds<2>(this->Bounds);
     if (options.Region->isEmpty())
     {
       throw tipp::IOError(
-        "Bounds have ymin > ymax; set ymin <= ymax, or xmin > xmax for all points.");
+        "Bounds are no range; set xmin <= xmax and ymin <= ymax, or xmin > xmax for all points.");
     }
   }
   options.Spacing = this->Spacing;

@@ -134,6 +134,10 @@ DemRegion::DemRegion(
     this->All.extend(header.Bounds);
     points += double(header.Points);
   }
+  if (request.Bounds && !this->All.contains(*request.Bounds))
+  {
+    return; // no triangle covers some of the pixels
+  }
   const RasterGrid grid = makeRasterGrid(request, this->All);
   this->Raster = centresOf(grid);
   const double area = this->All.width(0) * this->All.width(1);

@@ -288,8 +288,8 @@ DemFigures makeDem(PointTable points, const DemRequest& request,
   const PointsView view(points.XY.data(), points.size(), 2);
   const Box2 bounds = surveyPoints(view, threadCount(request.Threads)).Bounds;
   requireElevation(request.Duplicates, columns);
-  figures.IsUnknown = request.Region && bounds.isEmpty();
-  if (figures.IsUnknown)
+  figures.NeedsMorePoints = request.Region && bounds.isEmpty();
+  if (figures.NeedsMorePoints)
   {
     return figures;
   }
@@ -304,7 +304,7 @@ DemFigures makeDem(PointTable points, const DemRequest& request,
     triangulateTable(points, request.Constraints ? *request.Constraints : none, options).Mesh);
   if (request.Region && !triangulation.Aborted)
   {
-    figures.IsUnknown =
+    figures.NeedsMorePoints =
       !isKnown(view, triangulation, settings.Grid, *request.Region, settings.Threads);
     leaveOutLong(view, request.MaximumEdge, triangulation);
   }
@@ -315,7 +315,7 @@ DemFigures makeDem(PointTable points, const DemRequest& request,
   figures.Duplicates = std::int64_t(triangulation.Duplicates.size());
   figures.Rejected = std::int64_t(triangulation.Rejected.size());
   figures.Aborted = triangulation.Aborted;
-  if (figures.Aborted || figures.IsUnknown)
+  if (figures.Aborted || figures.NeedsMorePoints)
   {
     return figures;
   }
@@ -377,7 +377,7 @@ DemFigures makeDem(const DemFiles& files, const DemRequest& request,
     // Constraints change triangles, so that circumdisks prove nothing.
     const auto box = request.Constraints ? std::nullopt : region.box();
     const DemFigures figures = makeOfPart(files, box, request, progress, settings, samples);
-    if (!figures.IsUnknown)
+    if (!figures.NeedsMorePoints)
     {
       return figures;
     }

@@ -39,8 +39,9 @@ struct DemRequest
 /// The figures of a raster.
 struct DemFigures : OutOfCoreStatistics
 {
-  bool IsOfPart = false;  ///< of the points of a region
-  bool IsUnknown = false; ///< there is no raster, since it depends on points outside of the region
+  bool IsOfPart = false; ///< of the points of a region
+  bool NeedsMorePoints =
+    false; ///< there is no raster, since it depends on points outside of the region
 };
 
 /// Sets request.Constraints from breaklines and a boundary, either of which may be missing. Set
@@ -72,8 +73,8 @@ VTKTIPPFILTERS_EXPORT TerrainSettings makeTerrainSettings(
 /// Makes a raster from points in memory: triangulates them and samples the triangles, with the same
 /// result as in two steps. Consumes the points to save memory. Sets these members of the result:
 /// Points (including those of the constraints), Triangles, Duplicates, DisagreeingPositions,
-/// Rejected, WithoutElevation, Aborted and IsUnknown. Throws std::runtime_error if there is no
-/// finite point, and std::invalid_argument for invalid constraints.
+/// Rejected, WithoutElevation, Aborted and NeedsMorePoints. Throws std::runtime_error if there is
+/// no finite point, and std::invalid_argument for invalid constraints.
 VTKTIPPFILTERS_EXPORT DemFigures makeDem(PointTable points, const DemRequest& request,
   const std::function<bool(double)>& progress, TerrainSettings& settings, BandValues& samples);
 

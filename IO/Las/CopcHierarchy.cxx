@@ -277,7 +277,7 @@ Box3 CopcNode::bounds(const CopcInfo& info) const
 CopcInfo readCopcInfo(const std::string& path, const LasHeader& header)
 {
   constexpr std::size_t size = 160;
-  if (header.Copc.size() < size || !header.Compressed)
+  if (header.Copc.size() < size)
   {
     refuseHierarchy(
       path, "its record has " + std::to_string(header.Copc.size()) + " bytes instead of 160");

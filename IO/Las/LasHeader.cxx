@@ -367,7 +367,11 @@ LasHeader readLasHeader(const std::string& path, const LasSelection& selection)
   readFormat(fields, path, header);
   readTransform(fields, path, header);
   readCount(fields, path, file.size(), size, selection, header);
-  readBounds(fields, header);
+  // Points beyond the announced ones need not lie in the header's bounds.
+  if (!selection.KeepUncounted || header.Remark.empty())
+  {
+    readBounds(fields, header);
+  }
   RecordFinder finder(file, header);
   finder.search(
     size, std::min(header.PointOffset, file.size()), valueAt<std::uint32_t>(&fields[100]), false);
@@ -389,6 +393,10 @@ LasHeader readLasHeader(const std::string& path, const LasSelection& selection)
   }
   header.Extras =
     extrasOf(finder.descriptors(), lasRecordLength(header.Format), header.RecordLength);
+  if (!header.Compressed) // a hierarchy has the chunks of a LAZ file
+  {
+    header.Copc.clear();
+  }
   return header;
 }
 

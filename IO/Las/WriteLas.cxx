@@ -238,7 +238,9 @@ void writePlanned(PointStream& points, const std::string& output, const RecordPl
     });
   if (report.Points == 0)
   {
-    throw IOError(output, "is not written, since there are no points to write.");
+    throw IOError(output,
+      "is not written, since there are no points to write; compare the options that choose points "
+      "with what 'tipp info' prints.");
   }
   writer.close();
 }
@@ -281,6 +283,7 @@ LasReport writeAll(PointStream& points, const LasInputs& inputs, const PointOpti
   writePlanned(points, output, plan, options, report);
   report.LeftOut = points.leftOut();
   report.ThinnedOut = points.thinnedOut();
+  report.Read = points.readFigures();
   report.Tables = points.reports();
   return report;
 }

@@ -36,6 +36,7 @@ struct LasReport
   std::vector<std::string> Warnings; ///< sentences
   std::int64_t LeftOut = 0;          ///< as PointTable::LeftOut
   std::int64_t ThinnedOut = 0;
+  ReadFigures Read;
   std::vector<TableReport> Tables;
 };
 

@@ -333,6 +333,10 @@ int runInMemory(const DemArguments& arguments)
   };
   files.Read = [&](const PointTable& points, bool isPart)
   {
+    if (!isPart)
+    {
+      requireInBounds(arguments.Inputs, arguments.Columns, std::int64_t(points.size()));
+    }
     notes.emplace(points);
     report.Read = points.Figures;
     report.ReadSeconds += watch.restart();
@@ -711,7 +715,7 @@ void addOptions(CLI::App& command, DemArguments& arguments)
 
 /// Sets what the runs take from several options. Throws IOError if a file of --like, --breaklines
 /// or
-/// --boundary cannot be read.
+/// --boundary cannot be read, and std::runtime_error if there cannot be such a raster.
 void complete(DemArguments& arguments)
 {
   arguments.Columns.Threads = arguments.Request.Threads;
@@ -743,11 +747,11 @@ int run(DemArguments& arguments)
   arguments.OutputIs = openerOf(arguments.Output, Use::WritesRasters);
   requireGood(arguments);
   requireUseful(arguments);
-  complete(arguments);
   const MpiSession session;
   const bool isOnRanks = session.controller() && session.controller()->GetNumberOfProcesses() > 1;
   try
   {
+    complete(arguments);
     return isOnRanks || !arguments.Memory.empty() ? runInPieces(arguments, session.controller())
                                                   : runInMemory(arguments);
   }

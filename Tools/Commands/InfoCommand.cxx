@@ -33,8 +33,8 @@ constexpr const char* footer =
   R"(Reads all points of the files, in blocks, as 'tipp delaunay' does. Prints their number, their
 bounds, the columns and their ranges, the coordinate reference system, the number of
 duplicates, and a resolution for 'tipp dem' that gives about one point per pixel. Of a COPC
-file it prints the levels, each with its points. Of text it prints which columns are x, y and z. A line 'check' names what may not be meant, and the
-option for it.
+file it prints the levels, each with its points. Of text it prints which columns are x, y
+and z. A line 'check' names what may not be meant, and the option for it.
 
 Examples:
   tipp info tile.las
@@ -274,7 +274,14 @@ void describeLas(const std::string& path, const LasSelection& selection)
     header.Compressed ? ", compressed" : "", header.Points);
   if (!header.Copc.empty())
   {
-    describeCopc(path, header);
+    try
+    {
+      describeCopc(path, header);
+    }
+    catch (const IOError& error) // all points can be read without the hierarchy
+    {
+      fmt::print("check       {}\n", error.what());
+    }
   }
   const ReferenceSystem system = understandCrs(header.Crs);
   if (!system.Problem.empty())

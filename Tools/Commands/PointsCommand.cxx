@@ -198,9 +198,12 @@ void copyToNpy(const PointsArguments& arguments, const PathState& before)
   std::int64_t count = 0; // the header is written first
   forEachBlock(
     *points, blockPoints, [&](const PointBlock& block) { count += std::int64_t(block.size()); });
+  requireInBounds(arguments.Inputs, options, count);
   if (count == 0)
   {
-    throw IOError(arguments.Output, "is not written, since there are no points to write.");
+    throw IOError(arguments.Output,
+      "is not written, since there are no points to write; compare the options that choose points "
+      "with what 'tipp info' prints.");
   }
   NpyWriter writer(arguments.Output, "<f8", { count, std::int64_t(width) }, before);
   std::vector<double> rows;
@@ -219,6 +222,7 @@ void copyToNpy(const PointsArguments& arguments, const PathState& before)
       writer.write(rows.data(), rows.size() * sizeof(double));
     });
   writer.close();
+  reportRead(points->readFigures());
   reportLeftOut(points->leftOut(), points->thinnedOut());
   const std::string besides = columnsBesides(height, columns);
   if (!besides.empty())
@@ -240,6 +244,7 @@ void copyPoints(const PointsArguments& arguments)
   const LasReport report =
     copyToLas(arguments.Inputs, arguments.Columns, arguments.Output, arguments.lasOptions(before));
   reportTables(report.Tables);
+  reportRead(report.Read);
   reportLeftOut(report.LeftOut, report.ThinnedOut);
   warn(report);
   fmt::print("{} points, {}, in {}\n", report.Points, describe(report), arguments.Output);
@@ -265,6 +270,7 @@ void addOptions(CLI::App& command, PointsArguments& arguments)
     ->check(checkPositive);
   const std::size_t before = command.get_options().size();
   addPointOptions(command, arguments.Columns);
+  addBoundsOption(command, arguments.Columns);
   const std::vector<CLI::Option*> options = command.get_options();
   for (std::size_t i = before; i < options.size(); ++i)
   {

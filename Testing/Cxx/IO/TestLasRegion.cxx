@@ -382,9 +382,30 @@ TEST_F(LasRegion, TheReaderOfVtkReadsItsBounds)
   EXPECT_EQ(vtkIdType(readPart(path).size()), reader->GetOutput()->GetNumberOfPoints());
   vtkNew<MessageCounter> errors;
   reader->AddObserver(vtkCommand::ErrorEvent, errors);
-  reader->SetBounds(100, 110, 1000, 0);
-  reader->Update();
-  EXPECT_NE(std::string::npos, errors->Text.find("ymin > ymax")) << errors->Text;
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const std::array<double, 4>& wrong :
+    { std::array<double, 4>{ 100, 110, 1000, 0 }, { nan, 110, 0, 1 }, { 100, 110, 0, nan } })
+  {
+    errors->Text.clear();
+    reader->SetBounds(wrong[0], wrong[1], wrong[2], wrong[3]);
+    reader->Update();
+    EXPECT_NE(std::string::npos, errors->Text.find("Bounds are no range")) << errors->Text;
+  }
+}
+
+TEST_F(LasRegion, UncountedPointsMayLieOutsideOfTheHeadersBounds)
+{
+  LasText las(2, 1);
+  las.add(100, 100, 0, 2);
+  las.add(90000, 90000, 0, 2);                // at 900, 1000
+  putBounds(las, { { 1, 101 }, { 1, 101 } }); // of the first point
+  std::string text = las.text();
+  putAt(text, 107, std::uint32_t(1));
+  const std::string path = this->Folder.file("a.las", text);
+  PointOptions options;
+  options.Las.KeepUncounted = true;
+  options.Region = Box2{ { 800, 900 }, { 1000, 1100 } };
+  EXPECT_EQ(1U, readPoints(path, options).size());
 }
 
 } // namespace

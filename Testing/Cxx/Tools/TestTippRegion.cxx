@@ -263,6 +263,37 @@ TEST_F(TippRegion, PreviewReadsTheLevelsThatItsPixelsNeed)
   EXPECT_LT(points(join({ "11", "--preview" }, square(0.2, 0.2, 0.2))), fine);
 }
 
+TEST_F(TippRegion, PreviewOutsideOfAllPointsIsRefused)
+{
+  this->makePoints(500);
+  const Outcome outcome = this->run(join(
+    { "dem", "all.copc.laz", "-o", "a.npy", "--resolution", "20", "--preview" }, square(3, 3, 1)));
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("has no point with x from")) << outcome.Err;
+}
+
+TEST_F(TippRegion, BoundsThatMakeNoRasterNameTheFile)
+{
+  this->makePoints(10);
+  const Outcome outcome = this->run({ "dem", "all.copc.laz", "-o", "a.npy", "--resolution", "20",
+    "--preview", "--bounds", "5", "4", "0", "1" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("all.copc.laz: ")) << outcome.Err;
+}
+
+TEST_F(TippRegion, PointsInTheBoundsAreCopied)
+{
+  this->makePoints(1000);
+  const Words bounds = square(0.2, 0.3, 0.3);
+  this->make(join({ "points", "all.csv", "-o", "a.npy" }, bounds));
+  const Outcome outcome = this->make(join({ "points", "all.copc.laz", "-o", "b.npy" }, bounds));
+  EXPECT_EQ(contentOf(this->Folder.path("a.npy")), contentOf(this->Folder.path("b.npy")));
+  EXPECT_NE(std::string::npos, outcome.Err.find("not read, because not needed")) << outcome.Err;
+  this->make(join({ "points", "all.copc.laz", "-o", "c.laz" }, bounds));
+  this->make({ "points", "c.laz", "-o", "c.npy" });
+  EXPECT_EQ(contentOf(this->Folder.path("a.npy")), contentOf(this->Folder.path("c.npy")));
+}
+
 TEST_F(TippRegion, PreviewNeedsLevels)
 {
   LasText las(2, 1);
@@ -332,9 +363,12 @@ TEST_F(TippRegion, InfoNamesADamagedHierarchy)
   std::string text = contentOf(this->Folder.path("all.copc.laz"));
   putAt(text, CopcText::RootOffset, std::uint64_t(1) << 50);
   this->Folder.file("b.copc.laz", text);
-  const Outcome outcome = this->run({ "info", "b.copc.laz" });
-  EXPECT_EQ(1, outcome.ExitCode);
-  EXPECT_NE(std::string::npos, outcome.Err.find("has a damaged COPC hierarchy")) << outcome.Err;
+  const Outcome outcome = this->make({ "info", "b.copc.laz" });
+  EXPECT_NE(std::string::npos, outcome.Out.find("b.copc.laz: has a damaged COPC hierarchy"));
+  EXPECT_NE(std::string::npos, outcome.Out.find("points      300"));
+  const Outcome part = this->run(join({ "info", "b.copc.laz" }, square(0, 0, 0.5)));
+  EXPECT_EQ(1, part.ExitCode);
+  EXPECT_NE(std::string::npos, part.Err.find("has a damaged COPC hierarchy")) << part.Err;
   this->make({ "dem", "b.copc.laz", "-o", "a.npy", "--resolution", "100" });
 }
 
