@@ -214,6 +214,18 @@ std::string besideOf(const std::string& path)
   return name;
 }
 
+/// Throws IndexError if the file beside has been replaced or changed since its index was made.
+void requireNew(const std::string& beside, const std::string& path)
+{
+  std::error_code unknown;
+  const auto ofIndex = std::filesystem::last_write_time(beside, unknown);
+  const auto ofPoints = unknown ? ofIndex : std::filesystem::last_write_time(path, unknown);
+  if (!unknown && ofIndex < ofPoints)
+  {
+    throw IndexError("is older than the file");
+  }
+}
+
 std::vector<char> readIndex(const std::string& path, std::uint64_t offset, std::uint64_t bytes)
 {
   constexpr std::uint64_t most = std::uint64_t(1) << 28;
@@ -241,6 +253,10 @@ IndexedRecords findIndexedRecords(const std::string& path, const LasHeader& head
   const std::string name = isBeside ? "the index " + beside : "the index in it";
   try
   {
+    if (isBeside)
+    {
+      requireNew(beside, path);
+    }
     const std::vector<char> content = isBeside
       ? readIndex(beside, 0, InputFile(beside).size())
       : readIndex(path, header.IndexOffset, header.IndexBytes);

@@ -31,7 +31,8 @@ struct IndexedRecords
 
 /// Looks a box up in the LASindex of a file: the file of the same name with .lax, else the one
 /// among the file's records (LAStools' format: a quadtree, and for each cell ranges of records). An
-/// index that does not have exactly the file's records is not used; another one is believed.
+/// index that is older than the file or does not have exactly its records is not used; another one
+/// is believed.
 VTKTIPPIO_EXPORT IndexedRecords findIndexedRecords(
   const std::string& path, const LasHeader& header, const Box2& box);
 

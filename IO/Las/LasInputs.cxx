@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 namespace tipp
@@ -44,13 +45,12 @@ std::vector<LasExtra> commonExtras(
 
 LasInputs::LasInputs(const std::vector<std::string>& paths, const LasSelection& selection)
 {
-  const bool areLas = !paths.empty() &&
-    std::all_of(paths.begin(), paths.end(),
-      [](const std::string& path) { return openerOf(path, Use::Points) == Opener::Las; });
-  if (areLas)
+  std::copy_if(paths.begin(), paths.end(), std::back_inserter(this->Paths),
+    [](const std::string& path) { return openerOf(path, Use::Points) == Opener::Las; });
+  this->IsMixed = !this->Paths.empty() && this->Paths.size() < paths.size();
+  if (!this->Paths.empty() && !this->IsMixed)
   {
-    this->Paths = paths;
-    for (const std::string& path : paths)
+    for (const std::string& path : this->Paths)
     {
       this->Headers.push_back(readLasHeader(path, selection));
     }
@@ -153,6 +153,14 @@ std::string LasInputs::system() const
                                            : this->Headers.front().System;
 }
 
+std::string LasInputs::warningOfMixture() const
+{
+  const IOError sentence(this->Paths.front(),
+    "is copied together with files of other kinds: returns, flags, source ids, user data, scan "
+    "angles and extra bytes of LAS files are lost; copy the LAS files apart to keep them.");
+  return sentence.what();
+}
+
 void LasInputs::warnOfExtras(std::vector<std::string>& warnings) const
 {
   std::set<std::string> named;
@@ -184,6 +192,10 @@ void LasInputs::warnOfExtras(std::vector<std::string>& warnings) const
 
 std::vector<std::string> LasInputs::warnings() const
 {
+  if (this->IsMixed)
+  {
+    return { this->warningOfMixture() };
+  }
   std::vector<std::string> warnings;
   // One sentence for all files of a kind, of which there may be many.
   const auto warnIf = [&](bool (*isSo)(const LasHeader&), const std::string& what)

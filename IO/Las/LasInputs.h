@@ -47,10 +47,12 @@ public:
 
 private:
   void findExtras();
+  std::string warningOfMixture() const;
   void warnOfExtras(std::vector<std::string>& warnings) const;
 
-  std::vector<std::string> Paths;
-  std::vector<LasHeader> Headers;
+  std::vector<std::string> Paths; ///< of the LAS files
+  bool IsMixed = false;           ///< whether there are files of other kinds, too
+  std::vector<LasHeader> Headers; ///< empty if so
   std::vector<LasExtra> Extras;
 };
 

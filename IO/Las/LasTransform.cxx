@@ -17,6 +17,15 @@ double decimalScale(int places)
   return places >= 0 ? 1 / power : power;
 }
 
+/// Returns the multiple of a scale next to an offset: the offset if it is one but for rounding.
+double multipleNear(double scale, double offset)
+{
+  constexpr double slack = 1e-6; // of a step
+  const double steps = offset / scale;
+  const double whole = std::nearbyint(steps);
+  return std::fabs(steps - whole) <= slack ? offset : whole * scale;
+}
+
 } // namespace
 
 void AxisSurvey::add(double coordinate)
@@ -40,7 +49,7 @@ void AxisSurvey::add(double coordinate)
 double AxisSurvey::finestScale() const
 {
   int places = mostPlaces;
-  while (!this->fits(decimalScale(places), this->offset(decimalScale(places), 0)))
+  while (!this->fits(decimalScale(places), this->offset(decimalScale(places), 0, true)))
   {
     --places;
   }
@@ -57,14 +66,17 @@ bool AxisSurvey::isRounded() const
   return !this->isEmpty() && this->scale() > decimalScale(this->Places);
 }
 
-double AxisSurvey::offset(double scale, double wanted) const
+double AxisSurvey::offset(double scale, double wanted, bool isMultiple) const
 {
-  if (this->isEmpty() || this->fits(scale, wanted))
+  const auto adapt = [&](double offset)
+  { return isMultiple ? multipleNear(scale, offset) : offset; };
+  const double first = adapt(wanted);
+  if (this->isEmpty() || this->fits(scale, first))
   {
-    return wanted;
+    return first;
   }
   const double middle = this->Low / 2 + this->High / 2;
-  const double whole = std::nearbyint(middle);
+  const double whole = adapt(std::nearbyint(middle));
   return this->fits(scale, whole) ? whole : std::nearbyint(middle / scale) * scale;
 }
 

@@ -41,8 +41,8 @@ public:
   bool isRounded() const;
 
   /// Returns an offset with which 32 bits hold the range at a scale: `wanted` if that suffices,
-  /// else a whole number if possible.
-  double offset(double scale, double wanted) const;
+  /// else a whole number if possible. `isMultiple`: the multiple of the scale next to that.
+  double offset(double scale, double wanted, bool isMultiple) const;
   /// Whether 32 bits hold the range.
   bool fits(double scale, double offset) const;
   /// Returns the finest power of ten with which 32 bits hold the range.

@@ -18,6 +18,17 @@ namespace
 
 constexpr std::size_t writtenHeader = 375; ///< header size of version 1.4
 
+/// The number of chunks to compress together. Those of long records take much memory, so fewer:
+/// records as long as 1 kB take the most.
+std::size_t chunksAtOnce(int threads, std::size_t recordLength)
+{
+  constexpr std::size_t chunksOfThread = 2; // so that threads rarely wait for each other
+  constexpr std::size_t usualLength = 1024;
+  const std::size_t most = chunksOfThread * std::size_t(threads);
+  return recordLength <= usualLength ? most
+                                     : std::max<std::size_t>(1, most * usualLength / recordLength);
+}
+
 template <typename T>
 void putAt(std::string& bytes, std::size_t at, T value)
 {
@@ -78,7 +89,8 @@ void LasWriter::Chunk::add(const Chunk& other)
 
 LasWriter::LasWriter(const std::string& path, const LasLayout& layout, int threads,
   const std::optional<PathState>& before)
-  : Layout(layout)
+  : Path(path)
+  , Layout(layout)
   , IsCompressed(extensionOf(path) == ".laz")
   , Threads(threadCount(threads))
   , Format(LazFormat::layered(layout.Format, layout.ExtraBytes))
@@ -92,8 +104,7 @@ LasWriter::LasWriter(const std::string& path, const LasLayout& layout, int threa
       "would have points of " + std::to_string(this->Format.RecordLength) +
         " bytes, and a LAS file has room for 65535; write fewer columns.");
   }
-  constexpr std::size_t chunksOfThread = 2; // so that threads rarely wait for each other
-  this->Chunks.resize(chunksOfThread * std::size_t(this->Threads));
+  this->Chunks.resize(chunksAtOnce(this->Threads, this->Format.RecordLength));
   for (int i = 0; this->IsCompressed && i < this->Threads; ++i)
   {
     this->Encoders.emplace_back(this->Format);
@@ -147,12 +158,28 @@ void LasWriter::flush()
     this->All.add(chunk);
     if (this->IsCompressed)
     {
-      this->Sizes.push_back(std::uint32_t(chunk.Bytes.size()));
+      this->Sizes.push_back(this->sizeOf(chunk));
       this->write(chunk.Bytes.data(), chunk.Bytes.size());
     }
   }
   this->Points += this->Waiting;
   this->Waiting = 0;
+}
+
+/// Returns the bytes of a chunk. The chunk table has 32 bits for them, which hold any chunk of
+/// plain records, but compression may lengthen records of contrived bytes.
+std::uint32_t LasWriter::sizeOf(const Chunk& chunk) const
+{
+  constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+  constexpr std::uint64_t longestRecord = std::numeric_limits<std::uint16_t>::max();
+  static_assert(LazFormat::UsualChunkPoints * longestRecord <= most, "plain records fit");
+  if (chunk.Bytes.size() > most)
+  {
+    throw IOError(this->Path,
+      "would have a chunk of " + std::to_string(chunk.Bytes.size()) +
+        " bytes, and a LAZ file has room for " + std::to_string(most) + "; write a .las file.");
+  }
+  return std::uint32_t(chunk.Bytes.size());
 }
 
 void LasWriter::write(const void* from, std::size_t bytes)

@@ -67,10 +67,12 @@ private:
   };
 
   void flush();
+  std::uint32_t sizeOf(const Chunk& chunk) const;
   void write(const void* from, std::size_t bytes);
   std::string recordsOfHeader(const std::string& path);
   std::string header() const;
 
+  const std::string Path;
   const LasLayout Layout;
   const bool IsCompressed;
   const int Threads;

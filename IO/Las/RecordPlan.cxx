@@ -44,15 +44,15 @@ const NamedField& fieldOf(const std::string& column)
     [&column](const NamedField& field) { return field.Column == column; });
 }
 
-bool areEqual(const std::vector<double>& a, const std::vector<double>& b)
+/// The same for files other than LAS, whose columns may have any name, also one of LasFields.
+const NamedField& fieldOfOthers(const std::string& column)
 {
-  return std::equal(a.begin(), a.end(), b.begin(),
-    [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
+  return LasFields::isName(column) ? namedFields.back() : fieldOf(column);
 }
 
 bool fitsField(const std::string& column, const std::vector<double>& values)
 {
-  const std::size_t size = fieldOf(column).Size;
+  const std::size_t size = fieldOfOthers(column).Size;
   const double most = size == 1 ? 255 : 65535;
   const auto fitsOne = [most](double value)
   { return value >= 0 && value <= most && std::floor(value) == value; };
@@ -87,7 +87,6 @@ std::size_t blockPointsOf(const PointStream& points)
 PointSurvey::PointSurvey(PointStream& points, std::size_t height)
   : Columns(points.columns())
   , Fits(this->Columns.size(), true)
-  , IsHeight(this->Columns.size(), height < this->Columns.size())
 {
   forEachBlock(points, blockPointsOf(points),
     [&](const PointBlock& block)
@@ -112,17 +111,14 @@ void PointSurvey::add(const PointBlock& block, std::size_t height)
   }
   for (std::size_t c = 0; c < this->Columns.size(); ++c)
   {
-    const std::vector<double>& values = block.Columns[c];
-    this->IsHeight[c] =
-      c == height || (this->IsHeight[c] && areEqual(values, block.Columns[height]));
-    this->Fits[c] = this->Fits[c] && fitsField(this->Columns[c], values);
+    this->Fits[c] = this->Fits[c] && fitsField(this->Columns[c], block.Columns[c]);
   }
 }
 
 bool PointSurvey::fits(const std::string& column) const
 {
   const auto at = std::find(this->Columns.begin(), this->Columns.end(), column);
-  return at != this->Columns.end() && fieldOf(column).Size > 0 &&
+  return at != this->Columns.end() && fieldOfOthers(column).Size > 0 &&
     this->Fits[std::size_t(at - this->Columns.begin())];
 }
 
@@ -136,11 +132,11 @@ void planColumns(const std::string& output, const std::vector<std::string>& colu
   std::set<std::string> descriptors;
   for (std::size_t c = 0; c < columns.size(); ++c)
   {
-    const NamedField& field = fieldOf(columns[c]);
-    if (survey.isHeight(c))
+    if (c == plan.Height)
     {
       continue;
     }
+    const NamedField& field = fieldOfOthers(columns[c]);
     if (survey.fits(columns[c]) && field.Offset + field.Size <= basics)
     {
       plan.Fields.push_back({ c, field.Offset, field.Size });

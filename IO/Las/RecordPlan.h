@@ -30,8 +30,6 @@ public:
 
   /// Whether all values of a column fit into the LAS field of its name.
   bool fits(const std::string& column) const;
-  /// Whether a column is that of the heights, under whatever name.
-  bool isHeight(std::size_t column) const { return this->IsHeight[column]; }
 
 private:
   void add(const PointBlock& block, std::size_t height);
@@ -39,7 +37,6 @@ private:
   const std::vector<std::string> Columns;
   std::array<AxisSurvey, 3> Axes;
   std::vector<bool> Fits;
-  std::vector<bool> IsHeight;
 };
 
 /// A column, and where the records have it.
@@ -57,10 +54,10 @@ struct RecordPlan
   std::vector<RecordField> Fields;
   std::size_t Height = 0; ///< the column of z; the number of columns: none
   bool AreReturnsGiven = false;
-  std::optional<double> NoData = {}; ///< for whole numbers that are missing
+  std::optional<double> NoData = {}; ///< for fields of LAS files that are missing
 };
 
-/// Adds the columns of other files than LAS. Throws IOError, about the output.
+/// Adds the columns of other files than LAS, all but plan.Height. Throws IOError, about the output.
 void planColumns(const std::string& output, const std::vector<std::string>& columns,
   const PointSurvey& survey, RecordPlan& plan);
 

@@ -61,7 +61,7 @@ LasTransform chooseTransform(const std::string& output, const PointSurvey& surve
                             : range.scale();
     isRounded = isRounded || (inputs.isEmpty() && range.isRounded());
     const double wanted = inputs.isEmpty() ? 0 : inputs.transformOf(0).Offset[axis];
-    transform.Offset[axis] = range.offset(scale, wanted);
+    transform.Offset[axis] = range.offset(scale, wanted, !scales.empty());
     if (!range.fits(scale, transform.Offset[axis]))
     {
       refuseScale(output, axis, scale, range);
@@ -168,13 +168,17 @@ public:
     }
     for (const RecordField& field : this->Plan.Fields)
     {
-      const double value = block.Columns[field.Column][i];
+      double value = block.Columns[field.Column][i];
+      if (std::isnan(value) && this->Plan.NoData)
+      {
+        value = *this->Plan.NoData; // as it was stored
+      }
       if (field.Size == sizeof value)
       {
         setValue(record + field.Offset, value);
         continue;
       }
-      const auto number = std::int64_t(std::isnan(value) ? this->Plan.NoData.value_or(0) : value);
+      const auto number = std::int64_t(std::isnan(value) ? 0 : value);
       std::memcpy(record + field.Offset, &number, field.Size);
     }
   }
@@ -253,7 +257,6 @@ LasReport writeAll(PointStream& points, const LasInputs& inputs, const PointOpti
   RecordPlan plan;
   LasLayout& layout = plan.Layout;
   plan.Height = findElevation(columns);
-  plan.NoData = reading.NoData;
   layout.Software = options.Software;
   layout.Crs = crsToWrite(points, inputs, reading.Crs, report.Warnings);
   // Without a survey, it is found out while writing whether coordinates fit.
@@ -276,9 +279,10 @@ LasReport writeAll(PointStream& points, const LasInputs& inputs, const PointOpti
   else
   {
     planFields(inputs, columns, plan);
-    const std::vector<std::string> warnings = inputs.warnings();
-    report.Warnings.insert(report.Warnings.end(), warnings.begin(), warnings.end());
+    plan.NoData = reading.NoData;
   }
+  const std::vector<std::string> warnings = inputs.warnings();
+  report.Warnings.insert(report.Warnings.end(), warnings.begin(), warnings.end());
   report.Format = layout.Format;
   writePlanned(points, output, plan, options, report);
   report.LeftOut = points.leftOut();

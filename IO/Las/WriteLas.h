@@ -19,7 +19,8 @@ struct LasOptions
 {
   std::string Software; ///< the program, for the header
   /// The scales of x, y and z, or one for all; empty: those of LAS inputs if they agree, the finest
-  /// of each axis if not, and for other inputs the decimals that the coordinates have.
+  /// of each axis if not, and for other inputs the decimals that the coordinates have. Coordinates
+  /// are rounded to multiples of scales that are given.
   std::vector<double> Scale = {};
   int Threads = 0; ///< 0: OpenMP's default
   /// The state of the output's path when the run began: see PendingFile.
@@ -50,7 +51,8 @@ VTKTIPPIO_EXPORT LasReport writeLas(
   PointStream& points, const std::string& output, const LasOptions& options);
 
 /// Reads files of points, and writes them in the same way. If all are LAS files, all of their
-/// fields and the extra bytes that all have are written as they are. Throws IOError.
+/// fields and the extra bytes that all have are written as they are; if only some are, a warning
+/// says what is lost. Throws IOError.
 VTKTIPPIO_EXPORT LasReport copyToLas(const std::vector<std::string>& inputs,
   const PointOptions& reading, const std::string& output, const LasOptions& options);
 

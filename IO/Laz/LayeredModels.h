@@ -20,7 +20,6 @@ namespace tipp
 {
 
 /// Scanner channels, each of which has models of its own.
-/// Scanner channels, each of which has models of its own.
 constexpr unsigned scannerChannels = 4;
 
 /// Returns the context of X and Y by the return number and the number of returns, 0 to 15 (LAZ

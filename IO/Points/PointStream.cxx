@@ -61,6 +61,7 @@ public:
     }
     this->Identity += options.Spacing > 0 ? "spacing " + exactText(options.Spacing) + "\n" : "";
     this->NoData.NoData = options.NoData;
+    this->NoData.Fields = options.Fields;
     for (const std::string& name : this->Files[0]->columns())
     {
       this->Kept.push_back(options.wants(name));
@@ -295,7 +296,7 @@ private:
     block.Columns.resize(next);
     for (std::size_t i = 0; this->NoData.NoData && i < block.Columns.size(); ++i)
     {
-      if (!LasFields::isName(this->Names[i]))
+      if (!this->NoData.Fields || !LasFields::isName(this->Names[i]))
       {
         clearNoData(this->NoData, block.Columns[i]);
       }
@@ -317,7 +318,7 @@ private:
   std::vector<std::unique_ptr<FilePoints>> Files;
   std::string Identity;
   std::vector<bool> Kept;         ///< which of the files' columns are kept
-  PointOptions NoData;            ///< only this option
+  PointOptions NoData;            ///< only this option and Fields
   std::vector<std::string> Names; ///< of the columns that are kept
   std::size_t At = 0;
   std::int64_t Points = 0;

@@ -4,6 +4,7 @@
 #include "Commands/PointArguments.h"
 #include "Console/Process.h"
 #include "Files/Formats.h"
+#include "Files/IOError.h"
 #include "Files/TemporaryPaths.h"
 #include "Las/CopcHierarchy.h"
 #include "Las/LasHeader.h"

@@ -142,8 +142,8 @@ void warn(const LasReport& report)
   }
   if (report.NotFinite > 0)
   {
-    fmt::print(stderr, "tipp: warning: {} points are left out, since x, y or z is not a number.\n",
-      report.NotFinite);
+    fmt::print(stderr, "tipp: warning: {} left out, since x, y or z is not a number.\n",
+      report.NotFinite == 1 ? "1 point is" : fmt::format("{} points are", report.NotFinite));
   }
 }
 

@@ -20,8 +20,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <utility>
@@ -349,6 +351,26 @@ TEST_F(LasRegion, IndexOfAnotherFileIsReportedAndNotUsed)
     EXPECT_NE(std::string::npos, warning.find(words)) << warning;
     EXPECT_NE(std::string::npos, warning.find("is not used")) << warning;
   }
+}
+
+TEST_F(LasRegion, IndexOlderThanItsFileIsReportedAndNotUsed)
+{
+  const std::string path = this->Folder.file("a.las", curve(many).text());
+  const PointTable expected = readPart(path);
+  const std::string index = this->Folder.file("a.lax", indexOf(readPoints(path).XY));
+  const auto changed = std::filesystem::last_write_time(path);
+  std::filesystem::last_write_time(index, changed - std::chrono::seconds(1));
+  const PointTable points = readPart(path);
+  expectSameTable(expected, points);
+  EXPECT_EQ(0, points.Figures.SkippedPoints);
+  ASSERT_EQ(1U, points.Reports.size());
+  const std::string& warning = points.Reports[0].Warnings.at(0);
+  EXPECT_NE(std::string::npos,
+    warning.find(
+      "the index " + index + " is older than the file and is not used; make it again or remove it"))
+    << warning;
+  std::filesystem::last_write_time(index, changed);
+  EXPECT_GT(readPart(path).Figures.SkippedPoints, many / 2);
 }
 
 TEST_F(LasRegion, MutantsOfAnIndexGivePointsOfTheRegion)

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <random>
@@ -125,6 +126,29 @@ TEST_F(LasWriting, BytesDoNotDependOnThreads)
     this->writeRecords("more.laz", 8, 2, 210000, threads);
     EXPECT_TRUE(contentOf(this->path("more.laz")) == one) << threads;
   }
+}
+
+/// Of long records, one thread compresses one chunk after the other.
+TEST_F(LasWriting, BytesOfLongRecordsDoNotDependOnThreads)
+{
+  const auto contentWith = [this](int threads)
+  {
+    LasLayout layout;
+    layout.ExtraBytes = 1100;
+    LasWriter writer(this->path("a.laz"), layout, threads);
+    for (std::size_t i = 0; i < LazFormat::UsualChunkPoints + 1; ++i)
+    {
+      std::uint8_t* record = nullptr;
+      EXPECT_EQ(writer.makeRoom(1, record), 1U);
+      std::memset(record, 0, writer.recordLength());
+      setValue(record, std::int32_t(i));
+      setValue(record + 1000, std::uint8_t(i % 5));
+      writer.add(1);
+    }
+    writer.close();
+    return contentOf(this->path("a.laz"));
+  };
+  EXPECT_TRUE(contentWith(1) == contentWith(3));
 }
 
 TEST_F(LasWriting, HeaderHasBoxAndCounts)
@@ -392,6 +416,31 @@ TEST_F(LasWriting, RangeTooWideForTheScaleNamesAnother)
   EXPECT_EQ(this->copy({ a, b }, "out.laz", { 1 }).Transform.Scale[0], 1);
 }
 
+TEST_F(LasWriting, CoordinatesAreMultiplesOfAGivenScale)
+{
+  LasText las(4, 6);
+  las.header(155, 0.123);
+  las.add(0, 0, 0, 2);
+  las.add(6100, 1234, 77, 2);
+  const std::string moved = this->Folder.file("a.las", las.text());
+  // The offset 0 is too far for 32 bits.
+  const std::string far = this->Folder.file("b.csv", "x,y\n1000000,1000001\n1000002,1000007\n");
+  const auto expectMultiples = [this](const std::string& path, double scale)
+  {
+    const LasReport report = this->copy({ path }, "out.las", { scale });
+    EXPECT_EQ(report.Transform.Scale[0], scale);
+    for (const double coordinate : readPoints(this->path("out.las")).XY)
+    {
+      EXPECT_NEAR(coordinate / scale, std::nearbyint(coordinate / scale), 1e-5) << scale;
+    }
+    return report.Transform.Offset;
+  };
+  EXPECT_EQ(expectMultiples(moved, 1), (std::array<double, 3>{ 0, 100, 200 }));
+  expectMultiples(moved, 0.3);
+  expectMultiples(moved, 1000);
+  expectMultiples(far, 3e-4);
+}
+
 TEST_F(LasWriting, DecimalsOfCoordinatesGiveTheScale)
 {
   const auto scaleOf = [this](const Values& x)
@@ -421,7 +470,7 @@ TEST_F(LasWriting, ColumnsBecomeFieldsIfTheyFit)
 {
   PointTable table;
   table.XY = { 0, 0, 1, 1 };
-  table.Columns = { { "z", { 5, 6 } }, { "height", { 5, 6 } }, { "intensity", { 0, 65535 } },
+  table.Columns = { { "z", { 5, 6 } }, { "intensity", { 0, 65535 } },
     { "classification", { 2, 2.5 } }, { "red", { 1, 2 } }, { "green", { 3, 4 } },
     { "blue", { 5, 6 } }, { "velocity", { -0.1, std::nan("") } } };
   const LasReport report = this->write(table);
@@ -439,6 +488,46 @@ TEST_F(LasWriting, ColumnsBecomeFieldsIfTheyFit)
   EXPECT_EQ(valueAt<double>(&records[36 + 16 + 36]), 2.5);
   EXPECT_EQ(valueAt<double>(&records[36 + 8]), -0.1);
   EXPECT_TRUE(std::isnan(valueAt<double>(&records[52 + 36 + 8])));
+}
+
+TEST_F(LasWriting, ColumnsThatEqualTheHeightsStay)
+{
+  PointTable table;
+  table.XY = { 0, 0, 1, 1 };
+  table.Columns = { { "elevation", { 5, 5 } }, { "z", { 5, 5 } }, { "intensity", { 5, 5 } },
+    { "quality", { 5, 5 } } };
+  this->write(table);
+  const PointTable points = readPoints(this->path("out.las"));
+  EXPECT_EQ(readValues(points, "z"), (Values{ 5, 5 }));
+  EXPECT_EQ(readValues(points, "intensity"), (Values{ 5, 5 }));
+  const LasHeader header = this->header("out.las");
+  ASSERT_EQ(header.Extras.size(), 2U);
+  EXPECT_EQ(header.Extras[0].name(), "elevation");
+  EXPECT_EQ(header.Extras[1].name(), "quality");
+  const std::string records = recordsOf(this->path("out.las"));
+  EXPECT_EQ(valueAt<double>(&records[30]), 5);
+  EXPECT_EQ(valueAt<double>(&records[38]), 5);
+}
+
+/// LasFields has names of its own, which mean nothing in other files.
+TEST_F(LasWriting, ColumnsNamedAsStoredBitsBecomeExtraBytes)
+{
+  const std::string path =
+    this->Folder.file("a.csv", "x,y,z,las:flags,las:returns\n1,2,3,4,33\n4,5,6,4,7\n");
+  PointOptions reading;
+  reading.NoData = 7;
+  copyToLas({ path }, reading, this->path("out.las"), { "" });
+  EXPECT_EQ(readPoints(this->path("out.las")).size(), 2U); // none is withheld
+  const LasHeader header = this->header("out.las");
+  ASSERT_EQ(header.Extras.size(), 2U);
+  EXPECT_EQ(header.Extras[0].name(), "las:flags");
+  EXPECT_EQ(header.Extras[1].name(), "las:returns");
+  const std::string records = recordsOf(this->path("out.las"));
+  EXPECT_EQ(records[14], 0x11);
+  EXPECT_EQ(records[15], 0);
+  EXPECT_EQ(valueAt<double>(&records[30]), 4);
+  EXPECT_EQ(valueAt<double>(&records[38]), 33);
+  EXPECT_TRUE(std::isnan(valueAt<double>(&records[46 + 38])));
 }
 
 TEST_F(LasWriting, ColumnsOfOneLongNameAreRefused)
@@ -490,6 +579,38 @@ TEST_F(LasWriting, MissingValuesOfFieldsStay)
   const std::string path = this->Folder.file("a.las", las.text());
   copyToLas({ path }, reading, this->path("out.laz"), { "" });
   EXPECT_TRUE(recordsOf(this->path("out.laz")) == recordsOf(path));
+}
+
+TEST_F(LasWriting, MissingTimesStay)
+{
+  LasText las(4, 6);
+  las.add(1, 1, 1, 2);
+  PointOptions reading;
+  reading.NoData = 1.5; // the time of LasText
+  const std::string path = this->Folder.file("a.las", las.text());
+  copyToLas({ path }, reading, this->path("out.laz"), { "" });
+  EXPECT_TRUE(recordsOf(this->path("out.laz")) == recordsOf(path));
+}
+
+TEST_F(LasWriting, WhatFilesLoseBesideOtherKindsIsNamed)
+{
+  LasText las(2, 0);
+  las.add(1, 1, 1, 2);
+  const std::string a = this->Folder.file("a.las", las.text());
+  const std::string b = this->Folder.file("b.csv", "x,y,z,intensity,classification\n1,1,1,1,1\n");
+  for (const std::vector<std::string>& inputs : { std::vector{ a, b }, std::vector{ b, a, a } })
+  {
+    const LasReport report = this->copy(inputs);
+    EXPECT_EQ(report.Points, std::int64_t(inputs.size()));
+    ASSERT_EQ(report.Warnings.size(), 1U);
+    const std::string& warning = report.Warnings[0];
+    EXPECT_NE(warning.find(a), std::string::npos) << warning;
+    EXPECT_NE(warning.find("returns, flags, source ids, user data, scan angles and extra bytes"),
+      std::string::npos)
+      << warning;
+    EXPECT_NE(warning.find("copy the LAS files apart"), std::string::npos) << warning;
+  }
+  EXPECT_TRUE(this->copy({ b, b }).Warnings.empty());
 }
 
 TEST_F(LasWriting, KeysOfTheReferenceSystemBecomeWkt)

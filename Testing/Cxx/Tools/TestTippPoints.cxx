@@ -148,6 +148,15 @@ TEST_F(TippPoints, TextBecomesLas)
   EXPECT_EQ("code", header.Extras[0].name());
 }
 
+TEST_F(TippPoints, OnePointThatIsLeftOutIsSingular)
+{
+  this->Folder.file("survey.csv", "x,y,z\n1,1,-9999\n2,2,2\n");
+  const Outcome outcome =
+    this->require({ "points", "survey.csv", "-o", "survey.las", "--input-nodata=-9999" });
+  EXPECT_NE(std::string::npos, outcome.Err.find("warning: 1 point is left out, since"))
+    << outcome.Err;
+}
+
 TEST_F(TippPoints, PointsBecomeNpy)
 {
   const Outcome outcome = this->require({ "points", "tile.las", "-o", "a.npy", "--class", "2" });
