@@ -5,6 +5,7 @@
 #include "Files/InputFile.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tipp
 {
@@ -44,8 +45,22 @@ bool canBeSearched(const LazFormat& format)
   return format.IsLayered || format.ChunkPoints != LazFormat::VariableChunks;
 }
 
+/// The number of points of a layered chunk is behind its first point.
+std::uint64_t pointsOfLayers(const InputFile& file, const LazFormat& format, std::uint64_t begin)
+{
+  const std::uint64_t at = begin + format.RecordLength;
+  return at + 4 <= file.size() ? valueIn<std::uint32_t>(file, at) : 0;
+}
+
+/// The chunks that a table has of so many points.
+struct ChunksOfTable
+{
+  std::vector<LazChunkPlace> Chunks;
+  bool HasMore = false; ///< the table or the last chunk has more points than these
+};
+
 /// Finds the chunks by the table. Throws LazError if it is damaged or missing.
-std::vector<LazChunkPlace> chunksByTable(
+ChunksOfTable chunksByTable(
   const InputFile& file, const LazFormat& format, std::uint64_t points, std::uint64_t offsetAt)
 {
   constexpr std::size_t header = 8;
@@ -68,14 +83,16 @@ std::vector<LazChunkPlace> chunksByTable(
   std::vector<std::uint8_t> table(
     std::size_t(std::min(file.size() - at, header + longestEntry * (count + 4))));
   file.read(at, table.data(), table.size());
-  std::vector<LazChunkPlace> chunks =
-    readLazChunkTable(format, table.data(), table.size(), points, begin, at);
+  LazChunkTable read = readLazChunkTable(format, table.data(), table.size(), points, begin, at);
   // The table follows the last chunk.
-  if (chunks.back().Begin + chunks.back().Bytes != at && canBeSearched(format))
+  if (read.End != at && canBeSearched(format))
   {
     throw LazError("has a damaged chunk table");
   }
-  return chunks;
+  const LazChunkPlace& last = read.Chunks.back();
+  const bool hasMore = last.Begin + last.Bytes != read.End ||
+    (format.IsLayered && pointsOfLayers(file, format, last.Begin) > last.Points);
+  return { std::move(read.Chunks), hasMore };
 }
 
 /// Returns the most bytes that a chunk of this many points may have.
@@ -83,13 +100,6 @@ std::uint64_t mostBytes(const LazFormat& format, std::uint64_t points)
 {
   constexpr std::uint64_t besides = 1 << 16;
   return 2 * format.RecordLength * std::min(points, std::uint64_t(1) << 44) + besides;
-}
-
-/// The number of points of a layered chunk is behind its first point.
-std::uint64_t pointsOfLayers(const InputFile& file, const LazFormat& format, std::uint64_t begin)
-{
-  const std::uint64_t at = begin + format.RecordLength;
-  return at + 4 <= file.size() ? valueIn<std::uint32_t>(file, at) : 0;
 }
 
 /// Returns the number of bytes of a chunk, by decoding it. Throws LazError.
@@ -166,7 +176,11 @@ LazFile::LazFile(const std::string& path, const LasHeader& header)
   }
   try
   {
-    this->Chunks = chunksByTable(file, this->Format, points, header.PointOffset);
+    ChunksOfTable found = chunksByTable(file, this->Format, points, header.PointOffset);
+    this->Chunks = std::move(found.Chunks);
+    this->Remark = found.HasMore
+      ? "announces " + std::to_string(points) + " points and has more, which are not read"
+      : "";
     return;
   }
   catch (const LazError& error)

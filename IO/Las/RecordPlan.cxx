@@ -50,6 +50,17 @@ const NamedField& fieldOfOthers(const std::string& column)
   return LasFields::isName(column) ? namedFields.back() : fieldOf(column);
 }
 
+/// The names that programs give the fields of LAS files, which extra bytes must not have.
+bool isNameOfField(const std::string& name)
+{
+  constexpr std::array<const char*, 30> names = { "X", "Y", "Z", "x", "y", "z", "intensity",
+    "return_number", "number_of_returns", "synthetic", "key_point", "withheld", "overlap",
+    "scanner_channel", "scan_direction_flag", "edge_of_flight_line", "classification",
+    "raw_classification", "classification_flags", "bit_fields", "flag_byte", "user_data",
+    "scan_angle", "scan_angle_rank", "point_source_id", "gps_time", "red", "green", "blue", "nir" };
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 bool fitsField(const std::string& column, const std::vector<double>& values)
 {
   const std::size_t size = fieldOfOthers(column).Size;
@@ -123,7 +134,7 @@ bool PointSurvey::fits(const std::string& column) const
 }
 
 void planColumns(const std::string& output, const std::vector<std::string>& columns,
-  const PointSurvey& survey, RecordPlan& plan)
+  const PointSurvey& survey, RecordPlan& plan, std::vector<std::string>& warnings)
 {
   const bool hasColour = survey.fits("red") && survey.fits("green") && survey.fits("blue");
   const bool hasInfrared = hasColour && survey.fits("nir");
@@ -142,7 +153,14 @@ void planColumns(const std::string& output, const std::vector<std::string>& colu
       plan.Fields.push_back({ c, field.Offset, field.Size });
       continue;
     }
-    const std::string descriptor = describeColumn(columns[c]);
+    std::string name = columns[c];
+    if (isNameOfField(name))
+    {
+      name += "_column";
+      warnings.push_back("The column " + columns[c] +
+        " does not fit the field of this name; it is written as the extra bytes " + name + ".");
+    }
+    const std::string descriptor = describeColumn(name);
     if (!descriptors.insert(descriptor).second)
     {
       throw IOError(output,

@@ -57,9 +57,10 @@ struct RecordPlan
   std::optional<double> NoData = {}; ///< for fields of LAS files that are missing
 };
 
-/// Adds the columns of other files than LAS, all but plan.Height. Throws IOError, about the output.
+/// Adds the columns of other files than LAS, all but plan.Height. Extra bytes that would have the
+/// name of a field get another one, and a warning. Throws IOError, about the output.
 void planColumns(const std::string& output, const std::vector<std::string>& columns,
-  const PointSurvey& survey, RecordPlan& plan);
+  const PointSurvey& survey, RecordPlan& plan, std::vector<std::string>& warnings);
 
 /// Adds the columns of LAS files (LasFields).
 void planFields(const LasInputs& inputs, const std::vector<std::string>& columns, RecordPlan& plan);

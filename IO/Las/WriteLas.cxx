@@ -60,6 +60,11 @@ LasTransform chooseTransform(const std::string& output, const PointSurvey& surve
       : !inputs.isEmpty()   ? inputs.finestScale(axis)
                             : range.scale();
     isRounded = isRounded || (inputs.isEmpty() && range.isRounded());
+    constexpr double coarsest = 1; // that is chosen without being asked to
+    if (scales.empty() && inputs.isEmpty() && range.isRounded() && scale > coarsest)
+    {
+      refuseScale(output, axis, coarsest, range);
+    }
     const double wanted = inputs.isEmpty() ? 0 : inputs.transformOf(0).Offset[axis];
     transform.Offset[axis] = range.offset(scale, wanted, !scales.empty());
     if (!range.fits(scale, transform.Offset[axis]))
@@ -274,7 +279,7 @@ LasReport writeAll(PointStream& points, const LasInputs& inputs, const PointOpti
   layout.Offset = report.Transform.Offset;
   if (inputs.isEmpty())
   {
-    planColumns(output, columns, *survey, plan);
+    planColumns(output, columns, *survey, plan, report.Warnings);
   }
   else
   {

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace tipp
 {
@@ -202,7 +203,7 @@ std::vector<std::uint8_t> writeLazChunkTable(const std::vector<std::uint32_t>& s
   return table;
 }
 
-std::vector<LazChunkPlace> readLazChunkTable(const LazFormat& format, const std::uint8_t* table,
+LazChunkTable readLazChunkTable(const LazFormat& format, const std::uint8_t* table,
   std::size_t size, std::uint64_t points, std::uint64_t begin, std::uint64_t end)
 {
   constexpr std::size_t header = 8;
@@ -250,7 +251,7 @@ std::vector<LazChunkPlace> readLazChunkTable(const LazFormat& format, const std:
     throw LazError("has a chunk table without the last " + std::to_string(left) + " of its " +
       std::to_string(points) + " points");
   }
-  return places;
+  return { std::move(places), begin };
 }
 
 } // namespace tipp

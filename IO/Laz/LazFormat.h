@@ -75,12 +75,17 @@ struct LazChunkPlace
   std::uint64_t Points = 0;
 };
 
+struct LazChunkTable
+{
+  std::vector<LazChunkPlace> Chunks; ///< of the points that were asked for
+  std::uint64_t End = 0;             ///< of all chunks, also those of further points
+};
+
 /// Decodes a chunk table, whose bytes begin with its version, and returns the chunks of `points`
 /// points. The first chunk begins at `begin`, and the last one ends at or before `end`. Throws
 /// LazError if the table is damaged or does not have these points.
-VTKTIPPIO_EXPORT std::vector<LazChunkPlace> readLazChunkTable(const LazFormat& format,
-  const std::uint8_t* table, std::size_t size, std::uint64_t points, std::uint64_t begin,
-  std::uint64_t end);
+VTKTIPPIO_EXPORT LazChunkTable readLazChunkTable(const LazFormat& format, const std::uint8_t* table,
+  std::size_t size, std::uint64_t points, std::uint64_t begin, std::uint64_t end);
 
 /// Returns a chunk table, from its version on, for chunks of these sizes in bytes, all of which but
 /// the last have as many points as the format says.

@@ -186,7 +186,7 @@ nlohmann::ordered_json jsonOf(const DemArguments& arguments, const DemReport& re
 PathState requireDemWritable(const DemArguments& arguments)
 {
   std::vector<std::string> inputs = arguments.Inputs;
-  inputs.insert(inputs.end(), { arguments.Breaklines, arguments.Boundary });
+  inputs.insert(inputs.end(), { arguments.Breaklines, arguments.Boundary, arguments.Like });
   checkOutputs(arguments.Output, arguments.Statistics, arguments.Scratch, inputs);
   return PendingFile(arguments.Output).before();
 }

@@ -235,6 +235,7 @@ void watchForInterrupt(int rank)
   action.sa_flags = SA_RESTART;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  std::signal(SIGXFSZ, SIG_IGN); // so that writing a file that is too large is an error like others
   std::thread(watch).detach();
 }
 

@@ -454,6 +454,31 @@ TEST_F(Las, DamagedChunksAreNamed)
   }
 }
 
+TEST_F(Las, CompressedPointsBeyondTheHeadersNumberGiveAWarning)
+{
+  for (const LazInput& input : lazInputs)
+  {
+    SCOPED_TRACE(input.Format);
+    const LasAndLaz files = filesOf(input);
+    // 40 points, 16 a chunk: further chunks, or further points of the last chunk, which only
+    // layered ones tell.
+    for (const std::size_t count : { 16, 20, 39 })
+    {
+      std::string text = files.Compressed;
+      putCount(text, input.Format, count);
+      PointOptions options;
+      options.Las = keepAll();
+      const PointTable points = readPoints(this->Folder.file("a.laz", text), options);
+      EXPECT_EQ(count, points.size());
+      if (count < 32 || input.Format >= 6)
+      {
+        EXPECT_NE(std::string::npos,
+          points.Reports.at(0).Warnings.at(0).find("points and has more, which are not read"));
+      }
+    }
+  }
+}
+
 TEST_F(Las, TheFirstOfSeveralDamagedChunksIsNamed)
 {
   const LasAndLaz files = filesOf(lazInputs[6]);

@@ -463,7 +463,9 @@ TEST_F(LasWriting, DecimalsOfCoordinatesGiveTheScale)
   EXPECT_EQ(scaleOf({ 5400000.12, 5400100.1 }), std::make_pair(0.01, std::size_t(0)));
   EXPECT_EQ(scaleOf({ -179.1234567, 179.5 }), std::make_pair(1e-7, std::size_t(0)));
   EXPECT_EQ(scaleOf({ 1.0 / 3, 2.0 / 3 }), std::make_pair(1e-10, std::size_t(1)));
-  EXPECT_EQ(scaleOf({ 0, 1e12 }), std::make_pair(1000.0, std::size_t(1)));
+  EXPECT_EQ(scaleOf({ 0, 2e9 }), std::make_pair(1.0, std::size_t(0)));
+  // Nobody wants whole units to be rounded, as an outlier would make it.
+  EXPECT_THROW(scaleOf({ 0, 1e12 }), IOError);
 }
 
 TEST_F(LasWriting, ColumnsBecomeFieldsIfTheyFit)
@@ -482,8 +484,11 @@ TEST_F(LasWriting, ColumnsBecomeFieldsIfTheyFit)
   EXPECT_EQ(readValues(points, "green"), (Values{ 3, 4 }));
   const LasHeader header = this->header("out.las");
   ASSERT_EQ(header.Extras.size(), 2U);
-  EXPECT_EQ(header.Extras[0].name(), "classification");
+  // Programs would take an extra attribute of this name for the field.
+  EXPECT_EQ(header.Extras[0].name(), "classification_column");
   EXPECT_EQ(header.Extras[1].name(), "velocity");
+  ASSERT_FALSE(report.Warnings.empty());
+  EXPECT_NE(report.Warnings[0].find("column classification does not fit"), std::string::npos);
   const std::string records = recordsOf(this->path("out.las"));
   EXPECT_EQ(valueAt<double>(&records[36 + 16 + 36]), 2.5);
   EXPECT_EQ(valueAt<double>(&records[36 + 8]), -0.1);

@@ -87,7 +87,8 @@ struct Compressed
       return {};
     }
     return readLazChunkTable(this->format(), this->File.data() + table,
-      this->File.size() - std::size_t(table), this->Points, this->Begin + 8, table);
+      this->File.size() - std::size_t(table), this->Points, this->Begin + 8, table)
+      .Chunks;
   }
 
   void begin(LazChunk& chunk, const LazChunkPlace& place) const

@@ -132,6 +132,9 @@ TEST_F(TippCrs, LikeOpensNoVirtualRaster)
     "<VRTRasterBand dataType=\"Float32\" band=\"1\"><SimpleSource><SourceFilename>a.tif"
     "</SourceFilename><SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>");
   EXPECT_EQ(1, this->run({ "dem", "a.las", "-o", "c.npy", "--like", "b.tif" }).ExitCode);
+  const Outcome same = this->run({ "dem", "a.las", "-o", "a.tif", "--like", "a.tif" });
+  EXPECT_EQ(1, same.ExitCode);
+  EXPECT_NE(std::string::npos, same.Err.find("input")) << same.Err;
 }
 
 TEST_F(TippCrs, PointsOfAGisAreTheSameWithAMemoryLimit)

@@ -9,8 +9,6 @@
 
 #include <gtest/gtest.h>
 
-#include <csignal>
-
 #include <sys/resource.h>
 
 namespace
@@ -230,6 +228,8 @@ TEST_F(TippPoints, MisuseIsOneSentence)
   refuse({ "tile.las", "-o", "tile.las" }, failure, "tile.las");
   refuse({ "tile.las", "-o", "absent/a.laz" }, failure, "its folder does not exist");
   refuse({ "absent.las", "-o", "a.laz" }, failure, "absent.las");
+  this->Folder.file("wide.csv", "x,y,z\n0,0,0\n1e15,1,1\n");
+  refuse({ "wide.csv", "-o", "a.las" }, failure, "give a coarser one, such as --scale 1e+06");
   refuse({ "tile.las", "-o", "a.laz", "--scale", "1e-9" }, failure, "such as --scale 1e-07");
   refuse({ "tile.las", "-o", "a.laz", "--class", "99" }, failure, "there are no points");
   refuse({ "tile.las", "-o", "a.npy", "--class", "99" }, failure, "there are no points");
@@ -241,7 +241,6 @@ TEST_F(TippPoints, FullDiskLeavesNoFile)
   getrlimit(RLIMIT_FSIZE, &before);
   const rlimit small{ 20000, before.rlim_max };
   setrlimit(RLIMIT_FSIZE, &small);
-  std::signal(SIGXFSZ, SIG_IGN);
   this->expectRefused({ "points", "tile.las", "-o", "a.laz" }, 1, "cannot be written");
   setrlimit(RLIMIT_FSIZE, &before);
 }
