@@ -11,6 +11,7 @@ import argparse
 import importlib.util
 import math
 import pathlib
+import shutil
 import statistics
 import struct
 import subprocess
@@ -123,17 +124,20 @@ def peers(options):
 
 def copies(path, count):
     """Copies of a tile side by side, which differ in the header's offsets and box; their width and height together."""
-    data = bytearray(path.read_bytes())
-    offset, box = list(struct.unpack_from("<2d", data, 155)), list(struct.unpack_from("<4d", data, 179))
+    with open(path, "rb") as file:
+        header = bytearray(file.read(227))
+    offset, box = struct.unpack_from("<2d", header, 155), struct.unpack_from("<4d", header, 179)
     width, height = box[0] - box[1] + 1, box[2] - box[3] + 1
     side = math.ceil(math.sqrt(count))
     paths = []
     for i in range(count):
         east, north = i % side * width, i // side * height
-        struct.pack_into("<2d", data, 155, offset[0] + east, offset[1] + north)
-        struct.pack_into("<4d", data, 179, box[0] + east, box[1] + east, box[2] + north, box[3] + north)
+        struct.pack_into("<2d", header, 155, offset[0] + east, offset[1] + north)
+        struct.pack_into("<4d", header, 179, box[0] + east, box[1] + east, box[2] + north, box[3] + north)
         paths.append(path.with_name(f"{path.stem}-copy{i}{path.suffix}"))
-        paths[-1].write_bytes(data)
+        shutil.copyfile(path, paths[-1])
+        with open(paths[-1], "r+b") as file:
+            file.write(header)
     return paths, side * width, math.ceil(count / side) * height
 
 
