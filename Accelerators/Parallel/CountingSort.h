@@ -12,11 +12,11 @@
 namespace tipp
 {
 
-/// Prepares a stable counting sort by several threads, each of which first counts and then places
-/// its own share of the items. `counts[share][group]` is the number of the share's items in a
-/// group. Each count is replaced by the index at which the share's first item of the group is to be
-/// placed. Returns the index of the first item of each group, and the number of all items at the
-/// end.
+/// Computes the offsets for a stable counting sort on several threads. Each thread has a share of
+/// the items, counts how many of them belong to each group, and after this call copies them to
+/// their sorted positions. On entry `counts[share][group]` is a number of items; on return it is
+/// the index in the sorted array of the share's first item in that group. Returns the index of each
+/// group's first item, followed by the total number of items.
 template <typename Counts>
 std::vector<typename Counts::value_type> countsToIndices(
   std::size_t groups, std::vector<Counts>& counts)

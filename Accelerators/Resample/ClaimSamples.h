@@ -39,8 +39,8 @@ VTKTIPPACCELERATORS_EXPORT std::vector<BorderClaim> borderClaims(
   const SimplexMesh& mesh, const LatticeAxes& axes, std::vector<Touch> touches, int threads);
 
 /// Sets a sample's key to that of its claim where the claim's key is lower, and removes the other
-/// claims. So several parts of a mesh can be merged in any order. `claims` is indexed by
-/// the window's samples, `keys` by those of the whole lattice.
+/// claims. So several parts of a mesh can be merged in any order. `claims` has one
+/// entry per sample of the window, and `keys` one per sample of the whole lattice.
 VTKTIPPACCELERATORS_EXPORT void mergeClaims(
   const SimplexMesh& mesh, Claims& claims, const SampleWindow& window, int threads, CellKey* keys);
 

@@ -91,8 +91,8 @@ private:
 /// The ids of other points after they have been added to a triangulation's points.
 struct MatchedPositions
 {
-  /// For each other point, the id of the first point equal to it, or a new id. New ids continue
-  /// those of the points.
+  /// For each other point, the id of the first point equal to it, or a new id. New ids start at the
+  /// number of points.
   std::vector<PointId> Ids;
   std::vector<std::size_t> New; ///< the other points that have new ids
 };
