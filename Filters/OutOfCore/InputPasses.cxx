@@ -20,10 +20,10 @@
 namespace tipp
 {
 
-InputSurvey surveyPart(PointStream& points, const PassOptions& options)
+InputSurvey surveyPart(PointStream& points, std::int64_t total, const PassOptions& options)
 {
   InputSurvey survey;
-  StreamSampler<Point2> sampler(options.SamplePoints, points.divisible());
+  StreamSampler<Point2> sampler(options.SamplePoints, total);
   CollinearityTest line;
   const std::size_t elevation = findElevation(points.columns());
   forEachBlock(points, options.BlockPoints,
@@ -354,7 +354,8 @@ InputSurvey InputPasses::survey()
       order(this->Points.identity(), this->Total, std::uint64_t(this->Options.BlockPoints),
         std::uint64_t(this->Options.SamplePoints));
     },
-    [this](int) { return surveyPart(this->Points, this->Options); });
+    [this](int)
+    { return surveyPart(this->Points, this->Parts > 1 ? this->Total : -1, this->Options); });
   InputSurvey survey = joinSurveys(parts);
   if (survey.Points > survey.Rejected &&
     withModerateMagnitude(PointsView(), survey.Bounds).factor() != 1)
@@ -403,7 +404,7 @@ Message helpWithInput(Communicator& ranks, const OpenPoints& open, PassOptions o
     Bytes answer; // empty: the first rank must read the part
     if (points && message.Kind == SurveyMessage)
     {
-      answer = packed(surveyPart(*points, options));
+      answer = packed(surveyPart(*points, points->divisible(), options));
     }
     else if (points && message.Kind == FactorMessage)
     {

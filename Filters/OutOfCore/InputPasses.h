@@ -35,8 +35,10 @@ struct PassOptions
 
 /// Surveys the points of the stream; Factor is 1. The sample of all parts together has at most
 /// twice as many points as SamplePoints: one from each range of ids of equal length, chosen at
-/// random but always the same. Throws IOError.
-VTKTIPPFILTERS_EXPORT InputSurvey surveyPart(PointStream& points, const PassOptions& options);
+/// random but always the same. `total`: the number of points of all parts; -1 if this part is the
+/// only one, because counting the points of a LAZ file takes a pass. Throws IOError.
+VTKTIPPFILTERS_EXPORT InputSurvey surveyPart(
+  PointStream& points, std::int64_t total, const PassOptions& options);
 
 /// Throws the IOError for an input that is not the same in all passes.
 [[noreturn]] void throwChanged();

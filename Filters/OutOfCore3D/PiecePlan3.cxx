@@ -123,7 +123,8 @@ PiecePlan3::PiecePlan3(PointStream& points, const MemoryPlan3& memory, const Pro
   {
     throw IOError("The input has no column z, Z or elevation, the third coordinate.");
   }
-  StreamSampler<Point3> sampler(memory.SamplePoints, points.divisible());
+  // All points are read here, so their number need not be known, which takes a pass of LAZ files.
+  StreamSampler<Point3> sampler(memory.SamplePoints, -1);
   survey.Bounds = Box3::empty();
   DimensionTest dimension;
   forEachBlock(points, memory.BlockPoints,

@@ -52,7 +52,7 @@ TEST(InputSurvey, IsTheSameForAnyDivisionOfTheInput)
     for (std::int64_t part = 0; part < cuts; ++part)
     {
       whole->limitTo(10001 * part / cuts, 10001 * (part + 1) / cuts);
-      parts.push_back(surveyPart(*whole, { 500, 1 << 10, 2, [](std::int64_t) {} }));
+      parts.push_back(surveyPart(*whole, 10001, { 500, 1 << 10, 2, [](std::int64_t) {} }));
     }
     const InputSurvey survey = joinSurveys(parts);
     EXPECT_EQ(10001, survey.Points);
