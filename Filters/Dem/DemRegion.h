@@ -58,8 +58,8 @@ private:
 /// depends only on their coordinates. If all triangles that meet the raster's box are such, and its
 /// corners are in triangles, then these triangles cover the box, which is convex as their union is,
 /// and no others of the whole triangulation meet it.
-bool isKnown(PointsView points, const Triangulation& mesh, const RasterGrid& grid,
-  const Box2& region, int threads);
+VTKTIPPFILTERS_EXPORT bool isKnown(PointsView points, const Triangulation& mesh,
+  const RasterGrid& grid, const Box2& region, int threads);
 
 } // namespace tipp
 

@@ -30,6 +30,10 @@ double multipleNear(double scale, double offset)
 
 void AxisSurvey::add(double coordinate)
 {
+  if (!std::isfinite(coordinate))
+  {
+    return;
+  }
   this->Low = std::min(this->Low, coordinate);
   this->High = std::max(this->High, coordinate);
   constexpr double mostDigits = 0x1p53;
