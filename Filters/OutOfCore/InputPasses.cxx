@@ -26,6 +26,7 @@ InputSurvey surveyPart(PointStream& points, std::int64_t total, const PassOption
   StreamSampler<Point2> sampler(options.SamplePoints, total);
   CollinearityTest line;
   const std::size_t elevation = findElevation(points.columns());
+  points.needColumns(false);
   forEachBlock(points, options.BlockPoints,
     [&](PointBlock& block)
     {
@@ -43,6 +44,7 @@ InputSurvey surveyPart(PointStream& points, std::int64_t total, const PassOption
       survey.Points += std::int64_t(block.size());
       options.Progress(survey.Points);
     });
+  points.needColumns(true);
   survey.Line = line.line();
   survey.Sample = sampler.take();
   return survey;

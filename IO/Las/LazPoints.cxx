@@ -21,13 +21,9 @@ public:
   LazPoints(const std::string& path, const LasHeader& header, const PointOptions& options)
     : LasFilePoints(path, header, options)
     , Laz(path, header)
-    , Needed(this->Filter.attributes())
   {
     this->Header.Remark = this->Laz.remark();
-    for (const LasColumn& column : this->Wanted)
-    {
-      this->Needed |= column.Attribute;
-    }
+    LazPoints::needColumns(true);
     this->AllChunks = this->Laz.chunks().size();
     this->keepChunks(options.Spacing);
     if (options.Las.KeepTruncated)
@@ -48,6 +44,15 @@ public:
       this->ServedOfChunk += count;
     }
     return block.size() > 0;
+  }
+
+  void needColumns(bool areNeeded) override
+  {
+    this->Needed = this->Filter.attributes();
+    for (const LasColumn& column : this->Wanted)
+    {
+      this->Needed |= areNeeded ? column.Attribute : 0;
+    }
   }
 
   ReadFigures readFigures() const override
@@ -418,7 +423,7 @@ private:
 
   LazFile Laz;
   std::size_t AllChunks = 0;      ///< number of chunks of the file
-  unsigned Needed;                ///< attributes to decode
+  unsigned Needed = 0;            ///< attributes to decode
   std::vector<LazReader> Readers; ///< two of each thread
   std::vector<Decoded> Ahead;     ///< the points to serve, in order
   std::size_t AheadCount = 0;     ///< how many of these are in use

@@ -122,6 +122,15 @@ public:
     this->skipToFirst();
   }
 
+  void needColumns(bool areNeeded) override
+  {
+    for (const auto& file : this->Files)
+    {
+      // Any value might be the one that stands for missing ones.
+      file->needColumns(areNeeded || this->NoData.NoData.has_value());
+    }
+  }
+
   std::int64_t divisible() const override
   {
     std::int64_t points = 0;

@@ -297,6 +297,10 @@ public:
   /// Starts a new pass. Throws IOError if a file has changed since the first one.
   virtual void rewind() = 0;
 
+  /// Whether passes from the next rewind() on need the columns, as they do at first. If not, those
+  /// in which no value can be missing may have any finite values, where that saves time.
+  virtual void needColumns(bool) {}
+
   /// The number of points if reading can start at any of them, else -1.
   virtual std::int64_t divisible() const { return -1; }
 

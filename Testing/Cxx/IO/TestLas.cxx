@@ -391,6 +391,58 @@ TEST_F(Las, RealCompressedFilesHaveTheSamePoints)
   expectSamePoints(folder + "/1_4_w_evlr.las", folder + "/1_4_w_evlr.laz");
 }
 
+/// Reads a pass of a stream.
+PointTable passOf(PointStream& stream)
+{
+  PointTable table;
+  for (const std::string& name : stream.columns())
+  {
+    table.Columns.push_back({ name, {} });
+  }
+  forEachBlock(stream, 7, [&](PointBlock& block) { append(block, table); });
+  return table;
+}
+
+TEST_F(Las, PassesWithoutColumnsHaveTheSamePlacesAndFiniteValues)
+{
+  for (const LazInput& input : lazInputs)
+  {
+    SCOPED_TRACE(input.Format);
+    PointOptions options;
+    options.Las = keepAll();
+    const auto stream =
+      openPointStream({ this->Folder.file("a.laz", filesOf(input).Compressed) }, options);
+    const PointTable all = passOf(*stream);
+    ASSERT_GT(all.size(), 0U);
+    stream->needColumns(false);
+    const PointTable places = passOf(*stream);
+    EXPECT_EQ(all.XY, places.XY);
+    for (std::size_t c = 0; c < all.Columns.size(); ++c)
+    {
+      for (std::size_t i = 0; i < all.size(); ++i)
+      {
+        EXPECT_TRUE(std::isfinite(places.Columns[c].Values.at(i)) ||
+          !std::isfinite(all.Columns[c].Values[i]));
+      }
+    }
+    stream->needColumns(true);
+    expectSame(all, passOf(*stream));
+  }
+}
+
+TEST_F(Las, ValuesThatStandForMissingOnesAreReadInEachPass)
+{
+  PointOptions options;
+  options.Las = keepAll();
+  const std::string path = this->Folder.file("a.laz", filesOf(lazInputs[6]).Compressed);
+  options.NoData = readPoints(path, options).Columns[0].Values[3];
+  const auto stream = openPointStream({ path }, options);
+  stream->needColumns(false);
+  const PointTable table = passOf(*stream);
+  EXPECT_TRUE(std::isnan(table.Columns[0].Values.at(3)));
+  EXPECT_FALSE(std::isnan(table.Columns[0].Values.at(4)));
+}
+
 TEST_F(Las, ChunksAreFoundWithoutTheirTable)
 {
   for (const LazInput& input : lazInputs)
