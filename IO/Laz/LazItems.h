@@ -12,6 +12,7 @@
 #include <cstring>
 #include <memory>
 #include <optional>
+#include <type_traits>
 
 /// @file
 /// The models that the pointwise and the layered compressors have in common.
@@ -342,21 +343,25 @@ public:
   /// Replaces the last colour by the next one.
   void decode(RangeDecoder& decoder, std::uint16_t* colour)
   {
-    const unsigned changes = decoder.symbol(this->Changes);
-    const Colour last(colour);
-    Colour next = last;
-    forChanges(changes, last, next,
-      [&](std::size_t number, int prediction)
+    Step step = this->begin(decoder, colour);
+    forBytes([&](auto number) { this->decodeByte<number>(decoder, step); });
+    step.store(colour);
+  }
+
+  /// Does the same for two chunks, byte by byte in turn, see PointwiseChunk.
+  static void decodeTwo(const std::array<ColourCoder*, 2>& coders,
+    const std::array<RangeDecoder*, 2>& decoders, const std::array<std::uint16_t*, 2>& colours)
+  {
+    Step first = coders[0]->begin(*decoders[0], colours[0]);
+    Step second = coders[1]->begin(*decoders[1], colours[1]);
+    forBytes(
+      [&](auto number)
       {
-        const unsigned corrected = unsigned(prediction) + decoder.symbol(this->Bytes[number]);
-        next.Bytes[number] = int(corrected & 255U);
+        coders[0]->decodeByte<number>(*decoders[0], first);
+        coders[1]->decodeByte<number>(*decoders[1], second);
       });
-    if ((changes & isColoured) == 0) // green and blue are as red
-    {
-      std::copy_n(next.Bytes.begin(), 2, next.Bytes.begin() + 2);
-      std::copy_n(next.Bytes.begin(), 2, next.Bytes.begin() + 4);
-    }
-    next.store(colour);
+    first.store(colours[0]);
+    second.store(colours[1]);
   }
 
   /// Encodes the colour after `lastColour`.
@@ -372,9 +377,15 @@ public:
       changes |= unsigned(next.Bytes[i] != last.Bytes[i]) << i;
     }
     encoder.symbol(this->Changes, changes);
-    forChanges(changes, last, next,
-      [&](std::size_t number, int prediction)
-      { encoder.symbol(this->Bytes[number], unsigned(next.Bytes[number] - prediction) & 255U); });
+    forBytes(
+      [&](auto number)
+      {
+        if (isCoded(number, changes))
+        {
+          const int difference = next.Bytes[number] - prediction(number, last, next);
+          encoder.symbol(this->Bytes[number], unsigned(difference) & 255U);
+        }
+      });
   }
 
 private:
@@ -401,32 +412,73 @@ private:
   };
   static constexpr unsigned isColoured = 64;
 
-  /// Calls code(number, prediction) for each byte that differs from the last colour's. A byte of
-  /// `next` must be there when the one after it is predicted.
-  template <typename Code>
-  [[gnu::always_inline]] static void forChanges(
-    unsigned changes, const Colour& last, const Colour& next, const Code& code)
+  /// A colour that is being decoded.
+  struct Step
   {
-    const auto codeByte = [&](std::size_t number, int prediction)
+    unsigned Changes;
+    Colour Last;
+    Colour Next;
+
+    void store(std::uint16_t* colour)
     {
-      if (changes & (1U << number))
+      if ((this->Changes & isColoured) == 0) // green and blue are as red
       {
-        code(number, std::clamp(prediction, 0, 255));
+        std::copy_n(this->Next.Bytes.begin(), 2, this->Next.Bytes.begin() + 2);
+        std::copy_n(this->Next.Bytes.begin(), 2, this->Next.Bytes.begin() + 4);
       }
-    };
-    codeByte(0, last.Bytes[0]);
-    codeByte(1, last.Bytes[1]);
-    if (changes & isColoured)
-    {
-      // The order of the specification: the low bytes of green and blue, then the high ones.
-      for (std::size_t half = 0; half < 2; ++half)
-      {
-        const int red = next.Bytes[half] - last.Bytes[half];
-        codeByte(2 + half, red + last.Bytes[2 + half]);
-        const int both = (red + next.Bytes[2 + half] - last.Bytes[2 + half]) / 2;
-        codeByte(4 + half, both + last.Bytes[4 + half]);
-      }
+      this->Next.store(colour);
     }
+  };
+
+  [[gnu::always_inline]] Step begin(RangeDecoder& decoder, const std::uint16_t* colour)
+  {
+    return { decoder.symbol(this->Changes), Colour(colour), Colour(colour) };
+  }
+
+  template <std::size_t Number>
+  [[gnu::always_inline]] void decodeByte(RangeDecoder& decoder, Step& step)
+  {
+    if (isCoded(Number, step.Changes))
+    {
+      const auto predicted = unsigned(prediction(Number, step.Last, step.Next));
+      step.Next.Bytes[Number] = int((predicted + decoder.symbol(this->Bytes[Number])) & 255U);
+    }
+  }
+
+  /// Calls code(number) for each byte in the order of the specification: after red, the low bytes
+  /// of green and blue, then the high ones. `number` is a constant expression.
+  template <typename Code>
+  [[gnu::always_inline]] static void forBytes(const Code& code)
+  {
+    code(std::integral_constant<std::size_t, 0>());
+    code(std::integral_constant<std::size_t, 1>());
+    code(std::integral_constant<std::size_t, 2>());
+    code(std::integral_constant<std::size_t, 4>());
+    code(std::integral_constant<std::size_t, 3>());
+    code(std::integral_constant<std::size_t, 5>());
+  }
+
+  /// Whether a byte differs from the last colour's, and is not known from red.
+  [[gnu::always_inline]] static bool isCoded(std::size_t number, unsigned changes)
+  {
+    return (changes & (1U << number)) != 0 && (number < 2 || (changes & isColoured) != 0);
+  }
+
+  /// Predicts a byte of `next` from those before it.
+  [[gnu::always_inline]] static int prediction(
+    std::size_t number, const Colour& last, const Colour& next)
+  {
+    const std::size_t half = number % 2;
+    int step = 0;
+    if (number >= 2)
+    {
+      step = next.Bytes[half] - last.Bytes[half];
+    }
+    if (number >= 4)
+    {
+      step = (step + next.Bytes[2 + half] - last.Bytes[2 + half]) / 2;
+    }
+    return std::clamp(step + last.Bytes[number], 0, 255);
   }
 
   SymbolModel<128> Changes;

@@ -329,11 +329,38 @@ private:
       }
       return;
     }
+    if constexpr (Count > 1)
+    {
+      if (streams.front().Chunk.Items[number].Item.What == LazItem::Kind::Colour12)
+      {
+        decodeTwoColours(streams, number);
+        return;
+      }
+    }
     for (Stream& stream : streams)
     {
       PointwiseItem& item = stream.Chunk.Items[number];
       stream.IsGood =
         decodeItem(stream.Decoder, item, stream.Record + item.Item.Offset) && stream.IsGood;
+    }
+  }
+
+  [[gnu::always_inline]] static void decodeTwoColours(
+    std::array<Stream, 2>& streams, std::size_t number)
+  {
+    const std::array<PointwiseItem*, 2> items = { &streams[0].Chunk.Items[number],
+      &streams[1].Chunk.Items[number] };
+    std::array<std::array<std::uint16_t, 3>, 2> colours;
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+      std::memcpy(colours[i].data(), items[i]->Last.data(), sizeof colours[i]);
+    }
+    ColourCoder::decodeTwo({ items[0]->Colour.get(), items[1]->Colour.get() },
+      { &streams[0].Decoder, &streams[1].Decoder }, { colours[0].data(), colours[1].data() });
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+      std::memcpy(items[i]->Last.data(), colours[i].data(), sizeof colours[i]);
+      std::memcpy(streams[i].Record + items[i]->Item.Offset, colours[i].data(), sizeof colours[i]);
     }
   }
 
