@@ -278,6 +278,10 @@ private:
       tipp::toArray(filter->Delta));
     const std::array<int, 6> whole = this->Wanted.Extent;
     const std::vector<int> axes = tipp::surfaceAxes({ whole[1] + 1, whole[3] + 1, whole[5] + 1 });
+    if (filter->StrictBounds && !filter->UseInputBounds && filter->NumberOfInputPieces == 1)
+    {
+      tipp::requireSensible(bounds, meshes, axes, this->Ranks);
+    }
     if (filter->GatherOnRoot && this->severalRanks())
     {
       if (this->Ranks.rank() != 0)
@@ -455,6 +459,7 @@ void vtkRangeResampleFilter::PrintSelf(ostream& os, vtkIndent indent)
   vtkTIPPPrintMacro(SamplingDimensions);
   vtkTIPPPrintMacro(Delta);
   vtkTIPPPrintMacro(UseInputBounds);
+  vtkTIPPPrintMacro(StrictBounds);
   vtkTIPPPrintMacro(NullValue);
   vtkTIPPPrintMacro(UseNoDataValue);
   vtkTIPPPrintMacro(NoDataValue);

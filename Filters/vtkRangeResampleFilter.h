@@ -104,6 +104,15 @@ public:
 
   ///@{
   /**
+   * Whether SamplingBounds that do not meet the bounding box of the input, or are more than ten
+   * times as long along an axis, are an error: they are probably in another order. Needs one input
+   * piece. Off by default: then a warning says that no sample lies in a cell.
+   */
+  vtkTIPPSwitchMacro(StrictBounds, bool);
+  ///@}
+
+  ///@{
+  /**
    * The number of samples along each axis, the first at the range's minimum and the last at its
    * maximum. (10, 10, 10) by default. Ignored along an axis with a Delta. 0 along some but not all
    * axes chooses the number that gives the same spacing as along the first axis that has a number,
@@ -248,6 +257,7 @@ protected:
     vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs) override;
 
   bool UseInputBounds = true;
+  bool StrictBounds = false;
   double SamplingBounds[6] = { 0, 1, 0, 1, 0, 1 };
   int SamplingDimensions[3] = { 10, 10, 10 };
   double Delta[3] = { 0, 0, 0 };

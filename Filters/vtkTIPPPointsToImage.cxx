@@ -228,6 +228,11 @@ void vtkTIPPPointsToImage::Make(vtkInformationVector** inputs, vtkImageData* out
   }
   tipp::DemRequest request;
   request.Raster.Like = this->Grid(points);
+  if (!this->UseInputBounds)
+  {
+    request.Raster.Bounds = tipp::boxOfVtkBounds<2>(this->SamplingBounds);
+  }
+  request.StrictBounds = this->StrictBounds;
   request.Bands = this->Bands;
   request.MaximumEdge = this->MaximumEdgeLength;
   request.Threads = this->NumberOfThreads;
@@ -277,6 +282,7 @@ void vtkTIPPPointsToImage::PrintSelf(ostream& os, vtkIndent indent)
   vtkTIPPPrintMacro(Resolution);
   vtkTIPPPrintMacro(UseInputBounds);
   vtkTIPPPrintMacro(SamplingBounds);
+  vtkTIPPPrintMacro(StrictBounds);
   vtkTIPPPrintMacro(AlignToResolution);
   vtkTIPPPrintMacro(Bands);
   vtkTIPPPrintMacro(MaximumEdgeLength);

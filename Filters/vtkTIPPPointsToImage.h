@@ -103,6 +103,15 @@ public:
 
   ///@{
   /**
+   * Whether SamplingBounds that do not meet the points' bounding box, or are more than ten times as
+   * long along an axis, are an error: they are probably in another order. Off by default: then
+   * pixels far from the points have no value.
+   */
+  vtkTIPPSwitchMacro(StrictBounds, bool);
+  ///@}
+
+  ///@{
+  /**
    * Whether pixel borders are at multiples of Resolution (the default), so that images of
    * neighbouring tiles fit together. If off, the first pixels start at the bounds.
    */
@@ -216,6 +225,7 @@ protected:
   double Resolution = 0;
   bool UseInputBounds = true;
   double SamplingBounds[4] = { 0, 1, 0, 1 };
+  bool StrictBounds = false;
   bool AlignToResolution = true;
   std::string BreaklinesFileName;
   std::string BoundaryFileName;

@@ -422,7 +422,12 @@ void vtkPartitionedUnstructuredReader::ReadPieces(vtkInformation* outInfo)
   std::iota(numbers.begin(), numbers.end(), std::size_t(0));
   if (this->HasBounds())
   {
-    range.emplace(mesh, tipp::boxOfVtkBounds<3>(this->Bounds));
+    const tipp::Box3 box = tipp::boxOfVtkBounds<3>(this->Bounds);
+    if (this->StrictBounds)
+    {
+      tipp::requireSensible(mesh, box);
+    }
+    range.emplace(mesh, box);
     numbers = range->pieces();
   }
   options.Borrowed = borrowed || range;
@@ -532,6 +537,7 @@ void vtkPartitionedUnstructuredReader::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   vtkTIPPPrintMacro(FileName);
   vtkTIPPPrintMacro(Bounds);
+  vtkTIPPPrintMacro(StrictBounds);
   vtkTIPPPrintMacro(BorrowerMode);
   vtkTIPPPrintMacro(MergePieces);
   vtkTIPPPrintMacro(CacheSize);

@@ -100,6 +100,15 @@ public:
 
   ///@{
   /**
+   * Whether Bounds that do not meet the points' bounding box, or are more than ten times as long
+   * along an axis, are an error: they are probably in another order. Off by default: then the
+   * output may be empty.
+   */
+  vtkTIPPSwitchMacro(StrictBounds, bool);
+  ///@}
+
+  ///@{
+  /**
    * OWNED (the default) or OWNED_AND_BORROWED. A request for ghost levels has the effect of the
    * latter.
    */
@@ -206,6 +215,7 @@ private:
   std::string FileName;
   std::string Tiling = "grid:4x4";
   double Bounds[6];
+  bool StrictBounds = false;
   int BorrowerMode = OWNED;
   bool MergePieces = true;
   int CacheSize = 0;

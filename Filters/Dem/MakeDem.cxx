@@ -15,11 +15,11 @@
 #include "OutOfCore/TriangleConsumer.h"
 #include "Parallel/ParallelFor.h"
 #include "Points/ReadPoints.h"
+#include "Predicates/SensibleRange.h"
 #include "Resample/SimplexMesh.h"
 #include "Triangulation/PointsView.h"
 
 #include <algorithm>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -217,30 +217,6 @@ double partCovered(const Box2& box, const Box2& cover)
   return part;
 }
 
-std::string textOf(const Box2& box)
-{
-  std::ostringstream text;
-  text.precision(10);
-  text << "x from " << box.Min.x << " to " << box.Max.x << " and y from " << box.Min.y << " to "
-       << box.Max.y;
-  return text.str();
-}
-
-/// Throws std::runtime_error if the bounds of a raster are those of GDAL: xmin ymin xmax ymax. Read
-/// in our order, they are far from the points or much larger.
-void requireOurOrder(const Box2& bounds, const Box2& points)
-{
-  const Box2 asGdal{ { bounds.Min.x, bounds.Max.x }, { bounds.Min.y, bounds.Max.y } };
-  constexpr double little = 0.01;
-  constexpr double much = 0.5;
-  if (asGdal.width(0) > 0 && asGdal.width(1) > 0 && partCovered(bounds, points) < little &&
-    std::max(partCovered(asGdal, points), partCovered(points, asGdal)) > much)
-  {
-    throw std::runtime_error("the bounds are " + textOf(bounds) + ", but those of the points are " +
-      textOf(points) + "; give the bounds in the order xmin xmax ymin ymax.");
-  }
-}
-
 void requireNear(const ConstraintTable& boundary, const Box2& points)
 {
   Box2 box = Box2::empty();
@@ -250,8 +226,9 @@ void requireNear(const ConstraintTable& boundary, const Box2& points)
   }
   if (!boundary.XY.empty() && partCovered(box, points) == 0)
   {
-    throw std::runtime_error("the boundary, " + textOf(box) + ", is nowhere near the points, " +
-      textOf(points) + ". Is it in another coordinate reference system?");
+    throw std::runtime_error("the boundary, " + inWords(inSpace(box)) +
+      ", is nowhere near the points, " + inWords(inSpace(points)) +
+      ". Is it in another coordinate reference system?");
   }
 }
 
@@ -264,9 +241,9 @@ TerrainSettings makeTerrainSettings(
   {
     throw std::runtime_error("there is no point with finite coordinates.");
   }
-  if (request.Raster.Bounds)
+  if (request.Raster.Bounds && request.StrictBounds)
   {
-    requireOurOrder(*request.Raster.Bounds, bounds);
+    requireSensible(inSpace(*request.Raster.Bounds), inSpace(bounds));
   }
   if (request.Constraints)
   {

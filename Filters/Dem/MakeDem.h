@@ -34,6 +34,9 @@ struct DemRequest
   /// The box of the points that are there, if they are a part of all of them: see DemRegion. Only
   /// for points in a table, and without constraints.
   std::optional<Box2> Region = {};
+  /// Whether Raster.Bounds must be sensible for the points: see requireSensible(). Not for points
+  /// that were chosen by the raster, whose bounds are not those of all.
+  bool StrictBounds = true;
 };
 
 /// The figures of a raster.
@@ -66,7 +69,7 @@ VTKTIPPFILTERS_EXPORT std::vector<double> heightsBelow(
   const ConstraintTable& lines, const PointTable& points, int threads);
 
 /// Returns the settings for points with these bounds and columns. Throws std::runtime_error, also
-/// if the raster's bounds are in GDAL's order, or if the boundary is nowhere near the points.
+/// for bounds of a raster as requireSensible(), or if the boundary is nowhere near the points.
 VTKTIPPFILTERS_EXPORT TerrainSettings makeTerrainSettings(
   const DemRequest& request, const Box2& bounds, const std::vector<std::string>& columns);
 

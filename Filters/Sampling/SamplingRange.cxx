@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Sampling/SamplingRange.h"
 
+#include "Predicates/SensibleRange.h"
 #include "Ranks/Communicator.h"
 #include "Sampling/SimplexParts.h"
 #include "Vtk/DataSets.h"
@@ -156,6 +157,14 @@ Box3 boundsOf(const std::vector<vtkPointSet*>& meshes, Communicator& ranks)
       "UseInputBounds off.");
   }
   return bounds;
+}
+
+void requireSensible(const Box3& range, const std::vector<vtkPointSet*>& meshes,
+  const std::vector<int>& axes, Communicator& ranks)
+{
+  const bool surfaces = areSurfaces(meshes, ranks);
+  const Box3 points = ranks.boundsOfAll(boxOf(meshes, surfaces ? axes : std::vector{ 0, 1, 2 }));
+  requireSensible(range, points, surfaces ? axes : std::vector{ 0, 1, 2 });
 }
 
 Lattice cropped(

@@ -69,6 +69,11 @@ std::array<int, 3> chosenDimensions(const Box3& bounds, const std::array<int, 3>
 /// on all ranks if there are no points. Collective.
 Box3 boundsOf(const std::vector<vtkPointSet*>& meshes, Communicator& ranks);
 
+/// Throws std::runtime_error on all ranks, as requireSensible() of Predicates, for a range of all
+/// ranks' meshes. `axes`: those along which surfaces are sampled. Collective.
+void requireSensible(const Box3& range, const std::vector<vtkPointSet*>& meshes,
+  const std::vector<int>& axes, Communicator& ranks);
+
 /// Returns the part of the lattice that the meshes' bounding boxes meet along `axes`; along other
 /// axes it is not cropped.
 Lattice cropped(

@@ -4,6 +4,7 @@
 
 #include "Resample/SimplexMesh.h"
 #include "Vtk/CellArrays.h"
+#include "vtkTIPPFiltersModule.h"
 
 #include "vtkSmartPointer.h"
 
@@ -46,7 +47,7 @@ struct SimplexParts
 SimplexParts makeSimplices(vtkPointSet* mesh, const std::vector<int>& axes, int threads);
 
 /// Whether the mesh has three-dimensional cells.
-bool hasVolumes(vtkPointSet* mesh);
+VTKTIPPFILTERS_EXPORT bool hasVolumes(vtkPointSet* mesh);
 
 /// Hides the simplices with a marked corner; `markedPoints` is indexed by point id.
 void hideMarked(SimplexSet& simplices, const std::vector<bool>& markedPoints);

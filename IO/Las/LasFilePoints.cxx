@@ -79,6 +79,7 @@ ReadFigures LasFilePoints::readFigures() const
   figures.Files = 1;
   figures.Points = this->Header.Points;
   figures.SkippedPoints = this->Header.Points - this->Records;
+  figures.Bounds = this->Header.Bounds;
   return figures;
 }
 

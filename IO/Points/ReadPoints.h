@@ -42,6 +42,9 @@ struct ReadFigures
   std::int64_t SkippedChunks = 0;
   std::int64_t Points = 0;
   std::int64_t SkippedPoints = 0; ///< not decoded
+  /// The bounds of all points, also of those outside of a region, as far as they are known: those
+  /// in the header of a LAS file, those of the points read of others.
+  Box2 Bounds = Box2::empty();
 
   void add(const ReadFigures& other)
   {
@@ -51,6 +54,7 @@ struct ReadFigures
     this->SkippedChunks += other.SkippedChunks;
     this->Points += other.Points;
     this->SkippedPoints += other.SkippedPoints;
+    this->Bounds.extend(other.Bounds);
   }
 };
 

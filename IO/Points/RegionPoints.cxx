@@ -44,15 +44,21 @@ public:
   std::int64_t most() const override { return this->All->most(); }
   ReferenceSystem referenceSystem() const override { return this->All->referenceSystem(); }
   std::vector<TableReport> reports() const override { return this->All->reports(); }
-  ReadFigures readFigures() const override { return this->All->readFigures(); }
+  ReadFigures readFigures() const override
+  {
+    ReadFigures figures = this->All->readFigures();
+    figures.Bounds = this->Seen; // longitudes may be moved
+    return figures;
+  }
 
 private:
-  void dropOutside(PointBlock& block) const
+  void dropOutside(PointBlock& block)
   {
     std::size_t to = 0;
     for (std::size_t i = 0; i < block.size(); ++i)
     {
       const Point2 p{ block.XY[2 * i], block.XY[2 * i + 1] };
+      this->Seen.extend(p);
       if (!this->Region.contains(p))
       {
         continue;
@@ -72,6 +78,7 @@ private:
   const std::string Path;
   const Box2 Region;
   const int Wrap;
+  Box2 Seen = Box2::empty(); ///< the bounds of all points that were read
 };
 
 } // namespace

@@ -10,12 +10,15 @@
 #include "Partition/ClassifyCells.h"
 #include "Partitioning/MeshTiling.h"
 #include "Partitioning/PartitionMesh.h"
+#include "Predicates/SensibleRange.h"
 
 #include <algorithm>
 #include <cstring>
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace tipp
@@ -406,6 +409,23 @@ std::unique_ptr<PieceSource> openPieceSource(const std::string& path, const Sour
   throw IOError(path,
     "is neither a partitioned mesh (its folder or index) nor a flat one (a folder of .npy arrays, "
     "or a .vtu file of appended, raw, uncompressed data).");
+}
+
+void requireSensible(const PartitionedMesh& mesh, const Box3& range)
+{
+  if (mesh.Points == 0)
+  {
+    return;
+  }
+  try
+  {
+    requireSensible(range, mesh.Domain,
+      mesh.CellSize == 3 ? std::vector<int>{ 0, 1 } : std::vector<int>{ 0, 1, 2 });
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw IOError(mesh.Path, std::string("is not read: ") + error.what());
+  }
 }
 
 } // namespace tipp

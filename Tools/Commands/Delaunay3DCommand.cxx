@@ -141,7 +141,7 @@ int runInMemory(const Delaunay3DArguments& arguments)
     requireWritable(arguments.Output, arguments.Statistics, arguments.Inputs);
   PointTable table = readPoints(arguments.Inputs, arguments.Columns);
   const auto count = std::int64_t(table.size());
-  requireInBounds(arguments.Inputs, arguments.Columns, count);
+  requireInBounds(arguments.Inputs, arguments.Columns, count, table.Figures);
   reportRead(table.Figures);
   reportLeftOut(table.LeftOut, table.ThinnedOut);
   reportTables(table.Reports);

@@ -109,7 +109,7 @@ void warnOfLostBoundaries(const DelaunayArguments& arguments)
 PointTable readPointsFor(const DelaunayArguments& arguments)
 {
   PointTable points = readPoints(arguments.Inputs, arguments.Columns);
-  requireInBounds(arguments.Inputs, arguments.Columns, std::int64_t(points.size()));
+  requireInBounds(arguments.Inputs, arguments.Columns, std::int64_t(points.size()), points.Figures);
   requireElevation(arguments.Duplicates, points.names());
   if (arguments.OutputIs == Opener::Npy)
   {

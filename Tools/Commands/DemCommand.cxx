@@ -335,7 +335,9 @@ int runInMemory(const DemArguments& arguments)
   {
     if (!isPart)
     {
-      requireInBounds(arguments.Inputs, arguments.Columns, std::int64_t(points.size()));
+      // Another raster may be larger.
+      requireInBounds(arguments.Inputs, arguments.Columns, std::int64_t(points.size()),
+        arguments.Like.empty() ? points.Figures : ReadFigures());
     }
     notes.emplace(points);
     report.Read = points.Figures;
@@ -738,6 +740,7 @@ void complete(DemArguments& arguments)
   if (spacing > 0 && (raster.Like || raster.Bounds))
   {
     arguments.Columns.Region = DemRegion::around(raster, spacing);
+    arguments.Request.StrictBounds = false;
   }
   readConstraints(arguments);
 }

@@ -355,7 +355,7 @@ int runInfo(const InfoArguments& arguments)
   {
     return reportInterrupt();
   }
-  requireInBounds(arguments.Inputs, options, summary.Points);
+  requireInBounds(arguments.Inputs, options, summary.Points, stream->readFigures());
   reportRead(stream->readFigures());
   reportLeftOut(stream->leftOut(), stream->thinnedOut());
   printTables(stream->reports());

@@ -6,6 +6,7 @@
 #include "Files/TemporaryPaths.h"
 #include "Files/TextFile.h"
 #include "Gis/GisFiles.h"
+#include "Predicates/SensibleRange.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -20,6 +21,7 @@
 #include <map>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -187,17 +189,6 @@ void addPointOptions(CLI::App& command, PointOptions& options)
     ->check(checkThinning);
 }
 
-namespace
-{
-
-std::string inWords(const Box2& box)
-{
-  return fmt::format(
-    "x from {} to {} and y from {} to {}", box.Min.x, box.Max.x, box.Min.y, box.Max.y);
-}
-
-} // namespace
-
 void addBoundsOption(CLI::App& command, PointOptions& options)
 {
   command
@@ -207,30 +198,47 @@ void addBoundsOption(CLI::App& command, PointOptions& options)
       {
         options.Region = boxOfVtkBounds<2>(bounds.data());
         refuseIf(options.Region->isEmpty(), "--bounds",
-          "is " + inWords(*options.Region) + ", which is no range; give xmin xmax ymin ymax");
+          "is " + inWords(inSpace(*options.Region)) +
+            ", which is no range; give xmin xmax ymin ymax");
       },
       "Read only the points in this range: xmin xmax ymin ymax. Of LAS, LAZ and COPC files the "
       "parts outside of it are not read")
     ->expected(4);
 }
 
-void requireInBounds(
-  const std::vector<std::string>& files, const PointOptions& options, std::int64_t points)
+void requireInBounds(const std::vector<std::string>& files, const PointOptions& options,
+  std::int64_t points, const ReadFigures& figures)
 {
-  if (options.Region && points == 0)
+  if (!options.Region)
   {
+    return;
+  }
+  if (points == 0)
+  {
+    const std::string bounds =
+      figures.Bounds.isEmpty() ? "" : "; the points have " + inWords(inSpace(figures.Bounds));
     throw IOError(files.front(),
       (files.size() > 1 ? "and the other files have no point with " : "has no point with ") +
-        inWords(*options.Region) +
-        "; compare --bounds (xmin xmax ymin ymax) with the bounds that 'tipp info' prints.");
+        inWords(inSpace(*options.Region)) + bounds +
+        "; give --bounds in the order xmin xmax ymin ymax.");
+  }
+  try
+  {
+    requireSensible(inSpace(*options.Region), inSpace(figures.Bounds));
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw IOError(files.front(), std::string("is not read: ") + error.what());
   }
 }
 
 void requireInBounds(
   const std::vector<std::string>& files, const PointOptions& options, const ReadFigures& figures)
 {
-  const bool areLas = std::size_t(figures.Files) == files.size();
-  requireInBounds(files, options, areLas ? figures.Points - figures.SkippedPoints : 1);
+  if (std::size_t(figures.Files) == files.size()) // all are LAS files
+  {
+    requireInBounds(files, options, figures.Points - figures.SkippedPoints, figures);
+  }
 }
 
 void addDuplicatesOption(CLI::App& command, DuplicateRule& rule)

@@ -79,11 +79,12 @@ void addPointOptions(CLI::App& command, PointOptions& options);
 /// Adds --bounds, which limits the points that are read.
 void addBoundsOption(CLI::App& command, PointOptions& options);
 
-/// Throws IOError if no point of the files is within --bounds.
-void requireInBounds(
-  const std::vector<std::string>& files, const PointOptions& options, std::int64_t points);
+/// Throws IOError if none of the files' points is within --bounds, `points` being the number of
+/// those that are, or if requireSensible() refuses them. `figures` are those after reading.
+void requireInBounds(const std::vector<std::string>& files, const PointOptions& options,
+  std::int64_t points, const ReadFigures& figures);
 
-/// The same before points are read, if no part of the files can have such a point.
+/// The same before points are read, as far as the headers of LAS files tell.
 void requireInBounds(
   const std::vector<std::string>& files, const PointOptions& options, const ReadFigures& figures);
 

@@ -198,7 +198,7 @@ void copyToNpy(const PointsArguments& arguments, const PathState& before)
   std::int64_t count = 0; // the header is written first
   forEachBlock(
     *points, blockPoints, [&](const PointBlock& block) { count += std::int64_t(block.size()); });
-  requireInBounds(arguments.Inputs, options, count);
+  requireInBounds(arguments.Inputs, options, count, points->readFigures());
   if (count == 0)
   {
     throw IOError(arguments.Output,

@@ -11,10 +11,12 @@
 #include "Npy/NpyFile.h"
 #include "OpenCL/Devices.h"
 #include "Partitioned/PartitionedMesh.h"
+#include "Predicates/SensibleRange.h"
 #include "Ranks/Communicator.h"
 #include "Raster/RasterFile.h"
 #include "Reading/PieceSource.h"
 #include "Sampling/SamplingRange.h"
+#include "Sampling/SimplexParts.h"
 #include "Vtk/DataSets.h"
 
 #include "vtkCallbackCommand.h"
@@ -46,6 +48,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,7 +64,8 @@ struct ResampleArguments
   std::string Input;
   std::string Output;
   Opener OutputIs = Opener::None; ///< the format of Output
-  std::vector<double> Bounds;     ///< empty: those of the mesh
+  std::vector<double> Bounds;     ///< six; empty: those of the mesh
+  bool BoundsHaveZ = true;        ///< whether the user gave all six
   std::vector<int> Dimensions;    ///< number of samples; empty: given by Delta
   /// Distance of samples; empty: given by Dimensions.
   std::vector<double> Delta;
@@ -205,6 +209,7 @@ vtkSmartPointer<vtkPartitionedUnstructuredReader> openReader(
   if (!arguments.Bounds.empty())
   {
     reader->SetBounds(arguments.Bounds.data());
+    reader->StrictBoundsOn();
   }
   ranks.attempt(
     [&]
@@ -280,6 +285,31 @@ void selectStoredArrays(const ResampleArguments& arguments, const StoredMesh& st
   filter->GetCellDataArraySelection()->DisableArray("GlobalCellIds");
 }
 
+/// Throws IOError if a mesh of volumes needs a range along z that is not given.
+void requireZ(const ResampleArguments& arguments, bool hasVolumes)
+{
+  if (hasVolumes && !arguments.BoundsHaveZ)
+  {
+    throw IOError(arguments.Input,
+      "has cells with a volume, for which --bounds needs xmin xmax ymin ymax zmin zmax.");
+  }
+}
+
+/// Throws IOError if a range hardly is what is meant.
+void requireSensible(
+  const ResampleArguments& arguments, const Box3& range, const StoredMesh& stored)
+{
+  try
+  {
+    requireSensible(range, stored.Extent,
+      stored.IsSurface ? std::vector<int>{ 0, 1 } : std::vector<int>{ 0, 1, 2 });
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw IOError(arguments.Input, std::string("cannot be resampled: ") + error.what());
+  }
+}
+
 std::optional<double> connectStored(const ResampleArguments& arguments, Communicator& ranks,
   vtkRangeResampleFilter* filter, ErrorKeeper* reading)
 {
@@ -291,6 +321,7 @@ std::optional<double> connectStored(const ResampleArguments& arguments, Communic
       time = timeOf(arguments, reader);
       const StoredMesh stored = describe(arguments);
       selectStoredArrays(arguments, stored, reader, filter);
+      requireZ(arguments, !stored.IsSurface);
       if (stored.Extent.isEmpty())
       {
         return; // there are no points
@@ -298,6 +329,7 @@ std::optional<double> connectStored(const ResampleArguments& arguments, Communic
       // The filter cannot find the range itself, because it reads the mesh piece by piece.
       const Box3 bounds =
         arguments.Bounds.empty() ? stored.Extent : boxOfVtkBounds<3>(arguments.Bounds.data());
+      requireSensible(arguments, bounds, stored);
       filter->UseInputBoundsOff();
       filter->SetSamplingBounds(vtkBoundsOf(bounds).data());
       if (!arguments.Dimensions.empty())
@@ -386,8 +418,9 @@ std::optional<double> connectMesh(const ResampleArguments& arguments, Communicat
   }
   ArrayNames names;
   vtkSmartPointer<vtkDataSet> mesh = readMesh(arguments, ranks, names);
-  // Add the elevation of a surface as an array, so that users can select it by name.
   auto* const points = vtkPointSet::SafeDownCast(mesh);
+  ranks.attempt([&] { requireZ(arguments, hasVolumes(points)); });
+  // Add the elevation of a surface as an array, so that users can select it by name.
   if (haveElevation({ points }, ranks))
   {
     mesh = withElevation(points);
@@ -420,7 +453,7 @@ Examples:
   tipp resample surge.vtu -o surge.vti --dims 2048 2048 1
   mpirun -np 4 tipp resample surge.tipp -o surge.vti --dims 2048 2048 1
   tipp resample surge.vtu -o peak.npy --arrays zeta_max --delta 0.01 0.01 0
-    --bounds -76 -75 35 36 0 0 --no-data -99999
+    --bounds -76 -75 35 36 --no-data -99999
 )";
 
 void configure(const ResampleArguments& arguments, vtkRangeResampleFilter* filter)
@@ -429,6 +462,7 @@ void configure(const ResampleArguments& arguments, vtkRangeResampleFilter* filte
   {
     filter->UseInputBoundsOff();
     filter->SetSamplingBounds(arguments.Bounds.data());
+    filter->StrictBoundsOn();
   }
   if (!arguments.Dimensions.empty())
   {
@@ -711,8 +745,8 @@ void addOptions(CLI::App& command, ResampleArguments& arguments)
   addOutput(command, arguments.Output, "The image, see below", Use::WritesRasters);
   command
     .add_option("--bounds", arguments.Bounds,
-      "The range: xmin xmax ymin ymax zmin zmax (default: that of the mesh)")
-    ->expected(6);
+      "The range: xmin xmax ymin ymax [zmin zmax] (default: that of the mesh)")
+    ->expected(4, 6);
   CLI::Option* const dimensions = command
                                     .add_option("--dims", arguments.Dimensions,
                                       "Number of samples along x, y and z; 0: spaced as along the "
@@ -742,6 +776,9 @@ int run(ResampleArguments& arguments)
   arguments.OutputIs = openerOf(arguments.Output, Use::WritesRasters);
   refuseIf(
     arguments.Dimensions.empty() && arguments.Delta.empty(), "--dims", "or --delta is required");
+  refuseIf(arguments.Bounds.size() == 5, "--bounds", "needs four numbers, or six");
+  arguments.BoundsHaveZ = arguments.Bounds.size() != 4;
+  arguments.Bounds.resize(arguments.Bounds.empty() ? 0 : 6);
   if (arguments.OutputIs == Opener::Npy && arguments.Arrays.empty())
   {
     arguments.Arrays = { "elevation" };

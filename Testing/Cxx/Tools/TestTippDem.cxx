@@ -330,11 +330,29 @@ TEST_F(TippDem, PixelsWithoutElevationHaveNoHillshade)
 
 TEST_F(TippDem, WarnsWhereNoPixelHasAValue)
 {
-  this->makePoints(100);
+  this->Folder.file("points.csv", "x,y,z\n0,0,1\n100,0,1\n0,100,1\n");
   const Outcome outcome = this->run({ "dem", "points.csv", "-o", "dem.npy", "--resolution", "1",
-    "--bounds", "200", "210", "0", "9" });
+    "--bounds", "80", "90", "80", "90" });
   EXPECT_EQ(0, outcome.ExitCode);
   EXPECT_NE(std::string::npos, outcome.Err.find("no pixel has a value")) << outcome.Err;
+}
+
+TEST_F(TippDem, RefusesBoundsOutsideOfThePoints)
+{
+  this->Folder.file("points.csv", "x,y,z\n0,0,1\n100,0,1\n0,100,1\n");
+  for (const Words& more : { Words{}, Words{ "--memory", "2M" } })
+  {
+    Words words{ "dem", "points.csv", "-o", "dem.npy", "--resolution", "1", "--bounds", "200",
+      "210", "0", "9" };
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = this->run(words);
+    EXPECT_EQ(1, outcome.ExitCode);
+    EXPECT_NE(std::string::npos,
+      outcome.Err.find("the bounds, x from 200 to 210 and y from 0 to 9, do not meet those of the "
+                       "points, x from 0 to 100 and y from 0 to 100; give bounds in the order xmin "
+                       "xmax ymin ymax."))
+      << outcome.Err;
+  }
 }
 
 TEST_F(TippDem, LongTrianglesOverManyTilesAreTheSameForAnyMemory)

@@ -185,8 +185,8 @@ TEST_F(TippRegion, DemIsTheSameBesideALargeGap)
 TEST_F(TippRegion, DemIsTheSameAtTheBorderOfThePoints)
 {
   this->makePoints(5000);
-  for (const Words& bounds :
-    { square(0, 0, 0.1), square(0.95, 0.5, 0.1), square(-0.3, 0.2, 0.1), square(0.45, 0.98, 0.03) })
+  for (const Words& bounds : { square(0, 0, 0.1), square(0.95, 0.5, 0.1), square(-0.05, 0.2, 0.1),
+         square(0.45, 0.98, 0.03) })
   {
     const nlohmann::json statistics =
       this->expectSameRaster({ "all.copc.laz" }, join({ "--resolution", "30" }, bounds));
@@ -236,12 +236,13 @@ TEST_F(TippRegion, DemWithLinesThinningOrMemoryReadsAllPoints)
   }
 }
 
-TEST_F(TippRegion, DemOutsideOfAllPointsSaysSo)
+TEST_F(TippRegion, DemOutsideOfAllPointsIsRefused)
 {
   this->makePoints(500);
-  const Outcome outcome = this->make(
+  const Outcome outcome = this->run(
     join({ "dem", "all.copc.laz", "-o", "a.npy", "--resolution", "20" }, square(3, 3, 0.1)));
-  EXPECT_NE(std::string::npos, outcome.Err.find("no pixel has a value")) << outcome.Err;
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("do not meet those of the points")) << outcome.Err;
 }
 
 TEST_F(TippRegion, PreviewReadsTheLevelsThatItsPixelsNeed)
@@ -342,6 +343,27 @@ TEST_F(TippRegion, BoundsWithoutPointsAreRefused)
     this->run({ "delaunay", "all.csv", "-o", "a.vtu", "--bounds", "5", "4", "0", "1" });
   EXPECT_NE(0, swapped.ExitCode);
   EXPECT_NE(std::string::npos, swapped.Err.find("give xmin xmax ymin ymax")) << swapped.Err;
+}
+
+TEST_F(TippRegion, BoundsInTheOrderOfGdalAreRefusedWithThoseOfThePoints)
+{
+  this->Folder.file(
+    "utm.csv", "x,y,z\n500000,4900000,1\n500100,4900000,1\n500000,4900200,1\n500100,4900200,1\n");
+  this->make({ "points", "utm.csv", "-o", "utm.las" });
+  for (const char* const input : { "utm.csv", "utm.las" })
+  {
+    for (const Words& command :
+      { Words{ "delaunay", input, "-o", "a.vtu" }, Words{ "delaunay3d", input, "-o", "a.vtu" },
+        Words{ "info", input }, Words{ "points", input, "-o", "a.npy" } })
+    {
+      const Outcome outcome =
+        this->run(join(command, { "--bounds", "500000", "4900000", "500100", "4900200" }));
+      EXPECT_EQ(1, outcome.ExitCode);
+      EXPECT_NE(std::string::npos,
+        outcome.Err.find("more than ten times as long along x as those of the points, x from "))
+        << outcome.Err;
+    }
+  }
 }
 
 TEST_F(TippRegion, InfoPrintsTheLevels)

@@ -168,15 +168,60 @@ TEST_F(TippResample, ReportsAFailureInOneSentence)
     outcome.Err);
 }
 
-TEST_F(TippResample, WarnsOfARangeOutsideOfTheMesh)
+TEST_F(TippResample, RefusesARangeOutsideOfTheMeshWithBothBoxes)
+{
+  ASSERT_EQ(0, this->run({ "flatten", "mesh.vtu", "-o", "flat" }).ExitCode);
+  ASSERT_EQ(0, this->run({ "partition", "mesh.vtu", "-o", "mesh.tipp" }).ExitCode);
+  for (const char* const mesh : { "mesh.vtu", "mesh.tipp", "flat" })
+  {
+    const Outcome outcome = this->run({ "resample", mesh, "-o", "image.vti", "--dims", "8", "8",
+      "1", "--bounds", "5", "6", "5", "6", "0", "0" });
+    EXPECT_EQ(1, outcome.ExitCode);
+    EXPECT_NE(std::string::npos,
+      outcome.Err.find(
+        "the bounds, x from 5 to 6 and y from 5 to 6, do not meet those of the points, "
+        "x from 0"))
+      << outcome.Err;
+    EXPECT_EQ(0U, outcome.Err.find(std::string("tipp: ") + mesh + ": ")) << outcome.Err;
+    EXPECT_EQ(1, std::count(outcome.Err.begin(), outcome.Err.end(), '\n')) << outcome.Err;
+  }
+}
+
+TEST_F(TippResample, TakesARangeWithoutZ)
+{
+  const Words words{ "resample", "mesh.vtu", "-o", "image.npy", "--arrays", "height", "--dims", "9",
+    "9", "1", "--bounds", "0.2", "0.7", "0.1", "0.6" };
+  ASSERT_EQ(0, this->run(words).ExitCode);
+  const std::string image = contentOf(this->Folder.path("image.npy"));
+  Words whole = words;
+  whole.insert(whole.end(), { "0", "0" });
+  ASSERT_EQ(0, this->run(whole).ExitCode);
+  EXPECT_EQ(contentOf(this->Folder.path("image.npy")), image);
+  whole.pop_back();
+  EXPECT_NE(std::string::npos, this->run(whole).Err.find("needs four numbers, or six"));
+}
+
+TEST_F(TippResample, NeedsZOfARangeOfTetrahedra)
+{
+  this->Folder.file("space.csv", "x,y,z\n0,0,5\n1,0,5\n0,1,5\n0,0,6\n1,1,7\n");
+  for (const char* const mesh : { "space.vtu", "space.tipp" })
+  {
+    ASSERT_EQ(0, this->run({ "delaunay3d", "space.csv", "-o", mesh }).ExitCode);
+    const Outcome outcome = this->run({ "resample", mesh, "-o", "image.vti", "--dims", "4", "4",
+      "4", "--bounds", "0", "1", "0", "1" });
+    EXPECT_EQ(1, outcome.ExitCode);
+    EXPECT_NE(std::string::npos, outcome.Err.find("--bounds needs xmin xmax ymin ymax zmin zmax"))
+      << outcome.Err;
+  }
+}
+
+TEST_F(TippResample, RefusesARangeInTheOrderOfGdal)
 {
   const Outcome outcome = this->run({ "resample", "mesh.vtu", "-o", "image.vti", "--dims", "8", "8",
-    "1", "--bounds", "5", "6", "5", "6", "0", "0" });
-  EXPECT_EQ(0, outcome.ExitCode);
-  EXPECT_EQ(
-    "tipp: warning: mesh.vtu: No sample lies in a cell of the mesh: check the range and the "
-    "number of samples.\n",
-    outcome.Err);
+    "1", "--bounds", "0.5", "20", "0.6", "30", "0", "0" });
+  EXPECT_EQ(1, outcome.ExitCode);
+  EXPECT_NE(std::string::npos, outcome.Err.find("more than ten times as long along x"))
+    << outcome.Err;
 }
 
 TEST_F(TippResample, RefusesAGridWithImplicitPoints)
