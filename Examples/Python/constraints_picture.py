@@ -7,7 +7,6 @@ Usage: constraints_picture.py POINTS.txt PICTURE.png SHORE ISLAND...      (POINT
 import sys
 
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
 
 import tipp
 from pictures import save_png
@@ -41,13 +40,13 @@ def main():
     rings = read_outlines(points, [int(count) for count in sys.argv[3:]])
     plain = tipp.delaunay(points)
     lake = tipp.delaunay_2d(points, polygons=rings)
-    kept = vtk_to_numpy(lake.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    kept = lake.cells
 
     low, size = points.min(axis=0), np.ptp(points, axis=0)
     scale = (WIDTH - 20) / size[0]
     picture = np.ones((int(size[1] * scale) + 21, 2 * WIDTH, 3))
     shore = np.concatenate([np.stack([ring, np.roll(ring, -1, axis=0)], axis=1) for ring in rings])
-    inside = vtk_to_numpy(lake.GetPoints().GetData())[:, :2]
+    inside = lake.points[:, :2]
     for left, places, triangles in ((0, points, plain), (WIDTH, inside, kept)):
         edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
         draw(picture, places[edges], low, scale, EDGES, left)

@@ -23,7 +23,7 @@ def main():
 
     low, high = np.nanpercentile(grid, [1, 99])
     save_png(sys.argv[2], lit(coloured(grid, TERRAIN, low, high), grid, 0.5 / spacing))
-    print(f"{len(points)} points, {mesh.GetNumberOfPolys()} triangles, {grid.shape[1]} x {grid.shape[0]} samples, "
+    print(f"{len(points)} points, {len(mesh.cells)} triangles, {grid.shape[1]} x {grid.shape[0]} samples, "
           f"elevations from {np.nanmin(grid):.1f} to {np.nanmax(grid):.1f}")
 
 

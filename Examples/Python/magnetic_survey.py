@@ -39,7 +39,7 @@ def main():
 
     low, high = np.nanpercentile(grid, [2, 98])
     save_png(sys.argv[2], lit(coloured(grid, ANOMALY, low, high), grid, 3 / (high - low)))
-    print(f"{len(points)} points, {mesh.GetNumberOfPolys()} triangles, {grid.shape[1]} x {grid.shape[0]} samples, "
+    print(f"{len(points)} points, {len(mesh.cells)} triangles, {grid.shape[1]} x {grid.shape[0]} samples, "
           f"{column} from {np.nanmin(grid):.0f} to {np.nanmax(grid):.0f}")
 
 

@@ -13,9 +13,9 @@ count = int(sys.argv[1]) if len(sys.argv) > 1 else 50_000
 with tipp.ranks() as world:
     points = np.random.default_rng(world.rank).random((count, 2))
     piece = tipp.delaunay_2d(points, point_data={"x": points[:, 0]})
-    total = world.allreduce(piece.GetNumberOfCells())
+    total = world.allreduce(len(piece.cells))
     tipp.write(piece, "ranks.tipp")
-    part = tipp.read("ranks.tipp", bounds=(0.4, 0.6, 0.4, 0.6, 0, 0))
-    read = world.allreduce(part.GetNumberOfCells())
+    part = tipp.read("ranks.tipp", bounds=(0.4, 0.6, 0.4, 0.6))
+    read = world.allreduce(len(part.cells))
     if world.rank == 0:
         print(f"{total} triangles of {world.size} ranks, {read} of them in the range", flush=True)

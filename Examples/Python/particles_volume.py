@@ -37,7 +37,7 @@ def main():
     cuts = [volume[samples // 2], volume[:, samples // 2], volume[:, :, samples // 2]]
     low, high = np.nanpercentile(volume, [1, 99])
     save_png(sys.argv[2], coloured(np.hstack(cuts), ANOMALY, low, high))
-    print(f"{len(points)} particles, {mesh.GetNumberOfCells()} tetrahedra, {samples}^3 samples, "
+    print(f"{len(points)} particles, {len(mesh.cells)} tetrahedra, {samples}^3 samples, "
           f"temperatures from {np.nanmin(volume):.1f} to {np.nanmax(volume):.1f}")
 
 

@@ -58,7 +58,7 @@ def cut(points, cells):
 def main(path):
     points = np.random.default_rng(1).random((POINTS, 3))
     left, left_share = cut(points, corners_of(of_vtk(points)))
-    right, right_share = cut(points, corners_of(tipp.delaunay_3d(points)))
+    right, right_share = cut(points, tipp.delaunay_3d(points).cells)
     gap = np.ones((PIXELS, 20, 3))
     save_png(path, np.concatenate([left, gap, right], axis=1))
     print(f"of the cut, vtkDelaunay3D fills {left_share:.0%}, TIPP {right_share:.0%}")

@@ -11,4 +11,4 @@ mesh = tipp.delaunay_2d(points, point_data={"height": height})
 image = tipp.resample(mesh, dimensions=(300, 200, 1))
 grid = tipp.as_array(image, "height")
 
-print(mesh.GetNumberOfPolys(), "triangles; a grid of", grid.shape, "samples up to", round(grid.max(), 3))
+print(len(mesh.cells), "triangles; a grid of", grid.shape, "samples up to", round(grid.max(), 3))

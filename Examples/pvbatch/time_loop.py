@@ -29,7 +29,7 @@ def main():
     points = np.random.default_rng(1).random((20000, 3))
     points[:, 2] = 0
     level = np.zeros(len(points))  # memory of the simulation, which the mesh shares
-    mesh = tipp.delaunay_2d(points, point_data={"level": level})
+    mesh = tipp.delaunay_2d(points, point_data={"level": level}, return_type="vtk")
 
     producer = TrivialProducer()
     producer.GetClientSideObject().SetOutput(mesh)

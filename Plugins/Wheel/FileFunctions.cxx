@@ -206,7 +206,8 @@ bool isIn(const std::optional<Strings>& names, const std::string& name)
 }
 
 std::vector<Piece> readRange(PieceSource& source,
-  const std::optional<std::array<double, 6>>& bounds, PieceOptions options, bool borrowed)
+  const std::optional<std::array<double, 6>>& bounds, PieceOptions options, bool borrowed,
+  bool isStrict)
 {
   Communicator alone(nullptr);
   source.prepare(alone);
@@ -215,7 +216,12 @@ std::vector<Piece> readRange(PieceSource& source,
   std::optional<RangeFilter> range;
   if (bounds)
   {
-    range.emplace(source.mesh(), boxOfVtkBounds<3>(bounds->data()));
+    const Box3 box = boxOfVtkBounds<3>(bounds->data());
+    if (isStrict)
+    {
+      requireSensible(source.mesh(), box);
+    }
+    range.emplace(source.mesh(), box);
     numbers = range->pieces();
   }
   options.Borrowed = borrowed || range;
@@ -251,6 +257,7 @@ nb::list readMesh(const std::string& path, const std::optional<std::array<double
   const auto memory = of<std::uint64_t>(given, "memory_limit");
   const bool borrowed = of<bool>(given, "borrowed");
   const bool isMerged = of<bool>(given, "merge");
+  const bool isStrict = of<bool>(given, "strict_bounds");
   std::vector<Piece> pieces;
   try
   {
@@ -270,7 +277,7 @@ nb::list readMesh(const std::string& path, const std::optional<std::array<double
         {
           options.Wanted.push_back(isIn(array.OfPoints ? pointArrays : cellArrays, array.Name));
         }
-        pieces = readRange(*source, bounds, options, borrowed);
+        pieces = readRange(*source, bounds, options, borrowed, isStrict);
         if (isMerged && pieces.size() > 1)
         {
           merge(pieces);

@@ -6,10 +6,12 @@
 #include "Flat/FlatMesh.h"
 #include "Parallel/ParallelFor.h"
 #include "Points/ReadPoints.h"
+#include "Predicates/SensibleRange.h"
 #include "Resample/Resample.h"
 #include "Sampling/SamplingLattice.h"
 
 #include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -18,6 +20,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace tipp::python
 {
@@ -58,6 +61,7 @@ DemRequest requestOf(const nb::dict& options)
   if (const auto bounds = of<std::optional<std::array<double, 4>>>(options, "bounds"))
   {
     request.Raster.Bounds = boxOfVtkBounds<2>(bounds->data());
+    request.StrictBounds = of<bool>(options, "strict_bounds");
   }
   request.Raster.Aligned = of<bool>(options, "align");
   request.Bands = of<std::vector<std::string>>(options, "attributes");
@@ -218,11 +222,12 @@ nb::tuple describe(const Lattice& lattice)
 }
 
 /// Returns the lattice as describe() does, the arrays' samples, the mask and warnings.
+/// `pointBounds`: those of the points, if the given ones are to be checked against them.
 nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
   const std::optional<InputArray>& hidden, const nb::dict& pointData, const nb::dict& cellData,
-  const std::array<double, 6>& givenBounds, const std::array<int, 3>& given,
-  const std::array<double, 3>& delta, double nullValue, const std::string& device, int threads,
-  Progress progress)
+  const std::array<double, 6>& givenBounds, const std::optional<std::array<double, 6>>& pointBounds,
+  const std::array<int, 3>& given, const std::array<double, 3>& delta, double nullValue,
+  const std::string& device, int threads, Progress progress)
 {
   Reporter reporter(std::move(progress));
   const bool surface = cells.shape(1) == 3;
@@ -234,6 +239,11 @@ nb::tuple resampleMesh(const InputArray& points, const InputArray& cells,
   const std::vector<NamedArray> cellArrays = namedArrays(cellData, cells, "cells");
   const std::vector<int> axes =
     surfaceAxes({ int(lattice.size(0)), int(lattice.size(1)), int(lattice.size(2)) });
+  if (pointBounds)
+  {
+    requireSensible(
+      bounds, boxOfVtkBounds<3>(pointBounds->data()), surface ? axes : std::vector<int>{ 0, 1, 2 });
+  }
   ResampleOptions options;
   options.Device = parseDeviceChoice(device);
   options.Threads = threadCount(threads);

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The engine of the wheel: calls the C++ cores with NumPy arrays. Arguments are already checked.
 
-If VTK is installed, in any version, functions also accept and return data sets of VTK and PyVista.
+If VTK is installed, in any version, functions also accept data sets of VTK and PyVista.
 """
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ import numpy as np
 from . import _arguments as check
 from . import _core
 from . import _segments as constraints
-from ._arrays import attribute, attributes, coordinates, grid_position, Image, in_space, Mesh, require_values
+from ._arrays import attribute, attributes, coordinates, grid_position, in_space, require_values
 from ._arguments import finish, Progress
-from ._vtkmodules import root
+from ._data import Image, Mesh
 
 _HIDDEN = 32  # vtkDataSetAttributes::HIDDENCELL
 _GHOSTS = "vtkGhostType"
@@ -182,19 +182,18 @@ def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
                 progress: Progress | None) -> tuple[Any, dict[str, Any]]:
     if check.is_vtk_object(points):
         return _delaunay_of_data_set(points, options, progress)
-    if isinstance(points, Mesh):
-        point_data = {**points.point_data, **(point_data or {})}
-        points = points.points
     array = plain(coordinates(points))
     if options["polygons"] is not None or options["edges"] is not None:  # their corners may have a z
         array = in_space(array)
     mesh, statistics, _ = _triangulated(array, attributes(point_data, len(array)), options, progress)
-    if root() is not None:
-        from ._vtk import surface_of
-
-        return surface_of(mesh, None), statistics
-    mesh.points = in_space(mesh.points)
+    mesh.points = _writable(in_space(mesh.points))
+    mesh.point_data = {name: _writable(values) for name, values in mesh.point_data.items()}
     return mesh, statistics
+
+
+def _writable(array: np.ndarray) -> np.ndarray:
+    """Returns a copy of memory that is read-only, so that users can change each array of a result."""
+    return array if array.flags.writeable else array.copy()
 
 
 def _triangulated(points: np.ndarray, data: dict[str, np.ndarray], options: dict[str, Any],
@@ -263,12 +262,12 @@ def _with_circle(points: np.ndarray, offset: float) -> np.ndarray:
 
 def _delaunay_of_data_set(data: Any, options: dict[str, Any],
                           progress: Progress | None) -> tuple[Any, dict[str, Any]]:
-    from ._vtk import point_arrays, surface_of, wrapped_like, xyz_of
+    from ._vtk import point_arrays, surface_of, xyz_of
 
     has_constraints = any(options[name] is not None for name in ("edge_source", "edges", "polygons"))
     arrays = point_arrays(data) if has_constraints else {}
     mesh, statistics, is_same = _triangulated(plain(xyz_of(data)), arrays, options, progress)
-    return wrapped_like(surface_of(mesh, None if options["bound"] or not is_same else data), data), statistics
+    return surface_of(mesh, None if options["bound"] or not is_same else data), statistics
 
 
 def delaunay_file(
@@ -282,7 +281,7 @@ def delaunay_file(
     return figures
 
 
-def read(path: str, options: dict[str, Any], progress: Progress | None) -> Any:
+def read(path: str, options: dict[str, Any], progress: Progress | None) -> Mesh | list[Mesh]:
     of_points, of_cells = _core.array_names(path, options["tiling"], options["memory_limit"])
     check.require_arrays(options["point_arrays"], of_points, "point")
     check.require_arrays(options["cell_arrays"], of_cells, "cell")
@@ -294,13 +293,8 @@ def read(path: str, options: dict[str, Any], progress: Progress | None) -> Any:
     pieces = _core.read(path, bounds, options, progress)
     finish(progress)
     meshes = [Mesh(**piece) for piece in pieces]
-    if root() is None:
-        empty = Mesh(np.empty((0, 3)), np.empty((0, 3), np.int32))
-        return (meshes or [empty])[0] if options["merge"] else meshes
-    from ._vtk import grid_of, partitioned
-
-    grids = [grid_of(mesh) for mesh in meshes]
-    return (grids or [grid_of(None)])[0] if options["merge"] else partitioned(grids)
+    empty = Mesh(np.empty((0, 3)), np.empty((0, 3), np.int32))
+    return (meshes or [empty])[0] if options["merge"] else meshes
 
 
 def write(mesh: Any, path: str, options: dict[str, Any], progress: Progress | None) -> None:
@@ -313,8 +307,7 @@ def write(mesh: Any, path: str, options: dict[str, Any], progress: Progress | No
         sentences = []
         thin = _count_thin(source, mesh)
         if thin:
-            sentences.append(f"{thin} cells of fewer dimensions are left out: a partitioned mesh has triangles or "
-                             "tetrahedra only.")
+            sentences.append(check.THIN_LEFT_OUT.format(thin))
         if _GHOSTS in cell_data:
             owned = cell_data[_GHOSTS] == 0
             ghosts = len(cells) - int(owned.sum())
@@ -330,7 +323,7 @@ def write(mesh: Any, path: str, options: dict[str, Any], progress: Progress | No
 def _count_thin(source: Any, simplices: Mesh) -> int:
     """Returns the number of a mesh's cells that are not among its simplices."""
     if isinstance(source, Mesh):
-        return sum(len(cells) for cells in (source.lines, source.vertices) if cells is not None)
+        return source.count_thin()
     return source.GetNumberOfCells() - len(simplices.cells)
 
 
@@ -385,19 +378,22 @@ def open_part(mesh: Mesh, threads: int) -> Any:
     return open_mesh(mesh, {"threads": threads})
 
 
-def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> Any:
-    source = mesh
+def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> Image:
     mesh, _ = _simplices(mesh, "mesh", ("vtkPointSet",), "a mesh")
     points = plain(np.asarray(mesh.points))
     low, high = box(points)
-    bounds = options["bounds"] if options["bounds"] is not None else np.column_stack([low, high]).ravel().tolist()
+    own = np.column_stack([low, high]).ravel().tolist()
+    bounds = own if options["bounds"] is None else options["bounds"]
+    if len(bounds) == 4:
+        bounds = [*bounds, *(own[4:] if mesh.cells.shape[1] == 4 else (0.0, 0.0))]
+    is_checked = options["bounds"] is not None and options["strict_bounds"] and len(points) > 0
     if options["bounds"] is None and not np.isfinite(points).all(axis=1).any():
         raise RuntimeError("the input has no points with finite coordinates, so its bounds give no range: "
                            "give bounds.")
     chosen = _selected_arrays(mesh, options["arrays"])
     hidden, sentences = _hidden_cells(mesh, points, options, chosen[0])
     (origin, spacing, dimensions), samples, mask, more = _core.resample(
-        points, mesh.cells, hidden, chosen[0], chosen[1], bounds,
+        points, mesh.cells, hidden, chosen[0], chosen[1], bounds, own if is_checked else None,
         options["dimensions"], options["spacing"] or [0.0, 0.0, 0.0], options["null_value"], options["device"],
         options["threads"], progress)
     finish(progress)
@@ -405,12 +401,7 @@ def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> A
         sentences.append("No sample lies in a cell of the mesh: check the range and the number of samples.")
     warn([*sentences, *more])
     arrays = dict(zip([*chosen[0], *chosen[1]], samples))
-    image = Image(tuple(origin), tuple(spacing), dimensions, {**arrays, "vtkValidPointMask": mask})
-    if isinstance(source, Mesh) and root() is None:
-        return image
-    from ._vtk import image_of, wrapped_like
-
-    return wrapped_like(image_of(image), source)
+    return Image(tuple(origin), tuple(spacing), dimensions, {**arrays, "vtkValidPointMask": mask})
 
 
 def _selected_arrays(mesh: Mesh, names: list[str] | None) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:

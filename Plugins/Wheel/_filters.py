@@ -13,9 +13,11 @@ import numpy as np
 from . import _arguments as check
 from . import _core, _engine
 from ._arguments import array_of, DELAUNAY_2D, DELAUNAY_FILE, DEM, options_of, QUERY, READ, WRITE
-from ._arrays import grid_position, Image
+from ._arrays import grid_position
+from ._data import Image
 from ._dem import lines_of
 from ._filter import add_total, Filter
+from ._results import in_vtk
 from ._vtk import image_of, point_cloud, vtk_array, xyz_of
 from ._vtkmodules import (
     vtkDataObject,
@@ -133,7 +135,7 @@ class vtkTIPPPointsToImage(Filter):
     THIN_LOWEST, THIN_HIGHEST, THIN_NEAREST = range(3)
     PROPERTIES = {
         "BreaklinesFileName": "", "BoundaryFileName": "", "SoftBreaklines": False, "Resolution": 0.0,
-        "UseInputBounds": True, "SamplingBounds": (0.0, 1.0, 0.0, 1.0), "AlignToResolution": True,
+        "UseInputBounds": True, "SamplingBounds": (0.0, 1.0, 0.0, 1.0), "StrictBounds": False, "AlignToResolution": True,
         "MaximumEdgeLength": 0.0, "Duplicates": 0, "ThinningSize": 0.0, "ThinningRule": 2, "MemoryLimit": 0, "NumberOfThreads": 0,
     }
     LIMITS = {"Resolution": (0, None), "MaximumEdgeLength": (0, None), "Duplicates": (0, 3), "ThinningSize": (0, None),
@@ -187,6 +189,7 @@ class vtkTIPPPointsToImage(Filter):
         lines = [vtkPolyData.GetData(port) for port in inputs[1:]]
         options = {
             **options_of(self, DEM), "resolution": size, "bounds": bounds, "attributes": self.texts,
+            "strict_bounds": self.value("StrictBounds"),
             "breaklines": self._lines("Breaklines", lines[0]), "boundary": self._lines("Boundary", lines[1]),
             "classes": None, "returns": 0, "keep": [], "z": "", "layer": "", "crs": "",
         }
@@ -205,7 +208,8 @@ class vtkRangeResampleFilter(Filter):
     """Samples a mesh of triangles or tetrahedra in a range; the output is a vtkImageData."""
 
     PROPERTIES = {
-        "UseInputBounds": True, "SamplingBounds": (0.0, 1.0, 0.0, 1.0, 0.0, 1.0), "SamplingDimensions": (10, 10, 10),
+        "UseInputBounds": True, "StrictBounds": False, "SamplingBounds": (0.0, 1.0, 0.0, 1.0, 0.0, 1.0),
+        "SamplingDimensions": (10, 10, 10),
         "Delta": (0.0, 0.0, 0.0), "NullValue": 0.0, "UseNoDataValue": False, "NoDataValue": -99999.0,
         "DeviceChoice": "auto", "NumberOfThreads": 0,
     }
@@ -236,12 +240,14 @@ class vtkRangeResampleFilter(Filter):
         mesh = vtkDataSet.GetData(inputs[0])
         names = [name for kind in ("Point", "Cell") for name in self.chosen(kind, mesh)]
         options = {
-            "bounds": list(self._bounds()), "spacing": list(self.value("Delta")),
+            "bounds": list(self._bounds()),
+            "strict_bounds": self.value("StrictBounds") and not self.value("UseInputBounds"), "spacing": list(self.value("Delta")),
             "dimensions": list(self.value("SamplingDimensions")), "null_value": self.value("NullValue"),
             "no_data": self.value("NoDataValue") if self.value("UseNoDataValue") else None, "arrays": names,
             "device": self.value("DeviceChoice"), "threads": self.value("NumberOfThreads"),
         }
-        vtkImageData.GetData(outputs, 0).ShallowCopy(_engine.resample(mesh, options, self.show_progress))
+        image = _engine.resample(mesh, options, self.show_progress)
+        vtkImageData.GetData(outputs, 0).ShallowCopy(in_vtk(image))
 
 
 class vtkPartitionedUnstructuredReader(Filter):
@@ -249,7 +255,8 @@ class vtkPartitionedUnstructuredReader(Filter):
 
     OWNED, OWNED_AND_BORROWED = range(2)
     PROPERTIES = {
-        "FileName": "", "Bounds": (1.0, 0.0, 1.0, 0.0, 1.0, 0.0), "BorrowerMode": 0, "MergePieces": True,
+        "FileName": "", "Bounds": (1.0, 0.0, 1.0, 0.0, 1.0, 0.0), "StrictBounds": False, "BorrowerMode": 0,
+        "MergePieces": True,
         "Tiling": "grid:4x4", "MemoryLimit": 2 * _GIGABYTE,
     }
     LIMITS = {"BorrowerMode": (0, 1), "MemoryLimit": (1, None)}
@@ -283,12 +290,12 @@ class vtkPartitionedUnstructuredReader(Filter):
         chosen = [[s.GetArrayName(i) for i in range(s.GetNumberOfArrays()) if s.GetArraySetting(i)]
                   for s in (self.GetPointDataArraySelection(), self.GetCellDataArraySelection())]
         options = {
-            **options_of(self, READ), "bounds": list(self.value("Bounds")),
+            **options_of(self, READ), "bounds": list(self.value("Bounds")), "strict_bounds": self.value("StrictBounds"),
             "borrowed": self.value("BorrowerMode") == 1, "time": None, "point_arrays": chosen[0],
             "cell_arrays": chosen[1],
         }
-        mesh = _engine.read(self.value("FileName"), options, self.show_progress)
-        vtkDataObject.GetData(outputs, 0).ShallowCopy(mesh)
+        meshes = _engine.read(self.value("FileName"), options, self.show_progress)
+        vtkDataObject.GetData(outputs, 0).ShallowCopy(in_vtk(meshes, as_grid=True))
 
 
 class vtkPartitionedUnstructuredWriter(Filter):
@@ -405,3 +412,6 @@ class vtkTIPPPointReader(Filter):
             text.InsertNextValue(crs)
             cloud.GetFieldData().AddArray(text)
         vtkPolyData.GetData(outputs, 0).ShallowCopy(cloud)
+
+
+NAMES = tuple(kind.__name__ for kind in Filter.__subclasses__())

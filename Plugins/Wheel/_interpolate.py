@@ -10,6 +10,7 @@ import numpy as np
 from . import _arguments as check
 from . import _core
 from ._arrays import columns_of, converted, coordinates
+from ._show import as_html, as_text, box_text, Rows
 
 
 class Delaunay:
@@ -103,6 +104,18 @@ class Delaunay:
     @cached_property
     def _locator(self) -> Any:
         return _core.Locator(self.points, self.simplices, self.neighbors)
+
+    def _rows(self) -> Rows:
+        bounds = np.column_stack([self.points.min(axis=0), self.points.max(axis=0)]).ravel()
+        return [("points", f"{self.npoints}, {box_text(bounds)}"), ("simplices", f"{self.nsimplex} triangles"),
+                ("hull", f"{np.count_nonzero(self.neighbors == -1)} edges"),
+                ("coplanar", f"{len(self._duplicates)} points left out")]
+
+    def __repr__(self) -> str:
+        return as_text("tipp.Delaunay", self._rows())
+
+    def _repr_html_(self) -> str:
+        return as_html("tipp.Delaunay", self._rows())
 
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in self.__dict__.items() if name != "_locator"}

@@ -156,7 +156,7 @@ def main():
         if path.endswith(".npy"):
             run(sys.argv[1], name, np.load(path), int(width))
         else:
-            mesh = tipp.read(path)
+            mesh = tipp.read(path, return_type="vtk")
             run_mesh(name, mesh, int(width), mesh.GetPointData().GetArrayName(0))
 
 

@@ -21,7 +21,7 @@ expected = tipp.as_array(tipp.resample(mesh, (0.2, 0.8, 0.2, 0.6, 0, 0), (301, 2
 np.testing.assert_array_equal(arrays["height"].reshape(201, 301), expected)
 
 # The stored mesh must have each triangle once, however many ranks wrote it.
-stored = tipp.read(session.scratch / "terrain.tipp").GetNumberOfCells()
-expect(stored == mesh.GetNumberOfPolys(), f"{stored} triangles were stored, {mesh.GetNumberOfPolys()} were made")
+stored = len(tipp.read(session.scratch / "terrain.tipp").cells)
+expect(stored == len(mesh.cells), f"{stored} triangles were stored, {len(mesh.cells)} were made")
 
 expect_picture(session.scratch / "terrain.png", session.source / "Data/Baselines/PvbatchTerrain.png")

@@ -27,7 +27,7 @@ def stored(values):
 
 def coordinates(points):
     """The coordinates of the mesh that is made of these points."""
-    return vtk_to_numpy(tipp.delaunay_2d(points).GetPoints().GetData())
+    return tipp.delaunay_2d(points).points
 
 
 class Frame:
@@ -137,7 +137,7 @@ class Tables(unittest.TestCase):
 
 
 def coordinates_within(polygon):
-    return vtk_to_numpy(tipp.delaunay_2d(random_points(), polygons=[polygon]).GetPoints().GetData())
+    return tipp.delaunay_2d(random_points(), polygons=[polygon]).points
 
 
 class PointData(unittest.TestCase):
@@ -205,7 +205,7 @@ class TooFewValues(unittest.TestCase):
         self.corners = np.array([[0.2, 0.2], [0.8, 0.3], [0.5, 0.7]])
 
     def mesh(self, of_cells=False, name="short"):
-        mesh = tipp.delaunay_2d(random_points())
+        mesh = tipp.delaunay_2d(random_points(), return_type="vtk")
         array = vtkUnsignedCharArray()
         array.SetName(name)
         array.SetNumberOfTuples(2)
@@ -232,7 +232,7 @@ class TooFewValues(unittest.TestCase):
         if not hasattr(tipp.vtkPartitionedMeshQuery, "ZoneStatistics"):
             self.skipTest("the wheel's class has no ZoneStatistics")
         query = tipp.vtkPartitionedMeshQuery()
-        query.SetSourceData(tipp.delaunay_2d(random_points()))
+        query.SetSourceData(tipp.delaunay_2d(random_points(), return_type="vtk"))
         errors = []
 
         def on_error(_object, _event, text):

@@ -38,9 +38,9 @@ class Correct(unittest.TestCase):
         points = RANDOM.random((500, 2))
         edges = [[0, 1], [2, 3]]
         mesh = tipp.delaunay_2d(points, edges=edges, marks="lines")
-        lines, triangles = _cells(mesh)
-        self.assertTrue(tipp.check(_points(mesh), triangles, edges=lines))
-        self.assertFalse(tipp.check(_points(mesh), triangles))
+        lines, triangles = (mesh.lines, mesh.cells)
+        self.assertTrue(tipp.check(mesh.points, triangles, edges=lines))
+        self.assertFalse(tipp.check(mesh.points, triangles))
         self.assertIn("constraints that are no edge", tipp.check(points, tipp.delaunay(points), edges=edges).faults)
 
 
@@ -150,24 +150,6 @@ def _quietly(work):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return work()
-
-
-def _points(mesh):
-    if isinstance(mesh, tipp.Mesh):
-        return mesh.points
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-
-    return vtk_to_numpy(mesh.GetPoints().GetData())
-
-
-def _cells(mesh):
-    """Constraints: lines and triangles."""
-    if isinstance(mesh, tipp.Mesh):
-        return mesh.lines, mesh.cells
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-
-    return [vtk_to_numpy(cells.GetConnectivityArray()).reshape(-1, size)
-            for cells, size in ((mesh.GetLines(), 2), (mesh.GetPolys(), 3))]
 
 
 if __name__ == "__main__":

@@ -13,18 +13,14 @@ SQUARES = np.array([[0, 0], [8, 0], [8, 8], [0, 8], [3, 3], [5, 3], [5, 5], [3, 
 INNER = [4, 5, 6, 7]
 
 
-def triangles(mesh):
-    return vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-
-
 def area(mesh):
-    a, b, c = (vtk_to_numpy(mesh.GetPoints().GetData())[corner, :2] for corner in triangles(mesh).T)
+    a, b, c = (mesh.points[corner, :2] for corner in mesh.cells.T)
     (px, py), (qx, qy) = (b - a).T, (c - a).T
     return float(np.sum(px * qy - py * qx) / 2)
 
 
 def has_edge(mesh, a, b):
-    return any(a in triangle and b in triangle for triangle in triangles(mesh).tolist())
+    return any(a in triangle and b in triangle for triangle in mesh.cells.tolist())
 
 
 class Edges(unittest.TestCase):
@@ -35,10 +31,10 @@ class Edges(unittest.TestCase):
         b = next(i for i in range(1, 300) if not has_edge(plain, a, i))
         mesh = tipp.delaunay_2d(points, edges=[[a, b]])
         self.assertTrue(has_edge(mesh, a, b))
-        self.assertEqual(plain.GetNumberOfPolys(), mesh.GetNumberOfPolys())
+        self.assertEqual(len(plain.cells), len(mesh.cells))
 
     def test_edge_source_has_the_ids_of_the_points(self):
-        source = tipp.delaunay_2d(SQUARES, polygons=[INNER], marks="lines")
+        source = tipp.delaunay_2d(SQUARES, polygons=[INNER], marks="lines", return_type="vtk")
         source.GetPointData().Initialize()
         lines = type(source)()
         lines.SetLines(source.GetLines())
@@ -48,8 +44,8 @@ class Edges(unittest.TestCase):
 
     def test_crossing_is_a_new_point(self):
         mesh = tipp.delaunay_2d(SQUARES, edges=[[0, 2], [5, 7]], point_data={"depth": np.arange(9.0)})
-        self.assertEqual(10, mesh.GetNumberOfPoints())
-        self.assertEqual((4, 4, 0), mesh.GetPoint(9))
+        self.assertEqual(10, len(mesh.points))
+        self.assertEqual([4, 4, 0], mesh.points[9].tolist())
         self.assertEqual(5, tipp.as_array(mesh, "depth")[9])  # between points 4 and 6, which are on the edge
 
     def test_crossing_is_refused(self):
@@ -57,7 +53,7 @@ class Edges(unittest.TestCase):
             tipp.delaunay_2d(SQUARES, edges=[[0, 2], [5, 7]], crossings="refuse")
 
     def test_marks(self):
-        lines = tipp.delaunay_2d(SQUARES, polygons=[INNER], marks="lines")
+        lines = tipp.delaunay_2d(SQUARES, polygons=[INNER], marks="lines", return_type="vtk")
         self.assertEqual([0, 0, 0, 0, -1, -1, -1, -1], tipp.as_array(lines, "ConstraintId").tolist())
         flags = tipp.as_array(tipp.delaunay_2d(SQUARES, polygons=[INNER], marks="flags"), "ConstraintEdges")
         self.assertEqual(4, flags.sum())
@@ -72,19 +68,19 @@ class Polygons(unittest.TestCase):
 
     def test_coordinates_of_points_refer_to_these_points(self):
         mesh = tipp.delaunay_2d(SQUARES, polygons=[SQUARES[INNER]])
-        self.assertEqual(9, mesh.GetNumberOfPoints())
+        self.assertEqual(9, len(mesh.points))
         self.assertEqual(4, area(mesh))
 
     def test_other_coordinates_are_new_points(self):
         mesh = tipp.delaunay_2d(SQUARES, polygons=[[[1.0, 1.0], [7.0, 1.0], [7.0, 7.0], [1.0, 7.0]]], edges=[[4, 6]])
-        self.assertEqual(13, mesh.GetNumberOfPoints())
+        self.assertEqual(13, len(mesh.points))
         self.assertEqual(36, area(mesh))
         self.assertTrue(has_edge(mesh, 4, 6) or has_edge(mesh, 4, 8))
 
     def test_new_points_keep_the_heights_of_a_polygon(self):
         corners = [[1.0, 1.0, 3.0], [7.0, 1.0, 4.0], [7.0, 7.0, 5.0], [1.0, 7.0, 6.0]]
         mesh = tipp.delaunay_2d(SQUARES, polygons=[corners])
-        points = vtk_to_numpy(mesh.GetPoints().GetData())
+        points = mesh.points
         self.assertEqual([3, 4, 5, 6], points[9:, 2].tolist())
 
 class NewCorners(unittest.TestCase):
@@ -97,7 +93,7 @@ class NewCorners(unittest.TestCase):
     def added(self, **constraints):
         """The points and the arrays of the corners that are new."""
         mesh = tipp.delaunay_2d(self.points, point_data=self.data, **constraints)
-        return (vtk_to_numpy(mesh.GetPoints().GetData())[400:],
+        return (mesh.points[400:],
                 {name: tipp.as_array(mesh, name)[400:] for name in self.data})
 
     def test_have_the_height_and_the_values_of_the_surface(self):
@@ -126,7 +122,7 @@ class NewCorners(unittest.TestCase):
     def test_beside_points_on_a_line_have_the_values_of_the_nearest(self):
         points = np.array([[0.0, 0, 5], [1, 0, 6], [2, 0, 7]])
         mesh = tipp.delaunay_2d(points, polygons=[[[0.1, -1], [1.9, -1], [1.1, 1]]])
-        self.assertEqual([5, 7, 6], vtk_to_numpy(mesh.GetPoints().GetData())[3:, 2].tolist())
+        self.assertEqual([5, 7, 6], mesh.points[3:, 2].tolist())
 
     def test_beside_points_that_are_not_finite_have_those_of_the_others(self):
         self.points[:5, 0] = np.nan
@@ -137,7 +133,7 @@ class NewCorners(unittest.TestCase):
 
     def test_over_points_without_heights_have_none(self):
         mesh = tipp.delaunay_2d(SQUARES, polygons=[[[1.0, 1.0], [7.0, 1.0], [7.0, 7.0]]])
-        self.assertEqual([0, 0, 0], vtk_to_numpy(mesh.GetPoints().GetData())[9:, 2].tolist())
+        self.assertEqual([0, 0, 0], mesh.points[9:, 2].tolist())
 
 
 class Shape:
@@ -198,10 +194,10 @@ class Geometries(unittest.TestCase):
         for edges in ([Shape("LineString", line)], Shape("LineString", line), Line(line), Column([Shape("LineString", line)]),
                       Table([None, Shape("MultiLineString", [line])]), [np.array(line)], Line(np.c_[line, [1, 2, 3]])):
             mesh = tipp.delaunay_2d(SQUARES, edges=edges, marks="lines")
-            self.assertEqual(9, mesh.GetNumberOfPoints())
+            self.assertEqual(9, len(mesh.points))
             self.assertTrue(has_edge(mesh, 8, 2) and has_edge(mesh, 8, 4) and has_edge(mesh, 4, 0))
         closed = tipp.delaunay_2d(SQUARES, edges=[Shape("Polygon", [self.RING])], marks="lines")
-        self.assertEqual((64, 4), (area(closed), closed.GetNumberOfLines()))
+        self.assertEqual((64, 4), (area(closed), len(closed.lines)))
 
     def test_of_another_kind_are_refused_by_name(self):
         for arguments, text in (({"polygons": [Shape("LineString", [[0, 0], [1, 1]])]}, r"polygons\[0\] is a LineString that is not"),

@@ -17,7 +17,7 @@ DATA = {"wave": np.sin(9 * POINTS[:, 0]), "kind": (np.arange(3000) % 7).astype(n
 
 def values_at_corners(mesh):
     """The exact height and values of each corner that the mesh has."""
-    xyz = tipp._vtk.xyz_of(mesh)
+    xyz = mesh.points
     found = {}
     for corner in [*RING, *LINE]:
         for i in np.flatnonzero((xyz[:, :2] == corner).all(axis=1))[:1]:

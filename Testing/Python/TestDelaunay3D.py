@@ -13,10 +13,6 @@ def scattered(count, dtype=np.float64):
     return np.random.default_rng(1).random((count, 3)).astype(dtype)
 
 
-def tetrahedra(mesh):
-    return vtk_to_numpy(mesh.GetCells().GetConnectivityArray()).reshape(-1, 4)
-
-
 def volumes(points, cells):
     a, b, c, d = (points[column].astype(float) for column in cells.T)
     return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6
@@ -27,25 +23,25 @@ class Delaunay3D(unittest.TestCase):
         for dtype in (np.float64, np.float32):
             with self.subTest(dtype=dtype):
                 points = scattered(1000, dtype)
-                found = volumes(points, tetrahedra(tipp.delaunay_3d(points)))
+                found = volumes(points, tipp.delaunay_3d(points).cells)
                 self.assertGreater(found.min(), 0)
 
     def test_a_lattice_is_filled(self):
         axis = np.arange(12.0)
         points = np.stack(np.meshgrid(axis, axis, axis), axis=-1).reshape(-1, 3)
-        found = volumes(points, tetrahedra(tipp.delaunay_3d(points)))
+        found = volumes(points, tipp.delaunay_3d(points).cells)
         self.assertAlmostEqual(found.sum(), 11.0**3)
         self.assertGreater(found.min(), 0.1)
 
     def test_threads_and_partitions_do_not_change_the_cells(self):
         points = scattered(5000)
-        one = tetrahedra(tipp.delaunay_3d(points, threads=1))
-        other = tetrahedra(tipp.delaunay_3d(points, threads=2, partitions=20))
+        one = tipp.delaunay_3d(points, threads=1).cells
+        other = tipp.delaunay_3d(points, threads=2, partitions=20).cells
         self.assertTrue(np.array_equal(one, other))
 
     def test_spheres_are_empty(self):
         points = scattered(60)
-        for cell in tetrahedra(tipp.delaunay_3d(points)):
+        for cell in tipp.delaunay_3d(points).cells:
             corners = points[cell]
             centre = np.linalg.solve(2 * (corners[1:] - corners[0]),
                                      (corners[1:] ** 2).sum(axis=1) - (corners[0] ** 2).sum())
@@ -57,17 +53,19 @@ class Delaunay3D(unittest.TestCase):
         points[7] = points[5]
         mesh, statistics = tipp.delaunay_3d(
             points, point_data={"depth": np.arange(300.0)}, neighbors=True, return_statistics=True)
-        self.assertEqual(vtk_to_numpy(mesh.GetPointData().GetArray("depth"))[9], 9)
-        self.assertEqual(vtk_to_numpy(mesh.GetPointData().GetArray("RepresentativePointId"))[7], 5)
-        self.assertEqual(vtk_to_numpy(mesh.GetCellData().GetArray("NeighborIds")).shape, (mesh.GetNumberOfCells(), 4))
-        self.assertEqual(statistics["tetrahedra"], mesh.GetNumberOfCells())
+        self.assertEqual(mesh.point_data["depth"][9], 9)
+        self.assertEqual(mesh.point_data["RepresentativePointId"][7], 5)
+        self.assertEqual(mesh.cell_data["NeighborIds"].shape, (len(mesh.cells), 4))
+        self.assertEqual(statistics["tetrahedra"], len(mesh.cells))
         self.assertEqual(statistics["duplicates"], 1)
 
     def test_alpha_leaves_large_tetrahedra_out(self):
         points = scattered(300)
-        kinds = vtk_to_numpy(tipp.delaunay_3d(points, alpha=0.1).GetCellTypesArray())
-        self.assertLess(np.count_nonzero(kinds == 10), len(tetrahedra(tipp.delaunay_3d(points))))
-        self.assertGreater(np.count_nonzero(kinds == 5), 0)
+        mesh = tipp.delaunay_3d(points, alpha=0.1)
+        self.assertLess(len(mesh.cells), len(tipp.delaunay_3d(points).cells))
+        self.assertGreater(len(mesh.triangles), 0)
+        kinds = vtk_to_numpy(tipp.delaunay_3d(points, alpha=0.1, return_type="vtk").GetCellTypesArray())
+        self.assertEqual((np.count_nonzero(kinds == 10), np.count_nonzero(kinds == 5)), (len(mesh.cells), len(mesh.triangles)))
 
     def test_a_plane_makes_triangles_and_a_warning(self):
         points = scattered(30)
@@ -75,8 +73,8 @@ class Delaunay3D(unittest.TestCase):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             mesh = tipp.delaunay_3d(points)
-        self.assertEqual(set(vtk_to_numpy(mesh.GetCellTypesArray())), {5})
-        self.assertGreater(mesh.GetNumberOfCells(), 30)
+        self.assertEqual(mesh.cells.shape[1], 3)
+        self.assertGreater(len(mesh.cells), 30)
         self.assertIn("plane", str(caught[0].message))
 
     def test_wrong_arguments_are_refused(self):

@@ -15,13 +15,11 @@ MPIEXEC, TIPP = sys.argv[1:3]
 PROGRAM = """
 import numpy as np
 import tipp
-from vtkmodules.util.numpy_support import vtk_to_numpy
 with tipp.ranks() as world:
     points = np.load("points.npy")[world.rank::world.size]
     mesh = tipp.delaunay_3d(points, point_data={"x": points[:, 0]})
-    assert np.array_equal(vtk_to_numpy(mesh.GetPointData().GetArray("x")),
-                          vtk_to_numpy(mesh.GetPoints().GetData())[:, 0])
-    total = world.allreduce(mesh.GetNumberOfCells())
+    assert np.array_equal(mesh.point_data["x"], mesh.points[:, 0])
+    total = world.allreduce(len(mesh.cells))
     if world.rank == 0:
         print(total, flush=True)
 """

@@ -72,24 +72,28 @@ class Delaunay(unittest.TestCase):
         for kind in (np.float32, np.float64):
             p = random_points(100, 3, kind)
             mesh = tipp.delaunay_2d(p)
-            self.assertEqual(address(vtk_to_numpy(mesh.GetPoints().GetData())), address(p))
+            self.assertEqual(address(mesh.points), address(p))
 
     def test_other_points_are_copied_whole(self):
+        from tipp._vtk import vtk_points
+
         base = random_points(600_000, 3)
         for p in (base[:, :2], base[::2], base[:, :2].astype(np.float32), (base * 1000).astype(np.int32),
                   base.astype(">f8"), base[:0, :2]):
-            got = vtk_to_numpy(tipp._vtk.vtk_points(p).GetData()) if len(p) else np.empty((0, 3))
+            got = vtk_to_numpy(vtk_points(p).GetData()) if len(p) else np.empty((0, 3))
             self.assertEqual(got.shape, (len(p), 3))
             np.testing.assert_array_equal(got[:, :p.shape[1]], p)
             self.assertFalse(got[:, p.shape[1]:].any())
 
     def test_other_points_are_copied_once(self):
+        from tipp._vtk import vtk_points
+
         p = random_points(2_000_000, 2)
         once = len(p) * 24
         with open("/proc/self/clear_refs", "w", encoding="ascii") as file:
             file.write("5")  # resets the peak
         before = memory_of("VmRSS")
-        points = tipp._vtk.vtk_points(p)
+        points = vtk_points(p)
         self.assertLess(memory_of("VmHWM") - before, 1.2 * once)
         self.assertGreater(memory_of("VmRSS") - before, 0.8 * once)
         self.assertEqual(points.GetNumberOfPoints(), len(p))
@@ -97,7 +101,7 @@ class Delaunay(unittest.TestCase):
     def test_a_mesh_keeps_the_memory_of_its_points(self):
         mesh = tipp.delaunay_2d(random_points(100000, 3), point_data={"v": np.arange(100000.0)})
         trash = [np.full((100000, 3), -1.0) for _ in range(5)]
-        self.assertGreaterEqual(mesh.GetBounds()[0], 0)
+        self.assertGreaterEqual(mesh.bounds[0], 0)
         self.assertEqual(tipp.as_array(mesh, "v")[99999], 99999)
         del trash
 
@@ -129,11 +133,10 @@ class Delaunay(unittest.TestCase):
     def test_alpha_leaves_long_triangles_out(self):
         p = random_points(1000)
         p[:, 2] = 0
-        self.assertLess(tipp.delaunay_2d(p, alpha=0.02).GetNumberOfPolys(),
-                        tipp.delaunay_2d(p).GetNumberOfPolys())
+        self.assertLess(len(tipp.delaunay_2d(p, alpha=0.02).cells), len(tipp.delaunay_2d(p).cells))
 
     def test_the_data_of_a_data_set_are_kept(self):
-        mesh = tipp.delaunay_2d(random_points(50), point_data={"v": np.arange(50)})
+        mesh = tipp.delaunay_2d(random_points(50), point_data={"v": np.arange(50)}, return_type="vtk")
         again = tipp.delaunay_2d(mesh)
         np.testing.assert_array_equal(tipp.as_array(again, "v"), np.arange(50))
         with self.assertRaisesRegex(ValueError, "has its own"):
@@ -156,7 +159,7 @@ class MeshOptions(unittest.TestCase):
     def test_neighbors_are_mutual(self):
         mesh = self.mesh(neighbors=True)
         neighbors = tipp.as_array(mesh, "NeighborIds")
-        triangles = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+        triangles = mesh.cells
         for triangle, beside in enumerate(neighbors):
             for corner, other in enumerate(beside):
                 if other >= 0:
@@ -166,7 +169,7 @@ class MeshOptions(unittest.TestCase):
 
     def test_statistics_count_points_and_triangles(self):
         mesh, statistics = self.mesh(return_statistics=True)
-        expected = {"points": 404, "triangles": mesh.GetNumberOfPolys(), "duplicates": 3, "rejected": 1}
+        expected = {"points": 404, "triangles": len(mesh.cells), "duplicates": 3, "rejected": 1}
         self.assertEqual(expected, {name: statistics[name] for name in expected})
         self.assertGreater(statistics["partitions"], 0)
         self.assertTrue(all(seconds >= 0 for seconds in statistics["seconds"].values()))
@@ -189,18 +192,18 @@ class Resample(unittest.TestCase):
 
     def test_samples_are_square_by_default(self):
         image = tipp.resample(self.mesh, bounds=(0, 1, 0, 0.5, -1, 1))
-        self.assertEqual(image.GetDimensions(), (256, 129, 1))
+        self.assertEqual(image.dimensions, (256, 129, 1))
 
     def test_spacing_begins_at_the_lower_bound(self):
         image = tipp.resample(self.mesh, bounds=(0.125, 0.65, 0.25, 0.75, 0, 0),
                               spacing=(0.125, 0.25, 0))
-        self.assertEqual(image.GetDimensions(), (5, 3, 1))
+        self.assertEqual(image.dimensions, (5, 3, 1))
         np.testing.assert_allclose(tipp.as_array(image, "g")[0], 0.125 * np.arange(1, 6), atol=1e-12)
 
     def test_arrays_can_be_chosen(self):
         image = tipp.resample(self.mesh, dimensions=(4, 4, 1), arrays=["g"])
-        self.assertIsNotNone(image.GetPointData().GetArray("g"))
-        self.assertIsNone(image.GetPointData().GetArray("f"))
+        self.assertIn("g", image.point_data)
+        self.assertNotIn("f", image.point_data)
 
     def test_null_value_and_no_data_mask(self):
         values = tipp.as_array(self.mesh, "f")
@@ -236,31 +239,31 @@ class Meshes(unittest.TestCase):
 
     def test_a_mesh_is_read_as_written(self):
         back = tipp.read(self.path)
-        self.assertEqual(back.GetNumberOfCells(), self.mesh.GetNumberOfCells())
+        self.assertEqual(len(back.cells), len(self.mesh.cells))
 
     def test_bounds_read_a_part(self):
         part = tipp.read(self.path, bounds=(0.1, 0.2, 0.1, 0.2, 0, 0))
-        self.assertGreater(part.GetNumberOfCells(), 50)
-        self.assertLess(part.GetNumberOfCells(), 300)
+        self.assertGreater(len(part.cells), 50)
+        self.assertLess(len(part.cells), 300)
 
     def test_arrays_can_be_chosen(self):
         back = tipp.read(self.path, point_arrays=["g"])
-        self.assertTrue(back.GetPointData().HasArray("g"))
-        self.assertFalse(back.GetPointData().HasArray("f"))
+        self.assertIn("g", back.point_data)
+        self.assertNotIn("f", back.point_data)
         with self.assertRaisesRegex(KeyError, "no point array 'h'"):
             tipp.read(self.path, point_arrays=["h"])
 
     def test_pieces_can_be_read_separately(self):
-        self.assertEqual(tipp.read(self.path, merge=False).GetNumberOfPartitions(), 9)
+        self.assertEqual(len(tipp.read(self.path, merge=False)), 9)
 
     def test_a_mesh_that_was_read_can_be_written_again(self):
         other = os.path.join(self.folder.name, "other.tipp")
         tipp.write(tipp.read(self.path), other, tiling="grid:2x2")
-        self.assertEqual(tipp.read(other).GetNumberOfCells(), self.mesh.GetNumberOfCells())
+        self.assertEqual(len(tipp.read(other).cells), len(self.mesh.cells))
 
     def test_a_file_is_partitioned_without_being_loaded(self):
         writer = vtkXMLUnstructuredGridWriter()
-        mesh = tipp.read(self.path)
+        mesh = tipp.read(self.path, return_type="vtk")
         for data, ids in ((mesh.GetPointData(), "GlobalPointIds"), (mesh.GetCellData(), "GlobalCellIds")):
             data.RemoveArray(ids)
             data.RemoveArray("vtkGhostType")
@@ -271,7 +274,7 @@ class Meshes(unittest.TestCase):
         writer.SetCompressorTypeToNone()
         writer.Write()
         tipp.write(flat, other, tiling="grid:2x2")
-        self.assertEqual(tipp.read(other).GetNumberOfCells(), self.mesh.GetNumberOfCells())
+        self.assertEqual(len(tipp.read(other).cells), len(self.mesh.cells))
 
     def test_errors_are_exceptions(self):
         with self.assertRaisesRegex(RuntimeError, "neither a partitioned mesh"):
@@ -297,9 +300,9 @@ class Files(unittest.TestCase):
         self.assertEqual((made["points"], made["duplicates"], made["resumed"]), (60_000, 0, 0))
         self.assertGreater(made["pieces"], 4)
         mesh = tipp.read(self.output)
-        self.assertEqual(mesh.GetNumberOfCells(), made["triangles"])
+        self.assertEqual(len(mesh.cells), made["triangles"])
         ids = tipp.as_array(mesh, "GlobalPointIds")
-        corners = vtk_to_numpy(mesh.GetCells().GetConnectivityArray()).reshape(-1, 3)
+        corners = mesh.cells
         self.assertEqual(edges_of(ids[corners]), edges_of(tipp.delaunay(self.points)))
 
     def test_several_files_and_columns_by_name(self):
@@ -310,8 +313,8 @@ class Files(unittest.TestCase):
                                   columns=("west", "south"), partitions=(3, 2), map_duplicates=True)
         self.assertEqual((made["points"], made["pieces"]), (1000, 6))
         mesh = tipp.read(self.output)
-        self.assertEqual(mesh.GetPointData().HasArray("height"), 1)
-        self.assertEqual(mesh.GetPointData().HasArray("RepresentativePointId"), 1)
+        self.assertIn("height", mesh.point_data)
+        self.assertIn("RepresentativePointId", mesh.point_data)
 
     def test_neighbors_are_mutual(self):
         tipp.delaunay_file(self.input, self.output, memory="1M", neighbors=True)
@@ -333,8 +336,8 @@ class Files(unittest.TestCase):
                                   boundary=self.path("square.csv"), holes=[(0.5, 0.3)], mark_constraints=True)
         self.assertEqual((6, 1), (made["constraints"], made["crossing_points"]))
         mesh = tipp.read(self.output)
-        xy = vtk_to_numpy(mesh.GetPoints().GetData())[:, :2]
-        a, b, c = xy[vtk_to_numpy(mesh.GetCells().GetConnectivityArray()).reshape(-1, 3)].transpose(1, 0, 2)
+        xy = mesh.points[:, :2]
+        a, b, c = xy[mesh.cells].transpose(1, 0, 2)
         u, v = b - a, c - a
         area = (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum() / 2
         self.assertAlmostEqual(0.75 * 0.36, area)

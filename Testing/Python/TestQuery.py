@@ -224,7 +224,7 @@ class Query(unittest.TestCase):
         levels = [-0.71, -0.3, 0.123, 0.5]
         ours = tipp.open(surface).contours(levels, "wave")
         theirs = vtkContourFilter()
-        theirs.SetInputData(surface)
+        theirs.SetInputData(surface.to_vtk())
         theirs.SetInputArrayToProcess(0, 0, 0, 0, "wave")
         theirs.SetOutputPointsPrecision(1)
         for level in levels:
@@ -273,8 +273,9 @@ class Query(unittest.TestCase):
         from vtkmodules.util.numpy_support import vtk_to_numpy
         from vtkmodules.vtkFiltersCore import vtkProbeFilter
 
-        cloud = tipp.delaunay_2d(self.asked, point_data={"own": np.arange(len(self.asked), dtype=np.float64)})
-        for source in ({"FileName": self.path}, {"SourceData": self.mesh}):
+        cloud = tipp.delaunay_2d(self.asked, point_data={"own": np.arange(len(self.asked), dtype=np.float64)},
+                                 return_type="vtk")
+        for source in ({"FileName": self.path}, {"SourceData": self.mesh.to_vtk()}):
             query = tipp.vtkPartitionedMeshQuery()
             query.SetInputData(cloud)
             for name, value in source.items():
@@ -283,7 +284,7 @@ class Query(unittest.TestCase):
             query.Update()
             probe = vtkProbeFilter()
             probe.SetInputData(cloud)
-            probe.SetSourceData(self.mesh)
+            probe.SetSourceData(self.mesh.to_vtk())
             probe.Update()
             ours, theirs = query.GetOutput().GetPointData(), probe.GetOutput().GetPointData()
             self.assertEqual(query.GetOutput().GetNumberOfCells(), cloud.GetNumberOfCells())
@@ -302,12 +303,12 @@ class Query(unittest.TestCase):
         from vtkmodules.vtkFiltersGeneral import vtkShrinkFilter
 
         shrink = vtkShrinkFilter()
-        shrink.SetInputData(self.mesh)
+        shrink.SetInputData(self.mesh.to_vtk())
         query = tipp.vtkPartitionedMeshQuery()
         query.SetSourceConnection(shrink.GetOutputPort())
         cells, sizes = vtkIdTypeArray(), vtkIdTypeArray()
         self.assertEqual(query.Components(cells, sizes), 1)
-        self.assertEqual(sizes.GetNumberOfValues(), self.mesh.GetNumberOfCells())  # no two cells are connected
+        self.assertEqual(sizes.GetNumberOfValues(), len(self.mesh.cells))  # no two cells are connected
 
     def test_contours_of_a_plane_are_straight(self):
         with tipp.open(self.path) as mesh, tipp.open(self.mesh) as whole:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The wheel with PyVista, for both of its back ends: VTK and cvista."""
 import importlib
+import inspect
 import subprocess
 import sys
 import tempfile
@@ -66,6 +67,21 @@ class PyVista(unittest.TestCase):
         self.assertIs(cloud, cloud.tipp.delaunay_2d(inplace=True))
         self.assertGreater(cloud.n_cells, 3000)
 
+    def test_methods_have_pyvistas_keywords_in_its_order(self):
+        for name in ("delaunay_2d", "delaunay_3d"):
+            mine, theirs = (list(inspect.signature(getattr(kind, name)).parameters) for kind in (
+                type(terrain().tipp), pyvista.PolyData))
+            self.assertEqual(theirs, mine[:len(theirs)])
+        self.assertEqual(0, terrain(50).tipp.delaunay_2d(0, 0.01, offset=2).n_cells - terrain(50).tipp.delaunay_2d(
+            tol=0, alpha=0.01).n_cells)
+
+    def test_own_arrays_are_passed_on_request(self):
+        mesh, asked = terrain().tipp.delaunay_2d(), terrain(20)
+        asked["own"] = np.arange(20)
+        self.assertIn("own", asked.tipp.sample(mesh).point_data)
+        self.assertNotIn("own", asked.tipp.sample(mesh, pass_point_data=False).point_data)
+        self.assertIn("own", asked.point_data)
+
     def test_edge_source_gives_edges(self):
         cloud = terrain(200)
         source = pyvista.PolyData(cloud.points, lines=[2, 3, 150, 3, 7, 8, 9])
@@ -108,7 +124,7 @@ class PyVista(unittest.TestCase):
             with tempfile.TemporaryDirectory() as folder:
                 with self.assertWarnsRegex(RuntimeWarning, f"^{mesh.n_lines + mesh.n_verts} cells of fewer dimensions"):
                     mesh.tipp.save(f"{folder}/mesh.tipp")
-                self.assertEqual(mesh.GetNumberOfPolys(), tipp.read(f"{folder}/mesh.tipp").GetNumberOfCells())
+                self.assertEqual(mesh.GetNumberOfPolys(), len(tipp.read(f"{folder}/mesh.tipp").cells))
             grid = mesh.cast_to_unstructured_grid()
             with tipp.open(grid) as opened:
                 np.testing.assert_array_equal(cells, opened.locate(asked)[0])
@@ -171,7 +187,7 @@ class PyVista(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             mesh = terrain().tipp.delaunay_2d()
             mesh.tipp.save(f"{folder}/mesh.tipp")
-            part = tipp.read(f"{folder}/mesh.tipp", bounds=(0, 0.5, 0, 0.5, 0, 0))
+            part = tipp.read(f"{folder}/mesh.tipp", bounds=(0, 0.5, 0, 0.5), return_type="vtk")
             self.assertIsInstance(part, vtkUnstructuredGrid)
             wrapped = pyvista.wrap(part)
             self.assertTrue(0 < wrapped.n_cells < mesh.n_cells)

@@ -22,15 +22,15 @@ def number(value: Any, name: str, *, at_least: float = -math.inf, finite: bool =
     if type(value) is float and at_least <= value and -math.inf < value < math.inf:  # fast path for small calls
         return value
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, numbers.Real):
-        raise TypeError(f"{name} is {_shown(value)}; give a number.")
+        raise TypeError(f"{name} is {shown(value)}; give a number.")
     try:
         result = float(value)
     except OverflowError:
         result = math.inf
     if finite and not math.isfinite(result):
-        raise ValueError(f"{name} is {_shown(value)}; give a finite number.")
+        raise ValueError(f"{name} is {shown(value)}; give a finite number.")
     if result < at_least:
-        raise ValueError(f"{name} is {_shown(value)}; give {at_least:g} or more.")
+        raise ValueError(f"{name} is {shown(value)}; give {at_least:g} or more.")
     return result
 
 
@@ -41,9 +41,9 @@ def whole(value: Any, name: str, *, at_least: int = 0, at_most: int = _LARGEST_I
             raise TypeError
         result = operator.index(value)
     except TypeError:
-        raise TypeError(f"{name} is {_shown(value)}; give a whole number.") from None
+        raise TypeError(f"{name} is {shown(value)}; give a whole number.") from None
     if not at_least <= result <= at_most:
-        raise ValueError(f"{name} is {_shown(value)}; give a whole number from {at_least} to {at_most}.")
+        raise ValueError(f"{name} is {shown(value)}; give a whole number from {at_least} to {at_most}.")
     return result
 
 
@@ -59,7 +59,7 @@ def memory(value: Any, name: str) -> int:
     match = re.fullmatch(r"([0-9]+) *(?:([KMG])(?:I?B)?|B)?", value.upper())
     size = int(match[1]) << _SHIFTS[match[2]] if match and len(value) < 30 else 0
     if not 0 < size < 1 << 63:
-        raise ValueError(f"{name} is {_shown(value)}; give a number of bytes, such as 536870912, '512M' or '2 GB'.")
+        raise ValueError(f"{name} is {shown(value)}; give a number of bytes, such as 536870912, '512M' or '2 GB'.")
     return size
 
 
@@ -67,7 +67,7 @@ def flag(value: Any, name: str) -> bool:
     if value is True or value is False:
         return value
     if not isinstance(value, (bool, np.bool_)):
-        raise TypeError(f"{name} is {_shown(value)}; give True or False.")
+        raise TypeError(f"{name} is {shown(value)}; give True or False.")
     return bool(value)
 
 
@@ -80,7 +80,7 @@ def a_list(values: Any, name: str) -> list[Any]:
 def several(value: Any, name: str, count: int, check: Any, **limits: Any) -> list[Any]:
     """Returns `count` values, each converted by `check`."""
     if isinstance(value, (str, bytes, Mapping, set, frozenset)) or not isinstance(value, Iterable):
-        raise TypeError(f"{name} is {_shown(value)}; give {count} numbers.")
+        raise TypeError(f"{name} is {shown(value)}; give {count} numbers.")
     values = list(value)
     if len(values) != count:
         raise ValueError(f"{name} has {len(values)} values; give {count}.")
@@ -95,7 +95,7 @@ def names(value: Any, name: str) -> list[str]:
     result = list(value) if is_list else [value]
     for one in result:
         if not isinstance(one, str):
-            raise TypeError(f"{name} is {_shown(value)}; give a name or a list of names.")
+            raise TypeError(f"{name} is {shown(value)}; give a name or a list of names.")
     return [str(one) for one in result]
 
 
@@ -135,19 +135,19 @@ def needs_elevation(options: Mapping[str, Any]) -> bool:
 
 def text(value: Any, name: str) -> str:
     if not isinstance(value, str):
-        raise TypeError(f"{name} is {_shown(value)}; give a text.")
+        raise TypeError(f"{name} is {shown(value)}; give a text.")
     return str(value)
 
 
 def choice(value: Any, name: str, choices: Mapping[str, int]) -> int:
     if text(value, name) not in choices:
-        raise ValueError(f"{name} is {_shown(value)}; it is one of {', '.join(choices)}.")
+        raise ValueError(f"{name} is {shown(value)}; it is one of {', '.join(choices)}.")
     return choices[value]
 
 
 def path(value: Any, name: str) -> str:
     if not isinstance(value, (str, bytes, os.PathLike)):
-        raise TypeError(f"{name} is {_shown(value)}; give a path.")
+        raise TypeError(f"{name} is {shown(value)}; give a path.")
     result = os.fsdecode(value)
     if "\0" in result:
         raise ValueError(f"{name} has a null character; give a path without it.")
@@ -167,7 +167,7 @@ def is_vtk_object(value: Any) -> bool:
 def data_object(value: Any, name: str, kinds: Iterable[str], wanted: str) -> Any:
     """Returns the value if it is a VTK object of one of these classes."""
     if not is_vtk_object(value) or not any(value.IsA(kind) for kind in kinds):
-        raise TypeError(f"{name} is {_shown(value)}; give {wanted}.")
+        raise TypeError(f"{name} is {shown(value)}; give {wanted}.")
     return value
 
 
@@ -179,7 +179,7 @@ def require_point_set(points: Any, point_data: Any = None, wanted: str = "a vtkP
         data_object(points, "points", ("vtkPointSet",), wanted)
 
 
-def _shown(value: Any) -> str:
+def shown(value: Any) -> str:
     """Returns the repr of a short value, or the type of a long one."""
     if is_vtk_object(value):
         return f"a {value.GetClassName()}"
@@ -234,6 +234,7 @@ Progress = Callable[[float], Any]
 """Called with the finished fraction. Returns False, or raises an exception, to stop the run."""
 ProgressBar = Union[bool, Progress]
 
+THIN_LEFT_OUT = "{} cells of fewer dimensions are left out: a partitioned mesh has triangles or tetrahedra only."
 STOPPED = "the progress callback stopped the run."
 _BAR = 40  # characters
 

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arrays of points and values, and meshes and images made of arrays, for use without VTK."""
+"""Arrays of points and values: conversions and checks."""
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, Mapping, TYPE_CHECKING
 
 import numpy as np
 
-from ._arguments import data_object, is_vtk_object, text
+from ._arguments import is_vtk_object
 from ._geometry import is_geometry, points_of
+from ._xarray import is_xarray, raster_points, Table
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -18,73 +18,6 @@ if TYPE_CHECKING:
 def grid_position(origin: float, step: float, halves: int) -> float:
     """Returns origin + halves / 2 * step, computed with the numbers as they are written, and rounded once."""
     return float(Fraction(repr(float(origin))) + Fraction(repr(float(step))) * halves / 2)
-
-
-class Data:
-    """The common base of Mesh and Image."""
-
-    point_data: dict[str, np.ndarray]
-    cell_data: dict[str, np.ndarray]
-
-    def __eq__(self, other: object) -> bool:
-        """Returns whether all values and names are equal; NaN equals NaN."""
-        if type(other) is not type(self):
-            return NotImplemented
-        return all(_are_equal(getattr(self, name), getattr(other, name)) for name in self.__dataclass_fields__)
-
-    __hash__ = None  # type: ignore[assignment]
-
-    def array(self, name: str) -> np.ndarray:
-        """Returns the array with this name of the points, else of the cells, else of a mesh's lines."""
-        groups = [self.point_data, self.cell_data, getattr(self, "line_data", {})]
-        for arrays in groups:
-            if name in arrays:
-                return arrays[name]
-        raise KeyError(f"there is no array '{name}'; there are {[known for arrays in groups for known in arrays]}.")
-
-
-def _are_equal(a: Any, b: Any) -> bool:
-    if isinstance(a, dict):
-        return a.keys() == b.keys() and all(_are_equal(a[name], b[name]) for name in a)
-    if a is None or b is None:
-        return a is b
-    x, y = np.asarray(a), np.asarray(b)
-    return np.array_equal(x, y, equal_nan=x.dtype.kind == "f" and y.dtype.kind == "f")
-
-
-@dataclass(eq=False)
-class Mesh(Data):
-    """A mesh of triangles or tetrahedra.
-
-    `points` has (n, 3) coordinates, `cells` (m, 3) or (m, 4) point ids; `lines` and `vertices` are the other cells of
-    delaunay_2d(alpha=...). With marks="lines", `lines` are the edges on constraints, and `line_data["ConstraintId"]`
-    has the constraint of each.
-    """
-
-    points: np.ndarray
-    cells: np.ndarray
-    point_data: dict[str, np.ndarray] = field(default_factory=dict)
-    cell_data: dict[str, np.ndarray] = field(default_factory=dict)
-    lines: np.ndarray | None = None
-    vertices: np.ndarray | None = None
-    line_data: dict[str, np.ndarray] = field(default_factory=dict)
-
-
-@dataclass(eq=False)
-class Image(Data):
-    """Samples at origin + index * spacing; as_array() returns them in the image's shape."""
-
-    origin: tuple[float, float, float]
-    spacing: tuple[float, float, float]
-    dimensions: tuple[int, int, int]
-    point_data: dict[str, np.ndarray] = field(default_factory=dict)
-    cell_data: dict[str, np.ndarray] = field(default_factory=dict)
-
-    def array(self, name: str) -> np.ndarray:
-        """Returns an array in the image's shape, (z, y, x) without axes of one sample."""
-        values = super().array(name)
-        shape = [n for n in reversed(self.dimensions) if n > 1] or [1]
-        return values.reshape(*shape, *values.shape[1:])
 
 
 _DOUBLE = np.dtype(np.float64)
@@ -130,10 +63,18 @@ def coordinates(points: ArrayLike) -> np.ndarray:
 
 
 def positions_of(points: Any) -> Any:
-    """Returns the coordinates of tables, of laspy's LasData and others with xyz or x, y and z, and of a GeoSeries and
-    other geometries of points; other values as they are."""
+    """Returns the coordinates of tables, of laspy's LasData and others with xyz or x, y and z, of meshes of tipp and
+    meshio, of rasters and variables of xarray, and of a GeoSeries and other geometries of points; other values as they
+    are."""
     if isinstance(points, (np.ndarray, list)) or is_vtk_object(points):
         return points
+    if is_mesh(points):
+        return np.asarray(points.points)
+    if is_xarray(points):
+        if hasattr(points, "data_vars"):
+            return columns_of(Table(points), "points")
+        has_columns = points.ndim == 2 and points.shape[1] in (2, 3) and not points.coords
+        return np.asarray(points) if has_columns else raster_points(points, "points")
     if hasattr(points, "geometry") or is_geometry(points):
         return points_of(points, "points")
     if hasattr(points, "columns"):
@@ -143,6 +84,18 @@ def positions_of(points: Any) -> Any:
     if all(hasattr(points, axis) for axis in "xyz"):
         return np.column_stack([np.asarray(points.x), np.asarray(points.y), np.asarray(points.z)])
     return points
+
+
+def is_mesh(value: Any) -> bool:
+    """Returns whether the value is a mesh of arrays: a tipp.Mesh or a meshio.Mesh."""
+    return hasattr(value, "points") and isinstance(getattr(value, "point_data", None), dict)
+
+
+def cloud_of(points: Any, point_data: Any) -> tuple[Any, Any]:
+    """Returns the points as positions_of(), and their data: those of a mesh and `point_data`."""
+    if is_mesh(points):
+        point_data = {**points.point_data, **attributes(point_data, len(points.points))}
+    return positions_of(points), point_data
 
 
 def columns_of(table: Any, name: str) -> Any:
@@ -219,48 +172,3 @@ def require_values(name: str, found: int, due: int, of: str) -> None:
     """Raises RuntimeError if an array has fewer values than there are points or cells."""
     if found < due:
         raise RuntimeError(f"the array '{name}' has {found} values for {due} {of}; repair it or write it again.")
-
-
-def as_array(data: Any, name: str) -> np.ndarray:
-    """Returns an array of a data set's points or cells, in the data set's memory.
-
-    Parameters
-    ----------
-    data
-        Any VTK data set. For an image, the result has the image's shape, (z, y, x) without axes of one sample,
-        followed by the components if there are several.
-    name
-        The array's name; point data is searched before cell data.
-
-    Returns
-    -------
-    numpy.ndarray
-        A view: it keeps the data alive, and writing to it writes to the data set.
-
-    Examples
-    --------
-    >>> grid = tipp.as_array(tipp.resample(mesh, dimensions=(300, 200, 1)), "height")
-    >>> grid.shape
-    (200, 300)
-    """
-    text(name, "name")
-    if isinstance(data, Data):
-        return data.array(name)
-    data_object(data, "data", ("vtkDataSet",), "a VTK data set")
-    from ._vtk import numpy_of
-
-    of_points, of_cells = data.GetPointData(), data.GetCellData()
-    array = of_points.GetArray(name) or of_cells.GetArray(name)
-    if array is None:
-        names = [d.GetArrayName(i) for d in (of_points, of_cells) for i in range(d.GetNumberOfArrays())]
-        raise KeyError(f"there is no array '{name}'; there are {names}.")
-    values = numpy_of(array)
-    if not data.IsA("vtkImageData"):
-        return values
-    samples = _samples(data, bool(of_points.HasArray(name)))
-    return values.reshape(*samples, *values.shape[1:])
-
-
-def _samples(image: Any, of_points: bool) -> list[int]:
-    counts = [n if of_points else max(n - 1, 1) for n in image.GetDimensions()]
-    return [n for n in reversed(counts) if n > 1] or [1]

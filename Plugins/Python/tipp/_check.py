@@ -8,7 +8,8 @@ from typing import Any, Callable, NamedTuple, TYPE_CHECKING
 import numpy as np
 
 from . import _arguments as argument
-from ._arrays import converted, coordinates, Mesh
+from ._arrays import converted, coordinates
+from ._data import as_mesh, Mesh
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -114,7 +115,7 @@ def check(
     Parameters
     ----------
     points
-        An array as for delaunay(), or a mesh, which has its own triangles.
+        An array or an object as for delaunay(), or a mesh of tipp, meshio, VTK or PyVista, which has its own triangles.
     triangles
         (m, 3) point ids, or a mesh. None: the triangles of `points`, which must be a mesh.
     edges
@@ -151,6 +152,7 @@ def check(
 
 def _points_and_triangles(points: Any, name: str) -> tuple[np.ndarray, np.ndarray | None, np.ndarray | None]:
     """Returns (n, 2) coordinates; for a mesh also its triangles, and their neighbours if it has them."""
+    points = as_mesh(points)
     if isinstance(points, Mesh):
         return _plane(points.points), _ids(points.cells, name, 3), points.cell_data.get("NeighborIds")
     if not argument.is_vtk_object(points):
@@ -165,6 +167,7 @@ def _points_and_triangles(points: Any, name: str) -> tuple[np.ndarray, np.ndarra
 
 
 def _triangles(triangles: Any) -> tuple[np.ndarray, np.ndarray | None]:
+    triangles = as_mesh(triangles)
     if isinstance(triangles, Mesh) or argument.is_vtk_object(triangles):
         _, own, neighbors = _points_and_triangles(triangles, "triangles")
         return (np.empty((0, 3), np.int64) if own is None else own), neighbors

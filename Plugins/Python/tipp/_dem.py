@@ -3,53 +3,120 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, Mapping, NamedTuple, Sequence, Union
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, Sequence
 
 import numpy as np
 
 from . import _arguments as check
 from . import _engine
 from ._arguments import ProgressBar, progress_of
-from ._arrays import columns_of, converted, grid_position, in_space, positions_of
+from ._arrays import cloud_of, columns_of, converted, grid_position, in_space
+from ._bounds import bounds_of, BoundsLike
+from ._data import imported
 from ._geometry import is_geometry, items_of, lines_of as lines_of_geometry, oriented_rings_of
+from ._show import as_html, as_text, box_text, Rows
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
-_Path = Union[str, "os.PathLike[str]"]
 _RETURNS = {"all": 0, "first": 1, "last": 2}
 _DUPLICATES = {"first": 0, "min": 1, "max": 2, "mean": 3}
 _THINNINGS = {"min": 0, "max": 1, "nearest": 2}
 _FLAGS = ("withheld", "synthetic", "overlap", "truncated", "uncounted")
 
 
-class Dem(NamedTuple):
-    """A raster in rasterio's layout: rows from north to south."""
+@dataclass(frozen=True, eq=False, repr=False)
+class Dem:
+    """A raster of one or more bands in rasterio's layout: rows from north to south.
 
-    array: np.ndarray
-    """(rows, columns), or (bands, rows, columns) for several attributes; NaN where there is no triangle."""
+    `array, transform, crs = tipp.dem(...)` unpacks it, and numpy.asarray() returns the array.
+
+    Attributes
+    ----------
+    array : (rows, columns) or (bands, rows, columns)
+        NaN where there is no triangle. It has an axis of bands if `attributes` was a list.
+    transform : tuple
+        (width, 0, west, 0, -height, north) of the pixels: the arguments of affine.Affine.
+    crs : str or None
+        WKT or "EPSG:code" of the points' file, if it has one.
+    bands : tuple of str
+        The name of each band.
+
+    Examples
+    --------
+    >>> raster = tipp.dem(xyz, 0.5, attributes=["elevation", "slope"])
+    >>> raster.sel(band="slope").array.shape
+    (200, 200)
+    """
+
+    array: NDArray[np.float64]
     transform: tuple[float, float, float, float, float, float]
-    """(width, 0, west, 0, -height, north) of the pixels: the arguments of affine.Affine."""
     crs: str | None
-    """WKT or "EPSG:code" of the points' file, if it has one."""
+    bands: tuple[str, ...]
 
-    def to_xarray(self) -> Any:
-        """Converts to an xarray.DataArray with the coordinates of the pixel centres."""
-        import xarray
+    def __iter__(self) -> Iterator[Any]:
+        return iter((self.array, self.transform, self.crs))
 
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        if copy is False and dtype is not None and np.dtype(dtype) != self.array.dtype:
+            raise ValueError(f"the raster is of type {self.array.dtype}; another type needs a copy.")
+        return np.array(self.array, dtype) if copy else np.asarray(self.array, dtype)
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """(xmin, xmax, ymin, ymax) of the pixels' borders, in the order of all ranges in this package."""
         width, _, west, _, height, north = self.transform
         rows, columns = self.array.shape[-2:]
-        names = ("band", "y", "x")[-self.array.ndim:]
-        coordinates = {"x": [grid_position(west, width, 2 * i + 1) for i in range(columns)],
-                       "y": [grid_position(north, height, 2 * i + 1) for i in range(rows)]}
-        return xarray.DataArray(self.array, coordinates, names, attrs={"crs": self.crs} if self.crs else {})
+        return west, grid_position(west, width, 2 * columns), grid_position(north, height, 2 * rows), north
+
+    def sel(self, *, band: str) -> Dem:
+        """Returns one band, whose array is (rows, columns). Raises KeyError if there is no such band."""
+        if band not in self.bands:
+            raise KeyError(f"there is no band '{band}'; there are {list(self.bands)}.")
+        array = self.array if self.array.ndim == 2 else self.array[self.bands.index(band)]
+        return Dem(array, self.transform, self.crs, (band,))
+
+    def to_xarray(self) -> Any:
+        """Converts to an xarray.DataArray with the coordinates band, y and x of the pixel centres.
+
+        It states the missing value (NaN) and the coordinate reference system as rioxarray expects: `rio.nodata`,
+        `rio.crs`, `rio.bounds()` and `rio.to_raster()` work, and so does `sel(band="slope")`. Its name is that of the
+        band, or "dem" if there are several. Raises ModuleNotFoundError without xarray.
+        """
+        xarray = imported("xarray", "Dem.to_xarray()")
+        width, _, west, _, height, north = self.transform
+        rows, columns = self.array.shape[-2:]
+        is_single = self.array.ndim == 2
+        reference = {"GeoTransform": " ".join(repr(v) for v in (west, width, 0.0, north, 0.0, height))}
+        if self.crs:
+            reference.update(spatial_ref=self.crs, crs_wkt=self.crs)
+        coordinates = {"band": self.bands[0] if is_single else list(self.bands),
+                       "y": [grid_position(north, height, 2 * i + 1) for i in range(rows)],
+                       "x": [grid_position(west, width, 2 * i + 1) for i in range(columns)],
+                       "spatial_ref": ((), 0, reference)}
+        result = xarray.DataArray(self.array, coordinates, ("band", "y", "x")[-self.array.ndim:],
+                                  self.bands[0] if len(self.bands) == 1 else "dem", attrs={"_FillValue": np.nan})
+        result.encoding["grid_mapping"] = "spatial_ref"
+        return result
+
+    def _rows(self) -> Rows:
+        rows, columns = self.array.shape[-2:]
+        return [("bands", ", ".join(self.bands)), ("pixels", f"{rows} rows x {columns} columns, {self.transform[0]:.10g} wide"),
+                ("bounds", box_text(self.bounds)), ("crs", " ".join((self.crs or "none").split())[:80])]
+
+    def __repr__(self) -> str:
+        return as_text("tipp.Dem", self._rows())
+
+    def _repr_html_(self) -> str:
+        return as_html("tipp.Dem", self._rows())
 
 
 def dem(
-    points: ArrayLike | _Path | Sequence[_Path],
+    points: Any,
     resolution: float,
     *,
-    bounds: Sequence[float] | None = None,
+    bounds: BoundsLike | None = None,
     align: bool = True,
     attributes: str | Sequence[str] = "elevation",
     point_data: Mapping[str, ArrayLike] | None = None,
@@ -74,13 +141,15 @@ def dem(
     Parameters
     ----------
     points
-        Coordinates of shape (n, 3), a vtkPointSet, or one or more files: .las, .laz, .npy, .csv, .xyz or any format
-        that VTK reads.
+        Coordinates of shape (n, 3), another object as for delaunay(), a vtkPointSet, or one or more files: .las, .laz,
+        .npy, .csv, .xyz or any format that VTK reads.
     resolution
         Width and height of a pixel, in the units of the points.
     bounds
-        (xmin, xmax, ymin, ymax). None: the bounds of the points. The pixels are those of all points. The wheel reads
-        only the points of LAS and LAZ files that they depend on.
+        (xmin, xmax, ymin, ymax), a tipp.Bounds, or a data set, geometry or raster, whose bounds are used; z is not used.
+        A range that does not meet the points' bounds, or is more than ten times as long along an axis, is an error.
+        None: the bounds of the points. The pixels are those of all points. The wheel reads only the points of LAS and
+        LAZ files that they depend on.
     align
         Whether pixel borders are at multiples of the resolution. Otherwise the first pixel starts at the bounds.
     attributes
@@ -129,7 +198,7 @@ def dem(
     Returns
     -------
     Dem
-        array, transform and crs.
+        array, transform, crs and bands; to_xarray() makes a DataArray of it.
 
     Raises
     ------
@@ -138,7 +207,7 @@ def dem(
     KeyError
         If an attribute does not exist.
     RuntimeError
-        If a file cannot be read, or there are no points.
+        If a file cannot be read, there are no points, or the bounds are an error as above.
     KeyboardInterrupt
         Promptly after Ctrl-C.
 
@@ -155,7 +224,8 @@ def dem(
     _check_selection(classes, returns, keep)
     options = {
         "resolution": size,
-        "bounds": None if bounds is None else check.several(bounds, "bounds", 4, check.number),
+        "bounds": None if bounds is None else bounds_of(bounds, "bounds")[:4],
+        "strict_bounds": True,
         "align": check.flag(align, "align"),
         "attributes": names,
         "max_edge": check.number(max_edge, "max_edge", at_least=0),
@@ -183,9 +253,10 @@ def dem(
         given = [check.path(p, "points") for p in ([points] if isinstance(points, (str, os.PathLike)) else points)]
     else:
         check.require_point_set(points, point_data, "a vtkPointSet, an array or names of files")
-        given = positions_of(points)
+        given, point_data = cloud_of(points, point_data)
     bands, transform, stated = _engine.dem(given, point_data, options, progress)
-    return Dem(bands[0] if isinstance(attributes, str) else np.stack(bands), transform, crs or stated)
+    array = bands[0] if isinstance(attributes, str) else np.stack(bands)
+    return Dem(array, transform, crs or stated, tuple(names))  # type: ignore[arg-type]
 
 
 def lines_of(lines: Any, name: str, is_closed: bool) -> str | tuple[np.ndarray, ...] | None:

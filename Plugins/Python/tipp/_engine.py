@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import math
 import threading
 import warnings
 from typing import Any, Callable, Iterator, Tuple, TYPE_CHECKING
@@ -10,18 +11,19 @@ from typing import Any, Callable, Iterator, Tuple, TYPE_CHECKING
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkDataArray, vtkDoubleArray, vtkIdTypeArray, vtkStringArray
-from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPointData, vtkPolyData
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkCellTypes, vtkGenericCell, vtkPointData, vtkPolyData
 from vtkmodules.vtkParallelCore import vtkMultiProcessController
 
 from . import _arguments as check
 from ._arguments import (
     array_of, DELAUNAY_2D, DELAUNAY_3D, DELAUNAY_FILE, DEM, Progress, QUERY, READ, set_properties, TRIANGULATION, WRITE)
-from ._arrays import as_array, Mesh
+from ._data import as_array, Mesh
 from ._constraints import Constraints, constraints_of
+from ._results import in_vtk
 from ._run import run
 from ._surface import completed, completed_on_ranks
 from ._vtk import (
-    arrays_of, grid_of, numpy_of, point_arrays, point_cloud, triangles_of, vtk_points, wrapped_like, xyz_of)
+    arrays_of, grid_of, numpy_of, point_arrays, point_cloud, triangles_of, vtk_points, xyz_of)
 from .vtkTIPPFilters import (
     vtkPartitionedMeshQuery, vtkRangeResampleFilter, vtkTIPPDelaunay2D, vtkTIPPDelaunay3D, vtkTIPPOutOfCoreDelaunay2D,
     vtkTIPPPointsToImage)
@@ -140,7 +142,7 @@ def delaunay_2d(points: Any, point_data: Any, options: dict[str, Any],
     algorithm.SetMergeSourcePoints(has_points)  # must be the same on all ranks
     set_properties(algorithm, DELAUNAY_2D, options)
     run(algorithm, progress)
-    return wrapped_like(algorithm.GetOutput(), points), _statistics(algorithm.GetStatistics().GetFieldData())
+    return algorithm.GetOutput(), _statistics(algorithm.GetStatistics().GetFieldData())
 
 
 def _cloud_of(points: Any, point_data: Any) -> Any:
@@ -153,7 +155,7 @@ def delaunay_3d(points: Any, point_data: Any, options: dict[str, Any],
     algorithm.SetInputData(_cloud_of(points, point_data))
     set_properties(algorithm, DELAUNAY_3D, options)
     run(algorithm, progress)
-    return wrapped_like(algorithm.GetOutput(), points), _statistics(algorithm.GetStatistics().GetFieldData())
+    return algorithm.GetOutput(), _statistics(algorithm.GetStatistics().GetFieldData())
 
 
 def _statistics(totals: Any) -> dict[str, Any]:
@@ -207,6 +209,7 @@ def dem(points: Any, point_data: Any, options: dict[str, Any],
     if options["bounds"] is not None:
         maker.UseInputBoundsOff()
         maker.SetSamplingBounds(*options["bounds"])
+        maker.StrictBoundsOn()
     maker.ClearBands()
     for name in names:
         maker.AddBand(name)
@@ -286,12 +289,14 @@ def _columns_in(paths: list[str], options: dict[str, Any]) -> list[str]:
 
 
 def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> Any:
+    mesh = _data_of(mesh)
     check.data_object(mesh, "mesh", ("vtkPointSet", "vtkCompositeDataSet"), "a mesh or a composite of meshes")
     algorithm = vtkRangeResampleFilter()
     algorithm.SetInputDataObject(mesh)
     if options["bounds"] is not None:
         algorithm.SetUseInputBounds(False)
-        algorithm.SetSamplingBounds(*options["bounds"])
+        algorithm.StrictBoundsOn()
+        algorithm.SetSamplingBounds(*_in_space(options["bounds"], mesh))
     if options["spacing"] is not None:
         algorithm.SetDelta(*options["spacing"])
     algorithm.SetSamplingDimensions(*options["dimensions"])
@@ -304,7 +309,36 @@ def resample(mesh: Any, options: dict[str, Any], progress: Progress | None) -> A
     algorithm.SetNumberOfThreads(options["threads"])
     run(algorithm, call=lambda: algorithm.SetDeviceChoice(options["device"]))
     run(algorithm, progress)
-    return wrapped_like(algorithm.GetOutput(), mesh)
+    return algorithm.GetOutput()
+
+
+def _data_of(mesh: Any) -> Any:
+    """Returns the triangles or tetrahedra of a Mesh as a data set of VTK, so that its cells keep their numbers; other
+    values as they are."""
+    return in_vtk(mesh.without_thin()) if isinstance(mesh, Mesh) else mesh
+
+
+def _in_space(bounds: list[float], mesh: Any) -> list[float]:
+    """Returns bounds with a z: that of all ranks' meshes if a cell is three-dimensional, else 0. Collective."""
+    if len(bounds) == 6:
+        return bounds
+    cell = vtkGenericCell()
+    low, high, is_volume = math.inf, -math.inf, False
+    for leaf in _leaves(mesh):
+        if leaf.GetNumberOfPoints():
+            low, high = min(low, leaf.GetBounds()[4]), max(high, leaf.GetBounds()[5])
+        types = vtkCellTypes()
+        leaf.GetCellTypes(types)
+        for i in range(types.GetNumberOfTypes()):
+            cell.SetCellType(types.GetCellType(i))
+            is_volume = is_volume or cell.GetCellDimension() == 3
+    if _count_ranks() > 1:
+        from mpi4py import MPI
+
+        everywhere = MPI.COMM_WORLD.allgather((low, high, is_volume))
+        low, high, is_volume = min(each[0] for each in everywhere), max(each[1] for each in everywhere), any(
+            each[2] for each in everywhere)
+    return [*bounds, low, high] if is_volume else [*bounds, 0.0, 0.0]
 
 
 def _select(algorithm: vtkRangeResampleFilter, mesh: Any, names: list[str]) -> None:
@@ -352,6 +386,7 @@ def read(path: str, options: dict[str, Any], progress: Progress | None) -> Any:
     reader.SetFileName(path)
     if options["bounds"] is not None:
         reader.SetBounds(*options["bounds"])
+        reader.StrictBoundsOn()
     reader.SetBorrowerMode(reader.OWNED_AND_BORROWED if options["borrowed"] else reader.OWNED)
     set_properties(reader, READ, options)
     run(reader, call=reader.UpdateInformation)
@@ -380,10 +415,12 @@ def write(mesh: Any, path: str, options: dict[str, Any], progress: Progress | No
     if isinstance(mesh, str):
         writer.SetInputFileName(mesh)
     else:
-        writer.SetInputData(check.data_object(mesh, "mesh", ("vtkDataObject",), "a VTK data set or a path"))
+        writer.SetInputData(check.data_object(_data_of(mesh), "mesh", ("vtkDataObject",), "a VTK data set or a path"))
     writer.SetFileName(path)
     set_properties(writer, WRITE, options)
     run(writer, progress, writer.Write)
+    if isinstance(mesh, Mesh) and mesh.count_thin():
+        warnings.warn(check.THIN_LEFT_OUT.format(mesh.count_thin()), RuntimeWarning, stacklevel=3)
 
 
 Rings = Tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
@@ -397,8 +434,7 @@ def open_mesh(mesh: Any, options: dict[str, Any]) -> MeshQuery:
     if isinstance(mesh, str):
         query.SetFileName(mesh)
     else:
-        source = grid_of(mesh) if isinstance(mesh, Mesh) else mesh
-        query.SetSourceData(check.data_object(source, "mesh", ("vtkPointSet", "vtkCompositeDataSet"), "a mesh"))
+        query.SetSourceData(check.data_object(_data_of(mesh), "mesh", ("vtkPointSet", "vtkCompositeDataSet"), "a mesh"))
     return MeshQuery(query)
 
 
@@ -580,7 +616,7 @@ def ranks() -> Iterator[Any]:
     --------
     >>> with tipp.ranks() as world:
     ...     piece = tipp.delaunay_2d(my_points)
-    ...     total = world.allreduce(piece.GetNumberOfCells())
+    ...     total = world.allreduce(len(piece.cells))
     """
     from mpi4py import MPI  # before VTK's controller is initialised
     from vtkmodules.vtkParallelMPI import vtkMPIController

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import math
 import os
-from typing import TYPE_CHECKING, Any, Iterable, Sequence
+from typing import Any, Iterable, Sequence
 
 import numpy as np
 
 from . import _arguments as check
 from . import _engine
 from ._arguments import ProgressBar, progress_of
-
-if TYPE_CHECKING:
-    from vtkmodules.vtkCommonDataModel import vtkDataObject
+from ._bounds import bounds_of, BoundsLike, open_bound
+from ._data import as_mesh
+from ._results import kind_of, result_of
 
 
 def read(
     path: str | os.PathLike[str],
-    bounds: Sequence[float] | None = None,
+    bounds: BoundsLike | None = None,
     *,
     time: float | None = None,
     point_arrays: str | Iterable[str] | None = None,
@@ -26,9 +26,10 @@ def read(
     borrowed: bool = False,
     merge: bool = True,
     tiling: str = "grid:4x4",
-    memory_limit: int = 1 << 31,
+    memory_limit: int | str = 1 << 31,
+    return_type: str | None = None,
     progress_bar: ProgressBar = False,
-) -> vtkDataObject:
+) -> Any:
     """Reads a partitioned or flat mesh, or the part of it that meets a range.
 
     Parameters
@@ -36,8 +37,10 @@ def read(
     path
         A folder NAME.tipp, a folder of .npy arrays, or a .vtu file with appended, raw data.
     bounds
-        (xmin, xmax, ymin, ymax, zmin, zmax) in the mesh's units: reads only the cells that share a point with this
-        closed box; triangles are tested by x and y only. Pieces that do not meet it are not opened. None: reads
+        (xmin, xmax, ymin, ymax) or (xmin, xmax, ymin, ymax, zmin, zmax) in the mesh's units, a tipp.Bounds, or a data
+        set, geometry or raster, whose bounds are used: reads only the cells that share a point with this closed box;
+        triangles are tested by x and y only. Pieces that do not meet it are not opened. Bounds may be infinite. A finite
+        range that does not meet the mesh, or is more than ten times as long along an axis, is an error. None: reads
         everything.
     time
         The time at which to read arrays that vary in time: the last step that is not after it. None: the first step.
@@ -46,33 +49,40 @@ def read(
     borrowed
         Whether pieces include the cells that they borrow, as ghost cells.
     merge
-        Whether to return one vtkUnstructuredGrid instead of a vtkPartitionedDataSet of pieces.
+        Whether to return one mesh instead of its pieces.
     tiling
         How a flat mesh is partitioned, as for write().
     memory_limit
-        The memory limit, in bytes, for loading a flat mesh, not counting its pieces.
+        The memory limit, in bytes or as a text such as "512M", for loading a flat mesh, not counting its pieces.
+    return_type
+        "tipp" (None), "vtk" or "pyvista": what the result is.
     progress_bar
         As for delaunay().
 
     Returns
     -------
-    vtkUnstructuredGrid or vtkPartitionedDataSet
-        The mesh, which can be passed to pyvista.wrap(). Within tipp.ranks() each rank gets its own pieces. Without VTK
-        a tipp.Mesh, or a list of them.
+    tipp.Mesh, vtkUnstructuredGrid or pyvista.UnstructuredGrid
+        The mesh. If `merge` is False, a list of tipp.Mesh, a vtkPartitionedDataSet or a pyvista.PartitionedDataSet. Within
+        tipp.ranks() each rank gets its own pieces.
 
     Raises
     ------
+    TypeError, ValueError
+        If an argument is of a wrong type or value.
     RuntimeError
-        If the mesh cannot be read; the message is the reader's.
+        If the mesh cannot be read, or the bounds are an error as above; the message says why.
+    ModuleNotFoundError
+        If return_type needs a library that is not installed.
     KeyError
         If the mesh has no such array.
 
     Examples
     --------
-    >>> part = tipp.read("mesh.tipp", bounds=(0.2, 0.4, 0.5, 0.7, 0, 0))
+    >>> part = tipp.read("mesh.tipp", bounds=(0.2, 0.4, 0.5, 0.7))
     """
     options = {
-        "bounds": None if bounds is None else check.several(bounds, "bounds", 6, _bound),
+        "bounds": None if bounds is None else _range_to_read(bounds),
+        "strict_bounds": True,
         "borrowed": check.flag(borrowed, "borrowed"),
         "merge": check.flag(merge, "merge"),
         "tiling": check.text(tiling, "tiling"),
@@ -81,14 +91,17 @@ def read(
         "point_arrays": None if point_arrays is None else check.names(point_arrays, "point_arrays"),
         "cell_arrays": None if cell_arrays is None else check.names(cell_arrays, "cell_arrays"),
     }
-    return _engine.read(check.path(path, "path"), options, progress_of(progress_bar))
+    kind = kind_of(return_type, None)
+    found = _engine.read(check.path(path, "path"), options, progress_of(progress_bar))
+    return result_of(found, kind, as_grid=True)
 
 
-def _bound(value: Any, name: str) -> float:
-    result = check.number(value, name, finite=False)
-    if math.isnan(result):
-        raise ValueError(f"{name} is nan; give a number.")
-    return result
+def _range_to_read(bounds: Any) -> list[float]:
+    given = bounds_of(bounds, "bounds", check=open_bound)
+    for axis, low, high in zip("xyz", given[::2], given[1::2]):
+        if low > high:
+            raise ValueError(f"bounds are from {low:.10g} to {high:.10g} along {axis}; give the lower one first.")
+    return given if len(given) == 6 else [*given, -math.inf, math.inf]
 
 
 def write(
@@ -97,7 +110,7 @@ def write(
     *,
     tiling: str = "grid:4x4",
     duplicate_borrowers: bool = False,
-    memory_limit: int = 1 << 31,
+    memory_limit: int | str = 1 << 31,
     threads: int = 0,
     progress_bar: ProgressBar = False,
 ) -> None:
@@ -108,8 +121,8 @@ def write(
     Parameters
     ----------
     mesh
-        A vtkDataSet or vtkPartitionedDataSet, a PyVista data set, or the path of a flat mesh or of any
-        file that VTK reads.
+        A mesh of tipp or meshio, a vtkDataSet or vtkPartitionedDataSet, a PyVista data set, or the path of a flat mesh or
+        of any file that VTK reads.
     path
         The folder to write, usually called NAME.tipp. It replaces an existing partitioned mesh.
     tiling
@@ -118,7 +131,7 @@ def write(
     duplicate_borrowers
         Whether cells that meet several partitions are stored in each of their pieces.
     memory_limit
-        The memory limit, in bytes, not counting a mesh in memory.
+        The memory limit, in bytes or as a text such as "512M", not counting a mesh in memory.
     threads, progress_bar
         As for delaunay().
 
@@ -139,12 +152,12 @@ def write(
         "memory_limit": check.memory(memory_limit, "memory_limit"),
         "threads": check.threads(threads),
     }
-    _engine.write(mesh, check.path(path, "path"), options, progress_of(progress_bar))
+    _engine.write(as_mesh(mesh), check.path(path, "path"), options, progress_of(progress_bar))
 
 
 def resample(
     mesh: Any,
-    bounds: Sequence[float] | None = None,
+    bounds: BoundsLike | None = None,
     dimensions: Sequence[int] | None = None,
     *,
     spacing: Sequence[float] | None = None,
@@ -152,6 +165,7 @@ def resample(
     no_data: float | None = None,
     arrays: str | Iterable[str] | None = None,
     device: str = "auto",
+    return_type: str | None = None,
     threads: int = 0,
     progress_bar: ProgressBar = False,
 ) -> Any:
@@ -162,10 +176,12 @@ def resample(
     Parameters
     ----------
     mesh
-        A vtkPointSet with cells, a composite data set of these, or a PyVista data set.
+        A mesh of tipp or meshio, a vtkPointSet with cells, a composite data set of these, or a PyVista data set.
     bounds
-        (xmin, xmax, ymin, ymax, zmin, zmax), both ends included, in the mesh's units; z may be omitted for surfaces.
-        None: the mesh's bounding box.
+        (xmin, xmax, ymin, ymax) or (xmin, xmax, ymin, ymax, zmin, zmax), both ends included, in the mesh's units, a
+        tipp.Bounds, or a data set, geometry or raster, whose bounds are used. Without z it is 0 for surfaces, and the
+        mesh's for tetrahedra. A range that does not meet the mesh, or is more than ten times as long along an axis, is
+        an error. None: the mesh's bounding box.
     dimensions
         The number of samples along x, y and z; or along x and y, with one along z. 0 uses the spacing of the first
         axis with a number, but for surfaces means one sample along z. None: (256, 0, 0).
@@ -180,14 +196,17 @@ def resample(
         The name or the names of the arrays to sample. None: all.
     device
         "auto", "openmp", "opencl", "opencl:INDEX" or "opencl:NAME".
+    return_type
+        "tipp", "vtk" or "pyvista": what the result is. None: tipp's for a mesh of arrays, VTK's for a data set of VTK, and PyVista's
+        for one of PyVista, whatever is installed.
     threads, progress_bar
         As for delaunay().
 
     Returns
     -------
-    vtkImageData or pyvista.ImageData
+    tipp.Image, vtkImageData or pyvista.ImageData
         The image with the arrays and vtkValidPointMask, which is 1 for samples in a cell. as_array() returns an array
-        in the image's shape. A PyVista input gives a PyVista output. Without VTK a tipp.Image.
+        in the image's shape. See return_type.
 
     Raises
     ------
@@ -196,16 +215,19 @@ def resample(
     KeyError
         If the mesh has no such array.
     RuntimeError
-        If the filter failed; the message is the filter's.
+        If the filter failed, or the bounds are an error as above; the message says why.
+    ModuleNotFoundError
+        If return_type needs a library that is not installed.
     KeyboardInterrupt
         Promptly after Ctrl-C.
 
     Examples
     --------
-    >>> image = tipp.resample(mesh, bounds=(0, 10, 0, 5, 0, 0), dimensions=(1000, 500, 1))
+    >>> image = tipp.resample(mesh, bounds=(0, 10, 0, 5), dimensions=(1000, 500))
     """
     options: dict[str, Any] = {
-        "bounds": None if bounds is None else _along_axes(bounds, "bounds", 6, check.number),
+        "bounds": None if bounds is None else bounds_of(bounds, "bounds"),
+        "strict_bounds": True,
         "spacing": None if spacing is None else _along_axes(spacing, "spacing", 3, check.number, at_least=0),
     }
     if dimensions is None:
@@ -216,13 +238,14 @@ def resample(
     options["arrays"] = None if arrays is None else check.names(arrays, "arrays")
     options["device"] = check.text(device, "device")
     options["threads"] = check.threads(threads)
-    return _engine.resample(mesh, options, progress_of(progress_bar))
+    kind = kind_of(return_type, mesh)
+    return result_of(_engine.resample(as_mesh(mesh), options, progress_of(progress_bar)), kind)
 
 
 def _along_axes(values: Any, name: str, count: int, convert: Any, **limits: Any) -> list[Any]:
     """Returns values for x, y and z; z may be omitted."""
     is_list = isinstance(values, Sequence) and not isinstance(values, (str, bytes))
     if (is_list or isinstance(values, np.ndarray) and values.ndim == 1) and len(values) == count * 2 // 3:
-        of_z = {"bounds": [0, 0], "spacing": [0], "dimensions": [1]}[name]
+        of_z = {"spacing": [0], "dimensions": [1]}[name]
         values = [*values, *of_z]
     return check.several(values, name, count, convert, **limits)

@@ -8,11 +8,15 @@ import numpy as np
 
 from . import _arguments as check
 from . import _engine
-from ._arrays import columns_of, coordinates, in_space
+from ._arrays import columns_of, coordinates, in_space, is_mesh
+from ._bounds import bounds_of, BoundsLike
+from ._data import as_mesh
 from ._geometry import is_geometry, items_of, parts_of, rings_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
+
+_HIGHEST = float(np.finfo(np.float64).max)  # a z without limit
 
 
 def open(  # pylint: disable=redefined-builtin
@@ -28,7 +32,7 @@ def open(  # pylint: disable=redefined-builtin
     ----------
     mesh
         The path of a partitioned mesh of any size, of which only the pieces that a query needs are read; or a mesh in
-        memory (of VTK or PyVista, or a tipp.Mesh) of triangles, tetrahedra or cells that can be divided into these.
+        memory (of tipp, VTK, PyVista or meshio) of triangles, tetrahedra or cells that can be divided into these.
     memory
         The memory limit for pieces of a partitioned mesh and their search structures: bytes, or a text such as '512M'.
         A query that needs more for a single piece raises RuntimeError.
@@ -58,7 +62,7 @@ def open(  # pylint: disable=redefined-builtin
         "step": check.whole(step, "step"),
         "threads": check.threads(threads),
     }
-    source = mesh if check.is_vtk_object(mesh) or hasattr(mesh, "point_data") else check.path(mesh, "mesh")
+    source = as_mesh(mesh) if check.is_vtk_object(mesh) or is_mesh(mesh) else check.path(mesh, "mesh")
     return ResidentMesh(_engine.open_mesh(source, options))
 
 
@@ -257,13 +261,14 @@ class ResidentMesh:
         """
         return Closest(*self._opened().closest(_points(points)))
 
-    def cells_in(self, *, box: Iterable[float] | None = None, polygon: Any = None, whole: bool = False) -> np.ndarray:
+    def cells_in(self, *, box: BoundsLike | None = None, polygon: Any = None, whole: bool = False) -> np.ndarray:
         """Returns the cells that share a point with a closed box or polygon, in ascending order.
 
         Parameters
         ----------
         box
-            xmin, xmax, ymin, ymax, and for tetrahedra zmin, zmax.
+            (xmin, xmax, ymin, ymax) or (xmin, xmax, ymin, ymax, zmin, zmax), a tipp.Bounds, or a data set, geometry or
+            raster, whose bounds are used. z counts for tetrahedra only.
         polygon
             For triangles: a polygon as in zones().
         whole
@@ -271,7 +276,7 @@ class ResidentMesh:
         """
         return self._opened().cells_in(*_region(box, polygon), check.flag(whole, "whole"))
 
-    def points_in(self, *, box: Iterable[float] | None = None, polygon: Any = None) -> np.ndarray:
+    def points_in(self, *, box: BoundsLike | None = None, polygon: Any = None) -> np.ndarray:
         """Returns the mesh's points in a closed box or polygon, as in cells_in(), in ascending order."""
         return self._opened().points_in(*_region(box, polygon))
 
@@ -337,10 +342,8 @@ def _region(box: Any, polygon: Any) -> tuple[list[float], Any]:
         raise ValueError("give either box or polygon.")
     if box is None:
         return [0.0] * 6, _rings([polygon])
-    bounds = check.a_list(box, "box")
-    if len(bounds) not in (4, 6):
-        raise ValueError(f"box has {len(bounds)} bounds; give x min, x max, y min, y max, and z min, z max.")
-    return [check.number(b, "box") for b in bounds] + [0.0] * (6 - len(bounds)), None
+    bounds = bounds_of(box, "box")
+    return (bounds if len(bounds) == 6 else [*bounds, -_HIGHEST, _HIGHEST]), None
 
 
 def _rings(zones: list[Any]) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:

@@ -7,7 +7,8 @@ from typing import Any, Callable, Mapping
 
 import numpy as np
 
-from ._arrays import in_space, Mesh
+from ._arrays import in_space
+from ._data import Mesh
 
 # Ids are not interpolated, and marks of ghosts are not values.
 _NOT_VALUES = ("GlobalPointIds", "vtkGhostType", "vtkOriginalPointIds", "RepresentativePointId")

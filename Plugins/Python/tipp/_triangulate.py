@@ -10,7 +10,8 @@ import numpy as np
 from . import _arguments as check
 from . import _engine
 from ._arguments import ProgressBar, progress_of
-from ._arrays import positions_of
+from ._arrays import cloud_of
+from ._results import kind_of, result_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -37,8 +38,9 @@ def delaunay(
     ----------
     points
         Coordinates of shape (n, 2) or (n, 3); z is ignored. A writable (n, 3) array of float32 or float64 in C order
-        is not copied; any other array is copied once. Masked coordinates become NaN. Or laspy's LasData, or geometries
-        of points such as a GeoSeries.
+        is not copied; any other array is copied once. Masked coordinates become NaN. Or laspy's LasData, a table with
+        columns x and y such as a DataFrame of pandas or polars, geometries of points such as a GeoSeries, a mesh of tipp,
+        meshio, VTK or PyVista, or the pixels of an xarray raster.
     tol
         Points within this fraction of the bounding box's diagonal of each other are merged. 0 merges only coincident
         points.
@@ -102,6 +104,7 @@ def delaunay_2d(
     map_duplicates: bool = True,
     neighbors: bool = False,
     return_statistics: bool = False,
+    return_type: str | None = None,
     partitions: tuple[int, int] | None = None,
     schedule: str = "dynamic",
     threads: int = 0,
@@ -114,7 +117,7 @@ def delaunay_2d(
     Parameters
     ----------
     points
-        A vtkPointSet, a PyVista data set with points, or an array as for delaunay().
+        An array or an object as for delaunay(), a mesh of tipp or meshio, or a vtkPointSet or PyVista data set.
     tol, max_edge, partitions, schedule, threads, progress_bar
         As for delaunay().
     alpha
@@ -154,15 +157,19 @@ def delaunay_2d(
     return_statistics
         Whether to return (mesh, statistics): a dictionary of counts (points, triangles, duplicates, rejected,
         partitions, threads, constraints, crossing_points, ...) and the seconds of each phase.
+    return_type
+        "tipp", "vtk" or "pyvista": what the result is. None: tipp's for arrays, VTK's for a data set of VTK, and PyVista's
+        for one of PyVista, whatever is installed.
 
     Returns
     -------
-    vtkPolyData or pyvista.PolyData
-        The input's points and point data, with triangles. A PyVista input gives a PyVista output. Without VTK a
-        tipp.Mesh.
+    tipp.Mesh, vtkPolyData or pyvista.PolyData
+        The input's points and point data, with triangles. See return_type.
 
     Raises
     ------
+    ModuleNotFoundError
+        If return_type needs a library that is not installed.
     RuntimeError, KeyboardInterrupt
         As delaunay().
 
@@ -179,13 +186,16 @@ def delaunay_2d(
     options["offset"] = check.number(offset, "offset", at_least=0)
     options["bound"] = check.flag(bound, "bound")
     check.require_point_set(points, point_data)
+    kind = kind_of(return_type, points)
+    points, point_data = cloud_of(points, point_data)
     options["edges"], options["polygons"], options["edge_source"] = edges, polygons, edge_source
     options["crossings"] = check.choice(crossings, "crossings", _CROSSINGS)
     options["marks"] = check.choice(marks, "marks", _MARKS)
     options["map_duplicates"] = check.flag(map_duplicates, "map_duplicates")
     options["neighbors"] = check.flag(neighbors, "neighbors")
     wants_statistics = check.flag(return_statistics, "return_statistics")
-    mesh, statistics = _engine.delaunay_2d(points, point_data, options, progress_of(progress_bar))
+    found, statistics = _engine.delaunay_2d(points, point_data, options, progress_of(progress_bar))
+    mesh = result_of(found, kind)
     return (mesh, statistics) if wants_statistics else mesh
 
 
@@ -215,6 +225,7 @@ def delaunay_3d(
     map_duplicates: bool = True,
     neighbors: bool = False,
     return_statistics: bool = False,
+    return_type: str | None = None,
     partitions: int = 0,
     threads: int = 0,
     progress_bar: ProgressBar = False,
@@ -226,7 +237,8 @@ def delaunay_3d(
     Parameters
     ----------
     points
-        A vtkPointSet, a PyVista data set with points, or an array of shape (n, 3).
+        An array of shape (n, 3) or another object as for delaunay(), a mesh of tipp or meshio, or a vtkPointSet or
+        PyVista data set.
     alpha
         The largest circumradius, in the units of the points. Tetrahedra with a larger one are removed; facets, edges
         and points that are then in no tetrahedron become triangles, lines and vertices. 0: all tetrahedra.
@@ -249,6 +261,9 @@ def delaunay_3d(
     return_statistics
         Whether to return (mesh, statistics): a dictionary of counts (points, tetrahedra, duplicates, rejected,
         partitions, threads, ...) and the seconds of each phase.
+    return_type
+        "tipp", "vtk" or "pyvista": what the result is. None: tipp's for arrays, VTK's for a data set of VTK, and PyVista's
+        for one of PyVista, whatever is installed.
     partitions
         The number of partitions, at most 512. 0: chosen automatically. The result does not depend on it.
     threads, progress_bar
@@ -256,8 +271,8 @@ def delaunay_3d(
 
     Returns
     -------
-    vtkUnstructuredGrid or pyvista.UnstructuredGrid
-        The input's points and point data, with tetrahedra. A PyVista input gives a PyVista output.
+    tipp.Mesh, vtkUnstructuredGrid or pyvista.UnstructuredGrid
+        The input's points and point data, with tetrahedra. See return_type.
 
     Raises
     ------
@@ -283,12 +298,14 @@ def delaunay_3d(
         "threads": check.threads(threads),
     }
     check.require_point_set(points, point_data)
-    points = positions_of(points)
+    kind = kind_of(return_type, points)
+    points, point_data = cloud_of(points, point_data)
     is_array = not check.is_vtk_object(points) and np.ndim(points) == 2
     if is_array and np.shape(points)[1] == 2 and np.asarray(points).dtype.kind in "iuf":
         raise ValueError(f"points has the shape {np.shape(points)}; points in space have the shape (n, 3).")
     wants_statistics = check.flag(return_statistics, "return_statistics")
-    mesh, statistics = _engine.delaunay_3d(points, point_data, options, progress_of(progress_bar))
+    found, statistics = _engine.delaunay_3d(points, point_data, options, progress_of(progress_bar))
+    mesh = result_of(found, kind)
     return (mesh, statistics) if wants_statistics else mesh
 
 

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any, Mapping
 
 import numpy as np
 
-from ._arrays import attribute, attributes, coordinates, Image, Mesh, require_values
+from ._arrays import attribute, attributes, coordinates, require_values
+from ._data import CONSTRAINT_IDS, Image, Mesh
 from ._vtkmodules import (
     numpy_to_vtk,
     vtk_to_numpy,
@@ -132,18 +133,8 @@ def triangles_of(mesh: vtkPolyData) -> np.ndarray:
     return vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
 
 
-def wrapped_like(result: vtkDataObject, source: Any) -> Any:
-    """Wraps the result as a PyVista object if the source is one."""
-    pyvista = sys.modules.get("pyvista")
-    if pyvista is not None and isinstance(source, pyvista.DataObject):
-        return pyvista.wrap(result)
-    return result
-
-
-# Additional helpers for the wheel.
-
-_TRIANGLE, _TETRAHEDRON = 5, 10  # VTK_TRIANGLE and VTK_TETRA
-_TYPES = {3: _TRIANGLE, 4: _TETRAHEDRON}  # by their number of corners
+_VERTEX, _LINE, _TRIANGLE, _TETRAHEDRON = 1, 3, 5, 10  # VTK_VERTEX and so on
+_TYPES = {1: _VERTEX, 2: _LINE, 3: _TRIANGLE, 4: _TETRAHEDRON}  # by their number of corners
 _THIN = (0, 1, 2, 3, 4)  # VTK_EMPTY_CELL to VTK_POLY_LINE
 
 
@@ -193,12 +184,15 @@ def surface_of(mesh: Mesh, data: Any) -> vtkPolyData:
         result.SetVerts(cells_of(mesh.vertices))
     if mesh.lines is not None:
         result.SetLines(cells_of(mesh.lines))
-    for name, values in mesh.cell_data.items():
-        result.GetCellData().AddArray(vtk_array(name, values))
-    for name, values in mesh.line_data.items():
-        triangles = np.full(len(mesh.cells), -1, values.dtype)  # VTK numbers lines before triangles
-        result.GetCellData().AddArray(vtk_array(name, np.concatenate([values, triangles])))
+    _add_arrays(_cell_arrays(mesh), result.GetCellData())
     return result
+
+
+def _cell_arrays(mesh: Mesh) -> dict[str, np.ndarray]:
+    """Returns the cell arrays with values for all cells, vertices first as in VTK."""
+    blocks = [arrays for _, arrays in mesh.blocks()]
+    return {name: np.concatenate([arrays[name] for arrays in blocks]) if len(blocks) > 1 else values
+            for name, values in blocks[0].items()}
 
 
 def _add_arrays(arrays: dict[str, np.ndarray], target: Any) -> None:
@@ -214,10 +208,24 @@ def grid_of(mesh: Mesh | None) -> vtkUnstructuredGrid:
     grid = vtkUnstructuredGrid()
     if mesh is not None:
         grid.SetPoints(vtk_points(mesh.points))
-        grid.SetCells(_TYPES[mesh.cells.shape[1]], cells_of(mesh.cells))
+        _set_cells(grid, [ids for ids, _ in mesh.blocks()])
         _add_arrays(mesh.point_data, grid.GetPointData())
-        _add_arrays(mesh.cell_data, grid.GetCellData())
+        _add_arrays(_cell_arrays(mesh), grid.GetCellData())
     return grid
+
+
+def _set_cells(grid: vtkUnstructuredGrid, blocks: list[np.ndarray]) -> None:
+    """Sets the cells of a grid: blocks of ids, each of one kind of cell."""
+    if len(blocks) == 1:
+        grid.SetCells(_TYPES[blocks[0].shape[1]], cells_of(blocks[0]))
+        return
+    sizes = np.concatenate([np.full(len(ids), ids.shape[1]) for ids in blocks])
+    arrays = np.concatenate([[0], np.cumsum(sizes)]), np.concatenate([ids.ravel() for ids in blocks]).astype(np.int64)
+    cells = vtkCellArray()
+    cells.SetData(*(_shared(array, 1) for array in arrays))
+    cells._numpy_reference = arrays
+    types = np.concatenate([np.full(len(ids), _TYPES[ids.shape[1]], np.uint8) for ids in blocks])
+    grid.SetCells(numpy_to_vtk(types, deep=True), cells)
 
 
 def partitioned(grids: list[vtkUnstructuredGrid]) -> vtkPartitionedDataSet:
@@ -250,6 +258,44 @@ def _add_ghosts(image: Image, result: vtkImageData) -> None:
     of_cells = np.where(valid, 0, hidden_cell).astype(np.uint8)
     result.GetPointData().AddArray(vtk_array("vtkGhostType", of_points.ravel()))
     result.GetCellData().AddArray(vtk_array("vtkGhostType", of_cells.ravel()))
+
+
+def from_vtk(data: Any) -> Any:
+    """Returns a mesh of triangles or tetrahedra as a Mesh, an image as an Image, and a vtkPartitionedDataSet as a list of
+    Meshes. They share the memory of the data set, and leave out its marks of ghosts in images, which an image has in
+    vtkValidPointMask."""
+    if data.IsA("vtkPartitionedDataSet"):
+        return [from_vtk(data.GetPartitionAsDataObject(i)) for i in range(data.GetNumberOfPartitions())]
+    if data.IsA("vtkImageData"):
+        arrays = [arrays_of(data.GetPointData()), arrays_of(data.GetCellData())]
+        for its in arrays:
+            its.pop("vtkGhostType", None)
+        return Image(data.GetOrigin(), data.GetSpacing(), data.GetDimensions(), *arrays)
+    mesh, _ = simplices_of(data)
+    if data.IsA("vtkPolyData"):
+        thin = {1: _ids_of(data.GetVerts()), 2: _ids_of(data.GetLines())}
+    else:
+        thin = {size: _ids_of_type(data, kind) for size, kind in _TYPES.items() if size < np.shape(mesh.cells)[1]}
+    found = {size: ids.reshape(-1, size) for size, ids in thin.items() if len(ids)}
+    mesh.vertices, mesh.lines, mesh.triangles = (found.get(size) for size in (1, 2, 3))
+    if mesh.lines is not None and CONSTRAINT_IDS in mesh.cell_data:
+        del mesh.cell_data[CONSTRAINT_IDS]
+        first = 0 if mesh.vertices is None else len(mesh.vertices)
+        marks = numpy_of(data.GetCellData().GetArray(CONSTRAINT_IDS))
+        mesh.line_data[CONSTRAINT_IDS] = marks[first:first + len(mesh.lines)]
+    return mesh
+
+
+def _ids_of_type(grid: Any, kind: int) -> np.ndarray:
+    """Returns the point ids of the cells of one type."""
+    if not grid.GetNumberOfCells():
+        return np.zeros(0, np.int64)
+    rows = np.flatnonzero(_types_of(grid) == kind)
+    if not len(rows):
+        return np.zeros(0, np.int64)
+    size = next(corners for corners, its in _TYPES.items() if its == kind)
+    begins = numpy_of(grid.GetCells().GetOffsetsArray())[rows]
+    return _ids_of(grid.GetCells())[begins[:, np.newaxis] + np.arange(size)]
 
 
 def numpy_of(array: Any) -> np.ndarray:

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Points of xarray objects: the pixels of a raster, or variables x, y and z. xarray is not imported."""
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+_AXES = (("x", "lon", "longitude", "easting"), ("y", "lat", "latitude", "northing"))
+
+
+class Table:
+    """The variables of a Dataset that are columns, in the form of a table."""
+
+    def __init__(self, dataset: Any) -> None:
+        self._dataset = dataset
+        self.columns = [name for name, variable in dataset.variables.items() if variable.ndim == 1]
+
+    def __getitem__(self, name: Any) -> np.ndarray:
+        return np.asarray(self._dataset[name])
+
+
+def is_xarray(value: Any) -> bool:
+    return any(kind.__module__.split(".")[0] == "xarray" for kind in type(value).__mro__)
+
+
+def raster_points(raster: Any, name: str) -> np.ndarray:
+    """Returns the (n, 3) pixel centres of a DataArray and their values as z. Pixels without a value are left out."""
+    raster = raster.squeeze(drop=True)
+    dimensions = [next((each for each in raster.dims if str(each).lower() in known), None) for known in _AXES]
+    if None in dimensions or raster.ndim != 2:
+        raise ValueError(f"{name} is a DataArray with the dimensions {[str(each) for each in raster.dims]}; give a raster with "
+                         "x and y, such as one band by sel(band=1), or an array.")
+    missing = [str(each) for each in dimensions if each not in raster.coords]
+    if missing:
+        raise ValueError(f"{name} is a DataArray without coordinates along {missing[0]}; assign them, or give an array.")
+    x, y = (np.asarray(raster[each], np.float64) for each in dimensions)
+    values = np.asarray(raster.transpose(dimensions[1], dimensions[0]))
+    if values.dtype.kind not in "fiub":
+        raise TypeError(f"{name} is a DataArray of type {values.dtype}; give real numbers.")
+    values = values.astype(np.float64)
+    has_value = np.isfinite(values)
+    for key in ("_FillValue", "missing_value", "nodata"):
+        if key in raster.attrs:
+            has_value &= values != float(raster.attrs[key])
+    return np.column_stack([*(each[has_value] for each in np.meshgrid(x, y)), values[has_value]])
