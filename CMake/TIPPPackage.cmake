@@ -17,7 +17,6 @@ write_basic_package_version_file("${CMAKE_BINARY_DIR}/TIPPConfigVersion.cmake"
   COMPATIBILITY SameMinorVersion)
 install(
   FILES "${CMAKE_BINARY_DIR}/TIPPConfig.cmake" "${CMAKE_BINARY_DIR}/TIPPConfigVersion.cmake"
-    "${CMAKE_CURRENT_LIST_DIR}/FindGmp.cmake"
   DESTINATION "${tipp_package_destination}"
   COMPONENT development)
 install(FILES LICENSE CITATION.cff CHANGELOG.md

@@ -2,12 +2,12 @@
 #include "Locate/CellLocator.h"
 
 #include "Predicates/ExactPredicates3.h"
+#include "Predicates/Fraction.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <gmpxx.h>
 #include <utility>
 
 namespace tipp
@@ -254,10 +254,10 @@ bool NearCell::isBetterThan(const NearCell& other, const Point3& from) const
   }
   const auto square = [&from](const NearCell& cell)
   {
-    return cell.Dimension == 2 ? nearestOf<mpq_class, 2>(cell, from).Squared
-                               : nearestOf<mpq_class, 3>(cell, from).Squared;
+    return cell.Dimension == 2 ? nearestOf<Fraction, 2>(cell, from).Squared
+                               : nearestOf<Fraction, 3>(cell, from).Squared;
   };
-  const int order = cmp(square(*this), square(other));
+  const int order = compare(square(*this), square(other));
   return order < 0 || (order == 0 && this->Id < other.Id);
 }
 
@@ -274,13 +274,12 @@ double NearCell::distance(const Point3& from)
   {
     Vector<double, nearest.At.size()> at;
     std::transform(nearest.At.begin(), nearest.At.end(), at.begin(),
-      [](const mpq_class& coordinate) { return coordinate.get_d(); });
+      [](const Fraction& coordinate) { return coordinate.value(); });
     this->At = pointOf(at);
-    mpf_class square(nearest.Squared, 128);
-    return mpf_class(sqrt(square)).get_d();
+    return nearest.Squared.root();
   };
-  return this->Dimension == 2 ? exact(nearestOf<mpq_class, 2>(*this, from))
-                              : exact(nearestOf<mpq_class, 3>(*this, from));
+  return this->Dimension == 2 ? exact(nearestOf<Fraction, 2>(*this, from))
+                              : exact(nearestOf<Fraction, 3>(*this, from));
 }
 
 void CellLocator::findNearest(const Point3& point, NearCell& best) const

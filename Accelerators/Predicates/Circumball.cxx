@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Predicates/Circumball.h"
 
-#include "Predicates/ExactArithmetic.h"
+#include "Predicates/Dyadic.h"
 #include "Predicates/Vectors.h"
 
 #include <algorithm>
@@ -18,26 +18,24 @@ constexpr double Epsilon = 0x1p-53;
 
 /// The distance of the centre from each finite side of a box, positive inside, times 2d, and the
 /// squared radius times 4d^2, where d is the determinant of the edges from the first corner (d at
-/// Circumdisk::Circumdisk(), D at BallOfCorners). Coordinates are scaled by one power of two
-/// to integers.
+/// Circumdisk::Circumdisk(), D at BallOfCorners).
 template <std::size_t D>
 struct ExactBall
 {
   ExactBall(const std::array<Point<D>, D + 1>& corners, const Box<D>& box)
   {
-    const auto n = toCommonExponent(coordinatesOf(corners, box));
-    std::array<std::array<mpz_class, D>, D> u;
-    std::array<mpz_class, D> lift;
+    std::array<std::array<Dyadic, D>, D> u;
+    std::array<Dyadic, D> lift;
     for (std::size_t i = 0; i < D; ++i)
     {
       for (std::size_t k = 0; k < D; ++k)
       {
-        u[i][k] = n[D * (i + 1) + k] - n[k];
+        u[i][k] = Dyadic(corners[i + 1][k]) - corners[0][k];
         lift[i] += u[i][k] * u[i][k];
       }
     }
-    mpz_class twice;
-    std::array<mpz_class, D> centre;
+    Dyadic twice;
+    std::array<Dyadic, D> centre;
     if constexpr (D == 2)
     {
       twice = 2 * (u[0][0] * u[1][1] - u[0][1] * u[1][0]);
@@ -46,7 +44,7 @@ struct ExactBall
     }
     else
     {
-      const auto cross = [&u](std::size_t i, std::size_t j, std::size_t k) -> mpz_class
+      const auto cross = [&u](std::size_t i, std::size_t j, std::size_t k)
       { return u[i][(k + 1) % 3] * u[j][(k + 2) % 3] - u[i][(k + 2) % 3] * u[j][(k + 1) % 3]; };
       for (std::size_t k = 0; k < 3; ++k)
       {
@@ -57,37 +55,19 @@ struct ExactBall
     for (std::size_t k = 0; k < D; ++k)
     {
       this->Square += centre[k] * centre[k];
-      const std::size_t side = D * (D + 1) + k;
       if (std::isfinite(box.Min[k]))
       {
-        this->Depths.push_back(centre[k] - twice * (n[side] - n[k]));
+        this->Depths.push_back(centre[k] - twice * (Dyadic(box.Min[k]) - corners[0][k]));
       }
       if (std::isfinite(box.Max[k]))
       {
-        this->Depths.push_back(twice * (n[side + D] - n[k]) - centre[k]);
+        this->Depths.push_back(twice * (Dyadic(box.Max[k]) - corners[0][k]) - centre[k]);
       }
     }
   }
 
-  /// Returns the coordinates of the corners and of the box; infinite bounds become 0.
-  static std::array<double, D*(D + 3)> coordinatesOf(
-    const std::array<Point<D>, D + 1>& corners, const Box<D>& box)
-  {
-    std::array<double, D*(D + 3)> coordinates;
-    for (std::size_t k = 0; k < D; ++k)
-    {
-      for (std::size_t i = 0; i <= D; ++i)
-      {
-        coordinates[D * i + k] = corners[i][k];
-      }
-      coordinates[D * (D + 1) + k] = std::isfinite(box.Min[k]) ? box.Min[k] : 0;
-      coordinates[D * (D + 2) + k] = std::isfinite(box.Max[k]) ? box.Max[k] : 0;
-    }
-    return coordinates;
-  }
-
-  std::vector<mpz_class> Depths;
-  mpz_class Square;
+  std::vector<Dyadic> Depths;
+  Dyadic Square;
 };
 
 } // namespace
@@ -96,16 +76,16 @@ template <std::size_t D>
 bool BallIntervals<D>::meetsExactly(const Box<D>& box) const
 {
   const ExactBall<D> ball(this->Corners, box);
-  mpz_class distance = 0;
-  for (const mpz_class& depth : ball.Depths)
+  Dyadic distance;
+  for (const Dyadic& depth : ball.Depths)
   {
     // The centre lies beyond at most one side of each axis.
-    if (depth < 0)
+    if (depth.sign() < 0)
     {
       distance += depth * depth;
     }
   }
-  return distance <= ball.Square;
+  return compare(distance, ball.Square) <= 0;
 }
 
 template <std::size_t D>
@@ -113,7 +93,8 @@ bool BallIntervals<D>::liesInsideExactly(const Box<D>& box) const
 {
   const ExactBall<D> ball(this->Corners, box);
   return std::all_of(ball.Depths.begin(), ball.Depths.end(),
-    [&ball](const mpz_class& depth) { return depth >= 0 && depth * depth >= ball.Square; });
+    [&ball](const Dyadic& depth)
+    { return depth.sign() >= 0 && compare(depth * depth, ball.Square) >= 0; });
 }
 
 template class BallIntervals<2>;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Predicates/ExactPredicates3.h"
 
+#include "Predicates/Dyadic.h"
 #include "Predicates/ExactArithmetic.h"
 
 #include <algorithm>
@@ -14,17 +15,19 @@ namespace tipp
 namespace
 {
 
-// Each product has one factor from each axis, so each axis may be scaled by its own power of two.
+using ExactVector = std::array<Dyadic, 3>;
+
+ExactVector exactVector(const Point3& p, const Point3& origin)
+{
+  return { Dyadic(p.x) - origin.x, Dyadic(p.y) - origin.y, Dyadic(p.z) - origin.z };
+}
+
 int orientationAnyLength(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
 {
-  const auto x = toCommonExponent<4>({ a.x, b.x, c.x, d.x });
-  const auto y = toCommonExponent<4>({ a.y, b.y, c.y, d.y });
-  const auto z = toCommonExponent<4>({ a.z, b.z, c.z, d.z });
-  const auto minor = [&](int i, int j) -> mpz_class
-  { return (x[i] - x[0]) * (y[j] - y[0]) - (x[j] - x[0]) * (y[i] - y[0]); };
-  const mpz_class determinant =
-    (z[3] - z[0]) * minor(1, 2) + (z[1] - z[0]) * minor(2, 3) + (z[2] - z[0]) * minor(3, 1);
-  return sgn(determinant);
+  const std::array<ExactVector, 3> u = { exactVector(b, a), exactVector(c, a), exactVector(d, a) };
+  const auto minor = [&u](std::size_t i, std::size_t j)
+  { return u[i][0] * u[j][1] - u[j][0] * u[i][1]; };
+  return (u[2][2] * minor(0, 1) + u[0][2] * minor(1, 2) + u[1][2] * minor(2, 0)).sign();
 }
 
 // Differences below 2^63: minors below 2^127, the determinant below 2^192.
@@ -77,24 +80,19 @@ int orientation3Exact(const Point3& a, const Point3& b, const Point3& c, const P
 
 int normalAxis(const Point3& a, const Point3& b, const Point3& c)
 {
-  using Vector = std::array<mpq_class, 3>;
-  const auto difference = [&a](const Point3& p)
-  {
-    return Vector{ mpq_class(p.x) - mpq_class(a.x), mpq_class(p.y) - mpq_class(a.y),
-      mpq_class(p.z) - mpq_class(a.z) };
-  };
-  const Vector ab = difference(b);
-  const Vector ac = difference(c);
+  const ExactVector ab = exactVector(b, a);
+  const ExactVector ac = exactVector(c, a);
   int longest = 0;
-  mpq_class length = -1;
+  Dyadic length = -1;
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
     const std::size_t u = (axis + 1) % 3;
     const std::size_t v = (axis + 2) % 3;
-    const mpq_class component = abs(mpq_class(ab[u] * ac[v] - ab[v] * ac[u]));
-    if (component >= length)
+    const Dyadic component = ab[u] * ac[v] - ab[v] * ac[u];
+    const Dyadic magnitude = component.sign() < 0 ? -component : component;
+    if (compare(magnitude, length) >= 0)
     {
-      length = component;
+      length = magnitude;
       longest = int(axis);
     }
   }
@@ -212,27 +210,17 @@ int signByPermanent(
 int inSphereAnyLength(
   const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& p)
 {
-  const std::array<mpz_class, 15> n = toCommonExponent<15>(
-    { a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, d.x, d.y, d.z, p.x, p.y, p.z });
-  std::array<std::array<mpz_class, 3>, 4> u;
-  std::array<mpz_class, 4> lift;
-  for (std::size_t i = 0; i < 4; ++i)
-  {
-    for (std::size_t k = 0; k < 3; ++k)
-    {
-      u[i][k] = n[3 * i + k] - n[12 + k];
-      lift[i] += u[i][k] * u[i][k];
-    }
-  }
-  const auto volume = [&](std::size_t i, std::size_t j, std::size_t k) -> mpz_class
-  {
-    return u[i][2] * (u[j][0] * u[k][1] - u[k][0] * u[j][1]) +
-      u[j][2] * (u[k][0] * u[i][1] - u[i][0] * u[k][1]) +
-      u[k][2] * (u[i][0] * u[j][1] - u[j][0] * u[i][1]);
-  };
-  const mpz_class sum = lift[0] * volume(1, 2, 3) + lift[1] * volume(0, 3, 2) +
-    lift[2] * volume(0, 1, 3) + lift[3] * volume(0, 2, 1);
-  return sgn(sum);
+  const std::array<ExactVector, 4> u = { exactVector(a, p), exactVector(b, p), exactVector(c, p),
+    exactVector(d, p) };
+  const auto lift = [&u](std::size_t i)
+  { return u[i][0] * u[i][0] + u[i][1] * u[i][1] + u[i][2] * u[i][2]; };
+  const auto minor = [&u](std::size_t i, std::size_t j)
+  { return u[i][0] * u[j][1] - u[j][0] * u[i][1]; };
+  const auto volume = [&](std::size_t i, std::size_t j, std::size_t k)
+  { return u[i][2] * minor(j, k) + u[j][2] * minor(k, i) + u[k][2] * minor(i, j); };
+  return (lift(0) * volume(1, 2, 3) + lift(1) * volume(0, 3, 2) + lift(2) * volume(0, 1, 3) +
+    lift(3) * volume(0, 2, 1))
+    .sign();
 }
 
 } // namespace
