@@ -3,10 +3,10 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/Platform.h"
 #include "Ranks/Archive.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
@@ -105,8 +105,7 @@ std::uint64_t TileStore::offset(std::int64_t tile, const RasterWindow& part, std
     this->wordBytes() * (band * std::uint64_t(tilePixels) + std::uint64_t(pixel));
 }
 
-/// Locks a tile against other threads and processes. The lock belongs to the open file: with locks
-/// owned by processes, threads of two processes could look like a deadlock to the system.
+/// Locks a tile against other threads and processes.
 class TileStore::Lock
 {
 public:
@@ -127,17 +126,8 @@ public:
 private:
   bool setFileLock(short type) const
   {
-    struct flock lock = {};
-    lock.l_type = type;
-    lock.l_whence = SEEK_SET;
-    lock.l_start = off_t(this->Begin);
-    lock.l_len = off_t(this->Store.pixelBytes());
-    int result = 0;
-    do
-    {
-      result = fcntl(this->Store.File.descriptor(), F_OFD_SETLKW, &lock);
-    } while (result < 0 && errno == EINTR);
-    return result == 0;
+    return setRangeLock(
+      this->Store.File.descriptor(), type, off_t(this->Begin), off_t(this->Store.pixelBytes()));
   }
 
   const TileStore& Store;
@@ -235,11 +225,8 @@ void TileStore::finish(std::int64_t tile)
   State state = this->stateOf(tile);
   state.Encoded = std::uint32_t(bytes.size());
   this->writeState(tile, state);
-  // If the file system cannot punch holes, the pixels just keep their space. Most have not been
-  // written to the disk yet.
-  const int ignored = fallocate(this->File.descriptor(), FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE,
-    off_t(begin), off_t(this->pixelBytes()));
-  static_cast<void>(ignored);
+  // Most pixels have not been written to the disk yet.
+  freeRange(this->File.descriptor(), off_t(begin), off_t(this->pixelBytes()));
 }
 
 std::optional<FinishedTile> TileStore::readFinished(std::int64_t tile) const

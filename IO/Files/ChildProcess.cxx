@@ -4,14 +4,13 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
+#include "Files/Platform.h"
 
 #include <cerrno>
 #include <csignal>
 #include <exception>
 #include <string>
 
-#include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,7 +21,7 @@ std::string runInChild(const std::function<std::string()>& work)
 {
   constexpr char success = '+';
   constexpr char failure = '-';
-  const int memory = memfd_create("tipp-result", MFD_CLOEXEC);
+  const int memory = openMemoryFile("tipp-result");
   if (memory < 0)
   {
     return work();
@@ -35,7 +34,7 @@ std::string runInChild(const std::function<std::string()>& work)
     // This process' signal handlers wake a thread that the child does not have.
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    endWithParent();
     if (getppid() != parent)
     {
       _exit(1);
@@ -70,7 +69,7 @@ std::string runInChild(const std::function<std::string()>& work)
   while (waitpid(child, &status, 0) < 0 && errno == EINTR)
   {
   }
-  const InputFile input("/proc/self/fd/" + std::to_string(memory));
+  const InputFile input(pathOfDescriptor(memory));
   std::string result(std::size_t(input.size()), '\0');
   input.read(0, result.data(), result.size());
   const char kind = result.empty() ? '\0' : result.front();

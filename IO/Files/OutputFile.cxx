@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/Platform.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -100,7 +101,7 @@ void OutputFile::close()
 void OutputFile::startWriteback() const
 {
   // Only a hint: syncToDisk() waits and reports failures.
-  static_cast<void>(sync_file_range(this->Descriptor, 0, 0, SYNC_FILE_RANGE_WRITE));
+  tipp::startWriteback(this->Descriptor);
 }
 
 void OutputFile::sync() const

@@ -5,6 +5,7 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
+#include "Files/Platform.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -31,11 +32,12 @@ PathState stateOf(const std::string& path)
   {
     return {};
   }
-  PathState state{ { { found.st_dev, found.st_ino, 0, 0, 0 } } };
+  PathState state{ { { std::uint64_t(found.st_dev), found.st_ino, 0, 0, 0 } } };
   if (S_ISREG(found.st_mode))
   {
-    state.Values = { found.st_dev, found.st_ino, std::uint64_t(found.st_size),
-      std::uint64_t(found.st_mtim.tv_sec), std::uint64_t(found.st_mtim.tv_nsec) };
+    const timespec time = modificationTime(found);
+    state.Values = { std::uint64_t(found.st_dev), found.st_ino, std::uint64_t(found.st_size),
+      std::uint64_t(time.tv_sec), std::uint64_t(time.tv_nsec) };
   }
   return state;
 }
@@ -60,18 +62,13 @@ bool isUnsupported(int reason)
   return reason == EINVAL || reason == ENOSYS || reason == ENOTSUP;
 }
 
-int renameAs(const std::string& from, const std::string& to, unsigned flags)
-{
-  return renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), flags) == 0 ? 0 : errno;
-}
-
 /// Moves to a path that must not exist.
 void moveToFree(const std::string& temporary, const std::string& path)
 {
-  int reason = renameAs(temporary, path, RENAME_NOREPLACE);
+  int reason = renamePath(temporary, path, Rename::Fails);
   if (isUnsupported(reason))
   {
-    reason = stateOf(path).Values ? EEXIST : renameAs(temporary, path, 0);
+    reason = stateOf(path).Values ? EEXIST : renamePath(temporary, path, Rename::Replaces);
   }
   if (reason == EEXIST)
   {
@@ -87,22 +84,22 @@ void moveToFree(const std::string& temporary, const std::string& path)
 /// aside.
 int exchangePaths(const std::string& temporary, const std::string& path)
 {
-  const int reason = renameAs(temporary, path, RENAME_EXCHANGE);
+  const int reason = renamePath(temporary, path, Rename::Exchanges);
   if (!isUnsupported(reason))
   {
     return reason;
   }
   const std::string old = temporary + ".old";
-  if (const int first = renameAs(path, old, 0))
+  if (const int first = renamePath(path, old, Rename::Replaces))
   {
     return first;
   }
-  if (const int second = renameAs(temporary, path, 0))
+  if (const int second = renamePath(temporary, path, Rename::Replaces))
   {
-    renameAs(old, path, 0);
+    renamePath(old, path, Rename::Replaces);
     return second;
   }
-  return renameAs(old, temporary, 0);
+  return renamePath(old, temporary, Rename::Replaces);
 }
 
 /// Moves a finished output to `path` in one step, and what was there before, if anything, to

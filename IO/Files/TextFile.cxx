@@ -5,6 +5,7 @@
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/OutputFile.h"
+#include "Files/Platform.h"
 
 #include <algorithm>
 #include <array>
@@ -72,7 +73,7 @@ std::string openablePath(const std::string& path)
     return path;
   }
   static const int copy = copyStandardInput();
-  return "/proc/self/fd/" + std::to_string(copy);
+  return pathOfDescriptor(copy);
 }
 
 namespace

@@ -3,6 +3,7 @@
 
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
+#include "Files/Platform.h"
 #include "Files/TextFile.h"
 #include "Points/Longitudes.h"
 
@@ -10,7 +11,6 @@
 #include <array>
 #include <future>
 #include <limits>
-#include <sys/stat.h>
 #include <utility>
 
 namespace tipp
@@ -32,8 +32,9 @@ std::string identityOf(const std::string& path)
   {
     throw IOError(path, "cannot be opened; check its name.");
   }
-  return path + " " + std::to_string(status.st_size) + " " + std::to_string(status.st_mtim.tv_sec) +
-    "." + std::to_string(status.st_mtim.tv_nsec) + "\n";
+  const timespec time = modificationTime(status);
+  return path + " " + std::to_string(status.st_size) + " " + std::to_string(time.tv_sec) + "." +
+    std::to_string(time.tv_nsec) + "\n";
 }
 
 class FileSequence : public PointStream

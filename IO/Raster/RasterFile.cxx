@@ -9,6 +9,7 @@
 #include "Files/VtkXml.h"
 #include "Npy/NpyFile.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
