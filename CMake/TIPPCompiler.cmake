@@ -29,7 +29,15 @@ if (TIPP_SANITIZE)
   add_link_options(-fsanitize=${TIPP_SANITIZE})
 endif ()
 
-find_package(OpenMP REQUIRED COMPONENTS CXX)
+# What parallel loops need. A wheel would have to bring an OpenMP library, beside those of other packages in the same
+# process, so it has a pool of threads instead.
+if (TIPP_BUILD_WHEEL)
+  find_package(Threads REQUIRED)
+  set(TIPP_THREADS Threads::Threads)
+else ()
+  find_package(OpenMP REQUIRED COMPONENTS CXX)
+  set(TIPP_THREADS OpenMP::OpenMP_CXX)
+endif ()
 
 # LLVM's tool Archer tells ThreadSanitizer about OpenMP's barriers; without it, every parallel loop is reported. OpenMP's
 # runtime loads Archer if it is in the program's run path.

@@ -38,7 +38,7 @@ runs alone Testing/Wheel/TestWithoutVtk.py Testing/Wheel/TestConstraintsWithoutV
 environment oldest 'numpy<2'
 runs oldest Testing/Wheel/TestWithoutVtk.py Testing/Wheel/TestConstraintsWithoutVtk.py
 environment scipy numpy scipy scikit-learn
-runs scipy Testing/Wheel/TestScipyHabits.py Testing/Wheel/TestTwoOpenMP.py
+runs scipy Testing/Wheel/TestScipyHabits.py Testing/Wheel/TestBesideOpenMP.py
 environment pyvista 'vtk>=9.7,<9.8' pyvista shapely geopandas laspy meshio polars rioxarray mypy pyright
 runs pyvista Testing/Wheel/TestPyVista.py Testing/Wheel/TestFilters.py Testing/Python/TestArguments.py Testing/Python/TestArrays.py \
   Testing/Python/TestBounds.py Testing/Python/TestCheck.py Testing/Python/TestConstraints.py Testing/Python/TestInputs.py \

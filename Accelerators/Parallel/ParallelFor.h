@@ -3,8 +3,7 @@
 #define tippParallelFor_h
 
 #include "Parallel/Poll.h"
-
-#include <omp.h>
+#include "Parallel/Threads.h"
 
 #include <algorithm>
 #include <atomic>
@@ -12,6 +11,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <mutex>
 
 namespace tipp
 {
@@ -41,11 +41,11 @@ bool forChunks(
   std::atomic<std::int64_t> next{ 0 };
   std::atomic<bool> stopped{ false };
   bool wanted = true;
+  std::mutex mutex; ///< of the error
   std::exception_ptr error;
   std::int64_t errorBegin = count;
-#pragma omp parallel num_threads(threads) if (count > chunk)
+  const auto takeChunks = [&](int thread)
   {
-    const int thread = omp_get_thread_num();
     while (!stopped.load(std::memory_order_relaxed))
     {
       const std::int64_t begin = next.fetch_add(chunk, std::memory_order_relaxed);
@@ -66,7 +66,7 @@ bool forChunks(
       catch (...)
       {
         stopped = true;
-#pragma omp critical(tippForChunks)
+        const std::lock_guard<std::mutex> lock(mutex);
         if (begin < errorBegin)
         {
           error = std::current_exception();
@@ -74,7 +74,8 @@ bool forChunks(
         }
       }
     }
-  }
+  };
+  runOnThreads(count > chunk ? threads : 1, std::cref(takeChunks));
   if (error)
   {
     std::rethrow_exception(error);
@@ -102,16 +103,16 @@ void fillInChunks(T* values, std::int64_t count, T value, int threads)
     { std::fill(values + begin, values + end, value); });
 }
 
-/// The number of threads to use: as requested (0: OpenMP's default), but at most the larger of 64
-/// and 4 per processor. Without that limit a large number would end the process, since OpenMP
-/// aborts if it cannot start a thread.
+/// The number of threads to use: as requested (0: usualThreads()), but at most the larger of 64 and
+/// 4 per processor. Without that limit a large number would end the process, since OpenMP aborts if
+/// it cannot start a thread.
 inline int threadCount(int threads)
 {
-  const int most = std::max(64, 4 * omp_get_num_procs());
-  return std::min(threads > 0 ? threads : omp_get_max_threads(), most);
+  const int most = std::max(64, 4 * processorCount());
+  return std::min(threads > 0 ? threads : usualThreads(), most);
 }
 
-/// Calls work(0) ... work(count - 1) on several threads (0: OpenMP's default), started in that
+/// Calls work(0) ... work(count - 1) on several threads (0: usualThreads()), started in that
 /// order. If some throw, the exception of the lowest index is rethrown, as in a serial loop.
 template <typename Work>
 void parallelFor(std::int64_t count, int threads, const Work& work)
@@ -121,17 +122,31 @@ void parallelFor(std::int64_t count, int threads, const Work& work)
   forChunks(count, 1, most, {}, [&](std::int64_t i, std::int64_t, int) { work(i); });
 }
 
-/// While the object lives, the calling thread's OpenMP regions use this many threads; 0: OpenMP's
-/// default.
+/// Calls work(0) ... work(count - 1), in ranges that are large enough for short work, on
+/// usualThreads() or as many as given.
+template <typename Work>
+void forIndices(std::int64_t count, const Work& work, int threads = 0)
+{
+  forChunks(count, 1 << 13, threadCount(threads), {},
+    [&](std::int64_t begin, std::int64_t end, int)
+    {
+      for (std::int64_t i = begin; i < end; ++i)
+      {
+        work(i);
+      }
+    });
+}
+
+/// While the object lives, the calling thread's work uses this many threads; 0: as before.
 class ThreadLimit
 {
 public:
   explicit ThreadLimit(int threads)
-    : Before(omp_get_max_threads())
+    : Before(usualThreads())
   {
-    omp_set_num_threads(threadCount(threads));
+    setUsualThreads(threadCount(threads));
   }
-  ~ThreadLimit() { omp_set_num_threads(this->Before); }
+  ~ThreadLimit() { setUsualThreads(this->Before); }
   ThreadLimit(const ThreadLimit&) = delete;
   void operator=(const ThreadLimit&) = delete;
 

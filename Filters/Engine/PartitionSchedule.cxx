@@ -2,11 +2,11 @@
 #include "Engine/PartitionSchedule.h"
 
 #include "Parallel/Sort.h"
+#include "Parallel/Threads.h"
 
 #include <algorithm>
 #include <chrono>
 #include <numeric>
-#include <omp.h>
 #include <tuple>
 
 namespace tipp
@@ -407,17 +407,18 @@ void ReadyPartitions::stop(const std::exception_ptr& reason)
 
 void runWorkers(ReadyPartitions& ready, int threads, const std::function<void(int thread)>& work)
 {
-#pragma omp parallel num_threads(threads)
-  {
-    try
+  runOnThreads(threads,
+    [&](int thread)
     {
-      work(omp_get_thread_num());
-    }
-    catch (...)
-    {
-      ready.stop(std::current_exception());
-    }
-  }
+      try
+      {
+        work(thread);
+      }
+      catch (...)
+      {
+        ready.stop(std::current_exception());
+      }
+    });
   if (ready.failure())
   {
     std::rethrow_exception(ready.failure());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "InMemory/AlphaShape.h"
 
+#include "Parallel/ParallelFor.h"
 #include "Parallel/Sort.h"
 #include "Predicates/Vectors.h"
 
@@ -99,11 +100,10 @@ std::vector<char> smallCells(const Buffer<Id>& cells, const PointAt& pointAt, do
 {
   std::vector<char> areSmall(cells.size() / Corners);
   const std::int64_t count = std::int64_t(areSmall.size());
-#pragma omp parallel for
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    areSmall[i] = isSmall(cellAt<Corners>(cells, std::size_t(i)), pointAt, alpha);
-  }
+  forIndices(count,
+    [&](std::int64_t i) {
+      areSmall[std::size_t(i)] = isSmall(cellAt<Corners>(cells, std::size_t(i)), pointAt, alpha);
+    });
   return areSmall;
 }
 
@@ -150,23 +150,21 @@ void removeFacesOf(
     const auto at = std::lower_bound(faces.begin(), faces.end(), face);
     if (at != faces.end() && *at == face)
     {
-      char& mark = isFound[std::size_t(at - faces.begin())];
-#pragma omp atomic write
-      mark = 1;
+      __atomic_store_n(&isFound[std::size_t(at - faces.begin())], 1, __ATOMIC_RELAXED);
     }
   };
   const std::int64_t count = faces.empty() ? 0 : std::int64_t(cells.size() / CellCorners);
-#pragma omp parallel for
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    const auto cell = cellAt<CellCorners>(cells, std::size_t(i));
-    const auto shared = std::count_if(
-      cell.begin(), cell.end(), [&](Id id) { return isCorner[std::size_t(id)] != 0; });
-    if (std::size_t(shared) >= Corners)
+  forIndices(count,
+    [&](std::int64_t i)
     {
-      forEachFace<Corners>(cell, find);
-    }
-  }
+      const auto cell = cellAt<CellCorners>(cells, std::size_t(i));
+      const auto shared = std::count_if(
+        cell.begin(), cell.end(), [&](Id id) { return isCorner[std::size_t(id)] != 0; });
+      if (std::size_t(shared) >= Corners)
+      {
+        forEachFace<Corners>(cell, find);
+      }
+    });
   std::size_t left = 0;
   for (std::size_t i = 0; i < faces.size(); ++i)
   {

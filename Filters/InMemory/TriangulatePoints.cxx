@@ -197,11 +197,7 @@ Buffer<To> renumbered(const Buffer<From>& ids, const Buffer<PointId>& originals)
 {
   Buffer<To> result(ids.size());
   const std::int64_t count = std::int64_t(ids.size());
-#pragma omp parallel for
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    result[i] = To(originals[std::size_t(ids[i])]);
-  }
+  forIndices(count, [&](std::int64_t i) { result[i] = To(originals[std::size_t(ids[i])]); });
   return result;
 }
 
@@ -407,16 +403,16 @@ Buffer<unsigned char> marksOf(const Buffer<Id>& ids, const ConstraintEdges& edge
 {
   Buffer<unsigned char> marks(ids.size());
   const std::int64_t triangles = std::int64_t(ids.size() / 3);
-#pragma omp parallel for
-  for (std::int64_t t = 0; t < triangles; ++t)
-  {
-    const Id* const corners = ids.data() + 3 * t;
-    for (int i = 0; i < 3; ++i)
+  forIndices(triangles,
+    [&](std::int64_t t)
     {
-      marks[std::size_t(3 * t + i)] =
-        edges.contains(corners[(i + 1) % 3], corners[(i + 2) % 3]) ? 1 : 0;
-    }
-  }
+      const Id* const corners = ids.data() + 3 * t;
+      for (int i = 0; i < 3; ++i)
+      {
+        marks[std::size_t(3 * t + i)] =
+          edges.contains(corners[(i + 1) % 3], corners[(i + 2) % 3]) ? 1 : 0;
+      }
+    });
   return marks;
 }
 

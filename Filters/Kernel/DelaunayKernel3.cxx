@@ -118,9 +118,9 @@ private:
       this->Workers[k].NotInserted.clear();
     }
     this->End = this->Mesh.end();
-    const int caller = omp_get_thread_num();
+    const int caller = threadNumber();
     parallelFor(std::int64_t(workers), int(workers),
-      [&](std::int64_t k) { this->work(std::size_t(k), omp_get_thread_num() == caller, proceed); });
+      [&](std::int64_t k) { this->work(std::size_t(k), threadNumber() == caller, proceed); });
     this->Mesh.setEnd(Index(this->End));
     this->Waiting.clear();
     for (const Worker& worker : this->Workers)

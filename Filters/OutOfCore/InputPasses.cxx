@@ -5,6 +5,7 @@
 #include "OutOfCore/OutOfCoreMessages.h"
 #include "OutOfCore/PiecePlan.h"
 #include "OutOfCore/SpilledPoints.h"
+#include "Parallel/ParallelFor.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/ReadPoints.h"
 #include "Triangulation/InputSurvey.h"
@@ -132,14 +133,10 @@ public:
   {
     const std::size_t count = block.size();
     this->Labels.resize(count);
-    constexpr std::size_t length = 4096;
-    const auto ranges = std::ptrdiff_t((count + length - 1) / length);
-#pragma omp parallel for num_threads(this->Threads) schedule(static)
-    for (std::ptrdiff_t r = 0; r < ranges; ++r)
-    {
-      const std::size_t begin = std::size_t(r) * length;
-      this->labelRange(block, begin, std::min(count, begin + length));
-    }
+    constexpr std::int64_t length = 4096;
+    forChunks(std::int64_t(count), length, this->Threads, {},
+      [&](std::int64_t begin, std::int64_t end, int)
+      { this->labelRange(block, std::size_t(begin), std::size_t(end)); });
     this->countPoints(block.First);
   }
 

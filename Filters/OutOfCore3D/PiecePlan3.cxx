@@ -5,6 +5,7 @@
 #include "Kernel/DelaunayKernel3.h"
 #include "OutOfCore/InputPasses.h"
 #include "OutOfCore/SpilledPoints.h"
+#include "Parallel/ParallelFor.h"
 #include "Predicates/ExactPredicates3.h"
 #include "Triangulation/StreamSampler.h"
 
@@ -246,13 +247,14 @@ struct PiecePlan3::Labels
   {
     const BlockView3 view(block, this->Plan.Survey.Elevation, this->Plan.Survey.Factor);
     this->PieceOf.resize(view.size());
-    const auto count = std::ptrdiff_t(view.size());
-#pragma omp parallel for num_threads(threads) schedule(static)
-    for (std::ptrdiff_t i = 0; i < count; ++i)
-    {
-      const Point3 p = view[std::size_t(i)];
-      this->PieceOf[std::size_t(i)] = isFinite(p) ? this->Plan.Tiling.locate(p) : -1;
-    }
+    forIndices(
+      std::int64_t(view.size()),
+      [&](std::int64_t i)
+      {
+        const Point3 p = view[std::size_t(i)];
+        this->PieceOf[std::size_t(i)] = isFinite(p) ? this->Plan.Tiling.locate(p) : -1;
+      },
+      threads);
     const std::vector<Sampled>& sample = this->Plan.Sample;
     for (std::size_t i = 0; i < view.size(); ++i)
     {

@@ -4,6 +4,7 @@
 
 #include "Arrays/Buffer.h"
 #include "Parallel/CountingSort.h"
+#include "Parallel/ParallelFor.h"
 #include "Predicates/Geometry.h"
 #include "Triangulation/BoundaryTriangles.h"
 #include "Triangulation/PointBuckets.h"
@@ -166,11 +167,14 @@ private:
           }
         }
       });
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 16)
-    for (std::size_t p = 0; p < partitions; ++p)
-    {
-      std::sort(sorted.begin(p), sorted.end(p));
-    }
+    forChunks(std::int64_t(partitions), 16, threads, {},
+      [&](std::int64_t begin, std::int64_t end, int)
+      {
+        for (auto p = std::size_t(begin); p < std::size_t(end); ++p)
+        {
+          std::sort(sorted.begin(p), sorted.end(p));
+        }
+      });
     return sorted;
   }
 
@@ -236,17 +240,18 @@ template <typename Id>
 void preferLowestIds(Buffer<Id>& ids, std::vector<Duplicate>& duplicates, int threads)
 {
   const LowestPoints lowest(duplicates);
-  const auto end = lowest.isEmpty() ? std::ptrdiff_t(0) : std::ptrdiff_t(ids.size());
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::ptrdiff_t i = 0; i < end; ++i)
-  {
-    const PointId id = ids[std::size_t(i)];
-    const PointId renamed = lowest.renamed(id);
-    if (renamed != id) // unchanged memory is not written
+  forIndices(
+    lowest.isEmpty() ? 0 : std::int64_t(ids.size()),
+    [&](std::int64_t i)
     {
-      ids[std::size_t(i)] = static_cast<Id>(renamed);
-    }
-  }
+      const PointId id = ids[std::size_t(i)];
+      const PointId renamed = lowest.renamed(id);
+      if (renamed != id) // unchanged memory is not written
+      {
+        ids[std::size_t(i)] = static_cast<Id>(renamed);
+      }
+    },
+    threads);
   std::sort(duplicates.begin(), duplicates.end());
 }
 

@@ -23,11 +23,8 @@ std::vector<char> findLeftOut(const TriangulatedPoints& mesh, std::int64_t point
 Buffer<std::int64_t> representativeIds(const TriangulatedPoints& mesh, std::int64_t points)
 {
   Buffer<std::int64_t> ids{ std::size_t(points) };
-#pragma omp parallel for num_threads(threadCount(mesh.Statistics.Threads))
-  for (std::int64_t i = 0; i < points; ++i)
-  {
-    ids[std::size_t(i)] = i;
-  }
+  forIndices(
+    points, [&](std::int64_t i) { ids[std::size_t(i)] = i; }, mesh.Statistics.Threads);
   for (const Duplicate& duplicate : mesh.Duplicates)
   {
     ids[std::size_t(duplicate.Point)] = duplicate.Representative;

@@ -7,6 +7,7 @@
 #include "Files/OutputFile.h"
 #include "Files/TemporaryPaths.h"
 #include "Parallel/CountingSort.h"
+#include "Parallel/ParallelFor.h"
 #include "Parallel/Poll.h"
 #include "Ranks/Communicator.h"
 #include "vtkTIPPIOModule.h"
@@ -154,19 +155,20 @@ void Spill::addChunk(
   // Calls take(item, position) for each item that has a key; `position` is the key's in the range.
   const auto forEachItem = [&](const auto& take)
   {
-#pragma omp parallel for num_threads(threads) schedule(static, 1)
-    for (std::size_t s = 0; s < ranges; ++s)
-    {
-      std::vector<std::uint32_t>& mine = positions[s];
-      for (std::size_t i = beginOf(s); i < beginOf(s + 1); ++i)
+    parallelFor(std::int64_t(ranges), threads,
+      [&](std::int64_t range)
       {
-        const std::int64_t key = keyOf(i);
-        if (key >= 0)
+        const auto s = std::size_t(range);
+        std::vector<std::uint32_t>& mine = positions[s];
+        for (std::size_t i = beginOf(s); i < beginOf(s + 1); ++i)
         {
-          take(i, mine[std::size_t(key)]);
+          const std::int64_t key = keyOf(i);
+          if (key >= 0)
+          {
+            take(i, mine[std::size_t(key)]);
+          }
         }
-      }
-    }
+      });
   };
   forEachItem([](std::size_t, std::uint32_t& position) { ++position; });
   const std::vector<std::uint32_t> starts = countsToIndices(this->Keys, positions);

@@ -21,7 +21,7 @@ class Delaunay:
     points
         (n, 2) coordinates, all finite.
     threads
-        OpenMP threads; 0 is OpenMP's default.
+        Number of threads; 0: OMP_NUM_THREADS, or one per processor.
 
     Attributes
     ----------
@@ -150,7 +150,7 @@ class LinearNDInterpolator:
     rescale
         Whether to triangulate the points after scaling them to the unit square.
     threads
-        OpenMP threads; 0 is OpenMP's default.
+        Number of threads; 0: OMP_NUM_THREADS, or one per processor.
 
     Examples
     --------

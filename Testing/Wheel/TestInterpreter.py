@@ -75,8 +75,7 @@ class Interpreter(unittest.TestCase):
         expected = len(tipp.delaunay(points))
         context = multiprocessing.get_context("fork")
         queue = context.Queue()
-        # With one thread, since GNU's OpenMP library cannot start threads in the child of a process that has used some.
-        child = context.Process(target=lambda: queue.put(len(tipp.delaunay(points, threads=1))))
+        child = context.Process(target=lambda: queue.put(len(tipp.delaunay(points))))
         child.start()
         self.assertEqual(expected, queue.get(timeout=60))
         child.join(60)

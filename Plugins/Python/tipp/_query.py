@@ -39,7 +39,7 @@ def open(  # pylint: disable=redefined-builtin
     step
         The time step at which a partitioned mesh's time-varying arrays are evaluated, as an index from 0.
     threads
-        Number of threads of a query; 0 is OpenMP's default.
+        Number of threads of a query; 0: OMP_NUM_THREADS, or one per processor.
 
     Returns
     -------

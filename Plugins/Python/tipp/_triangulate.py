@@ -51,7 +51,7 @@ def delaunay(
     schedule
         "dynamic", "stages" or "producer-consumer". The triangles do not depend on it.
     threads
-        OpenMP threads; 0 is OpenMP's default.
+        Number of threads; 0: OMP_NUM_THREADS, or one per processor.
     progress_bar
         Whether to show progress on standard error; or a function that is called with the fraction done and can stop
         the run by returning False.
