@@ -34,16 +34,16 @@ runs() {
 
 environment alone numpy
 runs alone Testing/Wheel/TestWithoutVtk.py Testing/Wheel/TestConstraintsWithoutVtk.py Testing/Python/TestBounds.py \
-  Testing/Python/TestCheck.py Testing/Python/TestInputs.py Testing/Python/TestResults.py Testing/Wheel/TestInterpreter.py
+  Testing/Python/TestCheck.py Testing/Python/TestInputs.py Testing/Python/TestResults.py Testing/Wheel/TestInterpreter.py Testing/Wheel/TestTetrahedra.py Testing/Wheel/TestVtkFiles.py
 environment oldest 'numpy<2'
 runs oldest Testing/Wheel/TestWithoutVtk.py Testing/Wheel/TestConstraintsWithoutVtk.py
 environment scipy numpy scipy scikit-learn
 runs scipy Testing/Wheel/TestScipyHabits.py Testing/Wheel/TestBesideOpenMP.py
 environment pyvista 'vtk>=9.7,<9.8' pyvista shapely geopandas laspy meshio polars rioxarray mypy pyright
 runs pyvista Testing/Wheel/TestPyVista.py Testing/Wheel/TestFilters.py Testing/Python/TestArguments.py Testing/Python/TestArrays.py \
-  Testing/Python/TestBounds.py Testing/Python/TestCheck.py Testing/Python/TestConstraints.py Testing/Python/TestInputs.py \
+  Testing/Python/TestBounds.py Testing/Python/TestCheck.py Testing/Python/TestConstraints.py Testing/Python/TestDelaunay3D.py Testing/Python/TestInputs.py \
   Testing/Python/TestInterrupt.py Testing/Python/TestPackage.py Testing/Python/TestPointsToImage.py Testing/Python/TestResults.py \
-  Testing/Wheel/uses_everything.py
+  Testing/Wheel/TestVtkFiles.py Testing/Wheel/uses_everything.py
 "$work/pyvista/bin/mypy" --strict --cache-dir "$work/mypy" Testing/Wheel/uses_everything.py
 "$work/pyvista/bin/pyright" --pythonpath "$work/pyvista/bin/python" Testing/Wheel/uses_everything.py
 # Before VTK 9.7, references between Python and VTK keep objects forever.

@@ -291,6 +291,11 @@ std::vector<std::string> warningsOf(const OutOfCoreStatistics& statistics)
   return warnings;
 }
 
+std::vector<std::string> warningsOf(const OutOfCoreStatistics3& statistics)
+{
+  return warnOfRejected(statistics.Rejected, statistics.Points, "left out");
+}
+
 std::vector<std::string> warningsOf(const DistributedTriangulation& mine)
 {
   std::vector<std::string> warnings =

@@ -86,6 +86,7 @@ VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(
 VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(
   const Tetrahedralization& mesh, std::int64_t points);
 VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(const OutOfCoreStatistics& statistics);
+VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(const OutOfCoreStatistics3& statistics);
 std::vector<std::string> warningsOf(const DistributedTriangulation& mine);
 VTKTIPPFILTERS_EXPORT std::vector<std::string> warningsOf(
   const DistributedTetrahedralization& mine);

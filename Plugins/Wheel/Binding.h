@@ -21,6 +21,11 @@
 #include <utility>
 #include <vector>
 
+namespace tipp
+{
+struct RunStatistics;
+}
+
 namespace tipp::python
 {
 
@@ -142,6 +147,9 @@ std::vector<Value> vectorOf(const InputArray& array)
   const auto* const first = static_cast<const Value*>(array.data());
   return { first, first + array.nbytes() / sizeof(Value) };
 }
+
+/// Returns the counts of a run and, as "seconds", the time of each phase.
+nb::dict statisticsDict(const RunStatistics& statistics);
 
 /// A Python function that gets the finished fraction, or None.
 using Progress = std::optional<nb::callable>;

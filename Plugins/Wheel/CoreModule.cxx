@@ -2,10 +2,14 @@
 // tipp._core: the cores over NumPy arrays, for the engine in Python, which checks the arguments.
 #include "Binding.h"
 
+#include "Statistics/RunStatistics.h"
+
 #include <nanobind/stl/string.h>
 
+#include <cstdint>
 #include <new>
 #include <stdexcept>
+#include <variant>
 
 namespace tipp::python
 {
@@ -23,6 +27,30 @@ std::vector<NamedArray> namedArrays(
     {
       throw std::runtime_error("the array '" + result.back().first + "' has " +
         std::to_string(rows) + " values for " + std::to_string(due.shape(0)) + " " + of + ".");
+    }
+  }
+  return result;
+}
+
+nb::dict statisticsDict(const RunStatistics& statistics)
+{
+  nb::dict result;
+  for (const Figures& total : statistics.Totals)
+  {
+    result[total.Key.c_str()] = std::get<std::vector<std::int64_t>>(total.Values).front();
+  }
+  for (const FigureList& list : statistics.Lists)
+  {
+    if (list.Key == "phases")
+    {
+      const auto& names = std::get<std::vector<std::string>>(list.Columns[0].Values);
+      const auto& values = std::get<std::vector<double>>(list.Columns[1].Values);
+      nb::dict seconds;
+      for (std::size_t i = 0; i < names.size(); ++i)
+      {
+        seconds[names[i].c_str()] = values[i];
+      }
+      result["seconds"] = seconds;
     }
   }
   return result;

@@ -10,6 +10,7 @@
 #include "Files/RequireApart.h"
 #include "Flat/FlatMesh.h"
 #include "OutOfCore/OutOfCoreTriangulation.h"
+#include "OutOfCore3D/OutOfCoreTetrahedralization.h"
 #include "Parallel/Poll.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Points/ReadPoints.h"
@@ -80,17 +81,25 @@ std::vector<std::size_t> findColumns(const Strings& names)
   }
 }
 
-nb::dict figuresOf(const OutOfCoreStatistics& statistics, bool countOnly)
+/// Returns the figures; `cells` is the name of their number.
+nb::dict figuresOf(
+  const OutOfCoreRunStatistics& statistics, const char* cells, std::int64_t cellCount)
 {
   nb::dict result;
   result["points"] = statistics.Points;
-  result["triangles"] = statistics.Triangles;
+  result[cells] = cellCount;
   result["duplicates"] = statistics.Duplicates;
   result["rejected"] = statistics.Rejected;
   result["pieces"] = statistics.Pieces;
   result["spilled_bytes"] = statistics.SpilledBytes;
   result["mesh_bytes"] = statistics.MeshBytes;
   result["resumed"] = statistics.Resumed ? 1 : 0;
+  return result;
+}
+
+nb::dict figuresOf(const OutOfCoreStatistics& statistics, bool countOnly)
+{
+  nb::dict result = figuresOf(statistics, "triangles", statistics.Triangles);
   if (countOnly)
   {
     result["triangle_sum"] = statistics.TriangleSum;
@@ -103,24 +112,36 @@ nb::dict figuresOf(const OutOfCoreStatistics& statistics, bool countOnly)
   return result;
 }
 
+/// Sets the options that runs in the plane and in space have in common.
+void setRunOptions(
+  const nb::dict& given, Reporter& reporter, Strings& warnings, OutOfCoreRunOptions& options)
+{
+  options.MemoryLimit = of<std::uint64_t>(given, "memory");
+  options.Threads = of<int>(given, "threads");
+  options.MapDuplicates = of<bool>(given, "map_duplicates");
+  options.Neighbors = of<bool>(given, "neighbors");
+  options.Resume = of<bool>(given, "resume");
+  options.Scratch = of<std::string>(given, "scratch");
+  options.Progress = reporter.function();
+  options.Warn = [&warnings](const std::string& sentence) { warnings.push_back(sentence); };
+}
+
+void append(Strings& warnings, const Strings& more)
+{
+  warnings.insert(warnings.end(), more.begin(), more.end());
+}
+
 nb::tuple triangulateFiles(
   const Strings& inputs, const std::string& output, const nb::dict& given, Progress progress)
 {
   Reporter reporter(std::move(progress));
   Strings warnings;
   OutOfCoreOptions options;
-  options.MemoryLimit = of<std::uint64_t>(given, "memory");
-  options.Threads = of<int>(given, "threads");
+  setRunOptions(given, reporter, warnings, options);
   std::tie(options.Columns, options.Rows) = of<std::pair<int, int>>(given, "partitions");
   options.MaximumEdge = of<double>(given, "max_edge");
-  options.MapDuplicates = of<bool>(given, "map_duplicates");
-  options.Neighbors = of<bool>(given, "neighbors");
   options.MarkConstraints = of<bool>(given, "mark_constraints");
   options.CountOnly = of<bool>(given, "count_only");
-  options.Resume = of<bool>(given, "resume");
-  options.Scratch = of<std::string>(given, "scratch");
-  options.Progress = reporter.function();
-  options.Warn = [&](const std::string& sentence) { warnings.push_back(sentence); };
   const ConstraintFiles constraints{ of<std::string>(given, "constraints"),
     of<std::string>(given, "boundary"), of<std::vector<std::pair<double, double>>>(given, "holes"),
     of<int>(given, "crossings") != 0 ? CrossingRule::Split : CrossingRule::Refuse };
@@ -142,9 +163,32 @@ nb::tuple triangulateFiles(
         output, options);
     });
   reporter.raiseIfStopped();
-  const Strings more = warningsOf(statistics);
-  warnings.insert(warnings.end(), more.begin(), more.end());
+  append(warnings, warningsOf(statistics));
   return nb::make_tuple(figuresOf(statistics, options.CountOnly), warnings);
+}
+
+nb::tuple tetrahedralizeFiles(
+  const Strings& inputs, const std::string& output, const nb::dict& given, Progress progress)
+{
+  Reporter reporter(std::move(progress));
+  Strings warnings;
+  OutOfCoreOptions3 options;
+  setRunOptions(given, reporter, warnings, options);
+  const auto columns = of<std::array<std::string, 3>>(given, "columns");
+  PointOptions reading{ columns[0], columns[1] };
+  reading.Z = columns[2];
+  reading.Threads = options.Threads;
+  reading.InSpace = true;
+  OutOfCoreStatistics3 statistics;
+  withoutLock(
+    [&]
+    {
+      requireApart({ output, scratchIn(options.Scratch) }, inputs);
+      statistics = tetrahedralizeOutOfCore(*openPointStream(inputs, reading), output, options);
+    });
+  reporter.raiseIfStopped();
+  append(warnings, warningsOf(statistics));
+  return nb::make_tuple(figuresOf(statistics, "tetrahedra", statistics.Tetrahedra), warnings);
 }
 
 std::unique_ptr<PieceSource> openSource(
@@ -384,6 +428,7 @@ void addFileFunctions(nb::module_& module)
   module.def("column_names", &columnNames);
   module.def("find_coordinates", &findColumns);
   module.def("triangulate_files", &triangulateFiles);
+  module.def("tetrahedralize_files", &tetrahedralizeFiles);
   module.def("array_names", &arrayNames);
   module.def("read", &readMesh);
   module.def("partition_file", &partitionFile);

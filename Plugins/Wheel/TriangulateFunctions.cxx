@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Arrays/FindNeighbors.h"
 #include "Binding.h"
 #include "Constraints/ConstraintEdges.h"
 #include "Constraints/Insertion/TriangulateConstrained.h"
@@ -18,6 +19,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -35,30 +37,6 @@ PointsView viewOf(const InputArray& points)
   return scalarOf(points.dtype()) == Scalar::Float32
     ? PointsView(static_cast<const float*>(points.data()), count, stride)
     : PointsView(static_cast<const double*>(points.data()), count, stride);
-}
-
-nb::dict statisticsDict(const RunStatistics& statistics)
-{
-  nb::dict result;
-  for (const Figures& total : statistics.Totals)
-  {
-    result[total.Key.c_str()] = std::get<std::vector<std::int64_t>>(total.Values).front();
-  }
-  for (const FigureList& list : statistics.Lists)
-  {
-    if (list.Key == "phases")
-    {
-      const auto& names = std::get<std::vector<std::string>>(list.Columns[0].Values);
-      const auto& values = std::get<std::vector<double>>(list.Columns[1].Values);
-      nb::dict seconds;
-      for (std::size_t i = 0; i < names.size(); ++i)
-      {
-        seconds[names[i].c_str()] = values[i];
-      }
-      result["seconds"] = seconds;
-    }
-  }
-  return result;
 }
 
 /// Converts (m, 2) ids of the ends of constraints, and for each the number of its line or polygon.
@@ -170,9 +148,74 @@ nb::dict triangulateArrays(const InputArray& points, const std::optional<InputAr
   return dict;
 }
 
-template <typename Id>
+/// Triangulates points of shape (n, 3) in space. Returns a dictionary of cells, duplicates,
+/// rejected, warnings and statistics; with `neighbors` also these. Cells are tetrahedra or, if all
+/// points lie in one plane, triangles.
+nb::dict tetrahedralizeArrays(const InputArray& points, double distance, int partitions,
+  int threads, bool neighbors, Progress progress)
+{
+  Reporter reporter(std::move(progress));
+  TetrahedralizationOptions options;
+  options.Partitions = partitions;
+  options.Threads = threads;
+  options.Progress = reporter.function();
+  const std::size_t count = points.shape(0);
+  std::vector<Point3> copy;
+  if (scalarOf(points.dtype()) == Scalar::Float32)
+  {
+    const auto* const floats = static_cast<const float*>(points.data());
+    copy.resize(count);
+    std::copy_n(floats, 3 * count, reinterpret_cast<double*>(copy.data()));
+  }
+  const Point3* const coordinates =
+    copy.empty() ? static_cast<const Point3*>(points.data()) : copy.data();
+  const ThreadLimit limit(threads);
+  Triangulation triangles; // of coplanar points
+  Tetrahedralization mesh = withoutLock(
+    [&] { return tetrahedralizePoints(coordinates, count, distance, options, triangles); });
+  reporter.finish();
+  const bool isFlat = mesh.Dimension == 2;
+  nb::dict dict;
+  dict["duplicates"] = idRowsOf(mesh.Duplicates);
+  dict["rejected"] = copyOf(mesh.Rejected);
+  dict["warnings"] = warningsOf(mesh, std::int64_t(count));
+  dict["statistics"] =
+    statisticsDict(statisticsOf(mesh, std::int64_t(count), std::int64_t(mesh.cellCount())));
+  if (neighbors)
+  {
+    dict["neighbors"] =
+      arrayOf(withoutLock([&] { return isFlat ? neighborIds(triangles) : neighborIds(mesh); }),
+        isFlat ? 3 : 4);
+  }
+  dict["cells"] = isFlat ? arrayOf(std::move(triangles.Ids32), 3) : arrayOf(std::move(mesh.Ids), 4);
+  return dict;
+}
+
+/// Returns for each corner of a triangle or tetrahedron the index of the cell opposite to it, or
+/// -1. `cells` has 32-bit ids.
+nb::object neighborsOf(const InputArray& cells)
+{
+  const std::size_t count = cells.shape(0);
+  const std::size_t corners = cells.shape(1);
+  if (count > std::size_t(std::numeric_limits<std::int32_t>::max()) / corners)
+  {
+    throw std::length_error(std::to_string(count) + " cells are too many for 32-bit ids.");
+  }
+  const auto* const ids = static_cast<const std::int32_t*>(cells.data());
+  Buffer<std::int32_t> neighbors(cells.size());
+  withoutLock(
+    [&]
+    {
+      corners == 3 ? findNeighbors<3>(ids, count, neighbors.data())
+                   : findNeighbors<4>(ids, count, neighbors.data());
+    });
+  return arrayOf(std::move(neighbors), corners);
+}
+
+/// Returns the tetrahedra, triangles, lines and vertices of an alpha shape.
+template <std::size_t Corners, typename Id>
 nb::tuple alphaTuple(
-  const InputArray& points, const InputArray& triangles, double alpha, const InputArray& covered)
+  const InputArray& points, const InputArray& cells, double alpha, const InputArray& covered)
 {
   const std::size_t width = points.shape(1);
   const auto read = [&](const auto* coordinates, PointId id, double* p)
@@ -188,21 +231,24 @@ nb::tuple alphaTuple(
     isFloat ? read(static_cast<const float*>(points.data()), id, p)
             : read(static_cast<const double*>(points.data()), id, p);
   };
-  Buffer<Id> ids(triangles.size());
-  std::copy_n(static_cast<const Id*>(triangles.data()), ids.size(), ids.data());
+  Buffer<Id> ids(cells.size());
+  std::copy_n(static_cast<const Id*>(cells.data()), ids.size(), ids.data());
   AlphaShape<Id> shape =
-    withoutLock([&] { return alphaShape(ids, pointAt, alpha, vectorOf<char>(covered)); });
+    withoutLock([&] { return alphaShape<Corners>(ids, pointAt, alpha, vectorOf<char>(covered)); });
   const std::size_t vertices = shape.Vertices.size();
-  return nb::make_tuple(arrayOf(std::move(shape.Triangles), 3), arrayOf(std::move(shape.Lines), 2),
+  return nb::make_tuple(arrayOf(std::move(shape.Tetrahedra), 4),
+    arrayOf(std::move(shape.Triangles), 3), arrayOf(std::move(shape.Lines), 2),
     arrayOf(std::move(shape.Vertices), { vertices, 1 }));
 }
 
+/// Triangles have 32-bit or 64-bit ids, tetrahedra 32-bit ids.
 nb::tuple alphaShapeOf(
-  const InputArray& points, const InputArray& triangles, double alpha, const InputArray& covered)
+  const InputArray& points, const InputArray& cells, double alpha, const InputArray& covered)
 {
-  return scalarOf(triangles.dtype()) == Scalar::Int32
-    ? alphaTuple<std::int32_t>(points, triangles, alpha, covered)
-    : alphaTuple<std::int64_t>(points, triangles, alpha, covered);
+  const auto shape = cells.shape(1) == 4       ? alphaTuple<4, std::int32_t>
+    : scalarOf(cells.dtype()) == Scalar::Int32 ? alphaTuple<3, std::int32_t>
+                                               : alphaTuple<3, std::int64_t>;
+  return shape(points, cells, alpha, covered);
 }
 
 constexpr std::int64_t pointsAtOnce = 4096;
@@ -296,6 +342,8 @@ void addTriangulateFunctions(nb::module_& module)
     .def("find", &Locator::find)
     .def("interpolate", &Locator::interpolate);
   module.def("triangulate", &triangulateArrays);
+  module.def("tetrahedralize", &tetrahedralizeArrays);
+  module.def("neighbors", &neighborsOf);
   module.def("match_positions", &matchedPositions);
   module.def("interpolate", &interpolate);
   module.def("alpha_shape", &alphaShapeOf);

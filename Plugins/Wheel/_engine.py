@@ -17,6 +17,7 @@ import numpy as np
 from . import _arguments as check
 from . import _core
 from . import _segments as constraints
+from . import _vtkxml
 from ._arrays import attribute, attributes, coordinates, grid_position, in_space, require_values
 from ._arguments import finish, Progress
 from ._data import Image, Mesh
@@ -24,6 +25,7 @@ from ._data import Image, Mesh
 _HIDDEN = 32  # vtkDataSetAttributes::HIDDENCELL
 _GHOSTS = "vtkGhostType"
 _OWN_IDS = ("GlobalPointIds", "GlobalCellIds")
+_LEAST_OFFSET = 2.5  # vtkTIPPDelaunay3D's
 
 
 _kept = threading.local()
@@ -161,10 +163,6 @@ def ranks() -> Any:
     raise RuntimeError("tipp.ranks() needs a TIPP that was built with MPI and VTK; the wheel works on one rank.")
 
 
-def delaunay_3d(points: Any, point_data: Any, options: dict[str, Any], progress: Progress | None) -> Any:
-    raise RuntimeError("tipp.delaunay_3d() needs a TIPP that was built with VTK; the wheel has no tetrahedra.")
-
-
 def delaunay(points: Any, options: dict[str, Any], progress: Progress | None) -> np.ndarray:
     if check.is_vtk_object(points):
         from ._vtk import xyz_of
@@ -225,10 +223,8 @@ def _triangulated(points: np.ndarray, data: dict[str, np.ndarray], options: dict
         sentences.append("No NeighborIds: " + ("the output has lines, too." if has_lines else
                                                "with alpha not all triangles are output."))
     if not has_all:
-        covered = np.zeros(len(points), np.uint8)
-        covered[result["duplicates"][:, 0]] = 1
-        covered[result["rejected"]] = 1
-        mesh.cells, mesh.lines, mesh.vertices = _core.alpha_shape(points, mesh.cells, options["alpha"], covered)
+        _, mesh.cells, mesh.lines, mesh.vertices = _core.alpha_shape(
+            points, mesh.cells, options["alpha"], _left_out(len(points), result))
         if is_marked:
             sentences.append("No marks of constraints: with alpha not all triangles are output.")
     elif has_lines:
@@ -248,6 +244,14 @@ def _representatives(count: int, result: dict[str, Any]) -> np.ndarray:
     ids[point] = kept
     ids[result["rejected"]] = -1
     return ids
+
+
+def _left_out(count: int, result: dict[str, Any]) -> np.ndarray:
+    """Returns 1 for duplicates and rejected points, else 0."""
+    marks = np.zeros(count, np.uint8)
+    marks[result["duplicates"][:, 0]] = 1
+    marks[result["rejected"]] = 1
+    return marks
 
 
 def _with_circle(points: np.ndarray, offset: float) -> np.ndarray:
@@ -270,18 +274,93 @@ def _delaunay_of_data_set(data: Any, options: dict[str, Any],
     return surface_of(mesh, None if options["bound"] or not is_same else data), statistics
 
 
+def delaunay_3d(points: Any, point_data: Any, options: dict[str, Any],
+                progress: Progress | None) -> tuple[Any, dict[str, Any]]:
+    mesh, source, statistics = tetrahedra(points, point_data, options, progress)
+    if source is None:
+        return mesh, statistics
+    from ._vtk import grid_of
+
+    return grid_of(mesh, source), statistics
+
+
+def tetrahedra(points: Any, point_data: Any, options: dict[str, Any],
+               progress: Progress | None) -> tuple[Mesh, Any, dict[str, Any]]:
+    """Returns the mesh, the data set whose points and point data it has, or None, and statistics."""
+    source = None
+    if check.is_vtk_object(points):
+        from ._vtk import xyz_of
+
+        array, data, source = plain(xyz_of(points)), {}, points
+    else:
+        if isinstance(points, Mesh):
+            point_data = {**points.point_data, **(point_data or {})}
+            points = points.points
+        array = in_space(plain(coordinates(points)))
+        data = attributes(point_data, len(array))
+    if options["bound"] and len(array):
+        array, data, source = _with_octahedron(array, max(options["offset"], _LEAST_OFFSET)), {}, None
+    mesh, statistics = _tetrahedralized(array, data, options, progress)
+    return mesh, source, statistics
+
+
+def _tetrahedralized(points: np.ndarray, data: dict[str, np.ndarray], options: dict[str, Any],
+                     progress: Progress | None) -> tuple[Mesh, dict[str, Any]]:
+    tolerance, alpha = options["tolerance"], options["alpha"]
+    result = _core.tetrahedralize(points, tolerance * diagonal(points) if tolerance > 0 else 0.0, options["partitions"],
+                                  options["threads"], options["neighbors"] and alpha == 0, progress)
+    finish(progress)
+    mesh, sentences = Mesh(points, result["cells"], dict(data)), result["warnings"]
+    if options["map_duplicates"] and (len(result["duplicates"]) or len(result["rejected"])):
+        mesh.point_data["RepresentativePointId"] = _representatives(len(points), result)
+    if alpha == 0:
+        if options["neighbors"]:
+            mesh.cell_data["NeighborIds"] = result["neighbors"]
+    else:
+        if options["neighbors"]:
+            sentences.append("No NeighborIds: with alpha not all tetrahedra are output.")
+        tetrahedra, triangles, mesh.lines, mesh.vertices = _core.alpha_shape(
+            points, mesh.cells, alpha, _left_out(len(points), result))
+        is_flat = mesh.cells.shape[1] == 3
+        mesh.cells, mesh.triangles = (triangles, None) if is_flat else (tetrahedra, triangles)
+    if sentences:
+        warn(sentences)
+    return mesh, result["statistics"]
+
+
+def _with_octahedron(points: np.ndarray, offset: float) -> np.ndarray:
+    """Returns the points and the six corners of an octahedron around them."""
+    low, high = box(points)
+    corners = np.repeat([0.5 * low + 0.5 * high], 6, axis=0)
+    corners[range(6), np.arange(6) // 2] += offset * diagonal(points) * np.array([-1, 1] * 3)
+    return np.vstack([points.astype(np.float64), corners])
+
+
 def delaunay_file(
     paths: list[str], output: str, options: dict[str, Any], progress: Progress | None
 ) -> dict[str, int]:
+    return _in_files(_core.triangulate_files, paths, output, options, progress)
+
+
+def delaunay_file_3d(
+    paths: list[str], output: str, options: dict[str, Any], progress: Progress | None
+) -> dict[str, int]:
+    return _in_files(_core.tetrahedralize_files, paths, output, options, progress)
+
+
+def _in_files(core: Any, paths: list[str], output: str, options: dict[str, Any],
+              progress: Progress | None) -> dict[str, int]:
     if not output:
         raise RuntimeError("FileName is not set; name the folder to write.")
-    figures, sentences = _core.triangulate_files(paths, output, options, progress)
+    figures, sentences = core(paths, output, options, progress)
     finish(progress)
     warn(sentences)
     return figures
 
 
-def read(path: str, options: dict[str, Any], progress: Progress | None) -> Mesh | list[Mesh]:
+def read(path: str, options: dict[str, Any], progress: Progress | None) -> Mesh | Image | list[Mesh]:
+    if _vtkxml.extension_of(path) in (*_vtkxml.FORMATS, *_vtkxml.OTHERS):
+        return _vtkxml.read(path, options)
     of_points, of_cells = _core.array_names(path, options["tiling"], options["memory_limit"])
     check.require_arrays(options["point_arrays"], of_points, "point")
     check.require_arrays(options["cell_arrays"], of_cells, "cell")

@@ -12,13 +12,13 @@ import numpy as np
 
 from . import _arguments as check
 from . import _core, _engine
-from ._arguments import array_of, DELAUNAY_2D, DELAUNAY_FILE, DEM, options_of, QUERY, READ, WRITE
+from ._arguments import array_of, DELAUNAY_2D, DELAUNAY_3D, DELAUNAY_FILE, DEM, options_of, QUERY, READ, WRITE
 from ._arrays import grid_position
 from ._data import Image
 from ._dem import lines_of
 from ._filter import add_total, Filter
 from ._results import in_vtk
-from ._vtk import image_of, point_cloud, vtk_array, xyz_of
+from ._vtk import grid_of, image_of, point_cloud, vtk_array, xyz_of
 from ._vtkmodules import (
     vtkDataObject,
     vtkDataSet,
@@ -35,7 +35,30 @@ from ._vtkmodules import (
 _GIGABYTE = 1 << 30
 
 
-class vtkTIPPDelaunay2D(Filter):
+class _Triangulation(Filter):
+    """A filter whose second output is a vtkTable with statistics as field data."""
+
+    def GetStatistics(self) -> vtkTable:
+        return self.GetOutputDataObject(1)
+
+    def GetNumberOfDuplicatePoints(self) -> int:
+        return self._statistic("DuplicatePoints")
+
+    def GetNumberOfRejectedPoints(self) -> int:
+        return self._statistic("RejectedPoints")
+
+    def _statistic(self, name: str) -> int:
+        array = self.GetStatistics().GetFieldData().GetArray(name)
+        return int(array.GetValue(0)) if array else 0
+
+    def set_statistics(self, statistics: dict[str, Any], outputs: Any) -> None:
+        totals = vtkTable.GetData(outputs, 1).GetFieldData()
+        for key, value in statistics.items():
+            if key != "seconds":
+                add_total(array_of(key), value, totals)
+
+
+class vtkTIPPDelaunay2D(_Triangulation):
     """Exact Delaunay triangulation of the points of a vtkPointSet in the x-y plane. Lines and polygons of the second
     input, the source, are constraints. The second output is a vtkTable with statistics as field data."""
 
@@ -54,19 +77,6 @@ class vtkTIPPDelaunay2D(Filter):
     INPUT_NAMES = {"Source": 1}
     OUTPUTS = ("vtkPolyData", "vtkTable")
 
-    def GetStatistics(self) -> vtkTable:
-        return self.GetOutputDataObject(1)
-
-    def GetNumberOfDuplicatePoints(self) -> int:
-        return self._statistic("DuplicatePoints")
-
-    def GetNumberOfRejectedPoints(self) -> int:
-        return self._statistic("RejectedPoints")
-
-    def _statistic(self, name: str) -> int:
-        array = self.GetStatistics().GetFieldData().GetArray(name)
-        return int(array.GetValue(0)) if array else 0
-
     def execute(self, inputs: Any, outputs: Any) -> None:
         for name in ("Alpha", "MaximumEdgeLength", "Tolerance", "Offset"):
             check.number(self.value(name), name)
@@ -83,10 +93,38 @@ class vtkTIPPDelaunay2D(Filter):
                             ("AlphaVerts", output.SetVerts)):
             if options["alpha"] > 0 and not self.value(name):
                 clear(None)
-        totals = vtkTable.GetData(outputs, 1).GetFieldData()
-        for key, value in statistics.items():
-            if key != "seconds":
-                add_total(array_of(key), value, totals)
+        self.set_statistics(statistics, outputs)
+
+
+class vtkTIPPDelaunay3D(_Triangulation):
+    """Exact Delaunay tetrahedralization of the points of a vtkPointSet. The second output is a vtkTable with statistics
+    as field data."""
+
+    PROPERTIES = {
+        "Alpha": 0.0, "AlphaTets": True, "AlphaTris": True, "AlphaLines": True, "AlphaVerts": True, "Tolerance": 0.0,
+        "Offset": 2.5, "BoundingTriangulation": False, "GenerateRepresentativeIds": True, "GenerateNeighborIds": False,
+        "NumberOfPartitions": 0, "NumberOfThreads": 0,
+    }
+    LIMITS = {"Alpha": (0, None), "Tolerance": (0, 1), "Offset": (2.5, None), "NumberOfPartitions": (0, 512),
+              "NumberOfThreads": (0, 4096)}
+    INPUTS = ("vtkPointSet",)
+    OUTPUTS = ("vtkUnstructuredGrid", "vtkTable")
+
+    def execute(self, inputs: Any, outputs: Any) -> None:
+        for name in ("Alpha", "Tolerance", "Offset"):
+            check.number(self.value(name), name)
+        points = vtkPointSet.GetData(inputs[0])
+        mesh, source, statistics = _engine.tetrahedra(
+            points, None, options_of(self, DELAUNAY_3D), self.show_progress)
+        if self.value("Alpha") > 0:
+            is_flat = mesh.cells.shape[1] == 3
+            for name, group in (("AlphaTets", "" if is_flat else "cells"),
+                                ("AlphaTris", "cells" if is_flat else "triangles"),
+                                ("AlphaLines", "lines"), ("AlphaVerts", "vertices")):
+                if group and not self.value(name):
+                    setattr(mesh, group, getattr(mesh, group)[:0])
+        vtkUnstructuredGrid.GetData(outputs, 0).ShallowCopy(grid_of(mesh, source))
+        self.set_statistics(statistics, outputs)
 
 
 class vtkTIPPOutOfCoreDelaunay2D(Filter):

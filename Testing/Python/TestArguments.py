@@ -67,7 +67,7 @@ TABLE = {
                     "map_duplicates": FLAG, "neighbors": FLAG, "return_statistics": FLAG, "return_type": RETURN_TYPE,
                     "partitions": (THREADS[0], [-1, 513]), "threads": THREADS, "progress_bar": FLAG},
     "delaunay_file": {"points": (PATH[0] + [[None], {"a": 1}], PATH[1]), "output": PATH,
-                      "memory": (BYTES[0], BYTES[1] + ["", "2T", "1.5G", "9" * 40]), "partitions": COUNTS,
+                      "dimension": (THREADS[0], [0, 1, 4]), "memory": (BYTES[0], BYTES[1] + ["", "2T", "1.5G", "9" * 40]), "partitions": COUNTS,
                       "columns": COLUMNS, "max_edge": LENGTH, "map_duplicates": FLAG, "neighbors": FLAG,
                       "constraints": PATH_OR_NONE, "boundary": PATH_OR_NONE,
                       "holes": ([3, 1.5, True, "ab", [None], [[None, 1]]], [[[1]], [[1, NAN]]]),
@@ -99,6 +99,12 @@ TABLE = {
              "memory": (BYTES[0], BYTES[1] + ["", "2T", "1.5G"]), "step": ([None, "1", 1.5, True, [1]], [-1]), "threads": THREADS},
     "ranks": {},
 }
+if IS_WHEEL:
+    TABLE["griddata"] = {
+        "points": ([None, "text", {}, np.zeros((3, 2), complex)], [3, [], [1, 2], np.zeros((3, 5)), ([1, 2], [1, 2, 3])]),
+        "values": (["text", {}, None], [np.zeros(7), [1]]),
+        "xi": ([None, "text", {}, np.zeros((3, 2), complex)], [3, [], [1], np.zeros((3, 5)), ([1, 2], [1, 2, 3])]),
+        "method": (TEXT[0], ["spline"]), "fill_value": (["text", [], {}], []), "rescale": FLAG, "threads": THREADS}
 
 
 class Arguments(unittest.TestCase):
@@ -121,6 +127,7 @@ class Arguments(unittest.TestCase):
             "dem": {"points": np.c_[POINTS, POINTS[:, 0]], "resolution": 0.1},
             "read": {"path": self.stored}, "open": {"mesh": self.stored}, "write": {"mesh": self.mesh, "path": self.output},
             "as_array": {"data": self.mesh, "name": "f"}, "check": {"points": POINTS, "triangles": tipp.delaunay(POINTS)},
+            "griddata": {"points": POINTS, "values": POINTS[:, 0], "xi": POINTS},
         }[function]
 
     def test_every_argument_of_every_function_is_in_the_table(self):
@@ -131,8 +138,6 @@ class Arguments(unittest.TestCase):
 
     def test_wrong_types_and_values_are_refused_in_one_sentence_that_names_the_argument(self):
         for function, arguments in TABLE.items():
-            if IS_WHEEL and function == "delaunay_3d":
-                continue  # no argument of this function can be valid
             for argument, (types, values) in arguments.items():
                 default = inspect.signature(getattr(tipp, function)).parameters[argument].default
                 wrong = [(TypeError, value) for value in types if value is not None or default is not None]

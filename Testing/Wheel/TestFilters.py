@@ -23,6 +23,10 @@ def cloud(count=500):
     return point_cloud(points, {"height": points[:, 0] + points[:, 1]})
 
 
+def kinds_of(mesh):
+    return [mesh.GetCellType(i) for i in range(mesh.GetNumberOfCells())]
+
+
 def polygon(ids, corners=None):
     cells = vtkCellArray()
     one = vtkIdList()
@@ -135,6 +139,30 @@ class Delaunay2D(unittest.TestCase):
 def every_filter():
     return [getattr(tipp, name) for name in dir(tipp._filters) if name.startswith(("vtkTIPP", "vtkPartitioned", "vtkRange"))
             and issubclass(getattr(tipp._filters, name), Filter)]
+
+
+class Delaunay3D(unittest.TestCase):
+    def test_the_mesh_is_that_of_the_function(self):
+        algorithm = tipp.vtkTIPPDelaunay3D(generate_neighbor_ids=True)
+        algorithm.SetInputData(cloud())
+        algorithm.Update()
+        expected = tipp.delaunay_3d(cloud(), neighbors=True)
+        np.testing.assert_array_equal(tipp.as_array(expected, "NeighborIds"), tipp.as_array(algorithm.GetOutput(), "NeighborIds"))
+        totals = algorithm.GetStatistics().GetFieldData()
+        self.assertEqual(expected.GetNumberOfCells(), totals.GetArray("Tetrahedra").GetValue(0))
+        self.assertEqual(0, algorithm.GetNumberOfDuplicatePoints())
+
+    def test_each_kind_of_cell_of_an_alpha_shape_can_be_left_out(self):
+        algorithm = tipp.vtkTIPPDelaunay3D(alpha=0.1)
+        algorithm.SetInputData(cloud())
+        algorithm.Update()
+        kinds = kinds_of(algorithm.GetOutput())
+        self.assertLessEqual({3, 5, 10}, set(kinds))
+        for name, kind in (("Tets", 10), ("Tris", 5), ("Lines", 3), ("Verts", 1)):
+            getattr(algorithm, f"SetAlpha{name}")(False)
+            algorithm.Update()
+            self.assertEqual([each for each in kinds if each != kind], kinds_of(algorithm.GetOutput()))
+            getattr(algorithm, f"SetAlpha{name}")(True)
 
 
 class Properties(unittest.TestCase):

@@ -186,6 +186,13 @@ def delaunay_file(
     return {key: array.GetValue(0) for key, array in arrays.items() if array is not None}
 
 
+def delaunay_file_3d(
+    paths: list[str], output: str, options: dict[str, Any], progress: Progress | None
+) -> dict[str, int]:
+    raise RuntimeError("dimension=3 needs the wheel of tipp, or the command 'tipp delaunay3d'; here delaunay_file() makes "
+                       "triangles.")
+
+
 def dem(points: Any, point_data: Any, options: dict[str, Any],
         progress: Progress | None) -> tuple[list[np.ndarray], tuple[float, ...], str | None]:
     """Returns the bands, with rows from north to south, their transform, and the CRS of points in files."""

@@ -20,6 +20,8 @@ _Path = Union[str, "os.PathLike[str]"]
 _SCHEDULES = {"stages": 0, "dynamic": 1, "producer-consumer": 2}
 _CROSSINGS = {"split": 1, "refuse": 0}
 _MARKS = {"none": 0, "lines": 1, "flags": 2}
+_ONLY_IN_THE_PLANE = {"partitions": (0, 0), "max_edge": 0, "constraints": "", "boundary": "", "holes": [], "crossings": 1,
+                      "mark_constraints": False, "count_only": False}
 
 
 def delaunay(
@@ -247,7 +249,7 @@ def delaunay_3d(
         points.
     offset
         With bound: the distance of the octahedron's corners from the centre, as a multiple of the bounding box's
-        diagonal.
+        diagonal; at least 2.5.
     bound
         Whether to add the corners of an octahedron around the points.
     point_data
@@ -279,7 +281,7 @@ def delaunay_3d(
     TypeError, ValueError
         If an argument is of a wrong type or value.
     RuntimeError
-        If it failed, or in the wheel, which has no tetrahedralization.
+        If it failed; the message is the filter's.
     KeyboardInterrupt
         Promptly after Ctrl-C.
 
@@ -313,9 +315,10 @@ def delaunay_file(
     points: _Path | Sequence[_Path],
     output: _Path,
     *,
+    dimension: int = 2,
     memory: int | str = "2G",
     partitions: tuple[int, int] | None = None,
-    columns: tuple[str | int, str | int] | None = None,
+    columns: tuple[str | int, ...] | None = None,
     max_edge: float = 0.0,
     map_duplicates: bool = False,
     neighbors: bool = False,
@@ -339,20 +342,24 @@ def delaunay_file(
         points are indices into this input. A column z is the third coordinate; others become point arrays.
     output
         The folder to write, usually called NAME.tipp. It replaces an existing partitioned mesh.
+    dimension
+        2: triangles in the x-y plane. 3: tetrahedra, for which the points have a column z, Z or elevation; then there
+        are no partitions, max_edge, constraints, boundary, holes, crossings, mark_constraints and count_only.
     memory
         The memory limit of each process for points, triangles and buffers: bytes, or a text such as "512M" or "2G".
         Python and the threads' kernels need some more.
     partitions
         Columns and rows of a grid of pieces. None: boxes with equally many points.
     columns
-        Which columns are x and y, by name or index from 0. None: columns with the usual names, else the first two.
+        Which columns are x and y, and with dimension=3 z, by name or index from 0. None: columns with the usual names,
+        else the first two or three.
     max_edge
         Triangles with an edge longer than this, in the units of the points, are removed. 0: no limit.
     map_duplicates
         Whether the mesh gets the point array RepresentativePointId.
     neighbors
-        Whether the mesh gets the cell array NeighborIds: for each corner of a triangle the global id of the triangle
-        across the opposite edge, -1 at the border.
+        Whether the mesh gets the cell array NeighborIds: for each corner of a cell the global id of the cell across
+        the opposite edge or facet, -1 at the border.
     constraints
         A file of lines and polygons, whose edges become edges of the mesh. Only triangles inside of counter-clockwise
         polygons are kept; clockwise ones are holes. .csv, .poly, .14, or any format that VTK or GDAL reads.
@@ -378,7 +385,7 @@ def delaunay_file(
     Returns
     -------
     dict
-        Statistics: points, triangles, duplicates, rejected, pieces, spilled_bytes, mesh_bytes and resumed (0 or 1).
+        Statistics: points, triangles (or tetrahedra), duplicates, rejected, pieces, spilled_bytes, mesh_bytes and resumed (0 or 1).
         With count_only also triangle_sum, a checksum of the triangles. With constraints also constraints,
         constraint_edges, crossing_points and crossing_rounds (unless resumed). If VTK's global controller has several
         ranks, all must call this function, and the first rank gets the statistics.
@@ -397,10 +404,13 @@ def delaunay_file(
     199973
     >>> part = tipp.read("mesh.tipp", bounds=(0.2, 0.4, 0.5, 0.7, 0, 0))
     """
+    size = check.whole(dimension, "dimension")
+    if size not in (2, 3):
+        raise ValueError(f"dimension is {size}; give 2 or 3.")
     options = {
         "memory": check.memory(memory, "memory"),
         "partitions": _grid(partitions),
-        "columns": ("", "") if columns is None else tuple(check.several(columns, "columns", 2, _column)),
+        "columns": ("",) * size if columns is None else tuple(check.several(columns, "columns", size, _column)),
         "max_edge": check.number(max_edge, "max_edge", at_least=0),
         "map_duplicates": check.flag(map_duplicates, "map_duplicates"),
         "neighbors": check.flag(neighbors, "neighbors"),
@@ -414,7 +424,13 @@ def delaunay_file(
         "scratch": _optional_path(scratch, "scratch"),
         "threads": check.threads(threads),
     }
-    return _engine.delaunay_file(_paths(points), check.path(output, "output"), options, progress_of(progress_bar))
+    paths, folder = _paths(points), check.path(output, "output")
+    if size == 2:
+        return _engine.delaunay_file(paths, folder, options, progress_of(progress_bar))
+    for name, default in _ONLY_IN_THE_PLANE.items():
+        if options[name] != default:
+            raise ValueError(f"{name} needs dimension=2; leave it out for tetrahedra.")
+    return _engine.delaunay_file_3d(paths, folder, options, progress_of(progress_bar))
 
 
 def _paths(points: Any) -> list[str]:

@@ -170,6 +170,17 @@ def cell_lists(cells: vtkCellArray) -> list[np.ndarray]:
 def surface_of(mesh: Mesh, data: Any) -> vtkPolyData:
     """Returns a VTK mesh of triangles. Reuses the points and point data of a data set if they are the same."""
     result = vtkPolyData()
+    _set_points(mesh, data, result)
+    result.SetPolys(cells_of(mesh.cells))
+    if mesh.vertices is not None:
+        result.SetVerts(cells_of(mesh.vertices))
+    if mesh.lines is not None:
+        result.SetLines(cells_of(mesh.lines))
+    _add_arrays(_cell_arrays(mesh.blocks()), result.GetCellData())
+    return result
+
+
+def _set_points(mesh: Mesh, data: Any, result: Any) -> None:
     if data is None:
         result.SetPoints(vtk_points(mesh.points))
     else:
@@ -178,21 +189,13 @@ def surface_of(mesh: Mesh, data: Any) -> vtkPolyData:
         result.GetPointData().PassData(data.GetPointData())
     for name, values in mesh.point_data.items():
         if data is None or not result.GetPointData().HasArray(name):
-            result.GetPointData().AddArray(vtk_array(name, values))
-    result.SetPolys(cells_of(mesh.cells))
-    if mesh.vertices is not None:
-        result.SetVerts(cells_of(mesh.vertices))
-    if mesh.lines is not None:
-        result.SetLines(cells_of(mesh.lines))
-    _add_arrays(_cell_arrays(mesh), result.GetCellData())
-    return result
+            _add_arrays({name: values}, result.GetPointData())
 
 
-def _cell_arrays(mesh: Mesh) -> dict[str, np.ndarray]:
-    """Returns the cell arrays with values for all cells, vertices first as in VTK."""
-    blocks = [arrays for _, arrays in mesh.blocks()]
-    return {name: np.concatenate([arrays[name] for arrays in blocks]) if len(blocks) > 1 else values
-            for name, values in blocks[0].items()}
+def _cell_arrays(blocks: list[tuple[np.ndarray, dict[str, np.ndarray]]]) -> dict[str, np.ndarray]:
+    """Returns the cell arrays with values for all cells of Mesh.blocks(), in their order."""
+    return {name: np.concatenate([arrays[name] for _, arrays in blocks]) if len(blocks) > 1 else values
+            for name, values in blocks[0][1].items()}
 
 
 def _add_arrays(arrays: dict[str, np.ndarray], target: Any) -> None:
@@ -204,13 +207,15 @@ def _add_arrays(arrays: dict[str, np.ndarray], target: Any) -> None:
             target.AddArray(vtk_array(name, values))
 
 
-def grid_of(mesh: Mesh | None) -> vtkUnstructuredGrid:
+def grid_of(mesh: Mesh | None, data: Any = None) -> vtkUnstructuredGrid:
+    """Returns a VTK mesh of all cells, those of fewer dimensions last as in vtkTIPPDelaunay3D. Reuses the points and point
+    data of a data set if they are the same."""
     grid = vtkUnstructuredGrid()
     if mesh is not None:
-        grid.SetPoints(vtk_points(mesh.points))
-        _set_cells(grid, [ids for ids, _ in mesh.blocks()])
-        _add_arrays(mesh.point_data, grid.GetPointData())
-        _add_arrays(_cell_arrays(mesh), grid.GetCellData())
+        _set_points(mesh, data, grid)
+        blocks = mesh.blocks()[::-1]
+        _set_cells(grid, [ids for ids, _ in blocks])
+        _add_arrays(_cell_arrays(blocks), grid.GetCellData())
     return grid
 
 
@@ -242,6 +247,7 @@ def image_of(image: Image) -> vtkImageData:
     result.SetOrigin(*image.origin)
     result.SetSpacing(*image.spacing)
     _add_arrays(image.point_data, result.GetPointData())
+    _add_arrays(image.cell_data, result.GetCellData())
     if "vtkValidPointMask" in image.point_data:
         _add_ghosts(image, result)
     return result
