@@ -3,6 +3,9 @@
 
 #ifdef _OPENMP
 #include <omp.h>
+#include <pthread.h>
+
+#include <atomic>
 #else
 #include "Parallel/ThreadPool.h"
 
@@ -20,9 +23,30 @@ namespace tipp
 
 #ifdef _OPENMP
 
+namespace
+{
+
+std::atomic<bool> isForked{ false };
+
+/// Returns `threads`, or 1 in a process that was forked after its parent had asked for several.
+/// GNU's OpenMP library would wait there forever for the parent's threads, which do not exist.
+int usableThreads(int threads)
+{
+  if (threads <= 1 || isForked)
+  {
+    return 1;
+  }
+  // Not before: the child of a process without threads may start its own.
+  static const int registered = pthread_atfork(nullptr, nullptr, [] { isForked = true; });
+  return registered == 0 ? threads : 1;
+}
+
+} // namespace
+
 void runOnThreads(int threads, const std::function<void(int)>& work)
 {
-#pragma omp parallel num_threads(threads) if (threads > 1)
+  const int usable = usableThreads(threads);
+#pragma omp parallel num_threads(usable) if (usable > 1)
   work(omp_get_thread_num());
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pipeline/InputPoints.h"
 
+#include "Parallel/ParallelFor.h"
+
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkAbstractTransform.h"
 #include "vtkDataArray.h"
@@ -16,8 +18,10 @@
 #include "vtkTransform.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
+#include <mutex>
 
 namespace tipp
 {
@@ -42,15 +46,17 @@ bool isFinite(const double p[3])
 
 bool isFinite(vtkPoints* points)
 {
-  bool finite = true;
-  const vtkIdType count = points->GetNumberOfPoints();
-#pragma omp parallel for reduction(&& : finite)
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    double p[3];
-    points->GetPoint(i, p);
-    finite = finite && isFinite(p);
-  }
+  std::atomic<bool> finite{ true };
+  forIndices(points->GetNumberOfPoints(),
+    [&](vtkIdType i)
+    {
+      double p[3];
+      points->GetPoint(i, p);
+      if (!isFinite(p))
+      {
+        finite = false;
+      }
+    });
   return finite;
 }
 
@@ -125,23 +131,25 @@ vtkSmartPointer<vtkTransform> bestFittingPlane(vtkPoints* points)
 
 Box3 finiteBounds(vtkPoints* points)
 {
-  double low[3] = { HUGE_VAL, HUGE_VAL, HUGE_VAL };
-  double high[3] = { -HUGE_VAL, -HUGE_VAL, -HUGE_VAL };
-  const vtkIdType count = points ? points->GetNumberOfPoints() : 0;
-#pragma omp parallel for reduction(min : low[:3]) reduction(max : high[:3])
-  for (vtkIdType i = 0; i < count; ++i)
-  {
-    double p[3];
-    points->GetPoint(i, p);
-    const int axes = isFinite(p) ? 3 : 0;
-    for (int axis = 0; axis < axes; ++axis)
+  std::mutex mutex;
+  Box3 bounds = Box3::empty();
+  forChunks(points ? points->GetNumberOfPoints() : 0, 1 << 13, threadCount(0), {},
+    [&](vtkIdType begin, vtkIdType end, int)
     {
-      low[axis] = std::min(low[axis], p[axis]);
-      high[axis] = std::max(high[axis], p[axis]);
-    }
-  }
-  return low[0] <= high[0] ? Box3{ { low[0], low[1], low[2] }, { high[0], high[1], high[2] } }
-                           : Box3{};
+      Box3 part = Box3::empty();
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        double p[3];
+        points->GetPoint(i, p);
+        if (isFinite(p))
+        {
+          part.extend(Point3{ p[0], p[1], p[2] });
+        }
+      }
+      const std::lock_guard<std::mutex> lock(mutex);
+      bounds.extend(part);
+    });
+  return bounds.isEmpty() ? Box3{} : bounds;
 }
 
 double diagonalOf(const Box3& box)

@@ -2,6 +2,7 @@
 #include "Pipeline/MeshOutput.h"
 
 #include "Constraints/Insertion/CrossedPart.h"
+#include "Parallel/ParallelFor.h"
 #include "Pipeline/InputPoints.h"
 
 #include "vtkCellArray.h"
@@ -52,24 +53,16 @@ template <typename Value>
 Buffer<Value> offsets(std::size_t cells, int cellSize)
 {
   Buffer<Value> result(cells + 1);
-  const std::int64_t count = std::int64_t(cells + 1);
-#pragma omp parallel for
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    result[i] = Value(i * cellSize);
-  }
+  forIndices(
+    std::int64_t(cells + 1), [&](std::int64_t i) { result[std::size_t(i)] = Value(i * cellSize); });
   return result;
 }
 
 Buffer<std::int64_t> widened(const Buffer<std::int32_t>& ids)
 {
   Buffer<std::int64_t> result(ids.size());
-  const std::int64_t count = std::int64_t(ids.size());
-#pragma omp parallel for
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    result[i] = ids[i];
-  }
+  forIndices(std::int64_t(ids.size()),
+    [&](std::int64_t i) { result[std::size_t(i)] = ids[std::size_t(i)]; });
   return result;
 }
 

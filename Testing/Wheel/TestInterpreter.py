@@ -5,6 +5,7 @@ import os
 import pickle
 import pydoc
 import resource
+import select
 import signal
 import subprocess
 import sys
@@ -28,6 +29,10 @@ def resident():
     """The resident memory of this process in bytes."""
     with open("/proc/self/statm", encoding="ascii") as file:
         return int(file.read().split()[1]) * resource.getpagesize()
+
+
+def count(points):
+    return len(tipp.delaunay(points, threads=2))
 
 
 def count_in_child(points, queue):
@@ -70,15 +75,70 @@ class Interpreter(unittest.TestCase):
         for result in results:
             np.testing.assert_array_equal(canonical(expected), canonical(result))
 
-    def test_a_forked_child_triangulates_after_its_parent_has(self):
+    def answer_of_child(self, work):
+        """Returns what work() returns in a forked child, which must end within a minute."""
+        reader, writer = os.pipe()
+        child = os.fork()
+        if child == 0:
+            try:
+                with open(writer, "wb") as file:
+                    pickle.dump(work(), file)
+            finally:
+                os._exit(0)  # without an answer after an exception
+        os.close(writer)
+        try:
+            with open(reader, "rb") as file:
+                self.assertTrue(select.select([file], [], [], 60)[0], "the child hangs")
+                return pickle.load(file)
+        finally:
+            os.kill(child, signal.SIGKILL)
+            os.waitpid(child, 0)
+
+    def test_a_forked_child_gets_the_results_of_its_parent(self):
         points = random_points(50_000)
-        expected = len(tipp.delaunay(points))
-        context = multiprocessing.get_context("fork")
-        queue = context.Queue()
-        child = context.Process(target=lambda: queue.put(len(tipp.delaunay(points))))
-        child.start()
-        self.assertEqual(expected, queue.get(timeout=60))
-        child.join(60)
+        space = random_points(5_000, 3)
+        heights = points[:, 0] + points[:, 1]
+        mesh = tipp.delaunay_2d(points, point_data={"h": heights}, threads=2)
+        for name, work in {
+            "triangles": lambda: canonical(tipp.delaunay(points, threads=2)),
+            "stages": lambda: canonical(tipp.delaunay(points, threads=2, schedule="stages")),
+            "queues": lambda: canonical(tipp.delaunay(points, threads=2, schedule="producer-consumer")),
+            "the usual threads": lambda: canonical(tipp.delaunay(points)),
+            "alpha": lambda: tipp.delaunay_2d(points, alpha=0.01, threads=2).lines,
+            "tetrahedra": lambda: tipp.Delaunay(space, threads=2).simplices,
+            "found": lambda: tipp.Delaunay(space, threads=2).find_simplex(space),
+            "raster": lambda: tipp.dem(np.column_stack([points, heights]), 0.01, threads=2)[0],
+            "image": lambda: tipp.as_array(tipp.resample(mesh, dimensions=(90, 80, 1), threads=2), "h"),
+        }.items():
+            with self.subTest(name):
+                np.testing.assert_array_equal(work(), self.answer_of_child(work))
+
+    def test_an_opened_mesh_answers_in_a_forked_child(self):
+        points = random_points(50_000)
+        with tipp.open(tipp.delaunay_2d(points, point_data={"h": points[:, 0]}), threads=2) as mesh:
+            self.assertIsNotNone(tipp.delaunay(points, threads=2))
+
+            def work():
+                return mesh.interpolate(points[::2] * 1.2, "h")
+
+            child = self.answer_of_child(work)
+            np.testing.assert_array_equal(work(), child)
+
+    def test_a_pool_of_forked_processes_triangulates(self):
+        points = random_points(50_000)
+        expected = len(tipp.delaunay(points, threads=2))
+        with multiprocessing.get_context("fork").Pool(2) as pool:
+            self.assertEqual([expected] * 4, pool.map_async(count, [points] * 4).get(timeout=120))
+
+    def test_a_forked_child_may_fork_again(self):
+        points = random_points(20_000)
+        tipp.delaunay(points, threads=2)
+
+        def work():
+            tipp.delaunay(points, threads=2)
+            return self.answer_of_child(lambda: len(tipp.delaunay(points, threads=2)))
+
+        self.assertEqual(len(tipp.delaunay(points)), self.answer_of_child(work))
 
     def test_a_spawned_child_triangulates(self):
         points = random_points(1000)
