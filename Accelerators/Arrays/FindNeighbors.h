@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace tipp
@@ -37,9 +38,20 @@ void findNeighbors(const Id* corners, std::size_t cells, Index* neighbors)
     {
       const Id* const v = corners + h / 4 * 4;
       const std::size_t i = h % 4;
-      std::array<Id, 3> facet = { v[i == 0 ? 1 : 0], v[i <= 1 ? 2 : 1], v[i == 3 ? 2 : 3] };
-      std::sort(facet.begin(), facet.end());
-      return facet;
+      Id low = v[i == 0 ? 1 : 0];
+      Id middle = v[i <= 1 ? 2 : 1];
+      Id high = v[i == 3 ? 2 : 3];
+      const auto order = [](Id& a, Id& b)
+      {
+        if (b < a)
+        {
+          std::swap(a, b);
+        }
+      };
+      order(low, middle); // std::sort() makes the whole function take half as long again
+      order(middle, high);
+      order(low, middle);
+      return std::array<Id, 3>{ low, middle, high };
     }
   };
   std::size_t lists = 1;

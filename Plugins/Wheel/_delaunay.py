@@ -71,8 +71,6 @@ class Delaunay:
 
     def _triangulate(self, points: np.ndarray) -> None:
         points = np.array(points, np.float64, order="C")  # a copy that callers cannot change
-        if not np.isfinite(points).all():
-            raise ValueError("points have a NaN or infinite coordinate; leave these points out.")
         if points.shape[1] == 2:
             result = _core.triangulate(
                 points, None, None, 0, False, False, 0.0, 0.0, 0, 0, False, self._threads, False, None)
@@ -80,11 +78,12 @@ class Delaunay:
         else:
             result = _core.tetrahedralize(points, 0.0, 0, self._threads, False, None)
             simplices = result["cells"]
+        if len(result["rejected"]):
+            raise ValueError("points have a NaN or infinite coordinate; leave these points out.")
         if simplices.shape[1] == points.shape[1]:
             raise RuntimeError("No tetrahedra: all points are in one plane; give coordinates in it, of shape (n, 2).")
         if len(simplices) == 0:
             raise RuntimeError(result["warnings"][0])
-        self.__dict__ = {name: value for name, value in self.__dict__.items() if name in _KEPT}
         self.points = points
         self.simplices = simplices.astype(np.int32, copy=False)
         self._duplicates = result["duplicates"]
@@ -249,6 +248,7 @@ class Delaunay:
         if more.shape[1] != self.ndim:
             raise ValueError(f"points have the shape {more.shape}; give an array of shape (n, {self.ndim}).")
         self._triangulate(np.concatenate([self.points, more]))
+        self.__dict__ = self.__getstate__()  # without what was computed from the former cells
 
     def close(self) -> None:
         """Ends adding points."""
