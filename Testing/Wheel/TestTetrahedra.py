@@ -59,6 +59,13 @@ class Tetrahedra(unittest.TestCase):
         used = np.unique(np.concatenate([c.ravel() for c in (shape.cells, shape.triangles, shape.lines, shape.vertices)]))
         np.testing.assert_array_equal(np.arange(300), used)
 
+    def test_storing_an_alpha_shape_warns_of_its_other_cells(self):
+        shape = tipp.delaunay_3d(self.points[:300], alpha=0.1)
+        count = len(shape.triangles) + len(shape.lines) + len(shape.vertices)
+        with self.assertWarnsRegex(RuntimeWarning, f"{count} cells of fewer dimensions are left out"):
+            tipp.write(shape, self.path("mesh.tipp"))
+        self.assertEqual(len(shape.cells), len(tipp.read(self.path("mesh.tipp")).cells))
+
     def test_a_plane_makes_triangles_and_a_warning(self):
         with self.assertWarnsRegex(RuntimeWarning, "in one plane, so the cells are triangles"):
             mesh = tipp.delaunay_3d(self.points[:40] * [1, 1, 0])

@@ -67,6 +67,15 @@ def image(count="Q"):
                        'Extent="2 5 0 2 0 0"', sections)
 
 
+def tetrahedron():
+    writer = Writer()
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
+    sections = (writer.arrays("PointData", {"h": corners.sum(axis=1)}) + writer.arrays("Points", {"Points": corners}) +
+                writer.arrays("Cells", {"connectivity": np.arange(4), "offsets": np.array([4]),
+                                        "types": np.array([10], np.uint8)}))
+    return writer.file("UnstructuredGrid", "", 'NumberOfPoints="4" NumberOfCells="1"', sections)
+
+
 class VtkFiles(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -108,6 +117,11 @@ class VtkFiles(unittest.TestCase):
         if HAS_VTK:
             self.assertEqual([-1, 1, 1, 2, 3, 4], tipp.as_array(mesh, "id").tolist())  # a vertex has no value
             self.assertEqual(list(range(6)), tipp.as_array(grid, "c").ravel().tolist())
+
+    def test_a_grid_of_tetrahedra_is_read(self):
+        mesh = tipp.read(self.path("x.vtu", tetrahedron()))
+        self.assertEqual([0, 1, 1, 1], sorted(tipp.as_array(mesh, "h").tolist()))
+        self.assertEqual((1, 4), (1, mesh.GetCell(0).GetNumberOfPoints()) if HAS_VTK else mesh.cells.shape)
 
     def test_only_the_named_arrays_are_kept(self):
         mesh = tipp.read(self.path("x.vtp", surface()), point_arrays="h", cell_arrays=[])

@@ -35,7 +35,8 @@ def read(
     Parameters
     ----------
     path
-        A folder NAME.tipp, a folder of .npy arrays, or a .vtu file with appended, raw data.
+        A folder NAME.tipp, a folder of .npy arrays, or a .vtu file with appended, raw data. In the wheel, also a .vtp
+        or .vti file with such data, of which the options only select arrays; a .vti file gives an image.
     bounds
         (xmin, xmax, ymin, ymax) or (xmin, xmax, ymin, ymax, zmin, zmax) in the mesh's units, a tipp.Bounds, or a data
         set, geometry or raster, whose bounds are used: reads only the cells that share a point with this closed box;
