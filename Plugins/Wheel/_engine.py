@@ -361,6 +361,8 @@ def _in_files(core: Any, paths: list[str], output: str, options: dict[str, Any],
 def read(path: str, options: dict[str, Any], progress: Progress | None) -> Mesh | Image | list[Mesh]:
     if _vtkxml.extension_of(path) in (*_vtkxml.FORMATS, *_vtkxml.OTHERS):
         return _vtkxml.read(path, options)
+    if _vtkxml.extension_of(path) == ".vtu":
+        _vtkxml.require_raw(path)
     of_points, of_cells = _core.array_names(path, options["tiling"], options["memory_limit"])
     check.require_arrays(options["point_arrays"], of_points, "point")
     check.require_arrays(options["cell_arrays"], of_cells, "cell")

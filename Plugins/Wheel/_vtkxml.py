@@ -3,6 +3,7 @@
 data in one piece. Nothing in a file is trusted: counts and offsets are compared with the file's size."""
 from __future__ import annotations
 
+import contextlib
 import math
 import os
 from typing import Any, BinaryIO, Callable, Iterator, NoReturn
@@ -15,7 +16,7 @@ from ._data import Image, Mesh
 
 FORMATS = (".vtp", ".vti")
 OTHERS = (".vtk", ".vtr", ".vts", ".vtm", ".ply", ".stl", ".obj", ".pvtp", ".pvtu", ".pvti", ".pvtr", ".pvts", ".vtkhdf")
-_KINDS = {".vtp": "PolyData", ".vti": "ImageData"}
+_KINDS = {".vtp": "PolyData", ".vti": "ImageData", ".vtu": "UnstructuredGrid"}
 _LONGEST_HEAD = 64 << 20
 _LARGEST = 2**31 - 1
 _TYPES = {f"{name}{8 * size}": np.dtype(f"<{kind}{size}") for name, kind, sizes in (
@@ -34,12 +35,8 @@ def read(path: str, options: dict[str, Any]) -> Mesh | Image:
     for name, default in (("bounds", None), ("time", None), ("borrowed", False), ("merge", True)):
         if options[name] != default:
             raise ValueError(f"{name} needs a mesh in pieces or a flat one, but {path} is neither; leave it out.")
-    try:
-        with open(path, "rb") as file:
-            content = _File(path, file, _KINDS[kind])
-            data = _surface(content) if kind == ".vtp" else _image(content)
-    except OSError as error:
-        raise RuntimeError(f"{path} cannot be opened: {error.strerror}.") from None
+    with _opened(path) as content:
+        data = _surface(content) if kind == ".vtp" else _image(content)
     for wanted, groups, what in ((options["point_arrays"], (data.point_data,), "point"),
                                  (options["cell_arrays"], (data.cell_data, getattr(data, "line_data", {})), "cell")):
         check.require_arrays(wanted, [name for group in groups for name in group], what)
@@ -47,6 +44,21 @@ def read(path: str, options: dict[str, Any]) -> Mesh | Image:
             for name in [name for name in group if wanted is not None and name not in wanted]:
                 del group[name]
     return data
+
+
+def require_raw(path: str) -> None:
+    """Raises RuntimeError for a .vtu file that is compressed, encoded, or otherwise not as TIPP writes them."""
+    with _opened(path):
+        pass
+
+
+@contextlib.contextmanager
+def _opened(path: str) -> Iterator[_File]:
+    try:
+        with open(path, "rb") as file:
+            yield _File(path, file, _KINDS[extension_of(path)])
+    except OSError as error:
+        raise RuntimeError(f"{path} cannot be opened: {error.strerror}.") from None
 
 
 def _refuse(path: str, what: str) -> NoReturn:

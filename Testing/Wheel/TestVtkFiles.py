@@ -123,6 +123,14 @@ class VtkFiles(unittest.TestCase):
         self.assertEqual([0, 1, 1, 1], sorted(tipp.as_array(mesh, "h").tolist()))
         self.assertEqual((1, 4), (1, mesh.GetCell(0).GetNumberOfPoints()) if HAS_VTK else mesh.cells.shape)
 
+    def test_grids_of_other_kinds_name_pyvista(self):
+        good = tetrahedron()
+        for old, new, words in (
+                (b'header_type', b'compressor="vtkZLibDataCompressor" header_type', "is compressed"),
+                (b'encoding="raw"', b'encoding="base64"', "has encoded data")):
+            with self.assertRaisesRegex(RuntimeError, words + r".*; with PyVista, pyvista\.read\('.*x\.vtu'\) reads it\."):
+                tipp.read(self.path("x.vtu", good.replace(old, new)))
+
     def test_only_the_named_arrays_are_kept(self):
         mesh = tipp.read(self.path("x.vtp", surface()), point_arrays="h", cell_arrays=[])
         self.assertEqual(4, len(tipp.as_array(mesh, "h")))
