@@ -27,8 +27,8 @@ def least(call, repeats):
     return min(times)
 
 
-def points_of(count):
-    return np.random.default_rng(1).random((count, 2))
+def points_of(count, dimension=2):
+    return np.random.default_rng(1).random((count, dimension))
 
 
 def measure_triangulation(count, repeats):
@@ -40,11 +40,21 @@ def measure_triangulation(count, repeats):
     return {"seconds": least(lambda: tipp.delaunay(points, threads=THREADS), repeats)}
 
 
-def measure_scipy(count):
+def measure_scipy(count, dimension=2):
     from scipy.spatial import Delaunay
 
-    points = points_of(count)
+    points = points_of(count, dimension)
     return {"seconds": least(lambda: Delaunay(points), 1)}
+
+
+def measure_class(count, dimension, repeats):
+    """Seconds of tipp.Delaunay(), and of it and its neighbors, which it computes when they are asked for."""
+    import tipp
+
+    points = points_of(count, dimension)
+    tipp.Delaunay(points[:1000], threads=THREADS)
+    return {"seconds": least(lambda: tipp.Delaunay(points, threads=THREADS), repeats),
+            "linked": least(lambda: tipp.Delaunay(points, threads=THREADS).neighbors, repeats)}
 
 
 def measure_vtk(count):
@@ -163,17 +173,26 @@ def report(wheel, peers, alone, debian, count, queries, repeats):
              "debian": run("/usr/bin/python3", "triangulation", count, 3, package=debian)["seconds"]
              if debian != "-" else np.nan} for _ in range(repeats)]
     mine = min(one["wheel"] for one in runs)
-    theirs = min(one["debian"] for one in runs)
+    debian_build = min(one["debian"] for one in runs)
     name = f"tipp.delaunay of {count} points, {THREADS} threads"
     scipy = run(peers, "scipy", count)["seconds"]
     show(f"{name}, beside scipy", f"{mine:.3f} s, {scipy:.2f} s: {scipy / mine:.1f}x", ">= 40x", scipy >= 40 * mine)
+    for number, dimension, bound in ((count, 2, 50), (100_000, 3, 25)):
+        theirs = run(peers, "scipy", number, dimension)["seconds"]
+        ours = run(peers, "class", number, dimension, repeats)
+        what = f"tipp.Delaunay of {number} points in {dimension}D, {THREADS} threads, beside scipy"
+        ratio = theirs / ours["seconds"]
+        show(what, f"{ours['seconds']:.3f} s, {theirs:.2f} s: {ratio:.1f}x", f">= {bound}x", ratio >= bound)
+        print(f"{'with its neighbors':62} {theirs / ours['linked']:>27.1f}x")
+    few = 1e6 * run(peers, "class", 1000, 2, 2000)["seconds"]
+    show("tipp.Delaunay of 1000 points", f"{few:.0f} us", "< 100 us", few < 100)
     vtk = run(peers, "vtk", count)
     order = "Hilbert order" if vtk["hilbert"] else "no Hilbert order"
     show(f"{name}, beside VTK ({order})", f"{mine:.3f} s, {vtk['seconds']:.2f} s: {vtk['seconds'] / mine:.1f}x",
          ">= 30x", vtk["seconds"] >= 30 * mine)
     if debian != "-":
-        show(f"{name}, beside the Debian build", f"{mine:.3f} s, {theirs:.3f} s: {mine / theirs:.3f}",
-             "<= 1.05", mine <= 1.05 * theirs)
+        show(f"{name}, beside the Debian build", f"{mine:.3f} s, {debian_build:.3f} s: {mine / debian_build:.3f}",
+             "<= 1.05", mine <= 1.05 * debian_build)
 
     samples = run(peers, "interpolation", count, queries, repeats)
     ratio = samples["scipy"] / samples["tipp"]
