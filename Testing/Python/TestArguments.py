@@ -225,6 +225,16 @@ class Arguments(unittest.TestCase):
 class Messages(unittest.TestCase):
     """Errors of VTK become exceptions of one sentence."""
 
+    @unittest.skipIf(IS_WHEEL, "the wheel makes tetrahedra of points in files")
+    def test_tetrahedra_of_points_in_files_name_what_makes_them(self):
+        with self.assertRaisesRegex(RuntimeError, "dimension=3 needs the wheel of tipp, or the command 'tipp delaunay3d'"):
+            tipp.delaunay_file(self.points, self.output, dimension=3)
+
+    def test_options_of_the_plane_are_refused_for_tetrahedra(self):
+        for name, value in (("max_edge", 1.0), ("partitions", (2, 2)), ("holes", [(0, 0)]), ("mark_constraints", True)):
+            with self.assertRaisesRegex(ValueError, f"^{name} needs dimension=2; leave it out"):
+                tipp.delaunay_file(self.points, self.output, dimension=3, **{name: value})
+
     @unittest.skipIf(IS_WHEEL, "the wheel takes no sentences from VTK")
     def test_source_positions_and_addresses_are_left_out(self):
         told = "ERROR: In /build/Filters/vtkThing.cxx, line 57\nvtkThing (0x55d0c8a0): the mesh\n has no cells.\n\n"
