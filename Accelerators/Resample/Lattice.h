@@ -114,8 +114,8 @@ public:
   /// The samples' coordinates, plus four padding values.
   const double* data() const { return this->Coordinates.data(); }
 
-  /// The position of v in steps, with rounding errors: 1 at the first sample. Clamped so that its
-  /// integer part is 0 below all samples and size() above them.
+  /// The position of v, counted in steps from one step before the first sample, with rounding
+  /// errors. Clamped so that its integer part is 0 below all samples and size() above them.
   double position(double v) const
   {
     return this->clamp((v - this->Origin) * this->Inverse - this->First + 1);

@@ -34,7 +34,7 @@ bool OpenBlocks::any() const
   return std::find(this->Marks.begin(), this->Marks.end(), 1) != this->Marks.end();
 }
 
-bool OpenBlocks::anyIn(const SampleBox& box) const
+bool OpenBlocks::isAnyMarkedIn(const SampleBox& box) const
 {
   const auto first = [this](int low, const LatticeAxis& axis)
   { return std::clamp(low - 1, 0, axis.size() - 1) >> this->Shift; };
@@ -159,7 +159,7 @@ public:
         for (std::int64_t group = begin; group < end; ++group)
         {
           const SampleBox* const box = this->Boxes.find(group);
-          if (!box || this->Blocks.anyIn(*box))
+          if (!box || this->Blocks.isAnyMarkedIn(*box))
           {
             this->visitGroup(group * size, std::min((group + 1) * size, this->Mesh.Cells),
               found[std::size_t(thread)]);
@@ -178,7 +178,7 @@ private:
     }
     for (std::int64_t cell = begin; cell < end; ++cell)
     {
-      if (this->Blocks.anyIn(this->boxOf(cell)))
+      if (this->Blocks.isAnyMarkedIn(this->boxOf(cell)))
       {
         this->visit(cell, found);
       }

@@ -53,7 +53,7 @@ public:
   bool any() const;
 
   /// Whether a block with a sample in the box, or one step beside it, is marked.
-  bool anyIn(const SampleBox& box) const;
+  bool isAnyMarkedIn(const SampleBox& box) const;
 
 private:
   const LatticeAxes& Axes;

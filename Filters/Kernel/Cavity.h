@@ -26,9 +26,9 @@ public:
   Cavity();
 
   /// Removes the triangles in conflict with `vertex`, starting at `found`, and connects the vertex
-  /// to every edge of the cavity's boundary. The new triangles reuse the indices of the removed
-  /// ones; two more are appended to the mesh, which must have capacity for three more. Returns a
-  /// new triangle that is finite.
+  /// to every edge of the cavity's boundary. The new triangles, two more than the removed ones,
+  /// reuse their indices and are appended to the mesh, which must have capacity for three. Returns
+  /// a new triangle that is finite.
   Index retriangulate(HalfEdgeMesh& mesh, const Point2* points, KernelPredicates& predicates,
     const Location& found, Index vertex);
 

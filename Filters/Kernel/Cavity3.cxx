@@ -204,8 +204,8 @@ inline bool Cavity3::readLinks(const TetrahedronMesh& mesh, Index cell, Links& a
   return areStable;
 }
 
-/// Claims the tetrahedron where a walk has ended. Returns false if another thread has claimed it or
-/// if it is not in conflict with p.
+/// Claims the tetrahedron where a walk has ended. Returns false if another thread has claimed it,
+/// or if p is not in its circumsphere.
 //
 // The corners are compared too, because the walk has seen that p is at none of them. The sphere is
 // tested because the walk may have entered the tetrahedron from one that is no longer its

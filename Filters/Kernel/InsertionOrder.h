@@ -42,7 +42,7 @@ public:
     return (this->Entries.capacity() + this->Scratch.capacity()) * sizeof(std::uint64_t);
   }
 
-  /// Frees the memory and the order.
+  /// Forgets the order and frees its memory.
   void release()
   {
     Uninitialised<std::uint64_t>().swap(this->Entries);

@@ -46,7 +46,7 @@ struct RankSourceOptions
 
 /// Gathers the sources of all ranks. Ranks may have different sources or none (null); a source that
 /// several ranks have counts once. Collective. Throws std::invalid_argument for an invalid source,
-/// on all ranks or only on some.
+/// perhaps only on the ranks that have it.
 RankSource shareSource(
   Communicator& ranks, vtkPointSet* input, vtkPolyData* source, const RankSourceOptions& options);
 

@@ -202,13 +202,12 @@ VTKTIPPFILTERS_EXPORT void repairHull(std::vector<BoundaryVertex> vertices,
 /// Routes the boundary triangles of a partition, one partition after another.
 ///
 /// Lemma 6: the partitions that a triangle meets conflict pairwise, so the order is total on them.
-/// The triangle is sent to the next of them only, and is final if there is none. (Proof. Two
-/// partitions that one triangle of any later mesh meets conflict by Lemma 5. At any time the inbox
-/// of q holds each triangle of the mesh before q that meets q exactly once, sent by the last
-/// earlier partition that it meets, or by the initial mesh. It exists there, because its vertices
-/// are initial or lie in partitions that it meets. Partitions in between do not meet it, so it
-/// survives them. When q is done, its triangles that still exist are among the output of q's
-/// worker.)
+/// The triangle is sent to the next of them only, and is final if there is none. (Proof. By Lemma
+/// 5, two partitions conflict if a triangle of any later mesh meets both. At any time the inbox of
+/// q holds each triangle of the mesh before q that meets q exactly once, sent by the last earlier
+/// partition that it meets, or by the initial mesh. It exists there, because its vertices are
+/// initial or lie in partitions that it meets. Partitions in between do not meet it, so it survives
+/// them. When q is done, its triangles that still exist are among the output of q's worker.)
 template <typename Id>
 class Routing : public BoundaryConsumer
 {

@@ -139,8 +139,8 @@ void publish(const std::string& temporary, const std::string& path, const PathSt
   refuseToReplace(temporary, path, reason);
 }
 
-/// The suffix of a temporary file's name: a number, and a hash of the name that no user's file has
-/// by chance, so that only leftovers are removed.
+/// The suffix of a temporary file's name: a number, and a hash of the name. No file of a user ends
+/// so by chance, so only leftovers are removed.
 std::string ending(const std::string& start, const std::string& number)
 {
   return number + "-" + hashText(start + number).substr(0, 8) + ".tmp";

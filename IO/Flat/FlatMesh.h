@@ -38,9 +38,9 @@ struct FlatMesh
 /// Opens one of two:
 /// - a folder of .npy arrays, little-endian and in C order: `cells.npy` (m x 3 or m x 4, int32 or
 ///   int64), `points.npy` (n x 2 or n x 3, float32 or float64), `point_data/NAME.npy` (n or n x c,
-///   any numbers or booleans) and `cell_data/NAME.npy`. With `time.npy` (T values, ascending) an
-///   array of T x n or T x n x c varies in time. In a file name, % and two hexadecimal digits
-///   encode a byte of the array name, such as `%2F` a slash;
+///   any numbers or booleans) and `cell_data/NAME.npy`. If there is `time.npy` (T values,
+///   ascending), arrays of T x n or T x n x c vary in time. In a file name, % and two hexadecimal
+///   digits encode a byte of the array name, such as `%2F` a slash;
 /// - a .vtu file with appended, raw, uncompressed, little-endian data and one piece of only
 ///   triangles or only tetrahedra, read in place. Arrays of strings are skipped.
 /// Throws IOError for anything else, with the reason.

@@ -271,8 +271,8 @@ public:
   unsigned channel() const { return this->Current; }
 
   /// Returns the bytes that precede those of a channel's next point, by which they are to be
-  /// replaced. Calls prepare() if the channel is a new one. Version 3 takes the bytes of the
-  /// channel before, if that has just changed to one that was there already.
+  /// replaced. Calls prepare() if the channel is a new one. If the scanner channel has just changed
+  /// to one that has had points, version 3 goes on from the previous channel's bytes.
   template <typename Prepare>
   std::uint8_t* next(unsigned channel, int version, const Prepare& prepare)
   {

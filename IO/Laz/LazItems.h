@@ -504,7 +504,7 @@ public:
     this->LastKind = 0;
   }
 
-  /// Replaces the last packet's bytes by the next one's.
+  /// `packet` has the bytes of the packet before, and gets those of the next one.
   void decode(RangeDecoder& decoder, std::uint8_t* packet)
   {
     packet[0] = std::uint8_t(decoder.symbol(this->Index));

@@ -50,7 +50,7 @@ Names withUnitsJoined(const Names& words)
   return names;
 }
 
-/// Splits at two blanks or more, between which names have single ones.
+/// Splits at two blanks or more, since a name may have single ones within it.
 Names splitAtGaps(std::string_view line)
 {
   Names names;

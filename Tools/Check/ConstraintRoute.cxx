@@ -49,7 +49,7 @@ ConstraintRoutes::ConstraintRoutes(const RouteSetting& setting, Position a, Posi
   {
     this->addEdges(i);
   }
-  this->findWhatLeadsToEnd();
+  this->markNodesThatReachEnd();
   if (!this->exist() && setting.IsCut)
   {
     const std::vector<std::int64_t> border = this->borderNear();
@@ -62,7 +62,7 @@ ConstraintRoutes::ConstraintRoutes(const RouteSetting& setting, Position a, Posi
       }
       this->addGaps(i, border);
     }
-    this->findWhatLeadsToEnd();
+    this->markNodesThatReachEnd();
   }
 }
 
@@ -181,7 +181,7 @@ void ConstraintRoutes::addGaps(std::size_t from, const std::vector<std::int64_t>
   }
 }
 
-void ConstraintRoutes::findWhatLeadsToEnd()
+void ConstraintRoutes::markNodesThatReachEnd()
 {
   this->Order.resize(this->Nodes.size());
   std::iota(this->Order.begin(), this->Order.end(), std::size_t(0));

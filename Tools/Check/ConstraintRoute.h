@@ -137,7 +137,7 @@ private:
   void addEdges(std::size_t from);
   void addGaps(std::size_t from, const std::vector<std::int64_t>& border);
   std::vector<std::int64_t> borderNear() const;
-  void findWhatLeadsToEnd();
+  void markNodesThatReachEnd();
 
   static constexpr std::int64_t None = MeshEdges::None;
 

@@ -71,8 +71,8 @@ nlohmann::ordered_json jsonOf(const ReadFigures& figures);
 /// Prints a warning if a run has made no triangles.
 void warnOfNoTriangles(std::int64_t triangles);
 
-/// Prints a warning if `values` > 0: the number of a raster's values that equal the number for no
-/// data.
+/// Warns that some of a raster's values equal the number for no data. `values`: how many; without
+/// any, nothing is printed.
 void warnOfHidden(double values, double noData);
 
 /// Throws IOError if an output is also an input (see requireApart()), or if the file of statistics,

@@ -223,8 +223,8 @@ public:
     return walk;
   }
 
-  /// As walk(), from a half-edge that the line crosses out of its triangle. crossed() then has no
-  /// valid chains.
+  /// As walk(), but starts at a half-edge through which the line leaves its triangle. crossed()
+  /// then has no valid chains.
   LineWalk walkAcross(const DirectedLine& line, Index half)
   {
     LineWalk walk;

@@ -65,7 +65,7 @@ public:
   std::int64_t count() const;
   /// The statistics of the constraints.
   const ConstraintFigures& figures() const { return this->Counts; }
-  /// The bounds of the finite points that do not come from the segments.
+  /// The bounds of the finite points of the input, without those added for the segments.
   Box2 inputBounds() const { return this->InputBounds; }
   /// Visits all segments, in the same order each time. No segment crosses another.
   void forEach(const VisitSegment& visit) const;

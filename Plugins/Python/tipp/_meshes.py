@@ -71,7 +71,7 @@ def read(
     TypeError, ValueError
         If an argument is of a wrong type or value.
     RuntimeError
-        If the mesh cannot be read, or the bounds are an error as above; the message says why.
+        If the mesh cannot be read, or the bounds do not meet it or are far too long; the message says why.
     ModuleNotFoundError
         If return_type needs a library that is not installed.
     KeyError
