@@ -20,6 +20,10 @@ set(TIPP_SANITIZE "" CACHE STRING "Sanitizers to build with, as for -fsanitize="
 
 # Expansion arithmetic is exact only if no multiply and add are contracted.
 add_compile_options(-ffp-contract=off)
+# Wheels are for processors since 2009, as those of current NumPy. Code for AVX2 is chosen at run time.
+if (TIPP_BUILD_WHEEL AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+  add_compile_options(-march=x86-64-v2)
+endif ()
 # GCC notes that version 4.6 changed how vectors are passed. This does not matter: none is passed between libraries.
 if (CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
   add_compile_options(-Wno-psabi)
