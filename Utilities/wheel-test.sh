@@ -34,7 +34,7 @@ runs() {
 
 environment alone numpy
 runs alone Testing/Wheel/TestWithoutVtk.py Testing/Wheel/TestConstraintsWithoutVtk.py Testing/Wheel/TestTetrahedra.py \
-  Testing/Wheel/TestVtkFiles.py Testing/Wheel/TestInterpreter.py Testing/Wheel/TestLinkage.py Testing/Python/TestBounds.py \
+  Testing/Wheel/TestVtkFiles.py Testing/Wheel/TestInterpreter.py Testing/Wheel/TestLinkage.py Testing/Wheel/TestPage.py Testing/Python/TestBounds.py \
   Testing/Python/TestCheck.py Testing/Python/TestInputs.py Testing/Python/TestResults.py
 environment oldest 'numpy<2'
 runs oldest Testing/Wheel/TestWithoutVtk.py Testing/Wheel/TestConstraintsWithoutVtk.py
