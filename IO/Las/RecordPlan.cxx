@@ -95,7 +95,7 @@ std::size_t blockPointsOf(const PointStream& points)
   return std::min(most, values / (points.columns().size() + 2) + 1);
 }
 
-PointSurvey::PointSurvey(PointStream& points, std::size_t height)
+RecordSurvey::RecordSurvey(PointStream& points, std::size_t height)
   : Columns(points.columns())
   , Fits(this->Columns.size(), true)
 {
@@ -107,7 +107,7 @@ PointSurvey::PointSurvey(PointStream& points, std::size_t height)
     });
 }
 
-void PointSurvey::add(const PointBlock& block, std::size_t height)
+void RecordSurvey::add(const PointBlock& block, std::size_t height)
 {
   const bool hasHeight = height < this->Columns.size();
   for (std::size_t i = 0; i < block.size(); ++i)
@@ -126,7 +126,7 @@ void PointSurvey::add(const PointBlock& block, std::size_t height)
   }
 }
 
-bool PointSurvey::fits(const std::string& column) const
+bool RecordSurvey::fits(const std::string& column) const
 {
   const auto at = std::find(this->Columns.begin(), this->Columns.end(), column);
   return at != this->Columns.end() && fieldOfOthers(column).Size > 0 &&
@@ -134,7 +134,7 @@ bool PointSurvey::fits(const std::string& column) const
 }
 
 void planColumns(const std::string& output, const std::vector<std::string>& columns,
-  const PointSurvey& survey, RecordPlan& plan, std::vector<std::string>& warnings)
+  const RecordSurvey& survey, RecordPlan& plan, std::vector<std::string>& warnings)
 {
   const bool hasColour = survey.fits("red") && survey.fits("green") && survey.fits("blue");
   const bool hasInfrared = hasColour && survey.fits("nir");

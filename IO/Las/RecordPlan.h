@@ -20,11 +20,11 @@ namespace tipp
 std::size_t blockPointsOf(const PointStream& points);
 
 /// What the points of a stream are like, found in a pass over them.
-class PointSurvey
+class RecordSurvey
 {
 public:
   /// `height`: the column of z; the number of columns: none.
-  PointSurvey(PointStream& points, std::size_t height);
+  RecordSurvey(PointStream& points, std::size_t height);
 
   const AxisSurvey& axis(std::size_t number) const { return this->Axes[number]; }
 
@@ -60,7 +60,7 @@ struct RecordPlan
 /// Adds the columns of other files than LAS, all but plan.Height. Extra bytes that would have the
 /// name of a field get another one, and a warning. Throws IOError, about the output.
 void planColumns(const std::string& output, const std::vector<std::string>& columns,
-  const PointSurvey& survey, RecordPlan& plan, std::vector<std::string>& warnings);
+  const RecordSurvey& survey, RecordPlan& plan, std::vector<std::string>& warnings);
 
 /// Adds the columns of LAS files (LasFields).
 void planFields(const LasInputs& inputs, const std::vector<std::string>& columns, RecordPlan& plan);

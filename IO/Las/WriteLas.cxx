@@ -47,7 +47,7 @@ bool isContained(const LasTransform& in, const LasTransform& transform)
 }
 
 /// Chooses scales and offsets. Warns if coordinates are rounded without being asked to.
-LasTransform chooseTransform(const std::string& output, const PointSurvey& survey,
+LasTransform chooseTransform(const std::string& output, const RecordSurvey& survey,
   const LasInputs& inputs, const std::vector<double>& scales, std::vector<std::string>& warnings)
 {
   LasTransform transform;
@@ -267,7 +267,7 @@ LasReport writeAll(PointStream& points, const LasInputs& inputs, const PointOpti
   // Without a survey, it is found out while writing whether coordinates fit.
   const bool isKnown =
     !inputs.isEmpty() && inputs.haveSameTransform() && options.Scale.empty() && reading.Wrap == 0;
-  std::optional<PointSurvey> survey;
+  std::optional<RecordSurvey> survey;
   if (!isKnown)
   {
     survey.emplace(points, plan.Height);
