@@ -34,6 +34,9 @@ unset(CMAKE_UNITY_BUILD) # use the cached value again
 add_custom_target(tipp_python)
 set(tipp_python_imports "from ._run import require as _require_vtk\n\n_require_vtk(\"${VTK_VERSION}\")\n")
 set(tipp_python_more_imports "")
+set(tipp_python_more_names "")
+set(tipp_python_other_names "")
+set(tipp_python_listed_names "")
 set(tipp_python_summary
   "and the VTK classes that these use: vtkTIPPDelaunay2D, vtkTIPPDelaunay3D, vtkTIPPOutOfCoreDelaunay2D,\nvtkTIPPPointsToImage, vtkRangeResampleFilter, vtkPartitionedMeshQuery, vtkTIPPPointReader,\nvtkPartitionedUnstructuredReader and vtkPartitionedUnstructuredWriter.")
 foreach (module IN LISTS tipp_wrapped_modules)

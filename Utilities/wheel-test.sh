@@ -32,21 +32,36 @@ runs() {
   done
 }
 
+# runs_tool NAME TEST...: runs tests of the command with the environment's `tipp`. If the C++ tool is built, they compare.
+runs_tool() {
+  name=$1
+  shift
+  for test in "$@"; do
+    "$work/$name/bin/python" "$test" "$work/$name/bin/tipp"
+  done
+}
+[ ! -x build/bin/tipp ] || export TIPP_CXX="$PWD/build/bin/tipp"
+
 environment alone numpy
+runs_tool alone Testing/Wheel/TestTool.py
 runs alone Testing/Wheel/TestWithoutVtk.py Testing/Wheel/TestConstraintsWithoutVtk.py Testing/Wheel/TestTetrahedra.py \
-  Testing/Wheel/TestVtkFiles.py Testing/Wheel/TestInterpreter.py Testing/Wheel/TestLinkage.py Testing/Wheel/TestPage.py Testing/Python/TestBounds.py \
-  Testing/Python/TestCheck.py Testing/Python/TestInputs.py Testing/Python/TestResults.py
+  Testing/Wheel/TestVtkFiles.py Testing/Wheel/TestInterpreter.py Testing/Wheel/TestLinkage.py Testing/Wheel/TestPage.py \
+  Testing/Wheel/run_readme.py Testing/Python/TestBounds.py Testing/Python/TestCheck.py Testing/Python/TestInputs.py \
+  Testing/Python/TestResults.py
 environment oldest 'numpy<2'
 runs oldest Testing/Wheel/TestWithoutVtk.py Testing/Wheel/TestConstraintsWithoutVtk.py
 environment scipy numpy scipy scikit-learn
 runs scipy Testing/Wheel/TestScipyHabits.py Testing/Wheel/TestBesideOpenMP.py
+environment tool numpy rasterio pyproj scipy laspy lazrs
+runs_tool tool Testing/Wheel/TestTool.py Testing/Python/TestDemFiles.py Testing/Python/TestLasWriting.py
 environment pyvista 'vtk>=9.7,<9.8' pyvista shapely geopandas laspy meshio polars rioxarray mypy pyright
 runs pyvista Testing/Wheel/TestPyVista.py Testing/Wheel/TestFilters.py Testing/Python/TestArguments.py Testing/Python/TestArrays.py \
-  Testing/Python/TestBounds.py Testing/Python/TestCheck.py Testing/Python/TestConstraints.py Testing/Python/TestDelaunay3D.py Testing/Python/TestInputs.py \
-  Testing/Python/TestInterrupt.py Testing/Python/TestPackage.py Testing/Python/TestPointsToImage.py Testing/Python/TestResults.py \
-  Testing/Wheel/TestVtkFiles.py Testing/Wheel/uses_everything.py
+  Testing/Python/TestBounds.py Testing/Python/TestCheck.py Testing/Python/TestConstraints.py Testing/Python/TestDelaunay3D.py \
+  Testing/Python/TestInputs.py Testing/Python/TestInterrupt.py Testing/Python/TestPackage.py Testing/Python/TestPointsToImage.py \
+  Testing/Python/TestResults.py Testing/Wheel/TestVtkFiles.py Testing/Wheel/uses_everything.py
 "$work/pyvista/bin/mypy" --strict --cache-dir "$work/mypy" Testing/Wheel/uses_everything.py
 "$work/pyvista/bin/pyright" --pythonpath "$work/pyvista/bin/python" Testing/Wheel/uses_everything.py
+runs_tool pyvista Testing/Python/TestDem.py
 # Before VTK 9.7, references between Python and VTK keep objects forever.
 environment before 'vtk>=9.6,<9.7' numpy
 runs before Testing/Wheel/TestFilters.py Testing/Python/TestConstraints.py

@@ -334,14 +334,6 @@ bool SegmentRows::next(ConstraintTable& table, std::size_t most)
   return true;
 }
 
-#ifdef TIPP_WITHOUT_VTK
-ConstraintTable readVtkConstraints(const std::string& path)
-{
-  throw IOError(path,
-    "is a file that VTK reads, and this tipp was built without VTK; give .csv, .poly or .14.");
-}
-#endif
-
 namespace
 {
 

@@ -37,9 +37,6 @@ VTKTIPPIO_EXPORT std::string wkt1Of(const std::string& text, bool isOfUser = fal
 /// If only one has a system of heights, only the horizontal systems are compared.
 VTKTIPPIO_EXPORT bool areSameCrs(const std::string& a, const std::string& b);
 
-/// Whether the text has a system of heights besides the horizontal one.
-VTKTIPPIO_EXPORT bool hasHeightSystem(const std::string& text);
-
 } // namespace tipp
 
 #endif

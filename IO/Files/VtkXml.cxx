@@ -433,13 +433,6 @@ XmlHead readXmlHead(const InputFile& file, std::uint64_t most)
   return head;
 }
 
-#ifdef TIPP_WITHOUT_VTK
-std::string cellTypeName(int type)
-{
-  return "type " + std::to_string(type);
-}
-#endif
-
 std::string escapedXml(const std::string& text)
 {
   std::string out;

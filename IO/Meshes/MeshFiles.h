@@ -50,15 +50,24 @@ public:
                        : this->Ids64[at]; // NOLINT(clang-analyzer-core.NullDereference)
   }
 
-  /// The ids; null if they have the other size.
-  const std::int32_t* ids32() const { return this->Ids32; }
-  const std::int64_t* ids64() const { return this->Ids64; }
+  /// Returns work(ids) for the pointer to the ids, of whichever size.
+  template <typename Work>
+  auto withIds(const Work& work) const
+  {
+    return this->Ids32 ? work(this->Ids32) : work(this->Ids64);
+  }
 
 private:
   const std::int32_t* Ids32 = nullptr;
   const std::int64_t* Ids64 = nullptr;
   std::size_t Count = 0;
 };
+
+/// The cell array of cells across facets.
+constexpr const char* neighborIdsName = "NeighborIds";
+
+/// The column that is the third coordinate in files: named z or Z; null if there is none.
+const PointTable::Column* findZ(const PointTable& points);
 
 /// Creates a data set over the caller's memory, which must outlive it and must not be changed
 /// through it; only coordinates and cell offsets are copies. A column named z is the third
@@ -142,6 +151,15 @@ VTKTIPPIO_EXPORT bool holdsTetrahedra(const std::string& path);
 /// Reads tetrahedra from such a file. The ids are not checked. Throws IOError if the file cannot be
 /// read or has other cells.
 VTKTIPPIO_EXPORT StoredTetrahedra readTetrahedra(const std::string& path);
+
+/// @name Files that VTK reads
+/// readMesh(), holdsTetrahedra() and readTetrahedra() for such files. They throw IOError in a build
+/// without VTK.
+///@{
+TriangleMesh readVtkTriangles(const std::string& path);
+bool holdsVtkTetrahedra(const std::string& path);
+StoredTetrahedra readVtkTetrahedra(const std::string& path);
+///@}
 
 } // namespace tipp
 

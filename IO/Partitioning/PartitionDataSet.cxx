@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioning/PartitionMesh.h"
 
-#include "Files/Formats.h"
 #include "Files/IOError.h"
-#include "Files/OutputFile.h"
-#include "Files/PendingOutput.h"
-#include "Files/RequireApart.h"
 #include "Flat/FlattenDataSet.h"
-#include "Partitioned/FinishedPieces.h"
 #include "Ranks/Communicator.h"
 #include "Vtk/DataSets.h"
 
@@ -124,35 +119,13 @@ PartitionStatistics partitionDataSet(vtkDataSet* data, const std::string& name,
   return statistics;
 }
 
-PartitionStatistics partitionInput(const std::string& input, const std::string& output,
+PartitionStatistics partitionVtkFile(const std::string& input, const std::string& output,
   const PartitionOptions& options, vtkMultiProcessController* controller)
 {
   Communicator ranks(controller);
-  FlatMesh mesh;
   vtkSmartPointer<vtkDataSet> data;
-  int isFlat = 1;
-  ranks.attempt(
-    [&]
-    {
-      if (ranks.isFirst())
-      {
-        requireApart({ output }, { input });
-        requireFolderName(output);
-        // fails early if the output cannot be written
-        const PendingFolder writable(output, &replaceableMesh);
-      }
-      isFlat = isFlatMesh(input) || !isOpenedBy(input, Opener::Vtk);
-      if (isFlat)
-      {
-        mesh = openFlatMesh(input);
-      }
-      else if (ranks.isFirst())
-      {
-        data = readDataSet(input);
-      }
-    });
-  return isFlat ? partitionMesh(mesh, output, options, controller)
-                : partitionDataSet(data, input, output, options, controller);
+  ranks.attempt([&] { data = ranks.isFirst() ? readDataSet(input) : nullptr; });
+  return partitionDataSet(data, input, output, options, controller);
 }
 
 } // namespace tipp

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Partitioning/PartitionMesh.h"
 
+#include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/OutputFile.h"
 #include "Files/PendingOutput.h"
+#include "Files/RequireApart.h"
 #include "Files/TemporaryPaths.h"
 #include "Npy/NpyFile.h"
 #include "Parallel/ParallelFor.h"
@@ -455,6 +457,32 @@ PartitionStatistics partitionInMemory(const std::function<FlatContent()>& make,
   {
     throw IOError(inNameOf(inNameOf(error.what(), folder, name), shown, name));
   }
+}
+
+PartitionStatistics partitionInput(const std::string& input, const std::string& output,
+  const PartitionOptions& options, vtkMultiProcessController* controller)
+{
+  Communicator ranks(controller);
+  FlatMesh mesh;
+  bool isFlat = true;
+  ranks.attempt(
+    [&]
+    {
+      if (ranks.isFirst())
+      {
+        requireApart({ output }, { input });
+        requireFolderName(output);
+        // fails early if the output cannot be written
+        const PendingFolder writable(output, &replaceableMesh);
+      }
+      isFlat = isFlatMesh(input) || !isOpenedBy(input, Opener::Vtk);
+      if (isFlat)
+      {
+        mesh = openFlatMesh(input);
+      }
+    });
+  return isFlat ? partitionMesh(mesh, output, options, controller)
+                : partitionVtkFile(input, output, options, controller);
 }
 
 } // namespace tipp

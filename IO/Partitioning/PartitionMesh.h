@@ -60,6 +60,11 @@ VTKTIPPIO_EXPORT PartitionStatistics partitionInput(const std::string& input,
   const std::string& output, const PartitionOptions& options,
   vtkMultiProcessController* controller = nullptr);
 
+/// partitionInput() for a file that VTK reads, after the output's path is checked. Throws IOError
+/// in a build without VTK.
+PartitionStatistics partitionVtkFile(const std::string& input, const std::string& output,
+  const PartitionOptions& options, vtkMultiProcessController* controller);
+
 /// Like partitionMesh(), for the first rank's data set (null on the others), which is first written
 /// to a temporary flat mesh beside the output. `name` is the input's name in messages. Cells other
 /// than triangles and tetrahedra are divided into these; ghosts and the ids of a partitioned mesh

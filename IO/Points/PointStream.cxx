@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Points/ReadPoints.h"
 
+#include "Crs/StatedCodes.h"
 #include "Files/IOError.h"
 #include "Files/InputFile.h"
 #include "Files/Platform.h"

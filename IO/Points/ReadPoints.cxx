@@ -448,15 +448,6 @@ PointTable readWhole(const std::string& path, const PointOptions& options)
 
 } // namespace
 
-#ifdef TIPP_WITHOUT_VTK
-PointTable readVtkPoints(const std::string& path)
-{
-  throw IOError(path,
-    "is a file that VTK reads, and this tipp was built without VTK; read it in Python with VTK or "
-    "PyVista, and give its points.");
-}
-#endif
-
 void append(const PointBlock& block, PointTable& table)
 {
   table.XY.insert(table.XY.end(), block.XY.begin(), block.XY.end());

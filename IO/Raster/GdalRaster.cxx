@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Crs/GeoKeys.h"
 #include "Crs/ImportCrs.h"
+#include "Crs/TiffDirectory.h"
 #include "Files/ChildProcess.h"
 #include "Files/IOError.h"
 #include "Gdal/GdalLibrary.h"
 #include "Raster/RasterFile.h"
+#include "Raster/ReadRaster.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cstdint>
-#include <cstring>
-#include <map>
-#include <mutex>
 #include <string>
 #include <vector>
 
@@ -46,18 +44,6 @@ std::vector<char*> gdalOptions(std::vector<std::string>& options)
   return list;
 }
 
-template <typename T>
-T valueAt(const std::string& bytes, std::size_t offset)
-{
-  T value;
-  if (offset + sizeof value > bytes.size())
-  {
-    throw IOError("GDAL has made a GeoTIFF that ends too early.");
-  }
-  std::memcpy(&value, bytes.data() + offset, sizeof value);
-  return value;
-}
-
 /// The bytes of a GeoTIFF of one pixel that GDAL writes with this reference system.
 std::string smallGeoTiff(const std::string& crs)
 {
@@ -86,34 +72,6 @@ std::string smallGeoTiff(const std::string& crs)
   return content;
 }
 
-/// Extracts the GeoTIFF fields of a little-endian TIFF.
-std::vector<TiffField> readGeoKeys(const std::string& tiff)
-{
-  const std::map<std::uint16_t, std::size_t> tags = { { 34735, sizeof(std::uint16_t) },
-    { 34736, sizeof(double) }, { 34737, 1 } };
-  if (tiff.compare(0, 4, std::string("II*\0", 4)) != 0)
-  {
-    throw IOError("GDAL has made a GeoTIFF of another kind than asked for.");
-  }
-  std::vector<TiffField> fields;
-  const std::size_t directory = valueAt<std::uint32_t>(tiff, 4);
-  for (std::size_t i = 0; i < valueAt<std::uint16_t>(tiff, directory); ++i)
-  {
-    const std::size_t at = directory + 2 + 12 * i;
-    const auto tag = tags.find(valueAt<std::uint16_t>(tiff, at));
-    if (tag == tags.end())
-    {
-      continue;
-    }
-    const std::size_t size = tag->second * valueAt<std::uint32_t>(tiff, at + 4);
-    const std::size_t begin = size <= 4 ? at + 8 : valueAt<std::uint32_t>(tiff, at + 8);
-    fields.push_back(
-      { tag->first, static_cast<TiffField::Type>(valueAt<std::uint16_t>(tiff, at + 2)),
-        tiff.substr(std::min(begin, tiff.size()), size) });
-  }
-  return fields;
-}
-
 std::string upperCase(std::string text)
 {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -123,16 +81,10 @@ std::string upperCase(std::string text)
 
 } // namespace
 
-const std::vector<TiffField>& geoKeysOf(const std::string& crs)
+std::vector<TiffField> makeGeoKeys(const std::string& crs)
 {
-  static std::mutex mutex;
-  static std::map<std::string, std::vector<TiffField>> known;
-  const std::lock_guard<std::mutex> lock(mutex);
-  const auto found = known.find(crs);
-  return found != known.end()
-    ? found->second
-    : known.emplace(crs, readGeoKeys(runInChild([&crs] { return smallGeoTiff(crs); })))
-        .first->second;
+  const std::string tiff = runInChild([&crs] { return smallGeoTiff(crs); });
+  return geoFieldsOf(TiffDirectory(tiff));
 }
 
 void requireConversion(const RasterDescription& description, const std::string& path)
@@ -193,7 +145,7 @@ void convertGeoTiff(const std::string& from, const std::string& to,
   }
 }
 
-RasterInfo readRasterInfo(const std::string& path)
+RasterInfo readWithGdal(const std::string& path)
 {
   const GdalDataSet data = openWithGdal(path, GDAL_OF_RASTER);
   if (!data)
@@ -204,7 +156,7 @@ RasterInfo readRasterInfo(const std::string& path)
   if (gdal().GDALGetGeoTransform(data.get(), transform) != CE_None || transform[2] != 0 ||
     transform[4] != 0 || !(transform[1] > 0) || !(transform[5] < 0))
   {
-    throw IOError(path, "is no raster whose rows run from west to east and from north to south.");
+    refuseGrid(path);
   }
   RasterInfo info;
   RasterGrid& grid = info.Grid;
@@ -215,7 +167,7 @@ RasterInfo readRasterInfo(const std::string& path)
   grid.South = gridPosition(transform[3], transform[5], 2 * grid.Rows);
   grid.North = transform[3];
   const char* const crs = gdal().GDALGetProjectionRef(data.get());
-  info.Crs = crs ? crs : "";
+  info.Crs.Text = crs ? crs : "";
   return info;
 }
 

@@ -4,6 +4,7 @@
 #include "Files/OutputFile.h"
 #include "Files/TextFile.h"
 #include "Files/VtkXml.h"
+#include "Parallel/ParallelFor.h"
 #include "Raster/Overviews.h"
 #include "Raster/RasterFile.h"
 
@@ -163,13 +164,57 @@ TiffField tiffField(std::uint16_t tag, TiffField::Type type, const std::vector<T
 /// Whether GDAL converts the file from an uncompressed one.
 bool isConverted(const RasterDescription& description)
 {
-  return description.CloudOptimized ||
-    !(description.Compression == "none" || (description.Compression == "deflate" && canDeflate));
+  return !(
+    description.Compression == "none" || (description.Compression == "deflate" && canDeflate));
+}
+
+/// Whether tiles are first stored uncompressed in another file: for GDAL, or for overviews.
+bool hasPlain(const RasterDescription& description)
+{
+  return isConverted(description) || description.CloudOptimized;
 }
 
 bool isDeflated(const RasterDescription& description)
 {
   return !isConverted(description) && description.Compression == "deflate";
+}
+
+std::size_t valueSize(const RasterDescription& description)
+{
+  return description.Double ? sizeof(double) : sizeof(float);
+}
+
+/// Returns the bytes that a file that GDAL does not convert has for a tile of these pixels.
+std::string packed(const RasterDescription& description, std::string pixels)
+{
+  return isDeflated(description) ? deflated(predicted(pixels, valueSize(description)))
+                                 : std::move(pixels);
+}
+
+/// The text behind the header that says that directories come first, as GDAL's driver COG writes
+/// it. Its first line gives the size of the others.
+std::string layoutText()
+{
+  const std::string lines =
+    "LAYOUT=IFDS_BEFORE_DATA\nBLOCK_ORDER=ROW_MAJOR\nBLOCK_LEADER=SIZE_AS_UINT4\n"
+    "BLOCK_TRAILER=LAST_4_BYTES_REPEATED\nKNOWN_INCOMPATIBLE_EDITION=NO\n ";
+  const std::string size = std::to_string(lines.size());
+  return "GDAL_STRUCTURAL_METADATA_SIZE=" + std::string(6 - size.size(), '0') + size + " bytes\n" +
+    lines;
+}
+
+/// Returns the header of a file whose first directory is at this offset.
+std::string headerText(bool isBig, std::uint64_t first)
+{
+  std::string header = "II";
+  appendNumber(header, std::uint16_t(isBig ? 43 : 42));
+  if (isBig)
+  {
+    appendNumber(header, std::uint16_t(8));
+    appendNumber(header, std::uint16_t(0));
+  }
+  appendWord(header, first, isBig);
+  return header;
 }
 
 TiffField textField(std::uint16_t tag, const std::string& text)
@@ -212,7 +257,7 @@ EncodedTile::Band encodeBand(const RasterDescription& description, const RasterW
       }
     }
   }
-  band.Bytes = isDeflated(description) ? deflated(predicted(bytes, sizeof(T))) : std::move(bytes);
+  band.Bytes = hasPlain(description) ? std::move(bytes) : packed(description, std::move(bytes));
   return band;
 }
 
@@ -229,9 +274,9 @@ public:
     , Pending(path, before)
     , Bands(description.Bands.size())
   {
-    if (isConverted(description))
+    requireGeoTiff(description, path);
+    if (hasPlain(description))
     {
-      requireConversion(description, path);
       this->Plain = std::make_unique<PendingFile>(path + ".plain");
     }
     if (!description.Crs.empty())
@@ -269,8 +314,15 @@ public:
     {
       this->addOverviews();
     }
-    this->finish();
-    if (this->Plain)
+    if (!isConverted(this->Description) && this->Description.CloudOptimized)
+    {
+      this->layOut();
+    }
+    else
+    {
+      this->finish();
+    }
+    if (isConverted(this->Description))
     {
       convertGeoTiff(
         this->Plain->temporaryPath(), this->Pending.temporaryPath(), this->Description, this->Path);
@@ -380,45 +432,106 @@ private:
     return bytes;
   }
 
-  /// Completes the file with the directories. Throws IOError.
-  void finish()
+  /// Returns the raster and its overviews.
+  std::vector<Level> levels() const
   {
     const RasterGrid& grid = this->Description.Grid;
     std::vector<Level> levels = { { { grid.Columns, grid.Rows }, this->Bands } };
     levels.insert(levels.end(), this->Overviews.begin(), this->Overviews.end());
-    std::vector<std::vector<TiffField>> directories;
-    std::uint64_t bytes = 0;
-    for (const Level& level : levels)
-    {
-      std::vector<TiffField>& fields = directories.emplace_back();
-      this->addPixelFields(fields, level.Size);
-      directories.size() == 1 ? this->addFields(fields) : addOverviewField(fields);
-      for (const TiffField& field : fields)
-      {
-        bytes += field.Bytes.size() + 32;
-      }
-      bytes += 16 * level.Bands.size() * level.Bands.front().Offsets.size() + 1024;
-    }
-    this->End += this->End % 2;
-    const std::uint64_t first = this->End;
-    const bool isBig = first + bytes > this->Description.ClassicBytes;
+    return levels;
+  }
+
+  /// Returns the directories of the levels, to be written at offset `at`.
+  std::string directoriesOf(const std::vector<Level>& levels, std::uint64_t at, bool isBig) const
+  {
+    std::string bytes;
     for (std::size_t i = 0; i < levels.size(); ++i)
     {
-      addOffsets(levels[i], isBig, directories[i]);
-      std::sort(directories[i].begin(), directories[i].end(),
+      std::vector<TiffField> fields;
+      this->addPixelFields(fields, levels[i].Size);
+      i == 0 ? this->addFields(fields) : addOverviewField(fields);
+      addOffsets(levels[i], isBig, fields);
+      std::sort(fields.begin(), fields.end(),
         [](const TiffField& a, const TiffField& b) { return a.Tag < b.Tag; });
-      this->append(directory(directories[i], this->End, isBig, i + 1 == levels.size()));
+      bytes += directory(fields, at + bytes.size(), isBig, i + 1 == levels.size());
     }
-    std::string header = "II";
-    appendNumber(header, std::uint16_t(isBig ? 43 : 42));
-    if (isBig)
-    {
-      appendNumber(header, std::uint16_t(8));
-      appendNumber(header, std::uint16_t(0));
-    }
-    appendWord(header, first, isBig);
+    return bytes;
+  }
+
+  /// Completes the file with the directories. Throws IOError.
+  void finish()
+  {
+    this->End += this->End % 2;
+    const std::vector<Level> levels = this->levels();
+    const bool isBig = this->End + this->directoriesOf(levels, this->End, true).size() >
+      this->Description.ClassicBytes;
+    std::string header = headerText(isBig, this->End);
     header.resize(headerSize, '\0');
+    this->append(this->directoriesOf(levels, this->End, isBig));
     this->file().write(0, header.data(), header.size());
+  }
+
+  /// Writes the file from the uncompressed tiles in the order for readers over a network: the
+  /// directories, the smallest overview ... the raster. Throws IOError.
+  void layOut()
+  {
+    std::vector<Level> levels = this->levels();
+    const std::string text = layoutText();
+    // A deflated tile is at most a few bytes larger.
+    const std::uint64_t most = this->End + this->End / 1000 + text.size() +
+      this->directoriesOf(levels, 0, true).size() + headerSize;
+    const bool isBig = most > this->Description.ClassicBytes;
+    std::string start = headerText(isBig, 0);
+    std::uint64_t first = start.size() + text.size();
+    first += first % 2;
+    start = headerText(isBig, first) + text;
+    start.resize(std::size_t(first), '\0');
+    // The size of the directories does not depend on the offsets in them.
+    std::uint64_t end = first + this->directoriesOf(levels, first, isBig).size();
+    const InputFile plain(this->Plain->temporaryPath());
+    for (auto level = levels.rbegin(); level != levels.rend(); ++level)
+    {
+      for (Band& band : level->Bands)
+      {
+        end = this->packTiles(plain, band, end);
+      }
+    }
+    start += this->directoriesOf(levels, first, isBig);
+    this->Pending.file().write(0, start.data(), start.size());
+  }
+
+  /// Writes a band's tiles from the offset `end` on, and replaces their offsets and sizes. Returns
+  /// the offset after them.
+  std::uint64_t packTiles(const InputFile& plain, Band& band, std::uint64_t end) const
+  {
+    const int threads = threadCount(this->Description.Threads);
+    const std::size_t most = 4 * std::size_t(threads); // tiles in memory
+    for (std::size_t first = 0; first < band.Offsets.size(); first += most)
+    {
+      std::vector<std::string> tiles(std::min(most, band.Offsets.size() - first));
+      const auto pack = [&](std::int64_t begin, std::int64_t last, int)
+      {
+        for (auto i = std::size_t(begin); i < std::size_t(last); ++i)
+        {
+          std::string pixels(std::size_t(band.Sizes[first + i]), '\0');
+          plain.read(band.Offsets[first + i], pixels.data(), pixels.size());
+          tiles[i] = packed(this->Description, std::move(pixels));
+        }
+      };
+      forChunks(std::int64_t(tiles.size()), 1, threads, {}, pack);
+      for (std::size_t i = 0; i < tiles.size(); ++i)
+      {
+        // As layoutText() says: the size before the tile, and its last four bytes again after it.
+        std::string block;
+        appendNumber(block, std::uint32_t(tiles[i].size()));
+        band.Offsets[first + i] = end + block.size();
+        band.Sizes[first + i] = tiles[i].size();
+        block += tiles[i] + tiles[i].substr(tiles[i].size() - 4);
+        this->Pending.file().write(end, block.data(), block.size());
+        end += block.size();
+      }
+    }
+    return end;
   }
 
   /// Adds where the tiles are.
@@ -526,7 +639,7 @@ private:
   const std::string Path;
   const RasterDescription Description;
   PendingFile Pending;
-  std::unique_ptr<PendingFile> Plain;          ///< the uncompressed file, only if it is converted
+  std::unique_ptr<PendingFile> Plain;          ///< the uncompressed tiles, if hasPlain()
   std::vector<TiffField> Keys;                 ///< fields of the reference system
   std::mutex Mutex;                            ///< guards the members below
   std::map<std::int64_t, EncodedTile> Waiting; ///< waiting for earlier tiles
@@ -558,6 +671,14 @@ void requireSingle(double value, const std::string& band)
   {
     throw IOError("The value " + exactText(value) + " of the band '" + band +
       "' is too large for 32 bits; give --type float64.");
+  }
+}
+
+void requireGeoTiff(const RasterDescription& description, const std::string& path)
+{
+  if (isConverted(description))
+  {
+    requireConversion(description, path);
   }
 }
 

@@ -13,6 +13,8 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 
@@ -243,39 +245,13 @@ std::unique_ptr<RasterWriter> createRaster(
   }
 }
 
-#ifndef TIPP_HAVE_GDAL
-namespace
-{
-
-[[noreturn]] void failWithoutGdal(const std::string& path)
-{
-  throw IOError(path,
-    "needs GDAL, and this program was built without it; install libgdal-dev and build it again, or "
-    "use .npy or .vti.");
-}
-
-} // namespace
-
 const std::vector<TiffField>& geoKeysOf(const std::string& crs)
 {
-  failWithoutGdal(crs);
+  static std::mutex mutex;
+  static std::map<std::string, std::vector<TiffField>> known;
+  const std::lock_guard<std::mutex> lock(mutex);
+  const auto found = known.find(crs);
+  return found != known.end() ? found->second : known.emplace(crs, makeGeoKeys(crs)).first->second;
 }
-
-void requireConversion(const RasterDescription&, const std::string& path)
-{
-  failWithoutGdal(path);
-}
-
-void convertGeoTiff(
-  const std::string&, const std::string&, const RasterDescription&, const std::string& path)
-{
-  failWithoutGdal(path);
-}
-
-RasterInfo readRasterInfo(const std::string& path)
-{
-  failWithoutGdal(path);
-}
-#endif
 
 } // namespace tipp

@@ -215,7 +215,7 @@ void forTiles(const RasterGrid& grid, const RasterWindow& window, const Visit& v
   }
 }
 
-/// Creates a raster file by its extension: .tif (GDAL), .npy (float64, rows x columns from the
+/// Creates a raster file by its extension: .tif, .npy (float64, rows x columns from the
 /// south, with a leading axis for several bands) or .vti (float64, one array per band). `before` as
 /// for PendingFile. Throws IOError.
 VTKTIPPIO_EXPORT std::unique_ptr<RasterWriter> createRaster(
@@ -224,28 +224,25 @@ VTKTIPPIO_EXPORT std::unique_ptr<RasterWriter> createRaster(
 std::unique_ptr<RasterWriter> createGeoTiff(
   const std::string& path, const RasterDescription& description, const PathState& before);
 
-/// The grid and the reference system of an existing raster.
-struct RasterInfo
-{
-  RasterGrid Grid;
-  std::string Crs; ///< WKT, or empty
-};
+/// Throws IOError, which names `path`, unless a GeoTIFF can be written as described.
+VTKTIPPIO_EXPORT void requireGeoTiff(const RasterDescription& description, const std::string& path);
 
-/// @name Functions that use GDAL
-/// All throw IOError if GDAL fails or is not installed.
-///@{
-/// Reads the grid and the reference system of a north-up raster.
-VTKTIPPIO_EXPORT RasterInfo readRasterInfo(const std::string& path);
-
-/// The TIFF fields that describe a coordinate reference system. GDAL's libraries take tens of
-/// megabytes, so it is loaded in a child process.
+/// Returns the TIFF fields that describe a coordinate reference system. GDAL's libraries take tens
+/// of megabytes, so it is loaded in a child process. Without GDAL, see geoKeysWithoutGdal(). Throws
+/// IOError if the text is not understood.
 VTKTIPPIO_EXPORT const std::vector<TiffField>& geoKeysOf(const std::string& crs);
 
-/// Throws IOError if GDAL does not understand the text.
+/// Throws IOError if geoKeysOf() does.
 inline void requireCrs(const std::string& text)
 {
   geoKeysOf(text);
 }
+
+/// @name Functions that use GDAL
+/// All throw IOError if GDAL fails or is not installed.
+///@{
+/// Describes a coordinate reference system for geoKeysOf(), which remembers the result.
+std::vector<TiffField> makeGeoKeys(const std::string& crs);
 
 /// Throws IOError, which names `path`, unless convertGeoTiff() can write such files.
 void requireConversion(const RasterDescription& description, const std::string& path);

@@ -219,6 +219,7 @@ void addTriangulateFunctions(nb::module_& module);
 void addFileFunctions(nb::module_& module);
 void addGridFunctions(nb::module_& module);
 void addQueryClass(nb::module_& module);
+void addToolFunctions(nb::module_& module);
 
 /// Issues Python warnings of what readers report, and of a reference system that is not understood.
 inline void warnOfFiles(const std::vector<TableReport>& reports, const std::string& crsProblem)

@@ -122,4 +122,5 @@ NB_MODULE(_core, module)
   tipp::python::addGridFunctions(module);
   tipp::python::addFileFunctions(module);
   tipp::python::addQueryClass(module);
+  tipp::python::addToolFunctions(module);
 }

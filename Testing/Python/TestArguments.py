@@ -12,6 +12,7 @@ import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData, vtkTable
 
 import tipp
+import tipp._arguments
 
 NAN, INF = float("nan"), float("inf")
 POINTS = np.random.default_rng(2).random((40, 2))

@@ -7,6 +7,7 @@ import unittest
 import numpy as np
 
 import tipp
+import tipp._vtk
 
 MPIEXEC = sys.argv.pop(1) if len(sys.argv) > 1 else ""
 RING = np.array([[0.2, 0.2], [0.8, 0.2], [0.8, 0.8], [-0.2, 1.8]])

@@ -13,6 +13,8 @@ import unittest
 import numpy as np
 
 TIPP = os.path.abspath(sys.argv.pop(1))
+with open(TIPP, "rb") as tool:
+    IS_WHEEL = tool.read(4) != b"\x7fELF"  # a script, whose tool has no GDAL
 RANDOM = np.random.default_rng(7)
 
 VERSIONS = {"1.1": (0, 1), "1.2": (0, 1, 2, 3), "1.3": (0, 1, 2, 3, 4, 5), "1.4": tuple(range(11))}
@@ -83,6 +85,8 @@ class DemFiles(unittest.TestCase):
                 [], ["--type", "float64"], ["--compress", "none"], ["--compress", "lzw"], ["--compress", "zstd"], ["--cog"],
                 ["--memory", "64M"], ["--memory", "64M", "--type", "float64"], ["--memory", "64M", "--threads", 3])):
             with self.subTest(options=options):
+                if IS_WHEEL and options[-1:] in (["lzw"], ["zstd"]):
+                    self.skipTest("the wheel has no GDAL")
                 path = self.path(f"dem-{number}.tif")
                 self.dem("points.npy", "-o", path, *grid, *options, "--crs", "EPSG:25832+7837", "--nodata", -1)
                 kind = "float64" if "float64" in options else "float32"

@@ -16,6 +16,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 import tipp
+import tipp._vtk
 
 
 def random_points(count, columns=3, kind=np.float64):

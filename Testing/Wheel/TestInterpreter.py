@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The wheel inside Python: threads, forks, layouts of arrays, memory, progress, Ctrl-C, help."""
+import ast
 import multiprocessing
 import os
 import pickle
@@ -198,6 +199,20 @@ class Interpreter(unittest.TestCase):
         run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
         self.assertEqual("KeyboardInterrupt", run.stderr.splitlines()[-1])
         self.assertEqual(-signal.SIGINT, run.returncode)
+
+    def test_importing_the_package_does_not_import_numpy(self):
+        subprocess.run([sys.executable, "-c", "import sys, tipp; assert 'numpy' not in sys.modules; tipp.Mesh; import numpy"],
+                       check=True)
+
+    def test_type_checkers_see_the_names_that_there_are(self):
+        with open(tipp.__file__, encoding="utf-8") as file:
+            tree = ast.parse(file.read())
+        (block,) = [node for node in tree.body if isinstance(node, ast.If)]
+        stated = {alias.asname: node.module for node in block.body for alias in node.names}
+        self.assertEqual(stated, tipp._MODULES)
+        for name in stated:
+            self.assertIn(name, dir(tipp))
+            self.assertTrue(hasattr(tipp, name))
 
     def test_help_is_an_overview_and_types_are_there(self):
         text = pydoc.render_doc(tipp, renderer=pydoc.plaintext)

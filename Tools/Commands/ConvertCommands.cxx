@@ -3,6 +3,7 @@
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
+#include "Commands/VtkFiles.h"
 #include "Console/Process.h"
 #include "Files/Formats.h"
 #include "Files/OutputFile.h"
@@ -12,9 +13,6 @@
 #include "Flat/FlattenDataSet.h"
 #include "Partitioning/PartitionMesh.h"
 #include "Ranks/Communicator.h"
-#include "Vtk/DataSets.h"
-
-#include "vtkDataSet.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -109,13 +107,16 @@ int runFlatten(const FlattenArguments& arguments)
   {
     return writeContent(arguments, flattenAdcirc(arguments.Input, arguments.Values));
   }
-  const vtkSmartPointer<vtkDataSet> data = readDataSet(arguments.Input);
-  const Flattened flattened = flattenDataSet(data, arguments.Input);
-  const int code = writeContent(arguments, flattened.Content);
-  if (code == Success)
-  {
-    reportCut(arguments, flattened);
-  }
+  int code = Success;
+  flattenVtkFile(arguments.Input,
+    [&](const Flattened& flattened)
+    {
+      code = writeContent(arguments, flattened.Content);
+      if (code == Success)
+      {
+        reportCut(arguments, flattened);
+      }
+    });
   return code;
 }
 

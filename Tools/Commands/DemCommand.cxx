@@ -4,18 +4,18 @@
 #include "Commands/Report.h"
 #include "Console/Process.h"
 #include "Constraints/OnDisk/ConstrainedStream.h"
+#include "Crs/StatedCodes.h"
 #include "Dem/DemRegion.h"
 #include "Dem/DemSinks.h"
 #include "Dem/MakeDem.h"
 #include "Files/Formats.h"
 #include "Files/IOError.h"
 #include "Files/PendingOutput.h"
+#include "Files/TemporaryPaths.h"
 #include "OutOfCore/ScratchFiles.h"
 #include "Parallel/Stopwatch.h"
 #include "Points/ReadPoints.h"
-#include "Raster/RasterFile.h"
-
-#include "vtkMultiProcessController.h"
+#include "Raster/ReadRaster.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -85,6 +85,13 @@ RasterDescription describeEncoding(const DemArguments& arguments)
   return description;
 }
 
+/// Returns the text of a system without its heights; empty if only the heights are described.
+std::string withoutHeights(const std::string& text)
+{
+  const int code = hasHeightSystem(text) ? codesOf(text).Horizontal : 0;
+  return code > 0 ? "EPSG:" + std::to_string(code) : "";
+}
+
 /// Returns the part of a system that a GeoTIFF can state, and what it cannot as the Problem.
 ReferenceSystem statedInGeoTiff(ReferenceSystem system)
 {
@@ -98,9 +105,7 @@ ReferenceSystem statedInGeoTiff(ReferenceSystem system)
     catch (const IOError& error)
     {
       system.Problem = error.what();
-      const std::size_t heights = system.Text.rfind('+');
-      const bool hasMore = hasHeightSystem(system.Text) && heights != std::string::npos;
-      system.Text.resize(hasMore ? heights : 0);
+      system.Text = withoutHeights(system.Text);
     }
   }
   return system;
@@ -108,15 +113,20 @@ ReferenceSystem statedInGeoTiff(ReferenceSystem system)
 
 /// Returns the description of the raster without its grid and bands. `ofPoints`: the reference
 /// system of the points. A problem with it is an error with --strict-crs, else a warning, which is
-/// printed if `isFirst`. Throws IOError if GDAL does not know that of --crs.
+/// printed if `isFirst`. Throws IOError if that of --crs is not known, or if such a file cannot be
+/// written.
 RasterDescription describeRaster(
   const DemArguments& arguments, const ReferenceSystem& ofPoints, bool isFirst)
 {
   RasterDescription description = describeEncoding(arguments);
+  // Fail before the computation rather than after it.
+  if (arguments.OutputIs == Opener::GeoTiff)
+  {
+    requireGeoTiff(description, arguments.Output);
+  }
   description.Crs = arguments.Columns.Crs;
   if (!description.Crs.empty())
   {
-    // Fail before the computation rather than after it.
     if (arguments.OutputIs == Opener::GeoTiff)
     {
       requireCrs(description.Crs);
@@ -126,7 +136,12 @@ RasterDescription describeRaster(
   ReferenceSystem system = ofPoints;
   if (!arguments.Like.empty() && system.Text.empty())
   {
-    system.Text = readRasterInfo(arguments.Like).Crs;
+    const ReferenceSystem ofRaster = readRasterInfo(arguments.Like).Crs;
+    system.Text = ofRaster.Text;
+    if (!ofRaster.Problem.empty())
+    {
+      system.Problem = shownPath(arguments.Like) + " " + ofRaster.Problem;
+    }
   }
   if (arguments.OutputIs == Opener::GeoTiff)
   {
@@ -751,12 +766,12 @@ int run(DemArguments& arguments)
   requireGood(arguments);
   requireUseful(arguments);
   const MpiSession session;
-  const bool isOnRanks = session.controller() && session.controller()->GetNumberOfProcesses() > 1;
   try
   {
     complete(arguments);
-    return isOnRanks || !arguments.Memory.empty() ? runInPieces(arguments, session.controller())
-                                                  : runInMemory(arguments);
+    return session.ranks() > 1 || !arguments.Memory.empty()
+      ? runInPieces(arguments, session.controller())
+      : runInMemory(arguments);
   }
   catch (const IOError&)
   {

@@ -2,6 +2,7 @@
 #include "Commands/Commands.h"
 #include "Commands/PointArguments.h"
 #include "Commands/Report.h"
+#include "Commands/VtkFiles.h"
 #include "Console/Process.h"
 #include "Files/Formats.h"
 #include "Files/IOError.h"
@@ -14,13 +15,10 @@
 #include "Parallel/Poll.h"
 #include "Points/ReadPoints.h"
 #include "Query/Queries.h"
-#include "Query/QueryData.h"
 #include "Query/RankAnswer.h"
+#include "Query/WriteLines.h"
 #include "Ranks/Communicator.h"
 #include "Resident/ResidentMesh.h"
-#include "Vtk/DataSets.h"
-
-#include "vtkDataSet.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -106,10 +104,9 @@ std::unique_ptr<ResidentMesh> openQueryMesh(const QueryMeshArguments& arguments)
   {
     return std::make_unique<ResidentMesh>(arguments.Path, options);
   }
-  const vtkSmartPointer<vtkDataSet> data = readDataSet(arguments.Path);
   try
   {
-    return std::make_unique<ResidentMesh>(partOf(data, arguments.Threads), options);
+    return std::make_unique<ResidentMesh>(readVtkPart(arguments.Path, arguments.Threads), options);
   }
   catch (const IOError&)
   {
@@ -319,7 +316,7 @@ void writeZones(Communicator* shared, const ResidentMesh& mesh, const ZoneArgume
 }
 
 /// Writes the lines of steepest descent from this rank's points, as .vtp.
-void writeDescents(Communicator* shared, const ResidentMesh& mesh,
+void answerDescents(Communicator* shared, const ResidentMesh& mesh,
   const std::vector<Point3>& points, const std::string& array, const std::string& output,
   const PathState& before)
 {
@@ -329,7 +326,7 @@ void writeDescents(Communicator* shared, const ResidentMesh& mesh,
   {
     return;
   }
-  writeXmlFile(output, before, polyDataOf(descents, array));
+  writeDescents(output, before, descents, array);
   fmt::print(
     "{} lines of {} points, in {}\n", descents.Pits.size(), descents.Points.size(), output);
 }
@@ -582,7 +579,7 @@ void answerTogether(const QueryArguments& arguments, Communicator& ranks)
   else
   {
     const int rank = isShared ? ranks.rank() : 0;
-    writeDescents(shared, *mesh, readShare(arguments, false, rank, isShared ? ranks.size() : 1),
+    answerDescents(shared, *mesh, readShare(arguments, false, rank, isShared ? ranks.size() : 1),
       arguments.Descend, arguments.Output, before);
   }
 }
@@ -797,7 +794,7 @@ std::vector<double> levelsOf(
   return levels;
 }
 
-void writeContours(
+void writeLines(
   const ContourArguments& arguments, const Contours& contours, const PathState& before)
 {
   if (isOpenedBy(arguments.Output, Opener::Gdal))
@@ -805,7 +802,7 @@ void writeContours(
     writeGeoPackage(arguments.Output, contours, arguments.Array, arguments.Crs, before);
     return;
   }
-  writeXmlFile(arguments.Output, before, polyDataOf(contours, arguments.Array));
+  writeContours(arguments.Output, before, contours, arguments.Array);
 }
 
 /// Makes the contour lines of all pieces, which the ranks share. The first rank writes the file.
@@ -827,7 +824,7 @@ void makeContours(const ContourArguments& arguments, Communicator& ranks)
   mesh.reset(); // its memory is free for the file's
   if (ranks.isFirst())
   {
-    writeContours(arguments, contours, before);
+    writeLines(arguments, contours, before);
     fmt::print("{} lines of {} points, in {}\n", contours.Levels.size(), contours.Points.size(),
       arguments.Output);
   }

@@ -442,9 +442,9 @@ IMAGE   .vti: all arrays, vtkValidPointMask (1 where a cell contains the sample)
         vtkGhostType. .npy: one array (--arrays NAME, default: elevation), in its own
         type or float64: rows x columns, the row of lowest y first; for a volume layers
         x rows x columns. Components come last. Samples in no cell are NaN, or the
-        number of --null. .tif: a GeoTIFF, which needs GDAL, with a band for each array;
-        the samples are the pixels' centres, and --null is its number for no value
-        (default: -9999). Values have 32 bits, or 64 if they are too large for that.
+        number of --null. .tif: a GeoTIFF with a band for each array; the samples are the
+        pixels' centres, and --null is its number for no value (default: -9999). Values
+        have 32 bits, or 64 if they are too large for that.
 
 Under mpirun the ranks share the cells, and the first one writes the image. Every rank
 reads the whole of a VTK file, but only its own part of a partitioned or flat mesh.

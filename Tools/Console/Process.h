@@ -43,6 +43,8 @@ public:
   vtkMultiProcessController* controller() const;
   /// Returns whether this is the first rank, which prints messages.
   bool isFirst() const;
+  /// Returns the number of ranks; 1 for a process without MPI.
+  int ranks() const;
 
 private:
   vtkMultiProcessController* Controller = nullptr;
@@ -68,9 +70,9 @@ int reportFailure();
 /// process; if it is already doing so, this function never returns.
 void endWatch();
 
-/// Installs signal handlers. A crash of VTK's readers then ends the program with exit code 1 and a
-/// message that names the file. Other crashes are not affected.
-void reportReaderCrashes();
+/// Prepares the process for VTK: its own messages are turned off, and a crash of its readers ends
+/// the program with exit code 1 and a message that names the file. Does nothing without VTK.
+void prepareVtk();
 
 } // namespace tipp
 

@@ -1,12 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""mesh.tipp on PyVista's data sets, once PyVista is imported; it need not be installed."""
+"""mesh.tipp on PyVista's data sets: _hook registers it once PyVista is imported."""
 from __future__ import annotations
 
-import importlib.abc
-import importlib.machinery
-import importlib.util
-import os
-import sys
 from types import ModuleType
 from typing import Any, Iterable, Sequence
 
@@ -215,43 +210,3 @@ def register(pyvista: ModuleType) -> None:
         pyvista.register_dataset_accessor("tipp", pyvista.DataSet)(Accessor)
     else:
         pyvista.DataSet.tipp = property(Accessor, doc=Accessor.__doc__)
-
-
-class _Loader(importlib.abc.Loader):
-    """Loads a module with its own loader, then registers the accessor."""
-
-    def __init__(self, loader: Any, finder: _Finder):
-        self._loader = loader
-        self._finder = finder
-
-    def create_module(self, spec: importlib.machinery.ModuleSpec) -> ModuleType | None:
-        return self._loader.create_module(spec)
-
-    def exec_module(self, module: ModuleType) -> None:
-        self._loader.exec_module(module)
-        if self._finder in sys.meta_path:
-            sys.meta_path.remove(self._finder)
-        register(module)
-
-
-class _Finder(importlib.abc.MetaPathFinder):
-    """Waits until pyvista is imported, so that `import tipp` does not import it."""
-
-    def find_spec(self, name: str, path: Any, target: Any = None) -> importlib.machinery.ModuleSpec | None:
-        if name != "pyvista":
-            return None
-        sys.meta_path.remove(self)
-        try:
-            spec = importlib.util.find_spec(name)
-        finally:
-            sys.meta_path.insert(0, self)  # find_spec() may also be called without an import
-        if spec is not None and spec.loader is not None:
-            spec.loader = _Loader(spec.loader, self)
-        return spec
-
-
-def register_when_imported() -> None:
-    if "pyvista" in sys.modules:
-        register(sys.modules["pyvista"])
-    else:
-        sys.meta_path.insert(0, _Finder())

@@ -2,6 +2,7 @@
 #include "RunTipp.h"
 
 #include <chrono>
+#include <cstdlib>
 #include <stdexcept>
 #include <thread>
 
@@ -18,13 +19,14 @@ namespace
 {
 
 // Runs in the child process, where only async-signal-safe functions may be called.
-[[noreturn]] void execute(const char* folder, char* const* arguments, int terminal)
+[[noreturn]] void execute(
+  const char* tool, const char* folder, char* const* arguments, int terminal)
 {
   const int mode = O_WRONLY | O_CREAT | O_TRUNC;
   if (chdir(folder) == 0 && dup2(open(".out", mode, 0600), STDOUT_FILENO) >= 0 &&
     dup2(terminal >= 0 ? terminal : open(".err", mode, 0600), STDERR_FILENO) >= 0)
   {
-    execv(TIPP_EXECUTABLE, arguments);
+    execv(tool, arguments);
   }
   _exit(99);
 }
@@ -44,6 +46,9 @@ TippProcess::TippProcess(
   }
   pointers.push_back(nullptr);
   const std::string where = folder.path("");
+  // The tests also run with another build of the tool, such as the Python wheel's.
+  const char* const other = std::getenv("TIPP_TOOL");
+  const char* const tool = other ? other : TIPP_EXECUTABLE;
   this->Process = fork();
   if (this->Process < 0)
   {
@@ -51,7 +56,7 @@ TippProcess::TippProcess(
   }
   if (this->Process == 0)
   {
-    execute(where.c_str(), pointers.data(), terminal);
+    execute(tool, where.c_str(), pointers.data(), terminal);
   }
 }
 

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Binding.h"
+
+#include "Commands/RunTool.h"
+#include "Crs/WriteGeoKeys.h"
+#include "Files/IOError.h"
+
+#include <nanobind/stl/string.h>
+
+#include <string>
+#include <vector>
+
+namespace tipp::python
+{
+namespace
+{
+
+/// Runs the command line tool and returns its exit code. `words`: the arguments as bytes, because
+/// names of files need not be text. Call it once in a process, on the main thread: it changes the
+/// handlers of signals.
+int runWords(const nb::list& words)
+{
+  std::vector<std::string> texts = { "tipp" };
+  for (const auto& word : words)
+  {
+    const auto bytes = nb::cast<nb::bytes>(word);
+    texts.emplace_back(bytes.c_str(), bytes.size());
+  }
+  std::vector<char*> pointers;
+  for (std::string& text : texts)
+  {
+    pointers.push_back(text.data());
+  }
+  pointers.push_back(nullptr);
+  return withoutLock([&] { return runTool(int(texts.size()), pointers.data()); });
+}
+
+/// Translates a reference system with Python's packages, as CrsTranslator.
+std::string translateCrs(const std::string& crs)
+{
+  const nb::gil_scoped_acquire lock;
+  try
+  {
+    const nb::bytes text(crs.data(), crs.size());
+    const auto result =
+      nb::cast<nb::bytes>(nb::module_::import_("tipp._crs").attr("translate")(text));
+    return { result.c_str(), result.size() };
+  }
+  catch (const nb::python_error& error)
+  {
+    throw IOError(nb::cast<std::string>(nb::str(error.value())));
+  }
+}
+
+} // namespace
+
+void addToolFunctions(nb::module_& module)
+{
+  setCrsTranslator(translateCrs);
+  module.def("run_tool", &runWords);
+}
+
+} // namespace tipp::python

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Replaces everything that needs VTK, in a build without it: ranks, VTK's files and resampling.
+#include "Commands/Commands.h"
+#include "Commands/LeftOut.h"
+#include "Commands/VtkFiles.h"
+#include "Console/Process.h"
+#include "Files/IOError.h"
+#include "Files/InputFile.h"
+#include "Files/TemporaryPaths.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace tipp
+{
+
+void prepareVtk() {}
+
+MpiSession::MpiSession()
+{
+  if (startedRank() >= 0)
+  {
+    throw std::runtime_error("this tipp was built without MPI and works on one rank; start it "
+                             "without mpirun, which needs a build against a VTK with MPI.");
+  }
+}
+
+MpiSession::~MpiSession() = default;
+
+vtkMultiProcessController* MpiSession::controller() const
+{
+  return this->Controller;
+}
+
+bool MpiSession::isFirst() const
+{
+  return true;
+}
+
+int MpiSession::ranks() const
+{
+  return 1;
+}
+
+MeshPart readVtkPart(const std::string& path, int)
+{
+  const InputFile readable(path); // a file that is not there is reported as such
+  throw IOError(path,
+    "is no partitioned mesh but a file that VTK reads, and this tipp was built without VTK; "
+    "PyVista makes one of it: python -c \"import pyvista, tipp; tipp.write(pyvista.read('" +
+      shownPath(path) + "'), 'mesh.tipp')\".");
+}
+
+void flattenVtkFile(const std::string& path, const std::function<void(const Flattened& flattened)>&)
+{
+  const InputFile readable(path);
+  throw IOError(path,
+    "is a file that VTK reads, and this tipp was built without VTK; PyVista makes a partitioned "
+    "mesh of it: python -c \"import pyvista, tipp; tipp.write(pyvista.read('" +
+      shownPath(path) + "'), 'mesh.tipp')\".");
+}
+
+void addResampleCommand(CLI::App& app, int&)
+{
+  addLeftOut(app, "resample",
+    "'tipp resample' needs VTK, and this tipp was built without it; in Python, "
+    "tipp.resample(tipp.read('mesh.tipp'), dimensions=(512, 512, 1)) does the same.");
+}
+
+} // namespace tipp
