@@ -33,6 +33,16 @@ struct VtuHeader
 
 using Tag = XmlScanner::Tag;
 
+/// Returns what to do with a file of another kind.
+std::string advice([[maybe_unused]] const std::string& path)
+{
+#ifdef TIPP_WITHOUT_VTK
+  return "with PyVista, pyvista.read('" + path + "') reads it.";
+#else
+  return "'tipp flatten' makes a flat mesh of it.";
+#endif
+}
+
 template <typename Value>
 std::optional<Value> parse(const std::string* text)
 {
@@ -85,7 +95,7 @@ private:
 
   [[noreturn]] void refuse(const std::string& problem) const
   {
-    this->fail(problem + "; 'tipp flatten' makes a flat mesh of it.");
+    this->fail(problem + "; " + advice(this->File.path()));
   }
 
   void take(const Tag& tag)
@@ -341,8 +351,7 @@ int checkTypes(const InputFile& file, const RawArray& types)
       {
         throw IOError(file.path(),
           "holds a cell (cell " + std::to_string(cell) + ", " + cellTypeName(type) +
-            ") where all must be triangles or all tetrahedra; 'tipp flatten' cuts other cells into "
-            "these.");
+            ") where all must be triangles or all tetrahedra; " + advice(file.path()));
       }
     });
   return first == triangleType ? 3 : 4;
@@ -379,9 +388,8 @@ FlatMesh openFlatVtu(const std::string& path)
   mesh.CellSize = checkTypes(file, header.Types);
   if (!isId(header.Offsets) || !isId(mesh.Cells))
   {
-    throw IOError(path,
-      "holds its cells as other than 32-bit or 64-bit signed integers; 'tipp flatten' makes a flat "
-      "mesh of it.");
+    throw IOError(
+      path, "holds its cells as other than 32-bit or 64-bit signed integers; " + advice(path));
   }
   header.Offsets.Type == Scalar::Int32
     ? checkOffsets<std::int32_t>(file, header.Offsets, mesh.CellSize)
@@ -396,9 +404,8 @@ FlatMesh openFlatVtu(const std::string& path)
   const RawArray& points = mesh.Points;
   if (points.Components != 3 || (points.Type != Scalar::Float32 && points.Type != Scalar::Float64))
   {
-    throw IOError(path,
-      "holds points that are not three coordinates of Float32 or Float64; 'tipp flatten' makes a "
-      "flat mesh of it.");
+    throw IOError(
+      path, "holds points that are not three coordinates of Float32 or Float64; " + advice(path));
   }
   mesh.Cells.Components = mesh.CellSize;
   mesh.Cells.Tuples = header.Cells;

@@ -29,6 +29,8 @@ SKIPPED = 77
 
 # Command (a pattern for one line), and what runs instead of it.
 LIGHT = [
+    (r"^pip install tipp$", r'export PYTHONPATH="$PWD/build/lib/python3/dist-packages" PATH="$PWD/build/bin:$PATH"'),
+    (r"^python3 (?=Examples/)", r"/usr/bin/python3 "),
     (r"^sh Utilities/test\.sh$", r"sh Utilities/test.sh format"),
     (r"^sh Utilities/test\.sh build.*$", r"sh Utilities/test.sh format"),
     (r"^sh Utilities/(build\.sh (?:paraview|default .*)|paraview\.sh .*|package\.sh .*)$", r"sh -n Utilities/build.sh"),

@@ -222,10 +222,6 @@ class Arguments(unittest.TestCase):
     def test_an_open_range_is_read(self):
         self.assertEqual(len(tipp.read(self.stored, (-INF, INF) * 3).cells), len(self.mesh.cells))
 
-
-class Messages(unittest.TestCase):
-    """Errors of VTK become exceptions of one sentence."""
-
     @unittest.skipIf(IS_WHEEL, "the wheel makes tetrahedra of points in files")
     def test_tetrahedra_of_points_in_files_name_what_makes_them(self):
         with self.assertRaisesRegex(RuntimeError, "dimension=3 needs the wheel of tipp, or the command 'tipp delaunay3d'"):
@@ -235,6 +231,10 @@ class Messages(unittest.TestCase):
         for name, value in (("max_edge", 1.0), ("partitions", (2, 2)), ("holes", [(0, 0)]), ("mark_constraints", True)):
             with self.assertRaisesRegex(ValueError, f"^{name} needs dimension=2; leave it out"):
                 tipp.delaunay_file(self.points, self.output, dimension=3, **{name: value})
+
+
+class Messages(unittest.TestCase):
+    """Errors of VTK become exceptions of one sentence."""
 
     @unittest.skipIf(IS_WHEEL, "the wheel takes no sentences from VTK")
     def test_source_positions_and_addresses_are_left_out(self):

@@ -136,7 +136,7 @@ class Tool(unittest.TestCase):
 
     def test_files_of_vtk_are_refused_with_what_reads_them(self):
         (self.folder / "a.vtk").write_text("# vtk DataFile Version 3.0\n")
-        for words in (["delaunay", "a.vtk", "-o", "a.npy"], ["check", "points.npy", "a.vtk"], ["flatten", "a.vtk", "-o", "b"],
+        for words in (["delaunay", "a.vtk", "-o", "a.npy"], ["flatten", "a.vtk", "-o", "b"],
                       ["partition", "a.vtk", "-o", "b.tipp"], ["query", "points.npy", "a.vtk", "-o", "b.csv"]):
             self.assertIn("pyvista.read('a.vtk')", self.refused(*words), words)
 
@@ -147,11 +147,9 @@ class Tool(unittest.TestCase):
     def test_resampling_names_the_function(self):
         self.assertIn("tipp.resample(", self.refused("resample", "mesh.tipp", "-o", "a.npy", "--dims", 8, 8, 1))
 
-    def test_a_triangulation_is_proved_by_check(self):
+    def test_check_names_the_function(self):
         self.run_tipp("delaunay", "points.npy", "-o", "a.npy")
-        self.assertRegex(self.run_tipp("check", "points.npy", "a.npy").stdout, "triangles, .*: correct")
-        self.run_tipp("delaunay3d", "points.npy", "-o", "b.npy")
-        self.assertRegex(self.run_tipp("check", "points.npy", "b.npy").stdout, "tetrahedra, .*: correct")
+        self.assertIn("tipp.check(", self.refused("check", "points.npy", "a.npy"))
 
     def test_codes_of_epsg_need_no_other_package(self):
         for crs, keys in (("EPSG:25832", {1024: 1, 1025: 1, 3072: 25832}), ("EPSG:4326", {1024: 2, 1025: 1, 2048: 4326}),

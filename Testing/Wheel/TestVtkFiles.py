@@ -127,7 +127,9 @@ class VtkFiles(unittest.TestCase):
         good = tetrahedron()
         for old, new, words in (
                 (b'header_type', b'compressor="vtkZLibDataCompressor" header_type', "is compressed"),
-                (b'encoding="raw"', b'encoding="base64"', "has encoded data")):
+                (b'encoding="raw"', b'encoding="base64"', "has encoded data"),
+                (b'type="Float64" Name="Points"', b'type="Int64" Name="Points"', "not three coordinates of Float32 or"),
+                (struct.pack("<QB", 1, 10), struct.pack("<QB", 1, 12), "where all must be triangles or all tetrahedra")):
             with self.assertRaisesRegex(RuntimeError, words + r".*; with PyVista, pyvista\.read\('.*x\.vtu'\) reads it\."):
                 tipp.read(self.path("x.vtu", good.replace(old, new)))
 
